@@ -1,0 +1,29 @@
+#!/bin/sh
+# Makes every committed mesh again from its .geo file: ./generate.sh [gmsh]
+# Two runs of one Gmsh version give equal files; another version may number nodes differently.
+set -eu
+cd "$(dirname "$0")"
+gmsh=${1:-gmsh}
+
+# mesh OUTPUT GEOMETRY NAME VALUE [NAME VALUE]...
+mesh() {
+    output=$1 geometry=$2
+    shift 2
+    settings=""
+    while [ $# -gt 0 ]; do
+        settings="$settings -setnumber $1 $2"
+        shift 2
+    done
+    # shellcheck disable=SC2086  # settings is a list of words
+    "$gmsh" -3 -v 2 -format msh41 $settings "$geometry" -o "$output"
+    echo "$output  $(wc -c < "$output") bytes"
+}
+
+# Upper body: non-mortar side. Lower body: mortar side, wider and coarser, so that no facet matches.
+mesh hertz_upper_coarse.msh hertz_cylinder.geo side  1 contact_facets 44 half_width 1.4
+mesh hertz_lower_coarse.msh hertz_cylinder.geo side -1 contact_facets 42 half_width 1.6
+mesh hertz_upper_fine.msh   hertz_cylinder.geo side  1 contact_facets 66 half_width 1.4 far_cells 18 grow_far 1.18
+mesh hertz_lower_fine.msh   hertz_cylinder.geo side -1 contact_facets 58 half_width 1.6 far_cells 18 grow_far 1.18
+
+mesh brick_tet_upper.msh brick_tet.geo side  1 cells 4
+mesh brick_tet_lower.msh brick_tet.geo side -1 cells 3
