@@ -1,0 +1,148 @@
+"""Run one example scene and read what it wrote.
+
+The contract with the driver: `snes_contact -scene FILE -output_dir DIR [options]` leaves in DIR `summary.json`,
+`interface_NAME_STEP.csv` (one row per non-mortar node) and `step_STEP.vtu`. Exit code 0: every step converged,
+1: bad scene, 2: not converged, 3: refused by the library.
+
+A missing file or an unexpected exit code raises SceneError: no check may pass because there was nothing to check.
+"""
+
+import json
+import os
+import re
+import shutil
+import subprocess
+import time
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+
+SCENES = Path(__file__).resolve().parent.parent / "scenes"
+
+
+class SceneError(Exception):
+    """A scene did not run as expected, or did not write what it should."""
+
+
+@dataclass
+class Line:
+    """An interface seen along x: sums over the nodes with the same x, per unit thickness, ordered by x."""
+
+    x: np.ndarray
+    force: np.ndarray  # (n, 3) nodal force of the mortar on the non-mortar side
+    length: np.ndarray  # tributary length of the line's nodes, in the last committed configuration
+    state: np.ndarray  # 'gap', 'stick' or 'slip'; 'mixed' where the nodes of one x differ
+
+    @property
+    def traction(self):
+        """Nodal force over tributary length. Unlike the multiplier itself it does not oscillate next to a singularity."""
+        return self.force / self.length[:, None]
+
+
+@dataclass
+class Run:
+    """One finished run of the driver."""
+
+    directory: Path
+    exit_code: int
+    stderr: str
+    seconds: float
+    summary: dict = field(default_factory=dict)
+
+    @property
+    def steps(self):
+        return self.summary["steps"]
+
+    @property
+    def newton_iterations(self):
+        return sum(step["newton_iterations"] for step in self.steps)
+
+    def resultant(self, interface, step=-1):
+        return np.array(self.steps[step]["interfaces"][interface]["force"])
+
+    def interface(self, name, step=None):
+        """Table of an interface's nodes after a step (default: the last) as a structured array."""
+        path = self._output(rf"interface_{re.escape(name)}_(\d+)\.csv", step)
+        table = np.atleast_1d(np.genfromtxt(path, delimiter=",", names=True, dtype=None, encoding="ascii"))
+        if len(table) == 0:
+            raise SceneError(f"{path} has no rows")
+        return table
+
+    def mesh(self, step=None):
+        """(points, cells by kind, displacement) of the undeformed meshes after a step."""
+        import meshio  # only here: the module is slow to load
+
+        mesh = meshio.read(self._output(r"step_(\d+)\.vtu", step))
+        displacement = next((v for k, v in mesh.point_data.items() if "displacement" in k), None)
+        if displacement is None:
+            raise SceneError(f"{self.directory}: no displacement in the .vtu, only {list(mesh.point_data)}")
+        return mesh.points, mesh.cells_dict, displacement
+
+    def line(self, name, step=None):
+        table = self.interface(name, step)
+        thickness = np.ptp(table["Y"])
+        x, group = np.unique(np.round(table["X"], 9), return_inverse=True)
+        total = lambda column: np.bincount(group, weights=table[column]) / thickness
+        states = [set(table["state"][group == i]) for i in range(len(x))]
+        return Line(
+            x=x,
+            force=np.stack([total("fx"), total("fy"), total("fz")], axis=1),
+            length=total("area_full"),
+            state=np.array([s.pop() if len(s) == 1 else "mixed" for s in states]),
+        )
+
+    def _output(self, pattern, step):
+        found = {}
+        for path in self.directory.iterdir():
+            match = re.fullmatch(pattern, path.name)
+            if match:
+                found[int(match.group(1))] = path
+        if not found:
+            raise SceneError(f"{self.directory}: nothing matches {pattern}")
+        wanted = max(found) if step is None else step
+        if wanted not in found:
+            raise SceneError(f"{self.directory}: no step {wanted} of {pattern}; there are {sorted(found)}")
+        return found[wanted]
+
+
+class Driver:
+    """The example program in a build tree; outputs go to subdirectories of `output`."""
+
+    def __init__(self, build, output):
+        self.program = Path(build).resolve() / "c_examples" / "snes_contact"
+        self.output = Path(output).resolve()
+        if not self.program.is_file():
+            raise SceneError(f"{self.program} is not there: run `make build` first")
+
+    def run(self, scene, *options, label=None, ranks=1, expect=0):
+        """Run SCENES/scene.yaml (or a path) with extra options; raise unless the exit code is the expected one."""
+        path = scene if isinstance(scene, Path) else SCENES / f"{scene}.yaml"
+        directory = self.output / (label or path.stem)
+        if directory.exists():
+            shutil.rmtree(directory)  # an old result must never be read as a new one
+        directory.mkdir(parents=True)
+
+        command = [str(self.program), "-scene", str(path), "-output_dir", str(directory), *map(str, options)]
+        if ranks > 1:
+            command = ["mpirun", "--oversubscribe", "-n", str(ranks), *command]
+        # One thread each: the problems are small, and threads of the BLAS only wait for each other.
+        # The two OMPI variables let Open MPI run in containers, where one usually is root.
+        environment = {"OMP_NUM_THREADS": "1", "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
+        start = time.monotonic()
+        done = subprocess.run(
+            command, env={**os.environ, **environment}, stdin=subprocess.DEVNULL, capture_output=True, text=True, errors="replace"
+        )
+        (directory / "log.txt").write_text(" ".join(command) + "\n" + done.stdout + done.stderr)
+        result = Run(directory, done.returncode, done.stdout + done.stderr, time.monotonic() - start)
+        if done.returncode != expect:
+            tail = "\n".join((done.stdout + done.stderr).strip().splitlines()[-8:])
+            raise SceneError(f"{path.name}: exit code {done.returncode} instead of {expect} ({' '.join(command)})\n{tail}")
+        if expect == 0:
+            summary = directory / "summary.json"
+            if not summary.is_file():
+                raise SceneError(f"{directory}: no summary.json")
+            result.summary = json.loads(summary.read_text())
+            if not result.steps or not all(step["converged"] for step in result.steps):
+                raise SceneError(f"{summary}: no steps, or one that did not converge")
+        return result
