@@ -1,0 +1,83 @@
+//! The auxiliary plane of a non-mortar facet and its derivative (formulation c.1, kernel notes A).
+//!
+//! Through the mean of the nodes, normal e along the facet's normal at its centre. The in-plane frame
+//! follows the first spanning vector and its spin is kept, so that translation and rotation
+//! invariance of the weights' derivative hold exactly, whatever the quadrature.
+
+use super::{Facet, Vec3};
+use crate::error::{Error, Kind, Result};
+use crate::shape::MAX_NODES;
+
+/// A facet flatter than this (area over squared longest edge) has no usable normal. The aspect ratio
+/// 1e4 : 1 has 1e-4, rounding of the cross product 1e-16.
+pub const SMALLEST_AREA_RATIO: f64 = 1e-12;
+
+/// Orthonormal frame (t1, t2, e) of a facet's auxiliary plane.
+#[derive(Clone, Copy, Debug)]
+pub struct Plane {
+    /// The facet's first node: coordinates are taken relative to it before anything else.
+    pub reference: Vec3,
+    /// The plane's point (mean of the nodes) relative to `reference`.
+    pub origin: Vec3,
+    /// In-plane axis along the first spanning vector.
+    pub t1: Vec3,
+    /// In-plane axis e x t1.
+    pub t2: Vec3,
+    /// Unit normal, out of the non-mortar body.
+    pub e: Vec3,
+    /// Spin: Dt1 . t2 = sum_c spin[c] . Dx_c.
+    pub spin: [Vec3; MAX_NODES],
+    /// Tilt: t_j . De = sum_c tilt[j][c] . Dx_c.
+    pub tilt: [[Vec3; MAX_NODES]; 2],
+}
+
+impl Plane {
+    /// The auxiliary plane of `facet`.
+    ///
+    /// # Errors
+    /// [`Kind::DegenerateFacet`] when the facet has (nearly) no area.
+    pub fn of(facet: &Facet) -> Result<Plane> {
+        let [w1, w2] = facet.spanning_vectors();
+        let w = w1.cross(&w2);
+        let norm = w.norm();
+        let h = facet.longest_edge();
+        // Written so that NaN is refused too.
+        if !(norm > SMALLEST_AREA_RATIO * h * h) {
+            return Err(Error::new(
+                Kind::DegenerateFacet,
+                format!(
+                    "the non-mortar facet's area is {:.1e} of its squared longest edge; it needs more than {SMALLEST_AREA_RATIO:.0e}",
+                    norm / (h * h)
+                ),
+            ));
+        }
+        let e = w / norm;
+        let length = w1.norm();
+        let t1 = w1 / length;
+        let t2 = e.cross(&t1);
+        let mut plane = Plane {
+            reference: facet.nodes[0],
+            origin: Vec3::zeros(),
+            t1,
+            t2,
+            e,
+            spin: [Vec3::zeros(); MAX_NODES],
+            tilt: [[Vec3::zeros(); MAX_NODES]; 2],
+        };
+        for x in facet.points() {
+            plane.origin += (x - facet.nodes[0]) / facet.len() as f64;
+        }
+        // t_j . De = t_j . (Dw1 x w2 + w1 x Dw2) / |w|;  t2 . Dt1 = t2 . Dw1 / |w1|.
+        let signs = facet.spanning_signs();
+        let spin = t2 / length;
+        for (node, sign) in [(signs[0].0, 1.0), (signs[0].1, -1.0)] {
+            plane.spin[node] += spin * sign;
+            plane.tilt[0][node] += w2.cross(&t1) * (sign / norm);
+            plane.tilt[1][node] += w2.cross(&t2) * (sign / norm);
+        }
+        for (node, sign) in [(signs[1].0, 1.0), (signs[1].1, -1.0)] {
+            plane.tilt[1][node] += t2.cross(&w1) * (sign / norm);
+        }
+        Ok(plane)
+    }
+}

@@ -1,0 +1,97 @@
+//! A facet projected on an auxiliary plane: y_k = (t1 . z_k, t2 . z_k), height d_k = e . z_k,
+//! z_k = x_k - x0 (formulation c.2). Sides are ordered counter-clockwise in the plane.
+
+use super::{Facet, Plane, Vec2, Vec3, cross};
+use crate::shape::{MAX_NODES, Shape};
+
+/// A projected corner (the cross product of its edges, over the facet's area) below this makes the
+/// facet non-convex: the inverse map would be singular there.
+const SMALLEST_CORNER: f64 = 1e-10;
+/// A projected area below this (over the squared size) is a facet seen edge-on: no overlap.
+const EDGE_ON: f64 = 1e-14;
+
+/// A facet in the plane.
+#[derive(Clone, Copy, Debug)]
+pub struct Projection {
+    /// Shape functions, in the order of `y`.
+    pub shape: &'static Shape,
+    /// Position relative to the plane's reference node; differences of these are exact under offsets.
+    pub x: [Vec3; MAX_NODES],
+    /// In-plane coordinates, counter-clockwise.
+    pub y: [Vec2; MAX_NODES],
+    /// Height over the plane.
+    pub d: [f64; MAX_NODES],
+    /// Where node k stands in the facet as given: the order is reversed when it came clockwise.
+    pub node: [usize; MAX_NODES],
+    /// Twice the projected area (>= 0) [L^2].
+    pub area2: f64,
+    /// Largest in-plane extent [L].
+    pub size: f64,
+}
+
+impl Projection {
+    /// Projects `facet` on `plane`.
+    pub fn new(facet: &Facet, plane: &Plane) -> Projection {
+        let n = facet.len();
+        let mut p = Projection {
+            shape: facet.shape,
+            x: [Vec3::zeros(); MAX_NODES],
+            y: [Vec2::zeros(); MAX_NODES],
+            d: [0.0; MAX_NODES],
+            node: [0, 1, 2, 3],
+            area2: 0.0,
+            size: 0.0,
+        };
+        for k in 0..n {
+            p.x[k] = facet.nodes[k] - plane.reference;
+            let z = p.x[k] - plane.origin;
+            p.y[k] = Vec2::new(plane.t1.dot(&z), plane.t2.dot(&z));
+            p.d[k] = plane.e.dot(&z);
+        }
+        for k in 0..n {
+            p.area2 += cross(p.y[k] - p.y[0], p.y[(k + 1) % n] - p.y[0]);
+            p.size = p.size.max((p.y[k] - p.y[0]).amax());
+        }
+        if p.area2 < 0.0 {
+            p.reverse();
+        }
+        p
+    }
+
+    fn reverse(&mut self) {
+        let original = *self;
+        for k in 0..self.shape.n {
+            let j = self.shape.reversed[k];
+            self.node[k] = j;
+            self.x[k] = original.x[j];
+            self.y[k] = original.y[j];
+            self.d[k] = original.d[j];
+        }
+        self.area2 = -self.area2;
+    }
+
+    /// Whether the facet is seen edge-on, so that it covers nothing of the plane.
+    pub fn is_edge_on(&self) -> bool {
+        !(self.area2 > EDGE_ON * self.size * self.size)
+    }
+
+    /// Whether every corner is convex.
+    pub fn is_convex(&self) -> bool {
+        let n = self.shape.n;
+        (0..n).all(|k| {
+            let (a, b, c) = (self.y[(k + n - 1) % n], self.y[k], self.y[(k + 1) % n]);
+            cross(b - a, c - b) > SMALLEST_CORNER * self.area2
+        })
+    }
+
+    /// Whether the in-plane bounding boxes are apart by more than `margin`.
+    pub fn is_apart(&self, other: &Projection, margin: f64) -> bool {
+        let (a, b) = (self.bounds(), other.bounds());
+        (0..2).any(|i| a.0[i] > b.1[i] + margin || b.0[i] > a.1[i] + margin)
+    }
+
+    fn bounds(&self) -> (Vec2, Vec2) {
+        let y = &self.y[..self.shape.n];
+        y.iter().fold((y[0], y[0]), |(low, high), p| (low.inf(p), high.sup(p)))
+    }
+}

@@ -1,0 +1,64 @@
+//! What only the augmented form needs (formulation b.11): its forces use the projected traction, whose
+//! derivative n_AB (dp/dsigma) r Dg_A couples all pairs of a node and is no sum over pairs.
+
+use crate::element::PairNow;
+use crate::geometry::Mat3;
+use crate::mortar::{MORTAR, PAIR_NODES, PairWeights};
+
+/// One node that a non-mortar node A is coupled with.
+#[derive(Clone, Debug)]
+pub(super) struct Coupling {
+    /// Index over both surfaces.
+    pub node: usize,
+    /// Assembled n_AB, or -n_AC: the share of p_A in the node's force [L^2].
+    pub weight: f64,
+    /// Whether p_A acts on the node now, or only depends on it.
+    pub acts: bool,
+    /// dp_A / dx of the node.
+    pub dtraction: Mat3,
+}
+
+/// Everything node A is coupled with, assembled over its pairs.
+#[derive(Clone, Debug, Default)]
+pub(super) struct NodeCouplings {
+    pub nodes: Vec<Coupling>,
+}
+
+impl NodeCouplings {
+    /// Adds a pair in which A is the k-th non-mortar node. `dp` = (dp/dg_now, dp/dg_previous).
+    pub fn add_pair(
+        &mut self,
+        k: usize,
+        slots: &[Option<usize>; PAIR_NODES],
+        now: Option<&PairNow>,
+        previous: Option<&PairWeights>,
+        dp: (Mat3, Mat3),
+    ) {
+        let signed = |w: &PairWeights, j: usize| if j < MORTAR { w.ab[k][j] } else { -w.ac[k][j - MORTAR] };
+        for (j, node) in slots.iter().enumerate() {
+            let Some(node) = *node else { continue };
+            let coupling = self.find(node);
+            if let Some(now) = now {
+                coupling.weight += signed(now.weights, j);
+                coupling.acts = true;
+                coupling.dtraction += dp.0 * now.gap.block[k][j];
+            }
+            if let Some(previous) = previous {
+                coupling.dtraction += dp.1 * signed(previous, j);
+            }
+        }
+    }
+
+    fn find(&mut self, node: usize) -> &mut Coupling {
+        let at = self.nodes.iter().position(|c| c.node == node).unwrap_or_else(|| {
+            self.nodes.push(Coupling { node, weight: 0.0, acts: false, dtraction: Mat3::zeros() });
+            self.nodes.len() - 1
+        });
+        &mut self.nodes[at]
+    }
+
+    /// The nodes that p_A acts on.
+    pub fn forces(&self) -> impl Iterator<Item = &Coupling> {
+        self.nodes.iter().filter(|c| c.acts)
+    }
+}

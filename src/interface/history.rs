@@ -1,0 +1,130 @@
+//! What an interface remembers of t_n: configuration, weights, normals, areas, coverage, slip
+//! (formulation b.10). Changes only on commit, rolls back exactly, travels as flat arrays.
+
+use super::surface::Surface;
+use crate::error::{Error, Kind, Result};
+use crate::geometry::Vec3;
+use crate::mortar::PairWeights;
+use crate::shape::MAX_NODES;
+
+/// The weights of one pair of facets.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PairRecord {
+    /// Non-mortar facet.
+    pub one: usize,
+    /// Mortar facet.
+    pub two: usize,
+    /// Their weights.
+    pub weights: PairWeights,
+}
+
+/// The committed state of an interface.
+#[derive(Clone, Debug, PartialEq)]
+pub struct History {
+    /// Steps committed since creation.
+    pub commits: i64,
+    /// Non-mortar positions x(t_n).
+    pub x1: Vec<Vec3>,
+    /// Mortar positions x(t_n).
+    pub x2: Vec<Vec3>,
+    /// nu_A(t_n), into the non-mortar body.
+    pub normals: Vec<Vec3>,
+    /// M_A: full nodal area, covered or not [L^2].
+    pub areas: Vec<f64>,
+    /// m_A(t_n): covered area [L^2].
+    pub coverage: Vec<f64>,
+    /// g[n_n, x_n] [L^3].
+    pub gap: Vec<Vec3>,
+    /// Slip accumulated since the first configuration [L].
+    pub slip: Vec<Vec3>,
+    /// n(t_n), sorted by facets.
+    pub pairs: Vec<PairRecord>,
+}
+
+/// First integer of an exported history: "stickslip history, layout 1".
+const LAYOUT: i64 = 0x57_1C_01;
+const HEADER: usize = 5;
+const REALS_PER_NONMORTAR_NODE: usize = 14;
+const REALS_PER_PAIR: usize = 2 * MAX_NODES * MAX_NODES;
+
+impl History {
+    /// Lengths of the flat arrays: (integers, reals).
+    pub fn flat_size(&self) -> (usize, usize) {
+        let reals = REALS_PER_NONMORTAR_NODE * self.x1.len() + 3 * self.x2.len() + REALS_PER_PAIR * self.pairs.len();
+        (HEADER + 2 * self.pairs.len(), reals)
+    }
+
+    /// The history as flat arrays.
+    pub fn export(&self) -> (Vec<i64>, Vec<f64>) {
+        let counts = [self.x1.len() as i64, self.x2.len() as i64, self.pairs.len() as i64];
+        let mut integers = vec![LAYOUT, self.commits];
+        integers.extend(counts);
+        let mut reals = Vec::with_capacity(self.flat_size().1);
+        for x in [&self.x1, &self.x2, &self.normals, &self.gap, &self.slip] {
+            reals.extend(x.iter().flat_map(|v| v.iter()));
+        }
+        reals.extend(&self.areas);
+        reals.extend(&self.coverage);
+        for pair in &self.pairs {
+            integers.extend([pair.one as i64, pair.two as i64]);
+            reals.extend(pair.weights.ab.iter().chain(&pair.weights.ac).flatten());
+        }
+        (integers, reals)
+    }
+
+    /// Reads what [`History::export`] wrote for the same surfaces.
+    ///
+    /// # Errors
+    /// [`Kind::HistoryMismatch`] or [`Kind::NotFinite`], naming the array.
+    pub fn import(integers: &[i64], reals: &[f64], nonmortar: &Surface, mortar: &Surface) -> Result<History> {
+        let mismatch = |text: String| Err(Error::new(Kind::HistoryMismatch, text));
+        let (n1, n2) = (nonmortar.len(), mortar.len());
+        let &[layout, commits, nodes1, nodes2, pairs, ref facets @ ..] = integers else {
+            return mismatch(format!("integers has {} entries; at least {HEADER} are needed", integers.len()));
+        };
+        if layout != LAYOUT {
+            return mismatch(format!("integers[0] is {layout}: not a history of this library version"));
+        }
+        if (nodes1, nodes2) != (n1 as i64, n2 as i64) {
+            return mismatch(format!("the history has {nodes1} + {nodes2} nodes, the interface {n1} + {n2}"));
+        }
+        if commits < 0 || usize::try_from(pairs).map(|p| p.checked_mul(2)) != Ok(Some(facets.len())) {
+            return mismatch(format!("integers names {pairs} pairs and holds {} facets", facets.len()));
+        }
+        let n_reals = REALS_PER_NONMORTAR_NODE * n1 + 3 * n2 + REALS_PER_PAIR * facets.len() / 2;
+        if reals.len() != n_reals {
+            return mismatch(format!("reals has {} entries; {n_reals} are needed", reals.len()));
+        }
+        if let Some(k) = reals.iter().position(|v| !v.is_finite()) {
+            return Err(Error::new(Kind::NotFinite, format!("reals[{k}] is not finite")));
+        }
+        let mut rest = reals;
+        let mut take = |n: usize| {
+            let (head, tail) = rest.split_at(n);
+            rest = tail;
+            head
+        };
+        let mut vectors = |n: usize| take(3 * n).chunks_exact(3).map(Vec3::from_column_slice).collect::<Vec<_>>();
+        let (x1, x2, normals, gap, slip) = (vectors(n1), vectors(n2), vectors(n1), vectors(n1), vectors(n1));
+        let (areas, coverage) = (take(n1).to_vec(), take(n1).to_vec());
+        let mut history = History { commits, x1, x2, normals, areas, coverage, gap, slip, pairs: Vec::new() };
+        for f in facets.chunks_exact(2) {
+            let index = |v: i64, n: usize| usize::try_from(v).ok().filter(|&i| i < n);
+            let (Some(one), Some(two)) = (index(f[0], nonmortar.facets.len()), index(f[1], mortar.facets.len())) else {
+                return mismatch(format!("a pair names the facets {} and {}, which do not exist", f[0], f[1]));
+            };
+            let mut weights = PairWeights::default();
+            let values = take(REALS_PER_PAIR);
+            weights.ab.as_flattened_mut().copy_from_slice(&values[..REALS_PER_PAIR / 2]);
+            weights.ac.as_flattened_mut().copy_from_slice(&values[REALS_PER_PAIR / 2..]);
+            history.pairs.push(PairRecord { one, two, weights });
+        }
+        if !history.pairs.is_sorted_by_key(|p| (p.one, p.two)) {
+            return mismatch("the pairs are not sorted by their facets".into());
+        }
+        if let Some(k) = history.areas.iter().position(|&a| a <= 0.0) {
+            return mismatch(format!("the area of node {k} is not positive"));
+        }
+        Ok(history)
+    }
+}

@@ -1,0 +1,309 @@
+//! Two surfaces in contact: search, pairing, all four stages, history (design section 3).
+//!
+//! Residual and tangent are functions of (x, lambda, committed history) alone. The only place of the
+//! core that allocates.
+
+mod assembly;
+mod augmented;
+mod history;
+mod integration;
+mod nodes;
+mod options;
+mod search;
+mod surface;
+
+pub use history::{History, PairRecord};
+pub use nodes::NodeSums;
+pub use options::{COVERAGE_MIN, Form, MODULUS_FACTOR, NewContact, Options, RowScale, Stiffness, Weights};
+pub use surface::{FacetNodes, NO_EQUATION, Surface};
+
+use crate::error::{Error, Kind, Result};
+use crate::geometry::{Mat3, Vec3};
+use integration::Integration;
+use search::{Aabb, Candidates};
+
+/// What an interface has done since its creation.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Counters {
+    /// Pairs whose boxes met.
+    pub pairs_tested: i64,
+    /// Pairs that overlapped or touched.
+    pub pairs_clipped: i64,
+    /// Pairs with an area.
+    pub pairs_integrated: i64,
+    /// Pairs whose weights were differentiated.
+    pub pairs_linearised: i64,
+    /// Searches.
+    pub searches: i64,
+    /// Seconds in search.
+    pub seconds_search: f64,
+    /// Seconds in clipping and integration.
+    pub seconds_integration: f64,
+    /// Seconds in derivatives and assembly.
+    pub seconds_assembly: f64,
+}
+
+/// A contact interface. One thread at a time; distinct interfaces are independent.
+#[derive(Debug)]
+pub struct Interface {
+    options: Options,
+    nonmortar: Surface,
+    mortar: Surface,
+    multiplier_equations: Vec<[i64; 3]>,
+    owned: Vec<bool>,
+    mu: Vec<f64>,
+    augmentations: Option<Vec<f64>>,
+    normals: Option<Vec<Vec3>>,
+    free: Vec<Mat3>,
+    distance: f64,
+    history: History,
+    rollback: Option<History>,
+    candidates: Candidates,
+    integration: Option<Integration>,
+    counters: Counters,
+}
+
+impl Interface {
+    /// An interface whose t_n is the surfaces' reference configuration.
+    ///
+    /// `multiplier_equations`: per non-mortar node and component, 0-based or [`NO_EQUATION`].
+    pub fn new(
+        nonmortar: Surface,
+        mortar: Surface,
+        multiplier_equations: Vec<[i64; 3]>,
+        options: Options,
+    ) -> Result<Interface> {
+        options.validate()?;
+        if multiplier_equations.len() != nonmortar.len() {
+            let text = format!(
+                "{} nodes have multiplier equations; nonmortar has {}",
+                multiplier_equations.len(),
+                nonmortar.len()
+            );
+            return Err(Error::new(Kind::InvalidSize, text));
+        }
+        let distance =
+            options.search_distance.unwrap_or_else(|| Aabb::around(nonmortar.reference.iter().copied()).diagonal());
+        let mut counters = Counters::default();
+        let (x1, x2) = (nonmortar.reference.clone(), mortar.reference.clone());
+        let history = Self::history_at(&nonmortar, &mortar, &options, distance, &mut counters, &x1, &x2)?;
+        let n1 = nonmortar.len();
+        let mut interface = Interface {
+            options,
+            nonmortar,
+            mortar,
+            multiplier_equations,
+            owned: vec![true; n1],
+            mu: vec![options.mu; n1],
+            augmentations: None,
+            normals: None,
+            free: vec![Mat3::identity(); n1],
+            distance,
+            history,
+            rollback: None,
+            candidates: Candidates::default(),
+            integration: None,
+            counters,
+        };
+        interface.complete_history();
+        Ok(interface)
+    }
+
+    /// Coverage and g[n_n, x_n] of a history whose weights are known.
+    fn complete_history(&mut self) {
+        let sums = self.assemble(&self.history.pairs, &self.history.x1, &self.history.x2);
+        (self.history.coverage, self.history.gap) = sums.into_iter().unzip();
+        self.candidates = Candidates::default();
+        self.integration = None;
+    }
+
+    /// Takes (x1, x2) as the configuration of t_n, with nothing slipped yet, instead of the reference.
+    pub fn set_previous(&mut self, x1: &[Vec3], x2: &[Vec3]) -> Result<()> {
+        self.check_positions(x1, x2)?;
+        let new =
+            Self::history_at(&self.nonmortar, &self.mortar, &self.options, self.distance, &mut self.counters, x1, x2)?;
+        self.history = new;
+        self.rollback = None;
+        self.complete_history();
+        Ok(())
+    }
+
+    /// Accepts a converged step: (x1, x2) becomes t_n.
+    pub fn commit(&mut self, x1: &[Vec3], x2: &[Vec3], lambda: &[Vec3], sums: Option<&[NodeSums]>) -> Result<()> {
+        let responses = self.responses(x1, x2, lambda, sums)?;
+        let own = if sums.is_none() { Some(self.sums(x1, x2)?) } else { None };
+        let sums = sums.or(own.as_deref()).unwrap_or_default();
+        let mut new = if self.options.weights == Weights::Reference {
+            History { x1: x1.to_vec(), x2: x2.to_vec(), ..self.history.clone() }
+        } else {
+            Self::history_at(&self.nonmortar, &self.mortar, &self.options, self.distance, &mut self.counters, x1, x2)?
+        };
+        new.commits = self.history.commits + 1;
+        new.slip = (0..responses.len()).map(|a| self.slip_after(a, &responses[a], sums[a].coverage)).collect();
+        self.rollback = Some(std::mem::replace(&mut self.history, new));
+        self.complete_history();
+        Ok(())
+    }
+
+    /// Slip of node A since the first configuration [L], this step's included.
+    pub fn slip_after(&self, a: usize, response: &crate::law::NodeResponse, coverage: f64) -> Vec3 {
+        let step = if coverage > 0.0 { response.slip / coverage } else { Vec3::zeros() };
+        self.history.slip[a] + step
+    }
+
+    /// Undoes the last commit exactly.
+    ///
+    /// # Errors
+    /// [`Kind::NothingToRollBack`] when there is none; only one commit can be undone.
+    pub fn roll_back(&mut self) -> Result<()> {
+        let Some(history) = self.rollback.take() else {
+            return Err(Error::new(
+                Kind::NothingToRollBack,
+                "no commit can be undone: none was made since creation, import or the last rollback",
+            ));
+        };
+        self.restore(history);
+        Ok(())
+    }
+
+    /// Replaces the history by an imported one.
+    pub fn import_history(&mut self, integers: &[i64], reals: &[f64]) -> Result<()> {
+        let history = History::import(integers, reals, &self.nonmortar, &self.mortar)?;
+        self.rollback = None;
+        self.restore(history);
+        Ok(())
+    }
+
+    fn restore(&mut self, history: History) {
+        self.history = history;
+        self.candidates = Candidates::default();
+        self.integration = None;
+    }
+
+    /// Friction coefficient per node.
+    pub fn set_friction(&mut self, mu: Vec<f64>) -> Result<()> {
+        self.check_length("mu", mu.len(), self.nonmortar.len())?;
+        if let Some(k) = mu.iter().position(|m| !(*m >= 0.0 && m.is_finite())) {
+            let text = format!("mu of node {k} is {}; it must be finite and not negative", mu[k]);
+            return Err(Error::new(Kind::InvalidValue, text));
+        }
+        self.mu = mu;
+        Ok(())
+    }
+
+    /// Augmentation r_A [F/L^5] per node; `None` returns to the options'.
+    pub fn set_augmentation(&mut self, r: Option<Vec<f64>>) -> Result<()> {
+        if let Some(r) = &r {
+            self.check_length("augmentation", r.len(), self.nonmortar.len())?;
+            if let Some(k) = r.iter().position(|r| !(*r > 0.0 && r.is_finite())) {
+                let text = format!("augmentation of node {k} is {}; it must be finite and positive", r[k]);
+                return Err(Error::new(Kind::InvalidValue, text));
+            }
+        }
+        self.augmentations = r;
+        Ok(())
+    }
+
+    /// Unit normals into the non-mortar body; `None` returns to the averaged ones.
+    pub fn set_normals(&mut self, normals: Option<Vec<Vec3>>) -> Result<()> {
+        // Far above the rounding of a normalisation, far below any angle that matters.
+        const UNIT: f64 = 1e-10;
+        if let Some(n) = &normals {
+            self.check_length("normals", n.len(), self.nonmortar.len())?;
+            if let Some(k) = n.iter().position(|n| !((n.norm() - 1.0).abs() <= UNIT)) {
+                let text = format!("normal of node {k} has length {}; it must be a unit vector", n[k].norm());
+                return Err(Error::new(Kind::InvalidValue, text));
+            }
+        }
+        self.normals = normals;
+        Ok(())
+    }
+
+    /// Directions in which nodes are prescribed on both sides (or against a rigid mortar side): the
+    /// multiplier has no component there and the normal none either. Replaces all earlier ones.
+    ///
+    /// At a Dirichlet edge over a deformable mortar side do not declare it: the patch test needs that
+    /// component.
+    pub fn set_constraints(&mut self, directions: &[(usize, Vec3)]) -> Result<()> {
+        // A second direction of a node closer than this to the first adds nothing but rounding.
+        const INDEPENDENT: f64 = 1e-8;
+        let mut free = vec![Mat3::identity(); self.nonmortar.len()];
+        for (k, (node, d)) in directions.iter().enumerate() {
+            if *node >= free.len() {
+                let text = format!("constraint {k} names node {node}; nodes 0 to {} exist", free.len() - 1);
+                return Err(Error::new(Kind::IndexOutOfRange, text));
+            }
+            let norm = d.norm();
+            if !(norm > 0.0 && norm.is_finite()) {
+                let text = format!("direction of constraint {k} has length {norm}; it must be finite and not zero");
+                return Err(Error::new(Kind::InvalidValue, text));
+            }
+            let rest = free[*node] * (d / norm);
+            if rest.norm() <= INDEPENDENT {
+                let text = format!("constraint {k} repeats a direction of node {node}");
+                return Err(Error::new(Kind::InvalidValue, text));
+            }
+            let unit = rest.normalize();
+            free[*node] -= unit * unit.transpose();
+        }
+        let old = std::mem::replace(&mut self.free, free);
+        if let Err(e) = (0..self.nonmortar.len()).try_for_each(|a| self.normal(a).map(|_| ())) {
+            self.free = old;
+            return Err(e);
+        }
+        Ok(())
+    }
+
+    /// Which nodes add their own block here; a parallel host lets exactly one handle do it.
+    pub fn set_owned(&mut self, owned: Vec<bool>) -> Result<()> {
+        self.check_length("owned", owned.len(), self.nonmortar.len())?;
+        self.owned = owned;
+        Ok(())
+    }
+
+    /// The options.
+    pub fn options(&self) -> &Options {
+        &self.options
+    }
+
+    /// The non-mortar and the mortar surface.
+    pub fn surfaces(&self) -> (&Surface, &Surface) {
+        (&self.nonmortar, &self.mortar)
+    }
+
+    /// The committed history.
+    pub fn history(&self) -> &History {
+        &self.history
+    }
+
+    /// What has been done so far.
+    pub fn counters(&self) -> Counters {
+        self.counters
+    }
+
+    /// Pairs active at the last evaluation.
+    pub fn active_pairs(&self) -> usize {
+        self.current_pairs().len()
+    }
+
+    /// Heap memory in use, roughly [bytes].
+    pub fn bytes(&self) -> usize {
+        let pair = size_of::<PairRecord>();
+        let node = size_of::<Vec3>();
+        let history = |h: &History| h.pairs.len() * pair + (h.x1.len() * 6 + h.x2.len()) * node;
+        let surface = |s: &Surface| s.len() * 2 * node + s.facets.len() * size_of::<FacetNodes>();
+        let current = self
+            .integration
+            .as_ref()
+            .map_or(0, |k| k.pairs.len() * pair + k.frames.len() * size_of::<crate::mortar::NonmortarFrame>());
+        let boxes = (self.nonmortar.facets.len() + self.mortar.facets.len()) * size_of::<Aabb>();
+        history(&self.history)
+            + self.rollback.as_ref().map_or(0, history)
+            + surface(&self.nonmortar)
+            + surface(&self.mortar)
+            + current
+            + boxes
+            + self.candidates.pairs.len() * size_of::<(usize, usize)>()
+            + self.nonmortar.len() * size_of::<Mat3>()
+    }
+}

@@ -1,0 +1,203 @@
+//! Stage 2 over a whole interface: gaps and coverage of every node, assembled over the pairs, and the
+//! law's response.
+
+use super::history::PairRecord;
+use super::{Interface, NewContact, Options, RowScale};
+use crate::error::{Error, Kind, Result};
+use crate::geometry::{Mat3, Vec3};
+use crate::law::{Node, NodeResponse};
+use crate::mortar;
+
+/// What a node assembles over its pairs. A parallel host adds these over its ranks.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct NodeSums {
+    /// Covered area now [L^2].
+    pub coverage: f64,
+    /// g[n_{n+1}, x_{n+1}] [L^3].
+    pub gap_now: Vec3,
+    /// Covered area at t_n.
+    pub coverage_previous: f64,
+    /// g[n_n, x_{n+1}].
+    pub gap_previous: Vec3,
+    /// g[n_n, x_n].
+    pub gap_committed: Vec3,
+}
+
+impl Interface {
+    /// Coverage and gap of every node from a list of pairs.
+    pub(super) fn assemble(&self, pairs: &[PairRecord], x1: &[Vec3], x2: &[Vec3]) -> Vec<(f64, Vec3)> {
+        let mut sums = vec![(0.0, Vec3::zeros()); self.nonmortar.len()];
+        for pair in pairs {
+            let (one, two) = (self.nonmortar.facet(pair.one, x1), self.mortar.facet(pair.two, x2));
+            let gap = mortar::gap(&pair.weights, &one, &two);
+            for k in 0..one.len() {
+                let (coverage, g) = &mut sums[self.nonmortar.facets[pair.one].nodes[k]];
+                *coverage += pair.weights.coverage(k);
+                *g += gap[k];
+            }
+        }
+        sums
+    }
+
+    /// Stage 1, assembled: this handle's share of every node's gaps and coverage.
+    pub fn sums(&mut self, x1: &[Vec3], x2: &[Vec3]) -> Result<Vec<NodeSums>> {
+        self.check_positions(x1, x2)?;
+        self.ensure_integration(x1, x2)?;
+        let previous = self.assemble(&self.history.pairs, x1, x2);
+        let now = match &self.integration {
+            Some(k) => self.assemble(&k.pairs, x1, x2),
+            None => previous.clone(),
+        };
+        let h = &self.history;
+        Ok((0..self.nonmortar.len())
+            .map(|a| NodeSums {
+                coverage: now[a].0,
+                gap_now: now[a].1,
+                coverage_previous: h.coverage[a],
+                gap_previous: previous[a].1,
+                gap_committed: h.gap[a],
+            })
+            .collect())
+    }
+
+    /// Stage 2: the law at every node. `sums` overrides this handle's own, for parallel hosts.
+    pub fn responses(
+        &mut self,
+        x1: &[Vec3],
+        x2: &[Vec3],
+        lambda: &[Vec3],
+        sums: Option<&[NodeSums]>,
+    ) -> Result<Vec<NodeResponse>> {
+        self.check_length("lambda", lambda.len(), self.nonmortar.len())?;
+        check_finite("lambda", lambda)?;
+        let own;
+        let sums = match sums {
+            Some(sums) => {
+                self.check_positions(x1, x2)?;
+                self.check_length("sums", sums.len(), self.nonmortar.len())?;
+                self.ensure_integration(x1, x2)?;
+                sums
+            }
+            None => {
+                own = self.sums(x1, x2)?;
+                &own
+            }
+        };
+        let mut responses = Vec::with_capacity(lambda.len());
+        for a in 0..lambda.len() {
+            let response = self.node(a, lambda[a], &sums[a])?.respond();
+            if !response.row.iter().chain(response.traction.iter()).all(|v| v.is_finite()) {
+                let text =
+                    format!("the response of non-mortar node {a} overflows; positions or multiplier are out of range");
+                return Err(Error::new(Kind::NotFinite, text));
+            }
+            responses.push(response);
+        }
+        Ok(responses)
+    }
+
+    fn node(&self, a: usize, lambda: Vec3, sums: &NodeSums) -> Result<Node> {
+        let threshold = self.options.coverage_min * self.history.areas[a];
+        let covered_before = sums.coverage_previous > threshold;
+        let frictionless = !covered_before && self.options.new_contact == NewContact::Frictionless;
+        Ok(Node {
+            lambda,
+            normal: self.normal(a)?,
+            augmentation: self.augmentation(a),
+            mu: if frictionless { 0.0 } else { self.mu[a] },
+            gap_now: sums.gap_now,
+            gap_previous: sums.gap_previous,
+            gap_committed: sums.gap_committed,
+            covered: sums.coverage > threshold,
+            covered_before,
+            slip: self.options.effective_slip(),
+            free: self.free[a],
+        })
+    }
+
+    /// nu_A: the host's or the committed one, normalised within the free directions.
+    pub fn normal(&self, a: usize) -> Result<Vec3> {
+        let normal = self.normals.as_ref().map_or(self.history.normals[a], |n| n[a]);
+        if self.free[a] == Mat3::identity() {
+            return Ok(normal);
+        }
+        let free = self.free[a] * normal;
+        let norm = free.norm();
+        if norm <= crate::normal::SMALLEST_SUM {
+            let text = format!(
+                "the normal of non-mortar node {a} lies in its prescribed directions; it must keep a free part"
+            );
+            return Err(Error::new(Kind::UndefinedNormal, text));
+        }
+        Ok(free / norm)
+    }
+
+    /// r_A [F/L^5]: the host's, or rhat_A / M_A.
+    pub fn augmentation(&self, a: usize) -> f64 {
+        let area = self.history.areas[a];
+        self.augmentations.as_ref().map_or_else(|| self.options.augmentation(area) / area, |r| r[a])
+    }
+
+    /// Factor of node A's multiplier rows.
+    pub fn row_scale(&self, a: usize) -> f64 {
+        match self.options.row_scale {
+            RowScale::Force => self.augmentation(a) * self.history.areas[a],
+            RowScale::None => 1.0,
+        }
+    }
+
+    pub(super) fn check_positions(&self, x1: &[Vec3], x2: &[Vec3]) -> Result<()> {
+        self.check_length("x1", x1.len(), self.nonmortar.len())?;
+        self.check_length("x2", x2.len(), self.mortar.len())?;
+        check_finite("x1", x1)?;
+        check_finite("x2", x2)
+    }
+
+    pub(super) fn check_length(&self, name: &str, found: usize, needed: usize) -> Result<()> {
+        if found == needed {
+            return Ok(());
+        }
+        Err(Error::new(Kind::InvalidSize, format!("{name} has {found} nodes; the surface has {needed}")))
+    }
+}
+
+/// Refuses NaN and infinity, naming argument and node.
+pub(super) fn check_finite(name: &str, values: &[Vec3]) -> Result<()> {
+    match values.iter().position(|v| !v.iter().all(|c| c.is_finite())) {
+        None => Ok(()),
+        Some(k) => Err(Error::new(Kind::NotFinite, format!("{name} of node {k} is not finite"))),
+    }
+}
+
+/// lambda = -tau rhat_A sqrt(M_A) nu_A on covered, closed nodes: see [`Interface::initial_multipliers`].
+pub(super) const INITIAL_TRACTION: f64 = 1e-6;
+/// A gap (over the square root of the nodal area) below this is closed at the start: rounding of a
+/// rotated mesh is 1e-16 of its extent.
+pub(super) const CLOSED: f64 = 1e-8;
+
+impl Interface {
+    /// Multipliers for the first step: lambda = 0 at g = 0 is a body without support, so covered nodes
+    /// that are closed start with a compression of 1e-6 rhat_A sqrt(M_A).
+    ///
+    /// # Errors
+    /// [`Kind::InvalidValue`] once a step is committed.
+    pub fn initial_multipliers(&mut self) -> Result<Vec<Vec3>> {
+        if self.history.commits > 0 {
+            let text =
+                format!("initial multipliers belong before the first step; {} are committed", self.history.commits);
+            return Err(Error::new(Kind::InvalidValue, text));
+        }
+        let Options { coverage_min, .. } = self.options;
+        let h = &self.history;
+        (0..self.nonmortar.len())
+            .map(|a| {
+                let nu = self.normal(a)?;
+                let size = h.areas[a].sqrt();
+                let covered = h.coverage[a] > coverage_min * h.areas[a];
+                let closed = nu.dot(&h.gap[a]) <= CLOSED * size * h.coverage[a];
+                let rhat = self.augmentation(a) * h.areas[a];
+                Ok(if covered && closed { nu * (-INITIAL_TRACTION * rhat * size) } else { Vec3::zeros() })
+            })
+            .collect()
+    }
+}

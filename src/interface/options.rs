@@ -1,0 +1,146 @@
+//! The choices of an interface, resolved once at creation.
+
+use crate::error::{Error, Kind, Result};
+use crate::law::SlipMeasure;
+use crate::quadrature::{DEGREE_5, Rule};
+
+/// Which traction the forces use (design: same solutions, different sparsity).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Form {
+    /// Forces use lambda, the rows use the projection: the tangent is a sum of pairs and nodes.
+    #[default]
+    Multiplier,
+    /// Forces use the projected traction (the paper's): couples all pairs of a node.
+    Augmented,
+}
+
+/// Which configuration the weights belong to.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Weights {
+    /// The current one, linearised: large sliding.
+    #[default]
+    Current,
+    /// Frozen at the last commit.
+    Committed,
+    /// Frozen, with normals and areas, at the first configuration: small displacements.
+    Reference,
+}
+
+/// Unit of the multiplier rows.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum RowScale {
+    /// Times r_A M_A: M_A (p_A - lambda_A), a force like the force rows.
+    #[default]
+    Force,
+    /// As in the paper: L^3.
+    None,
+}
+
+/// What a node does in the step in which it becomes covered: it has no slip history.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum NewContact {
+    /// It acts without friction for that one step; a stick row would be zero.
+    #[default]
+    Frictionless,
+    /// It keeps its mu.
+    KeepFriction,
+}
+
+/// Where the augmentation comes from.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Stiffness {
+    /// rhat [F/L^3], the same for all nodes.
+    Augmentation(f64),
+    /// Young's modulus E of the softer body [F/L^2]: rhat_A = 0.1 E / sqrt(M_A).
+    Modulus(f64),
+}
+
+/// All options of an interface.
+#[derive(Clone, Copy, Debug)]
+pub struct Options {
+    /// Multiplier or augmented form.
+    pub form: Form,
+    /// Slip measure.
+    pub slip: SlipMeasure,
+    /// Current or frozen weights.
+    pub weights: Weights,
+    /// Quadrature.
+    pub rule: &'static Rule,
+    /// Scale of the multiplier rows.
+    pub row_scale: RowScale,
+    /// Newly covered nodes.
+    pub new_contact: NewContact,
+    /// Coulomb coefficient of all nodes, >= 0.
+    pub mu: f64,
+    /// Source of the augmentation.
+    pub stiffness: Stiffness,
+    /// Covered over full nodal area at and below which a node counts as uncovered.
+    pub coverage_min: f64,
+    /// Facets farther apart than this along the normal at the last commit are no pair [L];
+    /// `None`: the diagonal of the non-mortar surface.
+    pub search_distance: Option<f64>,
+}
+
+/// Default of [`Options::coverage_min`]: rounding of the covered area is 1e-15 of the facet's.
+pub const COVERAGE_MIN: f64 = 1e-8;
+/// rhat_A = this times E / sqrt(M_A) when a modulus is given. The answer does not depend on it.
+pub const MODULUS_FACTOR: f64 = 0.1;
+
+impl Options {
+    /// The defaults with the given source of the augmentation.
+    pub fn new(stiffness: Stiffness) -> Options {
+        Options {
+            form: Form::default(),
+            slip: SlipMeasure::default(),
+            weights: Weights::default(),
+            rule: &DEGREE_5,
+            row_scale: RowScale::default(),
+            new_contact: NewContact::default(),
+            mu: 0.0,
+            stiffness,
+            coverage_min: COVERAGE_MIN,
+            search_distance: None,
+        }
+    }
+
+    /// Refuses numbers outside their range.
+    pub fn validate(&self) -> Result<()> {
+        let refuse = |name: &str, v: f64, allowed: &str| {
+            Err(Error::new(Kind::InvalidValue, format!("options.{name} is {v}; it must be {allowed}")))
+        };
+        let (name, stiffness) = match self.stiffness {
+            Stiffness::Augmentation(r) => ("augmentation", r),
+            Stiffness::Modulus(e) => ("modulus", e),
+        };
+        if !(stiffness > 0.0 && stiffness.is_finite()) {
+            return refuse(name, stiffness, "positive and finite");
+        }
+        if !(self.mu >= 0.0 && self.mu.is_finite()) {
+            return refuse("mu", self.mu, "finite and not negative");
+        }
+        if !(0.0..1.0).contains(&self.coverage_min) {
+            return refuse("coverage_min", self.coverage_min, "at least 0 and below 1");
+        }
+        match self.search_distance {
+            Some(d) if !(d > 0.0 && d.is_finite()) => refuse("search_distance", d, "positive and finite"),
+            _ => Ok(()),
+        }
+    }
+
+    /// The slip measure in force: with frozen weights the objective one measures nothing (both its
+    /// terms use the same weights), and the increment is what it stands for.
+    pub fn effective_slip(&self) -> SlipMeasure {
+        match (self.weights, self.slip) {
+            (Weights::Committed | Weights::Reference, SlipMeasure::Objective) => SlipMeasure::Increment,
+            (_, slip) => slip,
+        }
+    }
+
+    /// rhat_A of a node with tributary area `area` [F/L^3].
+    pub fn augmentation(&self, area: f64) -> f64 {
+        match self.stiffness {
+            Stiffness::Augmentation(r) => r,
+            Stiffness::Modulus(e) => MODULUS_FACTOR * e / area.sqrt(),
+        }
+    }
+}

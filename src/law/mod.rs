@@ -1,0 +1,14 @@
+//! The nodal contact law: from the assembled weighted gaps and the multiplier of one non-mortar node to
+//! its state, its projected traction and their derivatives (paper (17), (18), (22)-(31) as corrected in
+//! formulation a and b). Knows no geometry: a node is vectors and numbers.
+//!
+//! One projection per node, from the gap that is summed over all pairs: the projection is not linear,
+//! so projecting pair by pair would make the answer depend on the augmentation (formulation b.11).
+
+mod node;
+mod projection;
+mod slip;
+
+pub use node::{Node, NodeResponse};
+pub use projection::{Projected, State, TIE, project};
+pub use slip::SlipMeasure;

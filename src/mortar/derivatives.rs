@@ -1,0 +1,66 @@
+//! Derivatives of the weights with respect to the nodes: the plane derivatives of `transport`, chained
+//! with Dy_k = in-plane part of (Dx_k - Dx0), spin and tilt of the plane (formulation c.2).
+
+use super::segment::{NonmortarFrame, Segment};
+use super::transport::PlaneDerivatives;
+use super::{MORTAR, PAIR_NODES};
+use crate::geometry::{Vec2, Vec3};
+use crate::quadrature::Rule;
+use crate::shape::MAX_NODES;
+
+/// dn/dx of every weight of a pair [L]; slots of absent nodes are zero.
+#[derive(Clone, Debug)]
+pub struct WeightDerivatives {
+    /// `ab[A][B][k]` = d n_AB / d x_k, k over the pair's slots.
+    pub ab: [[[Vec3; PAIR_NODES]; MAX_NODES]; MAX_NODES],
+    /// `ac[A][C][k]` = d n_AC / d x_k.
+    pub ac: [[[Vec3; PAIR_NODES]; MAX_NODES]; MAX_NODES],
+}
+
+impl Default for WeightDerivatives {
+    fn default() -> Self {
+        let zero = [[[Vec3::zeros(); PAIR_NODES]; MAX_NODES]; MAX_NODES];
+        WeightDerivatives { ab: zero, ac: zero }
+    }
+}
+
+impl WeightDerivatives {
+    /// Exact derivatives over a segment (exact when the rule is: affine facets, degree 5).
+    pub fn integrate(frame: &NonmortarFrame, segment: &Segment, rule: &Rule) -> WeightDerivatives {
+        let plane = PlaneDerivatives::integrate(frame, segment, rule);
+        let mut d = WeightDerivatives::default();
+        for a in 0..frame.projection.shape.n {
+            for b in 0..frame.projection.shape.n {
+                d.ab[a][b] = chain(frame, segment, &plane.ab[a][b]);
+            }
+            for c in 0..segment.mortar.shape.n {
+                d.ac[a][segment.mortar.node[c]] = chain(frame, segment, &plane.ac[a][c]);
+            }
+        }
+        d
+    }
+}
+
+/// sum_k g_k . Dy_k as coefficients of the Dx of the pair's nodes.
+fn chain(frame: &NonmortarFrame, segment: &Segment, g: &[Vec2; PAIR_NODES]) -> [Vec3; PAIR_NODES] {
+    let (plane, one, two) = (&frame.plane, &frame.projection, &segment.mortar);
+    let mut dx = [Vec3::zeros(); PAIR_NODES];
+    let (mut shift, mut spin, mut tilt) = (Vec3::zeros(), 0.0, Vec2::zeros());
+    let mut add = |slot: usize, g: Vec2, y: Vec2, d: f64| {
+        dx[slot] = plane.t1 * g.x + plane.t2 * g.y;
+        shift += dx[slot];
+        spin += g.x * y.y - g.y * y.x;
+        tilt += g * d;
+    };
+    for k in 0..one.shape.n {
+        add(k, g[k], one.y[k], one.d[k]);
+    }
+    for k in 0..two.shape.n {
+        add(MORTAR + two.node[k], g[MORTAR + k], two.y[k], two.d[k]);
+    }
+    shift /= one.shape.n as f64;
+    for c in 0..one.shape.n {
+        dx[c] += plane.spin[c] * spin - plane.tilt[0][c] * tilt.x - plane.tilt[1][c] * tilt.y - shift;
+    }
+    dx
+}

@@ -1,0 +1,20 @@
+//! Mortar integration of one facet pair: the overlap, the weights n_AB and n_AC, their exact
+//! derivatives, and the weighted gap (paper (11), (13); formulation a, c).
+//!
+//! Knows no contact law. Nothing here allocates.
+
+mod derivatives;
+mod gap;
+mod segment;
+mod transport;
+mod weights;
+
+pub use derivatives::WeightDerivatives;
+pub use gap::{GapDerivative, gap};
+pub use segment::{NonmortarFrame, Segment};
+pub use weights::PairWeights;
+
+/// Slots for the nodes of a pair: 0..4 non-mortar, 4..8 mortar, in the order the facets were given.
+pub const PAIR_NODES: usize = 8;
+/// First mortar slot.
+pub const MORTAR: usize = 4;

@@ -1,0 +1,127 @@
+//! Derivatives of the weights with respect to the projected vertices, in transport form
+//! (formulation c.5, kernel notes A):
+//!
+//! Dn_AC = -int (grad N_A . v1) N_C + N_A (grad N_C . v2) da + sum_edges int N_A N_C (v . n) ds,
+//!
+//! v1 = sum N_k Dy1_k, v2 = sum N_l Dy2_l, v the velocity of the facet that owns the edge. No vertex
+//! of the overlap is differentiated: that would lose a digit for every digit of a small crossing angle.
+
+use super::segment::{NonmortarFrame, Segment};
+use super::{MORTAR, PAIR_NODES};
+use crate::geometry::Vec2;
+use crate::geometry::edge_interval::EdgeInterval;
+use crate::quadrature::Rule;
+use crate::shape::MAX_NODES;
+
+/// dn/dy of every weight: `ab[A][B][k]`, `ac[A][C][k]`, k over the pair's slots; mortar nodes (C and
+/// k) in the order of the projection.
+pub(super) struct PlaneDerivatives {
+    pub ab: [[[Vec2; PAIR_NODES]; MAX_NODES]; MAX_NODES],
+    pub ac: [[[Vec2; PAIR_NODES]; MAX_NODES]; MAX_NODES],
+}
+
+impl PlaneDerivatives {
+    pub fn integrate(frame: &NonmortarFrame, segment: &Segment, rule: &Rule) -> PlaneDerivatives {
+        let zero = [[[Vec2::zeros(); PAIR_NODES]; MAX_NODES]; MAX_NODES];
+        let mut d = PlaneDerivatives { ab: zero, ac: zero };
+        d.add_volume(frame, segment, rule);
+        for edge in segment.nonmortar_edges.iter().flatten() {
+            d.add_nonmortar_edge(frame, segment, rule, edge);
+        }
+        for edge in segment.mortar_edges.iter().flatten() {
+            d.add_mortar_edge(frame, segment, rule, edge);
+        }
+        d
+    }
+
+    fn add_volume(&mut self, frame: &NonmortarFrame, segment: &Segment, rule: &Rule) {
+        // det J grad N is linear in (xi, eta), so three moments of each product carry everything:
+        // q1[m][k][C] = int mu1_m N1_k N2_C / det1, r likewise with N1_B, q2[m][l][A] = int mu2_m N2_l N1_A / det2.
+        let mut q1 = [[[0.0; MAX_NODES]; MAX_NODES]; 3];
+        let mut r = q1;
+        let mut q2 = q1;
+        segment.for_each_point(frame, rule, |p| {
+            let (w1, w2) = (p.weight / p.one.det, p.weight / p.two.det);
+            let mu1 = [w1, w1 * p.one.xi, w1 * p.one.eta];
+            let mu2 = [w2, w2 * p.two.xi, w2 * p.two.eta];
+            for m in 0..3 {
+                for k in 0..MAX_NODES {
+                    let (a, b) = (mu1[m] * p.n1[k], mu2[m] * p.n2[k]);
+                    for j in 0..MAX_NODES {
+                        q1[m][k][j] += a * p.n2[j];
+                        r[m][k][j] += a * p.n1[j];
+                        q2[m][k][j] += b * p.n1[j];
+                    }
+                }
+            }
+        });
+        let (g1, g2) = (frame.map.gradients(), segment.mortar_map.gradients());
+        for m in 0..3 {
+            for a in 0..MAX_NODES {
+                for b in 0..MAX_NODES {
+                    for k in 0..MAX_NODES {
+                        self.ab[a][b][k] -= g1[m][a] * r[m][k][b] + g1[m][b] * r[m][k][a];
+                        self.ac[a][b][k] -= g1[m][a] * q1[m][k][b];
+                        self.ac[a][b][MORTAR + k] -= g2[m][b] * q2[m][k][a];
+                    }
+                }
+            }
+        }
+    }
+
+    fn add_nonmortar_edge(&mut self, frame: &NonmortarFrame, segment: &Segment, rule: &Rule, edge: &EdgeInterval) {
+        let ends = [edge.from, edge.to];
+        for_each_edge_point(&frame.projection.y, edge, rule, |weight, y, l, normal| {
+            let two = segment.mortar_map.inverse(y);
+            let n2 = segment.mortar.shape.values(two.xi, two.eta);
+            for (i, &a) in ends.iter().enumerate() {
+                for (j, &k) in ends.iter().enumerate() {
+                    let s = normal * (weight * l[i] * l[j]);
+                    for (o, &b) in ends.iter().enumerate() {
+                        self.ab[a][b][k] += s * l[o];
+                    }
+                    for c in 0..MAX_NODES {
+                        self.ac[a][c][k] += s * n2[c];
+                    }
+                }
+            }
+        });
+    }
+
+    fn add_mortar_edge(&mut self, frame: &NonmortarFrame, segment: &Segment, rule: &Rule, edge: &EdgeInterval) {
+        let ends = [edge.from, edge.to];
+        for_each_edge_point(&segment.mortar.y, edge, rule, |weight, y, l, normal| {
+            let one = frame.map.inverse(y);
+            let n1 = frame.projection.shape.values(one.xi, one.eta);
+            for (j, &k) in ends.iter().enumerate() {
+                for a in 0..MAX_NODES {
+                    let s = normal * (weight * l[j] * n1[a]);
+                    for b in 0..MAX_NODES {
+                        self.ab[a][b][MORTAR + k] += s * n1[b];
+                    }
+                    for (o, &c) in ends.iter().enumerate() {
+                        self.ac[a][c][MORTAR + k] += s * l[o];
+                    }
+                }
+            }
+        });
+    }
+}
+
+/// Calls `visit(weight, y, [L_from, L_to], n ds/dt)` at the points of an interval of a source edge;
+/// n is the outward normal of the facet that owns the edge.
+#[inline]
+fn for_each_edge_point(
+    y: &[Vec2; MAX_NODES],
+    edge: &EdgeInterval,
+    rule: &Rule,
+    mut visit: impl FnMut(f64, Vec2, [f64; 2], Vec2),
+) {
+    let span = y[edge.to] - y[edge.from];
+    let normal = Vec2::new(span.y, -span.x) * edge.orientation;
+    let length = edge.high - edge.low;
+    for [t, w] in rule.line {
+        let t = edge.low + length * t;
+        visit(w * length, y[edge.from] + span * t, [1.0 - t, t], normal);
+    }
+}

@@ -1,0 +1,105 @@
+//! Shape functions of the facet kinds: N_k = c0 + c1 xi + c2 eta + c3 xi eta.
+//!
+//! Both kinds share this bilinear form (tri3 has c3 = 0 and a fourth function that vanishes), so that
+//! every kernel above is written once with fixed arrays of four.
+
+mod quad4;
+mod tri3;
+
+pub use quad4::QUAD4;
+pub use tri3::TRI3;
+
+/// Most nodes a facet can have.
+pub const MAX_NODES: usize = 4;
+
+/// A facet kind's shape functions on its reference cell.
+#[derive(Debug)]
+pub struct Shape {
+    /// Number of nodes: 3 or 4.
+    pub n: usize,
+    /// Coefficients of N_k in (1, xi, eta, xi eta), one row a node; rows beyond `n` are zero.
+    pub coefficients: [[f64; 4]; MAX_NODES],
+    /// Integrals of N_k, xi N_k and eta N_k over the reference cell.
+    pub moments: [[f64; 3]; MAX_NODES],
+    /// The node order run through backwards; it maps the cell to itself, so the map stays bilinear.
+    pub reversed: [usize; MAX_NODES],
+}
+
+impl Shape {
+    /// The kind with `n` nodes, if there is one.
+    pub fn of(n: usize) -> Option<&'static Shape> {
+        match n {
+            3 => Some(&TRI3),
+            4 => Some(&QUAD4),
+            _ => None,
+        }
+    }
+
+    /// Values N_k(xi, eta).
+    #[inline]
+    pub fn values(&self, xi: f64, eta: f64) -> [f64; MAX_NODES] {
+        let mut n = [0.0; MAX_NODES];
+        for k in 0..MAX_NODES {
+            let c = &self.coefficients[k];
+            n[k] = c[0] + c[1] * xi + c[2] * eta + c[3] * xi * eta;
+        }
+        n
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const NODES: [(&Shape, &[(f64, f64)]); 2] = [
+        (&TRI3, &[(0.0, 0.0), (1.0, 0.0), (0.0, 1.0)]),
+        (&QUAD4, &[(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)]),
+    ];
+
+    #[test]
+    fn kronecker_and_partition_of_unity() {
+        for (shape, nodes) in NODES {
+            for (j, &(xi, eta)) in nodes.iter().enumerate() {
+                let n = shape.values(xi, eta);
+                for k in 0..MAX_NODES {
+                    assert_eq!(n[k], if k == j { 1.0 } else { 0.0 });
+                }
+            }
+            let sum: f64 = shape.values(0.3, 0.125).iter().sum();
+            assert_eq!(sum, 1.0);
+        }
+    }
+
+    #[test]
+    fn moments_are_the_integrals() {
+        // 2 x 2 Gauss on the square, 3 mid-side points on the triangle: both exact for degree 2.
+        let g = 1.0 / 3.0_f64.sqrt();
+        let square = [(-g, -g, 1.0), (g, -g, 1.0), (g, g, 1.0), (-g, g, 1.0)];
+        let w = 1.0 / 6.0;
+        let triangle = [(0.5, 0.0, w), (0.5, 0.5, w), (0.0, 0.5, w)];
+        for (shape, rule) in [(&TRI3, &triangle[..]), (&QUAD4, &square[..])] {
+            for k in 0..shape.n {
+                let mut m = [0.0; 3];
+                for &(xi, eta, w) in rule {
+                    let n = shape.values(xi, eta)[k];
+                    m[0] += w * n;
+                    m[1] += w * n * xi;
+                    m[2] += w * n * eta;
+                }
+                for i in 0..3 {
+                    assert!((m[i] - shape.moments[k][i]).abs() < 1e-15);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn reversed_order_is_a_permutation_that_keeps_the_first_node() {
+        for (shape, _) in NODES {
+            assert_eq!(shape.reversed[0], 0);
+            for k in 1..shape.n {
+                assert_eq!(shape.reversed[k], shape.n - k);
+            }
+        }
+    }
+}

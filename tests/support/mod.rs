@@ -1,0 +1,48 @@
+//! Shared by the integration tests: the golden vectors and a few ways to compare.
+#![allow(dead_code)]
+
+use nalgebra::Vector3;
+use serde_json::Value;
+use std::path::{Path, PathBuf};
+use stickslip::geometry::{Facet, Vec3};
+
+/// The cases of a golden file: the full set where it is present, else the project's own small copy.
+pub fn golden(file: &str) -> Vec<Value> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let full: PathBuf = root.join("../shared/golden").join(file);
+    let path = if full.exists() {
+        full
+    } else {
+        println!("../shared/golden/{file} is absent: using the essential vectors in tests/data");
+        root.join("tests/data").join(file)
+    };
+    let text = std::fs::read_to_string(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
+    let value: Value = serde_json::from_str(&text).unwrap();
+    let cases = value["cases"].as_array().unwrap().clone();
+    assert!(cases.len() >= 3, "{} holds too few cases to mean anything", path.display());
+    cases
+}
+
+pub fn numbers(v: &Value) -> Vec<f64> {
+    v.as_array().unwrap().iter().map(|x| x.as_f64().unwrap()).collect()
+}
+
+pub fn table(v: &Value) -> Vec<Vec<f64>> {
+    v.as_array().unwrap().iter().map(numbers).collect()
+}
+
+pub fn points(v: &Value) -> Vec<Vec3> {
+    table(v).iter().map(|p| Vector3::new(p[0], p[1], p[2])).collect()
+}
+
+pub fn facet(v: &Value) -> Facet {
+    Facet::new(&points(v)).unwrap()
+}
+
+pub fn name(case: &Value) -> &str {
+    case["name"].as_str().unwrap()
+}
+
+pub fn max_abs(values: impl IntoIterator<Item = f64>) -> f64 {
+    values.into_iter().fold(0.0, |m, v| m.max(v.abs()))
+}
