@@ -1,0 +1,134 @@
+/* Interfaces as the scene describes them: surfaces, law, form, and which multiplier components are unknowns at all. */
+#include "model.h"
+
+/* nodes of a surface, each once, in order of first use */
+static PetscErrorCode collect_nodes(const Mesh *mesh, const Surface *surface, PetscInt *nodes, PetscInt *n)
+{
+  PetscBool *seen;
+  PetscFunctionBegin;
+  PetscCall(PetscCalloc1(mesh->n_vertices, &seen));
+  *n = 0;
+  for (PetscInt k = 0; k < surface->offsets[surface->n_faces]; k++) {
+    const PetscInt v = surface->vertices[k];
+    if (!seen[v]) nodes[(*n)++] = v;
+    seen[v] = PETSC_TRUE;
+  }
+  PetscCall(PetscFree(seen));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscReal surface_young(const Model *model, const PetscInt *nodes, PetscInt n)
+{
+  PetscReal young = PETSC_MAX_REAL; /* what a wholly prescribed, so rigid surface counts as */
+  for (PetscInt k = 0; k < n; k++) {
+    if (model->prescribed[nodes[k]] == 7) continue;
+    for (PetscInt b = 0; b < model->mesh.n_bodies; b++) {
+      const Body *body = &model->mesh.bodies[b];
+      if (nodes[k] >= body->first_vertex && nodes[k] < body->end_vertex) young = PetscMin(young, body->material.young);
+    }
+  }
+  return young;
+}
+
+/* rank 0: surfaces, nodes, default stiffness, removed components */
+static PetscErrorCode read_surfaces(Model *model, Interface *interface)
+{
+  static const char *const side_key[] = {"nonmortar", "mortar"};
+  Scene                   *scene      = model->scene;
+  PetscInt                 mortar_mask = 7, n_corners[2];
+  char                     name[2 * NAME_LENGTH];
+
+  PetscFunctionBegin;
+  for (int side = 0; side < 2; side++) {
+    scene_string_required(scene, interface->name, side_key[side], name, sizeof(name));
+    interface->surface[side] = mesh_surface(scene, &model->mesh, interface->name, side_key[side], name);
+    if (interface->surface[side]->inner) scene_fail(scene, interface->name, side_key[side], "'%s' lies inside a body.", name);
+    n_corners[side] = interface->surface[side]->offsets[interface->surface[side]->n_faces];
+  }
+  PetscCall(PetscMalloc1(n_corners[0] + n_corners[1], &interface->nodes));
+  PetscCall(collect_nodes(&model->mesh, interface->surface[0], interface->nodes, &interface->n1));
+  PetscCall(collect_nodes(&model->mesh, interface->surface[1], interface->nodes + interface->n1, &interface->n2));
+  for (PetscInt a = 0; a < interface->n1; a++) {
+    for (PetscInt b = 0; b < interface->n2; b++) {
+      if (interface->nodes[a] == interface->nodes[interface->n1 + b]) scene_fail(scene, interface->name, "mortar", "the two surfaces share a vertex; contact of a surface with itself is not supported.");
+    }
+  }
+  /* A component is no unknown where it is prescribed on both sides: at the node, and on the mortar side everywhere. */
+  for (PetscInt b = 0; b < interface->n2; b++) mortar_mask &= model->prescribed[interface->nodes[interface->n1 + b]];
+  PetscCall(PetscMalloc1(interface->n1, &interface->removed));
+  for (PetscInt a = 0; a < interface->n1; a++) interface->removed[a] = model->prescribed[interface->nodes[a]] & mortar_mask;
+
+  if (interface->options.augmentation == 0 && interface->options.modulus == 0) {
+    const PetscReal young1 = surface_young(model, interface->nodes, interface->n1), young2 = surface_young(model, interface->nodes + interface->n1, interface->n2);
+    interface->options.modulus = PetscMin(young1, young2);
+    if (interface->options.modulus == PETSC_MAX_REAL) interface->options.modulus = model->mesh.bodies[0].material.young; /* nothing moves */
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode contact_read(Model *model)
+{
+  static const char *const weights[] = {"current", "committed", "reference", NULL}, *const slips[] = {"objective", "increment", "seed", NULL};
+  static const char *const forms[] = {"multiplier", "augmented", NULL}, *const new_contacts[] = {"frictionless", "friction", NULL};
+  Scene                   *scene = model->scene;
+  char                   **names;
+
+  PetscFunctionBegin;
+  scene_names(scene, "interfaces", &model->n_interfaces, &names);
+  PetscCall(PetscCalloc1(model->n_interfaces, &model->interfaces));
+  for (PetscInt i = 0; i < model->n_interfaces; i++) {
+    Interface         *interface = &model->interfaces[i];
+    stickslip_options *options   = &interface->options;
+    PetscInt           weight = STICKSLIP_WEIGHTS_CURRENT, slip = STICKSLIP_SLIP_OBJECTIVE, form = STICKSLIP_FORM_MULTIPLIER, new_contact = 0;
+    PetscReal          mu = 0, augmentation = 0, modulus = 0, distance = 0;
+    const char        *name = interface->name;
+
+    PetscCall(PetscSNPrintf(interface->name, NAME_LENGTH, "%s", names[i]));
+    PetscCallStickslip(stickslip_options_init(options, sizeof(*options)));
+    scene_real(scene, name, "friction", &mu);
+    scene_choice(scene, name, "weights", weights, &weight);
+    scene_choice(scene, name, "slip", slips, &slip);
+    scene_choice(scene, name, "form", forms, &form);
+    scene_choice(scene, name, "new_contact", new_contacts, &new_contact);
+    scene_real(scene, name, "augmentation", &augmentation);
+    scene_real(scene, name, "modulus", &modulus);
+    scene_real(scene, name, "search_distance", &distance);
+    if (mu < 0) scene_fail(scene, name, "friction", "a Coulomb coefficient cannot be negative.");
+    if (scene_has(scene, name, "augmentation") && augmentation <= 0) scene_fail(scene, name, "augmentation", "it must be positive.");
+    if (scene_has(scene, name, "modulus") && modulus <= 0) scene_fail(scene, name, "modulus", "it must be positive.");
+    if (distance < 0) scene_fail(scene, name, "search_distance", "it cannot be negative.");
+    options->mu              = mu;
+    options->weights         = (int32_t)weight;
+    options->slip            = (int32_t)slip;
+    options->form            = (int32_t)form;
+    options->new_contact     = (int32_t)new_contact;
+    options->augmentation    = augmentation;
+    options->modulus         = modulus;
+    options->search_distance = distance;
+  }
+  strings_destroy(model->n_interfaces, &names);
+  scene_root_begin(scene);
+  for (PetscInt i = 0; i < model->n_interfaces && model->rank == 0; i++) {
+    Interface *interface = &model->interfaces[i];
+    PetscReal  scale     = 1;
+    PetscCall(read_surfaces(model, interface));
+    scene_real(scene, interface->name, "augmentation_scale", &scale);
+    if (scale <= 0) scene_fail(scene, interface->name, "augmentation_scale", "it must be positive.");
+    interface->options.augmentation *= scale;
+    interface->options.modulus *= scale;
+  }
+  PetscCall(scene_root_end(scene));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode contact_label(Model *model)
+{
+  char label[2 * NAME_LENGTH];
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < model->n_interfaces; i++) {
+    const Interface *interface = &model->interfaces[i];
+    PetscCall(PetscSNPrintf(label, sizeof(label), "multiplier.%s", interface->name));
+    PetscCall(plex_label_vertices(model->dm, label, interface->n1, interface->nodes, interface->removed, 0));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

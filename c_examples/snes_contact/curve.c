@@ -1,0 +1,54 @@
+/* Load curves. */
+#include "curve.h"
+#include "petsc_compat.h"
+
+PetscErrorCode curve_read(Scene *scene, const char *map, PetscReal end, Curve *curve)
+{
+  PetscInt n;
+  PetscFunctionBegin;
+  scene_reals(scene, map, "curve", &n, &curve->points);
+  if (!n) {
+    PetscCall(PetscCalloc1(4, &curve->points));
+    curve->points[2] = end;
+    curve->points[3] = 1;
+    n                = 4;
+  }
+  if (n % 2) scene_fail(scene, map, "curve", "pairs [t0, v0, t1, v1, ...] are expected, but there are %d numbers.", (int)n);
+  curve->n = n / 2;
+  for (PetscInt k = 1; k < curve->n; k++) {
+    if (curve->points[2 * k] <= curve->points[2 * k - 2]) scene_fail(scene, map, "curve", "times must increase; %g does not.", (double)curve->points[2 * k]);
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscReal curve_value(const Curve *curve, PetscReal t)
+{
+  const PetscReal *p = curve->points;
+  if (t <= p[0]) return p[1];
+  for (PetscInt k = 1; k < curve->n; k++, p += 2) {
+    if (t <= p[2]) return p[1] + (p[3] - p[1]) * ((t - p[0]) / (p[2] - p[0]));
+  }
+  return p[1];
+}
+
+PetscBool curve_bends(const Curve *curve, PetscReal t)
+{
+  const PetscReal *p = curve->points;
+  for (PetscInt k = 0; k < curve->n; k++) {
+    PetscReal before, after;
+    if (PetscAbsReal(t - p[2 * k]) > 1e-12 * PetscMax(1, PetscAbsReal(t))) continue;
+    before = k ? (p[2 * k + 1] - p[2 * k - 1]) / (p[2 * k] - p[2 * k - 2]) : 0;
+    after  = k + 1 < curve->n ? (p[2 * k + 3] - p[2 * k + 1]) / (p[2 * k + 2] - p[2 * k]) : 0;
+    if (PetscAbsReal(after - before) > 1e-9 * (PetscAbsReal(after) + PetscAbsReal(before))) return PETSC_TRUE;
+  }
+  return PETSC_FALSE;
+}
+
+PetscBool curve_equal(const Curve *a, const Curve *b)
+{
+  if (a->n != b->n) return PETSC_FALSE;
+  for (PetscInt k = 0; k < 2 * a->n; k++) {
+    if (a->points[k] != b->points[k]) return PETSC_FALSE;
+  }
+  return PETSC_TRUE;
+}

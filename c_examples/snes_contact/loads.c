@@ -1,0 +1,127 @@
+/* Dead surface loads: a traction vector and/or a pressure per reference area, as consistent nodal forces, times a curve. */
+#include "model.h"
+
+PetscErrorCode loads_read(Model *model)
+{
+  Scene *scene = model->scene;
+  char **names;
+
+  PetscFunctionBegin;
+  scene_names(scene, "loads", &model->n_loads, &names);
+  PetscCall(PetscCalloc1(model->n_loads, &model->loads));
+  for (PetscInt l = 0; l < model->n_loads; l++) {
+    Load     *load = &model->loads[l];
+    PetscBool traction;
+    PetscCall(PetscSNPrintf(load->name, NAME_LENGTH, "%s", names[l]));
+    traction = scene_vector(scene, load->name, "traction", 3, load->traction);
+    if (!scene_has(scene, load->name, "pressure") && !traction) scene_fail(scene, load->name, "traction", "say how it loads: traction [x, y, z], or pressure (against the outward normal).");
+    scene_real(scene, load->name, "pressure", &load->pressure);
+    mesh_rotate_vector(&model->mesh, load->traction);
+    PetscCall(curve_read(scene, load->name, model->steps.end, &load->curve));
+  }
+  strings_destroy(model->n_loads, &names);
+  scene_root_begin(scene);
+  for (PetscInt l = 0; l < model->n_loads && model->rank == 0; l++) {
+    Load  *load = &model->loads[l];
+    char **list;
+    scene_strings(scene, load->name, "surface", &load->n_surfaces, &list);
+    if (!load->n_surfaces) scene_fail(scene, load->name, "surface", "this key is missing.");
+    PetscCall(PetscMalloc1(load->n_surfaces, &load->surfaces));
+    for (PetscInt k = 0; k < load->n_surfaces; k++) {
+      load->surfaces[k] = mesh_surface(scene, &model->mesh, load->name, "surface", list[k]);
+      if (load->surfaces[k]->inner) scene_fail(scene, load->name, "surface", "'%s' lies inside a body and cannot be loaded.", list[k]);
+    }
+    strings_destroy(load->n_surfaces, &list);
+  }
+  PetscCall(scene_root_end(scene));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode loads_label(Model *model)
+{
+  char label[2 * NAME_LENGTH];
+  PetscFunctionBegin;
+  for (PetscInt l = 0; l < model->n_loads; l++) {
+    PetscCall(PetscSNPrintf(label, sizeof(label), "load.%s", model->loads[l].name));
+    if (!model->loads[l].n_surfaces) PetscCall(plex_label_faces(model->dm, label, NULL));
+    for (PetscInt k = 0; k < model->loads[l].n_surfaces; k++) PetscCall(plex_label_faces(model->dm, label, model->loads[l].surfaces[k]));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode add_face(Model *model, const Load *load, PetscInt face, PetscScalar *forces)
+{
+  PetscInt          *closure = NULL, size, n = 0, offsets[4], at;
+  PetscReal          X[12], f[12];
+  PetscSection       section;
+  Vec                vector;
+  const PetscScalar *coordinates;
+
+  PetscFunctionBegin;
+  PetscCall(DMGetCoordinateSection(model->dm, &section));
+  PetscCall(DMGetCoordinatesLocal(model->dm, &vector));
+  PetscCall(VecGetArrayRead(vector, &coordinates));
+  PetscCall(DMPlexGetTransitiveClosure(model->dm, face, PETSC_TRUE, &size, &closure));
+  for (PetscInt k = 0; k < size; k++) {
+    const PetscInt v = closure[2 * k];
+    if (v < model->vStart || v >= model->vEnd) continue;
+    PetscCall(PetscSectionGetOffset(section, v, &at));
+    PetscCall(PetscSectionGetOffset(model->section, v, &offsets[n]));
+    for (int i = 0; i < 3; i++) X[3 * n + i] = PetscRealPart(coordinates[at + i]);
+    n++;
+  }
+  PetscCall(DMPlexRestoreTransitiveClosure(model->dm, face, PETSC_TRUE, &size, &closure));
+  PetscCall(VecRestoreArrayRead(vector, &coordinates));
+  { /* DMPlex may see the face from inside: the pressure must act against the outward normal */
+    const PetscInt *support, *cells;
+    PetscReal       volume, cell_centre[3], face_centre[3], normal[3], outward = 0;
+    PetscCall(DMPlexGetSupport(model->dm, face, &support));
+    cells = support;
+    PetscCall(DMPlexComputeCellGeometryFVM(model->dm, cells[0], &volume, cell_centre, NULL));
+    PetscCall(DMPlexComputeCellGeometryFVM(model->dm, face, &volume, face_centre, NULL));
+    for (int i = 0; i < 3; i++) { /* of the triangle 0, 1, 2 */
+      const int j = (i + 1) % 3, k = (i + 2) % 3;
+      normal[i] = (X[3 + j] - X[j]) * (X[6 + k] - X[k]) - (X[3 + k] - X[k]) * (X[6 + j] - X[j]);
+      outward += normal[i] * (face_centre[i] - cell_centre[i]);
+    }
+    face_forces(n, X, load->traction, outward > 0 ? load->pressure : -load->pressure, f);
+  }
+  for (PetscInt a = 0; a < n; a++) {
+    for (int i = 0; i < 3; i++) forces[offsets[a] + i] += f[3 * a + i];
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode loads_assemble(Model *model)
+{
+  PetscFunctionBegin;
+  for (PetscInt l = 0; l < model->n_loads; l++) {
+    Load           *load = &model->loads[l];
+    char            label[2 * NAME_LENGTH];
+    PetscScalar    *forces;
+    PetscInt        n = 0;
+    const PetscInt *faces;
+    IS              is;
+    PetscCall(VecDuplicate(model->u_local, &load->forces));
+    PetscCall(VecZeroEntries(load->forces));
+    PetscCall(PetscSNPrintf(label, sizeof(label), "load.%s", load->name));
+    PetscCall(DMGetStratumIS(model->dm, label, 1, &is));
+    if (!is) continue; /* no such face on this rank */
+    PetscCall(VecGetArray(load->forces, &forces));
+    PetscCall(ISGetLocalSize(is, &n));
+    PetscCall(ISGetIndices(is, &faces));
+    for (PetscInt k = 0; k < n; k++) PetscCall(add_face(model, load, faces[k], forces));
+    PetscCall(ISRestoreIndices(is, &faces));
+    PetscCall(ISDestroy(&is));
+    PetscCall(VecRestoreArray(load->forces, &forces));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode loads_values(Model *model, PetscReal t)
+{
+  PetscFunctionBegin;
+  PetscCall(VecZeroEntries(model->f_external));
+  for (PetscInt l = 0; l < model->n_loads; l++) PetscCall(VecAXPY(model->f_external, curve_value(&model->loads[l].curve, t), model->loads[l].forces));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

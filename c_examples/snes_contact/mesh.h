@@ -1,0 +1,53 @@
+/* The scene's geometry: all bodies in one list of vertices and cells, with named surfaces, on rank 0 only. From it come the
+ * distributed DMPlex (plex.c), the contact surfaces, and the files for ParaView. */
+#ifndef SNES_CONTACT_MESH_H
+#define SNES_CONTACT_MESH_H
+#include "elasticity.h"
+#include "scene.h"
+
+typedef struct {
+  char      name[2 * NAME_LENGTH]; /* "block.zmin", or a name of `surfaces` */
+  PetscInt  n_faces;
+  PetscInt *offsets;  /* n_faces + 1 */
+  PetscInt *vertices; /* 3 or 4 per face, right-hand normal out of the body */
+  PetscBool inner;    /* lies inside a body: good for supports only */
+} Surface;
+
+typedef struct {
+  char     name[NAME_LENGTH];
+  Material material;
+  PetscInt first_vertex, end_vertex; /* its range of vertices (rank 0) */
+} Body;
+
+typedef struct {
+  PetscInt   n_bodies;
+  Body      *bodies; /* known to every rank; everything below on rank 0 only */
+  PetscInt   n_vertices, n_cells, n_surfaces;
+  PetscReal *coordinates;   /* 3 per vertex */
+  PetscInt  *cell_offsets;  /* n_cells + 1 */
+  PetscInt  *cell_vertices; /* 4 (tet) or 8 (hex) per cell, in VTK's order */
+  PetscInt  *cell_body;
+  Surface   *surfaces;
+  PetscReal  rotation[9]; /* of the whole scene, row-major; identity unless `frame` says otherwise */
+  PetscBool  rotated;
+} Mesh;
+
+PetscErrorCode mesh_create(Scene *scene, Mesh *mesh);  /* bodies and surfaces, in the axes of the scene file */
+PetscErrorCode mesh_rotate(Mesh *mesh);                /* then into the rotated frame, when all selections are done */
+PetscErrorCode mesh_destroy(Mesh *mesh);
+void           mesh_rotate_vector(const Mesh *mesh, PetscReal v[3]);
+
+const Surface *mesh_surface(Scene *scene, const Mesh *mesh, const char *map, const char *key, const char *name);
+PetscInt       mesh_body(Scene *scene, const Mesh *mesh, const char *map, const char *key, const char *name);
+PetscInt       mesh_nearest_vertex(Scene *scene, const Mesh *mesh, const char *map);
+
+/* for the readers of one body: box.c, gmsh.c */
+PetscErrorCode mesh_append(Mesh *mesh, PetscInt n_vertices, const PetscReal *coordinates, PetscInt n_cells, PetscInt corners, const PetscInt *cells);
+PetscErrorCode mesh_add_surface(Mesh *mesh, const char *name, PetscInt max_faces, Surface **surface);
+void           surface_push(Surface *surface, PetscInt n, const PetscInt vertices[]);
+PetscErrorCode box_create(Scene *scene, const char *body, Mesh *mesh);
+PetscErrorCode gmsh_create(Scene *scene, const char *body, Mesh *mesh);
+
+/* vertices of face 0..5 of a hex, 0..3 of a tet, outward; returns the number of vertices of that face */
+PetscInt cell_face(PetscInt corners, PetscInt face, const PetscInt cell[], PetscInt vertices[4]);
+#endif

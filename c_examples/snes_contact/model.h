@@ -1,0 +1,180 @@
+/* Everything a run knows: the scene's supports, loads, interfaces and steps, the distributed mesh with its unknowns, and
+ * the forces assembled on it.
+ *
+ * Unknowns live in two kinds of vectors, as PETSc has them: a *local* vector holds 3 displacements per vertex of this rank
+ * and 3 multipliers per non-mortar vertex, prescribed ones included; a *global* vector holds the equations only. */
+#ifndef SNES_CONTACT_MODEL_H
+#define SNES_CONTACT_MODEL_H
+#include "curve.h"
+#include "mesh.h"
+#include <petscdmplex.h>
+#include <petscsf.h>
+#include <petscsnes.h>
+#include <stickslip.h>
+
+/* u = factor(t) (value + gradient (X - origin)) in the components of the mask (bit i: axis i) */
+typedef struct {
+  char      name[NAME_LENGTH];
+  PetscInt  mask;
+  PetscReal value[3], gradient[9], origin[3];
+  Curve     curve;
+  PetscInt  n_vertices, *vertices; /* rank 0 */
+  PetscReal reaction[3];           /* of the last evaluation, summed over ranks by supports_reactions() */
+} Support;
+
+typedef struct {
+  char            name[NAME_LENGTH];
+  PetscReal       traction[3], pressure;
+  Curve           curve;
+  PetscInt        n_surfaces;
+  const Surface **surfaces; /* rank 0 */
+  Vec             forces;   /* local vector of the nodal forces at factor 1; ranks add up */
+} Load;
+
+/* One contact interface; the library's handle and all its arrays live on rank 0 (see contact.c). */
+typedef struct {
+  char               name[NAME_LENGTH];
+  const Surface     *surface[2]; /* non-mortar, mortar */
+  PetscInt           n1, n2;     /* their numbers of nodes */
+  PetscInt          *nodes;      /* n1 + n2 mesh vertices */
+  PetscInt          *removed;    /* n1: mask of multiplier components that are no unknowns */
+  stickslip_options  options;
+  double            *X, *x;       /* 3 (n1 + n2): reference and current coordinates */
+  PetscScalar       *gathered;    /* 3 (n1 + n2) displacements, 3 n1 multipliers */
+  PetscScalar       *forces;      /* same layout: f1, f2, multiplier rows */
+  int64_t           *equations;   /* same layout */
+  PetscSF            sf;          /* from the local vectors of all ranks to `gathered` */
+  stickslip_interface *handle;
+  int64_t            coo_capacity, *coo_rows, *coo_columns;
+  double            *coo_values;
+  double             friction_work; /* up to the last converged step */
+} Interface;
+
+/* nodal results of one interface; every array has n1 entries, vectors 3 n1 */
+typedef struct {
+  int32_t *state;
+  double  *normal, *gap, *slip, *coverage, *area, *dissipation;
+} ContactStates;
+
+typedef struct {
+  char     name[NAME_LENGTH];
+  PetscInt vertex; /* rank 0 */
+} Probe;
+
+typedef struct {
+  PetscInt   n_times;
+  PetscReal *times;
+  PetscReal  end, smallest; /* step, as a fraction of the distance between two times */
+  PetscBool  predictor;
+} Steps;
+
+typedef struct {
+  double bulk_assembly, linear_solve, contact, total, started;
+} Timers;
+
+typedef enum { WRITE_NONE, WRITE_LAST, WRITE_ALL } WriteWhen;
+
+typedef struct {
+  Scene      *scene;
+  PetscMPIInt rank;
+  Mesh        mesh;
+  PetscInt    n_supports, n_loads, n_interfaces, n_probes;
+  Support    *supports;
+  Load       *loads;
+  Interface  *interfaces;
+  Probe      *probes;
+  PetscInt   *prescribed; /* rank 0: mask of prescribed displacements per mesh vertex */
+  Steps       steps;
+  WriteWhen   write_vtu, write_csv;
+  PetscBool   quiet;
+  const char *output_dir;
+
+  /* unknowns.c */
+  DM              dm;
+  PetscSection    section;
+  PetscInt       *original; /* mesh vertex of each of this rank's vertices */
+  PetscInt        vStart, vEnd, n_local;
+  const PetscInt *equations; /* of each local entry, -1: prescribed */
+  PetscInt       *owner;     /* rank 0, per mesh vertex: rank, then the local offset of each field there */
+  PetscSF         all_displacements;
+
+  /* bulk.c */
+  PetscInt   n_cells, *cell_offsets, *cell_dofs, *cell_body; /* this rank's cells; cell_dofs: local offset of each corner */
+  PetscReal *cell_X;
+  Vec        u_local, f_local, prescribed_local; /* local vectors: state, forces, values of prescribed entries at t */
+  Vec        f_external;                         /* local, at t */
+
+  SNES      snes;
+  Mat       jacobian;
+  PetscReal t, reference_force, largest_reference; /* for the convergence test (solver.c) */
+  char      refusal[1024];                         /* the library's last message, if it refused an evaluation */
+  Timers    timers;
+} Model;
+
+/* plex.c */
+PetscErrorCode plex_create(Model *model);
+PetscErrorCode plex_label_vertices(DM dm, const char *label, PetscInt n, const PetscInt *vertices, const PetscInt *values, PetscInt value);
+PetscErrorCode plex_label_faces(DM dm, const char *label, const Surface *surface);
+PetscErrorCode plex_distribute(Model *model);
+
+/* supports.c */
+PetscErrorCode supports_read(Model *model);
+PetscErrorCode supports_label(Model *model);
+PetscErrorCode supports_values(Model *model, PetscReal t); /* into prescribed_local */
+PetscErrorCode supports_reactions(Model *model);
+
+/* loads.c */
+PetscErrorCode loads_read(Model *model);
+PetscErrorCode loads_label(Model *model);
+PetscErrorCode loads_assemble(Model *model);
+PetscErrorCode loads_values(Model *model, PetscReal t); /* into f_external */
+
+/* unknowns.c: `field` 0 is the displacement, 1 + i the multiplier of interface i */
+PetscErrorCode unknowns_create(Model *model);
+PetscErrorCode unknowns_gather_create(Model *model, PetscInt n, const PetscInt *n_vertices, const PetscInt *const *vertices, const PetscInt *fields, PetscSF *sf);
+PetscErrorCode unknowns_to_local(Model *model, Vec x); /* into u_local, prescribed entries filled in */
+
+/* bulk.c */
+PetscErrorCode bulk_create(Model *model);
+PetscErrorCode bulk_forces(Model *model, Vec f_local);                 /* adds */
+PetscErrorCode bulk_stiffness(Model *model, Mat matrix, PetscBool pattern); /* adds values, or zeros for the pattern */
+
+/* contact.c: `status` > 0 on every rank if the library refused; the message is in model->refusal */
+PetscErrorCode contact_read(Model *model);
+PetscErrorCode contact_label(Model *model);
+PetscErrorCode contact_create(Model *model, PetscInt *status);
+PetscErrorCode contact_destroy(Model *model);
+PetscErrorCode contact_start(Model *model, Vec x, PetscInt *status);
+PetscErrorCode contact_gather(Model *model, Interface *interface, Vec local);
+PetscErrorCode contact_forces(Model *model, Vec f_local, PetscReal *squared_norm, PetscInt *status);
+PetscErrorCode contact_tangent(Model *model, Mat matrix, PetscInt *status);
+PetscErrorCode contact_pattern(Model *model, Mat matrix);
+PetscErrorCode contact_states_create(const Interface *interface, ContactStates *states); /* rank 0 */
+PetscErrorCode contact_states_destroy(ContactStates *states);
+PetscErrorCode contact_commit(Model *model, PetscInt *status);
+
+/* solver.c */
+PetscErrorCode solver_create(Model *model);
+PetscErrorCode solver_refresh_pattern(Model *model);
+
+/* steps.c: returns the exit code of the program */
+PetscErrorCode steps_read(Model *model);
+PetscErrorCode steps_run(Model *model, int *exit_code);
+
+/* output.c, vtu.c */
+typedef struct Summary Summary;
+PetscErrorCode output_read(Model *model);
+PetscErrorCode summary_create(Model *model, Summary **summary);
+PetscErrorCode summary_step(Model *model, Summary *summary, PetscInt step, PetscBool converged, PetscBool last);
+PetscErrorCode summary_drop_step(Model *model, Summary *summary); /* the last one, which could not be committed */
+PetscErrorCode summary_write(Model *model, Summary **summary, PetscInt cutbacks, const char *message);
+PetscErrorCode csv_write(Model *model, const Interface *interface, const ContactStates *states, PetscInt step);
+PetscErrorCode vtu_write(Model *model, const PetscScalar *displacements, PetscInt step);
+
+/* The library's status as a PETSc error, where a refusal is not something to recover from. */
+#define PetscCallStickslip(...) \
+  do { \
+    const int32_t status_of_call = (__VA_ARGS__); \
+    PetscCheck(status_of_call == 0, PETSC_COMM_SELF, PETSC_ERR_LIB, "stickslip: %s", stickslip_last_error_message()); \
+  } while (0)
+#endif

@@ -1,0 +1,241 @@
+/* Results: DIR/summary.json, the progress line, and per step the CSV files of the interfaces and the VTU file. All values
+ * of a step belong to the state just before it is committed. */
+#include "model.h"
+#include <cjson/cJSON.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+struct Summary {
+  cJSON  *root, *steps;
+  double *work_before; /* friction work of each interface before the last step */
+};
+
+static cJSON *vector_json(const PetscReal v[3])
+{
+  return cJSON_CreateDoubleArray(v, 3);
+}
+
+PetscErrorCode output_read(Model *model)
+{
+  static const char *const when[] = {"none", "last", "all", NULL};
+  PetscInt                 vtu = WRITE_ALL, csv = WRITE_ALL;
+  char                   **names;
+
+  PetscFunctionBegin;
+  scene_choice(model->scene, "output", "vtu", when, &vtu);
+  scene_choice(model->scene, "output", "csv", when, &csv);
+  scene_bool(model->scene, "output", "quiet", &model->quiet);
+  model->write_vtu = (WriteWhen)vtu;
+  model->write_csv = (WriteWhen)csv;
+  scene_names(model->scene, "probes", &model->n_probes, &names);
+  PetscCall(PetscCalloc1(model->n_probes, &model->probes));
+  scene_root_begin(model->scene);
+  for (PetscInt k = 0; k < model->n_probes && model->rank == 0; k++) {
+    PetscCall(PetscSNPrintf(model->probes[k].name, NAME_LENGTH, "%s", names[k]));
+    model->probes[k].vertex = mesh_nearest_vertex(model->scene, &model->mesh, names[k]);
+  }
+  if (model->rank == 0 && mkdir(model->output_dir, 0777) && access(model->output_dir, W_OK)) scene_fail(model->scene, NULL, NULL, "cannot write to the output folder '%s'.", model->output_dir);
+  PetscCall(scene_root_end(model->scene));
+  strings_destroy(model->n_probes, &names);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static const char *form_name(const Model *model)
+{
+  int32_t form = model->n_interfaces ? model->interfaces[0].options.form : STICKSLIP_FORM_MULTIPLIER;
+  for (PetscInt i = 1; i < model->n_interfaces; i++) {
+    if (model->interfaces[i].options.form != form) return "mixed";
+  }
+  return form == STICKSLIP_FORM_AUGMENTED ? "augmented" : "multiplier";
+}
+
+PetscErrorCode summary_create(Model *model, Summary **out)
+{
+  Summary  *summary;
+  PetscInt  unknowns;
+  PetscReal rtol;
+  Vec       x;
+
+  PetscFunctionBegin;
+  PetscCall(PetscNew(&summary));
+  PetscCall(PetscCalloc1(model->n_interfaces, &summary->work_before));
+  PetscCall(DMGetGlobalVector(model->dm, &x));
+  PetscCall(VecGetSize(x, &unknowns));
+  PetscCall(DMRestoreGlobalVector(model->dm, &x));
+  PetscCall(SNESGetTolerances(model->snes, NULL, &rtol, NULL, NULL, NULL));
+  summary->root = cJSON_CreateObject();
+  cJSON_AddNumberToObject(summary->root, "schema", 1);
+  cJSON_AddStringToObject(summary->root, "scene", scene_file(model->scene));
+  cJSON_AddStringToObject(summary->root, "form", form_name(model));
+  cJSON_AddNumberToObject(summary->root, "rtol", rtol);
+  cJSON_AddNumberToObject(summary->root, "unknowns", unknowns);
+  summary->steps = cJSON_CreateArray();
+  if (!model->quiet) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s: %" PetscInt_FMT " unknowns\n", scene_file(model->scene), unknowns));
+  *out = summary;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* rank 0: force, counts and CSV file of one interface; returns a piece of the progress line */
+static PetscErrorCode interface_results(Model *model, Interface *interface, PetscInt step, PetscBool write, cJSON *parent, double *work, char progress[], size_t length)
+{
+  PetscInt      counts[3] = {0, 0, 0};
+  PetscReal     force[3]  = {0, 0, 0};
+  ContactStates states;
+  cJSON        *json = cJSON_AddObjectToObject(parent, interface->name);
+
+  PetscFunctionBegin;
+  PetscCall(contact_states_create(interface, &states));
+  for (PetscInt a = 0; a < interface->n1; a++) {
+    counts[states.state[a]]++;
+    for (int i = 0; i < 3; i++) force[i] -= PetscRealPart(interface->forces[3 * a + i]); /* f1 is an internal force */
+    interface->friction_work += states.dissipation[a];
+  }
+  *work += interface->friction_work;
+  cJSON_AddItemToObject(json, "force", vector_json(force));
+  cJSON_AddNumberToObject(json, "gap", counts[STICKSLIP_STATE_GAP]);
+  cJSON_AddNumberToObject(json, "stick", counts[STICKSLIP_STATE_STICK]);
+  cJSON_AddNumberToObject(json, "slip", counts[STICKSLIP_STATE_SLIP]);
+  if (write) PetscCall(csv_write(model, interface, &states, step));
+  PetscCall(contact_states_destroy(&states));
+  snprintf(progress, length, "  %s %d gap %d stick %d slip", interface->name, (int)counts[STICKSLIP_STATE_GAP], (int)counts[STICKSLIP_STATE_STICK], (int)counts[STICKSLIP_STATE_SLIP]);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode add_reactions(Model *model, cJSON *json)
+{
+  cJSON *reactions = cJSON_AddObjectToObject(json, "reactions");
+  PetscFunctionBegin;
+  PetscCall(supports_reactions(model));
+  for (PetscInt s = 0; s < model->n_supports; s++) cJSON_AddItemToObject(reactions, model->supports[s].name, vector_json(model->supports[s].reaction));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* f . u of the loads; each rank holds its part of f and the whole of u at its vertices */
+static PetscErrorCode external_work(Model *model, PetscReal *work)
+{
+  const PetscScalar *f, *u;
+  PetscFunctionBegin;
+  *work = 0;
+  PetscCall(VecGetArrayRead(model->f_external, &f));
+  PetscCall(VecGetArrayRead(model->u_local, &u));
+  for (PetscInt k = 0; k < model->n_local; k++) *work += 0.5 * PetscRealPart(f[k] * u[k]);
+  PetscCall(VecRestoreArrayRead(model->u_local, &u));
+  PetscCall(VecRestoreArrayRead(model->f_external, &f));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, work, 1, MPIU_REAL, MPIU_SUM, PETSC_COMM_WORLD));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode gather_displacements(Model *model, PetscScalar **displacements)
+{
+  const PetscScalar *u;
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(model->rank ? 0 : 3 * model->mesh.n_vertices, displacements));
+  PetscCall(VecGetArrayRead(model->u_local, &u));
+  PetscCall(PetscSFBcastBegin(model->all_displacements, MPIU_SCALAR, u, *displacements, MPI_REPLACE));
+  PetscCall(PetscSFBcastEnd(model->all_displacements, MPIU_SCALAR, u, *displacements, MPI_REPLACE));
+  PetscCall(VecRestoreArrayRead(model->u_local, &u));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode summary_step(Model *model, Summary *summary, PetscInt step, PetscBool converged, PetscBool last)
+{
+  const PetscBool csv = (PetscBool)(converged && (model->write_csv == WRITE_ALL || (model->write_csv == WRITE_LAST && last)));
+  const PetscBool vtu = (PetscBool)(converged && (model->write_vtu == WRITE_ALL || (model->write_vtu == WRITE_LAST && last)));
+  cJSON          *json = cJSON_CreateObject(), *interfaces, *probes;
+  PetscReal      *norms = NULL, half_fu;
+  PetscInt        n_norms = 0;
+  PetscScalar    *displacements;
+  double          friction_work = 0;
+  char            progress[1024] = "";
+
+  PetscFunctionBegin;
+  PetscCall(SNESGetConvergenceHistory(model->snes, &norms, NULL, &n_norms));
+  cJSON_AddNumberToObject(json, "t", model->t);
+  cJSON_AddBoolToObject(json, "converged", converged);
+  cJSON_AddNumberToObject(json, "newton_iterations", PetscMax(0, n_norms - 1));
+  cJSON_AddItemToObject(json, "residual_norms", cJSON_CreateDoubleArray(norms, (int)n_norms));
+  cJSON_AddItemToArray(summary->steps, json);
+  if (!converged) PetscFunctionReturn(PETSC_SUCCESS);
+
+  cJSON_AddNumberToObject(json, "reference_force", model->reference_force);
+  PetscCall(external_work(model, &half_fu));
+  cJSON_AddNumberToObject(json, "external_work_half_fu", half_fu);
+  PetscCall(add_reactions(model, json));
+  PetscCall(gather_displacements(model, &displacements));
+  if (model->rank == 0) {
+    interfaces = cJSON_AddObjectToObject(json, "interfaces");
+    for (PetscInt i = 0; i < model->n_interfaces; i++) {
+      const size_t used       = strlen(progress);
+      summary->work_before[i] = model->interfaces[i].friction_work;
+      PetscCall(interface_results(model, &model->interfaces[i], step, csv, interfaces, &friction_work, progress + used, sizeof(progress) - used));
+    }
+    probes = cJSON_AddObjectToObject(json, "probes");
+    for (PetscInt k = 0; k < model->n_probes; k++) cJSON_AddItemToObject(probes, model->probes[k].name, vector_json(displacements + 3 * model->probes[k].vertex));
+    if (vtu) PetscCall(vtu_write(model, displacements, step));
+  }
+  cJSON_AddNumberToObject(json, "friction_work", friction_work);
+  PetscCall(PetscFree(displacements));
+  if (!model->quiet) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%4" PetscInt_FMT " t %-10.6g newton %2" PetscInt_FMT "  |r| %.2e%s\n", step, (double)model->t, PetscMax(0, n_norms - 1), n_norms ? (double)norms[n_norms - 1] : 0.0, progress));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode summary_drop_step(Model *model, Summary *summary)
+{
+  PetscFunctionBegin;
+  cJSON_DeleteItemFromArray(summary->steps, cJSON_GetArraySize(summary->steps) - 1);
+  for (PetscInt i = 0; i < model->n_interfaces && model->rank == 0; i++) model->interfaces[i].friction_work = summary->work_before[i];
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* seconds by phase; the library counts its own */
+static PetscErrorCode add_seconds(Model *model, cJSON *root)
+{
+  stickslip_counters sum = {0};
+  PetscLogDouble     now;
+  cJSON             *seconds = cJSON_AddObjectToObject(root, "seconds");
+
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < model->n_interfaces && model->rank == 0; i++) {
+    stickslip_counters one = {.struct_size = sizeof(one)};
+    if (!model->interfaces[i].handle) continue; /* the library refused to create it */
+    PetscCallStickslip(stickslip_interface_counters(model->interfaces[i].handle, &one));
+    sum.seconds_search += one.seconds_search;
+    sum.seconds_integration += one.seconds_integration;
+    sum.seconds_assembly += one.seconds_assembly;
+  }
+  PetscCall(PetscTime(&now));
+  cJSON_AddNumberToObject(seconds, "search", sum.seconds_search);
+  cJSON_AddNumberToObject(seconds, "integration", sum.seconds_integration);
+  cJSON_AddNumberToObject(seconds, "contact_assembly", sum.seconds_assembly);
+  cJSON_AddNumberToObject(seconds, "bulk_assembly", model->timers.bulk_assembly);
+  cJSON_AddNumberToObject(seconds, "linear_solve", model->timers.linear_solve);
+  cJSON_AddNumberToObject(seconds, "total", now - model->timers.total);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode summary_write(Model *model, Summary **summary, PetscInt cutbacks, const char *message)
+{
+  char *text, path[PETSC_MAX_PATH_LEN];
+  FILE *file;
+
+  PetscFunctionBegin;
+  cJSON_AddNumberToObject((*summary)->root, "cutbacks", cutbacks);
+  if (message[0]) cJSON_AddStringToObject((*summary)->root, "message", message);
+  cJSON_AddItemToObject((*summary)->root, "steps", (*summary)->steps);
+  PetscCall(add_seconds(model, (*summary)->root));
+  if (model->rank == 0) {
+    text = cJSON_Print((*summary)->root);
+    PetscCall(PetscSNPrintf(path, sizeof(path), "%s/summary.json", model->output_dir));
+    file = fopen(path, "w");
+    PetscCheck(file, PETSC_COMM_SELF, PETSC_ERR_FILE_OPEN, "cannot write '%s'", path);
+    fprintf(file, "%s\n", text);
+    fclose(file);
+    cJSON_free(text);
+  }
+  cJSON_Delete((*summary)->root);
+  PetscCall(PetscFree((*summary)->work_before));
+  PetscCall(PetscFree(*summary));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

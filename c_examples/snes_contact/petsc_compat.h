@@ -1,0 +1,9 @@
+/* The few names that changed between PETSc 3.18 and later versions. */
+#ifndef SNES_CONTACT_PETSC_COMPAT_H
+#define SNES_CONTACT_PETSC_COMPAT_H
+#include <petscsys.h>
+
+#if PETSC_VERSION_LT(3, 19, 0) && !defined(PETSC_SUCCESS)
+  #define PETSC_SUCCESS 0
+#endif
+#endif

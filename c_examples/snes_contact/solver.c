@@ -1,0 +1,170 @@
+/* SNES: residual, tangent, the convergence test in units of force, and the linear solver's defaults.
+ *
+ * Residual = internal forces of the bodies + contact - loads, and the multiplier rows (which the library scales to forces).
+ * Converged: |residual| <= rtol * reference, reference = |loads| + |reactions| + |contact forces| (2-norms of nodal forces),
+ * the largest so far, so that an unloaded step is not judged by its own noise. -snes_rtol sets rtol. */
+#include "model.h"
+
+static PetscErrorCode residual(SNES snes, Vec x, Vec r, void *context)
+{
+  Model             *model = context;
+  PetscReal          squares[3] = {0, 0, 0}; /* loads, reactions, contact */
+  PetscInt           status, vStart = model->vStart;
+  const PetscScalar *f, *f_external;
+
+  PetscFunctionBegin;
+  PetscCall(unknowns_to_local(model, x));
+  PetscCall(VecZeroEntries(model->f_local));
+  PetscCall(bulk_forces(model, model->f_local));
+  PetscCall(contact_forces(model, model->f_local, &squares[2], &status));
+  if (status) PetscCall(SNESSetFunctionDomainError(snes));
+  PetscCall(VecAXPY(model->f_local, -1, model->f_external));
+  PetscCall(VecZeroEntries(r));
+  PetscCall(DMLocalToGlobalBegin(model->dm, model->f_local, ADD_VALUES, r));
+  PetscCall(DMLocalToGlobalEnd(model->dm, model->f_local, ADD_VALUES, r));
+
+  PetscCall(VecGetArrayRead(model->f_local, &f));
+  PetscCall(VecGetArrayRead(model->f_external, &f_external));
+  for (PetscInt v = vStart; v < model->vEnd; v++) {
+    PetscInt at;
+    PetscCall(PetscSectionGetOffset(model->section, v, &at));
+    for (int i = 0; i < 3; i++) {
+      squares[0] += PetscSqr(PetscAbsScalar(f_external[at + i]));
+      if (model->equations[at + i] < 0) squares[1] += PetscSqr(PetscAbsScalar(f[at + i]));
+    }
+  }
+  PetscCall(VecRestoreArrayRead(model->f_local, &f));
+  PetscCall(VecRestoreArrayRead(model->f_external, &f_external));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, squares, 3, MPIU_REAL, MPIU_SUM, PETSC_COMM_WORLD));
+  model->reference_force = PetscSqrtReal(squares[0]) + PetscSqrtReal(squares[1]) + PetscSqrtReal(squares[2]);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode tangent(SNES snes, Vec x, Mat J, Mat P, void *context)
+{
+  Model   *model = context;
+  PetscInt status;
+
+  PetscFunctionBegin;
+  PetscCall(unknowns_to_local(model, x));
+  PetscCall(MatZeroEntries(P));
+  PetscCall(bulk_stiffness(model, P, PETSC_FALSE));
+  PetscCall(contact_tangent(model, P, &status));
+  if (status) PetscCall(SNESSetJacobianDomainError(snes));
+  PetscCall(MatAssemblyBegin(P, MAT_FINAL_ASSEMBLY));
+  PetscCall(MatAssemblyEnd(P, MAT_FINAL_ASSEMBLY));
+  if (J != P) {
+    PetscCall(MatAssemblyBegin(J, MAT_FINAL_ASSEMBLY));
+    PetscCall(MatAssemblyEnd(J, MAT_FINAL_ASSEMBLY));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode converged(SNES snes, PetscInt iteration, PetscReal xnorm, PetscReal snorm, PetscReal fnorm, SNESConvergedReason *reason, void *context)
+{
+  Model    *model = context;
+  PetscReal rtol, reference = PetscMax(model->reference_force, model->largest_reference);
+
+  PetscFunctionBegin;
+  (void)iteration, (void)xnorm, (void)snorm;
+  PetscCall(SNESGetTolerances(snes, NULL, &rtol, NULL, NULL, NULL));
+  *reason = SNES_CONVERGED_ITERATING;
+  if (PetscIsInfOrNanReal(fnorm)) *reason = SNES_DIVERGED_FNORM_NAN;
+  else if (fnorm <= rtol * reference) *reason = SNES_CONVERGED_FNORM_RELATIVE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode solve_begins(KSP ksp, Vec b, Vec x, void *context)
+{
+  Model *model = context;
+  PetscFunctionBegin;
+  (void)ksp, (void)b, (void)x;
+  PetscCall(PetscTime(&model->timers.started));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode solve_ends(KSP ksp, Vec b, Vec x, void *context)
+{
+  Model         *model = context;
+  PetscLogDouble now;
+  PetscFunctionBegin;
+  (void)ksp, (void)b, (void)x;
+  PetscCall(PetscTime(&now));
+  model->timers.linear_solve += now - model->timers.started;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* A matrix with room for the bodies and for every pair of facets that may touch before the next search. */
+static PetscErrorCode create_matrix(Model *model, Mat *matrix)
+{
+  Mat      counter;
+  Vec      x;
+  PetscInt n, first, end;
+
+  PetscFunctionBegin;
+  PetscCall(DMGetGlobalVector(model->dm, &x));
+  PetscCall(VecGetLocalSize(x, &n));
+  PetscCall(VecGetOwnershipRange(x, &first, &end));
+  PetscCall(DMRestoreGlobalVector(model->dm, &x));
+  PetscCall(MatCreate(PETSC_COMM_WORLD, &counter));
+  PetscCall(MatSetSizes(counter, n, n, PETSC_DETERMINE, PETSC_DETERMINE));
+  PetscCall(MatSetType(counter, MATPREALLOCATOR));
+  PetscCall(MatSetUp(counter));
+  for (PetscInt row = first; row < end; row++) PetscCall(MatSetValue(counter, row, row, 0, ADD_VALUES));
+  PetscCall(bulk_stiffness(model, counter, PETSC_TRUE));
+  PetscCall(contact_pattern(model, counter));
+  PetscCall(MatAssemblyBegin(counter, MAT_FINAL_ASSEMBLY));
+  PetscCall(MatAssemblyEnd(counter, MAT_FINAL_ASSEMBLY));
+  PetscCall(MatCreate(PETSC_COMM_WORLD, matrix));
+  PetscCall(MatSetSizes(*matrix, n, n, PETSC_DETERMINE, PETSC_DETERMINE));
+  PetscCall(MatSetType(*matrix, MATAIJ));
+  PetscCall(MatSetFromOptions(*matrix));
+  PetscCall(MatPreallocatorPreallocate(counter, PETSC_TRUE, *matrix));
+  PetscCall(MatSetOption(*matrix, MAT_NEW_NONZERO_ALLOCATION_ERR, PETSC_FALSE)); /* motion may outrun the pattern */
+  PetscCall(MatDestroy(&counter));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* New pairs in the last step made PETSc allocate entry by entry: start the next one with a fresh pattern. */
+PetscErrorCode solver_refresh_pattern(Model *model)
+{
+  MatInfo info;
+  PetscFunctionBegin;
+  PetscCall(MatGetInfo(model->jacobian, MAT_GLOBAL_MAX, &info));
+  if (info.mallocs == 0) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(MatDestroy(&model->jacobian));
+  PetscCall(create_matrix(model, &model->jacobian));
+  PetscCall(SNESSetJacobian(model->snes, model->jacobian, model->jacobian, tangent, model));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode solver_create(Model *model)
+{
+  SNESLineSearch line_search;
+  KSP            ksp;
+  PC             pc;
+  Vec            r;
+
+  PetscFunctionBegin;
+  PetscCall(create_matrix(model, &model->jacobian));
+  PetscCall(DMCreateGlobalVector(model->dm, &r));
+  PetscCall(SNESCreate(PETSC_COMM_WORLD, &model->snes));
+  PetscCall(SNESSetDM(model->snes, model->dm));
+  PetscCall(SNESSetFunction(model->snes, r, residual, model));
+  PetscCall(SNESSetJacobian(model->snes, model->jacobian, model->jacobian, tangent, model));
+  PetscCall(SNESSetConvergenceTest(model->snes, converged, model, NULL));
+  PetscCall(SNESSetType(model->snes, SNESNEWTONLS));
+  PetscCall(SNESSetTolerances(model->snes, 0, 1e-11, 0, 25, PETSC_DEFAULT)); /* -snes_rtol: see the head of this file */
+  PetscCall(SNESGetLineSearch(model->snes, &line_search));
+  PetscCall(SNESLineSearchSetType(line_search, SNESLINESEARCHBASIC));
+  PetscCall(SNESGetKSP(model->snes, &ksp));
+  PetscCall(KSPSetType(ksp, KSPPREONLY));
+  PetscCall(KSPGetPC(ksp, &pc));
+  PetscCall(PCSetType(pc, PCLU));
+  PetscCall(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
+  PetscCall(KSPSetPreSolve(ksp, solve_begins, model));
+  PetscCall(KSPSetPostSolve(ksp, solve_ends, model));
+  PetscCall(SNESSetFromOptions(model->snes));
+  PetscCall(VecDestroy(&r));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
