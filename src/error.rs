@@ -3,6 +3,7 @@
 //! Every refusal names the argument, what was found and what is allowed. A refusal changes nothing:
 //! no output is written and no history moves. "No contact" is a state, not an error.
 
+use std::ffi::CStr;
 use std::fmt;
 
 /// Result of every fallible routine of the crate.
@@ -47,23 +48,23 @@ pub enum Kind {
 }
 
 /// All kinds with their short texts, in the order of their numbers.
-pub const KINDS: [(Kind, &str); 16] = [
-    (Kind::NullPointer, "a required pointer is null"),
-    (Kind::StructSize, "a struct has an unknown size"),
-    (Kind::InvalidSize, "a count or length is not allowed"),
-    (Kind::NotFinite, "a number is NaN or infinite"),
-    (Kind::IndexOutOfRange, "an index is out of range"),
-    (Kind::DuplicateNode, "a facet names a node twice"),
-    (Kind::DegenerateFacet, "a facet has no area, is folded or is not convex"),
-    (Kind::InvalidValue, "a value is outside its allowed range"),
-    (Kind::MissingStiffness, "neither augmentation nor modulus given"),
-    (Kind::Unsupported, "not supported by this version"),
-    (Kind::UndefinedNormal, "the averaged normal of a node is undefined"),
-    (Kind::ProjectionNotConvex, "a mortar facet's projection is not convex"),
-    (Kind::BufferTooSmall, "a buffer is too small"),
-    (Kind::MissingEntry, "the matrix lacks an entry"),
-    (Kind::NothingToRollBack, "there is no commit to roll back"),
-    (Kind::HistoryMismatch, "the history belongs to another interface"),
+pub const KINDS: [(Kind, &CStr); 16] = [
+    (Kind::NullPointer, c"a required pointer is null"),
+    (Kind::StructSize, c"a struct has an unknown size"),
+    (Kind::InvalidSize, c"a count or length is not allowed"),
+    (Kind::NotFinite, c"a number is NaN or infinite"),
+    (Kind::IndexOutOfRange, c"an index is out of range"),
+    (Kind::DuplicateNode, c"a facet names a node twice"),
+    (Kind::DegenerateFacet, c"a facet has no area, is folded or is not convex"),
+    (Kind::InvalidValue, c"a value is outside its allowed range"),
+    (Kind::MissingStiffness, c"neither augmentation nor modulus given"),
+    (Kind::Unsupported, c"not supported by this version"),
+    (Kind::UndefinedNormal, c"the averaged normal of a node is undefined"),
+    (Kind::ProjectionNotConvex, c"a mortar facet's projection is not convex"),
+    (Kind::BufferTooSmall, c"a buffer is too small"),
+    (Kind::MissingEntry, c"the matrix lacks an entry"),
+    (Kind::NothingToRollBack, c"there is no commit to roll back"),
+    (Kind::HistoryMismatch, c"the history belongs to another interface"),
 ];
 
 /// A refusal: its kind and a sentence that names the argument at fault.

@@ -25,6 +25,7 @@
 //! [`element`]; [`interface`] searches, assembles and remembers; [`capi`] is the C ABI and the only
 //! place with `unsafe`.
 
+pub mod capi;
 pub mod element;
 pub mod error;
 pub mod geometry;

@@ -139,7 +139,7 @@ impl Interface {
                         .expect("an active pair has a segment at the positions it was found at");
                     derivatives = WeightDerivatives::integrate(frame, &segment, self.options.rule);
                     linearised += 1;
-                    Some(GapDerivative::current(frame, &segment, weights, &derivatives))
+                    Some(GapDerivative::current(frame, &segment.mortar, weights, &derivatives))
                 }
                 (now, _) => now.map(GapDerivative::frozen),
             };

@@ -6,10 +6,10 @@
 //! node, without cancellation of in-plane coordinates (kernel notes A).
 
 use super::derivatives::WeightDerivatives;
-use super::segment::{NonmortarFrame, Segment};
+use super::segment::NonmortarFrame;
 use super::weights::PairWeights;
 use super::{MORTAR, PAIR_NODES};
-use crate::geometry::{Facet, Mat3, Vec3};
+use crate::geometry::{Facet, Mat3, Projection, Vec3};
 use crate::shape::MAX_NODES;
 
 /// Weighted gap of the pair's non-mortar nodes with any weights: those of now or those of t_n.
@@ -48,14 +48,15 @@ impl GapDerivative {
         GapDerivative { block }
     }
 
-    /// The derivative with the pair's current weights and their derivatives.
+    /// The derivative with the pair's current weights and their derivatives; `two` is the mortar facet
+    /// projected on the frame's plane.
     pub fn current(
         frame: &NonmortarFrame,
-        segment: &Segment,
+        two: &Projection,
         weights: &PairWeights,
         derivatives: &WeightDerivatives,
     ) -> GapDerivative {
-        let (plane, one, two) = (&frame.plane, &frame.projection, &segment.mortar);
+        let (plane, one) = (&frame.plane, &frame.projection);
         let mut block = [[Mat3::zeros(); PAIR_NODES]; MAX_NODES];
         for a in 0..one.shape.n {
             let mut gamma = 0.0;

@@ -1,0 +1,62 @@
+//! A facet's share of nodal normals and areas, for hosts that assemble them themselves.
+
+use super::guard::guard;
+use super::raw;
+use crate::error::{Error, Kind, Result};
+use crate::geometry::{Facet, Vec3};
+use crate::mortar::NonmortarFrame;
+use crate::normal;
+use crate::shape::MAX_NODES;
+
+/// A facet from `n` points of an argument called `name`; allocates nothing.
+pub(super) fn facet(n: i32, x: *const f64, name: &str) -> Result<Facet> {
+    if !(3..=MAX_NODES as i32).contains(&n) {
+        let text = format!("{name} has {n} nodes; 3 (tri3) or 4 (quad4) are allowed");
+        return Err(Error::new(Kind::InvalidSize, text));
+    }
+    let n = n as usize;
+    let values = raw::numbers(x, 3 * n, name)?;
+    let mut points = [Vec3::zeros(); MAX_NODES];
+    for (point, v) in points.iter_mut().zip(values.chunks_exact(3)) {
+        *point = Vec3::from_column_slice(v);
+    }
+    if let Some(k) = (1..n).find(|&k| points[..k].contains(&points[k])) {
+        return Err(Error::new(Kind::DuplicateNode, format!("{name} has two nodes at the same place (node {k})")));
+    }
+    Facet::new(&points[..n])
+}
+
+/// A non-mortar facet's share of its nodes' normals and areas.
+///
+/// n: 3 or 4; x: 3 n coordinates [L]. Outputs, each may be NULL: normals (3 n) unit corner normals, out
+/// of the body, to be summed over the facets around a node for `stickslip_node_normal`; areas (n)
+/// int N_A da over the facet [L^2], to be summed to M_A.
+/// Errors: NULL_POINTER, INVALID_SIZE, NOT_FINITE, DUPLICATE_NODE, DEGENERATE_FACET. Does not allocate.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn stickslip_facet_geometry(n: i32, x: *const f64, normals: *mut f64, areas: *mut f64) -> i32 {
+    guard(|| {
+        let facet = facet(n, x, "x")?;
+        raw::check_optional(normals, "normals")?;
+        raw::check_optional(areas, "areas")?;
+        let frame = NonmortarFrame::new(&facet)?;
+        let corners: [Vec3; MAX_NODES] = std::array::from_fn(|k| normal::corner_normal(&facet, k % facet.len()));
+        raw::write_each(normals, corners[..facet.len()].iter().flat_map(|v| v.iter().copied()));
+        raw::write(areas, &frame.nodal_areas()[..facet.len()]);
+        Ok(())
+    })
+}
+
+/// The nodal normal nu_A (unit, INTO the non-mortar body) from the sum of the corner normals around a
+/// node.
+///
+/// sum: 3; normal: 3, output. Errors: NULL_POINTER, NOT_FINITE, UNDEFINED_NORMAL (the normals cancel).
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn stickslip_node_normal(sum: *const f64, normal: *mut f64) -> i32 {
+    guard(|| {
+        let sum = raw::numbers(sum, 3, "sum")?;
+        raw::check(normal, "normal")?;
+        let nu = normal::nodal_normal(Vec3::from_column_slice(sum), 0)?;
+        raw::write(normal, nu.as_slice());
+        Ok(())
+    })
+}

@@ -1,0 +1,42 @@
+//! The C ABI: converts, checks, calls the core, and nothing else. The only place with `unsafe`.
+//!
+//! # Error handling
+//! Every fallible function returns an int32 status: 0 is success; positive means the call was refused
+//! and nothing was changed (no output written, no history moved); negative means that the library
+//! itself is at fault and the handle is suspect. `stickslip_last_error_message` tells, for the calling
+//! thread, which argument was wrong and what is allowed. No panic crosses the boundary; nothing is
+//! printed. "No contact" is a state, not an error.
+//!
+//! # Threads
+//! Stateless calls from any thread; distinct handles from any threads; one handle from one thread at a
+//! time.
+//!
+//! # Compatibility
+//! Every struct begins with its `struct_size`, set by the caller. Structs grow at the end only; a longer
+//! one than this library knows is accepted when its unknown tail is zero. Numbers of statuses and
+//! options are appended to, never reused.
+#![allow(unsafe_code)]
+#![allow(non_camel_case_types)]
+#![allow(clippy::missing_safety_doc)] // One contract for all, in `raw.rs` and in the header's head.
+
+mod facet;
+mod guard;
+mod interface;
+mod node;
+mod options;
+mod pair;
+mod raw;
+mod status;
+mod surface;
+mod tangent;
+mod version;
+
+pub use facet::*;
+pub use interface::*;
+pub use node::*;
+pub use options::*;
+pub use pair::*;
+pub use status::*;
+pub use surface::*;
+pub use tangent::*;
+pub use version::*;

@@ -1,0 +1,246 @@
+//! Stages 2 and 4 for one non-mortar node.
+
+use super::guard::guard;
+use super::options::slip_measure;
+use super::pair::column_major;
+use super::raw::{self, Sized64};
+use crate::error::{Error, Kind, Result};
+use crate::geometry::{Mat3, Vec3};
+use crate::law::Node;
+
+/// State of a node: open or uncovered.
+pub const STICKSLIP_STATE_GAP: i32 = 0;
+/// State of a node: closed, sticking.
+pub const STICKSLIP_STATE_STICK: i32 = 1;
+/// State of a node: closed, sliding or on the friction cone.
+pub const STICKSLIP_STATE_SLIP: i32 = 2;
+
+/// One non-mortar node: what is assembled over all its pairs, and its data.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct stickslip_node {
+    /// sizeof(stickslip_node).
+    pub struct_size: u64,
+    /// STICKSLIP_SLIP_...
+    pub slip: i32,
+    /// Number of prescribed directions, 0 to 2.
+    pub n_directions: i32,
+    /// Multiplier: minus the Cauchy traction on the non-mortar body [F/L^2].
+    pub lambda: [f64; 3],
+    /// nu(t_n): unit normal INTO the non-mortar body.
+    pub normal: [f64; 3],
+    /// r > 0 [F/L^5].
+    pub augmentation: f64,
+    /// Coulomb coefficient >= 0.
+    pub mu: f64,
+    /// Covered area now [L^2].
+    pub coverage: f64,
+    /// Covered area at t_n [L^2]. 0: no slip history, g_T = 0; pass mu = 0 for that one step, or a
+    /// sticking node has zero rows.
+    pub coverage_previous: f64,
+    /// At and below this the node counts as uncovered [L^2]; 1e-8 of its full area is a good choice.
+    pub coverage_min: f64,
+    /// g[n_{n+1}, x_{n+1}] [L^3].
+    pub gap_now: [f64; 3],
+    /// g[n_n, x_{n+1}] [L^3].
+    pub gap_previous: [f64; 3],
+    /// g[n_n, x_n] [L^3]; read by STICKSLIP_SLIP_INCREMENT only.
+    pub gap_committed: [f64; 3],
+    /// Orthonormal directions in which the node is prescribed on both sides; the normal must be
+    /// orthogonal to them.
+    pub directions: [f64; 6],
+}
+
+// SAFETY: repr(C), struct_size first, numbers only.
+unsafe impl Sized64 for stickslip_node {
+    const NAME: &'static str = "stickslip_node";
+}
+
+/// The law's answer for one node. Matrices are row-major 3 x 3 (and not symmetric).
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct stickslip_node_response {
+    /// sizeof(stickslip_node_response).
+    pub struct_size: u64,
+    /// STICKSLIP_STATE_...
+    pub state: i32,
+    /// 0.
+    pub reserved: i32,
+    /// Projected traction p [F/L^2].
+    pub traction: [f64; 3],
+    /// Multiplier row c = -(lambda - p)/r [L^3].
+    pub row: [f64; 3],
+    /// g_N = nu . g > 0: open [L^3].
+    pub gap_normal: f64,
+    /// Slip increment g_T [L^3].
+    pub slip: [f64; 3],
+    /// Augmented traction lambda + r g [F/L^2].
+    pub sigma: [f64; 3],
+    /// dp/dlambda.
+    pub dp_dlambda: [f64; 9],
+    /// dc/dlambda [L^5/F].
+    pub drow_dlambda: [f64; 9],
+    /// dc/dg[n_{n+1}, x_{n+1}]; dp/dg is r times this.
+    pub drow_dnow: [f64; 9],
+    /// dc/dg[n_n, x_{n+1}]; dp/dg is r times this.
+    pub drow_dprevious: [f64; 9],
+}
+
+// SAFETY: repr(C), struct_size first, numbers only.
+unsafe impl Sized64 for stickslip_node_response {
+    const NAME: &'static str = "stickslip_node_response";
+}
+
+/// Row-major entries of a matrix.
+fn rows(m: &Mat3) -> [f64; 9] {
+    std::array::from_fn(|k| m[(k / 3, k % 3)])
+}
+
+fn matrix(rows: &[f64; 9], name: &str) -> Result<Mat3> {
+    if rows.iter().any(|v| !v.is_finite()) {
+        return Err(Error::new(Kind::NotFinite, format!("{name} is not finite")));
+    }
+    Ok(Mat3::from_row_slice(rows))
+}
+
+/// (drow_dnow, drow_dprevious) of the a-th of an array of responses.
+pub(super) fn read_response(first: *const stickslip_node_response, a: usize) -> Result<(Mat3, Mat3)> {
+    raw::check(first, "responses")?;
+    // SAFETY: the first response begins with its size, by which the array's members lie apart.
+    let stride = unsafe { first.cast::<u64>().read() } as usize;
+    if a > 0 {
+        raw::read(first)?; // a valid size before it serves as a stride
+    }
+    let response = raw::read(first.wrapping_byte_add(a * stride))?;
+    Ok((
+        matrix(&response.drow_dnow, "responses.drow_dnow")?,
+        matrix(&response.drow_dprevious, "responses.drow_dprevious")?,
+    ))
+}
+
+fn read_node(p: *const stickslip_node) -> Result<Node> {
+    // A normal farther from unit length, or a direction farther from orthonormal, is an input error.
+    const UNIT: f64 = 1e-10;
+    let n = raw::read(p)?;
+    let vector = |v: &[f64; 3], name: &str| -> Result<Vec3> {
+        match v.iter().all(|c| c.is_finite()) {
+            true => Ok(Vec3::from_column_slice(v)),
+            false => Err(Error::new(Kind::NotFinite, format!("node.{name} is not finite"))),
+        }
+    };
+    let refuse = |name: &str, v: f64, allowed: &str| {
+        let kind = if v.is_finite() { Kind::InvalidValue } else { Kind::NotFinite };
+        Err(Error::new(kind, format!("node.{name} is {v}; it must be {allowed}")))
+    };
+    let normal = vector(&n.normal, "normal")?;
+    if !((normal.norm() - 1.0).abs() <= UNIT) {
+        return refuse("normal", normal.norm(), "of length 1");
+    }
+    if !(n.augmentation > 0.0 && n.augmentation.is_finite()) {
+        return refuse("augmentation", n.augmentation, "positive and finite");
+    }
+    for (name, v) in [
+        ("mu", n.mu),
+        ("coverage", n.coverage),
+        ("coverage_previous", n.coverage_previous),
+        ("coverage_min", n.coverage_min),
+    ] {
+        // Coverage is a sum of positive weights; rounding may leave it a hair below zero.
+        if !v.is_finite() || (v < 0.0 && !name.starts_with("coverage")) {
+            return refuse(name, v, "finite and not negative");
+        }
+    }
+    if !(0..=2).contains(&n.n_directions) {
+        return refuse("n_directions", f64::from(n.n_directions), "0, 1 or 2");
+    }
+    let mut free = Mat3::identity();
+    for k in 0..n.n_directions as usize {
+        let d = Vec3::from_column_slice(&n.directions[3 * k..3 * k + 3]);
+        if !((free * d).norm_squared() - 1.0).abs().le(&UNIT) || !(d.dot(&normal).abs() <= UNIT) {
+            return refuse("directions", d.norm(), "orthonormal and orthogonal to the normal");
+        }
+        free -= d * d.transpose();
+    }
+    Ok(Node {
+        lambda: vector(&n.lambda, "lambda")?,
+        normal,
+        augmentation: n.augmentation,
+        mu: n.mu,
+        gap_now: vector(&n.gap_now, "gap_now")?,
+        gap_previous: vector(&n.gap_previous, "gap_previous")?,
+        gap_committed: vector(&n.gap_committed, "gap_committed")?,
+        covered: n.coverage > n.coverage_min,
+        covered_before: n.coverage_previous > n.coverage_min,
+        slip: slip_measure(n.slip, "node.slip")?,
+        free,
+    })
+}
+
+/// Stage 2: gap, stick or slip of a node, its projected traction, its multiplier row and all
+/// derivatives, from the gaps assembled over ALL its pairs (projecting pair by pair would make the answer
+/// depend on the augmentation). Paper (17)-(31).
+///
+/// Errors: NULL_POINTER, STRUCT_SIZE, NOT_FINITE, INVALID_VALUE. Does not allocate.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn stickslip_node_respond(
+    node: *const stickslip_node,
+    response: *mut stickslip_node_response,
+) -> i32 {
+    guard(|| {
+        let node = read_node(node)?;
+        raw::check_struct(response)?;
+        let r = node.respond();
+        if !r.row.iter().chain(r.sigma.iter()).all(|v| v.is_finite()) {
+            return Err(Error::new(
+                Kind::NotFinite,
+                "the node's response overflows; its gaps, multiplier or augmentation are out of range",
+            ));
+        }
+        raw::write_struct(
+            response,
+            stickslip_node_response {
+                struct_size: 0,
+                state: r.state as i32,
+                reserved: 0,
+                traction: r.traction.into(),
+                row: r.row.into(),
+                gap_normal: r.gap_normal,
+                slip: r.slip.into(),
+                sigma: r.sigma.into(),
+                dp_dlambda: rows(&r.dp_dlambda),
+                drow_dlambda: rows(&r.drow_dlambda),
+                drow_dnow: rows(&r.drow_dnow),
+                drow_dprevious: rows(&r.drow_dprevious),
+            },
+        );
+        Ok(())
+    })
+}
+
+/// Stage 4: the node's own block, to be added once per non-mortar node, covered or not.
+///
+/// scale multiplies the rows: r M_A gives them the unit of a force, 1 leaves them as in the paper [L^3].
+/// Outputs, each may be NULL: row (3), block (3 x 3) = d row / d lambda in `layout`.
+/// Errors: NULL_POINTER, STRUCT_SIZE, NOT_FINITE, INVALID_VALUE. Does not allocate.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn stickslip_node_block(
+    response: *const stickslip_node_response,
+    scale: f64,
+    layout: i32,
+    row: *mut f64,
+    block: *mut f64,
+) -> i32 {
+    guard(|| {
+        let r = raw::read(response)?;
+        let column_major = column_major(layout, "layout")?;
+        if !scale.is_finite() {
+            return Err(Error::new(Kind::NotFinite, format!("scale is {scale}; it must be finite")));
+        }
+        raw::check_optional(row, "row")?;
+        raw::check_optional(block, "block")?;
+        let m = matrix(&r.drow_dlambda, "response.drow_dlambda")? * scale;
+        raw::write_each(row, r.row.iter().map(|v| v * scale));
+        raw::write(block, &rows(&if column_major { m.transpose() } else { m }));
+        Ok(())
+    })
+}

@@ -1,0 +1,219 @@
+//! Options of an interface and their numbers.
+
+use super::guard::guard;
+use super::raw::{self, Sized64};
+use crate::error::{Error, Kind, Result};
+use crate::interface::{COVERAGE_MIN, Form, NewContact, Options, RowScale, Stiffness, Weights};
+use crate::law::SlipMeasure;
+use crate::quadrature::{DEGREE_5, DEGREE_10, Rule};
+
+/// Forces use lambda, rows the projection; the tangent is a sum of pairs and nodes. Default.
+pub const STICKSLIP_FORM_MULTIPLIER: i32 = 0;
+/// Forces use the projected traction (the paper's form). Same solutions.
+pub const STICKSLIP_FORM_AUGMENTED: i32 = 1;
+/// P(g[n_n,x] - g[n_{n+1},x]): invariant under rigid motion within a step. Default.
+pub const STICKSLIP_SLIP_OBJECTIVE: i32 = 0;
+/// P(g[n_n,x] - g[n_n,x_n]).
+pub const STICKSLIP_SLIP_INCREMENT: i32 = 1;
+/// P g[n_n,x]: the paper's literal (12); drifts on curved interfaces.
+pub const STICKSLIP_SLIP_SEED: i32 = 2;
+/// Weights of the current configuration, linearised: large sliding. Default.
+pub const STICKSLIP_WEIGHTS_CURRENT: i32 = 0;
+/// Weights frozen at the last commit.
+pub const STICKSLIP_WEIGHTS_COMMITTED: i32 = 1;
+/// Weights, normals and areas frozen at the first configuration: small displacements.
+pub const STICKSLIP_WEIGHTS_REFERENCE: i32 = 2;
+/// Coulomb friction with the coefficient mu (0 allowed). Default.
+pub const STICKSLIP_FRICTION_COULOMB: i32 = 0;
+/// One multiplier per node, no tangential work. Not in this version; use mu = 0.
+pub const STICKSLIP_FRICTION_NONE: i32 = 1;
+/// Tied surfaces. Not in this version.
+pub const STICKSLIP_FRICTION_TIED: i32 = 2;
+/// Opens and closes, never slips. Not in this version.
+pub const STICKSLIP_FRICTION_ROUGH: i32 = 3;
+/// The mortar side deforms (or is prescribed, where it has no equations). Default.
+pub const STICKSLIP_MORTAR_DEFORMABLE: i32 = 0;
+/// The mortar side is rigid. Not in this version; give it no equations.
+pub const STICKSLIP_MORTAR_RIGID: i32 = 1;
+/// The mortar side is a plane, a sphere or a cylinder. Not in this version.
+pub const STICKSLIP_MORTAR_ANALYTIC: i32 = 2;
+/// Standard shape functions for the multiplier (the paper's). Default.
+pub const STICKSLIP_BASIS_STANDARD: i32 = 0;
+/// Dual shape functions. Not in this version.
+pub const STICKSLIP_BASIS_DUAL: i32 = 1;
+/// 7 points a triangle, degree 5: exact for triangles and parallelograms. Default.
+pub const STICKSLIP_QUADRATURE_DEGREE_5: i32 = 0;
+/// 36 points a triangle, degree 10: for warped or distorted quadrilaterals where accuracy counts.
+pub const STICKSLIP_QUADRATURE_DEGREE_10: i32 = 1;
+/// Multiplier rows times r_A M_A: M_A (p_A - lambda_A), a force. Default.
+pub const STICKSLIP_ROW_SCALE_FORCE: i32 = 0;
+/// Multiplier rows as in the paper [L^3].
+pub const STICKSLIP_ROW_SCALE_NONE: i32 = 1;
+/// A node that was uncovered at t_n acts without friction for one step. Default.
+pub const STICKSLIP_NEW_CONTACT_FRICTIONLESS: i32 = 0;
+/// It keeps its mu (a sticking one then has zero tangential rows).
+pub const STICKSLIP_NEW_CONTACT_KEEP: i32 = 1;
+
+/// Options of an interface; `stickslip_options_init` writes the defaults.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct stickslip_options {
+    /// sizeof(stickslip_options).
+    pub struct_size: u64,
+    /// STICKSLIP_FORM_...
+    pub form: i32,
+    /// STICKSLIP_SLIP_... (with frozen weights OBJECTIVE acts as INCREMENT).
+    pub slip: i32,
+    /// STICKSLIP_WEIGHTS_...
+    pub weights: i32,
+    /// STICKSLIP_FRICTION_...
+    pub friction: i32,
+    /// STICKSLIP_MORTAR_...
+    pub mortar_side: i32,
+    /// STICKSLIP_BASIS_...
+    pub multiplier_basis: i32,
+    /// STICKSLIP_QUADRATURE_...
+    pub quadrature: i32,
+    /// STICKSLIP_ROW_SCALE_...
+    pub row_scale: i32,
+    /// STICKSLIP_NEW_CONTACT_...
+    pub new_contact: i32,
+    /// 0 or 1: base of node numbers, equations, rows and columns.
+    pub index_base: i32,
+    /// Coulomb coefficient of all nodes; default 0.
+    pub mu: f64,
+    /// rhat [F/L^3]; 0 (default): use the modulus. One of the two is needed: nothing else has the unit
+    /// of a stiffness. The answer does not depend on it.
+    pub augmentation: f64,
+    /// Young's modulus of the softer body [F/L^2]: rhat_A = 0.1 E / sqrt(M_A); 0 (default): use the
+    /// augmentation.
+    pub modulus: f64,
+    /// Covered over full nodal area at and below which a node counts as uncovered; default 1e-8.
+    pub coverage_min: f64,
+    /// Facets farther apart than this along the normal, at the last commit, are no pair [L]; 0 (default):
+    /// the diagonal of the non-mortar surface. Give it where surfaces lie in layers.
+    pub search_distance: f64,
+}
+
+// SAFETY: repr(C), struct_size first, numbers only.
+unsafe impl Sized64 for stickslip_options {
+    const NAME: &'static str = "stickslip_options";
+}
+
+/// Writes the defaults. struct_size: sizeof(stickslip_options).
+///
+/// Errors: NULL_POINTER, STRUCT_SIZE.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn stickslip_options_init(options: *mut stickslip_options, struct_size: u64) -> i32 {
+    guard(|| {
+        raw::check(options, "options")?;
+        let known = size_of::<stickslip_options>() as u64;
+        if struct_size != known {
+            let text = format!("struct_size is {struct_size}; pass sizeof(stickslip_options), which is {known}");
+            return Err(Error::new(Kind::StructSize, text));
+        }
+        let defaults = stickslip_options {
+            struct_size,
+            form: STICKSLIP_FORM_MULTIPLIER,
+            slip: STICKSLIP_SLIP_OBJECTIVE,
+            weights: STICKSLIP_WEIGHTS_CURRENT,
+            friction: STICKSLIP_FRICTION_COULOMB,
+            mortar_side: STICKSLIP_MORTAR_DEFORMABLE,
+            multiplier_basis: STICKSLIP_BASIS_STANDARD,
+            quadrature: STICKSLIP_QUADRATURE_DEGREE_5,
+            row_scale: STICKSLIP_ROW_SCALE_FORCE,
+            new_contact: STICKSLIP_NEW_CONTACT_FRICTIONLESS,
+            index_base: 0,
+            mu: 0.0,
+            augmentation: 0.0,
+            modulus: 0.0,
+            coverage_min: COVERAGE_MIN,
+            search_distance: 0.0,
+        };
+        raw::write(options, &[defaults]);
+        Ok(())
+    })
+}
+
+/// Looks up an option's number in a table of what this version has; numbers below `named` exist in the
+/// header.
+fn choose<T: Copy>(value: i32, name: &str, available: &[T], named: i32) -> Result<T> {
+    let choice = usize::try_from(value).ok().and_then(|k| available.get(k));
+    choice.copied().ok_or_else(|| {
+        if (0..named).contains(&value) {
+            Error::new(Kind::Unsupported, format!("{name} = {value} is not available in this version"))
+        } else {
+            Error::new(Kind::InvalidValue, format!("{name} is {value}; 0 to {} are allowed", available.len() - 1))
+        }
+    })
+}
+
+/// The rule of a STICKSLIP_QUADRATURE_... value.
+pub(super) fn rule(value: i32, name: &str) -> Result<&'static Rule> {
+    choose(value, name, &[&DEGREE_5, &DEGREE_10], 2)
+}
+
+/// The measure of a STICKSLIP_SLIP_... value.
+pub(super) fn slip_measure(value: i32, name: &str) -> Result<SlipMeasure> {
+    choose(value, name, &[SlipMeasure::Objective, SlipMeasure::Increment, SlipMeasure::Seed], 3)
+}
+
+/// The core's options and the index base.
+pub(super) fn read_options(p: *const stickslip_options) -> Result<(Options, i64)> {
+    // Every member by name: a new one does not compile until it is handled.
+    let stickslip_options {
+        struct_size: _,
+        form,
+        slip,
+        weights,
+        friction,
+        mortar_side,
+        multiplier_basis,
+        quadrature,
+        row_scale,
+        new_contact,
+        index_base,
+        mu,
+        augmentation,
+        modulus,
+        coverage_min,
+        search_distance,
+    } = raw::read(p)?;
+    choose(friction, "options.friction", &[()], 4)?;
+    choose(mortar_side, "options.mortar_side", &[()], 3)?;
+    choose(multiplier_basis, "options.multiplier_basis", &[()], 2)?;
+    let numbers =
+        [("mu", mu), ("augmentation", augmentation), ("modulus", modulus), ("search_distance", search_distance)];
+    for (name, v) in numbers {
+        if !v.is_finite() {
+            return Err(Error::new(Kind::NotFinite, format!("options.{name} is {v}; it must be finite")));
+        }
+    }
+    let stiffness = match (augmentation, modulus) {
+        (0.0, 0.0) => {
+            let text = "options.augmentation and options.modulus are both 0; give one: rhat [F/L^3] or the softer body's Young's modulus";
+            return Err(Error::new(Kind::MissingStiffness, text));
+        }
+        (0.0, e) => Stiffness::Modulus(e),
+        (r, _) => Stiffness::Augmentation(r),
+    };
+    let options = Options {
+        form: choose(form, "options.form", &[Form::Multiplier, Form::Augmented], 2)?,
+        slip: slip_measure(slip, "options.slip")?,
+        weights: choose(weights, "options.weights", &[Weights::Current, Weights::Committed, Weights::Reference], 3)?,
+        rule: rule(quadrature, "options.quadrature")?,
+        row_scale: choose(row_scale, "options.row_scale", &[RowScale::Force, RowScale::None], 2)?,
+        new_contact: choose(
+            new_contact,
+            "options.new_contact",
+            &[NewContact::Frictionless, NewContact::KeepFriction],
+            2,
+        )?,
+        mu,
+        stiffness,
+        coverage_min,
+        search_distance: (search_distance != 0.0).then_some(search_distance),
+    };
+    options.validate()?;
+    Ok((options, choose(index_base, "options.index_base", &[0, 1], 2)?))
+}

@@ -1,0 +1,295 @@
+//! Stages 1 and 3 for one pair of facets: stateless, re-entrant, without allocation.
+
+use super::facet::facet;
+use super::guard::guard;
+use super::node::stickslip_node_response;
+use super::options::rule;
+use super::raw::{self, Sized64};
+use crate::element::{NodeTangent, PairNow, PairTangent, pair_force};
+use crate::error::{Error, Kind, Result};
+use crate::geometry::{Facet, Mat3, Projection, Vec3};
+use crate::mortar::{self, GapDerivative, MORTAR, NonmortarFrame, PAIR_NODES, PairWeights, Segment, WeightDerivatives};
+use crate::shape::MAX_NODES;
+
+/// Matrices go out row by row (what PETSc's MatSetValues takes).
+pub const STICKSLIP_LAYOUT_ROW_MAJOR: i32 = 0;
+/// Matrices go out column by column (what a Fortran array is).
+pub const STICKSLIP_LAYOUT_COLUMN_MAJOR: i32 = 1;
+
+/// A pair of facets, non-mortar first. Node order: right-hand, seen from outside each body.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct stickslip_pair {
+    /// sizeof(stickslip_pair).
+    pub struct_size: u64,
+    /// Nodes of the non-mortar facet: 3 (tri3) or 4 (quad4).
+    pub n1: i32,
+    /// Nodes of the mortar facet: 3 or 4.
+    pub n2: i32,
+    /// 3 n1 coordinates of the non-mortar facet, node by node [L].
+    pub x1: *const f64,
+    /// 3 n2 coordinates of the mortar facet [L].
+    pub x2: *const f64,
+    /// STICKSLIP_QUADRATURE_...
+    pub quadrature: i32,
+    /// STICKSLIP_LAYOUT_... of the tangent.
+    pub layout: i32,
+}
+
+// SAFETY: repr(C), struct_size first, integers and raw pointers only.
+unsafe impl Sized64 for stickslip_pair {
+    const NAME: &'static str = "stickslip_pair";
+}
+
+struct Pair {
+    one: Facet,
+    two: Facet,
+    raw: stickslip_pair,
+}
+
+impl Pair {
+    fn read(p: *const stickslip_pair) -> Result<Pair> {
+        let raw = raw::read(p)?;
+        Ok(Pair { one: facet(raw.n1, raw.x1, "pair.x1")?, two: facet(raw.n2, raw.x2, "pair.x2")?, raw })
+    }
+
+    fn n(&self) -> (usize, usize) {
+        (self.one.len(), self.two.len())
+    }
+
+    /// Slot of the k-th of the pair's nodes, non-mortar first.
+    fn slot(&self, k: usize) -> usize {
+        if k < self.one.len() { k } else { MORTAR + k - self.one.len() }
+    }
+
+    fn weights(&self, ab: *const f64, ac: *const f64, names: [&str; 2]) -> Result<PairWeights> {
+        let (n1, n2) = self.n();
+        let (ab, ac) = (raw::numbers(ab, n1 * n1, names[0])?, raw::numbers(ac, n1 * n2, names[1])?);
+        let mut w = PairWeights::default();
+        for a in 0..n1 {
+            w.ab[a][..n1].copy_from_slice(&ab[a * n1..][..n1]);
+            w.ac[a][..n2].copy_from_slice(&ac[a * n2..][..n2]);
+        }
+        Ok(w)
+    }
+
+    fn derivatives(&self, ab: *const f64, ac: *const f64) -> Result<WeightDerivatives> {
+        let (n1, n2) = self.n();
+        let n = n1 + n2;
+        let (ab, ac) = (raw::numbers(ab, n1 * n1 * 3 * n, "dn_ab")?, raw::numbers(ac, n1 * n2 * 3 * n, "dn_ac")?);
+        let mut d = WeightDerivatives::default();
+        for a in 0..n1 {
+            for k in 0..n {
+                let at = |row: usize| 3 * (row * n + k);
+                for b in 0..n1 {
+                    d.ab[a][b][self.slot(k)] = Vec3::from_column_slice(&ab[at(a * n1 + b)..][..3]);
+                }
+                for c in 0..n2 {
+                    d.ac[a][c][self.slot(k)] = Vec3::from_column_slice(&ac[at(a * n2 + c)..][..3]);
+                }
+            }
+        }
+        Ok(d)
+    }
+
+    fn tractions(&self, p: *const f64) -> Result<[Vec3; MAX_NODES]> {
+        let mut t = [Vec3::zeros(); MAX_NODES];
+        for (t, v) in t.iter_mut().zip(raw::numbers(p, 3 * self.one.len(), "traction")?.chunks_exact(3)) {
+            *t = Vec3::from_column_slice(v);
+        }
+        Ok(t)
+    }
+}
+
+/// Stage 1: the mortar weights of a pair in its current configuration.
+///
+/// Outputs, each may be NULL: n_ab (n1 x n1) and n_ac (n1 x n2) [L^2], row A; dn_ab (n1 x n1 x 3(n1+n2))
+/// and dn_ac (n1 x n2 x 3(n1+n2)) [L], their exact derivatives with respect to (x1, x2), always row-major
+/// in this order. Facets that do not overlap give zeros: not an error. Paper (13).
+/// Errors: NULL_POINTER, STRUCT_SIZE, INVALID_SIZE, NOT_FINITE, DUPLICATE_NODE, DEGENERATE_FACET,
+/// PROJECTION_NOT_CONVEX, INVALID_VALUE. Cost: about a microsecond, some more with derivatives. Does not
+/// allocate.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn stickslip_pair_weights(
+    pair: *const stickslip_pair,
+    n_ab: *mut f64,
+    n_ac: *mut f64,
+    dn_ab: *mut f64,
+    dn_ac: *mut f64,
+) -> i32 {
+    guard(|| {
+        let pair = Pair::read(pair)?;
+        let rule = rule(pair.raw.quadrature, "pair.quadrature")?;
+        for (p, name) in [(n_ab, "n_ab"), (n_ac, "n_ac"), (dn_ab, "dn_ab"), (dn_ac, "dn_ac")] {
+            raw::check_optional(p, name)?;
+        }
+        let frame = NonmortarFrame::new(&pair.one)?;
+        let segment = Segment::new(&frame, &pair.two)?;
+        let (n1, n2) = pair.n();
+        let mut w = PairWeights::default();
+        if let Some(segment) = &segment {
+            w = PairWeights::integrate(&frame, segment, rule);
+        }
+        raw::write_each(n_ab, (0..n1).flat_map(|a| w.ab[a][..n1].iter().copied()));
+        raw::write_each(n_ac, (0..n1).flat_map(|a| w.ac[a][..n2].iter().copied()));
+        if dn_ab.is_null() && dn_ac.is_null() {
+            return Ok(());
+        }
+        let mut d = WeightDerivatives::default();
+        if let Some(segment) = &segment {
+            d = WeightDerivatives::integrate(&frame, segment, rule);
+        }
+        let columns = |row: &[Vec3; PAIR_NODES]| -> [Vec3; PAIR_NODES] {
+            std::array::from_fn(|k| if k < n1 + n2 { row[pair.slot(k)] } else { Vec3::zeros() })
+        };
+        let flat = |row: &[Vec3; PAIR_NODES]| columns(row).into_iter().take(n1 + n2).flat_map(|v| [v.x, v.y, v.z]);
+        raw::write_each(dn_ab, (0..n1).flat_map(|a| d.ab[a][..n1].iter().flat_map(flat)));
+        raw::write_each(dn_ac, (0..n1).flat_map(|a| d.ac[a][..n2].iter().flat_map(flat)));
+        Ok(())
+    })
+}
+
+/// The weighted gap g[n, x] of a pair with any weights, those of now or those of t_n; to be summed over
+/// the pairs of a node.
+///
+/// n_ab (n1 x n1), n_ac (n1 x n2) [L^2]; gap (3 n1), output [L^3]. Paper (11).
+/// Errors: NULL_POINTER, STRUCT_SIZE, INVALID_SIZE, NOT_FINITE, DUPLICATE_NODE. Does not allocate.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn stickslip_pair_gap(
+    pair: *const stickslip_pair,
+    n_ab: *const f64,
+    n_ac: *const f64,
+    gap: *mut f64,
+) -> i32 {
+    guard(|| {
+        let pair = Pair::read(pair)?;
+        let weights = pair.weights(n_ab, n_ac, ["n_ab", "n_ac"])?;
+        raw::check(gap, "gap")?;
+        let g = mortar::gap(&weights, &pair.one, &pair.two);
+        raw::write_each(gap, g[..pair.one.len()].iter().flat_map(|v| [v.x, v.y, v.z]));
+        Ok(())
+    })
+}
+
+/// Stage 3: a pair's nodal forces in internal-force sign; the force ON the non-mortar body is minus the
+/// first 3 n1.
+///
+/// traction (3 n1): the multipliers lambda (multiplier form) or the projected tractions p of
+/// `stickslip_node_respond` (augmented form) [F/L^2]; force (3 (n1 + n2)), output [F]. Paper (23).
+/// Errors: NULL_POINTER, STRUCT_SIZE, INVALID_SIZE, NOT_FINITE, DUPLICATE_NODE. Does not allocate.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn stickslip_pair_residual(
+    pair: *const stickslip_pair,
+    n_ab: *const f64,
+    n_ac: *const f64,
+    traction: *const f64,
+    force: *mut f64,
+) -> i32 {
+    guard(|| {
+        let pair = Pair::read(pair)?;
+        let weights = pair.weights(n_ab, n_ac, ["n_ab", "n_ac"])?;
+        let traction = pair.tractions(traction)?;
+        raw::check(force, "force")?;
+        let f = pair_force(&weights, &traction);
+        let (n1, n2) = pair.n();
+        raw::write_each(force, (0..n1 + n2).map(|k| f[pair.slot(k)]).flat_map(|v| [v.x, v.y, v.z]));
+        Ok(())
+    })
+}
+
+/// Stage 3: a pair's share of the exact tangent in the multiplier form. With the node blocks of
+/// `stickslip_node_block` the sum over all pairs is the whole tangent. (The augmented form couples all
+/// pairs of a node; the interface handle assembles it.)
+///
+/// Rows and columns: x1 (3 n1), x2 (3 n2), lambda (3 n1). n_ab, n_ac: weights of now, both NULL for a
+/// pair that overlapped only at t_n. dn_ab, dn_ac: their derivatives, both NULL where the weights are
+/// frozen. n_ab_previous, n_ac_previous: weights of t_n, both NULL for a pair that did not overlap then.
+/// traction (3 n1): lambda. responses: n1 results of `stickslip_node_respond`, from the gaps assembled
+/// over all pairs. row_scale (n1) multiplies the multiplier rows, NULL: 1. k: output, (6 n1 + 3 n2)
+/// squared, leading dimension ld >= 6 n1 + 3 n2; overwritten, the block (lambda, lambda) with zeros.
+/// Paper (25)-(31). Errors: as above, and INVALID_SIZE for ld. Does not allocate.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn stickslip_pair_tangent(
+    pair: *const stickslip_pair,
+    n_ab: *const f64,
+    n_ac: *const f64,
+    dn_ab: *const f64,
+    dn_ac: *const f64,
+    n_ab_previous: *const f64,
+    n_ac_previous: *const f64,
+    traction: *const f64,
+    responses: *const stickslip_node_response,
+    row_scale: *const f64,
+    k: *mut f64,
+    ld: i64,
+) -> i32 {
+    guard(|| {
+        let pair = Pair::read(pair)?;
+        let (n1, n2) = pair.n();
+        let size = 6 * n1 + 3 * n2;
+        if ld < size as i64 {
+            return Err(Error::new(Kind::InvalidSize, format!("ld is {ld}; it must be at least {size}")));
+        }
+        raw::count(ld, 1, "ld")?;
+        raw::check(k, "k")?;
+        let column_major = column_major(pair.raw.layout, "pair.layout")?;
+        let weights =
+            (!n_ab.is_null() || !n_ac.is_null()).then(|| pair.weights(n_ab, n_ac, ["n_ab", "n_ac"])).transpose()?;
+        let dn = (!dn_ab.is_null() || !dn_ac.is_null()).then(|| pair.derivatives(dn_ab, dn_ac)).transpose()?;
+        let before = (!n_ab_previous.is_null() || !n_ac_previous.is_null())
+            .then(|| pair.weights(n_ab_previous, n_ac_previous, ["n_ab_previous", "n_ac_previous"]))
+            .transpose()?;
+        let traction = pair.tractions(traction)?;
+        let scale = raw::optional_numbers(row_scale, n1, "row_scale")?;
+        let mut nodes = [NodeTangent::default(); MAX_NODES];
+        for (a, node) in nodes[..n1].iter_mut().enumerate() {
+            let s = scale.map_or(1.0, |s| s[a]);
+            let (now, previous) = super::node::read_response(responses, a)?;
+            *node = NodeTangent { traction: traction[a], drow_dnow: now * s, drow_dprevious: previous * s };
+        }
+        let gap = match (&weights, &dn) {
+            (Some(w), Some(dn)) => {
+                let frame = NonmortarFrame::new(&pair.one)?;
+                let mortar = Projection::new(&pair.two, &frame.plane);
+                Some(GapDerivative::current(&frame, &mortar, w, dn))
+            }
+            (w, _) => w.as_ref().map(GapDerivative::frozen),
+        };
+        let now =
+            weights.as_ref().zip(gap.as_ref()).map(|(weights, gap)| PairNow { weights, derivatives: dn.as_ref(), gap });
+        let t = PairTangent::new(now.as_ref(), before.as_ref(), &nodes);
+        let block = |row: usize, column: usize| -> Mat3 {
+            let n = n1 + n2;
+            match (row < n, column < n) {
+                (true, true) => t.force_x[pair.slot(row)][pair.slot(column)],
+                (true, false) => Mat3::from_diagonal_element(t.force_lambda[pair.slot(row)][column - n]),
+                (false, true) => t.row_x[row - n][pair.slot(column)],
+                (false, false) => Mat3::zeros(),
+            }
+        };
+        for row in 0..size / 3 {
+            for column in 0..size / 3 {
+                let block = block(row, column);
+                for (i, j) in (0..3).flat_map(|i| (0..3).map(move |j| (i, j))) {
+                    let (r, c) = (3 * row + i, 3 * column + j);
+                    let at = if column_major { c * ld as usize + r } else { r * ld as usize + c };
+                    // SAFETY: at < ld * size; the caller's k has that many entries.
+                    unsafe { k.add(at).write(block[(i, j)]) };
+                }
+            }
+        }
+        Ok(())
+    })
+}
+
+/// Whether a STICKSLIP_LAYOUT_... value asks for columns.
+pub(super) fn column_major(layout: i32, name: &str) -> Result<bool> {
+    match layout {
+        STICKSLIP_LAYOUT_ROW_MAJOR => Ok(false),
+        STICKSLIP_LAYOUT_COLUMN_MAJOR => Ok(true),
+        _ => Err(Error::new(
+            Kind::InvalidValue,
+            format!("{name} is {layout}; 0 (row-major) or 1 (column-major) are allowed"),
+        )),
+    }
+}

@@ -1,0 +1,61 @@
+//! Status numbers and their texts.
+
+use super::guard;
+use crate::error::KINDS;
+use libc::c_char;
+
+/// Success.
+pub const STICKSLIP_OK: i32 = 0;
+/// A required pointer is null or misaligned.
+pub const STICKSLIP_NULL_POINTER: i32 = 1;
+/// A struct's struct_size is not one that this library knows.
+pub const STICKSLIP_STRUCT_SIZE: i32 = 2;
+/// A count or length is not allowed.
+pub const STICKSLIP_INVALID_SIZE: i32 = 3;
+/// A number is NaN or infinite.
+pub const STICKSLIP_NOT_FINITE: i32 = 4;
+/// An index is out of range.
+pub const STICKSLIP_INDEX_OUT_OF_RANGE: i32 = 5;
+/// A facet names a node twice.
+pub const STICKSLIP_DUPLICATE_NODE: i32 = 6;
+/// A facet has no area, is folded or is not convex.
+pub const STICKSLIP_DEGENERATE_FACET: i32 = 7;
+/// A number or option is outside its allowed range.
+pub const STICKSLIP_INVALID_VALUE: i32 = 8;
+/// Neither an augmentation nor a modulus was given.
+pub const STICKSLIP_MISSING_STIFFNESS: i32 = 9;
+/// An option that is named but not available in this version.
+pub const STICKSLIP_UNSUPPORTED: i32 = 10;
+/// The normals of the facets around a node cancel.
+pub const STICKSLIP_UNDEFINED_NORMAL: i32 = 11;
+/// A mortar facet's projection on a non-mortar facet's plane is not convex. Within Newton: a domain
+/// error; take a smaller step.
+pub const STICKSLIP_PROJECTION_NOT_CONVEX: i32 = 12;
+/// The caller's buffer is too small.
+pub const STICKSLIP_BUFFER_TOO_SMALL: i32 = 13;
+/// The caller's sparse matrix lacks an entry that the tangent needs.
+pub const STICKSLIP_MISSING_ENTRY: i32 = 14;
+/// There is no commit to roll back.
+pub const STICKSLIP_NOTHING_TO_ROLL_BACK: i32 = 15;
+/// An imported history does not belong to this interface.
+pub const STICKSLIP_HISTORY_MISMATCH: i32 = 16;
+/// The library is at fault; please report it. The handle is suspect.
+pub const STICKSLIP_PANIC: i32 = -1;
+
+/// The calling thread's last refusal in words: which argument, what was wrong, what is allowed. Empty
+/// after a success. Valid until the thread's next call; never NULL.
+#[unsafe(no_mangle)]
+pub extern "C" fn stickslip_last_error_message() -> *const c_char {
+    guard::message()
+}
+
+/// A short text for any status number. Static; never NULL.
+#[unsafe(no_mangle)]
+pub extern "C" fn stickslip_status_string(status: i32) -> *const c_char {
+    let text = match status {
+        STICKSLIP_OK => c"success",
+        STICKSLIP_PANIC => c"fault of the library",
+        _ => KINDS.iter().find(|(kind, _)| *kind as i32 == status).map_or(c"unknown status", |(_, text)| text),
+    };
+    text.as_ptr()
+}

@@ -1,0 +1,174 @@
+//! The interface's tangent in the host's sparse formats.
+
+use super::guard::guard;
+use super::interface::{Point, handle, stickslip_interface};
+use super::raw;
+use crate::error::{Error, Kind, Result};
+
+/// Entries as (row, column, value), in the core's numbering.
+#[derive(Default)]
+struct Triplets {
+    rows: Vec<i64>,
+    columns: Vec<i64>,
+    values: Vec<f64>,
+}
+
+impl Triplets {
+    fn push(&mut self, row: i64, column: i64, value: f64) {
+        self.rows.push(row);
+        self.columns.push(column);
+        self.values.push(value);
+    }
+
+    /// Copies to the caller's arrays, or only counts when they are all NULL. `values` may be absent.
+    fn write(
+        &self,
+        base: i64,
+        capacity: i64,
+        rows: *mut i64,
+        columns: *mut i64,
+        values: Option<*mut f64>,
+        count: *mut i64,
+    ) -> Result<()> {
+        raw::check(count, "count")?;
+        let n = self.rows.len();
+        let counting = rows.is_null() && columns.is_null() && values.is_none_or(<*mut f64>::is_null);
+        if !counting {
+            raw::check(rows, "rows")?;
+            raw::check(columns, "columns")?;
+            if let Some(values) = values {
+                raw::check(values, "values")?;
+            }
+            if capacity < n as i64 {
+                return Err(Error::new(
+                    Kind::BufferTooSmall,
+                    format!("capacity is {capacity}; {n} entries are needed"),
+                ));
+            }
+            raw::write_each(rows, self.rows.iter().map(|r| r + base));
+            raw::write_each(columns, self.columns.iter().map(|c| c + base));
+            if let Some(values) = values {
+                raw::write(values, &self.values);
+            }
+        }
+        raw::write(count, &[n as i64]);
+        Ok(())
+    }
+}
+
+/// The exact tangent d residual / d (x1, x2, lambda) as triplets in the host's equation numbers and index
+/// base. Entries without an equation are left out; duplicates add up. Entries depend on the active pairs,
+/// so the pattern may change between evaluations; within one evaluation point it does not.
+///
+/// Inputs as for `stickslip_interface_residual`. Outputs: rows, columns, values (capacity each), count.
+/// With all three arrays NULL only count is written, cheaply. Not symmetric, even without friction.
+/// Paper (25)-(31). Errors: as for the residual, and BUFFER_TOO_SMALL.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn stickslip_interface_tangent_coo(
+    interface: *mut stickslip_interface,
+    x1: *const f64,
+    x2: *const f64,
+    lambda: *const f64,
+    sums: *const f64,
+    capacity: i64,
+    rows: *mut i64,
+    columns: *mut i64,
+    values: *mut f64,
+    count: *mut i64,
+) -> i32 {
+    guard(|| {
+        let h = handle(interface)?;
+        let point = Point::read(&h.inner, x1, x2, lambda, sums)?;
+        let mut t = Triplets::default();
+        let mut sink = |row, column, value| t.push(row, column, value);
+        if rows.is_null() && columns.is_null() && values.is_null() {
+            h.inner.pattern(&point.x1, &point.x2, &mut sink)?;
+        } else {
+            h.inner.tangent(&point.x1, &point.x2, &point.lambda, point.sums(), &mut sink)?;
+        }
+        t.write(h.base, capacity, rows, columns, Some(values), count)
+    })
+}
+
+/// Adds the exact tangent into a compressed sparse row matrix of the host's. Inputs as for
+/// `stickslip_interface_residual`; n_rows rows; row_offsets (n_rows + 1), starting at the index base;
+/// columns and values (as many as row_offsets says), columns in any order within a row.
+///
+/// Errors: as for the residual, INVALID_SIZE, INDEX_OUT_OF_RANGE, and MISSING_ENTRY when the matrix lacks
+/// an entry (renew the pattern from `stickslip_interface_pattern_coo`); then nothing was added.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn stickslip_interface_tangent_csr(
+    interface: *mut stickslip_interface,
+    x1: *const f64,
+    x2: *const f64,
+    lambda: *const f64,
+    sums: *const f64,
+    n_rows: i64,
+    row_offsets: *const i64,
+    columns: *const i64,
+    values: *mut f64,
+) -> i32 {
+    guard(|| {
+        let h = handle(interface)?;
+        let point = Point::read(&h.inner, x1, x2, lambda, sums)?;
+        let n = raw::count(n_rows, 1, "n_rows")?;
+        let offsets = raw::slice(row_offsets, n + 1, "row_offsets")?;
+        if offsets[0] != h.base || !offsets.is_sorted() {
+            let text = format!("row_offsets starts at {}; it must start at {} and not decrease", offsets[0], h.base);
+            return Err(Error::new(Kind::InvalidSize, text));
+        }
+        let entries = raw::count(offsets[n].saturating_sub(h.base), 0, "row_offsets[n_rows]")?;
+        let columns = raw::slice(columns, entries, "columns")?;
+        raw::check(values, "values")?;
+        let mut t = Triplets::default();
+        h.inner.tangent(&point.x1, &point.x2, &point.lambda, point.sums(), &mut |r, c, v| t.push(r, c, v))?;
+        let mut places = Vec::with_capacity(t.rows.len());
+        for (&row, &column) in t.rows.iter().zip(&t.columns) {
+            let Some(r) = usize::try_from(row).ok().filter(|&r| r < n) else {
+                let text = format!("the interface has equation {}; the matrix has {n} rows", row + h.base);
+                return Err(Error::new(Kind::IndexOutOfRange, text));
+            };
+            let (first, end) = ((offsets[r] - h.base) as usize, (offsets[r + 1] - h.base) as usize);
+            let range = &columns[first..end];
+            let target = column + h.base;
+            // Rows are usually sorted; where they are not, look at every entry.
+            let found = range.binary_search(&target).ok().or_else(|| range.iter().position(|&c| c == target));
+            let Some(found) = found else {
+                let text = format!("the matrix lacks the entry ({}, {target}); renew its pattern", row + h.base);
+                return Err(Error::new(Kind::MissingEntry, text));
+            };
+            places.push(first + found);
+        }
+        for (place, value) in places.into_iter().zip(t.values) {
+            // SAFETY: place < entries, and the caller's values has that many.
+            unsafe { *values.add(place) += value };
+        }
+        Ok(())
+    })
+}
+
+/// Entries of any tangent until the next search: every candidate pair counted as active. Preallocate with
+/// this. The search is refreshed when something moves out of its skin (a quarter of a facet), so a large
+/// motion may need entries beyond these; call again then.
+///
+/// x1 (3 n1), x2 (3 n2) [L]. Outputs: rows, columns (capacity each; both NULL: only count), count.
+/// Duplicates occur. Errors: NULL_POINTER, NOT_FINITE, BUFFER_TOO_SMALL, DEGENERATE_FACET,
+/// PROJECTION_NOT_CONVEX.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn stickslip_interface_pattern_coo(
+    interface: *mut stickslip_interface,
+    x1: *const f64,
+    x2: *const f64,
+    capacity: i64,
+    rows: *mut i64,
+    columns: *mut i64,
+    count: *mut i64,
+) -> i32 {
+    guard(|| {
+        let h = handle(interface)?;
+        let point = Point::positions(&h.inner, x1, x2)?;
+        let mut t = Triplets::default();
+        h.inner.superset_pattern(&point.x1, &point.x2, &mut |row, column, _| t.push(row, column, 0.0))?;
+        t.write(h.base, capacity, rows, columns, None, count)
+    })
+}
