@@ -178,7 +178,7 @@ PetscErrorCode contact_commit(Model *model, PetscInt *status)
     Interface *interface = &model->interfaces[i];
     int32_t    refused   = 0;
     PetscCall(contact_gather(model, interface, model->u_local));
-    if (model->rank == 0) refused = stickslip_interface_commit(interface->handle, STATE_OF(interface));
+    if (model->rank == 0) refused = stickslip_interface_commit(interface->handle, STATE_OF(interface), NULL);
     PetscCall(agree(model, refused, status));
     if (!*status) committed++;
   }

@@ -70,11 +70,14 @@ static PetscErrorCode clean_up(Model *model)
   PetscCall(PetscFree(model->steps.times));
   PetscCall(PetscFree(model->original));
   PetscCall(PetscFree(model->owner));
+  PetscCall(PetscFree(model->ghost));
   PetscCall(PetscFree4(model->cell_offsets, model->cell_dofs, model->cell_body, model->cell_X));
   PetscCall(VecDestroy(&model->u_local));
   PetscCall(VecDestroy(&model->f_local));
   PetscCall(VecDestroy(&model->f_external));
   PetscCall(VecDestroy(&model->prescribed_local));
+  PetscCall(VecDestroy(&model->f_sum));
+  PetscCall(PetscSFDestroy(&model->ghosts));
   PetscCall(PetscSFDestroy(&model->all_displacements));
   PetscCall(MatDestroy(&model->jacobian));
   PetscCall(SNESDestroy(&model->snes));

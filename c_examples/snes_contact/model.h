@@ -96,6 +96,8 @@ typedef struct {
   PetscInt        vStart, vEnd, n_local;
   const PetscInt *equations; /* of each local entry, -1: prescribed */
   PetscInt       *owner;     /* rank 0, per mesh vertex: rank, then the local offset of each field there */
+  PetscBool      *ghost;     /* per vertex here: another rank owns it */
+  PetscSF         ghosts;    /* from its entries there to those here; NULL on a single rank */
   PetscSF         all_displacements;
 
   /* bulk.c */
@@ -103,6 +105,7 @@ typedef struct {
   PetscReal *cell_X;
   Vec        u_local, f_local, prescribed_local; /* local vectors: state, forces, values of prescribed entries at t */
   Vec        f_external;                         /* local, at t */
+  Vec        f_sum;                              /* local: work space of unknowns_sum() */
 
   SNES      snes;
   Mat       jacobian;
@@ -133,6 +136,7 @@ PetscErrorCode loads_values(Model *model, PetscReal t); /* into f_external */
 PetscErrorCode unknowns_create(Model *model);
 PetscErrorCode unknowns_gather_create(Model *model, PetscInt n, const PetscInt *n_vertices, const PetscInt *const *vertices, const PetscInt *fields, PetscSF *sf);
 PetscErrorCode unknowns_to_local(Model *model, Vec x); /* into u_local, prescribed entries filled in */
+PetscErrorCode unknowns_sum(Model *model, Vec local); /* into f_sum: what all ranks hold, complete at owned vertices */
 
 /* bulk.c */
 PetscErrorCode bulk_create(Model *model);

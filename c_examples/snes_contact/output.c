@@ -17,6 +17,18 @@ static cJSON *vector_json(const PetscReal v[3])
   return cJSON_CreateDoubleArray(v, 3);
 }
 
+/* with its parents; true if it can be written to */
+static PetscBool make_folder(const char *path)
+{
+  char part[PETSC_MAX_PATH_LEN];
+  for (size_t k = 1; path[k - 1] && k < sizeof(part); k++) {
+    if (path[k] && path[k] != '/') continue;
+    snprintf(part, sizeof(part), "%.*s", (int)k, path);
+    (void)mkdir(part, 0777); /* those that are there already stay */
+  }
+  return (PetscBool)(access(path, W_OK) == 0);
+}
+
 PetscErrorCode output_read(Model *model)
 {
   static const char *const when[] = {"none", "last", "all", NULL};
@@ -36,7 +48,7 @@ PetscErrorCode output_read(Model *model)
     PetscCall(PetscSNPrintf(model->probes[k].name, NAME_LENGTH, "%s", names[k]));
     model->probes[k].vertex = mesh_nearest_vertex(model->scene, &model->mesh, names[k]);
   }
-  if (model->rank == 0 && mkdir(model->output_dir, 0777) && access(model->output_dir, W_OK)) scene_fail(model->scene, NULL, NULL, "cannot write to the output folder '%s'.", model->output_dir);
+  if (model->rank == 0 && !make_folder(model->output_dir)) scene_fail(model->scene, NULL, NULL, "cannot write to the output folder '%s'.", model->output_dir);
   PetscCall(scene_root_end(model->scene));
   strings_destroy(model->n_probes, &names);
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -5,12 +5,31 @@
  * the largest so far, so that an unloaded step is not judged by its own noise. -snes_rtol sets rtol. */
 #include "model.h"
 
+/* sum of squares of the displacement entries of a local vector of forces; of the prescribed ones only, or of all */
+static PetscErrorCode squared_forces(Model *model, Vec local, PetscBool prescribed_only, PetscReal *squares)
+{
+  const PetscScalar *f;
+  PetscFunctionBegin;
+  *squares = 0;
+  PetscCall(unknowns_sum(model, local));
+  PetscCall(VecGetArrayRead(model->f_sum, &f));
+  for (PetscInt v = model->vStart; v < model->vEnd; v++) {
+    PetscInt at;
+    if (model->ghost[v - model->vStart]) continue;
+    PetscCall(PetscSectionGetOffset(model->section, v, &at));
+    for (int i = 0; i < 3; i++) {
+      if (!prescribed_only || model->equations[at + i] < 0) *squares += PetscSqr(PetscAbsScalar(f[at + i]));
+    }
+  }
+  PetscCall(VecRestoreArrayRead(model->f_sum, &f));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode residual(SNES snes, Vec x, Vec r, void *context)
 {
-  Model             *model = context;
-  PetscReal          squares[3] = {0, 0, 0}; /* loads, reactions, contact */
-  PetscInt           status, vStart = model->vStart;
-  const PetscScalar *f, *f_external;
+  Model    *model      = context;
+  PetscReal squares[3] = {0, 0, 0}; /* loads, reactions, contact */
+  PetscInt  status;
 
   PetscFunctionBegin;
   PetscCall(unknowns_to_local(model, x));
@@ -23,18 +42,8 @@ static PetscErrorCode residual(SNES snes, Vec x, Vec r, void *context)
   PetscCall(DMLocalToGlobalBegin(model->dm, model->f_local, ADD_VALUES, r));
   PetscCall(DMLocalToGlobalEnd(model->dm, model->f_local, ADD_VALUES, r));
 
-  PetscCall(VecGetArrayRead(model->f_local, &f));
-  PetscCall(VecGetArrayRead(model->f_external, &f_external));
-  for (PetscInt v = vStart; v < model->vEnd; v++) {
-    PetscInt at;
-    PetscCall(PetscSectionGetOffset(model->section, v, &at));
-    for (int i = 0; i < 3; i++) {
-      squares[0] += PetscSqr(PetscAbsScalar(f_external[at + i]));
-      if (model->equations[at + i] < 0) squares[1] += PetscSqr(PetscAbsScalar(f[at + i]));
-    }
-  }
-  PetscCall(VecRestoreArrayRead(model->f_local, &f));
-  PetscCall(VecRestoreArrayRead(model->f_external, &f_external));
+  PetscCall(squared_forces(model, model->f_external, PETSC_FALSE, &squares[0]));
+  PetscCall(squared_forces(model, model->f_local, PETSC_TRUE, &squares[1]));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, squares, 3, MPIU_REAL, MPIU_SUM, PETSC_COMM_WORLD));
   model->reference_force = PetscSqrtReal(squares[0]) + PetscSqrtReal(squares[1]) + PetscSqrtReal(squares[2]);
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -72,23 +72,22 @@ static PetscErrorCode collect_owners(Model *model)
   const PetscInt  n_fields = 1 + model->n_interfaces, width = 1 + n_fields;
   PetscInt        n_leaves, *mine, *all = NULL, mask;
   const PetscInt *leaves;
-  PetscBool      *ghost;
   PetscMPIInt     size, n_mine = 0, *counts = NULL, *starts = NULL;
   PetscSF         sf;
 
   PetscFunctionBegin;
   PetscCallMPI(MPI_Comm_size(PETSC_COMM_WORLD, &size));
-  PetscCall(PetscCalloc1(model->vEnd - model->vStart, &ghost));
+  PetscCall(PetscCalloc1(model->vEnd - model->vStart, &model->ghost));
   PetscCall(DMGetPointSF(model->dm, &sf));
   PetscCall(PetscSFGetGraph(sf, NULL, &n_leaves, &leaves, NULL));
   for (PetscInt k = 0; k < n_leaves; k++) {
     const PetscInt p = leaves ? leaves[k] : k;
-    if (p >= model->vStart && p < model->vEnd) ghost[p - model->vStart] = PETSC_TRUE;
+    if (p >= model->vStart && p < model->vEnd) model->ghost[p - model->vStart] = PETSC_TRUE;
   }
   PetscCall(PetscMalloc1(width * (model->vEnd - model->vStart), &mine));
   for (PetscInt v = model->vStart; v < model->vEnd; v++) {
     PetscInt offset;
-    if (ghost[v - model->vStart]) continue;
+    if (model->ghost[v - model->vStart]) continue;
     PetscCall(PetscSectionGetOffset(model->section, v, &offset));
     mine[n_mine++] = model->original[v - model->vStart];
     for (PetscInt f = 0; f < n_fields; f++) {
@@ -116,7 +115,12 @@ static PetscErrorCode collect_owners(Model *model)
   PetscCall(PetscFree2(counts, starts));
   PetscCall(PetscFree(all));
   PetscCall(PetscFree(mine));
-  PetscCall(PetscFree(ghost));
+  if (size > 1) {
+    PetscInt *remote;
+    PetscCall(PetscSFCreateRemoteOffsets(sf, model->section, model->section, &remote));
+    PetscCall(PetscSFCreateSectionSF(sf, model->section, remote, model->section, &model->ghosts));
+    PetscCall(PetscFree(remote));
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -159,6 +163,7 @@ PetscErrorCode unknowns_create(Model *model)
   PetscCall(DMCreateLocalVector(model->dm, &model->u_local));
   PetscCall(VecDuplicate(model->u_local, &model->f_local));
   PetscCall(VecDuplicate(model->u_local, &model->f_external));
+  PetscCall(VecDuplicate(model->u_local, &model->f_sum));
   PetscCall(VecDuplicate(model->u_local, &model->prescribed_local));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -169,5 +174,21 @@ PetscErrorCode unknowns_to_local(Model *model, Vec x)
   PetscCall(VecCopy(model->prescribed_local, model->u_local));
   PetscCall(DMGlobalToLocalBegin(model->dm, x, INSERT_VALUES, model->u_local)); /* touches the equations only */
   PetscCall(DMGlobalToLocalEnd(model->dm, x, INSERT_VALUES, model->u_local));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode unknowns_sum(Model *model, Vec local)
+{
+  const PetscScalar *mine;
+  PetscScalar       *sum;
+  PetscFunctionBegin;
+  PetscCall(VecCopy(local, model->f_sum));
+  if (!model->ghosts) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(VecGetArrayRead(local, &mine));
+  PetscCall(VecGetArray(model->f_sum, &sum));
+  PetscCall(PetscSFReduceBegin(model->ghosts, MPIU_SCALAR, mine, sum, MPIU_SUM));
+  PetscCall(PetscSFReduceEnd(model->ghosts, MPIU_SCALAR, mine, sum, MPIU_SUM));
+  PetscCall(VecRestoreArray(model->f_sum, &sum));
+  PetscCall(VecRestoreArrayRead(local, &mine));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
