@@ -1,6 +1,8 @@
 //! Shared by the integration tests: the golden vectors and a few ways to compare.
 #![allow(dead_code)]
 
+pub mod mesh;
+
 use nalgebra::Vector3;
 use serde_json::Value;
 use std::path::{Path, PathBuf};

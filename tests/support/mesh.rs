@@ -1,0 +1,130 @@
+//! Small surfaces and interfaces for tests.
+#![allow(dead_code)]
+
+use stickslip::geometry::Vec3;
+use stickslip::interface::{Interface, Options, Stiffness, Surface};
+
+/// Deterministic numbers in -1..1.
+pub struct Random(pub u64);
+
+impl Random {
+    pub fn next(&mut self) -> f64 {
+        self.0 = self.0.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+        (self.0 >> 33) as f64 / (1u64 << 30) as f64 - 1.0
+    }
+
+    pub fn vector(&mut self, scale: f64) -> Vec3 {
+        Vec3::new(self.next(), self.next(), self.next()) * scale
+    }
+}
+
+#[derive(Clone, Copy, PartialEq)]
+pub enum Cells {
+    Quads,
+    Triangles,
+}
+
+#[derive(Clone)]
+pub struct Mesh {
+    pub x: Vec<Vec3>,
+    pub facets: Vec<Vec<i64>>,
+}
+
+/// An n x m grid on [a, b] (x, y) at height z; normals point up or down.
+pub fn grid(n: usize, m: usize, a: [f64; 2], b: [f64; 2], z: f64, up: bool, cells: Cells) -> Mesh {
+    let mut x = Vec::new();
+    for j in 0..=m {
+        for i in 0..=n {
+            let (s, t) = (i as f64 / n as f64, j as f64 / m as f64);
+            x.push(Vec3::new(a[0] + s * (b[0] - a[0]), a[1] + t * (b[1] - a[1]), z));
+        }
+    }
+    let at = |i: usize, j: usize| (j * (n + 1) + i) as i64;
+    let mut facets = Vec::new();
+    for j in 0..m {
+        for i in 0..n {
+            let mut quad = vec![at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)];
+            if !up {
+                quad.reverse();
+            }
+            match cells {
+                Cells::Quads => facets.push(quad),
+                Cells::Triangles => {
+                    facets.push(vec![quad[0], quad[1], quad[2]]);
+                    facets.push(vec![quad[0], quad[2], quad[3]]);
+                }
+            }
+        }
+    }
+    Mesh { x, facets }
+}
+
+/// Equations x1, x2, lambda in this order, none prescribed.
+pub fn interface(one: &Mesh, two: &Mesh, options: Options) -> Interface {
+    let (n1, n2) = (one.x.len() as i64, two.x.len() as i64);
+    let equations = |first: i64, n: i64| (0..n).map(|k| [0, 1, 2].map(|i| first + 3 * k + i)).collect::<Vec<_>>();
+    let nonmortar = Surface::new("nonmortar", one.x.clone(), &one.facets, equations(0, n1)).unwrap();
+    let mortar = Surface::new("mortar", two.x.clone(), &two.facets, equations(3 * n1, n2)).unwrap();
+    Interface::new(nonmortar, mortar, equations(3 * (n1 + n2), n1), options).unwrap()
+}
+
+/// An interface moved from its reference, with multipliers that make all three states occur.
+pub struct Moved {
+    pub interface: Interface,
+    pub x1: Vec<Vec3>,
+    pub x2: Vec<Vec3>,
+    pub lambda: Vec<Vec3>,
+}
+
+/// How rough the scene is.
+#[derive(Clone, Copy)]
+pub struct Roughness {
+    /// Out-of-plane noise at t_n and t_{n+1}, over the facet size. Warps quads.
+    pub warp: f64,
+    /// In-plane noise. Distorts quads.
+    pub jitter: f64,
+    /// Rigid slide within the step, over the facet size.
+    pub slide: f64,
+}
+
+pub const FLAT: Roughness = Roughness { warp: 0.0, jitter: 0.0, slide: 0.02 };
+
+/// A 2 x 2 non-mortar grid over a turned 3 x 3 mortar grid in a rotated frame.
+pub fn moved(options: &Options, cells: [Cells; 2], rough: Roughness, seed: u64) -> Moved {
+    let mut random = Random(seed);
+    let mut one = grid(2, 2, [0.0, 0.0], [1.0, 1.0], 0.0, false, cells[0]);
+    let mut two = grid(3, 3, [-0.45, -0.4], [1.5, 1.45], 0.0, true, cells[1]);
+    let turn = nalgebra::Rotation3::from_euler_angles(0.0, 0.0, 0.3);
+    let frame = nalgebra::Rotation3::from_euler_angles(0.4, -0.9, 1.3);
+    let h = 0.5;
+    let mut noise = |x: &mut Vec<Vec3>| {
+        for p in x {
+            *p += Vec3::new(random.next() * rough.jitter, random.next() * rough.jitter, random.next() * rough.warp) * h;
+        }
+    };
+    noise(&mut one.x);
+    two.x.iter_mut().for_each(|p| *p = turn * *p);
+    noise(&mut two.x);
+    let slide = Vec3::new(0.8, 0.6, 0.0) * (rough.slide * h);
+    // Tilted against each other, so that gaps of both signs occur. A tilt keeps flat facets flat.
+    let tilt = nalgebra::Rotation3::from_euler_angles(0.02, -0.03, 0.0);
+    let mut x1: Vec<_> = one.x.iter().map(|p| tilt * p + slide + Vec3::new(0.0, 0.0, 0.004)).collect();
+    let mut x2 = two.x.clone();
+    noise(&mut x1);
+    noise(&mut x2);
+    for x in [&mut one.x, &mut two.x, &mut x1, &mut x2] {
+        x.iter_mut().for_each(|p| *p = frame * *p);
+    }
+    let lambda = (0..one.x.len())
+        .map(|_| frame * Vec3::new(0.3 * random.next(), 0.3 * random.next(), -0.5 + 0.7 * random.next()))
+        .collect();
+    let interface = interface(&one, &two, *options);
+    Moved { interface, x1, x2, lambda }
+}
+
+/// Options whose augmentation is of the order of the multipliers over the gaps of [`moved`].
+pub fn options() -> Options {
+    let mut options = Options::new(Stiffness::Augmentation(15.0));
+    options.mu = 0.7;
+    options
+}
