@@ -12,6 +12,7 @@ mod options;
 mod search;
 mod surface;
 
+pub use assembly::{Residual, Sink};
 pub use history::{History, PairRecord};
 pub use nodes::NodeSums;
 pub use options::{COVERAGE_MIN, Form, MODULUS_FACTOR, NewContact, Options, RowScale, Stiffness, Weights};
