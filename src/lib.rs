@@ -25,6 +25,8 @@
 //! [`element`]; [`interface`] searches, assembles and remembers; [`capi`] is the C ABI and the only
 //! place with `unsafe`.
 
+#![warn(missing_docs)]
+
 pub mod capi;
 pub mod element;
 pub mod error;

@@ -82,8 +82,11 @@ pub(super) fn read_surface(s: &stickslip_surface, base: i64, side: &'static str)
     Surface::new(side, raw::vectors(coordinates), &facets, equations)
 }
 
-/// The non-mortar side's multiplier equations and owned flags.
-pub(super) fn read_multipliers(s: &stickslip_surface, base: i64) -> Result<(Vec<[i64; 3]>, Option<Vec<bool>>)> {
+/// Multiplier equations, and which nodes are owned (`None`: all).
+type Multipliers = (Vec<[i64; 3]>, Option<Vec<bool>>);
+
+/// The non-mortar side's multipliers.
+pub(super) fn read_multipliers(s: &stickslip_surface, base: i64) -> Result<Multipliers> {
     let n = raw::count(s.n_nodes, 3, "nonmortar.n_nodes")?;
     let multipliers = equations(s.multiplier_equations, n, base, "nonmortar.multiplier_equations")?;
     let owned = if s.owned.is_null() {

@@ -63,14 +63,10 @@ impl Interface {
         let (mut now, mut previous) = (self.current_pairs().iter().peekable(), self.history.pairs.iter().peekable());
         let mut union = Vec::with_capacity(now.len().max(previous.len()));
         loop {
-            let key = |p: &&&super::PairRecord| (p.one, p.two);
-            let next = match (now.peek().as_ref().map(|p| key(p)), previous.peek().as_ref().map(|p| key(p))) {
-                (None, None) => return union,
-                (a, b) => a.into_iter().chain(b).min(),
-            };
-            let n = now.next_if(|p| Some((p.one, p.two)) == next);
-            let p = previous.next_if(|p| Some((p.one, p.two)) == next);
-            let Some((one, two)) = next else { return union };
+            let heads = [now.peek(), previous.peek()];
+            let Some((one, two)) = heads.into_iter().flatten().map(|p| (p.one, p.two)).min() else { return union };
+            let n = now.next_if(|p| (p.one, p.two) == (one, two));
+            let p = previous.next_if(|p| (p.one, p.two) == (one, two));
             union.push(UnionPair { one, two, now: n.map(|p| &p.weights), previous: p.map(|p| &p.weights) });
         }
     }

@@ -87,11 +87,6 @@ impl Surface {
         self.reference.len()
     }
 
-    /// Never: a surface has nodes.
-    pub fn is_empty(&self) -> bool {
-        self.reference.is_empty()
-    }
-
     /// Facet `f` at the node positions `x`.
     pub fn facet(&self, f: usize, x: &[Vec3]) -> Facet {
         let nodes = &self.facets[f];
