@@ -48,9 +48,7 @@ GAUSS_POINTS = [(-_GAUSS, -_GAUSS), (_GAUSS, -_GAUSS), (_GAUSS, _GAUSS), (-_GAUS
 def strain_matrix(corners, point):
     """(B, det J) of a four-node quadrilateral, corners (4, 2) counter-clockwise, at a point of the unit square."""
     xi, eta = point
-    local = 0.25 * np.array(
-        [[-(1 - eta), 1 - eta, 1 + eta, -(1 + eta)], [-(1 - xi), -(1 + xi), 1 + xi, 1 - xi]]
-    )
+    local = 0.25 * np.array([[-(1 - eta), 1 - eta, 1 + eta, -(1 + eta)], [-(1 - xi), -(1 + xi), 1 + xi, 1 - xi]])
     jacobian = local @ corners
     gradient = np.linalg.solve(jacobian, local)
     matrix = np.zeros((3, 8))

@@ -36,6 +36,13 @@ class Verdicts:
         """A figure whose ideal is zero must not exceed `bound`."""
         self._add(Row(quantity, float(value), None, float(value), bound, reason))
 
+    def at_least(self, quantity, value, least, reason):
+        """A figure must reach `least`; the error is what is missing."""
+        value = float(value)
+        self._add(
+            Row(quantity, value, least, max(0.0, least - value) if math.isfinite(value) else math.nan, 0.0, reason)
+        )
+
     def true(self, quantity, holds, reason):
         """A statement that either holds or does not."""
         self._add(Row(quantity, float(bool(holds)), 1.0, 0.0 if holds else 1.0, 0.0, reason))
@@ -57,7 +64,9 @@ class Verdicts:
         for row in self.rows:
             reference = "" if row.reference is None else f"{row.reference:.7g}"
             verdict = "ok" if row.passed else "FAILED"
-            print(f"{row.quantity:<{width}}  {row.computed:>12.7g}  {reference:>12}  {row.error:>9.2e}  {row.bound:>9.2g}  {verdict}")
+            print(
+                f"{row.quantity:<{width}}  {row.computed:>12.7g}  {reference:>12}  {row.error:>9.2e}  {row.bound:>9.2g}  {verdict}"
+            )
             if with_reasons or not row.passed:
                 print(f"{'':<{width}}  ({row.reason})")
 
@@ -66,5 +75,7 @@ class Verdicts:
         path.parent.mkdir(parents=True, exist_ok=True)
         # JSON has no infinity: a missing number is null
         clean = lambda value: None if isinstance(value, float) and not math.isfinite(value) else value
-        rows = [{**{key: clean(value) for key, value in asdict(row).items()}, "passed": row.passed} for row in self.rows]
+        rows = [
+            {**{key: clean(value) for key, value in asdict(row).items()}, "passed": row.passed} for row in self.rows
+        ]
         path.write_text(json.dumps({"passed": self.passed, "rows": rows}, indent=1) + "\n")

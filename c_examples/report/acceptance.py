@@ -1,0 +1,220 @@
+"""The acceptance checks, in groups: each function runs scenes and adds its comparisons to the Verdicts.
+
+Every bound is a named constant with its reason, here or in comparisons.py.
+"""
+
+import math
+
+import comparisons
+from bad_scenes import BAD_SCENES, write_bad_scene
+
+# Frozen weights make every step a piecewise linear problem: all splits of the load end in the same state, to round-off.
+SPLIT_BOUND_FROZEN = 1e-10
+# With current weights the path matters a little: weights and slip are taken at the end of each step.
+SPLIT_BOUND_CURRENT = 1e-4
+# On 20x10 the slip front is known to one of 20 facets.
+COARSE_TRACTION_BOUND = 0.05
+# An O(h) method halves its error with the element size; the slip front moves in whole facets, hence some room.
+REFINEMENT_BOUND = 0.7
+# Total of 10 + 10 steps; other codes take 65 to 69 for the same run.
+NEWTON_LIMIT = 65
+# The augmentation steers the iterations only; what is left is the Newton tolerance.
+AUGMENTATION_BOUND = 1e-9
+# Multiplying by powers of two is exact in floating point, so nothing may change; otherwise round-off may shift a step by one.
+UNITS_BOUND = 1e-9
+# Two ranks add the same numbers in another order.
+PARALLEL_BOUND = 1e-9
+# Between the last three residual norms of a step, where they are above round-off: order 2, with room for the constant.
+ORDER_LIMIT = 1.7
+ROUND_OFF = 1e-13  # relative to the forces of the step
+
+FOUNDATIONS = {"mesh": "", "facet": "_facet"}
+SPLITS = {"1+1": 2, "2+2": 4, "5+5": 10, "10+10": 20}
+COLD, WARM = ("-steps_predictor", "false"), ("-steps_predictor", "true")
+
+
+def patch(verdicts, driver):
+    for case in comparisons.patch_cases():
+        run = driver.run(case.scene, *case.options, label=case.label)
+        verdicts.below(
+            f"{case.label}: multiplier error",
+            comparisons.patch_error(run, case),
+            comparisons.PATCH_BOUND,
+            "exact solution",
+        )
+
+
+def block(verdicts, driver):
+    for kind, suffix in FOUNDATIONS.items():
+        run = driver.run(f"block_zone_mu2{suffix}")
+        comparisons.block_resultants(verdicts, f"mu = 2, {kind}", run)
+        comparisons.block_all_stick(verdicts, f"mu = 2, {kind}", run)
+        run = driver.run(f"block_zone_mu05{suffix}")
+        comparisons.block_resultants(verdicts, f"mu = 0.5, {kind}", run)
+        comparisons.block_inner_tractions(verdicts, f"mu = 0.5, {kind}", run)
+        run = driver.run(f"block_bottom_mu02{suffix}")
+        comparisons.block_resultants(verdicts, f"mu = 0.2, {kind}", run)
+        comparisons.block_slip(verdicts, f"mu = 0.2, {kind}", run)
+
+    meshes = ("20,1,10", "40,1,20", "80,1,40")
+    errors = [
+        comparisons.slip_traction_error(driver.run("block_bottom_mu02", "-block_cells", cells, label=f"cells_{cells}"))
+        for cells in meshes
+    ]
+    verdicts.below(
+        f"mu = 0.2: tractions, {meshes[0]}, against 320x160", errors[0], COARSE_TRACTION_BOUND, "coarse mesh"
+    )
+    for coarse, fine, cells in zip(errors, errors[1:], meshes[1:]):
+        verdicts.below(
+            f"mu = 0.2: their error, {cells} over the mesh before", fine / coarse, REFINEMENT_BOUND, "converges"
+        )
+
+
+def steps(verdicts, driver):
+    """The load split into few or many steps, cold (no extrapolation), the block held by contact and friction alone."""
+    for name, weights, bound in (
+        ("frozen weights", "reference", SPLIT_BOUND_FROZEN),
+        ("current weights", "current", SPLIT_BOUND_CURRENT),
+    ):
+        options = ("-base_weights", weights)
+        runs = splits(verdicts, driver, name, "block_bottom_mu02", options, SPLITS, bound)
+        cold = runs["10+10"].newton_iterations
+        verdicts.below(f"{name}, 10+10: Newton iterations, cold", cold, NEWTON_LIMIT, "other codes: 65 to 69")
+        warm = driver.run("block_bottom_mu02", *options, *WARM, label=f"{weights}_predictor").newton_iterations
+        verdicts.below(f"{name}, 10+10: with the predictor", warm, cold - 1, "fewer than cold")
+        if weights == "current":  # with frozen weights the last iteration goes to round-off at once
+            order = newton_order(runs["1+1"])
+            verdicts.at_least(f"{name}, 1+1: order of Newton's method", order, ORDER_LIMIT, "last three residual norms")
+
+    ends = {split: SPLITS[split] for split in ("1+1", "10+10")}
+    for scene in ("block_zone_mu2", "block_zone_mu05", "block_bottom_mu02_facet"):
+        splits(verdicts, driver, scene, scene, (), ends, SPLIT_BOUND_FROZEN)
+
+    default = driver.run("block_bottom_mu02")
+    for cells in ("1,1,1", "5,2,1", "20,1,1", "37,4,1"):
+        run = driver.run("block_bottom_mu02", *COLD, "-floor_cells", cells, label=f"floor_{cells}")
+        no_cutback(verdicts, f"foundation {cells}", run)
+        error = comparisons.difference(run, default)
+        verdicts.below(f"foundation {cells}: difference", error, SPLIT_BOUND_FROZEN, "its flat mesh is irrelevant")
+
+
+def splits(verdicts, driver, name, scene, options, counts, bound):
+    """One scene in several numbers of steps; all must agree with the last."""
+    runs = {
+        split: driver.run(scene, *options, *COLD, "-steps_count", count, label=f"{name.replace(' ', '_')}_{split}")
+        for split, count in counts.items()
+    }
+    *others, last = counts
+    for split, run in runs.items():
+        no_cutback(verdicts, f"{name}, {split}", run)
+        if split in others:
+            error = comparisons.difference(run, runs[last])
+            verdicts.below(f"{name}, {split}: difference from {last}", error, bound, "same answer")
+    return runs
+
+
+def no_cutback(verdicts, label, run):
+    verdicts.below(f"{label}: cut-backs", run.summary["cutbacks"], 0, "every step converges at the first attempt")
+
+
+def newton_order(run):
+    """Smallest order of convergence over the steps, each from its last three norms above round-off.
+
+    A step that goes to round-off at once (a piecewise linear problem) has no such three and cannot be judged; if none
+    can, the answer is not a number.
+    """
+    orders = []
+    for step in run.steps:
+        norms = [norm for norm in step["residual_norms"] if norm > ROUND_OFF * step["reference_force"]]
+        if len(norms) >= 3:
+            first, second, third = norms[-3:]
+            orders.append(math.log(third / second) / math.log(second / first) if third < second < first else 0.0)
+    return min(orders, default=math.nan)
+
+
+def invariance(verdicts, driver):
+    default = driver.run("block_bottom_mu02_current")
+    for scale in ("1e-6", "1e-4", "1e-2", "1e1", "1e2"):
+        run = driver.run("block_bottom_mu02_current", "-base_augmentation_scale", scale, label=f"augmentation_{scale}")
+        verdicts.below(
+            f"augmentation {scale} of its default: difference",
+            comparisons.difference(run, default),
+            AUGMENTATION_BOUND,
+            "steers iterations only",
+        )
+
+    run = driver.run("block_bottom_mu02_current", "-base_form", "augmented", label="augmented_form")
+    error = comparisons.difference(run, default)
+    verdicts.below("augmented form: difference from the multiplier form", error, AUGMENTATION_BOUND, "same solutions")
+
+    iterations = lambda run: [step["newton_iterations"] for step in run.steps]
+    for label, length, stress, slack in (
+        ("lengths x 2^10", 2.0**10, 1.0, 0),
+        ("stresses x 2^20", 1.0, 2.0**20, 0),
+        ("lengths x 2^-10, stresses x 2^20", 2.0**-10, 2.0**20, 0),
+        ("lengths x 1e-3, stresses x 1e6", 1e-3, 1e6, 1),
+    ):
+        run = driver.run("block_bottom_mu02_current", *in_units(length, stress), label=label.replace(" ", "_"))
+        change = max((abs(a - b) for a, b in zip(iterations(run), iterations(default), strict=True)))
+        verdicts.below(
+            f"{label}: change of the Newton iterations of a step", change, slack, "units carry no information"
+        )
+        difference = comparisons.difference(run, default, length=length, force=stress * length**2)
+        verdicts.below(f"{label}: difference", difference, UNITS_BOUND, "units carry no information")
+
+
+def in_units(length, stress):
+    """Options that write block_bottom_mu02 in other units."""
+    vector = lambda factor, *values: ",".join(repr(factor * value) for value in values)
+    return (
+        *("-block_upper", vector(length, 4, 1, 2), "-block_young", repr(1000 * stress)),
+        *(
+            "-floor_lower",
+            vector(length, -0.5, -0.5, -1),
+            "-floor_upper",
+            vector(length, 4.5, 1.5, 0),
+            "-floor_young",
+            repr(1000 * stress),
+        ),
+        *("-press_traction", vector(stress, 0, 0, -200), "-push_traction", vector(stress, 60, 0, 0)),
+        *("-topleft_point", vector(length, 0, 0, 2), "-topright_point", vector(length, 4, 0, 2)),
+    )
+
+
+def hertz(verdicts, driver):
+    run = driver.run("hertz_line_coarse")
+    comparisons.hertz(verdicts, "Hertz, coarse mesh", run)
+
+
+def parallel(verdicts, driver):
+    for scene in ("block_bottom_mu02_current", "patch_flat_5_7", "hertz_line_coarse"):
+        one, two = driver.run(scene), driver.run(scene, ranks=2, label=f"{scene}_two_ranks")
+        interface = next(iter(one.steps[-1]["interfaces"]))
+        verdicts.below(
+            f"{scene} on two ranks: difference",
+            comparisons.difference(two, one, interface),
+            PARALLEL_BOUND,
+            "other order of summation",
+        )
+
+
+def errors(verdicts, driver):
+    driver.output.mkdir(parents=True, exist_ok=True)
+    for bad in BAD_SCENES:
+        path = write_bad_scene(bad, driver.output)
+        run = driver.run(path, *bad.options, label=f"bad_{bad.name}", expect=1)
+        verdicts.true(
+            f"{bad.name}: exit code 1, message names {bad.names}",
+            f"{bad.names}:" in run.text,
+            "the key at fault is named",
+        )
+        verdicts.true(
+            f"{bad.name}: a sentence, no traceback",
+            "PETSC ERROR" not in run.text,
+            "errors of the user are explained, not dumped",
+        )
+    run = driver.run("block_bottom_mu02", "-snes_max_it", 1, label="no_convergence", expect=2)
+    verdicts.true("one Newton iteration allowed: exit code 2", run.exit_code == 2, "a failed step is reported as such")
+
+
+GROUPS = {f.__name__: f for f in (patch, block, steps, invariance, hertz, parallel, errors)}

@@ -1,0 +1,56 @@
+"""Scene files with one mistake each, made from a good one. The driver must refuse them and name the key at fault."""
+
+from dataclasses import dataclass
+
+from scene import SCENES
+
+BASE = "block_zone_mu05.yaml"
+
+
+@dataclass
+class BadScene:
+    name: str
+    old: str  # text of the good scene ...
+    new: str  # ... and what stands there instead
+    names: str  # what the message must contain
+    options: tuple = ()  # or the mistake is on the command line
+
+
+BAD_SCENES = [
+    BadScene("misspelt_key", "friction: 0.5", "frictoin: 0.5", "base.frictoin"),
+    BadScene("missing_key", "young: 1000, poisson: 0.3}\nfloor", "poisson: 0.3}\nfloor", "block.young"),
+    BadScene("unknown_key", "friction: 0.5", "friction: 0.5, colour: 3", "base.colour"),
+    BadScene("unknown_map", "schema: 1", "schema: 1\nextra: {a: 1}", "extra.a"),
+    BadScene("missing_value", "cells: [20, 1, 10], ", "", "block.cells"),
+    BadScene("not_a_number", "friction: 0.5", "friction: plenty", "base.friction"),
+    BadScene("infinite", "friction: 0.5", "friction: .inf", "base.friction"),
+    BadScene("negative_friction", "friction: 0.5", "friction: -0.5", "base.friction"),
+    BadScene("incompressible", "poisson: 0.3}\nfloor", "poisson: 0.5}\nfloor", "block.poisson"),
+    BadScene("no_cells", "cells: [20, 1, 10]", "cells: [20, 0, 10]", "block.cells"),
+    BadScene("wrong_length", "traction: [60, 0, 0]", "traction: [60, 0]", "push.traction"),
+    BadScene("odd_curve", "curve: [1, 0, 2, 1]", "curve: [1, 0, 2]", "push.curve"),
+    BadScene("unknown_surface", "mortar: floor.zmax", "mortar: floor.top", "base.mortar"),
+    BadScene("empty_surface", "within: [0.2, 0, 0, 3.8, 1, 0]", "within: [9, 0, 0, 10, 1, 0]", "zone.within"),
+    BadScene("unknown_choice", "weights: reference", "weights: heavy", "base.weights"),
+    BadScene("bad_name", "loads: [press, push]", "loads: [Press, push]", "loads"),
+    BadScene("same_name_twice", "bodies: [block, floor]", "bodies: [block, block]", "bodies"),
+    BadScene("list_of_maps", "loads: [press, push]", "loads: [{press: 1}, push]", "loads"),
+    BadScene(
+        "missing_mesh_file",
+        "type: box, lower: [0, 0, 0], upper: [4, 1, 2], cells: [20, 1, 10]",
+        "type: gmsh, file: nowhere.msh",
+        "block.file",
+    ),
+    BadScene("broken_yaml", "schema: 1", "schema: [1", "broken_yaml.yaml"),
+    BadScene("bad_option", "", "", "steps.count", ("-steps_count", "0")),
+]
+
+
+def write_bad_scene(bad, folder):
+    """Path of the scene file with the mistake."""
+    text = (SCENES / BASE).read_text()
+    if bad.old not in text:
+        raise ValueError(f"{BASE} no longer contains '{bad.old}': bad scene {bad.name} must be rewritten")
+    path = folder / f"{bad.name}.yaml"
+    path.write_text(text.replace(bad.old, bad.new, 1))
+    return path

@@ -1,0 +1,36 @@
+"""Acceptance checks on the example scenes: check.py --build DIR GROUP...
+
+Prints one line per check with the measured figure and its bound, writes them to DIR/acceptance/GROUP.json, and exits
+with 1 if anything failed. A scene that does not run, or does not write what it should, is a failure too.
+"""
+
+import argparse
+import sys
+from pathlib import Path
+
+from acceptance import GROUPS
+from scene import Driver, SceneError
+from verdict import Verdicts
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--build", type=Path, required=True, help="CMake's build tree")
+    parser.add_argument("groups", nargs="+", choices=GROUPS, metavar="GROUP", help=", ".join(GROUPS))
+    arguments = parser.parse_args()
+
+    passed = True
+    for name in arguments.groups:
+        output, verdicts = arguments.build / "acceptance", Verdicts()
+        try:
+            GROUPS[name](verdicts, Driver(arguments.build, output / name))
+        except (SceneError, KeyError, ValueError, OSError) as problem:
+            verdicts.failed(f"{name}: stopped", f"{type(problem).__name__}: {problem}")
+        verdicts.print()
+        verdicts.write(output / f"{name}.json")
+        passed = passed and verdicts.passed
+    return 0 if passed else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
