@@ -1,0 +1,58 @@
+//! The direction of dependencies (ARCHITECTURE.md): leaf mathematics knows no contact, the law knows no
+//! integration, only `capi` is unsafe.
+
+use std::path::{Path, PathBuf};
+
+/// Modules and what each may import, lowest first.
+const ALLOWED: [(&str, &[&str]); 9] = [
+    ("error", &[]),
+    ("shape", &["error"]),
+    ("quadrature", &["error"]),
+    ("geometry", &["error", "shape"]),
+    ("normal", &["error", "geometry"]),
+    ("mortar", &["error", "geometry", "quadrature", "shape"]),
+    ("law", &["error", "geometry"]),
+    ("element", &["error", "geometry", "law", "mortar", "shape"]),
+    ("interface", &["element", "error", "geometry", "law", "mortar", "normal", "quadrature", "shape"]),
+];
+
+fn sources(module: &str) -> Vec<PathBuf> {
+    let src = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let file = src.join(format!("{module}.rs"));
+    if file.exists() {
+        return vec![file];
+    }
+    std::fs::read_dir(src.join(module)).unwrap().map(|f| f.unwrap().path()).collect()
+}
+
+/// Top-level modules named after `crate::` in a file.
+fn imports(text: &str) -> impl Iterator<Item = &str> {
+    text.split("crate::")
+        .skip(1)
+        .map(|rest| rest.split(|c: char| !c.is_alphanumeric() && c != '_').next().unwrap_or(""))
+}
+
+#[test]
+fn imports_point_downward() {
+    for (module, allowed) in ALLOWED {
+        for file in sources(module) {
+            let text = std::fs::read_to_string(&file).unwrap();
+            for import in imports(&text) {
+                let fine = import == module || allowed.contains(&import);
+                assert!(fine, "{}: crate::{import} is not below {module}", file.display());
+            }
+        }
+    }
+}
+
+#[test]
+fn only_the_abi_is_unsafe_and_knows_libc() {
+    for (module, _) in ALLOWED {
+        for file in sources(module) {
+            let text = std::fs::read_to_string(&file).unwrap();
+            for word in ["unsafe ", "libc::", "*const ", "*mut "] {
+                assert!(!text.contains(word), "{} contains '{word}'", file.display());
+            }
+        }
+    }
+}
