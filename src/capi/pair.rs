@@ -4,11 +4,11 @@ use super::facet::facet;
 use super::guard::guard;
 use super::node::stickslip_node_response;
 use super::options::rule;
-use super::raw::{self, Sized64};
+use super::raw::{self, Output, Sized64};
 use crate::element::{NodeTangent, PairNow, PairTangent, pair_force};
 use crate::error::{Error, Kind, Result};
 use crate::geometry::{Facet, Mat3, Projection, Vec3};
-use crate::mortar::{self, GapDerivative, MORTAR, NonmortarFrame, PAIR_NODES, PairWeights, Segment, WeightDerivatives};
+use crate::mortar::{self, GapDerivative, MORTAR, NonmortarFrame, PairWeights, Segment, WeightDerivatives};
 use crate::shape::MAX_NODES;
 
 /// Matrices go out row by row (what PETSc's MatSetValues takes).
@@ -130,8 +130,11 @@ pub unsafe extern "C" fn stickslip_pair_weights(
         if let Some(segment) = &segment {
             w = PairWeights::integrate(&frame, segment, rule);
         }
-        raw::write_each(n_ab, (0..n1).flat_map(|a| w.ab[a][..n1].iter().copied()));
-        raw::write_each(n_ac, (0..n1).flat_map(|a| w.ac[a][..n2].iter().copied()));
+        let (mut ab, mut ac) = (Output::new(n_ab), Output::new(n_ac));
+        for a in 0..n1 {
+            ab.append(&w.ab[a][..n1]);
+            ac.append(&w.ac[a][..n2]);
+        }
         if dn_ab.is_null() && dn_ac.is_null() {
             return Ok(());
         }
@@ -139,12 +142,15 @@ pub unsafe extern "C" fn stickslip_pair_weights(
         if let Some(segment) = &segment {
             d = WeightDerivatives::integrate(&frame, segment, rule);
         }
-        let columns = |row: &[Vec3; PAIR_NODES]| -> [Vec3; PAIR_NODES] {
-            std::array::from_fn(|k| if k < n1 + n2 { row[pair.slot(k)] } else { Vec3::zeros() })
-        };
-        let flat = |row: &[Vec3; PAIR_NODES]| columns(row).into_iter().take(n1 + n2).flat_map(|v| [v.x, v.y, v.z]);
-        raw::write_each(dn_ab, (0..n1).flat_map(|a| d.ab[a][..n1].iter().flat_map(flat)));
-        raw::write_each(dn_ac, (0..n1).flat_map(|a| d.ac[a][..n2].iter().flat_map(flat)));
+        let (mut ab, mut ac) = (Output::new(dn_ab), Output::new(dn_ac));
+        for a in 0..n1 {
+            for k in 0..n1 * (n1 + n2) {
+                ab.append(d.ab[a][k / (n1 + n2)][pair.slot(k % (n1 + n2))].as_slice());
+            }
+            for k in 0..n2 * (n1 + n2) {
+                ac.append(d.ac[a][k / (n1 + n2)][pair.slot(k % (n1 + n2))].as_slice());
+            }
+        }
         Ok(())
     })
 }

@@ -82,6 +82,29 @@ pub(super) fn write<T: Copy>(p: *mut T, values: &[T]) {
     }
 }
 
+/// Fills a caller's array from its beginning; appends nothing where the pointer is null.
+pub(super) struct Output<T> {
+    p: *mut T,
+    at: usize,
+}
+
+impl<T: Copy> Output<T> {
+    /// The array at `p`, as long as the documentation says.
+    pub fn new(p: *mut T) -> Output<T> {
+        Output { p, at: 0 }
+    }
+
+    /// Appends `values`.
+    #[inline]
+    pub fn append(&mut self, values: &[T]) {
+        if !self.p.is_null() {
+            // SAFETY: the caller's array holds all that the function appends, by its documentation.
+            unsafe { std::ptr::copy_nonoverlapping(values.as_ptr(), self.p.add(self.at), values.len()) }
+            self.at += values.len();
+        }
+    }
+}
+
 /// Copies values one by one to `p`; nothing where `p` is null.
 pub(super) fn write_each<T>(p: *mut T, values: impl Iterator<Item = T>) {
     if !p.is_null() {
