@@ -165,7 +165,10 @@ PetscErrorCode solver_create(Model *model)
   PetscCall(SNESSetType(model->snes, SNESNEWTONLS));
   PetscCall(SNESSetTolerances(model->snes, 0, 1e-11, 0, 25, PETSC_DEFAULT)); /* -snes_rtol: see the head of this file */
   PetscCall(SNESGetLineSearch(model->snes, &line_search));
-  PetscCall(SNESLineSearchSetType(line_search, SNESLINESEARCHBASIC));
+  /* Backtracking, since full steps of the block scenes can cycle at 100 times the default augmentation; without its
+     absolute limit of 1e8 on the step, which would make the iteration depend on the system of units. */
+  PetscCall(SNESLineSearchSetType(line_search, SNESLINESEARCHBT));
+  PetscCall(SNESLineSearchSetTolerances(line_search, PETSC_DEFAULT, PETSC_MAX_REAL, PETSC_DEFAULT, PETSC_DEFAULT, PETSC_DEFAULT, PETSC_DEFAULT));
   PetscCall(SNESGetKSP(model->snes, &ksp));
   PetscCall(KSPSetType(ksp, KSPPREONLY));
   PetscCall(KSPGetPC(ksp, &pc));
