@@ -2,7 +2,8 @@
  *
  * Residual = internal forces of the bodies + contact - loads, and the multiplier rows (which the library scales to forces).
  * Converged: |residual| <= rtol * reference, reference = |loads| + |reactions| + |contact forces| (2-norms of nodal forces),
- * the largest so far, so that an unloaded step is not judged by its own noise. -snes_rtol sets rtol. */
+ * the largest so far (at the start: 1e-12 E size^2), so that an unloaded step is not judged by its own noise. -snes_rtol
+ * sets rtol. */
 #include "model.h"
 
 /* sum of squares of the displacement entries of a local vector of forces; of the prescribed ones only, or of all */
@@ -103,6 +104,18 @@ static PetscErrorCode solve_ends(KSP ksp, Vec b, Vec x, void *context)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* A force too small to matter: without any load a step must not be judged by its own noise. */
+static PetscErrorCode smallest_reference(Model *model, PetscReal *force)
+{
+  PetscReal low[3], high[3], squared = 0, young = 0;
+  PetscFunctionBegin;
+  PetscCall(DMGetBoundingBox(model->dm, low, high));
+  for (int i = 0; i < 3; i++) squared += PetscSqr(high[i] - low[i]);
+  for (PetscInt b = 0; b < model->mesh.n_bodies; b++) young = PetscMax(young, model->mesh.bodies[b].material.young);
+  *force = 1e-12 * young * squared;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* A matrix with room for the bodies and for every pair of facets that may touch before the next search. */
 static PetscErrorCode create_matrix(Model *model, Mat *matrix)
 {
@@ -155,12 +168,14 @@ PetscErrorCode solver_create(Model *model)
   Vec            r;
 
   PetscFunctionBegin;
+  PetscCall(smallest_reference(model, &model->largest_reference));
   PetscCall(create_matrix(model, &model->jacobian));
   PetscCall(DMCreateGlobalVector(model->dm, &r));
   PetscCall(SNESCreate(PETSC_COMM_WORLD, &model->snes));
   PetscCall(SNESSetDM(model->snes, model->dm));
   PetscCall(SNESSetFunction(model->snes, r, residual, model));
   PetscCall(SNESSetJacobian(model->snes, model->jacobian, model->jacobian, tangent, model));
+  PetscCall(SNESSetConvergenceHistory(model->snes, NULL, NULL, PETSC_DECIDE, PETSC_TRUE)); /* anew for each step */
   PetscCall(SNESSetConvergenceTest(model->snes, converged, model, NULL));
   PetscCall(SNESSetType(model->snes, SNESNEWTONLS));
   PetscCall(SNESSetTolerances(model->snes, 0, 1e-11, 0, 25, PETSC_DEFAULT)); /* -snes_rtol: see the head of this file */

@@ -73,7 +73,6 @@ static PetscErrorCode solve(Model *model, History *history, PetscReal t, PetscBo
   PetscCall(supports_values(model, t));
   PetscCall(loads_values(model, t));
   PetscCall(predict(model, history, t));
-  PetscCall(SNESSetConvergenceHistory(model->snes, NULL, NULL, PETSC_DECIDE, PETSC_TRUE));
   PetscCall(SNESSolve(model->snes, NULL, history->x));
   PetscCall(SNESGetConvergedReason(model->snes, &reason));
   *converged = (PetscBool)(reason > 0);
