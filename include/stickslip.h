@@ -175,6 +175,56 @@
 // A contact interface. Created and destroyed by the library; one thread at a time.
 typedef struct stickslip_interface stickslip_interface;
 
+// What an interface has done since its creation.
+typedef struct stickslip_counters {
+  // sizeof(stickslip_counters).
+  uint64_t struct_size;
+  // Pairs whose boxes met.
+  int64_t pairs_tested;
+  // Pairs that overlapped or touched.
+  int64_t pairs_clipped;
+  // Pairs with an area.
+  int64_t pairs_integrated;
+  // Pairs whose weights were differentiated.
+  int64_t pairs_linearised;
+  // Searches.
+  int64_t searches;
+  // Pairs active at the last evaluation.
+  int64_t pairs_active;
+  // Heap memory in use, roughly.
+  int64_t bytes;
+  // Seconds in search.
+  double seconds_search;
+  // Seconds in clipping and integration.
+  double seconds_integration;
+  // Seconds in derivatives and assembly of the tangent.
+  double seconds_assembly;
+} stickslip_counters;
+
+// What `stickslip_interface_states` reports per non-mortar node; a NULL member is not wanted.
+typedef struct stickslip_states {
+  // sizeof(stickslip_states).
+  uint64_t struct_size;
+  // n1: STICKSLIP_STATE_...
+  int32_t *state;
+  // 3 n1: nu, unit, into the non-mortar body.
+  double *normal;
+  // 3 n1: projected traction p [F/L^2].
+  double *traction;
+  // n1: weighted gap nu . g > 0 open [L^3].
+  double *gap;
+  // 3 n1: slip since the first configuration, this step's included [L].
+  double *slip;
+  // n1: covered area [L^2].
+  double *coverage;
+  // n1: full tributary area M_A [L^2].
+  double *area;
+  // n1: work of friction in this step, p . g_T >= 0 when converged [F L].
+  double *dissipation;
+  // n1: r_A [F/L^5].
+  double *augmentation;
+} stickslip_states;
+
 // One surface of an interface.
 typedef struct stickslip_surface {
   // sizeof(stickslip_surface).
@@ -237,56 +287,6 @@ typedef struct stickslip_options {
   // the diagonal of the non-mortar surface. Give it where surfaces lie in layers.
   double search_distance;
 } stickslip_options;
-
-// What `stickslip_interface_states` reports per non-mortar node; a NULL member is not wanted.
-typedef struct stickslip_states {
-  // sizeof(stickslip_states).
-  uint64_t struct_size;
-  // n1: STICKSLIP_STATE_...
-  int32_t *state;
-  // 3 n1: nu, unit, into the non-mortar body.
-  double *normal;
-  // 3 n1: projected traction p [F/L^2].
-  double *traction;
-  // n1: weighted gap nu . g > 0 open [L^3].
-  double *gap;
-  // 3 n1: slip since the first configuration, this step's included [L].
-  double *slip;
-  // n1: covered area [L^2].
-  double *coverage;
-  // n1: full tributary area M_A [L^2].
-  double *area;
-  // n1: work of friction in this step, p . g_T >= 0 when converged [F L].
-  double *dissipation;
-  // n1: r_A [F/L^5].
-  double *augmentation;
-} stickslip_states;
-
-// What an interface has done since its creation.
-typedef struct stickslip_counters {
-  // sizeof(stickslip_counters).
-  uint64_t struct_size;
-  // Pairs whose boxes met.
-  int64_t pairs_tested;
-  // Pairs that overlapped or touched.
-  int64_t pairs_clipped;
-  // Pairs with an area.
-  int64_t pairs_integrated;
-  // Pairs whose weights were differentiated.
-  int64_t pairs_linearised;
-  // Searches.
-  int64_t searches;
-  // Pairs active at the last evaluation.
-  int64_t pairs_active;
-  // Heap memory in use, roughly.
-  int64_t bytes;
-  // Seconds in search.
-  double seconds_search;
-  // Seconds in clipping and integration.
-  double seconds_integration;
-  // Seconds in derivatives and assembly of the tangent.
-  double seconds_assembly;
-} stickslip_counters;
 
 // One non-mortar node: what is assembled over all its pairs, and its data.
 typedef struct stickslip_node {
@@ -372,6 +372,50 @@ typedef struct stickslip_pair {
 extern "C" {
 #endif // __cplusplus
 
+// Reads the counters. Errors: NULL_POINTER, STRUCT_SIZE.
+int32_t stickslip_interface_counters(struct stickslip_interface *interface, struct stickslip_counters *out);
+
+// Stage 1, assembled: this handle's share of every node's coverage and gaps. A parallel host whose
+// handles hold the whole non-mortar surface and disjoint mortar facets adds them over its ranks and
+// passes the total as `sums` to the calls below; others pass NULL there.
+//
+// sums (11 n1), output, per node: covered area now [L^2], g[n_{n+1}, x_{n+1}] (3) [L^3], covered area at
+// t_n, g[n_n, x_{n+1}] (3), g[n_n, x_n] (3). With sums, use the multiplier form.
+// Errors: NULL_POINTER, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX.
+int32_t stickslip_interface_sums(struct stickslip_interface *interface,
+                                 const double *x1,
+                                 const double *x2,
+                                 double *sums);
+
+// Stage 2: state and nodal results at (x1, x2, lambda).
+//
+// x1 (3 n1), x2 (3 n2) [L], lambda (3 n1) [F/L^2]; sums: see `stickslip_interface_sums`, or NULL.
+// Errors: NULL_POINTER, STRUCT_SIZE, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX,
+// UNDEFINED_NORMAL.
+int32_t stickslip_interface_states(struct stickslip_interface *interface,
+                                   const double *x1,
+                                   const double *x2,
+                                   const double *lambda,
+                                   const double *sums,
+                                   const struct stickslip_states *out);
+
+// Residual in internal-force sign: what to ADD to the host's internal forces. The force ON the
+// non-mortar body is -force1.
+//
+// Inputs as for `stickslip_interface_states`. Outputs, overwritten: force1 (3 n1), force2 (3 n2) [F],
+// rows (3 n1), the multiplier rows ([F] with the default row scale). A function of the inputs and the
+// committed history alone: the same call gives the same bits. Paper (23).
+// Errors: NULL_POINTER, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL; within
+// Newton treat them as a domain error and take a smaller step.
+int32_t stickslip_interface_residual(struct stickslip_interface *interface,
+                                     const double *x1,
+                                     const double *x2,
+                                     const double *lambda,
+                                     const double *sums,
+                                     double *force1,
+                                     double *force2,
+                                     double *rows);
+
 // A non-mortar facet's share of its nodes' normals and areas.
 //
 // n: 3 or 4; x: 3 n coordinates [L]. Outputs, each may be NULL: normals (3 n) unit corner normals, out
@@ -385,6 +429,40 @@ int32_t stickslip_facet_geometry(int32_t n, const double *x, double *normals, do
 //
 // sum: 3; normal: 3, output. Errors: NULL_POINTER, NOT_FINITE, UNDEFINED_NORMAL (the normals cancel).
 int32_t stickslip_node_normal(const double *sum, double *normal);
+
+// Accepts a converged step: (x1, x2, lambda) becomes t_n; weights, normals, coverage and slip move on.
+//
+// Inputs as for `stickslip_interface_states`. Errors: as for create; then nothing has moved.
+int32_t stickslip_interface_commit(struct stickslip_interface *interface,
+                                   const double *x1,
+                                   const double *x2,
+                                   const double *lambda,
+                                   const double *sums);
+
+// Undoes the last commit exactly. A step that was never committed needs no rollback: evaluations do not
+// touch the history. Errors: NULL_POINTER, NOTHING_TO_ROLL_BACK (only one commit can be undone).
+int32_t stickslip_interface_rollback(struct stickslip_interface *interface);
+
+// Lengths of the flat arrays that hold the history now. Errors: NULL_POINTER.
+int32_t stickslip_interface_history_size(struct stickslip_interface *interface,
+                                         int64_t *n_integers,
+                                         int64_t *n_reals);
+
+// Writes the history to integers (n_integers) and reals (n_reals), for a restart file. Lengths from
+// `stickslip_interface_history_size`; larger ones are fine. Errors: NULL_POINTER, BUFFER_TOO_SMALL.
+int32_t stickslip_interface_history_export(struct stickslip_interface *interface,
+                                           int64_t n_integers,
+                                           int64_t *integers,
+                                           int64_t n_reals,
+                                           double *reals);
+
+// Replaces the history by an exported one of the same surfaces; evaluation then continues bit for bit.
+// Errors: NULL_POINTER, INVALID_SIZE, NOT_FINITE, HISTORY_MISMATCH.
+int32_t stickslip_interface_history_import(struct stickslip_interface *interface,
+                                           int64_t n_integers,
+                                           const int64_t *integers,
+                                           int64_t n_reals,
+                                           const double *reals);
 
 // Creates an interface between two surfaces, whose coordinates are the first configuration and t_0.
 //
@@ -434,84 +512,6 @@ int32_t stickslip_interface_set_previous(struct stickslip_interface *interface,
 // -1e-6 rhat_A sqrt(M_A) nu_A, on covered closed nodes, 0 elsewhere. lambda = 0 at zero gap is a body
 // without support. Errors: NULL_POINTER, UNDEFINED_NORMAL, INVALID_VALUE once a step is committed.
 int32_t stickslip_interface_initial_multipliers(struct stickslip_interface *interface, double *lambda);
-
-// Stage 1, assembled: this handle's share of every node's coverage and gaps. A parallel host whose
-// handles hold the whole non-mortar surface and disjoint mortar facets adds them over its ranks and
-// passes the total as `sums` to the calls below; others pass NULL there.
-//
-// sums (11 n1), output, per node: covered area now [L^2], g[n_{n+1}, x_{n+1}] (3) [L^3], covered area at
-// t_n, g[n_n, x_{n+1}] (3), g[n_n, x_n] (3). With sums, use the multiplier form.
-// Errors: NULL_POINTER, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX.
-int32_t stickslip_interface_sums(struct stickslip_interface *interface,
-                                 const double *x1,
-                                 const double *x2,
-                                 double *sums);
-
-// Stage 2: state and nodal results at (x1, x2, lambda).
-//
-// x1 (3 n1), x2 (3 n2) [L], lambda (3 n1) [F/L^2]; sums: see `stickslip_interface_sums`, or NULL.
-// Errors: NULL_POINTER, STRUCT_SIZE, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX,
-// UNDEFINED_NORMAL.
-int32_t stickslip_interface_states(struct stickslip_interface *interface,
-                                   const double *x1,
-                                   const double *x2,
-                                   const double *lambda,
-                                   const double *sums,
-                                   const struct stickslip_states *out);
-
-// Residual in internal-force sign: what to ADD to the host's internal forces. The force ON the
-// non-mortar body is -force1.
-//
-// Inputs as for `stickslip_interface_states`. Outputs, overwritten: force1 (3 n1), force2 (3 n2) [F],
-// rows (3 n1), the multiplier rows ([F] with the default row scale). A function of the inputs and the
-// committed history alone: the same call gives the same bits. Paper (23).
-// Errors: NULL_POINTER, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL; within
-// Newton treat them as a domain error and take a smaller step.
-int32_t stickslip_interface_residual(struct stickslip_interface *interface,
-                                     const double *x1,
-                                     const double *x2,
-                                     const double *lambda,
-                                     const double *sums,
-                                     double *force1,
-                                     double *force2,
-                                     double *rows);
-
-// Accepts a converged step: (x1, x2, lambda) becomes t_n; weights, normals, coverage and slip move on.
-//
-// Inputs as for `stickslip_interface_states`. Errors: as for create; then nothing has moved.
-int32_t stickslip_interface_commit(struct stickslip_interface *interface,
-                                   const double *x1,
-                                   const double *x2,
-                                   const double *lambda,
-                                   const double *sums);
-
-// Undoes the last commit exactly. A step that was never committed needs no rollback: evaluations do not
-// touch the history. Errors: NULL_POINTER, NOTHING_TO_ROLL_BACK (only one commit can be undone).
-int32_t stickslip_interface_rollback(struct stickslip_interface *interface);
-
-// Lengths of the flat arrays that hold the history now. Errors: NULL_POINTER.
-int32_t stickslip_interface_history_size(struct stickslip_interface *interface,
-                                         int64_t *n_integers,
-                                         int64_t *n_reals);
-
-// Writes the history to integers (n_integers) and reals (n_reals), for a restart file. Lengths from
-// `stickslip_interface_history_size`; larger ones are fine. Errors: NULL_POINTER, BUFFER_TOO_SMALL.
-int32_t stickslip_interface_history_export(struct stickslip_interface *interface,
-                                           int64_t n_integers,
-                                           int64_t *integers,
-                                           int64_t n_reals,
-                                           double *reals);
-
-// Replaces the history by an exported one of the same surfaces; evaluation then continues bit for bit.
-// Errors: NULL_POINTER, INVALID_SIZE, NOT_FINITE, HISTORY_MISMATCH.
-int32_t stickslip_interface_history_import(struct stickslip_interface *interface,
-                                           int64_t n_integers,
-                                           const int64_t *integers,
-                                           int64_t n_reals,
-                                           const double *reals);
-
-// Reads the counters. Errors: NULL_POINTER, STRUCT_SIZE.
-int32_t stickslip_interface_counters(struct stickslip_interface *interface, struct stickslip_counters *out);
 
 // Stage 2: gap, stick or slip of a node, its projected traction, its multiplier row and all
 // derivatives, from the gaps assembled over ALL its pairs (projecting pair by pair would make the answer

@@ -19,8 +19,11 @@
 #![allow(non_camel_case_types)]
 #![allow(clippy::missing_safety_doc)] // One contract for all, in `raw.rs` and in the header's head.
 
+mod counters;
+mod evaluation;
 mod facet;
 mod guard;
+mod history;
 mod interface;
 mod node;
 mod options;
@@ -31,7 +34,10 @@ mod surface;
 mod tangent;
 mod version;
 
+pub use counters::*;
+pub use evaluation::*;
 pub use facet::*;
+pub use history::*;
 pub use interface::*;
 pub use node::*;
 pub use options::*;

@@ -1,7 +1,8 @@
 //! The interface's tangent in the host's sparse formats.
 
+use super::evaluation::Point;
 use super::guard::guard;
-use super::interface::{Point, handle, stickslip_interface};
+use super::interface::{handle, stickslip_interface};
 use super::raw;
 use crate::error::{Error, Kind, Result};
 

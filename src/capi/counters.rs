@@ -1,0 +1,68 @@
+//! What an interface has done.
+
+use super::guard::guard;
+use super::interface::{handle, stickslip_interface};
+use super::raw::{self, Sized64};
+
+/// What an interface has done since its creation.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct stickslip_counters {
+    /// sizeof(stickslip_counters).
+    pub struct_size: u64,
+    /// Pairs whose boxes met.
+    pub pairs_tested: i64,
+    /// Pairs that overlapped or touched.
+    pub pairs_clipped: i64,
+    /// Pairs with an area.
+    pub pairs_integrated: i64,
+    /// Pairs whose weights were differentiated.
+    pub pairs_linearised: i64,
+    /// Searches.
+    pub searches: i64,
+    /// Pairs active at the last evaluation.
+    pub pairs_active: i64,
+    /// Heap memory in use, roughly.
+    pub bytes: i64,
+    /// Seconds in search.
+    pub seconds_search: f64,
+    /// Seconds in clipping and integration.
+    pub seconds_integration: f64,
+    /// Seconds in derivatives and assembly of the tangent.
+    pub seconds_assembly: f64,
+}
+
+// SAFETY: repr(C), struct_size first, numbers only.
+unsafe impl Sized64 for stickslip_counters {
+    const NAME: &'static str = "stickslip_counters";
+}
+
+/// Reads the counters. Errors: NULL_POINTER, STRUCT_SIZE.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn stickslip_interface_counters(
+    interface: *mut stickslip_interface,
+    out: *mut stickslip_counters,
+) -> i32 {
+    guard(|| {
+        let h = &handle(interface)?.inner;
+        raw::check_struct(out)?;
+        let c = h.counters();
+        raw::write_struct(
+            out,
+            stickslip_counters {
+                struct_size: 0,
+                pairs_tested: c.pairs_tested,
+                pairs_clipped: c.pairs_clipped,
+                pairs_integrated: c.pairs_integrated,
+                pairs_linearised: c.pairs_linearised,
+                searches: c.searches,
+                pairs_active: h.active_pairs() as i64,
+                bytes: h.bytes() as i64,
+                seconds_search: c.seconds_search,
+                seconds_integration: c.seconds_integration,
+                seconds_assembly: c.seconds_assembly,
+            },
+        );
+        Ok(())
+    })
+}

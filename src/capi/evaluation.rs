@@ -1,0 +1,196 @@
+//! Evaluating an interface: sums, states, residual.
+
+use super::guard::guard;
+use super::interface::{flat, handle, sizes, stickslip_interface};
+use super::raw::{self, Sized64};
+use crate::error::Result;
+use crate::geometry::Vec3;
+use crate::interface::{Interface, NodeSums};
+
+/// Reals per node of `stickslip_interface_sums`.
+pub const STICKSLIP_SUMS_PER_NODE: i32 = 11;
+
+/// Where an evaluation takes place, read from the caller's arrays.
+pub(super) struct Point {
+    pub x1: Vec<Vec3>,
+    pub x2: Vec<Vec3>,
+    pub lambda: Vec<Vec3>,
+    sums: Option<Vec<NodeSums>>,
+}
+
+impl Point {
+    /// Positions alone.
+    pub fn positions(interface: &Interface, x1: *const f64, x2: *const f64) -> Result<Point> {
+        let (n1, n2) = sizes(interface);
+        Ok(Point {
+            x1: raw::vectors(raw::numbers(x1, 3 * n1, "x1")?),
+            x2: raw::vectors(raw::numbers(x2, 3 * n2, "x2")?),
+            lambda: Vec::new(),
+            sums: None,
+        })
+    }
+
+    /// Positions, multipliers and, if given, sums.
+    pub fn read(
+        interface: &Interface,
+        x1: *const f64,
+        x2: *const f64,
+        lambda: *const f64,
+        sums: *const f64,
+    ) -> Result<Point> {
+        let n1 = sizes(interface).0;
+        let mut point = Point::positions(interface, x1, x2)?;
+        point.lambda = raw::vectors(raw::numbers(lambda, 3 * n1, "lambda")?);
+        let per_node = STICKSLIP_SUMS_PER_NODE as usize;
+        if let Some(values) = raw::optional_numbers(sums, per_node * n1, "sums")? {
+            let read = |s: &[f64]| NodeSums {
+                coverage: s[0],
+                gap_now: Vec3::from_column_slice(&s[1..4]),
+                coverage_previous: s[4],
+                gap_previous: Vec3::from_column_slice(&s[5..8]),
+                gap_committed: Vec3::from_column_slice(&s[8..11]),
+            };
+            point.sums = Some(values.chunks_exact(per_node).map(read).collect());
+        }
+        Ok(point)
+    }
+
+    pub fn sums(&self) -> Option<&[NodeSums]> {
+        self.sums.as_deref()
+    }
+}
+
+/// Stage 1, assembled: this handle's share of every node's coverage and gaps. A parallel host whose
+/// handles hold the whole non-mortar surface and disjoint mortar facets adds them over its ranks and
+/// passes the total as `sums` to the calls below; others pass NULL there.
+///
+/// sums (11 n1), output, per node: covered area now [L^2], g[n_{n+1}, x_{n+1}] (3) [L^3], covered area at
+/// t_n, g[n_n, x_{n+1}] (3), g[n_n, x_n] (3). With sums, use the multiplier form.
+/// Errors: NULL_POINTER, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn stickslip_interface_sums(
+    interface: *mut stickslip_interface,
+    x1: *const f64,
+    x2: *const f64,
+    sums: *mut f64,
+) -> i32 {
+    guard(|| {
+        let h = handle(interface)?;
+        let point = Point::positions(&h.inner, x1, x2)?;
+        raw::check(sums, "sums")?;
+        let values = h.inner.sums(&point.x1, &point.x2)?;
+        let per_node = |s: &NodeSums| {
+            let (g, p, c) = (s.gap_now, s.gap_previous, s.gap_committed);
+            [s.coverage, g.x, g.y, g.z, s.coverage_previous, p.x, p.y, p.z, c.x, c.y, c.z]
+        };
+        raw::write_each(sums, values.iter().flat_map(per_node));
+        Ok(())
+    })
+}
+
+/// What `stickslip_interface_states` reports per non-mortar node; a NULL member is not wanted.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct stickslip_states {
+    /// sizeof(stickslip_states).
+    pub struct_size: u64,
+    /// n1: STICKSLIP_STATE_...
+    pub state: *mut i32,
+    /// 3 n1: nu, unit, into the non-mortar body.
+    pub normal: *mut f64,
+    /// 3 n1: projected traction p [F/L^2].
+    pub traction: *mut f64,
+    /// n1: weighted gap nu . g > 0 open [L^3].
+    pub gap: *mut f64,
+    /// 3 n1: slip since the first configuration, this step's included [L].
+    pub slip: *mut f64,
+    /// n1: covered area [L^2].
+    pub coverage: *mut f64,
+    /// n1: full tributary area M_A [L^2].
+    pub area: *mut f64,
+    /// n1: work of friction in this step, p . g_T >= 0 when converged [F L].
+    pub dissipation: *mut f64,
+    /// n1: r_A [F/L^5].
+    pub augmentation: *mut f64,
+}
+
+// SAFETY: repr(C), struct_size first, integers and raw pointers only.
+unsafe impl Sized64 for stickslip_states {
+    const NAME: &'static str = "stickslip_states";
+}
+
+/// Stage 2: state and nodal results at (x1, x2, lambda).
+///
+/// x1 (3 n1), x2 (3 n2) [L], lambda (3 n1) [F/L^2]; sums: see `stickslip_interface_sums`, or NULL.
+/// Errors: NULL_POINTER, STRUCT_SIZE, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX,
+/// UNDEFINED_NORMAL.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn stickslip_interface_states(
+    interface: *mut stickslip_interface,
+    x1: *const f64,
+    x2: *const f64,
+    lambda: *const f64,
+    sums: *const f64,
+    out: *const stickslip_states,
+) -> i32 {
+    guard(|| {
+        let h = &mut handle(interface)?.inner;
+        let point = Point::read(h, x1, x2, lambda, sums)?;
+        let out = raw::read(out)?;
+        raw::check_optional(out.state, "stickslip_states.state")?;
+        for p in
+            [out.normal, out.traction, out.gap, out.slip, out.coverage, out.area, out.dissipation, out.augmentation]
+        {
+            raw::check_optional(p, "a member of stickslip_states")?;
+        }
+        let responses = h.responses(&point.x1, &point.x2, &point.lambda, point.sums())?;
+        let own = if point.sums().is_none() { h.sums(&point.x1, &point.x2)? } else { Vec::new() };
+        let sums = point.sums().unwrap_or(&own);
+        let nodes = || responses.iter().enumerate();
+        let normals = (0..responses.len()).map(|a| h.normal(a)).collect::<Result<Vec<_>>>()?;
+        let slip: Vec<_> = nodes().map(|(a, r)| h.slip_after(a, r, sums[a].coverage)).collect();
+        raw::write_each(out.state, nodes().map(|(_, r)| r.state as i32));
+        raw::write_each(out.normal, flat(&normals));
+        raw::write_each(out.traction, nodes().flat_map(|(_, r)| [r.traction.x, r.traction.y, r.traction.z]));
+        raw::write_each(out.gap, nodes().map(|(_, r)| r.gap_normal));
+        raw::write_each(out.slip, flat(&slip));
+        raw::write_each(out.coverage, sums.iter().map(|s| s.coverage));
+        raw::write_each(out.area, h.history().areas.iter().copied());
+        raw::write_each(out.dissipation, nodes().map(|(_, r)| r.traction.dot(&r.slip)));
+        raw::write_each(out.augmentation, nodes().map(|(a, _)| h.augmentation(a)));
+        Ok(())
+    })
+}
+
+/// Residual in internal-force sign: what to ADD to the host's internal forces. The force ON the
+/// non-mortar body is -force1.
+///
+/// Inputs as for `stickslip_interface_states`. Outputs, overwritten: force1 (3 n1), force2 (3 n2) [F],
+/// rows (3 n1), the multiplier rows ([F] with the default row scale). A function of the inputs and the
+/// committed history alone: the same call gives the same bits. Paper (23).
+/// Errors: NULL_POINTER, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL; within
+/// Newton treat them as a domain error and take a smaller step.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn stickslip_interface_residual(
+    interface: *mut stickslip_interface,
+    x1: *const f64,
+    x2: *const f64,
+    lambda: *const f64,
+    sums: *const f64,
+    force1: *mut f64,
+    force2: *mut f64,
+    rows: *mut f64,
+) -> i32 {
+    guard(|| {
+        let h = &mut handle(interface)?.inner;
+        let point = Point::read(h, x1, x2, lambda, sums)?;
+        raw::check(force1, "force1")?;
+        raw::check(force2, "force2")?;
+        raw::check(rows, "rows")?;
+        let r = h.residual(&point.x1, &point.x2, &point.lambda, point.sums())?;
+        raw::write_each(force1, flat(&r.nonmortar));
+        raw::write_each(force2, flat(&r.mortar));
+        raw::write_each(rows, flat(&r.rows));
+        Ok(())
+    })
+}

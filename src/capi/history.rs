@@ -1,0 +1,95 @@
+//! History of an interface: commit, rollback, restart.
+
+use super::evaluation::Point;
+use super::guard::guard;
+use super::interface::{handle, stickslip_interface};
+use super::raw;
+use crate::error::{Error, Kind};
+
+/// Accepts a converged step: (x1, x2, lambda) becomes t_n; weights, normals, coverage and slip move on.
+///
+/// Inputs as for `stickslip_interface_states`. Errors: as for create; then nothing has moved.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn stickslip_interface_commit(
+    interface: *mut stickslip_interface,
+    x1: *const f64,
+    x2: *const f64,
+    lambda: *const f64,
+    sums: *const f64,
+) -> i32 {
+    guard(|| {
+        let h = &mut handle(interface)?.inner;
+        let point = Point::read(h, x1, x2, lambda, sums)?;
+        h.commit(&point.x1, &point.x2, &point.lambda, point.sums())
+    })
+}
+
+/// Undoes the last commit exactly. A step that was never committed needs no rollback: evaluations do not
+/// touch the history. Errors: NULL_POINTER, NOTHING_TO_ROLL_BACK (only one commit can be undone).
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn stickslip_interface_rollback(interface: *mut stickslip_interface) -> i32 {
+    guard(|| handle(interface)?.inner.roll_back())
+}
+
+/// Lengths of the flat arrays that hold the history now. Errors: NULL_POINTER.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn stickslip_interface_history_size(
+    interface: *mut stickslip_interface,
+    n_integers: *mut i64,
+    n_reals: *mut i64,
+) -> i32 {
+    guard(|| {
+        let h = handle(interface)?;
+        raw::check(n_integers, "n_integers")?;
+        raw::check(n_reals, "n_reals")?;
+        let (i, r) = h.inner.history().flat_size();
+        raw::write(n_integers, &[i as i64]);
+        raw::write(n_reals, &[r as i64]);
+        Ok(())
+    })
+}
+
+/// Writes the history to integers (n_integers) and reals (n_reals), for a restart file. Lengths from
+/// `stickslip_interface_history_size`; larger ones are fine. Errors: NULL_POINTER, BUFFER_TOO_SMALL.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn stickslip_interface_history_export(
+    interface: *mut stickslip_interface,
+    n_integers: i64,
+    integers: *mut i64,
+    n_reals: i64,
+    reals: *mut f64,
+) -> i32 {
+    guard(|| {
+        let h = handle(interface)?;
+        raw::check(integers, "integers")?;
+        raw::check(reals, "reals")?;
+        let needed = h.inner.history().flat_size();
+        for (name, given, needed) in [("n_integers", n_integers, needed.0), ("n_reals", n_reals, needed.1)] {
+            if given < needed as i64 {
+                return Err(Error::new(Kind::BufferTooSmall, format!("{name} is {given}; the history needs {needed}")));
+            }
+        }
+        let (i, r) = h.inner.history().export();
+        raw::write(integers, &i);
+        raw::write(reals, &r);
+        Ok(())
+    })
+}
+
+/// Replaces the history by an exported one of the same surfaces; evaluation then continues bit for bit.
+/// Errors: NULL_POINTER, INVALID_SIZE, NOT_FINITE, HISTORY_MISMATCH.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn stickslip_interface_history_import(
+    interface: *mut stickslip_interface,
+    n_integers: i64,
+    integers: *const i64,
+    n_reals: i64,
+    reals: *const f64,
+) -> i32 {
+    guard(|| {
+        let h = handle(interface)?;
+        let integers = raw::slice(integers, raw::count(n_integers, 0, "n_integers")?, "integers")?;
+        let reals = raw::slice(reals, raw::count(n_reals, 0, "n_reals")?, "reals")?;
+        h.inner.import_history(integers, reals)
+    })
+}
