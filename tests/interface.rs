@@ -19,6 +19,10 @@ const TANGENT_NEAR_MATCHING: f64 = 1e-9;
 /// Non-affine facets with the degree-5 rule: its own quadrature error on the mildly warped cases.
 const RULE_RESIDUAL: f64 = 1e-5;
 const RULE_TANGENT: f64 = 1e-4;
+/// The same with the degree-10 rule (measured 1e-15 on the mildest case).
+const RULE_RESIDUAL_DEGREE_10: f64 = 1e-8;
+/// A block smaller than this part of the matrix is rounding of a block that vanishes.
+const VANISHING: f64 = 1e-8;
 
 pub struct Golden {
     pub interface: Interface,
@@ -95,6 +99,7 @@ fn expected_tangent(coo: &Value, n: usize) -> Vec<f64> {
 fn tangent_error(n1: usize, n: usize, k: &[f64], expected: &[f64]) -> f64 {
     let ends = [0, 3 * n1, n - 3 * n1, n];
     let mut worst = 0.0_f64;
+    let least = VANISHING * max_abs(expected.iter().copied());
     for rows in ends.windows(2) {
         for columns in ends.windows(2) {
             let (mut error, mut scale) = (0.0_f64, 0.0_f64);
@@ -104,6 +109,7 @@ fn tangent_error(n1: usize, n: usize, k: &[f64], expected: &[f64]) -> f64 {
                     scale = scale.max(expected[i * n + j].abs());
                 }
             }
+            let scale = scale.max(least);
             worst = worst.max(if scale > 0.0 { error / scale } else { error });
         }
     }
@@ -123,9 +129,10 @@ fn golden_states_and_residuals() {
         println!("{:32} residual {error:.1e}", name(&case));
         assert!(error <= RESIDUAL, "{}: residual off by {error:e}", name(&case));
         if case["affine"] == false {
-            for (rule, bound) in [(&DEGREE_5, RULE_RESIDUAL), (&DEGREE_10, 1e-10)] {
+            for (rule, bound) in [(&DEGREE_5, RULE_RESIDUAL), (&DEGREE_10, RULE_RESIDUAL_DEGREE_10)] {
                 let error =
                     residual_error(&mut set_up(&case, Form::Augmented, rule), &numbers(&case["residual_exactquad"]));
+                println!("{:32} exact residual, degree {}: {error:.1e}", name(&case), rule.degree);
                 assert!(error <= bound, "{}: exact residual off by {error:e}", name(&case));
             }
         }
@@ -135,6 +142,9 @@ fn golden_states_and_residuals() {
 #[test]
 fn golden_tangents() {
     for case in golden("golden_interfaces.json") {
+        if case["smooth"] == false {
+            continue; // a kink: no tangent is tabulated
+        }
         let mut g = set_up(&case, Form::Augmented, &DEGREE_5);
         let (n, k) = dense_tangent(&mut g);
         let (key, bound) = match case["affine"].as_bool().unwrap() {
