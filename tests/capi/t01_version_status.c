@@ -1,0 +1,28 @@
+/* Version and status texts: never NULL, and the header's macros are the library's version. */
+#include "check.h"
+
+int main(void) {
+  char version[32];
+  sprintf(version, "%d.%d.%d", STICKSLIP_VERSION_MAJOR, STICKSLIP_VERSION_MINOR, STICKSLIP_VERSION_PATCH);
+  CHECK(strcmp(version, stickslip_version()) == 0);
+
+  /* Nothing refused yet on this thread. */
+  CHECK(stickslip_last_error_message() != NULL && stickslip_last_error_message()[0] == '\0');
+
+  for (int32_t status = STICKSLIP_PANIC; status <= STICKSLIP_HISTORY_MISMATCH; ++status) {
+    CHECK(strlen(stickslip_status_string(status)) > 3);
+    CHECK(strcmp(stickslip_status_string(status), "unknown status") != 0);
+    for (int32_t other = STICKSLIP_PANIC; other < status; ++other) {
+      CHECK(strcmp(stickslip_status_string(status), stickslip_status_string(other)) != 0);
+    }
+  }
+  CHECK(strcmp(stickslip_status_string(INT32_MIN), "unknown status") == 0);
+  CHECK(strcmp(stickslip_status_string(STICKSLIP_HISTORY_MISMATCH + 1), "unknown status") == 0);
+
+  /* A refusal leaves a message, a success clears it. */
+  double sum[3] = {0.0, 0.0, 2.0}, normal[3];
+  CHECK_REFUSED(stickslip_node_normal(NULL, normal), STICKSLIP_NULL_POINTER, "sum");
+  CHECK_OK(stickslip_node_normal(sum, normal));
+  CHECK(normal[0] == 0.0 && normal[1] == 0.0 && normal[2] == -1.0);
+  return 0;
+}
