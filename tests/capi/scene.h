@@ -5,7 +5,7 @@
 
 #include "check.h"
 
-enum { N1 = 9, N2 = 16, X1 = 3 * N1, X2 = 3 * N2, UNKNOWNS = 2 * X1 + X2, MOST_ENTRIES = 40000 };
+enum { N1 = 9, N2 = 16, X1 = 3 * N1, X2 = 3 * N2, UNKNOWNS = 2 * X1 + X2, MOST_ENTRIES = 100000 };
 
 /* Surfaces point into the struct: set one up in place and do not copy it. */
 typedef struct {
