@@ -33,7 +33,7 @@ test:
 	@$(MAKE) --no-print-directory rust-tests
 	@$(MAKE) --no-print-directory cmake-build
 	$(SAY) "Examples and acceptance checks (ctest)"
-	@cd $(BUILD) && ctest --output-on-failure --no-tests=error
+	@cd $(BUILD) && ctest --output-on-failure --no-tests=error --parallel $(JOBS)
 	$(SAY) "All tests passed"
 
 build:

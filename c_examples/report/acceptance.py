@@ -184,6 +184,8 @@ def in_units(length, stress):
 def hertz(verdicts, driver):
     run = driver.run("hertz_line_coarse")
     comparisons.hertz(verdicts, "Hertz, coarse mesh", run)
+    no_cutback(verdicts, "Hertz, coarse mesh", run)
+    verdicts.at_least("Hertz: order of Newton's method", newton_order(run), ORDER_LIMIT, "last three residual norms")
 
 
 def parallel(verdicts, driver):
@@ -213,8 +215,12 @@ def errors(verdicts, driver):
             "PETSC ERROR" not in run.text,
             "errors of the user are explained, not dumped",
         )
-    run = driver.run("block_bottom_mu02", "-snes_max_it", 1, label="no_convergence", expect=2)
-    verdicts.true("one Newton iteration allowed: exit code 2", run.exit_code == 2, "a failed step is reported as such")
+    for options, code, reason in (
+        (("-snes_max_it", 1), 2, "not converged"),
+        (("-base_augmentation_scale", 1e308), 3, "refused by the library: an infinite augmentation"),
+    ):
+        run = driver.run("block_bottom_mu02", *options, label=f"exit_code_{code}", expect=code)
+        verdicts.true(f"{' '.join(map(str, options))}: exit code {code}", run.exit_code == code, reason)
 
 
 GROUPS = {f.__name__: f for f in (patch, block, steps, invariance, hertz, parallel, errors)}
