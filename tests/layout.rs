@@ -1,0 +1,195 @@
+//! Every struct of the ABI is laid out in Rust as the C compiler lays out the header's, without padding.
+
+use std::fmt::Write;
+use std::mem::{offset_of, size_of};
+use std::path::Path;
+use std::process::Command;
+use stickslip::capi::*;
+
+/// A struct's name, its size, and its members with offset and size, in order.
+struct Layout {
+    name: &'static str,
+    size: usize,
+    members: Vec<(&'static str, usize, usize)>,
+}
+
+/// The size of what a projection of a reference points to.
+fn size_of_member<S, M>(_: fn(&S) -> &M) -> usize {
+    size_of::<M>()
+}
+
+macro_rules! layout {
+    ($name:ident { $($member:ident),* }) => {{
+        // Every member by name: a new one does not compile until it is listed here.
+        let _ = |s: $name| { let $name { $($member: _),* } = s; };
+        Layout {
+            name: stringify!($name),
+            size: size_of::<$name>(),
+            members: vec![$((stringify!($member), offset_of!($name, $member), size_of_member(|s: &$name| &s.$member))),*],
+        }
+    }};
+}
+
+fn layouts() -> Vec<Layout> {
+    vec![
+        layout!(stickslip_surface {
+            struct_size,
+            n_nodes,
+            n_facets,
+            coordinates,
+            facet_offsets,
+            facet_nodes,
+            equations,
+            multiplier_equations,
+            owned
+        }),
+        layout!(stickslip_options {
+            struct_size,
+            form,
+            slip,
+            weights,
+            friction,
+            mortar_side,
+            multiplier_basis,
+            quadrature,
+            row_scale,
+            new_contact,
+            index_base,
+            mu,
+            augmentation,
+            modulus,
+            coverage_min,
+            search_distance
+        }),
+        layout!(stickslip_states {
+            struct_size,
+            state,
+            normal,
+            traction,
+            gap,
+            slip,
+            coverage,
+            area,
+            dissipation,
+            augmentation
+        }),
+        layout!(stickslip_counters {
+            struct_size,
+            pairs_tested,
+            pairs_clipped,
+            pairs_integrated,
+            pairs_linearised,
+            searches,
+            pairs_active,
+            bytes,
+            seconds_search,
+            seconds_integration,
+            seconds_assembly
+        }),
+        layout!(stickslip_node {
+            struct_size,
+            slip,
+            n_directions,
+            lambda,
+            normal,
+            augmentation,
+            mu,
+            coverage,
+            coverage_previous,
+            coverage_min,
+            gap_now,
+            gap_previous,
+            gap_committed,
+            directions
+        }),
+        layout!(stickslip_node_response {
+            struct_size,
+            state,
+            reserved,
+            traction,
+            row,
+            gap_normal,
+            slip,
+            sigma,
+            dp_dlambda,
+            drow_dlambda,
+            drow_dnow,
+            drow_dprevious
+        }),
+        layout!(stickslip_pair { struct_size, n1, n2, x1, x2, quadrature, layout }),
+    ]
+}
+
+/// One line a struct, one a member: name, offset, size.
+fn rust_text() -> String {
+    let mut text = String::new();
+    for s in layouts() {
+        writeln!(text, "{} {}", s.name, s.size).unwrap();
+        for (member, offset, size) in s.members {
+            writeln!(text, "{}.{member} {offset} {size}", s.name).unwrap();
+        }
+    }
+    text
+}
+
+/// The same from the C compiler.
+fn c_text() -> String {
+    let mut code = String::from("#include <stddef.h>\n#include <stdio.h>\n#include <stickslip.h>\nint main(void) {\n");
+    for s in layouts() {
+        writeln!(code, "printf(\"{0} %d\\n\", (int)sizeof({0}));", s.name).unwrap();
+        for (member, ..) in s.members {
+            writeln!(
+                code,
+                "printf(\"{0}.{member} %d %d\\n\", (int)offsetof({0}, {member}), (int)sizeof((({0} *)0)->{member}));",
+                s.name
+            )
+            .unwrap();
+        }
+    }
+    code += "return 0;\n}\n";
+    let probe = Path::new(env!("CARGO_TARGET_TMPDIR")).join("layout_probe");
+    let source = probe.with_extension("c");
+    std::fs::write(&source, code).unwrap();
+    let compiler = std::env::var_os("CC").unwrap_or_else(|| "cc".into());
+    let include = Path::new(env!("CARGO_MANIFEST_DIR")).join("include");
+    let output = Command::new(compiler)
+        .args(["-std=c99", "-I"])
+        .arg(include)
+        .arg("-o")
+        .args([&probe, &source])
+        .output()
+        .unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let output = Command::new(probe).output().unwrap();
+    assert!(output.status.success());
+    String::from_utf8(output.stdout).unwrap()
+}
+
+#[test]
+fn rust_and_c_agree() {
+    let (rust, c) = (rust_text(), c_text());
+    for (rust, c) in rust.lines().zip(c.lines()) {
+        assert_eq!(rust, c);
+    }
+    assert_eq!(rust, c);
+}
+
+/// Padding would be uninitialised memory in the host's files and in comparisons.
+#[test]
+fn no_padding() {
+    for s in layouts() {
+        let mut end = 0;
+        for (member, offset, size) in &s.members {
+            assert_eq!(*offset, end, "{}: padding before {member}", s.name);
+            end += size;
+        }
+        assert_eq!(s.size, end, "{}: padding at the end", s.name);
+    }
+}
+
+#[test]
+fn every_struct_begins_with_its_size() {
+    for s in layouts() {
+        assert_eq!(s.members[0], ("struct_size", 0, 8), "{}", s.name);
+    }
+}
