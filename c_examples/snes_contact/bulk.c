@@ -16,7 +16,8 @@ PetscErrorCode bulk_create(Model *model)
   PetscCall(DMGetCoordinatesLocal(model->dm, &coordinate_vector));
   PetscCall(VecGetArrayRead(coordinate_vector, &coordinates));
   model->n_cells = cEnd - cStart;
-  PetscCall(PetscMalloc4(model->n_cells + 1, &model->cell_offsets, 8 * model->n_cells, &model->cell_dofs, model->n_cells, &model->cell_body, 24 * model->n_cells, &model->cell_X));
+  PetscCall(PetscMalloc4(model->n_cells + 1, &model->cell_offsets, 8 * model->n_cells, &model->cell_dofs,
+                         model->n_cells, &model->cell_body, 24 * model->n_cells, &model->cell_X));
   model->cell_offsets[0] = 0;
   for (PetscInt c = cStart; c < cEnd; c++) {
     PetscInt      *closure = NULL, size, corners[8], n = 0, at;
@@ -32,7 +33,8 @@ PetscErrorCode bulk_create(Model *model)
     for (PetscInt a = 0; a < n; a++) {
       PetscCall(PetscSectionGetOffset(model->section, corners[a], &model->cell_dofs[n_corners + a]));
       PetscCall(PetscSectionGetOffset(coordinate_section, corners[a], &at));
-      for (int i = 0; i < 3; i++) model->cell_X[3 * (n_corners + a) + i] = PetscRealPart(coordinates[at + i]);
+      for (int i = 0; i < 3; i++)
+        model->cell_X[3 * (n_corners + a) + i] = PetscRealPart(coordinates[at + i]);
     }
     n_corners += n;
     model->cell_offsets[c - cStart + 1] = n_corners;
@@ -52,14 +54,18 @@ PetscErrorCode bulk_forces(Model *model, Vec f_local)
   PetscCall(VecGetArrayRead(model->u_local, &u));
   PetscCall(VecGetArray(f_local, &f));
   for (PetscInt c = 0; c < model->n_cells; c++) {
-    const PetscInt *dofs = model->cell_dofs + model->cell_offsets[c], n = model->cell_offsets[c + 1] - model->cell_offsets[c];
-    PetscReal       u_cell[24], f_cell[24];
+    const PetscInt *dofs = model->cell_dofs + model->cell_offsets[c],
+                   n     = model->cell_offsets[c + 1] - model->cell_offsets[c];
+    PetscReal u_cell[24], f_cell[24];
     for (PetscInt a = 0; a < n; a++) {
-      for (int i = 0; i < 3; i++) u_cell[3 * a + i] = PetscRealPart(u[dofs[a] + i]);
+      for (int i = 0; i < 3; i++)
+        u_cell[3 * a + i] = PetscRealPart(u[dofs[a] + i]);
     }
-    PetscCall(cell_forces(n, &model->mesh.bodies[model->cell_body[c]].material, model->cell_X + 3 * model->cell_offsets[c], u_cell, f_cell, NULL));
+    PetscCall(cell_forces(n, &model->mesh.bodies[model->cell_body[c]].material,
+                          model->cell_X + 3 * model->cell_offsets[c], u_cell, f_cell, NULL));
     for (PetscInt a = 0; a < n; a++) {
-      for (int i = 0; i < 3; i++) f[dofs[a] + i] += f_cell[3 * a + i];
+      for (int i = 0; i < 3; i++)
+        f[dofs[a] + i] += f_cell[3 * a + i];
     }
   }
   PetscCall(VecRestoreArray(f_local, &f));
@@ -78,17 +84,21 @@ PetscErrorCode bulk_stiffness(Model *model, Mat matrix, PetscBool pattern)
   PetscCall(PetscTime(&start));
   PetscCall(VecGetArrayRead(model->u_local, &u));
   for (PetscInt c = 0; c < model->n_cells; c++) {
-    const PetscInt *dofs = model->cell_dofs + model->cell_offsets[c], n = model->cell_offsets[c + 1] - model->cell_offsets[c];
-    PetscReal       u_cell[24], f_cell[24], K[24 * 24] = {0};
-    PetscInt        equations[24];
+    const PetscInt *dofs = model->cell_dofs + model->cell_offsets[c],
+                   n     = model->cell_offsets[c + 1] - model->cell_offsets[c];
+    PetscReal u_cell[24], f_cell[24], K[24 * 24] = {0};
+    PetscInt  equations[24];
     for (PetscInt a = 0; a < n; a++) {
       for (int i = 0; i < 3; i++) {
         u_cell[3 * a + i]    = PetscRealPart(u[dofs[a] + i]);
         equations[3 * a + i] = model->equations[dofs[a] + i];
       }
     }
-    if (!pattern) PetscCall(cell_forces(n, &model->mesh.bodies[model->cell_body[c]].material, model->cell_X + 3 * model->cell_offsets[c], u_cell, f_cell, K));
-    PetscCall(MatSetValues(matrix, 3 * n, equations, 3 * n, equations, K, ADD_VALUES)); /* negative equations are left out */
+    if (!pattern)
+      PetscCall(cell_forces(n, &model->mesh.bodies[model->cell_body[c]].material,
+                            model->cell_X + 3 * model->cell_offsets[c], u_cell, f_cell, K));
+    PetscCall(
+        MatSetValues(matrix, 3 * n, equations, 3 * n, equations, K, ADD_VALUES)); /* negative equations are left out */
   }
   PetscCall(VecRestoreArrayRead(model->u_local, &u));
   PetscCall(PetscTime(&end));

@@ -33,8 +33,8 @@ static PetscReal surface_young(const Model *model, const PetscInt *nodes, PetscI
 /* rank 0: surfaces, nodes, default stiffness, removed components */
 static PetscErrorCode read_surfaces(Model *model, Interface *interface)
 {
-  static const char *const side_key[] = {"nonmortar", "mortar"};
-  Scene                   *scene      = model->scene;
+  static const char *const side_key[]  = {"nonmortar", "mortar"};
+  Scene                   *scene       = model->scene;
   PetscInt                 mortar_mask = 7, n_corners[2];
   char                     name[2 * NAME_LENGTH];
 
@@ -42,7 +42,8 @@ static PetscErrorCode read_surfaces(Model *model, Interface *interface)
   for (int side = 0; side < 2; side++) {
     scene_string_required(scene, interface->name, side_key[side], name, sizeof(name));
     interface->surface[side] = mesh_surface(scene, &model->mesh, interface->name, side_key[side], name);
-    if (interface->surface[side]->inner) scene_fail(scene, interface->name, side_key[side], "'%s' lies inside a body.", name);
+    if (interface->surface[side]->inner)
+      scene_fail(scene, interface->name, side_key[side], "'%s' lies inside a body.", name);
     n_corners[side] = interface->surface[side]->offsets[interface->surface[side]->n_faces];
   }
   PetscCall(PetscMalloc1(n_corners[0] + n_corners[1], &interface->nodes));
@@ -50,28 +51,37 @@ static PetscErrorCode read_surfaces(Model *model, Interface *interface)
   PetscCall(collect_nodes(&model->mesh, interface->surface[1], interface->nodes + interface->n1, &interface->n2));
   for (PetscInt a = 0; a < interface->n1; a++) {
     for (PetscInt b = 0; b < interface->n2; b++) {
-      if (interface->nodes[a] == interface->nodes[interface->n1 + b]) scene_fail(scene, interface->name, "mortar", "the two surfaces share a vertex; contact of a surface with itself is not supported.");
+      if (interface->nodes[a] == interface->nodes[interface->n1 + b])
+        scene_fail(scene, interface->name, "mortar",
+                   "the two surfaces share a vertex; contact of a surface with itself is not supported.");
     }
   }
   /* A component is no unknown where it is prescribed on both sides: at the node, and on the mortar side everywhere. */
-  for (PetscInt b = 0; b < interface->n2; b++) mortar_mask &= model->prescribed[interface->nodes[interface->n1 + b]];
+  for (PetscInt b = 0; b < interface->n2; b++)
+    mortar_mask &= model->prescribed[interface->nodes[interface->n1 + b]];
   PetscCall(PetscMalloc1(interface->n1, &interface->removed));
-  for (PetscInt a = 0; a < interface->n1; a++) interface->removed[a] = model->prescribed[interface->nodes[a]] & mortar_mask;
+  for (PetscInt a = 0; a < interface->n1; a++)
+    interface->removed[a] = model->prescribed[interface->nodes[a]] & mortar_mask;
 
   if (interface->options.augmentation == 0 && interface->options.modulus == 0) {
-    const PetscReal young1 = surface_young(model, interface->nodes, interface->n1), young2 = surface_young(model, interface->nodes + interface->n1, interface->n2);
+    const PetscReal young1     = surface_young(model, interface->nodes, interface->n1),
+                    young2     = surface_young(model, interface->nodes + interface->n1, interface->n2);
     interface->options.modulus = PetscMin(young1, young2);
-    if (interface->options.modulus == PETSC_MAX_REAL) interface->options.modulus = model->mesh.bodies[0].material.young; /* nothing moves */
+    if (interface->options.modulus == PETSC_MAX_REAL)
+      interface->options.modulus = model->mesh.bodies[0].material.young; /* nothing moves */
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode contact_read(Model *model)
 {
-  static const char *const weights[] = {"current", "committed", "reference", NULL}, *const slips[] = {"objective", "increment", "seed", NULL};
-  static const char *const forms[] = {"multiplier", "augmented", NULL}, *const new_contacts[] = {"frictionless", "friction", NULL};
-  Scene                   *scene = model->scene;
-  char                   **names;
+  static const char *const weights[] = {"current", "committed", "reference", NULL}, *const slips[] = {"objective",
+                                                                                                      "increment",
+                                                                                                      "seed", NULL};
+  static const char *const forms[] = {"multiplier", "augmented", NULL}, *const new_contacts[] = {"frictionless",
+                                                                                                 "friction", NULL};
+  Scene *scene = model->scene;
+  char **names;
 
   PetscFunctionBegin;
   scene_names(scene, "interfaces", &model->n_interfaces, &names);
@@ -79,9 +89,10 @@ PetscErrorCode contact_read(Model *model)
   for (PetscInt i = 0; i < model->n_interfaces; i++) {
     Interface         *interface = &model->interfaces[i];
     stickslip_options *options   = &interface->options;
-    PetscInt           weight = STICKSLIP_WEIGHTS_CURRENT, slip = STICKSLIP_SLIP_OBJECTIVE, form = STICKSLIP_FORM_MULTIPLIER, new_contact = 0;
-    PetscReal          mu = 0, augmentation = 0, modulus = 0, distance = 0;
-    const char        *name = interface->name;
+    PetscInt    weight = STICKSLIP_WEIGHTS_CURRENT, slip = STICKSLIP_SLIP_OBJECTIVE, form = STICKSLIP_FORM_MULTIPLIER,
+                new_contact = 0;
+    PetscReal   mu = 0, augmentation = 0, modulus = 0, distance = 0;
+    const char *name = interface->name;
 
     PetscCall(PetscSNPrintf(interface->name, NAME_LENGTH, "%s", names[i]));
     PetscCallStickslip(stickslip_options_init(options, sizeof(*options)));
@@ -94,7 +105,8 @@ PetscErrorCode contact_read(Model *model)
     scene_real(scene, name, "modulus", &modulus);
     scene_real(scene, name, "search_distance", &distance);
     if (mu < 0) scene_fail(scene, name, "friction", "a Coulomb coefficient cannot be negative.");
-    if (scene_has(scene, name, "augmentation") && augmentation <= 0) scene_fail(scene, name, "augmentation", "it must be positive.");
+    if (scene_has(scene, name, "augmentation") && augmentation <= 0)
+      scene_fail(scene, name, "augmentation", "it must be positive.");
     if (scene_has(scene, name, "modulus") && modulus <= 0) scene_fail(scene, name, "modulus", "it must be positive.");
     if (distance < 0) scene_fail(scene, name, "search_distance", "it cannot be negative.");
     options->mu              = mu;

@@ -13,10 +13,12 @@ PetscErrorCode curve_read(Scene *scene, const char *map, PetscReal end, Curve *c
     curve->points[3] = 1;
     n                = 4;
   }
-  if (n % 2) scene_fail(scene, map, "curve", "pairs [t0, v0, t1, v1, ...] are expected, but there are %d numbers.", (int)n);
+  if (n % 2)
+    scene_fail(scene, map, "curve", "pairs [t0, v0, t1, v1, ...] are expected, but there are %d numbers.", (int)n);
   curve->n = n / 2;
   for (PetscInt k = 1; k < curve->n; k++) {
-    if (curve->points[2 * k] <= curve->points[2 * k - 2]) scene_fail(scene, map, "curve", "times must increase; %g does not.", (double)curve->points[2 * k]);
+    if (curve->points[2 * k] <= curve->points[2 * k - 2])
+      scene_fail(scene, map, "curve", "times must increase; %g does not.", (double)curve->points[2 * k]);
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

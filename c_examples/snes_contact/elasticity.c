@@ -7,14 +7,14 @@
 static const PetscReal GAUSS = 0.57735026918962576451; /* 1/sqrt(3) */
 /* corners of the reference hexahedron [-1,1]^3 in VTK's order */
 static const PetscReal HEX[8][3] = {
-  {-1, -1, -1},
-  {1,  -1, -1},
-  {1,  1,  -1},
-  {-1, 1,  -1},
-  {-1, -1, 1 },
-  {1,  -1, 1 },
-  {1,  1,  1 },
-  {-1, 1,  1 }
+    {-1, -1, -1},
+    {1,  -1, -1},
+    {1,  1,  -1},
+    {-1, 1,  -1},
+    {-1, -1, 1 },
+    {1,  -1, 1 },
+    {1,  1,  1 },
+    {-1, 1,  1 }
 };
 
 void linear_elastic(const Material *material, const PetscReal H[9], PetscReal P[9], PetscReal A[81])
@@ -22,13 +22,16 @@ void linear_elastic(const Material *material, const PetscReal H[9], PetscReal P[
   const PetscReal E = material->young, nu = material->poisson;
   const PetscReal lame = E * nu / ((1 + nu) * (1 - 2 * nu)), shear = E / (2 * (1 + nu)), trace = H[0] + H[4] + H[8];
   for (int i = 0; i < 3; i++) {
-    for (int j = 0; j < 3; j++) P[3 * i + j] = shear * (H[3 * i + j] + H[3 * j + i]) + (i == j) * lame * trace;
+    for (int j = 0; j < 3; j++)
+      P[3 * i + j] = shear * (H[3 * i + j] + H[3 * j + i]) + (i == j) * lame * trace;
   }
   if (!A) return;
   for (int i = 0; i < 3; i++) {
     for (int j = 0; j < 3; j++) {
       for (int k = 0; k < 3; k++) {
-        for (int l = 0; l < 3; l++) A[9 * (3 * i + j) + 3 * k + l] = (i == j && k == l) * lame + ((i == k && j == l) + (i == l && j == k)) * shear;
+        for (int l = 0; l < 3; l++)
+          A[9 * (3 * i + j) + 3 * k + l] = (i == j && k == l) * lame +
+                                           ((i == k && j == l) + (i == l && j == k)) * shear;
       }
     }
   }
@@ -40,7 +43,8 @@ static void reference_gradients(PetscInt corners, const PetscReal xi[3], PetscRe
   if (corners == 4) {
     for (int k = 0; k < 3; k++) {
       dN[0][k] = -1;
-      for (int a = 1; a < 4; a++) dN[a][k] = (a - 1 == k);
+      for (int a = 1; a < 4; a++)
+        dN[a][k] = (a - 1 == k);
     }
     return;
   }
@@ -58,7 +62,8 @@ static PetscReal physical_gradients(PetscInt corners, const PetscReal X[], Petsc
   PetscReal J[3][3] = {{0}}, inverse[3][3], det;
   for (PetscInt a = 0; a < corners; a++) {
     for (int i = 0; i < 3; i++) {
-      for (int k = 0; k < 3; k++) J[i][k] += X[3 * a + i] * dN[a][k];
+      for (int k = 0; k < 3; k++)
+        J[i][k] += X[3 * a + i] * dN[a][k];
     }
   }
   for (int i = 0; i < 3; i++) { /* adjugate by cyclic indices */
@@ -70,18 +75,22 @@ static PetscReal physical_gradients(PetscInt corners, const PetscReal X[], Petsc
   det = J[0][0] * inverse[0][0] + J[0][1] * inverse[1][0] + J[0][2] * inverse[2][0];
   for (PetscInt a = 0; a < corners; a++) {
     PetscReal g[3];
-    for (int i = 0; i < 3; i++) g[i] = (dN[a][0] * inverse[0][i] + dN[a][1] * inverse[1][i] + dN[a][2] * inverse[2][i]) / det;
-    for (int i = 0; i < 3; i++) dN[a][i] = g[i];
+    for (int i = 0; i < 3; i++)
+      g[i] = (dN[a][0] * inverse[0][i] + dN[a][1] * inverse[1][i] + dN[a][2] * inverse[2][i]) / det;
+    for (int i = 0; i < 3; i++)
+      dN[a][i] = g[i];
   }
   return det;
 }
 
 static void displacement_gradient(PetscInt corners, PetscReal dN[][3], const PetscReal u[], PetscReal H[9])
 {
-  for (int k = 0; k < 9; k++) H[k] = 0;
+  for (int k = 0; k < 9; k++)
+    H[k] = 0;
   for (PetscInt a = 0; a < corners; a++) {
     for (int i = 0; i < 3; i++) {
-      for (int j = 0; j < 3; j++) H[3 * i + j] += u[3 * a + i] * dN[a][j];
+      for (int j = 0; j < 3; j++)
+        H[3 * i + j] += u[3 * a + i] * dN[a][j];
     }
   }
 }
@@ -89,11 +98,13 @@ static void displacement_gradient(PetscInt corners, PetscReal dN[][3], const Pet
 /* Gauss point q of the cell; returns its weight. One point suffices for the constant gradients of a tet4. */
 static PetscReal quadrature_point(PetscInt corners, PetscInt q, PetscReal xi[3])
 {
-  for (int k = 0; k < 3; k++) xi[k] = corners == 4 ? 0.25 : GAUSS * HEX[q][k];
+  for (int k = 0; k < 3; k++)
+    xi[k] = corners == 4 ? 0.25 : GAUSS * HEX[q][k];
   return corners == 4 ? 1.0 / 6 : 1.0;
 }
 
-PetscErrorCode cell_forces(PetscInt corners, const Material *material, const PetscReal X[], const PetscReal u[], PetscReal f[], PetscReal K[])
+PetscErrorCode cell_forces(PetscInt corners, const Material *material, const PetscReal X[], const PetscReal u[],
+                           PetscReal f[], PetscReal K[])
 {
   const PetscInt n = 3 * corners, n_points = corners == 4 ? 1 : 8;
   PetscReal      dN[MAX_CORNERS][3], xi[3], H[9], P[9], A[81], AdN[9][3 * MAX_CORNERS];
@@ -108,24 +119,30 @@ PetscErrorCode cell_forces(PetscInt corners, const Material *material, const Pet
     displacement_gradient(corners, dN, u, H);
     material->law(material, H, P, K ? A : NULL);
     for (PetscInt a = 0; a < corners; a++) {
-      for (int i = 0; i < 3; i++) f[3 * a + i] += weight * (P[3 * i] * dN[a][0] + P[3 * i + 1] * dN[a][1] + P[3 * i + 2] * dN[a][2]);
+      for (int i = 0; i < 3; i++)
+        f[3 * a + i] += weight * (P[3 * i] * dN[a][0] + P[3 * i + 1] * dN[a][1] + P[3 * i + 2] * dN[a][2]);
     }
     if (!K) continue;
     for (int iJ = 0; iJ < 9; iJ++) {
       for (PetscInt b = 0; b < corners; b++) {
-        for (int k = 0; k < 3; k++) AdN[iJ][3 * b + k] = weight * (A[9 * iJ + 3 * k] * dN[b][0] + A[9 * iJ + 3 * k + 1] * dN[b][1] + A[9 * iJ + 3 * k + 2] * dN[b][2]);
+        for (int k = 0; k < 3; k++)
+          AdN[iJ][3 * b + k] = weight * (A[9 * iJ + 3 * k] * dN[b][0] + A[9 * iJ + 3 * k + 1] * dN[b][1] +
+                                         A[9 * iJ + 3 * k + 2] * dN[b][2]);
       }
     }
     for (PetscInt a = 0; a < corners; a++) {
       for (int i = 0; i < 3; i++) {
-        for (PetscInt kb = 0; kb < n; kb++) K[n * (3 * a + i) + kb] += dN[a][0] * AdN[3 * i][kb] + dN[a][1] * AdN[3 * i + 1][kb] + dN[a][2] * AdN[3 * i + 2][kb];
+        for (PetscInt kb = 0; kb < n; kb++)
+          K[n * (3 * a + i) + kb] += dN[a][0] * AdN[3 * i][kb] + dN[a][1] * AdN[3 * i + 1][kb] +
+                                     dN[a][2] * AdN[3 * i + 2][kb];
       }
     }
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-void cell_centre_stress(PetscInt corners, const Material *material, const PetscReal X[], const PetscReal u[], PetscReal P[9])
+void cell_centre_stress(PetscInt corners, const Material *material, const PetscReal X[], const PetscReal u[],
+                        PetscReal P[9])
 {
   const PetscReal centre[3] = {0, 0, 0}; /* of the hexahedron; gradients of a tet are the same everywhere */
   PetscReal       dN[MAX_CORNERS][3], H[9];
@@ -149,7 +166,8 @@ PetscReal cell_smallest_jacobian(PetscInt corners, const PetscReal X[])
 void face_forces(PetscInt corners, const PetscReal X[], const PetscReal traction[3], PetscReal pressure, PetscReal f[])
 {
   const PetscInt n_points = corners == 3 ? 1 : 4; /* linear shape functions on a flat triangle: its centre is exact */
-  for (PetscInt k = 0; k < 3 * corners; k++) f[k] = 0;
+  for (PetscInt k = 0; k < 3 * corners; k++)
+    f[k] = 0;
   for (PetscInt q = 0; q < n_points; q++) {
     PetscReal N[4], d[4][2], tangent[2][3] = {{0}}, normal[3], area, weight = 1;
     if (corners == 3) {
@@ -173,10 +191,12 @@ void face_forces(PetscInt corners, const PetscReal X[], const PetscReal traction
         tangent[1][i] += d[a][1] * X[3 * a + i];
       }
     }
-    for (int i = 0; i < 3; i++) normal[i] = tangent[0][(i + 1) % 3] * tangent[1][(i + 2) % 3] - tangent[0][(i + 2) % 3] * tangent[1][(i + 1) % 3];
+    for (int i = 0; i < 3; i++)
+      normal[i] = tangent[0][(i + 1) % 3] * tangent[1][(i + 2) % 3] - tangent[0][(i + 2) % 3] * tangent[1][(i + 1) % 3];
     area = PetscSqrtReal(normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]);
     for (PetscInt a = 0; a < corners; a++) {
-      for (int i = 0; i < 3; i++) f[3 * a + i] += weight * N[a] * (traction[i] * area - pressure * normal[i]);
+      for (int i = 0; i < 3; i++)
+        f[3 * a + i] += weight * N[a] * (traction[i] * area - pressure * normal[i]);
     }
   }
 }

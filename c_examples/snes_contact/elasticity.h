@@ -14,8 +14,10 @@ struct Material {
 void linear_elastic(const Material *material, const PetscReal H[9], PetscReal P[9], PetscReal A[81]);
 
 /* corners: 8 or 4; X, u, f: 3 per corner; K: (3 corners)^2 row-major or NULL. f and K are overwritten. */
-PetscErrorCode cell_forces(PetscInt corners, const Material *material, const PetscReal X[], const PetscReal u[], PetscReal f[], PetscReal K[]);
-void           cell_centre_stress(PetscInt corners, const Material *material, const PetscReal X[], const PetscReal u[], PetscReal P[9]);
+PetscErrorCode cell_forces(PetscInt corners, const Material *material, const PetscReal X[], const PetscReal u[],
+                           PetscReal f[], PetscReal K[]);
+void           cell_centre_stress(PetscInt corners, const Material *material, const PetscReal X[], const PetscReal u[],
+                                  PetscReal P[9]);
 PetscReal      cell_smallest_jacobian(PetscInt corners, const PetscReal X[]);
 
 /* consistent nodal forces of a dead traction on a reference face with 3 or 4 corners: sum over a in f (3 per corner).

@@ -11,30 +11,40 @@ PetscErrorCode csv_write(Model *model, const Interface *interface, const Contact
   FILE              *file;
 
   PetscFunctionBegin;
-  PetscCall(PetscSNPrintf(path, sizeof(path), "%s/interface_%s_%" PetscInt_FMT ".csv", model->output_dir, interface->name, step));
+  PetscCall(PetscSNPrintf(path, sizeof(path), "%s/interface_%s_%" PetscInt_FMT ".csv", model->output_dir,
+                          interface->name, step));
   file = fopen(path, "w");
   PetscCheck(file, PETSC_COMM_SELF, PETSC_ERR_FILE_OPEN, "cannot write '%s'", path);
-  fprintf(file, "node,X,Y,Z,ux,uy,uz,nx,ny,nz,lambda_n,lambda_tx,lambda_ty,lambda_tz,gap_weighted,slip_x,slip_y,slip_z,area_covered,area_full,fx,fy,fz,p_lumped,state\n");
+  fprintf(file, "node,X,Y,Z,ux,uy,uz,nx,ny,nz,lambda_n,lambda_tx,lambda_ty,lambda_tz,gap_weighted,slip_x,slip_y,slip_z,"
+                "area_covered,area_full,fx,fy,fz,p_lumped,state\n");
   for (PetscInt a = 0; a < interface->n1; a++) {
-    const double *n = states->normal + 3 * a, *slip = states->slip + 3 * a, area = states->coverage[a] > 0 ? states->coverage[a] : states->area[a];
-    double        lambda_n = 0, force_n = 0, values[23], *v = values;
+    const double *n = states->normal + 3 * a, *slip = states->slip + 3 * a,
+                 area = states->coverage[a] > 0 ? states->coverage[a] : states->area[a];
+    double lambda_n = 0, force_n = 0, values[23], *v = values;
     for (int i = 0; i < 3; i++) {
       lambda_n += PetscRealPart(lambda[3 * a + i]) * n[i];
       force_n -= PetscRealPart(interface->forces[3 * a + i]) * n[i];
     }
-    for (int i = 0; i < 3; i++) *v++ = interface->X[3 * a + i];
-    for (int i = 0; i < 3; i++) *v++ = PetscRealPart(u[3 * a + i]);
-    for (int i = 0; i < 3; i++) *v++ = n[i];
+    for (int i = 0; i < 3; i++)
+      *v++ = interface->X[3 * a + i];
+    for (int i = 0; i < 3; i++)
+      *v++ = PetscRealPart(u[3 * a + i]);
+    for (int i = 0; i < 3; i++)
+      *v++ = n[i];
     *v++ = lambda_n;
-    for (int i = 0; i < 3; i++) *v++ = PetscRealPart(lambda[3 * a + i]) - lambda_n * n[i];
+    for (int i = 0; i < 3; i++)
+      *v++ = PetscRealPart(lambda[3 * a + i]) - lambda_n * n[i];
     *v++ = states->gap[a];
-    for (int i = 0; i < 3; i++) *v++ = slip[i];
+    for (int i = 0; i < 3; i++)
+      *v++ = slip[i];
     *v++ = states->coverage[a];
     *v++ = states->area[a];
-    for (int i = 0; i < 3; i++) *v++ = -PetscRealPart(interface->forces[3 * a + i]);
+    for (int i = 0; i < 3; i++)
+      *v++ = -PetscRealPart(interface->forces[3 * a + i]);
     *v++ = force_n / area;
     fprintf(file, "%d", (int)interface->nodes[a]);
-    for (const double *w = values; w < v; w++) fprintf(file, ",%.17g", *w);
+    for (const double *w = values; w < v; w++)
+      fprintf(file, ",%.17g", *w);
     fprintf(file, ",%s\n", STATE_NAMES[states->state[a]]);
   }
   fclose(file);
@@ -43,7 +53,8 @@ PetscErrorCode csv_write(Model *model, const Interface *interface, const Contact
 
 static void start_array(FILE *file, const char *type, const char *name, int components)
 {
-  fprintf(file, "<DataArray type=\"%s\" Name=\"%s\" NumberOfComponents=\"%d\" format=\"ascii\">\n", type, name, components);
+  fprintf(file, "<DataArray type=\"%s\" Name=\"%s\" NumberOfComponents=\"%d\" format=\"ascii\">\n", type, name,
+          components);
 }
 
 static void end_array(FILE *file)
@@ -54,7 +65,9 @@ static void end_array(FILE *file)
 static void vectors(FILE *file, const char *name, PetscInt n, const PetscScalar *values)
 {
   start_array(file, "Float64", name, 3);
-  for (PetscInt k = 0; k < n; k++) fprintf(file, "%.10g %.10g %.10g\n", PetscRealPart(values[3 * k]), PetscRealPart(values[3 * k + 1]), PetscRealPart(values[3 * k + 2]));
+  for (PetscInt k = 0; k < n; k++)
+    fprintf(file, "%.10g %.10g %.10g\n", PetscRealPart(values[3 * k]), PetscRealPart(values[3 * k + 1]),
+            PetscRealPart(values[3 * k + 2]));
   end_array(file);
 }
 
@@ -63,15 +76,21 @@ static void cell_stresses(FILE *file, const Mesh *mesh, const PetscScalar *displ
   for (int pass = 0; pass < 2; pass++) {
     start_array(file, "Float64", pass ? "von_mises" : "stress_xx_yy_zz_xy_yz_xz", pass ? 1 : 6);
     for (PetscInt c = 0; c < mesh->n_cells; c++) {
-      const PetscInt *cell = mesh->cell_vertices + mesh->cell_offsets[c], n = mesh->cell_offsets[c + 1] - mesh->cell_offsets[c];
-      PetscReal       X[24], u[24], s[9];
+      const PetscInt *cell = mesh->cell_vertices + mesh->cell_offsets[c],
+                     n     = mesh->cell_offsets[c + 1] - mesh->cell_offsets[c];
+      PetscReal X[24], u[24], s[9];
       for (PetscInt k = 0; k < 3 * n; k++) {
         X[k] = mesh->coordinates[3 * cell[k / 3] + k % 3];
         u[k] = PetscRealPart(displacements[3 * cell[k / 3] + k % 3]);
       }
       cell_centre_stress(n, &mesh->bodies[mesh->cell_body[c]].material, X, u, s);
-      if (pass) fprintf(file, "%.6g\n", (double)PetscSqrtReal(0.5 * (PetscSqr(s[0] - s[4]) + PetscSqr(s[4] - s[8]) + PetscSqr(s[8] - s[0])) + 3 * (PetscSqr(s[1]) + PetscSqr(s[5]) + PetscSqr(s[2]))));
-      else fprintf(file, "%.6g %.6g %.6g %.6g %.6g %.6g\n", (double)s[0], (double)s[4], (double)s[8], (double)s[1], (double)s[5], (double)s[2]);
+      if (pass)
+        fprintf(file, "%.6g\n",
+                (double)PetscSqrtReal(0.5 * (PetscSqr(s[0] - s[4]) + PetscSqr(s[4] - s[8]) + PetscSqr(s[8] - s[0])) +
+                                      3 * (PetscSqr(s[1]) + PetscSqr(s[5]) + PetscSqr(s[2]))));
+      else
+        fprintf(file, "%.6g %.6g %.6g %.6g %.6g %.6g\n", (double)s[0], (double)s[4], (double)s[8], (double)s[1],
+                (double)s[5], (double)s[2]);
     }
     end_array(file);
   }
@@ -88,22 +107,31 @@ PetscErrorCode vtu_write(Model *model, const PetscScalar *displacements, PetscIn
   PetscCall(PetscSNPrintf(path, sizeof(path), "%s/step_%" PetscInt_FMT ".vtu", model->output_dir, step));
   file = fopen(path, "w");
   PetscCheck(file, PETSC_COMM_SELF, PETSC_ERR_FILE_OPEN, "cannot write '%s'", path);
-  fprintf(file, "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\">\n<UnstructuredGrid>\n");
-  fprintf(file, "<FieldData>\n<DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" format=\"ascii\">%.17g</DataArray>\n</FieldData>\n", (double)model->t);
-  fprintf(file, "<Piece NumberOfPoints=\"%d\" NumberOfCells=\"%d\">\n<Points>\n", (int)mesh->n_vertices, (int)mesh->n_cells);
+  fprintf(file,
+          "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\">\n<UnstructuredGrid>\n");
+  fprintf(file,
+          "<FieldData>\n<DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" "
+          "format=\"ascii\">%.17g</DataArray>\n</FieldData>\n",
+          (double)model->t);
+  fprintf(file, "<Piece NumberOfPoints=\"%d\" NumberOfCells=\"%d\">\n<Points>\n", (int)mesh->n_vertices,
+          (int)mesh->n_cells);
   vectors(file, "X", mesh->n_vertices, mesh->coordinates);
   fprintf(file, "</Points>\n<Cells>\n");
   start_array(file, "Int64", "connectivity", 1);
   for (PetscInt c = 0; c < mesh->n_cells; c++) {
-    for (PetscInt k = mesh->cell_offsets[c]; k < mesh->cell_offsets[c + 1]; k++) fprintf(file, "%d ", (int)mesh->cell_vertices[k]);
+    for (PetscInt k = mesh->cell_offsets[c]; k < mesh->cell_offsets[c + 1]; k++)
+      fprintf(file, "%d ", (int)mesh->cell_vertices[k]);
     fprintf(file, "\n");
   }
   end_array(file);
   start_array(file, "Int64", "offsets", 1);
-  for (PetscInt c = 0; c < mesh->n_cells; c++) fprintf(file, "%d\n", (int)mesh->cell_offsets[c + 1]);
+  for (PetscInt c = 0; c < mesh->n_cells; c++)
+    fprintf(file, "%d\n", (int)mesh->cell_offsets[c + 1]);
   end_array(file);
   start_array(file, "UInt8", "types", 1);
-  for (PetscInt c = 0; c < mesh->n_cells; c++) fprintf(file, "%d\n", mesh->cell_offsets[c + 1] - mesh->cell_offsets[c] == 8 ? 12 : 10); /* VTK_HEXAHEDRON, VTK_TETRA */
+  for (PetscInt c = 0; c < mesh->n_cells; c++)
+    fprintf(file, "%d\n",
+            mesh->cell_offsets[c + 1] - mesh->cell_offsets[c] == 8 ? 12 : 10); /* VTK_HEXAHEDRON, VTK_TETRA */
   end_array(file);
   fprintf(file, "</Cells>\n<PointData Vectors=\"displacement\">\n");
   vectors(file, "displacement", mesh->n_vertices, displacements);
@@ -112,14 +140,16 @@ PetscErrorCode vtu_write(Model *model, const PetscScalar *displacements, PetscIn
     const Interface   *interface = &model->interfaces[i];
     const PetscScalar *lambda    = interface->gathered + 3 * (interface->n1 + interface->n2);
     PetscCall(PetscArrayzero(multipliers, 3 * mesh->n_vertices));
-    for (PetscInt k = 0; k < 3 * interface->n1; k++) multipliers[3 * interface->nodes[k / 3] + k % 3] = lambda[k];
+    for (PetscInt k = 0; k < 3 * interface->n1; k++)
+      multipliers[3 * interface->nodes[k / 3] + k % 3] = lambda[k];
     PetscCall(PetscSNPrintf(name, sizeof(name), "multiplier_%s", interface->name));
     vectors(file, name, mesh->n_vertices, multipliers);
   }
   PetscCall(PetscFree(multipliers));
   fprintf(file, "</PointData>\n<CellData>\n");
   start_array(file, "Int32", "body", 1);
-  for (PetscInt c = 0; c < mesh->n_cells; c++) fprintf(file, "%d\n", (int)mesh->cell_body[c]);
+  for (PetscInt c = 0; c < mesh->n_cells; c++)
+    fprintf(file, "%d\n", (int)mesh->cell_body[c]);
   end_array(file);
   cell_stresses(file, mesh, displacements);
   fprintf(file, "</CellData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n");

@@ -28,17 +28,19 @@ static PetscErrorCode cell_corners(DM dm, PetscInt cell, PetscInt *n, PetscInt v
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode append_cells(Scene *scene, const char *body, DM dm, DMLabel volume, PetscInt new_number[], Mesh *mesh)
+static PetscErrorCode append_cells(Scene *scene, const char *body, DM dm, DMLabel volume, PetscInt new_number[],
+                                   Mesh *mesh)
 {
-  PetscInt         cStart, cEnd, vStart, vEnd, n_vertices = 0, n_cells[2] = {0, 0}, *cells[2];
-  PetscReal       *compact;
+  PetscInt           cStart, cEnd, vStart, vEnd, n_vertices = 0, n_cells[2] = {0, 0}, *cells[2];
+  PetscReal         *compact;
   const PetscScalar *coordinates;
-  Vec              vector;
+  Vec                vector;
 
   PetscFunctionBegin;
   PetscCall(DMPlexGetHeightStratum(dm, 0, &cStart, &cEnd));
   PetscCall(DMPlexGetDepthStratum(dm, 0, &vStart, &vEnd));
-  PetscCall(PetscMalloc3(8 * (cEnd - cStart), &cells[0], 8 * (cEnd - cStart), &cells[1], 3 * (vEnd - vStart), &compact));
+  PetscCall(
+      PetscMalloc3(8 * (cEnd - cStart), &cells[0], 8 * (cEnd - cStart), &cells[1], 3 * (vEnd - vStart), &compact));
   PetscCall(DMGetCoordinatesLocal(dm, &vector));
   PetscCall(VecGetArrayRead(vector, &coordinates));
   for (PetscInt c = cStart; c < cEnd; c++) {
@@ -47,7 +49,8 @@ static PetscErrorCode append_cells(Scene *scene, const char *body, DM dm, DMLabe
     if (volume) PetscCall(DMLabelGetValue(volume, c, &value));
     if (value < 0) continue;
     PetscCall(DMPlexGetCellType(dm, c, &type));
-    if (type != DM_POLYTOPE_HEXAHEDRON && type != DM_POLYTOPE_TETRAHEDRON) scene_fail(scene, body, "file", "it holds a cell that is neither a hexahedron nor a tetrahedron.");
+    if (type != DM_POLYTOPE_HEXAHEDRON && type != DM_POLYTOPE_TETRAHEDRON)
+      scene_fail(scene, body, "file", "it holds a cell that is neither a hexahedron nor a tetrahedron.");
     kind = type == DM_POLYTOPE_HEXAHEDRON;
     PetscCall(cell_corners(dm, c, &n, corners));
     for (PetscInt a = 0; a < n; a++) {
@@ -57,7 +60,8 @@ static PetscErrorCode append_cells(Scene *scene, const char *body, DM dm, DMLabe
         PetscSection section;
         PetscCall(DMGetCoordinateSection(dm, &section));
         PetscCall(PetscSectionGetOffset(section, corners[a], &offset));
-        for (int i = 0; i < 3; i++) compact[3 * n_vertices + i] = PetscRealPart(coordinates[offset + i]);
+        for (int i = 0; i < 3; i++)
+          compact[3 * n_vertices + i] = PetscRealPart(coordinates[offset + i]);
         *number = n_vertices++;
       }
       cells[kind][n * n_cells[kind] + a] = *number;
@@ -66,7 +70,8 @@ static PetscErrorCode append_cells(Scene *scene, const char *body, DM dm, DMLabe
   }
   PetscCall(VecRestoreArrayRead(vector, &coordinates));
   /* the vertices go with the first kind; the second one refers to them by numbers relative to its own (empty) block */
-  for (PetscInt k = 0; k < 4 * n_cells[0]; k++) cells[0][k] -= n_vertices;
+  for (PetscInt k = 0; k < 4 * n_cells[0]; k++)
+    cells[0][k] -= n_vertices;
   PetscCall(mesh_append(mesh, n_vertices, compact, n_cells[1], 8, cells[1]));
   PetscCall(mesh_append(mesh, 0, NULL, n_cells[0], 4, cells[0]));
   PetscCall(PetscFree3(cells[0], cells[1], compact));
@@ -74,7 +79,8 @@ static PetscErrorCode append_cells(Scene *scene, const char *body, DM dm, DMLabe
 }
 
 /* faces of one physical surface, each as a face of a cell of this body */
-static PetscErrorCode append_surface(const char *body, DM dm, DMLabel label, const char *label_name, DMLabel volume, const PetscInt new_number[], PetscInt first, Mesh *mesh)
+static PetscErrorCode append_surface(const char *body, DM dm, DMLabel label, const char *label_name, DMLabel volume,
+                                     const PetscInt new_number[], PetscInt first, Mesh *mesh)
 {
   PetscInt fStart, fEnd, vStart, vEnd, count = 0;
   char     name[2 * NAME_LENGTH];
@@ -107,10 +113,12 @@ static PetscErrorCode append_surface(const char *body, DM dm, DMLabel label, con
         const PetscInt n_corners = cell_face(n, k, corners, vertices);
         PetscInt       shared    = 0;
         for (PetscInt a = 0; a < n_corners; a++) {
-          for (PetscInt b = 0; b < n_on_face; b++) shared += vertices[a] == on_face[b];
+          for (PetscInt b = 0; b < n_on_face; b++)
+            shared += vertices[a] == on_face[b];
         }
         if (shared != n_corners) continue;
-        for (PetscInt a = 0; a < n_corners; a++) vertices[a] = first + new_number[vertices[a] - vStart];
+        for (PetscInt a = 0; a < n_corners; a++)
+          vertices[a] = first + new_number[vertices[a] - vStart];
         surface_push(surface, n_corners, vertices);
         break;
       }
@@ -145,16 +153,21 @@ PetscErrorCode gmsh_create(Scene *scene, const char *body, Mesh *mesh)
   PetscCall(PetscPushErrorHandler(PetscReturnErrorHandler, NULL));
   failed = DMPlexCreateGmshFromFile(PETSC_COMM_SELF, path, PETSC_TRUE, &dm);
   PetscCall(PetscPopErrorHandler());
-  if (failed) scene_fail(scene, body, "file", "PETSc cannot read '%s' as a Gmsh mesh (write it as `gmsh -3 -format msh41 -order 1`).", path);
+  if (failed)
+    scene_fail(scene, body, "file",
+               "PETSc cannot read '%s' as a Gmsh mesh (write it as `gmsh -3 -format msh41 -order 1`).", path);
   PetscCall(DMGetDimension(dm, &dimension));
-  if (dimension != 3) scene_fail(scene, body, "file", "'%s' holds no volume cells; mesh it in 3D and give the volume a physical name.", path);
+  if (dimension != 3)
+    scene_fail(scene, body, "file", "'%s' holds no volume cells; mesh it in 3D and give the volume a physical name.",
+               path);
   if (volume_name[0]) {
     PetscCall(DMGetLabel(dm, volume_name, &volume));
     if (!volume) scene_fail(scene, body, "volume", "'%s' has no physical volume '%s'.", path, volume_name);
   }
   PetscCall(DMPlexGetDepthStratum(dm, 0, &vStart, &vEnd));
   PetscCall(PetscMalloc1(vEnd - vStart, &new_number));
-  for (PetscInt v = 0; v < vEnd - vStart; v++) new_number[v] = -1;
+  for (PetscInt v = 0; v < vEnd - vStart; v++)
+    new_number[v] = -1;
   PetscCall(append_cells(scene, body, dm, volume, new_number, mesh));
   if (mesh->n_vertices == first) scene_fail(scene, body, "volume", "'%s' has no cell in '%s'.", path, volume_name);
   PetscCall(DMGetNumLabels(dm, &n_labels));
@@ -163,7 +176,8 @@ PetscErrorCode gmsh_create(Scene *scene, const char *body, Mesh *mesh)
     DMLabel     label;
     PetscBool   skip = PETSC_FALSE;
     PetscCall(DMGetLabelName(dm, l, &name));
-    for (size_t k = 0; k < sizeof(builtin) / sizeof(builtin[0]); k++) skip = (PetscBool)(skip || !strcmp(name, builtin[k]));
+    for (size_t k = 0; k < sizeof(builtin) / sizeof(builtin[0]); k++)
+      skip = (PetscBool)(skip || !strcmp(name, builtin[k]));
     if (skip) continue;
     PetscCall(DMGetLabel(dm, name, &label));
     PetscCall(append_surface(body, dm, label, name, volume, new_number, first, mesh));

@@ -14,7 +14,9 @@ PetscErrorCode loads_read(Model *model)
     PetscBool traction;
     PetscCall(PetscSNPrintf(load->name, NAME_LENGTH, "%s", names[l]));
     traction = scene_vector(scene, load->name, "traction", 3, load->traction);
-    if (!scene_has(scene, load->name, "pressure") && !traction) scene_fail(scene, load->name, "traction", "say how it loads: traction [x, y, z], or pressure (against the outward normal).");
+    if (!scene_has(scene, load->name, "pressure") && !traction)
+      scene_fail(scene, load->name, "traction",
+                 "say how it loads: traction [x, y, z], or pressure (against the outward normal).");
     scene_real(scene, load->name, "pressure", &load->pressure);
     mesh_rotate_vector(&model->mesh, load->traction);
     PetscCall(curve_read(scene, load->name, model->steps.end, &load->curve));
@@ -29,7 +31,8 @@ PetscErrorCode loads_read(Model *model)
     PetscCall(PetscMalloc1(load->n_surfaces, &load->surfaces));
     for (PetscInt k = 0; k < load->n_surfaces; k++) {
       load->surfaces[k] = mesh_surface(scene, &model->mesh, load->name, "surface", list[k]);
-      if (load->surfaces[k]->inner) scene_fail(scene, load->name, "surface", "'%s' lies inside a body and cannot be loaded.", list[k]);
+      if (load->surfaces[k]->inner)
+        scene_fail(scene, load->name, "surface", "'%s' lies inside a body and cannot be loaded.", list[k]);
     }
     strings_destroy(load->n_surfaces, &list);
   }
@@ -44,7 +47,8 @@ PetscErrorCode loads_label(Model *model)
   for (PetscInt l = 0; l < model->n_loads; l++) {
     PetscCall(PetscSNPrintf(label, sizeof(label), "load.%s", model->loads[l].name));
     if (!model->loads[l].n_surfaces) PetscCall(plex_label_faces(model->dm, label, NULL));
-    for (PetscInt k = 0; k < model->loads[l].n_surfaces; k++) PetscCall(plex_label_faces(model->dm, label, model->loads[l].surfaces[k]));
+    for (PetscInt k = 0; k < model->loads[l].n_surfaces; k++)
+      PetscCall(plex_label_faces(model->dm, label, model->loads[l].surfaces[k]));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -67,7 +71,8 @@ static PetscErrorCode add_face(Model *model, const Load *load, PetscInt face, Pe
     if (v < model->vStart || v >= model->vEnd) continue;
     PetscCall(PetscSectionGetOffset(section, v, &at));
     PetscCall(PetscSectionGetOffset(model->section, v, &offsets[n]));
-    for (int i = 0; i < 3; i++) X[3 * n + i] = PetscRealPart(coordinates[at + i]);
+    for (int i = 0; i < 3; i++)
+      X[3 * n + i] = PetscRealPart(coordinates[at + i]);
     n++;
   }
   PetscCall(DMPlexRestoreTransitiveClosure(model->dm, face, PETSC_TRUE, &size, &closure));
@@ -87,7 +92,8 @@ static PetscErrorCode add_face(Model *model, const Load *load, PetscInt face, Pe
     face_forces(n, X, load->traction, outward > 0 ? load->pressure : -load->pressure, f);
   }
   for (PetscInt a = 0; a < n; a++) {
-    for (int i = 0; i < 3; i++) forces[offsets[a] + i] += f[3 * a + i];
+    for (int i = 0; i < 3; i++)
+      forces[offsets[a] + i] += f[3 * a + i];
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -110,7 +116,8 @@ PetscErrorCode loads_assemble(Model *model)
     PetscCall(VecGetArray(load->forces, &forces));
     PetscCall(ISGetLocalSize(is, &n));
     PetscCall(ISGetIndices(is, &faces));
-    for (PetscInt k = 0; k < n; k++) PetscCall(add_face(model, load, faces[k], forces));
+    for (PetscInt k = 0; k < n; k++)
+      PetscCall(add_face(model, load, faces[k], forces));
     PetscCall(ISRestoreIndices(is, &faces));
     PetscCall(ISDestroy(&is));
     PetscCall(VecRestoreArray(load->forces, &forces));
@@ -122,6 +129,7 @@ PetscErrorCode loads_values(Model *model, PetscReal t)
 {
   PetscFunctionBegin;
   PetscCall(VecZeroEntries(model->f_external));
-  for (PetscInt l = 0; l < model->n_loads; l++) PetscCall(VecAXPY(model->f_external, curve_value(&model->loads[l].curve, t), model->loads[l].forces));
+  for (PetscInt l = 0; l < model->n_loads; l++)
+    PetscCall(VecAXPY(model->f_external, curve_value(&model->loads[l].curve, t), model->loads[l].forces));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -17,7 +17,8 @@ static PetscErrorCode read_scene(Model *model)
   PetscReal                schema = 0;
   PetscFunctionBegin;
   for (int k = 0; k < 3; k++) {
-    if (scene_has(model->scene, NULL, maps[k])) scene_fail(model->scene, NULL, maps[k], "a map is expected here, not a single value or a list.");
+    if (scene_has(model->scene, NULL, maps[k]))
+      scene_fail(model->scene, NULL, maps[k], "a map is expected here, not a single value or a list.");
   }
   scene_real_required(model->scene, NULL, "schema", &schema);
   if (schema != 1) scene_fail(model->scene, NULL, "schema", "this program reads schema 1, not %g.", (double)schema);
@@ -57,7 +58,8 @@ static PetscErrorCode clean_up(Model *model)
 {
   PetscFunctionBegin;
   PetscCall(contact_destroy(model));
-  for (PetscInt s = 0; s < model->n_supports; s++) PetscCall(PetscFree(model->supports[s].curve.points));
+  for (PetscInt s = 0; s < model->n_supports; s++)
+    PetscCall(PetscFree(model->supports[s].curve.points));
   for (PetscInt l = 0; l < model->n_loads; l++) {
     PetscCall(PetscFree(model->loads[l].curve.points));
     PetscCall(PetscFree(model->loads[l].surfaces));
@@ -102,7 +104,8 @@ int main(int argc, char **argv)
   PetscCall(PetscOptionsGetString(NULL, NULL, "-scene", scene, sizeof(scene), &have_scene));
   PetscCall(PetscOptionsGetString(NULL, NULL, "-output_dir", directory, sizeof(directory), &have_directory));
   if (!have_scene || !have_directory) {
-    PetscCall(PetscFPrintf(PETSC_COMM_WORLD, PETSC_STDERR, "usage: snes_contact -scene FILE.yaml -output_dir DIR [any PETSc option]\n"));
+    PetscCall(PetscFPrintf(PETSC_COMM_WORLD, PETSC_STDERR,
+                           "usage: snes_contact -scene FILE.yaml -output_dir DIR [any PETSc option]\n"));
     PetscCall(PetscFinalize());
     return 1;
   }
@@ -111,7 +114,8 @@ int main(int argc, char **argv)
   PetscCall(read_scene(&model));
   PetscCall(build(&model, &status));
   if (status) {
-    PetscCall(PetscFPrintf(PETSC_COMM_WORLD, PETSC_STDERR, "snes_contact: refused by the library: %s\n", model.refusal));
+    PetscCall(
+        PetscFPrintf(PETSC_COMM_WORLD, PETSC_STDERR, "snes_contact: refused by the library: %s\n", model.refusal));
     exit_code = 3;
   } else {
     PetscCall(steps_run(&model, &exit_code));

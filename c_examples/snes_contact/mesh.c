@@ -4,28 +4,30 @@
 
 /* faces of a hexahedron and a tetrahedron in VTK's order of corners, right-hand normal outward */
 static const PetscInt HEX_FACES[6][4] = {
-  {0, 3, 2, 1},
-  {4, 5, 6, 7},
-  {0, 1, 5, 4},
-  {1, 2, 6, 5},
-  {2, 3, 7, 6},
-  {3, 0, 4, 7}
+    {0, 3, 2, 1},
+    {4, 5, 6, 7},
+    {0, 1, 5, 4},
+    {1, 2, 6, 5},
+    {2, 3, 7, 6},
+    {3, 0, 4, 7}
 };
 static const PetscInt TET_FACES[4][3] = {
-  {0, 2, 1},
-  {0, 1, 3},
-  {1, 2, 3},
-  {2, 0, 3}
+    {0, 2, 1},
+    {0, 1, 3},
+    {1, 2, 3},
+    {2, 0, 3}
 };
 
 PetscInt cell_face(PetscInt corners, PetscInt face, const PetscInt cell[], PetscInt vertices[4])
 {
   const PetscInt n = corners == 8 ? 4 : 3;
-  for (PetscInt k = 0; k < n; k++) vertices[k] = cell[corners == 8 ? HEX_FACES[face][k] : TET_FACES[face][k]];
+  for (PetscInt k = 0; k < n; k++)
+    vertices[k] = cell[corners == 8 ? HEX_FACES[face][k] : TET_FACES[face][k]];
   return n;
 }
 
-PetscErrorCode mesh_append(Mesh *mesh, PetscInt n_vertices, const PetscReal *coordinates, PetscInt n_cells, PetscInt corners, const PetscInt *cells)
+PetscErrorCode mesh_append(Mesh *mesh, PetscInt n_vertices, const PetscReal *coordinates, PetscInt n_cells,
+                           PetscInt corners, const PetscInt *cells)
 {
   const PetscInt used = mesh->n_cells ? mesh->cell_offsets[mesh->n_cells] : 0;
   PetscFunctionBegin;
@@ -34,7 +36,8 @@ PetscErrorCode mesh_append(Mesh *mesh, PetscInt n_vertices, const PetscReal *coo
   PetscCall(PetscRealloc(sizeof(PetscInt) * (size_t)(mesh->n_cells + n_cells), &mesh->cell_body));
   PetscCall(PetscRealloc(sizeof(PetscInt) * (size_t)(used + n_cells * corners), &mesh->cell_vertices));
   PetscCall(PetscArraycpy(mesh->coordinates + 3 * mesh->n_vertices, coordinates, 3 * n_vertices));
-  for (PetscInt k = 0; k < n_cells * corners; k++) mesh->cell_vertices[used + k] = cells[k] + mesh->n_vertices;
+  for (PetscInt k = 0; k < n_cells * corners; k++)
+    mesh->cell_vertices[used + k] = cells[k] + mesh->n_vertices;
   for (PetscInt c = 0; c < n_cells; c++) {
     mesh->cell_offsets[mesh->n_cells + c] = used + c * corners;
     mesh->cell_body[mesh->n_cells + c]    = mesh->n_bodies; /* the body being read */
@@ -62,7 +65,8 @@ PetscErrorCode mesh_add_surface(Mesh *mesh, const char *name, PetscInt max_faces
 void surface_push(Surface *surface, PetscInt n, const PetscInt vertices[])
 {
   PetscInt at = surface->offsets[surface->n_faces++];
-  for (PetscInt k = 0; k < n; k++) surface->vertices[at + k] = vertices[k];
+  for (PetscInt k = 0; k < n; k++)
+    surface->vertices[at + k] = vertices[k];
   surface->offsets[surface->n_faces] = at + n;
 }
 
@@ -76,10 +80,11 @@ static const Surface *find_surface(const Mesh *mesh, const char *name)
 
 const Surface *mesh_surface(Scene *scene, const Mesh *mesh, const char *map, const char *key, const char *name)
 {
-  const Surface *surface = find_surface(mesh, name);
+  const Surface *surface    = find_surface(mesh, name);
   char           list[1024] = "";
   if (surface) return surface;
-  for (PetscInt s = 0; s < mesh->n_surfaces; s++) snprintf(list + strlen(list), sizeof(list) - strlen(list), "%s%s", s ? ", " : "", mesh->surfaces[s].name);
+  for (PetscInt s = 0; s < mesh->n_surfaces; s++)
+    snprintf(list + strlen(list), sizeof(list) - strlen(list), "%s%s", s ? ", " : "", mesh->surfaces[s].name);
   scene_fail(scene, map, key, "there is no surface '%s'; there are: %s.", name, list);
   return NULL;
 }
@@ -97,13 +102,14 @@ PetscInt mesh_body(Scene *scene, const Mesh *mesh, const char *map, const char *
 PetscInt mesh_nearest_vertex(Scene *scene, const Mesh *mesh, const char *map)
 {
   PetscReal   point[3], tolerance, best = PETSC_MAX_REAL, low[3], high[3], size = 0;
-  PetscInt    nearest = -1;
+  PetscInt    nearest           = -1;
   char        name[NAME_LENGTH] = "";
   const Body *body;
   scene_string_required(scene, map, "body", name, sizeof(name));
   body = &mesh->bodies[mesh_body(scene, mesh, map, "body", name)];
   if (!scene_vector(scene, map, "point", 3, point)) scene_fail(scene, map, "point", "this key is missing.");
-  for (int i = 0; i < 3; i++) low[i] = PETSC_MAX_REAL, high[i] = PETSC_MIN_REAL;
+  for (int i = 0; i < 3; i++)
+    low[i] = PETSC_MAX_REAL, high[i] = PETSC_MIN_REAL;
   for (PetscInt v = body->first_vertex; v < body->end_vertex; v++) {
     PetscReal squared = 0;
     for (int i = 0; i < 3; i++) {
@@ -114,12 +120,14 @@ PetscInt mesh_nearest_vertex(Scene *scene, const Mesh *mesh, const char *map)
     }
     if (squared < best) best = squared, nearest = v;
   }
-  for (int i = 0; i < 3; i++) size = PetscMax(size, high[i] - low[i]);
+  for (int i = 0; i < 3; i++)
+    size = PetscMax(size, high[i] - low[i]);
   tolerance = 1e-6 * size;
   scene_real(scene, map, "tolerance", &tolerance);
   if (PetscSqrtReal(best) > tolerance) {
     const PetscReal *X = mesh->coordinates + 3 * nearest;
-    scene_fail(scene, map, "point", "no vertex of '%s' lies within %g of it; the nearest is at [%g, %g, %g].", name, (double)tolerance, (double)X[0], (double)X[1], (double)X[2]);
+    scene_fail(scene, map, "point", "no vertex of '%s' lies within %g of it; the nearest is at [%g, %g, %g].", name,
+               (double)tolerance, (double)X[0], (double)X[1], (double)X[2]);
   }
   return nearest;
 }
@@ -145,7 +153,8 @@ static PetscErrorCode derived_surfaces(Scene *scene, Mesh *mesh)
       PetscBool      inside = PETSC_TRUE;
       for (int i = 0; i < 3; i++) {
         PetscReal centre = 0;
-        for (PetscInt a = 0; a < n_corners; a++) centre += mesh->coordinates[3 * vertices[a] + i] / n_corners;
+        for (PetscInt a = 0; a < n_corners; a++)
+          centre += mesh->coordinates[3 * vertices[a] + i] / n_corners;
         if (centre < box[i] || centre > box[3 + i]) inside = PETSC_FALSE;
       }
       if (inside) surface_push(part, n_corners, vertices);
@@ -161,26 +170,33 @@ static void read_material(Scene *scene, const char *body, Material *material)
   scene_real_required(scene, body, "young", &material->young);
   scene_real_required(scene, body, "poisson", &material->poisson);
   if (material->young <= 0) scene_fail(scene, body, "young", "it must be positive, not %g.", (double)material->young);
-  if (material->poisson <= -1 || material->poisson >= 0.5) scene_fail(scene, body, "poisson", "it must lie between -1 and 0.5 (both excluded), not %g.", (double)material->poisson);
+  if (material->poisson <= -1 || material->poisson >= 0.5)
+    scene_fail(scene, body, "poisson", "it must lie between -1 and 0.5 (both excluded), not %g.",
+               (double)material->poisson);
   material->law = linear_elastic;
 }
 
 static void check_volumes(Scene *scene, const Mesh *mesh, const char *body, PetscInt first_cell)
 {
   for (PetscInt c = first_cell; c < mesh->n_cells; c++) {
-    const PetscInt corners = mesh->cell_offsets[c + 1] - mesh->cell_offsets[c], *vertices = mesh->cell_vertices + mesh->cell_offsets[c];
+    const PetscInt corners   = mesh->cell_offsets[c + 1] - mesh->cell_offsets[c],
+                   *vertices = mesh->cell_vertices + mesh->cell_offsets[c];
     PetscReal      X[24];
     for (PetscInt a = 0; a < corners; a++) {
-      for (int i = 0; i < 3; i++) X[3 * a + i] = mesh->coordinates[3 * vertices[a] + i];
+      for (int i = 0; i < 3; i++)
+        X[3 * a + i] = mesh->coordinates[3 * vertices[a] + i];
     }
-    if (!(cell_smallest_jacobian(corners, X) > 0)) scene_fail(scene, body, NULL, "cell %d (near [%g, %g, %g]) is turned inside out or flat.", (int)(c - first_cell), (double)X[0], (double)X[1], (double)X[2]);
+    if (!(cell_smallest_jacobian(corners, X) > 0))
+      scene_fail(scene, body, NULL, "cell %d (near [%g, %g, %g]) is turned inside out or flat.", (int)(c - first_cell),
+                 (double)X[0], (double)X[1], (double)X[2]);
   }
 }
 
 static void read_frame(Scene *scene, Mesh *mesh)
 {
   PetscReal degrees[3] = {0, 0, 0}, (*Q)[3] = (PetscReal(*)[3])mesh->rotation;
-  for (int i = 0; i < 9; i++) mesh->rotation[i] = (i % 4 == 0);
+  for (int i = 0; i < 9; i++)
+    mesh->rotation[i] = (i % 4 == 0);
   scene_vector(scene, "frame", "rotate", 3, degrees);
   mesh->rotated = (PetscBool)(degrees[0] != 0 || degrees[1] != 0 || degrees[2] != 0);
   for (int axis = 0; axis < 3; axis++) { /* about x, then y, then z */
@@ -216,7 +232,8 @@ PetscErrorCode mesh_create(Scene *scene, Mesh *mesh)
   for (PetscInt b = 0; b < n && rank == 0; b++) {
     const PetscInt first_cell = mesh->n_cells;
     PetscInt       type       = 0;
-    if (!scene_has(scene, names[b], "type")) scene_fail(scene, names[b], "type", "this key is missing; choose from: box, gmsh.");
+    if (!scene_has(scene, names[b], "type"))
+      scene_fail(scene, names[b], "type", "this key is missing; choose from: box, gmsh.");
     scene_choice(scene, names[b], "type", types, &type);
     mesh->bodies[b].first_vertex = mesh->n_vertices;
     PetscCall((type ? gmsh_create : box_create)(scene, names[b], mesh));
@@ -235,20 +252,23 @@ void mesh_rotate_vector(const Mesh *mesh, PetscReal v[3])
 {
   const PetscReal *Q = mesh->rotation, w[3] = {v[0], v[1], v[2]};
   if (!mesh->rotated) return;
-  for (int i = 0; i < 3; i++) v[i] = Q[3 * i] * w[0] + Q[3 * i + 1] * w[1] + Q[3 * i + 2] * w[2];
+  for (int i = 0; i < 3; i++)
+    v[i] = Q[3 * i] * w[0] + Q[3 * i + 1] * w[1] + Q[3 * i + 2] * w[2];
 }
 
 PetscErrorCode mesh_rotate(Mesh *mesh)
 {
   PetscFunctionBegin;
-  for (PetscInt v = 0; v < mesh->n_vertices; v++) mesh_rotate_vector(mesh, mesh->coordinates + 3 * v);
+  for (PetscInt v = 0; v < mesh->n_vertices; v++)
+    mesh_rotate_vector(mesh, mesh->coordinates + 3 * v);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode mesh_destroy(Mesh *mesh)
 {
   PetscFunctionBegin;
-  for (PetscInt s = 0; s < mesh->n_surfaces; s++) PetscCall(PetscFree2(mesh->surfaces[s].offsets, mesh->surfaces[s].vertices));
+  for (PetscInt s = 0; s < mesh->n_surfaces; s++)
+    PetscCall(PetscFree2(mesh->surfaces[s].offsets, mesh->surfaces[s].vertices));
   PetscCall(PetscFree(mesh->surfaces));
   PetscCall(PetscFree(mesh->bodies));
   PetscCall(PetscFree(mesh->coordinates));

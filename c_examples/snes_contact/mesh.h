@@ -32,8 +32,8 @@ typedef struct {
   PetscBool  rotated;
 } Mesh;
 
-PetscErrorCode mesh_create(Scene *scene, Mesh *mesh);  /* bodies and surfaces, in the axes of the scene file */
-PetscErrorCode mesh_rotate(Mesh *mesh);                /* then into the rotated frame, when all selections are done */
+PetscErrorCode mesh_create(Scene *scene, Mesh *mesh); /* bodies and surfaces, in the axes of the scene file */
+PetscErrorCode mesh_rotate(Mesh *mesh);               /* then into the rotated frame, when all selections are done */
 PetscErrorCode mesh_destroy(Mesh *mesh);
 void           mesh_rotate_vector(const Mesh *mesh, PetscReal v[3]);
 
@@ -42,7 +42,8 @@ PetscInt       mesh_body(Scene *scene, const Mesh *mesh, const char *map, const 
 PetscInt       mesh_nearest_vertex(Scene *scene, const Mesh *mesh, const char *map);
 
 /* for the readers of one body: box.c, gmsh.c */
-PetscErrorCode mesh_append(Mesh *mesh, PetscInt n_vertices, const PetscReal *coordinates, PetscInt n_cells, PetscInt corners, const PetscInt *cells);
+PetscErrorCode mesh_append(Mesh *mesh, PetscInt n_vertices, const PetscReal *coordinates, PetscInt n_cells,
+                           PetscInt corners, const PetscInt *cells);
 PetscErrorCode mesh_add_surface(Mesh *mesh, const char *name, PetscInt max_faces, Surface **surface);
 void           surface_push(Surface *surface, PetscInt n, const PetscInt vertices[]);
 PetscErrorCode box_create(Scene *scene, const char *body, Mesh *mesh);

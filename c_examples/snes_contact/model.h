@@ -33,21 +33,21 @@ typedef struct {
 
 /* One contact interface; the library's handle and all its arrays live on rank 0 (see contact.c). */
 typedef struct {
-  char               name[NAME_LENGTH];
-  const Surface     *surface[2]; /* non-mortar, mortar */
-  PetscInt           n1, n2;     /* their numbers of nodes */
-  PetscInt          *nodes;      /* n1 + n2 mesh vertices */
-  PetscInt          *removed;    /* n1: mask of multiplier components that are no unknowns */
-  stickslip_options  options;
-  double            *X, *x;       /* 3 (n1 + n2): reference and current coordinates */
-  PetscScalar       *gathered;    /* 3 (n1 + n2) displacements, 3 n1 multipliers */
-  PetscScalar       *forces;      /* same layout: f1, f2, multiplier rows */
-  int64_t           *equations;   /* same layout */
-  PetscSF            sf;          /* from the local vectors of all ranks to `gathered` */
+  char                 name[NAME_LENGTH];
+  const Surface       *surface[2]; /* non-mortar, mortar */
+  PetscInt             n1, n2;     /* their numbers of nodes */
+  PetscInt            *nodes;      /* n1 + n2 mesh vertices */
+  PetscInt            *removed;    /* n1: mask of multiplier components that are no unknowns */
+  stickslip_options    options;
+  double              *X, *x;     /* 3 (n1 + n2): reference and current coordinates */
+  PetscScalar         *gathered;  /* 3 (n1 + n2) displacements, 3 n1 multipliers */
+  PetscScalar         *forces;    /* same layout: f1, f2, multiplier rows */
+  int64_t             *equations; /* same layout */
+  PetscSF              sf;        /* from the local vectors of all ranks to `gathered` */
   stickslip_interface *handle;
-  int64_t            coo_capacity, *coo_rows, *coo_columns;
-  double            *coo_values;
-  double             friction_work; /* up to the last converged step */
+  int64_t              coo_capacity, *coo_rows, *coo_columns;
+  double              *coo_values;
+  double               friction_work; /* up to the last converged step */
 } Interface;
 
 /* nodal results of one interface; every array has n1 entries, vectors 3 n1 */
@@ -64,8 +64,8 @@ typedef struct {
 typedef struct {
   PetscInt   n_times;
   PetscReal *times;
-  PetscReal  end, smallest; /* step, as a fraction of the distance between two times */
-  PetscBool  predictor;
+  PetscReal  end, smallest;                /* step, as a fraction of the distance between two times */
+  PetscBool  predictor, fixed_line_search; /* the user chose one */
 } Steps;
 
 typedef struct {
@@ -101,7 +101,8 @@ typedef struct {
   PetscSF         all_displacements;
 
   /* bulk.c */
-  PetscInt   n_cells, *cell_offsets, *cell_dofs, *cell_body; /* this rank's cells; cell_dofs: local offset of each corner */
+  PetscInt n_cells, *cell_offsets, *cell_dofs,
+      *cell_body; /* this rank's cells; cell_dofs: local offset of each corner */
   PetscReal *cell_X;
   Vec        u_local, f_local, prescribed_local; /* local vectors: state, forces, values of prescribed entries at t */
   Vec        f_external;                         /* local, at t */
@@ -109,6 +110,7 @@ typedef struct {
 
   SNES      snes;
   Mat       jacobian;
+  PetscInt  iterations;                            /* of Newton, spent on the present step, failed attempts included */
   PetscReal t, reference_force, largest_reference; /* for the convergence test (solver.c) */
   char      refusal[1024];                         /* the library's last message, if it refused an evaluation */
   Timers    timers;
@@ -116,7 +118,8 @@ typedef struct {
 
 /* plex.c */
 PetscErrorCode plex_create(Model *model);
-PetscErrorCode plex_label_vertices(DM dm, const char *label, PetscInt n, const PetscInt *vertices, const PetscInt *values, PetscInt value);
+PetscErrorCode plex_label_vertices(DM dm, const char *label, PetscInt n, const PetscInt *vertices,
+                                   const PetscInt *values, PetscInt value);
 PetscErrorCode plex_label_faces(DM dm, const char *label, const Surface *surface);
 PetscErrorCode plex_distribute(Model *model);
 
@@ -134,18 +137,21 @@ PetscErrorCode loads_values(Model *model, PetscReal t); /* into f_external */
 
 /* unknowns.c: `field` 0 is the displacement, 1 + i the multiplier of interface i */
 PetscErrorCode unknowns_create(Model *model);
-PetscErrorCode unknowns_gather_create(Model *model, PetscInt n, const PetscInt *n_vertices, const PetscInt *const *vertices, const PetscInt *fields, PetscSF *sf);
+PetscErrorCode unknowns_gather_create(Model *model, PetscInt n, const PetscInt *n_vertices,
+                                      const PetscInt *const *vertices, const PetscInt *fields, PetscSF *sf);
 PetscErrorCode unknowns_to_local(Model *model, Vec x); /* into u_local, prescribed entries filled in */
-PetscErrorCode unknowns_sum(Model *model, Vec local); /* into f_sum: what all ranks hold, complete at owned vertices */
+PetscErrorCode unknowns_sum(Model *model, Vec local);  /* into f_sum: what all ranks hold, complete at owned vertices */
 
 /* bulk.c */
 PetscErrorCode bulk_create(Model *model);
-PetscErrorCode bulk_forces(Model *model, Vec f_local);                 /* adds */
+PetscErrorCode bulk_forces(Model *model, Vec f_local);                      /* adds */
 PetscErrorCode bulk_stiffness(Model *model, Mat matrix, PetscBool pattern); /* adds values, or zeros for the pattern */
 
-/* contact.c: `status` > 0 on every rank if the library refused; the message is in model->refusal */
+/* contact_scene.c, contact_setup.c, contact.c: `status` > 0 on every rank if the library refused, with its message in
+ * model->refusal */
 PetscErrorCode contact_read(Model *model);
 PetscErrorCode contact_label(Model *model);
+PetscErrorCode contact_agree(Model *model, int32_t refused, PetscInt *status);
 PetscErrorCode contact_create(Model *model, PetscInt *status);
 PetscErrorCode contact_destroy(Model *model);
 PetscErrorCode contact_start(Model *model, Vec x, PetscInt *status);
@@ -167,18 +173,18 @@ PetscErrorCode steps_run(Model *model, int *exit_code);
 
 /* output.c, vtu.c */
 typedef struct Summary Summary;
-PetscErrorCode output_read(Model *model);
-PetscErrorCode summary_create(Model *model, Summary **summary);
-PetscErrorCode summary_step(Model *model, Summary *summary, PetscInt step, PetscBool converged, PetscBool last);
+PetscErrorCode         output_read(Model *model);
+PetscErrorCode         summary_create(Model *model, Summary **summary);
+PetscErrorCode         summary_step(Model *model, Summary *summary, PetscInt step, PetscBool converged, PetscBool last);
 PetscErrorCode summary_drop_step(Model *model, Summary *summary); /* the last one, which could not be committed */
 PetscErrorCode summary_write(Model *model, Summary **summary, PetscInt cutbacks, const char *message);
 PetscErrorCode csv_write(Model *model, const Interface *interface, const ContactStates *states, PetscInt step);
 PetscErrorCode vtu_write(Model *model, const PetscScalar *displacements, PetscInt step);
 
 /* The library's status as a PETSc error, where a refusal is not something to recover from. */
-#define PetscCallStickslip(...) \
-  do { \
-    const int32_t status_of_call = (__VA_ARGS__); \
-    PetscCheck(status_of_call == 0, PETSC_COMM_SELF, PETSC_ERR_LIB, "stickslip: %s", stickslip_last_error_message()); \
+#define PetscCallStickslip(...)                                                                                        \
+  do {                                                                                                                 \
+    const int32_t status_of_call = (__VA_ARGS__);                                                                      \
+    PetscCheck(status_of_call == 0, PETSC_COMM_SELF, PETSC_ERR_LIB, "stickslip: %s", stickslip_last_error_message());  \
   } while (0)
 #endif

@@ -48,7 +48,8 @@ PetscErrorCode output_read(Model *model)
     PetscCall(PetscSNPrintf(model->probes[k].name, NAME_LENGTH, "%s", names[k]));
     model->probes[k].vertex = mesh_nearest_vertex(model->scene, &model->mesh, names[k]);
   }
-  if (model->rank == 0 && !make_folder(model->output_dir)) scene_fail(model->scene, NULL, NULL, "cannot write to the output folder '%s'.", model->output_dir);
+  if (model->rank == 0 && !make_folder(model->output_dir))
+    scene_fail(model->scene, NULL, NULL, "cannot write to the output folder '%s'.", model->output_dir);
   PetscCall(scene_root_end(model->scene));
   strings_destroy(model->n_probes, &names);
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -84,13 +85,15 @@ PetscErrorCode summary_create(Model *model, Summary **out)
   cJSON_AddNumberToObject(summary->root, "rtol", rtol);
   cJSON_AddNumberToObject(summary->root, "unknowns", unknowns);
   summary->steps = cJSON_CreateArray();
-  if (!model->quiet) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s: %" PetscInt_FMT " unknowns\n", scene_file(model->scene), unknowns));
+  if (!model->quiet)
+    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s: %" PetscInt_FMT " unknowns\n", scene_file(model->scene), unknowns));
   *out = summary;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* rank 0: force, counts and CSV file of one interface; returns a piece of the progress line */
-static PetscErrorCode interface_results(Model *model, Interface *interface, PetscInt step, PetscBool write, cJSON *parent, double *work, char progress[], size_t length)
+static PetscErrorCode interface_results(Model *model, Interface *interface, PetscInt step, PetscBool write,
+                                        cJSON *parent, double *work, char progress[], size_t length)
 {
   PetscInt      counts[3] = {0, 0, 0};
   PetscReal     force[3]  = {0, 0, 0};
@@ -101,7 +104,8 @@ static PetscErrorCode interface_results(Model *model, Interface *interface, Pets
   PetscCall(contact_states_create(interface, &states));
   for (PetscInt a = 0; a < interface->n1; a++) {
     counts[states.state[a]]++;
-    for (int i = 0; i < 3; i++) force[i] -= PetscRealPart(interface->forces[3 * a + i]); /* f1 is an internal force */
+    for (int i = 0; i < 3; i++)
+      force[i] -= PetscRealPart(interface->forces[3 * a + i]); /* f1 is an internal force */
     interface->friction_work += states.dissipation[a];
   }
   *work += interface->friction_work;
@@ -111,7 +115,8 @@ static PetscErrorCode interface_results(Model *model, Interface *interface, Pets
   cJSON_AddNumberToObject(json, "slip", counts[STICKSLIP_STATE_SLIP]);
   if (write) PetscCall(csv_write(model, interface, &states, step));
   PetscCall(contact_states_destroy(&states));
-  snprintf(progress, length, "  %s %d gap %d stick %d slip", interface->name, (int)counts[STICKSLIP_STATE_GAP], (int)counts[STICKSLIP_STATE_STICK], (int)counts[STICKSLIP_STATE_SLIP]);
+  snprintf(progress, length, "  %s %d gap %d stick %d slip", interface->name, (int)counts[STICKSLIP_STATE_GAP],
+           (int)counts[STICKSLIP_STATE_STICK], (int)counts[STICKSLIP_STATE_SLIP]);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -120,7 +125,8 @@ static PetscErrorCode add_reactions(Model *model, cJSON *json)
   cJSON *reactions = cJSON_AddObjectToObject(json, "reactions");
   PetscFunctionBegin;
   PetscCall(supports_reactions(model));
-  for (PetscInt s = 0; s < model->n_supports; s++) cJSON_AddItemToObject(reactions, model->supports[s].name, vector_json(model->supports[s].reaction));
+  for (PetscInt s = 0; s < model->n_supports; s++)
+    cJSON_AddItemToObject(reactions, model->supports[s].name, vector_json(model->supports[s].reaction));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -132,7 +138,8 @@ static PetscErrorCode external_work(Model *model, PetscReal *work)
   *work = 0;
   PetscCall(VecGetArrayRead(model->f_external, &f));
   PetscCall(VecGetArrayRead(model->u_local, &u));
-  for (PetscInt k = 0; k < model->n_local; k++) *work += 0.5 * PetscRealPart(f[k] * u[k]);
+  for (PetscInt k = 0; k < model->n_local; k++)
+    *work += 0.5 * PetscRealPart(f[k] * u[k]);
   PetscCall(VecRestoreArrayRead(model->u_local, &u));
   PetscCall(VecRestoreArrayRead(model->f_external, &f));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, work, 1, MPIU_REAL, MPIU_SUM, PETSC_COMM_WORLD));
@@ -153,20 +160,22 @@ static PetscErrorCode gather_displacements(Model *model, PetscScalar **displacem
 
 PetscErrorCode summary_step(Model *model, Summary *summary, PetscInt step, PetscBool converged, PetscBool last)
 {
-  const PetscBool csv = (PetscBool)(converged && (model->write_csv == WRITE_ALL || (model->write_csv == WRITE_LAST && last)));
-  const PetscBool vtu = (PetscBool)(converged && (model->write_vtu == WRITE_ALL || (model->write_vtu == WRITE_LAST && last)));
-  cJSON          *json = cJSON_CreateObject(), *interfaces, *probes;
-  PetscReal      *norms = NULL, half_fu;
+  const PetscBool csv     = (PetscBool)(converged &&
+                                        (model->write_csv == WRITE_ALL || (model->write_csv == WRITE_LAST && last)));
+  const PetscBool vtu     = (PetscBool)(converged &&
+                                        (model->write_vtu == WRITE_ALL || (model->write_vtu == WRITE_LAST && last)));
+  cJSON          *json    = cJSON_CreateObject(), *interfaces, *probes;
+  PetscReal      *norms   = NULL, half_fu;
   PetscInt        n_norms = 0;
   PetscScalar    *displacements;
-  double          friction_work = 0;
+  double          friction_work  = 0;
   char            progress[1024] = "";
 
   PetscFunctionBegin;
   PetscCall(SNESGetConvergenceHistory(model->snes, &norms, NULL, &n_norms));
   cJSON_AddNumberToObject(json, "t", model->t);
   cJSON_AddBoolToObject(json, "converged", converged);
-  cJSON_AddNumberToObject(json, "newton_iterations", PetscMax(0, n_norms - 1));
+  cJSON_AddNumberToObject(json, "newton_iterations", model->iterations);
   cJSON_AddItemToObject(json, "residual_norms", cJSON_CreateDoubleArray(norms, (int)n_norms));
   cJSON_AddItemToArray(summary->steps, json);
   if (!converged) PetscFunctionReturn(PETSC_SUCCESS);
@@ -181,15 +190,20 @@ PetscErrorCode summary_step(Model *model, Summary *summary, PetscInt step, Petsc
     for (PetscInt i = 0; i < model->n_interfaces; i++) {
       const size_t used       = strlen(progress);
       summary->work_before[i] = model->interfaces[i].friction_work;
-      PetscCall(interface_results(model, &model->interfaces[i], step, csv, interfaces, &friction_work, progress + used, sizeof(progress) - used));
+      PetscCall(interface_results(model, &model->interfaces[i], step, csv, interfaces, &friction_work, progress + used,
+                                  sizeof(progress) - used));
     }
     probes = cJSON_AddObjectToObject(json, "probes");
-    for (PetscInt k = 0; k < model->n_probes; k++) cJSON_AddItemToObject(probes, model->probes[k].name, vector_json(displacements + 3 * model->probes[k].vertex));
+    for (PetscInt k = 0; k < model->n_probes; k++)
+      cJSON_AddItemToObject(probes, model->probes[k].name, vector_json(displacements + 3 * model->probes[k].vertex));
     if (vtu) PetscCall(vtu_write(model, displacements, step));
   }
   cJSON_AddNumberToObject(json, "friction_work", friction_work);
   PetscCall(PetscFree(displacements));
-  if (!model->quiet) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%4" PetscInt_FMT " t %-10.6g newton %2" PetscInt_FMT "  |r| %.2e%s\n", step, (double)model->t, PetscMax(0, n_norms - 1), n_norms ? (double)norms[n_norms - 1] : 0.0, progress));
+  if (!model->quiet)
+    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%4" PetscInt_FMT " t %-10.6g newton %2" PetscInt_FMT "  |r| %.2e%s\n",
+                          step, (double)model->t, model->iterations, n_norms ? (double)norms[n_norms - 1] : 0.0,
+                          progress));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -197,7 +211,8 @@ PetscErrorCode summary_drop_step(Model *model, Summary *summary)
 {
   PetscFunctionBegin;
   cJSON_DeleteItemFromArray(summary->steps, cJSON_GetArraySize(summary->steps) - 1);
-  for (PetscInt i = 0; i < model->n_interfaces && model->rank == 0; i++) model->interfaces[i].friction_work = summary->work_before[i];
+  for (PetscInt i = 0; i < model->n_interfaces && model->rank == 0; i++)
+    model->interfaces[i].friction_work = summary->work_before[i];
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

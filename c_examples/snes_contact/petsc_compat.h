@@ -3,7 +3,10 @@
 #define SNES_CONTACT_PETSC_COMPAT_H
 #include <petscsys.h>
 
+#if defined(PETSC_USE_COMPLEX) || !defined(PETSC_USE_REAL_DOUBLE)
+  #error "snes_contact needs a PETSc of real double numbers"
+#endif
 #if PETSC_VERSION_LT(3, 19, 0) && !defined(PETSC_SUCCESS)
-  #define PETSC_SUCCESS 0
+#  define PETSC_SUCCESS 0
 #endif
 #endif

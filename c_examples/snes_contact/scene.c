@@ -11,8 +11,10 @@
 
 static void flat_name(const char *map, const char *key, char name[], size_t length)
 {
-  if (map) snprintf(name, length, "-%s_%s", map, key);
-  else snprintf(name, length, "-%s", key);
+  if (map)
+    snprintf(name, length, "-%s_%s", map, key);
+  else
+    snprintf(name, length, "-%s", key);
 }
 
 void scene_end_run(Scene *scene, const char *sentence)
@@ -22,7 +24,8 @@ void scene_end_run(Scene *scene, const char *sentence)
     fflush(stdout);
     fprintf(stderr, "snes_contact: %s\n", sentence);
   }
-  if (scene->root_only) (void)MPI_Bcast(&failed, 1, MPI_INT, 0, PETSC_COMM_WORLD); /* tell the ranks that wait in scene_root_end() */
+  if (scene->root_only)
+    (void)MPI_Bcast(&failed, 1, MPI_INT, 0, PETSC_COMM_WORLD); /* tell the ranks that wait in scene_root_end() */
   (void)PetscFinalize();
   exit(1);
 }
@@ -32,16 +35,20 @@ void scene_fail(Scene *scene, const char *map, const char *key, const char *form
   char     sentence[PETSC_MAX_PATH_LEN + 2048], text[1024], dotted[2 * NAME_LENGTH + 2] = "";
   PetscInt line = 0;
   va_list  arguments;
-  if (key) snprintf(dotted, sizeof(dotted), "%s%s%s", map ? map : "", map ? "." : "", key);
-  else if (map) snprintf(dotted, sizeof(dotted), "%s", map);
+  if (key)
+    snprintf(dotted, sizeof(dotted), "%s%s%s", map ? map : "", map ? "." : "", key);
+  else if (map)
+    snprintf(dotted, sizeof(dotted), "%s", map);
   for (PetscInt k = 0; k < scene->n_keys && !line; k++) {
     if (!strcmp(scene->keys[k].dotted, dotted)) line = scene->keys[k].line;
   }
   va_start(arguments, format);
   vsnprintf(text, sizeof(text), format, arguments);
   va_end(arguments);
-  if (line) snprintf(sentence, sizeof(sentence), "%s:%d: %s: %s", scene->file, (int)line, dotted, text);
-  else snprintf(sentence, sizeof(sentence), "%s: %s%s%s", scene->file, dotted, dotted[0] ? ": " : "", text);
+  if (line)
+    snprintf(sentence, sizeof(sentence), "%s:%d: %s: %s", scene->file, (int)line, dotted, text);
+  else
+    snprintf(sentence, sizeof(sentence), "%s: %s%s%s", scene->file, dotted, dotted[0] ? ": " : "", text);
   scene_end_run(scene, sentence);
 }
 
@@ -68,9 +75,10 @@ PetscBool scene_has(Scene *scene, const char *map, const char *key)
   char      name[2 * NAME_LENGTH + 3];
   PetscBool set, seen = PETSC_FALSE;
   flat_name(map, key, name, sizeof(name));
-  for (PetscInt k = 0; k < scene->n_asked && !seen; k++) seen = (PetscBool)!strcmp(scene->asked[k], name + 1);
+  for (PetscInt k = 0; k < scene->n_asked && !seen; k++)
+    seen = (PetscBool)!strcmp(scene->asked[k], name + 1);
   if (!seen) {
-    scene->asked = realloc(scene->asked, (size_t)(scene->n_asked + 1) * sizeof(*scene->asked));
+    scene->asked                   = realloc(scene->asked, (size_t)(scene->n_asked + 1) * sizeof(*scene->asked));
     scene->asked[scene->n_asked++] = strdup(name + 1);
   }
   Must(PetscOptionsHasName(NULL, NULL, name, &set)); /* marks it as used, too */
@@ -83,13 +91,13 @@ static void need(Scene *scene, const char *map, const char *key)
 }
 
 /* PETSc's own conversions, with its traceback replaced by our sentence. */
-#define READ(call, ...) \
-  do { \
-    PetscErrorCode failed; \
-    Must(PetscPushErrorHandler(PetscReturnErrorHandler, NULL)); \
-    failed = (call); \
-    Must(PetscPopErrorHandler()); \
-    if (failed) scene_fail(scene, map, key, __VA_ARGS__); \
+#define READ(call, ...)                                                                                                \
+  do {                                                                                                                 \
+    PetscErrorCode failed;                                                                                             \
+    Must(PetscPushErrorHandler(PetscReturnErrorHandler, NULL));                                                        \
+    failed = (call);                                                                                                   \
+    Must(PetscPopErrorHandler());                                                                                      \
+    if (failed) scene_fail(scene, map, key, __VA_ARGS__);                                                              \
   } while (0)
 
 static const char *raw(const char *map, const char *key)
@@ -106,7 +114,8 @@ static const char *raw(const char *map, const char *key)
 static size_t count_items(const char *text)
 {
   size_t n = text[0] ? 1 : 0;
-  for (; *text; text++) n += *text == ',';
+  for (; *text; text++)
+    n += *text == ',';
   return n;
 }
 
@@ -126,7 +135,8 @@ void scene_reals(Scene *scene, const char *map, const char *key, PetscInt *n, Pe
   READ(PetscOptionsGetRealArray(NULL, NULL, name, *values, n, &set), "numbers are expected, not '%s'.", raw(map, key));
   if (*n != (PetscInt)count_items(text)) scene_fail(scene, map, key, "numbers are expected, not '%s'.", raw(map, key));
   for (PetscInt k = 0; k < *n; k++) {
-    if (PetscIsInfOrNanReal((*values)[k])) scene_fail(scene, map, key, "finite numbers are expected, not '%s'.", raw(map, key));
+    if (PetscIsInfOrNanReal((*values)[k]))
+      scene_fail(scene, map, key, "finite numbers are expected, not '%s'.", raw(map, key));
   }
 }
 
@@ -136,7 +146,9 @@ PetscBool scene_vector(Scene *scene, const char *map, const char *key, PetscInt 
   PetscInt   n_given;
   scene_reals(scene, map, key, &n_given, &given);
   if (!n_given) return PETSC_FALSE;
-  if (n_given != n) scene_fail(scene, map, key, "%d number%s expected, but there %s %d.", (int)n, n == 1 ? " is" : "s are", n_given == 1 ? "is" : "are", (int)n_given);
+  if (n_given != n)
+    scene_fail(scene, map, key, "%d number%s expected, but there %s %d.", (int)n, n == 1 ? " is" : "s are",
+               n_given == 1 ? "is" : "are", (int)n_given);
   Must(PetscArraycpy(values, given, n));
   Must(PetscFree(given));
   return PETSC_TRUE;
@@ -150,7 +162,8 @@ PetscBool scene_counts(Scene *scene, const char *map, const char *key, PetscInt 
   set = scene_vector(scene, map, key, n, real);
   for (PetscInt k = 0; set && k < n; k++) {
     values[k] = (PetscInt)real[k];
-    if ((PetscReal)values[k] != real[k]) scene_fail(scene, map, key, "a whole number is expected, not '%g'.", (double)real[k]);
+    if ((PetscReal)values[k] != real[k])
+      scene_fail(scene, map, key, "a whole number is expected, not '%g'.", (double)real[k]);
   }
   Must(PetscFree(real));
   return set;
@@ -231,25 +244,49 @@ void scene_strings(Scene *scene, const char *map, const char *key, PetscInt *n, 
 
 void strings_destroy(PetscInt n, char ***values)
 {
-  for (PetscInt k = 0; k < n; k++) Must(PetscFree((*values)[k]));
+  for (PetscInt k = 0; k < n; k++)
+    Must(PetscFree((*values)[k]));
   Must(PetscFree(*values));
 }
 
 void scene_names(Scene *scene, const char *list, PetscInt *n, char ***names)
 {
-  static const char *const reserved[] = {"schema", "bodies",  "surfaces", "supports", "loads", "interfaces", "probes", "frame",  "steps", "output", "snes", "ksp",
-                                         "pc",     "mat",     "vec",      "dm",       "options", "scene",    "log",    "help",   "malloc", "mpi", "petscpartitioner"};
-  const char        *map = NULL, *key = list; /* for the messages of READ and scene_fail */
+  static const char *const reserved[] = {"schema",
+                                         "bodies",
+                                         "surfaces",
+                                         "supports",
+                                         "loads",
+                                         "interfaces",
+                                         "probes",
+                                         "frame",
+                                         "steps",
+                                         "output",
+                                         "snes",
+                                         "ksp",
+                                         "pc",
+                                         "mat",
+                                         "vec",
+                                         "dm",
+                                         "options",
+                                         "scene",
+                                         "log",
+                                         "help",
+                                         "malloc",
+                                         "mpi",
+                                         "petscpartitioner"};
+  const char              *map = NULL, *key = list; /* for the messages of READ and scene_fail */
   scene_strings(scene, NULL, list, n, names);
   for (PetscInt k = 0; k < *n; k++) {
     const char *name  = (*names)[k];
     size_t      valid = strspn(name, "abcdefghijklmnopqrstuvwxyz0123456789");
-    if (!name[0] || name[valid] || strlen(name) > 30) scene_fail(scene, map, key, "'%s' is no valid name: use up to 30 of the characters a-z and 0-9.", name);
+    if (!name[0] || name[valid] || strlen(name) > 30)
+      scene_fail(scene, map, key, "'%s' is no valid name: use up to 30 of the characters a-z and 0-9.", name);
     for (size_t r = 0; r < sizeof(reserved) / sizeof(reserved[0]); r++) {
       if (!strcmp(reserved[r], name)) scene_fail(scene, map, key, "the name '%s' is reserved; choose another.", name);
     }
     for (PetscInt j = 0; j < scene->n_names; j++) {
-      if (!strcmp(scene->names[j], name)) scene_fail(scene, map, key, "the name '%s' is given twice; names must be unique in the whole scene.", name);
+      if (!strcmp(scene->names[j], name))
+        scene_fail(scene, map, key, "the name '%s' is given twice; names must be unique in the whole scene.", name);
     }
     scene->names                   = realloc(scene->names, (size_t)(scene->n_names + 1) * sizeof(*scene->names));
     scene->names[scene->n_names++] = strdup(name);
@@ -265,7 +302,9 @@ PetscErrorCode scene_relative_path(const Scene *scene, const char *name, char pa
 {
   const char *slash = strrchr(scene->file, '/');
   PetscFunctionBegin;
-  if (name[0] == '/' || !slash) snprintf(path, length, "%s", name);
-  else snprintf(path, length, "%.*s/%s", (int)(slash - scene->file), scene->file, name);
+  if (name[0] == '/' || !slash)
+    snprintf(path, length, "%s", name);
+  else
+    snprintf(path, length, "%.*s/%s", (int)(slash - scene->file), scene->file, name);
   PetscFunctionReturn(PETSC_SUCCESS);
 }

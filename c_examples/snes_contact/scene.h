@@ -21,7 +21,8 @@ const char    *scene_file(const Scene *scene);
 PetscErrorCode scene_relative_path(const Scene *scene, const char *name, char path[], size_t length);
 
 /* one clear sentence about map.key, then exit code 1 on every rank; does not return */
-_Noreturn void scene_fail(Scene *scene, const char *map, const char *key, const char *format, ...) PETSC_ATTRIBUTE_FORMAT(4, 5);
+_Noreturn void scene_fail(Scene *scene, const char *map, const char *key, const char *format, ...)
+    PETSC_ATTRIBUTE_FORMAT(4, 5);
 
 /* Between these two only rank 0 works; scene_fail() then ends the waiting ranks too. */
 void           scene_root_begin(Scene *scene);

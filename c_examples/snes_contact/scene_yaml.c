@@ -44,32 +44,43 @@ static void add_key(Scene *scene, const char *dotted, size_t line)
 static void walk(Scene *scene, yaml_document_t *document, yaml_node_t *map, const char *prefix, PetscBool solver)
 {
   for (yaml_node_pair_t *pair = map->data.mapping.pairs.start; pair < map->data.mapping.pairs.top; pair++) {
-    yaml_node_t *key = yaml_document_get_node(document, pair->key), *value = yaml_document_get_node(document, pair->value);
-    size_t       line = key->start_mark.line + 1;
-    char         dotted[256];
-    const char  *word;
+    yaml_node_t *key   = yaml_document_get_node(document, pair->key),
+                *value = yaml_document_get_node(document, pair->value);
+    size_t      line   = key->start_mark.line + 1;
+    char        dotted[256];
+    const char *word;
 
     if (key->type != YAML_SCALAR_NODE) fail_at(scene, line, prefix, "a key must be a single word.");
     word = (const char *)key->data.scalar.value;
     snprintf(dotted, sizeof(dotted), "%s%s%.100s", prefix, prefix[0] ? "." : "", word);
-    if (!word[0] || strspn(word, "abcdefghijklmnopqrstuvwxyz0123456789_") != strlen(word)) fail_at(scene, line, dotted, "a key may hold only the characters a-z, 0-9 and _.");
-    if (!prefix[0] && strchr(word, '_')) fail_at(scene, line, dotted, "a key at the top level may not hold an underscore (write maps: 'block: {young: 1}', not 'block_young: 1').");
+    if (!word[0] || strspn(word, "abcdefghijklmnopqrstuvwxyz0123456789_") != strlen(word))
+      fail_at(scene, line, dotted, "a key may hold only the characters a-z, 0-9 and _.");
+    if (!prefix[0] && strchr(word, '_'))
+      fail_at(
+          scene, line, dotted,
+          "a key at the top level may not hold an underscore (write maps: 'block: {young: 1}', not 'block_young: 1').");
     if (value->type == YAML_MAPPING_NODE) {
       PetscBool to_solver = solver;
       if (prefix[0] && !solver) fail_at(scene, line, dotted, "maps go one level deep only; a value is expected here.");
-      for (size_t k = 0; k < sizeof(solver_maps) / sizeof(solver_maps[0]) && !prefix[0]; k++) to_solver = (PetscBool)(to_solver || !strcmp(word, solver_maps[k]));
-      if (value->data.mapping.pairs.start == value->data.mapping.pairs.top) fail_at(scene, line, dotted, "this map is empty.");
+      for (size_t k = 0; k < sizeof(solver_maps) / sizeof(solver_maps[0]) && !prefix[0]; k++)
+        to_solver = (PetscBool)(to_solver || !strcmp(word, solver_maps[k]));
+      if (value->data.mapping.pairs.start == value->data.mapping.pairs.top)
+        fail_at(scene, line, dotted, "this map is empty.");
       walk(scene, document, value, dotted, to_solver);
       continue;
     }
     if (value->type == YAML_SEQUENCE_NODE) {
-      if (value->data.sequence.items.start == value->data.sequence.items.top) fail_at(scene, line, dotted, "this list is empty; leave the key out instead.");
+      if (value->data.sequence.items.start == value->data.sequence.items.top)
+        fail_at(scene, line, dotted, "this list is empty; leave the key out instead.");
       for (yaml_node_item_t *item = value->data.sequence.items.start; item < value->data.sequence.items.top; item++) {
         yaml_node_t *entry = yaml_document_get_node(document, *item);
-        if (entry->type != YAML_SCALAR_NODE || !entry->data.scalar.length) fail_at(scene, line, dotted, "a list may hold only numbers or words (no lists, no maps, nothing empty).");
-        if (strchr((const char *)entry->data.scalar.value, ',')) fail_at(scene, line, dotted, "an entry of a list may not hold a comma.");
+        if (entry->type != YAML_SCALAR_NODE || !entry->data.scalar.length)
+          fail_at(scene, line, dotted, "a list may hold only numbers or words (no lists, no maps, nothing empty).");
+        if (strchr((const char *)entry->data.scalar.value, ','))
+          fail_at(scene, line, dotted, "an entry of a list may not hold a comma.");
       }
-    } else if (!value->data.scalar.length || !strcmp((const char *)value->data.scalar.value, "~") || !strcmp((const char *)value->data.scalar.value, "null")) {
+    } else if (!value->data.scalar.length || !strcmp((const char *)value->data.scalar.value, "~") ||
+               !strcmp((const char *)value->data.scalar.value, "null")) {
       fail_at(scene, line, dotted, "this key has no value.");
     }
     add_key(scene, dotted, line);
@@ -92,7 +103,9 @@ PetscErrorCode scene_open(const char *file, int argc, char **argv, Scene **out)
   if (!stream) scene_fail(scene, NULL, NULL, "cannot open this scene file.");
   PetscCheck(yaml_parser_initialize(&parser), PETSC_COMM_SELF, PETSC_ERR_MEM, "libyaml");
   yaml_parser_set_input_file(&parser, stream);
-  if (!yaml_parser_load(&parser, &document)) fail_at(scene, parser.problem_mark.line + 1, "this is no valid YAML", parser.problem ? parser.problem : "unknown reason");
+  if (!yaml_parser_load(&parser, &document))
+    fail_at(scene, parser.problem_mark.line + 1, "this is no valid YAML",
+            parser.problem ? parser.problem : "unknown reason");
   root = yaml_document_get_root_node(&document);
   if (!root || root->type != YAML_MAPPING_NODE) fail_at(scene, 1, "", "a scene is a YAML map of keys and values.");
   walk(scene, &document, root, "", PETSC_FALSE);
@@ -113,8 +126,10 @@ PetscErrorCode scene_close(Scene **scene)
     free((*scene)->keys[k].dotted);
     free((*scene)->keys[k].flat);
   }
-  for (PetscInt k = 0; k < (*scene)->n_asked; k++) free((*scene)->asked[k]);
-  for (PetscInt k = 0; k < (*scene)->n_names; k++) free((*scene)->names[k]);
+  for (PetscInt k = 0; k < (*scene)->n_asked; k++)
+    free((*scene)->asked[k]);
+  for (PetscInt k = 0; k < (*scene)->n_names; k++)
+    free((*scene)->names[k]);
   free((*scene)->keys);
   free((*scene)->asked);
   free((*scene)->names);
@@ -128,7 +143,8 @@ static size_t distance(const char *a, const char *b)
 {
   size_t row[128], n = strlen(b);
   if (n > 126) return 1000;
-  for (size_t j = 0; j <= n; j++) row[j] = j;
+  for (size_t j = 0; j <= n; j++)
+    row[j] = j;
   for (size_t i = 1; a[i - 1]; i++) {
     size_t diagonal = row[0];
     row[0]          = i;
@@ -147,10 +163,12 @@ static void fail_unread(Scene *scene, const SceneKey *key)
 {
   char        allowed[1024] = "", text[1400], map[256] = "";
   const char *word = strchr(key->dotted, '.'), *closest = NULL;
-  size_t      best = 3, length; /* three wrong letters are no typo */
+  size_t      best     = 3, length; /* three wrong letters are no typo */
   PetscBool   declared = PETSC_FALSE;
 
-  if (is_solver_key(key->dotted)) fail_at(scene, (size_t)key->line, key->dotted, "PETSc read no such option (see the list of -snes, -ksp, -pc and -mat options in PETSc's manual).");
+  if (is_solver_key(key->dotted))
+    fail_at(scene, (size_t)key->line, key->dotted,
+            "PETSc read no such option (see the list of -snes, -ksp, -pc and -mat options in PETSc's manual).");
   word   = word ? word + 1 : key->dotted;
   length = (size_t)(word - key->dotted); /* of "block_" in the flat names */
   snprintf(map, sizeof(map), "%.*s", length ? (int)length - 1 : 0, key->dotted);
@@ -171,10 +189,15 @@ static void fail_unread(Scene *scene, const SceneKey *key)
         closest = scene->names[k];
       }
     }
-    if (closest) snprintf(text, sizeof(text), "nothing is called '%s'; did you mean '%s'?", map, closest);
-    else snprintf(text, sizeof(text), "nothing is called '%s': list the name in bodies, surfaces, supports, loads, interfaces or probes.", map);
+    if (closest)
+      snprintf(text, sizeof(text), "nothing is called '%s'; did you mean '%s'?", map, closest);
+    else
+      snprintf(text, sizeof(text),
+               "nothing is called '%s': list the name in bodies, surfaces, supports, loads, interfaces or probes.",
+               map);
   } else if (closest) {
-    snprintf(text, sizeof(text), "unknown key; did you mean '%.*s%s'? Allowed here: %s.", (int)length, key->dotted, closest, allowed);
+    snprintf(text, sizeof(text), "unknown key; did you mean '%.*s%s'? Allowed here: %s.", (int)length, key->dotted,
+             closest, allowed);
   } else {
     snprintf(text, sizeof(text), "unknown key. Allowed here: %s.", allowed);
   }

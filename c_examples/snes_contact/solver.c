@@ -70,7 +70,8 @@ static PetscErrorCode tangent(SNES snes, Vec x, Mat J, Mat P, void *context)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode converged(SNES snes, PetscInt iteration, PetscReal xnorm, PetscReal snorm, PetscReal fnorm, SNESConvergedReason *reason, void *context)
+static PetscErrorCode converged(SNES snes, PetscInt iteration, PetscReal xnorm, PetscReal snorm, PetscReal fnorm,
+                                SNESConvergedReason *reason, void *context)
 {
   Model    *model = context;
   PetscReal rtol, reference = PetscMax(model->reference_force, model->largest_reference);
@@ -79,8 +80,10 @@ static PetscErrorCode converged(SNES snes, PetscInt iteration, PetscReal xnorm, 
   (void)iteration, (void)xnorm, (void)snorm;
   PetscCall(SNESGetTolerances(snes, NULL, &rtol, NULL, NULL, NULL));
   *reason = SNES_CONVERGED_ITERATING;
-  if (PetscIsInfOrNanReal(fnorm)) *reason = SNES_DIVERGED_FNORM_NAN;
-  else if (fnorm <= rtol * reference) *reason = SNES_CONVERGED_FNORM_RELATIVE;
+  if (PetscIsInfOrNanReal(fnorm))
+    *reason = SNES_DIVERGED_FNORM_NAN;
+  else if (fnorm <= rtol * reference)
+    *reason = SNES_CONVERGED_FNORM_RELATIVE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -110,8 +113,10 @@ static PetscErrorCode smallest_reference(Model *model, PetscReal *force)
   PetscReal low[3], high[3], squared = 0, young = 0;
   PetscFunctionBegin;
   PetscCall(DMGetBoundingBox(model->dm, low, high));
-  for (int i = 0; i < 3; i++) squared += PetscSqr(high[i] - low[i]);
-  for (PetscInt b = 0; b < model->mesh.n_bodies; b++) young = PetscMax(young, model->mesh.bodies[b].material.young);
+  for (int i = 0; i < 3; i++)
+    squared += PetscSqr(high[i] - low[i]);
+  for (PetscInt b = 0; b < model->mesh.n_bodies; b++)
+    young = PetscMax(young, model->mesh.bodies[b].material.young);
   *force = 1e-12 * young * squared;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -132,7 +137,8 @@ static PetscErrorCode create_matrix(Model *model, Mat *matrix)
   PetscCall(MatSetSizes(counter, n, n, PETSC_DETERMINE, PETSC_DETERMINE));
   PetscCall(MatSetType(counter, MATPREALLOCATOR));
   PetscCall(MatSetUp(counter));
-  for (PetscInt row = first; row < end; row++) PetscCall(MatSetValue(counter, row, row, 0, ADD_VALUES));
+  for (PetscInt row = first; row < end; row++)
+    PetscCall(MatSetValue(counter, row, row, 0, ADD_VALUES));
   PetscCall(bulk_stiffness(model, counter, PETSC_TRUE));
   PetscCall(contact_pattern(model, counter));
   PetscCall(MatAssemblyBegin(counter, MAT_FINAL_ASSEMBLY));
@@ -180,10 +186,9 @@ PetscErrorCode solver_create(Model *model)
   PetscCall(SNESSetType(model->snes, SNESNEWTONLS));
   PetscCall(SNESSetTolerances(model->snes, 0, 1e-11, 0, 25, PETSC_DEFAULT)); /* -snes_rtol: see the head of this file */
   PetscCall(SNESGetLineSearch(model->snes, &line_search));
-  /* Backtracking, since full steps of the block scenes can cycle at 100 times the default augmentation; without its
-     absolute limit of 1e8 on the step, which would make the iteration depend on the system of units. */
-  PetscCall(SNESLineSearchSetType(line_search, SNESLINESEARCHBT));
-  PetscCall(SNESLineSearchSetTolerances(line_search, PETSC_DEFAULT, PETSC_MAX_REAL, PETSC_DEFAULT, PETSC_DEFAULT, PETSC_DEFAULT, PETSC_DEFAULT));
+  /* No absolute limit on the length of a step (PETSc's is 1e8): iterations must not depend on the system of units. */
+  PetscCall(SNESLineSearchSetTolerances(line_search, PETSC_DEFAULT, PETSC_MAX_REAL, PETSC_DEFAULT, PETSC_DEFAULT,
+                                        PETSC_DEFAULT, PETSC_DEFAULT));
   PetscCall(SNESGetKSP(model->snes, &ksp));
   PetscCall(KSPSetType(ksp, KSPPREONLY));
   PetscCall(KSPGetPC(ksp, &pc));

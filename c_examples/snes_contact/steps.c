@@ -3,9 +3,9 @@
 
 PetscErrorCode steps_read(Model *model)
 {
-  Scene    *scene = model->scene;
-  Steps    *steps = &model->steps;
-  PetscInt  count = 1;
+  Scene   *scene = model->scene;
+  Steps   *steps = &model->steps;
+  PetscInt count = 1;
 
   PetscFunctionBegin;
   steps->predictor = PETSC_TRUE;
@@ -19,15 +19,19 @@ PetscErrorCode steps_read(Model *model)
     if (steps->end <= 0) scene_fail(scene, "steps", "end", "it must be positive.");
     steps->n_times = count;
     PetscCall(PetscMalloc1(count, &steps->times));
-    for (PetscInt k = 0; k < count; k++) steps->times[k] = steps->end * (k + 1) / count;
+    for (PetscInt k = 0; k < count; k++)
+      steps->times[k] = steps->end * (k + 1) / count;
   }
   for (PetscInt k = 0; k < steps->n_times; k++) {
-    if (steps->times[k] <= (k ? steps->times[k - 1] : 0)) scene_fail(scene, "steps", "times", "times must increase, from above 0; %g does not.", (double)steps->times[k]);
+    if (steps->times[k] <= (k ? steps->times[k - 1] : 0))
+      scene_fail(scene, "steps", "times", "times must increase, from above 0; %g does not.", (double)steps->times[k]);
   }
   steps->end = steps->times[steps->n_times - 1];
+  PetscCall(PetscOptionsHasName(NULL, NULL, "-snes_linesearch_type", &steps->fixed_line_search));
   scene_bool(scene, "steps", "predictor", &steps->predictor);
   scene_real(scene, "steps", "smallest", &steps->smallest);
-  if (steps->smallest <= 0 || steps->smallest > 1) scene_fail(scene, "steps", "smallest", "it is a fraction of a step: above 0, at most 1.");
+  if (steps->smallest <= 0 || steps->smallest > 1)
+    scene_fail(scene, "steps", "smallest", "it is a fraction of a step: above 0, at most 1.");
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -44,9 +48,9 @@ static PetscBool bends(const Model *model, PetscReal t)
 }
 
 typedef struct {
-  Vec       x, last, before;     /* the iterate; the last two converged states, at: */
+  Vec       x, last, before; /* the iterate; the last two converged states, at: */
   PetscReal t_last, t_before;
-  PetscBool have_before;         /* on the same branch of all curves */
+  PetscBool have_before; /* on the same branch of all curves */
 } History;
 
 static PetscErrorCode predict(const Model *model, History *history, PetscReal t)
@@ -61,23 +65,40 @@ static PetscErrorCode predict(const Model *model, History *history, PetscReal t)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Solve at t; afterwards u_local and f_local belong to the last iterate. */
+/* Solve at t; afterwards u_local and f_local belong to the last iterate.
+ *
+ * Full Newton steps find the states of the nodes fastest, although the residual may grow on the way; a monotone line search
+ * can crawl along a kink there. But full steps can also cycle (block scenes at 100 times the default augmentation). So a
+ * second attempt backtracks, unless the user chose a line search. */
 static PetscErrorCode solve(Model *model, History *history, PetscReal t, PetscBool *converged)
 {
-  SNESConvergedReason reason;
-  Vec                 r;
+  static const SNESLineSearchType types[] = {SNESLINESEARCHBASIC, SNESLINESEARCHBT};
+  SNESConvergedReason             reason;
+  SNESLineSearch                  line_search;
+  PetscInt                        iterations;
+  Vec                             r;
 
   PetscFunctionBegin;
   model->t          = t;
   model->refusal[0] = 0;
+  *converged        = PETSC_FALSE;
   PetscCall(supports_values(model, t));
   PetscCall(loads_values(model, t));
-  PetscCall(predict(model, history, t));
-  PetscCall(SNESSolve(model->snes, NULL, history->x));
-  PetscCall(SNESGetConvergedReason(model->snes, &reason));
-  *converged = (PetscBool)(reason > 0);
+  PetscCall(SNESGetLineSearch(model->snes, &line_search));
+  for (int attempt = 0; attempt < (model->steps.fixed_line_search ? 1 : 2) && !*converged; attempt++) {
+    if (!model->steps.fixed_line_search) PetscCall(SNESLineSearchSetType(line_search, types[attempt]));
+    PetscCall(predict(model, history, t));
+    PetscCall(SNESSolve(model->snes, NULL, history->x));
+    PetscCall(SNESGetConvergedReason(model->snes, &reason));
+    PetscCall(SNESGetIterationNumber(model->snes, &iterations));
+    model->iterations += iterations;
+    *converged = (PetscBool)(reason > 0);
+  }
   if (!*converged) {
-    if (!model->quiet) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "     t %-10.6g not converged: %s%s%s\n", (double)t, SNESConvergedReasons[reason], model->refusal[0] ? "; the library says: " : "", model->refusal));
+    const char *says = model->refusal[0] ? "; the library says: " : "";
+    if (!model->quiet)
+      PetscCall(PetscPrintf(PETSC_COMM_WORLD, "     t %-10.6g not converged: %s%s%s\n", (double)t,
+                            SNESConvergedReasons[reason], says, model->refusal));
     PetscFunctionReturn(PETSC_SUCCESS);
   }
   PetscCall(SNESGetFunction(model->snes, &r, NULL, NULL));
@@ -100,10 +121,10 @@ static PetscErrorCode accept(Model *model, History *history)
 
 PetscErrorCode steps_run(Model *model, int *exit_code)
 {
-  const Steps *steps = &model->steps;
+  const Steps *steps   = &model->steps;
   History      history = {0};
   Summary     *summary;
-  PetscInt     status, cutbacks = 0, step = 0, iterations;
+  PetscInt     status, cutbacks = 0, step = 0;
   PetscBool    failed = PETSC_FALSE, checked = PETSC_FALSE;
 
   PetscFunctionBegin;
@@ -121,7 +142,7 @@ PetscErrorCode steps_run(Model *model, int *exit_code)
     const PetscReal target = steps->times[k], whole = target - history.t_last;
     PetscReal       fraction = 1; /* of `whole`, halved by cut-backs */
     while (history.t_last < target && !failed) {
-      const PetscReal rest = target - history.t_last;
+      const PetscReal rest      = target - history.t_last;
       PetscBool       converged = PETSC_FALSE, finished = (PetscBool)(fraction * whole > (1 - 1e-9) * rest);
       PetscCall(solve(model, &history, finished ? target : history.t_last + fraction * whole, &converged));
       if (converged) {
@@ -134,12 +155,12 @@ PetscErrorCode steps_run(Model *model, int *exit_code)
       if (converged) {
         step++;
         PetscCall(accept(model, &history));
-        PetscCall(SNESGetIterationNumber(model->snes, &iterations));
-        if (iterations && !checked) { /* the solvers have read their options by now */
+        if (model->iterations && !checked) { /* the solvers have read their options by now */
           scene_check_unread(model->scene, PETSC_TRUE);
           checked = PETSC_TRUE;
         }
-        fraction = PetscMin(1, 2 * fraction);
+        model->iterations = 0;
+        fraction          = PetscMin(1, 2 * fraction);
       } else {
         cutbacks++;
         fraction *= 0.5;
@@ -150,8 +171,13 @@ PetscErrorCode steps_run(Model *model, int *exit_code)
   if (failed) {
     *exit_code = model->refusal[0] ? 3 : 2;
     PetscCall(summary_step(model, summary, step + 1, PETSC_FALSE, PETSC_TRUE));
-    if (model->refusal[0]) PetscCall(PetscFPrintf(PETSC_COMM_WORLD, PETSC_STDERR, "snes_contact: refused by the library: %s\n", model->refusal));
-    else PetscCall(PetscFPrintf(PETSC_COMM_WORLD, PETSC_STDERR, "snes_contact: not converged beyond t = %g, with steps down to %g of the wanted ones.\n", (double)history.t_last, (double)steps->smallest));
+    if (model->refusal[0])
+      PetscCall(
+          PetscFPrintf(PETSC_COMM_WORLD, PETSC_STDERR, "snes_contact: refused by the library: %s\n", model->refusal));
+    else
+      PetscCall(PetscFPrintf(PETSC_COMM_WORLD, PETSC_STDERR,
+                             "snes_contact: not converged beyond t = %g, with steps down to %g of the wanted ones.\n",
+                             (double)history.t_last, (double)steps->smallest));
   }
   PetscCall(summary_write(model, &summary, cutbacks, model->refusal));
   PetscCall(VecDestroy(&history.x));

@@ -18,7 +18,8 @@ static PetscErrorCode select_vertices(Model *model, Support *support)
     scene_strings(scene, name, "surface", &n, &list);
     for (PetscInt k = 0; k < n; k++) {
       const Surface *surface = mesh_surface(scene, mesh, name, "surface", list[k]);
-      for (PetscInt j = 0; j < surface->offsets[surface->n_faces]; j++) chosen[surface->vertices[j]] = PETSC_TRUE;
+      for (PetscInt j = 0; j < surface->offsets[surface->n_faces]; j++)
+        chosen[surface->vertices[j]] = PETSC_TRUE;
     }
     strings_destroy(n, &list);
   } else if (scene_has(scene, name, "point")) {
@@ -31,13 +32,15 @@ static PetscErrorCode select_vertices(Model *model, Support *support)
       for (PetscInt v = body->first_vertex; v < body->end_vertex; v++) {
         chosen[v] = PETSC_TRUE;
         for (int i = 0; i < 3 && within; i++) {
-          if (mesh->coordinates[3 * v + i] < box[i] || mesh->coordinates[3 * v + i] > box[3 + i]) chosen[v] = PETSC_FALSE;
+          if (mesh->coordinates[3 * v + i] < box[i] || mesh->coordinates[3 * v + i] > box[3 + i])
+            chosen[v] = PETSC_FALSE;
         }
       }
     }
     strings_destroy(n, &list);
   } else {
-    scene_fail(scene, name, "surface", "say what is supported: a surface, or a body (with point, or within, for a part of it).");
+    scene_fail(scene, name, "surface",
+               "say what is supported: a surface, or a body (with point, or within, for a part of it).");
   }
   PetscCall(PetscMalloc1(mesh->n_vertices, &support->vertices));
   for (PetscInt v = 0; v < mesh->n_vertices; v++) {
@@ -53,7 +56,8 @@ static void prescribed_displacement(const Support *support, const PetscReal X[3]
 {
   for (int i = 0; i < 3; i++) {
     u[i] = support->value[i];
-    for (int j = 0; j < 3; j++) u[i] += support->gradient[3 * i + j] * (X[j] - support->origin[j]);
+    for (int j = 0; j < 3; j++)
+      u[i] += support->gradient[3 * i + j] * (X[j] - support->origin[j]);
   }
 }
 
@@ -63,7 +67,8 @@ static PetscErrorCode check_overlaps(Model *model)
   PetscInt *first;
   PetscFunctionBegin;
   PetscCall(PetscMalloc1(3 * model->mesh.n_vertices, &first));
-  for (PetscInt k = 0; k < 3 * model->mesh.n_vertices; k++) first[k] = -1;
+  for (PetscInt k = 0; k < 3 * model->mesh.n_vertices; k++)
+    first[k] = -1;
   for (PetscInt s = 0; s < model->n_supports; s++) {
     const Support *support = &model->supports[s];
     for (PetscInt k = 0; k < support->n_vertices; k++) {
@@ -81,8 +86,11 @@ static PetscErrorCode check_overlaps(Model *model)
         }
         earlier = &model->supports[first[3 * v + i]];
         prescribed_displacement(earlier, X, other);
-        if ((u[i] != 0 || other[i] != 0) && (PetscAbsReal(u[i] - other[i]) > 1e-12 * PetscAbsReal(u[i]) || !curve_equal(&support->curve, &earlier->curve)))
-          scene_fail(model->scene, support->name, "components", "u_%c of the vertex at [%g, %g, %g] is prescribed differently by '%s'.", 'x' + i, (double)X[0], (double)X[1], (double)X[2], earlier->name);
+        if ((u[i] != 0 || other[i] != 0) && (PetscAbsReal(u[i] - other[i]) > 1e-12 * PetscAbsReal(u[i]) ||
+                                             !curve_equal(&support->curve, &earlier->curve)))
+          scene_fail(model->scene, support->name, "components",
+                     "u_%c of the vertex at [%g, %g, %g] is prescribed differently by '%s'.", 'x' + i, (double)X[0],
+                     (double)X[1], (double)X[2], earlier->name);
       }
     }
   }
@@ -92,8 +100,8 @@ static PetscErrorCode check_overlaps(Model *model)
 
 PetscErrorCode supports_read(Model *model)
 {
-  Scene  *scene = model->scene;
-  char  **names;
+  Scene *scene = model->scene;
+  char **names;
 
   PetscFunctionBegin;
   scene_names(scene, "supports", &model->n_supports, &names);
@@ -105,21 +113,26 @@ PetscErrorCode supports_read(Model *model)
     PetscCall(PetscSNPrintf(support->name, NAME_LENGTH, "%s", names[s]));
     scene_strings(scene, support->name, "components", &n, &components);
     for (PetscInt k = 0; k < n; k++) {
-      if (strlen(components[k]) != 1 || components[k][0] < 'x' || components[k][0] > 'z') scene_fail(scene, support->name, "components", "'%s' is not allowed; choose from: x, y, z.", components[k]);
+      if (strlen(components[k]) != 1 || components[k][0] < 'x' || components[k][0] > 'z')
+        scene_fail(scene, support->name, "components", "'%s' is not allowed; choose from: x, y, z.", components[k]);
       support->mask |= 1 << (components[k][0] - 'x');
     }
     strings_destroy(n, &components);
     if (!support->mask) scene_fail(scene, support->name, "components", "this key is missing; choose from: x, y, z.");
-    if (model->mesh.rotated && support->mask != 7) scene_fail(scene, support->name, "components", "in a rotated frame a support must prescribe all of x, y, z (with `value` or `gradient`).");
+    if (model->mesh.rotated && support->mask != 7)
+      scene_fail(scene, support->name, "components",
+                 "in a rotated frame a support must prescribe all of x, y, z (with `value` or `gradient`).");
     scene_vector(scene, support->name, "value", 3, support->value);
-    if (scene_vector(scene, support->name, "gradient", 9, support->gradient)) scene_vector(scene, support->name, "origin", 3, support->origin);
+    if (scene_vector(scene, support->name, "gradient", 9, support->gradient))
+      scene_vector(scene, support->name, "origin", 3, support->origin);
     PetscCall(curve_read(scene, support->name, model->steps.end, &support->curve));
   }
   strings_destroy(model->n_supports, &names);
   scene_root_begin(scene);
   if (model->rank == 0) {
     PetscCall(PetscCalloc1(model->mesh.n_vertices, &model->prescribed));
-    for (PetscInt s = 0; s < model->n_supports; s++) PetscCall(select_vertices(model, &model->supports[s]));
+    for (PetscInt s = 0; s < model->n_supports; s++)
+      PetscCall(select_vertices(model, &model->supports[s]));
     PetscCall(check_overlaps(model));
   }
   PetscCall(scene_root_end(scene));
@@ -133,7 +146,8 @@ PetscErrorCode supports_label(Model *model)
   PetscCall(plex_label_vertices(model->dm, "prescribed", model->mesh.n_vertices, NULL, model->prescribed, 0));
   for (PetscInt s = 0; s < model->n_supports; s++) {
     PetscCall(PetscSNPrintf(label, sizeof(label), "support.%s", model->supports[s].name));
-    PetscCall(plex_label_vertices(model->dm, label, model->supports[s].n_vertices, model->supports[s].vertices, NULL, 1));
+    PetscCall(
+        plex_label_vertices(model->dm, label, model->supports[s].n_vertices, model->supports[s].vertices, NULL, 1));
     PetscCall(PetscFree(model->supports[s].vertices));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -173,7 +187,8 @@ static PetscErrorCode visit(Model *model, Vec local, PetscReal t, VertexVisit ac
       PetscCall(PetscSectionGetOffset(model->section, points[k], &offset));
       for (int i = 0; i < 3; i++) { /* back into the axes of the scene file: Q transposed */
         X[i] = 0;
-        for (int j = 0; j < 3; j++) X[i] += model->mesh.rotation[3 * j + i] * PetscRealPart(coordinates[at + j]);
+        for (int j = 0; j < 3; j++)
+          X[i] += model->mesh.rotation[3 * j + i] * PetscRealPart(coordinates[at + j]);
       }
       prescribed_displacement(support, X, u);
       mesh_rotate_vector(&model->mesh, u);
@@ -214,8 +229,10 @@ PetscErrorCode supports_values(Model *model, PetscReal t)
 PetscErrorCode supports_reactions(Model *model)
 {
   PetscFunctionBegin;
-  for (PetscInt s = 0; s < model->n_supports; s++) PetscCall(PetscArrayzero(model->supports[s].reaction, 3));
+  for (PetscInt s = 0; s < model->n_supports; s++)
+    PetscCall(PetscArrayzero(model->supports[s].reaction, 3));
   PetscCall(visit(model, model->f_local, model->t, add_reactions));
-  for (PetscInt s = 0; s < model->n_supports; s++) PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, model->supports[s].reaction, 3, MPIU_REAL, MPIU_SUM, PETSC_COMM_WORLD));
+  for (PetscInt s = 0; s < model->n_supports; s++)
+    PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, model->supports[s].reaction, 3, MPIU_REAL, MPIU_SUM, PETSC_COMM_WORLD));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

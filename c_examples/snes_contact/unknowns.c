@@ -100,7 +100,8 @@ static PetscErrorCode collect_owners(Model *model)
   PetscCallMPI(MPI_Gather(&n_mine, 1, MPI_INT, counts, 1, MPI_INT, 0, PETSC_COMM_WORLD));
   if (model->rank == 0) {
     starts[0] = 0;
-    for (PetscMPIInt r = 0; r < size; r++) starts[r + 1] = starts[r] + counts[r];
+    for (PetscMPIInt r = 0; r < size; r++)
+      starts[r + 1] = starts[r] + counts[r];
     PetscCall(PetscMalloc1(starts[size], &all));
     PetscCall(PetscMalloc1(width * model->mesh.n_vertices, &model->owner));
   }
@@ -109,7 +110,8 @@ static PetscErrorCode collect_owners(Model *model)
     for (PetscInt k = starts[r]; k < starts[r + 1]; k += width) {
       PetscInt *entry = model->owner + width * all[k];
       entry[0]        = r;
-      for (PetscInt f = 0; f < n_fields; f++) entry[1 + f] = all[k + 1 + f];
+      for (PetscInt f = 0; f < n_fields; f++)
+        entry[1 + f] = all[k + 1 + f];
     }
   }
   PetscCall(PetscFree2(counts, starts));
@@ -125,14 +127,16 @@ static PetscErrorCode collect_owners(Model *model)
 }
 
 /* Leaves on rank 0: 3 entries of fields[b] of every vertex in vertices[b], block after block. */
-PetscErrorCode unknowns_gather_create(Model *model, PetscInt n, const PetscInt *n_vertices, const PetscInt *const *vertices, const PetscInt *fields, PetscSF *sf)
+PetscErrorCode unknowns_gather_create(Model *model, PetscInt n, const PetscInt *n_vertices,
+                                      const PetscInt *const *vertices, const PetscInt *fields, PetscSF *sf)
 {
   const PetscInt width    = 2 + model->n_interfaces;
   PetscInt       n_leaves = 0;
   PetscSFNode   *remote;
 
   PetscFunctionBegin;
-  for (PetscInt b = 0; b < n && model->rank == 0; b++) n_leaves += 3 * n_vertices[b];
+  for (PetscInt b = 0; b < n && model->rank == 0; b++)
+    n_leaves += 3 * n_vertices[b];
   PetscCall(PetscMalloc1(n_leaves, &remote));
   for (PetscInt b = 0, leaf = 0; b < n && model->rank == 0; b++) {
     for (PetscInt k = 0; k < n_vertices[b]; k++) {
@@ -159,7 +163,8 @@ PetscErrorCode unknowns_create(Model *model)
   PetscCall(DMGetLocalToGlobalMapping(model->dm, &mapping));
   PetscCall(ISLocalToGlobalMappingGetIndices(mapping, &model->equations)); /* negative: prescribed */
   PetscCall(collect_owners(model));
-  PetscCall(unknowns_gather_create(model, 1, &model->mesh.n_vertices, &every_vertex, &displacement, &model->all_displacements));
+  PetscCall(unknowns_gather_create(model, 1, &model->mesh.n_vertices, &every_vertex, &displacement,
+                                   &model->all_displacements));
   PetscCall(DMCreateLocalVector(model->dm, &model->u_local));
   PetscCall(VecDuplicate(model->u_local, &model->f_local));
   PetscCall(VecDuplicate(model->u_local, &model->f_external));

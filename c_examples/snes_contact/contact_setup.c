@@ -1,0 +1,123 @@
+/* Creating and destroying the library's interfaces: surfaces in its arrays, equation numbers, prescribed directions. */
+#include "model.h"
+
+/* of `gathered`, `forces` and `equations` */
+static int64_t n_entries(const Interface *interface)
+{
+  return 3 * (2 * (int64_t)interface->n1 + interface->n2);
+}
+
+/* equations of the gathered entries, as the library wants them */
+static PetscErrorCode gather_equations(Model *model, Interface *interface)
+{
+  const int64_t n = model->rank ? 0 : n_entries(interface);
+  PetscInt     *numbers;
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(n, &numbers));
+  PetscCall(PetscSFBcastBegin(interface->sf, MPIU_INT, model->equations, numbers, MPI_REPLACE));
+  PetscCall(PetscSFBcastEnd(interface->sf, MPIU_INT, model->equations, numbers, MPI_REPLACE));
+  for (int64_t k = 0; k < n; k++)
+    interface->equations[k] = numbers[k] < 0 ? -1 : numbers[k];
+  PetscCall(PetscFree(numbers));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode describe_surface(const Model *model, const Interface *interface, int side, stickslip_surface *out,
+                                       int64_t **facet_nodes)
+{
+  const Surface *surface = interface->surface[side];
+  const PetscInt first = side ? interface->n1 : 0, n = side ? interface->n2 : interface->n1,
+                 n_corners = surface->offsets[surface->n_faces];
+  PetscInt      *local;
+  int64_t       *offsets;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(n_corners + surface->n_faces + 1, facet_nodes));
+  PetscCall(PetscMalloc1(model->mesh.n_vertices, &local));
+  offsets = *facet_nodes + n_corners;
+  for (PetscInt k = 0; k < n; k++)
+    local[interface->nodes[first + k]] = k;
+  for (PetscInt k = 0; k < n_corners; k++)
+    (*facet_nodes)[k] = local[surface->vertices[k]];
+  for (PetscInt f = 0; f <= surface->n_faces; f++)
+    offsets[f] = surface->offsets[f];
+  *out               = (stickslip_surface){.struct_size = sizeof(*out)};
+  out->n_nodes       = n;
+  out->n_facets      = surface->n_faces;
+  out->coordinates   = interface->X + 3 * first;
+  out->facet_offsets = offsets;
+  out->facet_nodes   = *facet_nodes;
+  out->equations     = interface->equations + 3 * first;
+  if (!side) out->multiplier_equations = interface->equations + 3 * (interface->n1 + interface->n2);
+  PetscCall(PetscFree(local));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Directions in which a node and the whole mortar side are prescribed carry no multiplier, and the normal none of them. */
+static int32_t set_constraints(const Interface *interface)
+{
+  int64_t *nodes, n = 0;
+  double  *directions;
+  int32_t  status;
+  PetscCallAbort(PETSC_COMM_SELF, PetscCalloc2(2 * interface->n1, &nodes, 6 * interface->n1, &directions));
+  for (PetscInt a = 0; a < interface->n1; a++) {
+    if (interface->removed[a] == 7) continue; /* wholly prescribed: no unknown is left, and the normal stays free */
+    for (int i = 0; i < 3; i++) {
+      if (!(interface->removed[a] & (1 << i))) continue;
+      nodes[n]              = a;
+      directions[3 * n + i] = 1;
+      n++;
+    }
+  }
+  status = n ? stickslip_interface_set_constraints(interface->handle, n, nodes, directions) : 0;
+  PetscCallAbort(PETSC_COMM_SELF, PetscFree2(nodes, directions));
+  return status;
+}
+
+PetscErrorCode contact_create(Model *model, PetscInt *status)
+{
+  PetscFunctionBegin;
+  *status = 0;
+  for (PetscInt i = 0; i < model->n_interfaces && !*status; i++) {
+    Interface            *interface = &model->interfaces[i];
+    const PetscInt        counts[3] = {interface->n1, interface->n2, interface->n1}, fields[3] = {0, 0, 1 + i};
+    const PetscInt *const nodes[3] = {interface->nodes, interface->nodes + interface->n1, interface->nodes};
+    int32_t               refused  = 0;
+    const int64_t         n        = model->rank ? 0 : n_entries(interface);
+
+    PetscCall(unknowns_gather_create(model, 3, counts, nodes, fields, &interface->sf));
+    PetscCall(PetscCalloc5(n, &interface->X, n, &interface->x, n, &interface->gathered, n, &interface->forces, n,
+                           &interface->equations));
+    PetscCall(gather_equations(model, interface));
+    if (model->rank == 0) {
+      stickslip_surface surfaces[2];
+      int64_t          *facet_nodes[2];
+      for (PetscInt k = 0; k < 3 * (interface->n1 + interface->n2); k++)
+        interface->X[k] = model->mesh.coordinates[3 * interface->nodes[k / 3] + k % 3];
+      for (int side = 0; side < 2; side++)
+        PetscCall(describe_surface(model, interface, side, &surfaces[side], &facet_nodes[side]));
+      refused = stickslip_interface_create(&surfaces[0], &surfaces[1], &interface->options, &interface->handle);
+      if (!refused) refused = set_constraints(interface);
+      for (int side = 0; side < 2; side++)
+        PetscCall(PetscFree(facet_nodes[side]));
+    }
+    PetscCall(contact_agree(model, refused, status));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode contact_destroy(Model *model)
+{
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < model->n_interfaces; i++) {
+    Interface *interface = &model->interfaces[i];
+    PetscCallStickslip(stickslip_interface_destroy(&interface->handle));
+    PetscCall(PetscSFDestroy(&interface->sf));
+    PetscCall(PetscFree5(interface->X, interface->x, interface->gathered, interface->forces, interface->equations));
+    PetscCall(PetscFree3(interface->coo_rows, interface->coo_columns, interface->coo_values));
+    PetscCall(PetscFree(interface->nodes));
+    PetscCall(PetscFree(interface->removed));
+  }
+  PetscCall(PetscFree(model->interfaces));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
