@@ -50,7 +50,7 @@ def demonstrate(build, renew_figures):
     comparisons.block_resultants(verdicts, "block, bottom, mu = 0.2", bottom)
     comparisons.block_slip(verdicts, "block, bottom, mu = 0.2", bottom)
     cylinders = progress.run("hertz_line_fine")
-    fitted = comparisons.hertz(verdicts, "Hertz", cylinders)
+    measured = comparisons.hertz(verdicts, "Hertz", cylinders)
 
     errors = {}
     for case in patches:
@@ -66,7 +66,7 @@ def demonstrate(build, renew_figures):
     drawn = [
         figures.traction(zone.line(comparisons.INTERFACE), bottom.line(comparisons.INTERFACE), output / "traction.png"),
         figures.block(bottom, comparisons.INTERFACE, output / "block.png"),
-        figures.hertz(cylinders.line("contact"), fitted, output / "hertz.png"),
+        figures.hertz(cylinders.line("contact"), measured, output / "hertz.png"),
         figures.patch(errors, comparisons.PATCH_BOUND, output / "patch.png"),
     ]
     if renew_figures:

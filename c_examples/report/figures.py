@@ -162,7 +162,7 @@ def block(run, interface, path):
     return _save(figure, path)
 
 
-def hertz(line, fitted, path):
+def hertz(line, measured, path):
     """Pressure of the line contact against Hertz's ellipse; below, the difference."""
     pressure = line.traction[:, 2]
     figure, (top, bottom) = plt.subplots(
@@ -185,7 +185,7 @@ def hertz(line, fitted, path):
     top.text(
         0,
         0.06,
-        f"$p_0$ = {fitted[0]:.3f} (Hertz {Hertz.peak:.3f})\n$a$ = {fitted[1]:.4f} (Hertz {Hertz.half_width:.4f})",
+        f"$p_0$ = {measured[0]:.3f} (Hertz {Hertz.peak:.3f})\n$a$ = {measured[1]:.4f} (Hertz {Hertz.half_width:.4f})",
         transform=top.get_xaxis_transform(),
         ha="center",
         va="bottom",
