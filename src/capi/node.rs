@@ -146,7 +146,7 @@ fn read_node(p: *const stickslip_node) -> Result<Node> {
         ("coverage_min", n.coverage_min),
     ] {
         // Coverage is a sum of positive weights; rounding may leave it a hair below zero.
-        if !v.is_finite() || (v < 0.0 && !name.starts_with("coverage")) {
+        if !v.is_finite() || (v < 0.0 && !matches!(name, "coverage" | "coverage_previous")) {
             return refuse(name, v, "finite and not negative");
         }
     }
@@ -156,7 +156,7 @@ fn read_node(p: *const stickslip_node) -> Result<Node> {
     let mut free = Mat3::identity();
     for k in 0..n.n_directions as usize {
         let d = Vec3::from_column_slice(&n.directions[3 * k..3 * k + 3]);
-        if !((free * d).norm_squared() - 1.0).abs().le(&UNIT) || !(d.dot(&normal).abs() <= UNIT) {
+        if [d, free * d].iter().any(|d| !((d.norm_squared() - 1.0).abs() <= UNIT)) || !(d.dot(&normal).abs() <= UNIT) {
             return refuse("directions", d.norm(), "orthonormal and orthogonal to the normal");
         }
         free -= d * d.transpose();
@@ -238,6 +238,9 @@ pub unsafe extern "C" fn stickslip_node_block(
         }
         raw::check_optional(row, "row")?;
         raw::check_optional(block, "block")?;
+        if !r.row.iter().all(|v| v.is_finite()) {
+            return Err(Error::new(Kind::NotFinite, "response.row is not finite"));
+        }
         let m = matrix(&r.drow_dlambda, "response.drow_dlambda")? * scale;
         raw::write_each(row, r.row.iter().map(|v| v * scale));
         raw::write(block, &rows(&if column_major { m.transpose() } else { m }));

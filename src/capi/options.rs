@@ -182,12 +182,20 @@ pub(super) fn read_options(p: *const stickslip_options) -> Result<(Options, i64)
     choose(friction, "options.friction", &[()], 4)?;
     choose(mortar_side, "options.mortar_side", &[()], 3)?;
     choose(multiplier_basis, "options.multiplier_basis", &[()], 2)?;
-    let numbers =
-        [("mu", mu), ("augmentation", augmentation), ("modulus", modulus), ("search_distance", search_distance)];
+    let numbers = [
+        ("mu", mu),
+        ("augmentation", augmentation),
+        ("modulus", modulus),
+        ("search_distance", search_distance),
+        ("coverage_min", coverage_min),
+    ];
     for (name, v) in numbers {
         if !v.is_finite() {
             return Err(Error::new(Kind::NotFinite, format!("options.{name} is {v}; it must be finite")));
         }
+    }
+    if modulus < 0.0 {
+        return Err(Error::new(Kind::InvalidValue, format!("options.modulus is {modulus}; it must not be negative")));
     }
     let stiffness = match (augmentation, modulus) {
         (0.0, 0.0) => {

@@ -41,7 +41,7 @@ pub(super) fn check<T>(p: *const T, name: &str) -> Result<()> {
 pub(super) fn count(n: i64, least: i64, name: &str) -> Result<usize> {
     match usize::try_from(n) {
         Ok(k) if n >= least && k <= LONGEST => Ok(k),
-        _ => refuse(Kind::InvalidSize, format!("{name} is {n}; it must be at least {least}")),
+        _ => refuse(Kind::InvalidSize, format!("{name} is {n}; it must be at least {least} and at most {LONGEST}")),
     }
 }
 

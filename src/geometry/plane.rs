@@ -46,7 +46,7 @@ impl Plane {
             return Err(Error::new(
                 Kind::DegenerateFacet,
                 format!(
-                    "the non-mortar facet's area is {:.1e} of its squared longest edge; it needs more than {SMALLEST_AREA_RATIO:.0e}",
+                    "the facet's area is {:.1e} of its squared longest edge; it needs more than {SMALLEST_AREA_RATIO:.0e}",
                     norm / (h * h)
                 ),
             ));

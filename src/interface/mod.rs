@@ -139,7 +139,7 @@ impl Interface {
         } else {
             Self::history_at(&self.nonmortar, &self.mortar, &self.options, self.distance, &mut self.counters, x1, x2)?
         };
-        new.commits = self.history.commits + 1;
+        new.commits = self.history.commits.saturating_add(1); // an imported history may hold any number
         new.slip = (0..responses.len()).map(|a| self.slip_after(a, &responses[a], sums[a].coverage)).collect();
         self.rollback = Some(std::mem::replace(&mut self.history, new));
         self.complete_history();
