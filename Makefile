@@ -13,12 +13,13 @@ export PATH := $(PATH):$(HOME)/.cargo/bin
 LOCKED = mkdir -p $(BUILD) && flock $(BUILD)/.lock
 SAY    = @printf '\n== %s\n'
 
-.PHONY: help demo test build meshes clean cmake-build rust-tests
+.PHONY: help demo test build header meshes clean cmake-build rust-tests
 
 help:
 	@echo "make demo    solve the example scenes, compare with the references, draw the figures (FIGURES=1: renew the README's)"
 	@echo "make test    run every test and check"
 	@echo "make build   build the library and the examples into $(BUILD)/"
+	@echo "make header  make include/stickslip.h again from src/capi"
 	@echo "make meshes  make the example meshes again with Gmsh"
 	@echo "make clean   remove $(BUILD)/ and target/"
 
@@ -53,6 +54,9 @@ cmake-build:
 	$(SAY) "Library and examples"
 	@$(LOCKED) cmake -S . -B $(BUILD) -DSTICKSLIP_REQUIRE_EXAMPLES=ON -DPython3_EXECUTABLE=$(PYTHON)
 	@$(LOCKED) cmake --build $(BUILD) --parallel $(JOBS)
+
+header:
+	STICKSLIP_WRITE_HEADER=1 cargo test --locked --test header header_is_up_to_date
 
 meshes:
 	@.ci/setup meshes

@@ -17,6 +17,7 @@
 //! options are appended to, never reused.
 #![allow(unsafe_code)]
 #![allow(non_camel_case_types)]
+#![allow(rustdoc::broken_intra_doc_links)] // The header's units stand in brackets, [L^2].
 #![allow(clippy::missing_safety_doc)] // One contract for all, in `raw.rs` and in the header's head.
 
 mod counters;

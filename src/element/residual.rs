@@ -6,7 +6,7 @@ use crate::geometry::Vec3;
 use crate::mortar::{MORTAR, PAIR_NODES, PairWeights};
 use crate::shape::MAX_NODES;
 
-/// Forces [F] at the pair's slots from the nodal tractions [F/L^2]. Their sum vanishes.
+/// Forces `[F]` at the pair's slots from the nodal tractions [F/L^2]. Their sum vanishes.
 pub fn pair_force(weights: &PairWeights, traction: &[Vec3; MAX_NODES]) -> [Vec3; PAIR_NODES] {
     let mut f = [Vec3::zeros(); PAIR_NODES];
     for a in 0..MAX_NODES {

@@ -61,7 +61,7 @@ impl BilinearMap {
         Preimage { xi: 2.0 * rc / (lead + det), eta: 2.0 * cross(self.b, r) / (bc + rd + det), det }
     }
 
-    /// det J dN_k/dy = g[0] + g[1] xi + g[2] eta: linear, the products xi eta cancel.
+    /// det J dN_k/dy = `g[0] + g[1] xi + g[2] eta`: linear, the products xi eta cancel.
     #[inline]
     pub fn gradients(&self) -> [[Vec2; MAX_NODES]; 3] {
         let (b, c, d) = (self.b, self.c, self.d);

@@ -36,7 +36,7 @@ impl Facet {
         &self.nodes[..self.shape.n]
     }
 
-    /// The longest distance between two consecutive nodes [L].
+    /// The longest distance between two consecutive nodes `[L]`.
     pub fn longest_edge(&self) -> f64 {
         let n = self.len();
         (0..n).map(|k| (self.nodes[(k + 1) % n] - self.nodes[k]).norm()).fold(0.0, f64::max)

@@ -25,9 +25,9 @@ pub struct Plane {
     pub t2: Vec3,
     /// Unit normal, out of the non-mortar body.
     pub e: Vec3,
-    /// Spin: Dt1 . t2 = sum_c spin[c] . Dx_c.
+    /// Spin: Dt1 . t2 = `sum_c spin[c] . Dx_c`.
     pub spin: [Vec3; MAX_NODES],
-    /// Tilt: t_j . De = sum_c tilt[j][c] . Dx_c.
+    /// Tilt: t_j . De = `sum_c tilt[j][c] . Dx_c`.
     pub tilt: [[Vec3; MAX_NODES]; 2],
 }
 

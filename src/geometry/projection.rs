@@ -25,7 +25,7 @@ pub struct Projection {
     pub node: [usize; MAX_NODES],
     /// Twice the projected area (>= 0) [L^2].
     pub area2: f64,
-    /// Largest in-plane extent [L].
+    /// Largest in-plane extent `[L]`.
     pub size: f64,
 }
 

@@ -41,11 +41,11 @@ impl<F: FnMut(i64, i64, f64)> Sink for F {
 /// Residual of an interface.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Residual {
-    /// Internal forces at the non-mortar nodes [F]; the force ON the body is the negative.
+    /// Internal forces at the non-mortar nodes `[F]`; the force ON the body is the negative.
     pub nonmortar: Vec<Vec3>,
-    /// Internal forces at the mortar nodes [F].
+    /// Internal forces at the mortar nodes `[F]`.
     pub mortar: Vec<Vec3>,
-    /// Multiplier rows ([F] or [L^3], see the row scale).
+    /// Multiplier rows (`[F]` or [L^3], see the row scale).
     pub rows: Vec<Vec3>,
 }
 

@@ -35,7 +35,7 @@ pub struct History {
     pub coverage: Vec<f64>,
     /// g[n_n, x_n] [L^3].
     pub gap: Vec<Vec3>,
-    /// Slip accumulated since the first configuration [L].
+    /// Slip accumulated since the first configuration `[L]`.
     pub slip: Vec<Vec3>,
     /// n(t_n), sorted by facets.
     pub pairs: Vec<PairRecord>,

@@ -146,7 +146,7 @@ impl Interface {
         Ok(())
     }
 
-    /// Slip of node A since the first configuration [L], this step's included.
+    /// Slip of node A since the first configuration `[L]`, this step's included.
     pub fn slip_after(&self, a: usize, response: &crate::law::NodeResponse, coverage: f64) -> Vec3 {
         let step = if coverage > 0.0 { response.slip / coverage } else { Vec3::zeros() };
         self.history.slip[a] + step
@@ -287,7 +287,7 @@ impl Interface {
         self.current_pairs().len()
     }
 
-    /// Heap memory in use, roughly [bytes].
+    /// Heap memory in use, roughly `[bytes]`.
     pub fn bytes(&self) -> usize {
         let pair = size_of::<PairRecord>();
         let node = size_of::<Vec3>();

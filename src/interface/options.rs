@@ -76,7 +76,7 @@ pub struct Options {
     pub stiffness: Stiffness,
     /// Covered over full nodal area at and below which a node counts as uncovered.
     pub coverage_min: f64,
-    /// Facets farther apart than this along the normal at the last commit are no pair [L];
+    /// Facets farther apart than this along the normal at the last commit are no pair `[L]`;
     /// `None`: the diagonal of the non-mortar surface.
     pub search_distance: Option<f64>,
 }

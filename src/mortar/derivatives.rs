@@ -8,7 +8,7 @@ use crate::geometry::{Vec2, Vec3};
 use crate::quadrature::Rule;
 use crate::shape::MAX_NODES;
 
-/// dn/dx of every weight of a pair [L]; slots of absent nodes are zero.
+/// dn/dx of every weight of a pair `[L]`; slots of absent nodes are zero.
 #[derive(Clone, Debug)]
 pub struct WeightDerivatives {
     /// `ab[A][B][k]` = d n_AB / d x_k, k over the pair's slots.
