@@ -154,9 +154,9 @@ int main(void) {
   memcpy(u, x1_previous, sizeof x1_previous);
   memcpy(u + NX1, x2_previous, sizeof x2_previous);
   for (int a = 0; a < N1; ++a) {
-    u[3 * a] += 0.002 * a;                  /* slid along x */
+    u[3 * a] += 0.002 * a;                 /* slid along x */
     u[3 * a + 2] += a == 3 ? 0.12 : -0.01; /* the last node is lifted: the facet is warped */
-    u[NX + 3 * a + 2] = -1.0;               /* pressed down: lambda . nu < 0, nu points up into the body */
+    u[NX + 3 * a + 2] = -1.0;              /* pressed down: lambda . nu < 0, nu points up into the body */
     u[NX + 3 * a] = 0.1 * a;
   }
 

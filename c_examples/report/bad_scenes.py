@@ -42,6 +42,7 @@ BAD_SCENES = [
         "block.file",
     ),
     BadScene("broken_yaml", "schema: 1", "schema: [1", "broken_yaml.yaml"),
+    BadScene("misspelt_option", "", "", "base.frictoin", ("-base_frictoin", "0.3")),
     BadScene("bad_option", "", "", "steps.count", ("-steps_count", "0")),
 ]
 

@@ -18,10 +18,12 @@ static PetscBool is_solver_key(const char *dotted)
   return PETSC_FALSE;
 }
 
+/* line 0: the key came from the command line */
 static void fail_at(Scene *scene, size_t line, const char *dotted, const char *text)
 {
-  char sentence[PETSC_MAX_PATH_LEN + 2048];
-  snprintf(sentence, sizeof(sentence), "%s:%d: %s%s%s", scene->file, (int)line, dotted, dotted[0] ? ": " : "", text);
+  char sentence[PETSC_MAX_PATH_LEN + 2048], place[PETSC_MAX_PATH_LEN + 32] = "command line";
+  if (line) snprintf(place, sizeof(place), "%s:%d", scene->file, (int)line);
+  snprintf(sentence, sizeof(sentence), "%s: %s%s%s", place, dotted, dotted[0] ? ": " : "", text);
   scene_end_run(scene, sentence);
 }
 
@@ -204,6 +206,27 @@ static void fail_unread(Scene *scene, const SceneKey *key)
   fail_at(scene, (size_t)key->line, key->dotted, text);
 }
 
+/* An option like -base_frictoin speaks to a map of the scene; PETSc would only list it as unused. */
+static void check_command_line(Scene *scene)
+{
+  static const char *const maps[] = {"frame", "steps", "output"};
+  char                   **options, **values;
+  PetscInt                 n, n_maps = (PetscInt)(sizeof(maps) / sizeof(maps[0]));
+
+  PetscCallAbort(PETSC_COMM_WORLD, PetscOptionsLeftGet(NULL, &n, &options, &values));
+  for (PetscInt k = 0; k < n; k++) {
+    for (PetscInt j = 0; j < n_maps + scene->n_names; j++) {
+      const char *map    = j < n_maps ? maps[j] : scene->names[j - n_maps];
+      size_t      length = strlen(map);
+      char        dotted[256];
+      if (strncmp(options[k], map, length) || options[k][length] != '_') continue;
+      snprintf(dotted, sizeof(dotted), "%s.%.120s", map, options[k] + length + 1);
+      fail_unread(scene, &(SceneKey){.dotted = dotted, .flat = options[k], .line = 0});
+    }
+  }
+  PetscCallAbort(PETSC_COMM_WORLD, PetscOptionsLeftRestore(NULL, &n, &options, &values));
+}
+
 void scene_check_unread(Scene *scene, PetscBool solver)
 {
   for (PetscInt k = 0; k < scene->n_keys; k++) {
@@ -212,4 +235,5 @@ void scene_check_unread(Scene *scene, PetscBool solver)
     PetscCallAbort(PETSC_COMM_WORLD, PetscOptionsUsed(NULL, scene->keys[k].flat, &used));
     if (!used) fail_unread(scene, &scene->keys[k]);
   }
+  if (!solver) check_command_line(scene);
 }

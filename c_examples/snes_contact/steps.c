@@ -176,8 +176,8 @@ PetscErrorCode steps_run(Model *model, int *exit_code)
           PetscFPrintf(PETSC_COMM_WORLD, PETSC_STDERR, "snes_contact: refused by the library: %s\n", model->refusal));
     else
       PetscCall(PetscFPrintf(PETSC_COMM_WORLD, PETSC_STDERR,
-                             "snes_contact: not converged beyond t = %g, with steps down to %g of the wanted ones.\n",
-                             (double)history.t_last, (double)steps->smallest));
+                             "snes_contact: not converged beyond t = %.6g, not even by steps of %.2g times the wanted ones.\n",
+                             (double)history.t_last, (double)(2 * steps->smallest)));
   }
   PetscCall(summary_write(model, &summary, cutbacks, model->refusal));
   PetscCall(VecDestroy(&history.x));
