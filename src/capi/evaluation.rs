@@ -148,7 +148,7 @@ pub unsafe extern "C" fn stickslip_interface_states(
         let sums = point.sums().unwrap_or(&own);
         let nodes = || responses.iter().enumerate();
         let normals = (0..responses.len()).map(|a| h.normal(a)).collect::<Result<Vec<_>>>()?;
-        let slip: Vec<_> = nodes().map(|(a, r)| h.slip_after(a, r, sums[a].coverage)).collect();
+        let slip: Vec<_> = nodes().map(|(a, r)| h.slip_after(a, r, sums[a].coverage_previous)).collect();
         raw::write_each(out.state, nodes().map(|(_, r)| r.state as i32));
         raw::write_each(out.normal, flat(&normals));
         raw::write_each(out.traction, nodes().flat_map(|(_, r)| [r.traction.x, r.traction.y, r.traction.z]));

@@ -140,15 +140,16 @@ impl Interface {
             Self::history_at(&self.nonmortar, &self.mortar, &self.options, self.distance, &mut self.counters, x1, x2)?
         };
         new.commits = self.history.commits.saturating_add(1); // an imported history may hold any number
-        new.slip = (0..responses.len()).map(|a| self.slip_after(a, &responses[a], sums[a].coverage)).collect();
+        new.slip = (0..responses.len()).map(|a| self.slip_after(a, &responses[a], sums[a].coverage_previous)).collect();
         self.rollback = Some(std::mem::replace(&mut self.history, new));
         self.complete_history();
         Ok(())
     }
 
     /// Slip of node A since the first configuration `[L]`, this step's included.
-    pub fn slip_after(&self, a: usize, response: &crate::law::NodeResponse, coverage: f64) -> Vec3 {
-        let step = if coverage > 0.0 { response.slip / coverage } else { Vec3::zeros() };
+    /// g_T is weighted with n(t_n), so it is a length times `coverage_previous`, the covered area of t_n.
+    pub fn slip_after(&self, a: usize, response: &crate::law::NodeResponse, coverage_previous: f64) -> Vec3 {
+        let step = if coverage_previous > 0.0 { response.slip / coverage_previous } else { Vec3::zeros() };
         self.history.slip[a] + step
     }
 
