@@ -61,7 +61,8 @@ fn boxes(
     };
     let swept = frames.iter().enumerate().map(|(f, frame)| {
         let facet = one.facet(f, x1);
-        let along = frame.plane.e * reach;
+        // Finite even where the host sets no limit to the distance: infinity times a zero component is NaN.
+        let along = frame.plane.e * reach.min(f64::MAX / 4.0);
         Aabb::around(facet.points().iter().flat_map(|p| [p - along, p + along]))
             .grown(TOUCH_MARGIN * facet.longest_edge())
     });
