@@ -60,9 +60,10 @@ fn run(name: &str, link: Link) {
 }
 
 macro_rules! c_tests {
-    ($($name:ident)*) => {
+    ($($(#[$attribute:meta])* $name:ident)*) => {
         $(
             #[test]
+            $(#[$attribute])*
             fn $name() {
                 run(stringify!($name), Link::Static);
             }
@@ -96,6 +97,24 @@ c_tests! {
     t34_sums
     t35_aba
     t36_pattern
+    t37_drop_off
+    t40_bad_input_null
+    t41_bad_input_misaligned
+    t42_bad_input_struct_size
+    t43_bad_input_not_finite
+    t44_bad_input_value
+    t45_bad_input_facet
+    t46_bad_input_index
+    t47_bad_input_counts
+    t48_bad_input_buffers
+    t49_bad_input_history
+    t50_threads
+    t51_extremes
+    t52_random_calls
+    #[ignore = "an imported history is matched by its counts only"]
+    t53_foreign_history
+    #[ignore = "results that overflow go out as infinities"]
+    t54_overflow
 }
 
 /// One test through the shared library.

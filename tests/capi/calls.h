@@ -1,0 +1,193 @@
+/* Every entry point with arguments that it accepts, to be spoilt one at a time by the tests of bad input. Each output
+ * holds a pattern that a refused call must leave alone. */
+#ifndef CALLS_H
+#define CALLS_H
+
+#include "pair.h"
+#include "scene.h"
+
+/* Stateless calls on two quadrilaterals. */
+typedef struct {
+  double x1[12], x2[12];
+  stickslip_pair pair;
+  weights w;
+  stickslip_node node;
+  stickslip_node_response responses[4];
+  double traction[12], row_scale[4], sum[3];
+  /* Outputs. */
+  weights w_out;
+  double gap[12], force[24], k[36 * 36], normals[12], areas[4], normal[3], row[3], block[9];
+} element;
+
+static inline void element_init(element *e) {
+  memset(e, 0, sizeof *e);
+  memcpy(e->x1, quad1, sizeof quad1);
+  memcpy(e->x2, quad2, sizeof quad2);
+  e->pair = make_pair(4, e->x1, 4, e->x2);
+  pair_weights(&e->pair, &e->w);
+  e->node.struct_size = sizeof e->node;
+  e->node.normal[2] = 1.0;
+  e->node.lambda[2] = -1.0;
+  e->node.augmentation = 3.0;
+  e->node.mu = 0.5;
+  e->node.coverage = e->node.coverage_previous = 1.0;
+  e->sum[2] = -2.0;
+  for (int i = 0; i < 4; ++i) {
+    e->responses[i].struct_size = sizeof e->responses[i];
+    CHECK_OK(stickslip_node_respond(&e->node, &e->responses[i]));
+    e->row_scale[i] = 2.0;
+    e->traction[3 * i + 2] = -1.0;
+  }
+  FILL(e->w_out);
+  FILL(e->gap);
+  FILL(e->force);
+  FILL(e->k);
+  FILL(e->normals);
+  FILL(e->areas);
+  FILL(e->normal);
+  FILL(e->row);
+  FILL(e->block);
+}
+
+static inline int32_t call_weights(element *e) {
+  return stickslip_pair_weights(&e->pair, e->w_out.ab, e->w_out.ac, e->w_out.dab, e->w_out.dac);
+}
+static inline int32_t call_gap(element *e) { return stickslip_pair_gap(&e->pair, e->w.ab, e->w.ac, e->gap); }
+static inline int32_t call_residual(element *e) {
+  return stickslip_pair_residual(&e->pair, e->w.ab, e->w.ac, e->traction, e->force);
+}
+static inline int32_t call_tangent(element *e) {
+  return stickslip_pair_tangent(&e->pair, e->w.ab, e->w.ac, e->w.dab, e->w.dac, e->w.ab, e->w.ac, e->traction,
+                                e->responses, e->row_scale, e->k, 36);
+}
+static inline int32_t call_respond(element *e) {
+  /* Into the last response, of which all but the size is filled with the pattern. */
+  FILL(e->responses[3]);
+  e->responses[3].struct_size = sizeof e->responses[3];
+  return stickslip_node_respond(&e->node, &e->responses[3]);
+}
+static inline int32_t call_block(element *e) {
+  return stickslip_node_block(&e->responses[0], 1.0, STICKSLIP_LAYOUT_ROW_MAJOR, e->row, e->block);
+}
+static inline int32_t call_facet(element *e) { return stickslip_facet_geometry(4, e->x1, e->normals, e->areas); }
+static inline int32_t call_normal(element *e) { return stickslip_node_normal(e->sum, e->normal); }
+
+static inline void element_untouched(element *e) {
+  CHECK_UNTOUCHED(e->w_out);
+  CHECK_UNTOUCHED(e->gap);
+  CHECK_UNTOUCHED(e->force);
+  CHECK_UNTOUCHED(e->k);
+  CHECK_UNTOUCHED(e->normals);
+  CHECK_UNTOUCHED(e->areas);
+  CHECK_UNTOUCHED(e->normal);
+  CHECK_UNTOUCHED(e->row);
+  CHECK_UNTOUCHED(e->block);
+}
+
+static inline void response_untouched(element *e) {
+  check_untouched(&e->responses[3].state, sizeof e->responses[3] - 8, __FILE__, __LINE__, "response");
+}
+
+/* Calls on an interface handle. */
+typedef struct {
+  scene s;
+  history before;
+  /* Outputs. */
+  double force1[X1], force2[X2], rows[X1], sums[STICKSLIP_SUMS_PER_NODE * N1], values[MOST_ENTRIES];
+  int64_t row_numbers[MOST_ENTRIES], columns[MOST_ENTRIES], count;
+  int32_t state[N1];
+  double normal[X1];
+  stickslip_states states;
+  /* A CSR matrix with every entry. */
+  int64_t offsets[UNKNOWNS + 1], csr_columns[UNKNOWNS * UNKNOWNS];
+  double csr[UNKNOWNS * UNKNOWNS];
+} handle;
+
+static inline void handle_fill(handle *h) {
+  FILL(h->force1);
+  FILL(h->force2);
+  FILL(h->rows);
+  FILL(h->sums);
+  FILL(h->values);
+  FILL(h->row_numbers);
+  FILL(h->columns);
+  FILL(h->count);
+  FILL(h->state);
+  FILL(h->normal);
+  FILL(h->csr);
+}
+
+/* A scene with one committed step. */
+static inline void handle_init(handle *h) {
+  memset(h, 0, sizeof *h);
+  scene_init(&h->s);
+  scene_create(&h->s);
+  scene_commit(&h->s);
+  history_take(h->s.interface, &h->before);
+  h->states.struct_size = sizeof h->states;
+  h->states.state = h->state;
+  h->states.normal = h->normal;
+  for (int i = 0; i <= UNKNOWNS; ++i) h->offsets[i] = (int64_t)i * UNKNOWNS;
+  for (int i = 0; i < UNKNOWNS * UNKNOWNS; ++i) h->csr_columns[i] = i % UNKNOWNS;
+  handle_fill(h);
+}
+
+static inline int32_t call_interface_residual(handle *h) {
+  scene *s = &h->s;
+  return stickslip_interface_residual(s->interface, s->x1, s->x2, s->lambda, NULL, h->force1, h->force2, h->rows);
+}
+static inline int32_t call_interface_states(handle *h) {
+  scene *s = &h->s;
+  return stickslip_interface_states(s->interface, s->x1, s->x2, s->lambda, NULL, &h->states);
+}
+static inline int32_t call_interface_sums(handle *h) {
+  return stickslip_interface_sums(h->s.interface, h->s.x1, h->s.x2, h->sums);
+}
+static inline int32_t call_interface_coo(handle *h) {
+  scene *s = &h->s;
+  return stickslip_interface_tangent_coo(s->interface, s->x1, s->x2, s->lambda, NULL, MOST_ENTRIES, h->row_numbers,
+                                         h->columns, h->values, &h->count);
+}
+static inline int32_t call_interface_csr(handle *h) {
+  scene *s = &h->s;
+  return stickslip_interface_tangent_csr(s->interface, s->x1, s->x2, s->lambda, NULL, UNKNOWNS, h->offsets,
+                                         h->csr_columns, h->csr);
+}
+static inline int32_t call_interface_pattern(handle *h) {
+  return stickslip_interface_pattern_coo(h->s.interface, h->s.x1, h->s.x2, MOST_ENTRIES, h->row_numbers, h->columns,
+                                         &h->count);
+}
+static inline int32_t call_interface_commit(handle *h) {
+  scene *s = &h->s;
+  return stickslip_interface_commit(s->interface, s->x1, s->x2, s->lambda, NULL);
+}
+static inline int32_t call_interface_previous(handle *h) {
+  return stickslip_interface_set_previous(h->s.interface, h->s.x1, h->s.x2);
+}
+
+/* The calls that take positions; the first `LAMBDA_CALLS` take multipliers too. */
+typedef int32_t (*interface_call)(handle *h);
+enum { LAMBDA_CALLS = 5 };
+static const interface_call evaluations[] = {call_interface_residual, call_interface_states,  call_interface_coo,
+                                             call_interface_csr,      call_interface_commit,  call_interface_sums,
+                                             call_interface_pattern,  call_interface_previous};
+
+/* Neither outputs nor history have changed, and the handle goes on working. */
+static inline void handle_untouched(handle *h) {
+  static history now;
+  CHECK_UNTOUCHED(h->force1);
+  CHECK_UNTOUCHED(h->force2);
+  CHECK_UNTOUCHED(h->rows);
+  CHECK_UNTOUCHED(h->sums);
+  CHECK_UNTOUCHED(h->values);
+  CHECK_UNTOUCHED(h->row_numbers);
+  CHECK_UNTOUCHED(h->columns);
+  CHECK_UNTOUCHED(h->count);
+  CHECK_UNTOUCHED(h->state);
+  CHECK_UNTOUCHED(h->normal);
+  CHECK_UNTOUCHED(h->csr);
+  history_take(h->s.interface, &now);
+  CHECK(history_equal(&h->before, &now));
+}
+
+#endif

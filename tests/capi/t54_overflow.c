@@ -1,0 +1,52 @@
+/* Finite inputs whose results leave the range of doubles: refused, as stickslip_node_respond does for its row. An
+ * infinity that goes out with a success ends in the host's linear solver, far from its cause. */
+#include "calls.h"
+
+static int all_finite(const double *v, int64_t n) {
+  for (int64_t k = 0; k < n; ++k) {
+    if (!isfinite(v[k])) return 0;
+  }
+  return 1;
+}
+
+#define REFUSED_OR_FINITE(status, values, n) CHECK((status) == STICKSLIP_NOT_FINITE || all_finite((values), (n)))
+
+int main(void) {
+  static element e;
+  element_init(&e);
+  for (int i = 0; i < 16; ++i) e.w.ab[i] = 1e308;
+  for (int i = 0; i < 12; ++i) e.traction[i] = 1e10;
+  for (int i = 0; i < 4; ++i) e.row_scale[i] = 1e300;
+  REFUSED_OR_FINITE(call_gap(&e), e.gap, 12);
+  REFUSED_OR_FINITE(call_residual(&e), e.force, 24);
+  REFUSED_OR_FINITE(call_tangent(&e), e.k, 36 * 36);
+
+  element_init(&e);
+  e.responses[0].row[0] = 1e300;
+  REFUSED_OR_FINITE(stickslip_node_block(&e.responses[0], 1e300, 0, e.row, e.block), e.row, 3);
+
+  /* 1 / r overflows. */
+  element_init(&e);
+  e.node.augmentation = 1e-310;
+  e.node.lambda[2] = 0.0;
+  e.node.gap_now[2] = 1.0;
+  REFUSED_OR_FINITE(call_respond(&e), e.responses[3].drow_dlambda, 9);
+
+  /* The same through a handle, whose tangent overflows while its residual does not. */
+  static handle h;
+  const double stiffness[] = {1e-320, 1e-310, 1e300, 1.7e308};
+  for (int k = 0; k < COUNT(stiffness); ++k) {
+    memset(&h, 0, sizeof h);
+    scene_init(&h.s);
+    h.s.options.augmentation = stiffness[k];
+    if (stickslip_interface_create(&h.s.nonmortar, &h.s.mortar, &h.s.options, &h.s.interface) != STICKSLIP_OK) continue;
+    double lambda[X1];
+    memset(lambda, 0, sizeof lambda);
+    REFUSED_OR_FINITE(stickslip_interface_initial_multipliers(h.s.interface, lambda), lambda, X1);
+    memset(h.s.lambda, 0, sizeof h.s.lambda);
+    REFUSED_OR_FINITE(call_interface_residual(&h), h.rows, X1);
+    REFUSED_OR_FINITE(call_interface_coo(&h), h.values, h.count);
+    scene_destroy(&h.s);
+  }
+  return 0;
+}
