@@ -62,9 +62,10 @@ static inline double random_number(uint64_t *state) {
   return (double)(*state >> 33) / (double)(1u << 30) - 1.0;
 }
 
+/* NaN if any is NaN. */
 static inline double max_abs(const double *v, int n) {
   double largest = 0.0;
-  for (int k = 0; k < n; ++k) largest = fabs(v[k]) > largest ? fabs(v[k]) : largest;
+  for (int k = 0; k < n; ++k) largest = fabs(v[k]) <= largest ? largest : isnan(largest) ? largest : fabs(v[k]);
   return largest;
 }
 

