@@ -7,7 +7,7 @@
  * gaps are area times length [L^3]. Any consistent system of units will do: F force, L length.
  *
  * Status: 0 success; positive: refused, nothing was changed, stickslip_last_error_message() says which argument
- * was wrong and what is allowed; negative: the library is at fault and the handle is suspect. No contact is a
+ * was wrong and what is allowed (nodes and facets counted from 0); negative: the library is at fault and the handle is suspect. No contact is a
  * state, not an error. Nothing is printed.
  *
  * Threads: stateless calls from any thread; distinct handles from any threads; one handle from one at a time.
@@ -531,7 +531,8 @@ int32_t stickslip_node_block(const struct stickslip_node_response *response,
                              double *row,
                              double *block);
 
-// Writes the defaults. struct_size: sizeof(stickslip_options).
+// Writes the defaults. struct_size: sizeof(stickslip_options) as the caller knows it; what a newer caller's
+// struct has beyond this library's is zeroed.
 //
 // Errors: NULL_POINTER, STRUCT_SIZE.
 int32_t stickslip_options_init(struct stickslip_options *options, uint64_t struct_size);
@@ -540,7 +541,8 @@ int32_t stickslip_options_init(struct stickslip_options *options, uint64_t struc
 //
 // Outputs, each may be NULL: n_ab (n1 x n1) and n_ac (n1 x n2) [L^2], row A; dn_ab (n1 x n1 x 3(n1+n2))
 // and dn_ac (n1 x n2 x 3(n1+n2)) [L], their exact derivatives with respect to (x1, x2), always row-major
-// in this order. Facets that do not overlap give zeros: not an error. Paper (13).
+// in this order. Facets that do not overlap give zeros, as does a mortar facet seen edge-on: not an error.
+// Paper (13).
 // Errors: NULL_POINTER, STRUCT_SIZE, INVALID_SIZE, NOT_FINITE, DUPLICATE_NODE, DEGENERATE_FACET,
 // PROJECTION_NOT_CONVEX, INVALID_VALUE. Cost: about a microsecond, some more with derivatives. Does not
 // allocate.

@@ -1,8 +1,10 @@
 //! The committed header is what cbindgen makes of `src/capi`, and compiles as C99 and C++17 with all
 //! warnings as errors. `STICKSLIP_WRITE_HEADER=1 cargo test --test header` renews it.
 
+mod support;
+
 use std::path::{Path, PathBuf};
-use std::process::Command;
+use support::c::*;
 
 fn root() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR"))
@@ -23,25 +25,19 @@ fn header_is_up_to_date() {
     assert!(committed == generated, "include/stickslip.h is out of date: `make header` renews it");
 }
 
-fn compiles(compiler: &str, flags: &[&str], extension: &str) {
+fn compiles(cpp: bool, flags: &[&str], extension: &str) {
     let source = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("header.{extension}"));
     std::fs::write(&source, "#include <stickslip.h>\n#include <stickslip.h>\nint main(void) { return 0; }\n").unwrap();
-    let output = Command::new(compiler)
-        .args(flags)
-        .args(["-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Werror", "-fsyntax-only", "-I"])
-        .arg(root().join("include"))
-        .arg(&source)
-        .output()
-        .unwrap_or_else(|e| panic!("{compiler}: {e}"));
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let warnings = ["-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Werror", "-fsyntax-only", "-I"];
+    run(compiler(cpp).args(flags).args(warnings).arg(include()).arg(&source), "the header");
 }
 
 #[test]
 fn compiles_as_c99() {
-    compiles("cc", &["-std=c99", "-Wstrict-prototypes"], "c");
+    compiles(false, &["-std=c99", "-Wstrict-prototypes"], "c");
 }
 
 #[test]
 fn compiles_as_cpp17() {
-    compiles("c++", &["-std=c++17", "-Wold-style-cast"], "cpp");
+    compiles(true, &["-std=c++17", "-Wold-style-cast"], "cpp");
 }

@@ -125,7 +125,7 @@ fn rollback_and_restart_continue_bit_for_bit() {
         assert!(scene.evaluate() == before, "{options:?}");
         assert_eq!(scene.interface.roll_back().unwrap_err().kind, Kind::NothingToRollBack);
 
-        let (integers, reals) = history.export();
+        let (integers, reals) = scene.interface.export_history();
         assert_eq!((integers.len(), reals.len()), history.flat_size());
         let mut restarted = moved(&options, QUADS, ROUGH, 3);
         restarted.interface.import_history(&integers, &reals).unwrap();
@@ -139,7 +139,7 @@ fn a_corrupt_history_is_refused_and_nothing_changes() {
     let mut scene = moved(&options(), QUADS, ROUGH, 3);
     scene.commit();
     let before = scene.interface.history().clone();
-    let (integers, reals) = before.export();
+    let (integers, reals) = scene.interface.export_history();
     let mut refuse = |kind: Kind, integers: &[i64], reals: &[f64]| {
         assert_eq!(scene.interface.import_history(integers, reals).unwrap_err().kind, kind);
         assert_eq!(*scene.interface.history(), before);
@@ -147,7 +147,7 @@ fn a_corrupt_history_is_refused_and_nothing_changes() {
     refuse(Kind::HistoryMismatch, &[], &reals);
     refuse(Kind::HistoryMismatch, &integers[..integers.len() - 1], &reals);
     refuse(Kind::HistoryMismatch, &integers, &reals[1..]);
-    for (at, value) in [(0, 7), (1, -1), (2, 3), (3, 1), (4, i64::MAX), (5, -1), (6, 1 << 40)] {
+    for (at, value) in [(0, 7), (1, -1), (2, 3), (3, 1), (4, i64::MAX), (5, 0), (6, -1), (7, 1 << 40)] {
         let mut wrong = integers.clone();
         wrong[at] = value;
         refuse(Kind::HistoryMismatch, &wrong, &reals);

@@ -1,10 +1,13 @@
 //! Every struct of the ABI is laid out in Rust as the C compiler lays out the header's, without padding.
 
 use std::fmt::Write;
+mod support;
+
 use std::mem::{offset_of, size_of};
 use std::path::Path;
 use std::process::Command;
 use stickslip::capi::*;
+use support::c::*;
 
 /// A struct's name, its size, and its members with offset and size, in order.
 struct Layout {
@@ -150,19 +153,8 @@ fn c_text() -> String {
     let probe = Path::new(env!("CARGO_TARGET_TMPDIR")).join("layout_probe");
     let source = probe.with_extension("c");
     std::fs::write(&source, code).unwrap();
-    let compiler = std::env::var_os("CC").unwrap_or_else(|| "cc".into());
-    let include = Path::new(env!("CARGO_MANIFEST_DIR")).join("include");
-    let output = Command::new(compiler)
-        .args(["-std=c99", "-I"])
-        .arg(include)
-        .arg("-o")
-        .args([&probe, &source])
-        .output()
-        .unwrap();
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    let output = Command::new(probe).output().unwrap();
-    assert!(output.status.success());
-    String::from_utf8(output.stdout).unwrap()
+    run(compiler(false).args(["-std=c99", "-I"]).arg(include()).arg("-o").args([&probe, &source]), "the layout probe");
+    run(&mut Command::new(probe), "the layout probe")
 }
 
 #[test]

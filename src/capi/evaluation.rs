@@ -138,10 +138,17 @@ pub unsafe extern "C" fn stickslip_interface_states(
         let point = Point::read(h, x1, x2, lambda, sums)?;
         let out = raw::read(out)?;
         raw::check_optional(out.state, "stickslip_states.state")?;
-        for p in
-            [out.normal, out.traction, out.gap, out.slip, out.coverage, out.area, out.dissipation, out.augmentation]
-        {
-            raw::check_optional(p, "a member of stickslip_states")?;
+        for (p, name) in [
+            (out.normal, "stickslip_states.normal"),
+            (out.traction, "stickslip_states.traction"),
+            (out.gap, "stickslip_states.gap"),
+            (out.slip, "stickslip_states.slip"),
+            (out.coverage, "stickslip_states.coverage"),
+            (out.area, "stickslip_states.area"),
+            (out.dissipation, "stickslip_states.dissipation"),
+            (out.augmentation, "stickslip_states.augmentation"),
+        ] {
+            raw::check_optional(p, name)?;
         }
         let responses = h.responses(&point.x1, &point.x2, &point.lambda, point.sums())?;
         let own = if point.sums().is_none() { h.sums(&point.x1, &point.x2)? } else { Vec::new() };
@@ -188,6 +195,8 @@ pub unsafe extern "C" fn stickslip_interface_residual(
         raw::check(force2, "force2")?;
         raw::check(rows, "rows")?;
         let r = h.residual(&point.x1, &point.x2, &point.lambda, point.sums())?;
+        let all = r.nonmortar.iter().chain(&r.mortar).chain(&r.rows);
+        raw::check_results("force1, force2, rows", all.flat_map(|v| v.iter()))?;
         raw::write_each(force1, flat(&r.nonmortar));
         raw::write_each(force2, flat(&r.mortar));
         raw::write_each(rows, flat(&r.rows));

@@ -38,7 +38,7 @@ pub unsafe extern "C" fn stickslip_facet_geometry(n: i32, x: *const f64, normals
         let facet = facet(n, x, "x")?;
         raw::check_optional(normals, "normals")?;
         raw::check_optional(areas, "areas")?;
-        let frame = NonmortarFrame::new(&facet)?;
+        let frame = NonmortarFrame::new(&facet).map_err(raw::named("x"))?;
         let corners: [Vec3; MAX_NODES] = std::array::from_fn(|k| normal::corner_normal(&facet, k % facet.len()));
         raw::write_each(normals, corners[..facet.len()].iter().flat_map(|v| v.iter().copied()));
         raw::write(areas, &frame.nodal_areas()[..facet.len()]);

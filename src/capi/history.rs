@@ -69,7 +69,7 @@ pub unsafe extern "C" fn stickslip_interface_history_export(
                 return Err(Error::new(Kind::BufferTooSmall, format!("{name} is {given}; the history needs {needed}")));
             }
         }
-        let (i, r) = h.inner.history().export();
+        let (i, r) = h.inner.export_history();
         raw::write(integers, &i);
         raw::write(reals, &r);
         Ok(())

@@ -5,7 +5,7 @@ use super::guard::guard;
 use super::options::{read_options, stickslip_options};
 use super::raw;
 use super::surface::{read_multipliers, read_surface, stickslip_surface};
-use crate::error::Result;
+use crate::error::{Error, Kind, Result};
 use crate::geometry::Vec3;
 use crate::interface::Interface;
 
@@ -144,8 +144,16 @@ pub unsafe extern "C" fn stickslip_interface_set_constraints(
             return h.inner.set_constraints(&[]);
         }
         let (nodes, directions) = (raw::slice(nodes, n, "nodes")?, raw::numbers(directions, 3 * n, "directions")?);
-        let node = |k: &i64| k.checked_sub(h.base).and_then(|k| usize::try_from(k).ok()).unwrap_or(usize::MAX);
-        let list: Vec<_> = nodes.iter().map(node).zip(raw::vectors(directions)).collect();
+        let n1 = sizes(&h.inner).0;
+        let index = |k: i64| k.checked_sub(h.base).and_then(|k| usize::try_from(k).ok()).filter(|&k| k < n1);
+        let mut list = Vec::with_capacity(n);
+        for (k, (&node, direction)) in nodes.iter().zip(raw::vectors(directions)).enumerate() {
+            let Some(node) = index(node) else {
+                let text = format!("nodes[{k}] is {node}; {} to {} are allowed", h.base, n1 as i64 - 1 + h.base);
+                return Err(Error::new(Kind::IndexOutOfRange, text));
+            };
+            list.push((node, direction));
+        }
         h.inner.set_constraints(&list)
     })
 }
@@ -177,6 +185,7 @@ pub unsafe extern "C" fn stickslip_interface_initial_multipliers(
         let h = handle(interface)?;
         raw::check(lambda, "lambda")?;
         let values = h.inner.initial_multipliers()?;
+        raw::check_results("lambda", values.iter().flat_map(|v| v.iter()))?;
         raw::write_each(lambda, flat(&values));
         Ok(())
     })

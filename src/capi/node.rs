@@ -190,12 +190,8 @@ pub unsafe extern "C" fn stickslip_node_respond(
         let node = read_node(node)?;
         raw::check_struct(response)?;
         let r = node.respond();
-        if !r.row.iter().chain(r.sigma.iter()).all(|v| v.is_finite()) {
-            return Err(Error::new(
-                Kind::NotFinite,
-                "the node's response overflows; its gaps, multiplier or augmentation are out of range",
-            ));
-        }
+        let matrices = [&r.dp_dlambda, &r.drow_dlambda, &r.drow_dnow, &r.drow_dprevious];
+        raw::check_results("response", r.row.iter().chain(r.sigma.iter()).chain(matrices.into_iter().flatten()))?;
         raw::write_struct(
             response,
             stickslip_node_response {
@@ -242,7 +238,9 @@ pub unsafe extern "C" fn stickslip_node_block(
             return Err(Error::new(Kind::NotFinite, "response.row is not finite"));
         }
         let m = matrix(&r.drow_dlambda, "response.drow_dlambda")? * scale;
-        raw::write_each(row, r.row.iter().map(|v| v * scale));
+        let scaled = r.row.map(|v| v * scale);
+        raw::check_results("row, block", scaled.iter().chain(m.iter()))?;
+        raw::write(row, &scaled);
         raw::write(block, &rows(&if column_major { m.transpose() } else { m }));
         Ok(())
     })

@@ -100,18 +100,15 @@ unsafe impl Sized64 for stickslip_options {
     const NAME: &'static str = "stickslip_options";
 }
 
-/// Writes the defaults. struct_size: sizeof(stickslip_options).
+/// Writes the defaults. struct_size: sizeof(stickslip_options) as the caller knows it; what a newer caller's
+/// struct has beyond this library's is zeroed.
 ///
 /// Errors: NULL_POINTER, STRUCT_SIZE.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn stickslip_options_init(options: *mut stickslip_options, struct_size: u64) -> i32 {
     guard(|| {
         raw::check(options, "options")?;
-        let known = size_of::<stickslip_options>() as u64;
-        if struct_size != known {
-            let text = format!("struct_size is {struct_size}; pass sizeof(stickslip_options), which is {known}");
-            return Err(Error::new(Kind::StructSize, text));
-        }
+        let tail = raw::check_size::<stickslip_options>(struct_size)?;
         let defaults = stickslip_options {
             struct_size,
             form: STICKSLIP_FORM_MULTIPLIER,
@@ -131,6 +128,7 @@ pub unsafe extern "C" fn stickslip_options_init(options: *mut stickslip_options,
             search_distance: 0.0,
         };
         raw::write(options, &[defaults]);
+        raw::write(options.wrapping_add(1).cast::<u8>(), &[0; raw::LONGEST_STRUCT][..tail]);
         Ok(())
     })
 }

@@ -105,7 +105,8 @@ impl Pair {
 ///
 /// Outputs, each may be NULL: n_ab (n1 x n1) and n_ac (n1 x n2) [L^2], row A; dn_ab (n1 x n1 x 3(n1+n2))
 /// and dn_ac (n1 x n2 x 3(n1+n2)) [L], their exact derivatives with respect to (x1, x2), always row-major
-/// in this order. Facets that do not overlap give zeros: not an error. Paper (13).
+/// in this order. Facets that do not overlap give zeros, as does a mortar facet seen edge-on: not an error.
+/// Paper (13).
 /// Errors: NULL_POINTER, STRUCT_SIZE, INVALID_SIZE, NOT_FINITE, DUPLICATE_NODE, DEGENERATE_FACET,
 /// PROJECTION_NOT_CONVEX, INVALID_VALUE. Cost: about a microsecond, some more with derivatives. Does not
 /// allocate.
@@ -123,24 +124,27 @@ pub unsafe extern "C" fn stickslip_pair_weights(
         for (p, name) in [(n_ab, "n_ab"), (n_ac, "n_ac"), (dn_ab, "dn_ab"), (dn_ac, "dn_ac")] {
             raw::check_optional(p, name)?;
         }
-        let frame = NonmortarFrame::new(&pair.one)?;
-        let segment = Segment::new(&frame, &pair.two)?;
+        let frame = NonmortarFrame::new(&pair.one).map_err(raw::named("pair.x1"))?;
+        let segment = Segment::new(&frame, &pair.two).map_err(raw::named("pair.x2"))?;
         let (n1, n2) = pair.n();
         let mut w = PairWeights::default();
         if let Some(segment) = &segment {
             w = PairWeights::integrate(&frame, segment, rule);
+        }
+        raw::check_results("n_ab, n_ac", w.ab.iter().chain(&w.ac).flatten())?;
+        let mut d = WeightDerivatives::default();
+        let wanted = !(dn_ab.is_null() && dn_ac.is_null());
+        if let (true, Some(segment)) = (wanted, &segment) {
+            d = WeightDerivatives::integrate(&frame, segment, rule);
+            raw::check_results("dn_ab, dn_ac", d.ab.iter().chain(&d.ac).flatten().flatten().flat_map(|v| v.iter()))?;
         }
         let (mut ab, mut ac) = (Output::new(n_ab), Output::new(n_ac));
         for a in 0..n1 {
             ab.append(&w.ab[a][..n1]);
             ac.append(&w.ac[a][..n2]);
         }
-        if dn_ab.is_null() && dn_ac.is_null() {
+        if !wanted {
             return Ok(());
-        }
-        let mut d = WeightDerivatives::default();
-        if let Some(segment) = &segment {
-            d = WeightDerivatives::integrate(&frame, segment, rule);
         }
         let (mut ab, mut ac) = (Output::new(dn_ab), Output::new(dn_ac));
         for a in 0..n1 {
@@ -172,6 +176,7 @@ pub unsafe extern "C" fn stickslip_pair_gap(
         let weights = pair.weights(n_ab, n_ac, ["n_ab", "n_ac"])?;
         raw::check(gap, "gap")?;
         let g = mortar::gap(&weights, &pair.one, &pair.two);
+        raw::check_results("gap", g.iter().flat_map(|v| v.iter()))?;
         raw::write_each(gap, g[..pair.one.len()].iter().flat_map(|v| [v.x, v.y, v.z]));
         Ok(())
     })
@@ -197,6 +202,7 @@ pub unsafe extern "C" fn stickslip_pair_residual(
         let traction = pair.tractions(traction)?;
         raw::check(force, "force")?;
         let f = pair_force(&weights, &traction);
+        raw::check_results("force", f.iter().flat_map(|v| v.iter()))?;
         let (n1, n2) = pair.n();
         raw::write_each(force, (0..n1 + n2).map(|k| f[pair.slot(k)]).flat_map(|v| [v.x, v.y, v.z]));
         Ok(())
@@ -255,7 +261,7 @@ pub unsafe extern "C" fn stickslip_pair_tangent(
         }
         let gap = match (&weights, &dn) {
             (Some(w), Some(dn)) => {
-                let frame = NonmortarFrame::new(&pair.one)?;
+                let frame = NonmortarFrame::new(&pair.one).map_err(raw::named("pair.x1"))?;
                 let mortar = Projection::new(&pair.two, &frame.plane);
                 Some(GapDerivative::current(&frame, &mortar, w, dn))
             }
@@ -264,6 +270,7 @@ pub unsafe extern "C" fn stickslip_pair_tangent(
         let now =
             weights.as_ref().zip(gap.as_ref()).map(|(weights, gap)| PairNow { weights, derivatives: dn.as_ref(), gap });
         let t = PairTangent::new(now.as_ref(), before.as_ref(), &nodes);
+        raw::check_results("k", t.force_x.iter().chain(&t.row_x).flatten().flat_map(|m| m.iter()))?;
         let block = |row: usize, column: usize| -> Mat3 {
             let n = n1 + n2;
             match (row < n, column < n) {

@@ -11,7 +11,7 @@ use std::mem::MaybeUninit;
 /// Longest array accepted: far above any mesh, far below what a pointer can address.
 const LONGEST: usize = 1 << 40;
 /// Longest struct accepted from a newer caller.
-const LONGEST_STRUCT: u64 = 4096;
+pub(super) const LONGEST_STRUCT: usize = 4096;
 
 /// A struct of the ABI: `repr(C)`, first member `struct_size: u64`, valid for every bit pattern.
 ///
@@ -24,6 +24,11 @@ pub(super) unsafe trait Sized64: Copy {
 
 fn refuse<T>(kind: Kind, text: String) -> Result<T> {
     Err(Error::new(kind, text))
+}
+
+/// Puts an argument's name before a refusal of the core.
+pub(super) fn named(name: &str) -> impl FnOnce(Error) -> Error + '_ {
+    move |e| Error::new(e.kind, format!("{name}: {}", e.message))
 }
 
 /// Refuses null and misaligned pointers.
@@ -61,6 +66,15 @@ pub(super) fn numbers<'a>(p: *const f64, n: usize, name: &str) -> Result<&'a [f6
     match values.iter().position(|v| !v.is_finite()) {
         None => Ok(values),
         Some(k) => refuse(Kind::NotFinite, format!("{name}[{k}] is {}; it must be finite", values[k])),
+    }
+}
+
+/// Refuses results that left the range of doubles: an infinity that went out with a success would end in
+/// the host's linear solver, far from its cause.
+pub(super) fn check_results<'a>(name: &str, values: impl IntoIterator<Item = &'a f64>) -> Result<()> {
+    match values.into_iter().all(|v| v.is_finite()) {
+        true => Ok(()),
+        false => refuse(Kind::NotFinite, format!("{name} overflows: the inputs are out of range")),
     }
 }
 
@@ -120,17 +134,24 @@ pub(super) fn check_optional<T>(p: *const T, name: &str) -> Result<()> {
     if p.is_null() { Ok(()) } else { check(p, name) }
 }
 
+/// Checks a size that a caller declares; the bytes beyond what this library knows.
+pub(super) fn check_size<T: Sized64>(size: u64) -> Result<usize> {
+    let known = size_of::<T>();
+    match usize::try_from(size) {
+        Ok(size) if (known..=LONGEST_STRUCT).contains(&size) => Ok(size - known),
+        _ => {
+            let text = format!("{0}.struct_size is {size}; set it to sizeof({0}), which is {known}", T::NAME);
+            refuse(Kind::StructSize, text)
+        }
+    }
+}
+
 /// Reads the size a caller has put first into a struct.
 fn declared_size<T: Sized64>(p: *const T) -> Result<usize> {
     check(p, T::NAME)?;
     // SAFETY: non-null and aligned; every struct of the ABI begins with a readable u64.
     let size = unsafe { p.cast::<u64>().read() };
-    let known = size_of::<T>() as u64;
-    if size < known || size > LONGEST_STRUCT {
-        let text = format!("{0}.struct_size is {size}; set it to sizeof({0}), which is {known}", T::NAME);
-        return refuse(Kind::StructSize, text);
-    }
-    Ok(size as usize)
+    check_size::<T>(size).map(|tail| size_of::<T>() + tail)
 }
 
 /// A struct from the caller. A longer one (a newer caller's) must have a tail of zeros.

@@ -87,6 +87,7 @@ pub unsafe extern "C" fn stickslip_interface_tangent_coo(
         } else {
             h.inner.tangent(&point.x1, &point.x2, &point.lambda, point.sums(), &mut sink)?;
         }
+        raw::check_results("values", &t.values)?;
         t.write(h.base, capacity, rows, columns, Some(values), count)
     })
 }
@@ -123,6 +124,7 @@ pub unsafe extern "C" fn stickslip_interface_tangent_csr(
         raw::check(values, "values")?;
         let mut t = Triplets::default();
         h.inner.tangent(&point.x1, &point.x2, &point.lambda, point.sums(), &mut |r, c, v| t.push(r, c, v))?;
+        raw::check_results("values", &t.values)?;
         let mut places = Vec::with_capacity(t.rows.len());
         for (&row, &column) in t.rows.iter().zip(&t.columns) {
             let Some(r) = usize::try_from(row).ok().filter(|&r| r < n) else {

@@ -8,7 +8,7 @@ use super::augmented::NodeCouplings;
 use super::nodes::NodeSums;
 use super::{Form, Interface, NO_EQUATION, Weights};
 use crate::element::{NodeTangent, PairNow, PairTangent, pair_force};
-use crate::error::Result;
+use crate::error::{Error, Kind, Result};
 use crate::geometry::{Mat3, Vec3};
 use crate::law::NodeResponse;
 use crate::mortar::{GapDerivative, MORTAR, PAIR_NODES, PairWeights, Segment, WeightDerivatives};
@@ -120,6 +120,11 @@ impl Interface {
         sums: Option<&[NodeSums]>,
         sink: &mut impl Sink,
     ) -> Result<()> {
+        if sums.is_some() && self.options.form == Form::Augmented {
+            let text =
+                "sums with the augmented form: its tangent couples pairs of different handles; use the multiplier form";
+            return Err(Error::new(Kind::Unsupported, text));
+        }
         let responses = self.responses(x1, x2, lambda, sums)?;
         let start = Instant::now();
         let mut linearised = 0;

@@ -3,8 +3,8 @@
 
 use super::surface::Surface;
 use crate::error::{Error, Kind, Result};
-use crate::geometry::Vec3;
-use crate::mortar::PairWeights;
+use crate::geometry::{Plane, Vec3};
+use crate::mortar::{NonmortarFrame, PairWeights};
 use crate::shape::MAX_NODES;
 
 /// The weights of one pair of facets.
@@ -43,7 +43,9 @@ pub struct History {
 
 /// First integer of an exported history: "stickslip history, layout 1".
 const LAYOUT: i64 = 0x57_1C_01;
-const HEADER: usize = 5;
+const HEADER: usize = 6;
+/// A normal farther from unit length than rounding takes it was not written by the library.
+const UNIT: f64 = 1e-10;
 const REALS_PER_NONMORTAR_NODE: usize = 14;
 const REALS_PER_PAIR: usize = 2 * MAX_NODES * MAX_NODES;
 
@@ -55,10 +57,11 @@ impl History {
     }
 
     /// The history as flat arrays.
-    pub fn export(&self) -> (Vec<i64>, Vec<f64>) {
+    pub fn export(&self, nonmortar: &Surface, mortar: &Surface) -> (Vec<i64>, Vec<f64>) {
         let counts = [self.x1.len() as i64, self.x2.len() as i64, self.pairs.len() as i64];
         let mut integers = vec![LAYOUT, self.commits];
         integers.extend(counts);
+        integers.push(fingerprint(nonmortar, mortar));
         let mut reals = Vec::with_capacity(self.flat_size().1);
         for x in [&self.x1, &self.x2, &self.normals, &self.gap, &self.slip] {
             reals.extend(x.iter().flat_map(|v| v.iter()));
@@ -79,7 +82,7 @@ impl History {
     pub fn import(integers: &[i64], reals: &[f64], nonmortar: &Surface, mortar: &Surface) -> Result<History> {
         let mismatch = |text: String| Err(Error::new(Kind::HistoryMismatch, text));
         let (n1, n2) = (nonmortar.len(), mortar.len());
-        let &[layout, commits, nodes1, nodes2, pairs, ref facets @ ..] = integers else {
+        let &[layout, commits, nodes1, nodes2, pairs, print, ref facets @ ..] = integers else {
             return mismatch(format!("integers has {} entries; at least {HEADER} are needed", integers.len()));
         };
         if layout != LAYOUT {
@@ -87,6 +90,9 @@ impl History {
         }
         if (nodes1, nodes2) != (n1 as i64, n2 as i64) {
             return mismatch(format!("the history has {nodes1} + {nodes2} nodes, the interface {n1} + {n2}"));
+        }
+        if print != fingerprint(nonmortar, mortar) {
+            return mismatch("the history was made with other facets, or with the same in another order".into());
         }
         if commits < 0 || usize::try_from(pairs).map(|p| p.checked_mul(2)) != Ok(Some(facets.len())) {
             return mismatch(format!("integers names {pairs} pairs and holds {} facets", facets.len()));
@@ -125,6 +131,23 @@ impl History {
         if let Some(k) = history.areas.iter().position(|&a| a <= 0.0) {
             return mismatch(format!("the area of node {k} is not positive"));
         }
+        if let Some(k) = history.normals.iter().position(|n| !((n.norm() - 1.0).abs() <= UNIT)) {
+            return mismatch(format!("the normal of node {k} is no unit vector"));
+        }
+        let one =
+            (0..nonmortar.facets.len()).map(|f| NonmortarFrame::new(&nonmortar.facet(f, &history.x1)).map(|_| ()));
+        let two = (0..mortar.facets.len()).map(|f| Plane::of(&mortar.facet(f, &history.x2)).map(|_| ()));
+        if let Some(error) = one.chain(two).find_map(Result::err) {
+            return mismatch(format!("a facet is degenerate at the history's positions: {error}"));
+        }
         Ok(history)
     }
+}
+
+/// A number that two pairs of surfaces share only when their facets name the same nodes in the same
+/// order (FNV-1a).
+fn fingerprint(nonmortar: &Surface, mortar: &Surface) -> i64 {
+    let facets = nonmortar.facets.iter().chain(&mortar.facets);
+    let words = facets.flat_map(|f| std::iter::once(f.len).chain(f.nodes));
+    words.fold(0xcbf2_9ce4_8422_2325_u64, |hash, word| (hash ^ word as u64).wrapping_mul(0x0100_0000_01b3)) as i64
 }

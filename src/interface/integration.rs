@@ -39,11 +39,17 @@ fn at_facet(side: &str, facet: usize) -> impl FnOnce(Error) -> Error {
     move |e| Error::new(e.kind, place + &e.message)
 }
 
-/// The frames of all non-mortar facets.
+/// The frames of all facets of a surface.
 fn frames(surface: &Surface, x: &[Vec3]) -> Result<Vec<NonmortarFrame>> {
     (0..surface.facets.len())
         .map(|f| NonmortarFrame::new(&surface.facet(f, x)).map_err(at_facet(surface.side, f)))
         .collect()
+}
+
+/// Refuses a mortar surface with facets that are degenerate, folded or concave in the first configuration,
+/// whether they meet a non-mortar facet or not.
+pub(super) fn check_mortar_facets(surface: &Surface) -> Result<()> {
+    frames(surface, &surface.reference).map(|_| ())
 }
 
 /// Boxes of both sides: non-mortar facets reach along their normal.

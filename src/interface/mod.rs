@@ -85,6 +85,7 @@ impl Interface {
         }
         let distance =
             options.search_distance.unwrap_or_else(|| Aabb::around(nonmortar.reference.iter().copied()).diagonal());
+        integration::check_mortar_facets(&mortar)?;
         let mut counters = Counters::default();
         let (x1, x2) = (nonmortar.reference.clone(), mortar.reference.clone());
         let history = Self::history_at(&nonmortar, &mortar, &options, distance, &mut counters, &x1, &x2)?;
@@ -166,6 +167,11 @@ impl Interface {
         };
         self.restore(history);
         Ok(())
+    }
+
+    /// The history as flat arrays, for a restart.
+    pub fn export_history(&self) -> (Vec<i64>, Vec<f64>) {
+        self.history.export(&self.nonmortar, &self.mortar)
     }
 
     /// Replaces the history by an imported one.

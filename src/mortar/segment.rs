@@ -37,7 +37,7 @@ impl NonmortarFrame {
         if !projection.is_convex() {
             return Err(Error::new(
                 Kind::DegenerateFacet,
-                "the non-mortar facet is folded or not convex; all its corners must be convex",
+                "the facet is folded or not convex; all its corners must be convex",
             ));
         }
         Ok(NonmortarFrame { map: BilinearMap::new(&projection), plane, projection })

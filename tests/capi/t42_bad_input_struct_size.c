@@ -89,6 +89,16 @@ int main(void) {
   CHECK_REFUSED(stickslip_options_init(&options, 0), STICKSLIP_STRUCT_SIZE, "struct_size");
   CHECK_UNTOUCHED(options);
 
+  /* A newer caller's longer struct: defaults, and zeros in what this library does not know. */
+  struct {
+    stickslip_options known;
+    double unknown[2];
+  } newer;
+  FILL(newer);
+  CHECK(stickslip_options_init(&newer.known, sizeof newer) == STICKSLIP_OK);
+  CHECK(newer.known.struct_size == sizeof newer && newer.known.coverage_min == 1e-8);
+  CHECK(newer.unknown[0] == 0.0 && newer.unknown[1] == 0.0);
+
   /* Responses of different size in one array: each says its own, the first one sets the distance. */
   element_init(&e);
   e.responses[2].struct_size = 8;

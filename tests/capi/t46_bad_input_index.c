@@ -44,7 +44,7 @@ int main(void) {
     const int64_t nodes[] = {INT64_MIN, -1, base - 1, base + N1, INT64_MAX};
     for (int k = 0; k < COUNT(nodes); ++k) {
       CHECK_REFUSED(stickslip_interface_set_constraints(s.interface, 1, nodes + k, direction),
-                    STICKSLIP_INDEX_OUT_OF_RANGE, "constraint 0");
+                    STICKSLIP_INDEX_OUT_OF_RANGE, "nodes[0]");
     }
     scene_destroy(&s);
   }

@@ -33,8 +33,8 @@ int main(void) {
     }
   }
   spoilt = h.before; /* unsorted */
-  memcpy(spoilt.integers + 5, h.before.integers + 7, 2 * sizeof(int64_t));
-  memcpy(spoilt.integers + 7, h.before.integers + 5, 2 * sizeof(int64_t));
+  memcpy(spoilt.integers + 6, h.before.integers + 8, 2 * sizeof(int64_t));
+  memcpy(spoilt.integers + 8, h.before.integers + 6, 2 * sizeof(int64_t));
   MISMATCH("sorted");
 
   /* Lengths. */

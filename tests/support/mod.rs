@@ -1,6 +1,7 @@
 //! Shared by the integration tests: the golden vectors and a few ways to compare.
 #![allow(dead_code)]
 
+pub mod c;
 pub mod mesh;
 
 use nalgebra::Vector3;
