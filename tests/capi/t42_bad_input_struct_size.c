@@ -93,11 +93,11 @@ int main(void) {
   struct {
     stickslip_options known;
     double unknown[2];
-  } newer;
-  FILL(newer);
-  CHECK(stickslip_options_init(&newer.known, sizeof newer) == STICKSLIP_OK);
-  CHECK(newer.known.struct_size == sizeof newer && newer.known.coverage_min == 1e-8);
-  CHECK(newer.unknown[0] == 0.0 && newer.unknown[1] == 0.0);
+  } grown;
+  FILL(grown);
+  CHECK(stickslip_options_init(&grown.known, sizeof grown) == STICKSLIP_OK);
+  CHECK(grown.known.struct_size == sizeof grown && grown.known.coverage_min == 1e-8);
+  CHECK(grown.unknown[0] == 0.0 && grown.unknown[1] == 0.0);
 
   /* Responses of different size in one array: each says its own, the first one sets the distance. */
   element_init(&e);
