@@ -14,24 +14,87 @@
  *
  * Pointers: const inputs are read during the call only; outputs are the caller's and written only on success.
  *
- * Structs begin with struct_size, which the caller sets to sizeof. */
+ * Structs begin with struct_size, which the caller sets to sizeof.
+ *
+ * A host with an assembled interface:
+ *   options_init, interface_create                    once
+ *   interface_initial_multipliers                     once, before the first step: lambda = 0 at zero gap is a
+ *                                                     body without support
+ *   interface_residual, interface_tangent_coo / _csr  in each Newton iteration
+ *   interface_states                                  for output
+ *   interface_commit (interface_rollback undoes it)   after each converged step
+ *   interface_destroy
+ * A host that assembles elements itself: pair_weights, pair_gap; sum over the pairs of a node; node_respond;
+ * pair_residual, pair_tangent; node_block once per node. */
 
 #ifndef STICKSLIP_H
 #define STICKSLIP_H
 
 #include <stdint.h>
 
-// Reals per node of `stickslip_interface_sums`.
-#define STICKSLIP_SUMS_PER_NODE 11
+// Major version of the header.
+#define STICKSLIP_VERSION_MAJOR 0
 
-// State of a node: open or uncovered.
-#define STICKSLIP_STATE_GAP 0
+// Minor version of the header.
+#define STICKSLIP_VERSION_MINOR 1
 
-// State of a node: closed, sticking.
-#define STICKSLIP_STATE_STICK 1
+// Patch version of the header.
+#define STICKSLIP_VERSION_PATCH 0
 
-// State of a node: closed, sliding or on the friction cone.
-#define STICKSLIP_STATE_SLIP 2
+// Success.
+#define STICKSLIP_OK 0
+
+// A required pointer is null or misaligned.
+#define STICKSLIP_NULL_POINTER 1
+
+// A struct's struct_size is not one that this library knows.
+#define STICKSLIP_STRUCT_SIZE 2
+
+// A count or length is not allowed.
+#define STICKSLIP_INVALID_SIZE 3
+
+// A number is NaN or infinite.
+#define STICKSLIP_NOT_FINITE 4
+
+// An index is out of range.
+#define STICKSLIP_INDEX_OUT_OF_RANGE 5
+
+// A facet names a node twice.
+#define STICKSLIP_DUPLICATE_NODE 6
+
+// A facet has no area, is folded or is not convex.
+#define STICKSLIP_DEGENERATE_FACET 7
+
+// A number or option is outside its allowed range.
+#define STICKSLIP_INVALID_VALUE 8
+
+// Neither an augmentation nor a modulus was given.
+#define STICKSLIP_MISSING_STIFFNESS 9
+
+// An option that is named but not available in this version.
+#define STICKSLIP_UNSUPPORTED 10
+
+// The normals of the facets around a node cancel.
+#define STICKSLIP_UNDEFINED_NORMAL 11
+
+// A mortar facet's projection on a non-mortar facet's plane is not convex. Within Newton: a domain
+// error; take a smaller step.
+#define STICKSLIP_PROJECTION_NOT_CONVEX 12
+
+// The caller's buffer is too small.
+#define STICKSLIP_BUFFER_TOO_SMALL 13
+
+// The caller's sparse matrix lacks an entry that the tangent needs.
+#define STICKSLIP_MISSING_ENTRY 14
+
+// There is no commit to roll back.
+#define STICKSLIP_NOTHING_TO_ROLL_BACK 15
+
+// An imported history does not belong to this interface.
+#define STICKSLIP_HISTORY_MISMATCH 16
+
+// The library is at fault; please report it. The handle is suspect.
+#define STICKSLIP_PANIC -1
 
 // Forces use lambda, rows the projection; the tangent is a sum of pairs and nodes. Default.
 #define STICKSLIP_FORM_MULTIPLIER 0
@@ -102,152 +165,26 @@
 // It keeps its mu (a sticking one then has zero tangential rows).
 #define STICKSLIP_NEW_CONTACT_KEEP 1
 
+// Reals per node of `stickslip_interface_sums`.
+#define STICKSLIP_SUMS_PER_NODE 11
+
 // Matrices go out row by row (what PETSc's MatSetValues takes).
 #define STICKSLIP_LAYOUT_ROW_MAJOR 0
 
 // Matrices go out column by column (what a Fortran array is).
 #define STICKSLIP_LAYOUT_COLUMN_MAJOR 1
 
-// Success.
-#define STICKSLIP_OK 0
+// State of a node: open or uncovered.
+#define STICKSLIP_STATE_GAP 0
 
-// A required pointer is null or misaligned.
-#define STICKSLIP_NULL_POINTER 1
+// State of a node: closed, sticking.
+#define STICKSLIP_STATE_STICK 1
 
-// A struct's struct_size is not one that this library knows.
-#define STICKSLIP_STRUCT_SIZE 2
-
-// A count or length is not allowed.
-#define STICKSLIP_INVALID_SIZE 3
-
-// A number is NaN or infinite.
-#define STICKSLIP_NOT_FINITE 4
-
-// An index is out of range.
-#define STICKSLIP_INDEX_OUT_OF_RANGE 5
-
-// A facet names a node twice.
-#define STICKSLIP_DUPLICATE_NODE 6
-
-// A facet has no area, is folded or is not convex.
-#define STICKSLIP_DEGENERATE_FACET 7
-
-// A number or option is outside its allowed range.
-#define STICKSLIP_INVALID_VALUE 8
-
-// Neither an augmentation nor a modulus was given.
-#define STICKSLIP_MISSING_STIFFNESS 9
-
-// An option that is named but not available in this version.
-#define STICKSLIP_UNSUPPORTED 10
-
-// The normals of the facets around a node cancel.
-#define STICKSLIP_UNDEFINED_NORMAL 11
-
-// A mortar facet's projection on a non-mortar facet's plane is not convex. Within Newton: a domain
-// error; take a smaller step.
-#define STICKSLIP_PROJECTION_NOT_CONVEX 12
-
-// The caller's buffer is too small.
-#define STICKSLIP_BUFFER_TOO_SMALL 13
-
-// The caller's sparse matrix lacks an entry that the tangent needs.
-#define STICKSLIP_MISSING_ENTRY 14
-
-// There is no commit to roll back.
-#define STICKSLIP_NOTHING_TO_ROLL_BACK 15
-
-// An imported history does not belong to this interface.
-#define STICKSLIP_HISTORY_MISMATCH 16
-
-// The library is at fault; please report it. The handle is suspect.
-#define STICKSLIP_PANIC -1
-
-// Major version of the header.
-#define STICKSLIP_VERSION_MAJOR 0
-
-// Minor version of the header.
-#define STICKSLIP_VERSION_MINOR 1
-
-// Patch version of the header.
-#define STICKSLIP_VERSION_PATCH 0
+// State of a node: closed, sliding or on the friction cone.
+#define STICKSLIP_STATE_SLIP 2
 
 // A contact interface. Created and destroyed by the library; one thread at a time.
 typedef struct stickslip_interface stickslip_interface;
-
-// What an interface has done since its creation.
-typedef struct stickslip_counters {
-  // sizeof(stickslip_counters).
-  uint64_t struct_size;
-  // Pairs whose boxes met.
-  int64_t pairs_tested;
-  // Pairs that overlapped or touched.
-  int64_t pairs_clipped;
-  // Pairs with an area.
-  int64_t pairs_integrated;
-  // Pairs whose weights were differentiated.
-  int64_t pairs_linearised;
-  // Searches.
-  int64_t searches;
-  // Pairs active at the last evaluation.
-  int64_t pairs_active;
-  // Heap memory in use, roughly.
-  int64_t bytes;
-  // Seconds in search.
-  double seconds_search;
-  // Seconds in clipping and integration.
-  double seconds_integration;
-  // Seconds in derivatives and assembly of the tangent.
-  double seconds_assembly;
-} stickslip_counters;
-
-// What `stickslip_interface_states` reports per non-mortar node; a NULL member is not wanted.
-typedef struct stickslip_states {
-  // sizeof(stickslip_states).
-  uint64_t struct_size;
-  // n1: STICKSLIP_STATE_...
-  int32_t *state;
-  // 3 n1: nu, unit, into the non-mortar body.
-  double *normal;
-  // 3 n1: projected traction p [F/L^2].
-  double *traction;
-  // n1: weighted gap nu . g > 0 open [L^3].
-  double *gap;
-  // 3 n1: slip since the first configuration, this step's included [L].
-  double *slip;
-  // n1: covered area [L^2].
-  double *coverage;
-  // n1: full tributary area M_A [L^2].
-  double *area;
-  // n1: work of friction in this step, p . g_T >= 0 when converged [F L].
-  double *dissipation;
-  // n1: r_A [F/L^5].
-  double *augmentation;
-} stickslip_states;
-
-// One surface of an interface.
-typedef struct stickslip_surface {
-  // sizeof(stickslip_surface).
-  uint64_t struct_size;
-  // Number of nodes; each must belong to a facet.
-  int64_t n_nodes;
-  // Number of facets.
-  int64_t n_facets;
-  // 3 n_nodes coordinates of the first configuration, node by node [L].
-  const double *coordinates;
-  // n_facets + 1 offsets into facet_nodes, starting at 0 whatever the index base.
-  const int64_t *facet_offsets;
-  // Node numbers in the index base, 3 (tri3) or 4 (quad4) a facet, right-hand order seen from outside
-  // the body.
-  const int64_t *facet_nodes;
-  // 3 n_nodes displacement equations, node by node, in the index base; -1: none (prescribed).
-  const int64_t *equations;
-  // Non-mortar: 3 n_nodes multiplier equations, -1: the component is removed. Mortar: NULL.
-  const int64_t *multiplier_equations;
-  // Non-mortar, parallel hosts: n_nodes flags, 1 where this handle adds the node's own block; NULL:
-  // all. Mortar: NULL.
-  const int32_t *owned;
-} stickslip_surface;
 
 // Options of an interface; `stickslip_options_init` writes the defaults.
 typedef struct stickslip_options {
@@ -288,6 +225,126 @@ typedef struct stickslip_options {
   double search_distance;
 } stickslip_options;
 
+// One surface of an interface.
+typedef struct stickslip_surface {
+  // sizeof(stickslip_surface).
+  uint64_t struct_size;
+  // Number of nodes; each must belong to a facet.
+  int64_t n_nodes;
+  // Number of facets.
+  int64_t n_facets;
+  // 3 n_nodes coordinates of the first configuration, node by node [L].
+  const double *coordinates;
+  // n_facets + 1 offsets into facet_nodes, starting at 0 whatever the index base.
+  const int64_t *facet_offsets;
+  // Node numbers in the index base, 3 (tri3) or 4 (quad4) a facet, right-hand order seen from outside
+  // the body.
+  const int64_t *facet_nodes;
+  // 3 n_nodes displacement equations, node by node, in the index base; -1: none (prescribed).
+  const int64_t *equations;
+  // Non-mortar: 3 n_nodes multiplier equations, -1: the component is removed. Mortar: NULL.
+  const int64_t *multiplier_equations;
+  // Non-mortar, parallel hosts: n_nodes flags, 1 where this handle adds the node's own block; NULL:
+  // all. Mortar: NULL.
+  const int32_t *owned;
+} stickslip_surface;
+
+// What `stickslip_interface_states` reports per non-mortar node; a NULL member is not wanted.
+typedef struct stickslip_states {
+  // sizeof(stickslip_states).
+  uint64_t struct_size;
+  // n1: STICKSLIP_STATE_...
+  int32_t *state;
+  // 3 n1: nu, unit, into the non-mortar body.
+  double *normal;
+  // 3 n1: projected traction p [F/L^2].
+  double *traction;
+  // n1: weighted gap nu . g > 0 open [L^3].
+  double *gap;
+  // 3 n1: slip since the first configuration, this step's included [L].
+  double *slip;
+  // n1: covered area [L^2].
+  double *coverage;
+  // n1: full tributary area M_A [L^2].
+  double *area;
+  // n1: work of friction in this step, p . g_T >= 0 when converged [F L].
+  double *dissipation;
+  // n1: r_A [F/L^5].
+  double *augmentation;
+} stickslip_states;
+
+// What an interface has done since its creation.
+typedef struct stickslip_counters {
+  // sizeof(stickslip_counters).
+  uint64_t struct_size;
+  // Pairs whose boxes met.
+  int64_t pairs_tested;
+  // Pairs that overlapped or touched.
+  int64_t pairs_clipped;
+  // Pairs with an area.
+  int64_t pairs_integrated;
+  // Pairs whose weights were differentiated.
+  int64_t pairs_linearised;
+  // Searches.
+  int64_t searches;
+  // Pairs active at the last evaluation.
+  int64_t pairs_active;
+  // Heap memory in use, roughly.
+  int64_t bytes;
+  // Seconds in search.
+  double seconds_search;
+  // Seconds in clipping and integration.
+  double seconds_integration;
+  // Seconds in derivatives and assembly of the tangent.
+  double seconds_assembly;
+} stickslip_counters;
+
+// A pair of facets, non-mortar first. Node order: right-hand, seen from outside each body.
+typedef struct stickslip_pair {
+  // sizeof(stickslip_pair).
+  uint64_t struct_size;
+  // Nodes of the non-mortar facet: 3 (tri3) or 4 (quad4).
+  int32_t n1;
+  // Nodes of the mortar facet: 3 or 4.
+  int32_t n2;
+  // 3 n1 coordinates of the non-mortar facet, node by node [L].
+  const double *x1;
+  // 3 n2 coordinates of the mortar facet [L].
+  const double *x2;
+  // STICKSLIP_QUADRATURE_...
+  int32_t quadrature;
+  // STICKSLIP_LAYOUT_... of the tangent.
+  int32_t layout;
+} stickslip_pair;
+
+// The law's answer for one node. Matrices are row-major 3 x 3 (and not symmetric).
+typedef struct stickslip_node_response {
+  // sizeof(stickslip_node_response).
+  uint64_t struct_size;
+  // STICKSLIP_STATE_...
+  int32_t state;
+  // 0.
+  int32_t reserved;
+  // Projected traction p [F/L^2].
+  double traction[3];
+  // Multiplier row c = -(lambda - p)/r [L^3].
+  double row[3];
+  // g_N = nu . g > 0: open [L^3].
+  double gap_normal;
+  // Slip increment g_T [L^3].
+  double slip[3];
+  // Augmented traction lambda + r g [F/L^2].
+  double sigma[3];
+  // dp/dlambda.
+  double dp_dlambda[9];
+  // dc/dlambda [L^5/F].
+  double drow_dlambda[9];
+  // dc/dg[n_{n+1}, x_{n+1}]; dp/dg is r times this.
+  double drow_dnow[9];
+  // dc/dg[n_n, x_{n+1}]; dp/dg is r times this.
+  double drow_dprevious[9];
+} stickslip_node_response;
+
 // One non-mortar node: what is assembled over all its pairs, and its data.
 typedef struct stickslip_node {
   // sizeof(stickslip_node).
@@ -322,154 +379,34 @@ typedef struct stickslip_node {
   double directions[6];
 } stickslip_node;
 
-// The law's answer for one node. Matrices are row-major 3 x 3 (and not symmetric).
-typedef struct stickslip_node_response {
-  // sizeof(stickslip_node_response).
-  uint64_t struct_size;
-  // STICKSLIP_STATE_...
-  int32_t state;
-  // 0.
-  int32_t reserved;
-  // Projected traction p [F/L^2].
-  double traction[3];
-  // Multiplier row c = -(lambda - p)/r [L^3].
-  double row[3];
-  // g_N = nu . g > 0: open [L^3].
-  double gap_normal;
-  // Slip increment g_T [L^3].
-  double slip[3];
-  // Augmented traction lambda + r g [F/L^2].
-  double sigma[3];
-  // dp/dlambda.
-  double dp_dlambda[9];
-  // dc/dlambda [L^5/F].
-  double drow_dlambda[9];
-  // dc/dg[n_{n+1}, x_{n+1}]; dp/dg is r times this.
-  double drow_dnow[9];
-  // dc/dg[n_n, x_{n+1}]; dp/dg is r times this.
-  double drow_dprevious[9];
-} stickslip_node_response;
-
-// A pair of facets, non-mortar first. Node order: right-hand, seen from outside each body.
-typedef struct stickslip_pair {
-  // sizeof(stickslip_pair).
-  uint64_t struct_size;
-  // Nodes of the non-mortar facet: 3 (tri3) or 4 (quad4).
-  int32_t n1;
-  // Nodes of the mortar facet: 3 or 4.
-  int32_t n2;
-  // 3 n1 coordinates of the non-mortar facet, node by node [L].
-  const double *x1;
-  // 3 n2 coordinates of the mortar facet [L].
-  const double *x2;
-  // STICKSLIP_QUADRATURE_...
-  int32_t quadrature;
-  // STICKSLIP_LAYOUT_... of the tangent.
-  int32_t layout;
-} stickslip_pair;
-
 #ifdef __cplusplus
 extern "C" {
 #endif // __cplusplus
 
-// Reads the counters. Errors: NULL_POINTER, STRUCT_SIZE.
-int32_t stickslip_interface_counters(struct stickslip_interface *interface, struct stickslip_counters *out);
+// Version of the library, "major.minor.patch". Static.
+const char *stickslip_version(void);
 
-// Stage 1, assembled: this handle's share of every node's coverage and gaps. A parallel host whose
-// handles hold the whole non-mortar surface and disjoint mortar facets adds them over its ranks and
-// passes the total as `sums` to the calls below; others pass NULL there.
+// The calling thread's last refusal in words: which argument, what was wrong, what is allowed. Empty
+// after a success. Valid until the thread's next call; never NULL.
+const char *stickslip_last_error_message(void);
+
+// A short text for any status number. Static; never NULL.
+const char *stickslip_status_string(int32_t status);
+
+// Writes the defaults. struct_size: sizeof(stickslip_options) as the caller knows it; what a newer caller's
+// struct has beyond this library's is zeroed.
 //
-// sums (11 n1), output, per node: covered area now [L^2], g[n_{n+1}, x_{n+1}] (3) [L^3], covered area at
-// t_n, g[n_n, x_{n+1}] (3), g[n_n, x_n] (3). With sums, use the multiplier form.
-// Errors: NULL_POINTER, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX.
-int32_t stickslip_interface_sums(struct stickslip_interface *interface,
-                                 const double *x1,
-                                 const double *x2,
-                                 double *sums);
-
-// Stage 2: state and nodal results at (x1, x2, lambda).
-//
-// x1 (3 n1), x2 (3 n2) [L], lambda (3 n1) [F/L^2]; sums: see `stickslip_interface_sums`, or NULL.
-// Errors: NULL_POINTER, STRUCT_SIZE, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX,
-// UNDEFINED_NORMAL.
-int32_t stickslip_interface_states(struct stickslip_interface *interface,
-                                   const double *x1,
-                                   const double *x2,
-                                   const double *lambda,
-                                   const double *sums,
-                                   const struct stickslip_states *out);
-
-// Residual in internal-force sign: what to ADD to the host's internal forces. The force ON the
-// non-mortar body is -force1.
-//
-// Inputs as for `stickslip_interface_states`. Outputs, overwritten: force1 (3 n1), force2 (3 n2) [F],
-// rows (3 n1), the multiplier rows ([F] with the default row scale). A function of the inputs and the
-// committed history alone: the same call gives the same bits. Paper (23).
-// Errors: NULL_POINTER, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL; within
-// Newton treat them as a domain error and take a smaller step.
-int32_t stickslip_interface_residual(struct stickslip_interface *interface,
-                                     const double *x1,
-                                     const double *x2,
-                                     const double *lambda,
-                                     const double *sums,
-                                     double *force1,
-                                     double *force2,
-                                     double *rows);
-
-// A non-mortar facet's share of its nodes' normals and areas.
-//
-// n: 3 or 4; x: 3 n coordinates [L]. Outputs, each may be NULL: normals (3 n) unit corner normals, out
-// of the body, to be summed over the facets around a node for `stickslip_node_normal`; areas (n)
-// int N_A da over the facet [L^2], to be summed to M_A.
-// Errors: NULL_POINTER, INVALID_SIZE, NOT_FINITE, DUPLICATE_NODE, DEGENERATE_FACET. Does not allocate.
-int32_t stickslip_facet_geometry(int32_t n, const double *x, double *normals, double *areas);
-
-// The nodal normal nu_A (unit, INTO the non-mortar body) from the sum of the corner normals around a
-// node.
-//
-// sum: 3; normal: 3, output. Errors: NULL_POINTER, NOT_FINITE, UNDEFINED_NORMAL (the normals cancel).
-int32_t stickslip_node_normal(const double *sum, double *normal);
-
-// Accepts a converged step: (x1, x2, lambda) becomes t_n; weights, normals, coverage and slip move on.
-//
-// Inputs as for `stickslip_interface_states`. Errors: as for create; then nothing has moved.
-int32_t stickslip_interface_commit(struct stickslip_interface *interface,
-                                   const double *x1,
-                                   const double *x2,
-                                   const double *lambda,
-                                   const double *sums);
-
-// Undoes the last commit exactly. A step that was never committed needs no rollback: evaluations do not
-// touch the history. Errors: NULL_POINTER, NOTHING_TO_ROLL_BACK (only one commit can be undone).
-int32_t stickslip_interface_rollback(struct stickslip_interface *interface);
-
-// Lengths of the flat arrays that hold the history now. Errors: NULL_POINTER.
-int32_t stickslip_interface_history_size(struct stickslip_interface *interface,
-                                         int64_t *n_integers,
-                                         int64_t *n_reals);
-
-// Writes the history to integers (n_integers) and reals (n_reals), for a restart file. Lengths from
-// `stickslip_interface_history_size`; larger ones are fine. Errors: NULL_POINTER, BUFFER_TOO_SMALL.
-int32_t stickslip_interface_history_export(struct stickslip_interface *interface,
-                                           int64_t n_integers,
-                                           int64_t *integers,
-                                           int64_t n_reals,
-                                           double *reals);
-
-// Replaces the history by an exported one of the same surfaces; evaluation then continues bit for bit.
-// Errors: NULL_POINTER, INVALID_SIZE, NOT_FINITE, HISTORY_MISMATCH.
-int32_t stickslip_interface_history_import(struct stickslip_interface *interface,
-                                           int64_t n_integers,
-                                           const int64_t *integers,
-                                           int64_t n_reals,
-                                           const double *reals);
+// Errors: NULL_POINTER, STRUCT_SIZE.
+int32_t stickslip_options_init(struct stickslip_options *options, uint64_t struct_size);
 
 // Creates an interface between two surfaces, whose coordinates are the first configuration and t_0.
 //
 // out receives the handle; destroy it with `stickslip_interface_destroy`. Both surfaces are copied.
 // Errors: NULL_POINTER, STRUCT_SIZE, INVALID_SIZE, NOT_FINITE, INDEX_OUT_OF_RANGE, DUPLICATE_NODE,
 // DEGENERATE_FACET, INVALID_VALUE, MISSING_STIFFNESS, UNSUPPORTED, UNDEFINED_NORMAL,
-// PROJECTION_NOT_CONVEX. Cost: one search and one integration.
+// PROJECTION_NOT_CONVEX. Cost: one search and one integration. Surfaces that do not face each other are no
+// error; `pairs_active` of `stickslip_interface_counters` is then 0: look at it once, a facet order seen
+// from inside the body is found that way.
 int32_t stickslip_interface_create(const struct stickslip_surface *nonmortar,
                                    const struct stickslip_surface *mortar,
                                    const struct stickslip_options *options,
@@ -513,29 +450,146 @@ int32_t stickslip_interface_set_previous(struct stickslip_interface *interface,
 // without support. Errors: NULL_POINTER, UNDEFINED_NORMAL, INVALID_VALUE once a step is committed.
 int32_t stickslip_interface_initial_multipliers(struct stickslip_interface *interface, double *lambda);
 
-// Stage 2: gap, stick or slip of a node, its projected traction, its multiplier row and all
-// derivatives, from the gaps assembled over ALL its pairs (projecting pair by pair would make the answer
-// depend on the augmentation). Paper (17)-(31).
+// Stage 1, assembled: this handle's share of every node's coverage and gaps. A parallel host whose
+// handles hold the whole non-mortar surface and disjoint mortar facets adds them over its ranks and
+// passes the total as `sums` to the calls below; others pass NULL there.
 //
-// Errors: NULL_POINTER, STRUCT_SIZE, NOT_FINITE, INVALID_VALUE. Does not allocate.
-int32_t stickslip_node_respond(const struct stickslip_node *node, struct stickslip_node_response *response);
+// sums (11 n1), output, per node: covered area now [L^2], g[n_{n+1}, x_{n+1}] (3) [L^3], covered area at
+// t_n, g[n_n, x_{n+1}] (3), g[n_n, x_n] (3). With sums, use the multiplier form.
+// Errors: NULL_POINTER, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX.
+int32_t stickslip_interface_sums(struct stickslip_interface *interface,
+                                 const double *x1,
+                                 const double *x2,
+                                 double *sums);
 
-// Stage 4: the node's own block, to be added once per non-mortar node, covered or not.
+// Stage 2: state and nodal results at (x1, x2, lambda).
 //
-// scale multiplies the rows: r M_A gives them the unit of a force, 1 leaves them as in the paper [L^3].
-// Outputs, each may be NULL: row (3), block (3 x 3) = d row / d lambda in `layout`.
-// Errors: NULL_POINTER, STRUCT_SIZE, NOT_FINITE, INVALID_VALUE. Does not allocate.
-int32_t stickslip_node_block(const struct stickslip_node_response *response,
-                             double scale,
-                             int32_t layout,
-                             double *row,
-                             double *block);
+// x1 (3 n1), x2 (3 n2) [L], lambda (3 n1) [F/L^2]; sums: see `stickslip_interface_sums`, or NULL.
+// Errors: NULL_POINTER, STRUCT_SIZE, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX,
+// UNDEFINED_NORMAL.
+int32_t stickslip_interface_states(struct stickslip_interface *interface,
+                                   const double *x1,
+                                   const double *x2,
+                                   const double *lambda,
+                                   const double *sums,
+                                   const struct stickslip_states *out);
 
-// Writes the defaults. struct_size: sizeof(stickslip_options) as the caller knows it; what a newer caller's
-// struct has beyond this library's is zeroed.
+// Residual in internal-force sign: what to ADD to the host's internal forces. The force ON the
+// non-mortar body is -force1.
 //
-// Errors: NULL_POINTER, STRUCT_SIZE.
-int32_t stickslip_options_init(struct stickslip_options *options, uint64_t struct_size);
+// Inputs as for `stickslip_interface_states`. Outputs, overwritten: force1 (3 n1), force2 (3 n2) [F],
+// rows (3 n1), the multiplier rows ([F] with the default row scale). A function of the inputs and the
+// committed history alone: the same call gives the same bits. Paper (23).
+// Errors: NULL_POINTER, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL; within
+// Newton treat them as a domain error and take a smaller step.
+int32_t stickslip_interface_residual(struct stickslip_interface *interface,
+                                     const double *x1,
+                                     const double *x2,
+                                     const double *lambda,
+                                     const double *sums,
+                                     double *force1,
+                                     double *force2,
+                                     double *rows);
+
+// The exact tangent d residual / d (x1, x2, lambda) as triplets in the host's equation numbers and index
+// base. Entries without an equation are left out; duplicates add up. Entries depend on the active pairs,
+// so the pattern may change between evaluations; within one evaluation point it does not.
+//
+// Inputs as for `stickslip_interface_residual`. Outputs: rows, columns, values (capacity each), count.
+// With all three arrays NULL only count is written, cheaply. Not symmetric, even without friction.
+// Paper (25)-(31). Errors: as for the residual, and BUFFER_TOO_SMALL.
+int32_t stickslip_interface_tangent_coo(struct stickslip_interface *interface,
+                                        const double *x1,
+                                        const double *x2,
+                                        const double *lambda,
+                                        const double *sums,
+                                        int64_t capacity,
+                                        int64_t *rows,
+                                        int64_t *columns,
+                                        double *values,
+                                        int64_t *count);
+
+// Adds the exact tangent into a compressed sparse row matrix of the host's. Inputs as for
+// `stickslip_interface_residual`; n_rows rows; row_offsets (n_rows + 1), starting at the index base;
+// columns and values (as many as row_offsets says), columns in any order within a row.
+//
+// Errors: as for the residual, INVALID_SIZE, INDEX_OUT_OF_RANGE, and MISSING_ENTRY when the matrix lacks
+// an entry (renew the pattern from `stickslip_interface_pattern_coo`); then nothing was added.
+int32_t stickslip_interface_tangent_csr(struct stickslip_interface *interface,
+                                        const double *x1,
+                                        const double *x2,
+                                        const double *lambda,
+                                        const double *sums,
+                                        int64_t n_rows,
+                                        const int64_t *row_offsets,
+                                        const int64_t *columns,
+                                        double *values);
+
+// Entries of any tangent until the next search: every candidate pair counted as active. Preallocate with
+// this. The search is refreshed when something moves out of its skin (a quarter of a facet), so a large
+// motion may need entries beyond these; call again then.
+//
+// x1 (3 n1), x2 (3 n2) [L]. Outputs: rows, columns (capacity each; both NULL: only count), count.
+// Duplicates occur. Errors: NULL_POINTER, NOT_FINITE, BUFFER_TOO_SMALL, DEGENERATE_FACET,
+// PROJECTION_NOT_CONVEX.
+int32_t stickslip_interface_pattern_coo(struct stickslip_interface *interface,
+                                        const double *x1,
+                                        const double *x2,
+                                        int64_t capacity,
+                                        int64_t *rows,
+                                        int64_t *columns,
+                                        int64_t *count);
+
+// Accepts a converged step: (x1, x2, lambda) becomes t_n; weights, normals, coverage and slip move on.
+//
+// Inputs as for `stickslip_interface_states`. Errors: as for create; then nothing has moved.
+int32_t stickslip_interface_commit(struct stickslip_interface *interface,
+                                   const double *x1,
+                                   const double *x2,
+                                   const double *lambda,
+                                   const double *sums);
+
+// Undoes the last commit exactly. A step that was never committed needs no rollback: evaluations do not
+// touch the history. Errors: NULL_POINTER, NOTHING_TO_ROLL_BACK (only one commit can be undone).
+int32_t stickslip_interface_rollback(struct stickslip_interface *interface);
+
+// Lengths of the flat arrays that hold the history now. Errors: NULL_POINTER.
+int32_t stickslip_interface_history_size(struct stickslip_interface *interface,
+                                         int64_t *n_integers,
+                                         int64_t *n_reals);
+
+// Writes the history to integers (n_integers) and reals (n_reals), for a restart file. Lengths from
+// `stickslip_interface_history_size`; larger ones are fine. Errors: NULL_POINTER, BUFFER_TOO_SMALL.
+int32_t stickslip_interface_history_export(struct stickslip_interface *interface,
+                                           int64_t n_integers,
+                                           int64_t *integers,
+                                           int64_t n_reals,
+                                           double *reals);
+
+// Replaces the history by an exported one of the same surfaces; evaluation then continues bit for bit.
+// Errors: NULL_POINTER, INVALID_SIZE, NOT_FINITE, HISTORY_MISMATCH.
+int32_t stickslip_interface_history_import(struct stickslip_interface *interface,
+                                           int64_t n_integers,
+                                           const int64_t *integers,
+                                           int64_t n_reals,
+                                           const double *reals);
+
+// Reads the counters. Errors: NULL_POINTER, STRUCT_SIZE.
+int32_t stickslip_interface_counters(struct stickslip_interface *interface, struct stickslip_counters *out);
+
+// A non-mortar facet's share of its nodes' normals and areas.
+//
+// n: 3 or 4; x: 3 n coordinates [L]. Outputs, each may be NULL: normals (3 n) unit corner normals, out
+// of the body, to be summed over the facets around a node for `stickslip_node_normal`; areas (n)
+// int N_A da over the facet [L^2], to be summed to M_A.
+// Errors: NULL_POINTER, INVALID_SIZE, NOT_FINITE, DUPLICATE_NODE, DEGENERATE_FACET. Does not allocate.
+int32_t stickslip_facet_geometry(int32_t n, const double *x, double *normals, double *areas);
+
+// The nodal normal nu_A (unit, INTO the non-mortar body) from the sum of the corner normals around a
+// node.
+//
+// sum: 3; normal: 3, output. Errors: NULL_POINTER, NOT_FINITE, UNDEFINED_NORMAL (the normals cancel).
+int32_t stickslip_node_normal(const double *sum, double *normal);
 
 // Stage 1: the mortar weights of a pair in its current configuration.
 //
@@ -598,64 +652,23 @@ int32_t stickslip_pair_tangent(const struct stickslip_pair *pair,
                                double *k,
                                int64_t ld);
 
-// The calling thread's last refusal in words: which argument, what was wrong, what is allowed. Empty
-// after a success. Valid until the thread's next call; never NULL.
-const char *stickslip_last_error_message(void);
-
-// A short text for any status number. Static; never NULL.
-const char *stickslip_status_string(int32_t status);
-
-// The exact tangent d residual / d (x1, x2, lambda) as triplets in the host's equation numbers and index
-// base. Entries without an equation are left out; duplicates add up. Entries depend on the active pairs,
-// so the pattern may change between evaluations; within one evaluation point it does not.
+// Stage 2: gap, stick or slip of a node, its projected traction, its multiplier row and all
+// derivatives, from the gaps assembled over ALL its pairs (projecting pair by pair would make the answer
+// depend on the augmentation). Paper (17)-(31).
 //
-// Inputs as for `stickslip_interface_residual`. Outputs: rows, columns, values (capacity each), count.
-// With all three arrays NULL only count is written, cheaply. Not symmetric, even without friction.
-// Paper (25)-(31). Errors: as for the residual, and BUFFER_TOO_SMALL.
-int32_t stickslip_interface_tangent_coo(struct stickslip_interface *interface,
-                                        const double *x1,
-                                        const double *x2,
-                                        const double *lambda,
-                                        const double *sums,
-                                        int64_t capacity,
-                                        int64_t *rows,
-                                        int64_t *columns,
-                                        double *values,
-                                        int64_t *count);
+// Errors: NULL_POINTER, STRUCT_SIZE, NOT_FINITE, INVALID_VALUE. Does not allocate.
+int32_t stickslip_node_respond(const struct stickslip_node *node, struct stickslip_node_response *response);
 
-// Adds the exact tangent into a compressed sparse row matrix of the host's. Inputs as for
-// `stickslip_interface_residual`; n_rows rows; row_offsets (n_rows + 1), starting at the index base;
-// columns and values (as many as row_offsets says), columns in any order within a row.
+// Stage 4: the node's own block, to be added once per non-mortar node, covered or not.
 //
-// Errors: as for the residual, INVALID_SIZE, INDEX_OUT_OF_RANGE, and MISSING_ENTRY when the matrix lacks
-// an entry (renew the pattern from `stickslip_interface_pattern_coo`); then nothing was added.
-int32_t stickslip_interface_tangent_csr(struct stickslip_interface *interface,
-                                        const double *x1,
-                                        const double *x2,
-                                        const double *lambda,
-                                        const double *sums,
-                                        int64_t n_rows,
-                                        const int64_t *row_offsets,
-                                        const int64_t *columns,
-                                        double *values);
-
-// Entries of any tangent until the next search: every candidate pair counted as active. Preallocate with
-// this. The search is refreshed when something moves out of its skin (a quarter of a facet), so a large
-// motion may need entries beyond these; call again then.
-//
-// x1 (3 n1), x2 (3 n2) [L]. Outputs: rows, columns (capacity each; both NULL: only count), count.
-// Duplicates occur. Errors: NULL_POINTER, NOT_FINITE, BUFFER_TOO_SMALL, DEGENERATE_FACET,
-// PROJECTION_NOT_CONVEX.
-int32_t stickslip_interface_pattern_coo(struct stickslip_interface *interface,
-                                        const double *x1,
-                                        const double *x2,
-                                        int64_t capacity,
-                                        int64_t *rows,
-                                        int64_t *columns,
-                                        int64_t *count);
-
-// Version of the library, "major.minor.patch". Static.
-const char *stickslip_version(void);
+// scale multiplies the rows: r M_A gives them the unit of a force, 1 leaves them as in the paper [L^3].
+// Outputs, each may be NULL: row (3), block (3 x 3) = d row / d lambda in `layout`.
+// Errors: NULL_POINTER, STRUCT_SIZE, NOT_FINITE, INVALID_VALUE. Does not allocate.
+int32_t stickslip_node_block(const struct stickslip_node_response *response,
+                             double scale,
+                             int32_t layout,
+                             double *row,
+                             double *block);
 
 #ifdef __cplusplus
 }  // extern "C"

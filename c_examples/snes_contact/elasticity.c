@@ -157,8 +157,10 @@ PetscReal cell_smallest_jacobian(PetscInt corners, const PetscReal X[])
   PetscReal dN[MAX_CORNERS][3], smallest = PETSC_MAX_REAL;
   for (PetscInt a = 0; a < corners; a++) { /* at the corners: the strictest place */
     const PetscReal origin[3] = {0, 0, 0};
+    PetscReal       determinant;
     reference_gradients(corners, corners == 8 ? HEX[a] : origin, dN);
-    smallest = PetscMin(smallest, physical_gradients(corners, X, dN));
+    determinant = physical_gradients(corners, X, dN); /* once: PetscMin evaluates its arguments twice */
+    smallest    = PetscMin(smallest, determinant);
   }
   return smallest;
 }

@@ -56,9 +56,12 @@ static PetscErrorCode append_cells(Scene *scene, const char *body, DM dm, DMLabe
     for (PetscInt a = 0; a < n; a++) {
       PetscInt *number = &new_number[corners[a] - vStart];
       if (*number < 0) { /* vertices of other volumes in the file stay out */
-        PetscInt     offset;
+        PetscInt     offset, n_coordinates;
         PetscSection section;
         PetscCall(DMGetCoordinateSection(dm, &section));
+        PetscCall(PetscSectionGetDof(section, corners[a], &n_coordinates));
+        if (n_coordinates != 3) /* PETSc keeps curved cells' coordinates elsewhere */
+          scene_fail(scene, body, "file", "its cells are of second or higher order; write it as `gmsh -3 -order 1`.");
         PetscCall(PetscSectionGetOffset(section, corners[a], &offset));
         for (int i = 0; i < 3; i++)
           compact[3 * n_vertices + i] = PetscRealPart(coordinates[offset + i]);

@@ -2,8 +2,9 @@
  *
  * Residual = internal forces of the bodies + contact - loads, and the multiplier rows (which the library scales to forces).
  * Converged: |residual| <= rtol * reference, reference = |loads| + |reactions| + |contact forces| (2-norms of nodal forces),
- * the largest so far (at the start: 1e-12 E size^2), so that an unloaded step is not judged by its own noise. -snes_rtol
- * sets rtol. */
+ * the largest so far (at the start: 1e-12 E size^2), so that an unloaded step is not judged by its own noise; or below
+ * 1e-14 E size max|u|, the rounding of a body that moves without stress. -snes_rtol sets rtol, -snes_atol a limit in
+ * units of force. */
 #include "model.h"
 
 /* sum of squares of the displacement entries of a local vector of forces; of the prescribed ones only, or of all */
@@ -23,6 +24,23 @@ static PetscErrorCode squared_forces(Model *model, Vec local, PetscBool prescrib
     }
   }
   PetscCall(VecRestoreArrayRead(model->f_sum, &f));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode largest_displacement(Model *model, PetscReal *largest)
+{
+  const PetscScalar *u;
+  PetscFunctionBegin;
+  *largest = 0;
+  PetscCall(VecGetArrayRead(model->u_local, &u));
+  for (PetscInt v = model->vStart; v < model->vEnd; v++) {
+    PetscInt at;
+    PetscCall(PetscSectionGetOffset(model->section, v, &at));
+    for (int i = 0; i < 3; i++)
+      *largest = PetscMax(*largest, PetscAbsScalar(u[at + i]));
+  }
+  PetscCall(VecRestoreArrayRead(model->u_local, &u));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, largest, 1, MPIU_REAL, MPIU_MAX, PETSC_COMM_WORLD));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -47,6 +65,8 @@ static PetscErrorCode residual(SNES snes, Vec x, Vec r, void *context)
   PetscCall(squared_forces(model, model->f_local, PETSC_TRUE, &squares[1]));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, squares, 3, MPIU_REAL, MPIU_SUM, PETSC_COMM_WORLD));
   model->reference_force = PetscSqrtReal(squares[0]) + PetscSqrtReal(squares[1]) + PetscSqrtReal(squares[2]);
+  PetscCall(largest_displacement(model, &model->noise));
+  model->noise *= 1e-14 * model->stiffness;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -74,16 +94,18 @@ static PetscErrorCode converged(SNES snes, PetscInt iteration, PetscReal xnorm, 
                                 SNESConvergedReason *reason, void *context)
 {
   Model    *model = context;
-  PetscReal rtol, reference = PetscMax(model->reference_force, model->largest_reference);
+  PetscReal atol, rtol, reference = PetscMax(model->reference_force, model->largest_reference);
 
   PetscFunctionBegin;
   (void)iteration, (void)xnorm, (void)snorm;
-  PetscCall(SNESGetTolerances(snes, NULL, &rtol, NULL, NULL, NULL));
+  PetscCall(SNESGetTolerances(snes, &atol, &rtol, NULL, NULL, NULL));
   *reason = SNES_CONVERGED_ITERATING;
   if (PetscIsInfOrNanReal(fnorm))
     *reason = SNES_DIVERGED_FNORM_NAN;
   else if (fnorm <= rtol * reference)
     *reason = SNES_CONVERGED_FNORM_RELATIVE;
+  else if (fnorm <= PetscMax(atol, model->noise))
+    *reason = SNES_CONVERGED_FNORM_ABS;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -107,8 +129,8 @@ static PetscErrorCode solve_ends(KSP ksp, Vec b, Vec x, void *context)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* A force too small to matter: without any load a step must not be judged by its own noise. */
-static PetscErrorCode smallest_reference(Model *model, PetscReal *force)
+/* What the model's forces are measured by: a stiffness (the largest E times its size), and a force too small to matter. */
+static PetscErrorCode measure(Model *model)
 {
   PetscReal low[3], high[3], squared = 0, young = 0;
   PetscFunctionBegin;
@@ -117,7 +139,8 @@ static PetscErrorCode smallest_reference(Model *model, PetscReal *force)
     squared += PetscSqr(high[i] - low[i]);
   for (PetscInt b = 0; b < model->mesh.n_bodies; b++)
     young = PetscMax(young, model->mesh.bodies[b].material.young);
-  *force = 1e-12 * young * squared;
+  model->stiffness         = young * PetscSqrtReal(squared);
+  model->largest_reference = 1e-12 * young * squared;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -174,7 +197,7 @@ PetscErrorCode solver_create(Model *model)
   Vec            r;
 
   PetscFunctionBegin;
-  PetscCall(smallest_reference(model, &model->largest_reference));
+  PetscCall(measure(model));
   PetscCall(create_matrix(model, &model->jacobian));
   PetscCall(DMCreateGlobalVector(model->dm, &r));
   PetscCall(SNESCreate(PETSC_COMM_WORLD, &model->snes));

@@ -173,10 +173,15 @@ PetscErrorCode steps_run(Model *model, int *exit_code)
     PetscCall(summary_step(model, summary, step + 1, PETSC_FALSE, PETSC_TRUE));
     if (model->refusal[0])
       PetscCall(
-          PetscFPrintf(PETSC_COMM_WORLD, PETSC_STDERR, "snes_contact: refused by the library: %s\n", model->refusal));
+          PetscFPrintf(PETSC_COMM_WORLD, PETSC_STDERR,
+                       "snes_contact: refused by the library: %s. If Newton's iterates ran away to there: is every body "
+                       "held, by supports or by a surface that it touches?\n",
+                       model->refusal));
     else
       PetscCall(PetscFPrintf(PETSC_COMM_WORLD, PETSC_STDERR,
-                             "snes_contact: not converged beyond t = %.6g, not even by steps of %.2g times the wanted ones.\n",
+                             "snes_contact: not converged beyond t = %.6g, not even by steps of %.2g times the wanted ones. If this is "
+                             "the beginning: is every body held, by supports or by a surface that it touches? See "
+                             "scenes/README.md.\n",
                              (double)history.t_last, (double)(2 * steps->smallest)));
   }
   PetscCall(summary_write(model, &summary, cutbacks, model->refusal));

@@ -4,7 +4,7 @@ use super::evaluation::Point;
 use super::guard::guard;
 use super::options::{read_options, stickslip_options};
 use super::raw;
-use super::surface::{read_multipliers, read_surface, stickslip_surface};
+use super::surface::{read_multipliers, read_surface, refuse_multipliers, stickslip_surface};
 use crate::error::{Error, Kind, Result};
 use crate::geometry::Vec3;
 use crate::interface::Interface;
@@ -39,7 +39,9 @@ pub(super) fn flat(v: &[Vec3]) -> impl Iterator<Item = f64> {
 /// out receives the handle; destroy it with `stickslip_interface_destroy`. Both surfaces are copied.
 /// Errors: NULL_POINTER, STRUCT_SIZE, INVALID_SIZE, NOT_FINITE, INDEX_OUT_OF_RANGE, DUPLICATE_NODE,
 /// DEGENERATE_FACET, INVALID_VALUE, MISSING_STIFFNESS, UNSUPPORTED, UNDEFINED_NORMAL,
-/// PROJECTION_NOT_CONVEX. Cost: one search and one integration.
+/// PROJECTION_NOT_CONVEX. Cost: one search and one integration. Surfaces that do not face each other are no
+/// error; `pairs_active` of `stickslip_interface_counters` is then 0: look at it once, a facet order seen
+/// from inside the body is found that way.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn stickslip_interface_create(
     nonmortar: *const stickslip_surface,
@@ -54,6 +56,7 @@ pub unsafe extern "C" fn stickslip_interface_create(
         raw::check(out, "out")?;
         let (options, base) = read_options(options)?;
         let (one, two) = (raw::read(nonmortar)?, raw::read(mortar)?);
+        refuse_multipliers(&two)?;
         let (multipliers, owned) = read_multipliers(&one, base)?;
         let (one, two) = (read_surface(&one, base, "nonmortar")?, read_surface(&two, base, "mortar")?);
         let mut inner = Interface::new(one, two, multipliers, options)?;

@@ -20,20 +20,33 @@
 #![allow(rustdoc::broken_intra_doc_links)] // The header's units stand in brackets, [L^2].
 #![allow(clippy::missing_safety_doc)] // One contract for all, in `raw.rs` and in the header's head.
 
-mod counters;
-mod evaluation;
-mod facet;
-mod guard;
-mod history;
-mod interface;
-mod node;
-mod options;
-mod pair;
-mod raw;
-mod status;
-mod surface;
-mod tangent;
+// In the order in which the header introduces them; the empty lines keep it.
 mod version;
+
+mod status;
+
+mod options;
+
+mod surface;
+
+mod interface;
+
+mod evaluation;
+
+mod tangent;
+
+mod history;
+
+mod counters;
+
+mod facet;
+
+mod pair;
+
+mod node;
+
+mod guard;
+mod raw;
 
 pub use counters::*;
 pub use evaluation::*;

@@ -141,7 +141,7 @@ fn choose<T: Copy>(value: i32, name: &str, available: &[T], named: i32) -> Resul
         if (0..named).contains(&value) {
             Error::new(Kind::Unsupported, format!("{name} = {value} is not available in this version"))
         } else {
-            Error::new(Kind::InvalidValue, format!("{name} is {value}; 0 to {} are allowed", available.len() - 1))
+            Error::new(Kind::InvalidValue, format!("{name} is {value}; the header names 0 to {}", named - 1))
         }
     })
 }

@@ -82,6 +82,19 @@ pub(super) fn read_surface(s: &stickslip_surface, base: i64, side: &'static str)
     Surface::new(side, raw::vectors(coordinates), &facets, equations)
 }
 
+/// Refuses multipliers on the mortar side: the two surfaces may have been swapped.
+pub(super) fn refuse_multipliers(mortar: &stickslip_surface) -> Result<()> {
+    for (given, member) in
+        [(!mortar.multiplier_equations.is_null(), "multiplier_equations"), (!mortar.owned.is_null(), "owned")]
+    {
+        if given {
+            let text = format!("mortar.{member} must be NULL: only the non-mortar side carries multipliers");
+            return Err(Error::new(Kind::InvalidValue, text));
+        }
+    }
+    Ok(())
+}
+
 /// Multiplier equations, and which nodes are owned (`None`: all).
 type Multipliers = (Vec<[i64; 3]>, Option<Vec<bool>>);
 
