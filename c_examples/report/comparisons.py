@@ -176,7 +176,7 @@ def block_slip(verdicts, label, run, size=0.2):
     table, low_high = BLOCK["bottom_slip"], stick_zone(run.line(INTERFACE))
     for name, computed, reference in zip(("first", "last"), low_high, table["stick_20x10"]):
         verdicts.near(
-            f"{label}: {name} stick node", computed, reference, 1.0 + 1e-9, "one facet; in facets", scale=size
+            f"{label}: x of the {name} stick node (error in facets)", computed, reference, 1.0 + 1e-9, "one facet; in facets", scale=size
         )
     verdicts.near(
         f"{label}: u_x of the top left corner",
