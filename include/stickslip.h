@@ -220,8 +220,10 @@ typedef struct stickslip_options {
   double modulus;
   // Covered over full nodal area at and below which a node counts as uncovered; default 1e-8.
   double coverage_min;
-  // Facets farther apart than this along the normal, at the last commit, are no pair [L]; 0 (default):
-  // the diagonal of the non-mortar surface. Give it where surfaces lie in layers.
+  // Facets farther apart than this along the normal at the last commit, gap or penetration, are no pair
+  // [L]. 0 (default): as far as the surfaces reach for a gap, one facet (the smaller of the two) for a
+  // penetration, so that the far side of a body is not found. Give it where the mortar surface lies in
+  // layers (refused otherwise) or the surfaces start deeper in each other than a facet.
   double search_distance;
 } stickslip_options;
 
@@ -525,9 +527,8 @@ int32_t stickslip_interface_tangent_csr(struct stickslip_interface *interface,
                                         const int64_t *columns,
                                         double *values);
 
-// Entries of any tangent until the next search: every candidate pair counted as active. Preallocate with
-// this. The search is refreshed when something moves out of its skin (a quarter of a facet), so a large
-// motion may need entries beyond these; call again then.
+// Entries of any tangent while the surfaces slide by less than a quarter of a facet. Preallocate with this;
+// a larger motion may need entries beyond these; call again then.
 //
 // x1 (3 n1), x2 (3 n2) [L]. Outputs: rows, columns (capacity each; both NULL: only count), count.
 // Duplicates occur. Errors: NULL_POINTER, NOT_FINITE, BUFFER_TOO_SMALL, DEGENERATE_FACET,

@@ -96,16 +96,12 @@ fn no_pair_is_missed_on_the_way() {
         let one = grid(n, n, [0.0, 0.0], [1.0, 1.0], 0.0, false, Cells::Quads);
         let two = grid(m, m, [-1.1, -1.3], [4.0, 2.2], 0.0, true, Cells::Triangles);
         let mut used = interface(&one, &two, options());
-        let mut searches = 0;
         for step in 0..60 {
             let move_by = Vec3::new(0.05 * f64::from(step), 0.3 * (f64::from(step) / 6.0).sin(), 0.0);
             let x1: Vec<_> = one.x.iter().map(|x| x + move_by).collect();
             let mut fresh = interface(&one, &two, options());
             assert_eq!(used.sums(&x1, &two.x).unwrap(), fresh.sums(&x1, &two.x).unwrap(), "step {step}");
-            searches = used.counters().searches;
         }
-        // The skin is a quarter of a facet: 0.25 for the single facet that moves 0.05 to 0.1 a step.
-        assert!(n > 1 || (2..40).contains(&searches), "{searches} searches");
     }
 }
 

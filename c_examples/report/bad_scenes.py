@@ -45,7 +45,7 @@ BAD_SCENES = [
         "inside_out",
         "lower: [0, 0, 0], upper: [4, 1, 2], cells: [20, 1, 10]",
         "corners: [0,0,2, 4,0,2, 4,1,2, 0,1,2, 0,0,0, 4,0,0, 4,1,0, 0,1,0], cells: [20, 1, 10]",
-        "inside out",
+        "block",
     ),
     BadScene("broken_yaml", "schema: 1", "schema: [1", "broken_yaml.yaml"),
     BadScene("misspelt_option", "", "", "base.frictoin", ("-base_frictoin", "0.3")),

@@ -111,7 +111,7 @@ typedef struct {
   SNES      snes;
   Mat       jacobian;
   PetscInt  iterations;                            /* of Newton, spent on the present step, failed attempts included */
-  PetscReal t, reference_force, largest_reference, noise, stiffness; /* for the convergence test (solver.c) */
+  PetscReal t, reference_force, largest_reference, noise, size, stiffness; /* for the convergence test (solver.c) */
   char      refusal[1024];                         /* the library's last message, if it refused an evaluation */
   Timers    timers;
 } Model;

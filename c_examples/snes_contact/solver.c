@@ -3,7 +3,7 @@
  * Residual = internal forces of the bodies + contact - loads, and the multiplier rows (which the library scales to forces).
  * Converged: |residual| <= rtol * reference, reference = |loads| + |reactions| + |contact forces| (2-norms of nodal forces),
  * the largest so far (at the start: 1e-12 E size^2), so that an unloaded step is not judged by its own noise; or below
- * 1e-14 E size max|u|, the rounding of a body that moves without stress. -snes_rtol sets rtol, -snes_atol a limit in
+ * 1e-14 E size min(max|u|, size), the rounding of a body that moves without stress. -snes_rtol sets rtol, -snes_atol a limit in
  * units of force. */
 #include "model.h"
 
@@ -66,7 +66,8 @@ static PetscErrorCode residual(SNES snes, Vec x, Vec r, void *context)
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, squares, 3, MPIU_REAL, MPIU_SUM, PETSC_COMM_WORLD));
   model->reference_force = PetscSqrtReal(squares[0]) + PetscSqrtReal(squares[1]) + PetscSqrtReal(squares[2]);
   PetscCall(largest_displacement(model, &model->noise));
-  model->noise *= 1e-14 * model->stiffness;
+  /* An iterate that runs away must not loosen the test: no more than the noise of a motion by the model's own size. */
+  model->noise = 1e-14 * model->stiffness * PetscMin(model->noise, model->size);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -129,7 +130,7 @@ static PetscErrorCode solve_ends(KSP ksp, Vec b, Vec x, void *context)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* What the model's forces are measured by: a stiffness (the largest E times its size), and a force too small to matter. */
+/* What the model's forces are measured by: its size, a stiffness (the largest E times it), a force too small to matter. */
 static PetscErrorCode measure(Model *model)
 {
   PetscReal low[3], high[3], squared = 0, young = 0;
@@ -139,7 +140,8 @@ static PetscErrorCode measure(Model *model)
     squared += PetscSqr(high[i] - low[i]);
   for (PetscInt b = 0; b < model->mesh.n_bodies; b++)
     young = PetscMax(young, model->mesh.bodies[b].material.young);
-  model->stiffness         = young * PetscSqrtReal(squared);
+  model->size              = PetscSqrtReal(squared);
+  model->stiffness         = young * model->size;
   model->largest_reference = 1e-12 * young * squared;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

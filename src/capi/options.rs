@@ -90,8 +90,10 @@ pub struct stickslip_options {
     pub modulus: f64,
     /// Covered over full nodal area at and below which a node counts as uncovered; default 1e-8.
     pub coverage_min: f64,
-    /// Facets farther apart than this along the normal, at the last commit, are no pair [L]; 0 (default):
-    /// the diagonal of the non-mortar surface. Give it where surfaces lie in layers.
+    /// Facets farther apart than this along the normal at the last commit, gap or penetration, are no pair
+    /// [L]. 0 (default): as far as the surfaces reach for a gap, one facet (the smaller of the two) for a
+    /// penetration, so that the far side of a body is not found. Give it where the mortar surface lies in
+    /// layers (refused otherwise) or the surfaces start deeper in each other than a facet.
     pub search_distance: f64,
 }
 

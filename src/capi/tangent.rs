@@ -150,9 +150,8 @@ pub unsafe extern "C" fn stickslip_interface_tangent_csr(
     })
 }
 
-/// Entries of any tangent until the next search: every candidate pair counted as active. Preallocate with
-/// this. The search is refreshed when something moves out of its skin (a quarter of a facet), so a large
-/// motion may need entries beyond these; call again then.
+/// Entries of any tangent while the surfaces slide by less than a quarter of a facet. Preallocate with this;
+/// a larger motion may need entries beyond these; call again then.
 ///
 /// x1 (3 n1), x2 (3 n2) [L]. Outputs: rows, columns (capacity each; both NULL: only count), count.
 /// Duplicates occur. Errors: NULL_POINTER, NOT_FINITE, BUFFER_TOO_SMALL, DEGENERATE_FACET,

@@ -67,6 +67,8 @@ impl Polygon {
 
 /// The overlap of two projected convex facets.
 pub fn overlap(one: &Projection, two: &Projection) -> Polygon {
+    // The smaller one is cut: the vertices it keeps know nothing of the other's size.
+    let (one, two) = if one.area2 < two.area2 { (two, one) } else { (one, two) };
     let mut polygon = Polygon::empty();
     for k in 0..two.shape.n {
         polygon.push(two.y[k]);

@@ -5,7 +5,8 @@
 //! so two mortar facets that share one see bitwise opposite distances; exact ties are settled as if
 //! every mortar line lay an infinitesimal amount to the right of that direction. Then, assembled over
 //! the pairs, non-mortar edge parts tile their edge and the edge parts of neighbouring mortar facets
-//! cancel, whatever the rounding error of a near-parallel crossing.
+//! cancel, whatever the rounding error of a near-parallel crossing. A boundary of the mortar surface has no
+//! neighbour to cancel with; where it follows a non-mortar mesh line, the tie rule decides.
 
 use super::{Plane, Projection, Vec3};
 
@@ -24,10 +25,18 @@ pub struct EdgeInterval {
     pub high: f64,
 }
 
+/// A distance below this (over the lengths that make it) is a tie: rounding of coordinates and of the
+/// planes of neighbouring non-mortar facets, which otherwise decide differently about a mortar boundary
+/// that follows their common edge.
+const TIE: f64 = 1e-12;
+
 /// e . ((b - a) x (p - a)): positive when p is to the left of the line from a to b.
 #[inline]
 fn distance(e: Vec3, a: Vec3, b: Vec3, p: Vec3) -> f64 {
-    e.dot(&(b - a).cross(&(p - a)))
+    let (ab, ap, bp) = (b - a, p - a, p - b);
+    let d = e.dot(&ab.cross(&ap));
+    let size = ab.norm_squared() * ap.norm_squared().max(bp.norm_squared());
+    if d * d <= TIE * TIE * size { 0.0 } else { d }
 }
 
 fn lexicographically_smaller(a: Vec3, b: Vec3) -> bool {

@@ -1,4 +1,4 @@
-//! Leaf geometry: facets, the auxiliary plane, projection, clipping, inverse maps, boxes.
+//! Leaf geometry: facets, the auxiliary plane, projection, clipping, inverse maps, edge intervals.
 //!
 //! Nothing here knows of contact; nothing allocates.
 

@@ -176,13 +176,13 @@ impl Interface {
         Ok(())
     }
 
-    /// The entries of any tangent until the next search: every candidate pair counted as active. The
-    /// search is refreshed when motion exceeds the skin, so a large motion may need entries beyond these.
+    /// The entries of any tangent while the surfaces slide by less than a quarter of a facet. A larger motion
+    /// may need entries beyond these.
     pub fn superset_pattern(&mut self, x1: &[Vec3], x2: &[Vec3], sink: &mut impl Sink) -> Result<()> {
         self.check_positions(x1, x2)?;
         self.ensure_integration(x1, x2)?;
         let weights = PairWeights::default();
-        let pairs = self.possible_pairs();
+        let pairs = self.possible_pairs(x1, x2)?;
         let all = pairs.iter().map(|&(one, two)| UnionPair { one, two, now: Some(&weights), previous: Some(&weights) });
         self.emit_pattern(&all.collect::<Vec<_>>(), sink);
         Ok(())

@@ -125,8 +125,8 @@ impl History {
             weights.ac.as_flattened_mut().copy_from_slice(&values[REALS_PER_PAIR / 2..]);
             history.pairs.push(PairRecord { one, two, weights });
         }
-        if !history.pairs.is_sorted_by_key(|p| (p.one, p.two)) {
-            return mismatch("the pairs are not sorted by their facets".into());
+        if !history.pairs.is_sorted_by(|p, q| (p.one, p.two) < (q.one, q.two)) {
+            return mismatch("the pairs are not sorted by their facets, or one comes twice".into());
         }
         if let Some(k) = history.areas.iter().position(|&a| a <= 0.0) {
             return mismatch(format!("the area of node {k} is not positive"));

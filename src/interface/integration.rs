@@ -1,11 +1,11 @@
 //! Stage 1 over a whole interface: which pairs are active at a configuration, and their weights.
 //!
-//! A pair is active when its boxes meet, its facets overlap or touch in the auxiliary plane, and it
-//! passed the filters of the last commit (opposing normals, distance). All of that is a function of the
-//! positions and the history, so evaluating at A, B, A gives equal bits.
+//! A pair is active when its facets overlap or touch in the auxiliary plane and it passed the filters of
+//! the last commit (opposing normals, heights). All of that is a function of the positions and the
+//! history, so evaluating at A, B, A gives equal bits.
 
 use super::history::{History, PairRecord};
-use super::search::{Aabb, Candidates};
+use super::search::{Aabb, Prism, Tree};
 use super::{Counters, Interface, Options, Surface};
 use crate::error::{Error, Kind, Result};
 use crate::geometry::{Plane, Vec3};
@@ -14,15 +14,16 @@ use crate::normal;
 use std::time::Instant;
 
 /// Facets whose normals oppose each other less than this are no pair: beyond 80 degrees the
-/// projection degenerates, and back faces must not be found.
+/// projection degenerates, and faces that look the same way must not be found.
 const LEAST_OPPOSITION: f64 = 0.17;
-/// Boxes are grown by this (over the largest facet of their surface), so that touching facets meet.
+/// Prisms are grown by this (over the facet's longest edge), so that touching facets are visited.
 const TOUCH_MARGIN: f64 = 1e-6;
-/// The skin around boxes, over the mean non-mortar facet size: larger means fewer searches and more
-/// candidates.
-const SKIN: f64 = 0.25;
-/// How much farther than the search distance of the last commit a pair may move within a step.
-const REACH: f64 = 2.0;
+/// How far (over the facet's longest edge) surfaces may move within their plane before a tangent needs
+/// entries beyond the superset pattern.
+pub(super) const SKIN: f64 = 0.25;
+/// A node covered more than this over its area lies under several layers of the mortar surface, and
+/// their gaps would be added up. Far above the quadrature error of distorted quads.
+const MOST_COVERAGE: f64 = 1.01;
 
 /// The active pairs at one configuration.
 #[derive(Debug)]
@@ -52,79 +53,87 @@ pub(super) fn check_mortar_facets(surface: &Surface) -> Result<()> {
     frames(surface, &surface.reference).map(|_| ())
 }
 
-/// Boxes of both sides: non-mortar facets reach along their normal.
-fn boxes(
-    one: &Surface,
-    two: &Surface,
-    frames: &[NonmortarFrame],
-    x1: &[Vec3],
-    x2: &[Vec3],
-    reach: f64,
-) -> [Vec<Aabb>; 2] {
-    let facet_box = |s: &Surface, f: usize, x: &[Vec3]| {
-        let facet = s.facet(f, x);
-        Aabb::around(facet.points().iter().copied()).grown(TOUCH_MARGIN * facet.longest_edge())
-    };
-    let swept = frames.iter().enumerate().map(|(f, frame)| {
-        let facet = one.facet(f, x1);
-        // Finite even where the host sets no limit to the distance: infinity times a zero component is NaN.
-        let along = frame.plane.e * reach.min(f64::MAX / 4.0);
-        Aabb::around(facet.points().iter().flat_map(|p| [p - along, p + along]))
-            .grown(TOUCH_MARGIN * facet.longest_edge())
-    });
-    [swept.collect(), (0..two.facets.len()).map(|f| facet_box(two, f, x2)).collect()]
+/// What settles at a commit whether two facets can be a pair: opposing normals, and heights over the
+/// non-mortar facet between a penetration and a gap.
+#[derive(Debug)]
+pub(super) struct Filter {
+    planes: Vec<(Plane, f64)>,
+    mortar: Vec<(Vec3, f64)>,
+    gap: f64,
+    penetration: Option<f64>,
 }
 
-/// The filters of a commit: opposing normals, and a distance along the normal.
-fn build_candidates(
-    one: &Surface,
-    two: &Surface,
-    committed: (&[Vec3], &[Vec3]),
-    boxes: &[Vec<Aabb>; 2],
-    distance: f64,
-) -> Result<Candidates> {
-    let (x1, x2) = committed;
-    let facets1: Vec<_> = (0..one.facets.len()).map(|f| one.facet(f, x1)).collect();
-    let facets2: Vec<_> = (0..two.facets.len()).map(|f| two.facet(f, x2)).collect();
-    let planes = facets1.iter().map(Plane::of).collect::<Result<Vec<_>>>()?;
-    let normals: Vec<_> = facets2.iter().map(|f| f.area_vector().normalize()).collect();
-    let size = facets1.iter().map(|f| f.longest_edge()).sum::<f64>() / facets1.len() as f64;
-    Ok(Candidates::build(&boxes[0], &boxes[1], SKIN * size, |i, j| {
-        let plane = &planes[i];
-        let heights = facets2[j].points().iter().map(|x| plane.e.dot(&(x - plane.reference - plane.origin)));
+impl Filter {
+    /// The filter of the configuration (x1, x2).
+    pub fn new(one: &Surface, two: &Surface, options: &Options, x1: &[Vec3], x2: &[Vec3]) -> Result<Filter> {
+        let planes_of = |s: &Surface, x: &[Vec3]| -> Result<Vec<(Plane, f64)>> {
+            let plane = |f: usize| {
+                let facet = s.facet(f, x);
+                Plane::of(&facet).map(|plane| (plane, facet.longest_edge())).map_err(at_facet(s.side, f))
+            };
+            (0..s.facets.len()).map(plane).collect()
+        };
+        // As far as the surfaces reach: nothing that may be hit is too far away.
+        let both = |a: &Surface, b: &Surface| {
+            Aabb::around(a.reference.iter().copied()).union(&Aabb::around(b.reference.iter().copied())).diagonal()
+        };
+        Ok(Filter {
+            planes: planes_of(one, x1)?,
+            mortar: planes_of(two, x2)?.into_iter().map(|(plane, size)| (plane.e, size)).collect(),
+            gap: options.search_distance.unwrap_or_else(|| both(one, two)),
+            penetration: options.search_distance,
+        })
+    }
+
+    fn admits(&self, i: usize, j: usize, mortar: &Surface, x2: &[Vec3]) -> bool {
+        let ((plane, size1), (normal, size2)) = (&self.planes[i], &self.mortar[j]);
+        let heights = mortar.facet(j, x2);
+        let heights = heights.points().iter().map(|x| plane.e.dot(&(x - plane.reference - plane.origin)));
         let (low, high) = heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), d| (l.min(d), h.max(d)));
-        plane.e.dot(&normals[j]) < -LEAST_OPPOSITION && low <= distance && high >= -distance
-    }))
+        // Deeper than a facet is the far side of a body, unless the host says otherwise.
+        let penetration = self.penetration.unwrap_or(size1.min(*size2));
+        plane.e.dot(normal) < -LEAST_OPPOSITION && low <= self.gap && high >= -penetration
+    }
 }
 
-/// Weights of all active pairs at (x1, x2), with the filters of the configuration `committed`.
-#[allow(clippy::too_many_arguments)]
+/// Pairs that pass the filter and whose mortar facet may reach into the non-mortar facet's prism, grown by
+/// `skin` (over the facet's longest edge). Sorted.
+fn candidates(
+    (one, two): (&Surface, &Surface),
+    frames: &[NonmortarFrame],
+    (x1, x2): (&[Vec3], &[Vec3]),
+    (filter, committed_x2): (&Filter, &[Vec3]),
+    skin: f64,
+) -> Vec<(usize, usize)> {
+    let facet_box = |f: usize| Aabb::around(two.facet(f, x2).points().iter().copied());
+    let tree = Tree::new((0..two.facets.len()).map(facet_box).collect());
+    let (mut pairs, mut found) = (Vec::new(), Vec::new());
+    for (i, frame) in frames.iter().enumerate() {
+        let facet = one.facet(i, x1);
+        let prism = Prism::over(facet.points(), &frame.plane, (TOUCH_MARGIN + skin) * facet.longest_edge());
+        tree.find(&prism, &mut found);
+        pairs.extend(found.iter().filter(|&&j| filter.admits(i, j, two, committed_x2)).map(|&j| (i, j)));
+    }
+    pairs
+}
+
+/// Weights of all active pairs at (x1, x2), with the filter of another or the same configuration.
 fn integrate(
-    one: &Surface,
-    two: &Surface,
+    (one, two): (&Surface, &Surface),
     options: &Options,
-    distance: f64,
-    committed: (&[Vec3], &[Vec3]),
-    candidates: &mut Candidates,
+    filter: (&Filter, &[Vec3]),
     counters: &mut Counters,
-    x1: &[Vec3],
-    x2: &[Vec3],
+    (x1, x2): (&[Vec3], &[Vec3]),
 ) -> Result<Integration> {
     let start = Instant::now();
     let frames = frames(one, x1)?;
-    let boxes = boxes(one, two, &frames, x1, x2, REACH * distance);
-    if !candidates.covers(&boxes[0], &boxes[1]) {
-        *candidates = build_candidates(one, two, committed, &boxes, distance)?;
-        counters.searches += 1;
-    }
+    let candidates = candidates((one, two), &frames, (x1, x2), filter, 0.0);
+    counters.searches += 1;
     counters.seconds_search += start.elapsed().as_secs_f64();
 
     let start = Instant::now();
     let mut pairs = Vec::new();
-    for &(i, j) in &candidates.pairs {
-        if !boxes[0][i].meets(&boxes[1][j]) {
-            continue;
-        }
+    for &(i, j) in &candidates {
         counters.pairs_tested += 1;
         let segment = Segment::new(&frames[i], &two.facet(j, x2))
             .map_err(at_facet(two.side, j))
@@ -145,36 +154,25 @@ impl Interface {
         if done || self.options.weights != super::Weights::Current {
             return Ok(());
         }
-        let committed = (&self.history.x1[..], &self.history.x2[..]);
         self.integration = Some(integrate(
-            &self.nonmortar,
-            &self.mortar,
+            (&self.nonmortar, &self.mortar),
             &self.options,
-            self.distance,
-            committed,
-            &mut self.candidates,
+            (&self.filter, &self.history.x2),
             &mut self.counters,
-            x1,
-            x2,
+            (x1, x2),
         )?);
         Ok(())
     }
 
     /// The history of a commit at (x1, x2), without gaps and slip: weights, normals, areas, coverage.
     pub(super) fn history_at(
-        nonmortar: &Surface,
-        mortar: &Surface,
+        (nonmortar, mortar): (&Surface, &Surface),
         options: &Options,
-        distance: f64,
         counters: &mut Counters,
-        x1: &[Vec3],
-        x2: &[Vec3],
+        (x1, x2): (&[Vec3], &[Vec3]),
     ) -> Result<History> {
-        for f in 0..mortar.facets.len() {
-            Plane::of(&mortar.facet(f, x2)).map_err(at_facet(mortar.side, f))?;
-        }
-        let mut none = Candidates::default();
-        let new = integrate(nonmortar, mortar, options, distance, (x1, x2), &mut none, counters, x1, x2)?;
+        let filter = Filter::new(nonmortar, mortar, options, x1, x2)?;
+        let new = integrate((nonmortar, mortar), options, (&filter, x2), counters, (x1, x2))?;
         let n1 = nonmortar.len();
         let mut history = History {
             commits: 0,
@@ -187,6 +185,10 @@ impl Interface {
             slip: vec![Vec3::zeros(); n1],
             pairs: new.pairs,
         };
+        for pair in &history.pairs {
+            let nodes = &nonmortar.facets[pair.one];
+            (0..nodes.len).for_each(|k| history.coverage[nodes.nodes[k]] += pair.weights.coverage(k));
+        }
         let mut sums = vec![Vec3::zeros(); n1];
         for (f, frame) in new.frames.iter().enumerate() {
             let (facet, areas) = (nonmortar.facet(f, x1), frame.nodal_areas());
@@ -205,6 +207,13 @@ impl Interface {
                 return Err(Error::new(Kind::DegenerateFacet, text));
             }
         }
+        if let Some(k) = (0..n1).find(|&k| history.coverage[k] > MOST_COVERAGE * history.areas[k]) {
+            let times = history.coverage[k] / history.areas[k];
+            let text = format!(
+                "non-mortar node {k} is covered {times:.2} times: the mortar surface lies in layers over it; set search_distance below their distance, or leave the farther ones out"
+            );
+            return Err(Error::new(Kind::InvalidValue, text));
+        }
         Ok(history)
     }
 
@@ -213,12 +222,16 @@ impl Interface {
         self.integration.as_ref().map_or(&self.history.pairs, |k| &k.pairs)
     }
 
-    /// All pairs that may become active before the next search, and those of t_n, sorted.
-    pub(super) fn possible_pairs(&self) -> Vec<(usize, usize)> {
+    /// The pairs of t_n and all that may be active while the surfaces move by less than the skin, sorted.
+    pub(super) fn possible_pairs(&self, x1: &[Vec3], x2: &[Vec3]) -> Result<Vec<(usize, usize)>> {
         let mut pairs: Vec<_> = self.history.pairs.iter().map(|p| (p.one, p.two)).collect();
-        pairs.extend(&self.candidates.pairs);
+        if self.options.weights == super::Weights::Current {
+            let frames = frames(&self.nonmortar, x1)?;
+            let filter = (&self.filter, &self.history.x2[..]);
+            pairs.extend(candidates((&self.nonmortar, &self.mortar), &frames, (x1, x2), filter, SKIN));
+        }
         pairs.sort_unstable();
         pairs.dedup();
-        pairs
+        Ok(pairs)
     }
 }

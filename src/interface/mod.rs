@@ -20,8 +20,7 @@ pub use surface::{FacetNodes, NO_EQUATION, Surface};
 
 use crate::error::{Error, Kind, Result};
 use crate::geometry::{Mat3, Vec3};
-use integration::Integration;
-use search::{Aabb, Candidates};
+use integration::{Filter, Integration};
 
 /// What an interface has done since its creation.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -56,10 +55,9 @@ pub struct Interface {
     augmentations: Option<Vec<f64>>,
     normals: Option<Vec<Vec3>>,
     free: Vec<Mat3>,
-    distance: f64,
+    filter: Filter,
     history: History,
     rollback: Option<History>,
-    candidates: Candidates,
     integration: Option<Integration>,
     counters: Counters,
 }
@@ -83,12 +81,11 @@ impl Interface {
             );
             return Err(Error::new(Kind::InvalidSize, text));
         }
-        let distance =
-            options.search_distance.unwrap_or_else(|| Aabb::around(nonmortar.reference.iter().copied()).diagonal());
         integration::check_mortar_facets(&mortar)?;
         let mut counters = Counters::default();
         let (x1, x2) = (nonmortar.reference.clone(), mortar.reference.clone());
-        let history = Self::history_at(&nonmortar, &mortar, &options, distance, &mut counters, &x1, &x2)?;
+        let history = Self::history_at((&nonmortar, &mortar), &options, &mut counters, (&x1, &x2))?;
+        let filter = Filter::new(&nonmortar, &mortar, &options, &x1, &x2)?;
         let n1 = nonmortar.len();
         let mut interface = Interface {
             options,
@@ -100,33 +97,48 @@ impl Interface {
             augmentations: None,
             normals: None,
             free: vec![Mat3::identity(); n1],
-            distance,
+            filter,
             history,
             rollback: None,
-            candidates: Candidates::default(),
             integration: None,
             counters,
         };
-        interface.complete_history();
+        interface.restrict_to_equations()?;
+        interface.history = interface.completed(interface.history.clone());
         Ok(interface)
     }
 
-    /// Coverage and g[n_n, x_n] of a history whose weights are known.
-    fn complete_history(&mut self) {
-        let sums = self.assemble(&self.history.pairs, &self.history.x1, &self.history.x2);
-        (self.history.coverage, self.history.gap) = sums.into_iter().unzip();
-        self.candidates = Candidates::default();
+    /// Puts a history in place: nothing is changed when its positions are refused.
+    fn adopt(&mut self, history: History) -> Result<()> {
+        // Frozen weights never search again, so their filter does not matter.
+        if self.options.weights == Weights::Current {
+            self.filter = Filter::new(&self.nonmortar, &self.mortar, &self.options, &history.x1, &history.x2)?;
+        }
+        self.history = history;
         self.integration = None;
+        Ok(())
+    }
+
+    /// The history with coverage and g[n_n, x_n] from its weights.
+    fn completed(&self, mut history: History) -> History {
+        let sums = self.assemble(&history.pairs, &history.x1, &history.x2);
+        (history.coverage, history.gap) = sums.into_iter().unzip();
+        history
+    }
+
+    /// A removed multiplier component is a constrained direction, whether the host declares it or not:
+    /// otherwise the rows that are left would depend on the augmentation. A node without any multiplier
+    /// equation keeps its normal.
+    fn restrict_to_equations(&mut self) -> Result<()> {
+        self.set_constraints(&[])
     }
 
     /// Takes (x1, x2) as the configuration of t_n, with nothing slipped yet, instead of the reference.
     pub fn set_previous(&mut self, x1: &[Vec3], x2: &[Vec3]) -> Result<()> {
         self.check_positions(x1, x2)?;
-        let new =
-            Self::history_at(&self.nonmortar, &self.mortar, &self.options, self.distance, &mut self.counters, x1, x2)?;
-        self.history = new;
+        let new = Self::history_at((&self.nonmortar, &self.mortar), &self.options, &mut self.counters, (x1, x2))?;
+        self.adopt(self.completed(new))?;
         self.rollback = None;
-        self.complete_history();
         Ok(())
     }
 
@@ -138,19 +150,22 @@ impl Interface {
         let mut new = if self.options.weights == Weights::Reference {
             History { x1: x1.to_vec(), x2: x2.to_vec(), ..self.history.clone() }
         } else {
-            Self::history_at(&self.nonmortar, &self.mortar, &self.options, self.distance, &mut self.counters, x1, x2)?
+            Self::history_at((&self.nonmortar, &self.mortar), &self.options, &mut self.counters, (x1, x2))?
         };
         new.commits = self.history.commits.saturating_add(1); // an imported history may hold any number
         new.slip = (0..responses.len()).map(|a| self.slip_after(a, &responses[a], sums[a].coverage_previous)).collect();
-        self.rollback = Some(std::mem::replace(&mut self.history, new));
-        self.complete_history();
+        let old = self.history.clone();
+        self.adopt(self.completed(new))?;
+        self.rollback = Some(old);
         Ok(())
     }
 
     /// Slip of node A since the first configuration `[L]`, this step's included.
     /// g_T is weighted with n(t_n), so it is a length times `coverage_previous`, the covered area of t_n.
+    /// An open node moves without slipping.
     pub fn slip_after(&self, a: usize, response: &crate::law::NodeResponse, coverage_previous: f64) -> Vec3 {
-        let step = if coverage_previous > 0.0 { response.slip / coverage_previous } else { Vec3::zeros() };
+        let closed = response.state != crate::law::State::Gap;
+        let step = if closed && coverage_previous > 0.0 { response.slip / coverage_previous } else { Vec3::zeros() };
         self.history.slip[a] + step
     }
 
@@ -160,13 +175,10 @@ impl Interface {
     /// [`Kind::NothingToRollBack`] when there is none; only one commit can be undone.
     pub fn roll_back(&mut self) -> Result<()> {
         let Some(history) = self.rollback.take() else {
-            return Err(Error::new(
-                Kind::NothingToRollBack,
-                "no commit can be undone: none was made since creation, import or the last rollback",
-            ));
+            let text = "no commit can be undone: none was made since creation, import or the last rollback";
+            return Err(Error::new(Kind::NothingToRollBack, text));
         };
-        self.restore(history);
-        Ok(())
+        self.adopt(history)
     }
 
     /// The history as flat arrays, for a restart.
@@ -177,15 +189,9 @@ impl Interface {
     /// Replaces the history by an imported one.
     pub fn import_history(&mut self, integers: &[i64], reals: &[f64]) -> Result<()> {
         let history = History::import(integers, reals, &self.nonmortar, &self.mortar)?;
+        self.adopt(history)?;
         self.rollback = None;
-        self.restore(history);
         Ok(())
-    }
-
-    fn restore(&mut self, history: History) {
-        self.history = history;
-        self.candidates = Candidates::default();
-        self.integration = None;
     }
 
     /// Friction coefficient per node.
@@ -235,7 +241,8 @@ impl Interface {
     pub fn set_constraints(&mut self, directions: &[(usize, Vec3)]) -> Result<()> {
         // A second direction of a node closer than this to the first adds nothing but rounding.
         const INDEPENDENT: f64 = 1e-8;
-        let mut free = vec![Mat3::identity(); self.nonmortar.len()];
+        let mut free: Vec<_> = self.multiplier_equations.iter().map(free_of_equations).collect();
+        let mut declared = vec![Mat3::identity(); self.nonmortar.len()];
         for (k, (node, d)) in directions.iter().enumerate() {
             if *node >= free.len() {
                 let text = format!("constraint {k} names node {node}; nodes 0 to {} exist", free.len() - 1);
@@ -246,13 +253,16 @@ impl Interface {
                 let text = format!("direction of constraint {k} has length {norm}; it must be finite and not zero");
                 return Err(Error::new(Kind::InvalidValue, text));
             }
-            let rest = free[*node] * (d / norm);
+            let rest = declared[*node] * (d / norm);
             if rest.norm() <= INDEPENDENT {
                 let text = format!("constraint {k} repeats a direction of node {node}");
                 return Err(Error::new(Kind::InvalidValue, text));
             }
-            let unit = rest.normalize();
-            free[*node] -= unit * unit.transpose();
+            remove(&mut declared[*node], rest.normalize());
+            let rest = free[*node] * (d / norm);
+            if rest.norm() > INDEPENDENT {
+                remove(&mut free[*node], rest.normalize());
+            }
         }
         let old = std::mem::replace(&mut self.free, free);
         if let Err(e) = (0..self.nonmortar.len()).try_for_each(|a| self.normal(a).map(|_| ())) {
@@ -304,14 +314,26 @@ impl Interface {
             .integration
             .as_ref()
             .map_or(0, |k| k.pairs.len() * pair + k.frames.len() * size_of::<crate::mortar::NonmortarFrame>());
-        let boxes = (self.nonmortar.facets.len() + self.mortar.facets.len()) * size_of::<Aabb>();
+        let filter = (self.nonmortar.facets.len() + self.mortar.facets.len()) * size_of::<crate::geometry::Plane>();
         history(&self.history)
             + self.rollback.as_ref().map_or(0, history)
             + surface(&self.nonmortar)
             + surface(&self.mortar)
             + current
-            + boxes
-            + self.candidates.pairs.len() * size_of::<(usize, usize)>()
+            + filter
             + self.nonmortar.len() * size_of::<Mat3>()
     }
+}
+
+/// Projector on the axes in which a node has a multiplier; on all of space where it has none at all.
+fn free_of_equations(equations: &[i64; 3]) -> Mat3 {
+    if equations.iter().all(|&e| e == NO_EQUATION) {
+        return Mat3::identity();
+    }
+    Mat3::from_diagonal(&Vec3::from_fn(|i, _| if equations[i] == NO_EQUATION { 0.0 } else { 1.0 }))
+}
+
+/// Takes a unit direction within a projector's range out of it.
+fn remove(projector: &mut Mat3, unit: Vec3) {
+    *projector -= unit * unit.transpose();
 }

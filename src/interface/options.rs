@@ -76,8 +76,9 @@ pub struct Options {
     pub stiffness: Stiffness,
     /// Covered over full nodal area at and below which a node counts as uncovered.
     pub coverage_min: f64,
-    /// Facets farther apart than this along the normal at the last commit are no pair `[L]`;
-    /// `None`: the diagonal of the non-mortar surface.
+    /// Facets farther apart than this along the normal at the last commit, gap or penetration, are no pair
+    /// `[L]`. `None`: as far as the surfaces reach for a gap, one facet (the smaller of the two) for a
+    /// penetration, so that the far side of a body is not found.
     pub search_distance: Option<f64>,
 }
 

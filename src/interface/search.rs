@@ -1,10 +1,8 @@
-//! Which facets may overlap: a guaranteed superset by bounding boxes, with a skin, so that it is built
-//! anew only when something has moved out of its skin.
-//!
-//! A non-mortar facet's box reaches along its normal. Whether two current boxes meet is pure geometry
-//! and part of what makes a pair active; the superset only saves asking for all of them.
+//! Which mortar facets may lie over a non-mortar facet: a bounding-volume tree over the mortar facets'
+//! boxes, asked with the prism that a non-mortar facet sweeps along its normal. O(log n) a facet,
+//! whatever the orientation; the answer is a superset and depends on the positions alone.
 
-use crate::geometry::Vec3;
+use crate::geometry::{Plane, Vec3};
 
 /// An axis-aligned box.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -20,21 +18,8 @@ impl Aabb {
         points.into_iter().fold(empty, |b, p| Aabb { low: b.low.inf(&p), high: b.high.sup(&p) })
     }
 
-    /// Grown by `margin` on every side.
-    pub fn grown(self, margin: f64) -> Aabb {
-        Aabb { low: self.low.add_scalar(-margin), high: self.high.add_scalar(margin) }
-    }
-
-    /// Whether two boxes share a point.
-    pub fn meets(&self, other: &Aabb) -> bool {
-        (0..3).all(|i| self.low[i] <= other.high[i] && other.low[i] <= self.high[i])
-    }
-
-    fn contains(&self, other: &Aabb) -> bool {
-        (0..3).all(|i| self.low[i] <= other.low[i] && other.high[i] <= self.high[i])
-    }
-
-    fn union(&self, other: &Aabb) -> Aabb {
+    /// The box around both.
+    pub fn union(&self, other: &Aabb) -> Aabb {
         Aabb { low: self.low.inf(&other.low), high: self.high.sup(&other.high) }
     }
 
@@ -48,12 +33,45 @@ impl Aabb {
     }
 }
 
+/// What a facet sweeps along its normal, both ways without end: intervals along the plane's two axes.
+#[derive(Clone, Copy, Debug)]
+pub struct Prism {
+    origin: Vec3,
+    axes: [Vec3; 2],
+    low: [f64; 2],
+    high: [f64; 2],
+}
+
+impl Prism {
+    /// The prism over `points` in the directions of `plane`, grown by `margin` on every side.
+    pub fn over(points: &[Vec3], plane: &Plane, margin: f64) -> Prism {
+        let (origin, axes) = (plane.reference, [plane.t1, plane.t2]);
+        let along = |k: usize| points.iter().map(move |p| axes[k].dot(&(p - origin)));
+        Prism {
+            origin,
+            axes,
+            low: [0, 1].map(|k| along(k).fold(f64::INFINITY, f64::min) - margin),
+            high: [0, 1].map(|k| along(k).fold(f64::NEG_INFINITY, f64::max) + margin),
+        }
+    }
+
+    /// Whether the box may reach into the prism; never false when it does.
+    fn meets(&self, b: &Aabb) -> bool {
+        let (centre, half) = (b.centre() - self.origin, (b.high - b.low) * 0.5);
+        (0..2).all(|k| {
+            let (c, r) = (self.axes[k].dot(&centre), self.axes[k].abs().dot(&half));
+            c + r >= self.low[k] && c - r <= self.high[k]
+        })
+    }
+}
+
 /// Leaves hold at most this many boxes: fewer make a deeper tree, more make a slower query.
 const LEAF: usize = 4;
 
 /// A bounding-volume tree over boxes.
-#[derive(Debug, Default)]
-struct Tree {
+#[derive(Debug)]
+pub struct Tree {
+    boxes: Vec<Aabb>,
     nodes: Vec<TreeNode>,
     order: Vec<usize>,
 }
@@ -67,12 +85,21 @@ struct TreeNode {
 }
 
 impl Tree {
-    fn new(boxes: &[Aabb]) -> Tree {
-        let mut tree = Tree { nodes: Vec::new(), order: (0..boxes.len()).collect() };
+    /// The tree over `boxes`.
+    pub fn new(boxes: Vec<Aabb>) -> Tree {
+        let mut tree = Tree { nodes: Vec::new(), order: (0..boxes.len()).collect(), boxes: Vec::new() };
         if !boxes.is_empty() {
-            tree.build(boxes, 0, boxes.len());
+            tree.build(&boxes, 0, boxes.len());
         }
+        tree.boxes = boxes;
         tree
+    }
+
+    /// Fills `found` with the boxes that may reach into `prism`, in ascending order.
+    pub fn find(&self, prism: &Prism, found: &mut Vec<usize>) {
+        found.clear();
+        self.query(prism, 0, found);
+        found.sort_unstable();
     }
 
     fn build(&mut self, boxes: &[Aabb], first: usize, end: usize) -> usize {
@@ -91,102 +118,71 @@ impl Tree {
         me
     }
 
-    fn query(&self, boxes: &[Aabb], target: &Aabb, node: usize, visit: &mut impl FnMut(usize)) {
+    fn query(&self, prism: &Prism, node: usize, found: &mut Vec<usize>) {
         let Some(n) = self.nodes.get(node) else { return };
-        if !n.bounds.meets(target) {
+        if !prism.meets(&n.bounds) {
             return;
         }
         if n.right == 0 {
             let leaf = &self.order[n.first..n.first + n.count];
-            leaf.iter().filter(|&&i| boxes[i].meets(target)).for_each(|&i| visit(i));
+            found.extend(leaf.iter().filter(|&&i| prism.meets(&self.boxes[i])));
         } else {
-            self.query(boxes, target, node + 1, visit);
-            self.query(boxes, target, n.right, visit);
+            self.query(prism, node + 1, found);
+            self.query(prism, n.right, found);
         }
-    }
-}
-
-/// A superset of the pairs that may be active.
-#[derive(Debug, Default)]
-pub struct Candidates {
-    /// (non-mortar facet, mortar facet), sorted.
-    pub pairs: Vec<(usize, usize)>,
-    skins: [Vec<Aabb>; 2],
-}
-
-impl Candidates {
-    /// Whether the list still covers all pairs whose boxes may meet.
-    pub fn covers(&self, one: &[Aabb], two: &[Aabb]) -> bool {
-        let within = |skins: &[Aabb], boxes: &[Aabb]| {
-            skins.len() == boxes.len() && skins.iter().zip(boxes).all(|(s, b)| s.contains(b))
-        };
-        within(&self.skins[0], one) && within(&self.skins[1], two)
-    }
-
-    /// Lists all pairs whose boxes, each grown by `skin`, meet and that `admit` lets pass.
-    pub fn build(one: &[Aabb], two: &[Aabb], skin: f64, admit: impl Fn(usize, usize) -> bool) -> Candidates {
-        let grow = |boxes: &[Aabb]| boxes.iter().map(|b| b.grown(skin)).collect::<Vec<_>>();
-        let skins = [grow(one), grow(two)];
-        let tree = Tree::new(&skins[1]);
-        let mut pairs = Vec::new();
-        for (i, target) in skins[0].iter().enumerate() {
-            let first = pairs.len();
-            tree.query(&skins[1], target, 0, &mut |j| {
-                if admit(i, j) {
-                    pairs.push((i, j));
-                }
-            });
-            pairs[first..].sort_unstable();
-        }
-        Candidates { pairs, skins }
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geometry::Facet;
 
-    fn random_boxes(n: usize, seed: u64, size: f64) -> Vec<Aabb> {
+    fn random_numbers(seed: u64) -> impl FnMut() -> f64 {
         let mut state = seed;
-        let mut next = move || {
+        move || {
             state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
             (state >> 33) as f64 / (1u64 << 31) as f64
-        };
+        }
+    }
+
+    fn random_boxes(n: usize, seed: u64, size: f64) -> Vec<Aabb> {
+        let mut next = random_numbers(seed);
+        let mut point = move || Vec3::new(next(), next(), next());
         (0..n)
             .map(|_| {
-                let p = Vec3::new(next(), next(), next());
-                Aabb::around([p, p + Vec3::new(next(), next(), next()) * size])
+                let p = point();
+                Aabb::around([p, p + point() * size])
             })
             .collect()
     }
 
     #[test]
     fn finds_what_all_against_all_finds() {
-        for (n1, n2, size) in [(1, 1000, 1.0), (1000, 1, 0.1), (200, 300, 0.05), (3, 0, 0.1)] {
-            let (one, two) = (random_boxes(n1, 1, size), random_boxes(n2, 2, size));
-            let found = Candidates::build(&one, &two, 0.01, |i, j| (i + j) % 3 != 0);
-            let mut expected = Vec::new();
-            for i in 0..n1 {
-                for j in 0..n2 {
-                    if (i + j) % 3 != 0 && one[i].grown(0.01).meets(&two[j].grown(0.01)) {
-                        expected.push((i, j));
-                    }
-                }
+        let mut next = random_numbers(7);
+        for (n, size) in [(0, 0.1), (1, 1.0), (3, 0.1), (300, 0.05), (1000, 0.3)] {
+            let boxes = random_boxes(n, 2, size);
+            let tree = Tree::new(boxes.clone());
+            for _ in 0..50 {
+                let x: Vec<_> = (0..3).map(|_| Vec3::new(next(), next(), next())).collect();
+                let plane = Plane::of(&Facet::new(&x).unwrap()).unwrap();
+                let prism = Prism::over(&x, &plane, 0.01);
+                let mut found = Vec::new();
+                tree.find(&prism, &mut found);
+                let expected: Vec<_> = (0..n).filter(|&i| prism.meets(&boxes[i])).collect();
+                assert_eq!(found, expected);
             }
-            assert_eq!(found.pairs, expected);
         }
     }
 
     #[test]
-    fn covers_motion_within_the_skin_only() {
-        let (one, two) = (random_boxes(5, 1, 0.1), random_boxes(5, 2, 0.1));
-        let found = Candidates::build(&one, &two, 0.01, |_, _| true);
-        let moved = |d: f64| {
-            one.iter().map(|b| Aabb { low: b.low.add_scalar(d), high: b.high.add_scalar(d) }).collect::<Vec<_>>()
-        };
-        assert!(found.covers(&one, &two));
-        assert!(found.covers(&moved(0.009), &two));
-        assert!(!found.covers(&moved(0.011), &two));
-        assert!(!Candidates::default().covers(&one, &two));
+    fn a_point_over_the_facet_is_never_missed() {
+        let mut next = random_numbers(3);
+        for _ in 0..1000 {
+            let x: Vec<_> = (0..3).map(|_| Vec3::new(next(), next(), next())).collect();
+            let plane = Plane::of(&Facet::new(&x).unwrap()).unwrap();
+            let inside = (x[0] + x[1] + x[2]) / 3.0 + plane.e * (10.0 * next() - 5.0);
+            assert!(Prism::over(&x, &plane, 1e-12).meets(&Aabb::around([inside])));
+        }
     }
 }
