@@ -159,3 +159,44 @@ fn a_removed_component_is_a_constrained_direction() {
     let r = i.residual(&one.x, &two.x, &[Vec3::new(0.0, 0.0, -1.0); 4], None).unwrap();
     assert!(r.rows.iter().all(|row| row.amax() <= 1e-15), "a closed node in equilibrium has a zero row");
 }
+
+/// Matching meshes, turned in space, with noise or a tiny turn from rounding to 1e-3: the assembled tangent moves
+/// with the geometry and not by a claim that an edge loses or wins.
+#[test]
+fn nearly_matching_meshes_have_nearly_the_same_tangent() {
+    // The tangent's own change per unit of noise, of order h^-1 times a few, and rounding.
+    let allowed = |noise: f64| 100.0 * noise + 1e-12;
+    let mut random = Random(11);
+    for round in 0..20 {
+        let angles = random.vector(3.0);
+        let q = Rotation3::from_euler_angles(angles.x, angles.y, angles.z);
+        let one = grid(2, 2, [0.0, 0.0], [1.0, 1.0], 0.0, false, Cells::Quads);
+        let two = grid(4, 4, [-0.5, -0.5], [1.5, 1.5], 0.0, true, Cells::Quads);
+        let lambda: Vec<_> = one.x.iter().map(|_| q * Vec3::new(0.1, 0.2, -1.0)).collect();
+        let seed = 100 + round;
+        let tangent = |noise: f64, turn: f64| {
+            let mut random = Random(seed);
+            let about = Vec3::new(0.37, 0.59, 0.0);
+            let z = Rotation3::from_euler_angles(0.0, 0.0, turn);
+            let x1: Vec<_> = one.x.iter().map(|x| q * x).collect();
+            let x2: Vec<_> = two.x.iter().map(|x| q * (z * (x - about) + about + random.vector(noise))).collect();
+            let mesh = |x: &[Vec3], m: &Mesh| Mesh { x: x.to_vec(), facets: m.facets.clone() };
+            let mut i = interface(&mesh(&x1, &one), &mesh(&x2, &two), options());
+            let n = 3 * (2 * one.x.len() + two.x.len());
+            let mut k = vec![0.0; n * n];
+            i.tangent(&x1, &x2, &lambda, None, &mut |r: i64, c: i64, v: f64| k[r as usize * n + c as usize] += v)
+                .unwrap();
+            k
+        };
+        let exact = tangent(0.0, 0.0);
+        let scale = max_abs(exact.iter().copied());
+        for exponent in 3..=17 {
+            let size = 10f64.powi(-exponent);
+            for (noise, turn) in [(size, 0.0), (0.0, size)] {
+                let other = tangent(noise, turn);
+                let error = max_abs(exact.iter().zip(&other).map(|(a, b)| a - b)) / scale;
+                assert!(error <= allowed(size), "noise {noise:e}, turn {turn:e}: {error:e}");
+            }
+        }
+    }
+}
