@@ -197,6 +197,9 @@ fn golden_pair_derivatives() {
             (_, true) => (&mut angle, DERIVATIVES_AT_SMALL_ANGLE),
             _ => (&mut affine, DERIVATIVES),
         };
+        // A long facet's gradients know its short side to rounding of the long one.
+        let one = facet(&case["x1"]);
+        let bound = bound.max(10.0 * f64::EPSILON * one.longest_edge().powi(2) / one.area_vector().norm());
         *worst = worst.max(error);
         assert!(error <= bound, "{}: derivatives off by {error:e}", name(&case));
     }

@@ -189,6 +189,45 @@ fn corner_sliver_derivative_is_that_of_the_area() {
     }
 }
 
+/// A strip of overlap, or four edges that cross at a small angle: the derivative knows no smallest width.
+/// d area / d shift is the strip's length; two unit squares turned by t share the area 2 / (1 + cos t + sin t).
+#[test]
+fn derivative_is_right_down_to_the_thinnest_strip() {
+    let square = |x: f64, y: f64, turn: f64, down: bool| {
+        let q = nalgebra::Rotation3::from_euler_angles(0.0, 0.0, turn);
+        let mut p = [[x, y], [x + 1.0, y], [x + 1.0, y + 1.0], [x, y + 1.0]].map(|p| q * Vec3::new(p[0], p[1], 0.0));
+        if down {
+            p.reverse();
+        }
+        Facet::new(&p).unwrap()
+    };
+    let area = |d: &WeightDerivatives, k: usize, i: usize| -> f64 {
+        (0..4).flat_map(|a| (0..4).map(move |b| (a, b))).map(|(a, b)| d.ab[a][b][k][i]).sum()
+    };
+    for exponent in 1..=12 {
+        let width = 10f64.powi(-exponent);
+        let p = Pair::new(square(0.0, 0.0, 0.0, false), square(1.0 - width, 0.125, 0.0, true));
+        let d = p.derivatives(&DEGREE_5);
+        let shift: f64 = (0..4).map(|k| area(&d, MORTAR + k, 0)).sum();
+        assert!((shift + 0.875).abs() < 1e-12, "strip of {width:e}: {shift}");
+
+        let p = Pair::new(square(-0.5, -0.5, 0.0, false), square(-0.5, -0.5, width, true));
+        let d = p.derivatives(&DEGREE_5);
+        let turn: f64 = (0..4)
+            .map(|k| {
+                let x = p.two.nodes[k];
+                area(&d, MORTAR + k, 1) * x.x - area(&d, MORTAR + k, 0) * x.y
+            })
+            .sum();
+        let exact = {
+            let (s, c) = width.sin_cos();
+            -2.0 * (c - s) / (1.0 + c + s).powi(2)
+        };
+        // The corners' own rounding moves the crossings by 1e-16 / width.
+        assert!((turn - exact).abs() < 1e-12 + 1e-20 / width, "angle {width:e}: {turn} instead of {exact}");
+    }
+}
+
 mod properties {
     use super::*;
     use proptest::prelude::*;

@@ -25,10 +25,10 @@ pub struct EdgeInterval {
     pub high: f64,
 }
 
-/// A distance below this (over the lengths that make it) is a tie: rounding of coordinates and of the
+/// A distance below this (over the lengths that make it) is a tie: a few hundred roundings of coordinates and of the
 /// planes of neighbouring non-mortar facets, which otherwise decide differently about a mortar boundary
 /// that follows their common edge.
-const TIE: f64 = 1e-12;
+const TIE: f64 = 1e-13;
 
 /// e . ((b - a) x (p - a)): positive when p is to the left of the line from a to b.
 #[inline]
