@@ -244,7 +244,9 @@ typedef struct stickslip_surface {
   const int64_t *facet_nodes;
   // 3 n_nodes displacement equations, node by node, in the index base; -1: none (prescribed).
   const int64_t *equations;
-  // Non-mortar: 3 n_nodes multiplier equations, -1: the component is removed. Mortar: NULL.
+  // Non-mortar: 3 n_nodes multiplier equations, -1: the component is removed and its axis a constrained
+  // direction (see `stickslip_interface_set_constraints`); a node with three -1 keeps its normal. Mortar:
+  // NULL.
   const int64_t *multiplier_equations;
   // Non-mortar, parallel hosts: n_nodes flags, 1 where this handle adds the node's own block; NULL:
   // all. Mortar: NULL.

@@ -22,8 +22,8 @@
 //!
 //! [`error`]; [`shape`], [`quadrature`], [`geometry`], [`normal`] know nothing of contact; [`mortar`]
 //! integrates a pair and knows no law; [`law`] is nodal and knows no geometry; they meet in
-//! [`element`]; [`interface`] searches, assembles and remembers; [`capi`] is the C ABI and the only
-//! place with `unsafe`.
+//! [`element`]; [`interface`] searches, assembles and remembers; [`capi`] is the C ABI, the only
+//! place that touches raw pointers.
 
 #![warn(missing_docs)]
 

@@ -23,7 +23,9 @@ pub struct stickslip_surface {
     pub facet_nodes: *const i64,
     /// 3 n_nodes displacement equations, node by node, in the index base; -1: none (prescribed).
     pub equations: *const i64,
-    /// Non-mortar: 3 n_nodes multiplier equations, -1: the component is removed. Mortar: NULL.
+    /// Non-mortar: 3 n_nodes multiplier equations, -1: the component is removed and its axis a constrained
+    /// direction (see `stickslip_interface_set_constraints`); a node with three -1 keeps its normal. Mortar:
+    /// NULL.
     pub multiplier_equations: *const i64,
     /// Non-mortar, parallel hosts: n_nodes flags, 1 where this handle adds the node's own block; NULL:
     /// all. Mortar: NULL.

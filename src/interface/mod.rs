@@ -103,7 +103,7 @@ impl Interface {
             integration: None,
             counters,
         };
-        interface.restrict_to_equations()?;
+        interface.set_constraints(&[])?; // those that follow from removed equations
         interface.history = interface.completed(interface.history.clone());
         Ok(interface)
     }
@@ -124,13 +124,6 @@ impl Interface {
         let sums = self.assemble(&history.pairs, &history.x1, &history.x2);
         (history.coverage, history.gap) = sums.into_iter().unzip();
         history
-    }
-
-    /// A removed multiplier component is a constrained direction, whether the host declares it or not:
-    /// otherwise the rows that are left would depend on the augmentation. A node without any multiplier
-    /// equation keeps its normal.
-    fn restrict_to_equations(&mut self) -> Result<()> {
-        self.set_constraints(&[])
     }
 
     /// Takes (x1, x2) as the configuration of t_n, with nothing slipped yet, instead of the reference.
@@ -325,7 +318,9 @@ impl Interface {
     }
 }
 
-/// Projector on the axes in which a node has a multiplier; on all of space where it has none at all.
+/// Projector on the axes in which a node has a multiplier; on all of space where it has none at all, so that it
+/// keeps its normal. A removed component is a constrained direction, whether the host declares it or not:
+/// otherwise the rows that are left would depend on the augmentation.
 fn free_of_equations(equations: &[i64; 3]) -> Mat3 {
     if equations.iter().all(|&e| e == NO_EQUATION) {
         return Mat3::identity();
