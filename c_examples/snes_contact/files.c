@@ -96,12 +96,49 @@ static void cell_stresses(FILE *file, const Mesh *mesh, const PetscScalar *displ
   }
 }
 
+/* multiplier, force of the contact on the node (both sides), and state (-1 off the non-mortar side) of one interface */
+static PetscErrorCode interface_fields(FILE *file, const Mesh *mesh, const Interface *interface)
+{
+  const PetscScalar *lambda = interface->gathered + 3 * (interface->n1 + interface->n2);
+  const PetscInt     n_both = interface->n1 + interface->n2;
+  PetscScalar       *field;
+  PetscInt          *state;
+  ContactStates      states;
+  char               name[2 * NAME_LENGTH];
+
+  PetscFunctionBegin;
+  PetscCall(PetscCalloc2(3 * mesh->n_vertices, &field, mesh->n_vertices, &state));
+  for (PetscInt k = 0; k < 3 * interface->n1; k++)
+    field[3 * interface->nodes[k / 3] + k % 3] = lambda[k];
+  PetscCall(PetscSNPrintf(name, sizeof(name), "multiplier_%s", interface->name));
+  vectors(file, name, mesh->n_vertices, field);
+
+  PetscCall(PetscArrayzero(field, 3 * mesh->n_vertices));
+  for (PetscInt k = 0; k < 3 * n_both; k++)
+    field[3 * interface->nodes[k / 3] + k % 3] = -interface->forces[k];
+  PetscCall(PetscSNPrintf(name, sizeof(name), "force_%s", interface->name));
+  vectors(file, name, mesh->n_vertices, field);
+
+  PetscCall(contact_states_create(interface, &states));
+  for (PetscInt v = 0; v < mesh->n_vertices; v++)
+    state[v] = -1;
+  for (PetscInt a = 0; a < interface->n1; a++)
+    state[interface->nodes[a]] = states.state[a];
+  PetscCall(contact_states_destroy(&states));
+  PetscCall(PetscSNPrintf(name, sizeof(name), "state_%s", interface->name));
+  start_array(file, "Int32", name, 1);
+  for (PetscInt v = 0; v < mesh->n_vertices; v++)
+    fprintf(file, "%d\n", (int)state[v]);
+  end_array(file);
+  PetscCall(PetscFree2(field, state));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode vtu_write(Model *model, const PetscScalar *displacements, PetscInt step)
 {
   const Mesh  *mesh = &model->mesh;
-  char         path[PETSC_MAX_PATH_LEN], name[2 * NAME_LENGTH];
+  char         path[PETSC_MAX_PATH_LEN];
   FILE        *file;
-  PetscScalar *multipliers;
 
   PetscFunctionBegin;
   PetscCall(PetscSNPrintf(path, sizeof(path), "%s/step_%" PetscInt_FMT ".vtu", model->output_dir, step));
@@ -135,17 +172,8 @@ PetscErrorCode vtu_write(Model *model, const PetscScalar *displacements, PetscIn
   end_array(file);
   fprintf(file, "</Cells>\n<PointData Vectors=\"displacement\">\n");
   vectors(file, "displacement", mesh->n_vertices, displacements);
-  PetscCall(PetscMalloc1(3 * mesh->n_vertices, &multipliers));
-  for (PetscInt i = 0; i < model->n_interfaces; i++) {
-    const Interface   *interface = &model->interfaces[i];
-    const PetscScalar *lambda    = interface->gathered + 3 * (interface->n1 + interface->n2);
-    PetscCall(PetscArrayzero(multipliers, 3 * mesh->n_vertices));
-    for (PetscInt k = 0; k < 3 * interface->n1; k++)
-      multipliers[3 * interface->nodes[k / 3] + k % 3] = lambda[k];
-    PetscCall(PetscSNPrintf(name, sizeof(name), "multiplier_%s", interface->name));
-    vectors(file, name, mesh->n_vertices, multipliers);
-  }
-  PetscCall(PetscFree(multipliers));
+  for (PetscInt i = 0; i < model->n_interfaces; i++)
+    PetscCall(interface_fields(file, mesh, &model->interfaces[i]));
   fprintf(file, "</PointData>\n<CellData>\n");
   start_array(file, "Int32", "body", 1);
   for (PetscInt c = 0; c < mesh->n_cells; c++)
