@@ -150,9 +150,9 @@ pub unsafe extern "C" fn stickslip_interface_states(
         ] {
             raw::check_optional(p, name)?;
         }
-        let responses = h.responses(&point.x1, &point.x2, &point.lambda, point.sums())?;
         let own = if point.sums().is_none() { h.sums(&point.x1, &point.x2)? } else { Vec::new() };
         let sums = point.sums().unwrap_or(&own);
+        let responses = h.responses(&point.x1, &point.x2, &point.lambda, Some(sums))?;
         let nodes = || responses.iter().enumerate();
         let normals = (0..responses.len()).map(|a| h.normal(a)).collect::<Result<Vec<_>>>()?;
         let slip: Vec<_> = nodes().map(|(a, r)| h.slip_after(a, r, sums[a].coverage_previous)).collect();

@@ -5,10 +5,11 @@
 //! history, so evaluating at A, B, A gives equal bits.
 
 use super::history::{History, PairRecord};
+use super::nodes::assemble;
 use super::search::{Aabb, Prism, Tree};
 use super::{Counters, Interface, Options, Surface};
 use crate::error::{Error, Kind, Result};
-use crate::geometry::{Plane, Vec3};
+use crate::geometry::{Facet, Plane, Vec3};
 use crate::mortar::{NonmortarFrame, PairWeights, Segment};
 use crate::normal;
 use std::time::Instant;
@@ -20,7 +21,7 @@ const LEAST_OPPOSITION: f64 = 0.17;
 const TOUCH_MARGIN: f64 = 1e-6;
 /// How far (over the facet's longest edge) surfaces may move within their plane before a tangent needs
 /// entries beyond the superset pattern.
-pub(super) const SKIN: f64 = 0.25;
+const SKIN: f64 = 0.25;
 /// A node covered more than this over its area lies under several layers of the mortar surface, and
 /// their gaps would be added up. Far above the quadrature error of distorted quads.
 const MOST_COVERAGE: f64 = 1.01;
@@ -57,8 +58,8 @@ pub(super) fn check_mortar_facets(surface: &Surface) -> Result<()> {
 /// non-mortar facet between a penetration and a gap.
 #[derive(Debug)]
 pub(super) struct Filter {
-    planes: Vec<(Plane, f64)>,
-    mortar: Vec<(Vec3, f64)>,
+    nonmortar: Vec<(Facet, Plane)>,
+    mortar: Vec<(Facet, Plane)>,
     gap: f64,
     penetration: Option<f64>,
 }
@@ -66,33 +67,30 @@ pub(super) struct Filter {
 impl Filter {
     /// The filter of the configuration (x1, x2).
     pub fn new(one: &Surface, two: &Surface, options: &Options, x1: &[Vec3], x2: &[Vec3]) -> Result<Filter> {
-        let planes_of = |s: &Surface, x: &[Vec3]| -> Result<Vec<(Plane, f64)>> {
-            let plane = |f: usize| {
+        let facets = |s: &Surface, x: &[Vec3]| -> Result<Vec<(Facet, Plane)>> {
+            let facet = |f: usize| {
                 let facet = s.facet(f, x);
-                Plane::of(&facet).map(|plane| (plane, facet.longest_edge())).map_err(at_facet(s.side, f))
+                Plane::of(&facet).map(|plane| (facet, plane)).map_err(at_facet(s.side, f))
             };
-            (0..s.facets.len()).map(plane).collect()
+            (0..s.facets.len()).map(facet).collect()
         };
         // As far as the surfaces reach: nothing that may be hit is too far away.
-        let both = |a: &Surface, b: &Surface| {
-            Aabb::around(a.reference.iter().copied()).union(&Aabb::around(b.reference.iter().copied())).diagonal()
-        };
+        let reach = || Aabb::around(one.reference.iter().chain(&two.reference).copied()).diagonal();
         Ok(Filter {
-            planes: planes_of(one, x1)?,
-            mortar: planes_of(two, x2)?.into_iter().map(|(plane, size)| (plane.e, size)).collect(),
-            gap: options.search_distance.unwrap_or_else(|| both(one, two)),
+            nonmortar: facets(one, x1)?,
+            mortar: facets(two, x2)?,
+            gap: options.search_distance.unwrap_or_else(reach),
             penetration: options.search_distance,
         })
     }
 
-    fn admits(&self, i: usize, j: usize, mortar: &Surface, x2: &[Vec3]) -> bool {
-        let ((plane, size1), (normal, size2)) = (&self.planes[i], &self.mortar[j]);
-        let heights = mortar.facet(j, x2);
-        let heights = heights.points().iter().map(|x| plane.e.dot(&(x - plane.reference - plane.origin)));
+    fn admits(&self, i: usize, j: usize) -> bool {
+        let ((one, plane), (two, opposite)) = (&self.nonmortar[i], &self.mortar[j]);
+        let heights = two.points().iter().map(|x| plane.e.dot(&(x - plane.reference - plane.origin)));
         let (low, high) = heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), d| (l.min(d), h.max(d)));
         // Deeper than a facet is the far side of a body, unless the host says otherwise.
-        let penetration = self.penetration.unwrap_or(size1.min(*size2));
-        plane.e.dot(normal) < -LEAST_OPPOSITION && low <= self.gap && high >= -penetration
+        let penetration = self.penetration.unwrap_or_else(|| one.longest_edge().min(two.longest_edge()));
+        plane.e.dot(&opposite.e) < -LEAST_OPPOSITION && low <= self.gap && high >= -penetration
     }
 }
 
@@ -102,7 +100,7 @@ fn candidates(
     (one, two): (&Surface, &Surface),
     frames: &[NonmortarFrame],
     (x1, x2): (&[Vec3], &[Vec3]),
-    (filter, committed_x2): (&Filter, &[Vec3]),
+    filter: &Filter,
     skin: f64,
 ) -> Vec<(usize, usize)> {
     let facet_box = |f: usize| Aabb::around(two.facet(f, x2).points().iter().copied());
@@ -112,7 +110,7 @@ fn candidates(
         let facet = one.facet(i, x1);
         let prism = Prism::over(facet.points(), &frame.plane, (TOUCH_MARGIN + skin) * facet.longest_edge());
         tree.find(&prism, &mut found);
-        pairs.extend(found.iter().filter(|&&j| filter.admits(i, j, two, committed_x2)).map(|&j| (i, j)));
+        pairs.extend(found.iter().filter(|&&j| filter.admits(i, j)).map(|&j| (i, j)));
     }
     pairs
 }
@@ -121,7 +119,7 @@ fn candidates(
 fn integrate(
     (one, two): (&Surface, &Surface),
     options: &Options,
-    filter: (&Filter, &[Vec3]),
+    filter: &Filter,
     counters: &mut Counters,
     (x1, x2): (&[Vec3], &[Vec3]),
 ) -> Result<Integration> {
@@ -157,38 +155,35 @@ impl Interface {
         self.integration = Some(integrate(
             (&self.nonmortar, &self.mortar),
             &self.options,
-            (&self.filter, &self.history.x2),
+            &self.filter,
             &mut self.counters,
             (x1, x2),
         )?);
         Ok(())
     }
 
-    /// The history of a commit at (x1, x2), without gaps and slip: weights, normals, areas, coverage.
+    /// The history of a commit at (x1, x2), with nothing slipped, and the filter of the step that follows.
     pub(super) fn history_at(
         (nonmortar, mortar): (&Surface, &Surface),
         options: &Options,
         counters: &mut Counters,
         (x1, x2): (&[Vec3], &[Vec3]),
-    ) -> Result<History> {
+    ) -> Result<(History, Filter)> {
         let filter = Filter::new(nonmortar, mortar, options, x1, x2)?;
-        let new = integrate((nonmortar, mortar), options, (&filter, x2), counters, (x1, x2))?;
+        let new = integrate((nonmortar, mortar), options, &filter, counters, (x1, x2))?;
         let n1 = nonmortar.len();
+        let (coverage, gap) = assemble((nonmortar, mortar), &new.pairs, x1, x2).into_iter().unzip();
         let mut history = History {
             commits: 0,
             x1: new.x1,
             x2: new.x2,
             normals: Vec::with_capacity(n1),
             areas: vec![0.0; n1],
-            coverage: vec![0.0; n1],
-            gap: vec![Vec3::zeros(); n1],
+            coverage,
+            gap,
             slip: vec![Vec3::zeros(); n1],
             pairs: new.pairs,
         };
-        for pair in &history.pairs {
-            let nodes = &nonmortar.facets[pair.one];
-            (0..nodes.len).for_each(|k| history.coverage[nodes.nodes[k]] += pair.weights.coverage(k));
-        }
         let mut sums = vec![Vec3::zeros(); n1];
         for (f, frame) in new.frames.iter().enumerate() {
             let (facet, areas) = (nonmortar.facet(f, x1), frame.nodal_areas());
@@ -214,7 +209,7 @@ impl Interface {
             );
             return Err(Error::new(Kind::InvalidValue, text));
         }
-        Ok(history)
+        Ok((history, filter))
     }
 
     /// The pairs whose weights act now.
@@ -227,8 +222,7 @@ impl Interface {
         let mut pairs: Vec<_> = self.history.pairs.iter().map(|p| (p.one, p.two)).collect();
         if self.options.weights == super::Weights::Current {
             let frames = frames(&self.nonmortar, x1)?;
-            let filter = (&self.filter, &self.history.x2[..]);
-            pairs.extend(candidates((&self.nonmortar, &self.mortar), &frames, (x1, x2), filter, SKIN));
+            pairs.extend(candidates((&self.nonmortar, &self.mortar), &frames, (x1, x2), &self.filter, SKIN));
         }
         pairs.sort_unstable();
         pairs.dedup();

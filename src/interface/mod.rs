@@ -84,8 +84,7 @@ impl Interface {
         integration::check_mortar_facets(&mortar)?;
         let mut counters = Counters::default();
         let (x1, x2) = (nonmortar.reference.clone(), mortar.reference.clone());
-        let history = Self::history_at((&nonmortar, &mortar), &options, &mut counters, (&x1, &x2))?;
-        let filter = Filter::new(&nonmortar, &mortar, &options, &x1, &x2)?;
+        let (history, filter) = Self::history_at((&nonmortar, &mortar), &options, &mut counters, (&x1, &x2))?;
         let n1 = nonmortar.len();
         let mut interface = Interface {
             options,
@@ -104,52 +103,56 @@ impl Interface {
             counters,
         };
         interface.set_constraints(&[])?; // those that follow from removed equations
-        interface.history = interface.completed(interface.history.clone());
         Ok(interface)
     }
 
-    /// Puts a history in place: nothing is changed when its positions are refused.
-    fn adopt(&mut self, history: History) -> Result<()> {
-        // Frozen weights never search again, so their filter does not matter.
-        if self.options.weights == Weights::Current {
-            self.filter = Filter::new(&self.nonmortar, &self.mortar, &self.options, &history.x1, &history.x2)?;
+    /// Puts a history in place, with the filter of its configuration; gives the old history back.
+    fn adopt(&mut self, history: History, filter: Option<Filter>) -> History {
+        // Frozen weights never search, so that without a new filter the old one does no harm.
+        if let Some(filter) = filter {
+            self.filter = filter;
         }
-        self.history = history;
         self.integration = None;
-        Ok(())
+        std::mem::replace(&mut self.history, history)
     }
 
-    /// The history with coverage and g[n_n, x_n] from its weights.
-    fn completed(&self, mut history: History) -> History {
-        let sums = self.assemble(&history.pairs, &history.x1, &history.x2);
-        (history.coverage, history.gap) = sums.into_iter().unzip();
-        history
+    /// Puts a history in place that is not of now; nothing is changed when its positions are refused.
+    fn restore(&mut self, history: History) -> Result<()> {
+        let current = self.options.weights == Weights::Current;
+        let filter = current
+            .then(|| Filter::new(&self.nonmortar, &self.mortar, &self.options, &history.x1, &history.x2))
+            .transpose()?;
+        self.adopt(history, filter);
+        Ok(())
     }
 
     /// Takes (x1, x2) as the configuration of t_n, with nothing slipped yet, instead of the reference.
     pub fn set_previous(&mut self, x1: &[Vec3], x2: &[Vec3]) -> Result<()> {
         self.check_positions(x1, x2)?;
-        let new = Self::history_at((&self.nonmortar, &self.mortar), &self.options, &mut self.counters, (x1, x2))?;
-        self.adopt(self.completed(new))?;
+        let surfaces = (&self.nonmortar, &self.mortar);
+        let (new, filter) = Self::history_at(surfaces, &self.options, &mut self.counters, (x1, x2))?;
+        self.adopt(new, Some(filter));
         self.rollback = None;
         Ok(())
     }
 
     /// Accepts a converged step: (x1, x2) becomes t_n.
     pub fn commit(&mut self, x1: &[Vec3], x2: &[Vec3], lambda: &[Vec3], sums: Option<&[NodeSums]>) -> Result<()> {
-        let responses = self.responses(x1, x2, lambda, sums)?;
-        let own = if sums.is_none() { Some(self.sums(x1, x2)?) } else { None };
-        let sums = sums.or(own.as_deref()).unwrap_or_default();
-        let mut new = if self.options.weights == Weights::Reference {
-            History { x1: x1.to_vec(), x2: x2.to_vec(), ..self.history.clone() }
+        let own = if sums.is_none() { self.sums(x1, x2)? } else { Vec::new() };
+        let sums = sums.unwrap_or(&own);
+        let responses = self.responses(x1, x2, lambda, Some(sums))?;
+        let surfaces = (&self.nonmortar, &self.mortar);
+        let (mut new, filter) = if self.options.weights == Weights::Reference {
+            let moved = nodes::assemble(surfaces, &self.history.pairs, x1, x2);
+            let gap = moved.into_iter().map(|(_, gap)| gap).collect();
+            (History { x1: x1.to_vec(), x2: x2.to_vec(), gap, ..self.history.clone() }, None)
         } else {
-            Self::history_at((&self.nonmortar, &self.mortar), &self.options, &mut self.counters, (x1, x2))?
+            let (new, filter) = Self::history_at(surfaces, &self.options, &mut self.counters, (x1, x2))?;
+            (new, Some(filter))
         };
         new.commits = self.history.commits.saturating_add(1); // an imported history may hold any number
         new.slip = (0..responses.len()).map(|a| self.slip_after(a, &responses[a], sums[a].coverage_previous)).collect();
-        let old = self.history.clone();
-        self.adopt(self.completed(new))?;
-        self.rollback = Some(old);
+        self.rollback = Some(self.adopt(new, filter));
         Ok(())
     }
 
@@ -171,7 +174,7 @@ impl Interface {
             let text = "no commit can be undone: none was made since creation, import or the last rollback";
             return Err(Error::new(Kind::NothingToRollBack, text));
         };
-        self.adopt(history)
+        self.restore(history)
     }
 
     /// The history as flat arrays, for a restart.
@@ -182,7 +185,7 @@ impl Interface {
     /// Replaces the history by an imported one.
     pub fn import_history(&mut self, integers: &[i64], reals: &[f64]) -> Result<()> {
         let history = History::import(integers, reals, &self.nonmortar, &self.mortar)?;
-        self.adopt(history)?;
+        self.restore(history)?;
         self.rollback = None;
         Ok(())
     }

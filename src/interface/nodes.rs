@@ -2,11 +2,11 @@
 //! law's response.
 
 use super::history::PairRecord;
-use super::{Interface, NewContact, Options, RowScale};
+use super::{Interface, NewContact, Options, RowScale, Surface};
 use crate::error::{Error, Kind, Result};
 use crate::geometry::{Mat3, Vec3};
 use crate::law::{Node, NodeResponse};
-use crate::mortar;
+use crate::mortar::gap;
 
 /// What a node assembles over its pairs. A parallel host adds these over its ranks.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -23,29 +23,35 @@ pub struct NodeSums {
     pub gap_committed: Vec3,
 }
 
-impl Interface {
-    /// Coverage and gap of every node from a list of pairs.
-    pub(super) fn assemble(&self, pairs: &[PairRecord], x1: &[Vec3], x2: &[Vec3]) -> Vec<(f64, Vec3)> {
-        let mut sums = vec![(0.0, Vec3::zeros()); self.nonmortar.len()];
-        for pair in pairs {
-            let (one, two) = (self.nonmortar.facet(pair.one, x1), self.mortar.facet(pair.two, x2));
-            let gap = mortar::gap(&pair.weights, &one, &two);
-            for k in 0..one.len() {
-                let (coverage, g) = &mut sums[self.nonmortar.facets[pair.one].nodes[k]];
-                *coverage += pair.weights.coverage(k);
-                *g += gap[k];
-            }
+/// Coverage and gap of every non-mortar node from a list of pairs.
+pub(super) fn assemble(
+    (nonmortar, mortar): (&Surface, &Surface),
+    pairs: &[PairRecord],
+    x1: &[Vec3],
+    x2: &[Vec3],
+) -> Vec<(f64, Vec3)> {
+    let mut sums = vec![(0.0, Vec3::zeros()); nonmortar.len()];
+    for pair in pairs {
+        let (one, two) = (nonmortar.facet(pair.one, x1), mortar.facet(pair.two, x2));
+        let gaps = gap(&pair.weights, &one, &two);
+        for k in 0..one.len() {
+            let (coverage, g) = &mut sums[nonmortar.facets[pair.one].nodes[k]];
+            *coverage += pair.weights.coverage(k);
+            *g += gaps[k];
         }
-        sums
     }
+    sums
+}
 
+impl Interface {
     /// Stage 1, assembled: this handle's share of every node's gaps and coverage.
     pub fn sums(&mut self, x1: &[Vec3], x2: &[Vec3]) -> Result<Vec<NodeSums>> {
         self.check_positions(x1, x2)?;
         self.ensure_integration(x1, x2)?;
-        let previous = self.assemble(&self.history.pairs, x1, x2);
+        let surfaces = self.surfaces();
+        let previous = assemble(surfaces, &self.history.pairs, x1, x2);
         let now = match &self.integration {
-            Some(k) => self.assemble(&k.pairs, x1, x2),
+            Some(k) => assemble(surfaces, &k.pairs, x1, x2),
             None => previous.clone(),
         };
         let h = &self.history;
