@@ -190,4 +190,13 @@ static inline void handle_untouched(handle *h) {
   CHECK(history_equal(&h->before, &now));
 }
 
+/* Creation alone; an interface that is refused must leave the pointer as it was. */
+static inline int32_t call_create(scene *s) {
+  stickslip_interface *out;
+  FILL(out);
+  const int32_t status = stickslip_interface_create(&s->nonmortar, &s->mortar, &s->options, &out);
+  CHECK_UNTOUCHED(out);
+  return status;
+}
+
 #endif

@@ -56,14 +56,6 @@ static void stateless(void) {
   response_untouched(&e);
 }
 
-static int32_t create(scene *s) {
-  stickslip_interface *out;
-  FILL(out);
-  const int32_t status = stickslip_interface_create(&s->nonmortar, &s->mortar, &s->options, &out);
-  CHECK_UNTOUCHED(out);
-  return status;
-}
-
 static void handles(void) {
   static handle h;
   handle_init(&h);
@@ -96,13 +88,13 @@ static void handles(void) {
              "reals");
   handle_untouched(&h);
 
-  NOT_FINITE(s->reference1, X1, create(s), "nonmortar.coordinates");
-  NOT_FINITE(s->reference2, X2, create(s), "mortar.coordinates");
-  NOT_FINITE(&s->options.mu, 1, create(s), "options.mu");
-  NOT_FINITE(&s->options.augmentation, 1, create(s), "options.augmentation");
-  NOT_FINITE(&s->options.modulus, 1, create(s), "options.modulus");
-  NOT_FINITE(&s->options.search_distance, 1, create(s), "options.search_distance");
-  NOT_FINITE(&s->options.coverage_min, 1, create(s), "options.coverage_min");
+  NOT_FINITE(s->reference1, X1, call_create(s), "nonmortar.coordinates");
+  NOT_FINITE(s->reference2, X2, call_create(s), "mortar.coordinates");
+  NOT_FINITE(&s->options.mu, 1, call_create(s), "options.mu");
+  NOT_FINITE(&s->options.augmentation, 1, call_create(s), "options.augmentation");
+  NOT_FINITE(&s->options.modulus, 1, call_create(s), "options.modulus");
+  NOT_FINITE(&s->options.search_distance, 1, call_create(s), "options.search_distance");
+  NOT_FINITE(&s->options.coverage_min, 1, call_create(s), "options.coverage_min");
   scene_destroy(s);
 }
 

@@ -1,14 +1,6 @@
 /* Numbers and options outside their range: mu < 0, r <= 0, neither stiffness, lengths of normals and directions. */
 #include "calls.h"
 
-static int32_t create(scene *s) {
-  stickslip_interface *out;
-  FILL(out);
-  const int32_t status = stickslip_interface_create(&s->nonmortar, &s->mortar, &s->options, &out);
-  CHECK_UNTOUCHED(out);
-  return status;
-}
-
 /* Every number that is not an option, and those that are named but not there yet. */
 static void options(void) {
   static scene s;
@@ -32,39 +24,39 @@ static void options(void) {
   for (int k = 0; k < COUNT(all); ++k) {
     const int32_t kept = *all[k].option;
     for (*all[k].option = all[k].available; *all[k].option < all[k].named; ++*all[k].option) {
-      CHECK_REFUSED(create(&s), STICKSLIP_UNSUPPORTED, all[k].name);
+      CHECK_REFUSED(call_create(&s), STICKSLIP_UNSUPPORTED, all[k].name);
     }
     const int32_t wrong[] = {-1, all[k].named, INT32_MAX, INT32_MIN};
     for (int w = 0; w < COUNT(wrong); ++w) {
       *all[k].option = wrong[w];
-      CHECK_REFUSED(create(&s), STICKSLIP_INVALID_VALUE, all[k].name);
+      CHECK_REFUSED(call_create(&s), STICKSLIP_INVALID_VALUE, all[k].name);
     }
     *all[k].option = kept;
   }
 
   s.options.mu = -1e-300;
-  CHECK_REFUSED(create(&s), STICKSLIP_INVALID_VALUE, "options.mu");
+  CHECK_REFUSED(call_create(&s), STICKSLIP_INVALID_VALUE, "options.mu");
   s.options.mu = 0.3;
   s.options.augmentation = -1.0;
-  CHECK_REFUSED(create(&s), STICKSLIP_INVALID_VALUE, "options.augmentation");
+  CHECK_REFUSED(call_create(&s), STICKSLIP_INVALID_VALUE, "options.augmentation");
   s.options.augmentation = 0.0;
-  CHECK_REFUSED(create(&s), STICKSLIP_MISSING_STIFFNESS, "modulus");
+  CHECK_REFUSED(call_create(&s), STICKSLIP_MISSING_STIFFNESS, "modulus");
   s.options.modulus = -5.0;
-  CHECK_REFUSED(create(&s), STICKSLIP_INVALID_VALUE, "options.modulus");
+  CHECK_REFUSED(call_create(&s), STICKSLIP_INVALID_VALUE, "options.modulus");
   s.options.modulus = 5.0;
   s.options.search_distance = -1.0;
-  CHECK_REFUSED(create(&s), STICKSLIP_INVALID_VALUE, "options.search_distance");
+  CHECK_REFUSED(call_create(&s), STICKSLIP_INVALID_VALUE, "options.search_distance");
   s.options.search_distance = 0.0;
   const double coverage[] = {-1e-12, 1.0, 2.0};
   for (int k = 0; k < COUNT(coverage); ++k) {
     s.options.coverage_min = coverage[k];
-    CHECK_REFUSED(create(&s), STICKSLIP_INVALID_VALUE, "options.coverage_min");
+    CHECK_REFUSED(call_create(&s), STICKSLIP_INVALID_VALUE, "options.coverage_min");
   }
   /* The other stiffness is wrong too, if it is not needed. */
   s.options.coverage_min = 0.0;
   s.options.augmentation = 1.0;
   s.options.modulus = -5.0;
-  CHECK_REFUSED(create(&s), STICKSLIP_INVALID_VALUE, "options.modulus");
+  CHECK_REFUSED(call_create(&s), STICKSLIP_INVALID_VALUE, "options.modulus");
 }
 
 static void nodes(void) {

@@ -62,14 +62,6 @@ static void stateless(void) {
   }
 }
 
-static int32_t create(scene *s) {
-  stickslip_interface *out;
-  FILL(out);
-  const int32_t status = stickslip_interface_create(&s->nonmortar, &s->mortar, &s->options, &out);
-  CHECK_UNTOUCHED(out);
-  return status;
-}
-
 static void surfaces(void) {
   static scene s;
   double centre[3];
@@ -80,19 +72,19 @@ static void surfaces(void) {
       double *x = side == 0 ? s.reference1 : s.reference2 + 15, *opposite = x + (side == 0 ? 12 : 15);
       memcpy(centre, opposite, sizeof centre);
       for (int i = 0; i < 3; ++i) x[i] = folded ? 2.5 * centre[i] - 1.5 * x[i] : centre[i];
-      CHECK_REFUSED(create(&s), STICKSLIP_DEGENERATE_FACET, side == 0 ? "nonmortar facet 0" : "mortar facet");
+      CHECK_REFUSED(call_create(&s), STICKSLIP_DEGENERATE_FACET, side == 0 ? "nonmortar facet 0" : "mortar facet");
     }
     /* A facet names a node twice. */
     scene_init(&s);
     int64_t *nodes = side == 0 ? s.nodes1 : s.nodes2;
     nodes[2] = nodes[0];
-    CHECK_REFUSED(create(&s), STICKSLIP_DUPLICATE_NODE, side == 0 ? "nonmortar: facet 0" : "mortar: facet 0");
+    CHECK_REFUSED(call_create(&s), STICKSLIP_DUPLICATE_NODE, side == 0 ? "nonmortar: facet 0" : "mortar: facet 0");
   }
 
   /* A node of the surface that no facet uses. */
   scene_init(&s);
   s.nonmortar.n_facets = 3;
-  CHECK_REFUSED(create(&s), STICKSLIP_INVALID_VALUE, "nonmortar: node 8");
+  CHECK_REFUSED(call_create(&s), STICKSLIP_INVALID_VALUE, "nonmortar: node 8");
 
   /* Facets that face each other around a node: its normal has no direction. */
   const int64_t offsets[3] = {0, 3, 6}, facets[6] = {0, 1, 2, 0, 2, 1};
@@ -102,7 +94,7 @@ static void surfaces(void) {
   s.nonmortar.facet_offsets = offsets;
   s.nonmortar.facet_nodes = facets;
   memcpy(s.reference1 + 6, s.reference1 + 12, 3 * sizeof(double)); /* not in line */
-  CHECK_REFUSED(create(&s), STICKSLIP_UNDEFINED_NORMAL, "non-mortar node 0");
+  CHECK_REFUSED(call_create(&s), STICKSLIP_UNDEFINED_NORMAL, "non-mortar node 0");
 }
 
 /* Within Newton the same is a domain error: refused, and the handle goes on. */

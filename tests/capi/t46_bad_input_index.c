@@ -1,14 +1,6 @@
 /* Indices out of range, in either base: nodes of facets, equations, nodes of constraints. */
 #include "calls.h"
 
-static int32_t create(scene *s) {
-  stickslip_interface *out;
-  FILL(out);
-  const int32_t status = stickslip_interface_create(&s->nonmortar, &s->mortar, &s->options, &out);
-  CHECK_UNTOUCHED(out);
-  return status;
-}
-
 int main(void) {
   static scene s;
   for (int64_t base = 0; base < 2; ++base) {
@@ -16,27 +8,27 @@ int main(void) {
     for (int k = 0; k < COUNT(extreme); ++k) {
       scene_init_base(&s, base);
       s.nodes1[5] = extreme[k];
-      CHECK_REFUSED(create(&s), STICKSLIP_INDEX_OUT_OF_RANGE, "nonmortar");
+      CHECK_REFUSED(call_create(&s), STICKSLIP_INDEX_OUT_OF_RANGE, "nonmortar");
       scene_init_base(&s, base);
       s.nodes2[35] = extreme[k];
-      CHECK_REFUSED(create(&s), STICKSLIP_INDEX_OUT_OF_RANGE, "mortar");
+      CHECK_REFUSED(call_create(&s), STICKSLIP_INDEX_OUT_OF_RANGE, "mortar");
 
       /* Equations may be as large as the host likes; -1 means none. */
       if (extreme[k] > 0 || extreme[k] == -1) continue;
       scene_init_base(&s, base);
       s.equations1[7] = extreme[k];
-      CHECK_REFUSED(create(&s), STICKSLIP_INDEX_OUT_OF_RANGE, "nonmortar.equations[7]");
+      CHECK_REFUSED(call_create(&s), STICKSLIP_INDEX_OUT_OF_RANGE, "nonmortar.equations[7]");
       scene_init_base(&s, base);
       s.equations2[0] = extreme[k];
-      CHECK_REFUSED(create(&s), STICKSLIP_INDEX_OUT_OF_RANGE, "mortar.equations[0]");
+      CHECK_REFUSED(call_create(&s), STICKSLIP_INDEX_OUT_OF_RANGE, "mortar.equations[0]");
       scene_init_base(&s, base);
       s.multipliers[26] = extreme[k];
-      CHECK_REFUSED(create(&s), STICKSLIP_INDEX_OUT_OF_RANGE, "nonmortar.multiplier_equations[26]");
+      CHECK_REFUSED(call_create(&s), STICKSLIP_INDEX_OUT_OF_RANGE, "nonmortar.multiplier_equations[26]");
     }
     /* One beyond the last. */
     scene_init_base(&s, base);
     s.nodes1[0] = base + N1;
-    CHECK_REFUSED(create(&s), STICKSLIP_INDEX_OUT_OF_RANGE, "nonmortar");
+    CHECK_REFUSED(call_create(&s), STICKSLIP_INDEX_OUT_OF_RANGE, "nonmortar");
 
     scene_init_base(&s, base);
     scene_create(&s);

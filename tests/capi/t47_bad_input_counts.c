@@ -1,35 +1,27 @@
 /* Counts and offsets: negative, too small, far too large, decreasing. */
 #include "calls.h"
 
-static int32_t create(scene *s) {
-  stickslip_interface *out;
-  FILL(out);
-  const int32_t status = stickslip_interface_create(&s->nonmortar, &s->mortar, &s->options, &out);
-  CHECK_UNTOUCHED(out);
-  return status;
-}
-
 int main(void) {
   static scene s;
   const int64_t counts[] = {INT64_MIN, -1, 0, INT64_MAX, INT64_MAX / 3 + 1, INT64_MAX / 24 + 1, (int64_t)1 << 62};
   for (int k = 0; k < COUNT(counts); ++k) {
     scene_init(&s);
     s.nonmortar.n_nodes = counts[k];
-    CHECK_REFUSED(create(&s), STICKSLIP_INVALID_SIZE, "nonmortar.n_nodes");
+    CHECK_REFUSED(call_create(&s), STICKSLIP_INVALID_SIZE, "nonmortar.n_nodes");
     scene_init(&s);
     s.nonmortar.n_facets = counts[k];
-    CHECK_REFUSED(create(&s), STICKSLIP_INVALID_SIZE, "nonmortar.n_facets");
+    CHECK_REFUSED(call_create(&s), STICKSLIP_INVALID_SIZE, "nonmortar.n_facets");
     scene_init(&s);
     s.mortar.n_nodes = counts[k];
-    CHECK_REFUSED(create(&s), STICKSLIP_INVALID_SIZE, "mortar.n_nodes");
+    CHECK_REFUSED(call_create(&s), STICKSLIP_INVALID_SIZE, "mortar.n_nodes");
     scene_init(&s);
     s.mortar.n_facets = counts[k];
-    CHECK_REFUSED(create(&s), STICKSLIP_INVALID_SIZE, "mortar.n_facets");
+    CHECK_REFUSED(call_create(&s), STICKSLIP_INVALID_SIZE, "mortar.n_facets");
   }
   for (int64_t n = 1; n < 3; ++n) {
     scene_init(&s);
     s.nonmortar.n_nodes = n;
-    CHECK_REFUSED(create(&s), STICKSLIP_INVALID_SIZE, "nonmortar.n_nodes");
+    CHECK_REFUSED(call_create(&s), STICKSLIP_INVALID_SIZE, "nonmortar.n_nodes");
   }
 
   /* Facets have 3 or 4 nodes, so offsets grow by 3 or 4 from 0. */
@@ -38,15 +30,15 @@ int main(void) {
   for (int k = 0; k < COUNT(first); ++k) {
     scene_init(&s);
     s.offsets1[0] = first[k];
-    CHECK_REFUSED(create(&s), STICKSLIP_INVALID_SIZE, "nonmortar.facet_offsets[0]");
+    CHECK_REFUSED(call_create(&s), STICKSLIP_INVALID_SIZE, "nonmortar.facet_offsets[0]");
   }
   for (int k = 0; k < COUNT(second); ++k) {
     scene_init(&s);
     s.offsets2[1] = second[k];
-    CHECK_REFUSED(create(&s), STICKSLIP_INVALID_SIZE, "mortar.facet_offsets[1]");
+    CHECK_REFUSED(call_create(&s), STICKSLIP_INVALID_SIZE, "mortar.facet_offsets[1]");
     scene_init(&s);
     s.offsets2[9] = second[k] == 2 ? 0 : second[k]; /* decreasing at the end */
-    CHECK_REFUSED(create(&s), STICKSLIP_INVALID_SIZE, "mortar.facet_offsets[9]");
+    CHECK_REFUSED(call_create(&s), STICKSLIP_INVALID_SIZE, "mortar.facet_offsets[9]");
   }
 
   static handle h;
