@@ -119,18 +119,28 @@ static size_t count_items(const char *text)
   return n;
 }
 
+/* the list's name for PETSc, its text and its length; NULL and 0 where the key is not given */
+static const char *find_list(Scene *scene, const char *map, const char *key, const char *what, size_t length,
+                             char name[], PetscInt *n)
+{
+  const char *text = NULL;
+  PetscBool   set;
+  *n = 0;
+  if (!scene_has(scene, map, key)) return NULL;
+  flat_name(map, key, name, length);
+  Must(PetscOptionsFindPair(NULL, NULL, name, &text, &set));
+  *n = text ? (PetscInt)count_items(text) : 0;
+  if (!*n) scene_fail(scene, map, key, "a list of %s is expected, but nothing was given.", what);
+  return text;
+}
+
 void scene_reals(Scene *scene, const char *map, const char *key, PetscInt *n, PetscReal **values)
 {
   char        name[2 * NAME_LENGTH + 3];
-  const char *text = NULL;
+  const char *text = find_list(scene, map, key, "numbers", sizeof(name), name, n);
   PetscBool   set;
-  *n      = 0;
   *values = NULL;
-  if (!scene_has(scene, map, key)) return;
-  flat_name(map, key, name, sizeof(name));
-  Must(PetscOptionsFindPair(NULL, NULL, name, &text, &set));
-  *n = text ? (PetscInt)count_items(text) : 0;
-  if (!*n) scene_fail(scene, map, key, "a list of numbers is expected, but nothing was given.");
+  if (!text) return;
   Must(PetscMalloc1(*n, values));
   READ(PetscOptionsGetRealArray(NULL, NULL, name, *values, n, &set), "numbers are expected, not '%s'.", raw(map, key));
   if (*n != (PetscInt)count_items(text)) scene_fail(scene, map, key, "numbers are expected, not '%s'.", raw(map, key));
@@ -228,16 +238,10 @@ void scene_choice(Scene *scene, const char *map, const char *key, const char *co
 
 void scene_strings(Scene *scene, const char *map, const char *key, PetscInt *n, char ***values)
 {
-  char        name[2 * NAME_LENGTH + 3];
-  const char *text = NULL;
-  PetscBool   set;
-  *n      = 0;
+  char      name[2 * NAME_LENGTH + 3];
+  PetscBool set;
   *values = NULL;
-  if (!scene_has(scene, map, key)) return;
-  flat_name(map, key, name, sizeof(name));
-  Must(PetscOptionsFindPair(NULL, NULL, name, &text, &set));
-  *n = text ? (PetscInt)count_items(text) : 0;
-  if (!*n) scene_fail(scene, map, key, "a list of names is expected, but nothing was given.");
+  if (!find_list(scene, map, key, "names", sizeof(name), name, n)) return;
   Must(PetscCalloc1(*n, values));
   Must(PetscOptionsGetStringArray(NULL, NULL, name, *values, n, &set));
 }
