@@ -394,6 +394,12 @@ const char *stickslip_version(void);
 // after a success. Valid until the thread's next call; never NULL.
 const char *stickslip_last_error_message(void);
 
+// The same text for a fixed-length character variable: cut or padded with blanks to `length` characters, no
+// final zero. Leaves the message as it is unless it is refused itself.
+//
+// text (length), output. Errors: NULL_POINTER, INVALID_SIZE (length < 0). Cost: a copy.
+int32_t stickslip_last_error_padded(char *text, int64_t length);
+
 // A short text for any status number. Static; never NULL.
 const char *stickslip_status_string(int32_t status);
 

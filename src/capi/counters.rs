@@ -2,7 +2,7 @@
 
 use super::guard::guard;
 use super::interface::{handle, stickslip_interface};
-use super::raw::{self, Sized64};
+use super::sized::{self, Sized64};
 
 /// What an interface has done since its creation.
 #[repr(C)]
@@ -35,6 +35,7 @@ pub struct stickslip_counters {
 // SAFETY: repr(C), struct_size first, numbers only.
 unsafe impl Sized64 for stickslip_counters {
     const NAME: &'static str = "stickslip_counters";
+    const FIRST: usize = 88;
 }
 
 /// Reads the counters. Errors: NULL_POINTER, STRUCT_SIZE.
@@ -45,9 +46,9 @@ pub unsafe extern "C" fn stickslip_interface_counters(
 ) -> i32 {
     guard(|| {
         let h = &handle(interface)?.inner;
-        raw::check_struct(out)?;
+        sized::check_output(out)?;
         let c = h.counters();
-        raw::write_struct(
+        sized::write(
             out,
             stickslip_counters {
                 struct_size: 0,

@@ -2,7 +2,8 @@
 
 use super::guard::guard;
 use super::interface::{flat, handle, sizes, stickslip_interface};
-use super::raw::{self, Sized64};
+use super::raw;
+use super::sized::{self, Sized64};
 use crate::error::Result;
 use crate::geometry::Vec3;
 use crate::interface::{Interface, NodeSums};
@@ -117,6 +118,7 @@ pub struct stickslip_states {
 // SAFETY: repr(C), struct_size first, integers and raw pointers only.
 unsafe impl Sized64 for stickslip_states {
     const NAME: &'static str = "stickslip_states";
+    const FIRST: usize = 80;
 }
 
 /// Stage 2: state and nodal results at (x1, x2, lambda).
@@ -136,7 +138,7 @@ pub unsafe extern "C" fn stickslip_interface_states(
     guard(|| {
         let h = &mut handle(interface)?.inner;
         let point = Point::read(h, x1, x2, lambda, sums)?;
-        let out = raw::read(out)?;
+        let out = sized::read(out)?;
         raw::check_optional(out.state, "stickslip_states.state")?;
         for (p, name) in [
             (out.normal, "stickslip_states.normal"),

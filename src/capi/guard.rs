@@ -70,6 +70,11 @@ pub(super) fn message() -> *const c_char {
     MESSAGE.with_borrow(|message| message.as_ptr().cast())
 }
 
+/// Its characters, without the final zero.
+pub(super) fn message_bytes() -> impl Iterator<Item = u8> {
+    MESSAGE.with_borrow(|message| *message).into_iter().take_while(|b| *b != 0)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

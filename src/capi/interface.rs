@@ -3,8 +3,8 @@
 use super::evaluation::Point;
 use super::guard::guard;
 use super::options::{read_options, stickslip_options};
-use super::raw;
 use super::surface::{read_multipliers, read_surface, refuse_multipliers, stickslip_surface};
+use super::{raw, sized};
 use crate::error::{Error, Kind, Result};
 use crate::geometry::Vec3;
 use crate::interface::Interface;
@@ -55,7 +55,7 @@ pub unsafe extern "C" fn stickslip_interface_create(
         raw::check(options, "options")?;
         raw::check(out, "out")?;
         let (options, base) = read_options(options)?;
-        let (one, two) = (raw::read(nonmortar)?, raw::read(mortar)?);
+        let (one, two) = (sized::read(nonmortar)?, sized::read(mortar)?);
         refuse_multipliers(&two)?;
         let (multipliers, owned) = read_multipliers(&one, base)?;
         let (one, two) = (read_surface(&one, base, "nonmortar")?, read_surface(&two, base, "mortar")?);

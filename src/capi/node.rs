@@ -3,7 +3,8 @@
 use super::guard::guard;
 use super::options::slip_measure;
 use super::pair::column_major;
-use super::raw::{self, Sized64};
+use super::raw;
+use super::sized::{self, Sized64};
 use crate::error::{Error, Kind, Result};
 use crate::geometry::{Mat3, Vec3};
 use crate::law::Node;
@@ -54,6 +55,7 @@ pub struct stickslip_node {
 // SAFETY: repr(C), struct_size first, numbers only.
 unsafe impl Sized64 for stickslip_node {
     const NAME: &'static str = "stickslip_node";
+    const FIRST: usize = 224;
 }
 
 /// The law's answer for one node. Matrices are row-major 3 x 3 (and not symmetric).
@@ -89,6 +91,7 @@ pub struct stickslip_node_response {
 // SAFETY: repr(C), struct_size first, numbers only.
 unsafe impl Sized64 for stickslip_node_response {
     const NAME: &'static str = "stickslip_node_response";
+    const FIRST: usize = 408;
 }
 
 /// Row-major entries of a matrix.
@@ -109,9 +112,9 @@ pub(super) fn read_response(first: *const stickslip_node_response, a: usize) -> 
     // SAFETY: the first response begins with its size, by which the array's members lie apart.
     let stride = unsafe { first.cast::<u64>().read() } as usize;
     if a > 0 {
-        raw::read(first)?; // a valid size before it serves as a stride
+        sized::read(first)?; // a valid size before it serves as a stride
     }
-    let response = raw::read(first.wrapping_byte_add(a * stride))?;
+    let response = sized::read(first.wrapping_byte_add(a * stride))?;
     Ok((
         matrix(&response.drow_dnow, "responses.drow_dnow")?,
         matrix(&response.drow_dprevious, "responses.drow_dprevious")?,
@@ -121,7 +124,7 @@ pub(super) fn read_response(first: *const stickslip_node_response, a: usize) -> 
 fn read_node(p: *const stickslip_node) -> Result<Node> {
     // A normal farther from unit length, or a direction farther from orthonormal, is an input error.
     const UNIT: f64 = 1e-10;
-    let n = raw::read(p)?;
+    let n = sized::read(p)?;
     let vector = |v: &[f64; 3], name: &str| -> Result<Vec3> {
         match v.iter().all(|c| c.is_finite()) {
             true => Ok(Vec3::from_column_slice(v)),
@@ -188,11 +191,11 @@ pub unsafe extern "C" fn stickslip_node_respond(
 ) -> i32 {
     guard(|| {
         let node = read_node(node)?;
-        raw::check_struct(response)?;
+        sized::check_output(response)?;
         let r = node.respond();
         let matrices = [&r.dp_dlambda, &r.drow_dlambda, &r.drow_dnow, &r.drow_dprevious];
         raw::check_results("response", r.row.iter().chain(r.sigma.iter()).chain(matrices.into_iter().flatten()))?;
-        raw::write_struct(
+        sized::write(
             response,
             stickslip_node_response {
                 struct_size: 0,
@@ -227,7 +230,7 @@ pub unsafe extern "C" fn stickslip_node_block(
     block: *mut f64,
 ) -> i32 {
     guard(|| {
-        let r = raw::read(response)?;
+        let r = sized::read(response)?;
         let column_major = column_major(layout, "layout")?;
         if !scale.is_finite() {
             return Err(Error::new(Kind::NotFinite, format!("scale is {scale}; it must be finite")));

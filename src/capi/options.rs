@@ -1,7 +1,7 @@
 //! Options of an interface and their numbers.
 
 use super::guard::guard;
-use super::raw::{self, Sized64};
+use super::sized::{self, Sized64};
 use crate::error::{Error, Kind, Result};
 use crate::interface::{COVERAGE_MIN, Form, NewContact, Options, RowScale, Stiffness, Weights};
 use crate::law::SlipMeasure;
@@ -100,6 +100,7 @@ pub struct stickslip_options {
 // SAFETY: repr(C), struct_size first, numbers only.
 unsafe impl Sized64 for stickslip_options {
     const NAME: &'static str = "stickslip_options";
+    const FIRST: usize = 88;
 }
 
 /// Writes the defaults. struct_size: sizeof(stickslip_options) as the caller knows it; what a newer caller's
@@ -109,8 +110,6 @@ unsafe impl Sized64 for stickslip_options {
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn stickslip_options_init(options: *mut stickslip_options, struct_size: u64) -> i32 {
     guard(|| {
-        raw::check(options, "options")?;
-        let tail = raw::check_size::<stickslip_options>(struct_size)?;
         let defaults = stickslip_options {
             struct_size,
             form: STICKSLIP_FORM_MULTIPLIER,
@@ -129,9 +128,7 @@ pub unsafe extern "C" fn stickslip_options_init(options: *mut stickslip_options,
             coverage_min: COVERAGE_MIN,
             search_distance: 0.0,
         };
-        raw::write(options, &[defaults]);
-        raw::write(options.wrapping_add(1).cast::<u8>(), &[0; raw::LONGEST_STRUCT][..tail]);
-        Ok(())
+        sized::initialise(options, struct_size, defaults, "options")
     })
 }
 
@@ -178,7 +175,7 @@ pub(super) fn read_options(p: *const stickslip_options) -> Result<(Options, i64)
         modulus,
         coverage_min,
         search_distance,
-    } = raw::read(p)?;
+    } = sized::read(p)?;
     choose(friction, "options.friction", &[()], 4)?;
     choose(mortar_side, "options.mortar_side", &[()], 3)?;
     choose(multiplier_basis, "options.multiplier_basis", &[()], 2)?;

@@ -4,7 +4,8 @@ use super::facet::facet;
 use super::guard::guard;
 use super::node::stickslip_node_response;
 use super::options::rule;
-use super::raw::{self, Output, Sized64};
+use super::raw::{self, Output};
+use super::sized::{self, Sized64};
 use crate::element::{NodeTangent, PairNow, PairTangent, pair_force};
 use crate::error::{Error, Kind, Result};
 use crate::geometry::{Facet, Mat3, Projection, Vec3};
@@ -39,6 +40,7 @@ pub struct stickslip_pair {
 // SAFETY: repr(C), struct_size first, integers and raw pointers only.
 unsafe impl Sized64 for stickslip_pair {
     const NAME: &'static str = "stickslip_pair";
+    const FIRST: usize = 40;
 }
 
 struct Pair {
@@ -49,7 +51,7 @@ struct Pair {
 
 impl Pair {
     fn read(p: *const stickslip_pair) -> Result<Pair> {
-        let raw = raw::read(p)?;
+        let raw = sized::read(p)?;
         Ok(Pair { one: facet(raw.n1, raw.x1, "pair.x1")?, two: facet(raw.n2, raw.x2, "pair.x2")?, raw })
     }
 

@@ -6,23 +6,11 @@
 
 use crate::error::{Error, Kind, Result};
 use crate::geometry::Vec3;
-use std::mem::MaybeUninit;
 
 /// Longest array accepted: far above any mesh, far below what a pointer can address.
 const LONGEST: usize = 1 << 40;
-/// Longest struct accepted from a newer caller.
-pub(super) const LONGEST_STRUCT: usize = 4096;
 
-/// A struct of the ABI: `repr(C)`, first member `struct_size: u64`, valid for every bit pattern.
-///
-/// # Safety
-/// The implementor must be just that.
-pub(super) unsafe trait Sized64: Copy {
-    /// Its name in messages.
-    const NAME: &'static str;
-}
-
-fn refuse<T>(kind: Kind, text: String) -> Result<T> {
+pub(super) fn refuse<T>(kind: Kind, text: String) -> Result<T> {
     Err(Error::new(kind, text))
 }
 
@@ -132,57 +120,4 @@ pub(super) fn write_each<T>(p: *mut T, values: impl Iterator<Item = T>) {
 /// Checks that an output pointer may be null but not misaligned.
 pub(super) fn check_optional<T>(p: *const T, name: &str) -> Result<()> {
     if p.is_null() { Ok(()) } else { check(p, name) }
-}
-
-/// Checks a size that a caller declares; the bytes beyond what this library knows.
-pub(super) fn check_size<T: Sized64>(size: u64) -> Result<usize> {
-    let known = size_of::<T>();
-    match usize::try_from(size) {
-        Ok(size) if (known..=LONGEST_STRUCT).contains(&size) => Ok(size - known),
-        _ => {
-            let text = format!("{0}.struct_size is {size}; set it to sizeof({0}), which is {known}", T::NAME);
-            refuse(Kind::StructSize, text)
-        }
-    }
-}
-
-/// Reads the size a caller has put first into a struct.
-fn declared_size<T: Sized64>(p: *const T) -> Result<usize> {
-    check(p, T::NAME)?;
-    // SAFETY: non-null and aligned; every struct of the ABI begins with a readable u64.
-    let size = unsafe { p.cast::<u64>().read() };
-    check_size::<T>(size).map(|tail| size_of::<T>() + tail)
-}
-
-/// A struct from the caller. A longer one (a newer caller's) must have a tail of zeros.
-pub(super) fn read<T: Sized64>(p: *const T) -> Result<T> {
-    let size = declared_size(p)?;
-    // SAFETY: the caller's struct has `size` readable bytes by its own declaration.
-    let bytes = unsafe { std::slice::from_raw_parts(p.cast::<u8>(), size) };
-    if bytes[size_of::<T>()..].iter().any(|b| *b != 0) {
-        let text =
-            format!("{0} is longer than this library knows and sets a member beyond it: the caller is newer", T::NAME);
-        return refuse(Kind::StructSize, text);
-    }
-    let mut value = MaybeUninit::<T>::uninit();
-    // SAFETY: size >= size_of::<T>(), and T is valid for every bit pattern (Sized64).
-    unsafe {
-        std::ptr::copy_nonoverlapping(bytes.as_ptr(), value.as_mut_ptr().cast::<u8>(), size_of::<T>());
-        Ok(value.assume_init())
-    }
-}
-
-/// Checks an output struct; [`write_struct`] then fills it.
-pub(super) fn check_struct<T: Sized64>(p: *mut T) -> Result<()> {
-    declared_size(p.cast_const()).map(|_| ())
-}
-
-/// Writes a struct into a caller's one that [`check_struct`] has passed; the caller's size stays.
-pub(super) fn write_struct<T: Sized64>(p: *mut T, value: T) {
-    // SAFETY: checked by check_struct; at least size_of::<T>() writable bytes by its declaration.
-    unsafe {
-        let size = p.cast::<u64>().read();
-        p.write(value);
-        p.cast::<u64>().write(size);
-    }
 }

@@ -1,6 +1,6 @@
 //! Status numbers and their texts.
 
-use super::guard;
+use super::{guard, raw};
 use crate::error::KINDS;
 use libc::c_char;
 
@@ -47,6 +47,23 @@ pub const STICKSLIP_PANIC: i32 = -1;
 #[unsafe(no_mangle)]
 pub extern "C" fn stickslip_last_error_message() -> *const c_char {
     guard::message()
+}
+
+/// The same text for a fixed-length character variable: cut or padded with blanks to `length` characters, no
+/// final zero. Leaves the message as it is unless it is refused itself.
+///
+/// text (length), output. Errors: NULL_POINTER, INVALID_SIZE (length < 0). Cost: a copy.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn stickslip_last_error_padded(text: *mut c_char, length: i64) -> i32 {
+    let outcome = raw::check(text, "text").and_then(|()| raw::count(length, 0, "length"));
+    match outcome {
+        Ok(length) => {
+            let bytes = guard::message_bytes().chain(std::iter::repeat(b' ')).take(length);
+            raw::write_each(text, bytes.map(|b| b as c_char));
+            STICKSLIP_OK
+        }
+        Err(error) => guard::guard(|| Err(error)),
+    }
 }
 
 /// A short text for any status number. Static; never NULL.

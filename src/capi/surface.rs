@@ -1,6 +1,7 @@
 //! A surface from the host's arrays.
 
-use super::raw::{self, Sized64};
+use super::raw;
+use super::sized::Sized64;
 use crate::error::{Error, Kind, Result};
 use crate::interface::{NO_EQUATION, Surface};
 
@@ -35,6 +36,7 @@ pub struct stickslip_surface {
 // SAFETY: repr(C), struct_size first, integers and raw pointers only.
 unsafe impl Sized64 for stickslip_surface {
     const NAME: &'static str = "stickslip_surface";
+    const FIRST: usize = 72;
 }
 
 /// Three equations per node, 0-based.

@@ -22,6 +22,20 @@ int main(void) {
   /* A refusal leaves a message, a success clears it. */
   double sum[3] = {0.0, 0.0, 2.0}, normal[3];
   CHECK_REFUSED(stickslip_node_normal(NULL, normal), STICKSLIP_NULL_POINTER, "sum");
+
+  /* The same for a fixed-length variable: padded, cut, empty; the message stays. */
+  char fixed[41], expected[41];
+  sprintf(expected, "%-40s", stickslip_last_error_message());
+  FILL(fixed);
+  CHECK(stickslip_last_error_padded(fixed, 40) == STICKSLIP_OK && memcmp(fixed, expected, 40) == 0 && fixed[40] == 0x5A);
+  FILL(fixed);
+  CHECK(stickslip_last_error_padded(fixed, 3) == STICKSLIP_OK && memcmp(fixed, "sum", 3) == 0 && fixed[3] == 0x5A);
+  CHECK(stickslip_last_error_padded(fixed, 0) == STICKSLIP_OK && memcmp(fixed, "sum", 3) == 0);
+  CHECK(strncmp(expected, stickslip_last_error_message(), strlen(stickslip_last_error_message())) == 0);
+  FILL(fixed);
+  CHECK_REFUSED(stickslip_last_error_padded(NULL, 3), STICKSLIP_NULL_POINTER, "text");
+  CHECK_REFUSED(stickslip_last_error_padded(fixed, -1), STICKSLIP_INVALID_SIZE, "length");
+  CHECK_UNTOUCHED(fixed);
   CHECK_OK(stickslip_node_normal(sum, normal));
   CHECK(normal[0] == 0.0 && normal[1] == 0.0 && normal[2] == -1.0);
   return 0;
