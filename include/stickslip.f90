@@ -1,0 +1,507 @@
+! stickslip: frictional mortar contact element for any finite element code. MIT OR Apache-2.0.
+!
+! The Fortran 2003 interface: stickslip.h in Fortran's words, same names, same order, no code of its own. Compile this
+! file with your sources, with your compiler; a ready-made .mod file would serve one version of one compiler only.
+! stickslip.h has the whole text of each function: errors, signs, units, who calls what when.
+!
+! Sides: 1 = non-mortar (carries the multipliers), 2 = mortar. nu points INTO the non-mortar body; a gap > 0 is open;
+! lambda is minus the Cauchy traction on the non-mortar body, so lambda . nu <= 0 is compression. F force, L length.
+!
+! Status: every function that can refuse returns one; 0 is success. After a refusal stickslip_last_error_padded says
+! which argument was wrong; it counts nodes and facets from 0 and names dimensions as C has them.
+!
+! Arrays: in the order of C's memory, so C's "3 n1, node by node" is x(3, n1) here. A matrix in C's row-major order is
+! transposed: C's row-major n_ab (n1 x n1), row A, is n_ab(b, a). Tangents and blocks go out as k(row, column) with
+! STICKSLIP_LAYOUT_COLUMN_MAJOR. Arrays of any rank will do for `x(3, *)` if the elements are in this order.
+!
+! Numbering: stickslip_options_init chooses index base 0. Set index_base = 1, and nodes, equations, rows and columns are
+! counted from 1; the facet offsets start at 0 all the same.
+!
+! Pointers: what may be NULL in C is `type(c_ptr), value` here: give c_null_ptr, or c_loc(a) of an array with the TARGET
+! attribute. Pointer members of types alike; the arrays must live as long as the call, not longer.
+!
+! Outputs are intent(inout) because a refused call leaves them as they were; they need no value before the call.
+!
+! Types set their struct_size and null pointers by themselves; leave struct_size alone.
+module stickslip
+  use, intrinsic :: iso_c_binding, only: c_char, c_double, c_int32_t, c_int64_t, c_null_ptr, c_ptr
+  implicit none
+  public
+
+  ! Version of this module.
+  integer(c_int32_t), parameter :: STICKSLIP_VERSION_MAJOR = 0
+  integer(c_int32_t), parameter :: STICKSLIP_VERSION_MINOR = 1
+  integer(c_int32_t), parameter :: STICKSLIP_VERSION_PATCH = 0
+
+  ! Status.
+  integer(c_int32_t), parameter :: STICKSLIP_OK = 0
+  integer(c_int32_t), parameter :: STICKSLIP_NULL_POINTER = 1
+  integer(c_int32_t), parameter :: STICKSLIP_STRUCT_SIZE = 2
+  integer(c_int32_t), parameter :: STICKSLIP_INVALID_SIZE = 3
+  integer(c_int32_t), parameter :: STICKSLIP_NOT_FINITE = 4
+  integer(c_int32_t), parameter :: STICKSLIP_INDEX_OUT_OF_RANGE = 5
+  integer(c_int32_t), parameter :: STICKSLIP_DUPLICATE_NODE = 6
+  integer(c_int32_t), parameter :: STICKSLIP_DEGENERATE_FACET = 7
+  integer(c_int32_t), parameter :: STICKSLIP_INVALID_VALUE = 8
+  integer(c_int32_t), parameter :: STICKSLIP_MISSING_STIFFNESS = 9
+  integer(c_int32_t), parameter :: STICKSLIP_UNSUPPORTED = 10
+  integer(c_int32_t), parameter :: STICKSLIP_UNDEFINED_NORMAL = 11
+  ! Within Newton: a domain error; take a smaller step.
+  integer(c_int32_t), parameter :: STICKSLIP_PROJECTION_NOT_CONVEX = 12
+  integer(c_int32_t), parameter :: STICKSLIP_BUFFER_TOO_SMALL = 13
+  integer(c_int32_t), parameter :: STICKSLIP_MISSING_ENTRY = 14
+  integer(c_int32_t), parameter :: STICKSLIP_NOTHING_TO_ROLL_BACK = 15
+  integer(c_int32_t), parameter :: STICKSLIP_HISTORY_MISMATCH = 16
+  ! The library is at fault; the handle is suspect.
+  integer(c_int32_t), parameter :: STICKSLIP_PANIC = -1
+
+  ! Options; 0 is the default of each.
+  integer(c_int32_t), parameter :: STICKSLIP_FORM_MULTIPLIER = 0
+  integer(c_int32_t), parameter :: STICKSLIP_FORM_AUGMENTED = 1
+
+  integer(c_int32_t), parameter :: STICKSLIP_SLIP_OBJECTIVE = 0
+  integer(c_int32_t), parameter :: STICKSLIP_SLIP_INCREMENT = 1
+  integer(c_int32_t), parameter :: STICKSLIP_SLIP_SEED = 2
+
+  integer(c_int32_t), parameter :: STICKSLIP_WEIGHTS_CURRENT = 0
+  integer(c_int32_t), parameter :: STICKSLIP_WEIGHTS_COMMITTED = 1
+  integer(c_int32_t), parameter :: STICKSLIP_WEIGHTS_REFERENCE = 2
+
+  integer(c_int32_t), parameter :: STICKSLIP_FRICTION_COULOMB = 0
+  integer(c_int32_t), parameter :: STICKSLIP_FRICTION_NONE = 1
+  integer(c_int32_t), parameter :: STICKSLIP_FRICTION_TIED = 2
+  integer(c_int32_t), parameter :: STICKSLIP_FRICTION_ROUGH = 3
+
+  integer(c_int32_t), parameter :: STICKSLIP_MORTAR_DEFORMABLE = 0
+  integer(c_int32_t), parameter :: STICKSLIP_MORTAR_RIGID = 1
+  integer(c_int32_t), parameter :: STICKSLIP_MORTAR_ANALYTIC = 2
+
+  integer(c_int32_t), parameter :: STICKSLIP_BASIS_STANDARD = 0
+  integer(c_int32_t), parameter :: STICKSLIP_BASIS_DUAL = 1
+
+  integer(c_int32_t), parameter :: STICKSLIP_QUADRATURE_DEGREE_5 = 0
+  integer(c_int32_t), parameter :: STICKSLIP_QUADRATURE_DEGREE_10 = 1
+
+  integer(c_int32_t), parameter :: STICKSLIP_ROW_SCALE_FORCE = 0
+  integer(c_int32_t), parameter :: STICKSLIP_ROW_SCALE_NONE = 1
+
+  integer(c_int32_t), parameter :: STICKSLIP_NEW_CONTACT_FRICTIONLESS = 0
+  integer(c_int32_t), parameter :: STICKSLIP_NEW_CONTACT_KEEP = 1
+
+  ! Reals per node of stickslip_interface_sums.
+  integer(c_int32_t), parameter :: STICKSLIP_SUMS_PER_NODE = 11
+
+  ! With COLUMN_MAJOR a matrix comes out as k(row, column) of Fortran.
+  integer(c_int32_t), parameter :: STICKSLIP_LAYOUT_ROW_MAJOR = 0
+  integer(c_int32_t), parameter :: STICKSLIP_LAYOUT_COLUMN_MAJOR = 1
+
+  ! State of a node: open or uncovered; closed, sticking; closed, sliding or on the friction cone.
+  integer(c_int32_t), parameter :: STICKSLIP_STATE_GAP = 0
+  integer(c_int32_t), parameter :: STICKSLIP_STATE_STICK = 1
+  integer(c_int32_t), parameter :: STICKSLIP_STATE_SLIP = 2
+
+  ! Sizes of the types in bytes (64-bit machines), their struct_size.
+  integer(c_int64_t), parameter :: stickslip_options_size = 88
+  integer(c_int64_t), parameter :: stickslip_surface_size = 72
+  integer(c_int64_t), parameter :: stickslip_states_size = 80
+  integer(c_int64_t), parameter :: stickslip_counters_size = 88
+  integer(c_int64_t), parameter :: stickslip_pair_size = 40
+  integer(c_int64_t), parameter :: stickslip_node_response_size = 416
+  integer(c_int64_t), parameter :: stickslip_node_size = 232
+
+  ! A contact interface, made by stickslip_interface_create and ended by stickslip_interface_destroy. A copy means the
+  ! same interface. One thread at a time.
+  type, bind(C) :: stickslip_interface
+    private
+    type(c_ptr) :: handle = c_null_ptr
+  end type
+
+  ! Options of an interface. stickslip_options_init writes the defaults, which these zeros are not in every case.
+  type, bind(C) :: stickslip_options
+    integer(c_int64_t) :: struct_size = stickslip_options_size
+    integer(c_int32_t) :: form = 0                 ! STICKSLIP_FORM_...
+    integer(c_int32_t) :: slip = 0                 ! STICKSLIP_SLIP_...
+    integer(c_int32_t) :: weights = 0              ! STICKSLIP_WEIGHTS_...
+    integer(c_int32_t) :: friction = 0             ! STICKSLIP_FRICTION_...
+    integer(c_int32_t) :: mortar_side = 0          ! STICKSLIP_MORTAR_...
+    integer(c_int32_t) :: multiplier_basis = 0     ! STICKSLIP_BASIS_...
+    integer(c_int32_t) :: quadrature = 0           ! STICKSLIP_QUADRATURE_...
+    integer(c_int32_t) :: row_scale = 0            ! STICKSLIP_ROW_SCALE_...
+    integer(c_int32_t) :: new_contact = 0          ! STICKSLIP_NEW_CONTACT_...
+    integer(c_int32_t) :: index_base = 0           ! 0, or 1 as in Fortran: nodes, equations, rows, columns
+    real(c_double) :: mu = 0                       ! Coulomb coefficient of all nodes
+    real(c_double) :: augmentation = 0             ! rhat [F/L^3]; 0: use the modulus
+    real(c_double) :: modulus = 0                  ! Young's modulus of the softer body [F/L^2]
+    real(c_double) :: coverage_min = 0             ! covered / full area at and below which a node is uncovered
+    real(c_double) :: search_distance = 0          ! 0: as far as the surfaces reach [L]
+  end type
+
+  ! One surface of an interface. nf facets with 3 or 4 nodes each.
+  type, bind(C) :: stickslip_surface
+    integer(c_int64_t) :: struct_size = stickslip_surface_size
+    integer(c_int64_t) :: n_nodes = 0
+    integer(c_int64_t) :: n_facets = 0
+    type(c_ptr) :: coordinates = c_null_ptr        ! real(c_double) (3, n_nodes), first configuration [L]
+    type(c_ptr) :: facet_offsets = c_null_ptr      ! integer(c_int64_t) (n_facets + 1), from 0 in either base
+    type(c_ptr) :: facet_nodes = c_null_ptr        ! integer(c_int64_t), right-hand order seen from outside the body
+    type(c_ptr) :: equations = c_null_ptr          ! integer(c_int64_t) (3, n_nodes); -1: none (prescribed)
+    type(c_ptr) :: multiplier_equations = c_null_ptr ! integer(c_int64_t) (3, n_nodes); -1: removed. Mortar: null
+    type(c_ptr) :: owned = c_null_ptr              ! integer(c_int32_t) (n_nodes), parallel hosts; null: all
+  end type
+
+  ! What stickslip_interface_states reports per non-mortar node; what stays null is not wanted.
+  type, bind(C) :: stickslip_states
+    integer(c_int64_t) :: struct_size = stickslip_states_size
+    type(c_ptr) :: state = c_null_ptr              ! integer(c_int32_t) (n1): STICKSLIP_STATE_...
+    type(c_ptr) :: normal = c_null_ptr             ! real(c_double) (3, n1): nu
+    type(c_ptr) :: traction = c_null_ptr           ! (3, n1): projected traction p [F/L^2]
+    type(c_ptr) :: gap = c_null_ptr                ! (n1): weighted gap [L^3]
+    type(c_ptr) :: slip = c_null_ptr               ! (3, n1): slip since the first configuration [L]
+    type(c_ptr) :: coverage = c_null_ptr           ! (n1): covered area [L^2]
+    type(c_ptr) :: area = c_null_ptr               ! (n1): full tributary area M_A [L^2]
+    type(c_ptr) :: dissipation = c_null_ptr        ! (n1): work of friction in this step [F L]
+    type(c_ptr) :: augmentation = c_null_ptr       ! (n1): r_A [F/L^5]
+  end type
+
+  ! What an interface has done since its creation.
+  type, bind(C) :: stickslip_counters
+    integer(c_int64_t) :: struct_size = stickslip_counters_size
+    integer(c_int64_t) :: pairs_tested = 0
+    integer(c_int64_t) :: pairs_clipped = 0
+    integer(c_int64_t) :: pairs_integrated = 0
+    integer(c_int64_t) :: pairs_linearised = 0
+    integer(c_int64_t) :: searches = 0
+    integer(c_int64_t) :: pairs_active = 0
+    integer(c_int64_t) :: bytes = 0
+    real(c_double) :: seconds_search = 0
+    real(c_double) :: seconds_integration = 0
+    real(c_double) :: seconds_assembly = 0
+  end type
+
+  ! A pair of facets, non-mortar first. Node order: right-hand, seen from outside each body.
+  type, bind(C) :: stickslip_pair
+    integer(c_int64_t) :: struct_size = stickslip_pair_size
+    integer(c_int32_t) :: n1 = 0                   ! 3 (tri3) or 4 (quad4)
+    integer(c_int32_t) :: n2 = 0
+    type(c_ptr) :: x1 = c_null_ptr                 ! real(c_double) (3, n1) [L]
+    type(c_ptr) :: x2 = c_null_ptr                 ! real(c_double) (3, n2) [L]
+    integer(c_int32_t) :: quadrature = STICKSLIP_QUADRATURE_DEGREE_5
+    integer(c_int32_t) :: layout = STICKSLIP_LAYOUT_COLUMN_MAJOR ! of the tangent: k(row, column)
+  end type
+
+  ! The law's answer for one node. Matrices are row-major in C, so dp_dlambda(j, i) = dp_i / dlambda_j.
+  type, bind(C) :: stickslip_node_response
+    integer(c_int64_t) :: struct_size = stickslip_node_response_size
+    integer(c_int32_t) :: state = STICKSLIP_STATE_GAP
+    integer(c_int32_t) :: reserved = 0
+    real(c_double) :: traction(3) = 0              ! projected traction p [F/L^2]
+    real(c_double) :: row(3) = 0                   ! multiplier row c = -(lambda - p) / r [L^3]
+    real(c_double) :: gap_normal = 0               ! g_N = nu . g > 0: open [L^3]
+    real(c_double) :: slip(3) = 0                  ! slip increment g_T [L^3]
+    real(c_double) :: sigma(3) = 0                 ! augmented traction lambda + r g [F/L^2]
+    real(c_double) :: dp_dlambda(3, 3) = 0
+    real(c_double) :: drow_dlambda(3, 3) = 0       ! [L^5/F]
+    real(c_double) :: drow_dnow(3, 3) = 0          ! dc / dg[n_{n+1}, x_{n+1}]
+    real(c_double) :: drow_dprevious(3, 3) = 0     ! dc / dg[n_n, x_{n+1}]
+  end type
+
+  ! One non-mortar node: what is assembled over all its pairs, and its data.
+  type, bind(C) :: stickslip_node
+    integer(c_int64_t) :: struct_size = stickslip_node_size
+    integer(c_int32_t) :: slip = STICKSLIP_SLIP_OBJECTIVE
+    integer(c_int32_t) :: n_directions = 0         ! number of prescribed directions, 0 to 2
+    real(c_double) :: lambda(3) = 0                ! multiplier [F/L^2]
+    real(c_double) :: normal(3) = 0                ! nu(t_n), unit, INTO the non-mortar body
+    real(c_double) :: augmentation = 0             ! r > 0 [F/L^5]
+    real(c_double) :: mu = 0
+    real(c_double) :: coverage = 0                 ! covered area now [L^2]
+    real(c_double) :: coverage_previous = 0        ! covered area at t_n [L^2]; 0: pass mu = 0 for that one step
+    real(c_double) :: coverage_min = 0             ! [L^2]; 1e-8 of the node's full area is a good choice
+    real(c_double) :: gap_now(3) = 0               ! g[n_{n+1}, x_{n+1}] [L^3]
+    real(c_double) :: gap_previous(3) = 0          ! g[n_n, x_{n+1}] [L^3]
+    real(c_double) :: gap_committed(3) = 0         ! g[n_n, x_n] [L^3]; read by STICKSLIP_SLIP_INCREMENT only
+    real(c_double) :: directions(3, 2) = 0         ! orthonormal, one a column, orthogonal to the normal
+  end type
+
+  interface
+    ! Version of the library, "major.minor.patch", as a C string.
+    type(c_ptr) function stickslip_version() bind(C)
+      import :: c_ptr
+    end function
+
+    ! The thread's last refusal in words, as a C string; until the next call. Fortran reads it more easily with
+    ! stickslip_last_error_padded.
+    type(c_ptr) function stickslip_last_error_message() bind(C)
+      import :: c_ptr
+    end function
+
+    ! The same in a character variable, cut or filled up with blanks: (text, len(text, c_int64_t)).
+    integer(c_int32_t) function stickslip_last_error_padded(text, length) bind(C)
+      import :: c_char, c_int32_t, c_int64_t
+      character(kind=c_char), intent(out) :: text(*)
+      integer(c_int64_t), value :: length
+    end function
+
+    ! A short text for any status number, as a C string.
+    type(c_ptr) function stickslip_status_string(status) bind(C)
+      import :: c_int32_t, c_ptr
+      integer(c_int32_t), value :: status
+    end function
+
+    ! Writes the defaults: (options, stickslip_options_size). Then set options%index_base = 1.
+    integer(c_int32_t) function stickslip_options_init(options, struct_size) bind(C)
+      import :: c_int32_t, c_int64_t, stickslip_options
+      type(stickslip_options), intent(inout) :: options
+      integer(c_int64_t), value :: struct_size
+    end function
+
+    ! Creates an interface between two surfaces, whose coordinates are the first configuration and t_0. The surfaces
+    ! are copied. A handle that was in use must be destroyed first.
+    integer(c_int32_t) function stickslip_interface_create(nonmortar, mortar, options, out) bind(C)
+      import :: c_int32_t, stickslip_interface, stickslip_options, stickslip_surface
+      type(stickslip_surface), intent(in) :: nonmortar, mortar
+      type(stickslip_options), intent(in) :: options
+      type(stickslip_interface), intent(inout) :: out
+    end function
+
+    ! Destroys an interface. One that was never created, or is destroyed already, is fine.
+    integer(c_int32_t) function stickslip_interface_destroy(interface) bind(C)
+      import :: c_int32_t, stickslip_interface
+      type(stickslip_interface), intent(inout) :: interface
+    end function
+
+    ! Friction coefficient per non-mortar node, mu(n1).
+    integer(c_int32_t) function stickslip_interface_set_friction(interface, mu) bind(C)
+      import :: c_double, c_int32_t, stickslip_interface
+      type(stickslip_interface), value :: interface
+      real(c_double), intent(in) :: mu(*)
+    end function
+
+    ! Augmentation per non-mortar node, r(n1) [F/L^5]; null: the options' own.
+    integer(c_int32_t) function stickslip_interface_set_augmentation(interface, r) bind(C)
+      import :: c_int32_t, c_ptr, stickslip_interface
+      type(stickslip_interface), value :: interface
+      type(c_ptr), value :: r
+    end function
+
+    ! Normals per non-mortar node, normals(3, n1), unit and INTO the non-mortar body; null: the averaged ones.
+    integer(c_int32_t) function stickslip_interface_set_normals(interface, normals) bind(C)
+      import :: c_int32_t, c_ptr, stickslip_interface
+      type(stickslip_interface), value :: interface
+      type(c_ptr), value :: normals
+    end function
+
+    ! Directions prescribed on both sides: nodes(n), directions(3, n). Replaces all earlier ones; n = 0 clears.
+    integer(c_int32_t) function stickslip_interface_set_constraints(interface, n, nodes, directions) bind(C)
+      import :: c_double, c_int32_t, c_int64_t, stickslip_interface
+      type(stickslip_interface), value :: interface
+      integer(c_int64_t), value :: n
+      integer(c_int64_t), intent(in) :: nodes(*)
+      real(c_double), intent(in) :: directions(3, *)
+    end function
+
+    ! Takes x1(3, n1), x2(3, n2) as the configuration of t_n with nothing slipped yet.
+    integer(c_int32_t) function stickslip_interface_set_previous(interface, x1, x2) bind(C)
+      import :: c_double, c_int32_t, stickslip_interface
+      type(stickslip_interface), value :: interface
+      real(c_double), intent(in) :: x1(3, *), x2(3, *)
+    end function
+
+    ! Multipliers to start the first step with, lambda(3, n1), output.
+    integer(c_int32_t) function stickslip_interface_initial_multipliers(interface, lambda) bind(C)
+      import :: c_double, c_int32_t, stickslip_interface
+      type(stickslip_interface), value :: interface
+      real(c_double), intent(inout) :: lambda(3, *)
+    end function
+
+    ! Stage 1, assembled, for parallel hosts: sums(11, n1), output.
+    integer(c_int32_t) function stickslip_interface_sums(interface, x1, x2, sums) bind(C)
+      import :: c_double, c_int32_t, stickslip_interface, STICKSLIP_SUMS_PER_NODE
+      type(stickslip_interface), value :: interface
+      real(c_double), intent(in) :: x1(3, *), x2(3, *)
+      real(c_double), intent(inout) :: sums(STICKSLIP_SUMS_PER_NODE, *)
+    end function
+
+    ! Stage 2: state and nodal results, written to the arrays that out points to. x1(3, n1), x2(3, n2), lambda(3, n1);
+    ! sums(11, n1) of stickslip_interface_sums or null, as in all calls below.
+    integer(c_int32_t) function stickslip_interface_states(interface, x1, x2, lambda, sums, out) bind(C)
+      import :: c_double, c_int32_t, c_ptr, stickslip_interface, stickslip_states
+      type(stickslip_interface), value :: interface
+      real(c_double), intent(in) :: x1(3, *), x2(3, *), lambda(3, *)
+      type(c_ptr), value :: sums
+      type(stickslip_states), intent(in) :: out
+    end function
+
+    ! Residual in internal-force sign: add it to your internal forces. Outputs force1(3, n1), force2(3, n2),
+    ! rows(3, n1).
+    integer(c_int32_t) function stickslip_interface_residual(interface, x1, x2, lambda, sums, force1, force2, rows) &
+        bind(C)
+      import :: c_double, c_int32_t, c_ptr, stickslip_interface
+      type(stickslip_interface), value :: interface
+      real(c_double), intent(in) :: x1(3, *), x2(3, *), lambda(3, *)
+      type(c_ptr), value :: sums
+      real(c_double), intent(inout) :: force1(3, *), force2(3, *), rows(3, *)
+    end function
+
+    ! The exact tangent as triplets in your equation numbers: integer(c_int64_t) rows(capacity), columns(capacity),
+    ! real(c_double) values(capacity), and count. All three null: only count is written, cheaply.
+    integer(c_int32_t) function stickslip_interface_tangent_coo(interface, x1, x2, lambda, sums, capacity, rows, &
+        columns, values, count) bind(C)
+      import :: c_double, c_int32_t, c_int64_t, c_ptr, stickslip_interface
+      type(stickslip_interface), value :: interface
+      real(c_double), intent(in) :: x1(3, *), x2(3, *), lambda(3, *)
+      type(c_ptr), value :: sums
+      integer(c_int64_t), value :: capacity
+      type(c_ptr), value :: rows, columns, values
+      integer(c_int64_t), intent(inout) :: count
+    end function
+
+    ! Adds the exact tangent into your compressed sparse row matrix: row_offsets(n_rows + 1), starting at the index
+    ! base, columns and values.
+    integer(c_int32_t) function stickslip_interface_tangent_csr(interface, x1, x2, lambda, sums, n_rows, row_offsets, &
+        columns, values) bind(C)
+      import :: c_double, c_int32_t, c_int64_t, c_ptr, stickslip_interface
+      type(stickslip_interface), value :: interface
+      real(c_double), intent(in) :: x1(3, *), x2(3, *), lambda(3, *)
+      type(c_ptr), value :: sums
+      integer(c_int64_t), value :: n_rows
+      integer(c_int64_t), intent(in) :: row_offsets(*), columns(*)
+      real(c_double), intent(inout) :: values(*)
+    end function
+
+    ! Entries of any tangent while the surfaces slide by less than a quarter of a facet: integer(c_int64_t)
+    ! rows(capacity), columns(capacity), and count. Both null: only count.
+    integer(c_int32_t) function stickslip_interface_pattern_coo(interface, x1, x2, capacity, rows, columns, count) &
+        bind(C)
+      import :: c_double, c_int32_t, c_int64_t, c_ptr, stickslip_interface
+      type(stickslip_interface), value :: interface
+      real(c_double), intent(in) :: x1(3, *), x2(3, *)
+      integer(c_int64_t), value :: capacity
+      type(c_ptr), value :: rows, columns
+      integer(c_int64_t), intent(inout) :: count
+    end function
+
+    ! Accepts a converged step: x1(3, n1), x2(3, n2), lambda(3, n1) become t_n.
+    integer(c_int32_t) function stickslip_interface_commit(interface, x1, x2, lambda, sums) bind(C)
+      import :: c_double, c_int32_t, c_ptr, stickslip_interface
+      type(stickslip_interface), value :: interface
+      real(c_double), intent(in) :: x1(3, *), x2(3, *), lambda(3, *)
+      type(c_ptr), value :: sums
+    end function
+
+    ! Undoes the last commit exactly.
+    integer(c_int32_t) function stickslip_interface_rollback(interface) bind(C)
+      import :: c_int32_t, stickslip_interface
+      type(stickslip_interface), value :: interface
+    end function
+
+    ! Lengths of the arrays that hold the history now.
+    integer(c_int32_t) function stickslip_interface_history_size(interface, n_integers, n_reals) bind(C)
+      import :: c_int32_t, c_int64_t, stickslip_interface
+      type(stickslip_interface), value :: interface
+      integer(c_int64_t), intent(inout) :: n_integers, n_reals
+    end function
+
+    ! Writes the history to integers(n_integers) and reals(n_reals), for a restart file.
+    integer(c_int32_t) function stickslip_interface_history_export(interface, n_integers, integers, n_reals, reals) &
+        bind(C)
+      import :: c_double, c_int32_t, c_int64_t, stickslip_interface
+      type(stickslip_interface), value :: interface
+      integer(c_int64_t), value :: n_integers
+      integer(c_int64_t), intent(inout) :: integers(*)
+      integer(c_int64_t), value :: n_reals
+      real(c_double), intent(inout) :: reals(*)
+    end function
+
+    ! Replaces the history by an exported one of the same surfaces.
+    integer(c_int32_t) function stickslip_interface_history_import(interface, n_integers, integers, n_reals, reals) &
+        bind(C)
+      import :: c_double, c_int32_t, c_int64_t, stickslip_interface
+      type(stickslip_interface), value :: interface
+      integer(c_int64_t), value :: n_integers
+      integer(c_int64_t), intent(in) :: integers(*)
+      integer(c_int64_t), value :: n_reals
+      real(c_double), intent(in) :: reals(*)
+    end function
+
+    ! Reads the counters.
+    integer(c_int32_t) function stickslip_interface_counters(interface, out) bind(C)
+      import :: c_int32_t, stickslip_counters, stickslip_interface
+      type(stickslip_interface), value :: interface
+      type(stickslip_counters), intent(inout) :: out
+    end function
+
+    ! A non-mortar facet's share of its nodes' normals and areas. x(3, n); outputs, each may be null: normals(3, n),
+    ! areas(n).
+    integer(c_int32_t) function stickslip_facet_geometry(n, x, normals, areas) bind(C)
+      import :: c_double, c_int32_t, c_ptr
+      integer(c_int32_t), value :: n
+      real(c_double), intent(in) :: x(3, *)
+      type(c_ptr), value :: normals, areas
+    end function
+
+    ! The nodal normal nu (unit, INTO the non-mortar body) from the sum of the corner normals around a node.
+    integer(c_int32_t) function stickslip_node_normal(sum, normal) bind(C)
+      import :: c_double, c_int32_t
+      real(c_double), intent(in) :: sum(3)
+      real(c_double), intent(inout) :: normal(3)
+    end function
+
+    ! Stage 1: the mortar weights of a pair. Outputs, each may be null: n_ab(n1, n1) as (b, a), n_ac(n2, n1) as (c, a)
+    ! [L^2]; derivatives dn_ab(3 (n1 + n2), n1, n1), dn_ac(3 (n1 + n2), n2, n1) [L], first the coordinate of (x1, x2).
+    integer(c_int32_t) function stickslip_pair_weights(pair, n_ab, n_ac, dn_ab, dn_ac) bind(C)
+      import :: c_int32_t, c_ptr, stickslip_pair
+      type(stickslip_pair), intent(in) :: pair
+      type(c_ptr), value :: n_ab, n_ac, dn_ab, dn_ac
+    end function
+
+    ! The weighted gap of a pair with any weights: n_ab(n1, n1) as (b, a), n_ac(n2, n1) as (c, a); gap(3, n1), output.
+    integer(c_int32_t) function stickslip_pair_gap(pair, n_ab, n_ac, gap) bind(C)
+      import :: c_double, c_int32_t, stickslip_pair
+      type(stickslip_pair), intent(in) :: pair
+      real(c_double), intent(in) :: n_ab(*), n_ac(*)
+      real(c_double), intent(inout) :: gap(3, *)
+    end function
+
+    ! Stage 3: a pair's nodal forces in internal-force sign. Weights as above; traction(3, n1);
+    ! force(3, n1 + n2), output.
+    integer(c_int32_t) function stickslip_pair_residual(pair, n_ab, n_ac, traction, force) bind(C)
+      import :: c_double, c_int32_t, stickslip_pair
+      type(stickslip_pair), intent(in) :: pair
+      real(c_double), intent(in) :: n_ab(*), n_ac(*), traction(3, *)
+      real(c_double), intent(inout) :: force(3, *)
+    end function
+
+    ! Stage 3: a pair's share of the exact tangent in the multiplier form. Weights and derivatives as
+    ! stickslip_pair_weights has them, null in pairs as the header says; traction(3, n1); responses(n1);
+    ! row_scale(n1), null: 1; k(ld, *), output, rows and columns: x1, x2, lambda.
+    integer(c_int32_t) function stickslip_pair_tangent(pair, n_ab, n_ac, dn_ab, dn_ac, n_ab_previous, n_ac_previous, &
+        traction, responses, row_scale, k, ld) bind(C)
+      import :: c_double, c_int32_t, c_int64_t, c_ptr, stickslip_node_response, stickslip_pair
+      type(stickslip_pair), intent(in) :: pair
+      type(c_ptr), value :: n_ab, n_ac, dn_ab, dn_ac, n_ab_previous, n_ac_previous
+      real(c_double), intent(in) :: traction(3, *)
+      type(stickslip_node_response), intent(in) :: responses(*)
+      type(c_ptr), value :: row_scale
+      integer(c_int64_t), value :: ld
+      real(c_double), intent(inout) :: k(ld, *)
+    end function
+
+    ! Stage 2: gap, stick or slip of a node from the gaps assembled over ALL its pairs, with all derivatives.
+    integer(c_int32_t) function stickslip_node_respond(node, response) bind(C)
+      import :: c_int32_t, stickslip_node, stickslip_node_response
+      type(stickslip_node), intent(in) :: node
+      type(stickslip_node_response), intent(inout) :: response
+    end function
+
+    ! Stage 4: the node's own block, once per non-mortar node. Outputs, each may be null: row(3), block(3, 3), which is
+    ! (row, column) with layout = STICKSLIP_LAYOUT_COLUMN_MAJOR.
+    integer(c_int32_t) function stickslip_node_block(response, scale, layout, row, block) bind(C)
+      import :: c_double, c_int32_t, c_ptr, stickslip_node_response
+      type(stickslip_node_response), intent(in) :: response
+      real(c_double), value :: scale
+      integer(c_int32_t), value :: layout
+      type(c_ptr), value :: row, block
+    end function
+  end interface
+end module
