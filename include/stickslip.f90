@@ -106,8 +106,8 @@ module stickslip
   integer(c_int64_t), parameter :: stickslip_states_size = 80
   integer(c_int64_t), parameter :: stickslip_counters_size = 88
   integer(c_int64_t), parameter :: stickslip_pair_size = 40
-  integer(c_int64_t), parameter :: stickslip_node_response_size = 416
-  integer(c_int64_t), parameter :: stickslip_node_size = 232
+  integer(c_int64_t), parameter :: stickslip_node_response_size = 408
+  integer(c_int64_t), parameter :: stickslip_node_size = 224
 
   ! A contact interface, made by stickslip_interface_create and ended by stickslip_interface_destroy. A copy means the
   ! same interface. One thread at a time.
