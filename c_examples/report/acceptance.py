@@ -7,6 +7,7 @@ import math
 
 import comparisons
 from bad_scenes import BAD_SCENES, write_bad_scene
+from jacobian import jacobian
 
 # Frozen weights make every step a piecewise linear problem: all splits of the load end in the same state, to round-off.
 SPLIT_BOUND_FROZEN = 1e-10
@@ -230,4 +231,4 @@ def errors(verdicts, driver):
         verdicts.true(f"{' '.join(map(str, options))}: exit code {code}", run.exit_code == code, reason)
 
 
-GROUPS = {f.__name__: f for f in (patch, block, steps, invariance, hertz, parallel, errors)}
+GROUPS = {f.__name__: f for f in (patch, block, steps, invariance, hertz, parallel, errors, jacobian)}

@@ -9,6 +9,7 @@
 static const char help[] = "Frictional contact of elastic bodies.\n"
                            "  -scene FILE.yaml   what to solve (format: c_examples/scenes/README.md)\n"
                            "  -output_dir DIR    where summary.json, interface_*.csv and step_*.vtu go\n"
+                           "  -test_jacobian_blocks  compare the tangent with differences of the residual\n"
                            "Every value of the scene can be overridden: `block: {young: 1}` by -block_young 1.\n\n";
 
 static PetscErrorCode read_scene(Model *model)
@@ -51,6 +52,7 @@ static PetscErrorCode build(Model *model, PetscInt *status)
   PetscCall(supports_values(model, 0));
   PetscCall(VecCopy(model->prescribed_local, model->u_local)); /* the configuration of the first sparsity pattern */
   PetscCall(solver_create(model));
+  PetscCall(jacobian_test_create(model));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -114,6 +114,8 @@ typedef struct {
   PetscReal t, reference_force, largest_reference, noise, size, stiffness; /* for the convergence test (solver.c) */
   char      refusal[1024];                         /* the library's last message, if it refused an evaluation */
   Timers    timers;
+
+  struct cJSON *jacobian_tests; /* of the present step (jacobian_test.c); NULL: none */
 } Model;
 
 /* plex.c */
@@ -166,6 +168,9 @@ PetscErrorCode contact_commit(Model *model, PetscInt *status);
 /* solver.c */
 PetscErrorCode solver_create(Model *model);
 PetscErrorCode solver_refresh_pattern(Model *model);
+
+/* jacobian_test.c: after solver_create() */
+PetscErrorCode jacobian_test_create(Model *model);
 
 /* steps.c: returns the exit code of the program */
 PetscErrorCode steps_read(Model *model);

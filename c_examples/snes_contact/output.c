@@ -177,6 +177,8 @@ PetscErrorCode summary_step(Model *model, Summary *summary, PetscInt step, Petsc
   cJSON_AddBoolToObject(json, "converged", converged);
   cJSON_AddNumberToObject(json, "newton_iterations", model->iterations);
   cJSON_AddItemToObject(json, "residual_norms", cJSON_CreateDoubleArray(norms, (int)n_norms));
+  if (model->jacobian_tests) cJSON_AddItemToObject(json, "jacobian_tests", model->jacobian_tests);
+  model->jacobian_tests = NULL;
   cJSON_AddItemToArray(summary->steps, json);
   if (!converged) PetscFunctionReturn(PETSC_SUCCESS);
 
