@@ -5,6 +5,8 @@ BUILD  ?= build
 PYTHON ?= /usr/bin/python3
 GMSH   ?= gmsh
 JOBS   ?= $(shell nproc)
+PREFIX ?= /usr/local
+TESTS  ?= OFF
 
 export PYTHON
 export PATH := $(PATH):$(HOME)/.cargo/bin
@@ -13,12 +15,16 @@ export PATH := $(PATH):$(HOME)/.cargo/bin
 LOCKED = mkdir -p $(BUILD) && flock $(BUILD)/.lock
 SAY    = @printf '\n== %s\n'
 
-.PHONY: help demo test build header meshes clean cmake-build rust-tests
+.PHONY: help demo test build install uninstall docs abi header meshes clean cmake-build rust-tests
 
 help:
 	@echo "make demo    solve the example scenes, compare with the references, draw the figures (FIGURES=1: renew the README's)"
 	@echo "make test    run every test and check"
 	@echo "make build   build the library and the examples into $(BUILD)/"
+	@echo "make install PREFIX=DIR [DESTDIR=]   install header, Fortran module, libraries, pkg-config and CMake files"
+	@echo "make uninstall PREFIX=DIR   remove what was installed there"
+	@echo "make docs    the reference of the C and Rust interfaces and the guides as HTML, in $(BUILD)/docs"
+	@echo "make abi     renew the committed description of the ABI (tests/abi)"
 	@echo "make header  make include/stickslip.h again from src/capi"
 	@echo "make meshes  make the example meshes again with Gmsh"
 	@echo "make clean   remove $(BUILD)/ and target/"
@@ -32,14 +38,25 @@ demo:
 test:
 	@.ci/setup test
 	@$(MAKE) --no-print-directory rust-tests
-	@$(MAKE) --no-print-directory cmake-build
-	$(SAY) "Examples and acceptance checks (ctest)"
+	@$(MAKE) --no-print-directory cmake-build TESTS=ON
+	$(SAY) "C and Fortran tests, examples, installed tree (ctest)"
 	@cd $(BUILD) && ctest --output-on-failure --no-tests=error --parallel $(JOBS)
 	$(SAY) "All tests passed"
 
 build:
 	@.ci/setup build
 	@$(MAKE) --no-print-directory cmake-build
+
+# The library alone: no PETSc, no Fortran compiler needed.
+install:
+	@.ci/setup library
+	@$(LOCKED) cmake -S . -B $(BUILD)/library -DSTICKSLIP_EXAMPLES=OFF -DSTICKSLIP_TESTS=OFF
+	@$(LOCKED) cmake --build $(BUILD)/library
+	@cmake --install $(BUILD)/library --prefix $(abspath $(PREFIX))
+
+uninstall:
+	@cd $(DESTDIR)$(abspath $(PREFIX)) && xargs -d '\n' rm -fv < share/stickslip/installed.txt && \
+		rmdir -p --ignore-fail-on-non-empty lib/cmake/stickslip share/doc/stickslip/docs share/stickslip
 
 rust-tests:
 	$(SAY) "Format and lints"
@@ -52,8 +69,14 @@ rust-tests:
 
 cmake-build:
 	$(SAY) "Library and examples"
-	@$(LOCKED) cmake -S . -B $(BUILD) -DSTICKSLIP_REQUIRE_EXAMPLES=ON -DPython3_EXECUTABLE=$(PYTHON)
+	@$(LOCKED) cmake -S . -B $(BUILD) -DSTICKSLIP_REQUIRE_EXAMPLES=ON -DSTICKSLIP_TESTS=$(TESTS) \
+		-DPython3_EXECUTABLE=$(PYTHON)
 	@$(LOCKED) cmake --build $(BUILD) --parallel $(JOBS)
+
+abi:
+	@.ci/setup test
+	@$(MAKE) --no-print-directory cmake-build TESTS=ON
+	$(PYTHON) tests/abi/check.py --library $(BUILD)/lib/libstickslip.so --renew
 
 header:
 	STICKSLIP_WRITE_HEADER=1 cargo test --locked --test header header_is_up_to_date

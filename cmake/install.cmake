@@ -1,0 +1,41 @@
+# What `cmake --install` puts where. Every file finds the others relative to itself: the tree may be moved.
+
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+file(STRINGS Cargo.toml description REGEX "^description *=" LIMIT_COUNT 1)
+string(REGEX REPLACE "^[^\"]*\"(.*)\"$" "\\1" description "${description}")
+set(package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/stickslip")
+
+# Paths from the folder of the pkg-config files and from that of the CMake package to the prefix.
+file(RELATIVE_PATH pc_to_prefix "/${CMAKE_INSTALL_LIBDIR}/pkgconfig" "/")
+string(REGEX REPLACE "/$" "" pc_to_prefix "${pc_to_prefix}")
+list(TRANSFORM STICKSLIP_STATIC_LIBRARIES PREPEND "-l" OUTPUT_VARIABLE static_flags)
+list(JOIN static_flags " " static_flags)
+configure_file(cmake/stickslip.pc.in stickslip.pc @ONLY)
+configure_file(cmake/stickslip-static.pc.in stickslip-static.pc @ONLY)
+
+configure_package_config_file(cmake/stickslip-config.cmake.in stickslip-config.cmake
+  INSTALL_DESTINATION "${package_dir}" PATH_VARS CMAKE_INSTALL_INCLUDEDIR CMAKE_INSTALL_LIBDIR)
+if(PROJECT_VERSION_MAJOR EQUAL 0)
+  set(compatibility SameMinorVersion)
+else()
+  set(compatibility SameMajorVersion)
+endif()
+write_basic_package_version_file(stickslip-config-version.cmake COMPATIBILITY ${compatibility})
+
+install(FILES include/stickslip.h include/stickslip.f90 DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}")
+install(FILES "${STICKSLIP_SHARED}" DESTINATION "${CMAKE_INSTALL_LIBDIR}"
+  PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
+install(FILES ${STICKSLIP_LINKS} "${STICKSLIP_STATIC}" DESTINATION "${CMAKE_INSTALL_LIBDIR}")
+install(FILES "${PROJECT_BINARY_DIR}/stickslip.pc" "${PROJECT_BINARY_DIR}/stickslip-static.pc"
+  DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig")
+install(FILES "${PROJECT_BINARY_DIR}/stickslip-config.cmake" "${PROJECT_BINARY_DIR}/stickslip-config-version.cmake"
+  DESTINATION "${package_dir}")
+install(FILES README.md CHANGELOG.md LICENSE-MIT LICENSE-APACHE DESTINATION "${CMAKE_INSTALL_DOCDIR}")
+install(DIRECTORY docs/ DESTINATION "${CMAKE_INSTALL_DOCDIR}/docs" FILES_MATCHING PATTERN "*.md")
+
+# The list for uninstalling, relative to the prefix, so that it is right wherever the tree is:
+#   cd PREFIX && xargs -d '\n' rm -f < share/stickslip/installed.txt
+set(installed_list "${CMAKE_INSTALL_DATADIR}/stickslip/installed.txt")
+install(CODE "set(installed_list \"${installed_list}\")")
+install(SCRIPT cmake/installed.cmake)

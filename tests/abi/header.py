@@ -1,0 +1,32 @@
+"""What the C header declares, read from the header itself: constants, structs, functions."""
+
+import re
+from dataclasses import dataclass
+from pathlib import Path
+
+HEADER = Path(__file__).resolve().parents[2] / "include" / "stickslip.h"
+
+
+@dataclass
+class Function:
+    name: str
+    result: str
+    parameters: str
+
+
+def text(path=HEADER):
+    """The header without comments."""
+    code = re.sub(r"/\*.*?\*/", "", path.read_text(), flags=re.S)
+    return re.sub(r"\n\s*//[^\n]*", "", code)
+
+
+def constants(path=HEADER):
+    """Name -> value of every numeric macro."""
+    return {name: int(value) for name, value in re.findall(r"^#define (STICKSLIP_\w+) (-?\d+)$", text(path), flags=re.M)}
+
+
+def functions(path=HEADER):
+    """Every function, in the header's order."""
+    declaration = re.compile(r"^((?:const )?\w+ \*?)(stickslip_\w+)\(([^)]*)\);", flags=re.M)
+    return [Function(name, result.strip(), " ".join(parameters.split()))
+            for result, name, parameters in declaration.findall(text(path))]
