@@ -10,7 +10,7 @@ use super::sized::{self, Sized64};
 pub struct stickslip_counters {
     /// sizeof(stickslip_counters).
     pub struct_size: u64,
-    /// Pairs whose boxes met.
+    /// Pairs that the searches found.
     pub pairs_tested: i64,
     /// Pairs that overlapped or touched.
     pub pairs_clipped: i64,
@@ -18,17 +18,17 @@ pub struct stickslip_counters {
     pub pairs_integrated: i64,
     /// Pairs whose weights were differentiated.
     pub pairs_linearised: i64,
-    /// Searches.
+    /// Searches, without those of `stickslip_interface_pattern_coo`.
     pub searches: i64,
     /// Pairs active at the last evaluation.
     pub pairs_active: i64,
-    /// Heap memory in use, roughly.
+    /// Heap memory in use, roughly [bytes].
     pub bytes: i64,
-    /// Seconds in search.
+    /// Time in search [s].
     pub seconds_search: f64,
-    /// Seconds in clipping and integration.
+    /// Time in clipping and integration [s].
     pub seconds_integration: f64,
-    /// Seconds in derivatives and assembly of the tangent.
+    /// Time in derivatives and assembly of the tangent [s].
     pub seconds_assembly: f64,
 }
 
@@ -38,7 +38,10 @@ unsafe impl Sized64 for stickslip_counters {
     const FIRST: usize = 88;
 }
 
-/// Reads the counters. Errors: NULL_POINTER, STRUCT_SIZE.
+/// Reads the counters into out.
+///
+/// Errors: NULL_POINTER, STRUCT_SIZE.
+/// Cost: a copy.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn stickslip_interface_counters(
     interface: *mut stickslip_interface,

@@ -63,11 +63,15 @@ impl Point {
 
 /// Stage 1, assembled: this handle's share of every node's coverage and gaps. A parallel host whose
 /// handles hold the whole non-mortar surface and disjoint mortar facets adds them over its ranks and
-/// passes the total as `sums` to the calls below; others pass NULL there.
+/// passes the total as `sums` to the calls below; others pass NULL there. Paper (11), (13).
 ///
-/// sums (11 n1), output, per node: covered area now [L^2], g[n_{n+1}, x_{n+1}] (3) [L^3], covered area at
-/// t_n, g[n_n, x_{n+1}] (3), g[n_n, x_n] (3). With sums, use the multiplier form.
+/// x1 (3 n1), x2 (3 n2): positions, not displacements [L]. sums (STICKSLIP_SUMS_PER_NODE n1), output, per node:
+/// covered area now [L^2], g[n_{n+1}, x_{n+1}] (3) [L^3], covered area at t_n [L^2], g[n_n, x_{n+1}] (3) [L^3],
+/// g[n_n, x_n] (3) [L^3]. With sums, use the multiplier form.
+///
 /// Errors: NULL_POINTER, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX.
+/// Cost: at other positions than those of the last evaluation one search and one integration (frozen weights:
+/// none), then O(pairs); allocates.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn stickslip_interface_sums(
     interface: *mut stickslip_interface,
@@ -97,7 +101,7 @@ pub struct stickslip_states {
     pub struct_size: u64,
     /// n1: STICKSLIP_STATE_...
     pub state: *mut i32,
-    /// 3 n1: nu, unit, into the non-mortar body.
+    /// 3 n1: nu, unit, into the non-mortar body [-].
     pub normal: *mut f64,
     /// 3 n1: projected traction p [F/L^2].
     pub traction: *mut f64,
@@ -121,11 +125,14 @@ unsafe impl Sized64 for stickslip_states {
     const FIRST: usize = 80;
 }
 
-/// Stage 2: state and nodal results at (x1, x2, lambda).
+/// Stage 2: state and nodal results at (x1, x2, lambda), for output. Paper (17), (22), (24).
 ///
-/// x1 (3 n1), x2 (3 n2) [L], lambda (3 n1) [F/L^2]; sums: see `stickslip_interface_sums`, or NULL.
-/// Errors: NULL_POINTER, STRUCT_SIZE, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX,
-/// UNDEFINED_NORMAL.
+/// x1 (3 n1), x2 (3 n2): positions [L]; lambda (3 n1) [F/L^2]; sums: see `stickslip_interface_sums`, or NULL.
+/// out: its members point to the caller's arrays, which are filled. Call it before the commit: after it the
+/// step belongs to the past.
+///
+/// Errors: NULL_POINTER, STRUCT_SIZE, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL.
+/// Cost: as `stickslip_interface_sums`.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn stickslip_interface_states(
     interface: *mut stickslip_interface,
@@ -172,13 +179,16 @@ pub unsafe extern "C" fn stickslip_interface_states(
 }
 
 /// Residual in internal-force sign: what to ADD to the host's internal forces. The force ON the
-/// non-mortar body is -force1.
+/// non-mortar body is -force1. A function of the inputs and the committed history alone: the same call gives
+/// the same bits. Paper (23), (25)-(27).
 ///
-/// Inputs as for `stickslip_interface_states`. Outputs, overwritten: force1 (3 n1), force2 (3 n2) [F],
-/// rows (3 n1), the multiplier rows ([F] with the default row scale). A function of the inputs and the
-/// committed history alone: the same call gives the same bits. Paper (23).
+/// Inputs x1, x2, lambda, sums as for `stickslip_interface_states`. Outputs, overwritten: force1 (3 n1),
+/// force2 (3 n2) [F], rows (3 n1): the multiplier rows ([F] with the default row scale, else [L^3]; 0 where the
+/// node is not owned).
+///
 /// Errors: NULL_POINTER, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL; within
 /// Newton treat them as a domain error and take a smaller step.
+/// Cost: as `stickslip_interface_sums`.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn stickslip_interface_residual(
     interface: *mut stickslip_interface,

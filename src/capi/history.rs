@@ -8,7 +8,12 @@ use crate::error::{Error, Kind};
 
 /// Accepts a converged step: (x1, x2, lambda) becomes t_n; weights, normals, coverage and slip move on.
 ///
-/// Inputs as for `stickslip_interface_states`. Errors: as for create; then nothing has moved.
+/// Inputs x1, x2, lambda, sums as for `stickslip_interface_states`.
+///
+/// Errors: NULL_POINTER, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL, INVALID_VALUE (a
+/// mortar surface in layers); then nothing has moved.
+/// Cost: as `stickslip_interface_states`, then one search and one integration (WEIGHTS_REFERENCE: none);
+/// allocates. The history before it is kept, for `stickslip_interface_rollback`.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn stickslip_interface_commit(
     interface: *mut stickslip_interface,
@@ -25,13 +30,21 @@ pub unsafe extern "C" fn stickslip_interface_commit(
 }
 
 /// Undoes the last commit exactly. A step that was never committed needs no rollback: evaluations do not
-/// touch the history. Errors: NULL_POINTER, NOTHING_TO_ROLL_BACK (only one commit can be undone).
+/// touch the history. Only one commit can be undone.
+///
+/// Errors: NULL_POINTER, NOTHING_TO_ROLL_BACK.
+/// Cost: O(facets); the next evaluation integrates. Allocates.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn stickslip_interface_rollback(interface: *mut stickslip_interface) -> i32 {
     guard(|| handle(interface)?.inner.roll_back())
 }
 
-/// Lengths of the flat arrays that hold the history now. Errors: NULL_POINTER.
+/// Lengths of the flat arrays that hold the history now; they change with each commit.
+///
+/// n_integers, n_reals, output.
+///
+/// Errors: NULL_POINTER.
+/// Cost: none.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn stickslip_interface_history_size(
     interface: *mut stickslip_interface,
@@ -50,7 +63,10 @@ pub unsafe extern "C" fn stickslip_interface_history_size(
 }
 
 /// Writes the history to integers (n_integers) and reals (n_reals), for a restart file. Lengths from
-/// `stickslip_interface_history_size`; larger ones are fine. Errors: NULL_POINTER, BUFFER_TOO_SMALL.
+/// `stickslip_interface_history_size`; larger ones are fine. The multipliers are the host's and not in it.
+///
+/// Errors: NULL_POINTER, BUFFER_TOO_SMALL.
+/// Cost: a copy; allocates it.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn stickslip_interface_history_export(
     interface: *mut stickslip_interface,
@@ -76,8 +92,12 @@ pub unsafe extern "C" fn stickslip_interface_history_export(
     })
 }
 
-/// Replaces the history by an exported one of the same surfaces; evaluation then continues bit for bit.
+/// Replaces the history by an exported one of the same surfaces, integers (n_integers) and reals (n_reals) of
+/// the lengths that it had then; evaluation continues bit for bit. A commit before it can no longer be undone.
+/// Friction, augmentation, normals and constraints per node are not in it.
+///
 /// Errors: NULL_POINTER, INVALID_SIZE, NOT_FINITE, HISTORY_MISMATCH.
+/// Cost: O(facets) and a copy; the next evaluation integrates. Allocates.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn stickslip_interface_history_import(
     interface: *mut stickslip_interface,

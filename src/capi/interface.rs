@@ -36,12 +36,17 @@ pub(super) fn flat(v: &[Vec3]) -> impl Iterator<Item = f64> {
 
 /// Creates an interface between two surfaces, whose coordinates are the first configuration and t_0.
 ///
-/// out receives the handle; destroy it with `stickslip_interface_destroy`. Both surfaces are copied.
-/// Errors: NULL_POINTER, STRUCT_SIZE, INVALID_SIZE, NOT_FINITE, INDEX_OUT_OF_RANGE, DUPLICATE_NODE,
-/// DEGENERATE_FACET, INVALID_VALUE, MISSING_STIFFNESS, UNSUPPORTED, UNDEFINED_NORMAL,
-/// PROJECTION_NOT_CONVEX. Cost: one search and one integration. Surfaces that do not face each other are no
+/// nonmortar carries the multipliers (take the softer side, of equals the finer), mortar is the other one;
+/// options: see `stickslip_options`. out, output: the handle. Surfaces that do not face each other are no
 /// error; `pairs_active` of `stickslip_interface_counters` is then 0: look at it once, a facet order seen
 /// from inside the body is found that way.
+///
+/// Errors: NULL_POINTER, STRUCT_SIZE, INVALID_SIZE, NOT_FINITE, INDEX_OUT_OF_RANGE, DUPLICATE_NODE,
+/// DEGENERATE_FACET, INVALID_VALUE (an option; a node without a facet; a mortar side given multipliers; a
+/// mortar surface in layers), MISSING_STIFFNESS, UNSUPPORTED, UNDEFINED_NORMAL, PROJECTION_NOT_CONVEX.
+/// Cost: one search, O((n1 + n2) log n2), and one integration of the pairs found; allocates.
+/// Owner: the caller, who ends it with `stickslip_interface_destroy`. Both surfaces and the options are
+/// copied: all arrays may be freed after the call.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn stickslip_interface_create(
     nonmortar: *const stickslip_surface,
@@ -68,7 +73,10 @@ pub unsafe extern "C" fn stickslip_interface_create(
     })
 }
 
-/// Destroys an interface and sets the pointer to NULL. NULL, or a pointer to NULL, is fine.
+/// Destroys the interface and sets the caller's pointer to NULL. NULL, or a pointer to NULL, is fine.
+///
+/// Errors: NULL_POINTER (misaligned).
+/// Cost: frees memory.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn stickslip_interface_destroy(interface: *mut *mut stickslip_interface) -> i32 {
     guard(|| {
@@ -87,8 +95,11 @@ pub unsafe extern "C" fn stickslip_interface_destroy(interface: *mut *mut sticks
     })
 }
 
-/// Friction coefficient per non-mortar node, mu (n1), in place of the options' one. Keeps the rule for
-/// newly covered nodes. Errors: NULL_POINTER, NOT_FINITE, INVALID_VALUE.
+/// Coulomb coefficient >= 0 per non-mortar node, mu (n1) [-], in place of the options' one, from the next
+/// evaluation on. Keeps the rule for newly covered nodes. Not part of the history: set it again after a restart.
+///
+/// Errors: NULL_POINTER, NOT_FINITE, INVALID_VALUE.
+/// Cost: a copy; allocates it.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn stickslip_interface_set_friction(interface: *mut stickslip_interface, mu: *const f64) -> i32 {
     guard(|| {
@@ -98,8 +109,11 @@ pub unsafe extern "C" fn stickslip_interface_set_friction(interface: *mut sticks
     })
 }
 
-/// Augmentation r_A > 0 per non-mortar node, r (n1) [F/L^5], in place of rhat_A / M_A; NULL returns to
-/// the options. Errors: NULL_POINTER, NOT_FINITE, INVALID_VALUE.
+/// Augmentation r_A > 0 per non-mortar node, r (n1) [F/L^5], in place of rhat_A / M_A; NULL returns to the
+/// options. Not part of the history. The answer does not depend on it.
+///
+/// Errors: NULL_POINTER, NOT_FINITE, INVALID_VALUE.
+/// Cost: a copy; allocates it.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn stickslip_interface_set_augmentation(
     interface: *mut stickslip_interface,
@@ -112,8 +126,11 @@ pub unsafe extern "C" fn stickslip_interface_set_augmentation(
     })
 }
 
-/// Normals per non-mortar node, normals (3 n1), unit and INTO the non-mortar body, in place of the
-/// averaged ones of t_n; NULL returns to those. Errors: NULL_POINTER, NOT_FINITE, INVALID_VALUE.
+/// Normals per non-mortar node, normals (3 n1), INTO the non-mortar body, of length 1 within 1e-10, in place of
+/// the averaged ones of t_n, until set again; NULL returns to those. Not part of the history.
+///
+/// Errors: NULL_POINTER, NOT_FINITE, INVALID_VALUE.
+/// Cost: a copy; allocates it.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn stickslip_interface_set_normals(
     interface: *mut stickslip_interface,
@@ -128,11 +145,14 @@ pub unsafe extern "C" fn stickslip_interface_set_normals(
 
 /// Directions in which displacement is prescribed on both sides (plane strain, symmetry plane), or on
 /// the non-mortar side against a rigid mortar side: the multiplier component there is removed and the
-/// normal gets no part in it. Replaces all earlier ones; n = 0 clears.
+/// normal gets no part in it. Replaces all earlier ones; n = 0 clears. Not part of the history.
 ///
-/// nodes (n): non-mortar node numbers in the index base, a node up to twice; directions (3 n), any
+/// nodes (n): non-mortar node numbers in the index base, a node up to twice; directions (3 n) [-], any
 /// length but 0. At a Dirichlet edge over a deformable mortar side do NOT declare the direction.
-/// Errors: NULL_POINTER, INVALID_SIZE, NOT_FINITE, INDEX_OUT_OF_RANGE, INVALID_VALUE, UNDEFINED_NORMAL.
+///
+/// Errors: NULL_POINTER, INVALID_SIZE, NOT_FINITE, INDEX_OUT_OF_RANGE, INVALID_VALUE (no length, or a direction
+/// given twice), UNDEFINED_NORMAL (nothing is left of a normal).
+/// Cost: O(n1 + n); allocates.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn stickslip_interface_set_constraints(
     interface: *mut stickslip_interface,
@@ -162,7 +182,11 @@ pub unsafe extern "C" fn stickslip_interface_set_constraints(
 }
 
 /// Takes (x1, x2), 3 n1 and 3 n2 [L], as the configuration of t_n with nothing slipped yet, in place of
-/// the first configuration. Errors: as for create.
+/// the first configuration. A commit before it can no longer be undone.
+///
+/// Errors: NULL_POINTER, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL, INVALID_VALUE (a
+/// mortar surface in layers).
+/// Cost: one search and one integration; allocates.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn stickslip_interface_set_previous(
     interface: *mut stickslip_interface,
@@ -176,9 +200,13 @@ pub unsafe extern "C" fn stickslip_interface_set_previous(
     })
 }
 
-/// Writes multipliers to start the first step with, lambda (3 n1), output [F/L^2]: a slight compression,
-/// -1e-6 rhat_A sqrt(M_A) nu_A, on covered closed nodes, 0 elsewhere. lambda = 0 at zero gap is a body
-/// without support. Errors: NULL_POINTER, UNDEFINED_NORMAL, INVALID_VALUE once a step is committed.
+/// Writes multipliers to start the first step with: a slight compression, -1e-6 rhat_A sqrt(M_A) nu_A, on
+/// covered closed nodes, 0 elsewhere. lambda = 0 at zero gap is a body without support.
+///
+/// lambda (3 n1), output [F/L^2]; from then on it is the host's unknown, the library keeps no copy.
+///
+/// Errors: NULL_POINTER, NOT_FINITE (overflow), UNDEFINED_NORMAL, INVALID_VALUE once a step is committed.
+/// Cost: O(n1); allocates.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn stickslip_interface_initial_multipliers(
     interface: *mut stickslip_interface,

@@ -28,11 +28,11 @@ pub struct stickslip_node {
     pub n_directions: i32,
     /// Multiplier: minus the Cauchy traction on the non-mortar body [F/L^2].
     pub lambda: [f64; 3],
-    /// nu(t_n): unit normal INTO the non-mortar body.
+    /// nu(t_n): unit normal INTO the non-mortar body [-].
     pub normal: [f64; 3],
     /// r > 0 [F/L^5].
     pub augmentation: f64,
-    /// Coulomb coefficient >= 0.
+    /// Coulomb coefficient >= 0 [-].
     pub mu: f64,
     /// Covered area now [L^2].
     pub coverage: f64,
@@ -47,8 +47,8 @@ pub struct stickslip_node {
     pub gap_previous: [f64; 3],
     /// g[n_n, x_n] [L^3]; read by STICKSLIP_SLIP_INCREMENT only.
     pub gap_committed: [f64; 3],
-    /// Orthonormal directions in which the node is prescribed on both sides; the normal must be
-    /// orthogonal to them.
+    /// Orthonormal directions in which the node is prescribed on both sides [-], one after the other; the normal
+    /// must be orthogonal to them.
     pub directions: [f64; 6],
 }
 
@@ -58,7 +58,8 @@ unsafe impl Sized64 for stickslip_node {
     const FIRST: usize = 224;
 }
 
-/// The law's answer for one node. Matrices are row-major 3 x 3 (and not symmetric).
+/// The law's answer for one node. Matrices are row-major 3 x 3 and not symmetric: in Fortran m(j, i) is row i,
+/// column j.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct stickslip_node_response {
@@ -66,7 +67,7 @@ pub struct stickslip_node_response {
     pub struct_size: u64,
     /// STICKSLIP_STATE_...
     pub state: i32,
-    /// 0.
+    /// Always 0.
     pub reserved: i32,
     /// Projected traction p [F/L^2].
     pub traction: [f64; 3],
@@ -78,13 +79,13 @@ pub struct stickslip_node_response {
     pub slip: [f64; 3],
     /// Augmented traction lambda + r g [F/L^2].
     pub sigma: [f64; 3],
-    /// dp/dlambda.
+    /// dp/dlambda [-].
     pub dp_dlambda: [f64; 9],
     /// dc/dlambda [L^5/F].
     pub drow_dlambda: [f64; 9],
-    /// dc/dg[n_{n+1}, x_{n+1}]; dp/dg is r times this.
+    /// dc/dg[n_{n+1}, x_{n+1}] [-]; dp/dg is r times this.
     pub drow_dnow: [f64; 9],
-    /// dc/dg[n_n, x_{n+1}]; dp/dg is r times this.
+    /// dc/dg[n_n, x_{n+1}] [-]; dp/dg is r times this.
     pub drow_dprevious: [f64; 9],
 }
 
@@ -183,7 +184,10 @@ fn read_node(p: *const stickslip_node) -> Result<Node> {
 /// derivatives, from the gaps assembled over ALL its pairs (projecting pair by pair would make the answer
 /// depend on the augmentation). Paper (17)-(31).
 ///
-/// Errors: NULL_POINTER, STRUCT_SIZE, NOT_FINITE, INVALID_VALUE. Does not allocate.
+/// node: see `stickslip_node`; response, output, its struct_size set by the caller.
+///
+/// Errors: NULL_POINTER, STRUCT_SIZE, NOT_FINITE, INVALID_VALUE.
+/// Cost: below a microsecond; allocates nothing.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn stickslip_node_respond(
     node: *const stickslip_node,
@@ -216,11 +220,15 @@ pub unsafe extern "C" fn stickslip_node_respond(
     })
 }
 
-/// Stage 4: the node's own block, to be added once per non-mortar node, covered or not.
+/// Stage 4: the node's own block, to be added once per non-mortar node, covered or not. Paper (25)-(27),
+/// (29)-(31), third rows.
 ///
-/// scale multiplies the rows: r M_A gives them the unit of a force, 1 leaves them as in the paper [L^3].
-/// Outputs, each may be NULL: row (3), block (3 x 3) = d row / d lambda in `layout`.
-/// Errors: NULL_POINTER, STRUCT_SIZE, NOT_FINITE, INVALID_VALUE. Does not allocate.
+/// response: of `stickslip_node_respond`. scale multiplies the rows: r M_A [F/L^3] gives them the unit of a
+/// force, 1 leaves them as in the paper [L^3]. layout: STICKSLIP_LAYOUT_... Outputs, each may be NULL: row (3),
+/// block (3 x 3) = d row / d lambda.
+///
+/// Errors: NULL_POINTER, STRUCT_SIZE, NOT_FINITE, INVALID_VALUE.
+/// Cost: nanoseconds; allocates nothing.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn stickslip_node_block(
     response: *const stickslip_node_response,

@@ -58,7 +58,7 @@ pub const STICKSLIP_NEW_CONTACT_KEEP: i32 = 1;
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct stickslip_options {
-    /// sizeof(stickslip_options).
+    /// sizeof(stickslip_options), as `stickslip_options_init` sets it.
     pub struct_size: u64,
     /// STICKSLIP_FORM_...
     pub form: i32,
@@ -78,9 +78,10 @@ pub struct stickslip_options {
     pub row_scale: i32,
     /// STICKSLIP_NEW_CONTACT_...
     pub new_contact: i32,
-    /// 0 or 1: base of node numbers, equations, rows and columns.
+    /// 0 (default, C) or 1 (Fortran): base of node numbers, equations, rows, columns and row offsets. Not of
+    /// facet_offsets.
     pub index_base: i32,
-    /// Coulomb coefficient of all nodes; default 0.
+    /// Coulomb coefficient of all nodes [-]; default 0.
     pub mu: f64,
     /// rhat [F/L^3]; 0 (default): use the modulus. One of the two is needed: nothing else has the unit
     /// of a stiffness. The answer does not depend on it.
@@ -88,7 +89,7 @@ pub struct stickslip_options {
     /// Young's modulus of the softer body [F/L^2]: rhat_A = 0.1 E / sqrt(M_A); 0 (default): use the
     /// augmentation.
     pub modulus: f64,
-    /// Covered over full nodal area at and below which a node counts as uncovered; default 1e-8.
+    /// Covered over full nodal area [-] at and below which a node counts as uncovered; default 1e-8.
     pub coverage_min: f64,
     /// Facets farther apart than this along the normal at the last commit, gap or penetration, are no pair
     /// [L]. 0 (default): as far as the surfaces reach for a gap, one facet (the smaller of the two) for a
@@ -103,10 +104,11 @@ unsafe impl Sized64 for stickslip_options {
     const FIRST: usize = 88;
 }
 
-/// Writes the defaults. struct_size: sizeof(stickslip_options) as the caller knows it; what a newer caller's
-/// struct has beyond this library's is zeroed.
+/// Writes the defaults into options. struct_size: sizeof(stickslip_options) as the caller knows it; of an older
+/// caller's shorter struct only that much is written, the tail of a newer caller's longer one is zeroed.
 ///
 /// Errors: NULL_POINTER, STRUCT_SIZE.
+/// Cost: a copy.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn stickslip_options_init(options: *mut stickslip_options, struct_size: u64) -> i32 {
     guard(|| {

@@ -42,17 +42,23 @@ pub const STICKSLIP_HISTORY_MISMATCH: i32 = 16;
 /// The library is at fault; please report it. The handle is suspect.
 pub const STICKSLIP_PANIC: i32 = -1;
 
-/// The calling thread's last refusal in words: which argument, what was wrong, what is allowed. Empty
-/// after a success. Valid until the thread's next call; never NULL.
+/// The calling thread's last refusal in words: which argument, what was wrong, what is allowed. Empty after
+/// a success. Nodes and facets are counted from 0 in it.
+///
+/// Cost: none.
+/// Owner: the library; valid until the thread's next call. Zero-terminated, never NULL.
 #[unsafe(no_mangle)]
 pub extern "C" fn stickslip_last_error_message() -> *const c_char {
     guard::message()
 }
 
-/// The same text for a fixed-length character variable: cut or padded with blanks to `length` characters, no
-/// final zero. Leaves the message as it is unless it is refused itself.
+/// The same text for a fixed-length character variable (Fortran): cut or padded with blanks to `length`
+/// characters, no final zero. Leaves the message as it is unless it is refused itself.
 ///
-/// text (length), output. Errors: NULL_POINTER, INVALID_SIZE (length < 0). Cost: a copy.
+/// text (length), output.
+///
+/// Errors: NULL_POINTER, INVALID_SIZE (length < 0).
+/// Cost: a copy.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn stickslip_last_error_padded(text: *mut c_char, length: i64) -> i32 {
     let outcome = raw::check(text, "text").and_then(|()| raw::count(length, 0, "length"));
@@ -66,7 +72,10 @@ pub unsafe extern "C" fn stickslip_last_error_padded(text: *mut c_char, length: 
     }
 }
 
-/// A short text for any status number. Static; never NULL.
+/// A short text for any status number, known or not.
+///
+/// Cost: none.
+/// Owner: the library, for good. Zero-terminated, never NULL.
 #[unsafe(no_mangle)]
 pub extern "C" fn stickslip_status_string(status: i32) -> *const c_char {
     let text = match status {

@@ -17,12 +17,15 @@ pub struct stickslip_surface {
     pub n_facets: i64,
     /// 3 n_nodes coordinates of the first configuration, node by node [L].
     pub coordinates: *const f64,
-    /// n_facets + 1 offsets into facet_nodes, starting at 0 whatever the index base.
+    /// n_facets + 1 offsets into facet_nodes, starting at 0 whatever the index base: facet f, counted from 0,
+    /// has the entries facet_offsets[f] to facet_offsets[f + 1] - 1 of C's array; counted from 1, the
+    /// entries facet_offsets(f) + 1 to facet_offsets(f + 1) of Fortran's.
     pub facet_offsets: *const i64,
     /// Node numbers in the index base, 3 (tri3) or 4 (quad4) a facet, right-hand order seen from outside
     /// the body.
     pub facet_nodes: *const i64,
-    /// 3 n_nodes displacement equations, node by node, in the index base; -1: none (prescribed).
+    /// 3 n_nodes displacement equations, node by node, in the index base; -1: none (prescribed), whatever the
+    /// index base.
     pub equations: *const i64,
     /// Non-mortar: 3 n_nodes multiplier equations, -1: the component is removed and its axis a constrained
     /// direction (see `stickslip_interface_set_constraints`); a node with three -1 keeps its normal. Mortar:

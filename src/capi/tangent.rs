@@ -59,11 +59,17 @@ impl Triplets {
 
 /// The exact tangent d residual / d (x1, x2, lambda) as triplets in the host's equation numbers and index
 /// base. Entries without an equation are left out; duplicates add up. Entries depend on the active pairs,
-/// so the pattern may change between evaluations; within one evaluation point it does not.
+/// so the pattern may change between evaluations; within one evaluation point it does not. Not symmetric,
+/// even without friction. Paper (29)-(31).
 ///
-/// Inputs as for `stickslip_interface_residual`. Outputs: rows, columns, values (capacity each), count.
-/// With all three arrays NULL only count is written, cheaply. Not symmetric, even without friction.
-/// Paper (25)-(31). Errors: as for the residual, and BUFFER_TOO_SMALL.
+/// Inputs x1, x2, lambda, sums as for `stickslip_interface_residual`. Outputs: rows, columns, values (capacity
+/// each), count. With all three arrays NULL only count is written, and capacity is not read. Units of an entry:
+/// its row's over its column's.
+///
+/// Errors: NULL_POINTER, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL (as the residual),
+/// BUFFER_TOO_SMALL, UNSUPPORTED (sums with the augmented form).
+/// Cost: at new positions those of the residual, then the derivatives of every pair's weights (frozen weights:
+/// none), O(pairs); counting needs no derivatives. Allocates.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn stickslip_interface_tangent_coo(
     interface: *mut stickslip_interface,
@@ -92,12 +98,18 @@ pub unsafe extern "C" fn stickslip_interface_tangent_coo(
     })
 }
 
-/// Adds the exact tangent into a compressed sparse row matrix of the host's. Inputs as for
-/// `stickslip_interface_residual`; n_rows rows; row_offsets (n_rows + 1), starting at the index base;
-/// columns and values (as many as row_offsets says), columns in any order within a row.
+/// Adds the exact tangent into a compressed sparse row matrix of the host's. Paper (29)-(31).
 ///
-/// Errors: as for the residual, INVALID_SIZE, INDEX_OUT_OF_RANGE, and MISSING_ENTRY when the matrix lacks
-/// an entry (renew the pattern from `stickslip_interface_pattern_coo`); then nothing was added.
+/// Inputs x1, x2, lambda, sums as for `stickslip_interface_residual`; n_rows rows; row_offsets (n_rows + 1),
+/// starting at the index base; columns and values (as many as row_offsets says), columns in the index base, in
+/// any order within a row.
+///
+/// Errors: NULL_POINTER, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL (as the residual),
+/// INVALID_SIZE, INDEX_OUT_OF_RANGE (an equation beyond n_rows), UNSUPPORTED (sums with the augmented form), and
+/// MISSING_ENTRY when the matrix lacks an entry (renew the pattern from
+/// `stickslip_interface_pattern_coo`); then nothing was added.
+/// Cost: as `stickslip_interface_tangent_coo`, and a search in a row for each entry, by bisection where the
+/// columns ascend. Allocates.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn stickslip_interface_tangent_csr(
     interface: *mut stickslip_interface,
@@ -153,9 +165,11 @@ pub unsafe extern "C" fn stickslip_interface_tangent_csr(
 /// Entries of any tangent while the surfaces slide by less than a quarter of a facet. Preallocate with this;
 /// a larger motion may need entries beyond these; call again then.
 ///
-/// x1 (3 n1), x2 (3 n2) [L]. Outputs: rows, columns (capacity each; both NULL: only count), count.
-/// Duplicates occur. Errors: NULL_POINTER, NOT_FINITE, BUFFER_TOO_SMALL, DEGENERATE_FACET,
-/// PROJECTION_NOT_CONVEX.
+/// x1 (3 n1), x2 (3 n2): positions [L]. Outputs: rows, columns (capacity each; both NULL: only count), count.
+/// Duplicates occur.
+///
+/// Errors: NULL_POINTER, NOT_FINITE, BUFFER_TOO_SMALL, DEGENERATE_FACET, PROJECTION_NOT_CONVEX.
+/// Cost: at new positions those of the residual, then one search and O(pairs); allocates.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn stickslip_interface_pattern_coo(
     interface: *mut stickslip_interface,

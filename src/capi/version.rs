@@ -10,7 +10,10 @@ pub const STICKSLIP_VERSION_MINOR: i32 = 1;
 /// Patch version of the header.
 pub const STICKSLIP_VERSION_PATCH: i32 = 0;
 
-/// Version of the library, "major.minor.patch". Static.
+/// Version of the library that runs, "major.minor.patch"; the macros above are those of the header.
+///
+/// Cost: none.
+/// Owner: the library, for good; never NULL.
 #[unsafe(no_mangle)]
 pub extern "C" fn stickslip_version() -> *const c_char {
     const VERSION: &CStr = match CStr::from_bytes_with_nul(concat!(env!("CARGO_PKG_VERSION"), "\0").as_bytes()) {
