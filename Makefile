@@ -54,9 +54,12 @@ install:
 	@$(LOCKED) cmake --build $(BUILD)/library
 	@cmake --install $(BUILD)/library --prefix $(abspath $(PREFIX))
 
+# The list is relative to the prefix. Folders go too, once they are empty.
 uninstall:
-	@cd $(DESTDIR)$(abspath $(PREFIX)) && xargs -d '\n' rm -fv < share/stickslip/installed.txt && \
-		rmdir -p --ignore-fail-on-non-empty lib/cmake/stickslip share/doc/stickslip/docs share/stickslip
+	@cd $(DESTDIR)$(abspath $(PREFIX)) && files=$$(cat share/stickslip/installed.txt) && \
+		echo "$$files" | xargs -d '\n' rm -fv && \
+		echo "$$files" | xargs -d '\n' -n 1 dirname | sort -ru | xargs -d '\n' -n 1 rmdir -p --ignore-fail-on-non-empty \
+			2>/dev/null || true
 
 rust-tests:
 	$(SAY) "Format and lints"

@@ -32,7 +32,7 @@ install(FILES "${PROJECT_BINARY_DIR}/stickslip.pc" "${PROJECT_BINARY_DIR}/sticks
 install(FILES "${PROJECT_BINARY_DIR}/stickslip-config.cmake" "${PROJECT_BINARY_DIR}/stickslip-config-version.cmake"
   DESTINATION "${package_dir}")
 install(FILES README.md CHANGELOG.md LICENSE-MIT LICENSE-APACHE DESTINATION "${CMAKE_INSTALL_DOCDIR}")
-install(DIRECTORY docs/ DESTINATION "${CMAKE_INSTALL_DOCDIR}/docs" FILES_MATCHING PATTERN "*.md")
+install(FILES docs/plug_in.md docs/abi.md DESTINATION "${CMAKE_INSTALL_DOCDIR}/docs")
 
 # The list for uninstalling, relative to the prefix, so that it is right wherever the tree is:
 #   cd PREFIX && xargs -d '\n' rm -f < share/stickslip/installed.txt

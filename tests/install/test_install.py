@@ -1,0 +1,180 @@
+#!/usr/bin/env python3
+"""The installed tree, used as a user would: from C, C++ and Fortran, shared and static, without the checkout.
+
+    test_install.py --build BUILD --cmake cmake tree|programs|pkg_config|cmake|suites
+
+Each group installs from BUILD into a temporary folder and moves the tree (it must work anywhere). Programs are compiled and run
+with the checkout hidden, where the system lets a process hide a folder from itself (user namespaces); the groups say
+so when it does not.
+"""
+
+import argparse
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+OTHER_LIBRARIES = re.compile(r"lib(c|m|gcc_s|gfortran|quadmath|stdc\+\+|stickslip)\.so|ld-linux|linux-vdso")
+
+
+def run(*command, cwd=None, env=None):
+    """Runs a command that must succeed; what it printed."""
+    words = [str(word) for word in command]
+    done = subprocess.run(words, cwd=cwd, env=env, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    if done.returncode != 0:
+        raise SystemExit(f"FAILED  {' '.join(words)}: exit code {done.returncode}\n{done.stdout}")
+    return done.stdout
+
+
+def expect(holds, what):
+    if not holds:
+        raise SystemExit(f"FAILED  {what}")
+    print(f"ok      {what}")
+
+
+class Tree:
+    """An installed tree that has been moved since, and a folder for a user's work."""
+
+    def __init__(self, folder, build, cmake):
+        self.build, self.cmake = build, cmake
+        first = folder / "first place" / "stickslip"
+        run(cmake, "--install", build, "--prefix", first)
+        self.prefix = folder / "moved"
+        shutil.move(first, self.prefix)
+        self.work = folder / "work"
+        self.work.mkdir()
+        readme = self.prefix / "share/doc/stickslip/README.md"
+        self.readme = readme.read_text()
+        for language, name in (("c", "demo.c"), ("fortran", "demo.f90")):
+            (self.work / name).write_text(self.readme.split(f"```{language}\n")[1].split("```")[0])
+        self.printed = re.search(r"it prints `([^`]*)`", self.readme)[1]
+        hide = ["unshare", "--map-root-user", "--mount"]
+        self.can_hide = subprocess.run([*hide, "true"], capture_output=True).returncode == 0
+        self.hide = hide if self.can_hide else []
+        if not self.can_hide:
+            print("note    the checkout cannot be hidden on this system; programs run with it in sight")
+
+    def shell(self, line, **environment):
+        """A user's command line in the work folder, with the checkout out of sight."""
+        hidden = f"mount -t tmpfs none '{ROOT}' && test ! -e '{ROOT}/Cargo.toml' && " if self.can_hide else ""
+        environment = {**os.environ, "PREFIX": str(self.prefix), **environment}
+        return run(*self.hide, "sh", "-c", hidden + line, cwd=self.work, env=environment)
+
+    def demo(self, line, what, **environment):
+        """A command line that builds ./demo, which must print what the README says."""
+        printed = self.shell(f"{line} && ./demo", **environment).strip()
+        expect(printed == self.printed, f"{what}: {printed}")
+
+
+def test_tree(tree):
+    """Files, links, no path of the checkout or the first place in any text; the uninstall list is complete."""
+    files = sorted(str(p.relative_to(tree.prefix)) for p in tree.prefix.rglob("*") if not p.is_dir())
+    listed = (tree.prefix / "share/stickslip/installed.txt").read_text().splitlines()
+    expect(files == sorted(listed), f"the uninstall list names the {len(files)} files that are there")
+    for name in ("include/stickslip.h", "include/stickslip.f90", "lib/libstickslip.a", "lib/pkgconfig/stickslip.pc",
+                 "lib/cmake/stickslip/stickslip-config.cmake", "share/doc/stickslip/docs/plug_in.md"):
+        expect(name in files, name)
+    link = tree.prefix / "lib/libstickslip.so"
+    chain = [link.readlink().name, (link.parent / link.readlink()).readlink().name]
+    expect(re.fullmatch(r"libstickslip\.so\.\d+\.\d+\.\d+", chain[1]), f"libstickslip.so -> {' -> '.join(chain)}")
+    for name in files:
+        data = (tree.prefix / name).read_bytes()
+        if name.startswith(("lib/cmake", "lib/pkgconfig", "include", "share")):
+            places = [place for place in (str(ROOT), "first place") if place.encode() in data]
+            expect(not places, f"{name}: no path of the machine that built it")
+    # As README says: make uninstall.
+    run("make", "-C", ROOT, "--no-print-directory", "uninstall", f"PREFIX={tree.prefix}")
+    left = [p for p in tree.prefix.rglob("*")] if tree.prefix.exists() else []
+    expect(not left, "uninstalled without a trace")
+    # DESTDIR, as packagers use it.
+    stage = tree.work / "stage"
+    run(tree.cmake, "--install", tree.build, "--prefix", "/usr", env={**os.environ, "DESTDIR": str(stage)})
+    staged = (stage / "usr/share/stickslip/installed.txt").read_text().splitlines()
+    expect(all((stage / "usr" / name).exists() for name in staged) and len(staged) == len(listed), "DESTDIR is honoured")
+
+
+def test_programs(tree):
+    """README's programs by README's command lines, and their variants."""
+    lines = [line.strip() for line in tree.readme.splitlines() if re.match(r"    (cc demo\.c|gfortran .*demo\.f90) ", line)]
+    expect(len(lines) == 2, "README has a command line for C and one for Fortran")
+    shared = "-L$PREFIX/lib -lstickslip -Wl,-rpath,$PREFIX/lib"
+    expect(shared in tree.readme, "README has the flags of the shared library")
+    for line in lines:
+        command = line.removesuffix(" && ./demo")
+        archive = re.search(r"\$PREFIX/lib/libstickslip\.a( -l\w+)*", command)[0]
+        tree.demo(command, command)
+        tree.demo(command.replace(archive, shared), f"{command.split()[0]}, shared")
+        needed = tree.shell("ldd ./demo")
+        foreign = [line for line in needed.splitlines() if not OTHER_LIBRARIES.search(line)]
+        expect(not foreign and f"{tree.prefix}/lib/libstickslip.so" in needed, "needs only itself and the compiler's libraries")
+    # The linker warns of functions of std that nothing here calls.
+    tree.demo(lines[0].removesuffix(" && ./demo").replace("cc ", "cc -static ", 1) + " 2>/dev/null", "C, everything static")
+
+
+def test_pkg_config(tree):
+    """pkg-config from the moved tree, shared and static, C, C++ and Fortran."""
+    path = {"PKG_CONFIG_PATH": str(tree.prefix / "lib/pkgconfig")}
+    rpath = "-Wl,-rpath,$PREFIX/lib"
+    for package in ("stickslip", "stickslip-static"):
+        flags = f"$(pkg-config --cflags --libs {package})"
+        tree.demo(f"cc demo.c {flags} {rpath} -o demo", f"cc, {package}", **path)
+        module = f"$(pkg-config --variable=fortran_module {package})"
+        tree.demo(f"gfortran {module} demo.f90 {flags} {rpath} -o demo", f"gfortran, {package}", **path)
+        shutil.copy(ROOT / "tests/install/consumer/main.cpp", tree.work)
+        printed = tree.shell(f"c++ -std=c++17 main.cpp {flags} {rpath} -o cpp && ./cpp", **path)
+        expect(printed.startswith("overlap 0.500"), f"c++, {package}: {printed.strip()}")
+    static = tree.shell("pkg-config --static --libs stickslip", **path).split()
+    rustc = run("cargo", "rustc", "--release", "--locked", "--lib", "--crate-type", "staticlib", "--quiet", "--target-dir",
+                tree.work / "target", "--", "--print", "native-static-libs", cwd=ROOT)
+    native = re.search(r"native-static-libs: (.*)", rustc)[1].split()
+    expect([f for f in native if f != "-lgcc_s"] == [f for f in static if f.startswith("-l") and f != "-lstickslip"],
+           f"static private libraries as rustc names them: {' '.join(native)}")
+
+
+def test_cmake(tree):
+    """find_package from the moved tree: C, C++ and Fortran, shared and static."""
+    project = tree.work / "consumer"
+    shutil.copytree(ROOT / "tests/install/consumer", project)
+    tree.shell(f"'{tree.cmake}' -S consumer -B build -DCMAKE_PREFIX_PATH=$PREFIX -DREADME_PROGRAMS={tree.work} && "
+               f"'{tree.cmake}' --build build")
+    for kind in ("stickslip", "static"):
+        for language in ("c", "fortran"):
+            tree.demo(f"ln -sf build/{language}_{kind} demo", f"{language}, stickslip::{kind}")
+        expect(tree.shell(f"build/cpp_{kind}").startswith("overlap 0.500"), f"cpp, stickslip::{kind}")
+    loaded = tree.shell("ldd build/c_stickslip")
+    expect(f"{tree.prefix}/lib/libstickslip.so" in loaded, "the shared library is the installed one")
+
+
+def test_suites(tree):
+    """The ABI's unit tests in C and Fortran on the installed shared library, and that they call every function."""
+    folders = {}
+    for suite in ("capi", "fortran"):
+        source, build = ROOT / "tests" / suite, tree.work / suite
+        run(tree.cmake, "-S", source, "-B", build, f"-DCMAKE_PREFIX_PATH={tree.prefix}",
+            "-DSTICKSLIP_LIBRARY=stickslip::stickslip", "-DCMAKE_EXE_LINKER_FLAGS=-Wl,-z,lazy")
+        run(tree.cmake, "--build", build, "--parallel", 2)
+        printed = run("ctest", "--test-dir", build, "--output-on-failure", "--no-tests=error", "--parallel", 2)
+        expect("100% tests passed" in printed, re.search(r"100% tests passed.*", printed)[0] + f" ({suite}, installed)")
+        folders[suite] = build
+    print(run(sys.executable, ROOT / "tests/abi/coverage.py", "--c", folders["capi"], "--fortran", folders["fortran"]))
+
+
+GROUPS = {"tree": test_tree, "programs": test_programs, "pkg_config": test_pkg_config, "cmake": test_cmake, "suites": test_suites}
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--build", required=True, type=Path, help="the build directory to install from")
+    parser.add_argument("--cmake", default="cmake")
+    parser.add_argument("group", choices=GROUPS)
+    arguments = parser.parse_args()
+    with tempfile.TemporaryDirectory(prefix="stickslip-") as folder:
+        GROUPS[arguments.group](Tree(Path(folder).resolve(), arguments.build.resolve(), arguments.cmake))
+
+
+if __name__ == "__main__":
+    main()
