@@ -24,6 +24,38 @@
 //! integrates a pair and knows no law; [`law`] is nodal and knows no geometry; they meet in
 //! [`element`]; [`interface`] searches, assembles and remembers; [`capi`] is the C ABI, the only
 //! place that touches raw pointers.
+//!
+//! # Example
+//!
+//! A facet of 1 x 1 that has sunk 0.001 into a larger one below it:
+//!
+//! ```
+//! use stickslip::geometry::Vec3;
+//! use stickslip::interface::{Interface, NO_EQUATION, Options, Stiffness, Surface};
+//!
+//! # fn main() -> Result<(), stickslip::error::Error> {
+//! // Right-hand order, normals out of each body.
+//! let x1: Vec<_> = [(0.0, 0.0), (0.0, 1.0), (1.0, 1.0), (1.0, 0.0)].map(|(x, y)| Vec3::new(x, y, -1e-3)).into();
+//! let x2: Vec<_> = [(-1.0, -1.0), (2.0, -1.0), (2.0, 2.0), (-1.0, 2.0)].map(|(x, y)| Vec3::new(x, y, 0.0)).into();
+//! let facets = [vec![0, 1, 2, 3]];
+//! // Equation numbers of the host: 0 to 11 for the positions of the upper facet, 12 to 23 for its multipliers.
+//! let equations = |first: i64| (0..4).map(|a| [0, 1, 2].map(|i| first + 3 * a + i)).collect::<Vec<_>>();
+//! let upper = Surface::new("nonmortar", x1.clone(), &facets, equations(0))?;
+//! let lower = Surface::new("mortar", x2.clone(), &facets, vec![[NO_EQUATION; 3]; 4])?;
+//! let mut options = Options::new(Stiffness::Modulus(1000.0)); // of the softer body
+//! options.mu = 0.3;
+//! let mut contact = Interface::new(upper, lower, equations(12), options)?;
+//!
+//! let lambda = contact.initial_multipliers()?; // once; then an unknown of the host's Newton
+//! let residual = contact.residual(&x1, &x2, &lambda, None)?;
+//! assert!((residual.rows[0].z + 0.05).abs() < 1e-14); // r_A M_A g_N, a force
+//! let mut entries = 0; // a host adds (row, column, value) to its matrix
+//! contact.tangent(&x1, &x2, &lambda, None, &mut |_row: i64, _column: i64, _value: f64| entries += 1)?;
+//! assert_eq!(entries, 372);
+//! contact.commit(&x1, &x2, &lambda, None)?; // after each converged step
+//! # Ok(())
+//! # }
+//! ```
 
 #![warn(missing_docs)]
 
