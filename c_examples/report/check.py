@@ -8,9 +8,12 @@ import argparse
 import sys
 from pathlib import Path
 
-from acceptance import GROUPS
+import acceptance
+from hosts import hosts
 from scene import Driver, SceneError
 from verdict import Verdicts
+
+GROUPS = {**acceptance.GROUPS, "hosts": hosts}
 
 
 def main():

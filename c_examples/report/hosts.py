@@ -1,0 +1,80 @@
+"""The hosts without PETSc, in C and in Fortran, against the driver on the block scene.
+
+All three solve the same equations by full Newton steps from the same start and stop by the same test, so they must
+agree in every nodal displacement and in the number of iterations of every step. The contract with a host: `HOST
+[--current] FILE` prints a line `step N ... iterations K ...` per load step and writes to FILE a row X Y Z ux uy uz per
+node of the block.
+"""
+
+import os
+import re
+import subprocess
+from itertools import zip_longest
+
+import numpy as np
+
+from acceptance import COLD
+from scene import SceneError
+
+SCENE = "block_bottom_mu02"
+HOSTS = {"C": "block_host", "Fortran": "block_fortran"}
+# The driver's Newton method made the hosts': full steps, no predictor.
+SAME_METHOD = (*COLD, "-snes_linesearch_type", "basic")
+# What is left is Newton's tolerance, 1e-11, round-off of three linear solvers, and the ten digits of the .vtu, 1e-10.
+DISPLACEMENT_BOUND = 1e-9
+# Positions are computed by different formulas; nodes are a fifth of a unit apart.
+SAME_PLACE = 1e-9
+
+
+def hosts(verdicts, driver):
+    for weights, options in (("reference", ()), ("current", ("--current",))):
+        run = driver.run(SCENE, *SAME_METHOD, "-base_weights", weights, label=f"{weights}_weights")
+        verdicts.below(f"driver, {weights} weights: cut-backs", run.summary["cutbacks"], 0, "the hosts have none")
+        places, displacements = sort_by_place(*block_nodes(run))
+        iterations = [step["newton_iterations"] for step in run.steps]
+        for language, name in HOSTS.items():
+            label = f"{language} host, {weights} weights"
+            host_places, host_displacements, host_iterations = run_host(driver, name, weights, options)
+            if host_places.shape != places.shape or not np.abs(host_places - places).max() <= SAME_PLACE:
+                raise SceneError(f"{label}: its nodes are not those of the scene's block")
+            error = np.abs(host_displacements - displacements).max() / np.abs(displacements).max()
+            verdicts.below(f"{label}: nodal displacements", error, DISPLACEMENT_BOUND, "same equations as the driver")
+            different = sum(a != b for a, b in zip_longest(host_iterations, iterations))
+            verdicts.below(f"{label}: steps with other Newton iterations", different, 0, "same method as the driver")
+
+
+def block_nodes(run):
+    """Positions and displacements of the block's nodes: it lies above z = 0, the foundation below."""
+    points, cells, displacement = run.mesh()
+    above = points[cells["hexahedron"], 2].min(axis=1) > -SAME_PLACE
+    nodes = np.unique(cells["hexahedron"][above])
+    return points[nodes], displacement[nodes]
+
+
+def sort_by_place(places, displacements):
+    order = np.lexsort(np.round(places / SAME_PLACE).T)
+    return places[order], displacements[order]
+
+
+def run_host(driver, name, weights, options):
+    """Places and displacements of the nodes, sorted by place, and the Newton iterations of each step."""
+    program = driver.program.with_name(name)
+    if not program.is_file():
+        raise SceneError(f"{program} is not there: run `make build` first")
+    path = driver.output / f"{name}_{weights}.txt"
+    path.unlink(missing_ok=True)  # an old result must never be read as a new one
+    done = subprocess.run(
+        [str(program), *options, str(path)],
+        env={**os.environ, "OMP_NUM_THREADS": "1"},
+        stdin=subprocess.DEVNULL,
+        capture_output=True,
+        text=True,
+    )
+    path.with_suffix(".log").write_text(done.stdout + done.stderr)
+    if done.returncode != 0:
+        raise SceneError(f"{name}: exit code {done.returncode}: {done.stderr.strip()}")
+    table = np.loadtxt(path, ndmin=2)
+    if table.shape[1] != 6:
+        raise SceneError(f"{path}: {table.shape[1]} columns instead of 6")
+    iterations = [int(k) for k in re.findall(r"^step +\d+ .*\biterations +(\d+)", done.stdout, re.MULTILINE)]
+    return *sort_by_place(table[:, :3], table[:, 3:]), iterations
