@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """The installed tree, used as a user would: from C, C++ and Fortran, shared and static, without the checkout.
 
-    test_install.py --build BUILD --cmake cmake tree|programs|pkg_config|cmake|suites
+    test_install.py --build BUILD --cmake cmake tree|programs|documents|pkg_config|cmake|suites
 
 Each group installs from BUILD into a temporary folder and moves the tree (it must work anywhere). Programs are compiled and run
 with the checkout hidden, where the system lets a process hide a folder from itself (user namespaces); the groups say
@@ -115,6 +115,38 @@ def test_programs(tree):
     tree.demo(lines[0].removesuffix(" && ./demo").replace("cc ", "cc -static ", 1) + " 2>/dev/null", "C, everything static")
 
 
+def squeezed(text):
+    """The lines of a text without indentation and empty ones."""
+    return [line.strip() for line in text.splitlines() if line.strip()]
+
+
+def quoted(block, sources):
+    """Whether a block's lines stand together in one of the sources."""
+    lines = squeezed(block)
+    return any(lines == source[k:k + len(lines)] for source in sources for k in range(len(source) - len(lines) + 1))
+
+
+def test_documents(tree):
+    """Every code block of the guides is a program that prints what the next block says, or a quotation of an example."""
+    compilers = {"c": ("cc -std=c99 -Wall -Wextra -Wpedantic -Werror", "block.c"),
+                 "cpp": ("c++ -std=c++17 -Wall -Wextra -Wpedantic -Werror", "block.cpp"),
+                 "fortran": ("gfortran -Wall $PREFIX/include/stickslip.f90", "block.f90")}
+    examples = [p for suffix in ("c", "f90") for p in (ROOT / "c_examples").rglob(f"*.{suffix}")]
+    sources = [squeezed(p.read_text()) for p in examples]
+    for document in sorted((ROOT / "docs").glob("*.md")):
+        text = document.read_text()
+        for match in re.finditer(r"```(c|cpp|fortran)\n(.*?)```\n(?:\n```text\n(.*?)```)?", text, flags=re.S):
+            language, block, output = match.groups()
+            where = f"{document.name}, line {text[:match.start()].count(chr(10)) + 1}"
+            if re.search(r"^(int main|program )", block, flags=re.M):
+                compiler, name = compilers[language]
+                (tree.work / name).write_text(block)
+                printed = tree.shell(f"{compiler} {name} -I$PREFIX/include $PREFIX/lib/libstickslip.a -lm -o block && ./block")
+                expect(printed == output, f"{where}: the program prints what stands there")
+            else:
+                expect(quoted(block, sources), f"{where}: quoted from an example")
+
+
 def test_pkg_config(tree):
     """pkg-config from the moved tree, shared and static, C, C++ and Fortran."""
     path = {"PKG_CONFIG_PATH": str(tree.prefix / "lib/pkgconfig")}
@@ -163,7 +195,8 @@ def test_suites(tree):
     print(run(sys.executable, ROOT / "tests/abi/coverage.py", "--c", folders["capi"], "--fortran", folders["fortran"]))
 
 
-GROUPS = {"tree": test_tree, "programs": test_programs, "pkg_config": test_pkg_config, "cmake": test_cmake, "suites": test_suites}
+GROUPS = {"tree": test_tree, "programs": test_programs, "documents": test_documents,
+          "pkg_config": test_pkg_config, "cmake": test_cmake, "suites": test_suites}
 
 
 def main():
