@@ -67,14 +67,23 @@ rust-tests:
 	cargo clippy --locked --all-targets -- -D warnings
 	$(SAY) "Rust and C ABI tests"
 	cargo test --locked
-	$(SAY) "Documentation"
-	RUSTDOCFLAGS="-D warnings" cargo doc --locked --no-deps
+	@$(MAKE) --no-print-directory docs
 
 cmake-build:
 	$(SAY) "Library and examples"
 	@$(LOCKED) cmake -S . -B $(BUILD) -DSTICKSLIP_REQUIRE_EXAMPLES=ON -DSTICKSLIP_TESTS=$(TESTS) \
 		-DPython3_EXECUTABLE=$(PYTHON)
 	@$(LOCKED) cmake --build $(BUILD) --parallel $(JOBS)
+
+docs:
+	@.ci/setup docs
+	$(SAY) "Reference of the C interface and the guides"
+	@mkdir -p $(BUILD)/docs/c
+	@STICKSLIP_VERSION=$$(sed -n 's/^version = "\(.*\)"/\1/p' Cargo.toml) STICKSLIP_DOCS=$(BUILD)/docs/c doxygen docs/Doxyfile
+	$(SAY) "Reference of the Rust interface"
+	@RUSTDOCFLAGS="-D warnings" cargo doc --locked --no-deps
+	@rm -rf $(BUILD)/docs/rust && cp -r target/doc $(BUILD)/docs/rust
+	@echo "Written: $(BUILD)/docs/c/html/index.html, $(BUILD)/docs/rust/stickslip/index.html"
 
 abi:
 	@.ci/setup test
