@@ -161,7 +161,7 @@ def test_pkg_config(tree):
         expect(printed.startswith("overlap 0.500"), f"c++, {package}: {printed.strip()}")
     static = tree.shell("pkg-config --static --libs stickslip", **path).split()
     rustc = run("cargo", "rustc", "--release", "--locked", "--lib", "--crate-type", "staticlib", "--quiet", "--target-dir",
-                tree.work / "target", "--", "--print", "native-static-libs", cwd=ROOT)
+                tree.build / "native-static-libs", "--", "--print", "native-static-libs", cwd=ROOT)
     native = re.search(r"native-static-libs: (.*)", rustc)[1].split()
     expect([f for f in native if f != "-lgcc_s"] == [f for f in static if f.startswith("-l") and f != "-lstickslip"],
            f"static private libraries as rustc names them: {' '.join(native)}")
