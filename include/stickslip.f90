@@ -238,7 +238,7 @@ module stickslip
     ! The same in a character variable, cut or filled up with blanks: (text, len(text, c_int64_t)).
     integer(c_int32_t) function stickslip_last_error_padded(text, length) bind(C)
       import :: c_char, c_int32_t, c_int64_t
-      character(kind=c_char), intent(out) :: text(*)
+      character(kind=c_char), intent(inout) :: text(*)
       integer(c_int64_t), value :: length
     end function
 

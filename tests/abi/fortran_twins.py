@@ -1,0 +1,24 @@
+#!/usr/bin/env python3
+"""Every C test of the ABI has its twin in Fortran: tests/capi/tNN_name.c and tests/fortran/tNN_name.f90."""
+
+import sys
+from pathlib import Path
+
+TESTS = Path(__file__).resolve().parents[1]
+
+
+def names(folder, extension):
+    return {path.stem for path in (TESTS / folder).glob(f"t[0-9][0-9]_*.{extension}")}
+
+
+def main():
+    c, fortran = names("capi", "c"), names("fortran", "f90")
+    if not c:
+        sys.exit("no C tests found")
+    if c != fortran:
+        sys.exit(f"only in C: {sorted(c - fortran)}; only in Fortran: {sorted(fortran - c)}")
+    print(f"ok: {len(c)} C tests, each with a twin in Fortran")
+
+
+if __name__ == "__main__":
+    main()

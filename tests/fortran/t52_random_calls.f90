@@ -1,0 +1,289 @@
+! Random calls with numbers from everywhere in the range of doubles, null and crooked pointers, and corrupt histories:
+! whatever comes, the answer is success or a refusal that has written nothing; never a fault of the library. The twin
+! gives bad pointers where Fortran has pointers, that is, not for arrays and types.
+#include "check.inc"
+program t52_random_calls
+  use, intrinsic :: iso_c_binding
+  use, intrinsic :: ieee_arithmetic
+  use calls
+  use check
+  use pairs
+  use scenes
+  use stickslip
+  implicit none
+  real(c_double), parameter :: SPECIAL(30) = [0d0, -0d0, 1d0, -1d0, 5d-324, -5d-324, 1d-310, 2.2d-308, 1d-160, 1d-80, &
+      1d-16, 1d16, 1d75, 1d80, 1d150, 1d155, 1d300, 1.7d308, -1d155, -1.7d308, 1d-300, 1d-150, 1d-100, 1d100, -1d100, &
+      1d-12, 0.5d0, 2d0, 3d0, 1d8]
+  integer(c_int64_t) :: seed = 2024
+  integer :: successes = 0, refusals = 0, n, k
+  character(20) :: argument
+
+  ! More with a number on the command line.
+  n = 20000
+  call get_command_argument(1, argument)
+  if (argument /= '') read (argument, *) n
+  do k = 0, n - 1
+    call stateless(k == 0)
+    if (mod(k, 40) == 0) call sequence()
+  end do
+  CHECK(successes > n / 20 .and. refusals > n / 20)
+
+contains
+
+  ! A number from 0 to below - 1.
+  integer function random(below)
+    integer, intent(in) :: below
+    random = min(int((draw(seed) + 1) / 2 * below), below - 1)
+  end function
+
+  ! True once in so many times.
+  logical function once_in(times)
+    integer, intent(in) :: times
+    once_in = random(times) == 0
+  end function
+
+  real(c_double) function any_number(usual) result(x)
+    real(c_double), intent(in) :: usual
+    select case (random(40))
+    case (0)
+      x = ieee_value(x, ieee_quiet_nan)
+    case (1)
+      x = ieee_value(x, ieee_positive_inf)
+      if (once_in(2)) x = -x
+    case (2)
+      x = usual * (1 + 1d-15 * draw(seed))
+    case (3)
+      x = usual * SPECIAL(1 + random(size(SPECIAL)))
+    case (4)
+      x = draw(seed)
+    case default
+      x = SPECIAL(1 + random(size(SPECIAL)))
+    end select
+  end function
+
+  ! Spoils a few of the n entries; now and then all.
+  subroutine spoil(n, entries)
+    integer, intent(in) :: n
+    real(c_double), intent(inout) :: entries(n)
+    integer :: k, i
+    if (once_in(30)) entries = entries * any_number(1d0)
+    do k = 1, random(3)
+      i = 1 + random(n)
+      entries(i) = any_number(entries(i))
+    end do
+  end subroutine
+
+  integer(c_int64_t) function any_integer(usual) result(i)
+    integer(c_int64_t), intent(in) :: usual
+    integer(c_int64_t) :: others(14)
+    i = usual
+    if (.not. once_in(12)) return
+    others = [INT64_MIN, INT64_MAX, -1_c_int64_t, 0_c_int64_t, 1_c_int64_t, 2_c_int64_t, 3_c_int64_t, 4_c_int64_t, &
+              5_c_int64_t, 35_c_int64_t, 36_c_int64_t, 37_c_int64_t, 100_c_int64_t, 2_c_int64_t**41]
+    i = others(1 + random(14))
+  end function
+
+  ! The same, and its low bits where that does not fit.
+  integer(c_int32_t) function any_short(usual)
+    integer, intent(in) :: usual
+    integer(c_int64_t) :: i
+    i = any_integer(int(usual, c_int64_t))
+    any_short = transfer(i, any_short)
+  end function
+
+  type(c_ptr) function any_pointer(usual) result(p)
+    type(c_ptr), intent(in) :: usual
+    p = usual
+    select case (random(40))
+    case (0)
+      p = c_null_ptr
+    case (1)
+      if (c_associated(usual)) p = crooked(usual)
+    end select
+  end function
+
+  ! The array's address or another one, or null where there is nothing to give.
+  type(c_ptr) function given(present, usual)
+    logical, intent(in) :: present
+    type(c_ptr), intent(in) :: usual
+    given = c_null_ptr
+    if (present) given = any_pointer(usual)
+  end function
+
+  ! Success or a refusal with a message, never the library's fault.
+  logical function succeeded(status)
+    integer(c_int32_t), intent(in) :: status
+    CHECK(status >= STICKSLIP_OK .and. status <= STICKSLIP_HISTORY_MISMATCH)
+    CHECK(status == STICKSLIP_OK .eqv. last_message() == '')
+    succeeded = status == STICKSLIP_OK
+    if (succeeded) then
+      successes = successes + 1
+    else
+      refusals = refusals + 1
+    end if
+  end function
+
+  subroutine stateless(first)
+    logical, intent(in) :: first
+    type(element), target, save :: good, e
+    integer(c_int32_t) :: status
+    if (first) call element_init(good)
+    e = good
+    if (once_in(2)) then
+      call spoil(12, e%x1)
+      call spoil(12, e%x2)
+    end if
+    if (once_in(4)) e%x2 = e%x1
+    call spoil(16, e%w%ab)
+    call spoil(16 * 24, e%w%dac)
+    call spoil(12, e%traction)
+    call spoil(4, e%row_scale)
+    call spoil(3, e%sum)
+    call spoil(3, e%node%lambda)
+    if (once_in(4)) call spoil(3, e%node%normal)
+    call spoil_scalar(e%node%augmentation)
+    call spoil_scalar(e%node%mu)
+    call spoil_scalar(e%node%coverage)
+    call spoil_scalar(e%node%coverage_previous)
+    call spoil(3, e%node%gap_now)
+    call spoil(3, e%node%gap_previous)
+    call spoil(3, e%node%gap_committed)
+    call spoil(9, e%responses(1 + random(3))%drow_dnow)
+    call spoil(9, e%responses(1 + random(3))%drow_dprevious)
+    e%pair%n1 = any_short(3 + random(2))
+    e%pair%n2 = any_short(3 + random(2))
+    e%pair%quadrature = any_short(random(2))
+    e%pair%layout = any_short(random(2))
+    e%node%slip = any_short(random(3))
+    e%node%n_directions = any_short(random(2))
+    if (once_in(2)) e%node%directions(1, 1) = 1
+    if (once_in(4)) call spoil(6, e%node%directions)
+    e%pair%x1 = any_pointer(c_loc(e%x1))
+    e%pair%x2 = any_pointer(c_loc(e%x2))
+    call one_call(e, status)
+    if (.not. succeeded(status)) call element_untouched(e)
+  end subroutine
+
+  subroutine spoil_scalar(entry)
+    real(c_double), intent(inout) :: entry
+    if (once_in(6)) entry = any_number(entry)
+  end subroutine
+
+  subroutine one_call(e, status)
+    type(element), target, intent(inout) :: e
+    integer(c_int32_t), intent(out) :: status
+    logical :: now, moving, before
+    integer(c_int64_t) :: size_of, ld
+    select case (random(8))
+    case (0)
+      status = stickslip_pair_weights(e%pair, any_pointer(c_loc(e%w_out%ab)), any_pointer(c_loc(e%w_out%ac)), &
+          any_pointer(c_loc(e%w_out%dab)), any_pointer(c_loc(e%w_out%dac)))
+    case (1)
+      status = stickslip_pair_gap(e%pair, e%w%ab, e%w%ac, e%gap)
+    case (2)
+      status = stickslip_pair_residual(e%pair, e%w%ab, e%w%ac, e%traction, e%force)
+    case (3)
+      now = .not. once_in(4)
+      moving = .not. once_in(4)
+      before = .not. once_in(4)
+      ! The leading dimension is as large as the buffer allows, or wrong.
+      size_of = 6_c_int64_t * e%pair%n1 + 3_c_int64_t * e%pair%n2
+      ld = 36
+      if (once_in(8)) ld = random(int(merge(size_of, 36_c_int64_t, 0 < size_of .and. size_of < 36)))
+      status = stickslip_pair_tangent(e%pair, given(now, c_loc(e%w%ab)), given(now, c_loc(e%w%ac)), &
+          given(moving, c_loc(e%w%dab)), given(moving, c_loc(e%w%dac)), given(before, c_loc(e%w%ab)), &
+          given(before, c_loc(e%w%ac)), e%traction, e%responses, any_pointer(c_loc(e%row_scale)), e%k, ld)
+    case (4)
+      status = call_respond(e)
+      if (status /= STICKSLIP_OK) call response_untouched(e%responses(4))
+    case (5)
+      call spoil(3, e%responses(1)%row)
+      status = stickslip_node_block(e%responses(1), any_number(1d0), random(3), any_pointer(c_loc(e%row)), &
+          any_pointer(c_loc(e%block)))
+    case (6)
+      status = stickslip_facet_geometry(any_short(4), e%x1, any_pointer(c_loc(e%normals)), any_pointer(c_loc(e%areas)))
+    case default
+      status = stickslip_node_normal(e%sum, e%normal)
+    end select
+  end subroutine
+
+  ! Any sequence of calls on one handle.
+  subroutine sequence()
+    type(handle), target, save :: h
+    type(scene), target, save :: usual
+    integer(c_int32_t) :: status
+    integer :: calls
+    call scene_init(h%s)
+    h%s%options%form = random(2)
+    h%s%options%weights = random(3)
+    h%s%options%slip = random(3)
+    h%s%options%new_contact = random(2)
+    h%s%options%quadrature = random(2)
+    if (once_in(2)) then
+      call spoil_scalar(h%s%options%mu)
+      call spoil_scalar(h%s%options%augmentation)
+      call spoil_scalar(h%s%options%modulus)
+      call spoil_scalar(h%s%options%coverage_min)
+      call spoil_scalar(h%s%options%search_distance)
+    end if
+    if (once_in(4)) call spoil(SIZE1, h%s%reference1)
+    if (once_in(4)) call spoil(SIZE2, h%s%reference2)
+    if (.not. succeeded(stickslip_interface_create(h%s%nonmortar, h%s%mortar, h%s%options, h%s%contact))) then
+      CHECK(address_of(h%s%contact) == 0)
+      return
+    end if
+    call handle_prepare(h)
+    call scene_init(usual)
+    do calls = 1, 6
+      h%s%x1 = usual%x1
+      h%s%x2 = usual%x2
+      h%s%lambda = usual%lambda
+      if (once_in(2)) call scene_slide(h%s, draw(seed))
+      if (once_in(3)) call spoil(SIZE1, h%s%x1)
+      if (once_in(3)) call spoil(SIZE2, h%s%x2)
+      if (once_in(2)) call spoil(SIZE1, h%s%lambda)
+      call handle_fill(h)
+      call history_take(h%s%contact, h%before)
+      call one_handle_call(h, status)
+      if (.not. succeeded(status)) call handle_untouched(h)
+    end do
+    call scene_destroy(h%s)
+  end subroutine
+
+  subroutine one_handle_call(h, status)
+    type(handle), target, intent(inout) :: h
+    integer(c_int32_t), intent(out) :: status
+    type(history), save :: spoilt
+    real(c_double), target :: values(3, NA)
+    integer(c_int64_t) :: nodes(2), n
+    integer :: k, i
+    values = 1
+    call spoil(NA, values)
+    select case (random(14))
+    case (0)
+      status = stickslip_interface_set_friction(h%s%contact, values)
+    case (1)
+      status = stickslip_interface_set_augmentation(h%s%contact, given(.not. once_in(3), c_loc(values)))
+    case (2)
+      values = spread([0d0, 0d0, 1d0], 2, NA)
+      if (once_in(2)) call spoil(SIZE1, values)
+      status = stickslip_interface_set_normals(h%s%contact, given(.not. once_in(3), c_loc(values)))
+    case (3)
+      nodes = [any_integer(5_c_int64_t), any_integer(5_c_int64_t)]
+      status = stickslip_interface_set_constraints(h%s%contact, int(random(3), c_int64_t), nodes, values)
+    case (4)
+      status = stickslip_interface_rollback(h%s%contact)
+    case (5)
+      spoilt = h%before
+      do k = 1, random(4)
+        i = 1 + random(int(spoilt%n_integers))
+        spoilt%integers(i) = any_integer(spoilt%integers(i))
+      end do
+      call spoil(int(spoilt%n_reals), spoilt%reals)
+      n = mod(any_integer(spoilt%n_integers), size(spoilt%integers, kind=c_int64_t))
+      status = stickslip_interface_history_import(h%s%contact, n, spoilt%integers, spoilt%n_reals, spoilt%reals)
+    case default
+      status = evaluate(1 + random(EVALUATIONS), h)
+    end select
+  end subroutine
+end program
