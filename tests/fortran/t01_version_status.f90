@@ -9,7 +9,7 @@ program t01_version_status
   character(*), parameter :: UNKNOWN = 'unknown status'
   real(c_double) :: normal(3)
   character(40) :: fixed
-  character(:), allocatable :: message
+  character(:), allocatable, save :: message
   character(20) :: version
   integer(c_int32_t) :: status, other
 

@@ -16,7 +16,7 @@ program t10_pair_weights
   type(stickslip_pair) :: pair
   type(weights), target :: w, v
   real(c_double), target :: alone(16), x2(3, 4)
-  real(c_double), allocatable :: x(:, :), ac(:, :), other_ac(:, :)
+  real(c_double), allocatable, save :: x(:, :), ac(:, :), other_ac(:, :)
   integer, parameter :: place(4) = [3, 2, 1, 4]
   integer :: k, n
 

@@ -10,7 +10,7 @@ program t12_pair_residual_balance
   real(c_double), parameter :: ROUNDING = 1d-16, ROUNDING_OF_SUMS = 1d-15
   type(stickslip_pair) :: pair
   type(weights), target :: w
-  real(c_double), allocatable :: x(:, :), ab(:, :), ac(:, :), traction(:, :), force(:, :), gap(:, :)
+  real(c_double), allocatable, save :: x(:, :), ab(:, :), ac(:, :), traction(:, :), force(:, :), gap(:, :)
   real(c_double) :: moment(3)
   integer(c_int64_t) :: seed
   integer :: k, n1, n2, a, i
