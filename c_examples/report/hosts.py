@@ -20,8 +20,9 @@ SCENE = "block_bottom_mu02"
 HOSTS = {"C": "block_host", "Fortran": "block_fortran"}
 # The driver's Newton method made the hosts': full steps, no predictor.
 SAME_METHOD = (*COLD, "-snes_linesearch_type", "basic")
-# What is left is Newton's tolerance, 1e-11, round-off of three linear solvers, and the ten digits of the .vtu, 1e-10.
-DISPLACEMENT_BOUND = 1e-9
+# Required is 1e-9. What is left is round-off of three linear solvers, some 1e-14: Newton's last iteration goes far below its
+# tolerance, and the .vtu has all digits. So a hundred times round-off is checked; a hidden difference would be larger.
+DISPLACEMENT_BOUND = 1e-12
 # Positions are computed by different formulas; nodes are a fifth of a unit apart.
 SAME_PLACE = 1e-9
 

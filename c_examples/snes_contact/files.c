@@ -62,11 +62,12 @@ static void end_array(FILE *file)
   fprintf(file, "</DataArray>\n");
 }
 
+/* One per node, with all digits: 17 give the same number back. */
 static void vectors(FILE *file, const char *name, PetscInt n, const PetscScalar *values)
 {
   start_array(file, "Float64", name, 3);
   for (PetscInt k = 0; k < n; k++)
-    fprintf(file, "%.10g %.10g %.10g\n", PetscRealPart(values[3 * k]), PetscRealPart(values[3 * k + 1]),
+    fprintf(file, "%.17g %.17g %.17g\n", PetscRealPart(values[3 * k]), PetscRealPart(values[3 * k + 1]),
             PetscRealPart(values[3 * k + 2]));
   end_array(file);
 }
