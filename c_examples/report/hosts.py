@@ -20,8 +20,8 @@ SCENE = "block_bottom_mu02"
 HOSTS = {"C": "block_host", "Fortran": "block_fortran"}
 # The driver's Newton method made the hosts': full steps, no predictor.
 SAME_METHOD = (*COLD, "-snes_linesearch_type", "basic")
-# Required is 1e-9. What is left is round-off of three linear solvers, some 1e-14: Newton's last iteration goes far below its
-# tolerance, and the .vtu has all digits. So a hundred times round-off is checked; a hidden difference would be larger.
+# Required is 1e-9. What is left is the round-off of three linear solvers, some 1e-14, since Newton's last iteration goes
+# far below its tolerance and the .vtu has all digits. A hundred times that is checked, to see small differences, too.
 DISPLACEMENT_BOUND = 1e-12
 # Positions are computed by different formulas; nodes are a fifth of a unit apart.
 SAME_PLACE = 1e-9
