@@ -18,7 +18,7 @@ SAY    = @printf '\n== %s\n'
 .PHONY: help demo test build install uninstall docs abi header meshes clean cmake-build rust-tests
 
 help:
-	@echo "make demo    solve the example scenes, compare with the references, draw the figures (FIGURES=1: renew the README's)"
+	@echo "make demo    solve the example scenes, compare with the references, draw (FIGURES=1: renew the README's figures)"
 	@echo "make test    run every test and check"
 	@echo "make build   build the library and the examples into $(BUILD)/"
 	@echo "make install PREFIX=DIR [DESTDIR=]   install header, Fortran module, libraries, pkg-config and CMake files"
@@ -79,7 +79,8 @@ docs:
 	@.ci/setup docs
 	$(SAY) "Reference of the C interface and the guides"
 	@mkdir -p $(BUILD)/docs/c
-	@STICKSLIP_VERSION=$$(sed -n 's/^version = "\(.*\)"/\1/p' Cargo.toml) STICKSLIP_DOCS=$(BUILD)/docs/c doxygen docs/Doxyfile
+	@STICKSLIP_VERSION=$$(sed -n 's/^version = "\(.*\)"/\1/p' Cargo.toml) STICKSLIP_DOCS=$(BUILD)/docs/c \
+		doxygen docs/Doxyfile
 	$(SAY) "Reference of the Rust interface"
 	@RUSTDOCFLAGS="-D warnings" cargo doc --locked --no-deps
 	@rm -rf $(BUILD)/docs/rust && cp -r target/doc $(BUILD)/docs/rust

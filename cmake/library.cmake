@@ -3,25 +3,26 @@
 find_program(CARGO_EXECUTABLE cargo HINTS "$ENV{HOME}/.cargo/bin" REQUIRED)
 set(cargo_dir "${STICKSLIP_CARGO_TARGET_DIR}/release")
 
-# The shared library goes by its soname, libstickslip.so.0.MINOR before 1.0, libstickslip.so.MAJOR after (docs/abi.md); build.rs
-# puts the same into the file.
+# The shared library goes by its soname, libstickslip.so.0.MINOR before 1.0, libstickslip.so.MAJOR after (docs/abi.md);
+# build.rs puts the same into the file.
 if(PROJECT_VERSION_MAJOR EQUAL 0)
   set(STICKSLIP_SOVERSION "0.${PROJECT_VERSION_MINOR}")
 else()
   set(STICKSLIP_SOVERSION "${PROJECT_VERSION_MAJOR}")
 endif()
 
-# What `cargo rustc --crate-type staticlib -- --print native-static-libs` lists, without gcc_s: every compiler driver adds that
-# by itself, in the shared or static kind that fits the link.
+# What `cargo rustc --crate-type staticlib -- --print native-static-libs` lists, without gcc_s: every compiler driver adds
+# that by itself, in the shared or static kind that fits the link.
 set(STICKSLIP_STATIC_LIBRARIES util rt pthread m dl c)
 
-# Staged as they are installed: the versioned file, its two links, the archive without the symbols that only debuggers read.
+# Staged as they are installed: the versioned file, its two links, the archive without what only debuggers read.
 set(STICKSLIP_STAGE "${PROJECT_BINARY_DIR}/lib")
 set(STICKSLIP_SHARED "${STICKSLIP_STAGE}/libstickslip.so.${PROJECT_VERSION}")
 set(STICKSLIP_STATIC "${STICKSLIP_STAGE}/libstickslip.a")
 set(STICKSLIP_LINKS "${STICKSLIP_STAGE}/libstickslip.so.${STICKSLIP_SOVERSION}" "${STICKSLIP_STAGE}/libstickslip.so")
 
-# cargo alone knows whether something changed, so it is asked each time; what depends on it relinks only if the files are newer.
+# cargo alone knows whether something changed, so it is asked each time; what depends on it relinks only if the files
+# are newer.
 add_custom_target(stickslip_cargo ALL
   COMMAND "${CARGO_EXECUTABLE}" build --release --locked --lib --target-dir "${STICKSLIP_CARGO_TARGET_DIR}"
   COMMAND "${CMAKE_COMMAND}" "-Dfrom=${cargo_dir}" "-Dshared=${STICKSLIP_SHARED}" "-Dstatic=${STICKSLIP_STATIC}"

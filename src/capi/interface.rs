@@ -84,13 +84,15 @@ pub unsafe extern "C" fn stickslip_interface_destroy(interface: *mut *mut sticks
             return Ok(());
         }
         raw::check(interface, "interface")?;
-        // SAFETY: non-null, aligned; the handle in it is NULL or came from create and is destroyed once.
-        unsafe {
-            let handle = interface.replace(std::ptr::null_mut());
-            if !handle.is_null() {
-                drop(Box::from_raw(handle));
-            }
+        // SAFETY: non-null and aligned.
+        let handle = unsafe { interface.read() };
+        if handle.is_null() {
+            return Ok(());
         }
+        raw::check(handle, "interface")?;
+        raw::write(interface, &[std::ptr::null_mut()]);
+        // SAFETY: non-null and aligned; it came from create and is destroyed once.
+        drop(unsafe { Box::from_raw(handle) });
         Ok(())
     })
 }

@@ -3,8 +3,8 @@
 
     coverage.py --c DIR --fortran DIR
 
-Each DIR holds test programs linked to the shared library with lazy binding: the loader then reports a function when it is
-called for the first time. Prints one line a function; fails if one is never called from C or never from Fortran.
+Each DIR holds test programs linked to the shared library with lazy binding: the loader then reports a function when
+it is called for the first time. Prints one line a function; fails if one is never called from C or from Fortran.
 """
 
 import argparse
@@ -32,7 +32,8 @@ def called(program):
 
 def callers(folder):
     """Function -> how many programs of a folder call it."""
-    programs = sorted(p for p in folder.iterdir() if re.search(r"_t\d\d_", p.name) and os.access(p, os.X_OK) and p.is_file())
+    tests = [p for p in folder.iterdir() if re.search(r"_t\d\d_", p.name)]
+    programs = sorted(p for p in tests if p.is_file() and os.access(p, os.X_OK))
     if not programs:
         sys.exit(f"{folder} holds no test program")
     counts = {}

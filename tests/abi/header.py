@@ -22,7 +22,8 @@ def text(path=HEADER):
 
 def constants(path=HEADER):
     """Name -> value of every numeric macro."""
-    return {name: int(value) for name, value in re.findall(r"^#define (STICKSLIP_\w+) (-?\d+)$", text(path), flags=re.M)}
+    macros = re.findall(r"^#define (STICKSLIP_\w+) (-?\d+)$", text(path), flags=re.M)
+    return {name: int(value) for name, value in macros}
 
 
 def functions(path=HEADER):

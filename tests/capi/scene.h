@@ -154,6 +154,11 @@ static inline void triplets_add(const triplets *t, int64_t base, double *k) {
   }
 }
 
+/* The larger one; NaN if either is (fmax would drop it). */
+static inline double larger(double a, double b) {
+  return a > b || isnan(a) ? a : b;
+}
+
 /* Worst difference over the blocks (f1, f2, rows) x (x1, x2, lambda), relative to the block's largest entry, or to
  * `floor` where a block is smaller than that. */
 static inline double block_difference(const double *k, const double *expected, double floor) {
@@ -165,11 +170,11 @@ static inline double block_difference(const double *k, const double *expected, d
       for (int i = ends[p]; i < ends[p + 1]; ++i) {
         for (int j = ends[q]; j < ends[q + 1]; ++j) {
           const int at = i * UNKNOWNS + j;
-          error = fmax(error, fabs(k[at] - expected[at]));
-          scale = fmax(scale, fabs(expected[at]));
+          error = larger(error, fabs(k[at] - expected[at]));
+          scale = larger(scale, fabs(expected[at]));
         }
       }
-      worst = fmax(worst, error / scale);
+      worst = larger(worst, error / scale);
     }
   }
   return worst;

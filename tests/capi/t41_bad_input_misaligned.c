@@ -42,6 +42,9 @@ int main(void) {
   double *x1 = s->x1, *x2 = s->x2, *l = s->lambda;
   CROOKED_IS_REFUSED(stickslip_interface_rollback(crooked(i)), "interface");
   CROOKED_IS_REFUSED(stickslip_interface_destroy(crooked(&s->interface)), "interface");
+  stickslip_interface *crooked_handle = crooked(i);
+  CROOKED_IS_REFUSED(stickslip_interface_destroy(&crooked_handle), "interface");
+  CHECK(crooked_handle == crooked(i));
   CROOKED_IS_REFUSED(stickslip_interface_residual(i, crooked(x1), x2, l, NULL, h.force1, h.force2, h.rows), "x1");
   CROOKED_IS_REFUSED(stickslip_interface_residual(i, x1, x2, l, crooked(x1), h.force1, h.force2, h.rows), "sums");
   CROOKED_IS_REFUSED(stickslip_interface_residual(i, x1, x2, l, NULL, h.force1, h.force2, crooked(h.rows)), "rows");

@@ -1,7 +1,7 @@
 /* Facets without an area, folded or not convex, with a node twice, too warped or too steep to be projected. */
 #include "calls.h"
 
-/* A needle thinner than 1e-12, a line, a point; a bow tie and an arrow head. */
+/* A needle thinner than 1e-12, a line; a bow tie, an arrow head, an edge that runs back over the first one. */
 static const double shapes[][12] = {
     {0, 0, 0, 1, 0, 0, 1, 1e-13, 0, 0, 1e-13, 0}, {0, 0, 0, 1, 0, 0, 2, 0, 0, 3, 0, 0},
     {0, 0, 0, 1, 1, 0, 1, 0, 0, 0, 1, 0},         {0, 0, 0, 1, 0, 0, 0.1, 0.1, 0, 0, 1, 0},

@@ -3,9 +3,9 @@
 
     test_install.py --build BUILD --cmake cmake tree|programs|documents|pkg_config|cmake|suites
 
-Each group installs from BUILD into a temporary folder and moves the tree (it must work anywhere). Programs are compiled and run
-with the checkout hidden, where the system lets a process hide a folder from itself (user namespaces); the groups say
-so when it does not.
+Each group installs from BUILD into a temporary folder and moves the tree (it must work anywhere). Programs are
+compiled and run with the checkout hidden, where the system lets a process hide a folder from itself (user namespaces);
+the groups say so when it does not.
 """
 
 import argparse
@@ -94,12 +94,14 @@ def test_tree(tree):
     stage = tree.work / "stage"
     run(tree.cmake, "--install", tree.build, "--prefix", "/usr", env={**os.environ, "DESTDIR": str(stage)})
     staged = (stage / "usr/share/stickslip/installed.txt").read_text().splitlines()
-    expect(all((stage / "usr" / name).exists() for name in staged) and len(staged) == len(listed), "DESTDIR is honoured")
+    there = all((stage / "usr" / name).exists() for name in staged)
+    expect(there and len(staged) == len(listed), "DESTDIR is honoured")
 
 
 def test_programs(tree):
     """README's programs by README's command lines, and their variants."""
-    lines = [line.strip() for line in tree.readme.splitlines() if re.match(r"    (cc demo\.c|gfortran .*demo\.f90) ", line)]
+    is_command = re.compile(r"    (cc demo\.c|gfortran .*demo\.f90) ")
+    lines = [line.strip() for line in tree.readme.splitlines() if is_command.match(line)]
     expect(len(lines) == 2, "README has a command line for C and one for Fortran")
     shared = "-L$PREFIX/lib -lstickslip -Wl,-rpath,$PREFIX/lib"
     expect(shared in tree.readme, "README has the flags of the shared library")
@@ -110,9 +112,11 @@ def test_programs(tree):
         tree.demo(command.replace(archive, shared), f"{command.split()[0]}, shared")
         needed = tree.shell("ldd ./demo")
         foreign = [line for line in needed.splitlines() if not OTHER_LIBRARIES.search(line)]
-        expect(not foreign and f"{tree.prefix}/lib/libstickslip.so" in needed, "needs only itself and the compiler's libraries")
+        own = f"{tree.prefix}/lib/libstickslip.so" in needed
+        expect(not foreign and own, "needs only itself and the compiler's libraries")
     # The linker warns of functions of std that nothing here calls.
-    tree.demo(lines[0].removesuffix(" && ./demo").replace("cc ", "cc -static ", 1) + " 2>/dev/null", "C, everything static")
+    command = lines[0].removesuffix(" && ./demo").replace("cc ", "cc -static ", 1)
+    tree.demo(f"{command} 2>/dev/null", "C, everything static")
 
 
 def squeezed(text):
@@ -127,7 +131,7 @@ def quoted(block, sources):
 
 
 def test_documents(tree):
-    """Every code block of the guides is a program that prints what the next block says, or a quotation of an example."""
+    """Every code block of the guides is a program that prints what the next block says, or quotes an example."""
     compilers = {"c": ("cc -std=c99 -Wall -Wextra -Wpedantic -Werror", "block.c"),
                  "cpp": ("c++ -std=c++17 -Wall -Wextra -Wpedantic -Werror", "block.cpp"),
                  "fortran": ("gfortran -Wall $PREFIX/include/stickslip.f90", "block.f90")}
@@ -141,7 +145,8 @@ def test_documents(tree):
             if re.search(r"^(int main|program )", block, flags=re.M):
                 compiler, name = compilers[language]
                 (tree.work / name).write_text(block)
-                printed = tree.shell(f"{compiler} {name} -I$PREFIX/include $PREFIX/lib/libstickslip.a -lm -o block && ./block")
+                library = "-I$PREFIX/include $PREFIX/lib/libstickslip.a -lm"
+                printed = tree.shell(f"{compiler} {name} {library} -o block && ./block")
                 expect(printed == output, f"{where}: the program prints what stands there")
             else:
                 expect(quoted(block, sources), f"{where}: quoted from an example")
@@ -160,8 +165,8 @@ def test_pkg_config(tree):
         printed = tree.shell(f"c++ -std=c++17 main.cpp {flags} {rpath} -o cpp && ./cpp", **path)
         expect(printed.startswith("overlap 0.500"), f"c++, {package}: {printed.strip()}")
     static = tree.shell("pkg-config --static --libs stickslip", **path).split()
-    rustc = run("cargo", "rustc", "--release", "--locked", "--lib", "--crate-type", "staticlib", "--quiet", "--target-dir",
-                tree.build / "native-static-libs", "--", "--print", "native-static-libs", cwd=ROOT)
+    rustc = run("cargo", "rustc", "--release", "--locked", "--lib", "--crate-type", "staticlib", "--quiet",
+                "--target-dir", tree.build / "native-static-libs", "--", "--print", "native-static-libs", cwd=ROOT)
     native = re.search(r"native-static-libs: (.*)", rustc)[1].split()
     expect([f for f in native if f != "-lgcc_s"] == [f for f in static if f.startswith("-l") and f != "-lstickslip"],
            f"static private libraries as rustc names them: {' '.join(native)}")
