@@ -1,6 +1,8 @@
 ! block_fortran: a finite element code of the old kind, with frictional mortar contact as user elements. Fixed arrays,
 ! element loops, a band solver. The same problem and the same answer as block_host.c (see block_model.f90).
 !
+! The contact, to copy: elmt_contact.f90 (a pair of facets), contact_nodes.f90 (the nodes). The rest is what codes have.
+!
 !   cargo build --release
 !   cd c_examples/fortran
 !   gfortran -O2 -J../../target ../../include/stickslip.f90 block_model.f90 elmt_solid.f90 contact_nodes.f90 \

@@ -11,14 +11,14 @@
 !   nodes    elmt_contact_node             an element of one node: the contact law, the multiplier's own row and block
 !   pass 2   elmt_contact, isw = tangent   forces p and tangent s of the pair
 !
-! The law needs the sums over all pairs. Where a code makes one pass over its elements only, all pairs of a surface
-! together have to be one user element.
+! The law needs the sums over all pairs. Where a code makes one pass over its elements only, like Abaqus, all pairs
+! together have to be one user element: uel.f90.
 !
 ! History: the weights of a pair, 32 numbers. h1 are those of t_n, h2 those of now. The code copies h2 to h1 when a step
-! has converged; a step that is repeated starts from h1 again. FEAP: nh1 and nh2. Abaqus: svars on entry and on return.
+! has converged; a step that is repeated starts from h1 again. FEAP: hr(nh1) and hr(nh2).
 !
-! Signs: p are internal forces (FEAP's p and Abaqus' rhs are their negatives); multipliers are minus the traction on the
-! non-mortar body. The tangent s is exact and not symmetric.
+! Signs: p are internal forces, FEAP's p is minus that; multipliers are minus the traction on the non-mortar body. The
+! tangent s is exact and not symmetric.
 module contact_elements
   use, intrinsic :: iso_c_binding, only: c_int32_t, c_int64_t, c_loc, c_null_ptr, c_ptr
   use block_model, only: dp, ndf, ndm, nen, nst
@@ -68,7 +68,7 @@ contains
     overlaps = any(abs(h) > 0)
   end function
 
-  ! The pair's gaps with the weights h, and the area they cover, added to its nodes.
+  ! The pair's gaps with the weights h, and the area they cover (row A of n_ab sums to node A's), added to its nodes.
   subroutine sum_gaps(pair, ix, h, gap, covered)
     type(stickslip_pair), intent(in) :: pair
     integer, intent(in) :: ix(nen)
