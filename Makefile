@@ -47,19 +47,22 @@ build:
 	@.ci/setup build
 	@$(MAKE) --no-print-directory cmake-build
 
+# The prefix as given, spaces and all, from the root.
+ABSOLUTE_PREFIX = realpath -sm "$(PREFIX)"
+
 # The library alone: no PETSc, no Fortran compiler needed.
 install:
 	@.ci/setup library
 	@$(LOCKED) cmake -S . -B $(BUILD)/library -DSTICKSLIP_EXAMPLES=OFF -DSTICKSLIP_TESTS=OFF
 	@$(LOCKED) cmake --build $(BUILD)/library
-	@cmake --install $(BUILD)/library --prefix $(abspath $(PREFIX))
+	@cmake --install $(BUILD)/library --prefix "$$($(ABSOLUTE_PREFIX))"
 
 # The list is relative to the prefix. Folders go too, once they are empty.
 uninstall:
-	@cd $(DESTDIR)$(abspath $(PREFIX)) && files=$$(cat share/stickslip/installed.txt) && \
+	@cd "$(DESTDIR)$$($(ABSOLUTE_PREFIX))" && files=$$(cat share/stickslip/installed.txt) && \
 		echo "$$files" | xargs -d '\n' rm -fv && \
-		echo "$$files" | xargs -d '\n' -n 1 dirname | sort -ru | xargs -d '\n' -n 1 rmdir -p --ignore-fail-on-non-empty \
-			2>/dev/null || true
+		(echo "$$files" | xargs -d '\n' -n 1 dirname | sort -ru | \
+			xargs -d '\n' -n 1 rmdir -p --ignore-fail-on-non-empty 2>/dev/null; true)
 
 rust-tests:
 	$(SAY) "Format and lints"

@@ -4,6 +4,11 @@ include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 file(STRINGS Cargo.toml description REGEX "^description *=" LIMIT_COUNT 1)
 string(REGEX REPLACE "^[^\"]*\"(.*)\"$" "\\1" description "${description}")
+foreach(dir CMAKE_INSTALL_LIBDIR CMAKE_INSTALL_INCLUDEDIR CMAKE_INSTALL_DATADIR CMAKE_INSTALL_DOCDIR)
+  if(IS_ABSOLUTE "${${dir}}")
+    message(FATAL_ERROR "${dir} is ${${dir}}; it must be relative to the prefix, so that the installed tree can be moved.")
+  endif()
+endforeach()
 set(package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/stickslip")
 
 # Paths from the folder of the pkg-config files and from that of the CMake package to the prefix.
@@ -23,6 +28,8 @@ else()
 endif()
 write_basic_package_version_file(stickslip-config-version.cmake COMPATIBILITY ${compatibility})
 
+# Where a project around this one has installed files before, the list begins after them.
+install(CODE "list(LENGTH CMAKE_INSTALL_MANIFEST_FILES stickslip_first)")
 install(FILES include/stickslip.h include/stickslip.f90 DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}")
 install(FILES "${STICKSLIP_SHARED}" DESTINATION "${CMAKE_INSTALL_LIBDIR}"
   PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)

@@ -26,7 +26,7 @@ set(STICKSLIP_LINKS "${STICKSLIP_STAGE}/libstickslip.so.${STICKSLIP_SOVERSION}" 
 add_custom_target(stickslip_cargo ALL
   COMMAND "${CARGO_EXECUTABLE}" build --release --locked --lib --target-dir "${STICKSLIP_CARGO_TARGET_DIR}"
   COMMAND "${CMAKE_COMMAND}" "-Dfrom=${cargo_dir}" "-Dshared=${STICKSLIP_SHARED}" "-Dstatic=${STICKSLIP_STATIC}"
-          "-Dsoversion=${STICKSLIP_SOVERSION}" "-Dstrip=${CMAKE_STRIP}" -P "${PROJECT_SOURCE_DIR}/cmake/stage.cmake"
+          "-Dsoversion=${STICKSLIP_SOVERSION}" "-Dobjcopy=${CMAKE_OBJCOPY}" -P "${PROJECT_SOURCE_DIR}/cmake/stage.cmake"
   WORKING_DIRECTORY "${PROJECT_SOURCE_DIR}"
   BYPRODUCTS "${STICKSLIP_SHARED}" "${STICKSLIP_STATIC}"
   COMMENT "Building the library with cargo"

@@ -28,6 +28,8 @@
  * Cost: as each function says, on success; times are for one core of a machine of 2020. A refusal allocates its
  * message, and so may the first call of all.
  *
+ * C99 or later, or C++.
+ *
  * Structs: the first member is struct_size, which the caller sets to sizeof. They grow at their end only, so that older
  * and newer callers are understood.
  *
@@ -744,7 +746,7 @@ int32_t stickslip_node_normal(const double *sum, double *normal);
 ///
 /// Errors: NULL_POINTER, STRUCT_SIZE, INVALID_SIZE, NOT_FINITE, DUPLICATE_NODE, DEGENERATE_FACET,
 /// PROJECTION_NOT_CONVEX, INVALID_VALUE.
-/// Cost: 1 (tri3) to 2 (quad4) microseconds, 1 to 7 with derivatives, twice that with QUADRATURE_DEGREE_10;
+/// Cost: 1 (tri3) to 2 (quad4) microseconds, 1 to 7 with derivatives, 2 to 2.5 times that with QUADRATURE_DEGREE_10;
 /// allocates nothing.
 int32_t stickslip_pair_weights(const struct stickslip_pair *pair,
                                double *n_ab,
@@ -784,13 +786,13 @@ int32_t stickslip_pair_residual(const struct stickslip_pair *pair,
 /// `stickslip_node_block` the sum over all pairs is the whole tangent. (The augmented form couples all
 /// pairs of a node; the interface handle assembles it.) Paper (29)-(31).
 ///
-/// Rows and columns: x1 (3 n1), x2 (3 n2), lambda (3 n1). n_ab, n_ac: weights of now [L^2], both NULL for a
-/// pair that overlapped only at t_n. dn_ab, dn_ac: their derivatives [L], both NULL where the weights are
-/// frozen. n_ab_previous, n_ac_previous: weights of t_n [L^2], both NULL for a pair that did not overlap then.
-/// traction (3 n1): lambda [F/L^2]. responses: n1 results of `stickslip_node_respond`, from the gaps assembled
-/// over all pairs. row_scale (n1) multiplies the multiplier rows, NULL: 1; r M_A [F/L^3] makes them forces.
-/// k: output, (6 n1 + 3 n2) squared in the pair's layout, leading dimension ld >= 6 n1 + 3 n2; overwritten, the
-/// block (lambda, lambda) with zeros. Units of an entry: its row's over its column's.
+/// pair: quadrature is not read. Rows and columns: x1 (3 n1), x2 (3 n2), lambda (3 n1). n_ab, n_ac: weights of now
+/// [L^2], both NULL for a pair that overlapped only at t_n. dn_ab, dn_ac: their derivatives [L], both NULL where
+/// the weights are frozen. n_ab_previous, n_ac_previous: weights of t_n [L^2], both NULL for a pair that did not
+/// overlap then. traction (3 n1): lambda [F/L^2]. responses: n1 results of `stickslip_node_respond`, from the gaps
+/// assembled over all pairs. row_scale (n1) multiplies the multiplier rows, NULL: 1; r M_A [F/L^3] makes them
+/// forces. k: output, (6 n1 + 3 n2) squared in the pair's layout, leading dimension ld >= 6 n1 + 3 n2; overwritten,
+/// the block (lambda, lambda) with zeros. Units of an entry: its row's over its column's.
 ///
 /// Errors: NULL_POINTER, STRUCT_SIZE, INVALID_SIZE, NOT_FINITE, DUPLICATE_NODE, DEGENERATE_FACET, INVALID_VALUE
 /// (layout).

@@ -14,7 +14,7 @@
 //! # Compatibility
 //! Every struct begins with its `struct_size`, set by the caller. Structs grow at the end only: a shorter one (an
 //! older caller's) is taken as if its missing members were 0; a longer one (a newer caller's) is accepted when its
-//! unknown tail is zero. Numbers of statuses and options are appended to, never reused. See `docs/abi.md`.
+//! unknown tail is zero, and filled with zeros where it is an output. Numbers of statuses and options are appended to, never reused. See `docs/abi.md`.
 #![allow(unsafe_code)]
 #![allow(non_camel_case_types)]
 #![allow(rustdoc::broken_intra_doc_links)] // The header's units stand in brackets, [L^2].

@@ -67,34 +67,34 @@ pub(super) fn check_output<T: Sized64>(p: *mut T) -> Result<()> {
     declared_size(p.cast_const()).map(|_| ())
 }
 
-/// Writes a struct into a caller's one that [`check_output`] has passed, as far as that reaches. The caller's size
-/// stays, and so does what a newer caller's struct has beyond this library's.
+/// Writes a struct into a caller's one that [`check_output`] has passed, as far as that reaches; zeros where a newer
+/// caller's one reaches farther, so that it may be passed on. The caller's size stays.
 pub(super) fn write<T: Sized64>(p: *mut T, value: T) {
     // SAFETY: checked by check_output: `size` writable bytes by the caller's declaration, the first 8 its size.
     unsafe {
         let size = p.cast::<u64>().read();
-        copy_prefix(p, &value, size as usize);
+        fill(p, &value, size as usize);
         p.cast::<u64>().write(size);
     }
 }
 
-/// Writes a struct of `size` bytes, known or not, from nothing: zeros beyond what this library knows.
+/// Writes a struct of `size` bytes, known or not, from nothing.
 pub(super) fn initialise<T: Sized64>(p: *mut T, size: u64, value: T, name: &str) -> Result<()> {
     check(p, name)?;
     let size = check_size::<T>(size)?;
     // SAFETY: the caller declares `size` writable bytes.
-    unsafe {
-        std::ptr::write_bytes(p.cast::<u8>(), 0, size);
-        copy_prefix(p, &value, size);
-    }
+    unsafe { fill(p, &value, size) }
     Ok(())
 }
 
+/// Writes `value` as far as `size` bytes reach, and zeros where they reach farther.
+///
 /// # Safety
 /// `p` has `size` writable bytes.
-unsafe fn copy_prefix<T: Sized64>(p: *mut T, value: &T, size: usize) {
+unsafe fn fill<T: Sized64>(p: *mut T, value: &T, size: usize) {
     // SAFETY: no more than either side holds.
     unsafe {
+        std::ptr::write_bytes(p.cast::<u8>(), 0, size);
         std::ptr::copy_nonoverlapping(std::ptr::from_ref(value).cast::<u8>(), p.cast::<u8>(), size.min(size_of::<T>()));
     }
 }
@@ -157,7 +157,8 @@ mod tests {
         assert_eq!(read(p).unwrap_err().kind, Kind::StructSize);
         check_output(p).unwrap();
         write(p, VALUE);
-        assert_eq!(new, New { struct_size: 32, a: 1.0, b: 2.0, c: 9.0 });
+        assert_eq!(new, New { struct_size: 32, a: 1.0, b: 2.0, c: 0.0 });
+        new.c = 9.0;
         initialise(std::ptr::from_mut(&mut new).cast::<Known>(), 32, Known { struct_size: 32, ..VALUE }, "known")
             .unwrap();
         assert_eq!(new, New { struct_size: 32, a: 1.0, b: 2.0, c: 0.0 });

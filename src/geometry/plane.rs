@@ -47,7 +47,7 @@ impl Plane {
                 Kind::DegenerateFacet,
                 format!(
                     "the facet's area is {:.1e} of its squared longest edge; it needs more than {SMALLEST_AREA_RATIO:.0e}",
-                    norm / (h * h)
+                    if h > 0.0 { norm / (h * h) } else { 0.0 }
                 ),
             ));
         }

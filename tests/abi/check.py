@@ -4,12 +4,14 @@
     check.py --library libstickslip.so            every check; the exit code says whether all hold
     check.py --library libstickslip.so --renew    writes the description anew (`make abi`), and shows what changed
 
-The description is tests/abi/stickslip.abi (libabigail's XML: every function, struct and member as C sees them) and
-tests/abi/constants.txt. It is made from the header, compiled with empty bodies, so that it depends on no version of
+The description is tests/abi/stickslip.abi (libabigail's XML: every function, struct and member as C sees them),
+tests/abi/functions.txt (the declarations as they stand: abidiff does not see that two parameters of one type have changed
+places) and tests/abi/constants.txt. It is made from the header, compiled with empty bodies, so that it depends on no version of
 the Rust compiler; that the library is what the header says is checked here (symbols), by tests/layout.rs and by tests/header.rs.
 """
 
 import argparse
+import os
 import re
 import subprocess
 import sys
@@ -20,6 +22,7 @@ import header
 
 HERE = Path(__file__).resolve().parent
 DUMP = HERE / "stickslip.abi"
+FUNCTIONS = HERE / "functions.txt"
 CONSTANTS = HERE / "constants.txt"
 
 # A library to link without a second thought: stripped it stays below this many bytes.
@@ -31,7 +34,9 @@ ABIDIFF_CHANGE, ABIDIFF_INCOMPATIBLE = 4, 8
 
 
 def run(*command, accept=(0,)):
-    done = subprocess.run([str(word) for word in command], capture_output=True, text=True)
+    # A user's own suppressions must not hide a change.
+    environment = {k: v for k, v in os.environ.items() if not k.startswith("LIBABIGAIL_")}
+    done = subprocess.run([str(word) for word in command], capture_output=True, text=True, env=environment)
     if done.returncode not in accept:
         sys.exit(f"{' '.join(map(str, command))}: exit code {done.returncode}\n{done.stdout}{done.stderr}")
     return done
@@ -91,8 +96,17 @@ def stub(folder, path):
     return library
 
 
+def constants(path=header.HEADER):
+    """Every constant but the version, which changes with every release."""
+    return {n: str(v) for n, v in header.constants(path).items() if not n.startswith("STICKSLIP_VERSION_")}
+
+
 def constants_text():
-    return "".join(f"{name} {value}\n" for name, value in header.constants().items())
+    return "".join(f"{name} {value}\n" for name, value in constants().items())
+
+
+def functions_text():
+    return "".join(f"{function}\n" for function in header.functions())
 
 
 # The lines of abidiff's report that speak of growth: functions added, members appended. Anything else breaks callers.
@@ -112,12 +126,15 @@ def compare(path=header.HEADER):
         done = run(*command, accept=(0, ABIDIFF_CHANGE, ABIDIFF_CHANGE | ABIDIFF_INCOMPATIBLE))
     report = done.stdout
     committed = dict(line.split() for line in CONSTANTS.read_text().splitlines())
-    now = {name: str(value) for name, value in header.constants(path).items()}
-    changed = [n for n, value in committed.items() if now.get(n) != value and not n.startswith("STICKSLIP_VERSION_")]
+    now = constants(path)
+    changed = [n for n, value in committed.items() if now.get(n) != value]
     added = [n for n in now if n not in committed]
+    declared = {str(function) for function in header.functions(path)}
+    gone = [line for line in FUNCTIONS.read_text().splitlines() if line not in declared]
     report += "".join(f"constant {n}: {committed[n]} -> {now.get(n, 'removed')}\n" for n in changed)
     report += "".join(f"constant added: {n} {now[n]}\n" for n in added)
-    if done.returncode & ABIDIFF_INCOMPATIBLE or changed or not all(map(GROWTH.match, done.stdout.splitlines())):
+    report += "".join(f"no longer declared so: {line}\n" for line in gone)
+    if done.returncode & ABIDIFF_INCOMPATIBLE or changed or gone or not all(map(GROWTH.match, done.stdout.splitlines())):
         return "broken", report
     if done.returncode or added:
         return "grown", report
@@ -130,10 +147,10 @@ def check_description():
     if verdict == "broken":
         return fail("description: callers would BREAK", f"{report}\nSee docs/abi.md. If it is meant: a new minor "
                     "version (0.x), `make abi`, a line in CHANGELOG.md under ABI.")
-    if verdict == "grown" or CONSTANTS.read_text() != constants_text():
+    if verdict == "grown" or CONSTANTS.read_text() != constants_text() or FUNCTIONS.read_text() != functions_text():
         return fail("description: the ABI has grown", f"{report}\n`make abi` renews the description; add a line to "
                     "CHANGELOG.md under ABI.")
-    counts = f"{len(header.functions())} functions and {len(header.constants())} constants"
+    counts = f"{len(header.functions())} functions and {len(constants())} constants"
     print(f"ok      description: {counts} as committed")
     return True
 
@@ -149,6 +166,7 @@ CHANGES = [
     ("a member is renamed", "  double modulus;\n", "  double young;\n", "broken"),
     ("a member changes its type", "  int32_t form;\n", "  uint32_t form;\n", "broken"),
     ("a function is removed", VERSION_FUNCTION, "", "broken"),
+    ("a parameter changes its name (or two their places)", "const double *n_ab,\n", "const double *n_xy,\n", "broken"),
     ("a parameter changes its type", "uint64_t struct_size);", "uint32_t struct_size);", "broken"),
     ("a constant changes its value", "#define STICKSLIP_STATE_SLIP 2", "#define STICKSLIP_STATE_SLIP 3", "broken"),
     ("a constant is removed", "#define STICKSLIP_STATE_SLIP 2", "", "broken"),
@@ -178,7 +196,8 @@ def renew():
         library = stub(Path(folder), header.HEADER)
         run("abidw", "--no-corpus-path", "--no-comp-dir-path", "--no-show-locs", "--out-file", DUMP, library)
     CONSTANTS.write_text(constants_text())
-    print(f"Written: {DUMP.name}, {CONSTANTS.name}. Add a line to CHANGELOG.md under ABI.")
+    FUNCTIONS.write_text(functions_text())
+    print(f"Written: {DUMP.name}, {FUNCTIONS.name}, {CONSTANTS.name}. Add a line to CHANGELOG.md under ABI.")
 
 
 def main():

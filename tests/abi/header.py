@@ -13,6 +13,9 @@ class Function:
     result: str
     parameters: str
 
+    def __str__(self):
+        return f"{self.result} {self.name}({self.parameters})"
+
 
 def text(path=HEADER):
     """The header without comments."""
@@ -21,9 +24,9 @@ def text(path=HEADER):
 
 
 def constants(path=HEADER):
-    """Name -> value of every numeric macro."""
-    macros = re.findall(r"^#define (STICKSLIP_\w+) (-?\d+)$", text(path), flags=re.M)
-    return {name: int(value) for name, value in macros}
+    """Name -> value of every macro; each is a plain number."""
+    macros = re.findall(r"^ *# *define +(STICKSLIP_\w+)(.*)$", text(path), flags=re.M)
+    return {name: int(value) for name, value in macros if name != "STICKSLIP_H"}
 
 
 def functions(path=HEADER):

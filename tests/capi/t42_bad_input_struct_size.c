@@ -1,4 +1,6 @@
-/* Sizes of structs: a shorter one is refused, a longer one only if it sets something that this library does not know. */
+/* Sizes of structs. An older caller's one is shorter, but not shorter than in the first version; a newer caller's one is
+ * longer, and refused only if it sets something that this library does not know. The sizes of the first version are
+ * written out: they never change, whatever the structs grow to. */
 #include "calls.h"
 
 static element e;
@@ -22,22 +24,25 @@ static int32_t nonmortar_call(const void *p) { return create(p, &h.s.mortar, &h.
 static int32_t mortar_call(const void *p) { return create(&h.s.nonmortar, p, &h.s.options); }
 static int32_t options_call(const void *p) { return create(&h.s.nonmortar, &h.s.mortar, p); }
 
+enum { FIRST_PAIR = 40, FIRST_NODE = 224, FIRST_RESPONSE = 408, FIRST_STATES = 80, FIRST_SURFACE = 72 };
+enum { FIRST_OPTIONS = 88, FIRST_COUNTERS = 88 };
+
 int main(void) {
   element_init(&e);
   handle_init(&h);
   const struct {
     const char *name;
     const void *value;
-    size_t size;
+    size_t size, first;
     int32_t (*call)(const void *);
   } inputs[] = {
-      {"stickslip_pair", &e.pair, sizeof e.pair, pair_call},
-      {"stickslip_node", &e.node, sizeof e.node, node_call},
-      {"stickslip_node_response", &e.responses[0], sizeof e.responses[0], response_call},
-      {"stickslip_states", &h.states, sizeof h.states, states_call},
-      {"stickslip_surface", &h.s.nonmortar, sizeof h.s.nonmortar, nonmortar_call},
-      {"stickslip_surface", &h.s.mortar, sizeof h.s.mortar, mortar_call},
-      {"stickslip_options", &h.s.options, sizeof h.s.options, options_call},
+      {"stickslip_pair", &e.pair, sizeof e.pair, FIRST_PAIR, pair_call},
+      {"stickslip_node", &e.node, sizeof e.node, FIRST_NODE, node_call},
+      {"stickslip_node_response", &e.responses[0], sizeof e.responses[0], FIRST_RESPONSE, response_call},
+      {"stickslip_states", &h.states, sizeof h.states, FIRST_STATES, states_call},
+      {"stickslip_surface", &h.s.nonmortar, sizeof h.s.nonmortar, FIRST_SURFACE, nonmortar_call},
+      {"stickslip_surface", &h.s.mortar, sizeof h.s.mortar, FIRST_SURFACE, mortar_call},
+      {"stickslip_options", &h.s.options, sizeof h.s.options, FIRST_OPTIONS, options_call},
   };
   for (int k = 0; k < COUNT(inputs); ++k) {
     /* A buffer of the largest size accepted, for the library reads what a struct declares. */
@@ -47,11 +52,18 @@ int main(void) {
     } longer;
     memset(&longer, 0, sizeof longer);
     memcpy(&longer, inputs[k].value, inputs[k].size);
-    const uint64_t wrong[] = {0, 1, 8, inputs[k].size - 1, 4097, UINT64_MAX, (uint64_t)INT64_MAX + 1};
+    const uint64_t wrong[] = {0, 1, 8, inputs[k].first - 1, 4097, UINT64_MAX, (uint64_t)INT64_MAX + 1};
     for (int w = 0; w < COUNT(wrong); ++w) {
       longer.size = wrong[w];
       CHECK_REFUSED(inputs[k].call(&longer), STICKSLIP_STRUCT_SIZE, inputs[k].name);
     }
+    /* The first version's caller: accepted, and nothing behind its struct is read. */
+    longer.size = inputs[k].first;
+    memset(longer.bytes + inputs[k].first, 0x5A, sizeof longer - inputs[k].first);
+    if (inputs[k].call != response_call && inputs[k].call != states_call) element_init(&e);
+    CHECK_OK(inputs[k].call(&longer));
+    memset(&longer, 0, sizeof longer);
+    memcpy(&longer, inputs[k].value, inputs[k].size);
     /* A newer caller's struct, the unknown tail all zero: accepted. */
     const uint64_t newer[] = {inputs[k].size + 1, inputs[k].size + 8, 4096};
     for (int n = 0; n < COUNT(newer); ++n) {
@@ -65,8 +77,20 @@ int main(void) {
     }
   }
 
-  /* Outputs. A longer one is filled as far as it is known; its size and its tail stay. */
-  counters.struct_size = sizeof counters - 1;
+  /* Outputs. A shorter one is filled as far as it reaches; a longer one as far as it is known, the rest with zeros, so
+   * that it may be passed on; its size stays. */
+  struct {
+    union {
+      uint64_t size;
+      unsigned char bytes[FIRST_COUNTERS];
+    } first;
+    uint64_t behind;
+  } older;
+  older.first.size = FIRST_COUNTERS;
+  older.behind = 77;
+  CHECK_OK(stickslip_interface_counters(h.s.interface, (stickslip_counters *)(void *)&older));
+  CHECK(older.first.size == FIRST_COUNTERS && older.behind == 77);
+  counters.struct_size = FIRST_COUNTERS - 1;
   CHECK_REFUSED(stickslip_interface_counters(h.s.interface, &counters), STICKSLIP_STRUCT_SIZE, "stickslip_counters");
   struct {
     stickslip_counters known;
@@ -75,7 +99,18 @@ int main(void) {
   newer.known.struct_size = sizeof newer;
   newer.tail = 77;
   CHECK_OK(stickslip_interface_counters(h.s.interface, &newer.known));
-  CHECK(newer.known.struct_size == sizeof newer && newer.tail == 77 && newer.known.searches > 0);
+  CHECK(newer.known.struct_size == sizeof newer && newer.tail == 0 && newer.known.searches > 0);
+
+  /* A newer caller's responses go from one call into the next as they are. */
+  struct {
+    stickslip_node_response known;
+    double unknown;
+  } passed;
+  FILL(passed);
+  passed.known.struct_size = sizeof passed;
+  CHECK_OK(stickslip_node_respond(&e.node, &passed.known));
+  CHECK(passed.unknown == 0.0);
+  CHECK_OK(stickslip_node_block(&passed.known, 1.0, 0, e.row, e.block));
 
   stickslip_node_response response;
   FILL(response);
@@ -85,7 +120,7 @@ int main(void) {
 
   stickslip_options options;
   FILL(options);
-  CHECK_REFUSED(stickslip_options_init(&options, sizeof options - 8), STICKSLIP_STRUCT_SIZE, "struct_size");
+  CHECK_REFUSED(stickslip_options_init(&options, FIRST_OPTIONS - 8), STICKSLIP_STRUCT_SIZE, "struct_size");
   CHECK_REFUSED(stickslip_options_init(&options, 0), STICKSLIP_STRUCT_SIZE, "struct_size");
   CHECK_UNTOUCHED(options);
 
