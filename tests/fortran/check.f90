@@ -62,10 +62,10 @@ contains
     integer(c_int32_t), intent(in) :: status, expected
     character(*), intent(in) :: word, file, text
     integer, intent(in) :: line
-    character(:), allocatable :: message
+    character(LONGEST_TEXT) :: message
     logical :: said
     message = last_message()
-    said = len(message) == 0 .eqv. expected == STICKSLIP_OK
+    said = message == '' .eqv. expected == STICKSLIP_OK
     if (expected /= STICKSLIP_OK) said = said .and. index(message, word) > 0
     if (status == expected .and. said) return
     call fail(file, line, text // new_line('a') // &
@@ -76,10 +76,10 @@ contains
   subroutine fail(file, line, text)
     character(*), intent(in) :: file, text
     integer, intent(in) :: line
-    character(:), allocatable :: message
+    character(LONGEST_TEXT) :: message
     message = last_message()
     write (error_unit, '(2a, i0, 2a)') file, ':', line, ': ', text
-    write (error_unit, '(3a)') '  last message: "', message, '"'
+    write (error_unit, '(3a)') '  last message: "', trim(message), '"'
     error stop 1
   end subroutine
 
@@ -106,12 +106,10 @@ contains
     end do
   end function
 
-  ! The calling thread's last message, as a Fortran host reads it.
-  function last_message() result(text)
-    character(:), allocatable :: text
-    character(LONGEST_TEXT) :: buffer
-    if (stickslip_last_error_padded(buffer, len(buffer, c_int64_t)) /= STICKSLIP_OK) error stop 2
-    text = trim(buffer)
+  ! The calling thread's last message, as a Fortran host reads it. Of a fixed length: gfortran keeps the length of a
+  ! deferred-length result in one static variable for all threads.
+  character(LONGEST_TEXT) function last_message()
+    if (stickslip_last_error_padded(last_message, len(last_message, c_int64_t)) /= STICKSLIP_OK) error stop 2
   end function
 
   ! An interface's handle as a number; its component is private to the module `stickslip`.
