@@ -22,7 +22,7 @@ help:
 	@echo "make test    run every test and check"
 	@echo "make build   build the library and the examples into $(BUILD)/"
 	@echo "make install PREFIX=DIR [DESTDIR=]   install header, Fortran module, libraries, pkg-config and CMake files"
-	@echo "make uninstall PREFIX=DIR   remove what was installed there"
+	@echo "make uninstall PREFIX=DIR [DESTDIR=]   remove what was installed there"
 	@echo "make docs    the reference of the C and Rust interfaces and the guides as HTML, in $(BUILD)/docs"
 	@echo "make abi     renew the committed description of the ABI (tests/abi)"
 	@echo "make header  make include/stickslip.h again from src/capi"
@@ -59,6 +59,8 @@ install:
 
 # The list is relative to the prefix. Folders go too, once they are empty.
 uninstall:
+	@prefix="$(DESTDIR)$$($(ABSOLUTE_PREFIX))"; test -f "$$prefix/share/stickslip/installed.txt" || \
+		{ echo "No stickslip is installed in $$prefix: say make uninstall PREFIX=DIR." >&2; exit 1; }
 	@cd "$(DESTDIR)$$($(ABSOLUTE_PREFIX))" && files=$$(cat share/stickslip/installed.txt) && \
 		echo "$$files" | xargs -d '\n' rm -fv && \
 		(echo "$$files" | xargs -d '\n' -n 1 dirname | sort -ru | \

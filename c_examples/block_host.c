@@ -4,6 +4,7 @@
  * steps press it down by 200 per area, ten more push its left side by 60; friction 0.2: scenes/block_bottom_mu02.yaml.
  * Hexahedra, Newton's method with full steps, UMFPACK as linear solver (Debian: libsuitesparse-dev).
  *
+ * From the top of the checkout:
  *   cargo build --release
  *   cc -O2 -Iinclude c_examples/block_host.c target/release/libstickslip.a -lumfpack -lpthread -ldl -lm -o block_host
  *   ./block_host [--current] [FILE]

@@ -8,6 +8,7 @@
  * A quadrilateral (non-mortar, its body above) was pressed on a larger one and has slid along x since t_n, some nodes
  * more than others. Then the tangent is checked column by column against central differences of the residual.
  *
+ * From the top of the checkout:
  *   cargo build --release
  *   cc -std=c99 -Iinclude c_examples/pair_demo.c target/release/libstickslip.a -lpthread -ldl -lm -o pair_demo */
 

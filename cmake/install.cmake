@@ -6,7 +6,7 @@ file(STRINGS Cargo.toml description REGEX "^description *=" LIMIT_COUNT 1)
 string(REGEX REPLACE "^[^\"]*\"(.*)\"$" "\\1" description "${description}")
 foreach(dir CMAKE_INSTALL_LIBDIR CMAKE_INSTALL_INCLUDEDIR CMAKE_INSTALL_DATADIR CMAKE_INSTALL_DOCDIR)
   if(IS_ABSOLUTE "${${dir}}")
-    message(FATAL_ERROR "${dir} is ${${dir}}; it must be relative to the prefix, so that the installed tree can be moved.")
+    message(FATAL_ERROR "${dir} is ${${dir}}; it must be relative to the prefix: the installed tree can be moved.")
   endif()
 endforeach()
 set(package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/stickslip")
@@ -40,6 +40,10 @@ install(FILES "${PROJECT_BINARY_DIR}/stickslip-config.cmake" "${PROJECT_BINARY_D
   DESTINATION "${package_dir}")
 install(FILES README.md CHANGELOG.md LICENSE-MIT LICENSE-APACHE DESTINATION "${CMAKE_INSTALL_DOCDIR}")
 install(FILES docs/plug_in.md docs/abi.md DESTINATION "${CMAKE_INSTALL_DOCDIR}/docs")
+install(FILES ARCHITECTURE.md DESTINATION "${CMAKE_INSTALL_DOCDIR}")
+install(FILES c_examples/block_host.c c_examples/pair_demo.c DESTINATION "${CMAKE_INSTALL_DOCDIR}/c_examples")
+install(DIRECTORY c_examples/fortran DESTINATION "${CMAKE_INSTALL_DOCDIR}/c_examples" FILES_MATCHING PATTERN "*.f90")
+install(FILES c_examples/report/figures/block.png DESTINATION "${CMAKE_INSTALL_DOCDIR}/c_examples/report/figures")
 
 # The list for uninstalling, relative to the prefix, so that it is right wherever the tree is:
 #   cd PREFIX && xargs -d '\n' rm -f < share/stickslip/installed.txt

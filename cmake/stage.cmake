@@ -9,7 +9,7 @@ if("${from}/libstickslip.so" IS_NEWER_THAN "${shared}")
 endif()
 if("${from}/libstickslip.a" IS_NEWER_THAN "${static}")
   file(COPY_FILE "${from}/libstickslip.a" "${static}.new")
-  # Debugging information of Rust's standard library, and the bitcode that only rustc's own link-time optimisation reads.
+  # Without debugging information, and without the bitcode that only rustc's own link-time optimisation reads.
   if(objcopy)
     execute_process(COMMAND "${objcopy}" --strip-debug -R .llvmbc -R .llvmcmd "${static}.new" COMMAND_ERROR_IS_FATAL ANY)
   endif()

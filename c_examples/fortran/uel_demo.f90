@@ -3,6 +3,7 @@
 ! A strip of two facets, its nodes joined by springs, lies on three facets whose nodes are on springs to the ground.
 ! Nothing but contact and friction holds the strip. It is pressed, lifted at one end, pushed, pulled and pushed again.
 !
+! From this folder, with the library installed in $PREFIX:
 !   gfortran $PREFIX/include/stickslip.f90 uel.f90 uel_demo.f90 $PREFIX/lib/libstickslip.a \
 !     -llapack -lblas -lpthread -ldl -lm -o uel_demo && ./uel_demo
 !

@@ -9,7 +9,7 @@ use super::raw::{check, refuse};
 use crate::error::{Kind, Result};
 use std::mem::MaybeUninit;
 
-/// Longest struct accepted from a newer caller.
+/// Longest struct accepted from a newer caller: ten times the longest of today; beyond it a size is garbage.
 const LONGEST: usize = 4096;
 
 /// A struct of the ABI: `repr(C)`, first member `struct_size: u64`, no padding, valid for every bit pattern.

@@ -56,7 +56,7 @@ def check_symbols(library):
         only = f"only exported: {sorted(exported - declared)}; only declared: {sorted(declared - exported)}"
         return fail("symbols", only)
     print(f"ok      symbols: {len(exported)} functions, all stickslip_*, and all of the header's")
-    return all(name.startswith("stickslip_") for name in exported)
+    return True
 
 
 def check_dependencies(library):
@@ -149,7 +149,7 @@ def check_description():
                     "version (0.x), `make abi`, a line in CHANGELOG.md under ABI.")
     if verdict == "grown" or CONSTANTS.read_text() != constants_text() or FUNCTIONS.read_text() != functions_text():
         return fail("description: the ABI has grown", f"{report}\n`make abi` renews the description; add a line to "
-                    "CHANGELOG.md under ABI.")
+                    "CHANGELOG.md under ABI. After a release: a new minor version (docs/abi.md).")
     counts = f"{len(header.functions())} functions and {len(constants())} constants"
     print(f"ok      description: {counts} as committed")
     return True

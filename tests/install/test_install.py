@@ -100,7 +100,7 @@ def test_tree(tree):
 
 def test_programs(tree):
     """README's programs by README's command lines, and their variants."""
-    is_command = re.compile(r"    (cc demo\.c|gfortran .*demo\.f90) ")
+    is_command = re.compile(r"    (cc demo\.c -I|gfortran .*demo\.f90 )")
     lines = [line.strip() for line in tree.readme.splitlines() if is_command.match(line)]
     expect(len(lines) == 2, "README has a command line for C and one for Fortran")
     shared = "-L$PREFIX/lib -lstickslip -Wl,-rpath,$PREFIX/lib"
@@ -139,6 +139,8 @@ def test_documents(tree):
     sources = [squeezed(p.read_text()) for p in examples]
     for document in sorted((ROOT / "docs").glob("*.md")):
         text = document.read_text()
+        if document.name == "plug_in.md":
+            expect(text.count("```c\n") >= 4 and "```fortran" in text and "```cpp" in text, "the guide has its code blocks")
         for match in re.finditer(r"```(c|cpp|fortran)\n(.*?)```\n(?:\n```text\n(.*?)```)?", text, flags=re.S):
             language, block, output = match.groups()
             where = f"{document.name}, line {text[:match.start()].count(chr(10)) + 1}"
@@ -156,6 +158,8 @@ def test_pkg_config(tree):
     """pkg-config from the moved tree, shared and static, C, C++ and Fortran."""
     path = {"PKG_CONFIG_PATH": str(tree.prefix / "lib/pkgconfig")}
     rpath = "-Wl,-rpath,$PREFIX/lib"
+    line = re.search(r"^    (cc demo\.c \$\(pkg-config.*) && \./demo$", tree.readme, flags=re.M)[1]
+    tree.demo(f"export PKG_CONFIG_PATH=$PREFIX/lib/pkgconfig; {line}", "README's line")
     for package in ("stickslip", "stickslip-static"):
         flags = f"$(pkg-config --cflags --libs {package})"
         tree.demo(f"cc demo.c {flags} {rpath} -o demo", f"cc, {package}", **path)
