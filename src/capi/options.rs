@@ -3,7 +3,9 @@
 use super::guard::guard;
 use super::sized::{self, Sized64};
 use crate::error::{Error, Kind, Result};
-use crate::interface::{COVERAGE_MIN, Form, NewContact, Options, RowScale, Stiffness, Weights};
+use crate::interface::{
+    COVERAGE_MIN, Form, Friction, MortarSide, NewContact, Options, RowScale, Shortcuts, Stiffness, Weights,
+};
 use crate::law::SlipMeasure;
 use crate::quadrature::{DEGREE_5, DEGREE_10, Rule};
 
@@ -216,6 +218,9 @@ pub(super) fn read_options(p: *const stickslip_options) -> Result<(Options, i64)
             &[NewContact::Frictionless, NewContact::KeepFriction],
             2,
         )?,
+        friction: Friction::Coulomb,
+        mortar_side: MortarSide::Deformable,
+        shortcuts: Shortcuts::default(),
         mu,
         stiffness,
         coverage_min,

@@ -7,7 +7,7 @@
 use super::history::{History, PairRecord};
 use super::nodes::assemble;
 use super::search::{Aabb, Prism, Tree};
-use super::{Counters, Interface, Options, Surface};
+use super::{Contact, Counters, Options, Surface};
 use crate::error::{Error, Kind, Result};
 use crate::geometry::{Facet, Plane, Vec3};
 use crate::mortar::{NonmortarFrame, PairWeights, Segment};
@@ -145,11 +145,11 @@ fn integrate(
     Ok(Integration { x1: x1.to_vec(), x2: x2.to_vec(), frames, pairs })
 }
 
-impl Interface {
+impl<const N: usize> Contact<N> {
     /// Makes `self.integration` that of (x1, x2). With frozen weights there is nothing to do.
     pub(super) fn ensure_integration(&mut self, x1: &[Vec3], x2: &[Vec3]) -> Result<()> {
         let done = self.integration.as_ref().is_some_and(|k| k.x1 == x1 && k.x2 == x2);
-        if done || self.options.weights != super::Weights::Current {
+        if done || self.options.effective_weights() != super::Weights::Current {
             return Ok(());
         }
         self.integration = Some(integrate(
@@ -220,7 +220,7 @@ impl Interface {
     /// The pairs of t_n and all that may be active while the surfaces move by less than the skin, sorted.
     pub(super) fn possible_pairs(&self, x1: &[Vec3], x2: &[Vec3]) -> Result<Vec<(usize, usize)>> {
         let mut pairs: Vec<_> = self.history.pairs.iter().map(|p| (p.one, p.two)).collect();
-        if self.options.weights == super::Weights::Current {
+        if self.options.effective_weights() == super::Weights::Current {
             let frames = frames(&self.nonmortar, x1)?;
             pairs.extend(candidates((&self.nonmortar, &self.mortar), &frames, (x1, x2), &self.filter, SKIN));
         }

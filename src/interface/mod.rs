@@ -5,6 +5,7 @@
 
 mod assembly;
 mod augmented;
+mod effects;
 mod history;
 mod integration;
 mod nodes;
@@ -15,12 +16,16 @@ mod surface;
 pub use assembly::{Residual, Sink};
 pub use history::{History, PairRecord};
 pub use nodes::NodeSums;
-pub use options::{COVERAGE_MIN, Form, MODULUS_FACTOR, NewContact, Options, RowScale, Stiffness, Weights};
+pub use options::{
+    COVERAGE_MIN, Form, Friction, MODULUS_FACTOR, MortarSide, NewContact, Options, RowScale, Shortcuts, Stiffness, Weights,
+};
 pub use surface::{FacetNodes, NO_EQUATION, Surface};
 
 use crate::error::{Error, Kind, Result};
 use crate::geometry::{Mat3, Vec3};
+use effects::Kernels;
 use integration::{Filter, Integration};
+use nalgebra::SVector;
 
 /// What an interface has done since its creation.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -43,13 +48,18 @@ pub struct Counters {
     pub seconds_assembly: f64,
 }
 
-/// A contact interface. One thread at a time; distinct interfaces are independent.
+/// An interface with three multipliers per non-mortar node.
+pub type Interface = Contact<3>;
+
+/// A contact interface with N multipliers per non-mortar node: three, or one along the normal without friction. One
+/// thread at a time; distinct interfaces are independent.
 #[derive(Debug)]
-pub struct Interface {
+pub struct Contact<const N: usize> {
     options: Options,
+    kernels: Kernels<N>,
     nonmortar: Surface,
     mortar: Surface,
-    multiplier_equations: Vec<[i64; 3]>,
+    multiplier_equations: Vec<[i64; N]>,
     owned: Vec<bool>,
     mu: Vec<f64>,
     augmentations: Option<Vec<f64>>,
@@ -62,7 +72,7 @@ pub struct Interface {
     counters: Counters,
 }
 
-impl Interface {
+impl Contact<3> {
     /// An interface whose t_n is the surfaces' reference configuration.
     ///
     /// `multiplier_equations`: per non-mortar node and component, 0-based or [`NO_EQUATION`].
@@ -72,6 +82,54 @@ impl Interface {
         multiplier_equations: Vec<[i64; 3]>,
         options: Options,
     ) -> Result<Interface> {
+        let mu = if options.friction == Friction::Rough { f64::INFINITY } else { options.mu };
+        let mu = vec![mu; nonmortar.len()];
+        let kernels = effects::choose_three(&options, &mortar, &mu);
+        Self::build((nonmortar, mortar), multiplier_equations, options, mu, kernels)
+    }
+
+    /// Friction coefficient per node.
+    pub fn set_friction(&mut self, mu: Vec<f64>) -> Result<()> {
+        if self.options.friction != Friction::Coulomb {
+            let text = "mu belongs to Coulomb friction; this interface has another law";
+            return Err(Error::new(Kind::InvalidValue, text));
+        }
+        self.check_length("mu", mu.len(), self.nonmortar.len())?;
+        if let Some(k) = mu.iter().position(|m| !(*m >= 0.0 && m.is_finite())) {
+            let text = format!("mu of node {k} is {}; it must be finite and not negative", mu[k]);
+            return Err(Error::new(Kind::InvalidValue, text));
+        }
+        self.mu = mu;
+        self.kernels = effects::choose_three(&self.options, &self.mortar, &self.mu);
+        Ok(())
+    }
+}
+
+impl Contact<1> {
+    /// A frictionless interface whose t_n is the surfaces' reference configuration.
+    ///
+    /// `multiplier_equations`: per non-mortar node, 0-based or [`NO_EQUATION`].
+    pub fn frictionless(
+        nonmortar: Surface,
+        mortar: Surface,
+        multiplier_equations: Vec<[i64; 1]>,
+        options: Options,
+    ) -> Result<Contact<1>> {
+        let options = Options { friction: Friction::None, ..options };
+        let kernels = effects::choose_one(&options, &mortar);
+        let mu = vec![0.0; nonmortar.len()];
+        Self::build((nonmortar, mortar), multiplier_equations, options, mu, kernels)
+    }
+}
+
+impl<const N: usize> Contact<N> {
+    fn build(
+        (nonmortar, mortar): (Surface, Surface),
+        multiplier_equations: Vec<[i64; N]>,
+        options: Options,
+        mu: Vec<f64>,
+        kernels: Kernels<N>,
+    ) -> Result<Contact<N>> {
         options.validate()?;
         if multiplier_equations.len() != nonmortar.len() {
             let text = format!(
@@ -81,18 +139,25 @@ impl Interface {
             );
             return Err(Error::new(Kind::InvalidSize, text));
         }
+        if options.mortar_side == MortarSide::Rigid
+            && let Some(k) = mortar.equations.iter().position(|e| e.iter().any(|&e| e != NO_EQUATION))
+        {
+            let text = format!("the mortar side is rigid, but its node {k} has an equation; give it none (-1)");
+            return Err(Error::new(Kind::InvalidValue, text));
+        }
         integration::check_mortar_facets(&mortar)?;
         let mut counters = Counters::default();
         let (x1, x2) = (nonmortar.reference.clone(), mortar.reference.clone());
         let (history, filter) = Self::history_at((&nonmortar, &mortar), &options, &mut counters, (&x1, &x2))?;
         let n1 = nonmortar.len();
-        let mut interface = Interface {
+        let mut interface = Contact {
             options,
+            kernels,
             nonmortar,
             mortar,
             multiplier_equations,
             owned: vec![true; n1],
-            mu: vec![options.mu; n1],
+            mu,
             augmentations: None,
             normals: None,
             free: vec![Mat3::identity(); n1],
@@ -118,7 +183,7 @@ impl Interface {
 
     /// Puts a history in place that is not of now; nothing is changed when its positions are refused.
     fn restore(&mut self, history: History) -> Result<()> {
-        let current = self.options.weights == Weights::Current;
+        let current = self.options.effective_weights() == Weights::Current;
         let filter = current
             .then(|| Filter::new(&self.nonmortar, &self.mortar, &self.options, &history.x1, &history.x2))
             .transpose()?;
@@ -137,21 +202,35 @@ impl Interface {
     }
 
     /// Accepts a converged step: (x1, x2) becomes t_n.
-    pub fn commit(&mut self, x1: &[Vec3], x2: &[Vec3], lambda: &[Vec3], sums: Option<&[NodeSums]>) -> Result<()> {
+    pub fn commit(
+        &mut self,
+        x1: &[Vec3],
+        x2: &[Vec3],
+        lambda: &[SVector<f64, N>],
+        sums: Option<&[NodeSums]>,
+    ) -> Result<()> {
         let own = if sums.is_none() { self.sums(x1, x2)? } else { Vec::new() };
         let sums = sums.unwrap_or(&own);
         let responses = self.responses(x1, x2, lambda, Some(sums))?;
         let surfaces = (&self.nonmortar, &self.mortar);
-        let (mut new, filter) = if self.options.weights == Weights::Reference {
-            let moved = nodes::assemble(surfaces, &self.history.pairs, x1, x2);
-            let gap = moved.into_iter().map(|(_, gap)| gap).collect();
-            (History { x1: x1.to_vec(), x2: x2.to_vec(), gap, ..self.history.clone() }, None)
+        let (mut new, filter) = if self.options.effective_weights() == Weights::Reference {
+            let mut new = History { x1: x1.to_vec(), x2: x2.to_vec(), ..self.history.clone() };
+            if self.kernels.slips {
+                let moved = nodes::assemble(surfaces, &self.history.pairs, x1, x2);
+                new.gap = moved.into_iter().map(|(_, gap)| gap).collect();
+            }
+            (new, None)
         } else {
             let (new, filter) = Self::history_at(surfaces, &self.options, &mut self.counters, (x1, x2))?;
             (new, Some(filter))
         };
         new.commits = self.history.commits.saturating_add(1); // an imported history may hold any number
-        new.slip = (0..responses.len()).map(|a| self.slip_after(a, &responses[a], sums[a].coverage_previous)).collect();
+        if self.kernels.slips {
+            let slip = |a: usize| self.slip_after(a, &responses[a], sums[a].coverage_previous);
+            new.slip = (0..responses.len()).map(slip).collect();
+        } else {
+            new.slip.clone_from(&self.history.slip);
+        }
         self.rollback = Some(self.adopt(new, filter));
         Ok(())
     }
@@ -159,7 +238,7 @@ impl Interface {
     /// Slip of node A since the first configuration `[L]`, this step's included.
     /// g_T is weighted with n(t_n), so it is a length times `coverage_previous`, the covered area of t_n.
     /// An open node moves without slipping.
-    pub fn slip_after(&self, a: usize, response: &crate::law::NodeResponse, coverage_previous: f64) -> Vec3 {
+    pub fn slip_after(&self, a: usize, response: &crate::law::NodeResponse<N>, coverage_previous: f64) -> Vec3 {
         let closed = response.state != crate::law::State::Gap;
         let step = if closed && coverage_previous > 0.0 { response.slip / coverage_previous } else { Vec3::zeros() };
         self.history.slip[a] + step
@@ -187,17 +266,6 @@ impl Interface {
         let history = History::import(integers, reals, &self.nonmortar, &self.mortar)?;
         self.restore(history)?;
         self.rollback = None;
-        Ok(())
-    }
-
-    /// Friction coefficient per node.
-    pub fn set_friction(&mut self, mu: Vec<f64>) -> Result<()> {
-        self.check_length("mu", mu.len(), self.nonmortar.len())?;
-        if let Some(k) = mu.iter().position(|m| !(*m >= 0.0 && m.is_finite())) {
-            let text = format!("mu of node {k} is {}; it must be finite and not negative", mu[k]);
-            return Err(Error::new(Kind::InvalidValue, text));
-        }
-        self.mu = mu;
         Ok(())
     }
 
@@ -324,9 +392,9 @@ impl Interface {
 /// Projector on the axes in which a node has a multiplier; on all of space where it has none at all, so that it
 /// keeps its normal. A removed component is a constrained direction, whether the host declares it or not:
 /// otherwise the rows that are left would depend on the augmentation.
-fn free_of_equations(equations: &[i64; 3]) -> Mat3 {
-    if equations.iter().all(|&e| e == NO_EQUATION) {
-        return Mat3::identity();
+fn free_of_equations<const N: usize>(equations: &[i64; N]) -> Mat3 {
+    if N < 3 || equations.iter().all(|&e| e == NO_EQUATION) {
+        return Mat3::identity(); // a multiplier along the normal belongs to no axis
     }
     Mat3::from_diagonal(&Vec3::from_fn(|i, _| if equations[i] == NO_EQUATION { 0.0 } else { 1.0 }))
 }

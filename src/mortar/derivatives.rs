@@ -27,14 +27,19 @@ impl Default for WeightDerivatives {
 impl WeightDerivatives {
     /// Exact derivatives over a segment (exact when the rule is: affine facets, degree 5).
     pub fn integrate(frame: &NonmortarFrame, segment: &Segment, rule: &Rule) -> WeightDerivatives {
-        let plane = PlaneDerivatives::integrate(frame, segment, rule);
+        Self::integrate_for::<true>(frame, segment, rule)
+    }
+
+    /// The same with respect to the non-mortar nodes alone, where the mortar side does not move (`MOVES` false).
+    pub fn integrate_for<const MOVES: bool>(frame: &NonmortarFrame, segment: &Segment, rule: &Rule) -> WeightDerivatives {
+        let plane = PlaneDerivatives::integrate::<MOVES>(frame, segment, rule);
         let mut d = WeightDerivatives::default();
         for a in 0..frame.projection.shape.n {
             for b in 0..frame.projection.shape.n {
-                d.ab[a][b] = chain(frame, segment, &plane.ab[a][b]);
+                d.ab[a][b] = chain::<MOVES>(frame, segment, &plane.ab[a][b]);
             }
             for c in 0..segment.mortar.shape.n {
-                d.ac[a][segment.mortar.node[c]] = chain(frame, segment, &plane.ac[a][c]);
+                d.ac[a][segment.mortar.node[c]] = chain::<MOVES>(frame, segment, &plane.ac[a][c]);
             }
         }
         d
@@ -42,23 +47,32 @@ impl WeightDerivatives {
 }
 
 /// sum_k g_k . Dy_k as coefficients of the Dx of the pair's nodes.
-fn chain(frame: &NonmortarFrame, segment: &Segment, g: &[Vec2; PAIR_NODES]) -> [Vec3; PAIR_NODES] {
+///
+/// A translation and a spin of both facets change no weight: with a mortar side at rest the shares of the plane's own
+/// translation and spin cancel between the facets, and only its tilt is left.
+fn chain<const MOVES: bool>(frame: &NonmortarFrame, segment: &Segment, g: &[Vec2; PAIR_NODES]) -> [Vec3; PAIR_NODES] {
     let (plane, one, two) = (&frame.plane, &frame.projection, &segment.mortar);
     let mut dx = [Vec3::zeros(); PAIR_NODES];
     let (mut shift, mut spin, mut tilt) = (Vec3::zeros(), 0.0, Vec2::zeros());
     let mut add = |slot: usize, g: Vec2, y: Vec2, d: f64| {
         dx[slot] = plane.t1 * g.x + plane.t2 * g.y;
-        shift += dx[slot];
-        spin += g.x * y.y - g.y * y.x;
         tilt += g * d;
+        if MOVES {
+            shift += dx[slot];
+            spin += g.x * y.y - g.y * y.x;
+        }
     };
     for k in 0..one.shape.n {
         add(k, g[k], one.y[k], one.d[k]);
     }
-    for k in 0..two.shape.n {
-        add(MORTAR + two.node[k], g[MORTAR + k], two.y[k], two.d[k]);
+    if MOVES {
+        for k in 0..two.shape.n {
+            add(MORTAR + two.node[k], g[MORTAR + k], two.y[k], two.d[k]);
+        }
+        shift /= one.shape.n as f64;
+    } else {
+        tilt += g[MORTAR];
     }
-    shift /= one.shape.n as f64;
     for c in 0..one.shape.n {
         dx[c] += plane.spin[c] * spin - plane.tilt[0][c] * tilt.x - plane.tilt[1][c] * tilt.y - shift;
     }

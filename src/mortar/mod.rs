@@ -10,7 +10,7 @@ mod transport;
 mod weights;
 
 pub use derivatives::WeightDerivatives;
-pub use gap::{GapDerivative, gap};
+pub use gap::{GapDerivative, frozen_rows, gap};
 pub use segment::{NonmortarFrame, Segment};
 pub use weights::PairWeights;
 
@@ -18,3 +18,8 @@ pub use weights::PairWeights;
 pub const PAIR_NODES: usize = 8;
 /// First mortar slot.
 pub const MORTAR: usize = 4;
+
+/// The slots that a tangent looks at: all, or the non-mortar ones where the mortar side does not move.
+pub const fn slots(moves: bool) -> usize {
+    if moves { PAIR_NODES } else { MORTAR }
+}

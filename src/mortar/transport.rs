@@ -15,28 +15,47 @@ use crate::shape::MAX_NODES;
 
 /// dn/dy of every weight: `ab[A][B][k]`, `ac[A][C][k]`, k over the pair's slots; mortar nodes (C and
 /// k) in the order of the projection.
+///
+/// Where the mortar side does not move (`MOVES` false), its vertices move in the plane only because the plane tilts, by
+/// their heights d_l times one and the same vector. One velocity sum_l N_l d_l, in the slot `MORTAR`, then serves in place
+/// of four.
 pub(super) struct PlaneDerivatives {
     pub ab: [[[Vec2; PAIR_NODES]; MAX_NODES]; MAX_NODES],
     pub ac: [[[Vec2; PAIR_NODES]; MAX_NODES]; MAX_NODES],
 }
 
+/// How many velocities the mortar facet has.
+const fn velocities(moves: bool) -> usize {
+    if moves { MAX_NODES } else { 1 }
+}
+
+/// Their values where its shape functions have the values `n2`.
+#[inline]
+fn mortar_velocity<const MOVES: bool>(segment: &Segment, n2: &[f64; MAX_NODES]) -> [f64; MAX_NODES] {
+    if MOVES {
+        return *n2;
+    }
+    let height = (0..MAX_NODES).map(|l| n2[l] * segment.mortar.d[l]).sum();
+    [height, 0.0, 0.0, 0.0]
+}
+
 impl PlaneDerivatives {
-    pub fn integrate(frame: &NonmortarFrame, segment: &Segment, rule: &Rule) -> PlaneDerivatives {
+    pub fn integrate<const MOVES: bool>(frame: &NonmortarFrame, segment: &Segment, rule: &Rule) -> PlaneDerivatives {
         let zero = [[[Vec2::zeros(); PAIR_NODES]; MAX_NODES]; MAX_NODES];
         let mut d = PlaneDerivatives { ab: zero, ac: zero };
-        d.add_volume(frame, segment, rule);
+        d.add_volume::<MOVES>(frame, segment, rule);
         for edge in segment.nonmortar_edges.iter().flatten() {
             d.add_nonmortar_edge(frame, segment, rule, edge);
         }
         for edge in segment.mortar_edges.iter().flatten() {
-            d.add_mortar_edge(frame, segment, rule, edge);
+            d.add_mortar_edge::<MOVES>(frame, segment, rule, edge);
         }
         d
     }
 
-    fn add_volume(&mut self, frame: &NonmortarFrame, segment: &Segment, rule: &Rule) {
+    fn add_volume<const MOVES: bool>(&mut self, frame: &NonmortarFrame, segment: &Segment, rule: &Rule) {
         // det J grad N is linear in (xi, eta), so three moments of each product carry everything:
-        // q1[m][k][C] = int mu1_m N1_k N2_C / det1, r likewise with N1_B, q2[m][l][A] = int mu2_m N2_l N1_A / det2.
+        // q1[m][k][C] = int mu1_m N1_k N2_C / det1, r likewise with N1_B, q2[m][l][A] = int mu2_m v2_l N1_A / det2.
         let mut q1 = [[[0.0; MAX_NODES]; MAX_NODES]; 3];
         let mut r = q1;
         let mut q2 = q1;
@@ -44,13 +63,19 @@ impl PlaneDerivatives {
             let (w1, w2) = (p.weight / p.one.det, p.weight / p.two.det);
             let mu1 = [w1, w1 * p.one.xi, w1 * p.one.eta];
             let mu2 = [w2, w2 * p.two.xi, w2 * p.two.eta];
+            let v2 = mortar_velocity::<MOVES>(segment, &p.n2);
             for m in 0..3 {
                 for k in 0..MAX_NODES {
-                    let (a, b) = (mu1[m] * p.n1[k], mu2[m] * p.n2[k]);
+                    let a = mu1[m] * p.n1[k];
                     for j in 0..MAX_NODES {
                         q1[m][k][j] += a * p.n2[j];
                         r[m][k][j] += a * p.n1[j];
-                        q2[m][k][j] += b * p.n1[j];
+                    }
+                }
+                for l in 0..velocities(MOVES) {
+                    let b = mu2[m] * v2[l];
+                    for j in 0..MAX_NODES {
+                        q2[m][l][j] += b * p.n1[j];
                     }
                 }
             }
@@ -62,7 +87,9 @@ impl PlaneDerivatives {
                     for k in 0..MAX_NODES {
                         self.ab[a][b][k] -= g1[m][a] * r[m][k][b] + g1[m][b] * r[m][k][a];
                         self.ac[a][b][k] -= g1[m][a] * q1[m][k][b];
-                        self.ac[a][b][MORTAR + k] -= g2[m][b] * q2[m][k][a];
+                    }
+                    for l in 0..velocities(MOVES) {
+                        self.ac[a][b][MORTAR + l] -= g2[m][b] * q2[m][l][a];
                     }
                 }
             }
@@ -88,19 +115,28 @@ impl PlaneDerivatives {
         });
     }
 
-    fn add_mortar_edge(&mut self, frame: &NonmortarFrame, segment: &Segment, rule: &Rule, edge: &EdgeInterval) {
+    fn add_mortar_edge<const MOVES: bool>(
+        &mut self,
+        frame: &NonmortarFrame,
+        segment: &Segment,
+        rule: &Rule,
+        edge: &EdgeInterval,
+    ) {
         let ends = [edge.from, edge.to];
         for_each_edge_point(&segment.mortar.y, edge, rule, |weight, y, l, normal| {
             let one = frame.map.inverse(y);
             let n1 = frame.projection.shape.values(one.xi, one.eta);
-            for (j, &k) in ends.iter().enumerate() {
+            // The edge's own two velocities, or the one of all.
+            let height = l[0] * segment.mortar.d[ends[0]] + l[1] * segment.mortar.d[ends[1]];
+            let (slots, v) = if MOVES { (ends, l) } else { ([0, 0], [height, 0.0]) };
+            for j in 0..if MOVES { 2 } else { 1 } {
                 for a in 0..MAX_NODES {
-                    let s = normal * (weight * l[j] * n1[a]);
+                    let s = normal * (weight * v[j] * n1[a]);
                     for b in 0..MAX_NODES {
-                        self.ab[a][b][MORTAR + k] += s * n1[b];
+                        self.ab[a][b][MORTAR + slots[j]] += s * n1[b];
                     }
                     for (o, &c) in ends.iter().enumerate() {
-                        self.ac[a][c][MORTAR + k] += s * l[o];
+                        self.ac[a][c][MORTAR + slots[j]] += s * l[o];
                     }
                 }
             }
