@@ -157,23 +157,32 @@
 /// Coulomb friction with the coefficient mu (0 allowed). Default.
 #define STICKSLIP_FRICTION_COULOMB 0
 
-/// One multiplier per node, no tangential work. Not in this version; use mu = 0.
+/// One multiplier per node, along the normal: multiplier_equations, lambda and rows have n1 entries. No slip history.
 #define STICKSLIP_FRICTION_NONE 1
 
-/// Tied surfaces. Not in this version.
+/// Mesh tying: a node that is covered in the first configuration keeps its place; weights of the reference. Linear.
 #define STICKSLIP_FRICTION_TIED 2
 
-/// Opens and closes, never slips. Not in this version.
+/// Opens and closes, never slips.
 #define STICKSLIP_FRICTION_ROUGH 3
 
 /// The mortar side deforms (or is prescribed, where it has no equations). Default.
 #define STICKSLIP_MORTAR_DEFORMABLE 0
 
-/// The mortar side is rigid. Not in this version; give it no equations.
+/// The mortar side is rigid or prescribed (no equations): no rows and columns for it in the tangent.
 #define STICKSLIP_MORTAR_RIGID 1
 
 /// The mortar side is a plane, a sphere or a cylinder. Not in this version.
 #define STICKSLIP_MORTAR_ANALYTIC 2
+
+/// Coulomb with mu = 0 at every node: no slip is computed (and none reported).
+#define STICKSLIP_SHORTCUT_FRICTIONLESS 1
+
+/// A mortar side without equations is treated as rigid.
+#define STICKSLIP_SHORTCUT_RIGID 2
+
+/// Surfaces whose boxes are farther apart than their longest edge: neither search nor integration.
+#define STICKSLIP_SHORTCUT_APART 4
 
 /// Standard shape functions for the multiplier (the paper's). Default.
 #define STICKSLIP_BASIS_STANDARD 0
@@ -260,6 +269,10 @@ typedef struct stickslip_options {
   /// penetration, so that the far side of a body is not found. Give it where the mortar surface lies in
   /// layers (refused otherwise) or the surfaces start deeper in each other than a facet.
   double search_distance;
+  /// Sum of the STICKSLIP_SHORTCUT_... that the library is not to take; 0 (default): it takes all.
+  int32_t no_shortcuts;
+  /// 0.
+  int32_t reserved;
 } stickslip_options;
 
 /// One surface of an interface.
@@ -283,8 +296,8 @@ typedef struct stickslip_surface {
   /// index base.
   const int64_t *equations;
   /// Non-mortar: 3 n_nodes multiplier equations, -1: the component is removed and its axis a constrained
-  /// direction (see `stickslip_interface_set_constraints`); a node with three -1 keeps its normal. Mortar:
-  /// NULL.
+  /// direction (see `stickslip_interface_set_constraints`); a node with three -1 keeps its normal. With
+  /// STICKSLIP_FRICTION_NONE n_nodes equations, one a node, along the normal; -1: none. Mortar: NULL.
   const int64_t *multiplier_equations;
   /// Non-mortar, parallel hosts: n_nodes flags, 1 where this handle adds the node's own block; NULL:
   /// all. Mortar: NULL.
@@ -339,6 +352,16 @@ typedef struct stickslip_counters {
   double seconds_integration;
   /// Time in derivatives and assembly of the tangent [s].
   double seconds_assembly;
+  /// Pairs whose frozen weights served once more, in place of an integration.
+  int64_t pairs_reused;
+  /// Slip increments computed, one a node and evaluation; 0 without friction.
+  int64_t nodes_slipping;
+  /// Evaluations that ended with the comparison of two boxes: the surfaces were apart.
+  int64_t evaluations_apart;
+  /// Commits that did.
+  int64_t commits_apart;
+  /// Multiplier equations.
+  int64_t multipliers;
 } stickslip_counters;
 
 /// A pair of facets, non-mortar first. Node order: right-hand, seen from outside each body.

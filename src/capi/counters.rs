@@ -1,7 +1,7 @@
 //! What an interface has done.
 
 use super::guard::guard;
-use super::interface::{handle, stickslip_interface};
+use super::interface::{either, handle, stickslip_interface};
 use super::sized::{self, Sized64};
 
 /// What an interface has done since its creation.
@@ -30,6 +30,16 @@ pub struct stickslip_counters {
     pub seconds_integration: f64,
     /// Time in derivatives and assembly of the tangent [s].
     pub seconds_assembly: f64,
+    /// Pairs whose frozen weights served once more, in place of an integration.
+    pub pairs_reused: i64,
+    /// Slip increments computed, one a node and evaluation; 0 without friction.
+    pub nodes_slipping: i64,
+    /// Evaluations that ended with the comparison of two boxes: the surfaces were apart.
+    pub evaluations_apart: i64,
+    /// Commits that did.
+    pub commits_apart: i64,
+    /// Multiplier equations.
+    pub multipliers: i64,
 }
 
 // SAFETY: repr(C), struct_size first, numbers only.
@@ -50,7 +60,7 @@ pub unsafe extern "C" fn stickslip_interface_counters(
     guard(|| {
         let h = &handle(interface)?.inner;
         sized::check_output(out)?;
-        let c = h.counters();
+        let c = either!(h, c => c.counters());
         sized::write(
             out,
             stickslip_counters {
@@ -60,11 +70,16 @@ pub unsafe extern "C" fn stickslip_interface_counters(
                 pairs_integrated: c.pairs_integrated,
                 pairs_linearised: c.pairs_linearised,
                 searches: c.searches,
-                pairs_active: h.active_pairs() as i64,
-                bytes: h.bytes() as i64,
+                pairs_active: either!(h, c => c.active_pairs()) as i64,
+                bytes: either!(h, c => c.bytes()) as i64,
                 seconds_search: c.seconds_search,
                 seconds_integration: c.seconds_integration,
                 seconds_assembly: c.seconds_assembly,
+                pairs_reused: c.pairs_reused,
+                nodes_slipping: c.nodes_slipping,
+                evaluations_apart: c.evaluations_apart,
+                commits_apart: c.commits_apart,
+                multipliers: either!(h, c => c.multipliers()) as i64,
             },
         );
         Ok(())

@@ -27,18 +27,24 @@ pub const STICKSLIP_WEIGHTS_COMMITTED: i32 = 1;
 pub const STICKSLIP_WEIGHTS_REFERENCE: i32 = 2;
 /// Coulomb friction with the coefficient mu (0 allowed). Default.
 pub const STICKSLIP_FRICTION_COULOMB: i32 = 0;
-/// One multiplier per node, no tangential work. Not in this version; use mu = 0.
+/// One multiplier per node, along the normal: multiplier_equations, lambda and rows have n1 entries. No slip history.
 pub const STICKSLIP_FRICTION_NONE: i32 = 1;
-/// Tied surfaces. Not in this version.
+/// Mesh tying: a node that is covered in the first configuration keeps its place; weights of the reference. Linear.
 pub const STICKSLIP_FRICTION_TIED: i32 = 2;
-/// Opens and closes, never slips. Not in this version.
+/// Opens and closes, never slips.
 pub const STICKSLIP_FRICTION_ROUGH: i32 = 3;
 /// The mortar side deforms (or is prescribed, where it has no equations). Default.
 pub const STICKSLIP_MORTAR_DEFORMABLE: i32 = 0;
-/// The mortar side is rigid. Not in this version; give it no equations.
+/// The mortar side is rigid or prescribed (no equations): no rows and columns for it in the tangent.
 pub const STICKSLIP_MORTAR_RIGID: i32 = 1;
 /// The mortar side is a plane, a sphere or a cylinder. Not in this version.
 pub const STICKSLIP_MORTAR_ANALYTIC: i32 = 2;
+/// Coulomb with mu = 0 at every node: no slip is computed (and none reported).
+pub const STICKSLIP_SHORTCUT_FRICTIONLESS: i32 = 1;
+/// A mortar side without equations is treated as rigid.
+pub const STICKSLIP_SHORTCUT_RIGID: i32 = 2;
+/// Surfaces whose boxes are farther apart than their longest edge: neither search nor integration.
+pub const STICKSLIP_SHORTCUT_APART: i32 = 4;
 /// Standard shape functions for the multiplier (the paper's). Default.
 pub const STICKSLIP_BASIS_STANDARD: i32 = 0;
 /// Dual shape functions. Not in this version.
@@ -98,6 +104,10 @@ pub struct stickslip_options {
     /// penetration, so that the far side of a body is not found. Give it where the mortar surface lies in
     /// layers (refused otherwise) or the surfaces start deeper in each other than a facet.
     pub search_distance: f64,
+    /// Sum of the STICKSLIP_SHORTCUT_... that the library is not to take; 0 (default): it takes all.
+    pub no_shortcuts: i32,
+    /// 0.
+    pub reserved: i32,
 }
 
 // SAFETY: repr(C), struct_size first, numbers only.
@@ -131,6 +141,8 @@ pub unsafe extern "C" fn stickslip_options_init(options: *mut stickslip_options,
             modulus: 0.0,
             coverage_min: COVERAGE_MIN,
             search_distance: 0.0,
+            no_shortcuts: 0,
+            reserved: 0,
         };
         sized::initialise(options, struct_size, defaults, "options")
     })
@@ -146,6 +158,20 @@ fn choose<T: Copy>(value: i32, name: &str, available: &[T], named: i32) -> Resul
         } else {
             Error::new(Kind::InvalidValue, format!("{name} is {value}; the header names 0 to {}", named - 1))
         }
+    })
+}
+
+fn read_shortcuts(off: i32) -> Result<Shortcuts> {
+    let all = STICKSLIP_SHORTCUT_FRICTIONLESS | STICKSLIP_SHORTCUT_RIGID | STICKSLIP_SHORTCUT_APART;
+    if off & !all != 0 {
+        let text = format!("options.no_shortcuts is {off}; a sum of STICKSLIP_SHORTCUT_... is allowed");
+        return Err(Error::new(Kind::InvalidValue, text));
+    }
+    let on = |bit: i32| off & bit == 0;
+    Ok(Shortcuts {
+        frictionless: on(STICKSLIP_SHORTCUT_FRICTIONLESS),
+        rigid: on(STICKSLIP_SHORTCUT_RIGID),
+        apart: on(STICKSLIP_SHORTCUT_APART),
     })
 }
 
@@ -179,9 +205,12 @@ pub(super) fn read_options(p: *const stickslip_options) -> Result<(Options, i64)
         modulus,
         coverage_min,
         search_distance,
+        no_shortcuts,
+        reserved: _,
     } = sized::read(p)?;
-    choose(friction, "options.friction", &[()], 4)?;
-    choose(mortar_side, "options.mortar_side", &[()], 3)?;
+    let laws = [Friction::Coulomb, Friction::None, Friction::Tied, Friction::Rough];
+    let friction = choose(friction, "options.friction", &laws, 4)?;
+    let mortar_side = choose(mortar_side, "options.mortar_side", &[MortarSide::Deformable, MortarSide::Rigid], 3)?;
     choose(multiplier_basis, "options.multiplier_basis", &[()], 2)?;
     let numbers = [
         ("mu", mu),
@@ -194,6 +223,10 @@ pub(super) fn read_options(p: *const stickslip_options) -> Result<(Options, i64)
         if !v.is_finite() {
             return Err(Error::new(Kind::NotFinite, format!("options.{name} is {v}; it must be finite")));
         }
+    }
+    if friction != Friction::Coulomb && mu != 0.0 {
+        let text = format!("options.mu is {mu}; it must be 0 where options.friction is not Coulomb's");
+        return Err(Error::new(Kind::InvalidValue, text));
     }
     if modulus < 0.0 {
         return Err(Error::new(Kind::InvalidValue, format!("options.modulus is {modulus}; it must not be negative")));
@@ -218,9 +251,9 @@ pub(super) fn read_options(p: *const stickslip_options) -> Result<(Options, i64)
             &[NewContact::Frictionless, NewContact::KeepFriction],
             2,
         )?,
-        friction: Friction::Coulomb,
-        mortar_side: MortarSide::Deformable,
-        shortcuts: Shortcuts::default(),
+        friction,
+        mortar_side,
+        shortcuts: read_shortcuts(no_shortcuts)?,
         mu,
         stiffness,
         coverage_min,

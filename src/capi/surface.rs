@@ -28,8 +28,8 @@ pub struct stickslip_surface {
     /// index base.
     pub equations: *const i64,
     /// Non-mortar: 3 n_nodes multiplier equations, -1: the component is removed and its axis a constrained
-    /// direction (see `stickslip_interface_set_constraints`); a node with three -1 keeps its normal. Mortar:
-    /// NULL.
+    /// direction (see `stickslip_interface_set_constraints`); a node with three -1 keeps its normal. With
+    /// STICKSLIP_FRICTION_NONE n_nodes equations, one a node, along the normal; -1: none. Mortar: NULL.
     pub multiplier_equations: *const i64,
     /// Non-mortar, parallel hosts: n_nodes flags, 1 where this handle adds the node's own block; NULL:
     /// all. Mortar: NULL.
@@ -42,20 +42,21 @@ unsafe impl Sized64 for stickslip_surface {
     const FIRST: usize = 72;
 }
 
-/// Three equations per node, 0-based.
-fn equations(p: *const i64, n: usize, base: i64, name: &str) -> Result<Vec<[i64; 3]>> {
-    let values = raw::slice(p, 3 * n, name)?;
-    let convert = |k: usize| {
-        let v = values[k];
+/// N equations per node, 0-based.
+fn equations<const N: usize>(p: *const i64, n: usize, base: i64, name: &str) -> Result<Vec<[i64; N]>> {
+    let values = raw::slice(p, N * n, name)?;
+    let mut equations = vec![[NO_EQUATION; N]; n];
+    for (k, (equation, &v)) in equations.as_flattened_mut().iter_mut().zip(values).enumerate() {
         if v == NO_EQUATION {
-            Ok(NO_EQUATION)
-        } else if v < base {
-            Err(Error::new(Kind::IndexOutOfRange, format!("{name}[{k}] is {v}; -1 or at least {base} is allowed")))
-        } else {
-            Ok(v - base)
+            continue;
         }
-    };
-    (0..n).map(|a| Ok([convert(3 * a)?, convert(3 * a + 1)?, convert(3 * a + 2)?])).collect()
+        if v < base {
+            let text = format!("{name}[{k}] is {v}; -1 or at least {base} is allowed");
+            return Err(Error::new(Kind::IndexOutOfRange, text));
+        }
+        *equation = v - base;
+    }
+    Ok(equations)
 }
 
 /// A checked surface; `side` is "nonmortar" or "mortar".
@@ -102,17 +103,17 @@ pub(super) fn refuse_multipliers(mortar: &stickslip_surface) -> Result<()> {
     Ok(())
 }
 
-/// Multiplier equations, and which nodes are owned (`None`: all).
-type Multipliers = (Vec<[i64; 3]>, Option<Vec<bool>>);
-
-/// The non-mortar side's multipliers.
-pub(super) fn read_multipliers(s: &stickslip_surface, base: i64) -> Result<Multipliers> {
+/// The non-mortar side's multiplier equations, N a node.
+pub(super) fn read_multipliers<const N: usize>(s: &stickslip_surface, base: i64) -> Result<Vec<[i64; N]>> {
     let n = raw::count(s.n_nodes, 3, "nonmortar.n_nodes")?;
-    let multipliers = equations(s.multiplier_equations, n, base, "nonmortar.multiplier_equations")?;
-    let owned = if s.owned.is_null() {
-        None
-    } else {
-        Some(raw::slice(s.owned, n, "nonmortar.owned")?.iter().map(|&o| o != 0).collect())
-    };
-    Ok((multipliers, owned))
+    equations(s.multiplier_equations, n, base, "nonmortar.multiplier_equations")
+}
+
+/// Which non-mortar nodes are owned; `None`: all.
+pub(super) fn read_owned(s: &stickslip_surface) -> Result<Option<Vec<bool>>> {
+    if s.owned.is_null() {
+        return Ok(None);
+    }
+    let n = raw::count(s.n_nodes, 3, "nonmortar.n_nodes")?;
+    Ok(Some(raw::slice(s.owned, n, "nonmortar.owned")?.iter().map(|&o| o != 0).collect()))
 }

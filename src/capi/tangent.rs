@@ -2,7 +2,7 @@
 
 use super::evaluation::Point;
 use super::guard::guard;
-use super::interface::{handle, stickslip_interface};
+use super::interface::{either, handle, stickslip_interface};
 use super::raw;
 use crate::error::{Error, Kind, Result};
 
@@ -89,9 +89,9 @@ pub unsafe extern "C" fn stickslip_interface_tangent_coo(
         let mut t = Triplets::default();
         let mut sink = |row, column, value| t.push(row, column, value);
         if rows.is_null() && columns.is_null() && values.is_null() {
-            h.inner.pattern(&point.x1, &point.x2, &mut sink)?;
+            either!(&mut h.inner, c => c.pattern(&point.x1, &point.x2, &mut sink)?);
         } else {
-            h.inner.tangent(&point.x1, &point.x2, &point.lambda, point.sums(), &mut sink)?;
+            either!(&mut h.inner, c => c.tangent(&point.x1, &point.x2, &point.lambda(), point.sums(), &mut sink)?);
         }
         raw::check_results("values", &t.values)?;
         t.write(h.base, capacity, rows, columns, Some(values), count)
@@ -135,7 +135,8 @@ pub unsafe extern "C" fn stickslip_interface_tangent_csr(
         let columns = raw::slice(columns, entries, "columns")?;
         raw::check(values, "values")?;
         let mut t = Triplets::default();
-        h.inner.tangent(&point.x1, &point.x2, &point.lambda, point.sums(), &mut |r, c, v| t.push(r, c, v))?;
+        let mut sink = |row, column, value| t.push(row, column, value);
+        either!(&mut h.inner, c => c.tangent(&point.x1, &point.x2, &point.lambda(), point.sums(), &mut sink)?);
         raw::check_results("values", &t.values)?;
         let mut places = Vec::with_capacity(t.rows.len());
         for (&row, &column) in t.rows.iter().zip(&t.columns) {
@@ -184,7 +185,8 @@ pub unsafe extern "C" fn stickslip_interface_pattern_coo(
         let h = handle(interface)?;
         let point = Point::positions(&h.inner, x1, x2)?;
         let mut t = Triplets::default();
-        h.inner.superset_pattern(&point.x1, &point.x2, &mut |row, column, _| t.push(row, column, 0.0))?;
+        let mut sink = |row, column, _| t.push(row, column, 0.0);
+        either!(&mut h.inner, c => c.superset_pattern(&point.x1, &point.x2, &mut sink)?);
         t.write(h.base, capacity, rows, columns, None, count)
     })
 }

@@ -175,7 +175,13 @@ impl<const N: usize> Contact<N> {
             if let Some(couplings) = &mut couplings {
                 for k in 0..one.len {
                     let a = one.nodes[k];
-                    couplings[a].add_pair::<MOVES>(k, &self.slots(pair), now.as_ref(), pair.previous, self.dtraction(a, &responses[a])?);
+                    couplings[a].add_pair::<MOVES>(
+                        k,
+                        &self.slots(pair),
+                        now.as_ref(),
+                        pair.previous,
+                        self.dtraction(a, &responses[a])?,
+                    );
                 }
             }
         }
@@ -217,7 +223,11 @@ impl<const N: usize> Contact<N> {
     }
 
     fn emit_pattern(&self, pairs: &[UnionPair], sink: &mut dyn Sink) -> Result<()> {
-        if self.kernels.moves { self.emit_pattern_with::<true>(pairs, sink) } else { self.emit_pattern_with::<false>(pairs, sink) }
+        if self.kernels.moves {
+            self.emit_pattern_with::<true>(pairs, sink)
+        } else {
+            self.emit_pattern_with::<false>(pairs, sink)
+        }
     }
 
     fn emit_pattern_with<const MOVES: bool>(&self, pairs: &[UnionPair], sink: &mut dyn Sink) -> Result<()> {

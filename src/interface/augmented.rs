@@ -3,7 +3,7 @@
 
 use crate::element::PairNow;
 use crate::geometry::Mat3;
-use crate::mortar::{PAIR_NODES, PairWeights, MORTAR, frozen_rows, slots};
+use crate::mortar::{MORTAR, PAIR_NODES, PairWeights, frozen_rows, slots};
 
 /// One node that a non-mortar node A is coupled with.
 #[derive(Clone, Debug)]

@@ -39,6 +39,8 @@ pub struct History {
     pub slip: Vec<Vec3>,
     /// n(t_n), sorted by facets.
     pub pairs: Vec<PairRecord>,
+    /// Whether coverage, gap and pairs are known; if not they are 0, and made up for when the surfaces come near.
+    pub integrated: bool,
 }
 
 /// First integer of an exported history: "stickslip history, layout 1".
@@ -50,6 +52,13 @@ const REALS_PER_NONMORTAR_NODE: usize = 14;
 const REALS_PER_PAIR: usize = 2 * MAX_NODES * MAX_NODES;
 
 impl History {
+    /// Takes the weights of t_n, and each node's coverage and gap.
+    pub(super) fn fill(&mut self, pairs: Vec<PairRecord>, sums: Vec<(f64, Vec3)>) {
+        (self.coverage, self.gap) = sums.into_iter().unzip();
+        self.pairs = pairs;
+        self.integrated = true;
+    }
+
     /// Lengths of the flat arrays: (integers, reals).
     pub fn flat_size(&self) -> (usize, usize) {
         let reals = REALS_PER_NONMORTAR_NODE * self.x1.len() + 3 * self.x2.len() + REALS_PER_PAIR * self.pairs.len();
@@ -113,7 +122,8 @@ impl History {
         let mut vectors = |n: usize| take(3 * n).chunks_exact(3).map(Vec3::from_column_slice).collect::<Vec<_>>();
         let (x1, x2, normals, gap, slip) = (vectors(n1), vectors(n2), vectors(n1), vectors(n1), vectors(n1));
         let (areas, coverage) = (take(n1).to_vec(), take(n1).to_vec());
-        let mut history = History { commits, x1, x2, normals, areas, coverage, gap, slip, pairs: Vec::new() };
+        let mut history =
+            History { commits, x1, x2, normals, areas, coverage, gap, slip, pairs: Vec::new(), integrated: true };
         for f in facets.chunks_exact(2) {
             let index = |v: i64, n: usize| usize::try_from(v).ok().filter(|&i| i < n);
             let (Some(one), Some(two)) = (index(f[0], nonmortar.facets.len()), index(f[1], mortar.facets.len())) else {

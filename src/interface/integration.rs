@@ -7,7 +7,7 @@
 use super::history::{History, PairRecord};
 use super::nodes::assemble;
 use super::search::{Aabb, Prism, Tree};
-use super::{Contact, Counters, Options, Surface};
+use super::{Contact, Counters, Options, Surface, Weights};
 use crate::error::{Error, Kind, Result};
 use crate::geometry::{Facet, Plane, Vec3};
 use crate::mortar::{NonmortarFrame, PairWeights, Segment};
@@ -145,47 +145,105 @@ fn integrate(
     Ok(Integration { x1: x1.to_vec(), x2: x2.to_vec(), frames, pairs })
 }
 
+/// Whether the surfaces are so far apart that nothing can touch: by more than any penetration that is a pair. Only
+/// asked where the weights follow the motion, so that they can be made up for later.
+fn are_apart((one, two): (&Surface, &Surface), options: &Options, x1: &[Vec3], x2: &[Vec3]) -> bool {
+    if !options.shortcuts.apart || options.effective_weights() != Weights::Current {
+        return false;
+    }
+    let around = |x: &[Vec3]| Aabb::around(x.iter().copied());
+    let distance = options.search_distance.unwrap_or_else(|| one.longest_edge.min(two.longest_edge));
+    around(x1).is_apart(&around(x2), distance)
+}
+
+/// Refuses a mortar surface that lies in several layers over a node.
+fn check_layers(history: &History) -> Result<()> {
+    let Some(k) = (0..history.areas.len()).find(|&k| history.coverage[k] > MOST_COVERAGE * history.areas[k]) else {
+        return Ok(());
+    };
+    let times = history.coverage[k] / history.areas[k];
+    let text = format!(
+        "non-mortar node {k} is covered {times:.2} times: the mortar surface lies in layers over it; set search_distance below their distance, or leave the farther ones out"
+    );
+    Err(Error::new(Kind::InvalidValue, text))
+}
+
 impl<const N: usize> Contact<N> {
-    /// Makes `self.integration` that of (x1, x2). With frozen weights there is nothing to do.
+    /// Makes `self.integration` that of (x1, x2). With frozen weights there is nothing to do, nor, but for a comparison,
+    /// where the surfaces are apart.
     pub(super) fn ensure_integration(&mut self, x1: &[Vec3], x2: &[Vec3]) -> Result<()> {
-        let done = self.integration.as_ref().is_some_and(|k| k.x1 == x1 && k.x2 == x2);
-        if done || self.options.effective_weights() != super::Weights::Current {
+        if self.options.effective_weights() != Weights::Current {
+            self.counters.pairs_reused += self.history.pairs.len() as i64;
             return Ok(());
         }
-        self.integration = Some(integrate(
-            (&self.nonmortar, &self.mortar),
-            &self.options,
-            &self.filter,
-            &mut self.counters,
-            (x1, x2),
-        )?);
+        if self.integration.as_ref().is_some_and(|k| k.x1 == x1 && k.x2 == x2) {
+            return Ok(());
+        }
+        let surfaces = (&self.nonmortar, &self.mortar);
+        self.integration = Some(if are_apart(surfaces, &self.options, x1, x2) {
+            self.counters.evaluations_apart += 1;
+            Integration { x1: x1.to_vec(), x2: x2.to_vec(), frames: Vec::new(), pairs: Vec::new() }
+        } else {
+            self.ensure_history()?;
+            let surfaces = (&self.nonmortar, &self.mortar);
+            let filter = self.filter.as_ref().expect("ensure_history made it");
+            integrate(surfaces, &self.options, filter, &mut self.counters, (x1, x2))?
+        });
         Ok(())
     }
 
-    /// The history of a commit at (x1, x2), with nothing slipped, and the filter of the step that follows.
+    /// Makes up for the filter and the weights of t_n where they were left out because the surfaces were apart then.
+    pub(super) fn ensure_history(&mut self) -> Result<()> {
+        let (surfaces, h) = ((&self.nonmortar, &self.mortar), &self.history);
+        if self.filter.is_none() {
+            self.filter = Some(Filter::new(surfaces.0, surfaces.1, &self.options, &h.x1, &h.x2)?);
+        }
+        if !h.integrated
+            && let Some(filter) = &self.filter
+        {
+            let new = integrate(surfaces, &self.options, filter, &mut self.counters, (&h.x1, &h.x2))?;
+            let sums = assemble(surfaces, &new.pairs, &h.x1, &h.x2);
+            self.history.fill(new.pairs, sums);
+            check_layers(&self.history)?;
+        }
+        Ok(())
+    }
+
+    /// The history of a commit at (x1, x2), with nothing slipped, and the filter of the step that follows (`None`: not
+    /// needed so far).
     pub(super) fn history_at(
         (nonmortar, mortar): (&Surface, &Surface),
         options: &Options,
         counters: &mut Counters,
         (x1, x2): (&[Vec3], &[Vec3]),
-    ) -> Result<(History, Filter)> {
-        let filter = Filter::new(nonmortar, mortar, options, x1, x2)?;
-        let new = integrate((nonmortar, mortar), options, &filter, counters, (x1, x2))?;
+    ) -> Result<(History, Option<Filter>)> {
         let n1 = nonmortar.len();
-        let (coverage, gap) = assemble((nonmortar, mortar), &new.pairs, x1, x2).into_iter().unzip();
         let mut history = History {
             commits: 0,
-            x1: new.x1,
-            x2: new.x2,
+            x1: x1.to_vec(),
+            x2: x2.to_vec(),
             normals: Vec::with_capacity(n1),
             areas: vec![0.0; n1],
-            coverage,
-            gap,
+            coverage: vec![0.0; n1],
+            gap: vec![Vec3::zeros(); n1],
             slip: vec![Vec3::zeros(); n1],
-            pairs: new.pairs,
+            pairs: Vec::new(),
+            integrated: false,
+        };
+        let mut filter = None;
+        let frames = if are_apart((nonmortar, mortar), options, x1, x2) {
+            counters.commits_apart += 1;
+            frames(nonmortar, x1)?
+        } else {
+            let admits = Filter::new(nonmortar, mortar, options, x1, x2)?;
+            let new = integrate((nonmortar, mortar), options, &admits, counters, (x1, x2))?;
+            let sums = assemble((nonmortar, mortar), &new.pairs, x1, x2);
+            history.fill(new.pairs, sums);
+            filter = Some(admits);
+            new.frames
         };
         let mut sums = vec![Vec3::zeros(); n1];
-        for (f, frame) in new.frames.iter().enumerate() {
+        for (f, frame) in frames.iter().enumerate() {
             let (facet, areas) = (nonmortar.facet(f, x1), frame.nodal_areas());
             for k in 0..facet.len() {
                 let node = nonmortar.facets[f].nodes[k];
@@ -202,13 +260,7 @@ impl<const N: usize> Contact<N> {
                 return Err(Error::new(Kind::DegenerateFacet, text));
             }
         }
-        if let Some(k) = (0..n1).find(|&k| history.coverage[k] > MOST_COVERAGE * history.areas[k]) {
-            let times = history.coverage[k] / history.areas[k];
-            let text = format!(
-                "non-mortar node {k} is covered {times:.2} times: the mortar surface lies in layers over it; set search_distance below their distance, or leave the farther ones out"
-            );
-            return Err(Error::new(Kind::InvalidValue, text));
-        }
+        check_layers(&history)?;
         Ok((history, filter))
     }
 
@@ -218,11 +270,13 @@ impl<const N: usize> Contact<N> {
     }
 
     /// The pairs of t_n and all that may be active while the surfaces move by less than the skin, sorted.
-    pub(super) fn possible_pairs(&self, x1: &[Vec3], x2: &[Vec3]) -> Result<Vec<(usize, usize)>> {
+    pub(super) fn possible_pairs(&mut self, x1: &[Vec3], x2: &[Vec3]) -> Result<Vec<(usize, usize)>> {
+        self.ensure_history()?;
         let mut pairs: Vec<_> = self.history.pairs.iter().map(|p| (p.one, p.two)).collect();
-        if self.options.effective_weights() == super::Weights::Current {
+        if self.options.effective_weights() == Weights::Current {
             let frames = frames(&self.nonmortar, x1)?;
-            pairs.extend(candidates((&self.nonmortar, &self.mortar), &frames, (x1, x2), &self.filter, SKIN));
+            let filter = self.filter.as_ref().expect("ensure_history made it");
+            pairs.extend(candidates((&self.nonmortar, &self.mortar), &frames, (x1, x2), filter, SKIN));
         }
         pairs.sort_unstable();
         pairs.dedup();

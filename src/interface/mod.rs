@@ -17,7 +17,8 @@ pub use assembly::{Residual, Sink};
 pub use history::{History, PairRecord};
 pub use nodes::NodeSums;
 pub use options::{
-    COVERAGE_MIN, Form, Friction, MODULUS_FACTOR, MortarSide, NewContact, Options, RowScale, Shortcuts, Stiffness, Weights,
+    COVERAGE_MIN, Form, Friction, MODULUS_FACTOR, MortarSide, NewContact, Options, RowScale, Shortcuts, Stiffness,
+    Weights,
 };
 pub use surface::{FacetNodes, NO_EQUATION, Surface};
 
@@ -40,6 +41,14 @@ pub struct Counters {
     pub pairs_linearised: i64,
     /// Searches.
     pub searches: i64,
+    /// Pairs whose frozen weights served once more.
+    pub pairs_reused: i64,
+    /// Nodes whose slip was computed.
+    pub nodes_slipping: i64,
+    /// Evaluations, and commits, that ended with the comparison of two boxes.
+    pub evaluations_apart: i64,
+    /// See `evaluations_apart`.
+    pub commits_apart: i64,
     /// Seconds in search.
     pub seconds_search: f64,
     /// Seconds in clipping and integration.
@@ -65,7 +74,7 @@ pub struct Contact<const N: usize> {
     augmentations: Option<Vec<f64>>,
     normals: Option<Vec<Vec3>>,
     free: Vec<Mat3>,
-    filter: Filter,
+    filter: Option<Filter>,
     history: History,
     rollback: Option<History>,
     integration: Option<Integration>,
@@ -171,19 +180,16 @@ impl<const N: usize> Contact<N> {
         Ok(interface)
     }
 
-    /// Puts a history in place, with the filter of its configuration; gives the old history back.
+    /// Puts a history in place, with the filter of its configuration (`None`: when it is needed); gives the old one back.
     fn adopt(&mut self, history: History, filter: Option<Filter>) -> History {
-        // Frozen weights never search, so that without a new filter the old one does no harm.
-        if let Some(filter) = filter {
-            self.filter = filter;
-        }
+        self.filter = filter;
         self.integration = None;
         std::mem::replace(&mut self.history, history)
     }
 
     /// Puts a history in place that is not of now; nothing is changed when its positions are refused.
     fn restore(&mut self, history: History) -> Result<()> {
-        let current = self.options.effective_weights() == Weights::Current;
+        let current = self.options.effective_weights() == Weights::Current && history.integrated;
         let filter = current
             .then(|| Filter::new(&self.nonmortar, &self.mortar, &self.options, &history.x1, &history.x2))
             .transpose()?;
@@ -196,7 +202,7 @@ impl<const N: usize> Contact<N> {
         self.check_positions(x1, x2)?;
         let surfaces = (&self.nonmortar, &self.mortar);
         let (new, filter) = Self::history_at(surfaces, &self.options, &mut self.counters, (x1, x2))?;
-        self.adopt(new, Some(filter));
+        self.adopt(new, filter);
         self.rollback = None;
         Ok(())
     }
@@ -221,8 +227,7 @@ impl<const N: usize> Contact<N> {
             }
             (new, None)
         } else {
-            let (new, filter) = Self::history_at(surfaces, &self.options, &mut self.counters, (x1, x2))?;
-            (new, Some(filter))
+            Self::history_at(surfaces, &self.options, &mut self.counters, (x1, x2))?
         };
         new.commits = self.history.commits.saturating_add(1); // an imported history may hold any number
         if self.kernels.slips {
@@ -257,8 +262,15 @@ impl<const N: usize> Contact<N> {
     }
 
     /// The history as flat arrays, for a restart.
-    pub fn export_history(&self) -> (Vec<i64>, Vec<f64>) {
-        self.history.export(&self.nonmortar, &self.mortar)
+    pub fn export_history(&mut self) -> Result<(Vec<i64>, Vec<f64>)> {
+        self.ensure_history()?;
+        Ok(self.history.export(&self.nonmortar, &self.mortar))
+    }
+
+    /// Lengths of what [`Contact::export_history`] gives.
+    pub fn history_size(&mut self) -> Result<(usize, usize)> {
+        self.ensure_history()?;
+        Ok(self.history.flat_size())
     }
 
     /// Replaces the history by an imported one.
@@ -341,6 +353,16 @@ impl<const N: usize> Contact<N> {
         self.check_length("owned", owned.len(), self.nonmortar.len())?;
         self.owned = owned;
         Ok(())
+    }
+
+    /// Multipliers per non-mortar node, N.
+    pub fn components(&self) -> usize {
+        N
+    }
+
+    /// Multiplier equations.
+    pub fn multipliers(&self) -> usize {
+        self.multiplier_equations.as_flattened().iter().filter(|&&e| e != NO_EQUATION).count()
     }
 
     /// The options.

@@ -7,8 +7,8 @@ use super::{Contact, NewContact, Options, RowScale, Surface};
 use crate::error::{Error, Kind, Result};
 use crate::geometry::{Mat3, Vec3};
 use crate::law::{Node, NodeResponse};
-use nalgebra::SVector;
 use crate::mortar::gap;
+use nalgebra::SVector;
 
 /// What a node assembles over its pairs. A parallel host adds these over its ranks.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -50,7 +50,7 @@ impl<const N: usize> Contact<N> {
     pub fn sums(&mut self, x1: &[Vec3], x2: &[Vec3]) -> Result<Vec<NodeSums>> {
         self.check_positions(x1, x2)?;
         self.ensure_integration(x1, x2)?;
-        let (surfaces, h) = (self.surfaces(), &self.history);
+        let (surfaces, h) = ((&self.nonmortar, &self.mortar), &self.history);
         let now = assemble(surfaces, self.current_pairs(), x1, x2);
         let mut sums: Vec<_> = (0..self.nonmortar.len())
             .map(|a| NodeSums {
@@ -62,6 +62,7 @@ impl<const N: usize> Contact<N> {
             })
             .collect();
         if self.kernels.slips {
+            self.counters.nodes_slipping += sums.len() as i64;
             let previous = self.integration.as_ref().map(|_| assemble(surfaces, &h.pairs, x1, x2));
             let previous = previous.as_ref().unwrap_or(&now);
             for (sum, (_, gap)) in sums.iter_mut().zip(previous) {

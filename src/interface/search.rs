@@ -27,6 +27,11 @@ impl Aabb {
         (self.low + self.high) * 0.5
     }
 
+    /// Whether more than `distance` lies between the boxes along some axis.
+    pub fn is_apart(&self, other: &Aabb, distance: f64) -> bool {
+        (0..3).any(|i| self.low[i] - other.high[i] > distance || other.low[i] - self.high[i] > distance)
+    }
+
     /// Length of the diagonal.
     pub fn diagonal(&self) -> f64 {
         (self.high - self.low).norm()

@@ -27,6 +27,8 @@ pub struct Surface {
     pub facets: Vec<FacetNodes>,
     /// Displacement equations per node and component, 0-based, or [`NO_EQUATION`].
     pub equations: Vec<[i64; 3]>,
+    /// The longest edge of any facet in the first configuration `[L]`.
+    pub longest_edge: f64,
 }
 
 impl Surface {
@@ -79,7 +81,11 @@ impl Surface {
         if let Some(k) = used.iter().position(|u| !u) {
             return fail(Kind::InvalidValue, format!("node {k} belongs to no facet; leave it out"));
         }
-        Ok(Surface { side, reference, facets: kept, equations })
+        let mut surface = Surface { side, reference, facets: kept, equations, longest_edge: 0.0 };
+        for f in 0..surface.facets.len() {
+            surface.longest_edge = surface.longest_edge.max(surface.facet(f, &surface.reference).longest_edge());
+        }
+        Ok(surface)
     }
 
     /// Number of nodes.

@@ -31,7 +31,11 @@ impl WeightDerivatives {
     }
 
     /// The same with respect to the non-mortar nodes alone, where the mortar side does not move (`MOVES` false).
-    pub fn integrate_for<const MOVES: bool>(frame: &NonmortarFrame, segment: &Segment, rule: &Rule) -> WeightDerivatives {
+    pub fn integrate_for<const MOVES: bool>(
+        frame: &NonmortarFrame,
+        segment: &Segment,
+        rule: &Rule,
+    ) -> WeightDerivatives {
         let plane = PlaneDerivatives::integrate::<MOVES>(frame, segment, rule);
         let mut d = WeightDerivatives::default();
         for a in 0..frame.projection.shape.n {
