@@ -156,12 +156,14 @@ PetscErrorCode contact_start(Model *model, Vec x, PetscInt *status)
 
 PetscErrorCode contact_states_create(const Interface *interface, ContactStates *states)
 {
-  const PetscInt   n1     = interface->n1;
-  stickslip_states wanted = {.struct_size = sizeof(wanted)};
+  const PetscInt     n1     = interface->n1;
+  const PetscScalar *lambda = interface->gathered + 3 * (n1 + interface->n2);
+  stickslip_states   wanted = {.struct_size = sizeof(wanted)};
 
   PetscFunctionBegin;
   PetscCall(PetscMalloc7(n1, &states->state, 3 * n1, &states->normal, n1, &states->gap, 3 * n1, &states->slip, n1,
                          &states->coverage, n1, &states->area, n1, &states->dissipation));
+  PetscCall(PetscMalloc1(3 * n1, &states->multiplier));
   wanted.state       = states->state;
   wanted.normal      = states->normal;
   wanted.gap         = states->gap;
@@ -170,6 +172,9 @@ PetscErrorCode contact_states_create(const Interface *interface, ContactStates *
   wanted.area        = states->area;
   wanted.dissipation = states->dissipation;
   PetscCallStickslip(stickslip_interface_states(interface->handle, STATE_OF(interface), NULL, &wanted));
+  for (PetscInt k = 0; k < 3 * n1; k++)
+    states->multiplier[k] = interface->components == 3 ? PetscRealPart(lambda[k])
+                                                       : PetscRealPart(lambda[k / 3]) * states->normal[k];
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -178,6 +183,7 @@ PetscErrorCode contact_states_destroy(ContactStates *states)
   PetscFunctionBegin;
   PetscCall(PetscFree7(states->state, states->normal, states->gap, states->slip, states->coverage, states->area,
                        states->dissipation));
+  PetscCall(PetscFree(states->multiplier));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

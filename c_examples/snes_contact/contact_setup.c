@@ -4,7 +4,7 @@
 /* of `gathered`, `forces` and `equations` */
 static int64_t n_entries(const Interface *interface)
 {
-  return 3 * (2 * (int64_t)interface->n1 + interface->n2);
+  return 3 * ((int64_t)interface->n1 + interface->n2) + (int64_t)interface->components * interface->n1;
 }
 
 /* equations of the gathered entries, as the library wants them */
