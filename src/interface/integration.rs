@@ -4,7 +4,7 @@
 //! the last commit (opposing normals, heights). All of that is a function of the positions and the
 //! history, so evaluating at A, B, A gives equal bits.
 
-use super::history::{History, PairRecord};
+use super::history::{History, Keeps, PairRecord};
 use super::nodes::assemble;
 use super::search::{Aabb, Prism, Tree};
 use super::{Contact, Counters, Options, Surface, Weights};
@@ -33,6 +33,15 @@ pub(super) struct Integration {
     pub x2: Vec<Vec3>,
     pub frames: Vec<NonmortarFrame>,
     pub pairs: Vec<PairRecord>,
+}
+
+/// A configuration that becomes t_n, with nothing slipped.
+pub(super) struct Start {
+    pub history: History,
+    /// The filter of the step that follows; `None`: not needed so far.
+    pub filter: Option<Filter>,
+    /// The weights, where the history does not keep them: the next evaluation may well be here.
+    pub integration: Option<Integration>,
 }
 
 /// Names the facets in a refusal.
@@ -201,46 +210,48 @@ impl<const N: usize> Contact<N> {
         if !h.integrated
             && let Some(filter) = &self.filter
         {
-            let new = integrate(surfaces, &self.options, filter, &mut self.counters, (&h.x1, &h.x2))?;
+            let mut new = integrate(surfaces, &self.options, filter, &mut self.counters, (&h.x1, &h.x2))?;
             let sums = assemble(surfaces, &new.pairs, &h.x1, &h.x2);
-            self.history.fill(new.pairs, sums);
+            self.history.fill(&mut new.pairs, &sums);
             check_layers(&self.history)?;
         }
         Ok(())
     }
 
-    /// The history of a commit at (x1, x2), with nothing slipped, and the filter of the step that follows (`None`: not
-    /// needed so far).
-    pub(super) fn history_at(
+    /// What a commit at (x1, x2) begins with.
+    pub(super) fn start_at(
         (nonmortar, mortar): (&Surface, &Surface),
         options: &Options,
         counters: &mut Counters,
         (x1, x2): (&[Vec3], &[Vec3]),
-    ) -> Result<(History, Option<Filter>)> {
+    ) -> Result<Start> {
         let n1 = nonmortar.len();
+        let keeps = Keeps::of(options);
+        let slips = if keeps == Keeps::Slip { n1 } else { 0 };
         let mut history = History {
+            keeps,
             commits: 0,
             x1: x1.to_vec(),
             x2: x2.to_vec(),
             normals: Vec::with_capacity(n1),
             areas: vec![0.0; n1],
             coverage: vec![0.0; n1],
-            gap: vec![Vec3::zeros(); n1],
-            slip: vec![Vec3::zeros(); n1],
+            gap: vec![Vec3::zeros(); slips],
+            slip: vec![Vec3::zeros(); slips],
             pairs: Vec::new(),
             integrated: false,
         };
-        let mut filter = None;
+        let (mut filter, mut integration) = (None, None);
         let frames = if are_apart((nonmortar, mortar), options, x1, x2) {
             counters.commits_apart += 1;
-            frames(nonmortar, x1)?
+            &frames(nonmortar, x1)?
         } else {
             let admits = Filter::new(nonmortar, mortar, options, x1, x2)?;
-            let new = integrate((nonmortar, mortar), options, &admits, counters, (x1, x2))?;
+            let mut new = integrate((nonmortar, mortar), options, &admits, counters, (x1, x2))?;
             let sums = assemble((nonmortar, mortar), &new.pairs, x1, x2);
-            history.fill(new.pairs, sums);
+            history.fill(&mut new.pairs, &sums);
             filter = Some(admits);
-            new.frames
+            &integration.insert(new).frames
         };
         let mut sums = vec![Vec3::zeros(); n1];
         for (f, frame) in frames.iter().enumerate() {
@@ -261,7 +272,7 @@ impl<const N: usize> Contact<N> {
             }
         }
         check_layers(&history)?;
-        Ok((history, filter))
+        Ok(Start { history, filter, integration: integration.filter(|_| keeps == Keeps::Nothing) })
     }
 
     /// The pairs whose weights act now.

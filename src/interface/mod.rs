@@ -25,7 +25,8 @@ pub use surface::{FacetNodes, NO_EQUATION, Surface};
 use crate::error::{Error, Kind, Result};
 use crate::geometry::{Mat3, Vec3};
 use effects::Kernels;
-use integration::{Filter, Integration};
+use history::Keeps;
+use integration::{Filter, Integration, Start};
 use nalgebra::SVector;
 
 /// What an interface has done since its creation.
@@ -157,7 +158,7 @@ impl<const N: usize> Contact<N> {
         integration::check_mortar_facets(&mortar)?;
         let mut counters = Counters::default();
         let (x1, x2) = (nonmortar.reference.clone(), mortar.reference.clone());
-        let (history, filter) = Self::history_at((&nonmortar, &mortar), &options, &mut counters, (&x1, &x2))?;
+        let start = Self::start_at((&nonmortar, &mortar), &options, &mut counters, (&x1, &x2))?;
         let n1 = nonmortar.len();
         let mut interface = Contact {
             options,
@@ -170,21 +171,21 @@ impl<const N: usize> Contact<N> {
             augmentations: None,
             normals: None,
             free: vec![Mat3::identity(); n1],
-            filter,
-            history,
+            filter: start.filter,
+            history: start.history,
             rollback: None,
-            integration: None,
+            integration: start.integration,
             counters,
         };
         interface.set_constraints(&[])?; // those that follow from removed equations
         Ok(interface)
     }
 
-    /// Puts a history in place, with the filter of its configuration (`None`: when it is needed); gives the old one back.
-    fn adopt(&mut self, history: History, filter: Option<Filter>) -> History {
-        self.filter = filter;
-        self.integration = None;
-        std::mem::replace(&mut self.history, history)
+    /// Puts a history in place with what belongs to its configuration; gives the old one back.
+    fn adopt(&mut self, start: Start) -> History {
+        self.filter = start.filter;
+        self.integration = start.integration;
+        std::mem::replace(&mut self.history, start.history)
     }
 
     /// Puts a history in place that is not of now; nothing is changed when its positions are refused.
@@ -193,7 +194,7 @@ impl<const N: usize> Contact<N> {
         let filter = current
             .then(|| Filter::new(&self.nonmortar, &self.mortar, &self.options, &history.x1, &history.x2))
             .transpose()?;
-        self.adopt(history, filter);
+        self.adopt(Start { history, filter, integration: None });
         Ok(())
     }
 
@@ -201,8 +202,8 @@ impl<const N: usize> Contact<N> {
     pub fn set_previous(&mut self, x1: &[Vec3], x2: &[Vec3]) -> Result<()> {
         self.check_positions(x1, x2)?;
         let surfaces = (&self.nonmortar, &self.mortar);
-        let (new, filter) = Self::history_at(surfaces, &self.options, &mut self.counters, (x1, x2))?;
-        self.adopt(new, filter);
+        let new = Self::start_at(surfaces, &self.options, &mut self.counters, (x1, x2))?;
+        self.adopt(new);
         self.rollback = None;
         Ok(())
     }
@@ -219,24 +220,24 @@ impl<const N: usize> Contact<N> {
         let sums = sums.unwrap_or(&own);
         let responses = self.responses(x1, x2, lambda, Some(sums))?;
         let surfaces = (&self.nonmortar, &self.mortar);
-        let (mut new, filter) = if self.options.effective_weights() == Weights::Reference {
-            let mut new = History { x1: x1.to_vec(), x2: x2.to_vec(), ..self.history.clone() };
+        let mut new = if self.options.effective_weights() == Weights::Reference {
+            let mut history = History { x1: x1.to_vec(), x2: x2.to_vec(), ..self.history.clone() };
             if self.kernels.slips {
                 let moved = nodes::assemble(surfaces, &self.history.pairs, x1, x2);
-                new.gap = moved.into_iter().map(|(_, gap)| gap).collect();
+                history.gap = moved.into_iter().map(|(_, gap)| gap).collect();
             }
-            (new, None)
+            Start { history, filter: None, integration: None }
         } else {
-            Self::history_at(surfaces, &self.options, &mut self.counters, (x1, x2))?
+            Self::start_at(surfaces, &self.options, &mut self.counters, (x1, x2))?
         };
-        new.commits = self.history.commits.saturating_add(1); // an imported history may hold any number
+        new.history.commits = self.history.commits.saturating_add(1); // an imported history may hold any number
         if self.kernels.slips {
             let slip = |a: usize| self.slip_after(a, &responses[a], sums[a].coverage_previous);
-            new.slip = (0..responses.len()).map(slip).collect();
+            new.history.slip = (0..responses.len()).map(slip).collect();
         } else {
-            new.slip.clone_from(&self.history.slip);
+            new.history.slip.clone_from(&self.history.slip);
         }
-        self.rollback = Some(self.adopt(new, filter));
+        self.rollback = Some(self.adopt(new));
         Ok(())
     }
 
@@ -246,7 +247,7 @@ impl<const N: usize> Contact<N> {
     pub fn slip_after(&self, a: usize, response: &crate::law::NodeResponse<N>, coverage_previous: f64) -> Vec3 {
         let closed = response.state != crate::law::State::Gap;
         let step = if closed && coverage_previous > 0.0 { response.slip / coverage_previous } else { Vec3::zeros() };
-        self.history.slip[a] + step
+        self.history.slip.get(a).map_or(step, |slip| slip + step)
     }
 
     /// Undoes the last commit exactly.
@@ -275,7 +276,8 @@ impl<const N: usize> Contact<N> {
 
     /// Replaces the history by an imported one.
     pub fn import_history(&mut self, integers: &[i64], reals: &[f64]) -> Result<()> {
-        let history = History::import(integers, reals, &self.nonmortar, &self.mortar)?;
+        let surfaces = (&self.nonmortar, &self.mortar);
+        let history = History::import(Keeps::of(&self.options), (integers, reals), surfaces)?;
         self.restore(history)?;
         self.rollback = None;
         Ok(())
@@ -394,7 +396,11 @@ impl<const N: usize> Contact<N> {
     pub fn bytes(&self) -> usize {
         let pair = size_of::<PairRecord>();
         let node = size_of::<Vec3>();
-        let history = |h: &History| h.pairs.len() * pair + (h.x1.len() * 6 + h.x2.len()) * node;
+        let history = |h: &History| {
+            let vectors = [&h.x1, &h.x2, &h.normals, &h.gap, &h.slip];
+            let reals = h.areas.len() + h.coverage.len();
+            h.pairs.len() * pair + vectors.map(Vec::len).iter().sum::<usize>() * node + reals * size_of::<f64>()
+        };
         let surface = |s: &Surface| s.len() * 2 * node + s.facets.len() * size_of::<FacetNodes>();
         let current = self
             .integration

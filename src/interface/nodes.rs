@@ -57,7 +57,7 @@ impl<const N: usize> Contact<N> {
                 coverage: now[a].0,
                 gap_now: now[a].1,
                 coverage_previous: h.coverage[a],
-                gap_committed: h.gap[a],
+                gap_committed: h.gap.get(a).copied().unwrap_or_default(),
                 gap_previous: Vec3::zeros(),
             })
             .collect();
@@ -200,14 +200,22 @@ impl<const N: usize> Contact<N> {
             return Err(Error::new(Kind::InvalidValue, text));
         }
         let Options { coverage_min, .. } = self.options;
-        let h = &self.history;
+        let sums: Vec<(f64, Vec3)> = if self.history.gap.is_empty() {
+            // Without friction t_n keeps no gaps; those of now, at the same positions, are the same.
+            let (x1, x2) = (self.history.x1.clone(), self.history.x2.clone());
+            self.sums(&x1, &x2)?.iter().map(|s| (s.coverage, s.gap_now)).collect()
+        } else {
+            self.history.coverage.iter().copied().zip(self.history.gap.iter().copied()).collect()
+        };
+        let areas = &self.history.areas;
         (0..self.nonmortar.len())
             .map(|a| {
                 let nu = self.normal(a)?;
-                let size = h.areas[a].sqrt();
-                let covered = h.coverage[a] > coverage_min * h.areas[a];
-                let closed = nu.dot(&h.gap[a]) <= CLOSED * size * h.coverage[a];
-                let rhat = self.augmentation(a) * h.areas[a];
+                let (coverage, gap) = sums[a];
+                let size = areas[a].sqrt();
+                let covered = coverage > coverage_min * areas[a];
+                let closed = nu.dot(&gap) <= CLOSED * size * coverage;
+                let rhat = self.augmentation(a) * areas[a];
                 let size = if covered && closed { -INITIAL_TRACTION * rhat * size } else { 0.0 };
                 Ok(effects::along_normal(nu) * size)
             })
