@@ -49,7 +49,7 @@
  * What it may add: interface_set_friction, interface_set_augmentation, interface_set_normals,
  * interface_set_constraints, interface_set_previous after interface_create; interface_history_size,
  * interface_history_export, interface_history_import for restarts; interface_sums on several processes;
- * interface_counters.
+ * interface_counters, interface_effects.
  *
  * A host that assembles elements itself:
  *
@@ -738,6 +738,18 @@ int32_t stickslip_interface_history_import(struct stickslip_interface *interface
 /// Errors: NULL_POINTER, STRUCT_SIZE.
 /// Cost: a copy.
 int32_t stickslip_interface_counters(struct stickslip_interface *interface, struct stickslip_counters *out);
+
+/// What the interface computes and why, one sentence an effect, for the host's log: friction, mortar side, weights,
+/// surfaces that are apart; "asked for" where the options name it, "chosen" where the scene let the library choose.
+/// For people: the words may change.
+///
+/// text (capacity), output: zero-terminated, cut where it is longer; 1000 characters are enough.
+///
+/// Errors: NULL_POINTER, INVALID_SIZE (capacity < 1).
+/// Cost: O(n1 + n2); allocates.
+int32_t stickslip_interface_effects(struct stickslip_interface *interface,
+                                    char *text,
+                                    int64_t capacity);
 
 /// A non-mortar facet's share of its nodes' normals and areas.
 ///

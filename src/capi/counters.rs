@@ -1,8 +1,10 @@
-//! What an interface has done.
+//! What an interface computes, and what it has done.
 
 use super::guard::guard;
 use super::interface::{either, handle, stickslip_interface};
+use super::raw;
 use super::sized::{self, Sized64};
+use libc::c_char;
 
 /// What an interface has done since its creation.
 #[repr(C)]
@@ -82,6 +84,31 @@ pub unsafe extern "C" fn stickslip_interface_counters(
                 multipliers: either!(h, c => c.multipliers()) as i64,
             },
         );
+        Ok(())
+    })
+}
+
+/// What the interface computes and why, one sentence an effect, for the host's log: friction, mortar side, weights,
+/// surfaces that are apart; "asked for" where the options name it, "chosen" where the scene let the library choose.
+/// For people: the words may change.
+///
+/// text (capacity), output: zero-terminated, cut where it is longer; 1000 characters are enough.
+///
+/// Errors: NULL_POINTER, INVALID_SIZE (capacity < 1).
+/// Cost: O(n1 + n2); allocates.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn stickslip_interface_effects(
+    interface: *mut stickslip_interface,
+    text: *mut c_char,
+    capacity: i64,
+) -> i32 {
+    guard(|| {
+        let h = &handle(interface)?.inner;
+        raw::check(text, "text")?;
+        let capacity = raw::count(capacity, 1, "capacity")?;
+        let sentences = either!(h, c => c.effects());
+        let bytes = sentences.bytes().take(capacity - 1).chain([0]);
+        raw::write_each(text, bytes.map(|b| b as c_char));
         Ok(())
     })
 }

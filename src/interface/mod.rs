@@ -5,6 +5,7 @@
 
 mod assembly;
 mod augmented;
+mod describe;
 mod effects;
 mod history;
 mod integration;
