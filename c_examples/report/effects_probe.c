@@ -94,8 +94,7 @@ int main(int argc, char **argv)
       .facet_offsets = offsets2, .facet_nodes = nodes2, .equations = equations2};
 
   stop_on(stickslip_interface_create(&upper, &lower, &options, &contact));
-  stop_on(stickslip_interface_tangent_coo(contact, x1, x2, lambda, NULL, 0, NULL, NULL, NULL, &capacity));
-  capacity *= 2; /* while it slides, pairs come and go */
+  stop_on(stickslip_interface_pattern_coo(contact, x1, x2, 0, NULL, NULL, &capacity)); /* no tangent has more entries */
   int64_t *entry_rows = malloc(2 * (size_t)capacity * sizeof(int64_t));
   double  *values     = malloc((size_t)capacity * sizeof(double));
   if (!entry_rows || !values) return 1;

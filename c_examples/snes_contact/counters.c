@@ -7,12 +7,15 @@
 static PetscErrorCode interface_counters(const Interface *interface, cJSON *parent, stickslip_counters *sum)
 {
   stickslip_counters counters = {.struct_size = sizeof(counters)};
+  char               effects[1024];
   cJSON             *json;
 
   PetscFunctionBegin;
   if (!interface->handle) PetscFunctionReturn(PETSC_SUCCESS); /* the library refused to create it */
   PetscCallStickslip(stickslip_interface_counters(interface->handle, &counters));
+  PetscCallStickslip(stickslip_interface_effects(interface->handle, effects, sizeof(effects)));
   json = cJSON_AddObjectToObject(parent, interface->name);
+  cJSON_AddStringToObject(json, "effects", effects);
 #define ADD(member) cJSON_AddNumberToObject(json, #member, (double)counters.member)
   ADD(multipliers);
   ADD(bytes);
