@@ -82,21 +82,34 @@ impl<const N: usize> PairTangent<N> {
         nodes: &[NodeTangent<N>; MAX_NODES],
     ) -> PairTangent<N> {
         let mut t = PairTangent::default();
-        if let Some(now) = now {
-            t.add_now::<MOVES>(now, nodes);
-        }
-        if let Some(weights) = previous {
-            for a in 0..MAX_NODES {
-                let rows = frozen_rows::<MOVES, N>(weights, a, &nodes[a].drow_dprevious);
-                for k in 0..slots(MOVES) {
-                    t.row_x[a][k] += rows[k];
-                }
-            }
-        }
+        t.update::<MOVES>(now, previous, nodes);
         t
     }
 
-    fn add_now<const MOVES: bool>(&mut self, now: &PairNow, nodes: &[NodeTangent<N>; MAX_NODES]) {
+    /// The same in place. Left as they are: the mortar side's slots where it does not move, and what a pair does not
+    /// have: `force_x` with frozen weights, both kinds of force where it is not active now.
+    pub fn update<const MOVES: bool>(
+        &mut self,
+        now: Option<&PairNow>,
+        previous: Option<&PairWeights>,
+        nodes: &[NodeTangent<N>; MAX_NODES],
+    ) {
+        for a in 0..MAX_NODES {
+            let rows = now.map(|now| now.gap_rows::<MOVES, N>(a, &nodes[a].drow_dnow));
+            self.row_x[a] = rows.unwrap_or_else(|| [SMatrix::zeros(); PAIR_NODES]);
+            if let Some(weights) = previous {
+                let rows = frozen_rows::<MOVES, N>(weights, a, &nodes[a].drow_dprevious);
+                for k in 0..slots(MOVES) {
+                    self.row_x[a][k] += rows[k];
+                }
+            }
+        }
+        if let Some(now) = now {
+            self.update_forces::<MOVES>(now, nodes);
+        }
+    }
+
+    fn update_forces<const MOVES: bool>(&mut self, now: &PairNow, nodes: &[NodeTangent<N>; MAX_NODES]) {
         for a in 0..MAX_NODES {
             for k in 0..MAX_NODES {
                 self.force_lambda[k][a] = now.weights.ab[a][k];
@@ -104,17 +117,17 @@ impl<const N: usize> PairTangent<N> {
                     self.force_lambda[MORTAR + k][a] = -now.weights.ac[a][k];
                 }
             }
-            self.row_x[a] = now.gap_rows::<MOVES, N>(a, &nodes[a].drow_dnow);
         }
         let Some((dn, _)) = now.motion else { return };
-        for a in 0..MAX_NODES {
-            let t = nodes[a].traction;
-            for b in 0..MAX_NODES {
-                for k in 0..slots(MOVES) {
-                    self.force_x[b][k] += t * dn.ab[a][b][k].transpose();
-                    if MOVES {
-                        self.force_x[MORTAR + b][k] -= t * dn.ac[a][b][k].transpose();
-                    }
+        let sum = |d: &[[[Vec3; PAIR_NODES]; MAX_NODES]; MAX_NODES], b: usize, k: usize| {
+            let term = |a: usize| nodes[a].traction * d[a][b][k].transpose();
+            term(0) + term(1) + term(2) + term(3)
+        };
+        for b in 0..MAX_NODES {
+            for k in 0..slots(MOVES) {
+                self.force_x[b][k] = sum(&dn.ab, b, k);
+                if MOVES {
+                    self.force_x[MORTAR + b][k] = -sum(&dn.ac, b, k);
                 }
             }
         }

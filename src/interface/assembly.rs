@@ -156,21 +156,22 @@ impl<const N: usize> Contact<N> {
         let mut linearised = 0;
         let mut couplings = self.augmented_couplings();
         let nodes = self.node_tangents(lambda, &responses)?;
+        // Large, so that one of each serves all pairs.
+        let (mut dn, mut t) = (WeightDerivatives::default(), PairTangent::default());
         for pair in &self.union() {
             let one = &self.nonmortar.facets[pair.one];
-            let mut motion = None;
+            let mut gap = None;
             if let (Some(weights), Some(k)) = (pair.now, &self.integration) {
                 let frame = &k.frames[pair.one];
                 let segment = Segment::new(frame, &self.mortar.facet(pair.two, x2))?
                     .expect("an active pair has a segment at the positions it was found at");
-                let dn = WeightDerivatives::integrate_for::<MOVES>(frame, &segment, self.options.rule);
+                dn.update::<MOVES>(frame, &segment, self.options.rule);
                 linearised += 1;
-                let gap = GapDerivative::current_for::<MOVES>(frame, &segment.mortar, weights, &dn);
-                motion = Some((dn, gap));
+                gap = Some(GapDerivative::current_for::<MOVES>(frame, &segment.mortar, weights, &dn));
             }
-            let motion = motion.as_ref().map(|(dn, gap)| (dn, gap));
+            let motion = gap.as_ref().map(|gap| (&dn, gap));
             let now = pair.now.map(|weights| PairNow { weights, motion });
-            let t = PairTangent::new::<MOVES>(now.as_ref(), pair.previous, &one.nodes.map(|a| nodes[a]));
+            t.update::<MOVES>(now.as_ref(), pair.previous, &one.nodes.map(|a| nodes[a]));
             self.emit_pair::<MOVES>(pair, &t, sink)?;
             if let Some(couplings) = &mut couplings {
                 for k in 0..one.len {
