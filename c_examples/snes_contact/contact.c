@@ -187,6 +187,15 @@ PetscErrorCode contact_states_destroy(ContactStates *states)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Before the commit: with the weights of now beside those of t_n, where both are needed. */
+static int32_t measure_memory(Interface *interface)
+{
+  stickslip_counters counters = {.struct_size = sizeof(counters)};
+  const int32_t      status   = stickslip_interface_counters(interface->handle, &counters);
+  interface->bytes            = PetscMax(interface->bytes, counters.bytes);
+  return status;
+}
+
 /* All interfaces accept the step, or none: what was committed before a refusal is rolled back. */
 PetscErrorCode contact_commit(Model *model, PetscInt *status)
 {
@@ -197,7 +206,9 @@ PetscErrorCode contact_commit(Model *model, PetscInt *status)
     Interface *interface = &model->interfaces[i];
     int32_t    refused   = 0;
     PetscCall(contact_gather(model, interface, model->u_local));
-    if (model->rank == 0) refused = stickslip_interface_commit(interface->handle, STATE_OF(interface), NULL);
+    if (model->rank == 0) refused = measure_memory(interface);
+    if (model->rank == 0 && !refused)
+      refused = stickslip_interface_commit(interface->handle, STATE_OF(interface), NULL);
     PetscCall(contact_agree(model, refused, status));
     if (!*status) committed++;
   }

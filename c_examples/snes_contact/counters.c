@@ -18,7 +18,7 @@ static PetscErrorCode interface_counters(const Interface *interface, cJSON *pare
   cJSON_AddStringToObject(json, "effects", effects);
 #define ADD(member) cJSON_AddNumberToObject(json, #member, (double)counters.member)
   ADD(multipliers);
-  ADD(bytes);
+  cJSON_AddNumberToObject(json, "bytes", (double)interface->bytes);
   ADD(pairs_tested);
   ADD(pairs_clipped);
   ADD(pairs_integrated);

@@ -50,6 +50,7 @@ typedef struct {
   int64_t              coo_capacity, *coo_rows, *coo_columns;
   double              *coo_values;
   double               friction_work; /* up to the last converged step */
+  int64_t              bytes;         /* of the library's, the most at the end of a step */
 } Interface;
 
 /* nodal results of one interface; every array has n1 entries, vectors 3 n1 */
