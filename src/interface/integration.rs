@@ -154,23 +154,25 @@ fn integrate(
     Ok(Integration { x1: x1.to_vec(), x2: x2.to_vec(), frames, pairs })
 }
 
-/// Whether the surfaces are so far apart that nothing can touch: by more than any penetration that is a pair. Only
-/// asked where the weights follow the motion, so that they can be made up for later.
-fn are_apart((one, two): (&Surface, &Surface), options: &Options, x1: &[Vec3], x2: &[Vec3]) -> bool {
+/// Whether the surfaces are so far apart that nothing can touch, in all of the configurations (x1, x2): by more than any
+/// penetration that is a pair, and on the same side; between two sides they pass through each other. Only asked where
+/// the weights follow the motion, so that they can be made up for later.
+fn are_apart((one, two): (&Surface, &Surface), options: &Options, places: &[(&[Vec3], &[Vec3])]) -> bool {
     if !options.shortcuts.apart || options.effective_weights() != Weights::Current {
         return false;
     }
     let around = |x: &[Vec3]| Aabb::around(x.iter().copied());
     let distance = options.search_distance.unwrap_or_else(|| one.longest_edge.min(two.longest_edge));
-    around(x1).is_apart(&around(x2), distance)
+    let sides: Vec<_> = places.iter().map(|(x1, x2)| around(x1).sides(&around(x2), distance)).collect();
+    (0..6).any(|side| sides.iter().all(|s| s[side]))
 }
 
 /// Refuses a mortar surface that lies in several layers over a node.
-fn check_layers(history: &History) -> Result<()> {
-    let Some(k) = (0..history.areas.len()).find(|&k| history.coverage[k] > MOST_COVERAGE * history.areas[k]) else {
+fn check_layers(areas: &[f64], coverage: impl Iterator<Item = f64>) -> Result<()> {
+    let mut times = coverage.zip(areas).map(|(coverage, area)| coverage / area).enumerate();
+    let Some((k, times)) = times.find(|(_, times)| *times > MOST_COVERAGE) else {
         return Ok(());
     };
-    let times = history.coverage[k] / history.areas[k];
     let text = format!(
         "non-mortar node {k} is covered {times:.2} times: the mortar surface lies in layers over it; set search_distance below their distance, or leave the farther ones out"
     );
@@ -188,8 +190,8 @@ impl<const N: usize> Contact<N> {
         if self.integration.as_ref().is_some_and(|k| k.x1 == x1 && k.x2 == x2) {
             return Ok(());
         }
-        let surfaces = (&self.nonmortar, &self.mortar);
-        self.integration = Some(if are_apart(surfaces, &self.options, x1, x2) {
+        let (surfaces, h) = ((&self.nonmortar, &self.mortar), &self.history);
+        self.integration = Some(if are_apart(surfaces, &self.options, &[(&h.x1, &h.x2), (x1, x2)]) {
             self.counters.evaluations_apart += 1;
             Integration { x1: x1.to_vec(), x2: x2.to_vec(), frames: Vec::new(), pairs: Vec::new() }
         } else {
@@ -212,8 +214,8 @@ impl<const N: usize> Contact<N> {
         {
             let mut new = integrate(surfaces, &self.options, filter, &mut self.counters, (&h.x1, &h.x2))?;
             let sums = assemble(surfaces, &new.pairs, &h.x1, &h.x2);
+            check_layers(&self.history.areas, sums.iter().map(|(coverage, _)| *coverage))?;
             self.history.fill(&mut new.pairs, &sums);
-            check_layers(&self.history)?;
         }
         Ok(())
     }
@@ -242,7 +244,7 @@ impl<const N: usize> Contact<N> {
             integrated: false,
         };
         let (mut filter, mut integration) = (None, None);
-        let frames = if are_apart((nonmortar, mortar), options, x1, x2) {
+        let frames = if are_apart((nonmortar, mortar), options, &[(x1, x2)]) {
             counters.commits_apart += 1;
             &frames(nonmortar, x1)?
         } else {
@@ -271,7 +273,7 @@ impl<const N: usize> Contact<N> {
                 return Err(Error::new(Kind::DegenerateFacet, text));
             }
         }
-        check_layers(&history)?;
+        check_layers(&history.areas, history.coverage.iter().copied())?;
         Ok(Start { history, filter, integration: integration.filter(|_| keeps == Keeps::Nothing) })
     }
 

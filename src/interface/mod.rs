@@ -223,7 +223,8 @@ impl<const N: usize> Contact<N> {
         let surfaces = (&self.nonmortar, &self.mortar);
         let mut new = if self.options.effective_weights() == Weights::Reference {
             let mut history = History { x1: x1.to_vec(), x2: x2.to_vec(), ..self.history.clone() };
-            if self.kernels.slips {
+            // Also where mu is 0 at every node: it may be set before the next step. Tied nodes keep their first gap.
+            if self.history.keeps == Keeps::Slip && self.options.friction != Friction::Tied {
                 let moved = nodes::assemble(surfaces, &self.history.pairs, x1, x2);
                 history.gap = moved.into_iter().map(|(_, gap)| gap).collect();
             }

@@ -27,9 +27,10 @@ impl Aabb {
         (self.low + self.high) * 0.5
     }
 
-    /// Whether more than `distance` lies between the boxes along some axis.
-    pub fn is_apart(&self, other: &Aabb, distance: f64) -> bool {
-        (0..3).any(|i| self.low[i] - other.high[i] > distance || other.low[i] - self.high[i] > distance)
+    /// Along which axes more than `distance` lies between the boxes: this one above the other, then below it.
+    pub fn sides(&self, other: &Aabb, distance: f64) -> [bool; 6] {
+        let (above, below) = (self.low - other.high, other.low - self.high);
+        [above.x, above.y, above.z, below.x, below.y, below.z].map(|between| between > distance)
     }
 
     /// Length of the diagonal.

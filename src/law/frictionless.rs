@@ -49,11 +49,12 @@ impl Law<3> for Frictionless {
         let lambda_n = node.normal.dot(&node.lambda);
         let (gap_normal, sigma_n, closed) = close(node, lambda_n);
         let on = if closed { node.normal * node.normal.transpose() } else { Mat3::zeros() };
-        let rest = node.lambda - on * node.lambda;
+        // In the order of Coulomb's law, so that the row is the same to the last bit.
+        let lambda_t = node.lambda - node.normal * lambda_n;
         NodeResponse {
             state: if closed { State::Slip } else { State::Gap },
             traction: if closed { node.normal * sigma_n } else { Vec3::zeros() },
-            row: if closed { node.normal * gap_normal - rest / r } else { -node.lambda / r },
+            row: if closed { node.normal * gap_normal - lambda_t / r } else { -node.lambda / r },
             gap_normal,
             slip: Vec3::zeros(),
             sigma: node.normal * sigma_n,
