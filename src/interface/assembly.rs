@@ -12,7 +12,7 @@ use crate::element::{NodeTangent, PairNow, PairTangent, pair_force};
 use crate::error::{Error, Kind, Result};
 use crate::geometry::{Mat3, Vec3};
 use crate::law::NodeResponse;
-use crate::mortar::{GapDerivative, MORTAR, PAIR_NODES, PairWeights, Segment, WeightDerivatives, slots};
+use crate::mortar::{MORTAR, PAIR_NODES, PairWeights, WeightDerivatives, slots};
 use nalgebra::{SMatrix, SVector};
 use std::time::Instant;
 
@@ -162,12 +162,9 @@ impl<const N: usize> Contact<N> {
             let one = &self.nonmortar.facets[pair.one];
             let mut gap = None;
             if let (Some(weights), Some(k)) = (pair.now, &self.integration) {
-                let frame = &k.frames[pair.one];
-                let segment = Segment::new(frame, &self.mortar.facet(pair.two, x2))?
-                    .expect("an active pair has a segment at the positions it was found at");
-                dn.update::<MOVES>(frame, &segment, self.options.rule);
+                let facet = (&k.frames[pair.one], weights);
+                gap = Some((self.kernels.motion)((&self.mortar, x2), pair.two, facet, self.options.rule, &mut dn)?);
                 linearised += 1;
-                gap = Some(GapDerivative::current_for::<MOVES>(frame, &segment.mortar, weights, &dn));
             }
             let motion = gap.as_ref().map(|gap| (&dn, gap));
             let now = pair.now.map(|weights| PairNow { weights, motion });

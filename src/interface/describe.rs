@@ -27,6 +27,9 @@ impl<const N: usize> Contact<N> {
     }
 
     fn mortar_sentence(&self) -> String {
+        if let Some(shape) = self.mortar.analytic {
+            return format!("Mortar side: {shape} (asked for), no facets, no search, no rows and columns for it.");
+        }
         let prescribed = self.mortar.equations.iter().flatten().all(|&e| e == NO_EQUATION);
         let what = match (self.options.mortar_side, self.kernels.moves) {
             (MortarSide::Rigid, _) => "rigid (asked for), no rows and columns for it",
@@ -55,6 +58,10 @@ impl<const N: usize> Contact<N> {
 
     fn apart_sentence(&self) -> String {
         let what = match (self.options.effective_weights(), self.options.shortcuts.apart) {
+            (Weights::Current, true) if self.mortar.analytic.is_some() => {
+                "only the distances of the nodes are compared (chosen)"
+            }
+            (Weights::Current, false) if self.mortar.analytic.is_some() => "integrated all the same (asked for)",
             (Weights::Current, true) => "only their boxes are compared (chosen)",
             (Weights::Current, false) => "searched all the same (asked for)",
             (Weights::Committed | Weights::Reference, _) => "nothing special, for frozen weights need no search",

@@ -1,18 +1,30 @@
-//! The effects of an interface, resolved once: which law its nodes obey, whether the mortar side moves. Below this file
+//! The effects of an interface, resolved once: which law its nodes obey, what the mortar side is. Below this file
 //! everything is compiled for one combination; nothing asks again.
 //!
 //! A new law is a file in `law` and a line here.
 
 use super::assembly::Sink;
 use super::nodes::NodeSums;
-use super::{Contact, Friction, MortarSide, NO_EQUATION, Options, Surface};
+use super::{Contact, Friction, MortarSide, NO_EQUATION, Options, Surface, analytic, integration};
 use crate::error::Result;
 use crate::geometry::Vec3;
 use crate::law::{Coulomb, Frictionless, Law, Node, NodeResponse, Tied};
+use crate::mortar::{GapDerivative, NonmortarFrame, PairWeights, WeightDerivatives};
+use crate::quadrature::Rule;
 use nalgebra::{SMatrix, SVector};
 
 type Tangent<const N: usize> =
     fn(&mut Contact<N>, &[Vec3], &[Vec3], &[SVector<f64, N>], Option<&[NodeSums]>, &mut dyn Sink) -> Result<()>;
+
+/// Derivatives of a pair with its weights of now: mortar surface and positions, its facet, the other facet's frame and the
+/// weights. Those of the weights go to the last argument, but for what they have none of.
+pub(super) type PairMotion = fn(
+    (&Surface, &[Vec3]),
+    usize,
+    (&NonmortarFrame, &PairWeights),
+    &Rule,
+    &mut WeightDerivatives,
+) -> Result<GapDerivative>;
 
 /// The routines of one combination of effects, for N multiplier components a node.
 #[derive(Clone, Copy, Debug)]
@@ -25,33 +37,54 @@ pub(super) struct Kernels<const N: usize> {
     pub respond: fn(&Node<N>) -> NodeResponse<N>,
     /// Stages 3 and 4 of the tangent.
     pub tangent: Tangent<N>,
+    /// Derivatives of a pair.
+    pub motion: PairMotion,
 }
 
-fn kernels<const N: usize, L: Law<N>>(moves: bool) -> Kernels<N> {
+/// What the mortar side is.
+enum Side {
+    Moves,
+    Rests,
+    Analytic,
+}
+
+fn kernels<const N: usize, L: Law<N>>(side: Side) -> Kernels<N> {
+    let moves = matches!(side, Side::Moves);
     let tangent = if moves { Contact::tangent_with::<true> } else { Contact::tangent_with::<false> };
-    Kernels { slips: L::SLIPS, moves, respond: L::respond, tangent }
+    let motion = match side {
+        Side::Moves => integration::motion::<true>,
+        Side::Rests => integration::motion::<false>,
+        Side::Analytic => analytic::motion,
+    };
+    Kernels { slips: L::SLIPS, moves, respond: L::respond, tangent, motion }
 }
 
-/// Whether the mortar side moves: asked for, or because one of its nodes has an equation.
-fn mortar_moves(options: &Options, mortar: &Surface) -> bool {
+/// Facets move when asked for, or because a node has an equation.
+fn mortar_side(options: &Options, mortar: &Surface) -> Side {
     let prescribed = || mortar.equations.iter().flatten().all(|&e| e == NO_EQUATION);
-    options.mortar_side == MortarSide::Deformable && !(options.shortcuts.rigid && prescribed())
+    if mortar.analytic.is_some() {
+        Side::Analytic
+    } else if options.mortar_side == MortarSide::Rigid || (options.shortcuts.rigid && prescribed()) {
+        Side::Rests
+    } else {
+        Side::Moves
+    }
 }
 
 /// One multiplier a node: without friction.
 pub(super) fn choose_one(options: &Options, mortar: &Surface) -> Kernels<1> {
-    kernels::<1, Frictionless>(mortar_moves(options, mortar))
+    kernels::<1, Frictionless>(mortar_side(options, mortar))
 }
 
 /// Three multipliers a node; `mu` of every node.
 pub(super) fn choose_three(options: &Options, mortar: &Surface, mu: &[f64]) -> Kernels<3> {
-    let moves = mortar_moves(options, mortar);
+    let side = mortar_side(options, mortar);
     let smooth = options.shortcuts.frictionless && mu.iter().all(|&mu| mu == 0.0);
     match options.friction {
-        Friction::Tied => kernels::<3, Tied>(moves),
-        Friction::None => kernels::<3, Frictionless>(moves),
-        Friction::Coulomb if smooth => kernels::<3, Frictionless>(moves),
-        Friction::Coulomb | Friction::Rough => kernels::<3, Coulomb>(moves),
+        Friction::Tied => kernels::<3, Tied>(side),
+        Friction::None => kernels::<3, Frictionless>(side),
+        Friction::Coulomb if smooth => kernels::<3, Frictionless>(side),
+        Friction::Coulomb | Friction::Rough => kernels::<3, Coulomb>(side),
     }
 }
 

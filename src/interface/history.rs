@@ -5,7 +5,7 @@
 use super::options::{Friction, Options, Weights};
 use super::surface::Surface;
 use crate::error::{Error, Kind, Result};
-use crate::geometry::{Plane, Vec3};
+use crate::geometry::{AnalyticShape, Plane, Vec3};
 use crate::mortar::{NonmortarFrame, PairWeights};
 use crate::shape::MAX_NODES;
 
@@ -232,9 +232,10 @@ impl History {
 }
 
 /// A number that two pairs of surfaces share only when their facets name the same nodes in the same
-/// order (FNV-1a).
+/// order, and an analytic surface has the same shape (FNV-1a).
 fn fingerprint(nonmortar: &Surface, mortar: &Surface) -> i64 {
     let facets = nonmortar.facets.iter().chain(&mortar.facets);
-    let words = facets.flat_map(|f| std::iter::once(f.len).chain(f.nodes));
-    words.fold(0xcbf2_9ce4_8422_2325_u64, |hash, word| (hash ^ word as u64).wrapping_mul(0x0100_0000_01b3)) as i64
+    let words = facets.flat_map(|f| std::iter::once(f.len).chain(f.nodes)).map(|word| word as u64);
+    let words = words.chain(mortar.analytic.into_iter().flat_map(AnalyticShape::words));
+    words.fold(0xcbf2_9ce4_8422_2325_u64, |hash, word| (hash ^ word).wrapping_mul(0x0100_0000_01b3)) as i64
 }

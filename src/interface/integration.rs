@@ -2,21 +2,23 @@
 //!
 //! A pair is active when its facets overlap or touch in the auxiliary plane and it passed the filters of
 //! the last commit (opposing normals, heights). All of that is a function of the positions and the
-//! history, so evaluating at A, B, A gives equal bits.
+//! history, so evaluating at A, B, A gives equal bits. An analytic mortar side goes its own way at the four places where
+//! `Surface::analytic` is asked.
 
 use super::history::{History, Keeps, PairRecord};
 use super::nodes::assemble;
 use super::search::{Aabb, Prism, Tree};
-use super::{Contact, Counters, Options, Surface, Weights};
+use super::{Contact, Counters, Options, Surface, Weights, analytic};
 use crate::error::{Error, Kind, Result};
 use crate::geometry::{Facet, Plane, Vec3};
-use crate::mortar::{NonmortarFrame, PairWeights, Segment};
+use crate::mortar::{GapDerivative, NonmortarFrame, PairWeights, Segment, WeightDerivatives};
 use crate::normal;
+use crate::quadrature::Rule;
 use std::time::Instant;
 
 /// Facets whose normals oppose each other less than this are no pair: beyond 80 degrees the
 /// projection degenerates, and faces that look the same way must not be found.
-const LEAST_OPPOSITION: f64 = 0.17;
+pub(super) const LEAST_OPPOSITION: f64 = 0.17;
 /// Prisms are grown by this (over the facet's longest edge), so that touching facets are visited.
 const TOUCH_MARGIN: f64 = 1e-6;
 /// How far (over the facet's longest edge) surfaces may move within their plane before a tangent needs
@@ -45,13 +47,12 @@ pub(super) struct Start {
 }
 
 /// Names the facets in a refusal.
-fn at_facet(side: &str, facet: usize) -> impl FnOnce(Error) -> Error {
-    let place = format!("{side} facet {facet}: ");
-    move |e| Error::new(e.kind, place + &e.message)
+pub(super) fn at_facet(side: &str, facet: usize) -> impl FnOnce(Error) -> Error {
+    move |e| Error::new(e.kind, format!("{side} facet {facet}: {}", e.message))
 }
 
 /// The frames of all facets of a surface.
-fn frames(surface: &Surface, x: &[Vec3]) -> Result<Vec<NonmortarFrame>> {
+pub(super) fn frames(surface: &Surface, x: &[Vec3]) -> Result<Vec<NonmortarFrame>> {
     (0..surface.facets.len())
         .map(|f| NonmortarFrame::new(&surface.facet(f, x)).map_err(at_facet(surface.side, f)))
         .collect()
@@ -60,22 +61,42 @@ fn frames(surface: &Surface, x: &[Vec3]) -> Result<Vec<NonmortarFrame>> {
 /// Refuses a mortar surface with facets that are degenerate, folded or concave in the first configuration,
 /// whether they meet a non-mortar facet or not.
 pub(super) fn check_mortar_facets(surface: &Surface) -> Result<()> {
+    if surface.analytic.is_some() {
+        return Ok(());
+    }
     frames(surface, &surface.reference).map(|_| ())
 }
 
-/// What settles at a commit whether two facets can be a pair: opposing normals, and heights over the
-/// non-mortar facet between a penetration and a gap.
+/// What settles at a commit which pairs there can be.
 #[derive(Debug)]
-pub(super) struct Filter {
+pub(super) enum Filter {
+    Facets(FacetFilter),
+    /// Which non-mortar facets face an analytic mortar side.
+    Analytic(Vec<bool>),
+}
+
+impl Filter {
+    /// The filter of the configuration (x1, x2).
+    pub fn new(one: &Surface, two: &Surface, options: &Options, x1: &[Vec3], x2: &[Vec3]) -> Result<Filter> {
+        if two.analytic.is_some() {
+            return analytic::facing(one, &two.analytic_at(x2)?, options, x1).map(Filter::Analytic);
+        }
+        FacetFilter::new(one, two, options, x1, x2).map(Filter::Facets)
+    }
+}
+
+/// Whether two facets can be a pair: opposing normals, and heights over the non-mortar facet between a penetration and a
+/// gap.
+#[derive(Debug)]
+pub(super) struct FacetFilter {
     nonmortar: Vec<(Facet, Plane)>,
     mortar: Vec<(Facet, Plane)>,
     gap: f64,
     penetration: Option<f64>,
 }
 
-impl Filter {
-    /// The filter of the configuration (x1, x2).
-    pub fn new(one: &Surface, two: &Surface, options: &Options, x1: &[Vec3], x2: &[Vec3]) -> Result<Filter> {
+impl FacetFilter {
+    fn new(one: &Surface, two: &Surface, options: &Options, x1: &[Vec3], x2: &[Vec3]) -> Result<FacetFilter> {
         let facets = |s: &Surface, x: &[Vec3]| -> Result<Vec<(Facet, Plane)>> {
             let facet = |f: usize| {
                 let facet = s.facet(f, x);
@@ -85,7 +106,7 @@ impl Filter {
         };
         // As far as the surfaces reach: nothing that may be hit is too far away.
         let reach = || Aabb::around(one.reference.iter().chain(&two.reference).copied()).diagonal();
-        Ok(Filter {
+        Ok(FacetFilter {
             nonmortar: facets(one, x1)?,
             mortar: facets(two, x2)?,
             gap: options.search_distance.unwrap_or_else(reach),
@@ -109,7 +130,7 @@ fn candidates(
     (one, two): (&Surface, &Surface),
     frames: &[NonmortarFrame],
     (x1, x2): (&[Vec3], &[Vec3]),
-    filter: &Filter,
+    filter: &FacetFilter,
     skin: f64,
 ) -> Vec<(usize, usize)> {
     let facet_box = |f: usize| Aabb::around(two.facet(f, x2).points().iter().copied());
@@ -132,6 +153,10 @@ fn integrate(
     counters: &mut Counters,
     (x1, x2): (&[Vec3], &[Vec3]),
 ) -> Result<Integration> {
+    let filter = match filter {
+        Filter::Facets(filter) => filter,
+        Filter::Analytic(facing) => return analytic::integrate((one, two), options, facing, counters, (x1, x2)),
+    };
     let start = Instant::now();
     let frames = frames(one, x1)?;
     let candidates = candidates((one, two), &frames, (x1, x2), filter, 0.0);
@@ -157,14 +182,31 @@ fn integrate(
 /// Whether the surfaces are so far apart that nothing can touch, in all of the configurations (x1, x2): by more than any
 /// penetration that is a pair, and on the same side; between two sides they pass through each other. Only asked where
 /// the weights follow the motion, so that they can be made up for later.
-fn are_apart((one, two): (&Surface, &Surface), options: &Options, places: &[(&[Vec3], &[Vec3])]) -> bool {
+fn are_apart((one, two): (&Surface, &Surface), options: &Options, places: &[(&[Vec3], &[Vec3])]) -> Result<bool> {
     if !options.shortcuts.apart || options.effective_weights() != Weights::Current {
-        return false;
+        return Ok(false);
+    }
+    if two.analytic.is_some() {
+        return analytic::are_apart((one, two), places);
     }
     let around = |x: &[Vec3]| Aabb::around(x.iter().copied());
     let distance = options.search_distance.unwrap_or_else(|| one.longest_edge.min(two.longest_edge));
     let sides: Vec<_> = places.iter().map(|(x1, x2)| around(x1).sides(&around(x2), distance)).collect();
-    (0..6).any(|side| sides.iter().all(|s| s[side]))
+    Ok((0..6).any(|side| sides.iter().all(|s| s[side])))
+}
+
+/// The derivatives of a pair of facets, `MOVES`: with respect to the mortar side too.
+pub(super) fn motion<const MOVES: bool>(
+    (two, x2): (&Surface, &[Vec3]),
+    facet: usize,
+    (frame, weights): (&NonmortarFrame, &PairWeights),
+    rule: &Rule,
+    dn: &mut WeightDerivatives,
+) -> Result<GapDerivative> {
+    let segment = Segment::new(frame, &two.facet(facet, x2))?
+        .expect("an active pair has a segment at the positions it was found at");
+    dn.update::<MOVES>(frame, &segment, rule);
+    Ok(GapDerivative::current_for::<MOVES>(frame, &segment.mortar, weights, dn))
 }
 
 /// Refuses a mortar surface that lies in several layers over a node.
@@ -191,7 +233,7 @@ impl<const N: usize> Contact<N> {
             return Ok(());
         }
         let (surfaces, h) = ((&self.nonmortar, &self.mortar), &self.history);
-        self.integration = Some(if are_apart(surfaces, &self.options, &[(&h.x1, &h.x2), (x1, x2)]) {
+        self.integration = Some(if are_apart(surfaces, &self.options, &[(&h.x1, &h.x2), (x1, x2)])? {
             self.counters.evaluations_apart += 1;
             Integration { x1: x1.to_vec(), x2: x2.to_vec(), frames: Vec::new(), pairs: Vec::new() }
         } else {
@@ -244,7 +286,7 @@ impl<const N: usize> Contact<N> {
             integrated: false,
         };
         let (mut filter, mut integration) = (None, None);
-        let frames = if are_apart((nonmortar, mortar), options, &[(x1, x2)]) {
+        let frames = if are_apart((nonmortar, mortar), options, &[(x1, x2)])? {
             counters.commits_apart += 1;
             &frames(nonmortar, x1)?
         } else {
@@ -287,9 +329,13 @@ impl<const N: usize> Contact<N> {
         self.ensure_history()?;
         let mut pairs: Vec<_> = self.history.pairs.iter().map(|p| (p.one, p.two)).collect();
         if self.options.effective_weights() == Weights::Current {
-            let frames = frames(&self.nonmortar, x1)?;
-            let filter = self.filter.as_ref().expect("ensure_history made it");
-            pairs.extend(candidates((&self.nonmortar, &self.mortar), &frames, (x1, x2), filter, SKIN));
+            match self.filter.as_ref().expect("ensure_history made it") {
+                Filter::Facets(filter) => {
+                    let frames = frames(&self.nonmortar, x1)?;
+                    pairs.extend(candidates((&self.nonmortar, &self.mortar), &frames, (x1, x2), filter, SKIN));
+                }
+                Filter::Analytic(facing) => pairs.extend((0..facing.len()).filter(|&i| facing[i]).map(|i| (i, 0))),
+            }
         }
         pairs.sort_unstable();
         pairs.dedup();

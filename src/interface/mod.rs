@@ -3,6 +3,7 @@
 //! Residual and tangent are functions of (x, lambda, committed history) alone. The only place of the
 //! core that allocates.
 
+mod analytic;
 mod assembly;
 mod augmented;
 mod describe;
@@ -156,6 +157,10 @@ impl<const N: usize> Contact<N> {
             let text = format!("the mortar side is rigid, but its node {k} has an equation; give it none (-1)");
             return Err(Error::new(Kind::InvalidValue, text));
         }
+        if nonmortar.analytic.is_some() {
+            let text = "nonmortar is an analytic surface; only the mortar side can be one";
+            return Err(Error::new(Kind::InvalidValue, text));
+        }
         integration::check_mortar_facets(&mortar)?;
         let mut counters = Counters::default();
         let (x1, x2) = (nonmortar.reference.clone(), mortar.reference.clone());
@@ -280,6 +285,8 @@ impl<const N: usize> Contact<N> {
     pub fn import_history(&mut self, integers: &[i64], reals: &[f64]) -> Result<()> {
         let surfaces = (&self.nonmortar, &self.mortar);
         let history = History::import(Keeps::of(&self.options), (integers, reals), surfaces)?;
+        let mismatch = |e: Error| Error::new(Kind::HistoryMismatch, e.message);
+        self.mortar.check_rigid(&history.x2).map_err(mismatch)?;
         self.restore(history)?;
         self.rollback = None;
         Ok(())

@@ -162,7 +162,8 @@ impl<const N: usize> Contact<N> {
         self.check_length("x1", x1.len(), self.nonmortar.len())?;
         self.check_length("x2", x2.len(), self.mortar.len())?;
         check_finite("x1", x1)?;
-        check_finite("x2", x2)
+        check_finite("x2", x2)?;
+        self.mortar.check_rigid(x2)
     }
 
     pub(super) fn check_length(&self, name: &str, found: usize, needed: usize) -> Result<()> {

@@ -9,7 +9,7 @@ use super::derivatives::WeightDerivatives;
 use super::segment::NonmortarFrame;
 use super::weights::PairWeights;
 use super::{MORTAR, PAIR_NODES, slots};
-use crate::geometry::{Facet, Projection, Vec3};
+use crate::geometry::{Facet, Mat3, Projection, Vec3};
 use crate::shape::MAX_NODES;
 use nalgebra::SMatrix;
 
@@ -29,9 +29,18 @@ pub fn gap(weights: &PairWeights, one: &Facet, two: &Facet) -> [Vec3; MAX_NODES]
     g
 }
 
-/// Dg_A of a pair with its current weights, in factors: Dg_A = e Dgamma_A + gamma_A De.
+/// Dg_A of a pair with its current weights.
 #[derive(Clone, Debug)]
-pub struct GapDerivative {
+pub enum GapDerivative {
+    /// Of two facets.
+    Facets(AlongNormal),
+    /// Dg_A / Dx_k of a facet against an analytic surface, which is at rest.
+    Blocks([[Mat3; MAX_NODES]; MAX_NODES]),
+}
+
+/// Dg_A of two facets in factors: Dg_A = e Dgamma_A + gamma_A De.
+#[derive(Clone, Debug)]
+pub struct AlongNormal {
     e: Vec3,
     axes: [Vec3; 2],
     tilt: [[Vec3; MAX_NODES]; 2],
@@ -82,12 +91,32 @@ impl GapDerivative {
                 }
             }
         }
-        GapDerivative { e: plane.e, axes: [plane.t1, plane.t2], tilt: plane.tilt, gamma, dgamma }
+        GapDerivative::Facets(AlongNormal { e: plane.e, axes: [plane.t1, plane.t2], tilt: plane.tilt, gamma, dgamma })
     }
 
     /// `drow` . Dg_A / Dx_k for every slot k.
     #[inline]
     pub fn rows<const MOVES: bool, const N: usize>(
+        &self,
+        a: usize,
+        drow: &SMatrix<f64, N, 3>,
+    ) -> [SMatrix<f64, N, 3>; PAIR_NODES] {
+        match self {
+            GapDerivative::Facets(factors) => factors.rows::<MOVES, N>(a, drow),
+            GapDerivative::Blocks(blocks) => {
+                let mut rows = [SMatrix::zeros(); PAIR_NODES];
+                for k in 0..MAX_NODES {
+                    rows[k] = drow * blocks[a][k];
+                }
+                rows
+            }
+        }
+    }
+}
+
+impl AlongNormal {
+    #[inline]
+    fn rows<const MOVES: bool, const N: usize>(
         &self,
         a: usize,
         drow: &SMatrix<f64, N, 3>,
