@@ -172,8 +172,18 @@
 /// The mortar side is rigid or prescribed (no equations): no rows and columns for it in the tangent.
 #define STICKSLIP_MORTAR_RIGID 1
 
-/// The mortar side is a plane, a sphere or a cylinder. Not in this version.
+/// The mortar side is rigid and in closed form, STICKSLIP_SHAPE_...: no facets, no search. Its stickslip_surface has four
+/// nodes, a frame that is fixed to it and that the host moves as a rigid body: see there.
 #define STICKSLIP_MORTAR_ANALYTIC 2
+
+/// A plane. Default.
+#define STICKSLIP_SHAPE_PLANE 0
+
+/// A sphere.
+#define STICKSLIP_SHAPE_SPHERE 1
+
+/// A circular cylinder without ends.
+#define STICKSLIP_SHAPE_CYLINDER 2
 
 /// Coulomb with mu = 0 at every node: no slip is computed (and none reported).
 #define STICKSLIP_SHORTCUT_FRICTIONLESS 1
@@ -271,17 +281,28 @@ typedef struct stickslip_options {
   double search_distance;
   /// Sum of the STICKSLIP_SHORTCUT_... that the library is not to take; 0 (default): it takes all.
   int32_t no_shortcuts;
-  /// 0.
-  int32_t reserved;
+  /// STICKSLIP_SHAPE_... with STICKSLIP_MORTAR_ANALYTIC, else 0.
+  int32_t shape;
+  /// With STICKSLIP_MORTAR_ANALYTIC [L]. Sphere, cylinder: > 0: a ball, a bar; < 0: a cavity, a bore, the body outside.
+  /// Plane, and where there is no shape: 0.
+  double radius;
 } stickslip_options;
 
 /// One surface of an interface.
+///
+/// An analytic mortar side (STICKSLIP_MORTAR_ANALYTIC) has n_nodes = 4 and n_facets = 0; facet_offsets and facet_nodes
+/// are NULL, equations NULL or all -1. Its nodes P0..P3 are a frame that is fixed to the surface and moves as a rigid
+/// body, within 1e-8 of its lengths (INVALID_VALUE otherwise); to move the surface, move them. P0: a point of the plane,
+/// the sphere's centre, a point of the axis. P1 - P0: the plane's normal, out of its body, or the direction of the axis. The
+/// three edges P1 - P0, P2 - P0, P3 - P0 must not lie in one plane; take them about as long as the contact is wide. The
+/// forces on the four nodes are statically equivalent to those on the surface. A facet takes part in a step when at t_n its
+/// normal opposes the surface's; it then counts as covered.
 typedef struct stickslip_surface {
   /// sizeof(stickslip_surface).
   uint64_t struct_size;
-  /// Number of nodes; each must belong to a facet.
+  /// Number of nodes; each must belong to a facet. Analytic: 4.
   int64_t n_nodes;
-  /// Number of facets.
+  /// Number of facets. Analytic: 0.
   int64_t n_facets;
   /// 3 n_nodes coordinates of the first configuration, node by node [L].
   const double *coordinates;

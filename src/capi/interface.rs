@@ -2,11 +2,13 @@
 
 use super::evaluation::Point;
 use super::guard::guard;
-use super::options::{read_options, stickslip_options};
-use super::surface::{read_multipliers, read_owned, read_surface, refuse_multipliers, stickslip_surface};
+use super::options::{Choices, read_options, stickslip_options};
+use super::surface::{
+    read_analytic, read_multipliers, read_owned, read_surface, refuse_multipliers, stickslip_surface,
+};
 use super::{raw, sized};
 use crate::error::{Error, Kind, Result};
-use crate::interface::{Contact, Friction, Options, Surface};
+use crate::interface::{Contact, Friction, Surface};
 use nalgebra::SVector;
 
 /// A contact interface. Created and destroyed by the library; one thread at a time.
@@ -76,11 +78,12 @@ pub unsafe extern "C" fn stickslip_interface_create(
         raw::check(mortar, "mortar")?;
         raw::check(options, "options")?;
         raw::check(out, "out")?;
-        let (options, base) = read_options(options)?;
+        let choices = read_options(options)?;
         let (one, two) = (sized::read(nonmortar)?, sized::read(mortar)?);
         refuse_multipliers(&two)?;
         let owned = read_owned(&one)?;
-        let mut inner = create_inner(&one, &two, base, options)?;
+        let base = choices.base;
+        let mut inner = create_inner(&one, &two, choices)?;
         if let Some(owned) = owned {
             either!(&mut inner, c => c.set_owned(owned)?);
         }
@@ -89,8 +92,13 @@ pub unsafe extern "C" fn stickslip_interface_create(
     })
 }
 
-fn create_inner(one: &stickslip_surface, two: &stickslip_surface, base: i64, options: Options) -> Result<Inner> {
-    let surfaces = || Ok((read_surface(one, base, "nonmortar")?, read_surface(two, base, "mortar")?));
+fn create_inner(one: &stickslip_surface, two: &stickslip_surface, choices: Choices) -> Result<Inner> {
+    let Choices { options, base, shape } = choices;
+    let mortar = || match shape {
+        Some(shape) => read_analytic(two, shape, base),
+        None => read_surface(two, base, "mortar"),
+    };
+    let surfaces = || Ok((read_surface(one, base, "nonmortar")?, mortar()?));
     if options.friction == Friction::None {
         let equations = read_multipliers(one, base)?;
         let (one, two): (Surface, Surface) = surfaces()?;
