@@ -35,6 +35,8 @@ BAD_SCENES = [
     BadScene("unknown_law", "friction: 0.5", "law: sticky", "base.law"),
     BadScene("friction_of_tied", "friction: 0.5", "friction: 0.5, law: tied", "base.friction"),
     BadScene("not_rigid", "rigid: {body: floor,", "rigid: {body: floor, within: [-9, -9, -9, 9, 9, -0.5],", "base.mortar_side", ("-base_mortar_side", "rigid")),
+    BadScene("analytic_without_support", "bodies: [block, floor]", "bodies: [block, floor, wall]\nwall: {type: analytic, shape: plane, point: [0, 0, 0], direction: [0, 0, 1]}", "wall"),
+    BadScene("analytic_without_radius", "bodies: [block, floor]", "bodies: [block, floor, wall]\nwall: {type: analytic, shape: sphere, point: [0, 0, 0]}", "wall.radius"),
     BadScene("bad_name", "loads: [press, push]", "loads: [Press, push]", "loads"),
     BadScene("same_name_twice", "bodies: [block, floor]", "bodies: [block, block]", "bodies"),
     BadScene("list_of_maps", "loads: [press, push]", "loads: [{press: 1}, push]", "loads"),

@@ -6,6 +6,7 @@ import numpy as np
 
 import comparisons
 from comparisons import PatchCase, difference
+from reference import fit_hertz
 
 # The multiplier of a tied patch is uniform: what is left is the linear solver's round-off.
 TIED_PATCH_BOUND = 1e-11
@@ -25,6 +26,15 @@ PUNCH_REFINEMENT_BOUND = 0.7
 # Work per key that plays: the last one is still down at the end, its step back is not in it.
 PER_KEY = 0.05
 
+# Four facets across the contact radius: the rim is known to a fraction of one; a body of ten times its radius.
+BALL_BOUND = 0.03
+# The stick zone ends between two nodes, 0.02 apart; Cattaneo and Mindlin leave out that friction changes the pressure.
+STICK_FACET = 0.02
+# Sliding: nodes that slipped across the pull before the ball slid still point a little aside.
+SLIDING_BOUND = 0.01
+# A plane and a flat mesh are one surface: what is left is Newton's tolerance.
+FLAT_BOUND = 1e-9
+
 KEYS = range(1, 25)
 RESTING = [k for k in KEYS if k % 3 == 0]
 
@@ -37,6 +47,8 @@ def effects(verdicts, driver):
     small_sliding(verdicts, driver)
     punch(verdicts, driver)
     keys(verdicts, driver)
+    analytic(verdicts, driver)
+    balls(verdicts, driver)
 
 
 def counters(run, interface=comparisons.INTERFACE):
@@ -179,3 +191,63 @@ def keys(verdicts, driver):
 
 def touching_last(run):
     return [name for name, i in run.steps[-1]["interfaces"].items() if i["stick"] + i["slip"] > 0]
+
+
+def analytic(verdicts, driver):
+    """The analytic plane of effects.yaml against the rigid floor with a flat mesh, while the block lies flat on it. (Where
+    its rim lifts, current weights differ by the square of its slope: a facet looks along its own normal, the plane along
+    the plane's.)"""
+    both = ("reference", "current")
+    for law, options, weights_of in (
+        ("none", (), both),
+        ("Coulomb", ("-contact_friction", "0.2"), both),
+        ("rough", ("-contact_law", "rough"), both[:1]),
+    ):
+        for weights in weights_of:
+            label = f"analytic plane, {law}, {weights} weights"
+            options_of = (*options, "-contact_weights", weights)
+            name = f"{law}_{weights}"
+            plane = driver.run("effects", *options_of, label=f"plane_{name}")
+            floor = driver.run("effects", *options_of, "-contact_mortar", "floor.zmax", label=f"floor_{name}")
+            error = difference(plane, floor, "contact")
+            verdicts.below(f"{label}: difference from flat facets", error, FLAT_BOUND, "the same plane")
+            fewer = counters(plane, "contact")["pairs_integrated"] / counters(floor, "contact")["pairs_integrated"]
+            verdicts.below(f"{label}: pairs integrated, over those of facets", fewer, 0.5, "one a facet, no overlaps")
+
+
+def balls(verdicts, driver):
+    """Hertz' point contact, the ball elastic or rigid; then friction."""
+    for scene, parts in (("ball_on_plane", 4), ("ball_in_block", 4)):
+        table = driver.run(scene).interface("contact")
+        force = parts * abs(table["fz"].sum())
+        radius, peak = point_contact(force)
+        r, pressure = np.hypot(table["X"], table["Y"]), np.abs(table["fz"]) / table["area_full"]
+        verdicts.near(f"{scene}: peak pressure, largest nodal value", pressure.max(), peak, BALL_BOUND, "Hertz")
+        verdicts.near(f"{scene}: contact radius, ellipse", fit_hertz(r, pressure)[1], radius, BALL_BOUND, "Hertz")
+
+    run = driver.run("ball_on_plane_friction")
+    mu = 0.3
+    force = lambda step: 2 * np.array(run.steps[step]["interfaces"]["contact"]["force"])
+    for number in (5, 6):  # drawn, not yet sliding
+        normal, pull = force(number - 1)[2], -force(number - 1)[0]
+        stick = point_contact(normal)[0] * np.cbrt(1 - pull / (mu * normal))
+        table = run.interface("contact", number)
+        inner = np.hypot(table["X"], table["Y"])[table["state"] == "stick"].max()
+        verdicts.near(
+            f"ball drawn by {pull / (mu * normal):.2f} of what slides: radius of the stick zone (error in facets)",
+            inner,
+            stick,
+            1,
+            "Cattaneo, Mindlin; in facets",
+            scale=STICK_FACET,
+        )
+    sliding = force(-1)
+    verdicts.near("ball that slides: pull over mu P", -sliding[0] / (mu * sliding[2]), 1, SLIDING_BOUND, "Coulomb")
+    verdicts.below("ball that slides: stick nodes", run.steps[-1]["interfaces"]["contact"]["stick"], 0, "it slides")
+
+
+def point_contact(force, young=1000.0, poisson=0.3, radius=1.0):
+    """Hertz: (contact radius, peak pressure) of an elastic against a rigid body."""
+    modulus = young / (1 - poisson**2)
+    contact = np.cbrt(0.75 * force * radius / modulus)
+    return contact, 1.5 * force / (np.pi * contact**2)

@@ -21,6 +21,7 @@ from scene import Driver, SceneError
 COMMITTED = Path(__file__).resolve().parent / "figures" / "effects.png"
 INTERFACE = "contact"
 
+FACETS = ("-contact_mortar", "floor.zmax")
 FRICTION = ("-contact_friction", "0.2")
 LARGE = ("-contact_weights", "current")
 DEFORMABLE = ("-hold_within", "-1,-1,-1,2,2,-0.39")  # the floor is held at its bottom only
@@ -36,15 +37,17 @@ class Rung:
 
 
 RUNGS = [
-    Rung("rigid floor, no friction, small sliding", (), ("none", "rigid", "reference")),
-    Rung("+ large sliding", LARGE, ("none", "rigid", "current")),
-    Rung("+ Coulomb friction", (*LARGE, *FRICTION), ("coulomb", "rigid", "current")),
-    Rung("+ deformable floor", (*LARGE, *FRICTION, *DEFORMABLE), ("coulomb", "deformable", "current")),
+    Rung("analytic plane, no friction, small sliding", (), ("none", "analytic", "reference")),
+    Rung("+ facets, rigid", FACETS, ("none", "rigid", "reference")),
+    Rung("+ large sliding", (*FACETS, *LARGE), ("none", "rigid", "current")),
+    Rung("+ Coulomb friction", (*FACETS, *LARGE, *FRICTION), ("coulomb", "rigid", "current")),
+    Rung("+ deformable", (*FACETS, *LARGE, *FRICTION, *DEFORMABLE), ("coulomb", "deformable", "current")),
 ]
 # Instructions of residual and tangent, one effect against another; the largest ratio that was aimed at.
 RATIOS = [
     ("no friction / Coulomb", ("none", "deformable", "current"), ("coulomb", "deformable", "current"), 0.9),
     ("rigid / deformable mortar side", ("coulomb", "rigid", "current"), ("coulomb", "deformable", "current"), 0.5),
+    ("analytic / deformable mortar side", ("coulomb", "analytic", "current"), ("coulomb", "deformable", "current"), 0.1),
 ]
 
 # Columns: key, heading, format.

@@ -89,9 +89,15 @@ int main(int argc, char **argv)
   upper = (stickslip_surface){.struct_size = sizeof upper, .n_nodes = NODES1, .n_facets = N1 * N1, .coordinates = x1,
       .facet_offsets = offsets1, .facet_nodes = nodes1, .equations = equations1, .multiplier_equations = multipliers};
   patch(N2, -0.3, 1.3, 1, x2, offsets2, nodes2);
+  if (options.mortar_side == STICKSLIP_MORTAR_ANALYTIC) options.shape = STICKSLIP_SHAPE_PLANE;
   number(equations2, 3 * NODES2, options.mortar_side == STICKSLIP_MORTAR_DEFORMABLE ? n_equations : -1);
   lower = (stickslip_surface){.struct_size = sizeof lower, .n_nodes = NODES2, .n_facets = N2 * N2, .coordinates = x2,
       .facet_offsets = offsets2, .facet_nodes = nodes2, .equations = equations2};
+  if (options.mortar_side == STICKSLIP_MORTAR_ANALYTIC) { /* the plane's frame: a point, its normal, two more directions */
+    static const double frame[] = {0, 0, 0, 0, 0, 1, 1, 0, 0, 0, 1, 0};
+    memcpy(x2, frame, sizeof frame);
+    lower = (stickslip_surface){.struct_size = sizeof lower, .n_nodes = 4, .coordinates = x2};
+  }
 
   stop_on(stickslip_interface_create(&upper, &lower, &options, &contact));
   stop_on(stickslip_interface_pattern_coo(contact, x1, x2, 0, NULL, NULL, &capacity)); /* no tangent has more entries */

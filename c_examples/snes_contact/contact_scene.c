@@ -6,6 +6,11 @@ static PetscErrorCode collect_nodes(const Mesh *mesh, const Surface *surface, Pe
 {
   PetscBool *seen;
   PetscFunctionBegin;
+  if (surface->analytic) { /* its frame */
+    for (*n = 0; *n < 4; (*n)++)
+      nodes[*n] = surface->frame + *n;
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
   PetscCall(PetscCalloc1(mesh->n_vertices, &seen));
   *n = 0;
   for (PetscInt k = 0; k < surface->offsets[surface->n_faces]; k++) {
@@ -30,6 +35,17 @@ static PetscReal surface_young(const Model *model, const PetscInt *nodes, PetscI
   return young;
 }
 
+/* A plane, sphere or cylinder: the options tell the library its shape. */
+static void describe_analytic(Scene *scene, Interface *interface)
+{
+  if (!interface->surface[1]->analytic) return;
+  if (scene_has(scene, interface->name, "mortar_side"))
+    scene_fail(scene, interface->name, "mortar_side", "the mortar side is an analytic body, and rigid; leave the key out.");
+  interface->options.mortar_side = STICKSLIP_MORTAR_ANALYTIC;
+  interface->options.shape       = (int32_t)interface->surface[1]->shape;
+  interface->options.radius      = interface->surface[1]->radius;
+}
+
 /* rank 0: surfaces, nodes, default stiffness, removed components */
 static PetscErrorCode read_surfaces(Model *model, Interface *interface)
 {
@@ -44,7 +60,10 @@ static PetscErrorCode read_surfaces(Model *model, Interface *interface)
     interface->surface[side] = mesh_surface(scene, &model->mesh, interface->name, side_key[side], name);
     if (interface->surface[side]->inner)
       scene_fail(scene, interface->name, side_key[side], "'%s' lies inside a body.", name);
-    n_corners[side] = interface->surface[side]->offsets[interface->surface[side]->n_faces];
+    if (interface->surface[side]->analytic && side == 0)
+      scene_fail(scene, interface->name, side_key[side], "'%s' is analytic: it can be the mortar side only.", name);
+    n_corners[side] =
+        interface->surface[side]->analytic ? 4 : interface->surface[side]->offsets[interface->surface[side]->n_faces];
   }
   PetscCall(PetscMalloc1(n_corners[0] + n_corners[1], &interface->nodes));
   PetscCall(collect_nodes(&model->mesh, interface->surface[0], interface->nodes, &interface->n1));
@@ -61,6 +80,7 @@ static PetscErrorCode read_surfaces(Model *model, Interface *interface)
     mortar_mask &= model->prescribed[interface->nodes[interface->n1 + b]];
   if (interface->options.mortar_side == STICKSLIP_MORTAR_RIGID && mortar_mask != 7)
     scene_fail(scene, interface->name, "mortar_side", "'%s' is not rigid: support all of it in x, y and z.", name);
+  describe_analytic(scene, interface);
   PetscCall(PetscMalloc1(interface->n1, &interface->removed));
   for (PetscInt a = 0; a < interface->n1; a++)
     interface->removed[a] = model->prescribed[interface->nodes[a]] & mortar_mask;
