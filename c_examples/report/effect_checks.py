@@ -204,11 +204,10 @@ def analytic(verdicts, driver):
         ("rough", ("-contact_law", "rough"), both[:1]),
     ):
         for weights in weights_of:
-            label = f"analytic plane, {law}, {weights} weights"
-            options_of = (*options, "-contact_weights", weights)
-            name = f"{law}_{weights}"
-            plane = driver.run("effects", *options_of, label=f"plane_{name}")
-            floor = driver.run("effects", *options_of, "-contact_mortar", "floor.zmax", label=f"floor_{name}")
+            label, name = f"analytic plane, {law}, {weights} weights", f"{law}_{weights}"
+            chosen = (*options, "-contact_weights", weights)
+            plane = driver.run("effects", *chosen, label=f"plane_{name}")
+            floor = driver.run("effects", *chosen, "-contact_mortar", "floor.zmax", label=f"floor_{name}")
             error = difference(plane, floor, "contact")
             verdicts.below(f"{label}: difference from flat facets", error, FLAT_BOUND, "the same plane")
             fewer = counters(plane, "contact")["pairs_integrated"] / counters(floor, "contact")["pairs_integrated"]

@@ -20,6 +20,7 @@ from scene import Driver, SceneError
 
 COMMITTED = Path(__file__).resolve().parent / "figures" / "effects.png"
 INTERFACE = "contact"
+RUNS = 3  # of each scene; the shortest times count, as least disturbed by what else the machine does
 
 FACETS = ("-contact_mortar", "floor.zmax")
 FRICTION = ("-contact_friction", "0.2")
@@ -67,8 +68,10 @@ COLUMNS = [
 
 def measure(driver, rung):
     """The figures of one rung."""
-    run = driver.run("effects", *rung.options, label=re.sub(r"\W+", "_", rung.name).strip("_"))
-    interface, seconds = run.summary["interfaces"][INTERFACE], run.summary["seconds"]
+    label = re.sub(r"\W+", "_", rung.name).strip("_")
+    runs = [driver.run("effects", *rung.options, label=f"{label}_{k}") for k in range(RUNS)]
+    run, shortest = runs[0], lambda *keys: 1e3 * min(sum(r.summary["seconds"][key] for key in keys) for r in runs)
+    interface = run.summary["interfaces"][INTERFACE]
     return {
         "name": rung.name,
         "effects": interface["effects"],
@@ -76,8 +79,8 @@ def measure(driver, rung):
         "newton_iterations": run.newton_iterations,
         **{key: interface[key] for key in ("multipliers", "pairs_integrated", "pairs_linearised", "pairs_reused")},
         "bytes": interface["bytes"] / 1e3,
-        "integration": 1e3 * (seconds["search"] + seconds["integration"]),
-        "tangent": 1e3 * seconds["contact_assembly"],
+        "integration": shortest("search", "integration"),
+        "tangent": shortest("contact_assembly"),
     }
 
 
