@@ -15,10 +15,11 @@ export PATH := $(PATH):$(HOME)/.cargo/bin
 LOCKED = mkdir -p $(BUILD) && flock $(BUILD)/.lock
 SAY    = @printf '\n== %s\n'
 
-.PHONY: help demo test build install uninstall docs abi header meshes clean cmake-build rust-tests
+.PHONY: help demo effects test build install uninstall docs abi header meshes clean cmake-build rust-tests
 
 help:
 	@echo "make demo    solve the example scenes, compare with the references, draw (FIGURES=1: renew the README's figures)"
+	@echo "make effects what each effect of an interface costs: a table and a figure (FIGURES=1: renew the committed one)"
 	@echo "make test    run every test and check"
 	@echo "make build   build the library and the examples into $(BUILD)/"
 	@echo "make install PREFIX=DIR [DESTDIR=]   install header, Fortran module, libraries, pkg-config and CMake files"
@@ -34,6 +35,12 @@ demo:
 	@$(MAKE) --no-print-directory cmake-build
 	$(SAY) "Solving the demonstration scenes"
 	@$(PYTHON) c_examples/report/demo.py --build $(BUILD) $(if $(FIGURES),--renew-figures)
+
+effects:
+	@.ci/setup demo
+	@$(MAKE) --no-print-directory cmake-build
+	$(SAY) "One scene with effects added one by one"
+	@$(PYTHON) c_examples/report/effects.py --build $(BUILD) $(if $(FIGURES),--renew-figures)
 
 test:
 	@.ci/setup test

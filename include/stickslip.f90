@@ -76,6 +76,11 @@ module stickslip
   integer(c_int32_t), parameter :: STICKSLIP_MORTAR_RIGID = 1
   integer(c_int32_t), parameter :: STICKSLIP_MORTAR_ANALYTIC = 2
 
+  ! Added up in no_shortcuts: work that the library is to do although the answer does not depend on it.
+  integer(c_int32_t), parameter :: STICKSLIP_SHORTCUT_FRICTIONLESS = 1
+  integer(c_int32_t), parameter :: STICKSLIP_SHORTCUT_RIGID = 2
+  integer(c_int32_t), parameter :: STICKSLIP_SHORTCUT_APART = 4
+
   integer(c_int32_t), parameter :: STICKSLIP_BASIS_STANDARD = 0
   integer(c_int32_t), parameter :: STICKSLIP_BASIS_DUAL = 1
 
@@ -101,10 +106,10 @@ module stickslip
   integer(c_int32_t), parameter :: STICKSLIP_STATE_SLIP = 2
 
   ! Sizes of the types in bytes (64-bit machines), their struct_size.
-  integer(c_int64_t), parameter :: stickslip_options_size = 88
+  integer(c_int64_t), parameter :: stickslip_options_size = 96
   integer(c_int64_t), parameter :: stickslip_surface_size = 72
   integer(c_int64_t), parameter :: stickslip_states_size = 80
-  integer(c_int64_t), parameter :: stickslip_counters_size = 88
+  integer(c_int64_t), parameter :: stickslip_counters_size = 128
   integer(c_int64_t), parameter :: stickslip_pair_size = 40
   integer(c_int64_t), parameter :: stickslip_node_response_size = 408
   integer(c_int64_t), parameter :: stickslip_node_size = 224
@@ -134,6 +139,8 @@ module stickslip
     real(c_double) :: modulus = 0                  ! Young's modulus of the softer body [F/L^2]
     real(c_double) :: coverage_min = 0             ! covered / full area at and below which a node is uncovered
     real(c_double) :: search_distance = 0          ! 0: as far as the surfaces reach [L]
+    integer(c_int32_t) :: no_shortcuts = 0         ! sum of STICKSLIP_SHORTCUT_...; 0: all are taken
+    integer(c_int32_t) :: reserved = 0
   end type
 
   ! One surface of an interface. nf facets with 3 or 4 nodes each.
@@ -145,7 +152,8 @@ module stickslip
     type(c_ptr) :: facet_offsets = c_null_ptr      ! integer(c_int64_t) (n_facets + 1), from 0 in either base
     type(c_ptr) :: facet_nodes = c_null_ptr        ! integer(c_int64_t), right-hand order seen from outside the body
     type(c_ptr) :: equations = c_null_ptr          ! integer(c_int64_t) (3, n_nodes); -1: none (prescribed)
-    type(c_ptr) :: multiplier_equations = c_null_ptr ! integer(c_int64_t) (3, n_nodes); -1: removed. Mortar: null
+    type(c_ptr) :: multiplier_equations = c_null_ptr ! integer(c_int64_t) (3, n_nodes), or (n_nodes) without friction;
+                                                   ! -1: removed. Mortar: null
     type(c_ptr) :: owned = c_null_ptr              ! integer(c_int32_t) (n_nodes), parallel hosts; null: all
   end type
 
@@ -176,6 +184,11 @@ module stickslip
     real(c_double) :: seconds_search = 0
     real(c_double) :: seconds_integration = 0
     real(c_double) :: seconds_assembly = 0
+    integer(c_int64_t) :: pairs_reused = 0         ! frozen weights that served once more
+    integer(c_int64_t) :: nodes_slipping = 0       ! slip increments computed
+    integer(c_int64_t) :: evaluations_apart = 0    ! evaluations that ended with the comparison of two boxes
+    integer(c_int64_t) :: commits_apart = 0        ! commits that did
+    integer(c_int64_t) :: multipliers = 0          ! multiplier equations
   end type
 
   ! A pair of facets, non-mortar first. Node order: right-hand, seen from outside each body.
@@ -323,7 +336,8 @@ module stickslip
     end function
 
     ! Stage 2: state and nodal results, written to the arrays that out points to. x1(3, n1), x2(3, n2), lambda(3, n1);
-    ! sums(11, n1) of stickslip_interface_sums or null, as in all calls below.
+    ! sums(11, n1) of stickslip_interface_sums or null, as in all calls below. With STICKSLIP_FRICTION_NONE lambda and
+    ! rows have n1 elements, one a node: give a vector.
     integer(c_int32_t) function stickslip_interface_states(interface, x1, x2, lambda, sums, out) bind(C)
       import :: c_double, c_int32_t, c_ptr, stickslip_interface, stickslip_states
       type(stickslip_interface), value :: interface
@@ -429,6 +443,15 @@ module stickslip
       import :: c_int32_t, stickslip_counters, stickslip_interface
       type(stickslip_interface), value :: interface
       type(stickslip_counters), intent(inout) :: out
+    end function
+
+    ! What the interface computes and why, one sentence an effect: (text, capacity), ended by c_null_char, cut where it is
+    ! longer.
+    integer(c_int32_t) function stickslip_interface_effects(interface, text, capacity) bind(C)
+      import :: c_char, c_int32_t, c_int64_t, stickslip_interface
+      type(stickslip_interface), value :: interface
+      character(kind=c_char), intent(inout) :: text(*)
+      integer(c_int64_t), value :: capacity
     end function
 
     ! A non-mortar facet's share of its nodes' normals and areas. x(3, n); outputs, each may be null: normals(3, n),

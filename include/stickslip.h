@@ -51,7 +51,7 @@
  * What it may add: interface_set_friction, interface_set_augmentation, interface_set_normals,
  * interface_set_constraints, interface_set_previous after interface_create; interface_history_size,
  * interface_history_export, interface_history_import for restarts; interface_sums on several processes;
- * interface_counters.
+ * interface_counters, interface_effects.
  *
  * A host that assembles elements itself:
  *
@@ -159,23 +159,42 @@
 /// Coulomb friction with the coefficient mu (0 allowed). Default.
 #define STICKSLIP_FRICTION_COULOMB 0
 
-/// One multiplier per node, no tangential work. Not in this version; use mu = 0.
+/// One multiplier per node, along the normal: multiplier_equations, lambda and rows have n1 entries. No slip history.
 #define STICKSLIP_FRICTION_NONE 1
 
-/// Tied surfaces. Not in this version.
+/// Mesh tying: a node that is covered in the first configuration keeps its place; weights of the reference. Linear.
 #define STICKSLIP_FRICTION_TIED 2
 
-/// Opens and closes, never slips. Not in this version.
+/// Opens and closes, never slips.
 #define STICKSLIP_FRICTION_ROUGH 3
 
 /// The mortar side deforms (or is prescribed, where it has no equations). Default.
 #define STICKSLIP_MORTAR_DEFORMABLE 0
 
-/// The mortar side is rigid. Not in this version; give it no equations.
+/// The mortar side is rigid or prescribed (no equations): no rows and columns for it in the tangent.
 #define STICKSLIP_MORTAR_RIGID 1
 
-/// The mortar side is a plane, a sphere or a cylinder. Not in this version.
+/// The mortar side is rigid and in closed form, STICKSLIP_SHAPE_...: no facets, no search. Its stickslip_surface has four
+/// nodes, a frame that is fixed to it and that the host moves as a rigid body: see there.
 #define STICKSLIP_MORTAR_ANALYTIC 2
+
+/// A plane. Default.
+#define STICKSLIP_SHAPE_PLANE 0
+
+/// A sphere.
+#define STICKSLIP_SHAPE_SPHERE 1
+
+/// A circular cylinder without ends.
+#define STICKSLIP_SHAPE_CYLINDER 2
+
+/// Coulomb with mu = 0 at every node: no slip is computed (and none reported).
+#define STICKSLIP_SHORTCUT_FRICTIONLESS 1
+
+/// A mortar side without equations is treated as rigid.
+#define STICKSLIP_SHORTCUT_RIGID 2
+
+/// Surfaces whose boxes are farther apart than their longest edge: neither search nor integration.
+#define STICKSLIP_SHORTCUT_APART 4
 
 /// Standard shape functions for the multiplier (the paper's). Default.
 #define STICKSLIP_BASIS_STANDARD 0
@@ -262,15 +281,30 @@ typedef struct stickslip_options {
   /// penetration, so that the far side of a body is not found. Give it where the mortar surface lies in
   /// layers (refused otherwise) or the surfaces start deeper in each other than a facet.
   double search_distance;
+  /// Sum of the STICKSLIP_SHORTCUT_... that the library is not to take; 0 (default): it takes all.
+  int32_t no_shortcuts;
+  /// STICKSLIP_SHAPE_... with STICKSLIP_MORTAR_ANALYTIC, else 0.
+  int32_t shape;
+  /// With STICKSLIP_MORTAR_ANALYTIC [L]. Sphere, cylinder: > 0: a ball, a bar; < 0: a cavity, a bore, the body outside.
+  /// Plane, and where there is no shape: 0.
+  double radius;
 } stickslip_options;
 
 /// One surface of an interface.
+///
+/// An analytic mortar side (STICKSLIP_MORTAR_ANALYTIC) has n_nodes = 4 and n_facets = 0; facet_offsets and facet_nodes
+/// are NULL, equations NULL or all -1. Its nodes P0..P3 are a frame that is fixed to the surface and moves as a rigid
+/// body, within 1e-8 of its lengths (INVALID_VALUE otherwise); to move the surface, move them. P0: a point of the plane,
+/// the sphere's centre, a point of the axis. P1 - P0: the plane's normal, out of its body, or the direction of the axis. The
+/// three edges P1 - P0, P2 - P0, P3 - P0 must not lie in one plane; take them about as long as the contact is wide. The
+/// forces on the four nodes are statically equivalent to those on the surface. A facet takes part in a step when at t_n its
+/// normal opposes the surface's; it then counts as covered.
 typedef struct stickslip_surface {
   /// sizeof(stickslip_surface).
   uint64_t struct_size;
-  /// Number of nodes; each must belong to a facet.
+  /// Number of nodes; each must belong to a facet. Analytic: 4.
   int64_t n_nodes;
-  /// Number of facets.
+  /// Number of facets. Analytic: 0.
   int64_t n_facets;
   /// 3 n_nodes coordinates of the first configuration, node by node [L].
   const double *coordinates;
@@ -285,8 +319,8 @@ typedef struct stickslip_surface {
   /// index base.
   const int64_t *equations;
   /// Non-mortar: 3 n_nodes multiplier equations, -1: the component is removed and its axis a constrained
-  /// direction (see `stickslip_interface_set_constraints`); a node with three -1 keeps its normal. Mortar:
-  /// NULL.
+  /// direction (see `stickslip_interface_set_constraints`); a node with three -1 keeps its normal. With
+  /// STICKSLIP_FRICTION_NONE n_nodes equations, one a node, along the normal; -1: none. Mortar: NULL.
   const int64_t *multiplier_equations;
   /// Non-mortar, parallel hosts: n_nodes flags, 1 where this handle adds the node's own block; NULL:
   /// all. Mortar: NULL.
@@ -341,6 +375,16 @@ typedef struct stickslip_counters {
   double seconds_integration;
   /// Time in derivatives and assembly of the tangent [s].
   double seconds_assembly;
+  /// Pairs whose frozen weights served once more, in place of an integration.
+  int64_t pairs_reused;
+  /// Slip increments computed, one a node and evaluation; 0 without friction.
+  int64_t nodes_slipping;
+  /// Evaluations that ended with the comparison of two boxes: the surfaces were apart.
+  int64_t evaluations_apart;
+  /// Commits that did.
+  int64_t commits_apart;
+  /// Multiplier equations.
+  int64_t multipliers;
 } stickslip_counters;
 
 /// A pair of facets, non-mortar first. Node order: right-hand, seen from outside each body.
@@ -717,6 +761,18 @@ int32_t stickslip_interface_history_import(struct stickslip_interface *interface
 /// Errors: NULL_POINTER, STRUCT_SIZE.
 /// Cost: a copy.
 int32_t stickslip_interface_counters(struct stickslip_interface *interface, struct stickslip_counters *out);
+
+/// What the interface computes and why, one sentence an effect, for the host's log: friction, mortar side, weights,
+/// surfaces that are apart; "asked for" where the options name it, "chosen" where the scene let the library choose.
+/// For people: the words may change.
+///
+/// text (capacity), output: zero-terminated, cut where it is longer; 1000 characters are enough.
+///
+/// Errors: NULL_POINTER, INVALID_SIZE (capacity < 1).
+/// Cost: O(n1 + n2); allocates.
+int32_t stickslip_interface_effects(struct stickslip_interface *interface,
+                                    char *text,
+                                    int64_t capacity);
 
 /// A non-mortar facet's share of its nodes' normals and areas.
 ///

@@ -167,8 +167,8 @@ fn rust_element_calls_allocate_nothing() {
                 let weights = PairWeights::integrate(&frame, &segment, rule);
                 let derivatives = WeightDerivatives::integrate(&frame, &segment, rule);
                 let gap = GapDerivative::current(&frame, &segment.mortar, &weights, &derivatives);
-                let now = PairNow { weights: &weights, derivatives: Some(&derivatives), gap: &gap };
-                let t = PairTangent::new(Some(&now), Some(&weights), &[NodeTangent::default(); 4]);
+                let now = PairNow { weights: &weights, motion: Some((&derivatives, &gap)) };
+                let t = PairTangent::<3>::new::<true>(Some(&now), Some(&weights), &[NodeTangent::default(); 4]);
                 let g = mortar::gap(&weights, &one, &two);
                 pair_force(&weights, &g)[0].x + t.force_lambda[0][0]
             });

@@ -121,7 +121,7 @@ fn rollback_and_restart_continue_bit_for_bit() {
         assert!(scene.evaluate() == before, "{options:?}");
         assert_eq!(scene.interface.roll_back().unwrap_err().kind, Kind::NothingToRollBack);
 
-        let (integers, reals) = scene.interface.export_history();
+        let (integers, reals) = scene.interface.export_history().unwrap();
         assert_eq!((integers.len(), reals.len()), history.flat_size());
         let mut restarted = moved(&options, QUADS, ROUGH, 3);
         restarted.interface.import_history(&integers, &reals).unwrap();
@@ -135,7 +135,7 @@ fn a_corrupt_history_is_refused_and_nothing_changes() {
     let mut scene = moved(&options(), QUADS, ROUGH, 3);
     scene.commit();
     let before = scene.interface.history().clone();
-    let (integers, reals) = scene.interface.export_history();
+    let (integers, reals) = scene.interface.export_history().unwrap();
     let mut refuse = |kind: Kind, integers: &[i64], reals: &[f64]| {
         assert_eq!(scene.interface.import_history(integers, reals).unwrap_err().kind, kind);
         assert_eq!(*scene.interface.history(), before);

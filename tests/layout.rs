@@ -62,7 +62,9 @@ fn layouts() -> Vec<Layout> {
             augmentation,
             modulus,
             coverage_min,
-            search_distance
+            search_distance,
+            no_shortcuts,
+            reserved
         }),
         layout!(stickslip_states {
             struct_size,
@@ -87,7 +89,12 @@ fn layouts() -> Vec<Layout> {
             bytes,
             seconds_search,
             seconds_integration,
-            seconds_assembly
+            seconds_assembly,
+            pairs_reused,
+            nodes_slipping,
+            evaluations_apart,
+            commits_apart,
+            multipliers
         }),
         layout!(stickslip_node {
             struct_size,

@@ -7,13 +7,10 @@ use stickslip::geometry::Vec3;
 use stickslip::interface::{Form, Options, Weights};
 use stickslip::law::{SlipMeasure, State};
 use stickslip::quadrature::{DEGREE_5, DEGREE_10};
+use support::differences::Point;
 use support::max_abs;
 use support::mesh::*;
 
-/// Step of the differences (facet size 0.5): rounding 1e-16/1e-6 and truncation 1e-12.
-const STEP: f64 = 1e-6;
-/// Rounding of a residual entry, relative to the largest.
-const NOISE: f64 = 1e-15;
 /// K2: relative to the largest entry of the block.
 const DIFFERENCES: f64 = 1e-7;
 /// Warped, jittered quads with the degree-10 rule (measured 7e-10): its own quadrature error.
@@ -24,27 +21,8 @@ const DIFFERENCES_WARPED_DEGREE_5: f64 = 1e-5;
 const ROUNDING: f64 = 1e-13;
 
 impl Moved {
-    fn unknowns(&self) -> usize {
-        3 * (2 * self.x1.len() + self.x2.len())
-    }
-
-    fn residual(&mut self, x: &[f64]) -> Vec<f64> {
-        let v = |x: &[f64]| x.chunks_exact(3).map(Vec3::from_column_slice).collect::<Vec<_>>();
-        let (a, b) = (3 * self.x1.len(), 3 * (self.x1.len() + self.x2.len()));
-        let r = self.interface.residual(&v(&x[..a]), &v(&x[a..b]), &v(&x[b..]), None).unwrap();
-        [r.nonmortar, r.mortar, r.rows].iter().flatten().flat_map(|v| [v.x, v.y, v.z]).collect()
-    }
-
-    fn point(&self) -> Vec<f64> {
-        [&self.x1, &self.x2, &self.lambda].into_iter().flatten().flat_map(|v| [v.x, v.y, v.z]).collect()
-    }
-
-    fn tangent(&mut self) -> Vec<f64> {
-        let n = self.unknowns();
-        let mut k = vec![0.0; n * n];
-        let mut add = |i: i64, j: i64, v: f64| k[i as usize * n + j as usize] += v;
-        self.interface.tangent(&self.x1, &self.x2, &self.lambda, None, &mut add).unwrap();
-        k
+    fn at(&mut self) -> Point<'_, 3> {
+        Point { contact: &mut self.interface, x1: &self.x1, x2: &self.x2, lambda: &self.lambda }
     }
 
     fn states(&mut self) -> [usize; 3] {
@@ -53,40 +31,6 @@ impl Moved {
             count[r.state as usize] += 1;
         }
         count
-    }
-
-    /// Worst difference per block (f1, f2, rows) x (x1, x2, lambda), relative to the block's largest, or to
-    /// `floor` times the matrix's if that is larger.
-    fn difference_error(&mut self, floor: f64) -> f64 {
-        let (n, k, x) = (self.unknowns(), self.tangent(), self.point());
-        let mut fd = vec![0.0; n * n];
-        for j in 0..n {
-            let at = |h: f64| {
-                let mut y = x.clone();
-                y[j] += h;
-                y
-            };
-            let (plus, minus) = (at(STEP), at(-STEP));
-            let h = plus[j] - minus[j];
-            let (plus, minus) = (self.residual(&plus), self.residual(&minus));
-            for i in 0..n {
-                fd[i * n + j] = (plus[i] - minus[i]) / h;
-            }
-        }
-        let noise = NOISE / STEP * max_abs(self.residual(&x));
-        let least = (floor * max_abs(k.iter().copied())).max(f64::MIN_POSITIVE);
-        let ends = [0, 3 * self.x1.len(), n - 3 * self.x1.len(), n];
-        let mut worst = 0.0_f64;
-        for rows in ends.windows(2) {
-            for columns in ends.windows(2) {
-                let block = || (rows[0]..rows[1]).flat_map(|i| (columns[0]..columns[1]).map(move |j| i * n + j));
-                let error = max_abs(block().map(|t| k[t] - fd[t]));
-                let scale = max_abs(block().map(|t| k[t]));
-                // Blocks that vanish, as rows of sticking nodes over lambda do, differ by the noise alone.
-                worst = worst.max((error - noise).max(0.0) / scale.max(least));
-            }
-        }
-        worst
     }
 }
 
@@ -114,7 +58,7 @@ fn equals_differences_in_every_column_variant_and_state() {
             let mut scene = moved(&options, cells, rough, 7);
             let states = scene.states();
             (0..3).for_each(|s| seen[s] += states[s]);
-            let error = scene.difference_error(0.0);
+            let error = scene.at().difference_error(0.0);
             assert!(error <= DIFFERENCES, "{options:?}: off by {error:e}");
         }
     }
@@ -129,7 +73,7 @@ fn on_warped_facets_the_difference_is_the_quadrature_error() {
     for (rule, bound) in [(&DEGREE_5, DIFFERENCES_WARPED_DEGREE_5), (&DEGREE_10, DIFFERENCES_WARPED_DEGREE_10)] {
         for seed in 1..4 {
             let options = Options { rule, ..options() };
-            let error = moved(&options, [Cells::Quads, Cells::Quads], rough, seed).difference_error(1.0);
+            let error = moved(&options, [Cells::Quads, Cells::Quads], rough, seed).at().difference_error(1.0);
             println!("degree {}: {error:.1e}", rule.degree);
             assert!(error <= bound, "degree {}: off by {error:e}", rule.degree);
         }
@@ -142,7 +86,7 @@ fn constrained_directions_are_differentiated_too() {
     let in_plane = nalgebra::Rotation3::from_euler_angles(0.4, -0.9, 1.3) * Vec3::x();
     let directions: Vec<_> = (0..scene.x1.len()).step_by(2).map(|a| (a, in_plane)).collect();
     scene.interface.set_constraints(&directions).unwrap();
-    let error = scene.difference_error(0.0);
+    let error = scene.at().difference_error(0.0);
     assert!(error <= DIFFERENCES, "off by {error:e}");
     for (a, d) in directions {
         assert!(scene.interface.normal(a).unwrap().dot(&d).abs() < ROUNDING);
@@ -155,7 +99,7 @@ fn constrained_directions_are_differentiated_too() {
 fn force_columns_sum_to_zero_and_translations_do_nothing() {
     for options in variants() {
         let mut scene = moved(&options, [Cells::Quads, Cells::Quads], FLAT, 7);
-        let (n, k) = (scene.unknowns(), scene.tangent());
+        let (n, k) = (scene.at().unknowns(), scene.at().tangent());
         let displacements = n - 3 * scene.x1.len();
         let scale = max_abs(k.iter().copied());
         for i in 0..3 {
@@ -181,7 +125,7 @@ fn symmetric_exactly_when_weights_are_frozen_and_nothing_slips() {
         let frame = nalgebra::Rotation3::from_euler_angles(0.4, -0.9, 1.3);
         scene.lambda.iter_mut().for_each(|l| *l = frame * Vec3::new(0.0, 0.0, -10.0));
         assert_eq!(scene.states(), [0, 9, 0]);
-        let (n, k) = (scene.unknowns(), scene.tangent());
+        let (n, k) = (scene.at().unknowns(), scene.at().tangent());
         let pairs = (0..n).flat_map(|i| (0..i).map(move |j| (i, j)));
         max_abs(pairs.map(|(i, j)| k[i * n + j] - k[j * n + i])) / max_abs(k.iter().copied())
     };

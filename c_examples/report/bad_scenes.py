@@ -16,6 +16,12 @@ class BadScene:
     options: tuple = ()  # or the mistake is on the command line
 
 
+def wall(shape):
+    """An analytic body besides."""
+    bodies = "bodies: [block, floor]"
+    return bodies, f"bodies: [block, floor, wall]\nwall: {{type: analytic, point: [0, 0, 0], shape: {shape}}}"
+
+
 BAD_SCENES = [
     BadScene("misspelt_key", "friction: 0.5", "frictoin: 0.5", "base.frictoin"),
     BadScene("missing_key", "young: 1000, poisson: 0.3}\nfloor", "poisson: 0.3}\nfloor", "block.young"),
@@ -32,6 +38,18 @@ BAD_SCENES = [
     BadScene("unknown_surface", "mortar: floor.zmax", "mortar: floor.top", "base.mortar"),
     BadScene("empty_surface", "within: [0.2, 0, 0, 3.8, 1, 0]", "within: [9, 0, 0, 10, 1, 0]", "zone.within"),
     BadScene("unknown_choice", "weights: reference", "weights: heavy", "base.weights"),
+    BadScene("unknown_law", "friction: 0.5", "law: sticky", "base.law"),
+    BadScene("friction_of_tied", "friction: 0.5", "friction: 0.5, law: tied", "base.friction"),
+    BadScene(
+        "not_rigid",
+        "rigid: {body: floor,",
+        "rigid: {body: floor, within: [-9, -9, -9, 9, 9, -0.5],",
+        "base.mortar_side",
+        ("-base_mortar_side", "rigid"),
+    ),
+    BadScene("analytic_without_support", *wall("plane, direction: [0, 0, 1]"), "wall"),
+    BadScene("analytic_without_radius", *wall("sphere"), "wall.radius"),
+    BadScene("analytic_without_direction", *wall("plane, direction: [0, 0, 0]"), "wall.direction"),
     BadScene("bad_name", "loads: [press, push]", "loads: [Press, push]", "loads"),
     BadScene("same_name_twice", "bodies: [block, floor]", "bodies: [block, block]", "bodies"),
     BadScene("list_of_maps", "loads: [press, push]", "loads: [{press: 1}, push]", "loads"),

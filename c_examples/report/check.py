@@ -9,11 +9,12 @@ import sys
 from pathlib import Path
 
 import acceptance
+from effect_checks import effects
 from hosts import hosts
 from scene import Driver, SceneError
 from verdict import Verdicts
 
-GROUPS = {**acceptance.GROUPS, "hosts": hosts}
+GROUPS = {**acceptance.GROUPS, "hosts": hosts, "effects": effects}
 
 
 def main():

@@ -230,3 +230,34 @@ def patch(errors, bound, path):
     axis.set_ylabel("largest relative error of the multiplier")
     axis.legend(frameon=False, ncol=len(errors), loc="upper left")
     return _save(figure, path)
+
+
+def effects(rows, path):
+    """What each effect costs relative to the leanest: one group of bars a quantity; `rows` as effects.py measures them."""
+    quantities = [
+        ("unknowns", "unknowns"),
+        ("bytes", "memory of\nthe interface"),
+        ("instructions", "instructions\nof residual\nand tangent"),
+        ("integration", "time of search\nand integration"),
+        ("tangent", "time of\nthe tangent"),
+        ("newton_iterations", "Newton\niterations"),
+    ]
+    quantities = [(key, label) for key, label in quantities if all(row[key] for row in rows)]
+    colours = plt.get_cmap("Blues")(np.linspace(0.3, 0.95, len(rows)))
+    figure, axis = plt.subplots(figsize=(10.4, 4.4))
+    width = 0.84 / len(rows)
+    for k, (row, colour) in enumerate(zip(rows, colours)):
+        ratio = [row[key] / rows[0][key] for key, _ in quantities]
+        place = np.arange(len(quantities)) + (k - (len(rows) - 1) / 2) * width
+        axis.bar(place, ratio, width * 0.94, color=colour, label=row["name"], zorder=2)
+        for x, value in zip(place, ratio):
+            text = f"{value:.3g}" if value < 100 else f"{value:.0f}"
+            axis.annotate(text, (x, value), (0, 2), textcoords="offset points", ha="center", fontsize=7)
+    axis.axhline(1, color=INK, linewidth=0.8, zorder=1)
+    axis.set_yscale("log")
+    axis.set_xticks(range(len(quantities)), [label for _, label in quantities])
+    axis.tick_params(axis="x", length=0)
+    axis.set_ylabel("relative to the leanest")
+    axis.set_title("What each effect costs, added one by one")
+    axis.legend(frameon=False, loc="upper left")
+    return _save(figure, path)

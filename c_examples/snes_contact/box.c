@@ -1,5 +1,5 @@
 /* A structured box of hexahedra, or of six tetrahedra per hexahedron (Kuhn's split, conforming by construction). Its sides
- * are the surfaces xmin, xmax, ymin, ymax, zmin, zmax. */
+ * are the surfaces xmin, xmax, ymin, ymax, zmin, zmax. With `ball` it is made round: cubes about a point become spheres. */
 #include "mesh.h"
 
 /* Positions along the axes: explicit planes, or equal cells between lower and upper, or fractions of [0,1] for corners. */
@@ -101,12 +101,25 @@ static PetscErrorCode add_side(Mesh *mesh, const char *body, const PetscInt n[3]
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* The cube of half-width s about the centre becomes the sphere of radius s: along rays, so planes through the centre stay. */
+static void make_round(const PetscReal centre[3], PetscReal x[3])
+{
+  PetscReal largest = 0, squared = 0;
+  for (int i = 0; i < 3; i++) {
+    largest = PetscMax(largest, PetscAbsReal(x[i] - centre[i]));
+    squared += PetscSqr(x[i] - centre[i]);
+  }
+  for (int i = 0; i < 3 && squared > 0; i++)
+    x[i] = centre[i] + (x[i] - centre[i]) * largest / PetscSqrtReal(squared);
+}
+
 PetscErrorCode box_create(Scene *scene, const char *body, Mesh *mesh)
 {
   static const char *const kinds[] = {"hex", "tet", NULL};
-  PetscReal                corners[24], *planes[3], *coordinates;
+  PetscReal                corners[24], centre[3], *planes[3], *coordinates;
   PetscInt                 kind = 0, n[3] = {0, 0, 0}, n_vertices, n_hexes, *cells, count = 0;
   const PetscBool          mapped = scene_vector(scene, body, "corners", 24, corners);
+  const PetscBool          round  = scene_vector(scene, body, "ball", 3, centre);
 
   PetscFunctionBegin;
   scene_choice(scene, body, "cell", kinds, &kind);
@@ -125,6 +138,7 @@ PetscErrorCode box_create(Scene *scene, const char *body, Mesh *mesh)
         coordinates[3 * v + i] += sx * sy * sz * corners[3 * a + i];
       }
     }
+    if (round) make_round(centre, coordinates + 3 * v);
   }
   for (PetscInt h = 0; h < n_hexes; h++) {
     const PetscInt i = h % n[0], j = (h / n[0]) % n[1], k = h / (n[0] * n[1]);

@@ -156,12 +156,14 @@ PetscErrorCode contact_start(Model *model, Vec x, PetscInt *status)
 
 PetscErrorCode contact_states_create(const Interface *interface, ContactStates *states)
 {
-  const PetscInt   n1     = interface->n1;
-  stickslip_states wanted = {.struct_size = sizeof(wanted)};
+  const PetscInt     n1     = interface->n1;
+  const PetscScalar *lambda = interface->gathered + 3 * (n1 + interface->n2);
+  stickslip_states   wanted = {.struct_size = sizeof(wanted)};
 
   PetscFunctionBegin;
   PetscCall(PetscMalloc7(n1, &states->state, 3 * n1, &states->normal, n1, &states->gap, 3 * n1, &states->slip, n1,
                          &states->coverage, n1, &states->area, n1, &states->dissipation));
+  PetscCall(PetscMalloc1(3 * n1, &states->multiplier));
   wanted.state       = states->state;
   wanted.normal      = states->normal;
   wanted.gap         = states->gap;
@@ -170,6 +172,9 @@ PetscErrorCode contact_states_create(const Interface *interface, ContactStates *
   wanted.area        = states->area;
   wanted.dissipation = states->dissipation;
   PetscCallStickslip(stickslip_interface_states(interface->handle, STATE_OF(interface), NULL, &wanted));
+  for (PetscInt k = 0; k < 3 * n1; k++)
+    states->multiplier[k] = interface->components == 3 ? PetscRealPart(lambda[k])
+                                                       : PetscRealPart(lambda[k / 3]) * states->normal[k];
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -178,7 +183,17 @@ PetscErrorCode contact_states_destroy(ContactStates *states)
   PetscFunctionBegin;
   PetscCall(PetscFree7(states->state, states->normal, states->gap, states->slip, states->coverage, states->area,
                        states->dissipation));
+  PetscCall(PetscFree(states->multiplier));
   PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Before the commit: with the weights of now beside those of t_n, where both are needed. */
+static int32_t measure_memory(Interface *interface)
+{
+  stickslip_counters counters = {.struct_size = sizeof(counters)};
+  const int32_t      status   = stickslip_interface_counters(interface->handle, &counters);
+  interface->bytes            = PetscMax(interface->bytes, counters.bytes);
+  return status;
 }
 
 /* All interfaces accept the step, or none: what was committed before a refusal is rolled back. */
@@ -191,7 +206,9 @@ PetscErrorCode contact_commit(Model *model, PetscInt *status)
     Interface *interface = &model->interfaces[i];
     int32_t    refused   = 0;
     PetscCall(contact_gather(model, interface, model->u_local));
-    if (model->rank == 0) refused = stickslip_interface_commit(interface->handle, STATE_OF(interface), NULL);
+    if (model->rank == 0) refused = measure_memory(interface);
+    if (model->rank == 0 && !refused)
+      refused = stickslip_interface_commit(interface->handle, STATE_OF(interface), NULL);
     PetscCall(contact_agree(model, refused, status));
     if (!*status) committed++;
   }

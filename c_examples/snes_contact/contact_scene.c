@@ -6,6 +6,11 @@ static PetscErrorCode collect_nodes(const Mesh *mesh, const Surface *surface, Pe
 {
   PetscBool *seen;
   PetscFunctionBegin;
+  if (surface->analytic) { /* its frame */
+    for (*n = 0; *n < 4; (*n)++)
+      nodes[*n] = surface->frame + *n;
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
   PetscCall(PetscCalloc1(mesh->n_vertices, &seen));
   *n = 0;
   for (PetscInt k = 0; k < surface->offsets[surface->n_faces]; k++) {
@@ -30,6 +35,17 @@ static PetscReal surface_young(const Model *model, const PetscInt *nodes, PetscI
   return young;
 }
 
+/* A plane, sphere or cylinder: the options tell the library its shape. */
+static void describe_analytic(Scene *scene, Interface *interface)
+{
+  if (!interface->surface[1]->analytic) return;
+  if (scene_has(scene, interface->name, "mortar_side"))
+    scene_fail(scene, interface->name, "mortar_side", "the mortar side is an analytic body, and rigid; leave the key out.");
+  interface->options.mortar_side = STICKSLIP_MORTAR_ANALYTIC;
+  interface->options.shape       = (int32_t)interface->surface[1]->shape;
+  interface->options.radius      = interface->surface[1]->radius;
+}
+
 /* rank 0: surfaces, nodes, default stiffness, removed components */
 static PetscErrorCode read_surfaces(Model *model, Interface *interface)
 {
@@ -44,7 +60,10 @@ static PetscErrorCode read_surfaces(Model *model, Interface *interface)
     interface->surface[side] = mesh_surface(scene, &model->mesh, interface->name, side_key[side], name);
     if (interface->surface[side]->inner)
       scene_fail(scene, interface->name, side_key[side], "'%s' lies inside a body.", name);
-    n_corners[side] = interface->surface[side]->offsets[interface->surface[side]->n_faces];
+    if (interface->surface[side]->analytic && side == 0)
+      scene_fail(scene, interface->name, side_key[side], "'%s' is analytic: it can be the mortar side only.", name);
+    n_corners[side] =
+        interface->surface[side]->analytic ? 4 : interface->surface[side]->offsets[interface->surface[side]->n_faces];
   }
   PetscCall(PetscMalloc1(n_corners[0] + n_corners[1], &interface->nodes));
   PetscCall(collect_nodes(&model->mesh, interface->surface[0], interface->nodes, &interface->n1));
@@ -59,6 +78,9 @@ static PetscErrorCode read_surfaces(Model *model, Interface *interface)
   /* A component is no unknown where it is prescribed on both sides: at the node, and on the mortar side everywhere. */
   for (PetscInt b = 0; b < interface->n2; b++)
     mortar_mask &= model->prescribed[interface->nodes[interface->n1 + b]];
+  if (interface->options.mortar_side == STICKSLIP_MORTAR_RIGID && mortar_mask != 7)
+    scene_fail(scene, interface->name, "mortar_side", "'%s' is not rigid: support all of it in x, y and z.", name);
+  describe_analytic(scene, interface);
   PetscCall(PetscMalloc1(interface->n1, &interface->removed));
   for (PetscInt a = 0; a < interface->n1; a++)
     interface->removed[a] = model->prescribed[interface->nodes[a]] & mortar_mask;
@@ -73,13 +95,80 @@ static PetscErrorCode read_surfaces(Model *model, Interface *interface)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* What a law is called in a scene, by STICKSLIP_FRICTION_... */
+static const char *const LAWS[] = {"coulomb", "none", "tied", "rough", NULL};
+
+/* `law`, `friction`. A scene that asks for no friction gets one multiplier a node, unless it says `law: coulomb`. */
+static void read_law(Scene *scene, Interface *interface)
+{
+  stickslip_options *options = &interface->options;
+  const char        *name    = interface->name;
+  PetscInt           law     = STICKSLIP_FRICTION_COULOMB;
+  PetscReal          mu      = 0;
+
+  scene_real(scene, name, "friction", &mu);
+  if (mu < 0) scene_fail(scene, name, "friction", "a Coulomb coefficient cannot be negative.");
+  if (!scene_has(scene, name, "law") && mu == 0) law = STICKSLIP_FRICTION_NONE;
+  scene_choice(scene, name, "law", LAWS, &law);
+  if (law != STICKSLIP_FRICTION_COULOMB && mu != 0)
+    scene_fail(scene, name, "friction", "the law '%s' has no Coulomb coefficient.", LAWS[law]);
+  options->friction     = (int32_t)law;
+  options->mu           = mu;
+  interface->components = law == STICKSLIP_FRICTION_NONE ? 1 : 3;
+}
+
+/* `mortar_side`, `shortcuts`: left open, the library chooses. */
+static void read_effects(Scene *scene, Interface *interface)
+{
+  static const char *const sides[]   = {"deformable", "rigid", NULL};
+  stickslip_options       *options   = &interface->options;
+  PetscInt                 side      = STICKSLIP_MORTAR_DEFORMABLE;
+  PetscBool                shortcuts = PETSC_TRUE;
+
+  scene_choice(scene, interface->name, "mortar_side", sides, &side);
+  scene_bool(scene, interface->name, "shortcuts", &shortcuts);
+  options->mortar_side = (int32_t)side;
+  if (!shortcuts)
+    options->no_shortcuts = STICKSLIP_SHORTCUT_FRICTIONLESS | STICKSLIP_SHORTCUT_RIGID | STICKSLIP_SHORTCUT_APART;
+  else if (scene_has(scene, interface->name, "mortar_side") && side == STICKSLIP_MORTAR_DEFORMABLE)
+    options->no_shortcuts = STICKSLIP_SHORTCUT_RIGID;
+}
+
+/* `weights`, `slip`, `form`, `new_contact`, the augmentation and the search. */
+static void read_method(Scene *scene, Interface *interface)
+{
+  static const char *const weights[]      = {"current", "committed", "reference", NULL};
+  static const char *const slips[]        = {"objective", "increment", "seed", NULL};
+  static const char *const forms[]        = {"multiplier", "augmented", NULL};
+  static const char *const new_contacts[] = {"frictionless", "friction", NULL};
+  stickslip_options       *options        = &interface->options;
+  const char              *name           = interface->name;
+  PetscInt  weight = STICKSLIP_WEIGHTS_CURRENT, slip = STICKSLIP_SLIP_OBJECTIVE, form = STICKSLIP_FORM_MULTIPLIER,
+           new_contact = STICKSLIP_NEW_CONTACT_FRICTIONLESS;
+  PetscReal augmentation = 0, modulus = 0, distance = 0;
+
+  scene_choice(scene, name, "weights", weights, &weight);
+  scene_choice(scene, name, "slip", slips, &slip);
+  scene_choice(scene, name, "form", forms, &form);
+  scene_choice(scene, name, "new_contact", new_contacts, &new_contact);
+  scene_real(scene, name, "augmentation", &augmentation);
+  scene_real(scene, name, "modulus", &modulus);
+  scene_real(scene, name, "search_distance", &distance);
+  if (scene_has(scene, name, "augmentation") && augmentation <= 0)
+    scene_fail(scene, name, "augmentation", "it must be positive.");
+  if (scene_has(scene, name, "modulus") && modulus <= 0) scene_fail(scene, name, "modulus", "it must be positive.");
+  if (distance < 0) scene_fail(scene, name, "search_distance", "it cannot be negative.");
+  options->weights         = (int32_t)weight;
+  options->slip            = (int32_t)slip;
+  options->form            = (int32_t)form;
+  options->new_contact     = (int32_t)new_contact;
+  options->augmentation    = augmentation;
+  options->modulus         = modulus;
+  options->search_distance = distance;
+}
+
 PetscErrorCode contact_read(Model *model)
 {
-  static const char *const weights[] = {"current", "committed", "reference", NULL}, *const slips[] = {"objective",
-                                                                                                      "increment",
-                                                                                                      "seed", NULL};
-  static const char *const forms[] = {"multiplier", "augmented", NULL}, *const new_contacts[] = {"frictionless",
-                                                                                                 "friction", NULL};
   Scene *scene = model->scene;
   char **names;
 
@@ -87,36 +176,12 @@ PetscErrorCode contact_read(Model *model)
   scene_names(scene, "interfaces", &model->n_interfaces, &names);
   PetscCall(PetscCalloc1(model->n_interfaces, &model->interfaces));
   for (PetscInt i = 0; i < model->n_interfaces; i++) {
-    Interface         *interface = &model->interfaces[i];
-    stickslip_options *options   = &interface->options;
-    PetscInt    weight = STICKSLIP_WEIGHTS_CURRENT, slip = STICKSLIP_SLIP_OBJECTIVE, form = STICKSLIP_FORM_MULTIPLIER,
-                new_contact = 0;
-    PetscReal   mu = 0, augmentation = 0, modulus = 0, distance = 0;
-    const char *name = interface->name;
-
+    Interface *interface = &model->interfaces[i];
     PetscCall(PetscSNPrintf(interface->name, NAME_LENGTH, "%s", names[i]));
-    PetscCallStickslip(stickslip_options_init(options, sizeof(*options)));
-    scene_real(scene, name, "friction", &mu);
-    scene_choice(scene, name, "weights", weights, &weight);
-    scene_choice(scene, name, "slip", slips, &slip);
-    scene_choice(scene, name, "form", forms, &form);
-    scene_choice(scene, name, "new_contact", new_contacts, &new_contact);
-    scene_real(scene, name, "augmentation", &augmentation);
-    scene_real(scene, name, "modulus", &modulus);
-    scene_real(scene, name, "search_distance", &distance);
-    if (mu < 0) scene_fail(scene, name, "friction", "a Coulomb coefficient cannot be negative.");
-    if (scene_has(scene, name, "augmentation") && augmentation <= 0)
-      scene_fail(scene, name, "augmentation", "it must be positive.");
-    if (scene_has(scene, name, "modulus") && modulus <= 0) scene_fail(scene, name, "modulus", "it must be positive.");
-    if (distance < 0) scene_fail(scene, name, "search_distance", "it cannot be negative.");
-    options->mu              = mu;
-    options->weights         = (int32_t)weight;
-    options->slip            = (int32_t)slip;
-    options->form            = (int32_t)form;
-    options->new_contact     = (int32_t)new_contact;
-    options->augmentation    = augmentation;
-    options->modulus         = modulus;
-    options->search_distance = distance;
+    PetscCallStickslip(stickslip_options_init(&interface->options, sizeof(interface->options)));
+    read_law(scene, interface);
+    read_effects(scene, interface);
+    read_method(scene, interface);
   }
   strings_destroy(model->n_interfaces, &names);
   scene_root_begin(scene);
@@ -133,14 +198,20 @@ PetscErrorCode contact_read(Model *model)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Which multipliers are no unknowns: the removed components; without friction, that of a node which is prescribed wholly. */
 PetscErrorCode contact_label(Model *model)
 {
   char label[2 * NAME_LENGTH];
   PetscFunctionBegin;
   for (PetscInt i = 0; i < model->n_interfaces; i++) {
     const Interface *interface = &model->interfaces[i];
+    PetscInt        *mask;
+    PetscCall(PetscMalloc1(interface->n1, &mask));
+    for (PetscInt a = 0; a < interface->n1; a++)
+      mask[a] = interface->components == 3 ? interface->removed[a] : interface->removed[a] == 7;
     PetscCall(PetscSNPrintf(label, sizeof(label), "multiplier.%s", interface->name));
-    PetscCall(plex_label_vertices(model->dm, label, interface->n1, interface->nodes, interface->removed, 0));
+    PetscCall(plex_label_vertices(model->dm, label, interface->n1, interface->nodes, mask, 0));
+    PetscCall(PetscFree(mask));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

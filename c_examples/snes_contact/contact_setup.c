@@ -4,7 +4,7 @@
 /* of `gathered`, `forces` and `equations` */
 static int64_t n_entries(const Interface *interface)
 {
-  return 3 * (2 * (int64_t)interface->n1 + interface->n2);
+  return 3 * ((int64_t)interface->n1 + interface->n2) + (int64_t)interface->components * interface->n1;
 }
 
 /* equations of the gathered entries, as the library wants them */
@@ -45,8 +45,8 @@ static PetscErrorCode describe_surface(const Model *model, const Interface *inte
   out->n_nodes       = n;
   out->n_facets      = surface->n_faces;
   out->coordinates   = interface->X + 3 * first;
-  out->facet_offsets = offsets;
-  out->facet_nodes   = *facet_nodes;
+  out->facet_offsets = surface->analytic ? NULL : offsets;
+  out->facet_nodes   = surface->analytic ? NULL : *facet_nodes;
   out->equations     = interface->equations + 3 * first;
   if (!side) out->multiplier_equations = interface->equations + 3 * (interface->n1 + interface->n2);
   PetscCall(PetscFree(local));

@@ -6,7 +6,7 @@ static const char *const STATE_NAMES[] = {"gap", "stick", "slip"}; /* by STICKSL
 
 PetscErrorCode csv_write(Model *model, const Interface *interface, const ContactStates *states, PetscInt step)
 {
-  const PetscScalar *u = interface->gathered, *lambda = u + 3 * (interface->n1 + interface->n2);
+  const PetscScalar *u = interface->gathered;
   char               path[PETSC_MAX_PATH_LEN];
   FILE              *file;
 
@@ -18,11 +18,11 @@ PetscErrorCode csv_write(Model *model, const Interface *interface, const Contact
   fprintf(file, "node,X,Y,Z,ux,uy,uz,nx,ny,nz,lambda_n,lambda_tx,lambda_ty,lambda_tz,gap_weighted,slip_x,slip_y,slip_z,"
                 "area_covered,area_full,fx,fy,fz,p_lumped,state\n");
   for (PetscInt a = 0; a < interface->n1; a++) {
-    const double *n = states->normal + 3 * a, *slip = states->slip + 3 * a,
+    const double *n = states->normal + 3 * a, *lambda = states->multiplier + 3 * a, *slip = states->slip + 3 * a,
                  area = states->coverage[a] > 0 ? states->coverage[a] : states->area[a];
     double lambda_n = 0, force_n = 0, values[23], *v = values;
     for (int i = 0; i < 3; i++) {
-      lambda_n += PetscRealPart(lambda[3 * a + i]) * n[i];
+      lambda_n += lambda[i] * n[i];
       force_n -= PetscRealPart(interface->forces[3 * a + i]) * n[i];
     }
     for (int i = 0; i < 3; i++)
@@ -33,7 +33,7 @@ PetscErrorCode csv_write(Model *model, const Interface *interface, const Contact
       *v++ = n[i];
     *v++ = lambda_n;
     for (int i = 0; i < 3; i++)
-      *v++ = PetscRealPart(lambda[3 * a + i]) - lambda_n * n[i];
+      *v++ = lambda[i] - lambda_n * n[i];
     *v++ = states->gap[a];
     for (int i = 0; i < 3; i++)
       *v++ = slip[i];
@@ -100,17 +100,17 @@ static void cell_stresses(FILE *file, const Mesh *mesh, const PetscScalar *displ
 /* multiplier, force of the contact on the node (both sides), and state (-1 off the non-mortar side) of one interface */
 static PetscErrorCode interface_fields(FILE *file, const Mesh *mesh, const Interface *interface)
 {
-  const PetscScalar *lambda = interface->gathered + 3 * (interface->n1 + interface->n2);
-  const PetscInt     n_both = interface->n1 + interface->n2;
-  PetscScalar       *field;
-  PetscInt          *state;
-  ContactStates      states;
-  char               name[2 * NAME_LENGTH];
+  const PetscInt n_both = interface->n1 + interface->n2;
+  PetscScalar   *field;
+  PetscInt      *state;
+  ContactStates  states;
+  char           name[2 * NAME_LENGTH];
 
   PetscFunctionBegin;
   PetscCall(PetscCalloc2(3 * mesh->n_vertices, &field, mesh->n_vertices, &state));
+  PetscCall(contact_states_create(interface, &states));
   for (PetscInt k = 0; k < 3 * interface->n1; k++)
-    field[3 * interface->nodes[k / 3] + k % 3] = lambda[k];
+    field[3 * interface->nodes[k / 3] + k % 3] = states.multiplier[k];
   PetscCall(PetscSNPrintf(name, sizeof(name), "multiplier_%s", interface->name));
   vectors(file, name, mesh->n_vertices, field);
 
@@ -120,7 +120,6 @@ static PetscErrorCode interface_fields(FILE *file, const Mesh *mesh, const Inter
   PetscCall(PetscSNPrintf(name, sizeof(name), "force_%s", interface->name));
   vectors(file, name, mesh->n_vertices, field);
 
-  PetscCall(contact_states_create(interface, &states));
   for (PetscInt v = 0; v < mesh->n_vertices; v++)
     state[v] = -1;
   for (PetscInt a = 0; a < interface->n1; a++)

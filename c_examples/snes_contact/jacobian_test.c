@@ -41,8 +41,8 @@ static PetscErrorCode look_at_states(Model *model, JacobianTest *test, PetscBool
     PetscCall(contact_states_create(interface, &states));
     for (PetscInt a = 0; a < interface->n1; a++) {
       if (!compare) test->counts[states.state[a]]++;
-      for (int k = 0; k < 3; k++) {
-        const int64_t equation = equations[3 * a + k];
+      for (int k = 0; k < interface->components; k++) {
+        const int64_t equation = equations[interface->components * a + k];
         if (equation < 0) continue;
         if (compare && test->kind[equation] != states.state[a]) differs = PETSC_TRUE;
         if (!compare) test->kind[equation] = states.state[a];

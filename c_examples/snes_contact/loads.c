@@ -33,6 +33,8 @@ PetscErrorCode loads_read(Model *model)
       load->surfaces[k] = mesh_surface(scene, &model->mesh, load->name, "surface", list[k]);
       if (load->surfaces[k]->inner)
         scene_fail(scene, load->name, "surface", "'%s' lies inside a body and cannot be loaded.", list[k]);
+      if (load->surfaces[k]->analytic)
+        scene_fail(scene, load->name, "surface", "'%s' is rigid and without faces: it cannot be loaded.", list[k]);
     }
     strings_destroy(load->n_surfaces, &list);
   }

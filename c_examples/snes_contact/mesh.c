@@ -173,7 +173,6 @@ static void read_material(Scene *scene, const char *body, Material *material)
   if (material->poisson <= -1 || material->poisson >= 0.5)
     scene_fail(scene, body, "poisson", "it must lie between -1 and 0.5 (both excluded), not %g.",
                (double)material->poisson);
-  material->law = linear_elastic;
 }
 
 static void check_volumes(Scene *scene, const Mesh *mesh, const char *body, PetscInt first_cell)
@@ -212,9 +211,10 @@ static void read_frame(Scene *scene, Mesh *mesh)
 
 PetscErrorCode mesh_create(Scene *scene, Mesh *mesh)
 {
-  static const char *const types[] = {"box", "gmsh", NULL};
+  static const char *const types[] = {"box", "gmsh", "analytic", NULL};
+  PetscErrorCode (*const create[])(Scene *, const char *, Mesh *) = {box_create, gmsh_create, analytic_create};
   PetscMPIInt              rank;
-  PetscInt                 n;
+  PetscInt                 n, *type;
   char                   **names;
 
   PetscFunctionBegin;
@@ -224,19 +224,21 @@ PetscErrorCode mesh_create(Scene *scene, Mesh *mesh)
   scene_names(scene, "bodies", &n, &names);
   read_frame(scene, mesh);
   PetscCall(PetscCalloc1(n, &mesh->bodies));
+  PetscCall(PetscCalloc1(n, &type));
   for (PetscInt b = 0; b < n; b++) {
     PetscCall(PetscSNPrintf(mesh->bodies[b].name, NAME_LENGTH, "%s", names[b]));
-    read_material(scene, names[b], &mesh->bodies[b].material);
+    if (!scene_has(scene, names[b], "type"))
+      scene_fail(scene, names[b], "type", "this key is missing; choose from: box, gmsh, analytic.");
+    scene_choice(scene, names[b], "type", types, &type[b]);
+    mesh->bodies[b].analytic     = (PetscBool)(type[b] == 2);
+    mesh->bodies[b].material.law = linear_elastic;
+    if (!mesh->bodies[b].analytic) read_material(scene, names[b], &mesh->bodies[b].material);
   }
   scene_root_begin(scene);
   for (PetscInt b = 0; b < n && rank == 0; b++) {
     const PetscInt first_cell = mesh->n_cells;
-    PetscInt       type       = 0;
-    if (!scene_has(scene, names[b], "type"))
-      scene_fail(scene, names[b], "type", "this key is missing; choose from: box, gmsh.");
-    scene_choice(scene, names[b], "type", types, &type);
     mesh->bodies[b].first_vertex = mesh->n_vertices;
-    PetscCall((type ? gmsh_create : box_create)(scene, names[b], mesh));
+    PetscCall(create[type[b]](scene, names[b], mesh));
     mesh->bodies[b].end_vertex = mesh->n_vertices;
     check_volumes(scene, mesh, names[b], first_cell);
     mesh->n_bodies++;
@@ -244,6 +246,7 @@ PetscErrorCode mesh_create(Scene *scene, Mesh *mesh)
   if (rank == 0) PetscCall(derived_surfaces(scene, mesh));
   PetscCall(scene_root_end(scene));
   mesh->n_bodies = n;
+  PetscCall(PetscFree(type));
   strings_destroy(n, &names);
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -11,12 +11,17 @@ typedef struct {
   PetscInt *offsets;  /* n_faces + 1 */
   PetscInt *vertices; /* 3 or 4 per face, right-hand normal out of the body */
   PetscBool inner;    /* lies inside a body: good for supports only */
+  PetscBool analytic; /* a plane, sphere or cylinder without faces: good for a mortar side only */
+  PetscInt  shape;    /* STICKSLIP_SHAPE_... */
+  PetscReal radius;
+  PetscInt  frame; /* the first of its four vertices */
 } Surface;
 
 typedef struct {
-  char     name[NAME_LENGTH];
-  Material material;
-  PetscInt first_vertex, end_vertex; /* its range of vertices (rank 0) */
+  char      name[NAME_LENGTH];
+  PetscBool analytic; /* rigid, one cell without stiffness: its frame */
+  Material  material;
+  PetscInt  first_vertex, end_vertex; /* its range of vertices (rank 0) */
 } Body;
 
 typedef struct {
@@ -41,13 +46,14 @@ const Surface *mesh_surface(Scene *scene, const Mesh *mesh, const char *map, con
 PetscInt       mesh_body(Scene *scene, const Mesh *mesh, const char *map, const char *key, const char *name);
 PetscInt       mesh_nearest_vertex(Scene *scene, const Mesh *mesh, const char *map);
 
-/* for the readers of one body: box.c, gmsh.c */
+/* for the readers of one body: box.c, gmsh.c, analytic.c */
 PetscErrorCode mesh_append(Mesh *mesh, PetscInt n_vertices, const PetscReal *coordinates, PetscInt n_cells,
                            PetscInt corners, const PetscInt *cells);
 PetscErrorCode mesh_add_surface(Mesh *mesh, const char *name, PetscInt max_faces, Surface **surface);
 void           surface_push(Surface *surface, PetscInt n, const PetscInt vertices[]);
 PetscErrorCode box_create(Scene *scene, const char *body, Mesh *mesh);
 PetscErrorCode gmsh_create(Scene *scene, const char *body, Mesh *mesh);
+PetscErrorCode analytic_create(Scene *scene, const char *body, Mesh *mesh);
 
 /* vertices of face 0..5 of a hex, 0..3 of a tet, outward; returns the number of vertices of that face */
 PetscInt cell_face(PetscInt corners, PetscInt face, const PetscInt cell[], PetscInt vertices[4]);

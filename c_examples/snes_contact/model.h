@@ -2,7 +2,8 @@
  * the forces assembled on it.
  *
  * Unknowns live in two kinds of vectors, as PETSc has them: a *local* vector holds 3 displacements per vertex of this rank
- * and 3 multipliers per non-mortar vertex, prescribed ones included; a *global* vector holds the equations only. */
+ * and the multipliers (3, without friction 1) per non-mortar vertex, prescribed ones included; a *global* vector holds the
+ * equations only. */
 #ifndef SNES_CONTACT_MODEL_H
 #define SNES_CONTACT_MODEL_H
 #include "curve.h"
@@ -37,10 +38,11 @@ typedef struct {
   const Surface       *surface[2]; /* non-mortar, mortar */
   PetscInt             n1, n2;     /* their numbers of nodes */
   PetscInt            *nodes;      /* n1 + n2 mesh vertices */
-  PetscInt            *removed;    /* n1: mask of multiplier components that are no unknowns */
+  PetscInt             components; /* multipliers a node: 1, along the normal, without friction; else 3 */
+  PetscInt            *removed;    /* n1: mask of directions in which both sides are prescribed: no multiplier there */
   stickslip_options    options;
   double              *X, *x;     /* 3 (n1 + n2): reference and current coordinates */
-  PetscScalar         *gathered;  /* 3 (n1 + n2) displacements, 3 n1 multipliers */
+  PetscScalar         *gathered;  /* 3 (n1 + n2) displacements, components n1 multipliers */
   PetscScalar         *forces;    /* same layout: f1, f2, multiplier rows */
   int64_t             *equations; /* same layout */
   PetscSF              sf;        /* from the local vectors of all ranks to `gathered` */
@@ -48,12 +50,13 @@ typedef struct {
   int64_t              coo_capacity, *coo_rows, *coo_columns;
   double              *coo_values;
   double               friction_work; /* up to the last converged step */
+  int64_t              bytes;         /* of the library's, the most at the end of a step */
 } Interface;
 
 /* nodal results of one interface; every array has n1 entries, vectors 3 n1 */
 typedef struct {
   int32_t *state;
-  double  *normal, *gap, *slip, *coverage, *area, *dissipation;
+  double  *normal, *multiplier, *gap, *slip, *coverage, *area, *dissipation; /* multiplier: as a vector */
 } ContactStates;
 
 typedef struct {
@@ -176,13 +179,14 @@ PetscErrorCode jacobian_test_create(Model *model);
 PetscErrorCode steps_read(Model *model);
 PetscErrorCode steps_run(Model *model, int *exit_code);
 
-/* output.c, vtu.c */
+/* output.c, counters.c, files.c */
 typedef struct Summary Summary;
 PetscErrorCode         output_read(Model *model);
 PetscErrorCode         summary_create(Model *model, Summary **summary);
 PetscErrorCode         summary_step(Model *model, Summary *summary, PetscInt step, PetscBool converged, PetscBool last);
 PetscErrorCode summary_drop_step(Model *model, Summary *summary); /* the last one, which could not be committed */
 PetscErrorCode summary_write(Model *model, Summary **summary, PetscInt cutbacks, const char *message);
+PetscErrorCode summary_counters(Model *model, struct cJSON *root); /* what the run and each interface cost */
 PetscErrorCode csv_write(Model *model, const Interface *interface, const ContactStates *states, PetscInt step);
 PetscErrorCode vtu_write(Model *model, const PetscScalar *displacements, PetscInt step);
 

@@ -218,32 +218,6 @@ PetscErrorCode summary_drop_step(Model *model, Summary *summary)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* seconds by phase; the library counts its own */
-static PetscErrorCode add_seconds(Model *model, cJSON *root)
-{
-  stickslip_counters sum = {0};
-  PetscLogDouble     now;
-  cJSON             *seconds = cJSON_AddObjectToObject(root, "seconds");
-
-  PetscFunctionBegin;
-  for (PetscInt i = 0; i < model->n_interfaces && model->rank == 0; i++) {
-    stickslip_counters one = {.struct_size = sizeof(one)};
-    if (!model->interfaces[i].handle) continue; /* the library refused to create it */
-    PetscCallStickslip(stickslip_interface_counters(model->interfaces[i].handle, &one));
-    sum.seconds_search += one.seconds_search;
-    sum.seconds_integration += one.seconds_integration;
-    sum.seconds_assembly += one.seconds_assembly;
-  }
-  PetscCall(PetscTime(&now));
-  cJSON_AddNumberToObject(seconds, "search", sum.seconds_search);
-  cJSON_AddNumberToObject(seconds, "integration", sum.seconds_integration);
-  cJSON_AddNumberToObject(seconds, "contact_assembly", sum.seconds_assembly);
-  cJSON_AddNumberToObject(seconds, "bulk_assembly", model->timers.bulk_assembly);
-  cJSON_AddNumberToObject(seconds, "linear_solve", model->timers.linear_solve);
-  cJSON_AddNumberToObject(seconds, "total", now - model->timers.total);
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 PetscErrorCode summary_write(Model *model, Summary **summary, PetscInt cutbacks, const char *message)
 {
   char *text, path[PETSC_MAX_PATH_LEN];
@@ -253,7 +227,7 @@ PetscErrorCode summary_write(Model *model, Summary **summary, PetscInt cutbacks,
   cJSON_AddNumberToObject((*summary)->root, "cutbacks", cutbacks);
   if (message[0]) cJSON_AddStringToObject((*summary)->root, "message", message);
   cJSON_AddItemToObject((*summary)->root, "steps", (*summary)->steps);
-  PetscCall(add_seconds(model, (*summary)->root));
+  PetscCall(summary_counters(model, (*summary)->root));
   if (model->rank == 0) {
     text = cJSON_Print((*summary)->root);
     PetscCall(PetscSNPrintf(path, sizeof(path), "%s/summary.json", model->output_dir));

@@ -191,6 +191,21 @@ PetscErrorCode solver_refresh_pattern(Model *model)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* MUMPS refuses when its pivoting outgrows the memory it has estimated by more than 20 %. The rows of multipliers that stick
+ * have no diagonal, and their pivoting may double it. Room that stays unused is not touched. */
+static PetscErrorCode give_mumps_room(PC pc)
+{
+  MatSolverType solver = NULL;
+  PetscBool     lu, mumps, given;
+  PetscFunctionBegin;
+  PetscCall(PetscObjectTypeCompare((PetscObject)pc, PCLU, &lu));
+  if (lu) PetscCall(PCFactorGetMatSolverType(pc, &solver));
+  PetscCall(PetscStrcmp(solver, MATSOLVERMUMPS, &mumps));
+  PetscCall(PetscOptionsHasName(NULL, NULL, "-mat_mumps_icntl_14", &given));
+  if (mumps && !given) PetscCall(PetscOptionsSetValue(NULL, "-mat_mumps_icntl_14", "200"));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode solver_create(Model *model)
 {
   SNESLineSearch line_search;
@@ -222,6 +237,7 @@ PetscErrorCode solver_create(Model *model)
   PetscCall(KSPSetPreSolve(ksp, solve_begins, model));
   PetscCall(KSPSetPostSolve(ksp, solve_ends, model));
   PetscCall(SNESSetFromOptions(model->snes));
+  PetscCall(give_mumps_room(pc));
   PetscCall(VecDestroy(&r));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -98,6 +98,21 @@ static PetscErrorCode check_overlaps(Model *model)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* A body without a mesh is rigid: nothing but a support says where it is. */
+static PetscErrorCode check_analytic(const Model *model)
+{
+  PetscFunctionBegin;
+  for (PetscInt b = 0; b < model->mesh.n_bodies; b++) {
+    const Body *body = &model->mesh.bodies[b];
+    for (PetscInt v = body->first_vertex; v < body->end_vertex && body->analytic; v++) {
+      if (model->prescribed[v] != 7)
+        scene_fail(model->scene, body->name, NULL, "an analytic body needs a support: {body: %s, components: [x, y, z]}.",
+                   body->name);
+    }
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode supports_read(Model *model)
 {
   Scene *scene = model->scene;
@@ -134,6 +149,7 @@ PetscErrorCode supports_read(Model *model)
     for (PetscInt s = 0; s < model->n_supports; s++)
       PetscCall(select_vertices(model, &model->supports[s]));
     PetscCall(check_overlaps(model));
+    PetscCall(check_analytic(model));
   }
   PetscCall(scene_root_end(scene));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -13,6 +13,11 @@ static PetscErrorCode field_mask(Model *model, PetscInt vertex, PetscInt field, 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+static PetscInt field_components(const Model *model, PetscInt field)
+{
+  return field ? model->interfaces[field - 1].components : 3;
+}
+
 static PetscErrorCode create_section(Model *model)
 {
   const PetscInt n_fields = 1 + model->n_interfaces;
@@ -24,18 +29,19 @@ static PetscErrorCode create_section(Model *model)
   PetscCall(PetscSectionSetNumFields(section, n_fields));
   PetscCall(PetscSectionSetFieldName(section, 0, "displacement"));
   for (PetscInt f = 0; f < n_fields; f++) {
-    PetscCall(PetscSectionSetFieldComponents(section, f, 3));
+    PetscCall(PetscSectionSetFieldComponents(section, f, field_components(model, f)));
     if (f) PetscCall(PetscSectionSetFieldName(section, f, model->interfaces[f - 1].name));
   }
   PetscCall(DMPlexGetChart(model->dm, &pStart, &pEnd));
   PetscCall(PetscSectionSetChart(section, pStart, pEnd));
   for (PetscInt v = model->vStart; v < model->vEnd; v++) {
     for (PetscInt f = 0; f < n_fields; f++) {
+      const PetscInt components = field_components(model, f);
       PetscCall(field_mask(model, v, f, &mask));
       if (mask < 0) continue;
-      PetscCall(PetscSectionAddDof(section, v, 3));
-      PetscCall(PetscSectionAddFieldDof(section, v, f, 3));
-      for (int i = 0; i < 3; i++) {
+      PetscCall(PetscSectionAddDof(section, v, components));
+      PetscCall(PetscSectionAddFieldDof(section, v, f, components));
+      for (int i = 0; i < components; i++) {
         if (!(mask & (1 << i))) continue;
         PetscCall(PetscSectionAddConstraintDof(section, v, 1));
         PetscCall(PetscSectionAddFieldConstraintDof(section, v, f, 1));
@@ -47,16 +53,17 @@ static PetscErrorCode create_section(Model *model)
     PetscInt *all, in_field[3], n_all = 0, first = 0;
     PetscCall(PetscMalloc1(3 * n_fields, &all));
     for (PetscInt f = 0; f < n_fields; f++) {
-      PetscInt n = 0;
+      const PetscInt components = field_components(model, f);
+      PetscInt       n          = 0;
       PetscCall(field_mask(model, v, f, &mask));
       if (mask < 0) continue;
-      for (int i = 0; i < 3; i++) {
+      for (int i = 0; i < components; i++) {
         if (!(mask & (1 << i))) continue;
         in_field[n++] = i;
         all[n_all++]  = first + i;
       }
       if (n) PetscCall(PetscSectionSetFieldConstraintIndices(section, v, f, in_field));
-      first += 3;
+      first += components;
     }
     if (n_all) PetscCall(PetscSectionSetConstraintIndices(section, v, all));
     PetscCall(PetscFree(all));
@@ -93,7 +100,7 @@ static PetscErrorCode collect_owners(Model *model)
     for (PetscInt f = 0; f < n_fields; f++) {
       PetscCall(field_mask(model, v, f, &mask));
       mine[n_mine++] = mask < 0 ? -1 : offset;
-      if (mask >= 0) offset += 3;
+      if (mask >= 0) offset += field_components(model, f);
     }
   }
   if (model->rank == 0) PetscCall(PetscMalloc2(size, &counts, size + 1, &starts));
@@ -126,7 +133,7 @@ static PetscErrorCode collect_owners(Model *model)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Leaves on rank 0: 3 entries of fields[b] of every vertex in vertices[b], block after block. */
+/* Leaves on rank 0: the entries of fields[b] of every vertex in vertices[b], block after block. */
 PetscErrorCode unknowns_gather_create(Model *model, PetscInt n, const PetscInt *n_vertices,
                                       const PetscInt *const *vertices, const PetscInt *fields, PetscSF *sf)
 {
@@ -136,12 +143,12 @@ PetscErrorCode unknowns_gather_create(Model *model, PetscInt n, const PetscInt *
 
   PetscFunctionBegin;
   for (PetscInt b = 0; b < n && model->rank == 0; b++)
-    n_leaves += 3 * n_vertices[b];
+    n_leaves += field_components(model, fields[b]) * n_vertices[b];
   PetscCall(PetscMalloc1(n_leaves, &remote));
   for (PetscInt b = 0, leaf = 0; b < n && model->rank == 0; b++) {
     for (PetscInt k = 0; k < n_vertices[b]; k++) {
       const PetscInt *entry = model->owner + width * (vertices[b] ? vertices[b][k] : k);
-      for (int i = 0; i < 3; i++, leaf++) {
+      for (int i = 0; i < field_components(model, fields[b]); i++, leaf++) {
         remote[leaf].rank  = entry[0];
         remote[leaf].index = entry[1 + fields[b]] + i;
       }

@@ -1,8 +1,10 @@
-//! What an interface has done.
+//! What an interface computes, and what it has done.
 
 use super::guard::guard;
-use super::interface::{handle, stickslip_interface};
+use super::interface::{either, handle, stickslip_interface};
+use super::raw;
 use super::sized::{self, Sized64};
+use libc::c_char;
 
 /// What an interface has done since its creation.
 #[repr(C)]
@@ -30,6 +32,16 @@ pub struct stickslip_counters {
     pub seconds_integration: f64,
     /// Time in derivatives and assembly of the tangent [s].
     pub seconds_assembly: f64,
+    /// Pairs whose frozen weights served once more, in place of an integration.
+    pub pairs_reused: i64,
+    /// Slip increments computed, one a node and evaluation; 0 without friction.
+    pub nodes_slipping: i64,
+    /// Evaluations that ended with the comparison of two boxes: the surfaces were apart.
+    pub evaluations_apart: i64,
+    /// Commits that did.
+    pub commits_apart: i64,
+    /// Multiplier equations.
+    pub multipliers: i64,
 }
 
 // SAFETY: repr(C), struct_size first, numbers only.
@@ -50,7 +62,7 @@ pub unsafe extern "C" fn stickslip_interface_counters(
     guard(|| {
         let h = &handle(interface)?.inner;
         sized::check_output(out)?;
-        let c = h.counters();
+        let c = either!(h, c => c.counters());
         sized::write(
             out,
             stickslip_counters {
@@ -60,13 +72,43 @@ pub unsafe extern "C" fn stickslip_interface_counters(
                 pairs_integrated: c.pairs_integrated,
                 pairs_linearised: c.pairs_linearised,
                 searches: c.searches,
-                pairs_active: h.active_pairs() as i64,
-                bytes: h.bytes() as i64,
+                pairs_active: either!(h, c => c.active_pairs()) as i64,
+                bytes: either!(h, c => c.bytes()) as i64,
                 seconds_search: c.seconds_search,
                 seconds_integration: c.seconds_integration,
                 seconds_assembly: c.seconds_assembly,
+                pairs_reused: c.pairs_reused,
+                nodes_slipping: c.nodes_slipping,
+                evaluations_apart: c.evaluations_apart,
+                commits_apart: c.commits_apart,
+                multipliers: either!(h, c => c.multipliers()) as i64,
             },
         );
+        Ok(())
+    })
+}
+
+/// What the interface computes and why, one sentence an effect, for the host's log: friction, mortar side, weights,
+/// surfaces that are apart; "asked for" where the options name it, "chosen" where the scene let the library choose.
+/// For people: the words may change.
+///
+/// text (capacity), output: zero-terminated, cut where it is longer; 1000 characters are enough.
+///
+/// Errors: NULL_POINTER, INVALID_SIZE (capacity < 1).
+/// Cost: O(n1 + n2); allocates.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn stickslip_interface_effects(
+    interface: *mut stickslip_interface,
+    text: *mut c_char,
+    capacity: i64,
+) -> i32 {
+    guard(|| {
+        let h = &handle(interface)?.inner;
+        raw::check(text, "text")?;
+        let capacity = raw::count(capacity, 1, "capacity")?;
+        let sentences = either!(h, c => c.effects());
+        let bytes = sentences.bytes().take(capacity - 1).chain([0]);
+        raw::write_each(text, bytes.map(|b| b as c_char));
         Ok(())
     })
 }

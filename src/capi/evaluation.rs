@@ -1,12 +1,13 @@
 //! Evaluating an interface: sums, states, residual.
 
 use super::guard::guard;
-use super::interface::{flat, handle, sizes, stickslip_interface};
+use super::interface::{Inner, either, flat, handle, sizes, stickslip_interface};
 use super::raw;
 use super::sized::{self, Sized64};
 use crate::error::Result;
 use crate::geometry::Vec3;
-use crate::interface::{Interface, NodeSums};
+use crate::interface::{Contact, NodeSums};
+use nalgebra::SVector;
 
 /// Reals per node of `stickslip_interface_sums`.
 pub const STICKSLIP_SUMS_PER_NODE: i32 = 11;
@@ -15,13 +16,13 @@ pub const STICKSLIP_SUMS_PER_NODE: i32 = 11;
 pub(super) struct Point {
     pub x1: Vec<Vec3>,
     pub x2: Vec<Vec3>,
-    pub lambda: Vec<Vec3>,
+    lambda: Vec<f64>,
     sums: Option<Vec<NodeSums>>,
 }
 
 impl Point {
     /// Positions alone.
-    pub fn positions(interface: &Interface, x1: *const f64, x2: *const f64) -> Result<Point> {
+    pub fn positions(interface: &Inner, x1: *const f64, x2: *const f64) -> Result<Point> {
         let (n1, n2) = sizes(interface);
         Ok(Point {
             x1: raw::vectors(raw::numbers(x1, 3 * n1, "x1")?),
@@ -33,7 +34,7 @@ impl Point {
 
     /// Positions, multipliers and, if given, sums.
     pub fn read(
-        interface: &Interface,
+        interface: &Inner,
         x1: *const f64,
         x2: *const f64,
         lambda: *const f64,
@@ -41,7 +42,8 @@ impl Point {
     ) -> Result<Point> {
         let n1 = sizes(interface).0;
         let mut point = Point::positions(interface, x1, x2)?;
-        point.lambda = raw::vectors(raw::numbers(lambda, 3 * n1, "lambda")?);
+        let components = either!(interface, c => c.components());
+        point.lambda = raw::numbers(lambda, components * n1, "lambda")?.to_vec();
         let per_node = STICKSLIP_SUMS_PER_NODE as usize;
         if let Some(values) = raw::optional_numbers(sums, per_node * n1, "sums")? {
             let read = |s: &[f64]| NodeSums {
@@ -54,6 +56,11 @@ impl Point {
             point.sums = Some(values.chunks_exact(per_node).map(read).collect());
         }
         Ok(point)
+    }
+
+    /// The multipliers, N a node.
+    pub fn lambda<const N: usize>(&self) -> Vec<SVector<f64, N>> {
+        self.lambda.chunks_exact(N).map(SVector::from_column_slice).collect()
     }
 
     pub fn sums(&self) -> Option<&[NodeSums]> {
@@ -83,7 +90,7 @@ pub unsafe extern "C" fn stickslip_interface_sums(
         let h = handle(interface)?;
         let point = Point::positions(&h.inner, x1, x2)?;
         raw::check(sums, "sums")?;
-        let values = h.inner.sums(&point.x1, &point.x2)?;
+        let values = either!(&mut h.inner, c => c.sums(&point.x1, &point.x2)?);
         let per_node = |s: &NodeSums| {
             let (g, p, c) = (s.gap_now, s.gap_previous, s.gap_committed);
             [s.coverage, g.x, g.y, g.z, s.coverage_previous, p.x, p.y, p.z, c.x, c.y, c.z]
@@ -159,23 +166,27 @@ pub unsafe extern "C" fn stickslip_interface_states(
         ] {
             raw::check_optional(p, name)?;
         }
-        let own = if point.sums().is_none() { h.sums(&point.x1, &point.x2)? } else { Vec::new() };
-        let sums = point.sums().unwrap_or(&own);
-        let responses = h.responses(&point.x1, &point.x2, &point.lambda, Some(sums))?;
-        let nodes = || responses.iter().enumerate();
-        let normals = (0..responses.len()).map(|a| h.normal(a)).collect::<Result<Vec<_>>>()?;
-        let slip: Vec<_> = nodes().map(|(a, r)| h.slip_after(a, r, sums[a].coverage_previous)).collect();
-        raw::write_each(out.state, nodes().map(|(_, r)| r.state as i32));
-        raw::write_each(out.normal, flat(&normals));
-        raw::write_each(out.traction, nodes().flat_map(|(_, r)| [r.traction.x, r.traction.y, r.traction.z]));
-        raw::write_each(out.gap, nodes().map(|(_, r)| r.gap_normal));
-        raw::write_each(out.slip, flat(&slip));
-        raw::write_each(out.coverage, sums.iter().map(|s| s.coverage));
-        raw::write_each(out.area, h.history().areas.iter().copied());
-        raw::write_each(out.dissipation, nodes().map(|(_, r)| r.traction.dot(&r.slip)));
-        raw::write_each(out.augmentation, nodes().map(|(a, _)| h.augmentation(a)));
-        Ok(())
+        either!(h, c => write_states(c, &point, &out))
     })
+}
+
+fn write_states<const N: usize>(c: &mut Contact<N>, point: &Point, out: &stickslip_states) -> Result<()> {
+    let own = if point.sums().is_none() { c.sums(&point.x1, &point.x2)? } else { Vec::new() };
+    let sums = point.sums().unwrap_or(&own);
+    let responses = c.responses(&point.x1, &point.x2, &point.lambda(), Some(sums))?;
+    let nodes = || responses.iter().enumerate();
+    let normals = (0..responses.len()).map(|a| c.normal(a)).collect::<Result<Vec<_>>>()?;
+    let slip: Vec<_> = nodes().map(|(a, r)| c.slip_after(a, r, sums[a].coverage_previous)).collect();
+    raw::write_each(out.state, nodes().map(|(_, r)| r.state as i32));
+    raw::write_each(out.normal, flat(&normals));
+    raw::write_each(out.traction, nodes().flat_map(|(_, r)| [r.traction.x, r.traction.y, r.traction.z]));
+    raw::write_each(out.gap, nodes().map(|(_, r)| r.gap_normal));
+    raw::write_each(out.slip, flat(&slip));
+    raw::write_each(out.coverage, sums.iter().map(|s| s.coverage));
+    raw::write_each(out.area, c.history().areas.iter().copied());
+    raw::write_each(out.dissipation, nodes().map(|(_, r)| r.traction.dot(&r.slip)));
+    raw::write_each(out.augmentation, nodes().map(|(a, _)| c.augmentation(a)));
+    Ok(())
 }
 
 /// Residual in internal-force sign: what to ADD to the host's internal forces. The force ON the
@@ -206,12 +217,14 @@ pub unsafe extern "C" fn stickslip_interface_residual(
         raw::check(force1, "force1")?;
         raw::check(force2, "force2")?;
         raw::check(rows, "rows")?;
-        let r = h.residual(&point.x1, &point.x2, &point.lambda, point.sums())?;
-        let all = r.nonmortar.iter().chain(&r.mortar).chain(&r.rows);
-        raw::check_results("force1, force2, rows", all.flat_map(|v| v.iter()))?;
-        raw::write_each(force1, flat(&r.nonmortar));
-        raw::write_each(force2, flat(&r.mortar));
-        raw::write_each(rows, flat(&r.rows));
+        either!(h, c => {
+            let r = c.residual(&point.x1, &point.x2, &point.lambda(), point.sums())?;
+            let all = r.nonmortar.iter().chain(&r.mortar).flat_map(|v| v.iter());
+            raw::check_results("force1, force2, rows", all.chain(r.rows.iter().flat_map(|v| v.iter())))?;
+            raw::write_each(force1, flat(&r.nonmortar));
+            raw::write_each(force2, flat(&r.mortar));
+            raw::write_each(rows, flat(&r.rows));
+        });
         Ok(())
     })
 }

@@ -2,7 +2,7 @@
 
 use super::evaluation::Point;
 use super::guard::guard;
-use super::interface::{handle, stickslip_interface};
+use super::interface::{either, handle, stickslip_interface};
 use super::raw;
 use crate::error::{Error, Kind};
 
@@ -25,7 +25,7 @@ pub unsafe extern "C" fn stickslip_interface_commit(
     guard(|| {
         let h = &mut handle(interface)?.inner;
         let point = Point::read(h, x1, x2, lambda, sums)?;
-        h.commit(&point.x1, &point.x2, &point.lambda, point.sums())
+        either!(h, c => c.commit(&point.x1, &point.x2, &point.lambda(), point.sums()))
     })
 }
 
@@ -36,7 +36,7 @@ pub unsafe extern "C" fn stickslip_interface_commit(
 /// Cost: O(facets); the next evaluation integrates. Allocates.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn stickslip_interface_rollback(interface: *mut stickslip_interface) -> i32 {
-    guard(|| handle(interface)?.inner.roll_back())
+    guard(|| either!(&mut handle(interface)?.inner, c => c.roll_back()))
 }
 
 /// Lengths of the flat arrays that hold the history now; they change with each commit.
@@ -55,7 +55,7 @@ pub unsafe extern "C" fn stickslip_interface_history_size(
         let h = handle(interface)?;
         raw::check(n_integers, "n_integers")?;
         raw::check(n_reals, "n_reals")?;
-        let (i, r) = h.inner.history().flat_size();
+        let (i, r) = either!(&mut h.inner, c => c.history_size()?);
         raw::write(n_integers, &[i as i64]);
         raw::write(n_reals, &[r as i64]);
         Ok(())
@@ -79,13 +79,13 @@ pub unsafe extern "C" fn stickslip_interface_history_export(
         let h = handle(interface)?;
         raw::check(integers, "integers")?;
         raw::check(reals, "reals")?;
-        let needed = h.inner.history().flat_size();
+        let needed = either!(&mut h.inner, c => c.history_size()?);
         for (name, given, needed) in [("n_integers", n_integers, needed.0), ("n_reals", n_reals, needed.1)] {
             if given < needed as i64 {
                 return Err(Error::new(Kind::BufferTooSmall, format!("{name} is {given}; the history needs {needed}")));
             }
         }
-        let (i, r) = h.inner.export_history();
+        let (i, r) = either!(&mut h.inner, c => c.export_history()?);
         raw::write(integers, &i);
         raw::write(reals, &r);
         Ok(())
@@ -110,6 +110,6 @@ pub unsafe extern "C" fn stickslip_interface_history_import(
         let h = handle(interface)?;
         let integers = raw::slice(integers, raw::count(n_integers, 0, "n_integers")?, "integers")?;
         let reals = raw::slice(reals, raw::count(n_reals, 0, "n_reals")?, "reals")?;
-        h.inner.import_history(integers, reals)
+        either!(&mut h.inner, c => c.import_history(integers, reals))
     })
 }

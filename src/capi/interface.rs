@@ -2,18 +2,37 @@
 
 use super::evaluation::Point;
 use super::guard::guard;
-use super::options::{read_options, stickslip_options};
-use super::surface::{read_multipliers, read_surface, refuse_multipliers, stickslip_surface};
+use super::options::{Choices, read_options, stickslip_options};
+use super::surface::{
+    read_analytic, read_multipliers, read_owned, read_surface, refuse_multipliers, stickslip_surface,
+};
 use super::{raw, sized};
 use crate::error::{Error, Kind, Result};
-use crate::geometry::Vec3;
-use crate::interface::Interface;
+use crate::interface::{Contact, Friction, Surface};
+use nalgebra::SVector;
 
 /// A contact interface. Created and destroyed by the library; one thread at a time.
 pub struct stickslip_interface {
-    pub(super) inner: Interface,
+    pub(super) inner: Inner,
     pub(super) base: i64,
 }
+
+/// The interface by its number of multipliers per node.
+pub(super) enum Inner {
+    One(Contact<1>),
+    Three(Contact<3>),
+}
+
+/// Calls the same code for either kind.
+macro_rules! either {
+    ($inner:expr, $contact:ident => $body:expr) => {
+        match $inner {
+            $crate::capi::interface::Inner::One($contact) => $body,
+            $crate::capi::interface::Inner::Three($contact) => $body,
+        }
+    };
+}
+pub(super) use either;
 
 /// The handle behind a pointer.
 pub(super) fn handle<'a>(p: *mut stickslip_interface) -> Result<&'a mut stickslip_interface> {
@@ -24,14 +43,14 @@ pub(super) fn handle<'a>(p: *mut stickslip_interface) -> Result<&'a mut sticksli
 }
 
 /// Nodes of the two sides.
-pub(super) fn sizes(interface: &Interface) -> (usize, usize) {
-    let (one, two) = interface.surfaces();
+pub(super) fn sizes(interface: &Inner) -> (usize, usize) {
+    let (one, two) = either!(interface, c => c.surfaces());
     (one.len(), two.len())
 }
 
 /// Components node by node.
-pub(super) fn flat(v: &[Vec3]) -> impl Iterator<Item = f64> {
-    v.iter().flat_map(|v| [v.x, v.y, v.z])
+pub(super) fn flat<const N: usize>(v: &[SVector<f64, N>]) -> impl Iterator<Item = f64> {
+    v.iter().flat_map(|v| v.iter().copied())
 }
 
 /// Creates an interface between two surfaces, whose coordinates are the first configuration and t_0.
@@ -59,18 +78,35 @@ pub unsafe extern "C" fn stickslip_interface_create(
         raw::check(mortar, "mortar")?;
         raw::check(options, "options")?;
         raw::check(out, "out")?;
-        let (options, base) = read_options(options)?;
+        let choices = read_options(options)?;
         let (one, two) = (sized::read(nonmortar)?, sized::read(mortar)?);
         refuse_multipliers(&two)?;
-        let (multipliers, owned) = read_multipliers(&one, base)?;
-        let (one, two) = (read_surface(&one, base, "nonmortar")?, read_surface(&two, base, "mortar")?);
-        let mut inner = Interface::new(one, two, multipliers, options)?;
+        let owned = read_owned(&one)?;
+        let base = choices.base;
+        let mut inner = create_inner(&one, &two, choices)?;
         if let Some(owned) = owned {
-            inner.set_owned(owned)?;
+            either!(&mut inner, c => c.set_owned(owned)?);
         }
         raw::write(out, &[Box::into_raw(Box::new(stickslip_interface { inner, base }))]);
         Ok(())
     })
+}
+
+fn create_inner(one: &stickslip_surface, two: &stickslip_surface, choices: Choices) -> Result<Inner> {
+    let Choices { options, base, shape } = choices;
+    let mortar = || match shape {
+        Some(shape) => read_analytic(two, shape, base),
+        None => read_surface(two, base, "mortar"),
+    };
+    let surfaces = || Ok((read_surface(one, base, "nonmortar")?, mortar()?));
+    if options.friction == Friction::None {
+        let equations = read_multipliers(one, base)?;
+        let (one, two): (Surface, Surface) = surfaces()?;
+        return Contact::frictionless(one, two, equations, options).map(Inner::One);
+    }
+    let equations = read_multipliers(one, base)?;
+    let (one, two) = surfaces()?;
+    Contact::new(one, two, equations, options).map(Inner::Three)
 }
 
 /// Destroys the interface and sets the caller's pointer to NULL. NULL, or a pointer to NULL, is fine.
@@ -107,7 +143,13 @@ pub unsafe extern "C" fn stickslip_interface_set_friction(interface: *mut sticks
     guard(|| {
         let h = handle(interface)?;
         let mu = raw::numbers(mu, sizes(&h.inner).0, "mu")?;
-        h.inner.set_friction(mu.to_vec())
+        match &mut h.inner {
+            Inner::Three(c) => c.set_friction(mu.to_vec()),
+            Inner::One(_) => {
+                let text = "interface has no friction: it was created with STICKSLIP_FRICTION_NONE";
+                Err(Error::new(Kind::InvalidValue, text))
+            }
+        }
     })
 }
 
@@ -124,7 +166,7 @@ pub unsafe extern "C" fn stickslip_interface_set_augmentation(
     guard(|| {
         let h = handle(interface)?;
         let r = raw::optional_numbers(r, sizes(&h.inner).0, "r")?;
-        h.inner.set_augmentation(r.map(<[f64]>::to_vec))
+        either!(&mut h.inner, c => c.set_augmentation(r.map(<[f64]>::to_vec)))
     })
 }
 
@@ -141,7 +183,7 @@ pub unsafe extern "C" fn stickslip_interface_set_normals(
     guard(|| {
         let h = handle(interface)?;
         let normals = raw::optional_numbers(normals, 3 * sizes(&h.inner).0, "normals")?;
-        h.inner.set_normals(normals.map(raw::vectors))
+        either!(&mut h.inner, c => c.set_normals(normals.map(raw::vectors)))
     })
 }
 
@@ -166,7 +208,7 @@ pub unsafe extern "C" fn stickslip_interface_set_constraints(
         let h = handle(interface)?;
         let n = raw::count(n, 0, "n")?;
         if n == 0 {
-            return h.inner.set_constraints(&[]);
+            return either!(&mut h.inner, c => c.set_constraints(&[]));
         }
         let (nodes, directions) = (raw::slice(nodes, n, "nodes")?, raw::numbers(directions, 3 * n, "directions")?);
         let n1 = sizes(&h.inner).0;
@@ -179,7 +221,7 @@ pub unsafe extern "C" fn stickslip_interface_set_constraints(
             };
             list.push((node, direction));
         }
-        h.inner.set_constraints(&list)
+        either!(&mut h.inner, c => c.set_constraints(&list))
     })
 }
 
@@ -198,7 +240,7 @@ pub unsafe extern "C" fn stickslip_interface_set_previous(
     guard(|| {
         let h = handle(interface)?;
         let point = Point::positions(&h.inner, x1, x2)?;
-        h.inner.set_previous(&point.x1, &point.x2)
+        either!(&mut h.inner, c => c.set_previous(&point.x1, &point.x2))
     })
 }
 
@@ -217,9 +259,9 @@ pub unsafe extern "C" fn stickslip_interface_initial_multipliers(
     guard(|| {
         let h = handle(interface)?;
         raw::check(lambda, "lambda")?;
-        let values = h.inner.initial_multipliers()?;
-        raw::check_results("lambda", values.iter().flat_map(|v| v.iter()))?;
-        raw::write_each(lambda, flat(&values));
+        let values: Vec<f64> = either!(&mut h.inner, c => flat(&c.initial_multipliers()?).collect());
+        raw::check_results("lambda", &values)?;
+        raw::write(lambda, &values);
         Ok(())
     })
 }

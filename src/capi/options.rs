@@ -3,7 +3,10 @@
 use super::guard::guard;
 use super::sized::{self, Sized64};
 use crate::error::{Error, Kind, Result};
-use crate::interface::{COVERAGE_MIN, Form, NewContact, Options, RowScale, Stiffness, Weights};
+use crate::geometry::AnalyticShape;
+use crate::interface::{
+    COVERAGE_MIN, Form, Friction, MortarSide, NewContact, Options, RowScale, Shortcuts, Stiffness, Weights,
+};
 use crate::law::SlipMeasure;
 use crate::quadrature::{DEGREE_5, DEGREE_10, Rule};
 
@@ -25,18 +28,31 @@ pub const STICKSLIP_WEIGHTS_COMMITTED: i32 = 1;
 pub const STICKSLIP_WEIGHTS_REFERENCE: i32 = 2;
 /// Coulomb friction with the coefficient mu (0 allowed). Default.
 pub const STICKSLIP_FRICTION_COULOMB: i32 = 0;
-/// One multiplier per node, no tangential work. Not in this version; use mu = 0.
+/// One multiplier per node, along the normal: multiplier_equations, lambda and rows have n1 entries. No slip history.
 pub const STICKSLIP_FRICTION_NONE: i32 = 1;
-/// Tied surfaces. Not in this version.
+/// Mesh tying: a node that is covered in the first configuration keeps its place; weights of the reference. Linear.
 pub const STICKSLIP_FRICTION_TIED: i32 = 2;
-/// Opens and closes, never slips. Not in this version.
+/// Opens and closes, never slips.
 pub const STICKSLIP_FRICTION_ROUGH: i32 = 3;
 /// The mortar side deforms (or is prescribed, where it has no equations). Default.
 pub const STICKSLIP_MORTAR_DEFORMABLE: i32 = 0;
-/// The mortar side is rigid. Not in this version; give it no equations.
+/// The mortar side is rigid or prescribed (no equations): no rows and columns for it in the tangent.
 pub const STICKSLIP_MORTAR_RIGID: i32 = 1;
-/// The mortar side is a plane, a sphere or a cylinder. Not in this version.
+/// The mortar side is rigid and in closed form, STICKSLIP_SHAPE_...: no facets, no search. Its stickslip_surface has four
+/// nodes, a frame that is fixed to it and that the host moves as a rigid body: see there.
 pub const STICKSLIP_MORTAR_ANALYTIC: i32 = 2;
+/// A plane. Default.
+pub const STICKSLIP_SHAPE_PLANE: i32 = 0;
+/// A sphere.
+pub const STICKSLIP_SHAPE_SPHERE: i32 = 1;
+/// A circular cylinder without ends.
+pub const STICKSLIP_SHAPE_CYLINDER: i32 = 2;
+/// Coulomb with mu = 0 at every node: no slip is computed (and none reported).
+pub const STICKSLIP_SHORTCUT_FRICTIONLESS: i32 = 1;
+/// A mortar side without equations is treated as rigid.
+pub const STICKSLIP_SHORTCUT_RIGID: i32 = 2;
+/// Surfaces whose boxes are farther apart than their longest edge: neither search nor integration.
+pub const STICKSLIP_SHORTCUT_APART: i32 = 4;
 /// Standard shape functions for the multiplier (the paper's). Default.
 pub const STICKSLIP_BASIS_STANDARD: i32 = 0;
 /// Dual shape functions. Not in this version.
@@ -96,6 +112,13 @@ pub struct stickslip_options {
     /// penetration, so that the far side of a body is not found. Give it where the mortar surface lies in
     /// layers (refused otherwise) or the surfaces start deeper in each other than a facet.
     pub search_distance: f64,
+    /// Sum of the STICKSLIP_SHORTCUT_... that the library is not to take; 0 (default): it takes all.
+    pub no_shortcuts: i32,
+    /// STICKSLIP_SHAPE_... with STICKSLIP_MORTAR_ANALYTIC, else 0.
+    pub shape: i32,
+    /// With STICKSLIP_MORTAR_ANALYTIC [L]. Sphere, cylinder: > 0: a ball, a bar; < 0: a cavity, a bore, the body outside.
+    /// Plane, and where there is no shape: 0.
+    pub radius: f64,
 }
 
 // SAFETY: repr(C), struct_size first, numbers only.
@@ -129,6 +152,9 @@ pub unsafe extern "C" fn stickslip_options_init(options: *mut stickslip_options,
             modulus: 0.0,
             coverage_min: COVERAGE_MIN,
             search_distance: 0.0,
+            no_shortcuts: 0,
+            shape: STICKSLIP_SHAPE_PLANE,
+            radius: 0.0,
         };
         sized::initialise(options, struct_size, defaults, "options")
     })
@@ -147,6 +173,20 @@ fn choose<T: Copy>(value: i32, name: &str, available: &[T], named: i32) -> Resul
     })
 }
 
+fn read_shortcuts(off: i32) -> Result<Shortcuts> {
+    let all = STICKSLIP_SHORTCUT_FRICTIONLESS | STICKSLIP_SHORTCUT_RIGID | STICKSLIP_SHORTCUT_APART;
+    if off & !all != 0 {
+        let text = format!("options.no_shortcuts is {off}; a sum of STICKSLIP_SHORTCUT_... is allowed");
+        return Err(Error::new(Kind::InvalidValue, text));
+    }
+    let on = |bit: i32| off & bit == 0;
+    Ok(Shortcuts {
+        frictionless: on(STICKSLIP_SHORTCUT_FRICTIONLESS),
+        rigid: on(STICKSLIP_SHORTCUT_RIGID),
+        apart: on(STICKSLIP_SHORTCUT_APART),
+    })
+}
+
 /// The rule of a STICKSLIP_QUADRATURE_... value.
 pub(super) fn rule(value: i32, name: &str) -> Result<&'static Rule> {
     choose(value, name, &[&DEGREE_5, &DEGREE_10], 2)
@@ -157,8 +197,39 @@ pub(super) fn slip_measure(value: i32, name: &str) -> Result<SlipMeasure> {
     choose(value, name, &[SlipMeasure::Objective, SlipMeasure::Increment, SlipMeasure::Seed], 3)
 }
 
-/// The core's options and the index base.
-pub(super) fn read_options(p: *const stickslip_options) -> Result<(Options, i64)> {
+/// What an interface is created with.
+pub(super) struct Choices {
+    /// The core's options.
+    pub options: Options,
+    /// The index base.
+    pub base: i64,
+    /// The shape of an analytic mortar side.
+    pub shape: Option<AnalyticShape>,
+}
+
+fn read_shape(analytic: bool, shape: i32, radius: f64) -> Result<Option<AnalyticShape>> {
+    let refuse = |text: String| Err(Error::new(Kind::InvalidValue, text));
+    if !analytic {
+        return match (shape, radius) {
+            (0, 0.0) => Ok(None),
+            _ => refuse(format!(
+                "options.shape is {shape} and options.radius {radius}; both must be 0 where options.mortar_side is not STICKSLIP_MORTAR_ANALYTIC"
+            )),
+        };
+    }
+    let shapes = [AnalyticShape::Plane, AnalyticShape::Sphere(radius), AnalyticShape::Cylinder(radius)];
+    let shape = choose(shape, "options.shape", &shapes, 3)?;
+    match (shape, radius == 0.0) {
+        (AnalyticShape::Plane, false) => refuse(format!("options.radius is {radius}; it must be 0 of a plane")),
+        (AnalyticShape::Sphere(_) | AnalyticShape::Cylinder(_), true) => {
+            refuse("options.radius is 0; it must be positive (a ball, a bar) or negative (a cavity, a bore)".into())
+        }
+        _ => Ok(Some(shape)),
+    }
+}
+
+/// The options, checked.
+pub(super) fn read_options(p: *const stickslip_options) -> Result<Choices> {
     // Every member by name: a new one does not compile until it is handled.
     let stickslip_options {
         struct_size: _,
@@ -177,9 +248,15 @@ pub(super) fn read_options(p: *const stickslip_options) -> Result<(Options, i64)
         modulus,
         coverage_min,
         search_distance,
+        no_shortcuts,
+        shape,
+        radius,
     } = sized::read(p)?;
-    choose(friction, "options.friction", &[()], 4)?;
-    choose(mortar_side, "options.mortar_side", &[()], 3)?;
+    let laws = [Friction::Coulomb, Friction::None, Friction::Tied, Friction::Rough];
+    let friction = choose(friction, "options.friction", &laws, 4)?;
+    let sides = [MortarSide::Deformable, MortarSide::Rigid, MortarSide::Rigid];
+    let analytic = mortar_side == STICKSLIP_MORTAR_ANALYTIC;
+    let mortar_side = choose(mortar_side, "options.mortar_side", &sides, 3)?;
     choose(multiplier_basis, "options.multiplier_basis", &[()], 2)?;
     let numbers = [
         ("mu", mu),
@@ -187,11 +264,16 @@ pub(super) fn read_options(p: *const stickslip_options) -> Result<(Options, i64)
         ("modulus", modulus),
         ("search_distance", search_distance),
         ("coverage_min", coverage_min),
+        ("radius", radius),
     ];
     for (name, v) in numbers {
         if !v.is_finite() {
             return Err(Error::new(Kind::NotFinite, format!("options.{name} is {v}; it must be finite")));
         }
+    }
+    if friction != Friction::Coulomb && mu != 0.0 {
+        let text = format!("options.mu is {mu}; it must be 0 where options.friction is not Coulomb's");
+        return Err(Error::new(Kind::InvalidValue, text));
     }
     if modulus < 0.0 {
         return Err(Error::new(Kind::InvalidValue, format!("options.modulus is {modulus}; it must not be negative")));
@@ -216,11 +298,15 @@ pub(super) fn read_options(p: *const stickslip_options) -> Result<(Options, i64)
             &[NewContact::Frictionless, NewContact::KeepFriction],
             2,
         )?,
+        friction,
+        mortar_side,
+        shortcuts: read_shortcuts(no_shortcuts)?,
         mu,
         stiffness,
         coverage_min,
         search_distance: (search_distance != 0.0).then_some(search_distance),
     };
     options.validate()?;
-    Ok((options, choose(index_base, "options.index_base", &[0, 1], 2)?))
+    let base = choose(index_base, "options.index_base", &[0, 1], 2)?;
+    Ok(Choices { options, base, shape: read_shape(analytic, shape, radius)? })
 }

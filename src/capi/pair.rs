@@ -279,11 +279,10 @@ pub unsafe extern "C" fn stickslip_pair_tangent(
                 let mortar = Projection::new(&pair.two, &frame.plane);
                 Some(GapDerivative::current(&frame, &mortar, w, dn))
             }
-            (w, _) => w.as_ref().map(GapDerivative::frozen),
+            _ => None,
         };
-        let now =
-            weights.as_ref().zip(gap.as_ref()).map(|(weights, gap)| PairNow { weights, derivatives: dn.as_ref(), gap });
-        let t = PairTangent::new(now.as_ref(), before.as_ref(), &nodes);
+        let now = weights.as_ref().map(|weights| PairNow { weights, motion: dn.as_ref().zip(gap.as_ref()) });
+        let t = PairTangent::new::<true>(now.as_ref(), before.as_ref(), &nodes);
         raw::check_results("k", t.force_x.iter().chain(&t.row_x).flatten().flat_map(|m| m.iter()))?;
         let block = |row: usize, column: usize| -> Mat3 {
             let n = n1 + n2;

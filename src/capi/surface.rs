@@ -3,17 +3,26 @@
 use super::raw;
 use super::sized::Sized64;
 use crate::error::{Error, Kind, Result};
+use crate::geometry::{AnalyticShape, FRAME};
 use crate::interface::{NO_EQUATION, Surface};
 
 /// One surface of an interface.
+///
+/// An analytic mortar side (STICKSLIP_MORTAR_ANALYTIC) has n_nodes = 4 and n_facets = 0; facet_offsets and facet_nodes
+/// are NULL, equations NULL or all -1. Its nodes P0..P3 are a frame that is fixed to the surface and moves as a rigid
+/// body, within 1e-8 of its lengths (INVALID_VALUE otherwise); to move the surface, move them. P0: a point of the plane,
+/// the sphere's centre, a point of the axis. P1 - P0: the plane's normal, out of its body, or the direction of the axis. The
+/// three edges P1 - P0, P2 - P0, P3 - P0 must not lie in one plane; take them about as long as the contact is wide. The
+/// forces on the four nodes are statically equivalent to those on the surface. A facet takes part in a step when at t_n its
+/// normal opposes the surface's; it then counts as covered.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct stickslip_surface {
     /// sizeof(stickslip_surface).
     pub struct_size: u64,
-    /// Number of nodes; each must belong to a facet.
+    /// Number of nodes; each must belong to a facet. Analytic: 4.
     pub n_nodes: i64,
-    /// Number of facets.
+    /// Number of facets. Analytic: 0.
     pub n_facets: i64,
     /// 3 n_nodes coordinates of the first configuration, node by node [L].
     pub coordinates: *const f64,
@@ -28,8 +37,8 @@ pub struct stickslip_surface {
     /// index base.
     pub equations: *const i64,
     /// Non-mortar: 3 n_nodes multiplier equations, -1: the component is removed and its axis a constrained
-    /// direction (see `stickslip_interface_set_constraints`); a node with three -1 keeps its normal. Mortar:
-    /// NULL.
+    /// direction (see `stickslip_interface_set_constraints`); a node with three -1 keeps its normal. With
+    /// STICKSLIP_FRICTION_NONE n_nodes equations, one a node, along the normal; -1: none. Mortar: NULL.
     pub multiplier_equations: *const i64,
     /// Non-mortar, parallel hosts: n_nodes flags, 1 where this handle adds the node's own block; NULL:
     /// all. Mortar: NULL.
@@ -42,20 +51,21 @@ unsafe impl Sized64 for stickslip_surface {
     const FIRST: usize = 72;
 }
 
-/// Three equations per node, 0-based.
-fn equations(p: *const i64, n: usize, base: i64, name: &str) -> Result<Vec<[i64; 3]>> {
-    let values = raw::slice(p, 3 * n, name)?;
-    let convert = |k: usize| {
-        let v = values[k];
+/// N equations per node, 0-based.
+fn equations<const N: usize>(p: *const i64, n: usize, base: i64, name: &str) -> Result<Vec<[i64; N]>> {
+    let values = raw::slice(p, N * n, name)?;
+    let mut equations = vec![[NO_EQUATION; N]; n];
+    for (k, (equation, &v)) in equations.as_flattened_mut().iter_mut().zip(values).enumerate() {
         if v == NO_EQUATION {
-            Ok(NO_EQUATION)
-        } else if v < base {
-            Err(Error::new(Kind::IndexOutOfRange, format!("{name}[{k}] is {v}; -1 or at least {base} is allowed")))
-        } else {
-            Ok(v - base)
+            continue;
         }
-    };
-    (0..n).map(|a| Ok([convert(3 * a)?, convert(3 * a + 1)?, convert(3 * a + 2)?])).collect()
+        if v < base {
+            let text = format!("{name}[{k}] is {v}; -1 or at least {base} is allowed");
+            return Err(Error::new(Kind::IndexOutOfRange, text));
+        }
+        *equation = v - base;
+    }
+    Ok(equations)
 }
 
 /// A checked surface; `side` is "nonmortar" or "mortar".
@@ -89,6 +99,31 @@ pub(super) fn read_surface(s: &stickslip_surface, base: i64, side: &'static str)
     Surface::new(side, raw::vectors(coordinates), &facets, equations)
 }
 
+/// A checked analytic surface: four nodes, no facets, no equations.
+pub(super) fn read_analytic(s: &stickslip_surface, shape: AnalyticShape, base: i64) -> Result<Surface> {
+    let refuse = |kind, text: &str| Err(Error::new(kind, text));
+    if s.n_nodes != FRAME as i64 || s.n_facets != 0 {
+        let text = format!(
+            "mortar has n_nodes = {} and n_facets = {}; an analytic surface has the {FRAME} nodes of its frame and no facets",
+            s.n_nodes, s.n_facets
+        );
+        return refuse(Kind::InvalidSize, &text);
+    }
+    if !s.facet_offsets.is_null() || !s.facet_nodes.is_null() {
+        let text = "mortar.facet_offsets and mortar.facet_nodes must be NULL: an analytic surface has no facets";
+        return refuse(Kind::InvalidValue, text);
+    }
+    if !s.equations.is_null() {
+        let equations = equations::<3>(s.equations, FRAME, base, "mortar.equations")?;
+        if let Some(k) = equations.as_flattened().iter().position(|&e| e != NO_EQUATION) {
+            let text = format!("mortar.equations[{k}] is an equation; an analytic surface is rigid and has none (-1)");
+            return refuse(Kind::InvalidValue, &text);
+        }
+    }
+    let coordinates = raw::numbers(s.coordinates, 3 * FRAME, "mortar.coordinates")?;
+    Surface::analytic("mortar", shape, raw::vectors(coordinates))
+}
+
 /// Refuses multipliers on the mortar side: the two surfaces may have been swapped.
 pub(super) fn refuse_multipliers(mortar: &stickslip_surface) -> Result<()> {
     for (given, member) in
@@ -102,17 +137,17 @@ pub(super) fn refuse_multipliers(mortar: &stickslip_surface) -> Result<()> {
     Ok(())
 }
 
-/// Multiplier equations, and which nodes are owned (`None`: all).
-type Multipliers = (Vec<[i64; 3]>, Option<Vec<bool>>);
-
-/// The non-mortar side's multipliers.
-pub(super) fn read_multipliers(s: &stickslip_surface, base: i64) -> Result<Multipliers> {
+/// The non-mortar side's multiplier equations, N a node.
+pub(super) fn read_multipliers<const N: usize>(s: &stickslip_surface, base: i64) -> Result<Vec<[i64; N]>> {
     let n = raw::count(s.n_nodes, 3, "nonmortar.n_nodes")?;
-    let multipliers = equations(s.multiplier_equations, n, base, "nonmortar.multiplier_equations")?;
-    let owned = if s.owned.is_null() {
-        None
-    } else {
-        Some(raw::slice(s.owned, n, "nonmortar.owned")?.iter().map(|&o| o != 0).collect())
-    };
-    Ok((multipliers, owned))
+    equations(s.multiplier_equations, n, base, "nonmortar.multiplier_equations")
+}
+
+/// Which non-mortar nodes are owned; `None`: all.
+pub(super) fn read_owned(s: &stickslip_surface) -> Result<Option<Vec<bool>>> {
+    if s.owned.is_null() {
+        return Ok(None);
+    }
+    let n = raw::count(s.n_nodes, 3, "nonmortar.n_nodes")?;
+    Ok(Some(raw::slice(s.owned, n, "nonmortar.owned")?.iter().map(|&o| o != 0).collect()))
 }

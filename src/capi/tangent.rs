@@ -2,25 +2,33 @@
 
 use super::evaluation::Point;
 use super::guard::guard;
-use super::interface::{handle, stickslip_interface};
+use super::interface::{either, handle, stickslip_interface};
 use super::raw;
 use crate::error::{Error, Kind, Result};
+use crate::interface::{NO_EQUATION, Sink};
 
 /// Entries as (row, column, value), in the core's numbering.
 #[derive(Default)]
-struct Triplets {
-    rows: Vec<i64>,
-    columns: Vec<i64>,
-    values: Vec<f64>,
+struct Triplets(Vec<(i64, i64, f64)>);
+
+impl Sink for Triplets {
+    #[inline]
+    fn add(&mut self, row: i64, column: i64, value: f64) {
+        self.0.push((row, column, value));
+    }
+
+    fn add_block(&mut self, rows: &[i64], columns: &[i64], values: &[f64]) {
+        self.0.reserve(values.len());
+        for (&column, values) in columns.iter().zip(values.chunks_exact(rows.len())) {
+            if column != NO_EQUATION {
+                let column_of = rows.iter().zip(values).filter(|(row, _)| **row != NO_EQUATION);
+                self.0.extend(column_of.map(|(&row, &value)| (row, column, value)));
+            }
+        }
+    }
 }
 
 impl Triplets {
-    fn push(&mut self, row: i64, column: i64, value: f64) {
-        self.rows.push(row);
-        self.columns.push(column);
-        self.values.push(value);
-    }
-
     /// Copies to the caller's arrays, or only counts when they are all NULL. `values` may be absent.
     fn write(
         &self,
@@ -32,7 +40,7 @@ impl Triplets {
         count: *mut i64,
     ) -> Result<()> {
         raw::check(count, "count")?;
-        let n = self.rows.len();
+        let n = self.0.len();
         let counting = rows.is_null() && columns.is_null() && values.is_none_or(<*mut f64>::is_null);
         if !counting {
             raw::check(rows, "rows")?;
@@ -46,14 +54,18 @@ impl Triplets {
                     format!("capacity is {capacity}; {n} entries are needed"),
                 ));
             }
-            raw::write_each(rows, self.rows.iter().map(|r| r + base));
-            raw::write_each(columns, self.columns.iter().map(|c| c + base));
+            raw::write_each(rows, self.0.iter().map(|(r, _, _)| r + base));
+            raw::write_each(columns, self.0.iter().map(|(_, c, _)| c + base));
             if let Some(values) = values {
-                raw::write(values, &self.values);
+                raw::write_each(values, self.0.iter().map(|(_, _, v)| *v));
             }
         }
         raw::write(count, &[n as i64]);
         Ok(())
+    }
+
+    fn check(&self) -> Result<()> {
+        raw::check_results("values", self.0.iter().map(|(_, _, v)| v))
     }
 }
 
@@ -87,13 +99,12 @@ pub unsafe extern "C" fn stickslip_interface_tangent_coo(
         let h = handle(interface)?;
         let point = Point::read(&h.inner, x1, x2, lambda, sums)?;
         let mut t = Triplets::default();
-        let mut sink = |row, column, value| t.push(row, column, value);
         if rows.is_null() && columns.is_null() && values.is_null() {
-            h.inner.pattern(&point.x1, &point.x2, &mut sink)?;
+            either!(&mut h.inner, c => c.pattern(&point.x1, &point.x2, &mut t)?);
         } else {
-            h.inner.tangent(&point.x1, &point.x2, &point.lambda, point.sums(), &mut sink)?;
+            either!(&mut h.inner, c => c.tangent(&point.x1, &point.x2, &point.lambda(), point.sums(), &mut t)?);
         }
-        raw::check_results("values", &t.values)?;
+        t.check()?;
         t.write(h.base, capacity, rows, columns, Some(values), count)
     })
 }
@@ -135,10 +146,10 @@ pub unsafe extern "C" fn stickslip_interface_tangent_csr(
         let columns = raw::slice(columns, entries, "columns")?;
         raw::check(values, "values")?;
         let mut t = Triplets::default();
-        h.inner.tangent(&point.x1, &point.x2, &point.lambda, point.sums(), &mut |r, c, v| t.push(r, c, v))?;
-        raw::check_results("values", &t.values)?;
-        let mut places = Vec::with_capacity(t.rows.len());
-        for (&row, &column) in t.rows.iter().zip(&t.columns) {
+        either!(&mut h.inner, c => c.tangent(&point.x1, &point.x2, &point.lambda(), point.sums(), &mut t)?);
+        t.check()?;
+        let mut places = Vec::with_capacity(t.0.len());
+        for &(row, column, _) in &t.0 {
             let Some(r) = usize::try_from(row).ok().filter(|&r| r < n) else {
                 let text = format!("the interface has equation {}; the matrix has {n} rows", row + h.base);
                 return Err(Error::new(Kind::IndexOutOfRange, text));
@@ -154,7 +165,7 @@ pub unsafe extern "C" fn stickslip_interface_tangent_csr(
             };
             places.push(first + found);
         }
-        for (place, value) in places.into_iter().zip(t.values) {
+        for (place, (_, _, value)) in places.into_iter().zip(t.0) {
             // SAFETY: place < entries, and the caller's values has that many.
             unsafe { *values.add(place) += value };
         }
@@ -184,7 +195,7 @@ pub unsafe extern "C" fn stickslip_interface_pattern_coo(
         let h = handle(interface)?;
         let point = Point::positions(&h.inner, x1, x2)?;
         let mut t = Triplets::default();
-        h.inner.superset_pattern(&point.x1, &point.x2, &mut |row, column, _| t.push(row, column, 0.0))?;
+        either!(&mut h.inner, c => c.superset_pattern(&point.x1, &point.x2, &mut t)?);
         t.write(h.base, capacity, rows, columns, None, count)
     })
 }

@@ -1,7 +1,8 @@
-//! Leaf geometry: facets, the auxiliary plane, projection, clipping, inverse maps, edge intervals.
+//! Leaf geometry: facets, the auxiliary plane, projection, clipping, inverse maps, edge intervals; analytic surfaces.
 //!
 //! Nothing here knows of contact; nothing allocates.
 
+mod analytic_surface;
 pub mod bilinear_map;
 pub mod clip;
 pub mod edge_interval;
@@ -9,6 +10,7 @@ mod facet;
 mod plane;
 mod projection;
 
+pub use analytic_surface::{AnalyticShape, AnalyticSurface, Closest, FRAME, check_rigid_motion};
 pub use facet::Facet;
 pub use plane::Plane;
 pub use projection::Projection;

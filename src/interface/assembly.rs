@@ -5,14 +5,15 @@
 //! count and a fill always agree.
 
 use super::augmented::NodeCouplings;
+use super::history::PairRecord;
 use super::nodes::NodeSums;
-use super::{Form, Interface, NO_EQUATION, Weights};
+use super::{Contact, Form, NO_EQUATION, Weights, effects};
 use crate::element::{NodeTangent, PairNow, PairTangent, pair_force};
 use crate::error::{Error, Kind, Result};
 use crate::geometry::{Mat3, Vec3};
 use crate::law::NodeResponse;
-use crate::mortar::{GapDerivative, MORTAR, PAIR_NODES, PairWeights, Segment, WeightDerivatives};
-use crate::shape::MAX_NODES;
+use crate::mortar::{MORTAR, PAIR_NODES, PairWeights, WeightDerivatives, slots};
+use nalgebra::{SMatrix, SVector};
 use std::time::Instant;
 
 /// Takes a tangent entry: (row equation, column equation, value).
@@ -20,12 +21,14 @@ pub trait Sink {
     /// Adds `value` at (row, column), both 0-based equations.
     fn add(&mut self, row: i64, column: i64, value: f64);
 
-    /// Adds a 3 x 3 block.
-    fn add_block(&mut self, rows: &[i64; 3], columns: &[i64; 3], block: &Mat3) {
-        for i in 0..3 {
-            for j in 0..3 {
-                if rows[i] != NO_EQUATION && columns[j] != NO_EQUATION {
-                    self.add(rows[i], columns[j], block[(i, j)]);
+    /// Adds a block, its values column by column.
+    fn add_block(&mut self, rows: &[i64], columns: &[i64], values: &[f64]) {
+        for (&column, values) in columns.iter().zip(values.chunks_exact(rows.len())) {
+            if column != NO_EQUATION {
+                for (&row, &value) in rows.iter().zip(values) {
+                    if row != NO_EQUATION {
+                        self.add(row, column, value);
+                    }
                 }
             }
         }
@@ -40,13 +43,13 @@ impl<F: FnMut(i64, i64, f64)> Sink for F {
 
 /// Residual of an interface.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Residual {
+pub struct Residual<const N: usize = 3> {
     /// Internal forces at the non-mortar nodes `[F]`; the force ON the body is the negative.
     pub nonmortar: Vec<Vec3>,
     /// Internal forces at the mortar nodes `[F]`.
     pub mortar: Vec<Vec3>,
     /// Multiplier rows (`[F]` or [L^3], see the row scale).
-    pub rows: Vec<Vec3>,
+    pub rows: Vec<SVector<f64, N>>,
 }
 
 /// A pair of the union of those active now and those of t_n.
@@ -57,9 +60,18 @@ pub(super) struct UnionPair<'a> {
     pub previous: Option<&'a PairWeights>,
 }
 
-impl Interface {
-    /// The union of the pairs active now and of those of t_n, sorted.
+impl<'a> UnionPair<'a> {
+    fn now(pair: &'a PairRecord) -> UnionPair<'a> {
+        UnionPair { one: pair.one, two: pair.two, now: Some(&pair.weights), previous: None }
+    }
+}
+
+impl<const N: usize> Contact<N> {
+    /// The union of the pairs active now and, where slip counts, of those of t_n, sorted.
     fn union(&self) -> Vec<UnionPair<'_>> {
+        if !self.kernels.slips {
+            return self.current_pairs().iter().map(UnionPair::now).collect();
+        }
         let (mut now, mut previous) = (self.current_pairs().iter().peekable(), self.history.pairs.iter().peekable());
         let mut union = Vec::with_capacity(now.len().max(previous.len()));
         loop {
@@ -76,18 +88,19 @@ impl Interface {
         &mut self,
         x1: &[Vec3],
         x2: &[Vec3],
-        lambda: &[Vec3],
+        lambda: &[SVector<f64, N>],
         sums: Option<&[NodeSums]>,
-    ) -> Result<Residual> {
+    ) -> Result<Residual<N>> {
         let responses = self.responses(x1, x2, lambda, sums)?;
         let mut r = Residual {
             nonmortar: vec![Vec3::zeros(); self.nonmortar.len()],
             mortar: vec![Vec3::zeros(); self.mortar.len()],
-            rows: vec![Vec3::zeros(); self.nonmortar.len()],
+            rows: vec![SVector::zeros(); self.nonmortar.len()],
         };
+        let tractions = self.force_tractions(lambda, &responses)?;
         for pair in self.current_pairs() {
             let (one, two) = (&self.nonmortar.facets[pair.one], &self.mortar.facets[pair.two]);
-            let f = pair_force(&pair.weights, &one.nodes.map(|a| self.force_traction(lambda[a], &responses[a])));
+            let f = pair_force(&pair.weights, &one.nodes.map(|a| tractions[a]));
             for k in 0..one.len {
                 r.nonmortar[one.nodes[k]] += f[k];
             }
@@ -103,12 +116,13 @@ impl Interface {
         Ok(r)
     }
 
-    /// The traction that a node's forces use.
-    fn force_traction(&self, lambda: Vec3, response: &NodeResponse) -> Vec3 {
-        match self.options.form {
-            Form::Multiplier => lambda,
-            Form::Augmented => response.traction,
-        }
+    /// The tractions that the nodes' forces use.
+    fn force_tractions(&self, lambda: &[SVector<f64, N>], responses: &[NodeResponse<N>]) -> Result<Vec<Vec3>> {
+        let traction = |a: usize| match self.options.form {
+            Form::Multiplier => Ok(effects::traction(&lambda[a], self.normal(a)?)),
+            Form::Augmented => Ok(responses[a].traction),
+        };
+        (0..responses.len()).map(traction).collect()
     }
 
     /// The exact tangent d residual / d (x1, x2, lambda) at (x, lambda).
@@ -116,9 +130,21 @@ impl Interface {
         &mut self,
         x1: &[Vec3],
         x2: &[Vec3],
-        lambda: &[Vec3],
+        lambda: &[SVector<f64, N>],
         sums: Option<&[NodeSums]>,
         sink: &mut impl Sink,
+    ) -> Result<()> {
+        (self.kernels.tangent)(self, x1, x2, lambda, sums, sink)
+    }
+
+    /// The tangent, `MOVES`: with rows and columns of the mortar side.
+    pub(super) fn tangent_with<const MOVES: bool>(
+        &mut self,
+        x1: &[Vec3],
+        x2: &[Vec3],
+        lambda: &[SVector<f64, N>],
+        sums: Option<&[NodeSums]>,
+        sink: &mut dyn Sink,
     ) -> Result<()> {
         if sums.is_some() && self.options.form == Form::Augmented {
             let text =
@@ -129,30 +155,31 @@ impl Interface {
         let start = Instant::now();
         let mut linearised = 0;
         let mut couplings = self.augmented_couplings();
+        let nodes = self.node_tangents(lambda, &responses)?;
+        // Large, so that one of each serves all pairs.
+        let (mut dn, mut t) = (WeightDerivatives::default(), PairTangent::default());
         for pair in &self.union() {
             let one = &self.nonmortar.facets[pair.one];
-            let nodes = self.node_tangents(pair.one, lambda, &responses);
-            let mut derivatives = WeightDerivatives::default();
-            let gap = match (pair.now, &self.integration) {
-                (Some(weights), Some(k)) => {
-                    let frame = &k.frames[pair.one];
-                    let segment = Segment::new(frame, &self.mortar.facet(pair.two, x2))?
-                        .expect("an active pair has a segment at the positions it was found at");
-                    derivatives = WeightDerivatives::integrate(frame, &segment, self.options.rule);
-                    linearised += 1;
-                    Some(GapDerivative::current(frame, &segment.mortar, weights, &derivatives))
-                }
-                (now, _) => now.map(GapDerivative::frozen),
-            };
-            let dn = self.integration.is_some().then_some(&derivatives);
-            let now = pair.now.zip(gap.as_ref()).map(|(weights, gap)| PairNow { weights, derivatives: dn, gap });
-            self.emit_pair(pair, &PairTangent::new(now.as_ref(), pair.previous, &nodes), sink);
+            let mut gap = None;
+            if let (Some(weights), Some(k)) = (pair.now, &self.integration) {
+                let facet = (&k.frames[pair.one], weights);
+                gap = Some((self.kernels.motion)((&self.mortar, x2), pair.two, facet, self.options.rule, &mut dn)?);
+                linearised += 1;
+            }
+            let motion = gap.as_ref().map(|gap| (&dn, gap));
+            let now = pair.now.map(|weights| PairNow { weights, motion });
+            t.update::<MOVES>(now.as_ref(), pair.previous, &one.nodes.map(|a| nodes[a]));
+            self.emit_pair::<MOVES>(pair, &t, sink)?;
             if let Some(couplings) = &mut couplings {
                 for k in 0..one.len {
                     let a = one.nodes[k];
-                    let r = self.augmentation(a);
-                    let scaled = (responses[a].drow_dnow * r, responses[a].drow_dprevious * r);
-                    couplings[a].add_pair(k, &self.slots(pair), now.as_ref(), pair.previous, scaled);
+                    couplings[a].add_pair::<MOVES>(
+                        k,
+                        &self.slots(pair),
+                        now.as_ref(),
+                        pair.previous,
+                        self.dtraction(a, &responses[a])?,
+                    );
                 }
             }
         }
@@ -167,13 +194,19 @@ impl Interface {
         Ok(())
     }
 
+    /// dp/dg_now and dp/dg_previous of a node.
+    fn dtraction(&self, a: usize, response: &NodeResponse<N>) -> Result<(Mat3, Mat3)> {
+        let r = self.augmentation(a);
+        let basis = effects::basis::<N>(self.normal(a)?);
+        Ok((basis * response.drow_dnow * r, basis * response.drow_dprevious * r))
+    }
+
     /// The entries of the tangent at (x1, x2), with value 0: as many as [`Interface::tangent`] writes there.
     pub fn pattern(&mut self, x1: &[Vec3], x2: &[Vec3], sink: &mut impl Sink) -> Result<()> {
         self.check_positions(x1, x2)?;
         self.ensure_integration(x1, x2)?;
         let union = self.union();
-        self.emit_pattern(&union, sink);
-        Ok(())
+        self.emit_pattern(&union, sink)
     }
 
     /// The entries of any tangent while the surfaces slide by less than a quarter of a facet. A larger motion
@@ -184,45 +217,54 @@ impl Interface {
         let weights = PairWeights::default();
         let pairs = self.possible_pairs(x1, x2)?;
         let all = pairs.iter().map(|&(one, two)| UnionPair { one, two, now: Some(&weights), previous: Some(&weights) });
-        self.emit_pattern(&all.collect::<Vec<_>>(), sink);
-        Ok(())
+        self.emit_pattern(&all.collect::<Vec<_>>(), sink)
     }
 
-    fn emit_pattern(&self, pairs: &[UnionPair], sink: &mut impl Sink) {
+    fn emit_pattern(&self, pairs: &[UnionPair], sink: &mut dyn Sink) -> Result<()> {
+        if self.kernels.moves {
+            self.emit_pattern_with::<true>(pairs, sink)
+        } else {
+            self.emit_pattern_with::<false>(pairs, sink)
+        }
+    }
+
+    fn emit_pattern_with<const MOVES: bool>(&self, pairs: &[UnionPair], sink: &mut dyn Sink) -> Result<()> {
         let mut couplings = self.augmented_couplings();
         for pair in pairs {
-            self.emit_pair(pair, &PairTangent::default(), sink);
+            self.emit_pair::<MOVES>(pair, &PairTangent::default(), sink)?;
             if let Some(couplings) = &mut couplings {
                 let one = &self.nonmortar.facets[pair.one];
-                let gap = pair.now.map(GapDerivative::frozen);
-                let now = pair.now.zip(gap.as_ref()).map(|(weights, gap)| PairNow { weights, derivatives: None, gap });
+                let now = pair.now.map(|weights| PairNow { weights, motion: None });
                 for k in 0..one.len {
                     let zero = (Mat3::zeros(), Mat3::zeros());
-                    couplings[one.nodes[k]].add_pair(k, &self.slots(pair), now.as_ref(), pair.previous, zero);
+                    couplings[one.nodes[k]].add_pair::<MOVES>(k, &self.slots(pair), now.as_ref(), pair.previous, zero);
                 }
             }
         }
         for a in 0..self.nonmortar.len() {
-            self.emit_node(a, &Mat3::zeros(), sink);
+            self.emit_node(a, &SMatrix::zeros(), sink);
             if let Some(couplings) = &couplings {
-                self.emit_couplings(a, &couplings[a], &Mat3::zeros(), sink);
+                self.emit_couplings(a, &couplings[a], &SMatrix::zeros(), sink);
             }
         }
+        Ok(())
     }
 
     fn augmented_couplings(&self) -> Option<Vec<NodeCouplings>> {
         (self.options.form == Form::Augmented).then(|| vec![NodeCouplings::default(); self.nonmortar.len()])
     }
 
-    fn node_tangents(&self, facet: usize, lambda: &[Vec3], responses: &[NodeResponse]) -> [NodeTangent; MAX_NODES] {
-        self.nonmortar.facets[facet].nodes.map(|a| {
+    fn node_tangents(&self, lambda: &[SVector<f64, N>], responses: &[NodeResponse<N>]) -> Result<Vec<NodeTangent<N>>> {
+        let tractions = self.force_tractions(lambda, responses)?;
+        let node = |(a, traction): (usize, Vec3)| {
             let (response, scale) = (&responses[a], self.row_scale(a));
             NodeTangent {
-                traction: self.force_traction(lambda[a], response),
+                traction,
                 drow_dnow: response.drow_dnow * scale,
                 drow_dprevious: response.drow_dprevious * scale,
             }
-        })
+        };
+        Ok(tractions.into_iter().enumerate().map(node).collect())
     }
 
     /// The nodes in a pair's slots, as indices over both surfaces (mortar after non-mortar).
@@ -243,49 +285,67 @@ impl Interface {
         if node < n1 { &self.nonmortar.equations[node] } else { &self.mortar.equations[node - n1] }
     }
 
-    fn emit_pair(&self, pair: &UnionPair, t: &PairTangent, sink: &mut impl Sink) {
-        let slots = self.slots(pair);
+    fn emit_pair<const MOVES: bool>(&self, pair: &UnionPair, t: &PairTangent<N>, sink: &mut dyn Sink) -> Result<()> {
+        let nodes = self.slots(pair);
         let one = &self.nonmortar.facets[pair.one];
-        let moves = self.options.weights == Weights::Current;
-        for (k, node) in slots.iter().enumerate() {
+        let current = self.options.effective_weights() == Weights::Current;
+        for (k, node) in nodes[..slots(MOVES)].iter().enumerate() {
             let Some(node) = *node else { continue };
             let equations = self.equations(node);
-            if pair.now.is_some() && moves {
-                for (j, column) in slots.iter().enumerate() {
+            if pair.now.is_some() && current {
+                for (j, column) in nodes[..slots(MOVES)].iter().enumerate() {
                     let Some(column) = *column else { continue };
-                    sink.add_block(equations, self.equations(column), &t.force_x[k][j]);
+                    sink.add_block(equations, self.equations(column), t.force_x[k][j].as_slice());
                 }
             }
             for a in 0..one.len {
                 let multiplier = &self.multiplier_equations[one.nodes[a]];
                 if pair.now.is_some() && self.options.form == Form::Multiplier {
-                    for i in 0..3 {
-                        if equations[i] != NO_EQUATION && multiplier[i] != NO_EQUATION {
-                            sink.add(equations[i], multiplier[i], t.force_lambda[k][a]);
-                        }
-                    }
+                    self.emit_multiplier(one.nodes[a], equations, t.force_lambda[k][a], sink)?;
                 }
-                sink.add_block(multiplier, equations, &t.row_x[a][k]);
+                sink.add_block(multiplier, equations, t.row_x[a][k].as_slice());
             }
         }
+        Ok(())
+    }
+
+    /// A node's force by a multiplier: `weight` I, or `weight` nu where there is one component.
+    fn emit_multiplier(&self, a: usize, equations: &[i64; 3], weight: f64, sink: &mut dyn Sink) -> Result<()> {
+        let multiplier = &self.multiplier_equations[a];
+        if N == 1 {
+            sink.add_block(equations, multiplier, (self.normal(a)? * weight).as_slice());
+            return Ok(());
+        }
+        for i in 0..3 {
+            if equations[i] != NO_EQUATION && multiplier[i] != NO_EQUATION {
+                sink.add(equations[i], multiplier[i], weight);
+            }
+        }
+        Ok(())
     }
 
     /// Stage 4: the node's own block, once per node, covered or not.
-    fn emit_node(&self, a: usize, drow_dlambda: &Mat3, sink: &mut impl Sink) {
+    fn emit_node(&self, a: usize, drow_dlambda: &SMatrix<f64, N, N>, sink: &mut dyn Sink) {
         if self.owned[a] {
             let equations = &self.multiplier_equations[a];
-            sink.add_block(equations, equations, &(drow_dlambda * self.row_scale(a)));
+            sink.add_block(equations, equations, (drow_dlambda * self.row_scale(a)).as_slice());
         }
     }
 
     /// The augmented form's node-wise products n_A. (Dp_A).
-    fn emit_couplings(&self, a: usize, couplings: &NodeCouplings, dp_dlambda: &Mat3, sink: &mut impl Sink) {
+    fn emit_couplings(
+        &self,
+        a: usize,
+        couplings: &NodeCouplings,
+        dp_dlambda: &SMatrix<f64, 3, N>,
+        sink: &mut dyn Sink,
+    ) {
         for row in couplings.forces() {
             let equations = self.equations(row.node);
             for column in &couplings.nodes {
-                sink.add_block(equations, self.equations(column.node), &(column.dtraction * row.weight));
+                sink.add_block(equations, self.equations(column.node), (column.dtraction * row.weight).as_slice());
             }
-            sink.add_block(equations, &self.multiplier_equations[a], &(dp_dlambda * row.weight));
+            sink.add_block(equations, &self.multiplier_equations[a], (dp_dlambda * row.weight).as_slice());
         }
     }
 }

@@ -3,7 +3,7 @@
 
 use crate::element::PairNow;
 use crate::geometry::Mat3;
-use crate::mortar::{MORTAR, PAIR_NODES, PairWeights};
+use crate::mortar::{MORTAR, PAIR_NODES, PairWeights, frozen_rows, slots};
 
 /// One node that a non-mortar node A is coupled with.
 #[derive(Clone, Debug)]
@@ -26,25 +26,27 @@ pub(super) struct NodeCouplings {
 
 impl NodeCouplings {
     /// Adds a pair in which A is the k-th non-mortar node. `dp` = (dp/dg_now, dp/dg_previous).
-    pub fn add_pair(
+    pub fn add_pair<const MOVES: bool>(
         &mut self,
         k: usize,
-        slots: &[Option<usize>; PAIR_NODES],
+        nodes: &[Option<usize>; PAIR_NODES],
         now: Option<&PairNow>,
         previous: Option<&PairWeights>,
         dp: (Mat3, Mat3),
     ) {
-        let signed = |w: &PairWeights, j: usize| if j < MORTAR { w.ab[k][j] } else { -w.ac[k][j - MORTAR] };
-        for (j, node) in slots.iter().enumerate() {
+        let by_now = now.map(|now| now.gap_rows::<MOVES, 3>(k, &dp.0));
+        let by_previous = previous.map(|weights| frozen_rows::<MOVES, 3>(weights, k, &dp.1));
+        for (j, node) in nodes[..slots(MOVES)].iter().enumerate() {
             let Some(node) = *node else { continue };
             let coupling = self.find(node);
-            if let Some(now) = now {
-                coupling.weight += signed(now.weights, j);
+            if let (Some(now), Some(rows)) = (now, &by_now) {
+                let w = now.weights;
+                coupling.weight += if j < MORTAR { w.ab[k][j] } else { -w.ac[k][j - MORTAR] };
                 coupling.acts = true;
-                coupling.dtraction += dp.0 * now.gap.block[k][j];
+                coupling.dtraction += rows[j];
             }
-            if let Some(previous) = previous {
-                coupling.dtraction += dp.1 * signed(previous, j);
+            if let Some(rows) = &by_previous {
+                coupling.dtraction += rows[j];
             }
         }
     }

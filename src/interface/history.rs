@@ -1,9 +1,11 @@
 //! What an interface remembers of t_n: configuration, weights, normals, areas, coverage, slip
-//! (formulation b.10). Changes only on commit, rolls back exactly, travels as flat arrays.
+//! (formulation b.10). Changes only on commit, rolls back exactly, travels as flat arrays. Without friction there is no
+//! slip to measure: no gaps, no slip, and weights only where they are frozen.
 
+use super::options::{Friction, Options, Weights};
 use super::surface::Surface;
 use crate::error::{Error, Kind, Result};
-use crate::geometry::{Plane, Vec3};
+use crate::geometry::{AnalyticShape, Plane, Vec3};
 use crate::mortar::{NonmortarFrame, PairWeights};
 use crate::shape::MAX_NODES;
 
@@ -18,9 +20,59 @@ pub struct PairRecord {
     pub weights: PairWeights,
 }
 
+/// What a history holds besides configuration, normals, areas and coverage.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Keeps {
+    /// Gaps, slip and weights of t_n, from which slip is measured.
+    Slip,
+    /// The frozen weights alone: without friction.
+    Weights,
+    /// Nothing: without friction, weights of now.
+    Nothing,
+}
+
+impl Keeps {
+    /// What an interface with these options needs.
+    pub fn of(options: &Options) -> Keeps {
+        match (options.friction, options.effective_weights()) {
+            (Friction::None, Weights::Current) => Keeps::Nothing,
+            (Friction::None, _) => Keeps::Weights,
+            _ => Keeps::Slip,
+        }
+    }
+
+    /// First integer of an exported history: "stickslip history, layout 1 to 3".
+    fn layout(self) -> i64 {
+        match self {
+            Keeps::Slip => 0x57_1C_01,
+            Keeps::Weights => 0x57_1C_02,
+            Keeps::Nothing => 0x57_1C_03,
+        }
+    }
+
+    fn name(self) -> &'static str {
+        match self {
+            Keeps::Slip => "with slip",
+            Keeps::Weights => "without friction, with frozen weights",
+            Keeps::Nothing => "without friction, with weights of now",
+        }
+    }
+
+    /// Vectors per non-mortar node: position, normal and, where slip counts, gap and slip.
+    fn vectors(self) -> usize {
+        if self == Keeps::Slip { 4 } else { 2 }
+    }
+
+    fn reals(self, n1: usize, n2: usize, pairs: usize) -> usize {
+        (3 * self.vectors() + 2) * n1 + 3 * n2 + REALS_PER_PAIR * pairs
+    }
+}
+
 /// The committed state of an interface.
 #[derive(Clone, Debug, PartialEq)]
 pub struct History {
+    /// Which of the members below are in use.
+    pub(super) keeps: Keeps,
     /// Steps committed since creation.
     pub commits: i64,
     /// Non-mortar positions x(t_n).
@@ -33,33 +85,44 @@ pub struct History {
     pub areas: Vec<f64>,
     /// m_A(t_n): covered area [L^2].
     pub coverage: Vec<f64>,
-    /// g[n_n, x_n] [L^3].
+    /// g[n_n, x_n] [L^3]; empty without friction.
     pub gap: Vec<Vec3>,
-    /// Slip accumulated since the first configuration `[L]`.
+    /// Slip accumulated since the first configuration `[L]`; empty without friction.
     pub slip: Vec<Vec3>,
-    /// n(t_n), sorted by facets.
+    /// n(t_n), sorted by facets; none without friction, unless they are frozen.
     pub pairs: Vec<PairRecord>,
+    /// Whether coverage, gap and pairs are known; if not they are 0, and made up for when the surfaces come near.
+    pub integrated: bool,
 }
 
-/// First integer of an exported history: "stickslip history, layout 1".
-const LAYOUT: i64 = 0x57_1C_01;
 const HEADER: usize = 6;
 /// A normal farther from unit length than rounding takes it was not written by the library.
 const UNIT: f64 = 1e-10;
-const REALS_PER_NONMORTAR_NODE: usize = 14;
 const REALS_PER_PAIR: usize = 2 * MAX_NODES * MAX_NODES;
 
 impl History {
+    /// Takes each node's coverage and, of gaps and weights of t_n, what it keeps; leaves the rest.
+    pub(super) fn fill(&mut self, pairs: &mut Vec<PairRecord>, sums: &[(f64, Vec3)]) {
+        self.coverage = sums.iter().map(|(coverage, _)| *coverage).collect();
+        if self.keeps == Keeps::Slip {
+            self.gap = sums.iter().map(|(_, gap)| *gap).collect();
+        }
+        if self.keeps != Keeps::Nothing {
+            self.pairs = std::mem::take(pairs);
+        }
+        self.integrated = true;
+    }
+
     /// Lengths of the flat arrays: (integers, reals).
     pub fn flat_size(&self) -> (usize, usize) {
-        let reals = REALS_PER_NONMORTAR_NODE * self.x1.len() + 3 * self.x2.len() + REALS_PER_PAIR * self.pairs.len();
-        (HEADER + 2 * self.pairs.len(), reals)
+        let n = self.pairs.len();
+        (HEADER + 2 * n, self.keeps.reals(self.x1.len(), self.x2.len(), n))
     }
 
     /// The history as flat arrays.
     pub fn export(&self, nonmortar: &Surface, mortar: &Surface) -> (Vec<i64>, Vec<f64>) {
         let counts = [self.x1.len() as i64, self.x2.len() as i64, self.pairs.len() as i64];
-        let mut integers = vec![LAYOUT, self.commits];
+        let mut integers = vec![self.keeps.layout(), self.commits];
         integers.extend(counts);
         integers.push(fingerprint(nonmortar, mortar));
         let mut reals = Vec::with_capacity(self.flat_size().1);
@@ -75,18 +138,26 @@ impl History {
         (integers, reals)
     }
 
-    /// Reads what [`History::export`] wrote for the same surfaces.
+    /// Reads what [`History::export`] wrote for the same surfaces and the same `keeps`.
     ///
     /// # Errors
     /// [`Kind::HistoryMismatch`] or [`Kind::NotFinite`], naming the array.
-    pub fn import(integers: &[i64], reals: &[f64], nonmortar: &Surface, mortar: &Surface) -> Result<History> {
+    pub(super) fn import(
+        keeps: Keeps,
+        (integers, reals): (&[i64], &[f64]),
+        (nonmortar, mortar): (&Surface, &Surface),
+    ) -> Result<History> {
         let mismatch = |text: String| Err(Error::new(Kind::HistoryMismatch, text));
         let (n1, n2) = (nonmortar.len(), mortar.len());
         let &[layout, commits, nodes1, nodes2, pairs, print, ref facets @ ..] = integers else {
             return mismatch(format!("integers has {} entries; at least {HEADER} are needed", integers.len()));
         };
-        if layout != LAYOUT {
+        let Some(found) = [Keeps::Slip, Keeps::Weights, Keeps::Nothing].into_iter().find(|k| k.layout() == layout)
+        else {
             return mismatch(format!("integers[0] is {layout}: not a history of this library version"));
+        };
+        if found != keeps {
+            return mismatch(format!("the history is one {}, the interface one {}", found.name(), keeps.name()));
         }
         if (nodes1, nodes2) != (n1 as i64, n2 as i64) {
             return mismatch(format!("the history has {nodes1} + {nodes2} nodes, the interface {n1} + {n2}"));
@@ -94,10 +165,13 @@ impl History {
         if print != fingerprint(nonmortar, mortar) {
             return mismatch("the history was made with other facets, or with the same in another order".into());
         }
+        if keeps == Keeps::Nothing && pairs != 0 {
+            return mismatch(format!("integers names {pairs} pairs; a history {} has none", keeps.name()));
+        }
         if commits < 0 || usize::try_from(pairs).map(|p| p.checked_mul(2)) != Ok(Some(facets.len())) {
             return mismatch(format!("integers names {pairs} pairs and holds {} facets", facets.len()));
         }
-        let n_reals = REALS_PER_NONMORTAR_NODE * n1 + 3 * n2 + REALS_PER_PAIR * facets.len() / 2;
+        let n_reals = keeps.reals(n1, n2, facets.len() / 2);
         if reals.len() != n_reals {
             return mismatch(format!("reals has {} entries; {n_reals} are needed", reals.len()));
         }
@@ -111,9 +185,22 @@ impl History {
             head
         };
         let mut vectors = |n: usize| take(3 * n).chunks_exact(3).map(Vec3::from_column_slice).collect::<Vec<_>>();
-        let (x1, x2, normals, gap, slip) = (vectors(n1), vectors(n2), vectors(n1), vectors(n1), vectors(n1));
+        let (x1, x2, normals) = (vectors(n1), vectors(n2), vectors(n1));
+        let (gap, slip) = if keeps == Keeps::Slip { (vectors(n1), vectors(n1)) } else { Default::default() };
         let (areas, coverage) = (take(n1).to_vec(), take(n1).to_vec());
-        let mut history = History { commits, x1, x2, normals, areas, coverage, gap, slip, pairs: Vec::new() };
+        let mut history = History {
+            keeps,
+            commits,
+            x1,
+            x2,
+            normals,
+            areas,
+            coverage,
+            gap,
+            slip,
+            pairs: Vec::new(),
+            integrated: true,
+        };
         for f in facets.chunks_exact(2) {
             let index = |v: i64, n: usize| usize::try_from(v).ok().filter(|&i| i < n);
             let (Some(one), Some(two)) = (index(f[0], nonmortar.facets.len()), index(f[1], mortar.facets.len())) else {
@@ -145,9 +232,10 @@ impl History {
 }
 
 /// A number that two pairs of surfaces share only when their facets name the same nodes in the same
-/// order (FNV-1a).
+/// order, and an analytic surface has the same shape (FNV-1a).
 fn fingerprint(nonmortar: &Surface, mortar: &Surface) -> i64 {
     let facets = nonmortar.facets.iter().chain(&mortar.facets);
-    let words = facets.flat_map(|f| std::iter::once(f.len).chain(f.nodes));
-    words.fold(0xcbf2_9ce4_8422_2325_u64, |hash, word| (hash ^ word as u64).wrapping_mul(0x0100_0000_01b3)) as i64
+    let words = facets.flat_map(|f| std::iter::once(f.len).chain(f.nodes)).map(|word| word as u64);
+    let words = words.chain(mortar.analytic.into_iter().flat_map(AnalyticShape::words));
+    words.fold(0xcbf2_9ce4_8422_2325_u64, |hash, word| (hash ^ word).wrapping_mul(0x0100_0000_01b3)) as i64
 }

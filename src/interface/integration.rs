@@ -2,21 +2,23 @@
 //!
 //! A pair is active when its facets overlap or touch in the auxiliary plane and it passed the filters of
 //! the last commit (opposing normals, heights). All of that is a function of the positions and the
-//! history, so evaluating at A, B, A gives equal bits.
+//! history, so evaluating at A, B, A gives equal bits. An analytic mortar side goes its own way at the four places where
+//! `Surface::analytic` is asked.
 
-use super::history::{History, PairRecord};
+use super::history::{History, Keeps, PairRecord};
 use super::nodes::assemble;
 use super::search::{Aabb, Prism, Tree};
-use super::{Counters, Interface, Options, Surface};
+use super::{Contact, Counters, Options, Surface, Weights, analytic};
 use crate::error::{Error, Kind, Result};
 use crate::geometry::{Facet, Plane, Vec3};
-use crate::mortar::{NonmortarFrame, PairWeights, Segment};
+use crate::mortar::{GapDerivative, NonmortarFrame, PairWeights, Segment, WeightDerivatives};
 use crate::normal;
+use crate::quadrature::Rule;
 use std::time::Instant;
 
 /// Facets whose normals oppose each other less than this are no pair: beyond 80 degrees the
 /// projection degenerates, and faces that look the same way must not be found.
-const LEAST_OPPOSITION: f64 = 0.17;
+pub(super) const LEAST_OPPOSITION: f64 = 0.17;
 /// Prisms are grown by this (over the facet's longest edge), so that touching facets are visited.
 const TOUCH_MARGIN: f64 = 1e-6;
 /// How far (over the facet's longest edge) surfaces may move within their plane before a tangent needs
@@ -35,14 +37,22 @@ pub(super) struct Integration {
     pub pairs: Vec<PairRecord>,
 }
 
+/// A configuration that becomes t_n, with nothing slipped.
+pub(super) struct Start {
+    pub history: History,
+    /// The filter of the step that follows; `None`: not needed so far.
+    pub filter: Option<Filter>,
+    /// The weights, where the history does not keep them: the next evaluation may well be here.
+    pub integration: Option<Integration>,
+}
+
 /// Names the facets in a refusal.
-fn at_facet(side: &str, facet: usize) -> impl FnOnce(Error) -> Error {
-    let place = format!("{side} facet {facet}: ");
-    move |e| Error::new(e.kind, place + &e.message)
+pub(super) fn at_facet(side: &str, facet: usize) -> impl FnOnce(Error) -> Error {
+    move |e| Error::new(e.kind, format!("{side} facet {facet}: {}", e.message))
 }
 
 /// The frames of all facets of a surface.
-fn frames(surface: &Surface, x: &[Vec3]) -> Result<Vec<NonmortarFrame>> {
+pub(super) fn frames(surface: &Surface, x: &[Vec3]) -> Result<Vec<NonmortarFrame>> {
     (0..surface.facets.len())
         .map(|f| NonmortarFrame::new(&surface.facet(f, x)).map_err(at_facet(surface.side, f)))
         .collect()
@@ -51,22 +61,42 @@ fn frames(surface: &Surface, x: &[Vec3]) -> Result<Vec<NonmortarFrame>> {
 /// Refuses a mortar surface with facets that are degenerate, folded or concave in the first configuration,
 /// whether they meet a non-mortar facet or not.
 pub(super) fn check_mortar_facets(surface: &Surface) -> Result<()> {
+    if surface.analytic.is_some() {
+        return Ok(());
+    }
     frames(surface, &surface.reference).map(|_| ())
 }
 
-/// What settles at a commit whether two facets can be a pair: opposing normals, and heights over the
-/// non-mortar facet between a penetration and a gap.
+/// What settles at a commit which pairs there can be.
 #[derive(Debug)]
-pub(super) struct Filter {
+pub(super) enum Filter {
+    Facets(FacetFilter),
+    /// Which non-mortar facets face an analytic mortar side.
+    Analytic(Vec<bool>),
+}
+
+impl Filter {
+    /// The filter of the configuration (x1, x2).
+    pub fn new(one: &Surface, two: &Surface, options: &Options, x1: &[Vec3], x2: &[Vec3]) -> Result<Filter> {
+        if two.analytic.is_some() {
+            return analytic::facing(one, &two.analytic_at(x2)?, options, x1).map(Filter::Analytic);
+        }
+        FacetFilter::new(one, two, options, x1, x2).map(Filter::Facets)
+    }
+}
+
+/// Whether two facets can be a pair: opposing normals, and heights over the non-mortar facet between a penetration and a
+/// gap.
+#[derive(Debug)]
+pub(super) struct FacetFilter {
     nonmortar: Vec<(Facet, Plane)>,
     mortar: Vec<(Facet, Plane)>,
     gap: f64,
     penetration: Option<f64>,
 }
 
-impl Filter {
-    /// The filter of the configuration (x1, x2).
-    pub fn new(one: &Surface, two: &Surface, options: &Options, x1: &[Vec3], x2: &[Vec3]) -> Result<Filter> {
+impl FacetFilter {
+    fn new(one: &Surface, two: &Surface, options: &Options, x1: &[Vec3], x2: &[Vec3]) -> Result<FacetFilter> {
         let facets = |s: &Surface, x: &[Vec3]| -> Result<Vec<(Facet, Plane)>> {
             let facet = |f: usize| {
                 let facet = s.facet(f, x);
@@ -76,7 +106,7 @@ impl Filter {
         };
         // As far as the surfaces reach: nothing that may be hit is too far away.
         let reach = || Aabb::around(one.reference.iter().chain(&two.reference).copied()).diagonal();
-        Ok(Filter {
+        Ok(FacetFilter {
             nonmortar: facets(one, x1)?,
             mortar: facets(two, x2)?,
             gap: options.search_distance.unwrap_or_else(reach),
@@ -100,7 +130,7 @@ fn candidates(
     (one, two): (&Surface, &Surface),
     frames: &[NonmortarFrame],
     (x1, x2): (&[Vec3], &[Vec3]),
-    filter: &Filter,
+    filter: &FacetFilter,
     skin: f64,
 ) -> Vec<(usize, usize)> {
     let facet_box = |f: usize| Aabb::around(two.facet(f, x2).points().iter().copied());
@@ -123,6 +153,10 @@ fn integrate(
     counters: &mut Counters,
     (x1, x2): (&[Vec3], &[Vec3]),
 ) -> Result<Integration> {
+    let filter = match filter {
+        Filter::Facets(filter) => filter,
+        Filter::Analytic(facing) => return analytic::integrate((one, two), options, facing, counters, (x1, x2)),
+    };
     let start = Instant::now();
     let frames = frames(one, x1)?;
     let candidates = candidates((one, two), &frames, (x1, x2), filter, 0.0);
@@ -145,47 +179,126 @@ fn integrate(
     Ok(Integration { x1: x1.to_vec(), x2: x2.to_vec(), frames, pairs })
 }
 
-impl Interface {
-    /// Makes `self.integration` that of (x1, x2). With frozen weights there is nothing to do.
+/// Whether the surfaces are so far apart that nothing can touch, in all of the configurations (x1, x2): by more than any
+/// penetration that is a pair, and on the same side; between two sides they pass through each other. Only asked where
+/// the weights follow the motion, so that they can be made up for later.
+fn are_apart((one, two): (&Surface, &Surface), options: &Options, places: &[(&[Vec3], &[Vec3])]) -> Result<bool> {
+    if !options.shortcuts.apart || options.effective_weights() != Weights::Current {
+        return Ok(false);
+    }
+    if two.analytic.is_some() {
+        return analytic::are_apart((one, two), places);
+    }
+    let around = |x: &[Vec3]| Aabb::around(x.iter().copied());
+    let distance = options.search_distance.unwrap_or_else(|| one.longest_edge.min(two.longest_edge));
+    let sides: Vec<_> = places.iter().map(|(x1, x2)| around(x1).sides(&around(x2), distance)).collect();
+    Ok((0..6).any(|side| sides.iter().all(|s| s[side])))
+}
+
+/// The derivatives of a pair of facets, `MOVES`: with respect to the mortar side too.
+pub(super) fn motion<const MOVES: bool>(
+    (two, x2): (&Surface, &[Vec3]),
+    facet: usize,
+    (frame, weights): (&NonmortarFrame, &PairWeights),
+    rule: &Rule,
+    dn: &mut WeightDerivatives,
+) -> Result<GapDerivative> {
+    let segment = Segment::new(frame, &two.facet(facet, x2))?
+        .expect("an active pair has a segment at the positions it was found at");
+    dn.update::<MOVES>(frame, &segment, rule);
+    Ok(GapDerivative::current_for::<MOVES>(frame, &segment.mortar, weights, dn))
+}
+
+/// Refuses a mortar surface that lies in several layers over a node.
+fn check_layers(areas: &[f64], coverage: impl Iterator<Item = f64>) -> Result<()> {
+    let mut times = coverage.zip(areas).map(|(coverage, area)| coverage / area).enumerate();
+    let Some((k, times)) = times.find(|(_, times)| *times > MOST_COVERAGE) else {
+        return Ok(());
+    };
+    let text = format!(
+        "non-mortar node {k} is covered {times:.2} times: the mortar surface lies in layers over it; set search_distance below their distance, or leave the farther ones out"
+    );
+    Err(Error::new(Kind::InvalidValue, text))
+}
+
+impl<const N: usize> Contact<N> {
+    /// Makes `self.integration` that of (x1, x2). With frozen weights there is nothing to do, nor, but for a comparison,
+    /// where the surfaces are apart.
     pub(super) fn ensure_integration(&mut self, x1: &[Vec3], x2: &[Vec3]) -> Result<()> {
-        let done = self.integration.as_ref().is_some_and(|k| k.x1 == x1 && k.x2 == x2);
-        if done || self.options.weights != super::Weights::Current {
+        if self.options.effective_weights() != Weights::Current {
+            self.counters.pairs_reused += self.history.pairs.len() as i64;
             return Ok(());
         }
-        self.integration = Some(integrate(
-            (&self.nonmortar, &self.mortar),
-            &self.options,
-            &self.filter,
-            &mut self.counters,
-            (x1, x2),
-        )?);
+        if self.integration.as_ref().is_some_and(|k| k.x1 == x1 && k.x2 == x2) {
+            return Ok(());
+        }
+        let (surfaces, h) = ((&self.nonmortar, &self.mortar), &self.history);
+        self.integration = Some(if are_apart(surfaces, &self.options, &[(&h.x1, &h.x2), (x1, x2)])? {
+            self.counters.evaluations_apart += 1;
+            Integration { x1: x1.to_vec(), x2: x2.to_vec(), frames: Vec::new(), pairs: Vec::new() }
+        } else {
+            self.ensure_history()?;
+            let surfaces = (&self.nonmortar, &self.mortar);
+            let filter = self.filter.as_ref().expect("ensure_history made it");
+            integrate(surfaces, &self.options, filter, &mut self.counters, (x1, x2))?
+        });
         Ok(())
     }
 
-    /// The history of a commit at (x1, x2), with nothing slipped, and the filter of the step that follows.
-    pub(super) fn history_at(
+    /// Makes up for the filter and the weights of t_n where they were left out because the surfaces were apart then.
+    pub(super) fn ensure_history(&mut self) -> Result<()> {
+        let (surfaces, h) = ((&self.nonmortar, &self.mortar), &self.history);
+        if self.filter.is_none() {
+            self.filter = Some(Filter::new(surfaces.0, surfaces.1, &self.options, &h.x1, &h.x2)?);
+        }
+        if !h.integrated
+            && let Some(filter) = &self.filter
+        {
+            let mut new = integrate(surfaces, &self.options, filter, &mut self.counters, (&h.x1, &h.x2))?;
+            let sums = assemble(surfaces, &new.pairs, &h.x1, &h.x2);
+            check_layers(&self.history.areas, sums.iter().map(|(coverage, _)| *coverage))?;
+            self.history.fill(&mut new.pairs, &sums);
+        }
+        Ok(())
+    }
+
+    /// What a commit at (x1, x2) begins with.
+    pub(super) fn start_at(
         (nonmortar, mortar): (&Surface, &Surface),
         options: &Options,
         counters: &mut Counters,
         (x1, x2): (&[Vec3], &[Vec3]),
-    ) -> Result<(History, Filter)> {
-        let filter = Filter::new(nonmortar, mortar, options, x1, x2)?;
-        let new = integrate((nonmortar, mortar), options, &filter, counters, (x1, x2))?;
+    ) -> Result<Start> {
         let n1 = nonmortar.len();
-        let (coverage, gap) = assemble((nonmortar, mortar), &new.pairs, x1, x2).into_iter().unzip();
+        let keeps = Keeps::of(options);
+        let slips = if keeps == Keeps::Slip { n1 } else { 0 };
         let mut history = History {
+            keeps,
             commits: 0,
-            x1: new.x1,
-            x2: new.x2,
+            x1: x1.to_vec(),
+            x2: x2.to_vec(),
             normals: Vec::with_capacity(n1),
             areas: vec![0.0; n1],
-            coverage,
-            gap,
-            slip: vec![Vec3::zeros(); n1],
-            pairs: new.pairs,
+            coverage: vec![0.0; n1],
+            gap: vec![Vec3::zeros(); slips],
+            slip: vec![Vec3::zeros(); slips],
+            pairs: Vec::new(),
+            integrated: false,
+        };
+        let (mut filter, mut integration) = (None, None);
+        let frames = if are_apart((nonmortar, mortar), options, &[(x1, x2)])? {
+            counters.commits_apart += 1;
+            &frames(nonmortar, x1)?
+        } else {
+            let admits = Filter::new(nonmortar, mortar, options, x1, x2)?;
+            let mut new = integrate((nonmortar, mortar), options, &admits, counters, (x1, x2))?;
+            let sums = assemble((nonmortar, mortar), &new.pairs, x1, x2);
+            history.fill(&mut new.pairs, &sums);
+            filter = Some(admits);
+            &integration.insert(new).frames
         };
         let mut sums = vec![Vec3::zeros(); n1];
-        for (f, frame) in new.frames.iter().enumerate() {
+        for (f, frame) in frames.iter().enumerate() {
             let (facet, areas) = (nonmortar.facet(f, x1), frame.nodal_areas());
             for k in 0..facet.len() {
                 let node = nonmortar.facets[f].nodes[k];
@@ -202,14 +315,8 @@ impl Interface {
                 return Err(Error::new(Kind::DegenerateFacet, text));
             }
         }
-        if let Some(k) = (0..n1).find(|&k| history.coverage[k] > MOST_COVERAGE * history.areas[k]) {
-            let times = history.coverage[k] / history.areas[k];
-            let text = format!(
-                "non-mortar node {k} is covered {times:.2} times: the mortar surface lies in layers over it; set search_distance below their distance, or leave the farther ones out"
-            );
-            return Err(Error::new(Kind::InvalidValue, text));
-        }
-        Ok((history, filter))
+        check_layers(&history.areas, history.coverage.iter().copied())?;
+        Ok(Start { history, filter, integration: integration.filter(|_| keeps == Keeps::Nothing) })
     }
 
     /// The pairs whose weights act now.
@@ -218,11 +325,17 @@ impl Interface {
     }
 
     /// The pairs of t_n and all that may be active while the surfaces move by less than the skin, sorted.
-    pub(super) fn possible_pairs(&self, x1: &[Vec3], x2: &[Vec3]) -> Result<Vec<(usize, usize)>> {
+    pub(super) fn possible_pairs(&mut self, x1: &[Vec3], x2: &[Vec3]) -> Result<Vec<(usize, usize)>> {
+        self.ensure_history()?;
         let mut pairs: Vec<_> = self.history.pairs.iter().map(|p| (p.one, p.two)).collect();
-        if self.options.weights == super::Weights::Current {
-            let frames = frames(&self.nonmortar, x1)?;
-            pairs.extend(candidates((&self.nonmortar, &self.mortar), &frames, (x1, x2), &self.filter, SKIN));
+        if self.options.effective_weights() == Weights::Current {
+            match self.filter.as_ref().expect("ensure_history made it") {
+                Filter::Facets(filter) => {
+                    let frames = frames(&self.nonmortar, x1)?;
+                    pairs.extend(candidates((&self.nonmortar, &self.mortar), &frames, (x1, x2), filter, SKIN));
+                }
+                Filter::Analytic(facing) => pairs.extend((0..facing.len()).filter(|&i| facing[i]).map(|i| (i, 0))),
+            }
         }
         pairs.sort_unstable();
         pairs.dedup();

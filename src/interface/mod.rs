@@ -3,8 +3,11 @@
 //! Residual and tangent are functions of (x, lambda, committed history) alone. The only place of the
 //! core that allocates.
 
+mod analytic;
 mod assembly;
 mod augmented;
+mod describe;
+mod effects;
 mod history;
 mod integration;
 mod nodes;
@@ -15,12 +18,18 @@ mod surface;
 pub use assembly::{Residual, Sink};
 pub use history::{History, PairRecord};
 pub use nodes::NodeSums;
-pub use options::{COVERAGE_MIN, Form, MODULUS_FACTOR, NewContact, Options, RowScale, Stiffness, Weights};
+pub use options::{
+    COVERAGE_MIN, Form, Friction, MODULUS_FACTOR, MortarSide, NewContact, Options, RowScale, Shortcuts, Stiffness,
+    Weights,
+};
 pub use surface::{FacetNodes, NO_EQUATION, Surface};
 
 use crate::error::{Error, Kind, Result};
 use crate::geometry::{Mat3, Vec3};
-use integration::{Filter, Integration};
+use effects::Kernels;
+use history::Keeps;
+use integration::{Filter, Integration, Start};
+use nalgebra::SVector;
 
 /// What an interface has done since its creation.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -35,6 +44,14 @@ pub struct Counters {
     pub pairs_linearised: i64,
     /// Searches.
     pub searches: i64,
+    /// Pairs whose frozen weights served once more.
+    pub pairs_reused: i64,
+    /// Nodes whose slip was computed.
+    pub nodes_slipping: i64,
+    /// Evaluations, and commits, that ended with the comparison of two boxes.
+    pub evaluations_apart: i64,
+    /// See `evaluations_apart`.
+    pub commits_apart: i64,
     /// Seconds in search.
     pub seconds_search: f64,
     /// Seconds in clipping and integration.
@@ -43,26 +60,31 @@ pub struct Counters {
     pub seconds_assembly: f64,
 }
 
-/// A contact interface. One thread at a time; distinct interfaces are independent.
+/// An interface with three multipliers per non-mortar node.
+pub type Interface = Contact<3>;
+
+/// A contact interface with N multipliers per non-mortar node: three, or one along the normal without friction. One
+/// thread at a time; distinct interfaces are independent.
 #[derive(Debug)]
-pub struct Interface {
+pub struct Contact<const N: usize> {
     options: Options,
+    kernels: Kernels<N>,
     nonmortar: Surface,
     mortar: Surface,
-    multiplier_equations: Vec<[i64; 3]>,
+    multiplier_equations: Vec<[i64; N]>,
     owned: Vec<bool>,
     mu: Vec<f64>,
     augmentations: Option<Vec<f64>>,
     normals: Option<Vec<Vec3>>,
     free: Vec<Mat3>,
-    filter: Filter,
+    filter: Option<Filter>,
     history: History,
     rollback: Option<History>,
     integration: Option<Integration>,
     counters: Counters,
 }
 
-impl Interface {
+impl Contact<3> {
     /// An interface whose t_n is the surfaces' reference configuration.
     ///
     /// `multiplier_equations`: per non-mortar node and component, 0-based or [`NO_EQUATION`].
@@ -72,6 +94,54 @@ impl Interface {
         multiplier_equations: Vec<[i64; 3]>,
         options: Options,
     ) -> Result<Interface> {
+        let mu = if options.friction == Friction::Rough { f64::INFINITY } else { options.mu };
+        let mu = vec![mu; nonmortar.len()];
+        let kernels = effects::choose_three(&options, &mortar, &mu);
+        Self::build((nonmortar, mortar), multiplier_equations, options, mu, kernels)
+    }
+
+    /// Friction coefficient per node.
+    pub fn set_friction(&mut self, mu: Vec<f64>) -> Result<()> {
+        if self.options.friction != Friction::Coulomb {
+            let text = "mu belongs to Coulomb friction; this interface has another law";
+            return Err(Error::new(Kind::InvalidValue, text));
+        }
+        self.check_length("mu", mu.len(), self.nonmortar.len())?;
+        if let Some(k) = mu.iter().position(|m| !(*m >= 0.0 && m.is_finite())) {
+            let text = format!("mu of node {k} is {}; it must be finite and not negative", mu[k]);
+            return Err(Error::new(Kind::InvalidValue, text));
+        }
+        self.mu = mu;
+        self.kernels = effects::choose_three(&self.options, &self.mortar, &self.mu);
+        Ok(())
+    }
+}
+
+impl Contact<1> {
+    /// A frictionless interface whose t_n is the surfaces' reference configuration.
+    ///
+    /// `multiplier_equations`: per non-mortar node, 0-based or [`NO_EQUATION`].
+    pub fn frictionless(
+        nonmortar: Surface,
+        mortar: Surface,
+        multiplier_equations: Vec<[i64; 1]>,
+        options: Options,
+    ) -> Result<Contact<1>> {
+        let options = Options { friction: Friction::None, ..options };
+        let kernels = effects::choose_one(&options, &mortar);
+        let mu = vec![0.0; nonmortar.len()];
+        Self::build((nonmortar, mortar), multiplier_equations, options, mu, kernels)
+    }
+}
+
+impl<const N: usize> Contact<N> {
+    fn build(
+        (nonmortar, mortar): (Surface, Surface),
+        multiplier_equations: Vec<[i64; N]>,
+        options: Options,
+        mu: Vec<f64>,
+        kernels: Kernels<N>,
+    ) -> Result<Contact<N>> {
         options.validate()?;
         if multiplier_equations.len() != nonmortar.len() {
             let text = format!(
@@ -81,48 +151,56 @@ impl Interface {
             );
             return Err(Error::new(Kind::InvalidSize, text));
         }
+        if options.mortar_side == MortarSide::Rigid
+            && let Some(k) = mortar.equations.iter().position(|e| e.iter().any(|&e| e != NO_EQUATION))
+        {
+            let text = format!("the mortar side is rigid, but its node {k} has an equation; give it none (-1)");
+            return Err(Error::new(Kind::InvalidValue, text));
+        }
+        if nonmortar.analytic.is_some() {
+            let text = "nonmortar is an analytic surface; only the mortar side can be one";
+            return Err(Error::new(Kind::InvalidValue, text));
+        }
         integration::check_mortar_facets(&mortar)?;
         let mut counters = Counters::default();
         let (x1, x2) = (nonmortar.reference.clone(), mortar.reference.clone());
-        let (history, filter) = Self::history_at((&nonmortar, &mortar), &options, &mut counters, (&x1, &x2))?;
+        let start = Self::start_at((&nonmortar, &mortar), &options, &mut counters, (&x1, &x2))?;
         let n1 = nonmortar.len();
-        let mut interface = Interface {
+        let mut interface = Contact {
             options,
+            kernels,
             nonmortar,
             mortar,
             multiplier_equations,
             owned: vec![true; n1],
-            mu: vec![options.mu; n1],
+            mu,
             augmentations: None,
             normals: None,
             free: vec![Mat3::identity(); n1],
-            filter,
-            history,
+            filter: start.filter,
+            history: start.history,
             rollback: None,
-            integration: None,
+            integration: start.integration,
             counters,
         };
         interface.set_constraints(&[])?; // those that follow from removed equations
         Ok(interface)
     }
 
-    /// Puts a history in place, with the filter of its configuration; gives the old history back.
-    fn adopt(&mut self, history: History, filter: Option<Filter>) -> History {
-        // Frozen weights never search, so that without a new filter the old one does no harm.
-        if let Some(filter) = filter {
-            self.filter = filter;
-        }
-        self.integration = None;
-        std::mem::replace(&mut self.history, history)
+    /// Puts a history in place with what belongs to its configuration; gives the old one back.
+    fn adopt(&mut self, start: Start) -> History {
+        self.filter = start.filter;
+        self.integration = start.integration;
+        std::mem::replace(&mut self.history, start.history)
     }
 
     /// Puts a history in place that is not of now; nothing is changed when its positions are refused.
     fn restore(&mut self, history: History) -> Result<()> {
-        let current = self.options.weights == Weights::Current;
+        let current = self.options.effective_weights() == Weights::Current && history.integrated;
         let filter = current
             .then(|| Filter::new(&self.nonmortar, &self.mortar, &self.options, &history.x1, &history.x2))
             .transpose()?;
-        self.adopt(history, filter);
+        self.adopt(Start { history, filter, integration: None });
         Ok(())
     }
 
@@ -130,39 +208,53 @@ impl Interface {
     pub fn set_previous(&mut self, x1: &[Vec3], x2: &[Vec3]) -> Result<()> {
         self.check_positions(x1, x2)?;
         let surfaces = (&self.nonmortar, &self.mortar);
-        let (new, filter) = Self::history_at(surfaces, &self.options, &mut self.counters, (x1, x2))?;
-        self.adopt(new, Some(filter));
+        let new = Self::start_at(surfaces, &self.options, &mut self.counters, (x1, x2))?;
+        self.adopt(new);
         self.rollback = None;
         Ok(())
     }
 
     /// Accepts a converged step: (x1, x2) becomes t_n.
-    pub fn commit(&mut self, x1: &[Vec3], x2: &[Vec3], lambda: &[Vec3], sums: Option<&[NodeSums]>) -> Result<()> {
+    pub fn commit(
+        &mut self,
+        x1: &[Vec3],
+        x2: &[Vec3],
+        lambda: &[SVector<f64, N>],
+        sums: Option<&[NodeSums]>,
+    ) -> Result<()> {
         let own = if sums.is_none() { self.sums(x1, x2)? } else { Vec::new() };
         let sums = sums.unwrap_or(&own);
         let responses = self.responses(x1, x2, lambda, Some(sums))?;
         let surfaces = (&self.nonmortar, &self.mortar);
-        let (mut new, filter) = if self.options.weights == Weights::Reference {
-            let moved = nodes::assemble(surfaces, &self.history.pairs, x1, x2);
-            let gap = moved.into_iter().map(|(_, gap)| gap).collect();
-            (History { x1: x1.to_vec(), x2: x2.to_vec(), gap, ..self.history.clone() }, None)
+        let mut new = if self.options.effective_weights() == Weights::Reference {
+            let mut history = History { x1: x1.to_vec(), x2: x2.to_vec(), ..self.history.clone() };
+            // Also where mu is 0 at every node: it may be set before the next step. Tied nodes keep their first gap.
+            if self.history.keeps == Keeps::Slip && self.options.friction != Friction::Tied {
+                let moved = nodes::assemble(surfaces, &self.history.pairs, x1, x2);
+                history.gap = moved.into_iter().map(|(_, gap)| gap).collect();
+            }
+            Start { history, filter: None, integration: None }
         } else {
-            let (new, filter) = Self::history_at(surfaces, &self.options, &mut self.counters, (x1, x2))?;
-            (new, Some(filter))
+            Self::start_at(surfaces, &self.options, &mut self.counters, (x1, x2))?
         };
-        new.commits = self.history.commits.saturating_add(1); // an imported history may hold any number
-        new.slip = (0..responses.len()).map(|a| self.slip_after(a, &responses[a], sums[a].coverage_previous)).collect();
-        self.rollback = Some(self.adopt(new, filter));
+        new.history.commits = self.history.commits.saturating_add(1); // an imported history may hold any number
+        if self.kernels.slips {
+            let slip = |a: usize| self.slip_after(a, &responses[a], sums[a].coverage_previous);
+            new.history.slip = (0..responses.len()).map(slip).collect();
+        } else {
+            new.history.slip.clone_from(&self.history.slip);
+        }
+        self.rollback = Some(self.adopt(new));
         Ok(())
     }
 
     /// Slip of node A since the first configuration `[L]`, this step's included.
     /// g_T is weighted with n(t_n), so it is a length times `coverage_previous`, the covered area of t_n.
     /// An open node moves without slipping.
-    pub fn slip_after(&self, a: usize, response: &crate::law::NodeResponse, coverage_previous: f64) -> Vec3 {
+    pub fn slip_after(&self, a: usize, response: &crate::law::NodeResponse<N>, coverage_previous: f64) -> Vec3 {
         let closed = response.state != crate::law::State::Gap;
         let step = if closed && coverage_previous > 0.0 { response.slip / coverage_previous } else { Vec3::zeros() };
-        self.history.slip[a] + step
+        self.history.slip.get(a).map_or(step, |slip| slip + step)
     }
 
     /// Undoes the last commit exactly.
@@ -178,26 +270,25 @@ impl Interface {
     }
 
     /// The history as flat arrays, for a restart.
-    pub fn export_history(&self) -> (Vec<i64>, Vec<f64>) {
-        self.history.export(&self.nonmortar, &self.mortar)
+    pub fn export_history(&mut self) -> Result<(Vec<i64>, Vec<f64>)> {
+        self.ensure_history()?;
+        Ok(self.history.export(&self.nonmortar, &self.mortar))
+    }
+
+    /// Lengths of what [`Contact::export_history`] gives.
+    pub fn history_size(&mut self) -> Result<(usize, usize)> {
+        self.ensure_history()?;
+        Ok(self.history.flat_size())
     }
 
     /// Replaces the history by an imported one.
     pub fn import_history(&mut self, integers: &[i64], reals: &[f64]) -> Result<()> {
-        let history = History::import(integers, reals, &self.nonmortar, &self.mortar)?;
+        let surfaces = (&self.nonmortar, &self.mortar);
+        let history = History::import(Keeps::of(&self.options), (integers, reals), surfaces)?;
+        let mismatch = |e: Error| Error::new(Kind::HistoryMismatch, e.message);
+        self.mortar.check_rigid(&history.x2).map_err(mismatch)?;
         self.restore(history)?;
         self.rollback = None;
-        Ok(())
-    }
-
-    /// Friction coefficient per node.
-    pub fn set_friction(&mut self, mu: Vec<f64>) -> Result<()> {
-        self.check_length("mu", mu.len(), self.nonmortar.len())?;
-        if let Some(k) = mu.iter().position(|m| !(*m >= 0.0 && m.is_finite())) {
-            let text = format!("mu of node {k} is {}; it must be finite and not negative", mu[k]);
-            return Err(Error::new(Kind::InvalidValue, text));
-        }
-        self.mu = mu;
         Ok(())
     }
 
@@ -275,6 +366,16 @@ impl Interface {
         Ok(())
     }
 
+    /// Multipliers per non-mortar node, N.
+    pub fn components(&self) -> usize {
+        N
+    }
+
+    /// Multiplier equations.
+    pub fn multipliers(&self) -> usize {
+        self.multiplier_equations.as_flattened().iter().filter(|&&e| e != NO_EQUATION).count()
+    }
+
     /// The options.
     pub fn options(&self) -> &Options {
         &self.options
@@ -304,7 +405,11 @@ impl Interface {
     pub fn bytes(&self) -> usize {
         let pair = size_of::<PairRecord>();
         let node = size_of::<Vec3>();
-        let history = |h: &History| h.pairs.len() * pair + (h.x1.len() * 6 + h.x2.len()) * node;
+        let history = |h: &History| {
+            let vectors = [&h.x1, &h.x2, &h.normals, &h.gap, &h.slip];
+            let reals = h.areas.len() + h.coverage.len();
+            h.pairs.len() * pair + vectors.map(Vec::len).iter().sum::<usize>() * node + reals * size_of::<f64>()
+        };
         let surface = |s: &Surface| s.len() * 2 * node + s.facets.len() * size_of::<FacetNodes>();
         let current = self
             .integration
@@ -324,9 +429,9 @@ impl Interface {
 /// Projector on the axes in which a node has a multiplier; on all of space where it has none at all, so that it
 /// keeps its normal. A removed component is a constrained direction, whether the host declares it or not:
 /// otherwise the rows that are left would depend on the augmentation.
-fn free_of_equations(equations: &[i64; 3]) -> Mat3 {
-    if equations.iter().all(|&e| e == NO_EQUATION) {
-        return Mat3::identity();
+fn free_of_equations<const N: usize>(equations: &[i64; N]) -> Mat3 {
+    if N < 3 || equations.iter().all(|&e| e == NO_EQUATION) {
+        return Mat3::identity(); // a multiplier along the normal belongs to no axis
     }
     Mat3::from_diagonal(&Vec3::from_fn(|i, _| if equations[i] == NO_EQUATION { 0.0 } else { 1.0 }))
 }

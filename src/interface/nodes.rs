@@ -1,12 +1,14 @@
 //! Stage 2 over a whole interface: gaps and coverage of every node, assembled over the pairs, and the
 //! law's response.
 
+use super::effects;
 use super::history::PairRecord;
-use super::{Interface, NewContact, Options, RowScale, Surface};
+use super::{Contact, NewContact, Options, RowScale, Surface};
 use crate::error::{Error, Kind, Result};
 use crate::geometry::{Mat3, Vec3};
 use crate::law::{Node, NodeResponse};
 use crate::mortar::gap;
+use nalgebra::SVector;
 
 /// What a node assembles over its pairs. A parallel host adds these over its ranks.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -43,27 +45,31 @@ pub(super) fn assemble(
     sums
 }
 
-impl Interface {
+impl<const N: usize> Contact<N> {
     /// Stage 1, assembled: this handle's share of every node's gaps and coverage.
     pub fn sums(&mut self, x1: &[Vec3], x2: &[Vec3]) -> Result<Vec<NodeSums>> {
         self.check_positions(x1, x2)?;
         self.ensure_integration(x1, x2)?;
-        let surfaces = self.surfaces();
-        let previous = assemble(surfaces, &self.history.pairs, x1, x2);
-        let now = match &self.integration {
-            Some(k) => assemble(surfaces, &k.pairs, x1, x2),
-            None => previous.clone(),
-        };
-        let h = &self.history;
-        Ok((0..self.nonmortar.len())
+        let (surfaces, h) = ((&self.nonmortar, &self.mortar), &self.history);
+        let now = assemble(surfaces, self.current_pairs(), x1, x2);
+        let mut sums: Vec<_> = (0..self.nonmortar.len())
             .map(|a| NodeSums {
                 coverage: now[a].0,
                 gap_now: now[a].1,
                 coverage_previous: h.coverage[a],
-                gap_previous: previous[a].1,
-                gap_committed: h.gap[a],
+                gap_committed: h.gap.get(a).copied().unwrap_or_default(),
+                gap_previous: Vec3::zeros(),
             })
-            .collect())
+            .collect();
+        if self.kernels.slips {
+            self.counters.nodes_slipping += sums.len() as i64;
+            let previous = self.integration.as_ref().map(|_| assemble(surfaces, &h.pairs, x1, x2));
+            let previous = previous.as_ref().unwrap_or(&now);
+            for (sum, (_, gap)) in sums.iter_mut().zip(previous) {
+                sum.gap_previous = *gap;
+            }
+        }
+        Ok(sums)
     }
 
     /// Stage 2: the law at every node. `sums` overrides this handle's own, for parallel hosts.
@@ -71,9 +77,9 @@ impl Interface {
         &mut self,
         x1: &[Vec3],
         x2: &[Vec3],
-        lambda: &[Vec3],
+        lambda: &[SVector<f64, N>],
         sums: Option<&[NodeSums]>,
-    ) -> Result<Vec<NodeResponse>> {
+    ) -> Result<Vec<NodeResponse<N>>> {
         self.check_length("lambda", lambda.len(), self.nonmortar.len())?;
         check_finite("lambda", lambda)?;
         let own;
@@ -91,7 +97,7 @@ impl Interface {
         };
         let mut responses = Vec::with_capacity(lambda.len());
         for a in 0..lambda.len() {
-            let response = self.node(a, lambda[a], &sums[a])?.respond();
+            let response = (self.kernels.respond)(&self.node(a, lambda[a], &sums[a])?);
             if !response.row.iter().chain(response.traction.iter()).all(|v| v.is_finite()) {
                 let text =
                     format!("the response of non-mortar node {a} overflows; positions or multiplier are out of range");
@@ -102,7 +108,7 @@ impl Interface {
         Ok(responses)
     }
 
-    fn node(&self, a: usize, lambda: Vec3, sums: &NodeSums) -> Result<Node> {
+    fn node(&self, a: usize, lambda: SVector<f64, N>, sums: &NodeSums) -> Result<Node<N>> {
         let threshold = self.options.coverage_min * self.history.areas[a];
         let covered_before = sums.coverage_previous > threshold;
         let frictionless = !covered_before && self.options.new_contact == NewContact::Frictionless;
@@ -156,7 +162,8 @@ impl Interface {
         self.check_length("x1", x1.len(), self.nonmortar.len())?;
         self.check_length("x2", x2.len(), self.mortar.len())?;
         check_finite("x1", x1)?;
-        check_finite("x2", x2)
+        check_finite("x2", x2)?;
+        self.mortar.check_rigid(x2)
     }
 
     pub(super) fn check_length(&self, name: &str, found: usize, needed: usize) -> Result<()> {
@@ -168,7 +175,7 @@ impl Interface {
 }
 
 /// Refuses NaN and infinity, naming argument and node.
-pub(super) fn check_finite(name: &str, values: &[Vec3]) -> Result<()> {
+pub(super) fn check_finite<const N: usize>(name: &str, values: &[SVector<f64, N>]) -> Result<()> {
     match values.iter().position(|v| !v.iter().all(|c| c.is_finite())) {
         None => Ok(()),
         Some(k) => Err(Error::new(Kind::NotFinite, format!("{name} of node {k} is not finite"))),
@@ -181,28 +188,37 @@ pub(super) const INITIAL_TRACTION: f64 = 1e-6;
 /// rotated mesh is 1e-16 of its extent.
 pub(super) const CLOSED: f64 = 1e-8;
 
-impl Interface {
+impl<const N: usize> Contact<N> {
     /// Multipliers for the first step: lambda = 0 at g = 0 is a body without support, so covered nodes
     /// that are closed start with a compression of 1e-6 rhat_A sqrt(M_A).
     ///
     /// # Errors
     /// [`Kind::InvalidValue`] once a step is committed.
-    pub fn initial_multipliers(&mut self) -> Result<Vec<Vec3>> {
+    pub fn initial_multipliers(&mut self) -> Result<Vec<SVector<f64, N>>> {
         if self.history.commits > 0 {
             let text =
                 format!("initial multipliers belong before the first step; {} are committed", self.history.commits);
             return Err(Error::new(Kind::InvalidValue, text));
         }
         let Options { coverage_min, .. } = self.options;
-        let h = &self.history;
+        let sums: Vec<(f64, Vec3)> = if self.history.gap.is_empty() {
+            // Without friction t_n keeps no gaps; those of now, at the same positions, are the same.
+            let (x1, x2) = (self.history.x1.clone(), self.history.x2.clone());
+            self.sums(&x1, &x2)?.iter().map(|s| (s.coverage, s.gap_now)).collect()
+        } else {
+            self.history.coverage.iter().copied().zip(self.history.gap.iter().copied()).collect()
+        };
+        let areas = &self.history.areas;
         (0..self.nonmortar.len())
             .map(|a| {
                 let nu = self.normal(a)?;
-                let size = h.areas[a].sqrt();
-                let covered = h.coverage[a] > coverage_min * h.areas[a];
-                let closed = nu.dot(&h.gap[a]) <= CLOSED * size * h.coverage[a];
-                let rhat = self.augmentation(a) * h.areas[a];
-                Ok(if covered && closed { nu * (-INITIAL_TRACTION * rhat * size) } else { Vec3::zeros() })
+                let (coverage, gap) = sums[a];
+                let size = areas[a].sqrt();
+                let covered = coverage > coverage_min * areas[a];
+                let closed = nu.dot(&gap) <= CLOSED * size * coverage;
+                let rhat = self.augmentation(a) * areas[a];
+                let size = if covered && closed { -INITIAL_TRACTION * rhat * size } else { 0.0 };
+                Ok(effects::along_normal(nu) * size)
             })
             .collect()
     }

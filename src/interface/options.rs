@@ -46,6 +46,47 @@ pub enum NewContact {
     KeepFriction,
 }
 
+/// What happens along the surface.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Friction {
+    /// Coulomb's law with mu.
+    #[default]
+    Coulomb,
+    /// None: one multiplier per node, along the normal.
+    None,
+    /// Tied: neither opens nor slips.
+    Tied,
+    /// Rough: opens and closes, never slips.
+    Rough,
+}
+
+/// What the mortar side does.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum MortarSide {
+    /// It deforms; rigid all the same where none of its nodes has an equation.
+    #[default]
+    Deformable,
+    /// It is rigid or prescribed: the tangent has no rows and columns for it.
+    Rigid,
+}
+
+/// Work that is left out where the scene does not call for it. None of them changes the answer.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Shortcuts {
+    /// Coulomb with mu = 0 at every node: no slip is computed.
+    pub frictionless: bool,
+    /// A mortar side without equations: as [`MortarSide::Rigid`].
+    pub rigid: bool,
+    /// Surfaces whose boxes are farther apart than a facet: neither search nor integration.
+    pub apart: bool,
+}
+
+impl Default for Shortcuts {
+    fn default() -> Self {
+        Shortcuts { frictionless: true, rigid: true, apart: true }
+    }
+}
+
 /// Where the augmentation comes from.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Stiffness {
@@ -70,6 +111,12 @@ pub struct Options {
     pub row_scale: RowScale,
     /// Newly covered nodes.
     pub new_contact: NewContact,
+    /// What happens along the surface.
+    pub friction: Friction,
+    /// What the mortar side does.
+    pub mortar_side: MortarSide,
+    /// Whether the library may leave out work that the answer does not depend on.
+    pub shortcuts: Shortcuts,
     /// Coulomb coefficient of all nodes, >= 0.
     pub mu: f64,
     /// Source of the augmentation.
@@ -97,6 +144,9 @@ impl Options {
             rule: &DEGREE_5,
             row_scale: RowScale::default(),
             new_contact: NewContact::default(),
+            friction: Friction::default(),
+            mortar_side: MortarSide::default(),
+            shortcuts: Shortcuts::default(),
             mu: 0.0,
             stiffness,
             coverage_min: COVERAGE_MIN,
@@ -128,10 +178,15 @@ impl Options {
         }
     }
 
+    /// The weights in force: tied surfaces keep those of the reference configuration.
+    pub fn effective_weights(&self) -> Weights {
+        if self.friction == Friction::Tied { Weights::Reference } else { self.weights }
+    }
+
     /// The slip measure in force: with frozen weights the objective one measures nothing (both its
     /// terms use the same weights), and the increment is what it stands for.
     pub fn effective_slip(&self) -> SlipMeasure {
-        match (self.weights, self.slip) {
+        match (self.effective_weights(), self.slip) {
             (Weights::Committed | Weights::Reference, SlipMeasure::Objective) => SlipMeasure::Increment,
             (_, slip) => slip,
         }

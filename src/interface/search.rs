@@ -27,6 +27,12 @@ impl Aabb {
         (self.low + self.high) * 0.5
     }
 
+    /// Along which axes more than `distance` lies between the boxes: this one above the other, then below it.
+    pub fn sides(&self, other: &Aabb, distance: f64) -> [bool; 6] {
+        let (above, below) = (self.low - other.high, other.low - self.high);
+        [above.x, above.y, above.z, below.x, below.y, below.z].map(|between| between > distance)
+    }
+
     /// Length of the diagonal.
     pub fn diagonal(&self) -> f64 {
         (self.high - self.low).norm()

@@ -1,7 +1,7 @@
 //! One side of an interface: its nodes, facets and equation numbers, checked once.
 
 use crate::error::{Error, Kind, Result};
-use crate::geometry::{Facet, Vec3};
+use crate::geometry::{AnalyticShape, AnalyticSurface, FRAME, Facet, Vec3, check_rigid_motion};
 use crate::shape::MAX_NODES;
 
 /// No equation: the component is prescribed or absent.
@@ -27,6 +27,10 @@ pub struct Surface {
     pub facets: Vec<FacetNodes>,
     /// Displacement equations per node and component, 0-based, or [`NO_EQUATION`].
     pub equations: Vec<[i64; 3]>,
+    /// The longest edge of any facet in the first configuration `[L]`; 0 of an analytic surface.
+    pub longest_edge: f64,
+    /// The shape of an analytic surface, whose one facet are the four points of its frame; `None`: real facets.
+    pub analytic: Option<AnalyticShape>,
 }
 
 impl Surface {
@@ -79,7 +83,51 @@ impl Surface {
         if let Some(k) = used.iter().position(|u| !u) {
             return fail(Kind::InvalidValue, format!("node {k} belongs to no facet; leave it out"));
         }
-        Ok(Surface { side, reference, facets: kept, equations })
+        let mut surface = Surface { side, reference, facets: kept, equations, longest_edge: 0.0, analytic: None };
+        for f in 0..surface.facets.len() {
+            surface.longest_edge = surface.longest_edge.max(surface.facet(f, &surface.reference).longest_edge());
+        }
+        Ok(surface)
+    }
+
+    /// A rigid surface in closed form, placed by the four points of its frame (see [`AnalyticSurface`]), which have no
+    /// equations.
+    pub fn analytic(side: &'static str, shape: AnalyticShape, frame: Vec<Vec3>) -> Result<Surface> {
+        let fail = |kind, text: String| Err(Error::new(kind, format!("{side}: {text}")));
+        if frame.len() != FRAME {
+            return fail(Kind::InvalidSize, format!("{} nodes; the frame of an analytic surface has 4", frame.len()));
+        }
+        if let Some(k) = frame.iter().position(|x| !x.iter().all(|v| v.is_finite())) {
+            return fail(Kind::NotFinite, format!("coordinates of node {k} are not finite"));
+        }
+        let surface = Surface {
+            side,
+            reference: frame,
+            facets: vec![FacetNodes { nodes: [0, 1, 2, 3], len: FRAME }],
+            equations: vec![[NO_EQUATION; 3]; FRAME],
+            longest_edge: 0.0,
+            analytic: Some(shape),
+        };
+        match surface.analytic_at(&surface.reference) {
+            Ok(_) => Ok(surface),
+            Err(e) => fail(e.kind, e.message),
+        }
+    }
+
+    /// An analytic surface where the points `x` of its frame are.
+    pub fn analytic_at(&self, x: &[Vec3]) -> Result<AnalyticSurface> {
+        let shape = self.analytic.expect("asked of analytic surfaces only");
+        AnalyticSurface::new(shape, &self.facets[0].nodes.map(|k| x[k]))
+    }
+
+    /// Refuses positions of an analytic surface's frame that are no rigid motion of the first ones.
+    pub fn check_rigid(&self, x: &[Vec3]) -> Result<()> {
+        if self.analytic.is_none() {
+            return Ok(());
+        }
+        let frame = |x: &[Vec3]| self.facets[0].nodes.map(|k| x[k]);
+        check_rigid_motion(&frame(&self.reference), &frame(x))
+            .map_err(|e| Error::new(e.kind, format!("{}: {}", self.side, e.message)))
     }
 
     /// Number of nodes.

@@ -4,11 +4,20 @@
 //!
 //! One projection per node, from the gap that is summed over all pairs: the projection is not linear,
 //! so projecting pair by pair would make the answer depend on the augmentation (formulation b.11).
+//!
+//! A law is a type: [`Coulomb`] (with an infinite coefficient: rough), [`Frictionless`], [`Tied`]. A node has N
+//! multiplier components, three or, without friction, one.
 
+mod coulomb;
+mod frictionless;
 mod node;
 mod projection;
 mod slip;
+mod tied;
 
-pub use node::{Node, NodeResponse};
+pub use coulomb::Coulomb;
+pub use frictionless::Frictionless;
+pub use node::{Law, Node, NodeResponse};
 pub use projection::{Projected, State, TIE, project};
 pub use slip::SlipMeasure;
+pub use tied::Tied;

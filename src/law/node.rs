@@ -1,16 +1,25 @@
 //! One non-mortar node: gaps and multiplier in, state, projected traction and multiplier row out
-//! (stage 2). The row is c = -(lambda - p) / r [L^3] (paper (26), (30), third row), written without
-//! subtracting lambda from p: stick c = g_N nu + g_T, slip c = g_N nu - (lambda_T - beta sigma_T) / r.
+//! (stage 2). The row is c = -(lambda - p) / r [L^3] (paper (26), (30), third row).
 
-use super::projection::{Projected, State, project};
+use super::projection::State;
 use super::slip::SlipMeasure;
 use crate::geometry::{Mat3, Vec3};
+use nalgebra::{SMatrix, SVector};
 
-/// Everything the law needs of one node.
+/// A contact law for nodes with N multiplier components.
+pub trait Law<const N: usize> {
+    /// Whether it looks at slip, and so at the weights and gaps of t_n.
+    const SLIPS: bool;
+
+    /// The law's answer for one node.
+    fn respond(node: &Node<N>) -> NodeResponse<N>;
+}
+
+/// Everything a law may need of one node. N = 3: the multiplier is a vector; N = 1: its component along the normal.
 #[derive(Clone, Copy, Debug)]
-pub struct Node {
+pub struct Node<const N: usize = 3> {
     /// Multiplier: minus the Cauchy traction on the non-mortar body [F/L^2].
-    pub lambda: Vec3,
+    pub lambda: SVector<f64, N>,
     /// Unit normal into the non-mortar body, of t_n.
     pub normal: Vec3,
     /// Augmentation r_A > 0 [F/L^5].
@@ -21,7 +30,7 @@ pub struct Node {
     pub gap_now: Vec3,
     /// g[n_n, x_{n+1}].
     pub gap_previous: Vec3,
-    /// g[n_n, x_n]; only the increment measure reads it.
+    /// g[n_n, x_n]; read by the increment measure, and by tied nodes.
     pub gap_committed: Vec3,
     /// Whether the node is covered now; an uncovered node is in gap whatever its multiplier.
     pub covered: bool,
@@ -34,15 +43,15 @@ pub struct Node {
     pub free: Mat3,
 }
 
-/// The law's answer for one node.
+/// A law's answer for one node.
 #[derive(Clone, Copy, Debug)]
-pub struct NodeResponse {
+pub struct NodeResponse<const N: usize = 3> {
     /// Gap, stick or slip.
     pub state: State,
     /// Projected traction p [F/L^2].
     pub traction: Vec3,
     /// Multiplier row c [L^3].
-    pub row: Vec3,
+    pub row: SVector<f64, N>,
     /// Normal gap g_N = nu . g [L^3].
     pub gap_normal: f64,
     /// Slip increment g_T [L^3].
@@ -50,55 +59,18 @@ pub struct NodeResponse {
     /// Augmented traction sigma [F/L^2].
     pub sigma: Vec3,
     /// dp/dlambda [-].
-    pub dp_dlambda: Mat3,
+    pub dp_dlambda: SMatrix<f64, 3, N>,
     /// dc/dlambda [L^5/F].
-    pub drow_dlambda: Mat3,
-    /// dc/dg_now [-]; dp/dg_now is r times this.
-    pub drow_dnow: Mat3,
-    /// dc/dg_previous [-]; dp/dg_previous is r times this.
-    pub drow_dprevious: Mat3,
+    pub drow_dlambda: SMatrix<f64, N, N>,
+    /// dc/dg_now [-]; dp/dg_now is r times this, along the normal where N = 1.
+    pub drow_dnow: SMatrix<f64, N, 3>,
+    /// dc/dg_previous [-]; dp/dg_previous likewise.
+    pub drow_dprevious: SMatrix<f64, N, 3>,
 }
 
 impl Node {
-    /// Evaluates the law.
+    /// Coulomb's answer, of the stateless stage.
     pub fn respond(&self) -> NodeResponse {
-        let r = self.augmentation;
-        let nn = self.normal * self.normal.transpose();
-        let tangent = self.free * (Mat3::identity() - nn);
-        let (now, committed) = self.slip.coefficients();
-
-        let lambda = self.free * self.lambda;
-        let gap_normal = self.normal.dot(&self.gap_now);
-        let slip = if self.covered_before {
-            tangent * (self.gap_previous - self.gap_now * now - self.gap_committed * committed)
-        } else {
-            Vec3::zeros()
-        };
-        let gap = self.normal * gap_normal + slip;
-        let sigma = lambda + gap * r;
-        let p = if self.covered { project(sigma, self.normal, self.mu) } else { Projected::gap() };
-        let row = match p.state {
-            State::Gap => -self.lambda / r,
-            State::Stick => gap - (self.lambda - lambda) / r,
-            State::Slip => {
-                let lambda_t = self.lambda - self.normal * self.normal.dot(&lambda);
-                self.normal * gap_normal - (lambda_t - p.tangential) / r
-            }
-        };
-
-        let dsigma_dnow = if self.covered_before { nn - tangent * now } else { nn };
-        let dsigma_dprevious = if self.covered_before { tangent } else { Mat3::zeros() };
-        NodeResponse {
-            state: p.state,
-            traction: p.traction,
-            row,
-            gap_normal,
-            slip,
-            sigma,
-            dp_dlambda: p.derivative * self.free,
-            drow_dlambda: (p.derivative * self.free - Mat3::identity()) / r,
-            drow_dnow: p.derivative * dsigma_dnow,
-            drow_dprevious: p.derivative * dsigma_dprevious,
-        }
+        super::Coulomb::respond(self)
     }
 }

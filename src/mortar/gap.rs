@@ -8,9 +8,10 @@
 use super::derivatives::WeightDerivatives;
 use super::segment::NonmortarFrame;
 use super::weights::PairWeights;
-use super::{MORTAR, PAIR_NODES};
+use super::{MORTAR, PAIR_NODES, slots};
 use crate::geometry::{Facet, Mat3, Projection, Vec3};
 use crate::shape::MAX_NODES;
+use nalgebra::SMatrix;
 
 /// Weighted gap of the pair's non-mortar nodes with any weights: those of now or those of t_n.
 pub fn gap(weights: &PairWeights, one: &Facet, two: &Facet) -> [Vec3; MAX_NODES] {
@@ -28,26 +29,26 @@ pub fn gap(weights: &PairWeights, one: &Facet, two: &Facet) -> [Vec3; MAX_NODES]
     g
 }
 
-/// d g_A / d x_k of a pair, `block[A][k]`, k over the pair's slots [L^2].
+/// Dg_A of a pair with its current weights.
 #[derive(Clone, Debug)]
-pub struct GapDerivative {
-    /// One 3 x 3 block per non-mortar node and slot.
-    pub block: [[Mat3; PAIR_NODES]; MAX_NODES],
+pub enum GapDerivative {
+    /// Of two facets.
+    Facets(AlongNormal),
+    /// Dg_A / Dx_k of a facet against an analytic surface, which is at rest.
+    Blocks([[Mat3; MAX_NODES]; MAX_NODES]),
+}
+
+/// Dg_A of two facets in factors: Dg_A = e Dgamma_A + gamma_A De.
+#[derive(Clone, Debug)]
+pub struct AlongNormal {
+    e: Vec3,
+    axes: [Vec3; 2],
+    tilt: [[Vec3; MAX_NODES]; 2],
+    gamma: [f64; MAX_NODES],
+    dgamma: [[Vec3; PAIR_NODES]; MAX_NODES],
 }
 
 impl GapDerivative {
-    /// The derivative with weights held fixed: n_AB I and -n_AC I.
-    pub fn frozen(weights: &PairWeights) -> GapDerivative {
-        let mut block = [[Mat3::zeros(); PAIR_NODES]; MAX_NODES];
-        for a in 0..MAX_NODES {
-            for k in 0..MAX_NODES {
-                block[a][k] = Mat3::from_diagonal_element(weights.ab[a][k]);
-                block[a][MORTAR + k] = Mat3::from_diagonal_element(-weights.ac[a][k]);
-            }
-        }
-        GapDerivative { block }
-    }
-
     /// The derivative with the pair's current weights and their derivatives; `two` is the mortar facet
     /// projected on the frame's plane.
     pub fn current(
@@ -56,36 +57,96 @@ impl GapDerivative {
         weights: &PairWeights,
         derivatives: &WeightDerivatives,
     ) -> GapDerivative {
+        Self::current_for::<true>(frame, two, weights, derivatives)
+    }
+
+    /// The same with respect to the non-mortar nodes alone, where the mortar side does not move (`MOVES` false).
+    pub fn current_for<const MOVES: bool>(
+        frame: &NonmortarFrame,
+        two: &Projection,
+        weights: &PairWeights,
+        derivatives: &WeightDerivatives,
+    ) -> GapDerivative {
         let (plane, one) = (&frame.plane, &frame.projection);
-        let mut block = [[Mat3::zeros(); PAIR_NODES]; MAX_NODES];
+        let (mut gamma, mut dgamma) = ([0.0; MAX_NODES], [[Vec3::zeros(); PAIR_NODES]; MAX_NODES]);
         for a in 0..one.shape.n {
-            let mut gamma = 0.0;
-            let mut dgamma = [Vec3::zeros(); PAIR_NODES];
+            let (gamma, dgamma) = (&mut gamma[a], &mut dgamma[a]);
             for b in 0..one.shape.n {
                 let n = weights.ab[a][b];
-                gamma += n * one.d[b];
+                *gamma += n * one.d[b];
                 dgamma[b] += plane.e * n;
-                for k in 0..PAIR_NODES {
+                for k in 0..slots(MOVES) {
                     dgamma[k] += derivatives.ab[a][b][k] * one.d[b];
                 }
             }
             for j in 0..two.shape.n {
                 let (c, d) = (two.node[j], two.d[j]);
                 let n = weights.ac[a][c];
-                gamma -= n * d;
-                dgamma[MORTAR + c] -= plane.e * n;
-                for k in 0..PAIR_NODES {
+                *gamma -= n * d;
+                if MOVES {
+                    dgamma[MORTAR + c] -= plane.e * n;
+                }
+                for k in 0..slots(MOVES) {
                     dgamma[k] -= derivatives.ac[a][c][k] * d;
                 }
             }
-            for k in 0..PAIR_NODES {
-                block[a][k] = plane.e * dgamma[k].transpose();
-            }
-            for c in 0..one.shape.n {
-                block[a][c] +=
-                    (plane.t1 * plane.tilt[0][c].transpose() + plane.t2 * plane.tilt[1][c].transpose()) * gamma;
+        }
+        GapDerivative::Facets(AlongNormal { e: plane.e, axes: [plane.t1, plane.t2], tilt: plane.tilt, gamma, dgamma })
+    }
+
+    /// `drow` . Dg_A / Dx_k for every slot k.
+    #[inline]
+    pub fn rows<const MOVES: bool, const N: usize>(
+        &self,
+        a: usize,
+        drow: &SMatrix<f64, N, 3>,
+    ) -> [SMatrix<f64, N, 3>; PAIR_NODES] {
+        match self {
+            GapDerivative::Facets(factors) => factors.rows::<MOVES, N>(a, drow),
+            GapDerivative::Blocks(blocks) => {
+                let mut rows = [SMatrix::zeros(); PAIR_NODES];
+                for k in 0..MAX_NODES {
+                    rows[k] = drow * blocks[a][k];
+                }
+                rows
             }
         }
-        GapDerivative { block }
     }
+}
+
+impl AlongNormal {
+    #[inline]
+    fn rows<const MOVES: bool, const N: usize>(
+        &self,
+        a: usize,
+        drow: &SMatrix<f64, N, 3>,
+    ) -> [SMatrix<f64, N, 3>; PAIR_NODES] {
+        let mut rows = [SMatrix::zeros(); PAIR_NODES];
+        let along = drow * self.e;
+        for k in 0..slots(MOVES) {
+            rows[k] = along * self.dgamma[a][k].transpose();
+        }
+        let across = self.axes.map(|t| drow * t * self.gamma[a]);
+        for c in 0..MAX_NODES {
+            rows[c] += across[0] * self.tilt[0][c].transpose() + across[1] * self.tilt[1][c].transpose();
+        }
+        rows
+    }
+}
+
+/// `drow` . Dg_A / Dx_k with weights held fixed, for every slot k: n_AB `drow` and -n_AC `drow`.
+#[inline]
+pub fn frozen_rows<const MOVES: bool, const N: usize>(
+    weights: &PairWeights,
+    a: usize,
+    drow: &SMatrix<f64, N, 3>,
+) -> [SMatrix<f64, N, 3>; PAIR_NODES] {
+    let mut rows = [SMatrix::zeros(); PAIR_NODES];
+    for k in 0..MAX_NODES {
+        rows[k] = drow * weights.ab[a][k];
+        if MOVES {
+            rows[MORTAR + k] = drow * -weights.ac[a][k];
+        }
+    }
+    rows
 }

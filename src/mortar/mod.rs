@@ -1,16 +1,19 @@
 //! Mortar integration of one facet pair: the overlap, the weights n_AB and n_AC, their exact
-//! derivatives, and the weighted gap (paper (11), (13); formulation a, c).
+//! derivatives, and the weighted gap (paper (11), (13); formulation a, c). The same of a facet against an analytic
+//! surface, without an overlap.
 //!
 //! Knows no contact law. Nothing here allocates.
 
+mod analytic;
 mod derivatives;
 mod gap;
 mod segment;
 mod transport;
 mod weights;
 
+pub use analytic::{analytic_derivatives, analytic_weights};
 pub use derivatives::WeightDerivatives;
-pub use gap::{GapDerivative, gap};
+pub use gap::{GapDerivative, frozen_rows, gap};
 pub use segment::{NonmortarFrame, Segment};
 pub use weights::PairWeights;
 
@@ -18,3 +21,8 @@ pub use weights::PairWeights;
 pub const PAIR_NODES: usize = 8;
 /// First mortar slot.
 pub const MORTAR: usize = 4;
+
+/// The slots that a tangent looks at: all, or the non-mortar ones where the mortar side does not move.
+pub const fn slots(moves: bool) -> usize {
+    if moves { PAIR_NODES } else { MORTAR }
+}

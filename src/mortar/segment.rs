@@ -1,5 +1,5 @@
 //! The overlap of a facet pair in the non-mortar facet's auxiliary plane (formulation c.3, kernel
-//! notes A): a polygon for the volume integrals, source-edge intervals for the edge integrals.
+//! notes A): a polygon for the volume integrals, source-edge intervals for the edge integrals of the derivatives.
 
 use crate::error::{Error, Kind, Result};
 use crate::geometry::bilinear_map::{BilinearMap, Preimage};
@@ -65,10 +65,14 @@ pub struct Segment {
     pub polygon: Polygon,
     /// Area of the overlap [L^2].
     pub area: f64,
+}
+
+/// The parts of a pair's edges that bound the overlap; only derivatives ask for them.
+pub(super) struct Edges {
     /// Parts of the non-mortar edges inside the mortar facet.
-    pub nonmortar_edges: [Option<EdgeInterval>; MAX_NODES],
+    pub nonmortar: [Option<EdgeInterval>; MAX_NODES],
     /// Parts of the mortar edges inside the non-mortar facet.
-    pub mortar_edges: [Option<EdgeInterval>; MAX_NODES],
+    pub mortar: [Option<EdgeInterval>; MAX_NODES],
 }
 
 /// A quadrature point of the overlap.
@@ -110,22 +114,22 @@ impl Segment {
             area = 0.0;
             polygon = Polygon::empty();
         }
-        let edges1 = |k| {
-            if k < one.shape.n { edge_interval::nonmortar_edge(one, &mortar, &frame.plane, k) } else { None }
+        let segment = Segment { mortar_map: BilinearMap::new(&mortar), mortar, polygon, area };
+        let touches = || {
+            let edges = segment.edges(frame);
+            edges.nonmortar.iter().chain(&edges.mortar).any(Option::is_some)
         };
-        let edges2 = |k| {
-            if k < mortar.shape.n { edge_interval::mortar_edge(one, &mortar, &frame.plane, k) } else { None }
+        Ok((area > 0.0 || touches()).then_some(segment))
+    }
+
+    /// The parts of the edges that bound the overlap.
+    pub(super) fn edges(&self, frame: &NonmortarFrame) -> Edges {
+        let (one, two) = (&frame.projection, &self.mortar);
+        let nonmortar = |k| {
+            if k < one.shape.n { edge_interval::nonmortar_edge(one, two, &frame.plane, k) } else { None }
         };
-        let segment = Segment {
-            nonmortar_edges: std::array::from_fn(edges1),
-            mortar_edges: std::array::from_fn(edges2),
-            mortar_map: BilinearMap::new(&mortar),
-            mortar,
-            polygon,
-            area,
-        };
-        let touches = segment.nonmortar_edges.iter().chain(&segment.mortar_edges).any(Option::is_some);
-        Ok((area > 0.0 || touches).then_some(segment))
+        let mortar = |k| if k < two.shape.n { edge_interval::mortar_edge(one, two, &frame.plane, k) } else { None };
+        Edges { nonmortar: std::array::from_fn(nonmortar), mortar: std::array::from_fn(mortar) }
     }
 
     /// Calls `visit` at every quadrature point of the overlap.

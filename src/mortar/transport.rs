@@ -13,22 +13,40 @@ use crate::geometry::edge_interval::EdgeInterval;
 use crate::quadrature::Rule;
 use crate::shape::MAX_NODES;
 
-/// dn/dy of every weight: `ab[A][B][k]`, `ac[A][C][k]`, k over the pair's slots; mortar nodes (C and
-/// k) in the order of the projection.
-pub(super) struct PlaneDerivatives {
-    pub ab: [[[Vec2; PAIR_NODES]; MAX_NODES]; MAX_NODES],
-    pub ac: [[[Vec2; PAIR_NODES]; MAX_NODES]; MAX_NODES],
+/// dn/dy of every weight: `ab[k][A][B]`, `ac[k][A][C]`, k over S slots; mortar nodes (C and k) in the order of the
+/// projection.
+///
+/// S is [`PAIR_NODES`], or [`AT_REST`] where the mortar side does not move: its vertices then move in the plane only
+/// because the plane tilts, by their heights d_l times one and the same vector, and the one velocity sum_l N_l d_l, in the
+/// slot `MORTAR`, serves in place of four.
+pub(super) struct PlaneDerivatives<const S: usize> {
+    pub ab: [[[Vec2; MAX_NODES]; MAX_NODES]; S],
+    pub ac: [[[Vec2; MAX_NODES]; MAX_NODES]; S],
 }
 
-impl PlaneDerivatives {
-    pub fn integrate(frame: &NonmortarFrame, segment: &Segment, rule: &Rule) -> PlaneDerivatives {
-        let zero = [[[Vec2::zeros(); PAIR_NODES]; MAX_NODES]; MAX_NODES];
+/// Slots with a mortar side at rest: the non-mortar nodes and one for all mortar nodes.
+pub(super) const AT_REST: usize = MORTAR + 1;
+
+/// The velocities of the mortar facet, S - MORTAR of them, where its shape functions have the values `n2`.
+#[inline]
+fn mortar_velocity<const S: usize>(segment: &Segment, n2: &[f64; MAX_NODES]) -> [f64; MAX_NODES] {
+    if S == PAIR_NODES {
+        return *n2;
+    }
+    let height = (0..MAX_NODES).map(|l| n2[l] * segment.mortar.d[l]).sum();
+    [height, 0.0, 0.0, 0.0]
+}
+
+impl<const S: usize> PlaneDerivatives<S> {
+    pub fn integrate(frame: &NonmortarFrame, segment: &Segment, rule: &Rule) -> PlaneDerivatives<S> {
+        let zero = [[[Vec2::zeros(); MAX_NODES]; MAX_NODES]; S];
         let mut d = PlaneDerivatives { ab: zero, ac: zero };
         d.add_volume(frame, segment, rule);
-        for edge in segment.nonmortar_edges.iter().flatten() {
+        let edges = segment.edges(frame);
+        for edge in edges.nonmortar.iter().flatten() {
             d.add_nonmortar_edge(frame, segment, rule, edge);
         }
-        for edge in segment.mortar_edges.iter().flatten() {
+        for edge in edges.mortar.iter().flatten() {
             d.add_mortar_edge(frame, segment, rule, edge);
         }
         d
@@ -36,7 +54,7 @@ impl PlaneDerivatives {
 
     fn add_volume(&mut self, frame: &NonmortarFrame, segment: &Segment, rule: &Rule) {
         // det J grad N is linear in (xi, eta), so three moments of each product carry everything:
-        // q1[m][k][C] = int mu1_m N1_k N2_C / det1, r likewise with N1_B, q2[m][l][A] = int mu2_m N2_l N1_A / det2.
+        // q1[m][k][C] = int mu1_m N1_k N2_C / det1, r likewise with N1_B, q2[m][l][A] = int mu2_m v2_l N1_A / det2.
         let mut q1 = [[[0.0; MAX_NODES]; MAX_NODES]; 3];
         let mut r = q1;
         let mut q2 = q1;
@@ -44,13 +62,19 @@ impl PlaneDerivatives {
             let (w1, w2) = (p.weight / p.one.det, p.weight / p.two.det);
             let mu1 = [w1, w1 * p.one.xi, w1 * p.one.eta];
             let mu2 = [w2, w2 * p.two.xi, w2 * p.two.eta];
+            let v2 = mortar_velocity::<S>(segment, &p.n2);
             for m in 0..3 {
                 for k in 0..MAX_NODES {
-                    let (a, b) = (mu1[m] * p.n1[k], mu2[m] * p.n2[k]);
+                    let a = mu1[m] * p.n1[k];
                     for j in 0..MAX_NODES {
                         q1[m][k][j] += a * p.n2[j];
                         r[m][k][j] += a * p.n1[j];
-                        q2[m][k][j] += b * p.n1[j];
+                    }
+                }
+                for l in 0..S - MORTAR {
+                    let b = mu2[m] * v2[l];
+                    for j in 0..MAX_NODES {
+                        q2[m][l][j] += b * p.n1[j];
                     }
                 }
             }
@@ -60,9 +84,11 @@ impl PlaneDerivatives {
             for a in 0..MAX_NODES {
                 for b in 0..MAX_NODES {
                     for k in 0..MAX_NODES {
-                        self.ab[a][b][k] -= g1[m][a] * r[m][k][b] + g1[m][b] * r[m][k][a];
-                        self.ac[a][b][k] -= g1[m][a] * q1[m][k][b];
-                        self.ac[a][b][MORTAR + k] -= g2[m][b] * q2[m][k][a];
+                        self.ab[k][a][b] -= g1[m][a] * r[m][k][b] + g1[m][b] * r[m][k][a];
+                        self.ac[k][a][b] -= g1[m][a] * q1[m][k][b];
+                    }
+                    for l in 0..S - MORTAR {
+                        self.ac[MORTAR + l][a][b] -= g2[m][b] * q2[m][l][a];
                     }
                 }
             }
@@ -78,10 +104,10 @@ impl PlaneDerivatives {
                 for (j, &k) in ends.iter().enumerate() {
                     let s = normal * (weight * l[i] * l[j]);
                     for (o, &b) in ends.iter().enumerate() {
-                        self.ab[a][b][k] += s * l[o];
+                        self.ab[k][a][b] += s * l[o];
                     }
                     for c in 0..MAX_NODES {
-                        self.ac[a][c][k] += s * n2[c];
+                        self.ac[k][a][c] += s * n2[c];
                     }
                 }
             }
@@ -93,14 +119,17 @@ impl PlaneDerivatives {
         for_each_edge_point(&segment.mortar.y, edge, rule, |weight, y, l, normal| {
             let one = frame.map.inverse(y);
             let n1 = frame.projection.shape.values(one.xi, one.eta);
-            for (j, &k) in ends.iter().enumerate() {
+            // The edge's own two velocities, or the one of all.
+            let height = l[0] * segment.mortar.d[ends[0]] + l[1] * segment.mortar.d[ends[1]];
+            let (slots, v) = if S == PAIR_NODES { (ends, l) } else { ([0, 0], [height, 0.0]) };
+            for j in 0..if S == PAIR_NODES { 2 } else { 1 } {
                 for a in 0..MAX_NODES {
-                    let s = normal * (weight * l[j] * n1[a]);
+                    let s = normal * (weight * v[j] * n1[a]);
                     for b in 0..MAX_NODES {
-                        self.ab[a][b][MORTAR + k] += s * n1[b];
+                        self.ab[MORTAR + slots[j]][a][b] += s * n1[b];
                     }
                     for (o, &c) in ends.iter().enumerate() {
-                        self.ac[a][c][MORTAR + k] += s * l[o];
+                        self.ac[MORTAR + slots[j]][a][c] += s * l[o];
                     }
                 }
             }

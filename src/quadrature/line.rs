@@ -1,5 +1,12 @@
 //! Gauss-Legendre rules on 0..1: abscissa, weight; the weights sum to 1. n points have degree 2n - 1.
 
+/// 3 points, degree 5.
+pub const GAUSS_3: [[f64; 2]; 3] = [
+    [0.112_701_665_379_258_31, 0.277_777_777_777_777_8],
+    [0.5, 0.444_444_444_444_444_4],
+    [0.887_298_334_620_741_7, 0.277_777_777_777_777_8],
+];
+
 /// 4 points, degree 7.
 pub const GAUSS_4: [[f64; 2]; 4] = [
     [0.069_431_844_202_973_71, 0.17392742256872693],

@@ -1,8 +1,9 @@
 //! Small surfaces and interfaces for tests.
 #![allow(dead_code)]
 
+use stickslip::error::Result;
 use stickslip::geometry::Vec3;
-use stickslip::interface::{Interface, Options, Stiffness, Surface};
+use stickslip::interface::{Contact, Interface, NO_EQUATION, Options, Stiffness, Surface};
 
 /// Deterministic numbers in -1..1.
 pub struct Random(pub u64);
@@ -59,13 +60,49 @@ pub fn grid(n: usize, m: usize, a: [f64; 2], b: [f64; 2], z: f64, up: bool, cell
     Mesh { x, facets }
 }
 
+/// `n` nodes with N equations each, numbered from `first` on.
+pub fn numbered<const N: usize>(first: usize, n: usize) -> Vec<[i64; N]> {
+    (0..n).map(|k| std::array::from_fn(|i| (first + N * k + i) as i64)).collect()
+}
+
+/// An interface by its number of multipliers a node: three, or one along the normal.
+pub trait Create<const N: usize>: Sized {
+    fn create(one: Surface, two: Surface, multipliers: Vec<[i64; N]>, options: Options) -> Result<Self>;
+}
+
+impl Create<3> for Contact<3> {
+    fn create(one: Surface, two: Surface, multipliers: Vec<[i64; 3]>, options: Options) -> Result<Self> {
+        Contact::new(one, two, multipliers, options)
+    }
+}
+
+impl Create<1> for Contact<1> {
+    fn create(one: Surface, two: Surface, multipliers: Vec<[i64; 1]>, options: Options) -> Result<Self> {
+        Contact::frictionless(one, two, multipliers, options)
+    }
+}
+
+/// Equations x1, x2, lambda in this order; x2 has none where the mortar side is prescribed.
+pub fn contact<const N: usize>(one: &Mesh, two: &Mesh, prescribed: bool, options: Options) -> Contact<N>
+where
+    Contact<N>: Create<N>,
+{
+    let (n1, n2) = (one.x.len(), two.x.len());
+    let mortar = if prescribed { vec![[NO_EQUATION; 3]; n2] } else { numbered(3 * n1, n2) };
+    let one = Surface::new("nonmortar", one.x.clone(), &one.facets, numbered(0, n1)).unwrap();
+    let two = Surface::new("mortar", two.x.clone(), &two.facets, mortar).unwrap();
+    Contact::create(one, two, numbered(3 * (n1 + n2), n1), options).unwrap()
+}
+
 /// Equations x1, x2, lambda in this order, none prescribed.
 pub fn interface(one: &Mesh, two: &Mesh, options: Options) -> Interface {
-    let (n1, n2) = (one.x.len() as i64, two.x.len() as i64);
-    let equations = |first: i64, n: i64| (0..n).map(|k| [0, 1, 2].map(|i| first + 3 * k + i)).collect::<Vec<_>>();
-    let nonmortar = Surface::new("nonmortar", one.x.clone(), &one.facets, equations(0, n1)).unwrap();
-    let mortar = Surface::new("mortar", two.x.clone(), &two.facets, equations(3 * n1, n2)).unwrap();
-    Interface::new(nonmortar, mortar, equations(3 * (n1 + n2), n1), options).unwrap()
+    contact(one, two, false, options)
+}
+
+/// A surface's mesh.
+pub fn mesh_of(surface: &Surface) -> Mesh {
+    let facets = surface.facets.iter().map(|f| f.nodes[..f.len].iter().map(|&k| k as i64).collect());
+    Mesh { x: surface.reference.clone(), facets: facets.collect() }
 }
 
 /// An interface moved from its reference, with multipliers that make all three states occur.

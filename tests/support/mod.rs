@@ -2,6 +2,8 @@
 #![allow(dead_code)]
 
 pub mod c;
+pub mod differences;
+pub mod host;
 pub mod mesh;
 
 use nalgebra::Vector3;

@@ -1,0 +1,165 @@
+"""What each effect costs: `make effects`. effects.py --build DIR [--renew-figures]; results go to DIR/effects.
+
+One scene (scenes/effects.yaml) with effects added one by one, from the leanest on: unknowns, memory, pairs, times, Newton
+iterations, as the driver reports them in summary.json. Then one interface alone (effects_probe.c) under valgrind: the
+instructions of its residual and tangent, which do not depend on the machine's load. Table: printed, effects.json,
+effects.md; bars relative to the leanest: effects.png.
+"""
+
+import argparse
+import json
+import re
+import shutil
+import subprocess
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+
+import figures
+from scene import Driver, SceneError
+
+COMMITTED = Path(__file__).resolve().parent / "figures" / "effects.png"
+INTERFACE = "contact"
+RUNS = 3  # of each scene; the shortest times count, as least disturbed by what else the machine does
+
+FACETS = ("-contact_mortar", "floor.zmax")
+FRICTION = ("-contact_friction", "0.2")
+LARGE = ("-contact_weights", "current")
+DEFORMABLE = ("-hold_within", "-1,-1,-1,2,2,-0.39")  # the floor is held at its bottom only
+
+
+@dataclass
+class Rung:
+    """One more effect than the rung before."""
+
+    name: str
+    options: tuple  # of the driver, on scenes/effects.yaml
+    probe: tuple  # law, mortar side, weights of effects_probe
+
+
+RUNGS = [
+    Rung("analytic plane, no friction, small sliding", (), ("none", "analytic", "reference")),
+    Rung("+ facets, rigid", FACETS, ("none", "rigid", "reference")),
+    Rung("+ large sliding", (*FACETS, *LARGE), ("none", "rigid", "current")),
+    Rung("+ Coulomb friction", (*FACETS, *LARGE, *FRICTION), ("coulomb", "rigid", "current")),
+    Rung("+ deformable", (*FACETS, *LARGE, *FRICTION, *DEFORMABLE), ("coulomb", "deformable", "current")),
+]
+# Instructions of residual and tangent, one effect against another; the largest ratio that was aimed at.
+RATIOS = [
+    ("no friction / Coulomb", ("none", "deformable", "current"), ("coulomb", "deformable", "current"), 0.9),
+    ("rigid / deformable mortar side", ("coulomb", "rigid", "current"), ("coulomb", "deformable", "current"), 0.5),
+    ("analytic / deformable mortar side", ("coulomb", "analytic", "current"), ("coulomb", "deformable", "current"), 0.1),
+]
+
+# Columns: key, heading, format.
+COLUMNS = [
+    ("unknowns", "unknowns", "d"),
+    ("multipliers", "multipliers", "d"),
+    ("bytes", "library's memory [kB]", ".0f"),
+    ("pairs_integrated", "pairs integrated", "d"),
+    ("pairs_linearised", "linearised", "d"),
+    ("pairs_reused", "reused", "d"),
+    ("integration", "search, integration [ms]", ".1f"),
+    ("tangent", "tangent [ms]", ".1f"),
+    ("newton_iterations", "Newton iterations", "d"),
+    ("instructions", "instructions, residual + tangent [10^6]", ".1f"),
+]
+
+
+def measure(driver, rung):
+    """The figures of one rung."""
+    label = re.sub(r"\W+", "_", rung.name).strip("_")
+    runs = [driver.run("effects", *rung.options, label=f"{label}_{k}") for k in range(RUNS)]
+    run, shortest = runs[0], lambda *keys: 1e3 * min(sum(r.summary["seconds"][key] for key in keys) for r in runs)
+    interface = run.summary["interfaces"][INTERFACE]
+    return {
+        "name": rung.name,
+        "effects": interface["effects"],
+        "unknowns": run.summary["unknowns"],
+        "newton_iterations": run.newton_iterations,
+        **{key: interface[key] for key in ("multipliers", "pairs_integrated", "pairs_linearised", "pairs_reused")},
+        "bytes": interface["bytes"] / 1e3,
+        "integration": shortest("search", "integration"),
+        "tangent": shortest("contact_assembly"),
+    }
+
+
+class Probe:
+    """Counts the instructions of a residual and a tangent of one interface; None where there is no valgrind."""
+
+    def __init__(self, driver):
+        self.program, self.known = driver.program.with_name("effects_probe"), {}
+        self.valgrind = shutil.which("valgrind")
+
+    def millions(self, effects):
+        if not self.valgrind:
+            return None
+        if effects not in self.known:
+            self.known[effects] = self._count(effects)
+        return self.known[effects]
+
+    def _count(self, effects):
+        functions = ("stickslip_interface_residual", "stickslip_interface_tangent_coo")
+        command = [self.valgrind, "--tool=callgrind", "--callgrind-out-file=/dev/null"]
+        command += [f"--toggle-collect={function}" for function in functions]
+        done = subprocess.run([*command, str(self.program), *effects], capture_output=True, text=True)
+        collected = re.search(r"Collected : (\d+)", done.stderr)
+        if done.returncode or not collected or int(collected.group(1)) == 0:
+            raise SceneError(f"effects_probe {' '.join(effects)}: exit code {done.returncode}\n{done.stderr[-800:]}")
+        return int(collected.group(1)) / json.loads(done.stdout)["evaluations"] / 1e6
+
+
+def markdown(rows, ratios):
+    cell = lambda row, key, form: "" if row[key] is None else format(row[key], form)
+    lines = [
+        "| effects | " + " | ".join(heading for _, heading, _ in COLUMNS) + " |",
+        "|---|" + "---:|" * len(COLUMNS),
+        *(f"| {row['name']} | " + " | ".join(cell(row, key, form) for key, _, form in COLUMNS) + " |" for row in rows),
+    ]
+    if ratios:
+        lines += ["", "| instructions of residual and tangent | ratio | aim |", "|---|---:|---:|"]
+        lines += [f"| {r['name']} | {r['ratio']:.1%} | at most {r['aim']:.0%} |" for r in ratios]
+    return "\n".join(lines) + "\n"
+
+
+def report(build, renew):
+    driver = Driver(build, build / "effects")
+    probe, rows = Probe(driver), []
+    for rung in RUNGS:
+        rows.append(measure(driver, rung))
+        rows[-1]["instructions"] = probe.millions(rung.probe)
+    ratios = []
+    if probe.valgrind:
+        for name, one, other, aim in RATIOS:
+            ratios.append({"name": name, "ratio": probe.millions(one) / probe.millions(other), "aim": aim})
+    else:
+        print("valgrind is not there: no instruction counts")
+
+    text = markdown(rows, ratios)
+    print(text)
+    driver.output.mkdir(parents=True, exist_ok=True)
+    (driver.output / "effects.md").write_text(text)
+    (driver.output / "effects.json").write_text(json.dumps({"rungs": rows, "ratios": ratios}, indent=1) + "\n")
+    drawn = [figures.effects(rows, driver.output / "effects.png")]
+    if renew:
+        shutil.copy(drawn[0], COMMITTED)
+        drawn.append(COMMITTED)
+    for path in drawn:
+        print(path.resolve())
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--build", type=Path, required=True, help="CMake's build tree")
+    parser.add_argument("--renew-figures", action="store_true", help="renew the committed figure too")
+    arguments = parser.parse_args()
+    try:
+        report(arguments.build, arguments.renew_figures)
+    except SceneError as problem:
+        print(f"\n{problem}", file=sys.stderr)
+        return 1
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,60 @@
+/* What a run cost, for summary.json: seconds by phase, and per interface what the library chose to compute and what it
+ * counted. */
+#include "model.h"
+#include <cjson/cJSON.h>
+
+/* rank 0: one interface's counters; its seconds are added to `sum` */
+static PetscErrorCode interface_counters(const Interface *interface, cJSON *parent, stickslip_counters *sum)
+{
+  stickslip_counters counters = {.struct_size = sizeof(counters)};
+  char               effects[1024];
+  cJSON             *json;
+
+  PetscFunctionBegin;
+  if (!interface->handle) PetscFunctionReturn(PETSC_SUCCESS); /* the library refused to create it */
+  PetscCallStickslip(stickslip_interface_counters(interface->handle, &counters));
+  PetscCallStickslip(stickslip_interface_effects(interface->handle, effects, sizeof(effects)));
+  json = cJSON_AddObjectToObject(parent, interface->name);
+  cJSON_AddStringToObject(json, "effects", effects);
+#define ADD(member) cJSON_AddNumberToObject(json, #member, (double)counters.member)
+  ADD(multipliers);
+  cJSON_AddNumberToObject(json, "bytes", (double)interface->bytes);
+  ADD(pairs_tested);
+  ADD(pairs_clipped);
+  ADD(pairs_integrated);
+  ADD(pairs_linearised);
+  ADD(pairs_reused);
+  ADD(pairs_active);
+  ADD(searches);
+  ADD(nodes_slipping);
+  ADD(evaluations_apart);
+  ADD(commits_apart);
+  ADD(seconds_search);
+  ADD(seconds_integration);
+  ADD(seconds_assembly);
+#undef ADD
+  sum->seconds_search += counters.seconds_search;
+  sum->seconds_integration += counters.seconds_integration;
+  sum->seconds_assembly += counters.seconds_assembly;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode summary_counters(Model *model, cJSON *root)
+{
+  stickslip_counters sum = {0};
+  PetscLogDouble     now;
+  cJSON             *interfaces = cJSON_AddObjectToObject(root, "interfaces"), *seconds;
+
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < model->n_interfaces && model->rank == 0; i++)
+    PetscCall(interface_counters(&model->interfaces[i], interfaces, &sum));
+  PetscCall(PetscTime(&now));
+  seconds = cJSON_AddObjectToObject(root, "seconds");
+  cJSON_AddNumberToObject(seconds, "search", sum.seconds_search);
+  cJSON_AddNumberToObject(seconds, "integration", sum.seconds_integration);
+  cJSON_AddNumberToObject(seconds, "contact_assembly", sum.seconds_assembly);
+  cJSON_AddNumberToObject(seconds, "bulk_assembly", model->timers.bulk_assembly);
+  cJSON_AddNumberToObject(seconds, "linear_solve", model->timers.linear_solve);
+  cJSON_AddNumberToObject(seconds, "total", now - model->timers.total);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

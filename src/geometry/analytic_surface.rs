@@ -1,0 +1,179 @@
+//! Rigid surfaces in closed form: a plane, a sphere, a cylinder, and the closest point on them.
+//!
+//! A frame of four points P0..P3 is fixed to the surface and moves as a rigid body; lengths are free, the edges P_i - P0
+//! must not lie in one plane. P0: a point of the plane, the centre, a point of the axis; P1 - P0: the plane's normal out
+//! of its body, or the direction of the axis. Every point y has coordinates w in the frame, sum w_C = 1,
+//! sum w_C P_C = y: the frame's points are to the surface what its nodes are to a facet.
+//!
+//! Signs: the normal n points out of the surface's body, the distance s `[L]` along it, x - y = s n; s > 0 is outside.
+
+use super::{Mat3, Vec3};
+use crate::error::{Error, Kind, Result};
+use std::fmt;
+
+/// Points of a frame.
+pub const FRAME: usize = 4;
+
+/// A frame whose edges span less than this (volume over the product of their lengths) is refused: its coordinates would
+/// lose three digits.
+const SMALLEST_VOLUME: f64 = 1e-3;
+/// How far a frame may be from a rigid motion of the first one, over its lengths: above the rounding of any rotation, far
+/// below what is seen in a gap.
+const RIGID: f64 = 1e-8;
+/// A point closer than this to the centre or axis (over the radius) has no closest point: its direction is rounding.
+const CENTRE: f64 = 1e-12;
+
+/// Which surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum AnalyticShape {
+    /// A plane; its body lies on the side that the normal looks away from.
+    Plane,
+    /// A sphere; radius > 0: a ball, < 0: a cavity, the body outside `[L]`.
+    Sphere(f64),
+    /// A circular cylinder without ends; radius > 0: a bar, < 0: a bore, the body outside `[L]`.
+    Cylinder(f64),
+}
+
+impl AnalyticShape {
+    /// The signed radius; 0 of a plane.
+    pub fn radius(self) -> f64 {
+        match self {
+            AnalyticShape::Plane => 0.0,
+            AnalyticShape::Sphere(r) | AnalyticShape::Cylinder(r) => r,
+        }
+    }
+
+    /// Numbers that tell two shapes apart.
+    pub fn words(self) -> [u64; 2] {
+        let kind = match self {
+            AnalyticShape::Plane => 0,
+            AnalyticShape::Sphere(_) => 1,
+            AnalyticShape::Cylinder(_) => 2,
+        };
+        [kind, self.radius().to_bits()]
+    }
+}
+
+impl fmt::Display for AnalyticShape {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (name, radius) = match *self {
+            AnalyticShape::Plane => return f.write_str("a plane"),
+            AnalyticShape::Sphere(r) => (if r < 0.0 { "a spherical cavity" } else { "a ball" }, r),
+            AnalyticShape::Cylinder(r) => (if r < 0.0 { "a cylindrical bore" } else { "a round bar" }, r),
+        };
+        write!(f, "{name} of radius {}", radius.abs())
+    }
+}
+
+/// A shape in its place.
+#[derive(Clone, Copy, Debug)]
+pub struct AnalyticSurface {
+    /// P0.
+    pub origin: Vec3,
+    shape: AnalyticShape,
+    /// Direction of P1 - P0.
+    axis: Vec3,
+    /// What the closest point bends about: I of a sphere, I - a a^T of a cylinder, 0 of a plane.
+    round: Mat3,
+    /// From y - P0 to the coordinates w_1..w_3.
+    to_frame: Mat3,
+}
+
+/// The closest point to a point x.
+#[derive(Clone, Copy, Debug)]
+pub struct Closest {
+    /// Unit normal n out of the surface's body.
+    pub normal: Vec3,
+    /// Signed distance s `[L]`.
+    pub distance: f64,
+    /// Of a step of x along the surface, the part that y does not make: 1 - R / |d|; 0 on a plane.
+    pub lag: f64,
+}
+
+/// P_i - P0.
+fn edges(frame: &[Vec3; FRAME]) -> Mat3 {
+    Mat3::from_columns(&[1, 2, 3].map(|i| frame[i] - frame[0]))
+}
+
+impl AnalyticSurface {
+    /// The shape where the frame says.
+    ///
+    /// # Errors
+    /// [`Kind::InvalidValue`] when the radius or the frame is none.
+    pub fn new(shape: AnalyticShape, frame: &[Vec3; FRAME]) -> Result<AnalyticSurface> {
+        let radius = shape.radius();
+        if shape != AnalyticShape::Plane && !(radius != 0.0 && radius.is_finite()) {
+            let text = format!("the radius is {radius}; it must be finite and not 0");
+            return Err(Error::new(Kind::InvalidValue, text));
+        }
+        let edges = edges(frame);
+        let lengths: f64 = edges.column_iter().map(|d| d.norm()).product();
+        let inverse = edges.try_inverse().filter(|_| edges.determinant().abs() > SMALLEST_VOLUME * lengths);
+        let Some(to_frame) = inverse else {
+            let text =
+                "the frame has no volume: the edges from its first point to the other three must not lie in one plane";
+            return Err(Error::new(Kind::InvalidValue, text));
+        };
+        let axis = edges.column(0).normalize();
+        let round = match shape {
+            AnalyticShape::Plane => Mat3::zeros(),
+            AnalyticShape::Sphere(_) => Mat3::identity(),
+            AnalyticShape::Cylinder(_) => Mat3::identity() - axis * axis.transpose(),
+        };
+        Ok(AnalyticSurface { origin: frame[0], shape, axis, round, to_frame })
+    }
+
+    /// The signed distance of the point x, given as x - P0.
+    pub fn distance(&self, x: Vec3) -> f64 {
+        match self.shape {
+            AnalyticShape::Plane => self.axis.dot(&x),
+            AnalyticShape::Sphere(r) | AnalyticShape::Cylinder(r) => (self.round * x).norm() * r.signum() - r,
+        }
+    }
+
+    /// The closest point to x, given as x - P0; `None` at the centre or on the axis.
+    #[inline]
+    pub fn closest(&self, x: Vec3) -> Option<Closest> {
+        Some(match self.shape {
+            AnalyticShape::Plane => Closest { normal: self.axis, distance: self.axis.dot(&x), lag: 0.0 },
+            AnalyticShape::Sphere(r) | AnalyticShape::Cylinder(r) => {
+                let outward = self.round * x;
+                let norm = outward.norm();
+                if !(norm > CENTRE * r.abs()) {
+                    return None;
+                }
+                let (normal, distance) = (outward * (r.signum() / norm), norm * r.signum() - r);
+                Closest { normal, distance, lag: 1.0 - r.abs() / norm }
+            }
+        })
+    }
+
+    /// D(x - y)/Dx = n n^T + s Dn/Dx, symmetric.
+    #[inline]
+    pub fn gradient(&self, y: &Closest) -> Mat3 {
+        self.round * y.lag + y.normal * y.normal.transpose() * (1.0 - y.lag)
+    }
+
+    /// The coordinates w of the point y in the frame, given as y - P0.
+    #[inline]
+    pub fn coordinates(&self, y: Vec3) -> [f64; FRAME] {
+        let w = self.to_frame * y;
+        [1.0 - w.x - w.y - w.z, w.x, w.y, w.z]
+    }
+}
+
+/// Refuses a frame that is no rigid motion of the first one: that moved a point against the others, or was mirrored.
+pub fn check_rigid_motion(first: &[Vec3; FRAME], now: &[Vec3; FRAME]) -> Result<()> {
+    let (first, now) = (edges(first), edges(now));
+    let lengths = [0, 1, 2].map(|i| first.column(i).norm());
+    let change = now.transpose() * now - first.transpose() * first;
+    let worst = (0..9).map(|k| change[(k / 3, k % 3)].abs() / (lengths[k / 3] * lengths[k % 3])).fold(0.0, f64::max);
+    let mirrored = first.determinant() * now.determinant() < 0.0;
+    if worst <= RIGID && !mirrored {
+        return Ok(());
+    }
+    let how = if mirrored { "mirrored".into() } else { format!("deformed by {worst:.1e}") };
+    let text =
+        format!("the frame of the analytic surface is {how}; its four points must move as a rigid body ({RIGID:.0e})");
+    Err(Error::new(Kind::InvalidValue, text))
+}

@@ -1,0 +1,80 @@
+//! Stage 1 against an analytic mortar side (plane, sphere, cylinder): no search and no clipping. A facet that faces the
+//! surface at t_n is a pair with it, and covered everywhere; one that does not has nothing to do with it. The surface
+//! counts as one facet with the frame's four points as its nodes, so that all that follows from the weights (gaps,
+//! forces, slip, history) is as for two facets.
+
+use super::history::PairRecord;
+use super::integration::{Integration, LEAST_OPPOSITION, at_facet, frames};
+use super::{Counters, Options, Surface};
+use crate::error::Result;
+use crate::geometry::{AnalyticSurface, Plane, Vec3};
+use crate::mortar::{
+    GapDerivative, NonmortarFrame, PairWeights, WeightDerivatives, analytic_derivatives, analytic_weights,
+};
+use crate::quadrature::Rule;
+use std::time::Instant;
+
+/// Per non-mortar facet, whether it faces the surface: opposing normals at its centre, and distances between a
+/// penetration and a gap, as between facets. A surface has no far side that a gap could reach: without a search distance
+/// any gap will do.
+pub(super) fn facing(one: &Surface, surface: &AnalyticSurface, options: &Options, x1: &[Vec3]) -> Result<Vec<bool>> {
+    let gap = options.search_distance.unwrap_or(f64::INFINITY);
+    let faces = |f: usize| {
+        let facet = one.facet(f, x1);
+        let plane = Plane::of(&facet).map_err(at_facet(one.side, f))?;
+        let centre = plane.reference - surface.origin + plane.origin;
+        let points = facet.points().iter().map(|x| x - surface.origin).chain([centre]);
+        let distances = points.map(|x| surface.distance(x));
+        let (low, high) = distances.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), d| (l.min(d), h.max(d)));
+        let penetration = options.search_distance.unwrap_or_else(|| facet.longest_edge());
+        let opposing = surface.closest(centre).is_some_and(|c| plane.e.dot(&c.normal) < -LEAST_OPPOSITION);
+        Ok(opposing && low <= gap && high >= -penetration)
+    };
+    (0..one.facets.len()).map(faces).collect()
+}
+
+/// Weights of all facets that face the surface, at (x1, x2).
+pub(super) fn integrate(
+    (one, two): (&Surface, &Surface),
+    options: &Options,
+    facing: &[bool],
+    counters: &mut Counters,
+    (x1, x2): (&[Vec3], &[Vec3]),
+) -> Result<Integration> {
+    let start = Instant::now();
+    let (frames, surface) = (frames(one, x1)?, two.analytic_at(x2)?);
+    let mut pairs = Vec::with_capacity(frames.len());
+    for (i, frame) in frames.iter().enumerate() {
+        counters.pairs_tested += 1;
+        if facing[i] {
+            let weights = analytic_weights(frame, &surface, options.rule).map_err(at_facet(one.side, i))?;
+            pairs.push(PairRecord { one: i, two: 0, weights });
+        }
+    }
+    counters.pairs_integrated += pairs.len() as i64;
+    counters.seconds_integration += start.elapsed().as_secs_f64();
+    Ok(Integration { x1: x1.to_vec(), x2: x2.to_vec(), frames, pairs })
+}
+
+/// Whether every node is outside the surface by more than any facet's edge, in all of the configurations (x1, x2), so
+/// that nothing can touch.
+pub(super) fn are_apart((one, two): (&Surface, &Surface), places: &[(&[Vec3], &[Vec3])]) -> Result<bool> {
+    for (x1, x2) in places {
+        let surface = two.analytic_at(x2)?;
+        if !x1.iter().all(|x| surface.distance(x - surface.origin) > one.longest_edge) {
+            return Ok(false);
+        }
+    }
+    Ok(true)
+}
+
+/// The derivatives of a pair, as `PairMotion` has them.
+pub(super) fn motion(
+    (two, x2): (&Surface, &[Vec3]),
+    _: usize,
+    (frame, _): (&NonmortarFrame, &PairWeights),
+    rule: &Rule,
+    dn: &mut WeightDerivatives,
+) -> Result<GapDerivative> {
+    analytic_derivatives(frame, &two.analytic_at(x2)?, rule, dn)
+}

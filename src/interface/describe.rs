@@ -1,0 +1,71 @@
+//! What an interface computes and why, one sentence an effect, for a host's log.
+
+use super::{Contact, Friction, MortarSide, NO_EQUATION, Weights};
+
+impl<const N: usize> Contact<N> {
+    /// One sentence per effect: what is computed, and whether the options ask for it or the scene lets the library
+    /// choose it.
+    pub fn effects(&self) -> String {
+        [self.friction_sentence(), self.mortar_sentence(), self.weights_sentence(), self.apart_sentence()].join(" ")
+    }
+
+    fn friction_sentence(&self) -> String {
+        let unknowns = if N == 1 { "one multiplier a node, along the normal" } else { "three multipliers a node" };
+        let what = match self.options.friction {
+            Friction::None => "none (asked for), no slip and no slip history".into(),
+            Friction::Tied => "tied (asked for), neither opens nor slips, linear".into(),
+            Friction::Rough => "rough (asked for), opens and closes, never slips".into(),
+            Friction::Coulomb if !self.kernels.slips => "none (chosen: mu is 0 at every node), no slip".into(),
+            Friction::Coulomb => format!("Coulomb's law with mu {}", self.mu_range()),
+        };
+        format!("Friction: {what}; {unknowns}.")
+    }
+
+    fn mu_range(&self) -> String {
+        let (least, most) = self.mu.iter().fold((f64::INFINITY, 0.0_f64), |(l, m), &mu| (l.min(mu), m.max(mu)));
+        if least == most { format!("{most}") } else { format!("from {least} to {most}") }
+    }
+
+    fn mortar_sentence(&self) -> String {
+        if let Some(shape) = self.mortar.analytic {
+            return format!("Mortar side: {shape} (asked for), no facets, no search, no rows and columns for it.");
+        }
+        let prescribed = self.mortar.equations.iter().flatten().all(|&e| e == NO_EQUATION);
+        let what = match (self.options.mortar_side, self.kernels.moves) {
+            (MortarSide::Rigid, _) => "rigid (asked for), no rows and columns for it",
+            (MortarSide::Deformable, false) => {
+                "rigid (chosen: no mortar node has an equation), no rows and columns for it"
+            }
+            (MortarSide::Deformable, true) if prescribed => {
+                "treated as deformable though no node of it has an equation (asked for)"
+            }
+            (MortarSide::Deformable, true) => "deformable",
+        };
+        format!("Mortar side: {what}.")
+    }
+
+    fn weights_sentence(&self) -> String {
+        let what = match self.options.effective_weights() {
+            Weights::Current => "of now, differentiated (large sliding)",
+            Weights::Committed => "frozen at the last commit (asked for), reused within a step",
+            Weights::Reference if self.options.friction == Friction::Tied => {
+                "frozen at the first configuration (tied), always reused"
+            }
+            Weights::Reference => "frozen at the first configuration (asked for), always reused (small sliding)",
+        };
+        format!("Weights: {what}.")
+    }
+
+    fn apart_sentence(&self) -> String {
+        let what = match (self.options.effective_weights(), self.options.shortcuts.apart) {
+            (Weights::Current, true) if self.mortar.analytic.is_some() => {
+                "only the distances of the nodes are compared (chosen)"
+            }
+            (Weights::Current, false) if self.mortar.analytic.is_some() => "integrated all the same (asked for)",
+            (Weights::Current, true) => "only their boxes are compared (chosen)",
+            (Weights::Current, false) => "searched all the same (asked for)",
+            (Weights::Committed | Weights::Reference, _) => "nothing special, for frozen weights need no search",
+        };
+        format!("Surfaces that are apart: {what}.")
+    }
+}

@@ -1,0 +1,55 @@
+//! Coulomb friction (paper (17), (22), (24)). The row is written without subtracting lambda from p: stick
+//! c = g_N nu + g_T, slip c = g_N nu - (lambda_T - beta sigma_T) / r.
+
+use super::node::{Law, Node, NodeResponse};
+use super::projection::{Projected, State, project};
+use crate::geometry::{Mat3, Vec3};
+
+/// Gap, stick and slip under Coulomb's cone; with mu = infinity (rough) a closed node sticks.
+#[derive(Clone, Copy, Debug)]
+pub struct Coulomb;
+
+impl Law<3> for Coulomb {
+    const SLIPS: bool = true;
+
+    fn respond(node: &Node) -> NodeResponse {
+        let r = node.augmentation;
+        let nn = node.normal * node.normal.transpose();
+        let tangent = node.free * (Mat3::identity() - nn);
+        let (now, committed) = node.slip.coefficients();
+
+        let lambda = node.free * node.lambda;
+        let gap_normal = node.normal.dot(&node.gap_now);
+        let slip = if node.covered_before {
+            tangent * (node.gap_previous - node.gap_now * now - node.gap_committed * committed)
+        } else {
+            Vec3::zeros()
+        };
+        let gap = node.normal * gap_normal + slip;
+        let sigma = lambda + gap * r;
+        let p = if node.covered { project(sigma, node.normal, node.mu) } else { Projected::gap() };
+        let row = match p.state {
+            State::Gap => -node.lambda / r,
+            State::Stick => gap - (node.lambda - lambda) / r,
+            State::Slip => {
+                let lambda_t = node.lambda - node.normal * node.normal.dot(&lambda);
+                node.normal * gap_normal - (lambda_t - p.tangential) / r
+            }
+        };
+
+        let dsigma_dnow = if node.covered_before { nn - tangent * now } else { nn };
+        let dsigma_dprevious = if node.covered_before { tangent } else { Mat3::zeros() };
+        NodeResponse {
+            state: p.state,
+            traction: p.traction,
+            row,
+            gap_normal,
+            slip,
+            sigma,
+            dp_dlambda: p.derivative * node.free,
+            drow_dlambda: (p.derivative * node.free - Mat3::identity()) / r,
+            drow_dnow: p.derivative * dsigma_dnow,
+            drow_dprevious: p.derivative * dsigma_dprevious,
+        }
+    }
+}

@@ -1,0 +1,67 @@
+//! Contact without friction: Coulomb's law with mu = 0 and lambda along the normal, without its tangential part.
+//! Closed: p = lambda_N + r g_N < 0, c = g_N; open: p = 0, c = -lambda_N / r. A closed node is in the state slip.
+
+use super::node::{Law, Node, NodeResponse};
+use super::projection::State;
+use crate::geometry::{Mat3, Vec3};
+use nalgebra::{SMatrix, SVector};
+
+/// No traction along the surface. With one multiplier per node, or with three whose tangential rows are
+/// -lambda_T / r.
+#[derive(Clone, Copy, Debug)]
+pub struct Frictionless;
+
+/// sigma_N and whether the node is closed.
+fn close<const N: usize>(node: &Node<N>, lambda_n: f64) -> (f64, f64, bool) {
+    let gap_normal = node.normal.dot(&node.gap_now);
+    let sigma_n = lambda_n + node.augmentation * gap_normal;
+    (gap_normal, sigma_n, node.covered && sigma_n < 0.0)
+}
+
+impl Law<1> for Frictionless {
+    const SLIPS: bool = false;
+
+    fn respond(node: &Node<1>) -> NodeResponse<1> {
+        let r = node.augmentation;
+        let lambda = node.lambda[0];
+        let (gap_normal, sigma_n, closed) = close(node, lambda);
+        let on = if closed { 1.0 } else { 0.0 };
+        NodeResponse {
+            state: if closed { State::Slip } else { State::Gap },
+            traction: node.normal * (sigma_n * on),
+            row: SVector::from([if closed { gap_normal } else { -lambda / r }]),
+            gap_normal,
+            slip: Vec3::zeros(),
+            sigma: node.normal * sigma_n,
+            dp_dlambda: node.normal * on,
+            drow_dlambda: SMatrix::from([[(on - 1.0) / r]]),
+            drow_dnow: node.normal.transpose() * on,
+            drow_dprevious: SMatrix::zeros(),
+        }
+    }
+}
+
+impl Law<3> for Frictionless {
+    const SLIPS: bool = false;
+
+    fn respond(node: &Node) -> NodeResponse {
+        let r = node.augmentation;
+        let lambda_n = node.normal.dot(&node.lambda);
+        let (gap_normal, sigma_n, closed) = close(node, lambda_n);
+        let on = if closed { node.normal * node.normal.transpose() } else { Mat3::zeros() };
+        // In the order of Coulomb's law, so that the row is the same to the last bit.
+        let lambda_t = node.lambda - node.normal * lambda_n;
+        NodeResponse {
+            state: if closed { State::Slip } else { State::Gap },
+            traction: if closed { node.normal * sigma_n } else { Vec3::zeros() },
+            row: if closed { node.normal * gap_normal - lambda_t / r } else { -node.lambda / r },
+            gap_normal,
+            slip: Vec3::zeros(),
+            sigma: node.normal * sigma_n,
+            dp_dlambda: on,
+            drow_dlambda: (on - Mat3::identity()) / r,
+            drow_dnow: on,
+            drow_dprevious: Mat3::zeros(),
+        }
+    }
+}

@@ -1,0 +1,158 @@
+//! Without friction there is no slip history: no gaps, no slip, and weights of t_n only where they are frozen. Residual
+//! and restart do not miss it.
+
+use super::*;
+use nalgebra::Vector1;
+use stickslip::error::Kind;
+use stickslip::interface::Friction;
+
+fn one(weights: Weights) -> Options {
+    Options { friction: Friction::None, mu: 0.0, weights, ..options() }
+}
+
+struct Step {
+    c: Contact<1>,
+    x1: Vec<Vec3>,
+    x2: Vec<Vec3>,
+    lambda: Vec<Vector1<f64>>,
+}
+
+impl Step {
+    fn new(weights: Weights) -> Step {
+        let scene = moved(&options(), CELLS[0], ROUGH, 3);
+        let mut random = Random(5);
+        let lambda = (0..9).map(|_| Vector1::new(random.next() - 0.5)).collect();
+        Step { c: again(&scene, false, one(weights)), x1: scene.x1, x2: scene.x2, lambda }
+    }
+
+    fn commit_and_slide(&mut self) {
+        self.c.commit(&self.x1, &self.x2, &self.lambda, None).unwrap();
+        self.x1 = shifted(&self.x1, along() * 0.11);
+    }
+
+    fn evaluate(&mut self) -> (Vec<u64>, Vec<(i64, i64, u64)>) {
+        let r = self.c.residual(&self.x1, &self.x2, &self.lambda, None).unwrap();
+        (bits(&r), entries(&mut self.c, (&self.x1, &self.x2, &self.lambda)))
+    }
+}
+
+#[test]
+fn it_is_shorter() {
+    for weights in WEIGHTS {
+        let mut s = Step::new(weights);
+        assert!(s.c.active_pairs() > 4, "a host looks at the pairs right after the creation");
+        for _ in 0..2 {
+            s.commit_and_slide();
+            s.evaluate();
+            let h = s.c.history();
+            assert!(h.gap.is_empty() && h.slip.is_empty());
+            assert_eq!(h.pairs.is_empty(), weights == Weights::Current);
+            let pairs = h.pairs.len();
+            // x1, normals, areas, coverage of 9 nodes, x2 of 16, weights.
+            assert_eq!(s.c.history_size().unwrap(), (6 + 2 * pairs, 9 * (3 + 3 + 1 + 1) + 16 * 3 + 32 * pairs));
+        }
+        let mut three = moved(&Options { weights, ..options() }, CELLS[0], ROUGH, 3);
+        three.interface.commit(&three.x1, &three.x2, &three.lambda, None).unwrap();
+        three.interface.residual(&three.x1, &three.x2, &three.lambda, None).unwrap();
+        let mut single = Step::new(weights);
+        single.c.commit(&single.x1, &single.x2, &single.lambda, None).unwrap();
+        single.evaluate();
+        assert!(single.c.bytes() < three.interface.bytes(), "{weights:?}");
+    }
+}
+
+#[test]
+fn rollback_and_restart_continue_bit_for_bit() {
+    for weights in WEIGHTS {
+        let mut s = Step::new(weights);
+        s.commit_and_slide();
+        let (before, history) = (s.evaluate(), s.c.history().clone());
+        s.c.commit(&s.x1, &s.x2, &s.lambda, None).unwrap();
+        assert_ne!(*s.c.history(), history);
+        s.c.roll_back().unwrap();
+        assert_eq!(*s.c.history(), history);
+        assert!(s.evaluate() == before, "{weights:?}");
+        assert_eq!(s.c.roll_back().unwrap_err().kind, Kind::NothingToRollBack);
+
+        let (integers, reals) = s.c.export_history().unwrap();
+        assert_eq!((integers.len(), reals.len()), s.c.history_size().unwrap());
+        let mut restarted = Step::new(weights);
+        restarted.c.import_history(&integers, &reals).unwrap();
+        (restarted.x1, restarted.x2) = (s.x1.clone(), s.x2.clone());
+        assert!(restarted.evaluate() == before, "{weights:?}");
+        assert_eq!(restarted.c.history(), s.c.history());
+    }
+}
+
+/// A history that lacks what the interface needs, or holds what it does not know, is refused by name.
+#[test]
+fn histories_of_other_effects_are_refused() {
+    let scene = moved(&options(), CELLS[0], ROUGH, 3);
+    let mut with_slip: Contact<3> = again(&scene, false, options());
+    let (integers, reals) = with_slip.export_history().unwrap();
+    let refused = |outcome: stickslip::error::Result<()>, words: [&str; 2]| {
+        let error = outcome.unwrap_err();
+        assert_eq!(error.kind, Kind::HistoryMismatch);
+        assert!(words.iter().all(|w| error.message.contains(w)), "{}", error.message);
+    };
+    let mut all = WEIGHTS.map(Step::new);
+    let exported: Vec<_> = all.iter_mut().map(|s| s.c.export_history().unwrap()).collect();
+    let (now, frozen) = ("without friction, with weights of now", "without friction, with frozen weights");
+    for (k, s) in all.iter_mut().enumerate() {
+        let name = if k == 0 { now } else { frozen };
+        let before = s.c.history().clone();
+        refused(s.c.import_history(&integers, &reals), ["the history is one with slip", name]);
+        let (other, other_name) = if k == 0 { (&exported[1], frozen) } else { (&exported[0], now) };
+        refused(s.c.import_history(&other.0, &other.1), [other_name, name]);
+        assert_eq!(*s.c.history(), before);
+        refused(with_slip.import_history(&exported[k].0, &exported[k].1), [name, "the interface one with slip"]);
+    }
+    // Both kinds of frozen weights are alike.
+    all[2].c.import_history(&exported[1].0, &exported[1].1).unwrap();
+
+    let (integers, reals) = &exported[0];
+    let corrupt = |at: usize, value: i64| {
+        let mut wrong = integers.clone();
+        wrong[at] = value;
+        wrong
+    };
+    for (at, value) in [(0, 7), (1, -1), (2, 3), (3, 1), (4, 1), (4, -1), (4, i64::MAX), (5, 0)] {
+        assert_eq!(
+            all[0].c.import_history(&corrupt(at, value), reals).unwrap_err().kind,
+            Kind::HistoryMismatch,
+            "{at}"
+        );
+    }
+    assert_eq!(all[0].c.import_history(integers, &reals[1..]).unwrap_err().kind, Kind::HistoryMismatch);
+    all[0].c.import_history(integers, reals).unwrap();
+}
+
+/// Layers of the mortar surface are found though the history keeps no weights.
+#[test]
+fn layers_are_refused_all_the_same() {
+    let upper = grid(1, 1, [0.0, 0.0], [1.0, 1.0], 0.0, false, Cells::Quads);
+    let mut lower = grid(1, 1, [-1.0, -1.0], [2.0, 2.0], -0.1, true, Cells::Quads);
+    let second = grid(1, 1, [-1.0, -1.0], [2.0, 2.0], -0.4, true, Cells::Quads);
+    lower.x.extend(second.x);
+    lower.facets.push(second.facets[0].iter().map(|k| k + 4).collect());
+    let surface = |side, m: &Mesh, first| {
+        stickslip::interface::Surface::new(side, m.x.clone(), &m.facets, numbered(first, m.x.len())).unwrap()
+    };
+    let (one_surface, two_surface) = (surface("nonmortar", &upper, 0), surface("mortar", &lower, 12));
+    let refused = Contact::frictionless(one_surface, two_surface, numbered(36, 4), one(Weights::Current)).unwrap_err();
+    assert!(refused.kind == Kind::InvalidValue && refused.message.contains("layers"), "{}", refused.message);
+
+    // Far away at first: found when they come near.
+    let far = Mesh { x: shifted(&upper.x, Vec3::z() * 50.0), ..upper.clone() };
+    let mut c = Contact::frictionless(
+        surface("nonmortar", &far, 0),
+        surface("mortar", &lower, 12),
+        numbered(36, 4),
+        one(Weights::Current),
+    )
+    .unwrap();
+    for _ in 0..2 {
+        let refused = c.residual(&upper.x, &lower.x, &[Vector1::zeros(); 4], None).unwrap_err();
+        assert!(refused.kind == Kind::InvalidValue && refused.message.contains("layers"), "{}", refused.message);
+    }
+}

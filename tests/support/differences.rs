@@ -1,0 +1,88 @@
+//! The tangent of an interface against central differences of its residual, every column. Unknowns in the order x1, x2,
+//! lambda; the interface has all their equations, numbered so.
+#![allow(dead_code)]
+
+use super::max_abs;
+use nalgebra::SVector;
+use stickslip::geometry::Vec3;
+use stickslip::interface::Contact;
+
+/// Step of the differences (facet size 0.5): rounding 1e-16/1e-6 and truncation 1e-12.
+const STEP: f64 = 1e-6;
+/// Rounding of a residual entry, relative to the largest.
+const NOISE: f64 = 1e-15;
+
+/// An interface and where it is evaluated.
+pub struct Point<'a, const N: usize> {
+    pub contact: &'a mut Contact<N>,
+    pub x1: &'a [Vec3],
+    pub x2: &'a [Vec3],
+    pub lambda: &'a [SVector<f64, N>],
+}
+
+impl<const N: usize> Point<'_, N> {
+    /// Ends of the blocks x1, x2, lambda.
+    fn ends(&self) -> [usize; 4] {
+        let (a, b) = (3 * self.x1.len(), 3 * (self.x1.len() + self.x2.len()));
+        [0, a, b, b + N * self.lambda.len()]
+    }
+
+    /// Number of unknowns.
+    pub fn unknowns(&self) -> usize {
+        self.ends()[3]
+    }
+
+    /// The tangent as a full matrix, row by row.
+    pub fn tangent(&mut self) -> Vec<f64> {
+        let n = self.unknowns();
+        let mut k = vec![0.0; n * n];
+        let mut add = |i: i64, j: i64, v: f64| k[i as usize * n + j as usize] += v;
+        self.contact.tangent(self.x1, self.x2, self.lambda, None, &mut add).unwrap();
+        k
+    }
+
+    fn residual(&mut self, z: &[f64]) -> Vec<f64> {
+        let [_, a, b, _] = self.ends();
+        let points = |z: &[f64]| z.chunks_exact(3).map(Vec3::from_column_slice).collect::<Vec<_>>();
+        let lambda: Vec<_> = z[b..].chunks_exact(N).map(SVector::from_column_slice).collect();
+        let r = self.contact.residual(&points(&z[..a]), &points(&z[a..b]), &lambda, None).unwrap();
+        let forces = r.nonmortar.iter().chain(&r.mortar).flat_map(|v| v.iter().copied());
+        forces.chain(r.rows.iter().flat_map(|v| v.iter().copied())).collect()
+    }
+
+    /// Worst difference per block (f1, f2, rows) x (x1, x2, lambda), relative to the block's largest, or to
+    /// `floor` times the matrix's if that is larger.
+    pub fn difference_error(&mut self, floor: f64) -> f64 {
+        let (n, k) = (self.unknowns(), self.tangent());
+        let x: Vec<f64> = (self.x1.iter().chain(self.x2).flat_map(|v| v.iter().copied()))
+            .chain(self.lambda.iter().flat_map(|v| v.iter().copied()))
+            .collect();
+        let mut fd = vec![0.0; n * n];
+        for j in 0..n {
+            let at = |h: f64| {
+                let mut y = x.clone();
+                y[j] += h;
+                y
+            };
+            let (plus, minus) = (at(STEP), at(-STEP));
+            let h = plus[j] - minus[j];
+            let (plus, minus) = (self.residual(&plus), self.residual(&minus));
+            for i in 0..n {
+                fd[i * n + j] = (plus[i] - minus[i]) / h;
+            }
+        }
+        let noise = NOISE / STEP * max_abs(self.residual(&x));
+        let least = (floor * max_abs(k.iter().copied())).max(f64::MIN_POSITIVE);
+        let mut worst = 0.0_f64;
+        for rows in self.ends().windows(2) {
+            for columns in self.ends().windows(2) {
+                let block = || (rows[0]..rows[1]).flat_map(|i| (columns[0]..columns[1]).map(move |j| i * n + j));
+                let error = max_abs(block().map(|t| k[t] - fd[t]));
+                let scale = max_abs(block().map(|t| k[t]));
+                // Blocks that vanish, as rows of sticking nodes over lambda do, differ by the noise alone.
+                worst = worst.max((error - noise).max(0.0) / scale.max(least));
+            }
+        }
+        worst
+    }
+}
