@@ -246,7 +246,11 @@ impl<const N: usize> Contact<N> {
     }
 
     /// Makes up for the filter and the weights of t_n where they were left out because the surfaces were apart then.
+    /// Frozen weights never are, and need no filter.
     pub(super) fn ensure_history(&mut self) -> Result<()> {
+        if self.options.effective_weights() != Weights::Current {
+            return Ok(());
+        }
         let (surfaces, h) = ((&self.nonmortar, &self.mortar), &self.history);
         if self.filter.is_none() {
             self.filter = Some(Filter::new(surfaces.0, surfaces.1, &self.options, &h.x1, &h.x2)?);
@@ -288,6 +292,8 @@ impl<const N: usize> Contact<N> {
         let (mut filter, mut integration) = (None, None);
         let frames = if are_apart((nonmortar, mortar), options, &[(x1, x2)])? {
             counters.commits_apart += 1;
+            // A commit refuses degenerate facets of either side, whether they are searched or not.
+            Filter::new(nonmortar, mortar, options, x1, x2)?;
             &frames(nonmortar, x1)?
         } else {
             let admits = Filter::new(nonmortar, mortar, options, x1, x2)?;

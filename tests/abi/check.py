@@ -137,11 +137,11 @@ def check_description():
 
 # Changes on purpose, what is replaced by what, and the verdict they must get: proof that the gate can close.
 CHANGES = [
-    ("a member is appended", "double search_distance;\n} stickslip_options", "double search_distance;\n  double extra;\n} stickslip_options", "grown"),
+    ("a member is appended", "const int32_t *owned;\n} stickslip_surface", "const int32_t *owned;\n  double extra;\n} stickslip_surface", "grown"),
     ("a function is added", "const char *stickslip_version(void);", "const char *stickslip_version(void);\nint32_t stickslip_more(void);", "grown"),
     ("a constant is added", "#define STICKSLIP_OK 0", "#define STICKSLIP_OK 0\n#define STICKSLIP_MORE 99", "grown"),
     ("a member is inserted", "  double mu;\n", "  double extra;\n  double mu;\n", "broken"),
-    ("a member is removed", "  double search_distance;\n} stickslip_options", "} stickslip_options", "broken"),
+    ("a member is removed", "  const int32_t *owned;\n} stickslip_surface", "} stickslip_surface", "broken"),
     ("a member is renamed", "  double modulus;\n", "  double young;\n", "broken"),
     ("a member changes its type", "  int32_t form;\n", "  uint32_t form;\n", "broken"),
     ("a function is removed", "const char *stickslip_version(void);", "", "broken"),

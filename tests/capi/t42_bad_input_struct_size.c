@@ -1,5 +1,9 @@
-/* Sizes of structs: a shorter one is refused, a longer one only if it sets something that this library does not know. */
+/* Sizes of structs: one shorter than the first version had is refused, a longer one only if it sets something that this
+ * library does not know. */
 #include "calls.h"
+
+/* Sizes of the first version, the shortest that are accepted, of the structs that have grown since. */
+enum { OPTIONS_1 = 88, COUNTERS_1 = 88 };
 
 static element e;
 static handle h;
@@ -28,16 +32,16 @@ int main(void) {
   const struct {
     const char *name;
     const void *value;
-    size_t size;
+    size_t size, first;
     int32_t (*call)(const void *);
   } inputs[] = {
-      {"stickslip_pair", &e.pair, sizeof e.pair, pair_call},
-      {"stickslip_node", &e.node, sizeof e.node, node_call},
-      {"stickslip_node_response", &e.responses[0], sizeof e.responses[0], response_call},
-      {"stickslip_states", &h.states, sizeof h.states, states_call},
-      {"stickslip_surface", &h.s.nonmortar, sizeof h.s.nonmortar, nonmortar_call},
-      {"stickslip_surface", &h.s.mortar, sizeof h.s.mortar, mortar_call},
-      {"stickslip_options", &h.s.options, sizeof h.s.options, options_call},
+      {"stickslip_pair", &e.pair, sizeof e.pair, sizeof e.pair, pair_call},
+      {"stickslip_node", &e.node, sizeof e.node, sizeof e.node, node_call},
+      {"stickslip_node_response", &e.responses[0], sizeof e.responses[0], sizeof e.responses[0], response_call},
+      {"stickslip_states", &h.states, sizeof h.states, sizeof h.states, states_call},
+      {"stickslip_surface", &h.s.nonmortar, sizeof h.s.nonmortar, sizeof h.s.nonmortar, nonmortar_call},
+      {"stickslip_surface", &h.s.mortar, sizeof h.s.mortar, sizeof h.s.mortar, mortar_call},
+      {"stickslip_options", &h.s.options, sizeof h.s.options, OPTIONS_1, options_call},
   };
   for (int k = 0; k < COUNT(inputs); ++k) {
     /* A buffer of the largest size accepted, for the library reads what a struct declares. */
@@ -47,7 +51,7 @@ int main(void) {
     } longer;
     memset(&longer, 0, sizeof longer);
     memcpy(&longer, inputs[k].value, inputs[k].size);
-    const uint64_t wrong[] = {0, 1, 8, inputs[k].size - 1, 4097, UINT64_MAX, (uint64_t)INT64_MAX + 1};
+    const uint64_t wrong[] = {0, 1, 8, inputs[k].first - 1, 4097, UINT64_MAX, (uint64_t)INT64_MAX + 1};
     for (int w = 0; w < COUNT(wrong); ++w) {
       longer.size = wrong[w];
       CHECK_REFUSED(inputs[k].call(&longer), STICKSLIP_STRUCT_SIZE, inputs[k].name);
@@ -66,7 +70,7 @@ int main(void) {
   }
 
   /* Outputs. A longer one is filled as far as it is known; its size and its tail stay. */
-  counters.struct_size = sizeof counters - 1;
+  counters.struct_size = COUNTERS_1 - 1;
   CHECK_REFUSED(stickslip_interface_counters(h.s.interface, &counters), STICKSLIP_STRUCT_SIZE, "stickslip_counters");
   struct {
     stickslip_counters known;
@@ -85,7 +89,7 @@ int main(void) {
 
   stickslip_options options;
   FILL(options);
-  CHECK_REFUSED(stickslip_options_init(&options, sizeof options - 8), STICKSLIP_STRUCT_SIZE, "struct_size");
+  CHECK_REFUSED(stickslip_options_init(&options, OPTIONS_1 - 1), STICKSLIP_STRUCT_SIZE, "struct_size");
   CHECK_REFUSED(stickslip_options_init(&options, 0), STICKSLIP_STRUCT_SIZE, "struct_size");
   CHECK_UNTOUCHED(options);
 

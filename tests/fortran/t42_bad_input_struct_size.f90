@@ -1,4 +1,5 @@
-! Sizes of types: a shorter one is refused, a longer one only if it sets something that this library does not know.
+! Sizes of types: one shorter than the first version had is refused, a longer one only if it sets something that this
+! library does not know.
 #include "check.inc"
 program t42_bad_input_struct_size
   use, intrinsic :: iso_c_binding
@@ -23,6 +24,8 @@ program t42_bad_input_struct_size
   integer, parameter :: PAIR = 1, NODE = 2, RESPONSE = 3, STATES = 4, NONMORTAR = 5, MORTAR = 6, OPTIONS = 7
   character(23), parameter :: NAMES(7) = [character(23) :: 'stickslip_pair', 'stickslip_node', &
       'stickslip_node_response', 'stickslip_states', 'stickslip_surface', 'stickslip_surface', 'stickslip_options']
+  ! Sizes of the first version, the shortest that are accepted, of the types that have grown since.
+  integer(c_int64_t), parameter :: OPTIONS_1 = 88, COUNTERS_1 = 88
   ! The largest size that is accepted, in bytes.
   integer, parameter :: LONGEST = 4096
   type(element), target, save :: e
@@ -38,7 +41,7 @@ program t42_bad_input_struct_size
   call c_f_pointer(c_loc(longer), bytes, [LONGEST])
   do k = PAIR, OPTIONS
     call copy(k, size_of)
-    call check_input(k, trim(NAMES(k)), size_of)
+    call check_input(k, trim(NAMES(k)), size_of, merge(OPTIONS_1, size_of, k == OPTIONS))
   end do
   call check_counters()
   call check_response()
@@ -133,14 +136,14 @@ contains
     CHECK_OK(ended)
   end function
 
-  subroutine check_input(k, name, size_of)
+  subroutine check_input(k, name, size_of, first)
     integer, intent(in) :: k
     character(*), intent(in) :: name
-    integer(c_int64_t), intent(in) :: size_of
+    integer(c_int64_t), intent(in) :: size_of, first
     ! C's sizes have no sign: the last two are the largest one and half of it.
     integer(c_int64_t) :: wrong(7), newer(3)
     integer :: i
-    wrong = [0_c_int64_t, 1_c_int64_t, 8_c_int64_t, size_of - 1, LONGEST + 1_c_int64_t, -1_c_int64_t, INT64_MIN]
+    wrong = [0_c_int64_t, 1_c_int64_t, 8_c_int64_t, first - 1, LONGEST + 1_c_int64_t, -1_c_int64_t, INT64_MIN]
     do i = 1, size(wrong)
       longer(1) = wrong(i)
       CHECK_REFUSED(call_with(k), STICKSLIP_STRUCT_SIZE, name)
@@ -160,7 +163,7 @@ contains
   subroutine check_counters()
     type(stickslip_counters) :: counters
     type(newer_counters) :: newer
-    counters%struct_size = stickslip_counters_size - 1
+    counters%struct_size = COUNTERS_1 - 1
     CHECK_REFUSED(stickslip_interface_counters(h%s%contact, counters), STICKSLIP_STRUCT_SIZE, 'stickslip_counters')
     newer%known%struct_size = stickslip_counters_size + 8
     newer%tail = 77
@@ -182,7 +185,7 @@ contains
     integer(c_int64_t), parameter :: GROWN_SIZE = stickslip_options_size + 16
     grown%known%struct_size = UNWRITTEN_INTEGER
     grown%known%mu = UNWRITTEN
-    CHECK_REFUSED(stickslip_options_init(grown%known, stickslip_options_size - 8), STICKSLIP_STRUCT_SIZE, 'struct_size')
+    CHECK_REFUSED(stickslip_options_init(grown%known, OPTIONS_1 - 1), STICKSLIP_STRUCT_SIZE, 'struct_size')
     CHECK_REFUSED(stickslip_options_init(grown%known, 0_c_int64_t), STICKSLIP_STRUCT_SIZE, 'struct_size')
     CHECK(grown%known%struct_size == UNWRITTEN_INTEGER .and. untouched(grown%known%mu))
     grown%unknown = UNWRITTEN
