@@ -2,8 +2,8 @@
 //!
 //! A pair is active when its facets overlap or touch in the auxiliary plane and it passed the filters of
 //! the last commit (opposing normals, heights). All of that is a function of the positions and the
-//! history, so evaluating at A, B, A gives equal bits. An analytic mortar side goes its own way at the four places where
-//! `Surface::analytic` is asked.
+//! history, so evaluating at A, B, A gives equal bits. An analytic mortar side has its own filter and its own way
+//! (`analytic.rs`).
 
 use super::history::{History, Keeps, PairRecord};
 use super::nodes::assemble;
@@ -85,8 +85,8 @@ impl Filter {
     }
 }
 
-/// Whether two facets can be a pair: opposing normals, and heights over the non-mortar facet between a penetration and a
-/// gap.
+/// Whether two facets can be a pair: opposing normals, and heights over the non-mortar facet between a penetration and
+/// a gap.
 #[derive(Debug)]
 pub(super) struct FacetFilter {
     nonmortar: Vec<(Facet, Plane)>,
