@@ -76,6 +76,10 @@ module stickslip
   integer(c_int32_t), parameter :: STICKSLIP_MORTAR_RIGID = 1
   integer(c_int32_t), parameter :: STICKSLIP_MORTAR_ANALYTIC = 2
 
+  integer(c_int32_t), parameter :: STICKSLIP_SHAPE_PLANE = 0
+  integer(c_int32_t), parameter :: STICKSLIP_SHAPE_SPHERE = 1
+  integer(c_int32_t), parameter :: STICKSLIP_SHAPE_CYLINDER = 2
+
   ! Added up in no_shortcuts: work that the library is to do although the answer does not depend on it.
   integer(c_int32_t), parameter :: STICKSLIP_SHORTCUT_FRICTIONLESS = 1
   integer(c_int32_t), parameter :: STICKSLIP_SHORTCUT_RIGID = 2
@@ -106,7 +110,7 @@ module stickslip
   integer(c_int32_t), parameter :: STICKSLIP_STATE_SLIP = 2
 
   ! Sizes of the types in bytes (64-bit machines), their struct_size.
-  integer(c_int64_t), parameter :: stickslip_options_size = 96
+  integer(c_int64_t), parameter :: stickslip_options_size = 104
   integer(c_int64_t), parameter :: stickslip_surface_size = 72
   integer(c_int64_t), parameter :: stickslip_states_size = 80
   integer(c_int64_t), parameter :: stickslip_counters_size = 128
@@ -140,7 +144,8 @@ module stickslip
     real(c_double) :: coverage_min = 0             ! covered / full area at and below which a node is uncovered
     real(c_double) :: search_distance = 0          ! 0: as far as the surfaces reach [L]
     integer(c_int32_t) :: no_shortcuts = 0         ! sum of STICKSLIP_SHORTCUT_...; 0: all are taken
-    integer(c_int32_t) :: reserved = 0
+    integer(c_int32_t) :: shape = 0                ! STICKSLIP_SHAPE_... with STICKSLIP_MORTAR_ANALYTIC, else 0
+    real(c_double) :: radius = 0                   ! of sphere and cylinder [L]; < 0: the body is outside
   end type
 
   ! One surface of an interface. nf facets with 3 or 4 nodes each.

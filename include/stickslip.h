@@ -174,8 +174,8 @@
 /// The mortar side is rigid or prescribed (no equations): no rows and columns for it in the tangent.
 #define STICKSLIP_MORTAR_RIGID 1
 
-/// The mortar side is rigid and in closed form, STICKSLIP_SHAPE_...: no facets, no search. Its stickslip_surface has four
-/// nodes, a frame that is fixed to it and that the host moves as a rigid body: see there.
+/// The mortar side is rigid and in closed form, STICKSLIP_SHAPE_...: no facets, no search. Its stickslip_surface has
+/// four nodes, a frame that is fixed to it and that the host moves as a rigid body: see there.
 #define STICKSLIP_MORTAR_ANALYTIC 2
 
 /// A plane. Default.
@@ -285,8 +285,8 @@ typedef struct stickslip_options {
   int32_t no_shortcuts;
   /// STICKSLIP_SHAPE_... with STICKSLIP_MORTAR_ANALYTIC, else 0.
   int32_t shape;
-  /// With STICKSLIP_MORTAR_ANALYTIC [L]. Sphere, cylinder: > 0: a ball, a bar; < 0: a cavity, a bore, the body outside.
-  /// Plane, and where there is no shape: 0.
+  /// With STICKSLIP_MORTAR_ANALYTIC [L]. Sphere, cylinder: > 0: a ball, a bar; < 0: a cavity, a bore, the body
+  /// outside. Plane, and where there is no shape: 0.
   double radius;
 } stickslip_options;
 
@@ -294,11 +294,11 @@ typedef struct stickslip_options {
 ///
 /// An analytic mortar side (STICKSLIP_MORTAR_ANALYTIC) has n_nodes = 4 and n_facets = 0; facet_offsets and facet_nodes
 /// are NULL, equations NULL or all -1. Its nodes P0..P3 are a frame that is fixed to the surface and moves as a rigid
-/// body, within 1e-8 of its lengths (INVALID_VALUE otherwise); to move the surface, move them. P0: a point of the plane,
-/// the sphere's centre, a point of the axis. P1 - P0: the plane's normal, out of its body, or the direction of the axis. The
-/// three edges P1 - P0, P2 - P0, P3 - P0 must not lie in one plane; take them about as long as the contact is wide. The
-/// forces on the four nodes are statically equivalent to those on the surface. A facet takes part in a step when at t_n its
-/// normal opposes the surface's; it then counts as covered.
+/// body, within 1e-8 of its lengths (INVALID_VALUE otherwise); to move the surface, move them. P0: a point of the
+/// plane, the sphere's centre, a point of the axis. P1 - P0: the plane's normal, out of its body, or the direction of
+/// the axis. The three edges P1 - P0, P2 - P0, P3 - P0 must not lie in one plane; take them about as long as the contact
+/// is wide. The forces on the four nodes are statically equivalent to those on the surface. A facet takes part in a step
+/// when at t_n its normal opposes the surface's; it then counts as covered.
 typedef struct stickslip_surface {
   /// sizeof(stickslip_surface).
   uint64_t struct_size;
@@ -574,7 +574,7 @@ int32_t stickslip_interface_set_constraints(struct stickslip_interface *interfac
 /// the first configuration. A commit before it can no longer be undone.
 ///
 /// Errors: NULL_POINTER, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL, INVALID_VALUE (a
-/// mortar surface in layers).
+/// mortar surface in layers, an analytic surface's frame).
 /// Cost: one search and one integration; allocates.
 int32_t stickslip_interface_set_previous(struct stickslip_interface *interface,
                                          const double *x1,
@@ -597,7 +597,8 @@ int32_t stickslip_interface_initial_multipliers(struct stickslip_interface *inte
 /// covered area now [L^2], g[n_{n+1}, x_{n+1}] (3) [L^3], covered area at t_n [L^2], g[n_n, x_{n+1}] (3) [L^3],
 /// g[n_n, x_n] (3) [L^3]. With sums, use the multiplier form.
 ///
-/// Errors: NULL_POINTER, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX.
+/// Errors: NULL_POINTER, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX; with an analytic mortar side also
+/// INVALID_VALUE (x2 is no rigid motion of the first frame) and UNDEFINED_NORMAL (a facet reaches its centre or axis).
 /// Cost: at other positions than those of the last evaluation one search and one integration (frozen weights:
 /// none), then O(pairs); allocates.
 int32_t stickslip_interface_sums(struct stickslip_interface *interface,
@@ -611,7 +612,8 @@ int32_t stickslip_interface_sums(struct stickslip_interface *interface,
 /// out: its members point to the caller's arrays, which are filled. Call it before the commit: after it the
 /// step belongs to the past.
 ///
-/// Errors: NULL_POINTER, STRUCT_SIZE, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL.
+/// Errors: NULL_POINTER, STRUCT_SIZE, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL,
+/// INVALID_VALUE (an analytic surface's frame).
 /// Cost: as `stickslip_interface_sums`.
 int32_t stickslip_interface_states(struct stickslip_interface *interface,
                                    const double *x1,
@@ -629,7 +631,7 @@ int32_t stickslip_interface_states(struct stickslip_interface *interface,
 /// node is not owned).
 ///
 /// Errors: NULL_POINTER, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL; within
-/// Newton treat them as a domain error and take a smaller step.
+/// Newton treat them as a domain error and take a smaller step. INVALID_VALUE (an analytic surface's frame).
 /// Cost: as `stickslip_interface_sums`.
 int32_t stickslip_interface_residual(struct stickslip_interface *interface,
                                      const double *x1,
@@ -649,8 +651,8 @@ int32_t stickslip_interface_residual(struct stickslip_interface *interface,
 /// each), count. With all three arrays NULL only count is written, and capacity is not read. Units of an entry:
 /// its row's over its column's.
 ///
-/// Errors: NULL_POINTER, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL (as the residual),
-/// BUFFER_TOO_SMALL, UNSUPPORTED (sums with the augmented form).
+/// Errors: NULL_POINTER, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL, INVALID_VALUE (as the
+/// residual), BUFFER_TOO_SMALL, UNSUPPORTED (sums with the augmented form).
 /// Cost: at new positions those of the residual, then the derivatives of every pair's weights (frozen weights:
 /// none), O(pairs); counting needs no derivatives. Allocates.
 int32_t stickslip_interface_tangent_coo(struct stickslip_interface *interface,
@@ -670,9 +672,9 @@ int32_t stickslip_interface_tangent_coo(struct stickslip_interface *interface,
 /// starting at the index base; columns and values (as many as row_offsets says), columns in the index base, in
 /// any order within a row.
 ///
-/// Errors: NULL_POINTER, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL (as the residual),
-/// INVALID_SIZE, INDEX_OUT_OF_RANGE (an equation beyond n_rows), UNSUPPORTED (sums with the augmented form), and
-/// MISSING_ENTRY when the matrix lacks an entry (renew the pattern from
+/// Errors: NULL_POINTER, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL, INVALID_VALUE (as the
+/// residual), INVALID_SIZE, INDEX_OUT_OF_RANGE (an equation beyond n_rows), UNSUPPORTED (sums with the augmented form),
+/// and MISSING_ENTRY when the matrix lacks an entry (renew the pattern from
 /// `stickslip_interface_pattern_coo`); then nothing was added.
 /// Cost: as `stickslip_interface_tangent_coo`, and a search in a row for each entry, by bisection where the
 /// columns ascend. Allocates.
@@ -692,7 +694,8 @@ int32_t stickslip_interface_tangent_csr(struct stickslip_interface *interface,
 /// x1 (3 n1), x2 (3 n2): positions [L]. Outputs: rows, columns (capacity each; both NULL: only count), count.
 /// Duplicates occur.
 ///
-/// Errors: NULL_POINTER, NOT_FINITE, BUFFER_TOO_SMALL, DEGENERATE_FACET, PROJECTION_NOT_CONVEX.
+/// Errors: NULL_POINTER, NOT_FINITE, BUFFER_TOO_SMALL, DEGENERATE_FACET, PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL,
+/// INVALID_VALUE (as `stickslip_interface_sums`).
 /// Cost: at new positions those of the residual, then one search and O(pairs); allocates.
 int32_t stickslip_interface_pattern_coo(struct stickslip_interface *interface,
                                         const double *x1,
@@ -707,7 +710,7 @@ int32_t stickslip_interface_pattern_coo(struct stickslip_interface *interface,
 /// Inputs x1, x2, lambda, sums as for `stickslip_interface_states`.
 ///
 /// Errors: NULL_POINTER, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL, INVALID_VALUE (a
-/// mortar surface in layers); then nothing has moved.
+/// mortar surface in layers, an analytic surface's frame); then nothing has moved.
 /// Cost: as `stickslip_interface_states`, then one search and one integration (WEIGHTS_REFERENCE: none);
 /// allocates. The history before it is kept, for `stickslip_interface_rollback`.
 int32_t stickslip_interface_commit(struct stickslip_interface *interface,

@@ -64,7 +64,8 @@ fn layouts() -> Vec<Layout> {
             coverage_min,
             search_distance,
             no_shortcuts,
-            reserved
+            shape,
+            radius
         }),
         layout!(stickslip_states {
             struct_size,

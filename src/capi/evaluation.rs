@@ -76,7 +76,8 @@ impl Point {
 /// covered area now [L^2], g[n_{n+1}, x_{n+1}] (3) [L^3], covered area at t_n [L^2], g[n_n, x_{n+1}] (3) [L^3],
 /// g[n_n, x_n] (3) [L^3]. With sums, use the multiplier form.
 ///
-/// Errors: NULL_POINTER, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX.
+/// Errors: NULL_POINTER, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX; with an analytic mortar side also
+/// INVALID_VALUE (x2 is no rigid motion of the first frame) and UNDEFINED_NORMAL (a facet reaches its centre or axis).
 /// Cost: at other positions than those of the last evaluation one search and one integration (frozen weights:
 /// none), then O(pairs); allocates.
 #[unsafe(no_mangle)]
@@ -138,7 +139,8 @@ unsafe impl Sized64 for stickslip_states {
 /// out: its members point to the caller's arrays, which are filled. Call it before the commit: after it the
 /// step belongs to the past.
 ///
-/// Errors: NULL_POINTER, STRUCT_SIZE, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL.
+/// Errors: NULL_POINTER, STRUCT_SIZE, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL,
+/// INVALID_VALUE (an analytic surface's frame).
 /// Cost: as `stickslip_interface_sums`.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn stickslip_interface_states(
@@ -198,7 +200,7 @@ fn write_states<const N: usize>(c: &mut Contact<N>, point: &Point, out: &sticksl
 /// node is not owned).
 ///
 /// Errors: NULL_POINTER, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL; within
-/// Newton treat them as a domain error and take a smaller step.
+/// Newton treat them as a domain error and take a smaller step. INVALID_VALUE (an analytic surface's frame).
 /// Cost: as `stickslip_interface_sums`.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn stickslip_interface_residual(

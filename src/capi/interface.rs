@@ -229,7 +229,7 @@ pub unsafe extern "C" fn stickslip_interface_set_constraints(
 /// the first configuration. A commit before it can no longer be undone.
 ///
 /// Errors: NULL_POINTER, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL, INVALID_VALUE (a
-/// mortar surface in layers).
+/// mortar surface in layers, an analytic surface's frame).
 /// Cost: one search and one integration; allocates.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn stickslip_interface_set_previous(

@@ -38,8 +38,8 @@ pub const STICKSLIP_FRICTION_ROUGH: i32 = 3;
 pub const STICKSLIP_MORTAR_DEFORMABLE: i32 = 0;
 /// The mortar side is rigid or prescribed (no equations): no rows and columns for it in the tangent.
 pub const STICKSLIP_MORTAR_RIGID: i32 = 1;
-/// The mortar side is rigid and in closed form, STICKSLIP_SHAPE_...: no facets, no search. Its stickslip_surface has four
-/// nodes, a frame that is fixed to it and that the host moves as a rigid body: see there.
+/// The mortar side is rigid and in closed form, STICKSLIP_SHAPE_...: no facets, no search. Its stickslip_surface has
+/// four nodes, a frame that is fixed to it and that the host moves as a rigid body: see there.
 pub const STICKSLIP_MORTAR_ANALYTIC: i32 = 2;
 /// A plane. Default.
 pub const STICKSLIP_SHAPE_PLANE: i32 = 0;
@@ -116,8 +116,8 @@ pub struct stickslip_options {
     pub no_shortcuts: i32,
     /// STICKSLIP_SHAPE_... with STICKSLIP_MORTAR_ANALYTIC, else 0.
     pub shape: i32,
-    /// With STICKSLIP_MORTAR_ANALYTIC [L]. Sphere, cylinder: > 0: a ball, a bar; < 0: a cavity, a bore, the body outside.
-    /// Plane, and where there is no shape: 0.
+    /// With STICKSLIP_MORTAR_ANALYTIC [L]. Sphere, cylinder: > 0: a ball, a bar; < 0: a cavity, a bore, the body
+    /// outside. Plane, and where there is no shape: 0.
     pub radius: f64,
 }
 

@@ -10,11 +10,11 @@ use crate::interface::{NO_EQUATION, Surface};
 ///
 /// An analytic mortar side (STICKSLIP_MORTAR_ANALYTIC) has n_nodes = 4 and n_facets = 0; facet_offsets and facet_nodes
 /// are NULL, equations NULL or all -1. Its nodes P0..P3 are a frame that is fixed to the surface and moves as a rigid
-/// body, within 1e-8 of its lengths (INVALID_VALUE otherwise); to move the surface, move them. P0: a point of the plane,
-/// the sphere's centre, a point of the axis. P1 - P0: the plane's normal, out of its body, or the direction of the axis. The
-/// three edges P1 - P0, P2 - P0, P3 - P0 must not lie in one plane; take them about as long as the contact is wide. The
-/// forces on the four nodes are statically equivalent to those on the surface. A facet takes part in a step when at t_n its
-/// normal opposes the surface's; it then counts as covered.
+/// body, within 1e-8 of its lengths (INVALID_VALUE otherwise); to move the surface, move them. P0: a point of the
+/// plane, the sphere's centre, a point of the axis. P1 - P0: the plane's normal, out of its body, or the direction of
+/// the axis. The three edges P1 - P0, P2 - P0, P3 - P0 must not lie in one plane; take them about as long as the contact
+/// is wide. The forces on the four nodes are statically equivalent to those on the surface. A facet takes part in a step
+/// when at t_n its normal opposes the surface's; it then counts as covered.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct stickslip_surface {
@@ -104,7 +104,7 @@ pub(super) fn read_analytic(s: &stickslip_surface, shape: AnalyticShape, base: i
     let refuse = |kind, text: &str| Err(Error::new(kind, text));
     if s.n_nodes != FRAME as i64 || s.n_facets != 0 {
         let text = format!(
-            "mortar has n_nodes = {} and n_facets = {}; an analytic surface has the {FRAME} nodes of its frame and no facets",
+            "mortar has n_nodes = {} and n_facets = {}; an analytic surface has {FRAME} nodes, its frame, and no facets",
             s.n_nodes, s.n_facets
         );
         return refuse(Kind::InvalidSize, &text);

@@ -78,8 +78,8 @@ impl Triplets {
 /// each), count. With all three arrays NULL only count is written, and capacity is not read. Units of an entry:
 /// its row's over its column's.
 ///
-/// Errors: NULL_POINTER, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL (as the residual),
-/// BUFFER_TOO_SMALL, UNSUPPORTED (sums with the augmented form).
+/// Errors: NULL_POINTER, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL, INVALID_VALUE (as the
+/// residual), BUFFER_TOO_SMALL, UNSUPPORTED (sums with the augmented form).
 /// Cost: at new positions those of the residual, then the derivatives of every pair's weights (frozen weights:
 /// none), O(pairs); counting needs no derivatives. Allocates.
 #[unsafe(no_mangle)]
@@ -115,9 +115,9 @@ pub unsafe extern "C" fn stickslip_interface_tangent_coo(
 /// starting at the index base; columns and values (as many as row_offsets says), columns in the index base, in
 /// any order within a row.
 ///
-/// Errors: NULL_POINTER, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL (as the residual),
-/// INVALID_SIZE, INDEX_OUT_OF_RANGE (an equation beyond n_rows), UNSUPPORTED (sums with the augmented form), and
-/// MISSING_ENTRY when the matrix lacks an entry (renew the pattern from
+/// Errors: NULL_POINTER, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL, INVALID_VALUE (as the
+/// residual), INVALID_SIZE, INDEX_OUT_OF_RANGE (an equation beyond n_rows), UNSUPPORTED (sums with the augmented form),
+/// and MISSING_ENTRY when the matrix lacks an entry (renew the pattern from
 /// `stickslip_interface_pattern_coo`); then nothing was added.
 /// Cost: as `stickslip_interface_tangent_coo`, and a search in a row for each entry, by bisection where the
 /// columns ascend. Allocates.
@@ -179,7 +179,8 @@ pub unsafe extern "C" fn stickslip_interface_tangent_csr(
 /// x1 (3 n1), x2 (3 n2): positions [L]. Outputs: rows, columns (capacity each; both NULL: only count), count.
 /// Duplicates occur.
 ///
-/// Errors: NULL_POINTER, NOT_FINITE, BUFFER_TOO_SMALL, DEGENERATE_FACET, PROJECTION_NOT_CONVEX.
+/// Errors: NULL_POINTER, NOT_FINITE, BUFFER_TOO_SMALL, DEGENERATE_FACET, PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL,
+/// INVALID_VALUE (as `stickslip_interface_sums`).
 /// Cost: at new positions those of the residual, then one search and O(pairs); allocates.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn stickslip_interface_pattern_coo(

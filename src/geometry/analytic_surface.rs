@@ -1,8 +1,8 @@
 //! Rigid surfaces in closed form: a plane, a sphere, a cylinder, and the closest point on them.
 //!
-//! A frame of four points P0..P3 is fixed to the surface and moves as a rigid body; lengths are free, the edges P_i - P0
-//! must not lie in one plane. P0: a point of the plane, the centre, a point of the axis; P1 - P0: the plane's normal out
-//! of its body, or the direction of the axis. Every point y has coordinates w in the frame, sum w_C = 1,
+//! A frame of four points P0..P3 is fixed to the surface and moves as a rigid body; lengths are free, the edges
+//! P_i - P0 must not lie in one plane. P0: a point of the plane, the centre, a point of the axis; P1 - P0: the plane's
+//! normal out of its body, or the direction of the axis. Every point y has coordinates w in the frame, sum w_C = 1,
 //! sum w_C P_C = y: the frame's points are to the surface what its nodes are to a facet.
 //!
 //! Signs: the normal n points out of the surface's body, the distance s `[L]` along it, x - y = s n; s > 0 is outside.
@@ -17,8 +17,8 @@ pub const FRAME: usize = 4;
 /// A frame whose edges span less than this (volume over the product of their lengths) is refused: its coordinates would
 /// lose three digits.
 const SMALLEST_VOLUME: f64 = 1e-3;
-/// How far a frame may be from a rigid motion of the first one, over its lengths: above the rounding of any rotation, far
-/// below what is seen in a gap.
+/// How far a frame may be from a rigid motion of the first one, over its lengths: above the rounding of any rotation,
+/// far below what is seen in a gap.
 const RIGID: f64 = 1e-8;
 /// A point closer than this to the centre or axis (over the radius) has no closest point: its direction is rounding.
 const CENTRE: f64 = 1e-12;
@@ -176,4 +176,56 @@ pub fn check_rigid_motion(first: &[Vec3; FRAME], now: &[Vec3; FRAME]) -> Result<
     let text =
         format!("the frame of the analytic surface is {how}; its four points must move as a rigid body ({RIGID:.0e})");
     Err(Error::new(Kind::InvalidValue, text))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const FRAME_POINTS: [[f64; 3]; FRAME] = [[1.0, -2.0, 0.5], [2.2, -1.0, 3.5], [0.0, 1.0, 0.0], [-1.0, -2.5, 1.0]];
+
+    fn frame() -> [Vec3; FRAME] {
+        FRAME_POINTS.map(Vec3::from)
+    }
+
+    /// The closest points, by their defining properties: on the surface, along the normal, at the distance.
+    #[test]
+    fn closest_points_are_on_the_surface_along_its_normal() {
+        let (p, axis) = (frame(), (frame()[1] - frame()[0]).normalize());
+        for (shape, body) in [
+            (AnalyticShape::Plane, 1.0),
+            (AnalyticShape::Sphere(2.0), 1.0),
+            (AnalyticShape::Sphere(-3.0), -1.0),
+            (AnalyticShape::Cylinder(1.5), 1.0),
+            (AnalyticShape::Cylinder(-2.5), -1.0),
+        ] {
+            let surface = AnalyticSurface::new(shape, &p).unwrap();
+            for x in [Vec3::new(3.0, 1.0, -2.0), Vec3::new(0.9, -1.5, 0.4), Vec3::new(-4.0, 0.0, 7.0)] {
+                let x = x - p[0];
+                let c = surface.closest(x).unwrap();
+                let y = x - c.normal * c.distance;
+                let (along, off) = (axis * axis.dot(&y), y - axis * axis.dot(&y));
+                let (height, outward) = match shape {
+                    AnalyticShape::Plane => (axis.dot(&y), axis),
+                    AnalyticShape::Sphere(r) => (y.norm() - r.abs(), y),
+                    AnalyticShape::Cylinder(r) => (off.norm() - r.abs(), y - along),
+                };
+                assert!(height.abs() < 1e-14, "{shape}: {height:e} off the surface");
+                assert!((c.normal - outward.normalize() * body).norm() < 1e-14, "{shape}: normal {}", c.normal);
+                assert!((surface.distance(x) - c.distance).abs() < 1e-14, "{shape}: distance");
+                let w = surface.coordinates(y);
+                let back = (0..FRAME).fold(Vec3::zeros(), |s, k| s + p[k] * w[k]);
+                assert!((back - y - p[0]).norm() < 1e-14 && (w.iter().sum::<f64>() - 1.0).abs() < 1e-15, "{shape}");
+            }
+        }
+    }
+
+    #[test]
+    fn nearly_flat_frames_are_refused() {
+        let mut p = frame();
+        for (height, refused) in [(1e-4, true), (1e-1, false)] {
+            p[3] = p[1] + p[2] - p[0] + (p[1] - p[0]).cross(&(p[2] - p[0])).normalize() * height;
+            assert_eq!(AnalyticSurface::new(AnalyticShape::Plane, &p).is_err(), refused, "height {height}");
+        }
+    }
 }

@@ -15,8 +15,8 @@ use crate::quadrature::Rule;
 use std::time::Instant;
 
 /// Per non-mortar facet, whether it faces the surface: opposing normals at its centre, and distances between a
-/// penetration and a gap, as between facets. A surface has no far side that a gap could reach: without a search distance
-/// any gap will do.
+/// penetration and a gap, as between facets. A surface has no far side that a gap could reach: without a search
+/// distance any gap will do.
 pub(super) fn facing(one: &Surface, surface: &AnalyticSurface, options: &Options, x1: &[Vec3]) -> Result<Vec<bool>> {
     let gap = options.search_distance.unwrap_or(f64::INFINITY);
     let faces = |f: usize| {

@@ -201,7 +201,7 @@ impl<const N: usize> Contact<N> {
         Ok((basis * response.drow_dnow * r, basis * response.drow_dprevious * r))
     }
 
-    /// The entries of the tangent at (x1, x2), with value 0: as many as [`Interface::tangent`] writes there.
+    /// The entries of the tangent at (x1, x2), with value 0: as many as [`Contact::tangent`] writes there.
     pub fn pattern(&mut self, x1: &[Vec3], x2: &[Vec3], sink: &mut impl Sink) -> Result<()> {
         self.check_positions(x1, x2)?;
         self.ensure_integration(x1, x2)?;

@@ -16,8 +16,8 @@ use nalgebra::{SMatrix, SVector};
 type Tangent<const N: usize> =
     fn(&mut Contact<N>, &[Vec3], &[Vec3], &[SVector<f64, N>], Option<&[NodeSums]>, &mut dyn Sink) -> Result<()>;
 
-/// Derivatives of a pair with its weights of now: mortar surface and positions, its facet, the other facet's frame and the
-/// weights. Those of the weights go to the last argument, but for what they have none of.
+/// Derivatives of a pair with its weights of now: mortar surface and positions, its facet, the other facet's frame and
+/// the weights. Those of the weights go to the last argument, which keeps the slots that have none.
 pub(super) type PairMotion = fn(
     (&Surface, &[Vec3]),
     usize,

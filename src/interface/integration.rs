@@ -2,8 +2,8 @@
 //!
 //! A pair is active when its facets overlap or touch in the auxiliary plane and it passed the filters of
 //! the last commit (opposing normals, heights). All of that is a function of the positions and the
-//! history, so evaluating at A, B, A gives equal bits. An analytic mortar side goes its own way at the four places where
-//! `Surface::analytic` is asked.
+//! history, so evaluating at A, B, A gives equal bits. An analytic mortar side has its own filter and its own way
+//! (`analytic.rs`).
 
 use super::history::{History, Keeps, PairRecord};
 use super::nodes::assemble;
@@ -85,8 +85,8 @@ impl Filter {
     }
 }
 
-/// Whether two facets can be a pair: opposing normals, and heights over the non-mortar facet between a penetration and a
-/// gap.
+/// Whether two facets can be a pair: opposing normals, and heights over the non-mortar facet between a penetration and
+/// a gap.
 #[derive(Debug)]
 pub(super) struct FacetFilter {
     nonmortar: Vec<(Facet, Plane)>,
@@ -246,7 +246,11 @@ impl<const N: usize> Contact<N> {
     }
 
     /// Makes up for the filter and the weights of t_n where they were left out because the surfaces were apart then.
+    /// Frozen weights never are, and need no filter.
     pub(super) fn ensure_history(&mut self) -> Result<()> {
+        if self.options.effective_weights() != Weights::Current {
+            return Ok(());
+        }
         let (surfaces, h) = ((&self.nonmortar, &self.mortar), &self.history);
         if self.filter.is_none() {
             self.filter = Some(Filter::new(surfaces.0, surfaces.1, &self.options, &h.x1, &h.x2)?);
@@ -288,6 +292,8 @@ impl<const N: usize> Contact<N> {
         let (mut filter, mut integration) = (None, None);
         let frames = if are_apart((nonmortar, mortar), options, &[(x1, x2)])? {
             counters.commits_apart += 1;
+            // A commit refuses degenerate facets of either side, whether they are searched or not.
+            Filter::new(nonmortar, mortar, options, x1, x2)?;
             &frames(nonmortar, x1)?
         } else {
             let admits = Filter::new(nonmortar, mortar, options, x1, x2)?;

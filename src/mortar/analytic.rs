@@ -59,7 +59,7 @@ fn for_each_point(
         let n = facet.shape.values(xi, eta);
         let x = (0..MAX_NODES).fold(corner, |x, k| x + facet.x[k] * n[k]);
         let closest = surface.closest(x).ok_or_else(|| {
-            let text = "a point of the facet is the centre, or lies on the axis, of the analytic mortar surface: it has no closest point there";
+            let text = "a point of the facet is the centre of the analytic mortar surface, or on its axis: it has no closest point";
             Error::new(Kind::UndefinedNormal, text)
         })?;
         visit(&Point { weight, area: area[0] + area[1] * xi + area[2] * eta, powers: [1.0, xi, eta], n, x, closest });

@@ -33,10 +33,10 @@ ALLOWED = ("libc.so", "libm.so", "libdl.so", "librt.so", "libutil.so", "libpthre
 ABIDIFF_CHANGE, ABIDIFF_INCOMPATIBLE = 4, 8
 
 
-def run(*command, accept=(0,)):
+def run(*command, accept=(0,), cwd=None):
     # A user's own suppressions must not hide a change.
     environment = {k: v for k, v in os.environ.items() if not k.startswith("LIBABIGAIL_")}
-    done = subprocess.run([str(word) for word in command], capture_output=True, text=True, env=environment)
+    done = subprocess.run([str(word) for word in command], capture_output=True, text=True, env=environment, cwd=cwd)
     if done.returncode not in accept:
         sys.exit(f"{' '.join(map(str, command))}: exit code {done.returncode}\n{done.stdout}{done.stderr}")
     return done
@@ -92,7 +92,8 @@ def stub(folder, path):
     code += [f"{f.result} {f.name}({f.parameters}) {{ return 0; }}" for f in header.functions(path)]
     (folder / "stub.c").write_text("\n".join(code) + "\n")
     library = folder / "libstickslip.so"
-    run("cc", "-g", "-shared", "-fPIC", "-I", path.parent, folder / "stub.c", "-o", library)
+    # From its folder, so that no path of this machine gets into the description.
+    run("cc", "-g", "-shared", "-fPIC", "-I", path.parent, "stub.c", "-o", library, cwd=folder)
     return library
 
 

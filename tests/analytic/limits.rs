@@ -1,0 +1,109 @@
+//! Which facets are found, what is counted, and what is refused.
+
+use super::support::mesh::options;
+use super::*;
+use stickslip::error::Kind;
+use stickslip::interface::Weights;
+
+#[test]
+fn only_facets_that_face_the_surface_are_found() {
+    let at = |height: f64, down: bool, shape: AnalyticShape, search_distance: Option<f64>| {
+        let mesh = grid(2, 2, [0.0, 0.0], [1.0, 1.0], height, !down, Cells::Quads);
+        let mut options = Options { search_distance, ..options() };
+        options.shortcuts.apart = false;
+        let contact: Contact<3> = against(&mesh, shape, &frame_of(shape), options).unwrap();
+        contact.active_pairs()
+    };
+    for shape in SHAPES {
+        assert_eq!(at(0.1, true, shape, None), 4, "{shape:?}: above");
+        assert_eq!(at(1.9, true, shape, None), 4, "{shape:?}: far above");
+        assert_eq!(at(-0.4, true, shape, None), 4, "{shape:?}: less deep than a facet");
+        assert_eq!(at(-0.9, true, shape, None), 0, "{shape:?}: deeper than a facet");
+        assert_eq!(at(0.1, false, shape, None), 0, "{shape:?}: looks away");
+        assert_eq!(at(0.5, true, shape, Some(0.3)), 0, "{shape:?}: beyond the search distance");
+        assert_eq!(at(-0.4, true, shape, Some(0.1)), 0, "{shape:?}: deeper than the search distance");
+    }
+}
+
+#[test]
+fn counters_tell_what_was_done() {
+    let mesh = grid(3, 2, [0.0, 0.0], [1.0, 1.0], 0.001, false, Cells::Quads);
+    let lambda = vec![Vec3::zeros(); mesh.x.len()];
+    let [lifted, higher] = [0.8, 1.0].map(|h| mesh.x.iter().map(|x| x + Vec3::z() * h).collect::<Vec<_>>());
+    for shape in SHAPES {
+        let frame = frame_of(shape);
+        let mut contact: Contact<3> = against(&mesh, shape, &frame, options()).unwrap();
+        dense(&mut contact, &mesh.x, &frame, &lambda);
+        let c = contact.counters();
+        assert_eq!((c.pairs_tested, c.pairs_clipped, c.pairs_integrated, c.pairs_linearised), (12, 0, 12, 6));
+        assert_eq!((c.searches, c.evaluations_apart), (0, 0));
+        assert!(contact.effects().contains(&format!("Mortar side: {shape} (asked for)")), "{}", contact.effects());
+        // Apart is one comparison a node, and changes nothing.
+        let mut options = options();
+        options.shortcuts.apart = false;
+        let mut all: Contact<3> = against(&mesh, shape, &frame, options).unwrap();
+        let apart = [&mut contact, &mut all].map(|c| {
+            c.set_previous(&lifted, &frame).unwrap();
+            c.residual(&higher, &frame, &lambda, None).unwrap()
+        });
+        assert_eq!(apart[0], apart[1]);
+        let c = contact.counters();
+        assert_eq!((c.pairs_tested, c.commits_apart, c.evaluations_apart), (12, 1, 1), "{shape:?}");
+        assert_eq!(all.counters().evaluations_apart, 0);
+        // Frozen weights integrate once.
+        let frozen = Options { weights: Weights::Reference, ..options };
+        let mut frozen: Contact<3> = against(&mesh, shape, &frame, frozen).unwrap();
+        dense(&mut frozen, &mesh.x, &frame, &lambda);
+        frozen.commit(&mesh.x, &frame, &lambda, None).unwrap();
+        let c = frozen.counters();
+        assert_eq!((c.pairs_integrated, c.pairs_linearised), (6, 0));
+    }
+}
+
+fn refused<T: std::fmt::Debug>(result: Result<T>, kind: Kind, word: &str) {
+    let error = result.unwrap_err();
+    assert!(error.kind == kind && error.message.contains(word), "{word}: {error:?}");
+}
+
+#[test]
+fn what_is_no_surface_is_refused_by_name() {
+    let frame = frame_of(AnalyticShape::Plane);
+    let surface = |shape, frame: &[Vec3]| Surface::analytic("mortar", shape, frame.to_vec());
+    for radius in [0.0, f64::NAN, f64::INFINITY] {
+        refused(surface(AnalyticShape::Sphere(radius), &frame), Kind::InvalidValue, "mortar: the radius");
+        refused(surface(AnalyticShape::Cylinder(radius), &frame), Kind::InvalidValue, "mortar: the radius");
+    }
+    refused(surface(AnalyticShape::Plane, &frame[..3]), Kind::InvalidSize, "3 nodes");
+    let flat = [frame[0], frame[1], frame[2], frame[1] + frame[2] - frame[0]];
+    refused(surface(AnalyticShape::Plane, &flat), Kind::InvalidValue, "one plane");
+    refused(surface(AnalyticShape::Plane, &[frame[0], frame[0], frame[2], frame[3]]), Kind::InvalidValue, "one plane");
+    let far = [frame[0], frame[1], frame[2], Vec3::new(f64::NAN, 0.0, 0.0)];
+    refused(surface(AnalyticShape::Plane, &far), Kind::NotFinite, "node 3");
+
+    let mesh = grid(2, 2, [0.0, 0.0], [1.0, 1.0], 0.0, false, Cells::Quads);
+    let two = Surface::new("mortar", mesh.x.clone(), &mesh.facets, equations(0, 9)).unwrap();
+    let one = surface(AnalyticShape::Plane, &frame).unwrap();
+    refused(<Contact<3>>::create(one, two, options()), Kind::InvalidValue, "nonmortar");
+}
+
+#[test]
+fn what_is_no_rigid_motion_and_the_centre_are_refused() {
+    let mesh = grid(2, 2, [0.0, 0.0], [1.0, 1.0], 0.0, false, Cells::Quads);
+    let shape = AnalyticShape::Sphere(0.5);
+    let frame = frame_of(shape);
+    let mut contact: Contact<3> = against(&mesh, shape, &frame, options()).unwrap();
+    let lambda = vec![Vec3::zeros(); 9];
+    let history = contact.history().clone();
+    let mirrored: Vec<_> = frame.iter().map(|x| Vec3::new(-x.x, x.y, x.z)).collect();
+    refused(contact.residual(&mesh.x, &mirrored, &lambda, None), Kind::InvalidValue, "mirrored");
+    for k in 0..4 {
+        let mut bent = frame.clone();
+        bent[k] += Vec3::new(1e-6, 1e-6, 1e-6);
+        refused(contact.residual(&mesh.x, &bent, &lambda, None), Kind::InvalidValue, "rigid body");
+        refused(contact.commit(&mesh.x, &bent, &lambda, None), Kind::InvalidValue, "rigid body");
+    }
+    // The middle of facet 0, where a quadrature point is, at the centre of the ball.
+    let sunk: Vec<_> = mesh.x.iter().map(|x| x + frame[0] - Vec3::new(0.25, 0.25, 0.0)).collect();
+    refused(contact.residual(&sunk, &frame, &lambda, None), Kind::UndefinedNormal, "nonmortar facet 0: ");
+    assert_eq!(contact.history(), &history);
+}

@@ -1,0 +1,157 @@
+/* A mortar side without equations, and what the library leaves out by itself: not a bit of the residual changes.
+ * Misuse is refused; the interface says in sentences what it computes and why. */
+#include "scene.h"
+
+static const int32_t ALL = STICKSLIP_SHORTCUT_FRICTIONLESS | STICKSLIP_SHORTCUT_RIGID | STICKSLIP_SHORTCUT_APART;
+
+static triplets t, u;
+
+static stickslip_counters counters_of(scene *s) {
+  stickslip_counters counters;
+  counters.struct_size = sizeof counters;
+  CHECK_OK(stickslip_interface_counters(s->interface, &counters));
+  return counters;
+}
+
+static int says(scene *s, const char *words) {
+  char text[1000];
+  FILL(text);
+  CHECK_OK(stickslip_interface_effects(s->interface, text, sizeof text));
+  CHECK(memchr(text, 0, sizeof text) != NULL);
+  return strstr(text, words) != NULL;
+}
+
+static void prescribe(scene *s) {
+  for (int i = 0; i < X2; ++i) s->equations2[i] = -1;
+}
+
+int main(void) {
+  static scene s, full;
+  static double k[UNKNOWNS * UNKNOWNS], expected[UNKNOWNS * UNKNOWNS];
+  double r[UNKNOWNS], q[UNKNOWNS];
+
+  /* Rigid, asked for or chosen, against a deformable side without equations. */
+  for (int asked = 0; asked < 2; ++asked) {
+    scene_init(&s);
+    scene_init(&full);
+    prescribe(&s);
+    prescribe(&full);
+    s.options.mortar_side = asked ? STICKSLIP_MORTAR_RIGID : STICKSLIP_MORTAR_DEFORMABLE;
+    full.options.no_shortcuts = ALL;
+    scene_create(&s);
+    scene_create(&full);
+    scene_residual(&s, r);
+    scene_residual(&full, q);
+    CHECK(memcmp(r, q, sizeof r) == 0);
+    scene_tangent(&s, &t);
+    scene_tangent(&full, &u);
+    memset(k, 0, sizeof k);
+    memset(expected, 0, sizeof expected);
+    triplets_add(&t, 0, k);
+    triplets_add(&u, 0, expected);
+    CHECK(block_difference(k, expected, 1e-3) <= 1e-12);
+    CHECK(says(&s, asked ? "rigid (asked for)" : "rigid (chosen: no mortar node has an equation)"));
+    CHECK(says(&full, "as deformable"));
+    scene_destroy(&s);
+    scene_destroy(&full);
+  }
+
+  /* mu = 0 at every node: no slip is computed, until there is friction. */
+  double mu[N1] = {0};
+  scene_init(&s);
+  scene_init(&full);
+  s.options.mu = full.options.mu = 0.0;
+  full.options.no_shortcuts = ALL;
+  scene_create(&s);
+  scene_create(&full);
+  CHECK(says(&s, "chosen: mu is 0 at every node") && says(&full, "Coulomb's law with mu 0"));
+  scene_residual(&s, r);
+  scene_residual(&full, q);
+  CHECK(memcmp(r, q, sizeof r) == 0);
+  CHECK(counters_of(&s).nodes_slipping == 0 && counters_of(&full).nodes_slipping == N1);
+  scene_commit(&s);
+  scene_commit(&full);
+  mu[4] = 0.4;
+  CHECK_OK(stickslip_interface_set_friction(s.interface, mu));
+  CHECK_OK(stickslip_interface_set_friction(full.interface, mu));
+  CHECK(says(&s, "mu from 0 to 0.4"));
+  scene_slide(&s, 0.05);
+  scene_slide(&full, 0.05);
+  scene_residual(&s, r);
+  scene_residual(&full, q);
+  CHECK(memcmp(r, q, sizeof r) == 0 && counters_of(&s).nodes_slipping == N1);
+  scene_destroy(&s);
+  scene_destroy(&full);
+
+  /* Far apart: a comparison. The history is made up for when it is asked for. */
+  static history made_up, searched;
+  scene_init(&s);
+  scene_init(&full);
+  full.options.no_shortcuts = STICKSLIP_SHORTCUT_APART;
+  double up[3] = {0.0, 0.0, 30.0};
+  scene_frame(up);
+  for (int i = 0; i < X1; ++i) {
+    s.reference1[i] += up[i % 3];
+    full.reference1[i] += up[i % 3];
+    s.x1[i] += up[i % 3];
+    full.x1[i] += up[i % 3];
+    s.lambda[i] = full.lambda[i] = 0.0;
+  }
+  scene_create(&s);
+  scene_create(&full);
+  scene_residual(&s, r);
+  scene_residual(&full, q);
+  for (int i = 0; i < UNKNOWNS; ++i) CHECK(r[i] == q[i]);
+  scene_commit(&s);
+  scene_commit(&full);
+  const stickslip_counters cheap = counters_of(&s), dear = counters_of(&full);
+  CHECK(cheap.pairs_tested == 0 && cheap.searches == 0 && cheap.evaluations_apart == 1 && cheap.commits_apart == 2);
+  CHECK(dear.pairs_tested > 0 && dear.searches > 0 && dear.evaluations_apart == 0 && dear.commits_apart == 0);
+  history_take(s.interface, &made_up);
+  history_take(full.interface, &searched);
+  CHECK(history_equal(&made_up, &searched));
+  for (int i = 0; i < X1; ++i) {
+    s.x1[i] -= up[i % 3];
+    full.x1[i] -= up[i % 3];
+    s.lambda[i] = full.lambda[i] = i % 3 == 2 ? -0.5 : 0.1;
+  }
+  scene_residual(&s, r);
+  scene_residual(&full, q);
+  CHECK(memcmp(r, q, sizeof r) == 0);
+  scene_destroy(&s);
+  scene_destroy(&full);
+
+  /* A rigid side has no equation; a shortcut has a name. */
+  scene_init(&s);
+  s.options.mortar_side = STICKSLIP_MORTAR_RIGID;
+  CHECK_REFUSED(stickslip_interface_create(&s.nonmortar, &s.mortar, &s.options, &s.interface), STICKSLIP_INVALID_VALUE,
+                "mortar");
+  s.options.mortar_side = STICKSLIP_MORTAR_DEFORMABLE;
+  const int32_t unknown[] = {8, -1, INT32_MIN, INT32_MAX};
+  for (int n = 0; n < COUNT(unknown); ++n) {
+    s.options.no_shortcuts = unknown[n];
+    CHECK_REFUSED(stickslip_interface_create(&s.nonmortar, &s.mortar, &s.options, &s.interface),
+                  STICKSLIP_INVALID_VALUE, "no_shortcuts");
+  }
+  CHECK(s.interface == NULL);
+
+  /* The sentences: cut where they are longer, always ended; refused without room for the end. */
+  s.options.no_shortcuts = 0;
+  scene_create(&s);
+  char text[1000], cut[20];
+  CHECK_OK(stickslip_interface_effects(s.interface, text, sizeof text));
+  CHECK(strncmp(text, "Friction: ", 10) == 0 && text[strlen(text) - 1] == '.');
+  FILL(cut);
+  CHECK_OK(stickslip_interface_effects(s.interface, cut, 11));
+  CHECK(strcmp(cut, "Friction: ") == 0 && cut[11] == 0x5A);
+  CHECK_OK(stickslip_interface_effects(s.interface, cut, 1));
+  CHECK(cut[0] == '\0' && cut[1] == 'r');
+  FILL(cut);
+  CHECK_REFUSED(stickslip_interface_effects(s.interface, cut, 0), STICKSLIP_INVALID_SIZE, "capacity");
+  CHECK_REFUSED(stickslip_interface_effects(s.interface, cut, -1), STICKSLIP_INVALID_SIZE, "capacity");
+  CHECK_REFUSED(stickslip_interface_effects(s.interface, NULL, 20), STICKSLIP_NULL_POINTER, "text");
+  CHECK_REFUSED(stickslip_interface_effects(NULL, cut, 20), STICKSLIP_NULL_POINTER, "interface");
+  CHECK_UNTOUCHED(cut);
+  scene_destroy(&s);
+  return 0;
+}
