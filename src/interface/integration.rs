@@ -332,6 +332,10 @@ impl<const N: usize> Contact<N> {
 
     /// The pairs of t_n and all that may be active while the surfaces move by less than the skin, sorted.
     pub(super) fn possible_pairs(&mut self, x1: &[Vec3], x2: &[Vec3]) -> Result<Vec<(usize, usize)>> {
+        let (surfaces, h) = ((&self.nonmortar, &self.mortar), &self.history);
+        if !h.integrated && are_apart(surfaces, &self.options, &[(&h.x1, &h.x2), (x1, x2)])? {
+            return Ok(Vec::new()); // apart at t_n and now: nothing to make up for
+        }
         self.ensure_history()?;
         let mut pairs: Vec<_> = self.history.pairs.iter().map(|p| (p.one, p.two)).collect();
         if self.options.effective_weights() == Weights::Current {

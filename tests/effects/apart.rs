@@ -1,12 +1,12 @@
-//! Surfaces that are apart cost a comparison of two boxes, and nothing is lost: what was left out of the history is made
-//! up for when they come near.
+//! Surfaces that are apart cost a comparison of two boxes, and nothing is lost: what was left out of the history is
+//! made up for when they come near.
 
 use super::*;
 use stickslip::interface::Friction;
 use stickslip::law::State;
 
-/// Heights of the upper surface over the lower one, a step each: apart above the shorter of the longest edges, 0.5; then
-/// near, closed, sliding; away and back.
+/// Heights of the upper surface over the lower one and slides, a step each: apart above the shorter of the longest
+/// edges, 0.5; then near, closed, sliding; away and back.
 const PATH: [(f64, f64); 11] = [
     (3.0, 0.0),
     (1.2, 0.1),

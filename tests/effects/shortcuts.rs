@@ -1,5 +1,5 @@
-//! What the library chooses by itself changes no bit of the residual: mu = 0 at every node, a prescribed mortar side. It
-//! says what it has chosen.
+//! What the library chooses by itself changes no bit of the residual: mu = 0 at every node, a prescribed mortar side.
+//! It says what it has chosen.
 
 use super::*;
 use stickslip::error::Kind;

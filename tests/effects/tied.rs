@@ -108,8 +108,8 @@ fn a_commit_changes_nothing() {
     }
 }
 
-/// Two blocks with 3 x 3 and 4 x 4 facets, tied, under a uniform strain: tension, compression, shear, all at once. Their
-/// loads are those of the exact field but for the tractions on the interface, which it must carry itself.
+/// Two blocks with 3 x 3 and 4 x 4 facets, tied, under a uniform strain: tension, compression, shear, all at once.
+/// Their loads are those of the exact field but for the tractions on the interface, which it must carry itself.
 #[test]
 fn patches_of_non_matching_blocks_are_exact() {
     let shear = Matrix3::new(0.0, 0.0, 0.04, 0.0, 0.0, -0.02, 0.01, 0.0, 0.0);
