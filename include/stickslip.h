@@ -193,7 +193,8 @@
 /// A mortar side without equations is treated as rigid.
 #define STICKSLIP_SHORTCUT_RIGID 2
 
-/// Surfaces whose boxes are farther apart than their longest edge: neither search nor integration.
+/// Surfaces whose boxes lie, at t_n and now and on the same side, farther apart than the shorter of the two surfaces'
+/// longest edges (or than search_distance): neither search nor integration; their nodes count as uncovered.
 #define STICKSLIP_SHORTCUT_APART 4
 
 /// Standard shape functions for the multiplier (the paper's). Default.
@@ -730,8 +731,8 @@ int32_t stickslip_interface_rollback(struct stickslip_interface *interface);
 ///
 /// n_integers, n_reals, output.
 ///
-/// Errors: NULL_POINTER.
-/// Cost: none.
+/// Errors: NULL_POINTER; where the weights of t_n were left out because the surfaces were apart, those of the commit.
+/// Cost: none, or then one search and one integration.
 int32_t stickslip_interface_history_size(struct stickslip_interface *interface,
                                          int64_t *n_integers,
                                          int64_t *n_reals);
@@ -739,8 +740,8 @@ int32_t stickslip_interface_history_size(struct stickslip_interface *interface,
 /// Writes the history to integers (n_integers) and reals (n_reals), for a restart file. Lengths from
 /// `stickslip_interface_history_size`; larger ones are fine. The multipliers are the host's and not in it.
 ///
-/// Errors: NULL_POINTER, BUFFER_TOO_SMALL.
-/// Cost: a copy; allocates it.
+/// Errors: NULL_POINTER, BUFFER_TOO_SMALL, and those of `stickslip_interface_history_size`.
+/// Cost: a copy, after what `stickslip_interface_history_size` costs; allocates it.
 int32_t stickslip_interface_history_export(struct stickslip_interface *interface,
                                            int64_t n_integers,
                                            int64_t *integers,

@@ -43,8 +43,8 @@ pub unsafe extern "C" fn stickslip_interface_rollback(interface: *mut stickslip_
 ///
 /// n_integers, n_reals, output.
 ///
-/// Errors: NULL_POINTER.
-/// Cost: none.
+/// Errors: NULL_POINTER; where the weights of t_n were left out because the surfaces were apart, those of the commit.
+/// Cost: none, or then one search and one integration.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn stickslip_interface_history_size(
     interface: *mut stickslip_interface,
@@ -65,8 +65,8 @@ pub unsafe extern "C" fn stickslip_interface_history_size(
 /// Writes the history to integers (n_integers) and reals (n_reals), for a restart file. Lengths from
 /// `stickslip_interface_history_size`; larger ones are fine. The multipliers are the host's and not in it.
 ///
-/// Errors: NULL_POINTER, BUFFER_TOO_SMALL.
-/// Cost: a copy; allocates it.
+/// Errors: NULL_POINTER, BUFFER_TOO_SMALL, and those of `stickslip_interface_history_size`.
+/// Cost: a copy, after what `stickslip_interface_history_size` costs; allocates it.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn stickslip_interface_history_export(
     interface: *mut stickslip_interface,

@@ -51,7 +51,8 @@ pub const STICKSLIP_SHAPE_CYLINDER: i32 = 2;
 pub const STICKSLIP_SHORTCUT_FRICTIONLESS: i32 = 1;
 /// A mortar side without equations is treated as rigid.
 pub const STICKSLIP_SHORTCUT_RIGID: i32 = 2;
-/// Surfaces whose boxes are farther apart than their longest edge: neither search nor integration.
+/// Surfaces whose boxes lie, at t_n and now and on the same side, farther apart than the shorter of the two surfaces'
+/// longest edges (or than search_distance): neither search nor integration; their nodes count as uncovered.
 pub const STICKSLIP_SHORTCUT_APART: i32 = 4;
 /// Standard shape functions for the multiplier (the paper's). Default.
 pub const STICKSLIP_BASIS_STANDARD: i32 = 0;

@@ -97,7 +97,9 @@ impl<const N: usize> Contact<N> {
             mortar: vec![Vec3::zeros(); self.mortar.len()],
             rows: vec![SVector::zeros(); self.nonmortar.len()],
         };
-        let tractions = self.force_tractions(lambda, &responses)?;
+        let normals = self.all_normals()?;
+        let traction = |a: usize| self.force_traction(&lambda[a], &responses[a], normals[a]);
+        let tractions: Vec<_> = (0..responses.len()).map(traction).collect();
         for pair in self.current_pairs() {
             let (one, two) = (&self.nonmortar.facets[pair.one], &self.mortar.facets[pair.two]);
             let f = pair_force(&pair.weights, &one.nodes.map(|a| tractions[a]));
@@ -116,13 +118,16 @@ impl<const N: usize> Contact<N> {
         Ok(r)
     }
 
-    /// The tractions that the nodes' forces use.
-    fn force_tractions(&self, lambda: &[SVector<f64, N>], responses: &[NodeResponse<N>]) -> Result<Vec<Vec3>> {
-        let traction = |a: usize| match self.options.form {
-            Form::Multiplier => Ok(effects::traction(&lambda[a], self.normal(a)?)),
-            Form::Augmented => Ok(responses[a].traction),
-        };
-        (0..responses.len()).map(traction).collect()
+    fn all_normals(&self) -> Result<Vec<Vec3>> {
+        (0..self.nonmortar.len()).map(|a| self.normal(a)).collect()
+    }
+
+    /// The traction that a node's forces use.
+    fn force_traction(&self, lambda: &SVector<f64, N>, response: &NodeResponse<N>, nu: Vec3) -> Vec3 {
+        match self.options.form {
+            Form::Multiplier => effects::traction(lambda, nu),
+            Form::Augmented => response.traction,
+        }
     }
 
     /// The exact tangent d residual / d (x1, x2, lambda) at (x, lambda).
@@ -155,7 +160,8 @@ impl<const N: usize> Contact<N> {
         let start = Instant::now();
         let mut linearised = 0;
         let mut couplings = self.augmented_couplings();
-        let nodes = self.node_tangents(lambda, &responses)?;
+        let normals = self.all_normals()?;
+        let nodes = self.node_tangents(lambda, &responses, &normals);
         // Large, so that one of each serves all pairs.
         let (mut dn, mut t) = (WeightDerivatives::default(), PairTangent::default());
         for pair in &self.union() {
@@ -169,7 +175,7 @@ impl<const N: usize> Contact<N> {
             let motion = gap.as_ref().map(|gap| (&dn, gap));
             let now = pair.now.map(|weights| PairNow { weights, motion });
             t.update::<MOVES>(now.as_ref(), pair.previous, &one.nodes.map(|a| nodes[a]));
-            self.emit_pair::<MOVES>(pair, &t, sink)?;
+            self.emit_pair::<MOVES>(pair, &t, &normals, sink);
             if let Some(couplings) = &mut couplings {
                 for k in 0..one.len {
                     let a = one.nodes[k];
@@ -178,7 +184,7 @@ impl<const N: usize> Contact<N> {
                         &self.slots(pair),
                         now.as_ref(),
                         pair.previous,
-                        self.dtraction(a, &responses[a])?,
+                        self.dtraction(a, &responses[a], normals[a]),
                     );
                 }
             }
@@ -195,10 +201,9 @@ impl<const N: usize> Contact<N> {
     }
 
     /// dp/dg_now and dp/dg_previous of a node.
-    fn dtraction(&self, a: usize, response: &NodeResponse<N>) -> Result<(Mat3, Mat3)> {
-        let r = self.augmentation(a);
-        let basis = effects::basis::<N>(self.normal(a)?);
-        Ok((basis * response.drow_dnow * r, basis * response.drow_dprevious * r))
+    fn dtraction(&self, a: usize, response: &NodeResponse<N>, nu: Vec3) -> (Mat3, Mat3) {
+        let basis = effects::basis::<N>(nu) * self.augmentation(a);
+        (basis * response.drow_dnow, basis * response.drow_dprevious)
     }
 
     /// The entries of the tangent at (x1, x2), with value 0: as many as [`Contact::tangent`] writes there.
@@ -206,7 +211,8 @@ impl<const N: usize> Contact<N> {
         self.check_positions(x1, x2)?;
         self.ensure_integration(x1, x2)?;
         let union = self.union();
-        self.emit_pattern(&union, sink)
+        self.emit_pattern(&union, sink);
+        Ok(())
     }
 
     /// The entries of any tangent while the surfaces slide by less than a quarter of a facet. A larger motion
@@ -217,21 +223,23 @@ impl<const N: usize> Contact<N> {
         let weights = PairWeights::default();
         let pairs = self.possible_pairs(x1, x2)?;
         let all = pairs.iter().map(|&(one, two)| UnionPair { one, two, now: Some(&weights), previous: Some(&weights) });
-        self.emit_pattern(&all.collect::<Vec<_>>(), sink)
+        self.emit_pattern(&all.collect::<Vec<_>>(), sink);
+        Ok(())
     }
 
-    fn emit_pattern(&self, pairs: &[UnionPair], sink: &mut dyn Sink) -> Result<()> {
+    fn emit_pattern(&self, pairs: &[UnionPair], sink: &mut dyn Sink) {
         if self.kernels.moves {
-            self.emit_pattern_with::<true>(pairs, sink)
+            self.emit_pattern_with::<true>(pairs, sink);
         } else {
-            self.emit_pattern_with::<false>(pairs, sink)
+            self.emit_pattern_with::<false>(pairs, sink);
         }
     }
 
-    fn emit_pattern_with<const MOVES: bool>(&self, pairs: &[UnionPair], sink: &mut dyn Sink) -> Result<()> {
+    fn emit_pattern_with<const MOVES: bool>(&self, pairs: &[UnionPair], sink: &mut dyn Sink) {
+        let (nothing, normals) = (PairTangent::default(), vec![Vec3::zeros(); self.nonmortar.len()]);
         let mut couplings = self.augmented_couplings();
         for pair in pairs {
-            self.emit_pair::<MOVES>(pair, &PairTangent::default(), sink)?;
+            self.emit_pair::<MOVES>(pair, &nothing, &normals, sink);
             if let Some(couplings) = &mut couplings {
                 let one = &self.nonmortar.facets[pair.one];
                 let now = pair.now.map(|weights| PairNow { weights, motion: None });
@@ -247,24 +255,27 @@ impl<const N: usize> Contact<N> {
                 self.emit_couplings(a, &couplings[a], &SMatrix::zeros(), sink);
             }
         }
-        Ok(())
     }
 
     fn augmented_couplings(&self) -> Option<Vec<NodeCouplings>> {
         (self.options.form == Form::Augmented).then(|| vec![NodeCouplings::default(); self.nonmortar.len()])
     }
 
-    fn node_tangents(&self, lambda: &[SVector<f64, N>], responses: &[NodeResponse<N>]) -> Result<Vec<NodeTangent<N>>> {
-        let tractions = self.force_tractions(lambda, responses)?;
-        let node = |(a, traction): (usize, Vec3)| {
+    fn node_tangents(
+        &self,
+        lambda: &[SVector<f64, N>],
+        responses: &[NodeResponse<N>],
+        normals: &[Vec3],
+    ) -> Vec<NodeTangent<N>> {
+        let node = |a: usize| {
             let (response, scale) = (&responses[a], self.row_scale(a));
             NodeTangent {
-                traction,
+                traction: self.force_traction(&lambda[a], response, normals[a]),
                 drow_dnow: response.drow_dnow * scale,
                 drow_dprevious: response.drow_dprevious * scale,
             }
         };
-        Ok(tractions.into_iter().enumerate().map(node).collect())
+        (0..responses.len()).map(node).collect()
     }
 
     /// The nodes in a pair's slots, as indices over both surfaces (mortar after non-mortar).
@@ -285,7 +296,14 @@ impl<const N: usize> Contact<N> {
         if node < n1 { &self.nonmortar.equations[node] } else { &self.mortar.equations[node - n1] }
     }
 
-    fn emit_pair<const MOVES: bool>(&self, pair: &UnionPair, t: &PairTangent<N>, sink: &mut dyn Sink) -> Result<()> {
+    /// `normals`: those of the nodes.
+    fn emit_pair<const MOVES: bool>(
+        &self,
+        pair: &UnionPair,
+        t: &PairTangent<N>,
+        normals: &[Vec3],
+        sink: &mut dyn Sink,
+    ) {
         let nodes = self.slots(pair);
         let one = &self.nonmortar.facets[pair.one];
         let current = self.options.effective_weights() == Weights::Current;
@@ -301,27 +319,11 @@ impl<const N: usize> Contact<N> {
             for a in 0..one.len {
                 let multiplier = &self.multiplier_equations[one.nodes[a]];
                 if pair.now.is_some() && self.options.form == Form::Multiplier {
-                    self.emit_multiplier(one.nodes[a], equations, t.force_lambda[k][a], sink)?;
+                    emit_multiplier(multiplier, equations, t.force_lambda[k][a], normals[one.nodes[a]], sink);
                 }
                 sink.add_block(multiplier, equations, t.row_x[a][k].as_slice());
             }
         }
-        Ok(())
-    }
-
-    /// A node's force by a multiplier: `weight` I, or `weight` nu where there is one component.
-    fn emit_multiplier(&self, a: usize, equations: &[i64; 3], weight: f64, sink: &mut dyn Sink) -> Result<()> {
-        let multiplier = &self.multiplier_equations[a];
-        if N == 1 {
-            sink.add_block(equations, multiplier, (self.normal(a)? * weight).as_slice());
-            return Ok(());
-        }
-        for i in 0..3 {
-            if equations[i] != NO_EQUATION && multiplier[i] != NO_EQUATION {
-                sink.add(equations[i], multiplier[i], weight);
-            }
-        }
-        Ok(())
     }
 
     /// Stage 4: the node's own block, once per node, covered or not.
@@ -346,6 +348,24 @@ impl<const N: usize> Contact<N> {
                 sink.add_block(equations, self.equations(column.node), (column.dtraction * row.weight).as_slice());
             }
             sink.add_block(equations, &self.multiplier_equations[a], (dp_dlambda * row.weight).as_slice());
+        }
+    }
+}
+
+/// A node's force by a multiplier: `weight` I, or `weight` nu where there is one component.
+fn emit_multiplier<const N: usize>(
+    multiplier: &[i64; N],
+    equations: &[i64; 3],
+    weight: f64,
+    nu: Vec3,
+    sink: &mut dyn Sink,
+) {
+    if N == 1 {
+        return sink.add_block(equations, multiplier, (nu * weight).as_slice());
+    }
+    for i in 0..3 {
+        if equations[i] != NO_EQUATION && multiplier[i] != NO_EQUATION {
+            sink.add(equations[i], multiplier[i], weight);
         }
     }
 }
