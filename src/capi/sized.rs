@@ -139,11 +139,14 @@ mod tests {
         // The second one must stay as it is.
         let mut old = [Old { struct_size: 16, a: 7.0 }, Old { struct_size: 3, a: 4.0 }];
         let p = old.as_mut_ptr().cast::<Known>();
-        assert_eq!(read(p).unwrap(), Known { struct_size: 16, a: 7.0, b: 0.0 });
-        check_output(p).unwrap();
+        assert_eq!(read(p), Ok(Known { struct_size: 16, a: 7.0, b: 0.0 }));
+        assert_eq!(check_output(p), Ok(()));
         write(p, VALUE);
         assert_eq!(old, [Old { struct_size: 16, a: 1.0 }, Old { struct_size: 3, a: 4.0 }]);
-        initialise(old.as_mut_ptr().cast::<Known>(), 16, Known { struct_size: 16, a: 5.0, b: 6.0 }, "known").unwrap();
+        assert_eq!(
+            initialise(old.as_mut_ptr().cast::<Known>(), 16, Known { struct_size: 16, a: 5.0, b: 6.0 }, "known"),
+            Ok(())
+        );
         assert_eq!(old, [Old { struct_size: 16, a: 5.0 }, Old { struct_size: 3, a: 4.0 }]);
     }
 
@@ -151,16 +154,18 @@ mod tests {
     fn newer_callers_struct_is_accepted_unless_it_sets_what_is_unknown() {
         let mut new = New { struct_size: 32, a: 7.0, b: 8.0, c: 0.0 };
         let p = std::ptr::from_mut(&mut new).cast::<Known>();
-        assert_eq!(read(p).unwrap(), Known { struct_size: 32, a: 7.0, b: 8.0 });
+        assert_eq!(read(p), Ok(Known { struct_size: 32, a: 7.0, b: 8.0 }));
         new.c = 9.0;
         let p = std::ptr::from_mut(&mut new).cast::<Known>();
         assert_eq!(read(p).unwrap_err().kind, Kind::StructSize);
-        check_output(p).unwrap();
+        assert_eq!(check_output(p), Ok(()));
         write(p, VALUE);
         assert_eq!(new, New { struct_size: 32, a: 1.0, b: 2.0, c: 0.0 });
         new.c = 9.0;
-        initialise(std::ptr::from_mut(&mut new).cast::<Known>(), 32, Known { struct_size: 32, ..VALUE }, "known")
-            .unwrap();
+        assert_eq!(
+            initialise(std::ptr::from_mut(&mut new).cast::<Known>(), 32, Known { struct_size: 32, ..VALUE }, "known"),
+            Ok(())
+        );
         assert_eq!(new, New { struct_size: 32, a: 1.0, b: 2.0, c: 0.0 });
     }
 
