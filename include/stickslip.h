@@ -340,7 +340,8 @@ typedef struct stickslip_states {
   double *traction;
   /// n1: weighted gap nu . g > 0 open [L^3].
   double *gap;
-  /// 3 n1: slip since the first configuration, this step's included [L].
+  /// 3 n1: slip since the first configuration, this step's included [L]; 0 without friction, mu = 0 at every node
+  /// included (STICKSLIP_SHORTCUT_FRICTIONLESS).
   double *slip;
   /// n1: covered area [L^2].
   double *coverage;
@@ -513,8 +514,8 @@ int32_t stickslip_options_init(struct stickslip_options *options,
 ///
 /// nonmortar carries the multipliers (take the softer side, of equals the finer), mortar is the other one;
 /// options: see `stickslip_options`. out, output: the handle. Surfaces that do not face each other are no
-/// error; `pairs_active` of `stickslip_interface_counters` is then 0: look at it once, a facet order seen
-/// from inside the body is found that way.
+/// error; `pairs_active` of `stickslip_interface_counters` is then 0, and so it is while they are apart (`commits_apart`
+/// is not 0): look at it once they are near, a facet order seen from inside the body is found that way.
 ///
 /// Errors: NULL_POINTER, STRUCT_SIZE, INVALID_SIZE, NOT_FINITE, INDEX_OUT_OF_RANGE, DUPLICATE_NODE,
 /// DEGENERATE_FACET, INVALID_VALUE (an option; a node without a facet; a mortar side given multipliers; a
@@ -596,7 +597,8 @@ int32_t stickslip_interface_initial_multipliers(struct stickslip_interface *inte
 ///
 /// x1 (3 n1), x2 (3 n2): positions, not displacements [L]. sums (STICKSLIP_SUMS_PER_NODE n1), output, per node:
 /// covered area now [L^2], g[n_{n+1}, x_{n+1}] (3) [L^3], covered area at t_n [L^2], g[n_n, x_{n+1}] (3) [L^3],
-/// g[n_n, x_n] (3) [L^3]. With sums, use the multiplier form.
+/// g[n_n, x_n] (3) [L^3]. With sums, use the multiplier form. From the first call on the handle leaves nothing
+/// out where its own part of the mortar surface is far away. An analytic mortar side belongs to one handle.
 ///
 /// Errors: NULL_POINTER, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX; with an analytic mortar side also
 /// INVALID_VALUE (x2 is no rigid motion of the first frame) and UNDEFINED_NORMAL (a facet reaches its centre or axis).

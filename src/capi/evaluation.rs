@@ -74,7 +74,8 @@ impl Point {
 ///
 /// x1 (3 n1), x2 (3 n2): positions, not displacements [L]. sums (STICKSLIP_SUMS_PER_NODE n1), output, per node:
 /// covered area now [L^2], g[n_{n+1}, x_{n+1}] (3) [L^3], covered area at t_n [L^2], g[n_n, x_{n+1}] (3) [L^3],
-/// g[n_n, x_n] (3) [L^3]. With sums, use the multiplier form.
+/// g[n_n, x_n] (3) [L^3]. With sums, use the multiplier form. From the first call on the handle leaves nothing
+/// out where its own part of the mortar surface is far away. An analytic mortar side belongs to one handle.
 ///
 /// Errors: NULL_POINTER, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX; with an analytic mortar side also
 /// INVALID_VALUE (x2 is no rigid motion of the first frame) and UNDEFINED_NORMAL (a facet reaches its centre or axis).
@@ -91,6 +92,7 @@ pub unsafe extern "C" fn stickslip_interface_sums(
         let h = handle(interface)?;
         let point = Point::positions(&h.inner, x1, x2)?;
         raw::check(sums, "sums")?;
+        either!(&mut h.inner, c => c.share());
         let values = either!(&mut h.inner, c => c.sums(&point.x1, &point.x2)?);
         let per_node = |s: &NodeSums| {
             let (g, p, c) = (s.gap_now, s.gap_previous, s.gap_committed);
@@ -115,7 +117,8 @@ pub struct stickslip_states {
     pub traction: *mut f64,
     /// n1: weighted gap nu . g > 0 open [L^3].
     pub gap: *mut f64,
-    /// 3 n1: slip since the first configuration, this step's included [L].
+    /// 3 n1: slip since the first configuration, this step's included [L]; 0 without friction, mu = 0 at every node
+    /// included (STICKSLIP_SHORTCUT_FRICTIONLESS).
     pub slip: *mut f64,
     /// n1: covered area [L^2].
     pub coverage: *mut f64,

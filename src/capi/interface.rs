@@ -57,8 +57,8 @@ pub(super) fn flat<const N: usize>(v: &[SVector<f64, N>]) -> impl Iterator<Item 
 ///
 /// nonmortar carries the multipliers (take the softer side, of equals the finer), mortar is the other one;
 /// options: see `stickslip_options`. out, output: the handle. Surfaces that do not face each other are no
-/// error; `pairs_active` of `stickslip_interface_counters` is then 0: look at it once, a facet order seen
-/// from inside the body is found that way.
+/// error; `pairs_active` of `stickslip_interface_counters` is then 0, and so it is while they are apart (`commits_apart`
+/// is not 0): look at it once they are near, a facet order seen from inside the body is found that way.
 ///
 /// Errors: NULL_POINTER, STRUCT_SIZE, INVALID_SIZE, NOT_FINITE, INDEX_OUT_OF_RANGE, DUPLICATE_NODE,
 /// DEGENERATE_FACET, INVALID_VALUE (an option; a node without a facet; a mortar side given multipliers; a

@@ -69,6 +69,9 @@ impl<'a> UnionPair<'a> {
 impl<const N: usize> Contact<N> {
     /// The union of the pairs active now and, where slip counts, of those of t_n, sorted.
     fn union(&self) -> Vec<UnionPair<'_>> {
+        if self.is_apart() {
+            return Vec::new();
+        }
         if !self.kernels.slips {
             return self.current_pairs().iter().map(UnionPair::now).collect();
         }

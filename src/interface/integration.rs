@@ -35,6 +35,8 @@ pub(super) struct Integration {
     pub x2: Vec<Vec3>,
     pub frames: Vec<NonmortarFrame>,
     pub pairs: Vec<PairRecord>,
+    /// Nothing was looked at: the surfaces are apart, here and at t_n.
+    pub apart: bool,
 }
 
 /// A configuration that becomes t_n, with nothing slipped.
@@ -176,7 +178,7 @@ fn integrate(
         pairs.push(PairRecord { one: i, two: j, weights: PairWeights::integrate(&frames[i], &segment, options.rule) });
     }
     counters.seconds_integration += start.elapsed().as_secs_f64();
-    Ok(Integration { x1: x1.to_vec(), x2: x2.to_vec(), frames, pairs })
+    Ok(Integration { x1: x1.to_vec(), x2: x2.to_vec(), frames, pairs, apart: false })
 }
 
 /// Whether the surfaces are so far apart that nothing can touch, in all of the configurations (x1, x2): by more than any
@@ -235,7 +237,7 @@ impl<const N: usize> Contact<N> {
         let (surfaces, h) = ((&self.nonmortar, &self.mortar), &self.history);
         self.integration = Some(if are_apart(surfaces, &self.options, &[(&h.x1, &h.x2), (x1, x2)])? {
             self.counters.evaluations_apart += 1;
-            Integration { x1: x1.to_vec(), x2: x2.to_vec(), frames: Vec::new(), pairs: Vec::new() }
+            Integration { x1: x1.to_vec(), x2: x2.to_vec(), frames: Vec::new(), pairs: Vec::new(), apart: true }
         } else {
             self.ensure_history()?;
             let surfaces = (&self.nonmortar, &self.mortar);
@@ -245,16 +247,36 @@ impl<const N: usize> Contact<N> {
         Ok(())
     }
 
+    fn ensure_filter(&mut self) -> Result<()> {
+        if self.filter.is_none() {
+            let h = &self.history;
+            self.filter = Some(Filter::new(&self.nonmortar, &self.mortar, &self.options, &h.x1, &h.x2)?);
+        }
+        Ok(())
+    }
+
+    /// Whether the last evaluation found the surfaces apart.
+    pub(super) fn is_apart(&self) -> bool {
+        self.integration.as_ref().is_some_and(|k| k.apart)
+    }
+
+    /// A host adds the sums of several handles: each owes its share, be its own part of the mortar surface far away.
+    pub fn share(&mut self) {
+        if !self.shared {
+            self.shared = true;
+            self.options.shortcuts.apart = false;
+            self.integration = None;
+        }
+    }
+
     /// Makes up for the filter and the weights of t_n where they were left out because the surfaces were apart then.
     /// Frozen weights never are, and need no filter.
     pub(super) fn ensure_history(&mut self) -> Result<()> {
         if self.options.effective_weights() != Weights::Current {
             return Ok(());
         }
+        self.ensure_filter()?;
         let (surfaces, h) = ((&self.nonmortar, &self.mortar), &self.history);
-        if self.filter.is_none() {
-            self.filter = Some(Filter::new(surfaces.0, surfaces.1, &self.options, &h.x1, &h.x2)?);
-        }
         if !h.integrated
             && let Some(filter) = &self.filter
         {
@@ -332,17 +354,18 @@ impl<const N: usize> Contact<N> {
 
     /// The pairs of t_n and all that may be active while the surfaces move by less than the skin, sorted.
     pub(super) fn possible_pairs(&mut self, x1: &[Vec3], x2: &[Vec3]) -> Result<Vec<(usize, usize)>> {
-        let (surfaces, h) = ((&self.nonmortar, &self.mortar), &self.history);
-        if !h.integrated && are_apart(surfaces, &self.options, &[(&h.x1, &h.x2), (x1, x2)])? {
-            return Ok(Vec::new()); // apart at t_n and now: nothing to make up for
-        }
-        self.ensure_history()?;
         let mut pairs: Vec<_> = self.history.pairs.iter().map(|p| (p.one, p.two)).collect();
         if self.options.effective_weights() == Weights::Current {
-            match self.filter.as_ref().expect("ensure_history made it") {
+            self.ensure_filter()?;
+            let (surfaces, h) = ((&self.nonmortar, &self.mortar), &self.history);
+            match self.filter.as_ref().expect("ensure_filter made it") {
                 Filter::Facets(filter) => {
-                    let frames = frames(&self.nonmortar, x1)?;
-                    pairs.extend(candidates((&self.nonmortar, &self.mortar), &frames, (x1, x2), filter, SKIN));
+                    // Pairs of t_n that were left out because the surfaces were apart are found as those of now.
+                    let places = [(x1, x2), (&h.x1, &h.x2)];
+                    for place in &places[..if h.integrated { 1 } else { 2 }] {
+                        let frames = frames(&self.nonmortar, place.0)?;
+                        pairs.extend(candidates(surfaces, &frames, *place, filter, SKIN));
+                    }
                 }
                 Filter::Analytic(facing) => pairs.extend((0..facing.len()).filter(|&i| facing[i]).map(|i| (i, 0))),
             }

@@ -70,6 +70,7 @@ pub type Interface = Contact<3>;
 pub struct Contact<const N: usize> {
     options: Options,
     kernels: Kernels<N>,
+    shared: bool,
     nonmortar: Surface,
     mortar: Surface,
     multiplier_equations: Vec<[i64; N]>,
@@ -154,6 +155,7 @@ impl<const N: usize> Contact<N> {
         let mut interface = Contact {
             options,
             kernels,
+            shared: false,
             nonmortar,
             mortar,
             multiplier_equations,

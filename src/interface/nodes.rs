@@ -50,6 +50,9 @@ impl<const N: usize> Contact<N> {
     pub fn sums(&mut self, x1: &[Vec3], x2: &[Vec3]) -> Result<Vec<NodeSums>> {
         self.check_positions(x1, x2)?;
         self.ensure_integration(x1, x2)?;
+        if self.is_apart() {
+            return Ok(vec![NodeSums::default(); self.nonmortar.len()]);
+        }
         let (surfaces, h) = ((&self.nonmortar, &self.mortar), &self.history);
         let now = assemble(surfaces, self.current_pairs(), x1, x2);
         let mut sums: Vec<_> = (0..self.nonmortar.len())
@@ -61,7 +64,8 @@ impl<const N: usize> Contact<N> {
                 gap_previous: Vec3::zeros(),
             })
             .collect();
-        if self.kernels.slips {
+        // The nodes that this handle shares may slip by what another one knows of their friction.
+        if self.kernels.slips || self.shared {
             self.counters.nodes_slipping += sums.len() as i64;
             let previous = self.integration.as_ref().map(|_| assemble(surfaces, &h.pairs, x1, x2));
             let previous = previous.as_ref().unwrap_or(&now);

@@ -70,7 +70,8 @@ pub enum MortarSide {
     Rigid,
 }
 
-/// Work that is left out where the scene does not call for it. None of them changes the answer.
+/// Work that is left out where the scene does not call for it. None of them changes the answer of surfaces that
+/// face each other.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Shortcuts {
     /// Coulomb with mu = 0 at every node: no slip is computed.

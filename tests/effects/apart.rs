@@ -231,3 +231,28 @@ fn surfaces_that_have_passed_through_each_other_are_not_apart() {
         assert!(responses.iter().all(|r| r.state != State::Gap && r.gap_normal < 0.0), "from {from}");
     }
 }
+
+/// A host that adds the sums of several handles gets every share, be it of a part that is far away.
+#[test]
+fn a_shared_handle_leaves_nothing_out() {
+    let mut pair = Pair::<3>::new(Options { mu: 0.3, ..options() });
+    let (x1, x2, _) = pair.point(PATH[0]);
+    assert_eq!(pair.short.sums(&x1, &x2).unwrap()[0].coverage, 0.0);
+    pair.short.share();
+    let [a, b] = [&mut pair.short, &mut pair.full].map(|c| c.sums(&x1, &x2).unwrap());
+    assert_eq!(a, b);
+    assert!(a[0].coverage > 0.0);
+}
+
+/// What an evaluation gives depends on its point, not on whether t_n was made up for in between.
+#[test]
+fn made_up_history_changes_no_evaluation() {
+    let mut pair = Pair::<3>::new(Options { mu: 0.3, ..options() });
+    let (x1, x2, lambda) = pair.point(PATH[0]);
+    let before = (pair.short.sums(&x1, &x2).unwrap(), entries(&mut pair.short, (&x1, &x2, &lambda)));
+    let (near, under, _) = pair.point(PATH[4]);
+    pair.short.sums(&near, &under).unwrap();
+    pair.short.history_size().unwrap();
+    let after = (pair.short.sums(&x1, &x2).unwrap(), entries(&mut pair.short, (&x1, &x2, &lambda)));
+    assert!(before == after);
+}
