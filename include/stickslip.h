@@ -33,6 +33,9 @@
  * Structs: the first member is struct_size, which the caller sets to sizeof. They grow at their end only, so that older
  * and newer callers are understood.
  *
+ * With STICKSLIP_FRICTION_NONE a node has one multiplier, along the normal: wherever lambda, rows or
+ * multiplier_equations are said to have 3 n1 entries, they have n1.
+ *
  * Fortran: stickslip.f90 declares all this. Arrays lie as C has them, the last index running fastest, so "3 n1, node
  * by node" is x(3, n1).
  *
