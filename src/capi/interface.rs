@@ -8,7 +8,7 @@ use super::surface::{
 };
 use super::{raw, sized};
 use crate::error::{Error, Kind, Result};
-use crate::interface::{Contact, Friction, Surface};
+use crate::interface::{Contact, Friction};
 use nalgebra::SVector;
 
 /// A contact interface. Created and destroyed by the library; one thread at a time.
@@ -98,15 +98,14 @@ fn create_inner(one: &stickslip_surface, two: &stickslip_surface, choices: Choic
         Some(shape) => read_analytic(two, shape, base),
         None => read_surface(two, base, "mortar"),
     };
-    let surfaces = || Ok((read_surface(one, base, "nonmortar")?, mortar()?));
+    let nonmortar = || read_surface(one, base, "nonmortar");
+    // The multipliers first: what is wrong with them is said first.
     if options.friction == Friction::None {
         let equations = read_multipliers(one, base)?;
-        let (one, two): (Surface, Surface) = surfaces()?;
-        return Contact::frictionless(one, two, equations, options).map(Inner::One);
+        return Contact::frictionless(nonmortar()?, mortar()?, equations, options).map(Inner::One);
     }
     let equations = read_multipliers(one, base)?;
-    let (one, two) = surfaces()?;
-    Contact::new(one, two, equations, options).map(Inner::Three)
+    Contact::new(nonmortar()?, mortar()?, equations, options).map(Inner::Three)
 }
 
 /// Destroys the interface and sets the caller's pointer to NULL. NULL, or a pointer to NULL, is fine.

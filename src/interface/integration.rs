@@ -42,7 +42,7 @@ pub(super) struct Integration {
 /// A configuration that becomes t_n, with nothing slipped.
 pub(super) struct Start {
     pub history: History,
-    /// The filter of the step that follows; `None`: not needed so far.
+    /// The filter of the step that follows; `None` where the weights are frozen for good.
     pub filter: Option<Filter>,
     /// The weights, where the history does not keep them: the next evaluation may well be here.
     pub integration: Option<Integration>,
@@ -241,17 +241,9 @@ impl<const N: usize> Contact<N> {
         } else {
             self.ensure_history()?;
             let surfaces = (&self.nonmortar, &self.mortar);
-            let filter = self.filter.as_ref().expect("ensure_history made it");
+            let filter = self.filter.as_ref().expect("current weights have one");
             integrate(surfaces, &self.options, filter, &mut self.counters, (x1, x2))?
         });
-        Ok(())
-    }
-
-    fn ensure_filter(&mut self) -> Result<()> {
-        if self.filter.is_none() {
-            let h = &self.history;
-            self.filter = Some(Filter::new(&self.nonmortar, &self.mortar, &self.options, &h.x1, &h.x2)?);
-        }
         Ok(())
     }
 
@@ -269,13 +261,12 @@ impl<const N: usize> Contact<N> {
         }
     }
 
-    /// Makes up for the filter and the weights of t_n where they were left out because the surfaces were apart then.
-    /// Frozen weights never are, and need no filter.
+    /// Makes up for the weights of t_n where they were left out because the surfaces were apart then. Frozen weights never
+    /// are.
     pub(super) fn ensure_history(&mut self) -> Result<()> {
         if self.options.effective_weights() != Weights::Current {
             return Ok(());
         }
-        self.ensure_filter()?;
         let (surfaces, h) = ((&self.nonmortar, &self.mortar), &self.history);
         if !h.integrated
             && let Some(filter) = &self.filter
@@ -311,18 +302,16 @@ impl<const N: usize> Contact<N> {
             pairs: Vec::new(),
             integrated: false,
         };
-        let (mut filter, mut integration) = (None, None);
+        // Also where the surfaces are apart: a commit refuses degenerate facets of either side.
+        let filter = Filter::new(nonmortar, mortar, options, x1, x2)?;
+        let mut integration = None;
         let frames = if are_apart((nonmortar, mortar), options, &[(x1, x2)])? {
             counters.commits_apart += 1;
-            // A commit refuses degenerate facets of either side, whether they are searched or not.
-            Filter::new(nonmortar, mortar, options, x1, x2)?;
             &frames(nonmortar, x1)?
         } else {
-            let admits = Filter::new(nonmortar, mortar, options, x1, x2)?;
-            let mut new = integrate((nonmortar, mortar), options, &admits, counters, (x1, x2))?;
+            let mut new = integrate((nonmortar, mortar), options, &filter, counters, (x1, x2))?;
             let sums = assemble((nonmortar, mortar), &new.pairs, x1, x2);
             history.fill(&mut new.pairs, &sums);
-            filter = Some(admits);
             &integration.insert(new).frames
         };
         let mut sums = vec![Vec3::zeros(); n1];
@@ -344,7 +333,7 @@ impl<const N: usize> Contact<N> {
             }
         }
         check_layers(&history.areas, history.coverage.iter().copied())?;
-        Ok(Start { history, filter, integration: integration.filter(|_| keeps == Keeps::Nothing) })
+        Ok(Start { history, filter: Some(filter), integration: integration.filter(|_| keeps == Keeps::Nothing) })
     }
 
     /// The pairs whose weights act now.
@@ -356,9 +345,8 @@ impl<const N: usize> Contact<N> {
     pub(super) fn possible_pairs(&mut self, x1: &[Vec3], x2: &[Vec3]) -> Result<Vec<(usize, usize)>> {
         let mut pairs: Vec<_> = self.history.pairs.iter().map(|p| (p.one, p.two)).collect();
         if self.options.effective_weights() == Weights::Current {
-            self.ensure_filter()?;
             let (surfaces, h) = ((&self.nonmortar, &self.mortar), &self.history);
-            match self.filter.as_ref().expect("ensure_filter made it") {
+            match self.filter.as_ref().expect("current weights have one") {
                 Filter::Facets(filter) => {
                     // Pairs of t_n that were left out because the surfaces were apart are found as those of now.
                     let places = [(x1, x2), (&h.x1, &h.x2)];

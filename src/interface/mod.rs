@@ -183,7 +183,7 @@ impl<const N: usize> Contact<N> {
 
     /// Puts a history in place that is not of now; nothing is changed when its positions are refused.
     fn restore(&mut self, history: History) -> Result<()> {
-        let current = self.options.effective_weights() == Weights::Current && history.integrated;
+        let current = self.options.effective_weights() == Weights::Current;
         let filter = current
             .then(|| Filter::new(&self.nonmortar, &self.mortar, &self.options, &history.x1, &history.x2))
             .transpose()?;
