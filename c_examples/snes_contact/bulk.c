@@ -43,26 +43,62 @@ PetscErrorCode bulk_create(Model *model)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode bulk_forces(Model *model, Vec f_local)
+/* displacements of the corners of one cell */
+static void cell_displacements(const Model *model, PetscInt c, const PetscScalar *u, PetscReal u_cell[])
+{
+  for (PetscInt k = model->cell_offsets[c]; k < model->cell_offsets[c + 1]; k++) {
+    for (int i = 0; i < 3; i++)
+      *u_cell++ = PetscRealPart(u[model->cell_dofs[k] + i]);
+  }
+}
+
+/* All ranks learn whether this or another one has an inverted cell (c, or -1); model->inverted names the first rank's. */
+static PetscErrorCode agree_on_inverted(Model *model, PetscInt c, PetscInt *status)
+{
+  PetscMPIInt size, first;
+  PetscFunctionBegin;
+  PetscCallMPI(MPI_Comm_size(PETSC_COMM_WORLD, &size));
+  first = c < 0 ? size : model->rank;
+  if (size > 1) {
+    PetscMPIInt mine = first;
+    PetscCallMPI(MPI_Allreduce(&mine, &first, 1, MPI_INT, MPI_MIN, PETSC_COMM_WORLD));
+  }
+  *status = first < size;
+  if (!*status) PetscFunctionReturn(PETSC_SUCCESS);
+  if (model->rank == first) {
+    const PetscInt n         = model->cell_offsets[c + 1] - model->cell_offsets[c];
+    PetscReal      centre[3] = {0, 0, 0};
+    for (PetscInt k = 0; k < 3 * n; k++)
+      centre[k % 3] += model->cell_X[3 * model->cell_offsets[c] + k] / (PetscReal)n;
+    PetscCall(PetscSNPrintf(model->inverted, sizeof(model->inverted),
+                            "a cell of '%s' is turned inside out, the one about [%g, %g, %g] in the undeformed body",
+                            model->mesh.bodies[model->cell_body[c]].name, (double)centre[0], (double)centre[1],
+                            (double)centre[2]));
+  }
+  PetscCallMPI(MPI_Bcast(model->inverted, sizeof(model->inverted), MPI_CHAR, first, PETSC_COMM_WORLD));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode bulk_forces(Model *model, Vec f_local, PetscInt *status)
 {
   const PetscScalar *u;
   PetscScalar       *f;
   PetscLogDouble     start, end;
+  PetscInt           first_inverted = -1;
 
   PetscFunctionBegin;
   PetscCall(PetscTime(&start));
   PetscCall(VecGetArrayRead(model->u_local, &u));
   PetscCall(VecGetArray(f_local, &f));
-  for (PetscInt c = 0; c < model->n_cells; c++) {
+  for (PetscInt c = 0; c < model->n_cells && first_inverted < 0; c++) {
     const PetscInt *dofs = model->cell_dofs + model->cell_offsets[c],
                    n     = model->cell_offsets[c + 1] - model->cell_offsets[c];
     PetscReal u_cell[24], f_cell[24];
-    for (PetscInt a = 0; a < n; a++) {
-      for (int i = 0; i < 3; i++)
-        u_cell[3 * a + i] = PetscRealPart(u[dofs[a] + i]);
-    }
+    PetscBool inverted;
+    cell_displacements(model, c, u, u_cell);
     PetscCall(cell_forces(n, &model->mesh.bodies[model->cell_body[c]].material,
-                          model->cell_X + 3 * model->cell_offsets[c], u_cell, f_cell, NULL));
+                          model->cell_X + 3 * model->cell_offsets[c], u_cell, f_cell, NULL, &inverted));
+    if (inverted) first_inverted = c;
     for (PetscInt a = 0; a < n; a++) {
       for (int i = 0; i < 3; i++)
         f[dofs[a] + i] += f_cell[3 * a + i];
@@ -70,38 +106,56 @@ PetscErrorCode bulk_forces(Model *model, Vec f_local)
   }
   PetscCall(VecRestoreArray(f_local, &f));
   PetscCall(VecRestoreArrayRead(model->u_local, &u));
+  PetscCall(agree_on_inverted(model, first_inverted, status));
   PetscCall(PetscTime(&end));
   model->timers.bulk_assembly += end - start;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode bulk_stiffness(Model *model, Mat matrix, PetscBool pattern)
+/* K of one cell into the matrix; rows and columns of prescribed displacements, with negative equations, are left out */
+static PetscErrorCode insert(const Model *model, PetscInt c, const PetscReal K[], Mat matrix)
+{
+  const PetscInt *dofs = model->cell_dofs + model->cell_offsets[c],
+                 n     = model->cell_offsets[c + 1] - model->cell_offsets[c];
+  PetscInt equations[24];
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < 3 * n; k++)
+    equations[k] = model->equations[dofs[k / 3] + k % 3];
+  PetscCall(MatSetValues(matrix, 3 * n, equations, 3 * n, equations, K, ADD_VALUES));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode bulk_stiffness(Model *model, Mat matrix, PetscInt *status)
 {
   const PetscScalar *u;
   PetscLogDouble     start, end;
+  PetscInt           first_inverted = -1;
 
   PetscFunctionBegin;
   PetscCall(PetscTime(&start));
   PetscCall(VecGetArrayRead(model->u_local, &u));
-  for (PetscInt c = 0; c < model->n_cells; c++) {
-    const PetscInt *dofs = model->cell_dofs + model->cell_offsets[c],
-                   n     = model->cell_offsets[c + 1] - model->cell_offsets[c];
-    PetscReal u_cell[24], f_cell[24], K[24 * 24] = {0};
-    PetscInt  equations[24];
-    for (PetscInt a = 0; a < n; a++) {
-      for (int i = 0; i < 3; i++) {
-        u_cell[3 * a + i]    = PetscRealPart(u[dofs[a] + i]);
-        equations[3 * a + i] = model->equations[dofs[a] + i];
-      }
-    }
-    if (!pattern)
-      PetscCall(cell_forces(n, &model->mesh.bodies[model->cell_body[c]].material,
-                            model->cell_X + 3 * model->cell_offsets[c], u_cell, f_cell, K));
-    PetscCall(
-        MatSetValues(matrix, 3 * n, equations, 3 * n, equations, K, ADD_VALUES)); /* negative equations are left out */
+  for (PetscInt c = 0; c < model->n_cells && first_inverted < 0; c++) {
+    PetscReal u_cell[24], f_cell[24], K[24 * 24];
+    PetscBool inverted;
+    cell_displacements(model, c, u, u_cell);
+    PetscCall(cell_forces(model->cell_offsets[c + 1] - model->cell_offsets[c],
+                          &model->mesh.bodies[model->cell_body[c]].material,
+                          model->cell_X + 3 * model->cell_offsets[c], u_cell, f_cell, K, &inverted));
+    if (inverted) first_inverted = c;
+    PetscCall(insert(model, c, K, matrix));
   }
   PetscCall(VecRestoreArrayRead(model->u_local, &u));
+  PetscCall(agree_on_inverted(model, first_inverted, status));
   PetscCall(PetscTime(&end));
   model->timers.bulk_assembly += end - start;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode bulk_pattern(Model *model, Mat matrix)
+{
+  const PetscReal zeros[24 * 24] = {0};
+  PetscFunctionBegin;
+  for (PetscInt c = 0; c < model->n_cells; c++)
+    PetscCall(insert(model, c, zeros, matrix));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

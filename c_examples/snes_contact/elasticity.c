@@ -1,8 +1,15 @@
 /* Internal forces f_a = int P . dN_a/dX dV and stiffness K_ab = int dN_a/dX . A . dN_b/dX dV of hex8 and tet4, and the
- * consistent loads of their faces. Units: whatever the scene uses; forces are F, stresses F/L^2. */
+ * consistent loads of their faces. Units: whatever the scene uses; forces are F, stresses F/L^2.
+ *
+ * Mean dilatation: the energy of a cell of reference volume V is int W0 dV + V U(m), where m is the cell's mean of v. Then
+ * P = P0 + U'(m) dv/dH everywhere in the cell, and K gains U''(m) / V b b^T with b = int dv/dH . dN/dX dV: a symmetric
+ * tangent, one condition on the volume per hexahedron instead of eight (with v = J - 1 this is the mean dilatation of
+ * Nagtegaal, Parks and Rice, Comput. Methods Appl. Mech. Engrg 4, 1974). A tetrahedron has one Gauss point: there it changes
+ * nothing. */
 #include "elasticity.h"
 
 #define MAX_CORNERS 8
+#define MAX_POINTS  8
 
 static const PetscReal GAUSS = 0.57735026918962576451; /* 1/sqrt(3) */
 /* corners of the reference hexahedron [-1,1]^3 in VTK's order */
@@ -16,26 +23,6 @@ static const PetscReal HEX[8][3] = {
     {1,  1,  1 },
     {-1, 1,  1 }
 };
-
-void linear_elastic(const Material *material, const PetscReal H[9], PetscReal P[9], PetscReal A[81])
-{
-  const PetscReal E = material->young, nu = material->poisson;
-  const PetscReal lame = E * nu / ((1 + nu) * (1 - 2 * nu)), shear = E / (2 * (1 + nu)), trace = H[0] + H[4] + H[8];
-  for (int i = 0; i < 3; i++) {
-    for (int j = 0; j < 3; j++)
-      P[3 * i + j] = shear * (H[3 * i + j] + H[3 * j + i]) + (i == j) * lame * trace;
-  }
-  if (!A) return;
-  for (int i = 0; i < 3; i++) {
-    for (int j = 0; j < 3; j++) {
-      for (int k = 0; k < 3; k++) {
-        for (int l = 0; l < 3; l++)
-          A[9 * (3 * i + j) + 3 * k + l] = (i == j && k == l) * lame +
-                                           ((i == k && j == l) + (i == l && j == k)) * shear;
-      }
-    }
-  }
-}
 
 /* dN/dxi of all corners at a reference point */
 static void reference_gradients(PetscInt corners, const PetscReal xi[3], PetscReal dN[][3])
@@ -103,53 +90,111 @@ static PetscReal quadrature_point(PetscInt corners, PetscInt q, PetscReal xi[3])
   return corners == 4 ? 1.0 / 6 : 1.0;
 }
 
-PetscErrorCode cell_forces(PetscInt corners, const Material *material, const PetscReal X[], const PetscReal u[],
-                           PetscReal f[], PetscReal K[])
+/* One Gauss point: gradients of the shape functions, weight, strain */
+typedef struct {
+  PetscReal dN[MAX_CORNERS][3], weight, H[9];
+} Point;
+
+/* All points of the cell, their number, the mean of v and the volume; false where det F <= 0 at one. */
+static PetscBool strains(PetscInt corners, const Material *material, const PetscReal X[], const PetscReal u[],
+                         Point points[], PetscInt *n, PetscReal *mean, PetscReal *whole)
 {
-  const PetscInt n = 3 * corners, n_points = corners == 4 ? 1 : 8;
-  PetscReal      dN[MAX_CORNERS][3], xi[3], H[9], P[9], A[81], AdN[9][3 * MAX_CORNERS];
+  *n    = corners == 4 ? 1 : 8;
+  *mean = *whole = 0;
+  for (PetscInt q = 0; q < *n; q++) {
+    Point    *point = &points[q];
+    PetscReal xi[3];
+    point->weight = quadrature_point(corners, q, xi);
+    reference_gradients(corners, xi, point->dN);
+    point->weight *= physical_gradients(corners, X, point->dN);
+    displacement_gradient(corners, point->dN, u, point->H);
+    if (material->law->finite && !(volume_ratio_minus_one(point->H) > -1)) return PETSC_FALSE;
+    *mean += point->weight * material->law->volume(point->H);
+    *whole += point->weight;
+  }
+  *mean /= *whole;
+  return PETSC_TRUE;
+}
+
+/* K += weight dN_a . A . dN_b */
+static void add_stiffness(PetscInt corners, const Point *point, const PetscReal A[81], PetscReal K[])
+{
+  const PetscInt   n = 3 * corners;
+  const PetscReal(*dN)[3] = point->dN;
+  PetscReal AdN[9][3 * MAX_CORNERS];
+  for (int iJ = 0; iJ < 9; iJ++) {
+    for (PetscInt b = 0; b < corners; b++) {
+      for (int k = 0; k < 3; k++)
+        AdN[iJ][3 * b + k] = point->weight * (A[9 * iJ + 3 * k] * dN[b][0] + A[9 * iJ + 3 * k + 1] * dN[b][1] +
+                                              A[9 * iJ + 3 * k + 2] * dN[b][2]);
+    }
+  }
+  for (PetscInt a = 0; a < corners; a++) {
+    for (int i = 0; i < 3; i++) {
+      for (PetscInt kb = 0; kb < n; kb++)
+        K[n * (3 * a + i) + kb] += dN[a][0] * AdN[3 * i][kb] + dN[a][1] * AdN[3 * i + 1][kb] +
+                                   dN[a][2] * AdN[3 * i + 2][kb];
+    }
+  }
+}
+
+/* f += weight P . dN_a */
+static void add_forces(PetscInt corners, const Point *point, const PetscReal P[9], PetscReal f[])
+{
+  for (PetscInt a = 0; a < corners; a++) {
+    const PetscReal *dN = point->dN[a];
+    for (int i = 0; i < 3; i++)
+      f[3 * a + i] += point->weight * (P[3 * i] * dN[0] + P[3 * i + 1] * dN[1] + P[3 * i + 2] * dN[2]);
+  }
+}
+
+PetscErrorCode cell_forces(PetscInt corners, const Material *material, const PetscReal X[], const PetscReal u[],
+                           PetscReal f[], PetscReal K[], PetscBool *inverted)
+{
+  const PetscInt  n       = 3 * corners;
+  const PetscBool is_mean = material->mean_dilatation;
+  Point           points[MAX_POINTS];
+  PetscInt        n_points;
+  PetscReal       P[9], V[9], A[81], b[3 * MAX_CORNERS] = {0}, mean, whole, p, dp;
 
   PetscFunctionBeginHot;
   PetscCall(PetscArrayzero(f, n));
   if (K) PetscCall(PetscArrayzero(K, n * n));
+  *inverted = (PetscBool)!strains(corners, material, X, u, points, &n_points, &mean, &whole);
+  if (*inverted) PetscFunctionReturn(PETSC_SUCCESS);
   for (PetscInt q = 0; q < n_points; q++) {
-    PetscReal weight = quadrature_point(corners, q, xi);
-    reference_gradients(corners, xi, dN);
-    weight *= physical_gradients(corners, X, dN);
-    displacement_gradient(corners, dN, u, H);
-    material->law(material, H, P, K ? A : NULL);
-    for (PetscInt a = 0; a < corners; a++) {
-      for (int i = 0; i < 3; i++)
-        f[3 * a + i] += weight * (P[3 * i] * dN[a][0] + P[3 * i + 1] * dN[a][1] + P[3 * i + 2] * dN[a][2]);
-    }
+    const Point *point = &points[q];
+    material->law->pressure(material, is_mean ? mean : material->law->volume(point->H), &p, &dp);
+    material->law->stress(material, point->H, p, is_mean ? 0 : dp, P, V, K ? A : NULL);
+    add_forces(corners, point, P, f);
     if (!K) continue;
-    for (int iJ = 0; iJ < 9; iJ++) {
-      for (PetscInt b = 0; b < corners; b++) {
-        for (int k = 0; k < 3; k++)
-          AdN[iJ][3 * b + k] = weight * (A[9 * iJ + 3 * k] * dN[b][0] + A[9 * iJ + 3 * k + 1] * dN[b][1] +
-                                         A[9 * iJ + 3 * k + 2] * dN[b][2]);
-      }
-    }
-    for (PetscInt a = 0; a < corners; a++) {
-      for (int i = 0; i < 3; i++) {
-        for (PetscInt kb = 0; kb < n; kb++)
-          K[n * (3 * a + i) + kb] += dN[a][0] * AdN[3 * i][kb] + dN[a][1] * AdN[3 * i + 1][kb] +
-                                     dN[a][2] * AdN[3 * i + 2][kb];
-      }
-    }
+    add_stiffness(corners, point, A, K);
+    if (is_mean) add_forces(corners, point, V, b);
+  }
+  for (PetscInt ai = 0; ai < n && K && is_mean; ai++) {
+    for (PetscInt bk = 0; bk < n; bk++)
+      K[n * ai + bk] += dp / whole * b[ai] * b[bk];
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 void cell_centre_stress(PetscInt corners, const Material *material, const PetscReal X[], const PetscReal u[],
-                        PetscReal P[9])
+                        PetscReal sigma[9])
 {
   const PetscReal centre[3] = {0, 0, 0}; /* of the hexahedron; gradients of a tet are the same everywhere */
-  PetscReal       dN[MAX_CORNERS][3], H[9];
+  Point           points[MAX_POINTS];
+  PetscInt        n_points;
+  PetscReal       dN[MAX_CORNERS][3], H[9], P[9], V[9], mean, whole, p, dp;
   reference_gradients(corners, centre, dN);
   physical_gradients(corners, X, dN);
   displacement_gradient(corners, dN, u, H);
-  material->law(material, H, P, NULL);
+  for (int k = 0; k < 9; k++)
+    sigma[k] = 0;
+  if (!strains(corners, material, X, u, points, &n_points, &mean, &whole)) return;
+  if (material->law->finite && !(volume_ratio_minus_one(H) > -1)) return;
+  material->law->pressure(material, material->mean_dilatation ? mean : material->law->volume(H), &p, &dp);
+  material->law->stress(material, H, p, dp, P, V, NULL);
+  cauchy_stress(material, H, P, sigma);
 }
 
 PetscReal cell_smallest_jacobian(PetscInt corners, const PetscReal X[])

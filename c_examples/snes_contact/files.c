@@ -79,7 +79,7 @@ static void cell_stresses(FILE *file, const Mesh *mesh, const PetscScalar *displ
     for (PetscInt c = 0; c < mesh->n_cells; c++) {
       const PetscInt *cell = mesh->cell_vertices + mesh->cell_offsets[c],
                      n     = mesh->cell_offsets[c + 1] - mesh->cell_offsets[c];
-      PetscReal X[24], u[24], s[9];
+      PetscReal X[24], u[24], s[9]; /* s: Cauchy's stress */
       for (PetscInt k = 0; k < 3 * n; k++) {
         X[k] = mesh->coordinates[3 * cell[k / 3] + k % 3];
         u[k] = PetscRealPart(displacements[3 * cell[k / 3] + k % 3]);

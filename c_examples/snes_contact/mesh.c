@@ -165,16 +165,6 @@ static PetscErrorCode derived_surfaces(Scene *scene, Mesh *mesh)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static void read_material(Scene *scene, const char *body, Material *material)
-{
-  scene_real_required(scene, body, "young", &material->young);
-  scene_real_required(scene, body, "poisson", &material->poisson);
-  if (material->young <= 0) scene_fail(scene, body, "young", "it must be positive, not %g.", (double)material->young);
-  if (material->poisson <= -1 || material->poisson >= 0.5)
-    scene_fail(scene, body, "poisson", "it must lie between -1 and 0.5 (both excluded), not %g.",
-               (double)material->poisson);
-}
-
 static void check_volumes(Scene *scene, const Mesh *mesh, const char *body, PetscInt first_cell)
 {
   for (PetscInt c = first_cell; c < mesh->n_cells; c++) {
@@ -231,8 +221,8 @@ PetscErrorCode mesh_create(Scene *scene, Mesh *mesh)
       scene_fail(scene, names[b], "type", "this key is missing; choose from: box, gmsh, analytic.");
     scene_choice(scene, names[b], "type", types, &type[b]);
     mesh->bodies[b].analytic     = (PetscBool)(type[b] == 2);
-    mesh->bodies[b].material.law = linear_elastic;
-    if (!mesh->bodies[b].analytic) read_material(scene, names[b], &mesh->bodies[b].material);
+    mesh->bodies[b].material.law = &MATERIAL_LINEAR; /* of an analytic body: has no cells with stiffness */
+    if (!mesh->bodies[b].analytic) PetscCall(material_read(scene, names[b], &mesh->bodies[b].material));
   }
   scene_root_begin(scene);
   for (PetscInt b = 0; b < n && rank == 0; b++) {

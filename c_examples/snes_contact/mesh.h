@@ -46,6 +46,8 @@ const Surface *mesh_surface(Scene *scene, const Mesh *mesh, const char *map, con
 PetscInt       mesh_body(Scene *scene, const Mesh *mesh, const char *map, const char *key, const char *name);
 PetscInt       mesh_nearest_vertex(Scene *scene, const Mesh *mesh, const char *map);
 
+PetscErrorCode material_read(Scene *scene, const char *body, Material *material); /* material_scene.c */
+
 /* for the readers of one body: box.c, gmsh.c, analytic.c */
 PetscErrorCode mesh_append(Mesh *mesh, PetscInt n_vertices, const PetscReal *coordinates, PetscInt n_cells,
                            PetscInt corners, const PetscInt *cells);

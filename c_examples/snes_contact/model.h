@@ -116,6 +116,7 @@ typedef struct {
   PetscInt  iterations;                            /* of Newton, spent on the present step, failed attempts included */
   PetscReal t, reference_force, largest_reference, noise, size, stiffness; /* for the convergence test (solver.c) */
   char      refusal[1024];                         /* the library's last message, if it refused an evaluation */
+  char      inverted[256];                         /* which cell the last attempt at a step has turned inside out */
   Timers    timers;
 
   struct cJSON *jacobian_tests; /* of the present step (jacobian_test.c); NULL: none */
@@ -149,8 +150,10 @@ PetscErrorCode unknowns_sum(Model *model, Vec local);  /* into f_sum: what all r
 
 /* bulk.c */
 PetscErrorCode bulk_create(Model *model);
-PetscErrorCode bulk_forces(Model *model, Vec f_local);                      /* adds */
-PetscErrorCode bulk_stiffness(Model *model, Mat matrix, PetscBool pattern); /* adds values, or zeros for the pattern */
+/* `status` > 0 on every rank if a cell is turned inside out somewhere, named in model->inverted */
+PetscErrorCode bulk_forces(Model *model, Vec f_local, PetscInt *status);      /* adds */
+PetscErrorCode bulk_stiffness(Model *model, Mat matrix, PetscInt *status);    /* adds */
+PetscErrorCode bulk_pattern(Model *model, Mat matrix);                        /* adds zeros */
 
 /* contact_scene.c, contact_setup.c, contact.c: `status` > 0 on every rank if the library refused, with its message in
  * model->refusal */

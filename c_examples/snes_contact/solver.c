@@ -48,14 +48,14 @@ static PetscErrorCode residual(SNES snes, Vec x, Vec r, void *context)
 {
   Model    *model      = context;
   PetscReal squares[3] = {0, 0, 0}; /* loads, reactions, contact */
-  PetscInt  status;
+  PetscInt  inverted, refused = 0;
 
   PetscFunctionBegin;
   PetscCall(unknowns_to_local(model, x));
   PetscCall(VecZeroEntries(model->f_local));
-  PetscCall(bulk_forces(model, model->f_local));
-  PetscCall(contact_forces(model, model->f_local, &squares[2], &status));
-  if (status) PetscCall(SNESSetFunctionDomainError(snes));
+  PetscCall(bulk_forces(model, model->f_local, &inverted));
+  if (!inverted) PetscCall(contact_forces(model, model->f_local, &squares[2], &refused));
+  if (inverted || refused) PetscCall(SNESSetFunctionDomainError(snes));
   PetscCall(VecAXPY(model->f_local, -1, model->f_external));
   PetscCall(VecZeroEntries(r));
   PetscCall(DMLocalToGlobalBegin(model->dm, model->f_local, ADD_VALUES, r));
@@ -74,14 +74,14 @@ static PetscErrorCode residual(SNES snes, Vec x, Vec r, void *context)
 static PetscErrorCode tangent(SNES snes, Vec x, Mat J, Mat P, void *context)
 {
   Model   *model = context;
-  PetscInt status;
+  PetscInt inverted, refused;
 
   PetscFunctionBegin;
   PetscCall(unknowns_to_local(model, x));
   PetscCall(MatZeroEntries(P));
-  PetscCall(bulk_stiffness(model, P, PETSC_FALSE));
-  PetscCall(contact_tangent(model, P, &status));
-  if (status) PetscCall(SNESSetJacobianDomainError(snes));
+  PetscCall(bulk_stiffness(model, P, &inverted));
+  PetscCall(contact_tangent(model, P, &refused));
+  if (inverted || refused) PetscCall(SNESSetJacobianDomainError(snes));
   PetscCall(MatAssemblyBegin(P, MAT_FINAL_ASSEMBLY));
   PetscCall(MatAssemblyEnd(P, MAT_FINAL_ASSEMBLY));
   if (J != P) {
@@ -164,7 +164,7 @@ static PetscErrorCode create_matrix(Model *model, Mat *matrix)
   PetscCall(MatSetUp(counter));
   for (PetscInt row = first; row < end; row++)
     PetscCall(MatSetValue(counter, row, row, 0, ADD_VALUES));
-  PetscCall(bulk_stiffness(model, counter, PETSC_TRUE));
+  PetscCall(bulk_pattern(model, counter));
   PetscCall(contact_pattern(model, counter));
   PetscCall(MatAssemblyBegin(counter, MAT_FINAL_ASSEMBLY));
   PetscCall(MatAssemblyEnd(counter, MAT_FINAL_ASSEMBLY));

@@ -80,8 +80,8 @@ static PetscErrorCode solve(Model *model, History *history, PetscReal t, PetscBo
 
   PetscFunctionBegin;
   model->t          = t;
-  model->refusal[0] = 0;
-  *converged        = PETSC_FALSE;
+  model->refusal[0] = model->inverted[0] = 0;
+  *converged                             = PETSC_FALSE;
   PetscCall(supports_values(model, t));
   PetscCall(loads_values(model, t));
   PetscCall(SNESGetLineSearch(model->snes, &line_search));
@@ -97,8 +97,9 @@ static PetscErrorCode solve(Model *model, History *history, PetscReal t, PetscBo
   if (!*converged) {
     const char *says = model->refusal[0] ? "; the library says: " : "";
     if (!model->quiet)
-      PetscCall(PetscPrintf(PETSC_COMM_WORLD, "     t %-10.6g not converged: %s%s%s\n", (double)t,
-                            SNESConvergedReasons[reason], says, model->refusal));
+      PetscCall(PetscPrintf(PETSC_COMM_WORLD, "     t %-10.6g not converged: %s%s%s%s%s\n", (double)t,
+                            SNESConvergedReasons[reason], says, model->refusal, model->inverted[0] ? "; " : "",
+                            model->inverted));
     PetscFunctionReturn(PETSC_SUCCESS);
   }
   PetscCall(SNESGetFunction(model->snes, &r, NULL, NULL));
@@ -179,12 +180,13 @@ PetscErrorCode steps_run(Model *model, int *exit_code)
                        model->refusal));
     else
       PetscCall(PetscFPrintf(PETSC_COMM_WORLD, PETSC_STDERR,
-                             "snes_contact: not converged beyond t = %.6g, not even by steps of %.2g times the wanted ones. If this is "
+                             "snes_contact: not converged beyond t = %.6g, not even by steps of %.2g times the wanted ones%s%s. If this is "
                              "the beginning: is every body held, by supports or by a surface that it touches? See "
                              "scenes/README.md.\n",
-                             (double)history.t_last, (double)(2 * steps->smallest)));
+                             (double)history.t_last, (double)(2 * steps->smallest), model->inverted[0] ? ": " : "",
+                             model->inverted));
   }
-  PetscCall(summary_write(model, &summary, cutbacks, model->refusal));
+  PetscCall(summary_write(model, &summary, cutbacks, model->refusal[0] ? model->refusal : model->inverted));
   PetscCall(VecDestroy(&history.x));
   PetscCall(VecDestroy(&history.last));
   PetscCall(VecDestroy(&history.before));
