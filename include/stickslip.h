@@ -196,8 +196,9 @@
 /// A mortar side without equations is treated as rigid.
 #define STICKSLIP_SHORTCUT_RIGID 2
 
-/// Surfaces whose boxes lie, at t_n and now and on the same side, farther apart than the shorter of the two surfaces'
-/// longest edges (or than search_distance): neither search nor integration; their nodes count as uncovered.
+/// Surfaces whose boxes lie, at t_n and now and on the same side, farther apart than the deepest penetration that is a
+/// pair (see search_distance; on flat surfaces the shorter of their longest edges): neither search nor integration;
+/// their nodes count as uncovered.
 #define STICKSLIP_SHORTCUT_APART 4
 
 /// Standard shape functions for the multiplier (the paper's). Default.
@@ -281,9 +282,9 @@ typedef struct stickslip_options {
   /// Covered over full nodal area [-] at and below which a node counts as uncovered; default 1e-8.
   double coverage_min;
   /// Facets farther apart than this along the normal at the last commit, gap or penetration, are no pair
-  /// [L]. 0 (default): as far as the surfaces reach for a gap, one facet (the smaller of the two) for a
-  /// penetration, so that the far side of a body is not found. Give it where the mortar surface lies in
-  /// layers (refused otherwise) or the surfaces start deeper in each other than a facet.
+  /// [L]. 0 (default): any gap, and a penetration of one facet (the smaller of the two) beyond what the curved
+  /// surfaces lie off their facets, so that the far side of a body is not found. Give it where the mortar surface
+  /// lies in layers (refused otherwise) or the surfaces start deeper in each other than a facet.
   double search_distance;
   /// Sum of the STICKSLIP_SHORTCUT_... that the library is not to take; 0 (default): it takes all.
   int32_t no_shortcuts;

@@ -20,7 +20,7 @@
 //!
 //! # Modules, lowest first
 //!
-//! [`error`]; [`shape`], [`quadrature`], [`geometry`], [`normal`] know nothing of contact; [`mortar`]
+//! [`error`]; [`adjacency`], [`shape`], [`quadrature`], [`geometry`], [`normal`] know nothing of contact; [`mortar`]
 //! integrates a pair and knows no law; [`law`] is nodal and knows no geometry; they meet in
 //! [`element`]; [`interface`] searches, assembles and remembers; [`capi`] is the C ABI, the only
 //! place that touches raw pointers.
@@ -59,6 +59,7 @@
 
 #![warn(missing_docs)]
 
+pub mod adjacency;
 pub mod capi;
 pub mod element;
 pub mod error;

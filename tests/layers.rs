@@ -4,8 +4,9 @@
 use std::path::{Path, PathBuf};
 
 /// Modules and what each may import, lowest first.
-const ALLOWED: [(&str, &[&str]); 9] = [
+const ALLOWED: [(&str, &[&str]); 10] = [
     ("error", &[]),
+    ("adjacency", &["error"]),
     ("shape", &["error"]),
     ("quadrature", &["error"]),
     ("geometry", &["error", "shape"]),
@@ -13,7 +14,7 @@ const ALLOWED: [(&str, &[&str]); 9] = [
     ("mortar", &["error", "geometry", "quadrature", "shape"]),
     ("law", &["error", "geometry"]),
     ("element", &["error", "geometry", "law", "mortar", "shape"]),
-    ("interface", &["element", "error", "geometry", "law", "mortar", "normal", "quadrature", "shape"]),
+    ("interface", &["adjacency", "element", "error", "geometry", "law", "mortar", "normal", "quadrature", "shape"]),
 ];
 
 fn sources(module: &str) -> Vec<PathBuf> {

@@ -3,8 +3,9 @@
 //! counts as one facet with the frame's four points as its nodes, so that all that follows from the weights (gaps,
 //! forces, slip, history) is as for two facets.
 
+use super::filter::LEAST_OPPOSITION;
 use super::history::PairRecord;
-use super::integration::{Integration, LEAST_OPPOSITION, at_facet, frames};
+use super::integration::{Integration, at_facet, frames};
 use super::{Counters, Options, Surface};
 use crate::error::Result;
 use crate::geometry::{AnalyticSurface, Plane, Vec3};

@@ -5,20 +5,18 @@
 //! history, so evaluating at A, B, A gives equal bits. An analytic mortar side has its own filter and its own way
 //! (`analytic.rs`).
 
+use super::filter::{FacetFilter, Filter};
 use super::history::{History, Keeps, PairRecord};
 use super::nodes::assemble;
 use super::search::{Aabb, Prism, Tree};
 use super::{Contact, Counters, Options, Surface, Weights, analytic};
 use crate::error::{Error, Kind, Result};
-use crate::geometry::{Facet, Plane, Vec3};
+use crate::geometry::Vec3;
 use crate::mortar::{GapDerivative, NonmortarFrame, PairWeights, Segment, WeightDerivatives};
 use crate::normal;
 use crate::quadrature::Rule;
 use std::time::Instant;
 
-/// Facets whose normals oppose each other less than this are no pair: beyond 80 degrees the
-/// projection degenerates, and faces that look the same way must not be found.
-pub(super) const LEAST_OPPOSITION: f64 = 0.17;
 /// Prisms are grown by this (over the facet's longest edge), so that touching facets are visited.
 const TOUCH_MARGIN: f64 = 1e-6;
 /// How far (over the facet's longest edge) surfaces may move within their plane before a tangent needs
@@ -69,63 +67,6 @@ pub(super) fn check_mortar_facets(surface: &Surface) -> Result<()> {
     frames(surface, &surface.reference).map(|_| ())
 }
 
-/// What settles at a commit which pairs there can be.
-#[derive(Debug)]
-pub(super) enum Filter {
-    Facets(FacetFilter),
-    /// Which non-mortar facets face an analytic mortar side.
-    Analytic(Vec<bool>),
-}
-
-impl Filter {
-    /// The filter of the configuration (x1, x2).
-    pub fn new(one: &Surface, two: &Surface, options: &Options, x1: &[Vec3], x2: &[Vec3]) -> Result<Filter> {
-        if two.analytic.is_some() {
-            return analytic::facing(one, &two.analytic_at(x2)?, options, x1).map(Filter::Analytic);
-        }
-        FacetFilter::new(one, two, options, x1, x2).map(Filter::Facets)
-    }
-}
-
-/// Whether two facets can be a pair: opposing normals, and heights over the non-mortar facet between a penetration and
-/// a gap.
-#[derive(Debug)]
-pub(super) struct FacetFilter {
-    nonmortar: Vec<(Facet, Plane)>,
-    mortar: Vec<(Facet, Plane)>,
-    gap: f64,
-    penetration: Option<f64>,
-}
-
-impl FacetFilter {
-    fn new(one: &Surface, two: &Surface, options: &Options, x1: &[Vec3], x2: &[Vec3]) -> Result<FacetFilter> {
-        let facets = |s: &Surface, x: &[Vec3]| -> Result<Vec<(Facet, Plane)>> {
-            let facet = |f: usize| {
-                let facet = s.facet(f, x);
-                Plane::of(&facet).map(|plane| (facet, plane)).map_err(at_facet(s.side, f))
-            };
-            (0..s.facets.len()).map(facet).collect()
-        };
-        // As far as the surfaces reach: nothing that may be hit is too far away.
-        let reach = || Aabb::around(one.reference.iter().chain(&two.reference).copied()).diagonal();
-        Ok(FacetFilter {
-            nonmortar: facets(one, x1)?,
-            mortar: facets(two, x2)?,
-            gap: options.search_distance.unwrap_or_else(reach),
-            penetration: options.search_distance,
-        })
-    }
-
-    fn admits(&self, i: usize, j: usize) -> bool {
-        let ((one, plane), (two, opposite)) = (&self.nonmortar[i], &self.mortar[j]);
-        let heights = two.points().iter().map(|x| plane.e.dot(&(x - plane.reference - plane.origin)));
-        let (low, high) = heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), d| (l.min(d), h.max(d)));
-        // Deeper than a facet is the far side of a body, unless the host says otherwise.
-        let penetration = self.penetration.unwrap_or_else(|| one.longest_edge().min(two.longest_edge()));
-        plane.e.dot(&opposite.e) < -LEAST_OPPOSITION && low <= self.gap && high >= -penetration
-    }
-}
-
 /// Pairs that pass the filter and whose mortar facet may reach into the non-mortar facet's prism, grown by
 /// `skin` (over the facet's longest edge). Sorted.
 fn candidates(
@@ -134,6 +75,7 @@ fn candidates(
     (x1, x2): (&[Vec3], &[Vec3]),
     filter: &FacetFilter,
     skin: f64,
+    visited: &mut i64,
 ) -> Vec<(usize, usize)> {
     let facet_box = |f: usize| Aabb::around(two.facet(f, x2).points().iter().copied());
     let tree = Tree::new((0..two.facets.len()).map(facet_box).collect());
@@ -141,7 +83,7 @@ fn candidates(
     for (i, frame) in frames.iter().enumerate() {
         let facet = one.facet(i, x1);
         let prism = Prism::over(facet.points(), &frame.plane, (TOUCH_MARGIN + skin) * facet.longest_edge());
-        tree.find(&prism, &mut found);
+        *visited += tree.find(&prism, &mut found) as i64;
         pairs.extend(found.iter().filter(|&&j| filter.admits(i, j)).map(|&j| (i, j)));
     }
     pairs
@@ -161,7 +103,7 @@ fn integrate(
     };
     let start = Instant::now();
     let frames = frames(one, x1)?;
-    let candidates = candidates((one, two), &frames, (x1, x2), filter, 0.0);
+    let candidates = candidates((one, two), &frames, (x1, x2), filter, 0.0, &mut counters.boxes_visited);
     counters.searches += 1;
     counters.seconds_search += start.elapsed().as_secs_f64();
 
@@ -179,22 +121,6 @@ fn integrate(
     }
     counters.seconds_integration += start.elapsed().as_secs_f64();
     Ok(Integration { x1: x1.to_vec(), x2: x2.to_vec(), frames, pairs, apart: false })
-}
-
-/// Whether the surfaces are so far apart that nothing can touch, in all of the configurations (x1, x2): by more than any
-/// penetration that is a pair, and on the same side; between two sides they pass through each other. Only asked where
-/// the weights follow the motion, so that they can be made up for later.
-fn are_apart((one, two): (&Surface, &Surface), options: &Options, places: &[(&[Vec3], &[Vec3])]) -> Result<bool> {
-    if !options.shortcuts.apart || options.effective_weights() != Weights::Current {
-        return Ok(false);
-    }
-    if two.analytic.is_some() {
-        return analytic::are_apart((one, two), places);
-    }
-    let around = |x: &[Vec3]| Aabb::around(x.iter().copied());
-    let distance = options.search_distance.unwrap_or_else(|| one.longest_edge.min(two.longest_edge));
-    let sides: Vec<_> = places.iter().map(|(x1, x2)| around(x1).sides(&around(x2), distance)).collect();
-    Ok((0..6).any(|side| sides.iter().all(|s| s[side])))
 }
 
 /// The derivatives of a pair of facets, `MOVES`: with respect to the mortar side too.
@@ -235,7 +161,8 @@ impl<const N: usize> Contact<N> {
             return Ok(());
         }
         let (surfaces, h) = ((&self.nonmortar, &self.mortar), &self.history);
-        self.integration = Some(if are_apart(surfaces, &self.options, &[(&h.x1, &h.x2), (x1, x2)])? {
+        let filter = self.filter.as_ref().expect("current weights have one");
+        self.integration = Some(if filter.are_apart(surfaces, &self.options, &[(&h.x1, &h.x2), (x1, x2)])? {
             self.counters.evaluations_apart += 1;
             Integration { x1: x1.to_vec(), x2: x2.to_vec(), frames: Vec::new(), pairs: Vec::new(), apart: true }
         } else {
@@ -305,7 +232,7 @@ impl<const N: usize> Contact<N> {
         // Also where the surfaces are apart: a commit refuses degenerate facets of either side.
         let filter = Filter::new(nonmortar, mortar, options, x1, x2)?;
         let mut integration = None;
-        let frames = if are_apart((nonmortar, mortar), options, &[(x1, x2)])? {
+        let frames = if filter.are_apart((nonmortar, mortar), options, &[(x1, x2)])? {
             counters.commits_apart += 1;
             &frames(nonmortar, x1)?
         } else {
@@ -352,7 +279,7 @@ impl<const N: usize> Contact<N> {
                     let places = [(x1, x2), (&h.x1, &h.x2)];
                     for place in &places[..if h.integrated { 1 } else { 2 }] {
                         let frames = frames(&self.nonmortar, place.0)?;
-                        pairs.extend(candidates(surfaces, &frames, *place, filter, SKIN));
+                        pairs.extend(candidates(surfaces, &frames, *place, filter, SKIN, &mut 0));
                     }
                 }
                 Filter::Analytic(facing) => pairs.extend((0..facing.len()).filter(|&i| facing[i]).map(|i| (i, 0))),

@@ -8,6 +8,7 @@ mod assembly;
 mod augmented;
 mod describe;
 mod effects;
+mod filter;
 mod history;
 mod integration;
 mod nodes;
@@ -28,8 +29,9 @@ pub use surface::{FacetNodes, NO_EQUATION, Surface};
 use crate::error::{Error, Kind, Result};
 use crate::geometry::{Mat3, Vec3};
 use effects::Kernels;
+use filter::Filter;
 use history::Keeps;
-use integration::{Filter, Integration, Start};
+use integration::{Integration, Start};
 use nalgebra::SVector;
 
 /// What an interface has done since its creation.
@@ -45,6 +47,8 @@ pub struct Counters {
     pub pairs_linearised: i64,
     /// Searches.
     pub searches: i64,
+    /// Boxes that the searches compared.
+    pub boxes_visited: i64,
     /// Pairs whose frozen weights served once more.
     pub pairs_reused: i64,
     /// Nodes whose slip was computed.

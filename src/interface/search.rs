@@ -32,11 +32,6 @@ impl Aabb {
         let (above, below) = (self.low - other.high, other.low - self.high);
         [above.x, above.y, above.z, below.x, below.y, below.z].map(|between| between > distance)
     }
-
-    /// Length of the diagonal.
-    pub fn diagonal(&self) -> f64 {
-        (self.high - self.low).norm()
-    }
 }
 
 /// What a facet sweeps along its normal, both ways without end: intervals along the plane's two axes.
@@ -63,13 +58,20 @@ impl Prism {
 
     /// Whether the box may reach into the prism; never false when it does.
     fn meets(&self, b: &Aabb) -> bool {
-        let (centre, half) = (b.centre() - self.origin, (b.high - b.low) * 0.5);
+        // Differences of coordinates first: a common offset costs no digits.
+        let (low, high) = (b.low - self.origin, b.high - self.origin);
+        let (centre, half, farthest) = ((low + high) * 0.5, (high - low) * 0.5, low.abs().sup(&high.abs()));
         (0..2).all(|k| {
-            let (c, r) = (self.axes[k].dot(&centre), self.axes[k].abs().dot(&half));
+            let axis = self.axes[k].abs();
+            let (c, r) = (self.axes[k].dot(&centre), axis.dot(&half) + ROUNDING * axis.dot(&farthest));
             c + r >= self.low[k] && c - r <= self.high[k]
         })
     }
 }
+
+/// Rounding of a scalar product of three terms and of the interval's ends, over the terms' size: a facet that is huge
+/// beside the prism must not be lost to it.
+const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
 /// Leaves hold at most this many boxes: fewer make a deeper tree, more make a slower query.
 const LEAF: usize = 4;
@@ -101,11 +103,12 @@ impl Tree {
         tree
     }
 
-    /// Fills `found` with the boxes that may reach into `prism`, in ascending order.
-    pub fn find(&self, prism: &Prism, found: &mut Vec<usize>) {
+    /// Fills `found` with the boxes that may reach into `prism`, in ascending order; how many it compared.
+    pub fn find(&self, prism: &Prism, found: &mut Vec<usize>) -> usize {
         found.clear();
-        self.query(prism, 0, found);
+        let visited = self.query(prism, 0, found);
         found.sort_unstable();
+        visited
     }
 
     fn build(&mut self, boxes: &[Aabb], first: usize, end: usize) -> usize {
@@ -124,17 +127,17 @@ impl Tree {
         me
     }
 
-    fn query(&self, prism: &Prism, node: usize, found: &mut Vec<usize>) {
-        let Some(n) = self.nodes.get(node) else { return };
+    fn query(&self, prism: &Prism, node: usize, found: &mut Vec<usize>) -> usize {
+        let Some(n) = self.nodes.get(node) else { return 0 };
         if !prism.meets(&n.bounds) {
-            return;
+            return 1;
         }
         if n.right == 0 {
             let leaf = &self.order[n.first..n.first + n.count];
             found.extend(leaf.iter().filter(|&&i| prism.meets(&self.boxes[i])));
+            1 + leaf.len()
         } else {
-            self.query(prism, node + 1, found);
-            self.query(prism, n.right, found);
+            1 + self.query(prism, node + 1, found) + self.query(prism, n.right, found)
         }
     }
 }

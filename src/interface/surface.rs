@@ -1,8 +1,13 @@
 //! One side of an interface: its nodes, facets and equation numbers, checked once.
 
+use crate::adjacency::{SharedEdge, shared_edges};
 use crate::error::{Error, Kind, Result};
 use crate::geometry::{AnalyticShape, AnalyticSurface, FRAME, Facet, Vec3, check_rigid_motion};
 use crate::shape::MAX_NODES;
+
+/// Neighbouring facets whose normals have a scalar product below this lie on each other: a wedge thinner than a tenth
+/// of a degree. The thinnest blade that anyone meshes has several degrees.
+const FOLDED: f64 = -1.0 + 1e-6;
 
 /// No equation: the component is prescribed or absent.
 pub const NO_EQUATION: i64 = -1;
@@ -14,6 +19,13 @@ pub struct FacetNodes {
     pub nodes: [usize; MAX_NODES],
     /// 3 or 4.
     pub len: usize,
+}
+
+impl FacetNodes {
+    /// The nodes in use.
+    pub fn as_slice(&self) -> &[usize] {
+        &self.nodes[..self.len]
+    }
 }
 
 /// A checked surface.
@@ -29,6 +41,8 @@ pub struct Surface {
     pub equations: Vec<[i64; 3]>,
     /// The longest edge of any facet in the first configuration `[L]`; 0 of an analytic surface.
     pub longest_edge: f64,
+    /// Edges between neighbouring facets.
+    pub edges: Vec<SharedEdge>,
     /// The shape of an analytic surface, whose one facet are the four points of its frame; `None`: real facets.
     pub analytic: Option<AnalyticShape>,
 }
@@ -83,11 +97,34 @@ impl Surface {
         if let Some(k) = used.iter().position(|u| !u) {
             return fail(Kind::InvalidValue, format!("node {k} belongs to no facet; leave it out"));
         }
-        let mut surface = Surface { side, reference, facets: kept, equations, longest_edge: 0.0, analytic: None };
+        let edges = match shared_edges(kept.len(), |f| kept[f].as_slice()) {
+            Ok(edges) => edges,
+            Err(e) => return fail(e.kind, e.message),
+        };
+        let mut surface =
+            Surface { side, reference, facets: kept, equations, longest_edge: 0.0, edges, analytic: None };
         for f in 0..surface.facets.len() {
             surface.longest_edge = surface.longest_edge.max(surface.facet(f, &surface.reference).longest_edge());
         }
-        Ok(surface)
+        match surface.folded_edge() {
+            None => Ok(surface),
+            Some(SharedEdge { nodes: [a, b], facets: [f, g] }) => fail(
+                Kind::InvalidValue,
+                format!(
+                    "facets {f} and {g} lie on each other: the surface is folded along the edge of nodes {a} and {b}"
+                ),
+            ),
+        }
+    }
+
+    /// An edge whose facets lie on each other in the first configuration. Facets without an area are refused elsewhere.
+    fn folded_edge(&self) -> Option<SharedEdge> {
+        let direction = |f: usize| self.facet(f, &self.reference).area_vector().try_normalize(0.0);
+        let folded = |e: &&SharedEdge| match e.facets.map(direction) {
+            [Some(m), Some(n)] => m.dot(&n) < FOLDED,
+            _ => false,
+        };
+        self.edges.iter().find(folded).copied()
     }
 
     /// A rigid surface in closed form, placed by the four points of its frame (see [`AnalyticSurface`]), which have no
@@ -106,6 +143,7 @@ impl Surface {
             facets: vec![FacetNodes { nodes: [0, 1, 2, 3], len: FRAME }],
             equations: vec![[NO_EQUATION; 3]; FRAME],
             longest_edge: 0.0,
+            edges: Vec::new(),
             analytic: Some(shape),
         };
         match surface.analytic_at(&surface.reference) {

@@ -1,0 +1,76 @@
+//! Which facets of a surface are neighbours: those that run one edge, in opposite directions.
+//!
+//! Knows node numbers only. A surface seen from outside throughout, and without branches, has at most two facets at an
+//! edge, and they run it in opposite directions.
+
+use crate::error::{Error, Kind, Result};
+
+/// An edge that two facets share.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct SharedEdge {
+    /// Its ends, the smaller node number first.
+    pub nodes: [usize; 2],
+    /// The facet that runs it from the first end to the second one, then the other one.
+    pub facets: [usize; 2],
+}
+
+/// The shared edges of a surface whose facets have the nodes that `nodes` gives, sorted by their ends.
+///
+/// # Errors
+/// [`Kind::InvalidValue`] where two facets run an edge in the same direction, naming both.
+pub fn shared_edges<'a>(n_facets: usize, nodes: impl Fn(usize) -> &'a [usize]) -> Result<Vec<SharedEdge>> {
+    let mut edges = Vec::with_capacity(4 * n_facets);
+    for f in 0..n_facets {
+        let nodes = nodes(f);
+        for k in 0..nodes.len() {
+            let (a, b) = (nodes[k], nodes[(k + 1) % nodes.len()]);
+            edges.push((a.min(b), a.max(b), a > b, f));
+        }
+    }
+    edges.sort_unstable();
+    let mut shared = Vec::with_capacity(edges.len() / 2);
+    for pair in edges.windows(2) {
+        let ((a, b, against, f), (c, d, other, g)) = (pair[0], pair[1]);
+        if (a, b) != (c, d) {
+            continue;
+        }
+        if against == other {
+            let text = format!(
+                "facets {f} and {g} run the edge between nodes {a} and {b} in the same direction: the node order of one of them is reversed, or the surface branches there"
+            );
+            return Err(Error::new(Kind::InvalidValue, text));
+        }
+        shared.push(SharedEdge { nodes: [a, b], facets: [f, g] });
+    }
+    Ok(shared)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn shared(facets: &[&[usize]]) -> Result<Vec<SharedEdge>> {
+        shared_edges(facets.len(), |f| facets[f])
+    }
+
+    #[test]
+    fn neighbours_run_their_edge_in_opposite_directions() {
+        let edge = |nodes, facets| SharedEdge { nodes, facets };
+        assert_eq!(shared(&[&[0, 1, 2]]), Ok(vec![]));
+        assert_eq!(shared(&[&[0, 1, 4, 3], &[1, 2, 4]]), Ok(vec![edge([1, 4], [0, 1])]));
+        assert_eq!(shared(&[&[4, 1, 2], &[0, 1, 4, 3]]), Ok(vec![edge([1, 4], [1, 0])]));
+        let tetrahedron = shared(&[&[0, 2, 1], &[0, 1, 3], &[1, 2, 3], &[2, 0, 3]]).unwrap();
+        assert_eq!(tetrahedron.len(), 6);
+    }
+
+    #[test]
+    fn reversed_and_branching_facets_are_named() {
+        for facets in [[&[0_usize, 1, 4, 3][..], &[4, 2, 1]], [&[0, 1, 2], &[0, 1, 3]], [&[0, 1, 2], &[1, 2, 0]]] {
+            let error = shared(&facets).unwrap_err();
+            assert_eq!(error.kind, Kind::InvalidValue);
+            assert!(error.message.starts_with("facets 0 and 1 run the edge"), "{}", error.message);
+        }
+        let branch = shared(&[&[0, 1, 2], &[1, 0, 3], &[0, 1, 4]]).unwrap_err();
+        assert!(branch.message.starts_with("facets 0 and 2"), "{}", branch.message);
+    }
+}

@@ -1,0 +1,149 @@
+//! What a commit settles about the pairs of the step that follows: which facets oppose each other, and how deep one may
+//! lie behind the other. Of the positions of t_n alone, so that evaluations within the step are functions.
+//!
+//! A gap may be any; a penetration deeper than a facet is the far side of a body. But facets are chords: a surface that
+//! is curved lies off them by more than its partner's facets are long where those are fine. So a pair may be as deep as
+//! the smaller of its facets is long, and by what the surfaces bulge from their facets beyond it.
+
+use super::integration::at_facet;
+use super::search::Aabb;
+use super::{Options, Surface, Weights, analytic};
+use crate::error::Result;
+use crate::geometry::{Facet, Plane, Vec3};
+
+/// Facets whose normals oppose each other less than this are no pair: beyond 80 degrees the
+/// projection degenerates, and faces that look the same way must not be found.
+pub(super) const LEAST_OPPOSITION: f64 = 0.17;
+/// Neighbouring facets whose normals have a scalar product above this (45 degrees) approximate one smooth surface;
+/// below it there is an edge, which says nothing about a bulge.
+const SMOOTH: f64 = 0.7;
+/// A circle lies off its chord of length h by h phi / 4 at most, phi the angle to the next, much shorter chord (phi / 8
+/// where that is as long); this times h phi leaves a factor of 2.
+const BULGE: f64 = 0.5;
+
+/// What settles at a commit which pairs there can be.
+#[derive(Debug)]
+pub(super) enum Filter {
+    Facets(FacetFilter),
+    /// Which non-mortar facets face an analytic mortar side.
+    Analytic(Vec<bool>),
+}
+
+impl Filter {
+    /// The filter of the configuration (x1, x2).
+    pub fn new(one: &Surface, two: &Surface, options: &Options, x1: &[Vec3], x2: &[Vec3]) -> Result<Filter> {
+        if two.analytic.is_some() {
+            return analytic::facing(one, &two.analytic_at(x2)?, options, x1).map(Filter::Analytic);
+        }
+        let sides = [Side::new(one, x1)?, Side::new(two, x2)?];
+        Ok(Filter::Facets(FacetFilter { sides, distance: options.search_distance }))
+    }
+
+    /// Whether the surfaces are so far apart that nothing can touch, in all of the configurations (x1, x2): by more than
+    /// any penetration that is a pair, and on the same side; between two sides they pass through each other. Only asked
+    /// where the weights follow the motion, so that they can be made up for later.
+    pub fn are_apart(
+        &self,
+        (one, two): (&Surface, &Surface),
+        options: &Options,
+        places: &[(&[Vec3], &[Vec3])],
+    ) -> Result<bool> {
+        if !options.shortcuts.apart || options.effective_weights() != Weights::Current {
+            return Ok(false);
+        }
+        match self {
+            Filter::Analytic(_) => analytic::are_apart((one, two), places),
+            Filter::Facets(filter) => {
+                let around = |x: &[Vec3]| Aabb::around(x.iter().copied());
+                let deepest = filter.deepest();
+                let sides: Vec<_> = places.iter().map(|(x1, x2)| around(x1).sides(&around(x2), deepest)).collect();
+                Ok((0..6).any(|side| sides.iter().all(|s| s[side])))
+            }
+        }
+    }
+}
+
+/// The facets of one side at t_n.
+#[derive(Debug)]
+struct Side {
+    facets: Vec<(Facet, Plane)>,
+    /// How far the surface may lie off each of them `[L]`.
+    bulges: Vec<f64>,
+}
+
+impl Side {
+    fn new(surface: &Surface, x: &[Vec3]) -> Result<Side> {
+        let facet = |f: usize| {
+            let facet = surface.facet(f, x);
+            Plane::of(&facet).map(|plane| (facet, plane)).map_err(at_facet(surface.side, f))
+        };
+        let facets = (0..surface.facets.len()).map(facet).collect::<Result<Vec<_>>>()?;
+        let normal = |f: usize| facets[f].1.e;
+        let smooth = surface.edges.iter().map(|e| e.facets).filter(|&[f, g]| normal(f).dot(&normal(g)) > SMOOTH);
+        // Twice: a triangle may touch the facets that are turned against it at one node only.
+        let (mut angles, mut near) = (vec![0.0_f64; facets.len()], vec![0.0_f64; facets.len()]);
+        for [f, g] in smooth.clone() {
+            let angle = normal(f).cross(&normal(g)).norm();
+            (angles[f], angles[g]) = (angles[f].max(angle), angles[g].max(angle));
+        }
+        for [f, g] in smooth {
+            let angle = angles[f].max(angles[g]);
+            (near[f], near[g]) = (near[f].max(angle), near[g].max(angle));
+        }
+        let bulge = |(facet, plane): &(Facet, Plane), angle| warp(facet, plane) + BULGE * angle * facet.longest_edge();
+        let bulges = facets.iter().zip(near).map(|(facet, angle)| bulge(facet, angle)).collect();
+        Ok(Side { facets, bulges })
+    }
+
+    fn largest(&self) -> (f64, f64) {
+        let edge = self.facets.iter().map(|(facet, _)| facet.longest_edge()).fold(0.0, f64::max);
+        (edge, self.bulges.iter().copied().fold(0.0, f64::max))
+    }
+}
+
+/// How far a facet's nodes lie off its plane `[L]`.
+fn warp(facet: &Facet, plane: &Plane) -> f64 {
+    heights(facet, plane).fold(0.0, |most, d| most.max(d.abs()))
+}
+
+/// Heights of a facet's nodes over a plane `[L]`.
+fn heights(facet: &Facet, plane: &Plane) -> impl Iterator<Item = f64> {
+    facet.points().iter().map(|x| plane.e.dot(&(x - plane.reference - plane.origin)))
+}
+
+/// Whether two facets can be a pair: opposing normals, and heights over the non-mortar facet between a penetration and
+/// a gap.
+#[derive(Debug)]
+pub(super) struct FacetFilter {
+    /// Non-mortar, mortar.
+    sides: [Side; 2],
+    /// What the host gives for both penetration and gap `[L]`.
+    distance: Option<f64>,
+}
+
+impl FacetFilter {
+    /// Whether non-mortar facet i and mortar facet j can be a pair.
+    pub fn admits(&self, i: usize, j: usize) -> bool {
+        let [one, two] = &self.sides;
+        let ((_, plane), (facet, opposite)) = (&one.facets[i], &two.facets[j]);
+        if !(plane.e.dot(&opposite.e) < -LEAST_OPPOSITION) {
+            return false;
+        }
+        let (low, high) =
+            heights(facet, plane).fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), d| (l.min(d), h.max(d)));
+        low <= self.distance.unwrap_or(f64::INFINITY) && high >= -self.penetration(i, j)
+    }
+
+    /// The deepest penetration at which they can be a pair `[L]`.
+    fn penetration(&self, i: usize, j: usize) -> f64 {
+        let [one, two] = &self.sides;
+        let edges = one.facets[i].0.longest_edge().min(two.facets[j].0.longest_edge());
+        self.distance.unwrap_or(edges + one.bulges[i] + two.bulges[j])
+    }
+
+    /// At least the deepest penetration of any pair `[L]`.
+    fn deepest(&self) -> f64 {
+        let [(h1, b1), (h2, b2)] = self.sides.each_ref().map(Side::largest);
+        self.distance.unwrap_or(h1.min(h2) + b1 + b2)
+    }
+}
