@@ -11,10 +11,11 @@ from pathlib import Path
 import acceptance
 from effect_checks import effects
 from hosts import hosts
+from material_checks import materials
 from scene import Driver, SceneError
 from verdict import Verdicts
 
-GROUPS = {**acceptance.GROUPS, "hosts": hosts, "effects": effects}
+GROUPS = {**acceptance.GROUPS, "hosts": hosts, "effects": effects, "materials": materials}
 
 
 def main():

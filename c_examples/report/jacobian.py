@@ -29,6 +29,13 @@ QUADS = ("-upper_cell", "hex", "-lower_cell", "hex", "-grip_value", "0.02,0.01,-
 NO_FRICTION = ("-contact_law", "none", "-contact_friction", "0")
 # Without slip multipliers are larger: a softer body keeps them within one order of the displacements.
 ROUGH = ("-contact_law", "rough", "-contact_friction", "0", "-upper_young", "1")
+
+
+def finite(material, dilatation):
+    both = (("material", material), ("dilatation", dilatation))
+    return tuple(word for body in ("upper", "lower") for key, value in both for word in (f"-{body}_{key}", value))
+
+
 VARIANTS = {
     "multiplier form": (),
     "augmented form": ("-contact_form", "augmented"),
@@ -40,6 +47,9 @@ VARIANTS = {
     "augmented form, quadrilaterals": ("-contact_form", "augmented", *QUADS),
     "no friction": NO_FRICTION,
     "no friction, augmented form": (*NO_FRICTION, "-contact_form", "augmented"),
+    "neo-Hooke, mean, quadrilaterals": (*QUADS, *finite("neo_hooke", "mean")),
+    "neo-Hooke, augmented form": (*finite("neo_hooke", "pointwise"), "-contact_form", "augmented"),
+    "St. Venant-Kirchhoff, mean, quadrilaterals": (*QUADS, *finite("st_venant_kirchhoff", "mean")),
     "rough": ROUGH,
     "rough, augmented form": (*ROUGH, "-contact_form", "augmented"),
 }

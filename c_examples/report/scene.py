@@ -83,6 +83,13 @@ class Run:
             raise SceneError(f"{self.directory}: no displacement in the .vtu, only {list(mesh.point_data)}")
         return mesh.points, mesh.cells_dict, displacement
 
+    def cell_stress(self, step=None):
+        """Cauchy's stress at the cells' centres: (cells, 6), xx yy zz xy yz xz."""
+        import meshio
+
+        mesh = meshio.read(self._output(r"step_(\d+)\.vtu", step))
+        return np.concatenate(mesh.cell_data["stress_xx_yy_zz_xy_yz_xz"])
+
     def line(self, name, step=None):
         table = self.interface(name, step)
         x, first, group = np.unique(np.round(table["X"], 9), return_index=True, return_inverse=True)

@@ -52,7 +52,7 @@ static void cell_displacements(const Model *model, PetscInt c, const PetscScalar
   }
 }
 
-/* All ranks learn whether this or another one has an inverted cell (c, or -1); model->inverted names the first rank's. */
+/* All ranks learn whether this or another one has an inverted cell (c, or -1); model->inverted names the first. */
 static PetscErrorCode agree_on_inverted(Model *model, PetscInt c, PetscInt *status)
 {
   PetscMPIInt size, first;
@@ -148,6 +148,32 @@ PetscErrorCode bulk_stiffness(Model *model, Mat matrix, PetscInt *status)
   PetscCall(agree_on_inverted(model, first_inverted, status));
   PetscCall(PetscTime(&end));
   model->timers.bulk_assembly += end - start;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Of the bodies of finite strain, as if they were linear: stiffness K, and forces K u of the displacements u. */
+PetscErrorCode bulk_extension(Model *model, Vec u_local, Vec f_local, Mat matrix)
+{
+  const Material     likeness = {.young = 1, .poisson = 0.3, .law = &MATERIAL_LINEAR};
+  const PetscScalar *u;
+  PetscScalar       *f;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetArrayRead(u_local, &u));
+  PetscCall(VecGetArray(f_local, &f));
+  for (PetscInt c = 0; c < model->n_cells; c++) {
+    const PetscInt first = model->cell_offsets[c], n = model->cell_offsets[c + 1] - first;
+    PetscReal      u_cell[24], f_cell[24], K[24 * 24];
+    PetscBool      inverted;
+    if (!model->mesh.bodies[model->cell_body[c]].material.law->finite) continue;
+    cell_displacements(model, c, u, u_cell);
+    PetscCall(cell_forces(n, &likeness, model->cell_X + 3 * first, u_cell, f_cell, K, &inverted));
+    PetscCall(insert(model, c, K, matrix));
+    for (PetscInt k = 0; k < 3 * n; k++)
+      f[model->cell_dofs[first + k / 3] + k % 3] += f_cell[k];
+  }
+  PetscCall(VecRestoreArray(f_local, &f));
+  PetscCall(VecRestoreArrayRead(u_local, &u));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

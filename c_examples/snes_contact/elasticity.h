@@ -1,4 +1,4 @@
-/* Bulk elements: 8-node hexahedra (2x2x2 Gauss points) and 4-node tetrahedra. What they are made of is in materials.h. */
+/* Bulk elements: 8-node hexahedra (2x2x2 Gauss points) and 4-node tetrahedra. What they are made of: materials.h. */
 #ifndef SNES_CONTACT_ELASTICITY_H
 #define SNES_CONTACT_ELASTICITY_H
 #include "materials.h"

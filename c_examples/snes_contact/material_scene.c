@@ -3,9 +3,10 @@
 
 PetscErrorCode material_read(Scene *scene, const char *body, Material *material)
 {
-  static const MaterialLaw *const laws[]           = {&MATERIAL_LINEAR, &MATERIAL_ST_VENANT_KIRCHHOFF, &MATERIAL_NEO_HOOKE};
-  static const char *const        dilatations[]    = {"pointwise", "mean", NULL};
-  const char                     *law_names[4]     = {laws[0]->name, laws[1]->name, laws[2]->name, NULL};
+  static const MaterialLaw *const laws[]        = {&MATERIAL_LINEAR, &MATERIAL_ST_VENANT_KIRCHHOFF,
+                                                   &MATERIAL_NEO_HOOKE};
+  static const char *const        dilatations[] = {"pointwise", "mean", NULL};
+  const char                     *law_names[]   = {laws[0]->name, laws[1]->name, laws[2]->name, NULL};
   PetscInt                        law = 0, dilatation = 0;
 
   PetscFunctionBegin;

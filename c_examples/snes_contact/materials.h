@@ -1,6 +1,6 @@
-/* Elastic materials, each an energy per reference volume W(H) = W0(H) + U(v(H)): a part that shears, and a part U that knows
- * the strain only by one measure of the change of volume, v. Split like this, U can be taken at every point (`pointwise`) or
- * at a cell's mean of v (`mean`, for nearly incompressible bodies); see cell_forces() in elasticity.c.
+/* Elastic materials, each an energy per reference volume W(H) = W0(H) + U(v(H)): a part that shears, and a part U that
+ * knows the strain only by one measure of the change of volume, v. Split like this, U can be taken at every point
+ * (`pointwise`) or at a cell's mean of v (`mean`, for nearly incompressible bodies); see cell_forces() in elasticity.c.
  *
  * H = du/dX, F = I + H, row-major; stresses in F/L^2. lambda and G are Lame's constants. */
 #ifndef SNES_CONTACT_MATERIALS_H

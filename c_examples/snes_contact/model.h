@@ -114,7 +114,7 @@ typedef struct {
   SNES      snes;
   Mat       jacobian;
   PetscInt  iterations;                            /* of Newton, spent on the present step, failed attempts included */
-  PetscReal t, reference_force, largest_reference, noise, size, stiffness; /* for the convergence test (solver.c) */
+  PetscReal t, reference_force, largest_reference, noise, rounding, size, stiffness; /* for the convergence test (solver.c) */
   char      refusal[1024];                         /* the library's last message, if it refused an evaluation */
   char      inverted[256];                         /* which cell the last attempt at a step has turned inside out */
   Timers    timers;
@@ -153,6 +153,7 @@ PetscErrorCode bulk_create(Model *model);
 /* `status` > 0 on every rank if a cell is turned inside out somewhere, named in model->inverted */
 PetscErrorCode bulk_forces(Model *model, Vec f_local, PetscInt *status);      /* adds */
 PetscErrorCode bulk_stiffness(Model *model, Mat matrix, PetscInt *status);    /* adds */
+PetscErrorCode bulk_extension(Model *model, Vec u_local, Vec f_local, Mat matrix); /* adds to both */
 PetscErrorCode bulk_pattern(Model *model, Mat matrix);                        /* adds zeros */
 
 /* contact_scene.c, contact_setup.c, contact.c: `status` > 0 on every rank if the library refused, with its message in
@@ -177,6 +178,9 @@ PetscErrorCode solver_refresh_pattern(Model *model);
 
 /* jacobian_test.c: after solver_create() */
 PetscErrorCode jacobian_test_create(Model *model);
+
+/* carry.c: moves x with the supports from their positions at t0 to those at model->t */
+PetscErrorCode carry_supports(Model *model, PetscReal t0, Vec x);
 
 /* steps.c: returns the exit code of the program */
 PetscErrorCode steps_read(Model *model);

@@ -3,8 +3,9 @@
  * Residual = internal forces of the bodies + contact - loads, and the multiplier rows (which the library scales to forces).
  * Converged: |residual| <= rtol * reference, reference = |loads| + |reactions| + |contact forces| (2-norms of nodal forces),
  * the largest so far (at the start: 1e-12 E size^2), so that an unloaded step is not judged by its own noise; or below
- * 1e-14 E size min(max|u|, size), the rounding of a body that moves without stress. -snes_rtol sets rtol, -snes_atol a limit in
- * units of force. */
+ * 1e-14 E size min(max|u|, size), the rounding of a body that moves without stress; of a nearly incompressible one,
+ * whose bulk modulus K is many times E, 2e-16 K instead of 1e-14 E. -snes_rtol sets rtol, -snes_atol a limit in units
+ * of force. */
 #include "model.h"
 
 /* sum of squares of the displacement entries of a local vector of forces; of the prescribed ones only, or of all */
@@ -67,7 +68,7 @@ static PetscErrorCode residual(SNES snes, Vec x, Vec r, void *context)
   model->reference_force = PetscSqrtReal(squares[0]) + PetscSqrtReal(squares[1]) + PetscSqrtReal(squares[2]);
   PetscCall(largest_displacement(model, &model->noise));
   /* An iterate that runs away must not loosen the test: no more than the noise of a motion by the model's own size. */
-  model->noise = 1e-14 * model->stiffness * PetscMin(model->noise, model->size);
+  model->noise = model->rounding * PetscMin(model->noise, model->size);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -133,14 +134,19 @@ static PetscErrorCode solve_ends(KSP ksp, Vec b, Vec x, void *context)
 /* What the model's forces are measured by: its size, a stiffness (the largest E times it), a force too small to matter. */
 static PetscErrorCode measure(Model *model)
 {
-  PetscReal low[3], high[3], squared = 0, young = 0;
+  PetscReal low[3], high[3], squared = 0, young = 0, rounding = 0;
   PetscFunctionBegin;
   PetscCall(DMGetBoundingBox(model->dm, low, high));
   for (int i = 0; i < 3; i++)
     squared += PetscSqr(high[i] - low[i]);
-  for (PetscInt b = 0; b < model->mesh.n_bodies; b++)
-    young = PetscMax(young, model->mesh.bodies[b].material.young);
+  for (PetscInt b = 0; b < model->mesh.n_bodies; b++) {
+    const Material *material = &model->mesh.bodies[b].material;
+    const PetscReal bulk     = material->young / (3 * (1 - 2 * material->poisson));
+    young                    = PetscMax(young, material->young);
+    rounding                 = PetscMax(rounding, PetscMax(1e-14 * material->young, 2e-16 * bulk));
+  }
   model->size              = PetscSqrtReal(squared);
+  model->rounding          = rounding * model->size;
   model->stiffness         = young * model->size;
   model->largest_reference = 1e-12 * young * squared;
   PetscFunctionReturn(PETSC_SUCCESS);

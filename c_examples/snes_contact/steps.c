@@ -53,7 +53,7 @@ typedef struct {
   PetscBool have_before; /* on the same branch of all curves */
 } History;
 
-static PetscErrorCode predict(const Model *model, History *history, PetscReal t)
+static PetscErrorCode predict(Model *model, History *history, PetscReal t)
 {
   PetscFunctionBegin;
   PetscCall(VecCopy(history->last, history->x));
@@ -61,6 +61,8 @@ static PetscErrorCode predict(const Model *model, History *history, PetscReal t)
     const PetscReal factor = (t - history->t_last) / (history->t_last - history->t_before);
     PetscCall(VecAXPY(history->x, factor, history->last));
     PetscCall(VecAXPY(history->x, -factor, history->before));
+  } else {
+    PetscCall(carry_supports(model, history->t_last, history->x));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -1,5 +1,5 @@
-/* The bulk's materials and elements by themselves: stresses against differences of an energy written down here once more,
- * moduli against differences of the stresses, closed forms, rigid rotations, and the mean dilatation of a cell.
+/* The bulk's materials and elements by themselves: stresses against differences of an energy written down here once
+ * more, moduli against differences of the stresses, closed forms, rigid rotations, and the mean dilatation of a cell.
  * Prints a line per check; exit code 1 if one fails. */
 #include "../snes_contact/elasticity.h"
 #include <math.h>
@@ -194,6 +194,11 @@ static void test_cell(Material m, PetscBool mean)
   check(m.law->name, what, asymmetry / m.young, ROUNDING_BOUND);
 }
 
+static double product(const double a[3], const double b[3])
+{
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
 /* Where v is the same at every point (a tetrahedron; a homogeneous deformation of any cell) the mean changes nothing. */
 static void test_mean_is_pointwise(Material m)
 {
@@ -204,12 +209,13 @@ static void test_mean_is_pointwise(Material m)
     for (int k = 0; k < 9; k++)
       H[k] = 0.3 * pseudo_random();
     for (int k = 0; k < 24 && corners == 8; k++)
-      u[k] = H[3 * (k % 3)] * X[k - k % 3] + H[3 * (k % 3) + 1] * X[k - k % 3 + 1] + H[3 * (k % 3) + 2] * X[k - k % 3 + 2];
+      u[k] = product(H + 3 * (k % 3), X + k - k % 3);
     for (int mean = 0; mean < 2; mean++) {
       m.mean_dilatation = (PetscBool)mean;
       if (cell_forces(corners, &m, X, u, f[mean], K[mean], &inverted) || inverted) failures++;
     }
-    check(m.law->name, corners == 4 ? "tetrahedron: mean = pointwise, forces" : "homogeneous: mean = pointwise, forces",
+    check(m.law->name,
+          corners == 4 ? "tetrahedron: mean = pointwise, forces" : "homogeneous: mean = pointwise, forces",
           largest_difference(3 * corners, f[0], f[1]) / m.young, ROUNDING_BOUND);
     if (corners == 4)
       check(m.law->name, "tetrahedron: mean = pointwise, stiffness", largest_difference(144, K[0], K[1]) / m.young,
