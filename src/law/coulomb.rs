@@ -2,7 +2,7 @@
 //! c = g_N nu + g_T, slip c = g_N nu - (lambda_T - beta sigma_T) / r.
 
 use super::node::{Law, Node, NodeResponse};
-use super::projection::{Projected, State, project};
+use super::projection::{Projected, State, project_parts};
 use crate::geometry::{Mat3, Vec3};
 
 /// Gap, stick and slip under Coulomb's cone; with mu = infinity (rough) a closed node sticks.
@@ -25,14 +25,15 @@ impl Law<3> for Coulomb {
         } else {
             Vec3::zeros()
         };
-        let gap = node.normal * gap_normal + slip;
-        let sigma = lambda + gap * r;
-        let p = if node.covered { project(sigma, node.normal, node.mu) } else { Projected::gap() };
+        let lambda_n = node.normal.dot(&lambda);
+        // Part by part, so that sigma_N has no rounding of the slip: with mu = 0 the answer is that without friction.
+        let (sigma_n, sigma_t) = (lambda_n + r * gap_normal, lambda - node.normal * lambda_n + slip * r);
+        let p = if node.covered { project_parts(sigma_n, sigma_t, node.normal, node.mu) } else { Projected::gap() };
         let row = match p.state {
             State::Gap => -node.lambda / r,
-            State::Stick => gap - (node.lambda - lambda) / r,
+            State::Stick => node.normal * gap_normal + slip - (node.lambda - lambda) / r,
             State::Slip => {
-                let lambda_t = node.lambda - node.normal * node.normal.dot(&lambda);
+                let lambda_t = node.lambda - node.normal * lambda_n;
                 node.normal * gap_normal - (lambda_t - p.tangential) / r
             }
         };
@@ -45,7 +46,7 @@ impl Law<3> for Coulomb {
             row,
             gap_normal,
             slip,
-            sigma,
+            sigma: node.normal * sigma_n + sigma_t,
             dp_dlambda: p.derivative * node.free,
             drow_dlambda: (p.derivative * node.free - Mat3::identity()) / r,
             drow_dnow: p.derivative * dsigma_dnow,

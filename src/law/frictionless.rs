@@ -46,10 +46,10 @@ impl Law<3> for Frictionless {
 
     fn respond(node: &Node) -> NodeResponse {
         let r = node.augmentation;
-        let lambda_n = node.normal.dot(&node.lambda);
+        let lambda_n = node.normal.dot(&(node.free * node.lambda));
         let (gap_normal, sigma_n, closed) = close(node, lambda_n);
         let on = if closed { node.normal * node.normal.transpose() } else { Mat3::zeros() };
-        // In the order of Coulomb's law, so that the row is the same to the last bit.
+        // In the order of Coulomb's law, so that row and traction are the same to the last bit.
         let lambda_t = node.lambda - node.normal * lambda_n;
         NodeResponse {
             state: if closed { State::Slip } else { State::Gap },

@@ -57,14 +57,20 @@ fn safe_norm(v: Vec3) -> f64 {
 /// coefficient `mu` >= 0.
 pub fn project(sigma: Vec3, normal: Vec3, mu: f64) -> Projected {
     let sigma_n = sigma.dot(&normal);
+    project_parts(sigma_n, sigma - normal * sigma_n, normal, mu)
+}
+
+/// The same of sigma_N nu + sigma_T. A caller that has both need not take them apart again: on the closed cone
+/// (mu = 0) p then has no rounding of what slips.
+pub(super) fn project_parts(sigma_n: f64, sigma_t: Vec3, normal: Vec3, mu: f64) -> Projected {
     if sigma_n >= 0.0 {
         return Projected::gap();
     }
-    let sigma_t = sigma - normal * sigma_n;
     let cone = -mu * sigma_n;
     let size = safe_norm(sigma_t);
     if size < cone * (1.0 - TIE) {
-        return Projected { state: State::Stick, traction: sigma, tangential: sigma_t, derivative: Mat3::identity() };
+        let traction = normal * sigma_n + sigma_t;
+        return Projected { state: State::Stick, traction, tangential: sigma_t, derivative: Mat3::identity() };
     }
     // On a closed cone (mu = 0) there is no direction and no tangential part. Never above 1: within
     // the tie the trial traction may lie just inside.
