@@ -84,6 +84,7 @@ module stickslip
   integer(c_int32_t), parameter :: STICKSLIP_SHORTCUT_FRICTIONLESS = 1
   integer(c_int32_t), parameter :: STICKSLIP_SHORTCUT_RIGID = 2
   integer(c_int32_t), parameter :: STICKSLIP_SHORTCUT_APART = 4
+  integer(c_int32_t), parameter :: STICKSLIP_SHORTCUT_UNCOVERED = 8
 
   integer(c_int32_t), parameter :: STICKSLIP_BASIS_STANDARD = 0
   integer(c_int32_t), parameter :: STICKSLIP_BASIS_DUAL = 1
@@ -113,7 +114,7 @@ module stickslip
   integer(c_int64_t), parameter :: stickslip_options_size = 104
   integer(c_int64_t), parameter :: stickslip_surface_size = 72
   integer(c_int64_t), parameter :: stickslip_states_size = 80
-  integer(c_int64_t), parameter :: stickslip_counters_size = 128
+  integer(c_int64_t), parameter :: stickslip_counters_size = 184
   integer(c_int64_t), parameter :: stickslip_pair_size = 40
   integer(c_int64_t), parameter :: stickslip_node_response_size = 408
   integer(c_int64_t), parameter :: stickslip_node_size = 224
@@ -191,9 +192,16 @@ module stickslip
     real(c_double) :: seconds_assembly = 0
     integer(c_int64_t) :: pairs_reused = 0         ! frozen weights that served once more
     integer(c_int64_t) :: nodes_slipping = 0       ! slip increments computed
-    integer(c_int64_t) :: evaluations_apart = 0    ! evaluations that ended with the comparison of two boxes
+    integer(c_int64_t) :: evaluations_apart = 0    ! evaluations that found the surfaces apart
     integer(c_int64_t) :: commits_apart = 0        ! commits that did
     integer(c_int64_t) :: multipliers = 0          ! multiplier equations
+    integer(c_int64_t) :: nodes_evaluated = 0      ! nodes that the law was asked about, one a node and evaluation
+    integer(c_int64_t) :: nodes_frictional = 0     ! at the last evaluation, adding up to n1: covered, with friction
+    integer(c_int64_t) :: nodes_frictionless = 0   ! covered, without friction
+    integer(c_int64_t) :: nodes_new = 0            ! covered now, not at t_n: without friction for this step
+    integer(c_int64_t) :: nodes_tied = 0           ! covered and tied
+    integer(c_int64_t) :: nodes_uncovered = 0      ! not covered
+    integer(c_int64_t) :: nodes_left_out = 0       ! not covered, and the law was not asked
   end type
 
   ! A pair of facets, non-mortar first. Node order: right-hand, seen from outside each body.

@@ -197,9 +197,14 @@
 #define STICKSLIP_SHORTCUT_RIGID 2
 
 /// Surfaces whose boxes lie, at t_n and now and on the same side, farther apart than the deepest penetration that is a
-/// pair (see search_distance; on flat surfaces the shorter of their longest edges): neither search nor integration;
-/// their nodes count as uncovered.
+/// pair (see search_distance; on flat surfaces the shorter of their longest edges), and that look at each other: neither
+/// search nor integration; their nodes count as uncovered. An analytic surface: every node outside by more than the
+/// non-mortar side's longest edge there.
 #define STICKSLIP_SHORTCUT_APART 4
+
+/// Nodes that nothing can cover before the next commit (no mortar facet passes the filters with a facet around them), and
+/// all while the surfaces are apart: no law, row -lambda / r; the former's tangent block is its diagonal.
+#define STICKSLIP_SHORTCUT_UNCOVERED 8
 
 /// Standard shape functions for the multiplier (the paper's). Default.
 #define STICKSLIP_BASIS_STANDARD 0
@@ -371,7 +376,7 @@ typedef struct stickslip_counters {
   int64_t pairs_linearised;
   /// Searches, without those of `stickslip_interface_pattern_coo`.
   int64_t searches;
-  /// Pairs active at the last evaluation.
+  /// Pairs active at the last evaluation, commit or creation.
   int64_t pairs_active;
   /// Heap memory in use, roughly [bytes].
   int64_t bytes;
@@ -381,16 +386,31 @@ typedef struct stickslip_counters {
   double seconds_integration;
   /// Time in derivatives and assembly of the tangent [s].
   double seconds_assembly;
-  /// Pairs whose frozen weights served once more, in place of an integration.
+  /// Pairs whose frozen weights served once more, in place of an integration: once an evaluation or commit.
   int64_t pairs_reused;
   /// Slip increments computed, one a node and evaluation; 0 without friction.
   int64_t nodes_slipping;
-  /// Evaluations that ended with the comparison of two boxes: the surfaces were apart.
+  /// Evaluations that ended with the finding that the surfaces are apart, without search and integration.
   int64_t evaluations_apart;
   /// Commits that did.
   int64_t commits_apart;
   /// Multiplier equations.
   int64_t multipliers;
+  /// Nodes that the law was asked about, one a node and evaluation.
+  int64_t nodes_evaluated;
+  /// At the last evaluation (this member and those that follow, which add up to n1): nodes that were covered and had
+  /// friction, Coulomb's with mu > 0 or rough.
+  int64_t nodes_frictional;
+  /// Covered, without friction: mu = 0, or STICKSLIP_FRICTION_NONE.
+  int64_t nodes_frictionless;
+  /// Covered now and not at t_n: without friction for this step (STICKSLIP_NEW_CONTACT_FRICTIONLESS).
+  int64_t nodes_new;
+  /// Covered and tied.
+  int64_t nodes_tied;
+  /// Not covered.
+  int64_t nodes_uncovered;
+  /// Not covered, and the law was not asked: see STICKSLIP_SHORTCUT_UNCOVERED.
+  int64_t nodes_left_out;
 } stickslip_counters;
 
 /// A pair of facets, non-mortar first. Node order: right-hand, seen from outside each body.

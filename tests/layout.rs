@@ -95,7 +95,14 @@ fn layouts() -> Vec<Layout> {
             nodes_slipping,
             evaluations_apart,
             commits_apart,
-            multipliers
+            multipliers,
+            nodes_evaluated,
+            nodes_frictional,
+            nodes_frictionless,
+            nodes_new,
+            nodes_tied,
+            nodes_uncovered,
+            nodes_left_out
         }),
         layout!(stickslip_node {
             struct_size,

@@ -129,7 +129,8 @@ static void read_effects(Scene *scene, Interface *interface)
   scene_bool(scene, interface->name, "shortcuts", &shortcuts);
   options->mortar_side = (int32_t)side;
   if (!shortcuts)
-    options->no_shortcuts = STICKSLIP_SHORTCUT_FRICTIONLESS | STICKSLIP_SHORTCUT_RIGID | STICKSLIP_SHORTCUT_APART;
+    options->no_shortcuts = STICKSLIP_SHORTCUT_FRICTIONLESS | STICKSLIP_SHORTCUT_RIGID | STICKSLIP_SHORTCUT_APART |
+                            STICKSLIP_SHORTCUT_UNCOVERED;
   else if (scene_has(scene, interface->name, "mortar_side") && side == STICKSLIP_MORTAR_DEFORMABLE)
     options->no_shortcuts = STICKSLIP_SHORTCUT_RIGID;
 }

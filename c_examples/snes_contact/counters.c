@@ -27,6 +27,13 @@ static PetscErrorCode interface_counters(const Interface *interface, cJSON *pare
   ADD(pairs_active);
   ADD(searches);
   ADD(nodes_slipping);
+  ADD(nodes_evaluated);
+  ADD(nodes_frictional);
+  ADD(nodes_frictionless);
+  ADD(nodes_new);
+  ADD(nodes_tied);
+  ADD(nodes_uncovered);
+  ADD(nodes_left_out);
   ADD(evaluations_apart);
   ADD(commits_apart);
   ADD(seconds_search);

@@ -22,7 +22,7 @@ pub struct stickslip_counters {
     pub pairs_linearised: i64,
     /// Searches, without those of `stickslip_interface_pattern_coo`.
     pub searches: i64,
-    /// Pairs active at the last evaluation.
+    /// Pairs active at the last evaluation, commit or creation.
     pub pairs_active: i64,
     /// Heap memory in use, roughly [bytes].
     pub bytes: i64,
@@ -32,16 +32,31 @@ pub struct stickslip_counters {
     pub seconds_integration: f64,
     /// Time in derivatives and assembly of the tangent [s].
     pub seconds_assembly: f64,
-    /// Pairs whose frozen weights served once more, in place of an integration.
+    /// Pairs whose frozen weights served once more, in place of an integration: once an evaluation or commit.
     pub pairs_reused: i64,
     /// Slip increments computed, one a node and evaluation; 0 without friction.
     pub nodes_slipping: i64,
-    /// Evaluations that ended with the comparison of two boxes: the surfaces were apart.
+    /// Evaluations that ended with the finding that the surfaces are apart, without search and integration.
     pub evaluations_apart: i64,
     /// Commits that did.
     pub commits_apart: i64,
     /// Multiplier equations.
     pub multipliers: i64,
+    /// Nodes that the law was asked about, one a node and evaluation.
+    pub nodes_evaluated: i64,
+    /// At the last evaluation (this member and those that follow, which add up to n1): nodes that were covered and had
+    /// friction, Coulomb's with mu > 0 or rough.
+    pub nodes_frictional: i64,
+    /// Covered, without friction: mu = 0, or STICKSLIP_FRICTION_NONE.
+    pub nodes_frictionless: i64,
+    /// Covered now and not at t_n: without friction for this step (STICKSLIP_NEW_CONTACT_FRICTIONLESS).
+    pub nodes_new: i64,
+    /// Covered and tied.
+    pub nodes_tied: i64,
+    /// Not covered.
+    pub nodes_uncovered: i64,
+    /// Not covered, and the law was not asked: see STICKSLIP_SHORTCUT_UNCOVERED.
+    pub nodes_left_out: i64,
 }
 
 // SAFETY: repr(C), struct_size first, numbers only.
@@ -72,7 +87,7 @@ pub unsafe extern "C" fn stickslip_interface_counters(
                 pairs_integrated: c.pairs_integrated,
                 pairs_linearised: c.pairs_linearised,
                 searches: c.searches,
-                pairs_active: either!(h, c => c.active_pairs()) as i64,
+                pairs_active: c.pairs_active as i64,
                 bytes: either!(h, c => c.bytes()) as i64,
                 seconds_search: c.seconds_search,
                 seconds_integration: c.seconds_integration,
@@ -82,6 +97,13 @@ pub unsafe extern "C" fn stickslip_interface_counters(
                 evaluations_apart: c.evaluations_apart,
                 commits_apart: c.commits_apart,
                 multipliers: either!(h, c => c.multipliers()) as i64,
+                nodes_evaluated: c.nodes_evaluated,
+                nodes_frictional: c.nodes.frictional,
+                nodes_frictionless: c.nodes.frictionless,
+                nodes_new: c.nodes.new,
+                nodes_tied: c.nodes.tied,
+                nodes_uncovered: c.nodes.uncovered,
+                nodes_left_out: c.nodes.left_out,
             },
         );
         Ok(())

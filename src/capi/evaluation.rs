@@ -176,9 +176,7 @@ pub unsafe extern "C" fn stickslip_interface_states(
 }
 
 fn write_states<const N: usize>(c: &mut Contact<N>, point: &Point, out: &stickslip_states) -> Result<()> {
-    let own = if point.sums().is_none() { c.sums(&point.x1, &point.x2)? } else { Vec::new() };
-    let sums = point.sums().unwrap_or(&own);
-    let responses = c.responses(&point.x1, &point.x2, &point.lambda(), Some(sums))?;
+    let (sums, responses) = c.evaluate(&point.x1, &point.x2, &point.lambda(), point.sums())?;
     let nodes = || responses.iter().enumerate();
     let normals = (0..responses.len()).map(|a| c.normal(a)).collect::<Result<Vec<_>>>()?;
     let slip: Vec<_> = nodes().map(|(a, r)| c.slip_after(a, r, sums[a].coverage_previous)).collect();

@@ -52,9 +52,13 @@ pub const STICKSLIP_SHORTCUT_FRICTIONLESS: i32 = 1;
 /// A mortar side without equations is treated as rigid.
 pub const STICKSLIP_SHORTCUT_RIGID: i32 = 2;
 /// Surfaces whose boxes lie, at t_n and now and on the same side, farther apart than the deepest penetration that is a
-/// pair (see search_distance; on flat surfaces the shorter of their longest edges): neither search nor integration;
-/// their nodes count as uncovered.
+/// pair (see search_distance; on flat surfaces the shorter of their longest edges), and that look at each other: neither
+/// search nor integration; their nodes count as uncovered. An analytic surface: every node outside by more than the
+/// non-mortar side's longest edge there.
 pub const STICKSLIP_SHORTCUT_APART: i32 = 4;
+/// Nodes that nothing can cover before the next commit (no mortar facet passes the filters with a facet around them), and
+/// all while the surfaces are apart: no law, row -lambda / r; the former's tangent block is its diagonal.
+pub const STICKSLIP_SHORTCUT_UNCOVERED: i32 = 8;
 /// Standard shape functions for the multiplier (the paper's). Default.
 pub const STICKSLIP_BASIS_STANDARD: i32 = 0;
 /// Dual shape functions. Not in this version.
@@ -176,7 +180,10 @@ fn choose<T: Copy>(value: i32, name: &str, available: &[T], named: i32) -> Resul
 }
 
 fn read_shortcuts(off: i32) -> Result<Shortcuts> {
-    let all = STICKSLIP_SHORTCUT_FRICTIONLESS | STICKSLIP_SHORTCUT_RIGID | STICKSLIP_SHORTCUT_APART;
+    let all = STICKSLIP_SHORTCUT_FRICTIONLESS
+        | STICKSLIP_SHORTCUT_RIGID
+        | STICKSLIP_SHORTCUT_APART
+        | STICKSLIP_SHORTCUT_UNCOVERED;
     if off & !all != 0 {
         let text = format!("options.no_shortcuts is {off}; a sum of STICKSLIP_SHORTCUT_... is allowed");
         return Err(Error::new(Kind::InvalidValue, text));
@@ -186,6 +193,7 @@ fn read_shortcuts(off: i32) -> Result<Shortcuts> {
         frictionless: on(STICKSLIP_SHORTCUT_FRICTIONLESS),
         rigid: on(STICKSLIP_SHORTCUT_RIGID),
         apart: on(STICKSLIP_SHORTCUT_APART),
+        uncovered: on(STICKSLIP_SHORTCUT_UNCOVERED),
     })
 }
 

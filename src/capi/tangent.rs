@@ -100,6 +100,9 @@ pub unsafe extern "C" fn stickslip_interface_tangent_coo(
         let point = Point::read(&h.inner, x1, x2, lambda, sums)?;
         let mut t = Triplets::default();
         if rows.is_null() && columns.is_null() && values.is_null() {
+            if point.sums().is_some() {
+                either!(&mut h.inner, c => c.share()); // as the tangent with them will
+            }
             either!(&mut h.inner, c => c.pattern(&point.x1, &point.x2, &mut t)?);
         } else {
             either!(&mut h.inner, c => c.tangent(&point.x1, &point.x2, &point.lambda(), point.sums(), &mut t)?);

@@ -57,16 +57,24 @@ pub(super) fn integrate(
     Ok(Integration { x1: x1.to_vec(), x2: x2.to_vec(), frames, pairs, apart: false })
 }
 
-/// Whether every node is outside the surface by more than any facet's edge, in all of the configurations (x1, x2), so
-/// that nothing can touch.
+/// Whether every node is outside the surface by more than any facet's edge there, in all of the configurations (x1, x2).
+/// A point of a facet is nearer to one of its nodes than its longest edge, so all of it is outside.
 pub(super) fn are_apart((one, two): (&Surface, &Surface), places: &[(&[Vec3], &[Vec3])]) -> Result<bool> {
     for (x1, x2) in places {
         let surface = two.analytic_at(x2)?;
-        if !x1.iter().all(|x| surface.distance(x - surface.origin) > one.longest_edge) {
+        let edge = one.longest_edge_at(x1);
+        if !x1.iter().all(|x| surface.distance(x - surface.origin) > edge) {
             return Ok(false);
         }
     }
     Ok(true)
+}
+
+/// Whether the gap is one, and no penetration, all over a facet that is outside: its vector runs along the surface's
+/// normal n, of which nu . n > 0 holds between the nodes if it does at all of them.
+pub(super) fn looks_at(surface: &AnalyticSurface, nodes: &[usize], x1: &[Vec3], nu: &[Vec3]) -> bool {
+    let normal = |&k: &usize| surface.closest(x1[k] - surface.origin).map(|closest| closest.normal);
+    nodes.iter().all(|k| normal(k).is_some_and(|n| nodes.iter().all(|&a| nu[a].dot(&n) > 0.0)))
 }
 
 /// The derivatives of a pair, as `PairMotion` has them.

@@ -121,7 +121,7 @@ impl<const N: usize> Contact<N> {
         Ok(r)
     }
 
-    fn all_normals(&self) -> Result<Vec<Vec3>> {
+    pub(super) fn all_normals(&self) -> Result<Vec<Vec3>> {
         (0..self.nonmortar.len()).map(|a| self.normal(a)).collect()
     }
 
@@ -331,8 +331,15 @@ impl<const N: usize> Contact<N> {
 
     /// Stage 4: the node's own block, once per node, covered or not.
     fn emit_node(&self, a: usize, drow_dlambda: &SMatrix<f64, N, N>, sink: &mut dyn Sink) {
-        if self.owned[a] {
-            let equations = &self.multiplier_equations[a];
+        if !self.owned[a] {
+            return;
+        }
+        let equations = &self.multiplier_equations[a];
+        if self.is_out_of_reach(a) {
+            for (i, equation) in equations.iter().enumerate() {
+                sink.add_block(&[*equation], &[*equation], &[drow_dlambda[(i, i)] * self.row_scale(a)]);
+            }
+        } else {
             sink.add_block(equations, equations, (drow_dlambda * self.row_scale(a)).as_slice());
         }
     }

@@ -6,8 +6,7 @@
 //! the smaller of its facets is long, and by what the surfaces bulge from their facets beyond it.
 
 use super::integration::at_facet;
-use super::search::Aabb;
-use super::{Options, Surface, Weights, analytic};
+use super::{Options, Surface, analytic, reach};
 use crate::error::Result;
 use crate::geometry::{Facet, Plane, Vec3};
 
@@ -36,37 +35,24 @@ impl Filter {
             return analytic::facing(one, &two.analytic_at(x2)?, options, x1).map(Filter::Analytic);
         }
         let sides = [Side::new(one, x1)?, Side::new(two, x2)?];
-        Ok(Filter::Facets(FacetFilter { sides, distance: options.search_distance }))
+        let mut filter = FacetFilter { sides, distance: options.search_distance, reached: Vec::new() };
+        filter.reached = reach::reached(&filter);
+        Ok(Filter::Facets(filter))
     }
 
-    /// Whether the surfaces are so far apart that nothing can touch, in all of the configurations (x1, x2): by more than
-    /// any penetration that is a pair, and on the same side; between two sides they pass through each other. Only asked
-    /// where the weights follow the motion, so that they can be made up for later.
-    pub fn are_apart(
-        &self,
-        (one, two): (&Surface, &Surface),
-        options: &Options,
-        places: &[(&[Vec3], &[Vec3])],
-    ) -> Result<bool> {
-        if !options.shortcuts.apart || options.effective_weights() != Weights::Current {
-            return Ok(false);
-        }
+    /// Per non-mortar facet, whether it can have a pair.
+    pub fn reached(&self) -> &[bool] {
         match self {
-            Filter::Analytic(_) => analytic::are_apart((one, two), places),
-            Filter::Facets(filter) => {
-                let around = |x: &[Vec3]| Aabb::around(x.iter().copied());
-                let deepest = filter.deepest();
-                let sides: Vec<_> = places.iter().map(|(x1, x2)| around(x1).sides(&around(x2), deepest)).collect();
-                Ok((0..6).any(|side| sides.iter().all(|s| s[side])))
-            }
+            Filter::Facets(filter) => &filter.reached,
+            Filter::Analytic(facing) => facing,
         }
     }
 }
 
 /// The facets of one side at t_n.
 #[derive(Debug)]
-struct Side {
-    facets: Vec<(Facet, Plane)>,
+pub(super) struct Side {
+    pub facets: Vec<(Facet, Plane)>,
     /// How far the surface may lie off each of them `[L]`.
     bulges: Vec<f64>,
 }
@@ -116,9 +102,11 @@ fn heights(facet: &Facet, plane: &Plane) -> impl Iterator<Item = f64> {
 #[derive(Debug)]
 pub(super) struct FacetFilter {
     /// Non-mortar, mortar.
-    sides: [Side; 2],
+    pub sides: [Side; 2],
     /// What the host gives for both penetration and gap `[L]`.
     distance: Option<f64>,
+    /// Per non-mortar facet, whether any mortar facet can be a pair with it.
+    pub reached: Vec<bool>,
 }
 
 impl FacetFilter {
@@ -131,7 +119,12 @@ impl FacetFilter {
         }
         let (low, high) =
             heights(facet, plane).fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), d| (l.min(d), h.max(d)));
-        low <= self.distance.unwrap_or(f64::INFINITY) && high >= -self.penetration(i, j)
+        low <= self.gap() && high >= -self.penetration(i, j)
+    }
+
+    /// The widest gap of a pair `[L]`.
+    pub fn gap(&self) -> f64 {
+        self.distance.unwrap_or(f64::INFINITY)
     }
 
     /// The deepest penetration at which they can be a pair `[L]`.
@@ -141,8 +134,16 @@ impl FacetFilter {
         self.distance.unwrap_or(edges + one.bulges[i] + two.bulges[j])
     }
 
+    /// At least the deepest penetration of any pair of each non-mortar facet `[L]`.
+    pub fn deepest_of_each(&self) -> Vec<f64> {
+        let [one, two] = &self.sides;
+        let (_, bulge) = two.largest();
+        let own = one.facets.iter().zip(&one.bulges).map(|((facet, _), own)| facet.longest_edge() + own);
+        own.map(|own| self.distance.unwrap_or(own + bulge)).collect()
+    }
+
     /// At least the deepest penetration of any pair `[L]`.
-    fn deepest(&self) -> f64 {
+    pub fn deepest(&self) -> f64 {
         let [(h1, b1), (h2, b2)] = self.sides.each_ref().map(Side::largest);
         self.distance.unwrap_or(h1.min(h2) + b1 + b2)
     }

@@ -9,7 +9,7 @@ use super::filter::{FacetFilter, Filter};
 use super::history::{History, Keeps, PairRecord};
 use super::nodes::assemble;
 use super::search::{Aabb, Prism, Tree};
-use super::{Contact, Counters, Options, Surface, Weights, analytic};
+use super::{Contact, Counters, Options, Surface, Weights, analytic, apart};
 use crate::error::{Error, Kind, Result};
 use crate::geometry::Vec3;
 use crate::mortar::{GapDerivative, NonmortarFrame, PairWeights, Segment, WeightDerivatives};
@@ -80,7 +80,7 @@ fn candidates(
     let facet_box = |f: usize| Aabb::around(two.facet(f, x2).points().iter().copied());
     let tree = Tree::new((0..two.facets.len()).map(facet_box).collect());
     let (mut pairs, mut found) = (Vec::new(), Vec::new());
-    for (i, frame) in frames.iter().enumerate() {
+    for (i, frame) in frames.iter().enumerate().filter(|&(i, _)| filter.reached[i]) {
         let facet = one.facet(i, x1);
         let prism = Prism::over(facet.points(), &frame.plane, (TOUCH_MARGIN + skin) * facet.longest_edge());
         *visited += tree.find(&prism, &mut found) as i64;
@@ -155,14 +155,14 @@ impl<const N: usize> Contact<N> {
     pub(super) fn ensure_integration(&mut self, x1: &[Vec3], x2: &[Vec3]) -> Result<()> {
         if self.options.effective_weights() != Weights::Current {
             self.counters.pairs_reused += self.history.pairs.len() as i64;
+            self.count_pairs();
             return Ok(());
         }
         if self.integration.as_ref().is_some_and(|k| k.x1 == x1 && k.x2 == x2) {
+            self.count_pairs();
             return Ok(());
         }
-        let (surfaces, h) = ((&self.nonmortar, &self.mortar), &self.history);
-        let filter = self.filter.as_ref().expect("current weights have one");
-        self.integration = Some(if filter.are_apart(surfaces, &self.options, &[(&h.x1, &h.x2), (x1, x2)])? {
+        self.integration = Some(if self.stays_apart(x1, x2)? {
             self.counters.evaluations_apart += 1;
             Integration { x1: x1.to_vec(), x2: x2.to_vec(), frames: Vec::new(), pairs: Vec::new(), apart: true }
         } else {
@@ -171,7 +171,13 @@ impl<const N: usize> Contact<N> {
             let filter = self.filter.as_ref().expect("current weights have one");
             integrate(surfaces, &self.options, filter, &mut self.counters, (x1, x2))?
         });
+        self.count_pairs();
         Ok(())
+    }
+
+    /// Notes how many pairs are active here.
+    pub(super) fn count_pairs(&mut self) {
+        self.counters.pairs_active = self.current_pairs().len();
     }
 
     /// Whether the last evaluation found the surfaces apart.
@@ -232,7 +238,7 @@ impl<const N: usize> Contact<N> {
         // Also where the surfaces are apart: a commit refuses degenerate facets of either side.
         let filter = Filter::new(nonmortar, mortar, options, x1, x2)?;
         let mut integration = None;
-        let frames = if filter.are_apart((nonmortar, mortar), options, &[(x1, x2)])? {
+        let frames = if apart::are_apart((nonmortar, mortar), options, &filter, &[(x1, x2)])? {
             counters.commits_apart += 1;
             &frames(nonmortar, x1)?
         } else {

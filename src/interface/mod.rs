@@ -4,6 +4,7 @@
 //! core that allocates.
 
 mod analytic;
+mod apart;
 mod assembly;
 mod augmented;
 mod describe;
@@ -14,8 +15,10 @@ mod integration;
 mod nodes;
 mod options;
 mod overrides;
+mod reach;
 mod search;
 mod surface;
+mod treatment;
 
 pub use assembly::{Residual, Sink};
 pub use history::{History, PairRecord};
@@ -25,6 +28,7 @@ pub use options::{
     Weights,
 };
 pub use surface::{FacetNodes, NO_EQUATION, Surface};
+pub use treatment::NodeCounts;
 
 use crate::error::{Error, Kind, Result};
 use crate::geometry::{Mat3, Vec3};
@@ -53,7 +57,13 @@ pub struct Counters {
     pub pairs_reused: i64,
     /// Nodes whose slip was computed.
     pub nodes_slipping: i64,
-    /// Evaluations, and commits, that ended with the comparison of two boxes.
+    /// Nodes about which the law was asked.
+    pub nodes_evaluated: i64,
+    /// How the nodes were treated at the last evaluation.
+    pub nodes: NodeCounts,
+    /// Pairs active at the last evaluation, commit or creation.
+    pub pairs_active: usize,
+    /// Evaluations, and commits, that ended with the finding that the surfaces are apart.
     pub evaluations_apart: i64,
     /// See `evaluations_apart`.
     pub commits_apart: i64,
@@ -79,6 +89,7 @@ pub struct Contact<const N: usize> {
     mortar: Surface,
     multiplier_equations: Vec<[i64; N]>,
     owned: Vec<bool>,
+    coverable: Vec<bool>,
     mu: Vec<f64>,
     augmentations: Option<Vec<f64>>,
     normals: Option<Vec<Vec3>>,
@@ -164,6 +175,7 @@ impl<const N: usize> Contact<N> {
             mortar,
             multiplier_equations,
             owned: vec![true; n1],
+            coverable: Vec::new(),
             mu,
             augmentations: None,
             normals: None,
@@ -174,6 +186,8 @@ impl<const N: usize> Contact<N> {
             integration: start.integration,
             counters,
         };
+        interface.coverable = interface.find_coverable();
+        interface.count_pairs();
         interface.set_constraints(&[])?; // those that follow from removed equations
         Ok(interface)
     }
@@ -182,7 +196,15 @@ impl<const N: usize> Contact<N> {
     fn adopt(&mut self, start: Start) -> History {
         self.filter = start.filter;
         self.integration = start.integration;
-        std::mem::replace(&mut self.history, start.history)
+        let old = std::mem::replace(&mut self.history, start.history);
+        self.coverable = self.find_coverable();
+        old
+    }
+
+    fn find_coverable(&self) -> Vec<bool> {
+        let frozen = self.options.effective_weights() != Weights::Current;
+        let pairs = frozen.then_some(&self.history.pairs[..]);
+        reach::coverable(&self.nonmortar, self.filter.as_ref(), pairs)
     }
 
     /// Puts a history in place that is not of now; nothing is changed when its positions are refused.
@@ -201,6 +223,7 @@ impl<const N: usize> Contact<N> {
         let surfaces = (&self.nonmortar, &self.mortar);
         let new = Self::start_at(surfaces, &self.options, &mut self.counters, (x1, x2))?;
         self.adopt(new);
+        self.count_pairs();
         self.rollback = None;
         Ok(())
     }
@@ -213,9 +236,7 @@ impl<const N: usize> Contact<N> {
         lambda: &[SVector<f64, N>],
         sums: Option<&[NodeSums]>,
     ) -> Result<()> {
-        let own = if sums.is_none() { self.sums(x1, x2)? } else { Vec::new() };
-        let sums = sums.unwrap_or(&own);
-        let responses = self.responses(x1, x2, lambda, Some(sums))?;
+        let (sums, responses) = self.evaluate(x1, x2, lambda, sums)?;
         let surfaces = (&self.nonmortar, &self.mortar);
         let mut new = if self.options.effective_weights() == Weights::Reference {
             let mut history = History { x1: x1.to_vec(), x2: x2.to_vec(), ..self.history.clone() };
@@ -236,6 +257,7 @@ impl<const N: usize> Contact<N> {
             new.history.slip.clone_from(&self.history.slip);
         }
         self.rollback = Some(self.adopt(new));
+        self.count_pairs();
         Ok(())
     }
 
@@ -313,9 +335,9 @@ impl<const N: usize> Contact<N> {
         self.counters
     }
 
-    /// Pairs active at the last evaluation.
+    /// Pairs active at the last evaluation, commit or creation.
     pub fn active_pairs(&self) -> usize {
-        self.current_pairs().len()
+        self.counters.pairs_active
     }
 
     /// Heap memory in use, roughly `[bytes]`.

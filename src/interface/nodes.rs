@@ -3,12 +3,13 @@
 
 use super::effects;
 use super::history::PairRecord;
-use super::{Contact, NewContact, Options, RowScale, Surface};
+use super::{Contact, NewContact, NodeCounts, Options, RowScale, Surface};
 use crate::error::{Error, Kind, Result};
 use crate::geometry::{Mat3, Vec3};
 use crate::law::{Node, NodeResponse};
 use crate::mortar::gap;
 use nalgebra::SVector;
+use std::borrow::Cow;
 
 /// What a node assembles over its pairs. A parallel host adds these over its ranks.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -84,24 +85,40 @@ impl<const N: usize> Contact<N> {
         lambda: &[SVector<f64, N>],
         sums: Option<&[NodeSums]>,
     ) -> Result<Vec<NodeResponse<N>>> {
+        self.evaluate(x1, x2, lambda, sums).map(|(_, responses)| responses)
+    }
+
+    /// Stages 1 and 2: the sums, `sums` or this handle's own, and the law's answers to them.
+    pub fn evaluate<'a>(
+        &mut self,
+        x1: &[Vec3],
+        x2: &[Vec3],
+        lambda: &[SVector<f64, N>],
+        sums: Option<&'a [NodeSums]>,
+    ) -> Result<(Cow<'a, [NodeSums]>, Vec<NodeResponse<N>>)> {
         self.check_length("lambda", lambda.len(), self.nonmortar.len())?;
         check_finite("lambda", lambda)?;
-        let own;
         let sums = match sums {
             Some(sums) => {
                 self.check_positions(x1, x2)?;
                 self.check_length("sums", sums.len(), self.nonmortar.len())?;
+                self.share();
                 self.ensure_integration(x1, x2)?;
-                sums
+                Cow::Borrowed(sums)
             }
-            None => {
-                own = self.sums(x1, x2)?;
-                &own
-            }
+            None => Cow::Owned(self.sums(x1, x2)?),
         };
         let mut responses = Vec::with_capacity(lambda.len());
+        let mut counts = NodeCounts::default();
         for a in 0..lambda.len() {
-            let response = (self.kernels.respond)(&self.node(a, lambda[a], &sums[a])?);
+            let response = if self.is_left_out(a) {
+                counts.left_out += 1;
+                NodeResponse::uncovered(&lambda[a], self.augmentation(a))
+            } else {
+                let node = self.node(a, lambda[a], &sums[a])?;
+                *self.count_of(a, &node, &mut counts) += 1;
+                (self.kernels.respond)(&node)
+            };
             if !response.row.iter().chain(response.traction.iter()).all(|v| v.is_finite()) {
                 let text =
                     format!("the response of non-mortar node {a} overflows; positions or multiplier are out of range");
@@ -109,7 +126,9 @@ impl<const N: usize> Contact<N> {
             }
             responses.push(response);
         }
-        Ok(responses)
+        self.counters.nodes_evaluated += counts.total() - counts.left_out;
+        self.counters.nodes = counts;
+        Ok((sums, responses))
     }
 
     fn node(&self, a: usize, lambda: SVector<f64, N>, sums: &NodeSums) -> Result<Node<N>> {

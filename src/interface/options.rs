@@ -80,11 +80,13 @@ pub struct Shortcuts {
     pub rigid: bool,
     /// Surfaces whose boxes are farther apart than a facet: neither search nor integration.
     pub apart: bool,
+    /// Nodes that nothing can cover before the next commit, and all of surfaces that are apart: no law.
+    pub uncovered: bool,
 }
 
 impl Default for Shortcuts {
     fn default() -> Self {
-        Shortcuts { frictionless: true, rigid: true, apart: true }
+        Shortcuts { frictionless: true, rigid: true, apart: true, uncovered: true }
     }
 }
 

@@ -32,6 +32,13 @@ impl Aabb {
         let (above, below) = (self.low - other.high, other.low - self.high);
         [above.x, above.y, above.z, below.x, below.y, below.z].map(|between| between > distance)
     }
+
+    /// The least and the largest height of any point of the box along `direction`, over `origin`.
+    pub fn along(&self, direction: Vec3, origin: Vec3) -> (f64, f64) {
+        let (centre, half) = (self.centre() - origin, (self.high - self.low) * 0.5);
+        let (c, r) = (direction.dot(&centre), direction.abs().dot(&half));
+        (c - r, c + r)
+    }
 }
 
 /// What a facet sweeps along its normal, both ways without end: intervals along the plane's two axes.
@@ -109,6 +116,28 @@ impl Tree {
         let visited = self.query(prism, 0, found);
         found.sort_unstable();
         visited
+    }
+
+    /// Other boxes of the same things, one around all that a node of the tree holds: in the order of `any`'s nodes.
+    pub fn gather(&self, boxes: &[Aabb]) -> Vec<Aabb> {
+        let around = |n: &TreeNode| {
+            let held = &self.order[n.first..n.first + n.count];
+            held.iter().skip(1).fold(boxes[held[0]], |b, &i| b.union(&boxes[i]))
+        };
+        self.nodes.iter().map(around).collect()
+    }
+
+    /// Whether `is` holds of any box, asked of those alone whose nodes in the tree (index and bounds) all `may`.
+    pub fn any(&self, may: &impl Fn(usize, &Aabb) -> bool, is: &impl Fn(usize) -> bool) -> bool {
+        self.any_below(0, may, is)
+    }
+
+    fn any_below(&self, node: usize, may: &impl Fn(usize, &Aabb) -> bool, is: &impl Fn(usize) -> bool) -> bool {
+        let Some(n) = self.nodes.get(node).filter(|n| may(node, &n.bounds)) else { return false };
+        if n.right == 0 {
+            return self.order[n.first..n.first + n.count].iter().any(|&i| is(i));
+        }
+        self.any_below(node + 1, may, is) || self.any_below(n.right, may, is)
     }
 
     fn build(&mut self, boxes: &[Aabb], first: usize, end: usize) -> usize {

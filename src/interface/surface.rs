@@ -103,9 +103,7 @@ impl Surface {
         };
         let mut surface =
             Surface { side, reference, facets: kept, equations, longest_edge: 0.0, edges, analytic: None };
-        for f in 0..surface.facets.len() {
-            surface.longest_edge = surface.longest_edge.max(surface.facet(f, &surface.reference).longest_edge());
-        }
+        surface.longest_edge = surface.longest_edge_at(&surface.reference);
         match surface.folded_edge() {
             None => Ok(surface),
             Some(SharedEdge { nodes: [a, b], facets: [f, g] }) => fail(
@@ -166,6 +164,11 @@ impl Surface {
         let frame = |x: &[Vec3]| self.facets[0].nodes.map(|k| x[k]);
         check_rigid_motion(&frame(&self.reference), &frame(x))
             .map_err(|e| Error::new(e.kind, format!("{}: {}", self.side, e.message)))
+    }
+
+    /// The longest edge of any facet at the node positions `x` `[L]`.
+    pub fn longest_edge_at(&self, x: &[Vec3]) -> f64 {
+        (0..self.facets.len()).map(|f| self.facet(f, x).longest_edge()).fold(0.0, f64::max)
     }
 
     /// Number of nodes.

@@ -68,6 +68,24 @@ pub struct NodeResponse<const N: usize = 3> {
     pub drow_dprevious: SMatrix<f64, N, 3>,
 }
 
+impl<const N: usize> NodeResponse<N> {
+    /// The answer of any law for a node that nothing covers: p = 0, c = -lambda / r. Without sigma.
+    pub fn uncovered(lambda: &SVector<f64, N>, r: f64) -> NodeResponse<N> {
+        NodeResponse {
+            state: State::Gap,
+            traction: Vec3::zeros(),
+            row: -lambda / r,
+            gap_normal: 0.0,
+            slip: Vec3::zeros(),
+            sigma: Vec3::zeros(),
+            dp_dlambda: SMatrix::zeros(),
+            drow_dlambda: -SMatrix::identity() / r,
+            drow_dnow: SMatrix::zeros(),
+            drow_dprevious: SMatrix::zeros(),
+        }
+    }
+}
+
 impl Node {
     /// Coulomb's answer, of the stateless stage.
     pub fn respond(&self) -> NodeResponse {

@@ -13,16 +13,19 @@ impl Law<3> for Tied {
     const SLIPS: bool = false;
 
     fn respond(node: &Node) -> NodeResponse {
-        let r = node.augmentation;
-        let free = if node.covered { node.free } else { Mat3::zeros() };
+        let (r, free) = (node.augmentation, node.free);
+        let gap_normal = node.normal.dot(&node.gap_now);
+        if !node.covered {
+            return NodeResponse { gap_normal, ..NodeResponse::uncovered(&node.lambda, r) };
+        }
         let gap = free * (node.gap_now - node.gap_committed);
         let lambda = free * node.lambda;
         let sigma = lambda + gap * r;
         NodeResponse {
-            state: if node.covered { State::Stick } else { State::Gap },
+            state: State::Stick,
             traction: sigma,
             row: gap - (node.lambda - lambda) / r,
-            gap_normal: node.normal.dot(&node.gap_now),
+            gap_normal,
             slip: Vec3::zeros(),
             sigma,
             dp_dlambda: free,

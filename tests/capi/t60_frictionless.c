@@ -40,8 +40,8 @@ int main(void) {
     scene_init(&three);
     three.options.mu = 0.0;
     three.options.weights = weights;
-    three.options.no_shortcuts =
-        STICKSLIP_SHORTCUT_FRICTIONLESS | STICKSLIP_SHORTCUT_RIGID | STICKSLIP_SHORTCUT_APART;
+    three.options.no_shortcuts = STICKSLIP_SHORTCUT_FRICTIONLESS | STICKSLIP_SHORTCUT_RIGID |
+                                 STICKSLIP_SHORTCUT_APART | STICKSLIP_SHORTCUT_UNCOVERED;
     scene_create(&three);
 
     FILL(lambda);
@@ -115,6 +115,7 @@ int main(void) {
     counters.struct_size = sizeof counters;
     CHECK_OK(stickslip_interface_counters(one.interface, &counters));
     CHECK(counters.nodes_slipping == 0 && counters.multipliers == N1);
+    CHECK(counters.nodes_frictionless == N1 && counters.nodes_frictional == 0);
     const double mu[N1] = {0};
     CHECK_REFUSED(stickslip_interface_set_friction(one.interface, mu), STICKSLIP_INVALID_VALUE, "friction");
     CHECK_OK(stickslip_interface_counters(three.interface, &counters));

@@ -2,7 +2,8 @@
  * Misuse is refused; the interface says in sentences what it computes and why. */
 #include "scene.h"
 
-static const int32_t ALL = STICKSLIP_SHORTCUT_FRICTIONLESS | STICKSLIP_SHORTCUT_RIGID | STICKSLIP_SHORTCUT_APART;
+static const int32_t ALL = STICKSLIP_SHORTCUT_FRICTIONLESS | STICKSLIP_SHORTCUT_RIGID | STICKSLIP_SHORTCUT_APART |
+                           STICKSLIP_SHORTCUT_UNCOVERED;
 
 static triplets t, u;
 
@@ -10,6 +11,10 @@ static stickslip_counters counters_of(scene *s) {
   stickslip_counters counters;
   counters.struct_size = sizeof counters;
   CHECK_OK(stickslip_interface_counters(s->interface, &counters));
+  /* Each node was treated in one way. */
+  const int64_t nodes = counters.nodes_frictional + counters.nodes_frictionless + counters.nodes_new +
+                        counters.nodes_tied + counters.nodes_uncovered + counters.nodes_left_out;
+  CHECK(nodes == N1);
   return counters;
 }
 
@@ -107,6 +112,8 @@ int main(void) {
   const stickslip_counters cheap = counters_of(&s), dear = counters_of(&full);
   CHECK(cheap.pairs_tested == 0 && cheap.searches == 0 && cheap.evaluations_apart == 1 && cheap.commits_apart == 2);
   CHECK(dear.pairs_tested > 0 && dear.searches > 0 && dear.evaluations_apart == 0 && dear.commits_apart == 0);
+  CHECK(cheap.nodes_left_out == N1 && cheap.nodes_evaluated == 0);
+  CHECK(dear.nodes_left_out == 0 && dear.nodes_evaluated == 2 * N1 && dear.nodes_frictional == N1);
   history_take(s.interface, &made_up);
   history_take(full.interface, &searched);
   CHECK(history_equal(&made_up, &searched));
@@ -121,13 +128,40 @@ int main(void) {
   scene_destroy(&s);
   scene_destroy(&full);
 
+  /* A mortar side that looks away covers no node before the next commit: no law is asked about any. */
+  scene_init(&s);
+  scene_init(&full);
+  full.options.no_shortcuts = STICKSLIP_SHORTCUT_UNCOVERED;
+  for (scene *each = &s;; each = &full) {
+    for (int f = 0; f < COUNT(each->nodes2); f += 4) {
+      const int64_t second = each->nodes2[f + 1];
+      each->nodes2[f + 1] = each->nodes2[f + 3];
+      each->nodes2[f + 3] = second;
+    }
+    scene_create(each);
+    scene_residual(each, each == &s ? r : q);
+    scene_tangent(each, each == &s ? &t : &u);
+    if (each == &full) break;
+  }
+  CHECK(memcmp(r, q, sizeof r) == 0);
+  CHECK(counters_of(&s).nodes_left_out == N1 && counters_of(&s).nodes_evaluated == 0);
+  CHECK(counters_of(&full).nodes_uncovered == N1 && counters_of(&full).nodes_evaluated == 2 * N1);
+  CHECK(t.n == 3 * N1 && u.n == 9 * N1); /* the diagonal; the blocks, which have no more in them */
+  memset(k, 0, sizeof k);
+  memset(expected, 0, sizeof expected);
+  triplets_add(&t, 0, k);
+  triplets_add(&u, 0, expected);
+  for (int i = 0; i < UNKNOWNS * UNKNOWNS; ++i) CHECK(k[i] == expected[i]);
+  scene_destroy(&s);
+  scene_destroy(&full);
+
   /* A rigid side has no equation; a shortcut has a name. */
   scene_init(&s);
   s.options.mortar_side = STICKSLIP_MORTAR_RIGID;
   CHECK_REFUSED(stickslip_interface_create(&s.nonmortar, &s.mortar, &s.options, &s.interface), STICKSLIP_INVALID_VALUE,
                 "mortar");
   s.options.mortar_side = STICKSLIP_MORTAR_DEFORMABLE;
-  const int32_t unknown[] = {8, -1, INT32_MIN, INT32_MAX};
+  const int32_t unknown[] = {16, -1, INT32_MIN, INT32_MAX};
   for (int n = 0; n < COUNT(unknown); ++n) {
     s.options.no_shortcuts = unknown[n];
     CHECK_REFUSED(stickslip_interface_create(&s.nonmortar, &s.mortar, &s.options, &s.interface),

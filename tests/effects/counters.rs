@@ -62,8 +62,8 @@ fn weights_of_the_reference_are_integrated_once() {
         assert_eq!(gained.pairs_linearised, 0);
         let pairs = c.active_pairs() as i64;
         assert!(pairs > 4);
-        // Residual and tangent of six points; three commits, which ask for the sums and for the states.
-        assert_eq!(gained.pairs_reused, (6 * 2 + 3 * 2) * pairs);
+        // Residual and tangent of six points; three commits.
+        assert_eq!(gained.pairs_reused, (6 * 2 + 3) * pairs);
     }
     let (gained, _) = run::<3>(options(), false);
     // Six points and three commits; the point after a commit is that of the commit no more.

@@ -12,6 +12,7 @@ mod rigid;
 mod rough;
 mod shortcuts;
 mod tied;
+mod uncovered;
 
 use nalgebra::{Rotation3, SVector};
 use stickslip::geometry::Vec3;
@@ -19,7 +20,7 @@ use stickslip::interface::{Contact, Form, Options, Residual, Shortcuts, Weights}
 use support::mesh::*;
 
 /// Every shortcut off: the full machinery.
-const NO_SHORTCUTS: Shortcuts = Shortcuts { frictionless: false, rigid: false, apart: false };
+const NO_SHORTCUTS: Shortcuts = Shortcuts { frictionless: false, rigid: false, apart: false, uncovered: false };
 
 const FORMS: [Form; 2] = [Form::Multiplier, Form::Augmented];
 const WEIGHTS: [Weights; 3] = [Weights::Current, Weights::Committed, Weights::Reference];

@@ -41,7 +41,8 @@ contains
     call scene_init(three)
     three%options%mu = 0
     three%options%weights = kind_of_weights
-    three%options%no_shortcuts = STICKSLIP_SHORTCUT_FRICTIONLESS + STICKSLIP_SHORTCUT_RIGID + STICKSLIP_SHORTCUT_APART
+    three%options%no_shortcuts = STICKSLIP_SHORTCUT_FRICTIONLESS + STICKSLIP_SHORTCUT_RIGID + &
+                                 STICKSLIP_SHORTCUT_APART + STICKSLIP_SHORTCUT_UNCOVERED
     call scene_create(three)
   end subroutine
 
@@ -159,6 +160,7 @@ contains
     real(c_double), parameter :: mu(NA) = 0
     CHECK_OK(stickslip_interface_counters(one%contact, counters))
     CHECK(counters%nodes_slipping == 0 .and. counters%multipliers == NA)
+    CHECK(counters%nodes_frictionless == NA .and. counters%nodes_frictional == 0)
     CHECK_REFUSED(stickslip_interface_set_friction(one%contact, mu), STICKSLIP_INVALID_VALUE, 'friction')
     CHECK_OK(stickslip_interface_counters(three%contact, counters))
     CHECK(counters%nodes_slipping > 0 .and. counters%multipliers == SIZE1)

@@ -8,7 +8,7 @@ program t62_rigid_shortcuts
   use stickslip
   implicit none
   integer(c_int32_t), parameter :: EVERY = STICKSLIP_SHORTCUT_FRICTIONLESS + STICKSLIP_SHORTCUT_RIGID + &
-                                           STICKSLIP_SHORTCUT_APART
+                                           STICKSLIP_SHORTCUT_APART + STICKSLIP_SHORTCUT_UNCOVERED
   ! Entries of tangents that are computed in two ways, relative to the largest of a block, or to this one's size.
   real(c_double), parameter :: ROUNDING = 1d-12, LEAST = 1d-3
   type(scene), target, save :: s, full
@@ -20,6 +20,7 @@ program t62_rigid_shortcuts
   end do
   call check_frictionless()
   call check_apart()
+  call check_uncovered()
   call check_misuse()
   call check_sentences()
 
@@ -42,6 +43,14 @@ contains
   type(stickslip_counters) function counters_of(s)
     type(scene), intent(in) :: s
     CHECK_OK(stickslip_interface_counters(s%contact, counters_of))
+    ! Each node was treated in one way.
+    CHECK(treated(counters_of) == NA)
+  end function
+
+  integer(c_int64_t) function treated(c)
+    type(stickslip_counters), intent(in) :: c
+    treated = c%nodes_frictional + c%nodes_frictionless + c%nodes_new + c%nodes_tied + c%nodes_uncovered + &
+              c%nodes_left_out
   end function
 
   subroutine compare_residuals()
@@ -140,6 +149,8 @@ contains
     CHECK(cheap%evaluations_apart == 1 .and. cheap%commits_apart == 2)
     CHECK(dear%pairs_tested > 0 .and. dear%searches > 0)
     CHECK(dear%evaluations_apart == 0 .and. dear%commits_apart == 0)
+    CHECK(cheap%nodes_left_out == NA .and. cheap%nodes_evaluated == 0)
+    CHECK(dear%nodes_left_out == 0 .and. dear%nodes_evaluated == 2 * NA .and. dear%nodes_frictional == NA)
     call history_take(s%contact, made_up)
     call history_take(full%contact, searched)
     CHECK(history_equal(made_up, searched))
@@ -147,6 +158,36 @@ contains
     call touch(full, up)
     call compare_residuals()
     call destroy_both()
+  end subroutine
+
+  ! A mortar side that looks away covers no node before the next commit: no law is asked about any.
+  subroutine check_uncovered()
+    type(triplets), target, save :: t, u
+    real(c_double), save :: a(UNKNOWNS, UNKNOWNS), b(UNKNOWNS, UNKNOWNS)
+    type(stickslip_counters) :: cheap, dear
+    call scene_init(s)
+    call scene_init(full)
+    full%options%no_shortcuts = STICKSLIP_SHORTCUT_UNCOVERED
+    call turn_over(s)
+    call turn_over(full)
+    call create_both()
+    call compare_residuals()
+    call scene_dense(s, t, a)
+    call scene_dense(full, u, b)
+    CHECK(all(same(a, b)))
+    ! The diagonal; the blocks, which have no more in them.
+    CHECK(t%n == 3 * NA .and. u%n == 9 * NA)
+    cheap = counters_of(s)
+    dear = counters_of(full)
+    CHECK(cheap%nodes_left_out == NA .and. cheap%nodes_evaluated == 0)
+    CHECK(dear%nodes_uncovered == NA .and. dear%nodes_evaluated == 2 * NA)
+    call destroy_both()
+  end subroutine
+
+  ! Quadrilaterals the other way round.
+  subroutine turn_over(s)
+    type(scene), intent(inout) :: s
+    s%nodes2 = s%nodes2([1, 4, 3, 2], :)
   end subroutine
 
   subroutine lift(s, up)
@@ -166,7 +207,7 @@ contains
 
   ! A rigid side has no equation; a shortcut has a name.
   subroutine check_misuse()
-    integer(c_int32_t), parameter :: UNKNOWN(4) = [8, -1, INT32_MIN, INT32_MAX]
+    integer(c_int32_t), parameter :: UNKNOWN(4) = [16, -1, INT32_MIN, INT32_MAX]
     integer(c_int32_t) :: status
     integer :: n
     call scene_init(s)
