@@ -284,7 +284,9 @@ typedef struct stickslip_options {
   /// Young's modulus of the softer body [F/L^2]: rhat_A = 0.1 E / sqrt(M_A); 0 (default): use the
   /// augmentation.
   double modulus;
-  /// Covered over full nodal area [-] at and below which a node counts as uncovered; default 1e-8.
+  /// Covered over full nodal area [-] at and below which a node counts as uncovered; default 1e-8. The least
+  /// singular value of a Newton matrix, rows and columns scaled, is a thousandth or so of it where a surface slides
+  /// off an edge, and the tractions of nodes that are hardly covered grow like its inverse: 1e-4 is milder there.
   double coverage_min;
   /// Facets farther apart than this along the normal at the last commit, gap or penetration, are no pair
   /// [L]. 0 (default): any gap, and a penetration of one facet (the smaller of the two) beyond what the curved
