@@ -10,12 +10,19 @@ from pathlib import Path
 
 import acceptance
 from effect_checks import effects
+from friction_checks import friction
 from hosts import hosts
 from material_checks import materials
 from scene import Driver, SceneError
 from verdict import Verdicts
 
-GROUPS = {**acceptance.GROUPS, "hosts": hosts, "effects": effects, "materials": materials}
+GROUPS = {
+    **acceptance.GROUPS,
+    "effects": effects,
+    "friction": friction,
+    "hosts": hosts,
+    "materials": materials,
+}
 
 
 def main():

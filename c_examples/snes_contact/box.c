@@ -1,5 +1,5 @@
 /* A structured box of hexahedra, or of six tetrahedra per hexahedron (Kuhn's split, conforming by construction). Its sides
- * are the surfaces xmin, xmax, ymin, ymax, zmin, zmax. With `ball` it is made round: cubes about a point become spheres. */
+ * are the surfaces xmin, xmax, ymin, ymax, zmin, zmax. box_shape.c bends it. */
 #include "mesh.h"
 
 /* Positions along the axes: explicit planes, or equal cells between lower and upper, or fractions of [0,1] for corners. */
@@ -75,11 +75,11 @@ static PetscInt split_hexahedron(const PetscInt corner[2][2][2], PetscInt tets[2
 }
 
 /* the faces of the box's cells that lie in one of its six sides */
-static PetscErrorCode add_side(Mesh *mesh, const char *body, const PetscInt n[3], int side)
+static PetscErrorCode add_side(Mesh *mesh, const char *body, const PetscInt n[3], const PetscInt layers[3], int side)
 {
   static const char *const sides[] = {"xmin", "xmax", "ymin", "ymax", "zmin", "zmax"};
-  const PetscInt axis = side / 2, level = side % 2 ? n[axis] : 0, stride[3] = {1, n[0] + 1, (n[0] + 1) * (n[1] + 1)};
-  const PetscInt first = mesh->n_vertices - stride[2] * (n[2] + 1); /* the box was appended last */
+  const PetscInt axis = side / 2, level = side % 2 ? n[axis] : 0, stride[3] = {1, layers[0], layers[0] * layers[1]};
+  const PetscInt first = mesh->n_vertices - stride[2] * layers[2]; /* the box was appended last */
   char           name[2 * NAME_LENGTH];
   Surface       *surface;
 
@@ -94,42 +94,33 @@ static PetscErrorCode add_side(Mesh *mesh, const char *body, const PetscInt n[3]
       PetscInt       vertices[4], on_side = 0;
       const PetscInt n_face = cell_face(corners, f, mesh->cell_vertices + mesh->cell_offsets[c], vertices);
       for (PetscInt k = 0; k < n_face; k++)
-        on_side += ((vertices[k] - first) / stride[axis]) % (n[axis] + 1) == level;
+        on_side += ((vertices[k] - first) / stride[axis]) % layers[axis] == level;
       if (on_side == n_face) surface_push(surface, n_face, vertices);
     }
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The cube of half-width s about the centre becomes the sphere of radius s: along rays, so planes through the centre stay. */
-static void make_round(const PetscReal centre[3], PetscReal x[3])
-{
-  PetscReal largest = 0, squared = 0;
-  for (int i = 0; i < 3; i++) {
-    largest = PetscMax(largest, PetscAbsReal(x[i] - centre[i]));
-    squared += PetscSqr(x[i] - centre[i]);
-  }
-  for (int i = 0; i < 3 && squared > 0; i++)
-    x[i] = centre[i] + (x[i] - centre[i]) * largest / PetscSqrtReal(squared);
-}
-
 PetscErrorCode box_create(Scene *scene, const char *body, Mesh *mesh)
 {
   static const char *const kinds[] = {"hex", "tet", NULL};
-  PetscReal                corners[24], centre[3], *planes[3], *coordinates;
-  PetscInt                 kind = 0, n[3] = {0, 0, 0}, n_vertices, n_hexes, *cells, count = 0;
+  PetscReal                corners[24], *planes[3], *coordinates;
+  PetscInt                 kind = 0, n[3] = {0, 0, 0}, layers[3], n_vertices, n_hexes, *cells, count = 0;
   const PetscBool          mapped = scene_vector(scene, body, "corners", 24, corners);
-  const PetscBool          round  = scene_vector(scene, body, "ball", 3, centre);
+  BoxShape                 shape;
 
   PetscFunctionBegin;
   scene_choice(scene, body, "cell", kinds, &kind);
   PetscCall(read_planes(scene, body, mapped, n, planes));
-  n_vertices = (n[0] + 1) * (n[1] + 1) * (n[2] + 1);
+  box_shape_read(scene, body, n, planes, &shape);
+  for (int axis = 0; axis < 3; axis++) /* of vertices; those of a full circle meet where they began */
+    layers[axis] = n[axis] + !(axis == 1 && shape.closed);
+  n_vertices = layers[0] * layers[1] * layers[2];
   n_hexes    = n[0] * n[1] * n[2];
   PetscCall(PetscMalloc2(3 * n_vertices, &coordinates, 24 * n_hexes, &cells));
   for (PetscInt v = 0; v < n_vertices; v++) {
-    const PetscReal x[3] = {planes[0][v % (n[0] + 1)], planes[1][(v / (n[0] + 1)) % (n[1] + 1)],
-                            planes[2][v / ((n[0] + 1) * (n[1] + 1))]};
+    const PetscReal x[3] = {planes[0][v % layers[0]], planes[1][(v / layers[0]) % layers[1]],
+                            planes[2][v / (layers[0] * layers[1])]};
     for (int i = 0; i < 3; i++) {
       coordinates[3 * v + i] = mapped ? 0 : x[i];
       for (int a = 0; a < 8 && mapped; a++) { /* trilinear map of the eight corners, in VTK's order */
@@ -138,13 +129,14 @@ PetscErrorCode box_create(Scene *scene, const char *body, Mesh *mesh)
         coordinates[3 * v + i] += sx * sy * sz * corners[3 * a + i];
       }
     }
-    if (round) make_round(centre, coordinates + 3 * v);
+    box_shape_bend(&shape, coordinates + 3 * v);
   }
   for (PetscInt h = 0; h < n_hexes; h++) {
     const PetscInt i = h % n[0], j = (h / n[0]) % n[1], k = h / (n[0] * n[1]);
     PetscInt       corner[2][2][2];
     for (int a = 0; a < 8; a++)
-      corner[a / 4][(a / 2) % 2][a % 2] = ((k + a / 4) * (n[1] + 1) + j + (a / 2) % 2) * (n[0] + 1) + i + a % 2;
+      corner[a / 4][(a / 2) % 2][a % 2] =
+          ((k + a / 4) * layers[1] + (j + (a / 2) % 2) % layers[1]) * layers[0] + i + a % 2;
     if (kind == 1) {
       count += split_hexahedron((const PetscInt(*)[2][2])corner, cells + 4 * count);
     } else {
@@ -154,8 +146,10 @@ PetscErrorCode box_create(Scene *scene, const char *body, Mesh *mesh)
     }
   }
   PetscCall(mesh_append(mesh, n_vertices, coordinates, count, kind == 1 ? 4 : 8, cells));
-  for (int side = 0; side < 6; side++)
-    PetscCall(add_side(mesh, body, n, side));
+  for (int side = 0; side < 6; side++) {
+    if (side / 2 == 1 && shape.closed) continue; /* a full circle has no ends */
+    PetscCall(add_side(mesh, body, n, layers, side));
+  }
   for (int axis = 0; axis < 3; axis++)
     PetscCall(PetscFree(planes[axis]));
   PetscCall(PetscFree2(coordinates, cells));

@@ -54,6 +54,19 @@ PetscErrorCode mesh_append(Mesh *mesh, PetscInt n_vertices, const PetscReal *coo
 PetscErrorCode mesh_add_surface(Mesh *mesh, const char *name, PetscInt max_faces, Surface **surface);
 void           surface_push(Surface *surface, PetscInt n, const PetscInt vertices[]);
 PetscErrorCode box_create(Scene *scene, const char *body, Mesh *mesh);
+/* How a box is bent (box_shape.c). */
+typedef enum { BOX_STRAIGHT, BOX_BALL, BOX_CYLINDER, BOX_POLAR } BoxKind;
+
+typedef struct {
+  BoxKind   kind;
+  PetscReal centre[3];
+  int       axis;   /* along which a cylinder stays straight; -1: none */
+  PetscBool closed; /* a full circle: the last layer of vertices along y is the first */
+} BoxShape;
+
+void box_shape_read(Scene *scene, const char *body, const PetscInt n[3], PetscReal *const planes[3], BoxShape *shape);
+void box_shape_bend(const BoxShape *shape, PetscReal x[3]);
+
 PetscErrorCode gmsh_create(Scene *scene, const char *body, Mesh *mesh);
 PetscErrorCode analytic_create(Scene *scene, const char *body, Mesh *mesh);
 
