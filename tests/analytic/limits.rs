@@ -107,3 +107,22 @@ fn what_is_no_rigid_motion_and_the_centre_are_refused() {
     refused(contact.residual(&sunk, &frame, &lambda, None), Kind::UndefinedNormal, "nonmortar facet 0: ");
     assert_eq!(contact.history(), &history);
 }
+
+/// A facet stretched over a ball much smaller than it: its nodes are farther away than any edge was at first, its middle
+/// is not.
+#[test]
+fn a_facet_stretched_over_a_small_ball_is_not_apart() {
+    let ball = AnalyticShape::Sphere(0.1);
+    let frame = vec![Vec3::zeros(), Vec3::x(), Vec3::y(), Vec3::z()];
+    let mesh = grid(1, 1, [-0.1, -0.1], [0.1, 0.1], 2.0, false, Cells::Quads);
+    let stretched: Vec<_> = mesh.x.iter().map(|x| Vec3::new(10.0 * x.x, 10.0 * x.y, 0.05)).collect();
+    let [mut short, mut full] = [true, false].map(|apart| {
+        let mut options = options();
+        options.shortcuts.apart = apart;
+        against::<Contact<3>>(&mesh, ball, &frame, options).unwrap()
+    });
+    let [a, b] = [&mut short, &mut full].map(|c| c.sums(&stretched, &frame).unwrap());
+    assert_eq!(short.counters().commits_apart, 1);
+    assert_eq!(short.counters().evaluations_apart, 0);
+    assert!(a == b && a.iter().all(|s| s.coverage > 0.0));
+}

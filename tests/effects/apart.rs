@@ -256,3 +256,52 @@ fn made_up_history_changes_no_evaluation() {
     let after = (pair.short.sums(&x1, &x2).unwrap(), entries(&mut pair.short, (&x1, &x2, &lambda)));
     assert!(before == after);
 }
+
+/// What surfaces at some place look like: tilted, warped, either way round.
+fn placed(mesh: &Mesh, random: &mut Random, warp: f64, turn: f64, shift: Vec3) -> Vec<Vec3> {
+    let turn = Rotation3::new(random.vector(turn));
+    mesh.x.iter().map(|x| turn * (x + random.vector(warp)) + shift).collect()
+}
+
+/// Over random placements at t_n and now, in front of each other, behind, beside and through: where the library finds the
+/// surfaces apart the full search finds every node open without a multiplier, and elsewhere the same bits.
+#[test]
+fn tilted_and_warped_placements_answer_alike() {
+    let mut random = Random(21);
+    let (mut apart, mut touching, mut behind) = (0, 0, 0);
+    for round in 0..3000 {
+        // A facet is half as long as the surface of four.
+        let ways = (round % 2 == 0, round % 4 < 2);
+        let mut one = grid(2, 2, [-0.5, -0.5], [0.5, 0.5], 0.0, ways.0, Cells::Quads);
+        let mut two = grid(2, 2, [-0.6, -0.55], [0.5, 0.6], 0.0, ways.1, CELLS[1][0]);
+        let (warp, turn) = ([0.0, 0.05][round % 5 % 2], [0.2, 0.7, 3.0][round % 3]);
+        let far = |random: &mut Random| Vec3::new(0.4 * random.next(), 0.4 * random.next(), 2.0 * random.next());
+        let shift = far(&mut random);
+        (one.x, two.x) =
+            (placed(&one, &mut random, warp, turn, shift), placed(&two, &mut random, warp, turn, Vec3::zeros()));
+        let off = Options { shortcuts: Shortcuts { apart: false, ..options().shortcuts }, ..options() };
+        let (mut short, mut full) = (contact::<3>(&one, &two, false, options()), contact::<3>(&one, &two, false, off));
+        // Half of the steps are small.
+        let (step, by) = if round % 7 < 4 { (0.05, 0.1) } else { (2.0, 1.0) };
+        let shift = far(&mut random) * by;
+        let x1 = placed(&one, &mut random, 0.2 * warp, step, shift);
+        for lambda in [vec![Vec3::zeros(); 9], (0..9).map(|_| random.vector(1.0)).collect()] {
+            let [a, b] = [&mut short, &mut full].map(|c| c.residual(&x1, &two.x, &lambda, None).unwrap());
+            let found = short.counters().evaluations_apart > 0;
+            if !found {
+                assert!(bits(&a) == bits(&b), "round {round}");
+                let at = (&x1[..], &two.x[..], &lambda[..]);
+                assert!(entries(&mut short, at) == entries(&mut full, at), "round {round}");
+                touching +=
+                    full.responses(&x1, &two.x, &lambda, None).unwrap().iter().filter(|r| r.traction.z != 0.0).count();
+            } else if lambda[0] == Vec3::zeros() {
+                assert!(a == b, "round {round}: {:?}", b);
+                let states = full.responses(&x1, &two.x, &lambda, None).unwrap();
+                assert!(states.iter().all(|r| r.state == State::Gap), "round {round}");
+                apart += 1;
+            }
+        }
+        behind += usize::from(full.counters().pairs_tested > 0 && ways.0 == ways.1);
+    }
+    assert!(apart > 200 && touching > 1000 && behind > 100, "all of them occur: {apart}, {touching}, {behind}");
+}
