@@ -332,7 +332,9 @@ typedef struct stickslip_surface {
   const int64_t *equations;
   /// Non-mortar: 3 n_nodes multiplier equations, -1: the component is removed and its axis a constrained
   /// direction (see `stickslip_interface_set_constraints`); a node with three -1 keeps its normal. With
-  /// STICKSLIP_FRICTION_NONE n_nodes equations, one a node, along the normal; -1: none. Mortar: NULL.
+  /// STICKSLIP_FRICTION_NONE n_nodes equations, one a node, along the normal; -1: none. A longer array cannot be told
+  /// from a pointer: of 3 n_nodes the first n_nodes would be read as those of the nodes, without an error; so check that
+  /// `multipliers` of `stickslip_interface_counters` is what you expect. Mortar: NULL.
   const int64_t *multiplier_equations;
   /// Non-mortar, parallel hosts: n_nodes flags, 1 where this handle adds the node's own block; NULL:
   /// all. Mortar: NULL.
@@ -613,7 +615,8 @@ int32_t stickslip_interface_set_previous(struct stickslip_interface *interface,
 ///
 /// lambda (3 n1), output [F/L^2]; from then on it is the host's unknown, the library keeps no copy.
 ///
-/// Errors: NULL_POINTER, NOT_FINITE (overflow), UNDEFINED_NORMAL, INVALID_VALUE once a step is committed.
+/// Errors: NULL_POINTER, NOT_FINITE (overflow), UNDEFINED_NORMAL, INVALID_VALUE (a step is committed; or as
+/// `stickslip_interface_sums`).
 /// Cost: O(n1); allocates.
 int32_t stickslip_interface_initial_multipliers(struct stickslip_interface *interface, double *lambda);
 
@@ -624,9 +627,14 @@ int32_t stickslip_interface_initial_multipliers(struct stickslip_interface *inte
 /// x1 (3 n1), x2 (3 n2): positions, not displacements [L]. sums (STICKSLIP_SUMS_PER_NODE n1), output, per node:
 /// covered area now [L^2], g[n_{n+1}, x_{n+1}] (3) [L^3], covered area at t_n [L^2], g[n_n, x_{n+1}] (3) [L^3],
 /// g[n_n, x_n] (3) [L^3]. With sums, use the multiplier form. From the first call on the handle leaves nothing
-/// out where its own part of the mortar surface is far away. An analytic mortar side belongs to one handle.
+/// out where its own part of the mortar surface is far away.
 ///
-/// Errors: NULL_POINTER, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX; with an analytic mortar side also
+/// All handles that are added up must have the same options and the same mu at every node (those of
+/// `stickslip_interface_set_friction` too): each decides by its own whether slip counts. An analytic mortar side covers
+/// every facet that faces it: it belongs to one handle, and none of the others may hold a mortar facet behind it.
+///
+/// Errors: NULL_POINTER, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX; INVALID_VALUE (the mortar surface lay in
+/// layers at t_n, and was not looked at because the surfaces were apart then); with an analytic mortar side also
 /// INVALID_VALUE (x2 is no rigid motion of the first frame) and UNDEFINED_NORMAL (a facet reaches its centre or axis).
 /// Cost: at other positions than those of the last evaluation one search and one integration (frozen weights:
 /// none), then O(pairs); allocates.
@@ -642,7 +650,7 @@ int32_t stickslip_interface_sums(struct stickslip_interface *interface,
 /// step belongs to the past.
 ///
 /// Errors: NULL_POINTER, STRUCT_SIZE, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL,
-/// INVALID_VALUE (an analytic surface's frame).
+/// INVALID_VALUE (as `stickslip_interface_sums`).
 /// Cost: as `stickslip_interface_sums`.
 int32_t stickslip_interface_states(struct stickslip_interface *interface,
                                    const double *x1,
@@ -660,7 +668,7 @@ int32_t stickslip_interface_states(struct stickslip_interface *interface,
 /// node is not owned).
 ///
 /// Errors: NULL_POINTER, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL; within
-/// Newton treat them as a domain error and take a smaller step. INVALID_VALUE (an analytic surface's frame).
+/// Newton treat them as a domain error and take a smaller step. INVALID_VALUE (as `stickslip_interface_sums`).
 /// Cost: as `stickslip_interface_sums`.
 int32_t stickslip_interface_residual(struct stickslip_interface *interface,
                                      const double *x1,
@@ -759,7 +767,8 @@ int32_t stickslip_interface_rollback(struct stickslip_interface *interface);
 ///
 /// n_integers, n_reals, output.
 ///
-/// Errors: NULL_POINTER; where the weights of t_n were left out because the surfaces were apart, those of the commit.
+/// Errors: NULL_POINTER; where the weights of t_n were left out because the surfaces were apart, those of the commit,
+/// INVALID_VALUE (a mortar surface in layers) among them.
 /// Cost: none, or then one search and one integration.
 int32_t stickslip_interface_history_size(struct stickslip_interface *interface,
                                          int64_t *n_integers,

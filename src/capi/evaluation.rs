@@ -75,9 +75,14 @@ impl Point {
 /// x1 (3 n1), x2 (3 n2): positions, not displacements [L]. sums (STICKSLIP_SUMS_PER_NODE n1), output, per node:
 /// covered area now [L^2], g[n_{n+1}, x_{n+1}] (3) [L^3], covered area at t_n [L^2], g[n_n, x_{n+1}] (3) [L^3],
 /// g[n_n, x_n] (3) [L^3]. With sums, use the multiplier form. From the first call on the handle leaves nothing
-/// out where its own part of the mortar surface is far away. An analytic mortar side belongs to one handle.
+/// out where its own part of the mortar surface is far away.
 ///
-/// Errors: NULL_POINTER, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX; with an analytic mortar side also
+/// All handles that are added up must have the same options and the same mu at every node (those of
+/// `stickslip_interface_set_friction` too): each decides by its own whether slip counts. An analytic mortar side covers
+/// every facet that faces it: it belongs to one handle, and none of the others may hold a mortar facet behind it.
+///
+/// Errors: NULL_POINTER, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX; INVALID_VALUE (the mortar surface lay in
+/// layers at t_n, and was not looked at because the surfaces were apart then); with an analytic mortar side also
 /// INVALID_VALUE (x2 is no rigid motion of the first frame) and UNDEFINED_NORMAL (a facet reaches its centre or axis).
 /// Cost: at other positions than those of the last evaluation one search and one integration (frozen weights:
 /// none), then O(pairs); allocates.
@@ -143,7 +148,7 @@ unsafe impl Sized64 for stickslip_states {
 /// step belongs to the past.
 ///
 /// Errors: NULL_POINTER, STRUCT_SIZE, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL,
-/// INVALID_VALUE (an analytic surface's frame).
+/// INVALID_VALUE (as `stickslip_interface_sums`).
 /// Cost: as `stickslip_interface_sums`.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn stickslip_interface_states(
@@ -201,7 +206,7 @@ fn write_states<const N: usize>(c: &mut Contact<N>, point: &Point, out: &sticksl
 /// node is not owned).
 ///
 /// Errors: NULL_POINTER, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL; within
-/// Newton treat them as a domain error and take a smaller step. INVALID_VALUE (an analytic surface's frame).
+/// Newton treat them as a domain error and take a smaller step. INVALID_VALUE (as `stickslip_interface_sums`).
 /// Cost: as `stickslip_interface_sums`.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn stickslip_interface_residual(

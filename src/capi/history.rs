@@ -43,7 +43,8 @@ pub unsafe extern "C" fn stickslip_interface_rollback(interface: *mut stickslip_
 ///
 /// n_integers, n_reals, output.
 ///
-/// Errors: NULL_POINTER; where the weights of t_n were left out because the surfaces were apart, those of the commit.
+/// Errors: NULL_POINTER; where the weights of t_n were left out because the surfaces were apart, those of the commit,
+/// INVALID_VALUE (a mortar surface in layers) among them.
 /// Cost: none, or then one search and one integration.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn stickslip_interface_history_size(

@@ -248,7 +248,8 @@ pub unsafe extern "C" fn stickslip_interface_set_previous(
 ///
 /// lambda (3 n1), output [F/L^2]; from then on it is the host's unknown, the library keeps no copy.
 ///
-/// Errors: NULL_POINTER, NOT_FINITE (overflow), UNDEFINED_NORMAL, INVALID_VALUE once a step is committed.
+/// Errors: NULL_POINTER, NOT_FINITE (overflow), UNDEFINED_NORMAL, INVALID_VALUE (a step is committed; or as
+/// `stickslip_interface_sums`).
 /// Cost: O(n1); allocates.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn stickslip_interface_initial_multipliers(

@@ -38,7 +38,9 @@ pub struct stickslip_surface {
     pub equations: *const i64,
     /// Non-mortar: 3 n_nodes multiplier equations, -1: the component is removed and its axis a constrained
     /// direction (see `stickslip_interface_set_constraints`); a node with three -1 keeps its normal. With
-    /// STICKSLIP_FRICTION_NONE n_nodes equations, one a node, along the normal; -1: none. Mortar: NULL.
+    /// STICKSLIP_FRICTION_NONE n_nodes equations, one a node, along the normal; -1: none. A longer array cannot be told
+    /// from a pointer: of 3 n_nodes the first n_nodes would be read as those of the nodes, without an error; so check that
+    /// `multipliers` of `stickslip_interface_counters` is what you expect. Mortar: NULL.
     pub multiplier_equations: *const i64,
     /// Non-mortar, parallel hosts: n_nodes flags, 1 where this handle adds the node's own block; NULL:
     /// all. Mortar: NULL.

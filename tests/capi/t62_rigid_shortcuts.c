@@ -155,6 +155,53 @@ int main(void) {
   scene_destroy(&s);
   scene_destroy(&full);
 
+  /* A mortar surface in two layers, 50 away: found when it comes near, or when the history of t_n is asked for. */
+  {
+    double upper[12] = {0, 0, 50, 0, 1, 50, 1, 1, 50, 1, 0, 50}, lower[24] = {0}, zero[12] = {0}, sums[4 * 11], f[36];
+    int64_t offsets[3] = {0, 4, 8}, quads[8] = {0, 1, 2, 3, 4, 5, 6, 7}, integer, real, equations[24];
+    int32_t state[4];
+    for (int k = 0; k < 8; ++k) {
+      lower[3 * k] = k % 4 == 1 || k % 4 == 2 ? 2.0 : -1.0;
+      lower[3 * k + 1] = k % 4 > 1 ? 2.0 : -1.0;
+      lower[3 * k + 2] = k < 4 ? -0.1 : -0.4;
+    }
+    for (int i = 0; i < 24; ++i) equations[i] = -1;
+    scene_init(&s);
+    stickslip_surface one = s.nonmortar, two = s.mortar;
+    one.n_nodes = 4;
+    one.n_facets = 1;
+    one.coordinates = upper;
+    two.n_nodes = 8;
+    two.n_facets = 2;
+    two.coordinates = lower;
+    one.facet_offsets = two.facet_offsets = offsets;
+    one.facet_nodes = two.facet_nodes = quads;
+    two.equations = equations;
+    stickslip_interface *layers = NULL;
+    CHECK_OK(stickslip_interface_create(&one, &two, &s.options, &layers));
+    double near[12];
+    for (int i = 0; i < 12; ++i) near[i] = i % 3 == 2 ? 0.0 : upper[i];
+    stickslip_states out;
+    memset(&out, 0, sizeof out);
+    out.struct_size = sizeof out;
+    out.state = state;
+    FILL(f);
+    FILL(sums);
+    FILL(state);
+    for (int again = 0; again < 2; ++again) {
+      CHECK_REFUSED(stickslip_interface_residual(layers, near, lower, zero, NULL, f, f + 12, f + 24),
+                    STICKSLIP_INVALID_VALUE, "layers");
+      CHECK_REFUSED(stickslip_interface_states(layers, near, lower, zero, NULL, &out), STICKSLIP_INVALID_VALUE,
+                    "layers");
+      CHECK_REFUSED(stickslip_interface_sums(layers, near, lower, sums), STICKSLIP_INVALID_VALUE, "layers");
+      CHECK_REFUSED(stickslip_interface_history_size(layers, &integer, &real), STICKSLIP_INVALID_VALUE, "layers");
+    }
+    CHECK_UNTOUCHED(f);
+    CHECK_UNTOUCHED(sums);
+    CHECK_UNTOUCHED(state);
+    CHECK_OK(stickslip_interface_destroy(&layers));
+  }
+
   /* A rigid side has no equation; a shortcut has a name. */
   scene_init(&s);
   s.options.mortar_side = STICKSLIP_MORTAR_RIGID;

@@ -21,6 +21,7 @@ program t62_rigid_shortcuts
   call check_frictionless()
   call check_apart()
   call check_uncovered()
+  call check_layers()
   call check_misuse()
   call check_sentences()
 
@@ -203,6 +204,64 @@ contains
     real(c_double), intent(in) :: up(3)
     s%x1 = s%x1 - spread(up, 2, NA)
     s%lambda = spread([0.1d0, 0.1d0, -0.5d0], 2, NA)
+  end subroutine
+
+  ! A mortar surface in two layers, 50 away: found when it comes near, or when the history of t_n is asked for.
+  subroutine check_layers()
+    real(c_double), target :: upper(3, 4), lower(3, 8), near(3, 4)
+    real(c_double) :: zero(3, 4), sums(STICKSLIP_SUMS_PER_NODE, 4), force1(3, 4), force2(3, 8), rows(3, 4)
+    integer(c_int64_t), target :: offsets(3), quads(8), none(3, 8)
+    integer(c_int32_t), target :: states(4)
+    integer(c_int32_t) :: status
+    integer(c_int64_t) :: integers, reals
+    integer :: again, i
+    type(stickslip_surface) :: one, two
+    type(stickslip_interface) :: layers
+    type(stickslip_states) :: out
+    upper = reshape([0, 0, 50, 0, 1, 50, 1, 1, 50, 1, 0, 50], [3, 4])
+    lower = reshape([-1, -1, -1, 2, -1, -1, 2, 2, -1, -1, 2, -1, -1, -1, -4, 2, -1, -4, 2, 2, -4, -1, 2, -4], [3, 8])
+    lower(3, :) = lower(3, :) / 10
+    near = upper
+    near(3, :) = 0
+    offsets = [0, 4, 8]
+    quads = [(i, i = 1, 8)]
+    none = -1
+    zero = 0
+    call scene_init(s)
+    one = s%nonmortar
+    one%n_nodes = 4
+    one%n_facets = 1
+    one%coordinates = c_loc(upper)
+    one%facet_offsets = c_loc(offsets)
+    one%facet_nodes = c_loc(quads)
+    two = s%mortar
+    two%n_nodes = 8
+    two%n_facets = 2
+    two%coordinates = c_loc(lower)
+    two%facet_offsets = c_loc(offsets)
+    two%facet_nodes = c_loc(quads)
+    two%equations = c_loc(none)
+    CHECK_OK(stickslip_interface_create(one, two, s%options, layers))
+    states = UNWRITTEN_STATE
+    sums = UNWRITTEN
+    force1 = UNWRITTEN
+    force2 = UNWRITTEN
+    rows = UNWRITTEN
+    out%state = c_loc(states)
+    do again = 1, 2
+      status = stickslip_interface_residual(layers, near, lower, zero, c_null_ptr, force1, force2, rows)
+      CHECK_REFUSED(status, STICKSLIP_INVALID_VALUE, 'layers')
+      status = stickslip_interface_states(layers, near, lower, zero, c_null_ptr, out)
+      CHECK_REFUSED(status, STICKSLIP_INVALID_VALUE, 'layers')
+      CHECK_REFUSED(stickslip_interface_sums(layers, near, lower, sums), STICKSLIP_INVALID_VALUE, 'layers')
+      CHECK_REFUSED(stickslip_interface_history_size(layers, integers, reals), STICKSLIP_INVALID_VALUE, 'layers')
+    end do
+    CHECK_UNTOUCHED(force1)
+    CHECK_UNTOUCHED(force2)
+    CHECK_UNTOUCHED(rows)
+    CHECK_UNTOUCHED(sums)
+    CHECK_UNTOUCHED(states)
+    CHECK_OK(stickslip_interface_destroy(layers))
   end subroutine
 
   ! A rigid side has no equation; a shortcut has a name.
