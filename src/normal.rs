@@ -27,7 +27,7 @@ pub fn nodal_normal(sum: Vec3, node: usize) -> Result<Vec3> {
         return Err(Error::new(
             Kind::UndefinedNormal,
             format!(
-                "the normals of the facets around non-mortar node {node} cancel; split the surface there or give a normal"
+                "the normals of the facets around non-mortar node {node} cancel; split the surface along its creases, or give a normal"
             ),
         ));
     }

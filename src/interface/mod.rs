@@ -7,6 +7,7 @@ mod analytic;
 mod apart;
 mod assembly;
 mod augmented;
+mod crease;
 mod describe;
 mod effects;
 mod filter;
@@ -21,6 +22,7 @@ mod surface;
 mod treatment;
 
 pub use assembly::{Residual, Sink};
+pub use crease::Split;
 pub use history::{History, PairRecord};
 pub use nodes::NodeSums;
 pub use options::{

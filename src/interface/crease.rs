@@ -1,0 +1,140 @@
+//! Nodes on creases of a surface, listed once for each side (formulation b.17): where the facets around a node look in
+//! too many directions their averaged normal means nothing, at an opposing pair it does not even exist.
+//!
+//! Each copy belongs to one fan of facets that look nearly the same way and has its own normal, gap and multiplier; all
+//! copies of a node have its displacement equations. Node numbers and facets stay otherwise as they are.
+//!
+//! Copies that both stick are six conditions on three displacements, and a surface that sticks on both sides of a crease
+//! has a singular tangent: the copies of a split node are to act without friction.
+
+use super::Surface;
+use crate::error::{Error, Kind, Result};
+use crate::geometry::Vec3;
+use crate::normal::corner_normal;
+
+/// A surface's facets with nodes of their own on each side of a crease.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Split {
+    /// The nodes of the facets, facet after facet, as they were given.
+    pub facet_nodes: Vec<usize>,
+    /// For each node the one that it is a copy of: itself for the first copy; further copies come behind all nodes, in
+    /// the order of what they copy.
+    pub originals: Vec<usize>,
+}
+
+/// A facet at a node: its number and the normal of its corner there.
+#[derive(Clone, Copy)]
+struct Corner {
+    facet: usize,
+    normal: Vec3,
+}
+
+/// Two corners of a fan whose facets share an edge at the node.
+#[derive(Clone, Copy)]
+struct Joint {
+    corners: [usize; 2],
+    cosine: f64,
+}
+
+impl Surface {
+    /// Splits nodes until no two corner normals around one of them differ by more than `angle` [rad], in the first
+    /// configuration. A fan is cut where its facets meet at more than that, and then, while it spans more, at its
+    /// sharpest edge; a node whose facets all look within `angle` stays whole.
+    ///
+    /// # Errors
+    /// [`Kind::InvalidValue`] for an angle that is not between 0 and pi, and for an analytic surface.
+    pub fn split_creases(&self, angle: f64) -> Result<Split> {
+        if !(angle > 0.0 && angle < std::f64::consts::PI) {
+            let text = format!("angle is {angle}; it must be above 0 and below pi (radians)");
+            return Err(Error::new(Kind::InvalidValue, text));
+        }
+        if self.analytic.is_some() {
+            return Err(Error::new(Kind::InvalidValue, "an analytic surface has no facets and no creases"));
+        }
+        let least = angle.cos();
+        let mut corners = vec![Vec::new(); self.len()];
+        for (f, facet) in self.facets.iter().enumerate() {
+            let shape = self.facet(f, &self.reference);
+            for (k, &node) in facet.as_slice().iter().enumerate() {
+                corners[node].push(Corner { facet: f, normal: corner_normal(&shape, k) });
+            }
+        }
+        let mut edges = vec![Vec::new(); self.len()];
+        for edge in &self.edges {
+            edge.nodes.iter().for_each(|&node| edges[node].push(edge.facets));
+        }
+        let mut numbers: Vec<_> = self.facets.iter().map(|f| f.nodes).collect();
+        let mut originals: Vec<_> = (0..self.len()).collect();
+        for node in 0..self.len() {
+            for copy in fans(&corners[node], &edges[node], least).iter().skip(1) {
+                for &corner in copy {
+                    let facet = corners[node][corner].facet;
+                    let at = self.facets[facet].as_slice().iter().position(|&k| k == node);
+                    numbers[facet][at.expect("the corner's facet has the node")] = originals.len();
+                }
+                originals.push(node);
+            }
+        }
+        let facet_nodes = numbers.iter().zip(&self.facets).flat_map(|(n, f)| n[..f.len].iter().copied()).collect();
+        Ok(Split { facet_nodes, originals })
+    }
+}
+
+/// The fans of a node's corners, each by the corners' places, the one with the first facet first.
+fn fans(corners: &[Corner], edges: &[[usize; 2]], least: f64) -> Vec<Vec<usize>> {
+    let cosine = |i: usize, j: usize| corners[i].normal.dot(&corners[j].normal);
+    let narrow = |fan: &[usize]| fan.iter().all(|&i| fan.iter().all(|&j| i == j || cosine(i, j) >= least));
+    let place = |facet: usize| corners.binary_search_by_key(&facet, |c| c.facet).expect("an edge's facets are here");
+    let joint = |facets: &[usize; 2]| {
+        let [i, j] = facets.map(place);
+        Joint { corners: [i, j], cosine: cosine(i, j) }
+    };
+    let joints: Vec<_> = edges.iter().map(joint).filter(|j| j.cosine >= least).collect();
+    let mut narrow_ones = Vec::new();
+    let mut rest = vec![((0..corners.len()).collect::<Vec<_>>(), joints)];
+    let mut whole = true;
+    while let Some((fan, mut joints)) = rest.pop() {
+        if narrow(&fan) {
+            narrow_ones.push(fan);
+            continue;
+        }
+        if !whole {
+            // The first one of equals, so that the answer is one.
+            let sharpest = (0..joints.len()).reduce(|a, b| if joints[b].cosine < joints[a].cosine { b } else { a });
+            joints.remove(sharpest.expect("a fan of more than one corner is held together by joints"));
+        }
+        whole = false;
+        for part in parts(&fan, &joints) {
+            let inside = |j: &Joint| part.contains(&j.corners[0]);
+            let kept = joints.iter().copied().filter(inside).collect();
+            rest.push((part, kept));
+        }
+    }
+    narrow_ones.sort_unstable();
+    narrow_ones
+}
+
+/// The parts of a fan that joints hold together, each sorted.
+fn parts(fan: &[usize], joints: &[Joint]) -> Vec<Vec<usize>> {
+    let mut left = fan.to_vec();
+    let mut parts = Vec::new();
+    while let Some(first) = left.pop() {
+        let mut part = vec![first];
+        let mut at = 0;
+        while at < part.len() {
+            for joint in joints {
+                for (from, to) in [(joint.corners[0], joint.corners[1]), (joint.corners[1], joint.corners[0])] {
+                    if from == part[at]
+                        && let Some(k) = left.iter().position(|&c| c == to)
+                    {
+                        part.push(left.swap_remove(k));
+                    }
+                }
+            }
+            at += 1;
+        }
+        part.sort_unstable();
+        parts.push(part);
+    }
+    parts
+}
