@@ -90,7 +90,7 @@ fn candidates(
 }
 
 /// Weights of all active pairs at (x1, x2), with the filter of another or the same configuration.
-fn integrate(
+pub(super) fn integrate(
     (one, two): (&Surface, &Surface),
     options: &Options,
     filter: &Filter,

@@ -8,6 +8,7 @@ mod apart;
 mod assembly;
 mod augmented;
 mod crease;
+mod crosspoints;
 mod describe;
 mod effects;
 mod filter;
@@ -17,18 +18,21 @@ mod nodes;
 mod options;
 mod overrides;
 mod reach;
+mod report;
 mod search;
 mod surface;
 mod treatment;
 
 pub use assembly::{Residual, Sink};
 pub use crease::Split;
+pub use crosspoints::{Crosspoint, InterfaceNodes, crosspoints};
 pub use history::{History, PairRecord};
 pub use nodes::NodeSums;
 pub use options::{
     COVERAGE_MIN, Form, Friction, MODULUS_FACTOR, MortarSide, NewContact, Options, RowScale, Shortcuts, Stiffness,
     Weights,
 };
+pub use report::{Cover, Finding, NodeCover, Report};
 pub use surface::{FacetNodes, NO_EQUATION, Surface};
 pub use treatment::NodeCounts;
 

@@ -1,0 +1,196 @@
+//! What a host should know of how its surfaces lie: which nodes are covered, in part, not at all, by how many facets and
+//! layers; and, where nothing overlaps, what mistake that looks like.
+
+use super::filter::LEAST_OPPOSITION;
+use super::history::PairRecord;
+use super::integration::{frames, integrate};
+use super::nodes::assemble;
+use super::search::{Aabb, Prism, Tree};
+use super::{Contact, Weights};
+use crate::error::Result;
+use crate::geometry::{Plane, Vec3};
+use crate::mortar::{NonmortarFrame, Segment};
+
+/// Coverage over area between this and [`MOST`] is full: facets that meet under an angle lack or count twice a part of
+/// second order, distorted quads have an error of the quadrature.
+const LEAST: f64 = 0.99;
+/// See [`LEAST`]; what a commit refuses as layers.
+const MOST: f64 = 1.01;
+
+/// How much of a node's area is covered.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(i32)]
+pub enum Cover {
+    /// At and below the option `coverage_min`: the node is open.
+    None = 0,
+    /// In part: at an edge of the mortar surface.
+    Part = 1,
+    /// In full.
+    Full = 2,
+    /// By several layers of the mortar surface.
+    Several = 3,
+}
+
+/// A non-mortar node's cover.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NodeCover {
+    /// Which of the four.
+    pub cover: Cover,
+    /// Covered over full area [-].
+    pub fraction: f64,
+    /// Layers of the mortar surface over the facets around the node, where they cover more than one of these in all.
+    pub layers: i32,
+    /// Mortar facets that overlap with the facets around it.
+    pub facets: i64,
+}
+
+/// How the surfaces lie, where that looks like a mistake.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Finding {
+    /// Nothing overlaps and nothing else is wrong.
+    NoOverlap,
+    /// Facets lie over each other, but all of them look the same way.
+    SameWay,
+    /// Opposing facets lie over each other, but deeper behind each other than a pair can.
+    Behind,
+}
+
+/// The report at one configuration.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Report {
+    /// Per non-mortar node.
+    pub nodes: Vec<NodeCover>,
+    /// The deepest penetration of a covered node, -g_N over its covered area `[L]`; 0 where there is none.
+    pub penetration: f64,
+    /// Only where no node is covered.
+    pub finding: Option<Finding>,
+}
+
+impl Report {
+    /// How many nodes have this cover.
+    pub fn count(&self, cover: Cover) -> usize {
+        self.nodes.iter().filter(|n| n.cover == cover).count()
+    }
+
+    /// The report in sentences.
+    pub fn text(&self) -> String {
+        let [none, part, full, several] =
+            [Cover::None, Cover::Part, Cover::Full, Cover::Several].map(|c| self.count(c));
+        let mut text = format!(
+            "Of {} non-mortar nodes {full} are covered in full, {part} in part, {none} not at all, {several} by several layers.",
+            self.nodes.len()
+        );
+        let least = self.nodes.iter().enumerate().filter(|(_, n)| n.cover == Cover::Part);
+        if let Some((a, n)) = least.min_by(|(_, m), (_, n)| m.fraction.total_cmp(&n.fraction)) {
+            text += &format!(" Least covered is node {a}, to {:.2e}.", n.fraction);
+        }
+        text += match self.finding {
+            None => "",
+            Some(Finding::NoOverlap) => " No facets lie over each other.",
+            Some(Finding::SameWay) => {
+                " Facets lie over each other, but all of them look the same way: the node order of one side is reversed, or it is the wrong face of its body."
+            }
+            Some(Finding::Behind) => {
+                " Facets lie over each other, but behind each other by more than a facet: the node orders of both sides are reversed, or the bodies have passed through each other, or start so deep that search_distance is needed."
+            }
+        };
+        text
+    }
+}
+
+impl<const N: usize> Contact<N> {
+    /// Which nodes are covered, and how, at (x1, x2), however far apart the surfaces are there.
+    pub fn report(&mut self, x1: &[Vec3], x2: &[Vec3]) -> Result<Report> {
+        self.check_positions(x1, x2)?;
+        let surfaces = (&self.nonmortar, &self.mortar);
+        let now;
+        let (pairs, at) = match (self.options.effective_weights(), &self.filter) {
+            (Weights::Current, Some(filter)) => {
+                now = integrate(surfaces, &self.options, filter, &mut self.counters, (x1, x2))?;
+                (&now.pairs, x1)
+            }
+            (Weights::Committed, _) => (&self.history.pairs, &self.history.x1[..]),
+            (_, _) => (&self.history.pairs, &self.nonmortar.reference[..]),
+        };
+        let sums = assemble(surfaces, pairs, x1, x2);
+        let layers = self.layers(pairs, at)?;
+        let claims = self.claims(pairs);
+        let node = |a: usize| {
+            let fraction = sums[a].0 / self.history.areas[a];
+            let cover = match fraction {
+                f if f <= self.options.coverage_min => Cover::None,
+                f if f > MOST || layers[a] > MOST => Cover::Several,
+                f if f < LEAST => Cover::Part,
+                _ => Cover::Full,
+            };
+            let layers = (layers[a] - (MOST - 1.0)).ceil().max(0.0) as i32;
+            NodeCover { cover, fraction, layers, facets: claims[a] }
+        };
+        let nodes: Vec<_> = (0..self.nonmortar.len()).map(node).collect();
+        let mut penetration = 0.0_f64;
+        for a in (0..nodes.len()).filter(|&a| nodes[a].cover != Cover::None) {
+            let (coverage, gap) = sums[a];
+            penetration = penetration.max(-self.normal(a)?.dot(&gap) / coverage);
+        }
+        let covered = nodes.iter().any(|n| n.cover != Cover::None);
+        let finding = if covered { None } else { Some(self.why_nothing_overlaps(x1, x2)?) };
+        Ok(Report { nodes, penetration, finding })
+    }
+
+    /// Per non-mortar node the most that a facet around it is covered, over the facet's area at `x`.
+    fn layers(&self, pairs: &[PairRecord], x: &[Vec3]) -> Result<Vec<f64>> {
+        let one = &self.nonmortar;
+        let mut covered = vec![0.0; one.facets.len()];
+        for pair in pairs {
+            covered[pair.one] += (0..one.facets[pair.one].len).map(|k| pair.weights.coverage(k)).sum::<f64>();
+        }
+        let mut most = vec![0.0_f64; one.len()];
+        for (f, facet) in one.facets.iter().enumerate().filter(|(f, _)| covered[*f] > 0.0) {
+            let area: f64 = NonmortarFrame::new(&one.facet(f, x))?.nodal_areas().iter().sum();
+            facet.as_slice().iter().for_each(|&a| most[a] = most[a].max(covered[f] / area));
+        }
+        Ok(most)
+    }
+
+    /// Per non-mortar node the mortar facets that overlap with the facets around it.
+    fn claims(&self, pairs: &[PairRecord]) -> Vec<i64> {
+        let mut claims = Vec::new();
+        for pair in pairs {
+            let facet = &self.nonmortar.facets[pair.one];
+            let covered = (0..facet.len).filter(|&k| pair.weights.coverage(k) > 0.0);
+            claims.extend(covered.map(|k| (facet.nodes[k], pair.two)));
+        }
+        claims.sort_unstable();
+        claims.dedup();
+        let mut counts = vec![0; self.nonmortar.len()];
+        claims.iter().for_each(|&(a, _)| counts[a] += 1);
+        counts
+    }
+
+    /// Looks at all facets that lie over each other, whichever way they look and however deep.
+    fn why_nothing_overlaps(&self, x1: &[Vec3], x2: &[Vec3]) -> Result<Finding> {
+        let (one, two) = (&self.nonmortar, &self.mortar);
+        if two.analytic.is_some() {
+            return Ok(Finding::NoOverlap);
+        }
+        let tree =
+            Tree::new((0..two.facets.len()).map(|f| Aabb::around(two.facet(f, x2).points().iter().copied())).collect());
+        let (mut found, mut same_way) = (Vec::new(), false);
+        for (i, frame) in frames(one, x1)?.iter().enumerate() {
+            tree.find(&Prism::over(one.facet(i, x1).points(), &frame.plane, 0.0), &mut found);
+            for &j in &found {
+                let facet = two.facet(j, x2);
+                let opposition = -frame.plane.e.dot(&Plane::of(&facet)?.e);
+                // A facet that cannot be projected lies over none.
+                let lies_over = || Segment::new(frame, &facet).is_ok_and(|s| s.is_some_and(|s| s.area > 0.0));
+                if opposition.abs() > LEAST_OPPOSITION && lies_over() {
+                    if opposition > 0.0 {
+                        return Ok(Finding::Behind);
+                    }
+                    same_way = true;
+                }
+            }
+        }
+        Ok(if same_way { Finding::SameWay } else { Finding::NoOverlap })
+    }
+}
