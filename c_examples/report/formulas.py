@@ -74,8 +74,8 @@ class PointContact:
         return self.contact_radius * np.cbrt(1 - abs(pull) / (self.mu * self.force))
 
     def travel(self, pull, compliance):
-        """Tangential displacement under a growing pull. `compliance`: 1 / (initial stiffness) = sum of (2 - nu) / (8 G a)
-        over the elastic bodies."""
+        """Tangential displacement under a growing pull. `compliance`: of both bodies when nothing slips, the sum of their
+        (2 - nu) / (8 G a)."""
         limit = self.mu * self.force
         return 1.5 * limit * compliance * (1 - np.power(1 - abs(pull) / limit, 2 / 3))
 
@@ -98,8 +98,8 @@ def ellipse(x, a):
 
 
 def nodal_mean(function, x):
-    """Mean of a function over each node's hat: what a nodal force over a tributary length is to be compared with, for the
-    profiles here end with infinite slope."""
+    """Mean of a function over each node's hat: what a nodal force over a tributary length is to be compared with, for
+    the profiles here end with infinite slope."""
     points, weights = np.polynomial.legendre.leggauss(20)
     share, total = (points + 1) / 2, np.zeros(len(x))
     for i, (left, right) in enumerate(zip(x, x[1:])):
@@ -111,7 +111,7 @@ def nodal_mean(function, x):
 
 
 def shrink_fit_free(interference, b, bore, outer, young):
-    """Lame: pressure between a shaft with a bore and a hub of the same material, plane stress; bore and outside are free."""
+    """Lame: pressure between a shaft with a bore and a hub of its material, plane stress; bore and outside free."""
     hub = (outer**2 + b**2) / (outer**2 - b**2)
     shaft = (b**2 + bore**2) / (b**2 - bore**2)
     return young * interference / (b * (hub + shaft))

@@ -31,8 +31,8 @@ void box_shape_read(Scene *scene, const char *body, const PetscInt n[3], PetscRe
   }
 }
 
-/* The cube (square, across an axis) of half-width s about the centre becomes the sphere (circle) of radius s: along rays,
- * so planes through the centre stay. */
+/* The cube (square, across an axis) of half-width s about the centre becomes the sphere (circle) of radius s: along
+ * rays, so planes through the centre stay. */
 static void make_round(const PetscReal centre[3], int axis, PetscReal x[3])
 {
   PetscReal largest = 0, squared = 0;
