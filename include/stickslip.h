@@ -382,7 +382,7 @@ typedef struct stickslip_counters {
   int64_t searches;
   /// Pairs active at the last evaluation, commit or creation.
   int64_t pairs_active;
-  /// Heap memory in use, roughly [bytes].
+  /// Heap memory in use [bytes]: surfaces, history, the one before it, what the step and the last evaluation keep.
   int64_t bytes;
   /// Time in search [s].
   double seconds_search;

@@ -24,7 +24,7 @@ pub struct stickslip_counters {
     pub searches: i64,
     /// Pairs active at the last evaluation, commit or creation.
     pub pairs_active: i64,
-    /// Heap memory in use, roughly [bytes].
+    /// Heap memory in use [bytes]: surfaces, history, the one before it, what the step and the last evaluation keep.
     pub bytes: i64,
     /// Time in search [s].
     pub seconds_search: f64,

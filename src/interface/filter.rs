@@ -54,7 +54,7 @@ impl Filter {
 pub(super) struct Side {
     pub facets: Vec<(Facet, Plane)>,
     /// How far the surface may lie off each of them `[L]`.
-    bulges: Vec<f64>,
+    pub bulges: Vec<f64>,
 }
 
 impl Side {

@@ -1,6 +1,6 @@
 //! What an interface remembers of t_n: configuration, weights, normals, areas, coverage, slip
 //! (formulation b.10). Changes only on commit, rolls back exactly, travels as flat arrays. Without friction there is no
-//! slip to measure: no gaps, no slip, and weights only where they are frozen.
+//! slip to measure: no gaps, no slip, and weights only where they are frozen; tied surfaces keep the gap, and no slip.
 
 use super::options::{Friction, Options, Weights};
 use super::surface::Surface;
@@ -25,6 +25,8 @@ pub struct PairRecord {
 pub(super) enum Keeps {
     /// Gaps, slip and weights of t_n, from which slip is measured.
     Slip,
+    /// The frozen weights and their first gaps: tied.
+    Gap,
     /// The frozen weights alone: without friction.
     Weights,
     /// Nothing: without friction, weights of now.
@@ -37,30 +39,42 @@ impl Keeps {
         match (options.friction, options.effective_weights()) {
             (Friction::None, Weights::Current) => Keeps::Nothing,
             (Friction::None, _) => Keeps::Weights,
+            (Friction::Tied, _) => Keeps::Gap,
             _ => Keeps::Slip,
         }
     }
 
-    /// First integer of an exported history: "stickslip history, layout 1 to 3".
+    /// First integer of an exported history: "stickslip history, layout 1 to 4".
     fn layout(self) -> i64 {
         match self {
             Keeps::Slip => 0x57_1C_01,
             Keeps::Weights => 0x57_1C_02,
             Keeps::Nothing => 0x57_1C_03,
+            Keeps::Gap => 0x57_1C_04,
         }
     }
 
     fn name(self) -> &'static str {
         match self {
             Keeps::Slip => "with slip",
+            Keeps::Gap => "of tied surfaces",
             Keeps::Weights => "without friction, with frozen weights",
             Keeps::Nothing => "without friction, with weights of now",
         }
     }
 
-    /// Vectors per non-mortar node: position, normal and, where slip counts, gap and slip.
+    /// Vectors a node of gaps, and of slip: 1 where they are kept.
+    pub fn gaps_and_slips(self) -> [usize; 2] {
+        match self {
+            Keeps::Slip => [1, 1],
+            Keeps::Gap => [1, 0],
+            Keeps::Weights | Keeps::Nothing => [0, 0],
+        }
+    }
+
+    /// Vectors per non-mortar node: position, normal and what else is kept.
     fn vectors(self) -> usize {
-        if self == Keeps::Slip { 4 } else { 2 }
+        2 + self.gaps_and_slips().iter().sum::<usize>()
     }
 
     fn reals(self, n1: usize, n2: usize, pairs: usize) -> usize {
@@ -87,7 +101,7 @@ pub struct History {
     pub coverage: Vec<f64>,
     /// g[n_n, x_n] [L^3]; empty without friction.
     pub gap: Vec<Vec3>,
-    /// Slip accumulated since the first configuration `[L]`; empty without friction.
+    /// Slip accumulated since the first configuration `[L]`; empty without friction, and of tied surfaces.
     pub slip: Vec<Vec3>,
     /// n(t_n), sorted by facets; none without friction, unless they are frozen.
     pub pairs: Vec<PairRecord>,
@@ -104,7 +118,7 @@ impl History {
     /// Takes each node's coverage and, of gaps and weights of t_n, what it keeps; leaves the rest.
     pub(super) fn fill(&mut self, pairs: &mut Vec<PairRecord>, sums: &[(f64, Vec3)]) {
         self.coverage = sums.iter().map(|(coverage, _)| *coverage).collect();
-        if self.keeps == Keeps::Slip {
+        if self.keeps.gaps_and_slips()[0] == 1 {
             self.gap = sums.iter().map(|(_, gap)| *gap).collect();
         }
         if self.keeps != Keeps::Nothing {
@@ -152,7 +166,8 @@ impl History {
         let &[layout, commits, nodes1, nodes2, pairs, print, ref facets @ ..] = integers else {
             return mismatch(format!("integers has {} entries; at least {HEADER} are needed", integers.len()));
         };
-        let Some(found) = [Keeps::Slip, Keeps::Weights, Keeps::Nothing].into_iter().find(|k| k.layout() == layout)
+        let Some(found) =
+            [Keeps::Slip, Keeps::Gap, Keeps::Weights, Keeps::Nothing].into_iter().find(|k| k.layout() == layout)
         else {
             return mismatch(format!("integers[0] is {layout}: not a history of this library version"));
         };
@@ -186,7 +201,7 @@ impl History {
         };
         let mut vectors = |n: usize| take(3 * n).chunks_exact(3).map(Vec3::from_column_slice).collect::<Vec<_>>();
         let (x1, x2, normals) = (vectors(n1), vectors(n2), vectors(n1));
-        let (gap, slip) = if keeps == Keeps::Slip { (vectors(n1), vectors(n1)) } else { Default::default() };
+        let [gap, slip] = keeps.gaps_and_slips().map(|kept| vectors(kept * n1));
         let (areas, coverage) = (take(n1).to_vec(), take(n1).to_vec());
         let mut history = History {
             keeps,

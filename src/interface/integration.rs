@@ -221,7 +221,7 @@ impl<const N: usize> Contact<N> {
     ) -> Result<Start> {
         let n1 = nonmortar.len();
         let keeps = Keeps::of(options);
-        let slips = if keeps == Keeps::Slip { n1 } else { 0 };
+        let [gap, slip] = keeps.gaps_and_slips().map(|kept| vec![Vec3::zeros(); kept * n1]);
         let mut history = History {
             keeps,
             commits: 0,
@@ -230,8 +230,8 @@ impl<const N: usize> Contact<N> {
             normals: Vec::with_capacity(n1),
             areas: vec![0.0; n1],
             coverage: vec![0.0; n1],
-            gap: vec![Vec3::zeros(); slips],
-            slip: vec![Vec3::zeros(); slips],
+            gap,
+            slip,
             pairs: Vec::new(),
             integrated: false,
         };

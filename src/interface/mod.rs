@@ -14,6 +14,7 @@ mod effects;
 mod filter;
 mod history;
 mod integration;
+mod memory;
 mod nodes;
 mod options;
 mod overrides;
@@ -247,7 +248,7 @@ impl<const N: usize> Contact<N> {
         let mut new = if self.options.effective_weights() == Weights::Reference {
             let mut history = History { x1: x1.to_vec(), x2: x2.to_vec(), ..self.history.clone() };
             // Also where mu is 0 at every node: it may be set before the next step. Tied nodes keep their first gap.
-            if self.history.keeps == Keeps::Slip && self.options.friction != Friction::Tied {
+            if self.history.keeps == Keeps::Slip {
                 let moved = nodes::assemble(surfaces, &self.history.pairs, x1, x2);
                 history.gap = moved.into_iter().map(|(_, gap)| gap).collect();
             }
@@ -344,29 +345,5 @@ impl<const N: usize> Contact<N> {
     /// Pairs active at the last evaluation, commit or creation.
     pub fn active_pairs(&self) -> usize {
         self.counters.pairs_active
-    }
-
-    /// Heap memory in use, roughly `[bytes]`.
-    pub fn bytes(&self) -> usize {
-        let pair = size_of::<PairRecord>();
-        let node = size_of::<Vec3>();
-        let history = |h: &History| {
-            let vectors = [&h.x1, &h.x2, &h.normals, &h.gap, &h.slip];
-            let reals = h.areas.len() + h.coverage.len();
-            h.pairs.len() * pair + vectors.map(Vec::len).iter().sum::<usize>() * node + reals * size_of::<f64>()
-        };
-        let surface = |s: &Surface| s.len() * 2 * node + s.facets.len() * size_of::<FacetNodes>();
-        let current = self
-            .integration
-            .as_ref()
-            .map_or(0, |k| k.pairs.len() * pair + k.frames.len() * size_of::<crate::mortar::NonmortarFrame>());
-        let filter = (self.nonmortar.facets.len() + self.mortar.facets.len()) * size_of::<crate::geometry::Plane>();
-        history(&self.history)
-            + self.rollback.as_ref().map_or(0, history)
-            + surface(&self.nonmortar)
-            + surface(&self.mortar)
-            + current
-            + filter
-            + self.nonmortar.len() * size_of::<Mat3>()
     }
 }

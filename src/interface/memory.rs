@@ -1,0 +1,46 @@
+//! What an interface takes on the heap.
+
+use super::filter::Filter;
+use super::history::History;
+use super::integration::Integration;
+use super::{Contact, Surface};
+
+/// A vector's memory `[bytes]`: what it holds and what it has taken for more.
+fn heap<T>(v: &Vec<T>) -> usize {
+    v.capacity() * size_of::<T>()
+}
+
+fn of_surface(s: &Surface) -> usize {
+    heap(&s.reference) + heap(&s.facets) + heap(&s.equations) + heap(&s.edges)
+}
+
+fn of_history(h: &History) -> usize {
+    let vectors = [&h.x1, &h.x2, &h.normals, &h.gap, &h.slip];
+    vectors.map(heap).iter().sum::<usize>() + heap(&h.areas) + heap(&h.coverage) + heap(&h.pairs)
+}
+
+fn of_filter(filter: &Filter) -> usize {
+    match filter {
+        Filter::Facets(f) => {
+            f.sides.iter().map(|s| heap(&s.facets) + heap(&s.bulges)).sum::<usize>() + heap(&f.reached)
+        }
+        Filter::Analytic(facing) => heap(facing),
+    }
+}
+
+fn of_integration(k: &Integration) -> usize {
+    heap(&k.x1) + heap(&k.x2) + heap(&k.frames) + heap(&k.pairs)
+}
+
+impl<const N: usize> Contact<N> {
+    /// Heap memory in use `[bytes]`: surfaces, histories, the filter, the last evaluation, what is set per node.
+    pub fn bytes(&self) -> usize {
+        let surfaces = of_surface(&self.nonmortar) + of_surface(&self.mortar);
+        let histories = of_history(&self.history) + self.rollback.as_ref().map_or(0, of_history);
+        let step = self.filter.as_ref().map_or(0, of_filter) + self.integration.as_ref().map_or(0, of_integration);
+        let flags = heap(&self.owned) + heap(&self.coverable);
+        let overrides = self.augmentations.as_ref().map_or(0, heap) + self.normals.as_ref().map_or(0, heap);
+        let nodes = heap(&self.multiplier_equations) + heap(&self.mu) + heap(&self.free);
+        surfaces + histories + step + flags + overrides + nodes
+    }
+}
