@@ -309,7 +309,9 @@ typedef struct stickslip_options {
 /// body, within 1e-8 of its lengths (INVALID_VALUE otherwise); to move the surface, move them. P0: a point of the
 /// plane, the sphere's centre, a point of the axis. P1 - P0: the plane's normal, out of its body, or the direction of
 /// the axis. The three edges P1 - P0, P2 - P0, P3 - P0 must not lie in one plane; take them about as long as the contact
-/// is wide. The forces on the four nodes are statically equivalent to those on the surface. A facet takes part in a step
+/// is wide. Where the shortest is so short that its rounding would move the surface by more than 1e-8 of the longest facet
+/// edge h (eps S D / (a h); a the shortest edge, D the distance from P0 to the farthest non-mortar node, S the frame's
+/// distance from the origin or D) they are refused, INVALID_VALUE. The forces on the four nodes are statically equivalent to those on the surface. A facet takes part in a step
 /// when at t_n its normal opposes the surface's; it then counts as covered.
 typedef struct stickslip_surface {
   /// sizeof(stickslip_surface).
@@ -546,7 +548,8 @@ int32_t stickslip_options_init(struct stickslip_options *options,
 /// is not 0): look at it once they are near, a facet order seen from inside the body is found that way.
 ///
 /// Errors: NULL_POINTER, STRUCT_SIZE, INVALID_SIZE, NOT_FINITE, INDEX_OUT_OF_RANGE, DUPLICATE_NODE,
-/// DEGENERATE_FACET, INVALID_VALUE (an option; a node without a facet; a mortar side given multipliers; a
+/// DEGENERATE_FACET, INVALID_VALUE (an option; a node without a facet; a mortar side given multipliers; a frame
+/// that is too small for where it is; a
 /// mortar surface in layers), MISSING_STIFFNESS, UNSUPPORTED, UNDEFINED_NORMAL, PROJECTION_NOT_CONVEX.
 /// Cost: one search, O((n1 + n2) log n2), and one integration of the pairs found; allocates.
 /// Owner: the caller, who ends it with `stickslip_interface_destroy`. Both surfaces and the options are

@@ -170,6 +170,7 @@ impl<const N: usize> Contact<N> {
             return Err(Error::new(Kind::InvalidValue, text));
         }
         integration::check_mortar_facets(&mortar)?;
+        analytic::check_frame(&nonmortar, &mortar)?;
         let mut counters = Counters::default();
         let (x1, x2) = (nonmortar.reference.clone(), mortar.reference.clone());
         let start = Self::start_at((&nonmortar, &mortar), &options, &mut counters, (&x1, &x2))?;

@@ -126,3 +126,52 @@ fn a_facet_stretched_over_a_small_ball_is_not_apart() {
     assert_eq!(short.counters().evaluations_apart, 0);
     assert!(a == b && a.iter().all(|s| s.coverage > 0.0));
 }
+
+/// How much a frame with edges of length `a`, `far` from the origin, moves the gaps of a mesh at its side, over the mesh's
+/// longest edge: against the same without the offset, which is exact to the last digits. `None`: refused.
+fn lost(shape: AnalyticShape, far: f64, a: f64) -> Option<f64> {
+    let (q, shift) = (askew(), Vec3::new(0.7, -0.5, 0.6) * far);
+    let mesh = grid(2, 2, [0.6, 0.6], [1.2, 1.2], 0.0, false, Cells::Quads);
+    let mut frame = frame_of(shape);
+    for k in 1..4 {
+        frame[k] = frame[0] + (frame[k] - frame[0]).normalize() * a;
+    }
+    let sums = |shift: Vec3, frame: &[Vec3]| -> Result<Vec<f64>> {
+        let moved = Mesh { x: turned(&q, shift, &mesh.x), ..mesh.clone() };
+        let frame = turned(&q, shift, frame);
+        let mut contact: Contact<3> = against(&moved, shape, &frame, options())?;
+        contact.share(); // gaps, be the surface near or not
+        let sums = contact.sums(&moved.x, &frame)?;
+        assert!(sums.iter().all(|s| s.coverage > 0.0), "{shape}: the facets face the surface");
+        Ok(sums.iter().map(|s| (q.inverse() * s.gap_now).z / s.coverage).collect())
+    };
+    let exact = sums(Vec3::zeros(), &frame_of(shape)).unwrap();
+    match sums(shift, &frame) {
+        Ok(found) => Some(max_abs(found.iter().zip(&exact).map(|(a, b)| a - b)) / 0.5),
+        Err(e) => {
+            // Where nothing is left of the edges there is no volume either.
+            let said = ["mortar: the frame is too small", "mortar: the frame has no volume"];
+            assert!(e.kind == Kind::InvalidValue && said.iter().any(|text| e.message.contains(text)), "{e}");
+            None
+        }
+    }
+}
+
+/// A frame much smaller than its distance to the body or the origin turns with the rounding of its points: refused before
+/// a gap loses more than 1e-8 of a facet, and not long before.
+#[test]
+fn a_frame_too_small_for_its_distance_is_refused() {
+    for shape in SHAPES {
+        let mut most = 0.0_f64;
+        for far in [0.0, 10.0, 1e3, 1e5] {
+            for exponent in -10..2 {
+                let found = lost(shape, far, 10.0_f64.powi(exponent));
+                assert!(found.is_none_or(|loss| loss <= 1e-8), "{shape}, {far:e}, 1e{exponent}: {found:?}");
+                assert!(found.is_some() || exponent < 0, "{shape}, {far:e}: edges as long as the mesh will do");
+                most = most.max(found.unwrap_or(0.0));
+            }
+            assert!(lost(shape, far, 1e-12).is_none(), "{shape}, {far:e}");
+        }
+        assert!(most > 1e-11, "{shape}: {most:e}, the limit is no stricter than it must be");
+    }
+}
