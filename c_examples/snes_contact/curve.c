@@ -33,12 +33,17 @@ PetscReal curve_value(const Curve *curve, PetscReal t)
   return p[1];
 }
 
+PetscBool curve_same_time(PetscReal a, PetscReal b)
+{
+  return (PetscBool)(PetscAbsReal(a - b) <= 1e-12 * PetscMax(1, PetscAbsReal(a)));
+}
+
 PetscBool curve_bends(const Curve *curve, PetscReal t)
 {
   const PetscReal *p = curve->points;
   for (PetscInt k = 0; k < curve->n; k++) {
     PetscReal before, after;
-    if (PetscAbsReal(t - p[2 * k]) > 1e-12 * PetscMax(1, PetscAbsReal(t))) continue;
+    if (!curve_same_time(t, p[2 * k])) continue;
     before = k ? (p[2 * k + 1] - p[2 * k - 1]) / (p[2 * k] - p[2 * k - 2]) : 0;
     after  = k + 1 < curve->n ? (p[2 * k + 3] - p[2 * k + 1]) / (p[2 * k + 2] - p[2 * k]) : 0;
     if (PetscAbsReal(after - before) > 1e-9 * (PetscAbsReal(after) + PetscAbsReal(before))) return PETSC_TRUE;

@@ -12,5 +12,6 @@ typedef struct {
 PetscErrorCode curve_read(Scene *scene, const char *map, PetscReal end, Curve *curve);
 PetscReal      curve_value(const Curve *curve, PetscReal t);
 PetscBool      curve_bends(const Curve *curve, PetscReal t); /* has a kink at t */
+PetscBool      curve_same_time(PetscReal a, PetscReal b);          /* but for rounding */
 PetscBool      curve_equal(const Curve *a, const Curve *b);
 #endif

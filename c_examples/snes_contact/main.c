@@ -52,6 +52,7 @@ static PetscErrorCode build(Model *model, PetscInt *status)
   PetscCall(supports_values(model, 0));
   PetscCall(VecCopy(model->prescribed_local, model->u_local)); /* the configuration of the first sparsity pattern */
   PetscCall(solver_create(model));
+  PetscCall(newton_create(model));
   PetscCall(jacobian_test_create(model));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -71,7 +72,9 @@ static PetscErrorCode clean_up(Model *model)
   PetscCall(PetscFree(model->loads));
   PetscCall(PetscFree(model->probes));
   PetscCall(PetscFree(model->prescribed));
-  PetscCall(PetscFree(model->steps.times));
+  PetscCall(newton_destroy(model));
+  PetscCall(PetscFree(model->steps.targets));
+  PetscCall(PetscFree(model->steps.asked));
   PetscCall(PetscFree(model->original));
   PetscCall(PetscFree(model->owner));
   PetscCall(PetscFree(model->ghost));
@@ -84,6 +87,7 @@ static PetscErrorCode clean_up(Model *model)
   PetscCall(PetscSFDestroy(&model->ghosts));
   PetscCall(PetscSFDestroy(&model->all_displacements));
   PetscCall(MatDestroy(&model->jacobian));
+  PetscCall(MatDestroy(&model->pattern));
   PetscCall(SNESDestroy(&model->snes));
   PetscCall(PetscSectionDestroy(&model->section));
   PetscCall(DMDestroy(&model->dm));

@@ -65,17 +65,41 @@ typedef struct {
 } Probe;
 
 typedef struct {
-  PetscInt   n_times;
-  PetscReal *times;
-  PetscReal  end, smallest;                /* step, as a fraction of the distance between two times */
-  PetscBool  predictor, fixed_line_search; /* the user chose one */
+  PetscInt   n_targets;
+  PetscReal *targets; /* times to meet */
+  PetscBool *asked;   /* for each: the scene names it; else it is a kink of a curve */
+  PetscReal  end, smallest; /* step, as a fraction of the largest */
+  PetscBool  predictor, automatic;
+  PetscReal  initial, largest; /* automatic steps */
+  PetscInt   iterations;       /* of Newton's method: what they aim at */
 } Steps;
+
+/* The step that is wanted next (step_size.c). */
+typedef struct {
+  PetscInt  next, held;      /* target; steps for which it must not grow */
+  PetscReal length, longest; /* wanted; whose fraction Steps.smallest is */
+} StepSize;
+
+typedef struct Cycling Cycling;
+
+/* Newton's method on one step (newton.c) */
+typedef struct {
+  PetscBool     fixed_line_search; /* the user chose one */
+  PetscReal     factor;            /* for the augmentation of nodes that cycle */
+  PetscInt      n_changes;         /* of the augmentation in this attempt */
+  PetscBool     changed, stale;    /* it is not the scene's; the residual belongs to another one */
+  PetscBool     stopped, monotone; /* this attempt cycled on; its residual fell in every iteration */
+  PetscInt      iterations;        /* of the last newton_solve(), all attempts */
+  char          cycle[768];        /* the last one found in it, as a sentence */
+  char          why[1024];         /* it did not converge */
+  struct cJSON *cycles;            /* rank 0: those seen since the last report */
+} Newton;
 
 typedef struct {
   double bulk_assembly, linear_solve, contact, total, started;
 } Timers;
 
-typedef enum { WRITE_NONE, WRITE_LAST, WRITE_ALL } WriteWhen;
+typedef enum { WRITE_NONE, WRITE_LAST, WRITE_TIMES, WRITE_ALL } WriteWhen;
 
 typedef struct {
   Scene      *scene;
@@ -112,7 +136,9 @@ typedef struct {
   Vec        f_sum;                              /* local: work space of unknowns_sum() */
 
   SNES      snes;
-  Mat       jacobian;
+  Mat       jacobian, pattern; /* the latter: as the former was at the start of the step, without values */
+  Newton    newton;
+  Cycling  *cycling;
   PetscInt  iterations;                            /* of Newton, spent on the present step, failed attempts included */
   PetscReal t, reference_force, largest_reference, noise, rounding, size, stiffness; /* for the convergence test (solver.c) */
   char      refusal[1024];                         /* the library's last message, if it refused an evaluation */
@@ -169,12 +195,38 @@ PetscErrorCode contact_forces(Model *model, Vec f_local, PetscReal *squared_norm
 PetscErrorCode contact_tangent(Model *model, Mat matrix, PetscInt *status);
 PetscErrorCode contact_pattern(Model *model, Mat matrix);
 PetscErrorCode contact_states_create(const Interface *interface, ContactStates *states); /* rank 0 */
+PetscErrorCode contact_scale_augmentation(Model *model, const PetscBool *marked, PetscReal factor);
 PetscErrorCode contact_states_destroy(ContactStates *states);
+PetscErrorCode contact_tendencies(Model *model, int32_t *state, double *tangential); /* of all interfaces at u_local */
 PetscErrorCode contact_commit(Model *model, PetscInt *status);
 
 /* solver.c */
 PetscErrorCode solver_create(Model *model);
 PetscErrorCode solver_refresh_pattern(Model *model);
+PetscErrorCode solver_restore_pattern(Model *model); /* undoes what a failed attempt has added */
+
+/* cycling.c: model->cycling, the states of the nodes over Newton's iterations */
+PetscErrorCode cycling_create(Model *model);
+PetscErrorCode cycling_destroy(Model *model);
+PetscErrorCode cycling_restart(Model *model);
+PetscErrorCode cycling_record(Model *model, PetscReal norm, PetscInt *period); /* at u_local; 0: no cycle */
+PetscErrorCode cycling_change_augmentation(Model *model, PetscInt period, PetscReal factor);
+PetscErrorCode cycling_describe(Model *model, PetscInt period, struct cJSON *parent, char sentence[], size_t length);
+
+/* newton.c, after solver_create() */
+PetscErrorCode newton_create(Model *model);
+PetscErrorCode newton_destroy(Model *model);
+PetscErrorCode newton_watch(Model *model, PetscInt iteration, PetscReal norm, SNESConvergedReason *reason);
+PetscErrorCode newton_confirm(Model *model, PetscReal *norm);
+PetscErrorCode newton_refused(Model *model);
+PetscErrorCode newton_solve(Model *model, Vec start, Vec x, PetscBool *converged);
+
+/* step_size.c */
+void      step_size_start(const Steps *steps, StepSize *size);
+PetscReal step_size_next(const Steps *steps, const StepSize *size, PetscReal t);
+void      step_size_accept(const Steps *steps, StepSize *size, PetscReal t_last, PetscReal t, const Newton *newton,
+                           PetscBool bends);
+PetscBool step_size_cut(const Steps *steps, StepSize *size, PetscReal tried); /* false: it is too small now */
 
 /* jacobian_test.c: after solver_create() */
 PetscErrorCode jacobian_test_create(Model *model);
@@ -190,7 +242,9 @@ PetscErrorCode steps_run(Model *model, int *exit_code);
 typedef struct Summary Summary;
 PetscErrorCode         output_read(Model *model);
 PetscErrorCode         summary_create(Model *model, Summary **summary);
-PetscErrorCode         summary_step(Model *model, Summary *summary, PetscInt step, PetscBool converged, PetscBool last);
+PetscErrorCode         summary_step(Model *model, Summary *summary, PetscInt step, PetscBool converged, PetscBool asked,
+                                    PetscBool last);
+PetscErrorCode         summary_failed_attempt(Model *model, Summary *summary, PetscReal t_last);
 PetscErrorCode summary_drop_step(Model *model, Summary *summary); /* the last one, which could not be committed */
 PetscErrorCode summary_write(Model *model, Summary **summary, PetscInt cutbacks, const char *message);
 PetscErrorCode summary_counters(Model *model, struct cJSON *root); /* what the run and each interface cost */

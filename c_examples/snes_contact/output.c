@@ -8,13 +8,22 @@
 #include <unistd.h>
 
 struct Summary {
-  cJSON  *root, *steps;
+  cJSON  *root, *steps, *failed_attempts;
   double *work_before; /* friction work of each interface before the last step */
+  char    said[1024];   /* about the last failed attempt */
 };
 
 static cJSON *vector_json(const PetscReal v[3])
 {
   return cJSON_CreateDoubleArray(v, 3);
+}
+
+/* with all its digits (cJSON leaves out the last where it thinks that it does not matter): a step can be run again */
+static void add_time(cJSON *json, const char *name, PetscReal t)
+{
+  char text[32];
+  snprintf(text, sizeof(text), "%.17g", (double)t);
+  cJSON_AddRawToObject(json, name, text);
 }
 
 /* with its parents; true if it can be written to */
@@ -31,7 +40,7 @@ static PetscBool make_folder(const char *path)
 
 PetscErrorCode output_read(Model *model)
 {
-  static const char *const when[] = {"none", "last", "all", NULL};
+  static const char *const when[] = {"none", "last", "times", "all", NULL};
   PetscInt                 vtu = WRITE_ALL, csv = WRITE_ALL;
   char                   **names;
 
@@ -84,7 +93,8 @@ PetscErrorCode summary_create(Model *model, Summary **out)
   cJSON_AddStringToObject(summary->root, "form", form_name(model));
   cJSON_AddNumberToObject(summary->root, "rtol", rtol);
   cJSON_AddNumberToObject(summary->root, "unknowns", unknowns);
-  summary->steps = cJSON_CreateArray();
+  summary->steps           = cJSON_CreateArray();
+  summary->failed_attempts = cJSON_CreateArray();
   if (!model->quiet)
     PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s: %" PetscInt_FMT " unknowns\n", scene_file(model->scene), unknowns));
   *out = summary;
@@ -158,12 +168,46 @@ static PetscErrorCode gather_displacements(Model *model, PetscScalar **displacem
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode summary_step(Model *model, Summary *summary, PetscInt step, PetscBool converged, PetscBool last)
+static PetscBool is_due(WriteWhen when, PetscBool asked, PetscBool last)
 {
-  const PetscBool csv     = (PetscBool)(converged &&
-                                        (model->write_csv == WRITE_ALL || (model->write_csv == WRITE_LAST && last)));
-  const PetscBool vtu     = (PetscBool)(converged &&
-                                        (model->write_vtu == WRITE_ALL || (model->write_vtu == WRITE_LAST && last)));
+  return (PetscBool)(when == WRITE_ALL || (when == WRITE_TIMES && asked) || (when == WRITE_LAST && last));
+}
+
+/* the cycles that Newton's method met since the last report */
+static void add_cycles(Model *model, cJSON *json)
+{
+  if (model->newton.cycles) cJSON_AddItemToObject(json, "cycles", model->newton.cycles);
+  model->newton.cycles = NULL;
+}
+
+/* Between t_last and model->t. Its sentence is printed where it differs from the one before: a refusal by the library
+ * may come with every attempt. */
+PetscErrorCode summary_failed_attempt(Model *model, Summary *summary, PetscReal t_last)
+{
+  const Newton *newton = &model->newton;
+  cJSON        *json   = cJSON_CreateObject();
+
+  PetscFunctionBegin;
+  add_time(json, "from", t_last);
+  add_time(json, "t", model->t);
+  cJSON_AddNumberToObject(json, "newton_iterations", newton->iterations);
+  cJSON_AddStringToObject(json, "why", newton->why);
+  add_cycles(model, json);
+  cJSON_AddItemToArray(summary->failed_attempts, json);
+  if (!model->quiet) {
+    const PetscBool again = (PetscBool)!strcmp(summary->said, newton->why);
+    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "     t %-10.6g not converged: %s\n", (double)model->t,
+                          again ? "as before" : newton->why));
+    PetscCall(PetscSNPrintf(summary->said, sizeof(summary->said), "%s", newton->why));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode summary_step(Model *model, Summary *summary, PetscInt step, PetscBool converged, PetscBool asked,
+                            PetscBool last)
+{
+  const PetscBool csv     = (PetscBool)(converged && is_due(model->write_csv, asked, last));
+  const PetscBool vtu     = (PetscBool)(converged && is_due(model->write_vtu, asked, last));
   cJSON          *json    = cJSON_CreateObject(), *interfaces, *probes;
   PetscReal      *norms   = NULL, half_fu;
   PetscInt        n_norms = 0;
@@ -173,10 +217,11 @@ PetscErrorCode summary_step(Model *model, Summary *summary, PetscInt step, Petsc
 
   PetscFunctionBegin;
   PetscCall(SNESGetConvergenceHistory(model->snes, &norms, NULL, &n_norms));
-  cJSON_AddNumberToObject(json, "t", model->t);
+  add_time(json, "t", model->t);
   cJSON_AddBoolToObject(json, "converged", converged);
   cJSON_AddNumberToObject(json, "newton_iterations", model->iterations);
   cJSON_AddItemToObject(json, "residual_norms", cJSON_CreateDoubleArray(norms, (int)n_norms));
+  add_cycles(model, json);
   if (model->jacobian_tests) cJSON_AddItemToObject(json, "jacobian_tests", model->jacobian_tests);
   model->jacobian_tests = NULL;
   cJSON_AddItemToArray(summary->steps, json);
@@ -226,6 +271,7 @@ PetscErrorCode summary_write(Model *model, Summary **summary, PetscInt cutbacks,
   PetscFunctionBegin;
   cJSON_AddNumberToObject((*summary)->root, "cutbacks", cutbacks);
   if (message[0]) cJSON_AddStringToObject((*summary)->root, "message", message);
+  cJSON_AddItemToObject((*summary)->root, "failed_attempts", (*summary)->failed_attempts);
   cJSON_AddItemToObject((*summary)->root, "steps", (*summary)->steps);
   PetscCall(summary_counters(model, (*summary)->root));
   if (model->rank == 0) {

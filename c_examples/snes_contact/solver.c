@@ -92,22 +92,33 @@ static PetscErrorCode tangent(SNES snes, Vec x, Mat J, Mat P, void *context)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+static PetscErrorCode judge(SNES snes, const Model *model, PetscReal norm, SNESConvergedReason *reason)
+{
+  PetscReal atol, rtol, reference = PetscMax(model->reference_force, model->largest_reference);
+  PetscFunctionBegin;
+  PetscCall(SNESGetTolerances(snes, &atol, &rtol, NULL, NULL, NULL));
+  *reason = SNES_CONVERGED_ITERATING;
+  if (PetscIsInfOrNanReal(norm))
+    *reason = SNES_DIVERGED_FNORM_NAN;
+  else if (norm <= rtol * reference)
+    *reason = SNES_CONVERGED_FNORM_RELATIVE;
+  else if (norm <= PetscMax(atol, model->noise))
+    *reason = SNES_CONVERGED_FNORM_ABS;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode converged(SNES snes, PetscInt iteration, PetscReal xnorm, PetscReal snorm, PetscReal fnorm,
                                 SNESConvergedReason *reason, void *context)
 {
-  Model    *model = context;
-  PetscReal atol, rtol, reference = PetscMax(model->reference_force, model->largest_reference);
-
+  Model *model = context;
   PetscFunctionBegin;
-  (void)iteration, (void)xnorm, (void)snorm;
-  PetscCall(SNESGetTolerances(snes, &atol, &rtol, NULL, NULL, NULL));
-  *reason = SNES_CONVERGED_ITERATING;
-  if (PetscIsInfOrNanReal(fnorm))
-    *reason = SNES_DIVERGED_FNORM_NAN;
-  else if (fnorm <= rtol * reference)
-    *reason = SNES_CONVERGED_FNORM_RELATIVE;
-  else if (fnorm <= PetscMax(atol, model->noise))
-    *reason = SNES_CONVERGED_FNORM_ABS;
+  (void)xnorm, (void)snorm;
+  PetscCall(judge(snes, model, fnorm, reason));
+  if (*reason > 0) {
+    PetscCall(newton_confirm(model, &fnorm));
+    PetscCall(judge(snes, model, fnorm, reason));
+  }
+  if (!*reason) PetscCall(newton_watch(model, iteration, fnorm, reason));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -184,31 +195,61 @@ static PetscErrorCode create_matrix(Model *model, Mat *matrix)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* New pairs in the last step made PETSc allocate entry by entry: start the next one with a fresh pattern. */
-PetscErrorCode solver_refresh_pattern(Model *model)
+/* Did PETSc allocate entry by entry, for pairs beyond the pattern? */
+static PetscErrorCode outgrown(const Model *model, PetscBool *grown)
 {
   MatInfo info;
   PetscFunctionBegin;
   PetscCall(MatGetInfo(model->jacobian, MAT_GLOBAL_MAX, &info));
-  if (info.mallocs == 0) PetscFunctionReturn(PETSC_SUCCESS);
+  *grown = (PetscBool)(info.mallocs > 0);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* New pairs in the last step: start the next one with a fresh pattern. */
+PetscErrorCode solver_refresh_pattern(Model *model)
+{
+  PetscBool grown;
+  PetscFunctionBegin;
+  PetscCall(outgrown(model, &grown));
+  if (!grown) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(MatDestroy(&model->jacobian));
+  PetscCall(MatDestroy(&model->pattern));
   PetscCall(create_matrix(model, &model->jacobian));
+  PetscCall(MatDuplicate(model->jacobian, MAT_DO_NOT_COPY_VALUES, &model->pattern));
   PetscCall(SNESSetJacobian(model->snes, model->jacobian, model->jacobian, tangent, model));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* MUMPS refuses when its pivoting outgrows the memory it has estimated by more than 20 %. The rows of multipliers that stick
- * have no diagonal, and their pivoting may double it. Room that stays unused is not touched. */
-static PetscErrorCode give_mumps_room(PC pc)
+PetscErrorCode solver_restore_pattern(Model *model)
 {
-  MatSolverType solver = NULL;
-  PetscBool     lu, mumps, given;
+  PetscBool grown;
+  PetscFunctionBegin;
+  PetscCall(outgrown(model, &grown));
+  if (!grown) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(MatDestroy(&model->jacobian));
+  PetscCall(MatDuplicate(model->pattern, MAT_DO_NOT_COPY_VALUES, &model->jacobian));
+  PetscCall(SNESSetJacobian(model->snes, model->jacobian, model->jacobian, tangent, model));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* MUMPS refuses when its pivoting outgrows the memory it has estimated by more than 20 %. The rows of multipliers that
+ * stick have no diagonal, and their pivoting may double it. Room that stays unused is not touched. (icntl 14)
+ *
+ * Its analysis must see the pattern only, not the values of the first matrix (icntl 6): else the factors after a
+ * cut-back would carry a trace of the attempt that failed. */
+static PetscErrorCode set_up_mumps(PC pc)
+{
+  static const char *const options[][2] = {{"-mat_mumps_icntl_14", "200"}, {"-mat_mumps_icntl_6", "0"}};
+  MatSolverType            solver       = NULL;
+  PetscBool                lu, mumps, given;
   PetscFunctionBegin;
   PetscCall(PetscObjectTypeCompare((PetscObject)pc, PCLU, &lu));
   if (lu) PetscCall(PCFactorGetMatSolverType(pc, &solver));
   PetscCall(PetscStrcmp(solver, MATSOLVERMUMPS, &mumps));
-  PetscCall(PetscOptionsHasName(NULL, NULL, "-mat_mumps_icntl_14", &given));
-  if (mumps && !given) PetscCall(PetscOptionsSetValue(NULL, "-mat_mumps_icntl_14", "200"));
+  for (int k = 0; k < 2 && mumps; k++) {
+    PetscCall(PetscOptionsHasName(NULL, NULL, options[k][0], &given));
+    if (!given) PetscCall(PetscOptionsSetValue(NULL, options[k][0], options[k][1]));
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -222,6 +263,7 @@ PetscErrorCode solver_create(Model *model)
   PetscFunctionBegin;
   PetscCall(measure(model));
   PetscCall(create_matrix(model, &model->jacobian));
+  PetscCall(MatDuplicate(model->jacobian, MAT_DO_NOT_COPY_VALUES, &model->pattern));
   PetscCall(DMCreateGlobalVector(model->dm, &r));
   PetscCall(SNESCreate(PETSC_COMM_WORLD, &model->snes));
   PetscCall(SNESSetDM(model->snes, model->dm));
@@ -243,7 +285,7 @@ PetscErrorCode solver_create(Model *model)
   PetscCall(KSPSetPreSolve(ksp, solve_begins, model));
   PetscCall(KSPSetPostSolve(ksp, solve_ends, model));
   PetscCall(SNESSetFromOptions(model->snes));
-  PetscCall(give_mumps_room(pc));
+  PetscCall(set_up_mumps(pc));
   PetscCall(VecDestroy(&r));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

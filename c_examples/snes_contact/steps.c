@@ -1,111 +1,222 @@
-/* Pseudo-time: predictor, Newton, cut-back, commit. */
+/* Pseudo-time: predictor, Newton's method, cut-back, commit. */
 #include "model.h"
+
+/* `automatic` and what goes with it; lengths of steps are times. */
+static void read_automatic(Scene *scene, Steps *steps)
+{
+  static const char *const keys[] = {"initial", "largest", "iterations"};
+  scene_bool(scene, "steps", "automatic", &steps->automatic);
+  for (int k = 0; k < 3 && !steps->automatic; k++) {
+    if (scene_has(scene, "steps", keys[k])) scene_fail(scene, "steps", keys[k], "it is for `automatic: true` only.");
+  }
+  steps->largest = 0.1 * steps->end;
+  scene_real(scene, "steps", "largest", &steps->largest);
+  if (steps->largest <= 0) scene_fail(scene, "steps", "largest", "it must be positive.");
+  steps->initial = steps->largest;
+  scene_real(scene, "steps", "initial", &steps->initial);
+  if (steps->initial <= 0 || steps->initial > steps->largest)
+    scene_fail(scene, "steps", "initial", "it must be positive, and no more than the largest, %g.",
+               (double)steps->largest);
+  steps->iterations = 6;
+  scene_int(scene, "steps", "iterations", &steps->iterations);
+  if (steps->iterations < 1) scene_fail(scene, "steps", "iterations", "at least one iteration is needed.");
+}
+
+/* `times`, each of them; `stages`, pairs of a time and the number of equal steps up to it; or `end` and `count` */
+static PetscErrorCode read_targets(Scene *scene, Steps *steps)
+{
+  const PetscBool staged = scene_has(scene, "steps", "stages");
+  PetscReal      *stages, whole[2] = {1, 1}, start = 0;
+  PetscInt        n_stages, count = 1, n = 0;
+
+  PetscFunctionBegin;
+  scene_reals(scene, "steps", "times", &steps->n_targets, &steps->targets);
+  if (steps->n_targets && staged) scene_fail(scene, "steps", "stages", "give either this or `times`.");
+  if (steps->n_targets) PetscFunctionReturn(PETSC_SUCCESS);
+  scene_reals(scene, "steps", "stages", &n_stages, &stages);
+  if (!staged) {
+    scene_int(scene, "steps", "count", &count);
+    scene_real(scene, "steps", "end", &whole[0]);
+    if (count < 1) scene_fail(scene, "steps", "count", "at least one step is needed.");
+    if (whole[0] <= 0) scene_fail(scene, "steps", "end", "it must be positive.");
+    whole[1] = count;
+    n_stages = 2;
+  }
+  if (n_stages % 2)
+    scene_fail(scene, "steps", "stages", "pairs are expected, of a time and the number of steps up to it.");
+  for (PetscInt k = 0; k < n_stages; k += 2) {
+    const PetscReal *stage = staged ? stages + k : whole;
+    if (stage[1] < 1 || stage[1] != PetscFloorReal(stage[1]))
+      scene_fail(scene, "steps", "stages", "%g is no number of steps.", (double)stage[1]);
+    steps->n_targets += (PetscInt)stage[1];
+  }
+  PetscCall(PetscMalloc1(steps->n_targets, &steps->targets));
+  for (PetscInt k = 0; k < n_stages; k += 2) {
+    const PetscReal *stage = staged ? stages + k : whole;
+    count                  = (PetscInt)stage[1];
+    for (PetscInt j = 0; j < count; j++)
+      steps->targets[n++] = j + 1 < count ? start + (stage[0] - start) * (j + 1) / count : stage[0];
+    start = stage[0];
+  }
+  PetscCall(PetscFree(stages));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
 
 PetscErrorCode steps_read(Model *model)
 {
-  Scene   *scene = model->scene;
-  Steps   *steps = &model->steps;
-  PetscInt count = 1;
+  Scene *scene = model->scene;
+  Steps *steps = &model->steps;
 
   PetscFunctionBegin;
   steps->predictor = PETSC_TRUE;
   steps->smallest  = 1.0 / 1024;
-  scene_reals(scene, "steps", "times", &steps->n_times, &steps->times);
-  if (!steps->n_times) {
-    scene_int(scene, "steps", "count", &count);
-    steps->end = 1;
-    scene_real(scene, "steps", "end", &steps->end);
-    if (count < 1) scene_fail(scene, "steps", "count", "at least one step is needed.");
-    if (steps->end <= 0) scene_fail(scene, "steps", "end", "it must be positive.");
-    steps->n_times = count;
-    PetscCall(PetscMalloc1(count, &steps->times));
-    for (PetscInt k = 0; k < count; k++)
-      steps->times[k] = steps->end * (k + 1) / count;
+  PetscCall(read_targets(scene, steps));
+  for (PetscInt k = 0; k < steps->n_targets; k++) {
+    if (steps->targets[k] <= (k ? steps->targets[k - 1] : 0))
+      scene_fail(scene, "steps", scene_has(scene, "steps", "stages") ? "stages" : "times",
+                 "times must increase, from above 0; %g does not.", (double)steps->targets[k]);
   }
-  for (PetscInt k = 0; k < steps->n_times; k++) {
-    if (steps->times[k] <= (k ? steps->times[k - 1] : 0))
-      scene_fail(scene, "steps", "times", "times must increase, from above 0; %g does not.", (double)steps->times[k]);
-  }
-  steps->end = steps->times[steps->n_times - 1];
-  PetscCall(PetscOptionsHasName(NULL, NULL, "-snes_linesearch_type", &steps->fixed_line_search));
+  steps->end = steps->targets[steps->n_targets - 1];
   scene_bool(scene, "steps", "predictor", &steps->predictor);
   scene_real(scene, "steps", "smallest", &steps->smallest);
   if (steps->smallest <= 0 || steps->smallest > 1)
     scene_fail(scene, "steps", "smallest", "it is a fraction of a step: above 0, at most 1.");
+  read_automatic(scene, steps);
   PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Calls `visit` for the curve of every load and support. */
+static void each_curve(const Model *model, void (*visit)(const Curve *, void *), void *context)
+{
+  for (PetscInt l = 0; l < model->n_loads; l++)
+    visit(&model->loads[l].curve, context);
+  for (PetscInt s = 0; s < model->n_supports; s++)
+    visit(&model->supports[s].curve, context);
+}
+
+typedef struct {
+  PetscReal t;
+  PetscBool bends;
+} Kink;
+
+static void look_for_kink(const Curve *curve, void *context)
+{
+  Kink *kink  = context;
+  kink->bends = (PetscBool)(kink->bends || curve_bends(curve, kink->t));
 }
 
 /* Does a load or a prescribed displacement change its rate at t? Then the past says nothing about the next step. */
 static PetscBool bends(const Model *model, PetscReal t)
 {
-  for (PetscInt l = 0; l < model->n_loads; l++) {
-    if (curve_bends(&model->loads[l].curve, t)) return PETSC_TRUE;
+  Kink kink = {t, PETSC_FALSE};
+  each_curve(model, look_for_kink, &kink);
+  return kink.bends;
+}
+
+static void count_points(const Curve *curve, void *context)
+{
+  *(PetscInt *)context += curve->n;
+}
+
+/* A kink within the run is a time to meet, unless it is one already. */
+static void add_kinks(const Curve *curve, void *context)
+{
+  Steps *steps = context;
+  for (PetscInt k = 0; k < curve->n; k++) {
+    const PetscReal t = curve->points[2 * k];
+    PetscBool       known = PETSC_FALSE;
+    for (PetscInt j = 0; j < steps->n_targets; j++)
+      known = (PetscBool)(known || curve_same_time(steps->targets[j], t));
+    if (t > 0 && t < steps->end && !known && curve_bends(curve, t)) steps->targets[steps->n_targets++] = t;
   }
-  for (PetscInt s = 0; s < model->n_supports; s++) {
-    if (curve_bends(&model->supports[s].curve, t)) return PETSC_TRUE;
+}
+
+/* With automatic steps: all times to meet, in order, and which of them the scene asked for. */
+static PetscErrorCode add_targets(Model *model)
+{
+  Steps    *steps    = &model->steps;
+  PetscInt  n_points = 0, next = 0, n_asked = steps->n_targets;
+  PetscReal *asked   = steps->targets;
+
+  PetscFunctionBegin;
+  each_curve(model, count_points, &n_points);
+  PetscCall(PetscMalloc1(n_asked + n_points, &steps->targets));
+  PetscCall(PetscArraycpy(steps->targets, asked, n_asked));
+  if (steps->automatic) each_curve(model, add_kinks, steps);
+  PetscCall(PetscSortReal(steps->n_targets, steps->targets));
+  PetscCall(PetscCalloc1(steps->n_targets, &steps->asked));
+  for (PetscInt k = 0; k < steps->n_targets; k++) {
+    steps->asked[k] = (PetscBool)(next < n_asked && steps->targets[k] == asked[next]);
+    if (steps->asked[k]) next++;
   }
-  return PETSC_FALSE;
+  PetscCall(PetscFree(asked));
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 typedef struct {
-  Vec       x, last, before; /* the iterate; the last two converged states, at: */
+  Vec       x, start, last, before; /* the iterate; where it starts; the last two converged states, at: */
   PetscReal t_last, t_before;
   PetscBool have_before; /* on the same branch of all curves */
 } History;
 
+static PetscErrorCode history_create(Model *model, History *history)
+{
+  PetscFunctionBegin;
+  *history = (History){0};
+  PetscCall(DMCreateGlobalVector(model->dm, &history->x));
+  PetscCall(VecDuplicate(history->x, &history->start));
+  PetscCall(VecDuplicate(history->x, &history->last));
+  PetscCall(VecDuplicate(history->x, &history->before));
+  PetscCall(VecZeroEntries(history->last));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode history_destroy(History *history)
+{
+  PetscFunctionBegin;
+  PetscCall(VecDestroy(&history->x));
+  PetscCall(VecDestroy(&history->start));
+  PetscCall(VecDestroy(&history->last));
+  PetscCall(VecDestroy(&history->before));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode predict(Model *model, History *history, PetscReal t)
 {
   PetscFunctionBegin;
-  PetscCall(VecCopy(history->last, history->x));
+  PetscCall(VecCopy(history->last, history->start));
   if (model->steps.predictor && history->have_before) {
     const PetscReal factor = (t - history->t_last) / (history->t_last - history->t_before);
-    PetscCall(VecAXPY(history->x, factor, history->last));
-    PetscCall(VecAXPY(history->x, -factor, history->before));
+    PetscCall(VecAXPY(history->start, factor, history->last));
+    PetscCall(VecAXPY(history->start, -factor, history->before));
   } else {
-    PetscCall(carry_supports(model, history->t_last, history->x));
+    PetscCall(carry_supports(model, history->t_last, history->start));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Solve at t; afterwards u_local and f_local belong to the last iterate.
- *
- * Full Newton steps find the states of the nodes fastest, although the residual may grow on the way; a monotone line search
- * can crawl along a kink there. But full steps can also cycle (block scenes at 100 times the default augmentation). So a
- * second attempt backtracks, unless the user chose a line search. */
-static PetscErrorCode solve(Model *model, History *history, PetscReal t, PetscBool *converged)
+/* Solve at t and commit; `last`: t is the end of the run. */
+static PetscErrorCode step_to(Model *model, Summary *summary, History *history, PetscInt step, PetscReal t,
+                              PetscBool asked, PetscBool last, PetscBool *done)
 {
-  static const SNESLineSearchType types[] = {SNESLINESEARCHBASIC, SNESLINESEARCHBT};
-  SNESConvergedReason             reason;
-  SNESLineSearch                  line_search;
-  PetscInt                        iterations;
-  Vec                             r;
-
+  PetscInt refused;
   PetscFunctionBegin;
-  model->t          = t;
-  model->refusal[0] = model->inverted[0] = 0;
-  *converged                             = PETSC_FALSE;
+  model->t = t;
   PetscCall(supports_values(model, t));
   PetscCall(loads_values(model, t));
-  PetscCall(SNESGetLineSearch(model->snes, &line_search));
-  for (int attempt = 0; attempt < (model->steps.fixed_line_search ? 1 : 2) && !*converged; attempt++) {
-    if (!model->steps.fixed_line_search) PetscCall(SNESLineSearchSetType(line_search, types[attempt]));
-    PetscCall(predict(model, history, t));
-    PetscCall(SNESSolve(model->snes, NULL, history->x));
-    PetscCall(SNESGetConvergedReason(model->snes, &reason));
-    PetscCall(SNESGetIterationNumber(model->snes, &iterations));
-    model->iterations += iterations;
-    *converged = (PetscBool)(reason > 0);
+  PetscCall(predict(model, history, t));
+  PetscCall(newton_solve(model, history->start, history->x, done));
+  model->iterations += model->newton.iterations;
+  if (*done) {
+    PetscCall(summary_step(model, summary, step, PETSC_TRUE, asked, last));
+    PetscCall(contact_commit(model, &refused));
+    *done = (PetscBool)!refused;
+    if (refused) {
+      PetscCall(summary_drop_step(model, summary));
+      PetscCall(newton_refused(model));
+    }
   }
-  if (!*converged) {
-    const char *says = model->refusal[0] ? "; the library says: " : "";
-    if (!model->quiet)
-      PetscCall(PetscPrintf(PETSC_COMM_WORLD, "     t %-10.6g not converged: %s%s%s%s%s\n", (double)t,
-                            SNESConvergedReasons[reason], says, model->refusal, model->inverted[0] ? "; " : "",
-                            model->inverted));
-    PetscFunctionReturn(PETSC_SUCCESS);
-  }
-  PetscCall(SNESGetFunction(model->snes, &r, NULL, NULL));
-  PetscCall(SNESComputeFunction(model->snes, history->x, r));
+  if (!*done) PetscCall(summary_failed_attempt(model, summary, history->t_last));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -117,80 +228,70 @@ static PetscErrorCode accept(Model *model, History *history)
   PetscCall(VecCopy(history->x, history->last));
   history->t_before        = history->t_last;
   history->t_last          = model->t;
+  model->iterations        = 0;
   model->largest_reference = PetscMax(model->largest_reference, model->reference_force);
   PetscCall(solver_refresh_pattern(model));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* The run has ended before its end. */
+static PetscErrorCode give_up(Model *model, const History *history, int *exit_code)
+{
+  static const char held[] = "is every body held, by supports or by a surface that it touches?";
+  PetscFunctionBegin;
+  *exit_code = model->refusal[0] ? 3 : 2;
+  if (model->refusal[0])
+    PetscCall(PetscFPrintf(PETSC_COMM_WORLD, PETSC_STDERR,
+                           "snes_contact: refused by the library: %s. If Newton's iterates ran away to there: %s\n",
+                           model->refusal, held));
+  else
+    PetscCall(PetscFPrintf(PETSC_COMM_WORLD, PETSC_STDERR,
+                           "snes_contact: not converged beyond t = %.6g, not even by a step of %.2g: %s. "
+                           "If this is the beginning: %s See scenes/README.md.\n",
+                           (double)history->t_last, (double)(model->t - history->t_last), model->newton.why, held));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode steps_run(Model *model, int *exit_code)
 {
-  const Steps *steps   = &model->steps;
-  History      history = {0};
-  Summary     *summary;
-  PetscInt     status, cutbacks = 0, step = 0;
-  PetscBool    failed = PETSC_FALSE, checked = PETSC_FALSE;
+  Steps    *steps = &model->steps;
+  StepSize  size;
+  History   history;
+  Summary  *summary;
+  PetscInt  status, cutbacks = 0, step = 0;
+  PetscBool failed, checked = PETSC_FALSE, done;
 
   PetscFunctionBegin;
   *exit_code = 0;
+  PetscCall(add_targets(model));
   PetscCall(summary_create(model, &summary));
-  PetscCall(DMCreateGlobalVector(model->dm, &history.x));
-  PetscCall(VecDuplicate(history.x, &history.last));
-  PetscCall(VecDuplicate(history.x, &history.before));
-  PetscCall(VecZeroEntries(history.last));
+  PetscCall(history_create(model, &history));
   PetscCall(supports_values(model, 0));
   PetscCall(contact_start(model, history.last, &status));
-  if (status) failed = PETSC_TRUE;
-
-  for (PetscInt k = 0; k < steps->n_times && !failed; k++) {
-    const PetscReal target = steps->times[k], whole = target - history.t_last;
-    PetscReal       fraction = 1; /* of `whole`, halved by cut-backs */
-    while (history.t_last < target && !failed) {
-      const PetscReal rest      = target - history.t_last;
-      PetscBool       converged = PETSC_FALSE, finished = (PetscBool)(fraction * whole > (1 - 1e-9) * rest);
-      PetscCall(solve(model, &history, finished ? target : history.t_last + fraction * whole, &converged));
-      if (converged) {
-        PetscBool last = (PetscBool)(finished && k == steps->n_times - 1);
-        PetscCall(summary_step(model, summary, step + 1, PETSC_TRUE, last));
-        PetscCall(contact_commit(model, &status));
-        converged = (PetscBool)!status;
-        if (status) PetscCall(summary_drop_step(model, summary));
+  failed = (PetscBool)(status != 0);
+  step_size_start(steps, &size);
+  while (!failed && history.t_last < steps->end) {
+    const PetscReal t = step_size_next(steps, &size, history.t_last), target = steps->targets[size.next];
+    PetscCall(step_to(model, summary, &history, step + 1, t, (PetscBool)(t == target && steps->asked[size.next]),
+                      (PetscBool)(t == steps->end), &done));
+    if (done) {
+      if (model->iterations && !checked) { /* the solvers have read their options by now */
+        scene_check_unread(model->scene, PETSC_TRUE);
+        checked = PETSC_TRUE;
       }
-      if (converged) {
-        step++;
-        PetscCall(accept(model, &history));
-        if (model->iterations && !checked) { /* the solvers have read their options by now */
-          scene_check_unread(model->scene, PETSC_TRUE);
-          checked = PETSC_TRUE;
-        }
-        model->iterations = 0;
-        fraction          = PetscMin(1, 2 * fraction);
-      } else {
-        cutbacks++;
-        fraction *= 0.5;
-        if (fraction < steps->smallest) failed = PETSC_TRUE;
-      }
+      step_size_accept(steps, &size, history.t_last, t, &model->newton, bends(model, t));
+      PetscCall(accept(model, &history));
+      step++;
+    } else {
+      cutbacks++;
+      failed = (PetscBool)!step_size_cut(steps, &size, t - history.t_last);
     }
   }
   if (failed) {
-    *exit_code = model->refusal[0] ? 3 : 2;
-    PetscCall(summary_step(model, summary, step + 1, PETSC_FALSE, PETSC_TRUE));
-    if (model->refusal[0])
-      PetscCall(
-          PetscFPrintf(PETSC_COMM_WORLD, PETSC_STDERR,
-                       "snes_contact: refused by the library: %s. If Newton's iterates ran away to there: is every body "
-                       "held, by supports or by a surface that it touches?\n",
-                       model->refusal));
-    else
-      PetscCall(PetscFPrintf(PETSC_COMM_WORLD, PETSC_STDERR,
-                             "snes_contact: not converged beyond t = %.6g, not even by steps of %.2g times the wanted ones%s%s. If this is "
-                             "the beginning: is every body held, by supports or by a surface that it touches? See "
-                             "scenes/README.md.\n",
-                             (double)history.t_last, (double)(2 * steps->smallest), model->inverted[0] ? ": " : "",
-                             model->inverted));
+    PetscCall(summary_step(model, summary, step + 1, PETSC_FALSE, PETSC_FALSE, PETSC_TRUE));
+    PetscCall(give_up(model, &history, exit_code));
   }
-  PetscCall(summary_write(model, &summary, cutbacks, model->refusal[0] ? model->refusal : model->inverted));
-  PetscCall(VecDestroy(&history.x));
-  PetscCall(VecDestroy(&history.last));
-  PetscCall(VecDestroy(&history.before));
+  PetscCall(summary_write(model, &summary, cutbacks, *exit_code == 2 ? model->newton.why : model->refusal));
+  PetscCall(history_destroy(&history));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

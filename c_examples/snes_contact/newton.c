@@ -1,0 +1,209 @@
+/* One load step by Newton's method: attempts from the same start.
+ *
+ * Full Newton steps find the states of the nodes fastest, although the residual may grow on the way; a monotone line
+ * search can crawl along a kink there. But full steps can also cycle between guesses of the states, where the
+ * augmentation is large (slip that turns round; block scenes at 1e2 times its default and more) or small
+ * (klarbring.yaml). The answer does not depend on it, so where cycling.c finds a cycle, the augmentation of the
+ * nodes that cycle is changed, CHANGES times at most in one attempt:
+ *   1. full steps; a cycle divides the augmentation by 100;
+ *   2. backtracking; a cycle divides it, too;
+ *   3. if there were cycles, full steps; a cycle multiplies it by 100;
+ *   4. if all fail, the caller takes a shorter step in time.
+ * Where the user chose a line search it serves in 1 and 3, and 2 is left out. Converged is what has converged with
+ * the scene's own augmentation: the multiplier rows are forces of the augmentation, and would look small with a
+ * small one. (Tried as well: a step damped by 1/2, 1/4, 1/8. It ends the cycles of fewer scenes, and later.)
+ *
+ * A failed attempt leaves nothing behind: the library's history changes on commit only, the augmentation is the
+ * scene's again, and the matrix gets back the pattern that it had, so that the next factorisation is that of a run
+ * in which the attempt never was. */
+#include "model.h"
+#include <cjson/cJSON.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { CHANGES = 3, N_ATTEMPTS = 3 };
+static const struct {
+  SNESLineSearchType line_search;
+  PetscReal          factor; /* of the augmentation of nodes that cycle */
+} ATTEMPTS[N_ATTEMPTS] = {{SNESLINESEARCHBASIC, 0.01}, {SNESLINESEARCHBT, 0.01}, {SNESLINESEARCHBASIC, 100}};
+
+/* rank 0: a cycle for the report, and as a sentence */
+static PetscErrorCode report_cycle(Model *model, PetscInt period, PetscInt iteration)
+{
+  Newton *newton = &model->newton;
+  cJSON  *json   = cJSON_CreateObject();
+  char    nodes[768];
+  PetscFunctionBegin;
+  cJSON_AddNumberToObject(json, "t", model->t);
+  cJSON_AddNumberToObject(json, "iteration", iteration);
+  PetscCall(cycling_describe(model, period, json, nodes, sizeof(nodes)));
+  PetscCall(PetscSNPrintf(newton->cycle, sizeof(newton->cycle),
+                          "the states of nodes repeat every %" PetscInt_FMT " iterations:%s", period, nodes));
+  if (!newton->cycles) newton->cycles = cJSON_CreateArray();
+  cJSON_AddItemToArray(newton->cycles, json);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* After an iteration that has not converged: does it cycle, and what now? */
+PetscErrorCode newton_watch(Model *model, PetscInt iteration, PetscReal norm, SNESConvergedReason *reason)
+{
+  Newton  *newton = &model->newton;
+  PetscInt period;
+  PetscFunctionBegin;
+  PetscCall(cycling_record(model, norm, &period));
+  if (!period) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(report_cycle(model, period, iteration));
+  if (newton->n_changes == CHANGES) {
+    *reason         = SNES_DIVERGED_LOCAL_MIN; /* of PETSc's names the nearest; the report has its own words */
+    newton->stopped = PETSC_TRUE;
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+  PetscCall(cycling_change_augmentation(model, period, newton->factor));
+  PetscCall(cycling_restart(model));
+  newton->n_changes++;
+  newton->changed = newton->stale = PETSC_TRUE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The iterate has converged. With the scene's augmentation, too? Returns the norm of that residual. */
+PetscErrorCode newton_confirm(Model *model, PetscReal *norm)
+{
+  Vec x, r;
+  PetscFunctionBegin;
+  if (!model->newton.changed) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(contact_scale_augmentation(model, NULL, 1));
+  PetscCall(cycling_restart(model));
+  PetscCall(SNESGetSolution(model->snes, &x));
+  PetscCall(VecDuplicate(x, &r));
+  PetscCall(SNESComputeFunction(model->snes, x, r));
+  PetscCall(VecNorm(r, NORM_2, norm));
+  PetscCall(VecDestroy(&r));
+  model->newton.changed = PETSC_FALSE;
+  model->newton.stale   = PETSC_TRUE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* SNES calls it before each iteration: residual and tangent must speak of the same augmentation. */
+static PetscErrorCode before_iteration(SNES snes, PetscInt iteration)
+{
+  Model *model;
+  Vec    x, r;
+  PetscFunctionBegin;
+  (void)iteration;
+  PetscCall(SNESGetApplicationContext(snes, &model));
+  if (!model->newton.stale) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SNESGetSolution(snes, &x));
+  PetscCall(SNESGetFunction(snes, &r, NULL, NULL));
+  PetscCall(SNESComputeFunction(snes, x, r));
+  model->newton.stale = PETSC_FALSE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode newton_create(Model *model)
+{
+  PetscFunctionBegin;
+  PetscCall(SNESSetApplicationContext(model->snes, model));
+  PetscCall(SNESSetUpdate(model->snes, before_iteration));
+  PetscCall(PetscOptionsHasName(NULL, NULL, "-snes_linesearch_type", &model->newton.fixed_line_search));
+  PetscCall(cycling_create(model));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode newton_destroy(Model *model)
+{
+  PetscFunctionBegin;
+  PetscCall(cycling_destroy(model));
+  cJSON_Delete(model->newton.cycles);
+  model->newton.cycles = NULL;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The library has refused an evaluation, or the commit. */
+PetscErrorCode newton_refused(Model *model)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscSNPrintf(model->newton.why, sizeof(model->newton.why), "the library says: %s", model->refusal));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Why it ended: the library or a cell refused; a cycle, in this attempt or an earlier one; or what SNES says, with
+ * the nodes that still changed state. */
+static PetscErrorCode explain(Model *model, SNESConvergedReason reason)
+{
+  Newton *newton = &model->newton;
+  cJSON  *json;
+  char    nodes[768];
+  PetscFunctionBegin;
+  if (model->refusal[0]) {
+    PetscCall(newton_refused(model));
+  } else if (model->inverted[0]) {
+    PetscCall(PetscSNPrintf(newton->why, sizeof(newton->why), "%s", model->inverted));
+  } else if (newton->cycle[0]) {
+    PetscCall(PetscSNPrintf(newton->why, sizeof(newton->why), "%s%s%s", newton->cycle,
+                            newton->stopped ? "" : "; at last: ",
+                            newton->stopped ? "" : SNESConvergedReasons[reason]));
+  } else {
+    json = cJSON_CreateObject();
+    PetscCall(cycling_describe(model, 0, json, nodes, sizeof(nodes)));
+    cJSON_Delete(json);
+    PetscCall(PetscSNPrintf(newton->why, sizeof(newton->why), "%s%s%s", SNESConvergedReasons[reason],
+                            nodes[0] ? "; states in the last iterations:" : "", nodes));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Attempt k from x, which becomes the last iterate. */
+static PetscErrorCode attempt(Model *model, int k, Vec x, PetscBool *converged)
+{
+  Newton             *newton = &model->newton;
+  SNESConvergedReason reason;
+  SNESLineSearch      line_search;
+  PetscReal          *norms;
+  PetscInt            iterations, n;
+
+  PetscFunctionBegin;
+  PetscCall(SNESGetLineSearch(model->snes, &line_search));
+  if (!newton->fixed_line_search) PetscCall(SNESLineSearchSetType(line_search, ATTEMPTS[k].line_search));
+  PetscCall(cycling_restart(model));
+  model->refusal[0] = model->inverted[0] = newton->why[0] = 0;
+  newton->stopped = newton->stale = newton->changed = PETSC_FALSE;
+  newton->monotone                                  = PETSC_TRUE;
+  newton->n_changes                                 = 0;
+  newton->factor                                    = ATTEMPTS[k].factor;
+  PetscCall(SNESSolve(model->snes, NULL, x));
+  PetscCall(SNESGetConvergedReason(model->snes, &reason));
+  PetscCall(SNESGetIterationNumber(model->snes, &iterations));
+  PetscCall(SNESGetConvergenceHistory(model->snes, &norms, NULL, &n));
+  for (PetscInt j = 1; j < n; j++) {
+    if (norms[j] >= norms[j - 1]) newton->monotone = PETSC_FALSE;
+  }
+  newton->iterations += iterations;
+  *converged = (PetscBool)(reason > 0);
+  if (newton->changed) PetscCall(contact_scale_augmentation(model, NULL, 1));
+  if (!*converged) {
+    PetscCall(explain(model, reason));
+    PetscCall(solver_restore_pattern(model));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode newton_solve(Model *model, Vec start, Vec x, PetscBool *converged)
+{
+  Newton *newton = &model->newton;
+  Vec     r;
+
+  PetscFunctionBegin;
+  newton->iterations = 0;
+  newton->cycle[0]   = 0;
+  *converged         = PETSC_FALSE;
+  for (int k = 0; k < N_ATTEMPTS && !*converged; k++) {
+    if (k == 1 && newton->fixed_line_search) continue;
+    if (k == 2 && !newton->cycle[0]) continue;
+    PetscCall(VecCopy(start, x));
+    PetscCall(attempt(model, k, x, converged));
+  }
+  if (!*converged) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SNESGetFunction(model->snes, &r, NULL, NULL));
+  PetscCall(SNESComputeFunction(model->snes, x, r));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
