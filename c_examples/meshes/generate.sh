@@ -27,3 +27,6 @@ mesh hertz_lower_fine.msh   hertz_cylinder.geo side -1 contact_facets 58 half_wi
 
 mesh brick_tet_upper.msh brick_tet.geo side  1 cells 4
 mesh brick_tet_lower.msh brick_tet.geo side -1 cells 3
+
+mesh ironing_die_coarse.msh ironing_die.geo along 6 up 3
+mesh ironing_die.msh        ironing_die.geo along 12 up 6

@@ -14,6 +14,7 @@ from friction_checks import friction
 from hosts import hosts
 from material_checks import materials
 from scene import Driver, SceneError
+from stepping import stepping
 from verdict import Verdicts
 
 GROUPS = {
@@ -22,6 +23,7 @@ GROUPS = {
     "friction": friction,
     "hosts": hosts,
     "materials": materials,
+    "stepping": stepping,
 }
 
 

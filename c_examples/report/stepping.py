@@ -1,0 +1,143 @@
+"""Checks of step control: automatic steps, exact rollback, nodes that cycle."""
+
+import json
+import re
+
+import numpy as np
+
+from comparisons import difference
+from scene import SCENES, SceneError
+
+# The augmentation steers the iterations only; what is left is the Newton tolerance (see acceptance.py).
+SAME_ANSWER = 1e-11
+# Klarbring's node: the numbers of the scene are exact, so only Newton's tolerance is left.
+KLARBRING_BOUND = 1e-11
+# The mean number of iterations over a stretch of a dozen automatic steps, of those aimed at.
+AIM_BOUND = 0.3
+COARSE = ("-base_cells", "60,1,15", "-die_file", SCENES.parent / "meshes" / "ironing_die_coarse.msh")
+# Block scenes at larger augmentations, and Newton iterations with some room: without the detector they take 43 and 71,
+# and 1e4 does not converge.
+CYCLING = {"1e2": 50, "1e3": 60, "1e4": 65}
+# Too large to be cured: here the report is what counts.
+HOPELESS = "1e6"
+
+
+def with_steps(driver, scene, steps):
+    """A copy of a scene with other steps, in the output folder."""
+    text, n = re.subn(r"(?m)^steps:.*$", f"steps: {{{steps}}}", (SCENES / f"{scene}.yaml").read_text())
+    if n != 1:
+        raise ValueError(f"{scene}.yaml: no line of its own for the steps: rewrite this check")
+    text = text.replace("file: ../meshes", f"file: {SCENES.parent / 'meshes'}")
+    driver.output.mkdir(parents=True, exist_ok=True)
+    path = driver.output / f"{scene}_{re.sub(r'[^a-z0-9]+', '_', steps[:40])}.yaml"
+    path.write_text(text)
+    return path
+
+
+def stepping(verdicts, driver):
+    automatic(verdicts, driver)
+    rollback(verdicts, driver)
+    cycling(verdicts, driver)
+    klarbring(verdicts, driver)
+
+
+def automatic(verdicts, driver):
+    """Steps that grow and land on what is asked for: the time 0.7 of the scene, the kink of its curves at 1."""
+    steps = "times: [0.7, 2], automatic: true, initial: 0.01, largest: 0.5"
+    scene = with_steps(driver, "block_bottom_mu02_current", steps)
+    run = driver.run(scene, "-output_vtu", "times", label="automatic")
+    times = np.array([step["t"] for step in run.steps])
+    for t in (0.7, 1.0, 2.0):
+        verdicts.true(f"automatic steps: t = {t:g} is met", t in times, "asked for, or a kink of a curve")
+    lengths = np.diff(times, prepend=0)
+    verdicts.near("automatic steps: the first", lengths[0], 0.01, 1e-15, "as the scene says")
+    verdicts.below("automatic steps: the largest", lengths.max(), 0.5 * (1 + 1e-12), "as the scene says")
+    verdicts.below("automatic steps: growth", (lengths[1:] / lengths[:-1]).max(), 2 + 1e-9, "at most twofold")
+    after = lengths[np.flatnonzero(times == 1.0)[0] + 1]
+    verdicts.near("automatic steps: the one after the kink", after, 0.01, 1e-12, "starts as the run did")
+    written = sorted(path.name for path in run.directory.glob("step_*.vtu"))
+    asked = [f"step_{1 + int(np.flatnonzero(times == t)[0])}.vtu" for t in (0.7, 2.0)]
+    verdicts.true("automatic steps: files at the times asked for, only", written == sorted(asked), f"{written}")
+
+    # A die that slides needs a step every fraction of a facet: there the iterations settle where they are wanted.
+    for aim in (4, 6):
+        steps = f"times: [1, 1.3], automatic: true, initial: 0.1, largest: 0.1, iterations: {aim}"
+        run = driver.run(with_steps(driver, "shallow_ironing", steps), *COARSE, label=f"automatic_{aim}")
+        mean = np.mean([step["newton_iterations"] for step in run.steps if step["t"] > 1.1])
+        verdicts.near(f"automatic steps: iterations a step where {aim} are aimed at", mean, aim, AIM_BOUND, "settled")
+
+
+def rollback(verdicts, driver):
+    """A run with failed attempts, and a run that takes the steps which succeeded at once: equal to the last bit.
+
+    Steps too large for the die turn cells inside out and bring up pairs beyond the pattern of the matrix.
+    """
+    label, scene, options = "rollback", "shallow_ironing", (*COARSE, "-output_csv", "all")
+    steps = "times: [0.5, 1, 1.2], automatic: true, initial: 0.2, largest: 0.2"
+    failing = driver.run(with_steps(driver, scene, steps), *options, label="failing")
+    verdicts.at_least(f"{label}: attempts that failed", failing.summary["cutbacks"], 2, "else nothing is tested")
+    for sentence in {attempt["why"] for attempt in failing.summary["failed_attempts"]}:
+        verdicts.near(f"{label}: times that a reason is printed", failing.text.count(sentence), 1, 0, sentence)
+    times = ", ".join(repr(step["t"]) for step in failing.steps)
+    direct = driver.run(with_steps(driver, scene, f"times: [{times}]"), *options, label="direct")
+    verdicts.below(f"{label}: attempts that failed, on the second run", direct.summary["cutbacks"], 0, "none")
+    names = sorted(path.name for path in failing.directory.glob("*.csv"))
+    same = [(failing.directory / n).read_bytes() == (direct.directory / n).read_bytes() for n in names]
+    verdicts.near(f"{label}: files of the interface that are equal", sum(same), len(failing.steps), 0, "byte by byte")
+    keys = ("t", "residual_norms", "reactions", "external_work_half_fu", "friction_work")
+    equal = [all(a[k] == b[k] for k in keys) for a, b in zip(failing.steps, direct.steps, strict=True)]
+    verdicts.near(f"{label}: steps with equal residuals, reactions, works", sum(equal), len(equal), 0, "bit by bit")
+
+
+def cycling(verdicts, driver):
+    """An augmentation so large that slip turns round in every iteration."""
+    default = driver.run("block_bottom_mu02", label="default")
+    for scale, limit in CYCLING.items():
+        run = driver.run("block_bottom_mu02", "-base_augmentation_scale", scale, label=f"augmentation_{scale}")
+        label = f"augmentation {scale} of its default"
+        found = sum(len(step.get("cycles", [])) for step in run.steps)
+        verdicts.at_least(f"{label}: cycles found and ended", found, 1, "else nothing is tested")
+        verdicts.below(f"{label}: cut-backs", run.summary["cutbacks"], 0, "the remedy is enough")
+        verdicts.below(f"{label}: Newton iterations", run.newton_iterations, limit, "ended soon")
+        verdicts.below(f"{label}: difference", difference(run, default), SAME_ANSWER, "the remedy changes no answer")
+
+    run = driver.run("block_bottom_mu02", "-base_augmentation_scale", HOPELESS, label="hopeless", expect=2)
+    summary = json.loads((run.directory / "summary.json").read_text())
+    reports = [cycle for attempt in summary["failed_attempts"] for cycle in attempt.get("cycles", [])]
+    if not reports:
+        raise SceneError("the hopeless augmentation left no report of cycles")
+    table = default.interface("base")
+    known = {int(n): (x, y, z) for n, x, y, z in zip(table["node"], table["X"], table["Y"], table["Z"])}
+    right = lambda node: known.get(node["node"]) == tuple(node["position"]) and len(set(node["states"])) > 1
+    nodes = [node for report in reports for node in report["cycling"]]
+    named = bool(nodes) and all(map(right, nodes))
+    verdicts.true("hopeless augmentation: nodes named, with positions and states", named, f"{len(nodes)}")
+    periods = {report["period"] for report in reports}
+    verdicts.true("hopeless augmentation: periods", periods <= {2, 3, 4}, f"{periods}")
+    verdicts.true("hopeless augmentation: the message names them", "base node" in run.text, "exit code 2")
+
+
+def klarbring(verdicts, driver):
+    """One node whose problem has three solutions with friction 3, and one with friction 1: it must end in one of them.
+
+    Loads that grow together lead to stick; pulled off first, then weighed down, the edge stays open.
+    """
+    solutions = {"stick": (0, 0), "slip": (-1, 0), "gap": (-8 / 3, 1 / 3)}
+    paths = {"together": (), "one after the other": ("-pull_curve", "0,0,0.5,1", "-weigh_curve", "0.5,0,1,1")}
+    for name, friction, allowed in (("three solutions", 3, set(solutions)), ("one solution", 1, {"gap"})):
+        found, worst = set(), 0
+        for path in paths.values():
+            for count in (2, 8):
+                for scale in ("1e-4", "1e-2", "1", "1e2", "1e4"):
+                    options = (*path, "-contact_friction", friction, "-steps_count", count)
+                    run = driver.run("klarbring", *options, "-contact_augmentation_scale", scale)
+                    edge = np.array(run.steps[-1]["probes"]["edge"])[[0, 2]]
+                    state = min(solutions, key=lambda s: np.abs(edge - solutions[s]).max())
+                    worst = max(worst, np.abs(edge - solutions[state]).max())
+                    counts = run.steps[-1]["interfaces"]["contact"]
+                    found.add(state if counts[state] >= 2 else f"{state}, said to be another")  # the edge has two nodes
+        label = f"Klarbring's node, {name}: distance from the nearest"
+        verdicts.below(label, worst, KLARBRING_BOUND, f"found: {found}")
+        verdicts.true(f"Klarbring's node, {name}: is one of them, and said to be", found <= allowed, f"{found}")
+        paths_lead = min(len(paths), len(allowed))
+        verdicts.near(f"Klarbring's node, {name}: ends of the paths", len(found), paths_lead, 0, f"{found}")
