@@ -1,6 +1,23 @@
 /* The bodies: this rank's cells, their internal forces and stiffness. */
 #include "model.h"
 
+/* How many roundings meet in a force: of displacements, gradients and sums, of several cells and points. */
+static const PetscReal ROUNDINGS = 8;
+
+/* of a cell at rest: the largest diagonal entry */
+static PetscErrorCode cell_stiffness(const Material *material, PetscInt n, const PetscReal X[], PetscReal *stiffness)
+{
+  const PetscReal at_rest[24] = {0};
+  PetscReal       f[24], K[24 * 24];
+  PetscBool       inverted;
+  PetscFunctionBegin;
+  PetscCall(cell_forces(n, material, X, at_rest, f, K, &inverted));
+  *stiffness = 0;
+  for (PetscInt k = 0; k < 3 * n; k++)
+    *stiffness = PetscMax(*stiffness, K[(3 * n + 1) * k]);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode bulk_create(Model *model)
 {
   PetscInt           cStart, cEnd, n_corners = 0;
@@ -16,8 +33,9 @@ PetscErrorCode bulk_create(Model *model)
   PetscCall(DMGetCoordinatesLocal(model->dm, &coordinate_vector));
   PetscCall(VecGetArrayRead(coordinate_vector, &coordinates));
   model->n_cells = cEnd - cStart;
-  PetscCall(PetscMalloc4(model->n_cells + 1, &model->cell_offsets, 8 * model->n_cells, &model->cell_dofs,
-                         model->n_cells, &model->cell_body, 24 * model->n_cells, &model->cell_X));
+  PetscCall(PetscMalloc5(model->n_cells + 1, &model->cell_offsets, 8 * model->n_cells, &model->cell_dofs,
+                         model->n_cells, &model->cell_body, 24 * model->n_cells, &model->cell_X, model->n_cells,
+                         &model->cell_stiffness));
   model->cell_offsets[0] = 0;
   for (PetscInt c = cStart; c < cEnd; c++) {
     PetscInt      *closure = NULL, size, corners[8], n = 0, at;
@@ -36,6 +54,8 @@ PetscErrorCode bulk_create(Model *model)
       for (int i = 0; i < 3; i++)
         model->cell_X[3 * (n_corners + a) + i] = PetscRealPart(coordinates[at + i]);
     }
+    PetscCall(cell_stiffness(&model->mesh.bodies[model->cell_body[c - cStart]].material, n,
+                             model->cell_X + 3 * n_corners, &model->cell_stiffness[c - cStart]));
     n_corners += n;
     model->cell_offsets[c - cStart + 1] = n_corners;
   }
@@ -79,7 +99,17 @@ static PetscErrorCode agree_on_inverted(Model *model, PetscInt c, PetscInt *stat
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode bulk_forces(Model *model, Vec f_local, PetscInt *status)
+/* Rounding: a displacement's last digit, times a stiffness, is a force. It is what is left of a body that moves without
+ * stress. An iterate that runs away must not loosen the test: a displacement counts up to the model's size. */
+static PetscReal squared_rounding(const Model *model, PetscInt c, PetscInt n, const PetscReal u_cell[])
+{
+  PetscReal largest = 0;
+  for (PetscInt k = 0; k < 3 * n; k++)
+    largest = PetscMax(largest, PetscAbsReal(u_cell[k]));
+  return n * PetscSqr(ROUNDINGS * PETSC_MACHINE_EPSILON * PetscMin(largest, model->size) * model->cell_stiffness[c]);
+}
+
+PetscErrorCode bulk_forces(Model *model, Vec f_local, PetscReal *rounding, PetscInt *status)
 {
   const PetscScalar *u;
   PetscScalar       *f;
@@ -99,6 +129,7 @@ PetscErrorCode bulk_forces(Model *model, Vec f_local, PetscInt *status)
     PetscCall(cell_forces(n, &model->mesh.bodies[model->cell_body[c]].material,
                           model->cell_X + 3 * model->cell_offsets[c], u_cell, f_cell, NULL, &inverted));
     if (inverted) first_inverted = c;
+    *rounding += squared_rounding(model, c, n, u_cell);
     for (PetscInt a = 0; a < n; a++) {
       for (int i = 0; i < 3; i++)
         f[dofs[a] + i] += f_cell[3 * a + i];

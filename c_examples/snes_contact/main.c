@@ -78,7 +78,8 @@ static PetscErrorCode clean_up(Model *model)
   PetscCall(PetscFree(model->original));
   PetscCall(PetscFree(model->owner));
   PetscCall(PetscFree(model->ghost));
-  PetscCall(PetscFree4(model->cell_offsets, model->cell_dofs, model->cell_body, model->cell_X));
+  PetscCall(PetscFree5(model->cell_offsets, model->cell_dofs, model->cell_body, model->cell_X,
+                       model->cell_stiffness));
   PetscCall(VecDestroy(&model->u_local));
   PetscCall(VecDestroy(&model->f_local));
   PetscCall(VecDestroy(&model->f_external));

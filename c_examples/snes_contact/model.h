@@ -130,7 +130,7 @@ typedef struct {
   /* bulk.c */
   PetscInt n_cells, *cell_offsets, *cell_dofs,
       *cell_body; /* this rank's cells; cell_dofs: local offset of each corner */
-  PetscReal *cell_X;
+  PetscReal *cell_X, *cell_stiffness; /* coordinates of the corners; stiffness at rest */
   Vec        u_local, f_local, prescribed_local; /* local vectors: state, forces, values of prescribed entries at t */
   Vec        f_external;                         /* local, at t */
   Vec        f_sum;                              /* local: work space of unknowns_sum() */
@@ -140,7 +140,7 @@ typedef struct {
   Newton    newton;
   Cycling  *cycling;
   PetscInt  iterations;                            /* of Newton, spent on the present step, failed attempts included */
-  PetscReal t, reference_force, largest_reference, noise, rounding, size, stiffness; /* for the convergence test (solver.c) */
+  PetscReal t, reference_force, largest_reference, noise, size, stiffness; /* for the convergence test (solver.c) */
   char      refusal[1024];                         /* the library's last message, if it refused an evaluation */
   char      inverted[256];                         /* which cell the last attempt at a step has turned inside out */
   Timers    timers;
@@ -177,7 +177,7 @@ PetscErrorCode unknowns_sum(Model *model, Vec local);  /* into f_sum: what all r
 /* bulk.c */
 PetscErrorCode bulk_create(Model *model);
 /* `status` > 0 on every rank if a cell is turned inside out somewhere, named in model->inverted */
-PetscErrorCode bulk_forces(Model *model, Vec f_local, PetscInt *status);      /* adds */
+PetscErrorCode bulk_forces(Model *model, Vec f_local, PetscReal *squared_rounding, PetscInt *status); /* adds to both */
 PetscErrorCode bulk_stiffness(Model *model, Mat matrix, PetscInt *status);    /* adds */
 PetscErrorCode bulk_extension(Model *model, Vec u_local, Vec f_local, Mat matrix); /* adds to both */
 PetscErrorCode bulk_pattern(Model *model, Mat matrix);                        /* adds zeros */

@@ -3,9 +3,8 @@
  * Residual = internal forces of the bodies + contact - loads, and the multiplier rows (which the library scales to forces).
  * Converged: |residual| <= rtol * reference, reference = |loads| + |reactions| + |contact forces| (2-norms of nodal forces),
  * the largest so far (at the start: 1e-12 E size^2), so that an unloaded step is not judged by its own noise; or below
- * 1e-14 E size min(max|u|, size), the rounding of a body that moves without stress; of a nearly incompressible one,
- * whose bulk modulus K is many times E, 2e-16 K instead of 1e-14 E. -snes_rtol sets rtol, -snes_atol a limit in units
- * of force. */
+ * the rounding of displacements, which alone gives a body that moves without stress its forces (bulk_forces()).
+ * -snes_rtol sets rtol, -snes_atol a limit in units of force. */
 #include "model.h"
 
 /* sum of squares of the displacement entries of a local vector of forces; of the prescribed ones only, or of all */
@@ -28,33 +27,16 @@ static PetscErrorCode squared_forces(Model *model, Vec local, PetscBool prescrib
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode largest_displacement(Model *model, PetscReal *largest)
-{
-  const PetscScalar *u;
-  PetscFunctionBegin;
-  *largest = 0;
-  PetscCall(VecGetArrayRead(model->u_local, &u));
-  for (PetscInt v = model->vStart; v < model->vEnd; v++) {
-    PetscInt at;
-    PetscCall(PetscSectionGetOffset(model->section, v, &at));
-    for (int i = 0; i < 3; i++)
-      *largest = PetscMax(*largest, PetscAbsScalar(u[at + i]));
-  }
-  PetscCall(VecRestoreArrayRead(model->u_local, &u));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, largest, 1, MPIU_REAL, MPIU_MAX, PETSC_COMM_WORLD));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 static PetscErrorCode residual(SNES snes, Vec x, Vec r, void *context)
 {
   Model    *model      = context;
-  PetscReal squares[3] = {0, 0, 0}; /* loads, reactions, contact */
+  PetscReal squares[4] = {0, 0, 0, 0}; /* loads, reactions, contact, rounding */
   PetscInt  inverted, refused = 0;
 
   PetscFunctionBegin;
   PetscCall(unknowns_to_local(model, x));
   PetscCall(VecZeroEntries(model->f_local));
-  PetscCall(bulk_forces(model, model->f_local, &inverted));
+  PetscCall(bulk_forces(model, model->f_local, &squares[3], &inverted));
   if (!inverted) PetscCall(contact_forces(model, model->f_local, &squares[2], &refused));
   if (inverted || refused) PetscCall(SNESSetFunctionDomainError(snes));
   PetscCall(VecAXPY(model->f_local, -1, model->f_external));
@@ -64,11 +46,9 @@ static PetscErrorCode residual(SNES snes, Vec x, Vec r, void *context)
 
   PetscCall(squared_forces(model, model->f_external, PETSC_FALSE, &squares[0]));
   PetscCall(squared_forces(model, model->f_local, PETSC_TRUE, &squares[1]));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, squares, 3, MPIU_REAL, MPIU_SUM, PETSC_COMM_WORLD));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, squares, 4, MPIU_REAL, MPIU_SUM, PETSC_COMM_WORLD));
   model->reference_force = PetscSqrtReal(squares[0]) + PetscSqrtReal(squares[1]) + PetscSqrtReal(squares[2]);
-  PetscCall(largest_displacement(model, &model->noise));
-  /* An iterate that runs away must not loosen the test: no more than the noise of a motion by the model's own size. */
-  model->noise = model->rounding * PetscMin(model->noise, model->size);
+  model->noise = PetscSqrtReal(squares[3]);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -145,19 +125,14 @@ static PetscErrorCode solve_ends(KSP ksp, Vec b, Vec x, void *context)
 /* What the model's forces are measured by: its size, a stiffness (the largest E times it), a force too small to matter. */
 static PetscErrorCode measure(Model *model)
 {
-  PetscReal low[3], high[3], squared = 0, young = 0, rounding = 0;
+  PetscReal low[3], high[3], squared = 0, young = 0;
   PetscFunctionBegin;
   PetscCall(DMGetBoundingBox(model->dm, low, high));
   for (int i = 0; i < 3; i++)
     squared += PetscSqr(high[i] - low[i]);
-  for (PetscInt b = 0; b < model->mesh.n_bodies; b++) {
-    const Material *material = &model->mesh.bodies[b].material;
-    const PetscReal bulk     = material->young / (3 * (1 - 2 * material->poisson));
-    young                    = PetscMax(young, material->young);
-    rounding                 = PetscMax(rounding, PetscMax(1e-14 * material->young, 2e-16 * bulk));
-  }
+  for (PetscInt b = 0; b < model->mesh.n_bodies; b++)
+    young = PetscMax(young, model->mesh.bodies[b].material.young);
   model->size              = PetscSqrtReal(squared);
-  model->rounding          = rounding * model->size;
   model->stiffness         = young * model->size;
   model->largest_reference = 1e-12 * young * squared;
   PetscFunctionReturn(PETSC_SUCCESS);
