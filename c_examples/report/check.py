@@ -13,6 +13,7 @@ from effect_checks import effects
 from friction_checks import friction
 from hosts import hosts
 from material_checks import materials
+from slider import slider
 from scene import Driver, SceneError
 from stepping import stepping
 from verdict import Verdicts
@@ -23,6 +24,7 @@ GROUPS = {
     "friction": friction,
     "hosts": hosts,
     "materials": materials,
+    "slider": slider,
     "stepping": stepping,
 }
 

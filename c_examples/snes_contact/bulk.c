@@ -2,7 +2,7 @@
 #include "model.h"
 
 /* How many roundings meet in a force: of displacements, gradients and sums, of several cells and points. */
-static const PetscReal ROUNDINGS = 8;
+static const PetscReal ROUNDINGS = 2;
 
 /* of a cell at rest: the largest diagonal entry */
 static PetscErrorCode cell_stiffness(const Material *material, PetscInt n, const PetscReal X[], PetscReal *stiffness)

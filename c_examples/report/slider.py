@@ -1,0 +1,193 @@
+"""The press fit: a soft slider pushed into a narrowing channel, 50 mm a step; its drop-off at the end; both sides swapped;
+in three dimensions. Lengths mm, forces N.
+"""
+
+import numpy as np
+
+# Sums of nodal forces against each other, over the contact force: Newton's tolerance is 1e-13 of larger forces.
+BALANCE_BOUND = 1e-12
+# Second differences that alternate in sign from node to node, over the mean pressure.
+ALTERNATION_BOUND = 0.05
+# Plateau, slider on the flat: R_x / R_z is Coulomb's mu, here 0.1, up to the slope of the elastic channel's surface under
+# the slider, 0.1 % to 1 % (the slider's middle sinks more than its ends).
+PLATEAU_BOUND = 0.02
+# Plateau on the finer mesh, on half the mesh size: two per cent, of a slider of 18 x 3 elements.
+MESH_BOUND = 0.03
+# Mean dilatation instead of pointwise: what locking costs at nu = 0.47, smaller than the mesh's error.
+DILATATION_BOUND = 0.01
+# Steps of 50 against steps of 4: the state before differs where a step of two facets passes a corner, not on the plateau.
+STEP_BOUND = 0.02
+# With the sides swapped the slider's edges lie within facets: a facet of 36 covered in part, of a contact of 450.
+SWAPPED_BOUND = 0.02
+# Drop-off with slider facets of 37.5: steadily. With 25 they leave the sharp edge one by one: a small rise in between.
+DROP_BOUND, FACETS_BOUND = 1e-10, 5e-3
+# Smallest over largest singular value of the balanced tangent: rounding is 1e-16 times its size, 700; a singular one is
+# there, or at 0. A node of which a sliver is covered brings the square of that part of its area, since its normal is no
+# axis and balancing rows and columns cannot part it from the tangents: here 1e-8.
+RANK_LIMIT = 1e-10
+
+MU = 0.1
+SWAPPED = ("-contact_nonmortar", "channel.contact", "-contact_mortar", "slider.zmin")
+SWAPPED_MESH = ("-channel_file", "../meshes/press_fit_swapped.msh")
+FINE = ("-channel_file", "../meshes/press_fit_fine.msh", "-slider_cells", "36,1,6")
+PLATEAU = slice(-5, None)  # of a run of 1300: the slider from 1100 to 1300, and 450 longer, on the flat
+
+
+def slider(verdicts, driver):
+    run = driver.run("press_fit", *travel(1300, 50), label="coarse")
+    no_cutback(verdicts, "20 steps of 50 and six more", run)
+    balance(verdicts, "press fit", run)
+    work(verdicts, "press fit", run)
+    alternation(verdicts, "press fit", run)
+    plateau(verdicts, run, driver)
+    drop_off(verdicts, driver)
+    swapped(verdicts, driver, run)
+    three_dimensions(verdicts, driver)
+
+
+def travel(distance, step):
+    """Ten steps of pressing, then the travel."""
+    times = [0.1 * k for k in range(1, 11)] + [1 + 0.001 * step * k for k in range(1, round(distance / step) + 1)]
+    return "-steps_times", ",".join(f"{t:.10g}" for t in times)
+
+
+def no_cutback(verdicts, label, run):
+    verdicts.below(f"{label}: cut-backs", run.summary["cutbacks"], 0, "every step converges at the first attempt")
+
+
+def reaction(step):
+    """(R_x that pushes, R_z that presses)."""
+    return np.array([step["reactions"]["push"][0], -step["reactions"]["symmetry"][2]])
+
+
+def balance(verdicts, label, run, least=1e-6):
+    """Supports against each other, and against the contact, over the reaction of that step or `least` of the largest."""
+
+    def error(step):
+        reactions, contact = step["reactions"], np.array(step["interfaces"]["contact"]["force"])
+        body = np.array([reactions["push"][0], reactions["symmetry"][2]])
+        ground = np.array(reactions["ground"])[[0, 2]]
+        largest = max(np.abs(body).max(), reference)
+        return max(np.abs(body + ground).max(), min(np.abs(contact[[0, 2]] + s * body).max() for s in (1, -1))) / largest
+
+    reference = least * max(np.abs(reaction(step)).max() for step in run.steps)
+    worst = max(error(step) for step in run.steps)
+    verdicts.below(f"{label}: forces out of balance, worst step", worst, BALANCE_BOUND, "statics")
+
+
+def work(verdicts, label, run):
+    total = np.array([0] + [step["friction_work"] for step in run.steps])
+    verdicts.at_least(f"{label}: least friction work of a step", np.diff(total).min(), 0, "friction dissipates")
+
+
+def alternation(verdicts, label, run):
+    steps = [k for k in range(10, len(run.steps) + 1) if flat(run.steps[k - 1]["t"])]
+    worst = max(alternating(run.interface("contact", k)) for k in steps)
+    label = f"{label}: alternating pressure on the flats, {len(steps)} steps"
+    verdicts.below(label, worst, ALTERNATION_BOUND, "second differences, over mean")
+
+
+def flat(t):
+    """Is the whole slider (to 50 longer than 450 when compressed) on one of the flat parts?"""
+    return 1000 * (t - 1) <= 300 or 1000 * (t - 1) >= 1050
+
+
+def alternating(table):
+    row = np.sort(table[table["Y"] == table["Y"].min()], order="X")
+    second = np.diff(row["p_lumped"], 2)
+    pairs = [min(abs(a), abs(b)) for a, b in zip(second, second[1:]) if a * b < 0]
+    return max(pairs, default=0.0) / row["p_lumped"].mean()
+
+
+def plateau(verdicts, run, driver):
+    def mean(run):
+        return np.mean([reaction(step) for step in run.steps[PLATEAU]], axis=0)
+
+    coarse = mean(run)
+    verdicts.near("plateau: R_x / R_z", coarse[0] / coarse[1], MU, PLATEAU_BOUND, "Coulomb; the channel's own slope")
+    fine = driver.run("press_fit", *travel(1300, 50), *FINE, label="fine")
+    no_cutback(verdicts, "finer mesh", fine)
+    alternation(verdicts, "finer mesh", fine)
+    compare(verdicts, "plateau: coarse against the finer mesh", coarse, mean(fine), MESH_BOUND, "discretisation")
+    soft = driver.run("press_fit", *travel(1300, 50), "-slider_dilatation", "mean", label="mean_dilatation")
+    compare(verdicts, "plateau: pointwise against mean dilatation", coarse, mean(soft), DILATATION_BOUND, "hardly locks")
+    small = driver.run("press_fit", *travel(1300, 4), "-output_csv", "none", "-output_vtu", "none", label="steps_of_4")
+    no_cutback(verdicts, "steps of 4", small)
+    at = {round(step["t"], 6): reaction(step) for step in small.steps}
+    same = np.mean([at[round(step["t"], 6)] for step in run.steps[PLATEAU] if round(step["t"], 6) in at], axis=0)
+    compare(verdicts, "plateau: steps of 50 against steps of 4", coarse, same, STEP_BOUND, "large steps")
+
+
+def compare(verdicts, label, ours, theirs, bound, reason):
+    for name, a, b in zip(("R_x", "R_z"), ours, theirs):
+        verdicts.near(f"{label}, {name}", a, b, bound, reason)
+
+
+def drop_off(verdicts, driver):
+    """Off the end of the channel at x = 1900, 25 a step, until nothing touches."""
+    for cells, bound in ((12, DROP_BOUND), (18, FACETS_BOUND)):
+        label = f"drop-off, {cells} x 3"
+        options = (*travel(2100, 25), "-slider_cells", f"{cells},1,3", "-output_vtu", "none", "-output_csv", "none")
+        run = driver.run("press_fit", *options, label=f"drop_off_{cells}")
+        force = np.array([reaction(step)[1] for step in run.steps])
+        peak = force.argmax()
+        rise = max(0.0, np.diff(force[peak:]).max()) / force[peak]
+        verdicts.below(f"{label}: largest rise of R_z after its peak", rise, bound, "falls steadily")
+        left = abs(force[-1]) / force[peak]
+        verdicts.below(f"{label}: R_z at the end, over the peak", left, DROP_BOUND, "nothing touches")
+        balance(verdicts, label, run, least=1)  # nothing is left when it has dropped off
+
+
+def swapped(verdicts, driver, run):
+    """The channel carries the multipliers, of nodes that become covered as the slider comes."""
+    label = "sides swapped"
+    small = driver.run("press_fit", *travel(300, 4), *SWAPPED, *SWAPPED_MESH, label="swapped")
+    no_cutback(verdicts, label, small)
+    after = next(step for step in run.steps if abs(step["t"] - small.steps[-1]["t"]) < 1e-9)
+    forces = reaction(small.steps[-1]), reaction(after)
+    compare(verdicts, f"{label}: against the slider's multipliers", *forces, SWAPPED_BOUND, "a facet covered in part")
+
+    matrices = driver.output / "swapped.mat"
+    matrices.unlink(missing_ok=True)
+    dump = ("-ksp_view_mat", f"binary:{matrices}::append")
+    large = driver.run("press_fit", *travel(350, 50), *SWAPPED, *SWAPPED_MESH, *dump, label="swapped_rank")
+    states = [sum(step["interfaces"]["contact"][s] for s in ("stick", "slip")) for step in large.steps]
+    conditions = [smallest_singular_value(matrix) for matrix in petsc_matrices(matrices)]
+    changes = np.count_nonzero(np.diff(states))
+    verdicts.at_least(f"{label}, steps of 50: steps in which nodes come and go", changes, 1, "it moves on")
+    verdicts.at_least(f"{label}: tangents", len(conditions), large.newton_iterations, "every iteration's")
+    verdicts.at_least(f"{label}: smallest singular value", min(conditions), RANK_LIMIT, "full rank")
+    matrices.unlink()
+
+
+def petsc_matrices(path):
+    """Sparse matrices one after the other in PETSc's binary format: id, rows, columns, entries, row lengths, ..."""
+    data = path.read_bytes()
+    info, at = path.with_name(path.name + ".info"), 0
+    info.unlink(missing_ok=True)
+    while at < len(data):
+        _, n, m, entries = np.frombuffer(data, ">i4", 4, at)
+        lengths = np.frombuffer(data, ">i4", n, at + 16)
+        columns = np.frombuffer(data, ">i4", entries, at + 16 + 4 * n)
+        values = np.frombuffer(data, ">f8", entries, at + 16 + 4 * (n + entries))
+        at += 16 + 4 * (n + entries) + 8 * entries
+        matrix = np.zeros((n, m))
+        matrix[np.repeat(np.arange(n), lengths), columns] = values
+        yield matrix
+
+
+def smallest_singular_value(matrix):
+    """Over the largest, when rows and columns have been balanced to a largest entry of one: units do not count."""
+    for _ in range(5):
+        for axis in (0, 1):
+            scale = np.sqrt(np.abs(matrix).max(axis=axis, keepdims=True))
+            matrix = matrix / np.where(scale > 0, scale, 1)
+    values = np.linalg.svd(matrix, compute_uv=False)
+    return values[-1] / values[0]
+
+
+def three_dimensions(verdicts, driver):
+    run = driver.run("press_fit_3d", "-output_vtu", "last")
+    no_cutback(verdicts, "three dimensions, 20 steps of 50", run)
+    balance(verdicts, "three dimensions", run)
+    work(verdicts, "three dimensions", run)
