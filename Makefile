@@ -15,10 +15,11 @@ export PATH := $(PATH):$(HOME)/.cargo/bin
 LOCKED = mkdir -p $(BUILD) && flock $(BUILD)/.lock
 SAY    = @printf '\n== %s\n'
 
-.PHONY: help demo effects test build install uninstall docs abi header meshes clean cmake-build rust-tests
+.PHONY: help demo gallery effects test build install uninstall docs abi header meshes clean cmake-build rust-tests
 
 help:
 	@echo "make demo    solve the example scenes, compare with the references, draw (FIGURES=1: renew the README's figures)"
+	@echo "make gallery every scene solved, compared and drawn, about half an hour; ONLY='NAME ...': some of them; can be resumed"
 	@echo "make effects what each effect of an interface costs: a table and a figure (FIGURES=1: renew the committed one)"
 	@echo "make test    run every test and check"
 	@echo "make build   build the library and the examples into $(BUILD)/"
@@ -35,6 +36,13 @@ demo:
 	@$(MAKE) --no-print-directory cmake-build
 	$(SAY) "Solving the demonstration scenes"
 	@$(PYTHON) c_examples/report/demo.py --build $(BUILD) $(if $(FIGURES),--renew-figures)
+
+gallery:
+	@.ci/setup demo
+	@$(MAKE) --no-print-directory cmake-build
+	$(SAY) "Solving and drawing the gallery"
+	@$(PYTHON) c_examples/report/gallery.py --build $(BUILD) --jobs $(JOBS) $(if $(ONLY),--only $(ONLY)) \
+		$(if $(FIGURES),--renew-figures)
 
 effects:
 	@.ci/setup demo

@@ -134,23 +134,26 @@ def profile_error(line, values, exact):
     return np.sqrt((line.length * (values - reference) ** 2).sum() / (line.length * reference**2).sum())
 
 
+def hertz_profile(driver, h):
+    """(line, formula, error of the profile) of the half-cylinders without friction, solved in one step."""
+    line = driver.run("cattaneo_line", *line_mesh(h), *FRICTIONLESS, label=f"hertz_line_{h:g}").line("contact")
+    hertz = formulas.LineContact(line.force[:, 2].sum(), LINE_MODULUS, LINE_RADIUS)
+    return line, hertz, profile_error(line, line.traction[:, 2], hertz.pressure)
+
+
 def hertz_line(verdicts, driver, sizes=(0.068, 0.034)):
-    """Ten and twenty facets over the half-width 0.68; frictionless, in one step."""
+    """Ten and twenty facets over the half-width 0.68."""
     errors, lines = [], []
     for h in sizes:
-        line = driver.run("cattaneo_line", *line_mesh(h), *FRICTIONLESS, label=f"hertz_line_{h:g}").line("contact")
-        pressure = line.traction[:, 2]
-        hertz = formulas.LineContact(line.force[:, 2].sum(), LINE_MODULUS, LINE_RADIUS)
+        line, hertz, error = hertz_profile(driver, h)
+        pressure, width = line.traction[:, 2], fit_hertz(line.x, line.traction[:, 2])[1]
         name = f"Hertz line, {hertz.half_width / h:.0f} facets"
         verdicts.near(f"{name}: peak pressure", pressure.max(), hertz.peak, PEAK_BOUND, "finite bodies")
-        verdicts.near(
-            f"{name}: half-width", fit_hertz(line.x, pressure)[1], hertz.half_width, WIDTH_BOUND, "finite bodies"
-        )
-        inner = pressure[np.abs(line.x) < 0.8 * hertz.half_width]
-        error = inner - hertz.pressure(line.x[np.abs(line.x) < 0.8 * hertz.half_width])
-        worst = np.abs(np.diff(error, 2)).max() / 4 / hertz.peak
+        verdicts.near(f"{name}: half-width", width, hertz.half_width, WIDTH_BOUND, "finite bodies")
+        inner = np.abs(line.x) < 0.8 * hertz.half_width
+        worst = np.abs(np.diff(pressure[inner] - hertz.pressure(line.x[inner]), 2)).max() / 4 / hertz.peak
         verdicts.below(f"{name}: alternation from node to node", worst, ALTERNATION_BOUND, "mortar: none")
-        errors.append(profile_error(line, pressure, hertz.pressure))
+        errors.append(error)
         lines.append((line, hertz))
     for coarse, fine in zip(errors, errors[1:]):
         name = f"Hertz line: error of the profile {coarse:.4f}, h / 2 over h"
@@ -175,24 +178,30 @@ def hertz_ball(verdicts, driver, facets=10):
     return run, hertz
 
 
-def cattaneo_line(verdicts, driver, h=0.034, label="cattaneo_line"):
-    """Pressed, then drawn: the stick zone and the shear traction after each step of drawing."""
+def cattaneo_run(driver, h):
+    """Run, number of steps of pressing, and (line, formula) after each step of drawing."""
     facets = round(0.68 / h)
-    run = driver.run("cattaneo_line", *line_mesh(h), *pressing(facets), label=label)
-    name, lines = f"Cattaneo, {facets} facets", []
-    for number, step in enumerate(run.steps[facets:], facets + 1):
-        line = run.line("contact", number)
-        shear = -line.traction[:, 0]
-        exact = formulas.LineContact(
-            line.force[:, 2].sum(), LINE_MODULUS, LINE_RADIUS, LINE_MU, -line.force[:, 0].sum()
-        )
-        stick = stick_half_width(line)
-        lines.append((line, exact))
-        part = f"{name}, drawn by {exact.pull / (LINE_MU * exact.force):.2f}"
-        verdicts.near(
-            f"{part}: half-width of stick (error in facets)", stick, exact.stick, FACETS_OF_STICK, "in facets", scale=h
-        )
-    error = profile_error(line, shear, exact.shear)
+    run = driver.run("cattaneo_line", *line_mesh(h), *pressing(facets), label=f"cattaneo_line_{h:g}")
+    lines = [run.line("contact", number) for number in range(facets + 1, len(run.steps) + 1)]
+    force = lambda line, axis: line.force[:, axis].sum()
+    exact = [
+        formulas.LineContact(force(line, 2), LINE_MODULUS, LINE_RADIUS, LINE_MU, -force(line, 0)) for line in lines
+    ]
+    return run, list(zip(lines, exact))
+
+
+def shear_error(line, exact):
+    return profile_error(line, -line.traction[:, 0], exact.shear)
+
+
+def cattaneo_line(verdicts, driver, h=0.034):
+    """Pressed, then drawn: the stick zone after each step of drawing, the shear traction after the last."""
+    run, lines = cattaneo_run(driver, h)
+    for line, exact in lines:
+        part = f"Cattaneo, {0.68 / h:.0f} facets, drawn by {exact.pull / (LINE_MU * exact.force):.2f}"
+        label = f"{part}: half-width of stick (error in facets)"
+        verdicts.near(label, stick_half_width(line), exact.stick, FACETS_OF_STICK, "in facets", scale=h)
+    error = shear_error(*lines[-1])
     verdicts.below(f"{part}: shear traction", error, CATTANEO_BOUND, "root mean square over the contact")
     return run, lines, error
 

@@ -1,0 +1,256 @@
+"""The entries of the gallery: how each is solved and compared, and what is drawn of it."""
+
+from dataclasses import dataclass, field
+from typing import Callable
+
+import numpy as np
+
+import comparisons
+import formulas
+import friction_checks as friction
+import gallery_figures as figures
+from gallery_figures import View
+
+
+@dataclass
+class Entry:
+    name: str
+    title: str
+    text: str
+    minutes: float  # on one core of a desktop
+    solve: Callable  # (verdicts, driver) -> what draw needs
+    draw: Callable  # (that, folder) -> paths of the figures
+    committed: tuple = field(default=())  # names of figures that the repository holds
+
+
+def moving(name, run, view, folder, caption, frames=24, pictures=4):
+    """The three that every scene gets: forces on the deformed surface at the end, a strip, an animation. Only steps that
+    have a .vtu (sections) or a .csv (maps)."""
+    pattern = "step_*.vtu" if view.kind == "section" else f"interface_{view.interface}_*.csv"
+    there = sorted(int(path.stem.rpartition("_")[2]) for path in run.directory.glob(pattern))
+    chosen = lambda count: sorted({there[round(k)] for k in np.linspace(0, len(there) - 1, min(count, len(there)))})
+    return [
+        figures.surface(run, view, folder / f"{name}_forces.png", there[-1], caption(run.steps[there[-1] - 1]["t"])),
+        figures.strip(run, view, folder / f"{name}_strip.png", chosen(pictures), caption),
+        figures.animation(run, view, folder / f"{name}.gif", chosen(frames), caption),
+    ]
+
+
+def at(word):
+    return lambda t: f"{word} {t:g}"
+
+
+# --- Hertz ------------------------------------------------------------------------------------------------------------
+HERTZ_SIZES = (0.136, 0.068, 0.034, 0.017)  # 5 to 40 facets over the half-width
+
+
+def hertz_line(verdicts, driver):
+    lines, errors = friction.hertz_line(verdicts, driver, HERTZ_SIZES[1:3])
+    coarsest, finest = (friction.hertz_profile(driver, h) for h in (HERTZ_SIZES[0], HERTZ_SIZES[-1]))
+    return [coarsest[:2], *lines, finest[:2]], [coarsest[2], *errors, finest[2]]
+
+
+def draw_hertz_line(solved, folder):
+    lines, errors = solved
+    line, hertz = lines[2]
+    fine = np.linspace(-1, 1, 801) * hertz.half_width
+    series = [("20 facets over the half-width", line.x, line.traction[:, 2], fine, hertz.pressure(fine))]
+    return [
+        figures.profile(series, folder / "hertz_line.png", "x", "pressure", "Hertz, line contact"),
+        figures.convergence(
+            HERTZ_SIZES, {"pressure": errors}, folder / "hertz_line_error.png", "facet", "error of the profile"
+        ),
+    ]
+
+
+def hertz_ball(verdicts, driver):
+    return [friction.hertz_ball(verdicts, driver, facets) for facets in (5, 10)]
+
+
+def draw_hertz_ball(solved, folder):
+    series = []
+    for facets, (run, hertz) in zip((5, 10), solved):
+        table = run.interface("contact")
+        r, pressure = np.hypot(table["X"], table["Y"]), table["fz"] / table["area_full"]
+        near = r < 1.3 * hertz.contact_radius
+        fine = np.linspace(0, hertz.contact_radius, 400)
+        series.append((f"{facets} facets over the radius", r[near], pressure[near], fine, hertz.pressure(fine)))
+    return [figures.profile(series, folder / "hertz_ball.png", "r", "pressure", "Hertz, ball on a plane: every node")]
+
+
+# --- Cattaneo, Mindlin ------------------------------------------------------------------------------------------------
+CATTANEO_SIZES = (0.068, 0.034, 0.017)
+
+
+def cattaneo(verdicts, driver):
+    run, lines, error = friction.cattaneo_line(verdicts, driver)
+    coarse, fine = (friction.shear_error(*friction.cattaneo_run(driver, h)[1][-1]) for h in CATTANEO_SIZES[::2])
+    errors = [coarse, error, fine]
+    seen = driver.run("cattaneo_line", "-output_vtu", "all", label="cattaneo_seen")
+    return run, lines, errors, seen
+
+
+def draw_cattaneo(solved, folder):
+    run, lines, errors, seen = solved
+    series = []
+    for line, exact in lines:
+        fine = np.linspace(-1, 1, 2001) * exact.half_width
+        label = f"drawn by {exact.pull / (exact.mu * exact.force):.2f} of what slides"
+        near = np.abs(line.x) < 1.1 * exact.half_width
+        series.append((label, line.x[near], -line.traction[near, 0], fine, exact.shear(fine)))
+    pulls = [-step["interfaces"]["contact"]["force"][0] / 0.1 for step in run.steps]
+    press = [step["interfaces"]["contact"]["force"][2] / 0.1 for step in run.steps]
+    times = [step["t"] for step in run.steps]
+    view = View("contact", (-1.3, 1.3, -0.55, 0.75), 0.4)
+    return [
+        figures.profile(series, folder / "cattaneo.png", "x", "shear traction", "Cattaneo and Mindlin, line contact"),
+        figures.history(
+            [("force", times, press), ("pull", times, pulls)], folder / "cattaneo_history.png", "time",
+            "per unit thickness",
+        ),
+        figures.convergence(
+            CATTANEO_SIZES, {"shear traction": errors}, folder / "cattaneo_error.png", "facet", "error of the profile"
+        ),
+        *moving("cattaneo", seen, view, folder, at("t =")),
+    ]
+
+
+def mindlin(verdicts, driver):
+    return friction.mindlin(verdicts, driver, facets=6, steps=(6, 5, 10))
+
+
+def draw_mindlin(solved, folder):
+    run, curve = solved
+    pull, travel, exact = np.array(curve).T
+    curves = [("computed", np.append(0, 1e3 * travel), np.append(0, pull))]
+    references = [("Mindlin, Deresiewicz", np.append(0, 1e3 * exact), np.append(0, pull), "s--")]
+    view = View("contact", (-0.07, 0.07, -0.005, 0.075), 0.02, (6.4, 4.2), kind="map")
+    return [
+        figures.history(
+            curves, folder / "mindlin.png", "travel / 1000", "pull / (mu F)", references, "A ball drawn there and back"
+        ),
+        *moving("mindlin", run, view, folder, at("friction on half of the contact, t =")),
+    ]
+
+
+# --- torsion ----------------------------------------------------------------------------------------------------------
+def torsion(verdicts, driver):
+    return friction.torsion(verdicts, driver, friction.TORSION_FINE)
+
+
+def draw_torsion(run, folder):
+    turned = [k for k, step in enumerate(run.steps, 1) if step["t"] >= 1]
+    angle = np.array([friction.TORSION_ANGLE * (run.steps[k - 1]["t"] - 1) for k in turned])
+    torque = np.array([abs(friction.moment(run, k)) for k in turned])
+    contact = friction.point_contact(run, friction.TORSION_MODULUS)
+    stiff = contact.turning_stiffness(friction.TORSION_SHEAR)
+    knee = contact.torque / stiff
+    references = [
+        ("16/3 G a^3", [0, knee], [0, contact.torque], "--"),
+        ("3 pi / 16 mu F a", [0, angle[-1]], [contact.torque] * 2, ":"),
+    ]
+    view = View("contact", (-0.07, 0.07, -0.07, 0.07), 0.02, (5, 5.2), kind="map")
+    return [
+        figures.history([("computed", angle, torque)], folder / "torsion.png", "angle", "torque", references, "Torsion"),
+        *moving("torsion", run, view, folder, at("friction on the block, t =")),
+    ]
+
+
+def disc(verdicts, driver):
+    return friction.torsion_disc(verdicts, driver)
+
+
+def draw_disc(run, folder):
+    view = View("contact", (-1.15, 1.15, -1.15, 1.15), 0.2, (5, 5.2), kind="map")
+    return moving("torsion_disc", run, view, folder, at("friction on the disc, t ="))
+
+
+# --- fit, belt, slope -------------------------------------------------------------------------------------------------
+def shrink(verdicts, driver):
+    errors = []
+    for cells in (60, 90, 120):
+        run = friction.shrink_fit(verdicts, driver, cells)
+        exact = formulas.shrink_fit_free(0.01, 10, 1, 20, 2e5)
+        errors.append(np.abs(run.interface("contact")["p_lumped"] / exact - 1).max())
+    return run, errors, friction.shrink_fit_out(verdicts, driver)
+
+
+def draw_shrink(solved, folder):
+    run, errors, (out, turned) = solved
+    times = [step["t"] for step in out.steps]
+    table = run.interface("contact")
+    angle = np.degrees(np.arctan2(table["Y"], table["X"]))
+    exact = formulas.shrink_fit_free(0.01, 10, 1, 20, 2e5)
+    grip = 0.1 * formulas.shrink_fit_held(0.01, 10, 5, 20, 2e5) * 2 * np.pi * 10 * 20
+    view = View("contact", (-11.5, 11.5, -11.5, 11.5), 1.5, (5, 5.2), kind="map")
+    return [
+        figures.profile(
+            [("120 cells around", angle, table["p_lumped"], [-180, 180], [exact] * 2)], folder / "shrink_fit.png",
+            "degrees", "pressure", "Shrink fit: every node, and Lame",
+        ),
+        figures.convergence(
+            [1 / 60, 1 / 90, 1 / 120], {"worst node": errors}, folder / "shrink_fit_error.png", "1 / cells around",
+            "error of the pressure",
+        ),
+        figures.history(
+            [("computed", times, [abs(step["reactions"]["axle"][2]) for step in out.steps])],
+            folder / "shrink_fit_out.png", "time", "force on the axle",
+            [("mu p 2 pi b L", [times[0], times[-1]], [grip] * 2, "--")], "Pushed out of a shrink fit",
+        ),
+        *moving("shrink_fit_turned", turned, view, folder, at("t =")),
+    ]
+
+
+def draw_capstan(run, folder):
+    table = run.interface("contact")
+    table = table[table["Z"] < 1e-9]
+    angle = np.pi - np.arctan2(table["Y"], table["X"])
+    fine = np.linspace(0, np.pi, 200)
+    series = [("pressure times radius", np.degrees(angle), table["p_lumped"], np.degrees(fine), formulas.belt_tension(fine, 0.3))]
+    view = View("contact", (-1.6, 1.6, -0.1, 1.6), 0.25, (7, 4), kind="map")
+    return [
+        figures.profile(series, folder / "capstan.png", "degrees from the held end", "tension / T1", "Belt on a drum"),
+        figures.surface(run, view, folder / "capstan_forces.png"),
+    ]
+
+
+# --- the paper's block ------------------------------------------------------------------------------------------------
+def block(verdicts, driver):
+    run = driver.run("block_bottom_mu02", "-output_vtu", "all", label="block")
+    comparisons.block_resultants(verdicts, "block, bottom, mu = 0.2", run)
+    comparisons.block_slip(verdicts, "block, bottom, mu = 0.2", run)
+    return run
+
+
+def draw_block(run, folder):
+    times = [step["t"] for step in run.steps]
+    force = lambda k, sign: [sign * step["interfaces"]["base"]["force"][k] for step in run.steps]
+    view = View("base", (-0.5, 4.6, -1.0, 2.2), 0.7)
+    return [
+        figures.history(
+            [("normal", times, force(2, 1)), ("tangential", times, force(0, -1))], folder / "block_history.png", "time",
+            "force",
+        ),
+        *moving("block", run, view, folder, at("t =")),
+    ]
+
+
+ENTRIES = [
+    Entry("hertz_line", "Hertz: line contact", "Two half-cylinders pressed together, meshes that do not match.", 0.3,
+          hertz_line, draw_hertz_line),
+    Entry("hertz_ball", "Hertz: ball on a plane", "A quarter of an elastic ball on a plane without a mesh.", 0.5,
+          hertz_ball, draw_hertz_ball),
+    Entry("cattaneo", "Cattaneo and Mindlin: line contact drawn", "The half-cylinders, one drawn along the other: slip at "
+          "the rims. The profile's error is mostly in the one facet in which stick ends, and so depends on where in that "
+          "facet it ends.", 1.0, cattaneo, draw_cattaneo, ("cattaneo.png",)),
+    Entry("mindlin", "Mindlin and Deresiewicz: ball drawn there and back", "Hysteresis below full sliding.", 8.0,
+          mindlin, draw_mindlin, ("mindlin.png",)),
+    Entry("torsion", "Lubkin: torsion of a point contact", "A block turned under a rigid ball until all of the contact "
+          "slips.", 6.0, torsion, draw_torsion),
+    Entry("torsion_disc", "Torsion of a flat disc", "Uniform pressure; the torque is 2/3 mu F R.", 0.1, disc, draw_disc),
+    Entry("shrink_fit", "Shrink fit", "A hub that is too narrow for its shaft, from meshes that penetrate at the start; then "
+          "pushed out, or turned.", 1.0, shrink, draw_shrink),
+    Entry("capstan", "Belt on a drum", "Euler's formula, half around.", 0.1, friction.capstan, draw_capstan),
+    Entry("block", "Block pushed along a foundation", "The paper's first example, contact along the whole bottom.", 0.1,
+          block, draw_block),
+]
