@@ -223,6 +223,8 @@ def errors(verdicts, driver):
             "PETSC ERROR" not in run.text,
             "errors of the user are explained, not dumped",
         )
+    run = driver.run("block_zone_mu05", "-push_curve", "1000,0,2000,1", label="late_curve")
+    verdicts.true("curve in other units: a note", "note: push.curve" in run.text, "not an error: a run may end early")
     for options, code, reason in (
         (("-snes_max_it", 1), 2, "not converged"),
         (("-base_augmentation_scale", 1e308), 3, "refused by the library: an infinite augmentation"),

@@ -1,10 +1,12 @@
 """Scene files with one mistake each, made from a good one. The driver must refuse them and name the key at fault."""
 
+import re
 from dataclasses import dataclass
 
 from scene import SCENES
 
 BASE = "block_zone_mu05.yaml"
+MESHES = SCENES.parent / "meshes"
 
 
 @dataclass
@@ -75,6 +77,18 @@ BAD_SCENES = [
         "block.file",
     ),
     BadScene(
+        "unknown_volume",
+        "type: box, lower: [0, 0, 0], upper: [4, 1, 2], cells: [20, 1, 10]",
+        f"type: gmsh, volume: bricks, file: {MESHES / 'brick_tet_upper.msh'}",
+        "block.volume",
+    ),
+    BadScene(
+        "mesh_without_names",
+        "type: box, lower: [0, 0, 0], upper: [4, 1, 2], cells: [20, 1, 10]",
+        "type: gmsh, file: nameless.msh",
+        "block.file",
+    ),
+    BadScene(
         "inside_out",
         "lower: [0, 0, 0], upper: [4, 1, 2], cells: [20, 1, 10]",
         "corners: [0,0,2, 4,0,2, 4,1,2, 0,1,2, 0,0,0, 4,0,0, 4,1,0, 0,1,0], cells: [20, 1, 10]",
@@ -98,5 +112,8 @@ def write_bad_scene(bad, folder):
     if bad.old not in text:
         raise ValueError(f"{BASE} no longer contains '{bad.old}': bad scene {bad.name} must be rewritten")
     path = folder / f"{bad.name}.yaml"
+    named = (MESHES / "brick_tet_upper.msh").read_text()
+    nameless = re.sub(r"\$PhysicalNames.*\$EndPhysicalNames\n", "", named, flags=re.DOTALL)
+    (folder / "nameless.msh").write_text(nameless)
     path.write_text(text.replace(bad.old, bad.new, 1))
     return path

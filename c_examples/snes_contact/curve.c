@@ -2,6 +2,22 @@
 #include "curve.h"
 #include "petsc_compat.h"
 
+/* Nothing happens before the end: meant in other units? Not an error, for a run may end early on purpose. */
+static PetscErrorCode note_late_curve(const char *map, PetscReal end, const Curve *curve)
+{
+  const PetscReal *p = curve->points;
+  PetscBool        changes = PETSC_FALSE;
+  PetscFunctionBegin;
+  for (PetscInt k = 1; k < curve->n; k++)
+    changes = (PetscBool)(changes || p[2 * k + 1] != p[1]);
+  if (changes && p[0] >= end)
+    PetscCall(PetscFPrintf(PETSC_COMM_WORLD, PETSC_STDERR,
+                           "snes_contact: note: %s.curve stays at %g until t = %g, but the last step ends at %g. Are both "
+                           "in one unit of time?\n",
+                           map, (double)p[1], (double)p[0], (double)end));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode curve_read(Scene *scene, const char *map, PetscReal end, Curve *curve)
 {
   PetscInt n;
@@ -20,6 +36,7 @@ PetscErrorCode curve_read(Scene *scene, const char *map, PetscReal end, Curve *c
     if (curve->points[2 * k] <= curve->points[2 * k - 2])
       scene_fail(scene, map, "curve", "times must increase; %g does not.", (double)curve->points[2 * k]);
   }
+  PetscCall(note_late_curve(map, end, curve));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -135,11 +135,46 @@ static PetscErrorCode append_surface(const char *body, DM dm, DMLabel label, con
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode gmsh_create(Scene *scene, const char *body, Mesh *mesh)
+/* Is this label of PETSc's a physical name? With `height` 0: of a volume, 1: of a surface. */
+static PetscErrorCode physical_name(DM dm, PetscInt l, PetscInt height, const char **name, PetscBool *is)
 {
   static const char *const builtin[] = {"celltype", "depth", "Cell Sets", "Face Sets", "Edge Sets", "Vertex Sets"};
+  PetscInt                 start, end, value = -1;
+  DMLabel                  label;
+
+  PetscFunctionBegin;
+  PetscCall(DMGetLabelName(dm, l, name));
+  PetscCall(DMGetLabel(dm, *name, &label));
+  PetscCall(DMPlexGetHeightStratum(dm, height, &start, &end));
+  for (PetscInt p = start; p < end && value < 0; p++)
+    PetscCall(DMLabelGetValue(label, p, &value));
+  *is = (PetscBool)(value >= 0);
+  for (size_t k = 0; k < sizeof(builtin) / sizeof(builtin[0]); k++)
+    *is = (PetscBool)(*is && strcmp(*name, builtin[k]));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* all physical names of volumes, or of surfaces, for a message */
+static PetscErrorCode list_names(DM dm, PetscInt height, char list[], size_t length)
+{
+  PetscInt n_labels;
+  PetscFunctionBegin;
+  list[0] = 0;
+  PetscCall(DMGetNumLabels(dm, &n_labels));
+  for (PetscInt l = 0; l < n_labels; l++) {
+    const char *name;
+    PetscBool   is;
+    PetscCall(physical_name(dm, l, height, &name, &is));
+    if (is) snprintf(list + strlen(list), length - strlen(list), "%s%s", list[0] ? ", " : "", name);
+  }
+  if (!list[0]) snprintf(list, length, "none");
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode gmsh_create(Scene *scene, const char *body, Mesh *mesh)
+{
   const PetscInt           first     = mesh->n_vertices;
-  char                     file[PETSC_MAX_PATH_LEN] = "", path[PETSC_MAX_PATH_LEN], volume_name[NAME_LENGTH] = "";
+  char                     file[PETSC_MAX_PATH_LEN] = "", path[PETSC_MAX_PATH_LEN], volume_name[NAME_LENGTH] = "", names[1024];
   PetscInt                 dimension, n_labels, vStart, vEnd, *new_number;
   PetscBool                exists;
   PetscErrorCode           failed;
@@ -165,7 +200,9 @@ PetscErrorCode gmsh_create(Scene *scene, const char *body, Mesh *mesh)
                path);
   if (volume_name[0]) {
     PetscCall(DMGetLabel(dm, volume_name, &volume));
-    if (!volume) scene_fail(scene, body, "volume", "'%s' has no physical volume '%s'.", path, volume_name);
+    PetscCall(list_names(dm, 0, names, sizeof(names)));
+    if (!volume)
+      scene_fail(scene, body, "volume", "'%s' has no physical volume '%s'; there are: %s.", path, volume_name, names);
   }
   PetscCall(DMPlexGetDepthStratum(dm, 0, &vStart, &vEnd));
   PetscCall(PetscMalloc1(vEnd - vStart, &new_number));
@@ -173,15 +210,19 @@ PetscErrorCode gmsh_create(Scene *scene, const char *body, Mesh *mesh)
     new_number[v] = -1;
   PetscCall(append_cells(scene, body, dm, volume, new_number, mesh));
   if (mesh->n_vertices == first) scene_fail(scene, body, "volume", "'%s' has no cell in '%s'.", path, volume_name);
+  PetscCall(list_names(dm, 1, names, sizeof(names)));
+  if (!strcmp(names, "none"))
+    scene_fail(scene, body, "file",
+               "'%s' has no physical surface, so that nothing can be said of its faces; give those names, as in "
+               "`Physical Surface(\"contact\") = {...};`.",
+               path);
   PetscCall(DMGetNumLabels(dm, &n_labels));
   for (PetscInt l = 0; l < n_labels; l++) {
     const char *name;
     DMLabel     label;
-    PetscBool   skip = PETSC_FALSE;
-    PetscCall(DMGetLabelName(dm, l, &name));
-    for (size_t k = 0; k < sizeof(builtin) / sizeof(builtin[0]); k++)
-      skip = (PetscBool)(skip || !strcmp(name, builtin[k]));
-    if (skip) continue;
+    PetscBool   is;
+    PetscCall(physical_name(dm, l, 1, &name, &is));
+    if (!is) continue;
     PetscCall(DMGetLabel(dm, name, &label));
     PetscCall(append_surface(body, dm, label, name, volume, new_number, first, mesh));
   }
