@@ -12,6 +12,7 @@ import acceptance
 from effect_checks import effects
 from friction_checks import friction
 from hosts import hosts
+from ironing import ironing, ironing_full
 from material_checks import materials
 from slider import slider
 from scene import Driver, SceneError
@@ -23,6 +24,8 @@ GROUPS = {
     "effects": effects,
     "friction": friction,
     "hosts": hosts,
+    "ironing": ironing,
+    "ironing_full": ironing_full,  # four minutes; not among the tests
     "materials": materials,
     "slider": slider,
     "stepping": stepping,

@@ -10,6 +10,7 @@ import numpy as np
 
 _HERE = Path(__file__).resolve().parent / "reference"
 BLOCK = json.loads((_HERE / "block.json").read_text())
+IRONING = json.loads((_HERE / "shallow_ironing.json").read_text())
 HERTZ = json.loads((_HERE / "hertz.json").read_text())
 
 

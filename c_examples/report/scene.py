@@ -10,6 +10,7 @@ A missing file or an unexpected exit code raises SceneError: no check may pass b
 import json
 import os
 import re
+import resource
 import shutil
 import subprocess
 import time
@@ -52,6 +53,7 @@ class Run:
     exit_code: int
     text: str  # what it printed
     seconds: float
+    cpu_seconds: float  # of all its processes
     summary: dict = field(default_factory=dict)
 
     @property
@@ -124,6 +126,11 @@ class Run:
         return found[wanted]
 
 
+def _cpu_of_children():
+    usage = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return usage.ru_utime + usage.ru_stime
+
+
 class Driver:
     """The example program in a build tree; outputs go to subdirectories of `output`. With `keep` a run whose outputs are
     newer than its inputs (program, scene, meshes) and that had the same options is read instead of made again; `report`
@@ -155,7 +162,7 @@ class Driver:
         # One thread each: the problems are small, and threads of the BLAS only wait for each other.
         # The two OMPI variables let Open MPI run in containers, where one usually is root.
         environment = {"OMP_NUM_THREADS": "1", "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
-        start = time.monotonic()
+        start, cpu = time.monotonic(), _cpu_of_children()
         done = subprocess.run(
             command,
             env={**os.environ, **environment},
@@ -165,7 +172,8 @@ class Driver:
             errors="replace",
         )
         (directory / "log.txt").write_text(" ".join(command) + "\n" + done.stdout + done.stderr)
-        result = Run(directory, done.returncode, done.stdout + done.stderr, time.monotonic() - start)
+        seconds, cpu = time.monotonic() - start, _cpu_of_children() - cpu
+        result = Run(directory, done.returncode, done.stdout + done.stderr, seconds, cpu)
         if done.returncode != expect:
             tail = "\n".join((done.stdout + done.stderr).strip().splitlines()[-8:])
             raise SceneError(

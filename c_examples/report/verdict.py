@@ -43,6 +43,12 @@ class Verdicts:
             Row(quantity, value, least, max(0.0, least - value) if math.isfinite(value) else math.nan, 0.0, reason)
         )
 
+    def within(self, quantity, value, low, high, reason):
+        """A figure must lie between two others; the error is how far it is outside."""
+        value = float(value)
+        outside = max(low - value, value - high, 0.0) if math.isfinite(value) else math.nan
+        self._add(Row(f"{quantity} ({low:.4g} to {high:.4g})", value, None, outside, 0.0, reason))
+
     def true(self, quantity, holds, reason):
         """A statement that either holds or does not."""
         self._add(Row(quantity, float(bool(holds)), 1.0, 0.0 if holds else 1.0, 0.0, reason))
