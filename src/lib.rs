@@ -20,7 +20,7 @@
 //!
 //! # Modules, lowest first
 //!
-//! [`error`]; [`adjacency`], [`shape`], [`quadrature`], [`geometry`], [`normal`] know nothing of contact; [`mortar`]
+//! [`error`]; [`simd`]; [`adjacency`], [`shape`], [`quadrature`], [`geometry`], [`normal`] know nothing of contact; [`mortar`]
 //! integrates a pair and knows no law; [`law`] is nodal and knows no geometry; they meet in
 //! [`element`]; [`interface`] searches, assembles and remembers; [`capi`] is the C ABI, the only
 //! place that touches raw pointers.
@@ -70,3 +70,4 @@ pub mod mortar;
 pub mod normal;
 pub mod quadrature;
 pub mod shape;
+pub mod simd;

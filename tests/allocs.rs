@@ -7,10 +7,12 @@ use std::cell::Cell;
 use std::mem::{size_of, zeroed};
 use std::ptr::null;
 use stickslip::capi::*;
-use stickslip::element::{NodeTangent, PairNow, PairTangent, pair_force};
+use stickslip::element::{FacetResponse, NodeTangent, PairNow, PairTangent, pair_force, row_columns};
 use stickslip::geometry::{Facet, Mat3, Vec3};
 use stickslip::law::{Node, SlipMeasure};
-use stickslip::mortar::{self, GapDerivative, NonmortarFrame, PairWeights, Segment, WeightDerivatives};
+use stickslip::mortar::{
+    self, AlongNormal, GapDerivative, NonmortarFrame, PairWeights, Segment, WeightDerivatives, pair_motion,
+};
 use stickslip::quadrature::{DEGREE_5, DEGREE_10};
 
 thread_local! {
@@ -166,11 +168,17 @@ fn rust_element_calls_allocate_nothing() {
                 let Some(segment) = Segment::new(&frame, &two).unwrap() else { return 0.0 };
                 let weights = PairWeights::integrate(&frame, &segment, rule);
                 let derivatives = WeightDerivatives::integrate(&frame, &segment, rule);
-                let gap = GapDerivative::current(&frame, &segment.mortar, &weights, &derivatives);
-                let now = PairNow { weights: &weights, motion: Some((&derivatives, &gap)) };
-                let t = PairTangent::<3>::new::<true>(Some(&now), Some(&weights), &[NodeTangent::default(); 4]);
+                let gap = AlongNormal::from_weights(&frame, &segment.mortar, &weights, &derivatives);
+                let nodes = FacetResponse::<3>::new([&NodeTangent::default(); 4]);
+                let mut t = PairTangent::default();
+                let motion = pair_motion::<true>((&frame, &segment, rule), &weights, &nodes.traction, &mut t.forces);
+                for gap in [gap, motion] {
+                    let gap = GapDerivative::Facets(gap);
+                    let now = PairNow { weights: &weights, gap: Some(&gap) };
+                    row_columns::<true, 3>(Some(&now), Some(&weights), &nodes, &mut t.rows);
+                }
                 let g = mortar::gap(&weights, &one, &two);
-                pair_force(&weights, &g)[0].x + t.force_lambda[0][0]
+                pair_force(&weights, &g)[0].x + t.row_x(0, 0)[(0, 0)]
             });
         }
     }

@@ -4,7 +4,9 @@ mod support;
 
 use stickslip::error::Kind;
 use stickslip::geometry::bilinear_map::BilinearMap;
-use stickslip::geometry::{Facet, Plane, Projection, Vec2, Vec3, clip, edge_interval};
+use stickslip::geometry::edge_interval::{EdgeIntervals, edge_intervals};
+use stickslip::geometry::{Facet, Plane, Projection, Vec2, Vec3, clip};
+use stickslip::simd::{self, Kernel, Lanes};
 use support::mesh::Random;
 
 fn facet(points: &[[f64; 3]]) -> Facet {
@@ -31,10 +33,10 @@ fn plane_derivative_equals_differences() {
         };
         let (p, plus, minus) = (at(0.0), at(1e-6), at(-1e-6));
         let fd = |get: fn(&Plane) -> Vec3| (get(&plus) - get(&minus)) / 2e-6;
-        let spin: f64 = (0..n).map(|c| p.spin[c].dot(&direction[c])).sum();
+        let spin: f64 = (0..n).map(|c| p.spin[c] * p.t2.dot(&direction[c])).sum();
         assert!((p.t2.dot(&fd(|p| p.t1)) - spin).abs() < TOLERANCE);
         for (t, tilt) in [(p.t1, &p.tilt[0]), (p.t2, &p.tilt[1])] {
-            let tilt: f64 = (0..n).map(|c| tilt[c].dot(&direction[c])).sum();
+            let tilt: f64 = (0..n).map(|c| tilt[c] * p.e.dot(&direction[c])).sum();
             assert!((t.dot(&fd(|p| p.e)) - tilt).abs() < TOLERANCE);
         }
     }
@@ -66,7 +68,7 @@ fn inverse_map_returns_to_the_point() {
             let (xi, eta) = if n == 3 { (r() * 0.5, r() * 0.5) } else { (2.0 * r() - 1.0, 2.0 * r() - 1.0) };
             let shape = f.shape.values(xi, eta);
             let y: Vec2 = (0..n).map(|k| p.y[k] * shape[k]).sum();
-            let found = map.inverse(y);
+            let found = map.inverse([y.x, y.y]);
             assert!((found.xi - xi).abs() < TOLERANCE && (found.eta - eta).abs() < TOLERANCE);
             let j = map.determinant();
             assert!((found.det - (j[0] + j[1] * xi + j[2] * eta)).abs() < TOLERANCE);
@@ -93,6 +95,19 @@ fn clipped_areas_add_up() {
     }
 }
 
+struct Intervals<'a> {
+    one: &'a Projection,
+    two: &'a Projection,
+    plane: &'a Plane,
+}
+
+impl Kernel for Intervals<'_> {
+    type Output = [EdgeIntervals; 2];
+    fn run<L: Lanes>(self) -> [EdgeIntervals; 2] {
+        edge_intervals::<L>(self.one, self.two, self.plane)
+    }
+}
+
 /// Over a tiling, the parts of a non-mortar edge cover it once, and every mortar edge inside is claimed
 /// by both its facets alike, whatever noise there is.
 #[test]
@@ -112,11 +127,12 @@ fn edge_intervals_tile_edges_at_any_noise() {
         let mut claims = std::collections::HashMap::<(usize, usize), Vec<(f64, f64, f64)>>::new();
         for cell in cells {
             let two = Projection::new(&Facet::new(&cell.map(|k| nodes[k])).unwrap(), &plane);
+            let [nonmortar, mortar] = simd::dispatch(Intervals { one: &p, two: &two, plane: &plane });
             for k in 0..4 {
-                if let Some(i) = edge_interval::nonmortar_edge(&p, &two, &plane, k) {
+                if let Some(i) = nonmortar[k] {
                     covered[k] += i.high - i.low;
                 }
-                if let Some(i) = edge_interval::mortar_edge(&p, &two, &plane, k) {
+                if let Some(i) = mortar[k] {
                     let (from, to) = (cell[two.node[i.from]], cell[two.node[i.to]]);
                     claims.entry((from, to)).or_default().push((i.low, i.high, i.orientation));
                 }

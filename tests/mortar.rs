@@ -149,6 +149,7 @@ fn derivative_is_invariant_and_homogeneous() {
             let rows = (0..p.one.len()).map(|b| (d.ab[a][b], w.ab[a][b]));
             let rows = rows.chain((0..p.two.len()).map(|c| (d.ac[a][c], w.ac[a][c])));
             for (row, n) in rows {
+                let row = row.map(Vec3::from);
                 let scale = (0..nodes).map(|k| row[p.slot(k)].norm() * x(k).norm()).sum::<f64>() + n.abs();
                 let shift: Vec3 = (0..nodes).map(|k| row[p.slot(k)]).sum();
                 let reach = (0..nodes).map(|k| x(k).norm()).fold(0.0, f64::max);
@@ -346,7 +347,7 @@ mod properties {
                 plus.iter().zip(minus).map(|(p, m)| (p - m) / (2.0 * h)).collect::<Vec<_>>()
             };
             let exact: Vec<f64> = d.ab.iter().chain(&d.ac).flatten()
-                .map(|row| (0..6).map(|k| row[p.slot(k)].dot(&direction[k])).sum()).collect();
+                .map(|row| (0..6).map(|k| Vec3::from(row[p.slot(k)]).dot(&direction[k])).sum()).collect();
             let (fd, finer) = (differences(1e-6), differences(2e-7));
             let allowed = DIFFERENCES * one.longest_edge();
             let apart = |a: &[f64], b: &[f64]| max_abs(a.iter().zip(b).map(|(a, b)| a - b));

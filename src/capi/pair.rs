@@ -6,10 +6,12 @@ use super::node::stickslip_node_response;
 use super::options::rule;
 use super::raw::{self, Output};
 use super::sized::{self, Sized64};
-use crate::element::{NodeTangent, PairNow, PairTangent, pair_force};
+use crate::element::{FacetResponse, NodeTangent, PairNow, PairTangent, pair_force, row_columns};
 use crate::error::{Error, Kind, Result};
 use crate::geometry::{Facet, Mat3, Projection, Vec3};
-use crate::mortar::{self, GapDerivative, MORTAR, NonmortarFrame, PairWeights, Segment, WeightDerivatives};
+use crate::mortar::{
+    self, AlongNormal, GapDerivative, MORTAR, NonmortarFrame, PairWeights, Segment, WeightDerivatives,
+};
 use crate::shape::MAX_NODES;
 
 /// Matrices go out row by row (what PETSc's MatSetValues takes).
@@ -84,10 +86,10 @@ impl Pair {
             for k in 0..n {
                 let at = |row: usize| 3 * (row * n + k);
                 for b in 0..n1 {
-                    d.ab[a][b][self.slot(k)] = Vec3::from_column_slice(&ab[at(a * n1 + b)..][..3]);
+                    d.ab[a][b][self.slot(k)].copy_from_slice(&ab[at(a * n1 + b)..][..3]);
                 }
                 for c in 0..n2 {
-                    d.ac[a][c][self.slot(k)] = Vec3::from_column_slice(&ac[at(a * n2 + c)..][..3]);
+                    d.ac[a][c][self.slot(k)].copy_from_slice(&ac[at(a * n2 + c)..][..3]);
                 }
             }
         }
@@ -140,7 +142,7 @@ pub unsafe extern "C" fn stickslip_pair_weights(
         let wanted = !(dn_ab.is_null() && dn_ac.is_null());
         if let (true, Some(segment)) = (wanted, &segment) {
             d = WeightDerivatives::integrate(&frame, segment, rule);
-            raw::check_results("dn_ab, dn_ac", d.ab.iter().chain(&d.ac).flatten().flatten().flat_map(|v| v.iter()))?;
+            raw::check_results("dn_ab, dn_ac", d.ab.iter().chain(&d.ac).flatten().flatten().flatten())?;
         }
         let (mut ab, mut ac) = (Output::new(n_ab), Output::new(n_ac));
         for a in 0..n1 {
@@ -153,10 +155,10 @@ pub unsafe extern "C" fn stickslip_pair_weights(
         let (mut ab, mut ac) = (Output::new(dn_ab), Output::new(dn_ac));
         for a in 0..n1 {
             for k in 0..n1 * (n1 + n2) {
-                ab.append(d.ab[a][k / (n1 + n2)][pair.slot(k % (n1 + n2))].as_slice());
+                ab.append(&d.ab[a][k / (n1 + n2)][pair.slot(k % (n1 + n2))]);
             }
             for k in 0..n2 * (n1 + n2) {
-                ac.append(d.ac[a][k / (n1 + n2)][pair.slot(k % (n1 + n2))].as_slice());
+                ac.append(&d.ac[a][k / (n1 + n2)][pair.slot(k % (n1 + n2))]);
             }
         }
         Ok(())
@@ -277,19 +279,28 @@ pub unsafe extern "C" fn stickslip_pair_tangent(
             (Some(w), Some(dn)) => {
                 let frame = NonmortarFrame::new(&pair.one).map_err(raw::named("pair.x1"))?;
                 let mortar = Projection::new(&pair.two, &frame.plane);
-                Some(GapDerivative::current(&frame, &mortar, w, dn))
+                Some(GapDerivative::Facets(AlongNormal::from_weights(&frame, &mortar, w, dn)))
             }
             _ => None,
         };
-        let now = weights.as_ref().map(|weights| PairNow { weights, motion: dn.as_ref().zip(gap.as_ref()) });
-        let t = PairTangent::new::<true>(now.as_ref(), before.as_ref(), &nodes);
-        raw::check_results("k", t.force_x.iter().chain(&t.row_x).flatten().flat_map(|m| m.iter()))?;
+        let nodes = FacetResponse::new(nodes.each_ref());
+        let mut t = PairTangent::default();
+        if let (Some(_), Some(dn)) = (&weights, &dn) {
+            t.forces = dn.of_forces(&nodes.traction);
+        }
+        let now = weights.as_ref().map(|weights| PairNow { weights, gap: gap.as_ref() });
+        row_columns::<true, 3>(now.as_ref(), before.as_ref(), &nodes, &mut t.rows);
+        let all = [&t.forces.one, &t.forces.two, &t.rows].into_iter().flatten().flatten().flatten();
+        raw::check_results("k", all.flatten())?;
+        let force_lambda = |row: usize, a: usize| {
+            weights.as_ref().map_or(0.0, |n| if row < MORTAR { n.ab[a][row] } else { -n.ac[a][row - MORTAR] })
+        };
         let block = |row: usize, column: usize| -> Mat3 {
             let n = n1 + n2;
             match (row < n, column < n) {
-                (true, true) => t.force_x[pair.slot(row)][pair.slot(column)],
-                (true, false) => Mat3::from_diagonal_element(t.force_lambda[pair.slot(row)][column - n]),
-                (false, true) => t.row_x[row - n][pair.slot(column)],
+                (true, true) => t.force_x(pair.slot(row), pair.slot(column)),
+                (true, false) => Mat3::from_diagonal_element(force_lambda(pair.slot(row), column - n)),
+                (false, true) => t.row_x(row - n, pair.slot(column)),
                 (false, false) => Mat3::zeros(),
             }
         };

@@ -60,7 +60,8 @@ pub(super) fn numbers<'a>(p: *const f64, n: usize, name: &str) -> Result<&'a [f6
 /// Refuses results that left the range of doubles: an infinity that went out with a success would end in
 /// the host's linear solver, far from its cause.
 pub(super) fn check_results<'a>(name: &str, values: impl IntoIterator<Item = &'a f64>) -> Result<()> {
-    match values.into_iter().all(|v| v.is_finite()) {
+    // Looks at all of them, several at once, rather than stop at the first one.
+    match values.into_iter().fold(true, |fine, v| fine & v.is_finite()) {
         true => Ok(()),
         false => refuse(Kind::NotFinite, format!("{name} overflows: the inputs are out of range")),
     }

@@ -7,23 +7,43 @@ use super::raw;
 use crate::error::{Error, Kind, Result};
 use crate::interface::{NO_EQUATION, Sink};
 
-/// Entries as (row, column, value), in the core's numbering.
+/// Entries in the core's numbering.
 #[derive(Default)]
-struct Triplets(Vec<(i64, i64, f64)>);
+struct Triplets {
+    rows: Vec<i64>,
+    columns: Vec<i64>,
+    values: Vec<f64>,
+}
 
 impl Sink for Triplets {
     #[inline]
     fn add(&mut self, row: i64, column: i64, value: f64) {
-        self.0.push((row, column, value));
+        self.rows.push(row);
+        self.columns.push(column);
+        self.values.push(value);
     }
 
     fn add_block(&mut self, rows: &[i64], columns: &[i64], values: &[f64]) {
-        self.0.reserve(values.len());
-        for (&column, values) in columns.iter().zip(values.chunks_exact(rows.len())) {
-            if column != NO_EQUATION {
-                let column_of = rows.iter().zip(values).filter(|(row, _)| **row != NO_EQUATION);
-                self.0.extend(column_of.map(|(&row, &value)| (row, column, value)));
+        if rows.contains(&NO_EQUATION) || columns.contains(&NO_EQUATION) {
+            for (&column, values) in columns.iter().zip(values.chunks_exact(rows.len())) {
+                for (&row, &value) in rows.iter().zip(values) {
+                    if row != NO_EQUATION && column != NO_EQUATION {
+                        self.add(row, column, value);
+                    }
+                }
             }
+            return;
+        }
+        // Nearly every block: all of its equations exist.
+        let first = self.values.len();
+        self.values.extend_from_slice(values);
+        self.rows.resize(self.values.len(), 0);
+        self.columns.resize(self.values.len(), 0);
+        let places =
+            self.rows[first..].chunks_exact_mut(rows.len()).zip(self.columns[first..].chunks_exact_mut(rows.len()));
+        for ((some_rows, some_columns), &column) in places.zip(columns) {
+            some_rows.copy_from_slice(rows);
+            some_columns.fill(column);
         }
     }
 }
@@ -40,7 +60,7 @@ impl Triplets {
         count: *mut i64,
     ) -> Result<()> {
         raw::check(count, "count")?;
-        let n = self.0.len();
+        let n = self.values.len();
         let counting = rows.is_null() && columns.is_null() && values.is_none_or(<*mut f64>::is_null);
         if !counting {
             raw::check(rows, "rows")?;
@@ -54,10 +74,10 @@ impl Triplets {
                     format!("capacity is {capacity}; {n} entries are needed"),
                 ));
             }
-            raw::write_each(rows, self.0.iter().map(|(r, _, _)| r + base));
-            raw::write_each(columns, self.0.iter().map(|(_, c, _)| c + base));
+            raw::write_each(rows, self.rows.iter().map(|r| r + base));
+            raw::write_each(columns, self.columns.iter().map(|c| c + base));
             if let Some(values) = values {
-                raw::write_each(values, self.0.iter().map(|(_, _, v)| *v));
+                raw::write(values, &self.values);
             }
         }
         raw::write(count, &[n as i64]);
@@ -65,7 +85,7 @@ impl Triplets {
     }
 
     fn check(&self) -> Result<()> {
-        raw::check_results("values", self.0.iter().map(|(_, _, v)| v))
+        raw::check_results("values", &self.values)
     }
 }
 
@@ -151,8 +171,8 @@ pub unsafe extern "C" fn stickslip_interface_tangent_csr(
         let mut t = Triplets::default();
         either!(&mut h.inner, c => c.tangent(&point.x1, &point.x2, &point.lambda(), point.sums(), &mut t)?);
         t.check()?;
-        let mut places = Vec::with_capacity(t.0.len());
-        for &(row, column, _) in &t.0 {
+        let mut places = Vec::with_capacity(t.values.len());
+        for (&row, &column) in t.rows.iter().zip(&t.columns) {
             let Some(r) = usize::try_from(row).ok().filter(|&r| r < n) else {
                 let text = format!("the interface has equation {}; the matrix has {n} rows", row + h.base);
                 return Err(Error::new(Kind::IndexOutOfRange, text));
@@ -168,7 +188,7 @@ pub unsafe extern "C" fn stickslip_interface_tangent_csr(
             };
             places.push(first + found);
         }
-        for (place, (_, _, value)) in places.into_iter().zip(t.0) {
+        for (place, value) in places.into_iter().zip(t.values) {
             // SAFETY: place < entries, and the caller's values has that many.
             unsafe { *values.add(place) += value };
         }

@@ -5,4 +5,4 @@ mod residual;
 mod tangent;
 
 pub use residual::pair_force;
-pub use tangent::{NodeTangent, PairNow, PairTangent};
+pub use tangent::{FacetResponse, NodeTangent, PairNow, PairTangent, RowColumns, frozen_rows, gap_rows, row_columns};

@@ -1,16 +1,20 @@
 //! A pair's share of the exact tangent, given the nodal states (paper (29)-(31); formulation a):
 //!
 //! - force rows: Df_B = sum_A Dn_AB t_A + n_AB Dt_A, Df_C = -sum_A (Dn_AC t_A + n_AC Dt_A);
-//!   here Dn t, and n itself for the multiplier columns (Dt = Dlambda in the multiplier form)
+//!   here Dn t; n itself, for the multiplier columns (Dt = Dlambda in the multiplier form), is the pair's weights
 //! - multiplier rows: Dc_A = (dc/dg_now) Dg[n_{n+1}, x_{n+1}] + (dc/dg_previous) Dg[n_n, x_{n+1}]
 //!
 //! In the multiplier form the whole tangent is the sum of these and the node blocks. A pair that
 //! overlapped only at t_n has the last term alone. `MOVES`: whether the mortar side has rows and columns; N: multiplier
 //! components of a node.
+//!
+//! Blocks lie column by column, x_k,j with k over the pair's slots and j its components, as they are computed: in a column
+//! the components of the rows' equations, and of each the four nodes of a facet.
 
 use crate::geometry::{Mat3, Vec3};
-use crate::mortar::{GapDerivative, MORTAR, PAIR_NODES, PairWeights, WeightDerivatives, frozen_rows, slots};
+use crate::mortar::{ForceDerivatives, GapDerivative, MORTAR, PAIR_NODES, PairWeights, slots};
 use crate::shape::MAX_NODES;
+use crate::simd::{self, Kernel, Lanes};
 use nalgebra::SMatrix;
 
 /// What a pair must know of a node's response.
@@ -30,106 +34,212 @@ impl<const N: usize> Default for NodeTangent<N> {
     }
 }
 
+/// drow / dg of the four nodes of a facet: component of the row, component of the gap, node.
+type Rows<const N: usize> = [[[f64; MAX_NODES]; 3]; N];
+
+/// The responses of a facet's nodes, component by component.
+#[derive(Clone, Debug)]
+pub struct FacetResponse<const N: usize = 3> {
+    /// `traction[i][A]`.
+    pub traction: [[f64; MAX_NODES]; 3],
+    now: Rows<N>,
+    previous: Rows<N>,
+}
+
+impl<const N: usize> FacetResponse<N> {
+    /// Of these nodes; what a facet has no node for has no effect.
+    pub fn new(nodes: [&NodeTangent<N>; MAX_NODES]) -> FacetResponse<N> {
+        let mut f = FacetResponse {
+            traction: [[0.0; MAX_NODES]; 3],
+            now: [[[0.0; MAX_NODES]; 3]; N],
+            previous: [[[0.0; MAX_NODES]; 3]; N],
+        };
+        for (a, node) in nodes.into_iter().enumerate() {
+            for j in 0..3 {
+                f.traction[j][a] = node.traction[j];
+                for n in 0..N {
+                    f.now[n][j][a] = node.drow_dnow[(n, j)];
+                    f.previous[n][j][a] = node.drow_dprevious[(n, j)];
+                }
+            }
+        }
+        f
+    }
+}
+
+/// `[k][j][n][A]`: d row_A,n / d x_k,j.
+pub type RowColumns<const N: usize> = [[[[f64; MAX_NODES]; N]; 3]; PAIR_NODES];
+
 /// The current weights of a pair.
 pub struct PairNow<'a> {
     /// n_{n+1}.
     pub weights: &'a PairWeights,
-    /// Dn and Dg[n_{n+1}, x_{n+1}]; `None` where the weights are frozen.
-    pub motion: Option<(&'a WeightDerivatives, &'a GapDerivative)>,
+    /// Dg[n_{n+1}, x_{n+1}]; `None` where the weights are frozen.
+    pub gap: Option<&'a GapDerivative>,
 }
 
-impl PairNow<'_> {
-    /// `drow` . Dg_A / Dx_k for every slot k.
-    #[inline]
-    pub fn gap_rows<const MOVES: bool, const N: usize>(
-        &self,
-        a: usize,
-        drow: &SMatrix<f64, N, 3>,
-    ) -> [SMatrix<f64, N, 3>; PAIR_NODES] {
-        match self.motion {
-            Some((_, gap)) => gap.rows::<MOVES, N>(a, drow),
-            None => frozen_rows::<MOVES, N>(self.weights, a, drow),
+/// d row / d x of a pair active now, at t_n, or both, into `rows`. Mortar slots are left as they are where that side does not
+/// move.
+pub fn row_columns<const MOVES: bool, const N: usize>(
+    now: Option<&PairNow>,
+    previous: Option<&PairWeights>,
+    nodes: &FacetResponse<N>,
+    rows: &mut RowColumns<N>,
+) {
+    simd::dispatch(RowKernel::<MOVES, N> { now, previous, nodes, rows });
+}
+
+/// `drow` . Dg_A / dx_k of one node, for every slot k.
+pub fn gap_rows<const MOVES: bool>(now: &PairNow, a: usize, drow: &Mat3) -> [Mat3; PAIR_NODES] {
+    one_node::<MOVES>(Some(now), None, a, drow)
+}
+
+/// The same with weights held fixed.
+pub fn frozen_rows<const MOVES: bool>(weights: &PairWeights, a: usize, drow: &Mat3) -> [Mat3; PAIR_NODES] {
+    one_node::<MOVES>(None, Some(weights), a, drow)
+}
+
+fn one_node<const MOVES: bool>(
+    now: Option<&PairNow>,
+    previous: Option<&PairWeights>,
+    a: usize,
+    drow: &Mat3,
+) -> [Mat3; PAIR_NODES] {
+    let node = NodeTangent { traction: Vec3::zeros(), drow_dnow: *drow, drow_dprevious: *drow };
+    let mut rows = [[[[0.0; MAX_NODES]; 3]; 3]; PAIR_NODES];
+    row_columns::<MOVES, 3>(now, previous, &FacetResponse::new([&node; MAX_NODES]), &mut rows);
+    rows.map(|columns| Mat3::from_fn(|i, j| columns[j][i][a]))
+}
+
+struct RowKernel<'a, const MOVES: bool, const N: usize> {
+    now: Option<&'a PairNow<'a>>,
+    previous: Option<&'a PairWeights>,
+    nodes: &'a FacetResponse<N>,
+    rows: &'a mut RowColumns<N>,
+}
+
+impl<const MOVES: bool, const N: usize> Kernel for RowKernel<'_, MOVES, N> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<L: Lanes>(self) {
+        let RowKernel { now, previous, nodes, rows } = self;
+        match now {
+            Some(PairNow { gap: Some(gap), .. }) => with_motion::<L, MOVES, N>(gap, &nodes.now, rows),
+            Some(PairNow { weights, gap: None }) => frozen::<L, MOVES, N, false>(weights, &nodes.now, rows),
+            None => {}
+        }
+        match (now, previous) {
+            (None, Some(weights)) => frozen::<L, MOVES, N, false>(weights, &nodes.previous, rows),
+            (_, Some(weights)) => frozen::<L, MOVES, N, true>(weights, &nodes.previous, rows),
+            _ => {}
         }
     }
 }
 
-/// Tangent blocks of one pair over its slots.
+/// drow . Dg with current weights.
+#[inline(always)]
+fn with_motion<L: Lanes, const MOVES: bool, const N: usize>(
+    gap: &GapDerivative,
+    drow: &Rows<N>,
+    rows: &mut RowColumns<N>,
+) {
+    match gap {
+        GapDerivative::Facets(d) => {
+            for n in 0..N {
+                let along = component::<L>(&drow[n], &d.e);
+                let gamma = L::load(&d.gamma);
+                let across =
+                    [component::<L>(&drow[n], &d.axes[0]) * gamma, component::<L>(&drow[n], &d.axes[1]) * gamma];
+                for k in 0..slots(MOVES) {
+                    for j in 0..3 {
+                        let mut row = along * L::load(&d.dgamma[k][j]);
+                        if k < MORTAR {
+                            // gamma De = gamma (t1 tilt1 + t2 tilt2) e . Dx_k
+                            let tilt = across[1].mul_add(L::splat(d.tilt[1][k]), across[0] * L::splat(d.tilt[0][k]));
+                            row = tilt.mul_add(L::splat(d.e[j]), row);
+                        }
+                        rows[k][j][n] = row.store();
+                    }
+                }
+            }
+        }
+        GapDerivative::Blocks(blocks) => {
+            for n in 0..N {
+                for k in 0..MAX_NODES {
+                    for j in 0..3 {
+                        let mut row = L::load(&drow[n][0]) * L::load(&blocks[k][0][j]);
+                        for i in 1..3 {
+                            row = L::load(&drow[n][i]).mul_add(L::load(&blocks[k][i][j]), row);
+                        }
+                        rows[k][j][n] = row.store();
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// drow . v, lanes A.
+#[inline(always)]
+fn component<L: Lanes>(drow: &[[f64; MAX_NODES]; 3], v: &Vec3) -> L {
+    let mut sum = L::load(&drow[0]) * L::splat(v[0]);
+    for j in 1..3 {
+        sum = L::load(&drow[j]).mul_add(L::splat(v[j]), sum);
+    }
+    sum
+}
+
+/// drow . Dg with weights held fixed: n_AB drow and -n_AC drow; `ADD`: to what is there.
+#[inline(always)]
+fn frozen<L: Lanes, const MOVES: bool, const N: usize, const ADD: bool>(
+    weights: &PairWeights,
+    drow: &Rows<N>,
+    rows: &mut RowColumns<N>,
+) {
+    let (ab, ac) = (lanes_of_nodes::<L>(&weights.ab), lanes_of_nodes::<L>(&weights.ac));
+    for k in 0..slots(MOVES) {
+        let weight = if k < MORTAR { ab[k] } else { -ac[k - MORTAR] };
+        for n in 0..N {
+            for j in 0..3 {
+                let drow = L::load(&drow[n][j]);
+                let row = if ADD { drow.mul_add(weight, L::load(&rows[k][j][n])) } else { drow * weight };
+                rows[k][j][n] = row.store();
+            }
+        }
+    }
+}
+
+/// The columns of weights, lanes A.
+#[inline(always)]
+fn lanes_of_nodes<L: Lanes>([a, b, c, d]: &[[f64; MAX_NODES]; MAX_NODES]) -> [L; MAX_NODES] {
+    L::transpose([L::load(a), L::load(b), L::load(c), L::load(d)])
+}
+
+/// Tangent blocks of one pair.
 #[derive(Clone, Debug)]
 pub struct PairTangent<const N: usize = 3> {
     /// d force / d x.
-    pub force_x: [[Mat3; PAIR_NODES]; PAIR_NODES],
-    /// d force / d (traction of A) in the multiplier form: these numbers times I.
-    pub force_lambda: [[f64; MAX_NODES]; PAIR_NODES],
-    /// d row_A / d x.
-    pub row_x: [[SMatrix<f64, N, 3>; PAIR_NODES]; MAX_NODES],
+    pub forces: ForceDerivatives,
+    /// d row / d x.
+    pub rows: RowColumns<N>,
 }
 
 impl<const N: usize> Default for PairTangent<N> {
     fn default() -> Self {
-        PairTangent {
-            force_x: [[Mat3::zeros(); PAIR_NODES]; PAIR_NODES],
-            force_lambda: [[0.0; MAX_NODES]; PAIR_NODES],
-            row_x: [[SMatrix::zeros(); PAIR_NODES]; MAX_NODES],
-        }
+        PairTangent { forces: ForceDerivatives::default(), rows: [[[[0.0; MAX_NODES]; N]; 3]; PAIR_NODES] }
     }
 }
 
 impl<const N: usize> PairTangent<N> {
-    /// The blocks of a pair active now, at t_n, or both.
-    pub fn new<const MOVES: bool>(
-        now: Option<&PairNow>,
-        previous: Option<&PairWeights>,
-        nodes: &[NodeTangent<N>; MAX_NODES],
-    ) -> PairTangent<N> {
-        let mut t = PairTangent::default();
-        t.update::<MOVES>(now, previous, nodes);
-        t
+    /// d force of the node in slot `row` / d x of the node in slot `column`.
+    pub fn force_x(&self, row: usize, column: usize) -> Mat3 {
+        let (forces, node) = if row < MORTAR { (&self.forces.one, row) } else { (&self.forces.two, row - MORTAR) };
+        Mat3::from_fn(|i, j| forces[column][j][i][node])
     }
 
-    /// The same in place. Left as they are: the mortar side's slots where it does not move, and what a pair does not
-    /// have: `force_x` with frozen weights, both kinds of force where it is not active now.
-    pub fn update<const MOVES: bool>(
-        &mut self,
-        now: Option<&PairNow>,
-        previous: Option<&PairWeights>,
-        nodes: &[NodeTangent<N>; MAX_NODES],
-    ) {
-        for a in 0..MAX_NODES {
-            let rows = now.map(|now| now.gap_rows::<MOVES, N>(a, &nodes[a].drow_dnow));
-            self.row_x[a] = rows.unwrap_or_else(|| [SMatrix::zeros(); PAIR_NODES]);
-            if let Some(weights) = previous {
-                let rows = frozen_rows::<MOVES, N>(weights, a, &nodes[a].drow_dprevious);
-                for k in 0..slots(MOVES) {
-                    self.row_x[a][k] += rows[k];
-                }
-            }
-        }
-        if let Some(now) = now {
-            self.update_forces::<MOVES>(now, nodes);
-        }
-    }
-
-    fn update_forces<const MOVES: bool>(&mut self, now: &PairNow, nodes: &[NodeTangent<N>; MAX_NODES]) {
-        for a in 0..MAX_NODES {
-            for k in 0..MAX_NODES {
-                self.force_lambda[k][a] = now.weights.ab[a][k];
-                if MOVES {
-                    self.force_lambda[MORTAR + k][a] = -now.weights.ac[a][k];
-                }
-            }
-        }
-        let Some((dn, _)) = now.motion else { return };
-        let sum = |d: &[[[Vec3; PAIR_NODES]; MAX_NODES]; MAX_NODES], b: usize, k: usize| {
-            let term = |a: usize| nodes[a].traction * d[a][b][k].transpose();
-            term(0) + term(1) + term(2) + term(3)
-        };
-        for b in 0..MAX_NODES {
-            for k in 0..slots(MOVES) {
-                self.force_x[b][k] = sum(&dn.ab, b, k);
-                if MOVES {
-                    self.force_x[MORTAR + b][k] = -sum(&dn.ac, b, k);
-                }
-            }
-        }
+    /// d row_A / d x of the node in slot `column`.
+    pub fn row_x(&self, a: usize, column: usize) -> SMatrix<f64, N, 3> {
+        SMatrix::from_fn(|n, j| self.rows[column][j][n][a])
     }
 }

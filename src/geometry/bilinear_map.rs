@@ -3,6 +3,7 @@
 
 use super::{Projection, Vec2, cross};
 use crate::shape::MAX_NODES;
+use crate::simd::{Lanes, Real};
 
 /// A twist below this (over the facet's size) is rounding: the facet is a parallelogram.
 const PARALLELOGRAM: f64 = 1e-14;
@@ -14,20 +15,36 @@ pub struct BilinearMap {
     b: Vec2,
     c: Vec2,
     d: Vec2,
+    /// b x c, b x d, d x c: det J = j0 + j1 xi + j2 eta [L^2].
+    determinant: [f64; 3],
+    /// 1 / (b x c).
+    inverse_affine: f64,
     coefficients: &'static [[f64; 4]; MAX_NODES],
     /// Whether the map is affine (triangle or parallelogram): then the weights are polynomials.
     pub is_affine: bool,
 }
 
+/// `s` `a` - `t` `b`.
+#[inline(always)]
+fn difference<L: Lanes>(s: f64, a: L, t: f64, b: L) -> L {
+    L::splat(s).mul_add(a, -(L::splat(t) * b))
+}
+
+/// r x v.
+#[inline(always)]
+fn times<R: Real>(r: [R; 2], v: Vec2) -> R {
+    r[0] * R::splat(v.y) - r[1] * R::splat(v.x)
+}
+
 /// A point's reference coordinates and the map's Jacobian determinant there.
 #[derive(Clone, Copy, Debug)]
-pub struct Preimage {
+pub struct Preimage<R = f64> {
     /// First reference coordinate.
-    pub xi: f64,
+    pub xi: R,
     /// Second reference coordinate.
-    pub eta: f64,
+    pub eta: R,
     /// det dy/d(xi, eta) [L^2].
-    pub det: f64,
+    pub det: R,
 }
 
 impl BilinearMap {
@@ -39,45 +56,57 @@ impl BilinearMap {
                 m[i] += facet.y[k] * facet.shape.coefficients[k][i];
             }
         }
+        let determinant = [cross(m[1], m[2]), cross(m[1], m[3]), cross(m[3], m[2])];
         BilinearMap {
             a: m[0],
             b: m[1],
             c: m[2],
             d: m[3],
+            determinant,
+            inverse_affine: 1.0 / determinant[0],
             coefficients: &facet.shape.coefficients,
             is_affine: m[3].amax() <= PARALLELOGRAM * facet.size,
         }
     }
 
-    /// Reference coordinates of the point `y` of a convex facet. Points outside it by rounding are
-    /// fine.
-    #[inline]
-    pub fn inverse(&self, y: Vec2) -> Preimage {
-        let r = y - self.a;
-        let (bc, bd, rc, rd) = (cross(self.b, self.c), cross(self.b, self.d), cross(r, self.c), cross(r, self.d));
+    /// Reference coordinates of the point `y`, or of four points, of a convex facet. Points outside it by rounding
+    /// are fine.
+    #[inline(always)]
+    pub fn inverse<R: Real>(&self, y: [R; 2]) -> Preimage<R> {
+        let r = [y[0] - R::splat(self.a.x), y[1] - R::splat(self.a.y)];
+        let (rc, br) = (times(r, self.c), -times(r, self.b));
+        let bc = R::splat(self.determinant[0]);
+        if self.is_affine {
+            let inverse = R::splat(self.inverse_affine);
+            return Preimage { xi: rc * inverse, eta: br * inverse, det: bc };
+        }
+        let rd = times(r, self.d);
         let lead = bc - rd;
         // Rounding may take the discriminant below zero only at a corner where det J vanishes.
-        let det = (lead * lead + 4.0 * bd * rc).max(0.0).sqrt();
-        Preimage { xi: 2.0 * rc / (lead + det), eta: 2.0 * cross(self.b, r) / (bc + rd + det), det }
+        let square = lead.mul_add(lead, R::splat(4.0 * self.determinant[1]) * rc);
+        let det = square.max(R::splat(0.0)).sqrt();
+        let (xi, eta) = (lead + det, bc + rd + det); // xi = 2 rc / .., eta = 2 br / .., with one division
+        let inverse = R::splat(2.0) / (xi * eta);
+        Preimage { xi: rc * eta * inverse, eta: br * xi * inverse, det }
     }
 
-    /// det J dN_k/dy = `g[0] + g[1] xi + g[2] eta`: linear, the products xi eta cancel.
-    #[inline]
-    pub fn gradients(&self) -> [[Vec2; MAX_NODES]; 3] {
-        let (b, c, d) = (self.b, self.c, self.d);
-        let mut g = [[Vec2::zeros(); MAX_NODES]; 3];
-        for k in 0..MAX_NODES {
-            let [_, n1, n2, n3] = self.coefficients[k];
-            g[0][k] = Vec2::new(c.y * n1 - b.y * n2, b.x * n2 - c.x * n1);
-            g[1][k] = Vec2::new(d.y * n1 - b.y * n3, b.x * n3 - d.x * n1);
-            g[2][k] = Vec2::new(c.y * n3 - d.y * n2, d.x * n2 - c.x * n3);
-        }
-        g
+    /// det J dN_k/dy = `g[0] + g[1] xi + g[2] eta`, lanes k: linear, the products xi eta cancel. `[L]`
+    #[inline(always)]
+    pub fn gradients<L: Lanes>(&self) -> [[L; 2]; 3] {
+        let (b, c, d, n) = (self.b, self.c, self.d, self.coefficients);
+        let xi = L::load(&[n[0][1], n[1][1], n[2][1], n[3][1]]);
+        let eta = L::load(&[n[0][2], n[1][2], n[2][2], n[3][2]]);
+        let both = L::load(&[n[0][3], n[1][3], n[2][3], n[3][3]]);
+        [
+            [difference(c.y, xi, b.y, eta), difference(b.x, eta, c.x, xi)],
+            [difference(d.y, xi, b.y, both), difference(b.x, both, d.x, xi)],
+            [difference(c.y, both, d.y, eta), difference(d.x, eta, c.x, both)],
+        ]
     }
 
     /// det J = j0 + j1 xi + j2 eta.
     #[inline]
     pub fn determinant(&self) -> [f64; 3] {
-        [cross(self.b, self.c), cross(self.b, self.d), cross(self.d, self.c)]
+        self.determinant
     }
 }

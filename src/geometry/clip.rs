@@ -22,6 +22,7 @@ impl Polygon {
         Polygon { vertices: [Vec2::zeros(); MAX_VERTICES], len: 0 }
     }
 
+    #[inline]
     fn push(&mut self, vertex: Vec2) {
         self.vertices[self.len] = vertex;
         self.len += 1;
@@ -44,11 +45,11 @@ impl Polygon {
         self.vertices().iter().sum::<Vec2>() / self.len as f64
     }
 
-    /// The part to the left of the line from `a` to `b`; points on the line stay.
-    fn cut(&self, a: Vec2, b: Vec2) -> Polygon {
-        let mut kept = Polygon::empty();
+    /// Makes `kept` the part to the left of the line from `a` to `b`; points on the line stay.
+    fn cut(&self, a: Vec2, b: Vec2, kept: &mut Polygon) {
+        kept.len = 0;
         let v = self.vertices();
-        let Some(&last) = v.last() else { return kept };
+        let Some(&last) = v.last() else { return };
         let side = |p: Vec2| cross(b - a, p - a);
         let (mut p0, mut s0) = (last, side(last));
         for &p1 in v {
@@ -61,7 +62,6 @@ impl Polygon {
             }
             (p0, s0) = (p1, s1);
         }
-        kept
     }
 }
 
@@ -69,13 +69,15 @@ impl Polygon {
 pub fn overlap(one: &Projection, two: &Projection) -> Polygon {
     // The smaller one is cut: the vertices it keeps know nothing of the other's size.
     let (one, two) = if one.area2 < two.area2 { (two, one) } else { (one, two) };
-    let mut polygon = Polygon::empty();
+    let (mut first, mut second) = (Polygon::empty(), Polygon::empty());
+    let (mut polygon, mut next) = (&mut first, &mut second);
     for k in 0..two.shape.n {
         polygon.push(two.y[k]);
     }
     let n = one.shape.n;
     for k in 0..n {
-        polygon = polygon.cut(one.y[k], one.y[(k + 1) % n]);
+        polygon.cut(one.y[k], one.y[if k + 1 == n { 0 } else { k + 1 }], next);
+        (polygon, next) = (next, polygon);
     }
-    polygon
+    *polygon
 }

@@ -25,10 +25,11 @@ pub struct Plane {
     pub t2: Vec3,
     /// Unit normal, out of the non-mortar body.
     pub e: Vec3,
-    /// Spin: Dt1 . t2 = `sum_c spin[c] . Dx_c`.
-    pub spin: [Vec3; MAX_NODES],
-    /// Tilt: t_j . De = `sum_c tilt[j][c] . Dx_c`.
-    pub tilt: [[Vec3; MAX_NODES]; 2],
+    /// Spin: Dt1 . t2 = `sum_c spin[c] t2 . Dx_c` [1/L].
+    pub spin: [f64; MAX_NODES],
+    /// Tilt: t_j . De = `sum_c tilt[j][c] e . Dx_c` [1/L]. The spanning vectors lie in the plane, so only motions along e
+    /// tilt it.
+    pub tilt: [[f64; MAX_NODES]; 2],
 }
 
 impl Plane {
@@ -61,22 +62,22 @@ impl Plane {
             t1,
             t2,
             e,
-            spin: [Vec3::zeros(); MAX_NODES],
-            tilt: [[Vec3::zeros(); MAX_NODES]; 2],
+            spin: [0.0; MAX_NODES],
+            tilt: [[0.0; MAX_NODES]; 2],
         };
         for x in facet.points() {
             plane.origin += (x - facet.nodes[0]) / facet.len() as f64;
         }
-        // t_j . De = t_j . (Dw1 x w2 + w1 x Dw2) / |w|;  t2 . Dt1 = t2 . Dw1 / |w1|.
+        // t_j . De = t_j . (Dw1 x w2 + w1 x Dw2) / |w|, t1 along w1;  t2 . Dt1 = t2 . Dw1 / |w1|.
         let signs = facet.spanning_signs();
-        let spin = t2 / length;
+        let (along, across) = (w2.dot(&t1) / norm, w2.dot(&t2) / norm);
         for (node, sign) in [(signs[0].0, 1.0), (signs[0].1, -1.0)] {
-            plane.spin[node] += spin * sign;
-            plane.tilt[0][node] += w2.cross(&t1) * (sign / norm);
-            plane.tilt[1][node] += w2.cross(&t2) * (sign / norm);
+            plane.spin[node] += sign / length;
+            plane.tilt[0][node] -= across * sign;
+            plane.tilt[1][node] += along * sign;
         }
         for (node, sign) in [(signs[1].0, 1.0), (signs[1].1, -1.0)] {
-            plane.tilt[1][node] += t2.cross(&w1) * (sign / norm);
+            plane.tilt[1][node] -= length / norm * sign;
         }
         Ok(plane)
     }

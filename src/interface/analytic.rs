@@ -10,9 +10,10 @@ use super::{Counters, Options, Surface};
 use crate::error::{Error, Kind, Result};
 use crate::geometry::{AnalyticSurface, Plane, Vec3};
 use crate::mortar::{
-    GapDerivative, NonmortarFrame, PairWeights, WeightDerivatives, analytic_derivatives, analytic_weights,
+    ForceDerivatives, GapDerivative, NonmortarFrame, PairWeights, Segment, analytic_motion, analytic_weights,
 };
 use crate::quadrature::Rule;
+use crate::shape::MAX_NODES;
 use std::time::Instant;
 
 /// What a gap may lose to the frame's rounding, over the longest facet edge: beyond it a Newton method that works to 1e-10
@@ -82,7 +83,7 @@ pub(super) fn integrate(
     }
     counters.pairs_integrated += pairs.len() as i64;
     counters.seconds_integration += start.elapsed().as_secs_f64();
-    Ok(Integration { x1: x1.to_vec(), x2: x2.to_vec(), frames, pairs, apart: false })
+    Ok(Integration { x1: x1.to_vec(), x2: x2.to_vec(), frames, pairs, segments: Vec::new(), apart: false })
 }
 
 /// Whether every node is outside the surface by more than any facet's edge there, in all of the configurations (x1, x2).
@@ -108,10 +109,11 @@ pub(super) fn looks_at(surface: &AnalyticSurface, nodes: &[usize], x1: &[Vec3], 
 /// The derivatives of a pair, as `PairMotion` has them.
 pub(super) fn motion(
     (two, x2): (&Surface, &[Vec3]),
-    _: usize,
-    (frame, _): (&NonmortarFrame, &PairWeights),
+    (frame, _): (&NonmortarFrame, Option<&Segment>),
+    _: &PairWeights,
     rule: &Rule,
-    dn: &mut WeightDerivatives,
+    traction: &[[f64; MAX_NODES]; 3],
+    forces: &mut ForceDerivatives,
 ) -> Result<GapDerivative> {
-    analytic_derivatives(frame, &two.analytic_at(x2)?, rule, dn)
+    analytic_motion(frame, &two.analytic_at(x2)?, rule, traction, forces)
 }

@@ -7,12 +7,13 @@
 use super::augmented::NodeCouplings;
 use super::history::PairRecord;
 use super::nodes::NodeSums;
-use super::{Contact, Form, NO_EQUATION, Weights, effects};
-use crate::element::{NodeTangent, PairNow, PairTangent, pair_force};
+use super::{Contact, FacetNodes, Form, NO_EQUATION, Weights, effects};
+use crate::element::{FacetResponse, NodeTangent, PairNow, PairTangent, pair_force, row_columns};
 use crate::error::{Error, Kind, Result};
 use crate::geometry::{Mat3, Vec3};
 use crate::law::NodeResponse;
-use crate::mortar::{MORTAR, PAIR_NODES, PairWeights, WeightDerivatives, slots};
+use crate::mortar::{MORTAR, PAIR_NODES, PairWeights};
+use crate::shape::MAX_NODES;
 use nalgebra::{SMatrix, SVector};
 use std::time::Instant;
 
@@ -57,12 +58,14 @@ pub(super) struct UnionPair<'a> {
     pub one: usize,
     pub two: usize,
     pub now: Option<&'a PairWeights>,
+    /// Its place among the current pairs.
+    pub place: usize,
     pub previous: Option<&'a PairWeights>,
 }
 
 impl<'a> UnionPair<'a> {
-    fn now(pair: &'a PairRecord) -> UnionPair<'a> {
-        UnionPair { one: pair.one, two: pair.two, now: Some(&pair.weights), previous: None }
+    fn now((place, pair): (usize, &'a PairRecord)) -> UnionPair<'a> {
+        UnionPair { one: pair.one, two: pair.two, now: Some(&pair.weights), place, previous: None }
     }
 }
 
@@ -73,16 +76,18 @@ impl<const N: usize> Contact<N> {
             return Vec::new();
         }
         if !self.kernels.slips {
-            return self.current_pairs().iter().map(UnionPair::now).collect();
+            return self.current_pairs().iter().enumerate().map(UnionPair::now).collect();
         }
         let (mut now, mut previous) = (self.current_pairs().iter().peekable(), self.history.pairs.iter().peekable());
+        let mut place = 0;
         let mut union = Vec::with_capacity(now.len().max(previous.len()));
         loop {
             let heads = [now.peek(), previous.peek()];
             let Some((one, two)) = heads.into_iter().flatten().map(|p| (p.one, p.two)).min() else { return union };
             let n = now.next_if(|p| (p.one, p.two) == (one, two));
             let p = previous.next_if(|p| (p.one, p.two) == (one, two));
-            union.push(UnionPair { one, two, now: n.map(|p| &p.weights), previous: p.map(|p| &p.weights) });
+            union.push(UnionPair { one, two, now: n.map(|p| &p.weights), place, previous: p.map(|p| &p.weights) });
+            place += usize::from(n.is_some());
         }
     }
 
@@ -160,37 +165,39 @@ impl<const N: usize> Contact<N> {
             return Err(Error::new(Kind::Unsupported, text));
         }
         let responses = self.responses(x1, x2, lambda, sums)?;
+        self.ensure_segments()?;
         let start = Instant::now();
         let mut linearised = 0;
         let mut couplings = self.augmented_couplings();
         let normals = self.all_normals()?;
         let nodes = self.node_tangents(lambda, &responses, &normals);
         // Large, so that one of each serves all pairs.
-        let (mut dn, mut t) = (WeightDerivatives::default(), PairTangent::default());
-        for pair in &self.union() {
-            let one = &self.nonmortar.facets[pair.one];
-            let mut gap = None;
-            if let (Some(weights), Some(k)) = (pair.now, &self.integration) {
-                let facet = (&k.frames[pair.one], weights);
-                gap = Some((self.kernels.motion)((&self.mortar, x2), pair.two, facet, self.options.rule, &mut dn)?);
-                linearised += 1;
-            }
-            let motion = gap.as_ref().map(|gap| (&dn, gap));
-            let now = pair.now.map(|weights| PairNow { weights, motion });
-            t.update::<MOVES>(now.as_ref(), pair.previous, &one.nodes.map(|a| nodes[a]));
-            self.emit_pair::<MOVES>(pair, &t, &normals, sink);
-            if let Some(couplings) = &mut couplings {
-                for k in 0..one.len {
-                    let a = one.nodes[k];
-                    couplings[a].add_pair::<MOVES>(
-                        k,
-                        &self.slots(pair),
-                        now.as_ref(),
-                        pair.previous,
-                        self.dtraction(a, &responses[a], normals[a]),
-                    );
+        let (mut t, mut facet) = (PairTangent::default(), FacetTangent::default());
+        for pairs in self.union().chunk_by(|p, q| p.one == q.one) {
+            let one = &self.nonmortar.facets[pairs[0].one];
+            let nodes = FacetResponse::new(one.nodes.map(|a| &nodes[a]));
+            facet.clear();
+            for pair in pairs {
+                let mut gap = None;
+                if let (Some(weights), Some(k)) = (pair.now, &self.integration) {
+                    let overlap = (&k.frames[pair.one], k.segments.get(pair.place));
+                    let (rule, p, f) = (self.options.rule, &nodes.traction, &mut t.forces);
+                    gap = Some((self.kernels.motion)((&self.mortar, x2), overlap, weights, rule, p, f)?);
+                    linearised += 1;
+                }
+                let now = pair.now.map(|weights| PairNow { weights, gap: gap.as_ref() });
+                row_columns::<MOVES, N>(now.as_ref(), pair.previous, &nodes, &mut t.rows);
+                facet.add(pair, &t);
+                self.emit_pair::<MOVES>(pair, &t, &normals, sink);
+                if let Some(couplings) = &mut couplings {
+                    for k in 0..one.len {
+                        let a = one.nodes[k];
+                        let dp = self.dtraction(a, &responses[a], normals[a]);
+                        couplings[a].add_pair::<MOVES>(k, &self.slots(pair), now.as_ref(), pair.previous, dp);
+                    }
                 }
             }
+            self.emit_facet(pairs[0].one, &facet, &normals, sink);
         }
         for a in 0..responses.len() {
             self.emit_node(a, &responses[a].drow_dlambda, sink);
@@ -225,7 +232,8 @@ impl<const N: usize> Contact<N> {
         self.ensure_integration(x1, x2)?;
         let weights = PairWeights::default();
         let pairs = self.possible_pairs(x1, x2)?;
-        let all = pairs.iter().map(|&(one, two)| UnionPair { one, two, now: Some(&weights), previous: Some(&weights) });
+        let any = |&(one, two)| UnionPair { one, two, now: Some(&weights), place: 0, previous: Some(&weights) };
+        let all = pairs.iter().map(any);
         self.emit_pattern(&all.collect::<Vec<_>>(), sink);
         Ok(())
     }
@@ -240,17 +248,23 @@ impl<const N: usize> Contact<N> {
 
     fn emit_pattern_with<const MOVES: bool>(&self, pairs: &[UnionPair], sink: &mut dyn Sink) {
         let (nothing, normals) = (PairTangent::default(), vec![Vec3::zeros(); self.nonmortar.len()]);
+        let mut facet = FacetTangent::default();
         let mut couplings = self.augmented_couplings();
-        for pair in pairs {
-            self.emit_pair::<MOVES>(pair, &nothing, &normals, sink);
-            if let Some(couplings) = &mut couplings {
-                let one = &self.nonmortar.facets[pair.one];
-                let now = pair.now.map(|weights| PairNow { weights, motion: None });
-                for k in 0..one.len {
-                    let zero = (Mat3::zeros(), Mat3::zeros());
-                    couplings[one.nodes[k]].add_pair::<MOVES>(k, &self.slots(pair), now.as_ref(), pair.previous, zero);
+        for pairs in pairs.chunk_by(|p, q| p.one == q.one) {
+            facet.clear();
+            for pair in pairs {
+                facet.add(pair, &nothing);
+                self.emit_pair::<MOVES>(pair, &nothing, &normals, sink);
+                if let Some(couplings) = &mut couplings {
+                    let one = &self.nonmortar.facets[pair.one];
+                    let now = pair.now.map(|weights| PairNow { weights, gap: None });
+                    for k in 0..one.len {
+                        let (slots, zero) = (self.slots(pair), (Mat3::zeros(), Mat3::zeros()));
+                        couplings[one.nodes[k]].add_pair::<MOVES>(k, &slots, now.as_ref(), pair.previous, zero);
+                    }
                 }
             }
+            self.emit_facet(pairs[0].one, &facet, &normals, sink);
         }
         for a in 0..self.nonmortar.len() {
             self.emit_node(a, &SMatrix::zeros(), sink);
@@ -299,7 +313,7 @@ impl<const N: usize> Contact<N> {
         if node < n1 { &self.nonmortar.equations[node] } else { &self.mortar.equations[node - n1] }
     }
 
-    /// `normals`: those of the nodes.
+    /// A pair's rows and columns of the mortar side. `normals`: those of the nodes.
     fn emit_pair<const MOVES: bool>(
         &self,
         pair: &UnionPair,
@@ -307,25 +321,67 @@ impl<const N: usize> Contact<N> {
         normals: &[Vec3],
         sink: &mut dyn Sink,
     ) {
-        let nodes = self.slots(pair);
-        let one = &self.nonmortar.facets[pair.one];
-        let current = self.options.effective_weights() == Weights::Current;
-        for (k, node) in nodes[..slots(MOVES)].iter().enumerate() {
-            let Some(node) = *node else { continue };
-            let equations = self.equations(node);
-            if pair.now.is_some() && current {
-                for (j, column) in nodes[..slots(MOVES)].iter().enumerate() {
-                    let Some(column) = *column else { continue };
-                    sink.add_block(equations, self.equations(column), t.force_x[k][j].as_slice());
-                }
+        if !MOVES {
+            return;
+        }
+        let (one, two) = (&self.nonmortar.facets[pair.one], &self.mortar.facets[pair.two]);
+        let (one, two) = (Equations::of(one, &self.nonmortar.equations), Equations::of(two, &self.mortar.equations));
+        let multipliers = self.facet_multipliers(pair.one);
+        if pair.now.is_some() && self.options.effective_weights() == Weights::Current {
+            sink.add_block(one.rows(), two.columns(), t.forces.one[MORTAR..].flat());
+            sink.add_block(two.rows(), one.columns(), t.forces.two[..MORTAR].flat());
+            sink.add_block(two.rows(), two.columns(), t.forces.two[MORTAR..].flat());
+        }
+        if let (Some(weights), Form::Multiplier) = (pair.now, self.options.form) {
+            self.emit_multipliers(pair.one, &two, &weights.ac.map(|row| row.map(|n| -n)), normals, sink);
+        }
+        sink.add_block(multipliers.as_flattened(), two.columns(), t.rows[MORTAR..].flat());
+    }
+
+    /// What a facet's pairs have in common: rows and columns of the non-mortar side.
+    fn emit_facet(&self, f: usize, t: &FacetTangent<N>, normals: &[Vec3], sink: &mut dyn Sink) {
+        let one = Equations::of(&self.nonmortar.facets[f], &self.nonmortar.equations);
+        if t.acts && self.options.effective_weights() == Weights::Current {
+            sink.add_block(one.rows(), one.columns(), t.forces.flat());
+        }
+        if t.acts && self.options.form == Form::Multiplier {
+            self.emit_multipliers(f, &one, &t.weights, normals, sink);
+        }
+        sink.add_block(self.facet_multipliers(f).as_flattened(), one.columns(), t.rows.flat());
+    }
+
+    /// Multiplier equations of a facet's nodes, component by component.
+    fn facet_multipliers(&self, f: usize) -> [[i64; MAX_NODES]; N] {
+        let facet = &self.nonmortar.facets[f];
+        let mut equations = [[NO_EQUATION; MAX_NODES]; N];
+        for k in 0..facet.len {
+            for n in 0..N {
+                equations[n][k] = self.multiplier_equations[facet.nodes[k]][n];
             }
-            for a in 0..one.len {
-                let multiplier = &self.multiplier_equations[one.nodes[a]];
-                if pair.now.is_some() && self.options.form == Form::Multiplier {
-                    emit_multiplier(multiplier, equations, t.force_lambda[k][a], normals[one.nodes[a]], sink);
-                }
-                sink.add_block(multiplier, equations, t.row_x[a][k].as_slice());
+        }
+        equations
+    }
+
+    /// d forces / d multipliers of facet `f`, weights `n[A][row]`: n I, or n nu_A where there is one component.
+    fn emit_multipliers(
+        &self,
+        f: usize,
+        forces: &Equations,
+        n: &[[f64; MAX_NODES]; MAX_NODES],
+        normals: &[Vec3],
+        sink: &mut dyn Sink,
+    ) {
+        let multipliers = self.facet_multipliers(f);
+        if N == 1 {
+            let nu = self.nonmortar.facets[f].nodes.map(|a| normals[a]);
+            let mut values = [[[0.0; MAX_NODES]; 3]; MAX_NODES];
+            for (a, i) in (0..MAX_NODES).flat_map(|a| (0..3).map(move |i| (a, i))) {
+                values[a][i] = n[a].map(|n| n * nu[a][i]);
             }
+            return sink.add_block(forces.rows(), &multipliers[0], values.as_flattened().as_flattened());
+        }
+        for i in 0..N {
+            sink.add_block(&forces.by_component[i], &multipliers[i], n.as_flattened());
         }
     }
 
@@ -362,20 +418,80 @@ impl<const N: usize> Contact<N> {
     }
 }
 
-/// A node's force by a multiplier: `weight` I, or `weight` nu where there is one component.
-fn emit_multiplier<const N: usize>(
-    multiplier: &[i64; N],
-    equations: &[i64; 3],
-    weight: f64,
-    nu: Vec3,
-    sink: &mut dyn Sink,
-) {
-    if N == 1 {
-        return sink.add_block(equations, multiplier, (nu * weight).as_slice());
-    }
-    for i in 0..3 {
-        if equations[i] != NO_EQUATION && multiplier[i] != NO_EQUATION {
-            sink.add(equations[i], multiplier[i], weight);
+/// What the pairs of a non-mortar facet add to the same entries of the tangent.
+struct FacetTangent<const N: usize> {
+    forces: [[[[f64; MAX_NODES]; 3]; 3]; MAX_NODES],
+    rows: [[[[f64; MAX_NODES]; N]; 3]; MAX_NODES],
+    weights: [[f64; MAX_NODES]; MAX_NODES],
+    /// Whether a pair is active now.
+    acts: bool,
+}
+
+impl<const N: usize> Default for FacetTangent<N> {
+    fn default() -> Self {
+        FacetTangent {
+            forces: [[[[0.0; MAX_NODES]; 3]; 3]; MAX_NODES],
+            rows: [[[[0.0; MAX_NODES]; N]; 3]; MAX_NODES],
+            weights: [[0.0; MAX_NODES]; MAX_NODES],
+            acts: false,
         }
+    }
+}
+
+impl<const N: usize> FacetTangent<N> {
+    fn clear(&mut self) {
+        *self = FacetTangent::default();
+    }
+
+    fn add(&mut self, pair: &UnionPair, t: &PairTangent<N>) {
+        let add = |sum: &mut [f64], values: &[f64]| sum.iter_mut().zip(values).for_each(|(sum, v)| *sum += v);
+        add(self.rows.flat_mut(), t.rows[..MORTAR].flat());
+        if let Some(weights) = pair.now {
+            self.acts = true;
+            add(self.forces.flat_mut(), t.forces.one[..MORTAR].flat());
+            add(self.weights.as_flattened_mut(), weights.ab.as_flattened());
+        }
+    }
+}
+
+/// Displacement equations of a facet's nodes in the orders of a tangent's blocks.
+struct Equations {
+    by_node: [[i64; 3]; MAX_NODES],
+    by_component: [[i64; MAX_NODES]; 3],
+}
+
+impl Equations {
+    fn of(facet: &FacetNodes, equations: &[[i64; 3]]) -> Equations {
+        let mut e = Equations { by_node: [[NO_EQUATION; 3]; MAX_NODES], by_component: [[NO_EQUATION; MAX_NODES]; 3] };
+        for k in 0..facet.len {
+            e.by_node[k] = equations[facet.nodes[k]];
+            for i in 0..3 {
+                e.by_component[i][k] = e.by_node[k][i];
+            }
+        }
+        e
+    }
+
+    fn rows(&self) -> &[i64] {
+        self.by_component.as_flattened()
+    }
+
+    fn columns(&self) -> &[i64] {
+        self.by_node.as_flattened()
+    }
+}
+
+/// The values of nested arrays, one after the other.
+trait Flat {
+    fn flat(&self) -> &[f64];
+    fn flat_mut(&mut self) -> &mut [f64];
+}
+
+impl<const I: usize, const J: usize, const K: usize> Flat for [[[[f64; I]; J]; K]] {
+    fn flat(&self) -> &[f64] {
+        self.as_flattened().as_flattened().as_flattened()
+    }
+    fn flat_mut(&mut self) -> &mut [f64] {
+        self.as_flattened_mut().as_flattened_mut().as_flattened_mut()
     }
 }

@@ -1,9 +1,9 @@
 //! What only the augmented form needs (formulation b.11): its forces use the projected traction, whose
 //! derivative n_AB (dp/dsigma) r Dg_A couples all pairs of a node and is no sum over pairs.
 
-use crate::element::PairNow;
+use crate::element::{PairNow, frozen_rows, gap_rows};
 use crate::geometry::Mat3;
-use crate::mortar::{MORTAR, PAIR_NODES, PairWeights, frozen_rows, slots};
+use crate::mortar::{MORTAR, PAIR_NODES, PairWeights, slots};
 
 /// One node that a non-mortar node A is coupled with.
 #[derive(Clone, Debug)]
@@ -34,8 +34,8 @@ impl NodeCouplings {
         previous: Option<&PairWeights>,
         dp: (Mat3, Mat3),
     ) {
-        let by_now = now.map(|now| now.gap_rows::<MOVES, 3>(k, &dp.0));
-        let by_previous = previous.map(|weights| frozen_rows::<MOVES, 3>(weights, k, &dp.1));
+        let by_now = now.map(|now| gap_rows::<MOVES>(now, k, &dp.0));
+        let by_previous = previous.map(|weights| frozen_rows::<MOVES>(weights, k, &dp.1));
         for (j, node) in nodes[..slots(MOVES)].iter().enumerate() {
             let Some(node) = *node else { continue };
             let coupling = self.find(node);

@@ -9,21 +9,24 @@ use super::{Contact, Friction, MortarSide, NO_EQUATION, Options, Surface, analyt
 use crate::error::Result;
 use crate::geometry::Vec3;
 use crate::law::{Coulomb, Frictionless, Law, Node, NodeResponse, Tied};
-use crate::mortar::{GapDerivative, NonmortarFrame, PairWeights, WeightDerivatives};
+use crate::mortar::{ForceDerivatives, GapDerivative, NonmortarFrame, PairWeights, Segment};
 use crate::quadrature::Rule;
+use crate::shape::MAX_NODES;
 use nalgebra::{SMatrix, SVector};
 
 type Tangent<const N: usize> =
     fn(&mut Contact<N>, &[Vec3], &[Vec3], &[SVector<f64, N>], Option<&[NodeSums]>, &mut dyn Sink) -> Result<()>;
 
-/// Derivatives of a pair with its weights of now: mortar surface and positions, its facet, the other facet's frame and
-/// the weights. Those of the weights go to the last argument, which keeps the slots that have none.
+/// Derivatives of a pair with its weights of now: mortar surface and positions, the non-mortar facet's frame and the
+/// overlap (`None` of an analytic surface), the weights, the rule, the tractions `[i][A]` of its forces. The derivatives of the
+/// forces go to the last argument, which keeps the slots that have none; those of the gap come back.
 pub(super) type PairMotion = fn(
     (&Surface, &[Vec3]),
-    usize,
-    (&NonmortarFrame, &PairWeights),
+    (&NonmortarFrame, Option<&Segment>),
+    &PairWeights,
     &Rule,
-    &mut WeightDerivatives,
+    &[[f64; MAX_NODES]; 3],
+    &mut ForceDerivatives,
 ) -> Result<GapDerivative>;
 
 /// The routines of one combination of effects, for N multiplier components a node.

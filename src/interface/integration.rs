@@ -12,9 +12,10 @@ use super::search::{Aabb, Prism, Tree};
 use super::{Contact, Counters, Options, Surface, Weights, analytic, apart};
 use crate::error::{Error, Kind, Result};
 use crate::geometry::Vec3;
-use crate::mortar::{GapDerivative, NonmortarFrame, PairWeights, Segment, WeightDerivatives};
+use crate::mortar::{ForceDerivatives, GapDerivative, NonmortarFrame, PairWeights, Segment, pair_motion};
 use crate::normal;
 use crate::quadrature::Rule;
+use crate::shape::MAX_NODES;
 use std::time::Instant;
 
 /// Prisms are grown by this (over the facet's longest edge), so that touching facets are visited.
@@ -33,6 +34,8 @@ pub(super) struct Integration {
     pub x2: Vec<Vec3>,
     pub frames: Vec<NonmortarFrame>,
     pub pairs: Vec<PairRecord>,
+    /// The overlap of each pair, kept for the tangent; none against an analytic mortar side.
+    pub segments: Vec<Segment>,
     /// Nothing was looked at: the surfaces are apart, here and at t_n.
     pub apart: bool,
 }
@@ -67,18 +70,34 @@ pub(super) fn check_mortar_facets(surface: &Surface) -> Result<()> {
     frames(surface, &surface.reference).map(|_| ())
 }
 
+/// The search tree over a mortar surface, with the positions that it is of: a mortar side at rest needs one alone.
+#[derive(Debug, Default)]
+pub(super) struct KeptTree {
+    pub x2: Vec<Vec3>,
+    pub tree: Option<Tree>,
+}
+
+impl KeptTree {
+    /// The tree of `two` at `x2`.
+    fn at(&mut self, two: &Surface, x2: &[Vec3]) -> &Tree {
+        if self.x2 != x2 {
+            *self = KeptTree { x2: x2.to_vec(), tree: None };
+        }
+        let facet_box = |f: usize| Aabb::around(two.facet(f, x2).points().iter().copied());
+        self.tree.get_or_insert_with(|| Tree::new((0..two.facets.len()).map(facet_box).collect()))
+    }
+}
+
 /// Pairs that pass the filter and whose mortar facet may reach into the non-mortar facet's prism, grown by
 /// `skin` (over the facet's longest edge). Sorted.
 fn candidates(
-    (one, two): (&Surface, &Surface),
+    one: &Surface,
     frames: &[NonmortarFrame],
-    (x1, x2): (&[Vec3], &[Vec3]),
-    filter: &FacetFilter,
+    x1: &[Vec3],
+    (tree, filter): (&Tree, &FacetFilter),
     skin: f64,
     visited: &mut i64,
 ) -> Vec<(usize, usize)> {
-    let facet_box = |f: usize| Aabb::around(two.facet(f, x2).points().iter().copied());
-    let tree = Tree::new((0..two.facets.len()).map(facet_box).collect());
     let (mut pairs, mut found) = (Vec::new(), Vec::new());
     for (i, frame) in frames.iter().enumerate().filter(|&(i, _)| filter.reached[i]) {
         let facet = one.facet(i, x1);
@@ -94,7 +113,7 @@ pub(super) fn integrate(
     (one, two): (&Surface, &Surface),
     options: &Options,
     filter: &Filter,
-    counters: &mut Counters,
+    (counters, tree): (&mut Counters, &mut KeptTree),
     (x1, x2): (&[Vec3], &[Vec3]),
 ) -> Result<Integration> {
     let filter = match filter {
@@ -103,12 +122,12 @@ pub(super) fn integrate(
     };
     let start = Instant::now();
     let frames = frames(one, x1)?;
-    let candidates = candidates((one, two), &frames, (x1, x2), filter, 0.0, &mut counters.boxes_visited);
+    let candidates = candidates(one, &frames, x1, (tree.at(two, x2), filter), 0.0, &mut counters.boxes_visited);
     counters.searches += 1;
     counters.seconds_search += start.elapsed().as_secs_f64();
 
     let start = Instant::now();
-    let mut pairs = Vec::new();
+    let (mut pairs, mut segments) = (Vec::new(), Vec::new());
     for &(i, j) in &candidates {
         counters.pairs_tested += 1;
         let segment = Segment::new(&frames[i], &two.facet(j, x2))
@@ -118,23 +137,23 @@ pub(super) fn integrate(
         counters.pairs_clipped += 1;
         counters.pairs_integrated += i64::from(segment.area > 0.0);
         pairs.push(PairRecord { one: i, two: j, weights: PairWeights::integrate(&frames[i], &segment, options.rule) });
+        segments.push(segment);
     }
     counters.seconds_integration += start.elapsed().as_secs_f64();
-    Ok(Integration { x1: x1.to_vec(), x2: x2.to_vec(), frames, pairs, apart: false })
+    Ok(Integration { x1: x1.to_vec(), x2: x2.to_vec(), frames, pairs, segments, apart: false })
 }
 
 /// The derivatives of a pair of facets, `MOVES`: with respect to the mortar side too.
 pub(super) fn motion<const MOVES: bool>(
-    (two, x2): (&Surface, &[Vec3]),
-    facet: usize,
-    (frame, weights): (&NonmortarFrame, &PairWeights),
+    _: (&Surface, &[Vec3]),
+    (frame, segment): (&NonmortarFrame, Option<&Segment>),
+    weights: &PairWeights,
     rule: &Rule,
-    dn: &mut WeightDerivatives,
+    traction: &[[f64; MAX_NODES]; 3],
+    forces: &mut ForceDerivatives,
 ) -> Result<GapDerivative> {
-    let segment = Segment::new(frame, &two.facet(facet, x2))?
-        .expect("an active pair has a segment at the positions it was found at");
-    dn.update::<MOVES>(frame, &segment, rule);
-    Ok(GapDerivative::current_for::<MOVES>(frame, &segment.mortar, weights, dn))
+    let segment = segment.expect("the segments of facets are kept");
+    Ok(GapDerivative::Facets(pair_motion::<MOVES>((frame, segment, rule), weights, traction, forces)))
 }
 
 /// Refuses a mortar surface that lies in several layers over a node.
@@ -164,12 +183,13 @@ impl<const N: usize> Contact<N> {
         }
         self.integration = Some(if self.stays_apart(x1, x2)? {
             self.counters.evaluations_apart += 1;
-            Integration { x1: x1.to_vec(), x2: x2.to_vec(), frames: Vec::new(), pairs: Vec::new(), apart: true }
+            let (x1, x2) = (x1.to_vec(), x2.to_vec());
+            Integration { x1, x2, frames: Vec::new(), pairs: Vec::new(), segments: Vec::new(), apart: true }
         } else {
             self.ensure_history()?;
             let surfaces = (&self.nonmortar, &self.mortar);
             let filter = self.filter.as_ref().expect("current weights have one");
-            integrate(surfaces, &self.options, filter, &mut self.counters, (x1, x2))?
+            integrate(surfaces, &self.options, filter, (&mut self.counters, &mut self.tree), (x1, x2))?
         });
         self.count_pairs();
         Ok(())
@@ -178,6 +198,18 @@ impl<const N: usize> Contact<N> {
     /// Notes how many pairs are active here.
     pub(super) fn count_pairs(&mut self) {
         self.counters.pairs_active = self.current_pairs().len();
+    }
+
+    /// Makes up for overlaps that a commit did not keep.
+    pub(super) fn ensure_segments(&mut self) -> Result<()> {
+        let Some(k) = self.integration.as_mut().filter(|k| k.segments.len() < k.pairs.len()) else { return Ok(()) };
+        if self.mortar.analytic.is_none() {
+            for pair in &k.pairs {
+                let segment = Segment::new(&k.frames[pair.one], &self.mortar.facet(pair.two, &k.x2))?;
+                k.segments.push(segment.expect("an active pair has a segment at the positions it was found at"));
+            }
+        }
+        Ok(())
     }
 
     /// Whether the last evaluation found the surfaces apart.
@@ -204,7 +236,8 @@ impl<const N: usize> Contact<N> {
         if !h.integrated
             && let Some(filter) = &self.filter
         {
-            let mut new = integrate(surfaces, &self.options, filter, &mut self.counters, (&h.x1, &h.x2))?;
+            let mut new =
+                integrate(surfaces, &self.options, filter, (&mut self.counters, &mut self.tree), (&h.x1, &h.x2))?;
             let sums = assemble(surfaces, &new.pairs, &h.x1, &h.x2);
             check_layers(&self.history.areas, sums.iter().map(|(coverage, _)| *coverage))?;
             self.history.fill(&mut new.pairs, &sums);
@@ -216,7 +249,7 @@ impl<const N: usize> Contact<N> {
     pub(super) fn start_at(
         (nonmortar, mortar): (&Surface, &Surface),
         options: &Options,
-        counters: &mut Counters,
+        (counters, tree): (&mut Counters, &mut KeptTree),
         (x1, x2): (&[Vec3], &[Vec3]),
     ) -> Result<Start> {
         let n1 = nonmortar.len();
@@ -242,7 +275,7 @@ impl<const N: usize> Contact<N> {
             counters.commits_apart += 1;
             &frames(nonmortar, x1)?
         } else {
-            let mut new = integrate((nonmortar, mortar), options, &filter, counters, (x1, x2))?;
+            let mut new = integrate((nonmortar, mortar), options, &filter, (counters, tree), (x1, x2))?;
             let sums = assemble((nonmortar, mortar), &new.pairs, x1, x2);
             history.fill(&mut new.pairs, &sums);
             &integration.insert(new).frames
@@ -266,7 +299,10 @@ impl<const N: usize> Contact<N> {
             }
         }
         check_layers(&history.areas, history.coverage.iter().copied())?;
-        Ok(Start { history, filter: Some(filter), integration: integration.filter(|_| keeps == Keeps::Nothing) })
+        // The weights alone: many interfaces never ask for a tangent where a step ends.
+        let integration = integration.filter(|_| keeps == Keeps::Nothing);
+        let integration = integration.map(|k| Integration { segments: Vec::new(), ..k });
+        Ok(Start { history, filter: Some(filter), integration })
     }
 
     /// The pairs whose weights act now.
@@ -278,14 +314,15 @@ impl<const N: usize> Contact<N> {
     pub(super) fn possible_pairs(&mut self, x1: &[Vec3], x2: &[Vec3]) -> Result<Vec<(usize, usize)>> {
         let mut pairs: Vec<_> = self.history.pairs.iter().map(|p| (p.one, p.two)).collect();
         if self.options.effective_weights() == Weights::Current {
-            let (surfaces, h) = ((&self.nonmortar, &self.mortar), &self.history);
+            let h = &self.history;
             match self.filter.as_ref().expect("current weights have one") {
                 Filter::Facets(filter) => {
                     // Pairs of t_n that were left out because the surfaces were apart are found as those of now.
                     let places = [(x1, x2), (&h.x1, &h.x2)];
                     for place in &places[..if h.integrated { 1 } else { 2 }] {
                         let frames = frames(&self.nonmortar, place.0)?;
-                        pairs.extend(candidates(surfaces, &frames, *place, filter, SKIN, &mut 0));
+                        let tree = self.tree.at(&self.mortar, place.1);
+                        pairs.extend(candidates(&self.nonmortar, &frames, place.0, (tree, filter), SKIN, &mut 0));
                     }
                 }
                 Filter::Analytic(facing) => pairs.extend((0..facing.len()).filter(|&i| facing[i]).map(|i| (i, 0))),

@@ -2,7 +2,7 @@
 
 use super::filter::Filter;
 use super::history::History;
-use super::integration::Integration;
+use super::integration::{Integration, KeptTree};
 use super::{Contact, Surface};
 
 /// A vector's memory `[bytes]`: what it holds and what it has taken for more.
@@ -28,16 +28,21 @@ fn of_filter(filter: &Filter) -> usize {
     }
 }
 
+fn of_tree(kept: &KeptTree) -> usize {
+    heap(&kept.x2) + kept.tree.as_ref().map_or(0, |t| heap(&t.boxes) + heap(&t.nodes) + heap(&t.order))
+}
+
 fn of_integration(k: &Integration) -> usize {
-    heap(&k.x1) + heap(&k.x2) + heap(&k.frames) + heap(&k.pairs)
+    heap(&k.x1) + heap(&k.x2) + heap(&k.frames) + heap(&k.pairs) + heap(&k.segments)
 }
 
 impl<const N: usize> Contact<N> {
-    /// Heap memory in use `[bytes]`: surfaces, histories, the filter, the last evaluation, what is set per node.
+    /// Heap memory in use `[bytes]`: surfaces, histories, the filter, the search tree, the last evaluation, what is set per node.
     pub fn bytes(&self) -> usize {
         let surfaces = of_surface(&self.nonmortar) + of_surface(&self.mortar);
         let histories = of_history(&self.history) + self.rollback.as_ref().map_or(0, of_history);
         let step = self.filter.as_ref().map_or(0, of_filter) + self.integration.as_ref().map_or(0, of_integration);
+        let step = step + of_tree(&self.tree);
         let flags = heap(&self.owned) + heap(&self.coverable);
         let overrides = self.augmentations.as_ref().map_or(0, heap) + self.normals.as_ref().map_or(0, heap);
         let nodes = heap(&self.multiplier_equations) + heap(&self.mu) + heap(&self.free);

@@ -42,7 +42,7 @@ use crate::geometry::{Mat3, Vec3};
 use effects::Kernels;
 use filter::Filter;
 use history::Keeps;
-use integration::{Integration, Start};
+use integration::{Integration, KeptTree, Start};
 use nalgebra::SVector;
 
 /// What an interface has done since its creation.
@@ -105,6 +105,7 @@ pub struct Contact<const N: usize> {
     history: History,
     rollback: Option<History>,
     integration: Option<Integration>,
+    tree: KeptTree,
     counters: Counters,
 }
 
@@ -171,9 +172,9 @@ impl<const N: usize> Contact<N> {
         }
         integration::check_mortar_facets(&mortar)?;
         analytic::check_frame(&nonmortar, &mortar)?;
-        let mut counters = Counters::default();
+        let (mut counters, mut tree) = (Counters::default(), KeptTree::default());
         let (x1, x2) = (nonmortar.reference.clone(), mortar.reference.clone());
-        let start = Self::start_at((&nonmortar, &mortar), &options, &mut counters, (&x1, &x2))?;
+        let start = Self::start_at((&nonmortar, &mortar), &options, (&mut counters, &mut tree), (&x1, &x2))?;
         let n1 = nonmortar.len();
         let mut interface = Contact {
             options,
@@ -192,6 +193,7 @@ impl<const N: usize> Contact<N> {
             history: start.history,
             rollback: None,
             integration: start.integration,
+            tree,
             counters,
         };
         interface.coverable = interface.find_coverable();
@@ -229,7 +231,7 @@ impl<const N: usize> Contact<N> {
     pub fn set_previous(&mut self, x1: &[Vec3], x2: &[Vec3]) -> Result<()> {
         self.check_positions(x1, x2)?;
         let surfaces = (&self.nonmortar, &self.mortar);
-        let new = Self::start_at(surfaces, &self.options, &mut self.counters, (x1, x2))?;
+        let new = Self::start_at(surfaces, &self.options, (&mut self.counters, &mut self.tree), (x1, x2))?;
         self.adopt(new);
         self.count_pairs();
         self.rollback = None;
@@ -255,7 +257,7 @@ impl<const N: usize> Contact<N> {
             }
             Start { history, filter: None, integration: None }
         } else {
-            Self::start_at(surfaces, &self.options, &mut self.counters, (x1, x2))?
+            Self::start_at(surfaces, &self.options, (&mut self.counters, &mut self.tree), (x1, x2))?
         };
         new.history.commits = self.history.commits.saturating_add(1); // an imported history may hold any number
         if self.kernels.slips {

@@ -106,7 +106,7 @@ impl<const N: usize> Contact<N> {
         let now;
         let (pairs, at) = match (self.options.effective_weights(), &self.filter) {
             (Weights::Current, Some(filter)) => {
-                now = integrate(surfaces, &self.options, filter, &mut self.counters, (x1, x2))?;
+                now = integrate(surfaces, &self.options, filter, (&mut self.counters, &mut self.tree), (x1, x2))?;
                 (&now.pairs, x1)
             }
             (Weights::Committed, _) => (&self.history.pairs, &self.history.x1[..]),

@@ -86,13 +86,13 @@ const LEAF: usize = 4;
 /// A bounding-volume tree over boxes.
 #[derive(Debug)]
 pub struct Tree {
-    boxes: Vec<Aabb>,
-    nodes: Vec<TreeNode>,
-    order: Vec<usize>,
+    pub(super) boxes: Vec<Aabb>,
+    pub(super) nodes: Vec<TreeNode>,
+    pub(super) order: Vec<usize>,
 }
 
 #[derive(Debug)]
-struct TreeNode {
+pub(super) struct TreeNode {
     bounds: Aabb,
     first: usize,
     count: usize,

@@ -10,11 +10,12 @@
 
 use super::gap::GapDerivative;
 use super::segment::NonmortarFrame;
-use super::{PairWeights, WeightDerivatives};
+use super::{ForceDerivatives, PairWeights};
 use crate::error::{Error, Kind, Result};
-use crate::geometry::{AnalyticSurface, Closest, Mat3, Vec3};
+use crate::geometry::{AnalyticSurface, Closest, Vec3};
 use crate::quadrature::Rule;
 use crate::shape::{MAX_NODES, Shape};
+use crate::simd::{Lanes, Plain};
 
 /// A quadrature point of the facet.
 struct Point {
@@ -93,50 +94,49 @@ pub fn analytic_weights(frame: &NonmortarFrame, surface: &AnalyticSurface, rule:
     Ok(w)
 }
 
-/// Derivatives of n_AB, into `dn`, and of the gap with respect to the facet's nodes. All else in `dn` belongs to the
-/// surface, which has no equations, and stays as it is.
+/// Derivatives of the forces f_B of the fields `p[i][A]`, into `forces`, and of the gap with respect to the facet's nodes.
+/// All else in `forces` belongs to the surface, which has no equations, and stays as it is.
 ///
 /// # Errors
 /// As [`analytic_weights`].
-pub fn analytic_derivatives(
+pub fn analytic_motion(
     frame: &NonmortarFrame,
     surface: &AnalyticSurface,
     rule: &Rule,
-    dn: &mut WeightDerivatives,
+    p: &[[f64; MAX_NODES]; 3],
+    forces: &mut ForceDerivatives,
 ) -> Result<GapDerivative> {
-    // int N_A N_B (1, xi, eta) over the cell; int N_A (x - y) (1, xi, eta); int N_A N_B D(x - y)/Dx da.
-    let mut moments = [[[0.0; 3]; MAX_NODES]; MAX_NODES];
-    let mut gaps = [[Vec3::zeros(); 3]; MAX_NODES];
-    let mut blocks = [[Mat3::zeros(); MAX_NODES]; MAX_NODES];
-    for_each_point(frame, surface, rule, |p| {
-        let (gap, gradient) = (p.closest.normal * p.closest.distance, surface.gradient(&p.closest));
-        for a in 0..MAX_NODES {
-            let wa = p.weight * p.n[a];
+    // int p^i N_B (1, xi, eta) over the cell; int N_A (x - y) (1, xi, eta); int N_A N_B D(x - y)/Dx da.
+    let mut moments = [[[0.0; MAX_NODES]; 3]; 3];
+    let mut gaps = [[[0.0; MAX_NODES]; 3]; 3];
+    let mut blocks = [[[[0.0; MAX_NODES]; 3]; 3]; MAX_NODES];
+    for_each_point(frame, surface, rule, |q| {
+        let (gap, gradient) = (q.closest.normal * q.closest.distance, surface.gradient(&q.closest));
+        for i in 0..3 {
+            let field: f64 = (0..MAX_NODES).map(|a| p[i][a] * q.n[a]).sum();
             for m in 0..3 {
-                gaps[a][m] += gap * (wa * p.powers[m]);
-            }
-            for b in 0..=a {
-                let wab = wa * p.n[b];
-                for m in 0..3 {
-                    moments[a][b][m] += wab * p.powers[m];
+                let (f, g) = (q.weight * q.powers[m] * field, q.weight * q.powers[m] * gap[i]);
+                for a in 0..MAX_NODES {
+                    moments[m][i][a] += f * q.n[a];
+                    gaps[m][i][a] += g * q.n[a];
                 }
-                blocks[a][b] += gradient * (wab * p.area);
+            }
+        }
+        for k in 0..MAX_NODES {
+            for (i, j) in (0..3).flat_map(|i| (0..3).map(move |j| (i, j))) {
+                let g = q.weight * q.area * q.n[k] * gradient[(i, j)];
+                for a in 0..MAX_NODES {
+                    blocks[k][i][j][a] += g * q.n[a];
+                }
             }
         }
     })?;
-    for a in 0..MAX_NODES {
-        for b in 0..a {
-            (moments[b][a], blocks[b][a]) = (moments[a][b], blocks[a][b]);
-        }
-    }
     let darea = area_derivative(frame);
-    for a in 0..MAX_NODES {
-        for k in 0..MAX_NODES {
-            for b in 0..MAX_NODES {
-                dn.ab[a][b][k] = (0..3).map(|m| darea[m][k] * moments[a][b][m]).sum();
-            }
-            for m in 0..3 {
-                blocks[a][k] += gaps[a][m] * darea[m][k].transpose();
+    for (k, j) in (0..MAX_NODES).flat_map(|k| (0..3).map(move |j| (k, j))) {
+        for i in 0..3 {
+            for a in 0..MAX_NODES {
+                forces.one[k][j][i][a] = (0..3).map(|m| darea[m][k][j] * moments[m][i][a]).sum();
+                blocks[k][i][j][a] += (0..3).map(|m| darea[m][k][j] * gaps[m][i][a]).sum::<f64>();
             }
         }
     }
@@ -146,11 +146,12 @@ pub fn analytic_derivatives(
 /// Dj / Dx_k in the powers (1, xi, eta) `[L]`. Translation and spin of the plane change no area: its tilt is left.
 fn area_derivative(frame: &NonmortarFrame) -> [[Vec3; MAX_NODES]; 3] {
     let (plane, facet) = (&frame.plane, &frame.projection);
-    frame.map.gradients().map(|g| {
-        let tilt = (0..MAX_NODES).fold([0.0; 2], |t, k| [t[0] + g[k].x * facet.d[k], t[1] + g[k].y * facet.d[k]]);
+    frame.map.gradients::<Plain>().map(|g| {
+        let g = g.map(Lanes::store);
+        let tilt = (0..MAX_NODES).fold([0.0; 2], |t, k| [t[0] + g[0][k] * facet.d[k], t[1] + g[1][k] * facet.d[k]]);
         std::array::from_fn(|k| {
-            let in_plane = plane.t1 * g[k].x + plane.t2 * g[k].y;
-            in_plane - plane.tilt[0][k] * tilt[0] - plane.tilt[1][k] * tilt[1]
+            let in_plane = plane.t1 * g[0][k] + plane.t2 * g[1][k];
+            in_plane - plane.e * (plane.tilt[0][k] * tilt[0] + plane.tilt[1][k] * tilt[1])
         })
     })
 }

@@ -5,13 +5,13 @@
 //! inverse maps return the same in-plane point; so Dg_A = e Dgamma_A + gamma_A De: one scalar row a
 //! node, without cancellation of in-plane coordinates (kernel notes A).
 
-use super::derivatives::WeightDerivatives;
+use super::derivatives::{Chain, WeightDerivatives};
 use super::segment::NonmortarFrame;
 use super::weights::PairWeights;
-use super::{MORTAR, PAIR_NODES, slots};
-use crate::geometry::{Facet, Mat3, Projection, Vec3};
-use crate::shape::MAX_NODES;
-use nalgebra::SMatrix;
+use super::{MORTAR, PAIR_NODES};
+use crate::geometry::{Facet, Projection, Vec3};
+use crate::shape::{Cell, MAX_NODES};
+use crate::simd::Lanes;
 
 /// Weighted gap of the pair's non-mortar nodes with any weights: those of now or those of t_n.
 pub fn gap(weights: &PairWeights, one: &Facet, two: &Facet) -> [Vec3; MAX_NODES] {
@@ -31,122 +31,97 @@ pub fn gap(weights: &PairWeights, one: &Facet, two: &Facet) -> [Vec3; MAX_NODES]
 
 /// Dg_A of a pair with its current weights.
 #[derive(Clone, Debug)]
+#[allow(clippy::large_enum_variant)] // one at a time, on the stack
 pub enum GapDerivative {
     /// Of two facets.
     Facets(AlongNormal),
-    /// Dg_A / Dx_k of a facet against an analytic surface, which is at rest.
-    Blocks([[Mat3; MAX_NODES]; MAX_NODES]),
+    /// `[k][i][j]`, lanes A: d g_A,i / d x_k,j of a facet against an analytic surface, which is at rest.
+    Blocks([[[[f64; MAX_NODES]; 3]; 3]; MAX_NODES]),
 }
 
 /// Dg_A of two facets in factors: Dg_A = e Dgamma_A + gamma_A De.
 #[derive(Clone, Debug)]
 pub struct AlongNormal {
-    e: Vec3,
-    axes: [Vec3; 2],
-    tilt: [[Vec3; MAX_NODES]; 2],
-    gamma: [f64; MAX_NODES],
-    dgamma: [[Vec3; PAIR_NODES]; MAX_NODES],
-}
-
-impl GapDerivative {
-    /// The derivative with the pair's current weights and their derivatives; `two` is the mortar facet
-    /// projected on the frame's plane.
-    pub fn current(
-        frame: &NonmortarFrame,
-        two: &Projection,
-        weights: &PairWeights,
-        derivatives: &WeightDerivatives,
-    ) -> GapDerivative {
-        Self::current_for::<true>(frame, two, weights, derivatives)
-    }
-
-    /// The same with respect to the non-mortar nodes alone, where the mortar side does not move (`MOVES` false).
-    pub fn current_for<const MOVES: bool>(
-        frame: &NonmortarFrame,
-        two: &Projection,
-        weights: &PairWeights,
-        derivatives: &WeightDerivatives,
-    ) -> GapDerivative {
-        let (plane, one) = (&frame.plane, &frame.projection);
-        let (mut gamma, mut dgamma) = ([0.0; MAX_NODES], [[Vec3::zeros(); PAIR_NODES]; MAX_NODES]);
-        for a in 0..one.shape.n {
-            let (gamma, dgamma) = (&mut gamma[a], &mut dgamma[a]);
-            for b in 0..one.shape.n {
-                let n = weights.ab[a][b];
-                *gamma += n * one.d[b];
-                dgamma[b] += plane.e * n;
-                for k in 0..slots(MOVES) {
-                    dgamma[k] += derivatives.ab[a][b][k] * one.d[b];
-                }
-            }
-            for j in 0..two.shape.n {
-                let (c, d) = (two.node[j], two.d[j]);
-                let n = weights.ac[a][c];
-                *gamma -= n * d;
-                if MOVES {
-                    dgamma[MORTAR + c] -= plane.e * n;
-                }
-                for k in 0..slots(MOVES) {
-                    dgamma[k] -= derivatives.ac[a][c][k] * d;
-                }
-            }
-        }
-        GapDerivative::Facets(AlongNormal { e: plane.e, axes: [plane.t1, plane.t2], tilt: plane.tilt, gamma, dgamma })
-    }
-
-    /// `drow` . Dg_A / Dx_k for every slot k.
-    #[inline]
-    pub fn rows<const MOVES: bool, const N: usize>(
-        &self,
-        a: usize,
-        drow: &SMatrix<f64, N, 3>,
-    ) -> [SMatrix<f64, N, 3>; PAIR_NODES] {
-        match self {
-            GapDerivative::Facets(factors) => factors.rows::<MOVES, N>(a, drow),
-            GapDerivative::Blocks(blocks) => {
-                let mut rows = [SMatrix::zeros(); PAIR_NODES];
-                for k in 0..MAX_NODES {
-                    rows[k] = drow * blocks[a][k];
-                }
-                rows
-            }
-        }
-    }
+    /// e, the plane's normal, and its other two axes.
+    pub e: Vec3,
+    /// t1, t2.
+    pub axes: [Vec3; 2],
+    /// t_j . De = sum_k `tilt[j][k]` e . Dx_k [1/L].
+    pub tilt: [[f64; MAX_NODES]; 2],
+    /// gamma_A [L^3].
+    pub gamma: [f64; MAX_NODES],
+    /// `dgamma[k][j][A]` = d gamma_A / d x_k,j [L^2]; zero in mortar slots where that side does not move.
+    pub dgamma: [[[f64; MAX_NODES]; 3]; PAIR_NODES],
 }
 
 impl AlongNormal {
-    #[inline]
-    fn rows<const MOVES: bool, const N: usize>(
-        &self,
-        a: usize,
-        drow: &SMatrix<f64, N, 3>,
-    ) -> [SMatrix<f64, N, 3>; PAIR_NODES] {
-        let mut rows = [SMatrix::zeros(); PAIR_NODES];
-        let along = drow * self.e;
-        for k in 0..slots(MOVES) {
-            rows[k] = along * self.dgamma[a][k].transpose();
+    /// From Dn: with the pair's current weights and their derivatives; `two` is the mortar facet projected on the frame's
+    /// plane.
+    pub fn from_weights(
+        frame: &NonmortarFrame,
+        two: &Projection,
+        weights: &PairWeights,
+        derivatives: &WeightDerivatives,
+    ) -> AlongNormal {
+        let (plane, one) = (&frame.plane, &frame.projection);
+        let mut dgamma = [[[0.0; MAX_NODES]; 3]; PAIR_NODES];
+        for (k, j) in (0..PAIR_NODES).flat_map(|k| (0..3).map(move |j| (k, j))) {
+            for a in 0..one.shape.n {
+                for b in 0..one.shape.n {
+                    dgamma[k][j][a] += derivatives.ab[a][b][k][j] * one.d[b];
+                }
+                for l in 0..two.shape.n {
+                    dgamma[k][j][a] -= derivatives.ac[a][two.node[l]][k][j] * two.d[l];
+                }
+                let n = if k < MORTAR { weights.ab[a][k] } else { -weights.ac[a][k - MORTAR] };
+                dgamma[k][j][a] += plane.e[j] * n;
+            }
         }
-        let across = self.axes.map(|t| drow * t * self.gamma[a]);
-        for c in 0..MAX_NODES {
-            rows[c] += across[0] * self.tilt[0][c].transpose() + across[1] * self.tilt[1][c].transpose();
+        let (e, axes, tilt) = (plane.e, [plane.t1, plane.t2], plane.tilt);
+        AlongNormal { e, axes, tilt, gamma: gamma(frame, two, weights), dgamma }
+    }
+
+    /// From `local`, the derivatives of gamma_A at fixed heights in the plane's axes.
+    #[inline(always)]
+    pub(super) fn new<L: Lanes, One: Cell, Two: Cell, const MOVES: bool>(
+        chain: &Chain,
+        mut local: [[L; 3]; PAIR_NODES],
+        weights: &PairWeights,
+    ) -> AlongNormal {
+        let plane = &chain.frame.plane;
+        // The heights: n_AB e . Dx_B - n_AC e . Dx_C.
+        for b in 0..One::NODES {
+            local[b][2] = local[b][2] + L::load(&weights.ab[b]); // n_AB is symmetric
         }
-        rows
+        let mut columns = chain.columns::<L, One, Two, MOVES>(local);
+        if MOVES {
+            let [a, b, c, d] = &weights.ac;
+            let ac = L::transpose([L::load(a), L::load(b), L::load(c), L::load(d)]);
+            for (k, n) in ac.into_iter().enumerate().take(Two::NODES) {
+                for j in 0..3 {
+                    let column = &mut columns[MORTAR + k][j];
+                    *column = *column - n * L::splat(plane.e[j]);
+                }
+            }
+        }
+        let mut dgamma = [[[0.0; MAX_NODES]; 3]; PAIR_NODES];
+        for (to, from) in dgamma.as_flattened_mut().iter_mut().zip(columns.as_flattened()) {
+            *to = from.store();
+        }
+        let gamma = gamma(chain.frame, &chain.segment.mortar, weights);
+        AlongNormal { e: plane.e, axes: [plane.t1, plane.t2], tilt: plane.tilt, gamma, dgamma }
     }
 }
 
-/// `drow` . Dg_A / Dx_k with weights held fixed, for every slot k: n_AB `drow` and -n_AC `drow`.
-#[inline]
-pub fn frozen_rows<const MOVES: bool, const N: usize>(
-    weights: &PairWeights,
-    a: usize,
-    drow: &SMatrix<f64, N, 3>,
-) -> [SMatrix<f64, N, 3>; PAIR_NODES] {
-    let mut rows = [SMatrix::zeros(); PAIR_NODES];
-    for k in 0..MAX_NODES {
-        rows[k] = drow * weights.ab[a][k];
-        if MOVES {
-            rows[MORTAR + k] = drow * -weights.ac[a][k];
+/// gamma_A = sum_B n_AB d_B - sum_C n_AC d_C.
+#[inline(always)]
+fn gamma(frame: &NonmortarFrame, two: &Projection, weights: &PairWeights) -> [f64; MAX_NODES] {
+    let one = &frame.projection;
+    let mut gamma = [0.0; MAX_NODES];
+    for a in 0..MAX_NODES {
+        for k in 0..MAX_NODES {
+            gamma[a] += weights.ab[a][k] * one.d[k] - weights.ac[a][two.node[k]] * two.d[k];
         }
     }
-    rows
+    gamma
 }

@@ -7,13 +7,15 @@
 mod analytic;
 mod derivatives;
 mod gap;
+mod moments;
+mod points;
 mod segment;
 mod transport;
 mod weights;
 
-pub use analytic::{analytic_derivatives, analytic_weights};
-pub use derivatives::WeightDerivatives;
-pub use gap::{GapDerivative, frozen_rows, gap};
+pub use analytic::{analytic_motion, analytic_weights};
+pub use derivatives::{ForceDerivatives, WeightDerivatives, pair_motion};
+pub use gap::{AlongNormal, GapDerivative, gap};
 pub use segment::{NonmortarFrame, Segment};
 pub use weights::PairWeights;
 

@@ -2,12 +2,13 @@
 //! notes A): a polygon for the volume integrals, source-edge intervals for the edge integrals of the derivatives.
 
 use crate::error::{Error, Kind, Result};
-use crate::geometry::bilinear_map::{BilinearMap, Preimage};
+use crate::geometry::bilinear_map::BilinearMap;
 use crate::geometry::clip::{self, Polygon};
-use crate::geometry::edge_interval::{self, EdgeInterval};
-use crate::geometry::{Facet, Plane, Projection, Vec2, cross};
-use crate::quadrature::Rule;
-use crate::shape::MAX_NODES;
+use crate::geometry::edge_interval::{EdgeIntervals, edge_intervals};
+use crate::geometry::{Facet, Plane, Projection};
+use crate::shape::{Cell, MAX_NODES, Quad4, Tri3};
+use crate::simd::{self, Kernel, Lanes};
+use std::marker::PhantomData;
 
 /// Overlaps below this (over the squared facet size) are rounding of facets that only touch. Their
 /// edge parts count nevertheless.
@@ -67,26 +68,53 @@ pub struct Segment {
     pub area: f64,
 }
 
-/// The parts of a pair's edges that bound the overlap; only derivatives ask for them.
-pub(super) struct Edges {
-    /// Parts of the non-mortar edges inside the mortar facet.
-    pub nonmortar: [Option<EdgeInterval>; MAX_NODES],
-    /// Parts of the mortar edges inside the non-mortar facet.
-    pub mortar: [Option<EdgeInterval>; MAX_NODES],
+/// A kernel over the kinds of both facets.
+pub(super) trait CellKernel {
+    type Output;
+    /// To be marked `#[inline(always)]`.
+    fn run<L: Lanes, One: Cell, Two: Cell>(self) -> Self::Output;
 }
 
-/// A quadrature point of the overlap.
-pub(super) struct Point {
-    /// Weight times area [L^2].
-    pub weight: f64,
-    /// Position on the non-mortar facet.
-    pub one: Preimage,
-    /// Position on the mortar facet.
-    pub two: Preimage,
-    /// Non-mortar shape functions.
-    pub n1: [f64; MAX_NODES],
-    /// Mortar shape functions, in the projection's order.
-    pub n2: [f64; MAX_NODES],
+/// The kinds of a pair's facets.
+#[derive(Clone, Copy)]
+pub(super) enum Cells {
+    TriTri,
+    TriQuad,
+    QuadTri,
+    QuadQuad,
+}
+
+impl Cells {
+    #[inline]
+    pub fn of(frame: &NonmortarFrame, segment: &Segment) -> Cells {
+        match (frame.projection.shape.n, segment.mortar.shape.n) {
+            (3, 3) => Cells::TriTri,
+            (3, _) => Cells::TriQuad,
+            (_, 3) => Cells::QuadTri,
+            _ => Cells::QuadQuad,
+        }
+    }
+
+    /// Runs the kernel compiled for these kinds, on this processor.
+    #[inline]
+    pub fn dispatch<K: CellKernel>(self, kernel: K) -> K::Output {
+        match self {
+            Cells::TriTri => simd::dispatch(ForCells(kernel, PhantomData::<(Tri3, Tri3)>)),
+            Cells::TriQuad => simd::dispatch(ForCells(kernel, PhantomData::<(Tri3, Quad4)>)),
+            Cells::QuadTri => simd::dispatch(ForCells(kernel, PhantomData::<(Quad4, Tri3)>)),
+            Cells::QuadQuad => simd::dispatch(ForCells(kernel, PhantomData::<(Quad4, Quad4)>)),
+        }
+    }
+}
+
+struct ForCells<K, One, Two>(K, PhantomData<(One, Two)>);
+
+impl<K: CellKernel, One: Cell, Two: Cell> Kernel for ForCells<K, One, Two> {
+    type Output = K::Output;
+    #[inline(always)]
+    fn run<L: Lanes>(self) -> K::Output {
+        self.0.run::<L, One, Two>()
+    }
 }
 
 impl Segment {
@@ -115,48 +143,25 @@ impl Segment {
             polygon = Polygon::empty();
         }
         let segment = Segment { mortar_map: BilinearMap::new(&mortar), mortar, polygon, area };
-        let touches = || {
-            let edges = segment.edges(frame);
-            edges.nonmortar.iter().chain(&edges.mortar).any(Option::is_some)
-        };
-        Ok((area > 0.0 || touches()).then_some(segment))
+        Ok((area > 0.0 || segment.touches(frame)).then_some(segment))
     }
 
-    /// The parts of the edges that bound the overlap.
-    pub(super) fn edges(&self, frame: &NonmortarFrame) -> Edges {
-        let (one, two) = (&frame.projection, &self.mortar);
-        let nonmortar = |k| {
-            if k < one.shape.n { edge_interval::nonmortar_edge(one, two, &frame.plane, k) } else { None }
-        };
-        let mortar = |k| if k < two.shape.n { edge_interval::mortar_edge(one, two, &frame.plane, k) } else { None };
-        Edges { nonmortar: std::array::from_fn(nonmortar), mortar: std::array::from_fn(mortar) }
+    /// Whether a part of an edge bounds the overlap.
+    fn touches(&self, frame: &NonmortarFrame) -> bool {
+        simd::dispatch(Intervals { frame, segment: self }).iter().flatten().any(Option::is_some)
     }
+}
 
-    /// Calls `visit` at every quadrature point of the overlap.
-    #[inline]
-    pub(super) fn for_each_point(&self, frame: &NonmortarFrame, rule: &Rule, mut visit: impl FnMut(&Point)) {
-        let v = self.polygon.vertices();
-        if v.is_empty() {
-            return;
-        }
-        // Affine integrands are exact on any triangles, so the fan with the fewest will do; otherwise
-        // triangles around the mean vertex have the smaller error.
-        let affine = frame.map.is_affine && self.mortar_map.is_affine;
-        let (apex, first) = if affine { (v[0], 2) } else { (self.polygon.mean_vertex(), 0) };
-        for i in first..v.len() {
-            let (p, q) = (v[(i + v.len() - 1) % v.len()] - apex, v[i] - apex);
-            let area = 0.5 * cross(p, q);
-            for [l1, l2, w] in rule.triangle {
-                let y: Vec2 = apex + p * *l1 + q * *l2;
-                let (one, two) = (frame.map.inverse(y), self.mortar_map.inverse(y));
-                visit(&Point {
-                    weight: w * area,
-                    one,
-                    two,
-                    n1: frame.projection.shape.values(one.xi, one.eta),
-                    n2: self.mortar.shape.values(two.xi, two.eta),
-                });
-            }
-        }
+/// [`edge_intervals`] of a pair.
+struct Intervals<'a> {
+    frame: &'a NonmortarFrame,
+    segment: &'a Segment,
+}
+
+impl Kernel for Intervals<'_> {
+    type Output = [EdgeIntervals; 2];
+    #[inline(always)]
+    fn run<L: Lanes>(self) -> [EdgeIntervals; 2] {
+        edge_intervals::<L>(&self.frame.projection, &self.segment.mortar, &self.frame.plane)
     }
 }

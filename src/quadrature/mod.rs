@@ -16,18 +16,51 @@ pub struct Rule {
     pub line: &'static [[f64; 2]],
     /// The same; products of two of its points integrate over a square.
     pub square: &'static [[f64; 2]],
+    /// `triangle`, four points at a time (L1, L2, weight), filled up with points without weight.
+    pub triangle_lanes: &'static [[[f64; 4]; 3]],
+    /// `line`, four points at a time (abscissa, weight), likewise.
+    pub line_lanes: &'static [[[f64; 4]; 2]],
     /// Polynomial degree that all integrate exactly.
     pub degree: u32,
 }
 
 /// 7 points a triangle, 4 an interval: exact for affine facets. The default.
-pub static DEGREE_5: Rule =
-    Rule { triangle: &triangle::RADON_7, line: &line::GAUSS_4, square: &line::GAUSS_3, degree: 5 };
+pub static DEGREE_5: Rule = Rule {
+    triangle: &triangle::RADON_7,
+    line: &line::GAUSS_4,
+    square: &line::GAUSS_3,
+    triangle_lanes: &lanes::<3, 7, 2>(&triangle::RADON_7),
+    line_lanes: &lanes::<2, 4, 1>(&line::GAUSS_4),
+    degree: 5,
+};
 
 /// 36 points a triangle, 6 an interval: for warped or distorted facets where accuracy counts more
 /// than time, and for difference tests on such facets.
-pub static DEGREE_10: Rule =
-    Rule { triangle: &triangle::CONICAL_36, line: &line::GAUSS_6, square: &line::GAUSS_6, degree: 10 };
+pub static DEGREE_10: Rule = Rule {
+    triangle: &triangle::CONICAL_36,
+    line: &line::GAUSS_6,
+    square: &line::GAUSS_6,
+    triangle_lanes: &lanes::<3, 36, 9>(&triangle::CONICAL_36),
+    line_lanes: &lanes::<2, 6, 2>(&line::GAUSS_6),
+    degree: 10,
+};
+
+/// `N` points of `K` numbers each, the last one the weight, in `G` groups of four. What is left over repeats the first
+/// point without weight.
+const fn lanes<const K: usize, const N: usize, const G: usize>(rule: &[[f64; K]; N]) -> [[[f64; 4]; K]; G] {
+    let mut groups = [[[0.0; 4]; K]; G];
+    let mut i = 0;
+    while i < 4 * G {
+        let mut k = 0;
+        while k < K {
+            let point = if i < N { rule[i][k] } else { rule[0][k] };
+            groups[i / 4][k][i % 4] = if i >= N && k == K - 1 { 0.0 } else { point };
+            k += 1;
+        }
+        i += 1;
+    }
+    groups
+}
 
 #[cfg(test)]
 mod tests {
@@ -60,6 +93,25 @@ mod tests {
                 let sum: f64 = line.iter().map(|p| p[1] * p[0].powi(a as i32)).sum();
                 assert!((sum - 1.0 / f64::from(a + 1)).abs() < 1e-15, "t^{a}");
             }
+        }
+    }
+
+    #[test]
+    fn lanes_hold_the_same_points() {
+        for rule in [&DEGREE_5, &DEGREE_10] {
+            let mut triangle = rule.triangle.iter();
+            for i in 0..4 * rule.triangle_lanes.len() {
+                let [l1, l2, w] = rule.triangle_lanes[i / 4].map(|v| v[i % 4]);
+                let [p1, p2, v] = triangle.next().copied().unwrap_or([rule.triangle[0][0], rule.triangle[0][1], 0.0]);
+                assert_eq!([l1, l2, w], [p1, p2, v]);
+            }
+            assert!(triangle.next().is_none());
+            let mut line = rule.line.iter();
+            for i in 0..4 * rule.line_lanes.len() {
+                let point = rule.line_lanes[i / 4].map(|v| v[i % 4]);
+                assert_eq!(point, line.next().copied().unwrap_or([rule.line[0][0], 0.0]));
+            }
+            assert!(line.next().is_none());
         }
     }
 }

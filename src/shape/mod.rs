@@ -6,11 +6,27 @@
 mod quad4;
 mod tri3;
 
-pub use quad4::QUAD4;
-pub use tri3::TRI3;
+pub use quad4::{QUAD4, Quad4};
+pub use tri3::{TRI3, Tri3};
+
+use crate::simd::Real;
 
 /// Most nodes a facet can have.
 pub const MAX_NODES: usize = 4;
+
+/// A facet kind that a kernel is compiled for.
+pub trait Cell {
+    /// Number of nodes.
+    const NODES: usize;
+    /// Whether the shape functions have a term xi eta.
+    const BILINEAR: bool;
+
+    /// Values N_k(xi, eta).
+    fn values<R: Real>(xi: R, eta: R) -> [R; MAX_NODES];
+
+    /// The integrals of f N_k from those of f (1, xi, eta, xi eta).
+    fn nodal<R: Real>(monomials: [R; 4]) -> [R; MAX_NODES];
+}
 
 /// A facet kind's shape functions on its reference cell.
 #[derive(Debug)]
@@ -68,6 +84,19 @@ mod tests {
             let sum: f64 = shape.values(0.3, 0.125).iter().sum();
             assert_eq!(sum, 1.0);
         }
+    }
+
+    fn check_cell<C: Cell>(shape: &Shape) {
+        let (xi, eta) = (0.3125, 0.125); // exact in every sum
+        assert_eq!(C::NODES, shape.n);
+        assert_eq!(C::values(xi, eta), shape.values(xi, eta));
+        assert_eq!(C::nodal([1.0, xi, eta, xi * eta]), shape.values(xi, eta));
+    }
+
+    #[test]
+    fn cells_have_the_shape_functions() {
+        check_cell::<Tri3>(&TRI3);
+        check_cell::<Quad4>(&QUAD4);
     }
 
     #[test]

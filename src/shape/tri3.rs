@@ -1,6 +1,7 @@
 //! The three-node triangle on (0,0), (1,0), (0,1).
 
-use super::Shape;
+use super::{Cell, MAX_NODES, Shape};
+use crate::simd::Real;
 
 /// Linear triangle.
 pub static TRI3: Shape = Shape {
@@ -14,3 +15,21 @@ pub static TRI3: Shape = Shape {
     ],
     reversed: [0, 2, 1, 3],
 };
+
+/// [`TRI3`] for the compiler.
+pub struct Tri3;
+
+impl Cell for Tri3 {
+    const NODES: usize = 3;
+    const BILINEAR: bool = false;
+
+    #[inline(always)]
+    fn values<R: Real>(xi: R, eta: R) -> [R; MAX_NODES] {
+        [R::splat(1.0) - xi - eta, xi, eta, R::splat(0.0)]
+    }
+
+    #[inline(always)]
+    fn nodal<R: Real>(m: [R; 4]) -> [R; MAX_NODES] {
+        [m[0] - m[1] - m[2], m[1], m[2], R::splat(0.0)]
+    }
+}

@@ -1,0 +1,73 @@
+//! The quadrature points of an overlap, four at a time: triangles of the polygon (formulation c.3) with the inverse maps
+//! of both facets (c.4).
+
+use super::segment::{NonmortarFrame, Segment};
+use crate::geometry::bilinear_map::Preimage;
+use crate::geometry::{Vec2, cross};
+use crate::quadrature::Rule;
+use crate::simd::Lanes;
+
+/// Four quadrature points.
+#[derive(Clone, Copy)]
+pub(super) struct Points<L> {
+    /// Weight times area [L^2].
+    pub weight: L,
+    /// Positions on the non-mortar facet.
+    pub one: Preimage<L>,
+    /// Positions on the mortar facet.
+    pub two: Preimage<L>,
+}
+
+/// The triangles of an overlap: (apex; p, q) stands for apex, apex + p, apex + q.
+pub(super) struct Fan<'a> {
+    vertices: &'a [Vec2],
+    apex: Vec2,
+    next: usize,
+    last: Vec2,
+}
+
+impl<'a> Fan<'a> {
+    /// Affine integrands are exact on any triangles, so the fan with the fewest will do; otherwise triangles around the
+    /// mean vertex have the smaller error.
+    #[inline(always)]
+    pub fn new(frame: &NonmortarFrame, segment: &'a Segment) -> Fan<'a> {
+        let vertices = segment.polygon.vertices();
+        let Some(&last) = vertices.last() else {
+            return Fan { vertices, apex: Vec2::zeros(), next: 0, last: Vec2::zeros() };
+        };
+        if frame.map.is_affine && segment.mortar_map.is_affine {
+            return Fan { vertices, apex: vertices[0], next: 2, last: vertices[1] };
+        }
+        Fan { vertices, apex: segment.polygon.mean_vertex(), next: 0, last }
+    }
+
+    /// The next triangle.
+    #[inline(always)]
+    pub fn triangle(&mut self) -> Option<[Vec2; 3]> {
+        let &vertex = self.vertices.get(self.next)?;
+        let triangle = [self.apex, self.last - self.apex, vertex - self.apex];
+        self.next += 1;
+        self.last = vertex;
+        Some(triangle)
+    }
+}
+
+/// The i-th four points of a triangle.
+#[inline(always)]
+pub(super) fn points<L: Lanes>(
+    frame: &NonmortarFrame,
+    segment: &Segment,
+    rule: &Rule,
+    [apex, p, q]: &[Vec2; 3],
+    i: usize,
+) -> Points<L> {
+    let [l1, l2, w] = &rule.triangle_lanes[i];
+    let (l1, l2) = (L::load(l1), L::load(l2));
+    let x = L::splat(q.x).mul_add(l2, L::splat(p.x).mul_add(l1, L::splat(apex.x)));
+    let y = L::splat(q.y).mul_add(l2, L::splat(p.y).mul_add(l1, L::splat(apex.y)));
+    Points {
+        weight: L::load(w) * L::splat(0.5 * cross(*p, *q)),
+        one: frame.map.inverse([x, y]),
+        two: segment.mortar_map.inverse([x, y]),
+    }
+}
