@@ -8,6 +8,8 @@ mod analytic;
 mod derivatives;
 mod gap;
 mod moments;
+#[cfg(test)]
+mod oracle;
 mod points;
 mod segment;
 mod transport;

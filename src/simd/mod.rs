@@ -56,6 +56,10 @@ pub trait Kernel {
 /// Runs a kernel on the best back end of this processor.
 #[inline]
 pub fn dispatch<K: Kernel>(kernel: K) -> K::Output {
+    #[cfg(test)]
+    if tests::PLAIN.get() {
+        return kernel.run::<Plain>();
+    }
     #[cfg(target_arch = "x86_64")]
     if is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma") {
         return avx2::run(kernel);
@@ -91,8 +95,23 @@ impl Real for f64 {
 }
 
 #[cfg(test)]
+pub(crate) use tests::on_plain_lanes;
+
+#[cfg(test)]
 mod tests {
     use super::*;
+
+    thread_local! {
+        pub(super) static PLAIN: std::cell::Cell<bool> = const { std::cell::Cell::new(false) };
+    }
+
+    /// Does `work` as on a processor without any features.
+    pub(crate) fn on_plain_lanes<T>(work: impl FnOnce() -> T) -> T {
+        PLAIN.set(true);
+        let result = work();
+        PLAIN.set(false);
+        result
+    }
 
     /// Every operation, in exact numbers: all back ends give the same.
     struct Operations;
