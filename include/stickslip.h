@@ -807,7 +807,7 @@ int32_t stickslip_interface_history_import(struct stickslip_interface *interface
 int32_t stickslip_interface_counters(struct stickslip_interface *interface, struct stickslip_counters *out);
 
 /// What the interface computes and why, one sentence an effect, for the host's log: friction, mortar side, weights,
-/// surfaces that are apart; "asked for" where the options name it, "chosen" where the scene let the library choose.
+/// surfaces that are apart, nodes that nothing can cover; "asked for" where the options name it, "chosen" where the scene let the library choose.
 /// For people: the words may change.
 ///
 /// text (capacity), output: zero-terminated, cut where it is longer; 1000 characters are enough.

@@ -111,7 +111,7 @@ pub unsafe extern "C" fn stickslip_interface_counters(
 }
 
 /// What the interface computes and why, one sentence an effect, for the host's log: friction, mortar side, weights,
-/// surfaces that are apart; "asked for" where the options name it, "chosen" where the scene let the library choose.
+/// surfaces that are apart, nodes that nothing can cover; "asked for" where the options name it, "chosen" where the scene let the library choose.
 /// For people: the words may change.
 ///
 /// text (capacity), output: zero-terminated, cut where it is longer; 1000 characters are enough.

@@ -6,7 +6,14 @@ impl<const N: usize> Contact<N> {
     /// One sentence per effect: what is computed, and whether the options ask for it or the scene lets the library
     /// choose it.
     pub fn effects(&self) -> String {
-        [self.friction_sentence(), self.mortar_sentence(), self.weights_sentence(), self.apart_sentence()].join(" ")
+        let sentences = [
+            self.friction_sentence(),
+            self.mortar_sentence(),
+            self.weights_sentence(),
+            self.apart_sentence(),
+            self.uncovered_sentence(),
+        ];
+        sentences.join(" ")
     }
 
     fn friction_sentence(&self) -> String {
@@ -59,13 +66,22 @@ impl<const N: usize> Contact<N> {
     fn apart_sentence(&self) -> String {
         let what = match (self.options.effective_weights(), self.options.shortcuts.apart) {
             (Weights::Current, true) if self.mortar.analytic.is_some() => {
-                "only the distances of the nodes are compared (chosen)"
+                "only the nodes' distances and normals are compared (chosen)"
             }
             (Weights::Current, false) if self.mortar.analytic.is_some() => "integrated all the same (asked for)",
-            (Weights::Current, true) => "only their boxes are compared (chosen)",
+            (Weights::Current, true) => "only their boxes and normals are compared (chosen)",
             (Weights::Current, false) => "searched all the same (asked for)",
             (Weights::Committed | Weights::Reference, _) => "nothing special, for frozen weights need no search",
         };
         format!("Surfaces that are apart: {what}.")
+    }
+
+    fn uncovered_sentence(&self) -> String {
+        let what = match (self.options.shortcuts.uncovered, self.shared) {
+            (true, false) => "no law (chosen)",
+            (true, true) => "the law all the same, for other handles may cover them",
+            (false, _) => "the law all the same (asked for)",
+        };
+        format!("Nodes that nothing can cover in a step: {what}.")
     }
 }

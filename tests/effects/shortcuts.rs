@@ -90,7 +90,7 @@ fn it_says_what_it_computes_and_why() {
         } else {
             again::<3>(&scene, prescribed, options).effects()
         };
-        assert_eq!(text.matches(". ").count() + 1, 4, "four sentences: {text}");
+        assert_eq!(text.matches(". ").count() + 1, 5, "five sentences: {text}");
         assert!(text.is_ascii() && text.len() < 500, "{text}");
         for word in words {
             assert!(text.contains(word), "'{word}' is not in: {text}");
@@ -100,8 +100,16 @@ fn it_says_what_it_computes_and_why() {
     let coulomb = of(Friction::Coulomb);
     says(false, options(), &["Coulomb's law with mu 0.7; three multipliers", "Mortar side: deformable.", "of now"]);
     says(false, coulomb, &["none (chosen: mu is 0 at every node)"]);
-    says(false, Options { shortcuts: NO_SHORTCUTS, ..coulomb }, &["Coulomb's law with mu 0;", "searched all the same"]);
-    says(false, of(Friction::None), &["none (asked for)", "one multiplier a node", "boxes are compared (chosen)"]);
+    says(
+        false,
+        Options { shortcuts: NO_SHORTCUTS, ..coulomb },
+        &["Coulomb's law with mu 0;", "searched all the same", "the law all the same"],
+    );
+    says(
+        false,
+        of(Friction::None),
+        &["none (asked for)", "one multiplier a node", "boxes and normals are compared (chosen)", "no law (chosen)"],
+    );
     says(
         false,
         of(Friction::Tied),
