@@ -110,11 +110,29 @@ module stickslip
   integer(c_int32_t), parameter :: STICKSLIP_STATE_STICK = 1
   integer(c_int32_t), parameter :: STICKSLIP_STATE_SLIP = 2
 
+  ! Cover of a node: none, in part, in full, by several layers.
+  integer(c_int32_t), parameter :: STICKSLIP_COVER_NONE = 0
+  integer(c_int32_t), parameter :: STICKSLIP_COVER_PART = 1
+  integer(c_int32_t), parameter :: STICKSLIP_COVER_FULL = 2
+  integer(c_int32_t), parameter :: STICKSLIP_COVER_SEVERAL = 3
+
+  ! What a report finds where no node is covered.
+  integer(c_int32_t), parameter :: STICKSLIP_FINDING_NONE = 0
+  integer(c_int32_t), parameter :: STICKSLIP_FINDING_NO_OVERLAP = 1
+  integer(c_int32_t), parameter :: STICKSLIP_FINDING_SAME_WAY = 2
+  integer(c_int32_t), parameter :: STICKSLIP_FINDING_BEHIND = 3
+
+  ! Added up in the kinds of a node that interfaces share.
+  integer(c_int32_t), parameter :: STICKSLIP_CROSSPOINT_CLAIMED = 1
+  integer(c_int32_t), parameter :: STICKSLIP_CROSSPOINT_CHAIN = 2
+  integer(c_int32_t), parameter :: STICKSLIP_CROSSPOINT_BOTH_SIDES = 4
+
   ! Sizes of the types in bytes (64-bit machines), their struct_size.
   integer(c_int64_t), parameter :: stickslip_options_size = 104
   integer(c_int64_t), parameter :: stickslip_surface_size = 72
   integer(c_int64_t), parameter :: stickslip_states_size = 80
-  integer(c_int64_t), parameter :: stickslip_counters_size = 184
+  integer(c_int64_t), parameter :: stickslip_counters_size = 192
+  integer(c_int64_t), parameter :: stickslip_report_size = 104
   integer(c_int64_t), parameter :: stickslip_pair_size = 40
   integer(c_int64_t), parameter :: stickslip_node_response_size = 408
   integer(c_int64_t), parameter :: stickslip_node_size = 224
@@ -202,6 +220,25 @@ module stickslip
     integer(c_int64_t) :: nodes_tied = 0           ! covered and tied
     integer(c_int64_t) :: nodes_uncovered = 0      ! not covered
     integer(c_int64_t) :: nodes_left_out = 0       ! not covered, and the law was not asked
+    integer(c_int64_t) :: boxes_visited = 0        ! boxes that the searches compared
+  end type
+
+  ! What stickslip_interface_report finds; an array that stays null is not wanted.
+  type, bind(C) :: stickslip_report
+    integer(c_int64_t) :: struct_size = stickslip_report_size
+    type(c_ptr) :: cover = c_null_ptr              ! integer(c_int32_t) (n1): STICKSLIP_COVER_...
+    type(c_ptr) :: fraction = c_null_ptr           ! real(c_double) (n1): covered / full area
+    type(c_ptr) :: layers = c_null_ptr             ! integer(c_int32_t) (n1): of the mortar surface
+    type(c_ptr) :: facets = c_null_ptr             ! integer(c_int64_t) (n1): mortar facets that overlap
+    type(c_ptr) :: text = c_null_ptr               ! character(kind=c_char) (text_capacity): in sentences
+    integer(c_int64_t) :: text_capacity = 0
+    integer(c_int64_t) :: nodes_none = 0           ! outputs: how many nodes of each cover
+    integer(c_int64_t) :: nodes_part = 0
+    integer(c_int64_t) :: nodes_full = 0
+    integer(c_int64_t) :: nodes_several = 0
+    integer(c_int32_t) :: finding = STICKSLIP_FINDING_NONE ! output
+    integer(c_int32_t) :: reserved = 0
+    real(c_double) :: penetration = 0              ! output: the deepest [L]
   end type
 
   ! A pair of facets, non-mortar first. Node order: right-hand, seen from outside each body.
@@ -279,6 +316,33 @@ module stickslip
       import :: c_int32_t, c_int64_t, stickslip_options
       type(stickslip_options), intent(inout) :: options
       integer(c_int64_t), value :: struct_size
+    end function
+
+    ! Splits the nodes on creases until no fan of facets around a node spans more than angle (radians):
+    ! integer(c_int64_t) facet_nodes (as many as the surface has), originals(capacity), and count, the nodes of the new
+    ! surface. Both null: only count. Let all copies of a node that is split be without friction.
+    integer(c_int32_t) function stickslip_surface_split_creases(surface, angle, index_base, capacity, facet_nodes, &
+        originals, count) bind(C)
+      import :: c_double, c_int32_t, c_int64_t, c_ptr, stickslip_surface
+      type(stickslip_surface), intent(in) :: surface
+      real(c_double), value :: angle
+      integer(c_int32_t), value :: index_base
+      integer(c_int64_t), value :: capacity
+      type(c_ptr), value :: facet_nodes, originals
+      integer(c_int64_t), intent(inout) :: count
+    end function
+
+    ! Nodes that interfaces share: nonmortar_offsets(n_interfaces + 1), from 0, into nonmortar_nodes(*), the same of the
+    ! mortar sides. integer(c_int64_t) nodes(capacity), claims(capacity), integer(c_int32_t) kinds(capacity), and count.
+    ! All three null: only count.
+    integer(c_int32_t) function stickslip_crosspoints_find(n_interfaces, nonmortar_offsets, nonmortar_nodes, &
+        mortar_offsets, mortar_nodes, capacity, nodes, kinds, claims, count) bind(C)
+      import :: c_int32_t, c_int64_t, c_ptr
+      integer(c_int64_t), value :: n_interfaces
+      integer(c_int64_t), intent(in) :: nonmortar_offsets(*), nonmortar_nodes(*), mortar_offsets(*), mortar_nodes(*)
+      integer(c_int64_t), value :: capacity
+      type(c_ptr), value :: nodes, kinds, claims
+      integer(c_int64_t), intent(inout) :: count
     end function
 
     ! Creates an interface between two surfaces, whose coordinates are the first configuration and t_0. The surfaces
@@ -465,6 +529,15 @@ module stickslip
       type(stickslip_interface), value :: interface
       character(kind=c_char), intent(inout) :: text(*)
       integer(c_int64_t), value :: capacity
+    end function
+
+    ! Which nodes are covered at x1(3, n1), x2(3, n2), and what is amiss where none is; written to out and to the arrays
+    ! that it points to.
+    integer(c_int32_t) function stickslip_interface_report(interface, x1, x2, out) bind(C)
+      import :: c_double, c_int32_t, stickslip_interface, stickslip_report
+      type(stickslip_interface), value :: interface
+      real(c_double), intent(in) :: x1(3, *), x2(3, *)
+      type(stickslip_report), intent(inout) :: out
     end function
 
     ! A non-mortar facet's share of its nodes' normals and areas. x(3, n); outputs, each may be null: normals(3, n),

@@ -54,7 +54,8 @@
  * What it may add: interface_set_friction, interface_set_augmentation, interface_set_normals,
  * interface_set_constraints, interface_set_previous after interface_create; interface_history_size,
  * interface_history_export, interface_history_import for restarts; interface_sums on several processes;
- * interface_counters, interface_effects.
+ * interface_counters, interface_effects, interface_report. Before it: surface_split_creases where a non-mortar surface
+ * has sharp edges, crosspoints_find where interfaces share nodes.
  *
  * A host that assembles elements itself:
  *
@@ -230,8 +231,47 @@
 /// It keeps its mu (a sticking one then has zero tangential rows).
 #define STICKSLIP_NEW_CONTACT_KEEP 1
 
+/// Kind of a shared node: non-mortar in more than one interface. Where it sticks or is tied in two of them, six
+/// conditions meet three displacements: leave it its multipliers in one of them and give it -1 in the others, or, where
+/// their normals differ, let it be without friction in all.
+#define STICKSLIP_CROSSPOINT_CLAIMED 1
+
+/// Kind of a shared node: non-mortar in one interface, mortar in another one, a link of a chain. Fine.
+#define STICKSLIP_CROSSPOINT_CHAIN 2
+
+/// Kind of a shared node: on both sides of the same interface. It touches itself: leave the facets around it out of one
+/// side.
+#define STICKSLIP_CROSSPOINT_BOTH_SIDES 4
+
 /// Reals per node of `stickslip_interface_sums`.
 #define STICKSLIP_SUMS_PER_NODE 11
+
+/// Cover of a node: none (at and below coverage_min). It is open.
+#define STICKSLIP_COVER_NONE 0
+
+/// Cover of a node: part of its area, at an edge of the mortar surface.
+#define STICKSLIP_COVER_PART 1
+
+/// Cover of a node: all of its area, within 1 %.
+#define STICKSLIP_COVER_FULL 2
+
+/// Cover of a node: several layers of the mortar surface. A commit refuses them where they cover more than all of its
+/// area.
+#define STICKSLIP_COVER_SEVERAL 3
+
+/// Finding: nothing is amiss with surfaces that lie over each other.
+#define STICKSLIP_FINDING_NONE 0
+
+/// Finding: no facets lie over each other. Not amiss where they meet later.
+#define STICKSLIP_FINDING_NO_OVERLAP 1
+
+/// Finding: no facets that lie over each other oppose each other: the node order of one side is reversed, or it is the
+/// wrong face of its body.
+#define STICKSLIP_FINDING_SAME_WAY 2
+
+/// Finding: opposing facets lie behind each other deeper than a pair can: both node orders are reversed, or the bodies
+/// have passed through each other, or start so deep that search_distance is needed.
+#define STICKSLIP_FINDING_BEHIND 3
 
 /// Matrices go out row by row (what PETSc's MatSetValues takes).
 #define STICKSLIP_LAYOUT_ROW_MAJOR 0
@@ -417,7 +457,44 @@ typedef struct stickslip_counters {
   int64_t nodes_uncovered;
   /// Not covered, and the law was not asked: see STICKSLIP_SHORTCUT_UNCOVERED.
   int64_t nodes_left_out;
+  /// Boxes that the searches compared: O(n log n).
+  int64_t boxes_visited;
 } stickslip_counters;
+
+/// What `stickslip_interface_report` finds. A NULL member is not wanted.
+typedef struct stickslip_report {
+  /// sizeof(stickslip_report).
+  uint64_t struct_size;
+  /// n1: STICKSLIP_COVER_... of each non-mortar node.
+  int32_t *cover;
+  /// n1: covered over full area [-].
+  double *fraction;
+  /// n1: layers of the mortar surface over a facet around the node, 1 where there are no several. Layers that cover
+  /// less than one facet in all count as one.
+  int32_t *layers;
+  /// n1: mortar facets that overlap with the facets around the node.
+  int64_t *facets;
+  /// The report in sentences, for the host's log; zero-terminated, cut where it is longer. For people: the words may
+  /// change.
+  char *text;
+  /// Room for text, at least 1; 1000 characters are enough. 0 where text is NULL.
+  int64_t text_capacity;
+  /// Output: nodes with STICKSLIP_COVER_NONE.
+  int64_t nodes_none;
+  /// Output: nodes with STICKSLIP_COVER_PART.
+  int64_t nodes_part;
+  /// Output: nodes with STICKSLIP_COVER_FULL.
+  int64_t nodes_full;
+  /// Output: nodes with STICKSLIP_COVER_SEVERAL.
+  int64_t nodes_several;
+  /// Output: STICKSLIP_FINDING_...; other than NONE only where no node is covered.
+  int32_t finding;
+  /// 0.
+  int32_t reserved;
+  /// Output: the deepest penetration of a covered node, its weighted gap over its covered area; 0 where all are open
+  /// [L]. Where both sides are seen from inside, an open gap reads as a penetration.
+  double penetration;
+} stickslip_report;
 
 /// A pair of facets, non-mortar first. Node order: right-hand, seen from outside each body.
 typedef struct stickslip_pair {
@@ -540,17 +617,68 @@ const char *stickslip_status_string(int32_t status);
 int32_t stickslip_options_init(struct stickslip_options *options,
                                uint64_t struct_size);
 
+/// Splits the nodes on creases of a non-mortar surface: gives each fan of facets that look nearly the same way nodes of
+/// its own, until no two corner normals around a node differ by more than angle. A node of a sharp edge or corner then
+/// has one averaged normal, gap and multiplier for each side; without, it has a compromise, or none at all
+/// (UNDEFINED_NORMAL).
+///
+/// surface: n_nodes, n_facets, coordinates, facet_offsets and facet_nodes are read, in index_base (0 or 1). angle:
+/// above 0 and below pi, in radians [-]; 40 degrees (0.7) splits what is drawn as an edge. Outputs: facet_nodes, the
+/// new node numbers in index_base, as many as the surface has and with the same offsets (the surface's own array will
+/// do); originals (n_nodes of the new surface, its length capacity): the old number of each new node, in index_base.
+/// The old nodes keep their numbers, copies come behind them. count: nodes of the new surface. With facet_nodes and
+/// originals both NULL only count is written.
+///
+/// The new surface takes coordinates and displacement equations of the originals (several nodes with the same
+/// equations; forces add up) and multiplier equations of its own for every copy. Let all copies of a node that is split
+/// be without friction (`stickslip_interface_set_friction`): where two of them stick, six conditions meet three
+/// displacements and the matrix is singular. Tied surfaces need no split.
+///
+/// Errors: NULL_POINTER, STRUCT_SIZE, INVALID_SIZE, NOT_FINITE, INDEX_OUT_OF_RANGE, DUPLICATE_NODE, INVALID_VALUE (the
+/// angle, the index base, or a surface that no interface takes), BUFFER_TOO_SMALL.
+/// Cost: O(n log n), and O(k^2) for the k facets around a node; allocates.
+int32_t stickslip_surface_split_creases(const struct stickslip_surface *surface,
+                                        double angle,
+                                        int32_t index_base,
+                                        int64_t capacity,
+                                        int64_t *facet_nodes,
+                                        int64_t *originals,
+                                        int64_t *count);
+
+/// The nodes that several interfaces of a host share in a way that matters (crosspoints). Nodes that are mortar alone,
+/// in however many interfaces, do not.
+///
+/// n_interfaces: how many. nonmortar_offsets (n_interfaces + 1), starting at 0: interface k has the entries
+/// nonmortar_offsets[k] to nonmortar_offsets[k + 1] - 1 of nonmortar_nodes, any numbers of the host's, each as often as
+/// it likes (copies of a node on a crease are one node); mortar_offsets and mortar_nodes the same of the other sides.
+/// Outputs (capacity entries each): nodes, ascending, kinds: sums of STICKSLIP_CROSSPOINT_..., claims: in how many
+/// interfaces the node is non-mortar; count: how many nodes. With nodes, kinds and claims all NULL only count is
+/// written.
+///
+/// Errors: NULL_POINTER, INVALID_SIZE (n_interfaces, offsets that do not start at 0 or decrease), BUFFER_TOO_SMALL.
+/// Cost: O(n log n); allocates.
+int32_t stickslip_crosspoints_find(int64_t n_interfaces,
+                                   const int64_t *nonmortar_offsets,
+                                   const int64_t *nonmortar_nodes,
+                                   const int64_t *mortar_offsets,
+                                   const int64_t *mortar_nodes,
+                                   int64_t capacity,
+                                   int64_t *nodes,
+                                   int32_t *kinds,
+                                   int64_t *claims,
+                                   int64_t *count);
+
 /// Creates an interface between two surfaces, whose coordinates are the first configuration and t_0.
 ///
 /// nonmortar carries the multipliers (take the softer side, of equals the finer), mortar is the other one;
-/// options: see `stickslip_options`. out, output: the handle. Surfaces that do not face each other are no
-/// error; `pairs_active` of `stickslip_interface_counters` is then 0, and so it is while they are apart (`commits_apart`
-/// is not 0): look at it once they are near, a facet order seen from inside the body is found that way.
+/// options: see `stickslip_options`. out, output: the handle. Surfaces that do not face each other are no error; look
+/// at `stickslip_interface_report` once, a facet order seen from inside the body is found that way. Nodes may share
+/// displacement equations: see `stickslip_surface_split_creases`.
 ///
 /// Errors: NULL_POINTER, STRUCT_SIZE, INVALID_SIZE, NOT_FINITE, INDEX_OUT_OF_RANGE, DUPLICATE_NODE,
-/// DEGENERATE_FACET, INVALID_VALUE (an option; a node without a facet; a mortar side given multipliers; a frame
-/// that is too small for where it is; a
-/// mortar surface in layers), MISSING_STIFFNESS, UNSUPPORTED, UNDEFINED_NORMAL, PROJECTION_NOT_CONVEX.
+/// DEGENERATE_FACET, INVALID_VALUE (an option; a node without a facet; neighbouring facets with opposite node
+/// orders, a surface that branches or is folded; a mortar side given multipliers; a frame that is too small for where
+/// it is; a mortar surface in layers), MISSING_STIFFNESS, UNSUPPORTED, UNDEFINED_NORMAL, PROJECTION_NOT_CONVEX.
 /// Cost: one search, O((n1 + n2) log n2), and one integration of the pairs found; allocates.
 /// Owner: the caller, who ends it with `stickslip_interface_destroy`. Both surfaces and the options are
 /// copied: all arrays may be freed after the call.
@@ -817,6 +945,21 @@ int32_t stickslip_interface_counters(struct stickslip_interface *interface, stru
 int32_t stickslip_interface_effects(struct stickslip_interface *interface,
                                     char *text,
                                     int64_t capacity);
+
+/// Which non-mortar nodes are covered at (x1, x2), in full, in part, by how many facets and layers; and, where nothing
+/// overlaps, what that looks like. Once after creation, and where a host wants to show it. The state of the handle
+/// stays as it is, and what the library leaves out for surfaces that are apart is looked at here all the same.
+///
+/// x1 (3 n1), x2 (3 n2): positions [L]. out, input and output: its members point to the caller's arrays, which are
+/// filled; its numbers are written.
+///
+/// Errors: NULL_POINTER, STRUCT_SIZE, INVALID_SIZE (text_capacity), NOT_FINITE, DEGENERATE_FACET,
+/// PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL, INVALID_VALUE (an analytic surface's frame).
+/// Cost: one search and one integration (frozen weights: none), a second search where no node is covered; allocates.
+int32_t stickslip_interface_report(struct stickslip_interface *interface,
+                                   const double *x1,
+                                   const double *x2,
+                                   struct stickslip_report *out);
 
 /// A non-mortar facet's share of its nodes' normals and areas.
 ///

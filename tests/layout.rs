@@ -102,7 +102,24 @@ fn layouts() -> Vec<Layout> {
             nodes_new,
             nodes_tied,
             nodes_uncovered,
-            nodes_left_out
+            nodes_left_out,
+            boxes_visited
+        }),
+        layout!(stickslip_report {
+            struct_size,
+            cover,
+            fraction,
+            layers,
+            facets,
+            text,
+            text_capacity,
+            nodes_none,
+            nodes_part,
+            nodes_full,
+            nodes_several,
+            finding,
+            reserved,
+            penetration
         }),
         layout!(stickslip_node {
             struct_size,

@@ -46,6 +46,15 @@ fn full_part_and_none_at_an_edge() {
     assert_eq!(claims, [expected, expected].concat());
 }
 
+/// Covered by less than what several layers are told apart by.
+#[test]
+fn a_hardly_covered_node_has_one_layer() {
+    let one = grid(1, 1, [0.0, 0.0], [1.0, 1.0], 0.0, false, Cells::Quads);
+    let two = grid(1, 1, [-1.0, -1.0], [0.004, 2.0], 0.0, true, Cells::Quads);
+    let report = interface(&one, &two, options()).report(&one.x, &two.x).unwrap();
+    assert!(report.nodes.iter().all(|n| n.cover == Cover::Part && n.layers == 1), "{report:?}");
+}
+
 #[test]
 fn penetration_is_the_deepest_nodes() {
     let one = grid(2, 2, [0.0, 0.0], [1.0, 1.0], 0.0, false, Cells::Quads);

@@ -57,6 +57,8 @@ pub struct stickslip_counters {
     pub nodes_uncovered: i64,
     /// Not covered, and the law was not asked: see STICKSLIP_SHORTCUT_UNCOVERED.
     pub nodes_left_out: i64,
+    /// Boxes that the searches compared: O(n log n).
+    pub boxes_visited: i64,
 }
 
 // SAFETY: repr(C), struct_size first, numbers only.
@@ -104,6 +106,7 @@ pub unsafe extern "C" fn stickslip_interface_counters(
                 nodes_tied: c.nodes.tied,
                 nodes_uncovered: c.nodes.uncovered,
                 nodes_left_out: c.nodes.left_out,
+                boxes_visited: c.boxes_visited,
             },
         );
         Ok(())
@@ -129,8 +132,7 @@ pub unsafe extern "C" fn stickslip_interface_effects(
         raw::check(text, "text")?;
         let capacity = raw::count(capacity, 1, "capacity")?;
         let sentences = either!(h, c => c.effects());
-        let bytes = sentences.bytes().take(capacity - 1).chain([0]);
-        raw::write_each(text, bytes.map(|b| b as c_char));
+        raw::write_text(text, capacity, &sentences);
         Ok(())
     })
 }

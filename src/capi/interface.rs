@@ -56,14 +56,14 @@ pub(super) fn flat<const N: usize>(v: &[SVector<f64, N>]) -> impl Iterator<Item 
 /// Creates an interface between two surfaces, whose coordinates are the first configuration and t_0.
 ///
 /// nonmortar carries the multipliers (take the softer side, of equals the finer), mortar is the other one;
-/// options: see `stickslip_options`. out, output: the handle. Surfaces that do not face each other are no
-/// error; `pairs_active` of `stickslip_interface_counters` is then 0, and so it is while they are apart (`commits_apart`
-/// is not 0): look at it once they are near, a facet order seen from inside the body is found that way.
+/// options: see `stickslip_options`. out, output: the handle. Surfaces that do not face each other are no error; look
+/// at `stickslip_interface_report` once, a facet order seen from inside the body is found that way. Nodes may share
+/// displacement equations: see `stickslip_surface_split_creases`.
 ///
 /// Errors: NULL_POINTER, STRUCT_SIZE, INVALID_SIZE, NOT_FINITE, INDEX_OUT_OF_RANGE, DUPLICATE_NODE,
-/// DEGENERATE_FACET, INVALID_VALUE (an option; a node without a facet; a mortar side given multipliers; a frame
-/// that is too small for where it is; a
-/// mortar surface in layers), MISSING_STIFFNESS, UNSUPPORTED, UNDEFINED_NORMAL, PROJECTION_NOT_CONVEX.
+/// DEGENERATE_FACET, INVALID_VALUE (an option; a node without a facet; neighbouring facets with opposite node
+/// orders, a surface that branches or is folded; a mortar side given multipliers; a frame that is too small for where
+/// it is; a mortar surface in layers), MISSING_STIFFNESS, UNSUPPORTED, UNDEFINED_NORMAL, PROJECTION_NOT_CONVEX.
 /// Cost: one search, O((n1 + n2) log n2), and one integration of the pairs found; allocates.
 /// Owner: the caller, who ends it with `stickslip_interface_destroy`. Both surfaces and the options are
 /// copied: all arrays may be freed after the call.

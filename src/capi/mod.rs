@@ -29,6 +29,8 @@ mod options;
 
 mod surface;
 
+mod preparation;
+
 mod interface;
 
 mod evaluation;
@@ -38,6 +40,8 @@ mod tangent;
 mod history;
 
 mod counters;
+
+mod report;
 
 mod facet;
 
@@ -57,6 +61,8 @@ pub use interface::*;
 pub use node::*;
 pub use options::*;
 pub use pair::*;
+pub use preparation::*;
+pub use report::*;
 pub use status::*;
 pub use surface::*;
 pub use tangent::*;

@@ -6,6 +6,7 @@
 
 use crate::error::{Error, Kind, Result};
 use crate::geometry::Vec3;
+use libc::c_char;
 
 /// Longest array accepted: far above any mesh, far below what a pointer can address.
 const LONGEST: usize = 1 << 40;
@@ -106,6 +107,19 @@ impl<T: Copy> Output<T> {
             self.at += values.len();
         }
     }
+}
+
+/// Refuses a caller's array that is too short for `n` values.
+pub(super) fn room(capacity: i64, n: usize, name: &str) -> Result<()> {
+    if capacity < n as i64 {
+        return refuse(Kind::BufferTooSmall, format!("capacity is {capacity}; {name} need {n}"));
+    }
+    Ok(())
+}
+
+/// Writes a text with its final zero, cut to `capacity` characters, that zero included.
+pub(super) fn write_text(p: *mut c_char, capacity: usize, text: &str) {
+    write_each(p, text.bytes().take(capacity - 1).chain([0]).map(|b| b as c_char));
 }
 
 /// Copies values one by one to `p`; nothing where `p` is null.

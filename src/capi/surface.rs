@@ -3,7 +3,7 @@
 use super::raw;
 use super::sized::Sized64;
 use crate::error::{Error, Kind, Result};
-use crate::geometry::{AnalyticShape, FRAME};
+use crate::geometry::{AnalyticShape, FRAME, Vec3};
 use crate::interface::{NO_EQUATION, Surface};
 
 /// One surface of an interface.
@@ -74,6 +74,13 @@ fn equations<const N: usize>(p: *const i64, n: usize, base: i64, name: &str) -> 
 
 /// A checked surface; `side` is "nonmortar" or "mortar".
 pub(super) fn read_surface(s: &stickslip_surface, base: i64, side: &'static str) -> Result<Surface> {
+    let (x, facets) = read_facets(s, base, side)?;
+    let equations = equations(s.equations, x.len(), base, &format!("{side}.equations"))?;
+    Surface::new(side, x, &facets, equations)
+}
+
+/// A surface's coordinates and the nodes of its facets, from 0.
+pub(super) fn read_facets(s: &stickslip_surface, base: i64, side: &str) -> Result<(Vec<Vec3>, Vec<Vec<i64>>)> {
     let name = |member: &str| format!("{side}.{member}");
     let n = raw::count(s.n_nodes, 3, &name("n_nodes"))?;
     let n_facets = raw::count(s.n_facets, 1, &name("n_facets"))?;
@@ -99,8 +106,7 @@ pub(super) fn read_surface(s: &stickslip_surface, base: i64, side: &'static str)
             Error::new(Kind::IndexOutOfRange, format!("{side}.facet_nodes of facet {f} is out of range"))
         })?);
     }
-    let equations = equations(s.equations, n, base, &name("equations"))?;
-    Surface::new(side, raw::vectors(coordinates), &facets, equations)
+    Ok((raw::vectors(coordinates), facets))
 }
 
 /// A checked analytic surface: four nodes, no facets, no equations.

@@ -4,8 +4,8 @@
 //! Each copy belongs to one fan of facets that look nearly the same way and has its own normal, gap and multiplier; all
 //! copies of a node have its displacement equations. Node numbers and facets stay otherwise as they are.
 //!
-//! Copies that both stick are six conditions on three displacements, and a surface that sticks on both sides of a crease
-//! has a singular tangent: the copies of a split node are to act without friction.
+//! Copies that both stick are six conditions on three displacements, and a surface that sticks on both sides of a
+//! crease has a singular tangent: the copies of a split node are to act without friction.
 
 use super::Surface;
 use crate::error::{Error, Kind, Result};

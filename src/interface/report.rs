@@ -1,5 +1,5 @@
-//! What a host should know of how its surfaces lie: which nodes are covered, in part, not at all, by how many facets and
-//! layers; and, where nothing overlaps, what mistake that looks like.
+//! What a host should know of how its surfaces lie: which nodes are covered, in part, not at all, by how many facets
+//! and layers; and, where nothing overlaps, what mistake that looks like.
 
 use super::filter::LEAST_OPPOSITION;
 use super::history::PairRecord;
@@ -77,7 +77,8 @@ impl Report {
         let [none, part, full, several] =
             [Cover::None, Cover::Part, Cover::Full, Cover::Several].map(|c| self.count(c));
         let mut text = format!(
-            "Of {} non-mortar nodes {full} are covered in full, {part} in part, {none} not at all, {several} by several layers.",
+            "Of {} non-mortar nodes {full} are covered in full, {part} in part, {none} not at all, {several} by several \
+             layers.",
             self.nodes.len()
         );
         let least = self.nodes.iter().enumerate().filter(|(_, n)| n.cover == Cover::Part);
@@ -88,10 +89,13 @@ impl Report {
             None => "",
             Some(Finding::NoOverlap) => " No facets lie over each other.",
             Some(Finding::SameWay) => {
-                " Facets lie over each other, but all of them look the same way: the node order of one side is reversed, or it is the wrong face of its body."
+                " Facets lie over each other, but all of them look the same way: the node order of one side is reversed, \
+                 or it is the wrong face of its body."
             }
             Some(Finding::Behind) => {
-                " Facets lie over each other, but behind each other by more than a facet: the node orders of both sides are reversed, or the bodies have passed through each other, or start so deep that search_distance is needed."
+                " Facets lie over each other, but behind each other by more than a facet: the node orders of both sides \
+                 are reversed, or the bodies have passed through each other, or start so deep that search_distance is \
+                 needed."
             }
         };
         text
@@ -123,7 +127,8 @@ impl<const N: usize> Contact<N> {
                 f if f < LEAST => Cover::Part,
                 _ => Cover::Full,
             };
-            let layers = (layers[a] - (MOST - 1.0)).ceil().max(0.0) as i32;
+            let least = if cover == Cover::None { 0.0 } else { 1.0 };
+            let layers = (layers[a] - (MOST - 1.0)).ceil().max(least) as i32;
             NodeCover { cover, fraction, layers, facets: claims[a] }
         };
         let nodes: Vec<_> = (0..self.nonmortar.len()).map(node).collect();

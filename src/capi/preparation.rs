@@ -1,0 +1,147 @@
+//! Stateless help before interfaces are created: creases, nodes that interfaces share.
+
+use super::guard::guard;
+use super::surface::{read_facets, stickslip_surface};
+use super::{raw, sized};
+use crate::error::{Error, Kind, Result};
+use crate::interface::{InterfaceNodes, Surface, crosspoints};
+
+/// Splits the nodes on creases of a non-mortar surface: gives each fan of facets that look nearly the same way nodes of
+/// its own, until no two corner normals around a node differ by more than angle. A node of a sharp edge or corner then
+/// has one averaged normal, gap and multiplier for each side; without, it has a compromise, or none at all
+/// (UNDEFINED_NORMAL).
+///
+/// surface: n_nodes, n_facets, coordinates, facet_offsets and facet_nodes are read, in index_base (0 or 1). angle:
+/// above 0 and below pi, in radians [-]; 40 degrees (0.7) splits what is drawn as an edge. Outputs: facet_nodes, the
+/// new node numbers in index_base, as many as the surface has and with the same offsets (the surface's own array will
+/// do); originals (n_nodes of the new surface, its length capacity): the old number of each new node, in index_base.
+/// The old nodes keep their numbers, copies come behind them. count: nodes of the new surface. With facet_nodes and
+/// originals both NULL only count is written.
+///
+/// The new surface takes coordinates and displacement equations of the originals (several nodes with the same
+/// equations; forces add up) and multiplier equations of its own for every copy. Let all copies of a node that is split
+/// be without friction (`stickslip_interface_set_friction`): where two of them stick, six conditions meet three
+/// displacements and the matrix is singular. Tied surfaces need no split.
+///
+/// Errors: NULL_POINTER, STRUCT_SIZE, INVALID_SIZE, NOT_FINITE, INDEX_OUT_OF_RANGE, DUPLICATE_NODE, INVALID_VALUE (the
+/// angle, the index base, or a surface that no interface takes), BUFFER_TOO_SMALL.
+/// Cost: O(n log n), and O(k^2) for the k facets around a node; allocates.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn stickslip_surface_split_creases(
+    surface: *const stickslip_surface,
+    angle: f64,
+    index_base: i32,
+    capacity: i64,
+    facet_nodes: *mut i64,
+    originals: *mut i64,
+    count: *mut i64,
+) -> i32 {
+    guard(|| {
+        raw::check(surface, "surface")?;
+        raw::check(count, "count")?;
+        let base = read_base(index_base)?;
+        let (x, facets) = read_facets(&sized::read(surface)?, base, "surface")?;
+        let equations = vec![[crate::interface::NO_EQUATION; 3]; x.len()];
+        let split = Surface::new("surface", x, &facets, equations)?.split_creases(angle)?;
+        let n = split.originals.len();
+        if !(facet_nodes.is_null() && originals.is_null()) {
+            raw::check(facet_nodes, "facet_nodes")?;
+            raw::check(originals, "originals")?;
+            raw::room(capacity, n, "originals")?;
+            raw::write_each(facet_nodes, split.facet_nodes.iter().map(|&k| k as i64 + base));
+            raw::write_each(originals, split.originals.iter().map(|&k| k as i64 + base));
+        }
+        raw::write(count, &[n as i64]);
+        Ok(())
+    })
+}
+
+/// Kind of a shared node: non-mortar in more than one interface. Where it sticks or is tied in two of them, six
+/// conditions meet three displacements: leave it its multipliers in one of them and give it -1 in the others, or, where
+/// their normals differ, let it be without friction in all.
+pub const STICKSLIP_CROSSPOINT_CLAIMED: i32 = 1;
+/// Kind of a shared node: non-mortar in one interface, mortar in another one, a link of a chain. Fine.
+pub const STICKSLIP_CROSSPOINT_CHAIN: i32 = 2;
+/// Kind of a shared node: on both sides of the same interface. It touches itself: leave the facets around it out of one
+/// side.
+pub const STICKSLIP_CROSSPOINT_BOTH_SIDES: i32 = 4;
+
+/// The nodes that several interfaces of a host share in a way that matters (crosspoints). Nodes that are mortar alone,
+/// in however many interfaces, do not.
+///
+/// n_interfaces: how many. nonmortar_offsets (n_interfaces + 1), starting at 0: interface k has the entries
+/// nonmortar_offsets[k] to nonmortar_offsets[k + 1] - 1 of nonmortar_nodes, any numbers of the host's, each as often as
+/// it likes (copies of a node on a crease are one node); mortar_offsets and mortar_nodes the same of the other sides.
+/// Outputs (capacity entries each): nodes, ascending, kinds: sums of STICKSLIP_CROSSPOINT_..., claims: in how many
+/// interfaces the node is non-mortar; count: how many nodes. With nodes, kinds and claims all NULL only count is
+/// written.
+///
+/// Errors: NULL_POINTER, INVALID_SIZE (n_interfaces, offsets that do not start at 0 or decrease), BUFFER_TOO_SMALL.
+/// Cost: O(n log n); allocates.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn stickslip_crosspoints_find(
+    n_interfaces: i64,
+    nonmortar_offsets: *const i64,
+    nonmortar_nodes: *const i64,
+    mortar_offsets: *const i64,
+    mortar_nodes: *const i64,
+    capacity: i64,
+    nodes: *mut i64,
+    kinds: *mut i32,
+    claims: *mut i64,
+    count: *mut i64,
+) -> i32 {
+    guard(|| {
+        let n = raw::count(n_interfaces, 1, "n_interfaces")?;
+        raw::check(count, "count")?;
+        let one = read_lists(nonmortar_offsets, nonmortar_nodes, n, "nonmortar")?;
+        let two = read_lists(mortar_offsets, mortar_nodes, n, "mortar")?;
+        let both = one.into_iter().zip(two);
+        let found =
+            crosspoints(&both.map(|(nonmortar, mortar)| InterfaceNodes { nonmortar, mortar }).collect::<Vec<_>>());
+        if !(nodes.is_null() && kinds.is_null() && claims.is_null()) {
+            raw::check(nodes, "nodes")?;
+            raw::check(kinds, "kinds")?;
+            raw::check(claims, "claims")?;
+            raw::room(capacity, found.len(), "nodes, kinds and claims")?;
+            let kind = |bit: i32, set: bool| if set { bit } else { 0 };
+            raw::write_each(nodes, found.iter().map(|p| p.node));
+            raw::write_each(claims, found.iter().map(|p| p.claims));
+            raw::write_each(
+                kinds,
+                found.iter().map(|p| {
+                    kind(STICKSLIP_CROSSPOINT_CLAIMED, p.claimed_twice)
+                        | kind(STICKSLIP_CROSSPOINT_CHAIN, p.chain)
+                        | kind(STICKSLIP_CROSSPOINT_BOTH_SIDES, p.both_sides)
+                }),
+            );
+        }
+        raw::write(count, &[found.len() as i64]);
+        Ok(())
+    })
+}
+
+fn read_base(index_base: i32) -> Result<i64> {
+    match index_base {
+        0 | 1 => Ok(index_base.into()),
+        other => Err(Error::new(Kind::InvalidValue, format!("index_base is {other}; it must be 0 or 1"))),
+    }
+}
+
+/// `n` lists of nodes, one after the other.
+fn read_lists<'a>(offsets: *const i64, nodes: *const i64, n: usize, side: &str) -> Result<Vec<&'a [i64]>> {
+    let name = format!("{side}_offsets");
+    let offsets = raw::slice(offsets, n + 1, &name)?;
+    let wrong = |k: usize| {
+        let text = format!("{name}[{k}] is {}; offsets start at 0 and do not decrease", offsets[k]);
+        Error::new(Kind::InvalidSize, text)
+    };
+    if offsets[0] != 0 {
+        return Err(wrong(0));
+    }
+    if let Some(k) = (1..=n).find(|&k| offsets[k] < offsets[k - 1]) {
+        return Err(wrong(k));
+    }
+    let all = if offsets[n] == 0 { &[] } else { raw::slice(nodes, offsets[n] as usize, &format!("{side}_nodes"))? };
+    Ok(offsets.windows(2).map(|o| &all[o[0] as usize..o[1] as usize]).collect())
+}
