@@ -7,7 +7,8 @@
 static PetscErrorCode interface_counters(const Interface *interface, cJSON *parent, stickslip_counters *sum)
 {
   stickslip_counters counters = {.struct_size = sizeof(counters)};
-  char               effects[1024];
+  char               effects[1024], cover[1024];
+  stickslip_report   report = {.struct_size = sizeof(report), .text = cover, .text_capacity = sizeof(cover)};
   cJSON             *json;
 
   PetscFunctionBegin;
@@ -16,6 +17,9 @@ static PetscErrorCode interface_counters(const Interface *interface, cJSON *pare
   PetscCallStickslip(stickslip_interface_effects(interface->handle, effects, sizeof(effects)));
   json = cJSON_AddObjectToObject(parent, interface->name);
   cJSON_AddStringToObject(json, "effects", effects);
+  /* after the counters, which it adds to; a run that ended beyond what can be computed has none */
+  if (!stickslip_interface_report(interface->handle, interface->x, interface->x + 3 * interface->n1, &report))
+    cJSON_AddStringToObject(json, "cover", cover);
 #define ADD(member) cJSON_AddNumberToObject(json, #member, (double)counters.member)
   ADD(multipliers);
   cJSON_AddNumberToObject(json, "bytes", (double)interface->bytes);
@@ -26,6 +30,7 @@ static PetscErrorCode interface_counters(const Interface *interface, cJSON *pare
   ADD(pairs_reused);
   ADD(pairs_active);
   ADD(searches);
+  ADD(boxes_visited);
   ADD(nodes_slipping);
   ADD(nodes_evaluated);
   ADD(nodes_frictional);
