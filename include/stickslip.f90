@@ -98,17 +98,13 @@ module stickslip
   integer(c_int32_t), parameter :: STICKSLIP_NEW_CONTACT_FRICTIONLESS = 0
   integer(c_int32_t), parameter :: STICKSLIP_NEW_CONTACT_KEEP = 1
 
+  ! Added up in the kinds of a node that interfaces share.
+  integer(c_int32_t), parameter :: STICKSLIP_CROSSPOINT_CLAIMED = 1
+  integer(c_int32_t), parameter :: STICKSLIP_CROSSPOINT_CHAIN = 2
+  integer(c_int32_t), parameter :: STICKSLIP_CROSSPOINT_BOTH_SIDES = 4
+
   ! Reals per node of stickslip_interface_sums.
   integer(c_int32_t), parameter :: STICKSLIP_SUMS_PER_NODE = 11
-
-  ! With COLUMN_MAJOR a matrix comes out as k(row, column) of Fortran.
-  integer(c_int32_t), parameter :: STICKSLIP_LAYOUT_ROW_MAJOR = 0
-  integer(c_int32_t), parameter :: STICKSLIP_LAYOUT_COLUMN_MAJOR = 1
-
-  ! State of a node: open or uncovered; closed, sticking; closed, sliding or on the friction cone.
-  integer(c_int32_t), parameter :: STICKSLIP_STATE_GAP = 0
-  integer(c_int32_t), parameter :: STICKSLIP_STATE_STICK = 1
-  integer(c_int32_t), parameter :: STICKSLIP_STATE_SLIP = 2
 
   ! Cover of a node: none, in part, in full, by several layers.
   integer(c_int32_t), parameter :: STICKSLIP_COVER_NONE = 0
@@ -122,10 +118,14 @@ module stickslip
   integer(c_int32_t), parameter :: STICKSLIP_FINDING_SAME_WAY = 2
   integer(c_int32_t), parameter :: STICKSLIP_FINDING_BEHIND = 3
 
-  ! Added up in the kinds of a node that interfaces share.
-  integer(c_int32_t), parameter :: STICKSLIP_CROSSPOINT_CLAIMED = 1
-  integer(c_int32_t), parameter :: STICKSLIP_CROSSPOINT_CHAIN = 2
-  integer(c_int32_t), parameter :: STICKSLIP_CROSSPOINT_BOTH_SIDES = 4
+  ! With COLUMN_MAJOR a matrix comes out as k(row, column) of Fortran.
+  integer(c_int32_t), parameter :: STICKSLIP_LAYOUT_ROW_MAJOR = 0
+  integer(c_int32_t), parameter :: STICKSLIP_LAYOUT_COLUMN_MAJOR = 1
+
+  ! State of a node: open or uncovered; closed, sticking; closed, sliding or on the friction cone.
+  integer(c_int32_t), parameter :: STICKSLIP_STATE_GAP = 0
+  integer(c_int32_t), parameter :: STICKSLIP_STATE_STICK = 1
+  integer(c_int32_t), parameter :: STICKSLIP_STATE_SLIP = 2
 
   ! Sizes of the types in bytes (64-bit machines), their struct_size.
   integer(c_int64_t), parameter :: stickslip_options_size = 104
