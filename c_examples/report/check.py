@@ -17,6 +17,7 @@ from material_checks import materials
 from slider import slider
 from scene import Driver, SceneError
 from stepping import stepping
+from turning import turning
 from verdict import Verdicts
 
 GROUPS = {
@@ -29,6 +30,7 @@ GROUPS = {
     "materials": materials,
     "slider": slider,
     "stepping": stepping,
+    "turning": turning,
 }
 
 

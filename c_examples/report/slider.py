@@ -22,9 +22,11 @@ SWAPPED_BOUND = 0.02
 # Drop-off with slider facets of 37.5: steadily. With 25 they leave the sharp edge one by one: a small rise in between.
 DROP_BOUND, FACETS_BOUND = 1e-10, 5e-3
 # Smallest over largest singular value of the balanced tangent: rounding is 1e-16 times its size, 700; a singular one is
-# there, or at 0. A node of which a sliver is covered brings the square of that part of its area, since its normal is no
-# axis and balancing rows and columns cannot part it from the tangents: here 1e-8.
-RANK_LIMIT = 1e-10
+# there, or at 0. Measured 3e-4.
+RANK_LIMIT = 1e-6
+# Cosines of columns that balancing parts; and what is left of one beside the other when they are the same, to rounding.
+# (The library lets a node go when less than 1e-8 of it is covered.)
+NEARLY_PARALLEL, PARALLEL = 0.5, 1e-13
 
 MU = 0.1
 SWAPPED = ("-contact_nonmortar", "channel.contact", "-contact_mortar", "slider.zmin")
@@ -150,7 +152,7 @@ def swapped(verdicts, driver, run):
     matrices = driver.output / "swapped.mat"
     matrices.unlink(missing_ok=True)
     dump = ("-ksp_view_mat", f"binary:{matrices}::append")
-    large = driver.run("press_fit", *travel(350, 50), *SWAPPED, *SWAPPED_MESH, *dump, label="swapped_rank")
+    large = driver.run("press_fit", *travel(400, 50), *SWAPPED, *SWAPPED_MESH, *dump, label="swapped_rank")
     states = [sum(step["interfaces"]["contact"][s] for s in ("stick", "slip")) for step in large.steps]
     conditions = [smallest_singular_value(matrix) for matrix in petsc_matrices(matrices)]
     changes = np.count_nonzero(np.diff(states))
@@ -177,13 +179,31 @@ def petsc_matrices(path):
 
 
 def smallest_singular_value(matrix):
-    """Over the largest, when rows and columns have been balanced to a largest entry of one: units do not count."""
-    for _ in range(5):
-        for axis in (0, 1):
-            scale = np.sqrt(np.abs(matrix).max(axis=axis, keepdims=True))
-            matrix = matrix / np.where(scale > 0, scale, 1)
+    """Over the largest, once units and slivers do not count: rows and columns have the length 1, and neighbours that are
+    nearly parallel are made orthogonal first. These are the components of a multiplier of which a sliver is covered: the
+    tangential part of its rows is as large as ever, the normal part is as small as the sliver, and its normal is no axis.
+    """
+    for _ in range(3):
+        for turned in (False, True):
+            matrix = orthogonal_neighbours(matrix.T if turned else matrix)
+            matrix = matrix.T if turned else matrix
     values = np.linalg.svd(matrix, compute_uv=False)
     return values[-1] / values[0]
+
+
+def orthogonal_neighbours(matrix):
+    """Columns of length 1, the second of a nearly parallel pair without its part along the first; 0 if none is left."""
+    columns = matrix / np.linalg.norm(matrix, axis=0)
+    parallel = np.einsum("ij,ij->j", columns[:, :-1], columns[:, 1:])
+    used = -1
+    for j in np.flatnonzero(np.abs(parallel) > NEARLY_PARALLEL):
+        if j == used:
+            continue
+        rest = columns[:, j + 1] - (columns[:, j] @ columns[:, j + 1]) * columns[:, j]
+        length = np.linalg.norm(rest)
+        columns[:, j + 1] = rest / length if length > PARALLEL else 0
+        used = j + 1
+    return columns
 
 
 def three_dimensions(verdicts, driver):

@@ -3,7 +3,7 @@
 #include "petsc_compat.h"
 
 /* Nothing happens before the end: meant in other units? Not an error, for a run may end early on purpose. */
-static PetscErrorCode note_late_curve(const char *map, PetscReal end, const Curve *curve)
+static PetscErrorCode note_late_curve(const char *map, const char *key, PetscReal end, const Curve *curve)
 {
   const PetscReal *p = curve->points;
   PetscBool        changes = PETSC_FALSE;
@@ -12,17 +12,17 @@ static PetscErrorCode note_late_curve(const char *map, PetscReal end, const Curv
     changes = (PetscBool)(changes || p[2 * k + 1] != p[1]);
   if (changes && p[0] >= end)
     PetscCall(PetscFPrintf(PETSC_COMM_WORLD, PETSC_STDERR,
-                           "snes_contact: note: %s.curve stays at %g until t = %g, but the last step ends at %g. Are both "
+                           "snes_contact: note: %s.%s stays at %g until t = %g, but the last step ends at %g. Are both "
                            "in one unit of time?\n",
-                           map, (double)p[1], (double)p[0], (double)end));
+                           map, key, (double)p[1], (double)p[0], (double)end));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode curve_read(Scene *scene, const char *map, PetscReal end, Curve *curve)
+PetscErrorCode curve_read(Scene *scene, const char *map, const char *key, PetscReal end, Curve *curve)
 {
   PetscInt n;
   PetscFunctionBegin;
-  scene_reals(scene, map, "curve", &n, &curve->points);
+  scene_reals(scene, map, key, &n, &curve->points);
   if (!n) {
     PetscCall(PetscCalloc1(4, &curve->points));
     curve->points[2] = end;
@@ -30,13 +30,22 @@ PetscErrorCode curve_read(Scene *scene, const char *map, PetscReal end, Curve *c
     n                = 4;
   }
   if (n % 2)
-    scene_fail(scene, map, "curve", "pairs [t0, v0, t1, v1, ...] are expected, but there are %d numbers.", (int)n);
+    scene_fail(scene, map, key, "pairs [t0, v0, t1, v1, ...] are expected, but there are %d numbers.", (int)n);
   curve->n = n / 2;
   for (PetscInt k = 1; k < curve->n; k++) {
     if (curve->points[2 * k] <= curve->points[2 * k - 2])
-      scene_fail(scene, map, "curve", "times must increase; %g does not.", (double)curve->points[2 * k]);
+      scene_fail(scene, map, key, "times must increase; %g does not.", (double)curve->points[2 * k]);
   }
-  PetscCall(note_late_curve(map, end, curve));
+  PetscCall(note_late_curve(map, key, end, curve));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode curve_copy(const Curve *from, Curve *to)
+{
+  PetscFunctionBegin;
+  to->n = from->n;
+  PetscCall(PetscMalloc1(2 * from->n, &to->points));
+  PetscCall(PetscArraycpy(to->points, from->points, 2 * from->n));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -66,13 +75,4 @@ PetscBool curve_bends(const Curve *curve, PetscReal t)
     if (PetscAbsReal(after - before) > 1e-9 * (PetscAbsReal(after) + PetscAbsReal(before))) return PETSC_TRUE;
   }
   return PETSC_FALSE;
-}
-
-PetscBool curve_equal(const Curve *a, const Curve *b)
-{
-  if (a->n != b->n) return PETSC_FALSE;
-  for (PetscInt k = 0; k < 2 * a->n; k++) {
-    if (a->points[k] != b->points[k]) return PETSC_FALSE;
-  }
-  return PETSC_TRUE;
 }

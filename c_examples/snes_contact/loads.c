@@ -19,7 +19,7 @@ PetscErrorCode loads_read(Model *model)
                  "say how it loads: traction [x, y, z], or pressure (against the outward normal).");
     scene_real(scene, load->name, "pressure", &load->pressure);
     mesh_rotate_vector(&model->mesh, load->traction);
-    PetscCall(curve_read(scene, load->name, model->steps.end, &load->curve));
+    PetscCall(curve_read(scene, load->name, "curve", model->steps.end, &load->curve));
   }
   strings_destroy(model->n_loads, &names);
   scene_root_begin(scene);

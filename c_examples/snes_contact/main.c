@@ -61,8 +61,10 @@ static PetscErrorCode clean_up(Model *model)
 {
   PetscFunctionBegin;
   PetscCall(contact_destroy(model));
-  for (PetscInt s = 0; s < model->n_supports; s++)
+  for (PetscInt s = 0; s < model->n_supports; s++) {
     PetscCall(PetscFree(model->supports[s].curve.points));
+    PetscCall(PetscFree(model->supports[s].rotate_curve.points));
+  }
   for (PetscInt l = 0; l < model->n_loads; l++) {
     PetscCall(PetscFree(model->loads[l].curve.points));
     PetscCall(PetscFree(model->loads[l].surfaces));

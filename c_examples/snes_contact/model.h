@@ -13,12 +13,13 @@
 #include <petscsnes.h>
 #include <stickslip.h>
 
-/* u = factor(t) (value + gradient (X - origin)) in the components of the mask (bit i: axis i) */
+/* x - origin = R (X - origin + factor(t) (value + gradient (X - origin))) in the components of the mask (bit i: axis i);
+ * R turns about `rotate` by rotate_factor(t) |rotate| radians */
 typedef struct {
   char      name[NAME_LENGTH];
   PetscInt  mask;
-  PetscReal value[3], gradient[9], origin[3];
-  Curve     curve;
+  PetscReal value[3], gradient[9], origin[3], rotate[3];
+  Curve     curve, rotate_curve;
   PetscInt  n_vertices, *vertices; /* rank 0 */
   PetscReal reaction[3];           /* of the last evaluation, summed over ranks by supports_reactions() */
 } Support;

@@ -85,13 +85,15 @@ PetscErrorCode steps_read(Model *model)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Calls `visit` for the curve of every load and support. */
+/* Calls `visit` for the curves of every load and support. */
 static void each_curve(const Model *model, void (*visit)(const Curve *, void *), void *context)
 {
   for (PetscInt l = 0; l < model->n_loads; l++)
     visit(&model->loads[l].curve, context);
-  for (PetscInt s = 0; s < model->n_supports; s++)
+  for (PetscInt s = 0; s < model->n_supports; s++) {
     visit(&model->supports[s].curve, context);
+    visit(&model->supports[s].rotate_curve, context);
+  }
 }
 
 typedef struct {
