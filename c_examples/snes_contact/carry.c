@@ -1,8 +1,8 @@
 /* Where nothing can be extrapolated (the first step, and the one after a kink of a curve), Newton's first iterate is
- * the last state with the supports already moved. A body of finite strain whose cells are smaller than that motion would
- * be turned inside out at its supports. So there the motion of the supports is carried into the bodies of finite strain:
- * by linear elasticity on their undeformed cells, without contact. A prescribed translation moves a whole body, a
- * prescribed linear field strains it homogeneously, and a body without a prescribed motion stays.
+ * the last state with the supports already moved. A body of finite strain whose cells are smaller than that motion
+ * would be turned inside out at its supports. So there the motion of the supports is carried into the bodies of finite
+ * strain: by linear elasticity on their undeformed cells, without contact. A prescribed translation moves a whole body,
+ * a prescribed linear field strains it homogeneously, and a body without a prescribed motion stays.
  *
  * This chooses where Newton's method starts, not what it solves. */
 #include "model.h"

@@ -4,8 +4,8 @@
  * Mean dilatation: the energy of a cell of reference volume V is int W0 dV + V U(m), where m is the cell's mean of v.
  * Then P = P0 + U'(m) dv/dH everywhere in the cell, and K gains U''(m) / V b b^T with b = int dv/dH . dN/dX dV: a
  * symmetric tangent, one condition on the volume per hexahedron instead of eight (with v = J - 1 this is the mean
- * dilatation of Nagtegaal, Parks and Rice, Comput. Methods Appl. Mech. Engrg 4, 1974). A tetrahedron has one Gauss point:
- * there it changes nothing. */
+ * dilatation of Nagtegaal, Parks and Rice, Comput. Methods Appl. Mech. Engrg 4, 1974). A tetrahedron has one Gauss
+ * point: there it changes nothing. */
 #include "elasticity.h"
 
 #define MAX_CORNERS 8
