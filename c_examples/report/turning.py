@@ -9,7 +9,6 @@ import numpy as np
 
 ANGLE = 2.0  # of the scene
 FACET = 2 * np.pi * 5.05 / 24
-SETTLED = 4  # the step, at t = 1, before which the press fit has come to rest
 
 # While turning, over the facet size: proportional to the angle of a step, 7.5e-6 at 2 / 50.
 DRIFT_BOUND = 1e-5
@@ -17,8 +16,8 @@ DRIFT_BOUND = 1e-5
 REST_BOUND, SPLIT_BOUND = 1e-8, 0.5
 # Slip that the library accumulates in stick is that of rounding.
 SLIP_BOUND = 1e-12
-# What the measure of slip as printed in the paper does at least, in 100 steps: 1 % of a facet.
-SEED_DRIFT = 5e-3
+# What the measure of slip as printed in the paper does at least, in 100 steps a turn: 2 % of a facet is measured.
+SEED_DRIFT = 0.01
 
 
 def turning(verdicts, driver):
@@ -30,24 +29,23 @@ def turning(verdicts, driver):
         away = sum(step["interfaces"]["contact"][s] for step in run.steps for s in ("gap", "slip"))
         verdicts.below(f"{label}: nodes that do not stick", away, 0, "in any step")
         bound = DRIFT_BOUND * 50 / n
-        verdicts.below(f"{label}: drift, over a facet", drift(run, SETTLED + n), bound, "as a step's angle")
-        rest[n] = drift(run, len(run.steps))
+        verdicts.below(f"{label}: drift, over a facet", drift(run, n, 2 * n), bound, "as a step's angle")
+        rest[n] = drift(run, n, len(run.steps))
         verdicts.below(f"{label}: drift at rest", rest[n], REST_BOUND, "what adds up")
-        slip = [np.abs(table_of(run, k)["slip_x"]).max() for k in (SETTLED, len(run.steps))]
+        slip = [np.abs(table_of(run, k)["slip_x"]).max() for k in (n, len(run.steps))]
         verdicts.below(f"{label}: slip, over a facet", abs(slip[1] - slip[0]) / FACET, SLIP_BOUND, "stuck")
     for few, many in ((50, 100), (100, 200)):
         verdicts.below(f"drift at rest, {many} steps over {few}", rest[many] / rest[few], SPLIT_BOUND, "does not grow")
 
     seed = {n: driver.run("turned_shaft", *steps(n), "-contact_slip", "seed", label=f"seed_{n}") for n in (50, 100)}
-    ends = {n: drift(run, len(run.steps)) for n, run in seed.items()}
+    ends = {n: drift(run, 1, len(run.steps)) for n, run in seed.items()}  # it drifts while nothing turns, too
     verdicts.at_least("slip as printed in the paper, 100 steps: drift", ends[100], SEED_DRIFT, "it does drift")
     verdicts.at_least("slip as printed in the paper: drift, 100 steps over 50", ends[100] / ends[50], 1.2, "and grows")
 
 
 def steps(n):
-    """Four steps in which the press fit comes to rest, n of turning, two at rest."""
-    times = [0.25, 0.5, 0.75, 1.0, *(1 + (k + 1) / n for k in range(n)), 2.1, 2.2]
-    return "-steps_times", ",".join(f"{t:.12g}" for t in times)
+    """n steps of one in t: the press fit comes to rest until t = 1, turns until t = 2, rests until t = 2.2."""
+    return "-steps_count", round(2.2 * n)
 
 
 def table_of(run, step):
@@ -59,8 +57,8 @@ def positions(run, step):
     return np.stack([table["X"] + table["ux"], table["Y"] + table["uy"]], axis=1)
 
 
-def drift(run, step):
-    """Largest distance of a node of the shaft's surface from where the rotation takes it, over a facet."""
+def drift(run, settled, step):
+    """Largest distance of a node of the shaft's surface from where the rotation takes it from the step `settled`."""
     c, s = np.cos(ANGLE), np.sin(ANGLE)
-    carried = positions(run, SETTLED) @ np.array([[c, s], [-s, c]])
+    carried = positions(run, settled) @ np.array([[c, s], [-s, c]])
     return np.linalg.norm(positions(run, step) - carried, axis=1).max() / FACET
