@@ -11,6 +11,8 @@ from pathlib import Path
 
 import comparisons
 import figures
+import friction_checks
+import gallery_scenes
 from scene import Driver, SceneError
 from verdict import Verdicts
 
@@ -38,7 +40,7 @@ class Progress:
 def demonstrate(build, renew_figures):
     output = build / "demo"
     patches = list(comparisons.patch_cases())
-    progress, verdicts = Progress(Driver(build, output), total=len(patches) + 4), Verdicts()
+    progress, verdicts = Progress(Driver(build, output), total=len(patches) + 7), Verdicts()
 
     stick = progress.run("block_zone_mu2")
     comparisons.block_all_stick(verdicts, "block, zone 3.6, mu = 2", stick)
@@ -51,6 +53,9 @@ def demonstrate(build, renew_figures):
     comparisons.block_slip(verdicts, "block, bottom, mu = 0.2", bottom)
     cylinders = progress.run("hertz_line_fine")
     measured = comparisons.hertz(verdicts, "Hertz", cylinders)
+    _, drawn_lines, _ = friction_checks.cattaneo_line(verdicts, progress)
+    belt = friction_checks.capstan(verdicts, progress)
+    slider = progress.run("press_fit", "-output_vtu", "all")
 
     errors = {}
     for case in patches:
@@ -68,6 +73,9 @@ def demonstrate(build, renew_figures):
         figures.block(bottom, comparisons.INTERFACE, output / "block.png"),
         figures.hertz(cylinders.line("contact"), measured, output / "hertz.png"),
         figures.patch(errors, comparisons.PATCH_BOUND, output / "patch.png"),
+        gallery_scenes.cattaneo_profile(drawn_lines, output / "cattaneo.png"),
+        *gallery_scenes.draw_capstan(belt, output),
+        *gallery_scenes.draw_slider(slider, output),
     ]
     if renew_figures:
         shutil.copy(output / "block.png", COMMITTED_FIGURE)

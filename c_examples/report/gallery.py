@@ -1,6 +1,6 @@
 """The gallery: every scene that has something to show, solved, compared with its reference and drawn.
 
-gallery.py --build DIR [--jobs N] [--only NAME...] [--renew-figures]; all goes to DIR/gallery, with index.html on top. A run
+gallery.py --build DIR [--jobs N] [--only NAME...] [--renew-figures]; all goes to DIR/gallery, with index.html on top (some.html, if only some were asked for). A run
 that is newer than its inputs is kept. Exits with 1 if a comparison fails or a scene does not finish.
 """
 
@@ -82,7 +82,7 @@ def gallery(build, jobs, only, renew_figures):
             passed = passed and verdicts.passed
             pages.append((ENTRIES.index(entry), entry, verdicts, drawn))
     pages.sort(key=lambda page: page[0])
-    index = gallery_page.write(output, [page[1:] for page in pages])
+    index = gallery_page.write(output / ("some.html" if only else "index.html"), [page[1:] for page in pages])
     progress.say(f"written: {index.resolve()}")
     return passed
 

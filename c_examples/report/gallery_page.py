@@ -29,8 +29,8 @@ def table(verdicts):
     return f"<table>{head}{''.join(rows(verdicts))}</table>"
 
 
-def write(output, pages):
-    """index.html of (entry, verdicts, figures) in this order; returns its path."""
+def write(path, pages):
+    """The page of (entry, verdicts, figures) in this order, next to the figures; returns its path."""
     parts = [f"<!doctype html><meta charset='utf-8'><title>stickslip: gallery</title><style>{STYLE}</style><h1>Gallery</h1>"]
     parts.append("<ul>")
     for entry, verdicts, _ in pages:
@@ -41,6 +41,5 @@ def write(output, pages):
         parts.append(f'<h2 id="{entry.name}">{html.escape(entry.title)}</h2><p>{html.escape(entry.text)}</p>')
         parts.append(f"<p><code>make gallery ONLY={entry.name}</code></p>{table(verdicts)}")
         parts += [f'<p><img src="{path.name}" alt="{path.stem}"></p>' for path in figures]
-    path = output / "index.html"
     path.write_text("\n".join(parts) + "\n")
     return path

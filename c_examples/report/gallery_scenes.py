@@ -9,6 +9,7 @@ import comparisons
 import formulas
 import friction_checks as friction
 import gallery_figures as figures
+import slider
 from gallery_figures import View
 
 
@@ -23,14 +24,15 @@ class Entry:
     committed: tuple = field(default=())  # names of figures that the repository holds
 
 
-def moving(name, run, view, folder, caption, frames=24, pictures=4):
-    """The three that every scene gets: forces on the deformed surface at the end, a strip, an animation. Only steps that
-    have a .vtu (sections) or a .csv (maps)."""
+def moving(name, run, view, folder, caption, frames=24, pictures=4, shown=None):
+    """The three that every scene gets: forces on the deformed surface after the step `shown` (default: the last), a strip,
+    an animation. Only steps that have a .vtu (sections) or a .csv (maps)."""
     pattern = "step_*.vtu" if view.kind == "section" else f"interface_{view.interface}_*.csv"
     there = sorted(int(path.stem.rpartition("_")[2]) for path in run.directory.glob(pattern))
+    shown = shown or there[-1]
     chosen = lambda count: sorted({there[round(k)] for k in np.linspace(0, len(there) - 1, min(count, len(there)))})
     return [
-        figures.surface(run, view, folder / f"{name}_forces.png", there[-1], caption(run.steps[there[-1] - 1]["t"])),
+        figures.surface(run, view, folder / f"{name}_forces.png", shown, caption(run.steps[shown - 1]["t"])),
         figures.strip(run, view, folder / f"{name}_strip.png", chosen(pictures), caption),
         figures.animation(run, view, folder / f"{name}.gif", chosen(frames), caption),
     ]
@@ -90,20 +92,24 @@ def cattaneo(verdicts, driver):
     return run, lines, errors, seen
 
 
-def draw_cattaneo(solved, folder):
-    run, lines, errors, seen = solved
+def cattaneo_profile(lines, path):
     series = []
     for line, exact in lines:
         fine = np.linspace(-1, 1, 2001) * exact.half_width
         label = f"drawn by {exact.pull / (exact.mu * exact.force):.2f} of what slides"
         near = np.abs(line.x) < 1.1 * exact.half_width
         series.append((label, line.x[near], -line.traction[near, 0], fine, exact.shear(fine)))
+    return figures.profile(series, path, "x", "shear traction", "Cattaneo and Mindlin, line contact")
+
+
+def draw_cattaneo(solved, folder):
+    run, lines, errors, seen = solved
     pulls = [-step["interfaces"]["contact"]["force"][0] / 0.1 for step in run.steps]
     press = [step["interfaces"]["contact"]["force"][2] / 0.1 for step in run.steps]
     times = [step["t"] for step in run.steps]
     view = View("contact", (-1.3, 1.3, -0.55, 0.75), 0.4)
     return [
-        figures.profile(series, folder / "cattaneo.png", "x", "shear traction", "Cattaneo and Mindlin, line contact"),
+        cattaneo_profile(lines, folder / "cattaneo.png"),
         figures.history(
             [("force", times, press), ("pull", times, pulls)], folder / "cattaneo_history.png", "time",
             "per unit thickness",
@@ -235,6 +241,62 @@ def draw_block(run, folder):
     ]
 
 
+# --- the paper's slider -----------------------------------------------------------------------------------------------
+def press_fit(verdicts, driver):
+    options = (*slider.travel(1300, 25), "-output_vtu", "all")
+    runs = [driver.run("press_fit", *options, *mesh, label=f"press_fit_{n}") for n, mesh in enumerate(((), slider.FINE))]
+    for name, run in zip(("press fit", "press fit, finer mesh"), runs):
+        slider.no_cutback(verdicts, name, run)
+        slider.balance(verdicts, name, run)
+        slider.work(verdicts, name, run)
+        slider.alternation(verdicts, name, run)
+    return runs
+
+
+def slider_curves(run, name):
+    moved = [1000 * (step["t"] - 1) for step in run.steps if step["t"] >= 1]
+    forces = np.array([slider.reaction(step) for step in run.steps if step["t"] >= 1]) / 1000
+    return [(f"R_x{name}", moved, forces[:, 0]), (f"R_z{name}", moved, forces[:, 1])]
+
+
+def moved_by(t):
+    return f"moved by {max(0, 1000 * (t - 1)):.0f} mm"
+
+
+def draw_press_fit(runs, folder):
+    coarse, fine = runs
+    view = View("contact", (-40, 1940, -10, 470), 110, (9, 3), normal_only=True)
+    (pull, press), (fine_pull, _) = slider_curves(coarse, ", 18 x 3"), slider_curves(fine, ", 36 x 6")
+    marks = [("mu R_z, 18 x 3", press[1], slider.MU * press[2], "--")]
+    corner = next(k for k, step in enumerate(fine.steps, 1) if step["t"] > 1.799)  # 800 mm: over both corners
+    return [
+        figures.history([pull, fine_pull], folder / "press_fit_history.png", "travel [mm]", "reaction [kN]", marks, "Press fit"),
+        *moving("press_fit", fine, view, folder, moved_by, frames=36, shown=corner),
+    ]
+
+
+def draw_slider(run, folder):
+    """The coarse one by itself, for the demonstration."""
+    view = View("contact", (-40, 1490, -10, 470), 110, (8, 3), normal_only=True)
+    return moving("press_fit", run, view, folder, moved_by, shown=next(k for k, s in enumerate(run.steps, 1) if s["t"] > 1.799))
+
+
+def press_fit_3d(verdicts, driver):
+    run = driver.run("press_fit_3d", "-output_vtu", "all")
+    slider.no_cutback(verdicts, "press fit, 3D", run)
+    slider.work(verdicts, "press fit, 3D", run)
+    return run
+
+
+def draw_press_fit_3d(run, folder):
+    section = View("contact", (-40, 1940, -10, 470), 110, (9, 3), normal_only=True)
+    curves = slider_curves(run, "")
+    return [
+        figures.history(curves, folder / "press_fit_3d_history.png", "travel [mm]", "reaction of a quarter [kN]"),
+        *moving("press_fit_3d", run, section, folder, moved_by),
+    ]
+
+
 ENTRIES = [
     Entry("hertz_line", "Hertz: line contact", "Two half-cylinders pressed together, meshes that do not match.", 0.3,
           hertz_line, draw_hertz_line),
@@ -253,4 +315,9 @@ ENTRIES = [
     Entry("capstan", "Belt on a drum", "Euler's formula, half around.", 0.1, friction.capstan, draw_capstan),
     Entry("block", "Block pushed along a foundation", "The paper's first example, contact along the whole bottom.", 0.1,
           block, draw_block),
+    Entry("press_fit", "Press fit: a slider in a narrowing channel", "The paper's second example: pressure on a soft slider "
+          "that is pushed up a ramp, 25 mm a step. On the plateau R_x is mu R_z.", 1.0, press_fit, draw_press_fit,
+          ("press_fit_forces.png", "press_fit_history.png")),
+    Entry("press_fit_3d", "Press fit in three dimensions", "A slider of finite width; the section in its plane of "
+          "symmetry.", 2.0, press_fit_3d, draw_press_fit_3d),
 ]
