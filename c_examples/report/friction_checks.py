@@ -4,6 +4,7 @@ Each function solves its scenes, adds its comparisons to the Verdicts and return
 computed with the forces that the run had, not with those that were wanted.
 """
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -27,8 +28,9 @@ CAPSTAN_BOUND = 0.01
 # Ball of radius 1, contact radius 0.05. The coarse meshes are for every test, the others for `make gallery`.
 CONTACT_ZONE = 0.075
 ROUGH = ("-contact_law", "rough", "-contact_friction", 0)
-# What the half-space and the direction of slip leave; the rest is each mesh's own.
-TORSION_BOUND = 0.01
+# Elastic on rigid: friction makes the peak pressure 2 % higher than Hertz's and the contact smaller. The rest is each
+# mesh's own.
+TORSION_BOUND = 0.015
 TORSION_ANGLE = 0.05
 TORSION_MODULUS = formulas.plane_modulus(1000, 0.4)
 TORSION_SHEAR = 1000 / 2.8
@@ -50,8 +52,8 @@ FRICTIONLESS = ("-contact_law", "none", "-contact_friction", 0, "-steps_times", 
 @dataclass
 class TorsionMesh:
     """Of the block that is turned. Between nodes an n-th part of a circle apart the multiplier is interpolated, and so
-    shorter than at the nodes: the torque is short by (1 - cos(2 pi / n)) / 3. The stiffness is wrong by O(h) at the
-    singular rim: the stick zone is known to half a facet there, and the stiffness goes with its cube."""
+    shorter than at the nodes: the torque is short by (1 - cos(2 pi / n)) / 3. The stiffness goes with the cube of the
+    stick zone's radius, which is a whole number of rings of facets: it is known to one ring."""
 
     name: str
     cells: str
@@ -61,11 +63,11 @@ class TorsionMesh:
 
     @property
     def torque_bound(self):
-        return TORSION_BOUND + (1 - np.cos(2 * np.pi / int(self.cells.split(",")[1]))) / 3
+        return TORSION_BOUND + (1 - math.cos(2 * math.pi / int(self.cells.split(",")[1]))) / 3
 
     @property
     def stiffness_bound(self):
-        return TORSION_BOUND + 1.5 * self.rim / 2
+        return TORSION_BOUND + 3 * self.rim
 
 
 TORSION_COARSE = TorsionMesh(
@@ -212,11 +214,14 @@ def stick_half_width(line):
     return (line.x[last] + line.x[last + 1] - line.x[first] - line.x[first - 1]) / 4
 
 
+def shrink_fit_run(driver, cells):
+    meshes = ("-shaft_cells", f"{cells // 5},{cells},1", "-hub_cells", f"{cells // 6},{cells},1")
+    return driver.run("shrink_fit", *meshes, label=f"shrink_fit_{cells}")
+
+
 def shrink_fit(verdicts, driver, cells=60):
     """Frictionless, bore and outside free: Lame's pressure at every node."""
-    run = driver.run(
-        "shrink_fit", "-shaft_cells", f"{cells // 5},{cells},1", "-hub_cells", f"{cells // 6},{cells},1"
-    )
+    run = shrink_fit_run(driver, cells)
     table = run.interface("contact")
     exact = formulas.shrink_fit_free(0.01, 10, 1, 20, 2e5)
     worst = table["p_lumped"][np.argmax(np.abs(table["p_lumped"] - exact))]

@@ -28,6 +28,7 @@ BAND_MARGIN = 0.01
 LAG_BOUND = 0.04
 
 PLATEAU = (1.2, 1.9)
+COARSE = ("-base_cells", "60,1,15", "-die_file", SCENES.parent / "meshes" / "ironing_die_coarse.msh")
 CPU_BOUND = 20 * 60  # seconds on one core
 
 
@@ -44,8 +45,7 @@ def history(run):
 
 def ironing(verdicts, driver):
     """60 x 15 and 6 x 3 cells, half of the track."""
-    meshes = ("-base_cells", "60,1,15", "-die_file", SCENES.parent / "meshes" / "ironing_die_coarse.msh")
-    run = driver.run("shallow_ironing", *meshes, "-steps_stages", "1,10,1.5,250", label="coarse")
+    run = driver.run("shallow_ironing", *COARSE, "-steps_stages", "1,10,1.5,250", label="coarse")
     compare(verdicts, "coarse", run, facet=2 * FACET)
 
 

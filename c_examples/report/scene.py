@@ -8,6 +8,7 @@ A missing file or an unexpected exit code raises SceneError: no check may pass b
 """
 
 import json
+import math
 import os
 import re
 import resource
@@ -152,7 +153,7 @@ class Driver:
         if ranks > 1:
             command = ["mpirun", "--oversubscribe", "-n", str(ranks), *command]
         if self.keep and expect == 0 and self._is_new(path, directory, command):
-            result = self._finished(Run(directory, 0, (directory / "log.txt").read_text(), 0.0))
+            result = self._finished(Run(directory, 0, (directory / "log.txt").read_text(), 0.0, math.nan))
             self.report(label or path.stem, result, None)
             return result
 

@@ -19,7 +19,7 @@ class Row:
 
     @property
     def passed(self):
-        return math.isfinite(self.error) and self.error <= self.bound
+        return bool(math.isfinite(self.error) and self.error <= self.bound)
 
 
 class Verdicts:
