@@ -19,7 +19,7 @@ SAY    = @printf '\n== %s\n'
 
 help:
 	@echo "make demo    solve the example scenes, compare with the references, draw (FIGURES=1: renew the README's figures)"
-	@echo "make gallery every scene solved, compared and drawn, about half an hour; ONLY='NAME ...': some of them; can be resumed"
+	@echo "make gallery solve, compare and draw every scene, half an hour, can be resumed; ONLY='NAME ...': some"
 	@echo "make effects what each effect of an interface costs: a table and a figure (FIGURES=1: renew the committed one)"
 	@echo "make test    run every test and check"
 	@echo "make build   build the library and the examples into $(BUILD)/"

@@ -1,7 +1,8 @@
 """The gallery: every scene that has something to show, solved, compared with its reference and drawn.
 
-gallery.py --build DIR [--jobs N] [--only NAME...] [--renew-figures]; all goes to DIR/gallery, with index.html on top (some.html, if only some were asked for). A run
-that is newer than its inputs is kept. Exits with 1 if a comparison fails or a scene does not finish.
+gallery.py --build DIR [--jobs N] [--only NAME...] [--renew-figures]; all goes to DIR/gallery, with index.html on top
+(some.html, if only some were asked for). A run that is newer than its inputs is kept. Exits with 1 if a comparison
+fails or a scene does not finish.
 """
 
 import argparse

@@ -63,7 +63,8 @@ def frame(axis, run, view, step, largest):
         deformed = (points + view.magnify * displacement)[:, axes]
         for number in np.unique(body):
             quads = front_quads(points, cells["hexahedron"][body == number])
-            style = {"facecolors": BODY_COLOURS[int(number) % len(BODY_COLOURS)], "edgecolors": GREY, "linewidths": 0.25}
+            colour = BODY_COLOURS[int(number) % len(BODY_COLOURS)]
+            style = {"facecolors": colour, "edgecolors": GREY, "linewidths": 0.25}
             axis.add_collection(PolyCollection(deformed[quads], **style))
     else:
         colours = [STATE_COLOURS.get(name, GREY) for name in state]

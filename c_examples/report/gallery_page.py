@@ -6,7 +6,8 @@ import math
 STYLE = """
 body { font: 15px/1.45 sans-serif; max-width: 62em; margin: 2em auto; padding: 0 1em; color: #222 }
 table { border-collapse: collapse; font-size: 13px } td, th { padding: 2px 10px; border-bottom: 1px solid #ddd }
-td.number, th.number { text-align: right; font-variant-numeric: tabular-nums } .failed { color: #c8442b; font-weight: bold }
+td.number, th.number { text-align: right; font-variant-numeric: tabular-nums }
+.failed { color: #c8442b; font-weight: bold }
 img { max-width: 100%; margin: 6px 0 } code { font-size: 12.5px; background: #f5f2ea; padding: 1px 4px }
 """
 
@@ -20,7 +21,8 @@ def rows(verdicts):
         verdict = "ok" if row.passed else '<span class="failed">FAILED</span>'
         cells = (number(row.computed), number(row.reference), number(row.error, ".1e"), number(row.bound, ".2g"))
         numbers = "".join(f'<td class="number">{cell}</td>' for cell in cells)
-        yield f"<tr><td>{html.escape(row.quantity)}</td>{numbers}<td>{verdict}</td><td>{html.escape(row.reason)}</td></tr>"
+        quantity, reason = html.escape(row.quantity), html.escape(row.reason)
+        yield f"<tr><td>{quantity}</td>{numbers}<td>{verdict}</td><td>{reason}</td></tr>"
 
 
 def table(verdicts):
@@ -31,7 +33,8 @@ def table(verdicts):
 
 def write(path, pages):
     """The page of (entry, verdicts, figures) in this order, next to the figures; returns its path."""
-    parts = [f"<!doctype html><meta charset='utf-8'><title>stickslip: gallery</title><style>{STYLE}</style><h1>Gallery</h1>"]
+    head = f"<!doctype html><meta charset='utf-8'><title>stickslip: gallery</title><style>{STYLE}</style>"
+    parts = [head, "<h1>Gallery</h1>"]
     parts.append("<ul>")
     for entry, verdicts, _ in pages:
         state = "" if verdicts.passed else ' <span class="failed">FAILED</span>'

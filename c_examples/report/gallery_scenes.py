@@ -11,6 +11,7 @@ import friction_checks as friction
 import gallery_figures as figures
 import ironing
 import slider
+import turning
 from gallery_figures import View
 from reference import IRONING
 
@@ -27,8 +28,8 @@ class Entry:
 
 
 def moving(name, run, view, folder, caption, frames=24, pictures=4, shown=None):
-    """The three that every scene gets: forces on the deformed surface after the step `shown` (default: the last), a strip,
-    an animation. Only steps that have a .vtu (sections) or a .csv (maps)."""
+    """The three that every scene gets: forces on the deformed surface after the step `shown` (default: the last), a
+    strip, an animation. Only steps that have a .vtu (sections) or a .csv (maps)."""
     pattern = "step_*.vtu" if view.kind == "section" else f"interface_{view.interface}_*.csv"
     there = sorted(int(path.stem.rpartition("_")[2]) for path in run.directory.glob(pattern))
     shown = shown or there[-1]
@@ -159,7 +160,9 @@ def draw_torsion(run, folder):
     ]
     view = View("contact", (-0.07, 0.07, -0.07, 0.07), 0.02, (5, 5.2), kind="map")
     return [
-        figures.history([("computed", angle, torque)], folder / "torsion.png", "angle", "torque", references, "Torsion"),
+        figures.history(
+            [("computed", angle, torque)], folder / "torsion.png", "angle", "torque", references, "Torsion"
+        ),
         *moving("torsion", run, view, folder, at("friction on the block, t =")),
     ]
 
@@ -199,8 +202,8 @@ def draw_shrink(solved, folder):
             "degrees", "pressure", "Shrink fit: every node, and Lame",
         ),
         figures.convergence(
-            [1 / cells for cells in SHRINK_CELLS], {"worst node": errors}, folder / "shrink_fit_error.png", "1 / cells around",
-            "error of the pressure",
+            [1 / cells for cells in SHRINK_CELLS], {"worst node": errors}, folder / "shrink_fit_error.png",
+            "1 / cells around", "error of the pressure",
         ),
         figures.history(
             [("computed", times, [abs(step["reactions"]["axle"][2]) for step in out.steps])],
@@ -216,7 +219,8 @@ def draw_capstan(run, folder):
     table = table[table["Z"] < 1e-9]
     angle = np.pi - np.arctan2(table["Y"], table["X"])
     fine = np.linspace(0, np.pi, 200)
-    series = [("pressure times radius", np.degrees(angle), table["p_lumped"], np.degrees(fine), formulas.belt_tension(fine, 0.3))]
+    exact = formulas.belt_tension(fine, 0.3)
+    series = [("pressure times radius", np.degrees(angle), table["p_lumped"], np.degrees(fine), exact)]
     view = View("contact", (-1.6, 1.6, -0.1, 1.6), 0.25, (7, 4), kind="map")
     return [
         figures.profile(series, folder / "capstan.png", "degrees from the held end", "tension / T1", "Belt on a drum"),
@@ -248,7 +252,8 @@ def draw_block(run, folder):
 # --- the paper's slider -----------------------------------------------------------------------------------------------
 def press_fit(verdicts, driver):
     options = (*slider.travel(1300, 25), "-output_vtu", "all")
-    runs = [driver.run("press_fit", *options, *mesh, label=f"press_fit_{n}") for n, mesh in enumerate(((), slider.FINE))]
+    coarse = driver.run("press_fit", *options, label="press_fit_coarse")
+    runs = [coarse, driver.run("press_fit", *options, *slider.FINE, label="press_fit_fine")]
     for name, run in zip(("press fit", "press fit, finer mesh"), runs):
         slider.no_cutback(verdicts, name, run)
         slider.balance(verdicts, name, run)
@@ -263,6 +268,11 @@ def slider_curves(run, name):
     return [(f"R_x{name}", moved, forces[:, 0]), (f"R_z{name}", moved, forces[:, 1])]
 
 
+def at_the_corners(run):
+    """The step at 800 mm, with the slider over both."""
+    return next(k for k, step in enumerate(run.steps, 1) if step["t"] > 1.799)
+
+
 def moved_by(t):
     return f"moved by {max(0, 1000 * (t - 1)):.0f} mm"
 
@@ -272,17 +282,18 @@ def draw_press_fit(runs, folder):
     view = View("contact", (-40, 1940, -10, 470), 110, (9, 3), normal_only=True)
     (pull, press), (fine_pull, _) = slider_curves(coarse, ", 18 x 3"), slider_curves(fine, ", 36 x 6")
     marks = [("mu R_z, 18 x 3", press[1], slider.MU * press[2], "--")]
-    corner = next(k for k, step in enumerate(fine.steps, 1) if step["t"] > 1.799)  # 800 mm: over both corners
     return [
-        figures.history([pull, fine_pull], folder / "press_fit_history.png", "travel [mm]", "reaction [kN]", marks, "Press fit"),
-        *moving("press_fit", fine, view, folder, moved_by, frames=36, shown=corner),
+        figures.history(
+            [pull, fine_pull], folder / "press_fit_history.png", "travel [mm]", "reaction [kN]", marks, "Press fit"
+        ),
+        *moving("press_fit", fine, view, folder, moved_by, frames=36, shown=at_the_corners(fine)),
     ]
 
 
 def draw_slider(run, folder):
     """The coarse one by itself, for the demonstration."""
     view = View("contact", (-40, 1490, -10, 470), 110, (8, 3), normal_only=True)
-    return moving("press_fit", run, view, folder, moved_by, shown=next(k for k, s in enumerate(run.steps, 1) if s["t"] > 1.799))
+    return moving("press_fit", run, view, folder, moved_by, shown=at_the_corners(run))
 
 
 def press_fit_3d(verdicts, driver):
@@ -298,6 +309,30 @@ def draw_press_fit_3d(run, folder):
     return [
         figures.history(curves, folder / "press_fit_3d_history.png", "travel [mm]", "reaction of a quarter [kN]"),
         *moving("press_fit_3d", run, section, folder, moved_by),
+    ]
+
+
+# --- a shaft that is carried round ------------------------------------------------------------------------------------
+def turned_shaft(verdicts, driver):
+    runs = [driver.run("turned_shaft", *turning.steps(50), *slip, label=f"turned_{n}") for n, slip in SLIPS.items()]
+    for label, steps, bound in (("drift, over a facet", 100, turning.DRIFT_BOUND), ("at rest", 110, turning.REST_BOUND)):
+        verdicts.below(f"turned by 2 rad: {label}", turning.drift(runs[0], 50, steps), bound, "stuck")
+    return runs
+
+
+SLIPS = {"objective": (), "seed": ("-contact_slip", "seed")}
+
+
+def draw_turned_shaft(runs, folder):
+    curves = []
+    for name, run in zip(("objective", "as printed in the paper"), runs):
+        table = [run.interface("contact", k) for k in range(1, len(run.steps) + 1)]
+        slip = [np.hypot(each["slip_x"], each["slip_y"]).max() / turning.FACET for each in table]
+        curves.append((name, [step["t"] for step in run.steps], slip))
+    view = View("contact", (-7, 7, -7, 7), 1.5, (5, 5.2), kind="map")
+    return [
+        figures.history(curves, folder / "turned_shaft.png", "time", "largest slip over a facet", (), "Stuck, turned"),
+        *moving("turned_shaft", runs[0], view, folder, at("t =")),
     ]
 
 
@@ -331,24 +366,27 @@ ENTRIES = [
           hertz_line, draw_hertz_line),
     Entry("hertz_ball", "Hertz: ball on a plane", "A quarter of an elastic ball on a plane without a mesh.", 0.5,
           hertz_ball, draw_hertz_ball),
-    Entry("cattaneo", "Cattaneo and Mindlin: line contact drawn", "The half-cylinders, one drawn along the other: slip at "
-          "the rims. The profile's error is mostly in the one facet in which stick ends, and so depends on where in that "
-          "facet it ends.", 1.0, cattaneo, draw_cattaneo, ("cattaneo.png",)),
+    Entry("cattaneo", "Cattaneo and Mindlin: line contact drawn", "The half-cylinders, one drawn along the other: slip "
+          "at the rims. The profile's error is mostly in the one facet in which stick ends, and so depends on where in "
+          "that facet it ends.", 1.0, cattaneo, draw_cattaneo, ("cattaneo.png",)),
     Entry("mindlin", "Mindlin and Deresiewicz: ball drawn there and back", "Hysteresis below full sliding.", 8.0,
           mindlin, draw_mindlin),
     Entry("torsion", "Lubkin: torsion of a point contact", "A block turned under a rigid ball until all of the contact "
           "slips.", 6.0, torsion, draw_torsion),
-    Entry("torsion_disc", "Torsion of a flat disc", "Uniform pressure; the torque is 2/3 mu F R.", 0.1, disc, draw_disc),
-    Entry("shrink_fit", "Shrink fit", "A hub that is too narrow for its shaft, from meshes that penetrate at the start; then "
-          "pushed out, or turned.", 1.0, shrink, draw_shrink),
+    Entry("torsion_disc", "Torsion of a flat disc", "Uniform pressure; the torque is 2/3 mu F R.", 0.1, disc,
+          draw_disc),
+    Entry("shrink_fit", "Shrink fit", "A hub that is too narrow for its shaft, from meshes that penetrate at the "
+          "start; then pushed out, or turned.", 1.0, shrink, draw_shrink),
     Entry("capstan", "Belt on a drum", "Euler's formula, half around.", 0.1, friction.capstan, draw_capstan),
     Entry("block", "Block pushed along a foundation", "The paper's first example, contact along the whole bottom.", 0.1,
           block, draw_block),
-    Entry("press_fit", "Press fit: a slider in a narrowing channel", "The paper's second example: pressure on a soft slider "
-          "that is pushed up a ramp, 25 mm a step. On the plateau R_x is mu R_z.", 1.0, press_fit, draw_press_fit,
-          ("press_fit_forces.png",)),
+    Entry("press_fit", "Press fit: a slider in a narrowing channel", "The paper's second example: pressure on a soft "
+          "slider that is pushed up a ramp, 25 mm a step. On the plateau R_x is mu R_z.", 1.0, press_fit,
+          draw_press_fit, ("press_fit_forces.png",)),
     Entry("press_fit_3d", "Press fit in three dimensions", "A slider of finite width; the section in its plane of "
           "symmetry.", 2.0, press_fit_3d, draw_press_fit_3d),
+    Entry("turned_shaft", "A shaft carried round by friction", "Stuck in a hub that turns by 2 rad: no slip with the "
+          "objective measure.", 0.5, turned_shaft, draw_turned_shaft),
     Entry("shallow_ironing", "Shallow ironing", "A die pressed into a softer base and drawn along it in 500 steps. The "
           "pictures are of a mesh and steps twice as coarse.", 20.0, shallow_ironing, draw_shallow_ironing),
 ]
