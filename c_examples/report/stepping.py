@@ -67,6 +67,16 @@ def automatic(verdicts, driver):
         verdicts.near(f"automatic steps: iterations a step where {aim} are aimed at", mean, aim, AIM_BOUND, "settled")
 
 
+    # Here two iterations are out of reach: three shorter steps take three, too, and the next is as long as before.
+    steps = "times: [1], automatic: true, initial: 0.1, largest: 0.1, iterations: 2"
+    run = driver.run(with_steps(driver, "hertz_line_coarse", steps), "-contact_weights", "current", label="in_vain")
+    counts = [step["newton_iterations"] for step in run.steps[:4]]
+    lengths = np.diff([step["t"] for step in run.steps], prepend=0)
+    in_vain = min(counts[1:]) >= counts[0] > 2 and all(lengths[1:4] < lengths[:3])
+    verdicts.true("automatic steps in vain: three shorter ones", in_vain, f"else nothing is tested: {counts}")
+    verdicts.near("automatic steps in vain: the length after them", lengths[4], lengths[0], 1e-12, "as before")
+
+
 def rollback(verdicts, driver):
     """A run with failed attempts, and a run that takes the steps which succeeded at once: equal to the last bit.
 

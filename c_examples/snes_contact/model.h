@@ -78,6 +78,8 @@ typedef struct {
 /* The step that is wanted next (step_size.c). */
 typedef struct {
   PetscInt  next, held;      /* target; steps for which it must not grow */
+  PetscInt  n_shorter, iterations_before; /* steps in a row made shorter; the last one before them: its iterations, */
+  PetscReal length_before;                /* and length */
   PetscReal length, longest; /* wanted; whose fraction Steps.smallest is */
 } StepSize;
 

@@ -9,6 +9,10 @@
 /* No step is more than GROWTH times as long as the one before, or SEARCHING times where the residual rose on the
  * way: then Newton's method was looking for the states of the nodes, and might not find them from farther away. */
 static const PetscReal GROWTH = 2, SEARCHING = 1.25, SHRINKAGE = 0.5, CUT = 0.5;
+/* Where IN_VAIN steps in a row were made shorter and took no fewer iterations, their length is not to blame: the next
+ * one is as long as before. (A tube drawn over a coarse mesh takes 7 iterations at any length; aiming at 6, the steps
+ * would shrink for ever.) */
+enum { IN_VAIN = 3 };
 /* After a cut-back this many steps do not grow, else every other step would fail. */
 enum { HELD = 3 };
 /* Times closer than this fraction of a step are one. */
@@ -45,6 +49,14 @@ void step_size_accept(const Steps *steps, StepSize *size, PetscReal t_last, Pets
   {
     PetscReal factor = newton->iterations ? PetscSqrtReal((PetscReal)steps->iterations / newton->iterations) : GROWTH;
     factor           = PetscMax(SHRINKAGE, PetscMin(factor, newton->monotone ? GROWTH : SEARCHING));
+    if (size->n_shorter == IN_VAIN && factor < 1) {
+      if (newton->iterations >= size->iterations_before) factor = size->length_before / taken;
+      size->n_shorter = 0;
+    } else if (factor < 1) {
+      if (size->n_shorter++ == 0) size->iterations_before = newton->iterations, size->length_before = taken;
+    } else {
+      size->n_shorter = 0;
+    }
     if (factor < 1) {
       size->length = PetscMin(size->length, factor * taken);
     } else if (size->held > 0) { /* one cut short by a target says nothing against the length that was wanted */
@@ -53,6 +65,7 @@ void step_size_accept(const Steps *steps, StepSize *size, PetscReal t_last, Pets
       size->length = PetscMax(size->length, factor * taken);
     }
     size->held   = PetscMax(0, size->held - 1);
+    size->length = PetscMax(steps->smallest * steps->largest, size->length);
     size->length = PetscMin(size->length, bends ? steps->initial : steps->largest);
   }
 }
