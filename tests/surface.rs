@@ -58,3 +58,15 @@ fn a_folded_surface_is_refused_a_thin_blade_is_not() {
         }
     }
 }
+
+/// A facet that is itself folded makes its neighbours lie on it; it is the one to be named.
+#[test]
+fn a_facet_that_is_folded_itself_is_named_alone() {
+    let mut mesh = grid(2, 2, [0.0, 0.0], [1.0, 1.0], 0.0, false, Cells::Quads);
+    mesh.x[4] = Vec3::new(-0.3, -0.3, 0.0);
+    let one = Surface::new("nonmortar", mesh.x.clone(), &mesh.facets, numbered(0, 9)).unwrap();
+    let table = grid(1, 1, [-1.0, -1.0], [2.0, 2.0], -0.1, true, Cells::Quads);
+    let two = Surface::new("mortar", table.x.clone(), &table.facets, numbered(27, 4)).unwrap();
+    let error = stickslip::interface::Interface::new(one, two, numbered(39, 9), options()).unwrap_err();
+    assert!(error.kind == Kind::DegenerateFacet && error.message.starts_with("nonmortar facet 0"), "{error}");
+}

@@ -3,6 +3,7 @@
 use crate::adjacency::{SharedEdge, shared_edges};
 use crate::error::{Error, Kind, Result};
 use crate::geometry::{AnalyticShape, AnalyticSurface, FRAME, Facet, Vec3, check_rigid_motion};
+use crate::mortar::NonmortarFrame;
 use crate::shape::MAX_NODES;
 
 /// Neighbouring facets whose normals have a scalar product below this lie on each other: a wedge thinner than a tenth
@@ -115,11 +116,12 @@ impl Surface {
         }
     }
 
-    /// An edge whose facets lie on each other in the first configuration. Facets without an area are refused elsewhere.
+    /// An edge whose facets lie on each other in the first configuration. Facets that are degenerate or folded
+    /// themselves are refused elsewhere, each by its own number.
     fn folded_edge(&self) -> Option<SharedEdge> {
-        let direction = |f: usize| self.facet(f, &self.reference).area_vector().try_normalize(0.0);
-        let folded = |e: &&SharedEdge| match e.facets.map(direction) {
-            [Some(m), Some(n)] => m.dot(&n) < FOLDED,
+        let normal = |f: usize| NonmortarFrame::new(&self.facet(f, &self.reference)).map(|frame| frame.plane.e);
+        let folded = |e: &&SharedEdge| match e.facets.map(normal) {
+            [Ok(m), Ok(n)] => m.dot(&n) < FOLDED,
             _ => false,
         };
         self.edges.iter().find(folded).copied()
