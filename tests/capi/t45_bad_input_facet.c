@@ -86,15 +86,23 @@ static void surfaces(void) {
   s.nonmortar.n_facets = 3;
   CHECK_REFUSED(call_create(&s), STICKSLIP_INVALID_VALUE, "nonmortar: node 8");
 
-  /* Facets that face each other around a node: its normal has no direction. */
-  const int64_t offsets[3] = {0, 3, 6}, facets[6] = {0, 1, 2, 0, 2, 1};
+  /* Facets that lie on each other, along all their edges. */
+  const int64_t offsets[3] = {0, 3, 6}, folded[6] = {0, 1, 2, 0, 2, 1}, facing[6] = {0, 1, 4, 2, 3, 4};
   scene_init(&s);
   s.nonmortar.n_nodes = 3;
   s.nonmortar.n_facets = 2;
   s.nonmortar.facet_offsets = offsets;
-  s.nonmortar.facet_nodes = facets;
+  s.nonmortar.facet_nodes = folded;
   memcpy(s.reference1 + 6, s.reference1 + 12, 3 * sizeof(double)); /* not in line */
-  CHECK_REFUSED(call_create(&s), STICKSLIP_UNDEFINED_NORMAL, "non-mortar node 0");
+  CHECK_REFUSED(call_create(&s), STICKSLIP_INVALID_VALUE, "facets 0 and 1");
+
+  /* Facets that look in opposite directions around a node, their only one in common: its normal has no direction. */
+  scene_init(&s);
+  s.nonmortar.n_nodes = 5;
+  s.nonmortar.n_facets = 2;
+  s.nonmortar.facet_offsets = offsets;
+  s.nonmortar.facet_nodes = facing;
+  CHECK_REFUSED(call_create(&s), STICKSLIP_UNDEFINED_NORMAL, "non-mortar node 4");
 }
 
 /* Within Newton the same is a domain error: refused, and the handle goes on. */

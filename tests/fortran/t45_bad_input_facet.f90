@@ -96,7 +96,7 @@ contains
   end function
 
   subroutine surfaces()
-    integer(c_int64_t), target :: offsets(3) = [0, 3, 6], facets(6) = [1, 2, 3, 1, 3, 2]
+    integer(c_int64_t), target :: offsets(3) = [0, 3, 6], folded(6) = [1, 2, 3, 1, 3, 2], facing(6) = [1, 2, 5, 3, 4, 5]
     real(c_double), parameter :: BEYOND(2) = [1d0, 2.5d0]
     integer :: k
 
@@ -123,14 +123,22 @@ contains
     s%nonmortar%n_facets = 3
     CHECK_REFUSED(call_create(s), STICKSLIP_INVALID_VALUE, 'nonmortar: node 8')
 
-    ! Facets that face each other around a node: its normal has no direction.
+    ! Facets that lie on each other, along all their edges.
     call scene_init(s)
     s%nonmortar%n_nodes = 3
     s%nonmortar%n_facets = 2
     s%nonmortar%facet_offsets = c_loc(offsets)
-    s%nonmortar%facet_nodes = c_loc(facets)
+    s%nonmortar%facet_nodes = c_loc(folded)
     s%reference1(:, 3) = s%reference1(:, 5) ! not in line
-    CHECK_REFUSED(call_create(s), STICKSLIP_UNDEFINED_NORMAL, 'non-mortar node 0')
+    CHECK_REFUSED(call_create(s), STICKSLIP_INVALID_VALUE, 'facets 0 and 1')
+
+    ! Facets that look in opposite directions around a node, their only one in common: its normal has no direction.
+    call scene_init(s)
+    s%nonmortar%n_nodes = 5
+    s%nonmortar%n_facets = 2
+    s%nonmortar%facet_offsets = c_loc(offsets)
+    s%nonmortar%facet_nodes = c_loc(facing)
+    CHECK_REFUSED(call_create(s), STICKSLIP_UNDEFINED_NORMAL, 'non-mortar node 4')
   end subroutine
 
   ! Within Newton the same is a domain error: refused, and the handle goes on.
