@@ -3,26 +3,26 @@
 
 use super::gap::AlongNormal;
 use super::segment::{CellKernel, Cells, NonmortarFrame, Segment};
-use super::transport::{PlaneDerivatives, Transport};
+use super::transport::{Integrals, PlaneDerivatives, Transport};
 use super::weights::PairWeights;
 use super::{MORTAR, PAIR_NODES};
 use crate::quadrature::Rule;
 use crate::shape::{Cell, MAX_NODES};
 use crate::simd::Lanes;
 
-/// d/dx of the forces f_B^i = int p^i N_B da, f_C^i = -int p^i N_C da of I fields p^i = sum_A N_A p^i_A: what a field has
-/// per area, times `L`.
+/// d/dx of the forces f_B^i = int p^i N_B da, f_C^i = -int p^i N_C da of the three
+/// components of a field p = sum_A N_A p_A [F/L].
 #[derive(Clone, Debug)]
-pub struct ForceDerivatives<const I: usize = 3> {
+pub struct ForceDerivatives {
     /// `one[k][j][i][B]` = d f_B^i / d x_k,j, k over the pair's slots.
-    pub one: [[[[f64; MAX_NODES]; I]; 3]; PAIR_NODES],
+    pub one: [[[[f64; MAX_NODES]; 3]; 3]; PAIR_NODES],
     /// `two[k][j][i][C]` = d f_C^i / d x_k,j.
-    pub two: [[[[f64; MAX_NODES]; I]; 3]; PAIR_NODES],
+    pub two: [[[[f64; MAX_NODES]; 3]; 3]; PAIR_NODES],
 }
 
-impl<const I: usize> Default for ForceDerivatives<I> {
+impl Default for ForceDerivatives {
     fn default() -> Self {
-        let zero = [[[[0.0; MAX_NODES]; I]; 3]; PAIR_NODES];
+        let zero = [[[[0.0; MAX_NODES]; 3]; 3]; PAIR_NODES];
         ForceDerivatives { one: zero, two: zero }
     }
 }
@@ -51,8 +51,7 @@ impl WeightDerivatives {
     /// Exact derivatives over a segment (exact when the rule is: affine facets, degree 5).
     pub fn integrate(frame: &NonmortarFrame, segment: &Segment, rule: &Rule) -> WeightDerivatives {
         let mut weights = WeightDerivatives::default();
-        let transport = Transport { frame, segment, rule, fields: &SHAPES };
-        Cells::of(frame, segment).dispatch(OfWeights { transport, weights: &mut weights });
+        Cells::of(frame, segment).dispatch(OfWeights { frame, segment, rule, weights: &mut weights });
         weights
     }
 
@@ -82,13 +81,15 @@ pub fn pair_motion<const MOVES: bool>(
     p: &[[f64; MAX_NODES]; 3],
     forces: &mut ForceDerivatives,
 ) -> AlongNormal {
-    let transport = Transport { frame, segment, rule, fields: p };
-    Cells::of(frame, segment).dispatch(OfPair::<MOVES> { transport, weights, forces })
+    Cells::of(frame, segment).dispatch(OfPair::<MOVES> { frame, segment, rule, weights, p, forces })
 }
 
 struct OfPair<'a, const MOVES: bool> {
-    transport: Transport<'a, 3>,
+    frame: &'a NonmortarFrame,
+    segment: &'a Segment,
+    rule: &'a Rule,
     weights: &'a PairWeights,
+    p: &'a [[f64; MAX_NODES]; 3],
     forces: &'a mut ForceDerivatives,
 }
 
@@ -97,18 +98,27 @@ impl<const MOVES: bool> CellKernel for OfPair<'_, MOVES> {
 
     #[inline(always)]
     fn run<L: Lanes, One: Cell, Two: Cell>(self) -> AlongNormal {
-        let d = self.transport.derivatives::<L, One, Two, MOVES, true>();
-        let chain = Chain { frame: self.transport.frame, segment: self.transport.segment };
+        let OfPair { frame, segment, rule, weights, p, forces } = self;
+        let integrals = Integrals::<L>::new::<One, Two, MOVES>(frame, segment, rule);
+        let transport = Transport::new::<Two, MOVES>(frame, segment, &integrals);
+        let chain = Chain { frame, segment };
         for i in 0..3 {
-            chain.forces::<L, One, Two, MOVES, 3>(&d, i, self.forces);
+            let one = chain.local::<L, One, Two, MOVES>(&transport.one::<One, MOVES>(&p[i]));
+            chain.columns::<L, One, Two, MOVES>(&one, &mut Component { to: &mut forces.one, i });
+            if MOVES {
+                let two = chain.local::<L, One, Two, MOVES>(&transport.two::<One, Two>(&p[i]));
+                chain.columns::<L, One, Two, MOVES>(&two, &mut Component { to: &mut forces.two, i });
+            }
         }
-        let local = chain.local::<L, One, Two, MOVES>(&d.gap);
-        AlongNormal::new::<L, One, Two, MOVES>(&chain, local, self.weights)
+        let gap = transport.gap::<One, Two, MOVES>(&frame.projection.d);
+        AlongNormal::new::<L, One, Two, MOVES>(&chain, chain.local::<L, One, Two, MOVES>(&gap), weights)
     }
 }
 
 struct OfWeights<'a> {
-    transport: Transport<'a, MAX_NODES>,
+    frame: &'a NonmortarFrame,
+    segment: &'a Segment,
+    rule: &'a Rule,
     weights: &'a mut WeightDerivatives,
 }
 
@@ -117,25 +127,47 @@ impl CellKernel for OfWeights<'_> {
 
     #[inline(always)]
     fn run<L: Lanes, One: Cell, Two: Cell>(self) {
-        let d = self.transport.derivatives::<L, One, Two, true, false>();
-        let chain = Chain { frame: self.transport.frame, segment: self.transport.segment };
+        let OfWeights { frame, segment, rule, weights } = self;
+        let integrals = Integrals::<L>::new::<One, Two, true>(frame, segment, rule);
+        let transport = Transport::new::<Two, true>(frame, segment, &integrals);
+        let chain = Chain { frame, segment };
         for a in 0..One::NODES {
-            let one = chain.columns::<L, One, Two, true>(chain.local::<L, One, Two, true>(&field(&d.one, a)));
-            let two = chain.columns::<L, One, Two, true>(chain.local::<L, One, Two, true>(&field(&d.two, a)));
-            to_rows::<L, One>(&one, 1.0, &mut self.weights.ab[a]);
-            to_rows::<L, Two>(&two, -1.0, &mut self.weights.ac[a]);
+            let one = chain.local::<L, One, Two, true>(&transport.one::<One, true>(&SHAPES[a]));
+            let mut columns = Flat([[L::splat(0.0); 3]; PAIR_NODES]);
+            chain.columns::<L, One, Two, true>(&one, &mut columns);
+            to_rows::<L, One>(&columns.0, 1.0, &mut weights.ab[a]);
+            let two = chain.local::<L, One, Two, true>(&transport.two::<One, Two>(&SHAPES[a]));
+            chain.columns::<L, One, Two, true>(&two, &mut columns);
+            to_rows::<L, Two>(&columns.0, -1.0, &mut weights.ac[a]);
         }
     }
 }
 
-/// The derivatives of field i.
-#[inline(always)]
-fn field<L: Lanes, const I: usize>(d: &[[[L; 2]; I]; PAIR_NODES], i: usize) -> [[L; 2]; PAIR_NODES] {
-    let mut g = [[L::splat(0.0); 2]; PAIR_NODES];
-    for k in 0..PAIR_NODES {
-        g[k] = d[k][i];
+/// Where columns go, each with slot k and component j.
+pub(super) trait Columns<L> {
+    fn set(&mut self, k: usize, j: usize, column: L);
+}
+
+/// Component i of the forces.
+struct Component<'a> {
+    to: &'a mut [[[[f64; MAX_NODES]; 3]; 3]; PAIR_NODES],
+    i: usize,
+}
+
+impl<L: Lanes> Columns<L> for Component<'_> {
+    #[inline(always)]
+    fn set(&mut self, k: usize, j: usize, column: L) {
+        self.to[k][j][self.i] = column.store();
     }
-    g
+}
+
+struct Flat<L>([[L; 3]; PAIR_NODES]);
+
+impl<L: Lanes> Columns<L> for Flat<L> {
+    #[inline(always)]
+    fn set(&mut self, k: usize, j: usize, column: L) {
+        self.0[k][j] = column;
+    }
 }
 
 /// Columns, lanes over the rows, into rows.
@@ -161,28 +193,28 @@ pub(super) struct Chain<'a> {
 }
 
 impl Chain<'_> {
-    /// sum_k g_k . Dy_k as coefficients of the Dx of the pair's nodes, in the plane's axes t1, t2, e, mortar slots in the order
-    /// of the facet as given.
+    /// sum_k g_k . Dy_k as coefficients of the Dx of the pair's nodes, in the plane's axes t1, t2, e; mortar slots in the order
+    /// of the projection.
     ///
     /// A translation and a spin of both facets change no weight: with a mortar side at rest the shares of the plane's own
     /// translation and spin cancel between the facets, and only its tilt is left.
     #[inline(always)]
     pub fn local<L: Lanes, One: Cell, Two: Cell, const MOVES: bool>(
         &self,
-        g: &[[L; 2]; PAIR_NODES],
+        g: &PlaneDerivatives<L>,
     ) -> [[L; 3]; PAIR_NODES] {
         let (plane, one, two) = (&self.frame.plane, &self.frame.projection, &self.segment.mortar);
         let zero = L::splat(0.0);
         let (mut shift, mut tilt, mut spin) = ([zero; 2], [zero; 2], zero);
-        let mut x = [[zero; 3]; PAIR_NODES];
         for k in 0..One::NODES {
             gather(&mut shift, &mut tilt, &mut spin, g[k], [one.y[k].x, one.y[k].y, one.d[k]]);
         }
+        let mut x = [[zero; 3]; PAIR_NODES];
         if MOVES {
             for l in 0..Two::NODES {
                 let g = g[MORTAR + l];
                 gather(&mut shift, &mut tilt, &mut spin, g, [two.y[l].x, two.y[l].y, two.d[l]]);
-                x[MORTAR + two.node[l]] = [g[0], g[1], zero];
+                x[MORTAR + l] = [g[0], g[1], zero];
             }
         } else {
             tilt = [tilt[0] + g[MORTAR][0], tilt[1] + g[MORTAR][1]];
@@ -199,40 +231,26 @@ impl Chain<'_> {
         x
     }
 
-    /// The same in space.
+    /// The same in space, mortar slots in the order of the facet as given.
     #[inline(always)]
     pub fn columns<L: Lanes, One: Cell, Two: Cell, const MOVES: bool>(
         &self,
-        local: [[L; 3]; PAIR_NODES],
-    ) -> [[L; 3]; PAIR_NODES] {
+        local: &[[L; 3]; PAIR_NODES],
+        to: &mut impl Columns<L>,
+    ) {
         let plane = &self.frame.plane;
-        let mut x = [[L::splat(0.0); 3]; PAIR_NODES];
         for j in 0..3 {
             let (t1, t2, e) = (L::splat(plane.t1[j]), L::splat(plane.t2[j]), L::splat(plane.e[j]));
             for k in 0..One::NODES {
-                x[k][j] = t1.mul_add(local[k][0], t2.mul_add(local[k][1], e * local[k][2]));
+                to.set(k, j, t1.mul_add(local[k][0], t2.mul_add(local[k][1], e * local[k][2])));
             }
             if MOVES {
-                for k in MORTAR..MORTAR + Two::NODES {
-                    x[k][j] = t1.mul_add(local[k][0], t2 * local[k][1]);
+                for l in 0..Two::NODES {
+                    let x = &local[MORTAR + l];
+                    let slot = MORTAR + self.segment.mortar.node[l];
+                    to.set(slot, j, t1.mul_add(x[0], t2.mul_add(x[1], e * x[2])));
                 }
             }
-        }
-        x
-    }
-
-    #[inline(always)]
-    fn forces<L: Lanes, One: Cell, Two: Cell, const MOVES: bool, const I: usize>(
-        &self,
-        d: &PlaneDerivatives<L, I>,
-        i: usize,
-        forces: &mut ForceDerivatives<I>,
-    ) {
-        let one = self.columns::<L, One, Two, MOVES>(self.local::<L, One, Two, MOVES>(&field(&d.one, i)));
-        write::<L, One, Two, MOVES, I>(&one, i, &mut forces.one);
-        if MOVES {
-            let two = self.columns::<L, One, Two, MOVES>(self.local::<L, One, Two, MOVES>(&field(&d.two, i)));
-            write::<L, One, Two, MOVES, I>(&two, i, &mut forces.two);
         }
     }
 }
@@ -245,22 +263,4 @@ fn gather<L: Lanes>(shift: &mut [L; 2], tilt: &mut [L; 2], spin: &mut L, g: [L; 
         tilt[c] = L::splat(d).mul_add(g[c], tilt[c]);
     }
     *spin = L::splat(y1).mul_add(g[0], L::splat(-y0).mul_add(g[1], *spin));
-}
-
-#[inline(always)]
-fn write<L: Lanes, One: Cell, Two: Cell, const MOVES: bool, const I: usize>(
-    columns: &[[L; 3]; PAIR_NODES],
-    i: usize,
-    to: &mut [[[[f64; MAX_NODES]; I]; 3]; PAIR_NODES],
-) {
-    for j in 0..3 {
-        for k in 0..One::NODES {
-            to[k][j][i] = columns[k][j].store();
-        }
-        if MOVES {
-            for k in MORTAR..MORTAR + Two::NODES {
-                to[k][j][i] = columns[k][j].store();
-            }
-        }
-    }
 }

@@ -5,7 +5,7 @@
 //! inverse maps return the same in-plane point; so Dg_A = e Dgamma_A + gamma_A De: one scalar row a
 //! node, without cancellation of in-plane coordinates (kernel notes A).
 
-use super::derivatives::{Chain, WeightDerivatives};
+use super::derivatives::{Chain, Columns, WeightDerivatives};
 use super::segment::NonmortarFrame;
 use super::weights::PairWeights;
 use super::{MORTAR, PAIR_NODES};
@@ -93,23 +93,27 @@ impl AlongNormal {
         for b in 0..One::NODES {
             local[b][2] = local[b][2] + L::load(&weights.ab[b]); // n_AB is symmetric
         }
-        let mut columns = chain.columns::<L, One, Two, MOVES>(local);
         if MOVES {
             let [a, b, c, d] = &weights.ac;
             let ac = L::transpose([L::load(a), L::load(b), L::load(c), L::load(d)]);
-            for (k, n) in ac.into_iter().enumerate().take(Two::NODES) {
-                for j in 0..3 {
-                    let column = &mut columns[MORTAR + k][j];
-                    *column = *column - n * L::splat(plane.e[j]);
-                }
+            for l in 0..Two::NODES {
+                local[MORTAR + l][2] = local[MORTAR + l][2] - ac[chain.segment.mortar.node[l]];
             }
         }
-        let mut dgamma = [[[0.0; MAX_NODES]; 3]; PAIR_NODES];
-        for (to, from) in dgamma.as_flattened_mut().iter_mut().zip(columns.as_flattened()) {
-            *to = from.store();
-        }
+        let mut dgamma = Gaps([[[0.0; MAX_NODES]; 3]; PAIR_NODES]);
+        chain.columns::<L, One, Two, MOVES>(&local, &mut dgamma);
+        let Gaps(dgamma) = dgamma;
         let gamma = gamma(chain.frame, &chain.segment.mortar, weights);
         AlongNormal { e: plane.e, axes: [plane.t1, plane.t2], tilt: plane.tilt, gamma, dgamma }
+    }
+}
+
+struct Gaps([[[f64; MAX_NODES]; 3]; PAIR_NODES]);
+
+impl<L: Lanes> Columns<L> for Gaps {
+    #[inline(always)]
+    fn set(&mut self, k: usize, j: usize, column: L) {
+        self.0[k][j] = column.store();
     }
 }
 

@@ -6,6 +6,7 @@
 
 mod analytic;
 mod derivatives;
+mod edges;
 mod gap;
 mod moments;
 #[cfg(test)]

@@ -48,11 +48,10 @@ pub(super) struct Moments<L> {
     pub q2: Table<L>,
 }
 
-/// Those with a mortar side at rest, with heights in the place of the mortar nodes: h = sum N_B d_B - sum N_C d_C, the gap, and
-/// v = sum N_C d_C, by which the facet moves in the plane when that tilts.
+/// Those with a mortar side at rest, with the height v = sum N_C d_C in the place of the mortar nodes.
 pub(super) struct RestMoments<L> {
-    /// int (mu1_m / det1) N_k h.
-    pub rh: [[f64; MAX_NODES]; 3],
+    /// int (mu1_m / det1) N_k v.
+    pub q1v: [[f64; MAX_NODES]; 3],
     pub r: Table<L>,
     /// int (mu2_m / det2) v N_A.
     pub q2v: [L; 3],
@@ -177,18 +176,17 @@ impl<L: Lanes> RestMoments<L> {
     pub fn integrate<One: Cell, Two: Cell>(frame: &NonmortarFrame, segment: &Segment, rule: &Rule) -> Self {
         let zero = [[L::splat(0.0); MAX_NODES]; MONOMIALS];
         let (mut h, mut r, mut q2v) = (zero, zero, zero);
-        let (d1, d2) = (&frame.projection.d, &segment.mortar.d);
+        let d = &segment.mortar.d;
         integrate!(
             frame,
             segment,
             rule,
             |p, w1, w2| {
                 let n1 = One::values(p.one.xi, p.one.eta);
-                let v = combine(&Two::values(p.two.xi, p.two.eta), d2, Two::NODES);
-                let gap = combine(&n1, d1, One::NODES) - v;
+                let v = combine(&Two::values(p.two.xi, p.two.eta), d, Two::NODES);
                 let mut two = [L::splat(0.0); MONOMIALS];
                 two[..3].copy_from_slice(&[w2 * v, w2 * v * p.two.xi, w2 * v * p.two.eta]);
-                Group { monomials: [powers_of::<L, One>(w1, p.one.xi, p.one.eta), two], n: [n1, [gap; MAX_NODES]] }
+                Group { monomials: [powers_of::<L, One>(w1, p.one.xi, p.one.eta), two], n: [n1, [v; MAX_NODES]] }
             },
             |groups| {
                 add::<L, 0, 1>(&mut h, groups, monomials::<One>(), 1);
@@ -199,15 +197,15 @@ impl<L: Lanes> RestMoments<L> {
         let low = L::sums([h[0][0], h[1][0], h[2][0], h[3][0]]).store();
         let high = L::sums([h[4][0], h[5][0], h[6][0], h[7][0]]).store();
         let whole = [low[0], low[1], low[2], low[3], high[0], high[1], high[2], high[3]];
-        let mut rh = [[0.0; MAX_NODES]; 3];
+        let mut q1v = [[0.0; MAX_NODES]; 3];
         for m in 0..powers::<One>() {
             let [a, b, c, d] = PRODUCTS[m];
-            rh[m] = One::nodal([whole[a], whole[b], whole[c], whole[d]]);
+            q1v[m] = One::nodal([whole[a], whole[b], whole[c], whole[d]]);
         }
         let mut v = [L::splat(0.0); 3];
         for m in 0..powers::<Two>() {
             v[m] = L::sums(q2v[m]);
         }
-        RestMoments { rh, r: table::<L, One>(&r), q2v: v }
+        RestMoments { q1v, r: table::<L, One>(&r), q2v: v }
     }
 }

@@ -1,0 +1,77 @@
+//! An interface of two patches, as `c_examples/report/effects_probe.c` has it: 16 x 16 quadrilaterals, bent a little, that slide
+//! over 19 x 19 that move.
+
+use nalgebra::Vector3;
+use stickslip::geometry::Vec3;
+use stickslip::interface::{Counters, Interface, Options, Stiffness, Surface};
+
+const N1: usize = 16;
+const N2: usize = 19;
+const DEPTH: f64 = 0.001;
+/// How far it slides before each evaluation: 1/20 of a facet, back and forth.
+const SLIDE: f64 = 0.003;
+
+pub struct Patches {
+    contact: Interface,
+    x1: Vec<Vec3>,
+    x2: Vec<Vec3>,
+    lambda: Vec<Vector3<f64>>,
+    forward: bool,
+}
+
+fn patch(n: usize, low: f64, high: f64, up: bool) -> (Vec<Vec3>, Vec<Vec<i64>>) {
+    let at = |k: usize| low + (high - low) * k as f64 / n as f64;
+    let x = (0..(n + 1) * (n + 1)).map(|k| Vec3::new(at(k % (n + 1)), at(k / (n + 1)), 0.0)).collect();
+    let facet = |f: usize| {
+        let a = ((f / n) * (n + 1) + f % n) as i64;
+        let m = n as i64 + 1;
+        if up { vec![a, a + 1, a + m + 1, a + m] } else { vec![a, a + m, a + m + 1, a + 1] }
+    };
+    (x, (0..n * n).map(facet).collect())
+}
+
+fn equations(n: usize, first: usize) -> Vec<[i64; 3]> {
+    (0..n).map(|a| [0, 1, 2].map(|i| (first + 3 * a + i) as i64)).collect()
+}
+
+impl Patches {
+    pub fn new() -> Patches {
+        let ((mut x1, facets1), (x2, facets2)) = (patch(N1, 0.0, 1.0, false), patch(N2, -0.3, 1.3, true));
+        for x in &mut x1 {
+            x.z = -DEPTH * (1.0 + 0.5 * (3.0 * x.y).sin());
+        }
+        let (n1, n2) = (x1.len(), x2.len());
+        let upper = Surface::new("nonmortar", x1.clone(), &facets1, equations(n1, 0)).expect("a patch");
+        let lower = Surface::new("mortar", x2.clone(), &facets2, equations(n2, 3 * n1)).expect("a patch");
+        let mut options = Options::new(Stiffness::Modulus(1000.0));
+        options.mu = 0.3;
+        let contact = Interface::new(upper, lower, equations(n1, 3 * (n1 + n2)), options).expect("an interface");
+        let lambda = vec![Vec3::new(0.0, 0.0, -1.0); n1];
+        Patches { contact, x1, x2, lambda, forward: true }
+    }
+
+    /// Pairs active now.
+    pub fn pairs(&self) -> usize {
+        self.contact.active_pairs()
+    }
+
+    pub fn counters(&self) -> Counters {
+        self.contact.counters()
+    }
+
+    /// Search, integration, law and forces at new positions.
+    pub fn residual(&mut self) -> f64 {
+        let slide = if self.forward { SLIDE } else { -SLIDE };
+        self.forward = !self.forward;
+        self.x1.iter_mut().for_each(|x| x.x += slide);
+        self.contact.residual(&self.x1, &self.x2, &self.lambda, None).expect("a residual").rows[0].z
+    }
+
+    /// The tangent where the residual was.
+    pub fn tangent(&mut self) -> f64 {
+        let mut sum = 0.0;
+        let mut sink = |_: i64, _: i64, value: f64| sum += value;
+        self.contact.tangent(&self.x1, &self.x2, &self.lambda, None, &mut sink).expect("a tangent");
+        sum
+    }
+}
