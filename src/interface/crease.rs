@@ -37,7 +37,7 @@ struct Joint {
 }
 
 impl Surface {
-    /// Splits nodes until no two corner normals around one of them differ by more than `angle` [rad], in the first
+    /// Splits nodes until no two corner normals around one of them differ by more than `angle` `[rad]`, in the first
     /// configuration. A fan is cut where its facets meet at more than that, and then, while it spans more, at its
     /// sharpest edge; a node whose facets all look within `angle` stays whole.
     ///
