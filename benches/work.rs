@@ -62,8 +62,7 @@ impl Pair {
     /// The same and all derivatives.
     pub fn derivatives(&self) -> f64 {
         let Some((frame, segment)) = self.segment() else { return 0.0 };
-        let w = PairWeights::integrate(&frame, &segment, &DEGREE_5);
-        let d = WeightDerivatives::integrate(&frame, &segment, &DEGREE_5);
+        let (w, d) = WeightDerivatives::integrate(&frame, &segment, &DEGREE_5);
         std::hint::black_box(&d);
         w.ab[0][1] + d.ac[0][0][0][0]
     }

@@ -167,7 +167,7 @@ fn rust_element_calls_allocate_nothing() {
                 let frame = NonmortarFrame::new(&one).unwrap();
                 let Some(segment) = Segment::new(&frame, &two).unwrap() else { return 0.0 };
                 let weights = PairWeights::integrate(&frame, &segment, rule);
-                let derivatives = WeightDerivatives::integrate(&frame, &segment, rule);
+                let (_, derivatives) = WeightDerivatives::integrate(&frame, &segment, rule);
                 let gap = AlongNormal::from_weights(&frame, &segment.mortar, &weights, &derivatives);
                 let nodes = FacetResponse::<3>::new([&NodeTangent::default(); 4]);
                 let mut t = PairTangent::default();

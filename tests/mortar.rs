@@ -42,7 +42,7 @@ impl Pair {
     }
 
     fn derivatives(&self, rule: &Rule) -> WeightDerivatives {
-        self.segment.as_ref().map(|s| WeightDerivatives::integrate(&self.frame, s, rule)).unwrap_or_default()
+        self.segment.as_ref().map(|s| WeightDerivatives::integrate(&self.frame, s, rule).1).unwrap_or_default()
     }
 
     fn slot(&self, k: usize) -> usize {

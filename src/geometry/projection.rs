@@ -58,6 +58,11 @@ impl Projection {
         p
     }
 
+    /// Whether the facet came clockwise.
+    pub fn is_reversed(&self) -> bool {
+        self.node[1] != 1
+    }
+
     fn reverse(&mut self) {
         let original = *self;
         for k in 0..self.shape.n {

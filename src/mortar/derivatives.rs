@@ -48,11 +48,13 @@ const SHAPES: [[f64; MAX_NODES]; MAX_NODES] =
     [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0]];
 
 impl WeightDerivatives {
-    /// Exact derivatives over a segment (exact when the rule is: affine facets, degree 5).
-    pub fn integrate(frame: &NonmortarFrame, segment: &Segment, rule: &Rule) -> WeightDerivatives {
-        let mut weights = WeightDerivatives::default();
-        Cells::of(frame, segment).dispatch(OfWeights { frame, segment, rule, weights: &mut weights });
-        weights
+    /// The weights and their exact derivatives over a segment (exact when the rule is: affine facets, degree 5). The weights
+    /// are those of [`PairWeights::integrate`] but for rounding.
+    pub fn integrate(frame: &NonmortarFrame, segment: &Segment, rule: &Rule) -> (PairWeights, WeightDerivatives) {
+        let mut derivatives = WeightDerivatives::default();
+        let kernel = OfWeights { frame, segment, rule, derivatives: &mut derivatives };
+        let weights = Cells::of(frame, segment).dispatch(kernel);
+        (weights, derivatives)
     }
 
     /// The derivatives of the forces of the fields `p[i][A]` with these weights.
@@ -119,15 +121,15 @@ struct OfWeights<'a> {
     frame: &'a NonmortarFrame,
     segment: &'a Segment,
     rule: &'a Rule,
-    weights: &'a mut WeightDerivatives,
+    derivatives: &'a mut WeightDerivatives,
 }
 
 impl CellKernel for OfWeights<'_> {
-    type Output = ();
+    type Output = PairWeights;
 
     #[inline(always)]
-    fn run<L: Lanes, One: Cell, Two: Cell>(self) {
-        let OfWeights { frame, segment, rule, weights } = self;
+    fn run<L: Lanes, One: Cell, Two: Cell>(self) -> PairWeights {
+        let OfWeights { frame, segment, rule, derivatives } = self;
         let integrals = Integrals::<L>::new::<One, Two, true>(frame, segment, rule);
         let transport = Transport::new::<Two, true>(frame, segment, &integrals);
         let chain = Chain { frame, segment };
@@ -135,11 +137,12 @@ impl CellKernel for OfWeights<'_> {
             let one = chain.local::<L, One, Two, true>(&transport.one::<One, true>(&SHAPES[a]));
             let mut columns = Flat([[L::splat(0.0); 3]; PAIR_NODES]);
             chain.columns::<L, One, Two, true>(&one, &mut columns);
-            to_rows::<L, One>(&columns.0, 1.0, &mut weights.ab[a]);
+            to_rows::<L, One>(&columns.0, 1.0, &mut derivatives.ab[a]);
             let two = chain.local::<L, One, Two, true>(&transport.two::<One, Two>(&SHAPES[a]));
             chain.columns::<L, One, Two, true>(&two, &mut columns);
-            to_rows::<L, Two>(&columns.0, -1.0, &mut weights.ac[a]);
+            to_rows::<L, Two>(&columns.0, -1.0, &mut derivatives.ac[a]);
         }
+        integrals.moments.weights::<One>(&frame.map.determinant())
     }
 }
 

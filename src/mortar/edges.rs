@@ -104,7 +104,7 @@ fn nonmortar_edge<L: Lanes, Two: Cell, const MOVES: bool>(
         for q in 0..3 {
             let sums = L::sums(nc[q]);
             heights[q] = sums * d;
-            mortar[q] = reordered(sums, &two.node);
+            mortar[q] = Two::given(sums, two.is_reversed());
         }
     }
     let h = L::sums(heights).store();
@@ -159,17 +159,6 @@ fn unit<L: Lanes>(k: usize) -> L {
     const UNITS: [[f64; 4]; 4] =
         [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0]];
     L::load(&UNITS[k])
-}
-
-/// The same numbers for another order of the nodes: lane `node[k]` takes lane k.
-#[inline(always)]
-pub(super) fn reordered<L: Lanes>(v: L, node: &[usize; MAX_NODES]) -> L {
-    let v = v.store();
-    let mut w = [0.0; MAX_NODES];
-    for k in 0..MAX_NODES {
-        w[node[k]] = v[k];
-    }
-    L::load(&w)
 }
 
 /// Beginning and span of an edge, and n ds/dt, n the outward normal of the facet that owns it.

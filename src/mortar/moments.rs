@@ -5,8 +5,9 @@
 //! mu = (1, xi, eta) of the facet whose det stands below (of a triangle 1 alone: the others have no coefficient). mu_m N_k
 //! has eight monomials, so each is summed over the points as eight integrals per node and expanded once.
 
-use super::points::{Fan, points};
+use super::points::{Fan, Points, points};
 use super::segment::{NonmortarFrame, Segment};
+use super::weights::PairWeights;
 use crate::quadrature::Rule;
 use crate::shape::{Cell, MAX_NODES};
 use crate::simd::{Lanes, Stack};
@@ -35,26 +36,15 @@ struct Group<L> {
     n: [[L; MAX_NODES]; 2],
 }
 
-/// Integrals [1] of the monomials with four functions.
-type Sums<L> = [[L; MAX_NODES]; MONOMIALS];
-
 /// [m][k], lanes over the third index.
 type Table<L> = [[L; MAX_NODES]; 3];
 
-/// The integrals with a mortar side that moves, lanes C in the order of the facet as given.
+/// The integrals, lanes C in the order of the facet as given. With a mortar side at rest (`MOVES` false) the height
+/// v = sum N_C d_C stands for all mortar nodes: in lane 0 of q1, and `q2[m][0]` alone is int (mu2_m / det2) v N_A.
 pub(super) struct Moments<L> {
     pub q1: Table<L>,
     pub r: Table<L>,
     pub q2: Table<L>,
-}
-
-/// Those with a mortar side at rest, with the height v = sum N_C d_C in the place of the mortar nodes.
-pub(super) struct RestMoments<L> {
-    /// int (mu1_m / det1) N_k v.
-    pub q1v: [[f64; MAX_NODES]; 3],
-    pub r: Table<L>,
-    /// int (mu2_m / det2) v N_A.
-    pub q2v: [L; 3],
 }
 
 #[inline(always)]
@@ -68,38 +58,33 @@ fn powers_of<L: Lanes, C: Cell>(w: L, xi: L, eta: L) -> [L; MONOMIALS] {
     [w, x, e, xe, x * xi, e * eta, xe * xi, xe * eta]
 }
 
-/// Adds the groups' monomials of facet `FACET` with `functions` functions of facet `OTHER`.
+/// Integrals of the monomials of facet `FACET` with functions of facet `OTHER`, lanes over these. Two monomials at a time:
+/// eight sums are as many as stay in registers.
 #[inline(always)]
-fn add<L: Lanes, const FACET: usize, const OTHER: usize>(
-    sums: &mut Sums<L>,
+fn integrals<L: Lanes, const FACET: usize, const OTHER: usize>(
     groups: &[Group<L>],
     monomials: usize,
     functions: usize,
-) {
-    for f in 0..functions {
-        let mut s = [L::splat(0.0); MONOMIALS];
-        for j in 0..monomials {
-            s[j] = sums[j][f];
-        }
+) -> [L; MONOMIALS] {
+    let mut whole = [L::splat(0.0); MONOMIALS];
+    for j in (0..monomials).step_by(2) {
+        let mut s = [[L::splat(0.0); MAX_NODES]; 2];
         for g in groups {
-            let n = g.n[OTHER][f];
-            for j in 0..monomials {
-                s[j] = g.monomials[FACET][j].mul_add(n, s[j]);
+            let m = &g.monomials[FACET];
+            for f in 0..functions {
+                s[0][f] = m[j].mul_add(g.n[OTHER][f], s[0][f]);
+                s[1][f] = m[j + 1].mul_add(g.n[OTHER][f], s[1][f]);
             }
         }
-        for j in 0..monomials {
-            sums[j][f] = s[j];
-        }
+        whole[j] = L::sums(s[0]);
+        whole[j + 1] = L::sums(s[1]);
     }
+    whole
 }
 
-/// Sums over the lanes, expanded to the nodes of the cell.
+/// Expanded to the nodes of the cell.
 #[inline(always)]
-fn table<L: Lanes, C: Cell>(sums: &Sums<L>) -> Table<L> {
-    let mut whole = [L::splat(0.0); MONOMIALS];
-    for j in 0..monomials::<C>() {
-        whole[j] = L::sums(sums[j]);
-    }
+fn table<L: Lanes, C: Cell>(whole: &[L; MONOMIALS]) -> Table<L> {
     let mut table = [[L::splat(0.0); MAX_NODES]; 3];
     for m in 0..powers::<C>() {
         let [a, b, c, d] = PRODUCTS[m];
@@ -118,94 +103,77 @@ pub(super) fn combine<L: Lanes>(n: &[L; MAX_NODES], c: &[f64; MAX_NODES], nodes:
     sum
 }
 
-/// Calls `$flush` with groups of points, each made by `$group` from points with weight / det of both facets.
-macro_rules! integrate {
-    ($frame:ident, $segment:ident, $rule:ident, |$p:ident, $w1:ident, $w2:ident| $group:expr, |$groups:ident| $flush:expr) => {{
-        let mut stack = Stack::<Group<L>, GROUPS>::new();
-        let mut fan = Fan::new($frame, $segment);
-        while let Some(triangle) = fan.triangle() {
-            for i in 0..$rule.triangle_lanes.len() {
-                if stack.is_full() {
-                    let $groups = stack.values();
-                    $flush;
-                    stack.clear();
-                }
-                let $p = points::<L>($frame, $segment, $rule, &triangle, i);
-                let over = $p.weight / ($p.one.det * $p.two.det);
-                let ($w1, $w2) = (over * $p.two.det, over * $p.one.det);
-                stack.push($group);
-            }
-        }
-        let $groups = stack.values();
-        $flush;
-    }};
-}
-
 impl<L: Lanes> Moments<L> {
     #[inline(always)]
-    pub fn integrate<One: Cell, Two: Cell>(frame: &NonmortarFrame, segment: &Segment, rule: &Rule) -> Self {
-        let zero = [[L::splat(0.0); MAX_NODES]; MONOMIALS];
-        let (mut q1, mut r, mut q2) = (zero, zero, zero);
-        let node = &segment.mortar.node;
-        integrate!(
-            frame,
-            segment,
-            rule,
-            |p, w1, w2| {
-                let n2 = Two::values(p.two.xi, p.two.eta);
-                let mut given = n2;
-                for c in 0..Two::NODES {
-                    given[node[c]] = n2[c];
-                }
-                let (one, two) =
-                    (powers_of::<L, One>(w1, p.one.xi, p.one.eta), powers_of::<L, Two>(w2, p.two.xi, p.two.eta));
-                Group { monomials: [one, two], n: [One::values(p.one.xi, p.one.eta), given] }
-            },
-            |groups| {
-                add::<L, 0, 1>(&mut q1, groups, monomials::<One>(), Two::NODES);
-                add::<L, 0, 0>(&mut r, groups, monomials::<One>(), One::NODES);
-                add::<L, 1, 0>(&mut q2, groups, monomials::<Two>(), One::NODES);
+    pub fn integrate<One: Cell, Two: Cell, const MOVES: bool>(
+        frame: &NonmortarFrame,
+        segment: &Segment,
+        rule: &Rule,
+    ) -> Self {
+        let mut whole = [[L::splat(0.0); MONOMIALS]; 3];
+        let mut stack = Stack::<Group<L>, GROUPS>::new();
+        let mut fan = Fan::new(frame, segment);
+        let mut triangle = fan.triangle();
+        let mut i = 0;
+        while let Some(t) = &triangle {
+            stack.push(group::<L, One, Two, MOVES>(&segment.mortar.d, &points::<L>(frame, segment, rule, t, i)));
+            i += 1;
+            if i == rule.triangle_lanes.len() {
+                (triangle, i) = (fan.triangle(), 0);
             }
-        );
-        Moments { q1: table::<L, One>(&q1), r: table::<L, One>(&r), q2: table::<L, Two>(&q2) }
+            if stack.is_full() || triangle.is_none() {
+                let groups = stack.values();
+                let (functions, powers) = if MOVES { (Two::NODES, monomials::<Two>()) } else { (1, powers::<Two>()) };
+                let batch = [
+                    integrals::<L, 0, 1>(groups, monomials::<One>(), functions),
+                    integrals::<L, 0, 0>(groups, monomials::<One>(), One::NODES),
+                    integrals::<L, 1, 0>(groups, powers, One::NODES),
+                ];
+                for (sum, new) in whole.as_flattened_mut().iter_mut().zip(batch.as_flattened()) {
+                    *sum = *sum + *new;
+                }
+                stack.clear();
+            }
+        }
+        let [q1, r, q2] = &mut whole;
+        if !MOVES {
+            let v = [[q2[0]; MAX_NODES], [q2[1]; MAX_NODES], [q2[2]; MAX_NODES]];
+            return Moments { q1: table::<L, One>(q1), r: table::<L, One>(r), q2: v };
+        }
+        for q in q1.iter_mut() {
+            *q = Two::given(*q, segment.mortar.is_reversed());
+        }
+        Moments { q1: table::<L, One>(q1), r: table::<L, One>(r), q2: table::<L, Two>(q2) }
+    }
+
+    /// n_AB = sum_m j_m R[m][A][B] and n_AC = sum_m j_m Q1[m][A][C], det1 = j0 + j1 xi + j2 eta; with a mortar side that
+    /// moves.
+    #[inline(always)]
+    pub fn weights<One: Cell>(&self, determinant: &[f64; 3]) -> PairWeights {
+        let (mut ab, mut ac) = ([L::splat(0.0); MAX_NODES], [L::splat(0.0); MAX_NODES]);
+        for m in 0..powers::<One>() {
+            let j = L::splat(determinant[m]);
+            for a in 0..One::NODES {
+                ab[a] = j.mul_add(self.r[m][a], ab[a]);
+                ac[a] = j.mul_add(self.q1[m][a], ac[a]);
+            }
+        }
+        PairWeights::of_rows::<L, One>(&ab, &ac)
     }
 }
 
-impl<L: Lanes> RestMoments<L> {
-    #[inline(always)]
-    pub fn integrate<One: Cell, Two: Cell>(frame: &NonmortarFrame, segment: &Segment, rule: &Rule) -> Self {
-        let zero = [[L::splat(0.0); MAX_NODES]; MONOMIALS];
-        let (mut h, mut r, mut q2v) = (zero, zero, zero);
-        let d = &segment.mortar.d;
-        integrate!(
-            frame,
-            segment,
-            rule,
-            |p, w1, w2| {
-                let n1 = One::values(p.one.xi, p.one.eta);
-                let v = combine(&Two::values(p.two.xi, p.two.eta), d, Two::NODES);
-                let mut two = [L::splat(0.0); MONOMIALS];
-                two[..3].copy_from_slice(&[w2 * v, w2 * v * p.two.xi, w2 * v * p.two.eta]);
-                Group { monomials: [powers_of::<L, One>(w1, p.one.xi, p.one.eta), two], n: [n1, [v; MAX_NODES]] }
-            },
-            |groups| {
-                add::<L, 0, 1>(&mut h, groups, monomials::<One>(), 1);
-                add::<L, 0, 0>(&mut r, groups, monomials::<One>(), One::NODES);
-                add::<L, 1, 0>(&mut q2v, groups, powers::<Two>(), One::NODES);
-            }
-        );
-        let low = L::sums([h[0][0], h[1][0], h[2][0], h[3][0]]).store();
-        let high = L::sums([h[4][0], h[5][0], h[6][0], h[7][0]]).store();
-        let whole = [low[0], low[1], low[2], low[3], high[0], high[1], high[2], high[3]];
-        let mut q1v = [[0.0; MAX_NODES]; 3];
-        for m in 0..powers::<One>() {
-            let [a, b, c, d] = PRODUCTS[m];
-            q1v[m] = One::nodal([whole[a], whole[b], whole[c], whole[d]]);
-        }
-        let mut v = [L::splat(0.0); 3];
-        for m in 0..powers::<Two>() {
-            v[m] = L::sums(q2v[m]);
-        }
-        RestMoments { q1v, r: table::<L, One>(&r), q2v: v }
+/// What is summed of four points; `d`: heights of the mortar nodes.
+#[inline(always)]
+fn group<L: Lanes, One: Cell, Two: Cell, const MOVES: bool>(d: &[f64; MAX_NODES], p: &Points<L>) -> Group<L> {
+    let over = p.weight / (p.one.det * p.two.det);
+    let (w1, w2) = (over * p.two.det, over * p.one.det);
+    let (n1, n2) = (One::values(p.one.xi, p.one.eta), Two::values(p.two.xi, p.two.eta));
+    let one = powers_of::<L, One>(w1, p.one.xi, p.one.eta);
+    if MOVES {
+        return Group { monomials: [one, powers_of::<L, Two>(w2, p.two.xi, p.two.eta)], n: [n1, n2] };
     }
+    let v = combine(&n2, d, Two::NODES);
+    let (mut two, w) = ([L::splat(0.0); MONOMIALS], w2 * v);
+    (two[0], two[1], two[2]) = (w, w * p.two.xi, w * p.two.eta);
+    Group { monomials: [one, two], n: [n1, [v; MAX_NODES]] }
 }

@@ -238,7 +238,10 @@ fn check(one: &Facet, two: &Facet, p: &[[f64; MAX_NODES]; 3]) -> Result<(), Test
         for (found, expected) in [(&weights.ab, &straight.weights.ab), (&weights.ac, &straight.weights.ac)] {
             check_same("weights", found.as_flattened(), expected.as_flattened(), h * h)?;
         }
-        let (found, expected) = (WeightDerivatives::integrate(&frame, &segment, rule), straight.derivatives(true));
+        let ((with, found), expected) =
+            (WeightDerivatives::integrate(&frame, &segment, rule), straight.derivatives(true));
+        check_same("weights with derivatives", with.ab.as_flattened(), weights.ab.as_flattened(), h * h)?;
+        check_same("weights with derivatives", with.ac.as_flattened(), weights.ac.as_flattened(), h * h)?;
         check_same("dn_ab", flat(&found.ab), flat(&expected.ab), h)?;
         check_same("dn_ac", flat(&found.ac), flat(&expected.ac), h)?;
 

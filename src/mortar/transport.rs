@@ -15,8 +15,8 @@
 //! Where the mortar side is at rest its vertices move in the plane only because that tilts, by their heights d_l times one and
 //! the same vector: the one velocity v = sum_l N_l d_l, in the slot [`MORTAR`], serves in place of four.
 
-use super::edges::{Edges, reordered};
-use super::moments::{Moments, RestMoments, combine, powers};
+use super::edges::Edges;
+use super::moments::{Moments, combine, powers};
 use super::segment::{NonmortarFrame, Segment};
 use super::{MORTAR, PAIR_NODES};
 use crate::geometry::Vec2;
@@ -39,11 +39,9 @@ pub(super) struct Transport<'a, L> {
 
 /// What is integrated of a pair.
 pub(super) struct Integrals<L> {
-    moments: Moments<L>,
+    pub moments: Moments<L>,
     /// int (mu1_m / det1) N_k v, v = sum N_C d_C.
     q1v: [[f64; MAX_NODES]; 3],
-    /// int (mu2_m / det2) v N_A; with a mortar side at rest alone.
-    q2v: [L; 3],
     edges: Edges<L>,
 }
 
@@ -54,24 +52,15 @@ impl<L: Lanes> Integrals<L> {
         segment: &Segment,
         rule: &Rule,
     ) -> Self {
-        let (two, zero) = (&segment.mortar, L::splat(0.0));
-        let none = [[zero; MAX_NODES]; 3];
-        let (mut q1v, mut q2v) = ([[0.0; MAX_NODES]; 3], [zero; 3]);
-        let moments = if MOVES {
-            let moments = Moments::integrate::<One, Two>(frame, segment, rule);
-            let d = reordered(L::load(&two.d), &two.node);
-            for m in 0..powers::<One>() {
-                let q = &moments.q1[m];
-                q1v[m] = L::sums([q[0] * d, q[1] * d, q[2] * d, q[3] * d]).store();
-            }
-            moments
-        } else {
-            let rest = RestMoments::integrate::<One, Two>(frame, segment, rule);
-            (q1v, q2v) = (rest.q1v, rest.q2v);
-            Moments { q1: none, r: rest.r, q2: none }
-        };
-        let mut integrals =
-            Integrals { moments, q1v, q2v, edges: Edges { nonmortar: Stack::new(), mortar: Stack::new() } };
+        let two = &segment.mortar;
+        let moments = Moments::integrate::<One, Two, MOVES>(frame, segment, rule);
+        let v = if MOVES { Two::given(L::load(&two.d), two.is_reversed()) } else { L::load(&[1.0, 0.0, 0.0, 0.0]) };
+        let mut q1v = [[0.0; MAX_NODES]; 3];
+        for m in 0..powers::<One>() {
+            let q = &moments.q1[m];
+            q1v[m] = L::sums([q[0] * v, q[1] * v, q[2] * v, q[3] * v]).store();
+        }
+        let mut integrals = Integrals { moments, q1v, edges: Edges { nonmortar: Stack::new(), mortar: Stack::new() } };
         integrals.edges.integrate::<One, Two, MOVES>(frame, segment, rule);
         integrals
     }
@@ -90,7 +79,7 @@ impl<'a, L: Lanes> Transport<'a, L> {
         if MOVES {
             for m in 0..powers::<Two>() {
                 for c in 0..2 {
-                    gradients[1][m][c] = reordered(gradients[1][m][c], &two.node);
+                    gradients[1][m][c] = Two::given(gradients[1][m][c], two.is_reversed());
                 }
             }
         }
@@ -185,7 +174,7 @@ impl<'a, L: Lanes> Transport<'a, L> {
                         d[MORTAR + l][c] = h.mul_add(self.integrals.moments.q2[m][l], d[MORTAR + l][c]);
                     }
                 } else {
-                    d[MORTAR][c] = h.mul_add(self.integrals.q2v[m], d[MORTAR][c]);
+                    d[MORTAR][c] = h.mul_add(self.integrals.moments.q2[m][0], d[MORTAR][c]);
                 }
             }
         }

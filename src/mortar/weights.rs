@@ -24,6 +24,20 @@ impl PairWeights {
         Cells::of(frame, segment).dispatch(Integrate { frame, segment, rule })
     }
 
+    /// From rows A, lanes B and C in the order of the facet as given.
+    #[inline(always)]
+    pub(super) fn of_rows<L: Lanes, One: Cell>(ab: &[L; MAX_NODES], ac: &[L; MAX_NODES]) -> PairWeights {
+        let mut w = PairWeights::default();
+        for a in 0..One::NODES {
+            (w.ab[a], w.ac[a]) = (ab[a].store(), ac[a].store());
+            // n_AB is symmetric; made so to the last bit.
+            for b in 0..a {
+                w.ab[a][b] = w.ab[b][a];
+            }
+        }
+        w
+    }
+
     /// Covered area of node A: m_A = sum_B n_AB = int N_A da [L^2].
     #[inline]
     pub fn coverage(&self, a: usize) -> f64 {
@@ -43,37 +57,50 @@ impl CellKernel for Integrate<'_> {
     #[inline(always)]
     fn run<L: Lanes, One: Cell, Two: Cell>(self) -> PairWeights {
         let Integrate { frame, segment, rule } = self;
-        let mut ab = [[L::splat(0.0); MAX_NODES]; MAX_NODES];
-        let mut ac = ab;
+        let zero = L::splat(0.0);
+        // Integrals of 1, xi, eta, xi eta of one with those of two, and of those of one with another that are new.
+        let (mut cross, mut own) = ([[zero; 4]; 4], [zero; 5]);
         let mut fan = Fan::new(frame, segment);
         while let Some(triangle) = fan.triangle() {
             for i in 0..rule.triangle_lanes.len() {
                 let p = points::<L>(frame, segment, rule, &triangle, i);
-                let (n1, n2) = (One::values(p.one.xi, p.one.eta), Two::values(p.two.xi, p.two.eta));
-                for a in 0..One::NODES {
-                    let wa = p.weight * n1[a];
-                    for b in a..One::NODES {
-                        ab[a][b] = wa.mul_add(n1[b], ab[a][b]);
+                let (xi, eta) = (p.one.xi, p.one.eta);
+                let (x, e) = (p.weight * xi, p.weight * eta);
+                let xe = x * eta;
+                let n = [p.weight, x, e, xe];
+                let with = [p.two.xi, p.two.eta, p.two.xi * p.two.eta];
+                for j in 0..4 {
+                    cross[j][0] = cross[j][0] + n[j];
+                }
+                for j in 0..terms::<One>() {
+                    for k in 1..terms::<Two>() {
+                        cross[j][k] = n[j].mul_add(with[k - 1], cross[j][k]);
                     }
-                    for c in 0..Two::NODES {
-                        ac[a][c] = wa.mul_add(n2[c], ac[a][c]);
-                    }
+                }
+                own[0] = x.mul_add(xi, own[0]);
+                own[1] = e.mul_add(eta, own[1]);
+                if One::BILINEAR {
+                    let xxe = xe * xi;
+                    own[2] = own[2] + xxe;
+                    own[3] = xe.mul_add(eta, own[3]);
+                    own[4] = xxe.mul_add(eta, own[4]);
                 }
             }
         }
-        let mut w = PairWeights::default();
-        let node = &segment.mortar.node;
-        for a in 0..One::NODES {
-            w.ab[a] = L::sums(ab[a]).store();
-            // n_AB is symmetric; made so to the last bit.
-            for b in 0..a {
-                w.ab[a][b] = w.ab[b][a];
-            }
-            let row = L::sums(ac[a]).store();
-            for c in 0..Two::NODES {
-                w.ac[a][node[c]] = row[c];
-            }
+        let [n, x, e, xe] = L::sums([cross[0][0], cross[1][0], cross[2][0], cross[3][0]]).store();
+        let [xx, ee, xxe, xee] = L::sums([own[0], own[1], own[2], own[3]]).store();
+        let [xxee, ..] = L::sums([own[4], zero, zero, zero]).store();
+        let ab = [[n, x, e, xe], [x, xx, xe, xxe], [e, xe, ee, xee], [xe, xxe, xee, xxee]];
+        let (mut by_one, mut by_two) = ([zero; 4], [zero; 4]);
+        for j in 0..terms::<One>() {
+            by_one[j] = One::nodal_lanes(L::load(&ab[j]));
+            by_two[j] = Two::given(Two::nodal_lanes(L::sums(cross[j])), segment.mortar.is_reversed());
         }
-        w
+        PairWeights::of_rows::<L, One>(&One::nodal(by_one), &One::nodal(by_two))
     }
+}
+
+/// Monomials of a cell's shape functions.
+const fn terms<C: Cell>() -> usize {
+    if C::BILINEAR { 4 } else { 3 }
 }

@@ -9,7 +9,7 @@ mod tri3;
 pub use quad4::{QUAD4, Quad4};
 pub use tri3::{TRI3, Tri3};
 
-use crate::simd::Real;
+use crate::simd::{Lanes, Real};
 
 /// Most nodes a facet can have.
 pub const MAX_NODES: usize = 4;
@@ -20,12 +20,28 @@ pub trait Cell {
     const NODES: usize;
     /// Whether the shape functions have a term xi eta.
     const BILINEAR: bool;
+    /// Coefficients of 1, xi, eta, xi eta, each of all nodes.
+    const COEFFICIENTS: [[f64; MAX_NODES]; 4];
 
     /// Values N_k(xi, eta).
     fn values<R: Real>(xi: R, eta: R) -> [R; MAX_NODES];
 
     /// The integrals of f N_k from those of f (1, xi, eta, xi eta).
     fn nodal<R: Real>(monomials: [R; 4]) -> [R; MAX_NODES];
+
+    /// The same from and to lanes.
+    #[inline(always)]
+    fn nodal_lanes<L: Lanes>(monomials: L) -> L {
+        let m = monomials.store();
+        let mut sum = L::load(&Self::COEFFICIENTS[0]) * L::splat(m[0]);
+        for k in 1..if Self::BILINEAR { 4 } else { 3 } {
+            sum = L::load(&Self::COEFFICIENTS[k]).mul_add(L::splat(m[k]), sum);
+        }
+        sum
+    }
+
+    /// Lanes in the order of the nodes as given, where a facet's order was reversed.
+    fn given<L: Lanes>(v: L, reversed: bool) -> L;
 }
 
 /// A facet kind's shape functions on its reference cell.
@@ -66,6 +82,7 @@ impl Shape {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::simd::Plain;
 
     const NODES: [(&Shape, &[(f64, f64)]); 2] = [
         (&TRI3, &[(0.0, 0.0), (1.0, 0.0), (0.0, 1.0)]),
@@ -91,6 +108,11 @@ mod tests {
         assert_eq!(C::NODES, shape.n);
         assert_eq!(C::values(xi, eta), shape.values(xi, eta));
         assert_eq!(C::nodal([1.0, xi, eta, xi * eta]), shape.values(xi, eta));
+        let lanes = C::nodal_lanes(Plain::load(&[1.0, xi, eta, xi * eta])).store();
+        assert_eq!(lanes, shape.values(xi, eta));
+        let nodes = [0.0, 1.0, 2.0, 3.0];
+        assert_eq!(C::given(Plain::load(&nodes), false).store(), nodes);
+        assert_eq!(C::given(Plain::load(&nodes), true).store(), shape.reversed.map(|k| k as f64));
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! The four-node quadrilateral on (-1,-1), (1,-1), (1,1), (-1,1).
 
 use super::{Cell, MAX_NODES, Shape};
-use crate::simd::Real;
+use crate::simd::{Lanes, Real};
 
 const Q: f64 = 0.25;
 const T: f64 = 1.0 / 3.0;
@@ -20,6 +20,12 @@ pub struct Quad4;
 impl Cell for Quad4 {
     const NODES: usize = 4;
     const BILINEAR: bool = true;
+    const COEFFICIENTS: [[f64; MAX_NODES]; 4] = [[Q; 4], [-Q, Q, Q, -Q], [-Q, -Q, Q, Q], [Q, -Q, Q, -Q]];
+
+    #[inline(always)]
+    fn given<L: Lanes>(v: L, reversed: bool) -> L {
+        if reversed { v.swap_1_3() } else { v }
+    }
 
     #[inline(always)]
     fn values<R: Real>(xi: R, eta: R) -> [R; MAX_NODES] {

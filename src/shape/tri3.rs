@@ -1,7 +1,7 @@
 //! The three-node triangle on (0,0), (1,0), (0,1).
 
 use super::{Cell, MAX_NODES, Shape};
-use crate::simd::Real;
+use crate::simd::{Lanes, Real};
 
 /// Linear triangle.
 pub static TRI3: Shape = Shape {
@@ -22,6 +22,13 @@ pub struct Tri3;
 impl Cell for Tri3 {
     const NODES: usize = 3;
     const BILINEAR: bool = false;
+    const COEFFICIENTS: [[f64; MAX_NODES]; 4] =
+        [[1.0, 0.0, 0.0, 0.0], [-1.0, 1.0, 0.0, 0.0], [-1.0, 0.0, 1.0, 0.0], [0.0; 4]];
+
+    #[inline(always)]
+    fn given<L: Lanes>(v: L, reversed: bool) -> L {
+        if reversed { v.swap_1_2() } else { v }
+    }
 
     #[inline(always)]
     fn values<R: Real>(xi: R, eta: R) -> [R; MAX_NODES] {

@@ -104,6 +104,14 @@ impl Lanes for Avx2 {
         }))
     }
     #[inline(always)]
+    fn swap_1_3(self) -> Avx2 {
+        Avx2(instruction!(_mm256_permute4x64_pd::<0b01_10_11_00>(self.0)))
+    }
+    #[inline(always)]
+    fn swap_1_2(self) -> Avx2 {
+        Avx2(instruction!(_mm256_permute4x64_pd::<0b11_01_10_00>(self.0)))
+    }
+    #[inline(always)]
     fn transpose(v: [Avx2; 4]) -> [Avx2; 4] {
         instruction!({
             let (low01, high01) = (_mm256_unpacklo_pd(v[0].0, v[1].0), _mm256_unpackhi_pd(v[0].0, v[1].0));

@@ -43,6 +43,10 @@ pub trait Lanes: Real {
     fn sums(v: [Self; 4]) -> Self;
     /// Rows become columns.
     fn transpose(v: [Self; 4]) -> [Self; 4];
+    /// Lanes 0, 3, 2, 1.
+    fn swap_1_3(self) -> Self;
+    /// Lanes 0, 2, 1, 3.
+    fn swap_1_2(self) -> Self;
 }
 
 /// Something to be computed with four lanes.
@@ -125,6 +129,7 @@ mod tests {
             let mut results = vec![a + b, a - b, a * b, b / c, -a, a.mul_add(b, c), (a * a).sqrt()];
             results.extend([a.max(b), a.min(b), a.where_positive(b, c), L::sums([a, b, c, a * b])]);
             results.extend(L::transpose([a, b, c, a + b]));
+            results.extend([a.swap_1_3(), a.swap_1_2()]);
             results.into_iter().map(L::store).collect()
         }
     }
@@ -139,5 +144,7 @@ mod tests {
         assert_eq!(plain[9], [2.0, 0.25, -1.0, 3.0]);
         assert_eq!(plain[10], [12.0, 4.5, 1.0, 24.0]);
         assert_eq!(plain[12], [-2.0, 0.5, 0.25, -1.5]);
+        assert_eq!(plain[15], [1.0, 9.0, 4.0, -2.0]);
+        assert_eq!(plain[16], [1.0, 4.0, -2.0, 9.0]);
     }
 }

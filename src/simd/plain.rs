@@ -82,6 +82,16 @@ impl Lanes for Plain {
         (a + b) + (c + d)
     }
     #[inline(always)]
+    fn swap_1_3(self) -> Plain {
+        let a = self.0;
+        Plain([a[0], a[3], a[2], a[1]])
+    }
+    #[inline(always)]
+    fn swap_1_2(self) -> Plain {
+        let a = self.0;
+        Plain([a[0], a[2], a[1], a[3]])
+    }
+    #[inline(always)]
     fn transpose(v: [Plain; 4]) -> [Plain; 4] {
         let [a, b, c, d] = [v[0].0, v[1].0, v[2].0, v[3].0];
         [
