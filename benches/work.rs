@@ -1,5 +1,6 @@
 //! What is measured: one pair of facets, one node, one interface.
 
+use std::hint::black_box;
 use stickslip::element::{FacetResponse, NodeTangent, PairNow, PairTangent, pair_force, row_columns};
 use stickslip::geometry::{Facet, Mat3, Vec3};
 use stickslip::law::{Node, SlipMeasure};
@@ -42,35 +43,43 @@ impl Kind {
             Kind::Mixed => (3, 4),
         };
         let pairs = coordinates.chunks_exact(24).map(|x| Pair { one: facet(&x[..12], n1), two: facet(&x[12..], n2) });
-        pairs.filter(|p| p.segment().is_some_and(|(_, s)| s.area > 0.0)).collect()
+        pairs.filter(|p| p.with_segment(|_, segment| segment.area) > Some(0.0)).collect()
     }
 }
 
 impl Pair {
-    fn segment(&self) -> Option<(NonmortarFrame, Segment)> {
-        let frame = NonmortarFrame::new(&self.one).ok()?;
-        let segment = Segment::new(&frame, &self.two).ok()??;
-        Some((frame, segment))
+    /// Planes, overlap; then `work`, where there is one. By reference: both are large.
+    fn with_segment(&self, work: impl FnOnce(&NonmortarFrame, &Segment) -> f64) -> Option<f64> {
+        let frame = NonmortarFrame::new(&self.one);
+        let frame = frame.as_ref().ok()?;
+        match &Segment::new(frame, &self.two) {
+            Ok(Some(segment)) => Some(work(frame, segment)),
+            _ => None,
+        }
     }
 
-    /// Planes, overlap, n_AB and n_AC.
+    /// n_AB and n_AC.
     pub fn weights(&self) -> f64 {
-        let Some((frame, segment)) = self.segment() else { return 0.0 };
-        PairWeights::integrate(&frame, &segment, &DEGREE_5).ab[0][1]
+        let work = |frame: &_, segment: &_| PairWeights::integrate(frame, segment, &DEGREE_5).ab[0][1];
+        self.with_segment(work).unwrap_or(0.0)
     }
 
     /// The same and all derivatives.
     pub fn derivatives(&self) -> f64 {
-        let Some((frame, segment)) = self.segment() else { return 0.0 };
-        let (w, d) = WeightDerivatives::integrate(&frame, &segment, &DEGREE_5);
-        std::hint::black_box(&d);
-        w.ab[0][1] + d.ac[0][0][0][0]
+        let work = |frame: &_, segment: &_| {
+            let both = WeightDerivatives::integrate(frame, segment, &DEGREE_5);
+            black_box(&both).0.ab[0][1]
+        };
+        self.with_segment(work).unwrap_or(0.0)
     }
 
     /// Weights, gap, the law at every node, forces, and all blocks of the tangent.
     pub fn tangent(&self, t: &mut PairTangent) -> f64 {
-        let Some((frame, segment)) = self.segment() else { return 0.0 };
-        let w = PairWeights::integrate(&frame, &segment, &DEGREE_5);
+        self.with_segment(|frame, segment| self.tangent_over(frame, segment, t)).unwrap_or(0.0)
+    }
+
+    fn tangent_over(&self, frame: &NonmortarFrame, segment: &Segment, t: &mut PairTangent) -> f64 {
+        let w = PairWeights::integrate(frame, segment, &DEGREE_5);
         let gaps = mortar::gap(&w, &self.one, &self.two);
         let mut nodes = [NodeTangent::default(); 4];
         let mut tractions = [Vec3::zeros(); 4];
@@ -86,11 +95,11 @@ impl Pair {
         }
         let force = pair_force(&w, &tractions);
         let nodes = FacetResponse::new(nodes.each_ref());
-        let motion = pair_motion::<true>((&frame, &segment, &DEGREE_5), &w, &nodes.traction, &mut t.forces);
+        let motion = pair_motion::<true>((frame, segment, &DEGREE_5), &w, &nodes.traction, &mut t.forces);
         let gap = GapDerivative::Facets(motion);
         let now = PairNow { weights: &w, gap: Some(&gap) };
         row_columns::<true, 3>(Some(&now), Some(&w), &nodes, &mut t.rows);
-        std::hint::black_box(&t);
+        black_box(&t);
         force[0].x + t.rows[0][0][0][0]
     }
 }

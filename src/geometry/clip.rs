@@ -22,6 +22,11 @@ impl Polygon {
         Polygon { vertices: [Vec2::zeros(); MAX_VERTICES], len: 0 }
     }
 
+    /// Takes all vertices away.
+    pub fn clear(&mut self) {
+        self.len = 0;
+    }
+
     #[inline]
     fn push(&mut self, vertex: Vec2) {
         self.vertices[self.len] = vertex;
@@ -47,7 +52,7 @@ impl Polygon {
 
     /// Makes `kept` the part to the left of the line from `a` to `b`; points on the line stay.
     fn cut(&self, a: Vec2, b: Vec2, kept: &mut Polygon) {
-        kept.len = 0;
+        kept.clear();
         let v = self.vertices();
         let Some(&last) = v.last() else { return };
         let side = |p: Vec2| cross(b - a, p - a);
@@ -74,9 +79,8 @@ pub fn overlap(one: &Projection, two: &Projection) -> Polygon {
     for k in 0..two.shape.n {
         polygon.push(two.y[k]);
     }
-    let n = one.shape.n;
-    for k in 0..n {
-        polygon.cut(one.y[k], one.y[if k + 1 == n { 0 } else { k + 1 }], next);
+    for k in 0..one.shape.n {
+        polygon.cut(one.y[k], one.y[one.shape.next[k]], next);
         (polygon, next) = (next, polygon);
     }
     *polygon

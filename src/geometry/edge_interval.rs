@@ -117,7 +117,7 @@ pub fn edge_intervals<L: Lanes>(one: &Projection, two: &Projection, plane: &Plan
     let mut orientation = [1.0; MAX_NODES];
     let mut nonmortar = Parts::whole();
     for j in 0..n2 {
-        let next = if j + 1 == n2 { 0 } else { j + 1 };
+        let next = two.shape.next[j];
         let (mut a, mut b) = (two.x[j], two.x[next]);
         if !lexicographically_smaller(a, b) {
             (a, b, orientation[j]) = (b, a, -1.0);
@@ -132,7 +132,7 @@ pub fn edge_intervals<L: Lanes>(one: &Projection, two: &Projection, plane: &Plan
     let direction = [(ends(y[0], n2) - y[0]) * forward, (ends(y[1], n2) - y[1]) * forward];
     let mut mortar = Parts::whole();
     for j in 0..n1 {
-        let next = if j + 1 == n1 { 0 } else { j + 1 };
+        let next = one.shape.next[j];
         let d = nodes2.distances(plane.e, one.x[j], one.x[next]);
         let end = ends(d, n2);
         // A point of the mortar line moves to the right of `direction`: inwards when that runs

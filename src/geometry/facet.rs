@@ -38,8 +38,8 @@ impl Facet {
 
     /// The longest distance between two consecutive nodes `[L]`.
     pub fn longest_edge(&self) -> f64 {
-        let n = self.len();
-        (0..n).map(|k| (self.nodes[(k + 1) % n] - self.nodes[k]).norm()).fold(0.0, f64::max)
+        let squared = |k: usize| (self.nodes[self.shape.next[k]] - self.nodes[k]).norm_squared();
+        (0..self.len()).map(squared).fold(0.0, f64::max).sqrt()
     }
 
     /// Twice the area vector at the centre: (x2-x1) x (x3-x1) for tri3, (x3-x1) x (x4-x2) for quad4.

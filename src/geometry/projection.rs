@@ -32,9 +32,9 @@ pub struct Projection {
 impl Projection {
     /// Projects `facet` on `plane`.
     pub fn new(facet: &Facet, plane: &Plane) -> Projection {
-        let n = facet.len();
+        let shape = facet.shape;
         let mut p = Projection {
-            shape: facet.shape,
+            shape,
             x: [Vec3::zeros(); MAX_NODES],
             y: [Vec2::zeros(); MAX_NODES],
             d: [0.0; MAX_NODES],
@@ -42,18 +42,22 @@ impl Projection {
             area2: 0.0,
             size: 0.0,
         };
-        for k in 0..n {
-            p.x[k] = facet.nodes[k] - plane.reference;
-            let z = p.x[k] - plane.origin;
-            p.y[k] = Vec2::new(plane.t1.dot(&z), plane.t2.dot(&z));
-            p.d[k] = plane.e.dot(&z);
-        }
-        for k in 0..n {
-            p.area2 += cross(p.y[k] - p.y[0], p.y[(k + 1) % n] - p.y[0]);
-            p.size = p.size.max((p.y[k] - p.y[0]).amax());
+        let z = facet.nodes.map(|x| x - plane.reference - plane.origin);
+        let y = z.map(|z| Vec2::new(plane.t1.dot(&z), plane.t2.dot(&z)));
+        for k in 1..shape.n {
+            let side = y[k] - y[0];
+            p.area2 += cross(side, y[shape.next[k]] - y[0]);
+            p.size = p.size.max(side.x.abs()).max(side.y.abs());
         }
         if p.area2 < 0.0 {
-            p.reverse();
+            p.area2 = -p.area2;
+            p.node = shape.reversed;
+        }
+        for k in 0..shape.n {
+            let j = p.node[k];
+            p.x[k] = facet.nodes[j] - plane.reference;
+            p.y[k] = y[j];
+            p.d[k] = plane.e.dot(&z[j]);
         }
         p
     }
@@ -63,18 +67,6 @@ impl Projection {
         self.node[1] != 1
     }
 
-    fn reverse(&mut self) {
-        let original = *self;
-        for k in 0..self.shape.n {
-            let j = self.shape.reversed[k];
-            self.node[k] = j;
-            self.x[k] = original.x[j];
-            self.y[k] = original.y[j];
-            self.d[k] = original.d[j];
-        }
-        self.area2 = -self.area2;
-    }
-
     /// Whether the facet is seen edge-on, so that it covers nothing of the plane.
     pub fn is_edge_on(&self) -> bool {
         !(self.area2 > EDGE_ON * self.size * self.size)
@@ -82,9 +74,9 @@ impl Projection {
 
     /// Whether every corner is convex.
     pub fn is_convex(&self) -> bool {
-        let n = self.shape.n;
-        (0..n).all(|k| {
-            let (a, b, c) = (self.y[(k + n - 1) % n], self.y[k], self.y[(k + 1) % n]);
+        let next = &self.shape.next;
+        (0..self.shape.n).all(|k| {
+            let (a, b, c) = (self.y[k], self.y[next[k]], self.y[next[next[k]]]);
             cross(b - a, c - b) > SMALLEST_CORNER * self.area2
         })
     }
@@ -97,6 +89,8 @@ impl Projection {
 
     fn bounds(&self) -> (Vec2, Vec2) {
         let y = &self.y[..self.shape.n];
-        y.iter().fold((y[0], y[0]), |(low, high), p| (low.inf(p), high.sup(p)))
+        let low = |a: Vec2, b: &Vec2| Vec2::new(a.x.min(b.x), a.y.min(b.y));
+        let high = |a: Vec2, b: &Vec2| Vec2::new(a.x.max(b.x), a.y.max(b.y));
+        (y.iter().fold(y[0], low), y.iter().fold(y[0], high))
     }
 }

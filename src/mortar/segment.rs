@@ -140,28 +140,27 @@ impl Segment {
         let small = one.size.min(mortar.size);
         if !(area > SMALLEST_OVERLAP * small * small) {
             area = 0.0;
-            polygon = Polygon::empty();
+            polygon.clear();
+            // Whether a part of an edge bounds the overlap.
+            let intervals = simd::dispatch(Intervals { frame, mortar: &mortar });
+            if !intervals.iter().flatten().any(Option::is_some) {
+                return Ok(None);
+            }
         }
-        let segment = Segment { mortar_map: BilinearMap::new(&mortar), mortar, polygon, area };
-        Ok((area > 0.0 || segment.touches(frame)).then_some(segment))
-    }
-
-    /// Whether a part of an edge bounds the overlap.
-    fn touches(&self, frame: &NonmortarFrame) -> bool {
-        simd::dispatch(Intervals { frame, segment: self }).iter().flatten().any(Option::is_some)
+        Ok(Some(Segment { mortar_map: BilinearMap::new(&mortar), mortar, polygon, area }))
     }
 }
 
 /// [`edge_intervals`] of a pair.
 struct Intervals<'a> {
     frame: &'a NonmortarFrame,
-    segment: &'a Segment,
+    mortar: &'a Projection,
 }
 
 impl Kernel for Intervals<'_> {
     type Output = [EdgeIntervals; 2];
     #[inline(always)]
     fn run<L: Lanes>(self) -> [EdgeIntervals; 2] {
-        edge_intervals::<L>(&self.frame.projection, &self.segment.mortar, &self.frame.plane)
+        edge_intervals::<L>(&self.frame.projection, self.mortar, &self.frame.plane)
     }
 }

@@ -53,6 +53,8 @@ pub struct Shape {
     pub coefficients: [[f64; 4]; MAX_NODES],
     /// Integrals of N_k, xi N_k and eta N_k over the reference cell.
     pub moments: [[f64; 3]; MAX_NODES],
+    /// The node after each, around the facet; a table, for a division per step would cost more than all else in a loop.
+    pub next: [usize; MAX_NODES],
     /// The node order run through backwards; it maps the cell to itself, so the map stays bilinear.
     pub reversed: [usize; MAX_NODES],
 }
@@ -147,6 +149,7 @@ mod tests {
     #[test]
     fn reversed_order_is_a_permutation_that_keeps_the_first_node() {
         for (shape, _) in NODES {
+            assert!((0..shape.n).all(|k| shape.next[k] == (k + 1) % shape.n));
             assert_eq!(shape.reversed[0], 0);
             for k in 1..shape.n {
                 assert_eq!(shape.reversed[k], shape.n - k);

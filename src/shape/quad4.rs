@@ -11,6 +11,7 @@ pub static QUAD4: Shape = Shape {
     n: 4,
     coefficients: [[Q, -Q, -Q, Q], [Q, Q, -Q, -Q], [Q, Q, Q, Q], [Q, -Q, Q, -Q]],
     moments: [[1.0, -T, -T], [1.0, T, -T], [1.0, T, T], [1.0, -T, T]],
+    next: [1, 2, 3, 0],
     reversed: [0, 3, 2, 1],
 };
 
