@@ -15,7 +15,10 @@ const ALLOWED: [(&str, &[&str]); 11] = [
     ("mortar", &["error", "geometry", "quadrature", "shape", "simd"]),
     ("law", &["error", "geometry"]),
     ("element", &["error", "geometry", "law", "mortar", "shape", "simd"]),
-    ("interface", &["adjacency", "element", "error", "geometry", "law", "mortar", "normal", "quadrature", "shape"]),
+    (
+        "interface",
+        &["adjacency", "element", "error", "geometry", "law", "mortar", "normal", "quadrature", "shape", "simd"],
+    ),
 ];
 
 fn sources(module: &str) -> Vec<PathBuf> {

@@ -7,6 +7,7 @@
 use crate::error::{Error, Kind, Result};
 use crate::geometry::Vec3;
 use libc::c_char;
+use std::mem::MaybeUninit;
 
 /// Longest array accepted: far above any mesh, far below what a pointer can address.
 const LONGEST: usize = 1 << 40;
@@ -120,6 +121,17 @@ pub(super) fn room(capacity: i64, n: usize, name: &str) -> Result<()> {
 /// Writes a text with its final zero, cut to `capacity` characters, that zero included.
 pub(super) fn write_text(p: *mut c_char, capacity: usize, text: &str) {
     write_each(p, text.bytes().take(capacity - 1).chain([0]).map(|b| b as c_char));
+}
+
+/// Copies equations, counted from `base`, to `p`; nothing where `p` is null.
+pub(super) fn write_equations(p: *mut i64, equations: &[i64], base: i64) {
+    if !p.is_null() {
+        // SAFETY: writable for as many by the caller's contract, apart from the library's own `equations`.
+        let to = unsafe { std::slice::from_raw_parts_mut(p.cast::<MaybeUninit<i64>>(), equations.len()) };
+        for (to, equation) in to.iter_mut().zip(equations) {
+            to.write(equation + base);
+        }
+    }
 }
 
 /// Copies values one by one to `p`; nothing where `p` is null.

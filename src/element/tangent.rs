@@ -12,7 +12,7 @@
 //! the components of the rows' equations, and of each the four nodes of a facet.
 
 use crate::geometry::{Mat3, Vec3};
-use crate::mortar::{ForceDerivatives, GapDerivative, MORTAR, PAIR_NODES, PairWeights, slots};
+use crate::mortar::{ForceDerivatives, GapDerivative, MORTAR, PAIR_NODES, PairWeights, columns, slots};
 use crate::shape::MAX_NODES;
 use crate::simd::{self, Kernel, Lanes};
 use nalgebra::SMatrix;
@@ -197,7 +197,7 @@ fn frozen<L: Lanes, const MOVES: bool, const N: usize, const ADD: bool>(
     drow: &Rows<N>,
     rows: &mut RowColumns<N>,
 ) {
-    let (ab, ac) = (lanes_of_nodes::<L>(&weights.ab), lanes_of_nodes::<L>(&weights.ac));
+    let (ab, ac) = (columns::<L>(&weights.ab), columns::<L>(&weights.ac));
     for k in 0..slots(MOVES) {
         let weight = if k < MORTAR { ab[k] } else { -ac[k - MORTAR] };
         for n in 0..N {
@@ -208,12 +208,6 @@ fn frozen<L: Lanes, const MOVES: bool, const N: usize, const ADD: bool>(
             }
         }
     }
-}
-
-/// The columns of weights, lanes A.
-#[inline(always)]
-fn lanes_of_nodes<L: Lanes>([a, b, c, d]: &[[f64; MAX_NODES]; MAX_NODES]) -> [L; MAX_NODES] {
-    L::transpose([L::load(a), L::load(b), L::load(c), L::load(d)])
 }
 
 /// Tangent blocks of one pair.

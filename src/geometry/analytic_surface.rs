@@ -123,6 +123,11 @@ impl AnalyticSurface {
         Ok(AnalyticSurface { origin: frame[0], shape, axis, round, to_frame })
     }
 
+    /// Whether closest points and distances are affine functions of x.
+    pub fn is_flat(&self) -> bool {
+        self.shape == AnalyticShape::Plane
+    }
+
     /// The signed distance of the point x, given as x - P0.
     pub fn distance(&self, x: Vec3) -> f64 {
         match self.shape {

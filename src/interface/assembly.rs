@@ -14,6 +14,7 @@ use crate::geometry::{Mat3, Vec3};
 use crate::law::NodeResponse;
 use crate::mortar::{MORTAR, PAIR_NODES, PairWeights};
 use crate::shape::MAX_NODES;
+use crate::simd::{self, Kernel, Lanes};
 use nalgebra::{SMatrix, SVector};
 use std::time::Instant;
 
@@ -21,6 +22,9 @@ use std::time::Instant;
 pub trait Sink {
     /// Adds `value` at (row, column), both 0-based equations.
     fn add(&mut self, row: i64, column: i64, value: f64);
+
+    /// Hears that about so many entries follow.
+    fn reserve(&mut self, _entries: usize) {}
 
     /// Adds a block, its values column by column.
     fn add_block(&mut self, rows: &[i64], columns: &[i64], values: &[f64]) {
@@ -173,11 +177,13 @@ impl<const N: usize> Contact<N> {
         let nodes = self.node_tangents(lambda, &responses, &normals);
         // Large, so that one of each serves all pairs.
         let (mut t, mut facet) = (PairTangent::default(), FacetTangent::default());
-        for pairs in self.union().chunk_by(|p, q| p.one == q.one) {
+        let union = self.union();
+        sink.reserve(entries::<MOVES, N>(&union, responses.len()));
+        for pairs in union.chunk_by(|p, q| p.one == q.one) {
             let one = &self.nonmortar.facets[pairs[0].one];
             let nodes = FacetResponse::new(one.nodes.map(|a| &nodes[a]));
-            facet.clear();
-            for pair in pairs {
+            facet.acts = false;
+            for (place, pair) in pairs.iter().enumerate() {
                 let mut gap = None;
                 if let (Some(weights), Some(k)) = (pair.now, &self.integration) {
                     let overlap = (&k.frames[pair.one], k.segments.get(pair.place));
@@ -187,7 +193,7 @@ impl<const N: usize> Contact<N> {
                 }
                 let now = pair.now.map(|weights| PairNow { weights, gap: gap.as_ref() });
                 row_columns::<MOVES, N>(now.as_ref(), pair.previous, &nodes, &mut t.rows);
-                facet.add(pair, &t);
+                facet.add(place == 0, pair, &t);
                 self.emit_pair::<MOVES>(pair, &t, &normals, sink);
                 if let Some(couplings) = &mut couplings {
                     for k in 0..one.len {
@@ -251,9 +257,9 @@ impl<const N: usize> Contact<N> {
         let mut facet = FacetTangent::default();
         let mut couplings = self.augmented_couplings();
         for pairs in pairs.chunk_by(|p, q| p.one == q.one) {
-            facet.clear();
-            for pair in pairs {
-                facet.add(pair, &nothing);
+            facet.acts = false;
+            for (place, pair) in pairs.iter().enumerate() {
+                facet.add(place == 0, pair, &nothing);
                 self.emit_pair::<MOVES>(pair, &nothing, &normals, sink);
                 if let Some(couplings) = &mut couplings {
                     let one = &self.nonmortar.facets[pair.one];
@@ -418,6 +424,16 @@ impl<const N: usize> Contact<N> {
     }
 }
 
+/// At most so many entries has the tangent of these pairs and `nodes` nodes; in the augmented form more.
+fn entries<const MOVES: bool, const N: usize>(union: &[UnionPair], nodes: usize) -> usize {
+    const COMPONENTS: usize = 3 * MAX_NODES;
+    // Rows of the forces and of the multipliers, and columns of the multipliers.
+    let (forces, multipliers) = (COMPONENTS * COMPONENTS, COMPONENTS * MAX_NODES * (N + 1));
+    let pair = if MOVES { 3 * forces + multipliers } else { 0 };
+    let facets = union.chunk_by(|p, q| p.one == q.one).count();
+    union.len() * pair + facets * (forces + multipliers) + nodes * N * N
+}
+
 /// What the pairs of a non-mortar facet add to the same entries of the tangent.
 struct FacetTangent<const N: usize> {
     forces: [[[[f64; MAX_NODES]; 3]; 3]; MAX_NODES],
@@ -439,17 +455,34 @@ impl<const N: usize> Default for FacetTangent<N> {
 }
 
 impl<const N: usize> FacetTangent<N> {
-    fn clear(&mut self) {
-        *self = FacetTangent::default();
-    }
-
-    fn add(&mut self, pair: &UnionPair, t: &PairTangent<N>) {
-        let add = |sum: &mut [f64], values: &[f64]| sum.iter_mut().zip(values).for_each(|(sum, v)| *sum += v);
-        add(self.rows.flat_mut(), t.rows[..MORTAR].flat());
+    /// Adds a pair's share, or begins with the `first` one.
+    fn add(&mut self, first: bool, pair: &UnionPair, t: &PairTangent<N>) {
+        simd::dispatch(Add { first, sum: self.rows.flat_mut(), values: t.rows[..MORTAR].flat() });
         if let Some(weights) = pair.now {
+            let (first, n) = (!self.acts, &weights.ab);
             self.acts = true;
-            add(self.forces.flat_mut(), t.forces.one[..MORTAR].flat());
-            add(self.weights.as_flattened_mut(), weights.ab.as_flattened());
+            simd::dispatch(Add { first, sum: self.forces.flat_mut(), values: t.forces.one[..MORTAR].flat() });
+            simd::dispatch(Add { first, sum: self.weights.as_flattened_mut(), values: n.as_flattened() });
+        }
+    }
+}
+
+/// Adds numbers, a multiple of four, to as many; the `first` ones replace what is there.
+struct Add<'a> {
+    first: bool,
+    sum: &'a mut [f64],
+    values: &'a [f64],
+}
+
+impl Kernel for Add<'_> {
+    type Output = ();
+    #[inline(always)]
+    fn run<L: Lanes>(self) {
+        if self.first {
+            return self.sum.copy_from_slice(self.values);
+        }
+        for (sum, v) in self.sum.as_chunks_mut().0.iter_mut().zip(self.values.as_chunks().0) {
+            *sum = (L::load(sum) + L::load(v)).store();
         }
     }
 }

@@ -56,9 +56,11 @@ pub(super) fn at_facet(side: &str, facet: usize) -> impl FnOnce(Error) -> Error 
 
 /// The frames of all facets of a surface.
 pub(super) fn frames(surface: &Surface, x: &[Vec3]) -> Result<Vec<NonmortarFrame>> {
-    (0..surface.facets.len())
-        .map(|f| NonmortarFrame::new(&surface.facet(f, x)).map_err(at_facet(surface.side, f)))
-        .collect()
+    let mut frames = Vec::with_capacity(surface.facets.len()); // a collected Result knows no length, and frames are large
+    for f in 0..surface.facets.len() {
+        frames.push(NonmortarFrame::new(&surface.facet(f, x)).map_err(at_facet(surface.side, f))?);
+    }
+    Ok(frames)
 }
 
 /// Refuses a mortar surface with facets that are degenerate, folded or concave in the first configuration,
@@ -127,7 +129,8 @@ pub(super) fn integrate(
     counters.seconds_search += start.elapsed().as_secs_f64();
 
     let start = Instant::now();
-    let (mut pairs, mut segments) = (Vec::new(), Vec::new());
+    // Large, too; candidates that do not overlap are few.
+    let (mut pairs, mut segments) = (Vec::with_capacity(candidates.len()), Vec::with_capacity(candidates.len()));
     for &(i, j) in &candidates {
         counters.pairs_tested += 1;
         let segment = Segment::new(&frames[i], &two.facet(j, x2))

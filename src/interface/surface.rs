@@ -4,7 +4,7 @@ use crate::adjacency::{SharedEdge, shared_edges};
 use crate::error::{Error, Kind, Result};
 use crate::geometry::{AnalyticShape, AnalyticSurface, FRAME, Facet, Vec3, check_rigid_motion};
 use crate::mortar::NonmortarFrame;
-use crate::shape::MAX_NODES;
+use crate::shape::{MAX_NODES, Shape};
 
 /// Neighbouring facets whose normals have a scalar product below this lie on each other: a wedge thinner than a tenth
 /// of a degree. The thinnest blade that anyone meshes has several degrees.
@@ -181,7 +181,7 @@ impl Surface {
     /// Facet `f` at the node positions `x`.
     pub fn facet(&self, f: usize, x: &[Vec3]) -> Facet {
         let nodes = &self.facets[f];
-        let points = nodes.nodes.map(|k| x[k]);
-        Facet::new(&points[..nodes.len]).expect("a checked facet has 3 or 4 nodes")
+        let shape = Shape::of(nodes.len).expect("a checked facet has 3 or 4 nodes");
+        Facet { nodes: nodes.nodes.map(|k| x[k]), shape }
     }
 }

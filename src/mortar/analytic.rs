@@ -7,6 +7,8 @@
 //!
 //! The surface is rigid: derivatives are with respect to the facet's nodes alone,
 //! Dg_A = int N_A ((x - y) Dj + j D(x - y)/Dx N_k Dx_k), j the area element.
+//!
+//! Integrals of shape functions alone are constants of the cell; over a plane there are no others, and no quadrature.
 
 use super::gap::GapDerivative;
 use super::segment::NonmortarFrame;
@@ -14,8 +16,35 @@ use super::{ForceDerivatives, PairWeights};
 use crate::error::{Error, Kind, Result};
 use crate::geometry::{AnalyticSurface, Closest, Vec3};
 use crate::quadrature::Rule;
-use crate::shape::{MAX_NODES, Shape};
-use crate::simd::{Lanes, Plain};
+use crate::shape::MAX_NODES;
+use crate::simd::{self, Kernel, Lanes, Plain};
+
+/// A point of the facet and the closest one of the surface.
+struct Place {
+    /// x - P0.
+    x: Vec3,
+    /// The surface there.
+    closest: Closest,
+}
+
+impl Place {
+    #[inline(always)]
+    fn at(surface: &AnalyticSurface, x: Vec3) -> Result<Place> {
+        Ok(Place { x, closest: surface.closest(x).ok_or_else(no_closest_point)? })
+    }
+
+    /// y - P0.
+    #[inline(always)]
+    fn on_surface(&self) -> Vec3 {
+        self.x - self.closest.normal * self.closest.distance
+    }
+}
+
+/// The facet's reference node - P0. Differences of nodes and P0 come first: exact under a common offset.
+#[inline(always)]
+fn corner(frame: &NonmortarFrame, surface: &AnalyticSurface) -> Vec3 {
+    frame.plane.reference - surface.origin
+}
 
 /// A quadrature point of the facet.
 struct Point {
@@ -27,45 +56,41 @@ struct Point {
     powers: [f64; 3],
     /// Shape functions.
     n: [f64; MAX_NODES],
-    /// x - P0.
-    x: Vec3,
-    /// The surface there.
-    closest: Closest,
+    place: Place,
 }
 
-/// The i-th point of a rule on the reference cell, (xi, eta, weight); `None` behind the last.
-fn cell_point(shape: &Shape, rule: &Rule, i: usize) -> Option<[f64; 3]> {
-    if shape.n == 3 {
-        return rule.triangle.get(i).map(|[l1, l2, w]| [*l1, *l2, 0.5 * w]);
-    }
-    let n = rule.square.len();
-    let [s, v] = rule.square.get(i / n)?;
-    let [t, w] = rule.square[i % n];
-    Some([2.0 * s - 1.0, 2.0 * t - 1.0, 4.0 * v * w])
+/// Quadrature points of the facet's cell.
+#[inline(always)]
+fn cell_points(frame: &NonmortarFrame, rule: &Rule) -> usize {
+    if frame.projection.shape.n == 3 { rule.triangle.len() } else { rule.square.len() * rule.square.len() }
 }
 
-/// Calls `visit` at every quadrature point of the facet.
-#[inline]
-fn for_each_point(
-    frame: &NonmortarFrame,
-    surface: &AnalyticSurface,
-    rule: &Rule,
-    mut visit: impl FnMut(&Point),
-) -> Result<()> {
+/// The i-th of them.
+#[inline(always)]
+fn point(frame: &NonmortarFrame, surface: &AnalyticSurface, rule: &Rule, i: usize) -> Result<Point> {
     let (facet, area) = (&frame.projection, frame.map.determinant());
-    // Differences of nodes and P0 first: exact under a common offset.
-    let corner = frame.plane.reference - surface.origin;
-    for i in 0.. {
-        let Some([xi, eta, weight]) = cell_point(facet.shape, rule, i) else { break };
-        let n = facet.shape.values(xi, eta);
-        let x = (0..MAX_NODES).fold(corner, |x, k| x + facet.x[k] * n[k]);
-        let closest = surface.closest(x).ok_or_else(|| {
-            let text = "a point of the facet is the centre of the analytic mortar surface, or on its axis: it has no closest point";
-            Error::new(Kind::UndefinedNormal, text)
-        })?;
-        visit(&Point { weight, area: area[0] + area[1] * xi + area[2] * eta, powers: [1.0, xi, eta], n, x, closest });
+    let [xi, eta, weight] = if facet.shape.n == 3 {
+        let [l1, l2, w] = rule.triangle[i];
+        [l1, l2, 0.5 * w]
+    } else {
+        let n = rule.square.len();
+        let ([s, v], [t, w]) = (rule.square[i / n], rule.square[i % n]);
+        [2.0 * s - 1.0, 2.0 * t - 1.0, 4.0 * v * w]
+    };
+    let n = facet.shape.values(xi, eta);
+    let mut x = corner(frame, surface);
+    for k in 0..MAX_NODES {
+        x += facet.x[k] * n[k];
     }
-    Ok(())
+    let (area, place) = (area[0] + area[1] * xi + area[2] * eta, Place::at(surface, x)?);
+    Ok(Point { weight, area, powers: [1.0, xi, eta], n, place })
+}
+
+#[cold]
+fn no_closest_point() -> Error {
+    let text =
+        "a point of the facet is the centre of the analytic mortar surface, or on its axis: it has no closest point";
+    Error::new(Kind::UndefinedNormal, text)
 }
 
 /// The weights of a facet against an analytic surface; the mortar slots are the frame's points.
@@ -73,25 +98,55 @@ fn for_each_point(
 /// # Errors
 /// [`Kind::UndefinedNormal`] when a quadrature point is the centre or lies on the axis.
 pub fn analytic_weights(frame: &NonmortarFrame, surface: &AnalyticSurface, rule: &Rule) -> Result<PairWeights> {
-    let mut w = PairWeights::default();
-    for_each_point(frame, surface, rule, |p| {
-        let c = surface.coordinates(p.x - p.closest.normal * p.closest.distance);
-        for a in 0..MAX_NODES {
-            let wa = p.weight * p.area * p.n[a];
-            for b in 0..=a {
-                w.ab[a][b] += wa * p.n[b];
+    simd::dispatch(Weights { frame, surface, rule })
+}
+
+struct Weights<'a> {
+    frame: &'a NonmortarFrame,
+    surface: &'a AnalyticSurface,
+    rule: &'a Rule,
+}
+
+impl Kernel for Weights<'_> {
+    type Output = Result<PairWeights>;
+    #[inline(always)]
+    fn run<L: Lanes>(self) -> Result<PairWeights> {
+        let Weights { frame, surface, rule } = self;
+        let (ab, mut ac) = (mass::<L>(frame), [L::splat(0.0); MAX_NODES]);
+        let nodes = frame.projection.shape.n;
+        if surface.is_flat() {
+            for b in 0..nodes {
+                let p = Place::at(surface, corner(frame, surface) + frame.projection.x[b])?;
+                let c = L::load(&surface.coordinates(p.on_surface()));
+                let n = ab[b].store();
+                for a in 0..nodes {
+                    ac[a] = L::splat(n[a]).mul_add(c, ac[a]);
+                }
             }
-            for k in 0..MAX_NODES {
-                w.ac[a][k] += wa * c[k];
+            return Ok(PairWeights::of_rows(nodes, &ab, &ac));
+        }
+        for i in 0..cell_points(frame, rule) {
+            let p = point(frame, surface, rule, i)?;
+            let c = L::load(&surface.coordinates(p.place.on_surface()));
+            for a in 0..nodes {
+                ac[a] = L::splat(p.weight * p.area * p.n[a]).mul_add(c, ac[a]);
             }
         }
-    })?;
+        Ok(PairWeights::of_rows(nodes, &ab, &ac))
+    }
+}
+
+/// n_AB of the whole facet, rows A, lanes B: int N_A N_B j over the cell, j the area element.
+#[inline(always)]
+fn mass<L: Lanes>(frame: &NonmortarFrame) -> [L; MAX_NODES] {
+    let (det, products) = (frame.map.determinant(), &frame.projection.shape.products);
+    let mut ab = [L::splat(0.0); MAX_NODES];
     for a in 0..MAX_NODES {
-        for b in 0..a {
-            w.ab[b][a] = w.ab[a][b];
+        for m in 0..3 {
+            ab[a] = L::splat(det[m]).mul_add(L::load(&products[m][a]), ab[a]);
         }
     }
-    Ok(w)
+    ab
 }
 
 /// Derivatives of the forces f_B of the fields `p[i][A]`, into `forces`, and of the gap with respect to the facet's nodes.
@@ -106,41 +161,116 @@ pub fn analytic_motion(
     p: &[[f64; MAX_NODES]; 3],
     forces: &mut ForceDerivatives,
 ) -> Result<GapDerivative> {
-    // int p^i N_B (1, xi, eta) over the cell; int N_A (x - y) (1, xi, eta); int N_A N_B D(x - y)/Dx da.
-    let mut moments = [[[0.0; MAX_NODES]; 3]; 3];
-    let mut gaps = [[[0.0; MAX_NODES]; 3]; 3];
-    let mut blocks = [[[[0.0; MAX_NODES]; 3]; 3]; MAX_NODES];
-    for_each_point(frame, surface, rule, |q| {
-        let (gap, gradient) = (q.closest.normal * q.closest.distance, surface.gradient(&q.closest));
-        for i in 0..3 {
-            let field: f64 = (0..MAX_NODES).map(|a| p[i][a] * q.n[a]).sum();
-            for m in 0..3 {
-                let (f, g) = (q.weight * q.powers[m] * field, q.weight * q.powers[m] * gap[i]);
-                for a in 0..MAX_NODES {
-                    moments[m][i][a] += f * q.n[a];
-                    gaps[m][i][a] += g * q.n[a];
+    simd::dispatch(Motion { frame, surface, rule, p, forces })
+}
+
+struct Motion<'a> {
+    frame: &'a NonmortarFrame,
+    surface: &'a AnalyticSurface,
+    rule: &'a Rule,
+    p: &'a [[f64; MAX_NODES]; 3],
+    forces: &'a mut ForceDerivatives,
+}
+
+impl Kernel for Motion<'_> {
+    type Output = Result<GapDerivative>;
+    #[inline(always)]
+    fn run<L: Lanes>(self) -> Result<GapDerivative> {
+        let Motion { frame, surface, rule, p, forces } = self;
+        let zero = L::splat(0.0);
+        let products = &frame.projection.shape.products;
+        // Lanes A: int p^i N_A (1, xi, eta) over the cell.
+        let mut fields = [[zero; 3]; 3];
+        for m in 0..3 {
+            for b in 0..MAX_NODES {
+                for i in 0..3 {
+                    fields[m][i] = L::splat(p[i][b]).mul_add(L::load(&products[m][b]), fields[m][i]);
                 }
             }
         }
+        let of = if surface.is_flat() { flat(frame, surface)? } else { curved(frame, surface, rule)? };
+        let darea = area_derivative(frame);
+        let mut gap = [[[[0.0; MAX_NODES]; 3]; 3]; MAX_NODES];
         for k in 0..MAX_NODES {
-            for (i, j) in (0..3).flat_map(|i| (0..3).map(move |j| (i, j))) {
-                let g = q.weight * q.area * q.n[k] * gradient[(i, j)];
-                for a in 0..MAX_NODES {
-                    blocks[k][i][j][a] += g * q.n[a];
+            for j in 0..3 {
+                let d = [L::splat(darea[0][k][j]), L::splat(darea[1][k][j]), L::splat(darea[2][k][j])];
+                for i in 0..3 {
+                    forces.one[k][j][i] = along(&d, &fields, i, zero).store();
+                    gap[k][i][j] = along(&d, &of.gaps, i, of.blocks[k][i.max(j)][i.min(j)]).store();
                 }
             }
         }
-    })?;
-    let darea = area_derivative(frame);
-    for (k, j) in (0..MAX_NODES).flat_map(|k| (0..3).map(move |j| (k, j))) {
+        Ok(GapDerivative::Blocks(gap))
+    }
+}
+
+/// Integrals of x - y, lanes A.
+struct Gaps<L> {
+    /// int N_A (x - y)_i (1, xi, eta) over the cell: `[m][i]`.
+    gaps: [[L; 3]; 3],
+    /// int N_k N_A D(x - y)_i/Dx_j da: `[k][i][j]`, symmetric in i and j, given for j <= i.
+    blocks: [[[L; 3]; 3]; MAX_NODES],
+}
+
+/// Over a plane: x - y = n sum N_B s_B with the distances s_B of the nodes, D(x - y)/Dx the same everywhere.
+#[inline(always)]
+fn flat<L: Lanes>(frame: &NonmortarFrame, surface: &AnalyticSurface) -> Result<Gaps<L>> {
+    let (zero, products) = (L::splat(0.0), &frame.projection.shape.products);
+    let mut of = Gaps { gaps: [[zero; 3]; 3], blocks: [[[zero; 3]; 3]; MAX_NODES] };
+    let (mut sums, mut normal, mass) = ([zero; 3], Vec3::zeros(), mass::<L>(frame));
+    for k in 0..frame.projection.shape.n {
+        let closest = Place::at(surface, corner(frame, surface) + frame.projection.x[k])?.closest;
+        let gradient = surface.gradient(&closest);
+        for m in 0..3 {
+            sums[m] = L::splat(closest.distance).mul_add(L::load(&products[m][k]), sums[m]);
+        }
         for i in 0..3 {
-            for a in 0..MAX_NODES {
-                forces.one[k][j][i][a] = (0..3).map(|m| darea[m][k][j] * moments[m][i][a]).sum();
-                blocks[k][i][j][a] += (0..3).map(|m| darea[m][k][j] * gaps[m][i][a]).sum::<f64>();
+            for j in 0..=i {
+                of.blocks[k][i][j] = L::splat(gradient[(i, j)]) * mass[k];
+            }
+        }
+        normal = closest.normal;
+    }
+    for m in 0..3 {
+        for i in 0..3 {
+            of.gaps[m][i] = L::splat(normal[i]) * sums[m];
+        }
+    }
+    Ok(of)
+}
+
+/// Over any surface, by quadrature.
+#[inline(always)]
+fn curved<L: Lanes>(frame: &NonmortarFrame, surface: &AnalyticSurface, rule: &Rule) -> Result<Gaps<L>> {
+    let zero = L::splat(0.0);
+    let mut of = Gaps { gaps: [[zero; 3]; 3], blocks: [[[zero; 3]; 3]; MAX_NODES] };
+    for i in 0..cell_points(frame, rule) {
+        let q = point(frame, surface, rule, i)?;
+        let closest = &q.place.closest;
+        let (gap, gradient) = (closest.normal * closest.distance, surface.gradient(closest));
+        let n = L::load(&q.n);
+        for i in 0..3 {
+            for m in 0..3 {
+                of.gaps[m][i] = L::splat(q.weight * q.powers[m] * gap[i]).mul_add(n, of.gaps[m][i]);
+            }
+        }
+        let wn = n * L::splat(q.weight * q.area);
+        for k in 0..MAX_NODES {
+            let wnn = wn * L::splat(q.n[k]);
+            for i in 0..3 {
+                for j in 0..=i {
+                    of.blocks[k][i][j] = L::splat(gradient[(i, j)]).mul_add(wnn, of.blocks[k][i][j]);
+                }
             }
         }
     }
-    Ok(GapDerivative::Blocks(blocks))
+    Ok(of)
+}
+
+/// `sum` + sum_m d_m of[m][i].
+#[inline(always)]
+fn along<L: Lanes>(d: &[L; 3], of: &[[L; 3]; 3], i: usize, sum: L) -> L {
+    d[0].mul_add(of[0][i], d[1].mul_add(of[1][i], d[2].mul_add(of[2][i], sum)))
 }
 
 /// Dj / Dx_k in the powers (1, xi, eta) `[L]`. Translation and spin of the plane change no area: its tilt is left.

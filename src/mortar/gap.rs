@@ -11,22 +11,43 @@ use super::weights::PairWeights;
 use super::{MORTAR, PAIR_NODES};
 use crate::geometry::{Facet, Projection, Vec3};
 use crate::shape::{Cell, MAX_NODES};
-use crate::simd::Lanes;
+use crate::simd::{self, Kernel, Lanes};
 
 /// Weighted gap of the pair's non-mortar nodes with any weights: those of now or those of t_n.
 pub fn gap(weights: &PairWeights, one: &Facet, two: &Facet) -> [Vec3; MAX_NODES] {
-    // Relative to one node of the pair: legal because sum_B n_AB = sum_C n_AC, and exact under offsets.
-    let reference = one.nodes[0];
-    let mut g = [Vec3::zeros(); MAX_NODES];
-    for a in 0..one.len() {
-        for b in 0..one.len() {
-            g[a] += (one.nodes[b] - reference) * weights.ab[a][b];
+    let g = simd::dispatch(Gap { weights, one, two });
+    [0, 1, 2, 3].map(|a| Vec3::new(g[0][a], g[1][a], g[2][a]))
+}
+
+struct Gap<'a> {
+    weights: &'a PairWeights,
+    one: &'a Facet,
+    two: &'a Facet,
+}
+
+impl Kernel for Gap<'_> {
+    type Output = [[f64; MAX_NODES]; 3];
+    #[inline(always)]
+    fn run<L: Lanes>(self) -> [[f64; MAX_NODES]; 3] {
+        let Gap { weights, one, two } = self;
+        // Relative to one node of the pair: legal because sum_B n_AB = sum_C n_AC, and exact under offsets.
+        let reference = one.nodes[0];
+        let (ab, ac) = (columns::<L>(&weights.ab), columns::<L>(&weights.ac));
+        let mut g = [L::splat(0.0); 3];
+        for k in 0..MAX_NODES {
+            let (x1, x2) = (one.nodes[k] - reference, two.nodes[k] - reference);
+            for i in 0..3 {
+                g[i] = ab[k].mul_add(L::splat(x1[i]), g[i]) - ac[k] * L::splat(x2[i]);
+            }
         }
-        for c in 0..two.len() {
-            g[a] -= (two.nodes[c] - reference) * weights.ac[a][c];
-        }
+        [g[0].store(), g[1].store(), g[2].store()]
     }
-    g
+}
+
+/// The columns of weights, lanes A.
+#[inline(always)]
+pub fn columns<L: Lanes>([a, b, c, d]: &[[f64; MAX_NODES]; MAX_NODES]) -> [L; MAX_NODES] {
+    L::transpose([L::load(a), L::load(b), L::load(c), L::load(d)])
 }
 
 /// Dg_A of a pair with its current weights.
@@ -94,8 +115,7 @@ impl AlongNormal {
             local[b][2] = local[b][2] + L::load(&weights.ab[b]); // n_AB is symmetric
         }
         if MOVES {
-            let [a, b, c, d] = &weights.ac;
-            let ac = L::transpose([L::load(a), L::load(b), L::load(c), L::load(d)]);
+            let ac = columns::<L>(&weights.ac);
             for l in 0..Two::NODES {
                 local[MORTAR + l][2] = local[MORTAR + l][2] - ac[chain.segment.mortar.node[l]];
             }

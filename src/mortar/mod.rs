@@ -18,7 +18,7 @@ mod weights;
 
 pub use analytic::{analytic_motion, analytic_weights};
 pub use derivatives::{ForceDerivatives, WeightDerivatives, pair_motion};
-pub use gap::{AlongNormal, GapDerivative, gap};
+pub use gap::{AlongNormal, GapDerivative, columns, gap};
 pub use segment::{NonmortarFrame, Segment};
 pub use weights::PairWeights;
 

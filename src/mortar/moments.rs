@@ -158,7 +158,7 @@ impl<L: Lanes> Moments<L> {
                 ac[a] = j.mul_add(self.q1[m][a], ac[a]);
             }
         }
-        PairWeights::of_rows::<L, One>(&ab, &ac)
+        PairWeights::of_rows(One::NODES, &ab, &ac)
     }
 }
 

@@ -26,9 +26,9 @@ impl PairWeights {
 
     /// From rows A, lanes B and C in the order of the facet as given.
     #[inline(always)]
-    pub(super) fn of_rows<L: Lanes, One: Cell>(ab: &[L; MAX_NODES], ac: &[L; MAX_NODES]) -> PairWeights {
+    pub(super) fn of_rows<L: Lanes>(nodes: usize, ab: &[L; MAX_NODES], ac: &[L; MAX_NODES]) -> PairWeights {
         let mut w = PairWeights::default();
-        for a in 0..One::NODES {
+        for a in 0..nodes {
             (w.ab[a], w.ac[a]) = (ab[a].store(), ac[a].store());
             // n_AB is symmetric; made so to the last bit.
             for b in 0..a {
@@ -96,7 +96,7 @@ impl CellKernel for Integrate<'_> {
             by_one[j] = One::nodal_lanes(L::load(&ab[j]));
             by_two[j] = Two::given(Two::nodal_lanes(L::sums(cross[j])), segment.mortar.is_reversed());
         }
-        PairWeights::of_rows::<L, One>(&One::nodal(by_one), &One::nodal(by_two))
+        PairWeights::of_rows(One::NODES, &One::nodal(by_one), &One::nodal(by_two))
     }
 }
 

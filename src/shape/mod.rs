@@ -53,6 +53,8 @@ pub struct Shape {
     pub coefficients: [[f64; 4]; MAX_NODES],
     /// Integrals of N_k, xi N_k and eta N_k over the reference cell.
     pub moments: [[f64; 3]; MAX_NODES],
+    /// Integrals of N_A N_B, times 1, xi, eta: `[m][A][B]`.
+    pub products: [[[f64; MAX_NODES]; MAX_NODES]; 3],
     /// The node after each, around the facet; a table, for a division per step would cost more than all else in a loop.
     pub next: [usize; MAX_NODES],
     /// The node order run through backwards; it maps the cell to itself, so the map stays bilinear.
@@ -125,11 +127,11 @@ mod tests {
 
     #[test]
     fn moments_are_the_integrals() {
-        // 2 x 2 Gauss on the square, 3 mid-side points on the triangle: both exact for degree 2.
+        // Exact for degree 3: 2 x 2 Gauss on the square, centre and three points on the triangle.
         let g = 1.0 / 3.0_f64.sqrt();
         let square = [(-g, -g, 1.0), (g, -g, 1.0), (g, g, 1.0), (-g, g, 1.0)];
-        let w = 1.0 / 6.0;
-        let triangle = [(0.5, 0.0, w), (0.5, 0.5, w), (0.0, 0.5, w)];
+        let (third, w) = (1.0 / 3.0, 25.0 / 96.0);
+        let triangle = [(third, third, -27.0 / 96.0), (0.6, 0.2, w), (0.2, 0.6, w), (0.2, 0.2, w)];
         for (shape, rule) in [(&TRI3, &triangle[..]), (&QUAD4, &square[..])] {
             for k in 0..shape.n {
                 let mut m = [0.0; 3];
@@ -141,6 +143,18 @@ mod tests {
                 }
                 for i in 0..3 {
                     assert!((m[i] - shape.moments[k][i]).abs() < 1e-15);
+                }
+                for a in 0..MAX_NODES {
+                    let mut products = [0.0; 3];
+                    for &(xi, eta, w) in rule {
+                        let n = shape.values(xi, eta);
+                        for (i, mu) in [1.0, xi, eta].into_iter().enumerate() {
+                            products[i] += w * mu * n[a] * n[k];
+                        }
+                    }
+                    for i in 0..3 {
+                        assert!((products[i] - shape.products[i][a][k]).abs() < 1e-15);
+                    }
                 }
             }
         }

@@ -11,9 +11,28 @@ pub static QUAD4: Shape = Shape {
     n: 4,
     coefficients: [[Q, -Q, -Q, Q], [Q, Q, -Q, -Q], [Q, Q, Q, Q], [Q, -Q, Q, -Q]],
     moments: [[1.0, -T, -T], [1.0, T, -T], [1.0, T, T], [1.0, -T, T]],
+    products: products(),
     next: [1, 2, 3, 0],
     reversed: [0, 3, 2, 1],
 };
+
+const fn products() -> [[[f64; MAX_NODES]; MAX_NODES]; 3] {
+    // Of (1 - x) / 2, (1 + x) / 2 over -1..1, then times x; which of the two a node has in xi and eta.
+    let plain = [[2.0 * T, T], [T, 2.0 * T]];
+    let with_x = [[-T, 0.0], [0.0, T]];
+    let (xi, eta) = ([0, 1, 1, 0], [0, 0, 1, 1]);
+    let mut p = [[[0.0; MAX_NODES]; MAX_NODES]; 3];
+    let mut k = 0;
+    while k < MAX_NODES * MAX_NODES {
+        let (a, b) = (k / MAX_NODES, k % MAX_NODES);
+        let (x, e) = (plain[xi[a]][xi[b]], plain[eta[a]][eta[b]]);
+        p[0][a][b] = x * e;
+        p[1][a][b] = with_x[xi[a]][xi[b]] * e;
+        p[2][a][b] = x * with_x[eta[a]][eta[b]];
+        k += 1;
+    }
+    p
+}
 
 /// [`QUAD4`] for the compiler.
 pub struct Quad4;

@@ -13,9 +13,30 @@ pub static TRI3: Shape = Shape {
         [1.0 / 6.0, 1.0 / 24.0, 1.0 / 12.0],
         [0.0; 3],
     ],
+    products: products(),
     next: [1, 2, 0, 0],
     reversed: [0, 2, 1, 3],
 };
+
+const fn products() -> [[[f64; MAX_NODES]; MAX_NODES]; 3] {
+    // int N_0^i N_1^j N_2^k = i! j! k! / (i + j + k + 2)!; xi is N_1, eta is N_2.
+    let mut p = [[[0.0; MAX_NODES]; MAX_NODES]; 3];
+    let mut k = 0;
+    while k < 27 {
+        let (m, a, b) = (k / 9, k / 3 % 3, k % 3);
+        let mut power = [0; 3];
+        power[a] += 1;
+        power[b] += 1;
+        if m > 0 {
+            power[m] += 1;
+        }
+        let factorials = [1.0, 1.0, 2.0, 6.0];
+        let above = factorials[power[0]] * factorials[power[1]] * factorials[power[2]];
+        p[m][a][b] = above / if m > 0 { 120.0 } else { 24.0 };
+        k += 1;
+    }
+    p
+}
 
 /// [`TRI3`] for the compiler.
 pub struct Tri3;
