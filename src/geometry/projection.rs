@@ -87,6 +87,15 @@ impl Projection {
         (0..2).any(|i| a.0[i] > b.1[i] + margin || b.0[i] > a.1[i] + margin)
     }
 
+    /// Whether a side of this convex facet has all of `other` beyond it by more than `margin`.
+    pub fn separates(&self, other: &Projection, margin: f64) -> bool {
+        (0..self.shape.n).any(|k| {
+            let (from, side) = (self.y[k], self.y[self.shape.next[k]] - self.y[k]);
+            let beyond = -margin * (side.x.abs() + side.y.abs());
+            other.y[..other.shape.n].iter().all(|y| cross(side, y - from) < beyond)
+        })
+    }
+
     fn bounds(&self) -> (Vec2, Vec2) {
         let y = &self.y[..self.shape.n];
         let low = |a: Vec2, b: &Vec2| Vec2::new(a.x.min(b.x), a.y.min(b.y));

@@ -135,6 +135,9 @@ impl Segment {
                 "the mortar facet's projection on the non-mortar facet's plane is not convex: it is too steep or too warped for this pair",
             ));
         }
+        if one.separates(&mortar, margin) {
+            return Ok(None); // most of those beside each other, before the exact test of what touches
+        }
         let mut polygon = clip::overlap(one, &mortar);
         let mut area = polygon.area();
         let small = one.size.min(mortar.size);
