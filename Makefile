@@ -15,12 +15,13 @@ export PATH := $(PATH):$(HOME)/.cargo/bin
 LOCKED = mkdir -p $(BUILD) && flock $(BUILD)/.lock
 SAY    = @printf '\n== %s\n'
 
-.PHONY: help demo gallery effects test build install uninstall docs abi header meshes clean cmake-build rust-tests
+.PHONY: help demo gallery effects bench test build install uninstall docs abi header meshes clean cmake-build rust-tests
 
 help:
 	@echo "make demo    solve the example scenes, compare with the references, draw (FIGURES=1: renew the README's figures)"
 	@echo "make gallery solve, compare and draw every scene, half an hour, can be resumed; ONLY='NAME ...': some"
 	@echo "make effects what each effect of an interface costs: a table and a figure (FIGURES=1: renew the committed one)"
+	@echo "make bench   what the kernels cost, over a C++ baseline and in instructions (FIGURES=1: renew its table)"
 	@echo "make test    run every test and check"
 	@echo "make build   build the library and the examples into $(BUILD)/"
 	@echo "make install PREFIX=DIR [DESTDIR=]   install header, Fortran module, libraries, pkg-config and CMake files"
@@ -49,6 +50,11 @@ effects:
 	@$(MAKE) --no-print-directory cmake-build
 	$(SAY) "One scene with effects added one by one"
 	@$(PYTHON) c_examples/report/effects.py --build $(BUILD) $(if $(FIGURES),--renew-figures)
+
+bench:
+	@.ci/setup library
+	$(SAY) "Times and instructions of the kernels"
+	@cargo bench --locked --bench kernels -- $(if $(FIGURES),--write benches/README.md)
 
 test:
 	@.ci/setup test

@@ -1,5 +1,5 @@
-// The baseline of the pair kernels: weights alone, 6 points a triangle, compiled for the machine it runs on. Its two headers
-// are not part of this project.
+// The baseline of the pair kernels: weights alone, 6 points a triangle, compiled for the machine it runs on. Its two
+// headers are not part of this project.
 #include "pairs.hpp"
 #include "mortar_quad4.hpp"
 #include <cstring>

@@ -1,8 +1,8 @@
 //! What the kernels cost: `make bench`.
 //!
-//! Times per pair as ratios to a plain C++ baseline (weights alone, 6 points a triangle, compiled for this machine), pass by
-//! pass in turn within one program, for times drift with the machine; the shortest pass of each counts. One thread. The library
-//! is compiled as it ships, for any processor of the architecture.
+//! Times per pair as ratios to a plain C++ baseline (weights alone, 6 points a triangle, compiled for this machine),
+//! pass by pass in turn within one program, for times drift with the machine; the shortest pass of each counts. One
+//! thread. The library is compiled as it ships, for any processor of the architecture.
 //!
 //! Then instructions per call under callgrind, which do not depend on the machine's load: this program runs itself as
 //! `--count NAME` under valgrind.
@@ -18,6 +18,7 @@ use std::hint::black_box;
 use std::process::Command;
 use stickslip::element::PairTangent;
 use stickslip::geometry::Vec3;
+use stickslip::mortar::WeightDerivatives;
 use work::{Kind, Pair, node};
 
 /// Pairs of the times; the baseline's set.
@@ -53,15 +54,19 @@ fn kernels(x: &[f64], interfaces: usize) -> Vec<Kernel> {
         let mut t = PairTangent::default();
         move |p: &Pair| p.tangent(&mut t)
     };
+    let derivatives = || {
+        let mut d = WeightDerivatives::default();
+        move |p: &Pair| p.derivatives(&mut d)
+    };
     let mut k = vec![
         over_pairs("quad4/quad4: weights", 0.20, quads, Pair::weights),
-        over_pairs("quad4/quad4: weights, all derivatives", 0.50, quads, Pair::derivatives),
+        over_pairs("quad4/quad4: weights, all derivatives", 0.50, quads, derivatives()),
         over_pairs("quad4/quad4: residual, tangent", 0.70, quads, tangent()),
         over_pairs("parallelograms: weights", 0.0, affine, Pair::weights),
-        over_pairs("parallelograms: weights, all derivatives", 0.0, affine, Pair::derivatives),
+        over_pairs("parallelograms: weights, all derivatives", 0.0, affine, derivatives()),
         over_pairs("parallelograms: residual, tangent", 0.55, affine, tangent()),
         over_pairs("tri3/tri3: weights", 0.0, triangles, Pair::weights),
-        over_pairs("tri3/tri3: weights, all derivatives", 0.0, triangles, Pair::derivatives),
+        over_pairs("tri3/tri3: weights, all derivatives", 0.0, triangles, derivatives()),
         over_pairs("tri3/tri3: residual, tangent", 0.40, triangles, tangent()),
         over_pairs("tri3/quad4: residual, tangent", 0.0, mixed, tangent()),
         over_pairs("a node: Coulomb's law", 0.0, quads, |p| node(p.one.nodes[1] * 0.01, Vec3::z()).respond().row.x),
@@ -166,32 +171,38 @@ fn main() {
         stickslip_bench_counted(kernel);
         return;
     }
+    let table = measure();
+    println!("{table}");
+    if let Some(k) = arguments.iter().position(|a| a == "--write") {
+        let text = std::fs::read_to_string(&arguments[k + 1]).expect("the document that holds the table");
+        let (before, _) = text.split_once(TABLE).expect("the line before the table");
+        std::fs::write(&arguments[k + 1], format!("{before}{TABLE}\n\n{table}")).expect("a document to write to");
+    }
+}
+
+/// The line before the table in the document.
+const TABLE: &str = "<!-- table -->";
+
+/// All figures, as a table.
+fn measure() -> String {
     let baseline = Baseline::load();
     let x = baseline.as_ref().map_or_else(|| own_pairs(PAIRS), |b| b.pairs(PAIRS));
     let mut kernels = kernels(&x, 20);
     let (of_baseline, times) = times(baseline.as_ref(), &x, &mut kernels);
     let counted: Vec<_> = counted_kernels().iter().map(|k| instructions(k.name, k.calls)).collect();
-    println!("| | ns | over the baseline | aim | instructions |\n|---|---:|---:|---:|---:|");
+    let mut table = "| | ns | over the baseline | aim | instructions |\n|---|---:|---:|---:|---:|\n".to_string();
     let number = |v: Option<f64>, digits: usize| v.map_or(String::new(), |v| format!("{v:.digits$}"));
     if let Some(t) = of_baseline {
-        println!("| baseline: weights in C++ | {:.0} | 1 | | |", 1e9 * t);
+        table += &format!("| baseline: weights in C++ | {:.0} | 1 | | |\n", 1e9 * t);
     }
     for ((kernel, time), counted) in kernels.iter().zip(&times).zip(&counted) {
-        let ratio = of_baseline.map(|t| time / t);
-        println!(
-            "| {} | {:.0} | {} | {} | {} |",
-            kernel.name,
-            1e9 * time,
-            number(ratio, 3),
-            number(kernel.aim, 2),
-            number(*counted, 0)
-        );
+        let (ratio, counted) = (number(of_baseline.map(|t| time / t), 3), number(*counted, 0));
+        let (aim, ns) = (number(kernel.aim, 2), 1e9 * time);
+        table += &format!("| {} | {ns:.0} | {ratio} | {aim} | {counted} |\n", kernel.name);
     }
     let mut patches = Patches::new();
     (0..10).for_each(|_| _ = black_box(patches.residual()));
     let c = patches.counters();
-    println!(
-        "\nOf an interface's residual, the search's share: {:.0} %.",
-        100.0 * c.seconds_search / (c.seconds_search + c.seconds_integration)
-    );
+    let share = 100.0 * c.seconds_search / (c.seconds_search + c.seconds_integration);
+    table + &format!("\nOf an interface's search and integration, the search's share: {share:.0} %.\n")
 }

@@ -1,15 +1,28 @@
-//! An interface of two patches, as `c_examples/report/effects_probe.c` has it: 16 x 16 quadrilaterals, bent a little, that slide
-//! over 19 x 19 that move.
+//! An interface of two patches, as `c_examples/report/effects_probe.c` has it: 16 x 16 quadrilaterals, bent a little,
+//! that slide over 19 x 19 that move.
 
 use nalgebra::Vector3;
 use stickslip::geometry::Vec3;
-use stickslip::interface::{Counters, Interface, Options, Stiffness, Surface};
+use stickslip::interface::{Counters, Interface, Options, Sink, Stiffness, Surface};
 
 const N1: usize = 16;
 const N2: usize = 19;
 const DEPTH: f64 = 0.001;
 /// How far it slides before each evaluation: 1/20 of a facet, back and forth.
 const SLIDE: f64 = 0.003;
+
+/// Takes the entries of a tangent at no cost.
+struct Total(f64);
+
+impl Sink for Total {
+    fn add(&mut self, _: i64, _: i64, value: f64) {
+        self.0 += value;
+    }
+
+    fn add_block(&mut self, _: &[i64], _: &[i64], values: &[f64]) {
+        self.0 += values[0];
+    }
+}
 
 pub struct Patches {
     contact: Interface,
@@ -69,9 +82,8 @@ impl Patches {
 
     /// The tangent where the residual was.
     pub fn tangent(&mut self) -> f64 {
-        let mut sum = 0.0;
-        let mut sink = |_: i64, _: i64, value: f64| sum += value;
+        let mut sink = Total(0.0);
         self.contact.tangent(&self.x1, &self.x2, &self.lambda, None, &mut sink).expect("a tangent");
-        sum
+        sink.0
     }
 }

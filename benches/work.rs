@@ -65,10 +65,11 @@ impl Pair {
     }
 
     /// The same and all derivatives.
-    pub fn derivatives(&self) -> f64 {
+    pub fn derivatives(&self, d: &mut WeightDerivatives) -> f64 {
         let work = |frame: &_, segment: &_| {
-            let both = WeightDerivatives::integrate(frame, segment, &DEGREE_5);
-            black_box(&both).0.ab[0][1]
+            let weights = d.update(frame, segment, &DEGREE_5);
+            black_box(&d);
+            weights.ab[0][1]
         };
         self.with_segment(work).unwrap_or(0.0)
     }

@@ -13,15 +13,16 @@
 //! | n_AB, n_AC (13) | [`mortar::PairWeights`] `ab`, `ac` | L^2 |
 //! | g_A (11) | weighted gap; g_N = nu . g_A > 0 is open | L^3 |
 //! | nu_A | averaged normal of t_n, pointing INTO the non-mortar body | |
-//! | lambda_A (7) | multiplier: minus the Cauchy traction on the non-mortar body; lambda . nu <= 0 is compression | F/L^2 |
+//! | lambda_A (7) | multiplier: minus the Cauchy traction on the non-mortar body; lambda . nu <= 0 is compression |
+//! F/L^2 |
 //! | r_A | augmentation; the answer does not depend on it | F/L^5 |
 //! | sigma, p (22), (24) | augmented and projected traction, [`law`] | F/L^2 |
 //! | M_A, m_A | full and covered area of a node | L^2 |
 //!
 //! # Modules, lowest first
 //!
-//! [`error`]; [`simd`]; [`adjacency`], [`shape`], [`quadrature`], [`geometry`], [`normal`] know nothing of contact; [`mortar`]
-//! integrates a pair and knows no law; [`law`] is nodal and knows no geometry; they meet in
+//! [`error`]; [`simd`]; [`adjacency`], [`shape`], [`quadrature`], [`geometry`], [`normal`] know nothing of contact;
+//! [`mortar`] integrates a pair and knows no law; [`law`] is nodal and knows no geometry; they meet in
 //! [`element`]; [`interface`] searches, assembles and remembers; [`capi`] is the C ABI, the only
 //! place that touches raw pointers.
 //!

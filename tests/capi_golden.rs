@@ -39,8 +39,8 @@ const RULE_RESIDUAL_DEGREE_10: f64 = 1e-8;
 const RULE_TANGENT: f64 = 1e-4;
 /// A block smaller than this part of the matrix is rounding of a block that vanishes.
 const VANISHING: f64 = 1e-8;
-/// The tangent assembled from stages against the handle's: the same sums in another order. Stages take forces from finished
-/// derivatives of the weights, the handle before they go to the nodes.
+/// The tangent assembled from stages against the handle's: the same sums in another order. Stages take forces from
+/// finished derivatives of the weights, the handle before they go to the nodes.
 const SAME_SUMS: f64 = 1e-13;
 /// A block smaller than this part of the matrix is what pairs' entries of that size leave when they cancel.
 const CANCELLING: f64 = 1e-2;

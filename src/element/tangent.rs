@@ -8,8 +8,8 @@
 //! overlapped only at t_n has the last term alone. `MOVES`: whether the mortar side has rows and columns; N: multiplier
 //! components of a node.
 //!
-//! Blocks lie column by column, x_k,j with k over the pair's slots and j its components, as they are computed: in a column
-//! the components of the rows' equations, and of each the four nodes of a facet.
+//! Blocks lie column by column, x_k,j with k over the pair's slots and j its components, as they are computed: in a
+//! column the components of the rows' equations, and of each the four nodes of a facet.
 
 use crate::geometry::{Mat3, Vec3};
 use crate::mortar::{ForceDerivatives, GapDerivative, MORTAR, PAIR_NODES, PairWeights, columns, slots};
@@ -78,8 +78,8 @@ pub struct PairNow<'a> {
     pub gap: Option<&'a GapDerivative>,
 }
 
-/// d row / d x of a pair active now, at t_n, or both, into `rows`. Mortar slots are left as they are where that side does not
-/// move.
+/// d row / d x of a pair active now, at t_n, or both, into `rows`. Mortar slots are left as they are where that side
+/// does not move.
 pub fn row_columns<const MOVES: bool, const N: usize>(
     now: Option<&PairNow>,
     previous: Option<&PairWeights>,

@@ -83,8 +83,8 @@ impl<L: Lanes> Parts<L> {
         Parts { low: L::splat(0.0), high: L::splat(1.0) }
     }
 
-    /// Narrows the parts to where the distance, linear from `d0` to `d1`, is positive. `tie` is added to decide on zeros:
-    /// [`INSIDE`] or its negative.
+    /// Narrows the parts to where the distance, linear from `d0` to `d1`, is positive. `tie` is added to decide on
+    /// zeros: [`INSIDE`] or its negative.
     #[inline(always)]
     fn narrow(&mut self, d0: L, d1: L, tie: L) {
         let (inside0, inside1) = (d0 + tie, d1 + tie);

@@ -27,8 +27,8 @@ pub struct Plane {
     pub e: Vec3,
     /// Spin: Dt1 . t2 = `sum_c spin[c] t2 . Dx_c` [1/L].
     pub spin: [f64; MAX_NODES],
-    /// Tilt: t_j . De = `sum_c tilt[j][c] e . Dx_c` [1/L]. The spanning vectors lie in the plane, so only motions along e
-    /// tilt it.
+    /// Tilt: t_j . De = `sum_c tilt[j][c] e . Dx_c` [1/L]. The spanning vectors lie in the plane, so only motions
+    /// along e tilt it.
     pub tilt: [[f64; MAX_NODES]; 2],
 }
 

@@ -18,8 +18,8 @@ type Tangent<const N: usize> =
     fn(&mut Contact<N>, &[Vec3], &[Vec3], &[SVector<f64, N>], Option<&[NodeSums]>, &mut dyn Sink) -> Result<()>;
 
 /// Derivatives of a pair with its weights of now: mortar surface and positions, the non-mortar facet's frame and the
-/// overlap (`None` of an analytic surface), the weights, the rule, the tractions `[i][A]` of its forces. The derivatives of the
-/// forces go to the last argument, which keeps the slots that have none; those of the gap come back.
+/// overlap (`None` of an analytic surface), the weights, the rule, the tractions `[i][A]` of its forces. The
+/// derivatives of the forces go to the last argument, which keeps the slots that have none; those of the gap come back.
 pub(super) type PairMotion = fn(
     (&Surface, &[Vec3]),
     (&NonmortarFrame, Option<&Segment>),

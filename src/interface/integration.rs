@@ -56,7 +56,8 @@ pub(super) fn at_facet(side: &str, facet: usize) -> impl FnOnce(Error) -> Error 
 
 /// The frames of all facets of a surface.
 pub(super) fn frames(surface: &Surface, x: &[Vec3]) -> Result<Vec<NonmortarFrame>> {
-    let mut frames = Vec::with_capacity(surface.facets.len()); // a collected Result knows no length, and frames are large
+    // A collected Result knows no length, and frames are large.
+    let mut frames = Vec::with_capacity(surface.facets.len());
     for f in 0..surface.facets.len() {
         frames.push(NonmortarFrame::new(&surface.facet(f, x)).map_err(at_facet(surface.side, f))?);
     }
@@ -172,8 +173,8 @@ fn check_layers(areas: &[f64], coverage: impl Iterator<Item = f64>) -> Result<()
 }
 
 impl<const N: usize> Contact<N> {
-    /// Makes `self.integration` that of (x1, x2). With frozen weights there is nothing to do, nor, but for a comparison,
-    /// where the surfaces are apart.
+    /// Makes `self.integration` that of (x1, x2). With frozen weights there is nothing to do, nor, but for a
+    /// comparison, where the surfaces are apart.
     pub(super) fn ensure_integration(&mut self, x1: &[Vec3], x2: &[Vec3]) -> Result<()> {
         if self.options.effective_weights() != Weights::Current {
             self.counters.pairs_reused += self.history.pairs.len() as i64;
@@ -229,8 +230,8 @@ impl<const N: usize> Contact<N> {
         }
     }
 
-    /// Makes up for the weights of t_n where they were left out because the surfaces were apart then. Frozen weights never
-    /// are.
+    /// Makes up for the weights of t_n where they were left out because the surfaces were apart then. Frozen weights
+    /// never are.
     pub(super) fn ensure_history(&mut self) -> Result<()> {
         if self.options.effective_weights() != Weights::Current {
             return Ok(());

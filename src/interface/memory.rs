@@ -37,7 +37,8 @@ fn of_integration(k: &Integration) -> usize {
 }
 
 impl<const N: usize> Contact<N> {
-    /// Heap memory in use `[bytes]`: surfaces, histories, the filter, the search tree, the last evaluation, what is set per node.
+    /// Heap memory in use `[bytes]`: surfaces, histories, the filter, the search tree, the last evaluation, what is
+    /// set per node.
     pub fn bytes(&self) -> usize {
         let surfaces = of_surface(&self.nonmortar) + of_surface(&self.mortar);
         let histories = of_history(&self.history) + self.rollback.as_ref().map_or(0, of_history);

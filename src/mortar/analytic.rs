@@ -149,8 +149,8 @@ fn mass<L: Lanes>(frame: &NonmortarFrame) -> [L; MAX_NODES] {
     ab
 }
 
-/// Derivatives of the forces f_B of the fields `p[i][A]`, into `forces`, and of the gap with respect to the facet's nodes.
-/// All else in `forces` belongs to the surface, which has no equations, and stays as it is.
+/// Derivatives of the forces f_B of the fields `p[i][A]`, into `forces`, and of the gap with respect to the facet's
+/// nodes. All else in `forces` belongs to the surface, which has no equations, and stays as it is.
 ///
 /// # Errors
 /// As [`analytic_weights`].

@@ -48,13 +48,19 @@ const SHAPES: [[f64; MAX_NODES]; MAX_NODES] =
     [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0]];
 
 impl WeightDerivatives {
-    /// The weights and their exact derivatives over a segment (exact when the rule is: affine facets, degree 5). The weights
-    /// are those of [`PairWeights::integrate`] but for rounding.
+    /// The weights and their exact derivatives over a segment (exact when the rule is: affine facets, degree 5). The
+    /// weights are those of [`PairWeights::integrate`] but for rounding.
     pub fn integrate(frame: &NonmortarFrame, segment: &Segment, rule: &Rule) -> (PairWeights, WeightDerivatives) {
         let mut derivatives = WeightDerivatives::default();
-        let kernel = OfWeights { frame, segment, rule, derivatives: &mut derivatives };
-        let weights = Cells::of(frame, segment).dispatch(kernel);
-        (weights, derivatives)
+        (derivatives.update(frame, segment, rule), derivatives)
+    }
+
+    /// The same in place of what is there: they are large.
+    pub fn update(&mut self, frame: &NonmortarFrame, segment: &Segment, rule: &Rule) -> PairWeights {
+        if frame.projection.shape.n < MAX_NODES || segment.mortar.shape.n < MAX_NODES {
+            *self = WeightDerivatives::default(); // absent nodes
+        }
+        Cells::of(frame, segment).dispatch(OfWeights { frame, segment, rule, derivatives: self })
     }
 
     /// The derivatives of the forces of the fields `p[i][A]` with these weights.
@@ -75,8 +81,8 @@ impl WeightDerivatives {
 }
 
 /// Derivatives of a pair with its current weights, exact where [`WeightDerivatives`] are: of the forces of the fields
-/// `p[i][A]`, into `forces`, and of the gaps. Where the mortar side does not move (`MOVES` false) its rows and columns are
-/// left as they are; so are those of nodes that a triangle does not have.
+/// `p[i][A]`, into `forces`, and of the gaps. Where the mortar side does not move (`MOVES` false) its rows and columns
+/// are left as they are; so are those of nodes that a triangle does not have.
 pub fn pair_motion<const MOVES: bool>(
     (frame, segment, rule): (&NonmortarFrame, &Segment, &Rule),
     weights: &PairWeights,
@@ -196,11 +202,11 @@ pub(super) struct Chain<'a> {
 }
 
 impl Chain<'_> {
-    /// sum_k g_k . Dy_k as coefficients of the Dx of the pair's nodes, in the plane's axes t1, t2, e; mortar slots in the order
-    /// of the projection.
+    /// sum_k g_k . Dy_k as coefficients of the Dx of the pair's nodes, in the plane's axes t1, t2, e; mortar slots in
+    /// the order of the projection.
     ///
-    /// A translation and a spin of both facets change no weight: with a mortar side at rest the shares of the plane's own
-    /// translation and spin cancel between the facets, and only its tilt is left.
+    /// A translation and a spin of both facets change no weight: with a mortar side at rest the shares of the plane's
+    /// own translation and spin cancel between the facets, and only its tilt is left.
     #[inline(always)]
     pub fn local<L: Lanes, One: Cell, Two: Cell, const MOVES: bool>(
         &self,

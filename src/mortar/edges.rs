@@ -1,5 +1,6 @@
-//! The integrals over the edge parts that bound an overlap (kernel notes A, "strict"): an edge's velocity is linear along it,
-//! sum L_a Dy_a over its two ends, so are its own facet's functions; the other facet's come from the inverse map.
+//! The integrals over the edge parts that bound an overlap (kernel notes A, "strict"): an edge's velocity is linear
+//! along it, sum L_a Dy_a over its two ends, so are its own facet's functions; the other facet's come from the inverse
+//! map.
 
 use super::moments::combine;
 use super::segment::{NonmortarFrame, Segment};

@@ -76,8 +76,8 @@ pub struct AlongNormal {
 }
 
 impl AlongNormal {
-    /// From Dn: with the pair's current weights and their derivatives; `two` is the mortar facet projected on the frame's
-    /// plane.
+    /// From Dn: with the pair's current weights and their derivatives; `two` is the mortar facet projected on the
+    /// frame's plane.
     pub fn from_weights(
         frame: &NonmortarFrame,
         two: &Projection,

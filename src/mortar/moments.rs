@@ -1,9 +1,10 @@
 //! The integrals over an overlap that its weights' derivatives consist of (kernel notes A):
 //!
-//! Q1[m][k][C] = int (mu1_m / det1) N_k N_C, R[m][k][B] = int (mu1_m / det1) N_k N_B, Q2[m][l][A] = int (mu2_m / det2) N_l N_A,
+//! Q1[m][k][C] = int (mu1_m / det1) N_k N_C, R[m][k][B] = int (mu1_m / det1) N_k N_B, Q2[m][l][A] = int (mu2_m / det2)
+//! N_l N_A,
 //!
-//! mu = (1, xi, eta) of the facet whose det stands below (of a triangle 1 alone: the others have no coefficient). mu_m N_k
-//! has eight monomials, so each is summed over the points as eight integrals per node and expanded once.
+//! mu = (1, xi, eta) of the facet whose det stands below (of a triangle 1 alone: the others have no coefficient). mu_m
+//! N_k has eight monomials, so each is summed over the points as eight integrals per node and expanded once.
 
 use super::points::{Fan, Points, points};
 use super::segment::{NonmortarFrame, Segment};
@@ -58,8 +59,8 @@ fn powers_of<L: Lanes, C: Cell>(w: L, xi: L, eta: L) -> [L; MONOMIALS] {
     [w, x, e, xe, x * xi, e * eta, xe * xi, xe * eta]
 }
 
-/// Integrals of the monomials of facet `FACET` with functions of facet `OTHER`, lanes over these. Two monomials at a time:
-/// eight sums are as many as stay in registers.
+/// Integrals of the monomials of facet `FACET` with functions of facet `OTHER`, lanes over these. Two monomials at a
+/// time: eight sums are as many as stay in registers.
 #[inline(always)]
 fn integrals<L: Lanes, const FACET: usize, const OTHER: usize>(
     groups: &[Group<L>],
@@ -146,8 +147,8 @@ impl<L: Lanes> Moments<L> {
         Moments { q1: table::<L, One>(q1), r: table::<L, One>(r), q2: table::<L, Two>(q2) }
     }
 
-    /// n_AB = sum_m j_m R[m][A][B] and n_AC = sum_m j_m Q1[m][A][C], det1 = j0 + j1 xi + j2 eta; with a mortar side that
-    /// moves.
+    /// n_AB = sum_m j_m R[m][A][B] and n_AC = sum_m j_m Q1[m][A][C], det1 = j0 + j1 xi + j2 eta; with a mortar side
+    /// that moves.
     #[inline(always)]
     pub fn weights<One: Cell>(&self, determinant: &[f64; 3]) -> PairWeights {
         let (mut ab, mut ac) = ([L::splat(0.0); MAX_NODES], [L::splat(0.0); MAX_NODES]);

@@ -1,5 +1,5 @@
-//! The same integrals as they stand on paper, point by point and number by number: what the kernels must give, on every back
-//! end, to the rounding of their sums.
+//! The same integrals as they stand on paper, point by point and number by number: what the kernels must give, on
+//! every back end, to the rounding of their sums.
 
 use super::derivatives::{ForceDerivatives, WeightDerivatives, pair_motion};
 use super::gap::AlongNormal;
@@ -154,8 +154,8 @@ impl<'a> Straight<'a> {
         }
     }
 
-    /// sum_k g_k . Dy_k as coefficients of Dx_k. With a mortar side at rest the plane's own translation and spin are left out:
-    /// as exact as the rule, which makes them cancel.
+    /// sum_k g_k . Dy_k as coefficients of Dx_k. With a mortar side at rest the plane's own translation and spin are
+    /// left out: as exact as the rule, which makes them cancel.
     fn chain(&self, g: [Vec2; PAIR_NODES], moves: bool) -> [Vec3; PAIR_NODES] {
         let (plane, one, two) = (&self.frame.plane, &self.frame.projection, &self.segment.mortar);
         let mut x = [Vec3::zeros(); PAIR_NODES];
@@ -272,8 +272,8 @@ fn check(one: &Facet, two: &Facet, p: &[[f64; MAX_NODES]; 3]) -> Result<(), Test
     Ok(())
 }
 
-/// A facet over the square -1..1 with mild noise; `grid` quantises it, to force coincident vertices and edges; `flat`: a
-/// parallelogram or triangle, so that both maps are affine.
+/// A facet over the square -1..1 with mild noise; `grid` quantises it, to force coincident vertices and edges; `flat`:
+/// a parallelogram or triangle, so that both maps are affine.
 fn facet() -> impl Strategy<Value = Facet> {
     let numbers = proptest::collection::vec(-1.0..1.0f64, 12);
     let kind = (3usize..=4, any::<bool>(), any::<bool>(), prop_oneof![Just(None), Just(Some(8.0)), Just(Some(1.0))]);
@@ -309,7 +309,8 @@ proptest! {
         simd::on_plain_lanes(|| check(&one, &two, &fields))?;
     }
 
-    /// Slivers: the facets overlap by `width`, or not quite, or touch. (Between 1e-12 and 1e-14 rounding decides what is a tie.)
+    /// Slivers: the facets overlap by `width`, or not quite, or touch. (Between 1e-12 and 1e-14 rounding decides what
+    /// is a tie.)
     #[test]
     fn kernels_equal_the_formulas_on_slivers(one in facet(), exponent in prop_oneof![1..12i32, Just(300)], sign in prop_oneof![Just(-1.0), Just(1.0)]) {
         let shift = (one.nodes[1] - one.nodes[0]).cross(&one.area_vector()).normalize();

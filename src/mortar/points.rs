@@ -1,5 +1,5 @@
-//! The quadrature points of an overlap, four at a time: triangles of the polygon (formulation c.3) with the inverse maps
-//! of both facets (c.4).
+//! The quadrature points of an overlap, four at a time: triangles of the polygon (formulation c.3) with the inverse
+//! maps of both facets (c.4).
 
 use super::segment::{NonmortarFrame, Segment};
 use crate::geometry::bilinear_map::Preimage;

@@ -1,19 +1,19 @@
-//! Derivatives with respect to the projected vertices, in transport form (formulation c.5, kernel notes A): of the forces
-//! of a field p = sum_A N_A p_A on the non-mortar facet,
+//! Derivatives with respect to the projected vertices, in transport form (formulation c.5, kernel notes A): of the
+//! forces of a field p = sum_A N_A p_A on the non-mortar facet,
 //!
 //! f_B = int p N_B da, f_C = -int p N_C da,
 //!
 //! which with p = N_A are the weights themselves, and of the gaps gamma_A = int N_A (sum N_B d_B - sum N_C d_C) da at
-//! fixed heights d, whose first part is the force of the field of heights. Of every such integral of f1 f2, functions of the
-//! two facets,
+//! fixed heights d, whose first part is the force of the field of heights. Of every such integral of f1 f2, functions
+//! of the two facets,
 //!
 //! D int f1 f2 = -int (grad f1 . v1) f2 + f1 (grad f2 . v2) da + sum_edges int f1 f2 (v . n) ds,
 //!
 //! v1 = sum N_k Dy1_k, v2 = sum N_l Dy2_l, v the velocity of the facet that owns the edge. No vertex
 //! of the overlap is differentiated: that would lose a digit for every digit of a small crossing angle.
 //!
-//! Where the mortar side is at rest its vertices move in the plane only because that tilts, by their heights d_l times one and
-//! the same vector: the one velocity v = sum_l N_l d_l, in the slot [`MORTAR`], serves in place of four.
+//! Where the mortar side is at rest its vertices move in the plane only because that tilts, by their heights d_l times
+//! one and the same vector: the one velocity v = sum_l N_l d_l, in the slot [`MORTAR`], serves in place of four.
 
 use super::edges::Edges;
 use super::moments::{Moments, combine, powers};
@@ -24,7 +24,8 @@ use crate::quadrature::Rule;
 use crate::shape::{Cell, MAX_NODES};
 use crate::simd::{Lanes, Stack};
 
-/// d/dy of four numbers in the lanes: per slot k the two components of y_k, mortar slots in the order of the projection.
+/// d/dy of four numbers in the lanes: per slot k the two components of y_k, mortar slots in the order of the
+/// projection.
 pub(super) type PlaneDerivatives<L> = [[L; 2]; PAIR_NODES];
 
 /// A pair whose derivatives follow from its integrals by contraction.

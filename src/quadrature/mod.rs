@@ -6,8 +6,8 @@
 pub mod line;
 pub mod triangle;
 
-/// The rules a pair is integrated with: cells of the overlap, and source-edge intervals; whole quadrilaterals against an
-/// analytic surface.
+/// The rules a pair is integrated with: cells of the overlap, and source-edge intervals; whole quadrilaterals against
+/// an analytic surface.
 #[derive(Clone, Copy, Debug)]
 pub struct Rule {
     /// Points (L1, L2, weight; weights sum to 1) on a triangle.

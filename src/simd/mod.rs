@@ -1,5 +1,5 @@
-//! Four doubles at a time, whatever the machine: kernels are written once over [`Lanes`] and compiled for each back end;
-//! [`dispatch`] takes the best one that the processor has.
+//! Four doubles at a time, whatever the machine: kernels are written once over [`Lanes`] and compiled for each back
+//! end; [`dispatch`] takes the best one that the processor has.
 //!
 //! Everything in a kernel must be inlined into [`dispatch`]'s function, or it is compiled without the processor's
 //! features: `#[inline(always)]` functions and plain loops, no closures, no `array::map`. Back ends differ in the last

@@ -1,5 +1,5 @@
-//! A list of fixed capacity that costs nothing to begin: zeros that are overwritten at once would be a fifth of a kernel's
-//! stores.
+//! A list of fixed capacity that costs nothing to begin: zeros that are overwritten at once would be a fifth of a
+//! kernel's stores.
 #![allow(unsafe_code)]
 
 use std::mem::MaybeUninit;
