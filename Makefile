@@ -15,7 +15,7 @@ export PATH := $(PATH):$(HOME)/.cargo/bin
 LOCKED = mkdir -p $(BUILD) && flock $(BUILD)/.lock
 SAY    = @printf '\n== %s\n'
 
-.PHONY: help demo gallery effects bench test build install uninstall docs abi header meshes clean cmake-build rust-tests
+.PHONY: help demo gallery effects bench properties test build install uninstall docs abi header meshes clean cmake-build rust-tests
 
 help:
 	@echo "make demo    solve the example scenes, compare with the references, draw (FIGURES=1: renew the README's figures)"
@@ -23,6 +23,7 @@ help:
 	@echo "make effects what each effect of an interface costs: a table and a figure (FIGURES=1: renew the committed one)"
 	@echo "make bench   what the kernels cost, over a C++ baseline and in instructions (FIGURES=1: renew its table)"
 	@echo "make test    run every test and check"
+	@echo "make properties  the property tests on more than a million random pairs, ten minutes"
 	@echo "make build   build the library and the examples into $(BUILD)/"
 	@echo "make install PREFIX=DIR [DESTDIR=]   install header, Fortran module, libraries, pkg-config and CMake files"
 	@echo "make uninstall PREFIX=DIR [DESTDIR=]   remove what was installed there"
@@ -55,6 +56,13 @@ bench:
 	@.ci/setup library
 	$(SAY) "Times and instructions of the kernels"
 	@cargo bench --locked --bench kernels -- $(if $(FIGURES),--write benches/README.md)
+
+# Every CASES of the pairs' laws; what fails is kept in tests/properties/*.regressions.
+CASES ?= 150000
+properties:
+	@.ci/setup library
+	$(SAY) "Property tests, $(CASES) cases a law"
+	@PROPTEST_CASES=$(CASES) cargo test --locked --test properties
 
 test:
 	@.ci/setup test

@@ -1,0 +1,71 @@
+//! Laws that hold exactly (formulation d) and those of the hard tests (formulation f, rows W, S, K, I) that random
+//! input can try; and where each is tried. P: `pairs`, N: `nodes`, I: `interfaces`; in the last column other files,
+//! with chosen or golden cases.
+//!
+//! | law | on random input | elsewhere |
+//! |---|---|---|
+//! | d.1, W3, W5 sums, bounds, symmetry of weights | P `laws_of_any_pair` | `mortar.rs` |
+//! | d.2, I5 forces balance | I `laws_of_any_interface` | `identities.rs` |
+//! | d.3, I5 moments are those of the gaps | I `laws_of_any_interface` | `identities.rs` |
+//! | d.4, I1 rigid motion: weights | P `rigid_motion_keeps_the_weights` | |
+//! | d.4, I1 rigid motion: residual | I `rigid_motion_turns_the_residual` | `identities.rs` |
+//! | d.4, I1 rigid motion: projection | N `projection_is_homogeneous_and_turns_with_the_frame` | |
+//! | d.5, I2 exact offsets | P `exact_offsets_change_no_bit` | `identities.rs` |
+//! | d.6, I4 units: weights, at sizes over 120 decades | P `powers_of_two_change_no_bit` | |
+//! | d.6, I4 units: residual | I `units_change_no_bit` | `identities.rs` |
+//! | d.7, S4 Coulomb's conditions, any augmentation | N `row_vanishes_at_the_solution_whatever_r` | check `invariance` |
+//! | d.7, S2 the cone; d.8 no friction | N `projection_lies_on_the_cone` | `identities.rs` |
+//! | d.9 patch test | | checks `patch` |
+//! | W1, W2, W8 golden weights and derivatives | | `mortar.rs`, `capi_golden.rs` |
+//! | W4 slivers, touching, no overlap | P `coincident_pairs_share_the_exact_area` | `mortar.rs` |
+//! | W6 parts add up | P `parts_of_a_mortar_facet_add_up` | |
+//! | W7 translation, rotation, Euler | P `laws_of_any_pair` | `mortar.rs` |
+//! | W9 differences of weights | P `derivatives_equal_differences` | |
+//! | S1, S2, K1, K6 golden residuals, states, tangents | | `reference.rs`, `capi_golden.rs` |
+//! | S3 continuity across the borders | N `projection_is_continuous_and_differentiated` | |
+//! | S5, A-B-A: a step taken back, a restart | I `laws_of_any_interface` | `history.rs` |
+//! | K2 differences of the residual | I `tangent_equals_differences` | `tangent.rs` |
+//! | K3 dual numbers | | `src/law`, `src/mortar/oracle.rs` |
+//! | K4 sums of rows and columns | I `laws_of_any_interface` | |
+//! | K5 symmetry | | `tangent.rs` |
+//! | I3 numbering, begin, orientation | P `numbering_does_not_matter` | `identities.rs` |
+//! | I6 rigid motion within a step | | `identities.rs` |
+//! | I7 threads | | `tests/capi/t50_threads.c` |
+//!
+//! `cargo test` tries 1e4 pairs in all; `make properties` more than 1e6 (`PROPTEST_CASES=150000`).
+
+#[path = "../support/mod.rs"]
+mod support;
+
+mod exact;
+mod geometry;
+mod interfaces;
+mod nodes;
+mod pairs;
+
+use proptest::prelude::*;
+use proptest::test_runner::FileFailurePersistence;
+
+/// Pairs that each law of pairs is tried on; `PROPTEST_CASES` asks for more.
+const CASES: u32 = 1500;
+
+/// Cases of a test that costs as much as `cost` pairs. What fails is kept beside the source and tried first ever after.
+fn config(source: &'static str, cost: u32) -> ProptestConfig {
+    let mut config = ProptestConfig {
+        failure_persistence: Some(Box::new(FileFailurePersistence::WithSource("regressions"))),
+        source_file: Some(source),
+        max_shrink_iters: 20_000,
+        ..ProptestConfig::default()
+    };
+    if std::env::var_os("PROPTEST_CASES").is_none() {
+        config.cases = CASES;
+    }
+    config.cases = (config.cases / cost).max(1);
+    config.max_global_rejects = 20 * config.cases;
+    config
+}
+
+/// Euler angles of any rotation.
+fn angles() -> impl Strategy<Value = [f64; 3]> {
+    [-3.0..3.0f64, -3.0..3.0, -3.0..3.0]
+}
