@@ -194,6 +194,12 @@ impl Pair {
         self.segment.as_ref().map_or(0.0, |s| s.area)
     }
 
+    /// The largest distance of a corner of the overlap from the first one.
+    pub fn overlap_diameter(&self) -> f64 {
+        let vertices = self.segment.as_ref().map_or(&[][..], |s| s.polygon.vertices());
+        vertices.iter().map(|v| (v - vertices[0]).norm()).fold(0.0, f64::max)
+    }
+
     /// Whether the weights are integrated exactly by any rule.
     pub fn is_affine(&self) -> bool {
         self.frame.map.is_affine && self.segment.as_ref().is_none_or(|s| s.mortar_map.is_affine)
