@@ -83,7 +83,7 @@ pub(super) fn integrate(
     }
     counters.pairs_integrated += pairs.len() as i64;
     counters.seconds_integration += start.elapsed().as_secs_f64();
-    Ok(Integration { x1: x1.to_vec(), x2: x2.to_vec(), frames, pairs, segments: Vec::new(), apart: false })
+    Ok(Integration { x1: x1.to_vec(), x2: x2.to_vec(), frames, pairs, segments: Vec::new(), sums: None, apart: false })
 }
 
 /// Whether every node is outside the surface by more than any facet's edge there, in all of the configurations (x1, x2).

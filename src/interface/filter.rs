@@ -53,6 +53,8 @@ impl Filter {
 #[derive(Debug)]
 pub(super) struct Side {
     pub facets: Vec<(Facet, Plane)>,
+    /// The longest edge of each `[L]`.
+    pub edges: Vec<f64>,
     /// How far the surface may lie off each of them `[L]`.
     pub bulges: Vec<f64>,
 }
@@ -76,14 +78,15 @@ impl Side {
             let angle = angles[f].max(angles[g]);
             (near[f], near[g]) = (near[f].max(angle), near[g].max(angle));
         }
-        let bulge = |(facet, plane): &(Facet, Plane), angle| warp(facet, plane) + BULGE * angle * facet.longest_edge();
-        let bulges = facets.iter().zip(near).map(|(facet, angle)| bulge(facet, angle)).collect();
-        Ok(Side { facets, bulges })
+        let edges: Vec<_> = facets.iter().map(|(facet, _)| facet.longest_edge()).collect();
+        let bulge = |f: usize| warp(&facets[f].0, &facets[f].1) + BULGE * near[f] * edges[f];
+        let bulges = (0..facets.len()).map(bulge).collect();
+        Ok(Side { facets, edges, bulges })
     }
 
     fn largest(&self) -> (f64, f64) {
-        let edge = self.facets.iter().map(|(facet, _)| facet.longest_edge()).fold(0.0, f64::max);
-        (edge, self.bulges.iter().copied().fold(0.0, f64::max))
+        let largest = |v: &[f64]| v.iter().copied().fold(0.0, f64::max);
+        (largest(&self.edges), largest(&self.bulges))
     }
 }
 
@@ -130,7 +133,7 @@ impl FacetFilter {
     /// The deepest penetration at which they can be a pair `[L]`.
     fn penetration(&self, i: usize, j: usize) -> f64 {
         let [one, two] = &self.sides;
-        let edges = one.facets[i].0.longest_edge().min(two.facets[j].0.longest_edge());
+        let edges = one.edges[i].min(two.edges[j]);
         self.distance.unwrap_or(edges + one.bulges[i] + two.bulges[j])
     }
 
@@ -138,7 +141,7 @@ impl FacetFilter {
     pub fn deepest_of_each(&self) -> Vec<f64> {
         let [one, two] = &self.sides;
         let (_, bulge) = two.largest();
-        let own = one.facets.iter().zip(&one.bulges).map(|((facet, _), own)| facet.longest_edge() + own);
+        let own = one.edges.iter().zip(&one.bulges).map(|(edge, bulge)| edge + bulge);
         own.map(|own| self.distance.unwrap_or(own + bulge)).collect()
     }
 

@@ -7,7 +7,7 @@
 
 use super::filter::{FacetFilter, Filter};
 use super::history::{History, Keeps, PairRecord};
-use super::nodes::assemble;
+use super::nodes::{NodeSums, assemble};
 use super::search::{Aabb, Prism, Tree};
 use super::{Contact, Counters, Options, Surface, Weights, analytic, apart};
 use crate::error::{Error, Kind, Result};
@@ -36,6 +36,8 @@ pub(super) struct Integration {
     pub pairs: Vec<PairRecord>,
     /// The overlap of each pair, kept for the tangent; none against an analytic mortar side.
     pub segments: Vec<Segment>,
+    /// What the nodes assemble over the pairs here, once it was asked for.
+    pub sums: Option<Vec<NodeSums>>,
     /// Nothing was looked at: the surfaces are apart, here and at t_n.
     pub apart: bool,
 }
@@ -134,17 +136,18 @@ pub(super) fn integrate(
     let (mut pairs, mut segments) = (Vec::with_capacity(candidates.len()), Vec::with_capacity(candidates.len()));
     for &(i, j) in &candidates {
         counters.pairs_tested += 1;
-        let segment = Segment::new(&frames[i], &two.facet(j, x2))
-            .map_err(at_facet(two.side, j))
-            .map_err(at_facet(one.side, i))?;
-        let Some(segment) = segment else { continue };
+        match Segment::new(&frames[i], &two.facet(j, x2)) {
+            Ok(Some(segment)) => segments.push(segment),
+            Ok(None) => continue,
+            Err(e) => return Err(at_facet(one.side, i)(at_facet(two.side, j)(e))),
+        }
+        let segment = &segments[segments.len() - 1];
         counters.pairs_clipped += 1;
         counters.pairs_integrated += i64::from(segment.area > 0.0);
-        pairs.push(PairRecord { one: i, two: j, weights: PairWeights::integrate(&frames[i], &segment, options.rule) });
-        segments.push(segment);
+        pairs.push(PairRecord { one: i, two: j, weights: PairWeights::integrate(&frames[i], segment, options.rule) });
     }
     counters.seconds_integration += start.elapsed().as_secs_f64();
-    Ok(Integration { x1: x1.to_vec(), x2: x2.to_vec(), frames, pairs, segments, apart: false })
+    Ok(Integration { x1: x1.to_vec(), x2: x2.to_vec(), frames, pairs, segments, sums: None, apart: false })
 }
 
 /// The derivatives of a pair of facets, `MOVES`: with respect to the mortar side too.
@@ -188,7 +191,7 @@ impl<const N: usize> Contact<N> {
         self.integration = Some(if self.stays_apart(x1, x2)? {
             self.counters.evaluations_apart += 1;
             let (x1, x2) = (x1.to_vec(), x2.to_vec());
-            Integration { x1, x2, frames: Vec::new(), pairs: Vec::new(), segments: Vec::new(), apart: true }
+            Integration { x1, x2, frames: Vec::new(), pairs: Vec::new(), segments: Vec::new(), sums: None, apart: true }
         } else {
             self.ensure_history()?;
             let surfaces = (&self.nonmortar, &self.mortar);

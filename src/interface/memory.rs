@@ -3,6 +3,7 @@
 use super::filter::Filter;
 use super::history::History;
 use super::integration::{Integration, KeptTree};
+use super::search::Tree;
 use super::{Contact, Surface};
 
 /// A vector's memory `[bytes]`: what it holds and what it has taken for more.
@@ -22,18 +23,19 @@ fn of_history(h: &History) -> usize {
 fn of_filter(filter: &Filter) -> usize {
     match filter {
         Filter::Facets(f) => {
-            f.sides.iter().map(|s| heap(&s.facets) + heap(&s.bulges)).sum::<usize>() + heap(&f.reached)
+            f.sides.iter().map(|s| heap(&s.facets) + heap(&s.edges) + heap(&s.bulges)).sum::<usize>() + heap(&f.reached)
         }
         Filter::Analytic(facing) => heap(facing),
     }
 }
 
 fn of_tree(kept: &KeptTree) -> usize {
-    heap(&kept.x2) + kept.tree.as_ref().map_or(0, |t| heap(&t.boxes) + heap(&t.nodes) + heap(&t.order))
+    let of = |t: &Tree| heap(&t.boxes) + heap(&t.nodes) + heap(&t.order) + heap(&t.branches);
+    heap(&kept.x2) + kept.tree.as_ref().map_or(0, of)
 }
 
 fn of_integration(k: &Integration) -> usize {
-    heap(&k.x1) + heap(&k.x2) + heap(&k.frames) + heap(&k.pairs) + heap(&k.segments)
+    heap(&k.x1) + heap(&k.x2) + heap(&k.frames) + heap(&k.pairs) + heap(&k.segments) + k.sums.as_ref().map_or(0, heap)
 }
 
 impl<const N: usize> Contact<N> {

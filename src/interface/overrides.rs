@@ -19,6 +19,9 @@ impl Contact<3> {
         }
         self.mu = mu;
         self.kernels = effects::choose_three(&self.options, &self.mortar, &self.mu);
+        if let Some(k) = &mut self.integration {
+            k.sums = None; // whether slip counts may have changed
+        }
         Ok(())
     }
 }

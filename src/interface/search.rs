@@ -3,6 +3,7 @@
 //! whatever the orientation; the answer is a superset and depends on the positions alone.
 
 use crate::geometry::{Plane, Vec3};
+use crate::simd::{self, Kernel, Lanes, Stack};
 
 /// An axis-aligned box.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -63,16 +64,44 @@ impl Prism {
         }
     }
 
-    /// Whether the box may reach into the prism; never false when it does.
-    fn meets(&self, b: &Aabb) -> bool {
+    /// Of four boxes, how far the two overlap along the prism's axes: at least 0 when the box may reach into the prism;
+    /// never less when it does.
+    #[inline(always)]
+    fn overlaps<L: Lanes>(&self, b: &Four) -> [f64; 4] {
+        let half = L::splat(0.5);
+        let mut most = L::splat(f64::INFINITY);
         // Differences of coordinates first: a common offset costs no digits.
-        let (low, high) = (b.low - self.origin, b.high - self.origin);
-        let (centre, half, farthest) = ((low + high) * 0.5, (high - low) * 0.5, low.abs().sup(&high.abs()));
-        (0..2).all(|k| {
-            let axis = self.axes[k].abs();
-            let (c, r) = (self.axes[k].dot(&centre), axis.dot(&half) + ROUNDING * axis.dot(&farthest));
-            c + r >= self.low[k] && c - r <= self.high[k]
-        })
+        let (mut centre, mut extent, mut farthest) = ([half; 3], [half; 3], [half; 3]);
+        for i in 0..3 {
+            let origin = L::splat(self.origin[i]);
+            let (low, high) = (L::load(&b.low[i]) - origin, L::load(&b.high[i]) - origin);
+            (centre[i], extent[i]) = ((low + high) * half, (high - low) * half);
+            farthest[i] = high.max(-low).max(low.max(-high));
+        }
+        for k in 0..2 {
+            let (mut c, mut r) = (L::splat(0.0), L::splat(0.0));
+            for i in 0..3 {
+                let axis = self.axes[k][i];
+                let (size, rounding) = (L::splat(axis.abs()), L::splat(ROUNDING));
+                c = L::splat(axis).mul_add(centre[i], c);
+                r = size.mul_add(rounding.mul_add(farthest[i], extent[i]), r);
+            }
+            most = most.min(c + r - L::splat(self.low[k])).min(L::splat(self.high[k]) - (c - r));
+        }
+        most.store()
+    }
+}
+
+/// Four boxes, component by component.
+#[derive(Debug)]
+struct Four {
+    low: [[f64; 4]; 3],
+    high: [[f64; 4]; 3],
+}
+
+impl Four {
+    fn of(b: [&Aabb; 4]) -> Four {
+        Four { low: [0, 1, 2].map(|i| b.map(|b| b.low[i])), high: [0, 1, 2].map(|i| b.map(|b| b.high[i])) }
     }
 }
 
@@ -80,8 +109,10 @@ impl Prism {
 /// beside the prism must not be lost to it.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
-/// Leaves hold at most this many boxes: fewer make a deeper tree, more make a slower query.
+/// Leaves hold at most this many boxes: as many as are compared at once.
 const LEAF: usize = 4;
+/// Branches that a query has found and not yet looked into: three a level of a tree over all that a memory can hold.
+const PENDING: usize = 96;
 
 /// A bounding-volume tree over boxes.
 #[derive(Debug)]
@@ -89,6 +120,17 @@ pub struct Tree {
     pub(super) boxes: Vec<Aabb>,
     pub(super) nodes: Vec<TreeNode>,
     pub(super) order: Vec<usize>,
+    pub(super) branches: Vec<Branch>,
+}
+
+/// Two levels of the tree, or a leaf: what queries look at.
+#[derive(Debug)]
+pub(super) struct Branch {
+    bounds: Four,
+    /// Which branches, or boxes of a leaf, they are around; the first `count` of them.
+    below: [usize; 4],
+    count: usize,
+    is_leaf: bool,
 }
 
 #[derive(Debug)]
@@ -102,26 +144,63 @@ pub(super) struct TreeNode {
 impl Tree {
     /// The tree over `boxes`.
     pub fn new(boxes: Vec<Aabb>) -> Tree {
-        let mut tree = Tree { nodes: Vec::new(), order: (0..boxes.len()).collect(), boxes: Vec::new() };
+        let order = (0..boxes.len()).collect();
+        let mut tree = Tree { nodes: Vec::new(), order, boxes: Vec::new(), branches: Vec::new() };
         if !boxes.is_empty() {
             tree.build(&boxes, 0, boxes.len());
+            tree.boxes = boxes;
+            tree.branch(0);
         }
-        tree.boxes = boxes;
         tree
     }
 
     /// Fills `found` with the boxes that may reach into `prism`, in ascending order; how many it compared.
     pub fn find(&self, prism: &Prism, found: &mut Vec<usize>) -> usize {
         found.clear();
-        let visited = self.query(prism, 0, found);
+        let visited = simd::dispatch(Query { branches: &self.branches, prism, found });
         found.sort_unstable();
         visited
+    }
+
+    /// Appends the branch of a node and all that is below it; its number.
+    fn branch(&mut self, node: usize) -> usize {
+        let (mut below, mut count) = ([0; 4], 0);
+        let mut add = |k: usize| {
+            below[count] = k;
+            count += 1;
+        };
+        let is_leaf = self.nodes[node].right == 0;
+        if is_leaf {
+            self.held(&self.nodes[node]).iter().for_each(|&k| add(k));
+        } else {
+            for child in [node + 1, self.nodes[node].right] {
+                match self.nodes[child].right {
+                    0 => add(child),
+                    right => [child + 1, right].into_iter().for_each(&mut add),
+                }
+            }
+        }
+        let bounds = |k: usize| if is_leaf { &self.boxes[k] } else { &self.nodes[k].bounds };
+        let bounds = Four::of(below.map(bounds)); // of something else in place of those that are missing
+        let me = self.branches.len();
+        self.branches.push(Branch { bounds, below, count, is_leaf });
+        if !is_leaf {
+            for place in 0..count {
+                self.branches[me].below[place] = self.branch(below[place]);
+            }
+        }
+        me
+    }
+
+    /// The boxes that a node holds.
+    fn held(&self, n: &TreeNode) -> &[usize] {
+        &self.order[n.first..n.first + n.count]
     }
 
     /// Other boxes of the same things, one around all that a node of the tree holds: in the order of `any`'s nodes.
     pub fn gather(&self, boxes: &[Aabb]) -> Vec<Aabb> {
         let around = |n: &TreeNode| {
-            let held = &self.order[n.first..n.first + n.count];
+            let held = self.held(n);
             held.iter().skip(1).fold(boxes[held[0]], |b, &i| b.union(&boxes[i]))
         };
         self.nodes.iter().map(around).collect()
@@ -135,7 +214,7 @@ impl Tree {
     fn any_below(&self, node: usize, may: &impl Fn(usize, &Aabb) -> bool, is: &impl Fn(usize) -> bool) -> bool {
         let Some(n) = self.nodes.get(node).filter(|n| may(node, &n.bounds)) else { return false };
         if n.right == 0 {
-            return self.order[n.first..n.first + n.count].iter().any(|&i| is(i));
+            return self.held(n).iter().any(|&i| is(i));
         }
         self.any_below(node + 1, may, is) || self.any_below(n.right, may, is)
     }
@@ -155,19 +234,38 @@ impl Tree {
         }
         me
     }
+}
 
-    fn query(&self, prism: &Prism, node: usize, found: &mut Vec<usize>) -> usize {
-        let Some(n) = self.nodes.get(node) else { return 0 };
-        if !prism.meets(&n.bounds) {
-            return 1;
+/// The boxes of leaves that may reach into a prism; how many boxes were compared.
+struct Query<'a> {
+    branches: &'a [Branch],
+    prism: &'a Prism,
+    found: &'a mut Vec<usize>,
+}
+
+impl Kernel for Query<'_> {
+    type Output = usize;
+    #[inline(always)]
+    fn run<L: Lanes>(self) -> usize {
+        let (mut pending, mut visited) = (Stack::<usize, PENDING>::new(), 0);
+        if !self.branches.is_empty() {
+            pending.push(0);
         }
-        if n.right == 0 {
-            let leaf = &self.order[n.first..n.first + n.count];
-            found.extend(leaf.iter().filter(|&&i| prism.meets(&self.boxes[i])));
-            1 + leaf.len()
-        } else {
-            1 + self.query(prism, node + 1, found) + self.query(prism, n.right, found)
+        while let Some(k) = pending.pop() {
+            let branch = &self.branches[k];
+            visited += branch.count;
+            let overlaps = self.prism.overlaps::<L>(&branch.bounds);
+            for place in 0..branch.count {
+                if overlaps[place] >= 0.0 {
+                    if branch.is_leaf {
+                        self.found.push(branch.below[place]);
+                    } else {
+                        pending.push(branch.below[place]);
+                    }
+                }
+            }
         }
+        visited
     }
 }
 
@@ -175,6 +273,11 @@ impl Tree {
 mod tests {
     use super::*;
     use crate::geometry::Facet;
+    use crate::simd::Plain;
+
+    fn meets(prism: &Prism, b: &Aabb) -> bool {
+        prism.overlaps::<Plain>(&Four::of([b; 4]))[0] >= 0.0
+    }
 
     fn random_numbers(seed: u64) -> impl FnMut() -> f64 {
         let mut state = seed;
@@ -207,7 +310,7 @@ mod tests {
                 let prism = Prism::over(&x, &plane, 0.01);
                 let mut found = Vec::new();
                 tree.find(&prism, &mut found);
-                let expected: Vec<_> = (0..n).filter(|&i| prism.meets(&boxes[i])).collect();
+                let expected: Vec<_> = (0..n).filter(|&i| meets(&prism, &boxes[i])).collect();
                 assert_eq!(found, expected);
             }
         }
@@ -220,7 +323,7 @@ mod tests {
             let x: Vec<_> = (0..3).map(|_| Vec3::new(next(), next(), next())).collect();
             let plane = Plane::of(&Facet::new(&x).unwrap()).unwrap();
             let inside = (x[0] + x[1] + x[2]) / 3.0 + plane.e * (10.0 * next() - 5.0);
-            assert!(Prism::over(&x, &plane, 1e-12).meets(&Aabb::around([inside])));
+            assert!(meets(&Prism::over(&x, &plane, 1e-12), &Aabb::around([inside])));
         }
     }
 }

@@ -30,6 +30,14 @@ impl<T: Copy, const CAPACITY: usize> Stack<T, CAPACITY> {
         self.len += 1;
     }
 
+    /// Takes the last value off.
+    #[inline(always)]
+    pub fn pop(&mut self) -> Option<T> {
+        self.len = self.len.checked_sub(1)?;
+        // SAFETY: `push` wrote it.
+        Some(unsafe { self.values[self.len].assume_init() })
+    }
+
     /// Forgets all values.
     #[inline(always)]
     pub fn clear(&mut self) {
@@ -64,8 +72,11 @@ mod tests {
         }
         assert!(s.is_full());
         assert_eq!(s.values(), [0.0, 1.0, 2.0]);
+        assert_eq!(s.pop(), Some(2.0));
+        assert_eq!(s.values(), [0.0, 1.0]);
         s.clear();
         assert!(s.values().is_empty());
+        assert_eq!(s.pop(), None);
     }
 
     #[test]
