@@ -15,13 +15,15 @@ export PATH := $(PATH):$(HOME)/.cargo/bin
 LOCKED = mkdir -p $(BUILD) && flock $(BUILD)/.lock
 SAY    = @printf '\n== %s\n'
 
-.PHONY: help demo gallery effects bench properties test build install uninstall docs abi header meshes clean cmake-build rust-tests
+.PHONY: help demo gallery effects bench properties stability test build install uninstall docs abi header meshes clean cmake-build rust-tests
 
 help:
 	@echo "make demo    solve the example scenes, compare with the references, draw (FIGURES=1: renew the README's figures)"
 	@echo "make gallery solve, compare and draw every scene, half an hour, can be resumed; ONLY='NAME ...': some"
 	@echo "make effects what each effect of an interface costs: a table and a figure (FIGURES=1: renew the committed one)"
 	@echo "make bench   what the kernels cost, over a C++ baseline and in instructions (FIGURES=1: renew its table)"
+	@echo "make stability  hard cases x severity, each compared with an answer: build/stability/index.html; can be resumed;"
+	@echo "             QUICK=1: the part that make test runs; ONLY='FILE ...' of tests/stability/cases; FIGURES=1: as above"
 	@echo "make test    run every test and check"
 	@echo "make properties  the property tests on more than a million random pairs, ten minutes"
 	@echo "make build   build the library and the examples into $(BUILD)/"
@@ -63,6 +65,13 @@ properties:
 	@.ci/setup library
 	$(SAY) "Property tests, $(CASES) cases a law"
 	@PROPTEST_CASES=$(CASES) cargo test --locked --test properties
+
+stability:
+	@.ci/setup demo
+	@$(MAKE) --no-print-directory cmake-build
+	$(SAY) "The stability matrix"
+	@$(PYTHON) tests/stability/run.py --build $(BUILD) --jobs $(JOBS) $(if $(QUICK),--quick) $(if $(ONLY),--only $(ONLY)) \
+		$(if $(FIGURES),--renew-figures)
 
 test:
 	@.ci/setup test

@@ -102,6 +102,9 @@ BAD_SCENES = [
     BadScene("no_iterations", "", "", "steps.iterations", ("-steps_automatic", "true", "-steps_iterations", "0")),
     BadScene("broken_yaml", "schema: 1", "schema: [1", "broken_yaml.yaml"),
     BadScene("misspelt_option", "", "", "base.frictoin", ("-base_frictoin", "0.3")),
+    # their surfaces lie over each other and are no pairs: the bodies would pass through each other without a word
+    BadScene("deep_in_each_other", "", "", "base.mortar", ("-floor_upper", "4.5,1.5,0.9")),
+    BadScene("same_way", "floor.zmax, friction", "floor.zmin, friction", "base.mortar"),
     BadScene("bad_option", "", "", "steps.count", ("-steps_count", "0")),
 ]
 

@@ -15,10 +15,11 @@ PetscErrorCode contact_agree(Model *model, int32_t refused, PetscInt *status)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static void current_coordinates(Interface *interface)
+/* Current positions, from the interface's first node: far from the origin X + u would round u away. */
+void contact_positions(Interface *interface)
 {
   for (PetscInt k = 0; k < 3 * (interface->n1 + interface->n2); k++)
-    interface->x[k] = interface->X[k] + PetscRealPart(interface->gathered[k]);
+    interface->x[k] = interface->X[k] - interface->X[k % 3] + PetscRealPart(interface->gathered[k]);
 }
 
 /* The library takes x1, x2 and the multipliers: */
@@ -33,7 +34,7 @@ PetscErrorCode contact_gather(Model *model, Interface *interface, Vec local)
   PetscCall(PetscSFBcastBegin(interface->sf, MPIU_SCALAR, array, interface->gathered, MPI_REPLACE));
   PetscCall(PetscSFBcastEnd(interface->sf, MPIU_SCALAR, array, interface->gathered, MPI_REPLACE));
   PetscCall(VecRestoreArrayRead(local, &array));
-  if (model->rank == 0) current_coordinates(interface);
+  if (model->rank == 0) contact_positions(interface);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

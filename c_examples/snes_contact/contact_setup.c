@@ -44,7 +44,7 @@ static PetscErrorCode describe_surface(const Model *model, const Interface *inte
   *out               = (stickslip_surface){.struct_size = sizeof(*out)};
   out->n_nodes       = n;
   out->n_facets      = surface->n_faces;
-  out->coordinates   = interface->X + 3 * first;
+  out->coordinates   = interface->x + 3 * first;
   out->facet_offsets = surface->analytic ? NULL : offsets;
   out->facet_nodes   = surface->analytic ? NULL : *facet_nodes;
   out->equations     = interface->equations + 3 * first;
@@ -74,6 +74,23 @@ static int32_t set_constraints(const Interface *interface)
   return status;
 }
 
+/* rank 0: surfaces that lie over each other but are no pair would be passed through without a word. Where any pair has
+ * been found there is nothing to ask. */
+static PetscErrorCode check_facing(Model *model, Interface *interface)
+{
+  char               text[1024];
+  stickslip_counters counters = {.struct_size = sizeof(counters)};
+  stickslip_report   report   = {.struct_size = sizeof(report), .text = text, .text_capacity = sizeof(text)};
+  PetscFunctionBegin;
+  PetscCallStickslip(stickslip_interface_counters(interface->handle, &counters));
+  if (counters.pairs_active) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCallStickslip(
+      stickslip_interface_report(interface->handle, interface->x, interface->x + 3 * interface->n1, &report));
+  if (report.finding == STICKSLIP_FINDING_BEHIND || report.finding == STICKSLIP_FINDING_SAME_WAY)
+    scene_fail(model->scene, interface->name, "mortar", "%s", text);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode contact_create(Model *model, PetscInt *status)
 {
   PetscFunctionBegin;
@@ -94,6 +111,7 @@ PetscErrorCode contact_create(Model *model, PetscInt *status)
       int64_t          *facet_nodes[2];
       for (PetscInt k = 0; k < 3 * (interface->n1 + interface->n2); k++)
         interface->X[k] = model->mesh.coordinates[3 * interface->nodes[k / 3] + k % 3];
+      contact_positions(interface);
       for (int side = 0; side < 2; side++)
         PetscCall(describe_surface(model, interface, side, &surfaces[side], &facet_nodes[side]));
       refused = stickslip_interface_create(&surfaces[0], &surfaces[1], &interface->options, &interface->handle);
@@ -102,6 +120,10 @@ PetscErrorCode contact_create(Model *model, PetscInt *status)
         PetscCall(PetscFree(facet_nodes[side]));
     }
     PetscCall(contact_agree(model, refused, status));
+    if (*status) break;
+    scene_root_begin(model->scene);
+    if (model->rank == 0) PetscCall(check_facing(model, interface));
+    PetscCall(scene_root_end(model->scene));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -42,7 +42,7 @@ typedef struct {
   PetscInt             components; /* multipliers a node: 1, along the normal, without friction; else 3 */
   PetscInt            *removed;    /* n1: mask of directions in which both sides are prescribed: no multiplier there */
   stickslip_options    options;
-  double              *X, *x;     /* 3 (n1 + n2): reference and current coordinates */
+  double              *X, *x;     /* 3 (n1 + n2): reference coordinates; current ones, see contact_positions() */
   PetscScalar         *gathered;  /* 3 (n1 + n2) displacements, components n1 multipliers */
   PetscScalar         *forces;    /* same layout: f1, f2, multiplier rows */
   int64_t             *equations; /* same layout */
@@ -193,6 +193,7 @@ PetscErrorCode contact_agree(Model *model, int32_t refused, PetscInt *status);
 PetscErrorCode contact_create(Model *model, PetscInt *status);
 PetscErrorCode contact_destroy(Model *model);
 PetscErrorCode contact_start(Model *model, Vec x, PetscInt *status);
+void           contact_positions(Interface *interface);
 PetscErrorCode contact_gather(Model *model, Interface *interface, Vec local);
 PetscErrorCode contact_forces(Model *model, Vec f_local, PetscReal *squared_norm, PetscInt *status);
 PetscErrorCode contact_tangent(Model *model, Mat matrix, PetscInt *status);

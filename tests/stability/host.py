@@ -1,0 +1,86 @@
+"""Runs the driver on a scene that is made here, and reads what the matrix wants to know."""
+
+import json
+import re
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+
+import condition
+from cell import Outcome
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "c_examples" / "report"))
+from scene import SCENES, Driver, SceneError  # noqa: E402  (needs the path)
+
+CONVERGED, BAD_SCENE, NOT_CONVERGED, REFUSED = range(4)  # exit codes of the driver
+
+
+@dataclass
+class Context:
+    """Where a cell runs."""
+
+    build: Path
+    label: str
+
+    @property
+    def folder(self):
+        return self.build / "stability" / "runs" / self.label
+
+    def write(self, scene, name="scene"):
+        """A scene as a YAML file (flow style, which JSON is) in the cell's folder."""
+        self.folder.mkdir(parents=True, exist_ok=True)
+        path = self.folder / f"{name}.yaml"
+        path.write_text("".join(f"{key}: {json.dumps(value)}\n" for key, value in scene.items()))
+        return path
+
+    def adapted(self, name, steps):
+        """A scene of c_examples/scenes with other steps, as a file in the cell's folder."""
+        text = (SCENES / f"{name}.yaml").read_text()
+        text, found = re.subn(r"^steps:.*$", f"steps: {json.dumps(steps)}", text, flags=re.MULTILINE)
+        if found != 1:
+            raise SceneError(f"{name}.yaml: no steps in a line of their own")
+        self.folder.mkdir(parents=True, exist_ok=True)
+        path = self.folder / f"{name}.yaml"
+        path.write_text(re.sub(r"file: *(?=[^/\s])", f"file: {SCENES}/", text))
+        return path
+
+    def solve(self, scene, *options, name="run", kappa=False):
+        """The finished Run of a scene (a dict, a file, or the name of one in c_examples/scenes); any exit code."""
+        path = self.write(scene, name) if isinstance(scene, dict) else scene
+        matrix = self.folder / f"{name}_matrix.bin"
+        if kappa:
+            self.folder.mkdir(parents=True, exist_ok=True)
+            matrix.unlink(missing_ok=True)
+            options += ("-ksp_view_mat", f"binary:{matrix}")
+        run = Driver(self.build, self.folder).run(path, *options, label=name, expect=None)
+        run.kappa = None
+        if kappa and matrix.is_file():
+            run.kappa = condition.of(condition.read(matrix))
+            matrix.unlink()
+            matrix.with_name(matrix.name + ".info").unlink(missing_ok=True)
+        return run
+
+
+def message(run):
+    """The sentence with which the driver gave up."""
+    lines = [line.strip() for line in run.text.splitlines() if line.strip()]
+    told = [line for line in lines if re.match(r"(\[0\])?(snes_contact: |\S+\.yaml: )(?!\d+ unknowns)", line)]
+    return (told or lines or [""])[-1]
+
+
+def outcome(run):
+    """What every run of the driver has: iterations, what it complained of, or its refusal. Errors are the cell's to add."""
+    result = Outcome(kappa=run.kappa)
+    if run.exit_code not in (CONVERGED, BAD_SCENE, NOT_CONVERGED, REFUSED):
+        raise SceneError(f"the driver ended with {run.exit_code}, which is none of its exit codes: {message(run)}")
+    if run.exit_code != CONVERGED:
+        result.refusal = message(run)
+        return result
+    result.iterations = run.newton_iterations
+    if run.summary["cutbacks"]:
+        result.warnings.append(f"{run.summary['cutbacks']} cut-backs")
+    cycles = sum(len(step.get("cycles", ())) for step in run.steps)
+    if cycles:
+        result.warnings.append(f"{cycles} cycles found and ended")
+    result.figures["seconds"] = run.seconds
+    return result
