@@ -91,6 +91,21 @@ module stickslip
 
   integer(c_int32_t), parameter :: STICKSLIP_QUADRATURE_DEGREE_5 = 0
   integer(c_int32_t), parameter :: STICKSLIP_QUADRATURE_DEGREE_10 = 1
+  integer(c_int32_t), parameter :: STICKSLIP_QUADRATURE_DEGREE_1 = 2
+  integer(c_int32_t), parameter :: STICKSLIP_QUADRATURE_DEGREE_2 = 3
+  integer(c_int32_t), parameter :: STICKSLIP_QUADRATURE_DEGREE_4 = 4
+  integer(c_int32_t), parameter :: STICKSLIP_QUADRATURE_DEGREE_6 = 5
+
+  ! Weights over cells of each overlap; over points on each non-mortar facet, patch tests fail; over cells where such a
+  ! facet is partly covered, points elsewhere.
+  integer(c_int32_t), parameter :: STICKSLIP_INTEGRATION_SEGMENTS = 0
+  integer(c_int32_t), parameter :: STICKSLIP_INTEGRATION_ELEMENTS = 1
+  integer(c_int32_t), parameter :: STICKSLIP_INTEGRATION_HYBRID = 2
+
+  ! The tangent: exact; with weights of now as constants; without the tilt of facets.
+  integer(c_int32_t), parameter :: STICKSLIP_TANGENT_EXACT = 0
+  integer(c_int32_t), parameter :: STICKSLIP_TANGENT_FROZEN_WEIGHTS = 1
+  integer(c_int32_t), parameter :: STICKSLIP_TANGENT_FROZEN_NORMALS = 2
 
   integer(c_int32_t), parameter :: STICKSLIP_ROW_SCALE_FORCE = 0
   integer(c_int32_t), parameter :: STICKSLIP_ROW_SCALE_NONE = 1
@@ -128,12 +143,12 @@ module stickslip
   integer(c_int32_t), parameter :: STICKSLIP_STATE_SLIP = 2
 
   ! Sizes of the types in bytes (64-bit machines), their struct_size.
-  integer(c_int64_t), parameter :: stickslip_options_size = 104
+  integer(c_int64_t), parameter :: stickslip_options_size = 120
   integer(c_int64_t), parameter :: stickslip_surface_size = 72
   integer(c_int64_t), parameter :: stickslip_states_size = 80
   integer(c_int64_t), parameter :: stickslip_counters_size = 192
   integer(c_int64_t), parameter :: stickslip_report_size = 104
-  integer(c_int64_t), parameter :: stickslip_pair_size = 40
+  integer(c_int64_t), parameter :: stickslip_pair_size = 48
   integer(c_int64_t), parameter :: stickslip_node_response_size = 408
   integer(c_int64_t), parameter :: stickslip_node_size = 224
 
@@ -165,6 +180,9 @@ module stickslip
     integer(c_int32_t) :: no_shortcuts = 0         ! sum of STICKSLIP_SHORTCUT_...; 0: all are taken
     integer(c_int32_t) :: shape = 0                ! STICKSLIP_SHAPE_... with STICKSLIP_MORTAR_ANALYTIC, else 0
     real(c_double) :: radius = 0                   ! of sphere and cylinder [L]; < 0: the body is outside
+    integer(c_int32_t) :: integration = 0          ! STICKSLIP_INTEGRATION_...
+    integer(c_int32_t) :: tangent = 0              ! STICKSLIP_TANGENT_...
+    integer(c_int64_t) :: element_points = 0       ! along a side, without SEGMENTS: 2 to 10; 0: 4
   end type
 
   ! One surface of an interface. nf facets with 3 or 4 nodes each.
@@ -250,6 +268,7 @@ module stickslip
     type(c_ptr) :: x2 = c_null_ptr                 ! real(c_double) (3, n2) [L]
     integer(c_int32_t) :: quadrature = STICKSLIP_QUADRATURE_DEGREE_5
     integer(c_int32_t) :: layout = STICKSLIP_LAYOUT_COLUMN_MAJOR ! of the tangent: k(row, column)
+    integer(c_int64_t) :: element_points = 0       ! 0: cells; 2 to 10: points along a side
   end type
 
   ! The law's answer for one node. Matrices are row-major in C, so dp_dlambda(j, i) = dp_i / dlambda_j.

@@ -219,6 +219,40 @@
 /// 36 points a triangle, degree 10: for warped or distorted quadrilaterals where accuracy counts.
 #define STICKSLIP_QUADRATURE_DEGREE_10 1
 
+/// 1 point a triangle, degree 1: for comparisons. Of this and the next the weights are not exact on any facet, and patch
+/// tests fail; the tangent is that of exact weights, so that Newton's method converges linearly.
+#define STICKSLIP_QUADRATURE_DEGREE_1 2
+
+/// 3 points a triangle, degree 2: for comparisons.
+#define STICKSLIP_QUADRATURE_DEGREE_2 3
+
+/// 6 points a triangle, degree 4: weights exact for triangles and parallelograms; the tangent takes the default rule.
+#define STICKSLIP_QUADRATURE_DEGREE_4 4
+
+/// 12 points a triangle, degree 6: for warped or distorted quadrilaterals.
+#define STICKSLIP_QUADRATURE_DEGREE_6 5
+
+/// Weights over cells of each overlap. Default.
+#define STICKSLIP_INTEGRATION_SEGMENTS 0
+
+/// Over element_points x element_points points on each non-mortar facet, each where it falls on a mortar facet: no
+/// clipping. Functions with kinks at the mortar edges are integrated as if they were smooth: patch tests fail, however
+/// many points there are. The tangent is that of the sums; they jump where a point passes a mortar edge.
+#define STICKSLIP_INTEGRATION_ELEMENTS 1
+
+/// As ELEMENTS; but cells for all pairs of a non-mortar facet of which a point or a corner is uncovered. Patch tests fail.
+#define STICKSLIP_INTEGRATION_HYBRID 2
+
+/// The tangent is exact. Default.
+#define STICKSLIP_TANGENT_EXACT 0
+
+/// Weights of now, but constants in the tangent: fewer entries, no derivatives; Newton's method converges linearly.
+#define STICKSLIP_TANGENT_FROZEN_WEIGHTS 1
+
+/// The tangent leaves out that facets' planes tilt: converges linearly too, at no saving worth the name; for
+/// comparisons with codes that do so. Exact against an analytic mortar side.
+#define STICKSLIP_TANGENT_FROZEN_NORMALS 2
+
 /// Multiplier rows times r_A M_A: M_A (p_A - lambda_A), a force. Default.
 #define STICKSLIP_ROW_SCALE_FORCE 0
 
@@ -340,6 +374,12 @@ typedef struct stickslip_options {
   /// With STICKSLIP_MORTAR_ANALYTIC [L]. Sphere, cylinder: > 0: a ball, a bar; < 0: a cavity, a bore, the body
   /// outside. Plane, and where there is no shape: 0.
   double radius;
+  /// STICKSLIP_INTEGRATION_... (of no effect against an analytic mortar side: there is nothing to clip).
+  int32_t integration;
+  /// STICKSLIP_TANGENT_... (of no effect with frozen weights). The answer does not depend on it.
+  int32_t tangent;
+  /// Points along a side with STICKSLIP_INTEGRATION_ELEMENTS and HYBRID: 2 to 10; 0 (default): 4. Otherwise 0.
+  int64_t element_points;
 } stickslip_options;
 
 /// One surface of an interface.
@@ -512,6 +552,9 @@ typedef struct stickslip_pair {
   int32_t quadrature;
   /// STICKSLIP_LAYOUT_... of the tangent.
   int32_t layout;
+  /// 0 (default): weights over cells of the overlap; 2 to 10: over so many points squared on the non-mortar facet,
+  /// those that fall on the mortar facet (STICKSLIP_INTEGRATION_ELEMENTS; quadrature is not used).
+  int64_t element_points;
 } stickslip_pair;
 
 /// The law's answer for one node. Matrices are row-major 3 x 3 and not symmetric: in Fortran m(j, i) is row i,

@@ -83,6 +83,7 @@ fn c_element_calls_allocate_nothing() {
                 x2: x2.as_ptr(),
                 quadrature,
                 layout: STICKSLIP_LAYOUT_COLUMN_MAJOR,
+                element_points: 0,
             };
             c_calls(&pair);
         }

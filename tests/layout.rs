@@ -65,7 +65,10 @@ fn layouts() -> Vec<Layout> {
             search_distance,
             no_shortcuts,
             shape,
-            radius
+            radius,
+            integration,
+            tangent,
+            element_points
         }),
         layout!(stickslip_states {
             struct_size,
@@ -151,7 +154,7 @@ fn layouts() -> Vec<Layout> {
             drow_dnow,
             drow_dprevious
         }),
-        layout!(stickslip_pair { struct_size, n1, n2, x1, x2, quadrature, layout }),
+        layout!(stickslip_pair { struct_size, n1, n2, x1, x2, quadrature, layout, element_points }),
     ]
 }
 

@@ -4,9 +4,9 @@
 mod support;
 
 use stickslip::geometry::Vec3;
-use stickslip::interface::{Form, Options, Weights};
+use stickslip::interface::{Form, Options, Tangent, Weights};
 use stickslip::law::{SlipMeasure, State};
-use stickslip::quadrature::{DEGREE_5, DEGREE_10};
+use stickslip::quadrature::{DEGREE_1, DEGREE_2, DEGREE_4, DEGREE_5, DEGREE_6, DEGREE_10};
 use support::differences::Point;
 use support::max_abs;
 use support::mesh::*;
@@ -131,4 +131,40 @@ fn symmetric_exactly_when_weights_are_frozen_and_nothing_slips() {
     };
     assert!(asymmetry(Weights::Reference) <= 1e-14);
     assert!(asymmetry(Weights::Current) > 1e-3);
+}
+
+/// Frozen weights: what is left is the tangent at constant weights. Frozen normals: exact where nothing lies off the
+/// plane, not elsewhere.
+#[test]
+fn frozen_tangents_leave_out_what_they_say() {
+    let rough = Roughness { warp: 0.05, jitter: 0.08, slide: 0.02 };
+    for rough in [FLAT, rough] {
+        let errors = [Tangent::Exact, Tangent::FrozenNormals, Tangent::FrozenWeights].map(|tangent| {
+            let options = Options { tangent, rule: &DEGREE_10, ..options() };
+            moved(&options, [Cells::Quads, Cells::Quads], rough, 7).at().difference_error(1.0)
+        });
+        assert!(errors[0] < DIFFERENCES_WARPED_DEGREE_10, "{errors:?}");
+        // Gaps of a hundredth of a facet; multipliers over a facet's length.
+        assert!(errors[1] > 1e-3 && errors[2] > 1e-2, "{errors:?}");
+    }
+    let mut plane = moved(&Options { tangent: Tangent::FrozenNormals, ..options() }, [Cells::Quads; 2], FLAT, 7);
+    (plane.x1, plane.x2) = (plane.interface.history().x1.clone(), plane.interface.history().x2.clone());
+    let error = plane.at().difference_error(1.0);
+    assert!(error <= DIFFERENCES, "coplanar: off by {error:e}");
+}
+
+/// Rules below degree 5 have the tangent of the exact weights of affine facets.
+#[test]
+fn coarse_rules_have_the_tangent_of_the_default_rule() {
+    let error_of = |rule| {
+        let mut scene = moved(&Options { rule, ..options() }, [Cells::Quads, Cells::Quads], FLAT, 7);
+        scene.at().difference_error(1.0)
+    };
+    assert!(error_of(&DEGREE_4) <= DIFFERENCES);
+    assert!(error_of(&DEGREE_6) <= DIFFERENCES);
+    // Far from the derivative of their own sums, but no nonsense.
+    for rule in [&DEGREE_1, &DEGREE_2] {
+        let error = error_of(rule);
+        assert!((1e-3..1.0).contains(&error), "degree {}: {error:e}", rule.degree);
+    }
 }

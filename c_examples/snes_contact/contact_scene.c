@@ -168,6 +168,33 @@ static void read_method(Scene *scene, Interface *interface)
   options->search_distance = distance;
 }
 
+/* What a rule is called in a scene, by STICKSLIP_QUADRATURE_... */
+static const char *const RULES[] = {"degree_5", "degree_10", "degree_1", "degree_2", "degree_4", "degree_6", NULL};
+
+/* `quadrature`, `integration`, `points`, `tangent`: what accuracy may cost. */
+static void read_accuracy(Scene *scene, Interface *interface)
+{
+  static const char *const integrations[] = {"segments", "elements", "hybrid", NULL};
+  static const char *const tangents[]     = {"exact", "frozen_weights", "frozen_normals", NULL};
+  stickslip_options       *options        = &interface->options;
+  const char              *name           = interface->name;
+  PetscInt rule = STICKSLIP_QUADRATURE_DEGREE_5, integration = STICKSLIP_INTEGRATION_SEGMENTS,
+           tangent = STICKSLIP_TANGENT_EXACT, points = 0;
+
+  scene_choice(scene, name, "quadrature", RULES, &rule);
+  scene_choice(scene, name, "integration", integrations, &integration);
+  scene_int(scene, name, "points", &points);
+  scene_choice(scene, name, "tangent", tangents, &tangent);
+  if (scene_has(scene, name, "points") && integration == STICKSLIP_INTEGRATION_SEGMENTS)
+    scene_fail(scene, name, "points", "it needs 'integration: elements' or 'hybrid'.");
+  if (scene_has(scene, name, "points") && (points < 2 || points > 10))
+    scene_fail(scene, name, "points", "2 to 10 are possible.");
+  options->quadrature     = (int32_t)rule;
+  options->integration    = (int32_t)integration;
+  options->tangent        = (int32_t)tangent;
+  options->element_points = points;
+}
+
 PetscErrorCode contact_read(Model *model)
 {
   Scene *scene = model->scene;
@@ -183,6 +210,7 @@ PetscErrorCode contact_read(Model *model)
     read_law(scene, interface);
     read_effects(scene, interface);
     read_method(scene, interface);
+    read_accuracy(scene, interface);
   }
   strings_destroy(model->n_interfaces, &names);
   scene_root_begin(scene);

@@ -5,10 +5,11 @@ use super::sized::{self, Sized64};
 use crate::error::{Error, Kind, Result};
 use crate::geometry::AnalyticShape;
 use crate::interface::{
-    COVERAGE_MIN, Form, Friction, MortarSide, NewContact, Options, RowScale, Shortcuts, Stiffness, Weights,
+    COVERAGE_MIN, Form, Friction, MortarSide, NewContact, Options, RowScale, Scheme, Shortcuts, Stiffness, Tangent,
+    Weights,
 };
 use crate::law::SlipMeasure;
-use crate::quadrature::{DEGREE_5, DEGREE_10, Rule};
+use crate::quadrature::{DEGREE_1, DEGREE_2, DEGREE_4, DEGREE_5, DEGREE_6, DEGREE_10, Rule, cell};
 
 /// Forces use lambda, rows the projection; the tangent is a sum of pairs and nodes. Default.
 pub const STICKSLIP_FORM_MULTIPLIER: i32 = 0;
@@ -67,6 +68,30 @@ pub const STICKSLIP_BASIS_DUAL: i32 = 1;
 pub const STICKSLIP_QUADRATURE_DEGREE_5: i32 = 0;
 /// 36 points a triangle, degree 10: for warped or distorted quadrilaterals where accuracy counts.
 pub const STICKSLIP_QUADRATURE_DEGREE_10: i32 = 1;
+/// 1 point a triangle, degree 1: for comparisons. Of this and the next the weights are not exact on any facet, and patch
+/// tests fail; the tangent is that of exact weights, so that Newton's method converges linearly.
+pub const STICKSLIP_QUADRATURE_DEGREE_1: i32 = 2;
+/// 3 points a triangle, degree 2: for comparisons.
+pub const STICKSLIP_QUADRATURE_DEGREE_2: i32 = 3;
+/// 6 points a triangle, degree 4: weights exact for triangles and parallelograms; the tangent takes the default rule.
+pub const STICKSLIP_QUADRATURE_DEGREE_4: i32 = 4;
+/// 12 points a triangle, degree 6: for warped or distorted quadrilaterals.
+pub const STICKSLIP_QUADRATURE_DEGREE_6: i32 = 5;
+/// Weights over cells of each overlap. Default.
+pub const STICKSLIP_INTEGRATION_SEGMENTS: i32 = 0;
+/// Over element_points x element_points points on each non-mortar facet, each where it falls on a mortar facet: no
+/// clipping. Functions with kinks at the mortar edges are integrated as if they were smooth: patch tests fail, however
+/// many points there are. The tangent is that of the sums; they jump where a point passes a mortar edge.
+pub const STICKSLIP_INTEGRATION_ELEMENTS: i32 = 1;
+/// As ELEMENTS; but cells for all pairs of a non-mortar facet of which a point or a corner is uncovered. Patch tests fail.
+pub const STICKSLIP_INTEGRATION_HYBRID: i32 = 2;
+/// The tangent is exact. Default.
+pub const STICKSLIP_TANGENT_EXACT: i32 = 0;
+/// Weights of now, but constants in the tangent: fewer entries, no derivatives; Newton's method converges linearly.
+pub const STICKSLIP_TANGENT_FROZEN_WEIGHTS: i32 = 1;
+/// The tangent leaves out that facets' planes tilt: converges linearly too, at no saving worth the name; for
+/// comparisons with codes that do so. Exact against an analytic mortar side.
+pub const STICKSLIP_TANGENT_FROZEN_NORMALS: i32 = 2;
 /// Multiplier rows times r_A M_A: M_A (p_A - lambda_A), a force. Default.
 pub const STICKSLIP_ROW_SCALE_FORCE: i32 = 0;
 /// Multiplier rows as in the paper [L^3].
@@ -127,6 +152,12 @@ pub struct stickslip_options {
     /// With STICKSLIP_MORTAR_ANALYTIC [L]. Sphere, cylinder: > 0: a ball, a bar; < 0: a cavity, a bore, the body
     /// outside. Plane, and where there is no shape: 0.
     pub radius: f64,
+    /// STICKSLIP_INTEGRATION_... (of no effect against an analytic mortar side: there is nothing to clip).
+    pub integration: i32,
+    /// STICKSLIP_TANGENT_... (of no effect with frozen weights). The answer does not depend on it.
+    pub tangent: i32,
+    /// Points along a side with STICKSLIP_INTEGRATION_ELEMENTS and HYBRID: 2 to 10; 0 (default): 4. Otherwise 0.
+    pub element_points: i64,
 }
 
 // SAFETY: repr(C), struct_size first, numbers only.
@@ -163,6 +194,9 @@ pub unsafe extern "C" fn stickslip_options_init(options: *mut stickslip_options,
             no_shortcuts: 0,
             shape: STICKSLIP_SHAPE_PLANE,
             radius: 0.0,
+            integration: STICKSLIP_INTEGRATION_SEGMENTS,
+            tangent: STICKSLIP_TANGENT_EXACT,
+            element_points: 0,
         };
         sized::initialise(options, struct_size, defaults, "options")
     })
@@ -201,7 +235,31 @@ fn read_shortcuts(off: i32) -> Result<Shortcuts> {
 
 /// The rule of a STICKSLIP_QUADRATURE_... value.
 pub(super) fn rule(value: i32, name: &str) -> Result<&'static Rule> {
-    choose(value, name, &[&DEGREE_5, &DEGREE_10], 2)
+    choose(value, name, &[&DEGREE_5, &DEGREE_10, &DEGREE_1, &DEGREE_2, &DEGREE_4, &DEGREE_6], 6)
+}
+
+/// What `element_points` 0 means where points are asked for.
+const ELEMENT_POINTS: i64 = 4;
+
+/// The Gauss points of `points` along a side.
+pub(super) fn element_line(points: i64, name: &str) -> Result<&'static [[f64; 2]]> {
+    usize::try_from(points).ok().and_then(cell::line_of).ok_or_else(|| {
+        let [least, most] = cell::POINTS;
+        Error::new(Kind::InvalidValue, format!("{name} is {points}; {least} to {most} is allowed"))
+    })
+}
+
+fn read_scheme(integration: i32, points: i64) -> Result<Scheme> {
+    let by_points: [Option<fn(_) -> _>; 3] = [None, Some(Scheme::Elements), Some(Scheme::Hybrid)];
+    let name = "options.element_points";
+    match choose(integration, "options.integration", &by_points, 3)? {
+        Some(by_points) => Ok(by_points(element_line(if points == 0 { ELEMENT_POINTS } else { points }, name)?)),
+        None if points == 0 => Ok(Scheme::Segments),
+        None => {
+            let text = format!("{name} is {points}; it must be 0 with STICKSLIP_INTEGRATION_SEGMENTS");
+            Err(Error::new(Kind::InvalidValue, text))
+        }
+    }
 }
 
 /// The measure of a STICKSLIP_SLIP_... value.
@@ -263,6 +321,9 @@ pub(super) fn read_options(p: *const stickslip_options) -> Result<Choices> {
         no_shortcuts,
         shape,
         radius,
+        integration,
+        tangent,
+        element_points,
     } = sized::read(p)?;
     let laws = [Friction::Coulomb, Friction::None, Friction::Tied, Friction::Rough];
     let friction = choose(friction, "options.friction", &laws, 4)?;
@@ -303,6 +364,13 @@ pub(super) fn read_options(p: *const stickslip_options) -> Result<Choices> {
         slip: slip_measure(slip, "options.slip")?,
         weights: choose(weights, "options.weights", &[Weights::Current, Weights::Committed, Weights::Reference], 3)?,
         rule: rule(quadrature, "options.quadrature")?,
+        scheme: read_scheme(integration, element_points)?,
+        tangent: choose(
+            tangent,
+            "options.tangent",
+            &[Tangent::Exact, Tangent::FrozenWeights, Tangent::FrozenNormals],
+            3,
+        )?,
         row_scale: choose(row_scale, "options.row_scale", &[RowScale::Force, RowScale::None], 2)?,
         new_contact: choose(
             new_contact,

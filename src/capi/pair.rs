@@ -3,7 +3,7 @@
 use super::facet::facet;
 use super::guard::guard;
 use super::node::stickslip_node_response;
-use super::options::rule;
+use super::options::{element_line, rule};
 use super::raw::{self, Output};
 use super::sized::{self, Sized64};
 use crate::element::{FacetResponse, NodeTangent, PairNow, PairTangent, pair_force, row_columns};
@@ -37,6 +37,9 @@ pub struct stickslip_pair {
     pub quadrature: i32,
     /// STICKSLIP_LAYOUT_... of the tangent.
     pub layout: i32,
+    /// 0 (default): weights over cells of the overlap; 2 to 10: over so many points squared on the non-mortar facet,
+    /// those that fall on the mortar facet (STICKSLIP_INTEGRATION_ELEMENTS; quadrature is not used).
+    pub element_points: i64,
 }
 
 // SAFETY: repr(C), struct_size first, integers and raw pointers only.
@@ -132,7 +135,11 @@ pub unsafe extern "C" fn stickslip_pair_weights(
             raw::check_optional(p, name)?;
         }
         let frame = NonmortarFrame::new(&pair.one).map_err(raw::named("pair.x1"))?;
-        let segment = Segment::new(&frame, &pair.two).map_err(raw::named("pair.x2"))?;
+        let segment = match pair.raw.element_points {
+            0 => Segment::new(&frame, &pair.two),
+            points => Segment::of_points(&frame, &pair.two, element_line(points, "pair.element_points")?),
+        };
+        let segment = segment.map_err(raw::named("pair.x2"))?;
         let (n1, n2) = pair.n();
         let wanted = !(dn_ab.is_null() && dn_ac.is_null());
         let (mut w, mut d) = (PairWeights::default(), WeightDerivatives::default());

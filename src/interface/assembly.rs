@@ -7,7 +7,7 @@
 use super::augmented::NodeCouplings;
 use super::history::PairRecord;
 use super::nodes::NodeSums;
-use super::{Contact, FacetNodes, Form, NO_EQUATION, Weights, effects};
+use super::{Contact, FacetNodes, Form, NO_EQUATION, effects};
 use crate::element::{FacetResponse, NodeTangent, PairNow, PairTangent, pair_force, row_columns};
 use crate::error::{Error, Kind, Result};
 use crate::geometry::{Mat3, Vec3};
@@ -169,7 +169,10 @@ impl<const N: usize> Contact<N> {
             return Err(Error::new(Kind::Unsupported, text));
         }
         let responses = self.responses(x1, x2, lambda, sums)?;
-        self.ensure_segments()?;
+        let differentiates = self.options.differentiates_weights();
+        if differentiates {
+            self.ensure_segments()?;
+        }
         let start = Instant::now();
         let mut linearised = 0;
         let mut couplings = self.augmented_couplings();
@@ -185,7 +188,7 @@ impl<const N: usize> Contact<N> {
             facet.acts = false;
             for (place, pair) in pairs.iter().enumerate() {
                 let mut gap = None;
-                if let (Some(weights), Some(k)) = (pair.now, &self.integration) {
+                if let (Some(weights), Some(k)) = (pair.now, self.integration.as_ref().filter(|_| differentiates)) {
                     let overlap = (&k.frames[pair.one], k.segments.get(pair.place));
                     let (rule, p, f) = (self.options.rule, &nodes.traction, &mut t.forces);
                     gap = Some((self.kernels.motion)((&self.mortar, x2), overlap, weights, rule, p, f)?);
@@ -333,7 +336,7 @@ impl<const N: usize> Contact<N> {
         let (one, two) = (&self.nonmortar.facets[pair.one], &self.mortar.facets[pair.two]);
         let (one, two) = (Equations::of(one, &self.nonmortar.equations), Equations::of(two, &self.mortar.equations));
         let multipliers = self.facet_multipliers(pair.one);
-        if pair.now.is_some() && self.options.effective_weights() == Weights::Current {
+        if pair.now.is_some() && self.options.differentiates_weights() {
             sink.add_block(one.rows(), two.columns(), t.forces.one[MORTAR..].flat());
             sink.add_block(two.rows(), one.columns(), t.forces.two[..MORTAR].flat());
             sink.add_block(two.rows(), two.columns(), t.forces.two[MORTAR..].flat());
@@ -347,7 +350,7 @@ impl<const N: usize> Contact<N> {
     /// What a facet's pairs have in common: rows and columns of the non-mortar side.
     fn emit_facet(&self, f: usize, t: &FacetTangent<N>, normals: &[Vec3], sink: &mut dyn Sink) {
         let one = Equations::of(&self.nonmortar.facets[f], &self.nonmortar.equations);
-        if t.acts && self.options.effective_weights() == Weights::Current {
+        if t.acts && self.options.differentiates_weights() {
             sink.add_block(one.rows(), one.columns(), t.forces.flat());
         }
         if t.acts && self.options.form == Form::Multiplier {

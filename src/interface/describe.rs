@@ -1,6 +1,6 @@
 //! What an interface computes and why, one sentence an effect, for a host's log.
 
-use super::{Contact, Friction, MortarSide, NO_EQUATION, Weights};
+use super::{Contact, Friction, MortarSide, NO_EQUATION, Scheme, Tangent, Weights};
 
 impl<const N: usize> Contact<N> {
     /// One sentence per effect: what is computed, and whether the options ask for it or the scene lets the library
@@ -12,6 +12,7 @@ impl<const N: usize> Contact<N> {
             self.weights_sentence(),
             self.apart_sentence(),
             self.uncovered_sentence(),
+            self.integration_sentence(),
         ];
         sentences.join(" ")
     }
@@ -60,7 +61,38 @@ impl<const N: usize> Contact<N> {
             }
             Weights::Reference => "frozen at the first configuration (asked for), always reused (small sliding)",
         };
-        format!("Weights: {what}.")
+        format!("Weights: {what}{}.", self.tangent_clause())
+    }
+
+    /// What the tangent leaves out.
+    fn tangent_clause(&self) -> &'static str {
+        match (self.options.effective_weights(), self.options.tangent) {
+            (Weights::Committed | Weights::Reference, _) | (_, Tangent::Exact) => "",
+            (_, Tangent::FrozenWeights) => ", but not in the tangent (asked for): Newton's method is not quadratic",
+            (_, Tangent::FrozenNormals) if self.mortar.analytic.is_some() => "",
+            (_, Tangent::FrozenNormals) => {
+                ", but for the tilt of facets in the tangent (asked for): Newton's method is not quadratic"
+            }
+        }
+    }
+
+    fn integration_sentence(&self) -> String {
+        const NOT_EXACT: &str = "not exact across mortar edges: patch tests fail";
+        let points = self.options.rule.triangle.len();
+        let degree = self.options.rule.degree;
+        let coarse = if degree < 4 { ", not exact on any facet (asked for): patch tests fail" } else { "" };
+        let what = match self.options.scheme {
+            _ if self.mortar.analytic.is_some() => "over whole facets".into(),
+            Scheme::Segments => format!("over cells of each overlap, {points} points a triangle{coarse}"),
+            Scheme::Elements(line) => {
+                format!("{0} x {0} points on each non-mortar facet (asked for), no clipping; {NOT_EXACT}", line.len())
+            }
+            Scheme::Hybrid(line) => format!(
+                "{0} x {0} points on each non-mortar facet, cells where it is partly covered (asked for); {NOT_EXACT}",
+                line.len()
+            ),
+        };
+        format!("Integration: {what}.")
     }
 
     fn apart_sentence(&self) -> String {

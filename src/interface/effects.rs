@@ -5,7 +5,7 @@
 
 use super::assembly::Sink;
 use super::nodes::NodeSums;
-use super::{Contact, Friction, MortarSide, NO_EQUATION, Options, Surface, analytic, integration};
+use super::{Contact, Friction, MortarSide, NO_EQUATION, Options, Surface, Tangent, analytic, integration};
 use crate::error::Result;
 use crate::geometry::Vec3;
 use crate::law::{Coulomb, Frictionless, Law, Node, NodeResponse, Tied};
@@ -14,7 +14,7 @@ use crate::quadrature::Rule;
 use crate::shape::MAX_NODES;
 use nalgebra::{SMatrix, SVector};
 
-type Tangent<const N: usize> =
+type Assembly<const N: usize> =
     fn(&mut Contact<N>, &[Vec3], &[Vec3], &[SVector<f64, N>], Option<&[NodeSums]>, &mut dyn Sink) -> Result<()>;
 
 /// Derivatives of a pair with its weights of now: mortar surface and positions, the non-mortar facet's frame and the
@@ -39,7 +39,7 @@ pub(super) struct Kernels<const N: usize> {
     /// The law.
     pub respond: fn(&Node<N>) -> NodeResponse<N>,
     /// Stages 3 and 4 of the tangent.
-    pub tangent: Tangent<N>,
+    pub tangent: Assembly<N>,
     /// Derivatives of a pair.
     pub motion: PairMotion,
 }
@@ -51,27 +51,30 @@ enum Side {
     Analytic,
 }
 
-fn kernels<const N: usize, L: Law<N>>(side: Side) -> Kernels<N> {
+fn kernels<const N: usize, L: Law<N>>((side, derivatives): (Side, Tangent)) -> Kernels<N> {
     let moves = matches!(side, Side::Moves);
     let tangent = if moves { Contact::tangent_with::<true> } else { Contact::tangent_with::<false> };
-    let motion = match side {
-        Side::Moves => integration::motion::<true>,
-        Side::Rests => integration::motion::<false>,
-        Side::Analytic => analytic::motion,
+    let motion = match (side, derivatives == Tangent::FrozenNormals) {
+        (Side::Moves, false) => integration::motion::<true>,
+        (Side::Moves, true) => integration::motion_without_tilt::<true>,
+        (Side::Rests, false) => integration::motion::<false>,
+        (Side::Rests, true) => integration::motion_without_tilt::<false>,
+        (Side::Analytic, _) => analytic::motion,
     };
     Kernels { slips: L::SLIPS, moves, respond: L::respond, tangent, motion }
 }
 
-/// Facets move when asked for, or because a node has an equation.
-fn mortar_side(options: &Options, mortar: &Surface) -> Side {
+/// Facets move when asked for, or because a node has an equation. With what the tangent is to know.
+fn mortar_side(options: &Options, mortar: &Surface) -> (Side, Tangent) {
     let prescribed = || mortar.equations.iter().flatten().all(|&e| e == NO_EQUATION);
-    if mortar.analytic.is_some() {
+    let side = if mortar.analytic.is_some() {
         Side::Analytic
     } else if options.mortar_side == MortarSide::Rigid || (options.shortcuts.rigid && prescribed()) {
         Side::Rests
     } else {
         Side::Moves
-    }
+    };
+    (side, options.tangent)
 }
 
 /// One multiplier a node: without friction.

@@ -9,10 +9,10 @@ use super::filter::{FacetFilter, Filter};
 use super::history::{History, Keeps, PairRecord};
 use super::nodes::{NodeSums, assemble};
 use super::search::{Aabb, Prism, Tree};
-use super::{Contact, Counters, Options, Surface, Weights, analytic, apart};
+use super::{Contact, Counters, Options, Scheme, Surface, Weights, analytic, apart};
 use crate::error::{Error, Kind, Result};
-use crate::geometry::Vec3;
-use crate::mortar::{ForceDerivatives, GapDerivative, NonmortarFrame, PairWeights, Segment, pair_motion};
+use crate::geometry::{Facet, Vec3};
+use crate::mortar::{CellPoints, ForceDerivatives, GapDerivative, NonmortarFrame, PairWeights, Segment, pair_motion};
 use crate::normal;
 use crate::quadrature::Rule;
 use crate::shape::MAX_NODES;
@@ -26,6 +26,9 @@ const SKIN: f64 = 0.25;
 /// A node covered more than this over its area lies under several layers of the mortar surface, and
 /// their gaps would be added up. Far above the quadrature error of distorted quads.
 const MOST_COVERAGE: f64 = 1.01;
+/// The same of a rule that does not integrate the shape functions of parallelograms: one point on each half of a square
+/// gives two of its nodes 10/9 of their area.
+const MOST_COVERAGE_COARSE: f64 = 1.5;
 
 /// The active pairs at one configuration.
 #[derive(Debug)]
@@ -40,6 +43,29 @@ pub(super) struct Integration {
     pub sums: Option<Vec<NodeSums>>,
     /// Nothing was looked at: the surfaces are apart, here and at t_n.
     pub apart: bool,
+}
+
+impl Integration {
+    /// Adds those of a facet's candidates that have an overlap.
+    fn add(
+        &mut self,
+        (one, two): (&Surface, &Surface),
+        candidates: &[(usize, usize)],
+        rule: &Rule,
+        overlap: impl Fn(&NonmortarFrame, &Facet) -> Result<Option<Segment>>,
+    ) -> Result<()> {
+        for &(i, j) in candidates {
+            let frame = &self.frames[i];
+            match overlap(frame, &two.facet(j, &self.x2)) {
+                Ok(Some(segment)) => self.segments.push(segment),
+                Ok(None) => continue,
+                Err(e) => return Err(at_facet(one.side, i)(at_facet(two.side, j)(e))),
+            }
+            let segment = &self.segments[self.segments.len() - 1];
+            self.pairs.push(PairRecord { one: i, two: j, weights: PairWeights::integrate(frame, segment, rule) });
+        }
+        Ok(())
+    }
 }
 
 /// A configuration that becomes t_n, with nothing slipped.
@@ -132,22 +158,38 @@ pub(super) fn integrate(
     counters.seconds_search += start.elapsed().as_secs_f64();
 
     let start = Instant::now();
-    // Large, too; candidates that do not overlap are few.
-    let (mut pairs, mut segments) = (Vec::with_capacity(candidates.len()), Vec::with_capacity(candidates.len()));
-    for &(i, j) in &candidates {
-        counters.pairs_tested += 1;
-        match Segment::new(&frames[i], &two.facet(j, x2)) {
-            Ok(Some(segment)) => segments.push(segment),
-            Ok(None) => continue,
-            Err(e) => return Err(at_facet(one.side, i)(at_facet(two.side, j)(e))),
+    let mut active = Integration {
+        x1: x1.to_vec(),
+        x2: x2.to_vec(),
+        frames,
+        // Large, too; candidates that do not overlap are few.
+        pairs: Vec::with_capacity(candidates.len()),
+        segments: Vec::with_capacity(candidates.len()),
+        sums: None,
+        apart: false,
+    };
+    for candidates in candidates.chunk_by(|p, q| p.0 == q.0) {
+        let (i, first) = (candidates[0].0, active.pairs.len());
+        counters.pairs_tested += candidates.len() as i64;
+        if let Scheme::Elements(line) | Scheme::Hybrid(line) = options.scheme {
+            let by_points = |frame: &_, facet: &_| Segment::of_points(frame, facet, line);
+            active.add((one, two), candidates, options.rule, by_points)?;
+            let covered = active.segments[first..].iter().flat_map(|s| s.points).fold(0, |all, p| all | p.inside);
+            let wholly = covered == CellPoints::all(&active.frames[i], line);
+            if wholly || matches!(options.scheme, Scheme::Elements(_)) {
+                counters.pairs_integrated += (active.pairs.len() - first) as i64;
+                continue;
+            }
+            active.pairs.truncate(first);
+            active.segments.truncate(first);
         }
-        let segment = &segments[segments.len() - 1];
-        counters.pairs_clipped += 1;
-        counters.pairs_integrated += i64::from(segment.area > 0.0);
-        pairs.push(PairRecord { one: i, two: j, weights: PairWeights::integrate(&frames[i], segment, options.rule) });
+        active.add((one, two), candidates, options.rule, Segment::new)?;
+        let new = &active.segments[first..];
+        counters.pairs_clipped += new.len() as i64;
+        counters.pairs_integrated += new.iter().filter(|s| s.area > 0.0).count() as i64;
     }
     counters.seconds_integration += start.elapsed().as_secs_f64();
-    Ok(Integration { x1: x1.to_vec(), x2: x2.to_vec(), frames, pairs, segments, sums: None, apart: false })
+    Ok(active)
 }
 
 /// The derivatives of a pair of facets, `MOVES`: with respect to the mortar side too.
@@ -163,10 +205,25 @@ pub(super) fn motion<const MOVES: bool>(
     Ok(GapDerivative::Facets(pair_motion::<MOVES>((frame, segment, rule), weights, traction, forces)))
 }
 
+/// The same but for the tilt of the non-mortar facet's plane.
+pub(super) fn motion_without_tilt<const MOVES: bool>(
+    mortar: (&Surface, &[Vec3]),
+    (frame, segment): (&NonmortarFrame, Option<&Segment>),
+    weights: &PairWeights,
+    rule: &Rule,
+    traction: &[[f64; MAX_NODES]; 3],
+    forces: &mut ForceDerivatives,
+) -> Result<GapDerivative> {
+    let mut frame = frame.clone();
+    frame.plane.tilt = Default::default();
+    motion::<MOVES>(mortar, (&frame, segment), weights, rule, traction, forces)
+}
+
 /// Refuses a mortar surface that lies in several layers over a node.
-fn check_layers(areas: &[f64], coverage: impl Iterator<Item = f64>) -> Result<()> {
+fn check_layers(areas: &[f64], coverage: impl Iterator<Item = f64>, rule: &Rule) -> Result<()> {
+    let most = if rule.degree < 2 { MOST_COVERAGE_COARSE } else { MOST_COVERAGE };
     let mut times = coverage.zip(areas).map(|(coverage, area)| coverage / area).enumerate();
-    let Some((k, times)) = times.find(|(_, times)| *times > MOST_COVERAGE) else {
+    let Some((k, times)) = times.find(|(_, times)| *times > most) else {
         return Ok(());
     };
     let text = format!(
@@ -246,7 +303,7 @@ impl<const N: usize> Contact<N> {
             let mut new =
                 integrate(surfaces, &self.options, filter, (&mut self.counters, &mut self.tree), (&h.x1, &h.x2))?;
             let sums = assemble(surfaces, &new.pairs, &h.x1, &h.x2);
-            check_layers(&self.history.areas, sums.iter().map(|(coverage, _)| *coverage))?;
+            check_layers(&self.history.areas, sums.iter().map(|(coverage, _)| *coverage), self.options.rule)?;
             self.history.fill(&mut new.pairs, &sums);
         }
         Ok(())
@@ -305,10 +362,14 @@ impl<const N: usize> Contact<N> {
                 return Err(Error::new(Kind::DegenerateFacet, text));
             }
         }
-        check_layers(&history.areas, history.coverage.iter().copied())?;
+        check_layers(&history.areas, history.coverage.iter().copied(), options.rule)?;
         // The weights alone: many interfaces never ask for a tangent where a step ends.
         let integration = integration.filter(|_| keeps == Keeps::Nothing);
-        let integration = integration.map(|k| Integration { segments: Vec::new(), ..k });
+        // Cells are soon found again, which points fall on which facet is not known without all pairs of a facet.
+        let integration = match options.scheme {
+            Scheme::Segments => integration.map(|k| Integration { segments: Vec::new(), ..k }),
+            Scheme::Elements(_) | Scheme::Hybrid(_) => integration,
+        };
         Ok(Start { history, filter: Some(filter), integration })
     }
 

@@ -30,8 +30,8 @@ pub use crosspoints::{Crosspoint, InterfaceNodes, crosspoints};
 pub use history::{History, PairRecord};
 pub use nodes::NodeSums;
 pub use options::{
-    COVERAGE_MIN, Form, Friction, MODULUS_FACTOR, MortarSide, NewContact, Options, RowScale, Shortcuts, Stiffness,
-    Weights,
+    COVERAGE_MIN, Form, Friction, MODULUS_FACTOR, MortarSide, NewContact, Options, RowScale, Scheme, Shortcuts,
+    Stiffness, Tangent, Weights,
 };
 pub use report::{Cover, Finding, NodeCover, Report};
 pub use surface::{FacetNodes, NO_EQUATION, Surface};

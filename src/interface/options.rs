@@ -26,6 +26,31 @@ pub enum Weights {
     Reference,
 }
 
+/// How a pair's weights are integrated.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Scheme {
+    /// Over cells of the overlap: exact on affine facets.
+    #[default]
+    Segments,
+    /// Over the products of these Gauss points on the whole non-mortar facet, each where it falls on a mortar facet: no
+    /// clipping, and no patch test.
+    Elements(&'static [[f64; 2]]),
+    /// As `Elements`, but over cells where a point or a corner of the non-mortar facet is uncovered.
+    Hybrid(&'static [[f64; 2]]),
+}
+
+/// What the tangent knows of the weights of now.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Tangent {
+    /// All.
+    #[default]
+    Exact,
+    /// Nothing: the weights count as constants.
+    FrozenWeights,
+    /// Their derivatives, but for the tilt of the facets' planes. Of an analytic mortar side all.
+    FrozenNormals,
+}
+
 /// Unit of the multiplier rows.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum RowScale {
@@ -108,8 +133,12 @@ pub struct Options {
     pub slip: SlipMeasure,
     /// Current or frozen weights.
     pub weights: Weights,
-    /// Quadrature.
+    /// Quadrature of cells, and against an analytic mortar side.
     pub rule: &'static Rule,
+    /// Cells or points; nothing to choose against an analytic mortar side.
+    pub scheme: Scheme,
+    /// Exact or frozen; the answer is the same, Newton's path is not.
+    pub tangent: Tangent,
     /// Scale of the multiplier rows.
     pub row_scale: RowScale,
     /// Newly covered nodes.
@@ -145,6 +174,8 @@ impl Options {
             slip: SlipMeasure::default(),
             weights: Weights::default(),
             rule: &DEGREE_5,
+            scheme: Scheme::default(),
+            tangent: Tangent::default(),
             row_scale: RowScale::default(),
             new_contact: NewContact::default(),
             friction: Friction::default(),
@@ -184,6 +215,11 @@ impl Options {
     /// The weights in force: tied surfaces keep those of the reference configuration.
     pub fn effective_weights(&self) -> Weights {
         if self.friction == Friction::Tied { Weights::Reference } else { self.weights }
+    }
+
+    /// Whether the tangent has the weights' derivatives.
+    pub fn differentiates_weights(&self) -> bool {
+        self.effective_weights() == Weights::Current && self.tangent != Tangent::FrozenWeights
     }
 
     /// The slip measure in force: with frozen weights the objective one measures nothing (both its

@@ -16,6 +16,7 @@ use super::{ForceDerivatives, PairWeights};
 use crate::error::{Error, Kind, Result};
 use crate::geometry::{AnalyticSurface, Closest, Vec3};
 use crate::quadrature::Rule;
+use crate::quadrature::cell::square_point;
 use crate::shape::MAX_NODES;
 use crate::simd::{self, Kernel, Lanes, Plain};
 
@@ -73,9 +74,7 @@ fn point(frame: &NonmortarFrame, surface: &AnalyticSurface, rule: &Rule, i: usiz
         let [l1, l2, w] = rule.triangle[i];
         [l1, l2, 0.5 * w]
     } else {
-        let n = rule.square.len();
-        let ([s, v], [t, w]) = (rule.square[i / n], rule.square[i % n]);
-        [2.0 * s - 1.0, 2.0 * t - 1.0, 4.0 * v * w]
+        square_point(rule.square, i)
     };
     let n = facet.shape.values(xi, eta);
     let mut x = corner(frame, surface);

@@ -1,6 +1,7 @@
 //! Derivatives with respect to the nodes: the plane derivatives of `transport`, chained
 //! with Dy_k = in-plane part of (Dx_k - Dx0), spin and tilt of the plane (formulation c.2).
 
+use super::element_rule;
 use super::gap::AlongNormal;
 use super::segment::{CellKernel, Cells, NonmortarFrame, Segment};
 use super::transport::{Integrals, PlaneDerivatives, Transport};
@@ -44,12 +45,12 @@ impl Default for WeightDerivatives {
 }
 
 /// The fields N_A: their forces are the weights.
-const SHAPES: [[f64; MAX_NODES]; MAX_NODES] =
+pub(super) const SHAPES: [[f64; MAX_NODES]; MAX_NODES] =
     [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0]];
 
 impl WeightDerivatives {
-    /// The weights and their exact derivatives over a segment (exact when the rule is: affine facets, degree 5). The
-    /// weights are those of [`PairWeights::integrate`] but for rounding.
+    /// The weights and their exact derivatives over a segment (exact when the rule is: affine facets, degree 5; a
+    /// coarser rule's derivatives are those of degree 5; of points, those of their own sums). The weights are those of [`PairWeights::integrate`] but for rounding.
     pub fn integrate(frame: &NonmortarFrame, segment: &Segment, rule: &Rule) -> (PairWeights, WeightDerivatives) {
         let mut derivatives = WeightDerivatives::default();
         (derivatives.update(frame, segment, rule), derivatives)
@@ -60,7 +61,12 @@ impl WeightDerivatives {
         if frame.projection.shape.n < MAX_NODES || segment.mortar.shape.n < MAX_NODES {
             *self = WeightDerivatives::default(); // absent nodes
         }
-        Cells::of(frame, segment).dispatch(OfWeights { frame, segment, rule, derivatives: self })
+        if let Some(points) = segment.points {
+            return element_rule::derivatives(frame, segment, points, self);
+        }
+        let fine = rule.for_derivatives();
+        let weights = Cells::of(frame, segment).dispatch(OfWeights { frame, segment, rule: fine, derivatives: self });
+        if fine.degree == rule.degree { weights } else { PairWeights::integrate(frame, segment, rule) }
     }
 
     /// The derivatives of the forces of the fields `p[i][A]` with these weights.
@@ -89,6 +95,10 @@ pub fn pair_motion<const MOVES: bool>(
     p: &[[f64; MAX_NODES]; 3],
     forces: &mut ForceDerivatives,
 ) -> AlongNormal {
+    if let Some(points) = segment.points {
+        return element_rule::motion::<MOVES>((frame, segment, points), weights, p, forces);
+    }
+    let rule = rule.for_derivatives();
     Cells::of(frame, segment).dispatch(OfPair::<MOVES> { frame, segment, rule, weights, p, forces })
 }
 
@@ -158,9 +168,9 @@ pub(super) trait Columns<L> {
 }
 
 /// Component i of the forces.
-struct Component<'a> {
-    to: &'a mut [[[[f64; MAX_NODES]; 3]; 3]; PAIR_NODES],
-    i: usize,
+pub(super) struct Component<'a> {
+    pub to: &'a mut [[[[f64; MAX_NODES]; 3]; 3]; PAIR_NODES],
+    pub i: usize,
 }
 
 impl<L: Lanes> Columns<L> for Component<'_> {
@@ -170,7 +180,7 @@ impl<L: Lanes> Columns<L> for Component<'_> {
     }
 }
 
-struct Flat<L>([[L; 3]; PAIR_NODES]);
+pub(super) struct Flat<L>(pub [[L; 3]; PAIR_NODES]);
 
 impl<L: Lanes> Columns<L> for Flat<L> {
     #[inline(always)]
@@ -181,7 +191,7 @@ impl<L: Lanes> Columns<L> for Flat<L> {
 
 /// Columns, lanes over the rows, into rows.
 #[inline(always)]
-fn to_rows<L: Lanes, C: Cell>(
+pub(super) fn to_rows<L: Lanes, C: Cell>(
     columns: &[[L; 3]; PAIR_NODES],
     sign: f64,
     rows: &mut [[[f64; 3]; PAIR_NODES]; MAX_NODES],

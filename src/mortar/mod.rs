@@ -7,6 +7,7 @@
 mod analytic;
 mod derivatives;
 mod edges;
+mod element_rule;
 mod gap;
 mod moments;
 #[cfg(test)]
@@ -18,6 +19,7 @@ mod weights;
 
 pub use analytic::{analytic_motion, analytic_weights};
 pub use derivatives::{ForceDerivatives, WeightDerivatives, pair_motion};
+pub use element_rule::CellPoints;
 pub use gap::{AlongNormal, GapDerivative, columns, gap};
 pub use segment::{NonmortarFrame, Segment};
 pub use weights::PairWeights;

@@ -1,13 +1,15 @@
 //! The overlap of a facet pair in the non-mortar facet's auxiliary plane (formulation c.3, kernel
 //! notes A): a polygon for the volume integrals, source-edge intervals for the edge integrals of the derivatives.
+//! Or the points of the non-mortar facet that fall on the mortar facet (`element_rule.rs`).
 
+use super::element_rule::CellPoints;
 use crate::error::{Error, Kind, Result};
 use crate::geometry::bilinear_map::BilinearMap;
 use crate::geometry::clip::{self, Polygon};
 use crate::geometry::edge_interval::{EdgeIntervals, edge_intervals};
 use crate::geometry::{Facet, Plane, Projection};
 use crate::shape::{Cell, MAX_NODES, Quad4, Tri3};
-use crate::simd::{self, Kernel, Lanes};
+use crate::simd::{self, Kernel, Lanes, Plain};
 use std::marker::PhantomData;
 
 /// Overlaps below this (over the squared facet size) are rounding of facets that only touch. Their
@@ -66,6 +68,8 @@ pub struct Segment {
     pub polygon: Polygon,
     /// Area of the overlap [L^2].
     pub area: f64,
+    /// The points that stand for the overlap, in place of the polygon.
+    pub points: Option<CellPoints>,
 }
 
 /// A kernel over the kinds of both facets.
@@ -92,6 +96,17 @@ impl Cells {
             (3, _) => Cells::TriQuad,
             (_, 3) => Cells::QuadTri,
             _ => Cells::QuadQuad,
+        }
+    }
+
+    /// Runs the kernel compiled for these kinds, for any processor.
+    #[inline]
+    pub fn plain<K: CellKernel>(self, kernel: K) -> K::Output {
+        match self {
+            Cells::TriTri => kernel.run::<Plain, Tri3, Tri3>(),
+            Cells::TriQuad => kernel.run::<Plain, Tri3, Quad4>(),
+            Cells::QuadTri => kernel.run::<Plain, Quad4, Tri3>(),
+            Cells::QuadQuad => kernel.run::<Plain, Quad4, Quad4>(),
         }
     }
 
@@ -124,20 +139,7 @@ impl Segment {
     /// [`Kind::ProjectionNotConvex`] when the mortar facet is too steep or too warped to be projected.
     pub fn new(frame: &NonmortarFrame, facet: &Facet) -> Result<Option<Segment>> {
         let one = &frame.projection;
-        let mortar = Projection::new(facet, &frame.plane);
-        let margin = BOX_MARGIN * one.size.min(mortar.size);
-        if one.is_apart(&mortar, margin) || mortar.is_edge_on() {
-            return Ok(None);
-        }
-        if !mortar.is_convex() {
-            return Err(Error::new(
-                Kind::ProjectionNotConvex,
-                "the mortar facet's projection on the non-mortar facet's plane is not convex: it is too steep or too warped for this pair",
-            ));
-        }
-        if one.separates(&mortar, margin) {
-            return Ok(None); // most of those beside each other, before the exact test of what touches
-        }
+        let Some(mortar) = project(frame, facet)? else { return Ok(None) };
         let mut polygon = clip::overlap(one, &mortar);
         let mut area = polygon.area();
         let small = one.size.min(mortar.size);
@@ -150,8 +152,26 @@ impl Segment {
                 return Ok(None);
             }
         }
-        Ok(Some(Segment { mortar_map: BilinearMap::new(&mortar), mortar, polygon, area }))
+        Ok(Some(Segment { mortar_map: BilinearMap::new(&mortar), mortar, polygon, area, points: None }))
     }
+}
+
+/// The mortar facet in the frame's plane; `None` when it does not even touch the frame's facet.
+pub(super) fn project(frame: &NonmortarFrame, facet: &Facet) -> Result<Option<Projection>> {
+    let one = &frame.projection;
+    let mortar = Projection::new(facet, &frame.plane);
+    let margin = BOX_MARGIN * one.size.min(mortar.size);
+    if one.is_apart(&mortar, margin) || mortar.is_edge_on() {
+        return Ok(None);
+    }
+    if !mortar.is_convex() {
+        return Err(Error::new(
+            Kind::ProjectionNotConvex,
+            "the mortar facet's projection on the non-mortar facet's plane is not convex: it is too steep or too warped for this pair",
+        ));
+    }
+    // Most of those beside each other, before the exact test of what touches.
+    Ok((!one.separates(&mortar, margin)).then_some(mortar))
 }
 
 /// [`edge_intervals`] of a pair.

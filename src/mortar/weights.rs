@@ -3,6 +3,7 @@
 //! n_AB = int N_A N_B da (both non-mortar), n_AC = int N_A N_C da (C mortar), over the overlap,
 //! both at the same quadrature points, so that sum_B n_AB = sum_C n_AC holds at any rule.
 
+use super::element_rule;
 use super::points::{Fan, points};
 use super::segment::{CellKernel, Cells, NonmortarFrame, Segment};
 use crate::quadrature::Rule;
@@ -19,8 +20,11 @@ pub struct PairWeights {
 }
 
 impl PairWeights {
-    /// Integrates the weights over a segment.
+    /// Integrates the weights over a segment; one of points has its own rule.
     pub fn integrate(frame: &NonmortarFrame, segment: &Segment, rule: &Rule) -> PairWeights {
+        if let Some(points) = segment.points {
+            return element_rule::weights(frame, segment, points);
+        }
         Cells::of(frame, segment).dispatch(Integrate { frame, segment, rule })
     }
 

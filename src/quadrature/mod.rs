@@ -1,8 +1,10 @@
 //! Quadrature rules with their stated degree.
 //!
-//! The transport form of the weights' derivative has degree 5 on affine facets where the weights
-//! themselves have degree 4, so no rule below degree 5 is offered.
+//! The transport form of the weights' derivative has degree 5 on affine facets where the weights themselves have
+//! degree 4: rules below degree 5 leave the derivatives to that of degree 5 ([`Rule::for_derivatives`]). The exact
+//! integral's derivative is not that of a coarse sum, so Newton's method then converges linearly, the slower the coarser.
 
+pub mod cell;
 pub mod line;
 pub mod triangle;
 
@@ -22,6 +24,52 @@ pub struct Rule {
     pub line_lanes: &'static [[[f64; 4]; 2]],
     /// Polynomial degree that all integrate exactly.
     pub degree: u32,
+}
+
+/// 1 point a triangle: for comparisons; not even the weights of affine facets are exact, so the patch test is not met.
+pub static DEGREE_1: Rule = Rule {
+    triangle: &triangle::CENTROID_1,
+    line: &line::GAUSS_4,
+    square: &line::GAUSS_2,
+    triangle_lanes: &lanes::<3, 1, 1>(&triangle::CENTROID_1),
+    line_lanes: &lanes::<2, 4, 1>(&line::GAUSS_4),
+    degree: 1,
+};
+
+/// 3 points a triangle: for comparisons; exact for no kind of facet, as degree 1, but closer.
+pub static DEGREE_2: Rule = Rule {
+    triangle: &triangle::STRANG_3,
+    triangle_lanes: &lanes::<3, 3, 1>(&triangle::STRANG_3),
+    degree: 2,
+    ..DEGREE_1
+};
+
+/// 6 points a triangle: weights of affine facets exact.
+pub static DEGREE_4: Rule = Rule {
+    triangle: &triangle::STRANG_6,
+    square: &line::GAUSS_3,
+    triangle_lanes: &lanes::<3, 6, 2>(&triangle::STRANG_6),
+    degree: 4,
+    ..DEGREE_1
+};
+
+/// 12 points a triangle: distorted quadrilaterals.
+pub static DEGREE_6: Rule = Rule {
+    triangle: &triangle::DUNAVANT_12,
+    square: &line::GAUSS_4,
+    triangle_lanes: &lanes::<3, 12, 3>(&triangle::DUNAVANT_12),
+    degree: 6,
+    ..DEGREE_1
+};
+
+/// All of them, by degree.
+pub static RULES: [&Rule; 6] = [&DEGREE_1, &DEGREE_2, &DEGREE_4, &DEGREE_5, &DEGREE_6, &DEGREE_10];
+
+impl Rule {
+    /// The rule for integrals of derivatives: of degree 5 at least.
+    pub fn for_derivatives(&self) -> &Rule {
+        if self.degree < DEGREE_5.degree { &DEGREE_5 } else { self }
+    }
 }
 
 /// 7 points a triangle, 4 an interval: exact for affine facets. The default.
@@ -74,7 +122,7 @@ mod tests {
 
     #[test]
     fn triangle_rules_integrate_their_degree() {
-        for rule in [&DEGREE_5, &DEGREE_10] {
+        for rule in RULES {
             for a in 0..=rule.degree {
                 for b in 0..=rule.degree - a {
                     let sum: f64 = rule.triangle.iter().map(|p| p[2] * p[0].powi(a as i32) * p[1].powi(b as i32)).sum();
@@ -88,7 +136,7 @@ mod tests {
 
     #[test]
     fn line_rules_integrate_their_degree() {
-        for rule in [&DEGREE_5, &DEGREE_10] {
+        for rule in RULES {
             for (line, a) in [rule.line, rule.square].into_iter().flat_map(|l| (0..=rule.degree).map(move |a| (l, a))) {
                 let sum: f64 = line.iter().map(|p| p[1] * p[0].powi(a as i32)).sum();
                 assert!((sum - 1.0 / f64::from(a + 1)).abs() < 1e-15, "t^{a}");
@@ -98,7 +146,7 @@ mod tests {
 
     #[test]
     fn lanes_hold_the_same_points() {
-        for rule in [&DEGREE_5, &DEGREE_10] {
+        for rule in RULES {
             let mut triangle = rule.triangle.iter();
             for i in 0..4 * rule.triangle_lanes.len() {
                 let [l1, l2, w] = rule.triangle_lanes[i / 4].map(|v| v[i % 4]);

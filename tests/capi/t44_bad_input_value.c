@@ -16,10 +16,12 @@ static void options(void) {
       {&s.options.friction, "options.friction", 4, 4},
       {&s.options.mortar_side, "options.mortar_side", 3, 3},
       {&s.options.multiplier_basis, "options.multiplier_basis", 1, 2},
-      {&s.options.quadrature, "options.quadrature", 2, 2},
+      {&s.options.quadrature, "options.quadrature", 6, 6},
       {&s.options.row_scale, "options.row_scale", 2, 2},
       {&s.options.new_contact, "options.new_contact", 2, 2},
       {&s.options.index_base, "options.index_base", 2, 2},
+      {&s.options.integration, "options.integration", 3, 3},
+      {&s.options.tangent, "options.tangent", 3, 3},
   };
   for (int k = 0; k < COUNT(all); ++k) {
     const int32_t kept = *all[k].option;
@@ -52,8 +54,21 @@ static void options(void) {
     s.options.coverage_min = coverage[k];
     CHECK_REFUSED(call_create(&s), STICKSLIP_INVALID_VALUE, "options.coverage_min");
   }
-  /* The other stiffness is wrong too, if it is not needed. */
   s.options.coverage_min = 0.0;
+  /* Points along a side: none with cells, 2 to 10 else. */
+  const int64_t points[] = {-1, 1, 11, INT64_MAX, INT64_MIN};
+  for (int k = 0; k < COUNT(points); ++k) {
+    for (int32_t integration = 0; integration < 3; ++integration) {
+      s.options.integration = integration;
+      s.options.element_points = points[k];
+      CHECK_REFUSED(call_create(&s), STICKSLIP_INVALID_VALUE, "options.element_points");
+    }
+  }
+  s.options.integration = STICKSLIP_INTEGRATION_SEGMENTS;
+  s.options.element_points = 4;
+  CHECK_REFUSED(call_create(&s), STICKSLIP_INVALID_VALUE, "options.element_points");
+  s.options.element_points = 0;
+  /* The other stiffness is wrong too, if it is not needed. */
   s.options.augmentation = 1.0;
   s.options.modulus = -5.0;
   CHECK_REFUSED(call_create(&s), STICKSLIP_INVALID_VALUE, "options.modulus");
@@ -106,14 +121,17 @@ static void nodes(void) {
   response_untouched(&e);
 
   e.node = good;
-  const int32_t layouts[] = {-1, 2, INT32_MAX};
+  const int32_t layouts[] = {-1, 2, INT32_MAX}, rules[] = {-1, 6, INT32_MAX}, points[] = {-1, 1, 11};
   for (int k = 0; k < COUNT(layouts); ++k) {
     element_init(&e);
     e.pair.layout = layouts[k];
     CHECK_REFUSED(call_tangent(&e), STICKSLIP_INVALID_VALUE, "pair.layout");
     e.pair.layout = 0;
-    e.pair.quadrature = layouts[k];
+    e.pair.quadrature = rules[k];
     CHECK_REFUSED(call_weights(&e), STICKSLIP_INVALID_VALUE, "pair.quadrature");
+    e.pair.quadrature = 0;
+    e.pair.element_points = points[k];
+    CHECK_REFUSED(call_weights(&e), STICKSLIP_INVALID_VALUE, "pair.element_points");
     element_untouched(&e);
   }
 }

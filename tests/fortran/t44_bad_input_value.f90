@@ -20,10 +20,12 @@ program t44_bad_input_value
   call check_option(s%options%friction, 'friction', 4, 4)
   call check_option(s%options%mortar_side, 'mortar_side', 3, 3)
   call check_option(s%options%multiplier_basis, 'multiplier_basis', 1, 2)
-  call check_option(s%options%quadrature, 'quadrature', 2, 2)
+  call check_option(s%options%quadrature, 'quadrature', 6, 6)
   call check_option(s%options%row_scale, 'row_scale', 2, 2)
   call check_option(s%options%new_contact, 'new_contact', 2, 2)
   call check_option(s%options%index_base, 'index_base', 2, 2)
+  call check_option(s%options%integration, 'integration', 3, 3)
+  call check_option(s%options%tangent, 'tangent', 3, 3)
   call check_numbers()
   call nodes()
   call layouts()
@@ -53,7 +55,9 @@ contains
 
   subroutine check_numbers()
     real(c_double), parameter :: COVERAGE(3) = [-1d-12, 1d0, 2d0]
-    integer :: k
+    integer(c_int64_t), parameter :: POINTS(5) = [-1_c_int64_t, 1_c_int64_t, 11_c_int64_t, huge(0_c_int64_t), &
+                                                  -huge(0_c_int64_t)]
+    integer :: i, k
     s%options%mu = -1d-300
     CHECK_REFUSED(call_create(s), STICKSLIP_INVALID_VALUE, 'options.mu')
     s%options%mu = 0.3d0
@@ -71,8 +75,20 @@ contains
       s%options%coverage_min = COVERAGE(k)
       CHECK_REFUSED(call_create(s), STICKSLIP_INVALID_VALUE, 'options.coverage_min')
     end do
-    ! The other stiffness is wrong too, if it is not needed.
     s%options%coverage_min = 0
+    ! Points along a side: none with cells, 2 to 10 else.
+    do k = 1, 5
+      do i = 0, 2
+        s%options%integration = i
+        s%options%element_points = POINTS(k)
+        CHECK_REFUSED(call_create(s), STICKSLIP_INVALID_VALUE, 'options.element_points')
+      end do
+    end do
+    s%options%integration = STICKSLIP_INTEGRATION_SEGMENTS
+    s%options%element_points = 4
+    CHECK_REFUSED(call_create(s), STICKSLIP_INVALID_VALUE, 'options.element_points')
+    s%options%element_points = 0
+    ! The other stiffness is wrong too, if it is not needed.
     s%options%augmentation = 1
     s%options%modulus = -5
     CHECK_REFUSED(call_create(s), STICKSLIP_INVALID_VALUE, 'options.modulus')
@@ -124,15 +140,19 @@ contains
   end subroutine
 
   subroutine layouts()
-    integer(c_int32_t), parameter :: WRONG(3) = [-1, 2, INT32_MAX]
+    integer(c_int32_t), parameter :: WRONG(3) = [-1, 2, INT32_MAX], RULES(3) = [-1, 6, INT32_MAX]
+    integer(c_int64_t), parameter :: POINTS(3) = [-1, 1, 11]
     integer :: k
     do k = 1, 3
       call element_init(e)
       e%pair%layout = WRONG(k)
       CHECK_REFUSED(call_tangent(e), STICKSLIP_INVALID_VALUE, 'pair.layout')
       e%pair%layout = STICKSLIP_LAYOUT_COLUMN_MAJOR
-      e%pair%quadrature = WRONG(k)
+      e%pair%quadrature = RULES(k)
       CHECK_REFUSED(call_weights(e), STICKSLIP_INVALID_VALUE, 'pair.quadrature')
+      e%pair%quadrature = 0
+      e%pair%element_points = POINTS(k)
+      CHECK_REFUSED(call_weights(e), STICKSLIP_INVALID_VALUE, 'pair.element_points')
       call element_untouched(e)
     end do
   end subroutine

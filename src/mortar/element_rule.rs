@@ -1,0 +1,280 @@
+//! Element-based integration: n x n points on the whole non-mortar facet, each projected on the mortar facet that it falls
+//! on, in place of cells of the overlap,
+//!
+//! n_AB = sum_g w_g j_g N_A N_B, n_AC = sum_g w_g j_g N_A N_C(xi2(y_g)) over the points g on the mortar facet,
+//!
+//! j the area element. No clipping; but functions with kinks at the mortar edges are integrated as if they were smooth:
+//! not exact on non-matching meshes, so that a patch test is not met, however many points there are.
+//!
+//! The derivative is that of the sums, exact as long as no point passes from one mortar facet to another (there the
+//! weights jump by that point's share): at fixed xi1 the point moves with v1 = sum N_k Dy1_k, so that
+//! Dj_g = sum_k det J grad N_k . Dy1_k and DN_C = grad N_C . (v1 - v2), v2 = sum N_l Dy2_l.
+//!
+//! For any processor alone: the rule is for comparisons and coarse answers, and a small library is worth more.
+
+use super::derivatives::{Chain, Component, Flat, ForceDerivatives, SHAPES, WeightDerivatives, to_rows};
+use super::gap::AlongNormal;
+use super::segment::{CellKernel, Cells, NonmortarFrame, Segment, project};
+use super::transport::PlaneDerivatives;
+use super::{MORTAR, PAIR_NODES, PairWeights};
+use crate::error::Result;
+use crate::geometry::bilinear_map::BilinearMap;
+use crate::geometry::clip::Polygon;
+use crate::geometry::{Facet, Projection, Vec2, cross};
+use crate::quadrature::cell::{square_point, triangle_point};
+use crate::shape::{Cell, MAX_NODES};
+use crate::simd::{Lanes, Plain, Real};
+
+/// Points of a non-mortar facet's product rule, and which of them count.
+#[derive(Clone, Copy, Debug)]
+pub struct CellPoints {
+    /// Gauss points on a line.
+    line: &'static [[f64; 2]],
+    /// Bit i: the i-th of their products lies on the mortar facet; the bits after those: the non-mortar facet's corners.
+    pub inside: u128,
+}
+
+impl CellPoints {
+    /// The set in which every point and every corner lies on a mortar facet.
+    pub fn all(frame: &NonmortarFrame, line: &[[f64; 2]]) -> u128 {
+        (1 << (line.len() * line.len() + frame.projection.shape.n)) - 1
+    }
+
+    fn count(&self) -> usize {
+        self.line.len() * self.line.len()
+    }
+}
+
+impl Segment {
+    /// The points of the frame's facet that fall on `facet`; `None` when neither one nor a corner does. `line`: at most
+    /// [`crate::quadrature::cell::POINTS`] Gauss points.
+    ///
+    /// # Errors
+    /// As [`Segment::new`].
+    pub fn of_points(frame: &NonmortarFrame, facet: &Facet, line: &'static [[f64; 2]]) -> Result<Option<Segment>> {
+        let Some(mortar) = project(frame, facet)? else { return Ok(None) };
+        let mut points = CellPoints { line, inside: 0 };
+        let mut area = 0.0;
+        for i in 0..points.count() {
+            let p = Point::of(frame, line, i);
+            if is_on(&mortar, p.y) {
+                points.inside |= 1 << i;
+                area += p.area;
+            }
+        }
+        for k in 0..frame.projection.shape.n {
+            points.inside |= u128::from(is_on(&mortar, frame.projection.y[k])) << (points.count() + k);
+        }
+        if points.inside == 0 {
+            return Ok(None);
+        }
+        let (mortar_map, polygon) = (BilinearMap::new(&mortar), Polygon::empty());
+        Ok(Some(Segment { mortar, mortar_map, polygon, area, points: Some(points) }))
+    }
+}
+
+/// Whether a point lies on a convex facet. Facets that share an edge compute the same numbers of it, from the node that
+/// comes first among the two, and a point on it counts as moved a little along t1 and much less along t2: every point
+/// of a surface lies on one facet.
+fn is_on(facet: &Projection, p: Vec2) -> bool {
+    (0..facet.shape.n).all(|k| {
+        let j = facet.shape.next[k];
+        let forward = facet.x[k].as_slice() < facet.x[j].as_slice();
+        let (from, to) = if forward { (facet.y[k], facet.y[j]) } else { (facet.y[j], facet.y[k]) };
+        let edge = to - from;
+        let left = [cross(edge, p - from), -edge.y, edge.x].into_iter().find(|&d| d != 0.0).is_some_and(|d| d > 0.0);
+        left == forward
+    })
+}
+
+/// A point of the non-mortar facet.
+struct Point {
+    xi: f64,
+    eta: f64,
+    /// Weight on the reference cell, and times j [L^2].
+    weight: f64,
+    area: f64,
+    n: [f64; MAX_NODES],
+    y: Vec2,
+}
+
+impl Point {
+    fn of(frame: &NonmortarFrame, line: &[[f64; 2]], i: usize) -> Point {
+        let one = &frame.projection;
+        let [xi, eta, weight] = if one.shape.n == 3 { triangle_point(line, i) } else { square_point(line, i) };
+        let (n, j) = (one.shape.values(xi, eta), frame.map.determinant());
+        let y = (0..MAX_NODES).fold(Vec2::zeros(), |y, k| y + one.y[k] * n[k]);
+        Point { xi, eta, weight, area: weight * (j[0] + j[1] * xi + j[2] * eta), n, y }
+    }
+
+    /// Those of a segment that count, each with N_C there and where on the mortar facet that is.
+    fn all<'a>(
+        frame: &'a NonmortarFrame,
+        segment: &'a Segment,
+        points: CellPoints,
+    ) -> impl Iterator<Item = (Point, [f64; MAX_NODES], [f64; 3])> + 'a {
+        (0..points.count()).filter(move |i| points.inside >> i & 1 == 1).map(move |i| {
+            let p = Point::of(frame, points.line, i);
+            let two = segment.mortar_map.inverse([p.y.x, p.y.y]);
+            let n2 = segment.mortar.shape.values(two.xi, two.eta);
+            (p, n2, [two.xi, two.eta, two.det])
+        })
+    }
+}
+
+/// The weights of the points.
+pub(super) fn weights(frame: &NonmortarFrame, segment: &Segment, points: CellPoints) -> PairWeights {
+    let mut w = PairWeights::default();
+    for (p, n2, _) in Point::all(frame, segment, points) {
+        for a in 0..MAX_NODES {
+            for k in 0..MAX_NODES {
+                w.ab[a][k] += p.area * p.n[a] * p.n[k];
+                w.ac[a][segment.mortar.node[k]] += p.area * p.n[a] * n2[k];
+            }
+        }
+    }
+    w
+}
+
+/// d/dy: per slot k the two components of y_k, of each four numbers; mortar slots in the order of the projection.
+type Sums = [[[f64; MAX_NODES]; 2]; PAIR_NODES];
+
+/// Derivatives with respect to the projected vertices.
+struct Derivatives<const F: usize> {
+    /// Of f_B = int p N_B of the fields p = sum N_A p_A.
+    one: [Sums; F],
+    /// Of f_C = -int p N_C, C in the order of the facet as given.
+    two: [Sums; F],
+    /// Of gamma_A = int N_A (sum N_B d_B - sum N_C d_C) at fixed heights d.
+    gap: Sums,
+}
+
+impl<const F: usize> Derivatives<F> {
+    fn new(frame: &NonmortarFrame, segment: &Segment, points: CellPoints, fields: &[[f64; MAX_NODES]; F]) -> Self {
+        let zero = [[[0.0; MAX_NODES]; 2]; PAIR_NODES];
+        let mut d = Derivatives { one: [zero; F], two: [zero; F], gap: zero };
+        let (map1, map2) = (frame.map.gradients::<Plain>(), segment.mortar_map.gradients::<Plain>());
+        let (heights, two) = (&frame.projection.d, &segment.mortar);
+        for (p, n2, [xi2, eta2, det2]) in Point::all(frame, segment, points) {
+            for c in 0..2 {
+                let g1 = at(&map1, c, p.xi, p.eta).map(|g| g * p.weight); // w Dj / Dy1_k
+                let g2 = at(&map2, c, xi2, eta2).map(|g| g * p.area / det2); // w j grad N_C
+                let slope = dot(&g2, &two.d);
+                let gap = dot(&p.n, heights) - dot(&n2, &two.d);
+                for k in 0..MAX_NODES {
+                    for a in 0..MAX_NODES {
+                        d.gap[k][c][a] += p.n[a] * (gap * g1[k] - slope * p.n[k]);
+                        d.gap[MORTAR + k][c][a] += p.n[a] * slope * n2[k];
+                    }
+                    for (f, field) in fields.iter().enumerate() {
+                        let value = dot(field, &p.n);
+                        for b in 0..MAX_NODES {
+                            d.one[f][k][c][b] += value * p.n[b] * g1[k];
+                            d.two[f][k][c][two.node[b]] -= value * (n2[b] * g1[k] + g2[b] * p.n[k]);
+                            d.two[f][MORTAR + k][c][two.node[b]] += value * g2[b] * n2[k];
+                        }
+                    }
+                }
+            }
+        }
+        d
+    }
+}
+
+fn dot(a: &[f64; MAX_NODES], b: &[f64; MAX_NODES]) -> f64 {
+    (0..MAX_NODES).map(|k| a[k] * b[k]).sum()
+}
+
+/// Component `c` of det J dN_k/dy at a point.
+fn at(gradients: &[[Plain; 2]; 3], c: usize, xi: f64, eta: f64) -> [f64; MAX_NODES] {
+    (gradients[0][c] + gradients[1][c] * Plain::splat(xi) + gradients[2][c] * Plain::splat(eta)).store()
+}
+
+/// As the chain to the nodes takes them. A mortar side at rest moves in the plane by its heights times one velocity.
+fn lanes<L: Lanes, const MOVES: bool>(sums: &Sums, heights: &[f64; MAX_NODES]) -> PlaneDerivatives<L> {
+    let mut d = [[L::splat(0.0); 2]; PAIR_NODES];
+    for (k, c) in (0..PAIR_NODES).flat_map(|k| [(k, 0), (k, 1)]) {
+        let v = L::load(&sums[k][c]);
+        if MOVES || k < MORTAR {
+            d[k][c] = v;
+        } else {
+            d[MORTAR][c] = d[MORTAR][c] + v * L::splat(heights[k - MORTAR]);
+        }
+    }
+    d
+}
+
+/// As [`super::pair_motion`].
+pub(super) fn motion<const MOVES: bool>(
+    (frame, segment, points): (&NonmortarFrame, &Segment, CellPoints),
+    weights: &PairWeights,
+    p: &[[f64; MAX_NODES]; 3],
+    forces: &mut ForceDerivatives,
+) -> AlongNormal {
+    let plane = Derivatives::new(frame, segment, points, p);
+    Cells::of(frame, segment).plain(Motion::<MOVES> { chain: Chain { frame, segment }, plane, weights, forces })
+}
+
+struct Motion<'a, const MOVES: bool> {
+    chain: Chain<'a>,
+    plane: Derivatives<3>,
+    weights: &'a PairWeights,
+    forces: &'a mut ForceDerivatives,
+}
+
+impl<const MOVES: bool> CellKernel for Motion<'_, MOVES> {
+    type Output = AlongNormal;
+
+    #[inline(always)]
+    fn run<L: Lanes, One: Cell, Two: Cell>(self) -> AlongNormal {
+        let Motion { chain, plane, weights, forces } = self;
+        let d = &chain.segment.mortar.d;
+        for i in 0..3 {
+            let one = chain.local::<L, One, Two, MOVES>(&lanes::<L, MOVES>(&plane.one[i], d));
+            chain.columns::<L, One, Two, MOVES>(&one, &mut Component { to: &mut forces.one, i });
+            if MOVES {
+                let two = chain.local::<L, One, Two, MOVES>(&lanes::<L, MOVES>(&plane.two[i], d));
+                chain.columns::<L, One, Two, MOVES>(&two, &mut Component { to: &mut forces.two, i });
+            }
+        }
+        let gap = chain.local::<L, One, Two, MOVES>(&lanes::<L, MOVES>(&plane.gap, d));
+        AlongNormal::new::<L, One, Two, MOVES>(&chain, gap, weights)
+    }
+}
+
+/// As [`WeightDerivatives::update`].
+pub(super) fn derivatives(
+    frame: &NonmortarFrame,
+    segment: &Segment,
+    points: CellPoints,
+    derivatives: &mut WeightDerivatives,
+) -> PairWeights {
+    let plane = Derivatives::new(frame, segment, points, &SHAPES);
+    Cells::of(frame, segment).plain(OfWeights { chain: Chain { frame, segment }, plane, derivatives });
+    weights(frame, segment, points)
+}
+
+struct OfWeights<'a> {
+    chain: Chain<'a>,
+    plane: Derivatives<4>,
+    derivatives: &'a mut WeightDerivatives,
+}
+
+impl CellKernel for OfWeights<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<L: Lanes, One: Cell, Two: Cell>(self) {
+        let OfWeights { chain, plane, derivatives } = self;
+        let d = &chain.segment.mortar.d;
+        for a in 0..One::NODES {
+            let mut columns = Flat([[L::splat(0.0); 3]; PAIR_NODES]);
+            let one = chain.local::<L, One, Two, true>(&lanes::<L, true>(&plane.one[a], d));
+            chain.columns::<L, One, Two, true>(&one, &mut columns);
+            to_rows::<L, One>(&columns.0, 1.0, &mut derivatives.ab[a]);
+            let two = chain.local::<L, One, Two, true>(&lanes::<L, true>(&plane.two[a], d));
+            chain.columns::<L, One, Two, true>(&two, &mut columns);
+            to_rows::<L, Two>(&columns.0, -1.0, &mut derivatives.ac[a]);
+        }
+    }
+}
