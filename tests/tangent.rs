@@ -153,18 +153,17 @@ fn frozen_tangents_leave_out_what_they_say() {
     assert!(error <= DIFFERENCES, "coplanar: off by {error:e}");
 }
 
-/// Rules below degree 5 have the tangent of the exact weights of affine facets.
+/// Rules below degree 5 have the tangent of exact weights. A parallelogram ceases to be one when a node moves, which a
+/// coarser sum sees in its own way: far from its derivative, but no nonsense.
 #[test]
-fn coarse_rules_have_the_tangent_of_the_default_rule() {
+fn coarse_rules_have_the_tangent_of_exact_weights() {
     let error_of = |rule| {
         let mut scene = moved(&Options { rule, ..options() }, [Cells::Quads, Cells::Quads], FLAT, 7);
         scene.at().difference_error(1.0)
     };
-    assert!(error_of(&DEGREE_4) <= DIFFERENCES);
     assert!(error_of(&DEGREE_6) <= DIFFERENCES);
-    // Far from the derivative of their own sums, but no nonsense.
-    for rule in [&DEGREE_1, &DEGREE_2] {
+    for (rule, range) in [(&DEGREE_1, 1e-3..1.0), (&DEGREE_2, 1e-3..1.0), (&DEGREE_4, 1e-7..1e-2)] {
         let error = error_of(rule);
-        assert!((1e-3..1.0).contains(&error), "degree {}: {error:e}", rule.degree);
+        assert!(range.contains(&error), "degree {}: {error:e}", rule.degree);
     }
 }

@@ -73,7 +73,8 @@ pub const STICKSLIP_QUADRATURE_DEGREE_10: i32 = 1;
 pub const STICKSLIP_QUADRATURE_DEGREE_1: i32 = 2;
 /// 3 points a triangle, degree 2: for comparisons.
 pub const STICKSLIP_QUADRATURE_DEGREE_2: i32 = 3;
-/// 6 points a triangle, degree 4: weights exact for triangles and parallelograms; the tangent takes the default rule.
+/// 6 points a triangle, degree 4: weights exact for triangles and parallelograms; the tangent is that of degree 5, not
+/// quite this rule's own: Newton's method converges linearly, but fast.
 pub const STICKSLIP_QUADRATURE_DEGREE_4: i32 = 4;
 /// 12 points a triangle, degree 6: for warped or distorted quadrilaterals.
 pub const STICKSLIP_QUADRATURE_DEGREE_6: i32 = 5;
