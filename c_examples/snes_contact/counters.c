@@ -2,6 +2,7 @@
  * counted. */
 #include "model.h"
 #include <cjson/cJSON.h>
+#include <time.h>
 
 /* rank 0: one interface's counters; its seconds are added to `sum` */
 static PetscErrorCode interface_counters(const Interface *interface, cJSON *parent, stickslip_counters *sum)
@@ -65,8 +66,11 @@ PetscErrorCode summary_counters(Model *model, cJSON *root)
   cJSON_AddNumberToObject(seconds, "search", sum.seconds_search);
   cJSON_AddNumberToObject(seconds, "integration", sum.seconds_integration);
   cJSON_AddNumberToObject(seconds, "contact_assembly", sum.seconds_assembly);
+  cJSON_AddNumberToObject(seconds, "contact_forces", model->timers.contact_forces);
+  cJSON_AddNumberToObject(seconds, "contact_tangent", model->timers.contact_tangent);
   cJSON_AddNumberToObject(seconds, "bulk_assembly", model->timers.bulk_assembly);
   cJSON_AddNumberToObject(seconds, "linear_solve", model->timers.linear_solve);
   cJSON_AddNumberToObject(seconds, "total", now - model->timers.total);
+  cJSON_AddNumberToObject(seconds, "processor", (double)clock() / CLOCKS_PER_SEC); /* of this process */
   PetscFunctionReturn(PETSC_SUCCESS);
 }

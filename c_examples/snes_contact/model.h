@@ -99,7 +99,7 @@ typedef struct {
 } Newton;
 
 typedef struct {
-  double bulk_assembly, linear_solve, contact, total, started;
+  double bulk_assembly, linear_solve, contact_forces, contact_tangent, total, started;
 } Timers;
 
 typedef enum { WRITE_NONE, WRITE_LAST, WRITE_TIMES, WRITE_ALL } WriteWhen;

@@ -29,15 +29,19 @@ static PetscErrorCode squared_forces(Model *model, Vec local, PetscBool prescrib
 
 static PetscErrorCode residual(SNES snes, Vec x, Vec r, void *context)
 {
-  Model    *model      = context;
-  PetscReal squares[4] = {0, 0, 0, 0}; /* loads, reactions, contact, rounding */
-  PetscInt  inverted, refused = 0;
+  Model         *model      = context;
+  PetscReal      squares[4] = {0, 0, 0, 0}; /* loads, reactions, contact, rounding */
+  PetscInt       inverted, refused = 0;
+  PetscLogDouble start, end;
 
   PetscFunctionBegin;
   PetscCall(unknowns_to_local(model, x));
   PetscCall(VecZeroEntries(model->f_local));
   PetscCall(bulk_forces(model, model->f_local, &squares[3], &inverted));
+  PetscCall(PetscTime(&start));
   if (!inverted) PetscCall(contact_forces(model, model->f_local, &squares[2], &refused));
+  PetscCall(PetscTime(&end));
+  model->timers.contact_forces += end - start;
   if (inverted || refused) PetscCall(SNESSetFunctionDomainError(snes));
   PetscCall(VecAXPY(model->f_local, -1, model->f_external));
   PetscCall(VecZeroEntries(r));
@@ -54,14 +58,18 @@ static PetscErrorCode residual(SNES snes, Vec x, Vec r, void *context)
 
 static PetscErrorCode tangent(SNES snes, Vec x, Mat J, Mat P, void *context)
 {
-  Model   *model = context;
-  PetscInt inverted, refused;
+  Model         *model = context;
+  PetscInt       inverted, refused;
+  PetscLogDouble start, end;
 
   PetscFunctionBegin;
   PetscCall(unknowns_to_local(model, x));
   PetscCall(MatZeroEntries(P));
   PetscCall(bulk_stiffness(model, P, &inverted));
+  PetscCall(PetscTime(&start));
   PetscCall(contact_tangent(model, P, &refused));
+  PetscCall(PetscTime(&end));
+  model->timers.contact_tangent += end - start;
   if (inverted || refused) PetscCall(SNESSetJacobianDomainError(snes));
   PetscCall(MatAssemblyBegin(P, MAT_FINAL_ASSEMBLY));
   PetscCall(MatAssemblyEnd(P, MAT_FINAL_ASSEMBLY));
