@@ -226,7 +226,8 @@
 /// 3 points a triangle, degree 2: for comparisons.
 #define STICKSLIP_QUADRATURE_DEGREE_2 3
 
-/// 6 points a triangle, degree 4: weights exact for triangles and parallelograms; the tangent takes the default rule.
+/// 6 points a triangle, degree 4: weights exact for triangles and parallelograms; the tangent is that of degree 5, not
+/// quite this rule's own: Newton's method converges linearly, but fast.
 #define STICKSLIP_QUADRATURE_DEGREE_4 4
 
 /// 12 points a triangle, degree 6: for warped or distorted quadrilaterals.
