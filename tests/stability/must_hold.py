@@ -79,6 +79,8 @@ def lines(results):
     found += ratio_of_iterations(results, "patch, 1 facet on N", "Iterations, mesh ratio 1:1 to 1:1000: within 2x")
     found += ratio_of_iterations(results, "patch, N facets on 1", "Iterations, mesh ratio 1:1 to 1000:1: within 2x")
     found += patches(results)
-    found += figure(results, "derivative_error", "Derivatives of the weights at every crossing angle, to 1e-10", 1e-10)
+    found += figure(results, "derivative_error", "Derivatives of a pair's weights, crossing angles to 1e-6 and strips to 1e-12",
+                    1e-10)  # fmt: skip
+    found += figure(results, "summed_error", "The same summed over the pairs of a facet, crossing angles to 1e-15", 1e-10)
     found += figure(results, "noise_error", "Assembled tangent of noisy matching meshes, to 1e-9 of the clean one", 1e-9)
     return found

@@ -1,5 +1,5 @@
 """Mortar weights of a pair (paper (13)) by another road than the library's: Sutherland and Hodgman's clipping in decimal
-arithmetic of 90 digits, exact products of Gauss points, derivatives by differences with a step of 1e-32.
+arithmetic of 90 digits, exact products of Gauss points, derivatives by differences with a step of 1e-32 facets.
 
 Inputs are exactly the doubles given. For triangles and parallelograms the weights are exact. For other quadrilaterals the
 number of Gauss points decides; then floating point (`number=float`) is enough.
@@ -10,7 +10,7 @@ from decimal import Decimal, getcontext
 import numpy as np
 
 getcontext().prec = 90
-STEP = Decimal("1e-32")  # differences lose (1e-32 / crossing angle)^2, and 1e-90 / 1e-32 to rounding
+STEP = Decimal("1e-32")  # of the facet; differences lose (1e-32 / crossing angle)^2, and 1e-90 / 1e-32 to rounding
 
 
 def dot(a, b):
@@ -127,18 +127,19 @@ def as_floats(matrices):
     return [np.array([[float(v) for v in row] for row in matrix]) for matrix in matrices]
 
 
-def derivatives(x1, x2, columns=None):
-    """dn_ab, dn_ac as arrays (row A, column, unknown of x1, x2); `columns`: these unknowns alone, the rest zero."""
+def derivatives(x1, x2):
+    """dn_ab, dn_ac as arrays (row A, column, unknown of x1, x2)."""
     x = [[Decimal(float(c)) for c in p] for p in [*x1, *x2]]
     n1, n = len(x1), 3 * len(x)
     out = [np.zeros((n1, m, n)) for m in (n1, len(x2))]
-    for k in range(n) if columns is None else columns:
+    step = STEP * Decimal(float(np.abs(np.subtract(x1[1], x1[0])).max()))
+    for k in range(n):
         node, i = divmod(k, 3)
         sides = []
         for sign in (1, -1):
-            x[node][i] += sign * STEP
+            x[node][i] += sign * step
             sides.append(weights(x[:n1], x[n1:]))
-            x[node][i] -= sign * STEP
+            x[node][i] -= sign * step
         for array, plus, less in zip(out, *sides):
-            array[:, :, k] = [[float((p - q) / (2 * STEP)) for p, q in zip(*rows)] for rows in zip(plus, less)]
+            array[:, :, k] = [[float((p - q) / (2 * step)) for p, q in zip(*rows)] for rows in zip(plus, less)]
     return out

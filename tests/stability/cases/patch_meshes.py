@@ -57,6 +57,6 @@ def rotated(angle):
 
 def cells():
     yield from series("patch, slivers of this width", SHIFTS, slivers, quick=("1e-5", "1e-11", "1e-14"))
-    yield from series("patch, 1 facet on N", RATIOS, ratio("lower"), quick=(30, 1000))
-    yield from series("patch, N facets on 1", RATIOS, ratio("upper"), quick=(30, 1000))
+    yield from series("patch, 1 facet on N", RATIOS, ratio("lower"), quick=(100,))
+    yield from series("patch, N facets on 1", RATIOS, ratio("upper"), quick=(100,))
     yield from series("patch, meshes turned by this angle", ANGLES, rotated, quick=("1e-4", "1e-10", "1e-15"))
