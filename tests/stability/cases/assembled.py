@@ -3,7 +3,7 @@
 import numpy as np
 
 from cell import ELEMENT, Outcome, series
-from library import GAP, Interface, Library
+from library import GAP, STICK, Interface, Library
 from scenes import EPS
 
 NOISES = ("1e-15", "1e-14", "1e-13", "1e-12", "1e-11", "1e-10")
@@ -12,6 +12,7 @@ NOISES = ("1e-15", "1e-14", "1e-13", "1e-12", "1e-11", "1e-10")
 NOISY, PER_NOISE = 1e-9, 100.0
 COVERAGES = ("1e-1", "1e-3", "1e-5", "1e-7", "1e-9", "1e-11", "1e-12", "0")
 CORNERS = ("1e-1", "1e-3", "1e-6", "1e-9", "1e-12", "1e-15", "0")
+TOUCHES = ("-1e-2", "-1e-6", "-1e-9", "-1e-12", "0", "1e-12", "1e-9", "1e-6", "1e-2")
 YOUNG, MU = 1000.0, 0.3
 OPTIONS = {"modulus": YOUNG, "mu": MU}
 
@@ -119,8 +120,37 @@ def corner(text):
     return run
 
 
+def touching(text):
+    """The first step of a body that nothing else holds: at a gap of this much, from multipliers of zero, and from those that
+    the library gives to start with. What touches or has sunk in is closed then, and every row has its stiffness."""
+    gap = float(text)
+
+    def run(context):
+        outcome, library = Outcome(), Library(context.build)
+        x1, f1 = grid(2, down=True, z=gap)
+        x2, f2 = grid(3, lower=(-0.5, -0.5), size=2.0)
+        interface = Interface(library, x1, f1, x2, f2, **OPTIONS)
+        start, zero = interface.start(), np.zeros((len(x1), 3))
+        states = {name: interface.states(x1, x2, lam)["state"] for name, lam in (("start", start), ("zero", zero))}
+        closed = gap <= 0
+        outcome.true("started multipliers press", ((start[:, 2] < 0) == closed).all(), "on closed nodes, and on no other")
+        outcome.true("state with them", (states["start"] == (STICK if closed else GAP)).all(), "closed nodes stick")
+        outcome.true("state from zero", (states["zero"] == (STICK if gap < 0 else GAP)).all(), "sigma_N >= 0 is gap")
+        for name, lam in (("start", start), ("zero", zero)):
+            balance(outcome, interface, x1, x2, lam, 1.0)
+            tangent = interface.tangent(x1, x2, lam)
+            of_displacements = np.abs(tangent[-3 * len(x1) :, : -3 * len(x1)]).max(axis=1)
+            held = closed if name == "start" else gap < 0
+            outcome.true(f"rows hold the body, {name}", ((of_displacements > 0) == held).all(), "stick has a stiffness")
+        interface.close()
+        return outcome
+
+    return run
+
+
 def cells():
     kind = {"kind": ELEMENT}
     yield from series("interface, noise on matching meshes", NOISES, noise, quick=("1e-15", "1e-13"), **kind)
     yield from series("interface, covered by this part", COVERAGES, coverage, quick=("1e-3", "1e-9", "0"), **kind)
+    yield from series("interface, first touch at a gap of", TOUCHES, touching, quick=("0", "-1e-9", "1e-9"), **kind)
     yield from series("interface, corner over an edge", CORNERS, corner, quick=("1e-6", "0"), **kind)

@@ -181,10 +181,10 @@ def size(text):
 
 
 # The rules' own error on quadrilaterals that are no parallelograms, as measured here: of the fourth and the tenth power of
-# the warp over the facet's size; of what a corner is drawn in, over what is left until the facet folds.
+# the warp over the facet's size, of the third and the eighth power of what a corner is drawn in.
 RULES = {"degree 5": DEGREE_5, "degree 10": DEGREE_10}
 WARP_ERROR = {"degree 5": lambda w: 1e-5 * w**4, "degree 10": lambda w: 1e-9 * w**10}
-DRAWN_ERROR = {"degree 5": lambda s: 3e-3 * s**2 / (0.5 - s), "degree 10": lambda s: 1e-3 * s**4 / (0.5 - s)}
+DRAWN_ERROR = {"degree 5": lambda s: 5e-3 * s**3, "degree 10": lambda s: 5e-3 * s**8}
 GAUSS_POINTS = 24  # a side; more change nothing
 NOT_CONVEX = r"not convex|folded"
 
