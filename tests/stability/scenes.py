@@ -73,7 +73,7 @@ def check_patch(run, traction=(0, 0, -10), floor=PATCH_FLOOR, reason="uniform an
     if result.refusal is None:
         error = patch_error(run, traction)
         result.below("multiplier", error, patch_bound(run, floor), reason)
-        result.figures["patch_error"] = error
+        result.figures |= {"patch_error": error, "patch_bound": patch_bound(run, floor)}
         if (run.kappa or 0) > SINGULAR:
             result.warnings.append(f"condition {run.kappa:.0e}: a body is free to drift")
     return result

@@ -5,7 +5,7 @@ import numpy as np
 import host
 from cell import series
 from comparisons import multiplier
-from scenes import EPS, PATCH_FLOOR, PATCH_KAPPA, check_patch, patch, patch_cell
+from scenes import check_patch, patch, patch_bound, patch_cell
 
 SLOPE = 0.4  # tangent of the scene `incline`
 MARGINS = ("1e-1", "1e-2", "1e-3", "1e-4", "1e-6", "1e-8")
@@ -27,9 +27,9 @@ def slope(margin):
         if result.refusal is None:
             exact = np.array([0, 0, -10 * np.cos(np.arctan(SLOPE))])
             error = np.linalg.norm(multiplier(run.interface("base")) - exact, axis=1).max() / np.linalg.norm(exact)
-            bound = max(PATCH_FLOOR, PATCH_KAPPA * EPS * run.kappa)
+            bound = patch_bound(run)
             result.below("multiplier", error, bound, "uniform and exact; max(1e-10, 100 eps kappa)")
-            result.figures["patch_error"] = error
+            result.figures |= {"patch_error": error, "patch_bound": bound}
         return result
 
     return run
