@@ -1,0 +1,422 @@
+//! The C ABI: every function with arbitrary bytes for arguments. Pointers lead to as much as the header says, or are NULL
+//! or crooked; structs, counts, choices and all contents are anything.
+#![no_main]
+#![allow(unsafe_code)]
+
+use libfuzzer_sys::fuzz_target;
+use std::ptr::null;
+use stickslip::capi::*;
+use stickslip_fuzz::{Bytes, Watched, all_finite, succeeded};
+
+/// The longest struct that is read, in words, and one more.
+const WORDS: usize = 4096 / 8 + 1;
+
+/// A struct in as much room as its declared size may claim.
+struct Struct<T>(Box<[u64; WORDS]>, std::marker::PhantomData<T>);
+
+impl<T: Copy> Struct<T> {
+    fn new(value: T) -> Struct<T> {
+        let mut words = Box::new([0; WORDS]);
+        // SAFETY: the ABI's structs are shorter and need no more than a word's alignment.
+        unsafe { words.as_mut_ptr().cast::<T>().write(value) }
+        Struct(words, std::marker::PhantomData)
+    }
+
+    fn pointer(&mut self) -> *mut T {
+        self.0.as_mut_ptr().cast()
+    }
+
+    /// Its size as declared: right, another word's, or anything.
+    fn declare(&mut self, bytes: &mut Bytes) {
+        self.0[0] = bytes.integer(size_of::<T>() as i64) as u64;
+        if bytes.once_in(8) {
+            self.0[0] = 8 * u64::from(bytes.byte());
+        }
+        if bytes.once_in(8) {
+            self.0[bytes.below(255)] = 1;
+        }
+    }
+}
+
+fn numbers(bytes: &mut Bytes, n: usize, usual: f64) -> Vec<f64> {
+    (0..n).map(|_| if bytes.once_in(2) { bytes.coordinate() } else { bytes.number(usual) }).collect()
+}
+
+fn points(bytes: &mut Bytes, n: usize) -> Vec<f64> {
+    let square = [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0, 1.0, 0.0];
+    let mut x: Vec<f64> = square.iter().copied().cycle().take(n).collect();
+    for _ in 0..bytes.below(2 * n) {
+        let k = bytes.below(n);
+        x[k] = if bytes.once_in(8) { bytes.number(x[k]) } else { bytes.coordinate() };
+    }
+    x
+}
+
+fn pair_calls(bytes: &mut Bytes) {
+    let (x1, x2) = (points(bytes, 12), points(bytes, 12));
+    let mut pair = Struct::new(stickslip_pair {
+        struct_size: 0,
+        n1: bytes.integer(4) as i32,
+        n2: bytes.integer(4) as i32,
+        x1: bytes.pointer(x1.as_ptr()),
+        x2: bytes.pointer(x2.as_ptr()),
+        quadrature: bytes.choice(6),
+        layout: bytes.choice(2),
+        element_points: bytes.integer(0),
+    });
+    pair.declare(bytes);
+    let p = bytes.pointer(pair.pointer());
+    let (ab, ac, dn) = (numbers(bytes, 16, 0.1), numbers(bytes, 16, 0.1), numbers(bytes, 16, 0.1));
+    let derivatives: Vec<f64> = dn.iter().copied().cycle().take(16 * 24).collect();
+    let traction = numbers(bytes, 12, -1.0);
+    let mut out = [16, 16, 16 * 24, 16 * 24].map(Watched::<f64>::new);
+    let [a, b, c, d] = &mut out;
+    let [a, b, c, d] = [a, b, c, d].map(|o| bytes.output(o.pointer()));
+    // SAFETY: by the head of this file; so below.
+    let status = unsafe {
+        match bytes.below(4) {
+            0 => stickslip_pair_weights(p, a, b, c, d),
+            1 => stickslip_pair_gap(p, bytes.pointer(ab.as_ptr()), bytes.pointer(ac.as_ptr()), a),
+            2 => stickslip_pair_residual(p, ab.as_ptr(), ac.as_ptr(), bytes.pointer(traction.as_ptr()), d),
+            _ => {
+                let mut response = Struct::new(std::mem::zeroed::<stickslip_node_response>());
+                response.declare(bytes);
+                let mut responses = vec![0u64; 5 * WORDS]; // four, as far apart as the first one says
+                let stride = (response.0[0] as usize / 8).min(WORDS);
+                for k in 0..4 {
+                    responses[k * stride..k * stride + stride.min(WORDS)].copy_from_slice(&response.0[..stride]);
+                }
+                let mut k = Watched::<f64>::new(36 * 36);
+                let moving = [0, 1].map(|_| bytes.pointer(derivatives.as_ptr()));
+                let [now, before] = [ab.as_ptr(), ac.as_ptr()].map(|n| bytes.pointer(n));
+                let scale = bytes.pointer(traction.as_ptr());
+                let ld = match bytes.integer(36) {
+                    ld if ld > 36 => 36,
+                    ld => ld,
+                };
+                let status = stickslip_pair_tangent(
+                    p,
+                    now,
+                    now,
+                    moving[0],
+                    moving[1],
+                    before,
+                    before,
+                    traction.as_ptr(),
+                    bytes.pointer(responses.as_ptr().cast()),
+                    scale,
+                    k.pointer(),
+                    ld,
+                );
+                if succeeded(status) {
+                    let written = k.values().iter().filter(|v| !v.is_nan());
+                    assert!(written.into_iter().all(|v| v.is_finite()));
+                } else {
+                    k.assert_untouched();
+                }
+                return;
+            }
+        }
+    };
+    if succeeded(status) {
+        // What is not written keeps its pattern, a NaN of its own.
+        let pattern = Watched::<f64>::new(1).values()[0].to_bits();
+        let written = out.iter().flat_map(|o| o.values().iter()).filter(|v| v.to_bits() != pattern);
+        written.for_each(|v| all_finite(&[*v]));
+    } else {
+        out.iter().for_each(Watched::assert_untouched);
+    }
+}
+
+fn node_calls(bytes: &mut Bytes) {
+    // SAFETY: numbers alone.
+    let mut node: stickslip_node = unsafe { std::mem::zeroed() };
+    node.lambda = [bytes.number(0.1), bytes.number(0.0), bytes.number(-1.0)];
+    node.normal = [bytes.number(0.0), bytes.number(0.0), bytes.number(1.0)];
+    node.augmentation = bytes.number(3.0);
+    node.mu = bytes.number(0.5);
+    node.coverage = bytes.number(1.0);
+    node.coverage_previous = bytes.number(1.0);
+    node.slip = bytes.choice(3);
+    node.n_directions = bytes.choice(3);
+    for v in node.gap_now.iter_mut().chain(&mut node.gap_previous).chain(&mut node.gap_committed) {
+        *v = bytes.number(0.01);
+    }
+    for v in &mut node.directions {
+        *v = bytes.number(0.0);
+    }
+    node.directions[0] = bytes.number(1.0);
+    let mut node = Struct::new(node);
+    node.declare(bytes);
+    // SAFETY: as above.
+    let mut response = Struct::new(unsafe { std::mem::zeroed::<stickslip_node_response>() });
+    response.declare(bytes);
+    response.0[1..].fill(0x5eed_5eed);
+    let before = *response.0;
+    let status = unsafe { stickslip_node_respond(bytes.pointer(node.pointer()), bytes.output(response.pointer())) };
+    let size = (response.0[0] as usize).div_ceil(8).min(WORDS);
+    assert_eq!(before[0], response.0[0], "the size is the caller's");
+    if !succeeded(status) {
+        assert!(before == *response.0, "a refused call has written");
+        return;
+    }
+    assert!(before[size..] == response.0[size..], "written beyond the struct");
+    let (mut row, mut block) = (Watched::<f64>::new(3), Watched::<f64>::new(9));
+    let (scale, layout) = (bytes.number(1.0), bytes.choice(2));
+    let (r, b) = (bytes.output(row.pointer()), bytes.output(block.pointer()));
+    if !succeeded(unsafe { stickslip_node_block(response.pointer(), scale, layout, r, b) }) {
+        row.assert_untouched();
+        block.assert_untouched();
+    }
+}
+
+fn facet_calls(bytes: &mut Bytes) {
+    let x = points(bytes, 12);
+    let (mut normals, mut areas, mut normal) = (Watched::<f64>::new(12), Watched::<f64>::new(4), Watched::<f64>::new(3));
+    let n = bytes.integer(4) as i32;
+    let status = unsafe {
+        let (normals, areas) = (bytes.output(normals.pointer()), bytes.output(areas.pointer()));
+        stickslip_facet_geometry(n, bytes.pointer(x.as_ptr()), normals, areas)
+    };
+    if !succeeded(status) {
+        normals.assert_untouched();
+        areas.assert_untouched();
+    }
+    (normals.values(), areas.values());
+    let sum = numbers(bytes, 3, 1.0);
+    if succeeded(unsafe { stickslip_node_normal(bytes.pointer(sum.as_ptr()), normal.pointer()) }) {
+        let length = normal.values().iter().map(|v| v * v).sum::<f64>();
+        assert!((length - 1.0).abs() < 1e-14, "{length}");
+    } else {
+        normal.assert_untouched();
+    }
+}
+
+/// A surface with up to so many facets and nodes.
+const FACETS: usize = 6;
+const NODES: usize = 12;
+
+struct Arrays {
+    coordinates: Vec<f64>,
+    offsets: Vec<i64>,
+    nodes: Vec<i64>,
+    equations: Vec<i64>,
+    multipliers: Vec<i64>,
+    owned: Vec<i32>,
+}
+
+impl Arrays {
+    fn new(bytes: &mut Bytes, base: i64, up: bool) -> Arrays {
+        let ends: Vec<i64> = (0..=FACETS as i64).map(|k| 4 * k).collect();
+        // A strip of two rows of nodes.
+        let strip = |k: usize| {
+            let a = k.min(NODES / 2 - 2);
+            let q = [a, a + 1, a + 1 + NODES / 2, a + NODES / 2];
+            if up { q } else { [q[0], q[3], q[2], q[1]] }
+        };
+        let node = |k: usize| strip(k / 4)[k % 4] as i64 + base;
+        let place = |k: usize| [(k / 3 % (NODES / 2)) as f64, (k / 3 / (NODES / 2)) as f64, 0.0][k % 3];
+        let mut arrays = Arrays {
+            coordinates: (0..3 * NODES).map(place).collect(),
+            offsets: ends,
+            nodes: (0..4 * FACETS).map(node).collect(),
+            equations: (0..3 * NODES as i64).map(|k| k + base).collect(),
+            multipliers: (0..3 * NODES as i64).map(|k| 100 + k + base).collect(),
+            owned: vec![1; NODES],
+        };
+        for _ in 0..bytes.below(4) {
+            let k = bytes.below(255);
+            match bytes.below(8) {
+                0 => arrays.offsets[k % (FACETS + 1)] = bytes.integer(4),
+                1 => arrays.nodes[k % (4 * FACETS)] = bytes.integer(2),
+                2 => arrays.equations[k % (3 * NODES)] = bytes.integer(-1),
+                3 => arrays.multipliers[k % (3 * NODES)] = bytes.integer(-1),
+                4 => arrays.owned[k % NODES] = bytes.integer(0) as i32,
+                5 => arrays.coordinates[k % (3 * NODES)] = bytes.number(0.5),
+                _ => arrays.coordinates[k % (3 * NODES)] = bytes.coordinate(),
+            }
+        }
+        arrays
+    }
+
+    fn surface(&self, bytes: &mut Bytes, multipliers: bool) -> Struct<stickslip_surface> {
+        let facets = if bytes.once_in(8) { bytes.count(FACETS as i64) } else { (NODES / 2 - 1) as i64 };
+        let nodes = if bytes.once_in(8) { bytes.count(NODES as i64) } else { NODES as i64 };
+        let optional = |bytes: &mut Bytes, p: *const i64| if multipliers { bytes.pointer(p) } else { null() };
+        let mut surface = Struct::new(stickslip_surface {
+            struct_size: 0,
+            n_nodes: nodes,
+            n_facets: facets,
+            coordinates: bytes.pointer(self.coordinates.as_ptr()),
+            facet_offsets: bytes.pointer(self.offsets.as_ptr()),
+            facet_nodes: bytes.pointer(self.nodes.as_ptr()),
+            equations: bytes.pointer(self.equations.as_ptr()),
+            multiplier_equations: optional(bytes, self.multipliers.as_ptr()),
+            owned: if multipliers && bytes.once_in(4) { self.owned.as_ptr() } else { null() },
+        });
+        surface.declare(bytes);
+        surface
+    }
+}
+
+fn options(bytes: &mut Bytes, base: i64) -> Struct<stickslip_options> {
+    // SAFETY: numbers alone.
+    let mut options = Struct::new(unsafe { std::mem::zeroed::<stickslip_options>() });
+    let size = bytes.integer(size_of::<stickslip_options>() as i64) as u64;
+    if !succeeded(unsafe { stickslip_options_init(bytes.output(options.pointer()), size) }) {
+        assert!(options.0.iter().all(|w| *w == 0));
+    }
+    // SAFETY: as above, in its own room.
+    let o = unsafe { &mut *options.pointer() };
+    o.index_base = base as i32;
+    o.modulus = bytes.number(1000.0);
+    o.friction = bytes.choice(4);
+    o.form = bytes.choice(2);
+    o.weights = bytes.choice(3);
+    for _ in 0..bytes.below(4) {
+        match bytes.below(12) {
+            0 => o.slip = bytes.choice(3),
+            1 => o.mortar_side = bytes.choice(3),
+            2 => o.multiplier_basis = bytes.choice(2),
+            3 => o.quadrature = bytes.choice(6),
+            4 => o.row_scale = bytes.choice(2),
+            5 => o.new_contact = bytes.choice(2),
+            6 => o.index_base = bytes.choice(2),
+            7 => o.mu = bytes.number(0.3),
+            8 => o.augmentation = bytes.number(1.0),
+            9 => o.coverage_min = bytes.number(1e-4),
+            10 => o.no_shortcuts = bytes.choice(16),
+            _ => (o.shape, o.radius) = (bytes.choice(4), bytes.number(1.0)),
+        }
+    }
+    options.declare(bytes);
+    options
+}
+
+fn create_calls(bytes: &mut Bytes) {
+    let base = bytes.below(2) as i64;
+    let (a1, a2) = (Arrays::new(bytes, base, false), Arrays::new(bytes, base, true));
+    let (mut one, mut two) = (a1.surface(bytes, true), a2.surface(bytes, false));
+    let mut options = options(bytes, base);
+    let mut handle = std::ptr::dangling_mut::<stickslip_interface>();
+    let [p, q] = [one.pointer(), two.pointer()].map(|p| bytes.pointer(p));
+    let status = unsafe { stickslip_interface_create(p, q, bytes.pointer(options.pointer()), &mut handle) };
+    if !succeeded(status) {
+        assert!(handle.is_null() || handle == std::ptr::dangling_mut(), "a handle from a refused call");
+        return;
+    }
+    // As large as any of these surfaces needs.
+    let mut out = [3 * NODES, 3 * NODES, 3 * NODES].map(Watched::<f64>::new);
+    let [f, g, r] = &mut out;
+    let (f, g, r) = (bytes.output(f.pointer()), bytes.output(g.pointer()), bytes.output(r.pointer()));
+    let (x1, x2, lambda) = (&a1.coordinates, &a2.coordinates, numbers(bytes, 3 * NODES, -1.0));
+    let status = unsafe {
+        let [x1, x2, lambda] = [x1, x2, &lambda].map(|v| bytes.pointer(v.as_ptr()));
+        stickslip_interface_residual(handle, x1, x2, lambda, null(), f, g, r)
+    };
+    if !succeeded(status) {
+        out.iter().for_each(Watched::assert_untouched);
+    }
+    for o in &out {
+        o.values();
+    }
+    // Triplets into too little room, into a matrix with anything for a pattern.
+    let (mut rows, mut columns, mut values) = (Watched::new(64), Watched::new(64), Watched::<f64>::new(64));
+    let (x1, x2, lambda, mut count) = (x1.as_ptr(), x2.as_ptr(), lambda.as_ptr(), 0);
+    let capacity = bytes.count(64).min(64);
+    let status = unsafe {
+        let (i, j, v) = (rows.pointer(), columns.pointer(), values.pointer());
+        stickslip_interface_tangent_coo(handle, x1, x2, lambda, null(), capacity, i, j, v, &mut count)
+    };
+    if !succeeded(status) {
+        (rows.assert_untouched(), columns.assert_untouched(), values.assert_untouched());
+    }
+    (rows.values(), columns.values(), values.values());
+    let n = 3 * NODES as i64;
+    let mut offsets: Vec<i64> = (0..=n).map(|k| k.min(60) + base).collect();
+    let mut columns: Vec<i64> = (0..64).map(|k| k + base).collect();
+    for _ in 0..bytes.below(3) {
+        columns[bytes.below(64)] = bytes.integer(3);
+        let k = bytes.below(offsets.len());
+        offsets[k] = bytes.integer(offsets[k]).min(60);
+    }
+    let mut values = Watched::<f64>::new(64);
+    let status = unsafe {
+        let (o, c, n) = (offsets.as_ptr(), columns.as_ptr(), bytes.count(n));
+        stickslip_interface_tangent_csr(handle, x1, x2, lambda, null(), n, o, c, values.pointer())
+    };
+    if !succeeded(status) {
+        values.assert_untouched();
+    }
+    values.values();
+    let (mut text, capacity) = (Watched::<i8>::new(80), bytes.count(80).min(80));
+    succeeded(unsafe { stickslip_interface_effects(handle, bytes.output(text.pointer()).cast(), capacity) });
+    text.values();
+    // SAFETY: numbers alone.
+    let mut counters = Struct::new(unsafe { std::mem::zeroed::<stickslip_counters>() });
+    counters.declare(bytes);
+    succeeded(unsafe { stickslip_interface_counters(handle, bytes.output(counters.pointer())) });
+    let mut states = Struct::new(unsafe { std::mem::zeroed::<stickslip_states>() });
+    let (mut state, mut gap) = (Watched::<i32>::new(NODES), Watched::<f64>::new(NODES));
+    // SAFETY: in its own room.
+    unsafe { ((*states.pointer()).state, (*states.pointer()).gap) = (state.pointer(), bytes.output(gap.pointer())) };
+    states.0[0] = bytes.integer(size_of::<stickslip_states>() as i64) as u64;
+    if !succeeded(unsafe { stickslip_interface_states(handle, x1, x2, lambda, null(), states.pointer()) }) {
+        state.assert_untouched();
+    }
+    (state.values(), gap.values());
+    assert!(succeeded(unsafe { stickslip_interface_destroy(&mut handle) }) && handle.is_null());
+    assert!(succeeded(unsafe { stickslip_interface_destroy(&mut handle) }), "once more does nothing");
+}
+
+fn preparation_calls(bytes: &mut Bytes) {
+    let base = bytes.below(2) as i64;
+    let arrays = Arrays::new(bytes, base, true);
+    let mut surface = arrays.surface(bytes, false);
+    let (mut nodes, mut originals, mut count) = (Watched::new(4 * FACETS), Watched::new(4 * FACETS), 0);
+    let status = unsafe {
+        let (angle, capacity) = (bytes.number(0.5), bytes.count(4 * FACETS as i64).min(4 * FACETS as i64));
+        let (f, o) = (bytes.output(nodes.pointer()), bytes.output(originals.pointer()));
+        let p = bytes.pointer(surface.pointer());
+        stickslip_surface_split_creases(p, angle, bytes.choice(2), capacity, f, o, &mut count)
+    };
+    if !succeeded(status) {
+        nodes.assert_untouched();
+        originals.assert_untouched();
+    }
+    (nodes.values(), originals.values());
+    // Two interfaces with up to eight nodes a side.
+    let ends = |bytes: &mut Bytes| [0, 4, 8].map(|k| bytes.integer(k).min(8));
+    let names = |bytes: &mut Bytes| (0..8).map(|k| bytes.integer(k % 5)).collect::<Vec<i64>>();
+    let (o1, n1, o2, n2) = (ends(bytes), names(bytes), ends(bytes), names(bytes));
+    let (mut found, mut kinds, mut claims) = (Watched::new(16), Watched::<i32>::new(16), Watched::new(16));
+    let status = unsafe {
+        let (f, k, c) = (found.pointer(), bytes.output(kinds.pointer()), bytes.output(claims.pointer()));
+        let (n, capacity) = (bytes.count(2).min(2), bytes.count(16).min(16));
+        let [o1, n1, o2, n2] = [o1.as_ptr(), n1.as_ptr(), o2.as_ptr(), n2.as_ptr()].map(|p| bytes.pointer(p));
+        stickslip_crosspoints_find(n, o1, n1, o2, n2, capacity, f, k, c, &mut count)
+    };
+    if !succeeded(status) {
+        found.assert_untouched();
+        kinds.assert_untouched();
+        claims.assert_untouched();
+    }
+    (found.values(), kinds.values(), claims.values());
+    let (mut text, length) = (Watched::<i8>::new(40), bytes.count(40).min(40));
+    unsafe { stickslip_last_error_padded(bytes.output(text.pointer()).cast(), length) };
+    text.values();
+    stickslip_status_string(bytes.integer(0) as i32);
+}
+
+fuzz_target!(|data: &[u8]| {
+    let mut bytes = Bytes(data);
+    while !bytes.is_empty() {
+        match bytes.below(8) {
+            0 | 1 => pair_calls(&mut bytes),
+            2 => node_calls(&mut bytes),
+            3 => facet_calls(&mut bytes),
+            4 => preparation_calls(&mut bytes),
+            _ => create_calls(&mut bytes),
+        }
+    }
+});

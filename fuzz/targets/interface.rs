@@ -1,0 +1,291 @@
+//! An interface by its C functions: any sequence of calls, with states, multipliers and histories that are mostly sound.
+//! The handle answers or refuses, its history moves by commits alone, equal points give equal bits, and after a refusal
+//! it is as good as before.
+#![no_main]
+#![allow(unsafe_code)]
+
+use libfuzzer_sys::fuzz_target;
+use stickslip::capi::*;
+use stickslip_fuzz::{Bytes, Watched, all_finite, succeeded};
+
+const N1: usize = 9;
+const N2: usize = 16;
+/// More than the entries of any tangent of this size.
+const MOST: usize = 100_000;
+
+struct Scene {
+    handle: *mut stickslip_interface,
+    /// Multiplier components a node.
+    components: usize,
+    x1: Vec<f64>,
+    x2: Vec<f64>,
+    lambda: Vec<f64>,
+}
+
+/// n x n nodes over `size`, at height z.
+fn grid(n: usize, from: f64, size: f64, z: f64) -> Vec<f64> {
+    let at = |k: usize| from + size * k as f64 / (n - 1) as f64;
+    (0..n * n).flat_map(|k| [at(k % n), at(k / n), z]).collect()
+}
+
+fn quads(n: usize, up: bool) -> Vec<i64> {
+    let quad = |k: usize| {
+        let a = k / (n - 1) * n + k % (n - 1);
+        let q = [a, a + 1, a + 1 + n, a + n];
+        if up { q } else { [q[0], q[3], q[2], q[1]] }
+    };
+    (0..(n - 1) * (n - 1)).flat_map(quad).map(|k| k as i64).collect()
+}
+
+/// Moves a few coordinates.
+fn shake(bytes: &mut Bytes, x: &mut [f64]) {
+    for _ in 0..bytes.below(4) {
+        let k = bytes.below(x.len());
+        x[k] = if bytes.once_in(4) { bytes.number(x[k]) } else { x[k] + bytes.coordinate() / 64.0 };
+    }
+}
+
+impl Scene {
+    fn new(bytes: &mut Bytes) -> Option<Scene> {
+        let (mut x1, mut x2) = (grid(3, 0.0, 2.0, -0.01), grid(4, -0.5, 3.0, 0.0));
+        if bytes.once_in(2) {
+            shake(bytes, &mut x1);
+            shake(bytes, &mut x2);
+        }
+        // SAFETY: numbers alone; then as large as it says.
+        let mut options: stickslip_options = unsafe { std::mem::zeroed() };
+        assert!(succeeded(unsafe { stickslip_options_init(&mut options, size_of::<stickslip_options>() as u64) }));
+        options.form = bytes.choice(2);
+        options.slip = bytes.choice(3);
+        options.weights = bytes.choice(3);
+        options.friction = bytes.choice(4);
+        options.mortar_side = bytes.choice(2);
+        options.quadrature = bytes.choice(6);
+        options.row_scale = bytes.choice(2);
+        options.new_contact = bytes.choice(2);
+        options.no_shortcuts = bytes.choice(16);
+        options.mu = if options.friction == STICKSLIP_FRICTION_COULOMB { bytes.number(0.3) } else { bytes.number(0.0) };
+        options.modulus = bytes.number(1000.0);
+        options.augmentation = if options.modulus == 0.0 { bytes.number(15.0) } else { 0.0 };
+        options.coverage_min = bytes.number(1e-8);
+        options.search_distance = bytes.number(0.0);
+        let components = if options.friction == STICKSLIP_FRICTION_NONE { 1 } else { 3 };
+        let offsets = |n: usize| (0..=n as i64).map(|k| 4 * k).collect::<Vec<_>>();
+        let numbers = |first: usize, n: usize| (first as i64..(first + n) as i64).collect::<Vec<_>>();
+        let (o1, o2, f1, f2) = (offsets(4), offsets(9), quads(3, false), quads(4, true));
+        let (e1, mut e2) = (numbers(0, 3 * N1), numbers(3 * N1, 3 * N2));
+        let mut e3 = numbers(3 * (N1 + N2), components * N1);
+        if bytes.once_in(3) {
+            e2.fill(-1);
+        }
+        for _ in 0..bytes.below(3) {
+            let k = bytes.below(e3.len());
+            e3[k] = -1;
+        }
+        let surface = |x: &[f64], offsets: &[i64], nodes: &[i64], equations: &[i64], multipliers: Option<&[i64]>| {
+            stickslip_surface {
+                struct_size: size_of::<stickslip_surface>() as u64,
+                n_nodes: (x.len() / 3) as i64,
+                n_facets: offsets.len() as i64 - 1,
+                coordinates: x.as_ptr(),
+                facet_offsets: offsets.as_ptr(),
+                facet_nodes: nodes.as_ptr(),
+                equations: equations.as_ptr(),
+                multiplier_equations: multipliers.map_or(std::ptr::null(), <[i64]>::as_ptr),
+                owned: std::ptr::null(),
+            }
+        };
+        let (one, two) = (surface(&x1, &o1, &f1, &e1, Some(&e3)), surface(&x2, &o2, &f2, &e2, None));
+        let mut handle = std::ptr::null_mut();
+        // SAFETY: the arrays are as long as the surfaces say.
+        let status = unsafe { stickslip_interface_create(&one, &two, &options, &mut handle) };
+        assert_eq!(succeeded(status), !handle.is_null());
+        let lambda = (0..components * N1).map(|k| if (k + 1) % components == 0 { -1.0 } else { 0.1 }).collect();
+        (!handle.is_null()).then_some(Scene { handle, components, x1, x2, lambda })
+    }
+
+    fn residual(&self) -> Option<Vec<f64>> {
+        let mut out = [3 * N1, 3 * N2, self.components * N1].map(Watched::<f64>::new);
+        let [f1, f2, rows] = &mut out;
+        let (f1, f2, rows) = (f1.pointer(), f2.pointer(), rows.pointer());
+        let (x1, x2, lambda) = (self.x1.as_ptr(), self.x2.as_ptr(), self.lambda.as_ptr());
+        // SAFETY: the arrays are as long as the handle's surfaces ask for; so below.
+        let status = unsafe {
+            stickslip_interface_residual(self.handle, x1, x2, lambda, std::ptr::null(), f1, f2, rows)
+        };
+        if !succeeded(status) {
+            out.iter().for_each(Watched::assert_untouched);
+            return None;
+        }
+        let values: Vec<f64> = out.iter().flat_map(|o| o.values().to_vec()).collect();
+        all_finite(&values);
+        Some(values)
+    }
+
+    fn tangent(&self) -> Option<Vec<(i64, i64, u64)>> {
+        let (mut rows, mut columns, mut values) = (Watched::new(MOST), Watched::new(MOST), Watched::new(MOST));
+        let (r, c, v) = (rows.pointer(), columns.pointer(), values.pointer());
+        let (x1, x2, lambda, mut count) = (self.x1.as_ptr(), self.x2.as_ptr(), self.lambda.as_ptr(), 0);
+        let no_sums = std::ptr::null();
+        let status = unsafe {
+            stickslip_interface_tangent_coo(self.handle, x1, x2, lambda, no_sums, MOST as i64, r, c, v, &mut count)
+        };
+        if !succeeded(status) {
+            rows.assert_untouched();
+            values.assert_untouched();
+            return None;
+        }
+        let n = count as usize;
+        all_finite(&values.values()[..n]);
+        let entry = |k: usize| (rows.values()[k], columns.values()[k], values.values()[k].to_bits());
+        Some((0..n).map(entry).collect())
+    }
+
+    fn history(&self) -> Option<(Vec<i64>, Vec<u64>)> {
+        let (mut n, mut m) = (0, 0);
+        if !succeeded(unsafe { stickslip_interface_history_size(self.handle, &mut n, &mut m) }) {
+            return None;
+        }
+        let (mut integers, mut reals) = (Watched::new(n as usize), Watched::<f64>::new(m as usize));
+        let status = unsafe {
+            stickslip_interface_history_export(self.handle, n, integers.pointer(), m, reals.pointer())
+        };
+        assert!(succeeded(status), "a history whose size is known can be exported");
+        Some((integers.values().to_vec(), reals.values().iter().map(|v| v.to_bits()).collect()))
+    }
+
+    fn import(&self, integers: &[i64], reals: &[f64]) -> bool {
+        let (n, m) = (integers.len() as i64, reals.len() as i64);
+        succeeded(unsafe { stickslip_interface_history_import(self.handle, n, integers.as_ptr(), m, reals.as_ptr()) })
+    }
+
+    fn commit(&self) -> bool {
+        let (x1, x2, lambda) = (self.x1.as_ptr(), self.x2.as_ptr(), self.lambda.as_ptr());
+        succeeded(unsafe { stickslip_interface_commit(self.handle, x1, x2, lambda, std::ptr::null()) })
+    }
+
+    fn call(&mut self, bytes: &mut Bytes) {
+        if bytes.once_in(2) {
+            shake(bytes, &mut self.x1);
+            shake(bytes, &mut self.x2);
+            shake(bytes, &mut self.lambda);
+        }
+        let h = self.handle;
+        match bytes.below(12) {
+            0 => {
+                // The history moves on success alone, and comes back.
+                let before = self.history();
+                if !self.commit() {
+                    assert!(before == self.history(), "a refused commit has moved the history");
+                } else if bytes.once_in(3) {
+                    assert!(succeeded(unsafe { stickslip_interface_rollback(h) }));
+                    assert!(before == self.history() || before.is_none(), "a step taken back");
+                }
+            }
+            1 => {
+                succeeded(unsafe { stickslip_interface_rollback(h) });
+            }
+            2 => {
+                let mut values = vec![0.5; N1];
+                shake(bytes, &mut values);
+                succeeded(unsafe { stickslip_interface_set_friction(h, bytes.pointer(values.as_ptr())) });
+            }
+            3 => {
+                let mut values = vec![20.0; N1];
+                shake(bytes, &mut values);
+                succeeded(unsafe { stickslip_interface_set_augmentation(h, bytes.pointer(values.as_ptr())) });
+            }
+            4 => {
+                let mut values: Vec<f64> = (0..3 * N1).map(|k| if k % 3 == 2 { 1.0 } else { 0.0 }).collect();
+                shake(bytes, &mut values);
+                succeeded(unsafe { stickslip_interface_set_normals(h, bytes.pointer(values.as_ptr())) });
+            }
+            5 => {
+                let nodes = [bytes.integer(4), bytes.integer(5)];
+                let mut values = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0];
+                shake(bytes, &mut values);
+                let n = bytes.count(2);
+                succeeded(unsafe { stickslip_interface_set_constraints(h, n, nodes.as_ptr(), values.as_ptr()) });
+            }
+            6 => {
+                succeeded(unsafe { stickslip_interface_set_previous(h, self.x1.as_ptr(), self.x2.as_ptr()) });
+            }
+            7 => {
+                // A history that was sound, and is no longer.
+                let Some((mut integers, reals)) = self.history() else { return };
+                let mut reals: Vec<f64> = reals.into_iter().map(f64::from_bits).collect();
+                shake(bytes, &mut reals);
+                for _ in 0..bytes.below(3) {
+                    let k = bytes.below(integers.len());
+                    integers[k] = bytes.integer(integers[k]);
+                }
+                if !self.import(&integers, &reals) {
+                    let (i, r) = self.history().expect("it was exported before");
+                    let r: Vec<f64> = r.into_iter().map(f64::from_bits).collect();
+                    assert!(self.import(&i, &r), "its own history");
+                }
+            }
+            8 => {
+                let mut out = Watched::new(STICKSLIP_SUMS_PER_NODE as usize * N1);
+                let (x1, x2) = (self.x1.as_ptr(), self.x2.as_ptr());
+                if succeeded(unsafe { stickslip_interface_sums(h, x1, x2, out.pointer()) }) {
+                    all_finite(out.values());
+                } else {
+                    out.assert_untouched();
+                }
+            }
+            9 => {
+                let mut fraction = Watched::<f64>::new(N1);
+                let mut text = Watched::<i8>::new(64);
+                let mut report: stickslip_report = unsafe { std::mem::zeroed() };
+                report.struct_size = size_of::<stickslip_report>() as u64;
+                (report.fraction, report.text, report.text_capacity) = (fraction.pointer(), text.pointer().cast(), 64);
+                let (x1, x2) = (self.x1.as_ptr(), self.x2.as_ptr());
+                if succeeded(unsafe { stickslip_interface_report(h, x1, x2, &mut report) }) {
+                    all_finite(fraction.values());
+                    assert!(text.values().contains(&0));
+                    let nodes = report.nodes_none + report.nodes_part + report.nodes_full + report.nodes_several;
+                    assert_eq!(nodes, N1 as i64);
+                } else {
+                    fraction.assert_untouched();
+                    text.assert_untouched();
+                }
+            }
+            10 => {
+                let mut lambda = Watched::new(self.components * N1);
+                if succeeded(unsafe { stickslip_interface_initial_multipliers(h, lambda.pointer()) }) {
+                    all_finite(lambda.values());
+                } else {
+                    lambda.assert_untouched();
+                }
+            }
+            _ => {
+                // A, B, A.
+                let here = (self.residual(), self.tangent());
+                let x2 = self.x2.clone();
+                shake(bytes, &mut self.x2);
+                let history = self.history();
+                self.residual();
+                self.tangent();
+                assert!(history == self.history(), "an evaluation has moved the history");
+                self.x2 = x2;
+                let again = (self.residual(), self.tangent());
+                assert!(here == again, "another answer at the same point");
+            }
+        }
+    }
+}
+
+fuzz_target!(|data: &[u8]| {
+    let mut bytes = Bytes(data);
+    let Some(mut scene) = Scene::new(&mut bytes) else { return };
+    for _ in 0..8 {
+        if bytes.is_empty() {
+            break;
+        }
+        scene.call(&mut bytes);
+    }
+    // Whatever came before: at a sound place of its own the handle answers as a new one with its history does.
+    assert!(succeeded(unsafe { stickslip_interface_destroy(&mut scene.handle) }));
+    assert!(scene.handle.is_null());
+});
