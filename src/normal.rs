@@ -20,9 +20,13 @@ pub fn corner_normal(facet: &Facet, k: usize) -> Vec3 {
 /// nu_A from the sum of the corner normals around node `node`.
 ///
 /// # Errors
-/// [`Kind::UndefinedNormal`] when the normals cancel.
+/// [`Kind::UndefinedNormal`] when the normals cancel, [`Kind::NotFinite`] when the sum is too long to have a length.
 pub fn nodal_normal(sum: Vec3, node: usize) -> Result<Vec3> {
     let norm = sum.norm();
+    if norm == f64::INFINITY {
+        let text = format!("the sum of the normals at non-mortar node {node} overflows; it is one of unit vectors");
+        return Err(Error::new(Kind::NotFinite, text));
+    }
     if !(norm > SMALLEST_SUM) {
         return Err(Error::new(
             Kind::UndefinedNormal,

@@ -248,3 +248,23 @@ fn coverage_of_a_whole_kite_exceeds_its_area_by_the_error_of_the_rule() {
     let total: f64 = (0..4).map(|a| p.weights(&DEGREE_5).coverage(a)).sum();
     assert!((total - area).abs() <= WEIGHTS_RELATIVE * area);
 }
+
+/// A mortar facet whose nodes lie in a line, but for rounding: it has no area, covers nothing, and no inverse of its map
+/// may tell where on it a point is. It had weights whose sums differed in the fifth digit; others like it, derivatives
+/// that were no numbers.
+#[test]
+fn a_mortar_facet_without_area_covers_nothing() {
+    let one = Facet::new(&[
+        Vec3::new(0.010000964489624474, -0.0070002641207380775, 0.004),
+        Vec3::new(0.01, -0.006999999999999999, 0.004),
+        Vec3::new(0.009999186847828617, -0.006999183240327303, 0.004000819565240377),
+        Vec3::new(0.010001115827077566, -0.006999711481803459, 0.004000819565240377),
+    ]);
+    let two = Facet::new(&[
+        Vec3::new(0.01, -0.006999999999999999, 0.004),
+        Vec3::new(0.010000964489624474, -0.0070002641207380775, 0.004),
+        Vec3::new(0.010001928979248946, -0.007000528241476154, 0.004),
+    ]);
+    let p = Pair::new(one.unwrap(), two.unwrap());
+    assert!(p.segment.is_none());
+}

@@ -1,14 +1,16 @@
 //! A facet projected on an auxiliary plane: y_k = (t1 . z_k, t2 . z_k), height d_k = e . z_k,
 //! z_k = x_k - x0 (formulation c.2). Sides are ordered counter-clockwise in the plane.
 
+use super::plane::SMALLEST_AREA_RATIO;
 use super::{Facet, Plane, Vec2, Vec3, cross};
 use crate::shape::{MAX_NODES, Shape};
 
 /// A projected corner (the cross product of its edges, over the facet's area) below this makes the
 /// facet non-convex: the inverse map would be singular there.
 const SMALLEST_CORNER: f64 = 1e-10;
-/// A projected area below this (over the squared size) is a facet seen edge-on: no overlap.
-const EDGE_ON: f64 = 1e-14;
+/// A projected area below this (over the squared size) is a facet seen edge-on, or one without area: no overlap. Its map
+/// has no inverse but rounding.
+const EDGE_ON: f64 = SMALLEST_AREA_RATIO;
 
 /// A facet in the plane.
 #[derive(Clone, Copy, Debug)]

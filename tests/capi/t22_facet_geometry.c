@@ -27,5 +27,10 @@ int main(void) {
   FILL(nu);
   CHECK_REFUSED(stickslip_node_normal(cancelled, nu), STICKSLIP_UNDEFINED_NORMAL, "normals");
   CHECK_UNTOUCHED(nu);
+
+  /* A sum whose length overflows has no normal; it used to come out as 0. */
+  const double endless[3] = {1e300, 0.0, 1e300};
+  CHECK_REFUSED(stickslip_node_normal(endless, nu), STICKSLIP_NOT_FINITE, "normals");
+  CHECK_UNTOUCHED(nu);
   return 0;
 }

@@ -29,4 +29,8 @@ program t22_facet_geometry
   nu = UNWRITTEN
   CHECK_REFUSED(stickslip_node_normal([1d-9, 0d0, -1d-9], nu), STICKSLIP_UNDEFINED_NORMAL, 'normals')
   CHECK_UNTOUCHED(nu)
+
+  ! A sum whose length overflows has no normal.
+  CHECK_REFUSED(stickslip_node_normal([1d300, 0d0, 1d300], nu), STICKSLIP_NOT_FINITE, 'normals')
+  CHECK_UNTOUCHED(nu)
 end program

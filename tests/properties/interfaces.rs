@@ -18,6 +18,10 @@ const SUMS: f64 = 1e-13;
 const ROTATED: f64 = 1e-11;
 /// K2 on facets that stay affine, as in `tangent.rs`.
 const DIFFERENCES: f64 = 1e-7;
+/// A wrong tangent is wrong at all of so many places, a kink lies within a step of the differences of one.
+const TRIALS: usize = 4;
+/// How far these lie apart: a thousand steps.
+const ASIDE: f64 = 1e-3;
 
 #[derive(Clone, Debug)]
 struct Recipe {
@@ -283,30 +287,25 @@ proptest! {
             jitter: 0.05 + 0.3 * recipe.jitter, shift: recipe.shift.map(|s| 0.13 + s), ..recipe
         };
         let Some(mut scene) = recipe.plain() else { return Ok(()) };
-        let states = scene.states();
-        // As where the tangent is smooth: no node close to a border, which differences at two steps would tell.
-        let error = scene.point().difference_error(0.0);
-        let near_a_kink = error > DIFFERENCES && kinked(&mut scene);
-        prop_assert!(error <= DIFFERENCES || near_a_kink, "{error:e} with {states:?}");
+        // At the place itself or, where a border or a change of topology is too near for differences, close to it.
+        let mut random = Random(recipe.seed);
+        let mut errors = Vec::new();
+        for _ in 0..TRIALS {
+            let error = scene.point().difference_error(0.0);
+            if error <= DIFFERENCES {
+                return Ok(());
+            }
+            errors.push(error);
+            for x in scene.x1.iter_mut().chain(&mut scene.lambda) {
+                *x += random.vector(ASIDE);
+            }
+        }
+        prop_assert!(false, "{errors:?} with {:?}", scene.states());
     }
 }
 
 /// The degree-10 rule's error on quads as rough as these.
 const RULE: f64 = 1e-7;
-
-/// Whether the tangent jumps, or turns sharply, within a few steps of the differences: then these have no limit.
-fn kinked(scene: &mut Scene) -> bool {
-    let at = scene.point().tangent();
-    let scale = max_abs(at.iter().copied());
-    let mut random = Random(7);
-    (0..40).any(|_| {
-        let shaken = |x: &[Vec3], random: &mut Random| x.iter().map(|x| x + random.vector(2e-6)).collect::<Vec<_>>();
-        let (x1, x2, lambda) =
-            (shaken(&scene.x1, &mut random), shaken(&scene.x2, &mut random), shaken(&scene.lambda, &mut random));
-        let near = Point { contact: &mut scene.interface, x1: &x1, x2: &x2, lambda: &lambda }.tangent();
-        max_abs(near.iter().zip(&at).map(|(a, b)| a - b)) > 1e-3 * scale
-    })
-}
 
 /// A law that is hardly ever tested holds easily.
 #[test]

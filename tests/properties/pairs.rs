@@ -98,7 +98,9 @@ fn derivative_identities(p: &Pair) -> TestCaseResult {
     for a in 0..4 {
         for k in 0..8 {
             let apart = (sum(&d.ab[a], k) - sum(&d.ac[a], k)).norm();
-            prop_assert!(apart <= DERIVATIVE_SUMS * size, "D sum n_AB and D sum n_AC differ by {apart:e} of {size:e}");
+            // And the ends of the edges' parts are known to a rounding of the coordinates.
+            let bound = DERIVATIVE_SUMS * size + f64::EPSILON * reach;
+            prop_assert!(apart <= bound, "D sum n_AB and D sum n_AC differ by {apart:e} of {size:e}");
         }
     }
     Ok(())
