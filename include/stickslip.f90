@@ -133,6 +133,12 @@ module stickslip
   integer(c_int32_t), parameter :: STICKSLIP_FINDING_SAME_WAY = 2
   integer(c_int32_t), parameter :: STICKSLIP_FINDING_BEHIND = 3
 
+  ! Why a node and direction are suspected.
+  integer(c_int32_t), parameter :: STICKSLIP_CAUSE_OTHER = 0
+  integer(c_int32_t), parameter :: STICKSLIP_CAUSE_COVERAGE = 1
+  integer(c_int32_t), parameter :: STICKSLIP_CAUSE_PRESCRIBED = 2
+  integer(c_int32_t), parameter :: STICKSLIP_CAUSE_NEW = 3
+
   ! With COLUMN_MAJOR a matrix comes out as k(row, column) of Fortran.
   integer(c_int32_t), parameter :: STICKSLIP_LAYOUT_ROW_MAJOR = 0
   integer(c_int32_t), parameter :: STICKSLIP_LAYOUT_COLUMN_MAJOR = 1
@@ -148,6 +154,7 @@ module stickslip
   integer(c_int64_t), parameter :: stickslip_states_size = 80
   integer(c_int64_t), parameter :: stickslip_counters_size = 192
   integer(c_int64_t), parameter :: stickslip_report_size = 104
+  integer(c_int64_t), parameter :: stickslip_diagnosis_size = 224
   integer(c_int64_t), parameter :: stickslip_pair_size = 48
   integer(c_int64_t), parameter :: stickslip_node_response_size = 408
   integer(c_int64_t), parameter :: stickslip_node_size = 224
@@ -257,6 +264,35 @@ module stickslip
     integer(c_int32_t) :: finding = STICKSLIP_FINDING_NONE ! output
     integer(c_int32_t) :: reserved = 0
     real(c_double) :: penetration = 0              ! output: the deepest [L]
+  end type
+
+  ! What stickslip_interface_diagnose finds; an array that stays null is not wanted. Nodes and facets in the index base,
+  ! -1: none.
+  type, bind(C) :: stickslip_diagnosis
+    integer(c_int64_t) :: struct_size = stickslip_diagnosis_size
+    type(c_ptr) :: state = c_null_ptr              ! integer(c_int32_t) (n1): in: of the last iteration, or -1; out: now
+    type(c_ptr) :: suspect_nodes = c_null_ptr      ! integer(c_int64_t) (suspect_capacity)
+    type(c_ptr) :: suspect_directions = c_null_ptr ! real(c_double) (3, suspect_capacity)
+    type(c_ptr) :: suspect_ratios = c_null_ptr     ! real(c_double) (suspect_capacity): row over an ordinary row
+    type(c_ptr) :: suspect_causes = c_null_ptr     ! integer(c_int32_t) (suspect_capacity): STICKSLIP_CAUSE_...
+    integer(c_int64_t) :: suspect_capacity = 0
+    type(c_ptr) :: text = c_null_ptr               ! character(kind=c_char) (text_capacity): in sentences
+    integer(c_int64_t) :: text_capacity = 0
+    integer(c_int64_t) :: suspects = 0             ! outputs from here on: how many, with room or without
+    integer(c_int64_t) :: state_changes = 0        ! nodes whose state differs from the one given
+    integer(c_int64_t) :: nodes_gap = 0
+    integer(c_int64_t) :: nodes_stick = 0
+    integer(c_int64_t) :: nodes_slip = 0
+    integer(c_int64_t) :: covered_node = -1        ! covered least of those that are covered,
+    real(c_double) :: covered_fraction = 0         ! to this fraction
+    real(c_double) :: overlap = 0                  ! smallest overlap over the smaller facet's area,
+    integer(c_int64_t) :: overlap_facets(2) = -1   ! of these facets
+    real(c_double) :: warp = 0                     ! largest distance of a node from its facet's plane, over the edge
+    integer(c_int64_t) :: warp_facets(2) = -1
+    real(c_double) :: angle = 0                    ! largest angle between the facets' planes
+    integer(c_int64_t) :: angle_facets(2) = -1
+    real(c_double) :: error = 0                    ! largest error of a weight over the facet's area
+    integer(c_int64_t) :: error_facets(2) = -1
   end type
 
   ! A pair of facets, non-mortar first. Node order: right-hand, seen from outside each body.
@@ -557,6 +593,15 @@ module stickslip
       type(stickslip_interface), value :: interface
       real(c_double), intent(in) :: x1(3, *), x2(3, *)
       type(stickslip_report), intent(inout) :: out
+    end function
+
+    ! What may be wrong at x1(3, n1), x2(3, n2), lambda(3, n1); written to out and to the arrays that it points to.
+    integer(c_int32_t) function stickslip_interface_diagnose(interface, x1, x2, lambda, sums, out) bind(C)
+      import :: c_double, c_int32_t, c_ptr, stickslip_interface, stickslip_diagnosis
+      type(stickslip_interface), value :: interface
+      real(c_double), intent(in) :: x1(3, *), x2(3, *), lambda(3, *)
+      type(c_ptr), value :: sums
+      type(stickslip_diagnosis), intent(inout) :: out
     end function
 
     ! A non-mortar facet's share of its nodes' normals and areas. x(3, n); outputs, each may be null: normals(3, n),

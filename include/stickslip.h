@@ -54,7 +54,7 @@
  * What it may add: interface_set_friction, interface_set_augmentation, interface_set_normals,
  * interface_set_constraints, interface_set_previous after interface_create; interface_history_size,
  * interface_history_export, interface_history_import for restarts; interface_sums on several processes;
- * interface_counters, interface_effects, interface_report. Before it: surface_split_creases where a non-mortar surface
+ * interface_counters, interface_effects, interface_report, interface_diagnose. Before it: surface_split_creases where a non-mortar surface
  * has sharp edges, crosspoints_find where interfaces share nodes.
  *
  * A host that assembles elements itself:
@@ -308,6 +308,19 @@
 /// have passed through each other, or start so deep that search_distance is needed.
 #define STICKSLIP_FINDING_BEHIND 3
 
+/// Cause of a suspect: none of those below.
+#define STICKSLIP_CAUSE_OTHER 0
+
+/// Cause of a suspect: the node is hardly covered.
+#define STICKSLIP_CAUSE_COVERAGE 1
+
+/// Cause of a suspect: no displacement in this direction, of either side, has an equation. Declare the direction with
+/// `stickslip_interface_set_constraints`, or take the multiplier's equation away.
+#define STICKSLIP_CAUSE_PRESCRIBED 2
+
+/// Cause of a suspect: it sticks and has no slip history (STICKSLIP_NEW_CONTACT_KEEP).
+#define STICKSLIP_CAUSE_NEW 3
+
 /// Matrices go out row by row (what PETSc's MatSetValues takes).
 #define STICKSLIP_LAYOUT_ROW_MAJOR 0
 
@@ -536,6 +549,61 @@ typedef struct stickslip_report {
   /// [L]. Where both sides are seen from inside, an open gap reads as a penetration.
   double penetration;
 } stickslip_report;
+
+/// What `stickslip_interface_diagnose` finds. A NULL member is not wanted. Facets and nodes in the index base; -1 where
+/// there is no such pair or node.
+typedef struct stickslip_diagnosis {
+  /// sizeof(stickslip_diagnosis).
+  uint64_t struct_size;
+  /// n1, input and output: STICKSLIP_STATE_... of the last iteration, -1 where unknown; those of this one.
+  int32_t *state;
+  /// capacity: nodes where the matrix may be singular, the worst first.
+  int64_t *suspect_nodes;
+  /// 3 capacity: unit vectors, in which direction [-].
+  double *suspect_directions;
+  /// capacity: size of the node's multiplier row in this direction over that of an ordinary row, below 1e-4 [-].
+  double *suspect_ratios;
+  /// capacity: STICKSLIP_CAUSE_...
+  int32_t *suspect_causes;
+  /// Room in each of the four arrays of suspects; what there is no room for is left out.
+  int64_t suspect_capacity;
+  /// The diagnosis in sentences, for the host's log; zero-terminated, cut where it is longer. For people: the words
+  /// may change.
+  char *text;
+  /// Room for text, at least 1; 1000 characters are enough. 0 where text is NULL.
+  int64_t text_capacity;
+  /// Output: how many suspects there are, with room or without.
+  int64_t suspects;
+  /// Output: nodes whose state differs from the one given in `state`; 0 without it.
+  int64_t state_changes;
+  /// Output: nodes with STICKSLIP_STATE_GAP.
+  int64_t nodes_gap;
+  /// Output: nodes with STICKSLIP_STATE_STICK.
+  int64_t nodes_stick;
+  /// Output: nodes with STICKSLIP_STATE_SLIP.
+  int64_t nodes_slip;
+  /// Output: the node that is covered least, of those above coverage_min.
+  int64_t covered_node;
+  /// Output: its covered over full area [-].
+  double covered_fraction;
+  /// Output: the smallest overlap of a pair, over the area of its smaller facet [-].
+  double overlap;
+  /// Output: its non-mortar and mortar facet.
+  int64_t overlap_facets[2];
+  /// Output: the largest warp of a facet of a pair: distance of a node from its plane over its longest edge [-].
+  double warp;
+  /// Output: the pair's facets.
+  int64_t warp_facets[2];
+  /// Output: the largest angle between the planes of a pair's facets [rad].
+  double angle;
+  /// Output: the pair's facets.
+  int64_t angle_facets[2];
+  /// Output: the largest error of a pair's weights, by comparison with the degree-10 rule, over the area of its
+  /// non-mortar facet [-]. 0 to rounding for triangles and parallelograms.
+  double error;
+  /// Output: the pair's facets.
+  int64_t error_facets[2];
+} stickslip_diagnosis;
 
 /// A pair of facets, non-mortar first. Node order: right-hand, seen from outside each body.
 typedef struct stickslip_pair {
@@ -1004,6 +1072,26 @@ int32_t stickslip_interface_report(struct stickslip_interface *interface,
                                    const double *x1,
                                    const double *x2,
                                    struct stickslip_report *out);
+
+/// What may be wrong at (x1, x2, lambda): the worst pairs, how many nodes have changed state since the last iteration,
+/// and the nodes and directions in which the matrix may be singular because a multiplier row (nearly) vanishes there.
+/// When a run has failed, or in every iteration of one that is looked into. What couples several nodes, as more
+/// multipliers than displacements to react do, is not seen. The state of the handle stays as it is.
+///
+/// x1 (3 n1), x2 (3 n2): positions [L]; lambda (3 n1; without friction n1) [F/L^2]; sums: see
+/// `stickslip_interface_sums`, or NULL. out, input and output: its members point to the caller's arrays, which are
+/// filled; its numbers are written. Against an analytic mortar side there are no pairs.
+///
+/// Errors: NULL_POINTER, STRUCT_SIZE, INVALID_SIZE (text_capacity, suspect_capacity), INVALID_VALUE (state; as
+/// `stickslip_interface_sums`), NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL, UNSUPPORTED (sums
+/// with the augmented form).
+/// Cost: those of a tangent, and every pair integrated once more with the degree-10 rule; allocates.
+int32_t stickslip_interface_diagnose(struct stickslip_interface *interface,
+                                     const double *x1,
+                                     const double *x2,
+                                     const double *lambda,
+                                     const double *sums,
+                                     struct stickslip_diagnosis *out);
 
 /// A non-mortar facet's share of its nodes' normals and areas.
 ///

@@ -43,6 +43,8 @@ mod counters;
 
 mod report;
 
+mod diagnosis;
+
 mod facet;
 
 mod pair;
@@ -54,6 +56,7 @@ mod raw;
 mod sized;
 
 pub use counters::*;
+pub use diagnosis::*;
 pub use evaluation::*;
 pub use facet::*;
 pub use history::*;

@@ -10,6 +10,7 @@ mod augmented;
 mod crease;
 mod crosspoints;
 mod describe;
+mod diagnosis;
 mod effects;
 mod filter;
 mod history;
@@ -27,6 +28,7 @@ mod treatment;
 pub use assembly::{Residual, Sink};
 pub use crease::Split;
 pub use crosspoints::{Crosspoint, InterfaceNodes, crosspoints};
+pub use diagnosis::{Cause, Diagnosis, SUSPECT, Suspect, WorstPair};
 pub use history::{History, PairRecord};
 pub use nodes::NodeSums;
 pub use options::{

@@ -1,0 +1,277 @@
+//! What may be wrong with an interface, for a host whose Newton does not converge or whose solver finds a singular
+//! matrix: the worst pairs, the states, and the nodes and directions in which multiplier rows (nearly) vanish.
+//!
+//! A row of the multipliers that has no entries makes the matrix singular. So of the three rows of a node the least
+//! singular value over all their columns is taken, with its direction, relative to that of an ordinary row: entries
+//! over displacements are of the order of M_A times the row scale, those over multipliers 1 / r_A, here times r_A M_A.
+//! What couples several nodes (more multipliers than displacements to react) is not seen node by node.
+
+use super::assembly::Sink;
+use super::nodes::NodeSums;
+use super::{Contact, NO_EQUATION, Weights};
+use crate::error::Result;
+use crate::geometry::{Facet, Plane, Vec3};
+use crate::law::State;
+use crate::mortar::{NonmortarFrame, PairWeights, Segment};
+use crate::quadrature::DEGREE_10;
+use nalgebra::{SMatrix, SVector, SymmetricEigen};
+use std::collections::HashMap;
+
+/// Rows below this, relative to those of a node that is covered in full, are suspects: a node covered to a ten
+/// thousandth has such rows, and a Newton matrix loses four digits by them.
+pub const SUSPECT: f64 = 1e-4;
+/// Covered over full area below which that is what makes a node's rows small.
+const LITTLE: f64 = 1e-3;
+/// Rows below this are rounding of rows that vanish: the root of what products of rows are known to.
+const VANISHING: f64 = 1e-7;
+/// Suspects that the text tells of.
+const TOLD: usize = 3;
+
+/// Why a node's row is small.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(i32)]
+pub enum Cause {
+    /// None of those below.
+    Other = 0,
+    /// The node is hardly covered.
+    Coverage = 1,
+    /// No displacement in this direction, of either side, has an equation.
+    Prescribed = 2,
+    /// It sticks and has no slip history (`NewContact::KeepFriction`).
+    New = 3,
+}
+
+/// A node and a direction in which the matrix may be singular.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Suspect {
+    /// Non-mortar node.
+    pub node: usize,
+    /// Unit vector.
+    pub direction: Vec3,
+    /// Size of the row in this direction over that of an ordinary row [-].
+    pub ratio: f64,
+    /// Why.
+    pub cause: Cause,
+}
+
+/// The pair that is worst in some respect.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WorstPair {
+    /// In what it is the worst.
+    pub value: f64,
+    /// Non-mortar and mortar facet.
+    pub facets: [usize; 2],
+}
+
+/// The diagnosis at one point.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Diagnosis {
+    /// Of every node.
+    pub states: Vec<State>,
+    /// The node that is covered least, of those that are covered, and its covered over full area [-].
+    pub least_covered: Option<(usize, f64)>,
+    /// Smallest overlap over the smaller facet's area [-].
+    pub overlap: Option<WorstPair>,
+    /// Largest distance of a node of either facet from that facet's plane over its longest edge [-].
+    pub warp: Option<WorstPair>,
+    /// Largest angle between the facets' planes [rad].
+    pub angle: Option<WorstPair>,
+    /// Largest difference of a weight from that of the degree-10 rule, over the non-mortar facet's area [-].
+    pub error: Option<WorstPair>,
+    /// Least ratio first.
+    pub suspects: Vec<Suspect>,
+}
+
+impl Diagnosis {
+    /// How many nodes are in this state.
+    pub fn count(&self, state: State) -> usize {
+        self.states.iter().filter(|s| **s == state).count()
+    }
+
+    /// The diagnosis in sentences; nodes and facets counted from `base`.
+    pub fn text(&self, base: usize) -> String {
+        let [gap, stick, slip] = [State::Gap, State::Stick, State::Slip].map(|s| self.count(s));
+        let mut text = format!("{gap} nodes in gap, {stick} in stick, {slip} in slip.");
+        if let Some((node, fraction)) = self.least_covered {
+            text += &format!(" Least covered is node {}, to {fraction:.1e}.", node + base);
+        }
+        let worst = [
+            ("Smallest overlap", &self.overlap, "of the smaller facet"),
+            ("Largest warp", &self.warp, "of the longest edge"),
+            ("Steepest angle", &self.angle, "rad"),
+            ("Largest error of the weights", &self.error, "of the facet's area"),
+        ];
+        for (what, pair, unit) in worst {
+            if let Some(WorstPair { value, facets: [one, two] }) = pair {
+                text += &format!(" {what}: {value:.1e} {unit}, facets {} and {}.", one + base, two + base);
+            }
+        }
+        for Suspect { node, direction: d, ratio, cause } in self.suspects.iter().take(TOLD) {
+            let why = match cause {
+                Cause::Other => "its rows are weak",
+                Cause::Coverage => "it is hardly covered",
+                Cause::Prescribed => "no displacement there has an equation",
+                Cause::New => "it sticks and has no slip history",
+            };
+            text += &format!(
+                " The matrix may be singular at node {} along ({:.3}, {:.3}, {:.3}), {ratio:.1e} of an ordinary row: \
+                 {why}.",
+                node + base,
+                d.x,
+                d.y,
+                d.z
+            );
+        }
+        if self.suspects.len() > TOLD {
+            text += &format!(" So at {} more.", self.suspects.len() - TOLD);
+        }
+        text
+    }
+}
+
+/// Keeps the larger of two.
+fn keep(worst: &mut Option<WorstPair>, value: f64, facets: [usize; 2]) {
+    if worst.is_none_or(|w| value > w.value) {
+        *worst = Some(WorstPair { value, facets });
+    }
+}
+
+/// Largest distance of a node from the facet's plane over its longest edge.
+fn warp(facet: &Facet) -> f64 {
+    Plane::of(facet).map_or(0.0, |plane| {
+        let height = |x: &Vec3| plane.e.dot(&(x - plane.reference - plane.origin)).abs();
+        facet.points().iter().map(height).fold(0.0, f64::max) / facet.longest_edge()
+    })
+}
+
+/// The entries of the multiplier rows: node, column, component, value.
+struct Rows<'a> {
+    of: &'a HashMap<i64, (usize, usize)>,
+    entries: Vec<(usize, i64, usize, f64)>,
+}
+
+impl Sink for Rows<'_> {
+    fn add(&mut self, row: i64, column: i64, value: f64) {
+        if let Some(&(node, component)) = self.of.get(&row) {
+            self.entries.push((node, column, component, value));
+        }
+    }
+}
+
+impl<const N: usize> Contact<N> {
+    /// The diagnosis at (x, lambda). The state of the interface stays as it is.
+    pub fn diagnose(
+        &mut self,
+        x1: &[Vec3],
+        x2: &[Vec3],
+        lambda: &[SVector<f64, N>],
+        sums: Option<&[NodeSums]>,
+    ) -> Result<Diagnosis> {
+        let (node_sums, responses) = self.evaluate(x1, x2, lambda, sums)?;
+        let states: Vec<_> = responses.iter().map(|r| r.state).collect();
+        let fraction = |a: usize| node_sums[a].coverage / self.history.areas[a];
+        let covered = (0..states.len()).filter(|&a| fraction(a) > self.options.coverage_min);
+        let least_covered = covered.min_by(|&a, &b| fraction(a).total_cmp(&fraction(b))).map(|a| (a, fraction(a)));
+        let suspects = self.suspects(x1, x2, lambda, (sums, &node_sums), &states)?;
+        let mut diagnosis =
+            Diagnosis { states, least_covered, overlap: None, warp: None, angle: None, error: None, suspects };
+        self.worst_pairs(x1, x2, &mut diagnosis);
+        Ok(diagnosis)
+    }
+
+    fn worst_pairs(&self, x1: &[Vec3], x2: &[Vec3], d: &mut Diagnosis) {
+        if self.mortar.analytic.is_some() {
+            return;
+        }
+        // Where the weights are of.
+        let (x1, x2) = match self.options.effective_weights() {
+            Weights::Current => (x1, x2),
+            Weights::Committed => (&self.history.x1[..], &self.history.x2[..]),
+            Weights::Reference => (&self.nonmortar.reference[..], &self.mortar.reference[..]),
+        };
+        let mut smallest = None;
+        for pair in self.current_pairs() {
+            let (one, two) = (self.nonmortar.facet(pair.one, x1), self.mortar.facet(pair.two, x2));
+            let facets = [pair.one, pair.two];
+            let Ok(frame) = NonmortarFrame::new(&one) else { continue };
+            let Ok(Some(segment)) = Segment::new(&frame, &two) else { continue };
+            if segment.area == 0.0 {
+                continue; // it only touches
+            }
+            let whole = 0.5 * frame.projection.area2;
+            keep(&mut smallest, -segment.area / whole.min(0.5 * segment.mortar.area2), facets);
+            keep(&mut d.warp, warp(&one).max(warp(&two)), facets);
+            if let Ok(plane) = Plane::of(&two) {
+                keep(&mut d.angle, frame.plane.e.cross(&plane.e).norm().atan2(-frame.plane.e.dot(&plane.e)), facets);
+            }
+            let fine = PairWeights::integrate(&frame, &segment, &DEGREE_10);
+            let (n, m) = (pair.weights.ab.iter().chain(&pair.weights.ac), fine.ab.iter().chain(&fine.ac));
+            let apart = n.flatten().zip(m.flatten()).map(|(n, m)| (n - m).abs()).fold(0.0, f64::max);
+            keep(&mut d.error, apart / whole, facets);
+        }
+        d.overlap = smallest.map(|w: WorstPair| WorstPair { value: -w.value, ..w });
+    }
+
+    fn suspects(
+        &mut self,
+        x1: &[Vec3],
+        x2: &[Vec3],
+        lambda: &[SVector<f64, N>],
+        (given, sums): (Option<&[NodeSums]>, &[NodeSums]),
+        states: &[State],
+    ) -> Result<Vec<Suspect>> {
+        let numbered = self.multiplier_equations.iter().enumerate();
+        let of: HashMap<i64, (usize, usize)> = numbered
+            .flat_map(|(a, equations)| equations.iter().enumerate().map(move |(i, e)| (*e, (a, i))))
+            .filter(|(equation, _)| *equation != NO_EQUATION)
+            .collect();
+        let mut rows = Rows { of: &of, entries: Vec::new() };
+        self.tangent(x1, x2, lambda, given, &mut rows)?;
+        rows.entries.sort_by_key(|&(node, column, component, _)| (node, column, component));
+        let mut suspects = Vec::new();
+        for of_node in rows.entries.chunk_by(|p, q| p.0 == q.0) {
+            let a = of_node[0].0;
+            let ordinary = self.row_scale(a) * self.history.areas[a];
+            // The rows' products with each other. A component without an equation is no suspect.
+            let mut gram = SMatrix::<f64, N, N>::zeros();
+            for i in (0..N).filter(|&i| self.multiplier_equations[a][i] == NO_EQUATION) {
+                gram[(i, i)] = 1.0;
+            }
+            for of_column in of_node.chunk_by(|p, q| p.1 == q.1) {
+                let is_multiplier = of.contains_key(&of_column[0].1);
+                let unit = if is_multiplier { self.augmentation(a) * self.history.areas[a] } else { 1.0 };
+                let mut v = SVector::<f64, N>::zeros();
+                of_column.iter().for_each(|&(_, _, i, value)| v[i] += value * unit / ordinary);
+                gram += v * v.transpose();
+            }
+            let fraction = sums[a].coverage / self.history.areas[a];
+            let new = sums[a].coverage_previous <= self.options.coverage_min * self.history.areas[a];
+            for (value, direction) in self.least(a, &gram)? {
+                let ratio = value.max(0.0).sqrt();
+                if ratio >= SUSPECT {
+                    continue;
+                }
+                let cause = match states[a] {
+                    _ if fraction < LITTLE => Cause::Coverage,
+                    State::Stick if new => Cause::New,
+                    _ if ratio < VANISHING => Cause::Prescribed,
+                    _ => Cause::Other,
+                };
+                suspects.push(Suspect { node: a, direction, ratio, cause });
+            }
+        }
+        suspects.sort_by(|p, q| p.ratio.total_cmp(&q.ratio).then(p.node.cmp(&q.node)));
+        Ok(suspects)
+    }
+
+    /// Eigenvalues of the products of a node's rows, and their directions in space.
+    fn least(&self, a: usize, gram: &SMatrix<f64, N, N>) -> Result<Vec<(f64, Vec3)>> {
+        if N == 1 {
+            return Ok(vec![(gram[(0, 0)], self.normal(a)?)]);
+        }
+        let all = SymmetricEigen::new(nalgebra::Matrix3::from_fn(|i, j| gram[(i, j)]));
+        // Of two opposite directions the one whose largest component is positive.
+        let signed = |v: Vec3| if v[v.icamax()] < 0.0 { -v } else { v };
+        Ok((0..3).map(|k| (all.eigenvalues[k], signed(all.eigenvectors.column(k).into()))).collect())
+    }
+}
