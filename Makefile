@@ -15,17 +15,19 @@ export PATH := $(PATH):$(HOME)/.cargo/bin
 LOCKED = mkdir -p $(BUILD) && flock $(BUILD)/.lock
 SAY    = @printf '\n== %s\n'
 
-.PHONY: help demo gallery effects bench properties stability test build install uninstall docs abi header meshes clean cmake-build rust-tests
+.PHONY: help demo gallery effects aids bench properties fuzz stability test build install uninstall docs abi header meshes clean cmake-build rust-tests
 
 help:
 	@echo "make demo    solve the example scenes, compare with the references, draw (FIGURES=1: renew the README's figures)"
 	@echo "make gallery solve, compare and draw every scene, half an hour, can be resumed; ONLY='NAME ...': some"
 	@echo "make effects what each effect of an interface costs: a table and a figure (FIGURES=1: renew the committed one)"
+	@echo "make aids    what each convergence aid is good for: a table"
 	@echo "make bench   what the kernels cost, over a C++ baseline and in instructions (FIGURES=1: renew its table)"
 	@echo "make stability  hard cases x severity, each compared with an answer: build/stability/index.html; can be resumed;"
 	@echo "             QUICK=1: the part that make test runs; ONLY='FILE ...' of tests/stability/cases; FIGURES=1: as above"
 	@echo "make test    run every test and check"
 	@echo "make properties  the property tests on more than a million random pairs, ten minutes"
+	@echo "make fuzz    fuzz the pair kernel, the handle and the C ABI, a quarter of an hour each (FUZZ_SECONDS=)"
 	@echo "make build   build the library and the examples into $(BUILD)/"
 	@echo "make install PREFIX=DIR [DESTDIR=]   install header, Fortran module, libraries, pkg-config and CMake files"
 	@echo "make uninstall PREFIX=DIR [DESTDIR=]   remove what was installed there"
@@ -54,6 +56,12 @@ effects:
 	$(SAY) "One scene with effects added one by one"
 	@$(PYTHON) c_examples/report/effects.py --build $(BUILD) $(if $(FIGURES),--renew-figures)
 
+aids:
+	@.ci/setup demo
+	@$(MAKE) --no-print-directory cmake-build
+	$(SAY) "Scenes with one convergence aid switched off at a time"
+	@$(PYTHON) c_examples/report/aids.py --build $(BUILD)
+
 bench:
 	@.ci/setup library
 	$(SAY) "Times and instructions of the kernels"
@@ -72,6 +80,13 @@ stability:
 	$(SAY) "The stability matrix"
 	@$(PYTHON) tests/stability/run.py --build $(BUILD) --jobs $(JOBS) $(if $(QUICK),--quick) $(if $(ONLY),--only $(ONLY)) \
 		$(if $(FIGURES),--renew-figures)
+
+# Long enough for the targets to come to rest; see fuzz/README.md.
+FUZZ_SECONDS ?= 900
+fuzz:
+	@.ci/setup test
+	$(SAY) "Fuzzing each target for $(FUZZ_SECONDS) s"
+	@fuzz/run.sh $(FUZZ_SECONDS)
 
 test:
 	@.ci/setup test

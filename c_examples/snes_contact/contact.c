@@ -22,10 +22,6 @@ void contact_positions(Interface *interface)
     interface->x[k] = interface->X[k] - interface->X[k % 3] + PetscRealPart(interface->gathered[k]);
 }
 
-/* The library takes x1, x2 and the multipliers: */
-#define STATE_OF(interface)                                                                                            \
-  (interface)->x, (interface)->x + 3 * (interface)->n1, (interface)->gathered + 3 * ((interface)->n1 + (interface)->n2)
-
 PetscErrorCode contact_gather(Model *model, Interface *interface, Vec local)
 {
   const PetscScalar *array;
@@ -144,7 +140,7 @@ PetscErrorCode contact_start(Model *model, Vec x, PetscInt *status)
     Interface *interface = &model->interfaces[i];
     int32_t    refused   = 0;
     PetscCall(contact_gather(model, interface, model->u_local));
-    if (model->rank == 0)
+    if (model->rank == 0 && interface->initial_contact)
       refused = stickslip_interface_initial_multipliers(interface->handle,
                                                         interface->gathered + 3 * (interface->n1 + interface->n2));
     PetscCall(contact_agree(model, refused, status));

@@ -142,16 +142,20 @@ static void read_method(Scene *scene, Interface *interface)
   static const char *const slips[]        = {"objective", "increment", "seed", NULL};
   static const char *const forms[]        = {"multiplier", "augmented", NULL};
   static const char *const new_contacts[] = {"frictionless", "friction", NULL};
+  static const char *const row_scales[]   = {"force", "none", NULL};
   stickslip_options       *options        = &interface->options;
   const char              *name           = interface->name;
   PetscInt  weight = STICKSLIP_WEIGHTS_CURRENT, slip = STICKSLIP_SLIP_OBJECTIVE, form = STICKSLIP_FORM_MULTIPLIER,
-           new_contact = STICKSLIP_NEW_CONTACT_FRICTIONLESS;
+           new_contact = STICKSLIP_NEW_CONTACT_FRICTIONLESS, row_scale = STICKSLIP_ROW_SCALE_FORCE;
   PetscReal augmentation = 0, modulus = 0, distance = 0;
 
+  interface->initial_contact = PETSC_TRUE;
   scene_choice(scene, name, "weights", weights, &weight);
   scene_choice(scene, name, "slip", slips, &slip);
   scene_choice(scene, name, "form", forms, &form);
   scene_choice(scene, name, "new_contact", new_contacts, &new_contact);
+  scene_choice(scene, name, "row_scale", row_scales, &row_scale);
+  scene_bool(scene, name, "initial_contact", &interface->initial_contact);
   scene_real(scene, name, "augmentation", &augmentation);
   scene_real(scene, name, "modulus", &modulus);
   scene_real(scene, name, "search_distance", &distance);
@@ -163,6 +167,7 @@ static void read_method(Scene *scene, Interface *interface)
   options->slip            = (int32_t)slip;
   options->form            = (int32_t)form;
   options->new_contact     = (int32_t)new_contact;
+  options->row_scale       = (int32_t)row_scale;
   options->augmentation    = augmentation;
   options->modulus         = modulus;
   options->search_distance = distance;

@@ -99,6 +99,16 @@ static PetscInt find_period(const Cycling *cycling)
   return 0;
 }
 
+/* nodes whose state differs from that of the iteration before, for the report */
+static void count_changes(Model *model)
+{
+  const Cycling *cycling = model->cycling;
+  PetscInt       changes = 0;
+  for (PetscInt node = 0; node < cycling->n_nodes; node++)
+    changes += row(cycling, 0)[node] != row(cycling, 1)[node];
+  cJSON_AddItemToArray(model->newton.state_changes, cJSON_CreateNumber(changes));
+}
+
 PetscErrorCode cycling_record(Model *model, PetscReal norm, PetscInt *period)
 {
   Cycling *cycling = model->cycling;
@@ -108,6 +118,7 @@ PetscErrorCode cycling_record(Model *model, PetscReal norm, PetscInt *period)
   tell_slip_from_slip_back(cycling, states);
   cycling->norms[cycling->n % WINDOW] = norm;
   cycling->n++;
+  if (model->rank == 0 && cycling->n > 1) count_changes(model);
   *period = model->rank == 0 ? find_period(cycling) : 0;
   PetscCallMPI(MPI_Bcast(period, 1, MPIU_INT, 0, PETSC_COMM_WORLD));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -42,6 +42,7 @@ typedef struct {
   PetscInt             components; /* multipliers a node: 1, along the normal, without friction; else 3 */
   PetscInt            *removed;    /* n1: mask of directions in which both sides are prescribed: no multiplier there */
   stickslip_options    options;
+  PetscBool            initial_contact; /* nodes that touch start slightly compressed: contact_start() */
   double              *X, *x;     /* 3 (n1 + n2): reference coordinates; current ones, see contact_positions() */
   PetscScalar         *gathered;  /* 3 (n1 + n2) displacements, components n1 multipliers */
   PetscScalar         *forces;    /* same layout: f1, f2, multiplier rows */
@@ -53,6 +54,10 @@ typedef struct {
   double               friction_work; /* up to the last converged step */
   int64_t              bytes;         /* of the library's, the most at the end of a step */
 } Interface;
+
+/* The library takes x1, x2 and the multipliers: */
+#define STATE_OF(interface)                                                                                            \
+  (interface)->x, (interface)->x + 3 * (interface)->n1, (interface)->gathered + 3 * ((interface)->n1 + (interface)->n2)
 
 /* nodal results of one interface; every array has n1 entries, vectors 3 n1 */
 typedef struct {
@@ -70,7 +75,7 @@ typedef struct {
   PetscReal *targets; /* times to meet */
   PetscBool *asked;   /* for each: the scene names it; else it is a kink of a curve */
   PetscReal  end, smallest; /* step, as a fraction of the largest */
-  PetscBool  predictor, automatic;
+  PetscBool  predictor, automatic, cycles; /* cycles: of nodes are looked for and ended */
   PetscReal  initial, largest; /* automatic steps */
   PetscInt   iterations;       /* of Newton's method: what they aim at */
 } Steps;
@@ -96,6 +101,7 @@ typedef struct {
   char          cycle[768];        /* the last one found in it, as a sentence */
   char          why[1024];         /* it did not converge */
   struct cJSON *cycles;            /* rank 0: those seen since the last report */
+  struct cJSON *state_changes;     /* of the last attempt: nodes, by iteration from the second on; NULL: reported */
 } Newton;
 
 typedef struct {
@@ -252,6 +258,7 @@ PetscErrorCode         summary_failed_attempt(Model *model, Summary *summary, Pe
 PetscErrorCode summary_drop_step(Model *model, Summary *summary); /* the last one, which could not be committed */
 PetscErrorCode summary_write(Model *model, Summary **summary, PetscInt cutbacks, const char *message);
 PetscErrorCode summary_counters(Model *model, struct cJSON *root); /* what the run and each interface cost */
+PetscErrorCode diagnosis_failed(Model *model, struct cJSON *root); /* diagnosis.c: what may be wrong; told and kept */
 PetscErrorCode csv_write(Model *model, const Interface *interface, const ContactStates *states, PetscInt step);
 PetscErrorCode vtu_write(Model *model, const PetscScalar *displacements, PetscInt step);
 

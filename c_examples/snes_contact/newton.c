@@ -51,7 +51,7 @@ PetscErrorCode newton_watch(Model *model, PetscInt iteration, PetscReal norm, SN
   PetscInt period;
   PetscFunctionBegin;
   PetscCall(cycling_record(model, norm, &period));
-  if (!period) PetscFunctionReturn(PETSC_SUCCESS);
+  if (!period || !model->steps.cycles) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(report_cycle(model, period, iteration));
   if (newton->n_changes == CHANGES) {
     *reason         = SNES_DIVERGED_LOCAL_MIN; /* of PETSc's names the nearest; the report has its own words */
@@ -114,7 +114,8 @@ PetscErrorCode newton_destroy(Model *model)
   PetscFunctionBegin;
   PetscCall(cycling_destroy(model));
   cJSON_Delete(model->newton.cycles);
-  model->newton.cycles = NULL;
+  cJSON_Delete(model->newton.state_changes);
+  model->newton.cycles = model->newton.state_changes = NULL;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -169,6 +170,8 @@ static PetscErrorCode attempt(Model *model, int k, Vec x, PetscBool *converged)
   newton->stopped = newton->stale = newton->changed = PETSC_FALSE;
   newton->monotone                                  = PETSC_TRUE;
   newton->n_changes                                 = 0;
+  cJSON_Delete(newton->state_changes);
+  newton->state_changes = cJSON_CreateArray();
   newton->factor                                    = ATTEMPTS[k].factor;
   PetscCall(SNESSolve(model->snes, NULL, x));
   PetscCall(SNESGetConvergedReason(model->snes, &reason));

@@ -173,11 +173,13 @@ static PetscBool is_due(WriteWhen when, PetscBool asked, PetscBool last)
   return (PetscBool)(when == WRITE_ALL || (when == WRITE_TIMES && asked) || (when == WRITE_LAST && last));
 }
 
-/* the cycles that Newton's method met since the last report */
-static void add_cycles(Model *model, cJSON *json)
+/* the cycles that Newton's method met since the last report, and the nodes that changed state in its last attempt */
+static void add_states(Model *model, cJSON *json)
 {
-  if (model->newton.cycles) cJSON_AddItemToObject(json, "cycles", model->newton.cycles);
-  model->newton.cycles = NULL;
+  Newton *newton = &model->newton;
+  if (newton->state_changes) cJSON_AddItemToObject(json, "state_changes", newton->state_changes);
+  if (newton->cycles) cJSON_AddItemToObject(json, "cycles", newton->cycles);
+  newton->cycles = newton->state_changes = NULL;
 }
 
 /* Between t_last and model->t. Its sentence is printed where it differs from the one before: a refusal by the library
@@ -192,7 +194,7 @@ PetscErrorCode summary_failed_attempt(Model *model, Summary *summary, PetscReal 
   add_time(json, "t", model->t);
   cJSON_AddNumberToObject(json, "newton_iterations", newton->iterations);
   cJSON_AddStringToObject(json, "why", newton->why);
-  add_cycles(model, json);
+  add_states(model, json);
   cJSON_AddItemToArray(summary->failed_attempts, json);
   if (!model->quiet) {
     const PetscBool again = (PetscBool)!strcmp(summary->said, newton->why);
@@ -221,7 +223,7 @@ PetscErrorCode summary_step(Model *model, Summary *summary, PetscInt step, Petsc
   cJSON_AddBoolToObject(json, "converged", converged);
   cJSON_AddNumberToObject(json, "newton_iterations", model->iterations);
   cJSON_AddItemToObject(json, "residual_norms", cJSON_CreateDoubleArray(norms, (int)n_norms));
-  add_cycles(model, json);
+  add_states(model, json);
   if (model->jacobian_tests) cJSON_AddItemToObject(json, "jacobian_tests", model->jacobian_tests);
   model->jacobian_tests = NULL;
   cJSON_AddItemToArray(summary->steps, json);
@@ -274,6 +276,7 @@ PetscErrorCode summary_write(Model *model, Summary **summary, PetscInt cutbacks,
   cJSON_AddItemToObject((*summary)->root, "failed_attempts", (*summary)->failed_attempts);
   cJSON_AddItemToObject((*summary)->root, "steps", (*summary)->steps);
   PetscCall(summary_counters(model, (*summary)->root));
+  if (message[0]) PetscCall(diagnosis_failed(model, (*summary)->root));
   if (model->rank == 0) {
     text = cJSON_Print((*summary)->root);
     PetscCall(PetscSNPrintf(path, sizeof(path), "%s/summary.json", model->output_dir));

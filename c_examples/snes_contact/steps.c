@@ -69,6 +69,7 @@ PetscErrorCode steps_read(Model *model)
 
   PetscFunctionBegin;
   steps->predictor = PETSC_TRUE;
+  steps->cycles    = PETSC_TRUE;
   steps->smallest  = 1.0 / 1024;
   PetscCall(read_targets(scene, steps));
   for (PetscInt k = 0; k < steps->n_targets; k++) {
@@ -78,6 +79,7 @@ PetscErrorCode steps_read(Model *model)
   }
   steps->end = steps->targets[steps->n_targets - 1];
   scene_bool(scene, "steps", "predictor", &steps->predictor);
+  scene_bool(scene, "steps", "cycles", &steps->cycles);
   scene_real(scene, "steps", "smallest", &steps->smallest);
   if (steps->smallest <= 0 || steps->smallest > 1)
     scene_fail(scene, "steps", "smallest", "it is a fraction of a step: above 0, at most 1.");
