@@ -15,13 +15,15 @@ export PATH := $(PATH):$(HOME)/.cargo/bin
 LOCKED = mkdir -p $(BUILD) && flock $(BUILD)/.lock
 SAY    = @printf '\n== %s\n'
 
-.PHONY: help demo gallery effects aids bench properties fuzz stability test build install uninstall docs abi header meshes clean cmake-build rust-tests
+.PHONY: help demo gallery effects aids study compare bench properties fuzz stability test build install uninstall docs abi header meshes clean cmake-build rust-tests
 
 help:
 	@echo "make demo    solve the example scenes, compare with the references, draw (FIGURES=1: renew the README's figures)"
 	@echo "make gallery solve, compare and draw every scene, half an hour, can be resumed; ONLY='NAME ...': some"
 	@echo "make effects what each effect of an interface costs: a table and a figure (FIGURES=1: renew the committed one)"
 	@echo "make aids    what each convergence aid is good for: a table"
+	@echo "make study   what accuracy costs in time, half an hour, can be resumed; QUICK=1: a check; FIGURES=1: as above"
+	@echo "make compare the same problems in other programs, those that are installed (FIGURES=1: renew the table)"
 	@echo "make bench   what the kernels cost, over a C++ baseline and in instructions (FIGURES=1: renew its table)"
 	@echo "make stability  hard cases x severity, each compared with an answer: build/stability/index.html; can be resumed;"
 	@echo "             QUICK=1: the part that make test runs; ONLY='FILE ...' of tests/stability/cases; FIGURES=1: as above"
@@ -61,6 +63,19 @@ aids:
 	@$(MAKE) --no-print-directory cmake-build
 	$(SAY) "Scenes with one convergence aid switched off at a time"
 	@$(PYTHON) c_examples/report/aids.py --build $(BUILD)
+
+study:
+	@.ci/setup demo
+	@$(MAKE) --no-print-directory cmake-build
+	$(SAY) "Accuracy against time"
+	@$(PYTHON) c_examples/report/study.py --build $(BUILD) --jobs $(JOBS) $(if $(QUICK),--quick) \
+		$(if $(ONLY),--only $(ONLY)) $(if $(FIGURES),--renew-figures)
+
+compare:
+	@.ci/setup compare
+	@$(MAKE) --no-print-directory cmake-build
+	$(SAY) "The same problems in other programs"
+	@$(PYTHON) c_examples/report/compare.py --build $(BUILD) $(if $(FIGURES),--renew)
 
 bench:
 	@.ci/setup library

@@ -6,7 +6,7 @@
 //! the smaller of its facets is long, and by what the surfaces bulge from their facets beyond it.
 
 use super::integration::at_facet;
-use super::{Options, Surface, analytic, reach};
+use super::{Options, Surface, analytic, hybrid, reach};
 use crate::error::Result;
 use crate::geometry::{Facet, Plane, Vec3};
 
@@ -35,8 +35,10 @@ impl Filter {
             return analytic::facing(one, &two.analytic_at(x2)?, options, x1).map(Filter::Analytic);
         }
         let sides = [Side::new(one, x1)?, Side::new(two, x2)?];
-        let mut filter = FacetFilter { sides, distance: options.search_distance, reached: Vec::new() };
+        let mut filter =
+            FacetFilter { sides, distance: options.search_distance, reached: Vec::new(), by_cells: Vec::new() };
         filter.reached = reach::reached(&filter);
+        filter.by_cells = hybrid::partly_covered((one, two), options.scheme, &filter, (x1, x2))?;
         Ok(Filter::Facets(filter))
     }
 
@@ -110,6 +112,8 @@ pub(super) struct FacetFilter {
     distance: Option<f64>,
     /// Per non-mortar facet, whether any mortar facet can be a pair with it.
     pub reached: Vec<bool>,
+    /// Which non-mortar facets are integrated over cells, of a scheme that has both.
+    pub by_cells: Vec<bool>,
 }
 
 impl FacetFilter {

@@ -12,7 +12,7 @@ use super::search::{Aabb, Prism, Tree};
 use super::{Contact, Counters, Options, Scheme, Surface, Weights, analytic, apart};
 use crate::error::{Error, Kind, Result};
 use crate::geometry::{Facet, Vec3};
-use crate::mortar::{CellPoints, ForceDerivatives, GapDerivative, NonmortarFrame, PairWeights, Segment, pair_motion};
+use crate::mortar::{ForceDerivatives, GapDerivative, NonmortarFrame, PairWeights, Segment, pair_motion};
 use crate::normal;
 use crate::quadrature::Rule;
 use crate::shape::MAX_NODES;
@@ -110,7 +110,7 @@ pub(super) struct KeptTree {
 
 impl KeptTree {
     /// The tree of `two` at `x2`.
-    fn at(&mut self, two: &Surface, x2: &[Vec3]) -> &Tree {
+    pub fn at(&mut self, two: &Surface, x2: &[Vec3]) -> &Tree {
         if self.x2 != x2 {
             *self = KeptTree { x2: x2.to_vec(), tree: None };
         }
@@ -121,7 +121,7 @@ impl KeptTree {
 
 /// Pairs that pass the filter and whose mortar facet may reach into the non-mortar facet's prism, grown by
 /// `skin` (over the facet's longest edge). Sorted.
-fn candidates(
+pub(super) fn candidates(
     one: &Surface,
     frames: &[NonmortarFrame],
     x1: &[Vec3],
@@ -137,6 +137,15 @@ fn candidates(
         pairs.extend(found.iter().filter(|&&j| filter.admits(i, j)).map(|&j| (i, j)));
     }
     pairs
+}
+
+/// The points of non-mortar facet `i` where it is integrated by points.
+fn by_points(options: &Options, filter: &FacetFilter, i: usize) -> Option<&'static [[f64; 2]]> {
+    match options.scheme {
+        Scheme::Segments => None,
+        Scheme::Elements(line) => Some(line),
+        Scheme::Hybrid(line) => (!filter.by_cells[i]).then_some(line),
+    }
 }
 
 /// Weights of all active pairs at (x1, x2), with the filter of another or the same configuration.
@@ -169,23 +178,16 @@ pub(super) fn integrate(
         apart: false,
     };
     for candidates in candidates.chunk_by(|p, q| p.0 == q.0) {
-        let (i, first) = (candidates[0].0, active.pairs.len());
+        let first = active.pairs.len();
         counters.pairs_tested += candidates.len() as i64;
-        if let Scheme::Elements(line) | Scheme::Hybrid(line) = options.scheme {
-            let by_points = |frame: &_, facet: &_| Segment::of_points(frame, facet, line);
-            active.add((one, two), candidates, options.rule, by_points)?;
-            let covered = active.segments[first..].iter().flat_map(|s| s.points).fold(0, |all, p| all | p.inside);
-            let wholly = covered == CellPoints::all(&active.frames[i], line);
-            if wholly || matches!(options.scheme, Scheme::Elements(_)) {
-                counters.pairs_integrated += (active.pairs.len() - first) as i64;
-                continue;
-            }
-            active.pairs.truncate(first);
-            active.segments.truncate(first);
+        let by_points = by_points(options, filter, candidates[0].0);
+        match by_points {
+            Some(line) => active
+                .add((one, two), candidates, options.rule, |frame, facet| Segment::of_points(frame, facet, line))?,
+            None => active.add((one, two), candidates, options.rule, Segment::new)?,
         }
-        active.add((one, two), candidates, options.rule, Segment::new)?;
         let new = &active.segments[first..];
-        counters.pairs_clipped += new.len() as i64;
+        counters.pairs_clipped += if by_points.is_none() { new.len() as i64 } else { 0 };
         counters.pairs_integrated += new.iter().filter(|s| s.area > 0.0).count() as i64;
     }
     counters.seconds_integration += start.elapsed().as_secs_f64();
@@ -267,9 +269,13 @@ impl<const N: usize> Contact<N> {
     /// Makes up for overlaps that a commit did not keep.
     pub(super) fn ensure_segments(&mut self) -> Result<()> {
         let Some(k) = self.integration.as_mut().filter(|k| k.segments.len() < k.pairs.len()) else { return Ok(()) };
-        if self.mortar.analytic.is_none() {
+        if let Some(Filter::Facets(filter)) = &self.filter {
             for pair in &k.pairs {
-                let segment = Segment::new(&k.frames[pair.one], &self.mortar.facet(pair.two, &k.x2))?;
+                let (frame, facet) = (&k.frames[pair.one], self.mortar.facet(pair.two, &k.x2));
+                let segment = match by_points(&self.options, filter, pair.one) {
+                    Some(line) => Segment::of_points(frame, &facet, line)?,
+                    None => Segment::new(frame, &facet)?,
+                };
                 k.segments.push(segment.expect("an active pair has a segment at the positions it was found at"));
             }
         }
@@ -365,11 +371,7 @@ impl<const N: usize> Contact<N> {
         check_layers(&history.areas, history.coverage.iter().copied(), options.rule)?;
         // The weights alone: many interfaces never ask for a tangent where a step ends.
         let integration = integration.filter(|_| keeps == Keeps::Nothing);
-        // Cells are soon found again, which points fall on which facet is not known without all pairs of a facet.
-        let integration = match options.scheme {
-            Scheme::Segments => integration.map(|k| Integration { segments: Vec::new(), ..k }),
-            Scheme::Elements(_) | Scheme::Hybrid(_) => integration,
-        };
+        let integration = integration.map(|k| Integration { segments: Vec::new(), ..k });
         Ok(Start { history, filter: Some(filter), integration })
     }
 

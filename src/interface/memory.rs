@@ -23,7 +23,9 @@ fn of_history(h: &History) -> usize {
 fn of_filter(filter: &Filter) -> usize {
     match filter {
         Filter::Facets(f) => {
-            f.sides.iter().map(|s| heap(&s.facets) + heap(&s.edges) + heap(&s.bulges)).sum::<usize>() + heap(&f.reached)
+            f.sides.iter().map(|s| heap(&s.facets) + heap(&s.edges) + heap(&s.bulges)).sum::<usize>()
+                + heap(&f.reached)
+                + heap(&f.by_cells)
         }
         Filter::Analytic(facing) => heap(facing),
     }

@@ -14,6 +14,7 @@ mod diagnosis;
 mod effects;
 mod filter;
 mod history;
+mod hybrid;
 mod integration;
 mod memory;
 mod nodes;

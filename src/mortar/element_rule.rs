@@ -1,5 +1,5 @@
-//! Element-based integration: n x n points on the whole non-mortar facet, each projected on the mortar facet that it falls
-//! on, in place of cells of the overlap,
+//! Element-based integration: n x n points on the whole non-mortar facet, each projected on the mortar facet that it
+//! falls on, in place of cells of the overlap,
 //!
 //! n_AB = sum_g w_g j_g N_A N_B, n_AC = sum_g w_g j_g N_A N_C(xi2(y_g)) over the points g on the mortar facet,
 //!
@@ -30,7 +30,7 @@ use crate::simd::{Lanes, Plain, Real};
 pub struct CellPoints {
     /// Gauss points on a line.
     line: &'static [[f64; 2]],
-    /// Bit i: the i-th of their products lies on the mortar facet; the bits after those: the non-mortar facet's corners.
+    /// Bit i: the i-th of their products lies on the mortar facet; bits after those: the non-mortar facet's corners.
     pub inside: u128,
 }
 

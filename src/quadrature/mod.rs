@@ -1,8 +1,8 @@
 //! Quadrature rules with their stated degree.
 //!
-//! The transport form of the weights' derivative has degree 5 on affine facets where the weights themselves have
-//! degree 4: rules below degree 5 leave the derivatives to that of degree 5 ([`Rule::for_derivatives`]). The exact
-//! integral's derivative is not that of a coarse sum, so Newton's method then converges linearly, the slower the coarser.
+//! The transport form of the weights' derivative has degree 5 on affine facets where the weights themselves have degree
+//! 4: rules below degree 5 leave the derivatives to that of degree 5 ([`Rule::for_derivatives`]). The exact integral's
+//! derivative is not that of a coarse sum, so Newton's method then converges linearly, the slower the coarser.
 
 pub mod cell;
 pub mod line;

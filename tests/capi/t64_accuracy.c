@@ -1,5 +1,5 @@
-/* What accuracy may cost: rules, points in place of cells, frozen tangents. The defaults are 0; each choice acts, says so,
- * and costs what it should; every rule keeps the balance of forces, not every one meets a patch test. */
+/* What accuracy may cost: rules, points in place of cells, frozen tangents. The defaults are 0; each choice acts, says
+ * so, and costs what it should; every rule keeps the balance of forces, not every one meets a patch test. */
 #include "scene.h"
 
 /* Sums of a few hundred products of numbers of size 1. */
@@ -66,10 +66,11 @@ int main(void) {
 
   /* Points: nothing is clipped, more points come closer; wholly covered facets leave hybrid no cell. */
   double error[2];
-  for (int32_t integration = STICKSLIP_INTEGRATION_ELEMENTS; integration <= STICKSLIP_INTEGRATION_HYBRID; ++integration) {
+  const int32_t by_points[] = {STICKSLIP_INTEGRATION_ELEMENTS, STICKSLIP_INTEGRATION_HYBRID};
+  for (int i = 0; i < COUNT(by_points); ++i) {
     for (int k = 0; k < 2; ++k) {
       scene_init(&s);
-      s.options.integration = integration;
+      s.options.integration = by_points[i];
       s.options.element_points = k ? 10 : 2;
       scene_create(&s);
       scene_residual(&s, r);

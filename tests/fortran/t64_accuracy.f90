@@ -1,5 +1,5 @@
-! What accuracy may cost: rules, points in place of cells, frozen tangents. The defaults are 0; each choice acts, says so,
-! and costs what it should; every rule keeps the balance of forces, not every one meets a patch test.
+! What accuracy may cost: rules, points in place of cells, frozen tangents. The defaults are 0; each choice acts, says
+! so, and costs what it should; every rule keeps the balance of forces, not every one meets a patch test.
 #include "check.inc"
 program t64_accuracy
   use, intrinsic :: iso_c_binding

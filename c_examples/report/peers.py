@@ -1,0 +1,193 @@
+"""The same meshes in other programs: a problem as every one of them takes it, and what is run of each. `make compare`.
+
+A Case is a mesh of hexahedra with two bodies, supports, nodal loads and the two faces in contact, read from what the
+example driver wrote. A peer gives back nodal displacements; nodal contact forces follow from them, for all programs by
+the same elements (eight nodes, 2 x 2 x 2 points, small strain).
+"""
+
+import re
+import shutil
+import subprocess
+import time
+from dataclasses import dataclass
+
+import numpy as np
+
+# Faces of a hexahedron, outward, by CalculiX' numbers.
+FACES = ((0, 1, 2, 3), (4, 7, 6, 5), (0, 4, 5, 1), (1, 5, 6, 2), (2, 6, 7, 3), (3, 7, 4, 0))
+CORNERS = np.array([(x, y, z) for z in (-1, 1) for x, y in ((-1, -1), (1, -1), (1, 1), (-1, 1))])
+# Penalty over the modulus per length 1: the manual's advice is 5 to 50 times; the largest is the most exact.
+PENALTY = 50.0
+TIMEOUT = 600
+
+
+class Missing(Exception):
+    """A program that is not installed."""
+
+
+@dataclass
+class Case:
+    name: str
+    points: np.ndarray
+    cells: np.ndarray
+    bodies: np.ndarray  # per cell: 0 or 1
+    young: float
+    poisson: float
+    fixed: list  # (nodes, component, value)
+    loads: np.ndarray  # nodal forces
+    nonmortar: np.ndarray  # (cell, face)
+    mortar: np.ndarray
+
+
+@dataclass
+class Answer:
+    displacement: np.ndarray
+    iterations: int
+    seconds: float
+    version: str
+
+
+def faces_on(case_cells, points, bodies, body, on):
+    """(cell, face) of a body all of whose nodes are `on`, a mask."""
+    found = []
+    for face, corners in enumerate(FACES):
+        inside = on[case_cells[:, corners]].all(axis=1) & (bodies == body)
+        found += [(cell, face) for cell in np.flatnonzero(inside)]
+    return np.array(sorted(found))
+
+
+def shape_gradients(x, xi):
+    """(B per cell: dN/dX, det J) at a point of the reference cell."""
+    gradient = np.empty((8, 3))
+    for i in range(3):
+        others = [j for j in range(3) if j != i]
+        gradient[:, i] = CORNERS[:, i] * np.prod(1 + CORNERS[:, others] * xi[others], axis=1) / 8
+    jacobian = np.einsum("cki,kj->cij", x, gradient)
+    return np.einsum("kj,cji->cki", gradient, np.linalg.inv(jacobian)), np.linalg.det(jacobian)
+
+
+def internal_forces(case, displacement):
+    """Nodal internal forces of both bodies, linear elasticity."""
+    shear = case.young / (2 * (1 + case.poisson))
+    lame = case.young * case.poisson / ((1 + case.poisson) * (1 - 2 * case.poisson))
+    forces, x = np.zeros_like(case.points), case.points[case.cells]
+    for xi in CORNERS / np.sqrt(3):
+        gradient, det = shape_gradients(x, xi)
+        strain = np.einsum("cki,ckj->cij", displacement[case.cells], gradient)
+        strain = (strain + strain.transpose(0, 2, 1)) / 2
+        stress = 2 * shear * strain + lame * np.einsum("cii->c", strain)[:, None, None] * np.eye(3)
+        np.add.at(forces, case.cells, np.einsum("cij,ckj->cki", stress, gradient) * det[:, None, None])
+    return forces
+
+
+# --- CalculiX ---------------------------------------------------------------------------------------------------------
+def calculix(case, folder, kind):
+    """`kind`: SURFACE TO SURFACE (penalty) or MORTAR (dual multipliers)."""
+    program = shutil.which("ccx")
+    if not program:
+        raise Missing("CalculiX (Debian: calculix-ccx)")
+    lines = ["*NODE, NSET=ALL", *(f"{k + 1}, {x:.15g}, {y:.15g}, {z:.15g}" for k, (x, y, z) in enumerate(case.points))]
+    lines += ["*ELEMENT, TYPE=C3D8, ELSET=BODY"]
+    lines += [f"{k + 1}, " + ", ".join(str(n + 1) for n in cell) for k, cell in enumerate(case.cells)]
+    lines += ["*MATERIAL, NAME=M", "*ELASTIC", f"{case.young}, {case.poisson}"]
+    lines += ["*SOLID SECTION, ELSET=BODY, MATERIAL=M"]
+    for name, faces in (("SLAVE", case.nonmortar), ("MASTER", case.mortar)):
+        lines += [f"*SURFACE, NAME={name}, TYPE=ELEMENT", *(f"{cell + 1}, S{face + 1}" for cell, face in faces)]
+    behaviour = "HARD" if kind == "MORTAR" else "LINEAR"
+    lines += ["*SURFACE INTERACTION, NAME=SI", f"*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE={behaviour}"]
+    lines += [] if kind == "MORTAR" else [f"{PENALTY * case.young}, 0."]
+    lines += [f"*CONTACT PAIR, INTERACTION=SI, TYPE={kind}", "SLAVE, MASTER", "*STEP, INC=100", "*STATIC", "1., 1."]
+    lines += ["*BOUNDARY"]
+    lines += [f"{n + 1}, {c + 1}, {c + 1}, {value:.15g}" for nodes, c, value in case.fixed for n in nodes]
+    if np.any(case.loads):
+        lines += ["*CLOAD"]
+        lines += [f"{n + 1}, {c + 1}, {case.loads[n, c]:.15g}" for n, c in zip(*np.nonzero(case.loads))]
+    lines += ["*NODE PRINT, NSET=ALL, FREQUENCY=1000", "U", "*END STEP", ""]
+    folder.mkdir(parents=True, exist_ok=True)
+    (folder / "job.inp").write_text("\n".join(lines))
+    start = time.monotonic()
+    done = subprocess.run([program, "job"], cwd=folder, capture_output=True, text=True, errors="replace",
+                          timeout=TIMEOUT, env={"OMP_NUM_THREADS": "1", "PATH": "/usr/bin:/bin"})
+    seconds = time.monotonic() - start
+    (folder / "log.txt").write_text(done.stdout + done.stderr)
+    data = folder / "job.dat"
+    if done.returncode or not data.is_file():
+        said = [line.strip() for line in (done.stdout + done.stderr).splitlines() if line.strip()]
+        errors = [line for line in said if "error" in line.lower()]
+        raise RuntimeError(f"exit code {done.returncode} after '{(errors or said[-1:])[0][:80]}'")
+    blocks = re.split(r"displacements.*\n", data.read_text())[1:]
+    if not blocks:
+        raise RuntimeError("no displacements: not converged")
+    displacement = np.zeros_like(case.points)
+    for line in blocks[-1].splitlines():
+        words = line.split()
+        if len(words) == 4:
+            displacement[int(words[0]) - 1] = [float(w) for w in words[1:]]
+    steps = [line.split() for line in (folder / "job.sta").read_text().splitlines() if re.match(r"\s*\d", line)]
+    version = re.search(r"Version ([\w.]+)", subprocess.run([program, "-v"], capture_output=True, text=True).stdout)
+    return Answer(displacement, sum(int(words[3]) for words in steps), seconds, version.group(1) if version else "?")
+
+
+# --- GetFEM -----------------------------------------------------------------------------------------------------------
+def getfem(case, folder):
+    """Nodes against faces, Alart and Curnier's augmented Lagrangian, small displacements. (Its integral contact between
+    meshes that do not match gives half the contact width on the cylinders, for a reason that was not found.)"""
+    try:
+        import getfem as gf
+    except ImportError:
+        raise Missing("GetFEM (Debian: python3-getfem)") from None
+    gf.util("trace level", 0)
+    order = [0, 1, 3, 2, 4, 5, 7, 6]
+    model, fems, meshes, numbers = gf.Model("real"), [], [], []
+    start = time.monotonic()
+    for body in (0, 1):
+        mesh, cells = gf.Mesh("empty", 3), np.flatnonzero(case.bodies == body)
+        for cell in case.cells[cells]:
+            mesh.add_convex(gf.GeoTrans("GT_QK(3,1)"), case.points[cell[order]].T)
+        fem = gf.MeshFem(mesh, 3)
+        fem.set_fem(gf.Fem("FEM_QK(3,1)"))
+        meshes.append(mesh)
+        fems.append(fem)
+        model.add_fem_variable(f"u{body}", fem)
+    shear = case.young / (2 * (1 + case.poisson))
+    lame = case.young * case.poisson / ((1 + case.poisson) * (1 - 2 * case.poisson))
+    model.add_initialized_data("lame", [lame])
+    model.add_initialized_data("shear", [shear])
+    integrals = [gf.MeshIm(mesh, gf.Integ("IM_GAUSS_PARALLELEPIPED(3,3)")) for mesh in meshes]
+    for body, (mesh, fem, integral) in enumerate(zip(meshes, fems, integrals)):
+        model.add_isotropic_linearized_elasticity_brick(integral, f"u{body}", "lame", "shear")
+        dofs = fem.basic_dof_nodes()[:, ::3].T
+        own = np.unique(case.cells[case.bodies == body])
+        place = {tuple(np.round(case.points[n], 9)): n for n in own}
+        numbers.append(np.array([place[tuple(np.round(x, 9))] for x in dofs]))
+        rows = {n: k for k, n in enumerate(numbers[-1])}
+        # Supports and loads node by node.
+        prescribed = {3 * rows[n] + c: value for nodes, c, value in case.fixed for n in nodes if n in rows}
+        constraints = gf.Spmat("empty", len(prescribed), 3 * len(dofs))
+        for line, at in enumerate(prescribed):
+            constraints.add(line, at, 1.0)
+        model.add_variable(f"support{body}", len(prescribed))
+        values = np.array(list(prescribed.values()))
+        model.add_constraint_with_multipliers(f"u{body}", f"support{body}", constraints, values)
+        model.add_explicit_rhs(f"u{body}", case.loads[numbers[-1]].ravel())
+    for body, faces, region in ((0, case.nonmortar, 7), (1, case.mortar, 7)):
+        mesh = meshes[body]
+        own = np.flatnonzero(case.bodies == body)
+        index = {cell: k for k, cell in enumerate(own)}
+        chosen = []
+        for cell, face in faces:
+            wanted = {tuple(np.round(case.points[n], 9)) for n in case.cells[cell][list(FACES[face])]}
+            for local in range(6):
+                pids = mesh.pid_in_faces(np.array([[index[cell]], [local]]))
+                if {tuple(np.round(x, 9)) for x in mesh.pts(pids).T} == wanted:
+                    chosen.append((index[cell], local))
+        mesh.set_region(region, np.array(chosen).T)
+    model.add_initialized_data("r", [case.young])
+    one, two = np.array([7]), np.array([7])
+    model.add_nodal_contact_between_nonmatching_meshes_brick(*integrals, "u0", "u1", "pressure", "r", one, two)
+    iterations, _ = model.solve("max_res", 1e-9, "max_iter", 100)
+    seconds = time.monotonic() - start
+    displacement = np.zeros_like(case.points)
+    for body in (0, 1):
+        displacement[numbers[body]] = np.reshape(model.variable(f"u{body}"), (-1, 3))
+    return Answer(displacement, int(iterations), seconds, getattr(gf, "__version__", "5.4"))

@@ -1,0 +1,158 @@
+"""The page of `make study`, read in five minutes, and its summary for docs/accuracy.md."""
+
+import html
+
+from gallery_page import STYLE
+from study_problems import DEFAULT
+from study_share import ASSEMBLY_BOUND, SHARE_BOUND
+
+MARKS = ("<!-- study -->", "<!-- /study -->")  # what lies between them is written by FIGURES=1
+
+
+def per_cent(value):
+    return f"{100 * value:.2g} %" if value >= 1e-4 else f"{value:.0e}"
+
+
+def goal_table(problems, rows, goals, wanted):
+    """Per problem the cheapest setting for each goal, and what the next digit costs."""
+    head = ["problem", "error in", *(f"{per_cent(g)}" for g in wanted), "default setting", "the next digit costs"]
+    body = []
+    for problem in problems:
+        own = [r for r in rows if r["problem"] == problem.name]
+        found = goals(own)
+        cells = ["not reached" if r is None else f"{r['setting']} ({r['seconds']:.2f} s)" for r in found]
+        default = next((r for r in own if r["setting"] == DEFAULT and "error" in r), None)
+        mine = "no answer" if default is None else f"{per_cent(default['error'])} in {default['seconds']:.2f} s"
+        prices = [f"{b['seconds'] / a['seconds']:.2g} x" for a, b in zip(found, found[1:]) if a and b]
+        body.append([problem.title, problem.measure, *cells, mine, ", ".join(prices) or "-"])
+    return head, body
+
+
+def digit_table(problems, rows, front):
+    """Along each front: what each point costs over the one before, a digit."""
+    head = ["problem", "setting", "error", "seconds", "spread", "Newton", "kB", "seconds over the cheapest"]
+    body = []
+    for problem in problems:
+        best = front([r for r in rows if r["problem"] == problem.name])
+        for row in best:
+            body.append([problem.title, row["setting"], f"{row['error']:.1e}", f"{row['seconds']:.3f}",
+                         f"{row['spread']:.0%}", str(row["newton"]), f"{row['bytes'] / 1e3:.0f}",
+                         f"{row['seconds'] / best[0]['seconds']:.2f}"])
+    return head, body
+
+
+def against_default(problems, rows):
+    """Each setting against the default of its problem: the ratios that justify the defaults."""
+    head = ["problem", "setting", "error", "error over default's", "contact's time over default's", "Newton (default)"]
+    body = []
+    contact = lambda r: r["seconds_search"] + r["seconds_integration"] + r["seconds_contact_assembly"]
+    for problem in problems:
+        own = [r for r in rows if r["problem"] == problem.name]
+        default = next((r for r in own if r["setting"] == DEFAULT and "error" in r), None)
+        for row in own if default else []:
+            if row["knob"] in ("mesh", DEFAULT, "steps"):
+                continue
+            if "error" not in row:
+                body.append([problem.title, row["setting"], "no answer", "", "", ""])
+                continue
+            body.append([problem.title, row["setting"], f"{row['error']:.2e}", f"{row['error'] / default['error']:.3g}",
+                         f"{contact(row) / contact(default):.2f}", f"{row['newton']} ({default['newton']})"])
+    return head, body
+
+
+def phases(problems, rows):
+    head = ["problem", "search", "integration", "derivatives, assembly", "all of contact", "bulk assembly",
+            "linear solve", "total [s]"]
+    body = []
+    for problem in problems:
+        row = next((r for r in rows if r["problem"] == problem.name and r["setting"] == DEFAULT and "error" in r), None)
+        if row:
+            whole = row["seconds_contact_forces"] + row["seconds_contact_tangent"]
+            parts = (row["seconds_search"], row["seconds_integration"], row["seconds_contact_assembly"], whole,
+                     row["seconds_bulk_assembly"], row["seconds_linear_solve"])
+            total = row["seconds_total"]
+            body.append([problem.title, *(f"{p / total:.1%}" for p in parts), f"{total:.2f}"])
+    return head, body
+
+
+def share_table(shares):
+    head = ["unknowns", "an iteration [s]", "library / iteration", "all of contact / iteration",
+            "library / bulk assembly", "all of contact / bulk assembly"]
+    return head, [[str(r["unknowns"]), f"{r['iteration']:.3f}", f"{r['library_share']:.2%}", f"{r['whole_share']:.2%}",
+                   f"{r['library_over_bulk']:.1%}", f"{r['whole_over_bulk']:.1%}"] for r in shares]
+
+
+def tail_table(tails):
+    least = tails[0]["integration"] + tails[0]["tangent"]
+    head = ["points a triangle", "residuals of the last step", "integration [ms]", "tangent [ms]", "over the first"]
+    return head, [[str(t["points"]), " ".join(f"{n:.0e}" for n in t["norms"]), f"{1e3 * t['integration']:.1f}",
+                   f"{1e3 * t['tangent']:.1f}", f"{(t['integration'] + t['tangent']) / least:.2f}"] for t in tails]
+
+
+def markdown(table):
+    head, body = table
+    return "\n".join(["| " + " | ".join(line) + " |" for line in (head, ["---"] * len(head), *body)])
+
+
+def as_html(table):
+    head, body = table
+    cells = lambda tag, line: "".join(f"<{tag}>{html.escape(c)}</{tag}>" for c in line)
+    lines = "".join(f"<tr>{cells('td', line)}</tr>" for line in body)
+    return f"<table><tr>{cells('th', head)}</tr>{lines}</table>"
+
+
+def noise(rows):
+    """Median and largest spread of the repetitions."""
+    spreads = sorted(r["spread"] for r in rows if "spread" in r)
+    return (spreads[len(spreads) // 2], spreads[-1]) if spreads else (float("nan"), float("nan"))
+
+
+def sections(problems, rows, measured, choice):
+    """(title, sentence, table), in the order in which they are to be read."""
+    (shares, tails), (front, goals, wanted) = measured, choice
+    bound = f"Aimed at: at most {SHARE_BOUND:.0%} of an iteration and {ASSEMBLY_BOUND:.0%} of the bulk's assembly."
+    return [
+        ("Which settings", "The cheapest setting that reaches each error, with its processor time; a mesh is the size "
+         "of its facets (patch, press fit: their number).", goal_table(problems, rows, goals, wanted)),
+        ("What the next digit costs", "The settings that no other one beats in both error and time.",
+         digit_table(problems, rows, front)),
+        ("Each knob against the default", "On one mesh: what a knob changes in the error, in contact's time (search, "
+         "integration, derivatives) and in the number of Newton iterations.", against_default(problems, rows)),
+        ("Where the time goes", "Parts of the default's time.", phases(problems, rows)),
+        ("Contact's share against size", f"Two blocks, MUMPS. {bound}", share_table(shares)),
+        ("Newton's last iterations on warped facets", "The derivative is that of the exact integral, not of the rule's "
+         "sum: the better the rule, the less of a tail.", tail_table(tails)),
+    ]
+
+
+def write(output, problems, rows, measured, choice, summary, figures, circumstances):
+    """index.html and accuracy.md, the summary for the documents; returns the former's path."""
+    seconds, jobs = circumstances
+    median, worst = noise(rows)
+    runs = max(r.get("runs", 0) for r in rows)
+    stated = (f"Each setting ran {runs} times, all of them in turn, {jobs} at a time; the least processor time counts. "
+              f"The slowest run of a setting took {median:.0%} more than its fastest (median; at worst {worst:.0%}): "
+              "differences below that are the machine's.")
+    every = sections(problems, rows, measured, choice)
+    parts = [f"<!doctype html><meta charset='utf-8'><title>stickslip: accuracy and time</title><style>{STYLE}</style>",
+             "<h1>What accuracy costs in time</h1>", f"<p>{stated}</p>",
+             f'<p><img src="{summary.name}" alt="work-precision diagrams"></p>']
+    for title, sentence, table in every:
+        parts.append(f"<h2>{html.escape(title)}</h2><p>{html.escape(sentence)}</p>{as_html(table)}")
+    parts.append("<h2>Diagrams</h2>")
+    parts += [f'<p><img src="{path.name}" alt="{path.stem}"></p>' for path in figures]
+    page = output / "index.html"
+    page.write_text("\n".join(parts) + "\n")
+    chosen = [every[0], every[2], every[4], every[5]]
+    text = [stated, ""]
+    for title, sentence, table in chosen:
+        text += [f"### {title}", "", sentence, "", markdown(table), ""]
+    (output / "accuracy.md").write_text("\n".join(text))
+    return page
+
+
+def renew(document, summary):
+    """Puts the summary between its marks in the document."""
+    text = document.read_text()
+    before, after = text.split(MARKS[0])[0], text.split(MARKS[1])[1]
+    document.write_text(f"{before}{MARKS[0]}\n\n{summary.read_text()}\n{MARKS[1]}{after}")

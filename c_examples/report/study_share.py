@@ -1,0 +1,62 @@
+"""Two more measurements of `make study`: what contact takes of a Newton iteration, against size; and Newton's last
+iterations on warped facets, rule by rule."""
+
+import study_problems
+
+# Cells along a side of the upper block; the last one has 50 000 unknowns.
+SIZES = (6, 9, 13, 18, 23)
+# What was aimed at, of an iteration and of the bulk's own assembly.
+SHARE_BOUND, ASSEMBLY_BOUND = 0.01, 0.15
+RULES = (("degree_4", 6), ("degree_5", 7), ("degree_6", 12), ("degree_10", 36))
+# Ball on block: two steps, the second one from the first one's extrapolation. Far below what a scene would ask for.
+TAIL_OPTIONS = ("-snes_rtol", "1e-16", "-snes_max_it", 14)
+TAIL_MESH = 0.025
+
+
+def count(repetitions):
+    return repetitions * (len(SIZES) + len(RULES))
+
+
+def shares(driver, repetitions):
+    """Per size: contact's part of an iteration, and its search, integration, derivatives over the bulk's assembly."""
+    rows = []
+    for n in SIZES:
+        cells = ("-upper_cells", f"{n},{n},{n}", "-lower_cells", f"{n + 1},{n + 1},{n}")
+        runs = [driver.run("two_blocks", *cells, "-output_quiet", "true", label=f"share/{n}/{k}")
+                for k in range(repetitions)]
+        run = min(runs, key=lambda each: each.summary["seconds"]["total"])
+        seconds, iterations = run.summary["seconds"], run.newton_iterations
+        library = seconds["search"] + seconds["integration"] + seconds["contact_assembly"]
+        whole = seconds["contact_forces"] + seconds["contact_tangent"]
+        spent = seconds["bulk_assembly"] + seconds["linear_solve"] + whole
+        rows.append({
+            "cells": n, "unknowns": run.summary["unknowns"], "newton": iterations,
+            "iteration": spent / iterations, "library": library / iterations, "whole": whole / iterations,
+            "bulk": seconds["bulk_assembly"] / iterations, "solve": seconds["linear_solve"] / iterations,
+            "library_share": library / spent, "whole_share": whole / spent,
+            "library_over_bulk": library / seconds["bulk_assembly"],
+            "whole_over_bulk": whole / seconds["bulk_assembly"],
+        })
+    return rows
+
+
+def tails(driver, repetitions):
+    """Per rule: the residual norms of the last step, and what the contact's integration and tangent cost."""
+    rows = []
+    mesh = study_problems.ball_mesh(TAIL_MESH)
+    for rule, points in RULES:
+        options = (*mesh, "-contact_quadrature", rule, *TAIL_OPTIONS, "-steps_smallest", 1, "-output_quiet", "true")
+        runs = [_tail(driver, options, f"tails/{rule}/{k}") for k in range(repetitions)]
+        least = lambda *keys: min(sum(r.summary["seconds"][key] for key in keys) for r in runs)
+        last = runs[0].steps[-1]
+        rows.append({
+            "rule": rule, "points": points, "newton": runs[0].newton_iterations, "norms": last["residual_norms"],
+            "integration": least("search", "integration"), "tangent": least("contact_assembly"),
+            "pairs_integrated": runs[0].summary["interfaces"]["contact"]["pairs_integrated"],
+            "pairs_linearised": runs[0].summary["interfaces"]["contact"]["pairs_linearised"],
+        })
+    return rows
+
+
+def _tail(driver, options, label):
+    return driver.run("ball_on_block", *options, label=label)
