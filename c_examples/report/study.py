@@ -76,7 +76,7 @@ def row_of(problem, setting, runs, driver):
     row.update(unknowns=run.summary["unknowns"], steps=len(run.steps), newton=run.newton_iterations)
     row.update(cutbacks=run.summary["cutbacks"], runs=len(times))
     row.update(seconds=min(times), spread=max(times) / min(times) - 1)
-    row.update({f"seconds_{phase}": seconds_of(run)[phase] for phase in PHASES})
+    row.update({f"seconds_{phase}": min(seconds_of(each)[phase] for each in found) for phase in PHASES})
     row.update({name: run.summary["interfaces"][problem.interface][name] for name in COUNTERS})
     return row
 

@@ -5,6 +5,7 @@ the other is turned, and others that are tried with the defaults and with the ch
 Errors are relative; `error` is the problem's own for the fronts, `errors` all of them.
 """
 
+import functools
 from dataclasses import dataclass, field
 from typing import Callable
 
@@ -19,7 +20,7 @@ DEFAULT = "default"
 RULES = {"degree_1": 1, "degree_2": 3, "degree_4": 6, "degree_6": 12, "degree_10": 36}
 ELEMENTS = (2, 3, 4, 6, 10)
 # What the press fit's reactions are compared with: the same meshes with the finest rule, steps a fifth as long.
-PRESS_TRAVEL, PRESS_STEP, PRESS_FINE = 300, 50, 10
+PRESS_TRAVEL, PRESS_STEP, PRESS_FINE = 1000, 50, 5
 
 
 @dataclass
@@ -70,7 +71,8 @@ class Problem:
             hybrid = (*option("integration", "hybrid"), *option("points", n))
             add("integration", f"hybrid_{n}", *hybrid, label=f"hy {n}x{n}")
         for tangent in ("frozen_weights", "frozen_normals"):
-            many = ("-snes_max_it", 200)
+            # What does not converge in so many iterations is no way to save time.
+            many = ("-snes_max_it", 60, "-steps_smallest", 0.3)
             add("tangent", tangent, *option("tangent", tangent), *many, label=tangent.replace("_", " "))
         for tolerance in ("1e-3", "1e-5", "1e-8"):
             add("tolerance", f"rtol_{tolerance}", "-snes_rtol", tolerance, label=f"rtol {tolerance}")
@@ -134,6 +136,7 @@ def cattaneo_mesh(h):
 def ball_errors(run, setting, driver):
     table = run.interface("contact")
     hertz = formulas.PointContact(4 * table["fz"].sum(), friction.formulas.plane_modulus(1000, 0.3) / 2, 1.0)
+    # Areas are those of the last step's start: with one step, undeformed, as the linear elastic bodies see them.
     r, area = np.hypot(table["X"], table["Y"]), table["area_full"]
     pressure, exact = table["fz"] / area, hertz.pressure(r)
     inner = r < 0.8 * hertz.contact_radius  # nodes away from the rim, where a nodal mean is not a value
@@ -169,6 +172,7 @@ def pushes(run):
     return {round(s["t"], 6): np.array([s["reactions"]["push"][0], s["reactions"]["symmetry"][2]]) for s in run.steps}
 
 
+@functools.cache
 def press_reference(driver):
     fine = ("-contact_quadrature", "degree_10", *press_times(PRESS_FINE))
     return pushes(driver.run("press_fit", *press_mesh(18)[:2], *fine, *QUIET, label="press_fit/reference"))
@@ -176,7 +180,7 @@ def press_reference(driver):
 
 def press_errors(run, setting, driver):
     ours, exact = pushes(run), press_reference(driver)
-    times = [t for t in ours if t > 1 + 1e-9]
+    times = [t for t in ours if t > 1 + 1e-9 and t in exact]
     ours, exact = (np.array([each[t] for t in times]) for each in (ours, exact))
     if len(ours) > 3:
         wave = np.abs(np.diff(ours[:, 0], 2)).max() / 4 / np.abs(ours[:, 0]).max()
@@ -198,7 +202,7 @@ PROBLEMS = [
             line_errors, lambda h: tuple(friction.line_mesh(h)), (0.272, 0.136, 0.068, 0.034), 1, friction.FRICTIONLESS,
             only=("integration", "tangent", "tolerance", "form", "mesh", "weights")),
     Problem("hertz_ball", "Hertz: ball on block", "ball_on_block", "contact", "pressure, root mean square", ball_errors,
-            ball_mesh, (0.05, 0.0333, 0.025), 1, only=("integration", "tangent", "tolerance", "mesh")),
+            ball_mesh, (0.05, 0.025, 0.0167), 1, ("-steps_count", 1), only=("integration", "tangent", "tolerance", "mesh")),
     Problem("cattaneo", "Cattaneo and Mindlin: shear", "cattaneo_line", "contact", "shear traction, root mean square",
             cattaneo_errors, cattaneo_mesh, (0.136, 0.068), 0,
             extra=(Setting("slip_seed", "slip", (*cattaneo_mesh(0.136), "-contact_slip", "seed"), "slip as printed"),

@@ -77,12 +77,37 @@ static PetscErrorCode reserve(Interface *interface, int64_t count)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Entries come column by column of small blocks: those of one column go in together. */
 static PetscErrorCode insert(const Interface *interface, int64_t count, const double *values, Mat matrix)
 {
+  PetscInt rows[64], n;
+  double   zeros[64] = {0};
   PetscFunctionBegin;
-  for (int64_t k = 0; k < count; k++)
-    PetscCall(MatSetValue(matrix, (PetscInt)interface->coo_rows[k], (PetscInt)interface->coo_columns[k],
-                          values ? values[k] : 0, ADD_VALUES));
+  for (int64_t k = 0; k < count; k += n) {
+    const PetscInt column = (PetscInt)interface->coo_columns[k];
+    for (n = 0; n < 64 && k + n < count && interface->coo_columns[k + n] == column; n++)
+      rows[n] = (PetscInt)interface->coo_rows[k + n];
+    PetscCall(MatSetValues(matrix, n, rows, 1, &column, values ? values + k : zeros, ADD_VALUES));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* rank 0: into the arrays as they are; counted first where they turn out too small */
+static PetscErrorCode evaluate_tangent(Interface *interface, int64_t *count, int32_t *refused)
+{
+  PetscFunctionBegin;
+#define TANGENT(capacity, rows, columns, values)                                                                       \
+  stickslip_interface_tangent_coo(interface->handle, STATE_OF(interface), NULL, capacity, rows, columns, values, count)
+  *refused = STICKSLIP_BUFFER_TOO_SMALL;
+  for (int attempt = 0; attempt < 2 && *refused == STICKSLIP_BUFFER_TOO_SMALL; attempt++) {
+    if (attempt || !interface->coo_capacity) {
+      *refused = TANGENT(0, NULL, NULL, NULL);
+      if (*refused) break;
+      PetscCall(reserve(interface, *count));
+    }
+    *refused = TANGENT(interface->coo_capacity, interface->coo_rows, interface->coo_columns, interface->coo_values);
+  }
+#undef TANGENT
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -96,14 +121,7 @@ PetscErrorCode contact_tangent(Model *model, Mat matrix, PetscInt *status)
     int64_t    count     = 0;
     PetscCall(contact_gather(model, interface, model->u_local));
     if (model->rank == 0) {
-      refused = stickslip_interface_tangent_coo(interface->handle, STATE_OF(interface), NULL, 0, NULL, NULL, NULL,
-                                                &count);
-      if (!refused) {
-        PetscCall(reserve(interface, count));
-        refused = stickslip_interface_tangent_coo(interface->handle, STATE_OF(interface), NULL, interface->coo_capacity,
-                                                  interface->coo_rows, interface->coo_columns, interface->coo_values,
-                                                  &count);
-      }
+      PetscCall(evaluate_tangent(interface, &count, &refused));
       if (!refused) PetscCall(insert(interface, count, interface->coo_values, matrix));
     }
     PetscCall(contact_agree(model, refused, status));
