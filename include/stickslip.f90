@@ -149,10 +149,10 @@ module stickslip
   integer(c_int32_t), parameter :: STICKSLIP_STATE_SLIP = 2
 
   ! Sizes of the types in bytes (64-bit machines), their struct_size.
-  integer(c_int64_t), parameter :: stickslip_options_size = 120
+  integer(c_int64_t), parameter :: stickslip_options_size = 128
   integer(c_int64_t), parameter :: stickslip_surface_size = 72
   integer(c_int64_t), parameter :: stickslip_states_size = 80
-  integer(c_int64_t), parameter :: stickslip_counters_size = 192
+  integer(c_int64_t), parameter :: stickslip_counters_size = 200
   integer(c_int64_t), parameter :: stickslip_report_size = 104
   integer(c_int64_t), parameter :: stickslip_diagnosis_size = 224
   integer(c_int64_t), parameter :: stickslip_pair_size = 48
@@ -190,6 +190,7 @@ module stickslip
     integer(c_int32_t) :: integration = 0          ! STICKSLIP_INTEGRATION_...
     integer(c_int32_t) :: tangent = 0              ! STICKSLIP_TANGENT_...
     integer(c_int64_t) :: element_points = 0       ! along a side, without SEGMENTS: 2 to 10; 0: 4
+    real(c_double) :: weak_coverage = 0            ! nodes covered less, over the best neighbour, are carried; 0: none
   end type
 
   ! One surface of an interface. nf facets with 3 or 4 nodes each.
@@ -246,6 +247,7 @@ module stickslip
     integer(c_int64_t) :: nodes_uncovered = 0      ! not covered
     integer(c_int64_t) :: nodes_left_out = 0       ! not covered, and the law was not asked
     integer(c_int64_t) :: boxes_visited = 0        ! boxes that the searches compared
+    integer(c_int64_t) :: nodes_carried = 0        ! covered, and carried by neighbours: counts with nodes_...
   end type
 
   ! What stickslip_interface_report finds; an array that stays null is not wanted.

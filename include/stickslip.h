@@ -394,6 +394,12 @@ typedef struct stickslip_options {
   int32_t tangent;
   /// Points along a side with STICKSLIP_INTEGRATION_ELEMENTS and HYBRID: 2 to 10; 0 (default): 4. Otherwise 0.
   int64_t element_points;
+  /// A node covered less than this times its best covered neighbour at t_n [-] has no multiplier of its own in the
+  /// step: covered neighbours carry it, lambda_A = sum_B w_AB lambda_B with sum_B w_AB = 1, and its gap counts in
+  /// their rows. They carry newly covered nodes too, with friction, up to four facets away. At most 1; 0 (default):
+  /// every covered node has its own, and that of a sliver grows without bound as the sliver goes; 0.5: none beyond
+  /// the mortar surface's edge has. It changes the answer at partly covered nodes alone. Not with sums of handles.
+  double weak_coverage;
 } stickslip_options;
 
 /// One surface of an interface.
@@ -513,6 +519,8 @@ typedef struct stickslip_counters {
   int64_t nodes_left_out;
   /// Boxes that the searches compared: O(n log n).
   int64_t boxes_visited;
+  /// Covered, and carried by neighbours (weak_coverage); counts with those that add up to n1.
+  int64_t nodes_carried;
 } stickslip_counters;
 
 /// What `stickslip_interface_report` finds. A NULL member is not wanted.

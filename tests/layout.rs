@@ -68,7 +68,8 @@ fn layouts() -> Vec<Layout> {
             radius,
             integration,
             tangent,
-            element_points
+            element_points,
+            weak_coverage
         }),
         layout!(stickslip_states {
             struct_size,
@@ -106,7 +107,8 @@ fn layouts() -> Vec<Layout> {
             nodes_tied,
             nodes_uncovered,
             nodes_left_out,
-            boxes_visited
+            boxes_visited,
+            nodes_carried
         }),
         layout!(stickslip_report {
             struct_size,

@@ -38,6 +38,7 @@ static PetscErrorCode interface_counters(const Interface *interface, cJSON *pare
   ADD(nodes_frictionless);
   ADD(nodes_new);
   ADD(nodes_tied);
+  ADD(nodes_carried);
   ADD(nodes_uncovered);
   ADD(nodes_left_out);
   ADD(evaluations_apart);

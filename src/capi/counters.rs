@@ -59,6 +59,8 @@ pub struct stickslip_counters {
     pub nodes_left_out: i64,
     /// Boxes that the searches compared: O(n log n).
     pub boxes_visited: i64,
+    /// Covered, and carried by neighbours (weak_coverage); counts with those that add up to n1.
+    pub nodes_carried: i64,
 }
 
 // SAFETY: repr(C), struct_size first, numbers only.
@@ -107,6 +109,7 @@ pub unsafe extern "C" fn stickslip_interface_counters(
                 nodes_uncovered: c.nodes.uncovered,
                 nodes_left_out: c.nodes.left_out,
                 boxes_visited: c.boxes_visited,
+                nodes_carried: c.nodes.carried,
             },
         );
         Ok(())

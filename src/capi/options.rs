@@ -159,6 +159,12 @@ pub struct stickslip_options {
     pub tangent: i32,
     /// Points along a side with STICKSLIP_INTEGRATION_ELEMENTS and HYBRID: 2 to 10; 0 (default): 4. Otherwise 0.
     pub element_points: i64,
+    /// A node covered less than this times its best covered neighbour at t_n [-] has no multiplier of its own in the
+    /// step: covered neighbours carry it, lambda_A = sum_B w_AB lambda_B with sum_B w_AB = 1, and its gap counts in
+    /// their rows. They carry newly covered nodes too, with friction, up to four facets away. At most 1; 0 (default):
+    /// every covered node has its own, and that of a sliver grows without bound as the sliver goes; 0.5: none beyond
+    /// the mortar surface's edge has. It changes the answer at partly covered nodes alone. Not with sums of handles.
+    pub weak_coverage: f64,
 }
 
 // SAFETY: repr(C), struct_size first, numbers only.
@@ -198,6 +204,7 @@ pub unsafe extern "C" fn stickslip_options_init(options: *mut stickslip_options,
             integration: STICKSLIP_INTEGRATION_SEGMENTS,
             tangent: STICKSLIP_TANGENT_EXACT,
             element_points: 0,
+            weak_coverage: 0.0,
         };
         sized::initialise(options, struct_size, defaults, "options")
     })
@@ -325,6 +332,7 @@ pub(super) fn read_options(p: *const stickslip_options) -> Result<Choices> {
         integration,
         tangent,
         element_points,
+        weak_coverage,
     } = sized::read(p)?;
     let laws = [Friction::Coulomb, Friction::None, Friction::Tied, Friction::Rough];
     let friction = choose(friction, "options.friction", &laws, 4)?;
@@ -339,6 +347,7 @@ pub(super) fn read_options(p: *const stickslip_options) -> Result<Choices> {
         ("search_distance", search_distance),
         ("coverage_min", coverage_min),
         ("radius", radius),
+        ("weak_coverage", weak_coverage),
     ];
     for (name, v) in numbers {
         if !v.is_finite() {
@@ -385,6 +394,7 @@ pub(super) fn read_options(p: *const stickslip_options) -> Result<Choices> {
         mu,
         stiffness,
         coverage_min,
+        weak_coverage,
         search_distance: (search_distance != 0.0).then_some(search_distance),
     };
     options.validate()?;

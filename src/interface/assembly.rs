@@ -168,7 +168,7 @@ impl<const N: usize> Contact<N> {
                 "sums with the augmented form: its tangent couples pairs of different handles; use the multiplier form";
             return Err(Error::new(Kind::Unsupported, text));
         }
-        let responses = self.responses(x1, x2, lambda, sums)?;
+        let (sums, responses) = self.evaluate(x1, x2, lambda, sums)?;
         let differentiates = self.options.differentiates_weights();
         if differentiates {
             self.ensure_segments()?;
@@ -178,40 +178,46 @@ impl<const N: usize> Contact<N> {
         let mut couplings = self.augmented_couplings();
         let normals = self.all_normals()?;
         let nodes = self.node_tangents(lambda, &responses, &normals);
+        let carried = self.carried(&sums);
         // Large, so that one of each serves all pairs.
         let (mut t, mut facet) = (PairTangent::default(), FacetTangent::default());
         let union = self.union();
         sink.reserve(entries::<MOVES, N>(&union, responses.len()));
         for pairs in union.chunk_by(|p, q| p.one == q.one) {
             let one = &self.nonmortar.facets[pairs[0].one];
-            let nodes = FacetResponse::new(one.nodes.map(|a| &nodes[a]));
+            let facet_nodes = FacetResponse::new(one.nodes.map(|a| &nodes[a]));
             facet.acts = false;
             for (place, pair) in pairs.iter().enumerate() {
                 let mut gap = None;
                 if let (Some(weights), Some(k)) = (pair.now, self.integration.as_ref().filter(|_| differentiates)) {
                     let overlap = (&k.frames[pair.one], k.segments.get(pair.place));
-                    let (rule, p, f) = (self.options.rule, &nodes.traction, &mut t.forces);
+                    let (rule, p, f) = (self.options.rule, &facet_nodes.traction, &mut t.forces);
                     gap = Some((self.kernels.motion)((&self.mortar, x2), overlap, weights, rule, p, f)?);
                     linearised += 1;
                 }
                 let now = pair.now.map(|weights| PairNow { weights, gap: gap.as_ref() });
-                row_columns::<MOVES, N>(now.as_ref(), pair.previous, &nodes, &mut t.rows);
+                row_columns::<MOVES, N>(now.as_ref(), pair.previous, &facet_nodes, &mut t.rows);
                 facet.add(place == 0, pair, &t);
                 self.emit_pair::<MOVES>(pair, &t, &normals, sink);
+                self.emit_carried::<MOVES>(pair, now.as_ref(), Some((&carried, &nodes)), &normals, sink);
                 if let Some(couplings) = &mut couplings {
                     for k in 0..one.len {
                         let a = one.nodes[k];
                         let dp = self.dtraction(a, &responses[a], normals[a]);
                         couplings[a].add_pair::<MOVES>(k, &self.slots(pair), now.as_ref(), pair.previous, dp);
                     }
+                    let carried = Some((&carried[..], &responses[..]));
+                    self.couple_carried::<MOVES>(pair, now.as_ref(), carried, &normals, couplings);
                 }
             }
             self.emit_facet(pairs[0].one, &facet, &normals, sink);
         }
         for a in 0..responses.len() {
             self.emit_node(a, &responses[a].drow_dlambda, sink);
+            self.emit_carriers(a, carried.get(a).is_some_and(|c| *c), sink);
             if let Some(couplings) = &couplings {
                 self.emit_couplings(a, &couplings[a], &responses[a].dp_dlambda, sink);
+                self.emit_carried_forces(a, couplings, Some((&carried, &responses)), &normals, sink);
             }
         }
         self.counters.pairs_linearised += linearised;
@@ -220,7 +226,7 @@ impl<const N: usize> Contact<N> {
     }
 
     /// dp/dg_now and dp/dg_previous of a node.
-    fn dtraction(&self, a: usize, response: &NodeResponse<N>, nu: Vec3) -> (Mat3, Mat3) {
+    pub(super) fn dtraction(&self, a: usize, response: &NodeResponse<N>, nu: Vec3) -> (Mat3, Mat3) {
         let basis = effects::basis::<N>(nu) * self.augmentation(a);
         (basis * response.drow_dnow, basis * response.drow_dprevious)
     }
@@ -264,6 +270,7 @@ impl<const N: usize> Contact<N> {
             for (place, pair) in pairs.iter().enumerate() {
                 facet.add(place == 0, pair, &nothing);
                 self.emit_pair::<MOVES>(pair, &nothing, &normals, sink);
+                self.emit_carried::<MOVES>(pair, None, None, &normals, sink);
                 if let Some(couplings) = &mut couplings {
                     let one = &self.nonmortar.facets[pair.one];
                     let now = pair.now.map(|weights| PairNow { weights, gap: None });
@@ -271,14 +278,17 @@ impl<const N: usize> Contact<N> {
                         let (slots, zero) = (self.slots(pair), (Mat3::zeros(), Mat3::zeros()));
                         couplings[one.nodes[k]].add_pair::<MOVES>(k, &slots, now.as_ref(), pair.previous, zero);
                     }
+                    self.couple_carried::<MOVES>(pair, now.as_ref(), None, &normals, couplings);
                 }
             }
             self.emit_facet(pairs[0].one, &facet, &normals, sink);
         }
         for a in 0..self.nonmortar.len() {
             self.emit_node(a, &SMatrix::zeros(), sink);
+            self.emit_carriers(a, false, sink);
             if let Some(couplings) = &couplings {
                 self.emit_couplings(a, &couplings[a], &SMatrix::zeros(), sink);
+                self.emit_carried_forces(a, couplings, None, &normals, sink);
             }
         }
     }
@@ -305,7 +315,7 @@ impl<const N: usize> Contact<N> {
     }
 
     /// The nodes in a pair's slots, as indices over both surfaces (mortar after non-mortar).
-    fn slots(&self, pair: &UnionPair) -> [Option<usize>; PAIR_NODES] {
+    pub(super) fn slots(&self, pair: &UnionPair) -> [Option<usize>; PAIR_NODES] {
         let (one, two) = (&self.nonmortar.facets[pair.one], &self.mortar.facets[pair.two]);
         std::array::from_fn(|k| {
             if k < MORTAR {
@@ -317,7 +327,7 @@ impl<const N: usize> Contact<N> {
     }
 
     /// Displacement equations of a node over both surfaces.
-    fn equations(&self, node: usize) -> &[i64; 3] {
+    pub(super) fn equations(&self, node: usize) -> &[i64; 3] {
         let n1 = self.nonmortar.len();
         if node < n1 { &self.nonmortar.equations[node] } else { &self.mortar.equations[node - n1] }
     }
@@ -491,13 +501,13 @@ impl Kernel for Add<'_> {
 }
 
 /// Displacement equations of a facet's nodes in the orders of a tangent's blocks.
-struct Equations {
+pub(super) struct Equations {
     by_node: [[i64; 3]; MAX_NODES],
     by_component: [[i64; MAX_NODES]; 3],
 }
 
 impl Equations {
-    fn of(facet: &FacetNodes, equations: &[[i64; 3]]) -> Equations {
+    pub fn of(facet: &FacetNodes, equations: &[[i64; 3]]) -> Equations {
         let mut e = Equations { by_node: [[NO_EQUATION; 3]; MAX_NODES], by_component: [[NO_EQUATION; MAX_NODES]; 3] };
         for k in 0..facet.len {
             e.by_node[k] = equations[facet.nodes[k]];
@@ -512,7 +522,7 @@ impl Equations {
         self.by_component.as_flattened()
     }
 
-    fn columns(&self) -> &[i64] {
+    pub fn columns(&self) -> &[i64] {
         self.by_node.as_flattened()
     }
 }

@@ -34,18 +34,31 @@ impl NodeCouplings {
         previous: Option<&PairWeights>,
         dp: (Mat3, Mat3),
     ) {
+        self.add_gap::<MOVES>(k, nodes, now, previous, dp);
+        let Some(PairNow { weights: w, .. }) = now else { return };
+        for (j, node) in nodes[..slots(MOVES)].iter().enumerate() {
+            let Some(node) = *node else { continue };
+            let coupling = self.find(node);
+            coupling.weight += if j < MORTAR { w.ab[k][j] } else { -w.ac[k][j - MORTAR] };
+            coupling.acts = true;
+        }
+    }
+
+    /// Adds what p_A depends on: the gap of the k-th non-mortar node of a pair.
+    pub fn add_gap<const MOVES: bool>(
+        &mut self,
+        k: usize,
+        nodes: &[Option<usize>; PAIR_NODES],
+        now: Option<&PairNow>,
+        previous: Option<&PairWeights>,
+        dp: (Mat3, Mat3),
+    ) {
         let by_now = now.map(|now| gap_rows::<MOVES>(now, k, &dp.0));
         let by_previous = previous.map(|weights| frozen_rows::<MOVES>(weights, k, &dp.1));
         for (j, node) in nodes[..slots(MOVES)].iter().enumerate() {
             let Some(node) = *node else { continue };
             let coupling = self.find(node);
-            if let (Some(now), Some(rows)) = (now, &by_now) {
-                let w = now.weights;
-                coupling.weight += if j < MORTAR { w.ab[k][j] } else { -w.ac[k][j - MORTAR] };
-                coupling.acts = true;
-                coupling.dtraction += rows[j];
-            }
-            if let Some(rows) = &by_previous {
+            for rows in [&by_now, &by_previous].into_iter().flatten() {
                 coupling.dtraction += rows[j];
             }
         }

@@ -311,6 +311,7 @@ impl<const N: usize> Contact<N> {
             let sums = assemble(surfaces, &new.pairs, &h.x1, &h.x2);
             check_layers(&self.history.areas, sums.iter().map(|(coverage, _)| *coverage), self.options.rule)?;
             self.history.fill(&mut new.pairs, &sums);
+            self.carriers = self.find_carriers();
         }
         Ok(())
     }

@@ -49,6 +49,7 @@ impl<const N: usize> Contact<N> {
         let step = self.filter.as_ref().map_or(0, of_filter) + self.integration.as_ref().map_or(0, of_integration);
         let step = step + of_tree(&self.tree);
         let flags = heap(&self.owned) + heap(&self.coverable);
+        let flags = flags + heap(&self.carriers) + self.carriers.iter().map(heap).sum::<usize>();
         let overrides = self.augmentations.as_ref().map_or(0, heap) + self.normals.as_ref().map_or(0, heap);
         let nodes = heap(&self.multiplier_equations) + heap(&self.mu) + heap(&self.free);
         surfaces + histories + step + flags + overrides + nodes

@@ -7,6 +7,7 @@ mod analytic;
 mod apart;
 mod assembly;
 mod augmented;
+mod carried;
 mod crease;
 mod crosspoints;
 mod describe;
@@ -25,6 +26,7 @@ mod report;
 mod search;
 mod surface;
 mod treatment;
+mod weak;
 
 pub use assembly::{Residual, Sink};
 pub use crease::Split;
@@ -100,6 +102,7 @@ pub struct Contact<const N: usize> {
     multiplier_equations: Vec<[i64; N]>,
     owned: Vec<bool>,
     coverable: Vec<bool>,
+    carriers: Vec<Vec<weak::Carrier>>,
     mu: Vec<f64>,
     augmentations: Option<Vec<f64>>,
     normals: Option<Vec<Vec3>>,
@@ -188,6 +191,7 @@ impl<const N: usize> Contact<N> {
             multiplier_equations,
             owned: vec![true; n1],
             coverable: Vec::new(),
+            carriers: Vec::new(),
             mu,
             augmentations: None,
             normals: None,
@@ -200,6 +204,7 @@ impl<const N: usize> Contact<N> {
             counters,
         };
         interface.coverable = interface.find_coverable();
+        interface.carriers = interface.find_carriers();
         interface.count_pairs();
         interface.set_constraints(&[])?; // those that follow from removed equations
         Ok(interface)
@@ -211,6 +216,7 @@ impl<const N: usize> Contact<N> {
         self.integration = start.integration;
         let old = std::mem::replace(&mut self.history, start.history);
         self.coverable = self.find_coverable();
+        self.carriers = self.find_carriers();
         old
     }
 

@@ -109,36 +109,43 @@ impl<const N: usize> Contact<N> {
             Some(sums) => {
                 self.check_positions(x1, x2)?;
                 self.check_length("sums", sums.len(), self.nonmortar.len())?;
+                self.refuse_carrying_over_handles()?;
                 self.share();
                 self.ensure_integration(x1, x2)?;
                 Cow::Borrowed(sums)
             }
             None => Cow::Owned(self.sums(x1, x2)?),
         };
-        let mut responses = Vec::with_capacity(lambda.len());
+        let carried = self.carried(&sums);
         let mut counts = NodeCounts::default();
+        let mut responses = Vec::with_capacity(lambda.len());
         for a in 0..lambda.len() {
-            let response = if self.is_left_out(a) {
+            responses.push(if self.is_left_out(a) {
                 counts.left_out += 1;
                 NodeResponse::uncovered(&lambda[a], self.augmentation(a))
             } else {
                 let node = self.node(a, lambda[a], &sums[a])?;
-                *self.count_of(a, &node, &mut counts) += 1;
+                let is_carried = carried.get(a).is_some_and(|c| *c);
+                *(if is_carried { &mut counts.carried } else { self.count_of(a, &node, &mut counts) }) += 1;
                 (self.kernels.respond)(&node)
-            };
+            });
+        }
+        if carried.contains(&true) {
+            self.carry(lambda, &sums, &carried, &mut responses)?;
+        }
+        for (a, response) in responses.iter().enumerate() {
             if !response.row.iter().chain(response.traction.iter()).all(|v| v.is_finite()) {
                 let text =
                     format!("the response of non-mortar node {a} overflows; positions or multiplier are out of range");
                 return Err(Error::new(Kind::NotFinite, text));
             }
-            responses.push(response);
         }
         self.counters.nodes_evaluated += counts.total() - counts.left_out;
         self.counters.nodes = counts;
         Ok((sums, responses))
     }
 
-    fn node(&self, a: usize, lambda: SVector<f64, N>, sums: &NodeSums) -> Result<Node<N>> {
+    pub(super) fn node(&self, a: usize, lambda: SVector<f64, N>, sums: &NodeSums) -> Result<Node<N>> {
         let threshold = self.options.coverage_min * self.history.areas[a];
         let covered_before = sums.coverage_previous > threshold;
         let frictionless = !covered_before && self.options.new_contact == NewContact::Frictionless;

@@ -155,6 +155,9 @@ pub struct Options {
     pub stiffness: Stiffness,
     /// Covered over full nodal area at and below which a node counts as uncovered.
     pub coverage_min: f64,
+    /// A node covered less than this times its best covered neighbour at t_n has no multiplier of its own in the step:
+    /// its covered neighbours carry it (`weak.rs`). 0: every covered node has one.
+    pub weak_coverage: f64,
     /// Facets farther apart than this along the normal at the last commit, gap or penetration, are no pair
     /// `[L]`. `None`: as far as the surfaces reach for a gap, one facet (the smaller of the two) for a
     /// penetration, so that the far side of a body is not found.
@@ -184,6 +187,7 @@ impl Options {
             mu: 0.0,
             stiffness,
             coverage_min: COVERAGE_MIN,
+            weak_coverage: 0.0,
             search_distance: None,
         }
     }
@@ -205,6 +209,9 @@ impl Options {
         }
         if !(0.0..1.0).contains(&self.coverage_min) {
             return refuse("coverage_min", self.coverage_min, "at least 0 and below 1");
+        }
+        if !(0.0..=1.0).contains(&self.weak_coverage) {
+            return refuse("weak_coverage", self.weak_coverage, "at least 0 and at most 1");
         }
         match self.search_distance {
             Some(d) if !(d > 0.0 && d.is_finite()) => refuse("search_distance", d, "positive and finite"),

@@ -14,6 +14,8 @@ pub struct NodeCounts {
     pub new: i64,
     /// Covered and tied.
     pub tied: i64,
+    /// Covered, and carried by neighbours: no multiplier of its own in this step.
+    pub carried: i64,
     /// Not covered here: the row is -lambda / r.
     pub uncovered: i64,
     /// Not covered wherever the step may go, or the surfaces are apart: the same row, without asking the law.
@@ -23,7 +25,7 @@ pub struct NodeCounts {
 impl NodeCounts {
     /// All nodes.
     pub fn total(&self) -> i64 {
-        self.frictional + self.frictionless + self.new + self.tied + self.uncovered + self.left_out
+        self.frictional + self.frictionless + self.new + self.tied + self.carried + self.uncovered + self.left_out
     }
 }
 

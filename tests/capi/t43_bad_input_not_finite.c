@@ -95,6 +95,7 @@ static void handles(void) {
   NOT_FINITE(&s->options.modulus, 1, call_create(s), "options.modulus");
   NOT_FINITE(&s->options.search_distance, 1, call_create(s), "options.search_distance");
   NOT_FINITE(&s->options.coverage_min, 1, call_create(s), "options.coverage_min");
+  NOT_FINITE(&s->options.weak_coverage, 1, call_create(s), "options.weak_coverage");
   scene_destroy(s);
 }
 

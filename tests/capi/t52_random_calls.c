@@ -143,6 +143,7 @@ static void sequence(void) {
   s->options.quadrature = (int32_t)draw(2);
   s->options.friction = (int32_t)draw(4);
   s->options.no_shortcuts = (int32_t)draw(16);
+  s->options.weak_coverage = 0.5 * (double)draw(3);
   if (s->options.friction != STICKSLIP_FRICTION_COULOMB) s->options.mu = 0.0;
   if (draw(2)) spoil(&s->options.mu, 5);
   if (draw(4) == 0) spoil(s->reference1, X1);

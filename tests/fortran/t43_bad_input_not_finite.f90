@@ -185,5 +185,6 @@ contains
     call not_finite(creation, 1, c_loc(h%s%options%modulus), 'options.modulus')
     call not_finite(creation, 1, c_loc(h%s%options%search_distance), 'options.search_distance')
     call not_finite(creation, 1, c_loc(h%s%options%coverage_min), 'options.coverage_min')
+    call not_finite(creation, 1, c_loc(h%s%options%weak_coverage), 'options.weak_coverage')
   end subroutine
 end program

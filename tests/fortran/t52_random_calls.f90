@@ -221,6 +221,7 @@ contains
     h%s%options%quadrature = random(2)
     h%s%options%friction = random(4)
     h%s%options%no_shortcuts = random(16)
+    h%s%options%weak_coverage = 0.5d0 * random(3)
     if (h%s%options%friction /= STICKSLIP_FRICTION_COULOMB) h%s%options%mu = 0
     if (once_in(2)) then
       call spoil_scalar(h%s%options%mu)
