@@ -214,6 +214,7 @@ PetscErrorCode contact_commit(Model *model, PetscInt *status);
 PetscErrorCode solver_create(Model *model);
 PetscErrorCode solver_refresh_pattern(Model *model);
 PetscErrorCode solver_restore_pattern(Model *model); /* undoes what a failed attempt has added */
+PetscErrorCode solver_forget_factors(Model *model);  /* after a linear system that could not be solved */
 
 /* cycling.c: model->cycling, the states of the nodes over Newton's iterations */
 PetscErrorCode cycling_create(Model *model);

@@ -185,6 +185,7 @@ static PetscErrorCode attempt(Model *model, int k, Vec x, PetscBool *converged)
   if (newton->changed) PetscCall(contact_scale_augmentation(model, NULL, 1));
   if (!*converged) {
     PetscCall(explain(model, reason));
+    if (reason == SNES_DIVERGED_LINEAR_SOLVE) PetscCall(solver_forget_factors(model));
     PetscCall(solver_restore_pattern(model));
   }
   PetscFunctionReturn(PETSC_SUCCESS);

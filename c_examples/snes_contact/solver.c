@@ -203,6 +203,20 @@ PetscErrorCode solver_refresh_pattern(Model *model)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* After a linear system that could not be solved: the next one starts with a new analysis. PETSc takes MUMPS' refusal of a
+ * singular matrix (INFOG(1) = -10), which MUMPS remembers, for one of the analysis: it would not factorise the next
+ * matrix, and MUMPS stops the program for being asked to solve without (INFOG(1) = -3). */
+PetscErrorCode solver_forget_factors(Model *model)
+{
+  KSP ksp;
+  PC  pc;
+  PetscFunctionBegin;
+  PetscCall(SNESGetKSP(model->snes, &ksp));
+  PetscCall(KSPGetPC(ksp, &pc));
+  PetscCall(PCReset(pc));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode solver_restore_pattern(Model *model)
 {
   PetscBool grown;
