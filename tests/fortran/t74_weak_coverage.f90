@@ -1,7 +1,7 @@
 ! Weakly covered nodes that neighbours carry: which and how many, balance, the tangent along one direction against
 ! differences, the pattern, refusals.
 #include "check.inc"
-program t73_weak_coverage
+program t74_weak_coverage
   use, intrinsic :: iso_c_binding
   use check
   use scenes
