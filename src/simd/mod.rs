@@ -49,6 +49,12 @@ pub trait Lanes: Real {
     fn swap_1_2(self) -> Self;
 }
 
+/// `n` as the bound of a loop that is to stay one: unrolled, its body would make the library several times as large.
+#[inline(always)]
+pub fn rolled(n: usize) -> usize {
+    std::hint::black_box(n)
+}
+
 /// Something to be computed with four lanes.
 pub trait Kernel {
     /// What comes out.
