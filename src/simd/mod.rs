@@ -72,9 +72,6 @@ pub fn dispatch<K: Kernel>(kernel: K) -> K::Output {
     }
     #[cfg(target_arch = "x86_64")]
     if is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma") {
-        if is_x86_feature_detected!("avx512vl") {
-            return avx2::run_with_more_registers(kernel);
-        }
         return avx2::run(kernel);
     }
     kernel.run::<Plain>()
