@@ -1125,8 +1125,7 @@ int32_t stickslip_node_normal(const double *sum, double *normal);
 /// Outputs, each may be NULL: n_ab (n1 x n1) and n_ac (n1 x n2) [L^2], row A; dn_ab (n1 x n1 x 3(n1+n2))
 /// and dn_ac (n1 x n2 x 3(n1+n2)) [L], their exact derivatives with respect to (x1, x2), always row-major
 /// in this order (in Fortran: n_ac(n2, n1), dn_ac(3 (n1+n2), n2, n1)). Facets that do not overlap give zeros, as
-/// does a mortar facet seen edge-on: not an error. The last bits of n_ab and n_ac depend on whether derivatives are
-/// wanted.
+/// does a mortar facet seen edge-on: not an error.
 ///
 /// Errors: NULL_POINTER, STRUCT_SIZE, INVALID_SIZE, NOT_FINITE, DUPLICATE_NODE, DEGENERATE_FACET,
 /// PROJECTION_NOT_CONVEX, INVALID_VALUE.

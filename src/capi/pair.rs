@@ -113,8 +113,7 @@ impl Pair {
 /// Outputs, each may be NULL: n_ab (n1 x n1) and n_ac (n1 x n2) [L^2], row A; dn_ab (n1 x n1 x 3(n1+n2))
 /// and dn_ac (n1 x n2 x 3(n1+n2)) [L], their exact derivatives with respect to (x1, x2), always row-major
 /// in this order (in Fortran: n_ac(n2, n1), dn_ac(3 (n1+n2), n2, n1)). Facets that do not overlap give zeros, as
-/// does a mortar facet seen edge-on: not an error. The last bits of n_ab and n_ac depend on whether derivatives are
-/// wanted.
+/// does a mortar facet seen edge-on: not an error.
 ///
 /// Errors: NULL_POINTER, STRUCT_SIZE, INVALID_SIZE, NOT_FINITE, DUPLICATE_NODE, DEGENERATE_FACET,
 /// PROJECTION_NOT_CONVEX, INVALID_VALUE.
@@ -143,10 +142,11 @@ pub unsafe extern "C" fn stickslip_pair_weights(
         let (n1, n2) = pair.n();
         let wanted = !(dn_ab.is_null() && dn_ac.is_null());
         let (mut w, mut d) = (PairWeights::default(), WeightDerivatives::default());
-        match &segment {
-            Some(segment) if wanted => w = d.update(&frame, segment, rule),
-            Some(segment) => w = PairWeights::integrate(&frame, segment, rule),
-            None => {}
+        if let Some(segment) = &segment {
+            w = PairWeights::integrate(&frame, segment, rule); // the same bits, whatever else is wanted
+            if wanted {
+                d.update(&frame, segment, rule);
+            }
         }
         raw::check_results("n_ab, n_ac", w.ab.iter().chain(&w.ac).flatten())?;
         if wanted {

@@ -9,7 +9,7 @@ use super::weights::PairWeights;
 use super::{MORTAR, PAIR_NODES};
 use crate::quadrature::Rule;
 use crate::shape::{Cell, MAX_NODES};
-use crate::simd::Lanes;
+use crate::simd::{Lanes, rolled};
 
 /// d/dx of the forces f_B^i = int p^i N_B da, f_C^i = -int p^i N_C da of the three
 /// components of a field p = sum_A N_A p_A [F/L].
@@ -120,7 +120,7 @@ impl<const MOVES: bool> CellKernel for OfPair<'_, MOVES> {
         let integrals = Integrals::<L>::new::<One, Two, MOVES>(frame, segment, rule);
         let transport = Transport::new::<Two, MOVES>(frame, segment, &integrals);
         let chain = Chain { frame, segment };
-        for i in 0..3 {
+        for i in 0..rolled(3) {
             let one = chain.local::<L, One, Two, MOVES>(&transport.one::<One, MOVES>(&p[i]));
             chain.columns::<L, One, Two, MOVES>(&one, &mut Component { to: &mut forces.one, i });
             if MOVES {
@@ -149,7 +149,7 @@ impl CellKernel for OfWeights<'_> {
         let integrals = Integrals::<L>::new::<One, Two, true>(frame, segment, rule);
         let transport = Transport::new::<Two, true>(frame, segment, &integrals);
         let chain = Chain { frame, segment };
-        for a in 0..One::NODES {
+        for a in 0..rolled(One::NODES) {
             let one = chain.local::<L, One, Two, true>(&transport.one::<One, true>(&SHAPES[a]));
             let mut columns = Flat([[L::splat(0.0); 3]; PAIR_NODES]);
             chain.columns::<L, One, Two, true>(&one, &mut columns);

@@ -14,6 +14,8 @@ use proptest::prelude::*;
 
 /// Rounding of a few thousand sums, relative to the largest of the compared numbers.
 const SAME: f64 = 1e-12;
+/// On slivers, whose edges may cross at a small angle: the rounding of a crossing is divided by it.
+const SAME_ON_SLIVERS: f64 = 1e-10;
 
 /// Shape functions and their gradients at a point of a projected facet.
 struct At {
@@ -218,9 +220,9 @@ fn largest<'a>(v: impl IntoIterator<Item = &'a f64>) -> f64 {
     v.into_iter().fold(0.0, |m, v| v.abs().max(m))
 }
 
-fn check_same(what: &str, found: &[f64], expected: &[f64], scale: f64) -> Result<(), TestCaseError> {
+fn check_same(what: &str, found: &[f64], expected: &[f64], (scale, same): (f64, f64)) -> Result<(), TestCaseError> {
     let error = found.iter().zip(expected).fold(0.0_f64, |m, (a, b)| m.max((a - b).abs()));
-    prop_assert!(error <= SAME * largest(expected).max(scale), "{what} off by {error:e} of {:e}", largest(expected));
+    prop_assert!(error <= same * largest(expected).max(scale), "{what} off by {error:e} of {:e}", largest(expected));
     Ok(())
 }
 
@@ -228,7 +230,7 @@ fn flat<const A: usize, const B: usize, const C: usize>(v: &[[[[f64; A]; B]; C]]
     v.as_flattened().as_flattened().as_flattened()
 }
 
-fn check(one: &Facet, two: &Facet, p: &[[f64; MAX_NODES]; 3]) -> Result<(), TestCaseError> {
+fn check(one: &Facet, two: &Facet, p: &[[f64; MAX_NODES]; 3], same: f64) -> Result<(), TestCaseError> {
     let Ok(frame) = NonmortarFrame::new(one) else { return Ok(()) };
     let Ok(Some(segment)) = Segment::new(&frame, two) else { return Ok(()) };
     let h = one.longest_edge();
@@ -236,24 +238,24 @@ fn check(one: &Facet, two: &Facet, p: &[[f64; MAX_NODES]; 3]) -> Result<(), Test
         let straight = Straight::new(&frame, &segment, rule);
         let weights = PairWeights::integrate(&frame, &segment, rule);
         for (found, expected) in [(&weights.ab, &straight.weights.ab), (&weights.ac, &straight.weights.ac)] {
-            check_same("weights", found.as_flattened(), expected.as_flattened(), h * h)?;
+            check_same("weights", found.as_flattened(), expected.as_flattened(), (h * h, same))?;
         }
         let ((with, found), expected) =
             (WeightDerivatives::integrate(&frame, &segment, rule), straight.derivatives(true));
-        check_same("weights with derivatives", with.ab.as_flattened(), weights.ab.as_flattened(), h * h)?;
-        check_same("weights with derivatives", with.ac.as_flattened(), weights.ac.as_flattened(), h * h)?;
-        check_same("dn_ab", flat(&found.ab), flat(&expected.ab), h)?;
-        check_same("dn_ac", flat(&found.ac), flat(&expected.ac), h)?;
+        check_same("weights with derivatives", with.ab.as_flattened(), weights.ab.as_flattened(), (h * h, same))?;
+        check_same("weights with derivatives", with.ac.as_flattened(), weights.ac.as_flattened(), (h * h, same))?;
+        check_same("dn_ab", flat(&found.ab), flat(&expected.ab), (h, same))?;
+        check_same("dn_ac", flat(&found.ac), flat(&expected.ac), (h, same))?;
 
         let forces = expected.of_forces(p);
         let gap = AlongNormal::from_weights(&frame, &segment.mortar, &weights, &expected);
         let size = largest(p.as_flattened());
         let mut motion = ForceDerivatives::default();
         let found = pair_motion::<true>((&frame, &segment, rule), &weights, p, &mut motion);
-        check_same("forces on one", flat(&motion.one), flat(&forces.one), size * h)?;
-        check_same("forces on two", flat(&motion.two), flat(&forces.two), size * h)?;
+        check_same("forces on one", flat(&motion.one), flat(&forces.one), (size * h, same))?;
+        check_same("forces on two", flat(&motion.two), flat(&forces.two), (size * h, same))?;
         let dgamma = |g: &AlongNormal| g.dgamma.as_flattened().as_flattened().to_vec();
-        check_same("gap", &dgamma(&found), &dgamma(&gap), h * h)?;
+        check_same("gap", &dgamma(&found), &dgamma(&gap), (h * h, same))?;
 
         // At rest: the same columns of the non-mortar side, no others.
         let expected = straight.derivatives(false);
@@ -261,8 +263,8 @@ fn check(one: &Facet, two: &Facet, p: &[[f64; MAX_NODES]; 3]) -> Result<(), Test
         let gap = AlongNormal::from_weights(&frame, &segment.mortar, &weights, &expected);
         let mut motion = ForceDerivatives::default();
         let found = pair_motion::<false>((&frame, &segment, rule), &weights, p, &mut motion);
-        check_same("forces at rest", flat(&motion.one[..MORTAR]), flat(&forces.one[..MORTAR]), size * h)?;
-        check_same("gap at rest", &dgamma(&found)[..12 * MORTAR], &dgamma(&gap)[..12 * MORTAR], h * h)?;
+        check_same("forces at rest", flat(&motion.one[..MORTAR]), flat(&forces.one[..MORTAR]), (size * h, same))?;
+        check_same("gap at rest", &dgamma(&found)[..12 * MORTAR], &dgamma(&gap)[..12 * MORTAR], (h * h, same))?;
         let untouched = flat(&motion.one[MORTAR..])
             .iter()
             .chain(flat(&motion.two))
@@ -305,8 +307,8 @@ proptest! {
         if one.len() == 3 {
             fields.iter_mut().for_each(|f| f[3] = 0.0);
         }
-        check(&one, &two, &fields)?;
-        simd::on_plain_lanes(|| check(&one, &two, &fields))?;
+        check(&one, &two, &fields, SAME)?;
+        simd::on_plain_lanes(|| check(&one, &two, &fields, SAME))?;
     }
 
     /// Slivers: the facets overlap by `width`, or not quite, or touch. (Between 1e-12 and 1e-14 rounding decides what
@@ -318,6 +320,6 @@ proptest! {
         let mirrored = |x: &Vec3| x + shift * (2.0 * shift.dot(&(one.nodes[0] - x)) - width);
         let mut points: Vec<Vec3> = one.points().iter().map(mirrored).collect();
         points.rotate_left(1);
-        check(&one, &Facet::new(&points).unwrap(), &[[1.0, -0.5, 0.25, 0.0]; 3])?;
+        check(&one, &Facet::new(&points).unwrap(), &[[1.0, -0.5, 0.25, 0.0]; 3], SAME_ON_SLIVERS)?;
     }
 }

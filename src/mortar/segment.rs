@@ -110,13 +110,14 @@ impl Cells {
         }
     }
 
-    /// Runs the kernel compiled for these kinds, on this processor.
+    /// Runs the kernel compiled for these kinds, on this processor. Triangles on quadrilaterals, which are rare, have
+    /// the plain lanes only: kernels of their own for every processor would make the library larger by a seventh.
     #[inline]
     pub fn dispatch<K: CellKernel>(self, kernel: K) -> K::Output {
         match self {
             Cells::TriTri => simd::dispatch(ForCells(kernel, PhantomData::<(Tri3, Tri3)>)),
-            Cells::TriQuad => simd::dispatch(ForCells(kernel, PhantomData::<(Tri3, Quad4)>)),
-            Cells::QuadTri => simd::dispatch(ForCells(kernel, PhantomData::<(Quad4, Tri3)>)),
+            Cells::TriQuad => ForCells(kernel, PhantomData::<(Tri3, Quad4)>).run::<Plain>(),
+            Cells::QuadTri => ForCells(kernel, PhantomData::<(Quad4, Tri3)>).run::<Plain>(),
             Cells::QuadQuad => simd::dispatch(ForCells(kernel, PhantomData::<(Quad4, Quad4)>)),
         }
     }

@@ -22,18 +22,6 @@ pub(super) fn run<K: Kernel>(kernel: K) -> K::Output {
     unsafe { with_features(kernel) }
 }
 
-/// The same with AVX-512's registers, twice as many, and its operands broadcast from memory; the caller has found `vl`
-/// too.
-#[inline]
-pub(super) fn run_with_more_registers<K: Kernel>(kernel: K) -> K::Output {
-    #[target_feature(enable = "avx2,fma,avx512f,avx512vl")]
-    fn with_features<K: Kernel>(kernel: K) -> K::Output {
-        kernel.run::<Avx2>()
-    }
-    // SAFETY: called by `dispatch` alone, after it asked the processor for all four features.
-    unsafe { with_features(kernel) }
-}
-
 /// An instruction on lanes.
 macro_rules! instruction {
     ($e:expr) => {

@@ -49,6 +49,12 @@ pub trait Lanes: Real {
     fn swap_1_2(self) -> Self;
 }
 
+/// `n` as the bound of a loop that is to stay one: unrolled, its body would make the library several times as large.
+#[inline(always)]
+pub fn rolled(n: usize) -> usize {
+    std::hint::black_box(n)
+}
+
 /// Something to be computed with four lanes.
 pub trait Kernel {
     /// What comes out.
@@ -66,9 +72,6 @@ pub fn dispatch<K: Kernel>(kernel: K) -> K::Output {
     }
     #[cfg(target_arch = "x86_64")]
     if is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma") {
-        if is_x86_feature_detected!("avx512vl") {
-            return avx2::run_with_more_registers(kernel);
-        }
         return avx2::run(kernel);
     }
     kernel.run::<Plain>()

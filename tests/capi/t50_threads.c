@@ -58,7 +58,7 @@ int main(void) {
   pthread_t threads[THREADS];
   pthread_attr_t attributes;
   CHECK(pthread_attr_init(&attributes) == 0);
-  CHECK(pthread_attr_setstacksize(&attributes, 128 * 1024) == 0);
+  CHECK(pthread_attr_setstacksize(&attributes, 256 * 1024) == 0); /* the sanitizers double a frame */
   element_init(&expected.e);
   scene_init(&expected.s);
   compute(&expected);
