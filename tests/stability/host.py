@@ -69,7 +69,8 @@ def message(run):
 
 
 def outcome(run):
-    """What every run of the driver has: iterations, what it complained of, or its refusal. Errors are the cell's to add."""
+    """What every run of the driver has: iterations, what it complained of, or its refusal. Errors are the cell's to
+    add."""
     result = Outcome(kappa=run.kappa)
     if run.exit_code not in (CONVERGED, BAD_SCENE, NOT_CONVERGED, REFUSED):
         raise SceneError(f"the driver ended with {run.exit_code}, which is none of its exit codes: {message(run)}")

@@ -63,7 +63,9 @@ def heat_map(table, path):
     for side in ("left", "bottom"):
         axis.spines[side].set_visible(False)
     present = [v for v in VERDICTS if any(c["verdict"] == v for cells in table.values() for c in cells)]
-    axis.set_title("    ".join(f"{MARKS[v]} {MEANINGS[v].split(':')[0]}" for v in present), fontsize=8, fontweight="normal")
+    axis.set_title(
+        "    ".join(f"{MARKS[v]} {MEANINGS[v].split(':')[0]}" for v in present), fontsize=8, fontweight="normal"
+    )
     bar = figure.colorbar(
         plt.matplotlib.cm.ScalarMappable(scale, colours), ax=axis, fraction=0.025, pad=0.01, aspect=12, shrink=0.7
     )
@@ -113,8 +115,10 @@ def page(path, title, results, lines, drawn):
         parts.append(f"<tr><td>{html.escape(line.text)}</td><td>{html.escape(line.figure)}</td><td>{holds}</td></tr>")
     parts.append("</table>")
     parts += [f'<p><img src="{picture.name}" alt="{picture.stem}"></p>' for picture in drawn]
-    parts.append("<p>kappa: condition number of the last Newton matrix, rows and columns scaled. Per cell the error nearest "
-                 "to its bound is shown; all of them are in cells/CELL.json.</p>")  # fmt: skip
+    parts.append(
+        "<p>kappa: condition number of the last Newton matrix, rows and columns scaled. Per cell the error nearest "
+        "to its bound is shown; all of them are in cells/CELL.json.</p>"
+    )
     for case, cells in rows(results).items():
         parts.append(f"<h2>{html.escape(case)}</h2>" + "".join(table_html(cells)))
     path.write_text("\n".join(parts) + "\n")

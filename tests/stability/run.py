@@ -2,10 +2,10 @@
 
 run.py --build DIR [--jobs N] [--quick] [--only FILE...] [--kind KIND] [--again] [--renew-figures]
 
-Each cell runs in a process of its own, so that a crash or a hang is that cell's verdict and no end of the matrix. What it
-found goes to DIR/stability/cells/CELL.json; one that is newer than the programs and than the sources of its case is kept.
-Report: DIR/stability/index.html, its tables and heat maps beside it. Exits with 1 if a cell is wrong or a line that must
-hold does not.
+Each cell runs in a process of its own, so that a crash or a hang is that cell's verdict and no end of the matrix.
+What it found goes to DIR/stability/cells/CELL.json; one that is newer than the programs and than the sources of its
+case is kept. Report: DIR/stability/index.html, its tables and heat maps beside it. Exits with 1 if a cell is wrong or
+a line that must hold does not.
 """
 
 import argparse
@@ -55,7 +55,13 @@ def work(cell, context, path):
 
 
 def store(cell, outcome, verdict, why, seconds, path):
-    result = {"case": cell.case, "severity": cell.severity, "level": cell.level, "kind": cell.kind, "quick": cell.quick}
+    result = {
+        "case": cell.case,
+        "severity": cell.severity,
+        "level": cell.level,
+        "kind": cell.kind,
+        "quick": cell.quick,
+    }
     result |= {"verdict": verdict, "why": why, "seconds": seconds, **asdict(outcome)}
     partial = path.with_suffix(".part")
     partial.write_text(json.dumps(result, indent=1, default=float) + "\n")
@@ -100,7 +106,15 @@ class Matrix:
             else:
                 self.path(cell).unlink(missing_ok=True)  # an old result must never be read as a new one
                 waiting.append(cell)
-        running = {}
+        self.running = {}
+        try:
+            self.work_off(waiting)
+        finally:  # interrupted: nothing goes on alone
+            for process, _, _ in self.running.values():
+                os.killpg(process.pid, signal.SIGKILL)
+
+    def work_off(self, waiting):
+        running = self.running
         while waiting or running:
             while waiting and len(running) < self.jobs:
                 cell = waiting.pop(0)
@@ -134,7 +148,9 @@ def main():
     parser.add_argument("--jobs", type=int, default=1, help="cells at the same time")
     parser.add_argument("--quick", action="store_true", help="the short run alone")
     parser.add_argument("--only", nargs="+", choices=every, metavar="FILE", help=f"of {', '.join(every)}")
-    parser.add_argument("--kind", choices=(cells.SCENE, cells.ELEMENT), help="cells of the driver, or of single calls")
+    parser.add_argument(
+        "--kind", choices=(cells.SCENE, cells.ELEMENT), help="cells of the driver, or of single calls"
+    )
     parser.add_argument("--again", action="store_true", help="keep nothing")
     parser.add_argument("--renew-figures", action="store_true", help="renew the committed figures too")
     arguments = parser.parse_args()
@@ -146,6 +162,7 @@ def main():
         for cell in of_family
         if (cell.quick or not arguments.quick) and arguments.kind in (None, cell.kind)
     ]
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit("terminated"))
     matrix = Matrix(arguments.build.resolve(), arguments.jobs, chosen, arguments.again)
     matrix.run()
     results = matrix.results()

@@ -37,7 +37,9 @@ def without(scene, options):
             result = host.outcome(solved)
             if result.refusal is None:
                 default = context.solve(scene, *options[:2], name="default")
-                result.below("displacements and forces", difference(solved, default), SAME, "the answer with every aid")
+                result.below(
+                    "displacements and forces", difference(solved, default), SAME, "the answer with every aid"
+                )
                 result.figures["default"] = aid == "all"
             return result
 
@@ -48,5 +50,6 @@ def without(scene, options):
 
 def cells():
     for case, (scene, options) in SCENES.items():
-        yield from series(case, AIDS, without(scene, options), may_refuse=FAILS,
-                          quick=("all",) if "1e3" in case else ())  # fmt: skip
+        yield from series(
+            case, AIDS, without(scene, options), may_refuse=FAILS, quick=("all",) if "1e3" in case else ()
+        )
