@@ -137,6 +137,13 @@ class Matrix:
                     store(cell, cells.Outcome(), cells.WRONG, why, time.monotonic() - start, self.path(cell))
                 self.say(cell, False)
 
+    def forget_others(self):
+        """Cells that the matrix no longer has."""
+        kept = {self.path(cell) for _, cell in self.chosen}
+        for path in self.folder.glob("*.json"):
+            if path not in kept:
+                path.unlink()
+
     def results(self):
         return [json.loads(self.path(cell).read_text()) for _, cell in self.chosen]
 
@@ -152,8 +159,10 @@ def main():
         "--kind", choices=(cells.SCENE, cells.ELEMENT), help="cells of the driver, or of single calls"
     )
     parser.add_argument("--again", action="store_true", help="keep nothing")
-    parser.add_argument("--renew-figures", action="store_true", help="renew the committed figures too")
+    parser.add_argument("--renew-figures", action="store_true", help="renew the committed figures too; all cells only")
     arguments = parser.parse_args()
+    if arguments.renew_figures and (arguments.quick or arguments.only or arguments.kind):
+        parser.error("--renew-figures wants the whole matrix")
 
     chosen = [
         (family, cell)
@@ -165,6 +174,8 @@ def main():
     signal.signal(signal.SIGTERM, lambda *_: sys.exit("terminated"))
     matrix = Matrix(arguments.build.resolve(), arguments.jobs, chosen, arguments.again)
     matrix.run()
+    if len(chosen) == sum(map(len, every.values())):
+        matrix.forget_others()
     results = matrix.results()
     lines = must_hold.lines(results)
     name = "some" if arguments.only else "index"
