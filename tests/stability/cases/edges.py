@@ -21,6 +21,8 @@ STRIP = 0.1
 DROPPED = 7e-5
 # Where nodes covered to less than this count as uncovered, none of that happens.
 COVERAGE_MIN = 1e-3
+# Where nodes covered to less than this of their best covered neighbour are carried by their neighbours.
+WEAK_COVERAGE = 0.5
 # What an overhang d moves: some times d over the facet's size.
 SLOPE = 20.0
 
@@ -110,4 +112,6 @@ def cells():
     yield from series("drop-off, large sliding, part of a row", COVERED, strip(), may_refuse=moves)
     mild = strip(coverage_min=COVERAGE_MIN)
     yield from series("drop-off, the same with coverage_min 1e-3", COVERED, mild, quick=("1e-3", "1e-12"))
+    carried = strip(weak_coverage=WEAK_COVERAGE)
+    yield from series("drop-off, the same with weak_coverage 0.5", COVERED, carried, quick=("1e-3",))
     yield from series("corner over an edge, by", OVERHANGS, corner, quick=("1e-2", "1e-12"))
