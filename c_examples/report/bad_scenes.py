@@ -105,6 +105,7 @@ BAD_SCENES = [
     # their surfaces lie over each other and are no pairs: the bodies would pass through each other without a word
     BadScene("deep_in_each_other", "", "", "base.mortar", ("-floor_upper", "4.5,1.5,0.9")),
     BadScene("same_way", "floor.zmax, friction", "floor.zmin, friction", "base.mortar"),
+    BadScene("bad_coverage", "", "", "base.coverage_min", ("-base_coverage_min", "1")),
     BadScene("bad_option", "", "", "steps.count", ("-steps_count", "0")),
 ]
 

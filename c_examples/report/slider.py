@@ -18,11 +18,9 @@ DILATATION_BOUND = 0.01
 # Steps of 50 against steps of 4: the state before differs where a step of two facets passes a corner, not on the
 # plateau.
 STEP_BOUND = 0.02
-# With the sides swapped the slider's edges lie within facets, of 36 in a contact of 450. On the flat the pressure is even
-# and the channel's slope small; on the ramp what the coarse meshes differ by in the forces themselves.
-SWAPPED_BOUND, SWAPPED_RAMP_BOUND = 2e-3, 0.06
-# One large step, onto the ramp, has a node that cycles between open and closed.
-SWAPPED_CUTBACKS = 1
+# With the sides swapped the slider's edges lie within facets, of 36 in a contact of 450. On the flat the pressure is
+# even until the leading edge comes to the ramp, at 300; on the ramp the coarse meshes differ in the forces themselves.
+SWAPPED_BOUND, SWAPPED_RAMP_BOUND = 5e-3, 0.06
 # Drop-off: the slider's facets leave the sharp edge one by one, bent by 45 degrees over it, and the force may rise by
 # less than what one of them carries. Nothing is left when it is off.
 DROP_BOUND = 1e-10
@@ -158,9 +156,8 @@ def drop_off(verdicts, driver, cells=((12, 3), (18, 3)), step=25):
 
 
 def slider_fine(verdicts, driver):
-    """Minutes: the drop-off of a finer slider, and in small steps; sides swapped all the way in small steps."""
-    drop_off(verdicts, driver, ((36, 6),))
-    drop_off(verdicts, driver, ((12, 3), (18, 3)), step=5)
+    """Minutes: the drop-off in small steps, of a finer slider too; sides swapped all the way in small steps."""
+    drop_off(verdicts, driver, ((12, 3), (18, 3), (36, 6)), step=5)
     quiet = ("-output_csv", "none", "-output_vtu", "none")
     ours = driver.run("press_fit", *travel(1000, 4), *SWAPPED, *SWAPPED_MESH, *quiet, label="swapped_steps_of_4")
     theirs = driver.run("press_fit", *travel(1000, 4), *quiet, label="steps_of_4_to_1000")
@@ -174,11 +171,11 @@ def swapped(verdicts, driver, run):
     """The channel carries the multipliers, of nodes that become covered as the slider comes."""
     label = "sides swapped, steps of 50"
     large = driver.run("press_fit", *travel(1000, 50), *SWAPPED, *SWAPPED_MESH, label="swapped")
-    verdicts.below(f"{label}, all of the way: cut-backs", large.summary["cutbacks"], SWAPPED_CUTBACKS, "a node cycles")
+    no_cutback(verdicts, f"{label}, all of the way", large)
     balance(verdicts, label, large)
     for at in (100, 200, 300):
         forces = (reaction(after(at, r)) for r in (large, run))
-        compare(verdicts, f"{label}: against the slider's multipliers at {at}", *forces, SWAPPED_BOUND, "facets in part")
+        compare(verdicts, f"{label}: against the slider's multipliers at {at}", *forces, SWAPPED_BOUND, "cut facets")
 
     matrices = driver.output / "swapped.mat"
     matrices.unlink(missing_ok=True)
@@ -187,7 +184,7 @@ def swapped(verdicts, driver, run):
     states = [sum(step["interfaces"]["contact"][s] for s in ("stick", "slip")) for step in large.steps]
     conditions = [smallest_singular_value(matrix) for matrix in petsc_matrices(matrices)]
     changes = np.count_nonzero(np.diff(states))
-    verdicts.at_least(f"{label}, steps of 50: steps in which nodes come and go", changes, 1, "it moves on")
+    verdicts.at_least(f"{label}: steps in which nodes come and go", changes, 1, "it moves on")
     verdicts.at_least(f"{label}: tangents", len(conditions), large.newton_iterations, "every iteration's")
     verdicts.at_least(f"{label}: smallest singular value", min(conditions), RANK_LIMIT, "full rank")
     matrices.unlink()

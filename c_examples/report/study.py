@@ -1,10 +1,10 @@
 """What accuracy costs in time: `make study`.
 
 study.py --build DIR [--quick] [--jobs N] [--only NAME...] [--renew-figures]; all goes to DIR/study: study.csv (a row
-per setting), tails.csv, share.csv, one page, index.html. A run that is newer than its inputs is kept, so a study that was
-stopped goes on. Every setting runs three times, the settings in turn, so that the machine's moods spread over all; the
-least processor time counts, and how much more the others took is shown. --quick: coarse meshes, one run each, no page;
-exits with 1 unless errors and counters have the order that they must have (times are never judged).
+per setting), tails.csv, share.csv, one page, index.html. A run that is newer than its inputs is kept, so a study that
+was stopped goes on. Every setting runs three times, the settings in turn, so that the machine's moods spread over
+all; the least processor time counts, and how much more the others took is shown. --quick: coarse meshes, one run
+each, no page; exits with 1 unless errors and counters have the order that they must have (times are never judged).
 """
 
 import argparse
@@ -91,11 +91,15 @@ def sweep(driver, problems, repetitions, jobs, quick):
     return [row_of(p, s, runs[p.name, s.name], driver) for p in problems for s in p.settings(quick)]
 
 
+# An error that is smaller by less than this is the same.
+NOTICEABLE = 0.98
+
+
 def front(rows):
-    """Those that no other one beats in both error and seconds, from the cheapest on."""
+    """Those that no cheaper one equals in error, from the cheapest on."""
     best, least = [], math.inf
     for row in sorted((r for r in rows if "error" in r), key=lambda r: (r["seconds"], r["error"])):
-        if row["error"] < least:
+        if row["error"] < NOTICEABLE * least:
             best.append(row)
             least = row["error"]
     return best

@@ -29,7 +29,7 @@ def draw_precision(axis, problem, rows, front, small=False):
         axis.step([r["seconds"] for r in best], [r["error"] for r in best], where="post", color=GREY, zorder=1,
                   label="front")
     for row in rows:
-        if not small or row in best or row["knob"] == "default":
+        if row in best or row["knob"] == "default" or (not small and row["knob"] != "tolerance"):
             axis.annotate(row["label"], (row["seconds"], row["error"]), (4, 3), textcoords="offset points",
                           fontsize=6 if small else 7, color=INK if row in best else GREY)
     axis.set_xscale("log")

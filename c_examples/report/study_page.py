@@ -1,11 +1,13 @@
 """The page of `make study`, read in five minutes, and its summary for docs/accuracy.md."""
 
 import html
+import textwrap
 
 from gallery_page import STYLE
 from study_problems import DEFAULT
 from study_share import ASSEMBLY_BOUND, SHARE_BOUND
 
+LONG = ("What the next digit costs", "Each knob against the default")  # on the page alone
 MARKS = ("<!-- study -->", "<!-- /study -->")  # what lies between them is written by FIGURES=1
 
 
@@ -20,7 +22,7 @@ def goal_table(problems, rows, goals, wanted):
     for problem in problems:
         own = [r for r in rows if r["problem"] == problem.name]
         found = goals(own)
-        cells = ["not reached" if r is None else f"{r['setting']} ({r['seconds']:.2f} s)" for r in found]
+        cells = ["not reached" if r is None else f"{r['setting']}: {r['seconds']:.2f} s" for r in found]
         default = next((r for r in own if r["setting"] == DEFAULT and "error" in r), None)
         mine = "no answer" if default is None else f"{per_cent(default['error'])} in {default['seconds']:.2f} s"
         prices = [f"{b['seconds'] / a['seconds']:.2g} x" for a, b in zip(found, found[1:]) if a and b]
@@ -57,6 +59,33 @@ def against_default(problems, rows):
                 continue
             body.append([problem.title, row["setting"], f"{row['error']:.2e}", f"{row['error'] / default['error']:.3g}",
                          f"{contact(row) / contact(default):.2f}", f"{row['newton']} ({default['newton']})"])
+    return head, body
+
+
+# What the summary shows of the knobs, in this order.
+SHOWN = ("cells_1", "cells_3", "cells_6", "cells_12", "cells_36", "elements_2", "elements_4", "elements_10", "hybrid_3",
+         "frozen_normals", "frozen_weights", "rtol_1e-8", "rtol_1e-5", "rtol_1e-3", "weights_committed",
+         "weights_reference", "augmented")
+
+
+def matrix(problems, rows):
+    """Settings by problems: error over the default's, and Newton iterations over its."""
+    at = {(r["problem"], r["setting"]): r for r in rows}
+    head = ["setting", *(p.title for p in problems)]
+    first = [at[p.name, DEFAULT] for p in problems]
+    body = [["default", *(f"{per_cent(r['error'])}, {r['newton']} iterations" for r in first)]]
+    for setting in SHOWN:
+        line = [setting]
+        for problem, default in zip(problems, first):
+            row = at.get((problem.name, setting))
+            if row is None:
+                line.append("-")
+            elif "error" not in row:
+                line.append("no answer")
+            else:
+                error, newton = row["error"] / default["error"], row["newton"] / default["newton"]
+                line.append(f"{error:.0e}, {newton:.2f}" if error > 100 else f"{error:.2f}, {newton:.2f}")
+        body.append(line)
     return head, body
 
 
@@ -112,10 +141,13 @@ def sections(problems, rows, measured, choice):
     (shares, tails), (front, goals, wanted) = measured, choice
     bound = f"Aimed at: at most {SHARE_BOUND:.0%} of an iteration and {ASSEMBLY_BOUND:.0%} of the bulk's assembly."
     return [
-        ("Which settings", "The cheapest setting that reaches each error, with its processor time; a mesh is the size "
-         "of its facets (patch, press fit: their number).", goal_table(problems, rows, goals, wanted)),
+        ("Which settings", "The cheapest setting that reaches each error, with its processor time. A mesh goes by "
+         "the size of its facets (of the patch test by their number along a side); `cheap` is 2 x 2 points on each "
+         "facet and a tolerance of 1e-5.", goal_table(problems, rows, goals, wanted)),
         ("What the next digit costs", "The settings that no other one beats in both error and time.",
          digit_table(problems, rows, front)),
+        ("What each knob changes", "On one mesh: error over the default's, Newton iterations over the default's.",
+         matrix(problems, rows)),
         ("Each knob against the default", "On one mesh: what a knob changes in the error, in contact's time (search, "
          "integration, derivatives) and in the number of Newton iterations.", against_default(problems, rows)),
         ("Where the time goes", "Parts of the default's time.", phases(problems, rows)),
@@ -143,10 +175,10 @@ def write(output, problems, rows, measured, choice, summary, figures, circumstan
     parts += [f'<p><img src="{path.name}" alt="{path.stem}"></p>' for path in figures]
     page = output / "index.html"
     page.write_text("\n".join(parts) + "\n")
-    chosen = [every[0], every[2], every[4], every[5]]
-    text = [stated, ""]
+    chosen = [section for section in every if section[0] not in LONG]
+    text = [textwrap.fill(stated, 120), ""]
     for title, sentence, table in chosen:
-        text += [f"### {title}", "", sentence, "", markdown(table), ""]
+        text += [f"### {title}", "", textwrap.fill(sentence, 120), "", markdown(table), ""]
     (output / "accuracy.md").write_text("\n".join(text))
     return page
 

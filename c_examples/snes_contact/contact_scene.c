@@ -147,7 +147,7 @@ static void read_method(Scene *scene, Interface *interface)
   const char              *name           = interface->name;
   PetscInt  weight = STICKSLIP_WEIGHTS_CURRENT, slip = STICKSLIP_SLIP_OBJECTIVE, form = STICKSLIP_FORM_MULTIPLIER,
            new_contact = STICKSLIP_NEW_CONTACT_FRICTIONLESS, row_scale = STICKSLIP_ROW_SCALE_FORCE;
-  PetscReal augmentation = 0, modulus = 0, distance = 0, weak_coverage = 0;
+  PetscReal augmentation = 0, modulus = 0, distance = 0, weak_coverage = 0, coverage_min = options->coverage_min;
 
   interface->initial_contact = PETSC_TRUE;
   scene_choice(scene, name, "weights", weights, &weight);
@@ -160,12 +160,15 @@ static void read_method(Scene *scene, Interface *interface)
   scene_real(scene, name, "modulus", &modulus);
   scene_real(scene, name, "search_distance", &distance);
   scene_real(scene, name, "weak_coverage", &weak_coverage);
+  scene_real(scene, name, "coverage_min", &coverage_min);
   if (scene_has(scene, name, "augmentation") && augmentation <= 0)
     scene_fail(scene, name, "augmentation", "it must be positive.");
   if (scene_has(scene, name, "modulus") && modulus <= 0) scene_fail(scene, name, "modulus", "it must be positive.");
   if (distance < 0) scene_fail(scene, name, "search_distance", "it cannot be negative.");
   if (weak_coverage < 0 || weak_coverage > 1)
     scene_fail(scene, name, "weak_coverage", "it is a fraction of an area: from 0 to 1.");
+  if (coverage_min < 0 || coverage_min >= 1)
+    scene_fail(scene, name, "coverage_min", "it must be at least 0 and below 1.");
   options->weights         = (int32_t)weight;
   options->slip            = (int32_t)slip;
   options->form            = (int32_t)form;
@@ -175,6 +178,7 @@ static void read_method(Scene *scene, Interface *interface)
   options->modulus         = modulus;
   options->search_distance = distance;
   options->weak_coverage   = weak_coverage;
+  options->coverage_min    = coverage_min;
 }
 
 /* What a rule is called in a scene, by STICKSLIP_QUADRATURE_... */

@@ -70,8 +70,8 @@ def verdict(cell, outcome):
 
 
 def series(case, severities, make, **more):
-    """One row: a cell per severity, mildest first. `make(severity)` gives the cell's run, `quick` those of the short run,
-    `may_refuse` a message, or a function of the severity that gives one or None."""
+    """One row: a cell per severity, mildest first. `make(severity)` gives the cell's run, `quick` those of the short
+    run, `may_refuse` a message, or a function of the severity that gives one or None."""
     quick, may_refuse = more.pop("quick", ()), more.pop("may_refuse", None)
     for level, severity in enumerate(severities):
         allowed = may_refuse(severity) if callable(may_refuse) else may_refuse

@@ -62,14 +62,16 @@ class Context:
 
 
 def message(run):
-    """The sentence with which the driver gave up."""
+    """The sentence with which the driver gave up, and what the library found at its last iterate."""
     lines = [line.strip() for line in run.text.splitlines() if line.strip()]
     told = [line for line in lines if re.match(r"(\[0\])?(snes_contact: |\S+\.yaml: )(?!\d+ unknowns)", line)]
-    return (told or lines or [""])[-1]
+    found = [line for line in lines if re.match(r"\w+: \d+ nodes in gap", line)]
+    return " ".join([(told or lines or [""])[-1], *found])
 
 
 def outcome(run):
-    """What every run of the driver has: iterations, what it complained of, or its refusal. Errors are the cell's to add."""
+    """What every run of the driver has: iterations, what it complained of, or its refusal. Errors are the cell's to
+    add."""
     result = Outcome(kappa=run.kappa)
     if run.exit_code not in (CONVERGED, BAD_SCENE, NOT_CONVERGED, REFUSED):
         raise SceneError(f"the driver ended with {run.exit_code}, which is none of its exit codes: {message(run)}")

@@ -34,24 +34,89 @@ def struct(name, *members):
     return made
 
 
-Pair = struct("Pair", ("n1", c_int32), ("n2", c_int32), ("x1", c_void_p), ("x2", c_void_p), ("quadrature", c_int32),
-              ("layout", c_int32))  # fmt: skip
-Node = struct("Node", ("slip", c_int32), ("n_directions", c_int32), ("lambda_", c_double * 3), ("normal", c_double * 3),
-              ("augmentation", c_double), ("mu", c_double), ("coverage", c_double), ("coverage_previous", c_double),
-              ("coverage_min", c_double), ("gap_now", c_double * 3), ("gap_previous", c_double * 3),
-              ("gap_committed", c_double * 3), ("directions", c_double * 6))  # fmt: skip
-Response = struct("Response", ("state", c_int32), ("reserved", c_int32), ("traction", c_double * 3), ("row", c_double * 3),
-                  ("gap_normal", c_double), ("slip", c_double * 3), ("sigma", c_double * 3), ("dp_dlambda", c_double * 9),
-                  ("drow_dlambda", c_double * 9), ("drow_dnow", c_double * 9), ("drow_dprevious", c_double * 9))  # fmt: skip
-Options = struct("Options", *((name, c_int32) for name in ("form", "slip", "weights", "friction", "mortar_side", "basis",
-                 "quadrature", "row_scale", "new_contact", "index_base")), ("mu", c_double), ("augmentation", c_double),
-                 ("modulus", c_double), ("coverage_min", c_double), ("search_distance", c_double),
-                 ("no_shortcuts", c_int32), ("shape", c_int32), ("radius", c_double))  # fmt: skip
-Surface = struct("Surface", ("n_nodes", c_int64), ("n_facets", c_int64), ("coordinates", c_void_p),
-                 ("facet_offsets", c_void_p), ("facet_nodes", c_void_p), ("equations", c_void_p),
-                 ("multiplier_equations", c_void_p), ("owned", c_void_p))  # fmt: skip
-States = struct("States", *((name, c_void_p) for name in ("state", "normal", "traction", "gap", "slip", "coverage", "area",
-                "dissipation", "augmentation")))  # fmt: skip
+Pair = struct(
+    "Pair",
+    ("n1", c_int32),
+    ("n2", c_int32),
+    ("x1", c_void_p),
+    ("x2", c_void_p),
+    ("quadrature", c_int32),
+    ("layout", c_int32),
+)
+Node = struct(
+    "Node",
+    ("slip", c_int32),
+    ("n_directions", c_int32),
+    ("lambda_", c_double * 3),
+    ("normal", c_double * 3),
+    ("augmentation", c_double),
+    ("mu", c_double),
+    ("coverage", c_double),
+    ("coverage_previous", c_double),
+    ("coverage_min", c_double),
+    ("gap_now", c_double * 3),
+    ("gap_previous", c_double * 3),
+    ("gap_committed", c_double * 3),
+    ("directions", c_double * 6),
+)
+Response = struct(
+    "Response",
+    ("state", c_int32),
+    ("reserved", c_int32),
+    ("traction", c_double * 3),
+    ("row", c_double * 3),
+    ("gap_normal", c_double),
+    ("slip", c_double * 3),
+    ("sigma", c_double * 3),
+    ("dp_dlambda", c_double * 9),
+    ("drow_dlambda", c_double * 9),
+    ("drow_dnow", c_double * 9),
+    ("drow_dprevious", c_double * 9),
+)
+Options = struct(
+    "Options",
+    *(
+        (name, c_int32)
+        for name in (
+            "form",
+            "slip",
+            "weights",
+            "friction",
+            "mortar_side",
+            "basis",
+            "quadrature",
+            "row_scale",
+            "new_contact",
+            "index_base",
+        )
+    ),
+    ("mu", c_double),
+    ("augmentation", c_double),
+    ("modulus", c_double),
+    ("coverage_min", c_double),
+    ("search_distance", c_double),
+    ("no_shortcuts", c_int32),
+    ("shape", c_int32),
+    ("radius", c_double),
+)
+Surface = struct(
+    "Surface",
+    ("n_nodes", c_int64),
+    ("n_facets", c_int64),
+    ("coordinates", c_void_p),
+    ("facet_offsets", c_void_p),
+    ("facet_nodes", c_void_p),
+    ("equations", c_void_p),
+    ("multiplier_equations", c_void_p),
+    ("owned", c_void_p),
+)
+States = struct(
+    "States",
+    *(
+        (name, c_void_p)
+        for name in ("state", "normal", "traction", "gap", "slip", "coverage", "area", "dissipation", "augmentation")
+    ),
+)
 
 
 class Library:
@@ -86,7 +151,8 @@ class Library:
 
 
 class Interface:
-    """Two surfaces of facets of one kind: x (n, 3), facets (m, 3 or 4). Equations are counted through x1, x2, lambda."""
+    """Two surfaces of facets of one kind: x (n, 3), facets (m, 3 or 4). Equations are counted through x1, x2,
+    lambda."""
 
     def __init__(self, library, x1, facets1, x2, facets2, **options):
         self.library, self.n1, self.n2 = library, len(x1), len(x2)
@@ -99,8 +165,16 @@ class Interface:
             offsets = np.arange(len(facets) + 1, dtype=np.int64) * facets.shape[1]
             x, equations = np.ascontiguousarray(x, float), np.ascontiguousarray(equations)
             self.kept += [x, facets, offsets, equations]
-            sides.append(Surface(n_nodes=len(x), n_facets=len(facets), coordinates=pointer(x), facet_offsets=pointer(offsets),
-                                 facet_nodes=pointer(facets), equations=pointer(equations)))  # fmt: skip
+            sides.append(
+                Surface(
+                    n_nodes=len(x),
+                    n_facets=len(facets),
+                    coordinates=pointer(x),
+                    facet_offsets=pointer(offsets),
+                    facet_nodes=pointer(facets),
+                    equations=pointer(equations),
+                )
+            )
         multipliers = np.ascontiguousarray(split[2])
         sides[0].multiplier_equations = pointer(multipliers)
         chosen = Options()
@@ -124,12 +198,30 @@ class Interface:
         """Dense, rows and columns x1, x2, lambda."""
         state = [np.ascontiguousarray(v, float) for v in (x1, x2, lam)]
         count = c_int64()
-        self.library.call("interface_tangent_coo", self.handle, *map(pointer, state), None, c_int64(0), None, None, None,
-                          byref(count))  # fmt: skip
+        self.library.call(
+            "interface_tangent_coo",
+            self.handle,
+            *map(pointer, state),
+            None,
+            c_int64(0),
+            None,
+            None,
+            None,
+            byref(count),
+        )
         rows, columns = (np.empty(count.value, np.int64) for _ in range(2))
         values = np.empty(count.value)
-        self.library.call("interface_tangent_coo", self.handle, *map(pointer, state), None, count, pointer(rows),
-                          pointer(columns), pointer(values), byref(count))  # fmt: skip
+        self.library.call(
+            "interface_tangent_coo",
+            self.handle,
+            *map(pointer, state),
+            None,
+            count,
+            pointer(rows),
+            pointer(columns),
+            pointer(values),
+            byref(count),
+        )
         matrix = np.zeros((self.unknowns, self.unknowns))
         np.add.at(matrix, (rows, columns), values)
         return matrix

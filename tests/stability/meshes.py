@@ -10,7 +10,8 @@ FACES = {"xmin": (0, 0), "xmax": (0, 1), "ymin": (1, 0), "ymax": (1, 1), "zmin":
 
 
 def box_tets(path, lower, upper, cells, move=None):
-    """A box of tetrahedra with the surfaces xmin to zmax; `move` maps the (n, 3) positions of its nodes. Returns path."""
+    """A box of tetrahedra with the surfaces xmin to zmax; `move` maps the (n, 3) positions of its nodes. Returns
+    path."""
     axes = [np.linspace(a, b, n + 1) for a, b, n in zip(lower, upper, cells)]
     grid = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1)
     number = np.arange(grid[..., 0].size).reshape(grid.shape[:3])

@@ -55,7 +55,7 @@ def patches(results):
     if cells:
         kappa = max((c["kappa"] or 0 for c in cells if not c["warnings"]), default=0)
         yield Line(
-            "Patch error of every affine cell below max(1e-10, 100 eps kappa), far away below the rounding of positions",
+            "Patch error of every affine cell below max(1e-10, 100 eps kappa); far away, the rounding of positions",
             f"{len(cells)} cells; largest error {worst(cells, 'patch_error'):.1e}, largest kappa {kappa:.1e}",
             all(c["figures"]["patch_error"] <= c["figures"]["patch_bound"] for c in cells),
         )
@@ -71,15 +71,32 @@ def figure(results, key, text, bound):
 
 def lines(results):
     found = [no_wrong(results), *units(results)]
-    found += ratio_of_iterations(results, "patch, offset", "Iterations over offsets to 1e6 facets: within a factor of 1",
-                                 lambda c: float(c["severity"]) <= 1e6, 1.0)  # fmt: skip
-    found += ratio_of_iterations(results, "augmentation", "Iterations, augmentation 1e-6 to 1e2 of its default: within 2x",
-                                 lambda c: 1e-6 <= float(c["severity"]) <= 1e2)  # fmt: skip
+    found += ratio_of_iterations(
+        results,
+        "patch, offset",
+        "Iterations over offsets to 1e6 facets: within a factor of 1",
+        lambda c: float(c["severity"]) <= 1e6,
+        1.0,
+    )
+    found += ratio_of_iterations(
+        results,
+        "augmentation",
+        "Iterations, augmentation 1e-6 to 1e2 of its default: within 2x",
+        lambda c: 1e-6 <= float(c["severity"]) <= 1e2,
+    )
     found += ratio_of_iterations(results, "patch, 1 facet on N", "Iterations, mesh ratio 1:1 to 1:1000: within 2x")
     found += ratio_of_iterations(results, "patch, N facets on 1", "Iterations, mesh ratio 1:1 to 1000:1: within 2x")
     found += patches(results)
-    found += figure(results, "derivative_error", "Derivatives of a pair's weights, crossing angles to 1e-6 and strips to 1e-12",
-                    1e-10)  # fmt: skip
-    found += figure(results, "summed_error", "The same summed over the pairs of a facet, crossing angles to 1e-15", 1e-10)
-    found += figure(results, "noise_error", "Assembled tangent of noisy matching meshes, to 1e-9 of the clean one", 1e-9)
+    found += figure(
+        results,
+        "derivative_error",
+        "Derivatives of a pair's weights, crossing angles to 1e-6 and strips to 1e-12",
+        1e-10,
+    )
+    found += figure(
+        results, "summed_error", "The same summed over the pairs of a facet, crossing angles to 1e-15", 1e-10
+    )
+    found += figure(
+        results, "noise_error", "Assembled tangent of noisy matching meshes, to 1e-9 of the clean one", 1e-9
+    )
     return found

@@ -1,8 +1,8 @@
-"""Mortar weights of a pair (paper (13)) by another road than the library's: Sutherland and Hodgman's clipping in decimal
-arithmetic of 90 digits, exact products of Gauss points, derivatives by differences with a step of 1e-32 facets.
+"""Mortar weights of a pair (paper (13)) by another road than the library's: Sutherland and Hodgman's clipping in
+decimal arithmetic of 90 digits, exact products of Gauss points, derivatives by differences with a step of 1e-32 facets.
 
-Inputs are exactly the doubles given. For triangles and parallelograms the weights are exact. For other quadrilaterals the
-number of Gauss points decides; then floating point (`number=float`) is enough.
+Inputs are exactly the doubles given. For triangles and parallelograms the weights are exact. For other quadrilaterals
+the number of Gauss points decides; then floating point (`number=float`) is enough.
 """
 
 from decimal import Decimal, getcontext
@@ -97,8 +97,8 @@ def gauss(points, number):
 
 
 def weights(x1, x2, number=Decimal, points=4):
-    """n_ab, n_ac as lists, row A. `points` a side of a triangle, collapsed from a square: 4 are exact for affine facets and
-    for their derivatives, which have one degree more."""
+    """n_ab, n_ac as lists, row A. `points` a side of a triangle, collapsed from a square: 4 are exact for affine
+    facets and for their derivatives, which have one degree more."""
     x1, x2 = ([[number(c) for c in p] for p in x] for x in (x1, x2))
     point, t1, t2 = plane(x1)
     y1, y2 = ([[dot(minus(p, point), t1), dot(minus(p, point), t2)] for p in x] for x in (x1, x2))

@@ -7,10 +7,11 @@ import shutil
 from pathlib import Path
 
 import host  # noqa: F401  (puts c_examples/report on the path)
-from cell import CORRECT, ELEMENT, REFUSED, VERDICTS, WARNING, WRONG
+from cell import CORRECT, ELEMENT, REFUSED, SCENE, VERDICTS, WARNING, WRONG
 from gallery_page import STYLE
 
-COMMITTED = Path(__file__).resolve().parents[2] / "c_examples" / "report" / "figures" / "stability.png"
+FIGURES = Path(__file__).resolve().parents[2] / "c_examples" / "report" / "figures"
+COMMITTED = {SCENE: FIGURES / "stability.png", ELEMENT: FIGURES / "stability_calls.png"}
 MARKS = {CORRECT: "●", WARNING: "▲", REFUSED: "×", WRONG: "■"}
 MEANINGS = {
     CORRECT: "correct: within its bound of an exact or refined answer",
@@ -55,20 +56,24 @@ def heat_map(table, path):
             dark = n is not None and scale(max(n, 1)) > 0.55
             axis.add_patch(plt.Rectangle((cell["level"] - 0.48, y - 0.46), 0.96, 0.92, color=colour, linewidth=0))
             ink = figures.RED if cell["verdict"] == WRONG else "white" if dark else figures.INK
-            axis.text(cell["level"] - 0.3, y, MARKS[cell["verdict"]], ha="center", va="center", color=ink, fontsize=9)
-            axis.text(cell["level"] + 0.1, y, cell["severity"], ha="center", va="center", color=ink, fontsize=6.5)
+            size = 6.5 if len(cell["severity"]) < 9 else 5.2
+            axis.text(cell["level"] - 0.38, y, MARKS[cell["verdict"]], ha="center", va="center", color=ink, fontsize=8)
+            axis.text(cell["level"] + 0.1, y, cell["severity"], ha="center", va="center", color=ink, fontsize=size)
     axis.set(xlim=(-0.5, n_columns - 0.5), ylim=(len(table) - 0.5, -0.5), xticks=[], xlabel="severity →")
     axis.set_yticks(range(len(table)), list(table), fontsize=8)
     axis.tick_params(left=False)
     for side in ("left", "bottom"):
         axis.spines[side].set_visible(False)
     present = [v for v in VERDICTS if any(c["verdict"] == v for cells in table.values() for c in cells)]
-    axis.set_title("    ".join(f"{MARKS[v]} {MEANINGS[v].split(':')[0]}" for v in present), fontsize=8, fontweight="normal")
-    bar = figure.colorbar(
-        plt.matplotlib.cm.ScalarMappable(scale, colours), ax=axis, fraction=0.025, pad=0.01, aspect=12, shrink=0.7
+    axis.set_title(
+        "    ".join(f"{MARKS[v]} {MEANINGS[v].split(':')[0]}" for v in present), fontsize=8, fontweight="normal"
     )
-    bar.set_label("Newton iterations of the run", fontsize=7.5)
-    bar.ax.tick_params(labelsize=7)
+    if any(cell["iterations"] is not None for cells in table.values() for cell in cells):
+        bar = figure.colorbar(
+            plt.matplotlib.cm.ScalarMappable(scale, colours), ax=axis, fraction=0.025, pad=0.01, aspect=12, shrink=0.7
+        )
+        bar.set_label("Newton iterations of the run", fontsize=7.5)
+        bar.ax.tick_params(labelsize=7)
     return figures._save(figure, path)
 
 
@@ -113,12 +118,27 @@ def page(path, title, results, lines, drawn):
         parts.append(f"<tr><td>{html.escape(line.text)}</td><td>{html.escape(line.figure)}</td><td>{holds}</td></tr>")
     parts.append("</table>")
     parts += [f'<p><img src="{picture.name}" alt="{picture.stem}"></p>' for picture in drawn]
-    parts.append("<p>kappa: condition number of the last Newton matrix, rows and columns scaled. Per cell the error nearest "
-                 "to its bound is shown; all of them are in cells/CELL.json.</p>")  # fmt: skip
+    parts.append(
+        "<p>kappa: condition number of the last Newton matrix, rows and columns scaled. Per cell the error nearest "
+        "to its bound is shown; all of them are in cells/CELL.json.</p>"
+    )
     for case, cells in rows(results).items():
         parts.append(f"<h2>{html.escape(case)}</h2>" + "".join(table_html(cells)))
     path.write_text("\n".join(parts) + "\n")
     return path
+
+
+def markdown(results, lines):
+    """Two tables for docs/stability.md: what must hold, and what aids are worth."""
+    yield from ("| | measured |", "|---|---|")
+    yield from (f"| {line.text} | {line.figure}{'' if line.holds else ' **FAILS**'} |" for line in lines)
+    aids = {case: cells for case, cells in rows(results).items() if case.startswith("aids, ")}
+    if aids:
+        columns = [cell["severity"] for cell in next(iter(aids.values()))]
+        yield from ("", "| | " + " | ".join(columns) + " |", "|---|" + "---:|" * len(columns))
+    for case, cells in aids.items():
+        texts = [cell["verdict"] if cell["iterations"] is None else str(cell["iterations"]) for cell in cells]
+        yield f"| {case.removeprefix('aids, ')} | " + " | ".join(texts) + " |"
 
 
 def write(folder, name, results, lines, renew):
@@ -126,12 +146,12 @@ def write(folder, name, results, lines, renew):
     drawn = []
     try:
         for kind in sorted({r["kind"] for r in results}):
-            of_kind = [r for r in results if r["kind"] == kind]
-            drawn.append(heat_map(rows(of_kind), folder / f"{name}_{kind}.png"))
+            drawn.append(heat_map(rows([r for r in results if r["kind"] == kind]), folder / f"{name}_{kind}.png"))
+            if renew:
+                shutil.copy(drawn[-1], COMMITTED[kind])
     except ImportError:
         print("matplotlib is not there: no heat maps")
-    if renew:
-        shutil.copy(heat_map(rows([r for r in results if r["kind"] != ELEMENT]), folder / "scenes.png"), COMMITTED)
     table = {"cells": results, "lines": [vars(line) for line in lines], "counts": counts(results)}
     (folder / f"{name}.json").write_text(json.dumps(table, indent=1) + "\n")
+    (folder / f"{name}.md").write_text("\n".join(markdown(results, lines)) + "\n")
     return page(folder / f"{name}.html", "Stability matrix", results, lines, drawn)

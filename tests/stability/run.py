@@ -2,10 +2,10 @@
 
 run.py --build DIR [--jobs N] [--quick] [--only FILE...] [--kind KIND] [--again] [--renew-figures]
 
-Each cell runs in a process of its own, so that a crash or a hang is that cell's verdict and no end of the matrix. What it
-found goes to DIR/stability/cells/CELL.json; one that is newer than the programs and than the sources of its case is kept.
-Report: DIR/stability/index.html, its tables and heat maps beside it. Exits with 1 if a cell is wrong or a line that must
-hold does not.
+Each cell runs in a process of its own, so that a crash or a hang is that cell's verdict and no end of the matrix.
+What it found goes to DIR/stability/cells/CELL.json; one that is newer than the programs and than the sources of its
+case is kept. Report: DIR/stability/index.html, its tables and heat maps beside it. Exits with 1 if a cell is wrong or
+a line that must hold does not.
 """
 
 import argparse
@@ -55,7 +55,13 @@ def work(cell, context, path):
 
 
 def store(cell, outcome, verdict, why, seconds, path):
-    result = {"case": cell.case, "severity": cell.severity, "level": cell.level, "kind": cell.kind, "quick": cell.quick}
+    result = {
+        "case": cell.case,
+        "severity": cell.severity,
+        "level": cell.level,
+        "kind": cell.kind,
+        "quick": cell.quick,
+    }
     result |= {"verdict": verdict, "why": why, "seconds": seconds, **asdict(outcome)}
     partial = path.with_suffix(".part")
     partial.write_text(json.dumps(result, indent=1, default=float) + "\n")
@@ -100,7 +106,15 @@ class Matrix:
             else:
                 self.path(cell).unlink(missing_ok=True)  # an old result must never be read as a new one
                 waiting.append(cell)
-        running = {}
+        self.running = {}
+        try:
+            self.work_off(waiting)
+        finally:  # interrupted: nothing goes on alone
+            for process, _, _ in self.running.values():
+                os.killpg(process.pid, signal.SIGKILL)
+
+    def work_off(self, waiting):
+        running = self.running
         while waiting or running:
             while waiting and len(running) < self.jobs:
                 cell = waiting.pop(0)
@@ -123,6 +137,13 @@ class Matrix:
                     store(cell, cells.Outcome(), cells.WRONG, why, time.monotonic() - start, self.path(cell))
                 self.say(cell, False)
 
+    def forget_others(self):
+        """Cells that the matrix no longer has."""
+        kept = {self.path(cell) for _, cell in self.chosen}
+        for path in self.folder.glob("*.json"):
+            if path not in kept:
+                path.unlink()
+
     def results(self):
         return [json.loads(self.path(cell).read_text()) for _, cell in self.chosen]
 
@@ -134,10 +155,14 @@ def main():
     parser.add_argument("--jobs", type=int, default=1, help="cells at the same time")
     parser.add_argument("--quick", action="store_true", help="the short run alone")
     parser.add_argument("--only", nargs="+", choices=every, metavar="FILE", help=f"of {', '.join(every)}")
-    parser.add_argument("--kind", choices=(cells.SCENE, cells.ELEMENT), help="cells of the driver, or of single calls")
+    parser.add_argument(
+        "--kind", choices=(cells.SCENE, cells.ELEMENT), help="cells of the driver, or of single calls"
+    )
     parser.add_argument("--again", action="store_true", help="keep nothing")
-    parser.add_argument("--renew-figures", action="store_true", help="renew the committed figures too")
+    parser.add_argument("--renew-figures", action="store_true", help="renew the committed figures too; all cells only")
     arguments = parser.parse_args()
+    if arguments.renew_figures and (arguments.quick or arguments.only or arguments.kind):
+        parser.error("--renew-figures wants the whole matrix")
 
     chosen = [
         (family, cell)
@@ -146,8 +171,11 @@ def main():
         for cell in of_family
         if (cell.quick or not arguments.quick) and arguments.kind in (None, cell.kind)
     ]
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit("terminated"))
     matrix = Matrix(arguments.build.resolve(), arguments.jobs, chosen, arguments.again)
     matrix.run()
+    if len(chosen) == sum(map(len, every.values())):
+        matrix.forget_others()
     results = matrix.results()
     lines = must_hold.lines(results)
     name = "some" if arguments.only else "index"

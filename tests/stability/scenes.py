@@ -16,8 +16,19 @@ PATCH_FLOOR, PATCH_KAPPA = 1e-10, 100.0
 SINGULAR, PATCH_CEILING = 1e13, 1e-3
 
 
-def patch(*, lower=(0, 0, 0), size=(1, 1, 1), upper_cells=(3, 3, 2), lower_cells=(4, 4, 2), young=(1000, 1000), poisson=0.3,
-          friction=0.3, traction=(0, 0, -10), body=None, steps=1):
+def patch(
+    *,
+    lower=(0, 0, 0),
+    size=(1, 1, 1),
+    upper_cells=(3, 3, 2),
+    lower_cells=(4, 4, 2),
+    young=(1000, 1000),
+    poisson=0.3,
+    friction=0.3,
+    traction=(0, 0, -10),
+    body=None,
+    steps=1,
+):
     """Two bricks, one on the other, half of the height each, under pressure: the multiplier is uniform and exact.
 
     `body`: more keys of both bodies. Held at points that lie above each other, so that both are free to widen.

@@ -86,13 +86,21 @@ def coverage(text):
         error = np.abs(states["coverage"] - exact).max()
         outcome.below("covered areas", error, strip + 1e-13 * c, "integrals over the strip")
         closed = exact > 1e-8 * 0.25
-        outcome.true("nodes covered to less than 1e-8 are open", (states["state"][~closed] == GAP).all(), "coverage_min")
+        outcome.true(
+            "nodes covered to less than 1e-8 are open", (states["state"][~closed] == GAP).all(), "coverage_min"
+        )
         f, _ = balance(outcome, start, x1, x2, lam, max(c, EPS))
         # the force is that of the traction on the strip, whatever the state: forces use lambda
-        outcome.below("force on the strip", np.abs(f.sum(axis=0) - lam[0] * exact.sum()).max(), 4 * strip + 1e-13 * c,
-                      "traction times area")  # fmt: skip
+        outcome.below(
+            "force on the strip",
+            np.abs(f.sum(axis=0) - lam[0] * exact.sum()).max(),
+            4 * strip + 1e-13 * c,
+            "traction times area",
+        )
         block = start.tangent(x1, x2, lam)[-12:, :]
-        outcome.true("no row of a multiplier vanishes", (np.abs(block).max(axis=1) > 0).all(), "regular at any coverage")
+        outcome.true(
+            "no row of a multiplier vanishes", (np.abs(block).max(axis=1) > 0).all(), "regular at any coverage"
+        )
         start.close()
         return outcome
 
@@ -122,8 +130,9 @@ def corner(text):
 
 
 def touching(text):
-    """The first step of a body that nothing else holds: at a gap of this much, from multipliers of zero, and from those that
-    the library gives to start with. What touches or has sunk in is closed then, and every row has its stiffness."""
+    """The first step of a body that nothing else holds: at a gap of this much, from multipliers of zero, and from
+    those that the library gives to start with. What touches or has sunk in is closed then, and every row has its
+    stiffness."""
     gap = float(text)
 
     def run(context):
@@ -134,7 +143,9 @@ def touching(text):
         start, zero = interface.start(), np.zeros((len(x1), 3))
         states = {name: interface.states(x1, x2, lam) for name, lam in (("start", start), ("zero", zero))}
         closed = gap <= CLOSED * np.sqrt(states["start"]["area"])
-        outcome.true("started multipliers press", ((start[:, 2] < 0) == closed).all(), "on closed nodes, and on no other")
+        outcome.true(
+            "started multipliers press", ((start[:, 2] < 0) == closed).all(), "on closed nodes, and on no other"
+        )
         state = np.where(closed, STICK, GAP)
         outcome.true("state with them", (states["start"]["state"] == state).all(), "closed nodes stick")
         state = STICK if gap < 0 else GAP
@@ -144,7 +155,9 @@ def touching(text):
             tangent = interface.tangent(x1, x2, lam)
             of_displacements = np.abs(tangent[-3 * len(x1) :, : -3 * len(x1)]).max(axis=1)
             held = np.repeat(closed, 3) if name == "start" else gap < 0
-            outcome.true(f"rows hold the body, {name}", ((of_displacements > 0) == held).all(), "stick has a stiffness")
+            outcome.true(
+                f"rows hold the body, {name}", ((of_displacements > 0) == held).all(), "stick has a stiffness"
+            )
         interface.close()
         return outcome
 

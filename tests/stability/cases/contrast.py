@@ -54,5 +54,10 @@ def stiff_carries(ratio):
 
 def cells():
     yield from series("soft block carries, floor N times stiffer", RATIOS, soft_carries, quick=(1e6,))
-    yield from series("stiff floor carries, N times stiffer", RATIOS, stiff_carries, quick=(1e6,),
-                      may_refuse=r"not converged.*(states|repeat)")  # fmt: skip
+    yield from series(
+        "stiff floor carries, N times stiffer",
+        RATIOS,
+        stiff_carries,
+        quick=(1e6,),
+        may_refuse=r"not converged.*(states|repeat)",
+    )

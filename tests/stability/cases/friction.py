@@ -9,8 +9,8 @@ from comparisons import difference
 SLIDES = ("0", "1e-12", "1e-9", "1e-6", "1e-3", "0.1", "0.5")
 STICKS = ("1e1", "1e2", "1e3", "1e4", "1e5", "1e6")
 DRAWN, PRESSED = 0.05, 0.005
-# Forces and multipliers are known to Newton's tolerance, 1e-11 of the forces; what a node's cone adds is the ratio of all
-# forces to its own.
+# Forces and multipliers are known to Newton's tolerance, 1e-11 of the forces; what a node's cone adds is the ratio of
+# all forces to its own.
 NEWTON, NODES = 1e-11, 100
 # In steady sliding every node slips along x, as long as the block's edges stay down.
 FLAT = 0.1
@@ -23,8 +23,22 @@ def scene(friction, law="coulomb", drawn=DRAWN):
     return {
         "schema": 1,
         "bodies": ["upper", "lower"],
-        "upper": {"type": "box", "lower": [0, 0, 0.5], "upper": [1, 1, 1], "cells": [3, 3, 2], "young": 1000, "poisson": 0.3},
-        "lower": {"type": "box", "lower": [-1, -1, 0], "upper": [2, 2, 0.5], "cells": [8, 8, 1], "young": 1000, "poisson": 0.3},
+        "upper": {
+            "type": "box",
+            "lower": [0, 0, 0.5],
+            "upper": [1, 1, 1],
+            "cells": [3, 3, 2],
+            "young": 1000,
+            "poisson": 0.3,
+        },
+        "lower": {
+            "type": "box",
+            "lower": [-1, -1, 0],
+            "upper": [2, 2, 0.5],
+            "cells": [8, 8, 1],
+            "young": 1000,
+            "poisson": 0.3,
+        },
         "supports": ["bottom", "press", "draw"],
         "bottom": {"body": "lower", "components": ["x", "y", "z"]},
         "press": {"surface": "upper.zmax", "components": ["z"], "value": [0, 0, -PRESSED], "curve": [0, 0, 1, 1]},

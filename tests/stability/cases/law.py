@@ -14,13 +14,21 @@ EXACT = 4e-15  # some roundings of numbers of order one
 # On the cone within this counts as slip (design: every step starts with slip nodes exactly on it).
 TIE = 1e-12
 
-NODE = {"normal": (0.0, 0.0, 1.0), "augmentation": 1.0, "coverage": 1.0, "coverage_previous": 1.0, "coverage_min": 1e-8}
+NODE = {
+    "normal": (0.0, 0.0, 1.0),
+    "augmentation": 1.0,
+    "coverage": 1.0,
+    "coverage_previous": 1.0,
+    "coverage_min": 1e-8,
+}
 
 
 def node(library, sigma_n, sigma_t, mu, **more):
     """A node whose augmented traction is (sigma_t, 0, sigma_n), with no gap and no slip: its multiplier."""
     zero = (0.0, 0.0, 0.0)
-    return library.respond(**(NODE | dict(lambda_=(sigma_t, 0.0, sigma_n), mu=mu, gap_now=zero, gap_previous=zero) | more))
+    return library.respond(
+        **(NODE | dict(lambda_=(sigma_t, 0.0, sigma_n), mu=mu, gap_now=zero, gap_previous=zero) | more)
+    )
 
 
 def expected(sigma_n, sigma_t, mu):
@@ -71,7 +79,13 @@ def tip(text):
 
     def run(context):
         outcome, library = Outcome(), Library(context.build)
-        for name, n, t in (("stick", -s, 0.1 * s), ("slip", -s, s), ("tip", -s, 0.0), ("open", s, s), ("nothing", 0.0, s)):
+        for name, n, t in (
+            ("stick", -s, 0.1 * s),
+            ("slip", -s, s),
+            ("tip", -s, 0.0),
+            ("open", s, s),
+            ("nothing", 0.0, s),
+        ):
             check(outcome, library, name, n, t, 0.3, s)
         return outcome
 

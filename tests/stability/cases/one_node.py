@@ -1,9 +1,9 @@
 """Klarbring's problem: one node with friction that may stick, slip or lift off under the same load.
 
-Its stiffness (normal, tangential) is [[1, 1/2], [1/2, 1]], its load (-1, -2.5). Lifted off it is at (1/3, -8/3). Stuck at 0
-it carries a pressure of 1 and a shear of 2.5, which takes mu >= 2.5. Slipping to u it carries p = 1 + u / 2 > 0, and
-u + 2.5 = mu p, so u = (mu - 2.5) / (1 - mu / 2), which must be negative. Where mu < k_tt / |k_nt| = 2 there is no more than
-one solution.
+Its stiffness (normal, tangential) is [[1, 1/2], [1/2, 1]], its load (-1, -2.5). Lifted off it is at (1/3, -8/3).
+Stuck at 0 it carries a pressure of 1 and a shear of 2.5, which takes mu >= 2.5. Slipping to u it carries p = 1 + u /
+2 > 0, and u + 2.5 = mu p, so u = (mu - 2.5) / (1 - mu / 2), which must be negative. Where mu < k_tt / |k_nt| = 2
+there is no more than one solution.
 """
 
 import numpy as np
@@ -37,13 +37,20 @@ def solve(context, mu, *options):
         name = min(distances, key=distances.get)
         result.below(f"place of the node ({name})", distances[name], EXACT, "one of the exact solutions")
         if len(distances) > 1:
-            result.warnings.append(f"mu > {UNIQUE:g}, {len(distances)} solutions ({', '.join(distances)}); ended in {name}")
+            result.warnings.append(
+                f"mu > {UNIQUE:g}, {len(distances)} solutions ({', '.join(distances)}); ended in {name}"
+            )
     return result
 
 
 def cells():
     several = lambda mu: r"not converged.*(state|repeat)" if mu > UNIQUE else None
-    yield from series("one node, friction", FRICTIONS, lambda mu: lambda context: solve(context, mu), quick=(1, 3, 1000),
-                      may_refuse=several)  # fmt: skip
+    yield from series(
+        "one node, friction",
+        FRICTIONS,
+        lambda mu: lambda context: solve(context, mu),
+        quick=(1, 3, 1000),
+        may_refuse=several,
+    )
     scaled = lambda text: lambda context: solve(context, 1, "-contact_augmentation_scale", text)
     yield from series("one node that chatters, augmentation", SCALES, scaled, quick=("1e-6", "1e2"))

@@ -10,8 +10,8 @@ from scenes import EPS
 # Weights: rounding of the largest, and of coordinates of the size of the facet.
 WEIGHTS = 4e-15  # of the facet's area
 DERIVATIVES = 1e-10  # of its size: what must hold at every angle
-# A crossing at a small angle is known to eps / angle of the edge, for one pair alone: its derivative's condition. Summed over
-# the pairs of a facet this drops out.
+# A crossing at a small angle is known to eps / angle of the edge, for one pair alone: its derivative's condition.
+# Summed over the pairs of a facet this drops out.
 CROSSING = 0.1 * EPS
 # Edges nearer to each other than this (over the facets' size) count as coinciding, so that all pairs decide alike. The
 # derivative of one pair has two sides there, this far apart; the library gives one of them.
@@ -36,8 +36,8 @@ def turned(x, angle, about):
 
 
 def compare(outcome, library, name, x1, x2, derivatives=True, size=1.0, angle=np.inf, width=np.inf):
-    """Weights and derivatives of a pair against exact arithmetic, over powers of the facet's size. `angle` at which edges
-    cross, `width` of what lies between them."""
+    """Weights and derivatives of a pair against exact arithmetic, over powers of the facet's size. `angle` at which
+    edges cross, `width` of what lies between them."""
     exact = oracle.as_floats(oracle.weights(x1, x2))
     found = library.weights(x1, x2, derivatives)
     error = max(np.abs(a - b).max() for a, b in zip(found, exact)) / size**2
@@ -47,7 +47,9 @@ def compare(outcome, library, name, x1, x2, derivatives=True, size=1.0, angle=np
         error = max(np.abs(a - b).max() for a, b in zip(found[2:], exact)) / size
         if min(angle, width) <= 2 * TIE:
             outcome.below(f"{name}: derivatives", error, KINK, "one of two sides of a kink")
-            outcome.warnings = [f"edges nearer than {TIE:g} count as coinciding: one of two sides of a pair's derivative"]
+            outcome.warnings = [
+                f"edges nearer than {TIE:g} count as coinciding: one of two sides of a pair's derivative"
+            ]
         else:
             # along the axes distances are exact
             bound = DERIVATIVES if name.startswith("quad4") else max(DERIVATIVES, CROSSING / angle)
@@ -84,11 +86,13 @@ def angle(text):
 
 
 def summed(text):
-    """A facet over nine of its size, turned by this angle: the derivatives summed over the pairs have no kink, and what one
-    pair does not know of a crossing its neighbour takes."""
+    """A facet over nine of its size, turned by this angle: the derivatives summed over the pairs have no kink, and
+    what one pair does not know of a crossing its neighbour takes."""
     t = np.arange(-1.0, 3.0)
     nodes = turned(np.array([[x, y, 0] for y in t for x in t]), float(text), np.array([0.3, 0.25, 0]))
-    facets = [[k + 4, k + 5, k + 1, k] for k in range(11) if k % 4 < 3]  # clockwise seen from above: the normal is down
+    facets = [
+        [k + 4, k + 5, k + 1, k] for k in range(11) if k % 4 < 3
+    ]  # clockwise seen from above: the normal is down
 
     def pair(outcome, library, name, x):
         n1, total = len(x), [np.zeros((len(x), 16, 3 * (len(x) + 16))) for _ in range(2)]
@@ -118,8 +122,8 @@ def sliver(text):
 
 
 def touching(text):
-    """A vertex this far from a vertex, from an edge; an edge this far from an edge. At 0 the derivative of one pair has two
-    sides, so weights alone are compared; assembled ones have no kink (case `noise on matching meshes`)."""
+    """A vertex this far from a vertex, from an edge; an edge this far from an edge. At 0 the derivative of one pair
+    has two sides, so weights alone are compared; assembled ones have no kink (case `noise on matching meshes`)."""
     d = float(text)
 
     def pair(outcome, library, name, x):
@@ -180,8 +184,8 @@ def size(text):
     return each_kind(pair)
 
 
-# The rules' own error on quadrilaterals that are no parallelograms, as measured here: of the fourth and the tenth power of
-# the warp over the facet's size, of the third and the eighth power of what a corner is drawn in.
+# The rules' own error on quadrilaterals that are no parallelograms, as measured here: of the fourth and the tenth
+# power of the warp over the facet's size, of the third and the eighth power of what a corner is drawn in.
 RULES = {"degree 5": DEGREE_5, "degree 10": DEGREE_10}
 WARP_ERROR = {"degree 5": lambda w: 1e-5 * w**4, "degree 10": lambda w: 1e-9 * w**10}
 DRAWN_ERROR = {"degree 5": lambda s: 5e-3 * s**3, "degree 10": lambda s: 5e-3 * s**8}

@@ -1,4 +1,5 @@
-"""Patch tests whose bodies are hard: far from the origin, of unlike stiffness, of long facets, nearly incompressible."""
+"""Patch tests whose bodies are hard: far from the origin, of unlike stiffness, of long facets, nearly
+incompressible."""
 
 from cell import series
 from scenes import EPS, check_patch, patch, patch_cell

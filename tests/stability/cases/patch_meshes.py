@@ -36,7 +36,8 @@ def ratio(fine_side):
 
 
 def rotated(angle):
-    """Tetrahedra on tetrahedra, the same mesh twice, but the inner nodes of the interface are turned about its middle."""
+    """Tetrahedra on tetrahedra, the same mesh twice, but the inner nodes of the interface are turned about its
+    middle."""
     n = 4
 
     def move(X):

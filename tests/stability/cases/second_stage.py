@@ -7,8 +7,8 @@ from cell import series
 from scenes import patch
 
 # The normals are those of the last commit, so the first step without load still turns them by as much as the last one
-# with load did: FIRST is what that may change, of displacements and forces over their largest. It dies out by a factor of
-# about 1000 a step; the last one changes nothing but what Newton's tolerance (1e-11 of the forces) leaves.
+# with load did: FIRST is what that may change, of displacements and forces over their largest. It dies out by a
+# factor of about 1000 a step; the last one changes nothing but what Newton's tolerance (1e-11 of the forces) leaves.
 FIRST, LAST = 0.05, 1e-9
 ITERATIONS = 2  # of each step without load: one that finds it, one that confirms it
 MORE = 4  # steps

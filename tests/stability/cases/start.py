@@ -52,8 +52,12 @@ def lowered_by_support(gap):
 
     def run(context):
         down = gap * FACET + 0.01
-        scene = clamped(-gap * FACET, top={"surface": "upper.zmax", "components": ["x", "y", "z"], "value": [0, 0, -down]})
-        return check_patch(context.solve(scene, kappa=True), (0, 0, -YOUNG * 0.01 / HEIGHT), reason="two springs in a row")
+        scene = clamped(
+            -gap * FACET, top={"surface": "upper.zmax", "components": ["x", "y", "z"], "value": [0, 0, -down]}
+        )
+        return check_patch(
+            context.solve(scene, kappa=True), (0, 0, -YOUNG * 0.01 / HEIGHT), reason="two springs in a row"
+        )
 
     return run
 

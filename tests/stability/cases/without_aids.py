@@ -11,6 +11,9 @@ AIDS = {
     "all": (),
     "no predictor": ("-steps_predictor", "false"),
     "full steps": ("-snes_linesearch_type", "basic"),
+    "cycles on": ("-steps_cycles", "false"),
+    "raw rows": ("-base_row_scale", "none"),
+    "zero start": ("-base_initial_contact", "false"),
     "backtracking": ("-snes_linesearch_type", "bt"),
     "augmented": ("-base_form", "augmented"),
     "no shortcuts": ("-base_shortcuts", "false"),
@@ -37,7 +40,9 @@ def without(scene, options):
             result = host.outcome(solved)
             if result.refusal is None:
                 default = context.solve(scene, *options[:2], name="default")
-                result.below("displacements and forces", difference(solved, default), SAME, "the answer with every aid")
+                result.below(
+                    "displacements and forces", difference(solved, default), SAME, "the answer with every aid"
+                )
                 result.figures["default"] = aid == "all"
             return result
 
@@ -48,5 +53,6 @@ def without(scene, options):
 
 def cells():
     for case, (scene, options) in SCENES.items():
-        yield from series(case, AIDS, without(scene, options), may_refuse=FAILS,
-                          quick=("all",) if "1e3" in case else ())  # fmt: skip
+        yield from series(
+            case, AIDS, without(scene, options), may_refuse=FAILS, quick=("all",) if "1e3" in case else ()
+        )
