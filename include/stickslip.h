@@ -241,7 +241,8 @@
 /// many points there are. The tangent is that of the sums; they jump where a point passes a mortar edge.
 #define STICKSLIP_INTEGRATION_ELEMENTS 1
 
-/// As ELEMENTS; but cells for all pairs of a non-mortar facet of which a point or a corner is uncovered. Patch tests fail.
+/// As ELEMENTS; but cells for all pairs of a non-mortar facet of which a point or a corner was uncovered at the last
+/// commit. Patch tests fail.
 #define STICKSLIP_INTEGRATION_HYBRID 2
 
 /// The tangent is exact. Default.
@@ -250,8 +251,8 @@
 /// Weights of now, but constants in the tangent: fewer entries, no derivatives; Newton's method converges linearly.
 #define STICKSLIP_TANGENT_FROZEN_WEIGHTS 1
 
-/// The tangent leaves out that facets' planes tilt: converges linearly too, at no saving worth the name; for
-/// comparisons with codes that do so. Exact against an analytic mortar side.
+/// The tangent leaves out that facets' planes tilt: converges linearly too, and saves nothing; for comparisons with
+/// codes that do so. Exact against an analytic mortar side.
 #define STICKSLIP_TANGENT_FROZEN_NORMALS 2
 
 /// Multiplier rows times r_A M_A: M_A (p_A - lambda_A), a force. Default.

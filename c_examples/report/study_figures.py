@@ -94,7 +94,7 @@ def tails(rows, folder):
     figure, axis = plt.subplots(figsize=(6.4, 3.8))
     for row, colour in zip(rows, plt.get_cmap("viridis")(np.linspace(0, 0.85, len(rows)))):
         axis.semilogy(range(len(row["norms"])), row["norms"], "o-", color=colour, markersize=4,
-                      label=f"{row['points']} points: {1e3 * (row['integration'] + row['tangent']):.0f} ms")
+                      label=f"{row['label']}: {1e3 * (row['integration'] + row['tangent']):.0f} ms")
     axis.set_xlabel("iteration of the last step")
     axis.set_ylabel("norm of the residual")
     axis.set_title("Newton on warped facets, rule by rule")

@@ -84,14 +84,15 @@ pub const STICKSLIP_INTEGRATION_SEGMENTS: i32 = 0;
 /// clipping. Functions with kinks at the mortar edges are integrated as if they were smooth: patch tests fail, however
 /// many points there are. The tangent is that of the sums; they jump where a point passes a mortar edge.
 pub const STICKSLIP_INTEGRATION_ELEMENTS: i32 = 1;
-/// As ELEMENTS; but cells for all pairs of a non-mortar facet of which a point or a corner is uncovered. Patch tests fail.
+/// As ELEMENTS; but cells for all pairs of a non-mortar facet of which a point or a corner was uncovered at the last
+/// commit. Patch tests fail.
 pub const STICKSLIP_INTEGRATION_HYBRID: i32 = 2;
 /// The tangent is exact. Default.
 pub const STICKSLIP_TANGENT_EXACT: i32 = 0;
 /// Weights of now, but constants in the tangent: fewer entries, no derivatives; Newton's method converges linearly.
 pub const STICKSLIP_TANGENT_FROZEN_WEIGHTS: i32 = 1;
-/// The tangent leaves out that facets' planes tilt: converges linearly too, at no saving worth the name; for
-/// comparisons with codes that do so. Exact against an analytic mortar side.
+/// The tangent leaves out that facets' planes tilt: converges linearly too, and saves nothing; for comparisons with
+/// codes that do so. Exact against an analytic mortar side.
 pub const STICKSLIP_TANGENT_FROZEN_NORMALS: i32 = 2;
 /// Multiplier rows times r_A M_A: M_A (p_A - lambda_A), a force. Default.
 pub const STICKSLIP_ROW_SCALE_FORCE: i32 = 0;
