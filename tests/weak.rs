@@ -152,12 +152,12 @@ const PRESSED: f64 = 0.02;
 
 /// A strip of three facets, on springs of its own, pressed on a plate from whose end x = 1 it hangs over by `over` of a
 /// facet; at the last commit it was `before`. Newton's method; reaction of the plate, largest pressure.
-fn strip_on_springs(weak_coverage: f64, before: f64, over: f64) -> (f64, f64) {
+fn strip_on_springs(weak_coverage: f64, modulus: f64, before: f64, over: f64) -> (f64, f64) {
     let n = 3;
     let h = 1.0 / n as f64;
     let at = |over: f64| grid(n, 1, [h * over, 0.0], [1.0 + h * over, 1.0], 0.0, false, Cells::Quads);
     let plate = grid(1, 1, [-1.0, -1.0], [1.0, 2.0], 0.0, true, Cells::Quads);
-    let options = Options { friction: Friction::None, weak_coverage, ..Options::new(Stiffness::Modulus(SPRINGS)) };
+    let options = Options { friction: Friction::None, weak_coverage, ..Options::new(Stiffness::Modulus(modulus)) };
     let mut contact = contact::<1>(&at(before), &plate, true, options);
     let start = at(over).x;
     let (nodes, equations) = (start.len(), 3 * (start.len() + plate.x.len()));
@@ -204,13 +204,21 @@ fn the_traction_of_a_sliver_stays_that_of_its_neighbours() {
     /// Of the force, between slivers of a facet's hundredth and less: twice that.
     const SMOOTH: f64 = 0.02;
     let (before, ends) = (0.6, [1.0 - 1e-2, 1.0 - 1e-3, 1.0 + 1e-3]);
-    let [far, near, gone] = ends.map(|over| strip_on_springs(0.5, before, over));
+    let [far, near, gone] = ends.map(|over| strip_on_springs(0.5, SPRINGS, before, over));
     println!("carried: {far:?} {near:?} {gone:?}");
     assert!((far.0 - near.0).abs() <= SMOOTH * gone.0 && (near.0 - gone.0).abs() <= SMOOTH * gone.0);
     assert!(near.1 <= 3.0 * SPRINGS * PRESSED, "{}", near.1);
-    let [far, near, gone] = ends.map(|over| strip_on_springs(0.0, before, over));
+    let [far, near, gone] = ends.map(|over| strip_on_springs(0.0, SPRINGS, before, over));
     println!("with multipliers of their own: {far:?} {near:?} {gone:?}");
     assert!(near.1 > 5.0 * far.1 && far.1 > 1e3 * SPRINGS * PRESSED, "tractions of {} and {}", far.1, near.1);
+}
+
+#[test]
+fn the_answer_does_not_depend_on_the_augmentation() {
+    /// Newton's tolerance, 1e-12, over the least singular value of so small a matrix.
+    const SAME: f64 = 1e-9;
+    let [one, other] = [0.1, 100.0].map(|factor| strip_on_springs(0.5, factor * SPRINGS, 0.6, 0.8));
+    assert!((one.0 / other.0 - 1.0).abs() <= SAME && (one.1 / other.1 - 1.0).abs() <= SAME, "{one:?} {other:?}");
 }
 
 #[test]
@@ -247,4 +255,12 @@ fn carriers_roll_back_and_are_imported_with_the_history() {
     other.contact.commit(&s.x1, &s.x2, &s.lambda, None).unwrap();
     other.contact.import_history(&integers, &reals).unwrap();
     assert_eq!(other.contact.residual(&s.x1, &s.x2, &s.lambda, None).unwrap(), before);
+}
+
+#[test]
+fn the_effects_say_so_where_it_is_asked_for() {
+    let sentence = "Nodes covered less than 0.4 of their best covered neighbour: carried by it (asked for).";
+    let text = |weak_coverage| scene::<3>(&Options { weak_coverage, ..options() }, Cells::Quads).contact.effects();
+    assert!(text(WEAK).ends_with(sentence), "{}", text(WEAK));
+    assert!(!text(0.0).contains("carried"));
 }

@@ -14,7 +14,15 @@ impl<const N: usize> Contact<N> {
             self.uncovered_sentence(),
             self.integration_sentence(),
         ];
-        sentences.join(" ")
+        sentences.join(" ") + &self.weak_sentence()
+    }
+
+    /// Only where it is asked for.
+    fn weak_sentence(&self) -> String {
+        match self.options.weak_coverage {
+            0.0 => String::new(),
+            w => format!(" Nodes covered less than {w} of their best covered neighbour: carried by it (asked for)."),
+        }
     }
 
     fn friction_sentence(&self) -> String {
