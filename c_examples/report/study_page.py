@@ -147,8 +147,8 @@ def sections(problems, rows, measured, choice):
         ("What the next digit costs", "The settings that no other one beats in both error and time.",
          digit_table(problems, rows, front)),
         ("What each knob changes", "On one mesh: error over the default's, Newton iterations over the default's. The "
-         "rules with 1 and 3 points (cells_1, cells_3) with weights frozen within a step, for with current ones they find "
-         "no answer.",
+         "rules with 1 and 3 points (cells_1, cells_3) with weights frozen within a step, for with current ones they "
+         "find no answer.",
          matrix(problems, rows)),
         ("Each knob against the default", "On one mesh: what a knob changes in the error, in contact's time (search, "
          "integration, derivatives) and in the number of Newton iterations.", against_default(problems, rows)),
