@@ -268,3 +268,26 @@ fn handles_with_disjoint_mortar_facets_add_up() {
         assert!((f - e).amax() < 1e-14);
     }
 }
+
+/// A step whose slip leaves the range of doubles is refused: the history it left could be exported, but not imported
+/// again. (The weights of t_n are those of a corrupt history; nothing else makes such a slip.)
+#[test]
+fn a_step_whose_slip_overflows_is_not_committed() {
+    let one = grid(1, 1, [0.0, 0.0], [1.0, 1.0], 0.0, false, Cells::Quads);
+    let two = grid(1, 1, [-1.0, -1.0], [2.0, 2.0], 0.0, true, Cells::Quads);
+    let mut i = interface(&one, &two, options());
+    let (integers, mut reals) = i.export_history().unwrap();
+    // After five vectors a node: areas, coverages, then the weights of the only pair.
+    let coverage = 5 * 12 + 4;
+    reals[coverage..coverage + 4].fill(2.5e-8);
+    reals[coverage + 4..].iter_mut().for_each(|w| *w *= 1e303);
+    i.import_history(&integers, &reals).unwrap();
+    let x1: Vec<_> = one.x.iter().map(|x| x + Vec3::x() * 0.5).collect();
+    let lambda = [Vec3::new(0.0, 0.0, -1.0); 4];
+    assert!(i.residual(&x1, &two.x, &lambda, None).is_ok());
+    let refused = i.commit(&x1, &two.x, &lambda, None).unwrap_err();
+    assert_eq!(refused.kind, Kind::NotFinite);
+    assert!(refused.message.contains("the slip of non-mortar node 0 overflows"), "{}", refused.message);
+    let after = i.export_history().unwrap();
+    assert!(after == (integers, reals), "a refused commit has changed nothing");
+}

@@ -46,6 +46,8 @@ def measure(driver, scene):
         run = driver.run(scene, *OPTIONS, *given, label=f"{scene}_{k}", expect=None)
         if run.exit_code not in (0, 2, 3):
             raise SceneError(f"{scene} with {aid}: exit code {run.exit_code}\n{run.text[-800:]}")
+        if run.exit_code:
+            run.summary = json.loads((run.directory / "summary.json").read_text())
         failed = sum(attempt["newton_iterations"] for attempt in run.summary["failed_attempts"])
         rows.append({
             "aid": aid,
@@ -74,8 +76,8 @@ def main():
     parser.add_argument("--build", type=Path, default=Path("build"))
     parser.add_argument("--only", nargs="+", metavar="SCENE", help="these scenes")
     arguments = parser.parse_args()
-    driver = Driver(arguments.build, arguments.build / "aids", report=lambda label, run, seconds: print(
-        f"  {label}: {run.newton_iterations} iterations, {seconds or 0:.0f} s", flush=True))
+    told = lambda label, run, seconds: print(f"  {label}: exit code {run.exit_code}, {seconds:.0f} s", flush=True)
+    driver = Driver(arguments.build, arguments.build / "aids", report=told)
     results = {}
     for scene in arguments.only or SCENES:
         results[scene] = measure(driver, scene)

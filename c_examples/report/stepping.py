@@ -20,6 +20,8 @@ COARSE = ("-base_cells", "60,1,15", "-die_file", SCENES.parent / "meshes" / "iro
 CYCLING = {"1e2": 50, "1e3": 60, "1e4": 65}
 # Too large to be cured: here the report is what counts.
 HOPELESS = "1e6"
+# Of its pairs: 0.1 / 13 by 1 / 6, of a facet of 0.2 by 1.
+SMALLEST_OVERLAP = 1 / 156
 
 
 def with_steps(driver, scene, steps):
@@ -125,6 +127,17 @@ def cycling(verdicts, driver):
     periods = {report["period"] for report in reports}
     verdicts.true("hopeless augmentation: periods", periods <= {2, 3, 4}, f"{periods}")
     verdicts.true("hopeless augmentation: the message names them", "base node" in run.text, "exit code 2")
+    changes = summary["failed_attempts"][-1]["state_changes"]
+    verdicts.true("hopeless augmentation: nodes change state for ever", len(changes) > 4 and changes[-1] > 0, f"{changes}")
+    found = summary["diagnosis"]["base"]
+    told = "base: " in run.text and "smallest overlap" in run.text
+    verdicts.true("hopeless augmentation: the diagnosis is told and kept", told and found["suspects"] == [], found["text"])
+    verdicts.below(
+        "hopeless augmentation: smallest overlap, of a facet",
+        abs(found["smallest_overlap"]["value"] - SMALLEST_OVERLAP),
+        1e-12,
+        "exact",
+    )
 
 
 def klarbring(verdicts, driver):

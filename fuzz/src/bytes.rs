@@ -109,4 +109,9 @@ impl Bytes<'_> {
     pub fn output<T>(&mut self, usual: *mut T) -> *mut T {
         self.pointer(usual).cast_mut()
     }
+
+    /// The same of characters, whose pointers are never crooked.
+    pub fn text(&mut self, usual: *mut i8) -> *mut i8 {
+        if self.once_in(16) { std::ptr::null_mut() } else { usual }
+    }
 }

@@ -23,6 +23,12 @@ pub fn succeeded(status: i32) -> bool {
     status == STICKSLIP_OK
 }
 
+/// What the library said of the last call.
+pub fn message() -> String {
+    // SAFETY: as above.
+    unsafe { CStr::from_ptr(stickslip_last_error_message()) }.to_string_lossy().into_owned()
+}
+
 /// No infinity and no NaN leaves the library with a success.
 pub fn all_finite(values: &[f64]) {
     assert!(values.iter().all(|v| v.is_finite()), "{values:?}");

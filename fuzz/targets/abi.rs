@@ -172,7 +172,8 @@ fn node_calls(bytes: &mut Bytes) {
 
 fn facet_calls(bytes: &mut Bytes) {
     let x = points(bytes, 12);
-    let (mut normals, mut areas, mut normal) = (Watched::<f64>::new(12), Watched::<f64>::new(4), Watched::<f64>::new(3));
+    let (mut normals, mut areas, mut normal) =
+        (Watched::<f64>::new(12), Watched::<f64>::new(4), Watched::<f64>::new(3));
     let n = bytes.integer(4) as i32;
     let status = unsafe {
         let (normals, areas) = (bytes.output(normals.pointer()), bytes.output(areas.pointer()));
@@ -350,7 +351,7 @@ fn create_calls(bytes: &mut Bytes) {
     }
     values.values();
     let (mut text, capacity) = (Watched::<i8>::new(80), bytes.count(80).min(80));
-    succeeded(unsafe { stickslip_interface_effects(handle, bytes.output(text.pointer()).cast(), capacity) });
+    succeeded(unsafe { stickslip_interface_effects(handle, bytes.text(text.pointer()).cast(), capacity) });
     text.values();
     // SAFETY: numbers alone.
     let mut counters = Struct::new(unsafe { std::mem::zeroed::<stickslip_counters>() });
@@ -403,7 +404,7 @@ fn preparation_calls(bytes: &mut Bytes) {
     }
     (found.values(), kinds.values(), claims.values());
     let (mut text, length) = (Watched::<i8>::new(40), bytes.count(40).min(40));
-    unsafe { stickslip_last_error_padded(bytes.output(text.pointer()).cast(), length) };
+    unsafe { stickslip_last_error_padded(bytes.text(text.pointer()).cast(), length) };
     text.values();
     stickslip_status_string(bytes.integer(0) as i32);
 }

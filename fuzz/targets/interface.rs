@@ -6,7 +6,7 @@
 
 use libfuzzer_sys::fuzz_target;
 use stickslip::capi::*;
-use stickslip_fuzz::{Bytes, Watched, all_finite, succeeded};
+use stickslip_fuzz::{Bytes, Watched, all_finite, message, succeeded};
 
 const N1: usize = 9;
 const N2: usize = 16;
@@ -110,9 +110,8 @@ impl Scene {
         let (f1, f2, rows) = (f1.pointer(), f2.pointer(), rows.pointer());
         let (x1, x2, lambda) = (self.x1.as_ptr(), self.x2.as_ptr(), self.lambda.as_ptr());
         // SAFETY: the arrays are as long as the handle's surfaces ask for; so below.
-        let status = unsafe {
-            stickslip_interface_residual(self.handle, x1, x2, lambda, std::ptr::null(), f1, f2, rows)
-        };
+        let status =
+            unsafe { stickslip_interface_residual(self.handle, x1, x2, lambda, std::ptr::null(), f1, f2, rows) };
         if !succeeded(status) {
             out.iter().for_each(Watched::assert_untouched);
             return None;
@@ -147,9 +146,8 @@ impl Scene {
             return None;
         }
         let (mut integers, mut reals) = (Watched::new(n as usize), Watched::<f64>::new(m as usize));
-        let status = unsafe {
-            stickslip_interface_history_export(self.handle, n, integers.pointer(), m, reals.pointer())
-        };
+        let status =
+            unsafe { stickslip_interface_history_export(self.handle, n, integers.pointer(), m, reals.pointer()) };
         assert!(succeeded(status), "a history whose size is known can be exported");
         Some((integers.values().to_vec(), reals.values().iter().map(|v| v.to_bits()).collect()))
     }
@@ -222,7 +220,7 @@ impl Scene {
                 if !self.import(&integers, &reals) {
                     let (i, r) = self.history().expect("it was exported before");
                     let r: Vec<f64> = r.into_iter().map(f64::from_bits).collect();
-                    assert!(self.import(&i, &r), "its own history");
+                    assert!(self.import(&i, &r), "its own history: {}", message());
                 }
             }
             8 => {

@@ -127,6 +127,21 @@ impl History {
         self.integrated = true;
     }
 
+    /// Refuses a history that has left the range of doubles: nothing could be measured from it, and no import takes it.
+    pub(super) fn check_finite(&self) -> Result<()> {
+        let vectors = [("gap", &self.gap), ("slip", &self.slip)];
+        let vectors = vectors.map(|(name, v)| (name, v.iter().position(|v| !v.iter().all(|c| c.is_finite()))));
+        let numbers = [("area", &self.areas), ("coverage", &self.coverage)];
+        let numbers = numbers.map(|(name, v)| (name, v.iter().position(|v| !v.is_finite())));
+        match vectors.into_iter().chain(numbers).find_map(|(name, at)| Some((name, at?))) {
+            None => Ok(()),
+            Some((name, node)) => {
+                let text = format!("the {name} of non-mortar node {node} overflows; the positions are out of range");
+                Err(Error::new(Kind::NotFinite, text))
+            }
+        }
+    }
+
     /// Lengths of the flat arrays: (integers, reals).
     pub fn flat_size(&self) -> (usize, usize) {
         let n = self.pairs.len();

@@ -241,6 +241,7 @@ impl<const N: usize> Contact<N> {
         self.check_positions(x1, x2)?;
         let surfaces = (&self.nonmortar, &self.mortar);
         let new = Self::start_at(surfaces, &self.options, (&mut self.counters, &mut self.tree), (x1, x2))?;
+        new.history.check_finite()?;
         self.adopt(new);
         self.count_pairs();
         self.rollback = None;
@@ -275,6 +276,7 @@ impl<const N: usize> Contact<N> {
         } else {
             new.history.slip.clone_from(&self.history.slip);
         }
+        new.history.check_finite()?;
         self.rollback = Some(self.adopt(new));
         self.count_pairs();
         Ok(())
