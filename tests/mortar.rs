@@ -268,3 +268,18 @@ fn a_mortar_facet_without_area_covers_nothing() {
     let p = Pair::new(one.unwrap(), two.unwrap());
     assert!(p.segment.is_none());
 }
+
+/// A quadrilateral with an edge that is seen end-on: at both of its corners the map is singular but for rounding. It had
+/// weights that were no numbers at a point of that edge.
+#[test]
+fn a_facet_with_a_vanishing_edge_is_refused() {
+    let one = [[4.0625, 2.0625, 0.0], [-0.0625, -0.0625, -0.0625], [-0.0625, -0.0625, 1e-5], [4.0625, -4.125, -0.0625]];
+    let two = [[-0.0625, -0.0625, 2.5625], [0.6875, 1.0, 1.0], [1.0, 1.0, 1.0]];
+    let one = Facet::new(&one.map(Vec3::from)).unwrap();
+    let two = Facet::new(&two.map(Vec3::from)).unwrap();
+    if let Ok(frame) = NonmortarFrame::new(&one) {
+        let segment = Segment::new(&frame, &two).unwrap().unwrap();
+        let w = PairWeights::integrate(&frame, &segment, &DEGREE_5);
+        panic!("{:?} {:?} {w:?}", frame.map.determinant(), frame.projection.y);
+    }
+}

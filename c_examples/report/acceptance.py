@@ -225,6 +225,9 @@ def errors(verdicts, driver):
         )
     run = driver.run("block_zone_mu05", "-push_curve", "1000,0,2000,1", label="late_curve")
     verdicts.true("curve in other units: a note", "note: push.curve" in run.text, "not an error: a run may end early")
+    run = driver.run("klarbring", "-floor_lower", "20,-1,-1", "-floor_upper", "30,2,0", label="no_overlap")
+    said = "contact: Of 4 non-mortar nodes 0 are covered" in run.text and "No facets lie over each other" in run.text
+    verdicts.true("surfaces that do not meet: told at the start", said, "not an error: they may meet later")
     for options, code, reason in (
         (("-snes_max_it", 1), 2, "not converged"),
         (("-base_augmentation_scale", 1e308), 3, "refused by the library: an infinite augmentation"),

@@ -25,9 +25,12 @@ AIDS = [
     ("rows not scaled", ("-{}_row_scale", "none")),
     ("one r of 1 for all nodes", ("-{}_augmentation", "1")),
     ("one r, 1e3 of the default", ("-{}_augmentation_scale", "1e3")),
+    ("the same, no look-out for cycles", ("-{}_augmentation_scale", "1e3", "-steps_cycles", "false")),
     ("no initial contact", ("-{}_initial_contact", "false")),
     ("no look-out for cycles", ("-steps_cycles", "false")),
     ("no predictor", ("-steps_predictor", "false")),
+    ("full steps: backtracking throughout", ("-snes_linesearch_type", "bt")),
+    ("the same, rows not scaled", ("-snes_linesearch_type", "bt", "-{}_row_scale", "none")),
 ]
 
 

@@ -5,9 +5,10 @@ use super::plane::SMALLEST_AREA_RATIO;
 use super::{Facet, Plane, Vec2, Vec3, cross};
 use crate::shape::{MAX_NODES, Shape};
 
-/// A projected corner (the cross product of its edges, over the facet's area) below this makes the
-/// facet non-convex: the inverse map would be singular there.
-const SMALLEST_CORNER: f64 = 1e-10;
+/// A projected corner (the cross product of its edges, over the facet's area) below this makes the facet non-convex. The
+/// inverse map takes the root of a square that is known to a rounding of the area's: what is smaller than the root of
+/// that rounding, 1.5e-8, may come out as 0, and divides.
+const SMALLEST_CORNER: f64 = 1e-7;
 /// A projected area below this (over the squared size) is a facet seen edge-on, or one without area: no overlap. Its map
 /// has no inverse but rounding.
 const EDGE_ON: f64 = SMALLEST_AREA_RATIO;
