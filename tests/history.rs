@@ -291,3 +291,17 @@ fn a_step_whose_slip_overflows_is_not_committed() {
     let after = i.export_history().unwrap();
     assert!(after == (integers, reals), "a refused commit has changed nothing");
 }
+
+/// With weights frozen for good a step may end where a facet has no area; what it exports is imported again.
+#[test]
+fn a_history_of_frozen_weights_is_imported_wherever_its_facets_are() {
+    let one = grid(1, 1, [0.0, 0.0], [1.0, 1.0], 0.0, false, Cells::Quads);
+    let two = grid(1, 1, [-1.0, -1.0], [2.0, 2.0], 0.0, true, Cells::Quads);
+    for (weights, accepted) in [(Weights::Reference, true), (Weights::Committed, false), (Weights::Current, false)] {
+        let mut i = interface(&one, &two, options_of(Form::Multiplier, weights));
+        let line: Vec<_> = one.x.iter().map(|x| Vec3::new(x.x, x.x, 0.0)).collect();
+        assert_eq!(i.commit(&line, &two.x, &[Vec3::zeros(); 4], None).is_ok(), accepted);
+        let (integers, reals) = i.export_history().unwrap();
+        i.import_history(&integers, &reals).unwrap();
+    }
+}

@@ -13,9 +13,8 @@ from pathlib import Path
 from scene import SCENES as FOLDER
 from scene import Driver, SceneError
 
-# The short ones of the gallery: friction, several solutions, states at a margin, a corner, point and line contact, a start
-# with penetration.
-SCENES = ["block_bottom_mu02", "klarbring", "incline", "rigid_punch", "ball_on_plane", "cattaneo_line", "shrink_fit"]
+# Short ones: friction, several solutions, states at a margin, a corner, a contact that grows.
+SCENES = ["block_bottom_mu02", "klarbring", "incline", "rigid_punch", "ball_on_plane"]
 # Their answers are compared elsewhere. A run that does not converge is given up after five halvings of a step.
 OPTIONS = ("-steps_smallest", "0.03125", "-output_vtu", "none", "-output_csv", "none")
 

@@ -167,12 +167,12 @@ impl History {
         (integers, reals)
     }
 
-    /// Reads what [`History::export`] wrote for the same surfaces and the same `keeps`.
+    /// Reads what [`History::export`] wrote for the same surfaces and the same `keeps`; `frozen`: weights are, for good.
     ///
     /// # Errors
     /// [`Kind::HistoryMismatch`] or [`Kind::NotFinite`], naming the array.
     pub(super) fn import(
-        keeps: Keeps,
+        (keeps, frozen): (Keeps, bool),
         (integers, reals): (&[i64], &[f64]),
         (nonmortar, mortar): (&Surface, &Surface),
     ) -> Result<History> {
@@ -251,11 +251,14 @@ impl History {
         if let Some(k) = history.normals.iter().position(|n| !((n.norm() - 1.0).abs() <= UNIT)) {
             return mismatch(format!("the normal of node {k} is no unit vector"));
         }
-        let one =
-            (0..nonmortar.facets.len()).map(|f| NonmortarFrame::new(&nonmortar.facet(f, &history.x1)).map(|_| ()));
-        let two = (0..mortar.facets.len()).map(|f| Plane::of(&mortar.facet(f, &history.x2)).map(|_| ()));
-        if let Some(error) = one.chain(two).find_map(Result::err) {
-            return mismatch(format!("a facet is degenerate at the history's positions: {error}"));
+        // Weights that are frozen for good are none of these positions, and a commit takes any.
+        if !frozen {
+            let frame = |f| NonmortarFrame::new(&nonmortar.facet(f, &history.x1)).map(|_| ());
+            let plane = |f| Plane::of(&mortar.facet(f, &history.x2)).map(|_| ());
+            let facets = (0..nonmortar.facets.len()).map(frame).chain((0..mortar.facets.len()).map(plane));
+            if let Some(error) = facets.into_iter().find_map(Result::err) {
+                return mismatch(format!("a facet is degenerate at the history's positions: {error}"));
+            }
         }
         Ok(history)
     }

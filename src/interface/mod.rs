@@ -318,7 +318,8 @@ impl<const N: usize> Contact<N> {
     /// Replaces the history by an imported one.
     pub fn import_history(&mut self, integers: &[i64], reals: &[f64]) -> Result<()> {
         let surfaces = (&self.nonmortar, &self.mortar);
-        let history = History::import(Keeps::of(&self.options), (integers, reals), surfaces)?;
+        let kind = (Keeps::of(&self.options), self.options.effective_weights() == Weights::Reference);
+        let history = History::import(kind, (integers, reals), surfaces)?;
         let mismatch = |e: Error| Error::new(Kind::HistoryMismatch, e.message);
         self.mortar.check_rigid(&history.x2).map_err(mismatch)?;
         self.restore(history)?;

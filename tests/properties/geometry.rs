@@ -2,6 +2,7 @@
 
 use nalgebra::Rotation3;
 use proptest::prelude::*;
+use stickslip::geometry::bilinear_map::BilinearMap;
 use stickslip::geometry::{Facet, Vec3};
 use stickslip::mortar::{MORTAR, NonmortarFrame, PairWeights, Segment, WeightDerivatives};
 use stickslip::quadrature::{DEGREE_5, DEGREE_10, Rule};
@@ -198,6 +199,18 @@ impl Pair {
     pub fn overlap_diameter(&self) -> f64 {
         let vertices = self.segment.as_ref().map_or(&[][..], |s| s.polygon.vertices());
         vertices.iter().map(|v| (v - vertices[0]).norm()).fold(0.0, f64::max)
+    }
+
+    /// What the inverse maps multiply rounding by: the largest over the smallest determinant of a facet's map, times its
+    /// longest edge squared over twice its projected area.
+    pub fn distortion(&self) -> f64 {
+        let of = |map: &BilinearMap, edge: f64, area2: f64| {
+            let [j, xi, eta] = map.determinant();
+            let change = xi.abs() + eta.abs();
+            (j + change) / (j - change).max(f64::EPSILON * j) * edge * edge / area2
+        };
+        let one = of(&self.frame.map, self.one.longest_edge(), self.frame.projection.area2);
+        self.segment.as_ref().map_or(one, |s| one.max(of(&s.mortar_map, self.two.longest_edge(), s.mortar.area2)))
     }
 
     /// Whether the weights are integrated exactly by any rule.

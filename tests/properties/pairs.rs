@@ -106,12 +106,13 @@ fn derivative_identities(p: &Pair) -> TestCaseResult {
     Ok(())
 }
 
-/// The gap of a pair with its own weights lies along the plane's normal (kernel notes A).
+/// The gap of a pair with its own weights lies along the plane's normal (kernel notes A), as far as the inverse maps
+/// return the same point.
 fn gap_is_normal(p: &Pair) -> TestCaseResult {
     let (w, plane) = (p.weights(&DEGREE_5), &p.frame.plane);
     for g in mortar::gap(&w, &p.one, &p.two) {
         let slid = g - plane.e * plane.e.dot(&g);
-        let bound = SUMS * p.area() * p.reach();
+        let bound = SUMS * p.area() * p.reach() * p.distortion();
         prop_assert!(slid.norm() <= bound, "in the plane {:e}, allowed {bound:e}", slid.norm());
     }
     Ok(())
