@@ -603,7 +603,7 @@ typedef struct stickslip_diagnosis {
   double warp;
   /// Output: the pair's facets.
   int64_t warp_facets[2];
-  /// Output: the largest angle between the planes of a pair's facets [rad].
+  /// Output: the largest angle between the planes of a pair's facets, in radians [-].
   double angle;
   /// Output: the pair's facets.
   int64_t angle_facets[2];

@@ -67,7 +67,7 @@ pub struct stickslip_diagnosis {
     pub warp: f64,
     /// Output: the pair's facets.
     pub warp_facets: [i64; 2],
-    /// Output: the largest angle between the planes of a pair's facets [rad].
+    /// Output: the largest angle between the planes of a pair's facets, in radians [-].
     pub angle: f64,
     /// Output: the pair's facets.
     pub angle_facets: [i64; 2],
