@@ -96,7 +96,7 @@ impl Pair {
         }
         let force = pair_force(&w, &tractions);
         let nodes = FacetResponse::new(nodes.each_ref());
-        let motion = pair_motion::<true>((frame, segment, &DEGREE_5), &w, &nodes.traction, &mut t.forces);
+        let motion = pair_motion((frame, segment, &DEGREE_5), &w, &nodes.traction, &mut t.forces);
         let gap = GapDerivative::Facets(motion);
         let now = PairNow { weights: &w, gap: Some(&gap) };
         row_columns::<true, 3>(Some(&now), Some(&w), &nodes, &mut t.rows);

@@ -172,7 +172,7 @@ fn rust_element_calls_allocate_nothing() {
                 let gap = AlongNormal::from_weights(&frame, &segment.mortar, &weights, &derivatives);
                 let nodes = FacetResponse::<3>::new([&NodeTangent::default(); 4]);
                 let mut t = PairTangent::default();
-                let motion = pair_motion::<true>((&frame, &segment, rule), &weights, &nodes.traction, &mut t.forces);
+                let motion = pair_motion((&frame, &segment, rule), &weights, &nodes.traction, &mut t.forces);
                 for gap in [gap, motion] {
                     let gap = GapDerivative::Facets(gap);
                     let now = PairNow { weights: &weights, gap: Some(&gap) };

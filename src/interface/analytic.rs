@@ -9,9 +9,7 @@ use super::integration::{Integration, at_facet, frames};
 use super::{Counters, Options, Surface};
 use crate::error::{Error, Kind, Result};
 use crate::geometry::{AnalyticSurface, Plane, Vec3};
-use crate::mortar::{
-    ForceDerivatives, GapDerivative, NonmortarFrame, PairWeights, Segment, analytic_motion, analytic_weights,
-};
+use crate::mortar::{ForceDerivatives, GapDerivative, NonmortarFrame, Segment, analytic_motion, analytic_weights};
 use crate::quadrature::Rule;
 use crate::shape::MAX_NODES;
 use std::time::Instant;
@@ -106,11 +104,11 @@ pub(super) fn looks_at(surface: &AnalyticSurface, nodes: &[usize], x1: &[Vec3], 
     nodes.iter().all(|k| normal(k).is_some_and(|n| nodes.iter().all(|&a| nu[a].dot(&n) > 0.0)))
 }
 
-/// The derivatives of a pair, as `PairMotion` has them.
+/// The derivatives of a facet, as `Motion` has them.
 pub(super) fn motion(
     (two, x2): (&Surface, &[Vec3]),
-    (frame, _): (&NonmortarFrame, Option<&Segment>),
-    _: &PairWeights,
+    frame: &NonmortarFrame,
+    _: (&[PairRecord], &[Segment]),
     rule: &Rule,
     traction: &[[f64; MAX_NODES]; 3],
     forces: &mut ForceDerivatives,

@@ -8,8 +8,9 @@
 //!
 //! A node counts as carried while it is covered; uncovered it has the row of any uncovered node.
 
-use super::assembly::{Equations, Sink, UnionPair};
+use super::assembly::UnionPair;
 use super::augmented::NodeCouplings;
+use super::emission::{Equations, Sink};
 use super::nodes::NodeSums;
 use super::weak::{self, Carrier};
 use super::{Contact, NO_EQUATION};

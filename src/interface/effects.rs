@@ -3,13 +3,14 @@
 //!
 //! A new law is a file in `law` and a line here.
 
-use super::assembly::Sink;
+use super::emission::Sink;
+use super::history::PairRecord;
 use super::nodes::NodeSums;
 use super::{Contact, Friction, MortarSide, NO_EQUATION, Options, Surface, Tangent, analytic, integration};
 use crate::error::Result;
 use crate::geometry::Vec3;
 use crate::law::{Coulomb, Frictionless, Law, Node, NodeResponse, Tied};
-use crate::mortar::{ForceDerivatives, GapDerivative, NonmortarFrame, PairWeights, Segment};
+use crate::mortar::{ForceDerivatives, GapDerivative, NonmortarFrame, Segment};
 use crate::quadrature::Rule;
 use crate::shape::MAX_NODES;
 use nalgebra::{SMatrix, SVector};
@@ -17,13 +18,14 @@ use nalgebra::{SMatrix, SVector};
 type Assembly<const N: usize> =
     fn(&mut Contact<N>, &[Vec3], &[Vec3], &[SVector<f64, N>], Option<&[NodeSums]>, &mut dyn Sink) -> Result<()>;
 
-/// Derivatives of a pair with its weights of now: mortar surface and positions, the non-mortar facet's frame and the
-/// overlap (`None` of an analytic surface), the weights, the rule, the tractions `[i][A]` of its forces. The
-/// derivatives of the forces go to the last argument, which keeps the slots that have none; those of the gap come back.
-pub(super) type PairMotion = fn(
+/// Derivatives of pairs with their weights of now: mortar surface and positions, the non-mortar facet's frame, its pairs
+/// and their overlaps (none against an analytic surface), the rule, the tractions `[i][A]` of its forces. One pair where
+/// the mortar side moves; all of the facet's together where it rests. The derivatives of the forces go to the last
+/// argument, which keeps the slots that have none; those of the gap come back.
+pub(super) type Motion = fn(
     (&Surface, &[Vec3]),
-    (&NonmortarFrame, Option<&Segment>),
-    &PairWeights,
+    &NonmortarFrame,
+    (&[PairRecord], &[Segment]),
     &Rule,
     &[[f64; MAX_NODES]; 3],
     &mut ForceDerivatives,
@@ -40,8 +42,8 @@ pub(super) struct Kernels<const N: usize> {
     pub respond: fn(&Node<N>) -> NodeResponse<N>,
     /// Stages 3 and 4 of the tangent.
     pub tangent: Assembly<N>,
-    /// Derivatives of a pair.
-    pub motion: PairMotion,
+    /// Derivatives of pairs.
+    pub motion: Motion,
 }
 
 /// What the mortar side is.
@@ -55,10 +57,10 @@ fn kernels<const N: usize, L: Law<N>>((side, derivatives): (Side, Tangent)) -> K
     let moves = matches!(side, Side::Moves);
     let tangent = if moves { Contact::tangent_with::<true> } else { Contact::tangent_with::<false> };
     let motion = match (side, derivatives == Tangent::FrozenNormals) {
-        (Side::Moves, false) => integration::motion::<true>,
-        (Side::Moves, true) => integration::motion_without_tilt::<true>,
-        (Side::Rests, false) => integration::motion::<false>,
-        (Side::Rests, true) => integration::motion_without_tilt::<false>,
+        (Side::Moves, false) => integration::motion,
+        (Side::Moves, true) => integration::without_tilt::<true>,
+        (Side::Rests, false) => integration::motion_at_rest,
+        (Side::Rests, true) => integration::without_tilt::<false>,
         (Side::Analytic, _) => analytic::motion,
     };
     Kernels { slips: L::SLIPS, moves, respond: L::respond, tangent, motion }

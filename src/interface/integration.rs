@@ -12,7 +12,7 @@ use super::search::{Aabb, Prism, Tree};
 use super::{Contact, Counters, Options, Scheme, Surface, Weights, analytic, apart};
 use crate::error::{Error, Kind, Result};
 use crate::geometry::{Facet, Vec3};
-use crate::mortar::{ForceDerivatives, GapDerivative, NonmortarFrame, PairWeights, Segment, pair_motion};
+use crate::mortar::{ForceDerivatives, GapDerivative, NonmortarFrame, PairWeights, Segment, facet_motion, pair_motion};
 use crate::normal;
 use crate::quadrature::Rule;
 use crate::shape::MAX_NODES;
@@ -194,31 +194,47 @@ pub(super) fn integrate(
     Ok(active)
 }
 
-/// The derivatives of a pair of facets, `MOVES`: with respect to the mortar side too.
-pub(super) fn motion<const MOVES: bool>(
+/// The derivatives of one pair of facets that both move, as `Motion` has them.
+pub(super) fn motion(
     _: (&Surface, &[Vec3]),
-    (frame, segment): (&NonmortarFrame, Option<&Segment>),
-    weights: &PairWeights,
+    frame: &NonmortarFrame,
+    (pairs, segments): (&[PairRecord], &[Segment]),
     rule: &Rule,
     traction: &[[f64; MAX_NODES]; 3],
     forces: &mut ForceDerivatives,
 ) -> Result<GapDerivative> {
-    let segment = segment.expect("the segments of facets are kept");
-    Ok(GapDerivative::Facets(pair_motion::<MOVES>((frame, segment, rule), weights, traction, forces)))
+    Ok(GapDerivative::Facets(pair_motion((frame, &segments[0], rule), &pairs[0].weights, traction, forces)))
 }
 
-/// The same but for the tilt of the non-mortar facet's plane.
-pub(super) fn motion_without_tilt<const MOVES: bool>(
+/// Those of all pairs of a non-mortar facet, the mortar side at rest; of points in place of cells one pair.
+pub(super) fn motion_at_rest(
     mortar: (&Surface, &[Vec3]),
-    (frame, segment): (&NonmortarFrame, Option<&Segment>),
-    weights: &PairWeights,
+    frame: &NonmortarFrame,
+    (pairs, segments): (&[PairRecord], &[Segment]),
+    rule: &Rule,
+    traction: &[[f64; MAX_NODES]; 3],
+    forces: &mut ForceDerivatives,
+) -> Result<GapDerivative> {
+    if segments[0].points.is_some() {
+        return motion(mortar, frame, (pairs, segments), rule, traction, forces);
+    }
+    let pairs = segments.iter().zip(pairs.iter().map(|pair| &pair.weights));
+    Ok(GapDerivative::Facets(facet_motion(frame, pairs, rule, traction, forces)))
+}
+
+/// Either of both but for the tilt of the non-mortar facet's plane.
+pub(super) fn without_tilt<const MOVES: bool>(
+    mortar: (&Surface, &[Vec3]),
+    frame: &NonmortarFrame,
+    pairs: (&[PairRecord], &[Segment]),
     rule: &Rule,
     traction: &[[f64; MAX_NODES]; 3],
     forces: &mut ForceDerivatives,
 ) -> Result<GapDerivative> {
     let mut frame = frame.clone();
     frame.plane.tilt = Default::default();
-    motion::<MOVES>(mortar, (&frame, segment), weights, rule, traction, forces)
+    let motion = if MOVES { motion } else { motion_at_rest };
+    motion(mortar, &frame, pairs, rule, traction, forces)
 }
 
 /// Refuses a mortar surface that lies in several layers over a node.

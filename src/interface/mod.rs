@@ -13,6 +13,7 @@ mod crosspoints;
 mod describe;
 mod diagnosis;
 mod effects;
+mod emission;
 mod filter;
 mod history;
 mod hybrid;
@@ -28,10 +29,11 @@ mod surface;
 mod treatment;
 mod weak;
 
-pub use assembly::{Residual, Sink};
+pub use assembly::Residual;
 pub use crease::Split;
 pub use crosspoints::{Crosspoint, InterfaceNodes, crosspoints};
 pub use diagnosis::{Cause, Diagnosis, SUSPECT, Suspect, WorstPair};
+pub use emission::Sink;
 pub use history::{History, PairRecord};
 pub use nodes::NodeSums;
 pub use options::{

@@ -87,22 +87,22 @@ impl WeightDerivatives {
 }
 
 /// Derivatives of a pair with its current weights, exact where [`WeightDerivatives`] are: of the forces of the fields
-/// `p[i][A]`, into `forces`, and of the gaps. Where the mortar side does not move (`MOVES` false) its rows and columns
-/// are left as they are; so are those of nodes that a triangle does not have.
-pub fn pair_motion<const MOVES: bool>(
+/// `p[i][A]`, into `forces`, and of the gaps. Nodes that a triangle does not have are left as they are. Where the mortar
+/// side is at rest: [`super::facet_motion`].
+pub fn pair_motion(
     (frame, segment, rule): (&NonmortarFrame, &Segment, &Rule),
     weights: &PairWeights,
     p: &[[f64; MAX_NODES]; 3],
     forces: &mut ForceDerivatives,
 ) -> AlongNormal {
     if let Some(points) = segment.points {
-        return element_rule::motion::<MOVES>((frame, segment, points), weights, p, forces);
+        return element_rule::motion((frame, segment, points), weights, p, forces);
     }
     let rule = rule.for_derivatives();
-    Cells::of(frame, segment).dispatch(OfPair::<MOVES> { frame, segment, rule, weights, p, forces })
+    Cells::of(frame, segment).dispatch(OfPair { frame, segment, rule, weights, p, forces })
 }
 
-struct OfPair<'a, const MOVES: bool> {
+struct OfPair<'a> {
     frame: &'a NonmortarFrame,
     segment: &'a Segment,
     rule: &'a Rule,
@@ -111,25 +111,23 @@ struct OfPair<'a, const MOVES: bool> {
     forces: &'a mut ForceDerivatives,
 }
 
-impl<const MOVES: bool> CellKernel for OfPair<'_, MOVES> {
+impl CellKernel for OfPair<'_> {
     type Output = AlongNormal;
 
     #[inline(always)]
     fn run<L: Lanes, One: Cell, Two: Cell>(self) -> AlongNormal {
         let OfPair { frame, segment, rule, weights, p, forces } = self;
-        let integrals = Integrals::<L>::new::<One, Two, MOVES>(frame, segment, rule);
-        let transport = Transport::new::<Two, MOVES>(frame, segment, &integrals);
+        let integrals = Integrals::<L>::new::<One, Two>(frame, segment, rule);
+        let transport = Transport::new::<Two>(frame, segment, &integrals);
         let chain = Chain { frame, segment };
         for i in 0..rolled(3) {
-            let one = chain.local::<L, One, Two, MOVES>(&transport.one::<One, MOVES>(&p[i]));
-            chain.columns::<L, One, Two, MOVES>(&one, &mut Component { to: &mut forces.one, i });
-            if MOVES {
-                let two = chain.local::<L, One, Two, MOVES>(&transport.two::<One, Two>(&p[i]));
-                chain.columns::<L, One, Two, MOVES>(&two, &mut Component { to: &mut forces.two, i });
-            }
+            let one = chain.local::<L, One, Two>(&transport.one::<One>(&p[i]));
+            chain.columns::<L, One, Two>(&one, &mut Component { to: &mut forces.one, i });
+            let two = chain.local::<L, One, Two>(&transport.two::<One, Two>(&p[i]));
+            chain.columns::<L, One, Two>(&two, &mut Component { to: &mut forces.two, i });
         }
-        let gap = transport.gap::<One, Two, MOVES>(&frame.projection.d);
-        AlongNormal::new::<L, One, Two, MOVES>(&chain, chain.local::<L, One, Two, MOVES>(&gap), weights)
+        let gap = transport.gap::<One, Two>(&frame.projection.d);
+        AlongNormal::new::<L, One, Two>(&chain, chain.local::<L, One, Two>(&gap), weights)
     }
 }
 
@@ -146,16 +144,16 @@ impl CellKernel for OfWeights<'_> {
     #[inline(always)]
     fn run<L: Lanes, One: Cell, Two: Cell>(self) -> PairWeights {
         let OfWeights { frame, segment, rule, derivatives } = self;
-        let integrals = Integrals::<L>::new::<One, Two, true>(frame, segment, rule);
-        let transport = Transport::new::<Two, true>(frame, segment, &integrals);
+        let integrals = Integrals::<L>::new::<One, Two>(frame, segment, rule);
+        let transport = Transport::new::<Two>(frame, segment, &integrals);
         let chain = Chain { frame, segment };
         for a in 0..rolled(One::NODES) {
-            let one = chain.local::<L, One, Two, true>(&transport.one::<One, true>(&SHAPES[a]));
+            let one = chain.local::<L, One, Two>(&transport.one::<One>(&SHAPES[a]));
             let mut columns = Flat([[L::splat(0.0); 3]; PAIR_NODES]);
-            chain.columns::<L, One, Two, true>(&one, &mut columns);
+            chain.columns::<L, One, Two>(&one, &mut columns);
             to_rows::<L, One>(&columns.0, 1.0, &mut derivatives.ab[a]);
-            let two = chain.local::<L, One, Two, true>(&transport.two::<One, Two>(&SHAPES[a]));
-            chain.columns::<L, One, Two, true>(&two, &mut columns);
+            let two = chain.local::<L, One, Two>(&transport.two::<One, Two>(&SHAPES[a]));
+            chain.columns::<L, One, Two>(&two, &mut columns);
             to_rows::<L, Two>(&columns.0, -1.0, &mut derivatives.ac[a]);
         }
         integrals.moments.weights::<One>(&frame.map.determinant())
@@ -214,14 +212,8 @@ pub(super) struct Chain<'a> {
 impl Chain<'_> {
     /// sum_k g_k . Dy_k as coefficients of the Dx of the pair's nodes, in the plane's axes t1, t2, e; mortar slots in
     /// the order of the projection.
-    ///
-    /// A translation and a spin of both facets change no weight: with a mortar side at rest the shares of the plane's
-    /// own translation and spin cancel between the facets, and only its tilt is left.
     #[inline(always)]
-    pub fn local<L: Lanes, One: Cell, Two: Cell, const MOVES: bool>(
-        &self,
-        g: &PlaneDerivatives<L>,
-    ) -> [[L; 3]; PAIR_NODES] {
+    pub fn local<L: Lanes, One: Cell, Two: Cell>(&self, g: &PlaneDerivatives<L>) -> [[L; 3]; PAIR_NODES] {
         let (plane, one, two) = (&self.frame.plane, &self.frame.projection, &self.segment.mortar);
         let zero = L::splat(0.0);
         let (mut shift, mut tilt, mut spin) = ([zero; 2], [zero; 2], zero);
@@ -229,46 +221,33 @@ impl Chain<'_> {
             gather(&mut shift, &mut tilt, &mut spin, g[k], [one.y[k].x, one.y[k].y, one.d[k]]);
         }
         let mut x = [[zero; 3]; PAIR_NODES];
-        if MOVES {
-            for l in 0..Two::NODES {
-                let g = g[MORTAR + l];
-                gather(&mut shift, &mut tilt, &mut spin, g, [two.y[l].x, two.y[l].y, two.d[l]]);
-                x[MORTAR + l] = [g[0], g[1], zero];
-            }
-        } else {
-            tilt = [tilt[0] + g[MORTAR][0], tilt[1] + g[MORTAR][1]];
+        for l in 0..Two::NODES {
+            let g = g[MORTAR + l];
+            gather(&mut shift, &mut tilt, &mut spin, g, [two.y[l].x, two.y[l].y, two.d[l]]);
+            x[MORTAR + l] = [g[0], g[1], zero];
         }
         let mean = L::splat(1.0 / One::NODES as f64);
         for k in 0..One::NODES {
             let along = L::splat(plane.tilt[0][k]).mul_add(tilt[0], L::splat(plane.tilt[1][k]) * tilt[1]);
-            x[k] = [g[k][0], g[k][1], -along];
-            if MOVES {
-                x[k][0] = x[k][0] - shift[0] * mean;
-                x[k][1] = L::splat(plane.spin[k]).mul_add(spin, x[k][1] - shift[1] * mean);
-            }
+            let across = L::splat(plane.spin[k]).mul_add(spin, g[k][1] - shift[1] * mean);
+            x[k] = [g[k][0] - shift[0] * mean, across, -along];
         }
         x
     }
 
     /// The same in space, mortar slots in the order of the facet as given.
     #[inline(always)]
-    pub fn columns<L: Lanes, One: Cell, Two: Cell, const MOVES: bool>(
-        &self,
-        local: &[[L; 3]; PAIR_NODES],
-        to: &mut impl Columns<L>,
-    ) {
+    pub fn columns<L: Lanes, One: Cell, Two: Cell>(&self, local: &[[L; 3]; PAIR_NODES], to: &mut impl Columns<L>) {
         let plane = &self.frame.plane;
         for j in 0..3 {
             let (t1, t2, e) = (L::splat(plane.t1[j]), L::splat(plane.t2[j]), L::splat(plane.e[j]));
             for k in 0..One::NODES {
                 to.set(k, j, t1.mul_add(local[k][0], t2.mul_add(local[k][1], e * local[k][2])));
             }
-            if MOVES {
-                for l in 0..Two::NODES {
-                    let x = &local[MORTAR + l];
-                    let slot = MORTAR + self.segment.mortar.node[l];
-                    to.set(slot, j, t1.mul_add(x[0], t2.mul_add(x[1], e * x[2])));
-                }
+            for l in 0..Two::NODES {
+                let x = &local[MORTAR + l];
+                let slot = MORTAR + self.segment.mortar.node[l];
+                to.set(slot, j, t1.mul_add(x[0], t2.mul_add(x[1], e * x[2])));
             }
         }
     }

@@ -2,7 +2,6 @@
 //! along it, sum L_a Dy_a over its two ends, so are its own facet's functions; the other facet's come from the inverse
 //! map.
 
-use super::moments::combine;
 use super::segment::{NonmortarFrame, Segment};
 use crate::geometry::Vec2;
 use crate::geometry::edge_interval::{EdgeInterval, edge_intervals};
@@ -21,7 +20,7 @@ pub(super) struct NonmortarEdge<L> {
     pub normal: Vec2,
     /// int L0^3, L0^2 L1, L0 L1^2, L1^3.
     pub cubic: [f64; 4],
-    /// int L_a L_b N_C for ab = 00, 01, 11, lanes C in the order of the facet as given; not with a mortar side at rest.
+    /// int L_a L_b N_C for ab = 00, 01, 11, lanes C in the order of the facet as given.
     pub mortar: [L; 3],
     /// int L_a L_b v, v = sum N_C d_C.
     pub height: [f64; 3],
@@ -50,15 +49,10 @@ pub(super) struct Edges<L> {
 
 impl<L: Lanes> Edges<L> {
     #[inline(always)]
-    pub fn integrate<One: Cell, Two: Cell, const MOVES: bool>(
-        &mut self,
-        frame: &NonmortarFrame,
-        segment: &Segment,
-        rule: &Rule,
-    ) {
+    pub fn integrate<One: Cell, Two: Cell>(&mut self, frame: &NonmortarFrame, segment: &Segment, rule: &Rule) {
         let [one, two] = edge_intervals::<L>(&frame.projection, &segment.mortar, &frame.plane);
         for edge in one.iter().flatten() {
-            self.nonmortar.push(nonmortar_edge::<L, Two, MOVES>(frame, segment, rule, edge));
+            self.nonmortar.push(nonmortar_edge::<L, Two>(frame, segment, rule, edge));
         }
         for edge in two.iter().flatten() {
             self.mortar.push(mortar_edge::<L, One>(frame, segment, rule, edge));
@@ -67,7 +61,7 @@ impl<L: Lanes> Edges<L> {
 }
 
 #[inline(always)]
-fn nonmortar_edge<L: Lanes, Two: Cell, const MOVES: bool>(
+fn nonmortar_edge<L: Lanes, Two: Cell>(
     frame: &NonmortarFrame,
     segment: &Segment,
     rule: &Rule,
@@ -86,27 +80,18 @@ fn nonmortar_edge<L: Lanes, Two: Cell, const MOVES: bool>(
         }
         let at = segment.mortar_map.inverse(y);
         let n2 = Two::values(at.xi, at.eta);
-        if MOVES {
-            for q in 0..3 {
-                for c in 0..Two::NODES {
-                    nc[q][c] = ww[q].mul_add(n2[c], nc[q][c]);
-                }
-            }
-        } else {
-            let v = combine(&n2, &two.d, Two::NODES);
-            for q in 0..3 {
-                heights[q] = ww[q].mul_add(v, heights[q]);
+        for q in 0..3 {
+            for c in 0..Two::NODES {
+                nc[q][c] = ww[q].mul_add(n2[c], nc[q][c]);
             }
         }
     }
     let mut mortar = [zero; 3];
-    if MOVES {
-        let d = L::load(&two.d);
-        for q in 0..3 {
-            let sums = L::sums(nc[q]);
-            heights[q] = sums * d;
-            mortar[q] = Two::given(sums, two.is_reversed());
-        }
+    let d = L::load(&two.d);
+    for q in 0..3 {
+        let sums = L::sums(nc[q]);
+        heights[q] = sums * d;
+        mortar[q] = Two::given(sums, two.is_reversed());
     }
     let h = L::sums(heights).store();
     NonmortarEdge {
@@ -156,7 +141,7 @@ fn mortar_edge<L: Lanes, One: Cell>(
 
 /// 1 in lane k.
 #[inline(always)]
-fn unit<L: Lanes>(k: usize) -> L {
+pub(super) fn unit<L: Lanes>(k: usize) -> L {
     const UNITS: [[f64; 4]; 4] =
         [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0]];
     L::load(&UNITS[k])
@@ -164,14 +149,19 @@ fn unit<L: Lanes>(k: usize) -> L {
 
 /// Beginning and span of an edge, and n ds/dt, n the outward normal of the facet that owns it.
 #[inline(always)]
-fn line(y: &[Vec2; MAX_NODES], edge: &EdgeInterval) -> (Vec2, Vec2, Vec2) {
+pub(super) fn line(y: &[Vec2; MAX_NODES], edge: &EdgeInterval) -> (Vec2, Vec2, Vec2) {
     let span = y[edge.to] - y[edge.from];
     (y[edge.from], span, Vec2::new(span.y, -span.x) * edge.orientation)
 }
 
 /// Weights, L0 and L1, and positions of four points of an edge's interval.
 #[inline(always)]
-fn edge_points<L: Lanes>([t, w]: &[[f64; 4]; 2], edge: &EdgeInterval, y0: Vec2, span: Vec2) -> (L, [L; 2], [L; 2]) {
+pub(super) fn edge_points<L: Lanes>(
+    [t, w]: &[[f64; 4]; 2],
+    edge: &EdgeInterval,
+    y0: Vec2,
+    span: Vec2,
+) -> (L, [L; 2], [L; 2]) {
     let length = L::splat(edge.high - edge.low);
     let t = length.mul_add(L::load(t), L::splat(edge.low));
     let y = [L::splat(span.x).mul_add(t, L::splat(y0.x)), L::splat(span.y).mul_add(t, L::splat(y0.y))];

@@ -190,55 +190,47 @@ fn at(gradients: &[[Plain; 2]; 3], c: usize, xi: f64, eta: f64) -> [f64; MAX_NOD
     (gradients[0][c] + gradients[1][c] * Plain::splat(xi) + gradients[2][c] * Plain::splat(eta)).store()
 }
 
-/// As the chain to the nodes takes them. A mortar side at rest moves in the plane by its heights times one velocity.
-fn lanes<L: Lanes, const MOVES: bool>(sums: &Sums, heights: &[f64; MAX_NODES]) -> PlaneDerivatives<L> {
+/// As the chain to the nodes takes them.
+fn lanes<L: Lanes>(sums: &Sums) -> PlaneDerivatives<L> {
     let mut d = [[L::splat(0.0); 2]; PAIR_NODES];
-    for (k, c) in (0..PAIR_NODES).flat_map(|k| [(k, 0), (k, 1)]) {
-        let v = L::load(&sums[k][c]);
-        if MOVES || k < MORTAR {
-            d[k][c] = v;
-        } else {
-            d[MORTAR][c] = d[MORTAR][c] + v * L::splat(heights[k - MORTAR]);
-        }
+    for k in 0..PAIR_NODES {
+        d[k] = [L::load(&sums[k][0]), L::load(&sums[k][1])];
     }
     d
 }
 
 /// As [`super::pair_motion`].
-pub(super) fn motion<const MOVES: bool>(
+pub(super) fn motion(
     (frame, segment, points): (&NonmortarFrame, &Segment, CellPoints),
     weights: &PairWeights,
     p: &[[f64; MAX_NODES]; 3],
     forces: &mut ForceDerivatives,
 ) -> AlongNormal {
     let plane = Derivatives::new(frame, segment, points, p);
-    Cells::of(frame, segment).plain(Motion::<MOVES> { chain: Chain { frame, segment }, plane, weights, forces })
+    Cells::of(frame, segment).plain(Motion { chain: Chain { frame, segment }, plane, weights, forces })
 }
 
-struct Motion<'a, const MOVES: bool> {
+struct Motion<'a> {
     chain: Chain<'a>,
     plane: Derivatives<3>,
     weights: &'a PairWeights,
     forces: &'a mut ForceDerivatives,
 }
 
-impl<const MOVES: bool> CellKernel for Motion<'_, MOVES> {
+impl CellKernel for Motion<'_> {
     type Output = AlongNormal;
 
     #[inline(always)]
     fn run<L: Lanes, One: Cell, Two: Cell>(self) -> AlongNormal {
         let Motion { chain, plane, weights, forces } = self;
-        let d = &chain.segment.mortar.d;
         for i in 0..3 {
-            let one = chain.local::<L, One, Two, MOVES>(&lanes::<L, MOVES>(&plane.one[i], d));
-            chain.columns::<L, One, Two, MOVES>(&one, &mut Component { to: &mut forces.one, i });
-            if MOVES {
-                let two = chain.local::<L, One, Two, MOVES>(&lanes::<L, MOVES>(&plane.two[i], d));
-                chain.columns::<L, One, Two, MOVES>(&two, &mut Component { to: &mut forces.two, i });
-            }
+            let one = chain.local::<L, One, Two>(&lanes::<L>(&plane.one[i]));
+            chain.columns::<L, One, Two>(&one, &mut Component { to: &mut forces.one, i });
+            let two = chain.local::<L, One, Two>(&lanes::<L>(&plane.two[i]));
+            chain.columns::<L, One, Two>(&two, &mut Component { to: &mut forces.two, i });
         }
-        let gap = chain.local::<L, One, Two, MOVES>(&lanes::<L, MOVES>(&plane.gap, d));
-        AlongNormal::new::<L, One, Two, MOVES>(&chain, gap, weights)
+        let gap = chain.local::<L, One, Two>(&lanes::<L>(&plane.gap));
+        AlongNormal::new::<L, One, Two>(&chain, gap, weights)
     }
 }
 
@@ -266,14 +258,13 @@ impl CellKernel for OfWeights<'_> {
     #[inline(always)]
     fn run<L: Lanes, One: Cell, Two: Cell>(self) {
         let OfWeights { chain, plane, derivatives } = self;
-        let d = &chain.segment.mortar.d;
         for a in 0..One::NODES {
             let mut columns = Flat([[L::splat(0.0); 3]; PAIR_NODES]);
-            let one = chain.local::<L, One, Two, true>(&lanes::<L, true>(&plane.one[a], d));
-            chain.columns::<L, One, Two, true>(&one, &mut columns);
+            let one = chain.local::<L, One, Two>(&lanes::<L>(&plane.one[a]));
+            chain.columns::<L, One, Two>(&one, &mut columns);
             to_rows::<L, One>(&columns.0, 1.0, &mut derivatives.ab[a]);
-            let two = chain.local::<L, One, Two, true>(&lanes::<L, true>(&plane.two[a], d));
-            chain.columns::<L, One, Two, true>(&two, &mut columns);
+            let two = chain.local::<L, One, Two>(&lanes::<L>(&plane.two[a]));
+            chain.columns::<L, One, Two>(&two, &mut columns);
             to_rows::<L, Two>(&columns.0, -1.0, &mut derivatives.ac[a]);
         }
     }

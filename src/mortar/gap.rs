@@ -104,7 +104,7 @@ impl AlongNormal {
 
     /// From `local`, the derivatives of gamma_A at fixed heights in the plane's axes.
     #[inline(always)]
-    pub(super) fn new<L: Lanes, One: Cell, Two: Cell, const MOVES: bool>(
+    pub(super) fn new<L: Lanes, One: Cell, Two: Cell>(
         chain: &Chain,
         mut local: [[L; 3]; PAIR_NODES],
         weights: &PairWeights,
@@ -114,14 +114,12 @@ impl AlongNormal {
         for b in 0..One::NODES {
             local[b][2] = local[b][2] + L::load(&weights.ab[b]); // n_AB is symmetric
         }
-        if MOVES {
-            let ac = columns::<L>(&weights.ac);
-            for l in 0..Two::NODES {
-                local[MORTAR + l][2] = local[MORTAR + l][2] - ac[chain.segment.mortar.node[l]];
-            }
+        let ac = columns::<L>(&weights.ac);
+        for l in 0..Two::NODES {
+            local[MORTAR + l][2] = local[MORTAR + l][2] - ac[chain.segment.mortar.node[l]];
         }
         let mut dgamma = Gaps([[[0.0; MAX_NODES]; 3]; PAIR_NODES]);
-        chain.columns::<L, One, Two, MOVES>(&local, &mut dgamma);
+        chain.columns::<L, One, Two>(&local, &mut dgamma);
         let Gaps(dgamma) = dgamma;
         let gamma = gamma(chain.frame, &chain.segment.mortar, weights);
         AlongNormal { e: plane.e, axes: [plane.t1, plane.t2], tilt: plane.tilt, gamma, dgamma }
@@ -139,7 +137,7 @@ impl<L: Lanes> Columns<L> for Gaps {
 
 /// gamma_A = sum_B n_AB d_B - sum_C n_AC d_C.
 #[inline(always)]
-fn gamma(frame: &NonmortarFrame, two: &Projection, weights: &PairWeights) -> [f64; MAX_NODES] {
+pub(super) fn gamma(frame: &NonmortarFrame, two: &Projection, weights: &PairWeights) -> [f64; MAX_NODES] {
     let one = &frame.projection;
     let mut gamma = [0.0; MAX_NODES];
     for a in 0..MAX_NODES {

@@ -5,6 +5,7 @@
 //! Knows no contact law. Nothing here allocates.
 
 mod analytic;
+mod at_rest;
 mod derivatives;
 mod edges;
 mod element_rule;
@@ -18,6 +19,7 @@ mod transport;
 mod weights;
 
 pub use analytic::{analytic_motion, analytic_weights};
+pub use at_rest::facet_motion;
 pub use derivatives::{ForceDerivatives, WeightDerivatives, pair_motion};
 pub use element_rule::CellPoints;
 pub use gap::{AlongNormal, GapDerivative, columns, gap};

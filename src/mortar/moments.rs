@@ -14,11 +14,11 @@ use crate::shape::{Cell, MAX_NODES};
 use crate::simd::{Lanes, Stack};
 
 /// 1, xi, eta, xi eta, xi^2, eta^2, xi^2 eta, xi eta^2; of a triangle the first three.
-const MONOMIALS: usize = 8;
+pub(super) const MONOMIALS: usize = 8;
 /// Which monomials mu_m (1, xi, eta, xi eta) are.
-const PRODUCTS: [[usize; 4]; 3] = [[0, 1, 2, 3], [1, 4, 3, 6], [2, 3, 5, 7]];
+pub(super) const PRODUCTS: [[usize; 4]; 3] = [[0, 1, 2, 3], [1, 4, 3, 6], [2, 3, 5, 7]];
 
-const fn monomials<C: Cell>() -> usize {
+pub(super) const fn monomials<C: Cell>() -> usize {
     if C::BILINEAR { MONOMIALS } else { 3 }
 }
 
@@ -38,10 +38,9 @@ struct Group<L> {
 }
 
 /// [m][k], lanes over the third index.
-type Table<L> = [[L; MAX_NODES]; 3];
+pub(super) type Table<L> = [[L; MAX_NODES]; 3];
 
-/// The integrals, lanes C in the order of the facet as given. With a mortar side at rest (`MOVES` false) the height
-/// v = sum N_C d_C stands for all mortar nodes: in lane 0 of q1, and `q2[m][0]` alone is int (mu2_m / det2) v N_A.
+/// The integrals, lanes C in the order of the facet as given.
 pub(super) struct Moments<L> {
     pub q1: Table<L>,
     pub r: Table<L>,
@@ -49,7 +48,7 @@ pub(super) struct Moments<L> {
 }
 
 #[inline(always)]
-fn powers_of<L: Lanes, C: Cell>(w: L, xi: L, eta: L) -> [L; MONOMIALS] {
+pub(super) fn powers_of<L: Lanes, C: Cell>(w: L, xi: L, eta: L) -> [L; MONOMIALS] {
     let (x, e) = (w * xi, w * eta);
     if !C::BILINEAR {
         let zero = L::splat(0.0);
@@ -85,7 +84,7 @@ fn integrals<L: Lanes, const FACET: usize, const OTHER: usize>(
 
 /// Expanded to the nodes of the cell.
 #[inline(always)]
-fn table<L: Lanes, C: Cell>(whole: &[L; MONOMIALS]) -> Table<L> {
+pub(super) fn table<L: Lanes, C: Cell>(whole: &[L; MONOMIALS]) -> Table<L> {
     let mut table = [[L::splat(0.0); MAX_NODES]; 3];
     for m in 0..powers::<C>() {
         let [a, b, c, d] = PRODUCTS[m];
@@ -106,29 +105,24 @@ pub(super) fn combine<L: Lanes>(n: &[L; MAX_NODES], c: &[f64; MAX_NODES], nodes:
 
 impl<L: Lanes> Moments<L> {
     #[inline(always)]
-    pub fn integrate<One: Cell, Two: Cell, const MOVES: bool>(
-        frame: &NonmortarFrame,
-        segment: &Segment,
-        rule: &Rule,
-    ) -> Self {
+    pub fn integrate<One: Cell, Two: Cell>(frame: &NonmortarFrame, segment: &Segment, rule: &Rule) -> Self {
         let mut whole = [[L::splat(0.0); MONOMIALS]; 3];
         let mut stack = Stack::<Group<L>, GROUPS>::new();
         let mut fan = Fan::new(frame, segment);
         let mut triangle = fan.triangle();
         let mut i = 0;
         while let Some(t) = &triangle {
-            stack.push(group::<L, One, Two, MOVES>(&segment.mortar.d, &points::<L>(frame, segment, rule, t, i)));
+            stack.push(group::<L, One, Two>(&points::<L>(frame, segment, rule, t, i)));
             i += 1;
             if i == rule.triangle_lanes.len() {
                 (triangle, i) = (fan.triangle(), 0);
             }
             if stack.is_full() || triangle.is_none() {
                 let groups = stack.values();
-                let (functions, powers) = if MOVES { (Two::NODES, monomials::<Two>()) } else { (1, powers::<Two>()) };
                 let batch = [
-                    integrals::<L, 0, 1>(groups, monomials::<One>(), functions),
+                    integrals::<L, 0, 1>(groups, monomials::<One>(), Two::NODES),
                     integrals::<L, 0, 0>(groups, monomials::<One>(), One::NODES),
-                    integrals::<L, 1, 0>(groups, powers, One::NODES),
+                    integrals::<L, 1, 0>(groups, monomials::<Two>(), One::NODES),
                 ];
                 for (sum, new) in whole.as_flattened_mut().iter_mut().zip(batch.as_flattened()) {
                     *sum = *sum + *new;
@@ -137,18 +131,13 @@ impl<L: Lanes> Moments<L> {
             }
         }
         let [q1, r, q2] = &mut whole;
-        if !MOVES {
-            let v = [[q2[0]; MAX_NODES], [q2[1]; MAX_NODES], [q2[2]; MAX_NODES]];
-            return Moments { q1: table::<L, One>(q1), r: table::<L, One>(r), q2: v };
-        }
         for q in q1.iter_mut() {
             *q = Two::given(*q, segment.mortar.is_reversed());
         }
         Moments { q1: table::<L, One>(q1), r: table::<L, One>(r), q2: table::<L, Two>(q2) }
     }
 
-    /// n_AB = sum_m j_m R[m][A][B] and n_AC = sum_m j_m Q1[m][A][C], det1 = j0 + j1 xi + j2 eta; with a mortar side
-    /// that moves.
+    /// n_AB = sum_m j_m R[m][A][B] and n_AC = sum_m j_m Q1[m][A][C], det1 = j0 + j1 xi + j2 eta.
     #[inline(always)]
     pub fn weights<One: Cell>(&self, determinant: &[f64; 3]) -> PairWeights {
         let (mut ab, mut ac) = ([L::splat(0.0); MAX_NODES], [L::splat(0.0); MAX_NODES]);
@@ -163,18 +152,11 @@ impl<L: Lanes> Moments<L> {
     }
 }
 
-/// What is summed of four points; `d`: heights of the mortar nodes.
+/// What is summed of four points.
 #[inline(always)]
-fn group<L: Lanes, One: Cell, Two: Cell, const MOVES: bool>(d: &[f64; MAX_NODES], p: &Points<L>) -> Group<L> {
+fn group<L: Lanes, One: Cell, Two: Cell>(p: &Points<L>) -> Group<L> {
     let over = p.weight / (p.one.det * p.two.det);
-    let (w1, w2) = (over * p.two.det, over * p.one.det);
-    let (n1, n2) = (One::values(p.one.xi, p.one.eta), Two::values(p.two.xi, p.two.eta));
-    let one = powers_of::<L, One>(w1, p.one.xi, p.one.eta);
-    if MOVES {
-        return Group { monomials: [one, powers_of::<L, Two>(w2, p.two.xi, p.two.eta)], n: [n1, n2] };
-    }
-    let v = combine(&n2, d, Two::NODES);
-    let (mut two, w) = ([L::splat(0.0); MONOMIALS], w2 * v);
-    (two[0], two[1], two[2]) = (w, w * p.two.xi, w * p.two.eta);
-    Group { monomials: [one, two], n: [n1, [v; MAX_NODES]] }
+    let one = powers_of::<L, One>(over * p.two.det, p.one.xi, p.one.eta);
+    let two = powers_of::<L, Two>(over * p.one.det, p.two.xi, p.two.eta);
+    Group { monomials: [one, two], n: [One::values(p.one.xi, p.one.eta), Two::values(p.two.xi, p.two.eta)] }
 }

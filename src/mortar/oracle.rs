@@ -1,6 +1,7 @@
 //! The same integrals as they stand on paper, point by point and number by number: what the kernels must give, on
 //! every back end, to the rounding of their sums.
 
+use super::at_rest::facet_motion;
 use super::derivatives::{ForceDerivatives, WeightDerivatives, pair_motion};
 use super::gap::AlongNormal;
 use super::segment::{NonmortarFrame, Segment};
@@ -251,7 +252,7 @@ fn check(one: &Facet, two: &Facet, p: &[[f64; MAX_NODES]; 3], same: f64) -> Resu
         let gap = AlongNormal::from_weights(&frame, &segment.mortar, &weights, &expected);
         let size = largest(p.as_flattened());
         let mut motion = ForceDerivatives::default();
-        let found = pair_motion::<true>((&frame, &segment, rule), &weights, p, &mut motion);
+        let found = pair_motion((&frame, &segment, rule), &weights, p, &mut motion);
         check_same("forces on one", flat(&motion.one), flat(&forces.one), (size * h, same))?;
         check_same("forces on two", flat(&motion.two), flat(&forces.two), (size * h, same))?;
         let dgamma = |g: &AlongNormal| g.dgamma.as_flattened().as_flattened().to_vec();
@@ -262,7 +263,7 @@ fn check(one: &Facet, two: &Facet, p: &[[f64; MAX_NODES]; 3], same: f64) -> Resu
         let forces = expected.of_forces(p);
         let gap = AlongNormal::from_weights(&frame, &segment.mortar, &weights, &expected);
         let mut motion = ForceDerivatives::default();
-        let found = pair_motion::<false>((&frame, &segment, rule), &weights, p, &mut motion);
+        let found = facet_motion(&frame, [(&segment, &weights)].into_iter(), rule, p, &mut motion);
         check_same("forces at rest", flat(&motion.one[..MORTAR]), flat(&forces.one[..MORTAR]), (size * h, same))?;
         check_same("gap at rest", &dgamma(&found)[..12 * MORTAR], &dgamma(&gap)[..12 * MORTAR], (h * h, same))?;
         let untouched = flat(&motion.one[MORTAR..])

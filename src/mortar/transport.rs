@@ -10,10 +10,8 @@
 //! D int f1 f2 = -int (grad f1 . v1) f2 + f1 (grad f2 . v2) da + sum_edges int f1 f2 (v . n) ds,
 //!
 //! v1 = sum N_k Dy1_k, v2 = sum N_l Dy2_l, v the velocity of the facet that owns the edge. No vertex
-//! of the overlap is differentiated: that would lose a digit for every digit of a small crossing angle.
-//!
-//! Where the mortar side is at rest its vertices move in the plane only because that tilts, by their heights d_l times
-//! one and the same vector: the one velocity v = sum_l N_l d_l, in the slot [`MORTAR`], serves in place of four.
+//! of the overlap is differentiated: that would lose a digit for every digit of a small crossing angle. Where the mortar
+//! side is at rest: `at_rest`.
 
 use super::edges::Edges;
 use super::moments::{Moments, combine, powers};
@@ -48,40 +46,30 @@ pub(super) struct Integrals<L> {
 
 impl<L: Lanes> Integrals<L> {
     #[inline(always)]
-    pub fn new<One: Cell, Two: Cell, const MOVES: bool>(
-        frame: &NonmortarFrame,
-        segment: &Segment,
-        rule: &Rule,
-    ) -> Self {
+    pub fn new<One: Cell, Two: Cell>(frame: &NonmortarFrame, segment: &Segment, rule: &Rule) -> Self {
         let two = &segment.mortar;
-        let moments = Moments::integrate::<One, Two, MOVES>(frame, segment, rule);
-        let v = if MOVES { Two::given(L::load(&two.d), two.is_reversed()) } else { L::load(&[1.0, 0.0, 0.0, 0.0]) };
+        let moments = Moments::integrate::<One, Two>(frame, segment, rule);
+        let v = Two::given(L::load(&two.d), two.is_reversed());
         let mut q1v = [[0.0; MAX_NODES]; 3];
         for m in 0..powers::<One>() {
             let q = &moments.q1[m];
             q1v[m] = L::sums([q[0] * v, q[1] * v, q[2] * v, q[3] * v]).store();
         }
         let mut integrals = Integrals { moments, q1v, edges: Edges { nonmortar: Stack::new(), mortar: Stack::new() } };
-        integrals.edges.integrate::<One, Two, MOVES>(frame, segment, rule);
+        integrals.edges.integrate::<One, Two>(frame, segment, rule);
         integrals
     }
 }
 
 impl<'a, L: Lanes> Transport<'a, L> {
     #[inline(always)]
-    pub fn new<Two: Cell, const MOVES: bool>(
-        frame: &NonmortarFrame,
-        segment: &'a Segment,
-        integrals: &'a Integrals<L>,
-    ) -> Self {
+    pub fn new<Two: Cell>(frame: &NonmortarFrame, segment: &'a Segment, integrals: &'a Integrals<L>) -> Self {
         let two = &segment.mortar;
         let mut gradients = [frame.map.gradients::<L>(), segment.mortar_map.gradients::<L>()];
         let slope = dots(&gradients[1], L::load(&two.d));
-        if MOVES {
-            for m in 0..powers::<Two>() {
-                for c in 0..2 {
-                    gradients[1][m][c] = Two::given(gradients[1][m][c], two.is_reversed());
-                }
+        for m in 0..powers::<Two>() {
+            for c in 0..2 {
+                gradients[1][m][c] = Two::given(gradients[1][m][c], two.is_reversed());
             }
         }
         Transport { segment, integrals, gradients, slope }
@@ -89,7 +77,7 @@ impl<'a, L: Lanes> Transport<'a, L> {
 
     /// Of the forces f_B of the field with the nodal values `p`, lanes B.
     #[inline(always)]
-    pub fn one<One: Cell, const MOVES: bool>(&self, p: &[f64; MAX_NODES]) -> PlaneDerivatives<L> {
+    pub fn one<One: Cell>(&self, p: &[f64; MAX_NODES]) -> PlaneDerivatives<L> {
         let mut d = [[L::splat(0.0); 2]; PAIR_NODES];
         let [g, _] = &self.gradients;
         let slope = dots(g, L::load(p));
@@ -111,12 +99,12 @@ impl<'a, L: Lanes> Transport<'a, L> {
         }
         for edge in self.integrals.edges.mortar.values() {
             let n = [combine(&edge.nonmortar[0], p, One::NODES), combine(&edge.nonmortar[1], p, One::NODES)];
-            self.add_mortar::<MOVES>(&mut d, edge.ends, edge.normal, n);
+            add_mortar(&mut d, edge.ends, edge.normal, n);
         }
         d
     }
 
-    /// Of the forces f_C of the same field, lanes C; the mortar side moves.
+    /// Of the forces f_C of the same field, lanes C.
     #[inline(always)]
     pub fn two<One: Cell, Two: Cell>(&self, p: &[f64; MAX_NODES]) -> PlaneDerivatives<L> {
         let mut d = [[L::splat(0.0); 2]; PAIR_NODES];
@@ -156,8 +144,8 @@ impl<'a, L: Lanes> Transport<'a, L> {
 
     /// Of the gaps gamma_A at fixed heights, lanes A; `heights` are those of the non-mortar nodes.
     #[inline(always)]
-    pub fn gap<One: Cell, Two: Cell, const MOVES: bool>(&self, heights: &[f64; MAX_NODES]) -> PlaneDerivatives<L> {
-        let mut d = self.one::<One, MOVES>(heights);
+    pub fn gap<One: Cell, Two: Cell>(&self, heights: &[f64; MAX_NODES]) -> PlaneDerivatives<L> {
+        let mut d = self.one::<One>(heights);
         // -int N_A v: the field of the mortar heights.
         let [g, _] = &self.gradients;
         for m in 0..powers::<One>() {
@@ -170,12 +158,8 @@ impl<'a, L: Lanes> Transport<'a, L> {
         for m in 0..powers::<Two>() {
             for c in 0..2 {
                 let h = L::splat(self.slope[m][c]);
-                if MOVES {
-                    for l in 0..Two::NODES {
-                        d[MORTAR + l][c] = h.mul_add(self.integrals.moments.q2[m][l], d[MORTAR + l][c]);
-                    }
-                } else {
-                    d[MORTAR][c] = h.mul_add(self.integrals.moments.q2[m][0], d[MORTAR][c]);
+                for l in 0..Two::NODES {
+                    d[MORTAR + l][c] = h.mul_add(self.integrals.moments.q2[m][l], d[MORTAR + l][c]);
                 }
             }
         }
@@ -186,22 +170,17 @@ impl<'a, L: Lanes> Transport<'a, L> {
         for edge in self.integrals.edges.mortar.values() {
             let (v0, v1, n) = (L::splat(v[edge.ends[0]]), L::splat(v[edge.ends[1]]), &edge.own);
             let n = [v0.mul_add(n[0], v1 * n[1]), v0.mul_add(n[1], v1 * n[2])];
-            self.add_mortar::<MOVES>(&mut d, edge.ends, -edge.normal, n);
+            add_mortar(&mut d, edge.ends, -edge.normal, n);
         }
         d
     }
+}
 
-    /// Adds what a mortar edge's two ends contribute.
-    #[inline(always)]
-    fn add_mortar<const MOVES: bool>(&self, d: &mut PlaneDerivatives<L>, ends: [usize; 2], normal: Vec2, n: [L; 2]) {
-        if MOVES {
-            add(&mut d[MORTAR + ends[0]], normal, n[0]);
-            add(&mut d[MORTAR + ends[1]], normal, n[1]);
-        } else {
-            let v = &self.segment.mortar.d;
-            add(&mut d[MORTAR], normal, L::splat(v[ends[0]]).mul_add(n[0], L::splat(v[ends[1]]) * n[1]));
-        }
-    }
+/// Adds what a mortar edge's two ends contribute.
+#[inline(always)]
+fn add_mortar<L: Lanes>(d: &mut PlaneDerivatives<L>, ends: [usize; 2], normal: Vec2, n: [L; 2]) {
+    add(&mut d[MORTAR + ends[0]], normal, n[0]);
+    add(&mut d[MORTAR + ends[1]], normal, n[1]);
 }
 
 /// `sum` + n `v`, component by component.
@@ -212,8 +191,8 @@ fn add<L: Lanes>(sum: &mut [L; 2], n: Vec2, v: L) {
 
 /// Adds n times the products 00, 01, 11 of an edge's ends, in the slots and in the lanes (`units`) of the two.
 #[inline(always)]
-fn add_ends<L: Lanes>(
-    d: &mut PlaneDerivatives<L>,
+pub(super) fn add_ends<L: Lanes, const SLOTS: usize>(
+    d: &mut [[L; 2]; SLOTS],
     slots: [usize; 2],
     normal: Vec2,
     products: &[f64; 3],
@@ -227,7 +206,7 @@ fn add_ends<L: Lanes>(
 
 /// The products with `v`, summed over the lanes.
 #[inline(always)]
-fn dots<L: Lanes>(g: &[[L; 2]; 3], v: L) -> [[f64; 2]; 3] {
+pub(super) fn dots<L: Lanes>(g: &[[L; 2]; 3], v: L) -> [[f64; 2]; 3] {
     let a = L::sums([g[0][0] * v, g[0][1] * v, g[1][0] * v, g[1][1] * v]).store();
     let b = L::sums([g[2][0] * v, g[2][1] * v, L::splat(0.0), L::splat(0.0)]).store();
     [[a[0], a[1]], [a[2], a[3]], [b[0], b[1]]]
