@@ -4,6 +4,7 @@
 use super::plane::SMALLEST_AREA_RATIO;
 use super::{Facet, Plane, Vec2, Vec3, cross};
 use crate::shape::{MAX_NODES, Shape};
+use crate::simd::{self, Kernel, Lanes};
 
 /// A projected corner (the cross product of its edges, over the facet's area) below this makes the facet non-convex. The
 /// inverse map takes the root of a square that is known to a rounding of the area's: what is smaller than the root of
@@ -28,39 +29,55 @@ pub struct Projection {
     pub node: [usize; MAX_NODES],
     /// Twice the projected area (>= 0) [L^2].
     pub area2: f64,
-    /// Largest in-plane extent `[L]`.
+    /// Largest in-plane extent from the first node `[L]`.
     pub size: f64,
+    /// Bounds of the in-plane coordinates.
+    pub low: Vec2,
+    /// See `low`.
+    pub high: Vec2,
 }
 
 impl Projection {
     /// Projects `facet` on `plane`.
     pub fn new(facet: &Facet, plane: &Plane) -> Projection {
-        let shape = facet.shape;
+        simd::dispatch(Project { facet, plane })
+    }
+
+    /// The same within a kernel.
+    #[inline(always)]
+    pub fn on<L: Lanes>(facet: &Facet, plane: &Plane) -> Projection {
+        let (shape, zero) = (facet.shape, L::splat(0.0));
+        let (mut x, mut y, mut d) = ([Vec3::zeros(); MAX_NODES], [zero; 2], zero);
+        for k in 0..MAX_NODES {
+            x[k] = facet.nodes[k] - plane.reference;
+        }
+        for i in 0..3 {
+            let z = L::load(&[x[0][i], x[1][i], x[2][i], x[3][i]]) - L::splat(plane.origin[i]);
+            y[0] = L::splat(plane.t1[i]).mul_add(z, y[0]);
+            y[1] = L::splat(plane.t2[i]).mul_add(z, y[1]);
+            d = L::splat(plane.e[i]).mul_add(z, d);
+        }
+        let ([u, v], d) = ([y[0].store(), y[1].store()], d.store());
+        // A triangle's fourth point is its first one.
+        let [low, high] = [[smallest(&u), smallest(&v)], [largest(&u), largest(&v)]];
         let mut p = Projection {
             shape,
             x: [Vec3::zeros(); MAX_NODES],
             y: [Vec2::zeros(); MAX_NODES],
             d: [0.0; MAX_NODES],
             node: [0, 1, 2, 3],
-            area2: 0.0,
-            size: 0.0,
+            area2: (u[2] - u[0]) * (v[3] - v[1]) - (u[3] - u[1]) * (v[2] - v[0]),
+            size: (high[0] - u[0]).max(u[0] - low[0]).max(high[1] - v[0]).max(v[0] - low[1]),
+            low: low.into(),
+            high: high.into(),
         };
-        let z = facet.nodes.map(|x| x - plane.reference - plane.origin);
-        let y = z.map(|z| Vec2::new(plane.t1.dot(&z), plane.t2.dot(&z)));
-        for k in 1..shape.n {
-            let side = y[k] - y[0];
-            p.area2 += cross(side, y[shape.next[k]] - y[0]);
-            p.size = p.size.max(side.x.abs()).max(side.y.abs());
-        }
         if p.area2 < 0.0 {
             p.area2 = -p.area2;
             p.node = shape.reversed;
         }
         for k in 0..shape.n {
-            let j = p.node[k];
-            p.x[k] = facet.nodes[j] - plane.reference;
-            p.y[k] = y[j];
-            p.d[k] = plane.e.dot(&z[j]);
+            let j = p.node[k] & 3; // so that no bounds are checked
+            (p.x[k], p.y[k], p.d[k]) = (x[j], Vec2::new(u[j], v[j]), d[j]);
         }
         p
     }
@@ -71,38 +88,69 @@ impl Projection {
     }
 
     /// Whether the facet is seen edge-on, so that it covers nothing of the plane.
+    #[inline(always)]
     pub fn is_edge_on(&self) -> bool {
         !(self.area2 > EDGE_ON * self.size * self.size)
     }
 
     /// Whether every corner is convex.
+    #[inline(always)]
     pub fn is_convex(&self) -> bool {
-        let next = &self.shape.next;
-        (0..self.shape.n).all(|k| {
-            let (a, b, c) = (self.y[k], self.y[next[k]], self.y[next[next[k]]]);
-            cross(b - a, c - b) > SMALLEST_CORNER * self.area2
-        })
+        let [a, b, c, d] = &self.y;
+        if self.shape.n == 3 {
+            return self.area2 > 0.0;
+        }
+        let least = SMALLEST_CORNER * self.area2;
+        let (ab, bc, cd, da) = (b - a, c - b, d - c, a - d);
+        (cross(ab, bc) > least) & (cross(bc, cd) > least) & (cross(cd, da) > least) & (cross(da, ab) > least)
     }
 
     /// Whether the in-plane bounding boxes are apart by more than `margin`.
+    #[inline(always)]
     pub fn is_apart(&self, other: &Projection, margin: f64) -> bool {
-        let (a, b) = (self.bounds(), other.bounds());
-        (0..2).any(|i| a.0[i] > b.1[i] + margin || b.0[i] > a.1[i] + margin)
+        let beyond = |a: &Projection, b: &Projection, i: usize| a.low[i] > b.high[i] + margin;
+        beyond(self, other, 0) | beyond(self, other, 1) | beyond(other, self, 0) | beyond(other, self, 1)
     }
 
     /// Whether a side of this convex facet has all of `other` beyond it by more than `margin`.
-    pub fn separates(&self, other: &Projection, margin: f64) -> bool {
-        (0..self.shape.n).any(|k| {
-            let (from, side) = (self.y[k], self.y[self.shape.next[k]] - self.y[k]);
-            let beyond = -margin * (side.x.abs() + side.y.abs());
-            other.y[..other.shape.n].iter().all(|y| cross(side, y - from) < beyond)
-        })
+    #[inline(always)]
+    pub fn separates<L: Lanes>(&self, other: &Projection, margin: f64) -> bool {
+        let y = &other.y;
+        let last = if other.shape.n == 3 { y[0] } else { y[3] };
+        let (u, v) = (L::load(&[y[0].x, y[1].x, y[2].x, last.x]), L::load(&[y[0].y, y[1].y, y[2].y, last.y]));
+        for k in 0..self.shape.n {
+            let next = self.shape.next[k] & 3;
+            let (from, side) = (self.y[k], self.y[next] - self.y[k]);
+            let inside = L::splat(side.x) * (v - L::splat(from.y)) - L::splat(side.y) * (u - L::splat(from.x));
+            if largest(&inside.store()) < -margin * (side.x.abs() + side.y.abs()) {
+                return true;
+            }
+        }
+        false
     }
+}
 
-    fn bounds(&self) -> (Vec2, Vec2) {
-        let y = &self.y[..self.shape.n];
-        let low = |a: Vec2, b: &Vec2| Vec2::new(a.x.min(b.x), a.y.min(b.y));
-        let high = |a: Vec2, b: &Vec2| Vec2::new(a.x.max(b.x), a.y.max(b.y));
-        (y.iter().fold(y[0], low), y.iter().fold(y[0], high))
+struct Project<'a> {
+    facet: &'a Facet,
+    plane: &'a Plane,
+}
+
+impl Kernel for Project<'_> {
+    type Output = Projection;
+    #[inline(always)]
+    fn run<L: Lanes>(self) -> Projection {
+        Projection::on::<L>(self.facet, self.plane)
     }
+}
+
+#[inline(always)]
+fn smallest(v: &[f64; 4]) -> f64 {
+    let least = |a: f64, b: f64| if a < b { a } else { b };
+    least(least(v[0], v[1]), least(v[2], v[3]))
+}
+
+#[inline(always)]
+fn largest(v: &[f64; 4]) -> f64 {
+    let most = |a: f64, b: f64| if a > b { a } else { b };
+    most(most(v[0], v[1]), most(v[2], v[3]))
 }

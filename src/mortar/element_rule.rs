@@ -52,7 +52,7 @@ impl Segment {
     /// # Errors
     /// As [`Segment::new`].
     pub fn of_points(frame: &NonmortarFrame, facet: &Facet, line: &'static [[f64; 2]]) -> Result<Option<Segment>> {
-        let Some(mortar) = project(frame, facet)? else { return Ok(None) };
+        let Some(mortar) = project::<Plain>(frame, facet)? else { return Ok(None) };
         let mut points = CellPoints { line, inside: 0 };
         let mut area = 0.0;
         for i in 0..points.count() {

@@ -6,7 +6,7 @@ use super::element_rule::CellPoints;
 use crate::error::{Error, Kind, Result};
 use crate::geometry::bilinear_map::BilinearMap;
 use crate::geometry::clip::{self, Polygon};
-use crate::geometry::edge_interval::{EdgeIntervals, edge_intervals};
+use crate::geometry::edge_interval::edge_intervals;
 use crate::geometry::{Facet, Plane, Projection};
 use crate::shape::{Cell, MAX_NODES, Quad4, Tri3};
 use crate::simd::{self, Kernel, Lanes, Plain};
@@ -139,8 +139,23 @@ impl Segment {
     /// # Errors
     /// [`Kind::ProjectionNotConvex`] when the mortar facet is too steep or too warped to be projected.
     pub fn new(frame: &NonmortarFrame, facet: &Facet) -> Result<Option<Segment>> {
+        simd::dispatch(Overlap { frame, facet })
+    }
+}
+
+struct Overlap<'a> {
+    frame: &'a NonmortarFrame,
+    facet: &'a Facet,
+}
+
+impl Kernel for Overlap<'_> {
+    type Output = Result<Option<Segment>>;
+
+    #[inline(always)]
+    fn run<L: Lanes>(self) -> Result<Option<Segment>> {
+        let Overlap { frame, facet } = self;
         let one = &frame.projection;
-        let Some(mortar) = project(frame, facet)? else { return Ok(None) };
+        let Some(mortar) = project::<L>(frame, facet)? else { return Ok(None) };
         let mut polygon = clip::overlap(one, &mortar);
         let mut area = polygon.area();
         let small = one.size.min(mortar.size);
@@ -148,7 +163,7 @@ impl Segment {
             area = 0.0;
             polygon.clear();
             // Whether a part of an edge bounds the overlap.
-            let intervals = simd::dispatch(Intervals { frame, mortar: &mortar });
+            let intervals = edge_intervals::<L>(one, &mortar, &frame.plane);
             if !intervals.iter().flatten().any(Option::is_some) {
                 return Ok(None);
             }
@@ -158,33 +173,23 @@ impl Segment {
 }
 
 /// The mortar facet in the frame's plane; `None` when it does not even touch the frame's facet.
-pub(super) fn project(frame: &NonmortarFrame, facet: &Facet) -> Result<Option<Projection>> {
+#[inline(always)]
+pub(super) fn project<L: Lanes>(frame: &NonmortarFrame, facet: &Facet) -> Result<Option<Projection>> {
     let one = &frame.projection;
-    let mortar = Projection::new(facet, &frame.plane);
+    let mortar = Projection::on::<L>(facet, &frame.plane);
     let margin = BOX_MARGIN * one.size.min(mortar.size);
     if one.is_apart(&mortar, margin) || mortar.is_edge_on() {
         return Ok(None);
     }
     if !mortar.is_convex() {
-        return Err(Error::new(
-            Kind::ProjectionNotConvex,
-            "the mortar facet's projection on the non-mortar facet's plane is not convex: it is too steep or too warped for this pair",
-        ));
+        return Err(not_convex());
     }
     // Most of those beside each other, before the exact test of what touches.
-    Ok((!one.separates(&mortar, margin)).then_some(mortar))
+    Ok((!one.separates::<L>(&mortar, margin)).then_some(mortar))
 }
 
-/// [`edge_intervals`] of a pair.
-struct Intervals<'a> {
-    frame: &'a NonmortarFrame,
-    mortar: &'a Projection,
-}
-
-impl Kernel for Intervals<'_> {
-    type Output = [EdgeIntervals; 2];
-    #[inline(always)]
-    fn run<L: Lanes>(self) -> [EdgeIntervals; 2] {
-        edge_intervals::<L>(&self.frame.projection, self.mortar, &self.frame.plane)
-    }
+#[cold]
+fn not_convex() -> Error {
+    let text = "the mortar facet's projection on the non-mortar facet's plane is not convex: it is too steep or too warped for this pair";
+    Error::new(Kind::ProjectionNotConvex, text)
 }
