@@ -6,6 +6,7 @@ use super::interface::{either, handle, stickslip_interface};
 use super::raw;
 use crate::error::{Error, Kind, Result};
 use crate::interface::{NO_EQUATION, Sink};
+use std::mem::MaybeUninit;
 
 /// Entries in the core's numbering.
 #[derive(Default)]
@@ -24,7 +25,8 @@ impl Sink for Triplets {
     }
 
     fn add_block(&mut self, rows: &[i64], columns: &[i64], values: &[f64]) {
-        if rows.contains(&NO_EQUATION) || columns.contains(&NO_EQUATION) {
+        // NO_EQUATION alone is below 0; a look at all of them is faster than a search.
+        if rows.iter().chain(columns).fold(0, |all, e| all | e) < 0 {
             for (&column, values) in columns.iter().zip(values.chunks_exact(rows.len())) {
                 for (&row, &value) in rows.iter().zip(values) {
                     if row != NO_EQUATION && column != NO_EQUATION {
@@ -50,15 +52,27 @@ impl Sink for Triplets {
     }
 }
 
+/// Appends `n` chunks.
+#[inline(always)]
+fn append<const N: usize>(to: &mut Vec<i64>, n: usize, chunks: impl Iterator<Item = [i64; N]>) {
+    to.reserve(n * N);
+    let (spare, _) = to.spare_capacity_mut().as_chunks_mut::<N>();
+    let mut written = 0;
+    for (place, chunk) in spare.iter_mut().zip(chunks) {
+        *place = chunk.map(MaybeUninit::new);
+        written += N;
+    }
+    // SAFETY: as many were written just now, one after the other.
+    unsafe { to.set_len(to.len() + written) }
+}
+
 impl Triplets {
     /// Rows and columns of a block, `N` rows at a time.
     fn extend<const N: usize>(&mut self, rows: &[i64], columns: &[i64]) {
-        for &column in columns {
-            for rows in rows.as_chunks::<N>().0 {
-                self.rows.extend_from_slice(rows);
-                self.columns.extend_from_slice(&[column; N]);
-            }
-        }
+        let rows = rows.as_chunks::<N>().0;
+        let n = rows.len();
+        append(&mut self.rows, n * columns.len(), columns.iter().flat_map(|_| rows.iter().copied()));
+        append(&mut self.columns, n * columns.len(), columns.iter().flat_map(|&c| std::iter::repeat_n([c; N], n)));
     }
 
     /// Copies to the caller's arrays, or only counts when they are all NULL. `values` may be absent.

@@ -165,6 +165,7 @@ impl<const N: usize> Contact<N> {
         let normals = self.all_normals()?;
         let nodes = self.node_tangents(lambda, &responses, &normals);
         let carried = self.carried(&sums);
+        let analytic = self.mortar.analytic.map(|_| self.mortar.analytic_at(x2)).transpose()?;
         // Large, so that one of each serves all pairs.
         let (mut t, mut facet) = (PairTangent::default(), FacetTangent::default());
         // With a mortar side at rest all of it is linear in the weights of a facet's pairs; carried nodes and points in
@@ -185,12 +186,17 @@ impl<const N: usize> Contact<N> {
                     let overlaps = k.segments.get(active.clone()).unwrap_or_default();
                     let (frame, active) = (&k.frames[pairs[0].one], (&k.pairs[active], overlaps));
                     let (rule, p, f) = (self.options.rule, &facet_nodes.traction, &mut t.forces);
-                    gap = Some((self.kernels.motion)((&self.mortar, x2), frame, active, rule, p, f)?);
+                    gap = Some((self.kernels.motion)(analytic.as_ref(), frame, active, rule, p, f)?);
                 }
                 let now = now.as_deref().map(|weights| PairNow { weights, gap: gap.as_ref() });
                 let previous = previous.as_deref();
                 row_columns::<MOVES, N>(now.as_ref(), previous, &facet_nodes, &mut t.rows);
-                facet.add(place == 0, now.as_ref(), &t);
+                if together {
+                    let now = now.as_ref().map(|now| (&t.forces.one[..MORTAR], &now.weights.ab));
+                    self.emit_facet(pairs[0].one, now, &t.rows[..MORTAR], &normals, sink);
+                } else {
+                    facet.add(place == 0, now.as_ref(), &t);
+                }
                 if MOVES {
                     self.emit_pair(&pairs[0], &t, &normals, sink);
                 }
@@ -205,7 +211,9 @@ impl<const N: usize> Contact<N> {
                     self.couple_carried::<MOVES>(&pairs[0], now.as_ref(), carried, &normals, couplings);
                 }
             }
-            self.emit_facet(pairs[0].one, &facet, &normals, sink);
+            if !together {
+                self.emit_facet(pairs[0].one, facet.now(), &facet.rows, &normals, sink);
+            }
         }
         for a in 0..responses.len() {
             self.emit_node(a, &responses[a].drow_dlambda, sink);
@@ -248,6 +256,9 @@ impl<const N: usize> Contact<N> {
     }
 }
 
+/// A facet's d force / d x, `[k][j][i][B]`, and its weights n_AB.
+pub(super) type FacetNow<'a> = (&'a [[[[f64; MAX_NODES]; 3]; 3]], &'a [[f64; MAX_NODES]; MAX_NODES]);
+
 /// What the pairs of a non-mortar facet add to the same entries of the tangent.
 pub(super) struct FacetTangent<const N: usize> {
     pub forces: [[[[f64; MAX_NODES]; 3]; 3]; MAX_NODES],
@@ -269,6 +280,11 @@ impl<const N: usize> Default for FacetTangent<N> {
 }
 
 impl<const N: usize> FacetTangent<N> {
+    /// What is there of pairs active now: d force / d x, and weights.
+    pub fn now(&self) -> Option<FacetNow<'_>> {
+        self.acts.then_some((&self.forces, &self.weights))
+    }
+
     /// Adds a pair's share, or begins with the `first` one.
     pub fn add(&mut self, first: bool, now: Option<&PairNow>, t: &PairTangent<N>) {
         simd::dispatch(Add { first, sum: self.rows.flat_mut(), values: t.rows[..MORTAR].flat() });

@@ -8,7 +8,7 @@ use super::history::PairRecord;
 use super::nodes::NodeSums;
 use super::{Contact, Friction, MortarSide, NO_EQUATION, Options, Surface, Tangent, analytic, integration};
 use crate::error::Result;
-use crate::geometry::Vec3;
+use crate::geometry::{AnalyticSurface, Vec3};
 use crate::law::{Coulomb, Frictionless, Law, Node, NodeResponse, Tied};
 use crate::mortar::{ForceDerivatives, GapDerivative, NonmortarFrame, Segment};
 use crate::quadrature::Rule;
@@ -18,12 +18,12 @@ use nalgebra::{SMatrix, SVector};
 type Assembly<const N: usize> =
     fn(&mut Contact<N>, &[Vec3], &[Vec3], &[SVector<f64, N>], Option<&[NodeSums]>, &mut dyn Sink) -> Result<()>;
 
-/// Derivatives of pairs with their weights of now: mortar surface and positions, the non-mortar facet's frame, its pairs
-/// and their overlaps (none against an analytic surface), the rule, the tractions `[i][A]` of its forces. One pair where
+/// Derivatives of pairs with their weights of now: the mortar surface where it is analytic, the non-mortar facet's frame,
+/// its pairs and their overlaps (none against an analytic surface), the rule, the tractions `[i][A]` of its forces. One pair where
 /// the mortar side moves; all of the facet's together where it rests. The derivatives of the forces go to the last
 /// argument, which keeps the slots that have none; those of the gap come back.
 pub(super) type Motion = fn(
-    (&Surface, &[Vec3]),
+    Option<&AnalyticSurface>,
     &NonmortarFrame,
     (&[PairRecord], &[Segment]),
     &Rule,

@@ -3,7 +3,7 @@
 //! Entries without an equation are left out and duplicates add up. Which entries appear depends on the active pairs,
 //! never on the values, so a count and a fill always agree.
 
-use super::assembly::{FacetTangent, UnionPair};
+use super::assembly::{FacetNow, FacetTangent, UnionPair};
 use super::augmented::NodeCouplings;
 use super::{Contact, FacetNodes, Form, NO_EQUATION};
 use crate::element::{PairNow, PairTangent};
@@ -93,7 +93,7 @@ impl<const N: usize> Contact<N> {
                     self.couple_carried::<MOVES>(pair, now.as_ref(), None, &normals, couplings);
                 }
             }
-            self.emit_facet(pairs[0].one, &facet, &normals, sink);
+            self.emit_facet(pairs[0].one, facet.now(), &facet.rows, &normals, sink);
         }
         for a in 0..self.nonmortar.len() {
             self.emit_node(a, &SMatrix::zeros(), sink);
@@ -139,16 +139,25 @@ impl<const N: usize> Contact<N> {
         sink.add_block(multipliers.as_flattened(), two.columns(), t.rows[MORTAR..].flat());
     }
 
-    /// What a facet's pairs have in common: rows and columns of the non-mortar side.
-    pub(super) fn emit_facet(&self, f: usize, t: &FacetTangent<N>, normals: &[Vec3], sink: &mut dyn Sink) {
+    /// What a facet's pairs have in common: rows and columns of the non-mortar side. `now`: of the pairs active now.
+    pub(super) fn emit_facet(
+        &self,
+        f: usize,
+        now: Option<FacetNow>,
+        rows: &[[[[f64; MAX_NODES]; N]; 3]],
+        normals: &[Vec3],
+        sink: &mut dyn Sink,
+    ) {
         let one = Equations::of(&self.nonmortar.facets[f], &self.nonmortar.equations);
-        if t.acts && self.options.differentiates_weights() {
-            sink.add_block(one.rows(), one.columns(), t.forces.flat());
+        if let Some((forces, weights)) = now {
+            if self.options.differentiates_weights() {
+                sink.add_block(one.rows(), one.columns(), forces.flat());
+            }
+            if self.options.form == Form::Multiplier {
+                self.emit_multipliers(f, &one, weights, normals, sink);
+            }
         }
-        if t.acts && self.options.form == Form::Multiplier {
-            self.emit_multipliers(f, &one, &t.weights, normals, sink);
-        }
-        sink.add_block(self.facet_multipliers(f).as_flattened(), one.columns(), t.rows.flat());
+        sink.add_block(self.facet_multipliers(f).as_flattened(), one.columns(), rows.flat());
     }
 
     /// Multiplier equations of a facet's nodes, component by component.

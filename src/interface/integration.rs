@@ -11,7 +11,7 @@ use super::nodes::{NodeSums, assemble};
 use super::search::{Aabb, Prism, Tree};
 use super::{Contact, Counters, Options, Scheme, Surface, Weights, analytic, apart};
 use crate::error::{Error, Kind, Result};
-use crate::geometry::{Facet, Vec3};
+use crate::geometry::{AnalyticSurface, Facet, Vec3};
 use crate::mortar::{ForceDerivatives, GapDerivative, NonmortarFrame, PairWeights, Segment, facet_motion, pair_motion};
 use crate::normal;
 use crate::quadrature::Rule;
@@ -196,7 +196,7 @@ pub(super) fn integrate(
 
 /// The derivatives of one pair of facets that both move, as `Motion` has them.
 pub(super) fn motion(
-    _: (&Surface, &[Vec3]),
+    _: Option<&AnalyticSurface>,
     frame: &NonmortarFrame,
     (pairs, segments): (&[PairRecord], &[Segment]),
     rule: &Rule,
@@ -208,7 +208,7 @@ pub(super) fn motion(
 
 /// Those of all pairs of a non-mortar facet, the mortar side at rest; of points in place of cells one pair.
 pub(super) fn motion_at_rest(
-    mortar: (&Surface, &[Vec3]),
+    surface: Option<&AnalyticSurface>,
     frame: &NonmortarFrame,
     (pairs, segments): (&[PairRecord], &[Segment]),
     rule: &Rule,
@@ -216,7 +216,7 @@ pub(super) fn motion_at_rest(
     forces: &mut ForceDerivatives,
 ) -> Result<GapDerivative> {
     if segments[0].points.is_some() {
-        return motion(mortar, frame, (pairs, segments), rule, traction, forces);
+        return motion(surface, frame, (pairs, segments), rule, traction, forces);
     }
     let pairs = segments.iter().zip(pairs.iter().map(|pair| &pair.weights));
     Ok(GapDerivative::Facets(facet_motion(frame, pairs, rule, traction, forces)))
@@ -224,7 +224,7 @@ pub(super) fn motion_at_rest(
 
 /// Either of both but for the tilt of the non-mortar facet's plane.
 pub(super) fn without_tilt<const MOVES: bool>(
-    mortar: (&Surface, &[Vec3]),
+    surface: Option<&AnalyticSurface>,
     frame: &NonmortarFrame,
     pairs: (&[PairRecord], &[Segment]),
     rule: &Rule,
@@ -234,7 +234,7 @@ pub(super) fn without_tilt<const MOVES: bool>(
     let mut frame = frame.clone();
     frame.plane.tilt = Default::default();
     let motion = if MOVES { motion } else { motion_at_rest };
-    motion(mortar, &frame, pairs, rule, traction, forces)
+    motion(surface, &frame, pairs, rule, traction, forces)
 }
 
 /// Refuses a mortar surface that lies in several layers over a node.

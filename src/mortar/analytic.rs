@@ -12,13 +12,14 @@
 
 use super::gap::GapDerivative;
 use super::segment::NonmortarFrame;
+use super::transport::dots;
 use super::{ForceDerivatives, PairWeights};
 use crate::error::{Error, Kind, Result};
 use crate::geometry::{AnalyticSurface, Closest, Vec3};
 use crate::quadrature::Rule;
 use crate::quadrature::cell::square_point;
 use crate::shape::MAX_NODES;
-use crate::simd::{self, Kernel, Lanes, Plain};
+use crate::simd::{self, Kernel, Lanes};
 
 /// A point of the facet and the closest one of the surface.
 struct Place {
@@ -188,11 +189,11 @@ impl Kernel for Motion<'_> {
             }
         }
         let of = if surface.is_flat() { flat(frame, surface)? } else { curved(frame, surface, rule)? };
-        let darea = area_derivative(frame);
+        let darea = area_derivative::<L>(frame);
         let mut gap = [[[[0.0; MAX_NODES]; 3]; 3]; MAX_NODES];
         for k in 0..MAX_NODES {
             for j in 0..3 {
-                let d = [L::splat(darea[0][k][j]), L::splat(darea[1][k][j]), L::splat(darea[2][k][j])];
+                let d = [L::splat(darea[0][j][k]), L::splat(darea[1][j][k]), L::splat(darea[2][j][k])];
                 for i in 0..3 {
                     forces.one[k][j][i] = along(&d, &fields, i, zero).store();
                     gap[k][i][j] = along(&d, &of.gaps, i, of.blocks[k][i.max(j)][i.min(j)]).store();
@@ -272,15 +273,19 @@ fn along<L: Lanes>(d: &[L; 3], of: &[[L; 3]; 3], i: usize, sum: L) -> L {
     d[0].mul_add(of[0][i], d[1].mul_add(of[1][i], d[2].mul_add(of[2][i], sum)))
 }
 
-/// Dj / Dx_k in the powers (1, xi, eta) `[L]`. Translation and spin of the plane change no area: its tilt is left.
-fn area_derivative(frame: &NonmortarFrame) -> [[Vec3; MAX_NODES]; 3] {
-    let (plane, facet) = (&frame.plane, &frame.projection);
-    frame.map.gradients::<Plain>().map(|g| {
-        let g = g.map(Lanes::store);
-        let tilt = (0..MAX_NODES).fold([0.0; 2], |t, k| [t[0] + g[0][k] * facet.d[k], t[1] + g[1][k] * facet.d[k]]);
-        std::array::from_fn(|k| {
-            let in_plane = plane.t1 * g[0][k] + plane.t2 * g[1][k];
-            in_plane - plane.e * (plane.tilt[0][k] * tilt[0] + plane.tilt[1][k] * tilt[1])
-        })
-    })
+/// Dj / Dx_k,j in the powers (1, xi, eta) `[L]`: `[m][j]`, lanes k. Translation and spin of the plane change no area:
+/// its tilt is left.
+#[inline(always)]
+fn area_derivative<L: Lanes>(frame: &NonmortarFrame) -> [[[f64; MAX_NODES]; 3]; 3] {
+    let (plane, g) = (&frame.plane, frame.map.gradients::<L>());
+    let (tilt, sums) = ([L::load(&plane.tilt[0]), L::load(&plane.tilt[1])], dots(&g, L::load(&frame.projection.d)));
+    let mut d = [[[0.0; MAX_NODES]; 3]; 3];
+    for m in 0..3 {
+        let along = tilt[0].mul_add(L::splat(sums[m][0]), tilt[1] * L::splat(sums[m][1]));
+        for j in 0..3 {
+            let in_plane = L::splat(plane.t1[j]).mul_add(g[m][0], L::splat(plane.t2[j]) * g[m][1]);
+            d[m][j] = (in_plane - L::splat(plane.e[j]) * along).store();
+        }
+    }
+    d
 }
