@@ -2,9 +2,9 @@
 //! nodes, over all of its pairs at once. They are linear in the pairs' integrals and share plane and facet, so the
 //! integrals are added up first, and contracted and chained once a facet.
 //!
-//! The vertices of a mortar facet move in the plane only because that tilts, by their heights d_l times one and the same
-//! vector: the velocity v = sum_l N_l d_l of the whole facet, in one slot more, serves in place of their own. What is
-//! left of the transport form (`transport`), with v alone of the mortar side, is
+//! The vertices of a mortar facet move in the plane only because that tilts, by their heights d_l times one and the
+//! same vector: the velocity v = sum_l N_l d_l of the whole facet, in one slot more, serves in place of their own. What
+//! is left of the transport form (`transport`), with v alone of the mortar side, is
 //!
 //! D int p N_B = -int (grad p . v1) N_B + p (grad N_B . v1) da + edges, and of the gaps, whose second part is
 //! -int N_A v: int (grad N_A . v1) v + N_A (grad v . v2) da + edges, v2 = v times that vector.
@@ -33,8 +33,8 @@ type PlaneDerivatives<L> = [[L; 2]; MAX_NODES + 1];
 /// The slot of v.
 const V: usize = MAX_NODES;
 
-/// Derivatives with respect to the facet's nodes, the mortar side at rest, over all of its `pairs`: of the forces of the
-/// fields `p[i][A]`, into `forces`, whose other slots are left as they are, and of the gaps.
+/// Derivatives with respect to the facet's nodes, the mortar side at rest, over all of its `pairs`: of the forces of
+/// the fields `p[i][A]`, into `forces`, whose other slots are left as they are, and of the gaps.
 pub fn facet_motion<'a>(
     frame: &NonmortarFrame,
     pairs: impl Iterator<Item = (&'a Segment, &'a PairWeights)>,

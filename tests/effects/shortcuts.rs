@@ -90,7 +90,7 @@ fn it_says_what_it_computes_and_why() {
         } else {
             again::<3>(&scene, prescribed, options).effects()
         };
-        assert_eq!(text.matches(". ").count() + 1, 5, "five sentences: {text}");
+        assert_eq!(text.matches(". ").count() + 1, 6, "six sentences: {text}");
         assert!(text.is_ascii() && text.len() < 500, "{text}");
         for word in words {
             assert!(text.contains(word), "'{word}' is not in: {text}");
