@@ -52,27 +52,28 @@ impl Sink for Triplets {
     }
 }
 
-/// Appends `n` chunks.
-#[inline(always)]
-fn append<const N: usize>(to: &mut Vec<i64>, n: usize, chunks: impl Iterator<Item = [i64; N]>) {
-    to.reserve(n * N);
-    let (spare, _) = to.spare_capacity_mut().as_chunks_mut::<N>();
-    let mut written = 0;
-    for (place, chunk) in spare.iter_mut().zip(chunks) {
-        *place = chunk.map(MaybeUninit::new);
-        written += N;
-    }
-    // SAFETY: as many were written just now, one after the other.
-    unsafe { to.set_len(to.len() + written) }
-}
-
 impl Triplets {
     /// Rows and columns of a block, `N` rows at a time.
     fn extend<const N: usize>(&mut self, rows: &[i64], columns: &[i64]) {
-        let rows = rows.as_chunks::<N>().0;
-        let n = rows.len();
-        append(&mut self.rows, n * columns.len(), columns.iter().flat_map(|_| rows.iter().copied()));
-        append(&mut self.columns, n * columns.len(), columns.iter().flat_map(|&c| std::iter::repeat_n([c; N], n)));
+        let (rows, _) = rows.as_chunks::<N>();
+        let n = N * rows.len() * columns.len();
+        self.rows.reserve(n);
+        self.columns.reserve(n);
+        let (spare_rows, _) = self.rows.spare_capacity_mut()[..n].as_chunks_mut::<N>();
+        let (spare_columns, _) = self.columns.spare_capacity_mut()[..n].as_chunks_mut::<N>();
+        let mut at = 0;
+        for &column in columns {
+            for rows in rows {
+                spare_rows[at] = rows.map(MaybeUninit::new);
+                spare_columns[at] = [MaybeUninit::new(column); N];
+                at += 1;
+            }
+        }
+        // SAFETY: the loops wrote all n of both.
+        unsafe {
+            self.rows.set_len(self.rows.len() + n);
+            self.columns.set_len(self.columns.len() + n);
+        }
     }
 
     /// Copies to the caller's arrays, or only counts when they are all NULL. `values` may be absent.
