@@ -132,7 +132,8 @@ class Probe:
         below = lambda name, by="": sum(n for (a, b), n in counts.items() if name in b and by in a)
         calls = sum(below(function) for function in FUNCTIONS)
         kernels = below(INTEGRATION) + below(TANGENT, by=FUNCTIONS[1]) - below(LAW, by=TANGENT)
-        if done.returncode or not 0 < below(INTEGRATION) < kernels < calls:
+        integrates = below(INTEGRATION) > 0 or effects[2] == "reference"  # frozen weights: at creation alone
+        if done.returncode or not (integrates and 0 < kernels < calls):
             raise SceneError(f"effects_probe {' '.join(effects)}: exit code {done.returncode}\n{done.stderr[-800:]}")
         per_evaluation = 1e-6 / json.loads(done.stdout)["evaluations"]
         return {CALLS: per_evaluation * calls, KERNELS: per_evaluation * kernels}
