@@ -75,17 +75,26 @@ static int32_t set_constraints(const Interface *interface)
 }
 
 /* rank 0: surfaces that lie over each other but are no pair would be passed through without a word. Where any pair has
- * been found there is nothing to ask. */
+ * been found there is nothing to ask. A handle of its own is asked, so that the other's counters stay what they are. */
 static PetscErrorCode check_facing(Model *model, Interface *interface)
 {
-  char               text[1024];
-  stickslip_counters counters = {.struct_size = sizeof(counters)};
-  stickslip_report   report   = {.struct_size = sizeof(report), .text = text, .text_capacity = sizeof(text)};
+  char                 text[1024];
+  stickslip_counters   counters = {.struct_size = sizeof(counters)};
+  stickslip_report     report   = {.struct_size = sizeof(report), .text = text, .text_capacity = sizeof(text)};
+  stickslip_surface    surfaces[2];
+  int64_t             *facet_nodes[2];
+  stickslip_interface *asked = NULL;
+
   PetscFunctionBegin;
   PetscCallStickslip(stickslip_interface_counters(interface->handle, &counters));
   if (counters.pairs_active) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCallStickslip(
-      stickslip_interface_report(interface->handle, interface->x, interface->x + 3 * interface->n1, &report));
+  for (int side = 0; side < 2; side++)
+    PetscCall(describe_surface(model, interface, side, &surfaces[side], &facet_nodes[side]));
+  PetscCallStickslip(stickslip_interface_create(&surfaces[0], &surfaces[1], &interface->options, &asked));
+  PetscCallStickslip(stickslip_interface_report(asked, interface->x, interface->x + 3 * interface->n1, &report));
+  PetscCallStickslip(stickslip_interface_destroy(&asked));
+  for (int side = 0; side < 2; side++)
+    PetscCall(PetscFree(facet_nodes[side]));
   if (report.finding == STICKSLIP_FINDING_BEHIND || report.finding == STICKSLIP_FINDING_SAME_WAY)
     scene_fail(model->scene, interface->name, "mortar", "%s", text);
   if (report.finding == STICKSLIP_FINDING_NO_OVERLAP && !model->quiet) /* they may meet later */
