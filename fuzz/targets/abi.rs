@@ -1,5 +1,5 @@
-//! The C ABI: every function with arbitrary bytes for arguments. Pointers lead to as much as the header says, or are NULL
-//! or crooked; structs, counts, choices and all contents are anything.
+//! The C ABI: every function with arbitrary bytes for arguments. Pointers lead to as much as the header says, or are
+//! NULL or crooked; structs, counts, choices and all contents are anything.
 #![no_main]
 #![allow(unsafe_code)]
 

@@ -1,4 +1,4 @@
-//! An interface by its C functions: any sequence of calls, with states, multipliers and histories that are mostly sound.
+//! An interface by its C functions: any sequence of calls, with positions, multipliers, histories that are mostly sound.
 //! The handle answers or refuses, its history moves by commits alone, equal points give equal bits, and after a refusal
 //! it is as good as before.
 #![no_main]

@@ -93,16 +93,21 @@ static void prescribed(void) {
   scene_destroy(&s);
 }
 
+static int32_t diagnose_at(stickslip_interface *i, const double *x1, const double *x2, const double *lambda,
+                           const double *sums, stickslip_diagnosis *d) {
+  return stickslip_interface_diagnose(i, x1, x2, lambda, sums, d);
+}
+
 static void refusals(void) {
   scene_init(&s);
   scene_create(&s);
   for (int a = 0; a < N1; ++a) state[a] = -1;
   stickslip_diagnosis d = diagnosis_of_all();
   FILL(ratios);
-  CHECK_REFUSED(stickslip_interface_diagnose(NULL, s.x1, s.x2, s.lambda, NULL, &d), STICKSLIP_NULL_POINTER, "interface");
-  CHECK_REFUSED(stickslip_interface_diagnose(s.interface, NULL, s.x2, s.lambda, NULL, &d), STICKSLIP_NULL_POINTER, "x1");
-  CHECK_REFUSED(stickslip_interface_diagnose(s.interface, s.x1, NULL, s.lambda, NULL, &d), STICKSLIP_NULL_POINTER, "x2");
-  CHECK_REFUSED(stickslip_interface_diagnose(s.interface, s.x1, s.x2, NULL, NULL, &d), STICKSLIP_NULL_POINTER, "lambda");
+  CHECK_REFUSED(diagnose_at(NULL, s.x1, s.x2, s.lambda, NULL, &d), STICKSLIP_NULL_POINTER, "interface");
+  CHECK_REFUSED(diagnose_at(s.interface, NULL, s.x2, s.lambda, NULL, &d), STICKSLIP_NULL_POINTER, "x1");
+  CHECK_REFUSED(diagnose_at(s.interface, s.x1, NULL, s.lambda, NULL, &d), STICKSLIP_NULL_POINTER, "x2");
+  CHECK_REFUSED(diagnose_at(s.interface, s.x1, s.x2, NULL, NULL, &d), STICKSLIP_NULL_POINTER, "lambda");
   CHECK_REFUSED(diagnose(NULL), STICKSLIP_NULL_POINTER, "stickslip_diagnosis");
   d.text_capacity = 0;
   CHECK_REFUSED(diagnose(&d), STICKSLIP_INVALID_SIZE, "text_capacity");

@@ -201,8 +201,8 @@ impl Pair {
         vertices.iter().map(|v| (v - vertices[0]).norm()).fold(0.0, f64::max)
     }
 
-    /// What the inverse maps multiply rounding by: the largest over the smallest determinant of a facet's map, times its
-    /// longest edge squared over twice its projected area.
+    /// What the inverse maps multiply rounding by: the largest over the smallest determinant of a facet's map, times
+    /// its longest edge squared over twice its projected area.
     pub fn distortion(&self) -> f64 {
         let of = |map: &BilinearMap, edge: f64, area2: f64| {
             let [j, xi, eta] = map.determinant();

@@ -13,7 +13,7 @@
 //! | d.5, I2 exact offsets | P `exact_offsets_change_no_bit` | `identities.rs` |
 //! | d.6, I4 units: weights, at sizes over 120 decades | P `powers_of_two_change_no_bit` | |
 //! | d.6, I4 units: residual | I `units_change_no_bit` | `identities.rs` |
-//! | d.7, S4 Coulomb's conditions, any augmentation | N `row_vanishes_at_the_solution_whatever_r` | check `invariance` |
+//! | d.7, S4 Coulomb's conditions, any r | N `row_vanishes_at_the_solution_whatever_r` | check `invariance` |
 //! | d.7, S2 the cone; d.8 no friction | N `projection_lies_on_the_cone` | `identities.rs` |
 //! | d.9 patch test | | checks `patch` |
 //! | W1, W2, W8 golden weights and derivatives | | `mortar.rs`, `capi_golden.rs` |

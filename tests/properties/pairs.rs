@@ -90,15 +90,15 @@ fn derivative_identities(p: &Pair) -> TestCaseResult {
             prop_assert!((euler - 2.0 * n).abs() <= bound, "Euler: {euler:e} instead of {:e}", 2.0 * n);
         }
     }
-    // Each rounded: the gradients of the shape functions, which add up to zero, and the shape functions along the edges,
-    // however small they are there.
+    // Each rounded: the gradients of the shape functions, which add up to zero, and the shape functions along the
+    // edges, however small they are there.
     let terms = p.area() / p.smallest_height() + p.overlap_diameter();
     let size = rows.iter().flat_map(|(_, d)| d.iter().map(|d| d.norm())).sum::<f64>() + terms;
     let sum = |rows: &[[[f64; 3]; 8]; 4], k: usize| rows.iter().map(|r| Vec3::from(r[k])).sum::<Vec3>();
     for a in 0..4 {
         for k in 0..8 {
             let apart = (sum(&d.ab[a], k) - sum(&d.ac[a], k)).norm();
-            // And the ends of the edges' parts are known to a rounding of the coordinates, all seen by the inverse maps.
+            // The ends of the edges' parts are known to a rounding of the coordinates; all is seen by the inverse maps.
             let bound = (DERIVATIVE_SUMS * size + f64::EPSILON * reach) * p.distortion();
             prop_assert!(apart <= bound, "D sum n_AB and D sum n_AC differ by {apart:e} of {size:e}");
         }
