@@ -214,6 +214,16 @@ impl Chain<'_> {
     /// the order of the projection.
     #[inline(always)]
     pub fn local<L: Lanes, One: Cell, Two: Cell>(&self, g: &PlaneDerivatives<L>) -> [[L; 3]; PAIR_NODES] {
+        if L::SHARED { self.local_shared::<L, One, Two>(g) } else { self.local_inlined::<L, One, Two>(g) }
+    }
+
+    #[inline(never)]
+    fn local_shared<L: Lanes, One: Cell, Two: Cell>(&self, g: &PlaneDerivatives<L>) -> [[L; 3]; PAIR_NODES] {
+        self.local_inlined::<L, One, Two>(g)
+    }
+
+    #[inline(always)]
+    fn local_inlined<L: Lanes, One: Cell, Two: Cell>(&self, g: &PlaneDerivatives<L>) -> [[L; 3]; PAIR_NODES] {
         let (plane, one, two) = (&self.frame.plane, &self.frame.projection, &self.segment.mortar);
         let zero = L::splat(0.0);
         let (mut shift, mut tilt, mut spin) = ([zero; 2], [zero; 2], zero);
@@ -238,6 +248,20 @@ impl Chain<'_> {
     /// The same in space, mortar slots in the order of the facet as given.
     #[inline(always)]
     pub fn columns<L: Lanes, One: Cell, Two: Cell>(&self, local: &[[L; 3]; PAIR_NODES], to: &mut impl Columns<L>) {
+        if L::SHARED {
+            self.columns_shared::<L, One, Two>(local, to)
+        } else {
+            self.columns_inlined::<L, One, Two>(local, to)
+        }
+    }
+
+    #[inline(never)]
+    fn columns_shared<L: Lanes, One: Cell, Two: Cell>(&self, local: &[[L; 3]; PAIR_NODES], to: &mut impl Columns<L>) {
+        self.columns_inlined::<L, One, Two>(local, to);
+    }
+
+    #[inline(always)]
+    fn columns_inlined<L: Lanes, One: Cell, Two: Cell>(&self, local: &[[L; 3]; PAIR_NODES], to: &mut impl Columns<L>) {
         let plane = &self.frame.plane;
         for j in 0..3 {
             let (t1, t2, e) = (L::splat(plane.t1[j]), L::splat(plane.t2[j]), L::splat(plane.e[j]));

@@ -47,6 +47,20 @@ pub(super) struct Integrals<L> {
 impl<L: Lanes> Integrals<L> {
     #[inline(always)]
     pub fn new<One: Cell, Two: Cell>(frame: &NonmortarFrame, segment: &Segment, rule: &Rule) -> Self {
+        if L::SHARED {
+            Self::shared::<One, Two>(frame, segment, rule)
+        } else {
+            Self::inlined::<One, Two>(frame, segment, rule)
+        }
+    }
+
+    #[inline(never)]
+    fn shared<One: Cell, Two: Cell>(frame: &NonmortarFrame, segment: &Segment, rule: &Rule) -> Self {
+        Self::inlined::<One, Two>(frame, segment, rule)
+    }
+
+    #[inline(always)]
+    fn inlined<One: Cell, Two: Cell>(frame: &NonmortarFrame, segment: &Segment, rule: &Rule) -> Self {
         let two = &segment.mortar;
         let moments = Moments::integrate::<One, Two>(frame, segment, rule);
         let v = Two::given(L::load(&two.d), two.is_reversed());
@@ -78,6 +92,16 @@ impl<'a, L: Lanes> Transport<'a, L> {
     /// Of the forces f_B of the field with the nodal values `p`, lanes B.
     #[inline(always)]
     pub fn one<One: Cell>(&self, p: &[f64; MAX_NODES]) -> PlaneDerivatives<L> {
+        if L::SHARED { self.one_shared::<One>(p) } else { self.one_inlined::<One>(p) }
+    }
+
+    #[inline(never)]
+    fn one_shared<One: Cell>(&self, p: &[f64; MAX_NODES]) -> PlaneDerivatives<L> {
+        self.one_inlined::<One>(p)
+    }
+
+    #[inline(always)]
+    fn one_inlined<One: Cell>(&self, p: &[f64; MAX_NODES]) -> PlaneDerivatives<L> {
         let mut d = [[L::splat(0.0); 2]; PAIR_NODES];
         let [g, _] = &self.gradients;
         let slope = dots(g, L::load(p));
@@ -107,6 +131,16 @@ impl<'a, L: Lanes> Transport<'a, L> {
     /// Of the forces f_C of the same field, lanes C.
     #[inline(always)]
     pub fn two<One: Cell, Two: Cell>(&self, p: &[f64; MAX_NODES]) -> PlaneDerivatives<L> {
+        if L::SHARED { self.two_shared::<One, Two>(p) } else { self.two_inlined::<One, Two>(p) }
+    }
+
+    #[inline(never)]
+    fn two_shared<One: Cell, Two: Cell>(&self, p: &[f64; MAX_NODES]) -> PlaneDerivatives<L> {
+        self.two_inlined::<One, Two>(p)
+    }
+
+    #[inline(always)]
+    fn two_inlined<One: Cell, Two: Cell>(&self, p: &[f64; MAX_NODES]) -> PlaneDerivatives<L> {
         let mut d = [[L::splat(0.0); 2]; PAIR_NODES];
         let lanes = L::load(p);
         let [g1, g2] = &self.gradients;

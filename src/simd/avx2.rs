@@ -83,6 +83,7 @@ impl Real for Avx2 {
 }
 
 impl Lanes for Avx2 {
+    const SHARED: bool = false;
     #[inline(always)]
     fn load(v: &[f64; 4]) -> Avx2 {
         // SAFETY: as for `instruction`; reads the four doubles of `v`.

@@ -35,6 +35,9 @@ pub trait Real:
 
 /// Four doubles.
 pub trait Lanes: Real {
+    /// Whether kernels share the functions that they are made of instead of each having its own copy inlined: slower,
+    /// and a smaller library. Not for back ends of a processor's features, which a function of its own would lose.
+    const SHARED: bool;
     /// From memory.
     fn load(v: &[f64; 4]) -> Self;
     /// To memory.

@@ -68,6 +68,7 @@ impl Real for Plain {
 }
 
 impl Lanes for Plain {
+    const SHARED: bool = true;
     #[inline(always)]
     fn load(v: &[f64; 4]) -> Plain {
         Plain(*v)
