@@ -25,7 +25,7 @@ use crate::geometry::edge_interval::edge_intervals;
 use crate::geometry::{Projection, Vec2};
 use crate::quadrature::Rule;
 use crate::shape::{Cell, MAX_NODES, Quad4, Tri3};
-use crate::simd::{self, Kernel, Lanes, Stack};
+use crate::simd::{self, Kernel, Lanes, Stack, rolled};
 use std::marker::PhantomData;
 
 /// d/dy of four numbers in the lanes: the slots of the non-mortar nodes, and that of v.
@@ -80,7 +80,7 @@ impl<'a, I: Iterator<Item = (&'a Segment, &'a PairWeights)>, One: Cell> Kernel f
         }
         sums.flush::<One>(&mut stack);
         let integrals = sums.finish::<One>(frame);
-        for i in 0..3 {
+        for i in 0..rolled(3) {
             let x = chain::<L, One>(frame, &integrals.forces::<One>(&p[i]));
             for k in 0..One::NODES {
                 for j in 0..3 {
