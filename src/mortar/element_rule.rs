@@ -23,7 +23,7 @@ use crate::geometry::clip::Polygon;
 use crate::geometry::{Facet, Projection, Vec2, cross};
 use crate::quadrature::cell::{square_point, triangle_point};
 use crate::shape::{Cell, MAX_NODES};
-use crate::simd::{Lanes, Plain, Real};
+use crate::simd::{self, Kernel, Lanes, Plain, Real};
 
 /// Points of a non-mortar facet's product rule, and which of them count.
 #[derive(Clone, Copy, Debug)]
@@ -52,7 +52,7 @@ impl Segment {
     /// # Errors
     /// As [`Segment::new`].
     pub fn of_points(frame: &NonmortarFrame, facet: &Facet, line: &'static [[f64; 2]]) -> Result<Option<Segment>> {
-        let Some(mortar) = project::<Plain>(frame, facet)? else { return Ok(None) };
+        let Some(mortar) = simd::dispatch(Projected { frame, facet })? else { return Ok(None) };
         let mut points = CellPoints { line, inside: 0 };
         let mut area = 0.0;
         for i in 0..points.count() {
@@ -70,6 +70,21 @@ impl Segment {
         }
         let (mortar_map, polygon) = (BilinearMap::new(&mortar), Polygon::empty());
         Ok(Some(Segment { mortar, mortar_map, polygon, area, points: Some(points) }))
+    }
+}
+
+/// The mortar facet in the plane, by the same back end as the non-mortar one: nodes that coincide have the same bits, and
+/// the rule of [`is_on`] for what lies on an edge holds.
+struct Projected<'a> {
+    frame: &'a NonmortarFrame,
+    facet: &'a Facet,
+}
+
+impl Kernel for Projected<'_> {
+    type Output = Result<Option<Projection>>;
+    #[inline(always)]
+    fn run<L: Lanes>(self) -> Self::Output {
+        project::<L>(self.frame, self.facet)
     }
 }
 
