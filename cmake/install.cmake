@@ -44,8 +44,7 @@ install(FILES docs/plug_in.md docs/abi.md docs/accuracy.md docs/stability.md
 install(FILES ARCHITECTURE.md DESTINATION "${CMAKE_INSTALL_DOCDIR}")
 install(FILES c_examples/block_host.c c_examples/pair_demo.c DESTINATION "${CMAKE_INSTALL_DOCDIR}/c_examples")
 install(DIRECTORY c_examples/fortran DESTINATION "${CMAKE_INSTALL_DOCDIR}/c_examples" FILES_MATCHING PATTERN "*.f90")
-install(FILES c_examples/report/figures/block.png c_examples/report/figures/accuracy.png
-  c_examples/report/figures/stability.png c_examples/report/figures/stability_calls.png
+install(DIRECTORY c_examples/report/figures/
   DESTINATION "${CMAKE_INSTALL_DOCDIR}/c_examples/report/figures")
 
 # The list for uninstalling, relative to the prefix, so that it is right wherever the tree is:
