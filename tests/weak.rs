@@ -264,3 +264,18 @@ fn the_effects_say_so_where_it_is_asked_for() {
     assert!(text(WEAK).ends_with(sentence), "{}", text(WEAK));
     assert!(!text(0.0).contains("carried"));
 }
+
+/// With the largest threshold too: on facets that are no parallelograms the fractions differ by the rule's error.
+#[test]
+fn nodes_covered_as_a_whole_are_not_weak() {
+    let mut random = Random(5);
+    for cells in [Cells::Quads, Cells::Triangles] {
+        let mut one = grid(4, 4, [0.0, 0.0], [1.0, 1.0], 0.0, false, cells);
+        let two = grid(5, 3, [-0.5, -0.5], [1.5, 1.5], 0.0, true, Cells::Quads);
+        one.x.iter_mut().for_each(|x| *x += Vec3::new(0.04 * random.next(), 0.04 * random.next(), 0.0));
+        let options = Options { weak_coverage: 1.0, ..options() };
+        let mut contact = contact::<3>(&one, &two, false, options);
+        contact.responses(&one.x, &two.x, &vec![SVector::zeros(); one.x.len()], None).unwrap();
+        assert_eq!(contact.counters().nodes.carried, 0);
+    }
+}

@@ -90,12 +90,12 @@ unsafe impl Sized64 for stickslip_diagnosis {
 /// multipliers than displacements to react do, is not seen. The state of the handle stays as it is.
 ///
 /// x1 (3 n1), x2 (3 n2): positions [L]; lambda (3 n1; without friction n1) [F/L^2]; sums: see
-/// `stickslip_interface_sums`, or NULL. out, input and output: its members point to the caller's arrays, which are
+/// `stickslip_interface_sums`, or NULL; with sums no suspects are looked for, for a handle's rows are parts. out, input and output: its members point to the caller's arrays, which are
 /// filled; its numbers are written. Against an analytic mortar side there are no pairs.
 ///
 /// Errors: NULL_POINTER, STRUCT_SIZE, INVALID_SIZE (text_capacity, suspect_capacity), INVALID_VALUE (state; as
 /// `stickslip_interface_sums`), NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL, UNSUPPORTED (sums
-/// with the augmented form).
+/// with weak_coverage).
 /// Cost: those of a tangent, and every pair integrated once more with the degree-10 rule; allocates.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn stickslip_interface_diagnose(

@@ -148,7 +148,7 @@ unsafe impl Sized64 for stickslip_states {
 /// step belongs to the past.
 ///
 /// Errors: NULL_POINTER, STRUCT_SIZE, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL,
-/// INVALID_VALUE (as `stickslip_interface_sums`).
+/// INVALID_VALUE (as `stickslip_interface_sums`), UNSUPPORTED (sums with weak_coverage).
 /// Cost: as `stickslip_interface_sums`.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn stickslip_interface_states(
@@ -185,15 +185,24 @@ fn write_states<const N: usize>(c: &mut Contact<N>, point: &Point, out: &sticksl
     let nodes = || responses.iter().enumerate();
     let normals = (0..responses.len()).map(|a| c.normal(a)).collect::<Result<Vec<_>>>()?;
     let slip: Vec<_> = nodes().map(|(a, r)| c.slip_after(a, r, sums[a].coverage_previous)).collect();
+    let traction: Vec<_> = responses.iter().map(|r| r.traction).collect();
+    let numbers: [(_, &str, Vec<f64>); 8] = [
+        (out.normal, "normal", flat(&normals).collect()),
+        (out.traction, "traction", flat(&traction).collect()),
+        (out.gap, "gap", nodes().map(|(_, r)| r.gap_normal).collect()),
+        (out.slip, "slip", flat(&slip).collect()),
+        (out.coverage, "coverage", sums.iter().map(|s| s.coverage).collect()),
+        (out.area, "area", c.history().areas.to_vec()),
+        (out.dissipation, "dissipation", nodes().map(|(_, r)| r.traction.dot(&r.slip)).collect()),
+        (out.augmentation, "augmentation", nodes().map(|(a, _)| c.augmentation(a)).collect()),
+    ];
+    for (_, name, values) in &numbers {
+        raw::check_results(name, values)?;
+    }
     raw::write_each(out.state, nodes().map(|(_, r)| r.state as i32));
-    raw::write_each(out.normal, flat(&normals));
-    raw::write_each(out.traction, nodes().flat_map(|(_, r)| [r.traction.x, r.traction.y, r.traction.z]));
-    raw::write_each(out.gap, nodes().map(|(_, r)| r.gap_normal));
-    raw::write_each(out.slip, flat(&slip));
-    raw::write_each(out.coverage, sums.iter().map(|s| s.coverage));
-    raw::write_each(out.area, c.history().areas.iter().copied());
-    raw::write_each(out.dissipation, nodes().map(|(_, r)| r.traction.dot(&r.slip)));
-    raw::write_each(out.augmentation, nodes().map(|(a, _)| c.augmentation(a)));
+    for (to, _, values) in numbers {
+        raw::write_each(to, values.into_iter());
+    }
     Ok(())
 }
 
@@ -206,7 +215,8 @@ fn write_states<const N: usize>(c: &mut Contact<N>, point: &Point, out: &sticksl
 /// node is not owned).
 ///
 /// Errors: NULL_POINTER, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL; within
-/// Newton treat them as a domain error and take a smaller step. INVALID_VALUE (as `stickslip_interface_sums`).
+/// Newton treat them as a domain error and take a smaller step. INVALID_VALUE (as `stickslip_interface_sums`),
+/// UNSUPPORTED (sums with weak_coverage).
 /// Cost: as `stickslip_interface_sums`.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn stickslip_interface_residual(

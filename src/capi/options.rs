@@ -164,7 +164,9 @@ pub struct stickslip_options {
     /// step: covered neighbours carry it, lambda_A = sum_B w_AB lambda_B with sum_B w_AB = 1, and its gap counts in
     /// their rows. They carry newly covered nodes too, with friction, up to four facets away. At most 1; 0 (default):
     /// every covered node has its own, and that of a sliver grows without bound as the sliver goes; 0.5: none beyond
-    /// the mortar surface's edge has. It changes the answer at partly covered nodes alone. Not with sums of handles.
+    /// the mortar surface's edge has. It changes the answer at partly covered nodes alone. Not with sums of handles. Between
+    /// nodes of different normals mu = 0 with three multipliers is not quite no friction (one): of that, a node hands on
+    /// its normal traction alone.
     pub weak_coverage: f64,
 }
 

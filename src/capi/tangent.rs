@@ -134,7 +134,7 @@ impl Triplets {
 /// its row's over its column's.
 ///
 /// Errors: NULL_POINTER, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL, INVALID_VALUE (as the
-/// residual), BUFFER_TOO_SMALL, UNSUPPORTED (sums with the augmented form).
+/// residual), BUFFER_TOO_SMALL, UNSUPPORTED (sums with the augmented form or weak_coverage).
 /// Cost: at new positions those of the residual, then the derivatives of every pair's weights (frozen weights:
 /// none), O(pairs); counting needs no derivatives. Allocates.
 #[unsafe(no_mangle)]
@@ -174,7 +174,7 @@ pub unsafe extern "C" fn stickslip_interface_tangent_coo(
 /// any order within a row.
 ///
 /// Errors: NULL_POINTER, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL, INVALID_VALUE (as the
-/// residual), INVALID_SIZE, INDEX_OUT_OF_RANGE (an equation beyond n_rows), UNSUPPORTED (sums with the augmented form),
+/// residual), INVALID_SIZE, INDEX_OUT_OF_RANGE (an equation beyond n_rows), UNSUPPORTED (sums with the augmented form or weak_coverage),
 /// and MISSING_ENTRY when the matrix lacks an entry (renew the pattern from
 /// `stickslip_interface_pattern_coo`); then nothing was added.
 /// Cost: as `stickslip_interface_tangent_coo`, and a search in a row for each entry, by bisection where the

@@ -9,7 +9,7 @@
 use super::emission::Sink;
 use super::nodes::NodeSums;
 use super::{Contact, NO_EQUATION, Weights};
-use crate::error::Result;
+use crate::error::{Error, Kind, Result};
 use crate::geometry::{Facet, Plane, Vec3};
 use crate::law::State;
 use crate::mortar::{NonmortarFrame, PairWeights, Segment};
@@ -172,7 +172,8 @@ impl<const N: usize> Contact<N> {
         let fraction = |a: usize| node_sums[a].coverage / self.history.areas[a];
         let covered = (0..states.len()).filter(|&a| fraction(a) > self.options.coverage_min);
         let least_covered = covered.min_by(|&a, &b| fraction(a).total_cmp(&fraction(b))).map(|a| (a, fraction(a)));
-        let suspects = self.suspects(x1, x2, lambda, (sums, &node_sums), &states)?;
+        // With sums a handle's rows are parts of rows: nothing can be said of them.
+        let suspects = if sums.is_some() { Vec::new() } else { self.suspects(x1, x2, lambda, &node_sums, &states)? };
         let mut diagnosis =
             Diagnosis { states, least_covered, overlap: None, warp: None, angle: None, error: None, suspects };
         self.worst_pairs(x1, x2, &mut diagnosis);
@@ -217,7 +218,7 @@ impl<const N: usize> Contact<N> {
         x1: &[Vec3],
         x2: &[Vec3],
         lambda: &[SVector<f64, N>],
-        (given, sums): (Option<&[NodeSums]>, &[NodeSums]),
+        sums: &[NodeSums],
         states: &[State],
     ) -> Result<Vec<Suspect>> {
         let numbered = self.multiplier_equations.iter().enumerate();
@@ -226,7 +227,7 @@ impl<const N: usize> Contact<N> {
             .filter(|(equation, _)| *equation != NO_EQUATION)
             .collect();
         let mut rows = Rows { of: &of, entries: Vec::new() };
-        self.tangent(x1, x2, lambda, given, &mut rows)?;
+        self.tangent(x1, x2, lambda, None, &mut rows)?;
         rows.entries.sort_by_key(|&(node, column, component, _)| (node, column, component));
         let mut suspects = Vec::new();
         for of_node in rows.entries.chunk_by(|p, q| p.0 == q.0) {
@@ -243,6 +244,12 @@ impl<const N: usize> Contact<N> {
                 let mut v = SVector::<f64, N>::zeros();
                 of_column.iter().for_each(|&(_, _, i, value)| v[i] += value * unit / ordinary);
                 gram += v * v.transpose();
+            }
+            if !gram.iter().all(|v| v.is_finite()) {
+                return Err(Error::new(
+                    Kind::NotFinite,
+                    format!("the rows of node {a} overflow: the inputs are out of range"),
+                ));
             }
             let fraction = sums[a].coverage / self.history.areas[a];
             let new = sums[a].coverage_previous <= self.options.coverage_min * self.history.areas[a];

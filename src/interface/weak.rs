@@ -34,8 +34,12 @@ pub(super) struct Nodes<'a> {
     pub has_multiplier: &'a dyn Fn(usize) -> bool,
 }
 
-/// Per node its carriers, sorted; none where it has a multiplier of its own. A node is weak where it is covered less than
-/// `threshold` times its best covered neighbour.
+/// A node covered up to this is covered as a whole: on facets that are no parallelograms the rule's error is in the
+/// fraction, and in any fraction rounding.
+const WHOLE: f64 = 0.99;
+
+/// Per node its carriers, sorted; none where it has a multiplier of its own. A node is weak where a part of it is not
+/// covered and what is covered is less than `threshold` times its best covered neighbour.
 pub(super) fn carriers(nodes: &Nodes, links: &[Vec<Carrier>], threshold: f64) -> Vec<Vec<Carrier>> {
     let n = nodes.fraction.len();
     let takes_part = |a: usize| nodes.coverable[a] && (nodes.has_multiplier)(a);
@@ -43,7 +47,8 @@ pub(super) fn carriers(nodes: &Nodes, links: &[Vec<Carrier>], threshold: f64) ->
         let others = links[a].iter().map(|&(b, _)| b).filter(|&b| takes_part(b));
         others.map(|b| nodes.fraction[b]).fold(0.0, f64::max)
     };
-    let strong = |a: usize| takes_part(a) && nodes.fraction[a] > 0.0 && nodes.fraction[a] >= threshold * best(a);
+    let enough = |a: usize| nodes.fraction[a] >= WHOLE || nodes.fraction[a] >= threshold * best(a);
+    let strong = |a: usize| takes_part(a) && nodes.fraction[a] > 0.0 && enough(a);
     let strong: Vec<bool> = (0..n).map(strong).collect();
     let own = |a: usize| if strong[a] { vec![(a, 1.0)] } else { Vec::new() };
     let mut carriers: Vec<Vec<Carrier>> = (0..n).map(own).collect();
