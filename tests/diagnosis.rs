@@ -3,6 +3,7 @@
 mod support;
 
 use nalgebra::Rotation3;
+use stickslip::error::Kind;
 use stickslip::geometry::Vec3;
 use stickslip::interface::{Cause, Contact, Diagnosis, Friction, Interface, NO_EQUATION, NewContact, Options, Surface};
 use stickslip::law::State;
@@ -144,4 +145,24 @@ fn a_diagnosis_changes_nothing() {
     s.interface.diagnose(&away, &s.x2, &s.lambda, None).unwrap();
     assert!(history == s.interface.export_history().unwrap());
     assert!(before == s.interface.residual(&s.x1, &s.x2, &s.lambda, None).unwrap());
+}
+
+/// A handle of several has parts of rows: nothing follows from their size.
+#[test]
+fn parts_of_rows_are_no_suspects() {
+    let [one, two] = over_a_border(0.5);
+    let lambda = [Vec3::new(0.0, 0.0, -1.0); 4];
+    let half = Mesh { x: two.x.clone(), facets: two.facets[..1].to_vec() };
+    let whole = interface(&one, &two, options()).sums(&one.x, &two.x).unwrap();
+    let mut i = interface(&one, &half, options());
+    assert!(i.diagnose(&one.x, &two.x, &lambda, Some(&whole)).unwrap().suspects.is_empty());
+}
+
+#[test]
+fn rows_that_overflow_are_refused() {
+    let [mut one, two] = over_a_border(0.5);
+    one.x.iter_mut().for_each(|x| x.z += 1e160);
+    let mut i = interface(&one, &two, options());
+    let error = i.diagnose(&one.x, &two.x, &[Vec3::new(0.0, 0.0, -1e170); 4], None).unwrap_err();
+    assert_eq!(error.kind, Kind::NotFinite, "{error}");
 }

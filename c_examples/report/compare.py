@@ -112,6 +112,7 @@ PROGRAMS = [
     ("CalculiX, surface to surface (penalty)", lambda case, folder: peers.calculix(case, folder, "SURFACE TO SURFACE")),
     ("CalculiX, mortar", lambda case, folder: peers.calculix(case, folder, "MORTAR")),
     ("GetFEM, nodes against faces, augmented Lagrangian", peers.getfem),
+    ("Kratos, mortar, augmented Lagrangian", peers.kratos),
 ]
 
 

@@ -10,10 +10,11 @@ import shutil
 import subprocess
 import time
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 
-# Faces of a hexahedron, outward, by CalculiX' numbers.
+# Faces of a hexahedron, counter-clockwise from inside, by CalculiX' numbers.
 FACES = ((0, 1, 2, 3), (4, 7, 6, 5), (0, 4, 5, 1), (1, 5, 6, 2), (2, 6, 7, 3), (3, 7, 4, 0))
 CORNERS = np.array([(x, y, z) for z in (-1, 1) for x, y in ((-1, -1), (1, -1), (1, 1), (-1, 1))])
 # Penalty over the modulus per length 1: the manual's advice is 5 to 50 times; the largest is the most exact.
@@ -56,6 +57,11 @@ def faces_on(case_cells, points, bodies, body, on):
     return np.array(sorted(found))
 
 
+def corners(case, faces):
+    """Nodes of faces, outward."""
+    return np.array([case.cells[cell][list(FACES[face])][::-1] for cell, face in faces])
+
+
 def shape_gradients(x, xi):
     """(B per cell: dN/dX, det J) at a point of the reference cell."""
     gradient = np.empty((8, 3))
@@ -82,7 +88,8 @@ def internal_forces(case, displacement):
 
 # --- CalculiX ---------------------------------------------------------------------------------------------------------
 def calculix(case, folder, kind):
-    """`kind`: SURFACE TO SURFACE (penalty) or MORTAR (dual multipliers)."""
+    """`kind`: SURFACE TO SURFACE (penalty) or MORTAR (dual multipliers), which ends without a word on the patch test if
+    the corner node of the non-mortar side is supported in x and y: such a node gets the first of its supports only."""
     program = shutil.which("ccx")
     if not program:
         raise Missing("CalculiX (Debian: calculix-ccx)")
@@ -98,7 +105,10 @@ def calculix(case, folder, kind):
     lines += [] if kind == "MORTAR" else [f"{PENALTY * case.young}, 0."]
     lines += [f"*CONTACT PAIR, INTERACTION=SI, TYPE={kind}", "SLAVE, MASTER", "*STEP, INC=100", "*STATIC", "1., 1."]
     lines += ["*BOUNDARY"]
-    lines += [f"{n + 1}, {c + 1}, {c + 1}, {value:.15g}" for nodes, c, value in case.fixed for n in nodes]
+    supports, single = {}, set(corners(case, case.nonmortar).flat) if kind == "MORTAR" else ()
+    for n, c, value in [(n, c, value) for nodes, c, value in case.fixed for n in nodes]:
+        supports.setdefault(n if n in single else (n, c), f"{n + 1}, {c + 1}, {c + 1}, {value:.15g}")
+    lines += supports.values()
     if np.any(case.loads):
         lines += ["*CLOAD"]
         lines += [f"{n + 1}, {c + 1}, {case.loads[n, c]:.15g}" for n, c in zip(*np.nonzero(case.loads))]
@@ -191,3 +201,27 @@ def getfem(case, folder):
     for body in (0, 1):
         displacement[numbers[body]] = np.reshape(model.variable(f"u{body}"), (-1, 3))
     return Answer(displacement, int(iterations), seconds, getattr(gf, "__version__", "5.4"))
+
+
+# --- Kratos -----------------------------------------------------------------------------------------------------------
+KRATOS = Path(__file__).resolve().parents[2] / "build" / "kratos" / "bin" / "python"
+
+
+def kratos(case, folder):
+    """Mortar, frictionless, augmented Lagrangian, in the environment that .ci/setup made: kratos_job.py."""
+    if not KRATOS.exists():
+        raise Missing("Kratos (PyPI: KratosContactStructuralMechanicsApplication)")
+    folder.mkdir(parents=True, exist_ok=True)
+    fixed = np.array([(n, c, value) for nodes, c, value in case.fixed for n in nodes])
+    np.savez(folder / "case.npz", points=case.points, cells=case.cells, young=case.young, poisson=case.poisson,
+             fixed=fixed, loads=case.loads, nonmortar=corners(case, case.nonmortar), mortar=corners(case, case.mortar))
+    (folder / "answer.npz").unlink(missing_ok=True)
+    start = time.monotonic()
+    done = subprocess.run([KRATOS, Path(__file__).with_name("kratos_job.py"), folder], capture_output=True, text=True,
+                          errors="replace", timeout=TIMEOUT, env={"OMP_NUM_THREADS": "1", "PATH": "/usr/bin:/bin"})
+    seconds = time.monotonic() - start
+    (folder / "log.txt").write_text(done.stdout + done.stderr)
+    if done.returncode:
+        raise RuntimeError(f"exit code {done.returncode}: {done.stderr.strip()[-80:]}")
+    answer = np.load(folder / "answer.npz")
+    return Answer(answer["displacement"], int(answer["iterations"]), seconds, str(answer["version"]))
