@@ -399,7 +399,9 @@ typedef struct stickslip_options {
   /// step: covered neighbours carry it, lambda_A = sum_B w_AB lambda_B with sum_B w_AB = 1, and its gap counts in
   /// their rows. They carry newly covered nodes too, with friction, up to four facets away. At most 1; 0 (default):
   /// every covered node has its own, and that of a sliver grows without bound as the sliver goes; 0.5: none beyond
-  /// the mortar surface's edge has. It changes the answer at partly covered nodes alone. Not with sums of handles.
+  /// the mortar surface's edge has. It changes the answer at partly covered nodes alone. Not with sums of handles. Between
+  /// nodes of different normals mu = 0 with three multipliers is not quite no friction (one): of that, a node hands on
+  /// its normal traction alone.
   double weak_coverage;
 } stickslip_options;
 
@@ -902,7 +904,7 @@ int32_t stickslip_interface_sums(struct stickslip_interface *interface,
 /// step belongs to the past.
 ///
 /// Errors: NULL_POINTER, STRUCT_SIZE, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL,
-/// INVALID_VALUE (as `stickslip_interface_sums`).
+/// INVALID_VALUE (as `stickslip_interface_sums`), UNSUPPORTED (sums with weak_coverage).
 /// Cost: as `stickslip_interface_sums`.
 int32_t stickslip_interface_states(struct stickslip_interface *interface,
                                    const double *x1,
@@ -920,7 +922,8 @@ int32_t stickslip_interface_states(struct stickslip_interface *interface,
 /// node is not owned).
 ///
 /// Errors: NULL_POINTER, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL; within
-/// Newton treat them as a domain error and take a smaller step. INVALID_VALUE (as `stickslip_interface_sums`).
+/// Newton treat them as a domain error and take a smaller step. INVALID_VALUE (as `stickslip_interface_sums`),
+/// UNSUPPORTED (sums with weak_coverage).
 /// Cost: as `stickslip_interface_sums`.
 int32_t stickslip_interface_residual(struct stickslip_interface *interface,
                                      const double *x1,
@@ -941,7 +944,7 @@ int32_t stickslip_interface_residual(struct stickslip_interface *interface,
 /// its row's over its column's.
 ///
 /// Errors: NULL_POINTER, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL, INVALID_VALUE (as the
-/// residual), BUFFER_TOO_SMALL, UNSUPPORTED (sums with the augmented form).
+/// residual), BUFFER_TOO_SMALL, UNSUPPORTED (sums with the augmented form or weak_coverage).
 /// Cost: at new positions those of the residual, then the derivatives of every pair's weights (frozen weights:
 /// none), O(pairs); counting needs no derivatives. Allocates.
 int32_t stickslip_interface_tangent_coo(struct stickslip_interface *interface,
@@ -962,7 +965,7 @@ int32_t stickslip_interface_tangent_coo(struct stickslip_interface *interface,
 /// any order within a row.
 ///
 /// Errors: NULL_POINTER, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL, INVALID_VALUE (as the
-/// residual), INVALID_SIZE, INDEX_OUT_OF_RANGE (an equation beyond n_rows), UNSUPPORTED (sums with the augmented form),
+/// residual), INVALID_SIZE, INDEX_OUT_OF_RANGE (an equation beyond n_rows), UNSUPPORTED (sums with the augmented form or weak_coverage),
 /// and MISSING_ENTRY when the matrix lacks an entry (renew the pattern from
 /// `stickslip_interface_pattern_coo`); then nothing was added.
 /// Cost: as `stickslip_interface_tangent_coo`, and a search in a row for each entry, by bisection where the
@@ -1088,12 +1091,12 @@ int32_t stickslip_interface_report(struct stickslip_interface *interface,
 /// multipliers than displacements to react do, is not seen. The state of the handle stays as it is.
 ///
 /// x1 (3 n1), x2 (3 n2): positions [L]; lambda (3 n1; without friction n1) [F/L^2]; sums: see
-/// `stickslip_interface_sums`, or NULL. out, input and output: its members point to the caller's arrays, which are
+/// `stickslip_interface_sums`, or NULL; with sums no suspects are looked for, for a handle's rows are parts. out, input and output: its members point to the caller's arrays, which are
 /// filled; its numbers are written. Against an analytic mortar side there are no pairs.
 ///
 /// Errors: NULL_POINTER, STRUCT_SIZE, INVALID_SIZE (text_capacity, suspect_capacity), INVALID_VALUE (state; as
 /// `stickslip_interface_sums`), NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL, UNSUPPORTED (sums
-/// with the augmented form).
+/// with weak_coverage).
 /// Cost: those of a tangent, and every pair integrated once more with the degree-10 rule; allocates.
 int32_t stickslip_interface_diagnose(struct stickslip_interface *interface,
                                      const double *x1,

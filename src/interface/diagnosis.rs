@@ -74,7 +74,7 @@ pub struct Diagnosis {
     pub overlap: Option<WorstPair>,
     /// Largest distance of a node of either facet from that facet's plane over its longest edge [-].
     pub warp: Option<WorstPair>,
-    /// Largest angle between the facets' planes [rad].
+    /// Largest angle between the facets' planes `[rad]`.
     pub angle: Option<WorstPair>,
     /// Largest difference of a weight from that of the degree-10 rule, over the non-mortar facet's area [-].
     pub error: Option<WorstPair>,
@@ -148,10 +148,13 @@ fn warp(facet: &Facet) -> f64 {
 struct Rows<'a> {
     of: &'a HashMap<i64, (usize, usize)>,
     entries: Vec<(usize, i64, usize, f64)>,
+    /// Whether every entry of the tangent is.
+    finite: bool,
 }
 
 impl Sink for Rows<'_> {
     fn add(&mut self, row: i64, column: i64, value: f64) {
+        self.finite &= value.is_finite();
         if let Some(&(node, component)) = self.of.get(&row) {
             self.entries.push((node, column, component, value));
         }
@@ -226,8 +229,11 @@ impl<const N: usize> Contact<N> {
             .flat_map(|(a, equations)| equations.iter().enumerate().map(move |(i, e)| (*e, (a, i))))
             .filter(|(equation, _)| *equation != NO_EQUATION)
             .collect();
-        let mut rows = Rows { of: &of, entries: Vec::new() };
+        let mut rows = Rows { of: &of, entries: Vec::new(), finite: true };
         self.tangent(x1, x2, lambda, None, &mut rows)?;
+        if !rows.finite {
+            return Err(overflow());
+        }
         rows.entries.sort_by_key(|&(node, column, component, _)| (node, column, component));
         let mut suspects = Vec::new();
         for of_node in rows.entries.chunk_by(|p, q| p.0 == q.0) {
@@ -246,10 +252,7 @@ impl<const N: usize> Contact<N> {
                 gram += v * v.transpose();
             }
             if !gram.iter().all(|v| v.is_finite()) {
-                return Err(Error::new(
-                    Kind::NotFinite,
-                    format!("the rows of node {a} overflow: the inputs are out of range"),
-                ));
+                return Err(overflow());
             }
             let fraction = sums[a].coverage / self.history.areas[a];
             let new = sums[a].coverage_previous <= self.options.coverage_min * self.history.areas[a];
@@ -281,4 +284,8 @@ impl<const N: usize> Contact<N> {
         let signed = |v: Vec3| if v[v.icamax()] < 0.0 { -v } else { v };
         Ok((0..3).map(|k| (all.eigenvalues[k], signed(all.eigenvectors.column(k).into()))).collect())
     }
+}
+
+fn overflow() -> Error {
+    Error::new(Kind::NotFinite, "the tangent's rows overflow: the inputs are out of range")
 }
