@@ -1,6 +1,7 @@
 //! Four lanes in one register, with fused multiplication and addition.
 //!
-//! The only `unsafe` below the ABI: instructions that [`super::dispatch`] has found the processor to have.
+//! With `stack.rs` the only `unsafe` below the ABI: instructions that [`super::dispatch`] has found the processor to
+//! have.
 #![allow(unsafe_code)]
 
 use super::{Kernel, Lanes, Real};
