@@ -77,17 +77,30 @@ static PetscErrorCode reserve(Interface *interface, int64_t count)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Entries come column by column of small blocks: those of one column go in together. */
+/* Do n entries lie in one column, and in the rows of the n entries at the head of their block? */
+static PetscBool repeats(const int64_t *head, const int64_t *rows, const int64_t *columns, PetscInt n)
+{
+  for (PetscInt i = 0; i < n; i++) {
+    if (rows[i] != head[i] || columns[i] != columns[0]) return PETSC_FALSE;
+  }
+  return PETSC_TRUE;
+}
+
+/* Entries come block after block, each by columns: one call for a block, which ends where its rows do not repeat. */
 static PetscErrorCode insert(const Interface *interface, int64_t count, const double *values, Mat matrix)
 {
-  PetscInt rows[64], n;
-  double   zeros[64] = {0};
+  enum { LONGEST = 64 };
+  static const double zeros[LONGEST * LONGEST];
+  PetscInt            rows[LONGEST], columns[LONGEST], n, m;
+
   PetscFunctionBegin;
-  for (int64_t k = 0; k < count; k += n) {
-    const PetscInt column = (PetscInt)interface->coo_columns[k];
-    for (n = 0; n < 64 && k + n < count && interface->coo_columns[k + n] == column; n++)
-      rows[n] = (PetscInt)interface->coo_rows[k + n];
-    PetscCall(MatSetValues(matrix, n, rows, 1, &column, values ? values + k : zeros, ADD_VALUES));
+  for (int64_t k = 0; k < count; k += (int64_t)n * m) {
+    const int64_t *r = interface->coo_rows + k, *c = interface->coo_columns + k, left = count - k;
+    for (n = 0; n < LONGEST && n < left && c[n] == c[0]; n++)
+      rows[n] = (PetscInt)r[n];
+    for (m = 0; m < LONGEST && n * (m + 1) <= left && (!m || repeats(r, r + n * m, c + n * m, n)); m++)
+      columns[m] = (PetscInt)c[n * m];
+    PetscCall(MatSetValues(matrix, n, rows, m, columns, values ? values + k : zeros, ADD_VALUES));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -115,6 +128,7 @@ PetscErrorCode contact_tangent(Model *model, Mat matrix, PetscInt *status)
 {
   PetscFunctionBegin;
   *status = 0;
+  PetscCall(MatSetOption(matrix, MAT_ROW_ORIENTED, PETSC_FALSE));
   for (PetscInt i = 0; i < model->n_interfaces && !*status; i++) {
     Interface *interface = &model->interfaces[i];
     int32_t    refused   = 0;
@@ -126,6 +140,7 @@ PetscErrorCode contact_tangent(Model *model, Mat matrix, PetscInt *status)
     }
     PetscCall(contact_agree(model, refused, status));
   }
+  PetscCall(MatSetOption(matrix, MAT_ROW_ORIENTED, PETSC_TRUE));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
