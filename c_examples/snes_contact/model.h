@@ -232,6 +232,9 @@ PetscErrorCode newton_confirm(Model *model, PetscReal *norm);
 PetscErrorCode newton_refused(Model *model);
 PetscErrorCode newton_solve(Model *model, Vec start, Vec x, PetscBool *converged);
 
+/* held.c: which bodies contact alone must hold, as a sentence */
+PetscErrorCode held_describe(const Model *model, char text[], size_t length);
+
 /* step_size.c */
 void      step_size_start(const Steps *steps, StepSize *size);
 PetscReal step_size_next(const Steps *steps, const StepSize *size, PetscReal t);

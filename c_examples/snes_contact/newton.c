@@ -127,6 +127,22 @@ PetscErrorCode newton_refused(Model *model)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+static const char *in_words(SNESConvergedReason reason)
+{
+  switch (reason) {
+  case SNES_DIVERGED_LINE_SEARCH:
+    return "no step along Newton's direction lowers the residual";
+  case SNES_DIVERGED_MAX_IT:
+    return "too many iterations";
+  case SNES_DIVERGED_LINEAR_SOLVE:
+    return "the matrix is singular";
+  case SNES_DIVERGED_FNORM_NAN:
+    return "the residual is no number any more";
+  default:
+    return "Newton's method failed";
+  }
+}
+
 /* Why it ended: the library or a cell refused; a cycle, in this attempt or an earlier one; or what SNES says, with
  * the nodes that still changed state. */
 static PetscErrorCode explain(Model *model, SNESConvergedReason reason)
@@ -141,14 +157,13 @@ static PetscErrorCode explain(Model *model, SNESConvergedReason reason)
     PetscCall(PetscSNPrintf(newton->why, sizeof(newton->why), "%s", model->inverted));
   } else if (newton->cycle[0]) {
     PetscCall(PetscSNPrintf(newton->why, sizeof(newton->why), "%s%s%s", newton->cycle,
-                            newton->stopped ? "" : "; at last: ",
-                            newton->stopped ? "" : SNESConvergedReasons[reason]));
+                            newton->stopped ? "" : "; at last: ", newton->stopped ? "" : in_words(reason)));
   } else {
     json = cJSON_CreateObject();
     PetscCall(cycling_describe(model, 0, json, nodes, sizeof(nodes)));
     cJSON_Delete(json);
-    PetscCall(PetscSNPrintf(newton->why, sizeof(newton->why), "%s%s%s", SNESConvergedReasons[reason],
-                            nodes[0] ? "; states in the last iterations:" : "", nodes));
+    PetscCall(PetscSNPrintf(newton->why, sizeof(newton->why), "%s (%s)%s%s", in_words(reason),
+                            SNESConvergedReasons[reason], nodes[0] ? "; states in the last iterations:" : "", nodes));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

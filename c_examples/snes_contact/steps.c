@@ -241,17 +241,18 @@ static PetscErrorCode accept(Model *model, History *history)
 /* The run has ended before its end. */
 static PetscErrorCode give_up(Model *model, const History *history, int *exit_code)
 {
-  static const char held[] = "is every body held, by supports or by a surface that it touches?";
+  char held[1024];
   PetscFunctionBegin;
+  PetscCall(held_describe(model, held, sizeof(held)));
   *exit_code = model->refusal[0] ? 3 : 2;
   if (model->refusal[0])
     PetscCall(PetscFPrintf(PETSC_COMM_WORLD, PETSC_STDERR,
-                           "snes_contact: refused by the library: %s. If Newton's iterates ran away to there: %s\n",
+                           "snes_contact: refused by the library: %s. Newton's iterates may have run away to there: %s\n",
                            model->refusal, held));
   else
     PetscCall(PetscFPrintf(PETSC_COMM_WORLD, PETSC_STDERR,
-                           "snes_contact: not converged beyond t = %.6g, not even by a step of %.2g: %s. "
-                           "If this is the beginning: %s See scenes/README.md.\n",
+                           "snes_contact: not converged beyond t = %.6g, not even by a step of %.2g: %s. %s See "
+                           "scenes/README.md.\n",
                            (double)history->t_last, (double)(model->t - history->t_last), model->newton.why, held));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -10,7 +10,7 @@ DEPTHS = (1e-6, 1e-3, 1e-2, 0.1, 0.3, 0.6, 0.99, 1.01)  # in facets
 GAPS = (0, 1e-12, 1e-9, 1e-6, 1e-3, 0.1, 1, 10)  # in facets
 EXACT = 1e-10  # a linear problem solved to 1e-11
 PENETRATION = r"search_distance|penetrat|behind|deeper"
-FREE = r"is every body held"
+FREE = r"is free to move along .*: only contact can hold that"
 
 
 def clamped(lowered, **more):
