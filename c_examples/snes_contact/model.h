@@ -260,7 +260,8 @@ PetscErrorCode         summary_step(Model *model, Summary *summary, PetscInt ste
                                     PetscBool last);
 PetscErrorCode         summary_failed_attempt(Model *model, Summary *summary, PetscReal t_last);
 PetscErrorCode summary_drop_step(Model *model, Summary *summary); /* the last one, which could not be committed */
-PetscErrorCode summary_write(Model *model, Summary **summary, PetscInt cutbacks, const char *message);
+PetscErrorCode summary_write(Model *model, Summary **summary, Vec last, PetscInt cutbacks, const char *message);
+PetscErrorCode uniqueness_check(Model *model, Vec x, struct cJSON *root); /* uniqueness.c: of a node with friction */
 PetscErrorCode summary_counters(Model *model, struct cJSON *root); /* what the run and each interface cost */
 PetscErrorCode diagnosis_failed(Model *model, struct cJSON *root); /* diagnosis.c: what may be wrong; told and kept */
 PetscErrorCode csv_write(Model *model, const Interface *interface, const ContactStates *states, PetscInt step);

@@ -265,7 +265,8 @@ PetscErrorCode summary_drop_step(Model *model, Summary *summary)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode summary_write(Model *model, Summary **summary, PetscInt cutbacks, const char *message)
+/* `last`: the last converged state */
+PetscErrorCode summary_write(Model *model, Summary **summary, Vec last, PetscInt cutbacks, const char *message)
 {
   char *text, path[PETSC_MAX_PATH_LEN];
   FILE *file;
@@ -276,7 +277,10 @@ PetscErrorCode summary_write(Model *model, Summary **summary, PetscInt cutbacks,
   cJSON_AddItemToObject((*summary)->root, "failed_attempts", (*summary)->failed_attempts);
   cJSON_AddItemToObject((*summary)->root, "steps", (*summary)->steps);
   PetscCall(summary_counters(model, (*summary)->root));
-  if (message[0]) PetscCall(diagnosis_failed(model, (*summary)->root));
+  if (message[0])
+    PetscCall(diagnosis_failed(model, (*summary)->root));
+  else
+    PetscCall(uniqueness_check(model, last, (*summary)->root));
   if (model->rank == 0) {
     text = cJSON_Print((*summary)->root);
     PetscCall(PetscSNPrintf(path, sizeof(path), "%s/summary.json", model->output_dir));

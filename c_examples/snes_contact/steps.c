@@ -296,7 +296,8 @@ PetscErrorCode steps_run(Model *model, int *exit_code)
     PetscCall(summary_step(model, summary, step + 1, PETSC_FALSE, PETSC_FALSE, PETSC_TRUE));
     PetscCall(give_up(model, &history, exit_code));
   }
-  PetscCall(summary_write(model, &summary, cutbacks, *exit_code == 2 ? model->newton.why : model->refusal));
+  PetscCall(summary_write(model, &summary, history.last, cutbacks,
+                          *exit_code == 2 ? model->newton.why : model->refusal));
   PetscCall(history_destroy(&history));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

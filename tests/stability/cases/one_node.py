@@ -12,6 +12,9 @@ import host
 from cell import series
 
 UNIQUE = 2.0
+# Of one of the edge's two nodes while the other is held: the corner's stiffness is (lambda + 4 G) / 9 along an axis and
+# (lambda + G) / 12 across, with lambda = 1.5 and G = 0.5. That is what the driver can tell, and must.
+UNIQUE_ALONE = 7 / 3
 FRICTIONS = (0.5, 1, 1.9, 2.1, 2.5, 3, 10, 1000)
 SCALES = tuple(f"1e{k}" for k in range(-6, 7, 2))
 EXACT = 1e-9  # two unknowns, solved to 1e-11 of the forces
@@ -36,6 +39,10 @@ def solve(context, mu, *options):
         distances = {name: np.abs(edge - at).max() for name, at in solutions(mu).items()}
         name = min(distances, key=distances.get)
         result.below(f"place of the node ({name})", distances[name], EXACT, "one of the exact solutions")
+        told = run.summary["several_states"].get("contact", {}).get("critical_friction")
+        result.below("several states told wrongly", float((told is not None) != (mu >= UNIQUE_ALONE)), 0.5, "it is known")
+        if told is not None:
+            result.below("friction from which they are", abs(told - UNIQUE_ALONE), EXACT, "from the cell's stiffness")
         if len(distances) > 1:
             result.warnings.append(
                 f"mu > {UNIQUE:g}, {len(distances)} solutions ({', '.join(distances)}); ended in {name}"
