@@ -205,7 +205,7 @@ PROBLEMS = [
             ball_mesh, (0.05, 0.025, 0.0167), 1, ("-steps_count", 1),
             only=("integration", "tangent", "tolerance", "mesh")),
     Problem("cattaneo", "Cattaneo and Mindlin: shear", "cattaneo_line", "contact", "shear traction, root mean square",
-            cattaneo_errors, cattaneo_mesh, (0.136, 0.068), 0,
+            cattaneo_errors, cattaneo_mesh, (0.136, 0.068, 0.034), 0,
             extra=(Setting("slip_seed", "slip", (*cattaneo_mesh(0.136), "-contact_slip", "seed"), "slip as printed"),
                    Setting("slip_increment", "slip", (*cattaneo_mesh(0.136), "-contact_slip", "increment"),
                            "slip increment"),
@@ -214,6 +214,7 @@ PROBLEMS = [
                            "20+8 steps"))),
     Problem("press_fit", "Press fit: reactions", "press_fit", "contact", "reactions, root mean square", press_errors,
             press_mesh, (18,), 0, only=("integration", "tangent", "tolerance", "form", "weights"),
-            extra=(Setting("steps_25", "steps", (*press_mesh(18)[:2], *press_times(25)), "steps of 25"),
+            extra=(Setting("steps_10", "steps", (*press_mesh(18)[:2], *press_times(10)), "steps of 10"),
+                   Setting("steps_25", "steps", (*press_mesh(18)[:2], *press_times(25)), "steps of 25"),
                    Setting("steps_100", "steps", (*press_mesh(18)[:2], *press_times(100)), "steps of 100"))),
 ]
