@@ -32,8 +32,41 @@ fn difference<L: Lanes>(s: f64, a: L, t: f64, b: L) -> L {
 
 /// r x v.
 #[inline(always)]
-fn times<R: Real>(r: [R; 2], v: Vec2) -> R {
-    r[0] * R::splat(v.y) - r[1] * R::splat(v.x)
+fn times<R: Real>(r: [R; 2], v: [R; 2]) -> R {
+    r[0].mul_add(v[1], -(r[1] * v[0]))
+}
+
+/// The inverse of a map, its coefficients in every lane: spread once, not at every point.
+pub struct InverseMap<R> {
+    a: [R; 2],
+    b: [R; 2],
+    c: [R; 2],
+    d: [R; 2],
+    /// b x c and 4 b x d.
+    bc: R,
+    four_bd: R,
+    inverse_affine: R,
+    is_affine: bool,
+}
+
+impl<R: Real> InverseMap<R> {
+    /// See [`BilinearMap::inverse`].
+    #[inline(always)]
+    pub fn at(&self, y: [R; 2]) -> Preimage<R> {
+        let r = [y[0] - self.a[0], y[1] - self.a[1]];
+        let (rc, br, bc) = (times(r, self.c), times(self.b, r), self.bc);
+        if self.is_affine {
+            return Preimage { xi: rc * self.inverse_affine, eta: br * self.inverse_affine, det: bc };
+        }
+        let rd = times(r, self.d);
+        let lead = bc - rd;
+        // Rounding may take the discriminant below zero only at a corner where det J vanishes.
+        let square = lead.mul_add(lead, self.four_bd * rc);
+        let det = square.max(R::splat(0.0)).sqrt();
+        let (xi, eta) = (lead + det, bc + rd + det); // xi = 2 rc / .., eta = 2 br / .., with one division
+        let inverse = R::splat(2.0) / (xi * eta);
+        Preimage { xi: rc * eta * inverse, eta: br * xi * inverse, det }
+    }
 }
 
 /// A point's reference coordinates and the map's Jacobian determinant there.
@@ -73,21 +106,23 @@ impl BilinearMap {
     /// are fine.
     #[inline(always)]
     pub fn inverse<R: Real>(&self, y: [R; 2]) -> Preimage<R> {
-        let r = [y[0] - R::splat(self.a.x), y[1] - R::splat(self.a.y)];
-        let (rc, br) = (times(r, self.c), -times(r, self.b));
-        let bc = R::splat(self.determinant[0]);
-        if self.is_affine {
-            let inverse = R::splat(self.inverse_affine);
-            return Preimage { xi: rc * inverse, eta: br * inverse, det: bc };
+        self.lanes().at(y)
+    }
+
+    /// The inverse map, for many points.
+    #[inline(always)]
+    pub fn lanes<R: Real>(&self) -> InverseMap<R> {
+        let pair = |v: Vec2| [R::splat(v.x), R::splat(v.y)];
+        InverseMap {
+            a: pair(self.a),
+            b: pair(self.b),
+            c: pair(self.c),
+            d: pair(self.d),
+            bc: R::splat(self.determinant[0]),
+            four_bd: R::splat(4.0 * self.determinant[1]),
+            inverse_affine: R::splat(self.inverse_affine),
+            is_affine: self.is_affine,
         }
-        let rd = times(r, self.d);
-        let lead = bc - rd;
-        // Rounding may take the discriminant below zero only at a corner where det J vanishes.
-        let square = lead.mul_add(lead, R::splat(4.0 * self.determinant[1]) * rc);
-        let det = square.max(R::splat(0.0)).sqrt();
-        let (xi, eta) = (lead + det, bc + rd + det); // xi = 2 rc / .., eta = 2 br / .., with one division
-        let inverse = R::splat(2.0) / (xi * eta);
-        Preimage { xi: rc * eta * inverse, eta: br * xi * inverse, det }
     }
 
     /// det J dN_k/dy = `g[0] + g[1] xi + g[2] eta`, lanes k: linear, the products xi eta cancel. `[L]`

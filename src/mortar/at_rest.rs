@@ -17,7 +17,7 @@ use super::derivatives::ForceDerivatives;
 use super::edges::{edge_points, line, unit};
 use super::gap::{AlongNormal, gamma};
 use super::moments::{MONOMIALS, PRODUCTS, Table, combine, monomials, powers, powers_of, table};
-use super::points::{Fan, points};
+use super::points::{Fan, Maps, points};
 use super::segment::{NonmortarFrame, Segment};
 use super::transport::{add_ends, dots};
 use super::weights::PairWeights;
@@ -176,10 +176,11 @@ impl<L: Lanes> Sums<L> {
     ) {
         let height = Height::of(&segment.mortar);
         let slope = dots(&segment.mortar_map.gradients::<L>(), L::load(&segment.mortar.d)); // det2 dv/dy
+        let maps = Maps::new(frame, segment);
         let mut fan = Fan::new(frame, segment);
         while let Some(triangle) = fan.triangle() {
-            for i in 0..rule.triangle_lanes.len() {
-                let p = points::<L>(frame, segment, rule, &triangle, i);
+            for four in rule.triangle_lanes {
+                let p = points::<L>(&maps, four, &triangle);
                 let over = p.weight / (p.one.det * p.two.det);
                 let (xi, eta) = (p.two.xi, p.two.eta);
                 let v = height.at(xi, eta);

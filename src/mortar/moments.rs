@@ -4,9 +4,10 @@
 //! N_l N_A,
 //!
 //! mu = (1, xi, eta) of the facet whose det stands below (of a triangle 1 alone: the others have no coefficient). mu_m
-//! N_k has eight monomials, so each is summed over the points as eight integrals per node and expanded once.
+//! N_k has eight monomials, and the functions they are integrated with four, so what is summed over the points are
+//! products of monomials, each once; the nodes' integrals follow from the sums.
 
-use super::points::{Fan, Points, points};
+use super::points::{Fan, Maps, Points, points, triangle_lanes};
 use super::segment::{NonmortarFrame, Segment};
 use super::weights::PairWeights;
 use crate::quadrature::Rule;
@@ -18,6 +19,11 @@ pub(super) const MONOMIALS: usize = 8;
 /// Which monomials mu_m (1, xi, eta, xi eta) are.
 pub(super) const PRODUCTS: [[usize; 4]; 3] = [[0, 1, 2, 3], [1, 4, 3, 6], [2, 3, 5, 7]];
 
+/// Monomials of a cell's shape functions.
+pub(super) const fn terms<C: Cell>() -> usize {
+    if C::BILINEAR { 4 } else { 3 }
+}
+
 pub(super) const fn monomials<C: Cell>() -> usize {
     if C::BILINEAR { MONOMIALS } else { 3 }
 }
@@ -27,14 +33,31 @@ pub(super) const fn powers<C: Cell>() -> usize {
     if C::BILINEAR { 3 } else { 1 }
 }
 
+/// Which of the sums [`own`] gives are monomial j times 1, xi, eta, xi eta. Of the 32 products 15 differ; after the
+/// monomials themselves: xi^2 eta^2, xi^3, xi^3 eta, xi^3 eta^2, eta^3, xi eta^3, xi^2 eta^3.
+const OWN: [[usize; 4]; MONOMIALS] = [
+    [0, 1, 2, 3],
+    [1, 4, 3, 6],
+    [2, 3, 5, 7],
+    [3, 6, 7, 8],
+    [4, 9, 6, 10],
+    [5, 7, 12, 13],
+    [6, 10, 8, 11],
+    [7, 8, 13, 14],
+];
+/// Different entries of [`OWN`].
+const OWN_SUMS: usize = 15;
+
 /// Groups of points summed at once: 8 triangles of 7 points.
 const GROUPS: usize = 16;
 
-/// Four points: monomials of both facets with weight / det, and what they are integrated with.
+/// Four points.
 #[derive(Clone, Copy)]
 struct Group<L> {
+    /// Monomials of both facets with weight / det.
     monomials: [[L; MONOMIALS]; 2],
-    n: [[L; MAX_NODES]; 2],
+    /// xi, eta, xi eta of both.
+    at: [[L; 3]; 2],
 }
 
 /// [m][k], lanes over the third index.
@@ -58,26 +81,91 @@ pub(super) fn powers_of<L: Lanes, C: Cell>(w: L, xi: L, eta: L) -> [L; MONOMIALS
     [w, x, e, xe, x * xi, e * eta, xe * xi, xe * eta]
 }
 
-/// Integrals of the monomials of facet `FACET` with functions of facet `OTHER`, lanes over these. Two monomials at a
-/// time: eight sums are as many as stay in registers.
+/// Sums of the monomials `first` to `first` + 3 of facet `FACET` times xi, eta, xi eta of facet `OTHER`, by their lanes:
+/// twelve are as many as stay in registers.
 #[inline(always)]
-fn integrals<L: Lanes, const FACET: usize, const OTHER: usize>(
+fn products<L: Lanes, const FACET: usize, const OTHER: usize>(
     groups: &[Group<L>],
-    monomials: usize,
-    functions: usize,
-) -> [L; MONOMIALS] {
-    let mut whole = [L::splat(0.0); MONOMIALS];
-    for j in (0..monomials).step_by(2) {
-        let mut s = [[L::splat(0.0); MAX_NODES]; 2];
-        for g in groups {
-            let m = &g.monomials[FACET];
+    first: usize,
+    (monomials, functions): (usize, usize),
+) -> [[L; 3]; 4] {
+    let mut s = [[L::splat(0.0); 3]; 4];
+    for g in groups {
+        let at = &g.at[OTHER];
+        for j in 0..monomials {
+            let m = g.monomials[FACET][first + j];
             for f in 0..functions {
-                s[0][f] = m[j].mul_add(g.n[OTHER][f], s[0][f]);
-                s[1][f] = m[j + 1].mul_add(g.n[OTHER][f], s[1][f]);
+                s[j][f] = m.mul_add(at[f], s[j][f]);
             }
         }
-        whole[j] = L::sums(s[0]);
-        whole[j + 1] = L::sums(s[1]);
+    }
+    s
+}
+
+/// Sums of the monomials of facet `FACET`, by their lanes.
+#[inline(always)]
+fn plain<L: Lanes, const FACET: usize>(groups: &[Group<L>], monomials: usize) -> [L; MONOMIALS] {
+    let mut s = [L::splat(0.0); MONOMIALS];
+    for g in groups {
+        for j in 0..monomials {
+            s[j] = s[j] + g.monomials[FACET][j];
+        }
+    }
+    s
+}
+
+/// Sums of the monomials of the non-mortar facet, and of those with its own functions, by their lanes.
+#[inline(always)]
+fn own<L: Lanes, One: Cell>(groups: &[Group<L>]) -> [L; OWN_SUMS] {
+    let mut s = [L::splat(0.0); OWN_SUMS];
+    for g in groups {
+        let (m, [xi, eta, both]) = (&g.monomials[0], &g.at[0]);
+        for j in 0..monomials::<One>() {
+            s[j] = s[j] + m[j];
+        }
+        if One::BILINEAR {
+            s[8] = m[6].mul_add(*eta, s[8]);
+            s[9] = m[4].mul_add(*xi, s[9]);
+            s[10] = m[6].mul_add(*xi, s[10]);
+            s[11] = m[6].mul_add(*both, s[11]);
+            s[12] = m[5].mul_add(*eta, s[12]);
+            s[13] = m[7].mul_add(*eta, s[13]);
+            s[14] = m[7].mul_add(*both, s[14]);
+        } else {
+            s[3] = m[1].mul_add(*eta, s[3]);
+            s[4] = m[1].mul_add(*xi, s[4]);
+            s[5] = m[2].mul_add(*eta, s[5]);
+        }
+    }
+    s
+}
+
+/// Integrals of the monomials of facet `FACET`, whose sums are `sums`, with the nodal functions of facet `OTHER`, lanes
+/// over these.
+#[inline(always)]
+fn with_other<L: Lanes, Facet: Cell, Other: Cell, const FACET: usize, const OTHER: usize>(
+    groups: &[Group<L>],
+    sums: &[L],
+) -> [L; MONOMIALS] {
+    let mut whole = [L::splat(0.0); MONOMIALS];
+    for first in (0..monomials::<Facet>()).step_by(4) {
+        let counts = ((monomials::<Facet>() - first).min(4), terms::<Other>() - 1);
+        let s = products::<L, FACET, OTHER>(groups, first, counts);
+        for j in 0..counts.0 {
+            whole[first + j] = Other::nodal_lanes(L::sums([sums[first + j], s[j][0], s[j][1], s[j][2]]));
+        }
+    }
+    whole
+}
+
+/// Integrals of the monomials of the non-mortar facet with its own nodal functions, lanes over these.
+#[inline(always)]
+fn with_own<L: Lanes, One: Cell>(sums: &[L; OWN_SUMS]) -> [L; MONOMIALS] {
+    let mut whole = [L::splat(0.0); MONOMIALS];
+    for j in 0..monomials::<One>() {
+        let [a, b, c, d] = OWN[j];
+        let last = if One::BILINEAR { sums[d] } else { L::splat(0.0) };
+        whole[j] = One::nodal_lanes(L::sums([sums[a], sums[b], sums[c], last]));
     }
     whole
 }
@@ -108,21 +196,24 @@ impl<L: Lanes> Moments<L> {
     pub fn integrate<One: Cell, Two: Cell>(frame: &NonmortarFrame, segment: &Segment, rule: &Rule) -> Self {
         let mut whole = [[L::splat(0.0); MONOMIALS]; 3];
         let mut stack = Stack::<Group<L>, GROUPS>::new();
+        let rule = triangle_lanes::<One, Two>(rule);
+        let maps = Maps::new(frame, segment);
         let mut fan = Fan::new(frame, segment);
         let mut triangle = fan.triangle();
         let mut i = 0;
         while let Some(t) = &triangle {
-            stack.push(group::<L, One, Two>(&points::<L>(frame, segment, rule, t, i)));
+            stack.push(group::<L, One, Two>(&points::<L>(&maps, &rule[i], t)));
             i += 1;
-            if i == rule.triangle_lanes.len() {
+            if i == rule.len() {
                 (triangle, i) = (fan.triangle(), 0);
             }
             if stack.is_full() || triangle.is_none() {
                 let groups = stack.values();
+                let sums = own::<L, One>(groups);
                 let batch = [
-                    integrals::<L, 0, 1>(groups, monomials::<One>(), Two::NODES),
-                    integrals::<L, 0, 0>(groups, monomials::<One>(), One::NODES),
-                    integrals::<L, 1, 0>(groups, monomials::<Two>(), One::NODES),
+                    with_other::<L, One, Two, 0, 1>(groups, &sums),
+                    with_own::<L, One>(&sums),
+                    with_other::<L, Two, One, 1, 0>(groups, &plain::<L, 1>(groups, monomials::<Two>())),
                 ];
                 for (sum, new) in whole.as_flattened_mut().iter_mut().zip(batch.as_flattened()) {
                     *sum = *sum + *new;
@@ -158,5 +249,6 @@ fn group<L: Lanes, One: Cell, Two: Cell>(p: &Points<L>) -> Group<L> {
     let over = p.weight / (p.one.det * p.two.det);
     let one = powers_of::<L, One>(over * p.two.det, p.one.xi, p.one.eta);
     let two = powers_of::<L, Two>(over * p.one.det, p.two.xi, p.two.eta);
-    Group { monomials: [one, two], n: [One::values(p.one.xi, p.one.eta), Two::values(p.two.xi, p.two.eta)] }
+    let at = [[p.one.xi, p.one.eta, p.one.xi * p.one.eta], [p.two.xi, p.two.eta, p.two.xi * p.two.eta]];
+    Group { monomials: [one, two], at }
 }

@@ -2,9 +2,10 @@
 //! maps of both facets (c.4).
 
 use super::segment::{NonmortarFrame, Segment};
-use crate::geometry::bilinear_map::Preimage;
+use crate::geometry::bilinear_map::{InverseMap, Preimage};
 use crate::geometry::{Vec2, cross};
-use crate::quadrature::Rule;
+use crate::quadrature::{DEGREE_2, Rule};
+use crate::shape::Cell;
 use crate::simd::Lanes;
 
 /// Four quadrature points.
@@ -52,22 +53,32 @@ impl<'a> Fan<'a> {
     }
 }
 
-/// The i-th four points of a triangle.
+/// The points of a triangle, four at a time. Triangles have linear functions and constant gradients: nothing in their
+/// integrals is above degree 2, so that any finer rule gives the same with more points.
 #[inline(always)]
-pub(super) fn points<L: Lanes>(
-    frame: &NonmortarFrame,
-    segment: &Segment,
-    rule: &Rule,
-    [apex, p, q]: &[Vec2; 3],
-    i: usize,
-) -> Points<L> {
-    let [l1, l2, w] = &rule.triangle_lanes[i];
+pub(super) fn triangle_lanes<One: Cell, Two: Cell>(rule: &Rule) -> &'static [[[f64; 4]; 3]] {
+    let linear = !One::BILINEAR && !Two::BILINEAR;
+    if linear && rule.degree > DEGREE_2.degree { DEGREE_2.triangle_lanes } else { rule.triangle_lanes }
+}
+
+/// The maps of a pair's facets.
+pub(super) struct Maps<L> {
+    one: InverseMap<L>,
+    two: InverseMap<L>,
+}
+
+impl<L: Lanes> Maps<L> {
+    #[inline(always)]
+    pub fn new(frame: &NonmortarFrame, segment: &Segment) -> Self {
+        Maps { one: frame.map.lanes(), two: segment.mortar_map.lanes() }
+    }
+}
+
+/// Four points of a triangle.
+#[inline(always)]
+pub(super) fn points<L: Lanes>(maps: &Maps<L>, [l1, l2, w]: &[[f64; 4]; 3], [apex, p, q]: &[Vec2; 3]) -> Points<L> {
     let (l1, l2) = (L::load(l1), L::load(l2));
     let x = L::splat(q.x).mul_add(l2, L::splat(p.x).mul_add(l1, L::splat(apex.x)));
     let y = L::splat(q.y).mul_add(l2, L::splat(p.y).mul_add(l1, L::splat(apex.y)));
-    Points {
-        weight: L::load(w) * L::splat(0.5 * cross(*p, *q)),
-        one: frame.map.inverse([x, y]),
-        two: segment.mortar_map.inverse([x, y]),
-    }
+    Points { weight: L::load(w) * L::splat(0.5 * cross(*p, *q)), one: maps.one.at([x, y]), two: maps.two.at([x, y]) }
 }

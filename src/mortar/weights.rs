@@ -4,7 +4,8 @@
 //! both at the same quadrature points, so that sum_B n_AB = sum_C n_AC holds at any rule.
 
 use super::element_rule;
-use super::points::{Fan, points};
+use super::moments::terms;
+use super::points::{Fan, Maps, points, triangle_lanes};
 use super::segment::{CellKernel, Cells, NonmortarFrame, Segment};
 use crate::quadrature::Rule;
 use crate::shape::{Cell, MAX_NODES};
@@ -64,10 +65,11 @@ impl CellKernel for Integrate<'_> {
         let zero = L::splat(0.0);
         // Integrals of 1, xi, eta, xi eta of one with those of two, and of those of one with another that are new.
         let (mut cross, mut own) = ([[zero; 4]; 4], [zero; 5]);
+        let maps = Maps::new(frame, segment);
         let mut fan = Fan::new(frame, segment);
         while let Some(triangle) = fan.triangle() {
-            for i in 0..rule.triangle_lanes.len() {
-                let p = points::<L>(frame, segment, rule, &triangle, i);
+            for four in triangle_lanes::<One, Two>(rule) {
+                let p = points::<L>(&maps, four, &triangle);
                 let (xi, eta) = (p.one.xi, p.one.eta);
                 let (x, e) = (p.weight * xi, p.weight * eta);
                 let xe = x * eta;
@@ -102,9 +104,4 @@ impl CellKernel for Integrate<'_> {
         }
         PairWeights::of_rows(One::NODES, &One::nodal(by_one), &One::nodal(by_two))
     }
-}
-
-/// Monomials of a cell's shape functions.
-const fn terms<C: Cell>() -> usize {
-    if C::BILINEAR { 4 } else { 3 }
 }
