@@ -14,12 +14,12 @@
 
 use super::PAIR_NODES;
 use super::derivatives::ForceDerivatives;
-use super::edges::{edge_points, line, unit};
+use super::edges::{edge_points, in_lanes, line, unit};
 use super::gap::{AlongNormal, gamma};
 use super::moments::{MONOMIALS, PRODUCTS, Table, combine, monomials, powers, powers_of, table};
 use super::points::{Fan, Maps, points};
 use super::segment::{NonmortarFrame, Segment};
-use super::transport::{add_ends, dots};
+use super::transport::dots;
 use super::weights::PairWeights;
 use crate::geometry::edge_interval::edge_intervals;
 use crate::geometry::{Projection, Vec2};
@@ -357,7 +357,7 @@ impl<L: Lanes> Integrals<L> {
             let next = if k + 1 == One::NODES { 0 } else { k + 1 };
             let (p0, p1, s) = (p[k], p[next], &self.edges[k].cubic);
             let products = [p0 * s[0] + p1 * s[1], p0 * s[1] + p1 * s[2], p0 * s[2] + p1 * s[3]];
-            add_ends(&mut d, [k, next], self.edges[k].normal, &products, &[unit(k), unit(next)]);
+            add_ends(&mut d, [k, next], self.edges[k].normal, products);
         }
         d[V] = [combine(&self.shifted[0], p, One::NODES), combine(&self.shifted[1], p, One::NODES)];
         d
@@ -377,10 +377,20 @@ impl<L: Lanes> Integrals<L> {
         for k in 0..One::NODES {
             let next = if k + 1 == One::NODES { 0 } else { k + 1 };
             let [h0, h1, h2, _] = self.edges[k].height;
-            add_ends(&mut d, [k, next], -self.edges[k].normal, &[h0, h1, h2], &[unit(k), unit(next)]);
+            add_ends(&mut d, [k, next], -self.edges[k].normal, [h0, h1, h2]);
         }
         d[V] = [d[V][0] + self.gap[0], d[V][1] + self.gap[1]];
         d
+    }
+}
+
+/// Adds n times the products 00, 01, 11 of an edge's ends, in the slots and in the lanes of the two.
+#[inline(always)]
+fn add_ends<L: Lanes>(d: &mut PlaneDerivatives<L>, ends: [usize; 2], n: Vec2, products: [f64; 3]) {
+    let v = in_lanes(products, &[unit(ends[0]), unit(ends[1])]);
+    for j in 0..2 {
+        let sum = &mut d[ends[j]];
+        *sum = [L::splat(n.x).mul_add(v[j], sum[0]), L::splat(n.y).mul_add(v[j], sum[1])];
     }
 }
 

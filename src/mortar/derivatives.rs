@@ -1,10 +1,12 @@
 //! Derivatives with respect to the nodes: the plane derivatives of `transport`, chained
 //! with Dy_k = in-plane part of (Dx_k - Dx0), spin and tilt of the plane (formulation c.2).
 
+use super::edges::Edges;
 use super::element_rule;
 use super::gap::AlongNormal;
+use super::moments::Moments;
 use super::segment::{CellKernel, Cells, NonmortarFrame, Segment};
-use super::transport::{Integrals, PlaneDerivatives, Transport};
+use super::transport::{PlaneDerivatives, Transport};
 use super::weights::PairWeights;
 use super::{MORTAR, PAIR_NODES};
 use crate::quadrature::Rule;
@@ -117,17 +119,16 @@ impl CellKernel for OfPair<'_> {
     #[inline(always)]
     fn run<L: Lanes, One: Cell, Two: Cell>(self) -> AlongNormal {
         let OfPair { frame, segment, rule, weights, p, forces } = self;
-        let integrals = Integrals::<L>::new::<One, Two>(frame, segment, rule);
-        let transport = Transport::new::<Two>(frame, segment, &integrals);
-        let chain = Chain { frame, segment };
+        let moments = Moments::<L>::integrate::<One, Two>(frame, segment, rule);
+        let mut edges = Edges::new();
+        edges.integrate::<One, Two>(frame, segment, rule);
+        let transport = Transport::new::<One, Two>(frame, segment, &moments, &edges);
+        let chain = Chain::new(frame, segment);
         for i in 0..rolled(3) {
-            let one = chain.local::<L, One, Two>(&transport.one::<One>(&p[i]));
-            chain.columns::<L, One, Two>(&one, &mut Component { to: &mut forces.one, i });
-            let two = chain.local::<L, One, Two>(&transport.two::<One, Two>(&p[i]));
-            chain.columns::<L, One, Two>(&two, &mut Component { to: &mut forces.two, i });
+            chain.nodes::<One, Two>(&transport.one::<One>(&p[i]), &mut Component { to: &mut forces.one, i });
+            chain.nodes::<One, Two>(&transport.two::<One, Two>(&p[i]), &mut Component { to: &mut forces.two, i });
         }
-        let gap = transport.gap::<One, Two>(&frame.projection.d);
-        AlongNormal::new::<L, One, Two>(&chain, chain.local::<L, One, Two>(&gap), weights)
+        AlongNormal::new::<L, One, Two>(&chain, &transport.gap::<One, Two>(&frame.projection.d), weights)
     }
 }
 
@@ -144,25 +145,25 @@ impl CellKernel for OfWeights<'_> {
     #[inline(always)]
     fn run<L: Lanes, One: Cell, Two: Cell>(self) -> PairWeights {
         let OfWeights { frame, segment, rule, derivatives } = self;
-        let integrals = Integrals::<L>::new::<One, Two>(frame, segment, rule);
-        let transport = Transport::new::<Two>(frame, segment, &integrals);
-        let chain = Chain { frame, segment };
+        let moments = Moments::<L>::integrate::<One, Two>(frame, segment, rule);
+        let mut edges = Edges::new();
+        edges.integrate::<One, Two>(frame, segment, rule);
+        let transport = Transport::new::<One, Two>(frame, segment, &moments, &edges);
+        let chain = Chain::new(frame, segment);
+        let mut columns = Flat([[L::splat(0.0); 3]; PAIR_NODES]);
         for a in 0..rolled(One::NODES) {
-            let one = chain.local::<L, One, Two>(&transport.one::<One>(&SHAPES[a]));
-            let mut columns = Flat([[L::splat(0.0); 3]; PAIR_NODES]);
-            chain.columns::<L, One, Two>(&one, &mut columns);
+            chain.nodes::<One, Two>(&transport.one::<One>(&SHAPES[a]), &mut columns);
             to_rows::<L, One>(&columns.0, 1.0, &mut derivatives.ab[a]);
-            let two = chain.local::<L, One, Two>(&transport.two::<One, Two>(&SHAPES[a]));
-            chain.columns::<L, One, Two>(&two, &mut columns);
+            chain.nodes::<One, Two>(&transport.two::<One, Two>(&SHAPES[a]), &mut columns);
             to_rows::<L, Two>(&columns.0, -1.0, &mut derivatives.ac[a]);
         }
-        integrals.moments.weights::<One>(&frame.map.determinant())
+        moments.weights::<One>(&frame.map.determinant())
     }
 }
 
-/// Where columns go, each with slot k and component j.
+/// Where columns go: those of slot k, its three components.
 pub(super) trait Columns<L> {
-    fn set(&mut self, k: usize, j: usize, column: L);
+    fn set(&mut self, k: usize, columns: [L; 3]);
 }
 
 /// Component i of the forces.
@@ -173,8 +174,11 @@ pub(super) struct Component<'a> {
 
 impl<L: Lanes> Columns<L> for Component<'_> {
     #[inline(always)]
-    fn set(&mut self, k: usize, j: usize, column: L) {
-        self.to[k][j][self.i] = column.store();
+    fn set(&mut self, k: usize, columns: [L; 3]) {
+        let to = &mut self.to[k];
+        for j in 0..3 {
+            to[j][self.i] = columns[j].store();
+        }
     }
 }
 
@@ -182,8 +186,8 @@ pub(super) struct Flat<L>(pub [[L; 3]; PAIR_NODES]);
 
 impl<L: Lanes> Columns<L> for Flat<L> {
     #[inline(always)]
-    fn set(&mut self, k: usize, j: usize, column: L) {
-        self.0[k][j] = column;
+    fn set(&mut self, k: usize, columns: [L; 3]) {
+        self.0[k] = columns;
     }
 }
 
@@ -203,86 +207,86 @@ pub(super) fn to_rows<L: Lanes, C: Cell>(
     }
 }
 
-/// From the projected vertices to the nodes.
-pub(super) struct Chain<'a> {
+/// From the projected vertices to the nodes. Its numbers stand in every lane: spread once, for several fields.
+pub(super) struct Chain<'a, L> {
     pub frame: &'a NonmortarFrame,
     pub segment: &'a Segment,
+    /// y_1, -y_0 and height of the vertices, mortar slots in the order of the projection.
+    vertices: [[L; 3]; PAIR_NODES],
+    /// Spin and negative tilts of the plane that the non-mortar nodes make.
+    turns: [[L; 3]; MAX_NODES],
+    /// `[j]`: components j of t1, t2, e.
+    pub axes: [[L; 3]; 3],
 }
 
-impl Chain<'_> {
-    /// sum_k g_k . Dy_k as coefficients of the Dx of the pair's nodes, in the plane's axes t1, t2, e; mortar slots in
-    /// the order of the projection.
+/// Three numbers in every lane.
+#[inline(always)]
+fn spread<L: Lanes>([a, b, c]: [f64; 3]) -> [L; 3] {
+    [L::splat(a), L::splat(b), L::splat(c)]
+}
+
+impl<'a, L: Lanes> Chain<'a, L> {
     #[inline(always)]
-    pub fn local<L: Lanes, One: Cell, Two: Cell>(&self, g: &PlaneDerivatives<L>) -> [[L; 3]; PAIR_NODES] {
-        if L::SHARED { self.local_shared::<L, One, Two>(g) } else { self.local_inlined::<L, One, Two>(g) }
+    pub fn new(frame: &'a NonmortarFrame, segment: &'a Segment) -> Self {
+        let (plane, one, two) = (&frame.plane, &frame.projection, &segment.mortar);
+        let zero = [L::splat(0.0); 3];
+        let (mut vertices, mut turns, mut axes) = ([zero; PAIR_NODES], [zero; MAX_NODES], [zero; 3]);
+        for k in 0..MAX_NODES {
+            vertices[k] = spread([one.y[k].y, -one.y[k].x, one.d[k]]);
+            vertices[MORTAR + k] = spread([two.y[k].y, -two.y[k].x, two.d[k]]);
+            turns[k] = spread([plane.spin[k], -plane.tilt[0][k], -plane.tilt[1][k]]);
+        }
+        for j in 0..3 {
+            axes[j] = spread([plane.t1[j], plane.t2[j], plane.e[j]]);
+        }
+        Chain { frame, segment, vertices, turns, axes }
+    }
+
+    /// sum_k g_k . Dy_k as coefficients of the Dx of the pair's nodes, mortar slots in the order of the facet as given.
+    #[inline(always)]
+    pub fn nodes<One: Cell, Two: Cell>(&self, g: &PlaneDerivatives<L>, to: &mut impl Columns<L>) {
+        if L::SHARED { self.nodes_shared::<One, Two>(g, to) } else { self.nodes_inlined::<One, Two>(g, to) }
     }
 
     #[inline(never)]
-    fn local_shared<L: Lanes, One: Cell, Two: Cell>(&self, g: &PlaneDerivatives<L>) -> [[L; 3]; PAIR_NODES] {
-        self.local_inlined::<L, One, Two>(g)
+    fn nodes_shared<One: Cell, Two: Cell>(&self, g: &PlaneDerivatives<L>, to: &mut impl Columns<L>) {
+        self.nodes_inlined::<One, Two>(g, to);
     }
 
     #[inline(always)]
-    fn local_inlined<L: Lanes, One: Cell, Two: Cell>(&self, g: &PlaneDerivatives<L>) -> [[L; 3]; PAIR_NODES] {
-        let (plane, one, two) = (&self.frame.plane, &self.frame.projection, &self.segment.mortar);
-        let zero = L::splat(0.0);
-        let (mut shift, mut tilt, mut spin) = ([zero; 2], [zero; 2], zero);
-        for k in 0..One::NODES {
-            gather(&mut shift, &mut tilt, &mut spin, g[k], [one.y[k].x, one.y[k].y, one.d[k]]);
-        }
-        let mut x = [[zero; 3]; PAIR_NODES];
-        for l in 0..Two::NODES {
-            let g = g[MORTAR + l];
-            gather(&mut shift, &mut tilt, &mut spin, g, [two.y[l].x, two.y[l].y, two.d[l]]);
-            x[MORTAR + l] = [g[0], g[1], zero];
+    fn nodes_inlined<One: Cell, Two: Cell>(&self, g: &PlaneDerivatives<L>, to: &mut impl Columns<L>) {
+        // What the pair does to translation, tilt and spin of the plane.
+        let (mut shift, mut tilt, mut spin) = ([L::splat(0.0); 2], [L::splat(0.0); 2], L::splat(0.0));
+        for k in 0..PAIR_NODES {
+            if k < One::NODES || (k >= MORTAR && k < MORTAR + Two::NODES) {
+                let ([y1, minus_y0, d], [g0, g1]) = (&self.vertices[k], g[k]);
+                shift = [shift[0] + g0, shift[1] + g1];
+                tilt = [d.mul_add(g0, tilt[0]), d.mul_add(g1, tilt[1])];
+                spin = y1.mul_add(g0, minus_y0.mul_add(g1, spin));
+            }
         }
         let mean = L::splat(1.0 / One::NODES as f64);
+        shift = [shift[0] * mean, shift[1] * mean];
         for k in 0..One::NODES {
-            let along = L::splat(plane.tilt[0][k]).mul_add(tilt[0], L::splat(plane.tilt[1][k]) * tilt[1]);
-            let across = L::splat(plane.spin[k]).mul_add(spin, g[k][1] - shift[1] * mean);
-            x[k] = [g[k][0] - shift[0] * mean, across, -along];
-        }
-        x
-    }
-
-    /// The same in space, mortar slots in the order of the facet as given.
-    #[inline(always)]
-    pub fn columns<L: Lanes, One: Cell, Two: Cell>(&self, local: &[[L; 3]; PAIR_NODES], to: &mut impl Columns<L>) {
-        if L::SHARED {
-            self.columns_shared::<L, One, Two>(local, to)
-        } else {
-            self.columns_inlined::<L, One, Two>(local, to)
-        }
-    }
-
-    #[inline(never)]
-    fn columns_shared<L: Lanes, One: Cell, Two: Cell>(&self, local: &[[L; 3]; PAIR_NODES], to: &mut impl Columns<L>) {
-        self.columns_inlined::<L, One, Two>(local, to);
-    }
-
-    #[inline(always)]
-    fn columns_inlined<L: Lanes, One: Cell, Two: Cell>(&self, local: &[[L; 3]; PAIR_NODES], to: &mut impl Columns<L>) {
-        let plane = &self.frame.plane;
-        for j in 0..3 {
-            let (t1, t2, e) = (L::splat(plane.t1[j]), L::splat(plane.t2[j]), L::splat(plane.e[j]));
-            for k in 0..One::NODES {
-                to.set(k, j, t1.mul_add(local[k][0], t2.mul_add(local[k][1], e * local[k][2])));
+            let [spins, tilts0, tilts1] = &self.turns[k];
+            let x = g[k][0] - shift[0];
+            let y = spins.mul_add(spin, g[k][1] - shift[1]);
+            let z = tilts0.mul_add(tilt[0], *tilts1 * tilt[1]);
+            let mut columns = [x; 3];
+            for j in 0..3 {
+                let [t1, t2, e] = &self.axes[j];
+                columns[j] = t1.mul_add(x, t2.mul_add(y, *e * z));
             }
-            for l in 0..Two::NODES {
-                let x = &local[MORTAR + l];
-                let slot = MORTAR + self.segment.mortar.node[l];
-                to.set(slot, j, t1.mul_add(x[0], t2.mul_add(x[1], e * x[2])));
+            to.set(k, columns);
+        }
+        for l in 0..Two::NODES {
+            let [x, y] = g[MORTAR + l];
+            let mut columns = [x; 3];
+            for j in 0..3 {
+                let [t1, t2, _] = &self.axes[j];
+                columns[j] = t1.mul_add(x, *t2 * y);
             }
+            to.set(MORTAR + (self.segment.mortar.node[l] & 3), columns); // so that no bounds are checked
         }
     }
-}
-
-/// Adds what a vertex at `y`, `d` contributes to translation, tilt and spin of the plane.
-#[inline(always)]
-fn gather<L: Lanes>(shift: &mut [L; 2], tilt: &mut [L; 2], spin: &mut L, g: [L; 2], [y0, y1, d]: [f64; 3]) {
-    for c in 0..2 {
-        shift[c] = shift[c] + g[c];
-        tilt[c] = L::splat(d).mul_add(g[c], tilt[c]);
-    }
-    *spin = L::splat(y1).mul_add(g[0], L::splat(-y0).mul_add(g[1], *spin));
 }

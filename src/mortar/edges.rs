@@ -2,31 +2,30 @@
 //! along it, sum L_a Dy_a over its two ends, so are its own facet's functions; the other facet's come from the inverse
 //! map.
 
+use super::points::Maps;
 use super::segment::{NonmortarFrame, Segment};
 use crate::geometry::Vec2;
 use crate::geometry::edge_interval::{EdgeInterval, edge_intervals};
-use crate::quadrature::Rule;
+use crate::quadrature::{LINE_GROUPS, Rule};
 use crate::shape::{Cell, MAX_NODES};
 use crate::simd::{Lanes, Stack};
 
-/// Part of a non-mortar edge, ends 0 and 1.
+/// Part of a non-mortar edge, ends 0 and 1; four points of it.
 #[derive(Clone, Copy)]
 pub(super) struct NonmortarEdge<L> {
     /// Nodes of the ends.
     pub ends: [usize; 2],
-    /// 1 in their lanes.
-    pub units: [L; 2],
     /// n ds/dt, n the outward normal.
-    pub normal: Vec2,
-    /// int L0^3, L0^2 L1, L0 L1^2, L1^3.
-    pub cubic: [f64; 4],
+    pub normal: [L; 2],
+    /// int L_a L_b N_B for ab = 00, 01, 11, lanes B.
+    pub own: [L; 3],
     /// int L_a L_b N_C for ab = 00, 01, 11, lanes C in the order of the facet as given.
     pub mortar: [L; 3],
-    /// int L_a L_b v, v = sum N_C d_C.
-    pub height: [f64; 3],
+    /// int L_a N_A v for a = 0, 1, v = sum N_C d_C, lanes A.
+    pub height: [L; 2],
 }
 
-/// Part of a mortar edge, ends 0 and 1.
+/// Part of a mortar edge, ends 0 and 1; four points of it.
 #[derive(Clone, Copy)]
 pub(super) struct MortarEdge<L> {
     /// Nodes of the ends, in the order of the projection.
@@ -34,109 +33,145 @@ pub(super) struct MortarEdge<L> {
     /// 1 in their lanes, in the order of the facet as given.
     pub units: [L; 2],
     /// n ds/dt, n the outward normal.
-    pub normal: Vec2,
+    pub normal: [L; 2],
     /// int L_l N_A N_B: `[l][A]`, lanes B.
     pub nonmortar: [[L; MAX_NODES]; 2],
     /// int L_a L_b N_A for ab = 00, 01, 11, lanes A.
     pub own: [L; 3],
 }
 
+/// Parts that a pair's edges can have: every four points are one.
+const PARTS: usize = MAX_NODES * LINE_GROUPS;
+
 /// All of a pair's.
 pub(super) struct Edges<L> {
-    pub nonmortar: Stack<NonmortarEdge<L>, MAX_NODES>,
-    pub mortar: Stack<MortarEdge<L>, MAX_NODES>,
+    pub nonmortar: Stack<NonmortarEdge<L>, PARTS>,
+    pub mortar: Stack<MortarEdge<L>, PARTS>,
 }
 
 impl<L: Lanes> Edges<L> {
     #[inline(always)]
+    pub fn new() -> Self {
+        Edges { nonmortar: Stack::new(), mortar: Stack::new() }
+    }
+
+    /// Adds those of a pair. In place: they are large.
+    #[inline(always)]
     pub fn integrate<One: Cell, Two: Cell>(&mut self, frame: &NonmortarFrame, segment: &Segment, rule: &Rule) {
+        if L::SHARED {
+            self.integrate_shared::<One, Two>(frame, segment, rule);
+        } else {
+            self.integrate_inlined::<One, Two>(frame, segment, rule);
+        }
+    }
+
+    #[inline(never)]
+    fn integrate_shared<One: Cell, Two: Cell>(&mut self, frame: &NonmortarFrame, segment: &Segment, rule: &Rule) {
+        self.integrate_inlined::<One, Two>(frame, segment, rule);
+    }
+
+    #[inline(always)]
+    fn integrate_inlined<One: Cell, Two: Cell>(&mut self, frame: &NonmortarFrame, segment: &Segment, rule: &Rule) {
         let [one, two] = edge_intervals::<L>(&frame.projection, &segment.mortar, &frame.plane);
+        let maps = Maps::new(frame, segment);
         for edge in one.iter().flatten() {
-            self.nonmortar.push(nonmortar_edge::<L, Two>(frame, segment, rule, edge));
+            for points in rule.line_lanes {
+                self.nonmortar.push(nonmortar_edge::<L, Two>(&maps, frame, segment, edge, points));
+            }
         }
         for edge in two.iter().flatten() {
-            self.mortar.push(mortar_edge::<L, One>(frame, segment, rule, edge));
+            for points in rule.line_lanes {
+                self.mortar.push(mortar_edge::<L, One>(&maps, segment, edge, points));
+            }
         }
     }
 }
 
+/// The products 00, 01, 11 of an edge's ends, in the lanes (`units`) of the two.
+#[inline(always)]
+pub(super) fn in_lanes<L: Lanes>(products: [f64; 3], units: &[L; 2]) -> [L; 2] {
+    let [a, b, c] = products;
+    [units[0].mul_add(L::splat(a), units[1] * L::splat(b)), units[0].mul_add(L::splat(b), units[1] * L::splat(c))]
+}
+
 #[inline(always)]
 fn nonmortar_edge<L: Lanes, Two: Cell>(
+    maps: &Maps<L>,
     frame: &NonmortarFrame,
     segment: &Segment,
-    rule: &Rule,
     edge: &EdgeInterval,
+    points: &[[f64; 4]; 2],
 ) -> NonmortarEdge<L> {
     let two = &segment.mortar;
     let zero = L::splat(0.0);
     let (y0, span, normal) = line(&frame.projection.y, edge);
-    let (mut nc, mut heights, mut cubic) = ([[zero; MAX_NODES]; 3], [zero; 4], [zero; 4]);
-    for points in rule.line_lanes {
-        let (w, l, y) = edge_points::<L>(points, edge, y0, span);
-        let ww = [w * l[0] * l[0], w * l[0] * l[1], w * l[1] * l[1]];
-        for q in 0..2 {
-            cubic[q] = ww[q].mul_add(l[0], cubic[q]);
-            cubic[q + 2] = ww[q + 1].mul_add(l[1], cubic[q + 2]);
-        }
-        let at = segment.mortar_map.inverse(y);
-        let n2 = Two::values(at.xi, at.eta);
-        for q in 0..3 {
-            for c in 0..Two::NODES {
-                nc[q][c] = ww[q].mul_add(n2[c], nc[q][c]);
-            }
-        }
-    }
-    let mut mortar = [zero; 3];
-    let d = L::load(&two.d);
+    let (w, l, y) = edge_points::<L>(points, edge, y0, span);
+    let (w0, w1) = (w * l[0], w * l[1]);
+    let ww = [w0 * l[0], w0 * l[1], w1 * l[1]];
+    // int L0^3, L0^2 L1, L0 L1^2, L1^3.
+    let [s0, s1, s2, s3] = L::sums([ww[0] * l[0], ww[0] * l[1], ww[1] * l[1], ww[2] * l[1]]).store();
+    let at = maps.two.at(y);
+    let n2 = Two::values(at.xi, at.eta);
+    let (mut mortar, mut heights, d) = ([zero; 3], [zero; 4], L::load(&two.d));
     for q in 0..3 {
-        let sums = L::sums(nc[q]);
+        let mut products = [zero; MAX_NODES];
+        for c in 0..Two::NODES {
+            products[c] = ww[q] * n2[c];
+        }
+        let sums = L::sums(products);
         heights[q] = sums * d;
         mortar[q] = Two::given(sums, two.is_reversed());
     }
-    let h = L::sums(heights).store();
+    let [h0, h1, h2, _] = L::sums(heights).store();
+    let units = [unit(edge.from), unit(edge.to)];
+    let ([own0, own1], [_, own2]) = (in_lanes([s0, s1, s2], &units), in_lanes([s1, s2, s3], &units));
     NonmortarEdge {
         ends: [edge.from, edge.to],
-        units: [unit(edge.from), unit(edge.to)],
-        normal,
-        cubic: L::sums(cubic).store(),
+        normal: [L::splat(normal.x), L::splat(normal.y)],
+        own: [own0, own1, own2],
         mortar,
-        height: [h[0], h[1], h[2]],
+        height: in_lanes([h0, h1, h2], &units),
     }
 }
 
 #[inline(always)]
 fn mortar_edge<L: Lanes, One: Cell>(
-    frame: &NonmortarFrame,
+    maps: &Maps<L>,
     segment: &Segment,
-    rule: &Rule,
     edge: &EdgeInterval,
+    points: &[[f64; 4]; 2],
 ) -> MortarEdge<L> {
     let zero = L::splat(0.0);
     let (y0, span, normal) = line(&segment.mortar.y, edge);
-    let (mut nn, mut own) = ([[[zero; MAX_NODES]; MAX_NODES]; 2], [[zero; MAX_NODES]; 3]);
-    for points in rule.line_lanes {
-        let (w, l, y) = edge_points::<L>(points, edge, y0, span);
-        let at = frame.map.inverse(y);
-        let n1 = One::values(at.xi, at.eta);
+    let (w, l, y) = edge_points::<L>(points, edge, y0, span);
+    let at = maps.one.at(y);
+    let n1 = One::values(at.xi, at.eta);
+    let (mut nonmortar, mut own) = ([[zero; MAX_NODES]; 2], [[zero; MAX_NODES]; 3]);
+    for e in 0..2 {
+        let wl = w * l[e];
+        let mut products = [[zero; MAX_NODES]; MAX_NODES];
         for a in 0..One::NODES {
-            let wa = [w * l[0] * n1[a], w * l[1] * n1[a]];
-            for b in 0..One::NODES {
-                nn[0][a][b] = wa[0].mul_add(n1[b], nn[0][a][b]);
-                nn[1][a][b] = wa[1].mul_add(n1[b], nn[1][a][b]);
+            let wn = wl * n1[a];
+            for b in a..One::NODES {
+                products[a][b] = wn * n1[b];
+                products[b][a] = products[a][b];
             }
-            own[0][a] = wa[0].mul_add(l[0], own[0][a]);
-            own[1][a] = wa[0].mul_add(l[1], own[1][a]);
-            own[2][a] = wa[1].mul_add(l[1], own[2][a]);
+            own[e][a] = wn * l[0];
+            own[e + 1][a] = wn * l[1];
+        }
+        for a in 0..One::NODES {
+            nonmortar[e][a] = L::sums(products[a]);
         }
     }
-    let mut nonmortar = [[zero; MAX_NODES]; 2];
-    for a in 0..One::NODES {
-        nonmortar[0][a] = L::sums(nn[0][a]);
-        nonmortar[1][a] = L::sums(nn[1][a]);
-    }
     let own = [L::sums(own[0]), L::sums(own[1]), L::sums(own[2])];
-    let (ends, node) = ([edge.from, edge.to], &segment.mortar.node);
-    MortarEdge { ends, units: [unit(node[edge.from]), unit(node[edge.to])], normal, nonmortar, own }
+    let node = &segment.mortar.node;
+    MortarEdge {
+        ends: [edge.from, edge.to],
+        units: [unit(node[edge.from & 3]), unit(node[edge.to & 3])],
+        normal: [L::splat(normal.x), L::splat(normal.y)],
+        nonmortar,
+        own,
+    }
 }
 
 /// 1 in lane k.
@@ -144,14 +179,15 @@ fn mortar_edge<L: Lanes, One: Cell>(
 pub(super) fn unit<L: Lanes>(k: usize) -> L {
     const UNITS: [[f64; 4]; 4] =
         [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0]];
-    L::load(&UNITS[k])
+    L::load(&UNITS[k & 3]) // so that no bounds are checked
 }
 
 /// Beginning and span of an edge, and n ds/dt, n the outward normal of the facet that owns it.
 #[inline(always)]
 pub(super) fn line(y: &[Vec2; MAX_NODES], edge: &EdgeInterval) -> (Vec2, Vec2, Vec2) {
-    let span = y[edge.to] - y[edge.from];
-    (y[edge.from], span, Vec2::new(span.y, -span.x) * edge.orientation)
+    let (from, to) = (y[edge.from & 3], y[edge.to & 3]);
+    let span = to - from;
+    (from, span, Vec2::new(span.y, -span.x) * edge.orientation)
 }
 
 /// Weights, L0 and L1, and positions of four points of an edge's interval.

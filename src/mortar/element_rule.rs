@@ -222,11 +222,12 @@ pub(super) fn motion(
     forces: &mut ForceDerivatives,
 ) -> AlongNormal {
     let plane = Derivatives::new(frame, segment, points, p);
-    Cells::of(frame, segment).plain(Motion { chain: Chain { frame, segment }, plane, weights, forces })
+    Cells::of(frame, segment).plain(Motion { frame, segment, plane, weights, forces })
 }
 
 struct Motion<'a> {
-    chain: Chain<'a>,
+    frame: &'a NonmortarFrame,
+    segment: &'a Segment,
     plane: Derivatives<3>,
     weights: &'a PairWeights,
     forces: &'a mut ForceDerivatives,
@@ -237,15 +238,13 @@ impl CellKernel for Motion<'_> {
 
     #[inline(always)]
     fn run<L: Lanes, One: Cell, Two: Cell>(self) -> AlongNormal {
-        let Motion { chain, plane, weights, forces } = self;
+        let Motion { frame, segment, plane, weights, forces } = self;
+        let chain = Chain::new(frame, segment);
         for i in 0..3 {
-            let one = chain.local::<L, One, Two>(&lanes::<L>(&plane.one[i]));
-            chain.columns::<L, One, Two>(&one, &mut Component { to: &mut forces.one, i });
-            let two = chain.local::<L, One, Two>(&lanes::<L>(&plane.two[i]));
-            chain.columns::<L, One, Two>(&two, &mut Component { to: &mut forces.two, i });
+            chain.nodes::<One, Two>(&lanes::<L>(&plane.one[i]), &mut Component { to: &mut forces.one, i });
+            chain.nodes::<One, Two>(&lanes::<L>(&plane.two[i]), &mut Component { to: &mut forces.two, i });
         }
-        let gap = chain.local::<L, One, Two>(&lanes::<L>(&plane.gap));
-        AlongNormal::new::<L, One, Two>(&chain, gap, weights)
+        AlongNormal::new::<L, One, Two>(&chain, &lanes::<L>(&plane.gap), weights)
     }
 }
 
@@ -257,12 +256,13 @@ pub(super) fn derivatives(
     derivatives: &mut WeightDerivatives,
 ) -> PairWeights {
     let plane = Derivatives::new(frame, segment, points, &SHAPES);
-    Cells::of(frame, segment).plain(OfWeights { chain: Chain { frame, segment }, plane, derivatives });
+    Cells::of(frame, segment).plain(OfWeights { frame, segment, plane, derivatives });
     weights(frame, segment, points)
 }
 
 struct OfWeights<'a> {
-    chain: Chain<'a>,
+    frame: &'a NonmortarFrame,
+    segment: &'a Segment,
     plane: Derivatives<4>,
     derivatives: &'a mut WeightDerivatives,
 }
@@ -272,14 +272,13 @@ impl CellKernel for OfWeights<'_> {
 
     #[inline(always)]
     fn run<L: Lanes, One: Cell, Two: Cell>(self) {
-        let OfWeights { chain, plane, derivatives } = self;
+        let OfWeights { frame, segment, plane, derivatives } = self;
+        let chain = Chain::new(frame, segment);
+        let mut columns = Flat([[L::splat(0.0); 3]; PAIR_NODES]);
         for a in 0..One::NODES {
-            let mut columns = Flat([[L::splat(0.0); 3]; PAIR_NODES]);
-            let one = chain.local::<L, One, Two>(&lanes::<L>(&plane.one[a]));
-            chain.columns::<L, One, Two>(&one, &mut columns);
+            chain.nodes::<One, Two>(&lanes::<L>(&plane.one[a]), &mut columns);
             to_rows::<L, One>(&columns.0, 1.0, &mut derivatives.ab[a]);
-            let two = chain.local::<L, One, Two>(&lanes::<L>(&plane.two[a]));
-            chain.columns::<L, One, Two>(&two, &mut columns);
+            chain.nodes::<One, Two>(&lanes::<L>(&plane.two[a]), &mut columns);
             to_rows::<L, Two>(&columns.0, -1.0, &mut derivatives.ac[a]);
         }
     }

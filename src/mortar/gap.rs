@@ -7,6 +7,7 @@
 
 use super::derivatives::{Chain, Columns, WeightDerivatives};
 use super::segment::NonmortarFrame;
+use super::transport::PlaneDerivatives;
 use super::weights::PairWeights;
 use super::{MORTAR, PAIR_NODES};
 use crate::geometry::{Facet, Projection, Vec3};
@@ -102,36 +103,42 @@ impl AlongNormal {
         AlongNormal { e, axes, tilt, gamma: gamma(frame, two, weights), dgamma }
     }
 
-    /// From `local`, the derivatives of gamma_A at fixed heights in the plane's axes.
+    /// From `plane`, the derivatives of gamma_A at fixed heights.
     #[inline(always)]
     pub(super) fn new<L: Lanes, One: Cell, Two: Cell>(
-        chain: &Chain,
-        mut local: [[L; 3]; PAIR_NODES],
+        chain: &Chain<L>,
+        plane: &PlaneDerivatives<L>,
         weights: &PairWeights,
     ) -> AlongNormal {
-        let plane = &chain.frame.plane;
-        // The heights: n_AB e . Dx_B - n_AC e . Dx_C.
-        for b in 0..One::NODES {
-            local[b][2] = local[b][2] + L::load(&weights.ab[b]); // n_AB is symmetric
-        }
+        let mut to = Gaps {
+            dgamma: [[[0.0; MAX_NODES]; 3]; PAIR_NODES],
+            heights: [L::splat(0.0); PAIR_NODES],
+            e: [chain.axes[0][2], chain.axes[1][2], chain.axes[2][2]],
+        };
         let ac = columns::<L>(&weights.ac);
-        for l in 0..Two::NODES {
-            local[MORTAR + l][2] = local[MORTAR + l][2] - ac[chain.segment.mortar.node[l]];
+        for k in 0..MAX_NODES {
+            to.heights[k] = L::load(&weights.ab[k]); // n_AB is symmetric
+            to.heights[MORTAR + k] = -ac[k];
         }
-        let mut dgamma = Gaps([[[0.0; MAX_NODES]; 3]; PAIR_NODES]);
-        chain.columns::<L, One, Two>(&local, &mut dgamma);
-        let Gaps(dgamma) = dgamma;
-        let gamma = gamma(chain.frame, &chain.segment.mortar, weights);
-        AlongNormal { e: plane.e, axes: [plane.t1, plane.t2], tilt: plane.tilt, gamma, dgamma }
+        chain.nodes::<One, Two>(plane, &mut to);
+        let (plane, gamma) = (&chain.frame.plane, gamma(chain.frame, &chain.segment.mortar, weights));
+        AlongNormal { e: plane.e, axes: [plane.t1, plane.t2], tilt: plane.tilt, gamma, dgamma: to.dgamma }
     }
 }
 
-struct Gaps([[[f64; MAX_NODES]; 3]; PAIR_NODES]);
+struct Gaps<L> {
+    dgamma: [[[f64; MAX_NODES]; 3]; PAIR_NODES],
+    /// d gamma_A / d d_k, lanes A: n_AB, -n_AC.
+    heights: [L; PAIR_NODES],
+    e: [L; 3],
+}
 
-impl<L: Lanes> Columns<L> for Gaps {
+impl<L: Lanes> Columns<L> for Gaps<L> {
     #[inline(always)]
-    fn set(&mut self, k: usize, j: usize, column: L) {
-        self.0[k][j] = column.store();
+    fn set(&mut self, k: usize, columns: [L; 3]) {
+        for j in 0..3 {
+            self.dgamma[k][j] = self.e[j].mul_add(self.heights[k], columns[j]).store();
+        }
     }
 }
 

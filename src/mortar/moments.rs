@@ -194,6 +194,20 @@ pub(super) fn combine<L: Lanes>(n: &[L; MAX_NODES], c: &[f64; MAX_NODES], nodes:
 impl<L: Lanes> Moments<L> {
     #[inline(always)]
     pub fn integrate<One: Cell, Two: Cell>(frame: &NonmortarFrame, segment: &Segment, rule: &Rule) -> Self {
+        if L::SHARED {
+            Self::shared::<One, Two>(frame, segment, rule)
+        } else {
+            Self::inlined::<One, Two>(frame, segment, rule)
+        }
+    }
+
+    #[inline(never)]
+    fn shared<One: Cell, Two: Cell>(frame: &NonmortarFrame, segment: &Segment, rule: &Rule) -> Self {
+        Self::inlined::<One, Two>(frame, segment, rule)
+    }
+
+    #[inline(always)]
+    fn inlined<One: Cell, Two: Cell>(frame: &NonmortarFrame, segment: &Segment, rule: &Rule) -> Self {
         let mut whole = [[L::splat(0.0); MONOMIALS]; 3];
         let mut stack = Stack::<Group<L>, GROUPS>::new();
         let rule = triangle_lanes::<One, Two>(rule);

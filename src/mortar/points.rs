@@ -63,8 +63,8 @@ pub(super) fn triangle_lanes<One: Cell, Two: Cell>(rule: &Rule) -> &'static [[[f
 
 /// The maps of a pair's facets.
 pub(super) struct Maps<L> {
-    one: InverseMap<L>,
-    two: InverseMap<L>,
+    pub one: InverseMap<L>,
+    pub two: InverseMap<L>,
 }
 
 impl<L: Lanes> Maps<L> {

@@ -13,14 +13,12 @@
 //! of the overlap is differentiated: that would lose a digit for every digit of a small crossing angle. Where the mortar
 //! side is at rest: `at_rest`.
 
-use super::edges::Edges;
+use super::edges::{Edges, in_lanes};
 use super::moments::{Moments, combine, powers};
 use super::segment::{NonmortarFrame, Segment};
 use super::{MORTAR, PAIR_NODES};
-use crate::geometry::Vec2;
-use crate::quadrature::Rule;
 use crate::shape::{Cell, MAX_NODES};
-use crate::simd::{Lanes, Stack};
+use crate::simd::Lanes;
 
 /// d/dy of four numbers in the lanes: per slot k the two components of y_k, mortar slots in the order of the
 /// projection.
@@ -29,64 +27,40 @@ pub(super) type PlaneDerivatives<L> = [[L; 2]; PAIR_NODES];
 /// A pair whose derivatives follow from its integrals by contraction.
 pub(super) struct Transport<'a, L> {
     segment: &'a Segment,
-    integrals: &'a Integrals<L>,
+    moments: &'a Moments<L>,
+    edges: &'a Edges<L>,
+    /// int (mu1_m / det1) N_k v, v = sum N_C d_C.
+    q1v: [[f64; MAX_NODES]; 3],
     /// det J grad N of both facets in powers (1, xi, eta), lanes over the nodes, of the mortar facet as given.
     gradients: [[[L; 2]; 3]; 2],
     /// det2 grad v in the same powers.
     slope: [[f64; 2]; 3],
 }
 
-/// What is integrated of a pair.
-pub(super) struct Integrals<L> {
-    pub moments: Moments<L>,
-    /// int (mu1_m / det1) N_k v, v = sum N_C d_C.
-    q1v: [[f64; MAX_NODES]; 3],
-    edges: Edges<L>,
-}
-
-impl<L: Lanes> Integrals<L> {
-    #[inline(always)]
-    pub fn new<One: Cell, Two: Cell>(frame: &NonmortarFrame, segment: &Segment, rule: &Rule) -> Self {
-        if L::SHARED {
-            Self::shared::<One, Two>(frame, segment, rule)
-        } else {
-            Self::inlined::<One, Two>(frame, segment, rule)
-        }
-    }
-
-    #[inline(never)]
-    fn shared<One: Cell, Two: Cell>(frame: &NonmortarFrame, segment: &Segment, rule: &Rule) -> Self {
-        Self::inlined::<One, Two>(frame, segment, rule)
-    }
-
-    #[inline(always)]
-    fn inlined<One: Cell, Two: Cell>(frame: &NonmortarFrame, segment: &Segment, rule: &Rule) -> Self {
-        let two = &segment.mortar;
-        let moments = Moments::integrate::<One, Two>(frame, segment, rule);
-        let v = Two::given(L::load(&two.d), two.is_reversed());
-        let mut q1v = [[0.0; MAX_NODES]; 3];
-        for m in 0..powers::<One>() {
-            let q = &moments.q1[m];
-            q1v[m] = L::sums([q[0] * v, q[1] * v, q[2] * v, q[3] * v]).store();
-        }
-        let mut integrals = Integrals { moments, q1v, edges: Edges { nonmortar: Stack::new(), mortar: Stack::new() } };
-        integrals.edges.integrate::<One, Two>(frame, segment, rule);
-        integrals
-    }
-}
-
 impl<'a, L: Lanes> Transport<'a, L> {
     #[inline(always)]
-    pub fn new<Two: Cell>(frame: &NonmortarFrame, segment: &'a Segment, integrals: &'a Integrals<L>) -> Self {
+    pub fn new<One: Cell, Two: Cell>(
+        frame: &NonmortarFrame,
+        segment: &'a Segment,
+        moments: &'a Moments<L>,
+        edges: &'a Edges<L>,
+    ) -> Self {
         let two = &segment.mortar;
         let mut gradients = [frame.map.gradients::<L>(), segment.mortar_map.gradients::<L>()];
-        let slope = dots(&gradients[1], L::load(&two.d));
+        let d = L::load(&two.d);
+        let slope = dots(&gradients[1], d);
         for m in 0..powers::<Two>() {
             for c in 0..2 {
                 gradients[1][m][c] = Two::given(gradients[1][m][c], two.is_reversed());
             }
         }
-        Transport { segment, integrals, gradients, slope }
+        let v = Two::given(d, two.is_reversed());
+        let mut q1v = [[0.0; MAX_NODES]; 3];
+        for m in 0..powers::<One>() {
+            let q = &moments.q1[m];
+            q1v[m] = L::sums([q[0] * v, q[1] * v, q[2] * v, q[3] * v]).store();
+        }
+        Transport { segment, moments, edges, q1v, gradients, slope }
     }
 
     /// Of the forces f_B of the field with the nodal values `p`, lanes B.
@@ -104,26 +78,24 @@ impl<'a, L: Lanes> Transport<'a, L> {
     fn one_inlined<One: Cell>(&self, p: &[f64; MAX_NODES]) -> PlaneDerivatives<L> {
         let mut d = [[L::splat(0.0); 2]; PAIR_NODES];
         let [g, _] = &self.gradients;
-        let slope = dots(g, L::load(p));
+        let minus = (-L::load(p)).store();
+        let slope = dots(g, L::load(&minus));
         for m in 0..powers::<One>() {
-            let r = &self.integrals.moments.r[m];
-            let rp = combine(r, p, One::NODES).store(); // r is symmetric in k and B
+            let r = &self.moments.r[m];
+            let rp = combine(r, &minus, One::NODES).store(); // r is symmetric in k and B
             for k in 0..One::NODES {
                 for c in 0..2 {
-                    let v = L::splat(slope[m][c]).mul_add(r[k], g[m][c] * L::splat(rp[k]));
-                    d[k][c] = d[k][c] - v;
+                    let v = L::splat(slope[m][c]).mul_add(r[k], d[k][c]);
+                    d[k][c] = g[m][c].mul_add(L::splat(rp[k]), v);
                 }
             }
         }
-        for edge in self.integrals.edges.nonmortar.values() {
-            let [from, to] = edge.ends;
-            let (p0, p1, s) = (p[from], p[to], &edge.cubic);
-            let products = [p0 * s[0] + p1 * s[1], p0 * s[1] + p1 * s[2], p0 * s[2] + p1 * s[3]];
-            add_ends(&mut d, edge.ends, edge.normal, &products, &edge.units);
+        for edge in self.edges.nonmortar.values() {
+            add_products(&mut d, edge.ends, &edge.normal, p, &edge.own);
         }
-        for edge in self.integrals.edges.mortar.values() {
+        for edge in self.edges.mortar.values() {
             let n = [combine(&edge.nonmortar[0], p, One::NODES), combine(&edge.nonmortar[1], p, One::NODES)];
-            add_mortar(&mut d, edge.ends, edge.normal, n);
+            add(&mut d, MORTAR, edge.ends, &edge.normal, n);
         }
         d
     }
@@ -148,12 +120,12 @@ impl<'a, L: Lanes> Transport<'a, L> {
         for m in 0..powers::<One>() {
             for k in 0..One::NODES {
                 for c in 0..2 {
-                    d[k][c] = L::splat(slope[m][c]).mul_add(self.integrals.moments.q1[m][k], d[k][c]);
+                    d[k][c] = L::splat(slope[m][c]).mul_add(self.moments.q1[m][k], d[k][c]);
                 }
             }
         }
         for m in 0..powers::<Two>() {
-            let q = &self.integrals.moments.q2[m];
+            let q = &self.moments.q2[m];
             let qp = L::sums([q[0] * lanes, q[1] * lanes, q[2] * lanes, q[3] * lanes]).store();
             for l in 0..Two::NODES {
                 for c in 0..2 {
@@ -161,17 +133,14 @@ impl<'a, L: Lanes> Transport<'a, L> {
                 }
             }
         }
-        for edge in self.integrals.edges.nonmortar.values() {
-            let [from, to] = edge.ends;
-            let (p0, p1, n) = (L::splat(p[from]), L::splat(p[to]), &edge.mortar);
-            add(&mut d[from], -edge.normal, p0.mul_add(n[0], p1 * n[1]));
-            add(&mut d[to], -edge.normal, p0.mul_add(n[1], p1 * n[2]));
+        let minus = (-lanes).store();
+        for edge in self.edges.nonmortar.values() {
+            add_products(&mut d, edge.ends, &edge.normal, &minus, &edge.mortar);
         }
-        for edge in self.integrals.edges.mortar.values() {
-            let [from, to] = edge.ends;
+        for edge in self.edges.mortar.values() {
             let n = &edge.own;
-            let s = L::sums([n[0] * lanes, n[1] * lanes, n[2] * lanes, L::splat(0.0)]).store();
-            add_ends(&mut d, [MORTAR + from, MORTAR + to], -edge.normal, &[s[0], s[1], s[2]], &edge.units);
+            let [s0, s1, s2, _] = L::sums([n[0] * lanes, n[1] * lanes, n[2] * lanes, L::splat(0.0)]).store();
+            subtract(&mut d, MORTAR, edge.ends, &edge.normal, in_lanes([s0, s1, s2], &edge.units));
         }
         d
     }
@@ -185,7 +154,7 @@ impl<'a, L: Lanes> Transport<'a, L> {
         for m in 0..powers::<One>() {
             for k in 0..One::NODES {
                 for c in 0..2 {
-                    d[k][c] = g[m][c].mul_add(L::splat(self.integrals.q1v[m][k]), d[k][c]);
+                    d[k][c] = g[m][c].mul_add(L::splat(self.q1v[m][k]), d[k][c]);
                 }
             }
         }
@@ -193,49 +162,54 @@ impl<'a, L: Lanes> Transport<'a, L> {
             for c in 0..2 {
                 let h = L::splat(self.slope[m][c]);
                 for l in 0..Two::NODES {
-                    d[MORTAR + l][c] = h.mul_add(self.integrals.moments.q2[m][l], d[MORTAR + l][c]);
+                    d[MORTAR + l][c] = h.mul_add(self.moments.q2[m][l], d[MORTAR + l][c]);
                 }
             }
         }
-        for edge in self.integrals.edges.nonmortar.values() {
-            add_ends(&mut d, edge.ends, -edge.normal, &edge.height, &edge.units);
+        for edge in self.edges.nonmortar.values() {
+            subtract(&mut d, 0, edge.ends, &edge.normal, edge.height);
         }
-        let v = &self.segment.mortar.d;
-        for edge in self.integrals.edges.mortar.values() {
-            let (v0, v1, n) = (L::splat(v[edge.ends[0]]), L::splat(v[edge.ends[1]]), &edge.own);
+        for edge in self.edges.mortar.values() {
+            let ([v0, v1], n) = (at_ends::<L>(&self.segment.mortar.d, edge.ends), &edge.own);
             let n = [v0.mul_add(n[0], v1 * n[1]), v0.mul_add(n[1], v1 * n[2])];
-            add_mortar(&mut d, edge.ends, -edge.normal, n);
+            subtract(&mut d, MORTAR, edge.ends, &edge.normal, n);
         }
         d
     }
 }
 
-/// Adds what a mortar edge's two ends contribute.
+/// The values of a field at an edge's ends.
 #[inline(always)]
-fn add_mortar<L: Lanes>(d: &mut PlaneDerivatives<L>, ends: [usize; 2], normal: Vec2, n: [L; 2]) {
-    add(&mut d[MORTAR + ends[0]], normal, n[0]);
-    add(&mut d[MORTAR + ends[1]], normal, n[1]);
+fn at_ends<L: Lanes>(field: &[f64; MAX_NODES], ends: [usize; 2]) -> [L; 2] {
+    [L::splat(field[ends[0] & 3]), L::splat(field[ends[1] & 3])]
 }
 
-/// `sum` + n `v`, component by component.
+/// Adds n `v` in the slots of an edge's ends, which follow slot `first`.
 #[inline(always)]
-fn add<L: Lanes>(sum: &mut [L; 2], n: Vec2, v: L) {
-    *sum = [L::splat(n.x).mul_add(v, sum[0]), L::splat(n.y).mul_add(v, sum[1])];
-}
-
-/// Adds n times the products 00, 01, 11 of an edge's ends, in the slots and in the lanes (`units`) of the two.
-#[inline(always)]
-pub(super) fn add_ends<L: Lanes, const SLOTS: usize>(
-    d: &mut [[L; 2]; SLOTS],
-    slots: [usize; 2],
-    normal: Vec2,
-    products: &[f64; 3],
-    units: &[L; 2],
-) {
+fn add<L: Lanes>(d: &mut PlaneDerivatives<L>, first: usize, ends: [usize; 2], n: &[L; 2], v: [L; 2]) {
     for j in 0..2 {
-        let v = units[0].mul_add(L::splat(products[j]), units[1] * L::splat(products[j + 1]));
-        add(&mut d[slots[j]], normal, v);
+        let sum = &mut d[first + (ends[j] & 3)]; // so that no bounds are checked
+        *sum = [n[0].mul_add(v[j], sum[0]), n[1].mul_add(v[j], sum[1])];
     }
+}
+
+/// Subtracts the same.
+#[inline(always)]
+fn subtract<L: Lanes>(d: &mut PlaneDerivatives<L>, first: usize, ends: [usize; 2], n: &[L; 2], v: [L; 2]) {
+    add(d, first, ends, n, [-v[0], -v[1]]);
+}
+
+/// Adds what a field p on a non-mortar edge contributes, from the integrals `of` L_a L_b times what stands in the lanes.
+#[inline(always)]
+fn add_products<L: Lanes>(
+    d: &mut PlaneDerivatives<L>,
+    ends: [usize; 2],
+    normal: &[L; 2],
+    p: &[f64; MAX_NODES],
+    of: &[L; 3],
+) {
+    let [p0, p1] = at_ends::<L>(p, ends);
+    add(d, 0, ends, normal, [p0.mul_add(of[0], p1 * of[1]), p0.mul_add(of[1], p1 * of[2])]);
 }
 
 /// The products with `v`, summed over the lanes.

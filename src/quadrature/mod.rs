@@ -62,6 +62,9 @@ pub static DEGREE_6: Rule = Rule {
     ..DEGREE_1
 };
 
+/// Most groups of four points that a rule has on an interval.
+pub const LINE_GROUPS: usize = 2;
+
 /// All of them, by degree.
 pub static RULES: [&Rule; 6] = [&DEGREE_1, &DEGREE_2, &DEGREE_4, &DEGREE_5, &DEGREE_6, &DEGREE_10];
 
@@ -154,6 +157,7 @@ mod tests {
                 assert_eq!([l1, l2, w], [p1, p2, v]);
             }
             assert!(triangle.next().is_none());
+            assert!(rule.line_lanes.len() <= LINE_GROUPS);
             let mut line = rule.line.iter();
             for i in 0..4 * rule.line_lanes.len() {
                 let point = rule.line_lanes[i / 4].map(|v| v[i % 4]);
