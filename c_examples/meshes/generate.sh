@@ -31,8 +31,11 @@ mesh brick_tet_lower.msh brick_tet.geo side -1 cells 3
 mesh ironing_die_coarse.msh ironing_die.geo along 6 up 3
 mesh ironing_die.msh        ironing_die.geo along 12 up 6
 
-# The channel for a slider whose facets are 25 long, or 12.5; carrying the multipliers itself; half of a wide one for 3D.
+# The channel for a slider whose facets are 25 long, or 12.5; with a rounded end; carrying the multipliers itself, and
+# the same for facets of 12.5; half of a wide one for 3D.
 mesh press_fit_coarse.msh  press_fit_channel.geo before  2 ramp 1 after  2 down 3
+mesh press_fit_rounded.msh press_fit_channel.geo before  2 ramp 1 after  2 down 3 radius 25 bend 8
 mesh press_fit_fine.msh    press_fit_channel.geo before 22 ramp 6 after 25 down 6
 mesh press_fit_swapped.msh press_fit_channel.geo before 22 ramp 6 after 25 down 1
+mesh press_fit_swapped_fine.msh press_fit_channel.geo before 44 ramp 12 after 50 down 2
 mesh press_fit_wide.msh    press_fit_channel.geo before  6 ramp 2 after  7 down 3 width 200 across 3

@@ -270,7 +270,12 @@ def slider_curves(run, name):
 
 def at_the_corners(run):
     """The step at 800 mm, with the slider over both."""
-    return next(k for k, step in enumerate(run.steps, 1) if step["t"] > 1.799)
+    return step_at(run, 800)
+
+
+def step_at(run, distance):
+    """The first one that ends there or beyond."""
+    return next(k for k, step in enumerate(run.steps, 1) if step["t"] > 1 + 0.001 * distance - 0.001)
 
 
 def moved_by(t):
@@ -309,6 +314,32 @@ def draw_press_fit_3d(run, folder):
     return [
         figures.history(curves, folder / "press_fit_3d_history.png", "travel [mm]", "reaction of a quarter [kN]"),
         *moving("press_fit_3d", run, section, folder, moved_by),
+    ]
+
+
+def drop_off(verdicts, driver):
+    """Two meshes off the sharp edge and off the rounded one; the last is shown."""
+    runs = []
+    for across, high in ((18, 3), (36, 6)):
+        runs.append(slider.drop_off(verdicts, driver, (across, high), 25, slider.of_facets(across, 25)))
+        seen = ("-output_vtu", "all")
+        runs.append(slider.drop_off(verdicts, driver, (across, high), 25, slider.DROP_BOUND, slider.ROUNDED, seen))
+    return runs
+
+
+def draw_drop_off(runs, folder):
+    names = ("sharp, 18 x 3", "rounded, 18 x 3", "sharp, 36 x 6", "rounded, 36 x 6")
+    curves = []
+    for run, name in zip(runs, names):
+        _, (_, moved, force) = slider_curves(run, "")
+        curves.append((name, *np.array([(x, f) for x, f in zip(moved, force) if x >= 1000]).T))
+    view = View("contact", (1000, 2580, -10, 520), 110, (9, 3.2), normal_only=True)
+    return [
+        figures.history(
+            [curves[2], curves[3]], folder / "drop_off.png", "travel [mm]", "R_z [kN]",
+            [(*curves[0], ":"), (*curves[1], "--")], "Off the end of the channel",
+        ),
+        *moving("drop_off", runs[-1], view, folder, moved_by, frames=36, shown=step_at(runs[-1], 1500)),
     ]
 
 
@@ -392,6 +423,9 @@ ENTRIES = [
           draw_press_fit, ("press_fit_forces.png",)),
     Entry("press_fit_3d", "Press fit in three dimensions", "A slider of finite width; the section in its plane of "
           "symmetry.", 2.0, press_fit_3d, draw_press_fit_3d),
+    Entry("drop_off", "Drop-off: the slider leaves the channel", "Off a sharp edge, at which the mortar surface ends, "
+          "R_z rises now and then on its way down, as facets bent over the edge leave it; off one rounded by a facet of "
+          "the slider or two it falls in every step.", 2.0, drop_off, draw_drop_off),
     Entry("turned_shaft", "A shaft carried round by friction", "Stuck in a hub that turns by 2 rad: no slip with the "
           "objective measure.", 0.5, turned_shaft, draw_turned_shaft),
     Entry("shallow_ironing", "Shallow ironing", "A die pressed into a softer base and drawn along it in 500 steps. The "
