@@ -20,6 +20,8 @@ COARSE = ("-base_cells", "60,1,15", "-die_file", SCENES.parent / "meshes" / "iro
 CYCLING = {"1e2": 50, "1e3": 60, "1e4": 65}
 # Too large to be cured: here the report is what counts.
 HOPELESS = "1e6"
+# Two floors: E = 1000, nu = 0, one cell of 1 x 1 x 1, shortened by 0.4 - 0.1.
+FLOOR_FORCE = 300
 # Of its pairs: 0.1 / 13 by 1 / 6, of a facet of 0.2 by 1.
 SMALLEST_OVERLAP = 1 / 156
 
@@ -39,6 +41,7 @@ def with_steps(driver, scene, steps):
 def stepping(verdicts, driver):
     automatic(verdicts, driver)
     rollback(verdicts, driver)
+    singular(verdicts, driver)
     cycling(verdicts, driver)
     klarbring(verdicts, driver)
 
@@ -99,6 +102,21 @@ def rollback(verdicts, driver):
     keys = ("t", "residual_norms", "reactions", "external_work_half_fu", "friction_work")
     equal = [all(a[k] == b[k] for k in keys) for a, b in zip(failing.steps, direct.steps, strict=True)]
     verdicts.near(f"{label}: steps with equal residuals, reactions, works", sum(equal), len(equal), 0, "bit by bit")
+
+
+def singular(verdicts, driver):
+    """A matrix that cannot be factorised fails the attempt, and nothing else: the next one has a matrix of its own."""
+    run = driver.run("two_floors")
+    reasons = [attempt["why"] for attempt in run.summary["failed_attempts"]]
+    verdicts.at_least("singular matrix: cut-backs", run.summary["cutbacks"], 1, "else nothing is tested")
+    told = all("singular" in why for why in reasons) and reasons[0] in run.text
+    verdicts.true("singular matrix: is the reason that is told", told, f"{reasons}")
+    force = run.resultant("upper")[2]
+    verdicts.near("singular matrix: force of the floor after it", abs(force), FLOOR_FORCE, SAME_ANSWER, "E u / L")
+    left = run.resultant("lower")
+    verdicts.below("singular matrix: force of the floor out of reach", np.abs(left).max(), 0, "the block ends above it")
+    whole = driver.run("two_floors", "-steps_smallest", 1, label="two_floors_at_once", expect=2)
+    verdicts.true("singular matrix: a run that ends there says so", "singular" in whole.text, "exit code 2")
 
 
 def cycling(verdicts, driver):
