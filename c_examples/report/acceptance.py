@@ -215,7 +215,7 @@ def errors(verdicts, driver):
         run = driver.run(path, *bad.options, label=f"bad_{bad.name}", expect=1)
         verdicts.true(
             f"{bad.name}: exit code 1, message names {bad.names}",
-            f"{bad.names}:" in run.text,
+            f"{bad.names}:" in run.text and bad.says in run.text,
             "the key at fault is named",
         )
         verdicts.true(

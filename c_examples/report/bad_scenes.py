@@ -16,6 +16,7 @@ class BadScene:
     new: str  # ... and what stands there instead
     names: str  # what the message must contain
     options: tuple = ()  # or the mistake is on the command line
+    says: str = ""  # and what else
 
 
 def wall(shape):
@@ -100,6 +101,11 @@ BAD_SCENES = [
     BadScene("not_automatic", "steps: {end: 2, count: 20}", "steps: {end: 2, largest: 0.1}", "steps.largest"),
     BadScene("too_large_initial", "", "", "steps.initial", ("-steps_automatic", "true", "-steps_initial", "3")),
     BadScene("no_iterations", "", "", "steps.iterations", ("-steps_automatic", "true", "-steps_iterations", "0")),
+    BadScene("misspelt_map", "steps: {end: 2", "stpes: {end: 2", "stpes.end", says="did you mean 'steps'"),
+    BadScene("no_schema", "schema: 1", "", "schema", says="`schema: 1`"),
+    BadScene("listed_without_map", "supports: [", "supports: [wall, ", "supports", says="'wall' is listed and has no map"),
+    BadScene("list_for_a_map", "push: {surface", "push: [x]\nother: {surface", "loads", says="'push' is listed and has"),
+    BadScene("map_of_names", "probes: [topleft, topright]", "probes: {topleft: 1}", "probes", says="a list of names"),
     BadScene("broken_yaml", "schema: 1", "schema: [1", "broken_yaml.yaml"),
     BadScene("misspelt_option", "", "", "base.frictoin", ("-base_frictoin", "0.3")),
     # their surfaces lie over each other and are no pairs: the bodies would pass through each other without a word

@@ -21,6 +21,8 @@ static PetscErrorCode read_scene(Model *model)
     if (scene_has(model->scene, NULL, maps[k]))
       scene_fail(model->scene, NULL, maps[k], "a map is expected here, not a single value or a list.");
   }
+  if (!scene_has(model->scene, NULL, "schema"))
+    scene_fail(model->scene, NULL, "schema", "this key is missing: begin the file with `schema: 1`.");
   scene_real_required(model->scene, NULL, "schema", &schema);
   if (schema != 1) scene_fail(model->scene, NULL, "schema", "this program reads schema 1, not %g.", (double)schema);
   PetscCall(mesh_create(model->scene, &model->mesh));
@@ -114,7 +116,11 @@ int main(int argc, char **argv)
   PetscCall(PetscOptionsGetString(NULL, NULL, "-output_dir", directory, sizeof(directory), &have_directory));
   if (!have_scene || !have_directory) {
     PetscCall(PetscFPrintf(PETSC_COMM_WORLD, PETSC_STDERR,
-                           "usage: snes_contact -scene FILE.yaml -output_dir DIR [any PETSc option]\n"));
+                           "snes_contact: %s is missing: %s.\n"
+                           "usage: snes_contact -scene FILE.yaml -output_dir DIR [any PETSc option]\n",
+                           have_scene ? "-output_dir" : "-scene",
+                           have_scene ? "name a folder for the results, which is made if it is not there" :
+                                        "name the YAML file of the scene"));
     PetscCall(PetscFinalize());
     return 1;
   }

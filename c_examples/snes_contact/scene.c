@@ -253,6 +253,18 @@ void strings_destroy(PetscInt n, char ***values)
   Must(PetscFree(*values));
 }
 
+/* Does the scene, or the command line, have a key in this map? */
+static PetscBool has_map(const char *name)
+{
+  char     *all, start[NAME_LENGTH + 4];
+  PetscBool found;
+  snprintf(start, sizeof(start), "-%s_", name);
+  Must(PetscOptionsGetAll(NULL, &all));
+  found = (PetscBool)(strstr(all, start) != NULL);
+  Must(PetscFree(all));
+  return found;
+}
+
 void scene_names(Scene *scene, const char *list, PetscInt *n, char ***names)
 {
   static const char *const reserved[] = {"schema",
@@ -292,6 +304,9 @@ void scene_names(Scene *scene, const char *list, PetscInt *n, char ***names)
       if (!strcmp(scene->names[j], name))
         scene_fail(scene, map, key, "the name '%s' is given twice; names must be unique in the whole scene.", name);
     }
+    if (!has_map(name))
+      scene_fail(scene, map, key, "'%s' is listed and has no map: write `%s: {KEY: VALUE, ...}` at the top level.", name,
+                 name);
     scene->names                   = realloc(scene->names, (size_t)(scene->n_names + 1) * sizeof(*scene->names));
     scene->names[scene->n_names++] = strdup(name);
   }

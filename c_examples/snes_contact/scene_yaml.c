@@ -161,6 +161,14 @@ static size_t distance(const char *a, const char *b)
   return row[n];
 }
 
+/* The maps that every scene may have, the first N_OWN of them not PETSc's */
+static const char *const MAPS[] = {"frame", "steps", "output", "snes", "ksp", "pc", "mat"};
+enum { N_OWN = 3, N_MAPS = sizeof(MAPS) / sizeof(MAPS[0]) };
+
+/* The lists of names, which are no maps */
+static const char *const LISTS[] = {"bodies", "surfaces", "supports", "loads", "interfaces", "probes"};
+enum { N_LISTS = sizeof(LISTS) / sizeof(LISTS[0]) };
+
 static void fail_unread(Scene *scene, const SceneKey *key)
 {
   char        allowed[1024] = "", text[1400], map[256] = "";
@@ -184,11 +192,16 @@ static void fail_unread(Scene *scene, const SceneKey *key)
     }
     snprintf(allowed + strlen(allowed), sizeof(allowed) - strlen(allowed), "%s%s", allowed[0] ? ", " : "", name);
   }
+  for (int k = 0; k < N_LISTS && length; k++) {
+    if (!strcmp(map, LISTS[k]))
+      fail_at(scene, (size_t)key->line, map, "a list of names is expected here, and a map for each at the top level.");
+  }
   if (!declared) {
-    for (PetscInt k = 0; k < scene->n_names; k++) {
-      if (distance(map, scene->names[k]) < best) {
-        best    = distance(map, scene->names[k]);
-        closest = scene->names[k];
+    for (PetscInt k = 0; k < N_MAPS + scene->n_names; k++) {
+      const char *name = k < N_MAPS ? MAPS[k] : scene->names[k - N_MAPS];
+      if (distance(map, name) < best) {
+        best    = distance(map, name);
+        closest = name;
       }
     }
     if (closest)
@@ -209,14 +222,13 @@ static void fail_unread(Scene *scene, const SceneKey *key)
 /* An option like -base_frictoin speaks to a map of the scene; PETSc would only list it as unused. */
 static void check_command_line(Scene *scene)
 {
-  static const char *const maps[] = {"frame", "steps", "output"};
-  char                   **options, **values;
-  PetscInt                 n, n_maps = (PetscInt)(sizeof(maps) / sizeof(maps[0]));
+  char   **options, **values;
+  PetscInt n;
 
   PetscCallAbort(PETSC_COMM_WORLD, PetscOptionsLeftGet(NULL, &n, &options, &values));
   for (PetscInt k = 0; k < n; k++) {
-    for (PetscInt j = 0; j < n_maps + scene->n_names; j++) {
-      const char *map    = j < n_maps ? maps[j] : scene->names[j - n_maps];
+    for (PetscInt j = 0; j < N_OWN + scene->n_names; j++) {
+      const char *map    = j < N_OWN ? MAPS[j] : scene->names[j - N_OWN];
       size_t      length = strlen(map);
       char        dotted[256];
       if (strncmp(options[k], map, length) || options[k][length] != '_') continue;
