@@ -6,7 +6,7 @@ use stickslip::error::Kind;
 use stickslip::geometry::bilinear_map::BilinearMap;
 use stickslip::geometry::edge_interval::{EdgeIntervals, edge_intervals};
 use stickslip::geometry::{Facet, Plane, Projection, Vec2, Vec3, clip};
-use stickslip::simd::{self, Kernel, Lanes};
+use stickslip::simd::{self, Kernel, Lanes, Plain};
 use support::mesh::Random;
 
 fn facet(points: &[[f64; 3]]) -> Facet {
@@ -88,7 +88,7 @@ fn clipped_areas_add_up() {
             for j in 0..4 {
                 let (x, y) = (f64::from(i) * 0.5 - shift * 0.1, f64::from(j) * 0.5 + shift * 0.1);
                 let cell = facet(&[[x, y, 0.3], [x, y + 0.5, 0.3], [x + 0.5, y + 0.5, 0.3], [x + 0.5, y, 0.3]]);
-                total += clip::overlap(&p, &Projection::new(&cell, &plane)).area();
+                total += clip::overlap::<Plain>(&p, &Projection::new(&cell, &plane)).area();
             }
         }
         assert!((total - p.area2 / 2.0).abs() < 1e-14, "{total}");

@@ -5,15 +5,37 @@
 use crate::geometry::Vec3;
 use crate::mortar::{MORTAR, PAIR_NODES, PairWeights};
 use crate::shape::MAX_NODES;
+use crate::simd::{self, Kernel, Lanes};
 
 /// Forces `[F]` at the pair's slots from the nodal tractions [F/L^2]. Their sum vanishes.
 pub fn pair_force(weights: &PairWeights, traction: &[Vec3; MAX_NODES]) -> [Vec3; PAIR_NODES] {
-    let mut f = [Vec3::zeros(); PAIR_NODES];
-    for a in 0..MAX_NODES {
-        for k in 0..MAX_NODES {
-            f[k] += traction[a] * weights.ab[a][k];
-            f[MORTAR + k] -= traction[a] * weights.ac[a][k];
+    simd::dispatch(Forces { weights, traction })
+}
+
+struct Forces<'a> {
+    weights: &'a PairWeights,
+    traction: &'a [Vec3; MAX_NODES],
+}
+
+impl Kernel for Forces<'_> {
+    type Output = [Vec3; PAIR_NODES];
+
+    #[inline(always)]
+    fn run<L: Lanes>(self) -> [Vec3; PAIR_NODES] {
+        let Forces { weights, traction } = self;
+        let mut f = [Vec3::zeros(); PAIR_NODES];
+        for i in 0..3 {
+            let (mut one, mut two) = (L::splat(0.0), L::splat(0.0)); // lanes B and C
+            for a in 0..MAX_NODES {
+                let t = L::splat(traction[a][i]);
+                one = t.mul_add(L::load(&weights.ab[a]), one);
+                two = t.neg_mul_add(L::load(&weights.ac[a]), two);
+            }
+            let (one, two) = (one.store(), two.store());
+            for k in 0..MAX_NODES {
+                (f[k][i], f[MORTAR + k][i]) = (one[k], two[k]);
+            }
         }
+        f
     }
-    f
 }

@@ -27,13 +27,13 @@ pub struct BilinearMap {
 /// `s` `a` - `t` `b`.
 #[inline(always)]
 fn difference<L: Lanes>(s: f64, a: L, t: f64, b: L) -> L {
-    L::splat(s).mul_add(a, -(L::splat(t) * b))
+    L::splat(s).mul_sub(a, L::splat(t) * b)
 }
 
 /// r x v.
 #[inline(always)]
 fn times<R: Real>(r: [R; 2], v: [R; 2]) -> R {
-    r[0].mul_add(v[1], -(r[1] * v[0]))
+    r[0].mul_sub(v[1], r[1] * v[0])
 }
 
 /// The inverse of a map, its coefficients in every lane: spread once, not at every point.

@@ -4,39 +4,38 @@
 //! edges; the edge part of the derivative has its own exact intervals (`edge_interval`).
 
 use super::{Projection, Vec2, cross};
+use crate::simd::{Lanes, Stack};
 
 /// Vertices a polygon can have. Exact arithmetic gives at most 8; rounding can add half as many again
 /// at each of the four cuts: 4, 6, 9, 13, 19.
 pub const MAX_VERTICES: usize = 20;
 
 /// A polygon, counter-clockwise.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct Polygon {
-    vertices: [Vec2; MAX_VERTICES],
-    len: usize,
+    vertices: Stack<Vec2, MAX_VERTICES>,
 }
 
 impl Polygon {
     /// No vertices.
     pub fn empty() -> Polygon {
-        Polygon { vertices: [Vec2::zeros(); MAX_VERTICES], len: 0 }
+        Polygon { vertices: Stack::new() }
     }
 
     /// Takes all vertices away.
     pub fn clear(&mut self) {
-        self.len = 0;
+        self.vertices.clear();
     }
 
     #[inline]
     fn push(&mut self, vertex: Vec2) {
-        self.vertices[self.len] = vertex;
-        self.len += 1;
+        self.vertices.push(vertex);
     }
 
     /// The vertices.
     #[inline]
     pub fn vertices(&self) -> &[Vec2] {
-        &self.vertices[..self.len]
+        self.vertices.values()
     }
 
     /// Area, positive: the polygon is counter-clockwise [L^2].
@@ -47,10 +46,11 @@ impl Polygon {
 
     /// The arithmetic mean of the vertices.
     pub fn mean_vertex(&self) -> Vec2 {
-        self.vertices().iter().sum::<Vec2>() / self.len as f64
+        self.vertices().iter().sum::<Vec2>() / self.vertices().len() as f64
     }
 
     /// Makes `kept` the part to the left of the line from `a` to `b`; points on the line stay.
+    #[inline(always)]
     fn cut(&self, a: Vec2, b: Vec2, kept: &mut Polygon) {
         kept.clear();
         let v = self.vertices();
@@ -71,7 +71,8 @@ impl Polygon {
 }
 
 /// The overlap of two projected convex facets.
-pub fn overlap(one: &Projection, two: &Projection) -> Polygon {
+#[inline(always)]
+pub fn overlap<L: Lanes>(one: &Projection, two: &Projection) -> Polygon {
     // The smaller one is cut: the vertices it keeps know nothing of the other's size.
     let (one, two) = if one.area2 < two.area2 { (two, one) } else { (one, two) };
     let (mut first, mut second) = (Polygon::empty(), Polygon::empty());
@@ -79,9 +80,16 @@ pub fn overlap(one: &Projection, two: &Projection) -> Polygon {
     for k in 0..two.shape.n {
         polygon.push(two.y[k]);
     }
+    let [u, v] = two.in_plane::<L>();
     for k in 0..one.shape.n {
-        polygon.cut(one.y[k], one.y[one.shape.next[k]], next);
-        (polygon, next) = (next, polygon);
+        let (a, b) = (one.y[k], one.y[one.shape.next[k] & 3]);
+        // What has no vertex beyond a line is not cut by it.
+        let side = b - a;
+        let inside = L::splat(side.x) * (v - L::splat(a.y)) - L::splat(side.y) * (u - L::splat(a.x));
+        if inside.store().iter().any(|s| *s < 0.0) {
+            polygon.cut(a, b, next);
+            (polygon, next) = (next, polygon);
+        }
     }
-    *polygon
+    polygon.clone()
 }

@@ -112,12 +112,18 @@ impl Projection {
         beyond(self, other, 0) | beyond(self, other, 1) | beyond(other, self, 0) | beyond(other, self, 1)
     }
 
+    /// In-plane coordinates, component by component; a triangle's fourth vertex is its first one.
+    #[inline(always)]
+    pub fn in_plane<L: Lanes>(&self) -> [L; 2] {
+        let y = &self.y;
+        let last = if self.shape.n == 3 { y[0] } else { y[3] };
+        [L::load(&[y[0].x, y[1].x, y[2].x, last.x]), L::load(&[y[0].y, y[1].y, y[2].y, last.y])]
+    }
+
     /// Whether a side of this convex facet has all of `other` beyond it by more than `margin`.
     #[inline(always)]
     pub fn separates<L: Lanes>(&self, other: &Projection, margin: f64) -> bool {
-        let y = &other.y;
-        let last = if other.shape.n == 3 { y[0] } else { y[3] };
-        let (u, v) = (L::load(&[y[0].x, y[1].x, y[2].x, last.x]), L::load(&[y[0].y, y[1].y, y[2].y, last.y]));
+        let [u, v] = other.in_plane::<L>();
         for k in 0..self.shape.n {
             let next = self.shape.next[k] & 3;
             let (from, side) = (self.y[k], self.y[next] - self.y[k]);

@@ -14,8 +14,7 @@ impl Law<3> for Coulomb {
 
     fn respond(node: &Node) -> NodeResponse {
         let r = node.augmentation;
-        let nn = node.normal * node.normal.transpose();
-        let tangent = node.free * (Mat3::identity() - nn);
+        let tangent = node.free - (node.free * node.normal) * node.normal.transpose(); // free (I - nn)
         let (now, committed) = node.slip.coefficients();
 
         let lambda = node.free * node.lambda;
@@ -38,8 +37,10 @@ impl Law<3> for Coulomb {
             }
         };
 
-        let dsigma_dnow = if node.covered_before { nn - tangent * now } else { nn };
-        let dsigma_dprevious = if node.covered_before { tangent } else { Mat3::zeros() };
+        // dsigma/dg = nu nu^T - tangent now, dsigma/dg_previous = tangent; without a history the first term alone.
+        let dp_dlambda = p.derivative * node.free;
+        let along = (p.derivative * node.normal) * node.normal.transpose();
+        let across = if node.covered_before { p.derivative * tangent } else { Mat3::zeros() };
         NodeResponse {
             state: p.state,
             traction: p.traction,
@@ -47,10 +48,10 @@ impl Law<3> for Coulomb {
             gap_normal,
             slip,
             sigma: node.normal * sigma_n + sigma_t,
-            dp_dlambda: p.derivative * node.free,
-            drow_dlambda: (p.derivative * node.free - Mat3::identity()) / r,
-            drow_dnow: p.derivative * dsigma_dnow,
-            drow_dprevious: p.derivative * dsigma_dprevious,
+            dp_dlambda,
+            drow_dlambda: (dp_dlambda - Mat3::identity()) / r,
+            drow_dnow: along - across * now,
+            drow_dprevious: across,
         }
     }
 }

@@ -72,7 +72,7 @@ impl<'a, I: Iterator<Item = (&'a Segment, &'a PairWeights)>, One: Cell> Kernel f
         for (segment, weights) in pairs {
             sums.add_volume::<One>(frame, segment, rule, &mut stack);
             sums.add_edges::<One>(frame, segment, rule);
-            let gamma = gamma(frame, &segment.mortar, weights);
+            let gamma = gamma::<L>(frame, &segment.mortar, weights);
             for a in 0..MAX_NODES {
                 heights[a] = heights[a] + L::load(&weights.ab[a]); // n_AB is symmetric
                 gammas[a] += gamma[a];

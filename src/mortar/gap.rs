@@ -12,7 +12,7 @@ use super::weights::PairWeights;
 use super::{MORTAR, PAIR_NODES};
 use crate::geometry::{Facet, Projection, Vec3};
 use crate::shape::{Cell, MAX_NODES};
-use crate::simd::{self, Kernel, Lanes};
+use crate::simd::{self, Kernel, Lanes, Plain};
 
 /// Weighted gap of the pair's non-mortar nodes with any weights: those of now or those of t_n.
 pub fn gap(weights: &PairWeights, one: &Facet, two: &Facet) -> [Vec3; MAX_NODES] {
@@ -100,7 +100,7 @@ impl AlongNormal {
             }
         }
         let (e, axes, tilt) = (plane.e, [plane.t1, plane.t2], plane.tilt);
-        AlongNormal { e, axes, tilt, gamma: gamma(frame, two, weights), dgamma }
+        AlongNormal { e, axes, tilt, gamma: gamma::<Plain>(frame, two, weights), dgamma }
     }
 
     /// From `plane`, the derivatives of gamma_A at fixed heights.
@@ -110,8 +110,16 @@ impl AlongNormal {
         plane: &PlaneDerivatives<L>,
         weights: &PairWeights,
     ) -> AlongNormal {
-        let mut to = Gaps {
+        let frame_plane = &chain.frame.plane;
+        let mut along = AlongNormal {
+            e: frame_plane.e,
+            axes: [frame_plane.t1, frame_plane.t2],
+            tilt: frame_plane.tilt,
+            gamma: gamma::<L>(chain.frame, &chain.segment.mortar, weights),
             dgamma: [[[0.0; MAX_NODES]; 3]; PAIR_NODES],
+        };
+        let mut to = Gaps {
+            dgamma: &mut along.dgamma,
             heights: [L::splat(0.0); PAIR_NODES],
             e: [chain.axes[0][2], chain.axes[1][2], chain.axes[2][2]],
         };
@@ -121,19 +129,18 @@ impl AlongNormal {
             to.heights[MORTAR + k] = -ac[k];
         }
         chain.nodes::<One, Two>(plane, &mut to);
-        let (plane, gamma) = (&chain.frame.plane, gamma(chain.frame, &chain.segment.mortar, weights));
-        AlongNormal { e: plane.e, axes: [plane.t1, plane.t2], tilt: plane.tilt, gamma, dgamma: to.dgamma }
+        along
     }
 }
 
-struct Gaps<L> {
-    dgamma: [[[f64; MAX_NODES]; 3]; PAIR_NODES],
+struct Gaps<'a, L> {
+    dgamma: &'a mut [[[f64; MAX_NODES]; 3]; PAIR_NODES],
     /// d gamma_A / d d_k, lanes A: n_AB, -n_AC.
     heights: [L; PAIR_NODES],
     e: [L; 3],
 }
 
-impl<L: Lanes> Columns<L> for Gaps<L> {
+impl<L: Lanes> Columns<L> for Gaps<'_, L> {
     #[inline(always)]
     fn set(&mut self, k: usize, columns: [L; 3]) {
         for j in 0..3 {
@@ -144,13 +151,13 @@ impl<L: Lanes> Columns<L> for Gaps<L> {
 
 /// gamma_A = sum_B n_AB d_B - sum_C n_AC d_C.
 #[inline(always)]
-pub(super) fn gamma(frame: &NonmortarFrame, two: &Projection, weights: &PairWeights) -> [f64; MAX_NODES] {
+pub(super) fn gamma<L: Lanes>(frame: &NonmortarFrame, two: &Projection, weights: &PairWeights) -> [f64; MAX_NODES] {
     let one = &frame.projection;
-    let mut gamma = [0.0; MAX_NODES];
-    for a in 0..MAX_NODES {
-        for k in 0..MAX_NODES {
-            gamma[a] += weights.ab[a][k] * one.d[k] - weights.ac[a][two.node[k]] * two.d[k];
-        }
+    let (ab, ac) = (columns::<L>(&weights.ab), columns::<L>(&weights.ac));
+    let mut gamma = L::splat(0.0);
+    for k in 0..MAX_NODES {
+        gamma = ac[two.node[k] & 3].neg_mul_add(L::splat(two.d[k]), gamma); // so that no bounds are checked
+        gamma = ab[k].mul_add(L::splat(one.d[k]), gamma);
     }
-    gamma
+    gamma.store()
 }

@@ -35,15 +35,7 @@ impl NonmortarFrame {
     /// # Errors
     /// [`Kind::DegenerateFacet`] when the facet has no area, is folded or is not convex.
     pub fn new(facet: &Facet) -> Result<NonmortarFrame> {
-        let plane = Plane::of(facet)?;
-        let projection = Projection::new(facet, &plane);
-        if !projection.is_convex() {
-            return Err(Error::new(
-                Kind::DegenerateFacet,
-                "the facet is folded or not convex; all its corners must be convex",
-            ));
-        }
-        Ok(NonmortarFrame { map: BilinearMap::new(&projection), plane, projection })
+        simd::dispatch(Frame { facet })
     }
 
     /// int N_A da over the whole facet, covered or not [L^2].
@@ -133,6 +125,29 @@ impl<K: CellKernel, One: Cell, Two: Cell> Kernel for ForCells<K, One, Two> {
     }
 }
 
+struct Frame<'a> {
+    facet: &'a Facet,
+}
+
+impl Kernel for Frame<'_> {
+    type Output = Result<NonmortarFrame>;
+
+    #[inline(always)]
+    fn run<L: Lanes>(self) -> Result<NonmortarFrame> {
+        let plane = Plane::of(self.facet)?;
+        let projection = Projection::on::<L>(self.facet, &plane);
+        if !projection.is_convex() {
+            return Err(folded());
+        }
+        Ok(NonmortarFrame { map: BilinearMap::new(&projection), plane, projection })
+    }
+}
+
+#[cold]
+fn folded() -> Error {
+    Error::new(Kind::DegenerateFacet, "the facet is folded or not convex; all its corners must be convex")
+}
+
 impl Segment {
     /// The overlap of `facet` with the frame's facet; `None` when they do not even touch.
     ///
@@ -156,7 +171,7 @@ impl Kernel for Overlap<'_> {
         let Overlap { frame, facet } = self;
         let one = &frame.projection;
         let Some(mortar) = project::<L>(frame, facet)? else { return Ok(None) };
-        let mut polygon = clip::overlap(one, &mortar);
+        let mut polygon = clip::overlap::<L>(one, &mortar);
         let mut area = polygon.area();
         let small = one.size.min(mortar.size);
         if !(area > SMALLEST_OVERLAP * small * small) {

@@ -196,7 +196,10 @@ fn add<L: Lanes>(d: &mut PlaneDerivatives<L>, first: usize, ends: [usize; 2], n:
 /// Subtracts the same.
 #[inline(always)]
 fn subtract<L: Lanes>(d: &mut PlaneDerivatives<L>, first: usize, ends: [usize; 2], n: &[L; 2], v: [L; 2]) {
-    add(d, first, ends, n, [-v[0], -v[1]]);
+    for j in 0..2 {
+        let sum = &mut d[first + (ends[j] & 3)];
+        *sum = [n[0].neg_mul_add(v[j], sum[0]), n[1].neg_mul_add(v[j], sum[1])];
+    }
 }
 
 /// Adds what a field p on a non-mortar edge contributes, from the integrals `of` L_a L_b times what stands in the lanes.

@@ -43,6 +43,14 @@ impl Cell for Quad4 {
     const COEFFICIENTS: [[f64; MAX_NODES]; 4] = [[Q; 4], [-Q, Q, Q, -Q], [-Q, -Q, Q, Q], [Q, -Q, Q, -Q]];
 
     #[inline(always)]
+    fn nodal_lanes<L: Lanes>(m: L) -> L {
+        // The parts of `nodal`: low, low_xi, high, high_xi.
+        let parts = L::load(&[-1.0, -1.0, 1.0, 1.0]).mul_add(m, m.swap_halves());
+        let (of_xi, of_others) = (L::load(&[Q, Q, Q, -Q]), L::load(&[-Q, Q, Q, Q]));
+        of_xi.mul_add(parts, of_others * parts.swap_neighbours())
+    }
+
+    #[inline(always)]
     fn given<L: Lanes>(v: L, reversed: bool) -> L {
         if reversed { v.swap_1_3() } else { v }
     }

@@ -63,6 +63,14 @@ impl Real for Avx2 {
         Avx2(instruction!(_mm256_fmadd_pd(self.0, b.0, c.0)))
     }
     #[inline(always)]
+    fn mul_sub(self, b: Avx2, c: Avx2) -> Avx2 {
+        Avx2(instruction!(_mm256_fmsub_pd(self.0, b.0, c.0)))
+    }
+    #[inline(always)]
+    fn neg_mul_add(self, b: Avx2, c: Avx2) -> Avx2 {
+        Avx2(instruction!(_mm256_fnmadd_pd(self.0, b.0, c.0)))
+    }
+    #[inline(always)]
     fn sqrt(self) -> Avx2 {
         Avx2(instruction!(_mm256_sqrt_pd(self.0)))
     }
@@ -112,6 +120,14 @@ impl Lanes for Avx2 {
     #[inline(always)]
     fn swap_1_2(self) -> Avx2 {
         Avx2(instruction!(_mm256_permute4x64_pd::<0b11_01_10_00>(self.0)))
+    }
+    #[inline(always)]
+    fn swap_halves(self) -> Avx2 {
+        Avx2(instruction!(_mm256_permute4x64_pd::<0b01_00_11_10>(self.0)))
+    }
+    #[inline(always)]
+    fn swap_neighbours(self) -> Avx2 {
+        Avx2(instruction!(_mm256_permute_pd::<0b0101>(self.0)))
     }
     #[inline(always)]
     fn transpose(v: [Avx2; 4]) -> [Avx2; 4] {

@@ -23,6 +23,10 @@ pub trait Real:
     fn splat(v: f64) -> Self;
     /// `self` times `b` plus `c`, rounded once where the processor can.
     fn mul_add(self, b: Self, c: Self) -> Self;
+    /// `self` times `b` minus `c`, likewise.
+    fn mul_sub(self, b: Self, c: Self) -> Self;
+    /// `c` minus `self` times `b`, likewise.
+    fn neg_mul_add(self, b: Self, c: Self) -> Self;
     /// Square root.
     fn sqrt(self) -> Self;
     /// The larger.
@@ -50,6 +54,10 @@ pub trait Lanes: Real {
     fn swap_1_3(self) -> Self;
     /// Lanes 0, 2, 1, 3.
     fn swap_1_2(self) -> Self;
+    /// Lanes 2, 3, 0, 1.
+    fn swap_halves(self) -> Self;
+    /// Lanes 1, 0, 3, 2.
+    fn swap_neighbours(self) -> Self;
 }
 
 /// `n` as the bound of a loop that is to stay one: unrolled, its body would make the library several times as large.
@@ -88,6 +96,14 @@ impl Real for f64 {
     #[inline(always)]
     fn mul_add(self, b: f64, c: f64) -> f64 {
         self * b + c // the fused one is a call where the target does not have it
+    }
+    #[inline(always)]
+    fn mul_sub(self, b: f64, c: f64) -> f64 {
+        self * b - c
+    }
+    #[inline(always)]
+    fn neg_mul_add(self, b: f64, c: f64) -> f64 {
+        c - self * b
     }
     #[inline(always)]
     fn sqrt(self) -> f64 {
@@ -138,7 +154,8 @@ mod tests {
             let mut results = vec![a + b, a - b, a * b, b / c, -a, a.mul_add(b, c), (a * a).sqrt()];
             results.extend([a.max(b), a.min(b), a.where_positive(b, c), L::sums([a, b, c, a * b])]);
             results.extend(L::transpose([a, b, c, a + b]));
-            results.extend([a.swap_1_3(), a.swap_1_2()]);
+            results.extend([a.swap_1_3(), a.swap_1_2(), a.swap_halves(), a.swap_neighbours()]);
+            results.extend([a.mul_sub(b, c), a.neg_mul_add(b, c)]);
             results.into_iter().map(L::store).collect()
         }
     }
@@ -155,5 +172,9 @@ mod tests {
         assert_eq!(plain[12], [-2.0, 0.5, 0.25, -1.5]);
         assert_eq!(plain[15], [1.0, 9.0, 4.0, -2.0]);
         assert_eq!(plain[16], [1.0, 4.0, -2.0, 9.0]);
+        assert_eq!(plain[17], [4.0, 9.0, 1.0, -2.0]);
+        assert_eq!(plain[18], [-2.0, 1.0, 9.0, 4.0]);
+        assert_eq!(plain[19], [1.75, -1.25, -4.25, 26.75]);
+        assert_eq!(plain[20], [-1.75, 1.25, 4.25, -26.75]);
     }
 }

@@ -42,6 +42,14 @@ impl Real for Plain {
         self * b + c
     }
     #[inline(always)]
+    fn mul_sub(self, b: Plain, c: Plain) -> Plain {
+        self * b - c
+    }
+    #[inline(always)]
+    fn neg_mul_add(self, b: Plain, c: Plain) -> Plain {
+        c - self * b
+    }
+    #[inline(always)]
     fn sqrt(self) -> Plain {
         let a = self.0;
         Plain([a[0].sqrt(), a[1].sqrt(), a[2].sqrt(), a[3].sqrt()])
@@ -91,6 +99,16 @@ impl Lanes for Plain {
     fn swap_1_2(self) -> Plain {
         let a = self.0;
         Plain([a[0], a[2], a[1], a[3]])
+    }
+    #[inline(always)]
+    fn swap_halves(self) -> Plain {
+        let a = self.0;
+        Plain([a[2], a[3], a[0], a[1]])
+    }
+    #[inline(always)]
+    fn swap_neighbours(self) -> Plain {
+        let a = self.0;
+        Plain([a[1], a[0], a[3], a[2]])
     }
     #[inline(always)]
     fn transpose(v: [Plain; 4]) -> [Plain; 4] {

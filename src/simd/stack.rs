@@ -2,6 +2,7 @@
 //! kernel's stores.
 #![allow(unsafe_code)]
 
+use std::fmt::{Debug, Formatter};
 use std::mem::MaybeUninit;
 
 /// At most `CAPACITY` values.
@@ -52,6 +53,23 @@ impl<T: Copy, const CAPACITY: usize> Stack<T, CAPACITY> {
     }
 }
 
+impl<T: Copy, const CAPACITY: usize> Clone for Stack<T, CAPACITY> {
+    #[inline(always)]
+    fn clone(&self) -> Self {
+        let mut copy = Stack::new();
+        for &value in self.values() {
+            copy.push(value);
+        }
+        copy
+    }
+}
+
+impl<T: Copy + Debug, const CAPACITY: usize> Debug for Stack<T, CAPACITY> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> std::fmt::Result {
+        f.debug_list().entries(self.values()).finish()
+    }
+}
+
 impl<T: Copy, const CAPACITY: usize> Default for Stack<T, CAPACITY> {
     fn default() -> Self {
         Stack::new()
@@ -72,6 +90,8 @@ mod tests {
         }
         assert!(s.is_full());
         assert_eq!(s.values(), [0.0, 1.0, 2.0]);
+        assert_eq!(s.clone().values(), s.values());
+        assert_eq!(format!("{s:?}"), "[0.0, 1.0, 2.0]");
         assert_eq!(s.pop(), Some(2.0));
         assert_eq!(s.values(), [0.0, 1.0]);
         s.clear();
