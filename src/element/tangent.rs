@@ -12,7 +12,7 @@
 //! column the components of the rows' equations, and of each the four nodes of a facet.
 
 use crate::geometry::{Mat3, Vec3};
-use crate::mortar::{ForceDerivatives, GapDerivative, MORTAR, PAIR_NODES, PairWeights, columns, slots};
+use crate::mortar::{AlongNormal, ForceDerivatives, GapDerivative, MORTAR, PAIR_NODES, PairWeights, columns, slots};
 use crate::shape::MAX_NODES;
 use crate::simd::{self, Kernel, Lanes};
 use nalgebra::SMatrix;
@@ -125,7 +125,12 @@ impl<const MOVES: bool, const N: usize> Kernel for RowKernel<'_, MOVES, N> {
     fn run<L: Lanes>(self) {
         let RowKernel { now, previous, nodes, rows } = self;
         match now {
-            Some(PairNow { gap: Some(gap), .. }) => with_motion::<L, MOVES, N>(gap, &nodes.now, rows),
+            Some(PairNow { gap: Some(GapDerivative::Facets(gap)), .. }) => {
+                // In one pass with what the weights of t_n add.
+                let none = PairWeights::default();
+                return with_motion::<L, MOVES, N>(gap, nodes, previous.unwrap_or(&none), rows);
+            }
+            Some(PairNow { gap: Some(GapDerivative::Blocks(blocks)), .. }) => with_blocks::<L, N>(blocks, nodes, rows),
             Some(PairNow { weights, gap: None }) => frozen::<L, MOVES, N, false>(weights, &nodes.now, rows),
             None => {}
         }
@@ -137,44 +142,53 @@ impl<const MOVES: bool, const N: usize> Kernel for RowKernel<'_, MOVES, N> {
     }
 }
 
-/// drow . Dg with current weights.
+/// drow . Dg of two facets with current weights, and with those of t_n, which are held fixed.
 #[inline(always)]
 fn with_motion<L: Lanes, const MOVES: bool, const N: usize>(
-    gap: &GapDerivative,
-    drow: &Rows<N>,
+    d: &AlongNormal,
+    nodes: &FacetResponse<N>,
+    previous: &PairWeights,
     rows: &mut RowColumns<N>,
 ) {
-    match gap {
-        GapDerivative::Facets(d) => {
-            for n in 0..N {
-                let along = component::<L>(&drow[n], &d.e);
-                let gamma = L::load(&d.gamma);
-                let across =
-                    [component::<L>(&drow[n], &d.axes[0]) * gamma, component::<L>(&drow[n], &d.axes[1]) * gamma];
-                for k in 0..slots(MOVES) {
-                    for j in 0..3 {
-                        let mut row = along * L::load(&d.dgamma[k][j]);
-                        if k < MORTAR {
-                            // gamma De = gamma (t1 tilt1 + t2 tilt2) e . Dx_k
-                            let tilt = across[1].mul_add(L::splat(d.tilt[1][k]), across[0] * L::splat(d.tilt[0][k]));
-                            row = tilt.mul_add(L::splat(d.e[j]), row);
-                        }
-                        rows[k][j][n] = row.store();
-                    }
-                }
+    let (ab, ac, gamma) = (columns::<L>(&previous.ab), columns::<L>(&previous.ac), L::load(&d.gamma));
+    for n in 0..N {
+        let (drow, fixed) = (&nodes.now[n], &nodes.previous[n]);
+        let fixed = [L::load(&fixed[0]), L::load(&fixed[1]), L::load(&fixed[2])];
+        let along = component::<L>(drow, &d.e);
+        let across = [component::<L>(drow, &d.axes[0]) * gamma, component::<L>(drow, &d.axes[1]) * gamma];
+        for k in 0..MORTAR {
+            // gamma De = gamma (t1 tilt1 + t2 tilt2) e . Dx_k
+            let tilt = across[1].mul_add(L::splat(d.tilt[1][k]), across[0] * L::splat(d.tilt[0][k]));
+            for j in 0..3 {
+                let row = along.mul_add(L::load(&d.dgamma[k][j]), fixed[j] * ab[k]);
+                rows[k][j][n] = tilt.mul_add(L::splat(d.e[j]), row).store();
             }
         }
-        GapDerivative::Blocks(blocks) => {
-            for n in 0..N {
-                for k in 0..MAX_NODES {
-                    for j in 0..3 {
-                        let mut row = L::load(&drow[n][0]) * L::load(&blocks[k][0][j]);
-                        for i in 1..3 {
-                            row = L::load(&drow[n][i]).mul_add(L::load(&blocks[k][i][j]), row);
-                        }
-                        rows[k][j][n] = row.store();
-                    }
+        for k in MORTAR..slots(MOVES) {
+            for j in 0..3 {
+                let row = along * L::load(&d.dgamma[k][j]);
+                rows[k][j][n] = fixed[j].neg_mul_add(ac[k - MORTAR], row).store();
+            }
+        }
+    }
+}
+
+/// drow . Dg of a facet against an analytic surface.
+#[inline(always)]
+fn with_blocks<L: Lanes, const N: usize>(
+    blocks: &[[[[f64; MAX_NODES]; 3]; 3]; MAX_NODES],
+    nodes: &FacetResponse<N>,
+    rows: &mut RowColumns<N>,
+) {
+    for n in 0..N {
+        let drow = &nodes.now[n];
+        for k in 0..MAX_NODES {
+            for j in 0..3 {
+                let mut row = L::load(&drow[0]) * L::load(&blocks[k][0][j]);
+                for i in 1..3 {
+                    row = L::load(&drow[i]).mul_add(L::load(&blocks[k][i][j]), row);
                 }
+                rows[k][j][n] = row.store();
             }
         }
     }

@@ -14,14 +14,13 @@
 
 use super::PAIR_NODES;
 use super::derivatives::ForceDerivatives;
-use super::edges::{edge_points, in_lanes, line, unit};
+use super::edges::{edge_points, in_lanes, intervals, line, unit};
 use super::gap::{AlongNormal, gamma};
 use super::moments::{MONOMIALS, PRODUCTS, Table, combine, monomials, powers, powers_of, table};
 use super::points::{Fan, Maps, points};
 use super::segment::{NonmortarFrame, Segment};
 use super::transport::dots;
 use super::weights::PairWeights;
-use crate::geometry::edge_interval::edge_intervals;
 use crate::geometry::{Projection, Vec2};
 use crate::quadrature::Rule;
 use crate::shape::{Cell, MAX_NODES, Quad4, Tri3};
@@ -235,7 +234,7 @@ impl<L: Lanes> Sums<L> {
     #[inline(always)]
     fn add_edges<One: Cell>(&mut self, frame: &NonmortarFrame, segment: &Segment, rule: &Rule) {
         let (one, two) = (&frame.projection, &segment.mortar);
-        let [nonmortar, mortar] = edge_intervals::<L>(one, two, &frame.plane);
+        let [nonmortar, mortar] = intervals::<L>(one, two, &frame.plane);
         let v = Height::of(two);
         for edge in nonmortar.iter().flatten() {
             let (y0, span, _) = line(&one.y, edge);

@@ -4,8 +4,8 @@
 
 use super::points::Maps;
 use super::segment::{NonmortarFrame, Segment};
-use crate::geometry::Vec2;
-use crate::geometry::edge_interval::{EdgeInterval, edge_intervals};
+use crate::geometry::edge_interval::{EdgeInterval, EdgeIntervals, edge_intervals};
+use crate::geometry::{Plane, Projection, Vec2};
 use crate::quadrature::{LINE_GROUPS, Rule};
 use crate::shape::{Cell, MAX_NODES};
 use crate::simd::{Lanes, Stack};
@@ -58,33 +58,30 @@ impl<L: Lanes> Edges<L> {
     /// Adds those of a pair. In place: they are large.
     #[inline(always)]
     pub fn integrate<One: Cell, Two: Cell>(&mut self, frame: &NonmortarFrame, segment: &Segment, rule: &Rule) {
-        if L::SHARED {
-            self.integrate_shared::<One, Two>(frame, segment, rule);
-        } else {
-            self.integrate_inlined::<One, Two>(frame, segment, rule);
-        }
-    }
-
-    #[inline(never)]
-    fn integrate_shared<One: Cell, Two: Cell>(&mut self, frame: &NonmortarFrame, segment: &Segment, rule: &Rule) {
-        self.integrate_inlined::<One, Two>(frame, segment, rule);
-    }
-
-    #[inline(always)]
-    fn integrate_inlined<One: Cell, Two: Cell>(&mut self, frame: &NonmortarFrame, segment: &Segment, rule: &Rule) {
-        let [one, two] = edge_intervals::<L>(&frame.projection, &segment.mortar, &frame.plane);
+        let [one, two] = intervals::<L>(&frame.projection, &segment.mortar, &frame.plane);
         let maps = Maps::new(frame, segment);
         for edge in one.iter().flatten() {
             for points in rule.line_lanes {
-                self.nonmortar.push(nonmortar_edge::<L, Two>(&maps, frame, segment, edge, points));
+                self.nonmortar.push(NonmortarEdge::integrate::<Two>(&maps, frame, segment, edge, points));
             }
         }
         for edge in two.iter().flatten() {
             for points in rule.line_lanes {
-                self.mortar.push(mortar_edge::<L, One>(&maps, segment, edge, points));
+                self.mortar.push(MortarEdge::integrate::<One>(&maps, segment, edge, points));
             }
         }
     }
+}
+
+/// [`edge_intervals`], for kernels that share it.
+#[inline(always)]
+pub(super) fn intervals<L: Lanes>(one: &Projection, two: &Projection, plane: &Plane) -> [EdgeIntervals; 2] {
+    if L::SHARED { intervals_shared::<L>(one, two, plane) } else { edge_intervals::<L>(one, two, plane) }
+}
+
+#[inline(never)]
+fn intervals_shared<L: Lanes>(one: &Projection, two: &Projection, plane: &Plane) -> [EdgeIntervals; 2] {
+    edge_intervals::<L>(one, two, plane)
 }
 
 /// The products 00, 01, 11 of an edge's ends, in the lanes (`units`) of the two.
@@ -94,83 +91,122 @@ pub(super) fn in_lanes<L: Lanes>(products: [f64; 3], units: &[L; 2]) -> [L; 2] {
     [units[0].mul_add(L::splat(a), units[1] * L::splat(b)), units[0].mul_add(L::splat(b), units[1] * L::splat(c))]
 }
 
-#[inline(always)]
-fn nonmortar_edge<L: Lanes, Two: Cell>(
-    maps: &Maps<L>,
-    frame: &NonmortarFrame,
-    segment: &Segment,
-    edge: &EdgeInterval,
-    points: &[[f64; 4]; 2],
-) -> NonmortarEdge<L> {
-    let two = &segment.mortar;
-    let zero = L::splat(0.0);
-    let (y0, span, normal) = line(&frame.projection.y, edge);
-    let (w, l, y) = edge_points::<L>(points, edge, y0, span);
-    let (w0, w1) = (w * l[0], w * l[1]);
-    let ww = [w0 * l[0], w0 * l[1], w1 * l[1]];
-    // int L0^3, L0^2 L1, L0 L1^2, L1^3.
-    let [s0, s1, s2, s3] = L::sums([ww[0] * l[0], ww[0] * l[1], ww[1] * l[1], ww[2] * l[1]]).store();
-    let at = maps.two.at(y);
-    let n2 = Two::values(at.xi, at.eta);
-    let (mut mortar, mut heights, d) = ([zero; 3], [zero; 4], L::load(&two.d));
-    for q in 0..3 {
-        let mut products = [zero; MAX_NODES];
-        for c in 0..Two::NODES {
-            products[c] = ww[q] * n2[c];
+impl<L: Lanes> NonmortarEdge<L> {
+    #[inline(always)]
+    fn integrate<Two: Cell>(
+        maps: &Maps<L>,
+        frame: &NonmortarFrame,
+        segment: &Segment,
+        edge: &EdgeInterval,
+        points: &[[f64; 4]; 2],
+    ) -> Self {
+        if L::SHARED {
+            Self::shared::<Two>(maps, frame, segment, edge, points)
+        } else {
+            Self::inlined::<Two>(maps, frame, segment, edge, points)
         }
-        let sums = L::sums(products);
-        heights[q] = sums * d;
-        mortar[q] = Two::given(sums, two.is_reversed());
     }
-    let [h0, h1, h2, _] = L::sums(heights).store();
-    let units = [unit(edge.from), unit(edge.to)];
-    let ([own0, own1], [_, own2]) = (in_lanes([s0, s1, s2], &units), in_lanes([s1, s2, s3], &units));
-    NonmortarEdge {
-        ends: [edge.from, edge.to],
-        normal: [L::splat(normal.x), L::splat(normal.y)],
-        own: [own0, own1, own2],
-        mortar,
-        height: in_lanes([h0, h1, h2], &units),
+
+    #[inline(never)]
+    fn shared<Two: Cell>(
+        maps: &Maps<L>,
+        frame: &NonmortarFrame,
+        segment: &Segment,
+        edge: &EdgeInterval,
+        points: &[[f64; 4]; 2],
+    ) -> Self {
+        Self::inlined::<Two>(maps, frame, segment, edge, points)
+    }
+
+    #[inline(always)]
+    fn inlined<Two: Cell>(
+        maps: &Maps<L>,
+        frame: &NonmortarFrame,
+        segment: &Segment,
+        edge: &EdgeInterval,
+        points: &[[f64; 4]; 2],
+    ) -> Self {
+        let two = &segment.mortar;
+        let zero = L::splat(0.0);
+        let (y0, span, normal) = line(&frame.projection.y, edge);
+        let (w, l, y) = edge_points::<L>(points, edge, y0, span);
+        let (w0, w1) = (w * l[0], w * l[1]);
+        let ww = [w0 * l[0], w0 * l[1], w1 * l[1]];
+        // int L0^3, L0^2 L1, L0 L1^2, L1^3.
+        let [s0, s1, s2, s3] = L::sums([ww[0] * l[0], ww[0] * l[1], ww[1] * l[1], ww[2] * l[1]]).store();
+        let at = maps.two.at(y);
+        let n2 = Two::values(at.xi, at.eta);
+        let (mut mortar, mut heights, d) = ([zero; 3], [zero; 4], L::load(&two.d));
+        for q in 0..3 {
+            let mut products = [zero; MAX_NODES];
+            for c in 0..Two::NODES {
+                products[c] = ww[q] * n2[c];
+            }
+            let sums = L::sums(products);
+            heights[q] = sums * d;
+            mortar[q] = Two::given(sums, two.is_reversed());
+        }
+        let [h0, h1, h2, _] = L::sums(heights).store();
+        let units = [unit(edge.from), unit(edge.to)];
+        let ([own0, own1], [_, own2]) = (in_lanes([s0, s1, s2], &units), in_lanes([s1, s2, s3], &units));
+        NonmortarEdge {
+            ends: [edge.from, edge.to],
+            normal: [L::splat(normal.x), L::splat(normal.y)],
+            own: [own0, own1, own2],
+            mortar,
+            height: in_lanes([h0, h1, h2], &units),
+        }
     }
 }
 
-#[inline(always)]
-fn mortar_edge<L: Lanes, One: Cell>(
-    maps: &Maps<L>,
-    segment: &Segment,
-    edge: &EdgeInterval,
-    points: &[[f64; 4]; 2],
-) -> MortarEdge<L> {
-    let zero = L::splat(0.0);
-    let (y0, span, normal) = line(&segment.mortar.y, edge);
-    let (w, l, y) = edge_points::<L>(points, edge, y0, span);
-    let at = maps.one.at(y);
-    let n1 = One::values(at.xi, at.eta);
-    let (mut nonmortar, mut own) = ([[zero; MAX_NODES]; 2], [[zero; MAX_NODES]; 3]);
-    for e in 0..2 {
-        let wl = w * l[e];
-        let mut products = [[zero; MAX_NODES]; MAX_NODES];
-        for a in 0..One::NODES {
-            let wn = wl * n1[a];
-            for b in a..One::NODES {
-                products[a][b] = wn * n1[b];
-                products[b][a] = products[a][b];
-            }
-            own[e][a] = wn * l[0];
-            own[e + 1][a] = wn * l[1];
-        }
-        for a in 0..One::NODES {
-            nonmortar[e][a] = L::sums(products[a]);
+impl<L: Lanes> MortarEdge<L> {
+    #[inline(always)]
+    fn integrate<One: Cell>(maps: &Maps<L>, segment: &Segment, edge: &EdgeInterval, points: &[[f64; 4]; 2]) -> Self {
+        if L::SHARED {
+            Self::shared::<One>(maps, segment, edge, points)
+        } else {
+            Self::inlined::<One>(maps, segment, edge, points)
         }
     }
-    let own = [L::sums(own[0]), L::sums(own[1]), L::sums(own[2])];
-    let node = &segment.mortar.node;
-    MortarEdge {
-        ends: [edge.from, edge.to],
-        units: [unit(node[edge.from & 3]), unit(node[edge.to & 3])],
-        normal: [L::splat(normal.x), L::splat(normal.y)],
-        nonmortar,
-        own,
+
+    #[inline(never)]
+    fn shared<One: Cell>(maps: &Maps<L>, segment: &Segment, edge: &EdgeInterval, points: &[[f64; 4]; 2]) -> Self {
+        Self::inlined::<One>(maps, segment, edge, points)
+    }
+
+    #[inline(always)]
+    fn inlined<One: Cell>(maps: &Maps<L>, segment: &Segment, edge: &EdgeInterval, points: &[[f64; 4]; 2]) -> Self {
+        let zero = L::splat(0.0);
+        let (y0, span, normal) = line(&segment.mortar.y, edge);
+        let (w, l, y) = edge_points::<L>(points, edge, y0, span);
+        let at = maps.one.at(y);
+        let n1 = One::values(at.xi, at.eta);
+        let (mut nonmortar, mut own) = ([[zero; MAX_NODES]; 2], [[zero; MAX_NODES]; 3]);
+        for e in 0..2 {
+            let wl = w * l[e];
+            let mut products = [[zero; MAX_NODES]; MAX_NODES];
+            for a in 0..One::NODES {
+                let wn = wl * n1[a];
+                for b in a..One::NODES {
+                    products[a][b] = wn * n1[b];
+                    products[b][a] = products[a][b];
+                }
+                own[e][a] = wn * l[0];
+                own[e + 1][a] = wn * l[1];
+            }
+            for a in 0..One::NODES {
+                nonmortar[e][a] = L::sums(products[a]);
+            }
+        }
+        let own = [L::sums(own[0]), L::sums(own[1]), L::sums(own[2])];
+        let node = &segment.mortar.node;
+        MortarEdge {
+            ends: [edge.from, edge.to],
+            units: [unit(node[edge.from & 3]), unit(node[edge.to & 3])],
+            normal: [L::splat(normal.x), L::splat(normal.y)],
+            nonmortar,
+            own,
+        }
     }
 }
 

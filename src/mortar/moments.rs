@@ -214,7 +214,7 @@ impl<L: Lanes> Moments<L> {
         let maps = Maps::new(frame, segment);
         let mut fan = Fan::new(frame, segment);
         let mut triangle = fan.triangle();
-        let mut i = 0;
+        let (mut i, mut more) = (0, false);
         while let Some(t) = &triangle {
             stack.push(group::<L, One, Two>(&points::<L>(&maps, &rule[i], t)));
             i += 1;
@@ -229,9 +229,14 @@ impl<L: Lanes> Moments<L> {
                     with_own::<L, One>(&sums),
                     with_other::<L, Two, One, 1, 0>(groups, &plain::<L, 1>(groups, monomials::<Two>())),
                 ];
-                for (sum, new) in whole.as_flattened_mut().iter_mut().zip(batch.as_flattened()) {
-                    *sum = *sum + *new;
+                if more {
+                    for (sum, new) in whole.as_flattened_mut().iter_mut().zip(batch.as_flattened()) {
+                        *sum = *sum + *new;
+                    }
+                } else {
+                    whole = batch;
                 }
+                more = true;
                 stack.clear();
             }
         }

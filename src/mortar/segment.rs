@@ -2,11 +2,11 @@
 //! notes A): a polygon for the volume integrals, source-edge intervals for the edge integrals of the derivatives.
 //! Or the points of the non-mortar facet that fall on the mortar facet (`element_rule.rs`).
 
+use super::edges::intervals;
 use super::element_rule::CellPoints;
 use crate::error::{Error, Kind, Result};
 use crate::geometry::bilinear_map::BilinearMap;
 use crate::geometry::clip::{self, Polygon};
-use crate::geometry::edge_interval::edge_intervals;
 use crate::geometry::{Facet, Plane, Projection};
 use crate::shape::{Cell, MAX_NODES, Quad4, Tri3};
 use crate::simd::{self, Kernel, Lanes, Plain};
@@ -102,14 +102,13 @@ impl Cells {
         }
     }
 
-    /// Runs the kernel compiled for these kinds, on this processor. Triangles on quadrilaterals, which are rare, have
-    /// the plain lanes only: kernels of their own for every processor would make the library larger by a seventh.
+    /// Runs the kernel compiled for these kinds, on this processor.
     #[inline]
     pub fn dispatch<K: CellKernel>(self, kernel: K) -> K::Output {
         match self {
             Cells::TriTri => simd::dispatch(ForCells(kernel, PhantomData::<(Tri3, Tri3)>)),
-            Cells::TriQuad => ForCells(kernel, PhantomData::<(Tri3, Quad4)>).run::<Plain>(),
-            Cells::QuadTri => ForCells(kernel, PhantomData::<(Quad4, Tri3)>).run::<Plain>(),
+            Cells::TriQuad => simd::dispatch(ForCells(kernel, PhantomData::<(Tri3, Quad4)>)),
+            Cells::QuadTri => simd::dispatch(ForCells(kernel, PhantomData::<(Quad4, Tri3)>)),
             Cells::QuadQuad => simd::dispatch(ForCells(kernel, PhantomData::<(Quad4, Quad4)>)),
         }
     }
@@ -178,7 +177,7 @@ impl Kernel for Overlap<'_> {
             area = 0.0;
             polygon.clear();
             // Whether a part of an edge bounds the overlap.
-            let intervals = edge_intervals::<L>(one, &mortar, &frame.plane);
+            let intervals = intervals::<L>(one, &mortar, &frame.plane);
             if !intervals.iter().flatten().any(Option::is_some) {
                 return Ok(None);
             }

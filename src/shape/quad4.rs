@@ -45,7 +45,7 @@ impl Cell for Quad4 {
     #[inline(always)]
     fn nodal_lanes<L: Lanes>(m: L) -> L {
         // The parts of `nodal`: low, low_xi, high, high_xi.
-        let parts = L::load(&[-1.0, -1.0, 1.0, 1.0]).mul_add(m, m.swap_halves());
+        let parts = L::load(&[-1.0, -1.0, 1.0, 1.0]).mul_add(m.swap_halves(), m);
         let (of_xi, of_others) = (L::load(&[Q, Q, Q, -Q]), L::load(&[-Q, Q, Q, Q]));
         of_xi.mul_add(parts, of_others * parts.swap_neighbours())
     }
