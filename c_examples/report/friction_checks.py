@@ -28,12 +28,17 @@ CAPSTAN_BOUND = 0.01
 # Ball of radius 1, contact radius 0.05. The coarse meshes are for every test, the others for `make gallery`.
 CONTACT_ZONE = 0.075
 ROUGH = ("-contact_law", "rough", "-contact_friction", 0)
-# Elastic on rigid: friction makes the peak pressure 2 % higher than Hertz's and the contact smaller. The rest is each
-# mesh's own.
-TORSION_BOUND = 0.015
-TORSION_ANGLE = 0.05
-TORSION_MODULUS = formulas.plane_modulus(1000, 0.4)
-TORSION_SHEAR = 1000 / 2.8
+# Block under a ball, as torsion.yaml has it: contact radius, hole and size (in these), angle per unit of time, friction.
+# The angle at which all of it slips goes with the friction. The block's displacements are those of small turns: it grows
+# by half the angle's square, here 0.1 %.
+TORSION_RADIUS, TORSION_HOLE, TORSION_SIZE = 0.05, 0.02, 10
+TORSION_ANGLE, TORSION_MU = 0.02, 0.1
+TORSION_MODULUS = formulas.plane_modulus(1000, 0.49)
+TORSION_SHEAR = 1000 / 2.98
+# The ball is pressed in until Hertz' radius is that of the ring.
+RING_BOUND = 0.005
+# Finite body and facets along the radius, on either mesh.
+TORQUE_BOUND = 0.0035
 MINDLIN_MODULUS, MINDLIN_SHEAR = 500.0, 500.0
 MINDLIN_TRAVEL = 0.0006
 MINDLIN_BOUND = 0.02
@@ -51,36 +56,49 @@ FRICTIONLESS = ("-contact_law", "none", "-contact_friction", 0, "-steps_times", 
 
 @dataclass
 class TorsionMesh:
-    """Of the block that is turned. Between nodes an n-th part of a circle apart the multiplier is interpolated, and so
-    shorter than at the nodes: the torque is short by (1 - cos(2 pi / n)) / 3. The stiffness goes with the cube of the
-    stick zone's radius, which is a whole number of rings of facets: it is known to one ring."""
+    """Of the block that is turned: rings of facets, one edge of them at the contact's radius, the finest on either side
+    of it. Between nodes an n-th part of a circle apart the multiplier is interpolated, and so shorter than at the
+    nodes: the torque is short by (1 - cos(2 pi / n)) / 3. So is the area of the ring's polygon, and with it the force;
+    Hertz' radius goes with the force's cube root, so that two thirds are left. The stiffness goes with the cube of the
+    radius of the zone that sticks, which ends with a ring: it is known to one ring."""
 
     name: str
-    cells: str
+    rim: float  # facet there, over the contact's radius
+    around: int
+    largest: float  # facet in the contact, over its radius
+    grow: tuple  # from one to the next inwards, outwards, downwards
+    stiffness_bound: float
     times: str
-    rim: float  # facet there, of the contact radius
-    planes: tuple = ()
 
     @property
     def torque_bound(self):
-        return TORSION_BOUND + (1 - math.cos(2 * math.pi / int(self.cells.split(",")[1]))) / 3
+        return TORQUE_BOUND + 2 / 9 * (1 - math.cos(2 * math.pi / self.around))
 
-    @property
-    def stiffness_bound(self):
-        return TORSION_BOUND + 3 * self.rim
+    def options(self, shift):
+        """The ring's edge `shift` of its facets outside of the contact's radius."""
+        h, size = self.rim * TORSION_RADIUS, TORSION_SIZE * TORSION_RADIUS
+        ring, hole = TORSION_RADIUS + shift * h, TORSION_HOLE * TORSION_RADIUS
+        inwards, outwards, downwards = self.grow
+        inside = from_rim(h, ring - hole, inwards, self.largest * TORSION_RADIUS)
+        radii = np.concatenate([ring - inside[::-1], [ring], ring + from_rim(h, size - ring, outwards)])
+        depths = np.append(-from_rim(2 * h, size, downwards)[::-1], 0)
+        cells = f"{len(radii) - 1},{self.around},{len(depths) - 1}"
+        return "-block_cells", cells, "-block_x", numbers(radii), "-block_z", numbers(depths)
 
 
-TORSION_COARSE = TorsionMesh(
-    "coarse",
-    "16,16,8",
-    "0.25,1,1.5,3",
-    0.003 / 0.05,
-    (
-        *("-block_x", "0.001,0.01,0.02,0.03,0.037,0.042,0.046,0.049,0.052,0.055,0.058,0.065,0.08,0.12,0.2,0.4,1"),
-        *("-block_z", "-1,-0.5,-0.25,-0.12,-0.06,-0.03,-0.013,-0.004,0"),
-    ),
-)
-TORSION_FINE = TorsionMesh("fine", "27,40,13", "0.25,1,1.1,1.25,1.5,2,3", 0.001 / 0.05)
+TORSION_COARSE = TorsionMesh("coarse", 1 / 50, 16, 0.12, (1.6, 1.9, 1.9), 0.03, "0.25,1,1.5,3")
+TORSION_FINE = TorsionMesh("fine", 1 / 400, 32, 0.12, (2, 2.2, 1.6), 0.01, "0.25,1,1.1,1.25,1.5,2,3")
+# Of a facet at the rim, by which the ring's edge is off the contact's radius.
+TORSION_SHIFTS = {"an edge at a": 0, "an edge half a facet beyond a": 0.5}
+
+
+def from_rim(h, far, growth, largest=math.inf):
+    """Distances from a rim: a step of h, each other one `growth` times the one before up to `largest`; shrunk to end at
+    `far`."""
+    steps = [h]
+    while sum(steps) < far:
+        steps.append(min(growth * steps[-1], largest))
+    return np.cumsum(steps) * far / sum(steps)
 
 
 def friction(verdicts, driver):
@@ -308,25 +326,29 @@ def block_mesh(body, h, growth=2.5):
 def torsion(verdicts, driver, mesh=TORSION_COARSE):
     """A block turned under a ball: how stiff it is while all of the contact sticks; the torque when all of it slips."""
     name = f"block turned under a ball, {mesh.name}"
-    options = ("-block_cells", mesh.cells, *mesh.planes)
-    rough = driver.run("torsion", *options, *ROUGH, "-steps_times", "0.25,1,1.1", label=f"torsion_rough_{mesh.name}")
-    stiffness = abs(moment(rough)) / (0.1 * TORSION_ANGLE)
-    exact = point_contact(rough, TORSION_MODULUS).turning_stiffness(TORSION_SHEAR)
-    verdicts.near(f"{name}: stiffness", stiffness, exact, mesh.stiffness_bound, "16/3 G a^3")
-    run = driver.run("torsion", *options, "-steps_times", mesh.times, label=f"torsion_{mesh.name}")
-    exact = point_contact(run, TORSION_MODULUS).torque
-    verdicts.near(f"{name}: torque", abs(moment(run)), exact, mesh.torque_bound, "3 pi / 16 mu F a")
+    for place, shift in TORSION_SHIFTS.items():
+        options = (*mesh.options(shift), *ROUGH, "-steps_times", "0.25,1,1.1")
+        rough = driver.run("torsion", *options, label=f"torsion_rough_{mesh.name}_{shift}")
+        stiffness = abs(moment(rough)) / (0.1 * TORSION_ANGLE)
+        exact = point_contact(rough, TORSION_MODULUS).turning_stiffness(TORSION_SHEAR)
+        verdicts.near(f"{name}, {place}: stiffness", stiffness, exact, mesh.stiffness_bound, "16/3 G a^3")
+    run = driver.run("torsion", *mesh.options(0), "-steps_times", mesh.times, label=f"torsion_{mesh.name}")
+    contact = point_contact(run, TORSION_MODULUS, mu=TORSION_MU)
+    radius = contact.contact_radius / TORSION_RADIUS
+    verdicts.near(f"{name}: Hertz' radius over that of the ring", radius, 1, RING_BOUND, "half a per cent")
+    verdicts.near(f"{name}: torque", abs(moment(run)), contact.torque, mesh.torque_bound, "3 pi / 16 mu F a")
+    verdicts.below(f"{name}: stick nodes", run.steps[-1]["interfaces"]["contact"]["stick"], 0, "all of it slips")
     return run
 
 
 def moment(run, step=None):
-    """About the z axis, of the forces on the non-mortar side."""
+    """About the z axis, of the forces on the non-mortar side, where they act."""
     table = run.interface("contact", step)
-    return (table["X"] * table["fy"] - table["Y"] * table["fx"]).sum()
+    return ((table["X"] + table["ux"]) * table["fy"] - (table["Y"] + table["uy"]) * table["fx"]).sum()
 
 
-def point_contact(run, modulus, step=None, parts=1):
-    return formulas.PointContact(parts * abs(run.interface("contact", step)["fz"].sum()), modulus, 1.0, 0.3)
+def point_contact(run, modulus, step=None, parts=1, mu=0.3):
+    return formulas.PointContact(parts * abs(run.interface("contact", step)["fz"].sum()), modulus, 1.0, mu)
 
 
 def mindlin(verdicts, driver, facets=4, steps=(2, 2, 2)):

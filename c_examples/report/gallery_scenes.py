@@ -151,7 +151,7 @@ def draw_torsion(run, folder):
     turned = [k for k, step in enumerate(run.steps, 1) if step["t"] >= 1]
     angle = np.array([friction.TORSION_ANGLE * (run.steps[k - 1]["t"] - 1) for k in turned])
     torque = np.array([abs(friction.moment(run, k)) for k in turned])
-    contact = friction.point_contact(run, friction.TORSION_MODULUS)
+    contact = friction.point_contact(run, friction.TORSION_MODULUS, mu=friction.TORSION_MU)
     stiff = contact.turning_stiffness(friction.TORSION_SHEAR)
     knee = contact.torque / stiff
     references = [
@@ -410,7 +410,8 @@ ENTRIES = [
     Entry("mindlin", "Mindlin and Deresiewicz: ball drawn there and back", "Hysteresis below full sliding.", 8.0,
           mindlin, draw_mindlin),
     Entry("torsion", "Lubkin: torsion of a point contact", "A block turned under a rigid ball until all of the contact "
-          "slips.", 6.0, torsion, draw_torsion),
+          "slips, on a mesh with an edge of its facets at the contact's radius. How much that matters, the stiffness on "
+          "one moved by half a facet shows.", 5.0, torsion, draw_torsion),
     Entry("torsion_disc", "Torsion of a flat disc", "Uniform pressure; the torque is 2/3 mu F R.", 0.1, disc,
           draw_disc),
     Entry("shrink_fit", "Shrink fit", "A hub that is too narrow for its shaft, from meshes that penetrate at the "
