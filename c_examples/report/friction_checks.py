@@ -28,8 +28,8 @@ CAPSTAN_BOUND = 0.01
 # Ball of radius 1, contact radius 0.05. The coarse meshes are for every test, the others for `make gallery`.
 CONTACT_ZONE = 0.075
 ROUGH = ("-contact_law", "rough", "-contact_friction", 0)
-# Block under a ball, as torsion.yaml has it: contact radius, hole and size (in these), angle per unit of time, friction.
-# The angle at which all of it slips goes with the friction. The block's displacements are those of small turns: it grows
+# Block under a ball, as torsion.yaml has it: contact radius, hole and size (in these), angle per time, friction.
+# All of it slips at an angle that goes with the friction. The displacements are those of small turns: the block grows
 # by half the angle's square, here 0.1 %.
 TORSION_RADIUS, TORSION_HOLE, TORSION_SIZE = 0.05, 0.02, 10
 TORSION_ANGLE, TORSION_MU = 0.02, 0.1
