@@ -2,12 +2,15 @@
 //!
 //! Liang-Barsky on signed distances that are taken from differences of the nodes in space, never from
 //! the clipped polygon. Mortar lines and edges are evaluated from their lexicographically smaller end,
-//! so two mortar facets that share one see bitwise opposite distances; exact ties are settled as if
-//! every mortar line lay an infinitesimal amount to the right of that direction. Then, assembled over
+//! so two mortar facets that share one see bitwise opposite distances. Distances that nearly vanish, on which the
+//! crossing of nearly parallel edges depends, are taken again in twice the precision (`near_line.rs`): every crossing is
+//! right to [`CROSSING`], at any angle and anywhere in space. Exact ties are settled as if
+//! every mortar line lay an infinitesimal amount to the right of its direction. Then, assembled over
 //! the pairs, non-mortar edge parts tile their edge and the edge parts of neighbouring mortar facets
-//! cancel, whatever the rounding error of a near-parallel crossing. A boundary of the mortar surface has no
+//! cancel. A boundary of the mortar surface has no
 //! neighbour to cancel with; where it follows a non-mortar mesh line, the tie rule decides.
 
+use super::near_line::{LineOf, View, ends, is_before};
 use super::{Plane, Projection, Vec3};
 use crate::shape::MAX_NODES;
 use crate::simd::Lanes;
@@ -31,10 +34,14 @@ pub struct EdgeInterval {
 /// The parts of a facet's edges, edge k from its k-th node on; `None`: nothing of it counts.
 pub type EdgeIntervals = [Option<EdgeInterval>; MAX_NODES];
 
-/// A distance below this (over the lengths that make it) is a tie: a few hundred roundings of coordinates and of the
-/// planes of neighbouring non-mortar facets, which otherwise decide differently about a mortar boundary
-/// that follows their common edge.
-const TIE: f64 = 1e-13;
+/// Error of a crossing's parameter tau = d0 / (d0 - d1).
+const CROSSING: f64 = 1e-11;
+/// Error of a distance in doubles over |b - a| |p - a| and the condition of the plane's normal: differences, two
+/// products with their sums, the normal's own three roundings.
+const ROUNDING: f64 = 8.0 * f64::EPSILON / 2.0;
+/// A distance below this, over the same, is taken again. The relative error of a larger one moves a crossing by
+/// tau (1 - tau) <= 1/4 of it, twice where both ends are so.
+const NEAR: f64 = 0.5 * ROUNDING / CROSSING;
 
 /// Component i of four points.
 #[inline(always)]
@@ -42,29 +49,55 @@ fn component<L: Lanes, const K: usize>(x: &[SVector<f64, K>; MAX_NODES], i: usiz
     L::load(&[x[0][i], x[1][i], x[2][i], x[3][i]])
 }
 
-/// The nodes of a facet relative to the plane's reference, component by component.
-struct Nodes<L>([L; 3]);
+/// How a facet's edges run as lines: 1 from the node that they are named after to the next one, or -1.
+type Orientation = [f64; MAX_NODES];
 
-impl<L: Lanes> Nodes<L> {
-    #[inline(always)]
-    fn of(facet: &Projection) -> Self {
-        Nodes([component(&facet.x, 0), component(&facet.x, 1), component(&facet.x, 2)])
-    }
+/// Ends of line j of a facet.
+#[inline(always)]
+fn line<'a>(facet: &'a Projection, orientation: &Orientation, j: usize) -> [&'a Vec3; 2] {
+    let next = facet.shape.next[j & 3] & 3; // so that no bounds are checked
+    let (a, b) = if orientation[j & 3] > 0.0 { (j & 3, next) } else { (next, j & 3) };
+    [&facet.x[a], &facet.x[b]]
+}
 
-    /// e . ((b - a) x (p - a)) of every node p: positive to the left of the line from a to b.
+/// e . ((b - a) x (p - a)) for each line a, b of a facet, a row a line, and the nodes p of the other one: positive to
+/// the left. Edge by edge, where it begins and where it ends.
+struct Distances {
+    from: [[f64; MAX_NODES]; MAX_NODES],
+    to: [[f64; MAX_NODES]; MAX_NODES],
+}
+
+impl Distances {
     #[inline(always)]
-    fn distances(&self, e: Vec3, a: Vec3, b: Vec3) -> L {
-        let ab = b - a;
-        let normal = e.cross(&ab);
-        let (mut d, mut from_a, mut from_b) = (L::splat(0.0), L::splat(0.0), L::splat(0.0));
-        for i in 0..3 {
-            let (ap, bp) = (self.0[i] - L::splat(a[i]), self.0[i] - L::splat(b[i]));
-            d = L::splat(normal[i]).mul_add(ap, d);
-            from_a = ap.mul_add(ap, from_a);
-            from_b = bp.mul_add(bp, from_b);
+    fn of<L: Lanes>(
+        lines: &Projection,
+        orientation: &Orientation,
+        nodes: &Projection,
+        plane: &Plane,
+        anew: impl FnOnce(&mut Distances),
+    ) -> Distances {
+        let x = [component::<L, 3>(&nodes.x, 0), component(&nodes.x, 1), component(&nodes.x, 2)];
+        let near_squared = NEAR * NEAR * plane.condition_squared;
+        let zero = [[0.0; MAX_NODES]; MAX_NODES];
+        let (mut distances, mut nearest) = (Distances { from: zero, to: zero }, L::splat(0.0));
+        for j in 0..lines.shape.n {
+            let [a, b] = line(lines, orientation, j);
+            let ab = b - a;
+            let normal = plane.e.cross(&ab);
+            let ap = [x[0] - L::splat(a.x), x[1] - L::splat(a.y), x[2] - L::splat(a.z)];
+            let (mut d, mut squared) = (L::splat(normal.x) * ap[0], ap[0] * ap[0]);
+            for i in 1..3 {
+                d = L::splat(normal[i]).mul_add(ap[i], d);
+                squared = ap[i].mul_add(ap[i], squared);
+            }
+            nearest = nearest.max(squared * L::splat(near_squared * ab.norm_squared()) - d * d);
+            distances.from[j & 3] = d.store();
+            distances.to[j & 3] = ends(&distances.from[j & 3], nodes.shape.n);
         }
-        let size = from_a.max(from_b) * L::splat(TIE * TIE * ab.norm_squared());
-        (d * d - size).where_positive(d, L::splat(0.0))
+        if nearest.any_positive() {
+            anew(&mut distances);
+        }
+        distances
     }
 }
 
@@ -96,51 +129,54 @@ impl<L: Lanes> Parts<L> {
     }
 }
 
-fn lexicographically_smaller(a: Vec3, b: Vec3) -> bool {
-    (a.x, a.y, a.z) < (b.x, b.y, b.z)
-}
-
-/// For every edge of a facet with `n` nodes the value at the node where it ends.
-#[inline(always)]
-fn ends<L: Lanes>(v: L, n: usize) -> L {
-    let v = v.store();
-    L::load(&[v[1], v[2], if n == 4 { v[3] } else { v[0] }, v[0]])
-}
-
 /// The parts of the non-mortar edges inside the mortar facet, and of the mortar edges inside the non-mortar facet.
 #[inline(always)]
 pub fn edge_intervals<L: Lanes>(one: &Projection, two: &Projection, plane: &Plane) -> [EdgeIntervals; 2] {
     let (n1, n2) = (one.shape.n, two.shape.n);
-    let (nodes1, nodes2) = (Nodes::<L>::of(one), Nodes::<L>::of(two));
 
-    // Mortar edges run from their smaller end: 1 where that is the node they are named after, else -1.
+    // Mortar edges run from the end that comes first.
     let mut orientation = [1.0; MAX_NODES];
+    for j in 0..n2 {
+        if !is_before(&two.x[j & 3], &two.x[two.shape.next[j & 3] & 3]) {
+            orientation[j & 3] = -1.0;
+        }
+    }
+    let distances = Distances::of::<L>(two, &orientation, one, plane, |d| {
+        let (mut view, near) = (View::new(one, plane), NEAR * plane.condition_squared.sqrt());
+        for j in 0..n2 {
+            let line = (LineOf::Mortar, line(two, &orientation, j));
+            view.refine(line, one, near, [&mut d.from[j], &mut d.to[j]]);
+        }
+    });
     let mut nonmortar = Parts::whole();
     for j in 0..n2 {
-        let next = two.shape.next[j];
-        let (mut a, mut b) = (two.x[j], two.x[next]);
-        if !lexicographically_smaller(a, b) {
-            (a, b, orientation[j]) = (b, a, -1.0);
-        }
-        let d = nodes1.distances(plane.e, a, b) * L::splat(orientation[j]);
+        let forward = L::splat(orientation[j & 3]);
+        let (from, to) = (L::load(&distances.from[j & 3]) * forward, L::load(&distances.to[j & 3]) * forward);
         // The line moves to its right, so a point on it is to its left.
-        nonmortar.narrow(d, ends(d, n1), L::splat(INSIDE * orientation[j]));
+        nonmortar.narrow(from, to, L::splat(INSIDE) * forward);
     }
 
     let forward = L::load(&orientation);
-    let y = [component::<L, 2>(&two.y, 0), component(&two.y, 1)];
-    let direction = [(ends(y[0], n2) - y[0]) * forward, (ends(y[1], n2) - y[1]) * forward];
+    let u = [two.y[0].x, two.y[1].x, two.y[2].x, two.y[3].x];
+    let v = [two.y[0].y, two.y[1].y, two.y[2].y, two.y[3].y];
+    let direction =
+        [(L::load(&ends(&u, n2)) - L::load(&u)) * forward, (L::load(&ends(&v, n2)) - L::load(&v)) * forward];
+    let distances = Distances::of::<L>(one, &[1.0; MAX_NODES], two, plane, |d| {
+        let (mut view, near) = (View::new(one, plane), NEAR * plane.condition_squared.sqrt());
+        for j in 0..n1 {
+            let line = (LineOf::Nonmortar(j), line(one, &[1.0; MAX_NODES], j));
+            view.refine(line, two, near, [&mut d.from[j], &mut d.to[j]]);
+        }
+    });
     let mut mortar = Parts::whole();
     for j in 0..n1 {
-        let next = one.shape.next[j];
-        let d = nodes2.distances(plane.e, one.x[j], one.x[next]);
-        let end = ends(d, n2);
+        let (from, to) = (L::load(&distances.from[j & 3]), L::load(&distances.to[j & 3]));
         // A point of the mortar line moves to the right of `direction`: inwards when that runs
         // against the non-mortar edge. Only a collinear edge depends on it.
-        let edge = one.y[next] - one.y[j];
+        let edge = one.y[one.shape.next[j & 3] & 3] - one.y[j & 3];
         let outwards = L::splat(edge.x).mul_add(direction[0], L::splat(edge.y) * direction[1]);
         let tie = outwards.where_positive(L::splat(-INSIDE), L::splat(INSIDE));
-        mortar.narrow(forward.where_positive(d, end), forward.where_positive(end, d), tie);
+        mortar.narrow(forward.where_positive(from, to), forward.where_positive(to, from), tie);
     }
     [collect(nonmortar, &[1.0; MAX_NODES], n1), collect(mortar, &orientation, n2)]
 }

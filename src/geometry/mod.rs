@@ -5,8 +5,10 @@
 mod analytic_surface;
 pub mod bilinear_map;
 pub mod clip;
+pub mod double_double;
 pub mod edge_interval;
 mod facet;
+mod near_line;
 mod plane;
 mod projection;
 

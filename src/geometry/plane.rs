@@ -30,6 +30,11 @@ pub struct Plane {
     /// Tilt: t_j . De = `sum_c tilt[j][c] e . Dx_c` [1/L]. The spanning vectors lie in the plane, so only motions
     /// along e tilt it.
     pub tilt: [[f64; MAX_NODES]; 2],
+    /// What rounding of the spanning vectors is multiplied by in the direction of their cross product, squared: 1 / sin^2
+    /// of the angle between them.
+    pub condition_squared: f64,
+    /// Normals of the planes of the facets beyond each edge, where they are known.
+    pub beyond: [Option<Vec3>; MAX_NODES],
 }
 
 impl Plane {
@@ -64,6 +69,8 @@ impl Plane {
             e,
             spin: [0.0; MAX_NODES],
             tilt: [[0.0; MAX_NODES]; 2],
+            condition_squared: 1.0,
+            beyond: [None; MAX_NODES],
         };
         for x in facet.points() {
             plane.origin += (x - facet.nodes[0]) / facet.len() as f64;
@@ -71,6 +78,7 @@ impl Plane {
         // t_j . De = t_j . (Dw1 x w2 + w1 x Dw2) / |w|, t1 along w1;  t2 . Dt1 = t2 . Dw1 / |w1|.
         let signs = facet.spanning_signs();
         let (along, across) = (w2.dot(&t1) / norm, w2.dot(&t2) / norm);
+        plane.condition_squared += (length * along) * (length * along); // cot^2 of the angle between w1 and w2
         for (node, sign) in [(signs[0].0, 1.0), (signs[0].1, -1.0)] {
             plane.spin[node] += sign / length;
             plane.tilt[0][node] -= across * sign;

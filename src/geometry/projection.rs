@@ -19,7 +19,7 @@ const EDGE_ON: f64 = SMALLEST_AREA_RATIO;
 pub struct Projection {
     /// Shape functions, in the order of `y`.
     pub shape: &'static Shape,
-    /// Position relative to the plane's reference node; differences of these are exact under offsets.
+    /// Position in space, as given.
     pub x: [Vec3; MAX_NODES],
     /// In-plane coordinates, counter-clockwise.
     pub y: [Vec2; MAX_NODES],
@@ -62,7 +62,7 @@ impl Projection {
         let [low, high] = [[smallest(&u), smallest(&v)], [largest(&u), largest(&v)]];
         let mut p = Projection {
             shape,
-            x: [Vec3::zeros(); MAX_NODES],
+            x: facet.nodes,
             y: [Vec2::zeros(); MAX_NODES],
             d: [0.0; MAX_NODES],
             node: [0, 1, 2, 3],
@@ -77,7 +77,7 @@ impl Projection {
         }
         for k in 0..shape.n {
             let j = p.node[k] & 3; // so that no bounds are checked
-            (p.x[k], p.y[k], p.d[k]) = (x[j], Vec2::new(u[j], v[j]), d[j]);
+            (p.x[k], p.y[k], p.d[k]) = (facet.nodes[j], Vec2::new(u[j], v[j]), d[j]);
         }
         p
     }

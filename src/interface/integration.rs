@@ -89,6 +89,15 @@ pub(super) fn frames(surface: &Surface, x: &[Vec3]) -> Result<Vec<NonmortarFrame
     for f in 0..surface.facets.len() {
         frames.push(NonmortarFrame::new(&surface.facet(f, x)).map_err(at_facet(surface.side, f))?);
     }
+    for edge in &surface.edges {
+        // Each runs the edge from another end.
+        for (i, from) in edge.nodes.into_iter().enumerate() {
+            let (facet, beyond) = (edge.facets[i], frames[edge.facets[1 - i]].plane.e);
+            if let Some(k) = surface.facets[facet].as_slice().iter().position(|&node| node == from) {
+                frames[facet].plane.beyond[k] = Some(beyond);
+            }
+        }
+    }
     Ok(frames)
 }
 

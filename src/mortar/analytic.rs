@@ -42,10 +42,11 @@ impl Place {
     }
 }
 
-/// The facet's reference node - P0. Differences of nodes and P0 come first: exact under a common offset.
+/// The facet's nodes - P0. Differences of nodes and P0 come first: exact under a common offset.
 #[inline(always)]
-fn corner(frame: &NonmortarFrame, surface: &AnalyticSurface) -> Vec3 {
-    frame.plane.reference - surface.origin
+fn corners(frame: &NonmortarFrame, surface: &AnalyticSurface) -> [Vec3; MAX_NODES] {
+    let x = &frame.projection.x;
+    [x[0] - surface.origin, x[1] - surface.origin, x[2] - surface.origin, x[3] - surface.origin]
 }
 
 /// A quadrature point of the facet.
@@ -69,7 +70,13 @@ fn cell_points(frame: &NonmortarFrame, rule: &Rule) -> usize {
 
 /// The i-th of them.
 #[inline(always)]
-fn point(frame: &NonmortarFrame, surface: &AnalyticSurface, rule: &Rule, i: usize) -> Result<Point> {
+fn point(
+    frame: &NonmortarFrame,
+    surface: &AnalyticSurface,
+    corners: &[Vec3; MAX_NODES],
+    rule: &Rule,
+    i: usize,
+) -> Result<Point> {
     let (facet, area) = (&frame.projection, frame.map.determinant());
     let [xi, eta, weight] = if facet.shape.n == 3 {
         let [l1, l2, w] = rule.triangle[i];
@@ -78,9 +85,9 @@ fn point(frame: &NonmortarFrame, surface: &AnalyticSurface, rule: &Rule, i: usiz
         square_point(rule.square, i)
     };
     let n = facet.shape.values(xi, eta);
-    let mut x = corner(frame, surface);
+    let mut x = Vec3::zeros();
     for k in 0..MAX_NODES {
-        x += facet.x[k] * n[k];
+        x += corners[k] * n[k];
     }
     let (area, place) = (area[0] + area[1] * xi + area[2] * eta, Place::at(surface, x)?);
     Ok(Point { weight, area, powers: [1.0, xi, eta], n, place })
@@ -113,10 +120,10 @@ impl Kernel for Weights<'_> {
     fn run<L: Lanes>(self) -> Result<PairWeights> {
         let Weights { frame, surface, rule } = self;
         let (ab, mut ac) = (mass::<L>(frame), [L::splat(0.0); MAX_NODES]);
-        let nodes = frame.projection.shape.n;
+        let (nodes, corners) = (frame.projection.shape.n, corners(frame, surface));
         if surface.is_flat() {
             for b in 0..nodes {
-                let p = Place::at(surface, corner(frame, surface) + frame.projection.x[b])?;
+                let p = Place::at(surface, corners[b])?;
                 let c = L::load(&surface.coordinates(p.on_surface()));
                 let n = ab[b].store();
                 for a in 0..nodes {
@@ -126,7 +133,7 @@ impl Kernel for Weights<'_> {
             return Ok(PairWeights::of_rows(nodes, &ab, &ac));
         }
         for i in 0..cell_points(frame, rule) {
-            let p = point(frame, surface, rule, i)?;
+            let p = point(frame, surface, &corners, rule, i)?;
             let c = L::load(&surface.coordinates(p.place.on_surface()));
             for a in 0..nodes {
                 ac[a] = L::splat(p.weight * p.area * p.n[a]).mul_add(c, ac[a]);
@@ -218,8 +225,9 @@ fn flat<L: Lanes>(frame: &NonmortarFrame, surface: &AnalyticSurface) -> Result<G
     let (zero, products) = (L::splat(0.0), &frame.projection.shape.products);
     let mut of = Gaps { gaps: [[zero; 3]; 3], blocks: [[[zero; 3]; 3]; MAX_NODES] };
     let (mut sums, mut normal, mass) = ([zero; 3], Vec3::zeros(), mass::<L>(frame));
+    let corners = corners(frame, surface);
     for k in 0..frame.projection.shape.n {
-        let closest = Place::at(surface, corner(frame, surface) + frame.projection.x[k])?.closest;
+        let closest = Place::at(surface, corners[k])?.closest;
         let gradient = surface.gradient(&closest);
         for m in 0..3 {
             sums[m] = L::splat(closest.distance).mul_add(L::load(&products[m][k]), sums[m]);
@@ -244,8 +252,9 @@ fn flat<L: Lanes>(frame: &NonmortarFrame, surface: &AnalyticSurface) -> Result<G
 fn curved<L: Lanes>(frame: &NonmortarFrame, surface: &AnalyticSurface, rule: &Rule) -> Result<Gaps<L>> {
     let zero = L::splat(0.0);
     let mut of = Gaps { gaps: [[zero; 3]; 3], blocks: [[[zero; 3]; 3]; MAX_NODES] };
+    let corners = corners(frame, surface);
     for i in 0..cell_points(frame, rule) {
-        let q = point(frame, surface, rule, i)?;
+        let q = point(frame, surface, &corners, rule, i)?;
         let closest = &q.place.closest;
         let (gap, gradient) = (closest.normal * closest.distance, surface.gradient(closest));
         let n = L::load(&q.n);

@@ -114,6 +114,10 @@ impl Lanes for Avx2 {
         }))
     }
     #[inline(always)]
+    fn any_positive(self) -> bool {
+        instruction!(_mm256_movemask_pd(_mm256_cmp_pd::<_CMP_GT_OQ>(self.0, _mm256_setzero_pd()))) != 0
+    }
+    #[inline(always)]
     fn swap_1_3(self) -> Avx2 {
         Avx2(instruction!(_mm256_permute4x64_pd::<0b01_10_11_00>(self.0)))
     }

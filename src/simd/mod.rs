@@ -50,6 +50,8 @@ pub trait Lanes: Real {
     fn sums(v: [Self; 4]) -> Self;
     /// Rows become columns.
     fn transpose(v: [Self; 4]) -> [Self; 4];
+    /// Whether any of them is above 0.
+    fn any_positive(self) -> bool;
     /// Lanes 0, 3, 2, 1.
     fn swap_1_3(self) -> Self;
     /// Lanes 0, 2, 1, 3.
@@ -176,5 +178,28 @@ mod tests {
         assert_eq!(plain[18], [-2.0, 1.0, 9.0, 4.0]);
         assert_eq!(plain[19], [1.75, -1.25, -4.25, 26.75]);
         assert_eq!(plain[20], [-1.75, 1.25, 4.25, -26.75]);
+    }
+
+    struct AnyPositive([f64; 4]);
+
+    impl Kernel for AnyPositive {
+        type Output = bool;
+        #[inline(always)]
+        fn run<L: Lanes>(self) -> bool {
+            L::load(&self.0).any_positive()
+        }
+    }
+
+    #[test]
+    fn any_positive_lane_is_seen() {
+        let mut cases = vec![([0.0, -0.0, -1.0, f64::NAN], false)];
+        for k in 0..4 {
+            let mut v = [-1.0; 4];
+            v[k] = f64::MIN_POSITIVE;
+            cases.push((v, true));
+        }
+        for (v, any) in cases {
+            assert_eq!([AnyPositive(v).run::<Plain>(), dispatch(AnyPositive(v))], [any; 2], "{v:?}");
+        }
     }
 }

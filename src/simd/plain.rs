@@ -91,6 +91,11 @@ impl Lanes for Plain {
         (a + b) + (c + d)
     }
     #[inline(always)]
+    fn any_positive(self) -> bool {
+        let a = self.0;
+        (a[0] > 0.0) | (a[1] > 0.0) | (a[2] > 0.0) | (a[3] > 0.0)
+    }
+    #[inline(always)]
     fn swap_1_3(self) -> Plain {
         let a = self.0;
         Plain([a[0], a[3], a[2], a[1]])

@@ -3,6 +3,7 @@
 
 pub mod c;
 pub mod differences;
+pub mod exact;
 pub mod host;
 pub mod mesh;
 
