@@ -200,3 +200,44 @@ fn nearly_matching_meshes_have_nearly_the_same_tangent() {
         }
     }
 }
+
+/// A mortar boundary that follows non-mortar mesh lines, over a gap or on ridges, where noise turns the planes on either
+/// side of a line: both of them claimed the boundary, or none, and the tangent was off by as much as itself.
+#[test]
+fn noise_does_not_change_who_claims_a_mortar_boundary() {
+    // The tangent's own change per unit of noise on facets of a quarter, h^-2 times a few, and rounding.
+    let allowed = |noise: f64| 500.0 * noise + 1e-12;
+    let mut random = Random(29);
+    for (ridge, gap) in [(0.0, 0.0), (0.0, 0.1), (0.07, 0.0), (0.07, 1e-3)] {
+        for seed in 0..4 {
+            let angles = random.vector(3.0);
+            let q = Rotation3::from_euler_angles(angles.x, angles.y, angles.z);
+            let placed = |mut mesh: Mesh, z: f64| {
+                mesh.x.iter_mut().for_each(|x| *x = q * Vec3::new(x.x, x.y, z + ridge * ((4.0 * x.x).round() % 2.0)));
+                mesh
+            };
+            let one = placed(grid(4, 4, [0.0, 0.0], [1.0, 1.0], 0.0, false, Cells::Quads), gap);
+            let two = placed(grid(2, 2, [0.25, 0.25], [0.75, 0.75], 0.0, true, Cells::Quads), 0.0);
+            let lambda: Vec<_> = one.x.iter().map(|_| q * Vec3::new(0.1, 0.0, -1.0)).collect();
+            let tangent = |noise: f64| {
+                let mut random = Random(100 + seed);
+                let mut moved = |mesh: &Mesh| Mesh {
+                    x: mesh.x.iter().map(|x| x + random.vector(noise)).collect(),
+                    facets: mesh.facets.clone(),
+                };
+                let (one, two) = (moved(&one), moved(&two));
+                let n = 3 * (2 * one.x.len() + two.x.len());
+                let mut k = vec![0.0; n * n];
+                let mut add = |r: i64, c: i64, v: f64| k[r as usize * n + c as usize] += v;
+                interface(&one, &two, options()).tangent(&one.x, &two.x, &lambda, None, &mut add).unwrap();
+                k
+            };
+            let clean = tangent(0.0);
+            let scale = max_abs(clean.iter().copied());
+            for noise in [1e-16, 1e-15, 1e-14, 1e-13, 1e-12] {
+                let error = max_abs(clean.iter().zip(&tangent(noise)).map(|(a, b)| a - b)) / scale;
+                assert!(error <= allowed(noise), "ridge {ridge}, gap {gap}, noise {noise:e}: {error:e}");
+            }
+        }
+    }
+}

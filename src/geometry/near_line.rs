@@ -84,8 +84,8 @@ impl<'a> View<'a> {
         View { plane, one, normal: None }
     }
 
-    /// The signed distances of a facet's nodes from a line, times its length, anew below `near` (over the lengths): edge
-    /// by edge of the node where it begins (`from`) and where it ends (`to`), positive to the left [L^2].
+    /// The signed distances of a facet's nodes from a line, times its length, anew below `near` (over the lengths):
+    /// edge by edge of the node where it begins (`from`) and where it ends (`to`), positive to the left [L^2].
     #[cold]
     #[inline(never)]
     pub fn refine(

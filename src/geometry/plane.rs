@@ -30,8 +30,8 @@ pub struct Plane {
     /// Tilt: t_j . De = `sum_c tilt[j][c] e . Dx_c` [1/L]. The spanning vectors lie in the plane, so only motions
     /// along e tilt it.
     pub tilt: [[f64; MAX_NODES]; 2],
-    /// What rounding of the spanning vectors is multiplied by in the direction of their cross product, squared: 1 / sin^2
-    /// of the angle between them.
+    /// What rounding of the spanning vectors is multiplied by in the direction of their cross product, squared:
+    /// 1 / sin^2 of the angle between them.
     pub condition_squared: f64,
     /// Normals of the planes of the facets beyond each edge, where they are known.
     pub beyond: [Option<Vec3>; MAX_NODES],

@@ -90,7 +90,7 @@ def lines(results):
     found += figure(
         results,
         "derivative_error",
-        "Derivatives of a pair's weights, crossing angles to 1e-6 and strips to 1e-12",
+        "Derivatives of a pair's weights, crossing angles to 1e-15 and strips to 1e-14, anywhere in space",
         1e-10,
     )
     found += figure(
