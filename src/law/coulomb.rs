@@ -14,13 +14,13 @@ impl Law<3> for Coulomb {
 
     fn respond(node: &Node) -> NodeResponse {
         let r = node.augmentation;
-        let tangent = node.free - (node.free * node.normal) * node.normal.transpose(); // free (I - nn)
         let (now, committed) = node.slip.coefficients();
 
         let lambda = node.free * node.lambda;
         let gap_normal = node.normal.dot(&node.gap_now);
         let slip = if node.covered_before {
-            tangent * (node.gap_previous - node.gap_now * now - node.gap_committed * committed)
+            let slip = node.gap_previous - node.gap_now * now - node.gap_committed * committed;
+            node.free * (slip - node.normal * node.normal.dot(&slip))
         } else {
             Vec3::zeros()
         };
@@ -37,10 +37,11 @@ impl Law<3> for Coulomb {
             }
         };
 
-        // dsigma/dg = nu nu^T - tangent now, dsigma/dg_previous = tangent; without a history the first term alone.
-        let dp_dlambda = p.derivative * node.free;
-        let along = (p.derivative * node.normal) * node.normal.transpose();
-        let across = if node.covered_before { p.derivative * tangent } else { Mat3::zeros() };
+        // With F the free directions and H = dp/dsigma: dsigma/dlambda = F, dsigma/dg = nu nu^T - F (I - nu nu^T) now,
+        // dsigma/dg_previous = F (I - nu nu^T); without a history the first term alone.
+        let (h, along_normal) = (p.derivative * node.free, node.normal.transpose());
+        let normal = (p.derivative * node.normal) * along_normal;
+        let tangential = if node.covered_before { h - (h * node.normal) * along_normal } else { Mat3::zeros() };
         NodeResponse {
             state: p.state,
             traction: p.traction,
@@ -48,10 +49,10 @@ impl Law<3> for Coulomb {
             gap_normal,
             slip,
             sigma: node.normal * sigma_n + sigma_t,
-            dp_dlambda,
-            drow_dlambda: (dp_dlambda - Mat3::identity()) / r,
-            drow_dnow: along - across * now,
-            drow_dprevious: across,
+            dp_dlambda: h,
+            drow_dlambda: (h - Mat3::identity()) / r,
+            drow_dnow: normal - tangential * now,
+            drow_dprevious: tangential,
         }
     }
 }
