@@ -53,9 +53,9 @@ pub fn ends(v: &[f64; MAX_NODES], n: usize) -> [f64; MAX_NODES] {
 /// direction.
 fn is_on_line(normals: [Vec3; 2], [from, to]: [&Vec3; 2], p: &Vec3) -> bool {
     let (from, to) = if is_before(from, to) { (from, to) } else { (to, from) };
-    let v = cross(&difference(to, from), &difference(p, from)).map(DoubleDouble::value);
+    let v = (to - from).cross(&(p - from)); // doubles do: matching meshes come here all of the time
     let on_line = ON_LINE * lengths([from, to], p);
-    normals.iter().all(|e| e.dot(&Vec3::from(v)).abs() <= on_line)
+    normals.iter().all(|e| e.dot(&v).abs() <= on_line)
 }
 
 /// What distances are compared with: of a line and a point, whichever end is the first [L^2].
