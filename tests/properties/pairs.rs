@@ -55,7 +55,9 @@ fn sums(p: &Pair) -> TestCaseResult {
         // A node's area is exact, its coverage has the error of the rule on facets that are not affine.
         let rule = if p.is_affine() { 0.0 } else { RULE_ESTIMATE * (b - fine.coverage(a)).abs() };
         prop_assert!(-SUMS * area <= b, "coverage {b:e} of an overlap {area:e}");
-        prop_assert!(b <= areas[a] + rule + SUMS * areas.iter().sum::<f64>(), "coverage {b:e} of {:e}", areas[a]);
+        // At a corner of nearly 180 degrees the inverse map's root takes digits from both rules.
+        let rounding = (SUMS + f64::EPSILON * p.distortion()) * areas.iter().sum::<f64>();
+        prop_assert!(b <= areas[a] + rule + rounding, "coverage {b:e} of {:e}", areas[a]);
         prop_assert!((0..4).all(|b| w.ab[a][b] == w.ab[b][a]), "n_AB is symmetric");
         total += b;
     }
