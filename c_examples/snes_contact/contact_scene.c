@@ -51,7 +51,7 @@ static PetscErrorCode read_surfaces(Model *model, Interface *interface)
 {
   static const char *const side_key[]  = {"nonmortar", "mortar"};
   Scene                   *scene       = model->scene;
-  PetscInt                 mortar_mask = 7, n_corners[2];
+  PetscInt                 mortar_mask = 7, n_corners[2], *symmetry;
   char                     name[2 * NAME_LENGTH];
 
   PetscFunctionBegin;
@@ -75,15 +75,20 @@ static PetscErrorCode read_surfaces(Model *model, Interface *interface)
                    "the two surfaces share a vertex; contact of a surface with itself is not supported.");
     }
   }
-  /* A component is no unknown where it is prescribed on both sides: at the node, and on the mortar side everywhere. */
+  /* A component is no unknown where it is prescribed on both sides: at the node, and on the mortar side everywhere, or
+   * where a plane of symmetry cuts both. */
   for (PetscInt b = 0; b < interface->n2; b++)
     mortar_mask &= model->prescribed[interface->nodes[interface->n1 + b]];
   if (interface->options.mortar_side == STICKSLIP_MORTAR_RIGID && mortar_mask != 7)
     scene_fail(scene, interface->name, "mortar_side", "'%s' is not rigid: support all of it in x, y and z.", name);
   describe_analytic(scene, interface);
   PetscCall(PetscMalloc1(interface->n1, &interface->removed));
+  PetscCall(PetscCalloc1(model->mesh.n_vertices, &symmetry));
+  PetscCall(symmetry_mask(model, interface, symmetry));
   for (PetscInt a = 0; a < interface->n1; a++)
-    interface->removed[a] = model->prescribed[interface->nodes[a]] & mortar_mask;
+    interface->removed[a] =
+        (model->prescribed[interface->nodes[a]] & mortar_mask) | symmetry[interface->nodes[a]];
+  PetscCall(PetscFree(symmetry));
 
   if (interface->options.augmentation == 0 && interface->options.modulus == 0) {
     const PetscReal young1     = surface_young(model, interface->nodes, interface->n1),

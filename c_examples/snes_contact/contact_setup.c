@@ -53,7 +53,7 @@ static PetscErrorCode describe_surface(const Model *model, const Interface *inte
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Directions in which a node and the whole mortar side are prescribed carry no multiplier, and the normal none of them. */
+/* The directions removed carry no multiplier, and the normal none of them. */
 static int32_t set_constraints(const Interface *interface)
 {
   int64_t *nodes, n = 0;

@@ -40,7 +40,7 @@ typedef struct {
   PetscInt             n1, n2;     /* their numbers of nodes */
   PetscInt            *nodes;      /* n1 + n2 mesh vertices */
   PetscInt             components; /* multipliers a node: 1, along the normal, without friction; else 3 */
-  PetscInt            *removed;    /* n1: mask of directions in which both sides are prescribed: no multiplier there */
+  PetscInt            *removed;    /* n1: mask of directions without a multiplier, see read_surfaces() */
   stickslip_options    options;
   PetscBool            initial_contact; /* nodes that touch start slightly compressed: contact_start() */
   double              *X, *x;     /* 3 (n1 + n2): reference coordinates; current ones, see contact_positions() */
@@ -167,6 +167,7 @@ PetscErrorCode plex_distribute(Model *model);
 /* supports.c */
 PetscErrorCode supports_read(Model *model);
 PetscErrorCode supports_label(Model *model);
+PetscBool supports_agree(const Support *a, const Support *b, PetscReal end, const PetscReal X[3], int component);
 PetscErrorCode supports_values(Model *model, PetscReal t); /* into prescribed_local */
 PetscErrorCode supports_reactions(Model *model);
 
@@ -190,6 +191,8 @@ PetscErrorCode bulk_forces(Model *model, Vec f_local, PetscReal *squared_roundin
 PetscErrorCode bulk_stiffness(Model *model, Mat matrix, PetscInt *status);    /* adds */
 PetscErrorCode bulk_extension(Model *model, Vec u_local, Vec f_local, Mat matrix); /* adds to both */
 PetscErrorCode bulk_pattern(Model *model, Mat matrix);                        /* adds zeros */
+
+PetscErrorCode symmetry_mask(const Model *model, const Interface *interface, PetscInt *mask);
 
 /* contact_scene.c, contact_setup.c, contact.c: `status` > 0 on every rank if the library refused, with its message in
  * model->refusal */

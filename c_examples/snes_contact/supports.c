@@ -86,8 +86,9 @@ static void prescribed_displacement(const Support *support, PetscReal t, const P
     u[i] = x[i] - (X[i] - support->origin[i]);
 }
 
-/* at times between which both move evenly, and at some in between, where they turn */
-static PetscBool same_component(const Support *a, const Support *b, PetscReal end, const PetscReal X[3], int i)
+/* Do both prescribe the same u_i at X? At times between which both move evenly, and at some in between, where they
+ * turn. */
+PetscBool supports_agree(const Support *a, const Support *b, PetscReal end, const PetscReal X[3], int i)
 {
   const Curve *const curves[] = {&a->curve, &a->rotate_curve, &b->curve, &b->rotate_curve};
   const PetscInt     n_even   = 16;
@@ -126,7 +127,7 @@ static PetscErrorCode check_overlaps(Model *model)
           continue;
         }
         earlier = &model->supports[first[3 * v + i]];
-        if (!same_component(support, earlier, model->steps.end, X, i))
+        if (!supports_agree(support, earlier, model->steps.end, X, i))
           scene_fail(model->scene, support->name, "components",
                      "u_%c of the vertex at [%g, %g, %g] is prescribed differently by '%s'.", 'x' + i, (double)X[0],
                      (double)X[1], (double)X[2], earlier->name);
