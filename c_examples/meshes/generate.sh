@@ -31,6 +31,9 @@ mesh brick_tet_lower.msh brick_tet.geo side -1 cells 3
 mesh ironing_die_coarse.msh ironing_die.geo along 6 up 3
 mesh ironing_die.msh        ironing_die.geo along 12 up 6
 
+mesh ironing_tube_coarse.msh ironing_tube.geo quarter 6 across 3
+mesh ironing_tube.msh        ironing_tube.geo
+
 # The channel for a slider whose facets are 25 long, or 12.5; with a rounded end; carrying the multipliers itself, and
 # the same for facets of 12.5; half of a wide one for 3D.
 mesh press_fit_coarse.msh  press_fit_channel.geo before  2 ramp 1 after  2 down 3

@@ -399,6 +399,22 @@ def draw_shallow_ironing(solved, folder):
     ]
 
 
+def ironing_3d(verdicts, driver):
+    run = driver.run("ironing_3d", "-output_vtu", "all", "-output_csv", "all")
+    ironing.three_dimensions(verdicts, "ironing, 3D", run, ironing.SMOOTH_3D)
+    return run
+
+
+def draw_ironing_3d(run, folder):
+    t, press, pull, _ = ironing.history(run)
+    curves = [("V, presses", t, press), ("H, draws", t, pull)]
+    view = View("contact", (-0.5, 9.7, -0.2, 6.2), 0.9, (8, 5))
+    return [
+        figures.history(curves, folder / "ironing_3d_history.png", "time", "reaction of a half of the die"),
+        *moving("ironing_3d", run, view, folder, at("t ="), frames=40, shown=len(run.steps) // 2),
+    ]
+
+
 ENTRIES = [
     Entry("hertz_line", "Hertz: line contact", "Two half-cylinders pressed together, meshes that do not match.", 0.3,
           hertz_line, draw_hertz_line),
@@ -429,6 +445,9 @@ ENTRIES = [
           "the slider or two it falls in every step.", 2.0, drop_off, draw_drop_off),
     Entry("turned_shaft", "A shaft carried round by friction", "Stuck in a hub that turns by 2 rad: no slip with the "
           "objective measure.", 0.5, turned_shaft, draw_turned_shaft),
+    Entry("ironing_3d", "Ironing in three dimensions", "Half a tube, thin and stiff, lies across a soft slab, is "
+          "pressed into it by almost half of the slab's height and drawn along it; the section in the plane of "
+          "symmetry.", 3.0, ironing_3d, draw_ironing_3d),
     Entry("shallow_ironing", "Shallow ironing", "A die pressed into a softer base and drawn along it in 500 steps. The "
           "pictures are of a mesh and steps twice as coarse.", 20.0, shallow_ironing, draw_shallow_ironing),
 ]

@@ -1,4 +1,6 @@
-"""Shallow ironing (shallow_ironing.yaml) against published curves: `ironing` on a coarse mesh, `ironing_full` on its own.
+"""Shallow ironing (shallow_ironing.yaml) against published curves: `ironing` on a coarse mesh, `ironing_full` on its
+own. Ironing in three dimensions (ironing_3d.yaml), for which no published figures are at hand: what any solution must
+show.
 
 Gives V, the reaction at the die's head that presses it down, and H, the one that draws it along.
 """
@@ -28,6 +30,15 @@ BAND_MARGIN = 0.01
 LAG_BOUND = 0.04
 
 PLATEAU = (1.2, 1.9)
+# ironing_3d.yaml: every step converges at once, in this many iterations on the average (with the multiplier along the
+# normal of the plane of symmetry left in, 15 and more, and cut-backs). Supports against each other: rounding.
+NEWTON_3D_BOUND = 5
+BALANCE_BOUND = 1e-10
+COARSE_3D = ("-slab_cells", "18,4,5", "-die_file", SCENES.parent / "meshes" / "ironing_tube_coarse.msh",
+             "-steps_stages", "1,14,2,40", "-output_vtu", "none")
+# Of V, while the die slides: V and H change by less from step to step, on facets of 1/3; coarse: of 1/2.
+SMOOTH_3D, SMOOTH_3D_COARSE = 0.01, 0.02
+SLIDING_3D = (1.3, 1.9)
 COARSE = ("-base_cells", "60,1,15", "-die_file", SCENES.parent / "meshes" / "ironing_die_coarse.msh")
 CPU_BOUND = 20 * 60  # seconds on one core
 
@@ -47,6 +58,12 @@ def ironing(verdicts, driver):
     """60 x 15 and 6 x 3 cells, half of the track."""
     run = driver.run("shallow_ironing", *COARSE, "-steps_stages", "1,10,1.5,250", label="coarse")
     compare(verdicts, "coarse", run, facet=2 * FACET)
+    run = driver.run("ironing_3d", *COARSE_3D, label="coarse_3d")
+    three_dimensions(verdicts, "three dimensions, coarse", run, SMOOTH_3D_COARSE)
+    slippery = driver.run("ironing_3d", *COARSE_3D, "-contact_friction", 0, label="coarse_3d_mu0")
+    pulls = [np.interp(1.5, t, H) / np.interp(1.5, t, V) for t, V, H, _ in (history(run), history(slippery))]
+    verdicts.within("three dimensions, coarse: H / V that friction adds", pulls[0] - pulls[1], *RATIO_RANGE,
+                    "the rest is ploughing")
 
 
 def ironing_full(verdicts, driver):
@@ -87,3 +104,21 @@ def compare(verdicts, label, run, facet):
     lost = (pull - (work[last] - work[first]) / length) / V[first : last + 1].mean()
     label = f"{label}: pull that friction does not dissipate, over V"
     verdicts.near(label, lost, 0, LAG_BOUND, "lag of normals", scale=1)
+
+
+def three_dimensions(verdicts, label, run, smooth):
+    """V and H of ironing_3d.yaml."""
+    t, V, H, work = history(run)
+    ground = np.array([step["reactions"]["ground"] for step in run.steps])
+    off = max(np.abs(ground[:, 2] - V).max(), np.abs(ground[:, 0] + H).max()) / V.max()
+    sliding = (t[1:] > SLIDING_3D[0]) & (t[1:] < SLIDING_3D[1])
+    jump = max((np.abs(np.diff(force)) / V[1:])[sliding].max() for force in (V, H))
+    ratio = np.interp(1.5, t, H) / np.interp(1.5, t, V)
+    verdicts.below(f"{label}: cut-backs", run.summary["cutbacks"], 0, "every step converges at the first attempt")
+    mean = run.newton_iterations / len(run.steps)
+    verdicts.below(f"{label}: Newton iterations a step", mean, NEWTON_3D_BOUND, "mean")
+    verdicts.below(f"{label}: die against ground", off, BALANCE_BOUND, "of V")
+    verdicts.below(f"{label}: change of V and H from step to step", jump, smooth, "of V, while all of it slides")
+    least = np.diff(work, prepend=0).min()
+    verdicts.at_least(f"{label}: least friction work of a step", least, 0, "friction dissipates")
+    verdicts.within(f"{label}: H / V at t = 1.5", ratio, *RATIO_RANGE, "friction 0.3 and some ploughing")
