@@ -447,7 +447,7 @@ ENTRIES = [
           "objective measure.", 0.5, turned_shaft, draw_turned_shaft),
     Entry("ironing_3d", "Ironing in three dimensions", "Half a tube, thin and stiff, lies across a soft slab, is "
           "pressed into it by almost half of the slab's height and drawn along it; the section in the plane of "
-          "symmetry.", 3.0, ironing_3d, draw_ironing_3d),
+          "symmetry.", 1.0, ironing_3d, draw_ironing_3d),
     Entry("shallow_ironing", "Shallow ironing", "A die pressed into a softer base and drawn along it in 500 steps. The "
           "pictures are of a mesh and steps twice as coarse.", 20.0, shallow_ironing, draw_shallow_ironing),
 ]
