@@ -78,12 +78,15 @@ fn crossings_are_right_at_any_angle_anywhere_in_space() {
                         // The exact part runs along the facet.
                         if i.orientation > 0.0 { [i.low, i.high] } else { [1.0 - i.high, 1.0 - i.low] }
                     });
-                    let [low, high] = expected.unwrap_or([0.5; 2]);
-                    let [found_low, found_high] = found.unwrap_or([(low + high) / 2.0; 2]);
-                    let error = (found_low - low).abs().max((found_high - high).abs());
+                    // Where an edge ends on a line, rounding may leave a part of its own size, or none.
+                    let error = match (expected, found) {
+                        (Some(a), Some(b)) => (a[0] - b[0]).abs().max((a[1] - b[1]).abs()),
+                        (Some([low, high]), None) | (None, Some([low, high])) => high - low,
+                        (None, None) => 0.0,
+                    };
                     assert!(error <= CROSSING, "angle 1e-{exponent}, round {round}, side {side}, edge {k}: {error:e}");
                     worst = worst.max(error);
-                    crossings += usize::from(low > 0.0 && low < 1.0) + usize::from(high > 0.0 && high < 1.0);
+                    crossings += expected.iter().flatten().filter(|&&v| v > 0.0 && v < 1.0).count();
                 }
             }
         }

@@ -133,6 +133,7 @@ impl<L: Lanes> Parts<L> {
 #[inline(always)]
 pub fn edge_intervals<L: Lanes>(one: &Projection, two: &Projection, plane: &Plane) -> [EdgeIntervals; 2] {
     let (n1, n2) = (one.shape.n, two.shape.n);
+    let mut view = View::new(one, plane);
 
     // Mortar edges run from the end that comes first.
     let mut orientation = [1.0; MAX_NODES];
@@ -142,7 +143,7 @@ pub fn edge_intervals<L: Lanes>(one: &Projection, two: &Projection, plane: &Plan
         }
     }
     let distances = Distances::of::<L>(two, &orientation, one, plane, |d| {
-        let (mut view, near) = (View::new(one, plane), NEAR * plane.condition_squared.sqrt());
+        let near = NEAR * plane.condition_squared.sqrt();
         for j in 0..n2 {
             let line = (LineOf::Mortar, line(two, &orientation, j));
             view.refine(line, one, near, [&mut d.from[j], &mut d.to[j]]);
@@ -162,7 +163,7 @@ pub fn edge_intervals<L: Lanes>(one: &Projection, two: &Projection, plane: &Plan
     let direction =
         [(L::load(&ends(&u, n2)) - L::load(&u)) * forward, (L::load(&ends(&v, n2)) - L::load(&v)) * forward];
     let distances = Distances::of::<L>(one, &[1.0; MAX_NODES], two, plane, |d| {
-        let (mut view, near) = (View::new(one, plane), NEAR * plane.condition_squared.sqrt());
+        let near = NEAR * plane.condition_squared.sqrt();
         for j in 0..n1 {
             let line = (LineOf::Nonmortar(j), line(one, &[1.0; MAX_NODES], j));
             view.refine(line, two, near, [&mut d.from[j], &mut d.to[j]]);

@@ -84,8 +84,9 @@ impl<'a> View<'a> {
         View { plane, one, normal: None }
     }
 
-    /// The signed distances of a facet's nodes from a line, times its length, anew below `near` (over the lengths):
-    /// edge by edge of the node where it begins (`from`) and where it ends (`to`), positive to the left [L^2].
+    /// The signed distances of a facet's nodes from a line, times its length, positive to the left [L^2]: edge by edge
+    /// of the node where it begins (`from`) and where it ends (`to`). Those of edges with both ends below `near` (over
+    /// the lengths) are taken anew; an edge with one end farther off crosses at an angle, where doubles do.
     #[cold]
     #[inline(never)]
     pub fn refine(
@@ -95,31 +96,32 @@ impl<'a> View<'a> {
         near: f64,
         [from, to]: [&mut [f64; MAX_NODES]; 2],
     ) {
-        let mut left = None;
-        for (p, d) in nodes.x.iter().zip(from.iter_mut()) {
-            let lengths = lengths(line, p);
-            if d.abs() >= near * lengths {
+        let (mut left, x, n) = (None, &nodes.x, nodes.shape.n);
+        let near_squared = near * near * (line[1] - line[0]).norm_squared();
+        let is_near = [0, 1, 2, 3].map(|k| {
+            let reach = (x[k] - line[0]).norm_squared().max((x[k] - line[1]).norm_squared());
+            from[k] * from[k] < near_squared * reach
+        });
+        for k in 0..n {
+            let next = nodes.shape.next[k] & 3; // so that no bounds are checked
+            if !(is_near[k] && is_near[next]) {
                 continue;
             }
-            *d = if p == line[0] || p == line[1] || self.shares(whose, line, p) {
-                0.0 // the first as it would come out: the commonest case, matching meshes
-            } else {
-                let ab = difference(line[1], line[0]);
-                let left = left.get_or_insert_with(|| cross(self.normal(), &ab));
-                let d = dot(left, &difference(p, line[0])).value();
-                if d.abs() <= TIE * lengths { 0.0 } else { d }
-            };
+            let ends = [&x[k], &x[next]];
+            let one_line =
+                matches!(whose, LineOf::Mortar) && ends.iter().all(|p| self.shares(LineOf::Nonmortar(k), line, p));
+            [from[k], to[k]] = ends.map(|p| if one_line { 0.0 } else { self.distance((whose, line), p, &mut left) });
         }
-        *to = ends(from, nodes.shape.n);
-        if matches!(whose, LineOf::Nonmortar(_)) {
-            return;
+    }
+
+    /// Of one node; `left`: the normal of the line in the plane, when it was first needed.
+    fn distance(&mut self, (whose, line): (LineOf, [&Vec3; 2]), p: &Vec3, left: &mut Option<Vector>) -> f64 {
+        if p == line[0] || p == line[1] || self.shares(whose, line, p) {
+            return 0.0; // the first as it would come out: the commonest case, matching meshes
         }
-        for k in 0..nodes.shape.n {
-            let next = nodes.shape.next[k];
-            if [k, next].iter().all(|&node| self.shares(LineOf::Nonmortar(k), line, &nodes.x[node])) {
-                (from[k], to[k]) = (0.0, 0.0);
-            }
-        }
+        let left = left.get_or_insert_with(|| cross(self.normal(), &difference(line[1], line[0])));
+        let d = dot(left, &difference(p, line[0])).value();
+        if d.abs() <= TIE * lengths(line, p) { 0.0 } else { d }
     }
 
     /// Whether this plane and the one beyond the non-mortar edge agree that a point is on a line.
@@ -133,7 +135,7 @@ impl<'a> View<'a> {
             let facet = Facet { nodes: self.one.x, shape: self.one.shape };
             let [w1, w2] = facet.spanning_signs().map(|(to, from)| difference(&facet.nodes[to], &facet.nodes[from]));
             let w = cross(&w1, &w2);
-            let length = w[0].value().hypot(w[1].value()).hypot(w[2].value());
+            let length = Vec3::from(w.map(DoubleDouble::value)).norm();
             w.map(|c| c * (1.0 / length))
         })
     }
