@@ -73,20 +73,20 @@ fn kernels(x: &[f64], interfaces: usize) -> Vec<Kernel> {
         over_pairs("tri3/quad4: residual, tangent", 0.0, mixed, tangent()),
         over_pairs("a node: Coulomb's law", 0.0, quads, |p| node(p.one.nodes[1] * 0.01, Vec3::z()).respond().row.x),
     ];
-    let mut patches = Patches::new();
-    patches.residual();
-    let pairs = patches.pairs();
-    let residual = Box::new(move || (0..interfaces).map(|_| patches.residual()).sum());
-    k.push(Kernel {
-        name: "interface: search, residual, a pair",
-        aim: None,
-        calls: interfaces * pairs,
-        pass: residual,
-    });
-    let mut patches = Patches::new();
-    patches.residual();
-    let tangent = Box::new(move || (0..interfaces).map(|_| patches.tangent()).sum());
-    k.push(Kernel { name: "interface: tangent, a pair", aim: None, calls: interfaces * pairs, pass: tangent });
+    for (matching, residual, tangent) in [
+        (false, "interface: search, residual, a pair", "interface: tangent, a pair"),
+        (true, "matching meshes: search, residual, a pair", "matching meshes: tangent, a pair"),
+    ] {
+        let mut patches = Patches::new(matching);
+        patches.residual();
+        let calls = interfaces * patches.pairs();
+        let pass = Box::new(move || (0..interfaces).map(|_| patches.residual()).sum());
+        k.push(Kernel { name: residual, aim: None, calls, pass });
+        let mut patches = Patches::new(matching);
+        patches.residual();
+        let pass = Box::new(move || (0..interfaces).map(|_| patches.tangent()).sum());
+        k.push(Kernel { name: tangent, aim: None, calls, pass });
+    }
     k
 }
 
@@ -215,7 +215,7 @@ fn measure() -> String {
         let (aim, ns) = (number(kernel.aim, 2), 1e9 * time);
         table += &format!("| {} | {ns:.0} | {ratio} | {aim} | {counted} |\n", kernel.name);
     }
-    let mut patches = Patches::new();
+    let mut patches = Patches::new(false);
     (0..10).for_each(|_| _ = black_box(patches.residual()));
     let c = patches.counters();
     let share = 100.0 * c.seconds_search / (c.seconds_search + c.seconds_integration);
