@@ -4,7 +4,7 @@
 //! the clipped polygon. Mortar lines and edges are evaluated from the end that comes first,
 //! so two mortar facets that share one see bitwise opposite distances. Distances that nearly vanish, on which the
 //! crossing of nearly parallel edges depends, are taken again in twice the precision (`near_line.rs`): every crossing
-//! is right to [`CROSSING`], at any angle and anywhere in space. Exact ties are settled as if every mortar line lay an
+//! is right to `CROSSING`, at any angle and anywhere in space. Exact ties are settled as if every mortar line lay an
 //! infinitesimal amount to the right of its direction. Then, assembled over the pairs, non-mortar edge parts tile their
 //! edge and the edge parts of neighbouring mortar facets cancel. A boundary of the mortar surface has no neighbour to
 //! cancel with; where it follows a non-mortar mesh line, the facets at that line agree on what lies on it

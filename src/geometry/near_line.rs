@@ -8,7 +8,7 @@
 //!
 //! What is right for each of two facets may not be for both. Where a boundary of the mortar surface follows the edge
 //! between two non-mortar facets, heights times the angle between their planes, be it of rounding, decide whether both
-//! claim it, or none. Where both planes see a point on that edge, but for what no one means ([`ON_LINE`]), it is on it
+//! claim it, or none. Where both planes see a point on that edge, but for what no one means (`ON_LINE`), it is on it
 //! for both. That takes the normal of the other plane, which an interface knows and a pair alone does not.
 
 use super::double_double::DoubleDouble;
