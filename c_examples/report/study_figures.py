@@ -6,6 +6,7 @@ matplotlib.use("Agg")  # no display is needed
 
 import matplotlib.pyplot as plt
 import numpy as np
+from matplotlib.ticker import FormatStrFormatter, LogLocator, NullFormatter
 
 from figures import BLUE, GREY, INK, RED, _save
 
@@ -33,6 +34,9 @@ def draw_precision(axis, problem, rows, front, small=False):
             axis.annotate(row["label"], (row["seconds"], row["error"]), (4, 3), textcoords="offset points",
                           fontsize=6 if small else 7, color=INK if row in best else GREY)
     axis.set_xscale("log")
+    axis.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+    axis.xaxis.set_major_formatter(FormatStrFormatter("%g"))
+    axis.xaxis.set_minor_formatter(NullFormatter())
     axis.set_yscale("log")
     axis.set_xlabel("processor time [s]")
     axis.set_ylabel("error")
