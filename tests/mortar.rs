@@ -286,6 +286,15 @@ fn a_mortar_facet_without_area_covers_nothing() {
 
 /// A quadrilateral with an edge that is seen end-on: at both of its corners the map is singular but for rounding. It had
 /// weights that were no numbers at a point of that edge.
+/// Of a non-mortar facet a million times as large, rounding made it cover something, with weights that were no numbers.
+#[test]
+fn a_line_far_from_the_middle_of_a_large_facet_covers_nothing() {
+    let corners = [[7.5625, 3.8125, 7.5625], [-625000.0, -4.125, 3.8125], [7.5625, -625000.0, -4.124999999999999]];
+    let line = [0.062499046325683594, 2.875, 0.0625, -0.0625].map(|x| Vec3::new(x, -0.0625, -0.0625));
+    let frame = NonmortarFrame::new(&Facet::new(&corners.map(Vec3::from)).unwrap()).unwrap();
+    assert!(Segment::new(&frame, &Facet::new(&line).unwrap()).unwrap().is_none());
+}
+
 #[test]
 fn a_facet_with_a_vanishing_edge_is_refused() {
     let one = [[4.0625, 2.0625, 0.0], [-0.0625, -0.0625, -0.0625], [-0.0625, -0.0625, 1e-5], [4.0625, -4.125, -0.0625]];

@@ -13,6 +13,8 @@ const SMALLEST_CORNER: f64 = 1e-7;
 /// A projected area below this (over the squared size) is a facet seen edge-on, or one without area: no overlap. Its map
 /// has no inverse but rounding.
 const EDGE_ON: f64 = SMALLEST_AREA_RATIO;
+/// The same over size times distance from the plane's origin: rounding of coordinates gives a line an area, too.
+const PLACED: f64 = 16.0 * f64::EPSILON;
 
 /// A facet in the plane.
 #[derive(Clone, Copy, Debug)]
@@ -90,7 +92,9 @@ impl Projection {
     /// Whether the facet is seen edge-on, so that it covers nothing of the plane.
     #[inline(always)]
     pub fn is_edge_on(&self) -> bool {
-        !(self.area2 > EDGE_ON * self.size * self.size)
+        let [low, high] = [&self.low, &self.high];
+        let distance = low.x.abs().max(low.y.abs()).max(high.x.abs()).max(high.y.abs());
+        !(self.area2 > (EDGE_ON * self.size).max(PLACED * distance) * self.size)
     }
 
     /// Whether every corner is convex.
