@@ -128,7 +128,7 @@ PetscErrorCode contact_tangent(Model *model, Mat matrix, PetscInt *status)
 {
   PetscFunctionBegin;
   *status = 0;
-  PetscCall(MatSetOption(matrix, MAT_ROW_ORIENTED, PETSC_FALSE));
+  PetscCall(MatSetOption(matrix, MAT_ROW_ORIENTED, PETSC_FALSE)); /* as insert() has them; all ranks must call this */
   for (PetscInt i = 0; i < model->n_interfaces && !*status; i++) {
     Interface *interface = &model->interfaces[i];
     int32_t    refused   = 0;
