@@ -200,7 +200,8 @@
 /// Surfaces whose boxes lie, at t_n and now and on the same side, farther apart than the deepest penetration that is a
 /// pair (see search_distance; on flat surfaces the shorter of their longest edges), and that look at each other: neither
 /// search nor integration; their nodes count as uncovered. An analytic surface: every node outside by more than the
-/// non-mortar side's longest edge there.
+/// non-mortar side's longest edge there. Of calls with sums of handles nothing is left out; with weak_coverage no commit
+/// leaves anything out.
 #define STICKSLIP_SHORTCUT_APART 4
 
 /// Nodes that nothing can cover before the next commit (no mortar facet passes the filters with a facet around them), and
@@ -880,8 +881,8 @@ int32_t stickslip_interface_initial_multipliers(struct stickslip_interface *inte
 ///
 /// x1 (3 n1), x2 (3 n2): positions, not displacements [L]. sums (STICKSLIP_SUMS_PER_NODE n1), output, per node:
 /// covered area now [L^2], g[n_{n+1}, x_{n+1}] (3) [L^3], covered area at t_n [L^2], g[n_n, x_{n+1}] (3) [L^3],
-/// g[n_n, x_n] (3) [L^3]. With sums, use the multiplier form. From the first call on the handle leaves nothing
-/// out where its own part of the mortar surface is far away.
+/// g[n_n, x_n] (3) [L^3]. With sums, use the multiplier form. This call, and those with sums, leave nothing out
+/// where the handle's own part of the mortar surface is far away; calls with NULL in place of sums do, before and after.
 ///
 /// All handles that are added up must have the same options and the same mu at every node (those of
 /// `stickslip_interface_set_friction` too): each decides by its own whether slip counts. An analytic mortar side covers
@@ -980,8 +981,8 @@ int32_t stickslip_interface_tangent_csr(struct stickslip_interface *interface,
                                         const int64_t *columns,
                                         double *values);
 
-/// Entries of any tangent while the surfaces slide by less than a quarter of a facet. Preallocate with this;
-/// a larger motion may need entries beyond these; call again then.
+/// Entries of any tangent, with sums or without, while the surfaces slide by less than a quarter of a facet.
+/// Preallocate with this; a larger motion may need entries beyond these; call again then.
 ///
 /// x1 (3 n1), x2 (3 n2): positions [L]. Outputs: rows, columns (capacity each; both NULL: only count), count.
 /// Duplicates occur.

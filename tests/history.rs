@@ -6,7 +6,7 @@ mod support;
 use nalgebra::Rotation3;
 use stickslip::error::Kind;
 use stickslip::geometry::Vec3;
-use stickslip::interface::{Form, Interface, NewContact, Options, Residual, Stiffness, Weights};
+use stickslip::interface::{Extent, Form, Interface, NewContact, Options, Residual, Stiffness, Weights};
 use stickslip::law::State;
 use support::mesh::*;
 
@@ -82,7 +82,7 @@ fn pattern_and_tangent_have_the_same_entries_and_the_superset_has_them_all() {
         scene.slide(0.3);
         let tangent: Vec<_> = scene.tangent().into_iter().map(|(i, j, _)| (i, j)).collect();
         let (mut pattern, mut superset) = (Vec::new(), std::collections::HashSet::new());
-        scene.interface.pattern(&scene.x1, &scene.x2, &mut |i, j, _| pattern.push((i, j))).unwrap();
+        scene.interface.pattern(&scene.x1, &scene.x2, Extent::Whole, &mut |i, j, _| pattern.push((i, j))).unwrap();
         scene.interface.superset_pattern(&scene.x1, &scene.x2, &mut |i, j, _| _ = superset.insert((i, j))).unwrap();
         assert_eq!(pattern, tangent);
         assert!(tangent.iter().all(|e| superset.contains(e)));

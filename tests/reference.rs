@@ -5,7 +5,7 @@
 mod support;
 
 use std::collections::BTreeSet;
-use stickslip::interface::{Interface, Options, Weights};
+use stickslip::interface::{Extent, Interface, Options, Weights};
 use support::mesh::*;
 
 const HEADER: &str = include_str!("../include/stickslip.h");
@@ -152,7 +152,7 @@ fn evaluations_cost_what_the_header_says() {
         assert_eq!(cost(i, |i| i.sums(&x1, &x2).unwrap()), (0, false));
         let sink = &mut |_: i64, _: i64, _: f64| ();
         assert_eq!(cost(i, |i| i.tangent(&x1, &x2, &lambda, None, sink).unwrap()), (0, differentiated));
-        assert_eq!(cost(i, |i| i.pattern(&x1, &x2, sink).unwrap()), (0, false), "counting");
+        assert_eq!(cost(i, |i| i.pattern(&x1, &x2, Extent::Whole, sink).unwrap()), (0, false), "counting");
         let commit = i64::from(weights != Weights::Reference);
         assert_eq!(cost(i, |i| i.commit(&x1, &x2, &lambda, None).unwrap()), (commit, false));
         assert_eq!(cost(i, |i| i.residual(&x1, &x2, &lambda, None).unwrap()), (search, false), "first after a commit");

@@ -74,8 +74,8 @@ impl Point {
 ///
 /// x1 (3 n1), x2 (3 n2): positions, not displacements [L]. sums (STICKSLIP_SUMS_PER_NODE n1), output, per node:
 /// covered area now [L^2], g[n_{n+1}, x_{n+1}] (3) [L^3], covered area at t_n [L^2], g[n_n, x_{n+1}] (3) [L^3],
-/// g[n_n, x_n] (3) [L^3]. With sums, use the multiplier form. From the first call on the handle leaves nothing
-/// out where its own part of the mortar surface is far away.
+/// g[n_n, x_n] (3) [L^3]. With sums, use the multiplier form. This call, and those with sums, leave nothing out
+/// where the handle's own part of the mortar surface is far away; calls with NULL in place of sums do, before and after.
 ///
 /// All handles that are added up must have the same options and the same mu at every node (those of
 /// `stickslip_interface_set_friction` too): each decides by its own whether slip counts. An analytic mortar side covers
@@ -97,8 +97,7 @@ pub unsafe extern "C" fn stickslip_interface_sums(
         let h = handle(interface)?;
         let point = Point::positions(&h.inner, x1, x2)?;
         raw::check(sums, "sums")?;
-        either!(&mut h.inner, c => c.share());
-        let values = either!(&mut h.inner, c => c.sums(&point.x1, &point.x2)?);
+        let values = either!(&mut h.inner, c => c.share_of_sums(&point.x1, &point.x2)?);
         let per_node = |s: &NodeSums| {
             let (g, p, c) = (s.gap_now, s.gap_previous, s.gap_committed);
             [s.coverage, g.x, g.y, g.z, s.coverage_previous, p.x, p.y, p.z, c.x, c.y, c.z]

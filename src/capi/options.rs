@@ -55,7 +55,8 @@ pub const STICKSLIP_SHORTCUT_RIGID: i32 = 2;
 /// Surfaces whose boxes lie, at t_n and now and on the same side, farther apart than the deepest penetration that is a
 /// pair (see search_distance; on flat surfaces the shorter of their longest edges), and that look at each other: neither
 /// search nor integration; their nodes count as uncovered. An analytic surface: every node outside by more than the
-/// non-mortar side's longest edge there.
+/// non-mortar side's longest edge there. Of calls with sums of handles nothing is left out; with weak_coverage no commit
+/// leaves anything out.
 pub const STICKSLIP_SHORTCUT_APART: i32 = 4;
 /// Nodes that nothing can cover before the next commit (no mortar facet passes the filters with a facet around them), and
 /// all while the surfaces are apart: no law, row -lambda / r; the former's tangent block is its diagonal.

@@ -5,7 +5,7 @@ use super::guard::guard;
 use super::interface::{either, handle, stickslip_interface};
 use super::raw;
 use crate::error::{Error, Kind, Result};
-use crate::interface::{NO_EQUATION, Sink};
+use crate::interface::{Extent, NO_EQUATION, Sink};
 use std::mem::MaybeUninit;
 
 /// Entries in the core's numbering.
@@ -155,10 +155,8 @@ pub unsafe extern "C" fn stickslip_interface_tangent_coo(
         let point = Point::read(&h.inner, x1, x2, lambda, sums)?;
         let mut t = Triplets::default();
         if rows.is_null() && columns.is_null() && values.is_null() {
-            if point.sums().is_some() {
-                either!(&mut h.inner, c => c.share()); // as the tangent with them will
-            }
-            either!(&mut h.inner, c => c.pattern(&point.x1, &point.x2, &mut t)?);
+            let extent = if point.sums().is_some() { Extent::Part } else { Extent::Whole };
+            either!(&mut h.inner, c => c.pattern(&point.x1, &point.x2, extent, &mut t)?);
         } else {
             either!(&mut h.inner, c => c.tangent(&point.x1, &point.x2, &point.lambda(), point.sums(), &mut t)?);
         }
@@ -231,8 +229,8 @@ pub unsafe extern "C" fn stickslip_interface_tangent_csr(
     })
 }
 
-/// Entries of any tangent while the surfaces slide by less than a quarter of a facet. Preallocate with this;
-/// a larger motion may need entries beyond these; call again then.
+/// Entries of any tangent, with sums or without, while the surfaces slide by less than a quarter of a facet.
+/// Preallocate with this; a larger motion may need entries beyond these; call again then.
 ///
 /// x1 (3 n1), x2 (3 n2): positions [L]. Outputs: rows, columns (capacity each; both NULL: only count), count.
 /// Duplicates occur.

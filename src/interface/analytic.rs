@@ -6,7 +6,7 @@
 use super::filter::LEAST_OPPOSITION;
 use super::history::PairRecord;
 use super::integration::{Integration, at_facet, frames};
-use super::{Counters, Options, Surface};
+use super::{Counters, Extent, Options, Surface};
 use crate::error::{Error, Kind, Result};
 use crate::geometry::{AnalyticSurface, Plane, Vec3};
 use crate::mortar::{ForceDerivatives, GapDerivative, NonmortarFrame, Segment, analytic_motion, analytic_weights};
@@ -81,7 +81,8 @@ pub(super) fn integrate(
     }
     counters.pairs_integrated += pairs.len() as i64;
     counters.seconds_integration += start.elapsed().as_secs_f64();
-    Ok(Integration { x1: x1.to_vec(), x2: x2.to_vec(), frames, pairs, segments: Vec::new(), sums: None, apart: false })
+    let (x1, x2, extent) = (x1.to_vec(), x2.to_vec(), Extent::Part);
+    Ok(Integration { x1, x2, frames, pairs, segments: Vec::new(), sums: None, extent, apart: false })
 }
 
 /// Whether every node is outside the surface by more than any facet's edge there, in all of the configurations (x1, x2).

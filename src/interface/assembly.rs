@@ -4,7 +4,7 @@ use super::augmented::NodeCouplings;
 use super::emission::{Flat, Sink, entries};
 use super::history::PairRecord;
 use super::nodes::NodeSums;
-use super::{Contact, Form, Scheme, effects};
+use super::{Contact, Extent, Form, Scheme, effects};
 use crate::element::{FacetResponse, NodeTangent, PairNow, PairTangent, pair_force, row_columns};
 use crate::error::{Error, Kind, Result};
 use crate::geometry::{Mat3, Vec3};
@@ -154,6 +154,7 @@ impl<const N: usize> Contact<N> {
                 "sums with the augmented form: its tangent couples pairs of different handles; use the multiplier form";
             return Err(Error::new(Kind::Unsupported, text));
         }
+        let extent = Extent::of(sums);
         let (sums, responses) = self.evaluate(x1, x2, lambda, sums)?;
         let differentiates = self.options.differentiates_weights();
         if differentiates {
@@ -216,7 +217,7 @@ impl<const N: usize> Contact<N> {
             }
         }
         for a in 0..responses.len() {
-            self.emit_node(a, &responses[a].drow_dlambda, sink);
+            self.emit_node(a, &responses[a].drow_dlambda, extent, sink);
             self.emit_carriers(a, carried.get(a).is_some_and(|c| *c), sink);
             if let Some(couplings) = &couplings {
                 self.emit_couplings(a, &couplings[a], &responses[a].dp_dlambda, sink);

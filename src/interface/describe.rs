@@ -117,10 +117,9 @@ impl<const N: usize> Contact<N> {
     }
 
     fn uncovered_sentence(&self) -> String {
-        let what = match (self.options.shortcuts.uncovered, self.shared) {
-            (true, false) => "no law (chosen)",
-            (true, true) => "the law all the same, for other handles may cover them",
-            (false, _) => "the law all the same (asked for)",
+        let what = match self.options.shortcuts.uncovered {
+            true => "no law (chosen), unless sums of several handles are given",
+            false => "the law all the same (asked for)",
         };
         format!("Nodes that nothing can cover in a step: {what}.")
     }

@@ -5,7 +5,7 @@
 
 use super::assembly::{FacetNow, FacetTangent, UnionPair};
 use super::augmented::NodeCouplings;
-use super::{Contact, FacetNodes, Form, NO_EQUATION};
+use super::{Contact, Extent, FacetNodes, Form, NO_EQUATION};
 use crate::element::{PairNow, PairTangent};
 use crate::error::Result;
 use crate::geometry::{Mat3, Vec3};
@@ -42,37 +42,37 @@ impl<F: FnMut(i64, i64, f64)> Sink for F {
 }
 
 impl<const N: usize> Contact<N> {
-    /// The entries of the tangent at (x1, x2), with value 0: as many as [`Contact::tangent`] writes there.
-    pub fn pattern(&mut self, x1: &[Vec3], x2: &[Vec3], sink: &mut impl Sink) -> Result<()> {
+    /// The entries of the tangent at (x1, x2), with value 0: as many as [`Contact::tangent`] writes there, without sums
+    /// (`Whole`) or with those of all handles.
+    pub fn pattern(&mut self, x1: &[Vec3], x2: &[Vec3], extent: Extent, sink: &mut impl Sink) -> Result<()> {
         self.check_positions(x1, x2)?;
-        self.ensure_integration(x1, x2)?;
+        self.ensure_integration(x1, x2, extent)?;
         let union = self.union();
-        self.emit_pattern(&union, sink);
+        self.emit_pattern(&union, extent, sink);
         Ok(())
     }
 
-    /// The entries of any tangent while the surfaces slide by less than a quarter of a facet. A larger motion
-    /// may need entries beyond these.
+    /// The entries of any tangent, with sums or without, while the surfaces slide by less than a quarter of a facet. A
+    /// larger motion may need entries beyond these.
     pub fn superset_pattern(&mut self, x1: &[Vec3], x2: &[Vec3], sink: &mut impl Sink) -> Result<()> {
         self.check_positions(x1, x2)?;
-        self.ensure_integration(x1, x2)?;
         let weights = PairWeights::default();
         let pairs = self.possible_pairs(x1, x2)?;
         let any = |&(one, two)| UnionPair { one, two, now: Some(&weights), place: 0, previous: Some(&weights) };
         let all = pairs.iter().map(any);
-        self.emit_pattern(&all.collect::<Vec<_>>(), sink);
+        self.emit_pattern(&all.collect::<Vec<_>>(), Extent::Part, sink);
         Ok(())
     }
 
-    fn emit_pattern(&self, pairs: &[UnionPair], sink: &mut dyn Sink) {
+    fn emit_pattern(&self, pairs: &[UnionPair], extent: Extent, sink: &mut dyn Sink) {
         if self.kernels.moves {
-            self.emit_pattern_with::<true>(pairs, sink);
+            self.emit_pattern_with::<true>(pairs, extent, sink);
         } else {
-            self.emit_pattern_with::<false>(pairs, sink);
+            self.emit_pattern_with::<false>(pairs, extent, sink);
         }
     }
 
-    fn emit_pattern_with<const MOVES: bool>(&self, pairs: &[UnionPair], sink: &mut dyn Sink) {
+    fn emit_pattern_with<const MOVES: bool>(&self, pairs: &[UnionPair], extent: Extent, sink: &mut dyn Sink) {
         let (nothing, normals) = (PairTangent::default(), vec![Vec3::zeros(); self.nonmortar.len()]);
         let mut facet = FacetTangent::default();
         let mut couplings = self.augmented_couplings();
@@ -96,7 +96,7 @@ impl<const N: usize> Contact<N> {
             self.emit_facet(pairs[0].one, facet.now(), &facet.rows, &normals, sink);
         }
         for a in 0..self.nonmortar.len() {
-            self.emit_node(a, &SMatrix::zeros(), sink);
+            self.emit_node(a, &SMatrix::zeros(), extent, sink);
             self.emit_carriers(a, false, sink);
             if let Some(couplings) = &couplings {
                 self.emit_couplings(a, &couplings[a], &SMatrix::zeros(), sink);
@@ -196,12 +196,12 @@ impl<const N: usize> Contact<N> {
     }
 
     /// Stage 4: the node's own block, once per node, covered or not.
-    pub(super) fn emit_node(&self, a: usize, drow_dlambda: &SMatrix<f64, N, N>, sink: &mut dyn Sink) {
+    pub(super) fn emit_node(&self, a: usize, drow_dlambda: &SMatrix<f64, N, N>, extent: Extent, sink: &mut dyn Sink) {
         if !self.owned[a] {
             return;
         }
         let equations = &self.multiplier_equations[a];
-        if self.is_out_of_reach(a) {
+        if self.is_out_of_reach(a, extent) {
             for (i, equation) in equations.iter().enumerate() {
                 sink.add_block(&[*equation], &[*equation], &[drow_dlambda[(i, i)] * self.row_scale(a)]);
             }

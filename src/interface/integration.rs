@@ -9,7 +9,7 @@ use super::filter::{FacetFilter, Filter};
 use super::history::{History, Keeps, PairRecord};
 use super::nodes::{NodeSums, assemble};
 use super::search::{Aabb, Prism, Tree};
-use super::{Contact, Counters, Options, Scheme, Surface, Weights, analytic, apart};
+use super::{Contact, Counters, Extent, Options, Scheme, Surface, Weights, analytic, apart};
 use crate::error::{Error, Kind, Result};
 use crate::geometry::{AnalyticSurface, Facet, Vec3};
 use crate::mortar::{ForceDerivatives, GapDerivative, NonmortarFrame, PairWeights, Segment, facet_motion, pair_motion};
@@ -39,13 +39,26 @@ pub(super) struct Integration {
     pub pairs: Vec<PairRecord>,
     /// The overlap of each pair, kept for the tangent; none against an analytic mortar side.
     pub segments: Vec<Segment>,
-    /// What the nodes assemble over the pairs here, once it was asked for.
-    pub sums: Option<Vec<NodeSums>>,
-    /// Nothing was looked at: the surfaces are apart, here and at t_n.
+    /// What the nodes assemble over the pairs here, once it was asked for, and for what.
+    pub sums: Option<(Extent, Vec<NodeSums>)>,
+    /// `Whole`: it was asked first whether the surfaces are apart, here and at t_n.
+    pub extent: Extent,
+    /// They are: nothing was looked at.
     pub apart: bool,
 }
 
+/// Whether positions are the same numbers; 0 and -0 are not, nor are results in every bit.
+fn are_same(x: &[Vec3], y: &[Vec3]) -> bool {
+    let bits = |x: &Vec3| [x.x, x.y, x.z].map(f64::to_bits);
+    x.len() == y.len() && x.iter().zip(y).all(|(x, y)| bits(x) == bits(y))
+}
+
 impl Integration {
+    /// Whether it is that of these positions.
+    fn is_at(&self, x1: &[Vec3], x2: &[Vec3]) -> bool {
+        are_same(&self.x1, x1) && are_same(&self.x2, x2)
+    }
+
     /// Adds those of a facet's candidates that have an overlap.
     fn add(
         &mut self,
@@ -120,7 +133,7 @@ pub(super) struct KeptTree {
 impl KeptTree {
     /// The tree of `two` at `x2`.
     pub fn at(&mut self, two: &Surface, x2: &[Vec3]) -> &Tree {
-        if self.x2 != x2 {
+        if !are_same(&self.x2, x2) {
             *self = KeptTree { x2: x2.to_vec(), tree: None };
         }
         let facet_box = |f: usize| Aabb::around(two.facet(f, x2).points().iter().copied());
@@ -184,6 +197,7 @@ pub(super) fn integrate(
         pairs: Vec::with_capacity(candidates.len()),
         segments: Vec::with_capacity(candidates.len()),
         sums: None,
+        extent: Extent::Part,
         apart: false,
     };
     for candidates in candidates.chunk_by(|p, q| p.0 == q.0) {
@@ -260,30 +274,41 @@ fn check_layers(areas: &[f64], coverage: impl Iterator<Item = f64>, rule: &Rule)
 }
 
 impl<const N: usize> Contact<N> {
-    /// Makes `self.integration` that of (x1, x2). With frozen weights there is nothing to do, nor, but for a
-    /// comparison, where the surfaces are apart.
-    pub(super) fn ensure_integration(&mut self, x1: &[Vec3], x2: &[Vec3]) -> Result<()> {
+    /// Makes `self.integration` that of (x1, x2), as an evaluation of this extent needs it. With frozen weights there is
+    /// nothing to do, nor, but for a comparison, where the surfaces are apart.
+    pub(super) fn ensure_integration(&mut self, x1: &[Vec3], x2: &[Vec3], extent: Extent) -> Result<()> {
         if self.options.effective_weights() != Weights::Current {
             self.counters.pairs_reused += self.history.pairs.len() as i64;
             self.count_pairs();
             return Ok(());
         }
-        if self.integration.as_ref().is_some_and(|k| k.x1 == x1 && k.x2 == x2) {
-            self.count_pairs();
-            return Ok(());
+        let kept = self.integration.as_ref().filter(|k| k.is_at(x1, x2)).map(|k| (k.extent, k.apart));
+        let serves = kept.is_some_and(|(of, apart)| of == extent || (of == Extent::Whole && !apart));
+        if !serves {
+            let apart = extent == Extent::Whole && self.stays_apart(x1, x2)?;
+            self.counters.evaluations_apart += i64::from(apart);
+            if apart || kept.is_none_or(|(_, apart)| apart) {
+                self.integration = Some(self.integrate_at((x1, x2), apart)?);
+            }
+            if let Some(k) = &mut self.integration {
+                k.extent = extent;
+            }
         }
-        self.integration = Some(if self.stays_apart(x1, x2)? {
-            self.counters.evaluations_apart += 1;
-            let (x1, x2) = (x1.to_vec(), x2.to_vec());
-            Integration { x1, x2, frames: Vec::new(), pairs: Vec::new(), segments: Vec::new(), sums: None, apart: true }
-        } else {
-            self.ensure_history()?;
-            let surfaces = (&self.nonmortar, &self.mortar);
-            let filter = self.filter.as_ref().expect("current weights have one");
-            integrate(surfaces, &self.options, filter, (&mut self.counters, &mut self.tree), (x1, x2))?
-        });
         self.count_pairs();
         Ok(())
+    }
+
+    /// The pairs at (x1, x2), or none.
+    fn integrate_at(&mut self, (x1, x2): (&[Vec3], &[Vec3]), apart: bool) -> Result<Integration> {
+        if apart {
+            let (x1, x2, extent) = (x1.to_vec(), x2.to_vec(), Extent::Whole);
+            let (frames, pairs, segments) = (Vec::new(), Vec::new(), Vec::new());
+            return Ok(Integration { x1, x2, frames, pairs, segments, sums: None, extent, apart });
+        }
+        self.ensure_history()?;
+        let surfaces = (&self.nonmortar, &self.mortar);
+        let filter = self.filter.as_ref().expect("current weights have one");
+        integrate(surfaces, &self.options, filter, (&mut self.counters, &mut self.tree), (x1, x2))
     }
 
     /// Notes how many pairs are active here.
@@ -312,15 +337,6 @@ impl<const N: usize> Contact<N> {
         self.integration.as_ref().is_some_and(|k| k.apart)
     }
 
-    /// A host adds the sums of several handles: each owes its share, be its own part of the mortar surface far away.
-    pub fn share(&mut self) {
-        if !self.shared {
-            self.shared = true;
-            self.options.shortcuts.apart = false;
-            self.integration = None;
-        }
-    }
-
     /// Makes up for the weights of t_n where they were left out because the surfaces were apart then. Frozen weights
     /// never are.
     pub(super) fn ensure_history(&mut self) -> Result<()> {
@@ -336,7 +352,6 @@ impl<const N: usize> Contact<N> {
             let sums = assemble(surfaces, &new.pairs, &h.x1, &h.x2);
             check_layers(&self.history.areas, sums.iter().map(|(coverage, _)| *coverage), self.options.rule)?;
             self.history.fill(&mut new.pairs, &sums);
-            self.carriers = self.find_carriers();
         }
         Ok(())
     }
@@ -345,6 +360,7 @@ impl<const N: usize> Contact<N> {
     pub(super) fn start_at(
         (nonmortar, mortar): (&Surface, &Surface),
         options: &Options,
+        extent: Extent,
         (counters, tree): (&mut Counters, &mut KeptTree),
         (x1, x2): (&[Vec3], &[Vec3]),
     ) -> Result<Start> {
@@ -367,7 +383,9 @@ impl<const N: usize> Contact<N> {
         // Also where the surfaces are apart: a commit refuses degenerate facets of either side.
         let filter = Filter::new(nonmortar, mortar, options, x1, x2)?;
         let mut integration = None;
-        let frames = if apart::are_apart((nonmortar, mortar), options, &filter, &[(x1, x2)])? {
+        // Which nodes carry others follows from what is covered: a step must know it from the start.
+        let leaves_out = extent == Extent::Whole && options.weak_coverage == 0.0;
+        let frames = if leaves_out && apart::are_apart((nonmortar, mortar), options, &filter, &[(x1, x2)])? {
             counters.commits_apart += 1;
             &frames(nonmortar, x1)?
         } else {
@@ -408,18 +426,13 @@ impl<const N: usize> Contact<N> {
 
     /// The pairs of t_n and all that may be active while the surfaces move by less than the skin, sorted.
     pub(super) fn possible_pairs(&mut self, x1: &[Vec3], x2: &[Vec3]) -> Result<Vec<(usize, usize)>> {
+        self.ensure_history()?;
         let mut pairs: Vec<_> = self.history.pairs.iter().map(|p| (p.one, p.two)).collect();
         if self.options.effective_weights() == Weights::Current {
-            let h = &self.history;
             match self.filter.as_ref().expect("current weights have one") {
                 Filter::Facets(filter) => {
-                    // Pairs of t_n that were left out because the surfaces were apart are found as those of now.
-                    let places = [(x1, x2), (&h.x1, &h.x2)];
-                    for place in &places[..if h.integrated { 1 } else { 2 }] {
-                        let frames = frames(&self.nonmortar, place.0)?;
-                        let tree = self.tree.at(&self.mortar, place.1);
-                        pairs.extend(candidates(&self.nonmortar, &frames, place.0, (tree, filter), SKIN, &mut 0));
-                    }
+                    let (frames, tree) = (frames(&self.nonmortar, x1)?, self.tree.at(&self.mortar, x2));
+                    pairs.extend(candidates(&self.nonmortar, &frames, x1, (tree, filter), SKIN, &mut 0));
                 }
                 Filter::Analytic(facing) => pairs.extend((0..facing.len()).filter(|&i| facing[i]).map(|i| (i, 0))),
             }

@@ -37,7 +37,12 @@ fn of_tree(kept: &KeptTree) -> usize {
 }
 
 fn of_integration(k: &Integration) -> usize {
-    heap(&k.x1) + heap(&k.x2) + heap(&k.frames) + heap(&k.pairs) + heap(&k.segments) + k.sums.as_ref().map_or(0, heap)
+    heap(&k.x1)
+        + heap(&k.x2)
+        + heap(&k.frames)
+        + heap(&k.pairs)
+        + heap(&k.segments)
+        + k.sums.as_ref().map_or(0, |(_, sums)| heap(sums))
 }
 
 impl<const N: usize> Contact<N> {

@@ -14,6 +14,7 @@ mod describe;
 mod diagnosis;
 mod effects;
 mod emission;
+mod extent;
 mod filter;
 mod history;
 mod hybrid;
@@ -34,6 +35,7 @@ pub use crease::Split;
 pub use crosspoints::{Crosspoint, InterfaceNodes, crosspoints};
 pub use diagnosis::{Cause, Diagnosis, SUSPECT, Suspect, WorstPair};
 pub use emission::Sink;
+pub use extent::Extent;
 pub use history::{History, PairRecord};
 pub use nodes::NodeSums;
 pub use options::{
@@ -98,7 +100,6 @@ pub type Interface = Contact<3>;
 pub struct Contact<const N: usize> {
     options: Options,
     kernels: Kernels<N>,
-    shared: bool,
     nonmortar: Surface,
     mortar: Surface,
     multiplier_equations: Vec<[i64; N]>,
@@ -182,12 +183,12 @@ impl<const N: usize> Contact<N> {
         analytic::check_frame(&nonmortar, &mortar)?;
         let (mut counters, mut tree) = (Counters::default(), KeptTree::default());
         let (x1, x2) = (nonmortar.reference.clone(), mortar.reference.clone());
-        let start = Self::start_at((&nonmortar, &mortar), &options, (&mut counters, &mut tree), (&x1, &x2))?;
+        let surfaces = (&nonmortar, &mortar);
+        let start = Self::start_at(surfaces, &options, Extent::Whole, (&mut counters, &mut tree), (&x1, &x2))?;
         let n1 = nonmortar.len();
         let mut interface = Contact {
             options,
             kernels,
-            shared: false,
             nonmortar,
             mortar,
             multiplier_equations,
@@ -201,14 +202,15 @@ impl<const N: usize> Contact<N> {
             filter: start.filter,
             history: start.history,
             rollback: None,
-            integration: start.integration,
+            integration: None,
             tree,
             counters,
         };
         interface.coverable = interface.find_coverable();
         interface.carriers = interface.find_carriers();
-        interface.count_pairs();
         interface.set_constraints(&[])?; // those that follow from removed equations
+        interface.integration = start.integration;
+        interface.count_pairs();
         Ok(interface)
     }
 
@@ -242,7 +244,8 @@ impl<const N: usize> Contact<N> {
     pub fn set_previous(&mut self, x1: &[Vec3], x2: &[Vec3]) -> Result<()> {
         self.check_positions(x1, x2)?;
         let surfaces = (&self.nonmortar, &self.mortar);
-        let new = Self::start_at(surfaces, &self.options, (&mut self.counters, &mut self.tree), (x1, x2))?;
+        let kept = (&mut self.counters, &mut self.tree);
+        let new = Self::start_at(surfaces, &self.options, Extent::Whole, kept, (x1, x2))?;
         new.history.check_finite()?;
         self.adopt(new);
         self.count_pairs();
@@ -258,6 +261,7 @@ impl<const N: usize> Contact<N> {
         lambda: &[SVector<f64, N>],
         sums: Option<&[NodeSums]>,
     ) -> Result<()> {
+        let extent = Extent::of(sums);
         let (sums, responses) = self.evaluate(x1, x2, lambda, sums)?;
         let surfaces = (&self.nonmortar, &self.mortar);
         let mut new = if self.options.effective_weights() == Weights::Reference {
@@ -269,7 +273,7 @@ impl<const N: usize> Contact<N> {
             }
             Start { history, filter: None, integration: None }
         } else {
-            Self::start_at(surfaces, &self.options, (&mut self.counters, &mut self.tree), (x1, x2))?
+            Self::start_at(surfaces, &self.options, extent, (&mut self.counters, &mut self.tree), (x1, x2))?
         };
         new.history.commits = self.history.commits.saturating_add(1); // an imported history may hold any number
         if self.kernels.slips {

@@ -3,7 +3,7 @@
 
 use super::effects;
 use super::history::PairRecord;
-use super::{Contact, NewContact, NodeCounts, Options, RowScale, Surface};
+use super::{Contact, Extent, NewContact, NodeCounts, Options, RowScale, Surface};
 use crate::error::{Error, Kind, Result};
 use crate::geometry::{Mat3, Vec3};
 use crate::law::{Node, NodeResponse};
@@ -47,16 +47,27 @@ pub(super) fn assemble(
 }
 
 impl<const N: usize> Contact<N> {
-    /// Stage 1, assembled: this handle's share of every node's gaps and coverage.
+    /// Stage 1, assembled: every node's gaps and coverage.
     pub fn sums(&mut self, x1: &[Vec3], x2: &[Vec3]) -> Result<Vec<NodeSums>> {
+        self.sums_of(x1, x2, Extent::Whole)
+    }
+
+    /// This handle's share of them, of several handles whose shares a host adds up.
+    pub fn share_of_sums(&mut self, x1: &[Vec3], x2: &[Vec3]) -> Result<Vec<NodeSums>> {
+        self.sums_of(x1, x2, Extent::Part)
+    }
+
+    fn sums_of(&mut self, x1: &[Vec3], x2: &[Vec3], extent: Extent) -> Result<Vec<NodeSums>> {
         self.check_positions(x1, x2)?;
-        self.ensure_integration(x1, x2)?;
+        self.ensure_integration(x1, x2, extent)?;
         if self.is_apart() {
             return Ok(vec![NodeSums::default(); self.nonmortar.len()]);
         }
-        let slips = self.kernels.slips || self.shared;
+        let slips = self.kernels.slips || extent == Extent::Part;
         self.counters.nodes_slipping += if slips { self.nonmortar.len() as i64 } else { 0 };
-        if let Some(sums) = self.integration.as_ref().and_then(|k| k.sums.as_ref()) {
+        if let Some((of, sums)) = self.integration.as_ref().and_then(|k| k.sums.as_ref())
+            && *of == extent
+        {
             return Ok(sums.clone());
         }
         let (surfaces, h) = ((&self.nonmortar, &self.mortar), &self.history);
@@ -79,7 +90,7 @@ impl<const N: usize> Contact<N> {
             }
         }
         if let Some(k) = &mut self.integration {
-            k.sums = Some(sums.clone());
+            k.sums = Some((extent, sums.clone()));
         }
         Ok(sums)
     }
@@ -105,13 +116,13 @@ impl<const N: usize> Contact<N> {
     ) -> Result<(Cow<'a, [NodeSums]>, Vec<NodeResponse<N>>)> {
         self.check_length("lambda", lambda.len(), self.nonmortar.len())?;
         check_finite("lambda", lambda)?;
+        let extent = Extent::of(sums);
         let sums = match sums {
             Some(sums) => {
                 self.check_positions(x1, x2)?;
                 self.check_length("sums", sums.len(), self.nonmortar.len())?;
                 self.refuse_carrying_over_handles()?;
-                self.share();
-                self.ensure_integration(x1, x2)?;
+                self.ensure_integration(x1, x2, extent)?;
                 Cow::Borrowed(sums)
             }
             None => Cow::Owned(self.sums(x1, x2)?),
@@ -120,7 +131,7 @@ impl<const N: usize> Contact<N> {
         let mut counts = NodeCounts::default();
         let mut responses = Vec::with_capacity(lambda.len());
         for a in 0..lambda.len() {
-            responses.push(if self.is_left_out(a) {
+            responses.push(if self.is_left_out(a, extent) {
                 counts.left_out += 1;
                 NodeResponse::uncovered(&lambda[a], self.augmentation(a))
             } else {
@@ -238,18 +249,14 @@ impl<const N: usize> Contact<N> {
             return Err(Error::new(Kind::InvalidValue, text));
         }
         let Options { coverage_min, .. } = self.options;
-        let sums: Vec<(f64, Vec3)> = if self.history.gap.is_empty() {
-            // Without friction t_n keeps no gaps; those of now, at the same positions, are the same.
-            let (x1, x2) = (self.history.x1.clone(), self.history.x2.clone());
-            self.sums(&x1, &x2)?.iter().map(|s| (s.coverage, s.gap_now)).collect()
-        } else {
-            self.history.coverage.iter().copied().zip(self.history.gap.iter().copied()).collect()
-        };
+        // Those of now: the history may keep none, or those of t_n may be left out so far.
+        let (x1, x2) = (self.history.x1.clone(), self.history.x2.clone());
+        let sums = self.sums(&x1, &x2)?;
         let areas = &self.history.areas;
         (0..self.nonmortar.len())
             .map(|a| {
                 let nu = self.normal(a)?;
-                let (coverage, gap) = sums[a];
+                let NodeSums { coverage, gap_now: gap, .. } = sums[a];
                 let size = areas[a].sqrt();
                 let covered = coverage > coverage_min * areas[a];
                 let closed = nu.dot(&gap) <= CLOSED * size * coverage;

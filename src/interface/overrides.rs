@@ -1,5 +1,6 @@
 //! What a host sets per node in place of what the library finds: friction, augmentation, normals, constrained
-//! directions, and which nodes are its own. None of it belongs to the history.
+//! directions, and which nodes are its own. None of it belongs to the history. Every one of them ends with
+//! [`Contact::forget`]: what the last evaluation has left must not outlive what it was found with.
 
 use super::{Contact, Friction, NO_EQUATION, effects};
 use crate::error::{Error, Kind, Result};
@@ -19,9 +20,7 @@ impl Contact<3> {
         }
         self.mu = mu;
         self.kernels = effects::choose_three(&self.options, &self.mortar, &self.mu);
-        if let Some(k) = &mut self.integration {
-            k.sums = None; // whether slip counts may have changed
-        }
+        self.forget();
         Ok(())
     }
 }
@@ -37,6 +36,7 @@ impl<const N: usize> Contact<N> {
             }
         }
         self.augmentations = r;
+        self.forget();
         Ok(())
     }
 
@@ -52,6 +52,7 @@ impl<const N: usize> Contact<N> {
             }
         }
         self.normals = normals;
+        self.forget();
         Ok(())
     }
 
@@ -91,6 +92,7 @@ impl<const N: usize> Contact<N> {
             self.free = old;
             return Err(e);
         }
+        self.forget();
         Ok(())
     }
 
@@ -98,7 +100,13 @@ impl<const N: usize> Contact<N> {
     pub fn set_owned(&mut self, owned: Vec<bool>) -> Result<()> {
         self.check_length("owned", owned.len(), self.nonmortar.len())?;
         self.owned = owned;
+        self.forget();
         Ok(())
+    }
+
+    /// Drops what the last evaluation has left for the next one at the same positions.
+    fn forget(&mut self) {
+        self.integration = None;
     }
 }
 

@@ -1,6 +1,6 @@
 //! How each node is treated, for the counters: what a scene pays for, node by node.
 
-use super::{Contact, Friction};
+use super::{Contact, Extent, Friction};
 use crate::law::Node;
 
 /// How the nodes were treated at the last evaluation. They add up to all of them.
@@ -45,13 +45,13 @@ impl<const N: usize> Contact<N> {
         }
     }
 
-    /// Whether nothing can cover a node before the next commit. Of a shared node other handles may know better.
-    pub(super) fn is_out_of_reach(&self, a: usize) -> bool {
-        self.options.shortcuts.uncovered && !self.shared && !self.coverable[a]
+    /// Whether nothing can cover a node before the next commit. Of a part of an interface other handles may know better.
+    pub(super) fn is_out_of_reach(&self, a: usize, extent: Extent) -> bool {
+        self.options.shortcuts.uncovered && extent == Extent::Whole && !self.coverable[a]
     }
 
     /// Whether the law need not be asked about a node: out of reach, or the surfaces are apart.
-    pub(super) fn is_left_out(&self, a: usize) -> bool {
-        self.is_out_of_reach(a) || (self.options.shortcuts.uncovered && self.is_apart())
+    pub(super) fn is_left_out(&self, a: usize, extent: Extent) -> bool {
+        self.is_out_of_reach(a, extent) || (self.options.shortcuts.uncovered && self.is_apart())
     }
 }

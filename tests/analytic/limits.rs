@@ -140,8 +140,7 @@ fn lost(shape: AnalyticShape, far: f64, a: f64) -> Option<f64> {
         let moved = Mesh { x: turned(&q, shift, &mesh.x), ..mesh.clone() };
         let frame = turned(&q, shift, frame);
         let mut contact: Contact<3> = against(&moved, shape, &frame, options())?;
-        contact.share(); // gaps, be the surface near or not
-        let sums = contact.sums(&moved.x, &frame)?;
+        let sums = contact.share_of_sums(&moved.x, &frame)?; // gaps, be the surface near or not
         assert!(sums.iter().all(|s| s.coverage > 0.0), "{shape}: the facets face the surface");
         Ok(sums.iter().map(|s| (q.inverse() * s.gap_now).z / s.coverage).collect())
     };

@@ -238,10 +238,10 @@ fn a_shared_handle_leaves_nothing_out() {
     let mut pair = Pair::<3>::new(Options { mu: 0.3, ..options() });
     let (x1, x2, _) = pair.point(PATH[0]);
     assert_eq!(pair.short.sums(&x1, &x2).unwrap()[0].coverage, 0.0);
-    pair.short.share();
-    let [a, b] = [&mut pair.short, &mut pair.full].map(|c| c.sums(&x1, &x2).unwrap());
+    let [a, b] = [&mut pair.short, &mut pair.full].map(|c| c.share_of_sums(&x1, &x2).unwrap());
     assert_eq!(a, b);
     assert!(a[0].coverage > 0.0);
+    assert_eq!(pair.short.sums(&x1, &x2).unwrap()[0].coverage, 0.0, "a share asked for changes no other call");
 }
 
 /// What an evaluation gives depends on its point, not on whether t_n was made up for in between.

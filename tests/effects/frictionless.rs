@@ -131,7 +131,7 @@ fn pattern_and_tangent_have_the_same_entries_and_the_superset_has_them_all() {
         let tangent: Vec<_> =
             entries(&mut t.one, (&t.x1, &t.x2, &t.lambda)).into_iter().map(|(i, j, _)| (i, j)).collect();
         let (mut pattern, mut superset) = (Vec::new(), std::collections::HashSet::new());
-        t.one.pattern(&t.x1, &t.x2, &mut |i, j, _| pattern.push((i, j))).unwrap();
+        t.one.pattern(&t.x1, &t.x2, Extent::Whole, &mut |i, j, _| pattern.push((i, j))).unwrap();
         t.one.superset_pattern(&t.x1, &t.x2, &mut |i, j, _| _ = superset.insert((i, j))).unwrap();
         assert_eq!(pattern, tangent);
         assert!(tangent.iter().all(|e| superset.contains(e)));

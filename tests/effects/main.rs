@@ -16,7 +16,7 @@ mod uncovered;
 
 use nalgebra::{Rotation3, SVector};
 use stickslip::geometry::Vec3;
-use stickslip::interface::{Contact, Form, Options, Residual, Shortcuts, Weights};
+use stickslip::interface::{Contact, Extent, Form, Options, Residual, Shortcuts, Weights};
 use support::mesh::*;
 
 /// Every shortcut off: the full machinery.

@@ -86,7 +86,7 @@ where
         assert!(touching > 0 && touching < a.len());
         for c in [&mut short, &mut full] {
             let mut count = 0;
-            c.pattern(&x1, &x2, &mut |_: i64, _: i64, _: f64| count += 1).unwrap();
+            c.pattern(&x1, &x2, Extent::Whole, &mut |_: i64, _: i64, _: f64| count += 1).unwrap();
             assert_eq!(count, entries(c, at).len(), "pattern and tangent go together");
         }
         short.commit(&x1, &x2, &lambda, None).unwrap();
