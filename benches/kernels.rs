@@ -9,6 +9,7 @@
 #![allow(unsafe_code)]
 
 mod baseline;
+mod calls;
 mod patches;
 mod work;
 
@@ -73,6 +74,7 @@ fn kernels(x: &[f64], interfaces: usize) -> Vec<Kernel> {
         over_pairs("tri3/quad4: residual, tangent", 0.0, mixed, tangent()),
         over_pairs("a node: Coulomb's law", 0.0, quads, |p| node(p.one.nodes[1] * 0.01, Vec3::z()).respond().row.x),
     ];
+    k.extend(calls::kernels(quads));
     for (matching, residual, tangent) in [
         (false, "interface: search, residual, a pair", "interface: tangent, a pair"),
         (true, "matching meshes: search, residual, a pair", "matching meshes: tangent, a pair"),

@@ -22,6 +22,10 @@
  *
  * Threads: stateless calls from any thread; distinct handles from any threads; one handle from one at a time.
  *
+ * Floating point: on x86-64 and AArch64 the caller's environment (traps, rounding, flushing, flags) does not matter to a
+ * call and is the same after it. Elsewhere it must be the default one. version, status_string, last_error_message and
+ * last_error_padded compute nothing.
+ *
  * Owner: all arrays are the caller's. Inputs are read during the call only; outputs are written only on success and
  * must not overlap anything else. Where the library owns something, the function says so.
  *

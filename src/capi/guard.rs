@@ -1,43 +1,56 @@
 //! Every entry point runs inside [`guard`]: refusals and panics become statuses, and the reason is kept
-//! as text for the calling thread. A success allocates nothing.
+//! as text for the calling thread. A success allocates nothing. The floating-point environment is the default one
+//! inside and the caller's again outside.
 
+use super::fp_environment::FpEnvironment;
 use super::status::{STICKSLIP_OK, STICKSLIP_PANIC};
 use crate::error::Result;
 use libc::c_char;
-use std::cell::{Cell, RefCell};
+use std::cell::Cell;
+use std::hint::black_box;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Once;
 
 /// Longest message kept, its final zero included.
 const CAPACITY: usize = 1024;
 
+/// What a thread has of its own.
+struct Thread {
+    message: [Cell<u8>; CAPACITY],
+    inside: Cell<bool>,
+}
+
 thread_local! {
-    static MESSAGE: RefCell<[u8; CAPACITY]> = const { RefCell::new([0; CAPACITY]) };
-    static INSIDE: Cell<bool> = const { Cell::new(false) };
+    static THREAD: Thread = const { Thread { message: [const { Cell::new(0) }; CAPACITY], inside: Cell::new(false) } };
 }
 
 /// Runs one entry point.
 pub(super) fn guard(body: impl FnOnce() -> Result<()>) -> i32 {
+    let _environment = FpEnvironment::enter();
     silence_panics();
-    INSIDE.set(true);
-    let outcome = catch_unwind(AssertUnwindSafe(body));
-    INSIDE.set(false);
-    match outcome {
-        Ok(Ok(())) => {
-            keep("");
-            STICKSLIP_OK
+    THREAD.with(|thread| {
+        thread.inside.set(true);
+        // What the body computes with may be anything up to here, so no arithmetic can move before the new environment.
+        black_box(&body);
+        let outcome = catch_unwind(AssertUnwindSafe(body));
+        thread.inside.set(false);
+        match outcome {
+            Ok(Ok(())) => {
+                thread.message[0].set(0);
+                STICKSLIP_OK
+            }
+            Ok(Err(error)) => {
+                thread.keep(&error.message);
+                error.kind as i32
+            }
+            Err(panic) => {
+                let text = panic.downcast_ref::<String>().map(String::as_str);
+                let text = text.or_else(|| panic.downcast_ref::<&str>().copied()).unwrap_or("no text");
+                thread.keep(&format!("internal error, please report it: {text}"));
+                STICKSLIP_PANIC
+            }
         }
-        Ok(Err(error)) => {
-            keep(&error.message);
-            error.kind as i32
-        }
-        Err(panic) => {
-            let text = panic.downcast_ref::<String>().map(String::as_str);
-            let text = text.or_else(|| panic.downcast_ref::<&str>().copied()).unwrap_or("no text");
-            keep(&format!("internal error, please report it: {text}"));
-            STICKSLIP_PANIC
-        }
-    }
+    })
 }
 
 /// A panic inside an entry point is reported by its status; the default hook would print it.
@@ -46,33 +59,35 @@ fn silence_panics() {
     ONCE.call_once(|| {
         let previous = std::panic::take_hook();
         std::panic::set_hook(Box::new(move |info| {
-            if !INSIDE.get() {
+            if !THREAD.with(|thread| thread.inside.get()) {
                 previous(info);
             }
         }));
     });
 }
 
-fn keep(text: &str) {
-    MESSAGE.with_borrow_mut(|message| {
+impl Thread {
+    #[cold]
+    fn keep(&self, text: &str) {
         // Cut at a character's border, so that the text stays UTF-8.
         let mut end = text.len().min(CAPACITY - 1);
         while !text.is_char_boundary(end) {
             end -= 1;
         }
-        message[..end].copy_from_slice(&text.as_bytes()[..end]);
-        message[end] = 0;
-    });
+        for (cell, byte) in self.message.iter().zip(text[..end].bytes().chain([0])) {
+            cell.set(byte);
+        }
+    }
 }
 
 /// The calling thread's message.
 pub(super) fn message() -> *const c_char {
-    MESSAGE.with_borrow(|message| message.as_ptr().cast())
+    THREAD.with(|thread| thread.message.as_ptr().cast())
 }
 
 /// Its characters, without the final zero.
 pub(super) fn message_bytes() -> impl Iterator<Item = u8> {
-    MESSAGE.with_borrow(|message| *message).into_iter().take_while(|b| *b != 0)
+    THREAD.with(|thread| thread.message.each_ref().map(Cell::get)).into_iter().take_while(|b| *b != 0)
 }
 
 #[cfg(test)]
@@ -94,6 +109,32 @@ mod tests {
         assert_eq!(text(), "mu is -1");
         assert_eq!(guard(|| Ok(())), STICKSLIP_OK);
         assert_eq!(text(), "");
+    }
+
+    #[test]
+    #[cfg(target_arch = "x86_64")]
+    fn panics_and_refusals_give_the_floating_point_environment_back() {
+        /// Rounding upwards, subnormal results and inputs as zeros, every flag raised; masks as they are.
+        const OTHER: u32 = 0x1F80 | 0x4000 | 0x8040 | 0x3F;
+        let (mut own, mut within, mut after) = (0u32, 0u32, [0u32; 3]);
+        // SAFETY: stores MXCSR.
+        let read = |to: &mut u32| unsafe { std::arch::asm!("stmxcsr [{}]", in(reg) to) };
+        // SAFETY: loads a valid MXCSR; what runs under it computes nothing with numbers.
+        let load = |value: &u32| unsafe { std::arch::asm!("ldmxcsr [{}]", in(reg) value) };
+        read(&mut own);
+        let ends: [fn() -> Result<()>; 3] =
+            [|| Ok(()), || Err(Error::new(Kind::InvalidValue, "refused")), || panic!("a fault")];
+        for (end, after) in ends.into_iter().zip(&mut after) {
+            load(&OTHER);
+            guard(|| {
+                read(&mut within);
+                end()
+            });
+            read(after);
+            load(&own);
+            assert_eq!(within, 0x1F80);
+        }
+        assert_eq!(after, [OTHER; 3]);
     }
 
     #[test]

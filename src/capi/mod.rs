@@ -51,6 +51,7 @@ mod pair;
 
 mod node;
 
+mod fp_environment;
 mod guard;
 mod raw;
 mod sized;

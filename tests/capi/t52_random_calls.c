@@ -1,5 +1,7 @@
 /* Random calls with numbers from everywhere in the range of doubles, NULL and crooked pointers, and corrupt histories:
  * whatever comes, the answer is success or a refusal that has written nothing; never a fault of the library. */
+#include <float.h>
+
 #include "calls.h"
 
 static uint64_t seed = 2024;
@@ -9,6 +11,16 @@ static uint64_t draw(uint64_t below) {
   return (seed >> 33) % below;
 }
 
+/* a b, without the traps that the product of such numbers would set off. */
+static double product(double a, double b) {
+  if (isnan(a) || isnan(b)) return NAN;
+  if ((isinf(a) && b == 0.0) || (a == 0.0 && isinf(b))) return NAN;
+  if (isinf(a) || isinf(b) || (fabs(a) > 1.0 && fabs(b) > DBL_MAX / fabs(a))) {
+    return signbit(a) == signbit(b) ? INFINITY : -INFINITY;
+  }
+  return a * b;
+}
+
 static double any_number(double usual) {
   static const double special[] = {0.0,    -0.0,   1.0,    -1.0,  5e-324, -5e-324, 1e-310, 2.2e-308, 1e-160, 1e-80,
                                    1e-16,  1e16,   1e75,   1e80,  1e150,  1e155,   1e300,  1.7e308,  -1e155, -1.7e308,
@@ -16,8 +28,8 @@ static double any_number(double usual) {
   switch (draw(40)) {
     case 0: return NAN;
     case 1: return draw(2) ? INFINITY : -INFINITY;
-    case 2: return usual * (1.0 + 1e-15 * random_number(&seed));
-    case 3: return usual * special[draw(COUNT(special))];
+    case 2: return product(usual, 1.0 + 1e-15 * random_number(&seed));
+    case 3: return product(usual, special[draw(COUNT(special))]);
     case 4: return random_number(&seed);
     default: return special[draw(COUNT(special))];
   }
@@ -27,7 +39,7 @@ static double any_number(double usual) {
 static void spoil(double *values, int n) {
   if (draw(30) == 0) {
     const double factor = any_number(1.0);
-    for (int k = 0; k < n; ++k) values[k] *= factor;
+    for (int k = 0; k < n; ++k) values[k] = product(values[k], factor);
   }
   for (uint64_t k = draw(3); k > 0; --k) {
     double *v = values + draw((uint64_t)n);

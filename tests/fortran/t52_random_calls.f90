@@ -42,6 +42,28 @@ contains
     once_in = random(times) == 0
   end function
 
+  ! a b, without the traps that the product of such numbers would set off.
+  elemental real(c_double) function product_of(a, b) result(x)
+    real(c_double), intent(in) :: a, b
+    logical :: infinite
+    if (ieee_is_nan(a) .or. ieee_is_nan(b)) then
+      x = ieee_value(x, ieee_quiet_nan)
+      return
+    end if
+    infinite = .not. (ieee_is_finite(a) .and. ieee_is_finite(b))
+    if (infinite .and. (a == 0 .or. b == 0)) then
+      x = ieee_value(x, ieee_quiet_nan)
+      return
+    end if
+    if (.not. infinite .and. abs(a) > 1) infinite = abs(b) > huge(b) / abs(a)
+    if (infinite) then
+      x = ieee_value(x, ieee_positive_inf)
+      if (sign(1d0, a) * sign(1d0, b) < 0) x = -x
+    else
+      x = a * b
+    end if
+  end function
+
   real(c_double) function any_number(usual) result(x)
     real(c_double), intent(in) :: usual
     select case (random(40))
@@ -51,9 +73,9 @@ contains
       x = ieee_value(x, ieee_positive_inf)
       if (once_in(2)) x = -x
     case (2)
-      x = usual * (1 + 1d-15 * draw(seed))
+      x = product_of(usual, 1 + 1d-15 * draw(seed))
     case (3)
-      x = usual * SPECIAL(1 + random(size(SPECIAL)))
+      x = product_of(usual, SPECIAL(1 + random(size(SPECIAL))))
     case (4)
       x = draw(seed)
     case default
@@ -66,7 +88,7 @@ contains
     integer, intent(in) :: n
     real(c_double), intent(inout) :: entries(n)
     integer :: k, i
-    if (once_in(30)) entries = entries * any_number(1d0)
+    if (once_in(30)) entries = product_of(entries, any_number(1d0))
     do k = 1, random(3)
       i = 1 + random(n)
       entries(i) = any_number(entries(i))

@@ -1,0 +1,236 @@
+/* Every function of the ABI that returns a status, as a call on one context, with room for all that it writes: for tests
+ * that go through all of them. The order is one in which a host may call them. */
+#ifndef EVERY_CALL_H
+#define EVERY_CALL_H
+
+#include "calls.h"
+
+typedef struct {
+  element e;
+  handle h;
+  history exported; /* what history_import takes */
+  /* Outputs. */
+  stickslip_options options;
+  stickslip_interface *other;
+  int64_t split_nodes[16], originals[2 * N1], split_count;
+  int64_t shared_nodes[8], shared_claims[8], shared_count;
+  int32_t shared_kinds[8];
+  double initial[X1];
+  history history;
+  stickslip_counters counters;
+  char effects[1000], last_error[80];
+  stickslip_report report;
+  int32_t cover[N1], layers[N1];
+  double fraction[N1];
+  int64_t facets[N1];
+  char report_text[1000];
+  stickslip_diagnosis diagnosis;
+  int32_t diagnosed_state[N1], suspect_causes[8];
+  int64_t suspect_nodes[8];
+  double suspect_directions[24], suspect_ratios[8];
+  char diagnosis_text[2000];
+} every;
+
+static inline int32_t every_weights(every *c) { return call_weights(&c->e); }
+static inline int32_t every_gap(every *c) { return call_gap(&c->e); }
+static inline int32_t every_pair_residual(every *c) { return call_residual(&c->e); }
+static inline int32_t every_pair_tangent(every *c) { return call_tangent(&c->e); }
+static inline int32_t every_respond(every *c) { return call_respond(&c->e); }
+static inline int32_t every_block(every *c) { return call_block(&c->e); }
+static inline int32_t every_facet(every *c) { return call_facet(&c->e); }
+static inline int32_t every_normal(every *c) { return call_normal(&c->e); }
+static inline int32_t every_options_init(every *c) { return stickslip_options_init(&c->options, sizeof c->options); }
+static inline int32_t every_padded(every *c) { return stickslip_last_error_padded(c->last_error, sizeof c->last_error); }
+static inline int32_t every_split(every *c) {
+  return stickslip_surface_split_creases(&c->h.s.nonmortar, 0.5, (int32_t)c->h.s.options.index_base, COUNT(c->originals),
+                                         c->split_nodes, c->originals, &c->split_count);
+}
+static inline int32_t every_crosspoints(every *c) {
+  static const int64_t offsets1[] = {0, 3, 6}, nodes1[] = {1, 2, 3, 3, 4, 5}, offsets2[] = {0, 2, 4}, nodes2[] = {7, 5, 1, 4};
+  return stickslip_crosspoints_find(2, offsets1, nodes1, offsets2, nodes2, COUNT(c->shared_nodes), c->shared_nodes,
+                                    c->shared_kinds, c->shared_claims, &c->shared_count);
+}
+/* Creates a second interface, or ends it where there is one. */
+static inline int32_t every_create(every *c) {
+  return stickslip_interface_create(&c->h.s.nonmortar, &c->h.s.mortar, &c->h.s.options, &c->other);
+}
+static inline int32_t every_destroy(every *c) { return stickslip_interface_destroy(&c->other); }
+static inline int32_t every_friction(every *c) {
+  const double value = c->h.s.options.friction == STICKSLIP_FRICTION_COULOMB ? 0.6 : 0.0;
+  double mu[N1];
+  for (int a = 0; a < N1; ++a) mu[a] = value;
+  return stickslip_interface_set_friction(c->h.s.interface, mu);
+}
+static inline int32_t every_augmentation(every *c) {
+  double r[N1];
+  for (int a = 0; a < N1; ++a) r[a] = 14.0 + a;
+  return stickslip_interface_set_augmentation(c->h.s.interface, r);
+}
+/* Up in the scene's frame. */
+static inline void every_up(double *normals, int n) {
+  for (int a = 0; a < n; ++a) {
+    normals[3 * a] = normals[3 * a + 1] = 0.0;
+    normals[3 * a + 2] = 1.0;
+    scene_frame(normals + 3 * a);
+  }
+}
+static inline int32_t every_normals(every *c) {
+  static double up[X1];
+  if (up[0] == 0.0) every_up(up, N1);
+  return stickslip_interface_set_normals(c->h.s.interface, up);
+}
+static inline int32_t every_no_normals(every *c) { return stickslip_interface_set_normals(c->h.s.interface, NULL); }
+static inline int32_t every_constraints(every *c) {
+  static double across[3];
+  if (across[0] == 0.0) {
+    across[0] = 1.0;
+    scene_frame(across);
+  }
+  const int64_t node = 4;
+  return stickslip_interface_set_constraints(c->h.s.interface, 1, &node, across);
+}
+static inline int32_t every_previous(every *c) { return call_interface_previous(&c->h); }
+/* Before the first step: of the second interface. */
+static inline int32_t every_initial(every *c) { return stickslip_interface_initial_multipliers(c->other, c->initial); }
+static inline int32_t every_sums(every *c) { return call_interface_sums(&c->h); }
+static inline int32_t every_residual(every *c) { return call_interface_residual(&c->h); }
+static inline int32_t every_states(every *c) { return call_interface_states(&c->h); }
+static inline int32_t every_coo(every *c) { return call_interface_coo(&c->h); }
+static inline int32_t every_csr(every *c) { return call_interface_csr(&c->h); }
+static inline int32_t every_count(every *c) {
+  scene *s = &c->h.s;
+  return stickslip_interface_tangent_coo(s->interface, s->x1, s->x2, s->lambda, NULL, 0, NULL, NULL, NULL, &c->h.count);
+}
+static inline int32_t every_pattern(every *c) { return call_interface_pattern(&c->h); }
+static inline int32_t every_commit(every *c) { return call_interface_commit(&c->h); }
+static inline int32_t every_rollback(every *c) { return stickslip_interface_rollback(c->h.s.interface); }
+static inline int32_t every_history_size(every *c) {
+  return stickslip_interface_history_size(c->h.s.interface, &c->history.n_integers, &c->history.n_reals);
+}
+static inline int32_t every_export(every *c) {
+  return stickslip_interface_history_export(c->h.s.interface, COUNT(c->history.integers), c->history.integers,
+                                            COUNT(c->history.reals), c->history.reals);
+}
+static inline int32_t every_import(every *c) {
+  return stickslip_interface_history_import(c->h.s.interface, c->exported.n_integers, c->exported.integers,
+                                            c->exported.n_reals, c->exported.reals);
+}
+static inline int32_t every_counters(every *c) { return stickslip_interface_counters(c->h.s.interface, &c->counters); }
+static inline int32_t every_effects(every *c) {
+  return stickslip_interface_effects(c->h.s.interface, c->effects, COUNT(c->effects));
+}
+static inline int32_t every_report(every *c) {
+  return stickslip_interface_report(c->h.s.interface, c->h.s.x1, c->h.s.x2, &c->report);
+}
+static inline int32_t every_diagnose(every *c) {
+  return stickslip_interface_diagnose(c->h.s.interface, c->h.s.x1, c->h.s.x2, c->h.s.lambda, NULL, &c->diagnosis);
+}
+
+typedef struct {
+  const char *name;
+  int32_t (*call)(every *c);
+} entry_point;
+
+static const entry_point every_call[] = {
+    {"pair_weights", every_weights},
+    {"pair_gap", every_gap},
+    {"pair_residual", every_pair_residual},
+    {"pair_tangent", every_pair_tangent},
+    {"node_respond", every_respond},
+    {"node_block", every_block},
+    {"facet_geometry", every_facet},
+    {"node_normal", every_normal},
+    {"options_init", every_options_init},
+    {"last_error_padded", every_padded},
+    {"surface_split_creases", every_split},
+    {"crosspoints_find", every_crosspoints},
+    {"interface_create", every_create},
+    {"interface_initial_multipliers", every_initial},
+    {"interface_destroy", every_destroy},
+    {"interface_residual", every_residual},
+    {"interface_tangent_coo", every_coo},
+    {"interface_set_friction", every_friction},
+    {"interface_set_augmentation", every_augmentation},
+    {"interface_set_normals", every_normals},
+    {"interface_sums", every_sums},
+    {"interface_set_normals, NULL", every_no_normals},
+    {"interface_set_constraints", every_constraints},
+    {"interface_states", every_states},
+    {"interface_tangent_csr", every_csr},
+    {"interface_tangent_coo, count", every_count},
+    {"interface_pattern_coo", every_pattern},
+    {"interface_report", every_report},
+    {"interface_diagnose", every_diagnose},
+    {"interface_effects", every_effects},
+    {"interface_commit", every_commit},
+    {"interface_residual, committed", every_residual},
+    {"interface_history_size", every_history_size},
+    {"interface_history_export", every_export},
+    {"interface_rollback", every_rollback},
+    {"interface_set_previous", every_previous},
+    {"interface_history_import", every_import},
+    {"interface_tangent_coo, imported", every_coo},
+    {"interface_counters", every_counters},
+};
+
+/* Room and sizes; outputs hold zeros. `s` is set up by the test (scene_init and options) and not created yet. */
+static inline void every_init(every *c) {
+  static every empty;
+  const scene s = c->h.s;
+  *c = empty;
+  c->h.s = s;
+  element_init(&c->e);
+  handle *h = &c->h;
+  h->s.nonmortar.coordinates = h->s.reference1;
+  h->s.nonmortar.facet_offsets = h->s.offsets1;
+  h->s.nonmortar.facet_nodes = h->s.nodes1;
+  h->s.nonmortar.equations = h->s.equations1;
+  h->s.nonmortar.multiplier_equations = h->s.multipliers;
+  h->s.mortar.coordinates = h->s.reference2;
+  scene_create(&h->s);
+  scene_commit(&h->s);
+  history_take(h->s.interface, &c->exported);
+  h->states.struct_size = sizeof h->states;
+  h->states.state = h->state;
+  h->states.normal = h->normal;
+  for (int i = 0; i <= UNKNOWNS; ++i) h->offsets[i] = (int64_t)i * UNKNOWNS;
+  for (int i = 0; i < UNKNOWNS * UNKNOWNS; ++i) h->csr_columns[i] = i % UNKNOWNS;
+  c->counters.struct_size = sizeof c->counters;
+  c->report.struct_size = sizeof c->report;
+  c->report.cover = c->cover;
+  c->report.fraction = c->fraction;
+  c->report.layers = c->layers;
+  c->report.facets = c->facets;
+  c->report.text = c->report_text;
+  c->report.text_capacity = sizeof c->report_text;
+  c->diagnosis.struct_size = sizeof c->diagnosis;
+  c->diagnosis.state = c->diagnosed_state;
+  c->diagnosis.suspect_nodes = c->suspect_nodes;
+  c->diagnosis.suspect_directions = c->suspect_directions;
+  c->diagnosis.suspect_ratios = c->suspect_ratios;
+  c->diagnosis.suspect_causes = c->suspect_causes;
+  c->diagnosis.suspect_capacity = COUNT(c->suspect_nodes);
+  c->diagnosis.text = c->diagnosis_text;
+  c->diagnosis.text_capacity = sizeof c->diagnosis_text;
+}
+
+/* Whether two contexts have got the same outputs to the bit, times apart. */
+static inline int every_equal(every *a, every *b) {
+  a->counters.seconds_search = b->counters.seconds_search = 0.0;
+  a->counters.seconds_integration = b->counters.seconds_integration = 0.0;
+  a->counters.seconds_assembly = b->counters.seconds_assembly = 0.0;
+#define SAME(member) (memcmp(&a->member, &b->member, sizeof a->member) == 0)
+  return SAME(e.w_out) && SAME(e.gap) && SAME(e.force) && SAME(e.k) && SAME(e.normals) && SAME(e.areas) &&
+         SAME(e.normal) && SAME(e.row) && SAME(e.block) && SAME(e.responses) && SAME(h.force1) && SAME(h.force2) &&
+         SAME(h.rows) && SAME(h.sums) && SAME(h.values) && SAME(h.row_numbers) && SAME(h.columns) && SAME(h.count) &&
+         SAME(h.state) && SAME(h.normal) && SAME(h.csr) && SAME(options) && SAME(split_nodes) && SAME(originals) &&
+         SAME(split_count) && SAME(shared_nodes) && SAME(shared_claims) && SAME(shared_count) && SAME(shared_kinds) &&
+         SAME(initial) && SAME(history) && SAME(counters) && SAME(effects) && SAME(last_error) && SAME(cover) &&
+         SAME(layers) && SAME(fraction) && SAME(facets) && SAME(report_text) && SAME(report.penetration) &&
+         SAME(report.finding) && SAME(diagnosed_state) && SAME(suspect_nodes) && SAME(suspect_directions) &&
+         SAME(suspect_ratios) && SAME(suspect_causes) && SAME(diagnosis_text) && SAME(diagnosis.overlap) &&
+         SAME(diagnosis.error);
+#undef SAME
+}
+
+#endif

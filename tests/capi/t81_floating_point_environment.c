@@ -1,0 +1,136 @@
+/* The caller's floating-point environment: masks of traps, rounding, treatment of subnormal numbers and raised flags are
+ * the same bits before and after each call, also where it is refused; and results do not depend on any of them. */
+#define _GNU_SOURCE
+#include <fenv.h>
+#if defined(__SSE__)
+#include <xmmintrin.h>
+#endif
+
+#include "every_call.h"
+
+/* An environment to be called in. Nothing is computed between entering and leaving it. */
+typedef struct {
+  int rounding, raised, trapping, flush;
+} environment;
+
+static void enter(environment e) {
+  CHECK(fesetround(e.rounding) == 0);
+#if defined(__SSE__)
+  /* Flags 0 to 5, subnormal inputs as zeros 6, masks 7 to 12, flush to zero 15. */
+  unsigned mxcsr = _mm_getcsr();
+  if (e.raised) mxcsr |= 0x3Fu;
+  if (e.trapping) mxcsr &= ~0x1F80u;
+  if (e.flush) mxcsr |= 0x8040u;
+  _mm_setcsr(mxcsr);
+#else
+  if (e.raised) CHECK(feraiseexcept(FE_ALL_EXCEPT) == 0);
+#endif
+}
+
+/* A refusal in such an environment, of every function: no pointer at all. */
+static int32_t refuse(int k) {
+  switch (k) {
+    case 0: return stickslip_pair_weights(NULL, NULL, NULL, NULL, NULL);
+    case 1: return stickslip_pair_gap(NULL, NULL, NULL, NULL);
+    case 2: return stickslip_pair_residual(NULL, NULL, NULL, NULL, NULL);
+    case 3: return stickslip_pair_tangent(NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, 0);
+    case 4: return stickslip_node_respond(NULL, NULL);
+    case 5: return stickslip_node_block(NULL, 1.0, 0, NULL, NULL);
+    case 6: return stickslip_facet_geometry(3, NULL, NULL, NULL);
+    case 7: return stickslip_node_normal(NULL, NULL);
+    case 8: return stickslip_options_init(NULL, 0);
+    case 9: return stickslip_last_error_padded(NULL, 0);
+    case 10: return stickslip_surface_split_creases(NULL, 1.0, 0, 0, NULL, NULL, NULL);
+    case 11: return stickslip_crosspoints_find(1, NULL, NULL, NULL, NULL, 0, NULL, NULL, NULL, NULL);
+    case 12: return stickslip_interface_create(NULL, NULL, NULL, NULL);
+    case 13: return stickslip_interface_destroy((stickslip_interface **)(uintptr_t)1);
+    case 14: return stickslip_interface_set_friction(NULL, NULL);
+    case 15: return stickslip_interface_set_augmentation(NULL, NULL);
+    case 16: return stickslip_interface_set_normals(NULL, NULL);
+    case 17: return stickslip_interface_set_constraints(NULL, 0, NULL, NULL);
+    case 18: return stickslip_interface_set_previous(NULL, NULL, NULL);
+    case 19: return stickslip_interface_initial_multipliers(NULL, NULL);
+    case 20: return stickslip_interface_sums(NULL, NULL, NULL, NULL);
+    case 21: return stickslip_interface_states(NULL, NULL, NULL, NULL, NULL, NULL);
+    case 22: return stickslip_interface_residual(NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL);
+    case 23: return stickslip_interface_tangent_coo(NULL, NULL, NULL, NULL, NULL, 0, NULL, NULL, NULL, NULL);
+    case 24: return stickslip_interface_tangent_csr(NULL, NULL, NULL, NULL, NULL, 0, NULL, NULL, NULL);
+    case 25: return stickslip_interface_pattern_coo(NULL, NULL, NULL, 0, NULL, NULL, NULL);
+    case 26: return stickslip_interface_commit(NULL, NULL, NULL, NULL, NULL);
+    case 27: return stickslip_interface_rollback(NULL);
+    case 28: return stickslip_interface_history_size(NULL, NULL, NULL);
+    case 29: return stickslip_interface_history_export(NULL, 0, NULL, 0, NULL);
+    case 30: return stickslip_interface_history_import(NULL, 0, NULL, 0, NULL);
+    case 31: return stickslip_interface_counters(NULL, NULL);
+    case 32: return stickslip_interface_effects(NULL, NULL, 0);
+    case 33: return stickslip_interface_report(NULL, NULL, NULL, NULL);
+    default: return stickslip_interface_diagnose(NULL, NULL, NULL, NULL, NULL, NULL);
+  }
+}
+enum { REFUSALS = 35 };
+
+/* One call between two looks at the environment. The x87's part of fenv_t shows that nothing has used it. */
+static int32_t kept(environment e, int32_t (*call)(every *c), every *c, int refused, const char *name) {
+  fenv_t own, before, after;
+  CHECK(fegetenv(&own) == 0);
+  enter(e);
+#if defined(__SSE__)
+  const unsigned mxcsr_before = _mm_getcsr();
+#endif
+  fegetenv(&before);
+  const int32_t status = call ? call(c) : refuse(refused);
+#if defined(__SSE__)
+  const unsigned mxcsr_after = _mm_getcsr();
+#endif
+  fegetenv(&after);
+  fesetenv(&own);
+#if defined(__SSE__)
+  if (mxcsr_before != mxcsr_after) {
+    fprintf(stderr, "%s: MXCSR %#x before, %#x after\n", name, mxcsr_before, mxcsr_after);
+    exit(1);
+  }
+#endif
+  if (memcmp(&before, &after, sizeof before) != 0) {
+    fprintf(stderr, "%s: another floating-point environment after the call\n", name);
+    exit(1);
+  }
+  return status;
+}
+
+/* All calls in one environment. */
+static void run(environment e, int32_t form, int32_t friction, every *c) {
+  memset(c, 0, sizeof *c);
+  scene_init(&c->h.s);
+  c->h.s.options.form = form;
+  c->h.s.options.friction = friction;
+  if (friction != STICKSLIP_FRICTION_COULOMB) c->h.s.options.mu = 0.0;
+  every_init(c);
+  /* Thousandths beside lengths of 1, and subnormal numbers, which flushing would lose. */
+  c->h.s.lambda[0] += 1e-310;
+  c->e.traction[0] = 3e-310;
+  for (int k = 0; k < COUNT(every_call); ++k) {
+    if (every_call[k].call == every_friction && friction != STICKSLIP_FRICTION_COULOMB) continue;
+    const int32_t status = kept(e, every_call[k].call, c, 0, every_call[k].name);
+    if (status != STICKSLIP_OK) fprintf(stderr, "%s\n", every_call[k].name);
+    CHECK(status == STICKSLIP_OK);
+  }
+  for (int k = 0; k < REFUSALS; ++k) CHECK(kept(e, NULL, NULL, k, "a refusal") > 0);
+  scene_destroy(&c->h.s);
+}
+
+int main(void) {
+  static every expected, c;
+  static const int roundings[] = {FE_TONEAREST, FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO};
+  static const int32_t scenes[][2] = {{STICKSLIP_FORM_MULTIPLIER, STICKSLIP_FRICTION_COULOMB},
+                                      {STICKSLIP_FORM_AUGMENTED, STICKSLIP_FRICTION_COULOMB},
+                                      {STICKSLIP_FORM_MULTIPLIER, STICKSLIP_FRICTION_NONE}};
+  for (int k = 0; k < COUNT(scenes); ++k) {
+    run((environment){FE_TONEAREST, 0, 0, 0}, scenes[k][0], scenes[k][1], &expected);
+    for (int bits = 0; bits < 4 * 8; ++bits) {
+      const environment e = {roundings[bits / 8], bits & 1, bits >> 1 & 1, bits >> 2 & 1};
+      run(e, scenes[k][0], scenes[k][1], &c);
+      CHECK(every_equal(&c, &expected));
+    }
+  }
+  return 0;
+}
