@@ -15,7 +15,7 @@ export PATH := $(PATH):$(HOME)/.cargo/bin
 LOCKED = mkdir -p $(BUILD) && flock $(BUILD)/.lock
 SAY    = @printf '\n== %s\n'
 
-.PHONY: help demo gallery effects aids study compare bench properties fuzz stability test build install uninstall docs abi header meshes clean cmake-build rust-tests
+.PHONY: help demo gallery effects aids study compare bench random fuzz stability test test-long build install uninstall docs abi header meshes clean cmake-build rust-tests
 
 help:
 	@echo "make demo    solve the example scenes, compare with the references, draw (FIGURES=1: renew the README's figures)"
@@ -27,8 +27,9 @@ help:
 	@echo "make bench   what the kernels cost, over a C++ baseline and in instructions (FIGURES=1: renew its table)"
 	@echo "make stability  hard cases x severity, each compared with an answer: build/stability/index.html; can be resumed;"
 	@echo "             QUICK=1: the part that make test runs; ONLY='FILE ...' of tests/stability/cases; FIGURES=1: as above"
-	@echo "make test    run every test and check"
-	@echo "make properties  the property tests on more than a million random pairs, ten minutes"
+	@echo "make test    every test and check, the same in every run"
+	@echo "make test-long  those that take too long for it; .ci/run runs both"
+	@echo "make random  the property tests on other random input, ten times as much (SEED=n CASES=n)"
 	@echo "make fuzz    fuzz the pair kernel, the handle and the C ABI, a quarter of an hour each (FUZZ_SECONDS=)"
 	@echo "make build   build the library and the examples into $(BUILD)/"
 	@echo "make install PREFIX=DIR [DESTDIR=]   install header, Fortran module, libraries, pkg-config and CMake files"
@@ -82,12 +83,15 @@ bench:
 	$(SAY) "Times and instructions of the kernels"
 	@cargo bench --locked --bench kernels -- $(if $(FIGURES),--write benches/README.md)
 
-# Every CASES of the pairs' laws; what fails is kept in tests/properties/*.regressions.
-CASES ?= 150000
-properties:
+# Other input than make test draws, the same for the same SEED. CASES: of each law of a pair; the others have fewer.
+SEED  ?= 1
+CASES ?= 15000
+random:
 	@.ci/setup library
-	$(SAY) "Property tests, $(CASES) cases a law"
-	@PROPTEST_CASES=$(CASES) cargo test --locked --test properties
+	$(SAY) "Property tests of seed $(SEED), $(CASES) cases a law"
+	@PROPTEST_RNG_SEED=$(SEED) PROPTEST_CASES=$(CASES) cargo test --locked --no-fail-fast --lib \
+		--test properties --test fuzz --test search --test crease --test effects || \
+		{ echo "Again: make random SEED=$(SEED) CASES=$(CASES). To keep what was found: fuzz/README.md" >&2; exit 1; }
 
 stability:
 	@.ci/setup demo
@@ -108,8 +112,14 @@ test:
 	@$(MAKE) --no-print-directory rust-tests
 	@$(MAKE) --no-print-directory cmake-build TESTS=ON
 	$(SAY) "C and Fortran tests, examples, installed tree (ctest)"
-	@cd $(BUILD) && ctest --output-on-failure --no-tests=error --parallel $(JOBS)
+	@cd $(BUILD) && ctest --output-on-failure --no-tests=error --parallel $(JOBS) -LE long
 	$(SAY) "All tests passed"
+
+test-long:
+	@.ci/setup test
+	@$(MAKE) --no-print-directory cmake-build TESTS=ON
+	$(SAY) "The tests that take longer (ctest)"
+	@cd $(BUILD) && ctest --output-on-failure --no-tests=error --parallel $(JOBS) -L long
 
 build:
 	@.ci/setup build

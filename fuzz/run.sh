@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# fuzz/run.sh SECONDS [TARGET...]: builds the fuzz targets and runs each for so long.
+# fuzz/run.sh SECONDS|kept [TARGET...]: builds the fuzz targets and runs each for so long, or on the kept inputs alone.
 #
 # The compiler's flags are those of cargo-fuzz without a sanitizer, which a stable toolchain takes. SANITIZER=address
 # adds the address sanitizer (RUSTC_BOOTSTRAP). What is found lies in fuzz/artifacts/TARGET; the inputs that led to new
@@ -7,7 +7,7 @@
 set -eu
 cd "$(dirname "$0")"
 
-seconds=${1:?usage: fuzz/run.sh SECONDS [TARGET...]}
+seconds=${1:?usage: fuzz/run.sh SECONDS|kept [TARGET...]}
 shift
 targets=("${@:-pair interface abi}")
 read -ra targets <<<"${targets[*]}"
@@ -25,6 +25,11 @@ fi
 RUSTFLAGS=$(echo $flags) cargo build --locked --release --target "$triple" --target-dir "$build"
 
 for target in "${targets[@]}"; do
+    if [ "$seconds" = kept ]; then
+        printf '\n== The kept inputs of %s\n' "$target"
+        "$build/$triple/release/$target" -timeout=0 "seeds/$target"/*
+        continue
+    fi
     printf '\n== Fuzzing %s for %s s\n' "$target" "$seconds"
     mkdir -p "corpus/$target" "artifacts/$target" "seeds/$target"
     "$build/$triple/release/$target" -max_total_time="$seconds" -artifact_prefix="artifacts/$target/" \

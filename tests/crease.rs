@@ -116,7 +116,7 @@ fn assert_no_wide_fan(mesh: &Mesh, angle: f64) {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 200, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(support::random::cases(200))]
 
     /// On crumpled surfaces: no fan spans more than the angle, facets keep their corners, nothing is split in vain.
     #[test]

@@ -3,6 +3,7 @@
 mod support;
 
 use serde_json::Value;
+use stickslip::error::Kind;
 use stickslip::geometry::{Facet, Vec3};
 use stickslip::mortar::{MORTAR, NonmortarFrame, PairWeights, Segment, WeightDerivatives};
 use stickslip::quadrature::{DEGREE_5, DEGREE_10, Rule};
@@ -284,8 +285,6 @@ fn a_mortar_facet_without_area_covers_nothing() {
     assert!(p.segment.is_none());
 }
 
-/// A quadrilateral with an edge that is seen end-on: at both of its corners the map is singular but for rounding. It had
-/// weights that were no numbers at a point of that edge.
 /// Of a non-mortar facet a million times as large, rounding made it cover something, with weights that were no numbers.
 #[test]
 fn a_line_far_from_the_middle_of_a_large_facet_covers_nothing() {
@@ -295,6 +294,8 @@ fn a_line_far_from_the_middle_of_a_large_facet_covers_nothing() {
     assert!(Segment::new(&frame, &Facet::new(&line).unwrap()).unwrap().is_none());
 }
 
+/// A quadrilateral with an edge that is seen end-on: at both of its corners the map is singular but for rounding. It had
+/// weights that were no numbers at a point of that edge.
 #[test]
 fn a_facet_with_a_vanishing_edge_is_refused() {
     let one = [[4.0625, 2.0625, 0.0], [-0.0625, -0.0625, -0.0625], [-0.0625, -0.0625, 1e-5], [4.0625, -4.125, -0.0625]];
@@ -305,5 +306,36 @@ fn a_facet_with_a_vanishing_edge_is_refused() {
         let segment = Segment::new(&frame, &two).unwrap().unwrap();
         let w = PairWeights::integrate(&frame, &segment, &DEGREE_5);
         panic!("{:?} {:?} {w:?}", frame.map.determinant(), frame.projection.y);
+    }
+}
+
+/// A quadrilateral with three nodes on a line, seen nearly edge-on: its area is 1e-12 of its squared size, and of that
+/// rounding made a corner, at which the map's determinant came out as 0. It had weights, and derivatives that were no
+/// numbers with the rule of degree 10.
+#[test]
+fn a_straight_corner_that_rounding_bends_is_refused() {
+    let one = [[5.9375, -1.6249999999, -1.625], [-1.625, -7.5, -2.0625], [-1.625, -1.625, -1.625]];
+    let two = [[-1.625, -1.625, -1.625], [-1.625, -1.625, -1.875], [-1.625, -1.625, -5.625], [-1.625, 1.0, 1.0]];
+    let frame = NonmortarFrame::new(&Facet::new(&one.map(Vec3::from)).unwrap()).unwrap();
+    let error = Segment::new(&frame, &Facet::new(&two.map(Vec3::from)).unwrap()).unwrap_err();
+    assert_eq!(error.kind, Kind::ProjectionNotConvex, "{error}");
+}
+
+/// A corner that is straight but for 1e-4 is one beside a facet of its size, where it holds against rounding, and none
+/// under one that is 1e9 times as large: the points of that facet's edges are not known so well.
+#[test]
+fn how_convex_a_corner_must_be_depends_on_the_sizes() {
+    let kite = [[0.0, 0.0], [0.5, -1e-4], [1.0, 0.0], [0.5, 1.0]].map(|[x, y]| Vec3::new(x, y, 0.0));
+    let over = |size: f64| {
+        let x = [[0.3, 0.3], [-1.0, 0.5], [-1.0, -1.0], [0.4, -1.0]];
+        Facet::new(&x.map(|[x, y]| Vec3::new(x * size, y * size, 0.0))).unwrap()
+    };
+    let kite = Facet::new(&kite).unwrap();
+    let overlap = |one: &Facet, two: &Facet| Segment::new(&NonmortarFrame::new(one).unwrap(), two);
+    for size in [1.0, 1e3] {
+        assert!(overlap(&kite, &over(size)).unwrap().is_some() && overlap(&over(size), &kite).unwrap().is_some());
+    }
+    for (one, two) in [(kite, over(1e9)), (over(1e9), kite)] {
+        assert_eq!(overlap(&one, &two).unwrap_err().kind, Kind::ProjectionNotConvex);
     }
 }

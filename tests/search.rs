@@ -96,7 +96,7 @@ fn coarse_and_fine(
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 100, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(support::random::cases(100))]
 
     /// Size ratios from 1:1 to 1:1e4, both ways round, flat and curved, quads warped by the twist.
     #[test]

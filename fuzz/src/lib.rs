@@ -1,11 +1,14 @@
-//! What the fuzz targets share: numbers from bytes, buffers that are watched, and what every answer of the C ABI must
-//! keep to.
+//! The fuzz targets, and what they share: numbers from bytes, buffers that are watched, and what every answer of the C
+//! ABI must keep to. libFuzzer runs them by `programs/`, `cargo test` by `tests/fuzz.rs`.
 
+pub mod abi;
 mod bytes;
+pub mod interface;
+pub mod pair;
 mod watched;
 
-pub use bytes::Bytes;
-pub use watched::Watched;
+use bytes::Bytes;
+use watched::Watched;
 
 use std::ffi::CStr;
 use stickslip::capi::{STICKSLIP_OK, stickslip_last_error_message, stickslip_status_string};

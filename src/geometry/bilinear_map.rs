@@ -17,6 +17,8 @@ pub struct BilinearMap {
     d: Vec2,
     /// b x c, b x d, d x c: det J = j0 + j1 xi + j2 eta [L^2].
     determinant: [f64; 3],
+    /// Half the smallest det J^2 of the facet: no point on it has less, whatever rounding says [L^4].
+    least_square: f64,
     /// 1 / (b x c).
     inverse_affine: f64,
     coefficients: &'static [[f64; 4]; MAX_NODES],
@@ -45,6 +47,7 @@ pub struct InverseMap<R> {
     /// b x c and 4 b x d.
     bc: R,
     four_bd: R,
+    least_square: R,
     inverse_affine: R,
     is_affine: bool,
 }
@@ -60,9 +63,9 @@ impl<R: Real> InverseMap<R> {
         }
         let rd = times(r, self.d);
         let lead = bc - rd;
-        // Rounding may take the discriminant below zero only at a corner where det J vanishes.
+        // Rounding may take the square below that only near a corner where det J nearly vanishes.
         let square = lead.mul_add(lead, self.four_bd * rc);
-        let det = square.max(R::splat(0.0)).sqrt();
+        let det = square.max(self.least_square).sqrt();
         let (xi, eta) = (lead + det, bc + rd + det); // xi = 2 rc / .., eta = 2 br / .., with one division
         let inverse = R::splat(2.0) / (xi * eta);
         Preimage { xi: rc * eta * inverse, eta: br * xi * inverse, det }
@@ -90,12 +93,14 @@ impl BilinearMap {
             }
         }
         let determinant = [cross(m[1], m[2]), cross(m[1], m[3]), cross(m[3], m[2])];
+        let least = determinant[0] - determinant[1].abs() - determinant[2].abs(); // det J is linear: at a corner
         BilinearMap {
             a: m[0],
             b: m[1],
             c: m[2],
             d: m[3],
             determinant,
+            least_square: 0.5 * (least * least),
             inverse_affine: 1.0 / determinant[0],
             coefficients: &facet.shape.coefficients,
             is_affine: m[3].amax() <= PARALLELOGRAM * facet.size,
@@ -120,6 +125,7 @@ impl BilinearMap {
             d: pair(self.d),
             bc: R::splat(self.determinant[0]),
             four_bd: R::splat(4.0 * self.determinant[1]),
+            least_square: R::splat(self.least_square),
             inverse_affine: R::splat(self.inverse_affine),
             is_affine: self.is_affine,
         }

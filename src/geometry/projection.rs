@@ -6,10 +6,11 @@ use super::{Facet, Plane, Vec2, Vec3, cross};
 use crate::shape::{MAX_NODES, Shape};
 use crate::simd::{self, Kernel, Lanes};
 
-/// A projected corner (the cross product of its edges, over the facet's area) below this makes the facet non-convex. The
-/// inverse map takes the root of a square that is known to a rounding of the area's: what is smaller than the root of
-/// that rounding, 1.5e-8, may come out as 0, and divides.
-const SMALLEST_CORNER: f64 = 1e-7;
+/// A projected corner is convex where the cross product of its edges, squared, is above this times the facet's area2,
+/// its size and the reach of the coordinates. The inverse map takes the root of a square, det J^2, that is known to a
+/// rounding of those three: what is smaller than the root of that, 1.5e-8 of a facet with the area of its squared size,
+/// may come out as 0, and divides. Six times as much.
+const SMALLEST_CORNER_SQUARED: f64 = 1e-14;
 /// A projected area below this (over the squared size) is a facet seen edge-on, or one without area: no overlap. Its map
 /// has no inverse but rounding.
 const EDGE_ON: f64 = SMALLEST_AREA_RATIO;
@@ -92,21 +93,28 @@ impl Projection {
     /// Whether the facet is seen edge-on, so that it covers nothing of the plane.
     #[inline(always)]
     pub fn is_edge_on(&self) -> bool {
-        let [low, high] = [&self.low, &self.high];
-        let distance = low.x.abs().max(low.y.abs()).max(high.x.abs()).max(high.y.abs());
-        !(self.area2 > (EDGE_ON * self.size).max(PLACED * distance) * self.size)
+        let (flat, placed) = (EDGE_ON * self.size, PLACED * self.distance());
+        let least = if flat > placed { flat } else { placed };
+        !(self.area2 > least * self.size)
     }
 
-    /// Whether every corner is convex.
+    /// The largest in-plane coordinate of a node `[L]`.
     #[inline(always)]
-    pub fn is_convex(&self) -> bool {
-        let [a, b, c, d] = &self.y;
+    pub fn distance(&self) -> f64 {
+        largest(&[-self.low.x, -self.low.y, self.high.x, self.high.y])
+    }
+
+    /// The largest reach `[L]` of coordinates, its own and those of points that its map is asked for, at whose rounding
+    /// every corner is convex; 0 where one is not at all.
+    #[inline(always)]
+    pub fn convex_reach(&self) -> f64 {
         if self.shape.n == 3 {
-            return self.area2 > 0.0;
+            return f64::INFINITY;
         }
-        let least = SMALLEST_CORNER * self.area2;
+        let [a, b, c, d] = &self.y;
         let (ab, bc, cd, da) = (b - a, c - b, d - c, a - d);
-        (cross(ab, bc) > least) & (cross(bc, cd) > least) & (cross(cd, da) > least) & (cross(da, ab) > least)
+        let corner = smallest(&[cross(ab, bc), cross(bc, cd), cross(cd, da), cross(da, ab)]);
+        if corner > 0.0 { (corner / self.area2) * (corner / self.size) / SMALLEST_CORNER_SQUARED } else { 0.0 }
     }
 
     /// Whether the in-plane bounding boxes are apart by more than `margin`.

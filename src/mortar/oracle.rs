@@ -16,6 +16,8 @@ use proptest::prelude::*;
 
 #[path = "../../tests/support/exact.rs"]
 mod exact;
+#[path = "../../tests/support/random.rs"]
+mod random;
 
 /// Rounding of a few thousand sums, relative to the largest of the compared numbers.
 const SAME: f64 = 1e-12;
@@ -307,7 +309,7 @@ fn facet() -> impl Strategy<Value = Facet> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 1500, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(random::cases(1500))]
 
     #[test]
     fn kernels_equal_the_formulas_on_every_back_end(one in facet(), two in facet(), p in proptest::collection::vec(-1.0..1.0f64, 12)) {

@@ -27,13 +27,15 @@ pub struct NonmortarFrame {
     pub projection: Projection,
     /// Its map.
     pub map: BilinearMap,
+    /// See [`Projection::convex_reach`]; its own coordinates are within.
+    reach: f64,
 }
 
 impl NonmortarFrame {
     /// The frame of `facet`.
     ///
     /// # Errors
-    /// [`Kind::DegenerateFacet`] when the facet has no area, is folded or is not convex.
+    /// [`Kind::DegenerateFacet`] when the facet has no area, is folded or is not convex, be it by rounding.
     pub fn new(facet: &Facet) -> Result<NonmortarFrame> {
         simd::dispatch(Frame { facet })
     }
@@ -135,23 +137,26 @@ impl Kernel for Frame<'_> {
     fn run<L: Lanes>(self) -> Result<NonmortarFrame> {
         let plane = Plane::of(self.facet)?;
         let projection = Projection::on::<L>(self.facet, &plane);
-        if !projection.is_convex() {
+        let reach = projection.convex_reach();
+        if !(reach > projection.size) {
             return Err(folded());
         }
-        Ok(NonmortarFrame { map: BilinearMap::new(&projection), plane, projection })
+        Ok(NonmortarFrame { map: BilinearMap::new(&projection), plane, projection, reach })
     }
 }
 
 #[cold]
 fn folded() -> Error {
-    Error::new(Kind::DegenerateFacet, "the facet is folded or not convex; all its corners must be convex")
+    let text = "the facet is folded or not convex; all its corners must be convex, by more than rounding";
+    Error::new(Kind::DegenerateFacet, text)
 }
 
 impl Segment {
     /// The overlap of `facet` with the frame's facet; `None` when they do not even touch.
     ///
     /// # Errors
-    /// [`Kind::ProjectionNotConvex`] when the mortar facet is too steep or too warped to be projected.
+    /// [`Kind::ProjectionNotConvex`] when the mortar facet is too steep or too warped to be projected, or so much larger
+    /// that to its rounding the non-mortar facet is not convex.
     pub fn new(frame: &NonmortarFrame, facet: &Facet) -> Result<Option<Segment>> {
         simd::dispatch(Overlap { frame, facet })
     }
@@ -195,15 +200,29 @@ pub(super) fn project<L: Lanes>(frame: &NonmortarFrame, facet: &Facet) -> Result
     if one.is_apart(&mortar, margin) || mortar.is_edge_on() {
         return Ok(None);
     }
-    if !mortar.is_convex() {
+    // Most of those beside each other, before the exact test of what touches.
+    if one.separates::<L>(&mortar, margin) {
+        return Ok(None);
+    }
+    // Of the points that the maps are asked for, on edges of the one or of the other.
+    let (distance, reach) = (mortar.distance(), mortar.convex_reach());
+    if !((reach > one.size) & (reach > distance)) {
         return Err(not_convex());
     }
-    // Most of those beside each other, before the exact test of what touches.
-    Ok((!one.separates::<L>(&mortar, margin)).then_some(mortar))
+    if !(frame.reach > distance) {
+        return Err(too_large());
+    }
+    Ok(Some(mortar))
 }
 
 #[cold]
 fn not_convex() -> Error {
-    let text = "the mortar facet's projection on the non-mortar facet's plane is not convex: it is too steep or too warped for this pair";
+    let text = "the mortar facet's projection on the non-mortar facet's plane is not convex, or has a straight corner to rounding: it is too steep or too warped for this pair";
+    Error::new(Kind::ProjectionNotConvex, text)
+}
+
+#[cold]
+fn too_large() -> Error {
+    let text = "the mortar facet is so much larger than the non-mortar one that to its rounding a corner of that is straight, and the projection not convex";
     Error::new(Kind::ProjectionNotConvex, text)
 }

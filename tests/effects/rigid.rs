@@ -67,7 +67,7 @@ fn worst_of_laws(scene: &Moved, rule: &'static stickslip::quadrature::Rule) -> f
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 24, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(super::support::random::cases(24))]
 
     #[test]
     fn affine_facets(seed in 1_u64..1 << 40, slide in 0.0..0.5_f64, warp in 0.0..0.08_f64, jitter in 0.0..0.1_f64) {

@@ -1,6 +1,6 @@
 //! Laws that hold exactly (formulation d) and those of the hard tests (formulation f, rows W, S, K, I) that random
-//! input can try; and where each is tried. P: `pairs`, N: `nodes`, I: `interfaces`; in the last column other files,
-//! with chosen or golden cases.
+//! input can try; and where each is tried. P: `pairs`, N: `nodes`, I: `interfaces`, G: `singular`; in the last column
+//! other files, with chosen or golden cases.
 //!
 //! | law | on random input | elsewhere |
 //! |---|---|---|
@@ -31,8 +31,10 @@
 //! | I3 numbering, begin, orientation | P `numbering_does_not_matter` | `identities.rs` |
 //! | I6 rigid motion within a step | | `identities.rs` |
 //! | I7 threads | | `tests/capi/t50_threads.c` |
+//! | no law: maps that are all but singular are refused, or all is finite | G `facets_with_nearly_singular_maps_are_refused_or_finite` | `mortar.rs` |
 //!
-//! `cargo test` tries 1e4 pairs in all; `make properties` more than 1e6 (`PROPTEST_CASES=150000`).
+//! `cargo test` tries 1e4 pairs in all, the same in every run; `make random SEED=n` ten times as many others, with
+//! `CASES=150000` more than 1e6.
 
 #[path = "../support/mod.rs"]
 mod support;
@@ -42,6 +44,7 @@ mod geometry;
 mod interfaces;
 mod nodes;
 mod pairs;
+mod singular;
 
 use proptest::prelude::*;
 use proptest::test_runner::FileFailurePersistence;
@@ -55,10 +58,10 @@ fn config(source: &'static str, cost: u32) -> ProptestConfig {
         failure_persistence: Some(Box::new(FileFailurePersistence::WithSource("regressions"))),
         source_file: Some(source),
         max_shrink_iters: 20_000,
-        ..ProptestConfig::default()
+        ..support::random::cases(CASES)
     };
-    if std::env::var_os("PROPTEST_CASES").is_none() {
-        config.cases = CASES;
+    if std::env::var_os("PROPTEST_CASES").is_some() {
+        config.cases = ProptestConfig::default().cases;
     }
     config.cases = (config.cases / cost).max(1);
     config.max_global_rejects = 20 * config.cases;

@@ -1,12 +1,9 @@
 //! The C ABI: every function with arbitrary bytes for arguments. Pointers lead to as much as the header says, or are
 //! NULL or crooked; structs, counts, choices and all contents are anything.
-#![no_main]
-#![allow(unsafe_code)]
 
-use libfuzzer_sys::fuzz_target;
+use super::{Bytes, Watched, all_finite, succeeded};
 use std::ptr::null;
 use stickslip::capi::*;
-use stickslip_fuzz::{Bytes, Watched, all_finite, succeeded};
 
 /// The longest struct that is read, in words, and one more.
 const WORDS: usize = 4096 / 8 + 1;
@@ -183,7 +180,8 @@ fn facet_calls(bytes: &mut Bytes) {
         normals.assert_untouched();
         areas.assert_untouched();
     }
-    (normals.values(), areas.values());
+    normals.values();
+    areas.values();
     let sum = numbers(bytes, 3, 1.0);
     if succeeded(unsafe { stickslip_node_normal(bytes.pointer(sum.as_ptr()), normal.pointer()) }) {
         let length = normal.values().iter().map(|v| v * v).sum::<f64>();
@@ -330,9 +328,13 @@ fn create_calls(bytes: &mut Bytes) {
         stickslip_interface_tangent_coo(handle, x1, x2, lambda, null(), capacity, i, j, v, &mut count)
     };
     if !succeeded(status) {
-        (rows.assert_untouched(), columns.assert_untouched(), values.assert_untouched());
+        rows.assert_untouched();
+        columns.assert_untouched();
+        values.assert_untouched();
     }
-    (rows.values(), columns.values(), values.values());
+    rows.values();
+    columns.values();
+    values.values();
     let n = 3 * NODES as i64;
     let mut offsets: Vec<i64> = (0..=n).map(|k| k.min(60) + base).collect();
     let mut columns: Vec<i64> = (0..64).map(|k| k + base).collect();
@@ -365,7 +367,8 @@ fn create_calls(bytes: &mut Bytes) {
     if !succeeded(unsafe { stickslip_interface_states(handle, x1, x2, lambda, null(), states.pointer()) }) {
         state.assert_untouched();
     }
-    (state.values(), gap.values());
+    state.values();
+    gap.values();
     assert!(succeeded(unsafe { stickslip_interface_destroy(&mut handle) }) && handle.is_null());
     assert!(succeeded(unsafe { stickslip_interface_destroy(&mut handle) }), "once more does nothing");
 }
@@ -385,7 +388,8 @@ fn preparation_calls(bytes: &mut Bytes) {
         nodes.assert_untouched();
         originals.assert_untouched();
     }
-    (nodes.values(), originals.values());
+    nodes.values();
+    originals.values();
     // Two interfaces with up to eight nodes a side.
     let ends = |bytes: &mut Bytes| [0, 4, 8].map(|k| bytes.integer(k).min(8));
     let names = |bytes: &mut Bytes| (0..8).map(|k| bytes.integer(k % 5)).collect::<Vec<i64>>();
@@ -402,14 +406,17 @@ fn preparation_calls(bytes: &mut Bytes) {
         kinds.assert_untouched();
         claims.assert_untouched();
     }
-    (found.values(), kinds.values(), claims.values());
+    found.values();
+    kinds.values();
+    claims.values();
     let (mut text, length) = (Watched::<i8>::new(40), bytes.count(40).min(40));
     unsafe { stickslip_last_error_padded(bytes.text(text.pointer()).cast(), length) };
     text.values();
     stickslip_status_string(bytes.integer(0) as i32);
 }
 
-fuzz_target!(|data: &[u8]| {
+/// Takes one input; panics where a law is broken.
+pub fn run(data: &[u8]) {
     let mut bytes = Bytes(data);
     while !bytes.is_empty() {
         match bytes.below(8) {
@@ -420,4 +427,4 @@ fuzz_target!(|data: &[u8]| {
             _ => create_calls(&mut bytes),
         }
     }
-});
+}

@@ -1,12 +1,9 @@
 //! An interface by its C functions: any sequence of calls, with positions, multipliers, histories that are mostly sound.
 //! The handle answers or refuses, its history moves by commits alone, equal points give equal bits, and after a refusal
 //! it is as good as before.
-#![no_main]
-#![allow(unsafe_code)]
 
-use libfuzzer_sys::fuzz_target;
+use super::{Bytes, Watched, all_finite, message, succeeded};
 use stickslip::capi::*;
-use stickslip_fuzz::{Bytes, Watched, all_finite, message, succeeded};
 
 const N1: usize = 9;
 const N2: usize = 16;
@@ -274,7 +271,8 @@ impl Scene {
     }
 }
 
-fuzz_target!(|data: &[u8]| {
+/// Takes one input; panics where a law is broken.
+pub fn run(data: &[u8]) {
     let mut bytes = Bytes(data);
     let Some(mut scene) = Scene::new(&mut bytes) else { return };
     for _ in 0..8 {
@@ -286,4 +284,4 @@ fuzz_target!(|data: &[u8]| {
     // Whatever came before: at a sound place of its own the handle answers as a new one with its history does.
     assert!(succeeded(unsafe { stickslip_interface_destroy(&mut scene.handle) }));
     assert!(scene.handle.is_null());
-});
+}

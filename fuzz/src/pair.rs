@@ -1,12 +1,10 @@
 //! The pair kernel: any two facets are refused or have weights that keep to the laws, with finite derivatives.
-#![no_main]
 
-use libfuzzer_sys::fuzz_target;
+use super::{Bytes, all_finite};
 use stickslip::geometry::bilinear_map::BilinearMap;
 use stickslip::geometry::{Facet, Vec3};
 use stickslip::mortar::{NonmortarFrame, PairWeights, Segment, WeightDerivatives, gap};
 use stickslip::quadrature::{DEGREE_5, DEGREE_10};
-use stickslip_fuzz::{Bytes, all_finite};
 
 /// Rounding of a sum over the points, relative to the overlap.
 const SUMS: f64 = 1e-12;
@@ -25,7 +23,8 @@ fn facet(bytes: &mut Bytes, other: Option<&Facet>) -> Facet {
     Facet::new(&x).expect("three or four nodes")
 }
 
-fuzz_target!(|data: &[u8]| {
+/// Takes one input; panics where a law is broken.
+pub fn run(data: &[u8]) {
     let mut bytes = Bytes(data);
     let one = facet(&mut bytes, None);
     let two = facet(&mut bytes, Some(&one));
@@ -64,4 +63,4 @@ fuzz_target!(|data: &[u8]| {
         assert!(segment.area <= whole * (1.0 + 1e-12) + rounding, "{:e} of {whole:e}", segment.area);
         gap(&w, &one, &two).iter().for_each(|g| all_finite(g.as_slice()));
     }
-});
+}
