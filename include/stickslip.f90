@@ -529,6 +529,17 @@ module stickslip
       integer(c_int64_t), intent(inout) :: count
     end function
 
+    ! How much of a step dx1(3, n1), dx2(3, n2) from x1(3, n1), x2(3, n2) may be taken before the surfaces pass through
+    ! each other: fraction, above 0 and at most 1. penetration: over the shortest edges; 0: the default, 0.1.
+    integer(c_int32_t) function stickslip_interface_step_limit(interface, x1, x2, dx1, dx2, penetration, fraction) &
+        bind(C)
+      import :: c_double, c_int32_t, stickslip_interface
+      type(stickslip_interface), value :: interface
+      real(c_double), intent(in) :: x1(3, *), x2(3, *), dx1(3, *), dx2(3, *)
+      real(c_double), value :: penetration
+      real(c_double), intent(inout) :: fraction
+    end function
+
     ! Accepts a converged step: x1(3, n1), x2(3, n2), lambda(3, n1) become t_n.
     integer(c_int32_t) function stickslip_interface_commit(interface, x1, x2, lambda, sums) bind(C)
       import :: c_double, c_int32_t, c_ptr, stickslip_interface

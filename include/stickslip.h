@@ -51,6 +51,7 @@
  *     interface_pattern_coo                  to preallocate a matrix
  *     interface_residual                     in each Newton iteration; with it one of
  *     interface_tangent_coo, interface_tangent_csr
+ *     interface_step_limit                   where contact alone holds a body: how much of Newton's step may be taken
  *     interface_states                       for output
  *     interface_commit                       after each converged step; interface_rollback undoes it
  *     interface_destroy                      at the end
@@ -1001,6 +1002,36 @@ int32_t stickslip_interface_pattern_coo(struct stickslip_interface *interface,
                                         int64_t *rows,
                                         int64_t *columns,
                                         int64_t *count);
+
+/// How much of a step of Newton's method may be taken before the surfaces pass through each other: where contact alone
+/// holds a body that does not touch yet, Newton's step is far too long. Every covered node may go deeper by
+/// `penetration` times the shortest edge of the facets around it, from where it is or from a gap of 0: enough for
+/// Newton's method to know that the surfaces touch.
+///
+/// x1 (3 n1), x2 (3 n2): positions [L]; dx1 (3 n1), dx2 (3 n2): what the step would add to them [L]. penetration: above
+/// 0 and at most 1 [-]; 0: the default, 0.1. fraction, output: above 0 and at most 1 [-]; 1 where the step is allowed.
+/// Scale the whole step by it, multipliers too; of several interfaces take the least. No gap is known between the
+/// fractions that are tried, which advance by what the nearest node has left and by a quarter of the penetration at
+/// least. A motion along surfaces that touch is therefore cut, too, beyond some facets. Of an analytic mortar side
+/// dx2 is a translation, or 0. Sides that are tied may move as they like: 1.
+///
+/// On several processes each handle answers for its own part of the mortar surface, without `sums`; the least of the
+/// answers is allowed for all, since a node's gap is a mean of its handles'.
+///
+/// Errors: NULL_POINTER, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL (at the positions
+/// themselves; what the library would refuse on the way is not allowed), INVALID_VALUE (penetration; an analytic
+/// surface's frame).
+/// Cost: one search and one integration for each fraction tried, none of it linearised: two where the step is shorter
+/// than an edge, 10 to 30 where a gap of many facets closes, 65 at most; frozen weights: none. Allocates. History and
+/// later results stay as they are. Source: conservative advancement (B. Mirtich, Impulse-based dynamic simulation of
+/// rigid body systems, 1996).
+int32_t stickslip_interface_step_limit(struct stickslip_interface *interface,
+                                       const double *x1,
+                                       const double *x2,
+                                       const double *dx1,
+                                       const double *dx2,
+                                       double penetration,
+                                       double *fraction);
 
 /// Accepts a converged step: (x1, x2, lambda) becomes t_n; weights, normals, coverage and slip move on.
 ///

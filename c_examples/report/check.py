@@ -17,6 +17,7 @@ from material_checks import materials
 from slider import slider, slider_fine
 from scene import Driver, SceneError
 from stepping import stepping
+from touching import touching_full, touching_quick
 from turning import turning
 from verdict import Verdicts
 
@@ -31,6 +32,8 @@ GROUPS = {
     "slider": slider,
     "slider_fine": slider_fine,  # minutes; not among the tests
     "stepping": stepping,
+    "touching": touching_quick,
+    "touching_full": touching_full,  # some minutes; not among the tests
     "turning": turning,
 }
 

@@ -62,6 +62,15 @@ static PetscErrorCode free_motions(const Model *model, const Body *body, char te
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode held_free(const Model *model, const Body *body, PetscBool *is_free)
+{
+  char motions[64] = "";
+  PetscFunctionBegin;
+  if (!body->analytic) PetscCall(free_motions(model, body, motions, sizeof(motions)));
+  *is_free = (PetscBool)(motions[0] != 0);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* A sentence for the user, on every rank. */
 PetscErrorCode held_describe(const Model *model, char text[], size_t length)
 {

@@ -132,7 +132,24 @@ PetscInt mesh_nearest_vertex(Scene *scene, const Mesh *mesh, const char *map)
   return nearest;
 }
 
-/* `surfaces: [zone]`, zone: {of: block.zmin, within: [lower, upper]}: whole faces whose centre lies within the box */
+/* whole faces of `whole` whose centre lies within the box */
+static void cut_out(const Mesh *mesh, const Surface *whole, const PetscReal box[6], Surface *part)
+{
+  part->inner = (PetscBool)(part->inner || whole->inner);
+  for (PetscInt f = 0; f < whole->n_faces; f++) {
+    const PetscInt n_corners = whole->offsets[f + 1] - whole->offsets[f], *vertices = whole->vertices + whole->offsets[f];
+    PetscBool      inside    = PETSC_TRUE;
+    for (int i = 0; i < 3; i++) {
+      PetscReal centre = 0;
+      for (PetscInt a = 0; a < n_corners; a++)
+        centre += mesh->coordinates[3 * vertices[a] + i] / n_corners;
+      if (centre < box[i] || centre > box[3 + i]) inside = PETSC_FALSE;
+    }
+    if (inside) surface_push(part, n_corners, vertices);
+  }
+}
+
+/* `surfaces: [zone]`, zone: {of: block.zmin, within: [lower, upper]}; of one surface or of several */
 static PetscErrorCode derived_surfaces(Scene *scene, Mesh *mesh)
 {
   PetscInt n;
@@ -140,26 +157,22 @@ static PetscErrorCode derived_surfaces(Scene *scene, Mesh *mesh)
   PetscFunctionBegin;
   scene_names(scene, "surfaces", &n, &names);
   for (PetscInt k = 0; k < n; k++) {
-    char      of[2 * NAME_LENGTH] = "";
     PetscReal box[6];
-    Surface  *part, whole;
-    scene_string_required(scene, names[k], "of", of, sizeof(of));
-    whole = *mesh_surface(scene, mesh, names[k], "of", of);
+    PetscInt  n_of, most = 0;
+    char    **of;
+    Surface  *part;
+    scene_strings(scene, names[k], "of", &n_of, &of);
+    if (!n_of) scene_fail(scene, names[k], "of", "this key is missing.");
     if (!scene_vector(scene, names[k], "within", 6, box)) scene_fail(scene, names[k], "within", "this key is missing.");
-    PetscCall(mesh_add_surface(mesh, names[k], whole.n_faces, &part));
-    part->inner = whole.inner;
-    for (PetscInt f = 0; f < whole.n_faces; f++) {
-      const PetscInt n_corners = whole.offsets[f + 1] - whole.offsets[f], *vertices = whole.vertices + whole.offsets[f];
-      PetscBool      inside = PETSC_TRUE;
-      for (int i = 0; i < 3; i++) {
-        PetscReal centre = 0;
-        for (PetscInt a = 0; a < n_corners; a++)
-          centre += mesh->coordinates[3 * vertices[a] + i] / n_corners;
-        if (centre < box[i] || centre > box[3 + i]) inside = PETSC_FALSE;
-      }
-      if (inside) surface_push(part, n_corners, vertices);
+    for (PetscInt i = 0; i < n_of; i++)
+      most += mesh_surface(scene, mesh, names[k], "of", of[i])->n_faces;
+    PetscCall(mesh_add_surface(mesh, names[k], most, &part));
+    for (PetscInt i = 0; i < n_of; i++) {
+      const Surface whole = *mesh_surface(scene, mesh, names[k], "of", of[i]);
+      cut_out(mesh, &whole, box, part);
     }
-    if (!part->n_faces) scene_fail(scene, names[k], "within", "no face of '%s' has its centre in this box.", of);
+    if (!part->n_faces) scene_fail(scene, names[k], "within", "no face of '%s' has its centre in this box.", of[0]);
+    strings_destroy(n_of, &of);
   }
   strings_destroy(n, &names);
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -76,6 +76,7 @@ typedef struct {
   PetscBool *asked;   /* for each: the scene names it; else it is a kink of a curve */
   PetscReal  end, smallest; /* step, as a fraction of the largest */
   PetscBool  predictor, automatic, cycles; /* cycles: of nodes are looked for and ended */
+  PetscBool  closing;                      /* bodies that contact alone holds are closed by force: closing.c */
   PetscReal  initial, largest; /* automatic steps */
   PetscInt   iterations;       /* of Newton's method: what they aim at */
 } Steps;
@@ -92,7 +93,7 @@ typedef struct Cycling Cycling;
 
 /* Newton's method on one step (newton.c) */
 typedef struct {
-  PetscBool     fixed_line_search; /* the user chose one */
+  PetscBool     fixed_line_search, fixed_max_it; /* the user chose them */
   PetscReal     factor;            /* for the augmentation of nodes that cycle */
   PetscInt      n_changes;         /* of the augmentation in this attempt */
   PetscBool     changed, stale;    /* it is not the scene's; the residual belongs to another one */
@@ -103,6 +104,23 @@ typedef struct {
   struct cJSON *cycles;            /* rank 0: those seen since the last report */
   struct cJSON *state_changes;     /* of the last attempt: nodes, by iteration from the second on; NULL: reported */
 } Newton;
+
+/* The attempt that closes bodies which contact alone holds (closing.c) */
+typedef struct {
+  PetscBool *free;          /* rank 0, per body: the supports leave it free to move */
+  PetscInt  *group;         /* rank 0, per body: work space */
+  PetscBool  possible;      /* there is such a body, and the scene does not switch this off */
+  PetscBool  active;        /* the present attempt is this one */
+  PetscBool  cut, ever_cut; /* the last step of Newton's method, any in this attempt */
+  PetscReal  shift;         /* of the matrix, over its diagonal, while a body is loose */
+  PetscReal  depth;         /* how far a step may lead into contact, over a facet's edge */
+  PetscReal  travelled;     /* by steps that met nothing, since the last one that was cut */
+  PetscBool  touched;       /* no body was loose at the last tangent */
+  PetscInt   loose;         /* the body that was, at the last tangent; -1: none */
+  Vec        displacements; /* 1 in their equations, 0 in those of multipliers */
+  Vec        work;
+  char       away[256];     /* a loose body moves away from all that it could touch, as a sentence */
+} Closing;
 
 typedef struct {
   double bulk_assembly, linear_solve, contact_forces, contact_tangent, total, started;
@@ -147,6 +165,7 @@ typedef struct {
   SNES      snes;
   Mat       jacobian, pattern; /* the latter: as the former was at the start of the step, without values */
   Newton    newton;
+  Closing   closing;
   Cycling  *cycling;
   PetscInt  iterations;                            /* of Newton, spent on the present step, failed attempts included */
   PetscReal t, reference_force, largest_reference, noise, size, stiffness; /* for the convergence test (solver.c) */
@@ -235,8 +254,17 @@ PetscErrorCode newton_confirm(Model *model, PetscReal *norm);
 PetscErrorCode newton_refused(Model *model);
 PetscErrorCode newton_solve(Model *model, Vec start, Vec x, PetscBool *converged);
 
-/* held.c: which bodies contact alone must hold, as a sentence */
+/* closing.c: bodies that contact alone holds and that do not touch yet */
+PetscErrorCode closing_create(Model *model);
+PetscErrorCode closing_destroy(Model *model);
+PetscErrorCode closing_limit_steps(Model *model, SNESLineSearch line_search);
+PetscErrorCode closing_needed(Model *model, Vec start, PetscBool *needed);
+void           closing_begin(Model *model, PetscBool active);
+PetscErrorCode closing_shift(Model *model, Mat matrix);
+
+/* held.c: which bodies contact alone must hold, as a sentence; is this one of them (rank 0)? */
 PetscErrorCode held_describe(const Model *model, char text[], size_t length);
+PetscErrorCode held_free(const Model *model, const Body *body, PetscBool *is_free);
 
 /* step_size.c */
 void      step_size_start(const Steps *steps, StepSize *size);

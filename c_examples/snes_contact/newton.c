@@ -8,8 +8,10 @@
  *   1. full steps; a cycle divides the augmentation by 100;
  *   2. backtracking; a cycle divides it, too;
  *   3. if there were cycles, full steps; a cycle multiplies it by 100;
- *   4. if all fail, the caller takes a shorter step in time.
- * Where the user chose a line search it serves in 1 and 3, and 2 is left out. Converged is what has converged with
+ *   4. where the supports leave a body free to move, the attempt of closing.c: the first one, if such a body is loose
+ *      at the start of the step, else the last;
+ *   5. if all fail, the caller takes a shorter step in time.
+ * Where the user chose a line search it serves in 1, 3 and 4, and 2 is left out. Converged is what has converged with
  * the scene's own augmentation: the multiplier rows are forces of the augmentation, and would look small with a
  * small one. (Tried as well: a step damped by 1/2, 1/4, 1/8. It ends the cycles of fewer scenes, and later.)
  *
@@ -21,11 +23,16 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { CHANGES = 3, N_ATTEMPTS = 3 };
+enum { CHANGES = 3, FULL = 0, BACKTRACKING = 1, LARGER = 2, CLOSING = 3, N_ATTEMPTS = 4 };
+/* Iterations of the closing attempt: each closes a gap by part of a facet. Other attempts: -snes_max_it. */
+enum { CLOSING_ITERATIONS = 60 };
 static const struct {
   SNESLineSearchType line_search;
   PetscReal          factor; /* of the augmentation of nodes that cycle */
-} ATTEMPTS[N_ATTEMPTS] = {{SNESLINESEARCHBASIC, 0.01}, {SNESLINESEARCHBT, 0.01}, {SNESLINESEARCHBASIC, 100}};
+} ATTEMPTS[N_ATTEMPTS] = {[FULL]         = {SNESLINESEARCHBASIC, 0.01},
+                         [BACKTRACKING] = {SNESLINESEARCHBT, 0.01},
+                         [LARGER]       = {SNESLINESEARCHBASIC, 100},
+                         [CLOSING]      = {SNESLINESEARCHBASIC, 0.01}};
 
 /* rank 0: a cycle for the report, and as a sentence */
 static PetscErrorCode report_cycle(Model *model, PetscInt period, PetscInt iteration)
@@ -50,6 +57,11 @@ PetscErrorCode newton_watch(Model *model, PetscInt iteration, PetscReal norm, SN
   Newton  *newton = &model->newton;
   PetscInt period;
   PetscFunctionBegin;
+  if (model->closing.away[0]) {
+    *reason = SNES_DIVERGED_LOCAL_MIN;
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+  if (model->closing.cut) PetscCall(cycling_restart(model)); /* states of steps that were cut come back */
   PetscCall(cycling_record(model, norm, &period));
   if (!period || !model->steps.cycles) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(report_cycle(model, period, iteration));
@@ -101,11 +113,16 @@ static PetscErrorCode before_iteration(SNES snes, PetscInt iteration)
 
 PetscErrorCode newton_create(Model *model)
 {
+  SNESLineSearch line_search;
   PetscFunctionBegin;
   PetscCall(SNESSetApplicationContext(model->snes, model));
+  PetscCall(SNESGetLineSearch(model->snes, &line_search));
+  PetscCall(closing_limit_steps(model, line_search));
   PetscCall(SNESSetUpdate(model->snes, before_iteration));
   PetscCall(PetscOptionsHasName(NULL, NULL, "-snes_linesearch_type", &model->newton.fixed_line_search));
+  PetscCall(PetscOptionsHasName(NULL, NULL, "-snes_max_it", &model->newton.fixed_max_it));
   PetscCall(cycling_create(model));
+  PetscCall(closing_create(model));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -113,6 +130,7 @@ PetscErrorCode newton_destroy(Model *model)
 {
   PetscFunctionBegin;
   PetscCall(cycling_destroy(model));
+  PetscCall(closing_destroy(model));
   cJSON_Delete(model->newton.cycles);
   cJSON_Delete(model->newton.state_changes);
   model->newton.cycles = model->newton.state_changes = NULL;
@@ -151,7 +169,9 @@ static PetscErrorCode explain(Model *model, SNESConvergedReason reason)
   cJSON  *json;
   char    nodes[768];
   PetscFunctionBegin;
-  if (model->refusal[0]) {
+  if (model->closing.away[0]) {
+    PetscCall(PetscSNPrintf(newton->why, sizeof(newton->why), "%s", model->closing.away));
+  } else if (model->refusal[0]) {
     PetscCall(newton_refused(model));
   } else if (model->inverted[0]) {
     PetscCall(PetscSNPrintf(newton->why, sizeof(newton->why), "%s", model->inverted));
@@ -175,11 +195,16 @@ static PetscErrorCode attempt(Model *model, int k, Vec x, PetscBool *converged)
   SNESConvergedReason reason;
   SNESLineSearch      line_search;
   PetscReal          *norms;
-  PetscInt            iterations, n;
+  PetscReal           atol, rtol, stol;
+  PetscInt            iterations, n, max_it, max_f;
 
   PetscFunctionBegin;
   PetscCall(SNESGetLineSearch(model->snes, &line_search));
   if (!newton->fixed_line_search) PetscCall(SNESLineSearchSetType(line_search, ATTEMPTS[k].line_search));
+  PetscCall(SNESGetTolerances(model->snes, &atol, &rtol, &stol, &max_it, &max_f));
+  if (k == CLOSING && !newton->fixed_max_it)
+    PetscCall(SNESSetTolerances(model->snes, atol, rtol, stol, CLOSING_ITERATIONS, max_f));
+  closing_begin(model, (PetscBool)(k == CLOSING));
   PetscCall(cycling_restart(model));
   model->refusal[0] = model->inverted[0] = newton->why[0] = 0;
   newton->stopped = newton->stale = newton->changed = PETSC_FALSE;
@@ -189,6 +214,7 @@ static PetscErrorCode attempt(Model *model, int k, Vec x, PetscBool *converged)
   newton->state_changes = cJSON_CreateArray();
   newton->factor                                    = ATTEMPTS[k].factor;
   PetscCall(SNESSolve(model->snes, NULL, x));
+  PetscCall(SNESSetTolerances(model->snes, atol, rtol, stol, max_it, max_f));
   PetscCall(SNESGetConvergedReason(model->snes, &reason));
   PetscCall(SNESGetIterationNumber(model->snes, &iterations));
   PetscCall(SNESGetConvergenceHistory(model->snes, &norms, NULL, &n));
@@ -208,16 +234,22 @@ static PetscErrorCode attempt(Model *model, int k, Vec x, PetscBool *converged)
 
 PetscErrorCode newton_solve(Model *model, Vec start, Vec x, PetscBool *converged)
 {
-  Newton *newton = &model->newton;
-  Vec     r;
+  Newton   *newton = &model->newton;
+  PetscBool first;
+  Vec       r;
 
   PetscFunctionBegin;
   newton->iterations = 0;
   newton->cycle[0]   = 0;
   *converged         = PETSC_FALSE;
-  for (int k = 0; k < N_ATTEMPTS && !*converged; k++) {
-    if (k == 1 && newton->fixed_line_search) continue;
-    if (k == 2 && !newton->cycle[0]) continue;
+  closing_begin(model, PETSC_FALSE);
+  PetscCall(closing_needed(model, start, &first));
+  for (int i = 0; i < N_ATTEMPTS && !*converged; i++) {
+    const int k = first ? (i + CLOSING) % N_ATTEMPTS : i;
+    if (k == BACKTRACKING && newton->fixed_line_search) continue;
+    if (k == LARGER && !newton->cycle[0]) continue;
+    if (k == CLOSING && !model->closing.possible) continue;
+    if (model->closing.away[0]) break; /* whatever the attempt, nothing stops that body */
     PetscCall(VecCopy(start, x));
     PetscCall(attempt(model, k, x, converged));
   }

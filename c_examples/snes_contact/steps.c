@@ -70,6 +70,7 @@ PetscErrorCode steps_read(Model *model)
   PetscFunctionBegin;
   steps->predictor = PETSC_TRUE;
   steps->cycles    = PETSC_TRUE;
+  steps->closing   = PETSC_TRUE;
   steps->smallest  = 1.0 / 1024;
   PetscCall(read_targets(scene, steps));
   for (PetscInt k = 0; k < steps->n_targets; k++) {
@@ -80,6 +81,7 @@ PetscErrorCode steps_read(Model *model)
   steps->end = steps->targets[steps->n_targets - 1];
   scene_bool(scene, "steps", "predictor", &steps->predictor);
   scene_bool(scene, "steps", "cycles", &steps->cycles);
+  scene_bool(scene, "steps", "closing", &steps->closing);
   scene_real(scene, "steps", "smallest", &steps->smallest);
   if (steps->smallest <= 0 || steps->smallest > 1)
     scene_fail(scene, "steps", "smallest", "it is a fraction of a step: above 0, at most 1.");
@@ -227,7 +229,8 @@ static PetscErrorCode step_to(Model *model, Summary *summary, History *history, 
 static PetscErrorCode accept(Model *model, History *history)
 {
   PetscFunctionBegin;
-  history->have_before = (PetscBool)!bends(model, model->t);
+  /* How a gap closes is no rate, either. */
+  history->have_before = (PetscBool)(!bends(model, model->t) && !model->closing.ever_cut);
   PetscCall(VecCopy(history->last, history->before));
   PetscCall(VecCopy(history->x, history->last));
   history->t_before        = history->t_last;

@@ -37,6 +37,8 @@ mod evaluation;
 
 mod tangent;
 
+mod closing;
+
 mod history;
 
 mod counters;
@@ -56,6 +58,7 @@ mod guard;
 mod raw;
 mod sized;
 
+pub use closing::*;
 pub use counters::*;
 pub use diagnosis::*;
 pub use evaluation::*;

@@ -8,6 +8,7 @@ mod apart;
 mod assembly;
 mod augmented;
 mod carried;
+mod closing;
 mod crease;
 mod crosspoints;
 mod describe;
@@ -31,6 +32,7 @@ mod treatment;
 mod weak;
 
 pub use assembly::Residual;
+pub use closing::DEPTH;
 pub use crease::Split;
 pub use crosspoints::{Crosspoint, InterfaceNodes, crosspoints};
 pub use diagnosis::{Cause, Diagnosis, SUSPECT, Suspect, WorstPair};

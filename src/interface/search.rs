@@ -24,8 +24,14 @@ impl Aabb {
         Aabb { low: self.low.inf(&other.low), high: self.high.sup(&other.high) }
     }
 
-    fn centre(&self) -> Vec3 {
+    /// Its middle.
+    pub fn centre(&self) -> Vec3 {
         (self.low + self.high) * 0.5
+    }
+
+    /// The largest distance along any axis that lies between the boxes; 0 where they overlap along all.
+    pub fn distance(&self, other: &Aabb) -> f64 {
+        (self.low - other.high).sup(&(other.low - self.high)).max().max(0.0)
     }
 
     /// Along which axes more than `distance` lies between the boxes: this one above the other, then below it.

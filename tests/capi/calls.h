@@ -96,7 +96,7 @@ typedef struct {
   double force1[X1], force2[X2], rows[X1], sums[STICKSLIP_SUMS_PER_NODE * N1], values[MOST_ENTRIES];
   int64_t row_numbers[MOST_ENTRIES], columns[MOST_ENTRIES], count;
   int32_t state[N1];
-  double normal[X1];
+  double normal[X1], fraction;
   stickslip_states states;
   /* A CSR matrix with every entry. */
   int64_t offsets[UNKNOWNS + 1], csr_columns[UNKNOWNS * UNKNOWNS];
@@ -114,6 +114,7 @@ static inline void handle_fill(handle *h) {
   FILL(h->count);
   FILL(h->state);
   FILL(h->normal);
+  FILL(h->fraction);
   FILL(h->csr);
 }
 
@@ -161,6 +162,11 @@ static inline int32_t call_interface_commit(handle *h) {
   scene *s = &h->s;
   return stickslip_interface_commit(s->interface, s->x1, s->x2, s->lambda, NULL);
 }
+static inline int32_t call_interface_limit(handle *h) {
+  static double dx1[X1], dx2[X2];
+  dx1[0] = 1.0;
+  return stickslip_interface_step_limit(h->s.interface, h->s.x1, h->s.x2, dx1, dx2, 0.0, &h->fraction);
+}
 static inline int32_t call_interface_previous(handle *h) {
   return stickslip_interface_set_previous(h->s.interface, h->s.x1, h->s.x2);
 }
@@ -170,7 +176,7 @@ typedef int32_t (*interface_call)(handle *h);
 enum { LAMBDA_CALLS = 5 };
 static const interface_call evaluations[] = {call_interface_residual, call_interface_states,  call_interface_coo,
                                              call_interface_csr,      call_interface_commit,  call_interface_sums,
-                                             call_interface_pattern,  call_interface_previous};
+                                             call_interface_pattern,  call_interface_limit,   call_interface_previous};
 
 /* Neither outputs nor history have changed, and the handle goes on working. */
 static inline void handle_untouched(handle *h) {
@@ -185,6 +191,7 @@ static inline void handle_untouched(handle *h) {
   CHECK_UNTOUCHED(h->count);
   CHECK_UNTOUCHED(h->state);
   CHECK_UNTOUCHED(h->normal);
+  CHECK_UNTOUCHED(h->fraction);
   CHECK_UNTOUCHED(h->csr);
   history_take(h->s.interface, &now);
   CHECK(history_equal(&h->before, &now));

@@ -36,7 +36,7 @@ module calls
     integer(c_int64_t), allocatable :: row_numbers(:), columns(:)
     integer(c_int64_t) :: count
     integer(c_int32_t) :: state(NA)
-    real(c_double) :: normal(3, NA)
+    real(c_double) :: normal(3, NA), fraction
     type(stickslip_states) :: states
     ! A CSR matrix with every entry.
     integer(c_int64_t) :: offsets(UNKNOWNS + 1)
@@ -45,7 +45,7 @@ module calls
   end type
 
   ! The calls of `evaluate`; the first LAMBDA_CALLS take multipliers too.
-  integer, parameter :: EVALUATIONS = 8, LAMBDA_CALLS = 5
+  integer, parameter :: EVALUATIONS = 9, LAMBDA_CALLS = 5
 
 contains
 
@@ -176,6 +176,7 @@ contains
     h%count = UNWRITTEN_INTEGER
     h%state = UNWRITTEN_STATE
     h%normal = UNWRITTEN
+    h%fraction = UNWRITTEN
     h%csr = UNWRITTEN
   end subroutine
 
@@ -242,6 +243,15 @@ contains
     status = stickslip_interface_commit(h%s%contact, h%s%x1, h%s%x2, h%s%lambda, c_null_ptr)
   end function
 
+  integer(c_int32_t) function call_interface_limit(h) result(status)
+    type(handle), target, intent(inout) :: h
+    real(c_double) :: dx1(3, NA), dx2(3, NC)
+    dx1 = 0
+    dx1(1, 1) = 1
+    dx2 = 0
+    status = stickslip_interface_step_limit(h%s%contact, h%s%x1, h%s%x2, dx1, dx2, 0d0, h%fraction)
+  end function
+
   integer(c_int32_t) function call_interface_previous(h) result(status)
     type(handle), target, intent(inout) :: h
     status = stickslip_interface_set_previous(h%s%contact, h%s%x1, h%s%x2)
@@ -266,6 +276,8 @@ contains
       status = call_interface_sums(h)
     case (7)
       status = call_interface_pattern(h)
+    case (8)
+      status = call_interface_limit(h)
     case default
       status = call_interface_previous(h)
     end select
@@ -285,6 +297,7 @@ contains
     CHECK(untouched(h%count))
     CHECK_UNTOUCHED(h%state)
     CHECK_UNTOUCHED(h%normal)
+    CHECK(untouched(h%fraction))
     CHECK_UNTOUCHED(h%csr)
     call history_take(h%s%contact, now)
     CHECK(history_equal(h%before, now))

@@ -1,0 +1,280 @@
+/* Bodies that contact alone holds and that do not touch yet, or in a point: they must be closed by force.
+ *
+ * As long as no node is in contact, Newton's matrix has no stiffness for their rigid motion: its step is the load over
+ * rounding, and surfaces pass through each other. One attempt at a step (newton.c) is made for them, in which
+ *   1. every displacement's diagonal entry K_ii of the tangent gains e |K_ii|. The residual has no such term, so that what
+ *      converges is a solution of the problem as it is. While a body is loose, see below, e is large, and smaller
+ *      after each step that meets nothing, so that the next one is longer; afterwards e is tiny, for a turn that a
+ *      single node in contact leaves free;
+ *   2. each step is cut to the fraction that stickslip_interface_step_limit() allows: what closes ends in a slight
+ *      penetration, from which the next iteration knows that it touches.
+ *
+ * A body is loose if the supports leave it free to move, no tie and no node in contact joins it, through others or
+ * not, to one that they hold, and there is a surface that it could come to touch. */
+#include "model.h"
+
+/* e while a body is loose, how it shrinks, to what, and otherwise: a direction of motion that is not made of rounding, and
+ * hardly any change of the step. From 1e-12 to 1e-4 all scenes converge, at 1e-2 they do not. */
+static const PetscReal LOOSE = 1e-6, SHRINKAGE = 1e-2, LEAST = 1e-10, HELD = 1e-12;
+/* How deep a step may lead into contact, over a facet's edge, and by what factor less once a body that touched is loose
+ * again: under a small force such a penetration throws it back. */
+static const PetscReal DEPTH = 0.1, SHALLOWER = 0.1;
+/* Uncut steps as long as this many times the model lead away from all that the body could touch. */
+static const PetscReal FAR = 10;
+
+/* the body of side 0 or 1 */
+static PetscInt body_of(const Model *model, const Interface *interface, int side)
+{
+  const PetscInt vertex = interface->nodes[side ? interface->n1 : 0];
+  for (PetscInt b = 0; b < model->mesh.n_bodies; b++) {
+    const Body *body = &model->mesh.bodies[b];
+    if (body->first_vertex <= vertex && vertex < body->end_vertex) return b;
+  }
+  return -1;
+}
+
+PetscErrorCode closing_create(Model *model)
+{
+  Closing     *closing = &model->closing;
+  PetscScalar *ones;
+  PetscBool    any = PETSC_FALSE;
+  Vec          local;
+
+  PetscFunctionBegin;
+  PetscCall(PetscCalloc2(model->mesh.n_bodies, &closing->free, model->mesh.n_bodies, &closing->group));
+  for (PetscInt b = 0; b < model->mesh.n_bodies && model->rank == 0; b++) {
+    PetscCall(held_free(model, &model->mesh.bodies[b], &closing->free[b]));
+    any = (PetscBool)(any || closing->free[b]);
+  }
+  PetscCallMPI(MPI_Bcast(&any, 1, MPIU_BOOL, 0, PETSC_COMM_WORLD));
+  closing->possible = (PetscBool)(any && model->n_interfaces && model->steps.closing);
+  PetscCall(DMCreateGlobalVector(model->dm, &closing->displacements));
+  PetscCall(VecDuplicate(closing->displacements, &closing->work));
+  PetscCall(DMCreateLocalVector(model->dm, &local));
+  PetscCall(VecZeroEntries(local));
+  PetscCall(VecGetArray(local, &ones));
+  for (PetscInt v = model->vStart; v < model->vEnd; v++) {
+    PetscInt at;
+    PetscCall(PetscSectionGetOffset(model->section, v, &at));
+    ones[at] = ones[at + 1] = ones[at + 2] = 1;
+  }
+  PetscCall(VecRestoreArray(local, &ones));
+  PetscCall(DMLocalToGlobalBegin(model->dm, local, INSERT_VALUES, closing->displacements));
+  PetscCall(DMLocalToGlobalEnd(model->dm, local, INSERT_VALUES, closing->displacements));
+  PetscCall(VecDestroy(&local));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode closing_destroy(Model *model)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscFree2(model->closing.free, model->closing.group));
+  PetscCall(VecDestroy(&model->closing.displacements));
+  PetscCall(VecDestroy(&model->closing.work));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static void join(Closing *closing, PetscInt n, PetscInt a, PetscInt b)
+{
+  const PetscInt from = closing->group[a], to = closing->group[b];
+  for (PetscInt k = 0; k < n; k++) {
+    if (closing->group[k] == from) closing->group[k] = to;
+  }
+}
+
+/* rank 0: a body that is loose, given the states of all interfaces' nodes, or -1 */
+static PetscInt find_loose(Model *model, const int32_t *states)
+{
+  Closing       *closing = &model->closing;
+  const PetscInt n       = model->mesh.n_bodies;
+
+  for (PetscInt b = 0; b < n; b++)
+    closing->group[b] = b;
+  for (PetscInt i = 0; i < model->n_interfaces; i++) {
+    const Interface *interface = &model->interfaces[i];
+    PetscBool        joined    = (PetscBool)(interface->options.friction == STICKSLIP_FRICTION_TIED);
+    for (PetscInt a = 0; a < interface->n1; a++)
+      joined = (PetscBool)(joined || states[a] != STICKSLIP_STATE_GAP);
+    if (joined) join(closing, n, body_of(model, interface, 0), body_of(model, interface, 1));
+    states += interface->n1;
+  }
+  for (PetscInt i = 0; i < model->n_interfaces; i++) {
+    const PetscInt one = body_of(model, &model->interfaces[i], 0), two = body_of(model, &model->interfaces[i], 1);
+    if (closing->group[one] == closing->group[two]) continue;
+    for (int side = 0; side < 2; side++) {
+      const PetscInt body = side ? two : one;
+      PetscBool      held = PETSC_FALSE;
+      for (PetscInt b = 0; b < n; b++)
+        held = (PetscBool)(held || (closing->group[b] == closing->group[body] && !closing->free[b]));
+      if (!held) return body;
+    }
+  }
+  return -1;
+}
+
+/* A body that is loose at u_local, known to every rank, or -1. */
+static PetscErrorCode loose_body(Model *model, PetscInt *body)
+{
+  int32_t *states;
+  double  *tangential;
+  PetscInt n = 0;
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < model->n_interfaces && model->rank == 0; i++)
+    n += model->interfaces[i].n1;
+  PetscCall(PetscMalloc2(n, &states, 3 * n, &tangential));
+  PetscCall(contact_tendencies(model, states, tangential));
+  *body = model->rank == 0 ? find_loose(model, states) : -1;
+  PetscCall(PetscFree2(states, tangential));
+  PetscCallMPI(MPI_Bcast(body, 1, MPIU_INT, 0, PETSC_COMM_WORLD));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Is there a body, at the start of a step, that only this attempt can move into contact? Evaluates the residual there. */
+PetscErrorCode closing_needed(Model *model, Vec start, PetscBool *needed)
+{
+  PetscInt status, body = -1;
+  PetscReal unused = 0;
+  PetscFunctionBegin;
+  *needed = PETSC_FALSE;
+  if (!model->closing.possible) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(unknowns_to_local(model, start));
+  PetscCall(VecZeroEntries(model->f_local));
+  PetscCall(contact_forces(model, model->f_local, &unused, &status)); /* does the library take these positions? */
+  if (!status) PetscCall(loose_body(model, &body));
+  model->refusal[0] = 0;
+  *needed           = (PetscBool)(body >= 0);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+void closing_begin(Model *model, PetscBool active)
+{
+  Closing *closing = &model->closing;
+  closing->active  = active;
+  closing->cut = closing->ever_cut = PETSC_FALSE;
+  closing->shift                   = LOOSE;
+  closing->depth                   = DEPTH;
+  closing->touched                 = PETSC_FALSE;
+  closing->travelled               = 0;
+  closing->loose                   = -1;
+  closing->away[0]                 = 0;
+}
+
+/* After the tangent at u_local is assembled. */
+PetscErrorCode closing_shift(Model *model, Mat matrix)
+{
+  Closing *closing = &model->closing;
+  const Vec diagonal = closing->work;
+  PetscFunctionBegin;
+  if (!closing->active) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(loose_body(model, &closing->loose));
+  if (closing->loose >= 0 && closing->touched) {
+    closing->depth *= SHALLOWER;
+    closing->shift = LOOSE;
+  }
+  closing->touched = (PetscBool)(closing->loose < 0);
+  PetscCall(MatGetDiagonal(matrix, diagonal));
+  PetscCall(VecAbs(diagonal));
+  PetscCall(VecPointwiseMult(diagonal, diagonal, closing->displacements));
+  PetscCall(VecScale(diagonal, closing->loose >= 0 ? closing->shift : HELD));
+  PetscCall(MatDiagonalSet(matrix, diagonal, ADD_VALUES));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The fraction of a step that one interface allows, known to every rank; `step`: local, what the displacements gain. */
+static PetscErrorCode interface_limit(Model *model, Interface *interface, Vec step, PetscReal *fraction)
+{
+  const PetscInt     n = model->rank ? 0 : 3 * (interface->n1 + interface->n2) + interface->components * interface->n1;
+  const PetscScalar *array;
+  PetscScalar       *dx;
+
+  PetscFunctionBegin;
+  PetscCall(contact_gather(model, interface, model->u_local));
+  PetscCall(PetscMalloc1(n, &dx));
+  PetscCall(VecGetArrayRead(step, &array));
+  PetscCall(PetscSFBcastBegin(interface->sf, MPIU_SCALAR, array, dx, MPI_REPLACE));
+  PetscCall(PetscSFBcastEnd(interface->sf, MPIU_SCALAR, array, dx, MPI_REPLACE));
+  PetscCall(VecRestoreArrayRead(step, &array));
+  *fraction = 1;
+  /* Where the library refuses, so it will the evaluation that follows, and this attempt ends there. */
+  if (model->rank == 0 &&
+      stickslip_interface_step_limit(interface->handle, interface->x, interface->x + 3 * interface->n1, dx,
+                                     dx + 3 * interface->n1, model->closing.depth, fraction))
+    *fraction = 1;
+  PetscCallMPI(MPI_Bcast(fraction, 1, MPIU_REAL, 0, PETSC_COMM_WORLD));
+  PetscCall(PetscFree(dx));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* "the ball moves along (0, 0, 1) and meets nothing" */
+static PetscErrorCode describe_motion(Model *model, PetscInt body, Vec step)
+{
+  Closing           *closing = &model->closing;
+  const PetscScalar *array;
+  PetscReal          mean[3] = {0, 0, 0}, size;
+  PetscInt           range[2] = {model->mesh.bodies[body].first_vertex, model->mesh.bodies[body].end_vertex};
+
+  PetscFunctionBegin;
+  PetscCallMPI(MPI_Bcast(range, 2, MPIU_INT, 0, PETSC_COMM_WORLD));
+  PetscCall(VecGetArrayRead(step, &array));
+  for (PetscInt v = model->vStart; v < model->vEnd; v++) {
+    const PetscInt vertex = model->original[v - model->vStart];
+    PetscInt       at;
+    if (model->ghost[v - model->vStart] || vertex < range[0] || vertex >= range[1]) continue;
+    PetscCall(PetscSectionGetOffset(model->section, v, &at));
+    for (int i = 0; i < 3; i++)
+      mean[i] += PetscRealPart(array[at + i]);
+  }
+  PetscCall(VecRestoreArrayRead(step, &array));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, mean, 3, MPIU_REAL, MPIU_SUM, PETSC_COMM_WORLD));
+  size = PetscSqrtReal(PetscSqr(mean[0]) + PetscSqr(mean[1]) + PetscSqr(mean[2]));
+  PetscCall(PetscSNPrintf(closing->away, sizeof(closing->away),
+                          "nothing touches %s: the loads move it along (%.3f, %.3f, %.3f), and nothing is in its way",
+                          model->mesh.bodies[body].name, (double)(mean[0] / size), (double)(mean[1] / size),
+                          (double)(mean[2] / size)));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* SNES calls it with Newton's direction y, before x - y is looked at. */
+static PetscErrorCode limit(SNESLineSearch line_search, Vec x, Vec y, PetscBool *changed, void *context)
+{
+  Model    *model    = context;
+  Closing  *closing  = &model->closing;
+  PetscReal fraction = 1, one, length;
+  Vec       step;
+
+  PetscFunctionBegin;
+  (void)line_search;
+  *changed = PETSC_FALSE;
+  if (!closing->active) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(unknowns_to_local(model, x));
+  PetscCall(VecDuplicate(model->u_local, &step));
+  PetscCall(VecZeroEntries(step)); /* what is prescribed stays where it is */
+  PetscCall(DMGlobalToLocalBegin(model->dm, y, INSERT_VALUES, step));
+  PetscCall(DMGlobalToLocalEnd(model->dm, y, INSERT_VALUES, step));
+  PetscCall(VecScale(step, -1));
+  for (PetscInt i = 0; i < model->n_interfaces; i++) {
+    PetscCall(interface_limit(model, &model->interfaces[i], step, &one));
+    fraction = PetscMin(fraction, one);
+  }
+  closing->cut = (PetscBool)(fraction < 1);
+  if (closing->cut) {
+    closing->ever_cut = *changed = PETSC_TRUE;
+    closing->travelled           = 0;
+    PetscCall(VecScale(y, fraction));
+  } else if (closing->loose >= 0) {
+    closing->shift = PetscMax(LEAST, SHRINKAGE * closing->shift);
+    PetscCall(VecPointwiseMult(closing->work, y, closing->displacements));
+    PetscCall(VecNorm(closing->work, NORM_INFINITY, &length));
+    closing->travelled += length;
+    if (closing->travelled > FAR * model->size) PetscCall(describe_motion(model, closing->loose, step));
+  }
+  PetscCall(VecDestroy(&step));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode closing_limit_steps(Model *model, SNESLineSearch line_search)
+{
+  PetscFunctionBegin;
+  PetscCall(SNESLineSearchSetPreCheck(line_search, limit, model));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

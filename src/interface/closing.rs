@@ -1,0 +1,195 @@
+//! How much of a step of the host's may be taken before the surfaces pass through each other.
+//!
+//! With the mean gap of a covered node A, d_A = nu_A . g_A over its covered area, and the shortest edge h_A of the facets
+//! around it, a fraction s of the displacements dx is allowed where every covered node has
+//!
+//! ```text
+//! d_A(x + s dx) >= min(d_A(x), 0) - c h_A.
+//! ```
+//!
+//! So surfaces that are apart end in a slight penetration, from which Newton's method knows that they touch. The
+//! fraction is found by conservative advancement: no gap closes by more than the two surfaces move in all, so from one
+//! allowed fraction to the next the motion is at least what the nearest node has left. Sums alone, no derivatives.
+
+use super::integration::integrate;
+use super::nodes::{assemble, check_finite};
+use super::search::Aabb;
+use super::{Contact, Friction, Weights};
+use crate::error::{Error, Kind, Result};
+use crate::geometry::Vec3;
+
+/// c where the host gives none: a node may go this part of its shortest edge deeper. From 0.03 to 1 Newton's method
+/// converges on round bodies, in fewer iterations where it is larger; near 1 a fine surface may be passed through.
+pub const DEPTH: f64 = 0.1;
+/// The most that a host may ask for: a penetration of more than an edge is the far side of a body to the filter.
+const MOST_DEPTH: f64 = 1.0;
+/// The least advance, over the shortest c h_A: close to the limit, what is left would make smaller and smaller ones.
+const LEAST_ADVANCE: f64 = 0.25;
+/// How much deeper than its limit a node may be, over the shortest c h_A: an advance that takes all that is left ends on
+/// the limit, up to rounding.
+const ROUNDING: f64 = 1e-6;
+/// Fractions tried in one call. From the gap of a facet on each doubles or so, so that any gap is passed in 60; along
+/// surfaces that touch, it is this many times c h / 4 at the least.
+const MOST_FRACTIONS: usize = 64;
+
+/// A step: positions and what is added to them.
+struct Step<'a> {
+    x: [&'a [Vec3]; 2],
+    dx: [&'a [Vec3]; 2],
+}
+
+impl Step<'_> {
+    /// The positions of one side at a fraction of the step.
+    fn at(&self, side: usize, fraction: f64) -> Vec<Vec3> {
+        self.x[side].iter().zip(self.dx[side]).map(|(x, dx)| x + fraction * dx).collect()
+    }
+
+    /// At most how far two points of different sides move towards each other, with the motion that both have in common
+    /// taken away.
+    fn motion(&self) -> f64 {
+        let common = Aabb::around(self.dx.iter().flat_map(|dx| dx.iter().copied())).centre();
+        self.dx.iter().map(|dx| dx.iter().map(|dx| (dx - common).norm()).fold(0.0, f64::max)).sum()
+    }
+}
+
+/// The shortest edge of the facets around each node `[L]`.
+fn shortest_edges(surface: &super::Surface, x: &[Vec3]) -> Vec<f64> {
+    let mut shortest = vec![f64::INFINITY; surface.len()];
+    for facet in &surface.facets {
+        let nodes = facet.as_slice();
+        let edge = |k: usize| (x[nodes[(k + 1) % nodes.len()]] - x[nodes[k]]).norm();
+        let least = (0..nodes.len()).map(edge).fold(f64::INFINITY, f64::min);
+        nodes.iter().for_each(|&a| shortest[a] = shortest[a].min(least));
+    }
+    shortest
+}
+
+impl<const N: usize> Contact<N> {
+    /// The fraction of the step (dx1, dx2) from (x1, x2) that is allowed, above 0 and at most 1. `depth`: c, or the
+    /// default. Sides that are tied may move as they like.
+    pub fn step_limit(
+        &mut self,
+        (x1, x2): (&[Vec3], &[Vec3]),
+        (dx1, dx2): (&[Vec3], &[Vec3]),
+        depth: Option<f64>,
+    ) -> Result<f64> {
+        let depth = depth.unwrap_or(DEPTH);
+        if !(depth > 0.0 && depth <= MOST_DEPTH) {
+            let text =
+                format!("penetration is {depth}; above 0 and at most {MOST_DEPTH} is allowed, 0 stands for {DEPTH}");
+            return Err(Error::new(Kind::InvalidValue, text));
+        }
+        self.check_positions(x1, x2)?;
+        self.check_length("dx1", dx1.len(), x1.len())?;
+        self.check_length("dx2", dx2.len(), x2.len())?;
+        check_finite("dx1", dx1)?;
+        check_finite("dx2", dx2)?;
+        let step = Step { x: [x1, x2], dx: [dx1, dx2] };
+        check_finite("x1 + dx1", &step.at(0, 1.0))?;
+        check_finite("x2 + dx2", &step.at(1, 1.0))?;
+        // An analytic surface's frame that turns is no rigid body on the way; half-way it is least of one.
+        self.mortar.check_rigid(&step.at(1, 0.5))?;
+        let motion = step.motion();
+        if self.options.friction == Friction::Tied || motion == 0.0 {
+            return Ok(1.0);
+        }
+        let edges = shortest_edges(&self.nonmortar, x1);
+        let start = self.mean_gaps(&step, 0.0)?;
+        let limit = |a: usize| start[a].map_or(0.0, |d| d.min(0.0)) - depth * edges[a];
+        let limits: Vec<_> = (0..edges.len()).map(limit).collect();
+        if self.options.effective_weights() != Weights::Current {
+            return Ok(linear_fraction(&start, &self.mean_gaps(&step, 1.0)?, &limits));
+        }
+        let room = |gaps: &[Option<f64>]| {
+            let room = gaps.iter().zip(&limits).filter_map(|(gap, limit)| gap.map(|d| d - limit));
+            room.fold(f64::INFINITY, f64::min)
+        };
+        let shortest = edges.iter().copied().fold(f64::INFINITY, f64::min);
+        let slack = ROUNDING * depth * shortest;
+        if motion <= shortest && self.mean_gaps(&step, 1.0).is_ok_and(|end| room(&end) >= -slack) {
+            return Ok(1.0);
+        }
+        let (mut allowed, mut left) = (0.0, room(&start));
+        for _ in 0..MOST_FRACTIONS {
+            if left == f64::INFINITY {
+                left = shortest.max(self.distance_of_boxes(&step, allowed));
+            }
+            let fraction = (allowed + left.max(LEAST_ADVANCE * depth * shortest) / motion).min(1.0);
+            // Where nothing can be evaluated, as between facets that are crushed on the way, the host could not, either.
+            let Ok(gaps) = self.mean_gaps(&step, fraction) else { break };
+            if room(&gaps) < -slack {
+                break;
+            }
+            (allowed, left) = (fraction, room(&gaps));
+            if allowed == 1.0 {
+                break;
+            }
+        }
+        // Some of the step is taken in any case, for a host must get on.
+        Ok(if allowed > 0.0 { allowed } else { (LEAST_ADVANCE * depth * shortest / motion).min(1.0) })
+    }
+
+    /// The mean gap of each node at a fraction of a step `[L]`; `None`: it is uncovered.
+    fn mean_gaps(&mut self, step: &Step, fraction: f64) -> Result<Vec<Option<f64>>> {
+        let (x1, x2) = (step.at(0, fraction), step.at(1, fraction));
+        let surfaces = (&self.nonmortar, &self.mortar);
+        let known = self.integration.as_ref().is_some_and(|k| !k.apart && k.x1 == x1 && k.x2 == x2);
+        let sums = match (&self.filter, self.options.effective_weights()) {
+            (Some(filter), Weights::Current) if !known => {
+                let counters = (&mut self.counters, &mut self.tree);
+                let now = integrate(surfaces, &self.options, filter, counters, (&x1, &x2))?;
+                assemble(surfaces, &now.pairs, &x1, &x2)
+            }
+            _ => assemble(surfaces, self.current_pairs(), &x1, &x2),
+        };
+        let gap = |(a, (coverage, gap)): (usize, &(f64, Vec3))| {
+            let covered = *coverage > self.options.coverage_min * self.history.areas[a];
+            Ok(if covered { Some(self.normal(a)?.dot(gap) / coverage) } else { None })
+        };
+        sums.iter().enumerate().map(gap).collect()
+    }
+
+    /// How far apart the boxes around the two surfaces are, as far as the distance along one axis says `[L]`; 0 of an
+    /// analytic one, which has no box.
+    fn distance_of_boxes(&self, step: &Step, fraction: f64) -> f64 {
+        if self.mortar.analytic.is_some() {
+            return 0.0;
+        }
+        let [one, two] = [0, 1].map(|side| Aabb::around(step.at(side, fraction)));
+        one.distance(&two)
+    }
+}
+
+/// With frozen weights a gap is linear in the fraction.
+fn linear_fraction(start: &[Option<f64>], end: &[Option<f64>], limits: &[f64]) -> f64 {
+    let mut fraction = 1.0_f64;
+    for ((start, end), limit) in start.iter().zip(end).zip(limits) {
+        if let (Some(start), Some(end)) = (start, end)
+            && end < limit
+        {
+            fraction = fraction.min((start - limit) / (start - end));
+        }
+    }
+    fraction
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_linear_gap_is_followed_to_its_limit() {
+        let gaps = |a: f64, b: f64| [Some(a), None, Some(b)];
+        assert_eq!(linear_fraction(&gaps(1.0, 2.0), &gaps(0.5, 0.0), &[-0.1; 3]), 1.0);
+        let fraction = linear_fraction(&gaps(1.0, 2.0), &gaps(-3.0, -1.0), &[-0.2; 3]);
+        assert!((fraction - 0.3).abs() < 1e-15, "{fraction}");
+    }
+
+    #[test]
+    fn a_common_motion_is_none() {
+        let (x, dx) = ([Vec3::zeros(); 2], [Vec3::new(5.0, -7.0, 3.0); 2]);
+        assert_eq!(Step { x: [&x, &x], dx: [&dx, &dx] }.motion(), 0.0);
+        let other = [Vec3::new(5.0, -7.0, 2.0); 2];
+        assert_eq!(Step { x: [&x, &x], dx: [&dx, &other] }.motion(), 1.0);
+    }
+}
