@@ -20,7 +20,7 @@ use crate::geometry::Vec3;
 
 /// c where the host gives none: a node may go this part of its shortest edge deeper. From 0.03 to 1 Newton's method
 /// converges on round bodies, in fewer iterations where it is larger; near 1 a fine surface may be passed through.
-pub const DEPTH: f64 = 0.1;
+const DEPTH: f64 = 0.1;
 /// The most that a host may ask for: a penetration of more than an edge is the far side of a body to the filter.
 const MOST_DEPTH: f64 = 1.0;
 /// The least advance, over the shortest c h_A: close to the limit, what is left would make smaller and smaller ones.

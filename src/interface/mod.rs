@@ -32,7 +32,6 @@ mod treatment;
 mod weak;
 
 pub use assembly::Residual;
-pub use closing::DEPTH;
 pub use crease::Split;
 pub use crosspoints::{Crosspoint, InterfaceNodes, crosspoints};
 pub use diagnosis::{Cause, Diagnosis, SUSPECT, Suspect, WorstPair};
