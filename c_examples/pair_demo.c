@@ -38,7 +38,8 @@ typedef struct {
 } weights;
 
 static stickslip_pair pair_at(const double *x1, const double *x2) {
-  stickslip_pair pair = {sizeof pair, N1, N2, x1, x2, STICKSLIP_QUADRATURE_DEGREE_10, STICKSLIP_LAYOUT_ROW_MAJOR, 0};
+  stickslip_pair pair = {sizeof pair, N1, N2, x1, x2, STICKSLIP_QUADRATURE_DEGREE_10, STICKSLIP_LAYOUT_ROW_MAJOR, 0,
+                          NULL};
   return pair;
 }
 

@@ -155,7 +155,7 @@ module stickslip
   integer(c_int64_t), parameter :: stickslip_counters_size = 200
   integer(c_int64_t), parameter :: stickslip_report_size = 104
   integer(c_int64_t), parameter :: stickslip_diagnosis_size = 224
-  integer(c_int64_t), parameter :: stickslip_pair_size = 48
+  integer(c_int64_t), parameter :: stickslip_pair_size = 56
   integer(c_int64_t), parameter :: stickslip_node_response_size = 408
   integer(c_int64_t), parameter :: stickslip_node_size = 224
 
@@ -307,6 +307,7 @@ module stickslip
     integer(c_int32_t) :: quadrature = STICKSLIP_QUADRATURE_DEGREE_5
     integer(c_int32_t) :: layout = STICKSLIP_LAYOUT_COLUMN_MAJOR ! of the tangent: k(row, column)
     integer(c_int64_t) :: element_points = 0       ! 0: cells; 2 to 10: points along a side
+    type(c_ptr) :: neighbour_normals = c_null_ptr  ! real(c_double) (3, n1): of the facets beyond the edges, 0: none
   end type
 
   ! The law's answer for one node. Matrices are row-major in C, so dp_dlambda(j, i) = dp_i / dlambda_j.
@@ -624,6 +625,14 @@ module stickslip
       integer(c_int32_t), value :: n
       real(c_double), intent(in) :: x(3, *)
       type(c_ptr), value :: normals, areas
+    end function
+
+    ! The unit normal of a facet's plane, out of its body, for neighbour_normals. x(3, n).
+    integer(c_int32_t) function stickslip_facet_normal(n, x, normal) bind(C)
+      import :: c_double, c_int32_t
+      integer(c_int32_t), value :: n
+      real(c_double), intent(in) :: x(3, *)
+      real(c_double), intent(inout) :: normal(3)
     end function
 
     ! The nodal normal nu (unit, INTO the non-mortar body) from the sum of the corner normals around a node.

@@ -65,6 +65,7 @@
  * A host that assembles elements itself:
  *
  *     facet_geometry, node_normal            once a step: nu_A, M_A
+ *     facet_normal                           of neighbours, where weights are to be those of the handle in every bit
  *     pair_weights, pair_gap                 each pair; sum the gaps over the pairs of a node
  *     node_respond                           each non-mortar node
  *     pair_residual, pair_tangent            each pair again
@@ -441,7 +442,7 @@ typedef struct stickslip_surface {
   /// 3 n_nodes displacement equations, node by node, in the index base; -1: none (prescribed), whatever the
   /// index base.
   const int64_t *equations;
-  /// Non-mortar: 3 n_nodes multiplier equations, -1: the component is removed and its axis a constrained
+  /// Non-mortar: 3 n_nodes multiplier equations, each in use nowhere else in the interface; -1: the component is removed and its axis a constrained
   /// direction (see `stickslip_interface_set_constraints`); a node with three -1 keeps its normal. With
   /// STICKSLIP_FRICTION_NONE n_nodes equations, one a node, along the normal; -1: none. A longer array cannot be told
   /// from a pointer: of 3 n_nodes the first n_nodes would be read as those of the nodes, without an error; so check that
@@ -641,6 +642,11 @@ typedef struct stickslip_pair {
   /// 0 (default): weights over cells of the overlap; 2 to 10: over so many points squared on the non-mortar facet,
   /// those that fall on the mortar facet (STICKSLIP_INTEGRATION_ELEMENTS; quadrature is not used).
   int64_t element_points;
+  /// 3 n1: for each edge of the non-mortar facet, from its k-th node to the next one, the normal of the facet beyond it
+  /// (`stickslip_facet_normal`, of length 1 within 1e-10), or (0, 0, 0) where the surface ends [-]. NULL (default): not
+  /// known. Read by `stickslip_pair_weights` alone. With it a pair has the weights that a handle has, to the last bit;
+  /// without, a border of the mortar surface that follows the edge may count for both of its facets or for none.
+  const double *neighbour_normals;
 } stickslip_pair;
 
 /// The law's answer for one node. Matrices are row-major 3 x 3 and not symmetric: in Fortran m(j, i) is row i,
@@ -806,7 +812,8 @@ int32_t stickslip_crosspoints_find(int64_t n_interfaces,
 ///
 /// Errors: NULL_POINTER, STRUCT_SIZE, INVALID_SIZE, NOT_FINITE, INDEX_OUT_OF_RANGE, DUPLICATE_NODE,
 /// DEGENERATE_FACET, INVALID_VALUE (an option; a node without a facet; neighbouring facets with opposite node
-/// orders, a surface that branches or is folded; a mortar side given multipliers; a frame that is too small for where
+/// orders, a surface that branches or is folded; a mortar side given multipliers; a multiplier's equation that is that
+/// of a displacement or of another multiplier; a frame that is too small for where
 /// it is; a mortar surface in layers), MISSING_STIFFNESS, UNSUPPORTED, UNDEFINED_NORMAL, PROJECTION_NOT_CONVEX.
 /// Cost: one search, O((n1 + n2) log n2), and one integration of the pairs found; allocates.
 /// Owner: the caller, who ends it with `stickslip_interface_destroy`. Both surfaces and the options are
@@ -1080,8 +1087,11 @@ int32_t stickslip_interface_history_export(struct stickslip_interface *interface
 /// the lengths that it had then; evaluation continues bit for bit. A commit before it can no longer be undone.
 /// Friction, augmentation, normals and constraints per node are not in it.
 ///
-/// Errors: NULL_POINTER, INVALID_SIZE, NOT_FINITE, HISTORY_MISMATCH.
-/// Cost: O(facets) and a copy; the next evaluation integrates. Allocates.
+/// Errors: NULL_POINTER, INVALID_SIZE, NOT_FINITE, HISTORY_MISMATCH: its checksum does not fit (any single bit that has
+/// changed shows), or it is of other facets, of coordinates of the first configuration that differ in any digit, of
+/// another kind of law, multiplier basis, weights, slip measure or analytic shape, or of an older layout. mu,
+/// augmentation, tolerances and the form may be others.
+/// Cost: O(pairs) and a copy; the next evaluation integrates. Allocates.
 int32_t stickslip_interface_history_import(struct stickslip_interface *interface,
                                            int64_t n_integers,
                                            const int64_t *integers,
@@ -1150,6 +1160,17 @@ int32_t stickslip_interface_diagnose(struct stickslip_interface *interface,
 /// Errors: NULL_POINTER, INVALID_SIZE, NOT_FINITE, DUPLICATE_NODE, DEGENERATE_FACET.
 /// Cost: below a microsecond; allocates nothing.
 int32_t stickslip_facet_geometry(int32_t n, const double *x, double *normals, double *areas);
+
+/// The unit normal of a facet's auxiliary plane, out of its body: (x2 - x1) x (x3 - x1) of a tri3, (x3 - x1) x (x4 - x2) of
+/// a quad4, over its length. For `neighbour_normals` of `stickslip_pair`.
+///
+/// n: 3 or 4; x: 3 n coordinates [L]. normal (3) [-], output.
+///
+/// Errors: NULL_POINTER, INVALID_SIZE, NOT_FINITE, DUPLICATE_NODE, DEGENERATE_FACET.
+/// Cost: nanoseconds; allocates nothing.
+int32_t stickslip_facet_normal(int32_t n,
+                               const double *x,
+                               double *normal);
 
 /// The nodal normal nu_A (unit, INTO the non-mortar body) from the sum of the corner normals around a
 /// node.

@@ -6,8 +6,10 @@ mod support;
 use nalgebra::Rotation3;
 use stickslip::error::Kind;
 use stickslip::geometry::Vec3;
-use stickslip::interface::{Extent, Form, Interface, NewContact, Options, Residual, Stiffness, Weights};
-use stickslip::law::State;
+use stickslip::interface::{
+    Extent, Form, Friction, Interface, NewContact, Options, Residual, Stiffness, Weights, seal_history,
+};
+use stickslip::law::{SlipMeasure, State};
 use support::mesh::*;
 
 const ROUGH: Roughness = Roughness { warp: 0.05, jitter: 0.08, slide: 0.02 };
@@ -143,14 +145,155 @@ fn a_corrupt_history_is_refused_and_nothing_changes() {
     refuse(Kind::HistoryMismatch, &[], &reals);
     refuse(Kind::HistoryMismatch, &integers[..integers.len() - 1], &reals);
     refuse(Kind::HistoryMismatch, &integers, &reals[1..]);
-    for (at, value) in [(0, 7), (1, -1), (2, 3), (3, 1), (4, i64::MAX), (5, 0), (6, -1), (7, 1 << 40)] {
+    // With a checksum that fits what is wrong.
+    let wrong =
+        [(0, 7), (2, 1), (5, 0), (8, 0), (9, 0), (10, -1), (11, 3), (12, 1), (13, i64::MAX), (14, -1), (15, 1 << 40)];
+    for (at, value) in wrong {
         let mut wrong = integers.clone();
         wrong[at] = value;
+        seal_history(&mut wrong, &reals);
         refuse(Kind::HistoryMismatch, &wrong, &reals);
+    }
+    for (n, m) in [(1, 0), (0, 1), (2, 32)] {
+        let (mut longer, mut reals) = (integers.clone(), reals.clone());
+        longer.extend(vec![0; n]);
+        reals.extend(vec![0.0; m]);
+        seal_history(&mut longer, &reals);
+        refuse(Kind::HistoryMismatch, &longer, &reals);
     }
     let mut wrong = reals.clone();
     wrong[17] = f64::NAN;
     refuse(Kind::NotFinite, &integers, &wrong);
+}
+
+/// Any single bit that is flipped, in any kind of history; numbers that change places or signs; parts that are cut off or
+/// moved: none is taken for what was exported.
+#[test]
+fn a_damaged_history_is_refused() {
+    let mut random = Random(15);
+    let mut draw = |below: usize| (((random.next() + 1.0) * 0.5 * below as f64) as usize).min(below - 1);
+    let mut flips = 0;
+    for options in all_options() {
+        let mut scene = moved(&options, QUADS, ROUGH, 3);
+        scene.commit();
+        let (integers, reals) = scene.interface.export_history().unwrap();
+        let (n, m) = (integers.len(), reals.len());
+        let mut refuse = |integers: &[i64], reals: &[f64], what: &str| {
+            let kind = scene.interface.import_history(integers, reals).map_err(|e| e.kind);
+            assert!(matches!(kind, Err(Kind::HistoryMismatch | Kind::NotFinite)), "{what}: {kind:?}");
+        };
+        for _ in 0..3400 {
+            let (mut i, mut r) = (integers.clone(), reals.clone());
+            let (at, bit) = (draw(n + m), draw(64));
+            match at.checked_sub(n) {
+                None => i[at] ^= 1 << bit,
+                Some(at) => r[at] = f64::from_bits(r[at].to_bits() ^ (1 << bit)),
+            }
+            refuse(&i, &r, &format!("bit {bit} of word {at}"));
+            flips += 1;
+        }
+        for _ in 0..300 {
+            let (mut i, mut r) = (integers.clone(), reals.clone());
+            let (a, b) = (draw(m), draw(m));
+            r.swap(a, b);
+            if r[a].to_bits() != r[b].to_bits() {
+                refuse(&i, &r, "two numbers change places");
+            }
+            r.clone_from(&reals);
+            if a != b {
+                (r[a], r[b]) = (-r[a], -r[b]);
+                refuse(&i, &r, "two signs change");
+            }
+            let (a, b) = (draw(n), draw(n));
+            i.swap(a, b);
+            if i[a] != i[b] {
+                refuse(&i, &reals, "two integers change places");
+            }
+            let cut = draw(m);
+            refuse(&integers, &reals[..cut], "the end is missing");
+            refuse(&integers, &reals[cut + 1..], "the beginning is missing");
+            let moved: Vec<_> = reals[cut..].iter().chain(&reals[..cut]).copied().collect();
+            if moved != reals {
+                refuse(&integers, &moved, "the beginning comes last");
+            }
+        }
+        scene.interface.import_history(&integers, &reals).unwrap();
+    }
+    assert!(flips >= 20_000);
+}
+
+/// Facets and nodes may be alike; the places of the first configuration are those of one mesh.
+#[test]
+fn a_history_of_another_mesh_is_refused() {
+    for options in all_options() {
+        let mut scene = moved(&options, QUADS, ROUGH, 3);
+        scene.commit();
+        let (integers, reals) = scene.interface.export_history().unwrap();
+        let (one, two) = scene.interface.surfaces();
+        let again = |change: &dyn Fn(&mut Mesh, &mut Mesh)| {
+            let (mut one, mut two) = (mesh_of(one), mesh_of(two));
+            change(&mut one, &mut two);
+            interface(&one, &two, options)
+        };
+        let ulp = |v: f64| f64::from_bits(v.to_bits() ^ 1);
+        type Change<'a> = (&'a str, &'a dyn Fn(&mut Mesh, &mut Mesh));
+        let others: [Change; 5] = [
+            ("mesh", &|one, _| one.x[4].x = ulp(one.x[4].x)),
+            ("mesh", &|_, two| two.x[7].z = ulp(two.x[7].z)),
+            ("mesh", &|one, two| one.x.iter_mut().chain(&mut two.x).for_each(|x| *x *= 2.0)),
+            ("facets", &|one, _| one.facets[2].rotate_left(1)),
+            ("facets", &|_, two| two.facets.swap(3, 4)),
+        ];
+        for (word, change) in others {
+            let error = again(change).import_history(&integers, &reals).unwrap_err();
+            assert!(error.kind == Kind::HistoryMismatch && error.message.contains(word), "{}", error.message);
+        }
+        again(&|_, _| ()).import_history(&integers, &reals).unwrap();
+    }
+}
+
+/// mu, augmentation, tolerances and forms are no part of a history; law, weights and slip measure are.
+#[test]
+fn a_restart_may_change_what_a_history_does_not_mean() {
+    let mut scene = moved(&options(), QUADS, ROUGH, 3);
+    scene.commit();
+    let (integers, reals) = scene.interface.export_history().unwrap();
+    let (one, two) = scene.interface.surfaces();
+    let other = |options: Options| {
+        interface(&mesh_of(one), &mesh_of(two), options).import_history(&integers, &reals).map_err(|e| e.message)
+    };
+    let base = options();
+    let fine = [
+        Options { mu: 0.1, ..base },
+        Options { stiffness: Stiffness::Modulus(7.0), ..base },
+        Options { form: Form::Augmented, ..base },
+        Options { coverage_min: 1e-3, weak_coverage: 0.5, search_distance: Some(1.0), ..base },
+    ];
+    fine.into_iter().for_each(|options| assert_eq!(other(options), Ok(())));
+    let wrong = [
+        (Options { friction: Friction::Rough, mu: 0.0, ..base }, "rough surfaces"),
+        (Options { friction: Friction::Tied, mu: 0.0, ..base }, "tied surfaces"),
+        (Options { slip: SlipMeasure::Increment, ..base }, "the slip increment"),
+        (Options { slip: SlipMeasure::Seed, ..base }, "the paper's slip measure"),
+        (Options { weights: Weights::Committed, ..base }, "frozen at the last commit"),
+    ];
+    for (options, word) in wrong {
+        let message = other(options).unwrap_err();
+        assert!(message.contains(word), "{message}");
+    }
+}
+
+/// The layouts of before, by name.
+#[test]
+fn a_history_of_an_older_layout_is_refused_by_name() {
+    let mut scene = moved(&options(), QUADS, ROUGH, 3);
+    let (mut integers, reals) = scene.interface.export_history().unwrap();
+    for layout in 0x57_1C_01..0x57_1C_05 {
+        integers[0] = layout;
+        seal_history(&mut integers, &reals);
+        let error = scene.interface.import_history(&integers, &reals).unwrap_err();
+        assert!(error.message.contains("the layout of an older library version"), "{}", error.message);
+    }
 }
 
 #[test]
@@ -276,11 +419,12 @@ fn a_step_whose_slip_overflows_is_not_committed() {
     let one = grid(1, 1, [0.0, 0.0], [1.0, 1.0], 0.0, false, Cells::Quads);
     let two = grid(1, 1, [-1.0, -1.0], [2.0, 2.0], 0.0, true, Cells::Quads);
     let mut i = interface(&one, &two, options());
-    let (integers, mut reals) = i.export_history().unwrap();
+    let (mut integers, mut reals) = i.export_history().unwrap();
     // After five vectors a node: areas, coverages, then the weights of the only pair.
     let coverage = 5 * 12 + 4;
     reals[coverage..coverage + 4].fill(2.5e-8);
     reals[coverage + 4..].iter_mut().for_each(|w| *w *= 1e303);
+    seal_history(&mut integers, &reals);
     i.import_history(&integers, &reals).unwrap();
     let x1: Vec<_> = one.x.iter().map(|x| x + Vec3::x() * 0.5).collect();
     let lambda = [Vec3::new(0.0, 0.0, -1.0); 4];

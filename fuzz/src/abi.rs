@@ -51,6 +51,10 @@ fn points(bytes: &mut Bytes, n: usize) -> Vec<f64> {
 
 fn pair_calls(bytes: &mut Bytes) {
     let (x1, x2) = (points(bytes, 12), points(bytes, 12));
+    let mut beyond = [0.0, 0.0, 1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.6, 0.8];
+    if bytes.once_in(8) {
+        beyond[bytes.below(12)] = bytes.number(1.0);
+    }
     let mut pair = Struct::new(stickslip_pair {
         struct_size: 0,
         n1: bytes.integer(4) as i32,
@@ -60,6 +64,7 @@ fn pair_calls(bytes: &mut Bytes) {
         quadrature: bytes.choice(6),
         layout: bytes.choice(2),
         element_points: bytes.integer(0),
+        neighbour_normals: if bytes.once_in(2) { bytes.pointer(beyond.as_ptr()) } else { null() },
     });
     pair.declare(bytes);
     let p = bytes.pointer(pair.pointer());

@@ -3,7 +3,7 @@
 use super::guard::guard;
 use super::raw;
 use crate::error::{Error, Kind, Result};
-use crate::geometry::{Facet, Vec3};
+use crate::geometry::{Facet, Plane, Vec3};
 use crate::mortar::NonmortarFrame;
 use crate::normal;
 use crate::shape::MAX_NODES;
@@ -44,6 +44,25 @@ pub unsafe extern "C" fn stickslip_facet_geometry(n: i32, x: *const f64, normals
         let corners: [Vec3; MAX_NODES] = std::array::from_fn(|k| normal::corner_normal(&facet, k % facet.len()));
         raw::write_each(normals, corners[..facet.len()].iter().flat_map(|v| v.iter().copied()));
         raw::write(areas, &frame.nodal_areas()[..facet.len()]);
+        Ok(())
+    })
+}
+
+/// The unit normal of a facet's auxiliary plane, out of its body: (x2 - x1) x (x3 - x1) of a tri3, (x3 - x1) x (x4 - x2) of
+/// a quad4, over its length. For `neighbour_normals` of `stickslip_pair`.
+///
+/// n: 3 or 4; x: 3 n coordinates [L]. normal (3) [-], output.
+///
+/// Errors: NULL_POINTER, INVALID_SIZE, NOT_FINITE, DUPLICATE_NODE, DEGENERATE_FACET.
+/// Cost: nanoseconds; allocates nothing.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn stickslip_facet_normal(n: i32, x: *const f64, normal: *mut f64) -> i32 {
+    guard(|| {
+        let facet = facet(n, x, "x")?;
+        raw::check(normal, "normal")?;
+        let plane = Plane::of(&facet).map_err(raw::named("x"))?;
+        raw::check_results("normal", plane.e.iter())?;
+        raw::write(normal, plane.e.as_slice());
         Ok(())
     })
 }

@@ -97,8 +97,11 @@ pub unsafe extern "C" fn stickslip_interface_history_export(
 /// the lengths that it had then; evaluation continues bit for bit. A commit before it can no longer be undone.
 /// Friction, augmentation, normals and constraints per node are not in it.
 ///
-/// Errors: NULL_POINTER, INVALID_SIZE, NOT_FINITE, HISTORY_MISMATCH.
-/// Cost: O(facets) and a copy; the next evaluation integrates. Allocates.
+/// Errors: NULL_POINTER, INVALID_SIZE, NOT_FINITE, HISTORY_MISMATCH: its checksum does not fit (any single bit that has
+/// changed shows), or it is of other facets, of coordinates of the first configuration that differ in any digit, of
+/// another kind of law, multiplier basis, weights, slip measure or analytic shape, or of an older layout. mu,
+/// augmentation, tolerances and the form may be others.
+/// Cost: O(pairs) and a copy; the next evaluation integrates. Allocates.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn stickslip_interface_history_import(
     interface: *mut stickslip_interface,

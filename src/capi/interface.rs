@@ -62,7 +62,8 @@ pub(super) fn flat<const N: usize>(v: &[SVector<f64, N>]) -> impl Iterator<Item 
 ///
 /// Errors: NULL_POINTER, STRUCT_SIZE, INVALID_SIZE, NOT_FINITE, INDEX_OUT_OF_RANGE, DUPLICATE_NODE,
 /// DEGENERATE_FACET, INVALID_VALUE (an option; a node without a facet; neighbouring facets with opposite node
-/// orders, a surface that branches or is folded; a mortar side given multipliers; a frame that is too small for where
+/// orders, a surface that branches or is folded; a mortar side given multipliers; a multiplier's equation that is that
+/// of a displacement or of another multiplier; a frame that is too small for where
 /// it is; a mortar surface in layers), MISSING_STIFFNESS, UNSUPPORTED, UNDEFINED_NORMAL, PROJECTION_NOT_CONVEX.
 /// Cost: one search, O((n1 + n2) log n2), and one integration of the pairs found; allocates.
 /// Owner: the caller, who ends it with `stickslip_interface_destroy`. Both surfaces and the options are

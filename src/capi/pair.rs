@@ -40,6 +40,11 @@ pub struct stickslip_pair {
     /// 0 (default): weights over cells of the overlap; 2 to 10: over so many points squared on the non-mortar facet,
     /// those that fall on the mortar facet (STICKSLIP_INTEGRATION_ELEMENTS; quadrature is not used).
     pub element_points: i64,
+    /// 3 n1: for each edge of the non-mortar facet, from its k-th node to the next one, the normal of the facet beyond it
+    /// (`stickslip_facet_normal`, of length 1 within 1e-10), or (0, 0, 0) where the surface ends [-]. NULL (default): not
+    /// known. Read by `stickslip_pair_weights` alone. With it a pair has the weights that a handle has, to the last bit;
+    /// without, a border of the mortar surface that follows the edge may count for both of its facets or for none.
+    pub neighbour_normals: *const f64,
 }
 
 // SAFETY: repr(C), struct_size first, integers and raw pointers only.
@@ -47,6 +52,9 @@ unsafe impl Sized64 for stickslip_pair {
     const NAME: &'static str = "stickslip_pair";
     const FIRST: usize = 40;
 }
+
+/// Far above the rounding of a normalisation, far below any angle that matters.
+const UNIT: f64 = 1e-10;
 
 struct Pair {
     one: Facet,
@@ -62,6 +70,24 @@ impl Pair {
 
     fn n(&self) -> (usize, usize) {
         (self.one.len(), self.two.len())
+    }
+
+    /// The non-mortar facet, with what is known of those beyond its edges.
+    fn frame(&self) -> Result<NonmortarFrame> {
+        let mut frame = NonmortarFrame::new(&self.one).map_err(raw::named("pair.x1"))?;
+        let n1 = self.one.len();
+        let normals = raw::optional_numbers(self.raw.neighbour_normals, 3 * n1, "pair.neighbour_normals")?;
+        for (k, normal) in normals.unwrap_or_default().chunks_exact(3).enumerate() {
+            let normal = Vec3::from_column_slice(normal);
+            let (length, is_known) = (normal.norm(), normal != Vec3::zeros());
+            if is_known && !((length - 1.0).abs() <= UNIT) {
+                let text =
+                    format!("pair.neighbour_normals of edge {k} has length {length}; it must be 1, or 0 for none");
+                return Err(Error::new(Kind::InvalidValue, text));
+            }
+            frame.plane.beyond[k] = is_known.then_some(normal);
+        }
+        Ok(frame)
     }
 
     /// Slot of the k-th of the pair's nodes, non-mortar first.
@@ -133,7 +159,7 @@ pub unsafe extern "C" fn stickslip_pair_weights(
         for (p, name) in [(n_ab, "n_ab"), (n_ac, "n_ac"), (dn_ab, "dn_ab"), (dn_ac, "dn_ac")] {
             raw::check_optional(p, name)?;
         }
-        let frame = NonmortarFrame::new(&pair.one).map_err(raw::named("pair.x1"))?;
+        let frame = pair.frame()?;
         let segment = match pair.raw.element_points {
             0 => Segment::new(&frame, &pair.two),
             points => Segment::of_points(&frame, &pair.two, element_line(points, "pair.element_points")?),

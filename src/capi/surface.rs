@@ -38,7 +38,7 @@ pub struct stickslip_surface {
     /// 3 n_nodes displacement equations, node by node, in the index base; -1: none (prescribed), whatever the
     /// index base.
     pub equations: *const i64,
-    /// Non-mortar: 3 n_nodes multiplier equations, -1: the component is removed and its axis a constrained
+    /// Non-mortar: 3 n_nodes multiplier equations, each in use nowhere else in the interface; -1: the component is removed and its axis a constrained
     /// direction (see `stickslip_interface_set_constraints`); a node with three -1 keeps its normal. With
     /// STICKSLIP_FRICTION_NONE n_nodes equations, one a node, along the normal; -1: none. A longer array cannot be told
     /// from a pointer: of 3 n_nodes the first n_nodes would be read as those of the nodes, without an error; so check that

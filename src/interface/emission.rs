@@ -56,6 +56,7 @@ impl<const N: usize> Contact<N> {
     /// larger motion may need entries beyond these.
     pub fn superset_pattern(&mut self, x1: &[Vec3], x2: &[Vec3], sink: &mut impl Sink) -> Result<()> {
         self.check_positions(x1, x2)?;
+        self.ensure_integration(x1, x2, Extent::Whole)?; // refuses what an evaluation here does, and serves the next one
         let weights = PairWeights::default();
         let pairs = self.possible_pairs(x1, x2)?;
         let any = |&(one, two)| UnionPair { one, two, now: Some(&weights), place: 0, previous: Some(&weights) };

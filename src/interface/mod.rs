@@ -8,6 +8,7 @@ mod apart;
 mod assembly;
 mod augmented;
 mod carried;
+mod checksum;
 mod closing;
 mod crease;
 mod crosspoints;
@@ -20,18 +21,22 @@ mod filter;
 mod history;
 mod hybrid;
 mod integration;
+mod meaning;
 mod memory;
 mod nodes;
+mod numbering;
 mod options;
 mod overrides;
 mod reach;
 mod report;
+mod restart;
 mod search;
 mod surface;
 mod treatment;
 mod weak;
 
 pub use assembly::Residual;
+pub use checksum::seal_history;
 pub use crease::Split;
 pub use crosspoints::{Crosspoint, InterfaceNodes, crosspoints};
 pub use diagnosis::{Cause, Diagnosis, SUSPECT, Suspect, WorstPair};
@@ -170,6 +175,7 @@ impl<const N: usize> Contact<N> {
             );
             return Err(Error::new(Kind::InvalidSize, text));
         }
+        numbering::check(&multiplier_equations, [&nonmortar, &mortar])?;
         if options.mortar_side == MortarSide::Rigid
             && let Some(k) = mortar.equations.iter().position(|e| e.iter().any(|&e| e != NO_EQUATION))
         {
@@ -308,30 +314,6 @@ impl<const N: usize> Contact<N> {
             return Err(Error::new(Kind::NothingToRollBack, text));
         };
         self.restore(history)
-    }
-
-    /// The history as flat arrays, for a restart.
-    pub fn export_history(&mut self) -> Result<(Vec<i64>, Vec<f64>)> {
-        self.ensure_history()?;
-        Ok(self.history.export(&self.nonmortar, &self.mortar))
-    }
-
-    /// Lengths of what [`Contact::export_history`] gives.
-    pub fn history_size(&mut self) -> Result<(usize, usize)> {
-        self.ensure_history()?;
-        Ok(self.history.flat_size())
-    }
-
-    /// Replaces the history by an imported one.
-    pub fn import_history(&mut self, integers: &[i64], reals: &[f64]) -> Result<()> {
-        let surfaces = (&self.nonmortar, &self.mortar);
-        let kind = (Keeps::of(&self.options), self.options.effective_weights() == Weights::Reference);
-        let history = History::import(kind, (integers, reals), surfaces)?;
-        let mismatch = |e: Error| Error::new(Kind::HistoryMismatch, e.message);
-        self.mortar.check_rigid(&history.x2).map_err(mismatch)?;
-        self.restore(history)?;
-        self.rollback = None;
-        Ok(())
     }
 
     /// Multipliers per non-mortar node, N.

@@ -124,6 +124,15 @@ static inline void scene_slide(scene *s, double by) {
   }
 }
 
+/* Lifts the non-mortar side off, out of reach. */
+static inline void scene_lift(scene *s, double by) {
+  double d[3] = {0.0, 0.0, by};
+  scene_frame(d);
+  for (int a = 0; a < N1; ++a) {
+    for (int i = 0; i < 3; ++i) s->x1[3 * a + i] += d[i];
+  }
+}
+
 static inline void scene_commit(scene *s) {
   CHECK_OK(stickslip_interface_commit(s->interface, s->x1, s->x2, s->lambda, NULL));
 }
@@ -191,6 +200,36 @@ static inline void history_take(stickslip_interface *interface, history *h) {
   CHECK_OK(stickslip_interface_history_size(interface, &h->n_integers, &h->n_reals));
   CHECK(h->n_integers <= COUNT(h->integers) && h->n_reals <= COUNT(h->reals));
   CHECK_OK(stickslip_interface_history_export(interface, h->n_integers, h->integers, h->n_reals, h->reals));
+}
+
+/* Places among its integers; the pairs' facets come last. */
+enum {
+  HISTORY_CHECKSUM = 1,
+  HISTORY_COORDINATES = 9, /* of the first configuration, the last word of the meaning */
+  HISTORY_COMMITS = 10,
+  HISTORY_PAIRS = 13,
+  HISTORY_FACETS = 14
+};
+
+static inline uint64_t history_mix(uint64_t sum, uint64_t word) {
+  uint64_t z = (sum ^ word) + 0x9e3779b97f4a7c15u;
+  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+  z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+  return z ^ (z >> 31);
+}
+
+/* Gives a history that was changed the checksum that fits it, so that what lies behind it is looked at. */
+static inline void history_seal(history *h) {
+  uint64_t sum = history_mix(history_mix(0x9e3779b97f4a7c15u, (uint64_t)h->n_integers), (uint64_t)h->n_reals);
+  for (int64_t k = 0; k < h->n_integers; ++k) {
+    if (k != HISTORY_CHECKSUM) sum = history_mix(sum, (uint64_t)h->integers[k]);
+  }
+  for (int64_t k = 0; k < h->n_reals; ++k) {
+    uint64_t bits;
+    memcpy(&bits, &h->reals[k], sizeof bits);
+    sum = history_mix(sum, bits);
+  }
+  h->integers[HISTORY_CHECKSUM] = (int64_t)sum;
 }
 
 static inline int history_equal(const history *a, const history *b) { return memcmp(a, b, sizeof *a) == 0; }

@@ -25,6 +25,27 @@ int main(void) {
       s.multipliers[26] = extreme[k];
       CHECK_REFUSED(call_create(&s), STICKSLIP_INDEX_OUT_OF_RANGE, "nonmortar.multiplier_equations[26]");
     }
+    /* A multiplier's equation is nobody else's: of a displacement of either side, or of another multiplier. */
+    scene_init_base(&s, base);
+    s.multipliers[26] = s.equations1[4];
+    CHECK_REFUSED(call_create(&s), STICKSLIP_INVALID_VALUE,
+                  "nonmortar.multiplier_equations[26] and nonmortar.equations[4] are the same equation");
+    scene_init_base(&s, base);
+    s.multipliers[2] = s.equations2[47];
+    CHECK_REFUSED(call_create(&s), STICKSLIP_INVALID_VALUE,
+                  "nonmortar.multiplier_equations[2] and mortar.equations[47] are the same equation");
+    scene_init_base(&s, base);
+    s.multipliers[8] = s.multipliers[3];
+    CHECK_REFUSED(call_create(&s), STICKSLIP_INVALID_VALUE,
+                  "nonmortar.multiplier_equations[3] and nonmortar.multiplier_equations[8] are the same equation");
+    /* Displacements may share theirs, and several components may have none. */
+    scene_init_base(&s, base);
+    s.equations1[7] = s.equations1[4];
+    s.equations2[3] = s.equations1[4];
+    s.multipliers[4] = s.multipliers[5] = -1;
+    scene_create(&s);
+    scene_destroy(&s);
+
     /* One beyond the last. */
     scene_init_base(&s, base);
     s.nodes1[0] = base + N1;

@@ -66,7 +66,15 @@ int main(void) {
   for (int k = 0; k < COUNT(offsets); ++k) {
     const int64_t kept = h.offsets[offsets[k].at];
     h.offsets[offsets[k].at] = offsets[k].value;
-    CHECK_REFUSED(call_interface_csr(&h), STICKSLIP_INVALID_SIZE, "row_offsets");
+    /* Of two numbers that decrease the second one is named; after the largest integer any does. */
+    char name[40];
+    const int named = offsets[k].value == INT64_MAX && offsets[k].at < UNKNOWNS ? offsets[k].at + 1 : offsets[k].at;
+    if (offsets[k].at == UNKNOWNS && offsets[k].value == INT64_MAX) {
+      snprintf(name, sizeof name, "row_offsets[n_rows]");
+    } else {
+      snprintf(name, sizeof name, "row_offsets[%d] is ", named);
+    }
+    CHECK_REFUSED(call_interface_csr(&h), STICKSLIP_INVALID_SIZE, name);
     h.offsets[offsets[k].at] = kept;
   }
   handle_untouched(&h);

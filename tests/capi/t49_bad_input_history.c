@@ -10,32 +10,63 @@ static int32_t import(void) {
 }
 
 #define MISMATCH(word) CHECK_REFUSED(import(), STICKSLIP_HISTORY_MISMATCH, (word))
+/* With a checksum that fits. */
+#define SEALED_MISMATCH(word) (history_seal(&spoilt), MISMATCH(word))
+
+/* Any bit that has flipped. */
+static void flips(void) {
+  uint64_t random = 3;
+  for (int k = 0; k < 20000; ++k) {
+    spoilt = h.before;
+    const int64_t words = spoilt.n_integers + spoilt.n_reals;
+    const int64_t at = (int64_t)((random_number(&random) + 1.0) / 2.0 * (double)(words - 1));
+    const uint64_t bit = (uint64_t)1 << (int)((random_number(&random) + 1.0) / 2.0 * 63.0);
+    uint64_t word;
+    void *place = at < spoilt.n_integers ? (void *)(spoilt.integers + at)
+                                         : (void *)(spoilt.reals + (at - spoilt.n_integers));
+    memcpy(&word, place, sizeof word);
+    word ^= bit;
+    memcpy(place, &word, sizeof word);
+    const int32_t status = import();
+    CHECK(status == STICKSLIP_HISTORY_MISMATCH || status == STICKSLIP_NOT_FINITE);
+  }
+}
 
 int main(void) {
   handle_init(&h);
+  flips();
 
-  /* Integers: layout, commits, nodes of both sides, pairs; then the pairs' facets. */
+  /* Integers: layout, checksum, meaning, commits, nodes of both sides, pairs; then the pairs' facets. */
   const int64_t values[] = {INT64_MIN, -1, 1, 1000, INT64_MAX};
-  for (int at = 0; at < 5; ++at) {
+  for (int at = 0; at <= HISTORY_PAIRS; ++at) {
     for (int k = 0; k < COUNT(values); ++k) {
-      if (at == 1 && values[k] >= 0) continue; /* any number of steps may have been committed */
+      if (at == HISTORY_COMMITS && values[k] >= 0) continue; /* any number of steps may have been committed */
+      if (at == HISTORY_CHECKSUM || h.before.integers[at] == values[k]) continue;
       spoilt = h.before;
       spoilt.integers[at] = values[k];
-      MISMATCH("");
+      MISMATCH(at == 0 ? "" : "checksum");
+      SEALED_MISMATCH("");
     }
   }
-  for (int at = 5; at < h.before.n_integers; ++at) {
+  for (int at = HISTORY_FACETS; at < h.before.n_integers; ++at) {
     for (int k = 0; k < COUNT(values); ++k) {
       if (values[k] == 1) continue; /* a facet that exists */
       spoilt = h.before;
       spoilt.integers[at] = values[k];
-      MISMATCH("facets");
+      SEALED_MISMATCH("facets");
     }
   }
   spoilt = h.before; /* unsorted */
-  memcpy(spoilt.integers + 6, h.before.integers + 8, 2 * sizeof(int64_t));
-  memcpy(spoilt.integers + 8, h.before.integers + 6, 2 * sizeof(int64_t));
-  MISMATCH("sorted");
+  const int first = HISTORY_FACETS, second = HISTORY_FACETS + 2;
+  memcpy(spoilt.integers + first, h.before.integers + second, 2 * sizeof(int64_t));
+  memcpy(spoilt.integers + second, h.before.integers + first, 2 * sizeof(int64_t));
+  SEALED_MISMATCH("sorted");
+  /* The layouts of older versions, by name. */
+  for (int layout = 1; layout <= 4; ++layout) {
+    spoilt = h.before;
+    spoilt.integers[0] = 0x571C00 + layout;
+    SEALED_MISMATCH("older library version");
+  }
 
   /* Lengths. */
   const int64_t lengths[] = {0, 1, 4, 5, h.before.n_integers - 1, h.before.n_integers + 1};
@@ -48,6 +79,7 @@ int main(void) {
     spoilt = h.before;
     spoilt.n_reals += by;
     MISMATCH("reals");
+    SEALED_MISMATCH("reals");
   }
 
   /* Of an interface with other surfaces. */
@@ -68,13 +100,14 @@ int main(void) {
   for (int a = 0; a < N1; ++a) {
     spoilt = h.before;
     spoilt.reals[areas + a] = a % 2 ? 0.0 : -1.0;
-    MISMATCH("area");
+    SEALED_MISMATCH("area");
   }
   handle_untouched(&h);
 
   /* The largest number of commits can be continued from. */
   spoilt = h.before;
-  spoilt.integers[1] = INT64_MAX;
+  spoilt.integers[HISTORY_COMMITS] = INT64_MAX;
+  history_seal(&spoilt);
   CHECK_OK(import());
   CHECK_OK(call_interface_commit(&h));
   scene_destroy(&h.s);

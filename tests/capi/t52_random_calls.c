@@ -1,5 +1,7 @@
 /* Random calls with numbers from everywhere in the range of doubles, NULL and crooked pointers, and corrupt histories:
- * whatever comes, the answer is success or a refusal that has written nothing; never a fault of the library. */
+ * whatever comes, the answer is success or a refusal that has written nothing; never a fault of the library. And whatever
+ * came before, the answer has the bits, and the words, that a fresh handle gives which has taken nothing but the calls
+ * that define its state. */
 #include <float.h>
 
 #include "calls.h"
@@ -141,10 +143,118 @@ static void stateless(void) {
   }
 }
 
-/* Any sequence of calls on one handle. */
-static void sequence(void) {
+/* A call that defines a handle's state, with its numbers. */
+enum { FRICTION, AUGMENTATION, NORMALS, CONSTRAINTS, ROLLBACK, IMPORT, COMMIT, PREVIOUS, CHANGES, CALLS = 8 };
+typedef struct {
+  int kind, given;
+  int64_t n, nodes[2];
+  double values[X1], x1[X1], x2[X2], lambda[X1];
+  history imported;
+} change;
+
+static int32_t apply(stickslip_interface *i, const change *c) {
+  const double *values = c->given ? c->values : NULL;
+  switch (c->kind) {
+    case FRICTION: return stickslip_interface_set_friction(i, c->values);
+    case AUGMENTATION: return stickslip_interface_set_augmentation(i, values);
+    case NORMALS: return stickslip_interface_set_normals(i, values);
+    case CONSTRAINTS: return stickslip_interface_set_constraints(i, c->n, c->nodes, c->values);
+    case ROLLBACK: return stickslip_interface_rollback(i);
+    case IMPORT:
+      return stickslip_interface_history_import(i, c->n, c->imported.integers, c->imported.n_reals, c->imported.reals);
+    case COMMIT: return stickslip_interface_commit(i, c->x1, c->x2, c->lambda, NULL);
+    default: return stickslip_interface_set_previous(i, c->x1, c->x2);
+  }
+}
+
+/* Sums as handles that share an interface might add up to. */
+static double total[STICKSLIP_SUMS_PER_NODE * N1];
+
+static int32_t look_residual_sums(handle *h) {
+  scene *s = &h->s;
+  return stickslip_interface_residual(s->interface, s->x1, s->x2, s->lambda, total, h->force1, h->force2, h->rows);
+}
+static int32_t look_coo_sums(handle *h) {
+  scene *s = &h->s;
+  return stickslip_interface_tangent_coo(s->interface, s->x1, s->x2, s->lambda, total, MOST_ENTRIES, h->row_numbers,
+                                         h->columns, h->values, &h->count);
+}
+static int32_t look_count(handle *h) {
+  scene *s = &h->s;
+  return stickslip_interface_tangent_coo(s->interface, s->x1, s->x2, s->lambda, NULL, 0, NULL, NULL, NULL, &h->count);
+}
+static int32_t look_start(handle *h) { return stickslip_interface_initial_multipliers(h->s.interface, h->rows); }
+static int32_t look_report(handle *h) {
+  stickslip_report report;
+  memset(&report, 0, sizeof report);
+  report.struct_size = sizeof report;
+  report.cover = h->state;
+  report.fraction = h->rows;
+  const int32_t status = stickslip_interface_report(h->s.interface, h->s.x1, h->s.x2, &report);
+  if (status == STICKSLIP_OK) h->count = report.finding;
+  return status;
+}
+static int32_t look_diagnosis(handle *h) {
+  stickslip_diagnosis d;
+  memset(&d, 0, sizeof d);
+  d.struct_size = sizeof d;
+  d.suspect_nodes = h->row_numbers;
+  d.suspect_ratios = h->values;
+  d.suspect_capacity = MOST_ENTRIES;
+  const int32_t status = stickslip_interface_diagnose(h->s.interface, h->s.x1, h->s.x2, h->s.lambda, NULL, &d);
+  if (status == STICKSLIP_OK) h->count = d.suspects;
+  return status;
+}
+static int32_t look_history(handle *h) {
+  const int32_t status = stickslip_interface_history_size(h->s.interface, &h->row_numbers[0], &h->row_numbers[1]);
+  if (status != STICKSLIP_OK) return status;
+  return stickslip_interface_history_export(h->s.interface, MOST_ENTRIES, h->columns, MOST_ENTRIES, h->values);
+}
+
+/* Calls that leave no trace. */
+static const interface_call looks[] = {
+    call_interface_residual, call_interface_states, call_interface_coo, call_interface_csr, call_interface_sums,
+    call_interface_pattern,  look_residual_sums,    look_coo_sums,      look_count,         look_start,
+    look_report,             look_diagnosis,        look_history};
+
+#define SAME(member) CHECK(memcmp(&h->member, &fresh.member, sizeof h->member) == 0)
+
+/* What a call has given is what a fresh handle gives. */
+static void check_fresh(handle *h, const change *changes, int n, interface_call look, int32_t status) {
+  static handle fresh;
+  char message[400];
+  snprintf(message, sizeof message, "%s", stickslip_last_error_message());
+  fresh.s = h->s; /* whose arrays the surfaces point to */
+  fresh.s.interface = NULL;
+  memcpy(fresh.offsets, h->offsets, sizeof h->offsets);
+  memcpy(fresh.csr_columns, h->csr_columns, sizeof h->csr_columns);
+  fresh.states = h->states;
+  fresh.states.state = fresh.state;
+  fresh.states.normal = fresh.normal;
+  handle_fill(&fresh);
+  CHECK_OK(stickslip_interface_create(&h->s.nonmortar, &h->s.mortar, &h->s.options, &fresh.s.interface));
+  for (int k = 0; k < n; ++k) CHECK_OK(apply(fresh.s.interface, &changes[k]));
+  CHECK(look(&fresh) == status);
+  CHECK(strncmp(message, stickslip_last_error_message(), sizeof message - 1) == 0);
+  SAME(force1);
+  SAME(force2);
+  SAME(rows);
+  SAME(sums);
+  SAME(values);
+  SAME(row_numbers);
+  SAME(columns);
+  SAME(count);
+  SAME(state);
+  SAME(normal);
+  SAME(csr);
+  CHECK_OK(stickslip_interface_destroy(&fresh.s.interface));
+}
+
+/* Any sequence of calls on one handle; `compared` with fresh ones. */
+static void sequence(int compared) {
   static handle h;
-  static history spoilt;
+  static change changes[CALLS];
+  int n_changes = 0;
   memset(&h, 0, sizeof h);
   scene *s = &h.s;
   scene_init(s);
@@ -170,53 +280,61 @@ static void sequence(void) {
   h.states.normal = h.normal;
   for (int i = 0; i <= UNKNOWNS; ++i) h.offsets[i] = (int64_t)i * UNKNOWNS;
   for (int i = 0; i < UNKNOWNS * UNKNOWNS; ++i) h.csr_columns[i] = i % UNKNOWNS;
+  for (int k = 0; k < COUNT(total); ++k) total[k] = 0.1 * random_number(&seed);
 
   static scene usual;
   scene_init(&usual);
-  for (uint64_t calls = 6; calls > 0; --calls) {
-    memcpy(s->x1, usual.x1, sizeof s->x1);
-    memcpy(s->x2, usual.x2, sizeof s->x2);
-    memcpy(s->lambda, usual.lambda, sizeof s->lambda);
-    if (draw(2)) scene_slide(s, random_number(&seed));
-    if (draw(3) == 0) spoil(s->x1, X1);
-    if (draw(3) == 0) spoil(s->x2, X2);
-    if (draw(2) == 0) spoil(s->lambda, X1);
+  for (int calls = CALLS; calls > 0; --calls) {
+    /* Now and then where the last call was, whose findings might be taken for its own. */
+    if (calls == CALLS || draw(2)) {
+      memcpy(s->x1, usual.x1, sizeof s->x1);
+      memcpy(s->x2, usual.x2, sizeof s->x2);
+      memcpy(s->lambda, usual.lambda, sizeof s->lambda);
+      if (draw(2)) scene_slide(s, random_number(&seed));
+      if (draw(3) == 0) scene_lift(s, 4.0);
+      if (draw(3) == 0) spoil(s->x1, X1);
+      if (draw(3) == 0) spoil(s->x2, X2);
+      if (draw(2) == 0) spoil(s->lambda, X1);
+    }
     handle_fill(&h);
     history_take(s->interface, &h.before);
-    double values[X1];
-    for (int k = 0; k < X1; ++k) values[k] = 1.0;
-    spoil(values, N1);
-    int32_t status;
-    switch (draw(14)) {
-      case 0: status = stickslip_interface_set_friction(s->interface, values); break;
-      case 1: status = stickslip_interface_set_augmentation(s->interface, draw(3) ? values : NULL); break;
-      case 2: {
-        for (int k = 0; k < X1; ++k) values[k] = k % 3 == 2;
-        if (draw(2)) spoil(values, X1);
-        status = stickslip_interface_set_normals(s->interface, draw(3) ? values : NULL);
-        break;
-      }
-      case 3: {
-        const int64_t nodes[2] = {any_integer(4), any_integer(4)};
-        status = stickslip_interface_set_constraints(s->interface, (int64_t)draw(3), nodes, values);
-        break;
-      }
-      case 4: status = stickslip_interface_rollback(s->interface); break;
-      case 5: {
-        spoilt = h.before;
-        for (uint64_t k = draw(4); k > 0; --k) {
-          int64_t *i = spoilt.integers + draw((uint64_t)spoilt.n_integers);
-          *i = any_integer(*i);
-        }
-        spoil(spoilt.reals, (int)spoilt.n_reals);
-        status = stickslip_interface_history_import(s->interface, any_integer(spoilt.n_integers) % COUNT(spoilt.integers),
-                                                    spoilt.integers, spoilt.n_reals, spoilt.reals);
-        break;
-      }
-      default: status = evaluations[draw(COUNT(evaluations))](&h); break;
+    change *c = &changes[n_changes];
+    c->kind = (int)draw(2 * CHANGES);
+    c->given = draw(3) > 0;
+    for (int k = 0; k < X1; ++k) c->values[k] = c->kind == NORMALS ? k % 3 == 2 : 1.0;
+    if (c->kind == NORMALS && draw(2)) {
+      for (int k = 0; k < X1; ++k) c->values[k] *= -1.0;
     }
-    if (succeeded(status)) {
+    spoil(c->values, c->kind == NORMALS ? X1 : N1);
+    c->n = (int64_t)draw(3);
+    for (int k = 0; k < 2; ++k) c->nodes[k] = any_integer(4);
+    memcpy(c->x1, s->x1, sizeof c->x1);
+    memcpy(c->x2, s->x2, sizeof c->x2);
+    memcpy(c->lambda, s->lambda, sizeof c->lambda);
+    if (c->kind == IMPORT) {
+      c->imported = h.before;
+      for (uint64_t k = draw(4); k > 0; --k) {
+        int64_t *i = c->imported.integers + draw((uint64_t)c->imported.n_integers);
+        *i = any_integer(*i);
+      }
+      spoil(c->imported.reals, (int)c->imported.n_reals);
+      /* With a checksum that fits, so that what lies behind it is tried; or without. */
+      if (draw(4)) history_seal(&c->imported);
+      c->n = any_integer(c->imported.n_integers) % COUNT(c->imported.integers);
+    }
+    int32_t status;
+    interface_call look = NULL;
+    if (c->kind < CHANGES) {
+      status = apply(s->interface, c);
+    } else {
+      look = looks[draw(COUNT(looks))];
+      status = look(&h);
+    }
+    const int accepted = succeeded(status);
+    if (look && compared) check_fresh(&h, changes, n_changes, look, status);
+    if (accepted) {
       ++successes;
+      n_changes += !look;
     } else {
       ++refusals;
       handle_untouched(&h);
@@ -230,7 +348,7 @@ int main(int argc, char **argv) {
   const int64_t n = argc > 1 ? atoll(argv[1]) : 20000;
   for (int64_t k = 0; k < n; ++k) {
     stateless();
-    if (k % 40 == 0) sequence();
+    if (k % 40 == 0) sequence(k % 160 == 0);
   }
   CHECK(successes > n / 20 && refusals > n / 20);
   return 0;

@@ -91,8 +91,8 @@ int main(void) {
     /* History: shorter, undone and continued with the same bits; another interface's is refused by name. */
     history_take(three.interface, &whole);
     history_take(one.interface, &shorter);
-    CHECK(shorter.n_reals == whole.n_reals - 6 * N1 - (weights == 0 ? 32 * whole.integers[4] : 0));
-    CHECK(shorter.integers[4] == (weights == 0 ? 0 : whole.integers[4]));
+    CHECK(shorter.n_reals == whole.n_reals - 6 * N1 - (weights == 0 ? 32 * whole.integers[HISTORY_PAIRS] : 0));
+    CHECK(shorter.integers[HISTORY_PAIRS] == (weights == 0 ? 0 : whole.integers[HISTORY_PAIRS]));
     CHECK_OK(stickslip_interface_commit(one.interface, one.x1, one.x2, lambda.values, NULL));
     CHECK_OK(stickslip_interface_rollback(one.interface));
     history_take(one.interface, &now);
@@ -105,10 +105,10 @@ int main(void) {
     CHECK(memcmp(plus + X1 + X2, rows.values, sizeof rows.values) == 0);
     CHECK_REFUSED(stickslip_interface_history_import(one.interface, whole.n_integers, whole.integers, whole.n_reals,
                                                      whole.reals),
-                  STICKSLIP_HISTORY_MISMATCH, "with slip");
+                  STICKSLIP_HISTORY_MISMATCH, "Coulomb's law");
     CHECK_REFUSED(stickslip_interface_history_import(three.interface, now.n_integers, now.integers, now.n_reals,
                                                      now.reals),
-                  STICKSLIP_HISTORY_MISMATCH, "without friction");
+                  STICKSLIP_HISTORY_MISMATCH, "no friction");
 
     /* No slip is computed. There is no coefficient to set, and none to give. */
     stickslip_counters counters;

@@ -4,7 +4,10 @@
 use super::*;
 use nalgebra::Vector1;
 use stickslip::error::Kind;
-use stickslip::interface::Friction;
+use stickslip::interface::{Friction, seal_history};
+
+/// Integers before the list of pairs.
+const HEADER: usize = 13;
 
 fn one(weights: Weights) -> Options {
     Options { friction: Friction::None, mu: 0.0, weights, ..options() }
@@ -49,7 +52,10 @@ fn it_is_shorter() {
             assert_eq!(h.pairs.is_empty(), weights == Weights::Current);
             let pairs = h.pairs.len();
             // x1, normals, areas, coverage of 9 nodes, x2 of 16, weights.
-            assert_eq!(s.c.history_size().unwrap(), (6 + 2 * pairs, 9 * (3 + 3 + 1 + 1) + 16 * 3 + 32 * pairs));
+            assert_eq!(
+                s.c.history_size().unwrap(),
+                (HEADER + 1 + 2 * pairs, 9 * (3 + 3 + 1 + 1) + 16 * 3 + 32 * pairs)
+            );
         }
         let mut three = moved(&Options { weights, ..options() }, CELLS[0], ROUGH, 3);
         three.interface.commit(&three.x1, &three.x2, &three.lambda, None).unwrap();
@@ -97,26 +103,28 @@ fn histories_of_other_effects_are_refused() {
     };
     let mut all = WEIGHTS.map(Step::new);
     let exported: Vec<_> = all.iter_mut().map(|s| s.c.export_history().unwrap()).collect();
-    let (now, frozen) = ("without friction, with weights of now", "without friction, with frozen weights");
+    let names = ["weights of now", "weights frozen at the last commit", "weights of the first configuration"];
     for (k, s) in all.iter_mut().enumerate() {
-        let name = if k == 0 { now } else { frozen };
         let before = s.c.history().clone();
-        refused(s.c.import_history(&integers, &reals), ["the history is one with slip", name]);
-        let (other, other_name) = if k == 0 { (&exported[1], frozen) } else { (&exported[0], now) };
-        refused(s.c.import_history(&other.0, &other.1), [other_name, name]);
+        refused(s.c.import_history(&integers, &reals), ["the history is one with Coulomb's law", "no friction"]);
+        for other in (0..3).filter(|&other| other != k) {
+            let (integers, reals) = &exported[other];
+            refused(s.c.import_history(integers, reals), [names[other], names[k]]);
+        }
         assert_eq!(*s.c.history(), before);
-        refused(with_slip.import_history(&exported[k].0, &exported[k].1), [name, "the interface one with slip"]);
+        refused(with_slip.import_history(&exported[k].0, &exported[k].1), ["no friction", "Coulomb's law"]);
     }
-    // Both kinds of frozen weights are alike.
-    all[2].c.import_history(&exported[1].0, &exported[1].1).unwrap();
 
     let (integers, reals) = &exported[0];
     let corrupt = |at: usize, value: i64| {
         let mut wrong = integers.clone();
         wrong[at] = value;
+        seal_history(&mut wrong, reals);
         wrong
     };
-    for (at, value) in [(0, 7), (1, -1), (2, 3), (3, 1), (4, 1), (4, -1), (4, i64::MAX), (5, 0)] {
+    // Layout, law, weights, slip, facets, coordinates, commits, nodes, pairs.
+    let wrong = [(0, 7), (2, 0), (4, 1), (5, 1), (8, 0), (9, 0), (10, -1), (11, 3), (12, 1), (13, 1), (13, -1)];
+    for (at, value) in wrong.into_iter().chain([(13, i64::MAX)]) {
         assert_eq!(
             all[0].c.import_history(&corrupt(at, value), reals).unwrap_err().kind,
             Kind::HistoryMismatch,

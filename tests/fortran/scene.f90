@@ -32,6 +32,10 @@ module scenes
     real(c_double), allocatable :: values(:)
   end type
 
+  ! Places among a history's integers, counted from 1; the pairs' facets come last. The coordinates are those of the first
+  ! configuration.
+  integer, parameter :: HISTORY_CHECKSUM = 2, HISTORY_COORDINATES = 10, HISTORY_PAIRS = 14
+
   ! What the history is made of, to the bit.
   type history
     integer(c_int64_t) :: n_integers, n_reals, integers(256)

@@ -36,6 +36,24 @@ program t46_bad_input_index
       s%multipliers(3, 9) = extreme(k)
       CHECK_REFUSED(call_create(s), STICKSLIP_INDEX_OUT_OF_RANGE, 'nonmortar.multiplier_equations[26]')
     end do
+    ! A multiplier's equation is nobody else's: of a displacement of either side, or of another multiplier.
+    call scene_init(s, base)
+    s%multipliers(3, 9) = s%equations1(2, 2)
+    CHECK_REFUSED(call_create(s), STICKSLIP_INVALID_VALUE, 'multiplier_equations[26] and nonmortar.equations[4]')
+    call scene_init(s, base)
+    s%multipliers(3, 1) = s%equations2(3, 16)
+    CHECK_REFUSED(call_create(s), STICKSLIP_INVALID_VALUE, 'multiplier_equations[2] and mortar.equations[47]')
+    call scene_init(s, base)
+    s%multipliers(3, 3) = s%multipliers(1, 2)
+    CHECK_REFUSED(call_create(s), STICKSLIP_INVALID_VALUE, 'multiplier_equations[8] are the same equation')
+    ! Displacements may share theirs, and several components may have none.
+    call scene_init(s, base)
+    s%equations1(2, 3) = s%equations1(2, 2)
+    s%equations2(1, 2) = s%equations1(2, 2)
+    s%multipliers(2:3, 2) = -1
+    call scene_create(s)
+    call scene_destroy(s)
+
     ! One beyond the last.
     call scene_init(s, base)
     s%nodes1(1, 1) = base + NA

@@ -92,13 +92,16 @@ contains
   ! CSR offsets: not from the base, decreasing, huge.
   subroutine row_offsets()
     integer, parameter :: AT(7) = [1, 1, 8, 8, 8, UNKNOWNS + 1, UNKNOWNS + 1]
+    ! Of two numbers that decrease the second one is named, in C's count; after the largest integer any does.
+    character(*), parameter :: NAMES(7) = [character(19) :: 'row_offsets[0] is', 'row_offsets[0] is', &
+        'row_offsets[7] is', 'row_offsets[8] is', 'row_offsets[7] is', 'row_offsets[n_rows]', 'row_offsets[']
     integer(c_int64_t) :: values(7), kept
     integer :: k
     values = [0_c_int64_t, -1_c_int64_t, 3_c_int64_t, INT64_MAX, INT64_MIN, INT64_MAX, 5_c_int64_t]
     do k = 1, 7
       kept = h%offsets(AT(k))
       h%offsets(AT(k)) = values(k)
-      CHECK_REFUSED(call_interface_csr(h), STICKSLIP_INVALID_SIZE, 'row_offsets')
+      CHECK_REFUSED(call_interface_csr(h), STICKSLIP_INVALID_SIZE, trim(NAMES(k)))
       h%offsets(AT(k)) = kept
     end do
   end subroutine

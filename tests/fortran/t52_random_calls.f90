@@ -1,6 +1,7 @@
 ! Random calls with numbers from everywhere in the range of doubles, null and crooked pointers, and corrupt histories:
-! whatever comes, the answer is success or a refusal that has written nothing; never a fault of the library. The twin
-! gives bad pointers where Fortran has pointers, that is, not for arrays and types.
+! whatever comes, the answer is success or a refusal that has written nothing; never a fault of the library. And whatever
+! came before, the answer has the bits that a fresh handle gives which has taken nothing but the calls that define its
+! state. The twin gives bad pointers where Fortran has pointers, that is, not for arrays and types.
 #include "check.inc"
 program t52_random_calls
   use, intrinsic :: iso_c_binding
@@ -14,6 +15,16 @@ program t52_random_calls
   real(c_double), parameter :: SPECIAL(30) = [0d0, -0d0, 1d0, -1d0, 5d-324, -5d-324, 1d-310, 2.2d-308, 1d-160, 1d-80, &
       1d-16, 1d16, 1d75, 1d80, 1d150, 1d155, 1d300, 1.7d308, -1d155, -1.7d308, 1d-300, 1d-150, 1d-100, 1d100, -1d100, &
       1d-12, 0.5d0, 2d0, 3d0, 1d8]
+
+  ! A call that defines a handle's state, with its numbers.
+  type change
+    integer :: what
+    logical :: given
+    integer(c_int64_t) :: n, nodes(2)
+    real(c_double) :: values(3, NA), x1(3, NA), x2(3, NC), lambda(3, NA)
+    type(history) :: imported
+  end type
+  integer, parameter :: CALLS_OF_SEQUENCE = 8
   integer(c_int64_t) :: seed = 2024
   integer :: successes = 0, refusals = 0, n, k
   character(20) :: argument
@@ -24,7 +35,7 @@ program t52_random_calls
   if (argument /= '') read (argument, *) n
   do k = 0, n - 1
     call stateless(k == 0)
-    if (mod(k, 40) == 0) call sequence()
+    if (mod(k, 40) == 0) call sequence(mod(k, 160) == 0)
   end do
   CHECK(successes > n / 20 .and. refusals > n / 20)
 
@@ -229,12 +240,15 @@ contains
     end select
   end subroutine
 
-  ! Any sequence of calls on one handle.
-  subroutine sequence()
+  ! Any sequence of calls on one handle, `compared` with fresh ones.
+  subroutine sequence(compared)
+    logical, intent(in) :: compared
     type(handle), target, save :: h
     type(scene), target, save :: usual
+    type(change), target, save :: changes(CALLS_OF_SEQUENCE)
     integer(c_int32_t) :: status
-    integer :: calls
+    integer :: calls, n
+    logical :: accepted, changed
     call scene_init(h%s)
     h%s%options%form = random(2)
     h%s%options%weights = random(3)
@@ -260,56 +274,141 @@ contains
     end if
     call handle_prepare(h)
     call scene_init(usual)
-    do calls = 1, 6
-      h%s%x1 = usual%x1
-      h%s%x2 = usual%x2
-      h%s%lambda = usual%lambda
-      if (once_in(2)) call scene_slide(h%s, draw(seed))
-      if (once_in(3)) call spoil(SIZE1, h%s%x1)
-      if (once_in(3)) call spoil(SIZE2, h%s%x2)
-      if (once_in(2)) call spoil(SIZE1, h%s%lambda)
+    n = 0
+    do calls = 1, CALLS_OF_SEQUENCE
+      ! Now and then where the last call was, whose findings might be taken for its own.
+      if (calls == 1 .or. once_in(2)) then
+        h%s%x1 = usual%x1
+        h%s%x2 = usual%x2
+        h%s%lambda = usual%lambda
+        if (once_in(2)) call scene_slide(h%s, draw(seed))
+        if (once_in(3)) call lift(h%s)
+        if (once_in(3)) call spoil(SIZE1, h%s%x1)
+        if (once_in(3)) call spoil(SIZE2, h%s%x2)
+        if (once_in(2)) call spoil(SIZE1, h%s%lambda)
+      end if
       call handle_fill(h)
       call history_take(h%s%contact, h%before)
-      call one_handle_call(h, status)
-      if (.not. succeeded(status)) call handle_untouched(h)
+      call any_change(h, changes(n + 1))
+      changed = changes(n + 1)%what < 8
+      if (changed) then
+        status = apply(h%s%contact, changes(n + 1))
+      else
+        status = look(changes(n + 1)%what, h)
+      end if
+      accepted = succeeded(status)
+      if (compared .and. .not. changed) call check_fresh(h, changes(:n), changes(n + 1)%what, status)
+      if (.not. accepted) call handle_untouched(h)
+      if (accepted .and. changed) n = n + 1
     end do
     call scene_destroy(h%s)
   end subroutine
 
-  subroutine one_handle_call(h, status)
-    type(handle), target, intent(inout) :: h
-    integer(c_int32_t), intent(out) :: status
-    type(history), save :: spoilt
-    real(c_double), target :: values(3, NA)
-    integer(c_int64_t) :: nodes(2), n
+  ! Out of reach.
+  subroutine lift(s)
+    type(scene), intent(inout) :: s
+    real(c_double) :: up(3)
+    up = [0d0, 0d0, 4d0]
+    call scene_frame(up)
+    s%x1 = s%x1 + spread(up, 2, NA)
+  end subroutine
+
+  ! A change (0 to 7), or a look (8 to 15), with its numbers.
+  subroutine any_change(h, c)
+    type(handle), intent(in) :: h
+    type(change), intent(out) :: c
     integer :: k, i
-    values = 1
-    call spoil(NA, values)
-    select case (random(14))
+    c%what = random(16)
+    c%given = .not. once_in(3)
+    c%values = 1
+    if (c%what == 2) c%values = spread([0d0, 0d0, merge(-1d0, 1d0, once_in(2))], 2, NA)
+    call spoil(NA, c%values)
+    c%n = random(3)
+    c%nodes = [any_integer(5_c_int64_t), any_integer(5_c_int64_t)]
+    c%x1 = h%s%x1
+    c%x2 = h%s%x2
+    c%lambda = h%s%lambda
+    c%imported = h%before
+    if (c%what /= 5) return
+    do k = 1, random(4) - 2
+      i = 1 + random(int(h%before%n_integers))
+      c%imported%integers(i) = any_integer(c%imported%integers(i))
+    end do
+    if (once_in(2)) call spoil(int(h%before%n_reals), c%imported%reals)
+    c%n = mod(any_integer(h%before%n_integers), size(c%imported%integers, kind=c_int64_t))
+  end subroutine
+
+  integer(c_int32_t) function apply(contact, c) result(status)
+    type(stickslip_interface), intent(in) :: contact
+    type(change), target, intent(in) :: c
+    type(c_ptr) :: values
+    values = c_null_ptr
+    if (c%given) values = c_loc(c%values)
+    select case (c%what)
     case (0)
-      status = stickslip_interface_set_friction(h%s%contact, values)
+      status = stickslip_interface_set_friction(contact, c%values)
     case (1)
-      status = stickslip_interface_set_augmentation(h%s%contact, given(.not. once_in(3), c_loc(values)))
+      status = stickslip_interface_set_augmentation(contact, values)
     case (2)
-      values = spread([0d0, 0d0, 1d0], 2, NA)
-      if (once_in(2)) call spoil(SIZE1, values)
-      status = stickslip_interface_set_normals(h%s%contact, given(.not. once_in(3), c_loc(values)))
+      status = stickslip_interface_set_normals(contact, values)
     case (3)
-      nodes = [any_integer(5_c_int64_t), any_integer(5_c_int64_t)]
-      status = stickslip_interface_set_constraints(h%s%contact, int(random(3), c_int64_t), nodes, values)
+      status = stickslip_interface_set_constraints(contact, c%n, c%nodes, c%values)
     case (4)
-      status = stickslip_interface_rollback(h%s%contact)
+      status = stickslip_interface_rollback(contact)
     case (5)
-      spoilt = h%before
-      do k = 1, random(4)
-        i = 1 + random(int(spoilt%n_integers))
-        spoilt%integers(i) = any_integer(spoilt%integers(i))
-      end do
-      call spoil(int(spoilt%n_reals), spoilt%reals)
-      n = mod(any_integer(spoilt%n_integers), size(spoilt%integers, kind=c_int64_t))
-      status = stickslip_interface_history_import(h%s%contact, n, spoilt%integers, spoilt%n_reals, spoilt%reals)
+      status = stickslip_interface_history_import(contact, c%n, c%imported%integers, c%imported%n_reals, c%imported%reals)
+    case (6)
+      status = stickslip_interface_commit(contact, c%x1, c%x2, c%lambda, c_null_ptr)
     case default
-      status = evaluate(1 + random(EVALUATIONS), h)
+      status = stickslip_interface_set_previous(contact, c%x1, c%x2)
     end select
+  end function
+
+  ! Calls that leave no trace.
+  integer(c_int32_t) function look(what, h) result(status)
+    integer, intent(in) :: what
+    type(handle), target, intent(inout) :: h
+    type(stickslip_report) :: report
+    select case (what)
+    case (8)
+      status = call_interface_residual(h)
+    case (9)
+      status = call_interface_states(h)
+    case (10)
+      status = call_interface_coo(h)
+    case (11)
+      status = call_interface_csr(h)
+    case (12)
+      status = call_interface_sums(h)
+    case (13)
+      status = call_interface_pattern(h)
+    case (14)
+      status = stickslip_interface_initial_multipliers(h%s%contact, h%rows)
+    case default
+      report = stickslip_report(cover=c_loc(h%state), fraction=c_loc(h%rows))
+      status = stickslip_interface_report(h%s%contact, h%s%x1, h%s%x2, report)
+    end select
+  end function
+
+  ! What a call has given is what a fresh handle gives.
+  subroutine check_fresh(h, changes, what, status)
+    type(handle), target, intent(in) :: h
+    type(change), intent(in) :: changes(:)
+    integer, intent(in) :: what
+    integer(c_int32_t), intent(in) :: status
+    type(handle), target, save :: fresh
+    integer :: k
+    fresh%s = h%s ! whose arrays the surfaces point to
+    call handle_prepare(fresh)
+    CHECK_OK(stickslip_interface_create(h%s%nonmortar, h%s%mortar, h%s%options, fresh%s%contact))
+    do k = 1, size(changes)
+      CHECK_OK(apply(fresh%s%contact, changes(k)))
+    end do
+    CHECK(look(what, fresh) == status)
+    CHECK(all(same(h%force1, fresh%force1)) .and. all(same(h%force2, fresh%force2)) .and. all(same(h%rows, fresh%rows)))
+    CHECK(all(same(h%sums, fresh%sums)) .and. all(same(h%values, fresh%values)) .and. all(same(h%csr, fresh%csr)))
+    CHECK(all(h%row_numbers == fresh%row_numbers) .and. all(h%columns == fresh%columns) .and. h%count == fresh%count)
+    CHECK(all(h%state == fresh%state) .and. all(same(h%normal, fresh%normal)))
+    call scene_destroy(fresh%s)
   end subroutine
 end program

@@ -1,5 +1,5 @@
-! A history whose numbers fit the surfaces but cannot be theirs: other facets on as many nodes, normals that are not
-! unit, positions at which a facet has no area. Taken in, it would give wrong forces or refuse every evaluation.
+! A history whose numbers fit the surfaces but cannot be theirs: other facets on as many nodes, another mesh with the same
+! facets, another law or slip measure. Taken in, it would give wrong forces.
 #include "check.inc"
 #define MISMATCH(word) CHECK_REFUSED(import(), STICKSLIP_HISTORY_MISMATCH, word)
 program t53_foreign_history
@@ -9,12 +9,10 @@ program t53_foreign_history
   use scenes
   use stickslip
   implicit none
-  ! The reals are x1, x2, normals, ...
-  integer, parameter :: NORMALS = SIZE1 + SIZE2
   type(handle), target, save :: h
   type(history), save :: spoilt
   type(scene), target, save :: other
-  integer :: a
+  integer :: side
 
   call handle_init(h)
 
@@ -26,21 +24,56 @@ program t53_foreign_history
   MISMATCH('facets')
   call scene_destroy(other)
 
-  do a = 1, NA
-    spoilt = h%before
-    spoilt%reals(NORMALS + 3 * a - 2:NORMALS + 3 * a) = 2 * h%before%reals(NORMALS + 3 * a - 2:NORMALS + 3 * a)
-    MISMATCH('normal')
+  ! The same facets on another mesh: one coordinate in its last digit.
+  do side = 1, 2
+    call scene_init(other)
+    if (side == 1) then
+      other%reference1(2, 3) = nearest(other%reference1(2, 3), 1d0)
+    else
+      other%reference2(2, 3) = nearest(other%reference2(2, 3), 1d0)
+    end if
+    call scene_create(other)
+    call history_take(other%contact, spoilt)
+    MISMATCH('another mesh')
+    call scene_destroy(other)
   end do
+
+  ! What the numbers mean.
+  call scene_init(other)
+  other%options%slip = STICKSLIP_SLIP_INCREMENT
+  call scene_create(other)
+  call history_take(other%contact, spoilt)
+  MISMATCH('slip increment')
+  call scene_destroy(other)
+  call scene_init(other)
+  other%options%friction = STICKSLIP_FRICTION_ROUGH
+  other%options%mu = 0
+  call scene_create(other)
+  call history_take(other%contact, spoilt)
+  MISMATCH('rough')
+  call scene_destroy(other)
+
+  ! Others may go on with it: mu, augmentation, tolerances, the form.
+  call scene_init(other)
+  other%options%mu = 0.1d0
+  other%options%augmentation = 70
+  other%options%coverage_min = 1d-3
+  other%options%form = STICKSLIP_FORM_AUGMENTED
+  call scene_create(other)
   spoilt = h%before
-  spoilt%reals(:SIZE1) = 1
-  MISMATCH('facet')
+  CHECK_OK(import_into(other%contact))
+  call scene_destroy(other)
   call handle_untouched(h)
   call scene_destroy(h%s)
 
 contains
 
   integer(c_int32_t) function import() result(status)
-    status = stickslip_interface_history_import(h%s%contact, spoilt%n_integers, spoilt%integers, spoilt%n_reals, &
-        spoilt%reals)
+    status = import_into(h%s%contact)
+  end function
+
+  integer(c_int32_t) function import_into(contact) result(status)
+    type(stickslip_interface), intent(in) :: contact
+    status = stickslip_interface_history_import(contact, spoilt%n_integers, spoilt%integers, spoilt%n_reals, spoilt%reals)
   end function
 end program

@@ -132,8 +132,8 @@ contains
     integer(c_int32_t) :: status
     call history_take(three%contact, whole)
     call history_take(one%contact, shorter)
-    CHECK(shorter%n_reals == whole%n_reals - 6 * NA - merge(32 * whole%integers(5), 0_c_int64_t, kind_of_weights == 0))
-    CHECK(shorter%integers(5) == merge(0_c_int64_t, whole%integers(5), kind_of_weights == 0))
+    CHECK(shorter%n_reals == whole%n_reals - 6 * NA - merge(32 * whole%integers(HISTORY_PAIRS), 0_c_int64_t, kind_of_weights == 0))
+    CHECK(shorter%integers(HISTORY_PAIRS) == merge(0_c_int64_t, whole%integers(HISTORY_PAIRS), kind_of_weights == 0))
     CHECK_OK(stickslip_interface_commit(one%contact, one%x1, one%x2, lambda, c_null_ptr))
     CHECK_OK(stickslip_interface_rollback(one%contact))
     call history_take(one%contact, now)
@@ -144,8 +144,8 @@ contains
         again(POSITIONS + 1))
     CHECK_OK(status)
     CHECK(all(same(again, q)))
-    CHECK_REFUSED(import(one, whole), STICKSLIP_HISTORY_MISMATCH, 'with slip')
-    CHECK_REFUSED(import(three, now), STICKSLIP_HISTORY_MISMATCH, 'without friction')
+    CHECK_REFUSED(import(one, whole), STICKSLIP_HISTORY_MISMATCH, "Coulomb's law")
+    CHECK_REFUSED(import(three, now), STICKSLIP_HISTORY_MISMATCH, 'no friction')
   end subroutine
 
   integer(c_int32_t) function import(s, h) result(status)

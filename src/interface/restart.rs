@@ -1,0 +1,223 @@
+//! The history as flat arrays, for a restart.
+//!
+//! Integers: the layout, the checksum (`checksum.rs`), the meaning (`meaning.rs`), commits, nodes of both sides; then lists,
+//! each after its length: the pairs' facets. Reals: x1, x2, normals, gaps, slip, areas, coverage, the pairs' weights. What is
+//! not kept (`Keeps`) takes no room.
+
+use super::checksum::{self, PLACE};
+use super::history::{History, Keeps, PairRecord, REALS_PER_PAIR};
+use super::options::Weights;
+use super::surface::Surface;
+use super::{Contact, meaning};
+use crate::error::{Error, Kind, Result};
+use crate::geometry::{Plane, Vec3};
+use crate::mortar::{NonmortarFrame, PairWeights};
+
+/// First integer: "stickslip history", layout 5.
+const LAYOUT: i64 = 0x57_1C_05;
+/// First integers of the layouts before, which had neither a checksum nor a meaning.
+const OLD_LAYOUTS: std::ops::RangeInclusive<i64> = 0x57_1C_01..=0x57_1C_04;
+/// Integers before the lists.
+const HEADER: usize = 2 + meaning::LENGTH + 3;
+/// A normal farther from unit length than rounding takes it was not written by the library.
+const UNIT: f64 = 1e-10;
+
+/// What an import must fit to.
+struct Host<'a> {
+    surfaces: (&'a Surface, &'a Surface),
+    keeps: Keeps,
+    meaning: [i64; meaning::LENGTH],
+    /// Whether the weights are frozen for good.
+    frozen: bool,
+}
+
+fn mismatch<T>(text: impl Into<String>) -> Result<T> {
+    Err(Error::new(Kind::HistoryMismatch, text.into()))
+}
+
+/// The next list: its length, then so many items of `width` integers.
+fn list<'a>(rest: &mut &'a [i64], name: &str, width: usize) -> Result<&'a [i64]> {
+    let text = || format!("the list of {name} is longer than the integers");
+    let Some((&n, items)) = rest.split_first() else { return mismatch(text()) };
+    let length = usize::try_from(n).ok().and_then(|n| n.checked_mul(width)).filter(|n| *n <= items.len());
+    let Some(length) = length else { return mismatch(text()) };
+    let (list, others) = items.split_at(length);
+    *rest = others;
+    Ok(list)
+}
+
+/// The next `n` numbers; there are as many.
+fn take<'a>(rest: &mut &'a [f64], n: usize) -> &'a [f64] {
+    let (head, tail) = rest.split_at(n);
+    *rest = tail;
+    head
+}
+
+fn vectors(rest: &mut &[f64], n: usize) -> Vec<Vec3> {
+    take(rest, 3 * n).chunks_exact(3).map(Vec3::from_column_slice).collect()
+}
+
+impl History {
+    /// Lengths of the flat arrays: (integers, reals).
+    pub fn flat_size(&self) -> (usize, usize) {
+        let n = self.pairs.len();
+        (HEADER + 1 + 2 * n, self.keeps.reals(self.x1.len(), self.x2.len(), n))
+    }
+
+    /// The history as flat arrays.
+    fn export(&self, meaning: [i64; meaning::LENGTH]) -> (Vec<i64>, Vec<f64>) {
+        let (n_integers, n_reals) = self.flat_size();
+        let (mut integers, mut reals) = (Vec::with_capacity(n_integers), Vec::with_capacity(n_reals));
+        integers.extend([LAYOUT, 0]);
+        integers.extend(meaning);
+        integers.extend([self.commits, self.x1.len() as i64, self.x2.len() as i64, self.pairs.len() as i64]);
+        for x in [&self.x1, &self.x2, &self.normals, &self.gap, &self.slip] {
+            reals.extend(x.iter().flat_map(|v| v.iter()));
+        }
+        reals.extend(&self.areas);
+        reals.extend(&self.coverage);
+        for pair in &self.pairs {
+            integers.extend([pair.one as i64, pair.two as i64]);
+            reals.extend(pair.weights.ab.iter().chain(&pair.weights.ac).flatten());
+        }
+        checksum::seal_history(&mut integers, &reals);
+        (integers, reals)
+    }
+
+    /// Reads what [`History::export`] wrote for the same surfaces and choices.
+    ///
+    /// # Errors
+    /// [`Kind::HistoryMismatch`] or [`Kind::NotFinite`], naming the array.
+    fn import((integers, reals): (&[i64], &[f64]), host: &Host) -> Result<History> {
+        let &Host { surfaces: (nonmortar, mortar), keeps, frozen, .. } = host;
+        let (n1, n2) = (nonmortar.len(), mortar.len());
+        let (commits, facets) = check_header((integers, reals), host)?;
+        let n_reals = keeps.reals(n1, n2, facets.len() / 2);
+        if reals.len() != n_reals {
+            return mismatch(format!("reals has {} entries; {n_reals} are needed", reals.len()));
+        }
+        let mut rest = reals;
+        let (x1, x2, normals) = (vectors(&mut rest, n1), vectors(&mut rest, n2), vectors(&mut rest, n1));
+        let [gap, slip] = keeps.gaps_and_slips().map(|kept| vectors(&mut rest, kept * n1));
+        let (areas, coverage) = (take(&mut rest, n1).to_vec(), take(&mut rest, n1).to_vec());
+        let mut pairs = Vec::with_capacity(facets.len() / 2);
+        for f in facets.chunks_exact(2) {
+            let index = |v: i64, n: usize| usize::try_from(v).ok().filter(|&i| i < n);
+            let (Some(one), Some(two)) = (index(f[0], nonmortar.facets.len()), index(f[1], mortar.facets.len())) else {
+                return mismatch(format!("a pair names the facets {} and {}, which do not exist", f[0], f[1]));
+            };
+            let mut weights = PairWeights::default();
+            let values = take(&mut rest, REALS_PER_PAIR);
+            weights.ab.as_flattened_mut().copy_from_slice(&values[..REALS_PER_PAIR / 2]);
+            weights.ac.as_flattened_mut().copy_from_slice(&values[REALS_PER_PAIR / 2..]);
+            pairs.push(PairRecord { one, two, weights });
+        }
+        let integrated = true;
+        let history = History { keeps, commits, x1, x2, normals, areas, coverage, gap, slip, pairs, integrated };
+        check_contents(&history, (nonmortar, mortar), frozen)?;
+        Ok(history)
+    }
+}
+
+/// Refuses what is damaged or not of this interface. Steps committed, and the pairs' facets.
+fn check_header<'a>((integers, reals): (&'a [i64], &[f64]), host: &Host) -> Result<(i64, &'a [i64])> {
+    if integers.len() < HEADER {
+        return mismatch(format!("integers has {} entries; at least {HEADER} are needed", integers.len()));
+    }
+    let (layout, (nonmortar, mortar)) = (integers[0], host.surfaces);
+    if OLD_LAYOUTS.contains(&layout) {
+        let text = "the history has the layout of an older library version, without a checksum; this one reads layout 5: \
+                    go on with the version that wrote it, or start anew";
+        return mismatch(text);
+    }
+    if layout != LAYOUT {
+        return mismatch(format!("integers[0] is {layout}: not a history of this library version"));
+    }
+    if let Some(k) = reals.iter().position(|v| !v.is_finite()) {
+        return Err(Error::new(Kind::NotFinite, format!("reals[{k}] is not finite")));
+    }
+    if integers[PLACE] != checksum::of_history(integers, reals) {
+        return mismatch(format!(
+            "the checksum does not fit the {} integers and {} reals given: they are not those that were exported",
+            integers.len(),
+            reals.len()
+        ));
+    }
+    let (meaning, rest) = integers[PLACE + 1..].split_first_chunk().expect("the header is longer");
+    let (&[commits, nodes1, nodes2], mut rest) = rest.split_first_chunk().expect("the header is longer");
+    let (n1, n2) = (nonmortar.len(), mortar.len());
+    if (nodes1, nodes2) != (n1 as i64, n2 as i64) {
+        return mismatch(format!("the history has {nodes1} + {nodes2} nodes, the interface {n1} + {n2}"));
+    }
+    meaning::check(meaning, &host.meaning)?;
+    if commits < 0 {
+        return mismatch(format!("integers names {commits} commits"));
+    }
+    let facets = list(&mut rest, "pairs", 2)?;
+    if !rest.is_empty() {
+        return mismatch(format!("integers holds {} entries after its last list", rest.len()));
+    }
+    if host.keeps == Keeps::Nothing && !facets.is_empty() {
+        return mismatch("integers names pairs; a history without friction, with weights of now, has none");
+    }
+    Ok((commits, facets))
+}
+
+/// Refuses numbers that no evaluation could use.
+fn check_contents(history: &History, (nonmortar, mortar): (&Surface, &Surface), frozen: bool) -> Result<()> {
+    if !history.pairs.is_sorted_by(|p, q| (p.one, p.two) < (q.one, q.two)) {
+        return mismatch("the pairs are not sorted by their facets, or one comes twice");
+    }
+    if let Some(k) = history.areas.iter().position(|&a| a <= 0.0) {
+        return mismatch(format!("the area of node {k} is not positive"));
+    }
+    if let Some(k) = history.normals.iter().position(|n| !((n.norm() - 1.0).abs() <= UNIT)) {
+        return mismatch(format!("the normal of node {k} is no unit vector"));
+    }
+    // Weights that are frozen for good are none of these positions, and a commit takes any.
+    if frozen {
+        return Ok(());
+    }
+    let frame = |f| NonmortarFrame::new(&nonmortar.facet(f, &history.x1)).map(|_| ());
+    let plane = |f| Plane::of(&mortar.facet(f, &history.x2)).map(|_| ());
+    let facets = (0..nonmortar.facets.len()).map(frame).chain((0..mortar.facets.len()).map(plane));
+    match facets.into_iter().find_map(Result::err) {
+        Some(error) => mismatch(format!("a facet is degenerate at the history's positions: {error}")),
+        None => Ok(()),
+    }
+}
+
+impl<const N: usize> Contact<N> {
+    fn meaning(&self) -> [i64; meaning::LENGTH] {
+        meaning::of(&self.options, &self.nonmortar, &self.mortar)
+    }
+
+    /// The history as flat arrays, for a restart.
+    pub fn export_history(&mut self) -> Result<(Vec<i64>, Vec<f64>)> {
+        self.ensure_history()?;
+        Ok(self.history.export(self.meaning()))
+    }
+
+    /// Lengths of what [`Contact::export_history`] gives.
+    pub fn history_size(&mut self) -> Result<(usize, usize)> {
+        self.ensure_history()?;
+        Ok(self.history.flat_size())
+    }
+
+    /// Replaces the history by an imported one.
+    pub fn import_history(&mut self, integers: &[i64], reals: &[f64]) -> Result<()> {
+        let host = Host {
+            surfaces: (&self.nonmortar, &self.mortar),
+            keeps: Keeps::of(&self.options),
+            meaning: self.meaning(),
+            frozen: self.options.effective_weights() == Weights::Reference,
+        };
+        let history = History::import((integers, reals), &host)?;
+        if let Err(e) = self.mortar.check_rigid(&history.x2) {
+            return mismatch(e.message);
+        }
+        self.restore(history)?;
+        self.rollback = None;
+        Ok(())
+    }
+}
