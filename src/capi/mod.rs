@@ -51,6 +51,8 @@ mod pair;
 
 mod node;
 
+mod equilibrium;
+
 mod fp_environment;
 mod guard;
 mod raw;
@@ -58,6 +60,7 @@ mod sized;
 
 pub use counters::*;
 pub use diagnosis::*;
+pub use equilibrium::*;
 pub use evaluation::*;
 pub use facet::*;
 pub use history::*;
