@@ -52,6 +52,7 @@
  *     interface_residual                     in each Newton iteration; with it one of
  *     interface_tangent_coo, interface_tangent_csr
  *     interface_step_limit                   where contact alone holds a body: how much of Newton's step may be taken
+ *     interface_equilibrium                  to see whether it has converged, beside the host's own residual
  *     interface_states                       for output
  *     interface_commit                       after each converged step; interface_rollback undoes it
  *     interface_destroy                      at the end
@@ -68,6 +69,7 @@
  *     facet_normal                           of neighbours, where weights are to be those of the handle in every bit
  *     pair_weights, pair_gap                 each pair; sum the gaps over the pairs of a node
  *     node_respond                           each non-mortar node
+ *     node_equilibrium                       the same, to see whether it has converged
  *     pair_residual, pair_tangent            each pair again
  *     node_block                             each non-mortar node, once
  *
@@ -720,6 +722,41 @@ typedef struct stickslip_node {
   double directions[6];
 } stickslip_node;
 
+/// What `stickslip_interface_equilibrium` finds: three violations, each of the node where it is largest over its scale.
+/// Nodes in the index base; -1 where all is zero, and the scale is then the least of all nodes.
+typedef struct stickslip_equilibrium {
+  /// sizeof(stickslip_equilibrium).
+  uint64_t struct_size;
+  /// Input: Young's modulus of the softer body [F/L^2], no matter where the augmentation comes from; 0: not known.
+  double modulus;
+  /// Input: traction_scale is at least this, the largest of earlier steps for example, so that a step that takes the
+  /// load away is not judged by its rounding [F/L^2]; 0: those of now alone.
+  double least_traction;
+  /// Output: largest penetration, or opening under pressure: g_N over the covered area; of tied surfaces, of the change
+  /// of the gap [L].
+  double gap;
+  /// Output: what to compare it with: h traction_scale / modulus, h the root of the node's area M_A; without a modulus
+  /// h alone [L].
+  double gap_scale;
+  /// Output: largest traction that the law forbids: tension, what is beyond the cone, what an open or uncovered node
+  /// has, a component in a prescribed direction, of a carried node the difference from its carriers [F/L^2].
+  double traction;
+  /// Output: what to compare it with: the interface's largest traction, that of a node covered in part times the part
+  /// [F/L^2].
+  double traction_scale;
+  /// Output: largest slip in this step of a node that sticks, or slip against or across the traction; of tied surfaces
+  /// along the surface [L].
+  double slip;
+  /// Output: what to compare it with, as gap_scale [L].
+  double slip_scale;
+  /// Output: the node of gap.
+  int64_t gap_node;
+  /// Output: the node of traction.
+  int64_t traction_node;
+  /// Output: the node of slip.
+  int64_t slip_node;
+} stickslip_equilibrium;
+
 #ifdef __cplusplus
 extern "C" {
 #endif // __cplusplus
@@ -1287,6 +1324,51 @@ int32_t stickslip_node_block(const struct stickslip_node_response *response,
                              int32_t layout,
                              double *row,
                              double *block);
+
+/// How far (x1, x2, lambda) is from contact equilibrium, whatever augmentation, row scale and form are: for the test of
+/// convergence, beside the forces' residual of each body. The multiplier rows cannot serve there, for they go with the
+/// augmentation. Converged is a point with gap <= t gap_scale, traction <= t traction_scale and slip <= t slip_scale; a
+/// traction is then known to about t traction_scale, if the modulus is given. t = 1e-10 is within what Newton's method
+/// reaches.
+///
+/// With gbar = g_N over the covered area a node must have lambda_N <= 0, gbar >= 0, lambda_N gbar = 0, and a tangential
+/// part within the cone, on it where it slips, the slip along it: the complementarity and Coulomb's law that paper (17),
+/// (22), (24) project on. Of the three states the nearest is taken, a length counting as the traction modulus / h times
+/// it. What rounding makes of positions does not count: 8 last digits of the largest coordinate that is passed, in a gap
+/// and in a slip, and modulus / h times that in a traction. Nodes without any multiplier equation have no part in it.
+///
+/// x1 (3 n1), x2 (3 n2): positions [L]; lambda (3 n1; without friction n1) [F/L^2]; sums: see
+/// `stickslip_interface_sums`, or NULL; with sums every handle finds the same but for the largest coordinate, which is
+/// that of its own part. out, input and output: modulus and least_traction are read, all others are written. Call it
+/// before the commit.
+///
+/// Errors: NULL_POINTER, STRUCT_SIZE, NOT_FINITE, INVALID_VALUE (modulus, least_traction; as
+/// `stickslip_interface_sums`), DEGENERATE_FACET, PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL, UNSUPPORTED (sums with
+/// weak_coverage).
+/// Cost: as `stickslip_interface_states`: after a residual at the same positions no integration.
+int32_t stickslip_interface_equilibrium(struct stickslip_interface *interface,
+                                        const double *x1,
+                                        const double *x2,
+                                        const double *lambda,
+                                        const double *sums,
+                                        struct stickslip_equilibrium *out);
+
+/// The same of one node, for hosts that go through the stages: its violations of the contact conditions, from the gaps
+/// summed over all its pairs. The node's augmentation has no part in it.
+///
+/// node: see `stickslip_node`. stiffness >= 0: a length times this is a traction, modulus / h with h the root of the
+/// node's area [F/L^3]; it serves to find the nearest of the three states. rounding >= 0: what rounding makes of a
+/// length that is zero [L]; it does not count, nor does stiffness times it in a traction. Outputs, each may be NULL: gap
+/// [L], traction [F/L^2], slip [L]. Compare them with what the struct `stickslip_equilibrium` says.
+///
+/// Errors: NULL_POINTER, STRUCT_SIZE, NOT_FINITE, INVALID_VALUE.
+/// Cost: below a microsecond; allocates nothing. Paper: as `stickslip_interface_equilibrium`.
+int32_t stickslip_node_equilibrium(const struct stickslip_node *node,
+                                   double stiffness,
+                                   double rounding,
+                                   double *gap,
+                                   double *traction,
+                                   double *slip);
 
 #ifdef __cplusplus
 }  // extern "C"

@@ -116,6 +116,10 @@ fn c_calls(pair: &stickslip_pair) {
             assert_eq!(stickslip_pair_gap(pair, ab.as_ptr(), ac.as_ptr(), gap.as_mut_ptr()), 0);
         });
         allocates_nothing("node_respond", || assert_eq!(stickslip_node_respond(&node, &mut response), 0));
+        allocates_nothing("node_equilibrium", || {
+            let [g, t, s] = gap.first_chunk_mut::<3>().unwrap().each_mut().map(std::ptr::from_mut);
+            assert_eq!(stickslip_node_equilibrium(&node, 1.0, 0.0, g, t, s), 0);
+        });
         allocates_nothing("node_block", || {
             assert_eq!(stickslip_node_block(&response, 1.0, 0, row.as_mut_ptr(), block.as_mut_ptr()), 0);
         });

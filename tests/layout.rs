@@ -152,6 +152,20 @@ fn layouts() -> Vec<Layout> {
             error,
             error_facets
         }),
+        layout!(stickslip_equilibrium {
+            struct_size,
+            modulus,
+            least_traction,
+            gap,
+            gap_scale,
+            traction,
+            traction_scale,
+            slip,
+            slip_scale,
+            gap_node,
+            traction_node,
+            slip_node
+        }),
         layout!(stickslip_node {
             struct_size,
             slip,

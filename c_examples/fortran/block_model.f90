@@ -23,6 +23,7 @@ module block_model
   integer, parameter :: band = 2 * 2 * (plane + my + 1) - 1
 
   real(dp), parameter :: young = 1000, poisson = 0.3_dp, friction = 0.2_dp
+  real(dp), parameter :: model_size = norm2([5.0_dp, 2.0_dp, 3.0_dp]) ! the box around both bodies
   real(dp), parameter :: block(3) = [4, 1, 2], press = -200, push = 60, end_time = 2
 
   real(dp) :: x(ndm, numnp)          ! positions of the undeformed bodies

@@ -5,7 +5,7 @@
 module contact_nodes
   use, intrinsic :: iso_c_binding, only: c_char, c_int32_t, c_int64_t, c_loc
   use, intrinsic :: iso_fortran_env, only: error_unit
-  use block_model, only: dp, friction, ixf1, nf1, numnp, young
+  use block_model, only: dp, friction, ixf1, model_size, nf1, numnp, young
   use stickslip
   implicit none
 
@@ -28,6 +28,8 @@ module contact_nodes
   real(dp) :: gap_previous(3, numnp)      ! g[n_n, x_{n+1}] [L^3]
 
   type(stickslip_node_response) :: response(numnp)
+  ! How far a node is from contact equilibrium, whatever the augmentation: gap [L], traction [F/L^2], slip [L].
+  real(dp), target :: violation(3, numnp) = 0
 
   ! A node is covered above this part of its area.
   real(dp), parameter :: coverage_min = 1e-8_dp
@@ -39,6 +41,8 @@ module contact_nodes
   real(dp), parameter :: initial_traction = 1e-6_dp, closed = 1e-8_dp
   ! y is prescribed on both sides (plane strain): no traction along it, no part of it in the normal.
   real(dp), parameter :: prescribed(3) = [0, 1, 0]
+  ! Contact is in equilibrium up to this part of its scales; what rounding makes of positions does not count.
+  real(dp), parameter :: contact_tolerance = 1e-10_dp, rounding = 8 * epsilon(1.0_dp) * model_size
 
 contains
 
@@ -110,7 +114,23 @@ contains
     ! A node that touches for the first time has not slipped yet: it acts without friction for this one step.
     node%mu = merge(friction, 0.0_dp, coverage_previous(n) > node%coverage_min)
     call must(stickslip_node_respond(node, response(n)))
+    call must(stickslip_node_equilibrium(node, young / sqrt(area(n)), rounding, c_loc(violation(1, n)), &
+        c_loc(violation(2, n)), c_loc(violation(3, n))))
   end subroutine
+
+  ! Of the nodes' last responses. A gap over the node's size is a strain, and times the modulus a traction.
+  logical function in_equilibrium(lambda)
+    real(dp), intent(in) :: lambda(3, numnp)
+    real(dp) :: traction
+    integer :: n
+    traction = sqrt(maxval(sum(lambda**2, dim=1)))
+    in_equilibrium = .true.
+    do n = 1, numnp
+      if (.not. carries_multiplier(n)) cycle
+      if (violation(2, n) > contact_tolerance * traction .or. young / sqrt(area(n)) * &
+          max(violation(1, n), violation(3, n)) > contact_tolerance * traction) in_equilibrium = .false.
+    end do
+  end function
 
   ! A step has converged: its last evaluation becomes t_n.
   subroutine commit_nodes(positions)

@@ -33,9 +33,9 @@ PetscErrorCode bulk_create(Model *model)
   PetscCall(DMGetCoordinatesLocal(model->dm, &coordinate_vector));
   PetscCall(VecGetArrayRead(coordinate_vector, &coordinates));
   model->n_cells = cEnd - cStart;
-  PetscCall(PetscMalloc5(model->n_cells + 1, &model->cell_offsets, 8 * model->n_cells, &model->cell_dofs,
-                         model->n_cells, &model->cell_body, 24 * model->n_cells, &model->cell_X, model->n_cells,
-                         &model->cell_stiffness));
+  PetscCall(PetscMalloc6(model->n_cells + 1, &model->cell_offsets, 8 * model->n_cells, &model->cell_dofs,
+                         model->n_cells, &model->cell_body, model->n_cells, &model->cell_part, 24 * model->n_cells,
+                         &model->cell_X, model->n_cells, &model->cell_stiffness));
   model->cell_offsets[0] = 0;
   for (PetscInt c = cStart; c < cEnd; c++) {
     PetscInt      *closure = NULL, size, corners[8], n = 0, at;
@@ -48,6 +48,7 @@ PetscErrorCode bulk_create(Model *model)
     PetscCall(DMPlexGetCellType(model->dm, c, &type));
     PetscCall(DMPlexInvertCell(type, corners)); /* to VTK's order */
     PetscCall(DMLabelGetValue(body, c, &model->cell_body[c - cStart]));
+    model->cell_part[c - cStart] = model->vertex_part[corners[0] - model->vStart];
     for (PetscInt a = 0; a < n; a++) {
       PetscCall(PetscSectionGetOffset(model->section, corners[a], &model->cell_dofs[n_corners + a]));
       PetscCall(PetscSectionGetOffset(coordinate_section, corners[a], &at));
@@ -100,16 +101,18 @@ static PetscErrorCode agree_on_inverted(Model *model, PetscInt c, PetscInt *stat
 }
 
 /* Rounding: a displacement's last digit, times a stiffness, is a force. It is what is left of a body that moves without
- * stress. An iterate that runs away must not loosen the test: a displacement counts up to the model's size. */
+ * stress. An iterate that runs away must not loosen the test: a displacement counts up to the size of all that
+ * contact may join to the part. */
 static PetscReal squared_rounding(const Model *model, PetscInt c, PetscInt n, const PetscReal u_cell[])
 {
   PetscReal largest = 0;
   for (PetscInt k = 0; k < 3 * n; k++)
     largest = PetscMax(largest, PetscAbsReal(u_cell[k]));
-  return n * PetscSqr(ROUNDINGS * PETSC_MACHINE_EPSILON * PetscMin(largest, model->size) * model->cell_stiffness[c]);
+  return n * PetscSqr(ROUNDINGS * PETSC_MACHINE_EPSILON * PetscMin(largest, model->parts[model->cell_part[c]].reach) *
+                      model->cell_stiffness[c]);
 }
 
-PetscErrorCode bulk_forces(Model *model, Vec f_local, PetscReal *rounding, PetscInt *status)
+PetscErrorCode bulk_forces(Model *model, Vec f_local, PetscInt *status)
 {
   const PetscScalar *u;
   PetscScalar       *f;
@@ -129,7 +132,7 @@ PetscErrorCode bulk_forces(Model *model, Vec f_local, PetscReal *rounding, Petsc
     PetscCall(cell_forces(n, &model->mesh.bodies[model->cell_body[c]].material,
                           model->cell_X + 3 * model->cell_offsets[c], u_cell, f_cell, NULL, &inverted));
     if (inverted) first_inverted = c;
-    *rounding += squared_rounding(model, c, n, u_cell);
+    model->squares[N_SQUARES * model->cell_part[c] + SQUARES_ROUNDING] += squared_rounding(model, c, n, u_cell);
     for (PetscInt a = 0; a < n; a++) {
       for (int i = 0; i < 3; i++)
         f[dofs[a] + i] += f_cell[3 * a + i];

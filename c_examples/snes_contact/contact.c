@@ -45,7 +45,7 @@ static PetscErrorCode scatter(Interface *interface, const PetscScalar *from, Vec
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode contact_forces(Model *model, Vec f_local, PetscReal *squared_norm, PetscInt *status)
+PetscErrorCode contact_forces(Model *model, Vec f_local, PetscInt *status)
 {
   PetscFunctionBegin;
   *status = 0;
@@ -57,7 +57,8 @@ PetscErrorCode contact_forces(Model *model, Vec f_local, PetscReal *squared_norm
       PetscScalar *f1 = interface->forces, *f2 = f1 + 3 * interface->n1, *rows = f2 + 3 * interface->n2;
       refused = stickslip_interface_residual(interface->handle, STATE_OF(interface), NULL, f1, f2, rows);
       for (PetscInt k = 0; k < 3 * (interface->n1 + interface->n2) && !refused; k++)
-        *squared_norm += PetscSqr(PetscAbsScalar(interface->forces[k]));
+        model->squares[N_SQUARES * model->mesh_part[interface->nodes[k / 3]] + SQUARES_CONTACT] +=
+            PetscSqr(PetscAbsScalar(interface->forces[k]));
     }
     PetscCall(contact_agree(model, refused, status));
     if (!*status) PetscCall(scatter(interface, interface->forces, f_local, MPIU_SUM));

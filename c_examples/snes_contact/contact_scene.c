@@ -90,13 +90,11 @@ static PetscErrorCode read_surfaces(Model *model, Interface *interface)
         (model->prescribed[interface->nodes[a]] & mortar_mask) | symmetry[interface->nodes[a]];
   PetscCall(PetscFree(symmetry));
 
-  if (interface->options.augmentation == 0 && interface->options.modulus == 0) {
-    const PetscReal young1     = surface_young(model, interface->nodes, interface->n1),
-                    young2     = surface_young(model, interface->nodes + interface->n1, interface->n2);
-    interface->options.modulus = PetscMin(young1, young2);
-    if (interface->options.modulus == PETSC_MAX_REAL)
-      interface->options.modulus = model->mesh.bodies[0].material.young; /* nothing moves */
-  }
+  interface->young = PetscMin(surface_young(model, interface->nodes, interface->n1),
+                              surface_young(model, interface->nodes + interface->n1, interface->n2));
+  if (interface->young == PETSC_MAX_REAL) interface->young = model->mesh.bodies[0].material.young; /* nothing moves */
+  if (interface->options.augmentation == 0 && interface->options.modulus == 0)
+    interface->options.modulus = interface->young;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -45,8 +45,10 @@ static PetscErrorCode build(Model *model, PetscInt *status)
   PetscCall(supports_label(model));
   PetscCall(loads_label(model));
   PetscCall(contact_label(model));
+  PetscCall(parts_label(model));
   PetscCall(plex_distribute(model));
   PetscCall(unknowns_create(model));
+  PetscCall(parts_create(model));
   PetscCall(bulk_create(model));
   PetscCall(loads_assemble(model));
   PetscCall(contact_create(model, status));
@@ -63,6 +65,7 @@ static PetscErrorCode clean_up(Model *model)
 {
   PetscFunctionBegin;
   PetscCall(contact_destroy(model));
+  PetscCall(parts_destroy(model));
   for (PetscInt s = 0; s < model->n_supports; s++) {
     PetscCall(PetscFree(model->supports[s].curve.points));
     PetscCall(PetscFree(model->supports[s].rotate_curve.points));
@@ -82,7 +85,7 @@ static PetscErrorCode clean_up(Model *model)
   PetscCall(PetscFree(model->original));
   PetscCall(PetscFree(model->owner));
   PetscCall(PetscFree(model->ghost));
-  PetscCall(PetscFree5(model->cell_offsets, model->cell_dofs, model->cell_body, model->cell_X,
+  PetscCall(PetscFree6(model->cell_offsets, model->cell_dofs, model->cell_body, model->cell_part, model->cell_X,
                        model->cell_stiffness));
   PetscCall(VecDestroy(&model->u_local));
   PetscCall(VecDestroy(&model->f_local));

@@ -52,6 +52,8 @@ typedef struct {
   int64_t              coo_capacity, *coo_rows, *coo_columns;
   double              *coo_values;
   double               friction_work; /* up to the last converged step */
+  double               young, largest_traction; /* of the softer body; up to the last converged step */
+  stickslip_equilibrium equilibrium;  /* as last judged (equilibrium.c) */
   int64_t              bytes;         /* of the library's, the most at the end of a step */
 } Interface;
 
@@ -91,6 +93,16 @@ typedef struct {
 
 typedef struct Cycling Cycling;
 
+/* Connected cells: bodies, or pieces of them, that nothing but contact joins to others (parts.c) */
+typedef struct {
+  PetscReal young, reach;               /* the stiffest E; size of all that contact may join to it */
+  PetscReal reference, largest;         /* its forces at the last evaluation; up to the last converged step */
+  PetscReal residual, noise;            /* at the last evaluation */
+} Part;
+
+/* Sums of squares of a part's nodal forces */
+enum { SQUARES_LOADS, SQUARES_REACTIONS, SQUARES_CONTACT, SQUARES_ROUNDING, SQUARES_RESIDUAL, N_SQUARES };
+
 /* Newton's method on one step (newton.c) */
 typedef struct {
   PetscBool     fixed_line_search, fixed_max_it; /* the user chose them */
@@ -101,6 +113,9 @@ typedef struct {
   PetscInt      iterations;        /* of the last newton_solve(), all attempts */
   char          cycle[768];        /* the last one found in it, as a sentence */
   char          why[1024];         /* it did not converge */
+  char          unsettled[256];    /* forces balance, but this in the contact does not; empty: nothing */
+  PetscReal     violation;         /* its size, and how many iterations it has not changed for */
+  PetscInt      n_still;
   struct cJSON *cycles;            /* rank 0: those seen since the last report */
   struct cJSON *state_changes;     /* of the last attempt: nodes, by iteration from the second on; NULL: reported */
 } Newton;
@@ -155,8 +170,8 @@ typedef struct {
   PetscSF         all_displacements;
 
   /* bulk.c */
-  PetscInt n_cells, *cell_offsets, *cell_dofs,
-      *cell_body; /* this rank's cells; cell_dofs: local offset of each corner */
+  PetscInt n_cells, *cell_offsets, *cell_dofs, *cell_body,
+      *cell_part; /* this rank's cells; cell_dofs: local offset of each corner */
   PetscReal *cell_X, *cell_stiffness; /* coordinates of the corners; stiffness at rest */
   Vec        u_local, f_local, prescribed_local; /* local vectors: state, forces, values of prescribed entries at t */
   Vec        f_external;                         /* local, at t */
@@ -168,7 +183,13 @@ typedef struct {
   Closing   closing;
   Cycling  *cycling;
   PetscInt  iterations;                            /* of Newton, spent on the present step, failed attempts included */
-  PetscReal t, reference_force, largest_reference, noise, size, stiffness; /* for the convergence test (solver.c) */
+  PetscReal t, reference_force, size, stiffness; /* the forces of the last evaluation; of the model */
+
+  /* parts.c */
+  PetscInt   n_parts, *mesh_part, *vertex_part; /* of each mesh vertex (rank 0), of each vertex here */
+  Part      *parts;
+  PetscReal *squares; /* N_SQUARES per part, of the last evaluation */
+
   char      refusal[1024];                         /* the library's last message, if it refused an evaluation */
   char      inverted[256];                         /* which cell the last attempt at a step has turned inside out */
   Timers    timers;
@@ -206,7 +227,7 @@ PetscErrorCode unknowns_sum(Model *model, Vec local);  /* into f_sum: what all r
 /* bulk.c */
 PetscErrorCode bulk_create(Model *model);
 /* `status` > 0 on every rank if a cell is turned inside out somewhere, named in model->inverted */
-PetscErrorCode bulk_forces(Model *model, Vec f_local, PetscReal *squared_rounding, PetscInt *status); /* adds to both */
+PetscErrorCode bulk_forces(Model *model, Vec f_local, PetscInt *status); /* adds, to model->squares, too */
 PetscErrorCode bulk_stiffness(Model *model, Mat matrix, PetscInt *status);    /* adds */
 PetscErrorCode bulk_extension(Model *model, Vec u_local, Vec f_local, Mat matrix); /* adds to both */
 PetscErrorCode bulk_pattern(Model *model, Mat matrix);                        /* adds zeros */
@@ -223,7 +244,7 @@ PetscErrorCode contact_destroy(Model *model);
 PetscErrorCode contact_start(Model *model, Vec x, PetscInt *status);
 void           contact_positions(Interface *interface);
 PetscErrorCode contact_gather(Model *model, Interface *interface, Vec local);
-PetscErrorCode contact_forces(Model *model, Vec f_local, PetscReal *squared_norm, PetscInt *status);
+PetscErrorCode contact_forces(Model *model, Vec f_local, PetscInt *status); /* adds, to model->squares, too */
 PetscErrorCode contact_tangent(Model *model, Mat matrix, PetscInt *status);
 PetscErrorCode contact_pattern(Model *model, Mat matrix);
 PetscErrorCode contact_states_create(const Interface *interface, ContactStates *states); /* rank 0 */
@@ -231,6 +252,19 @@ PetscErrorCode contact_scale_augmentation(Model *model, const PetscBool *marked,
 PetscErrorCode contact_states_destroy(ContactStates *states);
 PetscErrorCode contact_tendencies(Model *model, int32_t *state, double *tangential); /* of all interfaces at u_local */
 PetscErrorCode contact_commit(Model *model, PetscInt *status);
+
+/* parts.c */
+PetscErrorCode parts_label(Model *model);
+PetscErrorCode parts_create(Model *model);
+PetscErrorCode parts_destroy(Model *model);
+PetscErrorCode parts_measure(Model *model);
+void           parts_judge(const Model *model, PetscReal rtol, PetscReal atol, PetscBool *balance, PetscBool *relative);
+void           parts_accept(Model *model);
+
+/* equilibrium.c */
+PetscErrorCode equilibrium_judge(Model *model, PetscReal rtol, PetscBool *holds, PetscBool *stuck);
+void           equilibrium_restart(Model *model);
+void           equilibrium_accept(Model *model);
 
 /* solver.c */
 PetscErrorCode solver_create(Model *model);

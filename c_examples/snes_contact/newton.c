@@ -178,6 +178,11 @@ static PetscErrorCode explain(Model *model, SNESConvergedReason reason)
   } else if (newton->cycle[0]) {
     PetscCall(PetscSNPrintf(newton->why, sizeof(newton->why), "%s%s%s", newton->cycle,
                             newton->stopped ? "" : "; at last: ", newton->stopped ? "" : in_words(reason)));
+  } else if (newton->unsettled[0]) {
+    PetscCall(PetscSNPrintf(newton->why, sizeof(newton->why),
+                            "the forces balance, but the contact is not in equilibrium (%s); where augmentation_scale is "
+                            "small, raise it",
+                            newton->unsettled));
   } else {
     json = cJSON_CreateObject();
     PetscCall(cycling_describe(model, 0, json, nodes, sizeof(nodes)));
@@ -206,6 +211,7 @@ static PetscErrorCode attempt(Model *model, int k, Vec x, PetscBool *converged)
     PetscCall(SNESSetTolerances(model->snes, atol, rtol, stol, CLOSING_ITERATIONS, max_f));
   closing_begin(model, (PetscBool)(k == CLOSING));
   PetscCall(cycling_restart(model));
+  equilibrium_restart(model);
   model->refusal[0] = model->inverted[0] = newton->why[0] = 0;
   newton->stopped = newton->stale = newton->changed = PETSC_FALSE;
   newton->monotone                                  = PETSC_TRUE;

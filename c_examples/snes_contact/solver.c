@@ -1,45 +1,25 @@
 /* SNES: residual, tangent, the convergence test in units of force, and the linear solver's defaults.
  *
  * Residual = internal forces of the bodies + contact - loads, and the multiplier rows (which the library scales to forces).
- * Converged: |residual| <= rtol * reference, reference = |loads| + |reactions| + |contact forces| (2-norms of nodal forces),
- * the largest so far (at the start: 1e-12 E size^2), so that an unloaded step is not judged by its own noise; or below
- * the rounding of displacements, which alone gives a body that moves without stress its forces (bulk_forces()).
- * -snes_rtol sets rtol, -snes_atol a limit in units of force. */
+ * Converged: the forces on each part of the model balance, measured by its own forces (parts.c), and every interface is in
+ * contact equilibrium, measured by its own tractions (equilibrium.c). The multiplier rows are not asked: they are as
+ * small as the augmentation.
+ * -snes_rtol sets the tolerance of both, -snes_atol a limit in units of force. */
 #include "model.h"
-
-/* sum of squares of the displacement entries of a local vector of forces; of the prescribed ones only, or of all */
-static PetscErrorCode squared_forces(Model *model, Vec local, PetscBool prescribed_only, PetscReal *squares)
-{
-  const PetscScalar *f;
-  PetscFunctionBegin;
-  *squares = 0;
-  PetscCall(unknowns_sum(model, local));
-  PetscCall(VecGetArrayRead(model->f_sum, &f));
-  for (PetscInt v = model->vStart; v < model->vEnd; v++) {
-    PetscInt at;
-    if (model->ghost[v - model->vStart]) continue;
-    PetscCall(PetscSectionGetOffset(model->section, v, &at));
-    for (int i = 0; i < 3; i++) {
-      if (!prescribed_only || model->equations[at + i] < 0) *squares += PetscSqr(PetscAbsScalar(f[at + i]));
-    }
-  }
-  PetscCall(VecRestoreArrayRead(model->f_sum, &f));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
 
 static PetscErrorCode residual(SNES snes, Vec x, Vec r, void *context)
 {
   Model         *model      = context;
-  PetscReal      squares[4] = {0, 0, 0, 0}; /* loads, reactions, contact, rounding */
   PetscInt       inverted, refused = 0;
   PetscLogDouble start, end;
 
   PetscFunctionBegin;
   PetscCall(unknowns_to_local(model, x));
   PetscCall(VecZeroEntries(model->f_local));
-  PetscCall(bulk_forces(model, model->f_local, &squares[3], &inverted));
+  PetscCall(PetscArrayzero(model->squares, N_SQUARES * model->n_parts));
+  PetscCall(bulk_forces(model, model->f_local, &inverted));
   PetscCall(PetscTime(&start));
-  if (!inverted) PetscCall(contact_forces(model, model->f_local, &squares[2], &refused));
+  if (!inverted) PetscCall(contact_forces(model, model->f_local, &refused));
   PetscCall(PetscTime(&end));
   model->timers.contact_forces += end - start;
   if (inverted || refused) PetscCall(SNESSetFunctionDomainError(snes));
@@ -47,12 +27,7 @@ static PetscErrorCode residual(SNES snes, Vec x, Vec r, void *context)
   PetscCall(VecZeroEntries(r));
   PetscCall(DMLocalToGlobalBegin(model->dm, model->f_local, ADD_VALUES, r));
   PetscCall(DMLocalToGlobalEnd(model->dm, model->f_local, ADD_VALUES, r));
-
-  PetscCall(squared_forces(model, model->f_external, PETSC_FALSE, &squares[0]));
-  PetscCall(squared_forces(model, model->f_local, PETSC_TRUE, &squares[1]));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, squares, 4, MPIU_REAL, MPIU_SUM, PETSC_COMM_WORLD));
-  model->reference_force = PetscSqrtReal(squares[0]) + PetscSqrtReal(squares[1]) + PetscSqrtReal(squares[2]);
-  model->noise = PetscSqrtReal(squares[3]);
+  PetscCall(parts_measure(model));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -81,20 +56,27 @@ static PetscErrorCode tangent(SNES snes, Vec x, Mat J, Mat P, void *context)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode judge(SNES snes, const Model *model, PetscReal norm, SNESConvergedReason *reason)
+static PetscErrorCode judge(SNES snes, Model *model, PetscReal norm, SNESConvergedReason *reason)
 {
-  PetscReal atol, rtol, reference = PetscMax(model->reference_force, model->largest_reference);
-  /* A body that flies off has any rounding that it likes, and nothing that balances its load. */
-  const PetscReal noise = model->closing.active && model->closing.loose >= 0 ? 0 : model->noise;
+  PetscReal atol, rtol;
+  PetscBool balance, relative, holds, stuck;
   PetscFunctionBegin;
   PetscCall(SNESGetTolerances(snes, &atol, &rtol, NULL, NULL, NULL));
   *reason = SNES_CONVERGED_ITERATING;
-  if (PetscIsInfOrNanReal(norm))
+  if (PetscIsInfOrNanReal(norm)) {
     *reason = SNES_DIVERGED_FNORM_NAN;
-  else if (norm <= rtol * reference)
-    *reason = SNES_CONVERGED_FNORM_RELATIVE;
-  else if (norm <= PetscMax(atol, noise))
-    *reason = SNES_CONVERGED_FNORM_ABS;
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+  parts_judge(model, rtol, atol, &balance, &relative);
+  if (!balance) {
+    equilibrium_restart(model);
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+  PetscCall(equilibrium_judge(model, rtol, &holds, &stuck));
+  if (holds)
+    *reason = relative ? SNES_CONVERGED_FNORM_RELATIVE : SNES_CONVERGED_FNORM_ABS;
+  else if (stuck)
+    *reason = SNES_DIVERGED_LOCAL_MIN; /* of PETSc's names the nearest; newton.unsettled has words */
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -133,7 +115,7 @@ static PetscErrorCode solve_ends(KSP ksp, Vec b, Vec x, void *context)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* What the model's forces are measured by: its size, a stiffness (the largest E times it), a force too small to matter. */
+/* The model's size, and a stiffness (the largest E times it). */
 static PetscErrorCode measure(Model *model)
 {
   PetscReal low[3], high[3], squared = 0, young = 0;
@@ -143,9 +125,8 @@ static PetscErrorCode measure(Model *model)
     squared += PetscSqr(high[i] - low[i]);
   for (PetscInt b = 0; b < model->mesh.n_bodies; b++)
     young = PetscMax(young, model->mesh.bodies[b].material.young);
-  model->size              = PetscSqrtReal(squared);
-  model->stiffness         = young * model->size;
-  model->largest_reference = 1e-12 * young * squared;
+  model->size      = PetscSqrtReal(squared);
+  model->stiffness = young * model->size;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -236,7 +236,8 @@ static PetscErrorCode accept(Model *model, History *history)
   history->t_before        = history->t_last;
   history->t_last          = model->t;
   model->iterations        = 0;
-  model->largest_reference = PetscMax(model->largest_reference, model->reference_force);
+  parts_accept(model);
+  equilibrium_accept(model);
   PetscCall(solver_refresh_pattern(model));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

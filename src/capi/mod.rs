@@ -53,6 +53,8 @@ mod pair;
 
 mod node;
 
+mod equilibrium;
+
 mod fp_environment;
 mod guard;
 mod raw;
@@ -61,6 +63,7 @@ mod sized;
 pub use closing::*;
 pub use counters::*;
 pub use diagnosis::*;
+pub use equilibrium::*;
 pub use evaluation::*;
 pub use facet::*;
 pub use history::*;

@@ -122,7 +122,7 @@ pub(super) fn read_response(first: *const stickslip_node_response, a: usize) -> 
     ))
 }
 
-fn read_node(p: *const stickslip_node) -> Result<Node> {
+pub(super) fn read_node(p: *const stickslip_node) -> Result<Node> {
     // A normal farther from unit length, or a direction farther from orthonormal, is an input error.
     const UNIT: f64 = 1e-10;
     let n = sized::read(p)?;

@@ -69,12 +69,12 @@ impl<const N: usize> Contact<N> {
     }
 
     /// d (row of A) / d lambda_B, times r_A.
-    fn multiplier_share(&self, a: usize) -> SMatrix<f64, N, N> {
+    pub(super) fn multiplier_share(&self, a: usize) -> SMatrix<f64, N, N> {
         SMatrix::from_fn(|i, j| if N == 1 { 1.0 } else { self.free[a][(i, j)] })
     }
 
     /// The sums of each node that carries others, theirs added.
-    fn carriers_sums(&self, sums: &[NodeSums], carried: &[bool], normals: &[Vec3]) -> BTreeMap<usize, NodeSums> {
+    pub(super) fn carriers_sums(&self, sums: &[NodeSums], carried: &[bool], normals: &[Vec3]) -> BTreeMap<usize, NodeSums> {
         let mut all = BTreeMap::new();
         for a in (0..carried.len()).filter(|&a| carried[a]) {
             for &(b, w) in self.carriers_of(a) {

@@ -9,7 +9,7 @@ use super::nodes::NodeSums;
 use super::{Contact, Friction, MortarSide, NO_EQUATION, Options, Surface, Tangent, analytic, integration};
 use crate::error::Result;
 use crate::geometry::{AnalyticSurface, Vec3};
-use crate::law::{Coulomb, Frictionless, Law, Node, NodeResponse, Tied};
+use crate::law::{Coulomb, Frictionless, Law, Measure, Node, NodeResponse, Tied, Violation};
 use crate::mortar::{ForceDerivatives, GapDerivative, NonmortarFrame, Segment};
 use crate::quadrature::Rule;
 use crate::shape::MAX_NODES;
@@ -40,6 +40,8 @@ pub(super) struct Kernels<const N: usize> {
     pub moves: bool,
     /// The law.
     pub respond: fn(&Node<N>) -> NodeResponse<N>,
+    /// A covered node's distance from equilibrium.
+    pub violation: fn(&Node<N>, &Measure) -> Violation,
     /// Stages 3 and 4 of the tangent.
     pub tangent: Assembly<N>,
     /// Derivatives of pairs.
@@ -63,7 +65,7 @@ fn kernels<const N: usize, L: Law<N>>((side, derivatives): (Side, Tangent)) -> K
         (Side::Rests, true) => integration::without_tilt::<false>,
         (Side::Analytic, _) => analytic::motion,
     };
-    Kernels { slips: L::SLIPS, moves, respond: L::respond, tangent, motion }
+    Kernels { slips: L::SLIPS, moves, respond: L::respond, violation: L::violation, tangent, motion }
 }
 
 /// Facets move when asked for, or because a node has an equation. With what the tangent is to know.

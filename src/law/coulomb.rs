@@ -3,27 +3,33 @@
 
 use super::node::{Law, Node, NodeResponse};
 use super::projection::{Projected, State, project_parts};
+use super::violation::{Covered, Measure, Violation};
 use crate::geometry::{Mat3, Vec3};
 
 /// Gap, stick and slip under Coulomb's cone; with mu = infinity (rough) a closed node sticks.
 #[derive(Clone, Copy, Debug)]
 pub struct Coulomb;
 
+/// g_T; none where the node was not covered at t_n.
+fn weighted_slip(node: &Node) -> Vec3 {
+    if !node.covered_before {
+        return Vec3::zeros();
+    }
+    let (now, committed) = node.slip.coefficients();
+    let slip = node.gap_previous - node.gap_now * now - node.gap_committed * committed;
+    node.free * (slip - node.normal * node.normal.dot(&slip))
+}
+
 impl Law<3> for Coulomb {
     const SLIPS: bool = true;
 
     fn respond(node: &Node) -> NodeResponse {
         let r = node.augmentation;
-        let (now, committed) = node.slip.coefficients();
+        let (now, _) = node.slip.coefficients();
 
         let lambda = node.free * node.lambda;
         let gap_normal = node.normal.dot(&node.gap_now);
-        let slip = if node.covered_before {
-            let slip = node.gap_previous - node.gap_now * now - node.gap_committed * committed;
-            node.free * (slip - node.normal * node.normal.dot(&slip))
-        } else {
-            Vec3::zeros()
-        };
+        let slip = weighted_slip(node);
         let lambda_n = node.normal.dot(&lambda);
         // Part by part, so that sigma_N has no rounding of the slip: with mu = 0 the answer is that without friction.
         let (sigma_n, sigma_t) = (lambda_n + r * gap_normal, lambda - node.normal * lambda_n + slip * r);
@@ -54,5 +60,20 @@ impl Law<3> for Coulomb {
             drow_dnow: normal - tangential * now,
             drow_dprevious: tangential,
         }
+    }
+
+    fn violation(node: &Node, measure: &Measure) -> Violation {
+        let lambda = node.free * node.lambda;
+        let normal = node.normal.dot(&lambda);
+        let slip = if node.covered_before { weighted_slip(node) / measure.coverage_previous } else { Vec3::zeros() };
+        let node = Covered {
+            gap: node.normal.dot(&node.gap_now) / measure.coverage,
+            slip,
+            normal,
+            tangential: lambda - node.normal * normal,
+            held: (node.lambda - lambda).norm(),
+            mu: node.mu,
+        };
+        node.nearest(measure)
     }
 }

@@ -3,6 +3,7 @@
 
 use super::node::{Law, Node, NodeResponse};
 use super::projection::State;
+use super::violation::{Covered, Measure, Violation};
 use crate::geometry::{Mat3, Vec3};
 use nalgebra::{SMatrix, SVector};
 
@@ -16,6 +17,12 @@ fn close<const N: usize>(node: &Node<N>, lambda_n: f64) -> (f64, f64, bool) {
     let gap_normal = node.normal.dot(&node.gap_now);
     let sigma_n = lambda_n + node.augmentation * gap_normal;
     (gap_normal, sigma_n, node.covered && sigma_n < 0.0)
+}
+
+/// Of a node with this lambda_N and lambda_T.
+fn nearest<const N: usize>(node: &Node<N>, normal: f64, tangential: Vec3, held: f64, measure: &Measure) -> Violation {
+    let gap = node.normal.dot(&node.gap_now) / measure.coverage;
+    Covered { gap, slip: Vec3::zeros(), normal, tangential, held, mu: 0.0 }.nearest(measure)
 }
 
 impl Law<1> for Frictionless {
@@ -38,6 +45,10 @@ impl Law<1> for Frictionless {
             drow_dnow: node.normal.transpose() * on,
             drow_dprevious: SMatrix::zeros(),
         }
+    }
+
+    fn violation(node: &Node<1>, measure: &Measure) -> Violation {
+        nearest(node, node.lambda[0], Vec3::zeros(), 0.0, measure)
     }
 }
 
@@ -63,5 +74,11 @@ impl Law<3> for Frictionless {
             drow_dnow: on,
             drow_dprevious: Mat3::zeros(),
         }
+    }
+
+    fn violation(node: &Node, measure: &Measure) -> Violation {
+        let lambda = node.free * node.lambda;
+        let normal = node.normal.dot(&lambda);
+        nearest(node, normal, lambda - node.normal * normal, (node.lambda - lambda).norm(), measure)
     }
 }

@@ -14,6 +14,7 @@ mod node;
 mod projection;
 mod slip;
 mod tied;
+mod violation;
 
 pub use coulomb::Coulomb;
 pub use frictionless::Frictionless;
@@ -21,3 +22,4 @@ pub use node::{Law, Node, NodeResponse};
 pub use projection::{Projected, State, TIE, project};
 pub use slip::SlipMeasure;
 pub use tied::Tied;
+pub use violation::{Measure, Violation};

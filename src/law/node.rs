@@ -3,6 +3,7 @@
 
 use super::projection::State;
 use super::slip::SlipMeasure;
+use super::violation::{Measure, Violation};
 use crate::geometry::{Mat3, Vec3};
 use nalgebra::{SMatrix, SVector};
 
@@ -13,6 +14,9 @@ pub trait Law<const N: usize> {
 
     /// The law's answer for one node.
     fn respond(node: &Node<N>) -> NodeResponse<N>;
+
+    /// How far a covered node is from equilibrium. The augmentation has no part in it.
+    fn violation(node: &Node<N>, measure: &Measure) -> Violation;
 }
 
 /// Everything a law may need of one node. N = 3: the multiplier is a vector; N = 1: its component along the normal.
@@ -90,5 +94,13 @@ impl Node {
     /// Coulomb's answer, of the stateless stage.
     pub fn respond(&self) -> NodeResponse {
         super::Coulomb::respond(self)
+    }
+
+    /// Its distance from equilibrium under Coulomb's law, of the stateless stage.
+    pub fn violation(&self, measure: &Measure) -> Violation {
+        match self.covered {
+            true => super::Coulomb::violation(self, measure),
+            false => Violation::uncovered(self.lambda.norm(), measure),
+        }
     }
 }

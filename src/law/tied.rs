@@ -3,6 +3,7 @@
 
 use super::node::{Law, Node, NodeResponse};
 use super::projection::State;
+use super::violation::{Measure, Violation};
 use crate::geometry::{Mat3, Vec3};
 
 /// Opens never, slips never. A covered node is in the state stick.
@@ -33,5 +34,12 @@ impl Law<3> for Tied {
             drow_dnow: free,
             drow_dprevious: Mat3::zeros(),
         }
+    }
+
+    fn violation(node: &Node, measure: &Measure) -> Violation {
+        let apart = node.free * (node.gap_now - node.gap_committed) / measure.coverage;
+        let normal = node.normal.dot(&apart);
+        let held = (node.lambda - node.free * node.lambda).norm();
+        Violation::of(normal.abs(), (apart - node.normal * normal).norm(), held, measure)
     }
 }

@@ -153,6 +153,11 @@ where
 
     /// Newton's method; the number of steps it took.
     pub fn solve(&mut self) -> usize {
+        self.solve_to(CONVERGED)
+    }
+
+    /// The same until a step is below `tolerance`, relative to the unknowns.
+    pub fn solve_to(&mut self, tolerance: f64) -> usize {
         let (n, m) = (self.u.len(), self.lambda.len());
         for step in 0..MOST_STEPS {
             let (x1, x2) = self.positions();
@@ -189,7 +194,7 @@ where
             for (a, lambda) in self.lambda.iter_mut().enumerate() {
                 *lambda -= change.fixed_rows::<N>(n + N * a);
             }
-            let largest = |v: f64, w: f64| v <= CONVERGED * w;
+            let largest = |v: f64, w: f64| v <= tolerance * w;
             let lambda = self.lambda.iter().map(|l| l.amax()).fold(0.0, f64::max);
             if largest(change.rows(0, n).amax(), self.u.amax())
                 && largest(change.rows(n, N * m).amax(), lambda.max(f64::MIN_POSITIVE))
