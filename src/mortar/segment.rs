@@ -137,12 +137,12 @@ impl Kernel for Frame<'_> {
     fn run<L: Lanes>(self) -> Result<NonmortarFrame> {
         let plane = Plane::of(self.facet)?;
         let projection = Projection::on::<L>(self.facet, &plane);
-        let map = BilinearMap::new(&projection);
-        let reach = map.convex_reach(&projection);
-        if !(reach > projection.size) {
+        let mut frame = NonmortarFrame { map: BilinearMap::new(&projection), plane, projection, reach: 0.0 };
+        frame.reach = frame.map.convex_reach(&frame.projection);
+        if !(frame.reach > frame.projection.size) {
             return Err(folded());
         }
-        Ok(NonmortarFrame { plane, projection, map, reach })
+        Ok(frame)
     }
 }
 
@@ -175,7 +175,8 @@ impl Kernel for Overlap<'_> {
     fn run<L: Lanes>(self) -> Result<Option<Segment>> {
         let Overlap { frame, facet } = self;
         let one = &frame.projection;
-        let Some((mortar, mortar_map)) = project::<L>(frame, facet)? else { return Ok(None) };
+        let Some(mortar) = project::<L>(frame, facet) else { return Ok(None) };
+        let mortar_map = map(frame, &mortar)?;
         let mut polygon = clip::overlap::<L>(one, &mortar);
         let mut area = polygon.area();
         let small = one.size.min(mortar.size);
@@ -192,29 +193,29 @@ impl Kernel for Overlap<'_> {
     }
 }
 
-/// The mortar facet in the frame's plane, and its map; `None` when it does not even touch the frame's facet.
+/// The mortar facet in the frame's plane; `None` when it does not even touch the frame's facet.
 #[inline(always)]
-pub(super) fn project<L: Lanes>(frame: &NonmortarFrame, facet: &Facet) -> Result<Option<(Projection, BilinearMap)>> {
+pub(super) fn project<L: Lanes>(frame: &NonmortarFrame, facet: &Facet) -> Option<Projection> {
     let one = &frame.projection;
     let mortar = Projection::on::<L>(facet, &frame.plane);
     let margin = BOX_MARGIN * one.size.min(mortar.size);
-    if one.is_apart(&mortar, margin) || mortar.is_edge_on() {
-        return Ok(None);
-    }
     // Most of those beside each other, before the exact test of what touches.
-    if one.separates::<L>(&mortar, margin) {
-        return Ok(None);
-    }
-    // Of the points that the maps are asked for, on edges of the one or of the other.
-    let map = BilinearMap::new(&mortar);
-    let (distance, reach) = (mortar.distance(), map.convex_reach(&mortar));
-    if !((reach > one.size) & (reach > distance)) {
+    let apart = one.is_apart(&mortar, margin) || mortar.is_edge_on() || one.separates::<L>(&mortar, margin);
+    (!apart).then_some(mortar)
+}
+
+/// The map of the mortar facet, where it and that of the frame's facet have inverses at all points of either.
+#[inline(always)]
+pub(super) fn map(frame: &NonmortarFrame, mortar: &Projection) -> Result<BilinearMap> {
+    let map = BilinearMap::new(mortar);
+    let (distance, reach) = (mortar.distance(), map.convex_reach(mortar));
+    if !((reach > frame.projection.size) & (reach > distance)) {
         return Err(not_convex());
     }
     if !(frame.reach > distance) {
         return Err(too_large());
     }
-    Ok(Some((mortar, map)))
+    Ok(map)
 }
 
 #[cold]
