@@ -11,8 +11,8 @@ else()
   set(STICKSLIP_SOVERSION "${PROJECT_VERSION_MAJOR}")
 endif()
 
-# What `cargo rustc --crate-type staticlib -- --print native-static-libs` lists, without gcc_s: every compiler driver adds
-# that by itself, in the shared or static kind that fits the link.
+# What `rustc --print native-static-libs` lists, without gcc_s: every compiler driver adds that by itself, in the shared or
+# static kind that fits the link. A test compares the two.
 set(STICKSLIP_STATIC_LIBRARIES util rt pthread m dl c)
 
 # Staged as they are installed: the versioned file, its two links, the archive without what only debuggers read.
@@ -24,7 +24,8 @@ set(STICKSLIP_LINKS "${STICKSLIP_STAGE}/libstickslip.so.${STICKSLIP_SOVERSION}" 
 # cargo alone knows whether something changed, so it is asked each time; what depends on it relinks only if the files
 # are newer.
 add_custom_target(stickslip_cargo ALL
-  COMMAND "${CARGO_EXECUTABLE}" build --release --locked --lib --target-dir "${STICKSLIP_CARGO_TARGET_DIR}"
+  COMMAND "${CARGO_EXECUTABLE}" rustc --release --locked --lib --target-dir "${STICKSLIP_CARGO_TARGET_DIR}"
+          -- --print "native-static-libs=${cargo_dir}/native-static-libs.txt"
   COMMAND "${CMAKE_COMMAND}" "-Dfrom=${cargo_dir}" "-Dshared=${STICKSLIP_SHARED}" "-Dstatic=${STICKSLIP_STATIC}"
           "-Dsoversion=${STICKSLIP_SOVERSION}" "-Dobjcopy=${CMAKE_OBJCOPY}" -P "${PROJECT_SOURCE_DIR}/cmake/stage.cmake"
   WORKING_DIRECTORY "${PROJECT_SOURCE_DIR}"

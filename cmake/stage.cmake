@@ -1,6 +1,7 @@
 # Copies cargo's libraries to the names under which they are installed, if they are newer.
 get_filename_component(folder "${shared}" DIRECTORY)
 file(MAKE_DIRECTORY "${folder}")
+file(COPY_FILE "${from}/native-static-libs.txt" "${folder}/../native-static-libs.txt" ONLY_IF_DIFFERENT)
 if("${from}/libstickslip.so" IS_NEWER_THAN "${shared}")
   file(COPY_FILE "${from}/libstickslip.so" "${shared}")
   get_filename_component(file "${shared}" NAME)

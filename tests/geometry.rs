@@ -124,7 +124,7 @@ fn edge_intervals_tile_edges_at_any_noise() {
         let cells =
             (0..16).map(|c| [c / 4 * 5 + c % 4, c / 4 * 5 + c % 4 + 5, c / 4 * 5 + c % 4 + 6, c / 4 * 5 + c % 4 + 1]);
         let mut covered = [0.0; 4];
-        let mut claims = std::collections::HashMap::<(usize, usize), Vec<(f64, f64, f64)>>::new();
+        let mut claims = std::collections::BTreeMap::<(usize, usize), Vec<(f64, f64, f64)>>::new();
         for cell in cells {
             let two = Projection::new(&Facet::new(&cell.map(|k| nodes[k])).unwrap(), &plane);
             let [nonmortar, mortar] = simd::dispatch(Intervals { one: &p, two: &two, plane: &plane });

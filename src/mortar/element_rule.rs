@@ -14,11 +14,10 @@
 
 use super::derivatives::{Chain, Component, Flat, ForceDerivatives, SHAPES, WeightDerivatives, to_rows};
 use super::gap::AlongNormal;
-use super::segment::{CellKernel, Cells, NonmortarFrame, Segment, project};
+use super::segment::{CellKernel, Cells, NonmortarFrame, Segment, map, project};
 use super::transport::PlaneDerivatives;
 use super::{MORTAR, PAIR_NODES, PairWeights};
 use crate::error::Result;
-use crate::geometry::bilinear_map::BilinearMap;
 use crate::geometry::clip::Polygon;
 use crate::geometry::{Facet, Projection, Vec2, cross};
 use crate::quadrature::cell::{square_point, triangle_point};
@@ -52,7 +51,8 @@ impl Segment {
     /// # Errors
     /// As [`Segment::new`].
     pub fn of_points(frame: &NonmortarFrame, facet: &Facet, line: &'static [[f64; 2]]) -> Result<Option<Segment>> {
-        let Some(mortar) = simd::dispatch(Projected { frame, facet })? else { return Ok(None) };
+        let Some(mortar) = simd::dispatch(Projected { frame, facet }) else { return Ok(None) };
+        let mortar_map = map(frame, &mortar)?;
         let mut points = CellPoints { line, inside: 0 };
         let mut area = 0.0;
         for i in 0..points.count() {
@@ -68,8 +68,7 @@ impl Segment {
         if points.inside == 0 {
             return Ok(None);
         }
-        let (mortar_map, polygon) = (BilinearMap::new(&mortar), Polygon::empty());
-        Ok(Some(Segment { mortar, mortar_map, polygon, area, points: Some(points) }))
+        Ok(Some(Segment { mortar, mortar_map, polygon: Polygon::empty(), area, points: Some(points) }))
     }
 }
 
@@ -81,7 +80,7 @@ struct Projected<'a> {
 }
 
 impl Kernel for Projected<'_> {
-    type Output = Result<Option<Projection>>;
+    type Output = Option<Projection>;
     #[inline(always)]
     fn run<L: Lanes>(self) -> Self::Output {
         project::<L>(self.frame, self.facet)

@@ -27,7 +27,7 @@ pub struct NonmortarFrame {
     pub projection: Projection,
     /// Its map.
     pub map: BilinearMap,
-    /// See [`Projection::convex_reach`]; its own coordinates are within.
+    /// See [`BilinearMap::convex_reach`]; its own coordinates are within.
     reach: f64,
 }
 
@@ -137,11 +137,12 @@ impl Kernel for Frame<'_> {
     fn run<L: Lanes>(self) -> Result<NonmortarFrame> {
         let plane = Plane::of(self.facet)?;
         let projection = Projection::on::<L>(self.facet, &plane);
-        let reach = projection.convex_reach();
-        if !(reach > projection.size) {
+        let mut frame = NonmortarFrame { map: BilinearMap::new(&projection), plane, projection, reach: 0.0 };
+        frame.reach = frame.map.convex_reach(&frame.projection);
+        if !(frame.reach > frame.projection.size) {
             return Err(folded());
         }
-        Ok(NonmortarFrame { map: BilinearMap::new(&projection), plane, projection, reach })
+        Ok(frame)
     }
 }
 
@@ -174,7 +175,8 @@ impl Kernel for Overlap<'_> {
     fn run<L: Lanes>(self) -> Result<Option<Segment>> {
         let Overlap { frame, facet } = self;
         let one = &frame.projection;
-        let Some(mortar) = project::<L>(frame, facet)? else { return Ok(None) };
+        let Some(mortar) = project::<L>(frame, facet) else { return Ok(None) };
+        let mortar_map = map(frame, &mortar)?;
         let mut polygon = clip::overlap::<L>(one, &mortar);
         let mut area = polygon.area();
         let small = one.size.min(mortar.size);
@@ -187,32 +189,33 @@ impl Kernel for Overlap<'_> {
                 return Ok(None);
             }
         }
-        Ok(Some(Segment { mortar_map: BilinearMap::new(&mortar), mortar, polygon, area, points: None }))
+        Ok(Some(Segment { mortar, mortar_map, polygon, area, points: None }))
     }
 }
 
 /// The mortar facet in the frame's plane; `None` when it does not even touch the frame's facet.
 #[inline(always)]
-pub(super) fn project<L: Lanes>(frame: &NonmortarFrame, facet: &Facet) -> Result<Option<Projection>> {
+pub(super) fn project<L: Lanes>(frame: &NonmortarFrame, facet: &Facet) -> Option<Projection> {
     let one = &frame.projection;
     let mortar = Projection::on::<L>(facet, &frame.plane);
     let margin = BOX_MARGIN * one.size.min(mortar.size);
-    if one.is_apart(&mortar, margin) || mortar.is_edge_on() {
-        return Ok(None);
-    }
     // Most of those beside each other, before the exact test of what touches.
-    if one.separates::<L>(&mortar, margin) {
-        return Ok(None);
-    }
-    // Of the points that the maps are asked for, on edges of the one or of the other.
-    let (distance, reach) = (mortar.distance(), mortar.convex_reach());
-    if !((reach > one.size) & (reach > distance)) {
+    let apart = one.is_apart(&mortar, margin) || mortar.is_edge_on() || one.separates::<L>(&mortar, margin);
+    (!apart).then_some(mortar)
+}
+
+/// The map of the mortar facet, where it and that of the frame's facet have inverses at all points of either.
+#[inline(always)]
+pub(super) fn map(frame: &NonmortarFrame, mortar: &Projection) -> Result<BilinearMap> {
+    let map = BilinearMap::new(mortar);
+    let (distance, reach) = (mortar.distance(), map.convex_reach(mortar));
+    if !((reach > frame.projection.size) & (reach > distance)) {
         return Err(not_convex());
     }
     if !(frame.reach > distance) {
         return Err(too_large());
     }
-    Ok(Some(mortar))
+    Ok(map)
 }
 
 #[cold]
