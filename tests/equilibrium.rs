@@ -61,9 +61,10 @@ where
 #[test]
 fn nothing_is_amiss_at_a_solution_whatever_the_augmentation() {
     for friction in [Friction::Coulomb, Friction::None, Friction::Rough, Friction::Tied] {
-        for (form, row_scale, scale) in AUGMENTATIONS.iter().flat_map(|&s| {
-            [(Form::Multiplier, RowScale::Force, s), (Form::Augmented, RowScale::None, s)]
-        }) {
+        for (form, row_scale, scale) in AUGMENTATIONS
+            .iter()
+            .flat_map(|&s| [(Form::Multiplier, RowScale::Force, s), (Form::Augmented, RowScale::None, s)])
+        {
             for rigid in [false, true] {
                 let mu = if friction == Friction::Coulomb { 0.3 } else { 0.0 };
                 let stiffness = Stiffness::Modulus(scale * YOUNG);

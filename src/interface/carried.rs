@@ -74,7 +74,12 @@ impl<const N: usize> Contact<N> {
     }
 
     /// The sums of each node that carries others, theirs added.
-    pub(super) fn carriers_sums(&self, sums: &[NodeSums], carried: &[bool], normals: &[Vec3]) -> BTreeMap<usize, NodeSums> {
+    pub(super) fn carriers_sums(
+        &self,
+        sums: &[NodeSums],
+        carried: &[bool],
+        normals: &[Vec3],
+    ) -> BTreeMap<usize, NodeSums> {
         let mut all = BTreeMap::new();
         for a in (0..carried.len()).filter(|&a| carried[a]) {
             for &(b, w) in self.carriers_of(a) {

@@ -7,7 +7,7 @@
 //! that makes of a traction.
 
 use super::nodes::NodeSums;
-use super::{Contact, NO_EQUATION};
+use super::{Contact, Extent, NO_EQUATION};
 use crate::error::{Error, Kind, Result};
 use crate::geometry::Vec3;
 use crate::law::{Measure, Violation};
@@ -67,6 +67,7 @@ impl<const N: usize> Contact<N> {
         sums: Option<&[NodeSums]>,
         scales: &Scales,
     ) -> Result<Equilibrium> {
+        let extent = Extent::of(sums);
         let (sums, _) = self.evaluate(x1, x2, lambda, sums)?;
         let nodes: Vec<usize> = (0..lambda.len()).filter(|&a| self.has_equation(a)).collect();
         // A sliver's multiplier is a point load: it counts by its force.
@@ -105,7 +106,7 @@ impl<const N: usize> Contact<N> {
                 let own = self.carriers_of(a).iter();
                 let theirs: SVector<f64, N> = own.map(|&(b, w)| self.multiplier_share(a) * lambda[b] * w).sum();
                 Violation::uncovered((lambda[a] - theirs).norm(), &measure)
-            } else if self.is_left_out(a) || sum.coverage <= self.options.coverage_min * self.history.areas[a] {
+            } else if self.is_left_out(a, extent) || sum.coverage <= self.options.coverage_min * self.history.areas[a] {
                 Violation::uncovered(lambda[a].norm(), &measure)
             } else {
                 let measure = Measure { traction_rounding: measure.traction_rounding / share, ..measure };

@@ -162,7 +162,11 @@ mod tests {
         assert_eq!(found(Covered { gap: -0.01, ..node() }), (0.01, 0.0, 0.0));
         assert_eq!(found(Covered { gap: 0.01, ..node() }), (0.01, 0.0, 0.0));
         assert_eq!(found(Covered { gap: 9.0, normal: -0.01, ..node() }), (0.0, 0.01, 0.0), "the nearer is open");
-        assert_eq!(found(Covered { gap: -1.0, normal: 0.0, ..node() }), (1.0, 0.0, 0.0), "no pressure in a penetration");
+        assert_eq!(
+            found(Covered { gap: -1.0, normal: 0.0, ..node() }),
+            (1.0, 0.0, 0.0),
+            "no pressure in a penetration"
+        );
         assert_eq!(found(Covered { normal: 0.3, ..node() }), (0.0, 0.3, 0.0), "tension");
         assert_eq!(found(Covered { tangential: Vec3::y() * 1.5, ..node() }), (0.0, 0.5, 0.0), "beyond the cone");
         assert_eq!(found(Covered { slip: Vec3::x() * 0.01, ..node() }), (0.0, 0.0, 0.01), "slip where it sticks");
@@ -171,7 +175,10 @@ mod tests {
         assert_eq!(found(Covered { slip: Vec3::x() * -0.1, ..on_the_cone }), (0.0, 0.0, 0.1), "slip against");
         assert_eq!(found(Covered { slip: Vec3::new(0.2, 0.03, 0.0), ..on_the_cone }).2, 0.03, "slip across");
         let far = found(Covered { slip: Vec3::new(20.0, 0.02, 0.0), ..on_the_cone });
-        assert!(far.2 == 0.0 && (far.1 - 1e-3).abs() < 1e-8, "a long slide, and the traction not quite along it: {far:?}");
+        assert!(
+            far.2 == 0.0 && (far.1 - 1e-3).abs() < 1e-8,
+            "a long slide, and the traction not quite along it: {far:?}"
+        );
         let inside = Covered { tangential: Vec3::x() * 0.75, slip: Vec3::x() * 0.25, ..node() };
         assert_eq!(found(inside), (0.0, 0.25, 0.0), "far slip a little inside of the cone");
         assert_eq!(found(Covered { tangential: Vec3::x() * 0.5, mu: 0.0, ..node() }), (0.0, 0.5, 0.0), "no friction");
