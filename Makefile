@@ -15,7 +15,7 @@ export PATH := $(PATH):$(HOME)/.cargo/bin
 LOCKED = mkdir -p $(BUILD) && flock $(BUILD)/.lock
 SAY    = @printf '\n== %s\n'
 
-.PHONY: help demo gallery effects aids study compare bench random fuzz stability test test-long build install uninstall docs abi header meshes clean cmake-build rust-tests
+.PHONY: help demo gallery effects aids study compare bench random fuzz stability ratios test test-long build install uninstall docs abi header meshes clean cmake-build rust-tests
 
 help:
 	@echo "make demo    solve the example scenes, compare with the references, draw (FIGURES=1: renew the README's figures)"
@@ -30,6 +30,7 @@ help:
 	@echo "make test    every test and check, the same in every run"
 	@echo "make test-long  those that take too long for it; .ci/run runs both"
 	@echo "make random  the property tests on other random input, ten times as much (SEED=n CASES=n)"
+	@echo "make ratios  the force of fine facets in coarse ones against the ratio of both and the number of steps, an hour"
 	@echo "make fuzz    fuzz the pair kernel, the handle and the C ABI, a quarter of an hour each (FUZZ_SECONDS=)"
 	@echo "make build   build the library and the examples into $(BUILD)/"
 	@echo "make install PREFIX=DIR [DESTDIR=]   install header, Fortran module, libraries, pkg-config and CMake files"
@@ -90,8 +91,13 @@ random:
 	@.ci/setup library
 	$(SAY) "Property tests of seed $(SEED), $(CASES) cases a law"
 	@PROPTEST_RNG_SEED=$(SEED) PROPTEST_CASES=$(CASES) cargo test --locked --no-fail-fast --lib \
-		--test properties --test fuzz --test search --test crease --test effects || \
+		--test properties --test fuzz --test search --test crease --test effects --test commits || \
 		{ echo "Again: make random SEED=$(SEED) CASES=$(CASES). To keep what was found: fuzz/README.md" >&2; exit 1; }
+
+ratios:
+	@.ci/setup library
+	$(SAY) "Fine facets in coarse ones"
+	@cargo test --locked --test ratios -- --ignored --nocapture
 
 stability:
 	@.ci/setup demo

@@ -52,6 +52,10 @@ module stickslip
   integer(c_int32_t), parameter :: STICKSLIP_MISSING_ENTRY = 14
   integer(c_int32_t), parameter :: STICKSLIP_NOTHING_TO_ROLL_BACK = 15
   integer(c_int32_t), parameter :: STICKSLIP_HISTORY_MISMATCH = 16
+  ! Within the step a surface has turned too far; commit smaller steps.
+  integer(c_int32_t), parameter :: STICKSLIP_TURNED_TOO_FAR = 17
+  ! A commit would take pairs away from a closed node.
+  integer(c_int32_t), parameter :: STICKSLIP_CONTACT_LOST = 19
   ! The library is at fault; the handle is suspect.
   integer(c_int32_t), parameter :: STICKSLIP_PANIC = -1
 

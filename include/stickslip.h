@@ -138,6 +138,13 @@
 /// An imported history does not belong to this interface.
 #define STICKSLIP_HISTORY_MISMATCH 16
 
+/// Within the step a surface has turned by more than options.turn_max: the normals of t_n no longer mean it. Commit
+/// smaller steps.
+#define STICKSLIP_TURNED_TOO_FAR 17
+
+/// A commit would take pairs away from a node that is closed. Commit a smaller step, or give a search_distance.
+#define STICKSLIP_CONTACT_LOST 19
+
 /// The library is at fault; please report it. The handle is suspect.
 #define STICKSLIP_PANIC -1
 
@@ -385,8 +392,9 @@ typedef struct stickslip_options {
   double coverage_min;
   /// Facets farther apart than this along the normal at the last commit, gap or penetration, are no pair
   /// [L]. 0 (default): any gap, and a penetration of one facet (the smaller of the two) beyond what the curved
-  /// surfaces lie off their facets, so that the far side of a body is not found. Give it where the mortar surface
-  /// lies in layers (refused otherwise) or the surfaces start deeper in each other than a facet.
+  /// surfaces lie off their facets, so that the far side of a body is not found; a fine mortar surface that dips into
+  /// coarse non-mortar facets is followed down from where it enters them, by as much as a coarse facet is long. Give it
+  /// where the mortar surface lies in layers (refused otherwise) or the surfaces start deeper in each other than a facet.
   double search_distance;
   /// Sum of the STICKSLIP_SHORTCUT_... that the library is not to take; 0 (default): it takes all.
   int32_t no_shortcuts;
@@ -1038,7 +1046,8 @@ int32_t stickslip_interface_step_limit(struct stickslip_interface *interface,
 /// Inputs x1, x2, lambda, sums as for `stickslip_interface_states`.
 ///
 /// Errors: NULL_POINTER, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL, INVALID_VALUE (a
-/// mortar surface in layers, an analytic surface's frame); then nothing has moved.
+/// mortar surface in layers, an analytic surface's frame), CONTACT_LOST (a closed node would lose a pair that is deeper
+/// than one may be, or all that covers it); then nothing has moved.
 /// Cost: as `stickslip_interface_states`, then one search and one integration (WEIGHTS_REFERENCE: none);
 /// allocates. The history before it is kept, for `stickslip_interface_rollback`.
 int32_t stickslip_interface_commit(struct stickslip_interface *interface,

@@ -45,10 +45,14 @@ pub enum Kind {
     NothingToRollBack = 15,
     /// An imported history does not belong to this interface.
     HistoryMismatch = 16,
+    /// Within the step the surfaces have turned by more than the normals of t_n allow.
+    TurnedTooFar = 17,
+    /// A commit would take pairs away from a closed node.
+    ContactLost = 19,
 }
 
 /// All kinds with their short texts, in the order of their numbers.
-pub const KINDS: [(Kind, &CStr); 16] = [
+pub const KINDS: [(Kind, &CStr); 18] = [
     (Kind::NullPointer, c"a required pointer is null"),
     (Kind::StructSize, c"a struct has an unknown size"),
     (Kind::InvalidSize, c"a count or length is not allowed"),
@@ -65,6 +69,8 @@ pub const KINDS: [(Kind, &CStr); 16] = [
     (Kind::MissingEntry, c"the matrix lacks an entry"),
     (Kind::NothingToRollBack, c"there is no commit to roll back"),
     (Kind::HistoryMismatch, c"the history belongs to another interface"),
+    (Kind::TurnedTooFar, c"the surfaces turned too far within the step"),
+    (Kind::ContactLost, c"the commit would take contact away"),
 ];
 
 /// A refusal: its kind and a sentence that names the argument at fault.

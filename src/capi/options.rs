@@ -145,8 +145,9 @@ pub struct stickslip_options {
     pub coverage_min: f64,
     /// Facets farther apart than this along the normal at the last commit, gap or penetration, are no pair
     /// [L]. 0 (default): any gap, and a penetration of one facet (the smaller of the two) beyond what the curved
-    /// surfaces lie off their facets, so that the far side of a body is not found. Give it where the mortar surface
-    /// lies in layers (refused otherwise) or the surfaces start deeper in each other than a facet.
+    /// surfaces lie off their facets, so that the far side of a body is not found; a fine mortar surface that dips into
+    /// coarse non-mortar facets is followed down from where it enters them, by as much as a coarse facet is long. Give it
+    /// where the mortar surface lies in layers (refused otherwise) or the surfaces start deeper in each other than a facet.
     pub search_distance: f64,
     /// Sum of the STICKSLIP_SHORTCUT_... that the library is not to take; 0 (default): it takes all.
     pub no_shortcuts: i32,

@@ -39,6 +39,11 @@ pub const STICKSLIP_MISSING_ENTRY: i32 = 14;
 pub const STICKSLIP_NOTHING_TO_ROLL_BACK: i32 = 15;
 /// An imported history does not belong to this interface.
 pub const STICKSLIP_HISTORY_MISMATCH: i32 = 16;
+/// Within the step a surface has turned by more than options.turn_max: the normals of t_n no longer mean it. Commit
+/// smaller steps.
+pub const STICKSLIP_TURNED_TOO_FAR: i32 = 17;
+/// A commit would take pairs away from a node that is closed. Commit a smaller step, or give a search_distance.
+pub const STICKSLIP_CONTACT_LOST: i32 = 19;
 /// The library is at fault; please report it. The handle is suspect.
 pub const STICKSLIP_PANIC: i32 = -1;
 

@@ -3,10 +3,12 @@
 //!
 //! A gap may be any; a penetration deeper than a facet is the far side of a body. But facets are chords: a surface that
 //! is curved lies off them by more than its partner's facets are long where those are fine. So a pair may be as deep as
-//! the smaller of its facets is long, and by what the surfaces bulge from their facets beyond it.
+//! the smaller of its facets is long, and by what the surfaces bulge from their facets beyond it. That is the pair's own
+//! measure; a mortar facet that coarse non-mortar facets let in may lie as deep as it does (`depth.rs`).
 
 use super::integration::at_facet;
-use super::{Options, Surface, analytic, hybrid, reach};
+use super::search::{Aabb, Tree};
+use super::{Options, Surface, analytic, depth, hybrid, reach};
 use crate::error::Result;
 use crate::geometry::{Facet, Plane, Vec3};
 
@@ -22,6 +24,7 @@ const BULGE: f64 = 0.5;
 
 /// What settles at a commit which pairs there can be.
 #[derive(Debug)]
+#[expect(clippy::large_enum_variant, reason = "an interface has one")]
 pub(super) enum Filter {
     Facets(FacetFilter),
     /// Which non-mortar facets face an analytic mortar side.
@@ -35,9 +38,22 @@ impl Filter {
             return analytic::facing(one, &two.analytic_at(x2)?, options, x1).map(Filter::Analytic);
         }
         let sides = [Side::new(one, x1)?, Side::new(two, x2)?];
-        let mut filter =
-            FacetFilter { sides, distance: options.search_distance, reached: Vec::new(), by_cells: Vec::new() };
-        filter.reached = reach::reached(&filter);
+        let mut filter = FacetFilter {
+            sides,
+            distance: options.search_distance,
+            depths: Vec::new(),
+            reached: Vec::new(),
+            by_cells: Vec::new(),
+        };
+        let points = filter.sides[1].facets.iter().map(|(facet, _)| Aabb::around(facet.points().iter().copied()));
+        let tree = Tree::new(points.collect());
+        filter.reached = reach::reached(&filter, &tree);
+        if filter.distance.is_none() {
+            filter.depths = depth::followed((one, two), &filter, &tree, x2);
+            if !filter.depths.is_empty() {
+                filter.reached = reach::reached(&filter, &tree);
+            }
+        }
         filter.by_cells = hybrid::partly_covered((one, two), options.scheme, &filter, (x1, x2))?;
         Ok(Filter::Facets(filter))
     }
@@ -110,6 +126,8 @@ pub(super) struct FacetFilter {
     pub sides: [Side; 2],
     /// What the host gives for both penetration and gap `[L]`.
     distance: Option<f64>,
+    /// Per mortar facet, how deep it may lie beyond the pairs' own measure `[L]`; empty: none may.
+    pub depths: Vec<f64>,
     /// Per non-mortar facet, whether any mortar facet can be a pair with it.
     pub reached: Vec<bool>,
     /// Which non-mortar facets are integrated over cells, of a scheme that has both.
@@ -119,14 +137,24 @@ pub(super) struct FacetFilter {
 impl FacetFilter {
     /// Whether non-mortar facet i and mortar facet j can be a pair.
     pub fn admits(&self, i: usize, j: usize) -> bool {
-        let [one, two] = &self.sides;
-        let ((_, plane), (facet, opposite)) = (&one.facets[i], &two.facets[j]);
-        if !(plane.e.dot(&opposite.e) < -LEAST_OPPOSITION) {
+        if !self.opposes(i, j) {
             return false;
         }
-        let (low, high) =
-            heights(facet, plane).fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), d| (l.min(d), h.max(d)));
+        let (low, high) = self.heights(i, j);
         low <= self.gap() && high >= -self.penetration(i, j)
+    }
+
+    /// Whether they look at each other.
+    pub fn opposes(&self, i: usize, j: usize) -> bool {
+        let [one, two] = &self.sides;
+        one.facets[i].1.e.dot(&two.facets[j].1.e) < -LEAST_OPPOSITION
+    }
+
+    /// The lowest and the highest node of mortar facet j over the plane of non-mortar facet i `[L]`.
+    pub fn heights(&self, i: usize, j: usize) -> (f64, f64) {
+        let [one, two] = &self.sides;
+        let heights = heights(&two.facets[j].0, &one.facets[i].1);
+        heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), d| (l.min(d), h.max(d)))
     }
 
     /// The widest gap of a pair `[L]`.
@@ -136,22 +164,32 @@ impl FacetFilter {
 
     /// The deepest penetration at which they can be a pair `[L]`.
     fn penetration(&self, i: usize, j: usize) -> f64 {
+        self.distance.unwrap_or_else(|| self.penetrations(i, j)[0] + self.depths.get(j).copied().unwrap_or(0.0))
+    }
+
+    /// What of it follows from their sizes and bulges, and how deep the coarser of them lets a body in at most.
+    pub fn penetrations(&self, i: usize, j: usize) -> [f64; 2] {
         let [one, two] = &self.sides;
-        let edges = one.edges[i].min(two.edges[j]);
-        self.distance.unwrap_or(edges + one.bulges[i] + two.bulges[j])
+        let (edges, bulges) = ((one.edges[i], two.edges[j]), one.bulges[i] + two.bulges[j]);
+        [edges.0.min(edges.1), edges.0.max(edges.1)].map(|edge| edge + bulges)
+    }
+
+    /// The most that any mortar facet may lie beyond that.
+    fn largest_depth(&self) -> f64 {
+        self.depths.iter().copied().fold(0.0, f64::max)
     }
 
     /// At least the deepest penetration of any pair of each non-mortar facet `[L]`.
     pub fn deepest_of_each(&self) -> Vec<f64> {
         let [one, two] = &self.sides;
-        let (_, bulge) = two.largest();
+        let ((_, bulge), depth) = (two.largest(), self.largest_depth());
         let own = one.edges.iter().zip(&one.bulges).map(|(edge, bulge)| edge + bulge);
-        own.map(|own| self.distance.unwrap_or(own + bulge)).collect()
+        own.map(|own| self.distance.unwrap_or(own + bulge + depth)).collect()
     }
 
     /// At least the deepest penetration of any pair `[L]`.
     pub fn deepest(&self) -> f64 {
         let [(h1, b1), (h2, b2)] = self.sides.each_ref().map(Side::largest);
-        self.distance.unwrap_or(h1.min(h2) + b1 + b2)
+        self.distance.unwrap_or(h1.min(h2) + b1 + b2 + self.largest_depth())
     }
 }

@@ -24,6 +24,7 @@ fn of_filter(filter: &Filter) -> usize {
     match filter {
         Filter::Facets(f) => {
             f.sides.iter().map(|s| heap(&s.facets) + heap(&s.edges) + heap(&s.bulges)).sum::<usize>()
+                + heap(&f.depths)
                 + heap(&f.reached)
                 + heap(&f.by_cells)
         }

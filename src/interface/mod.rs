@@ -11,6 +11,7 @@ mod carried;
 mod closing;
 mod crease;
 mod crosspoints;
+mod depth;
 mod describe;
 mod diagnosis;
 mod effects;
@@ -20,6 +21,7 @@ mod filter;
 mod history;
 mod hybrid;
 mod integration;
+mod lost;
 mod memory;
 mod nodes;
 mod options;
@@ -276,6 +278,7 @@ impl<const N: usize> Contact<N> {
         } else {
             Self::start_at(surfaces, &self.options, extent, (&mut self.counters, &mut self.tree), (x1, x2))?
         };
+        self.refuse_lost_contact(&new, (x1, x2), &responses)?;
         new.history.commits = self.history.commits.saturating_add(1); // an imported history may hold any number
         if self.kernels.slips {
             let slip = |a: usize| self.slip_after(a, &responses[a], sums[a].coverage_previous);

@@ -9,7 +9,7 @@ int main(void) {
   /* Nothing refused yet on this thread. */
   CHECK(stickslip_last_error_message() != NULL && stickslip_last_error_message()[0] == '\0');
 
-  for (int32_t status = STICKSLIP_PANIC; status <= STICKSLIP_HISTORY_MISMATCH; ++status) {
+  for (int32_t status = STICKSLIP_PANIC; status <= STICKSLIP_TURNED_TOO_FAR; ++status) {
     CHECK(strlen(stickslip_status_string(status)) > 3);
     CHECK(strcmp(stickslip_status_string(status), "unknown status") != 0);
     for (int32_t other = STICKSLIP_PANIC; other < status; ++other) {
@@ -17,7 +17,7 @@ int main(void) {
     }
   }
   CHECK(strcmp(stickslip_status_string(INT32_MIN), "unknown status") == 0);
-  CHECK(strcmp(stickslip_status_string(STICKSLIP_HISTORY_MISMATCH + 1), "unknown status") == 0);
+  CHECK(strcmp(stickslip_status_string(STICKSLIP_CONTACT_LOST + 1), "unknown status") == 0);
 
   /* A refusal leaves a message, a success clears it. */
   double sum[3] = {0.0, 0.0, 2.0}, normal[3];

@@ -63,7 +63,7 @@ static const void *any_pointer(const void *usual) {
 
 /* Success or a refusal with a message, never the library's fault. */
 static int succeeded(int32_t status) {
-  CHECK(status >= STICKSLIP_OK && status <= STICKSLIP_HISTORY_MISMATCH);
+  CHECK(status >= STICKSLIP_OK && status <= STICKSLIP_CONTACT_LOST);
   CHECK((status == STICKSLIP_OK) == (stickslip_last_error_message()[0] == '\0'));
   return status == STICKSLIP_OK;
 }

@@ -1,6 +1,7 @@
 //! Nodes that nothing can cover before the next commit: no law is asked about them, and no bit of the answer changes.
 
 use super::*;
+use std::f64::consts::PI;
 use stickslip::geometry::AnalyticShape;
 use stickslip::interface::{Counters, Friction, NO_EQUATION, NodeCounts, Surface};
 use stickslip::law::State;
@@ -10,39 +11,12 @@ const CELLS_A_FACE: usize = 4;
 /// How deep the ball of radius 1 has sunk in.
 const DEPTH: f64 = 0.15;
 
-/// A ball of radius 1 at the origin, all of its surface: a cube's faces blown up.
-fn ball() -> Mesh {
-    let mut mesh = Mesh { x: Vec::new(), facets: Vec::new() };
-    let n = CELLS_A_FACE as i64;
-    // The cube's points in whole numbers, so that neighbouring faces find each other's.
-    let mut points: Vec<[i64; 3]> = Vec::new();
-    for (axis, sign) in (0..3).flat_map(|axis| [(axis, 1), (axis, -1)]) {
-        for (i, j) in (0..n).flat_map(|i| (0..n).map(move |j| (i, j))) {
-            let mut corners = [[i, j], [i + 1, j], [i + 1, j + 1], [i, j + 1]];
-            if sign < 0 {
-                corners.reverse();
-            }
-            let facet = corners.map(|c| {
-                let mut p = [0; 3];
-                (p[axis], p[(axis + 1) % 3], p[(axis + 2) % 3]) = (sign * n, 2 * c[0] - n, 2 * c[1] - n);
-                points.iter().position(|q| *q == p).unwrap_or_else(|| {
-                    points.push(p);
-                    points.len() - 1
-                }) as i64
-            });
-            mesh.facets.push(facet.to_vec());
-        }
-    }
-    mesh.x = points.iter().map(|p| Vec3::from_fn(|i, _| p[i] as f64).normalize()).collect();
-    mesh
-}
-
 /// The ball over a floor of facets or an analytic plane.
 fn over_floor<const N: usize>(analytic: bool, options: Options) -> Contact<N>
 where
     Contact<N>: Create<N>,
 {
-    let ball = ball();
+    let ball = ball(CELLS_A_FACE);
     let x: Vec<_> = shifted(&ball.x, Vec3::z() * (1.0 - DEPTH));
     let (n1, floor) = (x.len(), grid(3, 3, [-2.0, -2.1], [2.1, 2.0], 0.0, true, Cells::Quads));
     let one = Surface::new("nonmortar", x, &ball.facets, numbered(0, n1)).unwrap();
@@ -100,7 +74,7 @@ where
 }
 
 fn check(counts: NodeCounts, [short, full]: [Counters; 2]) {
-    let (all, evaluations) = (ball().x.len() as i64, 3 * 5);
+    let (all, evaluations) = (ball(CELLS_A_FACE).x.len() as i64, 3 * 5);
     assert_eq!((counts.total(), full.nodes.total(), full.nodes.left_out), (all, all, 0));
     assert!(counts.left_out > all / 3, "the upper half cannot be covered: {counts:?}");
     assert_eq!(counts.uncovered + counts.left_out, full.nodes.uncovered);
@@ -129,13 +103,19 @@ fn the_far_side_of_a_ball_is_left_out_and_no_bit_changes() {
     }
 }
 
-/// The ball turns over between two commits: what was its far side touches, and is closed from the next evaluation on.
+/// The ball turns over in steps that a commit takes: what was its far side touches, and is closed from the next
+/// evaluation on.
 #[test]
 fn a_commit_finds_the_nodes_anew() {
+    const STEPS: u32 = 15;
     for analytic in [false, true] {
         let mut c: Contact<3> = over_floor(analytic, options());
         let (x1, x2) = (c.surfaces().0.reference.clone(), c.surfaces().1.reference.clone());
-        let over: Vec<_> = x1.iter().map(|x| Vec3::new(x.x, -x.y, 2.0 * (1.0 - DEPTH) - x.z)).collect();
+        let centre = Vec3::z() * (1.0 - DEPTH);
+        let turned = |step: u32| -> Vec<Vec3> {
+            let turn = Rotation3::from_axis_angle(&Vec3::x_axis(), PI * f64::from(step) / f64::from(STEPS));
+            x1.iter().map(|x| turn * (x - centre) + centre).collect()
+        };
         let lambda = vec![Vec3::zeros(); x1.len()];
         // Without the equator's, whose normals run along the plane: their gap is rounding.
         let deep = |r: &stickslip::law::NodeResponse| r.state != State::Gap && r.gap_normal < -1e-6;
@@ -144,11 +124,13 @@ fn a_commit_finds_the_nodes_anew() {
             (0..states.len()).filter(|&a| deep(&states[a])).collect()
         };
         let before = closed(&mut c, &x1);
-        c.commit(&over, &x2, &lambda, None).unwrap();
-        let after = closed(&mut c, &over);
+        (1..STEPS).for_each(|step| c.commit(&turned(step), &x2, &lambda, None).unwrap());
+        let nearly = closed(&mut c, &turned(STEPS - 1));
+        c.commit(&turned(STEPS), &x2, &lambda, None).unwrap();
+        let after = closed(&mut c, &turned(STEPS));
         assert!(!before.is_empty() && !after.is_empty() && before.iter().all(|a| !after.contains(a)));
         c.roll_back().unwrap();
-        assert_eq!(closed(&mut c, &x1), before);
+        assert_eq!(closed(&mut c, &turned(STEPS - 1)), nearly);
     }
 }
 

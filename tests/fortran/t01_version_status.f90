@@ -22,7 +22,7 @@ program t01_version_status
   CHECK_OK(stickslip_last_error_padded(fixed, 40_c_int64_t))
   CHECK(fixed == '')
 
-  do status = STICKSLIP_PANIC, STICKSLIP_HISTORY_MISMATCH
+  do status = STICKSLIP_PANIC, STICKSLIP_TURNED_TOO_FAR
     CHECK(len(c_text(stickslip_status_string(status))) > 3)
     CHECK(c_text(stickslip_status_string(status)) /= UNKNOWN)
     do other = STICKSLIP_PANIC, status - 1
@@ -30,7 +30,7 @@ program t01_version_status
     end do
   end do
   CHECK(c_text(stickslip_status_string(INT32_MIN)) == UNKNOWN)
-  CHECK(c_text(stickslip_status_string(STICKSLIP_HISTORY_MISMATCH + 1)) == UNKNOWN)
+  CHECK(c_text(stickslip_status_string(STICKSLIP_CONTACT_LOST + 1)) == UNKNOWN)
 
   ! A refusal leaves a message, in C's form and padded, cut, or of no length; reading it leaves it as it is.
   CHECK_REFUSED(stickslip_interface_rollback(no_handle()), STICKSLIP_NULL_POINTER, 'interface')

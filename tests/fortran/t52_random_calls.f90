@@ -135,7 +135,7 @@ contains
   ! Success or a refusal with a message, never the library's fault.
   logical function succeeded(status)
     integer(c_int32_t), intent(in) :: status
-    CHECK(status >= STICKSLIP_OK .and. status <= STICKSLIP_HISTORY_MISMATCH)
+    CHECK(status >= STICKSLIP_OK .and. status <= STICKSLIP_CONTACT_LOST)
     CHECK(status == STICKSLIP_OK .eqv. last_message() == '')
     succeeded = status == STICKSLIP_OK
     if (succeeded) then

@@ -1,6 +1,7 @@
 //! Small surfaces and interfaces for tests.
 #![allow(dead_code)]
 
+use std::collections::HashMap;
 use stickslip::error::Result;
 use stickslip::geometry::Vec3;
 use stickslip::interface::{Contact, Interface, NO_EQUATION, Options, Stiffness, Surface};
@@ -58,6 +59,32 @@ pub fn grid(n: usize, m: usize, a: [f64; 2], b: [f64; 2], z: f64, up: bool, cell
         }
     }
     Mesh { x, facets }
+}
+
+/// A ball of radius 1 at the origin, all of its surface: a cube's faces of n x n quads blown up.
+pub fn ball(n: usize) -> Mesh {
+    let mut mesh = Mesh { x: Vec::new(), facets: Vec::new() };
+    let n = n as i64;
+    // The cube's points in whole numbers, so that neighbouring faces find each other's.
+    let mut points = HashMap::new();
+    for (axis, sign) in (0..3).flat_map(|axis| [(axis, 1), (axis, -1)]) {
+        for (i, j) in (0..n).flat_map(|i| (0..n).map(move |j| (i, j))) {
+            let mut corners = [[i, j], [i + 1, j], [i + 1, j + 1], [i, j + 1]];
+            if sign < 0 {
+                corners.reverse();
+            }
+            let facet = corners.map(|c| {
+                let mut p = [0; 3];
+                (p[axis], p[(axis + 1) % 3], p[(axis + 2) % 3]) = (sign * n, 2 * c[0] - n, 2 * c[1] - n);
+                *points.entry(p).or_insert_with(|| {
+                    mesh.x.push(Vec3::from_fn(|i, _| p[i] as f64).normalize());
+                    mesh.x.len() as i64 - 1
+                })
+            });
+            mesh.facets.push(facet.to_vec());
+        }
+    }
+    mesh
 }
 
 /// `n` nodes with N equations each, numbered from `first` on.

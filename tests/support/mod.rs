@@ -6,6 +6,7 @@ pub mod differences;
 pub mod exact;
 pub mod host;
 pub mod mesh;
+pub mod press;
 pub mod random;
 
 use nalgebra::Vector3;

@@ -1,0 +1,133 @@
+//! How deep the mortar surface may lie behind coarse non-mortar facets, beyond what the facets of a pair say themselves.
+//!
+//! A coarse facet holds its nodes' weighted gaps at zero, not every point's: a fine tip rightly dips into it, by the tip's
+//! bulge over the coarse facet's extent, which may be many of its own facets. But weights are positive. So over the facets
+//! around a node in equilibrium, closed or open, some part of the other surface is not behind them, and the surface hangs
+//! together: what lies deep is connected with that part within the prisms of these facets. The far side of a body is not.
+//!
+//! So each deep mortar facet is followed back: over the facets around one non-mortar node, through mortar facets that
+//! share a node, oppose and lie in a prism, to one that the pair's own measure admits. One that is reached may lie as
+//! deep as it does there. It is a number per mortar facet, not a list of pairs: in the next step it may slide to others.
+
+use super::Surface;
+use super::filter::FacetFilter;
+use super::search::{Prism, Tree};
+use crate::geometry::Vec3;
+use std::collections::HashMap;
+
+/// A mortar facet in the prism of a non-mortar facet that it opposes, and how deep behind it, where that is deeper than
+/// their own measure.
+#[derive(Clone, Copy)]
+struct Over {
+    two: usize,
+    deep: Option<f64>,
+}
+
+/// Per mortar facet, how deep it may lie beyond what the facets of a pair allow `[L]`; empty where none is deep. A search
+/// over the facets around those that are `reached`, and linear in the pairs found.
+pub(super) fn followed(surfaces: (&Surface, &Surface), filter: &FacetFilter, tree: &Tree, x2: &[Vec3]) -> Vec<f64> {
+    let (one, two) = surfaces;
+    let around = facets_around(one);
+    let nodes = |f: usize| one.facets[f].as_slice().iter();
+    let mut near = vec![false; one.facets.len()];
+    for i in (0..near.len()).filter(|&i| filter.reached[i]) {
+        nodes(i).flat_map(|&a| &around[a]).for_each(|&k| near[k] = true);
+    }
+    let over: Vec<_> = (0..near.len()).map(|i| if near[i] { over(i, filter, tree) } else { Vec::new() }).collect();
+    if !over.iter().flatten().any(|pair| pair.deep.is_some()) {
+        return Vec::new();
+    }
+    let places = places(x2);
+    let (mut depth, mut sheets) = (vec![0.0_f64; two.facets.len()], Sheets::new(two, &places));
+    for facets in &around {
+        let pairs = || facets.iter().flat_map(|&i| &over[i]);
+        if pairs().any(|pair| pair.deep.is_some()) {
+            sheets.start();
+            pairs().for_each(|pair| sheets.add(pair.two, pair.deep.is_none()));
+            for (j, deep) in pairs().filter_map(|pair| pair.deep.map(|deep| (pair.two, deep))) {
+                if sheets.is_held(j) {
+                    depth[j] = depth[j].max(deep);
+                }
+            }
+        }
+    }
+    depth
+}
+
+fn over(i: usize, filter: &FacetFilter, tree: &Tree) -> Vec<Over> {
+    let (facet, plane) = &filter.sides[0].facets[i];
+    let mut found = Vec::new();
+    tree.find(&Prism::over(facet.points(), plane, 0.0), &mut found);
+    let pair = |&j: &usize| {
+        let depth = filter.opposes(i, j).then(|| -filter.heights(i, j).1)?;
+        let [own, most] = filter.penetrations(i, j);
+        (depth <= most).then_some(Over { two: j, deep: (depth > own).then_some(depth) })
+    };
+    found.iter().filter_map(pair).collect()
+}
+
+/// Per node the facets around it.
+fn facets_around(surface: &Surface) -> Vec<Vec<usize>> {
+    let mut around = vec![Vec::new(); surface.len()];
+    for (f, facet) in surface.facets.iter().enumerate() {
+        facet.as_slice().iter().for_each(|&a| around[a].push(f));
+    }
+    around
+}
+
+/// Per node a number that nodes at the same place share: a mesh whose facets have nodes of their own hangs together too.
+fn places(x: &[Vec3]) -> Vec<usize> {
+    let mut first = HashMap::with_capacity(x.len());
+    // Adding 0 makes -0 the same place.
+    let key = |x: &Vec3| [0, 1, 2].map(|k| (x[k] + 0.0).to_bits());
+    x.iter().enumerate().map(|(a, x)| *first.entry(key(x)).or_insert(a)).collect()
+}
+
+/// Some mortar facets, joined where they share a place, and which of these groups are held at one facet.
+struct Sheets<'a> {
+    two: &'a Surface,
+    places: &'a [usize],
+    /// Of each place: in which round it was met, the next place of its group (itself at the root).
+    met: Vec<usize>,
+    parent: Vec<usize>,
+    held: Vec<bool>,
+    round: usize,
+}
+
+impl<'a> Sheets<'a> {
+    fn new(two: &'a Surface, places: &'a [usize]) -> Sheets<'a> {
+        let n = places.len();
+        Sheets { two, places, met: vec![0; n], parent: vec![0; n], held: vec![false; n], round: 0 }
+    }
+
+    fn start(&mut self) {
+        self.round += 1;
+    }
+
+    fn root(&mut self, mut place: usize) -> usize {
+        if self.met[place] != self.round {
+            (self.met[place], self.parent[place], self.held[place]) = (self.round, place, false);
+        }
+        while self.parent[place] != place {
+            self.parent[place] = self.parent[self.parent[place]];
+            place = self.parent[place];
+        }
+        place
+    }
+
+    fn add(&mut self, facet: usize, held: bool) {
+        let nodes = &self.two.facets[facet];
+        let first = self.root(self.places[nodes.nodes[0]]);
+        self.held[first] |= held;
+        for &node in &nodes.as_slice()[1..] {
+            let (other, first) = (self.root(self.places[node]), self.root(first));
+            self.parent[other] = first;
+            self.held[first] |= self.held[other];
+        }
+    }
+
+    fn is_held(&mut self, facet: usize) -> bool {
+        let root = self.root(self.places[self.two.facets[facet].nodes[0]]);
+        self.held[root]
+    }
+}

@@ -1,0 +1,88 @@
+//! A commit takes no contact away. The pairs of the step that follows are settled anew, by the positions of its start: at
+//! these positions a closed node must still have the pairs that it had. The new normals alone may change which facets
+//! look at each other, as long as they leave the node covered.
+
+use super::filter::Filter;
+use super::history::PairRecord;
+use super::integration::Start;
+use super::{Contact, Weights};
+use crate::error::{Error, Kind, Result};
+use crate::geometry::Vec3;
+use crate::law::{NodeResponse, State};
+
+/// A pair with less of a node's area carries none of its traction: the rounding of an overlap.
+const NOTHING: f64 = 1e-12;
+/// A facet that is open all over by more than this (over the non-mortar facet's longest edge) touches nothing: a node that
+/// has such pairs alone is closed by the rounding of a gap across its normal. Far above what rounding makes of a flat
+/// contact, far below a gap.
+const TOUCHES: f64 = 1e-6;
+
+impl<const N: usize> Contact<N> {
+    /// Refuses a commit at (x1, x2) after which a closed node would have lost a pair because it is deep, or all that
+    /// covers it. Of weights of now: frozen ones do not say what the old filter would admit here.
+    pub(super) fn refuse_lost_contact(
+        &self,
+        new: &Start,
+        (x1, x2): (&[Vec3], &[Vec3]),
+        responses: &[NodeResponse<N>],
+    ) -> Result<()> {
+        let (Some(before), Weights::Current, Some(filter)) =
+            (&self.integration, self.options.effective_weights(), &new.filter)
+        else {
+            return Ok(());
+        };
+        let after = new.integration.as_ref().map_or(&new.history.pairs, |k| &k.pairs);
+        let mut lost = vec![0.0; self.nonmortar.len()];
+        for pair in missing(&before.pairs, after) {
+            let (low, deep) = match filter {
+                Filter::Facets(filter) => {
+                    let (low, high) = filter.heights(pair.one, pair.two);
+                    (low, Some(-high).filter(|depth| *depth > 0.0 && filter.opposes(pair.one, pair.two)))
+                }
+                Filter::Analytic(_) => (self.lowest_over_surface(pair.one, x1, x2)?, None),
+            };
+            let touches = low <= TOUCHES * self.nonmortar.facet(pair.one, x1).longest_edge();
+            for (k, &a) in self.nonmortar.facets[pair.one].as_slice().iter().enumerate() {
+                let coverage = pair.weights.coverage(k);
+                if !touches || coverage <= NOTHING * self.history.areas[a] || responses[a].state == State::Gap {
+                    continue;
+                }
+                lost[a] += coverage;
+                if let Some(depth) = deep {
+                    let text = format!(
+                        "non-mortar node {a} carries contact with mortar facet {}, which lies {depth:.3e} behind non-mortar facet {}: deeper than a pair may be in the next step; give search_distance, more than that, or smaller non-mortar facets",
+                        pair.two, pair.one
+                    );
+                    return Err(Error::new(Kind::ContactLost, text));
+                }
+            }
+        }
+        let threshold = |a: usize| self.options.coverage_min * new.history.areas[a];
+        match (0..lost.len()).find(|&a| lost[a] > threshold(a) && new.history.coverage[a] <= threshold(a)) {
+            None => Ok(()),
+            Some(a) => {
+                let text = format!(
+                    "non-mortar node {a} carries contact, but nothing that covers it could be its pair in the next step: with the normals of now the facets no longer look at each other, or search_distance is too small; take a smaller step, or give a larger search_distance"
+                );
+                Err(Error::new(Kind::ContactLost, text))
+            }
+        }
+    }
+
+    /// The least distance of a facet's nodes to the analytic mortar side `[L]`.
+    fn lowest_over_surface(&self, facet: usize, x1: &[Vec3], x2: &[Vec3]) -> Result<f64> {
+        let surface = self.mortar.analytic_at(x2)?;
+        let nodes = self.nonmortar.facets[facet].as_slice().iter();
+        Ok(nodes.map(|&a| surface.distance(x1[a] - surface.origin)).fold(f64::INFINITY, f64::min))
+    }
+}
+
+/// Those of `before` that are not in `after`; both are sorted by their facets.
+fn missing<'a>(before: &'a [PairRecord], after: &'a [PairRecord]) -> impl Iterator<Item = &'a PairRecord> {
+    let mut after = after.iter().peekable();
+    before.iter().filter(move |pair| {
+        let place = (pair.one, pair.two);
+        while after.next_if(|p| (p.one, p.two) < place).is_some() {}
+        after.peek().is_none_or(|p| (p.one, p.two) != place)
+    })
+}
