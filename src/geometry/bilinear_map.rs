@@ -7,11 +7,6 @@ use crate::simd::{Lanes, Real};
 
 /// A twist below this (over the facet's size) is rounding: the facet is a parallelogram.
 const PARALLELOGRAM: f64 = 1e-14;
-/// A corner is convex where the cross product of its edges, squared, is above this times the facet's area2, its size and
-/// the reach of the coordinates. The inverse map takes the root of a square, det J^2, that is known to a rounding of
-/// those three: what is smaller than the root of that, 1.5e-8 of a facet with the area of its squared size, may come out
-/// as 0, and divides. Six times as much.
-const SMALLEST_CORNER_SQUARED: f64 = 1e-14;
 
 /// Coefficients of the map of one projected facet.
 #[derive(Clone, Copy, Debug)]
@@ -22,8 +17,8 @@ pub struct BilinearMap {
     d: Vec2,
     /// b x c, b x d, d x c: det J = j0 + j1 xi + j2 eta [L^2].
     determinant: [f64; 3],
-    /// The smallest det J of the facet: at a corner, for it is linear. A quarter of the cross product of the edges there.
-    least: f64,
+    /// Half the smallest det J^2 of the facet: no point on it has less, whatever rounding says. 0 where it is affine.
+    least_square: f64,
     /// 1 / (b x c).
     inverse_affine: f64,
     coefficients: &'static [[f64; 4]; MAX_NODES],
@@ -52,7 +47,6 @@ pub struct InverseMap<R> {
     /// b x c and 4 b x d.
     bc: R,
     four_bd: R,
-    /// No point on the facet has less than half the smallest det J^2, whatever rounding says.
     least_square: R,
     inverse_affine: R,
     is_affine: bool,
@@ -99,28 +93,22 @@ impl BilinearMap {
             }
         }
         let determinant = [cross(m[1], m[2]), cross(m[1], m[3]), cross(m[3], m[2])];
+        let is_affine = m[3].amax() <= PARALLELOGRAM * facet.size;
+        let mut least = 0.0;
+        if !is_affine {
+            least = determinant[0] - determinant[1].abs() - determinant[2].abs(); // det J is linear: at a corner
+        }
         BilinearMap {
             a: m[0],
             b: m[1],
             c: m[2],
             d: m[3],
             determinant,
-            least: determinant[0] - determinant[1].abs() - determinant[2].abs(),
+            least_square: 0.5 * (least * least),
             inverse_affine: 1.0 / determinant[0],
             coefficients: &facet.shape.coefficients,
-            is_affine: m[3].amax() <= PARALLELOGRAM * facet.size,
+            is_affine,
         }
-    }
-
-    /// The largest reach `[L]` of coordinates, the facet's own and those of points that the map is asked for, at whose
-    /// rounding every corner of the facet is convex; 0 where one is not at all.
-    #[inline(always)]
-    pub fn convex_reach(&self, facet: &Projection) -> f64 {
-        if facet.shape.n == 3 {
-            return f64::INFINITY;
-        }
-        let corner = 4.0 * self.least;
-        if corner > 0.0 { (corner / facet.area2) * (corner / facet.size) / SMALLEST_CORNER_SQUARED } else { 0.0 }
     }
 
     /// Reference coordinates of the point `y`, or of four points, of a convex facet. Points outside it by rounding
@@ -141,7 +129,7 @@ impl BilinearMap {
             d: pair(self.d),
             bc: R::splat(self.determinant[0]),
             four_bd: R::splat(4.0 * self.determinant[1]),
-            least_square: R::splat(0.5 * (self.least * self.least)),
+            least_square: R::splat(self.least_square),
             inverse_affine: R::splat(self.inverse_affine),
             is_affine: self.is_affine,
         }

@@ -2,10 +2,15 @@
 //! z_k = x_k - x0 (formulation c.2). Sides are ordered counter-clockwise in the plane.
 
 use super::plane::SMALLEST_AREA_RATIO;
-use super::{Facet, Plane, Vec2, Vec3};
+use super::{Facet, Plane, Vec2, Vec3, cross};
 use crate::shape::{MAX_NODES, Shape};
 use crate::simd::{self, Kernel, Lanes};
 
+/// A corner is convex where the cross product of its edges, squared, is above this times the facet's area2, its size and
+/// the reach of the coordinates. The inverse map takes the root of a square, det J^2, that is known to a rounding of
+/// those three: what is smaller than the root of that, 1.5e-8 of a facet with the area of its squared size, may come out
+/// as 0, and divides. Six times as much.
+const SMALLEST_CORNER_SQUARED: f64 = 1e-14;
 /// A projected area below this (over the squared size) is a facet seen edge-on, or one without area: no overlap. Its map
 /// has no inverse but rounding.
 const EDGE_ON: f64 = SMALLEST_AREA_RATIO;
@@ -97,6 +102,21 @@ impl Projection {
     #[inline(always)]
     pub fn distance(&self) -> f64 {
         largest(&[-self.low.x, -self.low.y, self.high.x, self.high.y])
+    }
+
+    /// The largest reach `[L]` of coordinates, its own and those of points that its map is asked for, at whose rounding
+    /// every corner is convex; 0 where one is not at all.
+    #[inline(always)]
+    pub fn convex_reach(&self) -> f64 {
+        if self.shape.n == 3 {
+            return f64::INFINITY;
+        }
+        // The cross products at opposite corners add up to area2.
+        let [a, b, c, d] = &self.y;
+        let (ab, bc, cd) = (b - a, c - b, d - c);
+        let (at_b, at_c) = (cross(ab, bc), cross(bc, cd));
+        let corner = smallest(&[at_b, at_c, self.area2 - at_b, self.area2 - at_c]);
+        if corner > 0.0 { (corner / self.area2) * (corner / self.size) / SMALLEST_CORNER_SQUARED } else { 0.0 }
     }
 
     /// Whether the in-plane bounding boxes are apart by more than `margin`.

@@ -14,10 +14,11 @@
 
 use super::derivatives::{Chain, Component, Flat, ForceDerivatives, SHAPES, WeightDerivatives, to_rows};
 use super::gap::AlongNormal;
-use super::segment::{CellKernel, Cells, NonmortarFrame, Segment, map, project};
+use super::segment::{CellKernel, Cells, NonmortarFrame, Segment, check, project};
 use super::transport::PlaneDerivatives;
 use super::{MORTAR, PAIR_NODES, PairWeights};
 use crate::error::Result;
+use crate::geometry::bilinear_map::BilinearMap;
 use crate::geometry::clip::Polygon;
 use crate::geometry::{Facet, Projection, Vec2, cross};
 use crate::quadrature::cell::{square_point, triangle_point};
@@ -52,7 +53,7 @@ impl Segment {
     /// As [`Segment::new`].
     pub fn of_points(frame: &NonmortarFrame, facet: &Facet, line: &'static [[f64; 2]]) -> Result<Option<Segment>> {
         let Some(mortar) = simd::dispatch(Projected { frame, facet }) else { return Ok(None) };
-        let mortar_map = map(frame, &mortar)?;
+        check(frame, &mortar)?;
         let mut points = CellPoints { line, inside: 0 };
         let mut area = 0.0;
         for i in 0..points.count() {
@@ -68,7 +69,8 @@ impl Segment {
         if points.inside == 0 {
             return Ok(None);
         }
-        Ok(Some(Segment { mortar, mortar_map, polygon: Polygon::empty(), area, points: Some(points) }))
+        let (mortar_map, polygon) = (BilinearMap::new(&mortar), Polygon::empty());
+        Ok(Some(Segment { mortar, mortar_map, polygon, area, points: Some(points) }))
     }
 }
 

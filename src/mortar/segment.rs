@@ -27,7 +27,7 @@ pub struct NonmortarFrame {
     pub projection: Projection,
     /// Its map.
     pub map: BilinearMap,
-    /// See [`BilinearMap::convex_reach`]; its own coordinates are within.
+    /// See [`Projection::convex_reach`]; its own coordinates are within.
     reach: f64,
 }
 
@@ -137,12 +137,11 @@ impl Kernel for Frame<'_> {
     fn run<L: Lanes>(self) -> Result<NonmortarFrame> {
         let plane = Plane::of(self.facet)?;
         let projection = Projection::on::<L>(self.facet, &plane);
-        let mut frame = NonmortarFrame { map: BilinearMap::new(&projection), plane, projection, reach: 0.0 };
-        frame.reach = frame.map.convex_reach(&frame.projection);
-        if !(frame.reach > frame.projection.size) {
+        let reach = projection.convex_reach();
+        if !(reach > projection.size) {
             return Err(folded());
         }
-        Ok(frame)
+        Ok(NonmortarFrame { map: BilinearMap::new(&projection), plane, projection, reach })
     }
 }
 
@@ -176,7 +175,7 @@ impl Kernel for Overlap<'_> {
         let Overlap { frame, facet } = self;
         let one = &frame.projection;
         let Some(mortar) = project::<L>(frame, facet) else { return Ok(None) };
-        let mortar_map = map(frame, &mortar)?;
+        check(frame, &mortar)?;
         let mut polygon = clip::overlap::<L>(one, &mortar);
         let mut area = polygon.area();
         let small = one.size.min(mortar.size);
@@ -189,7 +188,7 @@ impl Kernel for Overlap<'_> {
                 return Ok(None);
             }
         }
-        Ok(Some(Segment { mortar, mortar_map, polygon, area, points: None }))
+        Ok(Some(Segment { mortar_map: BilinearMap::new(&mortar), mortar, polygon, area, points: None }))
     }
 }
 
@@ -204,18 +203,17 @@ pub(super) fn project<L: Lanes>(frame: &NonmortarFrame, facet: &Facet) -> Option
     (!apart).then_some(mortar)
 }
 
-/// The map of the mortar facet, where it and that of the frame's facet have inverses at all points of either.
+/// Whether the maps of both facets have inverses at all points of either.
 #[inline(always)]
-pub(super) fn map(frame: &NonmortarFrame, mortar: &Projection) -> Result<BilinearMap> {
-    let map = BilinearMap::new(mortar);
-    let (distance, reach) = (mortar.distance(), map.convex_reach(mortar));
+pub(super) fn check(frame: &NonmortarFrame, mortar: &Projection) -> Result<()> {
+    let (distance, reach) = (mortar.distance(), mortar.convex_reach());
     if !((reach > frame.projection.size) & (reach > distance)) {
         return Err(not_convex());
     }
     if !(frame.reach > distance) {
         return Err(too_large());
     }
-    Ok(map)
+    Ok(())
 }
 
 #[cold]
