@@ -22,6 +22,7 @@ mod hybrid;
 mod integration;
 mod meaning;
 mod memory;
+mod mistakes;
 mod nodes;
 mod numbering;
 mod options;
