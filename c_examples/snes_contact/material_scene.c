@@ -19,8 +19,6 @@ PetscErrorCode material_read(Scene *scene, const char *body, Material *material)
   scene_choice(scene, body, "material", law_names, &law);
   scene_choice(scene, body, "dilatation", dilatations, &dilatation);
   scene_bool(scene, body, "small_strain", &material->small_strain);
-  if (law && scene_has(scene, body, "small_strain"))
-    scene_fail(scene, body, "small_strain", "it is for `material: linear` only.");
   material->law             = laws[law];
   material->mean_dilatation = (PetscBool)dilatation;
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -13,8 +13,8 @@
 /* Beyond a strain of 3 per cent forces are off by two to three per cent (a roller on a block at 5 per cent: 3 to 4), more
  * than a mesh of ordinary fineness is. */
 static const PetscReal STRAIN_LIMIT = 0.03;
-/* A strain that a rotation makes may be so much of the largest real one. */
-static const PetscReal ROTATION_SHARE = 0.03;
+/* A strain that a rotation makes may be so much of the largest real one: turns at the rim of a contact are local. */
+static const PetscReal ROTATION_SHARE = 0.1;
 /* Strains made by rotations below this are not told: what is left of a body that moves without stress is its rounding. */
 static const PetscReal FAINT = 1e-8;
 
