@@ -80,7 +80,8 @@ fn nothing_is_amiss_at_a_solution_whatever_the_augmentation() {
                 // 1e-5 of E over a facet of a third is 3e-5 E; the largest traction is some per cent of E.
                 for point in &between {
                     assert!(point[0] > 1e-5 && point[0] < 1e-2, "{what}: off by 1e-5: {point:?}");
-                    assert!(point[2] > 1e-6 || friction == Friction::None, "{what}: off by 1e-5: {point:?}");
+                    // A traction that is not along the slip may be either.
+                    assert!(point[1].max(point[2]) > 1e-6 || friction == Friction::None, "{what}: {point:?}");
                 }
             }
         }

@@ -20,6 +20,7 @@ from stepping import stepping
 from touching import touching_full, touching_quick
 from turning import turning
 from verdict import Verdicts
+from warnings_checks import warnings
 
 GROUPS = {
     **acceptance.GROUPS,
@@ -35,6 +36,7 @@ GROUPS = {
     "touching": touching_quick,
     "touching_full": touching_full,  # some minutes; not among the tests
     "turning": turning,
+    "warnings": warnings,
 }
 
 

@@ -178,16 +178,22 @@ PetscErrorCode cell_forces(PetscInt corners, const Material *material, const Pet
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-void cell_centre_stress(PetscInt corners, const Material *material, const PetscReal X[], const PetscReal u[],
-                        PetscReal sigma[9])
+void cell_centre_gradient(PetscInt corners, const PetscReal X[], const PetscReal u[], PetscReal H[9])
 {
   const PetscReal centre[3] = {0, 0, 0}; /* of the hexahedron; gradients of a tet are the same everywhere */
-  Point           points[MAX_POINTS];
-  PetscInt        n_points;
-  PetscReal       dN[MAX_CORNERS][3], H[9], P[9], V[9], mean, whole, p, dp;
+  PetscReal       dN[MAX_CORNERS][3];
   reference_gradients(corners, centre, dN);
   physical_gradients(corners, X, dN);
   displacement_gradient(corners, dN, u, H);
+}
+
+void cell_centre_stress(PetscInt corners, const Material *material, const PetscReal X[], const PetscReal u[],
+                        PetscReal sigma[9])
+{
+  Point     points[MAX_POINTS];
+  PetscInt  n_points;
+  PetscReal H[9], P[9], V[9], mean, whole, p, dp;
+  cell_centre_gradient(corners, X, u, H);
   for (int k = 0; k < 9; k++)
     sigma[k] = 0;
   if (!strains(corners, material, X, u, points, &n_points, &mean, &whole)) return;

@@ -7,6 +7,8 @@
  * `inverted`: det F <= 0 at a Gauss point, where a law of finite strain has no stress; f and K then mean nothing. */
 PetscErrorCode cell_forces(PetscInt corners, const Material *material, const PetscReal X[], const PetscReal u[],
                            PetscReal f[], PetscReal K[], PetscBool *inverted);
+/* of the displacements, H = du/dX */
+void           cell_centre_gradient(PetscInt corners, const PetscReal X[], const PetscReal u[], PetscReal H[9]);
 /* Cauchy's stress; zeros where det F <= 0 */
 void           cell_centre_stress(PetscInt corners, const Material *material, const PetscReal X[], const PetscReal u[],
                                   PetscReal sigma[9]);

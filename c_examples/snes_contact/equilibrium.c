@@ -6,6 +6,8 @@
 /* Part of a scale that a violation may be, over the tolerance of the forces: the rows of the default augmentation, which is
  * a tenth of E / h, would be compared with the forces so. */
 static const PetscReal OVER_FORCES = 10;
+/* Rounding of the linear solver, over which no tolerance may go. */
+static const PetscReal LEAST = 1e-11;
 /* A violation that changes by less than this from one iteration to the next, while the forces balance, stays: Newton's
  * method has nothing left to change. */
 static const PetscReal STANDS_STILL = 1e-3;
@@ -41,7 +43,7 @@ static PetscReal worst(PetscReal tolerance, const Interface *interface, char wor
 /* At the place of the last evaluation. `stuck`: it is not, and iterations no longer change that. */
 PetscErrorCode equilibrium_judge(Model *model, PetscReal rtol, PetscBool *holds, PetscBool *stuck)
 {
-  const PetscReal tolerance = OVER_FORCES * rtol;
+  const PetscReal tolerance = PetscMax(OVER_FORCES * rtol, LEAST);
   PetscReal       largest   = 0;
   PetscInt        answer[2] = {1, 0};
 

@@ -49,6 +49,7 @@ static PetscErrorCode build(Model *model, PetscInt *status)
   PetscCall(plex_distribute(model));
   PetscCall(unknowns_create(model));
   PetscCall(parts_create(model));
+  PetscCall(held_create(model));
   PetscCall(bulk_create(model));
   PetscCall(loads_assemble(model));
   PetscCall(contact_create(model, status));
@@ -66,6 +67,8 @@ static PetscErrorCode clean_up(Model *model)
   PetscFunctionBegin;
   PetscCall(contact_destroy(model));
   PetscCall(parts_destroy(model));
+  PetscCall(held_destroy(model));
+  PetscCall(PetscFree(model->ranges));
   for (PetscInt s = 0; s < model->n_supports; s++) {
     PetscCall(PetscFree(model->supports[s].curve.points));
     PetscCall(PetscFree(model->supports[s].rotate_curve.points));

@@ -18,6 +18,7 @@ PetscErrorCode material_read(Scene *scene, const char *body, Material *material)
                (double)material->poisson);
   scene_choice(scene, body, "material", law_names, &law);
   scene_choice(scene, body, "dilatation", dilatations, &dilatation);
+  scene_bool(scene, body, "small_strain", &material->small_strain);
   material->law             = laws[law];
   material->mean_dilatation = (PetscBool)dilatation;
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -25,6 +25,7 @@ typedef struct {
 struct Material {
   PetscReal          young, poisson;
   const MaterialLaw *law;
+  PetscBool          small_strain; /* the linear theory is meant, however large strains are */
   PetscBool          mean_dilatation;
 };
 

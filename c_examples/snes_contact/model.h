@@ -100,6 +100,12 @@ typedef struct {
   PetscReal residual, noise;            /* at the last evaluation */
 } Part;
 
+/* What a body of the linear material was strained and turned by, up to now (range.c) */
+typedef struct {
+  PetscReal strain, rotation;
+  PetscBool told;
+} Range;
+
 /* Sums of squares of a part's nodal forces */
 enum { SQUARES_LOADS, SQUARES_REACTIONS, SQUARES_CONTACT, SQUARES_ROUNDING, SQUARES_RESIDUAL, N_SQUARES };
 
@@ -189,6 +195,12 @@ typedef struct {
   PetscInt   n_parts, *mesh_part, *vertex_part; /* of each mesh vertex (rank 0), of each vertex here */
   Part      *parts;
   PetscReal *squares; /* N_SQUARES per part, of the last evaluation */
+
+  /* held.c, rank 0: parts that their supports leave free; bodies so, bodies that nothing holds: their motions in words */
+  PetscBool    *loose;
+  struct cJSON *held_by_contact, *held_by_nothing;
+
+  Range *ranges; /* range.c, rank 0: per body */
 
   char      refusal[1024];                         /* the library's last message, if it refused an evaluation */
   char      inverted[256];                         /* which cell the last attempt at a step has turned inside out */
@@ -296,9 +308,16 @@ PetscErrorCode closing_needed(Model *model, Vec start, PetscBool *needed);
 void           closing_begin(Model *model, PetscBool active);
 PetscErrorCode closing_shift(Model *model, Mat matrix);
 
-/* held.c: which bodies contact alone must hold, as a sentence; is this one of them (rank 0)? */
+/* held.c: which bodies contact alone must hold, as a sentence; which ones nothing holds */
+PetscErrorCode held_create(Model *model);
+PetscErrorCode held_destroy(Model *model);
+PetscErrorCode held_check(Model *model, const PetscScalar *displacements); /* rank 0: of all vertices */
+PetscErrorCode held_free(const Model *model, const Body *body, PetscBool *is_free); /* rank 0: by its supports */
 PetscErrorCode held_describe(const Model *model, char text[], size_t length);
-PetscErrorCode held_free(const Model *model, const Body *body, PetscBool *is_free);
+
+/* range.c: do bodies with the linear material stay where it is right? */
+PetscErrorCode range_check(Model *model, const PetscScalar *displacements); /* rank 0: of all vertices */
+PetscErrorCode range_report(const Model *model, struct cJSON *root);
 
 /* step_size.c */
 void      step_size_start(const Steps *steps, StepSize *size);

@@ -246,6 +246,8 @@ PetscErrorCode summary_step(Model *model, Summary *summary, PetscInt step, Petsc
     for (PetscInt k = 0; k < model->n_probes; k++)
       cJSON_AddItemToObject(probes, model->probes[k].name, vector_json(displacements + 3 * model->probes[k].vertex));
     if (vtu) PetscCall(vtu_write(model, displacements, step));
+    PetscCall(held_check(model, displacements));
+    PetscCall(range_check(model, displacements));
   }
   cJSON_AddNumberToObject(json, "friction_work", friction_work);
   PetscCall(PetscFree(displacements));
@@ -276,6 +278,10 @@ PetscErrorCode summary_write(Model *model, Summary **summary, Vec last, PetscInt
   if (message[0]) cJSON_AddStringToObject((*summary)->root, "message", message);
   cJSON_AddItemToObject((*summary)->root, "failed_attempts", (*summary)->failed_attempts);
   cJSON_AddItemToObject((*summary)->root, "steps", (*summary)->steps);
+  if (model->held_by_contact && model->held_by_contact->child)
+    cJSON_AddItemReferenceToObject((*summary)->root, "held_by_contact", model->held_by_contact);
+  if (model->held_by_nothing) cJSON_AddItemReferenceToObject((*summary)->root, "held_by_nothing", model->held_by_nothing);
+  PetscCall(range_report(model, (*summary)->root));
   PetscCall(summary_counters(model, (*summary)->root));
   if (message[0])
     PetscCall(diagnosis_failed(model, (*summary)->root));

@@ -1,0 +1,105 @@
+"""What a run must say by itself: bodies that nothing holds, and the material `linear` outside its range. And what it must
+not say of a problem that is as it should be."""
+
+import json
+
+from scene import SceneError
+
+# A block on a base, both free to move along the surface unless something is added.
+PUNCH = {
+    "schema": 1,
+    "bodies": ["punch", "base"],
+    "punch": {"type": "box", "lower": [0.5, 0.5, 0.5], "upper": [1.5, 1.5, 1.5], "cells": [3, 3, 2]},
+    "base": {"type": "box", "lower": [0, 0, 0], "upper": [2, 2, 0.5], "cells": [5, 5, 2]},
+    "supports": ["bottom"],
+    "bottom": {"surface": "base.zmin", "components": ["z"]},
+    "loads": ["press"],
+    "press": {"surface": "punch.zmax", "traction": [0, 0, -10]},
+    "interfaces": ["contact"],
+    "contact": {"nonmortar": "punch.zmin", "mortar": "base.zmax"},
+    # Uniform, so that it converges, wherever it drifts.
+    "steps": {"count": 1},
+    "output": {"vtu": "none", "csv": "none"},
+}
+for body in ("punch", "base"):
+    PUNCH[body] |= {"young": 1000, "poisson": 0.0}
+
+HELD, NORMAL = "x,y,z", "z"
+SLIDES, ALL = "move along x, y and turn about z", "move along x, y, z and turn about x, y, z"
+FRICTION, TIED = ("-contact_friction", 0.3), ("-contact_law", "tied")
+# (what it is, components of the base's bottom, options, what nothing holds, what contact alone must hold)
+ADRIFT = (
+    ("frictionless, on a base held along z", NORMAL, (), {"punch": SLIDES, "base": SLIDES}, {"punch": ALL, "base": SLIDES}),
+    ("with friction, on a base held along z", NORMAL, FRICTION, {"punch": SLIDES, "base": SLIDES}, {"punch": ALL, "base": SLIDES}),
+    ("tied, to a base held along z", NORMAL, TIED, {"punch": SLIDES, "base": SLIDES}, {"punch": ALL, "base": SLIDES}),
+    ("frictionless, on a base held along y and z", "y,z", (), {"punch": SLIDES, "base": "move along x"}, {"punch": ALL, "base": "move along x"}),
+    ("frictionless, on a base that is held", HELD, (), {"punch": SLIDES}, {"punch": ALL}),
+    ("with friction, on a base that is held", HELD, FRICTION, {}, {"punch": ALL}),
+    ("tied, to a base that is held", HELD, TIED, {}, {"punch": ALL}),
+)
+# Two blocks, one on the other, that turn as one.
+TURNED = {
+    **PUNCH,
+    "punch": PUNCH["punch"] | {"lower": [0, 0, 0.5], "upper": [2, 2, 1], "cells": [3, 3, 2]},
+    "supports": ["bottom", "top"],
+    "bottom": {"surface": "base.zmin", "components": ["x", "y", "z"], "rotate": [0, 1.5707963267948966, 0], "curve": [0, 0, 1, 1]},
+    "top": {"surface": "punch.zmax", "components": ["x", "y", "z"], "rotate": [0, 1.5707963267948966, 0], "value": [0, 0, -0.01]},
+    "loads": [],
+    "contact": PUNCH["contact"] | {"friction": 0.3},
+    "steps": {"count": 45},
+}
+del TURNED["press"]
+WARNS_HELD, WARNS_LINEAR = "nothing holds what follows", "whose material is linear"
+
+
+def write(driver, name, scene):
+    driver.output.mkdir(parents=True, exist_ok=True)
+    path = driver.output / f"{name}.yaml"
+    path.write_text("".join(f"{key}: {json.dumps(value)}\n" for key, value in scene.items()))
+    return path
+
+
+def warnings(verdicts, driver):
+    held(verdicts, driver)
+    linear(verdicts, driver)
+
+
+def held(verdicts, driver):
+    scene = write(driver, "punch", PUNCH)
+    for k, (what, components, options, nothing, contact) in enumerate(ADRIFT):
+        run = driver.run(scene, "-bottom_components", components, *options, label=f"punch_{k}")
+        found = run.summary.get("held_by_nothing", {}).get("bodies", {})
+        verdicts.true(f"punch {what}: held by nothing {found or ''}", found == nothing, f"{nothing or 'nothing is free'}")
+        verdicts.true(f"punch {what}: warns {'once' if nothing else 'not'}", run.text.count(WARNS_HELD) == bool(nothing), "")
+        found = run.summary.get("held_by_contact", {})
+        verdicts.true(f"punch {what}: contact alone holds {found}", found == contact, "a note")
+    # In a frame that is turned by 90 degrees about x the punch slides along x and z.
+    run = driver.run(scene, "-bottom_components", HELD, "-frame_rotate", "90,0,0", label="punch_frame")
+    found = run.summary.get("held_by_nothing", {}).get("bodies", {})
+    verdicts.true(f"punch, the frame turned: {found}", found == {"punch": "move along x, z and turn about y"}, "")
+
+
+def linear(verdicts, driver):
+    scene = write(driver, "turned", TURNED)
+    run = driver.run(scene, label="turned_linear", expect=None)
+    if run.exit_code not in (0, 2):
+        raise SceneError(f"the blocks that turn ended with {run.exit_code}")
+    said = run.text.count(WARNS_LINEAR)
+    verdicts.true(f"turned by 90 degrees, linear: {said} warnings", said == 2, "one a body, whatever becomes of it")
+    within = [v["within_range"] for v in run.summary["linear_materials"].values()]
+    verdicts.true("turned by 90 degrees, linear: within range nowhere", within == [False, False], "summary.json")
+    law = ("-punch_material", "neo_hooke", "-base_material", "neo_hooke")
+    run = driver.run(scene, *law, label="turned_neo_hooke")
+    verdicts.true("turned by 90 degrees, neo_hooke: silent", WARNS_LINEAR not in run.text, "it is right")
+    # Uniform compression by the load over E.
+    for pressure, warns in ((10, 0), (25, 0), (40, 2), (100, 2)):
+        run = driver.run(
+            write(driver, "block", {**PUNCH, "punch": TURNED["punch"]}),
+            *("-bottom_components", HELD, *FRICTION, "-press_traction", f"0,0,-{pressure}"),
+            label=f"pressed_{pressure}",
+        )
+        said = run.text.count(WARNS_LINEAR)
+        verdicts.true(f"pressed by {pressure / 10} %, linear: {said} warnings", said == warns, "from 3 % on")
+    run = driver.run("block_bottom_mu02", label="small_strain")
+    silent = WARNS_LINEAR not in run.text and WARNS_HELD not in run.text
+    verdicts.true("the block, with small_strain: silent", silent, "the scene says that the linear theory is meant")
