@@ -12,6 +12,8 @@ from reference import fit_hertz
 TIED_PATCH_BOUND = 1e-11
 # Two programs' ways to one solution: what is left is Newton's tolerance, 1e-11.
 SAME_ANSWER = 1e-10
+# The turn is prescribed with 16 digits, and a step ends at 1e-11 of the forces that turned it.
+TIED_TURN_BOUND = 1e-8
 # Tied layers with matching meshes are one body: the same linear problem with other unknowns.
 TIED_WHOLE_BOUND = 1e-9
 # Meshes that do not match: layers of 47 and 60 elements against 60; bending stress is linear, an element's constant.
@@ -81,6 +83,11 @@ def tied(verdicts, driver):
     length, height, young, load = 10.0, 1.0, 1000.0, 0.1
     theory = 4 * load * (length / height) ** 3 / young + load * length / (5 / 6 * young / 2)  # nu = 0
     verdicts.near("tied layers, other meshes: tip, beam theory", -tip(layers)[0], theory, BEAM_THEORY_BOUND, "8 elements")
+
+    # By 90 degrees about y: (x, y, z) goes to (z, y, -x).
+    probes, places = driver.run("tied_gap").steps[-1]["probes"], {"top": (1, 1, 1.7), "corner": (0, 0, 1.2)}
+    error = max(np.abs(np.add((x, y, z), probes[name]) - (z, y, -x)).max() for name, (x, y, z) in places.items())
+    verdicts.below("tied over a gap of 0.2, turned by 90 degrees: shift", error, TIED_TURN_BOUND, "a rigid turn of both")
 
 
 def frictionless(verdicts, driver):

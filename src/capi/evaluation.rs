@@ -74,7 +74,8 @@ impl Point {
 ///
 /// x1 (3 n1), x2 (3 n2): positions, not displacements [L]. sums (STICKSLIP_SUMS_PER_NODE n1), output, per node:
 /// covered area now [L^2], g[n_{n+1}, x_{n+1}] (3) [L^3], covered area at t_n [L^2], g[n_n, x_{n+1}] (3) [L^3],
-/// g[n_n, x_n] (3) [L^3]. With sums, use the multiplier form. This call, and those with sums, leave nothing out
+/// g[n_n, x_n] (3) [L^3]. Of tied surfaces the last is the gap that they started with, turned with the non-mortar facets
+/// to x1: a host that adds up shares adds these too, and passes them at the same x1. With sums, use the multiplier form. This call, and those with sums, leave nothing out
 /// where the handle's own part of the mortar surface is far away; calls with NULL in place of sums do, before and after.
 ///
 /// All handles that are added up must have the same options and the same mu at every node (those of

@@ -31,7 +31,8 @@ pub const STICKSLIP_WEIGHTS_REFERENCE: i32 = 2;
 pub const STICKSLIP_FRICTION_COULOMB: i32 = 0;
 /// One multiplier per node, along the normal: multiplier_equations, lambda and rows have n1 entries. No slip history.
 pub const STICKSLIP_FRICTION_NONE: i32 = 1;
-/// Mesh tying: a node that is covered in the first configuration keeps its place; weights of the reference. Linear.
+/// Mesh tying: a node that is covered in the first configuration keeps its place; weights of the reference. A gap at the
+/// start stays, and turns with the non-mortar facets; linear where there is none.
 pub const STICKSLIP_FRICTION_TIED: i32 = 2;
 /// Opens and closes, never slips.
 pub const STICKSLIP_FRICTION_ROUGH: i32 = 3;

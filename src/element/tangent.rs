@@ -74,7 +74,8 @@ pub type RowColumns<const N: usize> = [[[[f64; MAX_NODES]; N]; 3]; PAIR_NODES];
 pub struct PairNow<'a> {
     /// n_{n+1}.
     pub weights: &'a PairWeights,
-    /// Dg[n_{n+1}, x_{n+1}]; `None` where the weights are frozen.
+    /// Dg[n_{n+1}, x_{n+1}]; `None` where the weights are frozen, unless a first gap turns with the facet: of the first
+    /// of its pairs.
     pub gap: Option<&'a GapDerivative>,
 }
 
@@ -130,7 +131,13 @@ impl<const MOVES: bool, const N: usize> Kernel for RowKernel<'_, MOVES, N> {
                 let none = PairWeights::default();
                 return with_motion::<L, MOVES, N>(gap, nodes, previous.unwrap_or(&none), rows);
             }
-            Some(PairNow { gap: Some(GapDerivative::Blocks(blocks)), .. }) => with_blocks::<L, N>(blocks, nodes, rows),
+            Some(PairNow { gap: Some(GapDerivative::Blocks(blocks)), .. }) => {
+                with_blocks::<L, N, false>(blocks, nodes, rows)
+            }
+            Some(PairNow { weights, gap: Some(GapDerivative::Turning(blocks)) }) => {
+                frozen::<L, MOVES, N, false>(weights, &nodes.now, rows);
+                with_blocks::<L, N, true>(blocks, nodes, rows);
+            }
             Some(PairNow { weights, gap: None }) => frozen::<L, MOVES, N, false>(weights, &nodes.now, rows),
             None => {}
         }
@@ -173,9 +180,9 @@ fn with_motion<L: Lanes, const MOVES: bool, const N: usize>(
     }
 }
 
-/// drow . Dg of a facet against an analytic surface.
+/// drow . Dg of a facet's blocks; `ADD`: to what is there.
 #[inline(always)]
-fn with_blocks<L: Lanes, const N: usize>(
+fn with_blocks<L: Lanes, const N: usize, const ADD: bool>(
     blocks: &[[[[f64; MAX_NODES]; 3]; 3]; MAX_NODES],
     nodes: &FacetResponse<N>,
     rows: &mut RowColumns<N>,
@@ -188,6 +195,7 @@ fn with_blocks<L: Lanes, const N: usize>(
                 for i in 1..3 {
                     row = L::load(&drow[i]).mul_add(L::load(&blocks[k][i][j]), row);
                 }
+                let row = if ADD { row + L::load(&rows[k][j][n]) } else { row };
                 rows[k][j][n] = row.store();
             }
         }

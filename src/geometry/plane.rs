@@ -4,7 +4,7 @@
 //! follows the first spanning vector and its spin is kept, so that translation and rotation
 //! invariance of the weights' derivative hold exactly, whatever the quadrature.
 
-use super::{Facet, Vec3};
+use super::{Facet, Mat3, Vec3};
 use crate::error::{Error, Kind, Result};
 use crate::shape::MAX_NODES;
 
@@ -88,5 +88,15 @@ impl Plane {
             plane.tilt[1][node] -= length / norm * sign;
         }
         Ok(plane)
+    }
+
+    /// Dv / Dx_c of a vector v that is fixed in the frame (t1, t2, e) and so turns with it: Dv = omega x v,
+    /// omega = (t1 . De) t2 - (t2 . De) t1 + (t2 . Dt1) e.
+    pub fn derivative_of_fixed(&self, v: &Vec3) -> [Mat3; MAX_NODES] {
+        let (t1, t2, e) = (self.t1.cross(v), self.t2.cross(v), self.e.cross(v));
+        std::array::from_fn(|c| {
+            let tilted = t2 * self.tilt[0][c] - t1 * self.tilt[1][c];
+            tilted * self.e.transpose() + e * self.spin[c] * self.t2.transpose()
+        })
     }
 }

@@ -188,6 +188,8 @@ impl<const N: usize> Contact<N> {
                     let (frame, active) = (&k.frames[pairs[0].one], (&k.pairs[active], overlaps));
                     let (rule, p, f) = (self.options.rule, &facet_nodes.traction, &mut t.forces);
                     gap = Some((self.kernels.motion)(analytic.as_ref(), frame, active, rule, p, f)?);
+                } else if place == 0 {
+                    gap = self.history.facet_gaps.motion(&self.nonmortar, pairs[0].one, x1)?;
                 }
                 let now = now.as_deref().map(|weights| PairNow { weights, gap: gap.as_ref() });
                 let previous = previous.as_deref();

@@ -29,7 +29,10 @@ impl<const N: usize> Contact<N> {
         let unknowns = if N == 1 { "one multiplier a node, along the normal" } else { "three multipliers a node" };
         let what = match self.options.friction {
             Friction::None => "none (asked for), no slip and no slip history".into(),
-            Friction::Tied => "tied (asked for), neither opens nor slips, linear".into(),
+            Friction::Tied => {
+                "tied (asked for), neither opens nor slips, linear where closed, an open gap turns with its facets"
+                    .into()
+            }
             Friction::Rough => "rough (asked for), opens and closes, never slips".into(),
             Friction::Coulomb if !self.kernels.slips => "none (chosen: mu is 0 at every node), no slip".into(),
             Friction::Coulomb => format!("Coulomb's law with mu {}", self.mu_range()),

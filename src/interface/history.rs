@@ -1,7 +1,9 @@
 //! What an interface remembers of t_n: configuration, weights, normals, areas, coverage, slip
 //! (formulation b.10). Changes only on commit, rolls back exactly, travels as flat arrays (`restart.rs`). Without friction there is no
-//! slip to measure: no gaps, no slip, and weights only where they are frozen; tied surfaces keep the gap, and no slip.
+//! slip to measure: no gaps, no slip, and weights only where they are frozen; tied surfaces keep the gap, that
+//! of their facets too (`facet_gaps.rs`), and no slip.
 
+use super::facet_gaps::{FacetGaps, REALS_PER_FACET};
 use super::options::{Friction, Options, Weights};
 use crate::error::{Error, Kind, Result};
 use crate::geometry::Vec3;
@@ -52,13 +54,20 @@ impl Keeps {
         }
     }
 
+    /// Whether gaps of facets are kept.
+    pub fn facet_gaps(self) -> bool {
+        self == Keeps::Gap
+    }
+
     /// Vectors per non-mortar node: position, normal and what else is kept.
     fn vectors(self) -> usize {
         2 + self.gaps_and_slips().iter().sum::<usize>()
     }
 
-    pub fn reals(self, n1: usize, n2: usize, pairs: usize) -> usize {
-        (3 * self.vectors() + 2) * n1 + 3 * n2 + REALS_PER_PAIR * pairs
+    /// Reals of a history of n1 + n2 nodes, so many non-mortar facets and pairs.
+    pub fn reals(self, [n1, n2]: [usize; 2], facets: usize, pairs: usize) -> usize {
+        let facets = if self.facet_gaps() { REALS_PER_FACET * facets } else { 0 };
+        (3 * self.vectors() + 2) * n1 + 3 * n2 + facets + REALS_PER_PAIR * pairs
     }
 }
 
@@ -79,8 +88,10 @@ pub struct History {
     pub areas: Vec<f64>,
     /// m_A(t_n): covered area [L^2].
     pub coverage: Vec<f64>,
-    /// g[n_n, x_n] [L^3]; empty without friction.
+    /// g[n_n, x_n] [L^3]; empty without friction. Tied: the part of the first gap that turns with no facet.
     pub gap: Vec<Vec3>,
+    /// Tied: the part of the first gap that turns with its facet; else empty.
+    pub facet_gaps: FacetGaps,
     /// Slip accumulated since the first configuration `[L]`; empty without friction, and of tied surfaces.
     pub slip: Vec<Vec3>,
     /// n(t_n), sorted by facets; none without friction, unless they are frozen.
@@ -107,6 +118,7 @@ impl History {
 
     /// Refuses a history that has left the range of doubles: nothing could be measured from it, and no import takes it.
     pub(super) fn check_finite(&self) -> Result<()> {
+        // A facet's gap that is not finite has left a node's gap that is not.
         let vectors = [("gap", &self.gap), ("slip", &self.slip)];
         let vectors = vectors.map(|(name, v)| (name, v.iter().position(|v| !v.iter().all(|c| c.is_finite()))));
         let numbers = [("area", &self.areas), ("coverage", &self.coverage)];

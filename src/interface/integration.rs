@@ -5,6 +5,7 @@
 //! history, so evaluating at A, B, A gives equal bits. An analytic mortar side has its own filter and its own way
 //! (`analytic.rs`).
 
+use super::facet_gaps::FacetGaps;
 use super::filter::{FacetFilter, Filter};
 use super::history::{History, Keeps, PairRecord};
 use super::nodes::{NodeSums, assemble};
@@ -376,6 +377,7 @@ impl<const N: usize> Contact<N> {
             areas: vec![0.0; n1],
             coverage: vec![0.0; n1],
             gap,
+            facet_gaps: FacetGaps::default(),
             slip,
             pairs: Vec::new(),
             integrated: false,
@@ -390,7 +392,10 @@ impl<const N: usize> Contact<N> {
             &frames(nonmortar, x1)?
         } else {
             let mut new = integrate((nonmortar, mortar), options, &filter, (counters, tree), (x1, x2))?;
-            let sums = assemble((nonmortar, mortar), &new.pairs, x1, x2);
+            let mut sums = assemble((nonmortar, mortar), &new.pairs, x1, x2);
+            if keeps.facet_gaps() {
+                history.facet_gaps = FacetGaps::of((nonmortar, mortar), &new, &mut sums);
+            }
             history.fill(&mut new.pairs, &sums);
             &integration.insert(new).frames
         };

@@ -17,7 +17,7 @@ fn of_surface(s: &Surface) -> usize {
 
 fn of_history(h: &History) -> usize {
     let vectors = [&h.x1, &h.x2, &h.normals, &h.gap, &h.slip];
-    vectors.map(heap).iter().sum::<usize>() + heap(&h.areas) + heap(&h.coverage) + heap(&h.pairs)
+    vectors.map(heap).iter().sum::<usize>() + heap(&h.areas) + heap(&h.coverage) + h.facet_gaps.bytes() + heap(&h.pairs)
 }
 
 fn of_filter(filter: &Filter) -> usize {

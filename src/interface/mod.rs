@@ -19,6 +19,7 @@ mod effects;
 mod emission;
 mod equilibrium;
 mod extent;
+mod facet_gaps;
 mod filter;
 mod history;
 mod hybrid;
@@ -47,6 +48,7 @@ pub use diagnosis::{Cause, Diagnosis, SUSPECT, Suspect, WorstPair};
 pub use emission::Sink;
 pub use equilibrium::{Equilibrium, Largest, ROUNDINGS, Scales};
 pub use extent::Extent;
+pub use facet_gaps::FacetGaps;
 pub use history::{History, PairRecord};
 pub use nodes::NodeSums;
 pub use options::{

@@ -22,7 +22,7 @@ pub struct NodeSums {
     pub coverage_previous: f64,
     /// g[n_n, x_{n+1}].
     pub gap_previous: Vec3,
-    /// g[n_n, x_n].
+    /// g[n_n, x_n]; tied: g[n_0, x_0], turned with its facets.
     pub gap_committed: Vec3,
 }
 
@@ -72,12 +72,13 @@ impl<const N: usize> Contact<N> {
         }
         let (surfaces, h) = ((&self.nonmortar, &self.mortar), &self.history);
         let now = assemble(surfaces, self.current_pairs(), x1, x2);
+        let committed = h.facet_gaps.turned(&self.nonmortar, x1, &h.gap)?;
         let mut sums: Vec<_> = (0..self.nonmortar.len())
             .map(|a| NodeSums {
                 coverage: now[a].0,
                 gap_now: now[a].1,
                 coverage_previous: h.coverage[a],
-                gap_committed: h.gap.get(a).copied().unwrap_or_default(),
+                gap_committed: committed.get(a).copied().unwrap_or_default(),
                 gap_previous: Vec3::zeros(),
             })
             .collect();

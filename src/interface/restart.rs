@@ -1,10 +1,11 @@
 //! The history as flat arrays, for a restart.
 //!
 //! Integers: the layout, the checksum (`checksum.rs`), the meaning (`meaning.rs`), commits, nodes of both sides; then lists,
-//! each after its length: the pairs' facets. Reals: x1, x2, normals, gaps, slip, areas, coverage, the pairs' weights. What is
+//! each after its length: the pairs' facets. Reals: x1, x2, normals, gaps, slip, gaps of facets, areas, coverage, the pairs' weights. What is
 //! not kept (`Keeps`) takes no room.
 
 use super::checksum::{self, PLACE};
+use super::facet_gaps::{FacetGaps, REALS_PER_FACET};
 use super::history::{History, Keeps, PairRecord, REALS_PER_PAIR};
 use super::options::Weights;
 use super::surface::Surface;
@@ -61,7 +62,7 @@ impl History {
     /// Lengths of the flat arrays: (integers, reals).
     pub fn flat_size(&self) -> (usize, usize) {
         let n = self.pairs.len();
-        (HEADER + 1 + 2 * n, self.keeps.reals(self.x1.len(), self.x2.len(), n))
+        (HEADER + 1 + 2 * n, self.keeps.reals([self.x1.len(), self.x2.len()], self.facet_gaps.len(), n))
     }
 
     /// The history as flat arrays.
@@ -74,6 +75,7 @@ impl History {
         for x in [&self.x1, &self.x2, &self.normals, &self.gap, &self.slip] {
             reals.extend(x.iter().flat_map(|v| v.iter()));
         }
+        reals.extend(self.facet_gaps.reals());
         reals.extend(&self.areas);
         reals.extend(&self.coverage);
         for pair in &self.pairs {
@@ -92,13 +94,15 @@ impl History {
         let &Host { surfaces: (nonmortar, mortar), keeps, frozen, .. } = host;
         let (n1, n2) = (nonmortar.len(), mortar.len());
         let (commits, facets) = check_header((integers, reals), host)?;
-        let n_reals = keeps.reals(n1, n2, facets.len() / 2);
+        let n_reals = keeps.reals([n1, n2], nonmortar.facets.len(), facets.len() / 2);
         if reals.len() != n_reals {
             return mismatch(format!("reals has {} entries; {n_reals} are needed", reals.len()));
         }
         let mut rest = reals;
         let (x1, x2, normals) = (vectors(&mut rest, n1), vectors(&mut rest, n2), vectors(&mut rest, n1));
         let [gap, slip] = keeps.gaps_and_slips().map(|kept| vectors(&mut rest, kept * n1));
+        let kept = if keeps.facet_gaps() { nonmortar.facets.len() } else { 0 };
+        let facet_gaps = FacetGaps::from_reals(take(&mut rest, REALS_PER_FACET * kept));
         let (areas, coverage) = (take(&mut rest, n1).to_vec(), take(&mut rest, n1).to_vec());
         let mut pairs = Vec::with_capacity(facets.len() / 2);
         for f in facets.chunks_exact(2) {
@@ -113,7 +117,8 @@ impl History {
             pairs.push(PairRecord { one, two, weights });
         }
         let integrated = true;
-        let history = History { keeps, commits, x1, x2, normals, areas, coverage, gap, slip, pairs, integrated };
+        let history =
+            History { keeps, commits, x1, x2, normals, areas, coverage, gap, facet_gaps, slip, pairs, integrated };
         check_contents(&history, (nonmortar, mortar), frozen)?;
         Ok(history)
     }

@@ -34,7 +34,7 @@ pub struct Node<const N: usize = 3> {
     pub gap_now: Vec3,
     /// g[n_n, x_{n+1}].
     pub gap_previous: Vec3,
-    /// g[n_n, x_n]; read by the increment measure, and by tied nodes.
+    /// g[n_n, x_n]; read by the increment measure. Tied nodes: the first gap, turned with the surface.
     pub gap_committed: Vec3,
     /// Whether the node is covered now; an uncovered node is in gap whatever its multiplier.
     pub covered: bool,

@@ -1,5 +1,8 @@
 //! Mesh tying: a covered node keeps its place over the mortar side, c = g - g_0 with the weights and the gap g_0 of
-//! the reference configuration. Linear: no inequality, no state, no history. An uncovered node carries nothing.
+//! the first configuration. No inequality, no state. An open g_0 turns with the non-mortar facets
+//! (`interface/facet_gaps.rs`); closed surfaces are linear. An uncovered node carries nothing.
+//!
+//! c depends on the gap alone, and on g_0 as on -g: what is -Dg_0 of Dg goes with Dg.
 
 use super::node::{Law, Node, NodeResponse};
 use super::projection::State;

@@ -59,6 +59,8 @@ pub enum GapDerivative {
     Facets(AlongNormal),
     /// `[k][i][j]`, lanes A: d g_A,i / d x_k,j of a facet against an analytic surface, which is at rest.
     Blocks([[[[f64; MAX_NODES]; 3]; 3]; MAX_NODES]),
+    /// With weights held fixed, of g - g_0 where g_0 turns with the facet: what -Dg_0 adds, as in `Blocks`.
+    Turning([[[[f64; MAX_NODES]; 3]; 3]; MAX_NODES]),
 }
 
 /// Dg_A of two facets in factors: Dg_A = e Dgamma_A + gamma_A De.

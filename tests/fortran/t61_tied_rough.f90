@@ -1,4 +1,4 @@
-! STICKSLIP_FRICTION_TIED: neither opens nor slips, linear, without history. STICKSLIP_FRICTION_ROUGH: Coulomb's law
+! STICKSLIP_FRICTION_TIED: neither opens nor slips; closed surfaces are linear. STICKSLIP_FRICTION_ROUGH: Coulomb's law
 ! with a coefficient that nothing exceeds.
 #include "check.inc"
 program t61_tied_rough

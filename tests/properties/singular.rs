@@ -324,7 +324,9 @@ fn against_analytic(one: &Facet, rule: &Rule) -> TestCaseResult {
         let mut f = ForceDerivatives::default();
         match mortar::analytic_motion(&frame, &surface, rule, &FIELDS, &mut f).unwrap() {
             GapDerivative::Facets(g) => along(&g)?,
-            GapDerivative::Blocks(b) => finite(b.iter().flatten().flatten().flatten(), "a gap's derivative")?,
+            GapDerivative::Blocks(b) | GapDerivative::Turning(b) => {
+                finite(b.iter().flatten().flatten().flatten(), "a gap's derivative")?
+            }
         }
         finite(f.one.iter().flatten().flatten().flatten(), "a force's derivative")?;
     }
