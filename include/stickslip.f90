@@ -56,6 +56,7 @@ module stickslip
   integer(c_int32_t), parameter :: STICKSLIP_TURNED_TOO_FAR = 17
   ! A commit would take pairs away from a closed node.
   integer(c_int32_t), parameter :: STICKSLIP_CONTACT_LOST = 19
+  integer(c_int32_t), parameter :: STICKSLIP_OUT_OF_MEMORY = 18
   ! The library is at fault; the handle is suspect.
   integer(c_int32_t), parameter :: STICKSLIP_PANIC = -1
 

@@ -44,6 +44,8 @@ pub const STICKSLIP_HISTORY_MISMATCH: i32 = 16;
 pub const STICKSLIP_TURNED_TOO_FAR: i32 = 17;
 /// A commit would take pairs away from a node that is closed. Commit a smaller step, or give a search_distance.
 pub const STICKSLIP_CONTACT_LOST: i32 = 19;
+/// The system has no memory left for what the call needs. Nothing was changed.
+pub const STICKSLIP_OUT_OF_MEMORY: i32 = 18;
 /// The library is at fault; please report it. The handle is suspect.
 pub const STICKSLIP_PANIC: i32 = -1;
 

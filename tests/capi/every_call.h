@@ -45,6 +45,22 @@ static inline int32_t every_split(every *c) {
   return stickslip_surface_split_creases(&c->h.s.nonmortar, 0.5, (int32_t)c->h.s.options.index_base, COUNT(c->originals),
                                          c->split_nodes, c->originals, &c->split_count);
 }
+/* The same of a surface that is bent by a right angle along its middle. */
+static inline int32_t every_split_bent(every *c) {
+  static double bent[X1];
+  if (bent[0] == 0.0 && bent[3] == 0.0) {
+    for (int a = 0; a < N1; ++a) {
+      const int i = a % 3;
+      bent[3 * a] = i < 2 ? 0.5 * i : 0.5;
+      bent[3 * a + 1] = 0.5 * (a / 3);
+      bent[3 * a + 2] = i < 2 ? 0.0 : 0.5;
+    }
+  }
+  stickslip_surface surface = c->h.s.nonmortar;
+  surface.coordinates = bent;
+  return stickslip_surface_split_creases(&surface, 0.5, (int32_t)c->h.s.options.index_base, COUNT(c->originals),
+                                         c->split_nodes, c->originals, &c->split_count);
+}
 static inline int32_t every_crosspoints(every *c) {
   static const int64_t offsets1[] = {0, 3, 6}, nodes1[] = {1, 2, 3, 3, 4, 5}, offsets2[] = {0, 2, 4}, nodes2[] = {7, 5, 1, 4};
   return stickslip_crosspoints_find(2, offsets1, nodes1, offsets2, nodes2, COUNT(c->shared_nodes), c->shared_nodes,
@@ -95,6 +111,12 @@ static inline int32_t every_initial(every *c) { return stickslip_interface_initi
 static inline int32_t every_sums(every *c) { return call_interface_sums(&c->h); }
 static inline int32_t every_residual(every *c) { return call_interface_residual(&c->h); }
 static inline int32_t every_states(every *c) { return call_interface_states(&c->h); }
+/* With the sums of `every_sums`; not where nodes are carried. */
+static inline int32_t every_with_sums(every *c) {
+  scene *s = &c->h.s;
+  return stickslip_interface_residual(s->interface, s->x1, s->x2, s->lambda, c->h.sums, c->h.force1, c->h.force2,
+                                      c->h.rows);
+}
 static inline int32_t every_coo(every *c) { return call_interface_coo(&c->h); }
 static inline int32_t every_csr(every *c) { return call_interface_csr(&c->h); }
 static inline int32_t every_count(every *c) {
@@ -143,6 +165,7 @@ static const entry_point every_call[] = {
     {"options_init", every_options_init},
     {"last_error_padded", every_padded},
     {"surface_split_creases", every_split},
+    {"surface_split_creases, bent", every_split_bent},
     {"crosspoints_find", every_crosspoints},
     {"interface_create", every_create},
     {"interface_initial_multipliers", every_initial},
@@ -153,6 +176,7 @@ static const entry_point every_call[] = {
     {"interface_set_augmentation", every_augmentation},
     {"interface_set_normals", every_normals},
     {"interface_sums", every_sums},
+    {"interface_residual, sums", every_with_sums},
     {"interface_set_normals, NULL", every_no_normals},
     {"interface_set_constraints", every_constraints},
     {"interface_states", every_states},
@@ -173,6 +197,48 @@ static const entry_point every_call[] = {
     {"interface_counters", every_counters},
 };
 
+/* A refusal of every function: no pointer at all. */
+static inline int32_t every_refusal(int k) {
+  switch (k) {
+    case 0: return stickslip_pair_weights(NULL, NULL, NULL, NULL, NULL);
+    case 1: return stickslip_pair_gap(NULL, NULL, NULL, NULL);
+    case 2: return stickslip_pair_residual(NULL, NULL, NULL, NULL, NULL);
+    case 3: return stickslip_pair_tangent(NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, 0);
+    case 4: return stickslip_node_respond(NULL, NULL);
+    case 5: return stickslip_node_block(NULL, 1.0, 0, NULL, NULL);
+    case 6: return stickslip_facet_geometry(3, NULL, NULL, NULL);
+    case 7: return stickslip_node_normal(NULL, NULL);
+    case 8: return stickslip_options_init(NULL, 0);
+    case 9: return stickslip_last_error_padded(NULL, 0);
+    case 10: return stickslip_surface_split_creases(NULL, 1.0, 0, 0, NULL, NULL, NULL);
+    case 11: return stickslip_crosspoints_find(1, NULL, NULL, NULL, NULL, 0, NULL, NULL, NULL, NULL);
+    case 12: return stickslip_interface_create(NULL, NULL, NULL, NULL);
+    case 13: return stickslip_interface_destroy((stickslip_interface **)(uintptr_t)1);
+    case 14: return stickslip_interface_set_friction(NULL, NULL);
+    case 15: return stickslip_interface_set_augmentation(NULL, NULL);
+    case 16: return stickslip_interface_set_normals(NULL, NULL);
+    case 17: return stickslip_interface_set_constraints(NULL, 0, NULL, NULL);
+    case 18: return stickslip_interface_set_previous(NULL, NULL, NULL);
+    case 19: return stickslip_interface_initial_multipliers(NULL, NULL);
+    case 20: return stickslip_interface_sums(NULL, NULL, NULL, NULL);
+    case 21: return stickslip_interface_states(NULL, NULL, NULL, NULL, NULL, NULL);
+    case 22: return stickslip_interface_residual(NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL);
+    case 23: return stickslip_interface_tangent_coo(NULL, NULL, NULL, NULL, NULL, 0, NULL, NULL, NULL, NULL);
+    case 24: return stickslip_interface_tangent_csr(NULL, NULL, NULL, NULL, NULL, 0, NULL, NULL, NULL);
+    case 25: return stickslip_interface_pattern_coo(NULL, NULL, NULL, 0, NULL, NULL, NULL);
+    case 26: return stickslip_interface_commit(NULL, NULL, NULL, NULL, NULL);
+    case 27: return stickslip_interface_rollback(NULL);
+    case 28: return stickslip_interface_history_size(NULL, NULL, NULL);
+    case 29: return stickslip_interface_history_export(NULL, 0, NULL, 0, NULL);
+    case 30: return stickslip_interface_history_import(NULL, 0, NULL, 0, NULL);
+    case 31: return stickslip_interface_counters(NULL, NULL);
+    case 32: return stickslip_interface_effects(NULL, NULL, 0);
+    case 33: return stickslip_interface_report(NULL, NULL, NULL, NULL);
+    default: return stickslip_interface_diagnose(NULL, NULL, NULL, NULL, NULL, NULL);
+  }
+}
+enum { REFUSALS = 35 };
+
 /* Room and sizes; outputs hold zeros. `s` is set up by the test (scene_init and options) and not created yet. */
 static inline void every_init(every *c) {
   static every empty;
@@ -181,12 +247,6 @@ static inline void every_init(every *c) {
   c->h.s = s;
   element_init(&c->e);
   handle *h = &c->h;
-  h->s.nonmortar.coordinates = h->s.reference1;
-  h->s.nonmortar.facet_offsets = h->s.offsets1;
-  h->s.nonmortar.facet_nodes = h->s.nodes1;
-  h->s.nonmortar.equations = h->s.equations1;
-  h->s.nonmortar.multiplier_equations = h->s.multipliers;
-  h->s.mortar.coordinates = h->s.reference2;
   scene_create(&h->s);
   scene_commit(&h->s);
   history_take(h->s.interface, &c->exported);
