@@ -49,6 +49,14 @@ pub fn sorted<T: Copy>(values: &[T], compare: impl Fn(&T, &T) -> Ordering) -> Re
     order.iter().map(|&i| values[i]).stored()
 }
 
+/// What a refusal may stand in place of: `None` for it, but that there is no memory stays a refusal.
+pub fn if_accepted<T>(outcome: Result<T>) -> Result<Option<T>> {
+    match outcome {
+        Err(error) if error.kind != Kind::OutOfMemory => Ok(None),
+        outcome => outcome.map(Some),
+    }
+}
+
 /// What iterators end in.
 pub trait Stored: Iterator + Sized {
     /// Its values in a vector.

@@ -8,9 +8,9 @@ use super::filter::Filter;
 use super::history::History;
 use super::search::Aabb;
 use super::{Contact, Options, Surface, Weights, analytic};
-use crate::error::{Kind, Result};
+use crate::error::Result;
 use crate::geometry::Vec3;
-use crate::memory::Stored;
+use crate::memory::{self, Stored};
 
 /// Whether the surfaces are apart in all of the configurations (x1, x2), by more than the deepest penetration that is a
 /// pair. Only where the weights follow the motion, so that they can be made up for later.
@@ -48,10 +48,7 @@ impl<const N: usize> Contact<N> {
             return Ok(false);
         }
         // A normal that is undefined is refused where it is needed.
-        let nu = match self.all_normals() {
-            Err(e) if e.kind != Kind::OutOfMemory => return Ok(false),
-            nu => nu?,
-        };
+        let Some(nu) = memory::if_accepted(self.all_normals())? else { return Ok(false) };
         let (one, reached) = (&self.nonmortar, filter.reached());
         let mut facets = (0..reached.len()).filter(|&f| reached[f]);
         let nodes = |f: usize| &one.facets[f].nodes[..one.facets[f].len];

@@ -29,6 +29,7 @@ typedef struct {
   int64_t suspect_nodes[8];
   double suspect_directions[24], suspect_ratios[8];
   char diagnosis_text[2000];
+  double step_limit;
 } every;
 
 static inline int32_t every_weights(every *c) { return call_weights(&c->e); }
@@ -148,6 +149,16 @@ static inline int32_t every_diagnose(every *c) {
   return stickslip_interface_diagnose(c->h.s.interface, c->h.s.x1, c->h.s.x2, c->h.s.lambda, NULL, &c->diagnosis);
 }
 
+/* A step of the non-mortar side through the other one: many fractions are tried. */
+static inline int32_t every_step_limit(every *c) {
+  static double down[X1], nothing[X2];
+  if (down[2] == 0.0) {
+    every_up(down, N1);
+    for (int k = 0; k < X1; ++k) down[k] *= -2.0;
+  }
+  return stickslip_interface_step_limit(c->h.s.interface, c->h.s.x1, c->h.s.x2, down, nothing, 0.0, &c->step_limit);
+}
+
 typedef struct {
   const char *name;
   int32_t (*call)(every *c);
@@ -186,6 +197,7 @@ static const entry_point every_call[] = {
     {"interface_report", every_report},
     {"interface_diagnose", every_diagnose},
     {"interface_effects", every_effects},
+    {"interface_step_limit", every_step_limit},
     {"interface_commit", every_commit},
     {"interface_residual, committed", every_residual},
     {"interface_history_size", every_history_size},
@@ -234,10 +246,11 @@ static inline int32_t every_refusal(int k) {
     case 31: return stickslip_interface_counters(NULL, NULL);
     case 32: return stickslip_interface_effects(NULL, NULL, 0);
     case 33: return stickslip_interface_report(NULL, NULL, NULL, NULL);
+    case 34: return stickslip_interface_step_limit(NULL, NULL, NULL, NULL, NULL, 0.0, NULL);
     default: return stickslip_interface_diagnose(NULL, NULL, NULL, NULL, NULL, NULL);
   }
 }
-enum { REFUSALS = 35 };
+enum { REFUSALS = 36 };
 
 /* Room and sizes; outputs hold zeros. `s` is set up by the test (scene_init and options) and not created yet. */
 static inline void every_init(every *c) {
@@ -289,7 +302,7 @@ static inline int every_equal(every *a, every *b) {
          SAME(layers) && SAME(fraction) && SAME(facets) && SAME(report_text) && SAME(report.penetration) &&
          SAME(report.finding) && SAME(diagnosed_state) && SAME(suspect_nodes) && SAME(suspect_directions) &&
          SAME(suspect_ratios) && SAME(suspect_causes) && SAME(diagnosis_text) && SAME(diagnosis.overlap) &&
-         SAME(diagnosis.error);
+         SAME(diagnosis.error) && SAME(step_limit);
 #undef SAME
 }
 
