@@ -54,6 +54,8 @@ module stickslip
   integer(c_int32_t), parameter :: STICKSLIP_HISTORY_MISMATCH = 16
   ! Within the step a surface has turned too far; commit smaller steps.
   integer(c_int32_t), parameter :: STICKSLIP_TURNED_TOO_FAR = 17
+  ! The system has no memory left for what the call needs.
+  integer(c_int32_t), parameter :: STICKSLIP_OUT_OF_MEMORY = 18
   ! A commit would take pairs away from a closed node.
   integer(c_int32_t), parameter :: STICKSLIP_CONTACT_LOST = 19
   ! The library is at fault; the handle is suspect.

@@ -20,6 +20,11 @@
  * wrong and what is allowed (nodes and facets counted from 0); negative, from any function: the library is at fault
  * and the handle is suspect. No contact is a state, not an error. Nothing is printed.
  *
+ * Memory that runs out is a refusal like others, STICKSLIP_OUT_OF_MEMORY, of any function that allocates, though its list
+ * of errors leaves it out. Two sites are left that end the host: the report of a fault of the library itself
+ * (STICKSLIP_PANIC), and, in a thread's first call, the thread-local storage of a library loaded by dlopen, which the C
+ * library takes.
+ *
  * Threads: stateless calls from any thread; distinct handles from any threads; one handle from one at a time.
  *
  * Floating point: on x86-64 and AArch64 the caller's environment (traps, rounding, flushing, flags) does not matter to a
@@ -30,7 +35,7 @@
  * must not overlap anything else. Where the library owns something, the function says so.
  *
  * Cost: as each function says, on success; times are for one core of a machine of 2020. A refusal allocates its
- * message, and so may the first call of all.
+ * message, if there is memory for it.
  *
  * C99 or later, or C++.
  *
@@ -147,6 +152,8 @@
 
 /// A commit would take pairs away from a node that is closed. Commit a smaller step, or give a search_distance.
 #define STICKSLIP_CONTACT_LOST 19
+/// The system has no memory left for what the call needs. Nothing was changed.
+#define STICKSLIP_OUT_OF_MEMORY 18
 
 /// The library is at fault; please report it. The handle is suspect.
 #define STICKSLIP_PANIC -1

@@ -4,6 +4,7 @@
 //! edge, and they run it in opposite directions.
 
 use crate::error::{Error, Kind, Result};
+use crate::memory::{self, Store};
 
 /// An edge that two facets share.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -19,28 +20,28 @@ pub struct SharedEdge {
 /// # Errors
 /// [`Kind::InvalidValue`] where two facets run an edge in the same direction, naming both.
 pub fn shared_edges<'a>(n_facets: usize, nodes: impl Fn(usize) -> &'a [usize]) -> Result<Vec<SharedEdge>> {
-    let mut edges = Vec::with_capacity(4 * n_facets);
+    let mut edges = memory::with_room(4 * n_facets)?;
     for f in 0..n_facets {
         let nodes = nodes(f);
         for k in 0..nodes.len() {
             let (a, b) = (nodes[k], nodes[(k + 1) % nodes.len()]);
-            edges.push((a.min(b), a.max(b), a > b, f));
+            edges.store((a.min(b), a.max(b), a > b, f))?;
         }
     }
     edges.sort_unstable();
-    let mut shared = Vec::with_capacity(edges.len() / 2);
+    let mut shared = memory::with_room(edges.len() / 2)?;
     for pair in edges.windows(2) {
         let ((a, b, against, f), (c, d, other, g)) = (pair[0], pair[1]);
         if (a, b) != (c, d) {
             continue;
         }
         if against == other {
-            let text = format!(
+            let text = text!(
                 "facets {f} and {g} run the edge between nodes {a} and {b} in the same direction: the node order of one of them is reversed, or the surface branches there"
             );
             return Err(Error::new(Kind::InvalidValue, text));
         }
-        shared.push(SharedEdge { nodes: [a, b], facets: [f, g] });
+        shared.store(SharedEdge { nodes: [a, b], facets: [f, g] })?;
     }
     Ok(shared)
 }

@@ -21,7 +21,7 @@
 //!
 //! # Modules, lowest first
 //!
-//! [`error`]; [`simd`]; [`adjacency`], [`shape`], [`quadrature`], [`geometry`], [`normal`] know nothing of contact;
+//! [`error`]; [`memory`]; [`simd`]; [`adjacency`], [`shape`], [`quadrature`], [`geometry`], [`normal`] know nothing of contact;
 //! [`mortar`] integrates a pair and knows no law; [`law`] is nodal and knows no geometry; they meet in
 //! [`element`]; [`interface`] searches, assembles and remembers; [`capi`] is the C ABI, the only
 //! place that touches raw pointers.
@@ -60,13 +60,16 @@
 
 #![warn(missing_docs)]
 
+#[macro_use]
+pub mod error; // first, for its macro
+
 pub mod adjacency;
 pub mod capi;
 pub mod element;
-pub mod error;
 pub mod geometry;
 pub mod interface;
 pub mod law;
+pub mod memory;
 pub mod mortar;
 pub mod normal;
 pub mod quadrature;

@@ -24,13 +24,13 @@ pub fn corner_normal(facet: &Facet, k: usize) -> Vec3 {
 pub fn nodal_normal(sum: Vec3, node: usize) -> Result<Vec3> {
     let norm = sum.norm();
     if norm == f64::INFINITY {
-        let text = format!("the sum of the normals at non-mortar node {node} overflows; it is one of unit vectors");
+        let text = text!("the sum of the normals at non-mortar node {node} overflows; it is one of unit vectors");
         return Err(Error::new(Kind::NotFinite, text));
     }
     if !(norm > SMALLEST_SUM) {
         return Err(Error::new(
             Kind::UndefinedNormal,
-            format!(
+            text!(
                 "the normals of the facets around non-mortar node {node} cancel; split the surface along its creases, or give a normal"
             ),
         ));

@@ -22,9 +22,9 @@ fn every_kind_is_found_once_in_order() {
         point(7, 1, false, true, false),
         point(9, 3, true, true, true),
     ];
-    assert_eq!(crosspoints(&interfaces), expected);
-    assert_eq!(crosspoints(&interfaces[..1]), [point(3, 1, false, false, true)]);
-    assert_eq!(crosspoints(&[]), []);
+    assert_eq!(crosspoints(&interfaces).unwrap(), expected);
+    assert_eq!(crosspoints(&interfaces[..1]).unwrap(), [point(3, 1, false, false, true)]);
+    assert_eq!(crosspoints(&[]).unwrap(), []);
 }
 
 /// Two interfaces that share the nodes of an edge are one that is split along it: the same forces and rows.

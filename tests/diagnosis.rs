@@ -34,7 +34,11 @@ fn the_thinnest_overlap_is_told() {
     assert_eq!(thin.facets, [0, 1]);
     assert!(d.error.unwrap().value < ROUNDING && d.warp.unwrap().value < ROUNDING);
     assert_eq!((d.count(State::Stick), d.suspects.len()), (4, 0));
-    assert!(d.text(1).contains("Smallest overlap: 1.0e-2 of the smaller facet, facets 1 and 2."), "{}", d.text(1));
+    assert!(
+        d.text(1).unwrap().contains("Smallest overlap: 1.0e-2 of the smaller facet, facets 1 and 2."),
+        "{}",
+        d.text(1).unwrap()
+    );
 }
 
 #[test]
@@ -98,7 +102,11 @@ fn a_prescribed_direction_is_a_suspect_where_the_node_sticks() {
     for s in &d.suspects {
         assert!((s.direction - Vec3::y()).norm() < ROUNDING && s.ratio < 1e-7 && s.cause == Cause::Prescribed, "{s:?}");
     }
-    assert!(d.text(0).contains("along (0.000, 1.000, 0.000)") && d.text(0).contains("So at 1 more."), "{}", d.text(0));
+    assert!(
+        d.text(0).unwrap().contains("along (0.000, 1.000, 0.000)") && d.text(0).unwrap().contains("So at 1 more."),
+        "{}",
+        d.text(0).unwrap()
+    );
     // Without its equation, or sliding, there is nothing to suspect.
     let removed = (0..4).map(|k| [20 + 2 * k, NO_EQUATION, 21 + 2 * k]).collect();
     assert!(create(removed).diagnose(&one.x, &two.x, &lambda, None).unwrap().suspects.is_empty());

@@ -4,9 +4,10 @@
 use std::path::{Path, PathBuf};
 
 /// Modules and what each may import, lowest first.
-const ALLOWED: [(&str, &[&str]); 11] = [
+const ALLOWED: [(&str, &[&str]); 12] = [
     ("error", &[]),
-    ("adjacency", &["error"]),
+    ("memory", &["error"]),
+    ("adjacency", &["error", "memory"]),
     ("simd", &[]),
     ("shape", &["error", "simd"]),
     ("quadrature", &["error"]),
@@ -17,7 +18,19 @@ const ALLOWED: [(&str, &[&str]); 11] = [
     ("element", &["error", "geometry", "law", "mortar", "shape", "simd"]),
     (
         "interface",
-        &["adjacency", "element", "error", "geometry", "law", "mortar", "normal", "quadrature", "shape", "simd"],
+        &[
+            "adjacency",
+            "element",
+            "error",
+            "geometry",
+            "law",
+            "memory",
+            "mortar",
+            "normal",
+            "quadrature",
+            "shape",
+            "simd",
+        ],
     ),
 ];
 

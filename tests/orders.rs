@@ -250,7 +250,7 @@ fn look<const N: usize>(c: &mut Contact<N>, scene: &Scene, look: Look, place: us
             let (integers, reals) = c.export_history()?;
             all.extend(integers.iter().map(|i| *i as u64).chain(reals.iter().map(|v| v.to_bits())));
         }
-        Look::Effects => all.extend(c.effects().bytes().map(u64::from)),
+        Look::Effects => all.extend(c.effects().unwrap().bytes().map(u64::from)),
     }
     Ok(all)
 }

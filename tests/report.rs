@@ -31,7 +31,7 @@ fn full_part_and_none_at_an_edge() {
         let layers: Vec<_> = report.nodes[..4].iter().map(|n| n.layers).collect();
         assert_eq!(layers, [1, 1, 1, 0]);
         assert_eq!((report.penetration, report.finding), (0.0, None), "it is open by 0.25");
-        let text = report.text();
+        let text = report.text().unwrap();
         assert!(text.starts_with("Of 8 non-mortar nodes 2 are covered in full, 4 in part, 2 not at all"), "{text}");
         assert!(text.contains(", to 3.1"), "{text}");
     }
@@ -103,7 +103,7 @@ fn surfaces_that_do_not_meet_are_told_why() {
             let options = Options { shortcuts: Shortcuts { apart, ..Shortcuts::default() }, ..options() };
             let finding = |one: &Mesh, two: &Mesh| {
                 let report = interface(one, two, options).report(&one.x, &two.x).unwrap();
-                (report.finding, report.text())
+                (report.finding, report.text().unwrap())
             };
             let (two_r, one_r) = (reversed(&two), reversed(&one));
             for (a, b) in [(&one, &two_r), (&one_r, &two)] {

@@ -260,7 +260,8 @@ fn carriers_roll_back_and_are_imported_with_the_history() {
 #[test]
 fn the_effects_say_so_where_it_is_asked_for() {
     let sentence = "Nodes covered less than 0.4 of their best covered neighbour: carried by it (asked for).";
-    let text = |weak_coverage| scene::<3>(&Options { weak_coverage, ..options() }, Cells::Quads).contact.effects();
+    let text =
+        |weak_coverage| scene::<3>(&Options { weak_coverage, ..options() }, Cells::Quads).contact.effects().unwrap();
     assert!(text(WEAK).ends_with(sentence), "{}", text(WEAK));
     assert!(!text(0.0).contains("carried"));
 }

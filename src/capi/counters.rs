@@ -134,7 +134,7 @@ pub unsafe extern "C" fn stickslip_interface_effects(
         let h = &handle(interface)?.inner;
         raw::check(text, "text")?;
         let capacity = raw::count(capacity, 1, "capacity")?;
-        let sentences = either!(h, c => c.effects());
+        let sentences = either!(h, c => c.effects()?);
         raw::write_text(text, capacity, &sentences);
         Ok(())
     })

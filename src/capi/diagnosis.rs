@@ -6,9 +6,10 @@ use super::guard::guard;
 use super::interface::{either, handle, stickslip_interface};
 use super::raw;
 use super::sized::{self, Sized64};
-use crate::error::{Error, Kind, Result};
+use crate::error::{Error, Kind, Result, Text};
 use crate::interface::{Diagnosis, WorstPair};
 use crate::law::State;
+use crate::memory;
 use libc::c_char;
 
 /// Cause of a suspect: none of those below.
@@ -113,9 +114,8 @@ pub unsafe extern "C" fn stickslip_interface_diagnose(
         let wanted = sized::read(out)?;
         let room = check(&wanted)?;
         let before = states_before(&wanted, point.x1.len())?;
-        let d = either!(&mut h.inner, c => c.diagnose(&point.x1, &point.x2, &point.lambda(), point.sums())?);
-        write(&wanted, out, &d, (&before, room, h.base));
-        Ok(())
+        let d = either!(&mut h.inner, c => c.diagnose(&point.x1, &point.x2, &point.lambda()?, point.sums())?);
+        write(&wanted, out, &d, (&before, room, h.base))
     })
 }
 
@@ -139,9 +139,9 @@ fn states_before(wanted: &stickslip_diagnosis, n: usize) -> Result<Vec<i32>> {
     }
     let states = raw::slice(wanted.state, n, "stickslip_diagnosis.state")?;
     match states.iter().position(|s| !(-1..=2).contains(s)) {
-        None => Ok(states.to_vec()),
+        None => memory::copied(states),
         Some(k) => {
-            let text = format!("stickslip_diagnosis.state[{k}] is {}; it must be a state or -1", states[k]);
+            let text = text!("stickslip_diagnosis.state[{k}] is {}; it must be a state or -1", states[k]);
             Err(Error::new(Kind::InvalidValue, text))
         }
     }
@@ -152,7 +152,8 @@ fn write(
     out: *mut stickslip_diagnosis,
     d: &Diagnosis,
     (before, room, base): (&[i32], usize, i64),
-) {
+) -> Result<()> {
+    let text = if wanted.text.is_null() { Text::EMPTY } else { d.text(base as usize)? };
     let suspects = &d.suspects[..room.min(d.suspects.len())];
     raw::write_each(wanted.suspect_nodes, suspects.iter().map(|s| s.node as i64 + base));
     raw::write_each(
@@ -163,7 +164,7 @@ fn write(
     raw::write_each(wanted.suspect_causes, suspects.iter().map(|s| s.cause as i32));
     raw::write_each(wanted.state, d.states.iter().map(|s| *s as i32));
     if !wanted.text.is_null() {
-        raw::write_text(wanted.text, wanted.text_capacity as usize, &d.text(base as usize));
+        raw::write_text(wanted.text, wanted.text_capacity as usize, &text);
     }
     let count = |state| d.count(state) as i64;
     let value = |pair: &Option<WorstPair>| pair.map_or(0.0, |p| p.value);
@@ -189,4 +190,5 @@ fn write(
             ..*wanted
         },
     );
+    Ok(())
 }

@@ -7,6 +7,7 @@ use super::sized::{self, Sized64};
 use crate::error::Result;
 use crate::geometry::Vec3;
 use crate::interface::{Contact, NodeSums};
+use crate::memory::{self, Stored};
 use nalgebra::SVector;
 
 /// Reals per node of `stickslip_interface_sums`.
@@ -25,8 +26,8 @@ impl Point {
     pub fn positions(interface: &Inner, x1: *const f64, x2: *const f64) -> Result<Point> {
         let (n1, n2) = sizes(interface);
         Ok(Point {
-            x1: raw::vectors(raw::numbers(x1, 3 * n1, "x1")?),
-            x2: raw::vectors(raw::numbers(x2, 3 * n2, "x2")?),
+            x1: raw::vectors(raw::numbers(x1, 3 * n1, "x1")?)?,
+            x2: raw::vectors(raw::numbers(x2, 3 * n2, "x2")?)?,
             lambda: Vec::new(),
             sums: None,
         })
@@ -43,7 +44,7 @@ impl Point {
         let n1 = sizes(interface).0;
         let mut point = Point::positions(interface, x1, x2)?;
         let components = either!(interface, c => c.components());
-        point.lambda = raw::numbers(lambda, components * n1, "lambda")?.to_vec();
+        point.lambda = memory::copied(raw::numbers(lambda, components * n1, "lambda")?)?;
         let per_node = STICKSLIP_SUMS_PER_NODE as usize;
         if let Some(values) = raw::optional_numbers(sums, per_node * n1, "sums")? {
             let read = |s: &[f64]| NodeSums {
@@ -53,14 +54,14 @@ impl Point {
                 gap_previous: Vec3::from_column_slice(&s[5..8]),
                 gap_committed: Vec3::from_column_slice(&s[8..11]),
             };
-            point.sums = Some(values.chunks_exact(per_node).map(read).collect());
+            point.sums = Some(values.chunks_exact(per_node).map(read).stored()?);
         }
         Ok(point)
     }
 
     /// The multipliers, N a node.
-    pub fn lambda<const N: usize>(&self) -> Vec<SVector<f64, N>> {
-        self.lambda.chunks_exact(N).map(SVector::from_column_slice).collect()
+    pub fn lambda<const N: usize>(&self) -> Result<Vec<SVector<f64, N>>> {
+        self.lambda.chunks_exact(N).map(SVector::from_column_slice).stored()
     }
 
     pub fn sums(&self) -> Option<&[NodeSums]> {
@@ -181,20 +182,20 @@ pub unsafe extern "C" fn stickslip_interface_states(
 }
 
 fn write_states<const N: usize>(c: &mut Contact<N>, point: &Point, out: &stickslip_states) -> Result<()> {
-    let (sums, responses) = c.evaluate(&point.x1, &point.x2, &point.lambda(), point.sums())?;
+    let (sums, responses) = c.evaluate(&point.x1, &point.x2, &point.lambda()?, point.sums())?;
     let nodes = || responses.iter().enumerate();
-    let normals = (0..responses.len()).map(|a| c.normal(a)).collect::<Result<Vec<_>>>()?;
-    let slip: Vec<_> = nodes().map(|(a, r)| c.slip_after(a, r, sums[a].coverage_previous)).collect();
-    let traction: Vec<_> = responses.iter().map(|r| r.traction).collect();
+    let normals = (0..responses.len()).map(|a| c.normal(a)).stored_if_ok()?;
+    let slip: Vec<_> = nodes().map(|(a, r)| c.slip_after(a, r, sums[a].coverage_previous)).stored()?;
+    let traction: Vec<_> = responses.iter().map(|r| r.traction).stored()?;
     let numbers: [(_, &str, Vec<f64>); 8] = [
-        (out.normal, "normal", flat(&normals).collect()),
-        (out.traction, "traction", flat(&traction).collect()),
-        (out.gap, "gap", nodes().map(|(_, r)| r.gap_normal).collect()),
-        (out.slip, "slip", flat(&slip).collect()),
-        (out.coverage, "coverage", sums.iter().map(|s| s.coverage).collect()),
-        (out.area, "area", c.history().areas.to_vec()),
-        (out.dissipation, "dissipation", nodes().map(|(_, r)| r.traction.dot(&r.slip)).collect()),
-        (out.augmentation, "augmentation", nodes().map(|(a, _)| c.augmentation(a)).collect()),
+        (out.normal, "normal", flat(&normals).stored()?),
+        (out.traction, "traction", flat(&traction).stored()?),
+        (out.gap, "gap", nodes().map(|(_, r)| r.gap_normal).stored()?),
+        (out.slip, "slip", flat(&slip).stored()?),
+        (out.coverage, "coverage", sums.iter().map(|s| s.coverage).stored()?),
+        (out.area, "area", memory::copied(&c.history().areas)?),
+        (out.dissipation, "dissipation", nodes().map(|(_, r)| r.traction.dot(&r.slip)).stored()?),
+        (out.augmentation, "augmentation", nodes().map(|(a, _)| c.augmentation(a)).stored()?),
     ];
     for (_, name, values) in &numbers {
         raw::check_results(name, values)?;
@@ -236,7 +237,7 @@ pub unsafe extern "C" fn stickslip_interface_residual(
         raw::check(force2, "force2")?;
         raw::check(rows, "rows")?;
         either!(h, c => {
-            let r = c.residual(&point.x1, &point.x2, &point.lambda(), point.sums())?;
+            let r = c.residual(&point.x1, &point.x2, &point.lambda()?, point.sums())?;
             let all = r.nonmortar.iter().chain(&r.mortar).flat_map(|v| v.iter());
             raw::check_results("force1, force2, rows", all.chain(r.rows.iter().flat_map(|v| v.iter())))?;
             raw::write_each(force1, flat(&r.nonmortar));

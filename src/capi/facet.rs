@@ -11,7 +11,7 @@ use crate::shape::MAX_NODES;
 /// A facet from `n` points of an argument called `name`; allocates nothing.
 pub(super) fn facet(n: i32, x: *const f64, name: &str) -> Result<Facet> {
     if !(3..=MAX_NODES as i32).contains(&n) {
-        let text = format!("{name} has {n} nodes; 3 (tri3) or 4 (quad4) are allowed");
+        let text = text!("{name} has {n} nodes; 3 (tri3) or 4 (quad4) are allowed");
         return Err(Error::new(Kind::InvalidSize, text));
     }
     let n = n as usize;
@@ -21,7 +21,7 @@ pub(super) fn facet(n: i32, x: *const f64, name: &str) -> Result<Facet> {
         *point = Vec3::from_column_slice(v);
     }
     if let Some(k) = (1..n).find(|&k| points[..k].contains(&points[k])) {
-        return Err(Error::new(Kind::DuplicateNode, format!("{name} has two nodes at the same place (node {k})")));
+        return Err(Error::new(Kind::DuplicateNode, text!("{name} has two nodes at the same place (node {k})")));
     }
     Facet::new(&points[..n])
 }

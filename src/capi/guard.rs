@@ -8,8 +8,8 @@ use crate::error::Result;
 use libc::c_char;
 use std::cell::Cell;
 use std::hint::black_box;
-use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::sync::Once;
+use std::panic::{AssertUnwindSafe, PanicHookInfo, catch_unwind};
+use std::sync::{Once, OnceLock};
 
 /// Longest message kept, its final zero included.
 const CAPACITY: usize = 1024;
@@ -46,7 +46,7 @@ pub(super) fn guard(body: impl FnOnce() -> Result<()>) -> i32 {
             Err(panic) => {
                 let text = panic.downcast_ref::<String>().map(String::as_str);
                 let text = text.or_else(|| panic.downcast_ref::<&str>().copied()).unwrap_or("no text");
-                thread.keep(&format!("internal error, please report it: {text}"));
+                thread.keep(&text!("internal error, please report it: {text}"));
                 STICKSLIP_PANIC
             }
         }
@@ -55,11 +55,14 @@ pub(super) fn guard(body: impl FnOnce() -> Result<()>) -> i32 {
 
 /// A panic inside an entry point is reported by its status; the default hook would print it.
 fn silence_panics() {
+    type Hook = Box<dyn Fn(&PanicHookInfo<'_>) + Sync + Send>;
     static ONCE: Once = Once::new();
+    static PREVIOUS: OnceLock<Hook> = OnceLock::new();
     ONCE.call_once(|| {
-        let previous = std::panic::take_hook();
-        std::panic::set_hook(Box::new(move |info| {
-            if !THREAD.with(|thread| thread.inside.get()) {
+        PREVIOUS.get_or_init(std::panic::take_hook);
+        // Holds nothing, so the box takes no memory.
+        std::panic::set_hook(Box::new(|info| {
+            if let (false, Some(previous)) = (THREAD.with(|thread| thread.inside.get()), PREVIOUS.get()) {
                 previous(info);
             }
         }));

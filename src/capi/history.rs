@@ -26,7 +26,7 @@ pub unsafe extern "C" fn stickslip_interface_commit(
     guard(|| {
         let h = &mut handle(interface)?.inner;
         let point = Point::read(h, x1, x2, lambda, sums)?;
-        either!(h, c => c.commit(&point.x1, &point.x2, &point.lambda(), point.sums()))
+        either!(h, c => c.commit(&point.x1, &point.x2, &point.lambda()?, point.sums()))
     })
 }
 
@@ -84,7 +84,7 @@ pub unsafe extern "C" fn stickslip_interface_history_export(
         let needed = either!(&mut h.inner, c => c.history_size()?);
         for (name, given, needed) in [("n_integers", n_integers, needed.0), ("n_reals", n_reals, needed.1)] {
             if given < needed as i64 {
-                return Err(Error::new(Kind::BufferTooSmall, format!("{name} is {given}; the history needs {needed}")));
+                return Err(Error::new(Kind::BufferTooSmall, text!("{name} is {given}; the history needs {needed}")));
             }
         }
         let (i, r) = either!(&mut h.inner, c => c.export_history()?);

@@ -9,6 +9,7 @@ use super::surface::{
 use super::{raw, sized};
 use crate::error::{Error, Kind, Result};
 use crate::interface::{Contact, Friction};
+use crate::memory::{self, Store, Stored};
 use nalgebra::SVector;
 
 /// A contact interface. Created and destroyed by the library; one thread at a time.
@@ -89,7 +90,7 @@ pub unsafe extern "C" fn stickslip_interface_create(
         if let Some(owned) = owned {
             either!(&mut inner, c => c.set_owned(owned)?);
         }
-        raw::write(out, &[Box::into_raw(Box::new(stickslip_interface { inner, base }))]);
+        raw::write(out, &[raw::owned(stickslip_interface { inner, base })?]);
         Ok(())
     })
 }
@@ -145,7 +146,7 @@ pub unsafe extern "C" fn stickslip_interface_set_friction(interface: *mut sticks
         let h = handle(interface)?;
         let mu = raw::numbers(mu, sizes(&h.inner).0, "mu")?;
         match &mut h.inner {
-            Inner::Three(c) => c.set_friction(mu.to_vec()),
+            Inner::Three(c) => c.set_friction(memory::copied(mu)?),
             Inner::One(_) => {
                 let text = "interface has no friction: it was created with STICKSLIP_FRICTION_NONE";
                 Err(Error::new(Kind::InvalidValue, text))
@@ -167,7 +168,7 @@ pub unsafe extern "C" fn stickslip_interface_set_augmentation(
     guard(|| {
         let h = handle(interface)?;
         let r = raw::optional_numbers(r, sizes(&h.inner).0, "r")?;
-        either!(&mut h.inner, c => c.set_augmentation(r.map(<[f64]>::to_vec)))
+        either!(&mut h.inner, c => c.set_augmentation(r.map(memory::copied).transpose()?))
     })
 }
 
@@ -184,7 +185,7 @@ pub unsafe extern "C" fn stickslip_interface_set_normals(
     guard(|| {
         let h = handle(interface)?;
         let normals = raw::optional_numbers(normals, 3 * sizes(&h.inner).0, "normals")?;
-        either!(&mut h.inner, c => c.set_normals(normals.map(raw::vectors)))
+        either!(&mut h.inner, c => c.set_normals(normals.map(raw::vectors).transpose()?))
     })
 }
 
@@ -214,13 +215,13 @@ pub unsafe extern "C" fn stickslip_interface_set_constraints(
         let (nodes, directions) = (raw::slice(nodes, n, "nodes")?, raw::numbers(directions, 3 * n, "directions")?);
         let n1 = sizes(&h.inner).0;
         let index = |k: i64| k.checked_sub(h.base).and_then(|k| usize::try_from(k).ok()).filter(|&k| k < n1);
-        let mut list = Vec::with_capacity(n);
-        for (k, (&node, direction)) in nodes.iter().zip(raw::vectors(directions)).enumerate() {
+        let mut list = memory::with_room(n)?;
+        for (k, (&node, direction)) in nodes.iter().zip(raw::vectors(directions)?).enumerate() {
             let Some(node) = index(node) else {
-                let text = format!("nodes[{k}] is {node}; {} to {} are allowed", h.base, n1 as i64 - 1 + h.base);
+                let text = text!("nodes[{k}] is {node}; {} to {} are allowed", h.base, n1 as i64 - 1 + h.base);
                 return Err(Error::new(Kind::IndexOutOfRange, text));
             };
-            list.push((node, direction));
+            list.store((node, direction))?;
         }
         either!(&mut h.inner, c => c.set_constraints(&list))
     })
@@ -261,7 +262,7 @@ pub unsafe extern "C" fn stickslip_interface_initial_multipliers(
     guard(|| {
         let h = handle(interface)?;
         raw::check(lambda, "lambda")?;
-        let values: Vec<f64> = either!(&mut h.inner, c => flat(&c.initial_multipliers()?).collect());
+        let values: Vec<f64> = either!(&mut h.inner, c => flat(&c.initial_multipliers()?).stored()?);
         raw::check_results("lambda", &values)?;
         raw::write(lambda, &values);
         Ok(())

@@ -102,7 +102,7 @@ fn rows(m: &Mat3) -> [f64; 9] {
 
 fn matrix(rows: &[f64; 9], name: &str) -> Result<Mat3> {
     if rows.iter().any(|v| !v.is_finite()) {
-        return Err(Error::new(Kind::NotFinite, format!("{name} is not finite")));
+        return Err(Error::new(Kind::NotFinite, text!("{name} is not finite")));
     }
     Ok(Mat3::from_row_slice(rows))
 }
@@ -129,12 +129,12 @@ pub(super) fn read_node(p: *const stickslip_node) -> Result<Node> {
     let vector = |v: &[f64; 3], name: &str| -> Result<Vec3> {
         match v.iter().all(|c| c.is_finite()) {
             true => Ok(Vec3::from_column_slice(v)),
-            false => Err(Error::new(Kind::NotFinite, format!("node.{name} is not finite"))),
+            false => Err(Error::new(Kind::NotFinite, text!("node.{name} is not finite"))),
         }
     };
     let refuse = |name: &str, v: f64, allowed: &str| {
         let kind = if v.is_finite() { Kind::InvalidValue } else { Kind::NotFinite };
-        Err(Error::new(kind, format!("node.{name} is {v}; it must be {allowed}")))
+        Err(Error::new(kind, text!("node.{name} is {v}; it must be {allowed}")))
     };
     let normal = vector(&n.normal, "normal")?;
     if !((normal.norm() - 1.0).abs() <= UNIT) {
@@ -241,7 +241,7 @@ pub unsafe extern "C" fn stickslip_node_block(
         let r = sized::read(response)?;
         let column_major = column_major(layout, "layout")?;
         if !scale.is_finite() {
-            return Err(Error::new(Kind::NotFinite, format!("scale is {scale}; it must be finite")));
+            return Err(Error::new(Kind::NotFinite, text!("scale is {scale}; it must be finite")));
         }
         raw::check_optional(row, "row")?;
         raw::check_optional(block, "block")?;

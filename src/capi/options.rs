@@ -2,7 +2,7 @@
 
 use super::guard::guard;
 use super::sized::{self, Sized64};
-use crate::error::{Error, Kind, Result};
+use crate::error::{Error, Kind, Result, Text};
 use crate::geometry::AnalyticShape;
 use crate::interface::{
     COVERAGE_MIN, Form, Friction, MortarSide, NewContact, Options, RowScale, Scheme, Shortcuts, Stiffness, Tangent,
@@ -222,9 +222,9 @@ fn choose<T: Copy>(value: i32, name: &str, available: &[T], named: i32) -> Resul
     let choice = usize::try_from(value).ok().and_then(|k| available.get(k));
     choice.copied().ok_or_else(|| {
         if (0..named).contains(&value) {
-            Error::new(Kind::Unsupported, format!("{name} = {value} is not available in this version"))
+            Error::new(Kind::Unsupported, text!("{name} = {value} is not available in this version"))
         } else {
-            Error::new(Kind::InvalidValue, format!("{name} is {value}; the header names 0 to {}", named - 1))
+            Error::new(Kind::InvalidValue, text!("{name} is {value}; the header names 0 to {}", named - 1))
         }
     })
 }
@@ -235,7 +235,7 @@ fn read_shortcuts(off: i32) -> Result<Shortcuts> {
         | STICKSLIP_SHORTCUT_APART
         | STICKSLIP_SHORTCUT_UNCOVERED;
     if off & !all != 0 {
-        let text = format!("options.no_shortcuts is {off}; a sum of STICKSLIP_SHORTCUT_... is allowed");
+        let text = text!("options.no_shortcuts is {off}; a sum of STICKSLIP_SHORTCUT_... is allowed");
         return Err(Error::new(Kind::InvalidValue, text));
     }
     let on = |bit: i32| off & bit == 0;
@@ -259,7 +259,7 @@ const ELEMENT_POINTS: i64 = 4;
 pub(super) fn element_line(points: i64, name: &str) -> Result<&'static [[f64; 2]]> {
     usize::try_from(points).ok().and_then(cell::line_of).ok_or_else(|| {
         let [least, most] = cell::POINTS;
-        Error::new(Kind::InvalidValue, format!("{name} is {points}; {least} to {most} is allowed"))
+        Error::new(Kind::InvalidValue, text!("{name} is {points}; {least} to {most} is allowed"))
     })
 }
 
@@ -270,7 +270,7 @@ fn read_scheme(integration: i32, points: i64) -> Result<Scheme> {
         Some(by_points) => Ok(by_points(element_line(if points == 0 { ELEMENT_POINTS } else { points }, name)?)),
         None if points == 0 => Ok(Scheme::Segments),
         None => {
-            let text = format!("{name} is {points}; it must be 0 with STICKSLIP_INTEGRATION_SEGMENTS");
+            let text = text!("{name} is {points}; it must be 0 with STICKSLIP_INTEGRATION_SEGMENTS");
             Err(Error::new(Kind::InvalidValue, text))
         }
     }
@@ -292,11 +292,11 @@ pub(super) struct Choices {
 }
 
 fn read_shape(analytic: bool, shape: i32, radius: f64) -> Result<Option<AnalyticShape>> {
-    let refuse = |text: String| Err(Error::new(Kind::InvalidValue, text));
+    let refuse = |text: Text| Err(Error::new(Kind::InvalidValue, text));
     if !analytic {
         return match (shape, radius) {
             (0, 0.0) => Ok(None),
-            _ => refuse(format!(
+            _ => refuse(text!(
                 "options.shape is {shape} and options.radius {radius}; both must be 0 where options.mortar_side is not STICKSLIP_MORTAR_ANALYTIC"
             )),
         };
@@ -304,7 +304,7 @@ fn read_shape(analytic: bool, shape: i32, radius: f64) -> Result<Option<Analytic
     let shapes = [AnalyticShape::Plane, AnalyticShape::Sphere(radius), AnalyticShape::Cylinder(radius)];
     let shape = choose(shape, "options.shape", &shapes, 3)?;
     match (shape, radius == 0.0) {
-        (AnalyticShape::Plane, false) => refuse(format!("options.radius is {radius}; it must be 0 of a plane")),
+        (AnalyticShape::Plane, false) => refuse(text!("options.radius is {radius}; it must be 0 of a plane")),
         (AnalyticShape::Sphere(_) | AnalyticShape::Cylinder(_), true) => {
             refuse("options.radius is 0; it must be positive (a ball, a bar) or negative (a cavity, a bore)".into())
         }
@@ -357,15 +357,15 @@ pub(super) fn read_options(p: *const stickslip_options) -> Result<Choices> {
     ];
     for (name, v) in numbers {
         if !v.is_finite() {
-            return Err(Error::new(Kind::NotFinite, format!("options.{name} is {v}; it must be finite")));
+            return Err(Error::new(Kind::NotFinite, text!("options.{name} is {v}; it must be finite")));
         }
     }
     if friction != Friction::Coulomb && mu != 0.0 {
-        let text = format!("options.mu is {mu}; it must be 0 where options.friction is not Coulomb's");
+        let text = text!("options.mu is {mu}; it must be 0 where options.friction is not Coulomb's");
         return Err(Error::new(Kind::InvalidValue, text));
     }
     if modulus < 0.0 {
-        return Err(Error::new(Kind::InvalidValue, format!("options.modulus is {modulus}; it must not be negative")));
+        return Err(Error::new(Kind::InvalidValue, text!("options.modulus is {modulus}; it must not be negative")));
     }
     let stiffness = match (augmentation, modulus) {
         (0.0, 0.0) => {

@@ -81,8 +81,7 @@ impl Pair {
             let normal = Vec3::from_column_slice(normal);
             let (length, is_known) = (normal.norm(), normal != Vec3::zeros());
             if is_known && !((length - 1.0).abs() <= UNIT) {
-                let text =
-                    format!("pair.neighbour_normals of edge {k} has length {length}; it must be 1, or 0 for none");
+                let text = text!("pair.neighbour_normals of edge {k} has length {length}; it must be 1, or 0 for none");
                 return Err(Error::new(Kind::InvalidValue, text));
             }
             frame.plane.beyond[k] = is_known.then_some(normal);
@@ -290,7 +289,7 @@ pub unsafe extern "C" fn stickslip_pair_tangent(
         let (n1, n2) = pair.n();
         let size = 6 * n1 + 3 * n2;
         if ld < size as i64 {
-            return Err(Error::new(Kind::InvalidSize, format!("ld is {ld}; it must be at least {size}")));
+            return Err(Error::new(Kind::InvalidSize, text!("ld is {ld}; it must be at least {size}")));
         }
         raw::count(ld, 1, "ld")?;
         raw::check(k, "k")?;
@@ -360,7 +359,7 @@ pub(super) fn column_major(layout: i32, name: &str) -> Result<bool> {
         STICKSLIP_LAYOUT_COLUMN_MAJOR => Ok(true),
         _ => Err(Error::new(
             Kind::InvalidValue,
-            format!("{name} is {layout}; 0 (row-major) or 1 (column-major) are allowed"),
+            text!("{name} is {layout}; 0 (row-major) or 1 (column-major) are allowed"),
         )),
     }
 }

@@ -5,6 +5,7 @@ use super::surface::{read_facets, stickslip_surface};
 use super::{raw, sized};
 use crate::error::{Error, Kind, Result};
 use crate::interface::{InterfaceNodes, Surface, crosspoints};
+use crate::memory::{self, Stored};
 
 /// Splits the nodes on creases of a non-mortar surface: gives each fan of facets that look nearly the same way nodes of
 /// its own, until no two corner normals around a node differ by more than angle. A node of a sharp edge or corner then
@@ -41,7 +42,7 @@ pub unsafe extern "C" fn stickslip_surface_split_creases(
         raw::check(count, "count")?;
         let base = read_base(index_base)?;
         let (x, facets) = read_facets(&sized::read(surface)?, base, "surface")?;
-        let equations = vec![[crate::interface::NO_EQUATION; 3]; x.len()];
+        let equations = memory::filled([crate::interface::NO_EQUATION; 3], x.len())?;
         let split = Surface::new("surface", x, &facets, equations)?.split_creases(angle)?;
         let n = split.originals.len();
         if !(facet_nodes.is_null() && originals.is_null()) {
@@ -97,8 +98,7 @@ pub unsafe extern "C" fn stickslip_crosspoints_find(
         let one = read_lists(nonmortar_offsets, nonmortar_nodes, n, "nonmortar")?;
         let two = read_lists(mortar_offsets, mortar_nodes, n, "mortar")?;
         let both = one.into_iter().zip(two);
-        let found =
-            crosspoints(&both.map(|(nonmortar, mortar)| InterfaceNodes { nonmortar, mortar }).collect::<Vec<_>>());
+        let found = crosspoints(&both.map(|(nonmortar, mortar)| InterfaceNodes { nonmortar, mortar }).stored()?)?;
         if !(nodes.is_null() && kinds.is_null() && claims.is_null()) {
             raw::check(nodes, "nodes")?;
             raw::check(kinds, "kinds")?;
@@ -124,16 +124,16 @@ pub unsafe extern "C" fn stickslip_crosspoints_find(
 fn read_base(index_base: i32) -> Result<i64> {
     match index_base {
         0 | 1 => Ok(index_base.into()),
-        other => Err(Error::new(Kind::InvalidValue, format!("index_base is {other}; it must be 0 or 1"))),
+        other => Err(Error::new(Kind::InvalidValue, text!("index_base is {other}; it must be 0 or 1"))),
     }
 }
 
 /// `n` lists of nodes, one after the other.
 fn read_lists<'a>(offsets: *const i64, nodes: *const i64, n: usize, side: &str) -> Result<Vec<&'a [i64]>> {
-    let name = format!("{side}_offsets");
-    let offsets = raw::slice(offsets, n + 1, &name)?;
+    let name = format_args!("{side}_offsets");
+    let offsets = raw::slice(offsets, n + 1, name)?;
     let wrong = |k: usize| {
-        let text = format!("{name}[{k}] is {}; offsets start at 0 and do not decrease", offsets[k]);
+        let text = text!("{name}[{k}] is {}; offsets start at 0 and do not decrease", offsets[k]);
         Error::new(Kind::InvalidSize, text)
     };
     if offsets[0] != 0 {
@@ -142,6 +142,6 @@ fn read_lists<'a>(offsets: *const i64, nodes: *const i64, n: usize, side: &str) 
     if let Some(k) = (1..=n).find(|&k| offsets[k] < offsets[k - 1]) {
         return Err(wrong(k));
     }
-    let all = if offsets[n] == 0 { &[] } else { raw::slice(nodes, offsets[n] as usize, &format!("{side}_nodes"))? };
-    Ok(offsets.windows(2).map(|o| &all[o[0] as usize..o[1] as usize]).collect())
+    let all = if offsets[n] == 0 { &[] } else { raw::slice(nodes, offsets[n] as usize, format_args!("{side}_nodes"))? };
+    offsets.windows(2).map(|o| &all[o[0] as usize..o[1] as usize]).stored()
 }

@@ -4,58 +4,70 @@
 //! (const) or writable values as the documentation says, and stays valid during the call. Null,
 //! misalignment and impossible lengths are found here and refused.
 
-use crate::error::{Error, Kind, Result};
+use crate::error::{Error, Kind, Result, Text};
 use crate::geometry::Vec3;
+use crate::memory::{self, Store, Stored};
 use libc::c_char;
+use std::fmt::{self, Display};
 use std::mem::MaybeUninit;
 
 /// Longest array accepted: far above any mesh, far below what a pointer can address.
 const LONGEST: usize = 1 << 40;
 
-pub(super) fn refuse<T>(kind: Kind, text: String) -> Result<T> {
+pub(super) fn refuse<T>(kind: Kind, text: Text) -> Result<T> {
     Err(Error::new(kind, text))
+}
+
+/// A member of an argument, for messages; put together where one is written.
+#[derive(Clone, Copy)]
+pub(super) struct Member<'a>(pub &'a str, pub &'a str);
+
+impl Display for Member<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}.{}", self.0, self.1)
+    }
 }
 
 /// Puts an argument's name before a refusal of the core.
 pub(super) fn named(name: &str) -> impl FnOnce(Error) -> Error + '_ {
-    move |e| Error::new(e.kind, format!("{name}: {}", e.message))
+    move |e| Error::new(e.kind, text!("{name}: {}", e.message))
 }
 
 /// Refuses null and misaligned pointers.
-pub(super) fn check<T>(p: *const T, name: &str) -> Result<()> {
+pub(super) fn check<T>(p: *const T, name: impl Display) -> Result<()> {
     if p.is_null() {
-        return refuse(Kind::NullPointer, format!("{name} is NULL"));
+        return refuse(Kind::NullPointer, text!("{name} is NULL"));
     }
     if !p.is_aligned() {
-        return refuse(Kind::NullPointer, format!("{name} is not aligned to {} bytes", align_of::<T>()));
+        return refuse(Kind::NullPointer, text!("{name} is not aligned to {} bytes", align_of::<T>()));
     }
     Ok(())
 }
 
 /// A count received as a signed integer.
-pub(super) fn count(n: i64, least: i64, name: &str) -> Result<usize> {
+pub(super) fn count(n: i64, least: i64, name: impl Display) -> Result<usize> {
     match usize::try_from(n) {
         Ok(k) if n >= least && k <= LONGEST => Ok(k),
-        _ => refuse(Kind::InvalidSize, format!("{name} is {n}; it must be at least {least} and at most {LONGEST}")),
+        _ => refuse(Kind::InvalidSize, text!("{name} is {n}; it must be at least {least} and at most {LONGEST}")),
     }
 }
 
 /// `n` values at `p`.
-pub(super) fn slice<'a, T>(p: *const T, n: usize, name: &str) -> Result<&'a [T]> {
-    check(p, name)?;
+pub(super) fn slice<'a, T>(p: *const T, n: usize, name: impl Display) -> Result<&'a [T]> {
+    check(p, &name)?;
     if n > LONGEST {
-        return refuse(Kind::InvalidSize, format!("{name} would have {n} entries"));
+        return refuse(Kind::InvalidSize, text!("{name} would have {n} entries"));
     }
     // SAFETY: non-null, aligned, not overlong; readable for n values by the caller's contract.
     Ok(unsafe { std::slice::from_raw_parts(p, n) })
 }
 
 /// `n` finite numbers at `p`.
-pub(super) fn numbers<'a>(p: *const f64, n: usize, name: &str) -> Result<&'a [f64]> {
-    let values = slice(p, n, name)?;
+pub(super) fn numbers<'a>(p: *const f64, n: usize, name: impl Display) -> Result<&'a [f64]> {
+    let values = slice(p, n, &name)?;
     match values.iter().position(|v| !v.is_finite()) {
         None => Ok(values),
-        Some(k) => refuse(Kind::NotFinite, format!("{name}[{k}] is {}; it must be finite", values[k])),
+        Some(k) => refuse(Kind::NotFinite, text!("{name}[{k}] is {}; it must be finite", values[k])),
     }
 }
 
@@ -65,7 +77,7 @@ pub(super) fn check_results<'a>(name: &str, values: impl IntoIterator<Item = &'a
     // Looks at all of them, several at once, rather than stop at the first one.
     match values.into_iter().fold(true, |fine, v| fine & v.is_finite()) {
         true => Ok(()),
-        false => refuse(Kind::NotFinite, format!("{name} overflows: the inputs are out of range")),
+        false => refuse(Kind::NotFinite, text!("{name} overflows: the inputs are out of range")),
     }
 }
 
@@ -75,8 +87,8 @@ pub(super) fn optional_numbers<'a>(p: *const f64, n: usize, name: &str) -> Resul
 }
 
 /// Numbers as points.
-pub(super) fn vectors(values: &[f64]) -> Vec<Vec3> {
-    values.chunks_exact(3).map(Vec3::from_column_slice).collect()
+pub(super) fn vectors(values: &[f64]) -> Result<Vec<Vec3>> {
+    values.chunks_exact(3).map(Vec3::from_column_slice).stored()
 }
 
 /// Copies `values` to `p`; nothing where `p` is null.
@@ -113,7 +125,7 @@ impl<T: Copy> Output<T> {
 /// Refuses a caller's array that is too short for `n` values.
 pub(super) fn room(capacity: i64, n: usize, name: &str) -> Result<()> {
     if capacity < n as i64 {
-        return refuse(Kind::BufferTooSmall, format!("capacity is {capacity}; {name} need {n}"));
+        return refuse(Kind::BufferTooSmall, text!("capacity is {capacity}; {name} need {n}"));
     }
     Ok(())
 }
@@ -142,6 +154,14 @@ pub(super) fn write_each<T>(p: *mut T, values: impl Iterator<Item = T>) {
             unsafe { p.add(k).write(value) }
         }
     }
+}
+
+/// A value on the heap, to be given to the caller; `Box::from_raw` ends it.
+pub(super) fn owned<T>(value: T) -> Result<*mut T> {
+    let mut one = memory::with_room(1)?;
+    one.store(value)?;
+    let one: Box<[T; 1]> = one.into_boxed_slice().try_into().unwrap_or_else(|_| unreachable!("it holds one value"));
+    Ok(Box::into_raw(one).cast())
 }
 
 /// Checks that an output pointer may be null but not misaligned.

@@ -5,7 +5,7 @@ use super::guard::guard;
 use super::interface::{either, handle, stickslip_interface};
 use super::raw;
 use super::sized::{self, Sized64};
-use crate::error::Result;
+use crate::error::{Result, Text};
 use crate::interface::{Cover, Finding, Report};
 use libc::c_char;
 
@@ -108,8 +108,7 @@ pub unsafe extern "C" fn stickslip_interface_report(
             "fraction, penetration",
             report.nodes.iter().map(|n| &n.fraction).chain([&report.penetration]),
         )?;
-        write(&wanted, out, &report);
-        Ok(())
+        write(&wanted, out, &report)
     })
 }
 
@@ -124,13 +123,14 @@ fn check(wanted: &stickslip_report) -> Result<()> {
     Ok(())
 }
 
-fn write(wanted: &stickslip_report, out: *mut stickslip_report, report: &Report) {
+fn write(wanted: &stickslip_report, out: *mut stickslip_report, report: &Report) -> Result<()> {
+    let text = if wanted.text.is_null() { Text::EMPTY } else { report.text()? };
     raw::write_each(wanted.cover, report.nodes.iter().map(|n| n.cover as i32));
     raw::write_each(wanted.fraction, report.nodes.iter().map(|n| n.fraction));
     raw::write_each(wanted.layers, report.nodes.iter().map(|n| n.layers));
     raw::write_each(wanted.facets, report.nodes.iter().map(|n| n.facets));
     if !wanted.text.is_null() {
-        raw::write_text(wanted.text, wanted.text_capacity as usize, &report.text());
+        raw::write_text(wanted.text, wanted.text_capacity as usize, &text);
     }
     let count = |cover| report.count(cover) as i64;
     sized::write(
@@ -153,4 +153,5 @@ fn write(wanted: &stickslip_report, out: *mut stickslip_report, report: &Report)
             ..*wanted
         },
     );
+    Ok(())
 }

@@ -29,8 +29,7 @@ fn check_size<T: Sized64>(size: u64) -> Result<usize> {
     match usize::try_from(size) {
         Ok(size) if (T::FIRST..=LONGEST).contains(&size) => Ok(size),
         _ => {
-            let text =
-                format!("{0}.struct_size is {size}; set it to sizeof({0}), which is {1}", T::NAME, size_of::<T>());
+            let text = text!("{0}.struct_size is {size}; set it to sizeof({0}), which is {1}", T::NAME, size_of::<T>());
             refuse(Kind::StructSize, text)
         }
     }
@@ -51,7 +50,7 @@ pub(super) fn read<T: Sized64>(p: *const T) -> Result<T> {
     let known = size.min(size_of::<T>());
     if bytes[known..].iter().any(|b| *b != 0) {
         let text =
-            format!("{0} is longer than this library knows and sets a member beyond it: the caller is newer", T::NAME);
+            text!("{0} is longer than this library knows and sets a member beyond it: the caller is newer", T::NAME);
         return refuse(Kind::StructSize, text);
     }
     let mut value = MaybeUninit::<T>::zeroed();

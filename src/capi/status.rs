@@ -42,6 +42,8 @@ pub const STICKSLIP_HISTORY_MISMATCH: i32 = 16;
 /// Within the step a surface has turned by more than options.turn_max: the normals of t_n no longer mean it. Commit
 /// smaller steps.
 pub const STICKSLIP_TURNED_TOO_FAR: i32 = 17;
+/// The system has no memory left for what the call needs. Nothing was changed.
+pub const STICKSLIP_OUT_OF_MEMORY: i32 = 18;
 /// A commit would take pairs away from a node that is closed. Commit a smaller step, or give a search_distance.
 pub const STICKSLIP_CONTACT_LOST: i32 = 19;
 /// The library is at fault; please report it. The handle is suspect.

@@ -1,10 +1,12 @@
 //! A surface from the host's arrays.
 
-use super::raw;
+use super::raw::{self, Member};
 use super::sized::Sized64;
-use crate::error::{Error, Kind, Result};
+use crate::error::{Error, Kind, Result, Text};
 use crate::geometry::{AnalyticShape, FRAME, Vec3};
 use crate::interface::{NO_EQUATION, Surface};
+use crate::memory::{self, Store, Stored};
+use std::fmt::Display;
 
 /// One surface of an interface.
 ///
@@ -56,15 +58,15 @@ unsafe impl Sized64 for stickslip_surface {
 }
 
 /// N equations per node, 0-based.
-fn equations<const N: usize>(p: *const i64, n: usize, base: i64, name: &str) -> Result<Vec<[i64; N]>> {
-    let values = raw::slice(p, N * n, name)?;
-    let mut equations = vec![[NO_EQUATION; N]; n];
+fn equations<const N: usize>(p: *const i64, n: usize, base: i64, name: impl Display) -> Result<Vec<[i64; N]>> {
+    let values = raw::slice(p, N * n, &name)?;
+    let mut equations = memory::filled([NO_EQUATION; N], n)?;
     for (k, (equation, &v)) in equations.as_flattened_mut().iter_mut().zip(values).enumerate() {
         if v == NO_EQUATION {
             continue;
         }
         if v < base {
-            let text = format!("{name}[{k}] is {v}; -1 or at least {base} is allowed");
+            let text = text!("{name}[{k}] is {v}; -1 or at least {base} is allowed");
             return Err(Error::new(Kind::IndexOutOfRange, text));
         }
         *equation = v - base;
@@ -75,19 +77,19 @@ fn equations<const N: usize>(p: *const i64, n: usize, base: i64, name: &str) -> 
 /// A checked surface; `side` is "nonmortar" or "mortar".
 pub(super) fn read_surface(s: &stickslip_surface, base: i64, side: &'static str) -> Result<Surface> {
     let (x, facets) = read_facets(s, base, side)?;
-    let equations = equations(s.equations, x.len(), base, &format!("{side}.equations"))?;
+    let equations = equations(s.equations, x.len(), base, Member(side, "equations"))?;
     Surface::new(side, x, &facets, equations)
 }
 
 /// A surface's coordinates and the nodes of its facets, from 0.
 pub(super) fn read_facets(s: &stickslip_surface, base: i64, side: &str) -> Result<(Vec<Vec3>, Vec<Vec<i64>>)> {
-    let name = |member: &str| format!("{side}.{member}");
-    let n = raw::count(s.n_nodes, 3, &name("n_nodes"))?;
-    let n_facets = raw::count(s.n_facets, 1, &name("n_facets"))?;
-    let coordinates = raw::numbers(s.coordinates, 3 * n, &name("coordinates"))?;
-    let offsets = raw::slice(s.facet_offsets, n_facets + 1, &name("facet_offsets"))?;
+    let name = |member| Member(side, member);
+    let n = raw::count(s.n_nodes, 3, name("n_nodes"))?;
+    let n_facets = raw::count(s.n_facets, 1, name("n_facets"))?;
+    let coordinates = raw::numbers(s.coordinates, 3 * n, name("coordinates"))?;
+    let offsets = raw::slice(s.facet_offsets, n_facets + 1, name("facet_offsets"))?;
     let wrong = |f: usize| {
-        let text = format!("{side}.facet_offsets[{f}] is {}; offsets start at 0 and grow by 3 or 4", offsets[f]);
+        let text = text!("{side}.facet_offsets[{f}] is {}; offsets start at 0 and grow by 3 or 4", offsets[f]);
         Error::new(Kind::InvalidSize, text)
     };
     if offsets[0] != 0 {
@@ -97,41 +99,41 @@ pub(super) fn read_facets(s: &stickslip_surface, base: i64, side: &str) -> Resul
     if let Some(f) = (1..=n_facets).find(|&f| !matches!(offsets[f].checked_sub(offsets[f - 1]), Some(3 | 4))) {
         return Err(wrong(f));
     }
-    let nodes = raw::slice(s.facet_nodes, offsets[n_facets] as usize, &name("facet_nodes"))?;
-    let mut facets = Vec::with_capacity(n_facets);
+    let nodes = raw::slice(s.facet_nodes, offsets[n_facets] as usize, name("facet_nodes"))?;
+    let mut facets = memory::with_room(n_facets)?;
     for f in 0..n_facets {
         let range = offsets[f] as usize..offsets[f + 1] as usize;
-        let facet: Option<Vec<i64>> = nodes[range].iter().map(|k| k.checked_sub(base)).collect();
-        facets.push(facet.ok_or_else(|| {
-            Error::new(Kind::IndexOutOfRange, format!("{side}.facet_nodes of facet {f} is out of range"))
-        })?);
+        let beyond = || Error::new(Kind::IndexOutOfRange, text!("{side}.facet_nodes of facet {f} is out of range"));
+        let node = |k: &i64| k.checked_sub(base).ok_or_else(beyond);
+        facets.store(nodes[range].iter().map(node).stored_if_ok()?)?;
     }
-    Ok((raw::vectors(coordinates), facets))
+    Ok((raw::vectors(coordinates)?, facets))
 }
 
 /// A checked analytic surface: four nodes, no facets, no equations.
 pub(super) fn read_analytic(s: &stickslip_surface, shape: AnalyticShape, base: i64) -> Result<Surface> {
-    let refuse = |kind, text: &str| Err(Error::new(kind, text));
+    let refuse = |kind, text: Text| Err(Error::new(kind, text));
     if s.n_nodes != FRAME as i64 || s.n_facets != 0 {
-        let text = format!(
+        let text = text!(
             "mortar has n_nodes = {} and n_facets = {}; an analytic surface has {FRAME} nodes, its frame, and no facets",
-            s.n_nodes, s.n_facets
+            s.n_nodes,
+            s.n_facets
         );
-        return refuse(Kind::InvalidSize, &text);
+        return refuse(Kind::InvalidSize, text);
     }
     if !s.facet_offsets.is_null() || !s.facet_nodes.is_null() {
         let text = "mortar.facet_offsets and mortar.facet_nodes must be NULL: an analytic surface has no facets";
-        return refuse(Kind::InvalidValue, text);
+        return refuse(Kind::InvalidValue, text.into());
     }
     if !s.equations.is_null() {
         let equations = equations::<3>(s.equations, FRAME, base, "mortar.equations")?;
         if let Some(k) = equations.as_flattened().iter().position(|&e| e != NO_EQUATION) {
-            let text = format!("mortar.equations[{k}] is an equation; an analytic surface is rigid and has none (-1)");
-            return refuse(Kind::InvalidValue, &text);
+            let text = text!("mortar.equations[{k}] is an equation; an analytic surface is rigid and has none (-1)");
+            return refuse(Kind::InvalidValue, text);
         }
     }
     let coordinates = raw::numbers(s.coordinates, 3 * FRAME, "mortar.coordinates")?;
-    Surface::analytic("mortar", shape, raw::vectors(coordinates))
+    Surface::analytic("mortar", shape, raw::vectors(coordinates)?)
 }
 
 /// Refuses multipliers on the mortar side: the two surfaces may have been swapped.
@@ -140,7 +142,7 @@ pub(super) fn refuse_multipliers(mortar: &stickslip_surface) -> Result<()> {
         [(!mortar.multiplier_equations.is_null(), "multiplier_equations"), (!mortar.owned.is_null(), "owned")]
     {
         if given {
-            let text = format!("mortar.{member} must be NULL: only the non-mortar side carries multipliers");
+            let text = text!("mortar.{member} must be NULL: only the non-mortar side carries multipliers");
             return Err(Error::new(Kind::InvalidValue, text));
         }
     }
@@ -159,5 +161,5 @@ pub(super) fn read_owned(s: &stickslip_surface) -> Result<Option<Vec<bool>>> {
         return Ok(None);
     }
     let n = raw::count(s.n_nodes, 3, "nonmortar.n_nodes")?;
-    Ok(Some(raw::slice(s.owned, n, "nonmortar.owned")?.iter().map(|&o| o != 0).collect()))
+    raw::slice(s.owned, n, "nonmortar.owned")?.iter().map(|&o| o != 0).stored().map(Some)
 }

@@ -6,6 +6,7 @@ use super::interface::{either, handle, stickslip_interface};
 use super::raw;
 use crate::error::{Error, Kind, Result};
 use crate::interface::{Extent, NO_EQUATION, Sink};
+use crate::memory::{self, Store};
 use std::mem::MaybeUninit;
 
 /// Entries in the core's numbering.
@@ -14,14 +15,16 @@ struct Triplets {
     rows: Vec<i64>,
     columns: Vec<i64>,
     values: Vec<f64>,
+    /// There was no memory for all of them.
+    refused: Option<Error>,
 }
 
 impl Sink for Triplets {
     #[inline]
     fn add(&mut self, row: i64, column: i64, value: f64) {
-        self.rows.push(row);
-        self.columns.push(column);
-        self.values.push(value);
+        let stored =
+            self.rows.store(row).and_then(|()| self.columns.store(column)).and_then(|()| self.values.store(value));
+        self.note(stored);
     }
 
     fn add_block(&mut self, rows: &[i64], columns: &[i64], values: &[f64]) {
@@ -37,28 +40,37 @@ impl Sink for Triplets {
             return;
         }
         // Nearly every block: all of its equations exist. The common lengths are known to the compiler.
-        self.values.extend_from_slice(values);
-        match rows.len() {
-            12 => self.extend::<12>(rows, columns),
-            4 => self.extend::<4>(rows, columns),
-            _ => self.extend::<1>(rows, columns),
-        }
+        let stored = match rows.len() {
+            12 => self.store_block::<12>(rows, columns, values),
+            4 => self.store_block::<4>(rows, columns, values),
+            _ => self.store_block::<1>(rows, columns, values),
+        };
+        self.note(stored);
     }
 
     fn reserve(&mut self, entries: usize) {
-        self.rows.reserve_exact(entries);
-        self.columns.reserve_exact(entries);
-        self.values.reserve_exact(entries);
+        let (rows, columns) = (self.rows.try_reserve_exact(entries), self.columns.try_reserve_exact(entries));
+        let values = self.values.try_reserve_exact(entries);
+        self.note(rows.and(columns).and(values).map_err(Error::from));
     }
 }
 
 impl Triplets {
-    /// Rows and columns of a block, `N` rows at a time.
-    fn extend<const N: usize>(&mut self, rows: &[i64], columns: &[i64]) {
+    /// Keeps the first refusal for `check`.
+    #[inline]
+    fn note(&mut self, stored: Result<()>) {
+        if let Err(error) = stored {
+            self.refused.get_or_insert(error);
+        }
+    }
+
+    /// A block, `N` rows at a time.
+    fn store_block<const N: usize>(&mut self, rows: &[i64], columns: &[i64], values: &[f64]) -> Result<()> {
         let (rows, _) = rows.as_chunks::<N>();
         let n = N * rows.len() * columns.len();
-        self.rows.reserve(n);
-        self.columns.reserve(n);
+        self.rows.try_reserve(n)?;
+        self.columns.try_reserve(n)?;
+        self.values.store_all(values.iter().copied())?;
         let (spare_rows, _) = self.rows.spare_capacity_mut()[..n].as_chunks_mut::<N>();
         let (spare_columns, _) = self.columns.spare_capacity_mut()[..n].as_chunks_mut::<N>();
         let mut at = 0;
@@ -74,6 +86,7 @@ impl Triplets {
             self.rows.set_len(self.rows.len() + n);
             self.columns.set_len(self.columns.len() + n);
         }
+        Ok(())
     }
 
     /// Copies to the caller's arrays, or only counts when they are all NULL. `values` may be absent.
@@ -96,10 +109,7 @@ impl Triplets {
                 raw::check(values, "values")?;
             }
             if capacity < n as i64 {
-                return Err(Error::new(
-                    Kind::BufferTooSmall,
-                    format!("capacity is {capacity}; {n} entries are needed"),
-                ));
+                return Err(Error::new(Kind::BufferTooSmall, text!("capacity is {capacity}; {n} entries are needed")));
             }
             raw::write_equations(rows, &self.rows, base);
             raw::write_equations(columns, &self.columns, base);
@@ -111,7 +121,9 @@ impl Triplets {
         Ok(())
     }
 
-    fn check(&self) -> Result<()> {
+    /// Refuses where an entry found no memory or left the range of doubles.
+    fn check(&mut self) -> Result<()> {
+        self.refused.take().map_or(Ok(()), Err)?;
         // 0 v is 0 unless v is infinite or not a number; eight sums at a time.
         let (eights, rest) = self.values.as_chunks::<8>();
         let mut sums = [0.0; 8];
@@ -158,7 +170,7 @@ pub unsafe extern "C" fn stickslip_interface_tangent_coo(
             let extent = if point.sums().is_some() { Extent::Part } else { Extent::Whole };
             either!(&mut h.inner, c => c.pattern(&point.x1, &point.x2, extent, &mut t)?);
         } else {
-            either!(&mut h.inner, c => c.tangent(&point.x1, &point.x2, &point.lambda(), point.sums(), &mut t)?);
+            either!(&mut h.inner, c => c.tangent(&point.x1, &point.x2, &point.lambda()?, point.sums(), &mut t)?);
         }
         t.check()?;
         t.write(h.base, capacity, rows, columns, Some(values), count)
@@ -196,19 +208,19 @@ pub unsafe extern "C" fn stickslip_interface_tangent_csr(
         let offsets = raw::slice(row_offsets, n + 1, "row_offsets")?;
         let decreases = || (1..=n).find(|&k| offsets[k] < offsets[k - 1]);
         if let Some(k) = if offsets[0] == h.base { decreases() } else { Some(0) } {
-            let text = format!("row_offsets[{k}] is {}; offsets start at {} and do not decrease", offsets[k], h.base);
+            let text = text!("row_offsets[{k}] is {}; offsets start at {} and do not decrease", offsets[k], h.base);
             return Err(Error::new(Kind::InvalidSize, text));
         }
         let entries = raw::count(offsets[n].saturating_sub(h.base), 0, "row_offsets[n_rows]")?;
         let columns = raw::slice(columns, entries, "columns")?;
         raw::check(values, "values")?;
         let mut t = Triplets::default();
-        either!(&mut h.inner, c => c.tangent(&point.x1, &point.x2, &point.lambda(), point.sums(), &mut t)?);
+        either!(&mut h.inner, c => c.tangent(&point.x1, &point.x2, &point.lambda()?, point.sums(), &mut t)?);
         t.check()?;
-        let mut places = Vec::with_capacity(t.values.len());
+        let mut places = memory::with_room(t.values.len())?;
         for (&row, &column) in t.rows.iter().zip(&t.columns) {
             let Some(r) = usize::try_from(row).ok().filter(|&r| r < n) else {
-                let text = format!("the interface has equation {}; the matrix has {n} rows", row + h.base);
+                let text = text!("the interface has equation {}; the matrix has {n} rows", row + h.base);
                 return Err(Error::new(Kind::IndexOutOfRange, text));
             };
             let (first, end) = ((offsets[r] - h.base) as usize, (offsets[r + 1] - h.base) as usize);
@@ -217,10 +229,10 @@ pub unsafe extern "C" fn stickslip_interface_tangent_csr(
             // Rows are usually sorted; where they are not, look at every entry.
             let found = range.binary_search(&target).ok().or_else(|| range.iter().position(|&c| c == target));
             let Some(found) = found else {
-                let text = format!("the matrix lacks the entry ({}, {target}); renew its pattern", row + h.base);
+                let text = text!("the matrix lacks the entry ({}, {target}); renew its pattern", row + h.base);
                 return Err(Error::new(Kind::MissingEntry, text));
             };
-            places.push(first + found);
+            places.store(first + found)?;
         }
         for (place, value) in places.into_iter().zip(t.values) {
             // SAFETY: place < entries, and the caller's values has that many.
@@ -254,6 +266,7 @@ pub unsafe extern "C" fn stickslip_interface_pattern_coo(
         let point = Point::positions(&h.inner, x1, x2)?;
         let mut t = Triplets::default();
         either!(&mut h.inner, c => c.superset_pattern(&point.x1, &point.x2, &mut t)?);
+        t.check()?;
         t.write(h.base, capacity, rows, columns, None, count)
     })
 }

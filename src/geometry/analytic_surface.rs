@@ -103,7 +103,7 @@ impl AnalyticSurface {
     pub fn new(shape: AnalyticShape, frame: &[Vec3; FRAME]) -> Result<AnalyticSurface> {
         let radius = shape.radius();
         if shape != AnalyticShape::Plane && !(radius != 0.0 && radius.is_finite()) {
-            let text = format!("the radius is {radius}; it must be finite and not 0");
+            let text = text!("the radius is {radius}; it must be finite and not 0");
             return Err(Error::new(Kind::InvalidValue, text));
         }
         let edges = edges(frame);
@@ -177,9 +177,9 @@ pub fn check_rigid_motion(first: &[Vec3; FRAME], now: &[Vec3; FRAME]) -> Result<
     if worst <= RIGID && !mirrored {
         return Ok(());
     }
-    let how = if mirrored { "mirrored".into() } else { format!("deformed by {worst:.1e}") };
+    let how = if mirrored { "mirrored".into() } else { text!("deformed by {worst:.1e}") };
     let text =
-        format!("the frame of the analytic surface is {how}; its four points must move as a rigid body ({RIGID:.0e})");
+        text!("the frame of the analytic surface is {how}; its four points must move as a rigid body ({RIGID:.0e})");
     Err(Error::new(Kind::InvalidValue, text))
 }
 

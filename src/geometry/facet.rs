@@ -17,7 +17,7 @@ impl Facet {
     /// The facet through 3 or 4 finite points.
     pub fn new(nodes: &[Vec3]) -> Result<Facet> {
         let shape = Shape::of(nodes.len()).ok_or_else(|| {
-            Error::new(Kind::InvalidSize, format!("a facet has {} nodes; 3 or 4 are allowed", nodes.len()))
+            Error::new(Kind::InvalidSize, text!("a facet has {} nodes; 3 or 4 are allowed", nodes.len()))
         })?;
         let mut padded = [nodes[0]; MAX_NODES];
         padded[..nodes.len()].copy_from_slice(nodes);

@@ -51,7 +51,7 @@ impl Plane {
         if !(norm > SMALLEST_AREA_RATIO * h * h) {
             return Err(Error::new(
                 Kind::DegenerateFacet,
-                format!(
+                text!(
                     "the facet's area is {:.1e} of its squared longest edge; it needs more than {SMALLEST_AREA_RATIO:.0e}",
                     if h > 0.0 { norm / (h * h) } else { 0.0 }
                 ),

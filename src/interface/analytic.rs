@@ -9,6 +9,7 @@ use super::integration::{Integration, at_facet, frames};
 use super::{Counters, Extent, Options, Surface};
 use crate::error::{Error, Kind, Result};
 use crate::geometry::{AnalyticSurface, Plane, Vec3};
+use crate::memory::{self, Store, Stored};
 use crate::mortar::{ForceDerivatives, GapDerivative, NonmortarFrame, Segment, analytic_motion, analytic_weights};
 use crate::quadrature::Rule;
 use crate::shape::MAX_NODES;
@@ -35,7 +36,7 @@ pub(super) fn check_frame(one: &Surface, two: &Surface) -> Result<()> {
     if loss <= MOST_LOSS {
         return Ok(());
     }
-    let text = format!(
+    let text = text!(
         "{}: the frame is too small for its distance to the non-mortar side or the origin: rounding moves the surface by {loss:.0e} of a facet, {MOST_LOSS:.0e} is allowed; give it longer edges",
         two.side
     );
@@ -58,7 +59,7 @@ pub(super) fn facing(one: &Surface, surface: &AnalyticSurface, options: &Options
         let opposing = surface.closest(centre).is_some_and(|c| plane.e.dot(&c.normal) < -LEAST_OPPOSITION);
         Ok(opposing && low <= gap && high >= -penetration)
     };
-    (0..one.facets.len()).map(faces).collect()
+    (0..one.facets.len()).map(faces).stored_if_ok()
 }
 
 /// Weights of all facets that face the surface, at (x1, x2).
@@ -71,17 +72,17 @@ pub(super) fn integrate(
 ) -> Result<Integration> {
     let start = Instant::now();
     let (frames, surface) = (frames(one, x1)?, two.analytic_at(x2)?);
-    let mut pairs = Vec::with_capacity(frames.len());
+    let mut pairs = memory::with_room(frames.len())?;
     for (i, frame) in frames.iter().enumerate() {
         counters.pairs_tested += 1;
         if facing[i] {
             let weights = analytic_weights(frame, &surface, options.rule).map_err(at_facet(one.side, i))?;
-            pairs.push(PairRecord { one: i, two: 0, weights });
+            pairs.store(PairRecord { one: i, two: 0, weights })?;
         }
     }
     counters.pairs_integrated += pairs.len() as i64;
     counters.seconds_integration += start.elapsed().as_secs_f64();
-    let (x1, x2, extent) = (x1.to_vec(), x2.to_vec(), Extent::Part);
+    let (x1, x2, extent) = (memory::copied(x1)?, memory::copied(x2)?, Extent::Part);
     Ok(Integration { x1, x2, frames, pairs, segments: Vec::new(), sums: None, extent, apart: false })
 }
 

@@ -10,6 +10,7 @@ use super::search::Aabb;
 use super::{Contact, Options, Surface, Weights, analytic};
 use crate::error::Result;
 use crate::geometry::Vec3;
+use crate::memory::{self, Stored};
 
 /// Whether the surfaces are apart in all of the configurations (x1, x2), by more than the deepest penetration that is a
 /// pair. Only where the weights follow the motion, so that they can be made up for later.
@@ -24,17 +25,17 @@ pub(super) fn are_apart(
     }
     match filter {
         Filter::Analytic(_) => analytic::are_apart(surfaces, places),
-        Filter::Facets(filter) => Ok(directions(filter.deepest(), places).next().is_some()),
+        Filter::Facets(filter) => Ok(directions(filter.deepest(), places)?.next().is_some()),
     }
 }
 
 /// The axes, one way or the other, along which the non-mortar side must go to reach the other one, in all of the
 /// configurations: between two of them on different sides it passes through it.
-fn directions(distance: f64, places: &[(&[Vec3], &[Vec3])]) -> impl Iterator<Item = Vec3> + use<> {
+fn directions(distance: f64, places: &[(&[Vec3], &[Vec3])]) -> Result<impl Iterator<Item = Vec3> + use<>> {
     let around = |x: &[Vec3]| Aabb::around(x.iter().copied());
-    let above: Vec<_> = places.iter().map(|(x1, x2)| around(x1).sides(&around(x2), distance)).collect();
+    let above: Vec<_> = places.iter().map(|(x1, x2)| around(x1).sides(&around(x2), distance)).stored()?;
     let axes = [-Vec3::x(), -Vec3::y(), -Vec3::z(), Vec3::x(), Vec3::y(), Vec3::z()];
-    (0..6).filter(move |&side| above.iter().all(|sides| sides[side])).map(move |side| axes[side])
+    Ok((0..6).filter(move |&side| above.iter().all(|sides| sides[side])).map(move |side| axes[side]))
 }
 
 impl<const N: usize> Contact<N> {
@@ -47,7 +48,7 @@ impl<const N: usize> Contact<N> {
             return Ok(false);
         }
         // A normal that is undefined is refused where it is needed.
-        let Ok(nu) = self.all_normals() else { return Ok(false) };
+        let Some(nu) = memory::if_accepted(self.all_normals())? else { return Ok(false) };
         let (one, reached) = (&self.nonmortar, filter.reached());
         let mut facets = (0..reached.len()).filter(|&f| reached[f]);
         let nodes = |f: usize| &one.facets[f].nodes[..one.facets[f].len];
@@ -58,9 +59,9 @@ impl<const N: usize> Contact<N> {
                 return Ok(facets.all(|f| analytic::looks_at(&surface, nodes(f), x1, &nu)));
             }
         };
-        let out: Vec<_> = facets.map(|f| (f, one.facet(f, x1).area_vector())).collect();
+        let out: Vec<_> = facets.map(|f| (f, one.facet(f, x1).area_vector())).stored()?;
         let nodes_look = out.iter().all(|(f, out)| nodes(*f).iter().all(|&a| nu[a].dot(out) < 0.0));
-        let mut directions = directions(filter.deepest(), &places);
+        let mut directions = directions(filter.deepest(), &places)?;
         Ok(nodes_look && directions.any(|direction| out.iter().all(|(_, out)| out.dot(&direction) > 0.0)))
     }
 }

@@ -9,6 +9,7 @@ use crate::element::{FacetResponse, NodeTangent, PairNow, PairTangent, pair_forc
 use crate::error::{Error, Kind, Result};
 use crate::geometry::{Mat3, Vec3};
 use crate::law::NodeResponse;
+use crate::memory::{self, Store, Stored};
 use crate::mortar::{MORTAR, PairWeights};
 use crate::shape::MAX_NODES;
 use crate::simd::{self, Kernel, Lanes};
@@ -61,22 +62,22 @@ fn total<'a>(weights: impl Iterator<Item = Option<&'a PairWeights>>) -> Option<C
 
 impl<const N: usize> Contact<N> {
     /// The union of the pairs active now and, where slip counts, of those of t_n, sorted.
-    pub(super) fn union(&self) -> Vec<UnionPair<'_>> {
+    pub(super) fn union(&self) -> Result<Vec<UnionPair<'_>>> {
         if self.is_apart() {
-            return Vec::new();
+            return Ok(Vec::new());
         }
         if !self.kernels.slips {
-            return self.current_pairs().iter().enumerate().map(UnionPair::now).collect();
+            return self.current_pairs().iter().enumerate().map(UnionPair::now).stored();
         }
         let (mut now, mut previous) = (self.current_pairs().iter().peekable(), self.history.pairs.iter().peekable());
         let mut place = 0;
-        let mut union = Vec::with_capacity(now.len().max(previous.len()));
+        let mut union = memory::with_room(now.len().max(previous.len()))?;
         loop {
             let heads = [now.peek(), previous.peek()];
-            let Some((one, two)) = heads.into_iter().flatten().map(|p| (p.one, p.two)).min() else { return union };
+            let Some((one, two)) = heads.into_iter().flatten().map(|p| (p.one, p.two)).min() else { return Ok(union) };
             let n = now.next_if(|p| (p.one, p.two) == (one, two));
             let p = previous.next_if(|p| (p.one, p.two) == (one, two));
-            union.push(UnionPair { one, two, now: n.map(|p| &p.weights), place, previous: p.map(|p| &p.weights) });
+            union.store(UnionPair { one, two, now: n.map(|p| &p.weights), place, previous: p.map(|p| &p.weights) })?;
             place += usize::from(n.is_some());
         }
     }
@@ -91,13 +92,13 @@ impl<const N: usize> Contact<N> {
     ) -> Result<Residual<N>> {
         let responses = self.responses(x1, x2, lambda, sums)?;
         let mut r = Residual {
-            nonmortar: vec![Vec3::zeros(); self.nonmortar.len()],
-            mortar: vec![Vec3::zeros(); self.mortar.len()],
-            rows: vec![SVector::zeros(); self.nonmortar.len()],
+            nonmortar: memory::filled(Vec3::zeros(), self.nonmortar.len())?,
+            mortar: memory::filled(Vec3::zeros(), self.mortar.len())?,
+            rows: memory::filled(SVector::zeros(), self.nonmortar.len())?,
         };
         let normals = self.all_normals()?;
         let traction = |a: usize| self.force_traction(&lambda[a], &responses[a], normals[a]);
-        let tractions: Vec<_> = (0..responses.len()).map(traction).collect();
+        let tractions: Vec<_> = (0..responses.len()).map(traction).stored()?;
         for pair in self.current_pairs() {
             let (one, two) = (&self.nonmortar.facets[pair.one], &self.mortar.facets[pair.two]);
             let f = pair_force(&pair.weights, &one.nodes.map(|a| tractions[a]));
@@ -117,7 +118,7 @@ impl<const N: usize> Contact<N> {
     }
 
     pub(super) fn all_normals(&self) -> Result<Vec<Vec3>> {
-        (0..self.nonmortar.len()).map(|a| self.normal(a)).collect()
+        (0..self.nonmortar.len()).map(|a| self.normal(a)).stored_if_ok()
     }
 
     /// The traction that a node's forces use.
@@ -162,17 +163,17 @@ impl<const N: usize> Contact<N> {
         }
         let start = Instant::now();
         let mut linearised = 0;
-        let mut couplings = self.augmented_couplings();
+        let mut couplings = self.augmented_couplings()?;
         let normals = self.all_normals()?;
-        let nodes = self.node_tangents(lambda, &responses, &normals);
-        let carried = self.carried(&sums);
+        let nodes = self.node_tangents(lambda, &responses, &normals)?;
+        let carried = self.carried(&sums)?;
         let analytic = self.mortar.analytic.map(|_| self.mortar.analytic_at(x2)).transpose()?;
         // Large, so that one of each serves all pairs.
         let (mut t, mut facet) = (PairTangent::default(), FacetTangent::default());
         // With a mortar side at rest all of it is linear in the weights of a facet's pairs; carried nodes and points in
         // place of cells take them one by one.
         let together = !MOVES && self.carriers.is_empty() && matches!(self.options.scheme, Scheme::Segments);
-        let union = self.union();
+        let union = self.union()?;
         sink.reserve(entries::<MOVES, N>(&union, responses.len()));
         for pairs in union.chunk_by(|p, q| p.one == q.one) {
             let one = &self.nonmortar.facets[pairs[0].one];
@@ -208,10 +209,10 @@ impl<const N: usize> Contact<N> {
                     for k in 0..one.len {
                         let a = one.nodes[k];
                         let dp = self.dtraction(a, &responses[a], normals[a]);
-                        couplings[a].add_pair::<MOVES>(k, &self.slots(&pairs[0]), now.as_ref(), previous, dp);
+                        couplings[a].add_pair::<MOVES>(k, &self.slots(&pairs[0]), now.as_ref(), previous, dp)?;
                     }
                     let carried = Some((&carried[..], &responses[..]));
-                    self.couple_carried::<MOVES>(&pairs[0], now.as_ref(), carried, &normals, couplings);
+                    self.couple_carried::<MOVES>(&pairs[0], now.as_ref(), carried, &normals, couplings)?;
                 }
             }
             if !together {
@@ -237,8 +238,8 @@ impl<const N: usize> Contact<N> {
         (basis * response.drow_dnow, basis * response.drow_dprevious)
     }
 
-    pub(super) fn augmented_couplings(&self) -> Option<Vec<NodeCouplings>> {
-        (self.options.form == Form::Augmented).then(|| vec![NodeCouplings::default(); self.nonmortar.len()])
+    pub(super) fn augmented_couplings(&self) -> Result<Option<Vec<NodeCouplings>>> {
+        (self.options.form == Form::Augmented).then(|| memory::defaults(self.nonmortar.len())).transpose()
     }
 
     fn node_tangents(
@@ -246,7 +247,7 @@ impl<const N: usize> Contact<N> {
         lambda: &[SVector<f64, N>],
         responses: &[NodeResponse<N>],
         normals: &[Vec3],
-    ) -> Vec<NodeTangent<N>> {
+    ) -> Result<Vec<NodeTangent<N>>> {
         let node = |a: usize| {
             let (response, scale) = (&responses[a], self.row_scale(a));
             NodeTangent {
@@ -255,7 +256,7 @@ impl<const N: usize> Contact<N> {
                 drow_dprevious: response.drow_dprevious * scale,
             }
         };
-        (0..responses.len()).map(node).collect()
+        (0..responses.len()).map(node).stored()
     }
 }
 

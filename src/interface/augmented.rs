@@ -2,7 +2,9 @@
 //! derivative n_AB (dp/dsigma) r Dg_A couples all pairs of a node and is no sum over pairs.
 
 use crate::element::{PairNow, frozen_rows, gap_rows};
+use crate::error::Result;
 use crate::geometry::Mat3;
+use crate::memory::Store;
 use crate::mortar::{MORTAR, PAIR_NODES, PairWeights, slots};
 
 /// One node that a non-mortar node A is coupled with.
@@ -33,15 +35,16 @@ impl NodeCouplings {
         now: Option<&PairNow>,
         previous: Option<&PairWeights>,
         dp: (Mat3, Mat3),
-    ) {
-        self.add_gap::<MOVES>(k, nodes, now, previous, dp);
-        let Some(PairNow { weights: w, .. }) = now else { return };
+    ) -> Result<()> {
+        self.add_gap::<MOVES>(k, nodes, now, previous, dp)?;
+        let Some(PairNow { weights: w, .. }) = now else { return Ok(()) };
         for (j, node) in nodes[..slots(MOVES)].iter().enumerate() {
             let Some(node) = *node else { continue };
-            let coupling = self.find(node);
+            let coupling = self.find(node)?;
             coupling.weight += if j < MORTAR { w.ab[k][j] } else { -w.ac[k][j - MORTAR] };
             coupling.acts = true;
         }
+        Ok(())
     }
 
     /// Adds what p_A depends on: the gap of the k-th non-mortar node of a pair.
@@ -52,24 +55,25 @@ impl NodeCouplings {
         now: Option<&PairNow>,
         previous: Option<&PairWeights>,
         dp: (Mat3, Mat3),
-    ) {
+    ) -> Result<()> {
         let by_now = now.map(|now| gap_rows::<MOVES>(now, k, &dp.0));
         let by_previous = previous.map(|weights| frozen_rows::<MOVES>(weights, k, &dp.1));
         for (j, node) in nodes[..slots(MOVES)].iter().enumerate() {
             let Some(node) = *node else { continue };
-            let coupling = self.find(node);
+            let coupling = self.find(node)?;
             for rows in [&by_now, &by_previous].into_iter().flatten() {
                 coupling.dtraction += rows[j];
             }
         }
+        Ok(())
     }
 
-    fn find(&mut self, node: usize) -> &mut Coupling {
-        let at = self.nodes.iter().position(|c| c.node == node).unwrap_or_else(|| {
-            self.nodes.push(Coupling { node, weight: 0.0, acts: false, dtraction: Mat3::zeros() });
-            self.nodes.len() - 1
-        });
-        &mut self.nodes[at]
+    fn find(&mut self, node: usize) -> Result<&mut Coupling> {
+        let at = self.nodes.iter().position(|c| c.node == node).unwrap_or(self.nodes.len());
+        if at == self.nodes.len() {
+            self.nodes.store(Coupling { node, weight: 0.0, acts: false, dtraction: Mat3::zeros() })?;
+        }
+        Ok(&mut self.nodes[at])
     }
 
     /// The nodes that p_A acts on.

@@ -11,6 +11,7 @@
 use super::assembly::UnionPair;
 use super::augmented::NodeCouplings;
 use super::emission::{Equations, Sink};
+use super::history::History;
 use super::nodes::NodeSums;
 use super::weak::{self, Carrier};
 use super::{Contact, NO_EQUATION};
@@ -18,28 +19,28 @@ use crate::element::{FacetResponse, NodeTangent, PairNow, RowColumns, row_column
 use crate::error::{Error, Kind, Result};
 use crate::geometry::{Mat3, Vec3};
 use crate::law::NodeResponse;
+use crate::memory::{Store, Stored};
 use crate::mortar::{MORTAR, PAIR_NODES};
 use crate::shape::MAX_NODES;
 use nalgebra::{SMatrix, SVector};
-use std::collections::BTreeMap;
 
 impl<const N: usize> Contact<N> {
     /// The carriers of every node, by the history.
-    pub(super) fn find_carriers(&self) -> Vec<Vec<Carrier>> {
-        let (h, threshold) = (&self.history, self.options.weak_coverage);
+    pub(super) fn find_carriers(&self, h: &History, coverable: &[bool]) -> Result<Vec<Vec<Carrier>>> {
+        let threshold = self.options.weak_coverage;
         if threshold == 0.0 || !h.integrated {
-            return Vec::new();
+            return Ok(Vec::new());
         }
         let fraction = |a: usize| {
             let f = h.coverage[a] / h.areas[a];
             if f > self.options.coverage_min { f } else { 0.0 }
         };
         let nodes = weak::Nodes {
-            fraction: &(0..self.nonmortar.len()).map(fraction).collect::<Vec<_>>(),
-            coverable: &self.coverable,
+            fraction: &(0..self.nonmortar.len()).map(fraction).stored()?,
+            coverable,
             has_multiplier: &|a| self.multiplier_equations[a].iter().any(|&e| e != NO_EQUATION),
         };
-        weak::carriers(&nodes, &weak::links(&self.nonmortar, h), threshold)
+        weak::carriers(&nodes, &weak::links(&self.nonmortar, h)?, threshold)
     }
 
     /// The nodes that carry node A; none where it has a multiplier of its own.
@@ -48,10 +49,10 @@ impl<const N: usize> Contact<N> {
     }
 
     /// Which nodes are carried here, at these sums; empty where none is.
-    pub(super) fn carried(&self, sums: &[NodeSums]) -> Vec<bool> {
+    pub(super) fn carried(&self, sums: &[NodeSums]) -> Result<Vec<bool>> {
         let covered = |a: usize| sums[a].coverage > self.options.coverage_min * self.history.areas[a];
         let carried = |a: usize| !self.carriers_of(a).is_empty() && covered(a);
-        if self.carriers.is_empty() { Vec::new() } else { (0..sums.len()).map(carried).collect() }
+        if self.carriers.is_empty() { Ok(Vec::new()) } else { (0..sums.len()).map(carried).stored() }
     }
 
     /// Sums of several handles: a node's carriers would have to be known to all of them.
@@ -79,12 +80,19 @@ impl<const N: usize> Contact<N> {
         sums: &[NodeSums],
         carried: &[bool],
         normals: &[Vec3],
-    ) -> BTreeMap<usize, NodeSums> {
-        let mut all = BTreeMap::new();
+    ) -> Result<Vec<(usize, NodeSums)>> {
+        let mut nodes = Vec::new();
+        for a in (0..carried.len()).filter(|&a| carried[a]) {
+            nodes.store_all(self.carriers_of(a).iter().map(|&(b, _)| b))?;
+        }
+        nodes.sort_unstable();
+        nodes.dedup();
+        let mut all = nodes.iter().map(|&b| (b, sums[b])).stored()?;
         for a in (0..carried.len()).filter(|&a| carried[a]) {
             for &(b, w) in self.carriers_of(a) {
                 let (t, own) = (self.transfer(a, normals[a], normals[b]) * w, &sums[a]);
-                let sum = all.entry(b).or_insert(sums[b]);
+                let at = nodes.binary_search(&b).expect("all carriers are among the nodes");
+                let sum = &mut all[at].1;
                 sum.coverage += w * own.coverage;
                 sum.coverage_previous += w * own.coverage_previous;
                 sum.gap_now += t * own.gap_now;
@@ -92,7 +100,7 @@ impl<const N: usize> Contact<N> {
                 sum.gap_committed += t * own.gap_committed;
             }
         }
-        all
+        Ok(all)
     }
 
     /// Turns the law's answers to the nodes' own sums into those of carriers and of nodes that are carried. The gap and
@@ -105,7 +113,7 @@ impl<const N: usize> Contact<N> {
         responses: &mut [NodeResponse<N>],
     ) -> Result<()> {
         let normals = self.all_normals()?;
-        for (b, sum) in self.carriers_sums(sums, carried, &normals) {
+        for (b, sum) in self.carriers_sums(sums, carried, &normals)? {
             let NodeResponse { gap_normal, slip, .. } = responses[b];
             responses[b] = NodeResponse { gap_normal, slip, ..(self.kernels.respond)(&self.node(b, lambda[b], &sum)?) };
         }
@@ -191,7 +199,7 @@ impl<const N: usize> Contact<N> {
         carried: Option<(&[bool], &[NodeResponse<N>])>,
         normals: &[Vec3],
         couplings: &mut [NodeCouplings],
-    ) {
+    ) -> Result<()> {
         let slots = self.slots(pair);
         for (k, &a) in self.nonmortar.facets[pair.one].as_slice().iter().enumerate() {
             for &(b, w) in self.carriers_of(a) {
@@ -201,9 +209,10 @@ impl<const N: usize> Contact<N> {
                     let (on_now, on_previous) = self.dtraction(b, &responses[b], normals[b]);
                     dp = (on_now * t, on_previous * t);
                 }
-                couplings[b].add_gap::<MOVES>(k, &slots, now, pair.previous, dp);
+                couplings[b].add_gap::<MOVES>(k, &slots, now, pair.previous, dp)?;
             }
         }
+        Ok(())
     }
 
     /// Augmented form: forces of A's traction, which is that of its carriers.

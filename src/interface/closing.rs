@@ -17,6 +17,7 @@ use super::search::Aabb;
 use super::{Contact, Friction, Weights};
 use crate::error::{Error, Kind, Result};
 use crate::geometry::Vec3;
+use crate::memory::{self, Stored};
 
 /// c where the host gives none: a node may go this part of its shortest edge deeper. From 0.03 to 1 Newton's method
 /// converges on round bodies, in fewer iterations where it is larger; near 1 a fine surface may be passed through.
@@ -40,8 +41,8 @@ struct Step<'a> {
 
 impl Step<'_> {
     /// The positions of one side at a fraction of the step.
-    fn at(&self, side: usize, fraction: f64) -> Vec<Vec3> {
-        self.x[side].iter().zip(self.dx[side]).map(|(x, dx)| x + fraction * dx).collect()
+    fn at(&self, side: usize, fraction: f64) -> Result<Vec<Vec3>> {
+        self.x[side].iter().zip(self.dx[side]).map(|(x, dx)| x + fraction * dx).stored()
     }
 
     /// At most how far two points of different sides move towards each other, with the motion that both have in common
@@ -53,15 +54,15 @@ impl Step<'_> {
 }
 
 /// The shortest edge of the facets around each node `[L]`.
-fn shortest_edges(surface: &super::Surface, x: &[Vec3]) -> Vec<f64> {
-    let mut shortest = vec![f64::INFINITY; surface.len()];
+fn shortest_edges(surface: &super::Surface, x: &[Vec3]) -> Result<Vec<f64>> {
+    let mut shortest = memory::filled(f64::INFINITY, surface.len())?;
     for facet in &surface.facets {
         let nodes = facet.as_slice();
         let edge = |k: usize| (x[nodes[(k + 1) % nodes.len()]] - x[nodes[k]]).norm();
         let least = (0..nodes.len()).map(edge).fold(f64::INFINITY, f64::min);
         nodes.iter().for_each(|&a| shortest[a] = shortest[a].min(least));
     }
-    shortest
+    Ok(shortest)
 }
 
 impl<const N: usize> Contact<N> {
@@ -76,7 +77,7 @@ impl<const N: usize> Contact<N> {
         let depth = depth.unwrap_or(DEPTH);
         if !(depth > 0.0 && depth <= MOST_DEPTH) {
             let text =
-                format!("penetration is {depth}; above 0 and at most {MOST_DEPTH} is allowed, 0 stands for {DEPTH}");
+                text!("penetration is {depth}; above 0 and at most {MOST_DEPTH} is allowed, 0 stands for {DEPTH}");
             return Err(Error::new(Kind::InvalidValue, text));
         }
         self.check_positions(x1, x2)?;
@@ -85,18 +86,18 @@ impl<const N: usize> Contact<N> {
         check_finite("dx1", dx1)?;
         check_finite("dx2", dx2)?;
         let step = Step { x: [x1, x2], dx: [dx1, dx2] };
-        check_finite("x1 + dx1", &step.at(0, 1.0))?;
-        check_finite("x2 + dx2", &step.at(1, 1.0))?;
+        check_finite("x1 + dx1", &step.at(0, 1.0)?)?;
+        check_finite("x2 + dx2", &step.at(1, 1.0)?)?;
         // An analytic surface's frame that turns is no rigid body on the way; half-way it is least of one.
-        self.mortar.check_rigid(&step.at(1, 0.5))?;
+        self.mortar.check_rigid(&step.at(1, 0.5)?)?;
         let motion = step.motion();
         if self.options.friction == Friction::Tied || motion == 0.0 {
             return Ok(1.0);
         }
-        let edges = shortest_edges(&self.nonmortar, x1);
+        let edges = shortest_edges(&self.nonmortar, x1)?;
         let start = self.mean_gaps(&step, 0.0)?;
         let limit = |a: usize| start[a].map_or(0.0, |d| d.min(0.0)) - depth * edges[a];
-        let limits: Vec<_> = (0..edges.len()).map(limit).collect();
+        let limits: Vec<_> = (0..edges.len()).map(limit).stored()?;
         if self.options.effective_weights() != Weights::Current {
             return Ok(linear_fraction(&start, &self.mean_gaps(&step, 1.0)?, &limits));
         }
@@ -106,17 +107,18 @@ impl<const N: usize> Contact<N> {
         };
         let shortest = edges.iter().copied().fold(f64::INFINITY, f64::min);
         let slack = ROUNDING * depth * shortest;
-        if motion <= shortest && self.mean_gaps(&step, 1.0).is_ok_and(|end| room(&end) >= -slack) {
+        let allows = |end: Option<Vec<_>>| end.is_some_and(|end| room(&end) >= -slack);
+        if motion <= shortest && allows(memory::if_accepted(self.mean_gaps(&step, 1.0))?) {
             return Ok(1.0);
         }
         let (mut allowed, mut left) = (0.0, room(&start));
         for _ in 0..MOST_FRACTIONS {
             if left == f64::INFINITY {
-                left = shortest.max(self.distance_of_boxes(&step, allowed));
+                left = shortest.max(self.distance_of_boxes(&step, allowed)?);
             }
             let fraction = (allowed + left.max(LEAST_ADVANCE * depth * shortest) / motion).min(1.0);
             // Where nothing can be evaluated, as between facets that are crushed on the way, the host could not, either.
-            let Ok(gaps) = self.mean_gaps(&step, fraction) else { break };
+            let Some(gaps) = memory::if_accepted(self.mean_gaps(&step, fraction))? else { break };
             if room(&gaps) < -slack {
                 break;
             }
@@ -131,32 +133,32 @@ impl<const N: usize> Contact<N> {
 
     /// The mean gap of each node at a fraction of a step `[L]`; `None`: it is uncovered.
     fn mean_gaps(&mut self, step: &Step, fraction: f64) -> Result<Vec<Option<f64>>> {
-        let (x1, x2) = (step.at(0, fraction), step.at(1, fraction));
+        let (x1, x2) = (step.at(0, fraction)?, step.at(1, fraction)?);
         let surfaces = (&self.nonmortar, &self.mortar);
         let known = self.integration.as_ref().is_some_and(|k| !k.apart && k.x1 == x1 && k.x2 == x2);
         let sums = match (&self.filter, self.options.effective_weights()) {
             (Some(filter), Weights::Current) if !known => {
                 let counters = (&mut self.counters, &mut self.tree);
                 let now = integrate(surfaces, &self.options, filter, counters, (&x1, &x2))?;
-                assemble(surfaces, &now.pairs, &x1, &x2)
+                assemble(surfaces, &now.pairs, &x1, &x2)?
             }
-            _ => assemble(surfaces, self.current_pairs(), &x1, &x2),
+            _ => assemble(surfaces, self.current_pairs(), &x1, &x2)?,
         };
         let gap = |(a, (coverage, gap)): (usize, &(f64, Vec3))| {
             let covered = *coverage > self.options.coverage_min * self.history.areas[a];
             Ok(if covered { Some(self.normal(a)?.dot(gap) / coverage) } else { None })
         };
-        sums.iter().enumerate().map(gap).collect()
+        sums.iter().enumerate().map(gap).stored_if_ok()
     }
 
     /// How far apart the boxes around the two surfaces are, as far as the distance along one axis says `[L]`; 0 of an
     /// analytic one, which has no box.
-    fn distance_of_boxes(&self, step: &Step, fraction: f64) -> f64 {
+    fn distance_of_boxes(&self, step: &Step, fraction: f64) -> Result<f64> {
         if self.mortar.analytic.is_some() {
-            return 0.0;
+            return Ok(0.0);
         }
-        let [one, two] = [0, 1].map(|side| Aabb::around(step.at(side, fraction)));
-        one.distance(&two)
+        let (one, two) = (Aabb::around(step.at(0, fraction)?), Aabb::around(step.at(1, fraction)?));
+        Ok(one.distance(&two))
     }
 }
 

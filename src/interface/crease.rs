@@ -10,6 +10,7 @@
 use super::Surface;
 use crate::error::{Error, Kind, Result};
 use crate::geometry::Vec3;
+use crate::memory::{self, Store, Stored};
 use crate::normal::corner_normal;
 
 /// A surface's facets with nodes of their own on each side of a crease.
@@ -45,43 +46,45 @@ impl Surface {
     /// [`Kind::InvalidValue`] for an angle that is not between 0 and pi, and for an analytic surface.
     pub fn split_creases(&self, angle: f64) -> Result<Split> {
         if !(angle > 0.0 && angle < std::f64::consts::PI) {
-            let text = format!("angle is {angle}; it must be above 0 and below pi (radians)");
+            let text = text!("angle is {angle}; it must be above 0 and below pi (radians)");
             return Err(Error::new(Kind::InvalidValue, text));
         }
         if self.analytic.is_some() {
             return Err(Error::new(Kind::InvalidValue, "an analytic surface has no facets and no creases"));
         }
         let least = angle.cos();
-        let mut corners = vec![Vec::new(); self.len()];
+        let mut corners = memory::defaults::<Vec<_>>(self.len())?;
         for (f, facet) in self.facets.iter().enumerate() {
             let shape = self.facet(f, &self.reference);
             for (k, &node) in facet.as_slice().iter().enumerate() {
-                corners[node].push(Corner { facet: f, normal: corner_normal(&shape, k) });
+                corners[node].store(Corner { facet: f, normal: corner_normal(&shape, k) })?;
             }
         }
-        let mut edges = vec![Vec::new(); self.len()];
+        let mut edges = memory::defaults::<Vec<_>>(self.len())?;
         for edge in &self.edges {
-            edge.nodes.iter().for_each(|&node| edges[node].push(edge.facets));
+            for node in edge.nodes {
+                edges[node].store(edge.facets)?;
+            }
         }
-        let mut numbers: Vec<_> = self.facets.iter().map(|f| f.nodes).collect();
-        let mut originals: Vec<_> = (0..self.len()).collect();
+        let mut numbers: Vec<_> = self.facets.iter().map(|f| f.nodes).stored()?;
+        let mut originals: Vec<_> = (0..self.len()).stored()?;
         for node in 0..self.len() {
-            for copy in fans(&corners[node], &edges[node], least).iter().skip(1) {
+            for copy in fans(&corners[node], &edges[node], least)?.iter().skip(1) {
                 for &corner in copy {
                     let facet = corners[node][corner].facet;
                     let at = self.facets[facet].as_slice().iter().position(|&k| k == node);
                     numbers[facet][at.expect("the corner's facet has the node")] = originals.len();
                 }
-                originals.push(node);
+                originals.store(node)?;
             }
         }
-        let facet_nodes = numbers.iter().zip(&self.facets).flat_map(|(n, f)| n[..f.len].iter().copied()).collect();
+        let facet_nodes = numbers.iter().zip(&self.facets).flat_map(|(n, f)| n[..f.len].iter().copied()).stored()?;
         Ok(Split { facet_nodes, originals })
     }
 }
 
 /// The fans of a node's corners, each by the corners' places, the one with the first facet first.
-fn fans(corners: &[Corner], edges: &[[usize; 2]], least: f64) -> Vec<Vec<usize>> {
+fn fans(corners: &[Corner], edges: &[[usize; 2]], least: f64) -> Result<Vec<Vec<usize>>> {
     let cosine = |i: usize, j: usize| corners[i].normal.dot(&corners[j].normal);
     let narrow = |fan: &[usize]| fan.iter().all(|&i| fan.iter().all(|&j| i == j || cosine(i, j) >= least));
     let place = |facet: usize| corners.binary_search_by_key(&facet, |c| c.facet).expect("an edge's facets are here");
@@ -89,13 +92,14 @@ fn fans(corners: &[Corner], edges: &[[usize; 2]], least: f64) -> Vec<Vec<usize>>
         let [i, j] = facets.map(place);
         Joint { corners: [i, j], cosine: cosine(i, j) }
     };
-    let joints: Vec<_> = edges.iter().map(joint).filter(|j| j.cosine >= least).collect();
+    let joints: Vec<_> = edges.iter().map(joint).filter(|j| j.cosine >= least).stored()?;
     let mut narrow_ones = Vec::new();
-    let mut rest = vec![((0..corners.len()).collect::<Vec<_>>(), joints)];
+    let mut rest = memory::with_room(1)?;
+    rest.store(((0..corners.len()).stored()?, joints))?;
     let mut whole = true;
     while let Some((fan, mut joints)) = rest.pop() {
         if narrow(&fan) {
-            narrow_ones.push(fan);
+            narrow_ones.store(fan)?;
             continue;
         }
         if !whole {
@@ -104,22 +108,22 @@ fn fans(corners: &[Corner], edges: &[[usize; 2]], least: f64) -> Vec<Vec<usize>>
             joints.remove(sharpest.expect("a fan of more than one corner is held together by joints"));
         }
         whole = false;
-        for part in parts(&fan, &joints) {
+        for part in parts(&fan, &joints)? {
             let inside = |j: &Joint| part.contains(&j.corners[0]);
-            let kept = joints.iter().copied().filter(inside).collect();
-            rest.push((part, kept));
+            let kept = joints.iter().copied().filter(inside).stored()?;
+            rest.store((part, kept))?;
         }
     }
     narrow_ones.sort_unstable();
-    narrow_ones
+    Ok(narrow_ones)
 }
 
 /// The parts of a fan that joints hold together, each sorted.
-fn parts(fan: &[usize], joints: &[Joint]) -> Vec<Vec<usize>> {
-    let mut left = fan.to_vec();
+fn parts(fan: &[usize], joints: &[Joint]) -> Result<Vec<Vec<usize>>> {
+    let mut left = memory::copied(fan)?;
     let mut parts = Vec::new();
     while let Some(first) = left.pop() {
-        let mut part = vec![first];
+        let mut part = memory::filled(first, 1)?;
         let mut at = 0;
         while at < part.len() {
             for joint in joints {
@@ -127,14 +131,14 @@ fn parts(fan: &[usize], joints: &[Joint]) -> Vec<Vec<usize>> {
                     if from == part[at]
                         && let Some(k) = left.iter().position(|&c| c == to)
                     {
-                        part.push(left.swap_remove(k));
+                        part.store(left.swap_remove(k))?;
                     }
                 }
             }
             at += 1;
         }
         part.sort_unstable();
-        parts.push(part);
+        parts.store(part)?;
     }
-    parts
+    Ok(parts)
 }

@@ -4,6 +4,9 @@
 //! conditions meet three displacements. A node that is non-mortar in one and mortar in another is a link of a chain,
 //! which is fine. A node on both sides of one interface touches itself.
 
+use crate::error::Result;
+use crate::memory::Store;
+
 /// The nodes of one interface, in the host's numbers; a number may come more than once.
 #[derive(Clone, Copy, Debug)]
 pub struct InterfaceNodes<'a> {
@@ -30,11 +33,14 @@ pub struct Crosspoint {
 
 /// The nodes that interfaces share in a way that a host may have to do something about, by ascending number. Nodes that
 /// are mortar alone, in however many interfaces, are none. O(n log n).
-pub fn crosspoints(interfaces: &[InterfaceNodes]) -> Vec<Crosspoint> {
+///
+/// # Errors
+/// [`crate::error::Kind::OutOfMemory`].
+pub fn crosspoints(interfaces: &[InterfaceNodes]) -> Result<Vec<Crosspoint>> {
     let mut uses = Vec::new();
     for (k, interface) in interfaces.iter().enumerate() {
-        uses.extend(interface.nonmortar.iter().map(|&node| (node, k, false)));
-        uses.extend(interface.mortar.iter().map(|&node| (node, k, true)));
+        uses.store_all(interface.nonmortar.iter().map(|&node| (node, k, false)))?;
+        uses.store_all(interface.mortar.iter().map(|&node| (node, k, true)))?;
     }
     uses.sort_unstable();
     uses.dedup();
@@ -46,8 +52,8 @@ pub fn crosspoints(interfaces: &[InterfaceNodes]) -> Vec<Crosspoint> {
         let chain = sides(false).any(|k| sides(true).any(|j| j != k));
         if claims > 1 || both_sides || chain {
             let claimed_twice = claims > 1;
-            found.push(Crosspoint { node: uses[0].0, claims: claims as i64, claimed_twice, chain, both_sides });
+            found.store(Crosspoint { node: uses[0].0, claims: claims as i64, claimed_twice, chain, both_sides })?;
         }
     }
-    found
+    Ok(found)
 }

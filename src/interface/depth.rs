@@ -12,8 +12,9 @@
 use super::Surface;
 use super::filter::FacetFilter;
 use super::search::{Prism, Tree};
+use crate::error::Result;
 use crate::geometry::Vec3;
-use std::collections::HashMap;
+use crate::memory::{self, Store, Stored};
 
 /// A mortar facet in the prism of a non-mortar facet that it opposes, and how deep behind it, where that is deeper than
 /// their own measure.
@@ -25,20 +26,26 @@ struct Over {
 
 /// Per mortar facet, how deep it may lie beyond what the facets of a pair allow `[L]`; empty where none is deep. A search
 /// over the facets around those that are `reached`, and linear in the pairs found.
-pub(super) fn followed(surfaces: (&Surface, &Surface), filter: &FacetFilter, tree: &Tree, x2: &[Vec3]) -> Vec<f64> {
+pub(super) fn followed(
+    surfaces: (&Surface, &Surface),
+    filter: &FacetFilter,
+    tree: &Tree,
+    x2: &[Vec3],
+) -> Result<Vec<f64>> {
     let (one, two) = surfaces;
-    let around = facets_around(one);
+    let around = facets_around(one)?;
     let nodes = |f: usize| one.facets[f].as_slice().iter();
-    let mut near = vec![false; one.facets.len()];
+    let mut near = memory::filled(false, one.facets.len())?;
     for i in (0..near.len()).filter(|&i| filter.reached[i]) {
         nodes(i).flat_map(|&a| &around[a]).for_each(|&k| near[k] = true);
     }
-    let over: Vec<_> = (0..near.len()).map(|i| if near[i] { over(i, filter, tree) } else { Vec::new() }).collect();
+    let over = |i: usize| if near[i] { over(i, filter, tree) } else { Ok(Vec::new()) };
+    let over: Vec<_> = (0..near.len()).map(over).stored_if_ok()?;
     if !over.iter().flatten().any(|pair| pair.deep.is_some()) {
-        return Vec::new();
+        return Ok(Vec::new());
     }
-    let places = places(x2);
-    let (mut depth, mut sheets) = (vec![0.0_f64; two.facets.len()], Sheets::new(two, &places));
+    let places = places(x2)?;
+    let (mut depth, mut sheets) = (memory::filled(0.0_f64, two.facets.len())?, Sheets::new(two, &places)?);
     for facets in &around {
         let pairs = || facets.iter().flat_map(|&i| &over[i]);
         if pairs().any(|pair| pair.deep.is_some()) {
@@ -51,36 +58,43 @@ pub(super) fn followed(surfaces: (&Surface, &Surface), filter: &FacetFilter, tre
             }
         }
     }
-    depth
+    Ok(depth)
 }
 
-fn over(i: usize, filter: &FacetFilter, tree: &Tree) -> Vec<Over> {
+fn over(i: usize, filter: &FacetFilter, tree: &Tree) -> Result<Vec<Over>> {
     let (facet, plane) = &filter.sides[0].facets[i];
     let mut found = Vec::new();
-    tree.find(&Prism::over(facet.points(), plane, 0.0), &mut found);
+    tree.find(&Prism::over(facet.points(), plane, 0.0), &mut found)?;
     let pair = |&j: &usize| {
         let depth = filter.opposes(i, j).then(|| -filter.heights(i, j).1)?;
         let [own, most] = filter.penetrations(i, j);
         (depth <= most).then_some(Over { two: j, deep: (depth > own).then_some(depth) })
     };
-    found.iter().filter_map(pair).collect()
+    found.iter().filter_map(pair).stored()
 }
 
 /// Per node the facets around it.
-fn facets_around(surface: &Surface) -> Vec<Vec<usize>> {
-    let mut around = vec![Vec::new(); surface.len()];
+fn facets_around(surface: &Surface) -> Result<Vec<Vec<usize>>> {
+    let mut around = memory::defaults::<Vec<_>>(surface.len())?;
     for (f, facet) in surface.facets.iter().enumerate() {
-        facet.as_slice().iter().for_each(|&a| around[a].push(f));
+        for &a in facet.as_slice() {
+            around[a].store(f)?;
+        }
     }
-    around
+    Ok(around)
 }
 
 /// Per node a number that nodes at the same place share: a mesh whose facets have nodes of their own hangs together too.
-fn places(x: &[Vec3]) -> Vec<usize> {
-    let mut first = HashMap::with_capacity(x.len());
+fn places(x: &[Vec3]) -> Result<Vec<usize>> {
     // Adding 0 makes -0 the same place.
-    let key = |x: &Vec3| [0, 1, 2].map(|k| (x[k] + 0.0).to_bits());
-    x.iter().enumerate().map(|(a, x)| *first.entry(key(x)).or_insert(a)).collect()
+    let key = |a: usize| [0, 1, 2].map(|k| (x[a][k] + 0.0).to_bits());
+    let mut order = (0..x.len()).stored()?;
+    order.sort_unstable_by_key(|&a| (key(a), a));
+    let mut places = memory::filled(0, x.len())?;
+    for same in order.chunk_by(|&a, &b| key(a) == key(b)) {
+        same.iter().for_each(|&a| places[a] = same[0]);
+    }
+    Ok(places)
 }
 
 /// Some mortar facets, joined where they share a place, and which of these groups are held at one facet.
@@ -95,9 +109,10 @@ struct Sheets<'a> {
 }
 
 impl<'a> Sheets<'a> {
-    fn new(two: &'a Surface, places: &'a [usize]) -> Sheets<'a> {
+    fn new(two: &'a Surface, places: &'a [usize]) -> Result<Sheets<'a>> {
         let n = places.len();
-        Sheets { two, places, met: vec![0; n], parent: vec![0; n], held: vec![false; n], round: 0 }
+        let (met, parent, held) = (memory::filled(0, n)?, memory::filled(0, n)?, memory::filled(false, n)?);
+        Ok(Sheets { two, places, met, parent, held, round: 0 })
     }
 
     fn start(&mut self) {

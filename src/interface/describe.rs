@@ -1,33 +1,46 @@
 //! What an interface computes and why, one sentence an effect, for a host's log.
 
 use super::{Contact, Friction, MortarSide, NO_EQUATION, Scheme, Tangent, Weights};
+use crate::error::{Result, Text};
+
+/// A sentence, if there is memory for it.
+macro_rules! say {
+    ($($what:tt)*) => { Text::try_of(format_args!($($what)*)) };
+}
 
 impl<const N: usize> Contact<N> {
     /// One sentence per effect: what is computed, and whether the options ask for it or the scene lets the library
     /// choose it.
-    pub fn effects(&self) -> String {
+    ///
+    /// # Errors
+    /// [`crate::error::Kind::OutOfMemory`].
+    pub fn effects(&self) -> Result<Text> {
+        let mut text = self.friction_sentence()?;
         let sentences = [
-            self.friction_sentence(),
-            self.mortar_sentence(),
-            self.weights_sentence(),
-            self.apart_sentence(),
-            self.uncovered_sentence(),
-            self.integration_sentence(),
+            self.mortar_sentence()?,
+            self.weights_sentence()?,
+            self.apart_sentence()?,
+            self.uncovered_sentence()?,
+            self.integration_sentence()?,
         ];
-        sentences.join(" ") + &self.weak_sentence()
+        for sentence in sentences {
+            text.append(format_args!(" {sentence}"))?;
+        }
+        text.append(format_args!("{}", self.weak_sentence()?))?;
+        Ok(text)
     }
 
     /// Only where it is asked for.
-    fn weak_sentence(&self) -> String {
+    fn weak_sentence(&self) -> Result<Text> {
         match self.options.weak_coverage {
-            0.0 => String::new(),
-            w => format!(" Nodes covered less than {w} of their best covered neighbour: carried by it (asked for)."),
+            0.0 => Ok(Text::EMPTY),
+            w => say!(" Nodes covered less than {w} of their best covered neighbour: carried by it (asked for)."),
         }
     }
 
-    fn friction_sentence(&self) -> String {
+    fn friction_sentence(&self) -> Result<Text> {
         let unknowns = if N == 1 { "one multiplier a node, along the normal" } else { "three multipliers a node" };
-        let what = match self.options.friction {
+        let what: Text = match self.options.friction {
             Friction::None => "none (asked for), no slip and no slip history".into(),
             Friction::Tied => {
                 "tied (asked for), neither opens nor slips, linear where closed, an open gap turns with its facets"
@@ -35,19 +48,19 @@ impl<const N: usize> Contact<N> {
             }
             Friction::Rough => "rough (asked for), opens and closes, never slips".into(),
             Friction::Coulomb if !self.kernels.slips => "none (chosen: mu is 0 at every node), no slip".into(),
-            Friction::Coulomb => format!("Coulomb's law with mu {}", self.mu_range()),
+            Friction::Coulomb => say!("Coulomb's law with mu {}", self.mu_range()?)?,
         };
-        format!("Friction: {what}; {unknowns}.")
+        say!("Friction: {what}; {unknowns}.")
     }
 
-    fn mu_range(&self) -> String {
+    fn mu_range(&self) -> Result<Text> {
         let (least, most) = self.mu.iter().fold((f64::INFINITY, 0.0_f64), |(l, m), &mu| (l.min(mu), m.max(mu)));
-        if least == most { format!("{most}") } else { format!("from {least} to {most}") }
+        if least == most { say!("{most}") } else { say!("from {least} to {most}") }
     }
 
-    fn mortar_sentence(&self) -> String {
+    fn mortar_sentence(&self) -> Result<Text> {
         if let Some(shape) = self.mortar.analytic {
-            return format!("Mortar side: {shape} (asked for), no facets, no search, no rows and columns for it.");
+            return say!("Mortar side: {shape} (asked for), no facets, no search, no rows and columns for it.");
         }
         let prescribed = self.mortar.equations.iter().flatten().all(|&e| e == NO_EQUATION);
         let what = match (self.options.mortar_side, self.kernels.moves) {
@@ -60,10 +73,10 @@ impl<const N: usize> Contact<N> {
             }
             (MortarSide::Deformable, true) => "deformable",
         };
-        format!("Mortar side: {what}.")
+        say!("Mortar side: {what}.")
     }
 
-    fn weights_sentence(&self) -> String {
+    fn weights_sentence(&self) -> Result<Text> {
         let what = match self.options.effective_weights() {
             Weights::Current => "of now, differentiated (large sliding)",
             Weights::Committed => "frozen at the last commit (asked for), reused within a step",
@@ -72,7 +85,7 @@ impl<const N: usize> Contact<N> {
             }
             Weights::Reference => "frozen at the first configuration (asked for), always reused (small sliding)",
         };
-        format!("Weights: {what}{}.", self.tangent_clause())
+        say!("Weights: {what}{}.", self.tangent_clause())
     }
 
     /// What the tangent leaves out.
@@ -87,26 +100,26 @@ impl<const N: usize> Contact<N> {
         }
     }
 
-    fn integration_sentence(&self) -> String {
+    fn integration_sentence(&self) -> Result<Text> {
         const NOT_EXACT: &str = "not exact across mortar edges: patch tests fail";
         let points = self.options.rule.triangle.len();
         let degree = self.options.rule.degree;
         let coarse = if degree < 4 { ", not exact on any facet (asked for): patch tests fail" } else { "" };
-        let what = match self.options.scheme {
+        let what: Text = match self.options.scheme {
             _ if self.mortar.analytic.is_some() => "over whole facets".into(),
-            Scheme::Segments => format!("over cells of each overlap, {points} points a triangle{coarse}"),
+            Scheme::Segments => say!("over cells of each overlap, {points} points a triangle{coarse}")?,
             Scheme::Elements(line) => {
-                format!("{0} x {0} points on each non-mortar facet (asked for), no clipping; {NOT_EXACT}", line.len())
+                say!("{0} x {0} points on each non-mortar facet (asked for), no clipping; {NOT_EXACT}", line.len())?
             }
-            Scheme::Hybrid(line) => format!(
+            Scheme::Hybrid(line) => say!(
                 "{0} x {0} points on each non-mortar facet, cells where it is partly covered (asked for); {NOT_EXACT}",
                 line.len()
-            ),
+            )?,
         };
-        format!("Integration: {what}.")
+        say!("Integration: {what}.")
     }
 
-    fn apart_sentence(&self) -> String {
+    fn apart_sentence(&self) -> Result<Text> {
         let what = match (self.options.effective_weights(), self.options.shortcuts.apart) {
             (Weights::Current, true) if self.mortar.analytic.is_some() => {
                 "only the nodes' distances and normals are compared (chosen)"
@@ -116,14 +129,14 @@ impl<const N: usize> Contact<N> {
             (Weights::Current, false) => "searched all the same (asked for)",
             (Weights::Committed | Weights::Reference, _) => "nothing special, for frozen weights need no search",
         };
-        format!("Surfaces that are apart: {what}.")
+        say!("Surfaces that are apart: {what}.")
     }
 
-    fn uncovered_sentence(&self) -> String {
+    fn uncovered_sentence(&self) -> Result<Text> {
         let what = match self.options.shortcuts.uncovered {
             true => "no law (chosen), unless sums of several handles are given",
             false => "the law all the same (asked for)",
         };
-        format!("Nodes that nothing can cover in a step: {what}.")
+        say!("Nodes that nothing can cover in a step: {what}.")
     }
 }

@@ -9,13 +9,13 @@
 use super::emission::Sink;
 use super::nodes::NodeSums;
 use super::{Contact, NO_EQUATION, Weights};
-use crate::error::{Error, Kind, Result};
+use crate::error::{Error, Kind, Result, Text};
 use crate::geometry::{Facet, Plane, Vec3};
 use crate::law::State;
+use crate::memory::{self, Store, Stored};
 use crate::mortar::{NonmortarFrame, PairWeights, Segment};
 use crate::quadrature::DEGREE_10;
 use nalgebra::{SMatrix, SVector, SymmetricEigen};
-use std::collections::HashMap;
 
 /// Rows below this, relative to those of a node that is covered in full, are suspects: a node covered to a ten
 /// thousandth has such rows, and a Newton matrix loses four digits by them.
@@ -89,11 +89,15 @@ impl Diagnosis {
     }
 
     /// The diagnosis in sentences; nodes and facets counted from `base`.
-    pub fn text(&self, base: usize) -> String {
+    ///
+    /// # Errors
+    /// [`Kind::OutOfMemory`].
+    pub fn text(&self, base: usize) -> Result<Text> {
         let [gap, stick, slip] = [State::Gap, State::Stick, State::Slip].map(|s| self.count(s));
-        let mut text = format!("{gap} nodes in gap, {stick} in stick, {slip} in slip.");
+        let mut text = Text::EMPTY;
+        text.append(format_args!("{gap} nodes in gap, {stick} in stick, {slip} in slip."))?;
         if let Some((node, fraction)) = self.least_covered {
-            text += &format!(" Least covered is node {}, to {fraction:.1e}.", node + base);
+            text.append(format_args!(" Least covered is node {}, to {fraction:.1e}.", node + base))?;
         }
         let worst = [
             ("Smallest overlap", &self.overlap, "of the smaller facet"),
@@ -103,7 +107,8 @@ impl Diagnosis {
         ];
         for (what, pair, unit) in worst {
             if let Some(WorstPair { value, facets: [one, two] }) = pair {
-                text += &format!(" {what}: {value:.1e} {unit}, facets {} and {}.", one + base, two + base);
+                let (one, two) = (one + base, two + base);
+                text.append(format_args!(" {what}: {value:.1e} {unit}, facets {one} and {two}."))?;
             }
         }
         for Suspect { node, direction: d, ratio, cause } in self.suspects.iter().take(TOLD) {
@@ -113,19 +118,19 @@ impl Diagnosis {
                 Cause::Prescribed => "no displacement there has an equation",
                 Cause::New => "it sticks and has no slip history",
             };
-            text += &format!(
+            text.append(format_args!(
                 " The matrix may be singular at node {} along ({:.3}, {:.3}, {:.3}), {ratio:.1e} of an ordinary row: \
                  {why}.",
                 node + base,
                 d.x,
                 d.y,
                 d.z
-            );
+            ))?;
         }
         if self.suspects.len() > TOLD {
-            text += &format!(" So at {} more.", self.suspects.len() - TOLD);
+            text.append(format_args!(" So at {} more.", self.suspects.len() - TOLD))?;
         }
-        text
+        Ok(text)
     }
 }
 
@@ -146,17 +151,41 @@ fn warp(facet: &Facet) -> f64 {
 
 /// The entries of the multiplier rows: node, column, component, value.
 struct Rows<'a> {
-    of: &'a HashMap<i64, (usize, usize)>,
+    of: &'a Owners,
     entries: Vec<(usize, i64, usize, f64)>,
     /// Whether every entry of the tangent is.
     finite: bool,
+    /// Whether there was memory for all of them.
+    refused: Option<Error>,
+}
+
+/// Node and component of every multiplier equation.
+struct Owners(Vec<(i64, (usize, usize))>);
+
+impl Owners {
+    fn new<const N: usize>(equations: &[[i64; N]]) -> Result<Owners> {
+        let of_node = |(a, equations): (usize, &[i64; N])| equations.map(|e| (e, a));
+        let all = equations.iter().enumerate().map(of_node);
+        let all = all.flat_map(|node| node.into_iter().enumerate().map(|(i, (e, a))| (e, (a, i))));
+        let mut all = all.filter(|(equation, _)| *equation != NO_EQUATION).stored()?;
+        all.sort_unstable();
+        Ok(Owners(all))
+    }
+
+    /// Of an equation that several have, the last one.
+    fn get(&self, equation: i64) -> Option<(usize, usize)> {
+        let end = self.0.partition_point(|(e, _)| *e <= equation);
+        self.0[..end].last().filter(|(e, _)| *e == equation).map(|(_, owner)| *owner)
+    }
 }
 
 impl Sink for Rows<'_> {
     fn add(&mut self, row: i64, column: i64, value: f64) {
         self.finite &= value.is_finite();
-        if let Some(&(node, component)) = self.of.get(&row) {
-            self.entries.push((node, column, component, value));
+        if let Some((node, component)) = self.of.get(row)
+            && let Err(error) = self.entries.store((node, column, component, value))
+        {
+            self.refused.get_or_insert(error);
         }
     }
 }
@@ -171,7 +200,7 @@ impl<const N: usize> Contact<N> {
         sums: Option<&[NodeSums]>,
     ) -> Result<Diagnosis> {
         let (node_sums, responses) = self.evaluate(x1, x2, lambda, sums)?;
-        let states: Vec<_> = responses.iter().map(|r| r.state).collect();
+        let states: Vec<_> = responses.iter().map(|r| r.state).stored()?;
         let fraction = |a: usize| node_sums[a].coverage / self.history.areas[a];
         let covered = (0..states.len()).filter(|&a| fraction(a) > self.options.coverage_min);
         let least_covered = covered.min_by(|&a, &b| fraction(a).total_cmp(&fraction(b))).map(|a| (a, fraction(a)));
@@ -224,19 +253,17 @@ impl<const N: usize> Contact<N> {
         sums: &[NodeSums],
         states: &[State],
     ) -> Result<Vec<Suspect>> {
-        let numbered = self.multiplier_equations.iter().enumerate();
-        let of: HashMap<i64, (usize, usize)> = numbered
-            .flat_map(|(a, equations)| equations.iter().enumerate().map(move |(i, e)| (*e, (a, i))))
-            .filter(|(equation, _)| *equation != NO_EQUATION)
-            .collect();
-        let mut rows = Rows { of: &of, entries: Vec::new(), finite: true };
+        let of = Owners::new(&self.multiplier_equations)?;
+        let mut rows = Rows { of: &of, entries: Vec::new(), finite: true, refused: None };
         self.tangent(x1, x2, lambda, None, &mut rows)?;
+        rows.refused.map_or(Ok(()), Err)?;
         if !rows.finite {
             return Err(overflow());
         }
-        rows.entries.sort_by_key(|&(node, column, component, _)| (node, column, component));
+        let place = |&(node, column, component, _): &(usize, i64, usize, f64)| (node, column, component);
+        let entries = memory::sorted(&rows.entries, |p, q| place(p).cmp(&place(q)))?;
         let mut suspects = Vec::new();
-        for of_node in rows.entries.chunk_by(|p, q| p.0 == q.0) {
+        for of_node in entries.chunk_by(|p, q| p.0 == q.0) {
             let a = of_node[0].0;
             let ordinary = self.row_scale(a) * self.history.areas[a];
             // The rows' products with each other. A component without an equation is no suspect.
@@ -245,7 +272,7 @@ impl<const N: usize> Contact<N> {
                 gram[(i, i)] = 1.0;
             }
             for of_column in of_node.chunk_by(|p, q| p.1 == q.1) {
-                let is_multiplier = of.contains_key(&of_column[0].1);
+                let is_multiplier = of.get(of_column[0].1).is_some();
                 let unit = if is_multiplier { self.augmentation(a) * self.history.areas[a] } else { 1.0 };
                 let mut v = SVector::<f64, N>::zeros();
                 of_column.iter().for_each(|&(_, _, i, value)| v[i] += value * unit / ordinary);
@@ -256,7 +283,7 @@ impl<const N: usize> Contact<N> {
             }
             let fraction = sums[a].coverage / self.history.areas[a];
             let new = sums[a].coverage_previous <= self.options.coverage_min * self.history.areas[a];
-            for (value, direction) in self.least(a, &gram)? {
+            for (value, direction) in self.least(a, &gram)?.into_iter().take(N) {
                 let ratio = value.max(0.0).sqrt();
                 if ratio >= SUSPECT {
                     continue;
@@ -267,22 +294,21 @@ impl<const N: usize> Contact<N> {
                     _ if ratio < VANISHING => Cause::Prescribed,
                     _ => Cause::Other,
                 };
-                suspects.push(Suspect { node: a, direction, ratio, cause });
+                suspects.store(Suspect { node: a, direction, ratio, cause })?;
             }
         }
-        suspects.sort_by(|p, q| p.ratio.total_cmp(&q.ratio).then(p.node.cmp(&q.node)));
-        Ok(suspects)
+        memory::sorted(&suspects, |p: &Suspect, q| p.ratio.total_cmp(&q.ratio).then(p.node.cmp(&q.node)))
     }
 
-    /// Eigenvalues of the products of a node's rows, and their directions in space.
-    fn least(&self, a: usize, gram: &SMatrix<f64, N, N>) -> Result<Vec<(f64, Vec3)>> {
+    /// Eigenvalues of the products of a node's rows, and their directions in space; the first N are in use.
+    fn least(&self, a: usize, gram: &SMatrix<f64, N, N>) -> Result<[(f64, Vec3); 3]> {
         if N == 1 {
-            return Ok(vec![(gram[(0, 0)], self.normal(a)?)]);
+            return Ok([(gram[(0, 0)], self.normal(a)?); 3]);
         }
         let all = SymmetricEigen::new(nalgebra::Matrix3::from_fn(|i, j| gram[(i, j)]));
         // Of two opposite directions the one whose largest component is positive.
         let signed = |v: Vec3| if v[v.icamax()] < 0.0 { -v } else { v };
-        Ok((0..3).map(|k| (all.eigenvalues[k], signed(all.eigenvectors.column(k).into()))).collect())
+        Ok([0, 1, 2].map(|k| (all.eigenvalues[k], signed(all.eigenvectors.column(k).into()))))
     }
 }
 

@@ -9,6 +9,7 @@ use super::{Contact, Extent, FacetNodes, Form, NO_EQUATION};
 use crate::element::{PairNow, PairTangent};
 use crate::error::Result;
 use crate::geometry::{Mat3, Vec3};
+use crate::memory::{self, Stored};
 use crate::mortar::{MORTAR, PAIR_NODES, PairWeights};
 use crate::shape::MAX_NODES;
 use nalgebra::SMatrix;
@@ -47,9 +48,8 @@ impl<const N: usize> Contact<N> {
     pub fn pattern(&mut self, x1: &[Vec3], x2: &[Vec3], extent: Extent, sink: &mut impl Sink) -> Result<()> {
         self.check_positions(x1, x2)?;
         self.ensure_integration(x1, x2, extent)?;
-        let union = self.union();
-        self.emit_pattern(&union, extent, sink);
-        Ok(())
+        let union = self.union()?;
+        self.emit_pattern(&union, extent, sink)
     }
 
     /// The entries of any tangent, with sums or without, while the surfaces slide by less than a quarter of a facet. A
@@ -61,22 +61,26 @@ impl<const N: usize> Contact<N> {
         let pairs = self.possible_pairs(x1, x2)?;
         let any = |&(one, two)| UnionPair { one, two, now: Some(&weights), place: 0, previous: Some(&weights) };
         let all = pairs.iter().map(any);
-        self.emit_pattern(&all.collect::<Vec<_>>(), Extent::Part, sink);
-        Ok(())
+        self.emit_pattern(&all.stored()?, Extent::Part, sink)
     }
 
-    fn emit_pattern(&self, pairs: &[UnionPair], extent: Extent, sink: &mut dyn Sink) {
+    fn emit_pattern(&self, pairs: &[UnionPair], extent: Extent, sink: &mut dyn Sink) -> Result<()> {
         if self.kernels.moves {
-            self.emit_pattern_with::<true>(pairs, extent, sink);
+            self.emit_pattern_with::<true>(pairs, extent, sink)
         } else {
-            self.emit_pattern_with::<false>(pairs, extent, sink);
+            self.emit_pattern_with::<false>(pairs, extent, sink)
         }
     }
 
-    fn emit_pattern_with<const MOVES: bool>(&self, pairs: &[UnionPair], extent: Extent, sink: &mut dyn Sink) {
-        let (nothing, normals) = (PairTangent::default(), vec![Vec3::zeros(); self.nonmortar.len()]);
+    fn emit_pattern_with<const MOVES: bool>(
+        &self,
+        pairs: &[UnionPair],
+        extent: Extent,
+        sink: &mut dyn Sink,
+    ) -> Result<()> {
+        let (nothing, normals) = (PairTangent::default(), memory::filled(Vec3::zeros(), self.nonmortar.len())?);
         let mut facet = FacetTangent::default();
-        let mut couplings = self.augmented_couplings();
+        let mut couplings = self.augmented_couplings()?;
         for pairs in pairs.chunk_by(|p, q| p.one == q.one) {
             facet.acts = pairs.iter().any(|pair| pair.now.is_some());
             for pair in pairs {
@@ -89,9 +93,9 @@ impl<const N: usize> Contact<N> {
                     let now = pair.now.map(|weights| PairNow { weights, gap: None });
                     for k in 0..one.len {
                         let (slots, zero) = (self.slots(pair), (Mat3::zeros(), Mat3::zeros()));
-                        couplings[one.nodes[k]].add_pair::<MOVES>(k, &slots, now.as_ref(), pair.previous, zero);
+                        couplings[one.nodes[k]].add_pair::<MOVES>(k, &slots, now.as_ref(), pair.previous, zero)?;
                     }
-                    self.couple_carried::<MOVES>(pair, now.as_ref(), None, &normals, couplings);
+                    self.couple_carried::<MOVES>(pair, now.as_ref(), None, &normals, couplings)?;
                 }
             }
             self.emit_facet(pairs[0].one, facet.now(), &facet.rows, &normals, sink);
@@ -104,6 +108,7 @@ impl<const N: usize> Contact<N> {
                 self.emit_carried_forces(a, couplings, None, &normals, sink);
             }
         }
+        Ok(())
     }
 
     /// The nodes in a pair's slots, as indices over both surfaces (mortar after non-mortar).

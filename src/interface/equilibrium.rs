@@ -11,6 +11,7 @@ use super::{Contact, Extent, NO_EQUATION};
 use crate::error::{Error, Kind, Result};
 use crate::geometry::Vec3;
 use crate::law::{Measure, Violation};
+use crate::memory::Stored;
 use nalgebra::SVector;
 
 /// How many roundings of the largest coordinate may meet in a gap or a slip: a difference of two sums over some nodes,
@@ -69,7 +70,7 @@ impl<const N: usize> Contact<N> {
     ) -> Result<Equilibrium> {
         let extent = Extent::of(sums);
         let (sums, _) = self.evaluate(x1, x2, lambda, sums)?;
-        let nodes: Vec<usize> = (0..lambda.len()).filter(|&a| self.has_equation(a)).collect();
+        let nodes: Vec<usize> = (0..lambda.len()).filter(|&a| self.has_equation(a)).stored()?;
         // A sliver's multiplier is a point load: it counts by its force.
         let traction = |&a: &usize| lambda[a].norm() * (sums[a].coverage / self.history.areas[a]).min(1.0);
         let traction = nodes.iter().map(traction).fold(scales.traction, f64::max);
@@ -84,14 +85,14 @@ impl<const N: usize> Contact<N> {
         let none = Largest { value: 0.0, scale: if least.is_finite() { least } else { 0.0 }, node: None };
         let mut all = Equilibrium { gap: none, traction: Largest { scale: traction, ..none }, slip: none };
 
-        let carried = self.carried(&sums);
+        let carried = self.carried(&sums)?;
         let shared = if carried.contains(&true) {
-            self.carriers_sums(&sums, &carried, &self.all_normals()?)
+            self.carriers_sums(&sums, &carried, &self.all_normals()?)?
         } else {
-            Default::default()
+            Vec::new()
         };
         for a in nodes {
-            let sum = shared.get(&a).unwrap_or(&sums[a]);
+            let sum = shared.binary_search_by_key(&a, |(b, _)| *b).map_or(&sums[a], |at| &shared[at].1);
             let stiffness = if scales.modulus > 0.0 { scales.modulus } else { traction } / length(a);
             let share = (sum.coverage / self.history.areas[a]).min(1.0);
             let elastic = scales.modulus / length(a) * rounding;
@@ -113,7 +114,7 @@ impl<const N: usize> Contact<N> {
                 (self.kernels.violation)(&self.node(a, lambda[a], sum)?, &measure)
             };
             if ![v.gap, v.traction, v.slip].iter().all(|v| v.is_finite()) {
-                let text = format!("the violation at non-mortar node {a} overflows: the inputs are out of range");
+                let text = text!("the violation at non-mortar node {a} overflows: the inputs are out of range");
                 return Err(Error::new(Kind::NotFinite, text));
             }
             all.gap.offer(v.gap, length_scale(a), a);

@@ -13,6 +13,7 @@ use super::Surface;
 use super::integration::{Integration, at_facet};
 use crate::error::Result;
 use crate::geometry::{Mat3, Plane, Vec3};
+use crate::memory::{self, Stored};
 use crate::mortar::{GapDerivative, gap};
 use crate::shape::MAX_NODES;
 use std::borrow::Cow;
@@ -32,8 +33,12 @@ fn axes(plane: &Plane) -> Mat3 {
 
 impl FacetGaps {
     /// Takes the shares of open facets out of the nodes' gaps.
-    pub(super) fn of((one, two): (&Surface, &Surface), at: &Integration, sums: &mut [(f64, Vec3)]) -> FacetGaps {
-        let mut all = vec![[Vec3::zeros(); MAX_NODES]; one.facets.len()];
+    pub(super) fn of(
+        (one, two): (&Surface, &Surface),
+        at: &Integration,
+        sums: &mut [(f64, Vec3)],
+    ) -> Result<FacetGaps> {
+        let mut all = memory::filled([Vec3::zeros(); MAX_NODES], one.facets.len())?;
         for pairs in at.pairs.chunk_by(|p, q| p.one == q.one) {
             let f = pairs[0].one;
             let (facet, axes) = (one.facet(f, &at.x1), axes(&at.frames[f].plane));
@@ -55,19 +60,27 @@ impl FacetGaps {
                 sums[node].1 -= shares[k];
             }
         }
-        FacetGaps(all)
+        Ok(FacetGaps(all))
+    }
+
+    /// A copy.
+    pub(super) fn copied(&self) -> Result<FacetGaps> {
+        memory::copied(&self.0).map(FacetGaps)
     }
 
     /// g_0 of every node at x1; `rest`: of every node, too.
     pub(super) fn turned<'a>(&self, one: &Surface, x1: &[Vec3], rest: &'a [Vec3]) -> Result<Cow<'a, [Vec3]>> {
-        let mut gaps = Cow::Borrowed(rest);
+        if !self.0.iter().any(is_open) {
+            return Ok(Cow::Borrowed(rest));
+        }
+        let mut gaps = memory::copied(rest)?;
         for (f, shares) in self.0.iter().enumerate().filter(|(_, shares)| is_open(shares)) {
             let axes = axes(&plane(one, f, x1)?);
             for (k, &node) in one.facets[f].as_slice().iter().enumerate() {
-                gaps.to_mut()[node] += axes * shares[k];
+                gaps[node] += axes * shares[k];
             }
         }
-        Ok(gaps)
+        Ok(Cow::Owned(gaps))
     }
 
     /// What the derivative of g - g_0 has of g_0 on facet `f` at x1.
@@ -94,10 +107,10 @@ impl FacetGaps {
     }
 
     /// From [`FacetGaps::reals`].
-    pub(super) fn from_reals(reals: &[f64]) -> FacetGaps {
+    pub(super) fn from_reals(reals: &[f64]) -> Result<FacetGaps> {
         let share = |facet: &[f64], k: usize| Vec3::from_column_slice(&facet[3 * k..3 * k + 3]);
         let facet = |facet: &[f64]| std::array::from_fn(|k| share(facet, k));
-        FacetGaps(reals.chunks_exact(REALS_PER_FACET).map(facet).collect())
+        reals.chunks_exact(REALS_PER_FACET).map(facet).stored().map(FacetGaps)
     }
 
     /// On the heap `[bytes]`.

@@ -11,6 +11,7 @@ use super::search::{Aabb, Tree};
 use super::{Options, Surface, analytic, depth, hybrid, reach};
 use crate::error::Result;
 use crate::geometry::{Facet, Plane, Vec3};
+use crate::memory::{self, Stored};
 
 /// Facets whose normals oppose each other less than this are no pair: beyond 80 degrees the
 /// projection degenerates, and faces that look the same way must not be found.
@@ -46,12 +47,12 @@ impl Filter {
             by_cells: Vec::new(),
         };
         let points = filter.sides[1].facets.iter().map(|(facet, _)| Aabb::around(facet.points().iter().copied()));
-        let tree = Tree::new(points.collect());
-        filter.reached = reach::reached(&filter, &tree);
+        let tree = Tree::new(points.stored()?)?;
+        filter.reached = reach::reached(&filter, &tree)?;
         if filter.distance.is_none() {
-            filter.depths = depth::followed((one, two), &filter, &tree, x2);
+            filter.depths = depth::followed((one, two), &filter, &tree, x2)?;
             if !filter.depths.is_empty() {
-                filter.reached = reach::reached(&filter, &tree);
+                filter.reached = reach::reached(&filter, &tree)?;
             }
         }
         filter.by_cells = hybrid::partly_covered((one, two), options.scheme, &filter, (x1, x2))?;
@@ -83,11 +84,11 @@ impl Side {
             let facet = surface.facet(f, x);
             Plane::of(&facet).map(|plane| (facet, plane)).map_err(at_facet(surface.side, f))
         };
-        let facets = (0..surface.facets.len()).map(facet).collect::<Result<Vec<_>>>()?;
+        let facets = (0..surface.facets.len()).map(facet).stored_if_ok()?;
         let normal = |f: usize| facets[f].1.e;
         let smooth = surface.edges.iter().map(|e| e.facets).filter(|&[f, g]| normal(f).dot(&normal(g)) > SMOOTH);
         // Twice: a triangle may touch the facets that are turned against it at one node only.
-        let (mut angles, mut near) = (vec![0.0_f64; facets.len()], vec![0.0_f64; facets.len()]);
+        let (mut angles, mut near) = (memory::filled(0.0_f64, facets.len())?, memory::filled(0.0_f64, facets.len())?);
         for [f, g] in smooth.clone() {
             let angle = normal(f).cross(&normal(g)).norm();
             (angles[f], angles[g]) = (angles[f].max(angle), angles[g].max(angle));
@@ -96,9 +97,9 @@ impl Side {
             let angle = angles[f].max(angles[g]);
             (near[f], near[g]) = (near[f].max(angle), near[g].max(angle));
         }
-        let edges: Vec<_> = facets.iter().map(|(facet, _)| facet.longest_edge()).collect();
+        let edges: Vec<_> = facets.iter().map(|(facet, _)| facet.longest_edge()).stored()?;
         let bulge = |f: usize| warp(&facets[f].0, &facets[f].1) + BULGE * near[f] * edges[f];
-        let bulges = (0..facets.len()).map(bulge).collect();
+        let bulges = (0..facets.len()).map(bulge).stored()?;
         Ok(Side { facets, edges, bulges })
     }
 
@@ -180,11 +181,11 @@ impl FacetFilter {
     }
 
     /// At least the deepest penetration of any pair of each non-mortar facet `[L]`.
-    pub fn deepest_of_each(&self) -> Vec<f64> {
+    pub fn deepest_of_each(&self) -> Result<Vec<f64>> {
         let [one, two] = &self.sides;
         let ((_, bulge), depth) = (two.largest(), self.largest_depth());
         let own = one.edges.iter().zip(&one.bulges).map(|(edge, bulge)| edge + bulge);
-        own.map(|own| self.distance.unwrap_or(own + bulge + depth)).collect()
+        own.map(|own| self.distance.unwrap_or(own + bulge + depth)).stored()
     }
 
     /// At least the deepest penetration of any pair `[L]`.

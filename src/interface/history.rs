@@ -7,11 +7,12 @@ use super::facet_gaps::{FacetGaps, REALS_PER_FACET};
 use super::options::{Friction, Options, Weights};
 use crate::error::{Error, Kind, Result};
 use crate::geometry::Vec3;
+use crate::memory::{self, Stored};
 use crate::mortar::PairWeights;
 use crate::shape::MAX_NODES;
 
 /// The weights of one pair of facets.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PairRecord {
     /// Non-mortar facet.
     pub one: usize,
@@ -104,16 +105,29 @@ pub struct History {
 pub(super) const REALS_PER_PAIR: usize = 2 * MAX_NODES * MAX_NODES;
 
 impl History {
-    /// Takes each node's coverage and, of gaps and weights of t_n, what it keeps; leaves the rest.
-    pub(super) fn fill(&mut self, pairs: &mut Vec<PairRecord>, sums: &[(f64, Vec3)]) {
-        self.coverage = sums.iter().map(|(coverage, _)| *coverage).collect();
+    /// Takes each node's coverage and, of gaps and weights of t_n, what it keeps; leaves the rest. All of it or nothing.
+    pub(super) fn fill(&mut self, pairs: &mut Vec<PairRecord>, sums: &[(f64, Vec3)]) -> Result<()> {
+        let coverage = sums.iter().map(|(coverage, _)| *coverage).stored()?;
         if self.keeps.gaps_and_slips()[0] == 1 {
-            self.gap = sums.iter().map(|(_, gap)| *gap).collect();
+            self.gap = sums.iter().map(|(_, gap)| *gap).stored()?;
         }
+        self.coverage = coverage;
         if self.keeps != Keeps::Nothing {
             self.pairs = std::mem::take(pairs);
         }
         self.integrated = true;
+        Ok(())
+    }
+
+    /// A copy with other positions.
+    pub(super) fn moved_to(&self, x1: &[Vec3], x2: &[Vec3]) -> Result<History> {
+        let History { keeps, commits, integrated, .. } = *self;
+        let (normals, areas, coverage) =
+            (memory::copied(&self.normals)?, memory::copied(&self.areas)?, memory::copied(&self.coverage)?);
+        let (gap, slip) = (memory::copied(&self.gap)?, memory::copied(&self.slip)?);
+        let facet_gaps = self.facet_gaps.copied()?;
+        let (x1, x2, pairs) = (memory::copied(x1)?, memory::copied(x2)?, memory::copied(&self.pairs)?);
+        Ok(History { keeps, commits, x1, x2, normals, areas, coverage, gap, facet_gaps, slip, pairs, integrated })
     }
 
     /// Refuses a history that has left the range of doubles: nothing could be measured from it, and no import takes it.
@@ -126,7 +140,7 @@ impl History {
         match vectors.into_iter().chain(numbers).find_map(|(name, at)| Some((name, at?))) {
             None => Ok(()),
             Some((name, node)) => {
-                let text = format!("the {name} of non-mortar node {node} overflows; the positions are out of range");
+                let text = text!("the {name} of non-mortar node {node} overflows; the positions are out of range");
                 Err(Error::new(Kind::NotFinite, text))
             }
         }

@@ -7,6 +7,7 @@ use super::integration::{KeptTree, at_facet, candidates, frames};
 use super::{Scheme, Surface};
 use crate::error::Result;
 use crate::geometry::Vec3;
+use crate::memory::{self, Stored};
 use crate::mortar::{CellPoints, Segment};
 
 /// Per non-mortar facet whether a point or a corner of it lies on no mortar facet at (x1, x2); nothing where the scheme
@@ -19,11 +20,11 @@ pub(super) fn partly_covered(
 ) -> Result<Vec<bool>> {
     let Scheme::Hybrid(line) = scheme else { return Ok(Vec::new()) };
     let (frames, mut tree) = (frames(one, x1)?, KeptTree::default());
-    let pairs = candidates(one, &frames, x1, (tree.at(two, x2), filter), 0.0, &mut 0);
-    let mut covered = vec![0; frames.len()];
+    let pairs = candidates(one, &frames, x1, (tree.at(two, x2)?, filter), 0.0, &mut 0)?;
+    let mut covered = memory::filled(0, frames.len())?;
     for (i, j) in pairs {
         let segment = Segment::of_points(&frames[i], &two.facet(j, x2), line).map_err(at_facet(two.side, j))?;
         covered[i] |= segment.and_then(|s| s.points).map_or(0, |points| points.inside);
     }
-    Ok(covered.iter().zip(&frames).map(|(covered, frame)| *covered != CellPoints::all(frame, line)).collect())
+    covered.iter().zip(&frames).map(|(covered, frame)| *covered != CellPoints::all(frame, line)).stored()
 }

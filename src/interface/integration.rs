@@ -13,6 +13,7 @@ use super::search::{Aabb, Prism, Tree};
 use super::{Contact, Counters, Extent, Options, Scheme, Surface, Weights, analytic, apart};
 use crate::error::{Error, Kind, Result};
 use crate::geometry::{AnalyticSurface, Facet, Vec3};
+use crate::memory::{self, Store, Stored};
 use crate::mortar::{ForceDerivatives, GapDerivative, NonmortarFrame, PairWeights, Segment, facet_motion, pair_motion};
 use crate::normal;
 use crate::quadrature::Rule;
@@ -71,12 +72,12 @@ impl Integration {
         for &(i, j) in candidates {
             let frame = &self.frames[i];
             match overlap(frame, &two.facet(j, &self.x2)) {
-                Ok(Some(segment)) => self.segments.push(segment),
+                Ok(Some(segment)) => self.segments.store(segment)?,
                 Ok(None) => continue,
                 Err(e) => return Err(at_facet(one.side, i)(at_facet(two.side, j)(e))),
             }
             let segment = &self.segments[self.segments.len() - 1];
-            self.pairs.push(PairRecord { one: i, two: j, weights: PairWeights::integrate(frame, segment, rule) });
+            self.pairs.store(PairRecord { one: i, two: j, weights: PairWeights::integrate(frame, segment, rule) })?;
         }
         Ok(())
     }
@@ -93,15 +94,15 @@ pub(super) struct Start {
 
 /// Names the facets in a refusal.
 pub(super) fn at_facet(side: &str, facet: usize) -> impl FnOnce(Error) -> Error {
-    move |e| Error::new(e.kind, format!("{side} facet {facet}: {}", e.message))
+    move |e| Error::new(e.kind, text!("{side} facet {facet}: {}", e.message))
 }
 
 /// The frames of all facets of a surface.
 pub(super) fn frames(surface: &Surface, x: &[Vec3]) -> Result<Vec<NonmortarFrame>> {
     // A collected Result knows no length, and frames are large.
-    let mut frames = Vec::with_capacity(surface.facets.len());
+    let mut frames = memory::with_room(surface.facets.len())?;
     for f in 0..surface.facets.len() {
-        frames.push(NonmortarFrame::new(&surface.facet(f, x)).map_err(at_facet(surface.side, f))?);
+        frames.store(NonmortarFrame::new(&surface.facet(f, x)).map_err(at_facet(surface.side, f))?)?;
     }
     for edge in &surface.edges {
         // Each runs the edge from another end.
@@ -133,12 +134,15 @@ pub(super) struct KeptTree {
 
 impl KeptTree {
     /// The tree of `two` at `x2`.
-    pub fn at(&mut self, two: &Surface, x2: &[Vec3]) -> &Tree {
+    pub fn at(&mut self, two: &Surface, x2: &[Vec3]) -> Result<&Tree> {
         if !are_same(&self.x2, x2) {
-            *self = KeptTree { x2: x2.to_vec(), tree: None };
+            *self = KeptTree { x2: memory::copied(x2)?, tree: None };
         }
         let facet_box = |f: usize| Aabb::around(two.facet(f, x2).points().iter().copied());
-        self.tree.get_or_insert_with(|| Tree::new((0..two.facets.len()).map(facet_box).collect()))
+        if self.tree.is_none() {
+            self.tree = Some(Tree::new((0..two.facets.len()).map(facet_box).stored()?)?);
+        }
+        Ok(self.tree.as_ref().expect("there is one now"))
     }
 }
 
@@ -151,15 +155,15 @@ pub(super) fn candidates(
     (tree, filter): (&Tree, &FacetFilter),
     skin: f64,
     visited: &mut i64,
-) -> Vec<(usize, usize)> {
+) -> Result<Vec<(usize, usize)>> {
     let (mut pairs, mut found) = (Vec::new(), Vec::new());
     for (i, frame) in frames.iter().enumerate().filter(|&(i, _)| filter.reached[i]) {
         let facet = one.facet(i, x1);
         let prism = Prism::over(facet.points(), &frame.plane, (TOUCH_MARGIN + skin) * facet.longest_edge());
-        *visited += tree.find(&prism, &mut found) as i64;
-        pairs.extend(found.iter().filter(|&&j| filter.admits(i, j)).map(|&j| (i, j)));
+        *visited += tree.find(&prism, &mut found)? as i64;
+        pairs.store_all(found.iter().filter(|&&j| filter.admits(i, j)).map(|&j| (i, j)))?;
     }
-    pairs
+    Ok(pairs)
 }
 
 /// The points of non-mortar facet `i` where it is integrated by points.
@@ -185,18 +189,18 @@ pub(super) fn integrate(
     };
     let start = Instant::now();
     let frames = frames(one, x1)?;
-    let candidates = candidates(one, &frames, x1, (tree.at(two, x2), filter), 0.0, &mut counters.boxes_visited);
+    let candidates = candidates(one, &frames, x1, (tree.at(two, x2)?, filter), 0.0, &mut counters.boxes_visited)?;
     counters.searches += 1;
     counters.seconds_search += start.elapsed().as_secs_f64();
 
     let start = Instant::now();
     let mut active = Integration {
-        x1: x1.to_vec(),
-        x2: x2.to_vec(),
+        x1: memory::copied(x1)?,
+        x2: memory::copied(x2)?,
         frames,
         // Large, too; candidates that do not overlap are few.
-        pairs: Vec::with_capacity(candidates.len()),
-        segments: Vec::with_capacity(candidates.len()),
+        pairs: memory::with_room(candidates.len())?,
+        segments: memory::with_room(candidates.len())?,
         sums: None,
         extent: Extent::Part,
         apart: false,
@@ -268,7 +272,7 @@ fn check_layers(areas: &[f64], coverage: impl Iterator<Item = f64>, rule: &Rule)
     let Some((k, times)) = times.find(|(_, times)| *times > most) else {
         return Ok(());
     };
-    let text = format!(
+    let text = text!(
         "non-mortar node {k} is covered {times:.2} times: the mortar surface lies in layers over it; set search_distance below their distance, or leave the farther ones out"
     );
     Err(Error::new(Kind::InvalidValue, text))
@@ -302,7 +306,7 @@ impl<const N: usize> Contact<N> {
     /// The pairs at (x1, x2), or none.
     fn integrate_at(&mut self, (x1, x2): (&[Vec3], &[Vec3]), apart: bool) -> Result<Integration> {
         if apart {
-            let (x1, x2, extent) = (x1.to_vec(), x2.to_vec(), Extent::Whole);
+            let (x1, x2, extent) = (memory::copied(x1)?, memory::copied(x2)?, Extent::Whole);
             let (frames, pairs, segments) = (Vec::new(), Vec::new(), Vec::new());
             return Ok(Integration { x1, x2, frames, pairs, segments, sums: None, extent, apart });
         }
@@ -321,14 +325,16 @@ impl<const N: usize> Contact<N> {
     pub(super) fn ensure_segments(&mut self) -> Result<()> {
         let Some(k) = self.integration.as_mut().filter(|k| k.segments.len() < k.pairs.len()) else { return Ok(()) };
         if let Some(Filter::Facets(filter)) = &self.filter {
+            let mut segments = memory::with_room(k.pairs.len())?;
             for pair in &k.pairs {
                 let (frame, facet) = (&k.frames[pair.one], self.mortar.facet(pair.two, &k.x2));
                 let segment = match by_points(&self.options, filter, pair.one) {
                     Some(line) => Segment::of_points(frame, &facet, line)?,
                     None => Segment::new(frame, &facet)?,
                 };
-                k.segments.push(segment.expect("an active pair has a segment at the positions it was found at"));
+                segments.store(segment.expect("an active pair has a segment at the positions it was found at"))?;
             }
+            k.segments = segments;
         }
         Ok(())
     }
@@ -350,9 +356,9 @@ impl<const N: usize> Contact<N> {
         {
             let mut new =
                 integrate(surfaces, &self.options, filter, (&mut self.counters, &mut self.tree), (&h.x1, &h.x2))?;
-            let sums = assemble(surfaces, &new.pairs, &h.x1, &h.x2);
+            let sums = assemble(surfaces, &new.pairs, &h.x1, &h.x2)?;
             check_layers(&self.history.areas, sums.iter().map(|(coverage, _)| *coverage), self.options.rule)?;
-            self.history.fill(&mut new.pairs, &sums);
+            self.history.fill(&mut new.pairs, &sums)?;
         }
         Ok(())
     }
@@ -367,18 +373,19 @@ impl<const N: usize> Contact<N> {
     ) -> Result<Start> {
         let n1 = nonmortar.len();
         let keeps = Keeps::of(options);
-        let [gap, slip] = keeps.gaps_and_slips().map(|kept| vec![Vec3::zeros(); kept * n1]);
+        let zeros = |kept: usize| memory::filled(Vec3::zeros(), kept * n1);
+        let [gap, slip] = keeps.gaps_and_slips();
         let mut history = History {
             keeps,
             commits: 0,
-            x1: x1.to_vec(),
-            x2: x2.to_vec(),
-            normals: Vec::with_capacity(n1),
-            areas: vec![0.0; n1],
-            coverage: vec![0.0; n1],
-            gap,
+            x1: memory::copied(x1)?,
+            x2: memory::copied(x2)?,
+            normals: memory::with_room(n1)?,
+            areas: memory::filled(0.0, n1)?,
+            coverage: memory::filled(0.0, n1)?,
+            gap: zeros(gap)?,
             facet_gaps: FacetGaps::default(),
-            slip,
+            slip: zeros(slip)?,
             pairs: Vec::new(),
             integrated: false,
         };
@@ -392,14 +399,14 @@ impl<const N: usize> Contact<N> {
             &frames(nonmortar, x1)?
         } else {
             let mut new = integrate((nonmortar, mortar), options, &filter, (counters, tree), (x1, x2))?;
-            let mut sums = assemble((nonmortar, mortar), &new.pairs, x1, x2);
+            let mut sums = assemble((nonmortar, mortar), &new.pairs, x1, x2)?;
             if keeps.facet_gaps() {
-                history.facet_gaps = FacetGaps::of((nonmortar, mortar), &new, &mut sums);
+                history.facet_gaps = FacetGaps::of((nonmortar, mortar), &new, &mut sums)?;
             }
-            history.fill(&mut new.pairs, &sums);
+            history.fill(&mut new.pairs, &sums)?;
             &integration.insert(new).frames
         };
-        let mut sums = vec![Vec3::zeros(); n1];
+        let mut sums = memory::filled(Vec3::zeros(), n1)?;
         for (f, frame) in frames.iter().enumerate() {
             let (facet, areas) = (nonmortar.facet(f, x1), frame.nodal_areas());
             for k in 0..facet.len() {
@@ -409,11 +416,10 @@ impl<const N: usize> Contact<N> {
             }
         }
         for (node, sum) in sums.into_iter().enumerate() {
-            history.normals.push(normal::nodal_normal(sum, node)?);
+            history.normals.store(normal::nodal_normal(sum, node)?)?;
             if !(history.areas[node] > 0.0) {
-                let text = format!(
-                    "the area of non-mortar node {node} is not positive: the facets around it are too distorted"
-                );
+                let text =
+                    text!("the area of non-mortar node {node} is not positive: the facets around it are too distorted");
                 return Err(Error::new(Kind::DegenerateFacet, text));
             }
         }
@@ -432,14 +438,17 @@ impl<const N: usize> Contact<N> {
     /// The pairs of t_n and all that may be active while the surfaces move by less than the skin, sorted.
     pub(super) fn possible_pairs(&mut self, x1: &[Vec3], x2: &[Vec3]) -> Result<Vec<(usize, usize)>> {
         self.ensure_history()?;
-        let mut pairs: Vec<_> = self.history.pairs.iter().map(|p| (p.one, p.two)).collect();
+        let mut pairs: Vec<_> = self.history.pairs.iter().map(|p| (p.one, p.two)).stored()?;
         if self.options.effective_weights() == Weights::Current {
             match self.filter.as_ref().expect("current weights have one") {
                 Filter::Facets(filter) => {
-                    let (frames, tree) = (frames(&self.nonmortar, x1)?, self.tree.at(&self.mortar, x2));
-                    pairs.extend(candidates(&self.nonmortar, &frames, x1, (tree, filter), SKIN, &mut 0));
+                    let (frames, tree) = (frames(&self.nonmortar, x1)?, self.tree.at(&self.mortar, x2)?);
+                    let found = candidates(&self.nonmortar, &frames, x1, (tree, filter), SKIN, &mut 0)?;
+                    pairs.store_all(found.into_iter())?;
                 }
-                Filter::Analytic(facing) => pairs.extend((0..facing.len()).filter(|&i| facing[i]).map(|i| (i, 0))),
+                Filter::Analytic(facing) => {
+                    pairs.store_all((0..facing.len()).filter(|&i| facing[i]).map(|i| (i, 0)))?
+                }
             }
         }
         pairs.sort_unstable();

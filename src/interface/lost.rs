@@ -9,6 +9,7 @@ use super::{Contact, Weights};
 use crate::error::{Error, Kind, Result};
 use crate::geometry::Vec3;
 use crate::law::{NodeResponse, State};
+use crate::memory;
 
 /// A pair with less of a node's area carries none of its traction: the rounding of an overlap.
 const NOTHING: f64 = 1e-12;
@@ -32,7 +33,7 @@ impl<const N: usize> Contact<N> {
             return Ok(());
         };
         let after = new.integration.as_ref().map_or(&new.history.pairs, |k| &k.pairs);
-        let mut lost = vec![0.0; self.nonmortar.len()];
+        let mut lost = memory::filled(0.0, self.nonmortar.len())?;
         for pair in missing(&before.pairs, after) {
             let (low, deep) = match filter {
                 Filter::Facets(filter) => {
@@ -49,9 +50,10 @@ impl<const N: usize> Contact<N> {
                 }
                 lost[a] += coverage;
                 if let Some(depth) = deep {
-                    let text = format!(
+                    let text = text!(
                         "non-mortar node {a} carries contact with mortar facet {}, which lies {depth:.3e} behind non-mortar facet {}: deeper than a pair may be in the next step; give search_distance, more than that, or smaller non-mortar facets",
-                        pair.two, pair.one
+                        pair.two,
+                        pair.one
                     );
                     return Err(Error::new(Kind::ContactLost, text));
                 }
@@ -61,7 +63,7 @@ impl<const N: usize> Contact<N> {
         match (0..lost.len()).find(|&a| lost[a] > threshold(a) && new.history.coverage[a] <= threshold(a)) {
             None => Ok(()),
             Some(a) => {
-                let text = format!(
+                let text = text!(
                     "non-mortar node {a} carries contact, but nothing that covers it could be its pair in the next step: with the normals of now the facets no longer look at each other, or search_distance is too small; take a smaller step, or give a larger search_distance"
                 );
                 Err(Error::new(Kind::ContactLost, text))

@@ -5,7 +5,7 @@
 use super::checksum::of_words;
 use super::options::{Friction, Options, Weights};
 use super::surface::Surface;
-use crate::error::{Error, Kind, Result};
+use crate::error::{Error, Kind, Result, Text};
 use crate::geometry::AnalyticShape;
 use crate::law::SlipMeasure;
 
@@ -53,14 +53,14 @@ pub(super) fn of(options: &Options, nonmortar: &Surface, mortar: &Surface) -> [i
 
 /// Refuses a history whose meaning is another one, saying what differs.
 pub(super) fn check(found: &[i64; LENGTH], own: &[i64; LENGTH]) -> Result<()> {
-    let refuse = |text: String| Err(Error::new(Kind::HistoryMismatch, text));
+    let refuse = |text: Text| Err(Error::new(Kind::HistoryMismatch, text));
     let name = |names: &[&'static str], value: i64| {
         usize::try_from(value).ok().and_then(|k| names.get(k).copied()).unwrap_or("something unknown")
     };
     for (k, names) in [&LAWS[..], &BASES, &WEIGHTS, &SLIPS].into_iter().enumerate() {
         if found[k] != own[k] {
             let (theirs, ours) = (name(names, found[k]), name(names, own[k]));
-            return refuse(format!("the history is one with {theirs}, the interface one with {ours}"));
+            return refuse(text!("the history is one with {theirs}, the interface one with {ours}"));
         }
     }
     if found[4..6] != own[4..6] {

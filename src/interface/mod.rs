@@ -7,6 +7,7 @@ mod analytic;
 mod apart;
 mod assembly;
 mod augmented;
+mod bytes;
 mod carried;
 mod checksum;
 mod closing;
@@ -26,7 +27,6 @@ mod hybrid;
 mod integration;
 mod lost;
 mod meaning;
-mod memory;
 mod mistakes;
 mod nodes;
 mod numbering;
@@ -61,6 +61,7 @@ pub use treatment::NodeCounts;
 
 use crate::error::{Error, Kind, Result};
 use crate::geometry::{Mat3, Vec3};
+use crate::memory::{self, Stored};
 use effects::Kernels;
 use filter::Filter;
 use history::Keeps;
@@ -107,6 +108,13 @@ pub struct Counters {
 /// An interface with three multipliers per non-mortar node.
 pub type Interface = Contact<3>;
 
+/// What follows from a history: the filter of the step that begins with it, and what that says of the nodes.
+struct Prepared {
+    filter: Option<Filter>,
+    coverable: Vec<bool>,
+    carriers: Vec<Vec<weak::Carrier>>,
+}
+
 /// A contact interface with N multipliers per non-mortar node: three, or one along the normal without friction. One
 /// thread at a time; distinct interfaces are independent.
 #[derive(Debug)]
@@ -142,7 +150,7 @@ impl Contact<3> {
         options: Options,
     ) -> Result<Interface> {
         let mu = if options.friction == Friction::Rough { f64::INFINITY } else { options.mu };
-        let mu = vec![mu; nonmortar.len()];
+        let mu = memory::filled(mu, nonmortar.len())?;
         let kernels = effects::choose_three(&options, &mortar, &mu);
         Self::build((nonmortar, mortar), multiplier_equations, options, mu, kernels)
     }
@@ -160,7 +168,7 @@ impl Contact<1> {
     ) -> Result<Contact<1>> {
         let options = Options { friction: Friction::None, ..options };
         let kernels = effects::choose_one(&options, &mortar);
-        let mu = vec![0.0; nonmortar.len()];
+        let mu = memory::filled(0.0, nonmortar.len())?;
         Self::build((nonmortar, mortar), multiplier_equations, options, mu, kernels)
     }
 }
@@ -175,7 +183,7 @@ impl<const N: usize> Contact<N> {
     ) -> Result<Contact<N>> {
         options.validate()?;
         if multiplier_equations.len() != nonmortar.len() {
-            let text = format!(
+            let text = text!(
                 "{} nodes have multiplier equations; nonmortar has {}",
                 multiplier_equations.len(),
                 nonmortar.len()
@@ -186,7 +194,7 @@ impl<const N: usize> Contact<N> {
         if options.mortar_side == MortarSide::Rigid
             && let Some(k) = mortar.equations.iter().position(|e| e.iter().any(|&e| e != NO_EQUATION))
         {
-            let text = format!("the mortar side is rigid, but its node {k} has an equation; give it none (-1)");
+            let text = text!("the mortar side is rigid, but its node {k} has an equation; give it none (-1)");
             return Err(Error::new(Kind::InvalidValue, text));
         }
         if nonmortar.analytic.is_some() {
@@ -196,9 +204,8 @@ impl<const N: usize> Contact<N> {
         integration::check_mortar_facets(&mortar)?;
         analytic::check_frame(&nonmortar, &mortar)?;
         let (mut counters, mut tree) = (Counters::default(), KeptTree::default());
-        let (x1, x2) = (nonmortar.reference.clone(), mortar.reference.clone());
-        let surfaces = (&nonmortar, &mortar);
-        let start = Self::start_at(surfaces, &options, Extent::Whole, (&mut counters, &mut tree), (&x1, &x2))?;
+        let (surfaces, at) = ((&nonmortar, &mortar), (&nonmortar.reference[..], &mortar.reference[..]));
+        let start = Self::start_at(surfaces, &options, Extent::Whole, (&mut counters, &mut tree), at)?;
         let n1 = nonmortar.len();
         let mut interface = Contact {
             options,
@@ -206,13 +213,13 @@ impl<const N: usize> Contact<N> {
             nonmortar,
             mortar,
             multiplier_equations,
-            owned: vec![true; n1],
+            owned: memory::filled(true, n1)?,
             coverable: Vec::new(),
             carriers: Vec::new(),
             mu,
             augmentations: None,
             normals: None,
-            free: vec![Mat3::identity(); n1],
+            free: memory::filled(Mat3::identity(), n1)?,
             filter: start.filter,
             history: start.history,
             rollback: None,
@@ -220,8 +227,8 @@ impl<const N: usize> Contact<N> {
             tree,
             counters,
         };
-        interface.coverable = interface.find_coverable();
-        interface.carriers = interface.find_carriers();
+        interface.coverable = interface.find_coverable(interface.filter.as_ref(), &interface.history)?;
+        interface.carriers = interface.find_carriers(&interface.history, &interface.coverable)?;
         interface.set_constraints(&[])?; // those that follow from removed equations
         interface.integration = start.integration;
         interface.count_pairs();
@@ -229,29 +236,47 @@ impl<const N: usize> Contact<N> {
     }
 
     /// Puts a history in place with what belongs to its configuration; gives the old one back.
-    fn adopt(&mut self, start: Start) -> History {
-        self.filter = start.filter;
-        self.integration = start.integration;
-        let old = std::mem::replace(&mut self.history, start.history);
-        self.coverable = self.find_coverable();
-        self.carriers = self.find_carriers();
-        old
+    fn adopt(&mut self, start: Start) -> Result<History> {
+        let ready = self.prepare(start.filter, &start.history)?;
+        Ok(self.put_in_place(ready, start.history, start.integration))
     }
 
-    fn find_coverable(&self) -> Vec<bool> {
-        let frozen = self.options.effective_weights() != Weights::Current;
-        let pairs = frozen.then_some(&self.history.pairs[..]);
-        reach::coverable(&self.nonmortar, self.filter.as_ref(), pairs)
+    /// What follows from a history and its filter.
+    fn prepare(&self, filter: Option<Filter>, history: &History) -> Result<Prepared> {
+        let coverable = self.find_coverable(filter.as_ref(), history)?;
+        let carriers = self.find_carriers(history, &coverable)?;
+        Ok(Prepared { filter, coverable, carriers })
     }
 
-    /// Puts a history in place that is not of now; nothing is changed when its positions are refused.
+    /// Puts a history in place that is not of now, and after which no commit can be undone.
     fn restore(&mut self, history: History) -> Result<()> {
+        let ready = self.prepare_again(&history)?;
+        self.put_in_place(ready, history, None);
+        self.rollback = None;
+        Ok(())
+    }
+
+    fn put_in_place(&mut self, ready: Prepared, history: History, integration: Option<Integration>) -> History {
+        self.filter = ready.filter;
+        self.coverable = ready.coverable;
+        self.carriers = ready.carriers;
+        self.integration = integration;
+        std::mem::replace(&mut self.history, history)
+    }
+
+    fn find_coverable(&self, filter: Option<&Filter>, history: &History) -> Result<Vec<bool>> {
+        let frozen = self.options.effective_weights() != Weights::Current;
+        let pairs = frozen.then_some(&history.pairs[..]);
+        reach::coverable(&self.nonmortar, filter, pairs)
+    }
+
+    /// What follows from a history that is not of now; its positions may be refused.
+    fn prepare_again(&self, history: &History) -> Result<Prepared> {
         let current = self.options.effective_weights() == Weights::Current;
         let filter = current
             .then(|| Filter::new(&self.nonmortar, &self.mortar, &self.options, &history.x1, &history.x2))
             .transpose()?;
-        self.adopt(Start { history, filter, integration: None });
-        Ok(())
+        self.prepare(filter, history)
     }
 
     /// Takes (x1, x2) as the configuration of t_n, with nothing slipped yet, instead of the reference.
@@ -261,7 +286,7 @@ impl<const N: usize> Contact<N> {
         let kept = (&mut self.counters, &mut self.tree);
         let new = Self::start_at(surfaces, &self.options, Extent::Whole, kept, (x1, x2))?;
         new.history.check_finite()?;
-        self.adopt(new);
+        self.adopt(new)?;
         self.count_pairs();
         self.rollback = None;
         Ok(())
@@ -279,11 +304,11 @@ impl<const N: usize> Contact<N> {
         let (sums, responses) = self.evaluate(x1, x2, lambda, sums)?;
         let surfaces = (&self.nonmortar, &self.mortar);
         let mut new = if self.options.effective_weights() == Weights::Reference {
-            let mut history = History { x1: x1.to_vec(), x2: x2.to_vec(), ..self.history.clone() };
+            let mut history = self.history.moved_to(x1, x2)?;
             // Also where mu is 0 at every node: it may be set before the next step. Tied nodes keep their first gap.
             if self.history.keeps == Keeps::Slip {
-                let moved = nodes::assemble(surfaces, &self.history.pairs, x1, x2);
-                history.gap = moved.into_iter().map(|(_, gap)| gap).collect();
+                let moved = nodes::assemble(surfaces, &self.history.pairs, x1, x2)?;
+                history.gap = moved.into_iter().map(|(_, gap)| gap).stored()?;
             }
             Start { history, filter: None, integration: None }
         } else {
@@ -293,12 +318,12 @@ impl<const N: usize> Contact<N> {
         new.history.commits = self.history.commits.saturating_add(1); // an imported history may hold any number
         if self.kernels.slips {
             let slip = |a: usize| self.slip_after(a, &responses[a], sums[a].coverage_previous);
-            new.history.slip = (0..responses.len()).map(slip).collect();
+            new.history.slip = (0..responses.len()).map(slip).stored()?;
         } else {
-            new.history.slip.clone_from(&self.history.slip);
+            new.history.slip = memory::copied(&self.history.slip)?;
         }
         new.history.check_finite()?;
-        self.rollback = Some(self.adopt(new));
+        self.rollback = Some(self.adopt(new)?);
         self.count_pairs();
         Ok(())
     }
@@ -317,11 +342,15 @@ impl<const N: usize> Contact<N> {
     /// # Errors
     /// [`Kind::NothingToRollBack`] when there is none; only one commit can be undone.
     pub fn roll_back(&mut self) -> Result<()> {
-        let Some(history) = self.rollback.take() else {
+        let Some(history) = &self.rollback else {
             let text = "no commit can be undone: none was made since creation, import or the last rollback";
             return Err(Error::new(Kind::NothingToRollBack, text));
         };
-        self.restore(history)
+        let ready = self.prepare_again(history)?;
+        if let Some(history) = self.rollback.take() {
+            self.put_in_place(ready, history, None);
+        }
+        Ok(())
     }
 
     /// Multipliers per non-mortar node, N.

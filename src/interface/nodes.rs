@@ -7,6 +7,7 @@ use super::{Contact, Extent, NewContact, NodeCounts, Options, RowScale, Surface}
 use crate::error::{Error, Kind, Result};
 use crate::geometry::{Mat3, Vec3};
 use crate::law::{Node, NodeResponse};
+use crate::memory::{self, Store, Stored};
 use crate::mortar::gap;
 use nalgebra::SVector;
 use std::borrow::Cow;
@@ -32,8 +33,8 @@ pub(super) fn assemble(
     pairs: &[PairRecord],
     x1: &[Vec3],
     x2: &[Vec3],
-) -> Vec<(f64, Vec3)> {
-    let mut sums = vec![(0.0, Vec3::zeros()); nonmortar.len()];
+) -> Result<Vec<(f64, Vec3)>> {
+    let mut sums = memory::filled((0.0, Vec3::zeros()), nonmortar.len())?;
     for pair in pairs {
         let (one, two) = (nonmortar.facet(pair.one, x1), mortar.facet(pair.two, x2));
         let gaps = gap(&pair.weights, &one, &two);
@@ -43,7 +44,7 @@ pub(super) fn assemble(
             *g += gaps[k];
         }
     }
-    sums
+    Ok(sums)
 }
 
 impl<const N: usize> Contact<N> {
@@ -61,17 +62,17 @@ impl<const N: usize> Contact<N> {
         self.check_positions(x1, x2)?;
         self.ensure_integration(x1, x2, extent)?;
         if self.is_apart() {
-            return Ok(vec![NodeSums::default(); self.nonmortar.len()]);
+            return memory::filled(NodeSums::default(), self.nonmortar.len());
         }
         let slips = self.kernels.slips || extent == Extent::Part;
         self.counters.nodes_slipping += if slips { self.nonmortar.len() as i64 } else { 0 };
         if let Some((of, sums)) = self.integration.as_ref().and_then(|k| k.sums.as_ref())
             && *of == extent
         {
-            return Ok(sums.clone());
+            return memory::copied(sums);
         }
         let (surfaces, h) = ((&self.nonmortar, &self.mortar), &self.history);
-        let now = assemble(surfaces, self.current_pairs(), x1, x2);
+        let now = assemble(surfaces, self.current_pairs(), x1, x2)?;
         let committed = h.facet_gaps.turned(&self.nonmortar, x1, &h.gap)?;
         let mut sums: Vec<_> = (0..self.nonmortar.len())
             .map(|a| NodeSums {
@@ -81,17 +82,17 @@ impl<const N: usize> Contact<N> {
                 gap_committed: committed.get(a).copied().unwrap_or_default(),
                 gap_previous: Vec3::zeros(),
             })
-            .collect();
+            .stored()?;
         // The nodes that this handle shares may slip by what another one knows of their friction.
         if slips {
-            let previous = self.integration.as_ref().map(|_| assemble(surfaces, &h.pairs, x1, x2));
+            let previous = self.integration.as_ref().map(|_| assemble(surfaces, &h.pairs, x1, x2)).transpose()?;
             let previous = previous.as_ref().unwrap_or(&now);
             for (sum, (_, gap)) in sums.iter_mut().zip(previous) {
                 sum.gap_previous = *gap;
             }
         }
         if let Some(k) = &mut self.integration {
-            k.sums = Some((extent, sums.clone()));
+            k.sums = Some((extent, memory::copied(&sums)?));
         }
         Ok(sums)
     }
@@ -128,11 +129,11 @@ impl<const N: usize> Contact<N> {
             }
             None => Cow::Owned(self.sums(x1, x2)?),
         };
-        let carried = self.carried(&sums);
+        let carried = self.carried(&sums)?;
         let mut counts = NodeCounts::default();
-        let mut responses = Vec::with_capacity(lambda.len());
+        let mut responses = memory::with_room(lambda.len())?;
         for a in 0..lambda.len() {
-            responses.push(if self.is_left_out(a, extent) {
+            responses.store(if self.is_left_out(a, extent) {
                 counts.left_out += 1;
                 NodeResponse::uncovered(&lambda[a], self.augmentation(a))
             } else {
@@ -140,7 +141,7 @@ impl<const N: usize> Contact<N> {
                 let is_carried = carried.get(a).is_some_and(|c| *c);
                 *(if is_carried { &mut counts.carried } else { self.count_of(a, &node, &mut counts) }) += 1;
                 (self.kernels.respond)(&node)
-            });
+            })?;
         }
         if carried.contains(&true) {
             self.carry(lambda, &sums, &carried, &mut responses)?;
@@ -148,7 +149,7 @@ impl<const N: usize> Contact<N> {
         for (a, response) in responses.iter().enumerate() {
             if !response.row.iter().chain(response.traction.iter()).all(|v| v.is_finite()) {
                 let text =
-                    format!("the response of non-mortar node {a} overflows; positions or multiplier are out of range");
+                    text!("the response of non-mortar node {a} overflows; positions or multiplier are out of range");
                 return Err(Error::new(Kind::NotFinite, text));
             }
         }
@@ -185,9 +186,8 @@ impl<const N: usize> Contact<N> {
         let free = self.free[a] * normal;
         let norm = free.norm();
         if norm <= crate::normal::SMALLEST_SUM {
-            let text = format!(
-                "the normal of non-mortar node {a} lies in its prescribed directions; it must keep a free part"
-            );
+            let text =
+                text!("the normal of non-mortar node {a} lies in its prescribed directions; it must keep a free part");
             return Err(Error::new(Kind::UndefinedNormal, text));
         }
         Ok(free / norm)
@@ -219,7 +219,7 @@ impl<const N: usize> Contact<N> {
         if found == needed {
             return Ok(());
         }
-        Err(Error::new(Kind::InvalidSize, format!("{name} has {found} nodes; the surface has {needed}")))
+        Err(Error::new(Kind::InvalidSize, text!("{name} has {found} nodes; the surface has {needed}")))
     }
 }
 
@@ -227,7 +227,7 @@ impl<const N: usize> Contact<N> {
 pub(super) fn check_finite<const N: usize>(name: &str, values: &[SVector<f64, N>]) -> Result<()> {
     match values.iter().position(|v| !v.iter().all(|c| c.is_finite())) {
         None => Ok(()),
-        Some(k) => Err(Error::new(Kind::NotFinite, format!("{name} of node {k} is not finite"))),
+        Some(k) => Err(Error::new(Kind::NotFinite, text!("{name} of node {k} is not finite"))),
     }
 }
 
@@ -246,12 +246,12 @@ impl<const N: usize> Contact<N> {
     pub fn initial_multipliers(&mut self) -> Result<Vec<SVector<f64, N>>> {
         if self.history.commits > 0 {
             let text =
-                format!("initial multipliers belong before the first step; {} are committed", self.history.commits);
+                text!("initial multipliers belong before the first step; {} are committed", self.history.commits);
             return Err(Error::new(Kind::InvalidValue, text));
         }
         let Options { coverage_min, .. } = self.options;
         // Those of now: the history may keep none, or those of t_n may be left out so far.
-        let (x1, x2) = (self.history.x1.clone(), self.history.x2.clone());
+        let (x1, x2) = (memory::copied(&self.history.x1)?, memory::copied(&self.history.x2)?);
         let sums = self.sums(&x1, &x2)?;
         let areas = &self.history.areas;
         (0..self.nonmortar.len())
@@ -265,6 +265,6 @@ impl<const N: usize> Contact<N> {
                 let size = if covered && closed { -INITIAL_TRACTION * rhat * size } else { 0.0 };
                 Ok(effects::along_normal(nu) * size)
             })
-            .collect()
+            .stored_if_ok()
     }
 }

@@ -195,7 +195,7 @@ impl Options {
     /// Refuses numbers outside their range.
     pub fn validate(&self) -> Result<()> {
         let refuse = |name: &str, v: f64, allowed: &str| {
-            Err(Error::new(Kind::InvalidValue, format!("options.{name} is {v}; it must be {allowed}")))
+            Err(Error::new(Kind::InvalidValue, text!("options.{name} is {v}; it must be {allowed}")))
         };
         let (name, stiffness) = match self.stiffness {
             Stiffness::Augmentation(r) => ("augmentation", r),

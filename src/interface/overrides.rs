@@ -5,6 +5,7 @@
 use super::{Contact, Friction, NO_EQUATION, effects};
 use crate::error::{Error, Kind, Result};
 use crate::geometry::{Mat3, Vec3};
+use crate::memory::{self, Stored};
 
 impl Contact<3> {
     /// Friction coefficient per node.
@@ -15,7 +16,7 @@ impl Contact<3> {
         }
         self.check_length("mu", mu.len(), self.nonmortar.len())?;
         if let Some(k) = mu.iter().position(|m| !(*m >= 0.0 && m.is_finite())) {
-            let text = format!("mu of node {k} is {}; it must be finite and not negative", mu[k]);
+            let text = text!("mu of node {k} is {}; it must be finite and not negative", mu[k]);
             return Err(Error::new(Kind::InvalidValue, text));
         }
         self.mu = mu;
@@ -31,7 +32,7 @@ impl<const N: usize> Contact<N> {
         if let Some(r) = &r {
             self.check_length("augmentation", r.len(), self.nonmortar.len())?;
             if let Some(k) = r.iter().position(|r| !(*r > 0.0 && r.is_finite())) {
-                let text = format!("augmentation of node {k} is {}; it must be finite and positive", r[k]);
+                let text = text!("augmentation of node {k} is {}; it must be finite and positive", r[k]);
                 return Err(Error::new(Kind::InvalidValue, text));
             }
         }
@@ -47,7 +48,7 @@ impl<const N: usize> Contact<N> {
         if let Some(n) = &normals {
             self.check_length("normals", n.len(), self.nonmortar.len())?;
             if let Some(k) = n.iter().position(|n| !((n.norm() - 1.0).abs() <= UNIT)) {
-                let text = format!("normal of node {k} has length {}; it must be a unit vector", n[k].norm());
+                let text = text!("normal of node {k} has length {}; it must be a unit vector", n[k].norm());
                 return Err(Error::new(Kind::InvalidValue, text));
             }
         }
@@ -64,21 +65,21 @@ impl<const N: usize> Contact<N> {
     pub fn set_constraints(&mut self, directions: &[(usize, Vec3)]) -> Result<()> {
         // A second direction of a node closer than this to the first adds nothing but rounding.
         const INDEPENDENT: f64 = 1e-8;
-        let mut free: Vec<_> = self.multiplier_equations.iter().map(free_of_equations).collect();
-        let mut declared = vec![Mat3::identity(); self.nonmortar.len()];
+        let mut free: Vec<_> = self.multiplier_equations.iter().map(free_of_equations).stored()?;
+        let mut declared = memory::filled(Mat3::identity(), self.nonmortar.len())?;
         for (k, (node, d)) in directions.iter().enumerate() {
             if *node >= free.len() {
-                let text = format!("constraint {k} names node {node}; nodes 0 to {} exist", free.len() - 1);
+                let text = text!("constraint {k} names node {node}; nodes 0 to {} exist", free.len() - 1);
                 return Err(Error::new(Kind::IndexOutOfRange, text));
             }
             let norm = d.norm();
             if !(norm > 0.0 && norm.is_finite()) {
-                let text = format!("direction of constraint {k} has length {norm}; it must be finite and not zero");
+                let text = text!("direction of constraint {k} has length {norm}; it must be finite and not zero");
                 return Err(Error::new(Kind::InvalidValue, text));
             }
             let rest = declared[*node] * (d / norm);
             if rest.norm() <= INDEPENDENT {
-                let text = format!("constraint {k} repeats a direction of node {node}");
+                let text = text!("constraint {k} repeats a direction of node {node}");
                 return Err(Error::new(Kind::InvalidValue, text));
             }
             remove(&mut declared[*node], rest.normalize());

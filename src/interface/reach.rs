@@ -6,7 +6,9 @@ use super::Surface;
 use super::filter::{FacetFilter, Filter, LEAST_OPPOSITION};
 use super::history::PairRecord;
 use super::search::{Aabb, Tree};
+use crate::error::Result;
 use crate::geometry::Vec3;
+use crate::memory::{self, Stored};
 
 /// Room for rounding in a box's bounds (of normals; of heights over the facet's longest edge), so that a box never
 /// refuses what a facet in it would pass.
@@ -14,11 +16,11 @@ const MARGIN: f64 = 1e-9;
 
 /// Per non-mortar facet, whether any mortar facet passes the filter with it. `tree` is over the mortar facets, with a box
 /// of points and one of normals a node: O(log n) a facet, but for those on the border between yes and no.
-pub(super) fn reached(filter: &FacetFilter, tree: &Tree) -> Vec<bool> {
+pub(super) fn reached(filter: &FacetFilter, tree: &Tree) -> Result<Vec<bool>> {
     let [one, two] = &filter.sides;
-    let normals: Vec<_> = two.facets.iter().map(|(_, plane)| Aabb::around([plane.e])).collect();
-    let normals = tree.gather(&normals);
-    let deepest = filter.deepest_of_each();
+    let normals: Vec<_> = two.facets.iter().map(|(_, plane)| Aabb::around([plane.e])).stored()?;
+    let normals = tree.gather(&normals)?;
+    let deepest = filter.deepest_of_each()?;
     let any = |i: usize| {
         let (facet, plane) = &one.facets[i];
         let margin = MARGIN * facet.longest_edge();
@@ -31,24 +33,28 @@ pub(super) fn reached(filter: &FacetFilter, tree: &Tree) -> Vec<bool> {
         };
         tree.any(&may, &|j| filter.admits(i, j))
     };
-    (0..one.facets.len()).map(any).collect()
+    (0..one.facets.len()).map(any).stored()
 }
 
 /// Per non-mortar node, whether it belongs to one of some facets.
-fn nodes_of(nonmortar: &Surface, facets: impl Iterator<Item = usize>) -> Vec<bool> {
-    let mut nodes = vec![false; nonmortar.len()];
+fn nodes_of(nonmortar: &Surface, facets: impl Iterator<Item = usize>) -> Result<Vec<bool>> {
+    let mut nodes = memory::filled(false, nonmortar.len())?;
     for facet in facets.map(|f| &nonmortar.facets[f]) {
         facet.nodes[..facet.len].iter().for_each(|&a| nodes[a] = true);
     }
-    nodes
+    Ok(nodes)
 }
 
 /// Per non-mortar node, whether anything can cover it: by the filter, or by the pairs whose weights are frozen.
-pub(super) fn coverable(nonmortar: &Surface, filter: Option<&Filter>, frozen: Option<&[PairRecord]>) -> Vec<bool> {
+pub(super) fn coverable(
+    nonmortar: &Surface,
+    filter: Option<&Filter>,
+    frozen: Option<&[PairRecord]>,
+) -> Result<Vec<bool>> {
     match (frozen, filter.map(Filter::reached)) {
         (Some(pairs), _) => nodes_of(nonmortar, pairs.iter().map(|pair| pair.one)),
         (None, Some(reached)) => nodes_of(nonmortar, (0..reached.len()).filter(|&f| reached[f])),
-        (None, None) => vec![true; nonmortar.len()],
+        (None, None) => memory::filled(true, nonmortar.len()),
     }
 }
 
@@ -88,8 +94,9 @@ mod tests {
             let filter = Filter::new(&one, &two, &options, &one.reference, &two.reference).unwrap();
             let Filter::Facets(filter) = filter else { unreachable!("no analytic side") };
             let expected: Vec<_> = (0..20).map(|i| (0..12).any(|j| filter.admits(i, j))).collect();
-            let tree = Tree::new(two.facets.iter().map(|f| Aabb::around(f.nodes.map(|k| two.reference[k]))).collect());
-            assert_eq!(reached(&filter, &tree), expected, "round {round}");
+            let tree = Tree::new(two.facets.iter().map(|f| Aabb::around(f.nodes.map(|k| two.reference[k]))).collect())
+                .unwrap();
+            assert_eq!(reached(&filter, &tree).unwrap(), expected, "round {round}");
             expected.iter().for_each(|&any| seen[usize::from(any)] += 1);
         }
         assert!(seen[0] > 100 && seen[1] > 100, "both answers occur: {seen:?}");

@@ -7,8 +7,9 @@ use super::integration::{frames, integrate};
 use super::nodes::assemble;
 use super::search::{Aabb, Prism, Tree};
 use super::{Contact, Weights, mistakes};
-use crate::error::Result;
+use crate::error::{Result, Text};
 use crate::geometry::{Plane, Vec3};
+use crate::memory::{self, Store, Stored};
 use crate::mortar::{NonmortarFrame, Segment};
 
 /// Coverage over area between this and [`MOST`] is full: facets that meet under an angle lack or count twice a part of
@@ -77,19 +78,23 @@ impl Report {
     }
 
     /// The report in sentences.
-    pub fn text(&self) -> String {
+    ///
+    /// # Errors
+    /// [`crate::error::Kind::OutOfMemory`].
+    pub fn text(&self) -> Result<Text> {
         let [none, part, full, several] =
             [Cover::None, Cover::Part, Cover::Full, Cover::Several].map(|c| self.count(c));
-        let mut text = format!(
+        let mut text = Text::EMPTY;
+        text.append(format_args!(
             "Of {} non-mortar nodes {full} are covered in full, {part} in part, {none} not at all, {several} by several \
              layers.",
             self.nodes.len()
-        );
+        ))?;
         let least = self.nodes.iter().enumerate().filter(|(_, n)| n.cover == Cover::Part);
         if let Some((a, n)) = least.min_by(|(_, m), (_, n)| m.fraction.total_cmp(&n.fraction)) {
-            text += &format!(" Least covered is node {a}, to {:.2e}.", n.fraction);
+            text.append(format_args!(" Least covered is node {a}, to {:.2e}.", n.fraction))?;
         }
-        text += match self.finding {
+        let finding = match self.finding {
             None => "",
             Some(Finding::NoOverlap) => " No facets lie over each other.",
             Some(Finding::SameWay) => {
@@ -111,7 +116,8 @@ impl Report {
                  fit."
             }
         };
-        text
+        text.append(format_args!("{finding}"))?;
+        Ok(text)
     }
 }
 
@@ -129,9 +135,9 @@ impl<const N: usize> Contact<N> {
             (Weights::Committed, _) => (&self.history.pairs, &self.history.x1[..]),
             (_, _) => (&self.history.pairs, &self.nonmortar.reference[..]),
         };
-        let sums = assemble(surfaces, pairs, x1, x2);
+        let sums = assemble(surfaces, pairs, x1, x2)?;
         let layers = self.layers(pairs, at)?;
-        let claims = self.claims(pairs);
+        let claims = self.claims(pairs)?;
         let node = |a: usize| {
             let fraction = sums[a].0 / self.history.areas[a];
             let cover = match fraction {
@@ -144,7 +150,7 @@ impl<const N: usize> Contact<N> {
             let layers = (layers[a] - (MOST - 1.0)).ceil().max(least) as i32;
             NodeCover { cover, fraction, layers, facets: claims[a] }
         };
-        let nodes: Vec<_> = (0..self.nonmortar.len()).map(node).collect();
+        let nodes: Vec<_> = (0..self.nonmortar.len()).map(node).stored()?;
         let mut depths = Vec::new();
         for a in (0..nodes.len()).filter(|&a| nodes[a].cover != Cover::None) {
             let (coverage, gap) = sums[a];
@@ -166,11 +172,11 @@ impl<const N: usize> Contact<N> {
     /// Per non-mortar node the most that a facet around it is covered, over the facet's area at `x`.
     fn layers(&self, pairs: &[PairRecord], x: &[Vec3]) -> Result<Vec<f64>> {
         let one = &self.nonmortar;
-        let mut covered = vec![0.0; one.facets.len()];
+        let mut covered = memory::filled(0.0, one.facets.len())?;
         for pair in pairs {
             covered[pair.one] += (0..one.facets[pair.one].len).map(|k| pair.weights.coverage(k)).sum::<f64>();
         }
-        let mut most = vec![0.0_f64; one.len()];
+        let mut most = memory::filled(0.0_f64, one.len())?;
         for (f, facet) in one.facets.iter().enumerate().filter(|(f, _)| covered[*f] > 0.0) {
             let area: f64 = NonmortarFrame::new(&one.facet(f, x))?.nodal_areas().iter().sum();
             facet.as_slice().iter().for_each(|&a| most[a] = most[a].max(covered[f] / area));
@@ -179,18 +185,18 @@ impl<const N: usize> Contact<N> {
     }
 
     /// Per non-mortar node the mortar facets that overlap with the facets around it.
-    fn claims(&self, pairs: &[PairRecord]) -> Vec<i64> {
+    fn claims(&self, pairs: &[PairRecord]) -> Result<Vec<i64>> {
         let mut claims = Vec::new();
         for pair in pairs {
             let facet = &self.nonmortar.facets[pair.one];
             let covered = (0..facet.len).filter(|&k| pair.weights.coverage(k) > 0.0);
-            claims.extend(covered.map(|k| (facet.nodes[k], pair.two)));
+            claims.store_all(covered.map(|k| (facet.nodes[k], pair.two)))?;
         }
         claims.sort_unstable();
         claims.dedup();
-        let mut counts = vec![0; self.nonmortar.len()];
+        let mut counts = memory::filled(0, self.nonmortar.len())?;
         claims.iter().for_each(|&(a, _)| counts[a] += 1);
-        counts
+        Ok(counts)
     }
 
     /// Looks at all facets that lie over each other, whichever way they look and however deep.
@@ -199,11 +205,11 @@ impl<const N: usize> Contact<N> {
         if two.analytic.is_some() {
             return Ok(Finding::NoOverlap);
         }
-        let tree =
-            Tree::new((0..two.facets.len()).map(|f| Aabb::around(two.facet(f, x2).points().iter().copied())).collect());
+        let facet_box = |f: usize| Aabb::around(two.facet(f, x2).points().iter().copied());
+        let tree = Tree::new((0..two.facets.len()).map(facet_box).stored()?)?;
         let (mut found, mut same_way) = (Vec::new(), false);
         for (i, frame) in frames(one, x1)?.iter().enumerate() {
-            tree.find(&Prism::over(one.facet(i, x1).points(), &frame.plane, 0.0), &mut found);
+            tree.find(&Prism::over(one.facet(i, x1).points(), &frame.plane, 0.0), &mut found)?;
             for &j in &found {
                 let facet = two.facet(j, x2);
                 let opposition = -frame.plane.e.dot(&Plane::of(&facet)?.e);

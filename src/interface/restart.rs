@@ -10,8 +10,9 @@ use super::history::{History, Keeps, PairRecord, REALS_PER_PAIR};
 use super::options::Weights;
 use super::surface::Surface;
 use super::{Contact, meaning};
-use crate::error::{Error, Kind, Result};
+use crate::error::{Error, Kind, Result, Text};
 use crate::geometry::{Plane, Vec3};
+use crate::memory::{self, Store, Stored};
 use crate::mortar::{NonmortarFrame, PairWeights};
 
 /// First integer: "stickslip history", layout 5.
@@ -32,13 +33,13 @@ struct Host<'a> {
     frozen: bool,
 }
 
-fn mismatch<T>(text: impl Into<String>) -> Result<T> {
+fn mismatch<T>(text: impl Into<Text>) -> Result<T> {
     Err(Error::new(Kind::HistoryMismatch, text.into()))
 }
 
 /// The next list: its length, then so many items of `width` integers.
 fn list<'a>(rest: &mut &'a [i64], name: &str, width: usize) -> Result<&'a [i64]> {
-    let text = || format!("the list of {name} is longer than the integers");
+    let text = || text!("the list of {name} is longer than the integers");
     let Some((&n, items)) = rest.split_first() else { return mismatch(text()) };
     let length = usize::try_from(n).ok().and_then(|n| n.checked_mul(width)).filter(|n| *n <= items.len());
     let Some(length) = length else { return mismatch(text()) };
@@ -54,8 +55,8 @@ fn take<'a>(rest: &mut &'a [f64], n: usize) -> &'a [f64] {
     head
 }
 
-fn vectors(rest: &mut &[f64], n: usize) -> Vec<Vec3> {
-    take(rest, 3 * n).chunks_exact(3).map(Vec3::from_column_slice).collect()
+fn vectors(rest: &mut &[f64], n: usize) -> Result<Vec<Vec3>> {
+    take(rest, 3 * n).chunks_exact(3).map(Vec3::from_column_slice).stored()
 }
 
 impl History {
@@ -66,24 +67,23 @@ impl History {
     }
 
     /// The history as flat arrays.
-    fn export(&self, meaning: [i64; meaning::LENGTH]) -> (Vec<i64>, Vec<f64>) {
+    fn export(&self, meaning: [i64; meaning::LENGTH]) -> Result<(Vec<i64>, Vec<f64>)> {
         let (n_integers, n_reals) = self.flat_size();
-        let (mut integers, mut reals) = (Vec::with_capacity(n_integers), Vec::with_capacity(n_reals));
-        integers.extend([LAYOUT, 0]);
-        integers.extend(meaning);
-        integers.extend([self.commits, self.x1.len() as i64, self.x2.len() as i64, self.pairs.len() as i64]);
+        let (mut integers, mut reals) = (memory::with_room(n_integers)?, memory::with_room(n_reals)?);
+        let counts = [self.commits, self.x1.len() as i64, self.x2.len() as i64, self.pairs.len() as i64];
+        integers.store_all([LAYOUT, 0].into_iter().chain(meaning).chain(counts))?;
         for x in [&self.x1, &self.x2, &self.normals, &self.gap, &self.slip] {
-            reals.extend(x.iter().flat_map(|v| v.iter()));
+            reals.store_all(x.iter().flat_map(|v| v.iter().copied()))?;
         }
-        reals.extend(self.facet_gaps.reals());
-        reals.extend(&self.areas);
-        reals.extend(&self.coverage);
+        reals.store_all(self.facet_gaps.reals().copied())?;
+        reals.store_all(self.areas.iter().copied())?;
+        reals.store_all(self.coverage.iter().copied())?;
         for pair in &self.pairs {
-            integers.extend([pair.one as i64, pair.two as i64]);
-            reals.extend(pair.weights.ab.iter().chain(&pair.weights.ac).flatten());
+            integers.store_all([pair.one as i64, pair.two as i64].into_iter())?;
+            reals.store_all(pair.weights.ab.iter().chain(&pair.weights.ac).flatten().copied())?;
         }
         checksum::seal_history(&mut integers, &reals);
-        (integers, reals)
+        Ok((integers, reals))
     }
 
     /// Reads what [`History::export`] wrote for the same surfaces and choices.
@@ -96,25 +96,26 @@ impl History {
         let (commits, facets) = check_header((integers, reals), host)?;
         let n_reals = keeps.reals([n1, n2], nonmortar.facets.len(), facets.len() / 2);
         if reals.len() != n_reals {
-            return mismatch(format!("reals has {} entries; {n_reals} are needed", reals.len()));
+            return mismatch(text!("reals has {} entries; {n_reals} are needed", reals.len()));
         }
         let mut rest = reals;
-        let (x1, x2, normals) = (vectors(&mut rest, n1), vectors(&mut rest, n2), vectors(&mut rest, n1));
-        let [gap, slip] = keeps.gaps_and_slips().map(|kept| vectors(&mut rest, kept * n1));
+        let (x1, x2, normals) = (vectors(&mut rest, n1)?, vectors(&mut rest, n2)?, vectors(&mut rest, n1)?);
+        let [gaps, slips] = keeps.gaps_and_slips();
+        let (gap, slip) = (vectors(&mut rest, gaps * n1)?, vectors(&mut rest, slips * n1)?);
         let kept = if keeps.facet_gaps() { nonmortar.facets.len() } else { 0 };
-        let facet_gaps = FacetGaps::from_reals(take(&mut rest, REALS_PER_FACET * kept));
-        let (areas, coverage) = (take(&mut rest, n1).to_vec(), take(&mut rest, n1).to_vec());
-        let mut pairs = Vec::with_capacity(facets.len() / 2);
+        let facet_gaps = FacetGaps::from_reals(take(&mut rest, REALS_PER_FACET * kept))?;
+        let (areas, coverage) = (memory::copied(take(&mut rest, n1))?, memory::copied(take(&mut rest, n1))?);
+        let mut pairs = memory::with_room(facets.len() / 2)?;
         for f in facets.chunks_exact(2) {
             let index = |v: i64, n: usize| usize::try_from(v).ok().filter(|&i| i < n);
             let (Some(one), Some(two)) = (index(f[0], nonmortar.facets.len()), index(f[1], mortar.facets.len())) else {
-                return mismatch(format!("a pair names the facets {} and {}, which do not exist", f[0], f[1]));
+                return mismatch(text!("a pair names the facets {} and {}, which do not exist", f[0], f[1]));
             };
             let mut weights = PairWeights::default();
             let values = take(&mut rest, REALS_PER_PAIR);
             weights.ab.as_flattened_mut().copy_from_slice(&values[..REALS_PER_PAIR / 2]);
             weights.ac.as_flattened_mut().copy_from_slice(&values[REALS_PER_PAIR / 2..]);
-            pairs.push(PairRecord { one, two, weights });
+            pairs.store(PairRecord { one, two, weights })?;
         }
         let integrated = true;
         let history =
@@ -127,7 +128,7 @@ impl History {
 /// Refuses what is damaged or not of this interface. Steps committed, and the pairs' facets.
 fn check_header<'a>((integers, reals): (&'a [i64], &[f64]), host: &Host) -> Result<(i64, &'a [i64])> {
     if integers.len() < HEADER {
-        return mismatch(format!("integers has {} entries; at least {HEADER} are needed", integers.len()));
+        return mismatch(text!("integers has {} entries; at least {HEADER} are needed", integers.len()));
     }
     let (layout, (nonmortar, mortar)) = (integers[0], host.surfaces);
     if OLD_LAYOUTS.contains(&layout) {
@@ -136,13 +137,13 @@ fn check_header<'a>((integers, reals): (&'a [i64], &[f64]), host: &Host) -> Resu
         return mismatch(text);
     }
     if layout != LAYOUT {
-        return mismatch(format!("integers[0] is {layout}: not a history of this library version"));
+        return mismatch(text!("integers[0] is {layout}: not a history of this library version"));
     }
     if let Some(k) = reals.iter().position(|v| !v.is_finite()) {
-        return Err(Error::new(Kind::NotFinite, format!("reals[{k}] is not finite")));
+        return Err(Error::new(Kind::NotFinite, text!("reals[{k}] is not finite")));
     }
     if integers[PLACE] != checksum::of_history(integers, reals) {
-        return mismatch(format!(
+        return mismatch(text!(
             "the checksum does not fit the {} integers and {} reals given: they are not those that were exported",
             integers.len(),
             reals.len()
@@ -152,15 +153,15 @@ fn check_header<'a>((integers, reals): (&'a [i64], &[f64]), host: &Host) -> Resu
     let (&[commits, nodes1, nodes2], mut rest) = rest.split_first_chunk().expect("the header is longer");
     let (n1, n2) = (nonmortar.len(), mortar.len());
     if (nodes1, nodes2) != (n1 as i64, n2 as i64) {
-        return mismatch(format!("the history has {nodes1} + {nodes2} nodes, the interface {n1} + {n2}"));
+        return mismatch(text!("the history has {nodes1} + {nodes2} nodes, the interface {n1} + {n2}"));
     }
     meaning::check(meaning, &host.meaning)?;
     if commits < 0 {
-        return mismatch(format!("integers names {commits} commits"));
+        return mismatch(text!("integers names {commits} commits"));
     }
     let facets = list(&mut rest, "pairs", 2)?;
     if !rest.is_empty() {
-        return mismatch(format!("integers holds {} entries after its last list", rest.len()));
+        return mismatch(text!("integers holds {} entries after its last list", rest.len()));
     }
     if host.keeps == Keeps::Nothing && !facets.is_empty() {
         return mismatch("integers names pairs; a history without friction, with weights of now, has none");
@@ -174,10 +175,10 @@ fn check_contents(history: &History, (nonmortar, mortar): (&Surface, &Surface), 
         return mismatch("the pairs are not sorted by their facets, or one comes twice");
     }
     if let Some(k) = history.areas.iter().position(|&a| a <= 0.0) {
-        return mismatch(format!("the area of node {k} is not positive"));
+        return mismatch(text!("the area of node {k} is not positive"));
     }
     if let Some(k) = history.normals.iter().position(|n| !((n.norm() - 1.0).abs() <= UNIT)) {
-        return mismatch(format!("the normal of node {k} is no unit vector"));
+        return mismatch(text!("the normal of node {k} is no unit vector"));
     }
     // Weights that are frozen for good are none of these positions, and a commit takes any.
     if frozen {
@@ -187,7 +188,7 @@ fn check_contents(history: &History, (nonmortar, mortar): (&Surface, &Surface), 
     let plane = |f| Plane::of(&mortar.facet(f, &history.x2)).map(|_| ());
     let facets = (0..nonmortar.facets.len()).map(frame).chain((0..mortar.facets.len()).map(plane));
     match facets.into_iter().find_map(Result::err) {
-        Some(error) => mismatch(format!("a facet is degenerate at the history's positions: {error}")),
+        Some(error) => mismatch(text!("a facet is degenerate at the history's positions: {error}")),
         None => Ok(()),
     }
 }
@@ -200,7 +201,7 @@ impl<const N: usize> Contact<N> {
     /// The history as flat arrays, for a restart.
     pub fn export_history(&mut self) -> Result<(Vec<i64>, Vec<f64>)> {
         self.ensure_history()?;
-        Ok(self.history.export(self.meaning()))
+        self.history.export(self.meaning())
     }
 
     /// Lengths of what [`Contact::export_history`] gives.
@@ -221,8 +222,6 @@ impl<const N: usize> Contact<N> {
         if let Err(e) = self.mortar.check_rigid(&history.x2) {
             return mismatch(e.message);
         }
-        self.restore(history)?;
-        self.rollback = None;
-        Ok(())
+        self.restore(history)
     }
 }

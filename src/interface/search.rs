@@ -2,7 +2,9 @@
 //! boxes, asked with the prism that a non-mortar facet sweeps along its normal. O(log n) a facet,
 //! whatever the orientation; the answer is a superset and depends on the positions alone.
 
+use crate::error::Result;
 use crate::geometry::{Plane, Vec3};
+use crate::memory::{Store, Stored};
 use crate::simd::{self, Kernel, Lanes, Stack};
 
 /// An axis-aligned box.
@@ -154,19 +156,19 @@ pub(super) struct TreeNode {
 
 impl Tree {
     /// The tree over `boxes`.
-    pub fn new(boxes: Vec<Aabb>) -> Tree {
-        let order = (0..boxes.len()).collect();
+    pub fn new(boxes: Vec<Aabb>) -> Result<Tree> {
+        let order = (0..boxes.len()).stored()?;
         let mut tree = Tree { nodes: Vec::new(), order, boxes: Vec::new(), branches: Vec::new() };
         if !boxes.is_empty() {
-            tree.build(&boxes, 0, boxes.len());
+            tree.build(&boxes, 0, boxes.len())?;
             tree.boxes = boxes;
-            tree.branch(0);
+            tree.branch(0)?;
         }
-        tree
+        Ok(tree)
     }
 
     /// Fills `found` with the boxes that may reach into `prism`, in ascending order; how many it compared.
-    pub fn find(&self, prism: &Prism, found: &mut Vec<usize>) -> usize {
+    pub fn find(&self, prism: &Prism, found: &mut Vec<usize>) -> Result<usize> {
         found.clear();
         let visited = simd::dispatch(Query { branches: &self.branches, prism, found });
         found.sort_unstable();
@@ -174,7 +176,7 @@ impl Tree {
     }
 
     /// Appends the branch of a node and all that is below it; its number.
-    fn branch(&mut self, node: usize) -> usize {
+    fn branch(&mut self, node: usize) -> Result<usize> {
         let (mut below, mut count) = ([0; 4], 0);
         let mut add = |k: usize| {
             below[count] = k;
@@ -194,13 +196,13 @@ impl Tree {
         let bounds = |k: usize| if is_leaf { &self.boxes[k] } else { &self.nodes[k].bounds };
         let bounds = Four::of(below.map(bounds)); // of something else in place of those that are missing
         let me = self.branches.len();
-        self.branches.push(Branch { bounds, below, count, is_leaf });
+        self.branches.store(Branch { bounds, below, count, is_leaf })?;
         if !is_leaf {
             for place in 0..count {
-                self.branches[me].below[place] = self.branch(below[place]);
+                self.branches[me].below[place] = self.branch(below[place])?;
             }
         }
-        me
+        Ok(me)
     }
 
     /// The boxes that a node holds.
@@ -209,12 +211,12 @@ impl Tree {
     }
 
     /// Other boxes of the same things, one around all that a node of the tree holds: in the order of `any`'s nodes.
-    pub fn gather(&self, boxes: &[Aabb]) -> Vec<Aabb> {
+    pub fn gather(&self, boxes: &[Aabb]) -> Result<Vec<Aabb>> {
         let around = |n: &TreeNode| {
             let held = self.held(n);
             held.iter().skip(1).fold(boxes[held[0]], |b, &i| b.union(&boxes[i]))
         };
-        self.nodes.iter().map(around).collect()
+        self.nodes.iter().map(around).stored()
     }
 
     /// Whether `is` holds of any box, asked of those alone whose nodes in the tree (index and bounds) all `may`.
@@ -230,20 +232,20 @@ impl Tree {
         self.any_below(node + 1, may, is) || self.any_below(n.right, may, is)
     }
 
-    fn build(&mut self, boxes: &[Aabb], first: usize, end: usize) -> usize {
+    fn build(&mut self, boxes: &[Aabb], first: usize, end: usize) -> Result<usize> {
         let range = &mut self.order[first..end];
         let bounds = range.iter().skip(1).fold(boxes[range[0]], |b, &i| b.union(&boxes[i]));
         let me = self.nodes.len();
-        self.nodes.push(TreeNode { bounds, first, count: end - first, right: 0 });
+        self.nodes.store(TreeNode { bounds, first, count: end - first, right: 0 })?;
         if end - first > LEAF {
             let axis = (bounds.high - bounds.low).imax();
             let half = (end - first) / 2;
             range.select_nth_unstable_by(half, |&i, &j| boxes[i].centre()[axis].total_cmp(&boxes[j].centre()[axis]));
-            self.build(boxes, first, first + half);
-            let right = self.build(boxes, first + half, end);
+            self.build(boxes, first, first + half)?;
+            let right = self.build(boxes, first + half, end)?;
             self.nodes[me].right = right;
         }
-        me
+        Ok(me)
     }
 }
 
@@ -255,9 +257,9 @@ struct Query<'a> {
 }
 
 impl Kernel for Query<'_> {
-    type Output = usize;
+    type Output = Result<usize>;
     #[inline(always)]
-    fn run<L: Lanes>(self) -> usize {
+    fn run<L: Lanes>(self) -> Result<usize> {
         let (mut pending, mut visited) = (Stack::<usize, PENDING>::new(), 0);
         if !self.branches.is_empty() {
             pending.push(0);
@@ -269,14 +271,14 @@ impl Kernel for Query<'_> {
             for place in 0..branch.count {
                 if overlaps[place] >= 0.0 {
                     if branch.is_leaf {
-                        self.found.push(branch.below[place]);
+                        self.found.store(branch.below[place])?;
                     } else {
                         pending.push(branch.below[place]);
                     }
                 }
             }
         }
-        visited
+        Ok(visited)
     }
 }
 
@@ -314,13 +316,13 @@ mod tests {
         let mut next = random_numbers(7);
         for (n, size) in [(0, 0.1), (1, 1.0), (3, 0.1), (300, 0.05), (1000, 0.3)] {
             let boxes = random_boxes(n, 2, size);
-            let tree = Tree::new(boxes.clone());
+            let tree = Tree::new(boxes.clone()).unwrap();
             for _ in 0..50 {
                 let x: Vec<_> = (0..3).map(|_| Vec3::new(next(), next(), next())).collect();
                 let plane = Plane::of(&Facet::new(&x).unwrap()).unwrap();
                 let prism = Prism::over(&x, &plane, 0.01);
                 let mut found = Vec::new();
-                tree.find(&prism, &mut found);
+                tree.find(&prism, &mut found).unwrap();
                 let expected: Vec<_> = (0..n).filter(|&i| meets(&prism, &boxes[i])).collect();
                 assert_eq!(found, expected);
             }

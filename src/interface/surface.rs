@@ -1,8 +1,9 @@
 //! One side of an interface: its nodes, facets and equation numbers, checked once.
 
 use crate::adjacency::{SharedEdge, shared_edges};
-use crate::error::{Error, Kind, Result};
+use crate::error::{Error, Kind, Result, Text};
 use crate::geometry::{AnalyticShape, AnalyticSurface, FRAME, Facet, Vec3, check_rigid_motion};
+use crate::memory::{self, Store};
 use crate::mortar::NonmortarFrame;
 use crate::shape::{MAX_NODES, Shape};
 
@@ -56,7 +57,7 @@ impl Surface {
         facets: &[Vec<i64>],
         equations: Vec<[i64; 3]>,
     ) -> Result<Surface> {
-        let fail = |kind, text: String| Err(Error::new(kind, format!("{side}: {text}")));
+        let fail = |kind, text: Text| Err(Error::new(kind, text!("{side}: {text}")));
         let n = reference.len();
         if n == 0 || facets.is_empty() {
             return fail(
@@ -65,16 +66,16 @@ impl Surface {
             );
         }
         if equations.len() != n {
-            return fail(Kind::InvalidSize, format!("{} nodes have equations; there are {n} nodes", equations.len()));
+            return fail(Kind::InvalidSize, text!("{} nodes have equations; there are {n} nodes", equations.len()));
         }
         if let Some(k) = reference.iter().position(|x| !x.iter().all(|v| v.is_finite())) {
-            return fail(Kind::NotFinite, format!("coordinates of node {k} are not finite"));
+            return fail(Kind::NotFinite, text!("coordinates of node {k} are not finite"));
         }
-        let mut kept = Vec::with_capacity(facets.len());
-        let mut used = vec![false; n];
+        let mut kept = memory::with_room(facets.len())?;
+        let mut used = memory::filled(false, n)?;
         for (f, nodes) in facets.iter().enumerate() {
             if !(3..=MAX_NODES).contains(&nodes.len()) {
-                return fail(Kind::InvalidSize, format!("facet {f} has {} nodes; 3 or 4 are allowed", nodes.len()));
+                return fail(Kind::InvalidSize, text!("facet {f} has {} nodes; 3 or 4 are allowed", nodes.len()));
             }
             let mut indices = [0; MAX_NODES];
             for (k, &node) in nodes.iter().enumerate() {
@@ -82,21 +83,21 @@ impl Surface {
                 let Some(index) = index else {
                     return fail(
                         Kind::IndexOutOfRange,
-                        format!("facet {f} names node {node}; nodes 0 to {} exist", n - 1),
+                        text!("facet {f} names node {node}; nodes 0 to {} exist", n - 1),
                     );
                 };
                 if indices[..k].contains(&index) {
-                    return fail(Kind::DuplicateNode, format!("facet {f} names node {node} twice"));
+                    return fail(Kind::DuplicateNode, text!("facet {f} names node {node} twice"));
                 }
                 indices[k] = index;
                 used[index] = true;
             }
             let first = indices[0];
             indices[nodes.len()..].fill(first);
-            kept.push(FacetNodes { nodes: indices, len: nodes.len() });
+            kept.store(FacetNodes { nodes: indices, len: nodes.len() })?;
         }
         if let Some(k) = used.iter().position(|u| !u) {
-            return fail(Kind::InvalidValue, format!("node {k} belongs to no facet; leave it out"));
+            return fail(Kind::InvalidValue, text!("node {k} belongs to no facet; leave it out"));
         }
         let edges = match shared_edges(kept.len(), |f| kept[f].as_slice()) {
             Ok(edges) => edges,
@@ -109,7 +110,7 @@ impl Surface {
             None => Ok(surface),
             Some(SharedEdge { nodes: [a, b], facets: [f, g] }) => fail(
                 Kind::InvalidValue,
-                format!(
+                text!(
                     "facets {f} and {g} lie on each other: the surface is folded along the edge of nodes {a} and {b}"
                 ),
             ),
@@ -130,18 +131,18 @@ impl Surface {
     /// A rigid surface in closed form, placed by the four points of its frame (see [`AnalyticSurface`]), which have no
     /// equations.
     pub fn analytic(side: &'static str, shape: AnalyticShape, frame: Vec<Vec3>) -> Result<Surface> {
-        let fail = |kind, text: String| Err(Error::new(kind, format!("{side}: {text}")));
+        let fail = |kind, text: Text| Err(Error::new(kind, text!("{side}: {text}")));
         if frame.len() != FRAME {
-            return fail(Kind::InvalidSize, format!("{} nodes; the frame of an analytic surface has 4", frame.len()));
+            return fail(Kind::InvalidSize, text!("{} nodes; the frame of an analytic surface has 4", frame.len()));
         }
         if let Some(k) = frame.iter().position(|x| !x.iter().all(|v| v.is_finite())) {
-            return fail(Kind::NotFinite, format!("coordinates of node {k} are not finite"));
+            return fail(Kind::NotFinite, text!("coordinates of node {k} are not finite"));
         }
         let surface = Surface {
             side,
             reference: frame,
-            facets: vec![FacetNodes { nodes: [0, 1, 2, 3], len: FRAME }],
-            equations: vec![[NO_EQUATION; 3]; FRAME],
+            facets: memory::filled(FacetNodes { nodes: [0, 1, 2, 3], len: FRAME }, 1)?,
+            equations: memory::filled([NO_EQUATION; 3], FRAME)?,
             longest_edge: 0.0,
             edges: Vec::new(),
             analytic: Some(shape),
@@ -165,7 +166,7 @@ impl Surface {
         }
         let frame = |x: &[Vec3]| self.facets[0].nodes.map(|k| x[k]);
         check_rigid_motion(&frame(&self.reference), &frame(x))
-            .map_err(|e| Error::new(e.kind, format!("{}: {}", self.side, e.message)))
+            .map_err(|e| Error::new(e.kind, text!("{}: {}", self.side, e.message)))
     }
 
     /// The longest edge of any facet at the node positions `x` `[L]`.

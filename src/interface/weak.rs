@@ -14,6 +14,8 @@
 
 use super::Surface;
 use super::history::History;
+use crate::error::Result;
+use crate::memory::{self, Store, Stored};
 
 /// A neighbour's share of a weak node: (node, w).
 pub(super) type Carrier = (usize, f64);
@@ -40,7 +42,7 @@ const WHOLE: f64 = 0.99;
 
 /// Per node its carriers, sorted; none where it has a multiplier of its own. A node is weak where a part of it is not
 /// covered and what is covered is less than `threshold` times its best covered neighbour.
-pub(super) fn carriers(nodes: &Nodes, links: &[Vec<Carrier>], threshold: f64) -> Vec<Vec<Carrier>> {
+pub(super) fn carriers(nodes: &Nodes, links: &[Vec<Carrier>], threshold: f64) -> Result<Vec<Vec<Carrier>>> {
     let n = nodes.fraction.len();
     let takes_part = |a: usize| nodes.coverable[a] && (nodes.has_multiplier)(a);
     let best = |a: usize| {
@@ -49,15 +51,15 @@ pub(super) fn carriers(nodes: &Nodes, links: &[Vec<Carrier>], threshold: f64) ->
     };
     let enough = |a: usize| nodes.fraction[a] >= WHOLE || nodes.fraction[a] >= threshold * best(a);
     let strong = |a: usize| takes_part(a) && nodes.fraction[a] > 0.0 && enough(a);
-    let strong: Vec<bool> = (0..n).map(strong).collect();
-    let own = |a: usize| if strong[a] { vec![(a, 1.0)] } else { Vec::new() };
-    let mut carriers: Vec<Vec<Carrier>> = (0..n).map(own).collect();
+    let strong: Vec<bool> = (0..n).map(strong).stored()?;
+    let own = |a: usize| if strong[a] { memory::filled((a, 1.0), 1) } else { Ok(Vec::new()) };
+    let mut carriers: Vec<Vec<Carrier>> = (0..n).map(own).stored_if_ok()?;
     for _ in 0..REACH {
         let next = |a: usize| {
             let carried = takes_part(a) && carriers[a].is_empty();
-            if carried { mean(links[a].iter().map(|&(b, w)| (&carriers[b], w))) } else { Vec::new() }
+            if carried { mean(links[a].iter().map(|&(b, w)| (&carriers[b], w))) } else { Ok(Vec::new()) }
         };
-        let found: Vec<_> = (0..n).map(next).collect();
+        let found: Vec<_> = (0..n).map(next).stored_if_ok()?;
         for (all, new) in carriers.iter_mut().zip(found).filter(|(_, new)| !new.is_empty()) {
             *all = new;
         }
@@ -65,16 +67,16 @@ pub(super) fn carriers(nodes: &Nodes, links: &[Vec<Carrier>], threshold: f64) ->
     for a in (0..n).filter(|&a| strong[a]) {
         carriers[a] = Vec::new();
     }
-    carriers
+    Ok(carriers)
 }
 
 /// The weighted mean of some nodes' carriers, each node's sum being 1 or 0.
-fn mean<'a>(nodes: impl Iterator<Item = (&'a Vec<Carrier>, f64)>) -> Vec<Carrier> {
+fn mean<'a>(nodes: impl Iterator<Item = (&'a Vec<Carrier>, f64)>) -> Result<Vec<Carrier>> {
     let all = nodes.flat_map(|(carriers, w)| carriers.iter().map(move |&(b, v)| (b, w * v)));
-    let mut sum = gather(all.collect());
+    let mut sum = gather(all.stored()?);
     let total: f64 = sum.iter().map(|(_, w)| w).sum();
     sum.iter_mut().for_each(|(_, w)| *w /= total);
-    sum
+    Ok(sum)
 }
 
 /// Sorted by node, the weights of a node added up.
@@ -90,8 +92,8 @@ fn gather(mut all: Vec<Carrier>) -> Vec<Carrier> {
 
 /// Per node the nodes that share a facet with it, each with the facets' area, twice at an edge: as int N_A N_B da on
 /// parallelograms.
-pub(super) fn links(surface: &Surface, history: &History) -> Vec<Vec<Carrier>> {
-    let mut links = vec![Vec::new(); surface.len()];
+pub(super) fn links(surface: &Surface, history: &History) -> Result<Vec<Vec<Carrier>>> {
+    let mut links = memory::defaults::<Vec<_>>(surface.len())?;
     for (f, facet) in surface.facets.iter().enumerate() {
         let area = surface.facet(f, &history.x1).area_vector().norm();
         let nodes = facet.as_slice();
@@ -99,12 +101,12 @@ pub(super) fn links(surface: &Surface, history: &History) -> Vec<Vec<Carrier>> {
             for (j, &b) in nodes.iter().enumerate().filter(|&(j, _)| j != i) {
                 let diagonal = nodes.len() == 4 && (i + 2) % 4 == j;
                 if history.normals[a].dot(&history.normals[b]) >= LEAST_ALIGNMENT {
-                    links[a].push((b, if diagonal { area } else { 2.0 * area }));
+                    links[a].store((b, if diagonal { area } else { 2.0 * area }))?;
                 }
             }
         }
     }
-    links.into_iter().map(gather).collect()
+    links.into_iter().map(gather).stored()
 }
 
 #[cfg(test)]
@@ -117,7 +119,7 @@ mod tests {
         let neighbours = |a: usize| [a.checked_sub(1), (a + 1 < n).then_some(a + 1)];
         let links: Vec<_> = (0..n).map(|a| neighbours(a).into_iter().flatten().map(|b| (b, 2.0)).collect()).collect();
         let nodes = Nodes { fraction, coverable: &vec![true; n], has_multiplier: &|_| true };
-        carriers(&nodes, &links, threshold)
+        carriers(&nodes, &links, threshold).unwrap()
     }
 
     #[test]

@@ -37,7 +37,11 @@ fn counters_tell_what_was_done() {
         let c = contact.counters();
         assert_eq!((c.pairs_tested, c.pairs_clipped, c.pairs_integrated, c.pairs_linearised), (12, 0, 12, 6));
         assert_eq!((c.searches, c.evaluations_apart), (0, 0));
-        assert!(contact.effects().contains(&format!("Mortar side: {shape} (asked for)")), "{}", contact.effects());
+        assert!(
+            contact.effects().unwrap().contains(&format!("Mortar side: {shape} (asked for)")),
+            "{}",
+            contact.effects().unwrap()
+        );
         // Apart is one comparison a node, and changes nothing.
         let mut options = options();
         options.shortcuts.apart = false;

@@ -29,6 +29,9 @@ typedef struct {
   int64_t suspect_nodes[8];
   double suspect_directions[24], suspect_ratios[8];
   char diagnosis_text[2000];
+  double step_limit;
+  stickslip_equilibrium equilibrium;
+  double node_equilibrium[3], facet_normal[3];
 } every;
 
 static inline int32_t every_weights(every *c) { return call_weights(&c->e); }
@@ -43,6 +46,22 @@ static inline int32_t every_options_init(every *c) { return stickslip_options_in
 static inline int32_t every_padded(every *c) { return stickslip_last_error_padded(c->last_error, sizeof c->last_error); }
 static inline int32_t every_split(every *c) {
   return stickslip_surface_split_creases(&c->h.s.nonmortar, 0.5, (int32_t)c->h.s.options.index_base, COUNT(c->originals),
+                                         c->split_nodes, c->originals, &c->split_count);
+}
+/* The same of a surface that is bent by a right angle along its middle. */
+static inline int32_t every_split_bent(every *c) {
+  static double bent[X1];
+  if (bent[0] == 0.0 && bent[3] == 0.0) {
+    for (int a = 0; a < N1; ++a) {
+      const int i = a % 3;
+      bent[3 * a] = i < 2 ? 0.5 * i : 0.5;
+      bent[3 * a + 1] = 0.5 * (a / 3);
+      bent[3 * a + 2] = i < 2 ? 0.0 : 0.5;
+    }
+  }
+  stickslip_surface surface = c->h.s.nonmortar;
+  surface.coordinates = bent;
+  return stickslip_surface_split_creases(&surface, 0.5, (int32_t)c->h.s.options.index_base, COUNT(c->originals),
                                          c->split_nodes, c->originals, &c->split_count);
 }
 static inline int32_t every_crosspoints(every *c) {
@@ -95,6 +114,12 @@ static inline int32_t every_initial(every *c) { return stickslip_interface_initi
 static inline int32_t every_sums(every *c) { return call_interface_sums(&c->h); }
 static inline int32_t every_residual(every *c) { return call_interface_residual(&c->h); }
 static inline int32_t every_states(every *c) { return call_interface_states(&c->h); }
+/* With the sums of `every_sums`; not where nodes are carried. */
+static inline int32_t every_with_sums(every *c) {
+  scene *s = &c->h.s;
+  return stickslip_interface_residual(s->interface, s->x1, s->x2, s->lambda, c->h.sums, c->h.force1, c->h.force2,
+                                      c->h.rows);
+}
 static inline int32_t every_coo(every *c) { return call_interface_coo(&c->h); }
 static inline int32_t every_csr(every *c) { return call_interface_csr(&c->h); }
 static inline int32_t every_count(every *c) {
@@ -126,6 +151,26 @@ static inline int32_t every_diagnose(every *c) {
   return stickslip_interface_diagnose(c->h.s.interface, c->h.s.x1, c->h.s.x2, c->h.s.lambda, NULL, &c->diagnosis);
 }
 
+/* A step of the non-mortar side through the other one: many fractions are tried. */
+static inline int32_t every_step_limit(every *c) {
+  static double down[X1], nothing[X2];
+  if (down[2] == 0.0) {
+    every_up(down, N1);
+    for (int k = 0; k < X1; ++k) down[k] *= -2.0;
+  }
+  return stickslip_interface_step_limit(c->h.s.interface, c->h.s.x1, c->h.s.x2, down, nothing, 0.0, &c->step_limit);
+}
+
+static inline int32_t every_equilibrium(every *c) {
+  scene *s = &c->h.s;
+  return stickslip_interface_equilibrium(s->interface, s->x1, s->x2, s->lambda, NULL, &c->equilibrium);
+}
+static inline int32_t every_node_equilibrium(every *c) {
+  double *out = c->node_equilibrium;
+  return stickslip_node_equilibrium(&c->e.node, 10.0, 0.0, out, out + 1, out + 2);
+}
+static inline int32_t every_facet_normal(every *c) { return stickslip_facet_normal(4, c->e.x1, c->facet_normal); }
+
 typedef struct {
   const char *name;
   int32_t (*call)(every *c);
@@ -143,6 +188,7 @@ static const entry_point every_call[] = {
     {"options_init", every_options_init},
     {"last_error_padded", every_padded},
     {"surface_split_creases", every_split},
+    {"surface_split_creases, bent", every_split_bent},
     {"crosspoints_find", every_crosspoints},
     {"interface_create", every_create},
     {"interface_initial_multipliers", every_initial},
@@ -153,6 +199,7 @@ static const entry_point every_call[] = {
     {"interface_set_augmentation", every_augmentation},
     {"interface_set_normals", every_normals},
     {"interface_sums", every_sums},
+    {"interface_residual, sums", every_with_sums},
     {"interface_set_normals, NULL", every_no_normals},
     {"interface_set_constraints", every_constraints},
     {"interface_states", every_states},
@@ -162,6 +209,10 @@ static const entry_point every_call[] = {
     {"interface_report", every_report},
     {"interface_diagnose", every_diagnose},
     {"interface_effects", every_effects},
+    {"interface_step_limit", every_step_limit},
+    {"interface_equilibrium", every_equilibrium},
+    {"node_equilibrium", every_node_equilibrium},
+    {"facet_normal", every_facet_normal},
     {"interface_commit", every_commit},
     {"interface_residual, committed", every_residual},
     {"interface_history_size", every_history_size},
@@ -173,6 +224,52 @@ static const entry_point every_call[] = {
     {"interface_counters", every_counters},
 };
 
+/* A refusal of every function: no pointer at all. */
+static inline int32_t every_refusal(int k) {
+  switch (k) {
+    case 0: return stickslip_pair_weights(NULL, NULL, NULL, NULL, NULL);
+    case 1: return stickslip_pair_gap(NULL, NULL, NULL, NULL);
+    case 2: return stickslip_pair_residual(NULL, NULL, NULL, NULL, NULL);
+    case 3: return stickslip_pair_tangent(NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, 0);
+    case 4: return stickslip_node_respond(NULL, NULL);
+    case 5: return stickslip_node_block(NULL, 1.0, 0, NULL, NULL);
+    case 6: return stickslip_facet_geometry(3, NULL, NULL, NULL);
+    case 7: return stickslip_node_normal(NULL, NULL);
+    case 8: return stickslip_options_init(NULL, 0);
+    case 9: return stickslip_last_error_padded(NULL, 0);
+    case 10: return stickslip_surface_split_creases(NULL, 1.0, 0, 0, NULL, NULL, NULL);
+    case 11: return stickslip_crosspoints_find(1, NULL, NULL, NULL, NULL, 0, NULL, NULL, NULL, NULL);
+    case 12: return stickslip_interface_create(NULL, NULL, NULL, NULL);
+    case 13: return stickslip_interface_destroy((stickslip_interface **)(uintptr_t)1);
+    case 14: return stickslip_interface_set_friction(NULL, NULL);
+    case 15: return stickslip_interface_set_augmentation(NULL, NULL);
+    case 16: return stickslip_interface_set_normals(NULL, NULL);
+    case 17: return stickslip_interface_set_constraints(NULL, 0, NULL, NULL);
+    case 18: return stickslip_interface_set_previous(NULL, NULL, NULL);
+    case 19: return stickslip_interface_initial_multipliers(NULL, NULL);
+    case 20: return stickslip_interface_sums(NULL, NULL, NULL, NULL);
+    case 21: return stickslip_interface_states(NULL, NULL, NULL, NULL, NULL, NULL);
+    case 22: return stickslip_interface_residual(NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL);
+    case 23: return stickslip_interface_tangent_coo(NULL, NULL, NULL, NULL, NULL, 0, NULL, NULL, NULL, NULL);
+    case 24: return stickslip_interface_tangent_csr(NULL, NULL, NULL, NULL, NULL, 0, NULL, NULL, NULL);
+    case 25: return stickslip_interface_pattern_coo(NULL, NULL, NULL, 0, NULL, NULL, NULL);
+    case 26: return stickslip_interface_commit(NULL, NULL, NULL, NULL, NULL);
+    case 27: return stickslip_interface_rollback(NULL);
+    case 28: return stickslip_interface_history_size(NULL, NULL, NULL);
+    case 29: return stickslip_interface_history_export(NULL, 0, NULL, 0, NULL);
+    case 30: return stickslip_interface_history_import(NULL, 0, NULL, 0, NULL);
+    case 31: return stickslip_interface_counters(NULL, NULL);
+    case 32: return stickslip_interface_effects(NULL, NULL, 0);
+    case 33: return stickslip_interface_report(NULL, NULL, NULL, NULL);
+    case 34: return stickslip_interface_step_limit(NULL, NULL, NULL, NULL, NULL, 0.0, NULL);
+    case 35: return stickslip_interface_equilibrium(NULL, NULL, NULL, NULL, NULL, NULL);
+    case 36: return stickslip_node_equilibrium(NULL, 0.0, 0.0, NULL, NULL, NULL);
+    case 37: return stickslip_facet_normal(4, NULL, NULL);
+    default: return stickslip_interface_diagnose(NULL, NULL, NULL, NULL, NULL, NULL);
+  }
+}
+enum { REFUSALS = 39 };
+
 /* Room and sizes; outputs hold zeros. `s` is set up by the test (scene_init and options) and not created yet. */
 static inline void every_init(every *c) {
   static every empty;
@@ -181,12 +278,6 @@ static inline void every_init(every *c) {
   c->h.s = s;
   element_init(&c->e);
   handle *h = &c->h;
-  h->s.nonmortar.coordinates = h->s.reference1;
-  h->s.nonmortar.facet_offsets = h->s.offsets1;
-  h->s.nonmortar.facet_nodes = h->s.nodes1;
-  h->s.nonmortar.equations = h->s.equations1;
-  h->s.nonmortar.multiplier_equations = h->s.multipliers;
-  h->s.mortar.coordinates = h->s.reference2;
   scene_create(&h->s);
   scene_commit(&h->s);
   history_take(h->s.interface, &c->exported);
@@ -196,6 +287,7 @@ static inline void every_init(every *c) {
   for (int i = 0; i <= UNKNOWNS; ++i) h->offsets[i] = (int64_t)i * UNKNOWNS;
   for (int i = 0; i < UNKNOWNS * UNKNOWNS; ++i) h->csr_columns[i] = i % UNKNOWNS;
   c->counters.struct_size = sizeof c->counters;
+  c->equilibrium.struct_size = sizeof c->equilibrium;
   c->report.struct_size = sizeof c->report;
   c->report.cover = c->cover;
   c->report.fraction = c->fraction;
@@ -229,7 +321,8 @@ static inline int every_equal(every *a, every *b) {
          SAME(layers) && SAME(fraction) && SAME(facets) && SAME(report_text) && SAME(report.penetration) &&
          SAME(report.finding) && SAME(diagnosed_state) && SAME(suspect_nodes) && SAME(suspect_directions) &&
          SAME(suspect_ratios) && SAME(suspect_causes) && SAME(diagnosis_text) && SAME(diagnosis.overlap) &&
-         SAME(diagnosis.error);
+         SAME(diagnosis.error) && SAME(step_limit) && SAME(equilibrium) &&
+         SAME(node_equilibrium) && SAME(facet_normal);
 #undef SAME
 }
 

@@ -9,7 +9,7 @@ int main(void) {
   /* Nothing refused yet on this thread. */
   CHECK(stickslip_last_error_message() != NULL && stickslip_last_error_message()[0] == '\0');
 
-  for (int32_t status = STICKSLIP_PANIC; status <= STICKSLIP_TURNED_TOO_FAR; ++status) {
+  for (int32_t status = STICKSLIP_PANIC; status <= STICKSLIP_CONTACT_LOST; ++status) {
     CHECK(strlen(stickslip_status_string(status)) > 3);
     CHECK(strcmp(stickslip_status_string(status), "unknown status") != 0);
     for (int32_t other = STICKSLIP_PANIC; other < status; ++other) {

@@ -27,48 +27,6 @@ static void enter(environment e) {
 #endif
 }
 
-/* A refusal in such an environment, of every function: no pointer at all. */
-static int32_t refuse(int k) {
-  switch (k) {
-    case 0: return stickslip_pair_weights(NULL, NULL, NULL, NULL, NULL);
-    case 1: return stickslip_pair_gap(NULL, NULL, NULL, NULL);
-    case 2: return stickslip_pair_residual(NULL, NULL, NULL, NULL, NULL);
-    case 3: return stickslip_pair_tangent(NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, 0);
-    case 4: return stickslip_node_respond(NULL, NULL);
-    case 5: return stickslip_node_block(NULL, 1.0, 0, NULL, NULL);
-    case 6: return stickslip_facet_geometry(3, NULL, NULL, NULL);
-    case 7: return stickslip_node_normal(NULL, NULL);
-    case 8: return stickslip_options_init(NULL, 0);
-    case 9: return stickslip_last_error_padded(NULL, 0);
-    case 10: return stickslip_surface_split_creases(NULL, 1.0, 0, 0, NULL, NULL, NULL);
-    case 11: return stickslip_crosspoints_find(1, NULL, NULL, NULL, NULL, 0, NULL, NULL, NULL, NULL);
-    case 12: return stickslip_interface_create(NULL, NULL, NULL, NULL);
-    case 13: return stickslip_interface_destroy((stickslip_interface **)(uintptr_t)1);
-    case 14: return stickslip_interface_set_friction(NULL, NULL);
-    case 15: return stickslip_interface_set_augmentation(NULL, NULL);
-    case 16: return stickslip_interface_set_normals(NULL, NULL);
-    case 17: return stickslip_interface_set_constraints(NULL, 0, NULL, NULL);
-    case 18: return stickslip_interface_set_previous(NULL, NULL, NULL);
-    case 19: return stickslip_interface_initial_multipliers(NULL, NULL);
-    case 20: return stickslip_interface_sums(NULL, NULL, NULL, NULL);
-    case 21: return stickslip_interface_states(NULL, NULL, NULL, NULL, NULL, NULL);
-    case 22: return stickslip_interface_residual(NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL);
-    case 23: return stickslip_interface_tangent_coo(NULL, NULL, NULL, NULL, NULL, 0, NULL, NULL, NULL, NULL);
-    case 24: return stickslip_interface_tangent_csr(NULL, NULL, NULL, NULL, NULL, 0, NULL, NULL, NULL);
-    case 25: return stickslip_interface_pattern_coo(NULL, NULL, NULL, 0, NULL, NULL, NULL);
-    case 26: return stickslip_interface_commit(NULL, NULL, NULL, NULL, NULL);
-    case 27: return stickslip_interface_rollback(NULL);
-    case 28: return stickslip_interface_history_size(NULL, NULL, NULL);
-    case 29: return stickslip_interface_history_export(NULL, 0, NULL, 0, NULL);
-    case 30: return stickslip_interface_history_import(NULL, 0, NULL, 0, NULL);
-    case 31: return stickslip_interface_counters(NULL, NULL);
-    case 32: return stickslip_interface_effects(NULL, NULL, 0);
-    case 33: return stickslip_interface_report(NULL, NULL, NULL, NULL);
-    default: return stickslip_interface_diagnose(NULL, NULL, NULL, NULL, NULL, NULL);
-  }
-}
-enum { REFUSALS = 35 };
-
 /* One call between two looks at the environment. The x87's part of fenv_t shows that nothing has used it. */
 static int32_t kept(environment e, int32_t (*call)(every *c), every *c, int refused, const char *name) {
   fenv_t own, before, after;
@@ -78,7 +36,7 @@ static int32_t kept(environment e, int32_t (*call)(every *c), every *c, int refu
   const unsigned mxcsr_before = _mm_getcsr();
 #endif
   fegetenv(&before);
-  const int32_t status = call ? call(c) : refuse(refused);
+  const int32_t status = call ? call(c) : every_refusal(refused);
 #if defined(__SSE__)
   const unsigned mxcsr_after = _mm_getcsr();
 #endif

@@ -86,9 +86,9 @@ fn it_says_what_it_computes_and_why() {
     let scene = moved(&options(), CELLS[0], FLAT, 3);
     let says = |prescribed: bool, options: Options, words: &[&str]| {
         let text = if options.friction == Friction::None {
-            again::<1>(&scene, prescribed, options).effects()
+            again::<1>(&scene, prescribed, options).effects().unwrap()
         } else {
-            again::<3>(&scene, prescribed, options).effects()
+            again::<3>(&scene, prescribed, options).effects().unwrap()
         };
         assert_eq!(text.matches(". ").count() + 1, 6, "six sentences: {text}");
         assert!(text.is_ascii() && text.len() < 500, "{text}");
@@ -134,5 +134,5 @@ fn it_says_what_it_computes_and_why() {
     let mut mu = vec![0.0; 9];
     mu[4] = 0.25;
     some.set_friction(mu).unwrap();
-    assert!(some.effects().contains("mu from 0 to 0.25"), "{}", some.effects());
+    assert!(some.effects().unwrap().contains("mu from 0 to 0.25"), "{}", some.effects().unwrap());
 }

@@ -22,7 +22,7 @@ program t01_version_status
   CHECK_OK(stickslip_last_error_padded(fixed, 40_c_int64_t))
   CHECK(fixed == '')
 
-  do status = STICKSLIP_PANIC, STICKSLIP_TURNED_TOO_FAR
+  do status = STICKSLIP_PANIC, STICKSLIP_CONTACT_LOST
     CHECK(len(c_text(stickslip_status_string(status))) > 3)
     CHECK(c_text(stickslip_status_string(status)) /= UNKNOWN)
     do other = STICKSLIP_PANIC, status - 1

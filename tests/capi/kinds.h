@@ -1,0 +1,74 @@
+/* Kinds of scenes for tests that go through all calls: every form, law, side, integration and kind of weights. */
+#ifndef KINDS_H
+#define KINDS_H
+
+#include "every_call.h"
+
+/* A kind of scene. */
+typedef struct {
+  const char *name;
+  int32_t form, friction, weights, integration;
+  double weak_coverage, slide;
+  int rigid, analytic;
+  int unseen; /* the history is not looked at before the end: what a commit has left out is then made up for by a call */
+} kind;
+
+static const kind kinds[] = {
+    {.name = "deformable"},
+    {.name = "augmented", .form = STICKSLIP_FORM_AUGMENTED},
+    {.name = "frictionless", .friction = STICKSLIP_FRICTION_NONE},
+    {.name = "frictionless, augmented", .friction = STICKSLIP_FRICTION_NONE, .form = STICKSLIP_FORM_AUGMENTED},
+    {.name = "tied", .friction = STICKSLIP_FRICTION_TIED},
+    {.name = "rough", .friction = STICKSLIP_FRICTION_ROUGH},
+    {.name = "committed weights", .weights = STICKSLIP_WEIGHTS_COMMITTED},
+    {.name = "reference weights", .weights = STICKSLIP_WEIGHTS_REFERENCE},
+    {.name = "weak coverage", .weak_coverage = 0.5, .slide = 0.9},
+    {.name = "weak coverage, augmented", .weak_coverage = 0.5, .slide = 0.9, .form = STICKSLIP_FORM_AUGMENTED},
+    {.name = "elements", .integration = STICKSLIP_INTEGRATION_ELEMENTS},
+    {.name = "hybrid", .integration = STICKSLIP_INTEGRATION_HYBRID, .slide = 0.5},
+    {.name = "rigid", .rigid = 1},
+    {.name = "apart", .slide = 50.0},
+    {.name = "apart, unseen", .slide = 50.0, .unseen = 1},
+    {.name = "analytic", .analytic = 1},
+    {.name = "analytic, frictionless", .analytic = 1, .friction = STICKSLIP_FRICTION_NONE},
+};
+
+static inline void set_up(const kind *k, every *c) {
+  memset(c, 0, sizeof *c);
+  scene *s = &c->h.s;
+  scene_init(s);
+  s->options.form = k->form;
+  s->options.friction = k->friction;
+  s->options.weights = k->weights;
+  s->options.integration = k->integration;
+  s->options.weak_coverage = k->weak_coverage;
+  if (k->friction != STICKSLIP_FRICTION_COULOMB) s->options.mu = 0.0;
+  if (k->rigid || k->analytic) {
+    s->options.mortar_side = k->analytic ? STICKSLIP_MORTAR_ANALYTIC : STICKSLIP_MORTAR_RIGID;
+    for (int i = 0; i < X2; ++i) s->equations2[i] = -1;
+  }
+  if (k->analytic) {
+    /* A plane through the origin, its normal up in the scene's frame. */
+    static const double frame[12] = {0, 0, 0, 0, 0, 1, 1, 0, 0, 0, 1, 0};
+    s->mortar.n_nodes = 4;
+    s->mortar.n_facets = 0;
+    s->mortar.facet_offsets = s->mortar.facet_nodes = NULL;
+    memcpy(s->reference2, frame, sizeof frame);
+    for (int a = 0; a < 4; ++a) scene_frame(s->reference2 + 3 * a);
+    memcpy(s->x2, s->reference2, sizeof s->x2);
+  }
+  if (k->slide != 0.0) scene_slide(s, k->slide);
+  every_init(c);
+}
+
+static inline int belongs(const kind *k, const entry_point *entry) {
+  if (entry->call == every_friction) return k->friction == STICKSLIP_FRICTION_COULOMB;
+  return entry->call != every_with_sums || k->weak_coverage == 0.0;
+}
+
+static inline void end(every *c) {
+  CHECK_OK(stickslip_interface_destroy(&c->other));
+  scene_destroy(&c->h.s);
+}
+
+#endif
