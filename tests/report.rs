@@ -136,7 +136,7 @@ fn swapped_positions_are_noticed() {
             let (x1, x2) = (at(&one.x), at(&two.x));
             let swapped = i.report(&x2, &x1).unwrap();
             assert_eq!(swapped.finding, Some(Finding::Swapped), "{gap} {aside} {moved}");
-            assert!(swapped.text().contains("x1 and x2 are swapped"));
+            assert!(swapped.text().unwrap().contains("x1 and x2 are swapped"));
             assert_ne!(i.report(&x1, &x2).unwrap().finding, Some(Finding::Swapped));
         }
         // A body that goes where the other one was: the nodes do not.
