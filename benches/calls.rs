@@ -54,6 +54,7 @@ fn pair_weights(pair: &Pair) -> f64 {
         quadrature: STICKSLIP_QUADRATURE_DEGREE_5,
         layout: STICKSLIP_LAYOUT_ROW_MAJOR,
         element_points: 0,
+        neighbour_normals: std::ptr::null(),
     };
     let null = std::ptr::null_mut();
     // SAFETY: points are three numbers each, one after the other; the outputs hold 16.

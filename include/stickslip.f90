@@ -136,6 +136,8 @@ module stickslip
   integer(c_int32_t), parameter :: STICKSLIP_FINDING_NO_OVERLAP = 1
   integer(c_int32_t), parameter :: STICKSLIP_FINDING_SAME_WAY = 2
   integer(c_int32_t), parameter :: STICKSLIP_FINDING_BEHIND = 3
+  integer(c_int32_t), parameter :: STICKSLIP_FINDING_SWAPPED = 4
+  integer(c_int32_t), parameter :: STICKSLIP_FINDING_INSIDE_OUT = 5
 
   ! Why a node and direction are suspected.
   integer(c_int32_t), parameter :: STICKSLIP_CAUSE_OTHER = 0

@@ -325,6 +325,15 @@
 /// have passed through each other, or start so deep that search_distance is needed.
 #define STICKSLIP_FINDING_BEHIND 3
 
+/// Finding: the positions of either side are those of the other side's first configuration, node by node: x1 and x2 are
+/// swapped. Seen where both sides have as many nodes.
+#define STICKSLIP_FINDING_SWAPPED 4
+
+/// Finding: both node orders look reversed. Every covered node penetrates by a tenth of a facet (the smaller side's longest
+/// edge) or more, be it an open gap that is seen from inside or a deep interference fit; or a closed surface is a cavity and
+/// the other side is not in it. Open patches that touch do not tell.
+#define STICKSLIP_FINDING_INSIDE_OUT 5
+
 /// Cause of a suspect: none of those below.
 #define STICKSLIP_CAUSE_OTHER 0
 
@@ -569,7 +578,7 @@ typedef struct stickslip_report {
   int64_t nodes_full;
   /// Output: nodes with STICKSLIP_COVER_SEVERAL.
   int64_t nodes_several;
-  /// Output: STICKSLIP_FINDING_...; other than NONE only where no node is covered.
+  /// Output: STICKSLIP_FINDING_...; where nodes are covered NONE, SWAPPED or INSIDE_OUT.
   int32_t finding;
   /// 0.
   int32_t reserved;

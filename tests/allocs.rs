@@ -84,6 +84,7 @@ fn c_element_calls_allocate_nothing() {
                 quadrature,
                 layout: STICKSLIP_LAYOUT_COLUMN_MAJOR,
                 element_points: 0,
+                neighbour_normals: std::ptr::null(),
             };
             c_calls(&pair);
         }

@@ -196,7 +196,7 @@ fn layouts() -> Vec<Layout> {
             drow_dnow,
             drow_dprevious
         }),
-        layout!(stickslip_pair { struct_size, n1, n2, x1, x2, quadrature, layout, element_points }),
+        layout!(stickslip_pair { struct_size, n1, n2, x1, x2, quadrature, layout, element_points, neighbour_normals }),
     ]
 }
 

@@ -124,6 +124,80 @@ fn surfaces_that_do_not_meet_are_told_why() {
     }
 }
 
+/// Sides with as many nodes, far and near, also where the surfaces have moved since; never what is given in its place.
+#[test]
+fn swapped_positions_are_noticed() {
+    let one = grid(2, 2, [0.0, 0.0], [1.0, 1.0], 0.0, false, Cells::Quads);
+    for (gap, aside) in [(0.02, 0.0), (0.02, 0.3), (5.0, 0.0), (0.0, 4.0)] {
+        let two = grid(2, 2, [aside - 0.2, -0.1], [aside + 1.3, 1.2], -gap, true, Cells::Triangles);
+        let mut i = interface(&one, &two, options());
+        for moved in [0.0, 0.003] {
+            let at = |x: &[Vec3]| x.iter().map(|x| x + Vec3::new(moved, -moved, 0.0)).collect::<Vec<_>>();
+            let (x1, x2) = (at(&one.x), at(&two.x));
+            let swapped = i.report(&x2, &x1).unwrap();
+            assert_eq!(swapped.finding, Some(Finding::Swapped), "{gap} {aside} {moved}");
+            assert!(swapped.text().contains("x1 and x2 are swapped"));
+            assert_ne!(i.report(&x1, &x2).unwrap().finding, Some(Finding::Swapped));
+        }
+        // A body that goes where the other one was: the nodes do not.
+        let away = i.report(&two.x.iter().rev().copied().collect::<Vec<_>>(), &two.x).unwrap();
+        assert_ne!(away.finding, Some(Finding::Swapped));
+    }
+}
+
+/// The surface of a cube of n x n quads a face, its lower corner at `from`, seen from outside.
+fn cube(n: usize, from: Vec3, size: f64) -> Mesh {
+    let mut mesh = Mesh { x: Vec::new(), facets: Vec::new() };
+    let mut node = |x: Vec3| {
+        let found = mesh.x.iter().position(|y| (x - y).norm() < 1e-9 * size);
+        found.unwrap_or_else(|| {
+            mesh.x.push(x);
+            mesh.x.len() - 1
+        }) as i64
+    };
+    for (axis, high) in (0..3).flat_map(|axis| [(axis, false), (axis, true)]) {
+        let at = |i: usize, j: usize| {
+            let mut x = Vec3::zeros();
+            (x[axis], x[(axis + 1) % 3], x[(axis + 2) % 3]) =
+                (if high { size } else { 0.0 }, size * i as f64 / n as f64, size * j as f64 / n as f64);
+            x + from
+        };
+        for (i, j) in (0..n).flat_map(|i| (0..n).map(move |j| (i, j))) {
+            let mut quad = [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)].map(&mut node).to_vec();
+            if !high {
+                quad.reverse();
+            }
+            mesh.facets.push(quad);
+        }
+    }
+    mesh
+}
+
+/// Reversed node orders of both sides: open gaps of a tenth of a facet and more, and closed surfaces at any distance. The
+/// right orders, cavities with something in them, and penetrations that interference fits have are no findings.
+#[test]
+fn both_node_orders_reversed_are_noticed() {
+    let one = grid(4, 4, [0.0, 0.0], [1.0, 1.0], 0.0, false, Cells::Quads);
+    let finding = |one: &Mesh, two: &Mesh| interface(one, two, options()).report(&one.x, &two.x).unwrap().finding;
+    for (gap, noticed) in [(0.001, false), (0.03, true), (0.1, true), (0.2, true), (0.4, true), (3.0, true)] {
+        let two = grid(3, 3, [-0.5, -0.5], [1.5, 1.5], -gap, true, Cells::Quads);
+        assert_eq!(finding(&one, &two), None);
+        let found = finding(&reversed(&one), &reversed(&two));
+        assert_eq!(found.is_some(), noticed, "{gap}: {found:?}");
+        let fit = grid(3, 3, [-0.5, -0.5], [1.5, 1.5], 0.02, true, Cells::Quads);
+        assert_eq!(finding(&one, &fit), None, "an interference of 2 % of the size");
+    }
+    let ball = cube(2, Vec3::zeros(), 1.0);
+    for gap in [0.0, 1e-6, 0.1, 5.0] {
+        let beside = cube(3, Vec3::new(0.1, 0.1, -1.5 - gap), 1.5);
+        assert_ne!(finding(&ball, &beside), Some(Finding::InsideOut), "{gap}");
+        let found = finding(&reversed(&ball), &reversed(&beside));
+        assert!(matches!(found, Some(Finding::InsideOut | Finding::Behind)), "{gap}: {found:?}");
+    }
+    let room = reversed(&cube(3, Vec3::new(-0.5, -0.5, -0.01), 2.0));
+    assert_ne!(finding(&ball, &room), Some(Finding::InsideOut), "a cavity with the body in it");
+}
+
 /// What the shortcut leaves out is looked at all the same: an open gap, however wide, is no finding.
 #[test]
 fn an_open_gap_is_no_finding() {

@@ -6,7 +6,7 @@ Every bound is a named constant with its reason, here or in comparisons.py.
 import math
 
 import comparisons
-from bad_scenes import BAD_SCENES, write_bad_scene
+from bad_scenes import BAD_SCENES, write_bad_scene, write_signed_mesh
 from jacobian import jacobian
 
 # Frozen weights make every step a piecewise linear problem: all splits of the load end in the same state, to round-off.
@@ -223,6 +223,10 @@ def errors(verdicts, driver):
             "PETSC ERROR" not in run.text,
             "errors of the user are explained, not dumped",
         )
+    plain = driver.run("patch_gmsh", label="unsigned_surface")
+    run = driver.run("patch_gmsh", "-upper_file", write_signed_mesh(driver.output), label="signed_surface")
+    same = [s["interfaces"] for s in run.steps] == [s["interfaces"] for s in plain.steps]
+    verdicts.true("a physical surface with a negative tag: as without the sign", same, "faces look out of their body")
     run = driver.run("block_zone_mu05", "-push_curve", "1000,0,2000,1", label="late_curve")
     verdicts.true("curve in other units: a note", "note: push.curve" in run.text, "not an error: a run may end early")
     run = driver.run("klarbring", "-floor_lower", "20,-1,-1", "-floor_upper", "30,2,0", label="no_overlap")

@@ -25,6 +25,25 @@ def wall(shape):
     return bodies, f"bodies: [block, floor, wall]\nwall: {{type: analytic, point: [0, 0, 0], shape: {shape}}}"
 
 
+BOX = "type: box, lower: [0, 0, 0], upper: [4, 1, 2], cells: [20, 1, 10]"
+
+
+def one_cell(gmsh_type, points):
+    """A Gmsh file with one cell."""
+    numbers = range(1, len(points) + 1)
+    nodes = "\n".join([*map(str, numbers), *(" ".join(map(str, p)) for p in points)])
+    return (
+        "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n"
+        '$PhysicalNames\n1\n3 1 "brick"\n$EndPhysicalNames\n'
+        "$Entities\n0 0 0 1\n1 0 0 0 1 1 1 1 1 0\n$EndEntities\n"
+        f"$Nodes\n1 {len(points)} 1 {len(points)}\n3 1 0 {len(points)}\n{nodes}\n$EndNodes\n"
+        f"$Elements\n1 1 1 1\n3 1 {gmsh_type} 1\n1 {' '.join(map(str, numbers))}\n$EndElements\n"
+    )
+
+
+PRISM = one_cell(6, [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (0, 1, 1)])
+PYRAMID = one_cell(7, [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0.5, 0.5, 1)])
+
 BAD_SCENES = [
     BadScene("misspelt_key", "friction: 0.5", "frictoin: 0.5", "base.frictoin"),
     BadScene("missing_key", "young: 1000, poisson: 0.3}\nfloor", "poisson: 0.3}\nfloor", "block.young"),
@@ -107,6 +126,14 @@ BAD_SCENES = [
     BadScene("list_for_a_map", "push: {surface", "push: [x]\nother: {surface", "loads", says="'push' is listed and has"),
     BadScene("map_of_names", "probes: [topleft, topright]", "probes: {topleft: 1}", "probes", says="a list of names"),
     BadScene("broken_yaml", "schema: 1", "schema: [1", "broken_yaml.yaml"),
+    BadScene("times_and_end", "steps: {end: 2, count: 20}", "steps: {times: [1, 2], end: 2}", "steps.end", says="`times`"),
+    BadScene("times_and_count", "steps: {end: 2, count: 20}", "steps: {times: [1, 2], count: 2}", "steps.count"),
+    BadScene("stages_and_end", "steps: {end: 2, count: 20}", "steps: {stages: [2, 2], end: 2}", "steps.end", says="`stages`"),
+    BadScene("misspelt_load", "traction: [60, 0, 0]", "tracton: [60, 0, 0]", "push.tracton", says="'push.traction'"),
+    BadScene("unknown_key_of_load", "traction: [60, 0, 0]", "colour: 3", "push.colour", says="traction, pressure"),
+    BadScene("prism", BOX, "type: gmsh, file: prism.msh", "block.file", says="a prism (wedge)"),
+    BadScene("pyramid", BOX, "type: gmsh, file: pyramid.msh", "block.file", says="a pyramid"),
+    BadScene("option_of_nobody", "", "", "-stpes_count", ("-stpes_count", "3"), says="nothing reads this option"),
     BadScene("misspelt_option", "", "", "base.frictoin", ("-base_frictoin", "0.3")),
     # their surfaces lie over each other and are no pairs: the bodies would pass through each other without a word
     BadScene("deep_in_each_other", "", "", "base.mortar", ("-floor_upper", "4.5,1.5,0.9")),
@@ -114,6 +141,17 @@ BAD_SCENES = [
     BadScene("bad_coverage", "", "", "base.coverage_min", ("-base_coverage_min", "1")),
     BadScene("bad_option", "", "", "steps.count", ("-steps_count", "0")),
 ]
+
+
+def write_signed_mesh(folder):
+    """A mesh whose surface zmin has a negative tag, as `Physical Surface("zmin") = {-1};` gives it."""
+    lines = (MESHES / "brick_tet_upper.msh").read_text()
+    signed, n = re.subn(r"(?m)^(1 0 0 0 1 1 0 1) 2 (4 1 2 3 4 *)$", r"\1 -2 \2", lines)
+    if n != 1:
+        raise ValueError("brick_tet_upper.msh no longer has the surface that the test turns round")
+    path = folder / "signed.msh"
+    path.write_text(signed)
+    return path
 
 
 def write_bad_scene(bad, folder):
@@ -125,5 +163,7 @@ def write_bad_scene(bad, folder):
     named = (MESHES / "brick_tet_upper.msh").read_text()
     nameless = re.sub(r"\$PhysicalNames.*\$EndPhysicalNames\n", "", named, flags=re.DOTALL)
     (folder / "nameless.msh").write_text(nameless)
+    (folder / "prism.msh").write_text(PRISM)
+    (folder / "pyramid.msh").write_text(PYRAMID)
     path.write_text(text.replace(bad.old, bad.new, 1))
     return path

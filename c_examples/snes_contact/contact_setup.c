@@ -97,7 +97,7 @@ static PetscErrorCode check_facing(Model *model, Interface *interface)
     PetscCall(PetscFree(facet_nodes[side]));
   if (report.finding == STICKSLIP_FINDING_BEHIND || report.finding == STICKSLIP_FINDING_SAME_WAY)
     scene_fail(model->scene, interface->name, "mortar", "%s", text);
-  if (report.finding == STICKSLIP_FINDING_NO_OVERLAP && !model->quiet) /* they may meet later */
+  if (report.finding != STICKSLIP_FINDING_NONE && !model->quiet) /* they may meet later */
     PetscCall(PetscPrintf(PETSC_COMM_SELF, "%s: %s\n", interface->name, text));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -2,6 +2,7 @@
  * cells of that physical volume are taken, so that several bodies may share one file. */
 #include "mesh.h"
 #include <petscdmplex.h>
+#include <stdio.h>
 #include <string.h>
 
 static PetscErrorCode point_vertices(DM dm, PetscInt point, PetscInt *n, PetscInt vertices[8])
@@ -28,6 +29,17 @@ static PetscErrorCode cell_corners(DM dm, PetscInt cell, PetscInt *n, PetscInt v
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* kinds of cells that there is no element for */
+static const char *cell_kind(DMPolytopeType type)
+{
+  switch (type) {
+  case DM_POLYTOPE_TRI_PRISM:
+  case DM_POLYTOPE_TRI_PRISM_TENSOR: return "a prism (wedge)";
+  case DM_POLYTOPE_PYRAMID: return "a pyramid";
+  default: return "a cell that is neither a hexahedron nor a tetrahedron";
+  }
+}
+
 static PetscErrorCode append_cells(Scene *scene, const char *body, DM dm, DMLabel volume, PetscInt new_number[],
                                    Mesh *mesh)
 {
@@ -50,7 +62,10 @@ static PetscErrorCode append_cells(Scene *scene, const char *body, DM dm, DMLabe
     if (value < 0) continue;
     PetscCall(DMPlexGetCellType(dm, c, &type));
     if (type != DM_POLYTOPE_HEXAHEDRON && type != DM_POLYTOPE_TETRAHEDRON)
-      scene_fail(scene, body, "file", "it holds a cell that is neither a hexahedron nor a tetrahedron.");
+      scene_fail(scene, body, "file",
+                 "it holds %s; tetrahedra and hexahedra are supported: mesh it in Gmsh without layers or `Recombine` that "
+                 "lead to others, or split them.",
+                 cell_kind(type));
     kind = type == DM_POLYTOPE_HEXAHEDRON;
     PetscCall(cell_corners(dm, c, &n, corners));
     for (PetscInt a = 0; a < n; a++) {
@@ -174,7 +189,8 @@ static PetscErrorCode list_names(DM dm, PetscInt height, char list[], size_t len
 PetscErrorCode gmsh_create(Scene *scene, const char *body, Mesh *mesh)
 {
   const PetscInt           first     = mesh->n_vertices;
-  char                     file[PETSC_MAX_PATH_LEN] = "", path[PETSC_MAX_PATH_LEN], volume_name[NAME_LENGTH] = "", names[1024];
+  char                     file[PETSC_MAX_PATH_LEN] = "", path[PETSC_MAX_PATH_LEN], copy[PETSC_MAX_PATH_LEN];
+  char                     volume_name[NAME_LENGTH] = "", names[1024];
   PetscInt                 dimension, n_labels, vStart, vEnd, *new_number;
   PetscBool                exists;
   PetscErrorCode           failed;
@@ -188,9 +204,11 @@ PetscErrorCode gmsh_create(Scene *scene, const char *body, Mesh *mesh)
   PetscCall(PetscTestFile(path, 'r', &exists));
   if (!exists) scene_fail(scene, body, "file", "cannot read '%s'.", path);
   PetscCall(PetscOptionsSetValue(NULL, "-dm_plex_gmsh_use_regions", "true")); /* labels by physical name */
+  PetscCall(gmsh_without_signs(path, copy, sizeof(copy)));
   PetscCall(PetscPushErrorHandler(PetscReturnErrorHandler, NULL));
-  failed = DMPlexCreateGmshFromFile(PETSC_COMM_SELF, path, PETSC_TRUE, &dm);
+  failed = DMPlexCreateGmshFromFile(PETSC_COMM_SELF, copy[0] ? copy : path, PETSC_TRUE, &dm);
   PetscCall(PetscPopErrorHandler());
+  if (copy[0]) (void)remove(copy);
   if (failed)
     scene_fail(scene, body, "file",
                "PETSc cannot read '%s' as a Gmsh mesh (write it as `gmsh -3 -format msh41 -order 1`).", path);

@@ -14,9 +14,13 @@ PetscErrorCode loads_read(Model *model)
     PetscBool traction;
     PetscCall(PetscSNPrintf(load->name, NAME_LENGTH, "%s", names[l]));
     traction = scene_vector(scene, load->name, "traction", 3, load->traction);
-    if (!scene_has(scene, load->name, "pressure") && !traction)
+    if (!scene_has(scene, load->name, "pressure") && !traction) {
+      (void)scene_has(scene, load->name, "surface"); /* known keys, one of which may be misspelt */
+      (void)scene_has(scene, load->name, "curve");
+      scene_check_unread_of(scene, load->name);
       scene_fail(scene, load->name, "traction",
                  "say how it loads: traction [x, y, z], or pressure (against the outward normal).");
+    }
     scene_real(scene, load->name, "pressure", &load->pressure);
     mesh_rotate_vector(&model->mesh, load->traction);
     PetscCall(curve_read(scene, load->name, "curve", model->steps.end, &load->curve));

@@ -51,4 +51,6 @@ void scene_names(Scene *scene, const char *list, PetscInt *n, char ***names);
 
 /* keys nobody asked for; `solver`: those handed to PETSc's solvers (snes, ksp, pc, mat), which are read late */
 void scene_check_unread(Scene *scene, PetscBool solver);
+/* those of one map, of which every key has been asked for that it may have */
+void scene_check_unread_of(Scene *scene, const char *map);
 #endif

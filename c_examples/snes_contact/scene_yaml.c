@@ -239,6 +239,60 @@ static void check_command_line(Scene *scene)
   PetscCallAbort(PETSC_COMM_WORLD, PetscOptionsLeftRestore(NULL, &n, &options, &values));
 }
 
+/* What PETSc asks for when it ends, or in runs that end otherwise. */
+static PetscBool is_asked_late(const char *option)
+{
+  static const char *const late[] = {"options_left", "options_view",    "objects_dump",      "malloc_dump",
+                                     "malloc_view",  "memory_view",     "malloc_view_threshold", "citations",
+                                     "mpidump",      "show_citations",  "nox",               "on_error_abort"};
+  for (size_t k = 0; k < sizeof(late) / sizeof(late[0]); k++) {
+    if (!strcmp(option, late[k])) return PETSC_TRUE;
+  }
+  return PETSC_FALSE;
+}
+
+/* Was it given on the command line? Other options come from files and variables that serve many programs. */
+static PetscBool is_argument(const char *option)
+{
+  int    argc;
+  char **argv;
+  PetscCallAbort(PETSC_COMM_WORLD, PetscGetArgs(&argc, &argv));
+  for (int k = 1; k < argc; k++) {
+    const char *name = argv[k] + (argv[k][0] == '-') + (argv[k][0] == '-' && argv[k][1] == '-');
+    if (argv[k][0] == '-' && !strcmp(name, option)) return PETSC_TRUE;
+  }
+  return PETSC_FALSE;
+}
+
+/* Options that neither the driver nor, by now, PETSc has asked for. */
+static void check_arguments(Scene *scene)
+{
+  char   **options, **values;
+  PetscInt n;
+
+  PetscCallAbort(PETSC_COMM_WORLD, PetscOptionsLeftGet(NULL, &n, &options, &values));
+  for (PetscInt k = 0; k < n; k++) {
+    char name[256], text[512];
+    if (is_asked_late(options[k]) || !is_argument(options[k])) continue;
+    snprintf(name, sizeof(name), "-%.200s", options[k]);
+    snprintf(text, sizeof(text),
+             "nothing reads this option: it is `-MAP_KEY` of no map of the scene, and none that PETSc asked for.");
+    fail_at(scene, 0, name, text);
+  }
+  PetscCallAbort(PETSC_COMM_WORLD, PetscOptionsLeftRestore(NULL, &n, &options, &values));
+}
+
+void scene_check_unread_of(Scene *scene, const char *map)
+{
+  const size_t length = strlen(map);
+  for (PetscInt k = 0; k < scene->n_keys; k++) {
+    PetscBool used;
+    if (strncmp(scene->keys[k].dotted, map, length) || scene->keys[k].dotted[length] != '.') continue;
+    PetscCallAbort(PETSC_COMM_WORLD, PetscOptionsUsed(NULL, scene->keys[k].flat, &used));
+    if (!used) fail_unread(scene, &scene->keys[k]);
+  }
+}
+
 void scene_check_unread(Scene *scene, PetscBool solver)
 {
   for (PetscInt k = 0; k < scene->n_keys; k++) {
@@ -247,5 +301,8 @@ void scene_check_unread(Scene *scene, PetscBool solver)
     PetscCallAbort(PETSC_COMM_WORLD, PetscOptionsUsed(NULL, scene->keys[k].flat, &used));
     if (!used) fail_unread(scene, &scene->keys[k]);
   }
-  if (!solver) check_command_line(scene);
+  if (solver)
+    check_arguments(scene);
+  else
+    check_command_line(scene);
 }

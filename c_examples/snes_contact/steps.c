@@ -25,13 +25,19 @@ static void read_automatic(Scene *scene, Steps *steps)
 /* `times`, each of them; `stages`, pairs of a time and the number of equal steps up to it; or `end` and `count` */
 static PetscErrorCode read_targets(Scene *scene, Steps *steps)
 {
-  const PetscBool staged = scene_has(scene, "steps", "stages");
+  static const char *const equal[] = {"end", "count"};
+  const PetscBool          staged  = scene_has(scene, "steps", "stages");
   PetscReal      *stages, whole[2] = {1, 1}, start = 0;
   PetscInt        n_stages, count = 1, n = 0;
 
   PetscFunctionBegin;
   scene_reals(scene, "steps", "times", &steps->n_targets, &steps->targets);
   if (steps->n_targets && staged) scene_fail(scene, "steps", "stages", "give either this or `times`.");
+  for (int k = 0; k < 2 && (steps->n_targets || staged); k++) {
+    if (scene_has(scene, "steps", equal[k]))
+      scene_fail(scene, "steps", equal[k], "`%s` says already when the steps end; give either that, or `end` and `count`.",
+                 staged ? "stages" : "times");
+  }
   if (steps->n_targets) PetscFunctionReturn(PETSC_SUCCESS);
   scene_reals(scene, "steps", "stages", &n_stages, &stages);
   if (!staged) {

@@ -29,6 +29,13 @@ pub const STICKSLIP_FINDING_SAME_WAY: i32 = 2;
 /// Finding: opposing facets lie behind each other deeper than a pair can: both node orders are reversed, or the bodies
 /// have passed through each other, or start so deep that search_distance is needed.
 pub const STICKSLIP_FINDING_BEHIND: i32 = 3;
+/// Finding: the positions of either side are those of the other side's first configuration, node by node: x1 and x2 are
+/// swapped. Seen where both sides have as many nodes.
+pub const STICKSLIP_FINDING_SWAPPED: i32 = 4;
+/// Finding: both node orders look reversed. Every covered node penetrates by a tenth of a facet (the smaller side's longest
+/// edge) or more, be it an open gap that is seen from inside or a deep interference fit; or a closed surface is a cavity and
+/// the other side is not in it. Open patches that touch do not tell.
+pub const STICKSLIP_FINDING_INSIDE_OUT: i32 = 5;
 
 /// What `stickslip_interface_report` finds. A NULL member is not wanted.
 #[repr(C)]
@@ -58,7 +65,7 @@ pub struct stickslip_report {
     pub nodes_full: i64,
     /// Output: nodes with STICKSLIP_COVER_SEVERAL.
     pub nodes_several: i64,
-    /// Output: STICKSLIP_FINDING_...; other than NONE only where no node is covered.
+    /// Output: STICKSLIP_FINDING_...; where nodes are covered NONE, SWAPPED or INSIDE_OUT.
     pub finding: i32,
     /// 0.
     pub reserved: i32,
@@ -138,6 +145,8 @@ fn write(wanted: &stickslip_report, out: *mut stickslip_report, report: &Report)
                 Some(Finding::NoOverlap) => STICKSLIP_FINDING_NO_OVERLAP,
                 Some(Finding::SameWay) => STICKSLIP_FINDING_SAME_WAY,
                 Some(Finding::Behind) => STICKSLIP_FINDING_BEHIND,
+                Some(Finding::Swapped) => STICKSLIP_FINDING_SWAPPED,
+                Some(Finding::InsideOut) => STICKSLIP_FINDING_INSIDE_OUT,
             },
             reserved: 0,
             penetration: report.penetration,

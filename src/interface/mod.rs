@@ -26,6 +26,7 @@ mod integration;
 mod lost;
 mod meaning;
 mod memory;
+mod mistakes;
 mod nodes;
 mod numbering;
 mod options;

@@ -6,7 +6,7 @@ use super::history::PairRecord;
 use super::integration::{frames, integrate};
 use super::nodes::assemble;
 use super::search::{Aabb, Prism, Tree};
-use super::{Contact, Weights};
+use super::{Contact, Weights, mistakes};
 use crate::error::Result;
 use crate::geometry::{Plane, Vec3};
 use crate::mortar::{NonmortarFrame, Segment};
@@ -53,6 +53,10 @@ pub enum Finding {
     SameWay,
     /// Opposing facets lie over each other, but deeper behind each other than a pair can.
     Behind,
+    /// The positions of one side are those that the other side had at first, node by node.
+    Swapped,
+    /// Both node orders look reversed: see `mistakes.rs`.
+    InsideOut,
 }
 
 /// The report at one configuration.
@@ -62,7 +66,7 @@ pub struct Report {
     pub nodes: Vec<NodeCover>,
     /// The deepest penetration of a covered node, -g_N over its covered area `[L]`; 0 where there is none.
     pub penetration: f64,
-    /// Only where no node is covered.
+    /// With covered nodes `Swapped` or `InsideOut` alone.
     pub finding: Option<Finding>,
 }
 
@@ -96,6 +100,15 @@ impl Report {
                 " Facets lie over each other, but behind each other by more than a facet: the node orders of both sides \
                  are reversed, or the bodies have passed through each other, or start so deep that search_distance is \
                  needed."
+            }
+            Some(Finding::Swapped) => {
+                " The positions given for each side are those of the other side's first configuration: x1 and x2 are \
+                 swapped."
+            }
+            Some(Finding::InsideOut) => {
+                " Every covered node penetrates by a tenth of a facet or more, or a closed surface is seen from inside and \
+                 the other side is not in it: the node orders of both sides are reversed, or this is a deep interference \
+                 fit."
             }
         };
         text
@@ -132,13 +145,21 @@ impl<const N: usize> Contact<N> {
             NodeCover { cover, fraction, layers, facets: claims[a] }
         };
         let nodes: Vec<_> = (0..self.nonmortar.len()).map(node).collect();
-        let mut penetration = 0.0_f64;
+        let mut depths = Vec::new();
         for a in (0..nodes.len()).filter(|&a| nodes[a].cover != Cover::None) {
             let (coverage, gap) = sums[a];
-            penetration = penetration.max(-self.normal(a)?.dot(&gap) / coverage);
+            depths.push(-self.normal(a)?.dot(&gap) / coverage);
         }
-        let covered = nodes.iter().any(|n| n.cover != Cover::None);
-        let finding = if covered { None } else { Some(self.why_nothing_overlaps(x1, x2)?) };
+        let penetration = depths.iter().fold(0.0_f64, |most, d| most.max(*d));
+        let inside_out = mistakes::are_inside_out(surfaces, (x1, x2), &depths);
+        let finding = if mistakes::are_swapped(surfaces, (x1, x2)) {
+            Some(Finding::Swapped)
+        } else if depths.is_empty() {
+            let why = self.why_nothing_overlaps(x1, x2)?;
+            Some(if why == Finding::NoOverlap && inside_out { Finding::InsideOut } else { why })
+        } else {
+            inside_out.then_some(Finding::InsideOut)
+        };
         Ok(Report { nodes, penetration, finding })
     }
 

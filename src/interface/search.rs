@@ -24,6 +24,11 @@ impl Aabb {
         Aabb { low: self.low.inf(&other.low), high: self.high.sup(&other.high) }
     }
 
+    /// Whether all of the other box is in this one.
+    pub fn contains(&self, other: &Aabb) -> bool {
+        self.union(other) == *self
+    }
+
     /// Its middle.
     pub fn centre(&self) -> Vec3 {
         (self.low + self.high) * 0.5
