@@ -200,6 +200,7 @@ module stickslip
     integer(c_int32_t) :: tangent = 0              ! STICKSLIP_TANGENT_...
     integer(c_int64_t) :: element_points = 0       ! along a side, without SEGMENTS: 2 to 10; 0: 4
     real(c_double) :: weak_coverage = 0            ! nodes covered less, over the best neighbour, are carried; 0: none
+    real(c_double) :: turn_max = 0                 ! radians from one commit to the next; 0: pi / 9; pi: any
   end type
 
   ! One surface of an interface. nf facets with 3 or 4 nodes each.

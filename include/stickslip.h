@@ -436,6 +436,11 @@ typedef struct stickslip_options {
   /// nodes of different normals mu = 0 with three multipliers is not quite no friction (one): of that, a node hands on
   /// its normal traction alone.
   double weak_coverage;
+  /// How far a surface may turn from one commit to the next, in radians [-]: the normals are those of t_n. A commit
+  /// refuses more with TURNED_TOO_FAR. Each side counts alone, in space; with WEIGHTS_REFERENCE the non-mortar side's
+  /// turn since the first configuration; tied surfaces may turn as they like. At most pi, which refuses nothing;
+  /// 0 (default): pi / 9, 20 degrees. What a turn below it costs: docs/plug_in.md.
+  double turn_max;
 } stickslip_options;
 
 /// One surface of an interface.
@@ -1106,8 +1111,9 @@ int32_t stickslip_interface_step_limit(struct stickslip_interface *interface,
 /// Inputs x1, x2, lambda, sums as for `stickslip_interface_states`.
 ///
 /// Errors: NULL_POINTER, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL, INVALID_VALUE (a
-/// mortar surface in layers, an analytic surface's frame), CONTACT_LOST (a closed node would lose a pair that is deeper
-/// than one may be, or all that covers it); then nothing has moved.
+/// mortar surface in layers, an analytic surface's frame), TURNED_TOO_FAR (by more than options.turn_max since the last commit),
+/// CONTACT_LOST (a closed node would lose a pair that is deeper than one may be, or all that covers it); then nothing
+/// has moved.
 /// Cost: as `stickslip_interface_states`, then one search and one integration (WEIGHTS_REFERENCE: none);
 /// allocates. The history before it is kept, for `stickslip_interface_rollback`.
 int32_t stickslip_interface_commit(struct stickslip_interface *interface,

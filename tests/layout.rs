@@ -69,7 +69,8 @@ fn layouts() -> Vec<Layout> {
             integration,
             tangent,
             element_points,
-            weak_coverage
+            weak_coverage,
+            turn_max
         }),
         layout!(stickslip_states {
             struct_size,

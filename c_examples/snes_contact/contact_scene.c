@@ -150,7 +150,7 @@ static void read_method(Scene *scene, Interface *interface)
   const char              *name           = interface->name;
   PetscInt  weight = STICKSLIP_WEIGHTS_CURRENT, slip = STICKSLIP_SLIP_OBJECTIVE, form = STICKSLIP_FORM_MULTIPLIER,
            new_contact = STICKSLIP_NEW_CONTACT_FRICTIONLESS, row_scale = STICKSLIP_ROW_SCALE_FORCE;
-  PetscReal augmentation = 0, modulus = 0, distance = 0, weak_coverage = 0, coverage_min = options->coverage_min;
+  PetscReal augmentation = 0, modulus = 0, distance = 0, weak_coverage = 0, turn_max = 0, coverage_min = options->coverage_min;
 
   interface->initial_contact = PETSC_TRUE;
   scene_choice(scene, name, "weights", weights, &weight);
@@ -164,6 +164,7 @@ static void read_method(Scene *scene, Interface *interface)
   scene_real(scene, name, "search_distance", &distance);
   scene_real(scene, name, "weak_coverage", &weak_coverage);
   scene_real(scene, name, "coverage_min", &coverage_min);
+  scene_real(scene, name, "turn_max", &turn_max);
   if (scene_has(scene, name, "augmentation") && augmentation <= 0)
     scene_fail(scene, name, "augmentation", "it must be positive.");
   if (scene_has(scene, name, "modulus") && modulus <= 0) scene_fail(scene, name, "modulus", "it must be positive.");
@@ -172,6 +173,9 @@ static void read_method(Scene *scene, Interface *interface)
     scene_fail(scene, name, "weak_coverage", "it is a fraction of an area: from 0 to 1.");
   if (coverage_min < 0 || coverage_min >= 1)
     scene_fail(scene, name, "coverage_min", "it must be at least 0 and below 1.");
+  if (turn_max < 0 || turn_max > PETSC_PI)
+    scene_fail(scene, name, "turn_max", "it is an angle in radians: from 0 to pi.");
+  options->turn_max        = turn_max;
   options->weights         = (int32_t)weight;
   options->slip            = (int32_t)slip;
   options->form            = (int32_t)form;

@@ -137,11 +137,14 @@ PetscErrorCode newton_destroy(Model *model)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The library has refused an evaluation, or the commit. */
-PetscErrorCode newton_refused(Model *model)
+/* The library has refused an evaluation, or the commit of a step that converged. */
+PetscErrorCode newton_refused(Model *model, PetscBool commit)
 {
   PetscFunctionBegin;
-  PetscCall(PetscSNPrintf(model->newton.why, sizeof(model->newton.why), "the library says: %s", model->refusal));
+  model->newton.refused_commit = commit;
+  PetscCall(PetscSNPrintf(model->newton.why, sizeof(model->newton.why), "%s: %s",
+                          commit ? "converged, but not to be committed" : "the library says",
+                          model->refusal));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -172,7 +175,7 @@ static PetscErrorCode explain(Model *model, SNESConvergedReason reason)
   if (model->closing.away[0]) {
     PetscCall(PetscSNPrintf(newton->why, sizeof(newton->why), "%s", model->closing.away));
   } else if (model->refusal[0]) {
-    PetscCall(newton_refused(model));
+    PetscCall(newton_refused(model, PETSC_FALSE));
   } else if (model->inverted[0]) {
     PetscCall(PetscSNPrintf(newton->why, sizeof(newton->why), "%s", model->inverted));
   } else if (newton->cycle[0]) {
@@ -213,7 +216,7 @@ static PetscErrorCode attempt(Model *model, int k, Vec x, PetscBool *converged)
   PetscCall(cycling_restart(model));
   equilibrium_restart(model);
   model->refusal[0] = model->inverted[0] = newton->why[0] = 0;
-  newton->stopped = newton->stale = newton->changed = PETSC_FALSE;
+  newton->stopped = newton->stale = newton->changed = newton->refused_commit = PETSC_FALSE;
   newton->monotone                                  = PETSC_TRUE;
   newton->n_changes                                 = 0;
   cJSON_Delete(newton->state_changes);

@@ -198,7 +198,7 @@ PetscErrorCode summary_failed_attempt(Model *model, Summary *summary, PetscReal 
   cJSON_AddItemToArray(summary->failed_attempts, json);
   if (!model->quiet) {
     const PetscBool again = (PetscBool)!strcmp(summary->said, newton->why);
-    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "     t %-10.6g not converged: %s\n", (double)model->t,
+    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "     t %-10.6g %s: %s\n", (double)model->t, newton->refused_commit ? "refused" : "not converged",
                           again ? "as before" : newton->why));
     PetscCall(PetscSNPrintf(summary->said, sizeof(summary->said), "%s", newton->why));
   }

@@ -225,7 +225,7 @@ static PetscErrorCode step_to(Model *model, Summary *summary, History *history, 
     *done = (PetscBool)!refused;
     if (refused) {
       PetscCall(summary_drop_step(model, summary));
-      PetscCall(newton_refused(model));
+      PetscCall(newton_refused(model, PETSC_TRUE));
     }
   }
   if (!*done) PetscCall(summary_failed_attempt(model, summary, history->t_last));
@@ -255,7 +255,12 @@ static PetscErrorCode give_up(Model *model, const History *history, int *exit_co
   PetscFunctionBegin;
   PetscCall(held_describe(model, held, sizeof(held)));
   *exit_code = model->refusal[0] ? 3 : 2;
-  if (model->refusal[0])
+  if (model->refusal[0] && model->newton.refused_commit)
+    PetscCall(PetscFPrintf(PETSC_COMM_WORLD, PETSC_STDERR,
+                           "snes_contact: the step to t = %.6g converged, but the library refuses to commit it, and so "
+                           "every shorter one that was tried: %s\n",
+                           (double)model->t, model->refusal));
+  else if (model->refusal[0])
     PetscCall(PetscFPrintf(PETSC_COMM_WORLD, PETSC_STDERR,
                            "snes_contact: refused by the library: %s. Newton's iterates may have run away to there: %s\n",
                            model->refusal, held));

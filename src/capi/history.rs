@@ -11,8 +11,9 @@ use crate::error::{Error, Kind};
 /// Inputs x1, x2, lambda, sums as for `stickslip_interface_states`.
 ///
 /// Errors: NULL_POINTER, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL, INVALID_VALUE (a
-/// mortar surface in layers, an analytic surface's frame), CONTACT_LOST (a closed node would lose a pair that is deeper
-/// than one may be, or all that covers it); then nothing has moved.
+/// mortar surface in layers, an analytic surface's frame), TURNED_TOO_FAR (by more than options.turn_max since the last commit),
+/// CONTACT_LOST (a closed node would lose a pair that is deeper than one may be, or all that covers it); then nothing
+/// has moved.
 /// Cost: as `stickslip_interface_states`, then one search and one integration (WEIGHTS_REFERENCE: none);
 /// allocates. The history before it is kept, for `stickslip_interface_rollback`.
 #[unsafe(no_mangle)]

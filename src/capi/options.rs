@@ -5,8 +5,8 @@ use super::sized::{self, Sized64};
 use crate::error::{Error, Kind, Result, Text};
 use crate::geometry::AnalyticShape;
 use crate::interface::{
-    COVERAGE_MIN, Form, Friction, MortarSide, NewContact, Options, RowScale, Scheme, Shortcuts, Stiffness, Tangent,
-    Weights,
+    COVERAGE_MIN, Form, Friction, MortarSide, NewContact, Options, RowScale, Scheme, Shortcuts, Stiffness, TURN_MAX,
+    Tangent, Weights,
 };
 use crate::law::SlipMeasure;
 use crate::quadrature::{DEGREE_1, DEGREE_2, DEGREE_4, DEGREE_5, DEGREE_6, DEGREE_10, Rule, cell};
@@ -171,6 +171,11 @@ pub struct stickslip_options {
     /// nodes of different normals mu = 0 with three multipliers is not quite no friction (one): of that, a node hands on
     /// its normal traction alone.
     pub weak_coverage: f64,
+    /// How far a surface may turn from one commit to the next, in radians [-]: the normals are those of t_n. A commit
+    /// refuses more with TURNED_TOO_FAR. Each side counts alone, in space; with WEIGHTS_REFERENCE the non-mortar side's
+    /// turn since the first configuration; tied surfaces may turn as they like. At most pi, which refuses nothing;
+    /// 0 (default): pi / 9, 20 degrees. What a turn below it costs: docs/plug_in.md.
+    pub turn_max: f64,
 }
 
 // SAFETY: repr(C), struct_size first, numbers only.
@@ -211,6 +216,7 @@ pub unsafe extern "C" fn stickslip_options_init(options: *mut stickslip_options,
             tangent: STICKSLIP_TANGENT_EXACT,
             element_points: 0,
             weak_coverage: 0.0,
+            turn_max: 0.0,
         };
         sized::initialise(options, struct_size, defaults, "options")
     })
@@ -339,6 +345,7 @@ pub(super) fn read_options(p: *const stickslip_options) -> Result<Choices> {
         tangent,
         element_points,
         weak_coverage,
+        turn_max,
     } = sized::read(p)?;
     let laws = [Friction::Coulomb, Friction::None, Friction::Tied, Friction::Rough];
     let friction = choose(friction, "options.friction", &laws, 4)?;
@@ -354,6 +361,7 @@ pub(super) fn read_options(p: *const stickslip_options) -> Result<Choices> {
         ("coverage_min", coverage_min),
         ("radius", radius),
         ("weak_coverage", weak_coverage),
+        ("turn_max", turn_max),
     ];
     for (name, v) in numbers {
         if !v.is_finite() {
@@ -402,6 +410,7 @@ pub(super) fn read_options(p: *const stickslip_options) -> Result<Choices> {
         coverage_min,
         weak_coverage,
         search_distance: (search_distance != 0.0).then_some(search_distance),
+        turn_max: if turn_max == 0.0 { TURN_MAX } else { turn_max },
     };
     options.validate()?;
     let base = choose(index_base, "options.index_base", &[0, 1], 2)?;

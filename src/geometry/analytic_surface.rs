@@ -128,6 +128,14 @@ impl AnalyticSurface {
         self.shape == AnalyticShape::Plane
     }
 
+    /// What turns with the surface: a plane's normal, a cylinder's axis; nothing of a sphere.
+    pub fn direction(&self) -> Option<Vec3> {
+        match self.shape {
+            AnalyticShape::Plane | AnalyticShape::Cylinder(_) => Some(self.axis),
+            AnalyticShape::Sphere(_) => None,
+        }
+    }
+
     /// The signed distance of the point x, given as x - P0.
     pub fn distance(&self, x: Vec3) -> f64 {
         match self.shape {

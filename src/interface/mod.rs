@@ -38,6 +38,7 @@ mod restart;
 mod search;
 mod surface;
 mod treatment;
+mod turn;
 mod weak;
 
 pub use assembly::Residual;
@@ -53,7 +54,7 @@ pub use history::{History, PairRecord};
 pub use nodes::NodeSums;
 pub use options::{
     COVERAGE_MIN, Form, Friction, MODULUS_FACTOR, MortarSide, NewContact, Options, RowScale, Scheme, Shortcuts,
-    Stiffness, Tangent, Weights,
+    Stiffness, TURN_MAX, Tangent, Weights,
 };
 pub use report::{Cover, Finding, NodeCover, Report};
 pub use surface::{FacetNodes, NO_EQUATION, Surface};
@@ -301,7 +302,9 @@ impl<const N: usize> Contact<N> {
         sums: Option<&[NodeSums]>,
     ) -> Result<()> {
         let extent = Extent::of(sums);
+        let shared = sums.is_some();
         let (sums, responses) = self.evaluate(x1, x2, lambda, sums)?;
+        self.refuse_turn(x1, x2, shared)?;
         let surfaces = (&self.nonmortar, &self.mortar);
         let mut new = if self.options.effective_weights() == Weights::Reference {
             let mut history = self.history.moved_to(x1, x2)?;

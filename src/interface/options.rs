@@ -3,6 +3,7 @@
 use crate::error::{Error, Kind, Result};
 use crate::law::SlipMeasure;
 use crate::quadrature::{DEGREE_5, Rule};
+use std::f64::consts::PI;
 
 /// Which traction the forces use (design: same solutions, different sparsity).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -162,12 +163,17 @@ pub struct Options {
     /// `[L]`. `None`: as far as the surfaces reach for a gap, one facet (the smaller of the two) for a
     /// penetration, so that the far side of a body is not found.
     pub search_distance: Option<f64>,
+    /// How far a surface may turn from one commit to the next, in radians; pi: as far as it likes (`turn.rs`).
+    pub turn_max: f64,
 }
 
 /// Default of [`Options::coverage_min`]: rounding of the covered area is 1e-15 of the facet's.
 pub const COVERAGE_MIN: f64 = 1e-8;
 /// rhat_A = this times E / sqrt(M_A) when a modulus is given. The answer does not depend on it.
 pub const MODULUS_FACTOR: f64 = 0.1;
+
+/// Default of [`Options::turn_max`]: 20 degrees.
+pub const TURN_MAX: f64 = PI / 9.0;
 
 impl Options {
     /// The defaults with the given source of the augmentation.
@@ -189,6 +195,7 @@ impl Options {
             coverage_min: COVERAGE_MIN,
             weak_coverage: 0.0,
             search_distance: None,
+            turn_max: TURN_MAX,
         }
     }
 
@@ -212,6 +219,9 @@ impl Options {
         }
         if !(0.0..=1.0).contains(&self.weak_coverage) {
             return refuse("weak_coverage", self.weak_coverage, "at least 0 and at most 1");
+        }
+        if !(self.turn_max > 0.0 && self.turn_max <= PI) {
+            return refuse("turn_max", self.turn_max, "positive and at most pi");
         }
         match self.search_distance {
             Some(d) if !(d > 0.0 && d.is_finite()) => refuse("search_distance", d, "positive and finite"),

@@ -96,6 +96,7 @@ static void handles(void) {
   NOT_FINITE(&s->options.search_distance, 1, call_create(s), "options.search_distance");
   NOT_FINITE(&s->options.coverage_min, 1, call_create(s), "options.coverage_min");
   NOT_FINITE(&s->options.weak_coverage, 1, call_create(s), "options.weak_coverage");
+  NOT_FINITE(&s->options.turn_max, 1, call_create(s), "options.turn_max");
   scene_destroy(s);
 }
 

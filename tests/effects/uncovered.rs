@@ -16,6 +16,7 @@ fn over_floor<const N: usize>(analytic: bool, options: Options) -> Contact<N>
 where
     Contact<N>: Create<N>,
 {
+    let options = Options { turn_max: PI, ..options }; // with any weights
     let ball = ball(CELLS_A_FACE);
     let x: Vec<_> = shifted(&ball.x, Vec3::z() * (1.0 - DEPTH));
     let (n1, floor) = (x.len(), grid(3, 3, [-2.0, -2.1], [2.1, 2.0], 0.0, true, Cells::Quads));

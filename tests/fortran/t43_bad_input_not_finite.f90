@@ -186,5 +186,6 @@ contains
     call not_finite(creation, 1, c_loc(h%s%options%search_distance), 'options.search_distance')
     call not_finite(creation, 1, c_loc(h%s%options%coverage_min), 'options.coverage_min')
     call not_finite(creation, 1, c_loc(h%s%options%weak_coverage), 'options.weak_coverage')
+    call not_finite(creation, 1, c_loc(h%s%options%turn_max), 'options.turn_max')
   end subroutine
 end program

@@ -14,6 +14,8 @@ use stickslip::law::State;
 const MOST_STEPS: usize = 40;
 /// A step below this, relative to the unknowns, is rounding.
 const CONVERGED: f64 = 1e-12;
+/// Of positions of size 1, times what a solution of the system loses.
+const ROUNDING: f64 = 1e-13;
 /// Halvings of a step at most.
 const MOST_HALVINGS: usize = 12;
 
@@ -93,8 +95,9 @@ where
                 *lambda -= change.fixed_rows::<N>(n + N * a);
             }
             let largest = self.lambda.iter().map(|l| l.amax()).fold(f64::MIN_POSITIVE, f64::max);
-            let small = change.rows(0, n).amax() <= CONVERGED * self.u.amax().max(f64::MIN_POSITIVE)
-                && change.rows(n, N * m).amax() <= CONVERGED * largest;
+            // Positions of size 1 have their rounding, and forces that of the stiffness times it.
+            let small = change.rows(0, n).amax() <= CONVERGED * self.u.amax() + ROUNDING
+                && change.rows(n, N * m).amax() <= CONVERGED * largest + ROUNDING * self.stiffness.amax();
             if small {
                 return Ok(());
             }

@@ -1,0 +1,100 @@
+//! How far the surfaces have turned within a step. nu, and which facets oppose each other, are those of t_n: beyond a
+//! limit they mean the surfaces of now no longer. After a quarter of a turn nothing opposes anything, and a step converges
+//! without any contact. So a commit refuses a step that has turned them by more.
+//!
+//! Both sides count, each against its own normals of t_n, and a turn of both together too: what is frozen is fixed in
+//! space. With weights of the reference it is the whole turn since then, and of the non-mortar side alone, for nothing
+//! else is asked. Tied surfaces use no normals. Surfaces that were apart and still are may turn as they like.
+
+use super::filter::Filter;
+use super::search::Aabb;
+use super::{Contact, Friction, Surface, Weights};
+use crate::error::{Error, Kind, Result};
+use crate::geometry::Vec3;
+use crate::normal;
+
+/// The larger of `found` and a turn from one unit vector to another, with what has turned.
+fn larger(found: (f64, usize), from: &Vec3, to: &Vec3, what: usize) -> (f64, usize) {
+    // Exact at small angles, where the scalar product is not.
+    let angle = 2.0 * ((from - to).norm() / 2.0).min(1.0).asin();
+    if angle > found.0 { (angle, what) } else { found }
+}
+
+/// The averaged normals; `None` where one is undefined.
+fn nodal_normals(surface: &Surface, x: &[Vec3]) -> Option<Vec<Vec3>> {
+    let mut sums = vec![Vec3::zeros(); surface.len()];
+    for (f, nodes) in surface.facets.iter().enumerate() {
+        let facet = surface.facet(f, x);
+        nodes.as_slice().iter().enumerate().for_each(|(k, &a)| sums[a] += normal::corner_normal(&facet, k));
+    }
+    sums.into_iter().enumerate().map(|(a, sum)| normal::nodal_normal(sum, a).ok()).collect()
+}
+
+impl<const N: usize> Contact<N> {
+    /// Refuses a commit at (x1, x2) where a surface has turned by more than the option allows.
+    /// `shared`: other handles have other parts of the mortar side, which are not known here.
+    pub(super) fn refuse_turn(&self, x1: &[Vec3], x2: &[Vec3], shared: bool) -> Result<()> {
+        if self.options.friction == Friction::Tied || !shared && self.is_apart_at_both(x1, x2)? {
+            return Ok(());
+        }
+        // What cannot be averaged is refused with its own words where it is needed.
+        let Some(normals) = nodal_normals(&self.nonmortar, x1) else { return Ok(()) };
+        let before = self.history.normals.iter().zip(&normals).enumerate();
+        let (angle, node) = before.fold((0.0, 0), |most, (a, (n, m))| larger(most, n, m, a));
+        self.refuse_angle(angle, || format!("the normal of non-mortar node {node}"))?;
+        if self.options.effective_weights() == Weights::Reference {
+            return Ok(());
+        }
+        let (angle, facet) = self.turn_of_mortar(x2)?;
+        self.refuse_angle(angle, || match self.mortar.analytic {
+            Some(shape) => format!("the mortar side, {shape},"),
+            None => format!("mortar facet {facet}"),
+        })
+    }
+
+    fn turn_of_mortar(&self, x2: &[Vec3]) -> Result<(f64, usize)> {
+        let (two, x2_n) = (&self.mortar, &self.history.x2[..]);
+        if two.analytic.is_some() {
+            let directions = [two.analytic_at(x2_n)?, two.analytic_at(x2)?].map(|surface| surface.direction());
+            let [Some(from), Some(to)] = directions else { return Ok((0.0, 0)) };
+            return Ok(larger((0.0, 0), &from, &to, 0));
+        }
+        let normal = |f: usize, x: &[Vec3]| two.facet(f, x).area_vector().try_normalize(0.0);
+        let facets = (0..two.facets.len()).filter_map(|f| Some((f, normal(f, x2_n)?, normal(f, x2)?)));
+        Ok(facets.fold((0.0, 0), |most, (f, from, to)| larger(most, &from, &to, f)))
+    }
+
+    /// Whether the sides lie along one axis farther apart than any penetration, at t_n and now and the same way round.
+    fn is_apart_at_both(&self, x1: &[Vec3], x2: &[Vec3]) -> Result<bool> {
+        let (one, two, places) =
+            (&self.nonmortar, &self.mortar, [(&self.history.x1[..], &self.history.x2[..]), (x1, x2)]);
+        if two.analytic.is_some() {
+            return super::analytic::are_apart((one, two), &places);
+        }
+        let around = |x: &[Vec3]| Aabb::around(x.iter().copied());
+        let deepest = match &self.filter {
+            Some(Filter::Facets(filter)) => filter.deepest(),
+            _ => one.longest_edge_at(&self.history.x1).max(two.longest_edge_at(&self.history.x2)),
+        };
+        let [before, now] = places.map(|(x1, x2)| around(x1).sides(&around(x2), deepest));
+        Ok(before.iter().zip(&now).any(|(before, now)| *before && *now))
+    }
+
+    fn refuse_angle(&self, angle: f64, what: impl Fn() -> String) -> Result<()> {
+        if angle <= self.options.turn_max {
+            return Ok(());
+        }
+        let since = if self.options.effective_weights() == Weights::Reference {
+            "since the first configuration (weights are of the reference)"
+        } else {
+            "since the last commit"
+        };
+        let text = format!(
+            "{} has turned by {:.1} degrees {since}; {:.1} are allowed (options.turn_max): take smaller steps",
+            what(),
+            angle.to_degrees(),
+            self.options.turn_max.to_degrees()
+        );
+        Err(Error::new(Kind::TurnedTooFar, text))
+    }
+}
