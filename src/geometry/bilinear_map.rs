@@ -7,6 +7,9 @@ use crate::simd::{Lanes, Real};
 
 /// A twist below this (over the facet's size) is rounding: the facet is a parallelogram.
 const PARALLELOGRAM: f64 = 1e-14;
+/// det J^2 over that at the centre is above this on a facet whose corners are convex ([`Projection::convex_reach`]): above
+/// 2.5e-15, for no facet's area is above four times the square of its size, nor its size above twice its reach.
+const LEAST_SQUARE: f64 = 1e-15;
 
 /// Coefficients of the map of one projected facet.
 #[derive(Clone, Copy, Debug)]
@@ -17,8 +20,6 @@ pub struct BilinearMap {
     d: Vec2,
     /// b x c, b x d, d x c: det J = j0 + j1 xi + j2 eta [L^2].
     determinant: [f64; 3],
-    /// Half the smallest det J^2 of the facet: no point on it has less, whatever rounding says. 0 where it is affine.
-    least_square: f64,
     /// 1 / (b x c).
     inverse_affine: f64,
     coefficients: &'static [[f64; 4]; MAX_NODES],
@@ -93,21 +94,15 @@ impl BilinearMap {
             }
         }
         let determinant = [cross(m[1], m[2]), cross(m[1], m[3]), cross(m[3], m[2])];
-        let is_affine = m[3].amax() <= PARALLELOGRAM * facet.size;
-        let mut least = 0.0;
-        if !is_affine {
-            least = determinant[0] - determinant[1].abs() - determinant[2].abs(); // det J is linear: at a corner
-        }
         BilinearMap {
             a: m[0],
             b: m[1],
             c: m[2],
             d: m[3],
             determinant,
-            least_square: 0.5 * (least * least),
             inverse_affine: 1.0 / determinant[0],
             coefficients: &facet.shape.coefficients,
-            is_affine,
+            is_affine: m[3].amax() <= PARALLELOGRAM * facet.size,
         }
     }
 
@@ -129,7 +124,7 @@ impl BilinearMap {
             d: pair(self.d),
             bc: R::splat(self.determinant[0]),
             four_bd: R::splat(4.0 * self.determinant[1]),
-            least_square: R::splat(self.least_square),
+            least_square: R::splat(LEAST_SQUARE * self.determinant[0] * self.determinant[0]),
             inverse_affine: R::splat(self.inverse_affine),
             is_affine: self.is_affine,
         }
