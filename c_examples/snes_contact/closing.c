@@ -133,13 +133,12 @@ static PetscErrorCode loose_body(Model *model, PetscInt *body)
 PetscErrorCode closing_needed(Model *model, Vec start, PetscBool *needed)
 {
   PetscInt status, body = -1;
-  PetscReal unused = 0;
   PetscFunctionBegin;
   *needed = PETSC_FALSE;
   if (!model->closing.possible) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(unknowns_to_local(model, start));
   PetscCall(VecZeroEntries(model->f_local));
-  PetscCall(contact_forces(model, model->f_local, &unused, &status)); /* does the library take these positions? */
+  PetscCall(contact_forces(model, model->f_local, &status)); /* does the library take these positions? */
   if (!status) PetscCall(loose_body(model, &body));
   model->refusal[0] = 0;
   *needed           = (PetscBool)(body >= 0);

@@ -25,7 +25,8 @@ static PetscBool within(PetscReal tolerance, const stickslip_equilibrium *e)
 static PetscReal worst(PetscReal tolerance, const Interface *interface, char words[], size_t length)
 {
   const stickslip_equilibrium *e        = &interface->equilibrium;
-  const double                 values[] = {e->gap, e->traction, e->slip}, scales[] = {e->gap_scale, e->traction_scale, e->slip_scale};
+  const double                 values[] = {e->gap, e->traction, e->slip};
+  const double                 scales[] = {e->gap_scale, e->traction_scale, e->slip_scale};
   const int64_t                nodes[]  = {e->gap_node, e->traction_node, e->slip_node};
   static const char *const     names[]  = {"gap", "traction", "slip"};
   PetscReal                    largest  = 0;

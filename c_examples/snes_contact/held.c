@@ -5,91 +5,12 @@
  *
  * Parts that their supports hold by themselves do not move here. The others are asked together, for two may drift as one.
  * Positions are those of now. */
-#include "model.h"
+#include "motions.h"
 #include <cjson/cJSON.h>
-#include <petscblaslapack.h>
-#include <string.h>
 
-enum { MODES = 6 };
-/* A motion whose constraints sum to less than this part of those of the motion that is held best is free: far above
- * rounding, far below what one vertex of a million holds. */
-static const PetscReal FREE = 1e-10;
 /* Normals that enclose less than this count as one: a slope of less than a hundredth, as a flat surface has when it is
  * strained, holds nothing. */
 static const PetscReal SLOPE = 1e-2;
-/* Components of unit vectors below this are left out of the words. */
-static const PetscReal VISIBLE = 1e-3;
-
-/* rank 0: motions of some parts, [part][translations, turns about its middle by size], and their constraints */
-typedef struct {
-  PetscInt   n_parts, *place; /* parts that may move; place of each part of the model among them, -1: none */
-  PetscReal *middle, *size;   /* 3 per part of the model; of each */
-  PetscInt   n;               /* MODES n_parts */
-  PetscReal *gram;            /* n x n: sum of the constraints' products; then its eigenvectors, one a row */
-  PetscReal *values;          /* its eigenvalues, in increasing order */
-} Motions;
-
-/* x: positions of all vertices; `include` of each part */
-static PetscErrorCode motions_create(const Model *model, const PetscReal *x, const PetscBool *include, Motions *m)
-{
-  PetscInt *count;
-  PetscFunctionBegin;
-  *m = (Motions){0};
-  PetscCall(PetscCalloc3(model->n_parts, &m->place, 3 * model->n_parts, &m->middle, model->n_parts, &m->size));
-  PetscCall(PetscCalloc1(model->n_parts, &count));
-  for (PetscInt p = 0; p < model->n_parts; p++)
-    m->place[p] = !include || include[p] ? m->n_parts++ : -1;
-  for (PetscInt v = 0; v < model->mesh.n_vertices; v++) {
-    const PetscInt p = model->mesh_part[v];
-    count[p]++;
-    for (int i = 0; i < 3; i++)
-      m->middle[3 * p + i] += x[3 * v + i];
-  }
-  for (PetscInt k = 0; k < 3 * model->n_parts; k++)
-    m->middle[k] /= (PetscReal)count[k / 3];
-  for (PetscInt v = 0; v < model->mesh.n_vertices; v++) {
-    const PetscInt p = model->mesh_part[v];
-    for (int i = 0; i < 3; i++)
-      m->size[p] += PetscSqr(x[3 * v + i] - m->middle[3 * p + i]) / (PetscReal)count[p];
-  }
-  for (PetscInt p = 0; p < model->n_parts; p++)
-    m->size[p] = m->size[p] > 0 ? PetscSqrtReal(m->size[p]) : 1;
-  m->n = MODES * m->n_parts;
-  PetscCall(PetscCalloc2(m->n * m->n, &m->gram, m->n, &m->values));
-  PetscCall(PetscFree(count));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscErrorCode motions_destroy(Motions *m)
-{
-  PetscFunctionBegin;
-  PetscCall(PetscFree3(m->place, m->middle, m->size));
-  PetscCall(PetscFree2(m->gram, m->values));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* What the motions of a part move a point by along d; nothing where it is none of those that move. Adds `sign` times. */
-static void add_motion(const Motions *m, PetscInt part, const PetscReal x[3], const PetscReal d[3], PetscReal sign,
-                       PetscInt columns[], PetscReal values[], int *n)
-{
-  if (m->place[part] < 0) return;
-  for (int i = 0; i < 3; i++) {
-    const int       j = (i + 1) % 3, k = (i + 2) % 3;
-    const PetscReal yj = x[j] - m->middle[3 * part + j], yk = x[k] - m->middle[3 * part + k];
-    columns[*n]    = MODES * m->place[part] + i;
-    values[(*n)++] = sign * d[i];
-    columns[*n]    = MODES * m->place[part] + 3 + i;
-    values[(*n)++] = sign * (yj * d[k] - yk * d[j]) / m->size[part]; /* (e_i x y) . d */
-  }
-}
-
-static void add_constraint(Motions *m, int n, const PetscInt columns[], const PetscReal values[])
-{
-  for (int i = 0; i < n; i++) {
-    for (int j = 0; j < n; j++)
-      m->gram[m->n * columns[i] + columns[j]] += values[i] * values[j];
-  }
-}
 
 static void add_supports(const Model *model, const PetscReal *x, Motions *m)
 {
@@ -100,8 +21,8 @@ static void add_supports(const Model *model, const PetscReal *x, Motions *m)
       PetscReal       values[MODES];
       int             n = 0;
       if (!(model->prescribed[v] & (1 << i))) continue;
-      add_motion(m, model->mesh_part[v], x + 3 * v, d, 1, columns, values, &n);
-      add_constraint(m, n, columns, values);
+      motions_row(m, model->mesh_part[v], x + 3 * v, d, 1, columns, values, &n);
+      motions_constrain(m, n, columns, values);
     }
   }
 }
@@ -158,123 +79,13 @@ static PetscErrorCode add_contact(const Model *model, const Interface *interface
                      *d       = sticks ? axis : same_normal(states.normal, first, &n_first, a);
       int n = 0;
       if (sticks && interface->removed[a] & (1 << i)) continue;
-      add_motion(m, model->mesh_part[v], at, d, 1, columns, values, &n);
-      if (other != model->mesh_part[v]) add_motion(m, other, at, d, -1, columns, values, &n);
-      add_constraint(m, n, columns, values);
+      motions_row(m, model->mesh_part[v], at, d, 1, columns, values, &n);
+      if (other != model->mesh_part[v]) motions_row(m, other, at, d, -1, columns, values, &n);
+      motions_constrain(m, n, columns, values);
     }
   }
   PetscCall(PetscFree(first));
   PetscCall(contact_states_destroy(&states));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* rows of v (n x width) to eigenvectors of v^T v, least value first: the gram matrix is replaced */
-static PetscErrorCode eigen(PetscInt n, PetscReal *gram, PetscReal *values)
-{
-  PetscBLASInt size, length, info;
-  PetscReal   *work;
-  PetscFunctionBegin;
-  if (!n) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(PetscBLASIntCast(n, &size));
-  PetscCall(PetscBLASIntCast(8 * n, &length));
-  PetscCall(PetscMalloc1(8 * n, &work));
-  PetscCallBLAS("LAPACKsyev", LAPACKsyev_("V", "U", &size, gram, &size, values, work, &length, &info));
-  PetscCheck(!info, PETSC_COMM_SELF, PETSC_ERR_LIB, "LAPACK's syev failed");
-  PetscCall(PetscFree(work));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* The number of free motions, which are the first rows of m->gram. */
-static PetscErrorCode find_free(Motions *m, PetscInt *n_free)
-{
-  PetscFunctionBegin;
-  PetscCall(eigen(m->n, m->gram, m->values));
-  *n_free = 0;
-  while (*n_free < m->n && m->values[*n_free] <= FREE * PetscMax(m->values[m->n - 1], 1))
-    (*n_free)++;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* "x" or "(0.71, 0, -0.71)" */
-static void direction_words(PetscReal d[3], char words[], size_t length)
-{
-  int largest = 0, visible = 0;
-  for (int i = 1; i < 3; i++)
-    largest = PetscAbsReal(d[i]) > PetscAbsReal(d[largest]) + VISIBLE ? i : largest;
-  for (int i = 0; i < 3; i++) {
-    d[i] = PetscAbsReal(d[i]) < VISIBLE ? 0 : d[i];
-    visible += d[i] != 0;
-  }
-  for (int i = 0; i < 3 && d[largest] < 0; i++)
-    d[i] = -d[i];
-  if (visible == 1)
-    PetscCallAbort(PETSC_COMM_SELF, PetscSNPrintf(words, length, "%c", 'x' + largest));
-  else
-    PetscCallAbort(PETSC_COMM_SELF, PetscSNPrintf(words, length, "(%.3g, %.3g, %.3g)", (double)d[0], (double)d[1], (double)d[2]));
-}
-
-/* Directions that span vectors (n of them, `width` apart), as words: an axis that lies in their span goes by its name. */
-static PetscErrorCode span_words(PetscInt n, const PetscReal *vectors, PetscInt width, char words[], size_t length)
-{
-  PetscReal gram[9] = {0}, values[3], largest;
-  PetscInt  rank = 0, axes = 0;
-  char      word[64];
-
-  PetscFunctionBegin;
-  words[0] = 0;
-  for (PetscInt k = 0; k < n; k++) {
-    for (int i = 0; i < 9; i++)
-      gram[i] += vectors[width * k + i / 3] * vectors[width * k + i % 3];
-  }
-  PetscCall(eigen(3, gram, values));
-  largest = values[2];
-  for (int k = 0; k < 3; k++)
-    rank += values[k] > SLOPE * SLOPE * PetscMax(largest, SLOPE * SLOPE);
-  for (int i = 0; i < 3; i++) {
-    PetscReal within = 0;
-    for (PetscInt k = 3 - rank; k < 3; k++)
-      within += PetscSqr(gram[3 * k + i]);
-    axes += within > 1 - VISIBLE;
-  }
-  for (int i = 0; i < 3; i++) {
-    PetscReal within = 0, d[3];
-    for (PetscInt k = 3 - rank; k < 3; k++)
-      within += PetscSqr(gram[3 * k + i]);
-    for (int j = 0; j < 3; j++)
-      d[j] = axes == rank ? i == j : gram[3 * i + j];
-    if (axes == rank ? within <= 1 - VISIBLE : i < 3 - rank) continue;
-    direction_words(d, word, sizeof(word));
-    PetscCall(PetscStrlcat(words, words[0] ? ", " : "", length));
-    PetscCall(PetscStrlcat(words, word, length));
-  }
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* "move along x, z and turn about y", or nothing: what a part does in the free motions */
-static PetscErrorCode motion_words(const Motions *m, PetscInt n_free, PetscInt place, char words[], size_t length)
-{
-  PetscReal *mine, *gram, *values, *moves;
-  PetscInt   n_moves = 0;
-  char       along[200], about[200];
-
-  PetscFunctionBegin;
-  PetscCall(PetscCalloc4(MODES * n_free, &mine, n_free * n_free, &gram, n_free, &values, 3 * n_free, &moves));
-  for (PetscInt k = 0; k < MODES * n_free; k++)
-    mine[k] = m->gram[m->n * (k / MODES) + MODES * place + k % MODES];
-  for (PetscInt k = 0; k < n_free * n_free; k++) {
-    for (int i = 3; i < MODES; i++)
-      gram[k] += mine[MODES * (k / n_free) + i] * mine[MODES * (k % n_free) + i];
-  }
-  PetscCall(eigen(n_free, gram, values)); /* combinations of the motions in which the part does not turn: */
-  for (PetscInt c = 0; c < n_free && values[c] <= SLOPE * SLOPE; c++, n_moves++) {
-    for (PetscInt k = 0; k < 3 * n_free; k++)
-      moves[3 * n_moves + k % 3] += gram[n_free * c + k / 3] * mine[MODES * (k / 3) + k % 3];
-  }
-  PetscCall(span_words(n_moves, moves, 3, along, sizeof(along)));
-  PetscCall(span_words(n_free, mine + 3, MODES, about, sizeof(about)));
-  PetscCall(PetscSNPrintf(words, length, "%s%s%s%s%s", along[0] ? "move along " : "", along,
-                          along[0] && about[0] ? " and " : "", about[0] ? "turn about " : "", about));
-  PetscCall(PetscFree4(mine, gram, values, moves));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -287,26 +98,29 @@ static void part_name(const Model *model, PetscInt part, char name[], size_t len
   for (PetscInt b = 0; b < model->mesh.n_bodies; b++) {
     const Body *body = &model->mesh.bodies[b];
     if (v < body->first_vertex || v >= body->end_vertex) continue;
-    for (PetscInt w = body->first_vertex; w < body->end_vertex; w++) { /* parts are numbered as their first vertices are */
+    for (PetscInt w = body->first_vertex; w < body->end_vertex; w++) { /* parts are numbered as they are met */
       if (model->mesh_part[w] <= last) continue;
       last = model->mesh_part[w];
       pieces++;
       if (last == part) piece = pieces;
     }
-    PetscCallAbort(PETSC_COMM_SELF, pieces > 1 ? PetscSNPrintf(name, length, "%s (piece %d of %d)", body->name, (int)piece, (int)pieces)
-                                               : PetscSNPrintf(name, length, "%s", body->name));
+    if (pieces > 1)
+      PetscCallAbort(PETSC_COMM_SELF, PetscSNPrintf(name, length, "%s (piece %d of %d)", body->name, (int)piece, (int)pieces));
+    else
+      PetscCallAbort(PETSC_COMM_SELF, PetscSNPrintf(name, length, "%s", body->name));
   }
 }
 
 /* Every part's free motions: "upper is free to move along x, lower is free to turn about z" */
-static PetscErrorCode describe(const Model *model, const Motions *m, PetscInt n_free, cJSON *json, char text[], size_t length)
+static PetscErrorCode describe(const Model *model, const Motions *m, PetscInt n_free, cJSON *json, char text[],
+                               size_t length)
 {
   PetscFunctionBegin;
   text[0] = 0;
   for (PetscInt p = 0; p < model->n_parts && n_free; p++) {
     char name[2 * NAME_LENGTH], words[512], sentence[1024];
     if (m->place[p] < 0) continue;
-    PetscCall(motion_words(m, n_free, m->place[p], words, sizeof(words)));
+    PetscCall(motions_words(m, n_free, m->place[p], words, sizeof(words)));
     if (!words[0]) continue;
     part_name(model, p, name, sizeof(name));
     PetscCall(PetscSNPrintf(sentence, sizeof(sentence), "%s%s is free to %s", text[0] ? ", " : "", name, words));
@@ -330,7 +144,7 @@ static PetscErrorCode by_supports(const Model *model, PetscBool *loose, cJSON *j
     only[p] = PETSC_TRUE;
     PetscCall(motions_create(model, model->mesh.coordinates, only, &m));
     add_supports(model, model->mesh.coordinates, &m);
-    PetscCall(find_free(&m, &n_free));
+    PetscCall(motions_find_free(&m, &n_free));
     PetscCall(describe(model, &m, n_free, json, part, sizeof(part)));
     loose[p] = (PetscBool)(n_free > 0);
     PetscCall(PetscStrlcat(text, text[0] && part[0] ? ", " : "", length));
@@ -412,15 +226,16 @@ PetscErrorCode held_check(Model *model, const PetscScalar *displacements)
   add_supports(model, x, &m);
   for (PetscInt i = 0; i < model->n_interfaces; i++)
     PetscCall(add_contact(model, &model->interfaces[i], x, &m));
-  PetscCall(find_free(&m, &n_free));
+  PetscCall(motions_find_free(&m, &n_free));
   if (n_free) {
     model->held_by_nothing = cJSON_CreateObject();
     cJSON_AddNumberToObject(model->held_by_nothing, "t", model->t);
-    PetscCall(describe(model, &m, n_free, cJSON_AddObjectToObject(model->held_by_nothing, "bodies"), text, sizeof(text)));
+    PetscCall(describe(model, &m, n_free, cJSON_AddObjectToObject(model->held_by_nothing, "bodies"), text,
+                       sizeof(text)));
     PetscCall(PetscFPrintf(PETSC_COMM_SELF, PETSC_STDERR,
-                           "snes_contact: warning: at t = %.6g nothing holds what follows, neither supports nor contact nor "
-                           "friction: %s. The matrix is singular, and how far bodies drift so is arbitrary: support them, or "
-                           "give contact friction.\n",
+                           "snes_contact: warning: at t = %.6g nothing holds what follows, neither supports nor contact "
+                           "nor friction: %s. The matrix is singular, and how far bodies drift so is arbitrary: "
+                           "support them, or give contact friction.\n",
                            (double)model->t, text));
   }
   PetscCall(motions_destroy(&m));

@@ -70,10 +70,10 @@ static PetscErrorCode warn(Model *model, PetscInt b)
   const Range *range = &model->ranges[b];
   PetscFunctionBegin;
   PetscCall(PetscFPrintf(PETSC_COMM_SELF, PETSC_STDERR,
-                         "snes_contact: warning: at t = %.6g %s, whose material is linear, is strained by %.2g and turned by "
-                         "%.2g degrees: expect errors of about %.2g in its forces. Give it `material: neo_hooke` "
-                         "(or st_venant_kirchhoff, where it turns but is hardly strained), or `small_strain: true` if the "
-                         "linear theory is meant.\n",
+                         "snes_contact: warning: at t = %.6g %s, whose material is linear, is strained by %.2g and turned "
+                         "by %.2g degrees: expect errors of about %.2g in its forces. Give it `material: neo_hooke` "
+                         "(or st_venant_kirchhoff, where it turns but is hardly strained), or `small_strain: true` "
+                         "if the linear theory is meant.\n",
                          (double)model->t, model->mesh.bodies[b].name, (double)range->strain,
                          (double)(range->rotation * 180 / PETSC_PI), (double)expected_error(range)));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -86,7 +86,8 @@ PetscErrorCode range_check(Model *model, const PetscScalar *displacements)
   PetscFunctionBegin;
   if (!model->ranges) PetscCall(PetscCalloc1(mesh->n_bodies, &model->ranges));
   for (PetscInt c = 0; c < mesh->n_cells; c++) {
-    const PetscInt n = mesh->cell_offsets[c + 1] - mesh->cell_offsets[c], *vertices = mesh->cell_vertices + mesh->cell_offsets[c];
+    const PetscInt  n        = mesh->cell_offsets[c + 1] - mesh->cell_offsets[c];
+    const PetscInt *vertices = mesh->cell_vertices + mesh->cell_offsets[c];
     const Body    *body  = &mesh->bodies[mesh->cell_body[c]];
     Range         *range = &model->ranges[mesh->cell_body[c]];
     PetscReal      X[24], u[24], H[9], strain, rotation;

@@ -84,6 +84,8 @@ def outcome(run):
     cycles = sum(len(step.get("cycles", ())) for step in run.steps)
     if cycles:
         result.warnings.append(f"{cycles} cycles found and ended")
+    for name, motions in run.summary.get("held_by_nothing", {}).get("bodies", {}).items():
+        result.warnings.append(f"{name} is free to {motions}")
     for name, found in run.summary.get("several_states", {}).items():
         result.warnings.append(f"{name}: friction beyond {found['critical_friction']:.3g}, a node's limit for one state")
     result.figures["seconds"] = run.seconds
