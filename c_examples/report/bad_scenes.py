@@ -46,14 +46,14 @@ PYRAMID = one_cell(7, [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0.5, 0.5, 1)
 
 BAD_SCENES = [
     BadScene("misspelt_key", "friction: 0.5", "frictoin: 0.5", "base.frictoin"),
-    BadScene("missing_key", "young: 1000, poisson: 0.3}\nfloor", "poisson: 0.3}\nfloor", "block.young"),
+    BadScene("missing_key", "young: 1000, poisson: 0.3, small", "poisson: 0.3, small", "block.young"),
     BadScene("unknown_key", "friction: 0.5", "friction: 0.5, colour: 3", "base.colour"),
     BadScene("unknown_map", "schema: 1", "schema: 1\nextra: {a: 1}", "extra.a"),
     BadScene("missing_value", "cells: [20, 1, 10], ", "", "block.cells"),
     BadScene("not_a_number", "friction: 0.5", "friction: plenty", "base.friction"),
     BadScene("infinite", "friction: 0.5", "friction: .inf", "base.friction"),
     BadScene("negative_friction", "friction: 0.5", "friction: -0.5", "base.friction"),
-    BadScene("incompressible", "poisson: 0.3}\nfloor", "poisson: 0.5}\nfloor", "block.poisson"),
+    BadScene("incompressible", "poisson: 0.3, small", "poisson: 0.5, small", "block.poisson"),
     BadScene("no_cells", "cells: [20, 1, 10]", "cells: [20, 0, 10]", "block.cells"),
     BadScene("wrong_length", "traction: [60, 0, 0]", "traction: [60, 0]", "push.traction"),
     BadScene("odd_curve", "curve: [1, 0, 2, 1]", "curve: [1, 0, 2]", "push.curve"),
