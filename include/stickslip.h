@@ -27,6 +27,9 @@
  *
  * Threads: stateless calls from any thread; distinct handles from any threads; one handle from one at a time.
  *
+ * Stack: 128 kB are enough for any call; the deepest, interface_diagnose, takes about 70 kB. Threads of a host must have
+ * as much left.
+ *
  * Floating point: on x86-64 and AArch64 the caller's environment (traps, rounding, flushing, flags) does not matter to a
  * call and is the same after it. Elsewhere it must be the default one. version, status_string, last_error_message and
  * last_error_padded compute nothing.
@@ -150,10 +153,11 @@
 /// smaller steps.
 #define STICKSLIP_TURNED_TOO_FAR 17
 
-/// A commit would take pairs away from a node that is closed. Commit a smaller step, or give a search_distance.
-#define STICKSLIP_CONTACT_LOST 19
 /// The system has no memory left for what the call needs. Nothing was changed.
 #define STICKSLIP_OUT_OF_MEMORY 18
+
+/// A commit would take pairs away from a node that is closed. Commit a smaller step, or give a search_distance.
+#define STICKSLIP_CONTACT_LOST 19
 
 /// The library is at fault; please report it. The handle is suspect.
 #define STICKSLIP_PANIC -1
@@ -188,7 +192,8 @@
 /// One multiplier per node, along the normal: multiplier_equations, lambda and rows have n1 entries. No slip history.
 #define STICKSLIP_FRICTION_NONE 1
 
-/// Mesh tying: a node that is covered in the first configuration keeps its place; weights of the reference. Linear.
+/// Mesh tying: a node that is covered in the first configuration keeps its place; weights of the reference. A gap at the
+/// start stays, and turns with the non-mortar facets; linear where there is none.
 #define STICKSLIP_FRICTION_TIED 2
 
 /// Opens and closes, never slips.
@@ -959,7 +964,8 @@ int32_t stickslip_interface_initial_multipliers(struct stickslip_interface *inte
 ///
 /// x1 (3 n1), x2 (3 n2): positions, not displacements [L]. sums (STICKSLIP_SUMS_PER_NODE n1), output, per node:
 /// covered area now [L^2], g[n_{n+1}, x_{n+1}] (3) [L^3], covered area at t_n [L^2], g[n_n, x_{n+1}] (3) [L^3],
-/// g[n_n, x_n] (3) [L^3]. With sums, use the multiplier form. This call, and those with sums, leave nothing out
+/// g[n_n, x_n] (3) [L^3]. Of tied surfaces the last is the gap that they started with, turned with the non-mortar facets
+/// to x1: a host that adds up shares adds these too, and passes them at the same x1. With sums, use the multiplier form. This call, and those with sums, leave nothing out
 /// where the handle's own part of the mortar surface is far away; calls with NULL in place of sums do, before and after.
 ///
 /// All handles that are added up must have the same options and the same mu at every node (those of

@@ -6,8 +6,9 @@
 /* Part of a scale that a violation may be, over the tolerance of the forces: the rows of the default augmentation, which is
  * a tenth of E / h, would be compared with the forces so. */
 static const PetscReal OVER_FORCES = 10;
-/* Rounding of the linear solver, over which no tolerance may go. */
-static const PetscReal LEAST = 1e-11;
+/* A tighter tolerance of the forces asks no more of the contact: tractions are known to this part then, and the next step
+ * of Newton's method would end at rounding. */
+static const PetscReal LEAST = 1e-10;
 /* A violation that changes by less than this from one iteration to the next, while the forces balance, stays: Newton's
  * method has nothing left to change. */
 static const PetscReal STANDS_STILL = 1e-3;
