@@ -237,6 +237,8 @@ static PetscErrorCode describe_motion(Model *model, PetscInt body, Vec step)
   PetscCall(VecRestoreArrayRead(step, &array));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, mean, 3, MPIU_REAL, MPIU_SUM, PETSC_COMM_WORLD));
   size = PetscSqrtReal(PetscSqr(mean[0]) + PetscSqr(mean[1]) + PetscSqr(mean[2]));
+  for (int i = 0; i < 3; i++)
+    mean[i] = PetscAbsReal(mean[i]) < 5e-4 * size ? 0 : mean[i]; /* no minus before what is told as 0 */
   PetscCall(PetscSNPrintf(closing->away, sizeof(closing->away),
                           "nothing touches %s: the loads move it along (%.3f, %.3f, %.3f), and nothing is in its way",
                           model->mesh.bodies[body].name, (double)(mean[0] / size), (double)(mean[1] / size),
