@@ -429,8 +429,8 @@ module stickslip
       integer(c_int64_t), intent(inout) :: count
     end function
 
-    ! Creates an interface between two surfaces, whose coordinates are the first configuration and t_0. The surfaces
-    ! are copied. A handle that was in use must be destroyed first.
+    ! Creates an interface between two surfaces, whose coordinates are the first configuration and t_0. nonmortar: the
+    ! side that stays covered; of two that do the softer, then the finer. The surfaces are copied. A handle that was in use must be destroyed first.
     integer(c_int32_t) function stickslip_interface_create(nonmortar, mortar, options, out) bind(C)
       import :: c_int32_t, stickslip_interface, stickslip_options, stickslip_surface
       type(stickslip_surface), intent(in) :: nonmortar, mortar

@@ -14,6 +14,7 @@ from friction_checks import friction
 from hosts import hosts
 from ironing import ironing, ironing_full
 from material_checks import materials
+from roles import roles
 from slider import slider, slider_fine
 from scene import Driver, SceneError
 from stepping import stepping
@@ -30,6 +31,7 @@ GROUPS = {
     "ironing": ironing,
     "ironing_full": ironing_full,  # four minutes; not among the tests
     "materials": materials,
+    "roles": roles,
     "slider": slider,
     "slider_fine": slider_fine,  # minutes; not among the tests
     "stepping": stepping,

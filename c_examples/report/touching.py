@@ -38,8 +38,8 @@ def touching_quick(verdicts, driver):
     for number, keys in enumerate(OTHERS):
         closed(verdicts, driver, "cylinder", "block", 1, FRICTIONS[-1], keys, note=f"_{number}")
     closed(verdicts, driver, "ball", "block", 1, FRICTIONS[-1], ranks=2, note="_ranks2")
-    stacked(verdicts, driver, (0, 0.5), FRICTIONS[-1])
-    stacked(verdicts, driver, (1, 0), FRICTIONS[-1], tied=True)
+    stacked(verdicts, driver, (0, 0.5), FRICTIONS[-1], "cylinder")
+    stacked(verdicts, driver, (1, 0), FRICTIONS[-1], "cylinder", tied=True)
     switched_off(verdicts, driver)
     pulled_away(verdicts, driver)
 
@@ -54,8 +54,9 @@ def touching_full(verdicts, driver):
                 for number, keys in enumerate(OTHERS):
                     closed(verdicts, driver, shape, base, 0.1, friction, keys, note=f"_{number}")
     for gaps in ((0, 0), (0, 0.5), (0.5, 0), (0.5, 0.5), (10, 1)):
-        for friction in FRICTIONS:
-            stacked(verdicts, driver, gaps, friction)
+        for shape in ("cylinder", "ball"):
+            for friction in FRICTIONS:
+                stacked(verdicts, driver, gaps, friction, shape)
 
 
 def scaled(gap, shape):
@@ -72,9 +73,9 @@ def closed(verdicts, driver, shape, base, gap, friction, contact=None, ranks=1, 
     compared(verdicts, driver, label, touching(shape, base, scaled(gap, shape), friction, contact=contact), shape, ranks)
 
 
-def stacked(verdicts, driver, gaps, friction, tied=False):
-    label = f"stack_{gaps[0]}_{gaps[1]}_{friction}" + ("_tied" if tied else "")
-    compared(verdicts, driver, label, stack(gaps, friction, tied), "ball")
+def stacked(verdicts, driver, gaps, friction, shape, tied=False):
+    label = f"stack_{shape}_{gaps[0]}_{gaps[1]}_{friction}" + ("_tied" if tied else "")
+    compared(verdicts, driver, label, stack(gaps, friction, tied, shape), shape)
 
 
 def compared(verdicts, driver, label, scene, shape, ranks=1):

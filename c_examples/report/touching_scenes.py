@@ -116,15 +116,16 @@ def load(shape):
     return TRACTIONS[shape] * area
 
 
-def stack(gaps, friction=0.0, tied=False):
-    """The ball over a slab that nothing holds along z, over a floor, with two gaps in facets; or over a slab that is
-    tied to the floor."""
-    scene = touching("ball", gap=gaps[0], friction=friction)
+def stack(gaps, friction=0.0, tied=False, shape="ball"):
+    """A ball or cylinder over a slab that nothing holds along z, over a floor, with two gaps in facets; or over a slab
+    that is tied to the floor."""
+    scene = touching(shape, gap=gaps[0], friction=friction)
     z = np.array(scene["lower"]["z"])
     top = z[0] - gaps[1] * FACET
     floor = scene["lower"] | {"z": [top - 1.0, top - 0.6, top - 0.2, top], "young": 3000}
     below = {"nonmortar": "lower.zmin", "mortar": "floor.zmax"}
-    supports = {"symmetry4": held("floor.xmin", "x"), "symmetry5": held("floor.ymin", "y")}
+    sides = "floor.ymin" if shape == "ball" else ["floor.ymin", "floor.ymax"]
+    supports = {"symmetry4": held("floor.xmin", "x"), "symmetry5": held(sides, "y")}
     return scene | supports | {
         "bodies": ["upper", "lower", "floor"],
         "floor": floor,

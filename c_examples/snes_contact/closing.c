@@ -14,11 +14,14 @@
 #include "model.h"
 
 /* e while a body is loose, how it shrinks, to what, and otherwise: a direction of motion that is not made of rounding, and
- * hardly any change of the step. From 1e-12 to 1e-4 all scenes converge, at 1e-2 they do not. */
-static const PetscReal LOOSE = 1e-6, SHRINKAGE = 1e-2, LEAST = 1e-10, HELD = 1e-12;
+ * hardly any change of the step. From 1e-13 to 1e-4 all scenes converge, at 1e-2 they do not. */
+static const PetscReal LOOSE = 1e-6, SHRINKAGE = 1e-2, LEAST = 1e-10, HELD = 1e-13;
 /* How deep a step may lead into contact, over a facet's edge, and by what factor less once a body that touched is loose
  * again: under a small force such a penetration throws it back. */
 static const PetscReal DEPTH = 0.1, SHALLOWER = 0.1;
+/* Uncut steps that must follow the last one that was cut: the first one may end just below the tolerance, for its start
+ * was bad; the next one shows. */
+enum { SETTLED = 2 };
 /* Uncut steps as long as this many times the model lead away from all that the body could touch. */
 static const PetscReal FAR = 10;
 
@@ -154,8 +157,16 @@ void closing_begin(Model *model, PetscBool active)
   closing->depth                   = DEPTH;
   closing->touched                 = PETSC_FALSE;
   closing->travelled               = 0;
+  closing->n_uncut                 = 0;
   closing->loose                   = -1;
   closing->away[0]                 = 0;
+}
+
+/* May an iterate that looks converged be taken? */
+PetscBool closing_settled(const Model *model)
+{
+  const Closing *closing = &model->closing;
+  return (PetscBool)(!closing->active || !closing->ever_cut || closing->n_uncut >= SETTLED);
 }
 
 /* After the tangent at u_local is assembled. */
@@ -226,6 +237,8 @@ static PetscErrorCode describe_motion(Model *model, PetscInt body, Vec step)
   PetscCall(VecRestoreArrayRead(step, &array));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, mean, 3, MPIU_REAL, MPIU_SUM, PETSC_COMM_WORLD));
   size = PetscSqrtReal(PetscSqr(mean[0]) + PetscSqr(mean[1]) + PetscSqr(mean[2]));
+  for (int i = 0; i < 3; i++)
+    mean[i] = PetscAbsReal(mean[i]) < 5e-4 * size ? 0 : mean[i]; /* no minus before what is told as 0 */
   PetscCall(PetscSNPrintf(closing->away, sizeof(closing->away),
                           "nothing touches %s: the loads move it along (%.3f, %.3f, %.3f), and nothing is in its way",
                           model->mesh.bodies[body].name, (double)(mean[0] / size), (double)(mean[1] / size),
@@ -256,9 +269,11 @@ static PetscErrorCode limit(SNESLineSearch line_search, Vec x, Vec y, PetscBool 
     fraction = PetscMin(fraction, one);
   }
   closing->cut = (PetscBool)(fraction < 1);
+  closing->n_uncut++;
   if (closing->cut) {
     closing->ever_cut = *changed = PETSC_TRUE;
     closing->travelled           = 0;
+    closing->n_uncut             = 0;
     PetscCall(VecScale(y, fraction));
   } else if (closing->loose >= 0) {
     closing->shift = PetscMax(LEAST, SHRINKAGE * closing->shift);

@@ -30,6 +30,30 @@ static cJSON *suspect_json(const Interface *interface, int64_t node, const doubl
   return json;
 }
 
+/* Nodes that come to be covered in the step, or hardly are: which keys help. */
+static PetscErrorCode advise_on_coverage(const Interface *interface, const stickslip_diagnosis *d, cJSON *json)
+{
+  stickslip_counters counters = {.struct_size = sizeof(counters)};
+  int64_t            weak     = 0;
+  char               advice[512];
+
+  PetscFunctionBegin;
+  PetscCallStickslip(stickslip_interface_counters(interface->handle, &counters));
+  for (int64_t k = 0; k < PetscMin(d->suspects, SUSPECTS_KEPT); k++)
+    weak += d->suspect_causes[k] == STICKSLIP_CAUSE_COVERAGE;
+  if (!counters.nodes_new && !weak) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PetscSNPrintf(advice, sizeof(advice),
+                          "%d nodes were not covered before this step, %d are hardly covered: %stake as nonmortar the side "
+                          "that stays covered, the smaller one (swap `nonmortar` and `mortar`)",
+                          (int)counters.nodes_new, (int)weak,
+                          interface->options.weak_coverage < 0.5 ?
+                            "let their neighbours carry them (`weak_coverage: 0.5`), or " :
+                            ""));
+  cJSON_AddStringToObject(json, "advice", advice);
+  PetscCall(PetscFPrintf(PETSC_COMM_SELF, PETSC_STDERR, "%s: %s\n", interface->name, advice));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* rank 0: at the place of the last evaluation */
 static PetscErrorCode diagnose(const Interface *interface, cJSON *parent)
 {
@@ -75,6 +99,7 @@ static PetscErrorCode diagnose(const Interface *interface, cJSON *parent)
   if (d.suspects > SUSPECTS_TOLD)
     PetscCall(PetscFPrintf(PETSC_COMM_SELF, PETSC_STDERR, "%s: and so at %d more, see summary.json\n", interface->name,
                            (int)d.suspects - SUSPECTS_TOLD));
+  PetscCall(advise_on_coverage(interface, &d, json));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -135,6 +135,7 @@ typedef struct {
   PetscBool  active;        /* the present attempt is this one */
   PetscBool  cut, ever_cut; /* the last step of Newton's method, any in this attempt */
   PetscReal  shift;         /* of the matrix, over its diagonal, while a body is loose */
+  PetscInt   n_uncut;       /* steps since the last one that was cut */
   PetscReal  depth;         /* how far a step may lead into contact, over a facet's edge */
   PetscReal  travelled;     /* by steps that met nothing, since the last one that was cut */
   PetscBool  touched;       /* no body was loose at the last tangent */
@@ -307,6 +308,7 @@ PetscErrorCode closing_destroy(Model *model);
 PetscErrorCode closing_limit_steps(Model *model, SNESLineSearch line_search);
 PetscErrorCode closing_needed(Model *model, Vec start, PetscBool *needed);
 void           closing_begin(Model *model, PetscBool active);
+PetscBool      closing_settled(const Model *model);
 PetscErrorCode closing_shift(Model *model, Mat matrix);
 
 /* held.c: which bodies contact alone must hold, as a sentence; which ones nothing holds */

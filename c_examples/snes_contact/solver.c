@@ -87,6 +87,7 @@ static PetscErrorCode converged(SNES snes, PetscInt iteration, PetscReal xnorm, 
   PetscFunctionBegin;
   (void)xnorm, (void)snorm;
   PetscCall(judge(snes, model, fnorm, reason));
+  if (*reason > 0 && !closing_settled(model)) *reason = SNES_CONVERGED_ITERATING;
   if (*reason > 0) {
     PetscCall(newton_confirm(model, &fnorm));
     PetscCall(judge(snes, model, fnorm, reason));

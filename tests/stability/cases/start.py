@@ -10,7 +10,6 @@ DEPTHS = (1e-6, 1e-3, 1e-2, 0.1, 0.3, 0.6, 0.99, 1.01)  # in facets
 GAPS = (0, 1e-12, 1e-9, 1e-6, 1e-3, 0.1, 1, 10)  # in facets
 EXACT = 1e-10  # a linear problem solved to 1e-11
 PENETRATION = r"search_distance|penetrat|behind|deeper"
-FREE = r"is free to move along .*: only contact can hold that"
 
 
 def clamped(lowered, **more):
@@ -63,7 +62,7 @@ def lowered_by_support(gap):
 
 
 def dropped(gap):
-    """A body over a gap with a load and no support across it: nothing holds it until it lands."""
+    """A body over a gap with a load and no support across it: nothing holds it until it lands, all of it at once."""
 
     def run(context):
         scene = patch(poisson=0.0)
@@ -80,5 +79,4 @@ def cells():
     yield from series("initial penetration, in facets", DEPTHS, penetration, quick=(1e-6, 0.99, 1.01), may_refuse=far)
     yield from series("the same with search_distance", (0.3, 0.6, 0.99, 1.2, 1.5, 1.9), deeper)
     yield from series("gap closed by a support, in facets", GAPS, lowered_by_support, quick=(1e-9, 10))
-    loose = lambda gap: FREE if gap > 0 else None
-    yield from series("gap closed by a load, in facets", GAPS, dropped, quick=(1e-9, 10), may_refuse=loose)
+    yield from series("gap closed by a load, in facets", GAPS, dropped, quick=(1e-9, 10))
