@@ -154,7 +154,7 @@ impl<const N: usize> Contact<N> {
         let mut depths = Vec::new();
         for a in (0..nodes.len()).filter(|&a| nodes[a].cover != Cover::None) {
             let (coverage, gap) = sums[a];
-            depths.push(-self.normal(a)?.dot(&gap) / coverage);
+            depths.store(-self.normal(a)?.dot(&gap) / coverage)?;
         }
         let penetration = depths.iter().fold(0.0_f64, |most, d| most.max(*d));
         let inside_out = mistakes::are_inside_out(surfaces, (x1, x2), &depths);
