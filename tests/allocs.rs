@@ -152,6 +152,9 @@ fn c_calls(pair: &stickslip_pair) {
         allocates_nothing("facet_geometry", || {
             assert_eq!(stickslip_facet_geometry(pair.n1, pair.x1, normals.as_mut_ptr(), areas.as_mut_ptr()), 0);
         });
+        allocates_nothing("facet_normal", || {
+            assert_eq!(stickslip_facet_normal(pair.n1, pair.x1, nu.as_mut_ptr()), 0);
+        });
         allocates_nothing("node_normal", || {
             assert_eq!(stickslip_node_normal(normals.as_ptr(), nu.as_mut_ptr()), 0);
         });

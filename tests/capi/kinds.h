@@ -8,7 +8,7 @@
 typedef struct {
   const char *name;
   int32_t form, friction, weights, integration;
-  double weak_coverage, slide;
+  double weak_coverage, slide, lift;
   int rigid, analytic;
   int unseen; /* the history is not looked at before the end: what a commit has left out is then made up for by a call */
 } kind;
@@ -19,6 +19,7 @@ static const kind kinds[] = {
     {.name = "frictionless", .friction = STICKSLIP_FRICTION_NONE},
     {.name = "frictionless, augmented", .friction = STICKSLIP_FRICTION_NONE, .form = STICKSLIP_FORM_AUGMENTED},
     {.name = "tied", .friction = STICKSLIP_FRICTION_TIED},
+    {.name = "tied over a gap", .friction = STICKSLIP_FRICTION_TIED, .lift = 0.1},
     {.name = "rough", .friction = STICKSLIP_FRICTION_ROUGH},
     {.name = "committed weights", .weights = STICKSLIP_WEIGHTS_COMMITTED},
     {.name = "reference weights", .weights = STICKSLIP_WEIGHTS_REFERENCE},
@@ -56,6 +57,12 @@ static inline void set_up(const kind *k, every *c) {
     memcpy(s->reference2, frame, sizeof frame);
     for (int a = 0; a < 4; ++a) scene_frame(s->reference2 + 3 * a);
     memcpy(s->x2, s->reference2, sizeof s->x2);
+  }
+  double up[3] = {0.0, 0.0, k->lift};
+  scene_frame(up);
+  for (int i = 0; i < X1; ++i) {
+    s->reference1[i] += up[i % 3];
+    s->x1[i] += up[i % 3];
   }
   if (k->slide != 0.0) scene_slide(s, k->slide);
   every_init(c);
