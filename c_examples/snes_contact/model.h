@@ -297,7 +297,6 @@ PetscErrorCode newton_create(Model *model);
 PetscErrorCode newton_destroy(Model *model);
 PetscErrorCode newton_watch(Model *model, PetscInt iteration, PetscReal norm, SNESConvergedReason *reason);
 PetscErrorCode newton_confirm(Model *model, PetscReal *norm);
-PetscErrorCode newton_refused(Model *model);
 PetscErrorCode newton_solve(Model *model, Vec start, Vec x, PetscBool *converged);
 
 /* closing.c: bodies that contact alone holds and that do not touch yet */

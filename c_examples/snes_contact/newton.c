@@ -137,14 +137,6 @@ PetscErrorCode newton_destroy(Model *model)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The library has refused an evaluation, or the commit. */
-PetscErrorCode newton_refused(Model *model)
-{
-  PetscFunctionBegin;
-  PetscCall(PetscSNPrintf(model->newton.why, sizeof(model->newton.why), "the library says: %s", model->refusal));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 static const char *in_words(SNESConvergedReason reason)
 {
   switch (reason) {
@@ -172,7 +164,7 @@ static PetscErrorCode explain(Model *model, SNESConvergedReason reason)
   if (model->closing.away[0]) {
     PetscCall(PetscSNPrintf(newton->why, sizeof(newton->why), "%s", model->closing.away));
   } else if (model->refusal[0]) {
-    PetscCall(newton_refused(model));
+    PetscCall(PetscSNPrintf(newton->why, sizeof(newton->why), "the library says: %s", model->refusal));
   } else if (model->inverted[0]) {
     PetscCall(PetscSNPrintf(newton->why, sizeof(newton->why), "%s", model->inverted));
   } else if (newton->cycle[0]) {
