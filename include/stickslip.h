@@ -319,8 +319,7 @@
 /// Cover of a node: all of its area, within 1 %.
 #define STICKSLIP_COVER_FULL 2
 
-/// Cover of a node: several layers of the mortar surface. A commit refuses them where they cover more than all of its
-/// area.
+/// Cover of a node: several layers of the mortar surface, over a facet around it. A commit refuses them.
 #define STICKSLIP_COVER_SEVERAL 3
 
 /// Finding: nothing is amiss with surfaces that lie over each other.
@@ -578,7 +577,7 @@ typedef struct stickslip_report {
   /// n1: covered over full area [-].
   double *fraction;
   /// n1: layers of the mortar surface over a facet around the node, 1 where there are no several. Layers that cover
-  /// less than one facet in all count as one.
+  /// less than one facet in all count as two, with frozen weights as one.
   int32_t *layers;
   /// n1: mortar facets that overlap with the facets around the node.
   int64_t *facets;

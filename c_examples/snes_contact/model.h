@@ -115,7 +115,6 @@ typedef struct {
   PetscReal     factor;            /* for the augmentation of nodes that cycle */
   PetscInt      n_changes;         /* of the augmentation in this attempt */
   PetscBool     changed, stale;    /* it is not the scene's; the residual belongs to another one */
-  PetscBool     refused_commit;    /* the step converged, and the library refused its commit */
   PetscBool     stopped, monotone; /* this attempt cycled on; its residual fell in every iteration */
   PetscInt      iterations;        /* of the last newton_solve(), all attempts */
   char          cycle[768];        /* the last one found in it, as a sentence */
@@ -299,7 +298,6 @@ PetscErrorCode newton_create(Model *model);
 PetscErrorCode newton_destroy(Model *model);
 PetscErrorCode newton_watch(Model *model, PetscInt iteration, PetscReal norm, SNESConvergedReason *reason);
 PetscErrorCode newton_confirm(Model *model, PetscReal *norm);
-PetscErrorCode newton_refused(Model *model, PetscBool commit);
 PetscErrorCode newton_solve(Model *model, Vec start, Vec x, PetscBool *converged);
 
 /* closing.c: bodies that contact alone holds and that do not touch yet */

@@ -137,17 +137,6 @@ PetscErrorCode newton_destroy(Model *model)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The library has refused an evaluation, or the commit of a step that converged. */
-PetscErrorCode newton_refused(Model *model, PetscBool commit)
-{
-  PetscFunctionBegin;
-  model->newton.refused_commit = commit;
-  PetscCall(PetscSNPrintf(model->newton.why, sizeof(model->newton.why), "%s: %s",
-                          commit ? "converged, but not to be committed" : "the library says",
-                          model->refusal));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 static const char *in_words(SNESConvergedReason reason)
 {
   switch (reason) {
@@ -175,7 +164,7 @@ static PetscErrorCode explain(Model *model, SNESConvergedReason reason)
   if (model->closing.away[0]) {
     PetscCall(PetscSNPrintf(newton->why, sizeof(newton->why), "%s", model->closing.away));
   } else if (model->refusal[0]) {
-    PetscCall(newton_refused(model, PETSC_FALSE));
+    PetscCall(PetscSNPrintf(newton->why, sizeof(newton->why), "the library says: %s", model->refusal));
   } else if (model->inverted[0]) {
     PetscCall(PetscSNPrintf(newton->why, sizeof(newton->why), "%s", model->inverted));
   } else if (newton->cycle[0]) {

@@ -169,6 +169,8 @@ typedef struct {
   Vec       x, start, last, before; /* the iterate; where it starts; the last two converged states, at: */
   PetscReal t_last, t_before;
   PetscBool have_before; /* on the same branch of all curves */
+  PetscBool tried;       /* a step has been solved, or tried */
+  PetscBool converged;   /* the last attempt had, so that its commit was refused if the library refused */
 } History;
 
 static PetscErrorCode history_create(Model *model, History *history)
@@ -219,13 +221,16 @@ static PetscErrorCode step_to(Model *model, Summary *summary, History *history, 
   PetscCall(predict(model, history, t));
   PetscCall(newton_solve(model, history->start, history->x, done));
   model->iterations += model->newton.iterations;
+  history->tried     = PETSC_TRUE;
+  history->converged = *done;
   if (*done) {
     PetscCall(summary_step(model, summary, step, PETSC_TRUE, asked, last));
     PetscCall(contact_commit(model, &refused));
     *done = (PetscBool)!refused;
     if (refused) {
       PetscCall(summary_drop_step(model, summary));
-      PetscCall(newton_refused(model, PETSC_TRUE));
+      PetscCall(PetscSNPrintf(model->newton.why, sizeof(model->newton.why), "converged, but refused at its commit: %s",
+                              model->refusal));
     }
   }
   if (!*done) PetscCall(summary_failed_attempt(model, summary, history->t_last));
@@ -255,11 +260,15 @@ static PetscErrorCode give_up(Model *model, const History *history, int *exit_co
   PetscFunctionBegin;
   PetscCall(held_describe(model, held, sizeof(held)));
   *exit_code = model->refusal[0] ? 3 : 2;
-  if (model->refusal[0] && model->newton.refused_commit)
+  if (model->refusal[0] && !history->tried)
     PetscCall(PetscFPrintf(PETSC_COMM_WORLD, PETSC_STDERR,
-                           "snes_contact: the step to t = %.6g converged, but the library refuses to commit it, and so "
-                           "every shorter one that was tried: %s\n",
-                           (double)model->t, model->refusal));
+                           "snes_contact: refused by the library: %s. That is so at t = 0, before the first step.\n",
+                           model->refusal));
+  else if (model->refusal[0] && history->converged)
+    PetscCall(PetscFPrintf(PETSC_COMM_WORLD, PETSC_STDERR,
+                           "snes_contact: refused by the library: %s. That is the commit of the step from t = %.6g to "
+                           "%.6g, which had converged.\n",
+                           model->refusal, (double)history->t_last, (double)model->t));
   else if (model->refusal[0])
     PetscCall(PetscFPrintf(PETSC_COMM_WORLD, PETSC_STDERR,
                            "snes_contact: refused by the library: %s. Newton's iterates may have run away to there: %s\n",

@@ -15,8 +15,7 @@ pub const STICKSLIP_COVER_NONE: i32 = 0;
 pub const STICKSLIP_COVER_PART: i32 = 1;
 /// Cover of a node: all of its area, within 1 %.
 pub const STICKSLIP_COVER_FULL: i32 = 2;
-/// Cover of a node: several layers of the mortar surface. A commit refuses them where they cover more than all of its
-/// area.
+/// Cover of a node: several layers of the mortar surface, over a facet around it. A commit refuses them.
 pub const STICKSLIP_COVER_SEVERAL: i32 = 3;
 
 /// Finding: nothing is amiss with surfaces that lie over each other.
@@ -48,7 +47,7 @@ pub struct stickslip_report {
     /// n1: covered over full area [-].
     pub fraction: *mut f64,
     /// n1: layers of the mortar surface over a facet around the node, 1 where there are no several. Layers that cover
-    /// less than one facet in all count as one.
+    /// less than one facet in all count as two, with frozen weights as one.
     pub layers: *mut i32,
     /// n1: mortar facets that overlap with the facets around the node.
     pub facets: *mut i64,

@@ -70,6 +70,31 @@ impl Polygon {
     }
 }
 
+impl Polygon {
+    /// Area [L^2] and centroid of the part within a projected convex facet; the origin where there is none. Triangle by
+    /// triangle: three vertices and four cuts fit into the buffers, whatever rounding does.
+    pub fn part_within(&self, facet: &Projection) -> (f64, Vec2) {
+        let (mut area, mut moment) = (0.0, Vec2::zeros());
+        let (mut part, mut next) = (Polygon::empty(), Polygon::empty());
+        let v = self.vertices();
+        for i in 2..v.len() {
+            part.clear();
+            [v[0], v[i - 1], v[i]].into_iter().for_each(|corner| part.push(corner));
+            for k in 0..facet.shape.n {
+                part.cut(facet.y[k], facet.y[facet.shape.next[k]], &mut next);
+                std::mem::swap(&mut part, &mut next);
+            }
+            let w = part.vertices();
+            for j in 2..w.len() {
+                let triangle = 0.5 * cross(w[j - 1] - w[0], w[j] - w[0]);
+                area += triangle;
+                moment += (w[0] + w[j - 1] + w[j]) * (triangle / 3.0);
+            }
+        }
+        (area, if area > 0.0 { moment / area } else { moment })
+    }
+}
+
 /// The overlap of two projected convex facets.
 #[inline(always)]
 pub fn overlap<L: Lanes>(one: &Projection, two: &Projection) -> Polygon {

@@ -10,7 +10,7 @@ use super::filter::{FacetFilter, Filter};
 use super::history::{History, Keeps, PairRecord};
 use super::nodes::{NodeSums, assemble};
 use super::search::{Aabb, Prism, Tree};
-use super::{Contact, Counters, Extent, Options, Scheme, Surface, Weights, analytic, apart};
+use super::{Contact, Counters, Extent, Options, Scheme, Surface, Weights, analytic, apart, layers};
 use crate::error::{Error, Kind, Result};
 use crate::geometry::{AnalyticSurface, Facet, Vec3};
 use crate::memory::{self, Store, Stored};
@@ -25,13 +25,6 @@ const TOUCH_MARGIN: f64 = 1e-6;
 /// How far (over the facet's longest edge) surfaces may move within their plane before a tangent needs
 /// entries beyond the superset pattern.
 const SKIN: f64 = 0.25;
-/// A node covered more than this over its area lies under several layers of the mortar surface, and
-/// their gaps would be added up. Far above the quadrature error of distorted quads.
-const MOST_COVERAGE: f64 = 1.01;
-/// The same of a rule that does not integrate the shape functions of parallelograms: one point on each half of a square
-/// gives two of its nodes 10/9 of their area.
-const MOST_COVERAGE_COARSE: f64 = 1.5;
-
 /// The active pairs at one configuration.
 #[derive(Debug)]
 pub(super) struct Integration {
@@ -265,19 +258,6 @@ pub(super) fn without_tilt<const MOVES: bool>(
     motion(surface, &frame, pairs, rule, traction, forces)
 }
 
-/// Refuses a mortar surface that lies in several layers over a node.
-fn check_layers(areas: &[f64], coverage: impl Iterator<Item = f64>, rule: &Rule) -> Result<()> {
-    let most = if rule.degree < 2 { MOST_COVERAGE_COARSE } else { MOST_COVERAGE };
-    let mut times = coverage.zip(areas).map(|(coverage, area)| coverage / area).enumerate();
-    let Some((k, times)) = times.find(|(_, times)| *times > most) else {
-        return Ok(());
-    };
-    let text = text!(
-        "non-mortar node {k} is covered {times:.2} times: the mortar surface lies in layers over it; set search_distance below their distance, or leave the farther ones out"
-    );
-    Err(Error::new(Kind::InvalidValue, text))
-}
-
 impl<const N: usize> Contact<N> {
     /// Makes `self.integration` that of (x1, x2), as an evaluation of this extent needs it. With frozen weights there is
     /// nothing to do, nor, but for a comparison, where the surfaces are apart.
@@ -357,7 +337,7 @@ impl<const N: usize> Contact<N> {
             let mut new =
                 integrate(surfaces, &self.options, filter, (&mut self.counters, &mut self.tree), (&h.x1, &h.x2))?;
             let sums = assemble(surfaces, &new.pairs, &h.x1, &h.x2)?;
-            check_layers(&self.history.areas, sums.iter().map(|(coverage, _)| *coverage), self.options.rule)?;
+            layers::refuse(&self.mortar, &new)?;
             self.history.fill(&mut new.pairs, &sums)?;
         }
         Ok(())
@@ -399,6 +379,7 @@ impl<const N: usize> Contact<N> {
             &frames(nonmortar, x1)?
         } else {
             let mut new = integrate((nonmortar, mortar), options, &filter, (counters, tree), (x1, x2))?;
+            layers::refuse(mortar, &new)?;
             let mut sums = assemble((nonmortar, mortar), &new.pairs, x1, x2)?;
             if keeps.facet_gaps() {
                 history.facet_gaps = FacetGaps::of((nonmortar, mortar), &new, &mut sums)?;
@@ -423,7 +404,6 @@ impl<const N: usize> Contact<N> {
                 return Err(Error::new(Kind::DegenerateFacet, text));
             }
         }
-        check_layers(&history.areas, history.coverage.iter().copied(), options.rule)?;
         // The weights alone: many interfaces never ask for a tangent where a step ends.
         let integration = integration.filter(|_| keeps == Keeps::Nothing);
         let integration = integration.map(|k| Integration { segments: Vec::new(), ..k });

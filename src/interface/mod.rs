@@ -25,6 +25,7 @@ mod filter;
 mod history;
 mod hybrid;
 mod integration;
+mod layers;
 mod lost;
 mod meaning;
 mod mistakes;

@@ -6,17 +6,18 @@ use super::history::PairRecord;
 use super::integration::{frames, integrate};
 use super::nodes::assemble;
 use super::search::{Aabb, Prism, Tree};
-use super::{Contact, Weights, mistakes};
+use super::{Contact, Weights, layers, mistakes};
 use crate::error::{Result, Text};
 use crate::geometry::{Plane, Vec3};
 use crate::memory::{self, Store, Stored};
 use crate::mortar::{NonmortarFrame, Segment};
 
-/// Coverage over area between this and [`MOST`] is full: facets that meet under an angle lack or count twice a part of
-/// second order, distorted quads have an error of the quadrature.
+/// Coverage over area above this is full: facets that meet under an angle lack a part of second order, distorted quads
+/// have an error of the quadrature.
 const LEAST: f64 = 0.99;
-/// See [`LEAST`]; what a commit refuses as layers.
-const MOST: f64 = 1.01;
+/// A facet that is covered more than this over its area lies under several layers. The shape functions add up to 1 at
+/// every point of the rule, so that a facet's coverage, unlike a node's, has no error of the quadrature.
+const MOST: f64 = 1.0 + layers::SHARED;
 
 /// How much of a node's area is covered.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -127,9 +128,13 @@ impl<const N: usize> Contact<N> {
         self.check_positions(x1, x2)?;
         let surfaces = (&self.nonmortar, &self.mortar);
         let now;
+        let mut several = memory::filled(false, self.nonmortar.len())?;
         let (pairs, at) = match (self.options.effective_weights(), &self.filter) {
             (Weights::Current, Some(filter)) => {
                 now = integrate(surfaces, &self.options, filter, (&mut self.counters, &mut self.tree), (x1, x2))?;
+                for found in layers::find(&self.mortar, &now)? {
+                    self.nonmortar.facets[found?.under].as_slice().iter().for_each(|&a| several[a] = true);
+                }
                 (&now.pairs, x1)
             }
             (Weights::Committed, _) => (&self.history.pairs, &self.history.x1[..]),
@@ -142,11 +147,15 @@ impl<const N: usize> Contact<N> {
             let fraction = sums[a].0 / self.history.areas[a];
             let cover = match fraction {
                 f if f <= self.options.coverage_min => Cover::None,
-                f if f > MOST || layers[a] > MOST => Cover::Several,
+                _ if several[a] || layers[a] > MOST => Cover::Several,
                 f if f < LEAST => Cover::Part,
                 _ => Cover::Full,
             };
-            let least = if cover == Cover::None { 0.0 } else { 1.0 };
+            let least = match cover {
+                Cover::None => 0.0,
+                Cover::Several => 2.0,
+                _ => 1.0,
+            };
             let layers = (layers[a] - (MOST - 1.0)).ceil().max(least) as i32;
             NodeCover { cover, fraction, layers, facets: claims[a] }
         };
