@@ -115,6 +115,7 @@ typedef struct {
   PetscReal     factor;            /* for the augmentation of nodes that cycle */
   PetscInt      n_changes;         /* of the augmentation in this attempt */
   PetscBool     changed, stale;    /* it is not the scene's; the residual belongs to another one */
+  PetscBool     refused_commit;    /* the step converged, and the library refused its commit */
   PetscBool     stopped, monotone; /* this attempt cycled on; its residual fell in every iteration */
   PetscInt      iterations;        /* of the last newton_solve(), all attempts */
   char          cycle[768];        /* the last one found in it, as a sentence */

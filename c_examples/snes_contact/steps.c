@@ -229,6 +229,7 @@ static PetscErrorCode step_to(Model *model, Summary *summary, History *history, 
     *done = (PetscBool)!refused;
     if (refused) {
       PetscCall(summary_drop_step(model, summary));
+      model->newton.refused_commit = PETSC_TRUE;
       PetscCall(PetscSNPrintf(model->newton.why, sizeof(model->newton.why), "converged, but refused at its commit: %s",
                               model->refusal));
     }

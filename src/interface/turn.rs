@@ -9,8 +9,9 @@
 use super::filter::Filter;
 use super::search::Aabb;
 use super::{Contact, Friction, Surface, Weights};
-use crate::error::{Error, Kind, Result};
+use crate::error::{Error, Kind, Result, Text};
 use crate::geometry::Vec3;
+use crate::memory;
 use crate::normal;
 
 /// The larger of `found` and a turn from one unit vector to another, with what has turned.
@@ -20,14 +21,14 @@ fn larger(found: (f64, usize), from: &Vec3, to: &Vec3, what: usize) -> (f64, usi
     if angle > found.0 { (angle, what) } else { found }
 }
 
-/// The averaged normals; `None` where one is undefined.
-fn nodal_normals(surface: &Surface, x: &[Vec3]) -> Option<Vec<Vec3>> {
-    let mut sums = vec![Vec3::zeros(); surface.len()];
+/// The sums of the facets' normals at the nodes.
+fn sums_of_normals(surface: &Surface, x: &[Vec3]) -> Result<Vec<Vec3>> {
+    let mut sums = memory::filled(Vec3::zeros(), surface.len())?;
     for (f, nodes) in surface.facets.iter().enumerate() {
         let facet = surface.facet(f, x);
         nodes.as_slice().iter().enumerate().for_each(|(k, &a)| sums[a] += normal::corner_normal(&facet, k));
     }
-    sums.into_iter().enumerate().map(|(a, sum)| normal::nodal_normal(sum, a).ok()).collect()
+    Ok(sums)
 }
 
 impl<const N: usize> Contact<N> {
@@ -37,18 +38,22 @@ impl<const N: usize> Contact<N> {
         if self.options.friction == Friction::Tied || !shared && self.is_apart_at_both(x1, x2)? {
             return Ok(());
         }
-        // What cannot be averaged is refused with its own words where it is needed.
-        let Some(normals) = nodal_normals(&self.nonmortar, x1) else { return Ok(()) };
-        let before = self.history.normals.iter().zip(&normals).enumerate();
-        let (angle, node) = before.fold((0.0, 0), |most, (a, (n, m))| larger(most, n, m, a));
-        self.refuse_angle(angle, || format!("the normal of non-mortar node {node}"))?;
+        let mut most = (0.0, 0);
+        for (a, sum) in sums_of_normals(&self.nonmortar, x1)?.into_iter().enumerate() {
+            // One that cannot be averaged is refused in its own words where it is needed.
+            if let Some(normal) = memory::if_accepted(normal::nodal_normal(sum, a))? {
+                most = larger(most, &self.history.normals[a], &normal, a);
+            }
+        }
+        let (angle, node) = most;
+        self.refuse_angle(angle, || text!("the normal of non-mortar node {node}"))?;
         if self.options.effective_weights() == Weights::Reference {
             return Ok(());
         }
         let (angle, facet) = self.turn_of_mortar(x2)?;
         self.refuse_angle(angle, || match self.mortar.analytic {
-            Some(shape) => format!("the mortar side, {shape},"),
-            None => format!("mortar facet {facet}"),
+            Some(shape) => text!("the mortar side, {shape},"),
+            None => text!("mortar facet {facet}"),
         })
     }
 
@@ -80,7 +85,7 @@ impl<const N: usize> Contact<N> {
         Ok(before.iter().zip(&now).any(|(before, now)| *before && *now))
     }
 
-    fn refuse_angle(&self, angle: f64, what: impl Fn() -> String) -> Result<()> {
+    fn refuse_angle(&self, angle: f64, what: impl Fn() -> Text) -> Result<()> {
         if angle <= self.options.turn_max {
             return Ok(());
         }
@@ -89,7 +94,7 @@ impl<const N: usize> Contact<N> {
         } else {
             "since the last commit"
         };
-        let text = format!(
+        let text = text!(
             "{} has turned by {:.1} degrees {since}; {:.1} are allowed (options.turn_max): take smaller steps",
             what(),
             angle.to_degrees(),

@@ -121,6 +121,6 @@ fn a_rigid_side_with_an_equation_is_refused() {
     let mesh = mesh_of(two);
     let two = Surface::new("mortar", mesh.x, &mesh.facets, equations).unwrap();
     let rigid = Options { mortar_side: MortarSide::Rigid, ..options() };
-    let refused = Contact::<3>::new(one.clone(), two, numbered(0, one.len()), rigid).unwrap_err();
+    let refused = Contact::<3>::new(one.clone(), two, numbered(3 * one.len(), one.len()), rigid).unwrap_err();
     assert!(refused.kind == Kind::InvalidValue && refused.message.contains("node 5"), "{}", refused.message);
 }
