@@ -875,7 +875,9 @@ int32_t stickslip_crosspoints_find(int64_t n_interfaces,
 
 /// Creates an interface between two surfaces, whose coordinates are the first configuration and t_0.
 ///
-/// nonmortar carries the multipliers (take the softer side, of equals the finer), mortar is the other one;
+/// nonmortar carries the multipliers, mortar is the other one. Take as nonmortar the side that stays covered, the smaller
+/// one or the one that slides on the other; of two that do the softer, of equally soft ones the finer. Where that cannot
+/// be, set `weak_coverage`.
 /// options: see `stickslip_options`. out, output: the handle. Surfaces that do not face each other are no error; look
 /// at `stickslip_interface_report` once, a facet order seen from inside the body is found that way. Nodes may share
 /// displacement equations: see `stickslip_surface_split_creases`.
