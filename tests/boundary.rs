@@ -88,10 +88,9 @@ fn layers_are_refused_unless_the_host_says_how_far() {
     two.facets.push(lower.facets[0].iter().map(|k| k + 4).collect());
     two.x.extend(&lower.x);
     let create = |search_distance| {
-        let equations = |n: usize| vec![[0, 1, 2]; n];
-        let nonmortar = Surface::new("nonmortar", one.x.clone(), &one.facets, equations(9)).unwrap();
-        let mortar = Surface::new("mortar", two.x.clone(), &two.facets, equations(8)).unwrap();
-        Interface::new(nonmortar, mortar, equations(9), Options { search_distance, ..options() })
+        let nonmortar = Surface::new("nonmortar", one.x.clone(), &one.facets, numbered(0, 9)).unwrap();
+        let mortar = Surface::new("mortar", two.x.clone(), &two.facets, numbered(27, 8)).unwrap();
+        Interface::new(nonmortar, mortar, numbered(51, 9), Options { search_distance, ..options() })
     };
     assert_eq!(create(None).unwrap_err().kind, Kind::InvalidValue);
     assert!(create(Some(0.2)).is_ok());
@@ -149,7 +148,7 @@ fn a_removed_component_is_a_constrained_direction() {
     let equations = |n: usize| (0..n as i64).map(|k| [3 * k, 3 * k + 1, 3 * k + 2]).collect::<Vec<_>>();
     let nonmortar = Surface::new("nonmortar", one.x.clone(), &one.facets, equations(4)).unwrap();
     let mortar = Surface::new("mortar", two.x.clone(), &two.facets, equations(4)).unwrap();
-    let multipliers = (0..4).map(|k| [2 * k, NO_EQUATION, 2 * k + 1]).collect();
+    let multipliers = (12..16).map(|k| [2 * k, NO_EQUATION, 2 * k + 1]).collect();
     let options = Options { row_scale: RowScale::None, ..options() };
     let mut i = Interface::new(nonmortar, mortar, multipliers, options).unwrap();
     i.set_normals(Some(vec![nu; 4])).unwrap();

@@ -149,7 +149,7 @@ proptest! {
             while let Some(two) = heaps.pop() {
                 let Some(expected) = all_against_all(one, &two) else { continue };
                 let (s1, s2) = surfaces(one, &two);
-                match Interface::new(s1, s2, numbered(0, one.x.len()), options) {
+                match Interface::new(s1, s2, numbered(3 * (one.x.len() + two.x.len()), one.x.len()), options) {
                     Ok(i) => prop_assert_eq!(found(&i), expected),
                     Err(e) => {
                         prop_assert!(e.message.contains("layers") && two.facets.len() > 1, "{}", e);

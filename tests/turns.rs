@@ -23,6 +23,8 @@ const STUCK_ON_A_CURVE: f64 = 5e-5;
 const TURNS: [f64; 12] = [1.0, 2.0, 5.0, 10.0, 15.0, 19.0, 21.0, 30.0, 45.0, 80.0, 90.0, 180.0];
 /// Into how many steps a turn is cut to compare with.
 const MANY: usize = 24;
+/// How much more than its body a soft surface turns where the contact bends it [degrees].
+const STRAINED: f64 = 1.0;
 /// Commits until normals and areas are those of the pressed surfaces.
 const SETTLE: usize = 6;
 
@@ -132,7 +134,9 @@ where
     let in_one = Turning::<N>::new(shape, options).turned(angle, 1, at_rest);
     match in_one {
         Err(Failure::Refused(error)) if error.kind == Kind::TurnedTooFar => {
-            assert!(error.message.contains(&format!("turned by {degrees:.1} degrees")), "{}", error.message);
+            let text = error.message.split("turned by ").nth(1).and_then(|t| t.split(' ').next());
+            let told: f64 = text.and_then(|t| t.parse().ok()).expect("the angle is told");
+            assert!((told - degrees).abs() < STRAINED, "{}", error.message);
             assert!(error.message.contains("20.0 are allowed"), "{}", error.message);
             None
         }

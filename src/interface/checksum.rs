@@ -48,7 +48,8 @@ mod tests {
     fn every_bit_of_a_word_reaches_half_of_the_sum() {
         for bit in 0..64 {
             let changed = |word: u64| (of_words([1, word, 2]) ^ of_words([1, word ^ (1 << bit), 2])).count_ones();
-            let mean = (0..1000).map(|k| f64::from(changed(k * BEGIN.rotate_left(bit)))).sum::<f64>() / 1000.0;
+            let mean = (0..1000).map(|k| f64::from(changed(u64::wrapping_mul(k, BEGIN.rotate_left(bit))))).sum::<f64>()
+                / 1000.0;
             assert!((mean - 32.0).abs() < 1.0, "bit {bit}: {mean}");
         }
     }

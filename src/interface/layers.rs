@@ -88,12 +88,12 @@ impl Sheets {
     ) -> Result<Option<Layers>> {
         let area = 0.5 * frame.projection.area2;
         let is_twice = segments.iter().map(|s| s.area).sum::<f64>() > (1.0 + SHARED) * area;
-        let is_several = self.join(mortar, pairs, segments)?;
+        let is_several = self.unite(mortar, pairs, segments)?;
         if is_several || is_twice { among(frame, (pairs, segments), &mut self.of, is_twice) } else { Ok(None) }
     }
 
     /// Joins the pairs of a non-mortar facet that have an area; whether there are several sheets.
-    fn join(&mut self, mortar: &Surface, pairs: &[PairRecord], segments: &[Segment]) -> Result<bool> {
+    fn unite(&mut self, mortar: &Surface, pairs: &[PairRecord], segments: &[Segment]) -> Result<bool> {
         self.of.clear();
         self.of.store_all(0..pairs.len())?;
         let mut sheets = 0;

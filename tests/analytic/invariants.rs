@@ -3,7 +3,7 @@
 use super::support::mesh::options;
 use super::*;
 use stickslip::error::Kind;
-use stickslip::interface::Friction;
+use stickslip::interface::{Friction, seal_history};
 use stickslip::law::State;
 
 /// A rigid motion of everything, its history included, turns the forces and changes nothing else.
@@ -105,6 +105,8 @@ fn restart_and_rollback() {
         assert_eq!(other.contact.import_history(&integers, &reals).unwrap_err().kind, Kind::HistoryMismatch);
         let mut reals = reals;
         reals[3 * a.x1.len()] += 0.1; // P0
+        let mut integers = integers;
+        seal_history(&mut integers, &reals);
         let error = b.contact.import_history(&integers, &reals).unwrap_err();
         assert_eq!(error.kind, Kind::HistoryMismatch);
         assert!(error.message.contains("rigid body"), "{}", error.message);
