@@ -248,7 +248,7 @@ contains
     type(change), target, save :: changes(CALLS_OF_SEQUENCE)
     integer(c_int32_t) :: status
     integer :: calls, n
-    logical :: accepted, changed
+    logical :: accepted, changed, again
     call scene_init(h%s)
     h%s%options%form = random(2)
     h%s%options%weights = random(3)
@@ -277,7 +277,8 @@ contains
     n = 0
     do calls = 1, CALLS_OF_SEQUENCE
       ! Now and then where the last call was, whose findings might be taken for its own.
-      if (calls == 1 .or. once_in(2)) then
+      again = once_in(2)
+      if (calls == 1 .or. again) then
         h%s%x1 = usual%x1
         h%s%x2 = usual%x2
         h%s%lambda = usual%lambda
