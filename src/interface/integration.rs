@@ -417,14 +417,19 @@ impl<const N: usize> Contact<N> {
 
     /// The pairs of t_n and all that may be active while the surfaces move by less than the skin, sorted.
     pub(super) fn possible_pairs(&mut self, x1: &[Vec3], x2: &[Vec3]) -> Result<Vec<(usize, usize)>> {
-        self.ensure_history()?;
-        let mut pairs: Vec<_> = self.history.pairs.iter().map(|p| (p.one, p.two)).stored()?;
+        let h = &self.history;
+        let mut pairs: Vec<_> = h.pairs.iter().map(|p| (p.one, p.two)).stored()?;
         if self.options.effective_weights() == Weights::Current {
             match self.filter.as_ref().expect("current weights have one") {
                 Filter::Facets(filter) => {
-                    let (frames, tree) = (frames(&self.nonmortar, x1)?, self.tree.at(&self.mortar, x2)?);
-                    let found = candidates(&self.nonmortar, &frames, x1, (tree, filter), SKIN, &mut 0)?;
-                    pairs.store_all(found.into_iter())?;
+                    // Those of t_n are sought as those of now: whether their weights were left out, because the surfaces
+                    // were apart, does not matter then, and nothing is integrated for a pattern.
+                    let once = h.keeps == Keeps::Nothing || (x1, x2) == (&h.x1[..], &h.x2[..]);
+                    for (x1, x2) in [(x1, x2), (&h.x1[..], &h.x2[..])].into_iter().take(if once { 1 } else { 2 }) {
+                        let (frames, tree) = (frames(&self.nonmortar, x1)?, self.tree.at(&self.mortar, x2)?);
+                        let found = candidates(&self.nonmortar, &frames, x1, (tree, filter), SKIN, &mut 0)?;
+                        pairs.store_all(found.into_iter())?;
+                    }
                 }
                 Filter::Analytic(facing) => {
                     pairs.store_all((0..facing.len()).filter(|&i| facing[i]).map(|i| (i, 0)))?
