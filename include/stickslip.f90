@@ -163,10 +163,10 @@ module stickslip
   integer(c_int64_t), parameter :: stickslip_counters_size = 200
   integer(c_int64_t), parameter :: stickslip_report_size = 104
   integer(c_int64_t), parameter :: stickslip_diagnosis_size = 224
-  integer(c_int64_t), parameter :: stickslip_equilibrium_size = 96
   integer(c_int64_t), parameter :: stickslip_pair_size = 56
   integer(c_int64_t), parameter :: stickslip_node_response_size = 408
   integer(c_int64_t), parameter :: stickslip_node_size = 224
+  integer(c_int64_t), parameter :: stickslip_equilibrium_size = 96
 
   ! A contact interface, made by stickslip_interface_create and ended by stickslip_interface_destroy. A copy means the
   ! same interface. One thread at a time.
@@ -307,22 +307,6 @@ module stickslip
     integer(c_int64_t) :: error_facets(2) = -1
   end type
 
-  ! What stickslip_interface_equilibrium finds. Nodes in the index base, -1: all is zero.
-  type, bind(C) :: stickslip_equilibrium
-    integer(c_int64_t) :: struct_size = stickslip_equilibrium_size
-    real(c_double) :: modulus = 0                  ! input: E of the softer body; 0: not known
-    real(c_double) :: least_traction = 0           ! input: traction_scale is at least this
-    real(c_double) :: gap = 0                      ! outputs from here on: largest penetration or opening [L],
-    real(c_double) :: gap_scale = 0                ! and what to compare it with
-    real(c_double) :: traction = 0                 ! largest traction that the law forbids [F/L^2]
-    real(c_double) :: traction_scale = 0
-    real(c_double) :: slip = 0                     ! largest slip of a node that sticks [L]
-    real(c_double) :: slip_scale = 0
-    integer(c_int64_t) :: gap_node = -1
-    integer(c_int64_t) :: traction_node = -1
-    integer(c_int64_t) :: slip_node = -1
-  end type
-
   ! A pair of facets, non-mortar first. Node order: right-hand, seen from outside each body.
   type, bind(C) :: stickslip_pair
     integer(c_int64_t) :: struct_size = stickslip_pair_size
@@ -368,6 +352,22 @@ module stickslip
     real(c_double) :: gap_previous(3) = 0          ! g[n_n, x_{n+1}] [L^3]
     real(c_double) :: gap_committed(3) = 0         ! g[n_n, x_n] [L^3]; read by STICKSLIP_SLIP_INCREMENT only
     real(c_double) :: directions(3, 2) = 0         ! orthonormal, one a column, orthogonal to the normal
+  end type
+
+  ! What stickslip_interface_equilibrium finds. Nodes in the index base, -1: all is zero.
+  type, bind(C) :: stickslip_equilibrium
+    integer(c_int64_t) :: struct_size = stickslip_equilibrium_size
+    real(c_double) :: modulus = 0                  ! input: E of the softer body; 0: not known
+    real(c_double) :: least_traction = 0           ! input: traction_scale is at least this
+    real(c_double) :: gap = 0                      ! outputs from here on: largest penetration or opening [L],
+    real(c_double) :: gap_scale = 0                ! and what to compare it with
+    real(c_double) :: traction = 0                 ! largest traction that the law forbids [F/L^2]
+    real(c_double) :: traction_scale = 0
+    real(c_double) :: slip = 0                     ! largest slip of a node that sticks [L]
+    real(c_double) :: slip_scale = 0
+    integer(c_int64_t) :: gap_node = -1
+    integer(c_int64_t) :: traction_node = -1
+    integer(c_int64_t) :: slip_node = -1
   end type
 
   interface
@@ -644,25 +644,6 @@ module stickslip
       type(stickslip_diagnosis), intent(inout) :: out
     end function
 
-    ! How far x1(3, n1), x2(3, n2), lambda(3, n1) is from contact equilibrium, whatever the augmentation: for the test of
-    ! convergence. out: two inputs and all outputs.
-    integer(c_int32_t) function stickslip_interface_equilibrium(interface, x1, x2, lambda, sums, out) bind(C)
-      import :: c_double, c_int32_t, c_ptr, stickslip_interface, stickslip_equilibrium
-      type(stickslip_interface), value :: interface
-      real(c_double), intent(in) :: x1(3, *), x2(3, *), lambda(3, *)
-      type(c_ptr), value :: sums
-      type(stickslip_equilibrium), intent(inout) :: out
-    end function
-
-    ! The same of one node, with its gaps summed over all pairs. Outputs, each a real(c_double) that may be null: gap,
-    ! traction, slip.
-    integer(c_int32_t) function stickslip_node_equilibrium(node, stiffness, rounding, gap, traction, slip) bind(C)
-      import :: c_double, c_int32_t, c_ptr, stickslip_node
-      type(stickslip_node), intent(in) :: node
-      real(c_double), value :: stiffness, rounding
-      type(c_ptr), value :: gap, traction, slip
-    end function
-
     ! A non-mortar facet's share of its nodes' normals and areas. x(3, n); outputs, each may be null: normals(3, n),
     ! areas(n).
     integer(c_int32_t) function stickslip_facet_geometry(n, x, normals, areas) bind(C)
@@ -742,6 +723,25 @@ module stickslip
       real(c_double), value :: scale
       integer(c_int32_t), value :: layout
       type(c_ptr), value :: row, block
+    end function
+
+    ! How far x1(3, n1), x2(3, n2), lambda(3, n1) is from contact equilibrium, whatever the augmentation: for the test of
+    ! convergence. out: two inputs and all outputs.
+    integer(c_int32_t) function stickslip_interface_equilibrium(interface, x1, x2, lambda, sums, out) bind(C)
+      import :: c_double, c_int32_t, c_ptr, stickslip_interface, stickslip_equilibrium
+      type(stickslip_interface), value :: interface
+      real(c_double), intent(in) :: x1(3, *), x2(3, *), lambda(3, *)
+      type(c_ptr), value :: sums
+      type(stickslip_equilibrium), intent(inout) :: out
+    end function
+
+    ! The same of one node, with its gaps summed over all pairs. Outputs, each a real(c_double) that may be null: gap,
+    ! traction, slip.
+    integer(c_int32_t) function stickslip_node_equilibrium(node, stiffness, rounding, gap, traction, slip) bind(C)
+      import :: c_double, c_int32_t, c_ptr, stickslip_node
+      type(stickslip_node), intent(in) :: node
+      real(c_double), value :: stiffness, rounding
+      type(c_ptr), value :: gap, traction, slip
     end function
   end interface
 end module
