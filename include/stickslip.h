@@ -1374,7 +1374,7 @@ int32_t stickslip_node_block(const struct stickslip_node_response *response,
 /// Errors: NULL_POINTER, STRUCT_SIZE, NOT_FINITE, INVALID_VALUE (modulus, least_traction; as
 /// `stickslip_interface_sums`), DEGENERATE_FACET, PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL, UNSUPPORTED (sums with
 /// weak_coverage).
-/// Cost: as `stickslip_interface_states`: after a residual at the same positions no integration.
+/// Cost: as `stickslip_interface_states`; after a residual at the same positions no integration.
 int32_t stickslip_interface_equilibrium(struct stickslip_interface *interface,
                                         const double *x1,
                                         const double *x2,
