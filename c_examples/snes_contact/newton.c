@@ -170,7 +170,7 @@ static PetscErrorCode explain(Model *model, SNESConvergedReason reason)
   } else if (newton->cycle[0]) {
     PetscCall(PetscSNPrintf(newton->why, sizeof(newton->why), "%s%s%s", newton->cycle,
                             newton->stopped ? "" : "; at last: ", newton->stopped ? "" : in_words(reason)));
-  } else if (newton->unsettled[0]) {
+  } else if (newton->unsettled[0] && reason != SNES_DIVERGED_LINEAR_SOLVE) {
     PetscCall(PetscSNPrintf(newton->why, sizeof(newton->why),
                             "the forces balance, but the contact is not in equilibrium (%s); where augmentation_scale is "
                             "small, raise it",
