@@ -137,7 +137,7 @@ where
             let text = error.message.split("turned by ").nth(1).and_then(|t| t.split(' ').next());
             let told: f64 = text.and_then(|t| t.parse().ok()).expect("the angle is told");
             assert!((told - degrees).abs() < STRAINED, "{}", error.message);
-            assert!(error.message.contains("20.0 are allowed"), "{}", error.message);
+            assert!(error.message.contains("20.0 that are allowed"), "{}", error.message);
             None
         }
         // Newton's method need not get as far as a commit.

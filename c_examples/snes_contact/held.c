@@ -206,7 +206,8 @@ PetscErrorCode held_destroy(Model *model)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* rank 0, at a converged state, before its commit: the first time that something is held by nothing at all is told. */
+/* rank 0, at a converged state, before its commit: is something held by nothing at all? The first time is told, once the
+ * step is accepted. */
 PetscErrorCode held_check(Model *model, const PetscScalar *displacements)
 {
   PetscReal *x;
@@ -232,13 +233,28 @@ PetscErrorCode held_check(Model *model, const PetscScalar *displacements)
     cJSON_AddNumberToObject(model->held_by_nothing, "t", model->t);
     PetscCall(describe(model, &m, n_free, cJSON_AddObjectToObject(model->held_by_nothing, "bodies"), text,
                        sizeof(text)));
+    PetscCall(PetscStrallocpy(text, &model->held_words));
+  }
+  PetscCall(motions_destroy(&m));
+  PetscCall(PetscFree(x));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The step of the last check was accepted, or not. */
+PetscErrorCode held_settle(Model *model, PetscBool accepted)
+{
+  PetscFunctionBegin;
+  if (!model->held_words) PetscFunctionReturn(PETSC_SUCCESS);
+  if (accepted) {
     PetscCall(PetscFPrintf(PETSC_COMM_SELF, PETSC_STDERR,
                            "snes_contact: warning: at t = %.6g nothing holds what follows, neither supports nor contact "
                            "nor friction: %s. The matrix is singular, and how far bodies drift so is arbitrary: "
                            "support them, or give contact friction.\n",
-                           (double)model->t, text));
+                           (double)model->t, model->held_words));
+  } else {
+    cJSON_Delete(model->held_by_nothing);
+    model->held_by_nothing = NULL;
   }
-  PetscCall(motions_destroy(&m));
-  PetscCall(PetscFree(x));
+  PetscCall(PetscFree(model->held_words));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

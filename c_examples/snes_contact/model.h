@@ -201,6 +201,7 @@ typedef struct {
   /* held.c, rank 0: parts that their supports leave free; bodies so, bodies that nothing holds: their motions in words */
   PetscBool    *loose;
   struct cJSON *held_by_contact, *held_by_nothing;
+  char         *held_words; /* what is to be told of held_by_nothing; NULL: nothing, or it was */
 
   Range *ranges; /* range.c, rank 0: per body */
 
@@ -314,6 +315,7 @@ PetscErrorCode closing_shift(Model *model, Mat matrix);
 PetscErrorCode held_create(Model *model);
 PetscErrorCode held_destroy(Model *model);
 PetscErrorCode held_check(Model *model, const PetscScalar *displacements); /* rank 0: of all vertices */
+PetscErrorCode held_settle(Model *model, PetscBool accepted);
 PetscErrorCode held_free(const Model *model, const Body *body, PetscBool *is_free); /* rank 0: by its supports */
 PetscErrorCode held_describe(const Model *model, char text[], size_t length);
 
@@ -345,7 +347,7 @@ PetscErrorCode         summary_create(Model *model, Summary **summary);
 PetscErrorCode         summary_step(Model *model, Summary *summary, PetscInt step, PetscBool converged, PetscBool asked,
                                     PetscBool last);
 PetscErrorCode         summary_failed_attempt(Model *model, Summary *summary, PetscReal t_last);
-PetscErrorCode summary_drop_step(Model *model, Summary *summary); /* the last one, which could not be committed */
+PetscErrorCode summary_settle_step(Model *model, Summary *summary, PetscInt step, PetscBool accepted); /* the last one */
 PetscErrorCode summary_write(Model *model, Summary **summary, Vec last, PetscInt cutbacks, const char *message);
 PetscErrorCode uniqueness_check(Model *model, Vec x, struct cJSON *root); /* uniqueness.c: of a node with friction */
 PetscErrorCode summary_counters(Model *model, struct cJSON *root); /* what the run and each interface cost */

@@ -8,9 +8,11 @@
 #include <unistd.h>
 
 struct Summary {
-  cJSON  *root, *steps, *failed_attempts;
-  double *work_before; /* friction work of each interface before the last step */
-  char    said[1024];   /* about the last failed attempt */
+  cJSON       *root, *steps, *failed_attempts;
+  double      *work_before;    /* friction work of each interface before the last step */
+  char         said[1024];     /* about the last failed attempt */
+  char         progress[1024]; /* of the last step: what its line ends with */
+  PetscScalar *displacements;  /* its; until it is settled whether it is accepted */
 };
 
 static cJSON *vector_json(const PetscReal v[3])
@@ -215,7 +217,7 @@ PetscErrorCode summary_step(Model *model, Summary *summary, PetscInt step, Petsc
   PetscInt        n_norms = 0;
   PetscScalar    *displacements;
   double          friction_work  = 0;
-  char            progress[1024] = "";
+  char           *progress       = summary->progress;
 
   PetscFunctionBegin;
   PetscCall(SNESGetConvergenceHistory(model->snes, &norms, NULL, &n_norms));
@@ -227,6 +229,7 @@ PetscErrorCode summary_step(Model *model, Summary *summary, PetscInt step, Petsc
   if (model->jacobian_tests) cJSON_AddItemToObject(json, "jacobian_tests", model->jacobian_tests);
   model->jacobian_tests = NULL;
   cJSON_AddItemToArray(summary->steps, json);
+  progress[0] = 0;
   if (!converged) PetscFunctionReturn(PETSC_SUCCESS);
 
   cJSON_AddNumberToObject(json, "reference_force", model->reference_force);
@@ -240,27 +243,36 @@ PetscErrorCode summary_step(Model *model, Summary *summary, PetscInt step, Petsc
       const size_t used       = strlen(progress);
       summary->work_before[i] = model->interfaces[i].friction_work;
       PetscCall(interface_results(model, &model->interfaces[i], step, csv, interfaces, &friction_work, progress + used,
-                                  sizeof(progress) - used));
+                                  sizeof(summary->progress) - used));
     }
     probes = cJSON_AddObjectToObject(json, "probes");
     for (PetscInt k = 0; k < model->n_probes; k++)
       cJSON_AddItemToObject(probes, model->probes[k].name, vector_json(displacements + 3 * model->probes[k].vertex));
     if (vtu) PetscCall(vtu_write(model, displacements, step));
     PetscCall(held_check(model, displacements));
-    PetscCall(range_check(model, displacements));
   }
   cJSON_AddNumberToObject(json, "friction_work", friction_work);
-  PetscCall(PetscFree(displacements));
-  if (!model->quiet)
-    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%4" PetscInt_FMT " t %-10.6g newton %2" PetscInt_FMT "  |r| %.2e%s\n",
-                          step, (double)model->t, model->iterations, n_norms ? (double)norms[n_norms - 1] : 0.0,
-                          progress));
+  summary->displacements = displacements;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode summary_drop_step(Model *model, Summary *summary)
+PetscErrorCode summary_settle_step(Model *model, Summary *summary, PetscInt step, PetscBool accepted)
 {
+  const cJSON *norms = cJSON_GetObjectItem(cJSON_GetArrayItem(summary->steps, cJSON_GetArraySize(summary->steps) - 1),
+                                           "residual_norms");
+  const cJSON *norm  = cJSON_GetArrayItem(norms, cJSON_GetArraySize(norms) - 1);
+
   PetscFunctionBegin;
+  if (accepted && !model->quiet)
+    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%4" PetscInt_FMT " t %-10.6g newton %2" PetscInt_FMT "  |r| %.2e%s\n",
+                          step, (double)model->t, model->iterations, norm ? norm->valuedouble : 0.0,
+                          summary->progress));
+  if (model->rank == 0) {
+    PetscCall(held_settle(model, accepted));
+    if (accepted) PetscCall(range_check(model, summary->displacements));
+  }
+  PetscCall(PetscFree(summary->displacements));
+  if (accepted) PetscFunctionReturn(PETSC_SUCCESS);
   cJSON_DeleteItemFromArray(summary->steps, cJSON_GetArraySize(summary->steps) - 1);
   for (PetscInt i = 0; i < model->n_interfaces && model->rank == 0; i++)
     model->interfaces[i].friction_work = summary->work_before[i];

@@ -227,8 +227,8 @@ static PetscErrorCode step_to(Model *model, Summary *summary, History *history, 
     PetscCall(summary_step(model, summary, step, PETSC_TRUE, asked, last));
     PetscCall(contact_commit(model, &refused));
     *done = (PetscBool)!refused;
+    PetscCall(summary_settle_step(model, summary, step, *done));
     if (refused) {
-      PetscCall(summary_drop_step(model, summary));
       model->newton.refused_commit = PETSC_TRUE;
       PetscCall(PetscSNPrintf(model->newton.why, sizeof(model->newton.why), "converged, but refused at its commit: %s",
                               model->refusal));

@@ -95,7 +95,7 @@ impl<const N: usize> Contact<N> {
             "since the last commit"
         };
         let text = text!(
-            "{} has turned by {:.1} degrees {since}; {:.1} are allowed (options.turn_max): take smaller steps",
+            "{} has turned by {:.1} degrees {since}, more than the {:.1} that are allowed (options.turn_max): take smaller steps",
             what(),
             angle.to_degrees(),
             self.options.turn_max.to_degrees()

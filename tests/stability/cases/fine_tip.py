@@ -1,0 +1,65 @@
+"""A finely meshed rigid cap in a coarse block: it lies deeper behind the block's facets than its own are long. The force
+depends neither on how fine the cap is nor on the number of steps, and no commit takes contact away."""
+
+import host
+from cell import series
+
+CELLS = (6, 12, 24, 48, 96, 144)  # of the cap, along each edge; the block has 5 facets over 4, the cap is 1.2 wide
+STEPS = (1, 2, 5, 10, 20, 60)
+FINE, SOME = 96, 20
+DEPTH = 0.2
+# The same run with pairs as deep as the block: both take the same steps, so nothing but the choice of the pairs differs.
+SAME_FORCE = 0.01
+GENEROUS = ("-contact_search_distance", "3")
+
+
+def scene(cells, steps):
+    return {
+        "schema": 1,
+        "bodies": ["block", "cap"],
+        "block": {
+            "type": "box",
+            "lower": [-2, -2, -2],
+            "upper": [2, 2, 0],
+            "cells": [5, 5, 3],
+            "young": 1000,
+            "poisson": 0.3,
+        },
+        "cap": {
+            "type": "box",
+            "lower": [-0.6, -0.6, 0],
+            "upper": [0.6, 0.6, 0.2],
+            "cells": [cells, cells, 1],
+            "ball": [0, 0, 1],
+            "young": 1000,
+            "poisson": 0.3,
+        },
+        "supports": ["ground", "press"],
+        "ground": {"surface": "block.zmin", "components": ["x", "y", "z"]},
+        "press": {"body": "cap", "components": ["x", "y", "z"], "value": [0, 0, -DEPTH]},
+        "interfaces": ["contact"],
+        "contact": {"nonmortar": "block.zmax", "mortar": "cap.zmin"},
+        "steps": {"count": steps},
+        "output": {"vtu": "none", "csv": "none"},
+    }
+
+
+def pressed(cells, steps):
+    def run(context):
+        found = context.solve(scene(cells, steps))
+        result = host.outcome(found)
+        if result.refusal is None:
+            wanted = context.solve(scene(cells, steps), *GENEROUS, name="generous")
+            forces, same = ([abs(step["reactions"]["ground"][2]) for step in run.steps] for run in (found, wanted))
+            result.below("force", abs(forces[-1] / same[-1] - 1), SAME_FORCE, "that with a search distance")
+            falls = any(a > b for a, b in zip(forces, forces[1:]))
+            result.true("force falls in no step", not falls, "it is pressed in")
+            result.figures["force"] = forces[-1]
+        return result
+
+    return run
+
+
+def cells():
+    yield from series("fine cap in coarse facets, cells", CELLS, lambda n: pressed(n, SOME), quick=(12, 96))
+    yield from series("fine cap in coarse facets, steps", STEPS, lambda n: pressed(FINE, n), quick=(5,))
