@@ -19,6 +19,8 @@ const STUCK: f64 = 1e-6;
 /// The same where facets of two meshes lie on a curve: between their chords there are gaps, of which the normals of t_n
 /// tell normal and tangential part wrongly. It goes with the square of the turn.
 const STUCK_ON_A_CURVE: f64 = 5e-5;
+/// At most what a degree costs in the step itself, of the largest pressure: without friction, where all stick.
+const A_DEGREE: [f64; 2] = [0.12, 1e-3];
 /// Turns in degrees.
 const TURNS: [f64; 12] = [1.0, 2.0, 5.0, 10.0, 15.0, 19.0, 21.0, 30.0, 45.0, 80.0, 90.0, 180.0];
 /// Into how many steps a turn is cut to compare with.
@@ -128,9 +130,9 @@ fn off<const N: usize>(shape: Shape, options: Options, degrees: f64) -> Option<f
 where
     Contact<N>: Create<N>,
 {
-    let angle = degrees.to_radians();
     // Hardly more than the corners of the ball's facets touch: one step at rest leaves 5e-3 of the turn.
     let at_rest = if shape == Shape::BallInCup { 2 } else { 1 };
+    let angle = degrees.to_radians();
     let in_one = Turning::<N>::new(shape, options).turned(angle, 1, at_rest);
     match in_one {
         Err(Failure::Refused(error)) if error.kind == Kind::TurnedTooFar => {
@@ -159,6 +161,18 @@ where
     }
 }
 
+/// The largest error of a pressure over the largest pressure; NaN where the turn does not converge.
+fn in_the_step<const N: usize>(shape: Shape, options: Options, degrees: f64) -> f64
+where
+    Contact<N>: Create<N>,
+{
+    let angle = degrees.to_radians();
+    let (wanted, _) = Turning::<N>::new(shape, options).turned(angle, MANY, 2).unwrap();
+    let Ok((found, _)) = Turning::<N>::new(shape, options).turned(angle, 1, 0) else { return f64::NAN };
+    let most = wanted.iter().copied().fold(0.0, f64::max);
+    found.iter().zip(&wanted).map(|(a, b)| (a - b).abs() / most).fold(0.0, f64::max)
+}
+
 #[test]
 fn a_turn_in_one_step_is_right_after_a_step_at_rest_or_refused() {
     let base = Options::new(Stiffness::Modulus(100.0));
@@ -171,6 +185,20 @@ fn a_turn_in_one_step_is_right_after_a_step_at_rest_or_refused() {
             let curved = matches!(shape, Shape::ShaftInRing | Shape::BallInCup);
             let bound = if curved { STUCK_ON_A_CURVE } else { STUCK };
             assert!(stuck.is_none_or(|e| e < bound), "{shape:?} {degrees}: {stuck:?}");
+        }
+    }
+}
+
+/// The table of docs/plug_in.md: how wrong the pressure is where such a step ends, before the next one.
+#[test]
+fn what_a_turn_costs_in_the_step_itself() {
+    let base = Options::new(Stiffness::Modulus(100.0));
+    for shape in [Shape::ShaftInRing, Shape::BlockOnBlock, Shape::BallInCup] {
+        for degrees in [1.0, 2.0, 5.0, 10.0, 15.0] {
+            let smooth = in_the_step::<1>(shape, Options { friction: Friction::None, ..base }, degrees);
+            let stuck = in_the_step::<3>(shape, Options { mu: 100.0, ..base }, degrees);
+            println!("{shape:?}, {degrees} degrees: {smooth:.1e} without friction, {stuck:.1e} where all stick");
+            assert!(smooth < A_DEGREE[0] * degrees && stuck < A_DEGREE[1] * degrees, "{shape:?} {degrees}");
         }
     }
 }
