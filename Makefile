@@ -15,7 +15,7 @@ export PATH := $(PATH):$(HOME)/.cargo/bin
 LOCKED = mkdir -p $(BUILD) && flock $(BUILD)/.lock
 SAY    = @printf '\n== %s\n'
 
-.PHONY: help demo gallery effects aids study compare bench random fuzz stability ratios test test-long build install uninstall docs abi header meshes clean cmake-build rust-tests
+.PHONY: help demo gallery effects aids study compare bench random fuzz stability ratios digest test test-long build install uninstall docs abi header meshes clean cmake-build rust-tests
 
 help:
 	@echo "make demo    solve the example scenes, compare with the references, draw (FIGURES=1: renew the README's figures)"
@@ -31,6 +31,7 @@ help:
 	@echo "make test-long  those that take too long for it; .ci/run runs both"
 	@echo "make random  the property tests on other random input, ten times as much (SEED=n CASES=n)"
 	@echo "make ratios  the force of fine facets in coarse ones against the ratio of both and the number of steps, an hour"
+	@echo "make digest  the bits of what library and driver compute, compared with those of before (KEEP=1: these are they)"
 	@echo "make fuzz    fuzz the pair kernel, the handle and the C ABI, a quarter of an hour each (FUZZ_SECONDS=)"
 	@echo "make build   build the library and the examples into $(BUILD)/"
 	@echo "make install PREFIX=DIR [DESTDIR=]   install header, Fortran module, libraries, pkg-config and CMake files"
@@ -98,6 +99,18 @@ ratios:
 	@.ci/setup library
 	$(SAY) "Fine facets in coarse ones"
 	@cargo test --locked --test ratios -- --ignored --nocapture
+
+# Minutes: 100 000 histories, and the scenes. The library of before is kept, to tell by how much something differs.
+DIGEST  = $(BUILD)/digest
+digest:
+	@.ci/setup demo
+	@$(MAKE) --no-print-directory cmake-build
+	$(SAY) "Digests of library and driver"
+	@mkdir -p $(DIGEST)
+	@$(PYTHON) tests/digest/digest.py write --library $(BUILD)/lib/libstickslip.so --jobs $(JOBS) \
+		--driver $(BUILD)/c_examples/snes_contact --out $(DIGEST)/$(if $(KEEP),before,after).json
+	@$(if $(KEEP),cp $(BUILD)/lib/libstickslip.so $(DIGEST)/before.so,$(PYTHON) tests/digest/digest.py compare \
+		$(DIGEST)/before.json $(DIGEST)/after.json --libraries $(DIGEST)/before.so $(BUILD)/lib/libstickslip.so)
 
 stability:
 	@.ci/setup demo

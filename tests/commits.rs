@@ -86,7 +86,7 @@ fn convex_bodies_pressed_keep_states_and_gaps_at_a_commit() {
         }
     }
     println!("{taken} taken, {refused} refused, {closed} closed nodes");
-    assert!(taken > 10 * refused && closed > 150);
+    assert!(taken > 10 * refused && closed > 60, "of 120 bodies half touch with a node at least");
 }
 
 /// A cap of a ball of radius 1, or of a cylinder along y, of n x n quads over [-0.6, 0.6]^2, its lowest point at 0.

@@ -48,7 +48,9 @@ fn forces(
 ) -> (Vec<f64>, usize) {
     let cylinder = matches!(tool, Tool::Cylinder | Tool::Analytic(AnalyticShape::Cylinder(_)));
     let half = if round == Round::Mortar { 1.0 } else { 0.6 };
-    let mut layer = grid(cells, cells, [-half, -half], [half, half], 0.0, true, Cells::Quads);
+    // A layer under a cylinder ends within the cylinder's mesh, which has ends, as the analytic one has none.
+    let (across, wide) = if cylinder { (half / 2.0, cells.div_ceil(2)) } else { (half, cells) };
+    let mut layer = grid(cells, wide, [-half, -across], [half, across], 0.0, true, Cells::Quads);
     let lift = Vec3::z() * DEPTH;
     if round == Round::Nonmortar {
         layer.x.iter_mut().for_each(|x| x.z = -height(x, cylinder));

@@ -98,6 +98,11 @@ Options = struct(
     ("no_shortcuts", c_int32),
     ("shape", c_int32),
     ("radius", c_double),
+    ("integration", c_int32),
+    ("tangent", c_int32),
+    ("element_points", c_int64),
+    ("weak_coverage", c_double),
+    ("turn_max", c_double),
 )
 Surface = struct(
     "Surface",
