@@ -1,4 +1,4 @@
-//! Averaged nodal normals (formulation b.1, b.17): nu_A is minus the normalised, unweighted sum of the
+//! Averaged nodal normals (docs/formulation.md 4.1): nu_A is minus the normalised, unweighted sum of the
 //! unit corner normals of the non-mortar facets at A, so it points INTO the non-mortar body.
 
 use crate::error::{Error, Kind, Result};

@@ -1,5 +1,5 @@
 //! Residual and tangent are functions of (x, lambda, committed history) alone; the history changes on
-//! commit, rolls back exactly and survives export and import (row S5 of the hard tests).
+//! commit, rolls back exactly and survives export and import (row S5 of the hard tests, docs/formulation.md 9).
 
 mod support;
 

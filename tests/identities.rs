@@ -1,4 +1,4 @@
-//! What holds exactly (formulation d): balance of momentum, frame indifference, renumbering, offsets,
+//! What holds exactly (docs/formulation.md 7): balance of momentum, frame indifference, renumbering, offsets,
 //! units, and the relation of the two forms.
 
 mod support;
@@ -9,9 +9,9 @@ use stickslip::interface::{Form, Interface, NodeSums, Options, Residual, RowScal
 use stickslip::law::SlipMeasure;
 use support::mesh::*;
 
-/// d.2 to d.5: rounding, relative to the largest entry.
+/// 7.2 to 8.3: rounding, relative to the largest entry.
 const ROUNDING: f64 = 1e-13;
-/// d.4: a rotated copy differs by the rounding of its coordinates.
+/// 7.4: a rotated copy differs by the rounding of its coordinates.
 const ROTATED: f64 = 1e-12;
 
 const ROUGH: Roughness = Roughness { warp: 0.05, jitter: 0.08, slide: 0.02 };
@@ -81,7 +81,7 @@ fn forces_balance() {
     }
 }
 
-/// d.3: sum x x f = sum g x t exactly, which vanishes only where the gap is parallel to the traction.
+/// 7.2: sum x x f = sum g x t exactly, which vanishes only where the gap is parallel to the traction.
 #[test]
 fn moments_equal_those_of_the_gaps() {
     for options in forms() {
@@ -196,7 +196,7 @@ fn exact_offset_changes_no_bit() {
     }
 }
 
-/// d.6: length L -> aL, stress S -> bS, r -> r b / a^3 with powers of two: forces a^2 b, rows a^3.
+/// 7.5: length L -> aL, stress S -> bS, r -> r b / a^3 with powers of two: forces a^2 b, rows a^3.
 #[test]
 fn units_by_powers_of_two_change_no_bit() {
     for (a, b) in [(2f64.powi(10), 1.0), (2f64.powi(-20), 2f64.powi(30)), (2f64.powi(20), 2f64.powi(-7))] {
@@ -222,7 +222,7 @@ fn units_by_powers_of_two_change_no_bit() {
     }
 }
 
-/// R_aug = R_mult + n^T r c (design section 3): the forms have the same solutions.
+/// R_aug = R_mult + n^T r c (docs/formulation.md 5.2): the forms have the same solutions.
 #[test]
 fn forms_differ_by_the_rows() {
     for cells in CELLS {

@@ -1,4 +1,4 @@
-//! Weights and their derivatives against the golden pairs (rows W1, W2, W7, W8 of the hard tests).
+//! Weights and their derivatives against the golden pairs.
 
 mod support;
 

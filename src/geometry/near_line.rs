@@ -1,4 +1,5 @@
-//! Signed distances of points that lie nearly on a line, in twice the precision of a double.
+//! Signed distances of points that lie nearly on a line, in twice the precision of a double (docs/formulation.md
+//! 3.7).
 //!
 //! Where two edges cross at a small angle, the crossing's parameter tau = d0 / (d0 - d1) is known to the error of the
 //! distances over their difference, in doubles to eps over the angle; and heights over the plane times the error of its

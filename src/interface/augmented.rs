@@ -1,4 +1,4 @@
-//! What only the augmented form needs (formulation b.11): its forces use the projected traction, whose
+//! What only the augmented form needs (docs/formulation.md 5.4): its forces use the projected traction, whose
 //! derivative n_AB (dp/dsigma) r Dg_A couples all pairs of a node and is no sum over pairs.
 
 use crate::element::{PairNow, frozen_rows, gap_rows};

@@ -1,5 +1,5 @@
 //! What an interface remembers of t_n: configuration, weights, normals, areas, coverage, slip
-//! (formulation b.10). Changes only on commit, rolls back exactly, travels as flat arrays (`restart.rs`). Without friction there is no
+//! (docs/formulation.md 6.1). Changes only on commit, rolls back exactly, travels as flat arrays (`restart.rs`). Without friction there is no
 //! slip to measure: no gaps, no slip, and weights only where they are frozen; tied surfaces keep the gap, that
 //! of their facets too (`facet_gaps.rs`), and no slip.
 

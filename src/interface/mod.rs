@@ -1,4 +1,4 @@
-//! Two surfaces in contact: search, pairing, all four stages, history (design section 3).
+//! Two surfaces in contact: search, pairing, all four stages, history (docs/formulation.md 4.5).
 //!
 //! Residual and tangent are functions of (x, lambda, committed history) alone. The only place of the
 //! core that allocates.

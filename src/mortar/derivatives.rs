@@ -1,5 +1,5 @@
 //! Derivatives with respect to the nodes: the plane derivatives of `transport`, chained
-//! with Dy_k = in-plane part of (Dx_k - Dx0), spin and tilt of the plane (formulation c.2).
+//! with Dy_k = in-plane part of (Dx_k - Dx0), spin and tilt of the plane (docs/formulation.md 3.2).
 
 use super::edges::Edges;
 use super::element_rule;

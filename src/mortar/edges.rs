@@ -1,4 +1,4 @@
-//! The integrals over the edge parts that bound an overlap (kernel notes A, "strict"): an edge's velocity is linear
+//! The integrals over the edge parts that bound an overlap (docs/formulation.md 3.5): an edge's velocity is linear
 //! along it, sum L_a Dy_a over its two ends, so are its own facet's functions; the other facet's come from the inverse
 //! map.
 

@@ -3,7 +3,7 @@
 //!
 //! With the pair's own current weights g_A lies along the plane's normal, g_A = gamma_A e, because both
 //! inverse maps return the same in-plane point; so Dg_A = e Dgamma_A + gamma_A De: one scalar row a
-//! node, without cancellation of in-plane coordinates (kernel notes A).
+//! node, without cancellation of in-plane coordinates (docs/formulation.md 2.4).
 
 use super::derivatives::{Chain, Columns, WeightDerivatives};
 use super::segment::NonmortarFrame;

@@ -1,5 +1,5 @@
-//! The overlap of a facet pair in the non-mortar facet's auxiliary plane (formulation c.3, kernel
-//! notes A): a polygon for the volume integrals, source-edge intervals for the edge integrals of the derivatives.
+//! The overlap of a facet pair in the non-mortar facet's auxiliary plane (docs/formulation.md 2.3):
+//! a polygon for the volume integrals, source-edge intervals for the edge integrals of the derivatives (3.5 there).
 //! Or the points of the non-mortar facet that fall on the mortar facet (`element_rule.rs`).
 
 use super::edges::intervals;

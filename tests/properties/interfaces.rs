@@ -12,9 +12,9 @@ use stickslip::interface::{Form, Interface, Options, Residual, RowScale, Stiffne
 use stickslip::law::{SlipMeasure, State};
 use stickslip::quadrature::DEGREE_10;
 
-/// d.2, d.3, K4: rounding of sums over all pairs, relative to the sum of the terms' sizes.
+/// 7.2, 7.2, K4: rounding of sums over all pairs, relative to the sum of the terms' sizes.
 const SUMS: f64 = 1e-13;
-/// d.4: a rotated copy has rounded coordinates; over the size of the facets, times the slopes of the states.
+/// 7.4: a rotated copy has rounded coordinates; over the size of the facets, times the slopes of the states.
 const ROTATED: f64 = 1e-11;
 /// K2 on facets that stay affine, as in `tangent.rs`.
 const DIFFERENCES: f64 = 1e-7;
@@ -170,7 +170,7 @@ impl Scene {
     }
 }
 
-/// d.2, d.3: forces balance, moments are those of the gaps.
+/// 7.2, 7.2: forces balance, moments are those of the gaps.
 fn balance(s: &mut Scene) -> TestCaseResult {
     let (r, t) = (s.residual(), s.tractions());
     let sums = s.interface.sums(&s.x1, &s.x2).unwrap();
@@ -209,7 +209,7 @@ fn tangent_balance(s: &mut Scene) -> TestCaseResult {
     Ok(())
 }
 
-/// S5, design 3: A, B, A give the same bits, and so do a copy made by export and import and a step taken back.
+/// A, B, A give the same bits, and so do a copy made by export and import and a step taken back.
 fn has_no_memory(s: &mut Scene, recipe: &Recipe) -> TestCaseResult {
     let first = (s.residual(), s.point().tangent());
     let history = s.interface.export_history().unwrap();
@@ -243,7 +243,7 @@ proptest! {
         has_no_memory(&mut scene, &recipe)?;
     }
 
-    /// d.6, I4: units by powers of two change no bit.
+    /// 7.5, I4: units by powers of two change no bit.
     #[test]
     fn units_change_no_bit(recipe in recipes(), length in -60..60i32, stress in -60..60i32) {
         let (a, b) = (2f64.powi(length), 2f64.powi(stress));
@@ -259,7 +259,7 @@ proptest! {
         prop_assert_eq!(q.rows, times(&r.rows, a * a * a));
     }
 
-    /// d.4, I1: a scene turned and moved as one has a turned residual.
+    /// 7.4, I1: a scene turned and moved as one has a turned residual.
     #[test]
     fn rigid_motion_turns_the_residual(recipe in recipes(), angles in angles(), far in -10.0..10.0f64) {
         let q = Rotation3::from_euler_angles(angles[0], angles[1], angles[2]);

@@ -1,21 +1,21 @@
-//! Laws that hold exactly (formulation d) and those of the hard tests (formulation f, rows W, S, K, I) that random
-//! input can try; and where each is tried. P: `pairs`, N: `nodes`, I: `interfaces`, G: `singular`; in the last column
+//! Laws that hold exactly (docs/formulation.md 7) and the rows W, S, K, I of the hard tests (docs/formulation.md 9) that random
+//! input can try; and where each is tried. Numbers are sections of that document. P: `pairs`, N: `nodes`, I: `interfaces`, G: `singular`; in the last column
 //! other files, with chosen or golden cases.
 //!
 //! | law | on random input | elsewhere |
 //! |---|---|---|
-//! | d.1, W3, W5 sums, bounds, symmetry of weights | P `laws_of_any_pair` | `mortar.rs` |
-//! | d.2, I5 forces balance | I `laws_of_any_interface` | `identities.rs` |
-//! | d.3, I5 moments are those of the gaps | I `laws_of_any_interface` | `identities.rs` |
-//! | d.4, I1 rigid motion: weights | P `rigid_motion_keeps_the_weights` | |
-//! | d.4, I1 rigid motion: residual | I `rigid_motion_turns_the_residual` | `identities.rs` |
-//! | d.4, I1 rigid motion: projection | N `projection_is_homogeneous_and_turns_with_the_frame` | |
-//! | d.5, I2 exact offsets | P `exact_offsets_change_no_bit` | `identities.rs` |
-//! | d.6, I4 units: weights, at sizes over 120 decades | P `powers_of_two_change_no_bit` | |
-//! | d.6, I4 units: residual | I `units_change_no_bit` | `identities.rs` |
-//! | d.7, S4 Coulomb's conditions, any r | N `row_vanishes_at_the_solution_whatever_r` | check `invariance` |
-//! | d.7, S2 the cone; d.8 no friction | N `projection_lies_on_the_cone` | `identities.rs` |
-//! | d.9 patch test | | checks `patch` |
+//! | 7.1, W3, W5 sums, bounds, symmetry of weights | P `laws_of_any_pair` | `mortar.rs` |
+//! | 7.2, I5 forces balance | I `laws_of_any_interface` | `identities.rs` |
+//! | 7.2, I5 moments are those of the gaps | I `laws_of_any_interface` | `identities.rs` |
+//! | 7.4, I1 rigid motion: weights | P `rigid_motion_keeps_the_weights` | |
+//! | 7.4, I1 rigid motion: residual | I `rigid_motion_turns_the_residual` | `identities.rs` |
+//! | 7.4, I1 rigid motion: projection | N `projection_is_homogeneous_and_turns_with_the_frame` | |
+//! | 8.3, I2 exact offsets | P `exact_offsets_change_no_bit` | `identities.rs` |
+//! | 7.5, I4 units: weights, at sizes over 120 decades | P `powers_of_two_change_no_bit` | |
+//! | 7.5, I4 units: residual | I `units_change_no_bit` | `identities.rs` |
+//! | 4.4, S4 Coulomb's conditions, any r | N `row_vanishes_at_the_solution_whatever_r` | check `invariance` |
+//! | 4.4, S2 the cone; 4.6 no friction | N `projection_lies_on_the_cone` | `identities.rs` |
+//! | 7.6 patch test | | checks `patch` |
 //! | W1, W2, W8 golden weights and derivatives | | `mortar.rs`, `capi_golden.rs` |
 //! | W4 slivers, touching, no overlap | P `coincident_pairs_share_the_exact_area` | `mortar.rs` |
 //! | W6 parts add up | P `parts_of_a_mortar_facet_add_up` | |

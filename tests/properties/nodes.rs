@@ -71,7 +71,7 @@ fn node(c: &Case, lambda: Vec3, r: f64, now: Vec3, previous: Vec3) -> Node {
 proptest! {
     #![proptest_config(config(file!(), 1))]
 
-    /// d.7, d.8: compressive, inside the cone, along the trial traction; what is inside stays.
+    /// 4.4, 4.6: compressive, inside the cone, along the trial traction; what is inside stays.
     #[test]
     fn projection_lies_on_the_cone(c in cases()) {
         let p = project(c.sigma, c.normal, c.mu);
@@ -92,7 +92,7 @@ proptest! {
         }
     }
 
-    /// d.4, d.6: with the frame and with the unit of stress.
+    /// 7.4, 7.5: with the frame and with the unit of stress.
     #[test]
     fn projection_is_homogeneous_and_turns_with_the_frame(c in cases(), k in -200..200i32, angles in angles()) {
         let p = project(c.sigma, c.normal, c.mu);
@@ -125,7 +125,7 @@ proptest! {
         }
     }
 
-    /// S4, d.7: the row vanishes exactly at Coulomb's conditions, whatever the augmentation; and nowhere else.
+    /// S4, 4.4: the row vanishes exactly at Coulomb's conditions, whatever the augmentation; and nowhere else.
     #[test]
     fn row_vanishes_at_the_solution_whatever_r(c in cases(), k in -6..=6, slid in 1e-3..1.0, off in unit()) {
         let r = 10f64.powi(k);

@@ -111,7 +111,7 @@ fn derivative_identities(p: &Pair) -> TestCaseResult {
     Ok(())
 }
 
-/// The gap of a pair with its own weights lies along the plane's normal (kernel notes A), as far as the inverse maps
+/// The gap of a pair with its own weights lies along the plane's normal (docs/formulation.md 2.4), as far as the inverse maps
 /// return the same point.
 fn gap_is_normal(p: &Pair) -> TestCaseResult {
     let (w, plane) = (p.weights(&DEGREE_5), &p.frame.plane);
@@ -177,7 +177,7 @@ proptest! {
         }
     }
 
-    /// I4, d.6: twice as large, four times the weights and twice the derivatives, to the bit.
+    /// I4, 7.5: twice as large, four times the weights and twice the derivatives, to the bit.
     #[test]
     fn powers_of_two_change_no_bit(recipe in recipes(), exponent in -200..200i32) {
         let scale = 2f64.powi(exponent);
@@ -195,7 +195,7 @@ proptest! {
         }
     }
 
-    /// I2, d.5: an offset that is exact changes no bit.
+    /// I2, 8.3: an offset that is exact changes no bit.
     #[test]
     fn exact_offsets_change_no_bit(recipe in recipes(), far in [-2..=2i32, -2..=2, -2..=2]) {
         let grid = f64::from(1 << 20);
@@ -210,7 +210,7 @@ proptest! {
         }
     }
 
-    /// I1, d.4: turned and moved as one, a pair keeps its weights.
+    /// I1, 7.4: turned and moved as one, a pair keeps its weights.
     #[test]
     fn rigid_motion_keeps_the_weights(recipe in recipes(), angles in angles(), far in 0.0..10.0f64) {
         let [one, two] = recipe.points();
