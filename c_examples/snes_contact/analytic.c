@@ -45,12 +45,11 @@ PetscErrorCode analytic_create(Scene *scene, const char *body, Mesh *mesh)
     scene_fail(scene, body, "radius", "positive: the body is inside; negative: it is around a cavity. Zero is neither.");
 
   complete(d, e, f);
-  for (int i = 0; i < 3; i++) { /* as large as the body, so that no round-off comes in; a plane has no size */
-    const PetscReal length = shape ? PetscAbsReal(radius) : 1;
+  for (int i = 0; i < 3; i++) {
     frame[i]     = point[i];
-    frame[3 + i] = point[i] + length * d[i];
-    frame[6 + i] = point[i] + length * e[i];
-    frame[9 + i] = point[i] + length * f[i];
+    frame[3 + i] = point[i] + d[i];
+    frame[6 + i] = point[i] + e[i];
+    frame[9 + i] = point[i] + f[i];
   }
   PetscCall(PetscSNPrintf(name, sizeof(name), "%s.surface", body));
   PetscCall(mesh_add_surface(mesh, name, 0, &surface));
@@ -60,4 +59,42 @@ PetscErrorCode analytic_create(Scene *scene, const char *body, Mesh *mesh)
   surface->frame    = mesh->n_vertices;
   PetscCall(mesh_append(mesh, 4, frame, 1, 4, cell));
   PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Once all bodies are read: frames as long as the meshed bodies are large, planes and cylinders with their point where these
+ * are. A frame that is short, or far away, turns by rounding, which moves the surface under them. */
+void analytic_fit(Mesh *mesh)
+{
+  PetscReal low[3], high[3], size = 0;
+  PetscBool any = PETSC_FALSE;
+  for (PetscInt b = 0; b < mesh->n_bodies; b++) {
+    const Body *body = &mesh->bodies[b];
+    for (PetscInt v = body->first_vertex; v < body->end_vertex && !body->analytic; v++) {
+      const PetscReal *x = mesh->coordinates + 3 * v;
+      for (int i = 0; i < 3; i++) {
+        low[i]  = any ? PetscMin(low[i], x[i]) : x[i];
+        high[i] = any ? PetscMax(high[i], x[i]) : x[i];
+      }
+      any = PETSC_TRUE;
+    }
+  }
+  if (!any) return;
+  for (int i = 0; i < 3; i++)
+    size = PetscMax(size, high[i] - low[i]);
+  for (PetscInt s = 0; s < mesh->n_surfaces; s++) {
+    const Surface *surface = &mesh->surfaces[s];
+    PetscReal     *frame   = surface->analytic ? mesh->coordinates + 3 * surface->frame : NULL, along = 0, axes[9];
+    if (!frame) continue;
+    for (int k = 0; k < 9; k++)
+      axes[k] = frame[3 + k] - frame[k % 3];
+    for (int i = 0; i < 3; i++)
+      along += axes[i] * ((low[i] + high[i]) / 2 - frame[i]);
+    for (int i = 0; i < 3; i++) {
+      const PetscReal away = (low[i] + high[i]) / 2 - frame[i];
+      if (surface->shape == 0) frame[i] += away - along * axes[i]; /* across the normal */
+      if (surface->shape == 2) frame[i] += along * axes[i];        /* along the axis */
+    }
+    for (int k = 0; k < 9; k++)
+      frame[3 + k] = frame[k % 3] + PetscMax(size, PetscAbsReal(surface->radius)) * axes[k];
+  }
 }

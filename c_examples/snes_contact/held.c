@@ -1,6 +1,6 @@
 /* Which parts of the model nothing holds. The rigid motions of all parts (three translations, three turns each) meet two
- * kinds of constraints: prescribed components of vertices, and closed contact nodes, along the normal, or in all
- * directions where they stick or are tied. Motions that none of them feels are free: the matrix is singular, and where
+ * kinds of constraints: prescribed components of vertices, and closed contact nodes: along the normal and, with friction,
+ * across the direction in which they slip; in all directions where they stick or are tied. Motions that none of them feels are free: the matrix is singular, and where
  * the parts end along them is arbitrary.
  *
  * Parts that their supports hold by themselves do not move here. The others are asked together, for two may drift as one.
@@ -11,6 +11,8 @@
 /* Normals that enclose less than this count as one: a slope of less than a hundredth, as a flat surface has when it is
  * strained, holds nothing. */
 static const PetscReal SLOPE = 1e-2;
+/* Friction below this part of the pressure is none, but for rounding. */
+static const PetscReal NO_FRICTION = 1e-9;
 
 static void add_supports(const Model *model, const PetscReal *x, Motions *m)
 {
@@ -58,6 +60,23 @@ static const double *same_normal(const double *normals, PetscInt *first, PetscIn
   return normals + 3 * a;
 }
 
+/* The direction across which a node slips: friction turns with the direction of slip, so that a motion across it is
+ * resisted, as one along it is not. Zero without friction. */
+static void across(const PetscReal nu[3], const PetscReal lambda[3], PetscReal d[3])
+{
+  const PetscReal normal = nu[0] * lambda[0] + nu[1] * lambda[1] + nu[2] * lambda[2];
+  PetscReal       t[3], size = 0;
+  for (int i = 0; i < 3; i++) {
+    t[i] = lambda[i] - normal * nu[i];
+    size += t[i] * t[i];
+  }
+  size = PetscSqrtReal(size);
+  for (int i = 0; i < 3; i++) {
+    const int j = (i + 1) % 3, k = (i + 2) % 3;
+    d[i] = size > NO_FRICTION * PetscAbsReal(normal) ? (nu[j] * t[k] - nu[k] * t[j]) / size : 0;
+  }
+}
+
 /* of the nodes that are closed at the place of the last evaluation */
 static PetscErrorCode add_contact(const Model *model, const Interface *interface, const PetscReal *x, Motions *m)
 {
@@ -70,14 +89,16 @@ static PetscErrorCode add_contact(const Model *model, const Interface *interface
     const PetscInt   v  = interface->nodes[a];
     const PetscReal *at = x + 3 * v;
     PetscInt         other, columns[2 * MODES];
-    PetscReal        values[2 * MODES];
+    PetscReal        values[2 * MODES], turns[3];
     const PetscBool  sticks = (PetscBool)(states.state[a] == STICKSLIP_STATE_STICK);
     if (states.state[a] == STICKSLIP_STATE_GAP || interface->removed[a] == 7) continue;
     other = mortar_part(model, interface, x, at);
-    for (int i = 0; i < (sticks ? 3 : 1); i++) {
+    across(states.normal + 3 * a, states.multiplier + 3 * a, turns);
+    for (int i = 0; i < (sticks ? 3 : 2); i++) {
       const PetscReal axis[3] = {i == 0, i == 1, i == 2},
-                     *d       = sticks ? axis : same_normal(states.normal, first, &n_first, a);
+                     *d       = sticks ? axis : i == 1 ? turns : same_normal(states.normal, first, &n_first, a);
       int n = 0;
+      if (!sticks && i == 1 && turns[0] == 0 && turns[1] == 0 && turns[2] == 0) continue;
       if (sticks && interface->removed[a] & (1 << i)) continue;
       motions_row(m, model->mesh_part[v], at, d, 1, columns, values, &n);
       if (other != model->mesh_part[v]) motions_row(m, other, at, d, -1, columns, values, &n);

@@ -246,7 +246,10 @@ PetscErrorCode mesh_create(Scene *scene, Mesh *mesh)
     check_volumes(scene, mesh, names[b], first_cell);
     mesh->n_bodies++;
   }
-  if (rank == 0) PetscCall(derived_surfaces(scene, mesh));
+  if (rank == 0) {
+    analytic_fit(mesh);
+    PetscCall(derived_surfaces(scene, mesh));
+  }
   PetscCall(scene_root_end(scene));
   mesh->n_bodies = n;
   PetscCall(PetscFree(type));

@@ -71,6 +71,7 @@ PetscErrorCode gmsh_create(Scene *scene, const char *body, Mesh *mesh);
 /* name of a temporary copy of a Gmsh file whose physical surfaces have no signs; "": there are none in the file itself */
 PetscErrorCode gmsh_without_signs(const char *path, char copy[], size_t length);
 PetscErrorCode analytic_create(Scene *scene, const char *body, Mesh *mesh);
+void           analytic_fit(Mesh *mesh);
 
 /* vertices of face 0..5 of a hex, 0..3 of a tet, outward; returns the number of vertices of that face */
 PetscInt cell_face(PetscInt corners, PetscInt face, const PetscInt cell[], PetscInt vertices[4]);

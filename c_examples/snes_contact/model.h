@@ -97,7 +97,8 @@ typedef struct Cycling Cycling;
 typedef struct {
   PetscReal young, reach;               /* the stiffest E; size of all that contact may join to it */
   PetscReal reference, largest;         /* its forces at the last evaluation; up to the last converged step */
-  PetscReal residual, noise;            /* at the last evaluation */
+  PetscReal felt;                       /* the largest of them alone, without what `largest` starts with */
+  PetscReal loads, residual, noise;     /* at the last evaluation */
 } Part;
 
 /* What a body of the linear material was strained and turned by, up to now (range.c) */
@@ -121,6 +122,7 @@ typedef struct {
   char          cycle[768];        /* the last one found in it, as a sentence */
   char          why[1024];         /* it did not converge */
   char          unsettled[256];    /* forces balance, but this in the contact does not; empty: nothing */
+  PetscInt      drowned;           /* a part whose loads the rounding of its own stiffness hides; -1: none */
   PetscReal     violation;         /* its size, and how many iterations it has not changed for */
   PetscInt      n_still;
   struct cJSON *cycles;            /* rank 0: those seen since the last report */
@@ -273,7 +275,7 @@ PetscErrorCode parts_label(Model *model);
 PetscErrorCode parts_create(Model *model);
 PetscErrorCode parts_destroy(Model *model);
 PetscErrorCode parts_measure(Model *model);
-void           parts_judge(const Model *model, PetscReal rtol, PetscReal atol, PetscBool *balance, PetscBool *relative);
+void           parts_judge(Model *model, PetscReal rtol, PetscReal atol, PetscBool *balance, PetscBool *relative);
 void           parts_accept(Model *model);
 
 /* equilibrium.c */

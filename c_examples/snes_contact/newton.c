@@ -170,6 +170,12 @@ static PetscErrorCode explain(Model *model, SNESConvergedReason reason)
   } else if (newton->cycle[0]) {
     PetscCall(PetscSNPrintf(newton->why, sizeof(newton->why), "%s%s%s", newton->cycle,
                             newton->stopped ? "" : "; at last: ", newton->stopped ? "" : in_words(reason)));
+  } else if (newton->drowned >= 0) {
+    const Part *part = &model->parts[newton->drowned];
+    PetscCall(PetscSNPrintf(newton->why, sizeof(newton->why),
+                            "the loads on a body with E = %.3g, %.2g in all, are lost in the rounding of its own forces, "
+                            "%.2g: make it less stiff, or `type: analytic`, or load it by a prescribed displacement",
+                            (double)part->young, (double)part->loads, (double)part->residual));
   } else if (newton->unsettled[0] && reason != SNES_DIVERGED_LINEAR_SOLVE) {
     PetscCall(PetscSNPrintf(newton->why, sizeof(newton->why),
                             "the forces balance, but the contact is not in equilibrium (%s); where augmentation_scale is "
@@ -204,6 +210,7 @@ static PetscErrorCode attempt(Model *model, int k, Vec x, PetscBool *converged)
   closing_begin(model, (PetscBool)(k == CLOSING));
   PetscCall(cycling_restart(model));
   equilibrium_restart(model);
+  newton->drowned   = -1;
   model->refusal[0] = model->inverted[0] = newton->why[0] = 0;
   newton->stopped = newton->stale = newton->changed = newton->refused_commit = PETSC_FALSE;
   newton->monotone                                  = PETSC_TRUE;

@@ -6,6 +6,9 @@
  * (bulk_forces()). Another part's forces count for nothing, however large they are. */
 #include "model.h"
 
+/* Rounding may be so much of the forces on a part that has loads. It is nearly balanced in itself: where it is 1e-3 of a
+ * load, contact forces are right to 1e-10; where it is as large as the load, they are anything. */
+static const PetscReal DROWNED = 1e-3;
 /* A force on a part is balanced within it, so that it acts twice. */
 static const PetscReal TWICE = 2;
 /* A first reference, over E times the square of the part's size: too small to matter. */
@@ -168,6 +171,7 @@ PetscErrorCode parts_measure(Model *model)
       sum[k] += squares[k];
     model->parts[p].residual  = PetscSqrtReal(squares[SQUARES_RESIDUAL]);
     model->parts[p].noise     = PetscSqrtReal(squares[SQUARES_ROUNDING]);
+    model->parts[p].loads     = PetscSqrtReal(squares[SQUARES_LOADS]);
     model->parts[p].reference =
         TWICE * (PetscSqrtReal(squares[SQUARES_LOADS]) + PetscSqrtReal(squares[SQUARES_REACTIONS]) +
                  PetscSqrtReal(squares[SQUARES_CONTACT]));
@@ -178,22 +182,32 @@ PetscErrorCode parts_measure(Model *model)
 }
 
 /* Do the forces on every part balance? `relative`: to rtol, so that neither noise nor atol was asked. A part that flies
- * off has any rounding that it likes, and nothing that balances its load: then no noise is allowed. */
-void parts_judge(const Model *model, PetscReal rtol, PetscReal atol, PetscBool *balance, PetscBool *relative)
+ * off has any rounding that it likes, and nothing that balances its load: then no noise is allowed. One whose loads are
+ * below the rounding of its own stiffness has no answer: model->newton.drowned. */
+void parts_judge(Model *model, PetscReal rtol, PetscReal atol, PetscBool *balance, PetscBool *relative)
 {
   const PetscBool flies = (PetscBool)(model->closing.active && model->closing.loose >= 0);
-  *balance = *relative = PETSC_TRUE;
+  *balance = *relative  = PETSC_TRUE;
+  model->newton.drowned = -1;
   for (PetscInt p = 0; p < model->n_parts; p++) {
     const Part *part = &model->parts[p];
     if (part->residual <= rtol * PetscMax(part->reference, part->largest)) continue;
     *relative = PETSC_FALSE;
-    if (!(part->residual <= PetscMax(atol, flies ? 0 : part->noise))) *balance = PETSC_FALSE;
+    if (!(part->residual <= PetscMax(atol, flies ? 0 : part->noise))) {
+      *balance = PETSC_FALSE;
+    } else if (part->loads > 0 && part->residual > PetscMax(atol, DROWNED * PetscMax(part->reference, part->felt))) {
+      *balance              = PETSC_FALSE;
+      model->newton.drowned = p;
+    }
   }
 }
 
 /* A step is accepted. */
 void parts_accept(Model *model)
 {
-  for (PetscInt p = 0; p < model->n_parts; p++)
-    model->parts[p].largest = PetscMax(model->parts[p].largest, model->parts[p].reference);
+  for (PetscInt p = 0; p < model->n_parts; p++) {
+    Part *part    = &model->parts[p];
+    part->felt    = PetscMax(part->felt, part->reference);
+    part->largest = PetscMax(part->largest, part->reference);
+  }
 }

@@ -6,7 +6,7 @@
 use super::filter::LEAST_OPPOSITION;
 use super::history::PairRecord;
 use super::integration::{Integration, at_facet, frames};
-use super::{Counters, Extent, Options, Surface};
+use super::{Contact, Counters, Extent, Friction, Options, Surface};
 use crate::error::{Error, Kind, Result};
 use crate::geometry::{AnalyticSurface, Plane, Vec3};
 use crate::memory::{self, Store, Stored};
@@ -84,6 +84,29 @@ pub(super) fn integrate(
     counters.seconds_integration += start.elapsed().as_secs_f64();
     let (x1, x2, extent) = (memory::copied(x1)?, memory::copied(x2)?, Extent::Part);
     Ok(Integration { x1, x2, frames, pairs, segments: Vec::new(), sums: None, extent, apart: false })
+}
+
+impl<const N: usize> Contact<N> {
+    /// Per node, whether its normal looks away from an analytic mortar side; none does from a meshed one, nor where all
+    /// is tied. A gap runs along the surface's normal n. At a sharp edge one facet may face the surface while the averaged
+    /// nu leans past the horizontal: nu . n < 0, and an open gap would read as a penetration. Such a node touches nothing.
+    /// Of t_n alone, as nu is.
+    pub(super) fn looking_away(&self) -> Result<Vec<bool>> {
+        if self.mortar.analytic.is_none() || self.options.friction == Friction::Tied {
+            return Ok(Vec::new());
+        }
+        let surface = self.mortar.analytic_at(&self.history.x2)?;
+        let away = |a: usize| {
+            // A normal that is undefined, or a node on the axis, is refused where it is needed.
+            let (Some(nu), Some(closest)) =
+                (memory::if_accepted(self.normal(a))?, surface.closest(self.history.x1[a] - surface.origin))
+            else {
+                return Ok(false);
+            };
+            Ok(nu.dot(&closest.normal) < LEAST_OPPOSITION)
+        };
+        (0..self.nonmortar.len()).map(away).stored_if_ok()
+    }
 }
 
 /// Whether every node is outside the surface by more than any facet's edge there, in all of the configurations (x1, x2).

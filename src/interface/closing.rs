@@ -8,13 +8,16 @@
 //! ```
 //!
 //! So surfaces that are apart end in a slight penetration, from which Newton's method knows that they touch. The
-//! fraction is found by conservative advancement: no gap closes by more than the two surfaces move in all, so from one
-//! allowed fraction to the next the motion is at least what the nearest node has left. Sums alone, no derivatives.
+//! fraction is found by conservative advancement. A gap runs along the normal e of the non-mortar facet to a mortar facet
+//! with the normal n, so it closes by at most the motion of the two surfaces over |e . n|: from one allowed fraction to the
+//! next the motion is at least what the nearest node has left, times that. Where facets turn on the way and an advance
+//! goes too far all the same, it is halved. Sums alone, no derivatives.
 
+use super::history::PairRecord;
 use super::integration::integrate;
 use super::nodes::{assemble, check_finite};
 use super::search::Aabb;
-use super::{Contact, Friction, Weights};
+use super::{Contact, Friction, Surface, Weights};
 use crate::error::{Error, Kind, Result};
 use crate::geometry::Vec3;
 use crate::memory::{self, Stored};
@@ -32,6 +35,13 @@ const ROUNDING: f64 = 1e-6;
 /// Fractions tried in one call. From the gap of a facet on each doubles or so, so that any gap is passed in 60; along
 /// surfaces that touch, it is this many times c h / 4 at the least.
 const MOST_FRACTIONS: usize = 64;
+
+/// The mean gap of a covered node `[L]`, and by how much it closes at most per length of motion.
+#[derive(Clone, Copy, Debug)]
+struct Gap {
+    mean: f64,
+    rate: f64,
+}
 
 /// A step: positions and what is added to them.
 struct Step<'a> {
@@ -54,7 +64,7 @@ impl Step<'_> {
 }
 
 /// The shortest edge of the facets around each node `[L]`.
-fn shortest_edges(surface: &super::Surface, x: &[Vec3]) -> Result<Vec<f64>> {
+fn shortest_edges(surface: &Surface, x: &[Vec3]) -> Result<Vec<f64>> {
     let mut shortest = memory::filled(f64::INFINITY, surface.len())?;
     for facet in &surface.facets {
         let nodes = facet.as_slice();
@@ -96,57 +106,61 @@ impl<const N: usize> Contact<N> {
         }
         let edges = shortest_edges(&self.nonmortar, x1)?;
         let start = self.mean_gaps(&step, 0.0)?;
-        let limit = |a: usize| start[a].map_or(0.0, |d| d.min(0.0)) - depth * edges[a];
+        let limit = |a: usize| start[a].map_or(0.0, |gap| gap.mean.min(0.0)) - depth * edges[a];
         let limits: Vec<_> = (0..edges.len()).map(limit).stored()?;
         if self.options.effective_weights() != Weights::Current {
             return Ok(linear_fraction(&start, &self.mean_gaps(&step, 1.0)?, &limits));
         }
-        let room = |gaps: &[Option<f64>]| {
-            let room = gaps.iter().zip(&limits).filter_map(|(gap, limit)| gap.map(|d| d - limit));
+        let least = |gaps: &[Option<Gap>], of: fn(f64, &Gap) -> f64| {
+            let room = gaps.iter().zip(&limits).filter_map(|(gap, limit)| gap.map(|gap| of(gap.mean - limit, &gap)));
             room.fold(f64::INFINITY, f64::min)
         };
+        let left_of = |gaps: &[Option<Gap>]| least(gaps, |room, gap| room / gap.rate);
         let shortest = edges.iter().copied().fold(f64::INFINITY, f64::min);
         let slack = ROUNDING * depth * shortest;
-        let allows = |end: Option<Vec<_>>| end.is_some_and(|end| room(&end) >= -slack);
-        if motion <= shortest && allows(memory::if_accepted(self.mean_gaps(&step, 1.0))?) {
+        let allows = |gaps: &[Option<Gap>]| least(gaps, |room, _| room) >= -slack;
+        // Where nothing can be evaluated, as between facets that are crushed on the way, the host could not, either.
+        if motion <= shortest && memory::if_accepted(self.mean_gaps(&step, 1.0))?.is_some_and(|gaps| allows(&gaps)) {
             return Ok(1.0);
         }
-        let (mut allowed, mut left) = (0.0, room(&start));
+        let advance = LEAST_ADVANCE * depth * shortest;
+        let (mut allowed, mut left, mut refused) = (0.0, left_of(&start), f64::INFINITY);
         for _ in 0..MOST_FRACTIONS {
             if left == f64::INFINITY {
                 left = shortest.max(self.distance_of_boxes(&step, allowed)?);
             }
-            let fraction = (allowed + left.max(LEAST_ADVANCE * depth * shortest) / motion).min(1.0);
-            // Where nothing can be evaluated, as between facets that are crushed on the way, the host could not, either.
-            let Some(gaps) = memory::if_accepted(self.mean_gaps(&step, fraction))? else { break };
-            if room(&gaps) < -slack {
-                break;
+            let fraction = (allowed + left.max(advance) / motion).min(1.0).min(0.5 * (allowed + refused));
+            match memory::if_accepted(self.mean_gaps(&step, fraction))?.filter(|gaps| allows(gaps)) {
+                Some(gaps) => (allowed, left) = (fraction, left_of(&gaps)),
+                None => refused = fraction,
             }
-            (allowed, left) = (fraction, room(&gaps));
-            if allowed == 1.0 {
+            if allowed == 1.0 || (refused - allowed) * motion <= advance {
                 break;
             }
         }
         // Some of the step is taken in any case, for a host must get on.
-        Ok(if allowed > 0.0 { allowed } else { (LEAST_ADVANCE * depth * shortest / motion).min(1.0) })
+        Ok(if allowed > 0.0 { allowed } else { (advance / motion).min(1.0) })
     }
 
-    /// The mean gap of each node at a fraction of a step `[L]`; `None`: it is uncovered.
-    fn mean_gaps(&mut self, step: &Step, fraction: f64) -> Result<Vec<Option<f64>>> {
+    /// The mean gap of each node at a fraction of a step; `None`: it is uncovered.
+    fn mean_gaps(&mut self, step: &Step, fraction: f64) -> Result<Vec<Option<Gap>>> {
         let (x1, x2) = (step.at(0, fraction)?, step.at(1, fraction)?);
         let surfaces = (&self.nonmortar, &self.mortar);
         let known = self.integration.as_ref().is_some_and(|k| !k.apart && k.x1 == x1 && k.x2 == x2);
-        let sums = match (&self.filter, self.options.effective_weights()) {
+        let now = match (&self.filter, self.options.effective_weights()) {
             (Some(filter), Weights::Current) if !known => {
                 let counters = (&mut self.counters, &mut self.tree);
-                let now = integrate(surfaces, &self.options, filter, counters, (&x1, &x2))?;
-                assemble(surfaces, &now.pairs, &x1, &x2)?
+                Some(integrate(surfaces, &self.options, filter, counters, (&x1, &x2))?)
             }
-            _ => assemble(surfaces, self.current_pairs(), &x1, &x2)?,
+            _ => None,
         };
+        let pairs = now.as_ref().map_or(self.current_pairs(), |now| &now.pairs);
+        let (sums, rates) = (assemble(surfaces, pairs, &x1, &x2)?, rates(surfaces, pairs, (&x1, &x2))?);
+        let away = self.looking_away()?;
         let gap = |(a, (coverage, gap)): (usize, &(f64, Vec3))| {
-            let covered = *coverage > self.options.coverage_min * self.history.areas[a];
-            Ok(if covered { Some(self.normal(a)?.dot(gap) / coverage) } else { None })
+            let covered =
+                !away.get(a).is_some_and(|away| *away) && *coverage > self.options.coverage_min * self.history.areas[a];
+            Ok(if covered { Some(Gap { mean: self.normal(a)?.dot(gap) / coverage, rate: rates[a] }) } else { None })
         };
         sums.iter().enumerate().map(gap).stored_if_ok()
     }
@@ -162,12 +176,24 @@ impl<const N: usize> Contact<N> {
     }
 }
 
+/// By how much the gap of each node closes at most per length of motion: 1 / |e . n|, the most of its pairs. An analytic
+/// surface is as far as its closest point: 1.
+fn rates((one, two): (&Surface, &Surface), pairs: &[PairRecord], (x1, x2): (&[Vec3], &[Vec3])) -> Result<Vec<f64>> {
+    let mut rates = memory::filled(1.0_f64, one.len())?;
+    for pair in pairs.iter().filter(|_| two.analytic.is_none()) {
+        let (e, n) = (one.facet(pair.one, x1).area_vector(), two.facet(pair.two, x2).area_vector());
+        let rate = e.norm() * n.norm() / e.dot(&n).abs().max(f64::MIN_POSITIVE);
+        one.facets[pair.one].as_slice().iter().for_each(|&a| rates[a] = rates[a].max(rate));
+    }
+    Ok(rates)
+}
+
 /// With frozen weights a gap is linear in the fraction.
-fn linear_fraction(start: &[Option<f64>], end: &[Option<f64>], limits: &[f64]) -> f64 {
+fn linear_fraction(start: &[Option<Gap>], end: &[Option<Gap>], limits: &[f64]) -> f64 {
     let mut fraction = 1.0_f64;
     for ((start, end), limit) in start.iter().zip(end).zip(limits) {
-        if let (Some(start), Some(end)) = (start, end)
-            && end < limit
+        if let (Some(start), Some(end)) = (start.map(|g| g.mean), end.map(|g| g.mean))
+            && end < *limit
         {
             fraction = fraction.min((start - limit) / (start - end));
         }
@@ -181,7 +207,8 @@ mod tests {
 
     #[test]
     fn a_linear_gap_is_followed_to_its_limit() {
-        let gaps = |a: f64, b: f64| [Some(a), None, Some(b)];
+        let gap = |mean| Some(Gap { mean, rate: 1.0 });
+        let gaps = |a: f64, b: f64| [gap(a), None, gap(b)];
         assert_eq!(linear_fraction(&gaps(1.0, 2.0), &gaps(0.5, 0.0), &[-0.1; 3]), 1.0);
         let fraction = linear_fraction(&gaps(1.0, 2.0), &gaps(-3.0, -1.0), &[-0.2; 3]);
         assert!((fraction - 0.3).abs() < 1e-15, "{fraction}");

@@ -83,6 +83,11 @@ impl<const N: usize> Contact<N> {
                 gap_previous: Vec3::zeros(),
             })
             .stored()?;
+        for (sum, away) in sums.iter_mut().zip(self.looking_away()?) {
+            if away {
+                (sum.coverage, sum.gap_now) = (0.0, Vec3::zeros());
+            }
+        }
         // The nodes that this handle shares may slip by what another one knows of their friction.
         if slips {
             let previous = self.integration.as_ref().map(|_| assemble(surfaces, &h.pairs, x1, x2)).transpose()?;

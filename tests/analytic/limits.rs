@@ -3,7 +3,8 @@
 use super::support::mesh::options;
 use super::*;
 use stickslip::error::Kind;
-use stickslip::interface::Weights;
+use stickslip::interface::{Stiffness, Weights};
+use stickslip::law::State;
 
 #[test]
 fn only_facets_that_face_the_surface_are_found() {
@@ -176,5 +177,35 @@ fn a_frame_too_small_for_its_distance_is_refused() {
             assert!(lost(shape, far, 1e-12).is_none(), "{shape}, {far:e}");
         }
         assert!(most > 1e-11, "{shape}: {most:e}, the limit is no stricter than it must be");
+    }
+}
+
+/// A whole body in any attitude above a plane or on top of a ball: at its sharp edges a facet may face the surface while
+/// the node's averaged normal leans away from it. Nothing touches, so nothing is closed.
+#[test]
+fn a_body_with_sharp_edges_that_hovers_touches_nothing() {
+    for seed in 1..=60 {
+        let mut random = Random(seed);
+        let mut mesh = super::support::mesh::ball(1 + (seed % 2) as usize);
+        let turn = Rotation3::new(random.vector(3.0));
+        mesh.x.iter_mut().for_each(|x| *x = turn * *x);
+        let lowest = mesh.x.iter().map(|x| x.z).fold(f64::INFINITY, f64::min);
+        mesh.x.iter_mut().for_each(|x| x.z += 0.3 - lowest);
+        for (shape, depth) in [(AnalyticShape::Plane, 0.0), (AnalyticShape::Sphere(3.0), 3.0)] {
+            let p = Vec3::new(0.1, 0.2, -depth);
+            let frame = [p, p + Vec3::z(), p + Vec3::x(), p + Vec3::y()];
+            for apart in [true, false] {
+                let mut options = Options { mu: 0.3, ..Options::new(Stiffness::Modulus(1.0)) };
+                (options.shortcuts.apart, options.shortcuts.uncovered) = (apart, apart);
+                let mut contact: Contact<3> = against(&mesh, shape, &frame, options).unwrap();
+                let lambda = vec![Vec3::zeros(); mesh.x.len()];
+                let states = contact.responses(&mesh.x, &frame, &lambda, None).unwrap();
+                assert!(states.iter().all(|r| r.state == State::Gap), "seed {seed}, {shape:?}");
+                // However it falls, it is let down to the surface.
+                let (dx, rest) = (vec![Vec3::z() * -0.29; mesh.x.len()], [Vec3::zeros(); 4]);
+                let fraction = contact.step_limit((&mesh.x, &frame), (&dx, &rest), None).unwrap();
+                assert_eq!(fraction, 1.0, "seed {seed}, {shape:?}");
+            }
+        }
     }
 }
