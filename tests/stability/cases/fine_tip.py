@@ -61,5 +61,5 @@ def pressed(cells, steps):
 
 
 def cells():
-    yield from series("fine cap in coarse facets, cells", CELLS, lambda n: pressed(n, SOME), quick=(12, 96))
-    yield from series("fine cap in coarse facets, steps", STEPS, lambda n: pressed(FINE, n), quick=(5,))
+    yield from series("fine cap in coarse facets, cells", CELLS, lambda n: pressed(n, SOME), quick=(24,))
+    yield from series("fine cap in coarse facets, steps", STEPS, lambda n: pressed(FINE, n), quick=(2,))
