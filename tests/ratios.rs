@@ -103,7 +103,7 @@ fn table(tool: Tool, round: Round) {
         (_, Tool::Ball) => AnalyticShape::Sphere(1.0),
         _ => AnalyticShape::Cylinder(1.0),
     };
-    for (cells, resolved) in [(3, false), (12, true)] {
+    for (cells, resolved) in [(12, true), (3, false)] {
         for ratio in RATIOS.into_iter().filter(|r| cells * r <= 600) {
             let analytic = resolved.then(|| {
                 let analytic = Tool::Analytic(shape);
