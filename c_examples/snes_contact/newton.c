@@ -179,7 +179,7 @@ static PetscErrorCode explain(Model *model, SNESConvergedReason reason)
   } else if (newton->unsettled[0] && reason != SNES_DIVERGED_LINEAR_SOLVE) {
     PetscCall(PetscSNPrintf(newton->why, sizeof(newton->why),
                             "the forces balance, but the contact is not in equilibrium (%s); where augmentation_scale is "
-                            "small, raise it",
+                            "small, raise it; where the node is hardly covered, give weak_coverage: 0.5",
                             newton->unsettled));
   } else {
     json = cJSON_CreateObject();

@@ -8,6 +8,8 @@ from comparisons import difference
 SCALES = tuple(f"1e{k}" for k in range(-6, 7))
 SCENE = "block_bottom_mu02_current"
 FEW = ("-steps_count", "6")  # press in three, then push until half of the bottom slips: gap, stick and slip all occur
+# Beyond this the rounding of gaps, times r, is what tractions are known to: 3e-11 at 1e6.
+STEERS, AMPLIFIED = 1e3, 1e-9
 
 
 def cells():
@@ -18,7 +20,8 @@ def cells():
             result = host.outcome(run)
             if result.refusal is None:
                 error = difference(run, default)
-                result.below("displacements and forces", error, AUGMENTATION_BOUND, "the answer of the default")
+                bound = AUGMENTATION_BOUND if float(scale) <= STEERS else AMPLIFIED
+                result.below("displacements and forces", error, bound, "the answer of the default")
                 result.figures["default"] = scale == "1e0"
             return result
 
