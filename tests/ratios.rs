@@ -105,13 +105,14 @@ fn table(tool: Tool, round: Round) {
     };
     for (cells, resolved) in [(12, true), (3, false)] {
         for ratio in RATIOS.into_iter().filter(|r| cells * r <= 600) {
-            let analytic = resolved.then(|| {
-                let analytic = Tool::Analytic(shape);
-                let (f, _) = forces((analytic, tool == Tool::Cylinder, round, cells, ratio), 5, None);
-                *f.last().unwrap()
-            });
             for steps in STEPS.into_iter().filter(|s| !(resolved && *s > 20)) {
                 let scene = (tool, tool == Tool::Cylinder, round, cells, ratio);
+                // In as many steps: normals and areas are those of the step before.
+                let analytic = resolved.then(|| {
+                    let analytic = Tool::Analytic(shape);
+                    let (f, _) = forces((analytic, tool == Tool::Cylinder, round, cells, ratio), steps, None);
+                    *f.last().unwrap()
+                });
                 let (wanted, _) = forces(scene, steps, Some(GENEROUS));
                 let (found, lost) = forces(scene, steps, None);
                 let (wanted, last) = (wanted.last().unwrap(), found.last().unwrap());
