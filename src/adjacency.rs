@@ -46,6 +46,16 @@ pub fn shared_edges<'a>(n_facets: usize, nodes: impl Fn(usize) -> &'a [usize]) -
     Ok(shared)
 }
 
+/// The item that stands for the group of `item`, where `parent` gives each item another one of its group, or itself where
+/// it stands for it. The way to it is halved.
+pub fn root(parent: &mut [usize], mut item: usize) -> usize {
+    while parent[item] != item {
+        parent[item] = parent[parent[item]];
+        item = parent[item];
+    }
+    item
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -1,7 +1,9 @@
 //! No memory is taken in a way that ends the program where there is none (`src/memory.rs`): the sources are looked
 //! through for the standard library's ways, line by line, tests apart.
 
-use std::path::{Path, PathBuf};
+mod support;
+
+use support::files::{below, root};
 
 /// What asks for memory and aborts. Of what a line holds, the last words before it decide.
 const INFALLIBLE: [&str; 33] = [
@@ -55,23 +57,11 @@ const HARMLESS: [(&str, &str, &str); 8] = [
 /// Folders and files whose stacks have a fixed size, and which know no vectors at all.
 const WITHOUT_VECTORS: [&str; 8] = ["element", "geometry", "law", "mortar", "normal.rs", "quadrature", "shape", "simd"];
 
-fn sources(folder: &Path, found: &mut Vec<PathBuf>) {
-    for entry in std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()) {
-        if entry.is_dir() {
-            sources(&entry, found);
-        } else if entry.extension().is_some_and(|e| e == "rs") {
-            found.push(entry);
-        }
-    }
-}
-
 /// The lines of code of every file, tests and comments apart: (file below src, number, line).
 fn code() -> Vec<(String, usize, String)> {
-    let src = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
-    let mut files = Vec::new();
-    sources(&src, &mut files);
+    let src = root().join("src");
     let mut lines = Vec::new();
-    for file in files {
+    for file in below(&src, &["rs"], &[]) {
         let text = std::fs::read_to_string(&file).unwrap();
         let name = file.strip_prefix(&src).unwrap().to_string_lossy().replace('\\', "/");
         if text.contains("#![cfg(test)]") || name == "mortar/oracle.rs" {
@@ -103,7 +93,7 @@ fn every_vector_that_grows_may_be_refused() {
 /// What lets all calls run out of memory, in foreign floating-point environments and on measured stacks knows all of them.
 #[test]
 fn every_function_of_the_abi_is_among_those_that_are_tried() {
-    let tests = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/capi");
+    let tests = root().join("tests/capi");
     let read = |file: &str| std::fs::read_to_string(tests.join(file)).unwrap();
     let tried = read("every_call.h") + &read("calls.h");
     let mut functions = 0;

@@ -1,36 +1,27 @@
 //! Citations lead somewhere: every "docs/formulation.md 3.2" in the repository names a section that is there, every row of
 //! the hard tests stands in its table, and nothing cites what is not in the repository.
 
+mod support;
+
 use std::collections::BTreeSet;
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
+use support::files::{below, root};
 
 const FOLDERS: [&str; 8] = ["src", "include", "c_examples", "tests", "benches", "fuzz", "docs", "cmake"];
 const ENDINGS: [&str; 10] = ["rs", "c", "h", "f90", "py", "md", "yaml", "toml", "cmake", "sh"];
+/// Folders of data, and what is not in the repository.
+const WITHOUT: [&str; 5] = ["target", "corpus", "seeds", "artifacts", "data"];
 const DOCUMENT: &str = "docs/formulation.md";
 /// Beginnings of what was cited once and is elsewhere.
 const OUTSIDE: [&str; 4] = ["kernel notes ", "design section ", "touch notes ", "formulation "];
 
-fn root() -> &'static Path {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
-}
-
-fn files(folder: &Path, found: &mut Vec<PathBuf>) {
-    for entry in fs::read_dir(folder).unwrap() {
-        let path = entry.unwrap().path();
-        let name = path.file_name().unwrap().to_string_lossy().into_owned();
-        if path.is_dir() && !["target", "corpus", "seeds", "artifacts", "data"].contains(&name.as_str()) {
-            files(&path, found);
-        } else if ENDINGS.iter().any(|e| name.ends_with(&format!(".{e}"))) && name != "citations.rs" {
-            found.push(path);
-        }
-    }
-}
-
 /// Every text of the repository, line breaks within comments taken out, so that a citation over two lines is one.
 fn texts() -> Vec<(String, String)> {
     let mut found = vec![root().join("README.md"), root().join("ARCHITECTURE.md"), root().join("CHANGELOG.md")];
-    FOLDERS.iter().filter(|f| root().join(f).is_dir()).for_each(|f| files(&root().join(f), &mut found));
+    let folders = FOLDERS.iter().map(|f| root().join(f)).filter(|f| f.is_dir());
+    let files = folders.flat_map(|f| below(&f, &ENDINGS, &WITHOUT));
+    found.extend(files.filter(|f| !f.ends_with("citations.rs")));
     let read = |path: PathBuf| {
         let text = fs::read_to_string(&path).ok()?;
         let line = |l: &str| l.trim_start().trim_start_matches(['/', '!', '#', '*']).trim().to_owned();

@@ -1,7 +1,10 @@
 //! The direction of dependencies (ARCHITECTURE.md): leaf mathematics knows no contact, the law knows no
 //! integration, only `capi` and `simd` are unsafe.
 
-use std::path::{Path, PathBuf};
+mod support;
+
+use std::path::PathBuf;
+use support::files::{below, root};
 
 /// Modules and what each may import, lowest first.
 const ALLOWED: [(&str, &[&str]); 12] = [
@@ -35,12 +38,8 @@ const ALLOWED: [(&str, &[&str]); 12] = [
 ];
 
 fn sources(module: &str) -> Vec<PathBuf> {
-    let src = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
-    let file = src.join(format!("{module}.rs"));
-    if file.exists() {
-        return vec![file];
-    }
-    std::fs::read_dir(src.join(module)).unwrap().map(|f| f.unwrap().path()).collect()
+    let file = root().join(format!("src/{module}.rs"));
+    if file.exists() { vec![file] } else { below(&root().join("src").join(module), &["rs"], &[]) }
 }
 
 /// Top-level modules named after `crate::` in a file.

@@ -126,6 +126,12 @@ where
     }
 }
 
+/// The largest error of a pressure, over the largest pressure.
+fn error(found: &[f64], wanted: &[f64]) -> f64 {
+    let most = wanted.iter().copied().fold(0.0, f64::max);
+    found.iter().zip(wanted).map(|(a, b)| (a - b).abs() / most).fold(0.0, f64::max)
+}
+
 fn off<const N: usize>(shape: Shape, options: Options, degrees: f64) -> Option<f64>
 where
     Contact<N>: Create<N>,
@@ -155,8 +161,7 @@ where
             assert!(angle <= TURN_MAX, "{shape:?}: {degrees} degrees are accepted");
             let (wanted, same) = Turning::<N>::new(shape, options).turned(angle, MANY, at_rest).unwrap();
             assert!(states.iter().any(|s| *s != State::Gap) && states == same, "{shape:?} {degrees}: {states:?}");
-            let most = wanted.iter().copied().fold(0.0, f64::max);
-            Some(found.iter().zip(&wanted).map(|(a, b)| (a - b).abs() / most).fold(0.0, f64::max))
+            Some(error(&found, &wanted))
         }
     }
 }
@@ -169,8 +174,7 @@ where
     let angle = degrees.to_radians();
     let (wanted, _) = Turning::<N>::new(shape, options).turned(angle, MANY, 2).unwrap();
     let Ok((found, _)) = Turning::<N>::new(shape, options).turned(angle, 1, 0) else { return f64::NAN };
-    let most = wanted.iter().copied().fold(0.0, f64::max);
-    found.iter().zip(&wanted).map(|(a, b)| (a - b).abs() / most).fold(0.0, f64::max)
+    error(&found, &wanted)
 }
 
 #[test]

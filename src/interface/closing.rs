@@ -111,14 +111,11 @@ impl<const N: usize> Contact<N> {
         if self.options.effective_weights() != Weights::Current {
             return Ok(linear_fraction(&start, &self.mean_gaps(&step, 1.0)?, &limits));
         }
-        let least = |gaps: &[Option<Gap>], of: fn(f64, &Gap) -> f64| {
-            let room = gaps.iter().zip(&limits).filter_map(|(gap, limit)| gap.map(|gap| of(gap.mean - limit, &gap)));
-            room.fold(f64::INFINITY, f64::min)
-        };
-        let left_of = |gaps: &[Option<Gap>]| least(gaps, |room, gap| room / gap.rate);
         let shortest = edges.iter().copied().fold(f64::INFINITY, f64::min);
         let slack = ROUNDING * depth * shortest;
-        let allows = |gaps: &[Option<Gap>]| least(gaps, |room, _| room) >= -slack;
+        let left_of =
+            |gaps: &[Option<Gap>]| rooms(gaps, &limits).map(|(room, rate)| room / rate).fold(f64::INFINITY, f64::min);
+        let allows = |gaps: &[Option<Gap>]| rooms(gaps, &limits).all(|(room, _)| room >= -slack);
         // Where nothing can be evaluated, as between facets that are crushed on the way, the host could not, either.
         if motion <= shortest && memory::if_accepted(self.mean_gaps(&step, 1.0))?.is_some_and(|gaps| allows(&gaps)) {
             return Ok(1.0);
@@ -174,6 +171,11 @@ impl<const N: usize> Contact<N> {
         let (one, two) = (Aabb::around(step.at(0, fraction)?), Aabb::around(step.at(1, fraction)?));
         Ok(one.distance(&two))
     }
+}
+
+/// By how much each covered node is above its limit `[L]`, and its rate.
+fn rooms<'a>(gaps: &'a [Option<Gap>], limits: &'a [f64]) -> impl Iterator<Item = (f64, f64)> + 'a {
+    gaps.iter().zip(limits).filter_map(|(gap, limit)| gap.map(|gap| (gap.mean - limit, gap.rate)))
 }
 
 /// By how much the gap of each node closes at most per length of motion: 1 / |e . n|, the most of its pairs. An analytic

@@ -12,6 +12,7 @@
 use super::Surface;
 use super::filter::FacetFilter;
 use super::search::{Prism, Tree};
+use crate::adjacency::root;
 use crate::error::Result;
 use crate::geometry::Vec3;
 use crate::memory::{self, Store, Stored};
@@ -119,15 +120,11 @@ impl<'a> Sheets<'a> {
         self.round += 1;
     }
 
-    fn root(&mut self, mut place: usize) -> usize {
+    fn root(&mut self, place: usize) -> usize {
         if self.met[place] != self.round {
             (self.met[place], self.parent[place], self.held[place]) = (self.round, place, false);
         }
-        while self.parent[place] != place {
-            self.parent[place] = self.parent[self.parent[place]];
-            place = self.parent[place];
-        }
-        place
+        root(&mut self.parent, place)
     }
 
     fn add(&mut self, facet: usize, held: bool) {

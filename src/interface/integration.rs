@@ -25,6 +25,7 @@ const TOUCH_MARGIN: f64 = 1e-6;
 /// How far (over the facet's longest edge) surfaces may move within their plane before a tangent needs
 /// entries beyond the superset pattern.
 const SKIN: f64 = 0.25;
+
 /// The active pairs at one configuration.
 #[derive(Debug)]
 pub(super) struct Integration {
@@ -387,16 +388,10 @@ impl<const N: usize> Contact<N> {
             history.fill(&mut new.pairs, &sums)?;
             &integration.insert(new).frames
         };
-        let mut sums = memory::filled(Vec3::zeros(), n1)?;
-        for (f, frame) in frames.iter().enumerate() {
-            let (facet, areas) = (nonmortar.facet(f, x1), frame.nodal_areas());
-            for k in 0..facet.len() {
-                let node = nonmortar.facets[f].nodes[k];
-                sums[node] += normal::corner_normal(&facet, k);
-                history.areas[node] += areas[k];
-            }
+        for (facet, frame) in nonmortar.facets.iter().zip(frames) {
+            facet.as_slice().iter().zip(frame.nodal_areas()).for_each(|(&node, area)| history.areas[node] += area);
         }
-        for (node, sum) in sums.into_iter().enumerate() {
+        for (node, sum) in nonmortar.sums_of_normals(x1)?.into_iter().enumerate() {
             history.normals.store(normal::nodal_normal(sum, node)?)?;
             if !(history.areas[node] > 0.0) {
                 let text =

@@ -9,6 +9,7 @@
 use super::Surface;
 use super::history::PairRecord;
 use super::integration::Integration;
+use crate::adjacency::root;
 use crate::error::{Error, Kind, Result};
 use crate::geometry::Vec2;
 use crate::geometry::clip::{self, Polygon};
@@ -110,15 +111,6 @@ impl Sheets {
         }
         Ok(sheets > 1)
     }
-}
-
-/// The pair that stands for a pair's sheet; the way to it is halved.
-fn root(of: &mut [usize], mut p: usize) -> usize {
-    while of[p] != p {
-        of[p] = of[of[p]];
-        p = of[p];
-    }
-    p
 }
 
 /// What one mortar facet covers of the non-mortar one.

@@ -5,6 +5,7 @@ use crate::error::{Error, Kind, Result, Text};
 use crate::geometry::{AnalyticShape, AnalyticSurface, FRAME, Facet, Vec3, check_rigid_motion};
 use crate::memory::{self, Store};
 use crate::mortar::NonmortarFrame;
+use crate::normal;
 use crate::shape::{MAX_NODES, Shape};
 
 /// Neighbouring facets whose normals have a scalar product below this lie on each other: a wedge thinner than a tenth
@@ -172,6 +173,16 @@ impl Surface {
     /// The longest edge of any facet at the node positions `x` `[L]`.
     pub fn longest_edge_at(&self, x: &[Vec3]) -> f64 {
         (0..self.facets.len()).map(|f| self.facet(f, x).longest_edge()).fold(0.0, f64::max)
+    }
+
+    /// Per node the sum of the unit normals of its facets' corners, which gives nu (docs/formulation.md 4.1).
+    pub(super) fn sums_of_normals(&self, x: &[Vec3]) -> Result<Vec<Vec3>> {
+        let mut sums = memory::filled(Vec3::zeros(), self.len())?;
+        for (f, nodes) in self.facets.iter().enumerate() {
+            let facet = self.facet(f, x);
+            nodes.as_slice().iter().enumerate().for_each(|(k, &a)| sums[a] += normal::corner_normal(&facet, k));
+        }
+        Ok(sums)
     }
 
     /// Number of nodes.

@@ -1,6 +1,6 @@
-//! How far the surfaces have turned within a step (docs/formulation.md 6.6). nu, and which facets oppose each other, are those of t_n: beyond a
-//! limit they mean the surfaces of now no longer. After a quarter of a turn nothing opposes anything, and a step converges
-//! without any contact. So a commit refuses a step that has turned them by more.
+//! How far the surfaces have turned within a step (docs/formulation.md 6.6). nu, and which facets oppose each other, are
+//! those of t_n: beyond a limit they mean the surfaces of now no longer. After a quarter of a turn nothing opposes
+//! anything, and a step converges without any contact. So a commit refuses a step that has turned them by more.
 //!
 //! Both sides count, each against its own normals of t_n, and a turn of both together too: what is frozen is fixed in
 //! space. With weights of the reference it is the whole turn since then, and of the non-mortar side alone, for nothing
@@ -8,7 +8,7 @@
 
 use super::filter::Filter;
 use super::search::Aabb;
-use super::{Contact, Friction, Surface, Weights};
+use super::{Contact, Friction, Weights};
 use crate::error::{Error, Kind, Result, Text};
 use crate::geometry::Vec3;
 use crate::memory;
@@ -21,16 +21,6 @@ fn larger(found: (f64, usize), from: &Vec3, to: &Vec3, what: usize) -> (f64, usi
     if angle > found.0 { (angle, what) } else { found }
 }
 
-/// The sums of the facets' normals at the nodes.
-fn sums_of_normals(surface: &Surface, x: &[Vec3]) -> Result<Vec<Vec3>> {
-    let mut sums = memory::filled(Vec3::zeros(), surface.len())?;
-    for (f, nodes) in surface.facets.iter().enumerate() {
-        let facet = surface.facet(f, x);
-        nodes.as_slice().iter().enumerate().for_each(|(k, &a)| sums[a] += normal::corner_normal(&facet, k));
-    }
-    Ok(sums)
-}
-
 impl<const N: usize> Contact<N> {
     /// Refuses a commit at (x1, x2) where a surface has turned by more than the option allows.
     /// `shared`: other handles have other parts of the mortar side, which are not known here.
@@ -39,7 +29,7 @@ impl<const N: usize> Contact<N> {
             return Ok(());
         }
         let mut most = (0.0, 0);
-        for (a, sum) in sums_of_normals(&self.nonmortar, x1)?.into_iter().enumerate() {
+        for (a, sum) in self.nonmortar.sums_of_normals(x1)?.into_iter().enumerate() {
             // One that cannot be averaged is refused in its own words where it is needed.
             if let Some(normal) = memory::if_accepted(normal::nodal_normal(sum, a))? {
                 most = larger(most, &self.history.normals[a], &normal, a);

@@ -4,6 +4,7 @@
 pub mod c;
 pub mod differences;
 pub mod exact;
+pub mod files;
 pub mod host;
 pub mod mesh;
 pub mod press;
