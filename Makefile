@@ -108,7 +108,7 @@ digest:
 	$(SAY) "Digests of library and driver"
 	@mkdir -p $(DIGEST)
 	@$(PYTHON) tests/digest/digest.py write --library $(BUILD)/lib/libstickslip.so --jobs $(JOBS) \
-		--driver $(BUILD)/c_examples/snes_contact --out $(DIGEST)/$(if $(KEEP),before,after).json
+		--build $(BUILD) --out $(DIGEST)/$(if $(KEEP),before,after).json
 	@$(if $(KEEP),cp $(BUILD)/lib/libstickslip.so $(DIGEST)/before.so,$(PYTHON) tests/digest/digest.py compare \
 		$(DIGEST)/before.json $(DIGEST)/after.json --libraries $(DIGEST)/before.so $(BUILD)/lib/libstickslip.so)
 

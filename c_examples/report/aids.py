@@ -48,8 +48,6 @@ def measure(driver, scene):
         run = driver.run(scene, *OPTIONS, *given, label=f"{scene}_{k}", expect=None)
         if run.exit_code not in (0, 2, 3):
             raise SceneError(f"{scene} with {aid}: exit code {run.exit_code}\n{run.text[-800:]}")
-        if run.exit_code:
-            run.summary = json.loads((run.directory / "summary.json").read_text())
         failed = sum(attempt["newton_iterations"] for attempt in run.summary["failed_attempts"])
         rows.append({
             "aid": aid,

@@ -4,7 +4,8 @@ The pad's nodes stay covered, the base's become covered at the leading edge and 
 carries the multipliers, although it is the stiffer one; or the base does with `weak_coverage`. Without that key a
 step fails, and the message must name what helps."""
 
-from touching_scenes import held, write
+from scene import write
+from touching_scenes import held
 
 # Neither choice is exact: each mesh has its error at the pad's edges. With facets half as long the forces differ by 4 %.
 MESH = 0.08

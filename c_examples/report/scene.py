@@ -27,6 +27,13 @@ class SceneError(Exception):
     """A scene did not run as expected, or did not write what it should."""
 
 
+def write(scene, path):
+    """A scene (a dict) as a YAML file, in flow style, which JSON is; returns its path."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text("".join(f"{key}: {json.dumps(value)}\n" for key, value in scene.items()))
+    return path
+
+
 @dataclass
 class Line:
     """An interface seen along x: sums over the nodes with the same x, per unit thickness, ordered by x."""
@@ -55,7 +62,7 @@ class Run:
     text: str  # what it printed
     seconds: float
     cpu_seconds: float  # of all its processes
-    summary: dict = field(default_factory=dict)
+    summary: dict = field(default_factory=dict)  # empty where the scene was refused
 
     @property
     def steps(self):
@@ -180,6 +187,8 @@ class Driver:
             raise SceneError(
                 f"{path.name}: exit code {done.returncode} instead of {expect} ({' '.join(command)})\n{tail}"
             )
+        if (directory / "summary.json").is_file():
+            result.summary = json.loads((directory / "summary.json").read_text())
         if done.returncode == 0:
             # MUMPS' own are the program's; where nothing had to be solved, nothing has read them
             unused = re.findall(r"Option left: name:(?!-mat_mumps_icntl)(\S+)", result.text)
@@ -191,7 +200,7 @@ class Driver:
 
     @staticmethod
     def _finished(result):
-        """The run with its summary."""
+        """The run, every step of which converged."""
         summary = result.directory / "summary.json"
         if not summary.is_file():
             raise SceneError(f"{result.directory}: no summary.json")

@@ -1,6 +1,5 @@
 """Checks of step control: automatic steps, exact rollback, nodes that cycle, nodes on a plane of symmetry."""
 
-import json
 import re
 
 import numpy as np
@@ -145,8 +144,7 @@ def cycling(verdicts, driver):
         verdicts.below(f"{label}: difference", difference(run, default), SAME_ANSWER, "the remedy changes no answer")
 
     run = driver.run("block_bottom_mu02", "-base_augmentation_scale", HOPELESS, label="hopeless", expect=2)
-    summary = json.loads((run.directory / "summary.json").read_text())
-    reports = [cycle for attempt in summary["failed_attempts"] for cycle in attempt.get("cycles", [])]
+    reports = [cycle for attempt in run.summary["failed_attempts"] for cycle in attempt.get("cycles", [])]
     if not reports:
         raise SceneError("the hopeless augmentation left no report of cycles")
     table = default.interface("base")

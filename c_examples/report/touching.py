@@ -5,13 +5,13 @@ prescribed, step by step, at one point under the same forces: nothing is free th
 carry nothing, and multipliers and states must be the same. That comparison starts from the same gap: with friction,
 what nodes move along the surface while the gap closes counts as slip in both."""
 
-import json
 import re
 
 import numpy as np
 
 from comparisons import multiplier
-from touching_scenes import SHAPES, SIZE, facet, load, prescribed, stack, touching, write
+from scene import write
+from touching_scenes import SHAPES, SIZE, facet, load, prescribed, stack, touching
 
 # Newton's method works to 1e-13 of the forces. Multipliers are those over nodal areas, and what a gap of G leaves of
 # the digits of positions is eps G / penetration: 1e-11 at the body's size.
@@ -120,6 +120,6 @@ def pulled_away(verdicts, driver):
             told = re.search(r"nothing touches upper: the loads move it along \((\S+), (\S+), (\S+)\)", run.text)
             along = [float(value) for value in told.groups()] if told else [0, 0, 0]
             verdicts.near(f"{shape} from {base}: moves along z", along[2], 1, 1e-3, "three digits are told")
-            failed = json.loads((run.directory / "summary.json").read_text())["failed_attempts"]
+            failed = run.summary["failed_attempts"]
             spent = sum(attempt["newton_iterations"] for attempt in failed)
             verdicts.below(f"{shape} from {base}: iterations", spent, FAILING, "nothing is tried that cannot help")

@@ -1,8 +1,5 @@
 """Scenes of bodies that touch in a point or line, or not yet, and that nothing but contact holds along z: a quarter of a
-cylinder, an eighth of a ball, a cube on its corner, each over a block or an analytic plane, pressed by a force. Written
-as JSON, which is YAML."""
-
-import json
+cylinder, an eighth of a ball, a cube on its corner, each over a block or an analytic plane, pressed by a force."""
 
 import numpy as np
 
@@ -148,10 +145,3 @@ def prescribed(scene, run):
         pin = {**scene[probe], "components": ["z"], "value": [0, 0, 1], "curve": curve}
         pins[f"pin{probe}"] = pin
     return scene | pins | {"supports": [*scene["supports"], *pins]}
-
-
-def write(scene, path):
-    """The scene in a file; returns its path."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    path.write_text("".join(f"{key}: {json.dumps(value)}\n" for key, value in scene.items()))
-    return path

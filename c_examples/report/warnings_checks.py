@@ -1,10 +1,9 @@
 """What a run must say by itself: bodies that nothing holds, and the material `linear` outside its range. And what it must
 not say of a problem that is as it should be."""
 
-import json
 import math
 
-from scene import SceneError
+from scene import SceneError, write
 
 # A block on a base, both free to move along the surface unless something is added.
 PUNCH = {
@@ -53,20 +52,13 @@ del TURNED["loads"], TURNED["press"]
 WARNS_HELD, WARNS_LINEAR = "nothing holds what follows", "whose material is linear"
 
 
-def write(driver, name, scene):
-    driver.output.mkdir(parents=True, exist_ok=True)
-    path = driver.output / f"{name}.yaml"
-    path.write_text("".join(f"{key}: {json.dumps(value)}\n" for key, value in scene.items()))
-    return path
-
-
 def warnings(verdicts, driver):
     held(verdicts, driver)
     linear(verdicts, driver)
 
 
 def held(verdicts, driver):
-    scene = write(driver, "punch", PUNCH)
+    scene = write(PUNCH, driver.output / "punch.yaml")
     for k, (what, components, options, nothing, contact) in enumerate(ADRIFT):
         run = driver.run(scene, "-bottom_components", components, *options, label=f"punch_{k}")
         found, said = run.summary.get("held_by_nothing", {}).get("bodies", {}), run.text.count(WARNS_HELD)
@@ -81,7 +73,7 @@ def held(verdicts, driver):
 
 
 def linear(verdicts, driver):
-    scene = write(driver, "turned", TURNED)
+    scene = write(TURNED, driver.output / "turned.yaml")
     run = driver.run(scene, label="turned_linear", expect=None)
     if run.exit_code not in (0, 2):
         raise SceneError(f"the blocks that turn ended with {run.exit_code}")
@@ -95,7 +87,7 @@ def linear(verdicts, driver):
     # Uniform compression by the load over E.
     for pressure, warns in ((10, 0), (25, 0), (40, 2), (100, 2)):
         run = driver.run(
-            write(driver, "block", {**PUNCH, "punch": TURNED["punch"]}),
+            write({**PUNCH, "punch": TURNED["punch"]}, driver.output / "block.yaml"),
             *("-bottom_components", HELD, *FRICTION, "-press_traction", f"0,0,-{pressure}"),
             label=f"pressed_{pressure}",
         )

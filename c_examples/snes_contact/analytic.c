@@ -65,22 +65,15 @@ PetscErrorCode analytic_create(Scene *scene, const char *body, Mesh *mesh)
  * are. A frame that is short, or far away, turns by rounding, which moves the surface under them. */
 void analytic_fit(Mesh *mesh)
 {
-  PetscReal low[3], high[3], size = 0;
-  PetscBool any = PETSC_FALSE;
+  Extent    extent = extent_of_nothing();
+  PetscReal size;
   for (PetscInt b = 0; b < mesh->n_bodies; b++) {
     const Body *body = &mesh->bodies[b];
-    for (PetscInt v = body->first_vertex; v < body->end_vertex && !body->analytic; v++) {
-      const PetscReal *x = mesh->coordinates + 3 * v;
-      for (int i = 0; i < 3; i++) {
-        low[i]  = any ? PetscMin(low[i], x[i]) : x[i];
-        high[i] = any ? PetscMax(high[i], x[i]) : x[i];
-      }
-      any = PETSC_TRUE;
-    }
+    for (PetscInt v = body->first_vertex; v < body->end_vertex && !body->analytic; v++)
+      extent_add(&extent, mesh->coordinates + 3 * v);
   }
-  if (!any) return;
-  for (int i = 0; i < 3; i++)
-    size = PetscMax(size, high[i] - low[i]);
+  size = extent_longest(&extent);
+  if (size == 0) return;
   for (PetscInt s = 0; s < mesh->n_surfaces; s++) {
     const Surface *surface = &mesh->surfaces[s];
     PetscReal     *frame   = surface->analytic ? mesh->coordinates + 3 * surface->frame : NULL, along = 0, axes[9];
@@ -88,9 +81,9 @@ void analytic_fit(Mesh *mesh)
     for (int k = 0; k < 9; k++)
       axes[k] = frame[3 + k] - frame[k % 3];
     for (int i = 0; i < 3; i++)
-      along += axes[i] * ((low[i] + high[i]) / 2 - frame[i]);
+      along += axes[i] * ((extent.low[i] + extent.high[i]) / 2 - frame[i]);
     for (int i = 0; i < 3; i++) {
-      const PetscReal away = (low[i] + high[i]) / 2 - frame[i];
+      const PetscReal away = (extent.low[i] + extent.high[i]) / 2 - frame[i];
       if (surface->shape == 0) frame[i] += away - along * axes[i]; /* across the normal */
       if (surface->shape == 2) frame[i] += along * axes[i];        /* along the axis */
     }

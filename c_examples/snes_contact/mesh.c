@@ -101,28 +101,23 @@ PetscInt mesh_body(Scene *scene, const Mesh *mesh, const char *map, const char *
 /* map.body, map.point, map.tolerance -> vertex */
 PetscInt mesh_nearest_vertex(Scene *scene, const Mesh *mesh, const char *map)
 {
-  PetscReal   point[3], tolerance, best = PETSC_MAX_REAL, low[3], high[3], size = 0;
+  PetscReal   point[3], tolerance, best = PETSC_MAX_REAL;
+  Extent      extent            = extent_of_nothing();
   PetscInt    nearest           = -1;
   char        name[NAME_LENGTH] = "";
   const Body *body;
   scene_string_required(scene, map, "body", name, sizeof(name));
   body = &mesh->bodies[mesh_body(scene, mesh, map, "body", name)];
   if (!scene_vector(scene, map, "point", 3, point)) scene_fail(scene, map, "point", "this key is missing.");
-  for (int i = 0; i < 3; i++)
-    low[i] = PETSC_MAX_REAL, high[i] = PETSC_MIN_REAL;
   for (PetscInt v = body->first_vertex; v < body->end_vertex; v++) {
-    PetscReal squared = 0;
-    for (int i = 0; i < 3; i++) {
-      const PetscReal x = mesh->coordinates[3 * v + i];
-      squared += PetscSqr(x - point[i]);
-      low[i]  = PetscMin(low[i], x);
-      high[i] = PetscMax(high[i], x);
-    }
+    const PetscReal *x       = mesh->coordinates + 3 * v;
+    PetscReal        squared = 0;
+    for (int i = 0; i < 3; i++)
+      squared += PetscSqr(x[i] - point[i]);
     if (squared < best) best = squared, nearest = v;
+    extent_add(&extent, x);
   }
-  for (int i = 0; i < 3; i++)
-    size = PetscMax(size, high[i] - low[i]);
-  tolerance = 1e-6 * size;
+  tolerance = 1e-6 * extent_longest(&extent);
   scene_real(scene, map, "tolerance", &tolerance);
   if (PetscSqrtReal(best) > tolerance) {
     const PetscReal *X = mesh->coordinates + 3 * nearest;

@@ -37,6 +37,15 @@ typedef struct {
   PetscBool  rotated;
 } Mesh;
 
+/* A box along the axes around some points. */
+typedef struct {
+  PetscReal low[3], high[3];
+} Extent;
+
+Extent    extent_of_nothing(void);
+void      extent_add(Extent *extent, const PetscReal x[3]);
+PetscReal extent_longest(const Extent *extent); /* its longest edge; 0 of nothing */
+
 PetscErrorCode mesh_create(Scene *scene, Mesh *mesh); /* bodies and surfaces, in the axes of the scene file */
 PetscErrorCode mesh_rotate(Mesh *mesh);               /* then into the rotated frame, when all selections are done */
 PetscErrorCode mesh_destroy(Mesh *mesh);

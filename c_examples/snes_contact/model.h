@@ -96,8 +96,8 @@ typedef struct Cycling Cycling;
 /* Connected cells: bodies, or pieces of them, that nothing but contact joins to others (parts.c) */
 typedef struct {
   PetscReal young, reach;               /* the stiffest E; size of all that contact may join to it */
-  PetscReal reference, largest;         /* its forces at the last evaluation; up to the last converged step */
-  PetscReal felt;                       /* the largest of them alone, without what `largest` starts with */
+  PetscReal reference, felt;            /* its forces at the last evaluation; the largest of a converged step */
+  PetscReal faint;                      /* a first reference, too small to matter */
   PetscReal loads, residual, noise;     /* at the last evaluation */
 } Part;
 
@@ -349,7 +349,7 @@ PetscErrorCode         summary_create(Model *model, Summary **summary);
 PetscErrorCode         summary_step(Model *model, Summary *summary, PetscInt step, PetscBool converged, PetscBool asked,
                                     PetscBool last);
 PetscErrorCode         summary_failed_attempt(Model *model, Summary *summary, PetscReal t_last);
-PetscErrorCode summary_settle_step(Model *model, Summary *summary, PetscInt step, PetscBool accepted); /* the last one */
+PetscErrorCode summary_settle_step(Model *model, Summary *summary, PetscBool accepted); /* the last one */
 PetscErrorCode summary_write(Model *model, Summary **summary, Vec last, PetscInt cutbacks, const char *message);
 PetscErrorCode uniqueness_check(Model *model, Vec x, struct cJSON *root); /* uniqueness.c: of a node with friction */
 PetscErrorCode summary_counters(Model *model, struct cJSON *root); /* what the run and each interface cost */

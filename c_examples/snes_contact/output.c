@@ -217,7 +217,7 @@ PetscErrorCode summary_step(Model *model, Summary *summary, PetscInt step, Petsc
   PetscInt        n_norms = 0;
   PetscScalar    *displacements;
   double          friction_work  = 0;
-  char           *progress       = summary->progress;
+  char           *progress       = summary->progress; /* what summary_settle_step() prints */
 
   PetscFunctionBegin;
   PetscCall(SNESGetConvergenceHistory(model->snes, &norms, NULL, &n_norms));
@@ -229,7 +229,9 @@ PetscErrorCode summary_step(Model *model, Summary *summary, PetscInt step, Petsc
   if (model->jacobian_tests) cJSON_AddItemToObject(json, "jacobian_tests", model->jacobian_tests);
   model->jacobian_tests = NULL;
   cJSON_AddItemToArray(summary->steps, json);
-  progress[0] = 0;
+  PetscCall(PetscSNPrintf(progress, sizeof(summary->progress),
+                          "%4" PetscInt_FMT " t %-10.6g newton %2" PetscInt_FMT "  |r| %.2e", step, (double)model->t,
+                          model->iterations, n_norms ? (double)norms[n_norms - 1] : 0.0));
   if (!converged) PetscFunctionReturn(PETSC_SUCCESS);
 
   cJSON_AddNumberToObject(json, "reference_force", model->reference_force);
@@ -256,17 +258,10 @@ PetscErrorCode summary_step(Model *model, Summary *summary, PetscInt step, Petsc
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode summary_settle_step(Model *model, Summary *summary, PetscInt step, PetscBool accepted)
+PetscErrorCode summary_settle_step(Model *model, Summary *summary, PetscBool accepted)
 {
-  const cJSON *norms = cJSON_GetObjectItem(cJSON_GetArrayItem(summary->steps, cJSON_GetArraySize(summary->steps) - 1),
-                                           "residual_norms");
-  const cJSON *norm  = cJSON_GetArrayItem(norms, cJSON_GetArraySize(norms) - 1);
-
   PetscFunctionBegin;
-  if (accepted && !model->quiet)
-    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%4" PetscInt_FMT " t %-10.6g newton %2" PetscInt_FMT "  |r| %.2e%s\n",
-                          step, (double)model->t, model->iterations, norm ? norm->valuedouble : 0.0,
-                          summary->progress));
+  if (accepted && !model->quiet) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s\n", summary->progress));
   if (model->rank == 0) {
     PetscCall(held_settle(model, accepted));
     if (accepted) PetscCall(range_check(model, summary->displacements));

@@ -38,21 +38,27 @@ static PetscInt number_trees(PetscInt n, PetscInt parent[])
   return count;
 }
 
+static PetscReal diagonal_squared(const Extent *extent)
+{
+  PetscReal squared = 0;
+  for (int i = 0; i < 3; i++)
+    squared += PetscSqr(extent->high[i] - extent->low[i]);
+  return squared;
+}
+
 /* rank 0: the box around a part's vertices, and that around all parts that interfaces join to it; the stiffest E */
 static PetscErrorCode measure(Model *model)
 {
   const Mesh *mesh = &model->mesh;
-  PetscReal (*low)[3], (*high)[3];
-  PetscInt *cluster;
+  Extent     *own, *whole; /* of each part; of each cluster */
+  PetscInt   *cluster;
 
   PetscFunctionBegin;
-  PetscCall(PetscMalloc3(2 * model->n_parts, &low, 2 * model->n_parts, &high, model->n_parts, &cluster));
-  for (PetscInt p = 0; p < 2 * model->n_parts; p++) {
-    for (int i = 0; i < 3; i++)
-      low[p][i] = PETSC_MAX_REAL, high[p][i] = PETSC_MIN_REAL;
+  PetscCall(PetscMalloc3(model->n_parts, &own, model->n_parts, &whole, model->n_parts, &cluster));
+  for (PetscInt p = 0; p < model->n_parts; p++) {
+    own[p] = whole[p] = extent_of_nothing();
+    cluster[p]        = p;
   }
-  for (PetscInt p = 0; p < model->n_parts; p++)
-    cluster[p] = p;
   for (PetscInt i = 0; i < model->n_interfaces; i++) {
     const Interface *interface = &model->interfaces[i];
     for (PetscInt k = 1; k < interface->n1 + interface->n2; k++)
@@ -60,29 +66,19 @@ static PetscErrorCode measure(Model *model)
   }
   (void)number_trees(model->n_parts, cluster);
   for (PetscInt v = 0; v < mesh->n_vertices; v++) {
-    const PetscInt p = model->mesh_part[v], boxes[2] = {p, model->n_parts + cluster[p]};
-    for (int b = 0; b < 2; b++) {
-      for (int i = 0; i < 3; i++) {
-        low[boxes[b]][i]  = PetscMin(low[boxes[b]][i], mesh->coordinates[3 * v + i]);
-        high[boxes[b]][i] = PetscMax(high[boxes[b]][i], mesh->coordinates[3 * v + i]);
-      }
-    }
+    const PetscInt p = model->mesh_part[v];
+    extent_add(&own[p], mesh->coordinates + 3 * v);
+    extent_add(&whole[cluster[p]], mesh->coordinates + 3 * v);
   }
   for (PetscInt c = 0; c < mesh->n_cells; c++) {
     Part *part  = &model->parts[model->mesh_part[mesh->cell_vertices[mesh->cell_offsets[c]]]];
     part->young = PetscMax(part->young, mesh->bodies[mesh->cell_body[c]].material.young);
   }
   for (PetscInt p = 0; p < model->n_parts; p++) {
-    const PetscInt boxes[2] = {p, model->n_parts + cluster[p]};
-    PetscReal      sizes[2] = {0, 0};
-    for (int b = 0; b < 2; b++) {
-      for (int i = 0; i < 3; i++)
-        sizes[b] += PetscSqr(high[boxes[b]][i] - low[boxes[b]][i]);
-    }
-    model->parts[p].reach   = PetscSqrtReal(sizes[1]);
-    model->parts[p].largest = FAINT * model->parts[p].young * sizes[0];
+    model->parts[p].reach = PetscSqrtReal(diagonal_squared(&whole[cluster[p]]));
+    model->parts[p].faint = FAINT * model->parts[p].young * diagonal_squared(&own[p]);
   }
-  PetscCall(PetscFree3(low, high, cluster));
+  PetscCall(PetscFree3(own, whole, cluster));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -191,7 +187,7 @@ void parts_judge(Model *model, PetscReal rtol, PetscReal atol, PetscBool *balanc
   model->newton.drowned = -1;
   for (PetscInt p = 0; p < model->n_parts; p++) {
     const Part *part = &model->parts[p];
-    if (part->residual <= rtol * PetscMax(part->reference, part->largest)) continue;
+    if (part->residual <= rtol * PetscMax(part->faint, PetscMax(part->reference, part->felt))) continue;
     *relative = PETSC_FALSE;
     if (!(part->residual <= PetscMax(atol, flies ? 0 : part->noise))) {
       *balance = PETSC_FALSE;
@@ -205,9 +201,6 @@ void parts_judge(Model *model, PetscReal rtol, PetscReal atol, PetscBool *balanc
 /* A step is accepted. */
 void parts_accept(Model *model)
 {
-  for (PetscInt p = 0; p < model->n_parts; p++) {
-    Part *part    = &model->parts[p];
-    part->felt    = PetscMax(part->felt, part->reference);
-    part->largest = PetscMax(part->largest, part->reference);
-  }
+  for (PetscInt p = 0; p < model->n_parts; p++)
+    model->parts[p].felt = PetscMax(model->parts[p].felt, model->parts[p].reference);
 }

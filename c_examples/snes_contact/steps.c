@@ -227,7 +227,7 @@ static PetscErrorCode step_to(Model *model, Summary *summary, History *history, 
     PetscCall(summary_step(model, summary, step, PETSC_TRUE, asked, last));
     PetscCall(contact_commit(model, &refused));
     *done = (PetscBool)!refused;
-    PetscCall(summary_settle_step(model, summary, step, *done));
+    PetscCall(summary_settle_step(model, summary, *done));
     if (refused) {
       model->newton.refused_commit = PETSC_TRUE;
       PetscCall(PetscSNPrintf(model->newton.why, sizeof(model->newton.why), "converged, but refused at its commit: %s",

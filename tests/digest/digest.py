@@ -1,13 +1,13 @@
 """What the library and the driver compute, to the last bit, as a file of digests: written before a change and after it,
 and compared.
 
-digest.py write --library FILE.so [--driver PROGRAM] --out FILE.json [--histories N] [--jobs N]
+digest.py write --library FILE.so [--build DIR] --out FILE.json [--histories N] [--jobs N]
 digest.py compare BEFORE.json AFTER.json [--libraries BEFORE.so AFTER.so]
 
 `write` loads the library by its name, so that one that was kept can be asked later. It digests every golden pair and
 interface; N seeded histories with all options, step by step: residual, tangent, states, exported history; and, with a
-driver, iterations, states and forces per step of every scene. `compare` lists what differs, and of histories that
-differ, with the libraries at hand, by how much. It exits with 1 if anything differs.
+build tree, the driver's iterations, states and forces per step of every scene. `compare` lists what differs, and of
+histories that differ, with the libraries at hand, by how much. It exits with 1 if anything differs.
 """
 
 import argparse
@@ -27,7 +27,7 @@ SHOWN = 10  # histories that differ and are looked into
 
 def of_chunk(task):
     library, seeds = task
-    return [histories.digests(histories.Loaded.of(library), seed) for seed in seeds]
+    return [histories.digests(histories.loaded(library), seed) for seed in seeds]
 
 
 def write(arguments):
@@ -41,8 +41,9 @@ def write(arguments):
             seconds = time.monotonic() - start
             print(f"\r{len(found['histories'])} of {arguments.histories} histories, {seconds:.0f} s", end="", flush=True)
         print()
-        if arguments.driver:
-            tasks = [(arguments.driver, path) for path in scenes.paths()]
+        if arguments.build:
+            folder = Path(arguments.build) / "digest" / "scenes"
+            tasks = [(arguments.build, folder, path) for path in scenes.paths()]
             for name, scene in pool.imap(scenes.digest, tasks):
                 found["scenes"][name] = scene
                 print(f"{name}: {scenes.told(scene)}", flush=True)
@@ -88,7 +89,7 @@ def main():
     commands = parser.add_subparsers(required=True)
     one = commands.add_parser("write")
     one.add_argument("--library", required=True)
-    one.add_argument("--driver")
+    one.add_argument("--build")
     one.add_argument("--out", required=True)
     one.add_argument("--histories", type=int, default=100_000)
     one.add_argument("--jobs", type=int, default=multiprocessing.cpu_count())

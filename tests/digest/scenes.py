@@ -1,13 +1,11 @@
 """Iterations, states and forces per step of every scene, as numbers: they are compared with room for rounding."""
 
-import json
-import subprocess
 import sys
-import tempfile
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[2]
-FOLDER = ROOT / "c_examples" / "scenes"
+sys.path.append(str(Path(__file__).resolve().parents[2] / "c_examples" / "report"))
+from scene import SCENES, Driver  # noqa: E402  (needs the path)
+
 # Of some minutes each; `jacobian_states` and `keys` are no problems of their own.
 LEFT_OUT = {"ironing_3d", "cattaneo_line", "torsion", "mindlin", "press_fit_3d", "shallow_ironing", "keys"}
 # Up to so many steps a scene must take the same iterations; in longer ones, where the last bit decides now and then,
@@ -18,19 +16,16 @@ SAME_FORCE = 1e-9
 
 
 def paths():
-    return sorted(path for path in FOLDER.glob("*.yaml") if path.stem not in LEFT_OUT)
+    return sorted(path for path in SCENES.glob("*.yaml") if path.stem not in LEFT_OUT)
 
 
 def digest(task):
-    driver, path = task
-    with tempfile.TemporaryDirectory() as folder:
-        quiet = ("-output_vtu", "none", "-output_csv", "none")
-        done = subprocess.run([driver, "-scene", path, "-output_dir", folder, *quiet], capture_output=True, text=True)
-        file = Path(folder, "summary.json")
-        summary = json.loads(file.read_text()) if file.exists() else {"steps": []}
+    build, folder, path = task
+    quiet = ("-output_vtu", "none", "-output_csv", "none")
+    run = Driver(build, folder).run(path, *quiet, expect=None)
     kept = ("t", "newton_iterations", "interfaces", "reactions")
-    steps = [{key: step[key] for key in kept if key in step} for step in summary["steps"]]
-    return path.stem, {"exit": done.returncode, "cutbacks": summary.get("cutbacks"), "steps": steps}
+    steps = [{key: step[key] for key in kept if key in step} for step in run.summary.get("steps", [])]
+    return path.stem, {"exit": run.exit_code, "cutbacks": run.summary.get("cutbacks"), "steps": steps}
 
 
 def iterations(scene):

@@ -8,9 +8,10 @@ from pathlib import Path
 
 import condition
 from cell import Outcome
+from library import Library
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "c_examples" / "report"))
-from scene import SCENES, Driver, SceneError  # noqa: E402  (needs the path)
+from scene import SCENES, Driver, SceneError, write  # noqa: E402  (needs the path)
 
 CONVERGED, BAD_SCENE, NOT_CONVERGED, REFUSED = range(4)  # exit codes of the driver
 
@@ -26,12 +27,13 @@ class Context:
     def folder(self):
         return self.build / "stability" / "runs" / self.label
 
+    @property
+    def library(self):
+        return Library(self.build / "lib" / "libstickslip.so")
+
     def write(self, scene, name="scene"):
-        """A scene as a YAML file (flow style, which JSON is) in the cell's folder."""
-        self.folder.mkdir(parents=True, exist_ok=True)
-        path = self.folder / f"{name}.yaml"
-        path.write_text("".join(f"{key}: {json.dumps(value)}\n" for key, value in scene.items()))
-        return path
+        """A scene as a file in the cell's folder."""
+        return write(scene, self.folder / f"{name}.yaml")
 
     def adapted(self, name, steps):
         """A scene of c_examples/scenes with other steps, as a file in the cell's folder."""

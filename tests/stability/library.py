@@ -1,10 +1,11 @@
-"""The library's C calls that the matrix makes without the driver, through ctypes on the shared library.
+"""The library's C calls that Python tests make without the driver, through ctypes on the shared library.
 
-Only what the cells use. A refusal is raised as Refused, with the status and the library's message.
+Only what they use. A refusal is raised as Refused, with the call, the status and the library's message.
 """
 
 import ctypes
 from ctypes import byref, c_char_p, c_double, c_int32, c_int64, c_uint64, c_void_p
+from pathlib import Path
 
 import numpy as np
 
@@ -14,7 +15,9 @@ STATES = ("gap", "stick", "slip")
 
 
 class Refused(Exception):
-    pass
+    def __init__(self, call, status, text):
+        super().__init__(text)
+        self.call, self.status = call, status
 
 
 def pointer(array):
@@ -125,8 +128,8 @@ States = struct(
 
 
 class Library:
-    def __init__(self, build):
-        self.c = ctypes.CDLL(str(build / "lib" / "libstickslip.so"))
+    def __init__(self, path):
+        self.c = ctypes.CDLL(str(Path(path).resolve()))
         self.c.stickslip_last_error_message.restype = c_char_p
         self.c.stickslip_status_string.restype = c_char_p
 
@@ -134,16 +137,17 @@ class Library:
         status = getattr(self.c, f"stickslip_{name}")(*arguments)
         if status:
             words = self.c.stickslip_status_string(status).decode()
-            raise Refused(f"status {status} ({words}): {self.c.stickslip_last_error_message().decode()}")
+            text = f"status {status} ({words}): {self.c.stickslip_last_error_message().decode()}"
+            raise Refused(name, status, text)
 
     def weights(self, x1, x2, derivatives=False, quadrature=DEGREE_5):
         """n_ab, n_ac of a pair, and with `derivatives` dn_ab, dn_ac behind them."""
         x1, x2 = (np.ascontiguousarray(x, float) for x in (x1, x2))
         n1, n2 = len(x1), len(x2)
         pair = Pair(n1=n1, n2=n2, x1=pointer(x1), x2=pointer(x2), quadrature=quadrature)
-        out = [np.empty((n1, n1)), np.empty((n1, n2))]
+        out = [np.zeros((n1, n1)), np.zeros((n1, n2))]
         if derivatives:
-            out += [np.empty((n1, n, 3 * (n1 + n2))) for n in (n1, n2)]
+            out += [np.zeros((n1, n, 3 * (n1 + n2))) for n in (n1, n2)]
         self.call("pair_weights", byref(pair), *map(pointer, out), *([None, None] if not derivatives else []))
         return out
 
@@ -156,32 +160,21 @@ class Library:
 
 
 class Interface:
-    """Two surfaces of facets of one kind: x (n, 3), facets (m, 3 or 4). Equations are counted through x1, x2,
-    lambda."""
+    """Two surfaces: x (n, 3), facets of 3 or 4 nodes each; `facets2` None: an analytic surface, of which x2 is the frame.
+    `components`: multipliers a node has, 1 without friction. Equations are counted through x1, x2, lambda; a mortar side
+    that is analytic or `rigid` has none. A point is given as x1, x2, lambda."""
 
-    def __init__(self, library, x1, facets1, x2, facets2, **options):
-        self.library, self.n1, self.n2 = library, len(x1), len(x2)
-        self.unknowns = 6 * self.n1 + 3 * self.n2
+    def __init__(self, library, x1, facets1, x2, facets2, components=3, rigid=False, **options):
+        self.library, self.components = library, components
+        self.n1, self.n2 = len(x1), len(x2)
+        self.unknowns = (3 + components) * self.n1 + 3 * self.n2
         numbers = np.arange(self.unknowns, dtype=np.int64)
-        split = np.split(numbers, [3 * self.n1, 3 * (self.n1 + self.n2)])
-        self.kept, sides = [], []
-        for x, facets, equations in ((x1, facets1, split[0]), (x2, facets2, split[1])):
-            facets = np.ascontiguousarray(facets, np.int64)
-            offsets = np.arange(len(facets) + 1, dtype=np.int64) * facets.shape[1]
-            x, equations = np.ascontiguousarray(x, float), np.ascontiguousarray(equations)
-            self.kept += [x, facets, offsets, equations]
-            sides.append(
-                Surface(
-                    n_nodes=len(x),
-                    n_facets=len(facets),
-                    coordinates=pointer(x),
-                    facet_offsets=pointer(offsets),
-                    facet_nodes=pointer(facets),
-                    equations=pointer(equations),
-                )
-            )
-        multipliers = np.ascontiguousarray(split[2])
-        sides[0].multiplier_equations = pointer(multipliers)
+        one, two, multipliers = np.split(numbers, [3 * self.n1, 3 * (self.n1 + self.n2)])
+        if rigid or facets2 is None:
+            two = np.full_like(two, -1)
+        self.kept = []
+        sides = [self.surface(x1, facets1, one), self.surface(x2, facets2, two)]
+        sides[0].multiplier_equations = self.keep(multipliers, np.int64)
         chosen = Options()
         library.call("options_init", byref(chosen), c_uint64(chosen.struct_size))
         for name, value in options.items():
@@ -189,62 +182,83 @@ class Interface:
         self.handle = c_void_p()
         library.call("interface_create", byref(sides[0]), byref(sides[1]), byref(chosen), byref(self.handle))
 
+    def keep(self, values, kind=float):
+        """A pointer to a copy that lives as long as this object."""
+        self.kept.append(np.ascontiguousarray(values, kind))
+        return pointer(self.kept[-1])
+
+    def surface(self, x, facets, equations):
+        made = Surface(n_nodes=len(x), coordinates=self.keep(x), equations=self.keep(equations, np.int64))
+        if facets is not None:
+            made.n_facets = len(facets)
+            made.facet_offsets = self.keep(np.cumsum([0, *map(len, facets)]), np.int64)
+            made.facet_nodes = self.keep(np.concatenate(list(facets)), np.int64)
+        return made
+
+    def call(self, name, at, *arguments):
+        """A call of the interface at a point, no prescribed normal gaps."""
+        x1, x2, lam = (np.ascontiguousarray(v, float) for v in at)
+        self.library.call(f"interface_{name}", self.handle, *map(pointer, (x1, x2, lam)), None, *arguments)
+
     def close(self):
         self.library.call("interface_destroy", byref(self.handle))
 
-    def residual(self, x1, x2, lam):
-        """f1, f2, rows"""
-        x1, x2, lam = (np.ascontiguousarray(v, float) for v in (x1, x2, lam))
-        out = [np.empty((self.n1, 3)), np.empty((self.n2, 3)), np.empty((self.n1, 3))]
-        self.library.call("interface_residual", self.handle, *map(pointer, (x1, x2, lam)), None, *map(pointer, out))
+    def set(self, what, values):
+        """A value a node: "friction", "augmentation", "normals"."""
+        values = np.ascontiguousarray(values, float)
+        self.library.call(f"interface_set_{what}", self.handle, pointer(values))
+
+    def start(self):
+        """The multipliers to start with."""
+        out = np.zeros((self.n1, self.components))
+        self.library.call("interface_initial_multipliers", self.handle, pointer(out))
         return out
 
-    def tangent(self, x1, x2, lam):
-        """Dense, rows and columns x1, x2, lambda."""
-        state = [np.ascontiguousarray(v, float) for v in (x1, x2, lam)]
+    def residual(self, *at):
+        """f1, f2, rows"""
+        out = [np.zeros((self.n1, 3)), np.zeros((self.n2, 3)), np.zeros((self.n1, self.components))]
+        self.call("residual", at, *map(pointer, out))
+        return out
+
+    def triplets(self, *at):
+        """The tangent's rows, columns, values."""
         count = c_int64()
-        self.library.call(
-            "interface_tangent_coo",
-            self.handle,
-            *map(pointer, state),
-            None,
-            c_int64(0),
-            None,
-            None,
-            None,
-            byref(count),
-        )
-        rows, columns = (np.empty(count.value, np.int64) for _ in range(2))
-        values = np.empty(count.value)
-        self.library.call(
-            "interface_tangent_coo",
-            self.handle,
-            *map(pointer, state),
-            None,
-            count,
-            pointer(rows),
-            pointer(columns),
-            pointer(values),
-            byref(count),
-        )
+        self.call("tangent_coo", at, c_int64(0), None, None, None, byref(count))
+        out = [np.zeros(count.value, np.int64), np.zeros(count.value, np.int64), np.zeros(count.value)]
+        self.call("tangent_coo", at, count, *map(pointer, out), byref(count))
+        return out
+
+    def tangent(self, *at):
+        """Dense, rows and columns x1, x2, lambda."""
+        rows, columns, values = self.triplets(*at)
         matrix = np.zeros((self.unknowns, self.unknowns))
         np.add.at(matrix, (rows, columns), values)
         return matrix
 
-    def states(self, x1, x2, lam):
-        """state, gap, coverage, area of the nodes"""
-        state = [np.ascontiguousarray(v, float) for v in (x1, x2, lam)]
-        out = {"state": np.empty(self.n1, np.int32)}
-        out |= {name: np.empty(self.n1) for name in ("gap", "coverage", "area")}
+    def states(self, *at):
+        """What the nodes do, by the names of the header's struct."""
+        out = {"state": np.zeros(self.n1, np.int32)}
+        out |= {name: np.zeros((self.n1, 3)) for name in ("normal", "traction", "slip")}
+        out |= {name: np.zeros(self.n1) for name in ("gap", "coverage", "area", "dissipation", "augmentation")}
         wanted = States(**{name: pointer(array) for name, array in out.items()})
-        self.library.call("interface_states", self.handle, *map(pointer, state), None, byref(wanted))
+        self.call("states", at, byref(wanted))
         return out
 
-    def start(self):
-        lam = np.empty((self.n1, 3))
-        self.library.call("interface_initial_multipliers", self.handle, pointer(lam))
-        return lam
+    def commit(self, *at):
+        self.call("commit", at)
 
-    def commit(self, x1, x2, lam):
-        state = [np.ascontiguousarray(v, float) for v in (x1, x2, lam)]
-        self.library.call("interface_commit", self.handle, *map(pointer, state), None)
+    def rollback(self):
+        self.library.call("interface_rollback", self.handle)
+
+    def history(self):
+        """The history, as integers and reals."""
+        lengths = [c_int64(), c_int64()]
+        self.library.call("interface_history_size", self.handle, *map(byref, lengths))
+        out = [np.zeros(lengths[0].value, np.int64), np.zeros(lengths[1].value)]
+        self.library.call("interface_history_export", self.handle, lengths[0], pointer(out[0]), lengths[1], pointer(out[1]))
+        return out
+
+    def restore(self, history):
+        integers, reals = history
+        arguments = (c_int64(len(integers)), pointer(integers), c_int64(len(reals)), pointer(reals))
+        self.library.call("interface_history_import", self.handle, *arguments)

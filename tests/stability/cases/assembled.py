@@ -3,7 +3,7 @@
 import numpy as np
 
 from cell import ELEMENT, Outcome, series
-from library import GAP, STICK, Interface, Library
+from library import GAP, STICK, Interface
 from scenes import EPS
 
 NOISES = ("1e-15", "1e-14", "1e-13", "1e-12", "1e-11", "1e-10")
@@ -38,7 +38,7 @@ def noise(text):
     """Every node of a matching mesh moved by noise: the assembled tangent has no kink, so it hardly changes."""
 
     def run(context):
-        outcome, library = Outcome(), Library(context.build)
+        outcome, library = Outcome(), context.library
         x1, f1 = grid(3, down=True, z=-0.001)
         x2, f2 = grid(5, lower=(-1 / 3, -1 / 3), size=5 / 3)  # around it, so that the edges inside coincide
         lam = pressed(x1)
@@ -73,7 +73,7 @@ def coverage(text):
     c = float(text)
 
     def run(context):
-        outcome, library = Outcome(), Library(context.build)
+        outcome, library = Outcome(), context.library
         x1, f1 = grid(1, down=True, z=-0.001)
         x2, f2 = grid(1, lower=(c - 2, -0.5), size=2.0)
         start = Interface(library, x1, f1, *grid(1, lower=(-1.5, -0.5), size=2.0), **OPTIONS)  # covered by half
@@ -112,7 +112,7 @@ def corner(text):
     d = float(text)
 
     def run(context):
-        outcome, library = Outcome(), Library(context.build)
+        outcome, library = Outcome(), context.library
         x1, f1 = grid(1, down=True, z=-0.001, turn=np.pi / 4)
         reach = x1[:, 0].min()
         x2, f2 = grid(4, lower=(reach + d, -3.0), size=6.0)
@@ -136,7 +136,7 @@ def touching(text):
     gap = float(text)
 
     def run(context):
-        outcome, library = Outcome(), Library(context.build)
+        outcome, library = Outcome(), context.library
         x1, f1 = grid(2, down=True, z=gap)
         x2, f2 = grid(3, lower=(-0.5, -0.5), size=2.0)
         interface = Interface(library, x1, f1, x2, f2, **OPTIONS)

@@ -8,6 +8,7 @@ CELLS = (3, 4, 5, 6, 7, 8)  # of the ball along each edge
 SIZES = ("1e-6", "1e-3", "1e3", "1e4", "1e6", "1e9")
 AWAY = ("0", "10", "1e3", "1e4", "1e5", "1e6")
 STIFF = ("1e12", "1e14", "1e15", "1e16", "1e18", "1e20")  # of the punch; the base has 1e3
+SOFT = ("500", "200", "50", "10", "2", "0.5")
 # A step ends at 2e-11 of the forces, in each of a few bodies.
 BALANCE = 1e-9
 LOST = "are lost in the rounding of its own forces"
@@ -65,44 +66,41 @@ def by_contact(run):
     return run.resultant("contact")[2]
 
 
-def stiff(young):
-    common = {"type": "box", "poisson": 0.3}
-    scene = {
-        "schema": 1,
-        "bodies": ["punch", "base"],
-        "punch": common | {"lower": [0.1, 0.1, 1], "upper": [0.9, 0.9, 1.5], "cells": [2, 2, 2], "young": float(young)},
-        "base": common | {"lower": [0, 0, 0], "upper": [1, 1, 1], "cells": [3, 3, 2], "young": 1000},
-        "supports": ["ground", "guide"],
-        "ground": {"surface": "base.zmin", "components": ["x", "y", "z"]},
-        "guide": {"surface": "punch.zmax", "components": ["x", "y"], "value": [0.01, 0, 0]},
-        "loads": ["press"],
-        "press": {"surface": "punch.zmax", "pressure": 10},
-        "interfaces": ["contact"],
-        "contact": {"nonmortar": "punch.zmin", "mortar": "base.zmax", "friction": 0.3},
-        "steps": {"count": 3},
-        "output": {"vtu": "none", "csv": "none"},
-    }
-    return pressed(scene, lambda run: 6.4)
-
-
-def soft(young):
-    """A soft block on a hard one widens, so that all of it slips outwards: friction holds it all the same."""
-    common = {"type": "box", "poisson": 0.3, "small_strain": True}
+def on_base(upper, friction, pressure, steps, guide=None, **more):
+    """A block from corner to corner on the base [0, 1]^3 with E = 1000, under a pressure, held by the contact alone but for
+    a `guide` of its head."""
+    common = {"type": "box", "poisson": 0.3} | more
+    lower, upper, cells, young = upper
+    area = (upper[0] - lower[0]) * (upper[1] - lower[1])
     scene = {
         "schema": 1,
         "bodies": ["block", "base"],
-        "block": common | {"lower": [0.2, 0.2, 1], "upper": [0.8, 0.8, 1.5], "cells": [3, 3, 2], "young": float(young)},
+        "block": common | {"lower": lower, "upper": upper, "cells": cells, "young": young},
         "base": common | {"lower": [0, 0, 0], "upper": [1, 1, 1], "cells": [3, 3, 2], "young": 1000},
         "supports": ["ground"],
         "ground": {"surface": "base.zmin", "components": ["x", "y", "z"]},
         "loads": ["press"],
-        "press": {"surface": "block.zmax", "pressure": 0.02 * float(young)},
+        "press": {"surface": "block.zmax", "pressure": pressure},
         "interfaces": ["contact"],
-        "contact": {"nonmortar": "block.zmin", "mortar": "base.zmax", "friction": 0.02},
-        "steps": {"count": 2},
+        "contact": {"nonmortar": "block.zmin", "mortar": "base.zmax", "friction": friction},
+        "steps": {"count": steps},
         "output": {"vtu": "none", "csv": "none"},
     }
-    return pressed(scene, lambda run: 0.02 * float(young) * 0.36)
+    if guide:
+        scene["supports"].append("guide")
+        scene["guide"] = {"surface": "block.zmax", "components": ["x", "y"], "value": guide}
+    return pressed(scene, lambda run: pressure * area)
+
+
+def stiff(young):
+    block = [0.1, 0.1, 1], [0.9, 0.9, 1.5], [2, 2, 2], float(young)
+    return on_base(block, friction=0.3, pressure=10, steps=3, guide=[0.01, 0, 0])
+
+
+def soft(young):
+    """A soft block on a hard one widens, so that all of it slips outwards: friction holds it all the same."""
+    block = [0.2, 0.2, 1], [0.8, 0.8, 1.5], [3, 3, 2], float(young)
+    return on_base(block, friction=0.02, pressure=0.02 * float(young), steps=2, small_strain=True)
 
 
 def cells():
@@ -114,4 +112,4 @@ def cells():
     yield from series("ball on a plane, size", SIZES, sized, quick=("1e3",))
     yield from series("ball on a plane, its point far away", AWAY, far, quick=("1e3",))
     yield from series("punch under a load, its modulus", STIFF, stiff, quick=("1e14", "1e18"), may_refuse=lost)
-    yield from series("soft block held by slipping friction, modulus", ("500", "200", "50", "10", "2", "0.5"), soft, quick=("10",))
+    yield from series("soft block held by slipping friction, modulus", SOFT, soft, quick=("10",))

@@ -5,7 +5,7 @@ from fractions import Fraction
 import numpy as np
 
 from cell import ELEMENT, Outcome, series
-from library import GAP, SLIP, STICK, Library
+from library import GAP, SLIP, STICK
 
 MARGINS = ("1e-2", "1e-4", "1e-6", "1e-8", "1e-10", "1e-11", "1e-13", "0")
 TIPS = ("1e0", "1e-10", "1e-50", "1e-100", "1e-150", "1e-200", "1e-300")
@@ -58,7 +58,7 @@ def margin(text):
     d = float(text)
 
     def run(context):
-        outcome, library = Outcome(), Library(context.build)
+        outcome, library = Outcome(), context.library
         for mu in (0.3, 1.0, 1e3):
             inside = check(outcome, library, f"mu {mu:g}, inside the cone", -1.0, mu * (1 - d), mu, max(1, mu))
             outside = check(outcome, library, f"mu {mu:g}, outside", -1.0, mu * (1 + d), mu, max(1, mu))
@@ -78,7 +78,7 @@ def tip(text):
     s = float(text)
 
     def run(context):
-        outcome, library = Outcome(), Library(context.build)
+        outcome, library = Outcome(), context.library
         for name, n, t in (
             ("stick", -s, 0.1 * s),
             ("slip", -s, s),
@@ -96,7 +96,7 @@ def friction(text):
     mu = float(text)
 
     def run(context):
-        outcome, library = Outcome(), Library(context.build)
+        outcome, library = Outcome(), context.library
         for name, t in (("no shear", 0.0), ("little shear", 1e-8), ("shear", 0.7), ("much shear", 1e5)):
             check(outcome, library, name, -1.0, t, mu, max(1.0, t))
         return outcome

@@ -7,7 +7,7 @@ import numpy as np
 
 from cell import ELEMENT, Outcome, series
 from cases.assembled import OPTIONS, grid, pressed
-from library import Interface, Library, Refused
+from library import Interface, Refused
 
 GAPS = ("1", "0.2", "1e-2", "1e-4", "1e-6", "1e-8")
 SIZES = ("3", "0.9", "0.5", "0.1", "1e-2", "1e-3")  # of the plates, over the facet's
@@ -29,7 +29,7 @@ def vertical(plates, **options):
     """What the plates are given of a unit pressure on the facet above them."""
 
     def run(context):
-        outcome, library = Outcome(), Library(context.build)
+        outcome, library = Outcome(), context.library
         x1, f1 = grid(1, down=True)
         x2, f2 = together(*plates)
         try:

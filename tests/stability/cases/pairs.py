@@ -4,7 +4,7 @@ import numpy as np
 
 import oracle
 from cell import ELEMENT, Outcome, series
-from library import DEGREE_10, DEGREE_5, Library, Refused
+from library import DEGREE_10, DEGREE_5, Refused
 from scenes import EPS
 
 # Weights: rounding of the largest, and of coordinates of the size of the facet.
@@ -46,7 +46,7 @@ def each_kind(compare_pair):
     """The run of a cell: the same for quadrilaterals and triangles."""
 
     def run(context):
-        outcome, library = Outcome(), Library(context.build)
+        outcome, library = Outcome(), context.library
         try:
             for name, facet in (("quad4", QUAD), ("tri3", TRIANGLE)):
                 compare_pair(outcome, library, name, facet)
@@ -204,7 +204,7 @@ NOT_CONVEX = r"not convex|folded"
 
 
 def against_many_points(context, x, y, allowed):
-    outcome, library = Outcome(), Library(context.build)
+    outcome, library = Outcome(), context.library
     try:
         found = {name: library.weights(x, y, quadrature=rule) for name, rule in RULES.items()}
     except Refused as refusal:

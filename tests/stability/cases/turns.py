@@ -27,8 +27,8 @@ def pressures(run, step):
     return np.linalg.norm([table[f"lambda_{c}"] for c in ("n", "tx", "ty", "tz")], axis=0)
 
 
-def compared(context, scene, bound):
-    run = context.solve(scene)
+def compared(context, scene, bound, *options):
+    run = context.solve(scene, *options)
     result = host.outcome(run)
     if result.refusal is None:
         states = [step["interfaces"]["contact"] for step in run.steps]
@@ -63,16 +63,8 @@ def blocks(degrees):
 
 def shaft(degrees):
     """A shaft stuck in a hub that turns."""
-
-    def run(context):
-        return compared(context, context.adapted("turned_shaft", times()), STUCK_ON_A_CURVE)
-
-    def turned(context):
-        solve = context.solve
-        context.solve = lambda scene: solve(scene, "-turn_rotate", f"0,0,{np.radians(degrees)!r}")
-        return run(context)
-
-    return turned
+    turn = ("-turn_rotate", f"0,0,{float(np.radians(degrees))!r}")
+    return lambda context: compared(context, context.adapted("turned_shaft", times()), STUCK_ON_A_CURVE, *turn)
 
 
 def cells():
