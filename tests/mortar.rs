@@ -296,6 +296,32 @@ fn a_line_far_from_the_middle_of_a_large_facet_covers_nothing() {
 
 /// A quadrilateral with an edge that is seen end-on: at both of its corners the map is singular but for rounding. It had
 /// weights that were no numbers at a point of that edge.
+/// Of a mortar facet that reaches up from the plane by ever more of its width: weights and derivatives are numbers, or it
+/// covers nothing, as one seen edge-on does. Its place in the plane has the rounding of the plane's normal, times height.
+#[test]
+fn a_facet_far_taller_than_wide_covers_nothing() {
+    let turn = nalgebra::Rotation3::new(Vec3::new(0.3, -0.8, 0.5));
+    let facet = |x: &[[f64; 3]]| Facet::new(&x.iter().map(|&x| turn * Vec3::from(x)).collect::<Vec<_>>()).unwrap();
+    let one = facet(&[[0.0, 0.0, 0.0], [1.0, 0.1, 0.0], [0.9, 1.2, 0.0], [-0.1, 0.8, 0.0]]);
+    let frame = NonmortarFrame::new(&one).unwrap();
+    let mut covered = 0;
+    for power in 0..70 {
+        let two = facet(&[[0.2, 0.2, 0.1], [0.3, 0.9, 0.1], [1.4, 0.5, 10_f64.powi(power)]]);
+        let Some(segment) = Segment::new(&frame, &two).unwrap() else {
+            assert!(power >= 9, "{power}");
+            continue;
+        };
+        assert!(power <= 10, "{power}");
+        covered += 1;
+        for rule in [&DEGREE_5, &DEGREE_10] {
+            let (w, d) = WeightDerivatives::integrate(&frame, &segment, rule);
+            assert!(w.ab.iter().chain(&w.ac).flatten().all(|v| v.is_finite()), "{power}");
+            assert!(d.ab.iter().chain(&d.ac).flatten().flatten().flatten().all(|v| v.is_finite()), "{power}");
+        }
+    }
+    assert!(covered >= 9, "{covered}");
+}
+
 #[test]
 fn a_facet_with_a_vanishing_edge_is_refused() {
     let one = [[4.0625, 2.0625, 0.0], [-0.0625, -0.0625, -0.0625], [-0.0625, -0.0625, 1e-5], [4.0625, -4.125, -0.0625]];
@@ -311,13 +337,15 @@ fn a_facet_with_a_vanishing_edge_is_refused() {
 
 /// A quadrilateral with three nodes on a line, seen nearly edge-on: its area is 1e-12 of its squared size, and of that
 /// rounding made a corner, at which the map's determinant came out as 0. It had weights, and derivatives that were no
-/// numbers with the rule of degree 10.
+/// numbers with the rule of degree 10. Ten thousand times as wide, its corner is refused.
 #[test]
-fn a_straight_corner_that_rounding_bends_is_refused() {
+fn a_straight_corner_that_rounding_bends_has_no_weights() {
     let one = [[5.9375, -1.6249999999, -1.625], [-1.625, -7.5, -2.0625], [-1.625, -1.625, -1.625]];
     let two = [[-1.625, -1.625, -1.625], [-1.625, -1.625, -1.875], [-1.625, -1.625, -5.625], [-1.625, 1.0, 1.0]];
+    let wide = [[-1.625, -1.625, -1.625], [-1.625, -1.625, -1.875], [-1.625, -1.625, -5.625], [-1.62499999, 1.0, 1.0]];
     let frame = NonmortarFrame::new(&Facet::new(&one.map(Vec3::from)).unwrap()).unwrap();
-    let error = Segment::new(&frame, &Facet::new(&two.map(Vec3::from)).unwrap()).unwrap_err();
+    assert!(Segment::new(&frame, &Facet::new(&two.map(Vec3::from)).unwrap()).unwrap().is_none());
+    let error = Segment::new(&frame, &Facet::new(&wide.map(Vec3::from)).unwrap()).unwrap_err();
     assert_eq!(error.kind, Kind::ProjectionNotConvex, "{error}");
 }
 

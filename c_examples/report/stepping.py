@@ -156,9 +156,9 @@ def cycling(verdicts, driver):
     periods = {report["period"] for report in reports}
     verdicts.true("hopeless augmentation: periods", periods <= {2, 3, 4}, f"{periods}")
     verdicts.true("hopeless augmentation: the message names them", "base node" in run.text, "exit code 2")
-    changes = summary["failed_attempts"][-1]["state_changes"]
+    changes = run.summary["failed_attempts"][-1]["state_changes"]
     verdicts.true("hopeless augmentation: nodes change state for ever", len(changes) > 4 and changes[-1] > 0, f"{changes}")
-    found = summary["diagnosis"]["base"]
+    found = run.summary["diagnosis"]["base"]
     told = "base: " in run.text and "smallest overlap" in run.text
     verdicts.true("hopeless augmentation: the diagnosis is told and kept", told and found["suspects"] == [], found["text"])
     verdicts.below(

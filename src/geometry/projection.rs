@@ -16,6 +16,9 @@ const SMALLEST_CORNER_SQUARED: f64 = 1e-14;
 const EDGE_ON: f64 = SMALLEST_AREA_RATIO;
 /// The same over size times distance from the plane's origin: rounding of coordinates gives a line an area, too.
 const PLACED: f64 = 16.0 * f64::EPSILON;
+/// The same over size times largest height over the plane. The rounding of the plane's normal times a height moves a
+/// node in the plane. Heights of this many facets move it by up to 1e-5 of a facet, where the normal is at its worst.
+const TALL: f64 = 1e-10;
 
 /// A facet in the plane.
 #[derive(Clone, Copy, Debug)]
@@ -90,11 +93,12 @@ impl Projection {
         self.node[1] != 1
     }
 
-    /// Whether the facet is seen edge-on, so that it covers nothing of the plane.
+    /// Whether the facet covers nothing of the plane: it is seen edge-on, or reaches so high that its place in the plane
+    /// is not known.
     #[inline(always)]
     pub fn is_edge_on(&self) -> bool {
-        let (flat, placed) = (EDGE_ON * self.size, PLACED * self.distance());
-        let least = if flat > placed { flat } else { placed };
+        let height = largest(&self.d.map(f64::abs));
+        let least = largest(&[EDGE_ON * self.size, PLACED * self.distance(), TALL * height, 0.0]);
         !(self.area2 > least * self.size)
     }
 
