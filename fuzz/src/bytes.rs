@@ -77,7 +77,7 @@ impl Bytes<'_> {
             b @ 0..6 => [i64::MIN, i64::MAX, -1, 1 << 40, 1 << 41, i64::MAX / 3][usize::from(b)],
             6 => self.word() as i64,
             b @ 7..16 => i64::from(b) - 7,
-            16 => usual - 1,
+            16 => usual.wrapping_sub(1),
             _ => usual,
         }
     }

@@ -3,16 +3,16 @@
 //! counts as one facet with the frame's four points as its nodes, so that all that follows from the weights (gaps,
 //! forces, slip, history) is as for two facets.
 
+use super::active::Active;
+use super::counters::Counters;
 use super::filter::LEAST_OPPOSITION;
-use super::history::PairRecord;
-use super::integration::{Integration, at_facet, frames};
-use super::{Contact, Counters, Extent, Friction, Options, Surface};
+use super::options::Options;
+use super::pairs::PairRecord;
+use super::surface::{Surface, at_facet, frames};
 use crate::error::{Error, Kind, Result};
 use crate::geometry::{AnalyticSurface, Plane, Vec3};
 use crate::memory::{self, Store, Stored};
-use crate::mortar::{ForceDerivatives, GapDerivative, NonmortarFrame, Segment, analytic_motion, analytic_weights};
-use crate::quadrature::Rule;
-use crate::shape::MAX_NODES;
+use crate::mortar::analytic_weights;
 use std::time::Instant;
 
 /// What a gap may lose to the frame's rounding, over the longest facet edge: beyond it a Newton method that works to 1e-10
@@ -69,7 +69,7 @@ pub(super) fn integrate(
     facing: &[bool],
     counters: &mut Counters,
     (x1, x2): (&[Vec3], &[Vec3]),
-) -> Result<Integration> {
+) -> Result<Active> {
     let start = Instant::now();
     let (frames, surface) = (frames(one, x1)?, two.analytic_at(x2)?);
     let mut pairs = memory::with_room(frames.len())?;
@@ -82,31 +82,8 @@ pub(super) fn integrate(
     }
     counters.pairs_integrated += pairs.len() as i64;
     counters.seconds_integration += start.elapsed().as_secs_f64();
-    let (x1, x2, extent) = (memory::copied(x1)?, memory::copied(x2)?, Extent::Part);
-    Ok(Integration { x1, x2, frames, pairs, segments: Vec::new(), sums: None, extent, apart: false })
-}
-
-impl<const N: usize> Contact<N> {
-    /// Per node, whether its normal looks away from an analytic mortar side; none does from a meshed one, nor where all
-    /// is tied. A gap runs along the surface's normal n. At a sharp edge one facet may face the surface while the averaged
-    /// nu leans past the horizontal: nu . n < 0, and an open gap would read as a penetration. Such a node touches nothing.
-    /// Of t_n alone, as nu is.
-    pub(super) fn looking_away(&self) -> Result<Vec<bool>> {
-        if self.mortar.analytic.is_none() || self.options.friction == Friction::Tied {
-            return Ok(Vec::new());
-        }
-        let surface = self.mortar.analytic_at(&self.history.x2)?;
-        let away = |a: usize| {
-            // A normal that is undefined, or a node on the axis, is refused where it is needed.
-            let (Some(nu), Some(closest)) =
-                (memory::if_accepted(self.normal(a))?, surface.closest(self.history.x1[a] - surface.origin))
-            else {
-                return Ok(false);
-            };
-            Ok(nu.dot(&closest.normal) < LEAST_OPPOSITION)
-        };
-        (0..self.nonmortar.len()).map(away).stored_if_ok()
-    }
+    let (x1, x2) = (memory::copied(x1)?, memory::copied(x2)?);
+    Ok(Active { x1, x2, frames, pairs, segments: Vec::new() })
 }
 
 /// Whether every node is outside the surface by more than any facet's edge there, in all of the configurations (x1, x2).
@@ -127,17 +104,4 @@ pub(super) fn are_apart((one, two): (&Surface, &Surface), places: &[(&[Vec3], &[
 pub(super) fn looks_at(surface: &AnalyticSurface, nodes: &[usize], x1: &[Vec3], nu: &[Vec3]) -> bool {
     let normal = |&k: &usize| surface.closest(x1[k] - surface.origin).map(|closest| closest.normal);
     nodes.iter().all(|k| normal(k).is_some_and(|n| nodes.iter().all(|&a| nu[a].dot(&n) > 0.0)))
-}
-
-/// The derivatives of a facet, as `Motion` has them.
-pub(super) fn motion(
-    surface: Option<&AnalyticSurface>,
-    frame: &NonmortarFrame,
-    _: (&[PairRecord], &[Segment]),
-    rule: &Rule,
-    traction: &[[f64; MAX_NODES]; 3],
-    forces: &mut ForceDerivatives,
-) -> Result<GapDerivative> {
-    let surface = surface.expect("of an analytic mortar side");
-    analytic_motion(frame, surface, rule, traction, forces)
 }

@@ -4,10 +4,13 @@
 //! facet's normal e from one side to the other. So where a plane lies between the sides, its sign is that of e along the
 //! plane's normal: every facet that can have a pair must look at the other side, now, and its nodes' nu(t_n) away.
 
+use super::analytic;
 use super::filter::Filter;
+use super::given::Given;
 use super::history::History;
+use super::options::{Options, Weights};
 use super::search::Aabb;
-use super::{Contact, Options, Surface, Weights, analytic};
+use super::surface::Surface;
 use crate::error::Result;
 use crate::geometry::Vec3;
 use crate::memory::{self, Stored};
@@ -38,30 +41,28 @@ fn directions(distance: f64, places: &[(&[Vec3], &[Vec3])]) -> Result<impl Itera
     Ok((0..6).filter(move |&side| above.iter().all(|sides| sides[side])).map(move |side| axes[side]))
 }
 
-impl<const N: usize> Contact<N> {
-    /// Whether the surfaces are apart at (x1, x2), were so at t_n, and look at each other.
-    pub(super) fn stays_apart(&self, x1: &[Vec3], x2: &[Vec3]) -> Result<bool> {
-        let History { x1: x1_n, x2: x2_n, .. } = &self.history;
-        let (surfaces, places) = ((&self.nonmortar, &self.mortar), [(&x1_n[..], &x2_n[..]), (x1, x2)]);
-        let Some(filter) = &self.filter else { return Ok(false) };
-        if !are_apart(surfaces, &self.options, filter, &places)? {
-            return Ok(false);
-        }
-        // A normal that is undefined is refused where it is needed.
-        let Some(nu) = memory::if_accepted(self.all_normals())? else { return Ok(false) };
-        let (one, reached) = (&self.nonmortar, filter.reached());
-        let mut facets = (0..reached.len()).filter(|&f| reached[f]);
-        let nodes = |f: usize| &one.facets[f].nodes[..one.facets[f].len];
-        let filter = match filter {
-            Filter::Facets(filter) => filter,
-            Filter::Analytic(_) => {
-                let surface = self.mortar.analytic_at(x2)?;
-                return Ok(facets.all(|f| analytic::looks_at(&surface, nodes(f), x1, &nu)));
-            }
-        };
-        let out: Vec<_> = facets.map(|f| (f, one.facet(f, x1).area_vector())).stored()?;
-        let nodes_look = out.iter().all(|(f, out)| nodes(*f).iter().all(|&a| nu[a].dot(out) < 0.0));
-        let mut directions = directions(filter.deepest(), &places)?;
-        Ok(nodes_look && directions.any(|direction| out.iter().all(|(_, out)| out.dot(&direction) > 0.0)))
+/// Whether the surfaces are apart at (x1, x2), were so at t_n, and look at each other.
+pub fn stays_apart<const N: usize>(given: Given<N>, x1: &[Vec3], x2: &[Vec3]) -> Result<bool> {
+    let History { x1: x1_n, x2: x2_n, .. } = given.history();
+    let (surfaces, places) = (given.setup.surfaces(), [(&x1_n[..], &x2_n[..]), (x1, x2)]);
+    let Some(filter) = &given.step.pairing.filter else { return Ok(false) };
+    if !are_apart(surfaces, &given.setup.options, filter, &places)? {
+        return Ok(false);
     }
+    // A normal that is undefined is refused where it is needed.
+    let Some(nu) = memory::if_accepted(given.normals())? else { return Ok(false) };
+    let (one, reached) = (surfaces.0, filter.reached());
+    let mut facets = (0..reached.len()).filter(|&f| reached[f]);
+    let nodes = |f: usize| &one.facets[f].nodes[..one.facets[f].len];
+    let filter = match filter {
+        Filter::Facets(filter) => filter,
+        Filter::Analytic(_) => {
+            let surface = surfaces.1.analytic_at(x2)?;
+            return Ok(facets.all(|f| analytic::looks_at(&surface, nodes(f), x1, &nu)));
+        }
+    };
+    let out: Vec<_> = facets.map(|f| (f, one.facet(f, x1).area_vector())).stored()?;
+    let nodes_look = out.iter().all(|(f, out)| nodes(*f).iter().all(|&a| nu[a].dot(out) < 0.0));
+    let mut directions = directions(filter.deepest(), &places)?;
+    Ok(nodes_look && directions.any(|direction| out.iter().all(|(_, out)| out.dot(&direction) > 0.0)))
 }

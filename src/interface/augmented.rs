@@ -1,15 +1,24 @@
 //! What only the augmented form needs (docs/formulation.md 5.4): its forces use the projected traction, whose
 //! derivative n_AB (dp/dsigma) r Dg_A couples all pairs of a node and is no sum over pairs.
 
+use super::given::Given;
+use super::multiplier::basis;
 use crate::element::{PairNow, frozen_rows, gap_rows};
 use crate::error::Result;
-use crate::geometry::Mat3;
+use crate::geometry::{Mat3, Vec3};
+use crate::law::NodeResponse;
 use crate::memory::Store;
 use crate::mortar::{MORTAR, PAIR_NODES, PairWeights, slots};
 
+/// dp/dg_now and dp/dg_previous of a node.
+pub fn dtraction<const N: usize>(given: Given<N>, a: usize, response: &NodeResponse<N>, nu: Vec3) -> (Mat3, Mat3) {
+    let basis = basis::<N>(nu) * given.augmentation(a);
+    (basis * response.drow_dnow, basis * response.drow_dprevious)
+}
+
 /// One node that a non-mortar node A is coupled with.
 #[derive(Clone, Debug)]
-pub(super) struct Coupling {
+pub struct Coupling {
     /// Index over both surfaces.
     pub node: usize,
     /// Assembled n_AB, or -n_AC: the share of p_A in the node's force [L^2].
@@ -22,7 +31,8 @@ pub(super) struct Coupling {
 
 /// Everything node A is coupled with, assembled over its pairs.
 #[derive(Clone, Debug, Default)]
-pub(super) struct NodeCouplings {
+pub struct NodeCouplings {
+    /// In the order in which they were met.
     pub nodes: Vec<Coupling>,
 }
 

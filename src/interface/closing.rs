@@ -13,11 +13,18 @@
 //! next the motion is at least what the nearest node has left, times that. Where facets turn on the way and an advance
 //! goes too far all the same, it is halved. Sums alone, no derivatives.
 
-use super::history::PairRecord;
-use super::integration::integrate;
-use super::nodes::{assemble, check_finite};
+use super::active::Active;
+use super::away::looking_away;
+use super::candidates::KeptTree;
+use super::counters::Counters;
+use super::given::{Given, check_finite};
+use super::integrate::integrate;
+use super::node_data::check_length;
+use super::options::{Friction, Weights};
+use super::pairs::PairRecord;
 use super::search::Aabb;
-use super::{Contact, Friction, Surface, Weights};
+use super::sums::assemble;
+use super::surface::Surface;
 use crate::error::{Error, Kind, Result};
 use crate::geometry::Vec3;
 use crate::memory::{self, Stored};
@@ -43,13 +50,13 @@ struct Gap {
     rate: f64,
 }
 
-/// A step: positions and what is added to them.
-struct Step<'a> {
+/// A step of the host's: positions and what is added to them.
+struct Motion<'a> {
     x: [&'a [Vec3]; 2],
     dx: [&'a [Vec3]; 2],
 }
 
-impl Step<'_> {
+impl Motion<'_> {
     /// The positions of one side at a fraction of the step.
     fn at(&self, side: usize, fraction: f64) -> Result<Vec<Vec3>> {
         self.x[side].iter().zip(self.dx[side]).map(|(x, dx)| x + fraction * dx).stored()
@@ -75,104 +82,106 @@ fn shortest_edges(surface: &Surface, x: &[Vec3]) -> Result<Vec<f64>> {
     Ok(shortest)
 }
 
-impl<const N: usize> Contact<N> {
-    /// The fraction of the step (dx1, dx2) from (x1, x2) that is allowed, above 0 and at most 1. `depth`: c, or the
-    /// default. Sides that are tied may move as they like.
-    pub fn step_limit(
-        &mut self,
-        (x1, x2): (&[Vec3], &[Vec3]),
-        (dx1, dx2): (&[Vec3], &[Vec3]),
-        depth: Option<f64>,
-    ) -> Result<f64> {
-        let depth = depth.unwrap_or(DEPTH);
-        if !(depth > 0.0 && depth <= MOST_DEPTH) {
-            let text =
-                text!("penetration is {depth}; above 0 and at most {MOST_DEPTH} is allowed, 0 stands for {DEPTH}");
-            return Err(Error::new(Kind::InvalidValue, text));
-        }
-        self.check_positions(x1, x2)?;
-        self.check_length("dx1", dx1.len(), x1.len())?;
-        self.check_length("dx2", dx2.len(), x2.len())?;
-        check_finite("dx1", dx1)?;
-        check_finite("dx2", dx2)?;
-        let step = Step { x: [x1, x2], dx: [dx1, dx2] };
-        check_finite("x1 + dx1", &step.at(0, 1.0)?)?;
-        check_finite("x2 + dx2", &step.at(1, 1.0)?)?;
-        // An analytic surface's frame that turns is no rigid body on the way; half-way it is least of one.
-        self.mortar.check_rigid(&step.at(1, 0.5)?)?;
-        let motion = step.motion();
-        if self.options.friction == Friction::Tied || motion == 0.0 {
-            return Ok(1.0);
-        }
-        let edges = shortest_edges(&self.nonmortar, x1)?;
-        let start = self.mean_gaps(&step, 0.0)?;
-        let limit = |a: usize| start[a].map_or(0.0, |gap| gap.mean.min(0.0)) - depth * edges[a];
-        let limits: Vec<_> = (0..edges.len()).map(limit).stored()?;
-        if self.options.effective_weights() != Weights::Current {
-            return Ok(linear_fraction(&start, &self.mean_gaps(&step, 1.0)?, &limits));
-        }
-        let shortest = edges.iter().copied().fold(f64::INFINITY, f64::min);
-        let slack = ROUNDING * depth * shortest;
-        let left_of =
-            |gaps: &[Option<Gap>]| rooms(gaps, &limits).map(|(room, rate)| room / rate).fold(f64::INFINITY, f64::min);
-        let allows = |gaps: &[Option<Gap>]| rooms(gaps, &limits).all(|(room, _)| room >= -slack);
-        // Where nothing can be evaluated, as between facets that are crushed on the way, the host could not, either.
-        if motion <= shortest && memory::if_accepted(self.mean_gaps(&step, 1.0))?.is_some_and(|gaps| allows(&gaps)) {
-            return Ok(1.0);
-        }
-        let advance = LEAST_ADVANCE * depth * shortest;
-        let (mut allowed, mut left, mut refused) = (0.0, left_of(&start), f64::INFINITY);
-        for _ in 0..MOST_FRACTIONS {
-            if left == f64::INFINITY {
-                left = shortest.max(self.distance_of_boxes(&step, allowed)?);
-            }
-            let fraction = (allowed + left.max(advance) / motion).min(1.0).min(0.5 * (allowed + refused));
-            match memory::if_accepted(self.mean_gaps(&step, fraction))?.filter(|gaps| allows(gaps)) {
-                Some(gaps) => (allowed, left) = (fraction, left_of(&gaps)),
-                None => refused = fraction,
-            }
-            if allowed == 1.0 || (refused - allowed) * motion <= advance {
-                break;
-            }
-        }
-        // Some of the step is taken in any case, for a host must get on.
-        Ok(if allowed > 0.0 { allowed } else { (advance / motion).min(1.0) })
+/// The fraction of the step (dx1, dx2) from (x1, x2) that is allowed, above 0 and at most 1. `depth`: c, or the
+/// default. Sides that are tied may move as they like.
+pub fn step_limit<const N: usize>(
+    given: Given<N>,
+    (active, counters, tree): (Option<&Active>, &mut Counters, &mut KeptTree),
+    (x1, x2): (&[Vec3], &[Vec3]),
+    (dx1, dx2): (&[Vec3], &[Vec3]),
+    depth: Option<f64>,
+) -> Result<f64> {
+    let (nonmortar, mortar) = given.setup.surfaces();
+    let depth = depth.unwrap_or(DEPTH);
+    if !(depth > 0.0 && depth <= MOST_DEPTH) {
+        let text = text!("penetration is {depth}; above 0 and at most {MOST_DEPTH} is allowed, 0 stands for {DEPTH}");
+        return Err(Error::new(Kind::InvalidValue, text));
     }
-
-    /// The mean gap of each node at a fraction of a step; `None`: it is uncovered.
-    fn mean_gaps(&mut self, step: &Step, fraction: f64) -> Result<Vec<Option<Gap>>> {
-        let (x1, x2) = (step.at(0, fraction)?, step.at(1, fraction)?);
-        let surfaces = (&self.nonmortar, &self.mortar);
-        let known = self.integration.as_ref().is_some_and(|k| !k.apart && k.x1 == x1 && k.x2 == x2);
-        let now = match (&self.filter, self.options.effective_weights()) {
-            (Some(filter), Weights::Current) if !known => {
-                let counters = (&mut self.counters, &mut self.tree);
-                Some(integrate(surfaces, &self.options, filter, counters, (&x1, &x2))?)
-            }
-            _ => None,
-        };
-        let pairs = now.as_ref().map_or(self.current_pairs(), |now| &now.pairs);
-        let (sums, rates) = (assemble(surfaces, pairs, &x1, &x2)?, rates(surfaces, pairs, (&x1, &x2))?);
-        let away = self.looking_away()?;
-        let gap = |(a, (coverage, gap)): (usize, &(f64, Vec3))| {
-            let covered =
-                !away.get(a).is_some_and(|away| *away) && *coverage > self.options.coverage_min * self.history.areas[a];
-            Ok(if covered { Some(Gap { mean: self.normal(a)?.dot(gap) / coverage, rate: rates[a] }) } else { None })
-        };
-        sums.iter().enumerate().map(gap).stored_if_ok()
+    given.check_positions(x1, x2)?;
+    check_length("dx1", dx1.len(), x1.len())?;
+    check_length("dx2", dx2.len(), x2.len())?;
+    check_finite("dx1", dx1)?;
+    check_finite("dx2", dx2)?;
+    let step = Motion { x: [x1, x2], dx: [dx1, dx2] };
+    check_finite("x1 + dx1", &step.at(0, 1.0)?)?;
+    check_finite("x2 + dx2", &step.at(1, 1.0)?)?;
+    // An analytic surface's frame that turns is no rigid body on the way; half-way it is least of one.
+    mortar.check_rigid(&step.at(1, 0.5)?)?;
+    let motion = step.motion();
+    if given.setup.options.friction == Friction::Tied || motion == 0.0 {
+        return Ok(1.0);
     }
-
-    /// How far apart the boxes around the two surfaces are, as far as the distance along one axis says `[L]`; 0 of an
-    /// analytic one, which has no box.
-    fn distance_of_boxes(&self, step: &Step, fraction: f64) -> Result<f64> {
-        if self.mortar.analytic.is_some() {
-            return Ok(0.0);
+    let edges = shortest_edges(nonmortar, x1)?;
+    let mut mean_gaps = |fraction: f64| mean_gaps(given, (active, &mut *counters, &mut *tree), &step, fraction);
+    let start = mean_gaps(0.0)?;
+    let limit = |a: usize| start[a].map_or(0.0, |gap| gap.mean.min(0.0)) - depth * edges[a];
+    let limits: Vec<_> = (0..edges.len()).map(limit).stored()?;
+    if given.setup.options.effective_weights() != Weights::Current {
+        return Ok(linear_fraction(&start, &mean_gaps(1.0)?, &limits));
+    }
+    let shortest = edges.iter().copied().fold(f64::INFINITY, f64::min);
+    let slack = ROUNDING * depth * shortest;
+    let left_of =
+        |gaps: &[Option<Gap>]| rooms(gaps, &limits).map(|(room, rate)| room / rate).fold(f64::INFINITY, f64::min);
+    let allows = |gaps: &[Option<Gap>]| rooms(gaps, &limits).all(|(room, _)| room >= -slack);
+    // Where nothing can be evaluated, as between facets that are crushed on the way, the host could not, either.
+    if motion <= shortest && memory::if_accepted(mean_gaps(1.0))?.is_some_and(|gaps| allows(&gaps)) {
+        return Ok(1.0);
+    }
+    let advance = LEAST_ADVANCE * depth * shortest;
+    let (mut allowed, mut left, mut refused) = (0.0, left_of(&start), f64::INFINITY);
+    for _ in 0..MOST_FRACTIONS {
+        if left == f64::INFINITY {
+            left = shortest.max(distance_of_boxes(mortar, &step, allowed)?);
         }
-        let (one, two) = (Aabb::around(step.at(0, fraction)?), Aabb::around(step.at(1, fraction)?));
-        Ok(one.distance(&two))
+        let fraction = (allowed + left.max(advance) / motion).min(1.0).min(0.5 * (allowed + refused));
+        match memory::if_accepted(mean_gaps(fraction))?.filter(|gaps| allows(gaps)) {
+            Some(gaps) => (allowed, left) = (fraction, left_of(&gaps)),
+            None => refused = fraction,
+        }
+        if allowed == 1.0 || (refused - allowed) * motion <= advance {
+            break;
+        }
     }
+    // Some of the step is taken in any case, for a host must get on.
+    Ok(if allowed > 0.0 { allowed } else { (advance / motion).min(1.0) })
 }
 
+/// The mean gap of each node at a fraction of a step; `None`: it is uncovered.
+fn mean_gaps<const N: usize>(
+    given: Given<N>,
+    (active, counters, tree): (Option<&Active>, &mut Counters, &mut KeptTree),
+    step: &Motion,
+    fraction: f64,
+) -> Result<Vec<Option<Gap>>> {
+    let (x1, x2) = (step.at(0, fraction)?, step.at(1, fraction)?);
+    let (surfaces, options) = (given.setup.surfaces(), &given.setup.options);
+    let known = active.filter(|k| k.x1 == x1 && k.x2 == x2);
+    let now = match (&given.step.pairing.filter, options.effective_weights()) {
+        (Some(filter), Weights::Current) if known.is_none() => {
+            Some(integrate(surfaces, options, filter, (counters, tree), (&x1, &x2))?)
+        }
+        _ => None,
+    };
+    let pairs = now.as_ref().or(known).map_or(&given.history().pairs, |k| &k.pairs);
+    let (sums, rates) = (assemble(surfaces, pairs, &x1, &x2)?, rates(surfaces, pairs, (&x1, &x2))?);
+    let away = looking_away(given)?;
+    let gap = |(a, (coverage, gap)): (usize, &(f64, Vec3))| {
+        let covered = !away.get(a).is_some_and(|away| *away) && *coverage > given.least_coverage(a);
+        Ok(if covered { Some(Gap { mean: given.normal(a)?.dot(gap) / coverage, rate: rates[a] }) } else { None })
+    };
+    sums.iter().enumerate().map(gap).stored_if_ok()
+}
+
+/// How far apart the boxes around the two surfaces are, as far as the distance along one axis says `[L]`; 0 of an
+/// analytic one, which has no box.
+fn distance_of_boxes(mortar: &Surface, step: &Motion, fraction: f64) -> Result<f64> {
+    if mortar.analytic.is_some() {
+        return Ok(0.0);
+    }
+    let (one, two) = (Aabb::around(step.at(0, fraction)?), Aabb::around(step.at(1, fraction)?));
+    Ok(one.distance(&two))
+}
 /// By how much each covered node is above its limit `[L]`, and its rate.
 fn rooms<'a>(gaps: &'a [Option<Gap>], limits: &'a [f64]) -> impl Iterator<Item = (f64, f64)> + 'a {
     gaps.iter().zip(limits).filter_map(|(gap, limit)| gap.map(|gap| (gap.mean - limit, gap.rate)))
@@ -219,8 +228,8 @@ mod tests {
     #[test]
     fn a_common_motion_is_none() {
         let (x, dx) = ([Vec3::zeros(); 2], [Vec3::new(5.0, -7.0, 3.0); 2]);
-        assert_eq!(Step { x: [&x, &x], dx: [&dx, &dx] }.motion(), 0.0);
+        assert_eq!(Motion { x: [&x, &x], dx: [&dx, &dx] }.motion(), 0.0);
         let other = [Vec3::new(5.0, -7.0, 2.0); 2];
-        assert_eq!(Step { x: [&x, &x], dx: [&dx, &other] }.motion(), 1.0);
+        assert_eq!(Motion { x: [&x, &x], dx: [&dx, &other] }.motion(), 1.0);
     }
 }

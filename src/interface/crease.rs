@@ -7,7 +7,7 @@
 //! Copies that both stick are six conditions on three displacements, and a surface that sticks on both sides of a
 //! crease has a singular tangent: the copies of a split node are to act without friction.
 
-use super::Surface;
+use super::surface::Surface;
 use crate::error::{Error, Kind, Result};
 use crate::geometry::Vec3;
 use crate::memory::{self, Store, Stored};

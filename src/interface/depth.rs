@@ -9,9 +9,9 @@
 //! share a node, oppose and lie in a prism, to one that the pair's own measure admits. One that is reached may lie as
 //! deep as it does there. It is a number per mortar facet, not a list of pairs: in the next step it may slide to others.
 
-use super::Surface;
 use super::filter::FacetFilter;
 use super::search::{Prism, Tree};
+use super::surface::Surface;
 use crate::adjacency::root;
 use crate::error::Result;
 use crate::geometry::Vec3;

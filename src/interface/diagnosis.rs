@@ -7,8 +7,11 @@
 //! What couples several nodes (more multipliers than displacements to react) is not seen node by node.
 
 use super::emission::Sink;
-use super::nodes::NodeSums;
-use super::{Contact, NO_EQUATION, Weights};
+use super::given::Given;
+use super::options::Weights;
+use super::pairs::PairRecord;
+use super::sums::NodeSums;
+use super::surface::NO_EQUATION;
 use crate::error::{Error, Kind, Result, Text};
 use crate::geometry::{Facet, Plane, Vec3};
 use crate::law::State;
@@ -150,8 +153,9 @@ fn warp(facet: &Facet) -> f64 {
 }
 
 /// The entries of the multiplier rows: node, column, component, value.
-struct Rows<'a> {
-    of: &'a Owners,
+#[derive(Debug)]
+pub struct Rows {
+    of: Owners,
     entries: Vec<(usize, i64, usize, f64)>,
     /// Whether every entry of the tangent is.
     finite: bool,
@@ -159,7 +163,15 @@ struct Rows<'a> {
     refused: Option<Error>,
 }
 
+impl Rows {
+    /// None yet, of these multiplier equations.
+    pub fn new<const N: usize>(equations: &[[i64; N]]) -> Result<Rows> {
+        Ok(Rows { of: Owners::new(equations)?, entries: Vec::new(), finite: true, refused: None })
+    }
+}
+
 /// Node and component of every multiplier equation.
+#[derive(Debug)]
 struct Owners(Vec<(i64, (usize, usize))>);
 
 impl Owners {
@@ -179,7 +191,7 @@ impl Owners {
     }
 }
 
-impl Sink for Rows<'_> {
+impl Sink for Rows {
     fn add(&mut self, row: i64, column: i64, value: f64) {
         self.finite &= value.is_finite();
         if let Some((node, component)) = self.of.get(row)
@@ -190,126 +202,120 @@ impl Sink for Rows<'_> {
     }
 }
 
-impl<const N: usize> Contact<N> {
-    /// The diagnosis at (x, lambda). The state of the interface stays as it is.
-    pub fn diagnose(
-        &mut self,
-        x1: &[Vec3],
-        x2: &[Vec3],
-        lambda: &[SVector<f64, N>],
-        sums: Option<&[NodeSums]>,
-    ) -> Result<Diagnosis> {
-        let (node_sums, responses) = self.evaluate(x1, x2, lambda, sums)?;
-        let states: Vec<_> = responses.iter().map(|r| r.state).stored()?;
-        let fraction = |a: usize| node_sums[a].coverage / self.history.areas[a];
-        let covered = (0..states.len()).filter(|&a| fraction(a) > self.options.coverage_min);
-        let least_covered = covered.min_by(|&a, &b| fraction(a).total_cmp(&fraction(b))).map(|a| (a, fraction(a)));
-        // With sums a handle's rows are parts of rows: nothing can be said of them.
-        let suspects = if sums.is_some() { Vec::new() } else { self.suspects(x1, x2, lambda, &node_sums, &states)? };
-        let mut diagnosis =
-            Diagnosis { states, least_covered, overlap: None, warp: None, angle: None, error: None, suspects };
-        self.worst_pairs(x1, x2, &mut diagnosis);
-        Ok(diagnosis)
-    }
+/// The diagnosis of `states` and `suspects` at (x1, x2), whose weights are those of `pairs`.
+pub fn diagnosis<const N: usize>(
+    given: Given<N>,
+    pairs: &[PairRecord],
+    (x1, x2): (&[Vec3], &[Vec3]),
+    sums: &[NodeSums],
+    states: Vec<State>,
+    suspects: Vec<Suspect>,
+) -> Diagnosis {
+    let fraction = |a: usize| sums[a].coverage / given.history().areas[a];
+    let covered = (0..states.len()).filter(|&a| fraction(a) > given.setup.options.coverage_min);
+    let least_covered = covered.min_by(|&a, &b| fraction(a).total_cmp(&fraction(b))).map(|a| (a, fraction(a)));
+    let mut diagnosis =
+        Diagnosis { states, least_covered, overlap: None, warp: None, angle: None, error: None, suspects };
+    worst_pairs(given, pairs, (x1, x2), &mut diagnosis);
+    diagnosis
+}
 
-    fn worst_pairs(&self, x1: &[Vec3], x2: &[Vec3], d: &mut Diagnosis) {
-        if self.mortar.analytic.is_some() {
-            return;
-        }
-        // Where the weights are of.
-        let (x1, x2) = match self.options.effective_weights() {
-            Weights::Current => (x1, x2),
-            Weights::Committed => (&self.history.x1[..], &self.history.x2[..]),
-            Weights::Reference => (&self.nonmortar.reference[..], &self.mortar.reference[..]),
-        };
-        let mut smallest = None;
-        for pair in self.current_pairs() {
-            let (one, two) = (self.nonmortar.facet(pair.one, x1), self.mortar.facet(pair.two, x2));
-            let facets = [pair.one, pair.two];
-            let Ok(frame) = NonmortarFrame::new(&one) else { continue };
-            let Ok(Some(segment)) = Segment::new(&frame, &two) else { continue };
-            if segment.area == 0.0 {
-                continue; // it only touches
-            }
-            let whole = 0.5 * frame.projection.area2;
-            keep(&mut smallest, -segment.area / whole.min(0.5 * segment.mortar.area2), facets);
-            keep(&mut d.warp, warp(&one).max(warp(&two)), facets);
-            if let Ok(plane) = Plane::of(&two) {
-                keep(&mut d.angle, frame.plane.e.cross(&plane.e).norm().atan2(-frame.plane.e.dot(&plane.e)), facets);
-            }
-            let fine = PairWeights::integrate(&frame, &segment, &DEGREE_10);
-            let (n, m) = (pair.weights.ab.iter().chain(&pair.weights.ac), fine.ab.iter().chain(&fine.ac));
-            let apart = n.flatten().zip(m.flatten()).map(|(n, m)| (n - m).abs()).fold(0.0, f64::max);
-            keep(&mut d.error, apart / whole, facets);
-        }
-        d.overlap = smallest.map(|w: WorstPair| WorstPair { value: -w.value, ..w });
+fn worst_pairs<const N: usize>(given: Given<N>, pairs: &[PairRecord], (x1, x2): (&[Vec3], &[Vec3]), d: &mut Diagnosis) {
+    let ((nonmortar, mortar), h) = (given.setup.surfaces(), given.history());
+    if mortar.analytic.is_some() {
+        return;
     }
+    // Where the weights are of.
+    let (x1, x2) = match given.setup.options.effective_weights() {
+        Weights::Current => (x1, x2),
+        Weights::Committed => (&h.x1[..], &h.x2[..]),
+        Weights::Reference => (&nonmortar.reference[..], &mortar.reference[..]),
+    };
+    let mut smallest = None;
+    for pair in pairs {
+        let (one, two) = (nonmortar.facet(pair.one, x1), mortar.facet(pair.two, x2));
+        let facets = [pair.one, pair.two];
+        let Ok(frame) = NonmortarFrame::new(&one) else { continue };
+        let Ok(Some(segment)) = Segment::new(&frame, &two) else { continue };
+        if segment.area == 0.0 {
+            continue; // it only touches
+        }
+        let whole = 0.5 * frame.projection.area2;
+        keep(&mut smallest, -segment.area / whole.min(0.5 * segment.mortar.area2), facets);
+        keep(&mut d.warp, warp(&one).max(warp(&two)), facets);
+        if let Ok(plane) = Plane::of(&two) {
+            keep(&mut d.angle, frame.plane.e.cross(&plane.e).norm().atan2(-frame.plane.e.dot(&plane.e)), facets);
+        }
+        let fine = PairWeights::integrate(&frame, &segment, &DEGREE_10);
+        let (n, m) = (pair.weights.ab.iter().chain(&pair.weights.ac), fine.ab.iter().chain(&fine.ac));
+        let apart = n.flatten().zip(m.flatten()).map(|(n, m)| (n - m).abs()).fold(0.0, f64::max);
+        keep(&mut d.error, apart / whole, facets);
+    }
+    d.overlap = smallest.map(|w: WorstPair| WorstPair { value: -w.value, ..w });
+}
 
-    fn suspects(
-        &mut self,
-        x1: &[Vec3],
-        x2: &[Vec3],
-        lambda: &[SVector<f64, N>],
-        sums: &[NodeSums],
-        states: &[State],
-    ) -> Result<Vec<Suspect>> {
-        let of = Owners::new(&self.multiplier_equations)?;
-        let mut rows = Rows { of: &of, entries: Vec::new(), finite: true, refused: None };
-        self.tangent(x1, x2, lambda, None, &mut rows)?;
-        rows.refused.map_or(Ok(()), Err)?;
-        if !rows.finite {
+/// The nodes and directions in which multiplier rows (nearly) vanish.
+pub fn suspects<const N: usize>(
+    given: Given<N>,
+    rows: Rows,
+    sums: &[NodeSums],
+    states: &[State],
+) -> Result<Vec<Suspect>> {
+    let (equations, areas) = (&given.setup.multiplier_equations, &given.history().areas);
+    let Rows { of, entries, finite, refused } = rows;
+    refused.map_or(Ok(()), Err)?;
+    if !finite {
+        return Err(overflow());
+    }
+    let place = |&(node, column, component, _): &(usize, i64, usize, f64)| (node, column, component);
+    let entries = memory::sorted(&entries, |p, q| place(p).cmp(&place(q)))?;
+    let mut suspects = Vec::new();
+    for of_node in entries.chunk_by(|p, q| p.0 == q.0) {
+        let a = of_node[0].0;
+        let ordinary = given.row_scale(a) * areas[a];
+        // The rows' products with each other. A component without an equation is no suspect.
+        let mut gram = SMatrix::<f64, N, N>::zeros();
+        for i in (0..N).filter(|&i| equations[a][i] == NO_EQUATION) {
+            gram[(i, i)] = 1.0;
+        }
+        for of_column in of_node.chunk_by(|p, q| p.1 == q.1) {
+            let is_multiplier = of.get(of_column[0].1).is_some();
+            let unit = if is_multiplier { given.augmentation(a) * areas[a] } else { 1.0 };
+            let mut v = SVector::<f64, N>::zeros();
+            of_column.iter().for_each(|&(_, _, i, value)| v[i] += value * unit / ordinary);
+            gram += v * v.transpose();
+        }
+        if !gram.iter().all(|v| v.is_finite()) {
             return Err(overflow());
         }
-        let place = |&(node, column, component, _): &(usize, i64, usize, f64)| (node, column, component);
-        let entries = memory::sorted(&rows.entries, |p, q| place(p).cmp(&place(q)))?;
-        let mut suspects = Vec::new();
-        for of_node in entries.chunk_by(|p, q| p.0 == q.0) {
-            let a = of_node[0].0;
-            let ordinary = self.row_scale(a) * self.history.areas[a];
-            // The rows' products with each other. A component without an equation is no suspect.
-            let mut gram = SMatrix::<f64, N, N>::zeros();
-            for i in (0..N).filter(|&i| self.multiplier_equations[a][i] == NO_EQUATION) {
-                gram[(i, i)] = 1.0;
+        let fraction = sums[a].coverage / areas[a];
+        let new = sums[a].coverage_previous <= given.least_coverage(a);
+        for (value, direction) in least(given, a, &gram)?.into_iter().take(N) {
+            let ratio = value.max(0.0).sqrt();
+            if ratio >= SUSPECT {
+                continue;
             }
-            for of_column in of_node.chunk_by(|p, q| p.1 == q.1) {
-                let is_multiplier = of.get(of_column[0].1).is_some();
-                let unit = if is_multiplier { self.augmentation(a) * self.history.areas[a] } else { 1.0 };
-                let mut v = SVector::<f64, N>::zeros();
-                of_column.iter().for_each(|&(_, _, i, value)| v[i] += value * unit / ordinary);
-                gram += v * v.transpose();
-            }
-            if !gram.iter().all(|v| v.is_finite()) {
-                return Err(overflow());
-            }
-            let fraction = sums[a].coverage / self.history.areas[a];
-            let new = sums[a].coverage_previous <= self.options.coverage_min * self.history.areas[a];
-            for (value, direction) in self.least(a, &gram)?.into_iter().take(N) {
-                let ratio = value.max(0.0).sqrt();
-                if ratio >= SUSPECT {
-                    continue;
-                }
-                let cause = match states[a] {
-                    _ if fraction < LITTLE => Cause::Coverage,
-                    State::Stick if new => Cause::New,
-                    _ if ratio < VANISHING => Cause::Prescribed,
-                    _ => Cause::Other,
-                };
-                suspects.store(Suspect { node: a, direction, ratio, cause })?;
-            }
+            let cause = match states[a] {
+                _ if fraction < LITTLE => Cause::Coverage,
+                State::Stick if new => Cause::New,
+                _ if ratio < VANISHING => Cause::Prescribed,
+                _ => Cause::Other,
+            };
+            suspects.store(Suspect { node: a, direction, ratio, cause })?;
         }
-        memory::sorted(&suspects, |p: &Suspect, q| p.ratio.total_cmp(&q.ratio).then(p.node.cmp(&q.node)))
     }
+    memory::sorted(&suspects, |p: &Suspect, q| p.ratio.total_cmp(&q.ratio).then(p.node.cmp(&q.node)))
+}
 
-    /// Eigenvalues of the products of a node's rows, and their directions in space; the first N are in use.
-    fn least(&self, a: usize, gram: &SMatrix<f64, N, N>) -> Result<[(f64, Vec3); 3]> {
-        if N == 1 {
-            return Ok([(gram[(0, 0)], self.normal(a)?); 3]);
-        }
-        let all = SymmetricEigen::new(nalgebra::Matrix3::from_fn(|i, j| gram[(i, j)]));
-        // Of two opposite directions the one whose largest component is positive.
-        let signed = |v: Vec3| if v[v.icamax()] < 0.0 { -v } else { v };
-        Ok([0, 1, 2].map(|k| (all.eigenvalues[k], signed(all.eigenvectors.column(k).into()))))
+/// Eigenvalues of the products of a node's rows, and their directions in space; the first N are in use.
+fn least<const N: usize>(given: Given<N>, a: usize, gram: &SMatrix<f64, N, N>) -> Result<[(f64, Vec3); 3]> {
+    if N == 1 {
+        return Ok([(gram[(0, 0)], given.normal(a)?); 3]);
     }
+    let all = SymmetricEigen::new(nalgebra::Matrix3::from_fn(|i, j| gram[(i, j)]));
+    // Of two opposite directions the one whose largest component is positive.
+    let signed = |v: Vec3| if v[v.icamax()] < 0.0 { -v } else { v };
+    Ok([0, 1, 2].map(|k| (all.eigenvalues[k], signed(all.eigenvectors.column(k).into()))))
 }
 
 fn overflow() -> Error {

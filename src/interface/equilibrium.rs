@@ -6,8 +6,11 @@
 //! modulus it counts against h. Positions are rounded: what their last digits make of a gap does not count, nor what
 //! that makes of a traction.
 
-use super::nodes::NodeSums;
-use super::{Contact, Extent, NO_EQUATION};
+use super::carried::{carriers_sums, multiplier_share};
+use super::extent::Scope;
+use super::given::Given;
+use super::node::{is_left_out, node};
+use super::sums::NodeSums;
 use crate::error::{Error, Kind, Result};
 use crate::geometry::Vec3;
 use crate::law::{Measure, Violation};
@@ -58,73 +61,62 @@ impl Largest {
     }
 }
 
-impl<const N: usize> Contact<N> {
-    /// The distance of (x, lambda) from equilibrium. Nodes without any multiplier equation have no part in it.
-    pub fn equilibrium(
-        &mut self,
-        x1: &[Vec3],
-        x2: &[Vec3],
-        lambda: &[SVector<f64, N>],
-        sums: Option<&[NodeSums]>,
-        scales: &Scales,
-    ) -> Result<Equilibrium> {
-        let extent = Extent::of(sums);
-        let (sums, _) = self.evaluate(x1, x2, lambda, sums)?;
-        let nodes: Vec<usize> = (0..lambda.len()).filter(|&a| self.has_equation(a)).stored()?;
-        // A sliver's multiplier is a point load: it counts by its force.
-        let traction = |&a: &usize| lambda[a].norm() * (sums[a].coverage / self.history.areas[a]).min(1.0);
-        let traction = nodes.iter().map(traction).fold(scales.traction, f64::max);
-        let position = x1.iter().chain(x2).map(|x| x.amax()).fold(0.0, f64::max);
-        let rounding = ROUNDINGS * f64::EPSILON * position;
-        let length = |a: usize| self.history.areas[a].sqrt();
-        let length_scale = |a: usize| match scales.modulus {
-            0.0 => length(a),
-            modulus => length(a) * (traction / modulus),
-        };
-        let least = nodes.iter().map(|&a| length_scale(a)).fold(f64::INFINITY, f64::min);
-        let none = Largest { value: 0.0, scale: if least.is_finite() { least } else { 0.0 }, node: None };
-        let mut all = Equilibrium { gap: none, traction: Largest { scale: traction, ..none }, slip: none };
+/// The distance of (x, lambda) from equilibrium. Nodes without any multiplier equation have no part in it.
+pub fn equilibrium<const N: usize>(
+    given: Given<N>,
+    (x1, x2): (&[Vec3], &[Vec3]),
+    lambda: &[SVector<f64, N>],
+    (sums, carried): (&[NodeSums], &[bool]),
+    scope: Scope,
+    scales: &Scales,
+) -> Result<Equilibrium> {
+    let areas = &given.history().areas;
+    let nodes: Vec<usize> = (0..lambda.len()).filter(|&a| given.setup.has_multiplier(a)).stored()?;
+    // A sliver's multiplier is a point load: it counts by its force.
+    let traction = |&a: &usize| lambda[a].norm() * (sums[a].coverage / areas[a]).min(1.0);
+    let traction = nodes.iter().map(traction).fold(scales.traction, f64::max);
+    let position = x1.iter().chain(x2).map(|x| x.amax()).fold(0.0, f64::max);
+    let rounding = ROUNDINGS * f64::EPSILON * position;
+    let length = |a: usize| areas[a].sqrt();
+    let length_scale = |a: usize| match scales.modulus {
+        0.0 => length(a),
+        modulus => length(a) * (traction / modulus),
+    };
+    let least = nodes.iter().map(|&a| length_scale(a)).fold(f64::INFINITY, f64::min);
+    let none = Largest { value: 0.0, scale: if least.is_finite() { least } else { 0.0 }, node: None };
+    let mut all = Equilibrium { gap: none, traction: Largest { scale: traction, ..none }, slip: none };
 
-        let carried = self.carried(&sums)?;
-        let shared = if carried.contains(&true) {
-            self.carriers_sums(&sums, &carried, &self.all_normals()?)?
+    let shared =
+        if carried.contains(&true) { carriers_sums(given, sums, carried, &given.normals()?)? } else { Vec::new() };
+    for a in nodes {
+        let sum = shared.binary_search_by_key(&a, |(b, _)| *b).map_or(&sums[a], |at| &shared[at].1);
+        let stiffness = if scales.modulus > 0.0 { scales.modulus } else { traction } / length(a);
+        let share = (sum.coverage / areas[a]).min(1.0);
+        let elastic = scales.modulus / length(a) * rounding;
+        let measure = Measure {
+            coverage: sum.coverage,
+            coverage_previous: sum.coverage_previous,
+            stiffness,
+            rounding,
+            traction_rounding: ROUNDINGS * f64::EPSILON * traction + elastic,
+        };
+        let v = if carried.get(a).is_some_and(|c| *c) {
+            let own = given.carriers_of(a).iter();
+            let theirs: SVector<f64, N> = own.map(|&(b, w)| multiplier_share(given, a) * lambda[b] * w).sum();
+            Violation::uncovered((lambda[a] - theirs).norm(), &measure)
+        } else if is_left_out(given, a, scope) || sum.coverage <= given.least_coverage(a) {
+            Violation::uncovered(lambda[a].norm(), &measure)
         } else {
-            Vec::new()
+            let measure = Measure { traction_rounding: measure.traction_rounding / share, ..measure };
+            (given.setup.effects.violation)(&node(given, a, lambda[a], sum)?, &measure)
         };
-        for a in nodes {
-            let sum = shared.binary_search_by_key(&a, |(b, _)| *b).map_or(&sums[a], |at| &shared[at].1);
-            let stiffness = if scales.modulus > 0.0 { scales.modulus } else { traction } / length(a);
-            let share = (sum.coverage / self.history.areas[a]).min(1.0);
-            let elastic = scales.modulus / length(a) * rounding;
-            let measure = Measure {
-                coverage: sum.coverage,
-                coverage_previous: sum.coverage_previous,
-                stiffness,
-                rounding,
-                traction_rounding: ROUNDINGS * f64::EPSILON * traction + elastic,
-            };
-            let v = if carried.get(a).is_some_and(|c| *c) {
-                let own = self.carriers_of(a).iter();
-                let theirs: SVector<f64, N> = own.map(|&(b, w)| self.multiplier_share(a) * lambda[b] * w).sum();
-                Violation::uncovered((lambda[a] - theirs).norm(), &measure)
-            } else if self.is_left_out(a, extent) || sum.coverage <= self.options.coverage_min * self.history.areas[a] {
-                Violation::uncovered(lambda[a].norm(), &measure)
-            } else {
-                let measure = Measure { traction_rounding: measure.traction_rounding / share, ..measure };
-                (self.kernels.violation)(&self.node(a, lambda[a], sum)?, &measure)
-            };
-            if ![v.gap, v.traction, v.slip].iter().all(|v| v.is_finite()) {
-                let text = text!("the violation at non-mortar node {a} overflows: the inputs are out of range");
-                return Err(Error::new(Kind::NotFinite, text));
-            }
-            all.gap.offer(v.gap, length_scale(a), a);
-            all.traction.offer(v.traction, traction, a);
-            all.slip.offer(v.slip, length_scale(a), a);
+        if ![v.gap, v.traction, v.slip].iter().all(|v| v.is_finite()) {
+            let text = text!("the violation at non-mortar node {a} overflows: the inputs are out of range");
+            return Err(Error::new(Kind::NotFinite, text));
         }
-        Ok(all)
+        all.gap.offer(v.gap, length_scale(a), a);
+        all.traction.offer(v.traction, traction, a);
+        all.slip.offer(v.slip, length_scale(a), a);
     }
-
-    fn has_equation(&self, a: usize) -> bool {
-        self.multiplier_equations[a].iter().any(|&e| e != NO_EQUATION)
-    }
+    Ok(all)
 }

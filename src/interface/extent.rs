@@ -17,3 +17,12 @@ impl Extent {
         if sums.is_some() { Extent::Part } else { Extent::Whole }
     }
 }
+
+/// What an evaluation leaves out.
+#[derive(Clone, Copy, Debug)]
+pub struct Scope {
+    /// What it is about.
+    pub extent: Extent,
+    /// Whether the surfaces were found apart.
+    pub apart: bool,
+}

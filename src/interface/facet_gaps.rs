@@ -9,8 +9,8 @@
 //! against an analytic surface it does not. A closed facet has c_f = 0: its share is rounding, stays in the rest, and
 //! surfaces that are closed all over remain linear.
 
-use super::Surface;
-use super::integration::{Integration, at_facet};
+use super::active::Active;
+use super::surface::{Surface, at_facet};
 use crate::error::Result;
 use crate::geometry::{Mat3, Plane, Vec3};
 use crate::memory::{self, Stored};
@@ -33,11 +33,7 @@ fn axes(plane: &Plane) -> Mat3 {
 
 impl FacetGaps {
     /// Takes the shares of open facets out of the nodes' gaps.
-    pub(super) fn of(
-        (one, two): (&Surface, &Surface),
-        at: &Integration,
-        sums: &mut [(f64, Vec3)],
-    ) -> Result<FacetGaps> {
+    pub(super) fn of((one, two): (&Surface, &Surface), at: &Active, sums: &mut [(f64, Vec3)]) -> Result<FacetGaps> {
         let mut all = memory::filled([Vec3::zeros(); MAX_NODES], one.facets.len())?;
         for pairs in at.pairs.chunk_by(|p, q| p.one == q.one) {
             let f = pairs[0].one;

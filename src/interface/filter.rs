@@ -6,9 +6,7 @@
 //! the smaller of its facets is long, and by what the surfaces bulge from their facets beyond it. That is the pair's own
 //! measure; a mortar facet that coarse non-mortar facets let in may lie as deep as it does (`depth.rs`).
 
-use super::integration::at_facet;
-use super::search::{Aabb, Tree};
-use super::{Options, Surface, analytic, depth, hybrid, reach};
+use super::surface::{Surface, at_facet};
 use crate::error::Result;
 use crate::geometry::{Facet, Plane, Vec3};
 use crate::memory::{self, Stored};
@@ -33,32 +31,6 @@ pub(super) enum Filter {
 }
 
 impl Filter {
-    /// The filter of the configuration (x1, x2).
-    pub fn new(one: &Surface, two: &Surface, options: &Options, x1: &[Vec3], x2: &[Vec3]) -> Result<Filter> {
-        if two.analytic.is_some() {
-            return analytic::facing(one, &two.analytic_at(x2)?, options, x1).map(Filter::Analytic);
-        }
-        let sides = [Side::new(one, x1)?, Side::new(two, x2)?];
-        let mut filter = FacetFilter {
-            sides,
-            distance: options.search_distance,
-            depths: Vec::new(),
-            reached: Vec::new(),
-            by_cells: Vec::new(),
-        };
-        let points = filter.sides[1].facets.iter().map(|(facet, _)| Aabb::around(facet.points().iter().copied()));
-        let tree = Tree::new(points.stored()?)?;
-        filter.reached = reach::reached(&filter, &tree)?;
-        if filter.distance.is_none() {
-            filter.depths = depth::followed((one, two), &filter, &tree, x2)?;
-            if !filter.depths.is_empty() {
-                filter.reached = reach::reached(&filter, &tree)?;
-            }
-        }
-        filter.by_cells = hybrid::partly_covered((one, two), options.scheme, &filter, (x1, x2))?;
-        Ok(Filter::Facets(filter))
-    }
-
     /// Per non-mortar facet, whether it can have a pair.
     pub fn reached(&self) -> &[bool] {
         match self {
@@ -79,7 +51,8 @@ pub(super) struct Side {
 }
 
 impl Side {
-    fn new(surface: &Surface, x: &[Vec3]) -> Result<Side> {
+    /// Those of a surface at `x`.
+    pub fn new(surface: &Surface, x: &[Vec3]) -> Result<Side> {
         let facet = |f: usize| {
             let facet = surface.facet(f, x);
             Plane::of(&facet).map(|plane| (facet, plane)).map_err(at_facet(surface.side, f))
@@ -126,7 +99,7 @@ pub(super) struct FacetFilter {
     /// Non-mortar, mortar.
     pub sides: [Side; 2],
     /// What the host gives for both penetration and gap `[L]`.
-    distance: Option<f64>,
+    pub distance: Option<f64>,
     /// Per mortar facet, how deep it may lie beyond the pairs' own measure `[L]`; empty: none may.
     pub depths: Vec<f64>,
     /// Per non-mortar facet, whether any mortar facet can be a pair with it.

@@ -1,26 +1,15 @@
-//! What an interface remembers of t_n: configuration, weights, normals, areas, coverage, slip
-//! (docs/formulation.md 6.1). Changes only on commit, rolls back exactly, travels as flat arrays (`restart.rs`). Without friction there is no
-//! slip to measure: no gaps, no slip, and weights only where they are frozen; tied surfaces keep the gap, that
-//! of their facets too (`facet_gaps.rs`), and no slip.
+//! What an interface remembers of t_n: configuration, weights, normals, areas, coverage, slip (docs/formulation.md 6.1).
+//! It changes only on commit, rolls back exactly, and travels as flat arrays (`restart.rs`). Without friction there is no
+//! slip to measure: no gaps, no slip, and weights only where they are frozen. Tied surfaces keep the gap, that of their
+//! facets too (`facet_gaps.rs`), and no slip.
 
 use super::facet_gaps::{FacetGaps, REALS_PER_FACET};
 use super::options::{Friction, Options, Weights};
+use super::pairs::PairRecord;
 use crate::error::{Error, Kind, Result};
 use crate::geometry::Vec3;
 use crate::memory::{self, Stored};
-use crate::mortar::PairWeights;
 use crate::shape::MAX_NODES;
-
-/// The weights of one pair of facets.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PairRecord {
-    /// Non-mortar facet.
-    pub one: usize,
-    /// Mortar facet.
-    pub two: usize,
-    /// Their weights.
-    pub weights: PairWeights,
-}
 
 /// What a history holds besides configuration, normals, areas and coverage.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

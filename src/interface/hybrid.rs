@@ -2,9 +2,10 @@
 //! commit: a facet at the rim of the mortar surface would change its rule with every rounding, and Newton's method not
 //! converge.
 
+use super::candidates::{KeptTree, candidates};
 use super::filter::FacetFilter;
-use super::integration::{KeptTree, at_facet, candidates, frames};
-use super::{Scheme, Surface};
+use super::options::Scheme;
+use super::surface::{Surface, at_facet, frames};
 use crate::error::Result;
 use crate::geometry::Vec3;
 use crate::memory::{self, Stored};

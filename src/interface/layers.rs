@@ -6,9 +6,9 @@
 //! where a coverage by quadrature has the error of its rule. A sheet lies over itself only where its polygons have more
 //! area than the facet.
 
-use super::Surface;
-use super::history::PairRecord;
-use super::integration::Integration;
+use super::active::Active;
+use super::pairs::PairRecord;
+use super::surface::Surface;
 use crate::adjacency::root;
 use crate::error::{Error, Kind, Result};
 use crate::geometry::Vec2;
@@ -40,7 +40,7 @@ pub(super) struct Layers {
 }
 
 /// Refuses a mortar surface that lies in layers.
-pub(super) fn refuse(mortar: &Surface, at: &Integration) -> Result<()> {
+pub(super) fn refuse(mortar: &Surface, at: &Active) -> Result<()> {
     let Some(found) = find(mortar, at)?.next() else { return Ok(()) };
     let Layers { under, facets: [a, b], apart } = found?;
     let text = if apart > 0.0 {
@@ -57,7 +57,7 @@ pub(super) fn refuse(mortar: &Surface, at: &Integration) -> Result<()> {
 
 /// One pair of mortar facets for each non-mortar facet that has layers over it. None against an analytic mortar side,
 /// which has no overlaps.
-pub(super) fn find<'a>(mortar: &'a Surface, at: &'a Integration) -> Result<impl Iterator<Item = Result<Layers>> + 'a> {
+pub(super) fn find<'a>(mortar: &'a Surface, at: &'a Active) -> Result<impl Iterator<Item = Result<Layers>> + 'a> {
     let mut sheets = Sheets { met: memory::filled((usize::MAX, 0), mortar.reference.len())?, of: Vec::new() };
     let pairs = if at.segments.is_empty() { &[] } else { &at.pairs[..] };
     let mut first = 0;

@@ -2,10 +2,11 @@
 //! these positions a closed node must still have the pairs that it had. The new normals alone may change which facets
 //! look at each other, as long as they leave the node covered.
 
+use super::active::Active;
+use super::commit::Start;
 use super::filter::Filter;
-use super::history::PairRecord;
-use super::integration::Start;
-use super::{Contact, Weights};
+use super::pairs::PairRecord;
+use super::setup::Setup;
 use crate::error::{Error, Kind, Result};
 use crate::geometry::Vec3;
 use crate::law::{NodeResponse, State};
@@ -18,67 +19,62 @@ const NOTHING: f64 = 1e-12;
 /// contact, far below a gap.
 const TOUCHES: f64 = 1e-6;
 
-impl<const N: usize> Contact<N> {
-    /// Refuses a commit at (x1, x2) after which a closed node would have lost a pair because it is deep, or all that
-    /// covers it. Of weights of now: frozen ones do not say what the old filter would admit here.
-    pub(super) fn refuse_lost_contact(
-        &self,
-        new: &Start,
-        (x1, x2): (&[Vec3], &[Vec3]),
-        responses: &[NodeResponse<N>],
-    ) -> Result<()> {
-        let (Some(before), Weights::Current, Some(filter)) =
-            (&self.integration, self.options.effective_weights(), &new.filter)
-        else {
-            return Ok(());
-        };
-        let after = new.integration.as_ref().map_or(&new.history.pairs, |k| &k.pairs);
-        let mut lost = memory::filled(0.0, self.nonmortar.len())?;
-        for pair in missing(&before.pairs, after) {
-            let (low, deep) = match filter {
-                Filter::Facets(filter) => {
-                    let (low, high) = filter.heights(pair.one, pair.two);
-                    (low, Some(-high).filter(|depth| *depth > 0.0 && filter.opposes(pair.one, pair.two)))
-                }
-                Filter::Analytic(_) => (self.lowest_over_surface(pair.one, x1, x2)?, None),
-            };
-            let touches = low <= TOUCHES * self.nonmortar.facet(pair.one, x1).longest_edge();
-            for (k, &a) in self.nonmortar.facets[pair.one].as_slice().iter().enumerate() {
-                let coverage = pair.weights.coverage(k);
-                if !touches || coverage <= NOTHING * self.history.areas[a] || responses[a].state == State::Gap {
-                    continue;
-                }
-                lost[a] += coverage;
-                if let Some(depth) = deep {
-                    let text = text!(
-                        "non-mortar node {a} carries contact with mortar facet {}, which lies {depth:.3e} behind non-mortar facet {}: deeper than a pair may be in the next step; give search_distance, more than that, or smaller non-mortar facets",
-                        pair.two,
-                        pair.one
-                    );
-                    return Err(Error::new(Kind::ContactLost, text));
-                }
+/// Refuses a commit at (x1, x2) after which a closed node would have lost a pair because it is deep, or all that
+/// covers it. `before`: the pairs of now, of weights of now: frozen
+/// ones do not say what the old filter would admit here; with the nodes' areas of t_n.
+pub fn refuse_lost_contact<const N: usize>(
+    setup: &Setup<N>,
+    (before, areas): (&Active, &[f64]),
+    new: &Start,
+    (x1, x2): (&[Vec3], &[Vec3]),
+    responses: &[NodeResponse<N>],
+) -> Result<()> {
+    let Some(filter) = &new.filter else { return Ok(()) };
+    let after = new.active.as_ref().map_or(&new.history.pairs, |k| &k.pairs);
+    let mut lost = memory::filled(0.0, setup.nonmortar.len())?;
+    for pair in missing(&before.pairs, after) {
+        let (low, deep) = match filter {
+            Filter::Facets(filter) => {
+                let (low, high) = filter.heights(pair.one, pair.two);
+                (low, Some(-high).filter(|depth| *depth > 0.0 && filter.opposes(pair.one, pair.two)))
             }
-        }
-        let threshold = |a: usize| self.options.coverage_min * new.history.areas[a];
-        match (0..lost.len()).find(|&a| lost[a] > threshold(a) && new.history.coverage[a] <= threshold(a)) {
-            None => Ok(()),
-            Some(a) => {
+            Filter::Analytic(_) => (lowest_over_surface(setup, pair.one, x1, x2)?, None),
+        };
+        let touches = low <= TOUCHES * setup.nonmortar.facet(pair.one, x1).longest_edge();
+        for (k, &a) in setup.nonmortar.facets[pair.one].as_slice().iter().enumerate() {
+            let coverage = pair.weights.coverage(k);
+            if !touches || coverage <= NOTHING * areas[a] || responses[a].state == State::Gap {
+                continue;
+            }
+            lost[a] += coverage;
+            if let Some(depth) = deep {
                 let text = text!(
-                    "non-mortar node {a} carries contact, but nothing that covers it could be its pair in the next step: with the normals of now the facets no longer look at each other, or search_distance is too small; take a smaller step, or give a larger search_distance"
+                    "non-mortar node {a} carries contact with mortar facet {}, which lies {depth:.3e} behind non-mortar facet {}: deeper than a pair may be in the next step; give search_distance, more than that, or smaller non-mortar facets",
+                    pair.two,
+                    pair.one
                 );
-                Err(Error::new(Kind::ContactLost, text))
+                return Err(Error::new(Kind::ContactLost, text));
             }
         }
     }
-
-    /// The least distance of a facet's nodes to the analytic mortar side `[L]`.
-    fn lowest_over_surface(&self, facet: usize, x1: &[Vec3], x2: &[Vec3]) -> Result<f64> {
-        let surface = self.mortar.analytic_at(x2)?;
-        let nodes = self.nonmortar.facets[facet].as_slice().iter();
-        Ok(nodes.map(|&a| surface.distance(x1[a] - surface.origin)).fold(f64::INFINITY, f64::min))
+    let threshold = |a: usize| setup.options.coverage_min * new.history.areas[a];
+    match (0..lost.len()).find(|&a| lost[a] > threshold(a) && new.history.coverage[a] <= threshold(a)) {
+        None => Ok(()),
+        Some(a) => {
+            let text = text!(
+                "non-mortar node {a} carries contact, but nothing that covers it could be its pair in the next step: with the normals of now the facets no longer look at each other, or search_distance is too small; take a smaller step, or give a larger search_distance"
+            );
+            Err(Error::new(Kind::ContactLost, text))
+        }
     }
 }
 
+/// The least distance of a facet's nodes to the analytic mortar side `[L]`.
+fn lowest_over_surface<const N: usize>(setup: &Setup<N>, facet: usize, x1: &[Vec3], x2: &[Vec3]) -> Result<f64> {
+    let surface = setup.mortar.analytic_at(x2)?;
+    let nodes = setup.nonmortar.facets[facet].as_slice().iter();
+    Ok(nodes.map(|&a| surface.distance(x1[a] - surface.origin)).fold(f64::INFINITY, f64::min))
+}
 /// Those of `before` that are not in `after`; both are sorted by their facets.
 fn missing<'a>(before: &'a [PairRecord], after: &'a [PairRecord]) -> impl Iterator<Item = &'a PairRecord> {
     let mut after = after.iter().peekable();

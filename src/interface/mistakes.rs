@@ -1,8 +1,8 @@
 //! Mistakes of a host's that leave surfaces which look sound: the positions of both sides swapped, the node orders of both
 //! sides reversed. What speaks for them, and hardly ever without them.
 
-use super::Surface;
 use super::search::Aabb;
+use super::surface::Surface;
 use crate::geometry::Vec3;
 
 /// Positions nearer to the other side's first ones than this times the distance to their own are the other side's: bodies do

@@ -1,6 +1,6 @@
 //! The host's equation numbers: every multiplier is an unknown of its own.
 
-use super::{NO_EQUATION, Surface};
+use super::surface::{NO_EQUATION, Surface};
 use crate::error::{Error, Kind, Result};
 use crate::memory::{Store, Stored};
 

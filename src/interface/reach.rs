@@ -2,10 +2,10 @@
 //! the positions do: a facet that no facet of the other side passes the filter with has no pair, and a node among such
 //! facets alone no coverage, no gap and no traction; its multiplier row is -lambda / r.
 
-use super::Surface;
 use super::filter::{FacetFilter, Filter, LEAST_OPPOSITION};
-use super::history::PairRecord;
+use super::pairs::PairRecord;
 use super::search::{Aabb, Tree};
+use super::surface::Surface;
 use crate::error::Result;
 use crate::geometry::Vec3;
 use crate::memory::{self, Stored};
@@ -61,7 +61,7 @@ pub(super) fn coverable(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::interface::{Options, Stiffness};
+    use crate::interface::filter::Side;
 
     /// Surfaces of scattered facets of either size, any way round: the tree finds what all against all finds.
     #[test]
@@ -89,10 +89,14 @@ mod tests {
                 Surface::new(side, x, &facets, equations).unwrap()
             };
             let (one, two) = (surface("nonmortar", 20, 0.3, -1.0), surface("mortar", 12, 0.2, 1.0));
-            let mut options = Options::new(Stiffness::Modulus(1.0));
-            options.search_distance = (round % 3 > 0).then_some(0.05);
-            let filter = Filter::new(&one, &two, &options, &one.reference, &two.reference).unwrap();
-            let Filter::Facets(filter) = filter else { unreachable!("no analytic side") };
+            let side = |surface: &Surface| Side::new(surface, &surface.reference).unwrap();
+            let filter = FacetFilter {
+                sides: [side(&one), side(&two)],
+                distance: (round % 3 > 0).then_some(0.05),
+                depths: Vec::new(),
+                reached: Vec::new(),
+                by_cells: Vec::new(),
+            };
             let expected: Vec<_> = (0..20).map(|i| (0..12).any(|j| filter.admits(i, j))).collect();
             let tree = Tree::new(two.facets.iter().map(|f| Aabb::around(f.nodes.map(|k| two.reference[k]))).collect())
                 .unwrap();

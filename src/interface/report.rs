@@ -1,12 +1,17 @@
 //! What a host should know of how its surfaces lie: which nodes are covered, in part, not at all, by how many facets
 //! and layers; and, where nothing overlaps, what mistake that looks like.
 
+use super::candidates::KeptTree;
+use super::counters::Counters;
 use super::filter::LEAST_OPPOSITION;
-use super::history::PairRecord;
-use super::integration::{frames, integrate};
-use super::nodes::assemble;
+use super::given::Given;
+use super::integrate::integrate;
+use super::options::Weights;
+use super::pairs::PairRecord;
 use super::search::{Aabb, Prism, Tree};
-use super::{Contact, Weights, layers, mistakes};
+use super::sums::assemble;
+use super::surface::{Surface, frames};
+use super::{layers, mistakes};
 use crate::error::{Result, Text};
 use crate::geometry::{Plane, Vec3};
 use crate::memory::{self, Store, Stored};
@@ -122,116 +127,115 @@ impl Report {
     }
 }
 
-impl<const N: usize> Contact<N> {
-    /// Which nodes are covered, and how, at (x1, x2), however far apart the surfaces are there.
-    pub fn report(&mut self, x1: &[Vec3], x2: &[Vec3]) -> Result<Report> {
-        self.check_positions(x1, x2)?;
-        let surfaces = (&self.nonmortar, &self.mortar);
-        let now;
-        let mut several = memory::filled(false, self.nonmortar.len())?;
-        let (pairs, at) = match (self.options.effective_weights(), &self.filter) {
-            (Weights::Current, Some(filter)) => {
-                now = integrate(surfaces, &self.options, filter, (&mut self.counters, &mut self.tree), (x1, x2))?;
-                for found in layers::find(&self.mortar, &now)? {
-                    self.nonmortar.facets[found?.under].as_slice().iter().for_each(|&a| several[a] = true);
-                }
-                (&now.pairs, x1)
+/// Which nodes are covered, and how, at (x1, x2), however far apart the surfaces are there.
+pub fn report<const N: usize>(
+    given: Given<N>,
+    (counters, tree): (&mut Counters, &mut KeptTree),
+    (x1, x2): (&[Vec3], &[Vec3]),
+) -> Result<Report> {
+    let (surfaces, options, h) = (given.setup.surfaces(), &given.setup.options, given.history());
+    let now;
+    let mut several = memory::filled(false, given.nodes())?;
+    let (pairs, at) = match (options.effective_weights(), &given.step.pairing.filter) {
+        (Weights::Current, Some(filter)) => {
+            now = integrate(surfaces, options, filter, (counters, tree), (x1, x2))?;
+            for found in layers::find(surfaces.1, &now)? {
+                surfaces.0.facets[found?.under].as_slice().iter().for_each(|&a| several[a] = true);
             }
-            (Weights::Committed, _) => (&self.history.pairs, &self.history.x1[..]),
-            (_, _) => (&self.history.pairs, &self.nonmortar.reference[..]),
+            (&now.pairs, x1)
+        }
+        (Weights::Committed, _) => (&h.pairs, &h.x1[..]),
+        (_, _) => (&h.pairs, &surfaces.0.reference[..]),
+    };
+    let sums = assemble(surfaces, pairs, x1, x2)?;
+    let layers = covered_times(surfaces.0, pairs, at)?;
+    let claims = claims(surfaces.0, pairs)?;
+    let node = |a: usize| {
+        let fraction = sums[a].0 / h.areas[a];
+        let cover = match fraction {
+            f if f <= options.coverage_min => Cover::None,
+            _ if several[a] || layers[a] > MOST => Cover::Several,
+            f if f < LEAST => Cover::Part,
+            _ => Cover::Full,
         };
-        let sums = assemble(surfaces, pairs, x1, x2)?;
-        let layers = self.layers(pairs, at)?;
-        let claims = self.claims(pairs)?;
-        let node = |a: usize| {
-            let fraction = sums[a].0 / self.history.areas[a];
-            let cover = match fraction {
-                f if f <= self.options.coverage_min => Cover::None,
-                _ if several[a] || layers[a] > MOST => Cover::Several,
-                f if f < LEAST => Cover::Part,
-                _ => Cover::Full,
-            };
-            let least = match cover {
-                Cover::None => 0.0,
-                Cover::Several => 2.0,
-                _ => 1.0,
-            };
-            let layers = (layers[a] - (MOST - 1.0)).ceil().max(least) as i32;
-            NodeCover { cover, fraction, layers, facets: claims[a] }
+        let least = match cover {
+            Cover::None => 0.0,
+            Cover::Several => 2.0,
+            _ => 1.0,
         };
-        let nodes: Vec<_> = (0..self.nonmortar.len()).map(node).stored()?;
-        let mut depths = Vec::new();
-        for a in (0..nodes.len()).filter(|&a| nodes[a].cover != Cover::None) {
-            let (coverage, gap) = sums[a];
-            depths.store(-self.normal(a)?.dot(&gap) / coverage)?;
-        }
-        let penetration = depths.iter().fold(0.0_f64, |most, d| most.max(*d));
-        let inside_out = mistakes::are_inside_out(surfaces, (x1, x2), &depths);
-        let finding = if mistakes::are_swapped(surfaces, (x1, x2)) {
-            Some(Finding::Swapped)
-        } else if depths.is_empty() {
-            let why = self.why_nothing_overlaps(x1, x2)?;
-            Some(if why == Finding::NoOverlap && inside_out { Finding::InsideOut } else { why })
-        } else {
-            inside_out.then_some(Finding::InsideOut)
-        };
-        Ok(Report { nodes, penetration, finding })
+        let layers = (layers[a] - (MOST - 1.0)).ceil().max(least) as i32;
+        NodeCover { cover, fraction, layers, facets: claims[a] }
+    };
+    let nodes: Vec<_> = (0..given.nodes()).map(node).stored()?;
+    let mut depths = Vec::new();
+    for a in (0..nodes.len()).filter(|&a| nodes[a].cover != Cover::None) {
+        let (coverage, gap) = sums[a];
+        depths.store(-given.normal(a)?.dot(&gap) / coverage)?;
     }
+    let penetration = depths.iter().fold(0.0_f64, |most, d| most.max(*d));
+    let inside_out = mistakes::are_inside_out(surfaces, (x1, x2), &depths);
+    let finding = if mistakes::are_swapped(surfaces, (x1, x2)) {
+        Some(Finding::Swapped)
+    } else if depths.is_empty() {
+        let why = why_nothing_overlaps(surfaces, (x1, x2))?;
+        Some(if why == Finding::NoOverlap && inside_out { Finding::InsideOut } else { why })
+    } else {
+        inside_out.then_some(Finding::InsideOut)
+    };
+    Ok(Report { nodes, penetration, finding })
+}
 
-    /// Per non-mortar node the most that a facet around it is covered, over the facet's area at `x`.
-    fn layers(&self, pairs: &[PairRecord], x: &[Vec3]) -> Result<Vec<f64>> {
-        let one = &self.nonmortar;
-        let mut covered = memory::filled(0.0, one.facets.len())?;
-        for pair in pairs {
-            covered[pair.one] += (0..one.facets[pair.one].len).map(|k| pair.weights.coverage(k)).sum::<f64>();
-        }
-        let mut most = memory::filled(0.0_f64, one.len())?;
-        for (f, facet) in one.facets.iter().enumerate().filter(|(f, _)| covered[*f] > 0.0) {
-            let area: f64 = NonmortarFrame::new(&one.facet(f, x))?.nodal_areas().iter().sum();
-            facet.as_slice().iter().for_each(|&a| most[a] = most[a].max(covered[f] / area));
-        }
-        Ok(most)
+/// Per non-mortar node the most that a facet around it is covered, over the facet's area at `x`.
+fn covered_times(one: &Surface, pairs: &[PairRecord], x: &[Vec3]) -> Result<Vec<f64>> {
+    let mut covered = memory::filled(0.0, one.facets.len())?;
+    for pair in pairs {
+        covered[pair.one] += (0..one.facets[pair.one].len).map(|k| pair.weights.coverage(k)).sum::<f64>();
     }
-
-    /// Per non-mortar node the mortar facets that overlap with the facets around it.
-    fn claims(&self, pairs: &[PairRecord]) -> Result<Vec<i64>> {
-        let mut claims = Vec::new();
-        for pair in pairs {
-            let facet = &self.nonmortar.facets[pair.one];
-            let covered = (0..facet.len).filter(|&k| pair.weights.coverage(k) > 0.0);
-            claims.store_all(covered.map(|k| (facet.nodes[k], pair.two)))?;
-        }
-        claims.sort_unstable();
-        claims.dedup();
-        let mut counts = memory::filled(0, self.nonmortar.len())?;
-        claims.iter().for_each(|&(a, _)| counts[a] += 1);
-        Ok(counts)
+    let mut most = memory::filled(0.0_f64, one.len())?;
+    for (f, facet) in one.facets.iter().enumerate().filter(|(f, _)| covered[*f] > 0.0) {
+        let area: f64 = NonmortarFrame::new(&one.facet(f, x))?.nodal_areas().iter().sum();
+        facet.as_slice().iter().for_each(|&a| most[a] = most[a].max(covered[f] / area));
     }
+    Ok(most)
+}
 
-    /// Looks at all facets that lie over each other, whichever way they look and however deep.
-    fn why_nothing_overlaps(&self, x1: &[Vec3], x2: &[Vec3]) -> Result<Finding> {
-        let (one, two) = (&self.nonmortar, &self.mortar);
-        if two.analytic.is_some() {
-            return Ok(Finding::NoOverlap);
-        }
-        let facet_box = |f: usize| Aabb::around(two.facet(f, x2).points().iter().copied());
-        let tree = Tree::new((0..two.facets.len()).map(facet_box).stored()?)?;
-        let (mut found, mut same_way) = (Vec::new(), false);
-        for (i, frame) in frames(one, x1)?.iter().enumerate() {
-            tree.find(&Prism::over(one.facet(i, x1).points(), &frame.plane, 0.0), &mut found)?;
-            for &j in &found {
-                let facet = two.facet(j, x2);
-                let opposition = -frame.plane.e.dot(&Plane::of(&facet)?.e);
-                // A facet that cannot be projected lies over none.
-                let lies_over = || Segment::new(frame, &facet).is_ok_and(|s| s.is_some_and(|s| s.area > 0.0));
-                if opposition.abs() > LEAST_OPPOSITION && lies_over() {
-                    if opposition > 0.0 {
-                        return Ok(Finding::Behind);
-                    }
-                    same_way = true;
+/// Per non-mortar node the mortar facets that overlap with the facets around it.
+fn claims(one: &Surface, pairs: &[PairRecord]) -> Result<Vec<i64>> {
+    let mut claims = Vec::new();
+    for pair in pairs {
+        let facet = &one.facets[pair.one];
+        let covered = (0..facet.len).filter(|&k| pair.weights.coverage(k) > 0.0);
+        claims.store_all(covered.map(|k| (facet.nodes[k], pair.two)))?;
+    }
+    claims.sort_unstable();
+    claims.dedup();
+    let mut counts = memory::filled(0, one.len())?;
+    claims.iter().for_each(|&(a, _)| counts[a] += 1);
+    Ok(counts)
+}
+
+/// Looks at all facets that lie over each other, whichever way they look and however deep.
+fn why_nothing_overlaps((one, two): (&Surface, &Surface), (x1, x2): (&[Vec3], &[Vec3])) -> Result<Finding> {
+    if two.analytic.is_some() {
+        return Ok(Finding::NoOverlap);
+    }
+    let facet_box = |f: usize| Aabb::around(two.facet(f, x2).points().iter().copied());
+    let tree = Tree::new((0..two.facets.len()).map(facet_box).stored()?)?;
+    let (mut found, mut same_way) = (Vec::new(), false);
+    for (i, frame) in frames(one, x1)?.iter().enumerate() {
+        tree.find(&Prism::over(one.facet(i, x1).points(), &frame.plane, 0.0), &mut found)?;
+        for &j in &found {
+            let facet = two.facet(j, x2);
+            let opposition = -frame.plane.e.dot(&Plane::of(&facet)?.e);
+            // A facet that cannot be projected lies over none.
+            let lies_over = || Segment::new(frame, &facet).is_ok_and(|s| s.is_some_and(|s| s.area > 0.0));
+            if opposition.abs() > LEAST_OPPOSITION && lies_over() {
+                if opposition > 0.0 {
+                    return Ok(Finding::Behind);
                 }
+                same_way = true;
             }
         }
-        Ok(if same_way { Finding::SameWay } else { Finding::NoOverlap })
     }
+    Ok(if same_way { Finding::SameWay } else { Finding::NoOverlap })
 }

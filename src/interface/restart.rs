@@ -1,15 +1,16 @@
 //! The history as flat arrays, for a restart.
 //!
 //! Integers: the layout, the checksum (`checksum.rs`), the meaning (`meaning.rs`), commits, nodes of both sides; then lists,
-//! each after its length: the pairs' facets. Reals: x1, x2, normals, gaps, slip, gaps of facets, areas, coverage, the pairs' weights. What is
-//! not kept (`Keeps`) takes no room.
+//! each after its length: the pairs' facets. Reals: x1, x2, normals, gaps, slip, gaps of facets, areas, coverage, the
+//! pairs' weights. What is not kept (`Keeps`) takes no room.
 
 use super::checksum::{self, PLACE};
 use super::facet_gaps::{FacetGaps, REALS_PER_FACET};
-use super::history::{History, Keeps, PairRecord, REALS_PER_PAIR};
-use super::options::Weights;
+use super::history::{History, Keeps, REALS_PER_PAIR};
+use super::meaning;
+use super::options::{Options, Weights};
+use super::pairs::PairRecord;
 use super::surface::Surface;
-use super::{Contact, meaning};
 use crate::error::{Error, Kind, Result, Text};
 use crate::geometry::{Plane, Vec3};
 use crate::memory::{self, Store, Stored};
@@ -25,12 +26,24 @@ const HEADER: usize = 2 + meaning::LENGTH + 3;
 const UNIT: f64 = 1e-10;
 
 /// What an import must fit to.
-struct Host<'a> {
+pub struct Host<'a> {
     surfaces: (&'a Surface, &'a Surface),
     keeps: Keeps,
     meaning: [i64; meaning::LENGTH],
     /// Whether the weights are frozen for good.
     frozen: bool,
+}
+
+impl<'a> Host<'a> {
+    /// An interface of these surfaces and options.
+    pub fn new(surfaces: (&'a Surface, &'a Surface), options: &Options) -> Host<'a> {
+        Host {
+            surfaces,
+            keeps: Keeps::of(options),
+            meaning: meaning::of(options, surfaces.0, surfaces.1),
+            frozen: options.effective_weights() == Weights::Reference,
+        }
+    }
 }
 
 fn mismatch<T>(text: impl Into<Text>) -> Result<T> {
@@ -67,11 +80,11 @@ impl History {
     }
 
     /// The history as flat arrays.
-    fn export(&self, meaning: [i64; meaning::LENGTH]) -> Result<(Vec<i64>, Vec<f64>)> {
+    pub fn export(&self, host: &Host) -> Result<(Vec<i64>, Vec<f64>)> {
         let (n_integers, n_reals) = self.flat_size();
         let (mut integers, mut reals) = (memory::with_room(n_integers)?, memory::with_room(n_reals)?);
         let counts = [self.commits, self.x1.len() as i64, self.x2.len() as i64, self.pairs.len() as i64];
-        integers.store_all([LAYOUT, 0].into_iter().chain(meaning).chain(counts))?;
+        integers.store_all([LAYOUT, 0].into_iter().chain(host.meaning).chain(counts))?;
         for x in [&self.x1, &self.x2, &self.normals, &self.gap, &self.slip] {
             reals.store_all(x.iter().flat_map(|v| v.iter().copied()))?;
         }
@@ -90,7 +103,7 @@ impl History {
     ///
     /// # Errors
     /// [`Kind::HistoryMismatch`] or [`Kind::NotFinite`], naming the array.
-    fn import((integers, reals): (&[i64], &[f64]), host: &Host) -> Result<History> {
+    pub fn import((integers, reals): (&[i64], &[f64]), host: &Host) -> Result<History> {
         let &Host { surfaces: (nonmortar, mortar), keeps, frozen, .. } = host;
         let (n1, n2) = (nonmortar.len(), mortar.len());
         let (commits, facets) = check_header((integers, reals), host)?;
@@ -121,7 +134,10 @@ impl History {
         let history =
             History { keeps, commits, x1, x2, normals, areas, coverage, gap, facet_gaps, slip, pairs, integrated };
         check_contents(&history, (nonmortar, mortar), frozen)?;
-        Ok(history)
+        match mortar.check_rigid(&history.x2) {
+            Ok(()) => Ok(history),
+            Err(e) => mismatch(e.message),
+        }
     }
 }
 
@@ -190,38 +206,5 @@ fn check_contents(history: &History, (nonmortar, mortar): (&Surface, &Surface), 
     match facets.into_iter().find_map(Result::err) {
         Some(error) => mismatch(text!("a facet is degenerate at the history's positions: {error}")),
         None => Ok(()),
-    }
-}
-
-impl<const N: usize> Contact<N> {
-    fn meaning(&self) -> [i64; meaning::LENGTH] {
-        meaning::of(&self.options, &self.nonmortar, &self.mortar)
-    }
-
-    /// The history as flat arrays, for a restart.
-    pub fn export_history(&mut self) -> Result<(Vec<i64>, Vec<f64>)> {
-        self.ensure_history()?;
-        self.history.export(self.meaning())
-    }
-
-    /// Lengths of what [`Contact::export_history`] gives.
-    pub fn history_size(&mut self) -> Result<(usize, usize)> {
-        self.ensure_history()?;
-        Ok(self.history.flat_size())
-    }
-
-    /// Replaces the history by an imported one.
-    pub fn import_history(&mut self, integers: &[i64], reals: &[f64]) -> Result<()> {
-        let host = Host {
-            surfaces: (&self.nonmortar, &self.mortar),
-            keeps: Keeps::of(&self.options),
-            meaning: self.meaning(),
-            frozen: self.options.effective_weights() == Weights::Reference,
-        };
-        let history = History::import((integers, reals), &host)?;
-        if let Err(e) = self.mortar.check_rigid(&history.x2) {
-            return mismatch(e.message);
-        }
-        self.restore(history)
     }
 }

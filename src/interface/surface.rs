@@ -197,3 +197,27 @@ impl Surface {
         Facet { nodes: nodes.nodes.map(|k| x[k]), shape }
     }
 }
+
+/// Names the facets in a refusal.
+pub(super) fn at_facet(side: &str, facet: usize) -> impl FnOnce(Error) -> Error {
+    move |e| Error::new(e.kind, text!("{side} facet {facet}: {}", e.message))
+}
+
+/// The frames of all facets of a surface.
+pub(super) fn frames(surface: &Surface, x: &[Vec3]) -> Result<Vec<NonmortarFrame>> {
+    // A collected Result knows no length, and frames are large.
+    let mut frames = memory::with_room(surface.facets.len())?;
+    for f in 0..surface.facets.len() {
+        frames.store(NonmortarFrame::new(&surface.facet(f, x)).map_err(at_facet(surface.side, f))?)?;
+    }
+    for edge in &surface.edges {
+        // Each runs the edge from another end.
+        for (i, from) in edge.nodes.into_iter().enumerate() {
+            let (facet, beyond) = (edge.facets[i], frames[edge.facets[1 - i]].plane.e);
+            if let Some(k) = surface.facets[facet].as_slice().iter().position(|&node| node == from) {
+                frames[facet].plane.beyond[k] = Some(beyond);
+            }
+        }
+    }
+    Ok(frames)
+}

@@ -12,8 +12,8 @@
 //!
 //! Which nodes are weak and the weights w are settled by t_n: functions of the history, constants of the step.
 
-use super::Surface;
 use super::history::History;
+use super::surface::Surface;
 use crate::error::Result;
 use crate::memory::{self, Store, Stored};
 

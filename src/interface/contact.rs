@@ -1,0 +1,546 @@
+//! The handle: it owns an interface's data and calls the stages on it.
+
+use super::active::Active;
+use super::bytes;
+use super::cache::Cache;
+use super::closing;
+use super::commit::{self, Start};
+use super::counters::Counters;
+use super::derivatives::Motion;
+use super::describe;
+use super::diagnosis::{self, Diagnosis};
+use super::effects::Effects;
+use super::emission::Sink;
+use super::equilibrium::{self, Equilibrium, Scales};
+use super::extent::Extent;
+use super::given::{Given, Step};
+use super::history::{History, Keeps};
+use super::initial;
+use super::lost::refuse_lost_contact;
+use super::node_data::free_directions;
+use super::options::{Form, Friction, Options, Weights};
+use super::pairing::Pairing;
+use super::report::{self, Report};
+use super::residual::{self, Residual};
+use super::restart::Host;
+use super::setup::Setup;
+use super::sums::{NodeSums, assemble};
+use super::surface::Surface;
+use super::tangent::{Numbers, blocks, node_tangents};
+use super::turn::refuse_turn;
+use super::union::{UnionPair, possible_pairs, union};
+use crate::error::{Error, Kind, Result, Text};
+use crate::geometry::Vec3;
+use crate::law::NodeResponse;
+use crate::memory::{self, Stored};
+use crate::mortar::PairWeights;
+use nalgebra::SVector;
+use std::time::Instant;
+
+/// An interface with three multipliers per non-mortar node.
+pub type Interface = Contact<3>;
+
+/// A contact interface with N multipliers per non-mortar node: three, or one along the normal without friction. One
+/// thread at a time; distinct interfaces are independent.
+#[derive(Debug)]
+pub struct Contact<const N: usize> {
+    setup: Setup<N>,
+    step: Step,
+    rollback: Option<History>,
+    cache: Cache<N>,
+}
+
+impl Contact<3> {
+    /// An interface whose t_n is the surfaces' reference configuration.
+    ///
+    /// `multiplier_equations`: per non-mortar node and component, 0-based or [`super::NO_EQUATION`].
+    pub fn new(
+        nonmortar: Surface,
+        mortar: Surface,
+        multiplier_equations: Vec<[i64; 3]>,
+        options: Options,
+    ) -> Result<Interface> {
+        let mu = if options.friction == Friction::Rough { f64::INFINITY } else { options.mu };
+        let mu = memory::filled(mu, nonmortar.len())?;
+        let effects = Effects::of_three(&options, &mortar, &mu);
+        Self::build(Setup::new((nonmortar, mortar), multiplier_equations, options, mu, effects)?)
+    }
+
+    /// Friction coefficient per node.
+    pub fn set_friction(&mut self, mu: Vec<f64>) -> Result<()> {
+        if self.setup.options.friction != Friction::Coulomb {
+            let text = "mu belongs to Coulomb friction; this interface has another law";
+            return Err(Error::new(Kind::InvalidValue, text));
+        }
+        self.setup.nodes.set_mu(mu)?;
+        self.setup.effects = Effects::of_three(&self.setup.options, &self.setup.mortar, &self.setup.nodes.mu);
+        self.cache.forget();
+        Ok(())
+    }
+}
+
+impl Contact<1> {
+    /// A frictionless interface whose t_n is the surfaces' reference configuration.
+    ///
+    /// `multiplier_equations`: per non-mortar node, 0-based or [`super::NO_EQUATION`].
+    pub fn frictionless(
+        nonmortar: Surface,
+        mortar: Surface,
+        multiplier_equations: Vec<[i64; 1]>,
+        options: Options,
+    ) -> Result<Contact<1>> {
+        let options = Options { friction: Friction::None, ..options };
+        let effects = Effects::of_one(&options, &mortar);
+        let mu = memory::filled(0.0, nonmortar.len())?;
+        Self::build(Setup::new((nonmortar, mortar), multiplier_equations, options, mu, effects)?)
+    }
+}
+
+/// Data, and what a host sets.
+impl<const N: usize> Contact<N> {
+    fn build(setup: Setup<N>) -> Result<Contact<N>> {
+        let mut cache = Cache::default();
+        let at = (&setup.nonmortar.reference[..], &setup.mortar.reference[..]);
+        let start = commit::start(setup.surfaces(), &setup.options, Extent::Whole, cache.work(), at)?;
+        let pairing = Pairing::new(&setup, start.filter, &start.history)?;
+        let step = Step { history: start.history, pairing };
+        Given { setup: &setup, step: &step }.normals()?;
+        cache.begin(&step.history, start.active);
+        Ok(Contact { setup, step, rollback: None, cache })
+    }
+
+    /// What the stages are given.
+    fn given(&self) -> Given<'_, N> {
+        Given { setup: &self.setup, step: &self.step }
+    }
+
+    /// Augmentation r_A [F/L^5] per node; `None` returns to the options'.
+    pub fn set_augmentation(&mut self, r: Option<Vec<f64>>) -> Result<()> {
+        self.setup.nodes.set_augmentations(r)?;
+        self.cache.forget();
+        Ok(())
+    }
+
+    /// Unit normals into the non-mortar body; `None` returns to the averaged ones.
+    pub fn set_normals(&mut self, normals: Option<Vec<Vec3>>) -> Result<()> {
+        self.setup.nodes.set_normals(normals)?;
+        self.cache.forget();
+        Ok(())
+    }
+
+    /// Directions in which nodes are prescribed on both sides (or against a rigid mortar side): the
+    /// multiplier has no component there and the normal none either. Replaces all earlier ones.
+    ///
+    /// At a Dirichlet edge over a deformable mortar side do not declare it: the patch test needs that
+    /// component.
+    pub fn set_constraints(&mut self, directions: &[(usize, Vec3)]) -> Result<()> {
+        let free = free_directions(&self.setup.multiplier_equations, directions)?;
+        let old = std::mem::replace(&mut self.setup.nodes.free, free);
+        if let Err(e) = self.given().normals() {
+            self.setup.nodes.free = old;
+            return Err(e);
+        }
+        self.cache.forget();
+        Ok(())
+    }
+
+    /// Which nodes add their own block here; a parallel host lets exactly one handle do it.
+    pub fn set_owned(&mut self, owned: Vec<bool>) -> Result<()> {
+        self.setup.nodes.set_owned(owned)?;
+        self.cache.forget();
+        Ok(())
+    }
+
+    /// Multipliers per non-mortar node, N.
+    pub fn components(&self) -> usize {
+        N
+    }
+
+    /// Multiplier equations.
+    pub fn multipliers(&self) -> usize {
+        self.setup.multiplier_equations.as_flattened().iter().filter(|&&e| e != super::NO_EQUATION).count()
+    }
+
+    /// The options.
+    pub fn options(&self) -> &Options {
+        &self.setup.options
+    }
+
+    /// The non-mortar and the mortar surface.
+    pub fn surfaces(&self) -> (&Surface, &Surface) {
+        self.setup.surfaces()
+    }
+
+    /// The committed history.
+    pub fn history(&self) -> &History {
+        &self.step.history
+    }
+
+    /// What has been done so far.
+    pub fn counters(&self) -> Counters {
+        self.cache.counters
+    }
+
+    /// Pairs active at the last evaluation, commit or creation.
+    pub fn active_pairs(&self) -> usize {
+        self.cache.counters.pairs_active
+    }
+
+    /// nu_A: the host's or the committed one, normalised within the free directions.
+    pub fn normal(&self, a: usize) -> Result<Vec3> {
+        self.given().normal(a)
+    }
+
+    /// r_A [F/L^5]: the host's, or rhat_A / M_A.
+    pub fn augmentation(&self, a: usize) -> f64 {
+        self.given().augmentation(a)
+    }
+
+    /// Factor of node A's multiplier rows.
+    pub fn row_scale(&self, a: usize) -> f64 {
+        self.given().row_scale(a)
+    }
+
+    /// Slip of node A since the first configuration `[L]`, this step's included.
+    pub fn slip_after(&self, a: usize, response: &NodeResponse<N>, coverage_previous: f64) -> Vec3 {
+        self.given().slip_after(a, response, coverage_previous)
+    }
+
+    /// One sentence per effect: what is computed, and whether the options ask for it or the scene lets the library
+    /// choose it.
+    ///
+    /// # Errors
+    /// [`Kind::OutOfMemory`].
+    pub fn effects(&self) -> Result<Text> {
+        describe::effects(&self.setup)
+    }
+
+    /// Heap memory in use `[bytes]`: surfaces, histories, the filter, the search tree, the last evaluation, what is
+    /// set per node.
+    pub fn bytes(&self) -> usize {
+        bytes::of_setup(&self.setup)
+            + bytes::of_history(&self.step.history)
+            + bytes::of_pairing(&self.step.pairing)
+            + self.rollback.as_ref().map_or(0, bytes::of_history)
+            + self.cache.bytes()
+    }
+}
+
+/// Steps.
+impl<const N: usize> Contact<N> {
+    /// Puts a history in place with what belongs to its configuration; gives the old one back.
+    fn adopt(&mut self, start: Start) -> Result<History> {
+        let pairing = Pairing::new(&self.setup, start.filter, &start.history)?;
+        Ok(self.put_in_place(pairing, start.history, start.active))
+    }
+
+    fn put_in_place(&mut self, pairing: Pairing, history: History, active: Option<Active>) -> History {
+        let old = std::mem::replace(&mut self.step, Step { history, pairing }).history;
+        self.cache.begin(&self.step.history, active);
+        old
+    }
+
+    /// Takes (x1, x2) as the configuration of t_n, with nothing slipped yet, instead of the reference.
+    pub fn set_previous(&mut self, x1: &[Vec3], x2: &[Vec3]) -> Result<()> {
+        self.given().check_positions(x1, x2)?;
+        let work = self.cache.work();
+        let new = commit::start(self.setup.surfaces(), &self.setup.options, Extent::Whole, work, (x1, x2))?;
+        new.history.check_finite()?;
+        self.adopt(new)?;
+        self.rollback = None;
+        Ok(())
+    }
+
+    /// Accepts a converged step: (x1, x2) becomes t_n.
+    pub fn commit(
+        &mut self,
+        x1: &[Vec3],
+        x2: &[Vec3],
+        lambda: &[SVector<f64, N>],
+        sums: Option<&[NodeSums]>,
+    ) -> Result<()> {
+        let (extent, shared) = (Extent::of(sums), sums.is_some());
+        let (sums, responses) = self.evaluate(x1, x2, lambda, sums)?;
+        refuse_turn(self.given(), (x1, x2), shared)?;
+        let (surfaces, options, history) = (self.setup.surfaces(), &self.setup.options, &self.step.history);
+        let mut new = if options.effective_weights() == Weights::Reference {
+            let mut moved = history.moved_to(x1, x2)?;
+            // Also where mu is 0 at every node: it may be set before the next step. Tied nodes keep their first gap.
+            if history.keeps == Keeps::Slip {
+                let gaps = assemble(surfaces, &history.pairs, x1, x2)?;
+                moved.gap = gaps.into_iter().map(|(_, gap)| gap).stored()?;
+            }
+            Start { history: moved, filter: None, active: None }
+        } else {
+            commit::start(surfaces, options, extent, self.cache.work(), (x1, x2))?
+        };
+        if let (Some(active), Weights::Current) = (self.cache.active(), options.effective_weights()) {
+            refuse_lost_contact(&self.setup, (active, &history.areas), &new, (x1, x2), &responses)?;
+        }
+        new.history.commits = history.commits.saturating_add(1); // an imported history may hold any number
+        if self.setup.effects.slips {
+            let slip = |a: usize| self.slip_after(a, &responses[a], sums[a].coverage_previous);
+            new.history.slip = (0..responses.len()).map(slip).stored()?;
+        } else {
+            new.history.slip = memory::copied(&history.slip)?;
+        }
+        new.history.check_finite()?;
+        self.rollback = Some(self.adopt(new)?);
+        Ok(())
+    }
+
+    /// Undoes the last commit exactly.
+    ///
+    /// # Errors
+    /// [`Kind::NothingToRollBack`] when there is none; only one commit can be undone.
+    pub fn roll_back(&mut self) -> Result<()> {
+        let Some(history) = &self.rollback else {
+            let text = "no commit can be undone: none was made since creation, import or the last rollback";
+            return Err(Error::new(Kind::NothingToRollBack, text));
+        };
+        let pairing = Pairing::again(&self.setup, history)?;
+        if let Some(history) = self.rollback.take() {
+            self.put_in_place(pairing, history, None);
+        }
+        Ok(())
+    }
+
+    /// The history as flat arrays, for a restart.
+    pub fn export_history(&mut self) -> Result<(Vec<i64>, Vec<f64>)> {
+        self.cache.complete(&self.setup, &mut self.step)?;
+        self.step.history.export(&Host::new(self.setup.surfaces(), &self.setup.options))
+    }
+
+    /// Lengths of what [`Contact::export_history`] gives.
+    pub fn history_size(&mut self) -> Result<(usize, usize)> {
+        self.cache.complete(&self.setup, &mut self.step)?;
+        Ok(self.step.history.flat_size())
+    }
+
+    /// Replaces the history by an imported one, after which no commit can be undone.
+    pub fn import_history(&mut self, integers: &[i64], reals: &[f64]) -> Result<()> {
+        let history = History::import((integers, reals), &Host::new(self.setup.surfaces(), &self.setup.options))?;
+        let pairing = Pairing::again(&self.setup, &history)?;
+        self.put_in_place(pairing, history, None);
+        self.rollback = None;
+        Ok(())
+    }
+}
+
+/// Evaluations.
+impl<const N: usize> Contact<N> {
+    /// Stage 1, assembled: every node's gaps and coverage.
+    pub fn sums(&mut self, x1: &[Vec3], x2: &[Vec3]) -> Result<Vec<NodeSums>> {
+        self.cache.sums(&self.setup, &mut self.step, (x1, x2), Extent::Whole)
+    }
+
+    /// This handle's share of them, of several handles whose shares a host adds up.
+    pub fn share_of_sums(&mut self, x1: &[Vec3], x2: &[Vec3]) -> Result<Vec<NodeSums>> {
+        self.cache.sums(&self.setup, &mut self.step, (x1, x2), Extent::Part)
+    }
+
+    /// Stage 2: the law at every node. `sums` overrides this handle's own, for parallel hosts.
+    pub fn responses(
+        &mut self,
+        x1: &[Vec3],
+        x2: &[Vec3],
+        lambda: &[SVector<f64, N>],
+        sums: Option<&[NodeSums]>,
+    ) -> Result<Vec<NodeResponse<N>>> {
+        self.evaluate(x1, x2, lambda, sums).map(|(_, responses)| responses)
+    }
+
+    /// Stages 1 and 2: the sums, `sums` or this handle's own, and the law's answers to them.
+    pub fn evaluate(
+        &mut self,
+        x1: &[Vec3],
+        x2: &[Vec3],
+        lambda: &[SVector<f64, N>],
+        sums: Option<&[NodeSums]>,
+    ) -> Result<(Vec<NodeSums>, Vec<NodeResponse<N>>)> {
+        self.cache.respond(&self.setup, &mut self.step, (x1, x2), lambda, sums)?;
+        let answers = self.cache.answers();
+        Ok((memory::copied(&answers.sums)?, memory::copied(&answers.responses.nodes)?))
+    }
+
+    /// Multipliers for the first step.
+    ///
+    /// # Errors
+    /// [`Kind::InvalidValue`] once a step is committed.
+    pub fn initial_multipliers(&mut self) -> Result<Vec<SVector<f64, N>>> {
+        let history = &self.step.history;
+        if history.commits > 0 {
+            let text = text!("initial multipliers belong before the first step; {} are committed", history.commits);
+            return Err(Error::new(Kind::InvalidValue, text));
+        }
+        // Those of now: the history may keep none, or those of t_n may be left out so far.
+        let (x1, x2) = (memory::copied(&history.x1)?, memory::copied(&history.x2)?);
+        let sums = self.sums(&x1, &x2)?;
+        initial::initial_multipliers(self.given(), &sums)
+    }
+
+    /// Forces and multiplier rows at (x, lambda).
+    pub fn residual(
+        &mut self,
+        x1: &[Vec3],
+        x2: &[Vec3],
+        lambda: &[SVector<f64, N>],
+        sums: Option<&[NodeSums]>,
+    ) -> Result<Residual<N>> {
+        self.cache.respond(&self.setup, &mut self.step, (x1, x2), lambda, sums)?;
+        let responses = &self.cache.answers().responses;
+        residual::residual(self.given(), self.cache.pairs(&self.step.history), lambda, &responses.nodes)
+    }
+
+    /// The exact tangent d residual / d (x1, x2, lambda) at (x, lambda).
+    pub fn tangent(
+        &mut self,
+        x1: &[Vec3],
+        x2: &[Vec3],
+        lambda: &[SVector<f64, N>],
+        sums: Option<&[NodeSums]>,
+        sink: &mut impl Sink,
+    ) -> Result<()> {
+        if sums.is_some() && self.setup.options.form == Form::Augmented {
+            let text =
+                "sums with the augmented form: its tangent couples pairs of different handles; use the multiplier form";
+            return Err(Error::new(Kind::Unsupported, text));
+        }
+        let extent = Extent::of(sums);
+        self.cache.respond(&self.setup, &mut self.step, (x1, x2), lambda, sums)?;
+        let differentiates = self.setup.options.differentiates_weights();
+        if differentiates {
+            self.cache.find_segments(&self.setup, &self.step)?;
+        }
+        let start = Instant::now();
+        let (given, mortar, options) = (self.given(), &self.setup.mortar, &self.setup.options);
+        let (normals, responses) = (given.normals()?, &self.cache.answers().responses);
+        let surface = mortar.analytic.map(|_| mortar.analytic_at(x2)).transpose()?;
+        let motion = Motion {
+            side: self.setup.effects.side,
+            surface: surface.as_ref(),
+            tangent: options.tangent,
+            rule: options.rule,
+        };
+        let numbers = Numbers {
+            x1,
+            responses,
+            nodes: node_tangents(given, lambda, responses, &normals)?,
+            active: self.cache.active().filter(|_| differentiates),
+            motion,
+        };
+        let linearised = self.blocks(&self.union()?, &normals, extent, Some(&numbers), sink)?;
+        self.cache.counters.pairs_linearised += linearised;
+        self.cache.counters.seconds_assembly += start.elapsed().as_secs_f64();
+        Ok(())
+    }
+
+    fn blocks(
+        &self,
+        union: &[UnionPair],
+        normals: &[Vec3],
+        extent: Extent,
+        numbers: Option<&Numbers<N>>,
+        sink: &mut dyn Sink,
+    ) -> Result<i64> {
+        let given = (self.given(), normals);
+        if self.setup.effects.moves() {
+            blocks::<true, N>(given, union, extent, numbers, sink)
+        } else {
+            blocks::<false, N>(given, union, extent, numbers, sink)
+        }
+    }
+
+    /// The pairs that a tangent has here.
+    fn union(&self) -> Result<Vec<UnionPair<'_>>> {
+        if self.cache.scope(Extent::Whole).apart {
+            return Ok(Vec::new());
+        }
+        union(self.cache.pairs(&self.step.history), &self.step.history.pairs, self.setup.effects.slips)
+    }
+
+    /// The entries of the tangent at (x1, x2), in its order: as many as [`Contact::tangent`] writes there, without sums
+    /// (`Whole`) or with those of all handles. Their values mean nothing.
+    pub fn pattern(&mut self, x1: &[Vec3], x2: &[Vec3], extent: Extent, sink: &mut impl Sink) -> Result<()> {
+        self.given().check_positions(x1, x2)?;
+        self.cache.integrate(&self.setup, &mut self.step, (x1, x2), extent)?;
+        let normals = memory::filled(Vec3::zeros(), self.setup.nonmortar.len())?;
+        self.blocks(&self.union()?, &normals, extent, None, sink).map(|_| ())
+    }
+
+    /// The entries of any tangent, with sums or without, while the surfaces slide by less than a quarter of a facet. A
+    /// larger motion may need entries beyond these.
+    pub fn superset_pattern(&mut self, x1: &[Vec3], x2: &[Vec3], sink: &mut impl Sink) -> Result<()> {
+        self.given().check_positions(x1, x2)?;
+        // Refuses what an evaluation here does, and serves the next one.
+        self.cache.integrate(&self.setup, &mut self.step, (x1, x2), Extent::Whole)?;
+        let weights = PairWeights::default();
+        let given = Given { setup: &self.setup, step: &self.step };
+        let pairs = possible_pairs(given, self.cache.work().1, (x1, x2))?;
+        let any = |&(one, two)| UnionPair { one, two, now: Some(&weights), place: 0, previous: Some(&weights) };
+        let all: Vec<_> = pairs.iter().map(any).stored()?;
+        let normals = memory::filled(Vec3::zeros(), self.setup.nonmortar.len())?;
+        self.blocks(&all, &normals, Extent::Part, None, sink).map(|_| ())
+    }
+}
+
+/// Looking at an interface.
+impl<const N: usize> Contact<N> {
+    /// The fraction of the step (dx1, dx2) from (x1, x2) that is allowed, above 0 and at most 1. `depth`: how much deeper a
+    /// node may go, over its shortest edge, or the default. Sides that are tied may move as they like.
+    pub fn step_limit(&mut self, x: (&[Vec3], &[Vec3]), dx: (&[Vec3], &[Vec3]), depth: Option<f64>) -> Result<f64> {
+        let given = Given { setup: &self.setup, step: &self.step };
+        closing::step_limit(given, self.cache.looked_at(), x, dx, depth)
+    }
+
+    /// The distance of (x, lambda) from equilibrium. Nodes without any multiplier equation have no part in it.
+    pub fn equilibrium(
+        &mut self,
+        x1: &[Vec3],
+        x2: &[Vec3],
+        lambda: &[SVector<f64, N>],
+        sums: Option<&[NodeSums]>,
+        scales: &Scales,
+    ) -> Result<Equilibrium> {
+        let extent = Extent::of(sums);
+        self.cache.respond(&self.setup, &mut self.step, (x1, x2), lambda, sums)?;
+        let (answers, scope) = (self.cache.answers(), self.cache.scope(extent));
+        let known = (&answers.sums[..], &answers.responses.carried[..]);
+        equilibrium::equilibrium(self.given(), (x1, x2), lambda, known, scope, scales)
+    }
+
+    /// Which nodes are covered, and how, at (x1, x2), however far apart the surfaces are there.
+    pub fn report(&mut self, x1: &[Vec3], x2: &[Vec3]) -> Result<Report> {
+        self.given().check_positions(x1, x2)?;
+        let given = Given { setup: &self.setup, step: &self.step };
+        report::report(given, self.cache.work(), (x1, x2))
+    }
+
+    /// The diagnosis at (x, lambda). The state of the interface stays as it is.
+    pub fn diagnose(
+        &mut self,
+        x1: &[Vec3],
+        x2: &[Vec3],
+        lambda: &[SVector<f64, N>],
+        sums: Option<&[NodeSums]>,
+    ) -> Result<Diagnosis> {
+        let (node_sums, responses) = self.evaluate(x1, x2, lambda, sums)?;
+        let states: Vec<_> = responses.iter().map(|r| r.state).stored()?;
+        // With sums a handle's rows are parts of rows: nothing can be said of them.
+        let suspects = if sums.is_some() {
+            Vec::new()
+        } else {
+            let mut rows = diagnosis::Rows::new(&self.setup.multiplier_equations)?;
+            self.tangent(x1, x2, lambda, None, &mut rows)?;
+            diagnosis::suspects(self.given(), rows, &node_sums, &states)?
+        };
+        Ok(diagnosis::diagnosis(
+            self.given(),
+            self.cache.pairs(&self.step.history),
+            (x1, x2),
+            &node_sums,
+            states,
+            suspects,
+        ))
+    }
+}

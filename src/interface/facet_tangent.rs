@@ -1,0 +1,97 @@
+//! What the pairs of a non-mortar facet add to the same entries of the tangent.
+
+use crate::element::{PairNow, PairTangent};
+use crate::mortar::{MORTAR, PairWeights};
+use crate::shape::MAX_NODES;
+use crate::simd::{self, Kernel, Lanes};
+use std::borrow::Cow;
+
+/// The sum of those weights that there are; n_AC of one pair alone.
+pub fn total<'a>(weights: impl Iterator<Item = Option<&'a PairWeights>>) -> Option<Cow<'a, PairWeights>> {
+    weights.flatten().map(Cow::Borrowed).reduce(|mut sum, weights| {
+        let ab = &mut sum.to_mut().ab;
+        simd::dispatch(Add { first: false, sum: ab.as_flattened_mut(), values: weights.ab.as_flattened() });
+        sum
+    })
+}
+
+/// A facet's d force / d x, `[k][j][i][B]`, and its weights n_AB.
+pub type FacetNow<'a> = (&'a [[[[f64; MAX_NODES]; 3]; 3]], &'a [[f64; MAX_NODES]; MAX_NODES]);
+
+/// What the pairs of a non-mortar facet add to the same entries of the tangent.
+pub struct FacetTangent<const N: usize> {
+    /// `[k][j][i][B]`.
+    pub forces: [[[[f64; MAX_NODES]; 3]; 3]; MAX_NODES],
+    /// `[k][j][n][A]`.
+    pub rows: [[[[f64; MAX_NODES]; N]; 3]; MAX_NODES],
+    /// n_AB.
+    pub weights: [[f64; MAX_NODES]; MAX_NODES],
+    /// Whether a pair is active now.
+    pub acts: bool,
+}
+
+impl<const N: usize> Default for FacetTangent<N> {
+    fn default() -> Self {
+        FacetTangent {
+            forces: [[[[0.0; MAX_NODES]; 3]; 3]; MAX_NODES],
+            rows: [[[[0.0; MAX_NODES]; N]; 3]; MAX_NODES],
+            weights: [[0.0; MAX_NODES]; MAX_NODES],
+            acts: false,
+        }
+    }
+}
+
+impl<const N: usize> FacetTangent<N> {
+    /// What is there of pairs active now: d force / d x, and weights.
+    pub fn now(&self) -> Option<FacetNow<'_>> {
+        self.acts.then_some((&self.forces, &self.weights))
+    }
+
+    /// Adds a pair's share, or begins with the `first` one.
+    pub fn add(&mut self, first: bool, now: Option<&PairNow>, t: &PairTangent<N>) {
+        simd::dispatch(Add { first, sum: self.rows.flat_mut(), values: t.rows[..MORTAR].flat() });
+        if let Some(PairNow { weights, .. }) = now {
+            let (first, n) = (!self.acts, &weights.ab);
+            self.acts = true;
+            simd::dispatch(Add { first, sum: self.forces.flat_mut(), values: t.forces.one[..MORTAR].flat() });
+            simd::dispatch(Add { first, sum: self.weights.as_flattened_mut(), values: n.as_flattened() });
+        }
+    }
+}
+
+/// The values of nested arrays, one after the other.
+pub trait Flat {
+    /// To read.
+    fn flat(&self) -> &[f64];
+    /// To write.
+    fn flat_mut(&mut self) -> &mut [f64];
+}
+
+impl<const I: usize, const J: usize, const K: usize> Flat for [[[[f64; I]; J]; K]] {
+    fn flat(&self) -> &[f64] {
+        self.as_flattened().as_flattened().as_flattened()
+    }
+    fn flat_mut(&mut self) -> &mut [f64] {
+        self.as_flattened_mut().as_flattened_mut().as_flattened_mut()
+    }
+}
+
+/// Adds numbers, a multiple of four, to as many; the `first` ones replace what is there.
+struct Add<'a> {
+    first: bool,
+    sum: &'a mut [f64],
+    values: &'a [f64],
+}
+
+impl Kernel for Add<'_> {
+    type Output = ();
+    #[inline(always)]
+    fn run<L: Lanes>(self) {
+        if self.first {
+            return self.sum.copy_from_slice(self.values);
+        }
+        for (sum, v) in self.sum.as_chunks_mut().0.iter_mut().zip(self.values.as_chunks().0) {
+            *sum = (L::load(sum) + L::load(v)).store();
+        }
+    }
+}
