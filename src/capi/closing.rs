@@ -1,8 +1,8 @@
 //! How much of a step a host may take before surfaces that close pass through each other.
 
-use super::evaluation::Point;
 use super::guard::guard;
-use super::interface::{either, handle, sizes, stickslip_interface};
+use super::handle::{either, handle, sizes, stickslip_interface};
+use super::point::Point;
 use super::raw;
 
 /// How much of a step of Newton's method may be taken before the surfaces pass through each other: where contact alone

@@ -1,7 +1,7 @@
 //! What an interface computes, and what it has done.
 
 use super::guard::guard;
-use super::interface::{either, handle, stickslip_interface};
+use super::handle::{either, handle, stickslip_interface};
 use super::raw;
 use super::sized::{self, Sized64};
 use libc::c_char;

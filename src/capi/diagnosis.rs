@@ -1,9 +1,9 @@
 //! What may be wrong with an interface: for a host whose Newton does not converge, or whose solver finds a singular
 //! matrix.
 
-use super::evaluation::Point;
 use super::guard::guard;
-use super::interface::{either, handle, stickslip_interface};
+use super::handle::{either, handle, stickslip_interface};
+use super::point::Point;
 use super::raw;
 use super::sized::{self, Sized64};
 use crate::error::{Error, Kind, Result, Text};

@@ -1,9 +1,9 @@
 //! How far a point is from contact equilibrium: for a host's test of convergence.
 
-use super::evaluation::Point;
 use super::guard::guard;
-use super::interface::{either, handle, stickslip_interface};
+use super::handle::{either, handle, stickslip_interface};
 use super::node::{read_node, stickslip_node};
+use super::point::Point;
 use super::raw;
 use super::sized::{self, Sized64};
 use crate::error::{Error, Kind, Result};

@@ -1,8 +1,8 @@
 //! History of an interface: commit, rollback, restart.
 
-use super::evaluation::Point;
 use super::guard::guard;
-use super::interface::{either, handle, stickslip_interface};
+use super::handle::{either, handle, stickslip_interface};
+use super::point::Point;
 use super::raw;
 use crate::error::{Error, Kind};
 

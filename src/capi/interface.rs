@@ -1,8 +1,9 @@
 //! The interface handle: creation and overrides.
 
-use super::evaluation::Point;
 use super::guard::guard;
+use super::handle::{Inner, either, flat, handle, sizes, stickslip_interface};
 use super::options::{Choices, read_options, stickslip_options};
+use super::point::Point;
 use super::surface::{
     read_analytic, read_multipliers, read_owned, read_surface, refuse_multipliers, stickslip_surface,
 };
@@ -10,49 +11,6 @@ use super::{raw, sized};
 use crate::error::{Error, Kind, Result};
 use crate::interface::{Contact, Friction};
 use crate::memory::{self, Store, Stored};
-use nalgebra::SVector;
-
-/// A contact interface. Created and destroyed by the library; one thread at a time.
-pub struct stickslip_interface {
-    pub(super) inner: Inner,
-    pub(super) base: i64,
-}
-
-/// The interface by its number of multipliers per node.
-pub(super) enum Inner {
-    One(Contact<1>),
-    Three(Contact<3>),
-}
-
-/// Calls the same code for either kind.
-macro_rules! either {
-    ($inner:expr, $contact:ident => $body:expr) => {
-        match $inner {
-            $crate::capi::interface::Inner::One($contact) => $body,
-            $crate::capi::interface::Inner::Three($contact) => $body,
-        }
-    };
-}
-pub(super) use either;
-
-/// The handle behind a pointer.
-pub(super) fn handle<'a>(p: *mut stickslip_interface) -> Result<&'a mut stickslip_interface> {
-    raw::check(p, "interface")?;
-    // SAFETY: non-null and aligned; by the caller's contract it came from create, is not destroyed, and
-    // is used by this thread alone.
-    Ok(unsafe { &mut *p })
-}
-
-/// Nodes of the two sides.
-pub(super) fn sizes(interface: &Inner) -> (usize, usize) {
-    let (one, two) = either!(interface, c => c.surfaces());
-    (one.len(), two.len())
-}
-
-/// Components node by node.
-pub(super) fn flat<const N: usize>(v: &[SVector<f64, N>]) -> impl Iterator<Item = f64> {
-    v.iter().flat_map(|v| v.iter().copied())
-}
 
 /// Creates an interface between two surfaces, whose coordinates are the first configuration and t_0.
 ///

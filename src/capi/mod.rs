@@ -14,7 +14,8 @@
 //! # Compatibility
 //! Every struct begins with its `struct_size`, set by the caller. Structs grow at the end only: a shorter one (an
 //! older caller's) is taken as if its missing members were 0; a longer one (a newer caller's) is accepted when its
-//! unknown tail is zero, and filled with zeros where it is an output. Numbers of statuses and options are appended to, never reused. See `docs/abi.md`.
+//! unknown tail is zero, and filled with zeros where it is an output. Numbers of statuses and options are appended to,
+//! never reused. See `docs/abi.md`.
 #![allow(unsafe_code)]
 #![allow(non_camel_case_types)]
 #![allow(rustdoc::broken_intra_doc_links)] // The header's units stand in brackets, [L^2].
@@ -25,13 +26,19 @@ mod version;
 
 mod status;
 
+mod message;
+
 mod options;
 
 mod surface;
 
 mod preparation;
 
+mod handle;
+
 mod interface;
+
+mod point;
 
 mod evaluation;
 
@@ -48,6 +55,8 @@ mod report;
 mod diagnosis;
 
 mod facet;
+
+mod layout;
 
 mod pair;
 
@@ -66,11 +75,15 @@ pub use diagnosis::*;
 pub use equilibrium::*;
 pub use evaluation::*;
 pub use facet::*;
+pub use handle::*;
 pub use history::*;
 pub use interface::*;
+pub use layout::*;
+pub use message::*;
 pub use node::*;
 pub use options::*;
 pub use pair::*;
+pub use point::*;
 pub use preparation::*;
 pub use report::*;
 pub use status::*;

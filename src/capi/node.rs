@@ -1,8 +1,8 @@
 //! Stages 2 and 4 for one non-mortar node.
 
 use super::guard::guard;
+use super::layout::column_major;
 use super::options::slip_measure;
-use super::pair::column_major;
 use super::raw;
 use super::sized::{self, Sized64};
 use crate::error::{Error, Kind, Result};

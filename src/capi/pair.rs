@@ -2,6 +2,7 @@
 
 use super::facet::facet;
 use super::guard::guard;
+use super::layout::column_major;
 use super::node::stickslip_node_response;
 use super::options::{element_line, rule};
 use super::raw::{self, Output};
@@ -13,11 +14,6 @@ use crate::mortar::{
     self, AlongNormal, GapDerivative, MORTAR, NonmortarFrame, PairWeights, Segment, WeightDerivatives,
 };
 use crate::shape::MAX_NODES;
-
-/// Matrices go out row by row (what PETSc's MatSetValues takes).
-pub const STICKSLIP_LAYOUT_ROW_MAJOR: i32 = 0;
-/// Matrices go out column by column (what a Fortran array is).
-pub const STICKSLIP_LAYOUT_COLUMN_MAJOR: i32 = 1;
 
 /// A pair of facets, non-mortar first. Node order: right-hand, seen from outside each body.
 #[repr(C)]
@@ -350,16 +346,4 @@ pub unsafe extern "C" fn stickslip_pair_tangent(
         }
         Ok(())
     })
-}
-
-/// Whether a STICKSLIP_LAYOUT_... value asks for columns.
-pub(super) fn column_major(layout: i32, name: &str) -> Result<bool> {
-    match layout {
-        STICKSLIP_LAYOUT_ROW_MAJOR => Ok(false),
-        STICKSLIP_LAYOUT_COLUMN_MAJOR => Ok(true),
-        _ => Err(Error::new(
-            Kind::InvalidValue,
-            text!("{name} is {layout}; 0 (row-major) or 1 (column-major) are allowed"),
-        )),
-    }
 }

@@ -1,8 +1,8 @@
 //! How the surfaces of an interface lie: what a host shows its user before and between steps.
 
-use super::evaluation::Point;
 use super::guard::guard;
-use super::interface::{either, handle, stickslip_interface};
+use super::handle::{either, handle, stickslip_interface};
+use super::point::Point;
 use super::raw;
 use super::sized::{self, Sized64};
 use crate::error::{Result, Text};

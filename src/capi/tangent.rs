@@ -1,8 +1,8 @@
 //! The interface's tangent in the host's sparse formats.
 
-use super::evaluation::Point;
 use super::guard::guard;
-use super::interface::{either, handle, stickslip_interface};
+use super::handle::{either, handle, stickslip_interface};
+use super::point::Point;
 use super::raw;
 use crate::error::{Error, Kind, Result};
 use crate::interface::{Extent, NO_EQUATION, Sink};

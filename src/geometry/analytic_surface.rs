@@ -7,7 +7,7 @@
 //!
 //! Signs: the normal n points out of the surface's body, the distance s `[L]` along it, x - y = s n; s > 0 is outside.
 
-use super::{Mat3, Vec3};
+use super::vector::{Mat3, Vec3};
 use crate::error::{Error, Kind, Result};
 use std::fmt;
 

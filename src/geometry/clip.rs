@@ -3,7 +3,8 @@
 //! Serves the volume part of the weights only, which depends on the region and not on who owns its
 //! edges; the edge part of the derivative has its own exact intervals (`edge_interval`).
 
-use super::{Projection, Vec2, cross};
+use super::projection::Projection;
+use super::vector::{Vec2, cross};
 use crate::simd::{Lanes, Stack};
 
 /// Vertices a polygon can have. Exact arithmetic gives at most 8; rounding can add half as many again

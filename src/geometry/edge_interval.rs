@@ -11,7 +11,9 @@
 //! (`near_line.rs`), and the tie rule decides.
 
 use super::near_line::{LineOf, View, ends, is_before};
-use super::{Plane, Projection, Vec3};
+use super::plane::Plane;
+use super::projection::Projection;
+use super::vector::Vec3;
 use crate::shape::MAX_NODES;
 use crate::simd::Lanes;
 use nalgebra::SVector;

@@ -1,6 +1,6 @@
 //! A tri3 or quad4 facet: its nodes in space and its shape functions.
 
-use super::Vec3;
+use super::vector::Vec3;
 use crate::error::{Error, Kind, Result};
 use crate::shape::{MAX_NODES, Shape};
 

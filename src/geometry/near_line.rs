@@ -13,7 +13,10 @@
 //! for both. That takes the normal of the other plane, which an interface knows and a pair alone does not.
 
 use super::double_double::DoubleDouble;
-use super::{Facet, Plane, Projection, Vec3};
+use super::facet::Facet;
+use super::plane::Plane;
+use super::projection::Projection;
+use super::vector::Vec3;
 use crate::shape::MAX_NODES;
 
 /// A distance below this (over the lengths that make it) is 0: a few dozen roundings of a pair of doubles, 2^-106 each,

@@ -4,7 +4,8 @@
 //! follows the first spanning vector and its spin is kept, so that translation and rotation
 //! invariance of the weights' derivative hold exactly, whatever the quadrature.
 
-use super::{Facet, Mat3, Vec3};
+use super::facet::Facet;
+use super::vector::{Mat3, Vec3};
 use crate::error::{Error, Kind, Result};
 use crate::shape::MAX_NODES;
 

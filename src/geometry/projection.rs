@@ -1,8 +1,10 @@
 //! A facet projected on an auxiliary plane: y_k = (t1 . z_k, t2 . z_k), height d_k = e . z_k,
 //! z_k = x_k - x0 (docs/formulation.md 2.1). Sides are ordered counter-clockwise in the plane.
 
+use super::facet::Facet;
+use super::plane::Plane;
 use super::plane::SMALLEST_AREA_RATIO;
-use super::{Facet, Plane, Vec2, Vec3, cross};
+use super::vector::{Vec2, Vec3, cross};
 use crate::shape::{MAX_NODES, Shape};
 use crate::simd::{self, Kernel, Lanes};
 

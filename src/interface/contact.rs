@@ -25,7 +25,7 @@ use super::residual::{self, Residual};
 use super::restart::Host;
 use super::setup::Setup;
 use super::sums::{NodeSums, assemble};
-use super::surface::Surface;
+use super::surface::{NO_EQUATION, Surface};
 use super::tangent::{Numbers, blocks, node_tangents};
 use super::turn::refuse_turn;
 use super::union::{UnionPair, possible_pairs, union};
@@ -53,7 +53,7 @@ pub struct Contact<const N: usize> {
 impl Contact<3> {
     /// An interface whose t_n is the surfaces' reference configuration.
     ///
-    /// `multiplier_equations`: per non-mortar node and component, 0-based or [`super::NO_EQUATION`].
+    /// `multiplier_equations`: per non-mortar node and component, 0-based or [`NO_EQUATION`].
     pub fn new(
         nonmortar: Surface,
         mortar: Surface,
@@ -82,7 +82,7 @@ impl Contact<3> {
 impl Contact<1> {
     /// A frictionless interface whose t_n is the surfaces' reference configuration.
     ///
-    /// `multiplier_equations`: per non-mortar node, 0-based or [`super::NO_EQUATION`].
+    /// `multiplier_equations`: per non-mortar node, 0-based or [`NO_EQUATION`].
     pub fn frictionless(
         nonmortar: Surface,
         mortar: Surface,
@@ -158,7 +158,7 @@ impl<const N: usize> Contact<N> {
 
     /// Multiplier equations.
     pub fn multipliers(&self) -> usize {
-        self.setup.multiplier_equations.as_flattened().iter().filter(|&&e| e != super::NO_EQUATION).count()
+        self.setup.multiplier_equations.as_flattened().iter().filter(|&&e| e != NO_EQUATION).count()
     }
 
     /// The options.

@@ -1,8 +1,7 @@
 //! Stage 3: the forces of both sides, and the multiplier rows.
 
 use super::given::Given;
-use super::multiplier;
-use super::options::Form;
+use super::multiplier::force_traction;
 use super::pairs::PairRecord;
 use crate::element::pair_force;
 use crate::error::Result;
@@ -21,19 +20,6 @@ pub struct Residual<const N: usize = 3> {
     pub mortar: Vec<Vec3>,
     /// Multiplier rows (`[F]` or [L^3], see the row scale).
     pub rows: Vec<SVector<f64, N>>,
-}
-
-/// The traction that a node's forces use.
-pub fn force_traction<const N: usize>(
-    form: Form,
-    lambda: &SVector<f64, N>,
-    response: &NodeResponse<N>,
-    nu: Vec3,
-) -> Vec3 {
-    match form {
-        Form::Multiplier => multiplier::traction(lambda, nu),
-        Form::Augmented => response.traction,
-    }
 }
 
 /// Of the pairs whose weights act, at the law's answers.

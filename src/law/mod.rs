@@ -14,6 +14,7 @@ mod frictionless;
 mod node;
 mod projection;
 mod slip;
+mod stateless;
 mod tied;
 mod violation;
 

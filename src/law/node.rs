@@ -89,18 +89,3 @@ impl<const N: usize> NodeResponse<N> {
         }
     }
 }
-
-impl Node {
-    /// Coulomb's answer, of the stateless stage.
-    pub fn respond(&self) -> NodeResponse {
-        super::Coulomb::respond(self)
-    }
-
-    /// Its distance from equilibrium under Coulomb's law, of the stateless stage.
-    pub fn violation(&self, measure: &Measure) -> Violation {
-        match self.covered {
-            true => super::Coulomb::violation(self, measure),
-            false => Violation::uncovered(self.lambda.norm(), measure),
-        }
-    }
-}

@@ -10,10 +10,11 @@
 //!
 //! Integrals of shape functions alone are constants of the cell; over a plane there are no others, and no quadrature.
 
+use super::chain::ForceDerivatives;
 use super::gap::GapDerivative;
+use super::pair_weights::PairWeights;
 use super::segment::NonmortarFrame;
 use super::transport::dots;
-use super::{ForceDerivatives, PairWeights};
 use crate::error::{Error, Kind, Result};
 use crate::geometry::{AnalyticSurface, Closest, Vec3};
 use crate::quadrature::Rule;

@@ -12,15 +12,15 @@
 //! A translation and a spin of both facets change no integral: the shares of the plane's own cancel between the facets,
 //! and only its tilt is left.
 
-use super::PAIR_NODES;
-use super::derivatives::ForceDerivatives;
+use super::chain::ForceDerivatives;
 use super::edges::{edge_points, in_lanes, intervals, line, unit};
 use super::gap::{AlongNormal, gamma};
 use super::moments::{MONOMIALS, PRODUCTS, Table, combine, monomials, powers, powers_of, table};
+use super::pair_weights::PairWeights;
 use super::points::{Fan, Maps, points};
 use super::segment::{NonmortarFrame, Segment};
+use super::slots::PAIR_NODES;
 use super::transport::dots;
-use super::weights::PairWeights;
 use crate::geometry::{Projection, Vec2};
 use crate::quadrature::Rule;
 use crate::shape::{Cell, MAX_NODES, Quad4, Tri3};

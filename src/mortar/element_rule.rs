@@ -12,11 +12,13 @@
 //!
 //! For any processor alone: the rule is for comparisons and coarse answers, and a small library is worth more.
 
-use super::derivatives::{Chain, Component, Flat, ForceDerivatives, SHAPES, WeightDerivatives, to_rows};
+use super::chain::{Chain, Component, Flat, ForceDerivatives, SHAPES, WeightDerivatives, to_rows};
 use super::gap::AlongNormal;
-use super::segment::{CellKernel, Cells, NonmortarFrame, Segment, check, project};
+use super::overlap::{check, project};
+use super::pair_weights::PairWeights;
+use super::segment::{CellKernel, CellPoints, Cells, NonmortarFrame, Segment};
+use super::slots::{MORTAR, PAIR_NODES};
 use super::transport::PlaneDerivatives;
-use super::{MORTAR, PAIR_NODES, PairWeights};
 use crate::error::Result;
 use crate::geometry::bilinear_map::BilinearMap;
 use crate::geometry::clip::Polygon;
@@ -24,26 +26,6 @@ use crate::geometry::{Facet, Projection, Vec2, cross};
 use crate::quadrature::cell::{square_point, triangle_point};
 use crate::shape::{Cell, MAX_NODES};
 use crate::simd::{self, Kernel, Lanes, Plain, Real};
-
-/// Points of a non-mortar facet's product rule, and which of them count.
-#[derive(Clone, Copy, Debug)]
-pub struct CellPoints {
-    /// Gauss points on a line.
-    line: &'static [[f64; 2]],
-    /// Bit i: the i-th of their products lies on the mortar facet; bits after those: the non-mortar facet's corners.
-    pub inside: u128,
-}
-
-impl CellPoints {
-    /// The set in which every point and every corner lies on a mortar facet.
-    pub fn all(frame: &NonmortarFrame, line: &[[f64; 2]]) -> u128 {
-        (1 << (line.len() * line.len() + frame.projection.shape.n)) - 1
-    }
-
-    fn count(&self) -> usize {
-        self.line.len() * self.line.len()
-    }
-}
 
 impl Segment {
     /// The points of the frame's facet that fall on `facet`; `None` when neither one nor a corner does. `line`: at most

@@ -5,11 +5,11 @@
 //! inverse maps return the same in-plane point; so Dg_A = e Dgamma_A + gamma_A De: one scalar row a
 //! node, without cancellation of in-plane coordinates (docs/formulation.md 2.4).
 
-use super::derivatives::{Chain, Columns, WeightDerivatives};
+use super::chain::{Chain, Columns, WeightDerivatives};
+use super::pair_weights::PairWeights;
 use super::segment::NonmortarFrame;
+use super::slots::{MORTAR, PAIR_NODES};
 use super::transport::PlaneDerivatives;
-use super::weights::PairWeights;
-use super::{MORTAR, PAIR_NODES};
 use crate::geometry::{Facet, Projection, Vec3};
 use crate::shape::{Cell, MAX_NODES};
 use crate::simd::{self, Kernel, Lanes, Plain};

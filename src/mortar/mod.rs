@@ -6,6 +6,7 @@
 
 mod analytic;
 mod at_rest;
+mod chain;
 mod derivatives;
 mod edges;
 mod element_rule;
@@ -13,25 +14,19 @@ mod gap;
 mod moments;
 #[cfg(test)]
 mod oracle;
+mod overlap;
+mod pair_weights;
 mod points;
 mod segment;
+mod slots;
 mod transport;
 mod weights;
 
 pub use analytic::{analytic_motion, analytic_weights};
 pub use at_rest::facet_motion;
-pub use derivatives::{ForceDerivatives, WeightDerivatives, pair_motion};
-pub use element_rule::CellPoints;
+pub use chain::{ForceDerivatives, WeightDerivatives};
+pub use derivatives::pair_motion;
 pub use gap::{AlongNormal, GapDerivative, columns, gap};
-pub use segment::{NonmortarFrame, Segment};
-pub use weights::PairWeights;
-
-/// Slots for the nodes of a pair: 0..4 non-mortar, 4..8 mortar, in the order the facets were given.
-pub const PAIR_NODES: usize = 8;
-/// First mortar slot.
-pub const MORTAR: usize = 4;
-
-/// The slots that a tangent looks at: all, or the non-mortar ones where the mortar side does not move.
-pub const fn slots(moves: bool) -> usize {
-    if moves { PAIR_NODES } else { MORTAR }
-}
+pub use pair_weights::PairWeights;
+pub use segment::{CellPoints, NonmortarFrame, Segment};
+pub use slots::{MORTAR, PAIR_NODES, slots};

@@ -7,9 +7,9 @@
 //! N_k has eight monomials, and the functions they are integrated with four, so what is summed over the points are
 //! products of monomials, each once; the nodes' integrals follow from the sums.
 
+use super::pair_weights::PairWeights;
 use super::points::{Fan, Maps, Points, points, triangle_lanes};
 use super::segment::{NonmortarFrame, Segment};
-use super::weights::PairWeights;
 use crate::quadrature::Rule;
 use crate::shape::{Cell, MAX_NODES};
 use crate::simd::{Lanes, Stack};

@@ -2,11 +2,12 @@
 //! every back end, to the rounding of their sums.
 
 use super::at_rest::facet_motion;
-use super::derivatives::{ForceDerivatives, WeightDerivatives, pair_motion};
+use super::chain::{ForceDerivatives, WeightDerivatives};
+use super::derivatives::pair_motion;
 use super::gap::AlongNormal;
+use super::pair_weights::PairWeights;
 use super::segment::{NonmortarFrame, Segment};
-use super::weights::PairWeights;
-use super::{MORTAR, PAIR_NODES};
+use super::slots::{MORTAR, PAIR_NODES};
 use crate::geometry::{Facet, Projection, Vec2, Vec3, cross};
 use crate::quadrature::{DEGREE_5, DEGREE_10, Rule};
 use crate::shape::MAX_NODES;

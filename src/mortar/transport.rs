@@ -16,7 +16,7 @@
 use super::edges::{Edges, in_lanes};
 use super::moments::{Moments, combine, powers};
 use super::segment::{NonmortarFrame, Segment};
-use super::{MORTAR, PAIR_NODES};
+use super::slots::{MORTAR, PAIR_NODES};
 use crate::shape::{Cell, MAX_NODES};
 use crate::simd::Lanes;
 

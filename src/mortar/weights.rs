@@ -5,20 +5,12 @@
 
 use super::element_rule;
 use super::moments::terms;
+use super::pair_weights::PairWeights;
 use super::points::{Fan, Maps, points, triangle_lanes};
 use super::segment::{CellKernel, Cells, NonmortarFrame, Segment};
 use crate::quadrature::Rule;
-use crate::shape::{Cell, MAX_NODES};
+use crate::shape::Cell;
 use crate::simd::Lanes;
-
-/// Mortar weights of one pair [L^2].
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct PairWeights {
-    /// n_AB.
-    pub ab: [[f64; MAX_NODES]; MAX_NODES],
-    /// n_AC.
-    pub ac: [[f64; MAX_NODES]; MAX_NODES],
-}
 
 impl PairWeights {
     /// Integrates the weights over a segment; one of points has its own rule.
@@ -27,26 +19,6 @@ impl PairWeights {
             return element_rule::weights(frame, segment, points);
         }
         Cells::of(frame, segment).dispatch(Integrate { frame, segment, rule })
-    }
-
-    /// From rows A, lanes B and C in the order of the facet as given.
-    #[inline(always)]
-    pub(super) fn of_rows<L: Lanes>(nodes: usize, ab: &[L; MAX_NODES], ac: &[L; MAX_NODES]) -> PairWeights {
-        let mut w = PairWeights::default();
-        for a in 0..nodes {
-            (w.ab[a], w.ac[a]) = (ab[a].store(), ac[a].store());
-            // n_AB is symmetric; made so to the last bit.
-            for b in 0..a {
-                w.ab[a][b] = w.ab[b][a];
-            }
-        }
-        w
-    }
-
-    /// Covered area of node A: m_A = sum_B n_AB = int N_A da [L^2].
-    #[inline]
-    pub fn coverage(&self, a: usize) -> f64 {
-        self.ab[a].iter().sum()
     }
 }
 

@@ -1,6 +1,6 @@
 //! The four-node quadrilateral on (-1,-1), (1,-1), (1,1), (-1,1).
 
-use super::{Cell, MAX_NODES, Shape};
+use super::cell::{Cell, MAX_NODES, Shape};
 use crate::simd::{Lanes, Real};
 
 const Q: f64 = 0.25;

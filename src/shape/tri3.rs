@@ -1,6 +1,6 @@
 //! The three-node triangle on (0,0), (1,0), (0,1).
 
-use super::{Cell, MAX_NODES, Shape};
+use super::cell::{Cell, MAX_NODES, Shape};
 use crate::simd::{Lanes, Real};
 
 /// Linear triangle.

@@ -4,7 +4,7 @@
 //! have.
 #![allow(unsafe_code)]
 
-use super::{Kernel, Lanes, Real};
+use super::lanes::{Kernel, Lanes, Real};
 use std::arch::x86_64::*;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 

@@ -1,6 +1,6 @@
 //! Four lanes for any processor; compilers make of it what the target's baseline has (two registers of two doubles).
 
-use super::{Lanes, Real};
+use super::lanes::{Lanes, Real};
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// Four doubles.
