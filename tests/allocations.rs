@@ -45,12 +45,12 @@ const INFALLIBLE: [&str; 33] = [
 /// Lines that are none of that: file, what the line holds, why.
 const HARMLESS: [(&str, &str, &str); 7] = [
     ("capi/guard.rs", "set_hook(Box::new(|info|", "a closure that holds nothing"),
-    ("interface/commit.rs", "active.insert(", "into an Option"),
-    ("interface/filter.rs", "smooth.clone()", "an iterator"),
-    ("interface/layers.rs", "polygon.clone()", "a stack of a fixed size"),
-    ("interface/tangent.rs", "sink.reserve(", "a sink keeps its refusal for who asked for the entries"),
-    ("interface/tangent.rs", "place.clone()", "a range"),
-    ("interface/search.rs", "pending.push(", "a stack of a fixed size"),
+    ("interface/stages/commit.rs", "active.insert(", "into an Option"),
+    ("interface/pairing/filter.rs", "smooth.clone()", "an iterator"),
+    ("interface/stages/layers.rs", "polygon.clone()", "a stack of a fixed size"),
+    ("interface/tangent/blocks.rs", "sink.reserve(", "a sink keeps its refusal for who asked for the entries"),
+    ("interface/tangent/blocks.rs", "place.clone()", "a range"),
+    ("interface/pairing/search.rs", "pending.push(", "a stack of a fixed size"),
 ];
 
 /// Folders and files whose stacks have a fixed size, and which know no vectors at all.

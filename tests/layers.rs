@@ -79,7 +79,10 @@ fn only_the_abi_and_the_processors_instructions_are_unsafe() {
 }
 
 /// The stages of an evaluation, in their order: none calls an earlier one, though it may know what that gives.
-const STAGES: [&str; 5] = ["integrate", "sums", "respond", "residual", "tangent"];
+const STAGES: [&str; 4] = ["integrate", "sums", "respond", "residual"];
+
+/// The rooms of `src/interface`, lowest first.
+const ROOMS: [&str; 5] = ["data", "pairing", "stages", "tangent", "inspect"];
 
 /// Files that know the handle: itself, and those that give it to hosts.
 const KNOW_THE_HANDLE: [&str; 3] = ["interface/contact.rs", "interface/mod.rs", "capi/"];
@@ -221,16 +224,31 @@ fn no_file_imports_itself_by_a_detour() {
 }
 
 #[test]
+fn rooms_of_the_interface_point_downward() {
+    let room = |file: &str| {
+        let name = file.strip_prefix("interface/")?.split_once('/')?.0;
+        Some(ROOMS.iter().position(|room| *room == name).unwrap_or_else(|| panic!("{file} is in no room")))
+    };
+    for (file, imports) in graph() {
+        let Some(own) = room(&file) else { continue };
+        for import in imports {
+            assert!(room(&import).is_none_or(|other| other <= own), "{file} imports {import}, which is above it");
+            assert!(import != "interface/mod.rs", "{file} imports the house that it stands in");
+        }
+    }
+}
+
+#[test]
 fn a_planted_circle_is_found() {
     let mut graph = graph();
-    graph.get_mut("interface/history.rs").unwrap().insert("interface/commit.rs".to_owned());
+    graph.get_mut("interface/data/history.rs").unwrap().insert("interface/stages/commit.rs".to_owned());
     assert!(circle(&graph).is_some());
 }
 
 #[test]
 fn no_stage_calls_an_earlier_one() {
     for (k, stage) in STAGES.iter().enumerate() {
-        let text = std::fs::read_to_string(root().join(format!("src/interface/{stage}.rs"))).unwrap();
+        let text = std::fs::read_to_string(root().join(format!("src/interface/stages/{stage}.rs"))).unwrap();
         for path in paths(&text) {
             let [.., module, name] = &path[..] else { continue };
             let is_earlier = STAGES[..k].contains(&module.as_str()) && path[0] == "super";

@@ -1,24 +1,25 @@
 //! What evaluations leave for the next one at the same positions: the pairs of now, the nodes' sums, the law's answers, the
 //! search tree. A host asks for residual and tangent of one point, and both need the same.
 
-use super::active::Active;
-use super::apart::stays_apart;
-use super::bytes;
-use super::candidates::{KeptTree, are_same};
-use super::carried::refuse_carrying_over_handles;
-use super::commit;
-use super::counters::Counters;
-use super::extent::{Extent, Scope};
-use super::filter::Filter;
-use super::given::{Given, Step, check_finite};
-use super::history::History;
-use super::integrate::{integrate, segments};
-use super::node_data::check_length;
-use super::options::Weights;
-use super::pairs::PairRecord;
-use super::respond::{Responses, respond};
-use super::setup::Setup;
-use super::sums::{self, NodeSums};
+use super::data::active::Active;
+use super::data::counters::Counters;
+use super::data::extent::{Extent, Scope};
+use super::data::history::History;
+use super::data::node_data::check_length;
+use super::data::options::Weights;
+use super::data::pairs::PairRecord;
+use super::data::setup::Setup;
+use super::data::surface::are_same;
+use super::inspect::bytes;
+use super::pairing::candidates::KeptTree;
+use super::pairing::filter::Filter;
+use super::pairing::given::{Given, Step, check_finite};
+use super::stages::apart::stays_apart;
+use super::stages::carried::refuse_carrying_over_handles;
+use super::stages::commit;
+use super::stages::integrate::{integrate, segments};
+use super::stages::respond::{Responses, respond};
+use super::stages::sums::{self, NodeSums};
 use crate::error::Result;
 use crate::geometry::Vec3;
 use crate::memory;

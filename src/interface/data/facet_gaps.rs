@@ -1,0 +1,124 @@
+//! The gap g_0 that tied surfaces start with, open or not.
+//!
+//! It turns with the non-mortar surface: each facet keeps what its pairs add to its nodes' gaps in the axes (t1, t2, e) of
+//! its plane, and a node's gap is the sum over its facets,
+//!
+//!   g_0,A(x1) = rest_A + sum_f F_f(x1) c_f,A,   F_f = (t1, t2, e).
+//!
+//! So a rigid motion of both surfaces together leaves g - g_0 = 0, whatever the angle. Between facets c_f,A lies along e;
+//! against an analytic surface it does not. A closed facet has c_f = 0: its share is rounding, stays in the rest, and
+//! surfaces that are closed all over remain linear.
+
+use super::active::Active;
+use super::surface::{Surface, at_facet};
+use crate::error::Result;
+use crate::geometry::{Mat3, Plane, Vec3};
+use crate::memory::{self, Stored};
+use crate::mortar::{GapDerivative, gap};
+use crate::shape::MAX_NODES;
+use std::borrow::Cow;
+
+/// Reals of a facet.
+pub const REALS_PER_FACET: usize = 3 * MAX_NODES;
+/// A facet's gap below this, over its longest edge, is rounding: that of coordinates up to 1e4 facets from the origin.
+const CLOSED: f64 = 1e-12;
+
+/// Per non-mortar facet and node, c_f,A [L^3]; nothing where surfaces are not tied.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct FacetGaps(Vec<[Vec3; MAX_NODES]>);
+
+fn axes(plane: &Plane) -> Mat3 {
+    Mat3::from_columns(&[plane.t1, plane.t2, plane.e])
+}
+
+impl FacetGaps {
+    /// Takes the shares of open facets out of the nodes' gaps.
+    pub(crate) fn of((one, two): (&Surface, &Surface), at: &Active, sums: &mut [(f64, Vec3)]) -> Result<FacetGaps> {
+        let mut all = memory::filled([Vec3::zeros(); MAX_NODES], one.facets.len())?;
+        for pairs in at.pairs.chunk_by(|p, q| p.one == q.one) {
+            let f = pairs[0].one;
+            let (facet, axes) = (one.facet(f, &at.x1), axes(&at.frames[f].plane));
+            let (mut shares, mut coverage) = ([Vec3::zeros(); MAX_NODES], 0.0);
+            for pair in pairs {
+                let gaps = gap(&pair.weights, &facet, &two.facet(pair.two, &at.x2));
+                for k in 0..facet.len() {
+                    shares[k] += gaps[k];
+                    coverage += pair.weights.coverage(k);
+                }
+            }
+            let largest = shares.iter().map(|share| share.norm()).fold(0.0, f64::max);
+            if largest <= CLOSED * facet.longest_edge() * coverage {
+                continue;
+            }
+            for (k, &node) in one.facets[f].as_slice().iter().enumerate() {
+                all[f][k] = axes.transpose() * shares[k];
+                // What overflowed is no number from here on, and refused with the history.
+                sums[node].1 -= shares[k];
+            }
+        }
+        Ok(FacetGaps(all))
+    }
+
+    /// A copy.
+    pub(crate) fn copied(&self) -> Result<FacetGaps> {
+        memory::copied(&self.0).map(FacetGaps)
+    }
+
+    /// g_0 of every node at x1; `rest`: of every node, too.
+    pub(crate) fn turned<'a>(&self, one: &Surface, x1: &[Vec3], rest: &'a [Vec3]) -> Result<Cow<'a, [Vec3]>> {
+        if !self.0.iter().any(is_open) {
+            return Ok(Cow::Borrowed(rest));
+        }
+        let mut gaps = memory::copied(rest)?;
+        for (f, shares) in self.0.iter().enumerate().filter(|(_, shares)| is_open(shares)) {
+            let axes = axes(&plane(one, f, x1)?);
+            for (k, &node) in one.facets[f].as_slice().iter().enumerate() {
+                gaps[node] += axes * shares[k];
+            }
+        }
+        Ok(Cow::Owned(gaps))
+    }
+
+    /// What the derivative of g - g_0 has of g_0 on facet `f` at x1.
+    pub(crate) fn motion(&self, one: &Surface, f: usize, x1: &[Vec3]) -> Result<Option<GapDerivative>> {
+        let Some(shares) = self.0.get(f).filter(|shares| is_open(shares)) else { return Ok(None) };
+        let (plane, mut blocks) = (plane(one, f, x1)?, [[[[0.0; MAX_NODES]; 3]; 3]; MAX_NODES]);
+        for (a, share) in shares.iter().enumerate() {
+            let turned = plane.derivative_of_fixed(&(axes(&plane) * share));
+            for (k, i, j) in (0..MAX_NODES).flat_map(|k| (0..9).map(move |ij| (k, ij / 3, ij % 3))) {
+                blocks[k][i][j][a] = -turned[k][(i, j)];
+            }
+        }
+        Ok(Some(GapDerivative::Turning(blocks)))
+    }
+
+    /// Facets, or 0.
+    pub(crate) fn len(&self) -> usize {
+        self.0.len()
+    }
+
+    /// Facet by facet, node by node.
+    pub(crate) fn reals(&self) -> impl Iterator<Item = &f64> {
+        self.0.iter().flatten().flat_map(|share| share.iter())
+    }
+
+    /// From [`FacetGaps::reals`].
+    pub(crate) fn from_reals(reals: &[f64]) -> Result<FacetGaps> {
+        let share = |facet: &[f64], k: usize| Vec3::from_column_slice(&facet[3 * k..3 * k + 3]);
+        let facet = |facet: &[f64]| std::array::from_fn(|k| share(facet, k));
+        reals.chunks_exact(REALS_PER_FACET).map(facet).stored().map(FacetGaps)
+    }
+
+    /// On the heap `[bytes]`.
+    pub(crate) fn bytes(&self) -> usize {
+        self.0.capacity() * size_of::<[Vec3; MAX_NODES]>()
+    }
+}
+
+fn is_open(shares: &[Vec3; MAX_NODES]) -> bool {
+    shares.iter().any(|share| *share != Vec3::zeros())
+}
+
+fn plane(one: &Surface, f: usize, x1: &[Vec3]) -> Result<Plane> {
+    Plane::of(&one.facet(f, x1)).map_err(at_facet(one.side, f))
+}

@@ -1,0 +1,231 @@
+//! One side of an interface: its nodes, facets and equation numbers, checked once.
+
+use crate::adjacency::{SharedEdge, shared_edges};
+use crate::error::{Error, Kind, Result, Text};
+use crate::geometry::{AnalyticShape, AnalyticSurface, FRAME, Facet, Vec3, check_rigid_motion};
+use crate::memory::{self, Store};
+use crate::mortar::NonmortarFrame;
+use crate::normal;
+use crate::shape::{MAX_NODES, Shape};
+use nalgebra::SVector;
+
+/// Neighbouring facets whose normals have a scalar product below this lie on each other: a wedge thinner than a tenth
+/// of a degree. The thinnest blade that anyone meshes has several degrees.
+const FOLDED: f64 = -1.0 + 1e-6;
+
+/// No equation: the component is prescribed or absent.
+pub const NO_EQUATION: i64 = -1;
+
+/// A facet's nodes as indices into the surface.
+#[derive(Clone, Copy, Debug)]
+pub struct FacetNodes {
+    /// Indices; entries beyond `len` repeat the first one.
+    pub nodes: [usize; MAX_NODES],
+    /// 3 or 4.
+    pub len: usize,
+}
+
+impl FacetNodes {
+    /// The nodes in use.
+    pub fn as_slice(&self) -> &[usize] {
+        &self.nodes[..self.len]
+    }
+}
+
+/// A checked surface.
+#[derive(Clone, Debug)]
+pub struct Surface {
+    /// Name for messages: "nonmortar" or "mortar".
+    pub side: &'static str,
+    /// Node positions of the first configuration.
+    pub reference: Vec<Vec3>,
+    /// Facets.
+    pub facets: Vec<FacetNodes>,
+    /// Displacement equations per node and component, 0-based, or [`NO_EQUATION`].
+    pub equations: Vec<[i64; 3]>,
+    /// The longest edge of any facet in the first configuration `[L]`; 0 of an analytic surface.
+    pub longest_edge: f64,
+    /// Edges between neighbouring facets.
+    pub edges: Vec<SharedEdge>,
+    /// The shape of an analytic surface, whose one facet are the four points of its frame; `None`: real facets.
+    pub analytic: Option<AnalyticShape>,
+}
+
+impl Surface {
+    /// Checks and keeps a surface. `facets` lists 0-based node numbers.
+    pub fn new(
+        side: &'static str,
+        reference: Vec<Vec3>,
+        facets: &[Vec<i64>],
+        equations: Vec<[i64; 3]>,
+    ) -> Result<Surface> {
+        let fail = |kind, text: Text| Err(Error::new(kind, text!("{side}: {text}")));
+        let n = reference.len();
+        if n == 0 || facets.is_empty() {
+            return fail(
+                Kind::InvalidSize,
+                "the surface has no nodes or no facets; at least one of each is needed".into(),
+            );
+        }
+        if equations.len() != n {
+            return fail(Kind::InvalidSize, text!("{} nodes have equations; there are {n} nodes", equations.len()));
+        }
+        if let Some(k) = reference.iter().position(|x| !x.iter().all(|v| v.is_finite())) {
+            return fail(Kind::NotFinite, text!("coordinates of node {k} are not finite"));
+        }
+        let mut kept = memory::with_room(facets.len())?;
+        let mut used = memory::filled(false, n)?;
+        for (f, nodes) in facets.iter().enumerate() {
+            if !(3..=MAX_NODES).contains(&nodes.len()) {
+                return fail(Kind::InvalidSize, text!("facet {f} has {} nodes; 3 or 4 are allowed", nodes.len()));
+            }
+            let mut indices = [0; MAX_NODES];
+            for (k, &node) in nodes.iter().enumerate() {
+                let index = usize::try_from(node).ok().filter(|&i| i < n);
+                let Some(index) = index else {
+                    return fail(
+                        Kind::IndexOutOfRange,
+                        text!("facet {f} names node {node}; nodes 0 to {} exist", n - 1),
+                    );
+                };
+                if indices[..k].contains(&index) {
+                    return fail(Kind::DuplicateNode, text!("facet {f} names node {node} twice"));
+                }
+                indices[k] = index;
+                used[index] = true;
+            }
+            let first = indices[0];
+            indices[nodes.len()..].fill(first);
+            kept.store(FacetNodes { nodes: indices, len: nodes.len() })?;
+        }
+        if let Some(k) = used.iter().position(|u| !u) {
+            return fail(Kind::InvalidValue, text!("node {k} belongs to no facet; leave it out"));
+        }
+        let edges = match shared_edges(kept.len(), |f| kept[f].as_slice()) {
+            Ok(edges) => edges,
+            Err(e) => return fail(e.kind, e.message),
+        };
+        let mut surface =
+            Surface { side, reference, facets: kept, equations, longest_edge: 0.0, edges, analytic: None };
+        surface.longest_edge = surface.longest_edge_at(&surface.reference);
+        match surface.folded_edge() {
+            None => Ok(surface),
+            Some(SharedEdge { nodes: [a, b], facets: [f, g] }) => fail(
+                Kind::InvalidValue,
+                text!(
+                    "facets {f} and {g} lie on each other: the surface is folded along the edge of nodes {a} and {b}"
+                ),
+            ),
+        }
+    }
+
+    /// An edge whose facets lie on each other in the first configuration. Facets that are degenerate or folded
+    /// themselves are refused elsewhere, each by its own number.
+    fn folded_edge(&self) -> Option<SharedEdge> {
+        let normal = |f: usize| NonmortarFrame::new(&self.facet(f, &self.reference)).map(|frame| frame.plane.e);
+        let folded = |e: &&SharedEdge| match e.facets.map(normal) {
+            [Ok(m), Ok(n)] => m.dot(&n) < FOLDED,
+            _ => false,
+        };
+        self.edges.iter().find(folded).copied()
+    }
+
+    /// A rigid surface in closed form, placed by the four points of its frame (see [`AnalyticSurface`]), which have no
+    /// equations.
+    pub fn analytic(side: &'static str, shape: AnalyticShape, frame: Vec<Vec3>) -> Result<Surface> {
+        let fail = |kind, text: Text| Err(Error::new(kind, text!("{side}: {text}")));
+        if frame.len() != FRAME {
+            return fail(Kind::InvalidSize, text!("{} nodes; the frame of an analytic surface has 4", frame.len()));
+        }
+        if let Some(k) = frame.iter().position(|x| !x.iter().all(|v| v.is_finite())) {
+            return fail(Kind::NotFinite, text!("coordinates of node {k} are not finite"));
+        }
+        let surface = Surface {
+            side,
+            reference: frame,
+            facets: memory::filled(FacetNodes { nodes: [0, 1, 2, 3], len: FRAME }, 1)?,
+            equations: memory::filled([NO_EQUATION; 3], FRAME)?,
+            longest_edge: 0.0,
+            edges: Vec::new(),
+            analytic: Some(shape),
+        };
+        match surface.analytic_at(&surface.reference) {
+            Ok(_) => Ok(surface),
+            Err(e) => fail(e.kind, e.message),
+        }
+    }
+
+    /// An analytic surface where the points `x` of its frame are.
+    pub fn analytic_at(&self, x: &[Vec3]) -> Result<AnalyticSurface> {
+        let shape = self.analytic.expect("asked of analytic surfaces only");
+        AnalyticSurface::new(shape, &self.facets[0].nodes.map(|k| x[k]))
+    }
+
+    /// Refuses positions of an analytic surface's frame that are no rigid motion of the first ones.
+    pub fn check_rigid(&self, x: &[Vec3]) -> Result<()> {
+        if self.analytic.is_none() {
+            return Ok(());
+        }
+        let frame = |x: &[Vec3]| self.facets[0].nodes.map(|k| x[k]);
+        check_rigid_motion(&frame(&self.reference), &frame(x))
+            .map_err(|e| Error::new(e.kind, text!("{}: {}", self.side, e.message)))
+    }
+
+    /// The longest edge of any facet at the node positions `x` `[L]`.
+    pub fn longest_edge_at(&self, x: &[Vec3]) -> f64 {
+        (0..self.facets.len()).map(|f| self.facet(f, x).longest_edge()).fold(0.0, f64::max)
+    }
+
+    /// Per node the sum of the unit normals of its facets' corners, which gives nu (docs/formulation.md 4.1).
+    pub(crate) fn sums_of_normals(&self, x: &[Vec3]) -> Result<Vec<Vec3>> {
+        let mut sums = memory::filled(Vec3::zeros(), self.len())?;
+        for (f, nodes) in self.facets.iter().enumerate() {
+            let facet = self.facet(f, x);
+            nodes.as_slice().iter().enumerate().for_each(|(k, &a)| sums[a] += normal::corner_normal(&facet, k));
+        }
+        Ok(sums)
+    }
+
+    /// Number of nodes.
+    pub fn len(&self) -> usize {
+        self.reference.len()
+    }
+
+    /// Facet `f` at the node positions `x`.
+    pub fn facet(&self, f: usize, x: &[Vec3]) -> Facet {
+        let nodes = &self.facets[f];
+        let shape = Shape::of(nodes.len).expect("a checked facet has 3 or 4 nodes");
+        Facet { nodes: nodes.nodes.map(|k| x[k]), shape }
+    }
+}
+
+/// Names the facets in a refusal.
+pub fn at_facet(side: &str, facet: usize) -> impl FnOnce(Error) -> Error {
+    move |e| Error::new(e.kind, text!("{side} facet {facet}: {}", e.message))
+}
+
+/// The frames of all facets of a surface.
+pub fn frames(surface: &Surface, x: &[Vec3]) -> Result<Vec<NonmortarFrame>> {
+    // A collected Result knows no length, and frames are large.
+    let mut frames = memory::with_room(surface.facets.len())?;
+    for f in 0..surface.facets.len() {
+        frames.store(NonmortarFrame::new(&surface.facet(f, x)).map_err(at_facet(surface.side, f))?)?;
+    }
+    for edge in &surface.edges {
+        // Each runs the edge from another end.
+        for (i, from) in edge.nodes.into_iter().enumerate() {
+            let (facet, beyond) = (edge.facets[i], frames[edge.facets[1 - i]].plane.e);
+            if let Some(k) = surface.facets[facet].as_slice().iter().position(|&node| node == from) {
+                frames[facet].plane.beyond[k] = Some(beyond);
+            }
+        }
+    }
+    Ok(frames)
+}
+
+/// Whether vectors are the same numbers; 0 and -0 are not, nor are results in every bit.
+pub fn are_same<const K: usize>(x: &[SVector<f64, K>], y: &[SVector<f64, K>]) -> bool {
+    let is_same =
+        |(x, y): (&SVector<f64, K>, &SVector<f64, K>)| x.iter().zip(y).all(|(a, b)| a.to_bits() == b.to_bits());
+    x.len() == y.len() && x.iter().zip(y).all(is_same)
+}

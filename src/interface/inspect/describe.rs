@@ -1,0 +1,139 @@
+//! What an interface computes and why, one sentence an effect, for a host's log.
+
+use crate::error::{Result, Text};
+use crate::interface::data::options::{Friction, MortarSide, Scheme, Tangent, Weights};
+use crate::interface::data::setup::Setup;
+use crate::interface::data::surface::NO_EQUATION;
+
+/// A sentence, if there is memory for it.
+macro_rules! say {
+    ($($what:tt)*) => { Text::try_of(format_args!($($what)*)) };
+}
+
+/// One sentence per effect: what is computed, and whether the options ask for it or the scene lets the library
+/// choose it.
+///
+/// # Errors
+/// [`crate::error::Kind::OutOfMemory`].
+pub fn effects<const N: usize>(setup: &Setup<N>) -> Result<Text> {
+    let mut text = friction_sentence(setup)?;
+    let sentences = [
+        mortar_sentence(setup)?,
+        weights_sentence(setup)?,
+        apart_sentence(setup)?,
+        uncovered_sentence(setup)?,
+        integration_sentence(setup)?,
+    ];
+    for sentence in sentences {
+        text.append(format_args!(" {sentence}"))?;
+    }
+    text.append(format_args!("{}", weak_sentence(setup)?))?;
+    Ok(text)
+}
+
+/// Only where it is asked for.
+fn weak_sentence<const N: usize>(setup: &Setup<N>) -> Result<Text> {
+    match setup.options.weak_coverage {
+        0.0 => Ok(Text::EMPTY),
+        w => say!(" Nodes covered less than {w} of their best covered neighbour: carried by it (asked for)."),
+    }
+}
+
+fn friction_sentence<const N: usize>(setup: &Setup<N>) -> Result<Text> {
+    let unknowns = if N == 1 { "one multiplier a node, along the normal" } else { "three multipliers a node" };
+    let what: Text = match setup.options.friction {
+        Friction::None => "none (asked for), no slip and no slip history".into(),
+        Friction::Tied => {
+            "tied (asked for), neither opens nor slips, linear where closed, an open gap turns with its facets".into()
+        }
+        Friction::Rough => "rough (asked for), opens and closes, never slips".into(),
+        Friction::Coulomb if !setup.effects.slips => "none (chosen: mu is 0 at every node), no slip".into(),
+        Friction::Coulomb => say!("Coulomb's law with mu {}", mu_range(setup)?)?,
+    };
+    say!("Friction: {what}; {unknowns}.")
+}
+
+fn mu_range<const N: usize>(setup: &Setup<N>) -> Result<Text> {
+    let (least, most) = setup.nodes.mu.iter().fold((f64::INFINITY, 0.0_f64), |(l, m), &mu| (l.min(mu), m.max(mu)));
+    if least == most { say!("{most}") } else { say!("from {least} to {most}") }
+}
+
+fn mortar_sentence<const N: usize>(setup: &Setup<N>) -> Result<Text> {
+    if let Some(shape) = setup.mortar.analytic {
+        return say!("Mortar side: {shape} (asked for), no facets, no search, no rows and columns for it.");
+    }
+    let prescribed = setup.mortar.equations.iter().flatten().all(|&e| e == NO_EQUATION);
+    let what = match (setup.options.mortar_side, setup.effects.moves()) {
+        (MortarSide::Rigid, _) => "rigid (asked for), no rows and columns for it",
+        (MortarSide::Deformable, false) => "rigid (chosen: no mortar node has an equation), no rows and columns for it",
+        (MortarSide::Deformable, true) if prescribed => {
+            "treated as deformable though no node of it has an equation (asked for)"
+        }
+        (MortarSide::Deformable, true) => "deformable",
+    };
+    say!("Mortar side: {what}.")
+}
+
+fn weights_sentence<const N: usize>(setup: &Setup<N>) -> Result<Text> {
+    let what = match setup.options.effective_weights() {
+        Weights::Current => "of now, differentiated (large sliding)",
+        Weights::Committed => "frozen at the last commit (asked for), reused within a step",
+        Weights::Reference if setup.options.friction == Friction::Tied => {
+            "frozen at the first configuration (tied), always reused"
+        }
+        Weights::Reference => "frozen at the first configuration (asked for), always reused (small sliding)",
+    };
+    say!("Weights: {what}{}.", tangent_clause(setup))
+}
+
+/// What the tangent leaves out.
+fn tangent_clause<const N: usize>(setup: &Setup<N>) -> &'static str {
+    match (setup.options.effective_weights(), setup.options.tangent) {
+        (Weights::Committed | Weights::Reference, _) | (_, Tangent::Exact) => "",
+        (_, Tangent::FrozenWeights) => ", but not in the tangent (asked for): Newton's method is not quadratic",
+        (_, Tangent::FrozenNormals) if setup.mortar.analytic.is_some() => "",
+        (_, Tangent::FrozenNormals) => {
+            ", but for the tilt of facets in the tangent (asked for): Newton's method is not quadratic"
+        }
+    }
+}
+
+fn integration_sentence<const N: usize>(setup: &Setup<N>) -> Result<Text> {
+    const NOT_EXACT: &str = "not exact across mortar edges: patch tests fail";
+    let points = setup.options.rule.triangle.len();
+    let degree = setup.options.rule.degree;
+    let coarse = if degree < 4 { ", not exact on any facet (asked for): patch tests fail" } else { "" };
+    let what: Text = match setup.options.scheme {
+        _ if setup.mortar.analytic.is_some() => "over whole facets".into(),
+        Scheme::Segments => say!("over cells of each overlap, {points} points a triangle{coarse}")?,
+        Scheme::Elements(line) => {
+            say!("{0} x {0} points on each non-mortar facet (asked for), no clipping; {NOT_EXACT}", line.len())?
+        }
+        Scheme::Hybrid(line) => say!(
+            "{0} x {0} points on each non-mortar facet, cells where it is partly covered (asked for); {NOT_EXACT}",
+            line.len()
+        )?,
+    };
+    say!("Integration: {what}.")
+}
+
+fn apart_sentence<const N: usize>(setup: &Setup<N>) -> Result<Text> {
+    let what = match (setup.options.effective_weights(), setup.options.shortcuts.apart) {
+        (Weights::Current, true) if setup.mortar.analytic.is_some() => {
+            "only the nodes' distances and normals are compared (chosen)"
+        }
+        (Weights::Current, false) if setup.mortar.analytic.is_some() => "integrated all the same (asked for)",
+        (Weights::Current, true) => "only their boxes and normals are compared (chosen)",
+        (Weights::Current, false) => "searched all the same (asked for)",
+        (Weights::Committed | Weights::Reference, _) => "nothing special, for frozen weights need no search",
+    };
+    say!("Surfaces that are apart: {what}.")
+}
+
+fn uncovered_sentence<const N: usize>(setup: &Setup<N>) -> Result<Text> {
+    let what = match setup.options.shortcuts.uncovered {
+        true => "no law (chosen), unless sums of several handles are given",
+        false => "the law all the same (asked for)",
+    };
+    say!("Nodes that nothing can cover in a step: {what}.")
+}

@@ -1,0 +1,122 @@
+//! How far a point (x, lambda) is from contact equilibrium: the largest violations over the nodes, each beside the scale
+//! that it should be compared with. What the multiplier rows cannot say, for they go with augmentation and row scale.
+//!
+//! A gap of size g in a facet of size h is a strain g / h, and a traction E g / h. So with a modulus E a length counts
+//! against h p / E, p the largest traction: a violation of a 1e-9th of that changes tractions by 1e-9 p. Without a
+//! modulus it counts against h. Positions are rounded: what their last digits make of a gap does not count, nor what
+//! that makes of a traction.
+
+use crate::error::{Error, Kind, Result};
+use crate::geometry::Vec3;
+use crate::interface::data::extent::Scope;
+use crate::interface::pairing::given::Given;
+use crate::interface::stages::carried::{carriers_sums, multiplier_share};
+use crate::interface::stages::node::{is_left_out, node};
+use crate::interface::stages::sums::NodeSums;
+use crate::law::{Measure, Violation};
+use crate::memory::Stored;
+use nalgebra::SVector;
+
+/// How many roundings of the largest coordinate may meet in a gap or a slip: a difference of two sums over some nodes,
+/// each of which was rounded when it was moved.
+pub const ROUNDINGS: f64 = 8.0;
+
+/// What the host knows of its problem.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Scales {
+    /// Young's modulus of the softer body [F/L^2]; 0: not known.
+    pub modulus: f64,
+    /// A traction that counts where those of now are smaller, as the largest of earlier steps [F/L^2]; 0: none.
+    pub traction: f64,
+}
+
+/// The worst node: the violation that is largest over its scale.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Largest {
+    /// The violation, what rounding makes of it taken off.
+    pub value: f64,
+    /// What it should be compared with.
+    pub scale: f64,
+    /// The node; none where all is zero. The scale is then the least of all nodes.
+    pub node: Option<usize>,
+}
+
+/// The distance from equilibrium.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Equilibrium {
+    /// Of gaps `[L]`: penetration, opening under pressure; tied surfaces along the normal.
+    pub gap: Largest,
+    /// Of tractions [F/L^2]: see [`Violation::traction`].
+    pub traction: Largest,
+    /// Of slips `[L]`: where a node sticks; against or across the traction; tied surfaces along the surface.
+    pub slip: Largest,
+}
+
+impl Largest {
+    fn offer(&mut self, value: f64, scale: f64, node: usize) {
+        // value / scale > self.value / self.scale, where a scale may be zero, too
+        if value * self.scale > self.value * scale || (value > 0.0 && self.node.is_none()) {
+            *self = Largest { value, scale, node: Some(node) };
+        }
+    }
+}
+
+/// The distance of (x, lambda) from equilibrium. Nodes without any multiplier equation have no part in it.
+pub fn equilibrium<const N: usize>(
+    given: Given<N>,
+    (x1, x2): (&[Vec3], &[Vec3]),
+    lambda: &[SVector<f64, N>],
+    (sums, carried): (&[NodeSums], &[bool]),
+    scope: Scope,
+    scales: &Scales,
+) -> Result<Equilibrium> {
+    let areas = &given.history().areas;
+    let nodes: Vec<usize> = (0..lambda.len()).filter(|&a| given.setup.has_multiplier(a)).stored()?;
+    // A sliver's multiplier is a point load: it counts by its force.
+    let traction = |&a: &usize| lambda[a].norm() * (sums[a].coverage / areas[a]).min(1.0);
+    let traction = nodes.iter().map(traction).fold(scales.traction, f64::max);
+    let position = x1.iter().chain(x2).map(|x| x.amax()).fold(0.0, f64::max);
+    let rounding = ROUNDINGS * f64::EPSILON * position;
+    let length = |a: usize| areas[a].sqrt();
+    let length_scale = |a: usize| match scales.modulus {
+        0.0 => length(a),
+        modulus => length(a) * (traction / modulus),
+    };
+    let least = nodes.iter().map(|&a| length_scale(a)).fold(f64::INFINITY, f64::min);
+    let none = Largest { value: 0.0, scale: if least.is_finite() { least } else { 0.0 }, node: None };
+    let mut all = Equilibrium { gap: none, traction: Largest { scale: traction, ..none }, slip: none };
+
+    let shared =
+        if carried.contains(&true) { carriers_sums(given, sums, carried, &given.normals()?)? } else { Vec::new() };
+    for a in nodes {
+        let sum = shared.binary_search_by_key(&a, |(b, _)| *b).map_or(&sums[a], |at| &shared[at].1);
+        let stiffness = if scales.modulus > 0.0 { scales.modulus } else { traction } / length(a);
+        let share = (sum.coverage / areas[a]).min(1.0);
+        let elastic = scales.modulus / length(a) * rounding;
+        let measure = Measure {
+            coverage: sum.coverage,
+            coverage_previous: sum.coverage_previous,
+            stiffness,
+            rounding,
+            traction_rounding: ROUNDINGS * f64::EPSILON * traction + elastic,
+        };
+        let v = if carried.get(a).is_some_and(|c| *c) {
+            let own = given.carriers_of(a).iter();
+            let theirs: SVector<f64, N> = own.map(|&(b, w)| multiplier_share(given, a) * lambda[b] * w).sum();
+            Violation::uncovered((lambda[a] - theirs).norm(), &measure)
+        } else if is_left_out(given, a, scope) || sum.coverage <= given.least_coverage(a) {
+            Violation::uncovered(lambda[a].norm(), &measure)
+        } else {
+            let measure = Measure { traction_rounding: measure.traction_rounding / share, ..measure };
+            (given.setup.effects.violation)(&node(given, a, lambda[a], sum)?, &measure)
+        };
+        if ![v.gap, v.traction, v.slip].iter().all(|v| v.is_finite()) {
+            let text = text!("the violation at non-mortar node {a} overflows: the inputs are out of range");
+            return Err(Error::new(Kind::NotFinite, text));
+        }
+        all.gap.offer(v.gap, length_scale(a), a);
+        all.traction.offer(v.traction, traction, a);
+        all.slip.offer(v.slip, length_scale(a), a);
+    }
+    Ok(all)
+}

@@ -1,0 +1,9 @@
+//! Looking at an interface: read only.
+
+pub mod bytes;
+pub mod closing;
+pub mod describe;
+pub mod diagnosis;
+pub mod equilibrium;
+pub mod mistakes;
+pub mod report;

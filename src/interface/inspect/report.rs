@@ -1,0 +1,242 @@
+//! What a host should know of how its surfaces lie: which nodes are covered, in part, not at all, by how many facets
+//! and layers; and, where nothing overlaps, what mistake that looks like.
+
+use super::mistakes;
+use crate::error::{Result, Text};
+use crate::geometry::{Plane, Vec3};
+use crate::interface::data::counters::Counters;
+use crate::interface::data::options::Weights;
+use crate::interface::data::pairs::PairRecord;
+use crate::interface::data::surface::{Surface, frames};
+use crate::interface::pairing::candidates::KeptTree;
+use crate::interface::pairing::filter::LEAST_OPPOSITION;
+use crate::interface::pairing::given::Given;
+use crate::interface::pairing::search::{Aabb, Prism, Tree};
+use crate::interface::stages::integrate::integrate;
+use crate::interface::stages::layers;
+use crate::interface::stages::sums::assemble;
+use crate::memory::{self, Store, Stored};
+use crate::mortar::{NonmortarFrame, Segment};
+
+/// Coverage over area above this is full: facets that meet under an angle lack a part of second order, distorted quads
+/// have an error of the quadrature.
+const LEAST: f64 = 0.99;
+/// A facet that is covered more than this over its area lies under several layers. The shape functions add up to 1 at
+/// every point of the rule, so that a facet's coverage, unlike a node's, has no error of the quadrature.
+const MOST: f64 = 1.0 + layers::SHARED;
+
+/// How much of a node's area is covered.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(i32)]
+pub enum Cover {
+    /// At and below the option `coverage_min`: the node is open.
+    None = 0,
+    /// In part: at an edge of the mortar surface.
+    Part = 1,
+    /// In full.
+    Full = 2,
+    /// By several layers of the mortar surface.
+    Several = 3,
+}
+
+/// A non-mortar node's cover.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NodeCover {
+    /// Which of the four.
+    pub cover: Cover,
+    /// Covered over full area [-].
+    pub fraction: f64,
+    /// Layers of the mortar surface over the facets around the node, where they cover more than one of these in all.
+    pub layers: i32,
+    /// Mortar facets that overlap with the facets around it.
+    pub facets: i64,
+}
+
+/// How the surfaces lie, where that looks like a mistake.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Finding {
+    /// Nothing overlaps and nothing else is wrong.
+    NoOverlap,
+    /// Facets lie over each other, but all of them look the same way.
+    SameWay,
+    /// Opposing facets lie over each other, but deeper behind each other than a pair can.
+    Behind,
+    /// The positions of one side are those that the other side had at first, node by node.
+    Swapped,
+    /// Both node orders look reversed: see `mistakes.rs`.
+    InsideOut,
+}
+
+/// The report at one configuration.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Report {
+    /// Per non-mortar node.
+    pub nodes: Vec<NodeCover>,
+    /// The deepest penetration of a covered node, -g_N over its covered area `[L]`; 0 where there is none.
+    pub penetration: f64,
+    /// With covered nodes `Swapped` or `InsideOut` alone.
+    pub finding: Option<Finding>,
+}
+
+impl Report {
+    /// How many nodes have this cover.
+    pub fn count(&self, cover: Cover) -> usize {
+        self.nodes.iter().filter(|n| n.cover == cover).count()
+    }
+
+    /// The report in sentences.
+    ///
+    /// # Errors
+    /// [`crate::error::Kind::OutOfMemory`].
+    pub fn text(&self) -> Result<Text> {
+        let [none, part, full, several] =
+            [Cover::None, Cover::Part, Cover::Full, Cover::Several].map(|c| self.count(c));
+        let mut text = Text::EMPTY;
+        text.append(format_args!(
+            "Of {} non-mortar nodes {full} are covered in full, {part} in part, {none} not at all, {several} by several \
+             layers.",
+            self.nodes.len()
+        ))?;
+        let least = self.nodes.iter().enumerate().filter(|(_, n)| n.cover == Cover::Part);
+        if let Some((a, n)) = least.min_by(|(_, m), (_, n)| m.fraction.total_cmp(&n.fraction)) {
+            text.append(format_args!(" Least covered is node {a}, to {:.2e}.", n.fraction))?;
+        }
+        let finding = match self.finding {
+            None => "",
+            Some(Finding::NoOverlap) => " No facets lie over each other.",
+            Some(Finding::SameWay) => {
+                " Facets lie over each other, but all of them look the same way: the node order of one side is reversed, \
+                 or it is the wrong face of its body."
+            }
+            Some(Finding::Behind) => {
+                " Facets lie over each other, but behind each other by more than a facet: the node orders of both sides \
+                 are reversed, or the bodies have passed through each other, or start so deep that search_distance is \
+                 needed."
+            }
+            Some(Finding::Swapped) => {
+                " The positions given for each side are those of the other side's first configuration: x1 and x2 are \
+                 swapped."
+            }
+            Some(Finding::InsideOut) => {
+                " Every covered node penetrates by a tenth of a facet or more, or a closed surface is seen from inside and \
+                 the other side is not in it: the node orders of both sides are reversed, or this is a deep interference \
+                 fit."
+            }
+        };
+        text.append(format_args!("{finding}"))?;
+        Ok(text)
+    }
+}
+
+/// Which nodes are covered, and how, at (x1, x2), however far apart the surfaces are there.
+pub fn report<const N: usize>(
+    given: Given<N>,
+    (counters, tree): (&mut Counters, &mut KeptTree),
+    (x1, x2): (&[Vec3], &[Vec3]),
+) -> Result<Report> {
+    let (surfaces, options, h) = (given.setup.surfaces(), &given.setup.options, given.history());
+    let now;
+    let mut several = memory::filled(false, given.nodes())?;
+    let (pairs, at) = match (options.effective_weights(), &given.step.pairing.filter) {
+        (Weights::Current, Some(filter)) => {
+            now = integrate(surfaces, options, filter, (counters, tree), (x1, x2))?;
+            for found in layers::find(surfaces.1, &now)? {
+                surfaces.0.facets[found?.under].as_slice().iter().for_each(|&a| several[a] = true);
+            }
+            (&now.pairs, x1)
+        }
+        (Weights::Committed, _) => (&h.pairs, &h.x1[..]),
+        (_, _) => (&h.pairs, &surfaces.0.reference[..]),
+    };
+    let sums = assemble(surfaces, pairs, x1, x2)?;
+    let layers = covered_times(surfaces.0, pairs, at)?;
+    let claims = claims(surfaces.0, pairs)?;
+    let node = |a: usize| {
+        let fraction = sums[a].0 / h.areas[a];
+        let cover = match fraction {
+            f if f <= options.coverage_min => Cover::None,
+            _ if several[a] || layers[a] > MOST => Cover::Several,
+            f if f < LEAST => Cover::Part,
+            _ => Cover::Full,
+        };
+        let least = match cover {
+            Cover::None => 0.0,
+            Cover::Several => 2.0,
+            _ => 1.0,
+        };
+        let layers = (layers[a] - (MOST - 1.0)).ceil().max(least) as i32;
+        NodeCover { cover, fraction, layers, facets: claims[a] }
+    };
+    let nodes: Vec<_> = (0..given.nodes()).map(node).stored()?;
+    let mut depths = Vec::new();
+    for a in (0..nodes.len()).filter(|&a| nodes[a].cover != Cover::None) {
+        let (coverage, gap) = sums[a];
+        depths.store(-given.normal(a)?.dot(&gap) / coverage)?;
+    }
+    let penetration = depths.iter().fold(0.0_f64, |most, d| most.max(*d));
+    let inside_out = mistakes::are_inside_out(surfaces, (x1, x2), &depths);
+    let finding = if mistakes::are_swapped(surfaces, (x1, x2)) {
+        Some(Finding::Swapped)
+    } else if depths.is_empty() {
+        let why = why_nothing_overlaps(surfaces, (x1, x2))?;
+        Some(if why == Finding::NoOverlap && inside_out { Finding::InsideOut } else { why })
+    } else {
+        inside_out.then_some(Finding::InsideOut)
+    };
+    Ok(Report { nodes, penetration, finding })
+}
+
+/// Per non-mortar node the most that a facet around it is covered, over the facet's area at `x`.
+fn covered_times(one: &Surface, pairs: &[PairRecord], x: &[Vec3]) -> Result<Vec<f64>> {
+    let mut covered = memory::filled(0.0, one.facets.len())?;
+    for pair in pairs {
+        covered[pair.one] += (0..one.facets[pair.one].len).map(|k| pair.weights.coverage(k)).sum::<f64>();
+    }
+    let mut most = memory::filled(0.0_f64, one.len())?;
+    for (f, facet) in one.facets.iter().enumerate().filter(|(f, _)| covered[*f] > 0.0) {
+        let area: f64 = NonmortarFrame::new(&one.facet(f, x))?.nodal_areas().iter().sum();
+        facet.as_slice().iter().for_each(|&a| most[a] = most[a].max(covered[f] / area));
+    }
+    Ok(most)
+}
+
+/// Per non-mortar node the mortar facets that overlap with the facets around it.
+fn claims(one: &Surface, pairs: &[PairRecord]) -> Result<Vec<i64>> {
+    let mut claims = Vec::new();
+    for pair in pairs {
+        let facet = &one.facets[pair.one];
+        let covered = (0..facet.len).filter(|&k| pair.weights.coverage(k) > 0.0);
+        claims.store_all(covered.map(|k| (facet.nodes[k], pair.two)))?;
+    }
+    claims.sort_unstable();
+    claims.dedup();
+    let mut counts = memory::filled(0, one.len())?;
+    claims.iter().for_each(|&(a, _)| counts[a] += 1);
+    Ok(counts)
+}
+
+/// Looks at all facets that lie over each other, whichever way they look and however deep.
+fn why_nothing_overlaps((one, two): (&Surface, &Surface), (x1, x2): (&[Vec3], &[Vec3])) -> Result<Finding> {
+    if two.analytic.is_some() {
+        return Ok(Finding::NoOverlap);
+    }
+    let facet_box = |f: usize| Aabb::around(two.facet(f, x2).points().iter().copied());
+    let tree = Tree::new((0..two.facets.len()).map(facet_box).stored()?)?;
+    let (mut found, mut same_way) = (Vec::new(), false);
+    for (i, frame) in frames(one, x1)?.iter().enumerate() {
+        tree.find(&Prism::over(one.facet(i, x1).points(), &frame.plane, 0.0), &mut found)?;
+        for &j in &found {
+            let facet = two.facet(j, x2);
+            let opposition = -frame.plane.e.dot(&Plane::of(&facet)?.e);
+            // A facet that cannot be projected lies over none.
+            let lies_over = || Segment::new(frame, &facet).is_ok_and(|s| s.is_some_and(|s| s.area > 0.0));
+            if opposition.abs() > LEAST_OPPOSITION && lies_over() {
+                if opposition > 0.0 {
+                    return Ok(Finding::Behind);
+                }
+                same_way = true;
+            }
+        }
+    }
+    Ok(if same_way { Finding::SameWay } else { Finding::NoOverlap })
+}

@@ -1,0 +1,79 @@
+//! Stage 1 against an analytic mortar side (plane, sphere, cylinder): no search and no clipping. A facet that faces the
+//! surface at t_n is a pair with it, and covered everywhere; one that does not has nothing to do with it. The surface
+//! counts as one facet with the frame's four points as its nodes, so that all that follows from the weights (gaps,
+//! forces, slip, history) is as for two facets.
+
+use super::filter::LEAST_OPPOSITION;
+use crate::error::Result;
+use crate::geometry::{AnalyticSurface, Plane, Vec3};
+use crate::interface::data::active::Active;
+use crate::interface::data::counters::Counters;
+use crate::interface::data::options::Options;
+use crate::interface::data::pairs::PairRecord;
+use crate::interface::data::surface::{Surface, at_facet, frames};
+use crate::memory::{self, Store, Stored};
+use crate::mortar::analytic_weights;
+use std::time::Instant;
+
+/// Per non-mortar facet, whether it faces the surface: opposing normals at its centre, and distances between a
+/// penetration and a gap, as between facets. A surface has no far side that a gap could reach: without a search
+/// distance any gap will do.
+pub fn facing(one: &Surface, surface: &AnalyticSurface, options: &Options, x1: &[Vec3]) -> Result<Vec<bool>> {
+    let gap = options.search_distance.unwrap_or(f64::INFINITY);
+    let faces = |f: usize| {
+        let facet = one.facet(f, x1);
+        let plane = Plane::of(&facet).map_err(at_facet(one.side, f))?;
+        let centre = plane.reference - surface.origin + plane.origin;
+        let points = facet.points().iter().map(|x| x - surface.origin).chain([centre]);
+        let distances = points.map(|x| surface.distance(x));
+        let (low, high) = distances.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), d| (l.min(d), h.max(d)));
+        let penetration = options.search_distance.unwrap_or_else(|| facet.longest_edge());
+        let opposing = surface.closest(centre).is_some_and(|c| plane.e.dot(&c.normal) < -LEAST_OPPOSITION);
+        Ok(opposing && low <= gap && high >= -penetration)
+    };
+    (0..one.facets.len()).map(faces).stored_if_ok()
+}
+
+/// Weights of all facets that face the surface, at (x1, x2).
+pub fn integrate(
+    (one, two): (&Surface, &Surface),
+    options: &Options,
+    facing: &[bool],
+    counters: &mut Counters,
+    (x1, x2): (&[Vec3], &[Vec3]),
+) -> Result<Active> {
+    let start = Instant::now();
+    let (frames, surface) = (frames(one, x1)?, two.analytic_at(x2)?);
+    let mut pairs = memory::with_room(frames.len())?;
+    for (i, frame) in frames.iter().enumerate() {
+        counters.pairs_tested += 1;
+        if facing[i] {
+            let weights = analytic_weights(frame, &surface, options.rule).map_err(at_facet(one.side, i))?;
+            pairs.store(PairRecord { one: i, two: 0, weights })?;
+        }
+    }
+    counters.pairs_integrated += pairs.len() as i64;
+    counters.seconds_integration += start.elapsed().as_secs_f64();
+    let (x1, x2) = (memory::copied(x1)?, memory::copied(x2)?);
+    Ok(Active { x1, x2, frames, pairs, segments: Vec::new() })
+}
+
+/// Whether every node is outside the surface by more than any facet's edge there, in all of the configurations (x1, x2).
+/// A point of a facet is nearer to one of its nodes than its longest edge, so all of it is outside.
+pub fn are_apart((one, two): (&Surface, &Surface), places: &[(&[Vec3], &[Vec3])]) -> Result<bool> {
+    for (x1, x2) in places {
+        let surface = two.analytic_at(x2)?;
+        let edge = one.longest_edge_at(x1);
+        if !x1.iter().all(|x| surface.distance(x - surface.origin) > edge) {
+            return Ok(false);
+        }
+    }
+    Ok(true)
+}
+
+/// Whether the gap is one, and no penetration, all over a facet that is outside: its vector runs along the surface's
+/// normal n, of which nu . n > 0 holds between the nodes if it does at all of them.
+pub fn looks_at(surface: &AnalyticSurface, nodes: &[usize], x1: &[Vec3], nu: &[Vec3]) -> bool {
+    let normal = |&k: &usize| surface.closest(x1[k] - surface.origin).map(|closest| closest.normal);
+    nodes.iter().all(|k| normal(k).is_some_and(|n| nodes.iter().all(|&a| nu[a].dot(&n) > 0.0)))
+}

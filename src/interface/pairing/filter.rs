@@ -1,0 +1,169 @@
+//! What a commit settles about the pairs of the step that follows: which facets oppose each other, and how deep one may
+//! lie behind the other. Of the positions of t_n alone, so that evaluations within the step are functions.
+//!
+//! A gap may be any; a penetration deeper than a facet is the far side of a body. But facets are chords: a surface that
+//! is curved lies off them by more than its partner's facets are long where those are fine. So a pair may be as deep as
+//! the smaller of its facets is long, and by what the surfaces bulge from their facets beyond it. That is the pair's own
+//! measure; a mortar facet that coarse non-mortar facets let in may lie as deep as it does (`depth.rs`).
+
+use crate::error::Result;
+use crate::geometry::{Facet, Plane, Vec3};
+use crate::interface::data::surface::{Surface, at_facet};
+use crate::memory::{self, Stored};
+
+/// Facets whose normals oppose each other less than this are no pair: beyond 80 degrees the
+/// projection degenerates, and faces that look the same way must not be found.
+pub const LEAST_OPPOSITION: f64 = 0.17;
+/// Neighbouring facets whose normals have a scalar product above this (45 degrees) approximate one smooth surface;
+/// below it there is an edge, which says nothing about a bulge.
+const SMOOTH: f64 = 0.7;
+/// A circle lies off its chord of length h by h phi / 4 at most, phi the angle to the next, much shorter chord (phi / 8
+/// where that is as long); this times h phi leaves a factor of 2.
+const BULGE: f64 = 0.5;
+
+/// What settles at a commit which pairs there can be.
+#[derive(Debug)]
+#[expect(clippy::large_enum_variant, reason = "an interface has one")]
+pub enum Filter {
+    Facets(FacetFilter),
+    /// Which non-mortar facets face an analytic mortar side.
+    Analytic(Vec<bool>),
+}
+
+impl Filter {
+    /// Per non-mortar facet, whether it can have a pair.
+    pub fn reached(&self) -> &[bool] {
+        match self {
+            Filter::Facets(filter) => &filter.reached,
+            Filter::Analytic(facing) => facing,
+        }
+    }
+}
+
+/// The facets of one side at t_n.
+#[derive(Debug)]
+pub struct Side {
+    pub facets: Vec<(Facet, Plane)>,
+    /// The longest edge of each `[L]`.
+    pub edges: Vec<f64>,
+    /// How far the surface may lie off each of them `[L]`.
+    pub bulges: Vec<f64>,
+}
+
+impl Side {
+    /// Those of a surface at `x`.
+    pub fn new(surface: &Surface, x: &[Vec3]) -> Result<Side> {
+        let facet = |f: usize| {
+            let facet = surface.facet(f, x);
+            Plane::of(&facet).map(|plane| (facet, plane)).map_err(at_facet(surface.side, f))
+        };
+        let facets = (0..surface.facets.len()).map(facet).stored_if_ok()?;
+        let normal = |f: usize| facets[f].1.e;
+        let smooth = surface.edges.iter().map(|e| e.facets).filter(|&[f, g]| normal(f).dot(&normal(g)) > SMOOTH);
+        // Twice: a triangle may touch the facets that are turned against it at one node only.
+        let (mut angles, mut near) = (memory::filled(0.0_f64, facets.len())?, memory::filled(0.0_f64, facets.len())?);
+        for [f, g] in smooth.clone() {
+            let angle = normal(f).cross(&normal(g)).norm();
+            (angles[f], angles[g]) = (angles[f].max(angle), angles[g].max(angle));
+        }
+        for [f, g] in smooth {
+            let angle = angles[f].max(angles[g]);
+            (near[f], near[g]) = (near[f].max(angle), near[g].max(angle));
+        }
+        let edges: Vec<_> = facets.iter().map(|(facet, _)| facet.longest_edge()).stored()?;
+        let bulge = |f: usize| warp(&facets[f].0, &facets[f].1) + BULGE * near[f] * edges[f];
+        let bulges = (0..facets.len()).map(bulge).stored()?;
+        Ok(Side { facets, edges, bulges })
+    }
+
+    fn largest(&self) -> (f64, f64) {
+        let largest = |v: &[f64]| v.iter().copied().fold(0.0, f64::max);
+        (largest(&self.edges), largest(&self.bulges))
+    }
+}
+
+/// How far a facet's nodes lie off its plane `[L]`.
+fn warp(facet: &Facet, plane: &Plane) -> f64 {
+    heights(facet, plane).fold(0.0, |most, d| most.max(d.abs()))
+}
+
+/// Heights of a facet's nodes over a plane `[L]`.
+fn heights(facet: &Facet, plane: &Plane) -> impl Iterator<Item = f64> {
+    facet.points().iter().map(|x| plane.e.dot(&(x - plane.reference - plane.origin)))
+}
+
+/// Whether two facets can be a pair: opposing normals, and heights over the non-mortar facet between a penetration and
+/// a gap.
+#[derive(Debug)]
+pub struct FacetFilter {
+    /// Non-mortar, mortar.
+    pub sides: [Side; 2],
+    /// What the host gives for both penetration and gap `[L]`.
+    pub distance: Option<f64>,
+    /// Per mortar facet, how deep it may lie beyond the pairs' own measure `[L]`; empty: none may.
+    pub depths: Vec<f64>,
+    /// Per non-mortar facet, whether any mortar facet can be a pair with it.
+    pub reached: Vec<bool>,
+    /// Which non-mortar facets are integrated over cells, of a scheme that has both.
+    pub by_cells: Vec<bool>,
+}
+
+impl FacetFilter {
+    /// Whether non-mortar facet i and mortar facet j can be a pair.
+    pub fn admits(&self, i: usize, j: usize) -> bool {
+        if !self.opposes(i, j) {
+            return false;
+        }
+        let (low, high) = self.heights(i, j);
+        low <= self.gap() && high >= -self.penetration(i, j)
+    }
+
+    /// Whether they look at each other.
+    pub fn opposes(&self, i: usize, j: usize) -> bool {
+        let [one, two] = &self.sides;
+        one.facets[i].1.e.dot(&two.facets[j].1.e) < -LEAST_OPPOSITION
+    }
+
+    /// The lowest and the highest node of mortar facet j over the plane of non-mortar facet i `[L]`.
+    pub fn heights(&self, i: usize, j: usize) -> (f64, f64) {
+        let [one, two] = &self.sides;
+        let heights = heights(&two.facets[j].0, &one.facets[i].1);
+        heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), d| (l.min(d), h.max(d)))
+    }
+
+    /// The widest gap of a pair `[L]`.
+    pub fn gap(&self) -> f64 {
+        self.distance.unwrap_or(f64::INFINITY)
+    }
+
+    /// The deepest penetration at which they can be a pair `[L]`.
+    fn penetration(&self, i: usize, j: usize) -> f64 {
+        self.distance.unwrap_or_else(|| self.penetrations(i, j)[0] + self.depths.get(j).copied().unwrap_or(0.0))
+    }
+
+    /// What of it follows from their sizes and bulges, and how deep the coarser of them lets a body in at most.
+    pub fn penetrations(&self, i: usize, j: usize) -> [f64; 2] {
+        let [one, two] = &self.sides;
+        let (edges, bulges) = ((one.edges[i], two.edges[j]), one.bulges[i] + two.bulges[j]);
+        [edges.0.min(edges.1), edges.0.max(edges.1)].map(|edge| edge + bulges)
+    }
+
+    /// The most that any mortar facet may lie beyond that.
+    fn largest_depth(&self) -> f64 {
+        self.depths.iter().copied().fold(0.0, f64::max)
+    }
+
+    /// At least the deepest penetration of any pair of each non-mortar facet `[L]`.
+    pub fn deepest_of_each(&self) -> Result<Vec<f64>> {
+        let [one, two] = &self.sides;
+        let ((_, bulge), depth) = (two.largest(), self.largest_depth());
+        let own = one.edges.iter().zip(&one.bulges).map(|(edge, bulge)| edge + bulge);
+        own.map(|own| self.distance.unwrap_or(own + bulge + depth)).stored()
+    }
+
+    /// At least the deepest penetration of any pair `[L]`.
+    pub fn deepest(&self) -> f64 {
+        let [(h1, b1), (h2, b2)] = self.sides.each_ref().map(Side::largest);
+        self.distance.unwrap_or(h1.min(h2) + b1 + b2 + self.largest_depth())
+    }
+}

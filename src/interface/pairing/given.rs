@@ -1,0 +1,127 @@
+//! All that an evaluation is given besides positions and multipliers: what the interface is, and what t_n has settled.
+//! Read only, and the same for every stage.
+
+use super::settle::Pairing;
+use super::weak::Carrier;
+use crate::error::{Error, Kind, Result};
+use crate::geometry::{Mat3, Vec3};
+use crate::interface::data::history::History;
+use crate::interface::data::node_data::check_length;
+use crate::interface::data::options::RowScale;
+use crate::interface::data::setup::Setup;
+use crate::law::{NodeResponse, State};
+use crate::memory::Stored;
+use crate::normal::SMALLEST_SUM;
+use nalgebra::SVector;
+
+/// The step: t_n, and what follows from it.
+#[derive(Debug)]
+pub struct Step {
+    /// t_n.
+    pub history: History,
+    /// What it settles.
+    pub pairing: Pairing,
+}
+
+/// What the interface is, and the step.
+#[derive(Debug)]
+pub struct Given<'a, const N: usize> {
+    /// What the interface is.
+    pub setup: &'a Setup<N>,
+    /// The step.
+    pub step: &'a Step,
+}
+
+impl<const N: usize> Clone for Given<'_, N> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<const N: usize> Copy for Given<'_, N> {}
+
+impl<'a, const N: usize> Given<'a, N> {
+    /// t_n.
+    pub fn history(self) -> &'a History {
+        &self.step.history
+    }
+
+    /// Non-mortar nodes.
+    pub fn nodes(self) -> usize {
+        self.setup.nonmortar.len()
+    }
+
+    /// nu_A: the host's or the committed one, normalised within the free directions.
+    pub fn normal(self, a: usize) -> Result<Vec3> {
+        let nodes = &self.setup.nodes;
+        let normal = nodes.normals.as_ref().map_or(self.history().normals[a], |n| n[a]);
+        if nodes.free[a] == Mat3::identity() {
+            return Ok(normal);
+        }
+        let free = nodes.free[a] * normal;
+        let norm = free.norm();
+        if norm <= SMALLEST_SUM {
+            let text =
+                text!("the normal of non-mortar node {a} lies in its prescribed directions; it must keep a free part");
+            return Err(Error::new(Kind::UndefinedNormal, text));
+        }
+        Ok(free / norm)
+    }
+
+    /// nu of every node.
+    pub fn normals(self) -> Result<Vec<Vec3>> {
+        (0..self.nodes()).map(|a| self.normal(a)).stored_if_ok()
+    }
+
+    /// r_A [F/L^5]: the host's, or rhat_A / M_A.
+    pub fn augmentation(self, a: usize) -> f64 {
+        let area = self.history().areas[a];
+        let given = self.setup.nodes.augmentations.as_ref();
+        given.map_or_else(|| self.setup.options.augmentation(area) / area, |r| r[a])
+    }
+
+    /// Factor of node A's multiplier rows.
+    pub fn row_scale(self, a: usize) -> f64 {
+        match self.setup.options.row_scale {
+            RowScale::Force => self.augmentation(a) * self.history().areas[a],
+            RowScale::None => 1.0,
+        }
+    }
+
+    /// The covered area at and below which a node counts as uncovered [L^2].
+    pub fn least_coverage(self, a: usize) -> f64 {
+        self.setup.options.coverage_min * self.history().areas[a]
+    }
+
+    /// The nodes that carry node A; none where it has a multiplier of its own.
+    pub fn carriers_of(self, a: usize) -> &'a [Carrier] {
+        self.step.pairing.carriers.get(a).map_or(&[], |c| c)
+    }
+
+    /// Slip of node A since the first configuration `[L]`, this step's included.
+    /// g_T is weighted with n(t_n), so it is a length times `coverage_previous`, the covered area of t_n.
+    /// An open node moves without slipping.
+    pub fn slip_after(self, a: usize, response: &NodeResponse<N>, coverage_previous: f64) -> Vec3 {
+        let closed = response.state != State::Gap;
+        let step = if closed && coverage_previous > 0.0 { response.slip / coverage_previous } else { Vec3::zeros() };
+        self.history().slip.get(a).map_or(step, |slip| slip + step)
+    }
+
+    /// Refuses positions that no evaluation could use.
+    pub fn check_positions(self, x1: &[Vec3], x2: &[Vec3]) -> Result<()> {
+        let (one, two) = self.setup.surfaces();
+        check_length("x1", x1.len(), one.len())?;
+        check_length("x2", x2.len(), two.len())?;
+        check_finite("x1", x1)?;
+        check_finite("x2", x2)?;
+        two.check_rigid(x2)
+    }
+}
+
+/// Refuses NaN and infinity, naming argument and node.
+pub fn check_finite<const N: usize>(name: &str, values: &[SVector<f64, N>]) -> Result<()> {
+    match values.iter().position(|v| !v.iter().all(|c| c.is_finite())) {
+        None => Ok(()),
+        Some(k) => Err(Error::new(Kind::NotFinite, text!("{name} of node {k} is not finite"))),
+    }
+}

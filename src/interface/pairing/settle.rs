@@ -1,0 +1,91 @@
+//! What a commit settles about the step that follows: which facets may meet, which nodes can be covered, and which nodes
+//! carry others.
+
+use super::analytic;
+use super::depth;
+use super::filter::{FacetFilter, Filter, Side};
+use super::hybrid;
+use super::reach;
+use super::search::{Aabb, Tree};
+use super::weak::{self, Carrier};
+use crate::error::Result;
+use crate::geometry::Vec3;
+use crate::interface::data::history::History;
+use crate::interface::data::options::{Options, Weights};
+use crate::interface::data::pairs::PairRecord;
+use crate::interface::data::setup::Setup;
+use crate::interface::data::surface::Surface;
+use crate::memory::Stored;
+
+/// What t_n settles.
+#[derive(Debug)]
+pub struct Pairing {
+    /// Which facets may meet; `None` where the weights are frozen for good.
+    pub filter: Option<Filter>,
+    /// Per non-mortar node, whether anything can cover it.
+    pub coverable: Vec<bool>,
+    /// Per non-mortar node those that carry it; empty where no node is carried.
+    pub carriers: Vec<Vec<Carrier>>,
+}
+
+impl Pairing {
+    /// That of a history and the filter of its configuration.
+    pub fn new<const N: usize>(setup: &Setup<N>, filter: Option<Filter>, history: &History) -> Result<Pairing> {
+        let frozen = setup.options.effective_weights() != Weights::Current;
+        let pairs: Option<&[PairRecord]> = frozen.then_some(&history.pairs);
+        let coverable = reach::coverable(&setup.nonmortar, filter.as_ref(), pairs)?;
+        let carriers = carriers(setup, history, &coverable)?;
+        Ok(Pairing { filter, coverable, carriers })
+    }
+
+    /// That of a history which is not of now; its positions may be refused.
+    pub fn again<const N: usize>(setup: &Setup<N>, history: &History) -> Result<Pairing> {
+        let current = setup.options.effective_weights() == Weights::Current;
+        let at = || filter(setup.surfaces(), &setup.options, (&history.x1, &history.x2));
+        Pairing::new(setup, current.then(at).transpose()?, history)
+    }
+}
+
+/// The filter of the configuration (x1, x2).
+pub fn filter((one, two): (&Surface, &Surface), options: &Options, (x1, x2): (&[Vec3], &[Vec3])) -> Result<Filter> {
+    if two.analytic.is_some() {
+        return analytic::facing(one, &two.analytic_at(x2)?, options, x1).map(Filter::Analytic);
+    }
+    let sides = [Side::new(one, x1)?, Side::new(two, x2)?];
+    let mut filter = FacetFilter {
+        sides,
+        distance: options.search_distance,
+        depths: Vec::new(),
+        reached: Vec::new(),
+        by_cells: Vec::new(),
+    };
+    let points = filter.sides[1].facets.iter().map(|(facet, _)| Aabb::around(facet.points().iter().copied()));
+    let tree = Tree::new(points.stored()?)?;
+    filter.reached = reach::reached(&filter, &tree)?;
+    if filter.distance.is_none() {
+        filter.depths = depth::followed((one, two), &filter, &tree, x2)?;
+        if !filter.depths.is_empty() {
+            filter.reached = reach::reached(&filter, &tree)?;
+        }
+    }
+    filter.by_cells = hybrid::partly_covered((one, two), options.scheme, &filter, (x1, x2))?;
+    Ok(Filter::Facets(filter))
+}
+
+/// The carriers of every node, by the history.
+fn carriers<const N: usize>(setup: &Setup<N>, h: &History, coverable: &[bool]) -> Result<Vec<Vec<Carrier>>> {
+    let threshold = setup.options.weak_coverage;
+    if threshold == 0.0 || !h.integrated {
+        return Ok(Vec::new());
+    }
+    let fraction = |a: usize| {
+        let f = h.coverage[a] / h.areas[a];
+        if f > setup.options.coverage_min { f } else { 0.0 }
+    };
+    let nodes = weak::Nodes {
+        fraction: &(0..setup.nonmortar.len()).map(fraction).stored()?,
+        coverable,
+        has_multiplier: &|a| setup.has_multiplier(a),
+    };
+    weak::carriers(&nodes, &weak::links(&setup.nonmortar, h)?, threshold)
+}

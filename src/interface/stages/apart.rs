@@ -1,0 +1,68 @@
+//! Surfaces that are apart: nothing is searched, integrated or linearised, and no node is covered.
+//!
+//! Never where the full machinery would find a node closed that carries no multiplier. A gap vector runs along the
+//! facet's normal e from one side to the other. So where a plane lies between the sides, its sign is that of e along the
+//! plane's normal: every facet that can have a pair must look at the other side, now, and its nodes' nu(t_n) away.
+
+use crate::error::Result;
+use crate::geometry::Vec3;
+use crate::interface::data::history::History;
+use crate::interface::data::options::{Options, Weights};
+use crate::interface::data::surface::Surface;
+use crate::interface::pairing::analytic;
+use crate::interface::pairing::filter::Filter;
+use crate::interface::pairing::given::Given;
+use crate::interface::pairing::search::Aabb;
+use crate::memory::{self, Stored};
+
+/// Whether the surfaces are apart in all of the configurations (x1, x2), by more than the deepest penetration that is a
+/// pair. Only where the weights follow the motion, so that they can be made up for later.
+pub fn are_apart(
+    surfaces: (&Surface, &Surface),
+    options: &Options,
+    filter: &Filter,
+    places: &[(&[Vec3], &[Vec3])],
+) -> Result<bool> {
+    if !options.shortcuts.apart || options.effective_weights() != Weights::Current {
+        return Ok(false);
+    }
+    match filter {
+        Filter::Analytic(_) => analytic::are_apart(surfaces, places),
+        Filter::Facets(filter) => Ok(directions(filter.deepest(), places)?.next().is_some()),
+    }
+}
+
+/// The axes, one way or the other, along which the non-mortar side must go to reach the other one, in all of the
+/// configurations: between two of them on different sides it passes through it.
+fn directions(distance: f64, places: &[(&[Vec3], &[Vec3])]) -> Result<impl Iterator<Item = Vec3> + use<>> {
+    let around = |x: &[Vec3]| Aabb::around(x.iter().copied());
+    let above: Vec<_> = places.iter().map(|(x1, x2)| around(x1).sides(&around(x2), distance)).stored()?;
+    let axes = [-Vec3::x(), -Vec3::y(), -Vec3::z(), Vec3::x(), Vec3::y(), Vec3::z()];
+    Ok((0..6).filter(move |&side| above.iter().all(|sides| sides[side])).map(move |side| axes[side]))
+}
+
+/// Whether the surfaces are apart at (x1, x2), were so at t_n, and look at each other.
+pub fn stays_apart<const N: usize>(given: Given<N>, x1: &[Vec3], x2: &[Vec3]) -> Result<bool> {
+    let History { x1: x1_n, x2: x2_n, .. } = given.history();
+    let (surfaces, places) = (given.setup.surfaces(), [(&x1_n[..], &x2_n[..]), (x1, x2)]);
+    let Some(filter) = &given.step.pairing.filter else { return Ok(false) };
+    if !are_apart(surfaces, &given.setup.options, filter, &places)? {
+        return Ok(false);
+    }
+    // A normal that is undefined is refused where it is needed.
+    let Some(nu) = memory::if_accepted(given.normals())? else { return Ok(false) };
+    let (one, reached) = (surfaces.0, filter.reached());
+    let mut facets = (0..reached.len()).filter(|&f| reached[f]);
+    let nodes = |f: usize| &one.facets[f].nodes[..one.facets[f].len];
+    let filter = match filter {
+        Filter::Facets(filter) => filter,
+        Filter::Analytic(_) => {
+            let surface = surfaces.1.analytic_at(x2)?;
+            return Ok(facets.all(|f| analytic::looks_at(&surface, nodes(f), x1, &nu)));
+        }
+    };
+    let out: Vec<_> = facets.map(|f| (f, one.facet(f, x1).area_vector())).stored()?;
+    let nodes_look = out.iter().all(|(f, out)| nodes(*f).iter().all(|&a| nu[a].dot(out) < 0.0));
+    let mut directions = directions(filter.deepest(), &places)?;
+    Ok(nodes_look && directions.any(|direction| out.iter().all(|(_, out)| out.dot(&direction) > 0.0)))
+}

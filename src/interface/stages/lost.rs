@@ -1,0 +1,86 @@
+//! A commit takes no contact away. The pairs of the step that follows are settled anew, by the positions of its start: at
+//! these positions a closed node must still have the pairs that it had. The new normals alone may change which facets
+//! look at each other, as long as they leave the node covered.
+
+use super::commit::Start;
+use crate::error::{Error, Kind, Result};
+use crate::geometry::Vec3;
+use crate::interface::data::active::Active;
+use crate::interface::data::pairs::PairRecord;
+use crate::interface::data::setup::Setup;
+use crate::interface::pairing::filter::Filter;
+use crate::law::{NodeResponse, State};
+use crate::memory;
+
+/// A pair with less of a node's area carries none of its traction: the rounding of an overlap.
+const NOTHING: f64 = 1e-12;
+/// A facet that is open all over by more than this (over the non-mortar facet's longest edge) touches nothing: a node that
+/// has such pairs alone is closed by the rounding of a gap across its normal. Far above what rounding makes of a flat
+/// contact, far below a gap.
+const TOUCHES: f64 = 1e-6;
+
+/// Refuses a commit at (x1, x2) after which a closed node would have lost a pair because it is deep, or all that
+/// covers it. `before`: the pairs of now, of weights of now: frozen
+/// ones do not say what the old filter would admit here; with the nodes' areas of t_n.
+pub fn refuse_lost_contact<const N: usize>(
+    setup: &Setup<N>,
+    (before, areas): (&Active, &[f64]),
+    new: &Start,
+    (x1, x2): (&[Vec3], &[Vec3]),
+    responses: &[NodeResponse<N>],
+) -> Result<()> {
+    let Some(filter) = &new.filter else { return Ok(()) };
+    let after = new.active.as_ref().map_or(&new.history.pairs, |k| &k.pairs);
+    let mut lost = memory::filled(0.0, setup.nonmortar.len())?;
+    for pair in missing(&before.pairs, after) {
+        let (low, deep) = match filter {
+            Filter::Facets(filter) => {
+                let (low, high) = filter.heights(pair.one, pair.two);
+                (low, Some(-high).filter(|depth| *depth > 0.0 && filter.opposes(pair.one, pair.two)))
+            }
+            Filter::Analytic(_) => (lowest_over_surface(setup, pair.one, x1, x2)?, None),
+        };
+        let touches = low <= TOUCHES * setup.nonmortar.facet(pair.one, x1).longest_edge();
+        for (k, &a) in setup.nonmortar.facets[pair.one].as_slice().iter().enumerate() {
+            let coverage = pair.weights.coverage(k);
+            if !touches || coverage <= NOTHING * areas[a] || responses[a].state == State::Gap {
+                continue;
+            }
+            lost[a] += coverage;
+            if let Some(depth) = deep {
+                let text = text!(
+                    "non-mortar node {a} carries contact with mortar facet {}, which lies {depth:.3e} behind non-mortar facet {}: deeper than a pair may be in the next step; give search_distance, more than that, or smaller non-mortar facets",
+                    pair.two,
+                    pair.one
+                );
+                return Err(Error::new(Kind::ContactLost, text));
+            }
+        }
+    }
+    let threshold = |a: usize| setup.options.coverage_min * new.history.areas[a];
+    match (0..lost.len()).find(|&a| lost[a] > threshold(a) && new.history.coverage[a] <= threshold(a)) {
+        None => Ok(()),
+        Some(a) => {
+            let text = text!(
+                "non-mortar node {a} carries contact, but nothing that covers it could be its pair in the next step: with the normals of now the facets no longer look at each other, or search_distance is too small; take a smaller step, or give a larger search_distance"
+            );
+            Err(Error::new(Kind::ContactLost, text))
+        }
+    }
+}
+
+/// The least distance of a facet's nodes to the analytic mortar side `[L]`.
+fn lowest_over_surface<const N: usize>(setup: &Setup<N>, facet: usize, x1: &[Vec3], x2: &[Vec3]) -> Result<f64> {
+    let surface = setup.mortar.analytic_at(x2)?;
+    let nodes = setup.nonmortar.facets[facet].as_slice().iter();
+    Ok(nodes.map(|&a| surface.distance(x1[a] - surface.origin)).fold(f64::INFINITY, f64::min))
+}
+/// Those of `before` that are not in `after`; both are sorted by their facets.
+fn missing<'a>(before: &'a [PairRecord], after: &'a [PairRecord]) -> impl Iterator<Item = &'a PairRecord> {
+    let mut after = after.iter().peekable();
+    before.iter().filter(move |pair| {
+        let place = (pair.one, pair.two);
+        while after.next_if(|p| (p.one, p.two) < place).is_some() {}
+        after.peek().is_none_or(|p| (p.one, p.two) != place)
+    })
+}

@@ -1,0 +1,15 @@
+//! What a commit and an evaluation are made of: functions from data to data, none of which calls an earlier one.
+
+pub mod apart;
+pub mod away;
+pub mod carried;
+pub mod commit;
+pub mod initial;
+pub mod integrate;
+pub mod layers;
+pub mod lost;
+pub mod node;
+pub mod residual;
+pub mod respond;
+pub mod sums;
+pub mod turn;

@@ -1,0 +1,60 @@
+//! A node as the law sees it, and whether the law need be asked about it at all.
+
+use super::sums::NodeSums;
+use crate::error::Result;
+use crate::interface::data::counters::NodeCounts;
+use crate::interface::data::extent::{Extent, Scope};
+use crate::interface::data::options::{Friction, NewContact};
+use crate::interface::pairing::given::Given;
+use crate::law::Node;
+use nalgebra::SVector;
+
+/// What the law is asked about node A.
+pub fn node<const N: usize>(given: Given<N>, a: usize, lambda: SVector<f64, N>, sums: &NodeSums) -> Result<Node<N>> {
+    let (options, nodes, threshold) = (&given.setup.options, &given.setup.nodes, given.least_coverage(a));
+    let covered_before = sums.coverage_previous > threshold;
+    let frictionless = !covered_before && options.new_contact == NewContact::Frictionless;
+    Ok(Node {
+        lambda,
+        normal: given.normal(a)?,
+        augmentation: given.augmentation(a),
+        mu: if frictionless { 0.0 } else { nodes.mu[a] },
+        gap_now: sums.gap_now,
+        gap_previous: sums.gap_previous,
+        gap_committed: sums.gap_committed,
+        covered: sums.coverage > threshold,
+        covered_before,
+        slip: options.effective_slip(),
+        free: nodes.free[a],
+    })
+}
+
+/// The count that a node which the law is asked about belongs to.
+pub fn count_of<'c, const N: usize>(
+    given: Given<N>,
+    a: usize,
+    node: &Node<N>,
+    counts: &'c mut NodeCounts,
+) -> &'c mut i64 {
+    if !node.covered {
+        &mut counts.uncovered
+    } else if given.setup.options.friction == Friction::Tied {
+        &mut counts.tied
+    } else if !given.setup.effects.slips || given.setup.nodes.mu[a] == 0.0 {
+        &mut counts.frictionless
+    } else if node.mu == 0.0 {
+        &mut counts.new
+    } else {
+        &mut counts.frictional
+    }
+}
+
+/// Whether nothing can cover a node before the next commit. Of a part of an interface other handles may know better.
+pub fn is_out_of_reach<const N: usize>(given: Given<N>, a: usize, extent: Extent) -> bool {
+    given.setup.options.shortcuts.uncovered && extent == Extent::Whole && !given.step.pairing.coverable[a]
+}
+
+/// Whether the law need not be asked about a node: out of reach, or the surfaces are apart.
+pub fn is_left_out<const N: usize>(given: Given<N>, a: usize, scope: Scope) -> bool {
+    is_out_of_reach(given, a, scope.extent) || (given.setup.options.shortcuts.uncovered && scope.apart)
+}

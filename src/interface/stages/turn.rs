@@ -1,0 +1,96 @@
+//! How far the surfaces have turned within a step (docs/formulation.md 6.6). nu, and which facets oppose each other, are
+//! those of t_n: beyond a limit they mean the surfaces of now no longer. After a quarter of a turn nothing opposes
+//! anything, and a step converges without any contact. So a commit refuses a step that has turned them by more.
+//!
+//! Both sides count, each against its own normals of t_n, and a turn of both together too: what is frozen is fixed in
+//! space. With weights of the reference it is the whole turn since then, and of the non-mortar side alone, for nothing
+//! else is asked. Tied surfaces use no normals. Surfaces that were apart and still are may turn as they like.
+
+use crate::error::{Error, Kind, Result, Text};
+use crate::geometry::Vec3;
+use crate::interface::data::options::{Friction, Options, Weights};
+use crate::interface::data::surface::Surface;
+use crate::interface::pairing::analytic;
+use crate::interface::pairing::filter::Filter;
+use crate::interface::pairing::given::Given;
+use crate::interface::pairing::search::Aabb;
+use crate::memory;
+use crate::normal;
+
+/// The larger of `found` and a turn from one unit vector to another, with what has turned.
+fn larger(found: (f64, usize), from: &Vec3, to: &Vec3, what: usize) -> (f64, usize) {
+    // Exact at small angles, where the scalar product is not.
+    let angle = 2.0 * ((from - to).norm() / 2.0).min(1.0).asin();
+    if angle > found.0 { (angle, what) } else { found }
+}
+
+/// Refuses a commit at (x1, x2) where a surface has turned by more than the option allows.
+/// `shared`: other handles have other parts of the mortar side, which are not known here.
+pub fn refuse_turn<const N: usize>(given: Given<N>, (x1, x2): (&[Vec3], &[Vec3]), shared: bool) -> Result<()> {
+    let ((nonmortar, mortar), options) = (given.setup.surfaces(), &given.setup.options);
+    if options.friction == Friction::Tied || !shared && is_apart_at_both(given, x1, x2)? {
+        return Ok(());
+    }
+    let mut most = (0.0, 0);
+    for (a, sum) in nonmortar.sums_of_normals(x1)?.into_iter().enumerate() {
+        // One that cannot be averaged is refused in its own words where it is needed.
+        if let Some(normal) = memory::if_accepted(normal::nodal_normal(sum, a))? {
+            most = larger(most, &given.history().normals[a], &normal, a);
+        }
+    }
+    let (angle, node) = most;
+    refuse_angle(options, angle, || text!("the normal of non-mortar node {node}"))?;
+    if options.effective_weights() == Weights::Reference {
+        return Ok(());
+    }
+    let (angle, facet) = turn_of_mortar(mortar, &given.history().x2, x2)?;
+    refuse_angle(options, angle, || match mortar.analytic {
+        Some(shape) => text!("the mortar side, {shape},"),
+        None => text!("mortar facet {facet}"),
+    })
+}
+
+fn turn_of_mortar(two: &Surface, x2_n: &[Vec3], x2: &[Vec3]) -> Result<(f64, usize)> {
+    if two.analytic.is_some() {
+        let directions = [two.analytic_at(x2_n)?, two.analytic_at(x2)?].map(|surface| surface.direction());
+        let [Some(from), Some(to)] = directions else { return Ok((0.0, 0)) };
+        return Ok(larger((0.0, 0), &from, &to, 0));
+    }
+    let normal = |f: usize, x: &[Vec3]| two.facet(f, x).area_vector().try_normalize(0.0);
+    let facets = (0..two.facets.len()).filter_map(|f| Some((f, normal(f, x2_n)?, normal(f, x2)?)));
+    Ok(facets.fold((0.0, 0), |most, (f, from, to)| larger(most, &from, &to, f)))
+}
+
+/// Whether the sides lie along one axis farther apart than any penetration, at t_n and now and the same way round.
+fn is_apart_at_both<const N: usize>(given: Given<N>, x1: &[Vec3], x2: &[Vec3]) -> Result<bool> {
+    let ((one, two), h) = (given.setup.surfaces(), given.history());
+    let places = [(&h.x1[..], &h.x2[..]), (x1, x2)];
+    if two.analytic.is_some() {
+        return analytic::are_apart((one, two), &places);
+    }
+    let around = |x: &[Vec3]| Aabb::around(x.iter().copied());
+    let deepest = match &given.step.pairing.filter {
+        Some(Filter::Facets(filter)) => filter.deepest(),
+        _ => one.longest_edge_at(&h.x1).max(two.longest_edge_at(&h.x2)),
+    };
+    let [before, now] = places.map(|(x1, x2)| around(x1).sides(&around(x2), deepest));
+    Ok(before.iter().zip(&now).any(|(before, now)| *before && *now))
+}
+
+fn refuse_angle(options: &Options, angle: f64, what: impl Fn() -> Text) -> Result<()> {
+    if angle <= options.turn_max {
+        return Ok(());
+    }
+    let since = if options.effective_weights() == Weights::Reference {
+        "since the first configuration (weights are of the reference)"
+    } else {
+        "since the last commit"
+    };
+    let text = text!(
+        "{} has turned by {:.1} degrees {since}, more than the {:.1} that are allowed (options.turn_max): take smaller steps",
+        what(),
+        angle.to_degrees(),
+        options.turn_max.to_degrees()
+    );
+    Err(Error::new(Kind::TurnedTooFar, text))
+}

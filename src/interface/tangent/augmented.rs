@@ -1,0 +1,93 @@
+//! What only the augmented form needs (docs/formulation.md 5.4): its forces use the projected traction, whose
+//! derivative n_AB (dp/dsigma) r Dg_A couples all pairs of a node and is no sum over pairs.
+
+use crate::element::{PairNow, frozen_rows, gap_rows};
+use crate::error::Result;
+use crate::geometry::{Mat3, Vec3};
+use crate::interface::data::multiplier::basis;
+use crate::interface::pairing::given::Given;
+use crate::law::NodeResponse;
+use crate::memory::Store;
+use crate::mortar::{MORTAR, PAIR_NODES, PairWeights, slots};
+
+/// dp/dg_now and dp/dg_previous of a node.
+pub fn dtraction<const N: usize>(given: Given<N>, a: usize, response: &NodeResponse<N>, nu: Vec3) -> (Mat3, Mat3) {
+    let basis = basis::<N>(nu) * given.augmentation(a);
+    (basis * response.drow_dnow, basis * response.drow_dprevious)
+}
+
+/// One node that a non-mortar node A is coupled with.
+#[derive(Clone, Debug)]
+pub struct Coupling {
+    /// Index over both surfaces.
+    pub node: usize,
+    /// Assembled n_AB, or -n_AC: the share of p_A in the node's force [L^2].
+    pub weight: f64,
+    /// Whether p_A acts on the node now, or only depends on it.
+    pub acts: bool,
+    /// dp_A / dx of the node.
+    pub dtraction: Mat3,
+}
+
+/// Everything node A is coupled with, assembled over its pairs.
+#[derive(Clone, Debug, Default)]
+pub struct NodeCouplings {
+    /// In the order in which they were met.
+    pub nodes: Vec<Coupling>,
+}
+
+impl NodeCouplings {
+    /// Adds a pair in which A is the k-th non-mortar node. `dp` = (dp/dg_now, dp/dg_previous).
+    pub fn add_pair<const MOVES: bool>(
+        &mut self,
+        k: usize,
+        nodes: &[Option<usize>; PAIR_NODES],
+        now: Option<&PairNow>,
+        previous: Option<&PairWeights>,
+        dp: (Mat3, Mat3),
+    ) -> Result<()> {
+        self.add_gap::<MOVES>(k, nodes, now, previous, dp)?;
+        let Some(PairNow { weights: w, .. }) = now else { return Ok(()) };
+        for (j, node) in nodes[..slots(MOVES)].iter().enumerate() {
+            let Some(node) = *node else { continue };
+            let coupling = self.find(node)?;
+            coupling.weight += if j < MORTAR { w.ab[k][j] } else { -w.ac[k][j - MORTAR] };
+            coupling.acts = true;
+        }
+        Ok(())
+    }
+
+    /// Adds what p_A depends on: the gap of the k-th non-mortar node of a pair.
+    pub fn add_gap<const MOVES: bool>(
+        &mut self,
+        k: usize,
+        nodes: &[Option<usize>; PAIR_NODES],
+        now: Option<&PairNow>,
+        previous: Option<&PairWeights>,
+        dp: (Mat3, Mat3),
+    ) -> Result<()> {
+        let by_now = now.map(|now| gap_rows::<MOVES>(now, k, &dp.0));
+        let by_previous = previous.map(|weights| frozen_rows::<MOVES>(weights, k, &dp.1));
+        for (j, node) in nodes[..slots(MOVES)].iter().enumerate() {
+            let Some(node) = *node else { continue };
+            let coupling = self.find(node)?;
+            for rows in [&by_now, &by_previous].into_iter().flatten() {
+                coupling.dtraction += rows[j];
+            }
+        }
+        Ok(())
+    }
+
+    fn find(&mut self, node: usize) -> Result<&mut Coupling> {
+        let at = self.nodes.iter().position(|c| c.node == node).unwrap_or(self.nodes.len());
+        if at == self.nodes.len() {
+            self.nodes.store(Coupling { node, weight: 0.0, acts: false, dtraction: Mat3::zeros() })?;
+        }
+        Ok(&mut self.nodes[at])
+    }
+
+    /// The nodes that p_A acts on.
+    pub fn forces(&self) -> impl Iterator<Item = &Coupling> {
+        self.nodes.iter().filter(|c| c.acts)
+    }
+}

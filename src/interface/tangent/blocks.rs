@@ -1,0 +1,157 @@
+//! Stages 3 and 4 of the tangent: its blocks, with their numbers or without.
+//!
+//! The list of pairs (`union.rs`) says which blocks there are. One loop walks through it, whether the blocks have numbers or
+//! are asked for alone: a count, a pattern and a fill have the same entries in the same order.
+
+use super::augmented::{NodeCouplings, dtraction};
+use super::carried_tangent;
+use super::derivatives::Motion;
+use super::emission::{Emitter, Sink, entries};
+use super::facet_tangent::{FacetTangent, total};
+use super::union::UnionPair;
+use crate::element::{FacetResponse, NodeTangent, PairNow, PairTangent, row_columns};
+use crate::error::Result;
+use crate::geometry::{Mat3, Vec3};
+use crate::interface::data::active::Active;
+use crate::interface::data::extent::Extent;
+use crate::interface::data::multiplier::force_traction;
+use crate::interface::data::options::{Form, Scheme};
+use crate::interface::pairing::given::Given;
+use crate::interface::stages::respond::Responses;
+use crate::memory::{self, Stored};
+use crate::mortar::{GapDerivative, MORTAR};
+use nalgebra::{SMatrix, SVector};
+
+/// What the numbers of a tangent are made of.
+pub struct Numbers<'a, const N: usize> {
+    /// Non-mortar positions.
+    pub x1: &'a [Vec3],
+    /// The law's answers.
+    pub responses: &'a Responses<N>,
+    /// What the pairs must know of them.
+    pub nodes: Vec<NodeTangent<N>>,
+    /// The pairs whose weights are differentiated, with their overlaps; `None`: no weights are.
+    pub active: Option<&'a Active>,
+    /// How they are.
+    pub motion: Motion<'a>,
+}
+
+/// What a pair must know of every node's response.
+pub fn node_tangents<const N: usize>(
+    given: Given<N>,
+    lambda: &[SVector<f64, N>],
+    responses: &Responses<N>,
+    normals: &[Vec3],
+) -> Result<Vec<NodeTangent<N>>> {
+    let node = |a: usize| {
+        let (response, scale) = (&responses.nodes[a], given.row_scale(a));
+        NodeTangent {
+            traction: force_traction(given.setup.options.form, &lambda[a], response, normals[a]),
+            drow_dnow: response.drow_dnow * scale,
+            drow_dprevious: response.drow_dprevious * scale,
+        }
+    };
+    (0..lambda.len()).map(node).stored()
+}
+
+impl<const N: usize> Numbers<'_, N> {
+    /// Which nodes are carried, with what the pairs must know of their carriers.
+    fn carried(&self) -> (&[bool], &[NodeTangent<N>]) {
+        (&self.responses.carried, &self.nodes)
+    }
+
+    /// Derivatives of `pairs` of one facet, its first ones where `first`: of the gap, and of the forces into `t`.
+    fn derivatives(
+        &self,
+        given: Given<N>,
+        (pairs, first): (&[UnionPair], bool),
+        nodes: &FacetResponse<N>,
+        t: &mut PairTangent<N>,
+    ) -> Result<Option<GapDerivative>> {
+        let place = UnionPair::places(pairs);
+        if let (false, Some(k)) = (place.is_empty(), self.active) {
+            let overlaps = k.segments.get(place.clone()).unwrap_or_default();
+            let frame = &k.frames[pairs[0].one];
+            return self.motion.of(frame, (&k.pairs[place], overlaps), &nodes.traction, &mut t.forces).map(Some);
+        }
+        if first { given.history().facet_gaps.motion(&given.setup.nonmortar, pairs[0].one, self.x1) } else { Ok(None) }
+    }
+}
+
+/// The blocks of a tangent of these pairs, `MOVES`: with rows and columns of the mortar side. `numbers`: `None` for the
+/// pattern alone. Gives the number of pairs whose weights were differentiated.
+pub fn blocks<const MOVES: bool, const N: usize>(
+    (given, normals): (Given<N>, &[Vec3]),
+    union: &[UnionPair],
+    extent: Extent,
+    numbers: Option<&Numbers<N>>,
+    sink: &mut dyn Sink,
+) -> Result<i64> {
+    let options = &given.setup.options;
+    let mut linearised = 0;
+    let augmented = options.form == Form::Augmented;
+    let mut couplings: Option<Vec<NodeCouplings>> = augmented.then(|| memory::defaults(given.nodes())).transpose()?;
+    // Large, so that one of each serves all pairs.
+    let (mut t, mut facet) = (PairTangent::default(), FacetTangent::default());
+    // With a mortar side at rest all of it is linear in the weights of a facet's pairs; carried nodes and points in place
+    // of cells take them one by one.
+    let together = !MOVES && given.step.pairing.carriers.is_empty() && matches!(options.scheme, Scheme::Segments);
+    sink.reserve(entries::<MOVES, N>(union, given.nodes()));
+    let mut emitter = Emitter { given, normals, sink };
+    let carried_nodes = numbers.map(Numbers::carried);
+    let carried_responses = numbers.map(|n| (&n.responses.carried[..], &n.responses.nodes[..]));
+    for pairs in union.chunk_by(|p, q| p.one == q.one) {
+        let f = pairs[0].one;
+        let one = &given.setup.nonmortar.facets[f];
+        let facet_nodes = numbers.map(|n| FacetResponse::new(one.nodes.map(|a| &n.nodes[a])));
+        facet.acts = false;
+        for (place, pairs) in pairs.chunks(if together { pairs.len() } else { 1 }).enumerate() {
+            let (now, previous) = (total(pairs.iter().map(|p| p.now)), total(pairs.iter().map(|p| p.previous)));
+            let (previous, mut gap) = (previous.as_deref(), None);
+            if let (Some(numbers), Some(nodes)) = (numbers, &facet_nodes) {
+                gap = numbers.derivatives(given, (pairs, place == 0), nodes, &mut t)?;
+                linearised += if numbers.active.is_some() { UnionPair::places(pairs).len() as i64 } else { 0 };
+            }
+            let now = now.as_deref().map(|weights| PairNow { weights, gap: gap.as_ref() });
+            if let Some(nodes) = &facet_nodes {
+                row_columns::<MOVES, N>(now.as_ref(), previous, nodes, &mut t.rows);
+            }
+            if together {
+                let now = now.as_ref().map(|now| (&t.forces.one[..MORTAR], &now.weights.ab));
+                emitter.facet(f, now, &t.rows[..MORTAR]);
+            } else {
+                facet.add(place == 0, now.as_ref(), &t);
+            }
+            if MOVES {
+                emitter.pair(&pairs[0], &t);
+            }
+            carried_tangent::rows::<MOVES, N>(&pairs[0], now.as_ref(), carried_nodes, &mut emitter);
+            if let Some(couplings) = &mut couplings {
+                let slots = pairs[0].slots(given.setup);
+                for (k, &a) in one.as_slice().iter().enumerate() {
+                    let dp = match numbers {
+                        Some(n) => dtraction(given, a, &n.responses.nodes[a], normals[a]),
+                        None => (Mat3::zeros(), Mat3::zeros()),
+                    };
+                    couplings[a].add_pair::<MOVES>(k, &slots, now.as_ref(), previous, dp)?;
+                }
+                let carried = carried_responses;
+                carried_tangent::couple::<MOVES, N>((given, normals), &pairs[0], now.as_ref(), carried, couplings)?;
+            }
+        }
+        if !together {
+            emitter.facet(f, facet.now(), &facet.rows);
+        }
+    }
+    for a in 0..given.nodes() {
+        let response = numbers.map(|n| &n.responses.nodes[a]);
+        let is_carried = numbers.is_some_and(|n| n.responses.carried.get(a).is_some_and(|c| *c));
+        emitter.node(a, &response.map_or_else(SMatrix::zeros, |r| r.drow_dlambda), extent);
+        carried_tangent::multipliers(a, is_carried, &mut emitter);
+        if let Some(couplings) = &couplings {
+            emitter.couplings(a, &couplings[a], &response.map_or_else(SMatrix::zeros, |r| r.dp_dlambda));
+            carried_tangent::forces(a, couplings, carried_responses, &mut emitter);
+        }
+    }
+    Ok(linearised)
+}

@@ -1,0 +1,54 @@
+//! Derivatives of pairs with their weights of now: of the forces of some tractions, and of the gaps.
+
+use crate::error::Result;
+use crate::geometry::AnalyticSurface;
+use crate::interface::data::effects::Side;
+use crate::interface::data::options::Tangent;
+use crate::interface::data::pairs::PairRecord;
+use crate::mortar::{
+    ForceDerivatives, GapDerivative, NonmortarFrame, Segment, analytic_motion, facet_motion, pair_motion,
+};
+use crate::quadrature::Rule;
+use crate::shape::MAX_NODES;
+use std::borrow::Cow;
+
+/// What the derivatives of one tangent have in common.
+#[derive(Clone, Copy, Debug)]
+pub struct Motion<'a> {
+    /// The mortar side.
+    pub side: Side,
+    /// The mortar surface where it is analytic.
+    pub surface: Option<&'a AnalyticSurface>,
+    /// What the tangent is to know.
+    pub tangent: Tangent,
+    /// The rule of the weights.
+    pub rule: &'a Rule,
+}
+
+impl Motion<'_> {
+    /// Of a non-mortar facet with its pairs and their overlaps (none against an analytic surface): one pair where the
+    /// mortar side moves, all of the facet's where it rests. `traction[i][A]` is that of the forces, whose derivatives go to
+    /// `forces`, which keeps the slots that have none.
+    pub fn of(
+        &self,
+        frame: &NonmortarFrame,
+        (pairs, segments): (&[PairRecord], &[Segment]),
+        traction: &[[f64; MAX_NODES]; 3],
+        forces: &mut ForceDerivatives,
+    ) -> Result<GapDerivative> {
+        if let Some(surface) = self.surface {
+            return analytic_motion(frame, surface, self.rule, traction, forces);
+        }
+        let mut frame = Cow::Borrowed(frame);
+        if self.tangent == Tangent::FrozenNormals {
+            frame.to_mut().plane.tilt = Default::default();
+        }
+        let by_points = segments[0].points.is_some();
+        Ok(GapDerivative::Facets(if self.side == Side::Moves || by_points {
+            pair_motion((&frame, &segments[0], self.rule), &pairs[0].weights, traction, forces)
+        } else {
+            let pairs = segments.iter().zip(pairs.iter().map(|pair| &pair.weights));
+            facet_motion(&frame, pairs, self.rule, traction, forces)
+        }))
+    }
+}

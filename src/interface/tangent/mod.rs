@@ -1,0 +1,9 @@
+//! The tangent: which pairs it has, their derivatives, and how its blocks leave.
+
+pub mod augmented;
+pub mod blocks;
+pub mod carried_tangent;
+pub mod derivatives;
+pub mod emission;
+pub mod facet_tangent;
+pub mod union;
