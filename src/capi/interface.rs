@@ -9,7 +9,7 @@ use super::surface::{
 };
 use super::{raw, sized};
 use crate::error::{Error, Kind, Result};
-use crate::interface::{Contact, Friction};
+use crate::interface::Contact;
 use crate::memory::{self, Store, Stored};
 
 /// Creates an interface between two surfaces, whose coordinates are the first configuration and t_0.
@@ -63,7 +63,7 @@ fn create_inner(one: &stickslip_surface, two: &stickslip_surface, choices: Choic
     };
     let nonmortar = || read_surface(one, base, "nonmortar");
     // The multipliers first: what is wrong with them is said first.
-    if options.friction == Friction::None {
+    if options.friction.law().multipliers == 1 {
         let equations = read_multipliers(one, base)?;
         return Contact::frictionless(nonmortar()?, mortar()?, equations, options).map(Inner::One);
     }

@@ -5,10 +5,10 @@ use super::sized::{self, Sized64};
 use crate::error::{Error, Kind, Result, Text};
 use crate::geometry::AnalyticShape;
 use crate::interface::{
-    COVERAGE_MIN, Form, Friction, MortarSide, NewContact, Options, RowScale, Scheme, Shortcuts, Stiffness, TURN_MAX,
-    Tangent, Weights,
+    COVERAGE_MIN, Form, MortarSide, NewContact, Options, RowScale, Scheme, Shortcuts, Stiffness, TURN_MAX, Tangent,
+    Weights,
 };
-use crate::law::SlipMeasure;
+use crate::law::{Coefficient, LAWS, SlipMeasure};
 use crate::quadrature::{DEGREE_1, DEGREE_2, DEGREE_4, DEGREE_5, DEGREE_6, DEGREE_10, Rule, cell};
 
 /// Forces use lambda, rows the projection; the tangent is a sum of pairs and nodes. Default.
@@ -347,8 +347,8 @@ pub(super) fn read_options(p: *const stickslip_options) -> Result<Choices> {
         weak_coverage,
         turn_max,
     } = sized::read(p)?;
-    let laws = [Friction::Coulomb, Friction::None, Friction::Tied, Friction::Rough];
-    let friction = choose(friction, "options.friction", &laws, 4)?;
+    let laws = LAWS.map(|law| law.friction);
+    let friction = choose(friction, "options.friction", &laws, laws.len() as i32)?;
     let sides = [MortarSide::Deformable, MortarSide::Rigid, MortarSide::Rigid];
     let analytic = mortar_side == STICKSLIP_MORTAR_ANALYTIC;
     let mortar_side = choose(mortar_side, "options.mortar_side", &sides, 3)?;
@@ -368,7 +368,7 @@ pub(super) fn read_options(p: *const stickslip_options) -> Result<Choices> {
             return Err(Error::new(Kind::NotFinite, text!("options.{name} is {v}; it must be finite")));
         }
     }
-    if friction != Friction::Coulomb && mu != 0.0 {
+    if friction.law().mu != Coefficient::Given && mu != 0.0 {
         let text = text!("options.mu is {mu}; it must be 0 where options.friction is not Coulomb's");
         return Err(Error::new(Kind::InvalidValue, text));
     }

@@ -186,7 +186,7 @@ impl<const N: usize> Cache<N> {
             return memory::filled(NodeSums::default(), nodes);
         }
         // The nodes that this handle shares may slip by what another one knows of their friction.
-        let slips = setup.effects.slips || extent == Extent::Part;
+        let slips = setup.effects.law.slips || extent == Extent::Part;
         self.counters.nodes_slipping += if slips { nodes as i64 } else { 0 };
         if let Some((of, sums)) = self.kept.as_ref().and_then(|k| k.sums.as_ref())
             && *of == extent

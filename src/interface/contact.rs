@@ -31,7 +31,7 @@ use super::tangent::emission::Sink;
 use super::tangent::union::{UnionPair, possible_pairs, union};
 use crate::error::{Error, Kind, Result, Text};
 use crate::geometry::Vec3;
-use crate::law::NodeResponse;
+use crate::law::{Coefficient, NodeResponse};
 use crate::memory::{self, Stored};
 use crate::mortar::PairWeights;
 use nalgebra::SVector;
@@ -60,7 +60,10 @@ impl Contact<3> {
         multiplier_equations: Vec<[i64; 3]>,
         options: Options,
     ) -> Result<Interface> {
-        let mu = if options.friction == Friction::Rough { f64::INFINITY } else { options.mu };
+        let mu = match options.friction.law().mu {
+            Coefficient::Given => options.mu,
+            Coefficient::Always(mu) => mu,
+        };
         let mu = memory::filled(mu, nonmortar.len())?;
         let effects = Effects::of_three(&options, &mortar, &mu);
         Self::build(Setup::new((nonmortar, mortar), multiplier_equations, options, mu, effects)?)
@@ -68,7 +71,7 @@ impl Contact<3> {
 
     /// Friction coefficient per node.
     pub fn set_friction(&mut self, mu: Vec<f64>) -> Result<()> {
-        if self.setup.options.friction != Friction::Coulomb {
+        if self.setup.options.friction.law().mu != Coefficient::Given {
             let text = "mu belongs to Coulomb friction; this interface has another law";
             return Err(Error::new(Kind::InvalidValue, text));
         }
@@ -278,7 +281,7 @@ impl<const N: usize> Contact<N> {
             refuse_lost_contact(&self.setup, (active, &history.areas), &new, (x1, x2), &responses)?;
         }
         new.history.commits = history.commits.saturating_add(1); // an imported history may hold any number
-        if self.setup.effects.slips {
+        if self.setup.effects.law.slips {
             let slip = |a: usize| self.slip_after(a, &responses[a], sums[a].coverage_previous);
             new.history.slip = (0..responses.len()).map(slip).stored()?;
         } else {
@@ -456,7 +459,7 @@ impl<const N: usize> Contact<N> {
         if self.cache.scope(Extent::Whole).apart {
             return Ok(Vec::new());
         }
-        union(self.cache.pairs(&self.step.history), &self.step.history.pairs, self.setup.effects.slips)
+        union(self.cache.pairs(&self.step.history), &self.step.history.pairs, self.setup.effects.law.slips)
     }
 
     /// The entries of the tangent at (x1, x2), in its order: as many as [`Contact::tangent`] writes there, without sums

@@ -2,7 +2,7 @@
 //! c = g_N nu + g_T, slip c = g_N nu - (lambda_T - beta sigma_T) / r.
 
 use super::node::{Law, Node, NodeResponse};
-use super::projection::{Projected, State, project_parts};
+use super::projection::{Projected, State, Threshold, project_parts};
 use super::violation::{Covered, Measure, Violation};
 use crate::geometry::{Mat3, Vec3};
 
@@ -33,7 +33,8 @@ impl Law<3> for Coulomb {
         let lambda_n = node.normal.dot(&lambda);
         // Part by part, so that sigma_N has no rounding of the slip: with mu = 0 the answer is that without friction.
         let (sigma_n, sigma_t) = (lambda_n + r * gap_normal, lambda - node.normal * lambda_n + slip * r);
-        let p = if node.covered { project_parts(sigma_n, sigma_t, node.normal, node.mu) } else { Projected::gap() };
+        let threshold = Threshold::cone(node.mu, sigma_n);
+        let p = if node.covered { project_parts(sigma_n, sigma_t, node.normal, threshold) } else { Projected::gap() };
         let row = match p.state {
             State::Gap => -node.lambda / r,
             State::Stick => node.normal * gap_normal + slip - (node.lambda - lambda) / r,

@@ -6,8 +6,8 @@
 //! so projecting pair by pair would make the answer depend on the augmentation (docs/formulation.md
 //! 4.5).
 //!
-//! A law is a type: [`Coulomb`] (with an infinite coefficient: rough), [`Frictionless`], [`Tied`]. A node has N
-//! multiplier components, three or, without friction, one.
+//! A law is a type: [`Coulomb`] (with an infinite coefficient: rough), [`Frictionless`], [`Tied`]; what the rest of the
+//! library knows of it is a row of [`LAWS`]. A node has N multiplier components, three or, without friction, one.
 
 mod coulomb;
 mod frictionless;
@@ -15,13 +15,15 @@ mod node;
 mod projection;
 mod slip;
 mod stateless;
+mod table;
 mod tied;
 mod violation;
 
 pub use coulomb::Coulomb;
 pub use frictionless::Frictionless;
 pub use node::{Law, Node, NodeResponse};
-pub use projection::{Projected, State, TIE, project};
+pub use projection::{Projected, State, TIE, Threshold, project};
 pub use slip::SlipMeasure;
+pub use table::{Coefficient, Friction, Kernel, LAWS, Remembers, Row};
 pub use tied::Tied;
 pub use violation::{Measure, Violation};

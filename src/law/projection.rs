@@ -4,7 +4,7 @@
 //! - stick: |sigma_T| < k (1 - tie):           p = sigma_N nu + sigma_T
 //! - slip:  otherwise:                         p = sigma_N nu + beta sigma_T, beta = k / |sigma_T|
 //!
-//! with k = -mu sigma_N, and its derivative H = dp/dsigma. sigma = lambda + r g is a stress; nu points
+//! with a threshold k(sigma_N), Coulomb's being -mu sigma_N, and its derivative H = dp/dsigma. sigma = lambda + r g is a stress; nu points
 //! into the non-mortar body, so sigma_N < 0 is compression.
 
 use crate::geometry::{Mat3, Vec3};
@@ -53,35 +53,51 @@ fn safe_norm(v: Vec3) -> f64 {
     if largest == 0.0 { 0.0 } else { (v / largest).norm() * largest }
 }
 
+/// Which tangential tractions stick at a normal traction sigma_N.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Threshold {
+    /// k: they are shorter than this [F/L^2].
+    pub radius: f64,
+    /// -dk / dsigma_N [-].
+    pub fall: f64,
+}
+
+impl Threshold {
+    /// Coulomb's cone: k = -mu sigma_N.
+    pub fn cone(mu: f64, sigma_n: f64) -> Threshold {
+        Threshold { radius: -mu * sigma_n, fall: mu }
+    }
+}
+
 /// Projects the augmented traction `sigma` of a covered node with unit normal `normal` and friction
 /// coefficient `mu` >= 0.
 pub fn project(sigma: Vec3, normal: Vec3, mu: f64) -> Projected {
     let sigma_n = sigma.dot(&normal);
-    project_parts(sigma_n, sigma - normal * sigma_n, normal, mu)
+    project_parts(sigma_n, sigma - normal * sigma_n, normal, Threshold::cone(mu, sigma_n))
 }
 
 /// The same of sigma_N nu + sigma_T. A caller that has both need not take them apart again: on the closed cone
 /// (mu = 0) p then has no rounding of what slips.
-pub(super) fn project_parts(sigma_n: f64, sigma_t: Vec3, normal: Vec3, mu: f64) -> Projected {
+pub(super) fn project_parts(sigma_n: f64, sigma_t: Vec3, normal: Vec3, k: Threshold) -> Projected {
     if sigma_n >= 0.0 {
         return Projected::gap();
     }
-    let cone = -mu * sigma_n;
     let size = safe_norm(sigma_t);
-    if size < cone * (1.0 - TIE) {
+    if size < k.radius * (1.0 - TIE) {
         let traction = normal * sigma_n + sigma_t;
         return Projected { state: State::Stick, traction, tangential: sigma_t, derivative: Mat3::identity() };
     }
     // On a closed cone (mu = 0) there is no direction and no tangential part. Never above 1: within
     // the tie the trial traction may lie just inside.
-    let (beta, direction) = if size > 0.0 { ((cone / size).min(1.0), sigma_t / size) } else { (0.0, Vec3::zeros()) };
+    let (beta, direction) =
+        if size > 0.0 { ((k.radius / size).min(1.0), sigma_t / size) } else { (0.0, Vec3::zeros()) };
     let nn = normal * normal.transpose();
     let tangential = Mat3::identity() - nn - direction * direction.transpose();
     Projected {
         state: State::Slip,
         traction: normal * sigma_n + sigma_t * beta,
         tangential: sigma_t * beta,
-        derivative: nn - direction * normal.transpose() * mu + tangential * beta,
+        derivative: nn - direction * normal.transpose() * k.fall + tangential * beta,
     }
 }
 

@@ -4,10 +4,11 @@
 //! facets too (`facet_gaps.rs`), and no slip.
 
 use super::facet_gaps::{FacetGaps, REALS_PER_FACET};
-use super::options::{Friction, Options, Weights};
+use super::options::{Options, Weights};
 use super::pairs::PairRecord;
 use crate::error::{Error, Kind, Result};
 use crate::geometry::Vec3;
+use crate::law::Remembers;
 use crate::memory::{self, Stored};
 use crate::shape::MAX_NODES;
 
@@ -27,11 +28,11 @@ pub enum Keeps {
 impl Keeps {
     /// What an interface with these options needs.
     pub fn of(options: &Options) -> Keeps {
-        match (options.friction, options.effective_weights()) {
-            (Friction::None, Weights::Current) => Keeps::Nothing,
-            (Friction::None, _) => Keeps::Weights,
-            (Friction::Tied, _) => Keeps::Gap,
-            _ => Keeps::Slip,
+        match (options.friction.law().remembers, options.effective_weights()) {
+            (Remembers::Nothing, Weights::Current) => Keeps::Nothing,
+            (Remembers::Nothing, _) => Keeps::Weights,
+            (Remembers::FirstGap, _) => Keeps::Gap,
+            (Remembers::Slip, _) => Keeps::Slip,
         }
     }
 

@@ -3,16 +3,15 @@
 //! analytic mortar side. Not mu, augmentation, tolerances and forms: a run may go on with others.
 
 use super::checksum::of_words;
-use super::options::{Friction, Options, Weights};
+use super::options::{Options, Weights};
 use super::surface::Surface;
 use crate::error::{Error, Kind, Result, Text};
 use crate::geometry::AnalyticShape;
-use crate::law::SlipMeasure;
+use crate::law::{LAWS, Remembers, SlipMeasure};
 
 /// Integers of a meaning.
 pub const LENGTH: usize = 8;
 
-const LAWS: [&str; 4] = ["Coulomb's law", "no friction", "tied surfaces", "rough surfaces"];
 const BASES: [&str; 1] = ["the standard multiplier basis"];
 const WEIGHTS: [&str; 3] =
     ["weights of now", "weights frozen at the last commit", "weights of the first configuration"];
@@ -20,19 +19,14 @@ const SLIPS: [&str; 4] = ["no slip", "the objective slip measure", "the slip inc
 
 /// The choices, each with the names of its values, then shape, radius, facets and coordinates.
 pub fn of(options: &Options, nonmortar: &Surface, mortar: &Surface) -> [i64; LENGTH] {
-    let law = match options.friction {
-        Friction::Coulomb => 0,
-        Friction::None => 1,
-        Friction::Tied => 2,
-        Friction::Rough => 3,
-    };
+    let law = options.friction.law();
     let weights = match options.effective_weights() {
         Weights::Current => 0,
         Weights::Committed => 1,
         Weights::Reference => 2,
     };
-    let slip = match (options.friction, options.effective_slip()) {
-        (Friction::None | Friction::Tied, _) => 0,
+    let slip = match (law.remembers == Remembers::Slip, options.effective_slip()) {
+        (false, _) => 0,
         (_, SlipMeasure::Objective) => 1,
         (_, SlipMeasure::Increment) => 2,
         (_, SlipMeasure::Seed) => 3,
@@ -48,7 +42,16 @@ pub fn of(options: &Options, nonmortar: &Surface, mortar: &Surface) -> [i64; LEN
     });
     // 0 and -0 are one place: a text file may not tell them apart.
     let coordinates = sides.iter().flat_map(|s| s.reference.iter().flatten().map(|v| (v + 0.0).to_bits()));
-    [law, 0, weights, slip, shape as i64, radius as i64, of_words(facets) as i64, of_words(coordinates) as i64]
+    [
+        law.friction as i64,
+        0,
+        weights,
+        slip,
+        shape as i64,
+        radius as i64,
+        of_words(facets) as i64,
+        of_words(coordinates) as i64,
+    ]
 }
 
 /// Refuses a history whose meaning is another one, saying what differs.
@@ -57,7 +60,7 @@ pub fn check(found: &[i64; LENGTH], own: &[i64; LENGTH]) -> Result<()> {
     let name = |names: &[&'static str], value: i64| {
         usize::try_from(value).ok().and_then(|k| names.get(k).copied()).unwrap_or("something unknown")
     };
-    for (k, names) in [&LAWS[..], &BASES, &WEIGHTS, &SLIPS].into_iter().enumerate() {
+    for (k, names) in [&LAWS.map(|law| law.name)[..], &BASES, &WEIGHTS, &SLIPS].into_iter().enumerate() {
         if found[k] != own[k] {
             let (theirs, ours) = (name(names, found[k]), name(names, own[k]));
             return refuse(text!("the history is one with {theirs}, the interface one with {ours}"));

@@ -1,6 +1,7 @@
 //! The choices of an interface, resolved once at creation.
 
 use crate::error::{Error, Kind, Result};
+pub use crate::law::Friction;
 use crate::law::SlipMeasure;
 use crate::quadrature::{DEGREE_5, Rule};
 use std::f64::consts::PI;
@@ -70,20 +71,6 @@ pub enum NewContact {
     Frictionless,
     /// It keeps its mu.
     KeepFriction,
-}
-
-/// What happens along the surface.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Friction {
-    /// Coulomb's law with mu.
-    #[default]
-    Coulomb,
-    /// None: one multiplier per node, along the normal.
-    None,
-    /// Tied: neither opens nor slips.
-    Tied,
-    /// Rough: opens and closes, never slips.
-    Rough,
 }
 
 /// What the mortar side does.
@@ -231,7 +218,7 @@ impl Options {
 
     /// The weights in force: tied surfaces keep those of the reference configuration.
     pub fn effective_weights(&self) -> Weights {
-        if self.friction == Friction::Tied { Weights::Reference } else { self.weights }
+        if self.friction.law().opens { self.weights } else { Weights::Reference }
     }
 
     /// Whether the tangent has the weights' derivatives.

@@ -18,7 +18,7 @@ use crate::geometry::Vec3;
 use crate::interface::data::active::Active;
 use crate::interface::data::counters::Counters;
 use crate::interface::data::node_data::check_length;
-use crate::interface::data::options::{Friction, Weights};
+use crate::interface::data::options::Weights;
 use crate::interface::data::pairs::PairRecord;
 use crate::interface::data::surface::Surface;
 use crate::interface::pairing::candidates::KeptTree;
@@ -108,7 +108,7 @@ pub fn step_limit<const N: usize>(
     // An analytic surface's frame that turns is no rigid body on the way; half-way it is least of one.
     mortar.check_rigid(&step.at(1, 0.5)?)?;
     let motion = step.motion();
-    if given.setup.options.friction == Friction::Tied || motion == 0.0 {
+    if !given.setup.options.friction.law().opens || motion == 0.0 {
         return Ok(1.0);
     }
     let edges = shortest_edges(nonmortar, x1)?;

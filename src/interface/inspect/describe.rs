@@ -1,9 +1,10 @@
 //! What an interface computes and why, one sentence an effect, for a host's log.
 
 use crate::error::{Result, Text};
-use crate::interface::data::options::{Friction, MortarSide, Scheme, Tangent, Weights};
+use crate::interface::data::options::{MortarSide, Scheme, Tangent, Weights};
 use crate::interface::data::setup::Setup;
 use crate::interface::data::surface::NO_EQUATION;
+use crate::law::Coefficient;
 
 /// A sentence, if there is memory for it.
 macro_rules! say {
@@ -41,14 +42,11 @@ fn weak_sentence<const N: usize>(setup: &Setup<N>) -> Result<Text> {
 
 fn friction_sentence<const N: usize>(setup: &Setup<N>) -> Result<Text> {
     let unknowns = if N == 1 { "one multiplier a node, along the normal" } else { "three multipliers a node" };
-    let what: Text = match setup.options.friction {
-        Friction::None => "none (asked for), no slip and no slip history".into(),
-        Friction::Tied => {
-            "tied (asked for), neither opens nor slips, linear where closed, an open gap turns with its facets".into()
-        }
-        Friction::Rough => "rough (asked for), opens and closes, never slips".into(),
-        Friction::Coulomb if !setup.effects.slips => "none (chosen: mu is 0 at every node), no slip".into(),
-        Friction::Coulomb => say!("Coulomb's law with mu {}", mu_range(setup)?)?,
+    let law = setup.options.friction.law();
+    let what: Text = match law.mu {
+        Coefficient::Always(_) => law.effect.into(),
+        Coefficient::Given if !setup.effects.law.slips => "none (chosen: mu is 0 at every node), no slip".into(),
+        Coefficient::Given => say!("{} {}", law.effect, mu_range(setup)?)?,
     };
     say!("Friction: {what}; {unknowns}.")
 }
@@ -78,7 +76,7 @@ fn weights_sentence<const N: usize>(setup: &Setup<N>) -> Result<Text> {
     let what = match setup.options.effective_weights() {
         Weights::Current => "of now, differentiated (large sliding)",
         Weights::Committed => "frozen at the last commit (asked for), reused within a step",
-        Weights::Reference if setup.options.friction == Friction::Tied => {
+        Weights::Reference if !setup.options.friction.law().opens => {
             "frozen at the first configuration (tied), always reused"
         }
         Weights::Reference => "frozen at the first configuration (asked for), always reused (small sliding)",

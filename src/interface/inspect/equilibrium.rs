@@ -108,7 +108,7 @@ pub fn equilibrium<const N: usize>(
             Violation::uncovered(lambda[a].norm(), &measure)
         } else {
             let measure = Measure { traction_rounding: measure.traction_rounding / share, ..measure };
-            (given.setup.effects.violation)(&node(given, a, lambda[a], sum)?, &measure)
+            (given.setup.effects.law.violation)(&node(given, a, lambda[a], sum)?, &measure)
         };
         if ![v.gap, v.traction, v.slip].iter().all(|v| v.is_finite()) {
             let text = text!("the violation at non-mortar node {a} overflows: the inputs are out of range");

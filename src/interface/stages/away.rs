@@ -1,7 +1,6 @@
 //! Nodes whose normal leans away from an analytic mortar side: they touch nothing.
 
 use crate::error::Result;
-use crate::interface::data::options::Friction;
 use crate::interface::data::setup::Setup;
 use crate::interface::pairing::filter::LEAST_OPPOSITION;
 use crate::interface::pairing::given::Given;
@@ -13,7 +12,7 @@ use crate::memory::{self, Stored};
 /// Of t_n alone, as nu is.
 pub fn looking_away<const N: usize>(given: Given<N>) -> Result<Vec<bool>> {
     let Setup { mortar, options, .. } = given.setup;
-    if mortar.analytic.is_none() || options.friction == Friction::Tied {
+    if mortar.analytic.is_none() || !options.friction.law().opens {
         return Ok(Vec::new());
     }
     let surface = mortar.analytic_at(&given.history().x2)?;

@@ -87,7 +87,7 @@ pub fn carry<const N: usize>(
     for (b, sum) in carriers_sums(given, sums, carried, &normals)? {
         let NodeResponse { gap_normal, slip, .. } = responses[b];
         responses[b] =
-            NodeResponse { gap_normal, slip, ..(given.setup.effects.respond)(&node(given, b, lambda[b], &sum)?) };
+            NodeResponse { gap_normal, slip, ..(given.setup.effects.law.respond)(&node(given, b, lambda[b], &sum)?) };
     }
     for a in (0..carried.len()).filter(|&a| carried[a]) {
         responses[a] = carried_response(given, a, lambda, responses, &normals);

@@ -4,7 +4,7 @@ use super::sums::NodeSums;
 use crate::error::Result;
 use crate::interface::data::counters::NodeCounts;
 use crate::interface::data::extent::{Extent, Scope};
-use crate::interface::data::options::{Friction, NewContact};
+use crate::interface::data::options::NewContact;
 use crate::interface::pairing::given::Given;
 use crate::law::Node;
 use nalgebra::SVector;
@@ -38,9 +38,9 @@ pub fn count_of<'c, const N: usize>(
 ) -> &'c mut i64 {
     if !node.covered {
         &mut counts.uncovered
-    } else if given.setup.options.friction == Friction::Tied {
+    } else if !given.setup.options.friction.law().opens {
         &mut counts.tied
-    } else if !given.setup.effects.slips || given.setup.nodes.mu[a] == 0.0 {
+    } else if !given.setup.effects.law.slips || given.setup.nodes.mu[a] == 0.0 {
         &mut counts.frictionless
     } else if node.mu == 0.0 {
         &mut counts.new

@@ -40,7 +40,7 @@ pub fn respond<const N: usize>(
             let node = node(given, a, lambda[a], &sums[a])?;
             let is_carried = carried.get(a).is_some_and(|c| *c);
             *(if is_carried { &mut counts.carried } else { count_of(given, a, &node, &mut counts) }) += 1;
-            (given.setup.effects.respond)(&node)
+            (given.setup.effects.law.respond)(&node)
         })?;
     }
     if carried.contains(&true) {

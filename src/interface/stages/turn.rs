@@ -8,7 +8,7 @@
 
 use crate::error::{Error, Kind, Result, Text};
 use crate::geometry::Vec3;
-use crate::interface::data::options::{Friction, Options, Weights};
+use crate::interface::data::options::{Options, Weights};
 use crate::interface::data::surface::Surface;
 use crate::interface::pairing::analytic;
 use crate::interface::pairing::filter::Filter;
@@ -28,7 +28,7 @@ fn larger(found: (f64, usize), from: &Vec3, to: &Vec3, what: usize) -> (f64, usi
 /// `shared`: other handles have other parts of the mortar side, which are not known here.
 pub fn refuse_turn<const N: usize>(given: Given<N>, (x1, x2): (&[Vec3], &[Vec3]), shared: bool) -> Result<()> {
     let ((nonmortar, mortar), options) = (given.setup.surfaces(), &given.setup.options);
-    if options.friction == Friction::Tied || !shared && is_apart_at_both(given, x1, x2)? {
+    if !options.friction.law().opens || !shared && is_apart_at_both(given, x1, x2)? {
         return Ok(());
     }
     let mut most = (0.0, 0);

@@ -1,0 +1,155 @@
+//! The laws, a row each: what options, the C ABI, texts, counters and histories must know of them. A new law is a file
+//! beside this one and a row here.
+
+use super::coulomb::Coulomb;
+use super::frictionless::Frictionless;
+use super::node::{Law, Node, NodeResponse};
+use super::tied::Tied;
+use super::violation::{Measure, Violation};
+
+/// What happens along the surface. Its number, in the C ABI and in histories, is the place of its row.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Friction {
+    /// Coulomb's law with mu.
+    #[default]
+    Coulomb,
+    /// None: one multiplier per node, along the normal.
+    None,
+    /// Tied: neither opens nor slips.
+    Tied,
+    /// Rough: opens and closes, never slips.
+    Rough,
+}
+
+/// Where a law has its coefficient from.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Coefficient {
+    /// From the host, node by node.
+    Given,
+    /// It is always this.
+    Always(f64),
+}
+
+/// What a law remembers of a node.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Remembers {
+    /// Slip, and what it is measured from: gaps and weights of t_n.
+    Slip,
+    /// The gap of the first configuration.
+    FirstGap,
+    /// Nothing.
+    Nothing,
+}
+
+/// A law for nodes with N multipliers.
+#[derive(Clone, Copy, Debug)]
+pub struct Kernel<const N: usize> {
+    /// Whether it looks at slip, and so at the weights and gaps of t_n.
+    pub slips: bool,
+    /// Its answer for one node.
+    pub respond: fn(&Node<N>) -> NodeResponse<N>,
+    /// A covered node's distance from equilibrium.
+    pub violation: fn(&Node<N>, &Measure) -> Violation,
+}
+
+impl<const N: usize> Kernel<N> {
+    const fn of<L: Law<N>>() -> Kernel<N> {
+        Kernel { slips: L::SLIPS, respond: L::respond, violation: L::violation }
+    }
+}
+
+impl Kernel<1> {
+    /// Without friction.
+    pub const FRICTIONLESS: Kernel<1> = Kernel::of::<Frictionless>();
+}
+
+impl Kernel<3> {
+    /// Without friction.
+    pub const FRICTIONLESS: Kernel<3> = Kernel::of::<Frictionless>();
+}
+
+/// What the rest of the library knows of a law.
+#[derive(Clone, Copy, Debug)]
+pub struct Row {
+    /// Which law it is.
+    pub friction: Friction,
+    /// Its name in sentences.
+    pub name: &'static str,
+    /// What it computes, for a host's log; the coefficients follow where they are given.
+    pub effect: &'static str,
+    /// Whether surfaces come apart. Those that do not keep the weights of the first configuration.
+    pub opens: bool,
+    /// Multipliers a node.
+    pub multipliers: usize,
+    /// mu.
+    pub mu: Coefficient,
+    /// What it remembers.
+    pub remembers: Remembers,
+    /// With three multipliers a node.
+    pub kernel: Kernel<3>,
+}
+
+/// In the order of [`Friction`].
+pub const LAWS: [Row; 4] = [
+    Row {
+        friction: Friction::Coulomb,
+        name: "Coulomb's law",
+        effect: "Coulomb's law with mu",
+        opens: true,
+        multipliers: 3,
+        mu: Coefficient::Given,
+        remembers: Remembers::Slip,
+        kernel: Kernel::of::<Coulomb>(),
+    },
+    Row {
+        friction: Friction::None,
+        name: "no friction",
+        effect: "none (asked for), no slip and no slip history",
+        opens: true,
+        multipliers: 1,
+        mu: Coefficient::Always(0.0),
+        remembers: Remembers::Nothing,
+        kernel: Kernel::<3>::FRICTIONLESS,
+    },
+    Row {
+        friction: Friction::Tied,
+        name: "tied surfaces",
+        effect: "tied (asked for), neither opens nor slips, linear where closed, an open gap turns with its facets",
+        opens: false,
+        multipliers: 3,
+        mu: Coefficient::Always(0.0),
+        remembers: Remembers::FirstGap,
+        kernel: Kernel::of::<Tied>(),
+    },
+    Row {
+        friction: Friction::Rough,
+        name: "rough surfaces",
+        effect: "rough (asked for), opens and closes, never slips",
+        opens: true,
+        multipliers: 3,
+        mu: Coefficient::Always(f64::INFINITY),
+        remembers: Remembers::Slip,
+        kernel: Kernel::of::<Coulomb>(),
+    },
+];
+
+impl Friction {
+    /// Its row.
+    pub fn law(self) -> &'static Row {
+        &LAWS[self as usize]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rows_stand_in_the_order_of_the_laws() {
+        for (k, row) in LAWS.iter().enumerate() {
+            assert_eq!((row.friction as usize, row.friction.law().name), (k, row.name));
+            assert_eq!(row.kernel.slips, row.remembers == Remembers::Slip, "{}", row.name);
+            assert!(row.multipliers == 3 || row.mu == Coefficient::Always(0.0), "{}", row.name);
+        }
+    }
+}
