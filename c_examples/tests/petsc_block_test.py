@@ -16,7 +16,9 @@ LOAD, FRICTION, STRAIN = 0.4, 0.3, 1e-4
 # lie at a kink, over which a difference means nothing.
 SAME_TANGENT = 1e-6
 
-STEP = re.compile(r"step \d+: \d+ iterations, (\d+) gap (\d+) stick (\d+) slip, load (\S+) contact (\S+) (\S+) reaction (\S+)")
+STEP = re.compile(
+    r"step \d+: \d+ iterations, (\d+) gap (\d+) stick (\d+) slip, load (\S+) contact (\S+) (\S+) reaction (\S+)"
+)
 failures = 0
 
 
