@@ -156,10 +156,10 @@ PetscErrorCode bulk_forces(Physics *physics, Vec f_local, PetscInt *status)
 /* K of one cell into the matrix; rows and columns of prescribed displacements, with negative equations, are left out */
 static PetscErrorCode insert(const Physics *physics, PetscInt c, const PetscReal K[], Mat matrix)
 {
-  const Cells *cells = &physics->cells;
-  const PetscInt *dofs = cells->dofs + cells->offsets[c],
-                 n     = cells->offsets[c + 1] - cells->offsets[c];
-  PetscInt equations[24];
+  const Cells    *cells = &physics->cells;
+  const PetscInt *dofs  = cells->dofs + cells->offsets[c];
+  const PetscInt  n     = cells->offsets[c + 1] - cells->offsets[c];
+  PetscInt        equations[24];
   PetscFunctionBegin;
   for (PetscInt k = 0; k < 3 * n; k++)
     equations[k] = physics->unknowns.equations[dofs[k / 3] + k % 3];

@@ -176,7 +176,7 @@ PetscBool closing_settled(const Solve *solve)
 /* After the tangent at u_local is assembled. */
 PetscErrorCode closing_shift(Solve *solve, Mat matrix)
 {
-  Closing *closing = &solve->closing;
+  Closing  *closing  = &solve->closing;
   const Vec diagonal = closing->work;
   PetscFunctionBegin;
   if (!closing->active) PetscFunctionReturn(PETSC_SUCCESS);

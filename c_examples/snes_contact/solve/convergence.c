@@ -74,8 +74,8 @@ static PetscErrorCode confirm(Solve *solve, PetscReal *norm)
 
 static PetscErrorCode judge(SNES snes, Solve *solve, PetscReal norm, SNESConvergedReason *reason)
 {
-  PetscReal atol, rtol;
-  PetscBool balance, relative, holds, stuck;
+  PetscReal       atol, rtol;
+  PetscBool       balance, relative, holds, stuck;
   const PetscBool flies = (PetscBool)(solve->closing.active && solve->closing.loose >= 0);
   PetscFunctionBegin;
   PetscCall(SNESGetTolerances(snes, &atol, &rtol, NULL, NULL, NULL));

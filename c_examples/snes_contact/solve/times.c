@@ -143,8 +143,8 @@ static void add_kinks(const Curve *curve, void *context)
 /* With automatic steps: all times to meet, in order, and which of them the scene asked for. */
 PetscErrorCode times_add_kinks(const Physics *physics, Steps *steps)
 {
-  PetscInt  n_points = 0, next = 0, n_asked = steps->n_targets;
-  PetscReal *asked   = steps->targets;
+  PetscInt   n_points = 0, next = 0, n_asked = steps->n_targets;
+  PetscReal *asked    = steps->targets;
 
   PetscFunctionBegin;
   each_curve(physics, count_points, &n_points);

@@ -17,10 +17,12 @@ from collections import Counter
 from dataclasses import dataclass
 from pathlib import Path
 
-import figures
-from scene import Driver, SceneError
+sys.path.append(str(Path(__file__).resolve().parents[1] / "common"))
+import folders  # noqa: E402  (puts the others on the path)
+import figures  # noqa: E402
+from scene import Driver, SceneError  # noqa: E402
 
-COMMITTED = Path(__file__).resolve().parent / "figures" / "effects.png"
+COMMITTED = folders.FIGURES / "effects.png"
 INTERFACE = "contact"
 RUNS = 3  # of each scene; the shortest times count, as least disturbed by what else the machine does
 

@@ -13,13 +13,15 @@ from pathlib import Path
 
 import numpy as np
 
-import formulas
-import friction_checks as friction
-import peers
-import study_page
-from scene import Driver, Line, SceneError
+sys.path.append(str(Path(__file__).resolve().parents[1] / "common"))
+import folders  # noqa: E402  (puts the others on the path)
+import formulas  # noqa: E402
+import friction_checks as friction  # noqa: E402
+import peers  # noqa: E402
+import study_page  # noqa: E402
+from scene import Driver, Line, SceneError  # noqa: E402
 
-DOCUMENT = Path(__file__).resolve().parents[2] / "docs" / "accuracy.md"
+DOCUMENT = folders.ROOT / "docs" / "accuracy.md"
 MARKS = ("<!-- compare -->", "<!-- /compare -->")
 HERTZ_FACET = 0.136
 # The others take the contact's geometry from the undeformed bodies.

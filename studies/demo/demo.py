@@ -9,14 +9,16 @@ import sys
 import time
 from pathlib import Path
 
-import comparisons
-import figures
-import friction_checks
-import gallery_scenes
-from scene import Driver, SceneError
-from verdict import Verdicts
+sys.path.append(str(Path(__file__).resolve().parents[1] / "common"))
+import folders  # noqa: E402  (puts the others on the path)
+import comparisons  # noqa: E402
+import figures  # noqa: E402
+import friction_checks  # noqa: E402
+import gallery_scenes  # noqa: E402
+from scene import Driver, SceneError  # noqa: E402
+from verdict import Verdicts  # noqa: E402
 
-COMMITTED_FIGURE = Path(__file__).resolve().parent / "figures" / "block.png"
+COMMITTED_FIGURE = folders.FIGURES / "block.png"
 
 
 class Progress:

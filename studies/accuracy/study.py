@@ -16,15 +16,16 @@ import time
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
-import study_figures
-import study_page
-import study_share
-from scene import Driver, SceneError
-from study_problems import DEFAULT, PROBLEMS, QUIET
-from verdict import Verdicts
+sys.path.append(str(Path(__file__).resolve().parents[1] / "common"))
+import folders  # noqa: E402  (puts the others on the path)
+import study_figures  # noqa: E402
+import study_page  # noqa: E402
+import study_share  # noqa: E402
+from scene import Driver, SceneError  # noqa: E402
+from study_problems import DEFAULT, PROBLEMS, QUIET  # noqa: E402
+from verdict import Verdicts  # noqa: E402
 
-HERE = Path(__file__).resolve().parent
-ROOT = HERE.parents[1]
+ROOT = folders.ROOT
 RUNS = 3
 PHASES = ("search", "integration", "contact_assembly", "contact_forces", "contact_tangent", "bulk_assembly",
           "linear_solve", "total", "processor")
@@ -186,7 +187,7 @@ def study(arguments):
     page = study_page.write(output, problems, rows, (shares, tails), (front, goals, GOALS), summary, figures,
                             (time.monotonic() - start, arguments.jobs))
     if arguments.renew_figures:
-        shutil.copy(summary, HERE / "figures" / summary.name)
+        shutil.copy(summary, folders.FIGURES / summary.name)
         study_page.renew(ROOT / "docs" / "accuracy.md", output / "accuracy.md")
     print(f"{page.resolve()}\n{(output / 'study.csv').resolve()}")
     return True

@@ -8,20 +8,21 @@ import argparse
 import sys
 from pathlib import Path
 
-import acceptance
-from effect_checks import effects
-from friction_checks import friction
-from hosts import hosts
-from ironing import ironing, ironing_full
-from material_checks import materials
-from roles import roles
-from slider import slider, slider_fine
-from scene import Driver, SceneError
-from stepping import stepping
-from touching import touching_full, touching_quick
-from turning import turning
-from verdict import Verdicts
-from warnings_checks import warnings
+sys.path.append(str(Path(__file__).resolve().parents[2] / "studies" / "common"))
+import acceptance  # noqa: E402
+from effect_checks import effects  # noqa: E402
+from friction_checks import friction  # noqa: E402
+from hosts import hosts  # noqa: E402
+from ironing import ironing, ironing_full  # noqa: E402
+from material_checks import materials  # noqa: E402
+from roles import roles  # noqa: E402
+from slider import slider, slider_fine  # noqa: E402
+from scene import Driver, SceneError  # noqa: E402
+from stepping import stepping  # noqa: E402
+from touching import touching_full, touching_quick  # noqa: E402
+from turning import turning  # noqa: E402
+from verdict import Verdicts  # noqa: E402
+from warnings_checks import warnings  # noqa: E402
 
 GROUPS = {
     **acceptance.GROUPS,

@@ -17,12 +17,14 @@ import matplotlib
 
 matplotlib.use("Agg")  # no display is needed
 
-import gallery_page
-from gallery_scenes import ENTRIES
-from scene import Driver, SceneError
-from verdict import Verdicts
+sys.path.append(str(Path(__file__).resolve().parents[1] / "common"))
+import folders  # noqa: E402  (puts the others on the path)
+import gallery_page  # noqa: E402
+from gallery_scenes import ENTRIES  # noqa: E402
+from scene import Driver, SceneError  # noqa: E402
+from verdict import Verdicts  # noqa: E402
 
-COMMITTED_FIGURES = Path(__file__).resolve().parent / "figures"
+COMMITTED_FIGURES = folders.FIGURES
 
 
 class Progress:

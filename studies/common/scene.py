@@ -20,7 +20,7 @@ from pathlib import Path
 
 import numpy as np
 
-SCENES = Path(__file__).resolve().parent.parent / "scenes"
+SCENES = Path(__file__).resolve().parents[2] / "c_examples" / "scenes"
 
 
 class SceneError(Exception):

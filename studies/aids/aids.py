@@ -10,8 +10,10 @@ import json
 import sys
 from pathlib import Path
 
-from scene import SCENES as FOLDER
-from scene import Driver, SceneError
+sys.path.append(str(Path(__file__).resolve().parents[1] / "common"))
+import folders  # noqa: E402, F401  (puts the others on the path)
+from scene import SCENES as FOLDER  # noqa: E402
+from scene import Driver, SceneError  # noqa: E402
 
 # Short ones: friction, several solutions, states at a margin, a corner, a contact that grows.
 SCENES = ["block_bottom_mu02", "klarbring", "incline", "rigid_punch", "ball_on_plane"]
