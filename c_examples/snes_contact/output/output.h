@@ -24,9 +24,11 @@ typedef struct {
 } Output;
 
 /* output.c */
+PetscErrorCode output_read(Scene *scene, Output *output);
+PetscErrorCode output_destroy(Output *output);
+
+/* summary.c */
 typedef struct Summary Summary;
-PetscErrorCode         output_read(Scene *scene, Output *output);
-PetscErrorCode         output_destroy(Output *output);
 PetscErrorCode         summary_create(Output *output, Summary **summary);
 PetscErrorCode         summary_step(Output *output, Summary *summary, PetscInt step, PetscBool converged,
                                     PetscBool asked, PetscBool last);

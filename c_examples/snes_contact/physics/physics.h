@@ -102,7 +102,7 @@ typedef struct {
 /* material_scene.c */
 PetscErrorCode materials_read(Scene *scene, Physics *physics);
 
-/* supports.c */
+/* supports_scene.c, supports.c */
 PetscErrorCode supports_read(Scene *scene, Physics *physics);
 PetscErrorCode supports_label(Physics *physics);
 PetscBool supports_agree(const Support *a, const Support *b, PetscReal end, const PetscReal X[3], int component);

@@ -1,4 +1,4 @@
-/* What scene.c and scene_yaml.c share. */
+/* What the files of this room share. */
 #ifndef SNES_CONTACT_SCENE_PRIVATE_H
 #define SNES_CONTACT_SCENE_PRIVATE_H
 #include "scene/scene.h"
@@ -21,4 +21,7 @@ struct Scene {
 };
 
 _Noreturn void scene_end_run(Scene *scene, const char *sentence);
+/* a sentence about a key, then exit code 1; line 0: the key came from the command line */
+_Noreturn void scene_fail_at(Scene *scene, size_t line, const char *dotted, const char *text);
+PetscBool      scene_is_solver_key(const char *dotted); /* is it for PETSc's solvers? */
 #endif
