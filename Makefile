@@ -46,39 +46,39 @@ demo:
 	@.ci/setup demo
 	@$(MAKE) --no-print-directory cmake-build
 	$(SAY) "Solving the demonstration scenes"
-	@$(PYTHON) c_examples/report/demo.py --build $(BUILD) $(if $(FIGURES),--renew-figures)
+	@$(PYTHON) studies/demo/demo.py --build $(BUILD) $(if $(FIGURES),--renew-figures)
 
 gallery:
 	@.ci/setup demo
 	@$(MAKE) --no-print-directory cmake-build
 	$(SAY) "Solving and drawing the gallery"
-	@$(PYTHON) c_examples/report/gallery.py --build $(BUILD) --jobs $(JOBS) $(if $(ONLY),--only $(ONLY)) \
+	@$(PYTHON) studies/gallery/gallery.py --build $(BUILD) --jobs $(JOBS) $(if $(ONLY),--only $(ONLY)) \
 		$(if $(FIGURES),--renew-figures)
 
 effects:
 	@.ci/setup demo
 	@$(MAKE) --no-print-directory cmake-build
 	$(SAY) "One scene with effects added one by one"
-	@$(PYTHON) c_examples/report/effects.py --build $(BUILD) $(if $(FIGURES),--renew-figures)
+	@$(PYTHON) studies/effects/effects.py --build $(BUILD) $(if $(FIGURES),--renew-figures)
 
 aids:
 	@.ci/setup demo
 	@$(MAKE) --no-print-directory cmake-build
 	$(SAY) "Scenes with one convergence aid switched off at a time"
-	@$(PYTHON) c_examples/report/aids.py --build $(BUILD)
+	@$(PYTHON) studies/aids/aids.py --build $(BUILD)
 
 study:
 	@.ci/setup demo
 	@$(MAKE) --no-print-directory cmake-build
 	$(SAY) "Accuracy against time"
-	@$(PYTHON) c_examples/report/study.py --build $(BUILD) --jobs $(JOBS) $(if $(QUICK),--quick) \
+	@$(PYTHON) studies/accuracy/study.py --build $(BUILD) --jobs $(JOBS) $(if $(QUICK),--quick) \
 		$(if $(ONLY),--only $(ONLY)) $(if $(FIGURES),--renew-figures)
 
 compare:
 	@.ci/setup compare
 	@$(MAKE) --no-print-directory cmake-build
 	$(SAY) "The same problems in other programs"
-	@$(PYTHON) c_examples/report/compare.py --build $(BUILD) $(if $(FIGURES),--renew)
+	@$(PYTHON) studies/peers/compare.py --build $(BUILD) $(if $(FIGURES),--renew)
 
 bench:
 	@.ci/setup library

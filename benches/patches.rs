@@ -1,4 +1,4 @@
-//! An interface of two patches, as `c_examples/report/effects_probe.c` has it: 16 x 16 quadrilaterals, bent a little,
+//! An interface of two patches, as `studies/effects/effects_probe.c` has it: 16 x 16 quadrilaterals, bent a little,
 //! that slide over 19 x 19 that move; or that lie turned in space over as many, node over node, hardly sliding.
 
 use nalgebra::{Rotation3, Vector3};

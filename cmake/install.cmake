@@ -42,10 +42,10 @@ install(FILES README.md CHANGELOG.md LICENSE-MIT LICENSE-APACHE DESTINATION "${C
 install(FILES docs/plug_in.md docs/abi.md docs/accuracy.md docs/stability.md
   DESTINATION "${CMAKE_INSTALL_DOCDIR}/docs")
 install(FILES ARCHITECTURE.md DESTINATION "${CMAKE_INSTALL_DOCDIR}")
-install(FILES c_examples/block_host.c c_examples/pair_demo.c DESTINATION "${CMAKE_INSTALL_DOCDIR}/c_examples")
+install(FILES c_examples/block_host.c c_examples/petsc_block.c c_examples/pair_demo.c
+  DESTINATION "${CMAKE_INSTALL_DOCDIR}/c_examples")
 install(DIRECTORY c_examples/fortran DESTINATION "${CMAKE_INSTALL_DOCDIR}/c_examples" FILES_MATCHING PATTERN "*.f90")
-install(DIRECTORY c_examples/report/figures/
-  DESTINATION "${CMAKE_INSTALL_DOCDIR}/c_examples/report/figures")
+install(DIRECTORY docs/figures/ DESTINATION "${CMAKE_INSTALL_DOCDIR}/docs/figures")
 
 # The list for uninstalling, relative to the prefix, so that it is right wherever the tree is:
 #   cd PREFIX && xargs -d '\n' rm -f < share/stickslip/installed.txt

@@ -8,7 +8,7 @@ use std::fs;
 use std::path::PathBuf;
 use support::files::{below, root};
 
-const FOLDERS: [&str; 8] = ["src", "include", "c_examples", "tests", "benches", "fuzz", "docs", "cmake"];
+const FOLDERS: [&str; 9] = ["src", "include", "c_examples", "studies", "tests", "benches", "fuzz", "docs", "cmake"];
 const ENDINGS: [&str; 10] = ["rs", "c", "h", "f90", "py", "md", "yaml", "toml", "cmake", "sh"];
 /// Folders of data, and what is not in the repository.
 const WITHOUT: [&str; 5] = ["target", "corpus", "seeds", "artifacts", "data"];

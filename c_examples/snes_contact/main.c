@@ -12,6 +12,21 @@ static const char help[] = "Frictional contact of elastic bodies.\n"
                            "  -test_jacobian_blocks  compare the tangent with differences of the residual\n"
                            "Every value of the scene can be overridden: `block: {young: 1}` by -block_young 1.\n\n";
 
+/* Each room knows those below it: mesh, physics, contact, solve, output. */
+static void connect(Model *model)
+{
+  model->physics.mesh    = &model->mesh;
+  model->contact.mesh    = &model->mesh;
+  model->contact.physics = &model->physics;
+  model->solve.mesh      = &model->mesh;
+  model->solve.physics   = &model->physics;
+  model->solve.contact   = &model->contact;
+  model->output.mesh     = &model->mesh;
+  model->output.physics  = &model->physics;
+  model->output.contact  = &model->contact;
+  model->output.solve    = &model->solve;
+}
+
 static PetscErrorCode read_scene(Model *model)
 {
   static const char *const maps[] = {"frame", "steps", "output"};
@@ -26,82 +41,61 @@ static PetscErrorCode read_scene(Model *model)
   scene_real_required(model->scene, NULL, "schema", &schema);
   if (schema != 1) scene_fail(model->scene, NULL, "schema", "this program reads schema 1, not %g.", (double)schema);
   PetscCall(mesh_create(model->scene, &model->mesh));
-  PetscCall(steps_read(model));
-  PetscCall(supports_read(model));
-  PetscCall(loads_read(model));
-  PetscCall(contact_read(model));
-  PetscCall(output_read(model));
+  PetscCall(materials_read(model->scene, &model->physics));
+  PetscCall(times_read(model->scene, &model->solve.steps));
+  model->physics.end = model->solve.steps.end;
+  PetscCall(supports_read(model->scene, &model->physics));
+  PetscCall(loads_read(model->scene, &model->physics));
+  PetscCall(contact_read(model->scene, &model->contact));
+  PetscCall(output_read(model->scene, &model->output));
+  model->solve.quiet = model->output.quiet;
   scene_root_begin(model->scene); /* rank 0 has read every key */
-  if (model->rank == 0) scene_check_unread(model->scene, PETSC_FALSE);
+  if (model->mesh.rank == 0) scene_check_unread(model->scene, PETSC_FALSE);
   PetscCall(scene_root_end(model->scene));
   PetscCall(mesh_rotate(&model->mesh));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* From the scene to what Newton's method works on; `status` > 0: the library refused the interfaces. */
 static PetscErrorCode build(Model *model, PetscInt *status)
 {
+  Physics *physics = &model->physics;
+  Contact *contact = &model->contact;
+  Solve   *solve   = &model->solve;
+  Field   *fields;
+
   PetscFunctionBegin;
-  PetscCall(plex_create(model));
-  PetscCall(supports_label(model));
-  PetscCall(loads_label(model));
-  PetscCall(contact_label(model));
-  PetscCall(parts_label(model));
-  PetscCall(plex_distribute(model));
-  PetscCall(unknowns_create(model));
-  PetscCall(parts_create(model));
-  PetscCall(held_create(model));
-  PetscCall(bulk_create(model));
-  PetscCall(loads_assemble(model));
-  PetscCall(contact_create(model, status));
+  PetscCall(plex_create(&model->mesh));
+  PetscCall(supports_label(physics));
+  PetscCall(loads_label(physics));
+  PetscCall(contact_label(contact));
+  PetscCall(parts_label(physics));
+  PetscCall(reach_measure(contact));
+  PetscCall(plex_distribute(&model->mesh));
+  PetscCall(contact_fields(contact, &fields));
+  PetscCall(unknowns_create(physics, contact->n_interfaces, fields));
+  PetscCall(parts_create(physics));
+  PetscCall(held_create(solve));
+  PetscCall(bulk_create(physics));
+  PetscCall(loads_assemble(physics));
+  PetscCall(contact_create(contact, model->scene, solve->quiet, status));
   if (*status) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(supports_values(model, 0));
-  PetscCall(VecCopy(model->prescribed_local, model->u_local)); /* the configuration of the first sparsity pattern */
-  PetscCall(solver_create(model));
-  PetscCall(newton_create(model));
-  PetscCall(jacobian_test_create(model));
+  PetscCall(supports_values(physics, 0));
+  PetscCall(VecCopy(physics->prescribed_local, physics->u_local)); /* the configuration of the first sparsity pattern */
+  PetscCall(newton_create(solve));
+  PetscCall(jacobian_test_create(solve, model->scene));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 static PetscErrorCode clean_up(Model *model)
 {
   PetscFunctionBegin;
-  PetscCall(contact_destroy(model));
-  PetscCall(parts_destroy(model));
-  PetscCall(held_destroy(model));
-  PetscCall(PetscFree(model->ranges));
-  for (PetscInt s = 0; s < model->n_supports; s++) {
-    PetscCall(PetscFree(model->supports[s].curve.points));
-    PetscCall(PetscFree(model->supports[s].rotate_curve.points));
-  }
-  for (PetscInt l = 0; l < model->n_loads; l++) {
-    PetscCall(PetscFree(model->loads[l].curve.points));
-    PetscCall(PetscFree(model->loads[l].surfaces));
-    PetscCall(VecDestroy(&model->loads[l].forces));
-  }
-  PetscCall(PetscFree(model->supports));
-  PetscCall(PetscFree(model->loads));
-  PetscCall(PetscFree(model->probes));
-  PetscCall(PetscFree(model->prescribed));
-  PetscCall(newton_destroy(model));
-  PetscCall(PetscFree(model->steps.targets));
-  PetscCall(PetscFree(model->steps.asked));
-  PetscCall(PetscFree(model->original));
-  PetscCall(PetscFree(model->owner));
-  PetscCall(PetscFree(model->ghost));
-  PetscCall(PetscFree6(model->cell_offsets, model->cell_dofs, model->cell_body, model->cell_part, model->cell_X,
-                       model->cell_stiffness));
-  PetscCall(VecDestroy(&model->u_local));
-  PetscCall(VecDestroy(&model->f_local));
-  PetscCall(VecDestroy(&model->f_external));
-  PetscCall(VecDestroy(&model->prescribed_local));
-  PetscCall(VecDestroy(&model->f_sum));
-  PetscCall(PetscSFDestroy(&model->ghosts));
-  PetscCall(PetscSFDestroy(&model->all_displacements));
-  PetscCall(MatDestroy(&model->jacobian));
-  PetscCall(MatDestroy(&model->pattern));
-  PetscCall(SNESDestroy(&model->snes));
-  PetscCall(PetscSectionDestroy(&model->section));
-  PetscCall(DMDestroy(&model->dm));
+  PetscCall(output_destroy(&model->output));
+  PetscCall(newton_destroy(&model->solve));
+  PetscCall(held_destroy(&model->solve));
+  PetscCall(times_destroy(&model->solve.steps));
+  PetscCall(contact_destroy(&model->contact));
+  PetscCall(physics_destroy(&model->physics));
   PetscCall(mesh_destroy(&model->mesh));
   PetscCall(scene_close(&model->scene));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -116,8 +110,7 @@ int main(int argc, char **argv)
   Model     model     = {0};
 
   PetscCall(PetscInitialize(&argc, &argv, NULL, help));
-  PetscCall(PetscTime(&model.timers.total));
-  PetscCallMPI(MPI_Comm_rank(PETSC_COMM_WORLD, &model.rank));
+  PetscCall(PetscTime(&model.output.started));
   PetscCall(PetscOptionsGetString(NULL, NULL, "-scene", scene, sizeof(scene), &have_scene));
   PetscCall(PetscOptionsGetString(NULL, NULL, "-output_dir", directory, sizeof(directory), &have_directory));
   if (!have_scene || !have_directory) {
@@ -130,16 +123,17 @@ int main(int argc, char **argv)
     PetscCall(PetscFinalize());
     return 1;
   }
-  model.output_dir = directory;
+  connect(&model);
+  model.output.directory = directory;
   PetscCall(scene_open(scene, argc, argv, &model.scene));
   PetscCall(read_scene(&model));
   PetscCall(build(&model, &status));
   if (status) {
-    PetscCall(
-        PetscFPrintf(PETSC_COMM_WORLD, PETSC_STDERR, "snes_contact: refused by the library: %s\n", model.refusal));
+    PetscCall(PetscFPrintf(PETSC_COMM_WORLD, PETSC_STDERR, "snes_contact: refused by the library: %s\n",
+                           model.contact.refusal));
     exit_code = 3;
   } else {
-    PetscCall(steps_run(&model, &exit_code));
+    PetscCall(run(&model, &exit_code));
   }
   PetscCall(clean_up(&model));
   PetscCall(PetscFinalize());

@@ -1,7 +1,7 @@
 /* The bulk's materials and elements by themselves: stresses against differences of an energy written down here once
  * more, moduli against differences of the stresses, closed forms, rigid rotations, and the mean dilatation of a cell.
  * Prints a line per check; exit code 1 if one fails. */
-#include "../snes_contact/elasticity.h"
+#include "physics/elasticity.h"
 #include <math.h>
 #include <stdio.h>
 

@@ -3,7 +3,7 @@
 import sys
 from pathlib import Path
 
-sys.path.append(str(Path(__file__).resolve().parents[2] / "c_examples" / "report"))
+sys.path.append(str(Path(__file__).resolve().parents[2] / "studies" / "common"))
 from scene import SCENES, Driver  # noqa: E402  (needs the path)
 
 # Of some minutes each; `jacobian_states` and `keys` are no problems of their own.

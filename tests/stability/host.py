@@ -10,7 +10,8 @@ import condition
 from cell import Outcome
 from library import Library
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "c_examples" / "report"))
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "studies" / "common"))
+import folders  # noqa: E402, F401  (needs the path; puts the others on it)
 from scene import SCENES, Driver, SceneError, write  # noqa: E402  (needs the path)
 
 CONVERGED, BAD_SCENE, NOT_CONVERGED, REFUSED = range(4)  # exit codes of the driver

@@ -4,13 +4,12 @@ import html
 import json
 import math
 import shutil
-from pathlib import Path
 
-import host  # noqa: F401  (puts c_examples/report on the path)
+import host  # noqa: F401  (puts studies on the path)
 from cell import CORRECT, ELEMENT, REFUSED, SCENE, VERDICTS, WARNING, WRONG
+from folders import FIGURES
 from gallery_page import STYLE
 
-FIGURES = Path(__file__).resolve().parents[2] / "c_examples" / "report" / "figures"
 COMMITTED = {SCENE: FIGURES / "stability.png", ELEMENT: FIGURES / "stability_calls.png"}
 MARKS = {CORRECT: "●", WARNING: "▲", REFUSED: "×", WRONG: "■"}
 MEANINGS = {

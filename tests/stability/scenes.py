@@ -4,7 +4,7 @@ import copy
 
 import numpy as np
 
-import host  # noqa: F401  (puts c_examples/report on the path)
+import host  # noqa: F401  (puts studies on the path)
 from comparisons import multiplier, stretch
 
 EPS = np.finfo(float).eps

@@ -1,0 +1,220 @@
+/* The binding to the contact library. Rank 0 drives it: positions and multipliers of the interface's nodes are gathered
+ * there, forces are sent back and added, tangent entries go into the matrix by their equation numbers. */
+#include "contact/contact.h"
+
+/* All ranks learn whether the library refused on rank 0; its message is kept for the report. */
+PetscErrorCode contact_agree(Contact *contact, int32_t refused, PetscInt *status)
+{
+  PetscFunctionBegin;
+  *status = refused;
+  if (contact->mesh->rank == 0 && refused)
+    PetscCall(PetscSNPrintf(contact->refusal, sizeof(contact->refusal), "%s", stickslip_last_error_message()));
+  PetscCallMPI(MPI_Bcast(status, 1, MPIU_INT, 0, PETSC_COMM_WORLD));
+  PetscCallMPI(MPI_Bcast(contact->refusal, sizeof(contact->refusal), MPI_CHAR, 0, PETSC_COMM_WORLD));
+  PetscCheck(*status >= 0, PETSC_COMM_WORLD, PETSC_ERR_LIB, "stickslip is at fault: %s", contact->refusal);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Current positions, from the interface's first node: far from the origin X + u would round u away. */
+void contact_positions(Interface *interface)
+{
+  for (PetscInt k = 0; k < 3 * (interface->n1 + interface->n2); k++)
+    interface->x[k] = interface->X[k] - interface->X[k % 3] + PetscRealPart(interface->gathered[k]);
+}
+
+PetscErrorCode contact_gather(Contact *contact, Interface *interface, Vec local)
+{
+  const PetscScalar *array;
+  PetscFunctionBegin;
+  PetscCall(VecGetArrayRead(local, &array));
+  PetscCall(PetscSFBcastBegin(interface->sf, MPIU_SCALAR, array, interface->gathered, MPI_REPLACE));
+  PetscCall(PetscSFBcastEnd(interface->sf, MPIU_SCALAR, array, interface->gathered, MPI_REPLACE));
+  PetscCall(VecRestoreArrayRead(local, &array));
+  if (contact->mesh->rank == 0) contact_positions(interface);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode scatter(Interface *interface, const PetscScalar *from, Vec local, MPI_Op operation)
+{
+  PetscScalar *array;
+  PetscFunctionBegin;
+  PetscCall(VecGetArray(local, &array));
+  PetscCall(PetscSFReduceBegin(interface->sf, MPIU_SCALAR, from, array, operation));
+  PetscCall(PetscSFReduceEnd(interface->sf, MPIU_SCALAR, from, array, operation));
+  PetscCall(VecRestoreArray(local, &array));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode contact_forces(Contact *contact, Vec f_local, PetscInt *status)
+{
+  Physics *physics = contact->physics;
+  PetscFunctionBegin;
+  *status = 0;
+  for (PetscInt i = 0; i < contact->n_interfaces && !*status; i++) {
+    Interface *interface = &contact->interfaces[i];
+    int32_t    refused   = 0;
+    PetscCall(contact_gather(contact, interface, physics->u_local));
+    if (contact->mesh->rank == 0) {
+      PetscScalar *f1 = interface->forces, *f2 = f1 + 3 * interface->n1, *rows = f2 + 3 * interface->n2;
+      refused = stickslip_interface_residual(interface->handle, STATE_OF(interface), NULL, f1, f2, rows);
+      for (PetscInt k = 0; k < 3 * (interface->n1 + interface->n2) && !refused; k++)
+        physics->parts.squares[N_SQUARES * physics->parts.of_mesh[interface->nodes[k / 3]] + SQUARES_CONTACT] +=
+            PetscSqr(PetscAbsScalar(interface->forces[k]));
+    }
+    PetscCall(contact_agree(contact, refused, status));
+    if (!*status) PetscCall(scatter(interface, interface->forces, f_local, MPIU_SUM));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode reserve(Interface *interface, int64_t count)
+{
+  PetscFunctionBegin;
+  if (count > interface->coo_capacity) {
+    interface->coo_capacity = count + count / 4;
+    PetscCall(PetscFree3(interface->coo_rows, interface->coo_columns, interface->coo_values));
+    PetscCall(PetscMalloc3(interface->coo_capacity, &interface->coo_rows, interface->coo_capacity,
+                           &interface->coo_columns, interface->coo_capacity, &interface->coo_values));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Do n entries lie in one column, and in the rows of the n entries at the head of their block? */
+static PetscBool repeats(const int64_t *head, const int64_t *rows, const int64_t *columns, PetscInt n)
+{
+  for (PetscInt i = 0; i < n; i++) {
+    if (rows[i] != head[i] || columns[i] != columns[0]) return PETSC_FALSE;
+  }
+  return PETSC_TRUE;
+}
+
+/* Entries come block after block, each by columns: one call for a block, which ends where its rows do not repeat. */
+static PetscErrorCode insert(const Interface *interface, int64_t count, const double *values, Mat matrix)
+{
+  enum { LONGEST = 64 };
+  static const double zeros[LONGEST * LONGEST];
+  PetscInt            rows[LONGEST], columns[LONGEST], n, m;
+
+  PetscFunctionBegin;
+  for (int64_t k = 0; k < count; k += (int64_t)n * m) {
+    const int64_t *r = interface->coo_rows + k, *c = interface->coo_columns + k, left = count - k;
+    for (n = 0; n < LONGEST && n < left && c[n] == c[0]; n++)
+      rows[n] = (PetscInt)r[n];
+    for (m = 0; m < LONGEST && n * (m + 1) <= left && (!m || repeats(r, r + n * m, c + n * m, n)); m++)
+      columns[m] = (PetscInt)c[n * m];
+    PetscCall(MatSetValues(matrix, n, rows, m, columns, values ? values + k : zeros, ADD_VALUES));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* rank 0: into the arrays as they are; counted first where they turn out too small */
+static PetscErrorCode evaluate_tangent(Interface *interface, int64_t *count, int32_t *refused)
+{
+  PetscFunctionBegin;
+#define TANGENT(capacity, rows, columns, values)                                                                       \
+  stickslip_interface_tangent_coo(interface->handle, STATE_OF(interface), NULL, capacity, rows, columns, values, count)
+  *refused = STICKSLIP_BUFFER_TOO_SMALL;
+  for (int attempt = 0; attempt < 2 && *refused == STICKSLIP_BUFFER_TOO_SMALL; attempt++) {
+    if (attempt || !interface->coo_capacity) {
+      *refused = TANGENT(0, NULL, NULL, NULL);
+      if (*refused) break;
+      PetscCall(reserve(interface, *count));
+    }
+    *refused = TANGENT(interface->coo_capacity, interface->coo_rows, interface->coo_columns, interface->coo_values);
+  }
+#undef TANGENT
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode contact_tangent(Contact *contact, Mat matrix, PetscInt *status)
+{
+  PetscFunctionBegin;
+  *status = 0;
+  PetscCall(MatSetOption(matrix, MAT_ROW_ORIENTED, PETSC_FALSE)); /* as insert() has them; all ranks must call this */
+  for (PetscInt i = 0; i < contact->n_interfaces && !*status; i++) {
+    Interface *interface = &contact->interfaces[i];
+    int32_t    refused   = 0;
+    int64_t    count     = 0;
+    PetscCall(contact_gather(contact, interface, contact->physics->u_local));
+    if (contact->mesh->rank == 0) {
+      PetscCall(evaluate_tangent(interface, &count, &refused));
+      if (!refused) PetscCall(insert(interface, count, interface->coo_values, matrix));
+    }
+    PetscCall(contact_agree(contact, refused, status));
+  }
+  PetscCall(MatSetOption(matrix, MAT_ROW_ORIENTED, PETSC_TRUE));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode contact_pattern(Contact *contact, Mat matrix)
+{
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < contact->n_interfaces; i++) {
+    Interface *interface = &contact->interfaces[i];
+    int64_t    count;
+    PetscCall(contact_gather(contact, interface, contact->physics->u_local));
+    if (contact->mesh->rank) continue;
+    PetscCallStickslip(stickslip_interface_pattern_coo(interface->handle, interface->x,
+                                                       interface->x + 3 * interface->n1, 0, NULL, NULL, &count));
+    PetscCall(reserve(interface, count));
+    PetscCallStickslip(stickslip_interface_pattern_coo(interface->handle, interface->x,
+                                                       interface->x + 3 * interface->n1, interface->coo_capacity,
+                                                       interface->coo_rows, interface->coo_columns, &count));
+    PetscCall(insert(interface, count, NULL, matrix));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* A slightly compressive multiplier on nodes that touch: without it a body held by contact alone starts without support. */
+PetscErrorCode contact_start(Contact *contact, Vec x, PetscInt *status)
+{
+  const Mesh *mesh    = contact->mesh;
+  Physics    *physics = contact->physics;
+  PetscFunctionBegin;
+  *status = 0;
+  PetscCall(unknowns_to_local(physics, x));
+  for (PetscInt i = 0; i < contact->n_interfaces && !*status; i++) {
+    Interface *interface = &contact->interfaces[i];
+    int32_t    refused   = 0;
+    PetscCall(contact_gather(contact, interface, physics->u_local));
+    if (mesh->rank == 0 && interface->initial_contact)
+      refused = stickslip_interface_initial_multipliers(interface->handle,
+                                                        interface->gathered + 3 * (interface->n1 + interface->n2));
+    PetscCall(contact_agree(contact, refused, status));
+    if (!*status) PetscCall(scatter(interface, interface->gathered, physics->u_local, MPI_REPLACE));
+  }
+  PetscCall(DMLocalToGlobalBegin(mesh->dm, physics->u_local, INSERT_VALUES, x));
+  PetscCall(DMLocalToGlobalEnd(mesh->dm, physics->u_local, INSERT_VALUES, x));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Before the commit: with the weights of now beside those of t_n, where both are needed. */
+static int32_t measure_memory(Interface *interface)
+{
+  stickslip_counters counters = {.struct_size = sizeof(counters)};
+  const int32_t      status   = stickslip_interface_counters(interface->handle, &counters);
+  interface->bytes            = PetscMax(interface->bytes, counters.bytes);
+  return status;
+}
+
+/* All interfaces accept the step, or none: what was committed before a refusal is rolled back. */
+PetscErrorCode contact_commit(Contact *contact, PetscInt *status)
+{
+  const Mesh *mesh      = contact->mesh;
+  PetscInt    committed = 0;
+  PetscFunctionBegin;
+  *status = 0;
+  for (PetscInt i = 0; i < contact->n_interfaces && !*status; i++) {
+    Interface *interface = &contact->interfaces[i];
+    int32_t    refused   = 0;
+    PetscCall(contact_gather(contact, interface, contact->physics->u_local));
+    if (mesh->rank == 0) refused = measure_memory(interface);
+    if (mesh->rank == 0 && !refused)
+      refused = stickslip_interface_commit(interface->handle, STATE_OF(interface), NULL);
+    PetscCall(contact_agree(contact, refused, status));
+    if (!*status) committed++;
+  }
+  for (PetscInt i = 0; i < committed && *status && mesh->rank == 0; i++)
+    PetscCallStickslip(stickslip_interface_rollback(contact->interfaces[i].handle));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

@@ -1,0 +1,99 @@
+/* The contact interfaces of the scene: the binding to the stickslip library, and whether they are in equilibrium. */
+#ifndef SNES_CONTACT_CONTACT_H
+#define SNES_CONTACT_CONTACT_H
+#include "physics/physics.h"
+#include <stickslip.h>
+
+/* One contact interface; the library's handle and all its arrays live on rank 0 (see contact.c). */
+typedef struct {
+  char                 name[NAME_LENGTH];
+  const Surface       *surface[2]; /* non-mortar, mortar */
+  PetscInt             n1, n2;     /* their numbers of nodes */
+  PetscInt            *nodes;      /* n1 + n2 mesh vertices */
+  PetscInt             components; /* multipliers a node: 1, along the normal, without friction; else 3 */
+  PetscInt            *removed;    /* n1: mask of directions without a multiplier, see read_surfaces() */
+  stickslip_options    options;
+  PetscBool            initial_contact; /* nodes that touch start slightly compressed: contact_start() */
+  double              *X, *x;     /* 3 (n1 + n2): reference coordinates; current ones, see contact_positions() */
+  PetscScalar         *gathered;  /* 3 (n1 + n2) displacements, components n1 multipliers */
+  PetscScalar         *forces;    /* same layout: f1, f2, multiplier rows */
+  int64_t             *equations; /* same layout */
+  PetscSF              sf;        /* from the local vectors of all ranks to `gathered` */
+  stickslip_interface *handle;
+  int64_t              coo_capacity, *coo_rows, *coo_columns;
+  double              *coo_values;
+  double               friction_work; /* up to the last converged step */
+  double               young, largest_traction; /* of the softer body; up to the last converged step */
+  stickslip_equilibrium equilibrium;  /* as last judged (equilibrium.c) */
+  int64_t              bytes;         /* of the library's, the most at the end of a step */
+} Interface;
+
+/* The library takes x1, x2 and the multipliers: */
+#define STATE_OF(interface)                                                                                            \
+  (interface)->x, (interface)->x + 3 * (interface)->n1, (interface)->gathered + 3 * ((interface)->n1 + (interface)->n2)
+
+/* nodal results of one interface; every array has n1 entries, vectors 3 n1 */
+typedef struct {
+  int32_t *state;
+  double  *normal, *multiplier, *gap, *slip, *coverage, *area, *dissipation; /* multiplier: as a vector */
+} ContactStates;
+
+/* How the search for equilibrium goes (equilibrium.c) */
+typedef struct {
+  char      unsettled[256]; /* forces balance, but this in the contact does not; empty: nothing */
+  PetscReal violation;      /* its size, and how many iterations it has not changed for */
+  PetscInt  n_still;
+} Settling;
+
+typedef struct {
+  Mesh      *mesh;
+  Physics   *physics;
+  PetscInt   n_interfaces;
+  Interface *interfaces;
+  Settling   settling;
+  char       refusal[1024]; /* the library's last message, if it refused an evaluation */
+  PetscLogDouble seconds_forces, seconds_tangent;
+} Contact;
+
+/* contact_scene.c */
+PetscErrorCode contact_read(Scene *scene, Contact *contact);
+PetscErrorCode contact_label(Contact *contact);
+PetscErrorCode contact_fields(const Contact *contact, Field **fields); /* of the multipliers, one an interface */
+
+/* symmetry.c */
+PetscErrorCode symmetry_mask(const Physics *physics, const Interface *interface, PetscInt *mask);
+
+/* reach.c: of the model's parts, over all that interfaces may join to them */
+PetscErrorCode reach_measure(Contact *contact);
+
+/* contact_setup.c, contact.c: `status` > 0 on every rank if the library refused, for the reason in contact->refusal */
+PetscErrorCode contact_create(Contact *contact, Scene *scene, PetscBool quiet, PetscInt *status);
+PetscErrorCode contact_destroy(Contact *contact);
+PetscErrorCode contact_agree(Contact *contact, int32_t refused, PetscInt *status);
+void           contact_positions(Interface *interface);
+PetscErrorCode contact_gather(Contact *contact, Interface *interface, Vec local);
+PetscErrorCode contact_start(Contact *contact, Vec x, PetscInt *status);
+PetscErrorCode contact_forces(Contact *contact, Vec f_local, PetscInt *status); /* adds, to the parts' squares, too */
+PetscErrorCode contact_tangent(Contact *contact, Mat matrix, PetscInt *status);
+PetscErrorCode contact_pattern(Contact *contact, Mat matrix);
+PetscErrorCode contact_commit(Contact *contact, PetscInt *status);
+
+/* states.c */
+PetscErrorCode contact_states_create(const Interface *interface, ContactStates *states); /* rank 0 */
+PetscErrorCode contact_states_destroy(ContactStates *states);
+/* of all interfaces at u_local */
+PetscErrorCode contact_tendencies(Contact *contact, int32_t *state, double *tangential);
+PetscErrorCode contact_scale_augmentation(Contact *contact, const PetscBool *marked, PetscReal factor);
+
+/* equilibrium.c */
+PetscErrorCode equilibrium_judge(Contact *contact, PetscReal rtol, PetscBool *holds, PetscBool *stuck);
+void           equilibrium_restart(Contact *contact);
+void           equilibrium_accept(Contact *contact);
+
+/* The library's status as a PETSc error, where a refusal is not something to recover from. */
+#define PetscCallStickslip(...)                                                                                        \
+  do {                                                                                                                 \
+    const int32_t status_of_call = (__VA_ARGS__);                                                                      \
+    PetscCheck(status_of_call == 0, PETSC_COMM_SELF, PETSC_ERR_LIB, "stickslip: %s", stickslip_last_error_message());  \
+  } while (0)
+#endif

@@ -1,0 +1,281 @@
+/* Interfaces as the scene describes them: surfaces, law, form, and which multiplier components are unknowns at all. */
+#include "contact/contact.h"
+
+/* nodes of a surface, each once, in order of first use */
+static PetscErrorCode collect_nodes(const Mesh *mesh, const Surface *surface, PetscInt *nodes, PetscInt *n)
+{
+  PetscBool *seen;
+  PetscFunctionBegin;
+  if (surface->analytic) { /* its frame */
+    for (*n = 0; *n < 4; (*n)++)
+      nodes[*n] = surface->frame + *n;
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+  PetscCall(PetscCalloc1(mesh->n_vertices, &seen));
+  *n = 0;
+  for (PetscInt k = 0; k < surface->offsets[surface->n_faces]; k++) {
+    const PetscInt v = surface->vertices[k];
+    if (!seen[v]) nodes[(*n)++] = v;
+    seen[v] = PETSC_TRUE;
+  }
+  PetscCall(PetscFree(seen));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscReal surface_young(const Contact *contact, const PetscInt *nodes, PetscInt n)
+{
+  PetscReal young = PETSC_MAX_REAL; /* what a wholly prescribed, so rigid surface counts as */
+  for (PetscInt k = 0; k < n; k++) {
+    if (contact->physics->prescribed[nodes[k]] == 7) continue;
+    for (PetscInt b = 0; b < contact->mesh->n_bodies; b++) {
+      const Body *body = &contact->mesh->bodies[b];
+      if (nodes[k] >= body->first_vertex && nodes[k] < body->end_vertex)
+        young = PetscMin(young, contact->physics->materials[b].young);
+    }
+  }
+  return young;
+}
+
+/* A plane, sphere or cylinder: the options tell the library its shape. */
+static void describe_analytic(Scene *scene, Interface *interface)
+{
+  if (!interface->surface[1]->analytic) return;
+  if (scene_has(scene, interface->name, "mortar_side"))
+    scene_fail(scene, interface->name, "mortar_side", "the mortar side is an analytic body, and rigid; leave the key out.");
+  interface->options.mortar_side = STICKSLIP_MORTAR_ANALYTIC;
+  interface->options.shape       = (int32_t)interface->surface[1]->shape;
+  interface->options.radius      = interface->surface[1]->radius;
+}
+
+/* rank 0: surfaces, nodes, default stiffness, removed components */
+static PetscErrorCode read_surfaces(Scene *scene, Contact *contact, Interface *interface)
+{
+  const Mesh              *mesh        = contact->mesh;
+  Physics                 *physics     = contact->physics;
+  static const char *const side_key[]  = {"nonmortar", "mortar"};
+  PetscInt                 mortar_mask = 7, n_corners[2], *symmetry;
+  char                     name[2 * NAME_LENGTH];
+
+  PetscFunctionBegin;
+  for (int side = 0; side < 2; side++) {
+    scene_string_required(scene, interface->name, side_key[side], name, sizeof(name));
+    interface->surface[side] = mesh_surface(scene, mesh, interface->name, side_key[side], name);
+    if (interface->surface[side]->inner)
+      scene_fail(scene, interface->name, side_key[side], "'%s' lies inside a body.", name);
+    if (interface->surface[side]->analytic && side == 0)
+      scene_fail(scene, interface->name, side_key[side], "'%s' is analytic: it can be the mortar side only.", name);
+    n_corners[side] =
+        interface->surface[side]->analytic ? 4 : interface->surface[side]->offsets[interface->surface[side]->n_faces];
+  }
+  PetscCall(PetscMalloc1(n_corners[0] + n_corners[1], &interface->nodes));
+  PetscCall(collect_nodes(mesh, interface->surface[0], interface->nodes, &interface->n1));
+  PetscCall(collect_nodes(mesh, interface->surface[1], interface->nodes + interface->n1, &interface->n2));
+  for (PetscInt a = 0; a < interface->n1; a++) {
+    for (PetscInt b = 0; b < interface->n2; b++) {
+      if (interface->nodes[a] == interface->nodes[interface->n1 + b])
+        scene_fail(scene, interface->name, "mortar",
+                   "the two surfaces share a vertex; contact of a surface with itself is not supported.");
+    }
+  }
+  /* A component is no unknown where it is prescribed on both sides: at the node, and on the mortar side everywhere, or
+   * where a plane of symmetry cuts both. */
+  for (PetscInt b = 0; b < interface->n2; b++)
+    mortar_mask &= physics->prescribed[interface->nodes[interface->n1 + b]];
+  if (interface->options.mortar_side == STICKSLIP_MORTAR_RIGID && mortar_mask != 7)
+    scene_fail(scene, interface->name, "mortar_side", "'%s' is not rigid: support all of it in x, y and z.", name);
+  describe_analytic(scene, interface);
+  PetscCall(PetscMalloc1(interface->n1, &interface->removed));
+  PetscCall(PetscCalloc1(mesh->n_vertices, &symmetry));
+  PetscCall(symmetry_mask(physics, interface, symmetry));
+  for (PetscInt a = 0; a < interface->n1; a++)
+    interface->removed[a] =
+        (physics->prescribed[interface->nodes[a]] & mortar_mask) | symmetry[interface->nodes[a]];
+  PetscCall(PetscFree(symmetry));
+
+  interface->young = PetscMin(surface_young(contact, interface->nodes, interface->n1),
+                              surface_young(contact, interface->nodes + interface->n1, interface->n2));
+  if (interface->young == PETSC_MAX_REAL) interface->young = physics->materials[0].young; /* nothing moves */
+  if (interface->options.augmentation == 0 && interface->options.modulus == 0)
+    interface->options.modulus = interface->young;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* What a law is called in a scene, by STICKSLIP_FRICTION_... */
+static const char *const LAWS[] = {"coulomb", "none", "tied", "rough", NULL};
+
+/* `law`, `friction`. A scene that asks for no friction gets one multiplier a node, unless it says `law: coulomb`. */
+static void read_law(Scene *scene, Interface *interface)
+{
+  stickslip_options *options = &interface->options;
+  const char        *name    = interface->name;
+  PetscInt           law     = STICKSLIP_FRICTION_COULOMB;
+  PetscReal          mu      = 0;
+
+  scene_real(scene, name, "friction", &mu);
+  if (mu < 0) scene_fail(scene, name, "friction", "a Coulomb coefficient cannot be negative.");
+  if (!scene_has(scene, name, "law") && mu == 0) law = STICKSLIP_FRICTION_NONE;
+  scene_choice(scene, name, "law", LAWS, &law);
+  if (law != STICKSLIP_FRICTION_COULOMB && mu != 0)
+    scene_fail(scene, name, "friction", "the law '%s' has no Coulomb coefficient.", LAWS[law]);
+  options->friction     = (int32_t)law;
+  options->mu           = mu;
+  interface->components = law == STICKSLIP_FRICTION_NONE ? 1 : 3;
+}
+
+/* `mortar_side`, `shortcuts`: left open, the library chooses. */
+static void read_effects(Scene *scene, Interface *interface)
+{
+  static const char *const sides[]   = {"deformable", "rigid", NULL};
+  stickslip_options       *options   = &interface->options;
+  PetscInt                 side      = STICKSLIP_MORTAR_DEFORMABLE;
+  PetscBool                shortcuts = PETSC_TRUE;
+
+  scene_choice(scene, interface->name, "mortar_side", sides, &side);
+  scene_bool(scene, interface->name, "shortcuts", &shortcuts);
+  options->mortar_side = (int32_t)side;
+  if (!shortcuts)
+    options->no_shortcuts = STICKSLIP_SHORTCUT_FRICTIONLESS | STICKSLIP_SHORTCUT_RIGID | STICKSLIP_SHORTCUT_APART |
+                            STICKSLIP_SHORTCUT_UNCOVERED;
+  else if (scene_has(scene, interface->name, "mortar_side") && side == STICKSLIP_MORTAR_DEFORMABLE)
+    options->no_shortcuts = STICKSLIP_SHORTCUT_RIGID;
+}
+
+/* `weights`, `slip`, `form`, `new_contact`, the augmentation and the search. */
+static void read_method(Scene *scene, Interface *interface)
+{
+  static const char *const weights[]      = {"current", "committed", "reference", NULL};
+  static const char *const slips[]        = {"objective", "increment", "seed", NULL};
+  static const char *const forms[]        = {"multiplier", "augmented", NULL};
+  static const char *const new_contacts[] = {"frictionless", "friction", NULL};
+  static const char *const row_scales[]   = {"force", "none", NULL};
+  stickslip_options       *options        = &interface->options;
+  const char              *name           = interface->name;
+  PetscInt  weight = STICKSLIP_WEIGHTS_CURRENT, slip = STICKSLIP_SLIP_OBJECTIVE, form = STICKSLIP_FORM_MULTIPLIER,
+           new_contact = STICKSLIP_NEW_CONTACT_FRICTIONLESS, row_scale = STICKSLIP_ROW_SCALE_FORCE;
+  PetscReal augmentation = 0, modulus = 0, distance = 0, weak_coverage = 0, turn_max = 0, coverage_min = options->coverage_min;
+
+  interface->initial_contact = PETSC_TRUE;
+  scene_choice(scene, name, "weights", weights, &weight);
+  scene_choice(scene, name, "slip", slips, &slip);
+  scene_choice(scene, name, "form", forms, &form);
+  scene_choice(scene, name, "new_contact", new_contacts, &new_contact);
+  scene_choice(scene, name, "row_scale", row_scales, &row_scale);
+  scene_bool(scene, name, "initial_contact", &interface->initial_contact);
+  scene_real(scene, name, "augmentation", &augmentation);
+  scene_real(scene, name, "modulus", &modulus);
+  scene_real(scene, name, "search_distance", &distance);
+  scene_real(scene, name, "weak_coverage", &weak_coverage);
+  scene_real(scene, name, "coverage_min", &coverage_min);
+  scene_real(scene, name, "turn_max", &turn_max);
+  if (scene_has(scene, name, "augmentation") && augmentation <= 0)
+    scene_fail(scene, name, "augmentation", "it must be positive.");
+  if (scene_has(scene, name, "modulus") && modulus <= 0) scene_fail(scene, name, "modulus", "it must be positive.");
+  if (distance < 0) scene_fail(scene, name, "search_distance", "it cannot be negative.");
+  if (weak_coverage < 0 || weak_coverage > 1)
+    scene_fail(scene, name, "weak_coverage", "it is a fraction of an area: from 0 to 1.");
+  if (coverage_min < 0 || coverage_min >= 1)
+    scene_fail(scene, name, "coverage_min", "it must be at least 0 and below 1.");
+  if (turn_max < 0 || turn_max > PETSC_PI)
+    scene_fail(scene, name, "turn_max", "it is an angle in radians: from 0 to pi.");
+  options->turn_max        = turn_max;
+  options->weights         = (int32_t)weight;
+  options->slip            = (int32_t)slip;
+  options->form            = (int32_t)form;
+  options->new_contact     = (int32_t)new_contact;
+  options->row_scale       = (int32_t)row_scale;
+  options->augmentation    = augmentation;
+  options->modulus         = modulus;
+  options->search_distance = distance;
+  options->weak_coverage   = weak_coverage;
+  options->coverage_min    = coverage_min;
+}
+
+/* What a rule is called in a scene, by STICKSLIP_QUADRATURE_... */
+static const char *const RULES[] = {"degree_5", "degree_10", "degree_1", "degree_2", "degree_4", "degree_6", NULL};
+
+/* `quadrature`, `integration`, `points`, `tangent`: what accuracy may cost. */
+static void read_accuracy(Scene *scene, Interface *interface)
+{
+  static const char *const integrations[] = {"segments", "elements", "hybrid", NULL};
+  static const char *const tangents[]     = {"exact", "frozen_weights", "frozen_normals", NULL};
+  stickslip_options       *options        = &interface->options;
+  const char              *name           = interface->name;
+  PetscInt rule = STICKSLIP_QUADRATURE_DEGREE_5, integration = STICKSLIP_INTEGRATION_SEGMENTS,
+           tangent = STICKSLIP_TANGENT_EXACT, points = 0;
+
+  scene_choice(scene, name, "quadrature", RULES, &rule);
+  scene_choice(scene, name, "integration", integrations, &integration);
+  scene_int(scene, name, "points", &points);
+  scene_choice(scene, name, "tangent", tangents, &tangent);
+  if (scene_has(scene, name, "points") && integration == STICKSLIP_INTEGRATION_SEGMENTS)
+    scene_fail(scene, name, "points", "it needs 'integration: elements' or 'hybrid'.");
+  if (scene_has(scene, name, "points") && (points < 2 || points > 10))
+    scene_fail(scene, name, "points", "2 to 10 are possible.");
+  options->quadrature     = (int32_t)rule;
+  options->integration    = (int32_t)integration;
+  options->tangent        = (int32_t)tangent;
+  options->element_points = points;
+}
+
+PetscErrorCode contact_read(Scene *scene, Contact *contact)
+{
+  char **names;
+
+  PetscFunctionBegin;
+  scene_names(scene, "interfaces", &contact->n_interfaces, &names);
+  PetscCall(PetscCalloc1(contact->n_interfaces, &contact->interfaces));
+  for (PetscInt i = 0; i < contact->n_interfaces; i++) {
+    Interface *interface = &contact->interfaces[i];
+    PetscCall(PetscSNPrintf(interface->name, NAME_LENGTH, "%s", names[i]));
+    PetscCallStickslip(stickslip_options_init(&interface->options, sizeof(interface->options)));
+    read_law(scene, interface);
+    read_effects(scene, interface);
+    read_method(scene, interface);
+    read_accuracy(scene, interface);
+  }
+  strings_destroy(contact->n_interfaces, &names);
+  scene_root_begin(scene);
+  for (PetscInt i = 0; i < contact->n_interfaces && contact->mesh->rank == 0; i++) {
+    Interface *interface = &contact->interfaces[i];
+    PetscReal  scale     = 1;
+    PetscCall(read_surfaces(scene, contact, interface));
+    scene_real(scene, interface->name, "augmentation_scale", &scale);
+    if (scale <= 0) scene_fail(scene, interface->name, "augmentation_scale", "it must be positive.");
+    interface->options.augmentation *= scale;
+    interface->options.modulus *= scale;
+  }
+  PetscCall(scene_root_end(scene));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* What multipliers there are, to be taken over by unknowns_create(). */
+PetscErrorCode contact_fields(const Contact *contact, Field **fields)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscCalloc1(contact->n_interfaces, fields));
+  for (PetscInt i = 0; i < contact->n_interfaces; i++) {
+    Field *field      = &(*fields)[i];
+    field->components = contact->interfaces[i].components;
+    PetscCall(PetscSNPrintf(field->name, sizeof(field->name), "%s", contact->interfaces[i].name));
+    PetscCall(PetscSNPrintf(field->label, sizeof(field->label), "multiplier.%s", contact->interfaces[i].name));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Which multipliers are no unknowns: the removed components; without friction, that of a node which is prescribed wholly. */
+PetscErrorCode contact_label(Contact *contact)
+{
+  char label[2 * NAME_LENGTH];
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < contact->n_interfaces; i++) {
+    const Interface *interface = &contact->interfaces[i];
+    PetscInt        *mask;
+    PetscCall(PetscMalloc1(interface->n1, &mask));
+    for (PetscInt a = 0; a < interface->n1; a++)
+      mask[a] = interface->components == 3 ? interface->removed[a] : interface->removed[a] == 7;
+    PetscCall(PetscSNPrintf(label, sizeof(label), "multiplier.%s", interface->name));
+    PetscCall(plex_label_vertices(contact->mesh->dm, label, interface->n1, interface->nodes, mask, 0));
+    PetscCall(PetscFree(mask));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

@@ -1,0 +1,100 @@
+/* Is the contact in equilibrium? What the library finds, which knows no augmentation and no row scale, interface by
+ * interface. */
+#include "contact/contact.h"
+#include <stdio.h>
+
+/* Part of a scale that a violation may be, over the tolerance of the forces: the rows of the default augmentation, which is
+ * a tenth of E / h, would be compared with the forces so. */
+static const PetscReal OVER_FORCES = 10;
+/* A tighter tolerance of the forces asks no more of the contact: tractions are known to this part then, and the next step
+ * of Newton's method would end at rounding. */
+static const PetscReal LEAST = 1e-10;
+/* A violation that changes by less than this from one iteration to the next, while the forces balance, stays: Newton's
+ * method has nothing left to change. */
+static const PetscReal STANDS_STILL = 1e-3;
+/* Iterations in a row that it must have stood still. */
+enum { PATIENCE = 3 };
+
+/* rank 0 */
+static PetscBool within(PetscReal tolerance, const stickslip_equilibrium *e)
+{
+  return (PetscBool)(e->gap <= tolerance * e->gap_scale && e->traction <= tolerance * e->traction_scale &&
+                     e->slip <= tolerance * e->slip_scale);
+}
+
+/* rank 0: the worst of the three over what it may be, as a number and in words */
+static PetscReal worst(PetscReal tolerance, const Interface *interface, char words[], size_t length)
+{
+  const stickslip_equilibrium *e        = &interface->equilibrium;
+  const double                 values[] = {e->gap, e->traction, e->slip};
+  const double                 scales[] = {e->gap_scale, e->traction_scale, e->slip_scale};
+  const int64_t                nodes[]  = {e->gap_node, e->traction_node, e->slip_node};
+  static const char *const     names[]  = {"gap", "traction", "slip"};
+  PetscReal                    largest  = 0;
+  for (int k = 0; k < 3; k++) {
+    const PetscReal ratio = values[k] > 0 ? values[k] / (tolerance * scales[k]) : 0;
+    if (!(ratio > largest)) continue;
+    largest = ratio;
+    snprintf(words, length, "%s: a %s of %.2g that the law forbids, of a scale of %.2g, at node %d at (%g, %g, %g)",
+             interface->name, names[k], values[k], scales[k], (int)interface->nodes[nodes[k]],
+             interface->X[3 * nodes[k]], interface->X[3 * nodes[k] + 1], interface->X[3 * nodes[k] + 2]);
+  }
+  return largest;
+}
+
+/* At the place of the last evaluation. `stuck`: it is not, and iterations no longer change that. */
+PetscErrorCode equilibrium_judge(Contact *contact, PetscReal rtol, PetscBool *holds, PetscBool *stuck)
+{
+  const PetscReal tolerance = PetscMax(OVER_FORCES * rtol, LEAST);
+  PetscReal       largest   = 0;
+  PetscInt        answer[2] = {1, 0};
+
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < contact->n_interfaces && contact->mesh->rank == 0; i++) {
+    Interface             *interface = &contact->interfaces[i];
+    stickslip_equilibrium *e         = &interface->equilibrium;
+    char                   words[256];
+    PetscReal              ratio;
+    *e = (stickslip_equilibrium){.struct_size    = sizeof(*e),
+                                 .modulus        = interface->young,
+                                 .least_traction = interface->largest_traction};
+    if (stickslip_interface_equilibrium(interface->handle, STATE_OF(interface), NULL, e)) {
+      answer[0] = 0;
+      continue;
+    }
+    if (within(tolerance, e)) continue;
+    answer[0] = 0;
+    ratio     = worst(tolerance, interface, words, sizeof(words));
+    if (ratio <= largest) continue;
+    largest = ratio;
+    snprintf(contact->settling.unsettled, sizeof(contact->settling.unsettled), "%s", words);
+  }
+  if (contact->mesh->rank == 0 && !answer[0]) {
+    const PetscReal change = PetscAbsReal(largest - contact->settling.violation);
+    contact->settling.n_still  = change <= STANDS_STILL * largest ? contact->settling.n_still + 1 : 0;
+    contact->settling.violation = largest;
+    answer[1]               = contact->settling.n_still >= PATIENCE;
+  }
+  PetscCallMPI(MPI_Bcast(answer, 2, MPIU_INT, 0, PETSC_COMM_WORLD));
+  *holds = (PetscBool)answer[0];
+  *stuck = (PetscBool)answer[1];
+  if (*holds) contact->settling.unsettled[0] = 0;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* An attempt begins, or the forces do not balance. */
+void equilibrium_restart(Contact *contact)
+{
+  contact->settling.unsettled[0] = 0;
+  contact->settling.n_still      = 0;
+  contact->settling.violation    = 0;
+}
+
+/* A step is accepted: its tractions count later on. */
+void equilibrium_accept(Contact *contact)
+{
+  for (PetscInt i = 0; i < contact->n_interfaces && contact->mesh->rank == 0; i++) {
+    Interface *interface        = &contact->interfaces[i];
+    interface->largest_traction = PetscMax(interface->largest_traction, interface->equilibrium.traction_scale);
+  }
+}

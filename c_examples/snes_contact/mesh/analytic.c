@@ -1,0 +1,93 @@
+/* A rigid body without a mesh: a plane, a sphere or a cylinder for the mortar side of interfaces. It moves with a frame of
+ * four points, which the library sees as the mortar nodes; here they are the corners of a tetrahedron without stiffness, so
+ * that supports, reactions and output treat them like those of any body. Its only surface is `body.surface`. */
+#include "mesh/mesh.h"
+
+/* a unit vector across d, and the third one of a right-handed triple; d is made a unit vector too */
+static void complete(PetscReal d[3], PetscReal e[3], PetscReal f[3])
+{
+  int       least = 0;
+  PetscReal norm  = PetscSqrtReal(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]), across = 0;
+  for (int i = 0; i < 3; i++) {
+    d[i] /= norm;
+    if (PetscAbsReal(d[i]) < PetscAbsReal(d[least])) least = i;
+  }
+  for (int i = 0; i < 3; i++) {
+    e[i] = (i == least) - d[least] * d[i];
+    across += e[i] * e[i];
+  }
+  for (int i = 0; i < 3; i++)
+    e[i] /= PetscSqrtReal(across);
+  for (int i = 0; i < 3; i++)
+    f[i] = d[(i + 1) % 3] * e[(i + 2) % 3] - d[(i + 2) % 3] * e[(i + 1) % 3];
+}
+
+PetscErrorCode analytic_create(Scene *scene, const char *body, Mesh *mesh)
+{
+  static const char *const shapes[]  = {"plane", "sphere", "cylinder", NULL}; /* by STICKSLIP_SHAPE_... */
+  static const PetscInt    cell[4]   = {0, 1, 2, 3};
+  PetscReal                point[3]  = {0, 0, 0}, d[3] = {0, 0, 1}, e[3], f[3], radius = 0, frame[12];
+  PetscInt                 shape     = 0;
+  const PetscBool          directed  = scene_vector(scene, body, "direction", 3, d);
+  char                     name[2 * NAME_LENGTH];
+  Surface                 *surface;
+
+  PetscFunctionBegin;
+  if (!scene_has(scene, body, "shape"))
+    scene_fail(scene, body, "shape", "this key is missing; choose from: plane, sphere, cylinder.");
+  scene_choice(scene, body, "shape", shapes, &shape);
+  if (!scene_vector(scene, body, "point", 3, point)) scene_fail(scene, body, "point", "this key is missing.");
+  if (!directed && shape != 1) scene_fail(scene, body, "direction", "this key is missing.");
+  if (d[0] == 0 && d[1] == 0 && d[2] == 0) scene_fail(scene, body, "direction", "a vector of some length is expected.");
+  if (shape == 0 && scene_has(scene, body, "radius")) scene_fail(scene, body, "radius", "a plane has none.");
+  if (shape != 0) scene_real_required(scene, body, "radius", &radius);
+  if (shape != 0 && radius == 0)
+    scene_fail(scene, body, "radius", "positive: the body is inside; negative: it is around a cavity. Zero is neither.");
+
+  complete(d, e, f);
+  for (int i = 0; i < 3; i++) {
+    frame[i]     = point[i];
+    frame[3 + i] = point[i] + d[i];
+    frame[6 + i] = point[i] + e[i];
+    frame[9 + i] = point[i] + f[i];
+  }
+  PetscCall(PetscSNPrintf(name, sizeof(name), "%s.surface", body));
+  PetscCall(mesh_add_surface(mesh, name, 0, &surface));
+  surface->analytic = PETSC_TRUE;
+  surface->shape    = shape;
+  surface->radius   = radius;
+  surface->frame    = mesh->n_vertices;
+  PetscCall(mesh_append(mesh, 4, frame, 1, 4, cell));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Once all bodies are read: frames as long as the meshed bodies are large, planes and cylinders with their point where these
+ * are. A frame that is short, or far away, turns by rounding, which moves the surface under them. */
+void analytic_fit(Mesh *mesh)
+{
+  Extent    extent = extent_of_nothing();
+  PetscReal size;
+  for (PetscInt b = 0; b < mesh->n_bodies; b++) {
+    const Body *body = &mesh->bodies[b];
+    for (PetscInt v = body->first_vertex; v < body->end_vertex && !body->analytic; v++)
+      extent_add(&extent, mesh->coordinates + 3 * v);
+  }
+  size = extent_longest(&extent);
+  if (size == 0) return;
+  for (PetscInt s = 0; s < mesh->n_surfaces; s++) {
+    const Surface *surface = &mesh->surfaces[s];
+    PetscReal     *frame   = surface->analytic ? mesh->coordinates + 3 * surface->frame : NULL, along = 0, axes[9];
+    if (!frame) continue;
+    for (int k = 0; k < 9; k++)
+      axes[k] = frame[3 + k] - frame[k % 3];
+    for (int i = 0; i < 3; i++)
+      along += axes[i] * ((extent.low[i] + extent.high[i]) / 2 - frame[i]);
+    for (int i = 0; i < 3; i++) {
+      const PetscReal away = (extent.low[i] + extent.high[i]) / 2 - frame[i];
+      if (surface->shape == 0) frame[i] += away - along * axes[i]; /* across the normal */
+      if (surface->shape == 2) frame[i] += along * axes[i];        /* along the axis */
+    }
+    for (int k = 0; k < 9; k++)
+      frame[3 + k] = frame[k % 3] + PetscMax(size, PetscAbsReal(surface->radius)) * axes[k];
+  }
+}

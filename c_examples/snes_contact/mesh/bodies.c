@@ -1,0 +1,126 @@
+/* The bodies of the scene, one after the other, and surfaces cut out of theirs. All on rank 0, in the axes of the scene
+ * file. */
+#include "mesh/cell.h"
+#include "mesh/mesh.h"
+
+/* whole faces of `whole` whose centre lies within the box */
+static void cut_out(const Mesh *mesh, const Surface *whole, const PetscReal box[6], Surface *part)
+{
+  part->inner = (PetscBool)(part->inner || whole->inner);
+  for (PetscInt f = 0; f < whole->n_faces; f++) {
+    const PetscInt n_corners = whole->offsets[f + 1] - whole->offsets[f], *vertices = whole->vertices + whole->offsets[f];
+    PetscBool      inside    = PETSC_TRUE;
+    for (int i = 0; i < 3; i++) {
+      PetscReal centre = 0;
+      for (PetscInt a = 0; a < n_corners; a++)
+        centre += mesh->coordinates[3 * vertices[a] + i] / n_corners;
+      if (centre < box[i] || centre > box[3 + i]) inside = PETSC_FALSE;
+    }
+    if (inside) surface_push(part, n_corners, vertices);
+  }
+}
+
+/* `surfaces: [zone]`, zone: {of: block.zmin, within: [lower, upper]}; of one surface or of several */
+static PetscErrorCode derived_surfaces(Scene *scene, Mesh *mesh)
+{
+  PetscInt n;
+  char   **names;
+  PetscFunctionBegin;
+  scene_names(scene, "surfaces", &n, &names);
+  for (PetscInt k = 0; k < n; k++) {
+    PetscReal box[6];
+    PetscInt  n_of, most = 0;
+    char    **of;
+    Surface  *part;
+    scene_strings(scene, names[k], "of", &n_of, &of);
+    if (!n_of) scene_fail(scene, names[k], "of", "this key is missing.");
+    if (!scene_vector(scene, names[k], "within", 6, box)) scene_fail(scene, names[k], "within", "this key is missing.");
+    for (PetscInt i = 0; i < n_of; i++)
+      most += mesh_surface(scene, mesh, names[k], "of", of[i])->n_faces;
+    PetscCall(mesh_add_surface(mesh, names[k], most, &part));
+    for (PetscInt i = 0; i < n_of; i++) {
+      const Surface whole = *mesh_surface(scene, mesh, names[k], "of", of[i]);
+      cut_out(mesh, &whole, box, part);
+    }
+    if (!part->n_faces) scene_fail(scene, names[k], "within", "no face of '%s' has its centre in this box.", of[0]);
+    strings_destroy(n_of, &of);
+  }
+  strings_destroy(n, &names);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static void check_volumes(Scene *scene, const Mesh *mesh, const char *body, PetscInt first_cell)
+{
+  for (PetscInt c = first_cell; c < mesh->n_cells; c++) {
+    const PetscInt corners   = mesh->cell_offsets[c + 1] - mesh->cell_offsets[c],
+                   *vertices = mesh->cell_vertices + mesh->cell_offsets[c];
+    PetscReal      X[24];
+    for (PetscInt a = 0; a < corners; a++) {
+      for (int i = 0; i < 3; i++)
+        X[3 * a + i] = mesh->coordinates[3 * vertices[a] + i];
+    }
+    if (!(cell_smallest_jacobian(corners, X) > 0))
+      scene_fail(scene, body, NULL, "cell %d (near [%g, %g, %g]) is turned inside out or flat.", (int)(c - first_cell),
+                 (double)X[0], (double)X[1], (double)X[2]);
+  }
+}
+
+static void read_frame(Scene *scene, Mesh *mesh)
+{
+  PetscReal degrees[3] = {0, 0, 0}, (*Q)[3] = (PetscReal(*)[3])mesh->rotation;
+  for (int i = 0; i < 9; i++)
+    mesh->rotation[i] = (i % 4 == 0);
+  scene_vector(scene, "frame", "rotate", 3, degrees);
+  mesh->rotated = (PetscBool)(degrees[0] != 0 || degrees[1] != 0 || degrees[2] != 0);
+  for (int axis = 0; axis < 3; axis++) { /* about x, then y, then z */
+    const PetscReal c = PetscCosReal(degrees[axis] * PETSC_PI / 180), s = PetscSinReal(degrees[axis] * PETSC_PI / 180);
+    const int       i = (axis + 1) % 3, j = (axis + 2) % 3;
+    for (int k = 0; k < 3; k++) {
+      const PetscReal qi = Q[i][k], qj = Q[j][k];
+      Q[i][k] = c * qi - s * qj;
+      Q[j][k] = s * qi + c * qj;
+    }
+  }
+}
+
+PetscErrorCode mesh_create(Scene *scene, Mesh *mesh)
+{
+  static const char *const types[] = {"box", "gmsh", "analytic", NULL};
+  PetscErrorCode (*const create[])(Scene *, const char *, Mesh *) = {box_create, gmsh_create, analytic_create};
+  PetscInt                 n, *type;
+  char                   **names;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMemzero(mesh, sizeof(*mesh)));
+  PetscCallMPI(MPI_Comm_rank(PETSC_COMM_WORLD, &mesh->rank));
+  if (!scene_has(scene, NULL, "bodies")) scene_fail(scene, NULL, "bodies", "this key is missing.");
+  scene_names(scene, "bodies", &n, &names);
+  read_frame(scene, mesh);
+  PetscCall(PetscCalloc1(n, &mesh->bodies));
+  PetscCall(PetscCalloc1(n, &type));
+  for (PetscInt b = 0; b < n; b++) {
+    PetscCall(PetscSNPrintf(mesh->bodies[b].name, NAME_LENGTH, "%s", names[b]));
+    if (!scene_has(scene, names[b], "type"))
+      scene_fail(scene, names[b], "type", "this key is missing; choose from: box, gmsh, analytic.");
+    scene_choice(scene, names[b], "type", types, &type[b]);
+    mesh->bodies[b].analytic = (PetscBool)(type[b] == 2);
+  }
+  scene_root_begin(scene);
+  for (PetscInt b = 0; b < n && mesh->rank == 0; b++) {
+    const PetscInt first_cell = mesh->n_cells;
+    mesh->bodies[b].first_vertex = mesh->n_vertices;
+    PetscCall(create[type[b]](scene, names[b], mesh));
+    mesh->bodies[b].end_vertex = mesh->n_vertices;
+    check_volumes(scene, mesh, names[b], first_cell);
+    mesh->n_bodies++;
+  }
+  if (mesh->rank == 0) {
+    analytic_fit(mesh);
+    PetscCall(derived_surfaces(scene, mesh));
+  }
+  PetscCall(scene_root_end(scene));
+  mesh->n_bodies = n;
+  PetscCall(PetscFree(type));
+  strings_destroy(n, &names);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

@@ -1,0 +1,103 @@
+/* The scene's geometry: all bodies in one list of vertices and cells, with named surfaces, on rank 0 only. From it come the
+ * distributed DMPlex (plex.c), the contact surfaces, and the files for ParaView. */
+#ifndef SNES_CONTACT_MESH_H
+#define SNES_CONTACT_MESH_H
+#include "scene/petsc_compat.h"
+#include "scene/scene.h"
+#include <petscdmplex.h>
+#include <petscsf.h>
+
+typedef struct {
+  char      name[2 * NAME_LENGTH]; /* "block.zmin", or a name of `surfaces` */
+  PetscInt  n_faces;
+  PetscInt *offsets;  /* n_faces + 1 */
+  PetscInt *vertices; /* 3 or 4 per face, right-hand normal out of the body */
+  PetscBool inner;    /* lies inside a body: good for supports only */
+  PetscBool analytic; /* a plane, sphere or cylinder without faces: good for a mortar side only */
+  PetscInt  shape;    /* STICKSLIP_SHAPE_... */
+  PetscReal radius;
+  PetscInt  frame; /* the first of its four vertices */
+} Surface;
+
+typedef struct {
+  char      name[NAME_LENGTH];
+  PetscBool analytic; /* rigid, one cell without stiffness: its frame */
+  PetscInt  first_vertex, end_vertex; /* its range of vertices (rank 0) */
+} Body;
+
+typedef struct {
+  PetscMPIInt rank;
+  PetscInt   n_bodies;
+  Body      *bodies; /* known to every rank; everything below, but for the DMPlex, on rank 0 only */
+  PetscInt   n_vertices, n_cells, n_surfaces;
+  PetscReal *coordinates;   /* 3 per vertex */
+  PetscInt  *cell_offsets;  /* n_cells + 1 */
+  PetscInt  *cell_vertices; /* 4 (tet) or 8 (hex) per cell, in VTK's order */
+  PetscInt  *cell_body;
+  Surface   *surfaces;
+  PetscReal  rotation[9]; /* of the whole scene, row-major; identity unless `frame` says otherwise */
+  PetscBool  rotated;
+  /* plex.c */
+  DM        dm;
+  PetscInt *original; /* mesh vertex of each of this rank's vertices */
+  PetscInt  vStart, vEnd;
+} Mesh;
+
+/* A box along the axes around some points. */
+typedef struct {
+  PetscReal low[3], high[3];
+} Extent;
+
+Extent    extent_of_nothing(void);
+void      extent_add(Extent *extent, const PetscReal x[3]);
+PetscReal extent_longest(const Extent *extent); /* its longest edge; 0 of nothing */
+PetscReal extent_diagonal_squared(const Extent *extent);
+
+PetscErrorCode mesh_create(Scene *scene, Mesh *mesh); /* bodies and surfaces, in the axes of the scene file */
+PetscErrorCode mesh_rotate(Mesh *mesh);               /* then into the rotated frame, when all selections are done */
+PetscErrorCode mesh_destroy(Mesh *mesh);
+void           mesh_rotate_vector(const Mesh *mesh, PetscReal v[3]);
+
+const Surface *mesh_surface(Scene *scene, const Mesh *mesh, const char *map, const char *key, const char *name);
+PetscInt       mesh_body(Scene *scene, const Mesh *mesh, const char *map, const char *key, const char *name);
+PetscInt       mesh_nearest_vertex(Scene *scene, const Mesh *mesh, const char *map);
+
+/* plex.c */
+PetscErrorCode plex_create(Mesh *mesh);
+PetscErrorCode plex_label_vertices(DM dm, const char *label, PetscInt n, const PetscInt *vertices,
+                                   const PetscInt *values, PetscInt value);
+PetscErrorCode plex_label_faces(DM dm, const char *label, const Surface *surface);
+PetscErrorCode plex_distribute(Mesh *mesh);
+
+/* trees.c: what belongs together, as trees; at first each entry is its own parent */
+void     trees_join(PetscInt parent[], PetscInt a, PetscInt b);
+PetscInt trees_number(PetscInt n, PetscInt parent[]); /* from trees to numbers from 0; returns how many there are */
+
+/* for the readers of one body: box.c, gmsh.c, analytic.c */
+PetscErrorCode mesh_append(Mesh *mesh, PetscInt n_vertices, const PetscReal *coordinates, PetscInt n_cells,
+                           PetscInt corners, const PetscInt *cells);
+PetscErrorCode mesh_add_surface(Mesh *mesh, const char *name, PetscInt max_faces, Surface **surface);
+void           surface_push(Surface *surface, PetscInt n, const PetscInt vertices[]);
+PetscErrorCode box_create(Scene *scene, const char *body, Mesh *mesh);
+/* How a box is bent (box_shape.c). */
+typedef enum { BOX_STRAIGHT, BOX_BALL, BOX_CYLINDER, BOX_POLAR } BoxKind;
+
+typedef struct {
+  BoxKind   kind;
+  PetscReal centre[3];
+  int       axis;   /* along which a cylinder stays straight; -1: none */
+  PetscBool closed; /* a full circle: the last layer of vertices along y is the first */
+} BoxShape;
+
+void box_shape_read(Scene *scene, const char *body, const PetscInt n[3], PetscReal *const planes[3], BoxShape *shape);
+void box_shape_bend(const BoxShape *shape, PetscReal x[3]);
+
+PetscErrorCode gmsh_create(Scene *scene, const char *body, Mesh *mesh);
+/* name of a temporary copy of a Gmsh file whose physical surfaces have no signs; "": there are none in the file itself */
+PetscErrorCode gmsh_without_signs(const char *path, char copy[], size_t length);
+PetscErrorCode analytic_create(Scene *scene, const char *body, Mesh *mesh);
+void           analytic_fit(Mesh *mesh);
+
+/* vertices of face 0..5 of a hex, 0..3 of a tet, outward; returns the number of vertices of that face */
+PetscInt cell_face(PetscInt corners, PetscInt face, const PetscInt cell[], PetscInt vertices[4]);
+#endif

@@ -1,0 +1,52 @@
+/* What the scene says of the results: which files, where, and the probes. */
+#include "output/output.h"
+#include <stdio.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+/* with its parents; true if it can be written to */
+static PetscBool make_folder(const char *path)
+{
+  char part[PETSC_MAX_PATH_LEN];
+  for (size_t k = 1; path[k - 1] && k < sizeof(part); k++) {
+    if (path[k] && path[k] != '/') continue;
+    snprintf(part, sizeof(part), "%.*s", (int)k, path);
+    (void)mkdir(part, 0777); /* those that are there already stay */
+  }
+  return (PetscBool)(access(path, W_OK) == 0);
+}
+
+PetscErrorCode output_read(Scene *scene, Output *output)
+{
+  const Mesh              *mesh   = output->mesh;
+  static const char *const when[] = {"none", "last", "times", "all", NULL};
+  PetscInt                 vtu    = WRITE_ALL, csv = WRITE_ALL;
+  char                   **names;
+
+  PetscFunctionBegin;
+  output->scene = scene_file(scene);
+  scene_choice(scene, "output", "vtu", when, &vtu);
+  scene_choice(scene, "output", "csv", when, &csv);
+  scene_bool(scene, "output", "quiet", &output->quiet);
+  output->write_vtu = (WriteWhen)vtu;
+  output->write_csv = (WriteWhen)csv;
+  scene_names(scene, "probes", &output->n_probes, &names);
+  PetscCall(PetscCalloc1(output->n_probes, &output->probes));
+  scene_root_begin(scene);
+  for (PetscInt k = 0; k < output->n_probes && mesh->rank == 0; k++) {
+    PetscCall(PetscSNPrintf(output->probes[k].name, NAME_LENGTH, "%s", names[k]));
+    output->probes[k].vertex = mesh_nearest_vertex(scene, mesh, names[k]);
+  }
+  if (mesh->rank == 0 && !make_folder(output->directory))
+    scene_fail(scene, NULL, NULL, "cannot write to the output folder '%s'.", output->directory);
+  PetscCall(scene_root_end(scene));
+  strings_destroy(output->n_probes, &names);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode output_destroy(Output *output)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscFree(output->probes));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

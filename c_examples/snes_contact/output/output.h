@@ -1,0 +1,48 @@
+/* What a run leaves: summary.json, a line per step, CSV and VTU files. */
+#ifndef SNES_CONTACT_OUTPUT_H
+#define SNES_CONTACT_OUTPUT_H
+#include "solve/solve.h"
+
+typedef struct {
+  char     name[NAME_LENGTH];
+  PetscInt vertex; /* rank 0 */
+} Probe;
+
+typedef enum { WRITE_NONE, WRITE_LAST, WRITE_TIMES, WRITE_ALL } WriteWhen;
+
+typedef struct {
+  Mesh        *mesh;
+  Physics     *physics;
+  Contact     *contact;
+  Solve       *solve;
+  const char  *scene, *directory; /* name of the scene's file; where results go */
+  PetscBool    quiet;
+  WriteWhen    write_vtu, write_csv;
+  PetscInt     n_probes;
+  Probe       *probes;
+  PetscLogDouble started; /* the run */
+} Output;
+
+/* output.c */
+PetscErrorCode output_read(Scene *scene, Output *output);
+PetscErrorCode output_destroy(Output *output);
+
+/* summary.c */
+typedef struct Summary Summary;
+PetscErrorCode         summary_create(Output *output, Summary **summary);
+PetscErrorCode         summary_step(Output *output, Summary *summary, PetscInt step, PetscBool converged,
+                                    PetscBool asked, PetscBool last);
+PetscErrorCode         summary_failed_attempt(Output *output, Summary *summary, PetscReal t_last);
+PetscErrorCode summary_settle_step(Output *output, Summary *summary, PetscBool accepted); /* the last one */
+PetscErrorCode summary_write(Output *output, Summary **summary, Vec last, PetscInt cutbacks, const char *message);
+
+/* uniqueness.c: of a node with friction */
+PetscErrorCode uniqueness_check(Output *output, Vec x, struct cJSON *root);
+/* counters.c: what the run and each interface cost */
+PetscErrorCode summary_counters(Output *output, struct cJSON *root);
+/* diagnosis.c: what may be wrong; told and kept */
+PetscErrorCode diagnosis_failed(Output *output, struct cJSON *root);
+/* files.c */
+PetscErrorCode csv_write(Output *output, const Interface *interface, const ContactStates *states, PetscInt step);
+PetscErrorCode vtu_write(Output *output, const PetscScalar *displacements, PetscInt step);
+#endif

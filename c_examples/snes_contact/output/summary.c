@@ -1,0 +1,279 @@
+/* Results: DIR/summary.json, the progress line, and per step the CSV files of the interfaces and the VTU file. All values
+ * of a step belong to the state just before it is committed. */
+#include "output/output.h"
+#include <cjson/cJSON.h>
+#include <stdio.h>
+#include <string.h>
+
+struct Summary {
+  cJSON       *root, *steps, *failed_attempts;
+  double      *work_before;    /* friction work of each interface before the last step */
+  char         said[1024];     /* about the last failed attempt */
+  char         progress[1024]; /* of the last step: what its line ends with */
+  PetscScalar *displacements;  /* its; until it is settled whether it is accepted */
+};
+
+static cJSON *vector_json(const PetscReal v[3])
+{
+  return cJSON_CreateDoubleArray(v, 3);
+}
+
+/* with all its digits (cJSON leaves out the last where it thinks that it does not matter): a step can be run again */
+static void add_time(cJSON *json, const char *name, PetscReal t)
+{
+  char text[32];
+  snprintf(text, sizeof(text), "%.17g", (double)t);
+  cJSON_AddRawToObject(json, name, text);
+}
+
+static const char *form_name(const Output *output)
+{
+  Contact *contact = output->contact;
+  int32_t  form    = contact->n_interfaces ? contact->interfaces[0].options.form : STICKSLIP_FORM_MULTIPLIER;
+  for (PetscInt i = 1; i < contact->n_interfaces; i++) {
+    if (contact->interfaces[i].options.form != form) return "mixed";
+  }
+  return form == STICKSLIP_FORM_AUGMENTED ? "augmented" : "multiplier";
+}
+
+PetscErrorCode summary_create(Output *output, Summary **out)
+{
+  Summary  *summary;
+  PetscInt  unknowns;
+  PetscReal rtol;
+  Vec       x;
+
+  PetscFunctionBegin;
+  PetscCall(PetscNew(&summary));
+  PetscCall(PetscCalloc1(output->contact->n_interfaces, &summary->work_before));
+  PetscCall(DMGetGlobalVector(output->mesh->dm, &x));
+  PetscCall(VecGetSize(x, &unknowns));
+  PetscCall(DMRestoreGlobalVector(output->mesh->dm, &x));
+  PetscCall(SNESGetTolerances(output->solve->snes, NULL, &rtol, NULL, NULL, NULL));
+  summary->root = cJSON_CreateObject();
+  cJSON_AddNumberToObject(summary->root, "schema", 1);
+  cJSON_AddStringToObject(summary->root, "scene", output->scene);
+  cJSON_AddStringToObject(summary->root, "form", form_name(output));
+  cJSON_AddNumberToObject(summary->root, "rtol", rtol);
+  cJSON_AddNumberToObject(summary->root, "unknowns", unknowns);
+  summary->steps           = cJSON_CreateArray();
+  summary->failed_attempts = cJSON_CreateArray();
+  if (!output->quiet)
+    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s: %" PetscInt_FMT " unknowns\n", output->scene, unknowns));
+  *out = summary;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* rank 0: force, counts and CSV file of one interface; returns a piece of the progress line */
+static PetscErrorCode interface_results(Output *output, Interface *interface, PetscInt step, PetscBool write,
+                                        cJSON *parent, double *work, char progress[], size_t length)
+{
+  PetscInt      counts[3] = {0, 0, 0};
+  PetscReal     force[3]  = {0, 0, 0};
+  ContactStates states;
+  cJSON        *json = cJSON_AddObjectToObject(parent, interface->name);
+
+  PetscFunctionBegin;
+  PetscCall(contact_states_create(interface, &states));
+  for (PetscInt a = 0; a < interface->n1; a++) {
+    counts[states.state[a]]++;
+    for (int i = 0; i < 3; i++)
+      force[i] -= PetscRealPart(interface->forces[3 * a + i]); /* f1 is an internal force */
+    interface->friction_work += states.dissipation[a];
+  }
+  *work += interface->friction_work;
+  cJSON_AddItemToObject(json, "force", vector_json(force));
+  cJSON_AddNumberToObject(json, "gap", counts[STICKSLIP_STATE_GAP]);
+  cJSON_AddNumberToObject(json, "stick", counts[STICKSLIP_STATE_STICK]);
+  cJSON_AddNumberToObject(json, "slip", counts[STICKSLIP_STATE_SLIP]);
+  if (write) PetscCall(csv_write(output, interface, &states, step));
+  PetscCall(contact_states_destroy(&states));
+  snprintf(progress, length, "  %s %d gap %d stick %d slip", interface->name, (int)counts[STICKSLIP_STATE_GAP],
+           (int)counts[STICKSLIP_STATE_STICK], (int)counts[STICKSLIP_STATE_SLIP]);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode add_reactions(Output *output, cJSON *json)
+{
+  Physics *physics   = output->physics;
+  cJSON   *reactions = cJSON_AddObjectToObject(json, "reactions");
+  PetscFunctionBegin;
+  PetscCall(supports_reactions(physics));
+  for (PetscInt s = 0; s < physics->n_supports; s++)
+    cJSON_AddItemToObject(reactions, physics->supports[s].name, vector_json(physics->supports[s].reaction));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* f . u of the loads; each rank holds its part of f and the whole of u at its vertices */
+static PetscErrorCode external_work(Output *output, PetscReal *work)
+{
+  Physics           *physics = output->physics;
+  const PetscScalar *f, *u;
+  PetscFunctionBegin;
+  *work = 0;
+  PetscCall(VecGetArrayRead(physics->f_external, &f));
+  PetscCall(VecGetArrayRead(physics->u_local, &u));
+  for (PetscInt k = 0; k < physics->unknowns.n_local; k++)
+    *work += 0.5 * PetscRealPart(f[k] * u[k]);
+  PetscCall(VecRestoreArrayRead(physics->u_local, &u));
+  PetscCall(VecRestoreArrayRead(physics->f_external, &f));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, work, 1, MPIU_REAL, MPIU_SUM, PETSC_COMM_WORLD));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode gather_displacements(Output *output, PetscScalar **displacements)
+{
+  Physics           *physics = output->physics;
+  const PetscScalar *u;
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(output->mesh->rank ? 0 : 3 * output->mesh->n_vertices, displacements));
+  PetscCall(VecGetArrayRead(physics->u_local, &u));
+  PetscCall(PetscSFBcastBegin(physics->unknowns.all_displacements, MPIU_SCALAR, u, *displacements, MPI_REPLACE));
+  PetscCall(PetscSFBcastEnd(physics->unknowns.all_displacements, MPIU_SCALAR, u, *displacements, MPI_REPLACE));
+  PetscCall(VecRestoreArrayRead(physics->u_local, &u));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscBool is_due(WriteWhen when, PetscBool asked, PetscBool last)
+{
+  return (PetscBool)(when == WRITE_ALL || (when == WRITE_TIMES && asked) || (when == WRITE_LAST && last));
+}
+
+/* the cycles that Newton's method met since the last report, and the nodes that changed state in its last attempt */
+static void add_states(Output *output, cJSON *json)
+{
+  Newton *newton = &output->solve->newton;
+  if (newton->state_changes) cJSON_AddItemToObject(json, "state_changes", newton->state_changes);
+  if (newton->cycles) cJSON_AddItemToObject(json, "cycles", newton->cycles);
+  newton->cycles = newton->state_changes = NULL;
+}
+
+/* Between t_last and physics->t. Its sentence is printed where it differs from the one before: a refusal by the library
+ * may come with every attempt. */
+PetscErrorCode summary_failed_attempt(Output *output, Summary *summary, PetscReal t_last)
+{
+  const Newton *newton = &output->solve->newton;
+  cJSON        *json   = cJSON_CreateObject();
+
+  PetscFunctionBegin;
+  add_time(json, "from", t_last);
+  add_time(json, "t", output->physics->t);
+  cJSON_AddNumberToObject(json, "newton_iterations", newton->iterations);
+  cJSON_AddStringToObject(json, "why", newton->why);
+  add_states(output, json);
+  cJSON_AddItemToArray(summary->failed_attempts, json);
+  if (!output->quiet) {
+    const PetscBool again = (PetscBool)!strcmp(summary->said, newton->why);
+    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "     t %-10.6g %s: %s\n", (double)output->physics->t,
+                          newton->refused_commit ? "refused" : "not converged", again ? "as before" : newton->why));
+    PetscCall(PetscSNPrintf(summary->said, sizeof(summary->said), "%s", newton->why));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode summary_step(Output *output, Summary *summary, PetscInt step, PetscBool converged, PetscBool asked,
+                            PetscBool last)
+{
+  Physics        *physics = output->physics;
+  Contact        *contact = output->contact;
+  Solve          *solve   = output->solve;
+  const PetscBool csv     = (PetscBool)(converged && is_due(output->write_csv, asked, last));
+  const PetscBool vtu     = (PetscBool)(converged && is_due(output->write_vtu, asked, last));
+  cJSON          *json    = cJSON_CreateObject(), *interfaces, *probes;
+  PetscReal      *norms   = NULL, half_fu;
+  PetscInt        n_norms = 0;
+  PetscScalar    *displacements;
+  double          friction_work = 0;
+  char           *progress      = summary->progress; /* what summary_settle_step() prints */
+
+  PetscFunctionBegin;
+  PetscCall(SNESGetConvergenceHistory(solve->snes, &norms, NULL, &n_norms));
+  add_time(json, "t", physics->t);
+  cJSON_AddBoolToObject(json, "converged", converged);
+  cJSON_AddNumberToObject(json, "newton_iterations", solve->iterations);
+  cJSON_AddItemToObject(json, "residual_norms", cJSON_CreateDoubleArray(norms, (int)n_norms));
+  add_states(output, json);
+  if (solve->jacobian_tests) cJSON_AddItemToObject(json, "jacobian_tests", solve->jacobian_tests);
+  solve->jacobian_tests = NULL;
+  cJSON_AddItemToArray(summary->steps, json);
+  PetscCall(PetscSNPrintf(progress, sizeof(summary->progress),
+                          "%4" PetscInt_FMT " t %-10.6g newton %2" PetscInt_FMT "  |r| %.2e", step, (double)physics->t,
+                          solve->iterations, n_norms ? (double)norms[n_norms - 1] : 0.0));
+  if (!converged) PetscFunctionReturn(PETSC_SUCCESS);
+
+  cJSON_AddNumberToObject(json, "reference_force", physics->parts.reference_force);
+  PetscCall(external_work(output, &half_fu));
+  cJSON_AddNumberToObject(json, "external_work_half_fu", half_fu);
+  PetscCall(add_reactions(output, json));
+  PetscCall(gather_displacements(output, &displacements));
+  if (output->mesh->rank == 0) {
+    interfaces = cJSON_AddObjectToObject(json, "interfaces");
+    for (PetscInt i = 0; i < contact->n_interfaces; i++) {
+      const size_t used       = strlen(progress);
+      summary->work_before[i] = contact->interfaces[i].friction_work;
+      PetscCall(interface_results(output, &contact->interfaces[i], step, csv, interfaces, &friction_work,
+                                  progress + used, sizeof(summary->progress) - used));
+    }
+    probes = cJSON_AddObjectToObject(json, "probes");
+    for (PetscInt k = 0; k < output->n_probes; k++)
+      cJSON_AddItemToObject(probes, output->probes[k].name, vector_json(displacements + 3 * output->probes[k].vertex));
+    if (vtu) PetscCall(vtu_write(output, displacements, step));
+    PetscCall(held_check(solve, displacements));
+  }
+  cJSON_AddNumberToObject(json, "friction_work", friction_work);
+  summary->displacements = displacements;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode summary_settle_step(Output *output, Summary *summary, PetscBool accepted)
+{
+  PetscFunctionBegin;
+  if (accepted && !output->quiet) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s\n", summary->progress));
+  if (output->mesh->rank == 0) {
+    PetscCall(held_settle(output->solve, accepted));
+    if (accepted) PetscCall(range_check(output->physics, summary->displacements));
+  }
+  PetscCall(PetscFree(summary->displacements));
+  if (accepted) PetscFunctionReturn(PETSC_SUCCESS);
+  cJSON_DeleteItemFromArray(summary->steps, cJSON_GetArraySize(summary->steps) - 1);
+  for (PetscInt i = 0; i < output->contact->n_interfaces && output->mesh->rank == 0; i++)
+    output->contact->interfaces[i].friction_work = summary->work_before[i];
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* `last`: the last converged state */
+PetscErrorCode summary_write(Output *output, Summary **summary, Vec last, PetscInt cutbacks, const char *message)
+{
+  Solve *solve = output->solve;
+  char  *text, path[PETSC_MAX_PATH_LEN];
+  FILE  *file;
+
+  PetscFunctionBegin;
+  cJSON_AddNumberToObject((*summary)->root, "cutbacks", cutbacks);
+  if (message[0]) cJSON_AddStringToObject((*summary)->root, "message", message);
+  cJSON_AddItemToObject((*summary)->root, "failed_attempts", (*summary)->failed_attempts);
+  cJSON_AddItemToObject((*summary)->root, "steps", (*summary)->steps);
+  if (solve->held.by_contact && solve->held.by_contact->child)
+    cJSON_AddItemReferenceToObject((*summary)->root, "held_by_contact", solve->held.by_contact);
+  if (solve->held.by_nothing)
+    cJSON_AddItemReferenceToObject((*summary)->root, "held_by_nothing", solve->held.by_nothing);
+  PetscCall(range_report(output->physics, (*summary)->root));
+  PetscCall(summary_counters(output, (*summary)->root));
+  if (message[0])
+    PetscCall(diagnosis_failed(output, (*summary)->root));
+  else
+    PetscCall(uniqueness_check(output, last, (*summary)->root));
+  if (output->mesh->rank == 0) {
+    text = cJSON_Print((*summary)->root);
+    PetscCall(PetscSNPrintf(path, sizeof(path), "%s/summary.json", output->directory));
+    file = fopen(path, "w");
+    PetscCheck(file, PETSC_COMM_SELF, PETSC_ERR_FILE_OPEN, "cannot write '%s'", path);
+    fprintf(file, "%s\n", text);
+    fclose(file);
+    cJSON_free(text);
+  }
+  cJSON_Delete((*summary)->root);
+  PetscCall(PetscFree((*summary)->work_before));
+  PetscCall(PetscFree(*summary));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

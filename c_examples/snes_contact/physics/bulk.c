@@ -1,0 +1,232 @@
+/* The bodies: this rank's cells, their internal forces and stiffness. */
+#include "physics/physics.h"
+
+/* How many roundings meet in a force: of displacements, gradients and sums, of several cells and points. */
+static const PetscReal ROUNDINGS = 2;
+
+/* of a cell at rest: the largest diagonal entry */
+static PetscErrorCode cell_stiffness(const Material *material, PetscInt n, const PetscReal X[], PetscReal *stiffness)
+{
+  const PetscReal at_rest[24] = {0};
+  PetscReal       f[24], K[24 * 24];
+  PetscBool       inverted;
+  PetscFunctionBegin;
+  PetscCall(cell_forces(n, material, X, at_rest, f, K, &inverted));
+  *stiffness = 0;
+  for (PetscInt k = 0; k < 3 * n; k++)
+    *stiffness = PetscMax(*stiffness, K[(3 * n + 1) * k]);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode bulk_create(Physics *physics)
+{
+  const Mesh        *mesh  = physics->mesh;
+  Cells             *cells = &physics->cells;
+  PetscInt           cStart, cEnd, n_corners = 0;
+  DMLabel            body;
+  PetscSection       coordinate_section;
+  Vec                coordinate_vector;
+  const PetscScalar *coordinates;
+
+  PetscFunctionBegin;
+  PetscCall(DMPlexGetHeightStratum(mesh->dm, 0, &cStart, &cEnd));
+  PetscCall(DMGetLabel(mesh->dm, "body", &body));
+  PetscCall(DMGetCoordinateSection(mesh->dm, &coordinate_section));
+  PetscCall(DMGetCoordinatesLocal(mesh->dm, &coordinate_vector));
+  PetscCall(VecGetArrayRead(coordinate_vector, &coordinates));
+  cells->n = cEnd - cStart;
+  PetscCall(PetscMalloc6(cells->n + 1, &cells->offsets, 8 * cells->n, &cells->dofs,
+                         cells->n, &cells->body, cells->n, &cells->part, 24 * cells->n,
+                         &cells->X, cells->n, &cells->stiffness));
+  cells->offsets[0] = 0;
+  for (PetscInt c = cStart; c < cEnd; c++) {
+    PetscInt      *closure = NULL, size, corners[8], n = 0, at;
+    DMPolytopeType type;
+    PetscCall(DMPlexGetTransitiveClosure(mesh->dm, c, PETSC_TRUE, &size, &closure));
+    for (PetscInt k = 0; k < size; k++) {
+      if (closure[2 * k] >= mesh->vStart && closure[2 * k] < mesh->vEnd) corners[n++] = closure[2 * k];
+    }
+    PetscCall(DMPlexRestoreTransitiveClosure(mesh->dm, c, PETSC_TRUE, &size, &closure));
+    PetscCall(DMPlexGetCellType(mesh->dm, c, &type));
+    PetscCall(DMPlexInvertCell(type, corners)); /* to VTK's order */
+    PetscCall(DMLabelGetValue(body, c, &cells->body[c - cStart]));
+    cells->part[c - cStart] = physics->parts.of_vertex[corners[0] - mesh->vStart];
+    for (PetscInt a = 0; a < n; a++) {
+      PetscCall(PetscSectionGetOffset(physics->unknowns.section, corners[a], &cells->dofs[n_corners + a]));
+      PetscCall(PetscSectionGetOffset(coordinate_section, corners[a], &at));
+      for (int i = 0; i < 3; i++)
+        cells->X[3 * (n_corners + a) + i] = PetscRealPart(coordinates[at + i]);
+    }
+    PetscCall(cell_stiffness(&physics->materials[cells->body[c - cStart]], n,
+                             cells->X + 3 * n_corners, &cells->stiffness[c - cStart]));
+    n_corners += n;
+    cells->offsets[c - cStart + 1] = n_corners;
+  }
+  PetscCall(VecRestoreArrayRead(coordinate_vector, &coordinates));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* displacements of the corners of one cell */
+static void cell_displacements(const Physics *physics, PetscInt c, const PetscScalar *u, PetscReal u_cell[])
+{
+  const Cells *cells = &physics->cells;
+  for (PetscInt k = cells->offsets[c]; k < cells->offsets[c + 1]; k++) {
+    for (int i = 0; i < 3; i++)
+      *u_cell++ = PetscRealPart(u[cells->dofs[k] + i]);
+  }
+}
+
+/* All ranks learn whether this or another one has an inverted cell (c, or -1); physics->inverted names the first. */
+static PetscErrorCode agree_on_inverted(Physics *physics, PetscInt c, PetscInt *status)
+{
+  const Mesh  *mesh  = physics->mesh;
+  const Cells *cells = &physics->cells;
+  PetscMPIInt  size, first;
+  PetscFunctionBegin;
+  PetscCallMPI(MPI_Comm_size(PETSC_COMM_WORLD, &size));
+  first = c < 0 ? size : mesh->rank;
+  if (size > 1) {
+    PetscMPIInt mine = first;
+    PetscCallMPI(MPI_Allreduce(&mine, &first, 1, MPI_INT, MPI_MIN, PETSC_COMM_WORLD));
+  }
+  *status = first < size;
+  if (!*status) PetscFunctionReturn(PETSC_SUCCESS);
+  if (mesh->rank == first) {
+    const PetscInt n         = cells->offsets[c + 1] - cells->offsets[c];
+    PetscReal      centre[3] = {0, 0, 0};
+    for (PetscInt k = 0; k < 3 * n; k++)
+      centre[k % 3] += cells->X[3 * cells->offsets[c] + k] / (PetscReal)n;
+    PetscCall(PetscSNPrintf(physics->inverted, sizeof(physics->inverted),
+                            "a cell of '%s' is turned inside out, the one about [%g, %g, %g] in the undeformed body",
+                            mesh->bodies[cells->body[c]].name, (double)centre[0], (double)centre[1],
+                            (double)centre[2]));
+  }
+  PetscCallMPI(MPI_Bcast(physics->inverted, sizeof(physics->inverted), MPI_CHAR, first, PETSC_COMM_WORLD));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Rounding: a displacement's last digit, times a stiffness, is a force. It is what is left of a body that moves without
+ * stress. An iterate that runs away must not loosen the test: a displacement counts up to the size of all that
+ * contact may join to the part. */
+static PetscReal squared_rounding(const Physics *physics, PetscInt c, PetscInt n, const PetscReal u_cell[])
+{
+  const Cells *cells   = &physics->cells;
+  PetscReal    largest = 0;
+  for (PetscInt k = 0; k < 3 * n; k++)
+    largest = PetscMax(largest, PetscAbsReal(u_cell[k]));
+  return n * PetscSqr(ROUNDINGS * PETSC_MACHINE_EPSILON * PetscMin(largest, physics->parts.part[cells->part[c]].reach) *
+                      cells->stiffness[c]);
+}
+
+PetscErrorCode bulk_forces(Physics *physics, Vec f_local, PetscInt *status)
+{
+  const Cells       *cells = &physics->cells;
+  const PetscScalar *u;
+  PetscScalar       *f;
+  PetscLogDouble     start, end;
+  PetscInt           first_inverted = -1;
+
+  PetscFunctionBegin;
+  PetscCall(PetscTime(&start));
+  PetscCall(VecGetArrayRead(physics->u_local, &u));
+  PetscCall(VecGetArray(f_local, &f));
+  for (PetscInt c = 0; c < cells->n && first_inverted < 0; c++) {
+    const PetscInt *dofs = cells->dofs + cells->offsets[c],
+                   n     = cells->offsets[c + 1] - cells->offsets[c];
+    PetscReal u_cell[24], f_cell[24];
+    PetscBool inverted;
+    cell_displacements(physics, c, u, u_cell);
+    PetscCall(cell_forces(n, &physics->materials[cells->body[c]],
+                          cells->X + 3 * cells->offsets[c], u_cell, f_cell, NULL, &inverted));
+    if (inverted) first_inverted = c;
+    physics->parts.squares[N_SQUARES * cells->part[c] + SQUARES_ROUNDING] += squared_rounding(physics, c, n, u_cell);
+    for (PetscInt a = 0; a < n; a++) {
+      for (int i = 0; i < 3; i++)
+        f[dofs[a] + i] += f_cell[3 * a + i];
+    }
+  }
+  PetscCall(VecRestoreArray(f_local, &f));
+  PetscCall(VecRestoreArrayRead(physics->u_local, &u));
+  PetscCall(agree_on_inverted(physics, first_inverted, status));
+  PetscCall(PetscTime(&end));
+  physics->seconds += end - start;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* K of one cell into the matrix; rows and columns of prescribed displacements, with negative equations, are left out */
+static PetscErrorCode insert(const Physics *physics, PetscInt c, const PetscReal K[], Mat matrix)
+{
+  const Cells    *cells = &physics->cells;
+  const PetscInt *dofs  = cells->dofs + cells->offsets[c];
+  const PetscInt  n     = cells->offsets[c + 1] - cells->offsets[c];
+  PetscInt        equations[24];
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < 3 * n; k++)
+    equations[k] = physics->unknowns.equations[dofs[k / 3] + k % 3];
+  PetscCall(MatSetValues(matrix, 3 * n, equations, 3 * n, equations, K, ADD_VALUES));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode bulk_stiffness(Physics *physics, Mat matrix, PetscInt *status)
+{
+  const Cells       *cells = &physics->cells;
+  const PetscScalar *u;
+  PetscLogDouble     start, end;
+  PetscInt           first_inverted = -1;
+
+  PetscFunctionBegin;
+  PetscCall(PetscTime(&start));
+  PetscCall(VecGetArrayRead(physics->u_local, &u));
+  for (PetscInt c = 0; c < cells->n && first_inverted < 0; c++) {
+    PetscReal u_cell[24], f_cell[24], K[24 * 24];
+    PetscBool inverted;
+    cell_displacements(physics, c, u, u_cell);
+    PetscCall(cell_forces(cells->offsets[c + 1] - cells->offsets[c],
+                          &physics->materials[cells->body[c]],
+                          cells->X + 3 * cells->offsets[c], u_cell, f_cell, K, &inverted));
+    if (inverted) first_inverted = c;
+    PetscCall(insert(physics, c, K, matrix));
+  }
+  PetscCall(VecRestoreArrayRead(physics->u_local, &u));
+  PetscCall(agree_on_inverted(physics, first_inverted, status));
+  PetscCall(PetscTime(&end));
+  physics->seconds += end - start;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Of the bodies of finite strain, as if they were linear: stiffness K, and forces K u of the displacements u. */
+PetscErrorCode bulk_extension(Physics *physics, Vec u_local, Vec f_local, Mat matrix)
+{
+  const Cells       *cells    = &physics->cells;
+  const Material     likeness = {.young = 1, .poisson = 0.3, .law = &MATERIAL_LINEAR};
+  const PetscScalar *u;
+  PetscScalar       *f;
+
+  PetscFunctionBegin;
+  PetscCall(VecGetArrayRead(u_local, &u));
+  PetscCall(VecGetArray(f_local, &f));
+  for (PetscInt c = 0; c < cells->n; c++) {
+    const PetscInt first = cells->offsets[c], n = cells->offsets[c + 1] - first;
+    PetscReal      u_cell[24], f_cell[24], K[24 * 24];
+    PetscBool      inverted;
+    if (!physics->materials[cells->body[c]].law->finite) continue;
+    cell_displacements(physics, c, u, u_cell);
+    PetscCall(cell_forces(n, &likeness, cells->X + 3 * first, u_cell, f_cell, K, &inverted));
+    PetscCall(insert(physics, c, K, matrix));
+    for (PetscInt k = 0; k < 3 * n; k++)
+      f[cells->dofs[first + k / 3] + k % 3] += f_cell[k];
+  }
+  PetscCall(VecRestoreArray(f_local, &f));
+  PetscCall(VecRestoreArrayRead(u_local, &u));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode bulk_pattern(Physics *physics, Mat matrix)
+{
+  const Cells    *cells          = &physics->cells;
+  const PetscReal zeros[24 * 24] = {0};
+  PetscFunctionBegin;
+  for (PetscInt c = 0; c < cells->n; c++)
+    PetscCall(insert(physics, c, zeros, matrix));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

@@ -1,0 +1,38 @@
+/* The bodies' materials from the scene. */
+#include "physics/physics.h"
+
+static PetscErrorCode read_material(Scene *scene, const char *body, Material *material)
+{
+  static const MaterialLaw *const laws[]        = {&MATERIAL_LINEAR, &MATERIAL_ST_VENANT_KIRCHHOFF,
+                                                   &MATERIAL_NEO_HOOKE};
+  static const char *const        dilatations[] = {"pointwise", "mean", NULL};
+  const char                     *law_names[]   = {laws[0]->name, laws[1]->name, laws[2]->name, NULL};
+  PetscInt                        law = 0, dilatation = 0;
+
+  PetscFunctionBegin;
+  scene_real_required(scene, body, "young", &material->young);
+  scene_real_required(scene, body, "poisson", &material->poisson);
+  if (material->young <= 0) scene_fail(scene, body, "young", "it must be positive, not %g.", (double)material->young);
+  if (material->poisson <= -1 || material->poisson >= 0.5)
+    scene_fail(scene, body, "poisson", "it must lie between -1 and 0.5 (both excluded), not %g.",
+               (double)material->poisson);
+  scene_choice(scene, body, "material", law_names, &law);
+  scene_choice(scene, body, "dilatation", dilatations, &dilatation);
+  scene_bool(scene, body, "small_strain", &material->small_strain);
+  material->law             = laws[law];
+  material->mean_dilatation = (PetscBool)dilatation;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode materials_read(Scene *scene, Physics *physics)
+{
+  const Mesh *mesh = physics->mesh;
+  PetscFunctionBegin;
+  PetscCall(PetscCalloc1(mesh->n_bodies, &physics->materials));
+  for (PetscInt b = 0; b < mesh->n_bodies; b++) {
+    const Body *body          = &mesh->bodies[b];
+    physics->materials[b].law = &MATERIAL_LINEAR; /* of an analytic body: has no cells with stiffness */
+    if (!body->analytic) PetscCall(read_material(scene, body->name, &physics->materials[b]));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

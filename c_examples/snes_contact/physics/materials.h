@@ -1,0 +1,39 @@
+/* Elastic materials, each an energy per reference volume W(H) = W0(H) + U(v(H)): a part that shears, and a part U that
+ * knows the strain only by one measure of the change of volume, v. Split like this, U can be taken at every point
+ * (`pointwise`) or at a cell's mean of v (`mean`, for nearly incompressible bodies); see cell_forces() in elasticity.c.
+ *
+ * H = du/dX, F = I + H, row-major; stresses in F/L^2. lambda and G are Lame's constants. */
+#ifndef SNES_CONTACT_MATERIALS_H
+#define SNES_CONTACT_MATERIALS_H
+#include "scene/petsc_compat.h"
+
+typedef struct Material Material;
+
+typedef struct {
+  const char *name;
+  PetscBool   finite; /* strain: needs det F > 0 */
+  /* v, zero in the undeformed state */
+  PetscReal (*volume)(const PetscReal H[9]);
+  /* p = U'(v) and dp = U''(v) */
+  void (*pressure)(const Material *material, PetscReal v, PetscReal *p, PetscReal *dp);
+  /* P = dW0/dH + p V with V = dv/dH, the first Piola-Kirchhoff stress where p is U'(v);
+   * unless NULL, A[9 (3i+J) + 3k+L] = dP_iJ/dH_kL at fixed p, plus dp V_iJ V_kL */
+  void (*stress)(const Material *material, const PetscReal H[9], PetscReal p, PetscReal dp, PetscReal P[9],
+                 PetscReal V[9], PetscReal A[81]);
+} MaterialLaw;
+
+struct Material {
+  PetscReal          young, poisson;
+  const MaterialLaw *law;
+  PetscBool          small_strain; /* the linear theory is meant, however large strains are */
+  PetscBool          mean_dilatation;
+};
+
+extern const MaterialLaw MATERIAL_LINEAR, MATERIAL_ST_VENANT_KIRCHHOFF, MATERIAL_NEO_HOOKE;
+
+/* det F - 1, without the cancellation of small strains */
+PetscReal volume_ratio_minus_one(const PetscReal H[9]);
+
+/* Cauchy's stress of P: P F^T / det F; of the linear law, which does not tell them apart, P itself */
+void cauchy_stress(const Material *material, const PetscReal H[9], const PetscReal P[9], PetscReal sigma[9]);
+#endif

@@ -1,0 +1,161 @@
+/* The model's parts, connected pieces of mesh that nothing but contact joins, and whether the forces on each balance.
+ *
+ * A part's residual is compared with twice its own forces, |loads| + |reactions| + |contact forces| (2-norms of nodal forces),
+ * the largest so far (at the start: FAINT E size^2), so that an unloaded step is not judged by its own noise. Below the
+ * rounding of displacements it balances, too: that alone gives a part that moves without stress its forces
+ * (bulk_forces()). Another part's forces count for nothing, however large they are. */
+#include "physics/physics.h"
+
+/* Rounding may be so much of the forces on a part that has loads. It is nearly balanced in itself: where it is 1e-3 of a
+ * load, contact forces are right to 1e-10; where it is as large as the load, they are anything. */
+static const PetscReal DROWNED = 1e-3;
+/* A force on a part is balanced within it, so that it acts twice. */
+static const PetscReal TWICE = 2;
+/* A first reference, over E times the square of the part's size: too small to matter. */
+static const PetscReal FAINT = 1e-12;
+
+/* rank 0: the stiffest E of each part, and a first reference; how large it is, only the contact knows */
+static PetscErrorCode measure(Physics *physics)
+{
+  const Mesh *mesh  = physics->mesh;
+  Parts      *parts = &physics->parts;
+  Extent     *own;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(parts->n, &own));
+  for (PetscInt p = 0; p < parts->n; p++)
+    own[p] = extent_of_nothing();
+  for (PetscInt v = 0; v < mesh->n_vertices; v++)
+    extent_add(&own[parts->of_mesh[v]], mesh->coordinates + 3 * v);
+  for (PetscInt c = 0; c < mesh->n_cells; c++) {
+    Part *part  = &parts->part[parts->of_mesh[mesh->cell_vertices[mesh->cell_offsets[c]]]];
+    part->young = PetscMax(part->young, physics->materials[mesh->cell_body[c]].young);
+  }
+  for (PetscInt p = 0; p < parts->n; p++)
+    parts->part[p].faint = FAINT * parts->part[p].young * extent_diagonal_squared(&own[p]);
+  PetscCall(PetscFree(own));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Before the mesh is distributed: which part each vertex belongs to. */
+PetscErrorCode parts_label(Physics *physics)
+{
+  Parts      *parts = &physics->parts;
+  const Mesh *mesh  = physics->mesh;
+  PetscInt   *part  = NULL;
+
+  PetscFunctionBegin;
+  if (mesh->rank == 0) {
+    PetscCall(PetscMalloc1(mesh->n_vertices, &part));
+    for (PetscInt v = 0; v < mesh->n_vertices; v++)
+      part[v] = v;
+    for (PetscInt c = 0; c < mesh->n_cells; c++) {
+      for (PetscInt k = mesh->cell_offsets[c] + 1; k < mesh->cell_offsets[c + 1]; k++)
+        trees_join(part, mesh->cell_vertices[k - 1], mesh->cell_vertices[k]);
+    }
+    parts->n = trees_number(mesh->n_vertices, part);
+  }
+  PetscCallMPI(MPI_Bcast(&parts->n, 1, MPIU_INT, 0, PETSC_COMM_WORLD));
+  parts->of_mesh = part;
+  PetscCall(PetscCalloc2(parts->n, &parts->part, N_SQUARES * parts->n, &parts->squares));
+  if (mesh->rank == 0) PetscCall(measure(physics));
+  PetscCall(plex_label_vertices(mesh->dm, "part", mesh->rank ? 0 : mesh->n_vertices, NULL, part, 0));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* After it: the part of each vertex here; all ranks learn what rank 0 knows of the parts. */
+PetscErrorCode parts_create(Physics *physics)
+{
+  const Mesh *mesh  = physics->mesh;
+  Parts      *parts = &physics->parts;
+  DMLabel     label;
+  PetscFunctionBegin;
+  PetscCallMPI(MPI_Bcast(parts->part, (PetscMPIInt)(sizeof(Part) * (size_t)parts->n), MPI_BYTE, 0,
+                         PETSC_COMM_WORLD));
+  PetscCall(DMGetLabel(mesh->dm, "part", &label));
+  PetscCall(PetscMalloc1(mesh->vEnd - mesh->vStart, &parts->of_vertex));
+  for (PetscInt v = mesh->vStart; v < mesh->vEnd; v++)
+    PetscCall(DMLabelGetValue(label, v, &parts->of_vertex[v - mesh->vStart]));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Adds the squares of a local vector's displacement entries to each part's: those of prescribed ones to `prescribed`, of
+ * the others to `free`; -1: not wanted. */
+static PetscErrorCode add_squares(Physics *physics, Vec local, int prescribed, int free)
+{
+  const Mesh        *mesh     = physics->mesh;
+  Parts             *parts    = &physics->parts;
+  Unknowns          *unknowns = &physics->unknowns;
+  const PetscScalar *f;
+  PetscFunctionBegin;
+  PetscCall(unknowns_sum(physics, local));
+  PetscCall(VecGetArrayRead(physics->f_sum, &f));
+  for (PetscInt v = mesh->vStart; v < mesh->vEnd; v++) {
+    PetscReal *squares = parts->squares + N_SQUARES * parts->of_vertex[v - mesh->vStart];
+    PetscInt   at;
+    if (unknowns->ghost[v - mesh->vStart]) continue;
+    PetscCall(PetscSectionGetOffset(unknowns->section, v, &at));
+    for (int i = 0; i < 3; i++) {
+      const int kind = unknowns->equations[at + i] < 0 ? prescribed : free;
+      if (kind >= 0) squares[kind] += PetscSqr(PetscAbsScalar(f[at + i]));
+    }
+  }
+  PetscCall(VecRestoreArrayRead(physics->f_sum, &f));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* At the end of an evaluation: bulk_forces() and contact_forces() have left their squares in parts->squares. */
+PetscErrorCode parts_measure(Physics *physics)
+{
+  Parts    *parts          = &physics->parts;
+  PetscReal sum[N_SQUARES] = {0};
+  PetscFunctionBegin;
+  PetscCall(add_squares(physics, physics->f_external, SQUARES_LOADS, SQUARES_LOADS));
+  PetscCall(add_squares(physics, physics->f_local, SQUARES_REACTIONS, SQUARES_RESIDUAL));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, parts->squares, (PetscMPIInt)(N_SQUARES * parts->n), MPIU_REAL,
+                             MPIU_SUM, PETSC_COMM_WORLD));
+  for (PetscInt p = 0; p < parts->n; p++) {
+    const PetscReal *squares = parts->squares + N_SQUARES * p;
+    for (int k = 0; k < N_SQUARES; k++)
+      sum[k] += squares[k];
+    parts->part[p].residual  = PetscSqrtReal(squares[SQUARES_RESIDUAL]);
+    parts->part[p].noise     = PetscSqrtReal(squares[SQUARES_ROUNDING]);
+    parts->part[p].loads     = PetscSqrtReal(squares[SQUARES_LOADS]);
+    parts->part[p].reference =
+        TWICE * (PetscSqrtReal(squares[SQUARES_LOADS]) + PetscSqrtReal(squares[SQUARES_REACTIONS]) +
+                 PetscSqrtReal(squares[SQUARES_CONTACT]));
+  }
+  parts->reference_force = PetscSqrtReal(sum[SQUARES_LOADS]) + PetscSqrtReal(sum[SQUARES_REACTIONS]) +
+                           PetscSqrtReal(sum[SQUARES_CONTACT]);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Do the forces on every part balance? `relative`: to rtol, so that neither noise nor atol was asked. `flies`: a part
+ * has left all that it could touch. It has any rounding that it likes, and nothing that balances its load: then no
+ * noise is allowed. `drowned`: a part whose loads are below the rounding of its own stiffness. It has no answer. -1:
+ * none. */
+void parts_judge(const Physics *physics, PetscReal rtol, PetscReal atol, PetscBool flies, PetscBool *balance,
+                 PetscBool *relative, PetscInt *drowned)
+{
+  *balance = *relative = PETSC_TRUE;
+  *drowned             = -1;
+  for (PetscInt p = 0; p < physics->parts.n; p++) {
+    const Part *part = &physics->parts.part[p];
+    if (part->residual <= rtol * PetscMax(part->faint, PetscMax(part->reference, part->felt))) continue;
+    *relative = PETSC_FALSE;
+    if (!(part->residual <= PetscMax(atol, flies ? 0 : part->noise))) {
+      *balance = PETSC_FALSE;
+    } else if (part->loads > 0 && part->residual > PetscMax(atol, DROWNED * PetscMax(part->reference, part->felt))) {
+      *balance = PETSC_FALSE;
+      *drowned = p;
+    }
+  }
+}
+
+/* A step is accepted. */
+void parts_accept(Physics *physics)
+{
+  Parts *parts = &physics->parts;
+  for (PetscInt p = 0; p < parts->n; p++)
+    parts->part[p].felt = PetscMax(parts->part[p].felt, parts->part[p].reference);
+}

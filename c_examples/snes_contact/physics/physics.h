@@ -1,0 +1,149 @@
+/* What the bodies are made of and what acts on them: materials, supports, loads, the unknowns, this rank's cells, and
+ * the parts on which forces must balance.
+ *
+ * Unknowns live in two kinds of vectors, as PETSc has them: a *local* vector holds 3 displacements per vertex of this rank
+ * and the multipliers of its vertices, prescribed ones included; a *global* vector holds the equations only. */
+#ifndef SNES_CONTACT_PHYSICS_H
+#define SNES_CONTACT_PHYSICS_H
+#include "mesh/mesh.h"
+#include "physics/elasticity.h"
+#include "scene/curve.h"
+
+struct cJSON;
+
+/* x - origin = R (X - origin + factor(t) (value + gradient (X - origin))) in the components of the mask (bit i: axis i);
+ * R turns about `rotate` by rotate_factor(t) |rotate| radians */
+typedef struct {
+  char      name[NAME_LENGTH];
+  PetscInt  mask;
+  PetscReal value[3], gradient[9], origin[3], rotate[3];
+  Curve     curve, rotate_curve;
+  PetscInt  n_vertices, *vertices; /* rank 0 */
+  PetscReal reaction[3];           /* of the last evaluation, summed over ranks by supports_reactions() */
+} Support;
+
+typedef struct {
+  char            name[NAME_LENGTH];
+  PetscReal       traction[3], pressure;
+  Curve           curve;
+  PetscInt        n_surfaces;
+  const Surface **surfaces; /* rank 0 */
+  Vec             forces;   /* local vector of the nodal forces at factor 1; ranks add up */
+} Load;
+
+/* What a vertex may have beside its displacement. A label of the mesh says which vertices have it. The label's value
+ * says which components are no unknowns (bit i: component i). */
+typedef struct {
+  char     name[NAME_LENGTH], label[2 * NAME_LENGTH];
+  PetscInt components;
+} Field;
+
+typedef struct {
+  PetscInt        n_fields; /* beside the displacement, which is field 0 */
+  Field          *fields;   /* field 1 + i at [i] */
+  PetscSection    section;
+  PetscInt        n_local;
+  const PetscInt *equations; /* of each local entry, -1: prescribed */
+  PetscInt       *owner;     /* rank 0, per mesh vertex: rank, then the local offset of each field there */
+  PetscBool      *ghost;     /* per vertex here: another rank owns it */
+  PetscSF         ghosts;    /* from its entries there to those here; NULL on a single rank */
+  PetscSF         all_displacements;
+} Unknowns;
+
+/* This rank's cells */
+typedef struct {
+  PetscInt   n, *offsets, *dofs, *body, *part; /* dofs: local offset of each corner */
+  PetscReal *X, *stiffness;                    /* coordinates of the corners; stiffness at rest */
+} Cells;
+
+/* Connected cells: bodies, or pieces of them, that nothing but contact joins to others */
+typedef struct {
+  PetscReal young, reach;           /* the stiffest E; size of all that contact may join to it: reach_measure() */
+  PetscReal reference, felt;        /* its forces at the last evaluation; the largest of a converged step */
+  PetscReal faint;                  /* a first reference, too small to matter */
+  PetscReal loads, residual, noise; /* at the last evaluation */
+} Part;
+
+/* Sums of squares of a part's nodal forces */
+enum { SQUARES_LOADS, SQUARES_REACTIONS, SQUARES_CONTACT, SQUARES_ROUNDING, SQUARES_RESIDUAL, N_SQUARES };
+
+typedef struct {
+  PetscInt   n, *of_mesh, *of_vertex; /* part of each mesh vertex (rank 0), of each vertex here */
+  Part      *part;
+  PetscReal *squares;         /* N_SQUARES per part, of the last evaluation */
+  PetscReal  reference_force; /* of all of them */
+} Parts;
+
+/* What a body of the linear material was strained and turned by, up to now (range.c) */
+typedef struct {
+  PetscReal strain, rotation;
+  PetscBool told;
+} Range;
+
+typedef struct {
+  Mesh     *mesh;
+  PetscReal end, t; /* of the run; the time that the values below belong to */
+  Material *materials; /* per body */
+  PetscInt  n_supports, n_loads;
+  Support  *supports;
+  Load     *loads;
+  PetscInt *prescribed; /* rank 0: mask of prescribed displacements per mesh vertex */
+  Unknowns  unknowns;
+  Cells     cells;
+  Parts     parts;
+  Range    *ranges; /* rank 0: per body */
+  Vec       u_local, f_local, prescribed_local; /* local vectors: state, forces, values of prescribed entries at t */
+  Vec       f_external;                         /* local, at t */
+  Vec       f_sum;                              /* local: work space of unknowns_sum() */
+  char      inverted[256];                      /* which cell the last attempt at a step has turned inside out */
+  PetscLogDouble seconds;                       /* in bulk_forces() and bulk_stiffness() */
+} Physics;
+
+/* material_scene.c */
+PetscErrorCode materials_read(Scene *scene, Physics *physics);
+
+/* supports_scene.c, supports.c */
+PetscErrorCode supports_read(Scene *scene, Physics *physics);
+PetscErrorCode supports_label(Physics *physics);
+PetscBool supports_agree(const Support *a, const Support *b, PetscReal end, const PetscReal X[3], int component);
+PetscErrorCode supports_values(Physics *physics, PetscReal t); /* into prescribed_local */
+PetscErrorCode supports_reactions(Physics *physics);
+
+/* loads.c */
+PetscErrorCode loads_read(Scene *scene, Physics *physics);
+PetscErrorCode loads_label(Physics *physics);
+PetscErrorCode loads_assemble(Physics *physics);
+PetscErrorCode loads_values(Physics *physics, PetscReal t); /* into f_external */
+
+/* unknowns.c: takes the fields over */
+PetscErrorCode unknowns_create(Physics *physics, PetscInt n_fields, Field *fields);
+PetscErrorCode unknowns_gather_create(Physics *physics, PetscInt n, const PetscInt *n_vertices,
+                                      const PetscInt *const *vertices, const PetscInt *fields, PetscSF *sf);
+/* into u_local, prescribed entries filled in */
+PetscErrorCode unknowns_to_local(Physics *physics, Vec x);
+/* into f_sum: what all ranks hold, complete at owned vertices */
+PetscErrorCode unknowns_sum(Physics *physics, Vec local);
+
+/* bulk.c */
+PetscErrorCode bulk_create(Physics *physics);
+/* `status` > 0 on every rank if a cell is turned inside out somewhere, named in physics->inverted */
+PetscErrorCode bulk_forces(Physics *physics, Vec f_local, PetscInt *status); /* adds, to the parts' squares, too */
+PetscErrorCode bulk_stiffness(Physics *physics, Mat matrix, PetscInt *status);         /* adds */
+PetscErrorCode bulk_extension(Physics *physics, Vec u_local, Vec f_local, Mat matrix); /* adds to both */
+PetscErrorCode bulk_pattern(Physics *physics, Mat matrix);                             /* adds zeros */
+
+/* parts.c. Between parts_label() and parts_create() the contact sets each part's `reach` on rank 0. */
+PetscErrorCode parts_label(Physics *physics);
+PetscErrorCode parts_create(Physics *physics);
+PetscErrorCode parts_measure(Physics *physics);
+void           parts_judge(const Physics *physics, PetscReal rtol, PetscReal atol, PetscBool flies, PetscBool *balance,
+                           PetscBool *relative, PetscInt *drowned);
+void           parts_accept(Physics *physics);
+
+/* range.c: do bodies with the linear material stay where it is right? */
+PetscErrorCode range_check(Physics *physics, const PetscScalar *displacements); /* rank 0: of all vertices */
+PetscErrorCode range_report(const Physics *physics, struct cJSON *root);
+
+/* physics.c */
+PetscErrorCode physics_destroy(Physics *physics);
+#endif

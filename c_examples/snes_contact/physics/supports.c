@@ -1,0 +1,155 @@
+/* Supports: prescribed displacements over time, and the reactions to them. */
+#include "physics/physics.h"
+
+/* Rodrigues: x turned about w by |w| */
+static void rotate(const PetscReal w[3], PetscReal x[3])
+{
+  const PetscReal angle = PetscSqrtReal(w[0] * w[0] + w[1] * w[1] + w[2] * w[2]);
+  /* sin a / a and (1 - cos a) / a^2, without cancellation */
+  const PetscReal half = PetscSinReal(0.5 * angle), s = angle > 0 ? PetscSinReal(angle) / angle : 1,
+                  c = angle > 0 ? 2 * PetscSqr(half / angle) : 0.5;
+  PetscReal wx[3], wwx[3];
+  for (int i = 0; i < 3; i++)
+    wx[i] = w[(i + 1) % 3] * x[(i + 2) % 3] - w[(i + 2) % 3] * x[(i + 1) % 3];
+  for (int i = 0; i < 3; i++)
+    wwx[i] = w[(i + 1) % 3] * wx[(i + 2) % 3] - w[(i + 2) % 3] * wx[(i + 1) % 3];
+  for (int i = 0; i < 3; i++)
+    x[i] += s * wx[i] + c * wwx[i];
+}
+
+/* at t; X in the axes of the scene file, the result too */
+static void prescribed_displacement(const Support *support, PetscReal t, const PetscReal X[3], PetscReal u[3])
+{
+  const PetscReal factor = curve_value(&support->curve, t), turn = curve_value(&support->rotate_curve, t);
+  PetscReal       w[3], x[3];
+  for (int i = 0; i < 3; i++) {
+    u[i] = support->value[i];
+    for (int j = 0; j < 3; j++)
+      u[i] += support->gradient[3 * i + j] * (X[j] - support->origin[j]);
+    u[i] *= factor;
+    x[i] = X[i] - support->origin[i] + u[i];
+    w[i] = turn * support->rotate[i];
+  }
+  if (w[0] == 0 && w[1] == 0 && w[2] == 0) return;
+  rotate(w, x);
+  for (int i = 0; i < 3; i++)
+    u[i] = x[i] - (X[i] - support->origin[i]);
+}
+
+/* Do both prescribe the same u_i at X? At times between which both move evenly, and at some in between, where they
+ * turn. */
+PetscBool supports_agree(const Support *a, const Support *b, PetscReal end, const PetscReal X[3], int i)
+{
+  const Curve *const curves[] = {&a->curve, &a->rotate_curve, &b->curve, &b->rotate_curve};
+  const PetscInt     n_even   = 16;
+  for (int c = 0; c <= 4; c++) {
+    const PetscInt n = c < 4 ? curves[c]->n : n_even;
+    for (PetscInt k = 0; k < n; k++) {
+      const PetscReal t = c < 4 ? curves[c]->points[2 * k] : end * (k + 1) / n_even;
+      PetscReal       ua[3], ub[3];
+      prescribed_displacement(a, t, X, ua);
+      prescribed_displacement(b, t, X, ub);
+      if (PetscAbsReal(ua[i] - ub[i]) > 1e-12 * PetscMax(PetscAbsReal(ua[i]), PetscAbsReal(ub[i]))) return PETSC_FALSE;
+    }
+  }
+  return PETSC_TRUE;
+}
+
+PetscErrorCode supports_label(Physics *physics)
+{
+  const Mesh *mesh = physics->mesh;
+  char        label[2 * NAME_LENGTH];
+  PetscFunctionBegin;
+  PetscCall(plex_label_vertices(mesh->dm, "prescribed", mesh->n_vertices, NULL, physics->prescribed, 0));
+  for (PetscInt s = 0; s < physics->n_supports; s++) {
+    PetscCall(PetscSNPrintf(label, sizeof(label), "support.%s", physics->supports[s].name));
+    PetscCall(
+        plex_label_vertices(mesh->dm, label, physics->supports[s].n_vertices, physics->supports[s].vertices, NULL, 1));
+    PetscCall(PetscFree(physics->supports[s].vertices));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* calls back for every supported vertex of this rank with the support's displacement there at t */
+typedef void (*VertexVisit)(Support *support, const PetscReal u[3], PetscScalar *dofs);
+
+static PetscErrorCode visit(Physics *physics, Vec local, PetscReal t, VertexVisit action)
+{
+  const Mesh        *mesh = physics->mesh;
+  PetscSection       coordinate_section;
+  Vec                coordinate_vector;
+  const PetscScalar *coordinates;
+  PetscScalar       *array;
+  char               label[2 * NAME_LENGTH];
+
+  PetscFunctionBegin;
+  PetscCall(DMGetCoordinateSection(mesh->dm, &coordinate_section));
+  PetscCall(DMGetCoordinatesLocal(mesh->dm, &coordinate_vector));
+  PetscCall(VecGetArrayRead(coordinate_vector, &coordinates));
+  PetscCall(VecGetArray(local, &array));
+  for (PetscInt s = 0; s < physics->n_supports; s++) {
+    Support        *support = &physics->supports[s];
+    PetscInt        n;
+    const PetscInt *points;
+    IS              is;
+    PetscCall(PetscSNPrintf(label, sizeof(label), "support.%s", support->name));
+    PetscCall(DMGetStratumIS(mesh->dm, label, 1, &is));
+    if (!is) continue; /* no such vertex on this rank */
+    PetscCall(ISGetLocalSize(is, &n));
+    PetscCall(ISGetIndices(is, &points));
+    for (PetscInt k = 0; k < n; k++) {
+      PetscInt  at, offset;
+      PetscReal X[3], u[3];
+      PetscCall(PetscSectionGetOffset(coordinate_section, points[k], &at));
+      PetscCall(PetscSectionGetOffset(physics->unknowns.section, points[k], &offset));
+      for (int i = 0; i < 3; i++) { /* back into the axes of the scene file: Q transposed */
+        X[i] = 0;
+        for (int j = 0; j < 3; j++)
+          X[i] += mesh->rotation[3 * j + i] * PetscRealPart(coordinates[at + j]);
+      }
+      prescribed_displacement(support, t, X, u);
+      mesh_rotate_vector(mesh, u);
+      action(support, u, array + offset);
+    }
+    PetscCall(ISRestoreIndices(is, &points));
+    PetscCall(ISDestroy(&is));
+  }
+  PetscCall(VecRestoreArray(local, &array));
+  PetscCall(VecRestoreArrayRead(coordinate_vector, &coordinates));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static void set_values(Support *support, const PetscReal u[3], PetscScalar *dofs)
+{
+  for (int i = 0; i < 3; i++) {
+    if (support->mask & (1 << i)) dofs[i] = u[i];
+  }
+}
+
+static void add_reactions(Support *support, const PetscReal u[3], PetscScalar *dofs)
+{
+  (void)u;
+  for (int i = 0; i < 3; i++) {
+    if (support->mask & (1 << i)) support->reaction[i] += PetscRealPart(dofs[i]);
+  }
+}
+
+PetscErrorCode supports_values(Physics *physics, PetscReal t)
+{
+  PetscFunctionBegin;
+  PetscCall(VecZeroEntries(physics->prescribed_local)); /* removed multipliers are prescribed to be zero */
+  PetscCall(visit(physics, physics->prescribed_local, t, set_values));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* from the forces of the last evaluation; a component prescribed by two supports counts in both */
+PetscErrorCode supports_reactions(Physics *physics)
+{
+  PetscFunctionBegin;
+  for (PetscInt s = 0; s < physics->n_supports; s++)
+    PetscCall(PetscArrayzero(physics->supports[s].reaction, 3));
+  PetscCall(visit(physics, physics->f_local, physics->t, add_reactions));
+  for (PetscInt s = 0; s < physics->n_supports; s++)
+    PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, physics->supports[s].reaction, 3, MPIU_REAL, MPIU_SUM, PETSC_COMM_WORLD));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

@@ -1,0 +1,101 @@
+/* Where nothing can be extrapolated (the first step, and the one after a kink of a curve), Newton's first iterate is
+ * the last state with the supports already moved. A body of finite strain whose cells are smaller than that motion
+ * would be turned inside out at its supports. So there the motion of the supports is carried into the bodies of finite
+ * strain: by linear elasticity on their undeformed cells, without contact. A prescribed translation moves a whole body,
+ * a prescribed linear field strains it homogeneously, and a body without a prescribed motion stays.
+ *
+ * This chooses where Newton's method starts, not what it solves. */
+#include "solve/solve.h"
+
+/* Rows without stiffness (multipliers, linear bodies) say zero; the rest gain this much of the largest diagonal entry,
+ * for rigid motions that no support prevents. They get no load: the matrix need only be regular. */
+static const PetscReal SHIFT = 1e-10;
+
+static PetscErrorCode make_regular(Mat matrix, Vec diagonal)
+{
+  PetscScalar *d;
+  PetscReal    largest;
+  PetscInt     n;
+  PetscFunctionBegin;
+  PetscCall(MatGetDiagonal(matrix, diagonal));
+  PetscCall(VecMax(diagonal, NULL, &largest));
+  PetscCall(VecGetLocalSize(diagonal, &n));
+  PetscCall(VecGetArray(diagonal, &d));
+  for (PetscInt k = 0; k < n; k++)
+    d[k] += d[k] == 0 ? largest : SHIFT * largest;
+  PetscCall(VecRestoreArray(diagonal, &d));
+  PetscCall(MatDiagonalSet(matrix, diagonal, INSERT_VALUES));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode solve_linear(Mat matrix, Vec b, Vec x)
+{
+  KSP ksp;
+  PC  pc;
+  PetscFunctionBegin;
+  PetscCall(KSPCreate(PetscObjectComm((PetscObject)matrix), &ksp));
+  PetscCall(KSPSetOptionsPrefix(ksp, "carry_"));
+  PetscCall(KSPSetOperators(ksp, matrix, matrix));
+  PetscCall(KSPSetType(ksp, KSPPREONLY));
+  PetscCall(KSPGetPC(ksp, &pc));
+  PetscCall(PCSetType(pc, PCLU));
+  PetscCall(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
+  PetscCall(KSPSetFromOptions(ksp));
+  PetscCall(KSPSolve(ksp, b, x));
+  PetscCall(KSPDestroy(&ksp));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The prescribed displacements of `solve->physics->t` less those of t0, zero elsewhere; false if nothing moves. */
+static PetscErrorCode prescribed_increments(Solve *solve, PetscReal t0, Vec increments, PetscBool *moves)
+{
+  Physics  *physics = solve->physics;
+  PetscReal largest;
+  PetscFunctionBegin;
+  PetscCall(supports_values(physics, t0));
+  PetscCall(VecCopy(physics->prescribed_local, increments));
+  PetscCall(supports_values(physics, physics->t));
+  PetscCall(VecAYPX(increments, -1, physics->prescribed_local));
+  PetscCall(VecNorm(increments, NORM_INFINITY, &largest));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPIU_REAL, MPIU_MAX, PETSC_COMM_WORLD));
+  *moves = (PetscBool)(largest > 0);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode carry_supports(Solve *solve, PetscReal t0, Vec x)
+{
+  const Mesh *mesh    = solve->mesh;
+  Physics    *physics = solve->physics;
+  PetscBool   finite  = PETSC_FALSE, moves;
+  Vec         increments, local, b, dx;
+  Mat         matrix;
+
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < mesh->n_bodies; k++)
+    finite = (PetscBool)(finite || physics->materials[k].law->finite);
+  if (!finite) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(VecDuplicate(physics->u_local, &increments));
+  PetscCall(prescribed_increments(solve, t0, increments, &moves));
+  if (moves) {
+    PetscCall(VecDuplicate(physics->u_local, &local));
+    PetscCall(VecDuplicate(x, &b));
+    PetscCall(VecDuplicate(x, &dx));
+    PetscCall(MatDuplicate(solve->jacobian, MAT_DO_NOT_COPY_VALUES, &matrix));
+    PetscCall(VecZeroEntries(local));
+    PetscCall(bulk_extension(physics, increments, local, matrix));
+    PetscCall(MatAssemblyBegin(matrix, MAT_FINAL_ASSEMBLY));
+    PetscCall(MatAssemblyEnd(matrix, MAT_FINAL_ASSEMBLY));
+    PetscCall(make_regular(matrix, dx));
+    PetscCall(VecZeroEntries(b));
+    PetscCall(DMLocalToGlobalBegin(mesh->dm, local, ADD_VALUES, b));
+    PetscCall(DMLocalToGlobalEnd(mesh->dm, local, ADD_VALUES, b));
+    PetscCall(solve_linear(matrix, b, dx));
+    PetscCall(VecAXPY(x, -1, dx));
+    PetscCall(MatDestroy(&matrix));
+    PetscCall(VecDestroy(&dx));
+    PetscCall(VecDestroy(&b));
+    PetscCall(VecDestroy(&local));
+  }
+  PetscCall(VecDestroy(&increments));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

@@ -1,0 +1,114 @@
+/* When is an iterate converged, and what if it is not?
+ *
+ * Converged: the forces on each part of the model balance, measured by its own forces (parts.c), and every interface is in
+ * contact equilibrium, measured by its own tractions (equilibrium.c). The multiplier rows are not asked: they are as
+ * small as the augmentation. -snes_rtol sets the tolerance of both, -snes_atol a limit in units of force.
+ *
+ * An iterate that is not converged is watched for cycles (cycling.c): the augmentation of nodes that cycle is changed,
+ * CHANGES times at most in one attempt. One that has converged so must do so with the scene's augmentation, too. */
+#include "solve/solve.h"
+#include <cjson/cJSON.h>
+
+enum { CHANGES = 3 };
+
+/* rank 0: a cycle for the report, and as a sentence */
+static PetscErrorCode report_cycle(Solve *solve, PetscInt period, PetscInt iteration)
+{
+  Newton *newton = &solve->newton;
+  cJSON  *json   = cJSON_CreateObject();
+  char    nodes[768];
+  PetscFunctionBegin;
+  cJSON_AddNumberToObject(json, "t", solve->physics->t);
+  cJSON_AddNumberToObject(json, "iteration", iteration);
+  PetscCall(cycling_describe(solve, period, json, nodes, sizeof(nodes)));
+  PetscCall(PetscSNPrintf(newton->cycle, sizeof(newton->cycle),
+                          "the states of nodes repeat every %" PetscInt_FMT " iterations:%s", period, nodes));
+  if (!newton->cycles) newton->cycles = cJSON_CreateArray();
+  cJSON_AddItemToArray(newton->cycles, json);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* After an iteration that has not converged: does it cycle, and what now? */
+static PetscErrorCode watch(Solve *solve, PetscInt iteration, PetscReal norm, SNESConvergedReason *reason)
+{
+  Newton  *newton = &solve->newton;
+  PetscInt period;
+  PetscFunctionBegin;
+  if (solve->closing.away[0]) {
+    *reason = SNES_DIVERGED_LOCAL_MIN;
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+  if (solve->closing.cut) PetscCall(cycling_restart(solve)); /* states of steps that were cut come back */
+  PetscCall(cycling_record(solve, norm, &period));
+  if (!period || !solve->steps.cycles) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(report_cycle(solve, period, iteration));
+  if (newton->n_changes == CHANGES) {
+    *reason         = SNES_DIVERGED_LOCAL_MIN; /* of PETSc's names the nearest; the report has its own words */
+    newton->stopped = PETSC_TRUE;
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+  PetscCall(cycling_change_augmentation(solve, period, newton->factor));
+  PetscCall(cycling_restart(solve));
+  newton->n_changes++;
+  newton->changed = newton->stale = PETSC_TRUE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The iterate has converged. With the scene's augmentation, too? Returns the norm of that residual. */
+static PetscErrorCode confirm(Solve *solve, PetscReal *norm)
+{
+  Vec x, r;
+  PetscFunctionBegin;
+  if (!solve->newton.changed) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(contact_scale_augmentation(solve->contact, NULL, 1));
+  PetscCall(cycling_restart(solve));
+  PetscCall(SNESGetSolution(solve->snes, &x));
+  PetscCall(VecDuplicate(x, &r));
+  PetscCall(SNESComputeFunction(solve->snes, x, r));
+  PetscCall(VecNorm(r, NORM_2, norm));
+  PetscCall(VecDestroy(&r));
+  solve->newton.changed = PETSC_FALSE;
+  solve->newton.stale   = PETSC_TRUE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode judge(SNES snes, Solve *solve, PetscReal norm, SNESConvergedReason *reason)
+{
+  PetscReal       atol, rtol;
+  PetscBool       balance, relative, holds, stuck;
+  const PetscBool flies = (PetscBool)(solve->closing.active && solve->closing.loose >= 0);
+  PetscFunctionBegin;
+  PetscCall(SNESGetTolerances(snes, &atol, &rtol, NULL, NULL, NULL));
+  *reason = SNES_CONVERGED_ITERATING;
+  if (PetscIsInfOrNanReal(norm)) {
+    *reason = SNES_DIVERGED_FNORM_NAN;
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+  parts_judge(solve->physics, rtol, atol, flies, &balance, &relative, &solve->newton.drowned);
+  if (!balance) {
+    equilibrium_restart(solve->contact);
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+  PetscCall(equilibrium_judge(solve->contact, rtol, &holds, &stuck));
+  if (holds)
+    *reason = relative ? SNES_CONVERGED_FNORM_RELATIVE : SNES_CONVERGED_FNORM_ABS;
+  else if (stuck)
+    *reason = SNES_DIVERGED_LOCAL_MIN; /* of PETSc's names the nearest; contact->settling.unsettled has words */
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode convergence_test(SNES snes, PetscInt iteration, PetscReal xnorm, PetscReal snorm, PetscReal fnorm,
+                                SNESConvergedReason *reason, void *context)
+{
+  Solve *solve = context;
+  PetscFunctionBegin;
+  (void)xnorm, (void)snorm;
+  PetscCall(judge(snes, solve, fnorm, reason));
+  if (*reason > 0 && !closing_settled(solve)) *reason = SNES_CONVERGED_ITERATING;
+  if (*reason > 0) {
+    PetscCall(confirm(solve, &fnorm));
+    PetscCall(judge(snes, solve, fnorm, reason));
+  }
+  if (!*reason) PetscCall(watch(solve, iteration, fnorm, reason));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

@@ -1,0 +1,211 @@
+/* One load step by Newton's method: attempts from the same start.
+ *
+ * Full Newton steps find the states of the nodes fastest, although the residual may grow on the way; a monotone line
+ * search can crawl along a kink there. But full steps can also cycle between guesses of the states, where the
+ * augmentation is large (slip that turns round; block scenes at 1e2 times its default and more) or small
+ * (klarbring.yaml). The answer does not depend on it, so where cycling.c finds a cycle, the augmentation of the
+ * nodes that cycle is changed, a few times at most in one attempt:
+ *   1. full steps; a cycle divides the augmentation by 100;
+ *   2. backtracking; a cycle divides it, too;
+ *   3. if there were cycles, full steps; a cycle multiplies it by 100;
+ *   4. where the supports leave a body free to move, the attempt of closing.c: the first one, if such a body is loose
+ *      at the start of the step, else the last;
+ *   5. if all fail, the caller takes a shorter step in time.
+ * Where the user chose a line search it serves in 1, 3 and 4, and 2 is left out. Converged is what has converged with
+ * the scene's own augmentation: the multiplier rows are forces of the augmentation, and would look small with a
+ * small one. (Tried as well: a step damped by 1/2, 1/4, 1/8. It ends the cycles of fewer scenes, and later.)
+ *
+ * A failed attempt leaves nothing behind: the library's history changes on commit only, the augmentation is the
+ * scene's again, and the matrix gets back the pattern that it had, so that the next factorisation is that of a run
+ * in which the attempt never was. */
+#include "solve/solve.h"
+#include <cjson/cJSON.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { FULL = 0, BACKTRACKING = 1, LARGER = 2, CLOSING = 3, N_ATTEMPTS = 4 };
+/* Iterations of the closing attempt: each closes a gap by part of a facet. Other attempts: -snes_max_it. */
+enum { CLOSING_ITERATIONS = 60 };
+static const struct {
+  SNESLineSearchType line_search;
+  PetscReal          factor; /* of the augmentation of nodes that cycle */
+} ATTEMPTS[N_ATTEMPTS] = {[FULL]         = {SNESLINESEARCHBASIC, 0.01},
+                         [BACKTRACKING] = {SNESLINESEARCHBT, 0.01},
+                         [LARGER]       = {SNESLINESEARCHBASIC, 100},
+                         [CLOSING]      = {SNESLINESEARCHBASIC, 0.01}};
+
+/* SNES calls it before each iteration: residual and tangent must speak of the same augmentation. */
+static PetscErrorCode before_iteration(SNES snes, PetscInt iteration)
+{
+  Solve *solve;
+  Vec    x, r;
+  PetscFunctionBegin;
+  (void)iteration;
+  PetscCall(SNESGetApplicationContext(snes, &solve));
+  if (!solve->newton.stale) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SNESGetSolution(snes, &x));
+  PetscCall(SNESGetFunction(snes, &r, NULL, NULL));
+  PetscCall(SNESComputeFunction(snes, x, r));
+  solve->newton.stale = PETSC_FALSE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode newton_create(Solve *solve)
+{
+  SNESLineSearch line_search;
+  PetscFunctionBegin;
+  PetscCall(solver_create(solve));
+  PetscCall(SNESSetConvergenceTest(solve->snes, convergence_test, solve, NULL));
+  PetscCall(solver_configure(solve));
+  PetscCall(SNESSetApplicationContext(solve->snes, solve));
+  PetscCall(SNESGetLineSearch(solve->snes, &line_search));
+  PetscCall(closing_limit_steps(solve, line_search));
+  PetscCall(SNESSetUpdate(solve->snes, before_iteration));
+  PetscCall(PetscOptionsHasName(NULL, NULL, "-snes_linesearch_type", &solve->newton.fixed_line_search));
+  PetscCall(PetscOptionsHasName(NULL, NULL, "-snes_max_it", &solve->newton.fixed_max_it));
+  PetscCall(cycling_create(solve));
+  PetscCall(closing_create(solve));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode newton_destroy(Solve *solve)
+{
+  PetscFunctionBegin;
+  PetscCall(cycling_destroy(solve));
+  PetscCall(closing_destroy(solve));
+  cJSON_Delete(solve->newton.cycles);
+  cJSON_Delete(solve->newton.state_changes);
+  solve->newton.cycles = solve->newton.state_changes = NULL;
+  PetscCall(solver_destroy(solve));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static const char *in_words(SNESConvergedReason reason)
+{
+  switch (reason) {
+  case SNES_DIVERGED_LINE_SEARCH:
+    return "no step along Newton's direction lowers the residual";
+  case SNES_DIVERGED_MAX_IT:
+    return "too many iterations";
+  case SNES_DIVERGED_LINEAR_SOLVE:
+    return "the matrix is singular";
+  case SNES_DIVERGED_FNORM_NAN:
+    return "the residual is no number any more";
+  default:
+    return "Newton's method failed";
+  }
+}
+
+/* Why it ended: the library or a cell refused; a cycle, in this attempt or an earlier one; or what SNES says, with
+ * the nodes that still changed state. */
+static PetscErrorCode explain(Solve *solve, SNESConvergedReason reason)
+{
+  Physics *physics = solve->physics;
+  Contact *contact = solve->contact;
+  Newton  *newton  = &solve->newton;
+  cJSON   *json;
+  char     nodes[768];
+  PetscFunctionBegin;
+  if (solve->closing.away[0]) {
+    PetscCall(PetscSNPrintf(newton->why, sizeof(newton->why), "%s", solve->closing.away));
+  } else if (contact->refusal[0]) {
+    PetscCall(PetscSNPrintf(newton->why, sizeof(newton->why), "the library says: %s", contact->refusal));
+  } else if (physics->inverted[0]) {
+    PetscCall(PetscSNPrintf(newton->why, sizeof(newton->why), "%s", physics->inverted));
+  } else if (newton->cycle[0]) {
+    PetscCall(PetscSNPrintf(newton->why, sizeof(newton->why), "%s%s%s", newton->cycle,
+                            newton->stopped ? "" : "; at last: ", newton->stopped ? "" : in_words(reason)));
+  } else if (newton->drowned >= 0) {
+    const Part *part = &physics->parts.part[newton->drowned];
+    PetscCall(PetscSNPrintf(newton->why, sizeof(newton->why),
+                            "the loads on a body with E = %.3g, %.2g in all, are lost in the rounding of its own forces, "
+                            "%.2g: make it less stiff, or `type: analytic`, or load it by a prescribed displacement",
+                            (double)part->young, (double)part->loads, (double)part->residual));
+  } else if (contact->settling.unsettled[0] && reason != SNES_DIVERGED_LINEAR_SOLVE) {
+    PetscCall(PetscSNPrintf(newton->why, sizeof(newton->why),
+                            "the forces balance, but the contact is not in equilibrium (%s); where augmentation_scale is "
+                            "small, raise it; where the node is hardly covered, give weak_coverage: 0.5",
+                            contact->settling.unsettled));
+  } else {
+    json = cJSON_CreateObject();
+    PetscCall(cycling_describe(solve, 0, json, nodes, sizeof(nodes)));
+    cJSON_Delete(json);
+    PetscCall(PetscSNPrintf(newton->why, sizeof(newton->why), "%s (%s)%s%s", in_words(reason),
+                            SNESConvergedReasons[reason], nodes[0] ? "; states in the last iterations:" : "", nodes));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Attempt k from x, which becomes the last iterate. */
+static PetscErrorCode attempt(Solve *solve, int k, Vec x, PetscBool *converged)
+{
+  Contact            *contact = solve->contact;
+  Newton             *newton  = &solve->newton;
+  SNESConvergedReason reason;
+  SNESLineSearch      line_search;
+  PetscReal          *norms;
+  PetscReal           atol, rtol, stol;
+  PetscInt            iterations, n, max_it, max_f;
+
+  PetscFunctionBegin;
+  PetscCall(SNESGetLineSearch(solve->snes, &line_search));
+  if (!newton->fixed_line_search) PetscCall(SNESLineSearchSetType(line_search, ATTEMPTS[k].line_search));
+  PetscCall(SNESGetTolerances(solve->snes, &atol, &rtol, &stol, &max_it, &max_f));
+  if (k == CLOSING && !newton->fixed_max_it)
+    PetscCall(SNESSetTolerances(solve->snes, atol, rtol, stol, CLOSING_ITERATIONS, max_f));
+  closing_begin(solve, (PetscBool)(k == CLOSING));
+  PetscCall(cycling_restart(solve));
+  equilibrium_restart(contact);
+  newton->drowned   = -1;
+  contact->refusal[0] = solve->physics->inverted[0] = newton->why[0] = 0;
+  newton->stopped = newton->stale = newton->changed = newton->refused_commit = PETSC_FALSE;
+  newton->monotone                                  = PETSC_TRUE;
+  newton->n_changes                                 = 0;
+  cJSON_Delete(newton->state_changes);
+  newton->state_changes = cJSON_CreateArray();
+  newton->factor                                    = ATTEMPTS[k].factor;
+  PetscCall(SNESSolve(solve->snes, NULL, x));
+  PetscCall(SNESSetTolerances(solve->snes, atol, rtol, stol, max_it, max_f));
+  PetscCall(SNESGetConvergedReason(solve->snes, &reason));
+  PetscCall(SNESGetIterationNumber(solve->snes, &iterations));
+  PetscCall(SNESGetConvergenceHistory(solve->snes, &norms, NULL, &n));
+  for (PetscInt j = 1; j < n; j++) {
+    if (norms[j] >= norms[j - 1]) newton->monotone = PETSC_FALSE;
+  }
+  newton->iterations += iterations;
+  *converged = (PetscBool)(reason > 0);
+  if (newton->changed) PetscCall(contact_scale_augmentation(contact, NULL, 1));
+  if (!*converged) {
+    PetscCall(explain(solve, reason));
+    if (reason == SNES_DIVERGED_LINEAR_SOLVE) PetscCall(solver_forget_factors(solve));
+    PetscCall(solver_restore_pattern(solve));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode newton_solve(Solve *solve, Vec start, Vec x, PetscBool *converged)
+{
+  Newton   *newton = &solve->newton;
+  PetscBool first;
+  Vec       r;
+
+  PetscFunctionBegin;
+  newton->iterations = 0;
+  newton->cycle[0]   = 0;
+  *converged         = PETSC_FALSE;
+  closing_begin(solve, PETSC_FALSE);
+  PetscCall(closing_needed(solve, start, &first));
+  for (int i = 0; i < N_ATTEMPTS && !*converged; i++) {
+    const int k = first ? (i + CLOSING) % N_ATTEMPTS : i;
+    if (k == BACKTRACKING && newton->fixed_line_search) continue;
+    if (k == LARGER && !newton->cycle[0]) continue;
+    if (k == CLOSING && !solve->closing.possible) continue;
+    if (solve->closing.away[0]) break; /* whatever the attempt, nothing stops that body */
+    PetscCall(VecCopy(start, x));
+    PetscCall(attempt(solve, k, x, converged));
+  }
+  if (!*converged) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(SNESGetFunction(solve->snes, &r, NULL, NULL));
+  PetscCall(SNESComputeFunction(solve->snes, x, r));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

@@ -1,0 +1,149 @@
+/* How a step is solved: SNES and its matrix, Newton's attempts, cycles, bodies that contact alone holds, and the length
+ * of the next step. */
+#ifndef SNES_CONTACT_SOLVE_H
+#define SNES_CONTACT_SOLVE_H
+#include "contact/contact.h"
+#include <petscsnes.h>
+
+typedef struct {
+  PetscInt   n_targets;
+  PetscReal *targets; /* times to meet */
+  PetscBool *asked;   /* for each: the scene names it; else it is a kink of a curve */
+  PetscReal  end, smallest; /* step, as a fraction of the largest */
+  PetscBool  predictor, automatic, cycles; /* cycles: of nodes are looked for and ended */
+  PetscBool  closing;                      /* bodies that contact alone holds are closed by force: closing.c */
+  PetscReal  initial, largest; /* automatic steps */
+  PetscInt   iterations;       /* of Newton's method: what they aim at */
+} Steps;
+
+/* The step that is wanted next (step_size.c). */
+typedef struct {
+  PetscInt  next, held;      /* target; steps for which it must not grow */
+  PetscInt  n_shorter, iterations_before; /* steps in a row made shorter; the last one before them: its iterations, */
+  PetscReal length_before;                /* and length */
+  PetscReal length, longest; /* wanted; whose fraction Steps.smallest is */
+} StepSize;
+
+/* The states of the nodes over Newton's iterations (cycling.c) */
+typedef struct Cycling Cycling;
+
+/* Newton's method on one step (convergence.c, newton.c) */
+typedef struct {
+  PetscBool     fixed_line_search, fixed_max_it; /* the user chose them */
+  PetscReal     factor;            /* for the augmentation of nodes that cycle */
+  PetscInt      n_changes;         /* of the augmentation in this attempt */
+  PetscBool     changed, stale;    /* it is not the scene's; the residual belongs to another one */
+  PetscBool     refused_commit;    /* the step converged, and the library refused its commit */
+  PetscBool     stopped, monotone; /* this attempt cycled on; its residual fell in every iteration */
+  PetscInt      iterations;        /* of the last newton_solve(), all attempts */
+  char          cycle[768];        /* the last one found in it, as a sentence */
+  char          why[1024];         /* it did not converge */
+  PetscInt      drowned;           /* a part whose loads the rounding of its own stiffness hides; -1: none */
+  struct cJSON *cycles;            /* rank 0: those seen since the last report */
+  struct cJSON *state_changes;     /* of the last attempt: nodes, by iteration from the second on; NULL: reported */
+} Newton;
+
+/* The attempt that closes bodies which contact alone holds (closing.c) */
+typedef struct {
+  PetscBool *free;          /* rank 0, per body: the supports leave it free to move */
+  PetscInt  *group;         /* rank 0, per body: work space */
+  PetscBool  possible;      /* there is such a body, and the scene does not switch this off */
+  PetscBool  active;        /* the present attempt is this one */
+  PetscBool  cut, ever_cut; /* the last step of Newton's method, any in this attempt */
+  PetscReal  shift;         /* of the matrix, over its diagonal, while a body is loose */
+  PetscInt   n_uncut;       /* steps since the last one that was cut */
+  PetscReal  depth;         /* how far a step may lead into contact, over a facet's edge */
+  PetscReal  travelled;     /* by steps that met nothing, since the last one that was cut */
+  PetscBool  touched;       /* no body was loose at the last tangent */
+  PetscInt   loose;         /* the body that was, at the last tangent; -1: none */
+  Vec        displacements; /* 1 in their equations, 0 in those of multipliers */
+  Vec        work;
+  char       away[256];     /* a loose body moves away from all that it could touch, as a sentence */
+} Closing;
+
+/* rank 0: what the supports leave free (held.c) */
+typedef struct {
+  PetscBool    *loose;                   /* per part: its supports do not hold it */
+  struct cJSON *by_contact, *by_nothing; /* the motions in words of what contact holds, of what nothing holds */
+  char         *words;                   /* what is to be told of by_nothing; NULL: nothing, or it was */
+} Held;
+
+typedef struct {
+  Mesh     *mesh;
+  Physics  *physics;
+  Contact  *contact;
+  PetscBool quiet; /* no notes */
+  Steps     steps;
+  SNES      snes;
+  Mat       jacobian, pattern; /* the latter: as the former was at the start of the step, without values */
+  Newton    newton;
+  Closing   closing;
+  Cycling  *cycling;
+  Held      held;
+  PetscInt  iterations;         /* of Newton, spent on the present step, failed attempts included */
+  PetscReal size, stiffness;    /* of the model */
+  struct cJSON  *jacobian_tests; /* of the present step (jacobian_test.c); NULL: none */
+  PetscLogDouble seconds, started; /* in the linear solver; when it was called last */
+} Solve;
+
+/* times.c: the times that steps must meet */
+PetscErrorCode times_read(Scene *scene, Steps *steps);
+PetscErrorCode times_add_kinks(const Physics *physics, Steps *steps);
+PetscErrorCode times_destroy(Steps *steps);
+PetscBool      times_bend(const Physics *physics, PetscReal t); /* does a load or a support change its rate at t? */
+
+/* solver.c: SNES with residual and tangent; its options are read last, by solver_configure() */
+PetscErrorCode solver_create(Solve *solve);
+PetscErrorCode solver_configure(Solve *solve);
+PetscErrorCode solver_destroy(Solve *solve);
+PetscErrorCode solver_refresh_pattern(Solve *solve);
+PetscErrorCode solver_restore_pattern(Solve *solve); /* undoes what a failed attempt has added */
+PetscErrorCode solver_forget_factors(Solve *solve);  /* after a linear system that could not be solved */
+
+/* convergence.c: SNES' convergence test */
+PetscErrorCode convergence_test(SNES snes, PetscInt iteration, PetscReal xnorm, PetscReal snorm, PetscReal fnorm,
+                                SNESConvergedReason *reason, void *solve);
+
+/* cycling.c: solve->cycling */
+PetscErrorCode cycling_create(Solve *solve);
+PetscErrorCode cycling_destroy(Solve *solve);
+PetscErrorCode cycling_restart(Solve *solve);
+PetscErrorCode cycling_record(Solve *solve, PetscReal norm, PetscInt *period); /* at u_local; 0: no cycle */
+PetscErrorCode cycling_change_augmentation(Solve *solve, PetscInt period, PetscReal factor);
+PetscErrorCode cycling_describe(Solve *solve, PetscInt period, struct cJSON *parent, char sentence[], size_t length);
+
+/* newton.c: creates SNES and all that belongs to it, too */
+PetscErrorCode newton_create(Solve *solve);
+PetscErrorCode newton_destroy(Solve *solve);
+PetscErrorCode newton_solve(Solve *solve, Vec start, Vec x, PetscBool *converged);
+
+/* closing.c: bodies that contact alone holds and that do not touch yet */
+PetscErrorCode closing_create(Solve *solve);
+PetscErrorCode closing_destroy(Solve *solve);
+PetscErrorCode closing_limit_steps(Solve *solve, SNESLineSearch line_search);
+PetscErrorCode closing_needed(Solve *solve, Vec start, PetscBool *needed);
+void           closing_begin(Solve *solve, PetscBool active);
+PetscBool      closing_settled(const Solve *solve);
+PetscErrorCode closing_shift(Solve *solve, Mat matrix);
+
+/* held.c: which bodies contact alone must hold, as a sentence; which ones nothing holds */
+PetscErrorCode held_create(Solve *solve);
+PetscErrorCode held_destroy(Solve *solve);
+PetscErrorCode held_check(Solve *solve, const PetscScalar *displacements); /* rank 0: of all vertices */
+PetscErrorCode held_settle(Solve *solve, PetscBool accepted);
+PetscErrorCode held_free(const Solve *solve, const Body *body, PetscBool *is_free); /* rank 0: by its supports */
+PetscErrorCode held_describe(const Solve *solve, char text[], size_t length);
+
+/* step_size.c */
+void      step_size_start(const Steps *steps, StepSize *size);
+PetscReal step_size_next(const Steps *steps, const StepSize *size, PetscReal t);
+void      step_size_accept(const Steps *steps, StepSize *size, PetscReal t_last, PetscReal t, const Newton *newton,
+                           PetscBool bends);
+PetscBool step_size_cut(const Steps *steps, StepSize *size, PetscReal tried); /* false: it is too small now */
+
+/* jacobian_test.c: after newton_create() */
+PetscErrorCode jacobian_test_create(Solve *solve, Scene *scene);
+
+/* carry.c: moves x with the supports from their positions at t0 to those at physics->t */
+PetscErrorCode carry_supports(Solve *solve, PetscReal t0, Vec x);
+#endif

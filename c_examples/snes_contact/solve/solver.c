@@ -1,0 +1,249 @@
+/* SNES: residual, tangent, the matrix and its pattern, and the linear solver's defaults.
+ *
+ * Residual = internal forces of the bodies + contact - loads, and the multiplier rows (which the library scales to
+ * forces). When it is small enough: convergence.c. */
+#include "solve/solve.h"
+
+static PetscErrorCode residual(SNES snes, Vec x, Vec r, void *context)
+{
+  Solve         *solve = context;
+  PetscInt       inverted, refused = 0;
+  PetscLogDouble start, end;
+
+  PetscFunctionBegin;
+  PetscCall(unknowns_to_local(solve->physics, x));
+  PetscCall(VecZeroEntries(solve->physics->f_local));
+  PetscCall(PetscArrayzero(solve->physics->parts.squares, N_SQUARES * solve->physics->parts.n));
+  PetscCall(bulk_forces(solve->physics, solve->physics->f_local, &inverted));
+  PetscCall(PetscTime(&start));
+  if (!inverted) PetscCall(contact_forces(solve->contact, solve->physics->f_local, &refused));
+  PetscCall(PetscTime(&end));
+  solve->contact->seconds_forces += end - start;
+  if (inverted || refused) PetscCall(SNESSetFunctionDomainError(snes));
+  PetscCall(VecAXPY(solve->physics->f_local, -1, solve->physics->f_external));
+  PetscCall(VecZeroEntries(r));
+  PetscCall(DMLocalToGlobalBegin(solve->mesh->dm, solve->physics->f_local, ADD_VALUES, r));
+  PetscCall(DMLocalToGlobalEnd(solve->mesh->dm, solve->physics->f_local, ADD_VALUES, r));
+  PetscCall(parts_measure(solve->physics));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode tangent(SNES snes, Vec x, Mat J, Mat P, void *context)
+{
+  Solve         *solve = context;
+  PetscInt       inverted, refused;
+  PetscLogDouble start, end;
+
+  PetscFunctionBegin;
+  PetscCall(unknowns_to_local(solve->physics, x));
+  PetscCall(MatZeroEntries(P));
+  PetscCall(bulk_stiffness(solve->physics, P, &inverted));
+  PetscCall(PetscTime(&start));
+  PetscCall(contact_tangent(solve->contact, P, &refused));
+  PetscCall(PetscTime(&end));
+  solve->contact->seconds_tangent += end - start;
+  if (inverted || refused) PetscCall(SNESSetJacobianDomainError(snes));
+  PetscCall(MatAssemblyBegin(P, MAT_FINAL_ASSEMBLY));
+  PetscCall(MatAssemblyEnd(P, MAT_FINAL_ASSEMBLY));
+  if (!inverted && !refused) PetscCall(closing_shift(solve, P));
+  if (J != P) {
+    PetscCall(MatAssemblyBegin(J, MAT_FINAL_ASSEMBLY));
+    PetscCall(MatAssemblyEnd(J, MAT_FINAL_ASSEMBLY));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode solve_begins(KSP ksp, Vec b, Vec x, void *context)
+{
+  Solve *solve = context;
+  PetscFunctionBegin;
+  (void)ksp, (void)b, (void)x;
+  PetscCall(PetscTime(&solve->started));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode solve_ends(KSP ksp, Vec b, Vec x, void *context)
+{
+  Solve         *solve = context;
+  PetscLogDouble now;
+  PetscFunctionBegin;
+  (void)ksp, (void)b, (void)x;
+  PetscCall(PetscTime(&now));
+  solve->seconds += now - solve->started;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The model's size, and a stiffness (the largest E times it). */
+static PetscErrorCode measure(Solve *solve)
+{
+  PetscReal low[3], high[3], squared = 0, young = 0;
+  PetscFunctionBegin;
+  PetscCall(DMGetBoundingBox(solve->mesh->dm, low, high));
+  for (int i = 0; i < 3; i++)
+    squared += PetscSqr(high[i] - low[i]);
+  for (PetscInt b = 0; b < solve->mesh->n_bodies; b++)
+    young = PetscMax(young, solve->physics->materials[b].young);
+  solve->size      = PetscSqrtReal(squared);
+  solve->stiffness = young * solve->size;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* A matrix with room for the bodies and for every pair of facets that may touch before the next search. */
+static PetscErrorCode create_matrix(Solve *solve, Mat *matrix)
+{
+  Mat      counter;
+  Vec      x;
+  PetscInt n, first, end;
+
+  PetscFunctionBegin;
+  PetscCall(DMGetGlobalVector(solve->mesh->dm, &x));
+  PetscCall(VecGetLocalSize(x, &n));
+  PetscCall(VecGetOwnershipRange(x, &first, &end));
+  PetscCall(DMRestoreGlobalVector(solve->mesh->dm, &x));
+  PetscCall(MatCreate(PETSC_COMM_WORLD, &counter));
+  PetscCall(MatSetSizes(counter, n, n, PETSC_DETERMINE, PETSC_DETERMINE));
+  PetscCall(MatSetType(counter, MATPREALLOCATOR));
+  PetscCall(MatSetUp(counter));
+  for (PetscInt row = first; row < end; row++)
+    PetscCall(MatSetValue(counter, row, row, 0, ADD_VALUES));
+  PetscCall(bulk_pattern(solve->physics, counter));
+  PetscCall(contact_pattern(solve->contact, counter));
+  PetscCall(MatAssemblyBegin(counter, MAT_FINAL_ASSEMBLY));
+  PetscCall(MatAssemblyEnd(counter, MAT_FINAL_ASSEMBLY));
+  PetscCall(MatCreate(PETSC_COMM_WORLD, matrix));
+  PetscCall(MatSetSizes(*matrix, n, n, PETSC_DETERMINE, PETSC_DETERMINE));
+  PetscCall(MatSetType(*matrix, MATAIJ));
+  PetscCall(MatSetFromOptions(*matrix));
+  PetscCall(MatPreallocatorPreallocate(counter, PETSC_TRUE, *matrix));
+  PetscCall(MatSetOption(*matrix, MAT_NEW_NONZERO_ALLOCATION_ERR, PETSC_FALSE)); /* motion may outrun the pattern */
+  PetscCall(MatDestroy(&counter));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Did PETSc allocate entry by entry, for pairs beyond the pattern? */
+static PetscErrorCode outgrown(const Solve *solve, PetscBool *grown)
+{
+  MatInfo info;
+  PetscFunctionBegin;
+  PetscCall(MatGetInfo(solve->jacobian, MAT_GLOBAL_MAX, &info));
+  *grown = (PetscBool)(info.mallocs > 0);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* New pairs in the last step: start the next one with a fresh pattern. */
+PetscErrorCode solver_refresh_pattern(Solve *solve)
+{
+  PetscBool grown;
+  PetscFunctionBegin;
+  PetscCall(outgrown(solve, &grown));
+  if (!grown) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(MatDestroy(&solve->jacobian));
+  PetscCall(MatDestroy(&solve->pattern));
+  PetscCall(create_matrix(solve, &solve->jacobian));
+  PetscCall(MatDuplicate(solve->jacobian, MAT_DO_NOT_COPY_VALUES, &solve->pattern));
+  PetscCall(SNESSetJacobian(solve->snes, solve->jacobian, solve->jacobian, tangent, solve));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* After a linear system that could not be solved: the next one starts with a new analysis. PETSc takes MUMPS' refusal of a
+ * singular matrix (INFOG(1) = -10), which MUMPS remembers, for one of the analysis: it would not factorise the next
+ * matrix, and MUMPS stops the program for being asked to solve without (INFOG(1) = -3). */
+PetscErrorCode solver_forget_factors(Solve *solve)
+{
+  KSP ksp;
+  PC  pc;
+  PetscFunctionBegin;
+  PetscCall(SNESGetKSP(solve->snes, &ksp));
+  PetscCall(KSPGetPC(ksp, &pc));
+  PetscCall(PCReset(pc));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode solver_restore_pattern(Solve *solve)
+{
+  PetscBool grown;
+  PetscFunctionBegin;
+  PetscCall(outgrown(solve, &grown));
+  if (!grown) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(MatDestroy(&solve->jacobian));
+  PetscCall(MatDuplicate(solve->pattern, MAT_DO_NOT_COPY_VALUES, &solve->jacobian));
+  PetscCall(SNESSetJacobian(solve->snes, solve->jacobian, solve->jacobian, tangent, solve));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* MUMPS refuses when its pivoting outgrows the memory it has estimated by more than 20 %. The rows of multipliers that
+ * stick have no diagonal, and their pivoting may double it. Room that stays unused is not touched. (icntl 14)
+ *
+ * Its analysis must see the pattern only, not the values of the first matrix (icntl 6): else the factors after a
+ * cut-back would carry a trace of the attempt that failed. */
+static PetscErrorCode set_up_mumps(PC pc)
+{
+  static const char *const options[][2] = {{"-mat_mumps_icntl_14", "200"}, {"-mat_mumps_icntl_6", "0"}};
+  MatSolverType            solver       = NULL;
+  PetscBool                lu, mumps, given;
+  PetscFunctionBegin;
+  PetscCall(PetscObjectTypeCompare((PetscObject)pc, PCLU, &lu));
+  if (lu) PetscCall(PCFactorGetMatSolverType(pc, &solver));
+  PetscCall(PetscStrcmp(solver, MATSOLVERMUMPS, &mumps));
+  for (int k = 0; k < 2 && mumps; k++) {
+    PetscCall(PetscOptionsHasName(NULL, NULL, options[k][0], &given));
+    if (!given) PetscCall(PetscOptionsSetValue(NULL, options[k][0], options[k][1]));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode solver_create(Solve *solve)
+{
+  SNESLineSearch line_search;
+  KSP            ksp;
+  PC             pc;
+  Vec            r;
+
+  PetscFunctionBegin;
+  PetscCall(measure(solve));
+  PetscCall(create_matrix(solve, &solve->jacobian));
+  PetscCall(MatDuplicate(solve->jacobian, MAT_DO_NOT_COPY_VALUES, &solve->pattern));
+  PetscCall(DMCreateGlobalVector(solve->mesh->dm, &r));
+  PetscCall(SNESCreate(PETSC_COMM_WORLD, &solve->snes));
+  PetscCall(SNESSetDM(solve->snes, solve->mesh->dm));
+  PetscCall(SNESSetFunction(solve->snes, r, residual, solve));
+  PetscCall(SNESSetJacobian(solve->snes, solve->jacobian, solve->jacobian, tangent, solve));
+  PetscCall(SNESSetConvergenceHistory(solve->snes, NULL, NULL, PETSC_DECIDE, PETSC_TRUE)); /* anew for each step */
+  PetscCall(SNESSetType(solve->snes, SNESNEWTONLS));
+  PetscCall(SNESSetTolerances(solve->snes, 0, 1e-11, 0, 25, PETSC_DEFAULT)); /* -snes_rtol: see convergence.c */
+  PetscCall(SNESGetLineSearch(solve->snes, &line_search));
+  /* No absolute limit on the length of a step (PETSc's is 1e8): iterations must not depend on the system of units. */
+  PetscCall(SNESLineSearchSetTolerances(line_search, PETSC_DEFAULT, PETSC_MAX_REAL, PETSC_DEFAULT, PETSC_DEFAULT,
+                                        PETSC_DEFAULT, PETSC_DEFAULT));
+  PetscCall(SNESGetKSP(solve->snes, &ksp));
+  PetscCall(KSPSetType(ksp, KSPPREONLY));
+  PetscCall(KSPGetPC(ksp, &pc));
+  PetscCall(PCSetType(pc, PCLU));
+  PetscCall(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
+  PetscCall(KSPSetPreSolve(ksp, solve_begins, solve));
+  PetscCall(KSPSetPostSolve(ksp, solve_ends, solve));
+  PetscCall(VecDestroy(&r));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* When all defaults are set. */
+PetscErrorCode solver_configure(Solve *solve)
+{
+  KSP ksp;
+  PC  pc;
+  PetscFunctionBegin;
+  PetscCall(SNESSetFromOptions(solve->snes));
+  PetscCall(SNESGetKSP(solve->snes, &ksp));
+  PetscCall(KSPGetPC(ksp, &pc));
+  PetscCall(set_up_mumps(pc));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode solver_destroy(Solve *solve)
+{
+  PetscFunctionBegin;
+  PetscCall(MatDestroy(&solve->jacobian));
+  PetscCall(MatDestroy(&solve->pattern));
+  PetscCall(SNESDestroy(&solve->snes));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

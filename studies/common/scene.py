@@ -1,0 +1,221 @@
+"""Run one example scene and read what it wrote.
+
+The contract with the driver: `snes_contact -scene FILE -output_dir DIR [options]` leaves in DIR `summary.json`,
+`interface_NAME_STEP.csv` (one row per non-mortar node) and `step_STEP.vtu`. Exit code 0: every step converged,
+1: bad scene, 2: not converged, 3: refused by the library.
+
+A missing file or an unexpected exit code raises SceneError: no check may pass because there was nothing to check.
+"""
+
+import json
+import math
+import os
+import re
+import resource
+import shutil
+import subprocess
+import time
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+
+SCENES = Path(__file__).resolve().parents[2] / "c_examples" / "scenes"
+
+
+class SceneError(Exception):
+    """A scene did not run as expected, or did not write what it should."""
+
+
+def write(scene, path):
+    """A scene (a dict) as a YAML file, in flow style, which JSON is; returns its path."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text("".join(f"{key}: {json.dumps(value)}\n" for key, value in scene.items()))
+    return path
+
+
+@dataclass
+class Line:
+    """An interface seen along x: sums over the nodes with the same x, per unit thickness, ordered by x."""
+
+    x: np.ndarray
+    force: np.ndarray  # (n, 3) nodal force of the mortar on the non-mortar side
+    length: np.ndarray  # tributary length, undeformed: half the way to each neighbour
+    state: np.ndarray  # 'gap', 'stick' or 'slip'; 'mixed' where the nodes of one x differ
+
+    @property
+    def traction(self):
+        """Nodal force over tributary length. Unlike the multiplier itself it does not oscillate next to a singularity.
+
+        The length is the undeformed one, since the bulk is linear elastic: in the Hertz scene the material at the
+        centre is 2.4 % shorter when deformed, which would show as so much more pressure.
+        """
+        return self.force / self.length[:, None]
+
+
+@dataclass
+class Run:
+    """One finished run of the driver."""
+
+    directory: Path
+    exit_code: int
+    text: str  # what it printed
+    seconds: float
+    cpu_seconds: float  # of all its processes
+    summary: dict = field(default_factory=dict)  # empty where the scene was refused
+
+    @property
+    def steps(self):
+        return self.summary["steps"]
+
+    @property
+    def newton_iterations(self):
+        return sum(step["newton_iterations"] for step in self.steps)
+
+    def resultant(self, interface, step=-1):
+        return np.array(self.steps[step]["interfaces"][interface]["force"])
+
+    def interface(self, name, step=None):
+        """Table of an interface's nodes after a step (default: the last) as a structured array."""
+        path = self._output(rf"interface_{re.escape(name)}_(\d+)\.csv", step)
+        table = np.atleast_1d(np.genfromtxt(path, delimiter=",", names=True, dtype=None, encoding="ascii"))
+        if len(table) == 0:
+            raise SceneError(f"{path} has no rows")
+        return table
+
+    def mesh(self, step=None):
+        """(points, cells by kind, displacement) of the undeformed meshes after a step."""
+        import meshio  # only here: the module is slow to load
+
+        mesh = meshio.read(self._output(r"step_(\d+)\.vtu", step))
+        displacement = next((v for k, v in mesh.point_data.items() if "displacement" in k), None)
+        if displacement is None:
+            raise SceneError(f"{self.directory}: no displacement in the .vtu, only {list(mesh.point_data)}")
+        return mesh.points, mesh.cells_dict, displacement
+
+    def cell_stress(self, step=None):
+        """Cauchy's stress at the cells' centres: (cells, 6), xx yy zz xy yz xz."""
+        import meshio
+
+        mesh = meshio.read(self._output(r"step_(\d+)\.vtu", step))
+        return np.concatenate(mesh.cell_data["stress_xx_yy_zz_xy_yz_xz"])
+
+    def cell_bodies(self, step=None):
+        """Number of the body of each hexahedron, in the order of mesh()."""
+        import meshio
+
+        mesh = meshio.read(self._output(r"step_(\d+)\.vtu", step))
+        return np.asarray(mesh.cell_data_dict["body"]["hexahedron"]).ravel()
+
+    def line(self, name, step=None):
+        table = self.interface(name, step)
+        x, first, group = np.unique(np.round(table["X"], 9), return_index=True, return_inverse=True)
+        total = lambda column: np.bincount(group, weights=table[column]) / np.ptp(table["Y"])
+        half = np.hypot(np.diff(x), np.diff(table["Z"][first])) / 2
+        states = [set(table["state"][group == i]) for i in range(len(x))]
+        return Line(
+            x=x,
+            force=np.stack([total("fx"), total("fy"), total("fz")], axis=1),
+            length=np.append(half, 0) + np.append(0, half),
+            state=np.array([s.pop() if len(s) == 1 else "mixed" for s in states]),
+        )
+
+    def _output(self, pattern, step):
+        found = {}
+        for path in self.directory.iterdir():
+            match = re.fullmatch(pattern, path.name)
+            if match:
+                found[int(match.group(1))] = path
+        if not found:
+            raise SceneError(f"{self.directory}: nothing matches {pattern}")
+        wanted = max(found) if step is None else step
+        if wanted not in found:
+            raise SceneError(f"{self.directory}: no step {wanted} of {pattern}; there are {sorted(found)}")
+        return found[wanted]
+
+
+def _cpu_of_children():
+    usage = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return usage.ru_utime + usage.ru_stime
+
+
+class Driver:
+    """The example program in a build tree; outputs go to subdirectories of `output`. With `keep` a run whose outputs are
+    newer than its inputs (program, scene, meshes) and that had the same options is read instead of made again; `report`
+    is told of every run, with the number of seconds, or None if it was kept."""
+
+    def __init__(self, build, output, keep=False, report=lambda label, run, seconds: None):
+        self.program = Path(build).resolve() / "c_examples" / "snes_contact"
+        self.output = Path(output).resolve()
+        self.keep, self.report = keep, report
+        if not self.program.is_file():
+            raise SceneError(f"{self.program} is not there: run `make build` first")
+
+    def run(self, scene, *options, label=None, ranks=1, expect=0):
+        """Run SCENES/scene.yaml (or a path) with extra options; raise unless the exit code is the expected one, if any."""
+        path = scene if isinstance(scene, Path) else SCENES / f"{scene}.yaml"
+        directory = self.output / (label or path.stem)
+        command = [str(self.program), "-scene", str(path), "-output_dir", str(directory), "-options_left"]
+        command += map(str, options)
+        if ranks > 1:
+            command = ["mpirun", "--oversubscribe", "-n", str(ranks), *command]
+        if self.keep and expect == 0 and self._is_new(path, directory, command):
+            result = self._finished(Run(directory, 0, (directory / "log.txt").read_text(), 0.0, math.nan))
+            self.report(label or path.stem, result, None)
+            return result
+
+        if directory.exists():
+            shutil.rmtree(directory)  # an old result must never be read as a new one
+        directory.mkdir(parents=True)
+        # One thread each: the problems are small, and threads of the BLAS only wait for each other.
+        # The two OMPI variables let Open MPI run in containers, where one usually is root.
+        environment = {"OMP_NUM_THREADS": "1", "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
+        start, cpu = time.monotonic(), _cpu_of_children()
+        done = subprocess.run(
+            command,
+            env={**os.environ, **environment},
+            stdin=subprocess.DEVNULL,
+            capture_output=True,
+            text=True,
+            errors="replace",
+        )
+        (directory / "log.txt").write_text(" ".join(command) + "\n" + done.stdout + done.stderr)
+        seconds, cpu = time.monotonic() - start, _cpu_of_children() - cpu
+        result = Run(directory, done.returncode, done.stdout + done.stderr, seconds, cpu)
+        if expect not in (None, done.returncode):
+            tail = "\n".join((done.stdout + done.stderr).strip().splitlines()[-8:])
+            raise SceneError(
+                f"{path.name}: exit code {done.returncode} instead of {expect} ({' '.join(command)})\n{tail}"
+            )
+        if (directory / "summary.json").is_file():
+            result.summary = json.loads((directory / "summary.json").read_text())
+        if done.returncode == 0:
+            # MUMPS' own are the program's; where nothing had to be solved, nothing has read them
+            unused = re.findall(r"Option left: name:(?!-mat_mumps_icntl)(\S+)", result.text)
+            if unused:  # a misspelt option would silently leave the scene as it was
+                raise SceneError(f"{path.name}: options nothing read: {', '.join(unused)}")
+            self._finished(result)
+        self.report(label or path.stem, result, result.seconds)
+        return result
+
+    @staticmethod
+    def _finished(result):
+        """The run, every step of which converged."""
+        summary = result.directory / "summary.json"
+        if not summary.is_file():
+            raise SceneError(f"{result.directory}: no summary.json")
+        result.summary = json.loads(summary.read_text())
+        if not result.steps or not all(step["converged"] for step in result.steps):
+            raise SceneError(f"{summary}: no steps, or one that did not converge")
+        return result
+
+    def _is_new(self, path, directory, command):
+        """Is there a whole run of this command, newer than all that went into it? The log is written last."""
+        log = directory / "log.txt"
+        if not log.is_file() or log.read_text().partition("\n")[0] != " ".join(command):
+            return False
+        summary = directory / "summary.json"
+        if not summary.is_file() or not all(s["converged"] for s in json.loads(summary.read_text())["steps"]):
+            return False
+        meshes = [path.parent / name for name in re.findall(r"file: *([^\s,}]+)", path.read_text())]
+        return all(each.stat().st_mtime < summary.stat().st_mtime for each in (self.program, path, *meshes))

@@ -1,0 +1,200 @@
+"""What each effect costs: `make effects`. effects.py --build DIR [--renew-figures]; results go to DIR/effects.
+
+One scene (scenes/effects.yaml) with effects added one by one, from the leanest on: unknowns, memory, pairs, times, Newton
+iterations, as the driver reports them in summary.json. Then one interface alone (effects_probe.c) under valgrind: the
+instructions of its residual and tangent, which do not depend on the machine's load. Table: printed, effects.json,
+effects.md; bars relative to the leanest: effects.png.
+"""
+
+import argparse
+import json
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+from collections import Counter
+from dataclasses import dataclass
+from pathlib import Path
+
+sys.path.append(str(Path(__file__).resolve().parents[1] / "common"))
+import folders  # noqa: E402  (puts the others on the path)
+import figures  # noqa: E402
+from scene import Driver, SceneError  # noqa: E402
+
+COMMITTED = folders.FIGURES / "effects.png"
+INTERFACE = "contact"
+RUNS = 3  # of each scene; the shortest times count, as least disturbed by what else the machine does
+
+FACETS = ("-contact_mortar", "floor.zmax")
+FRICTION = ("-contact_friction", "0.2")
+LARGE = ("-contact_weights", "current")
+DEFORMABLE = ("-hold_within", "-1,-1,-1,2,2,-0.39")  # the floor is held at its bottom only
+
+
+@dataclass
+class Rung:
+    """One more effect than the rung before."""
+
+    name: str
+    options: tuple  # of the driver, on scenes/effects.yaml
+    probe: tuple  # law, mortar side, weights of effects_probe
+
+
+RUNGS = [
+    Rung("analytic plane, no friction, small sliding", (), ("none", "analytic", "reference")),
+    Rung("+ facets, rigid", FACETS, ("none", "rigid", "reference")),
+    Rung("+ large sliding", (*FACETS, *LARGE), ("none", "rigid", "current")),
+    Rung("+ Coulomb friction", (*FACETS, *LARGE, *FRICTION), ("coulomb", "rigid", "current")),
+    Rung("+ deformable", (*FACETS, *LARGE, *FRICTION, *DEFORMABLE), ("coulomb", "deformable", "current")),
+]
+# What is counted: the calls as a host makes them; of these, search and integration, derivatives and the assembly of
+# their entries, without what no mortar side changes: the law, forces, copies of the caller's arrays.
+CALLS, KERNELS = "residual and tangent", "of which integration and tangent"
+FUNCTIONS = ("stickslip_interface_residual", "stickslip_interface_tangent_coo")
+INTEGRATION, TANGENT, LAW = "interface::integration::integrate", "tangent_with", "evaluate"
+# One effect against another; the largest ratio that was aimed at, and of what.
+FULL = ("coulomb", "deformable", "current")
+RATIOS = [
+    ("no friction / Coulomb", ("none", "deformable", "current"), FULL, 0.9, CALLS),
+    ("rigid / deformable mortar side", ("coulomb", "rigid", "current"), FULL, 0.5, KERNELS),
+    ("analytic / deformable mortar side", ("coulomb", "analytic", "current"), FULL, 0.1, KERNELS),
+]
+
+# Columns: key, heading, format.
+COLUMNS = [
+    ("unknowns", "unknowns", "d"),
+    ("multipliers", "multipliers", "d"),
+    ("bytes", "library's memory [kB]", ".0f"),
+    ("pairs_integrated", "pairs integrated", "d"),
+    ("pairs_linearised", "linearised", "d"),
+    ("pairs_reused", "reused", "d"),
+    ("integration", "search, integration [ms]", ".1f"),
+    ("tangent", "tangent [ms]", ".1f"),
+    ("newton_iterations", "Newton iterations", "d"),
+    ("instructions", "instructions, residual + tangent [10^6]", ".1f"),
+]
+
+
+def measure(driver, rung):
+    """The figures of one rung."""
+    label = re.sub(r"\W+", "_", rung.name).strip("_")
+    runs = [driver.run("effects", *rung.options, label=f"{label}_{k}") for k in range(RUNS)]
+    run, shortest = runs[0], lambda *keys: 1e3 * min(sum(r.summary["seconds"][key] for key in keys) for r in runs)
+    interface = run.summary["interfaces"][INTERFACE]
+    return {
+        "name": rung.name,
+        "effects": interface["effects"],
+        "unknowns": run.summary["unknowns"],
+        "newton_iterations": run.newton_iterations,
+        **{key: interface[key] for key in ("multipliers", "pairs_integrated", "pairs_linearised", "pairs_reused")},
+        "bytes": interface["bytes"] / 1e3,
+        "integration": shortest("search", "integration"),
+        "tangent": shortest("contact_assembly"),
+    }
+
+
+def instructions_of_calls(profile):
+    """Instructions below every call in a callgrind profile, by names of caller and called function."""
+    names, counts, caller, called, is_call = {}, Counter(), None, None, False
+    for line in profile.splitlines():
+        key, _, value = line.partition("=")
+        if key in ("fn", "cfn"):
+            number, _, name = value.partition(" ")
+            name = names.setdefault(number, name)  # said where it occurs first
+            caller, called = (name, None) if key == "fn" else (caller, name)
+        elif key == "calls":
+            is_call = True
+        elif is_call:
+            counts[caller, called] += int(line.split()[-1])
+            is_call = False
+    return counts
+
+
+class Probe:
+    """Counts the instructions of a residual and a tangent of one interface; None where there is no valgrind."""
+
+    def __init__(self, driver):
+        self.program, self.known = driver.program.with_name("effects_probe"), {}
+        self.valgrind = shutil.which("valgrind")
+
+    def millions(self, effects, of=CALLS):
+        if not self.valgrind:
+            return None
+        if effects not in self.known:
+            self.known[effects] = self._count(effects)
+        return self.known[effects][of]
+
+    def _count(self, effects):
+        with tempfile.NamedTemporaryFile("r", suffix=".callgrind") as profile:
+            command = [self.valgrind, "--tool=callgrind", f"--callgrind-out-file={profile.name}"]
+            command += [f"--toggle-collect={function}" for function in FUNCTIONS]
+            done = subprocess.run([*command, str(self.program), *effects], capture_output=True, text=True)
+            counts = instructions_of_calls(profile.read())
+        below = lambda name, by="": sum(n for (a, b), n in counts.items() if name in b and by in a)
+        calls = sum(below(function) for function in FUNCTIONS)
+        kernels = below(INTEGRATION) + below(TANGENT, by=FUNCTIONS[1]) - below(LAW, by=TANGENT)
+        integrates = below(INTEGRATION) > 0 or effects[2] == "reference"  # frozen weights: at creation alone
+        if done.returncode or not (integrates and 0 < kernels < calls):
+            raise SceneError(f"effects_probe {' '.join(effects)}: exit code {done.returncode}\n{done.stderr[-800:]}")
+        per_evaluation = 1e-6 / json.loads(done.stdout)["evaluations"]
+        return {CALLS: per_evaluation * calls, KERNELS: per_evaluation * kernels}
+
+
+def markdown(rows, ratios):
+    cell = lambda row, key, form: "" if row[key] is None else format(row[key], form)
+    lines = [
+        "| effects | " + " | ".join(heading for _, heading, _ in COLUMNS) + " |",
+        "|---|" + "---:|" * len(COLUMNS),
+        *(f"| {row['name']} | " + " | ".join(cell(row, key, form) for key, _, form in COLUMNS) + " |" for row in rows),
+    ]
+    if ratios:
+        lines += ["", f"| instructions | {CALLS} | {KERNELS} | aim |", "|---|---:|---:|---|"]
+        for r in ratios:
+            aim = f"at most {r['aim']:.0%} of {r['of'].removeprefix('of which ')}"
+            lines.append(f"| {r['name']} | {r[CALLS]:.1%} | {r[KERNELS]:.1%} | {aim} |")
+    return "\n".join(lines) + "\n"
+
+
+def report(build, renew):
+    driver = Driver(build, build / "effects")
+    probe, rows = Probe(driver), []
+    for rung in RUNGS:
+        rows.append(measure(driver, rung))
+        rows[-1]["instructions"] = probe.millions(rung.probe)
+    ratios = []
+    if probe.valgrind:
+        for name, one, other, aim, of in RATIOS:
+            found = {what: probe.millions(one, what) / probe.millions(other, what) for what in (CALLS, KERNELS)}
+            ratios.append({"name": name, **found, "aim": aim, "of": of})
+    else:
+        print("valgrind is not there: no instruction counts")
+
+    text = markdown(rows, ratios)
+    print(text)
+    driver.output.mkdir(parents=True, exist_ok=True)
+    (driver.output / "effects.md").write_text(text)
+    (driver.output / "effects.json").write_text(json.dumps({"rungs": rows, "ratios": ratios}, indent=1) + "\n")
+    drawn = [figures.effects(rows, driver.output / "effects.png")]
+    if renew:
+        shutil.copy(drawn[0], COMMITTED)
+        drawn.append(COMMITTED)
+    for path in drawn:
+        print(path.resolve())
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--build", type=Path, required=True, help="CMake's build tree")
+    parser.add_argument("--renew-figures", action="store_true", help="renew the committed figure too")
+    arguments = parser.parse_args()
+    try:
+        report(arguments.build, arguments.renew_figures)
+    except SceneError as problem:
+        print(f"\n{problem}", file=sys.stderr)
+        return 1
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
