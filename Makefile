@@ -15,7 +15,7 @@ export PATH := $(PATH):$(HOME)/.cargo/bin
 LOCKED = mkdir -p $(BUILD) && flock $(BUILD)/.lock
 SAY    = @printf '\n== %s\n'
 
-.PHONY: help demo gallery effects aids study compare bench random fuzz stability ratios digest test test-long build install uninstall docs abi header meshes clean cmake-build rust-tests
+.PHONY: help demo gallery effects aids study compare bench random fuzz stability ratios digest check test test-long build install uninstall docs abi header meshes clean cmake-build rust-tests
 
 help:
 	@echo "make demo    solve the example scenes, compare with the references, draw (FIGURES=1: renew the README's figures)"
@@ -27,6 +27,7 @@ help:
 	@echo "make bench   what the kernels cost, over a C++ baseline and in instructions (FIGURES=1: renew its table)"
 	@echo "make stability  hard cases x severity, each compared with an answer: build/stability/index.html; can be resumed;"
 	@echo "             QUICK=1: the part that make test runs; ONLY='FILE ...' of tests/stability/cases; FIGURES=1: as above"
+	@echo "make check   the quick part of it, two minutes once built: format, lints, Rust tests, a few scenes"
 	@echo "make test    every test and check, the same in every run"
 	@echo "make test-long  those that take too long for it; .ci/run runs both"
 	@echo "make random  the property tests on other random input, ten times as much (SEED=n CASES=n)"
@@ -125,6 +126,15 @@ fuzz:
 	@.ci/setup test
 	$(SAY) "Fuzzing each target for $(FUZZ_SECONDS) s"
 	@fuzz/run.sh $(FUZZ_SECONDS)
+
+# What to run before each commit; the scenes are those that show most in little time.
+CHECKED = ^(abi|accept_patch|accept_block|accept_errors|petsc_block|capi_t10_pair_weights|fortran_t10_pair_weights)$$
+check:
+	@.ci/setup test
+	@$(MAKE) --no-print-directory rust-tests
+	@$(MAKE) --no-print-directory cmake-build TESTS=ON
+	$(SAY) "A handful of scenes and of tests of the ABI"
+	@cd $(BUILD) && ctest --output-on-failure --no-tests=error --parallel $(JOBS) -R '$(CHECKED)'
 
 test:
 	@.ci/setup test

@@ -67,7 +67,7 @@ module stickslip
 
   integer(c_int32_t), parameter :: STICKSLIP_SLIP_OBJECTIVE = 0
   integer(c_int32_t), parameter :: STICKSLIP_SLIP_INCREMENT = 1
-  integer(c_int32_t), parameter :: STICKSLIP_SLIP_SEED = 2
+  integer(c_int32_t), parameter :: STICKSLIP_SLIP_PAPER = 2
 
   integer(c_int32_t), parameter :: STICKSLIP_WEIGHTS_CURRENT = 0
   integer(c_int32_t), parameter :: STICKSLIP_WEIGHTS_COMMITTED = 1

@@ -175,7 +175,7 @@
 #define STICKSLIP_SLIP_INCREMENT 1
 
 /// P g[n_n,x]: the paper's literal (12); drifts on curved interfaces.
-#define STICKSLIP_SLIP_SEED 2
+#define STICKSLIP_SLIP_PAPER 2
 
 /// Weights of the current configuration, linearised: large sliding. Default.
 #define STICKSLIP_WEIGHTS_CURRENT 0

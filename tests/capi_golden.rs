@@ -264,7 +264,7 @@ fn per_node(v: &Value, n: usize) -> Vec<f64> {
 
 fn slip_option(case: &Value) -> i32 {
     match case["variant"].as_str().unwrap() {
-        "seed" => STICKSLIP_SLIP_SEED,
+        "seed" => STICKSLIP_SLIP_PAPER,
         "increment" => STICKSLIP_SLIP_INCREMENT,
         _ => STICKSLIP_SLIP_OBJECTIVE,
     }

@@ -274,7 +274,7 @@ fn a_restart_may_change_what_a_history_does_not_mean() {
         (Options { friction: Friction::Rough, mu: 0.0, ..base }, "rough surfaces"),
         (Options { friction: Friction::Tied, mu: 0.0, ..base }, "tied surfaces"),
         (Options { slip: SlipMeasure::Increment, ..base }, "the slip increment"),
-        (Options { slip: SlipMeasure::Seed, ..base }, "the paper's slip measure"),
+        (Options { slip: SlipMeasure::Paper, ..base }, "the paper's slip measure"),
         (Options { weights: Weights::Committed, ..base }, "frozen at the last commit"),
     ];
     for (options, word) in wrong {

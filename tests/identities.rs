@@ -136,7 +136,7 @@ fn rigid_motion_within_a_step_is_no_slip() {
         assert!(slip_of(SlipMeasure::Objective, angle) <= 1e-15, "angle {angle}");
     }
     assert_eq!(slip_of(SlipMeasure::Objective, 0.0), 0.0);
-    assert!(slip_of(SlipMeasure::Seed, 0.0) > 1e-6);
+    assert!(slip_of(SlipMeasure::Paper, 0.0) > 1e-6);
 }
 
 #[test]

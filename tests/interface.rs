@@ -49,7 +49,7 @@ pub fn set_up(case: &Value, form: Form, rule: &'static Rule) -> Golden {
     options.row_scale = RowScale::None;
     options.new_contact = NewContact::KeepFriction;
     options.slip = match case["variant"].as_str().unwrap() {
-        "seed" => SlipMeasure::Seed,
+        "seed" => SlipMeasure::Paper,
         "increment" => SlipMeasure::Increment,
         _ => SlipMeasure::Objective,
     };

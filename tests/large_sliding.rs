@@ -55,7 +55,7 @@ fn a_stuck_curved_interface_turns_by_2_rad_without_slip() {
     for seed in 1..=3 {
         let (objective, loose) = slip_of_rotation(SlipMeasure::Objective, seed);
         let (increment, _) = slip_of_rotation(SlipMeasure::Increment, seed);
-        let (literal, _) = slip_of_rotation(SlipMeasure::Seed, seed);
+        let (literal, _) = slip_of_rotation(SlipMeasure::Paper, seed);
         println!("slip over facet size: objective {objective:.1e}, increment {increment:.1e}, literal {literal:.1e}");
         assert_eq!(loose, 0, "stuck in every step");
         assert!(objective < NO_SLIP, "{objective}");

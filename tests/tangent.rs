@@ -38,7 +38,7 @@ fn variants() -> Vec<Options> {
     let mut all = Vec::new();
     for form in [Form::Multiplier, Form::Augmented] {
         for weights in [Weights::Current, Weights::Committed, Weights::Reference] {
-            for slip in [SlipMeasure::Objective, SlipMeasure::Increment, SlipMeasure::Seed] {
+            for slip in [SlipMeasure::Objective, SlipMeasure::Increment, SlipMeasure::Paper] {
                 all.push(Options { form, weights, slip, ..options() });
             }
         }

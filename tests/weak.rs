@@ -64,7 +64,7 @@ fn variants() -> impl Iterator<Item = Options> {
     let forms = forms.flat_map(|form| [RowScale::Force, RowScale::None].map(|scale| (form, scale)));
     forms.flat_map(|(form, row_scale)| {
         [Weights::Current, Weights::Committed].into_iter().flat_map(move |weights| {
-            [SlipMeasure::Objective, SlipMeasure::Increment, SlipMeasure::Seed].map(|slip| Options {
+            [SlipMeasure::Objective, SlipMeasure::Increment, SlipMeasure::Paper].map(|slip| Options {
                 form,
                 row_scale,
                 weights,

@@ -20,7 +20,7 @@ pub const STICKSLIP_SLIP_OBJECTIVE: i32 = 0;
 /// P(g[n_n,x] - g[n_n,x_n]).
 pub const STICKSLIP_SLIP_INCREMENT: i32 = 1;
 /// P g[n_n,x]: the paper's literal (12); drifts on curved interfaces.
-pub const STICKSLIP_SLIP_SEED: i32 = 2;
+pub const STICKSLIP_SLIP_PAPER: i32 = 2;
 /// Weights of the current configuration, linearised: large sliding. Default.
 pub const STICKSLIP_WEIGHTS_CURRENT: i32 = 0;
 /// Weights frozen at the last commit.
@@ -284,7 +284,7 @@ fn read_scheme(integration: i32, points: i64) -> Result<Scheme> {
 
 /// The measure of a STICKSLIP_SLIP_... value.
 pub(super) fn slip_measure(value: i32, name: &str) -> Result<SlipMeasure> {
-    choose(value, name, &[SlipMeasure::Objective, SlipMeasure::Increment, SlipMeasure::Seed], 3)
+    choose(value, name, &[SlipMeasure::Objective, SlipMeasure::Increment, SlipMeasure::Paper], 3)
 }
 
 /// What an interface is created with.

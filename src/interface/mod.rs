@@ -6,6 +6,8 @@
 //! `integrate`, `sums`, `respond`, `residual` and `tangent` in an evaluation. No stage knows the handle, nor calls an earlier
 //! one.
 
+#[cfg(test)]
+mod by_hand;
 mod cache;
 mod contact;
 mod data;

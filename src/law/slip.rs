@@ -3,7 +3,7 @@
 //!
 //! - objective: P (g[n_n, x_{n+1}] - g[n_{n+1}, x_{n+1}])
 //! - increment: P (g[n_n, x_{n+1}] - g[n_n, x_n])
-//! - seed:      P  g[n_n, x_{n+1}], the paper's (12): drifts on curved interfaces
+//! - paper:     P  g[n_n, x_{n+1}], the paper's (12): drifts on curved interfaces
 //!
 //! All are linear in the gaps, so a measure is two coefficients.
 
@@ -16,7 +16,7 @@ pub enum SlipMeasure {
     /// Change since t_n with the weights of t_n.
     Increment,
     /// The paper's literal form.
-    Seed,
+    Paper,
 }
 
 impl SlipMeasure {
@@ -25,7 +25,7 @@ impl SlipMeasure {
         match self {
             SlipMeasure::Objective => (1.0, 0.0),
             SlipMeasure::Increment => (0.0, 1.0),
-            SlipMeasure::Seed => (0.0, 0.0),
+            SlipMeasure::Paper => (0.0, 0.0),
         }
     }
 }

@@ -206,7 +206,7 @@ PROBLEMS = [
             only=("integration", "tangent", "tolerance", "mesh")),
     Problem("cattaneo", "Cattaneo and Mindlin: shear", "cattaneo_line", "contact", "shear traction, root mean square",
             cattaneo_errors, cattaneo_mesh, (0.136, 0.068, 0.034), 0,
-            extra=(Setting("slip_seed", "slip", (*cattaneo_mesh(0.136), "-contact_slip", "seed"), "slip as printed"),
+            extra=(Setting("slip_paper", "slip", (*cattaneo_mesh(0.136), "-contact_slip", "paper"), "slip as printed"),
                    Setting("slip_increment", "slip", (*cattaneo_mesh(0.136), "-contact_slip", "increment"),
                            "slip increment"),
                    Setting("steps_2", "steps", (*friction.line_mesh(0.136), *friction.pressing(2, 1)), "2+1 steps"),

@@ -352,7 +352,7 @@ def turned_shaft(verdicts, driver):
     return runs
 
 
-SLIPS = {"objective": (), "seed": ("-contact_slip", "seed")}
+SLIPS = {"objective": (), "paper": ("-contact_slip", "paper")}
 
 
 def draw_turned_shaft(runs, folder):

@@ -129,6 +129,7 @@ BAD_SCENES = [
     BadScene("times_and_end", "steps: {end: 2, count: 20}", "steps: {times: [1, 2], end: 2}", "steps.end", says="`times`"),
     BadScene("times_and_count", "steps: {end: 2, count: 20}", "steps: {times: [1, 2], count: 2}", "steps.count"),
     BadScene("stages_and_end", "steps: {end: 2, count: 20}", "steps: {stages: [2, 2], end: 2}", "steps.end", says="`stages`"),
+    BadScene("old_word_for_slip", "", "", "base.slip", ("-base_slip", "seed"), says="'seed' is called 'paper' now"),
     BadScene("misspelt_load", "traction: [60, 0, 0]", "tracton: [60, 0, 0]", "push.tracton", says="'push.traction'"),
     BadScene("unknown_key_of_load", "traction: [60, 0, 0]", "colour: 3", "push.colour", says="traction, pressure"),
     BadScene("prism", BOX, "type: gmsh, file: prism.msh", "block.file", says="a prism (wedge)"),

@@ -59,7 +59,7 @@ where
 #[test]
 fn plane_equals_a_large_facet() {
     for cells in [Cells::Quads, Cells::Triangles] {
-        for slip in [SlipMeasure::Objective, SlipMeasure::Increment, SlipMeasure::Seed] {
+        for slip in [SlipMeasure::Objective, SlipMeasure::Increment, SlipMeasure::Paper] {
             for weights in [Weights::Current, Weights::Committed, Weights::Reference] {
                 walk_over_plane::<3>(Options { slip, weights, ..options() }, cells, 0.0);
             }

@@ -82,7 +82,7 @@ fn tangent_equals_differences_in_every_column() {
     for form in [Form::Multiplier, Form::Augmented] {
         for weights in [Weights::Current, Weights::Committed, Weights::Reference] {
             let options = Options { form, weights, ..options() };
-            for slip in [SlipMeasure::Objective, SlipMeasure::Increment, SlipMeasure::Seed] {
+            for slip in [SlipMeasure::Objective, SlipMeasure::Increment, SlipMeasure::Paper] {
                 let states = check_differences::<3>(Options { slip, ..options });
                 (0..3).for_each(|s| seen[s] += states[s]);
             }

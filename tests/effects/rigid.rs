@@ -95,7 +95,7 @@ proptest! {
 /// The mortar side may move all the same: it is prescribed.
 #[test]
 fn a_prescribed_mortar_side_may_move() {
-    for slip in [SlipMeasure::Objective, SlipMeasure::Increment, SlipMeasure::Seed] {
+    for slip in [SlipMeasure::Objective, SlipMeasure::Increment, SlipMeasure::Paper] {
         let mut scene = moved(&options(), CELLS[0], FLAT, 3);
         let options = Options { slip, ..options() };
         let mut rigid: Contact<3> = again(&scene, true, options);

@@ -85,7 +85,7 @@ impl Recipe {
     fn options(&self) -> Options {
         Options {
             form: if self.form { Form::Augmented } else { Form::Multiplier },
-            slip: [SlipMeasure::Objective, SlipMeasure::Increment, SlipMeasure::Seed][usize::from(self.slip)],
+            slip: [SlipMeasure::Objective, SlipMeasure::Increment, SlipMeasure::Paper][usize::from(self.slip)],
             weights: [Weights::Current, Weights::Committed, Weights::Reference][usize::from(self.weights)],
             mu: self.mu,
             ..options()

@@ -63,7 +63,7 @@ fn node(c: &Case, lambda: Vec3, r: f64, now: Vec3, previous: Vec3) -> Node {
         gap_committed: Vec3::zeros(),
         covered: true,
         covered_before: true,
-        slip: SlipMeasure::Seed,
+        slip: SlipMeasure::Paper,
         free: Mat3::identity(),
     }
 }

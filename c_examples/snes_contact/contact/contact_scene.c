@@ -144,7 +144,7 @@ static void read_effects(Scene *scene, Interface *interface)
 static void read_method(Scene *scene, Interface *interface)
 {
   static const char *const weights[]      = {"current", "committed", "reference", NULL};
-  static const char *const slips[]        = {"objective", "increment", "seed", NULL};
+  static const char *const slips[]        = {"objective", "increment", "paper", NULL};
   static const char *const forms[]        = {"multiplier", "augmented", NULL};
   static const char *const new_contacts[] = {"frictionless", "friction", NULL};
   static const char *const row_scales[]   = {"force", "none", NULL};
@@ -154,8 +154,12 @@ static void read_method(Scene *scene, Interface *interface)
            new_contact = STICKSLIP_NEW_CONTACT_FRICTIONLESS, row_scale = STICKSLIP_ROW_SCALE_FORCE;
   PetscReal augmentation = 0, modulus = 0, distance = 0, weak_coverage = 0, turn_max = 0, coverage_min = options->coverage_min;
 
+  char      word[NAME_LENGTH] = "";
+
   interface->initial_contact = PETSC_TRUE;
   scene_choice(scene, name, "weights", weights, &weight);
+  scene_string(scene, name, "slip", word, sizeof(word));
+  if (!strcmp(word, "seed")) scene_fail(scene, name, "slip", "'seed' is called 'paper' now.");
   scene_choice(scene, name, "slip", slips, &slip);
   scene_choice(scene, name, "form", forms, &form);
   scene_choice(scene, name, "new_contact", new_contacts, &new_contact);

@@ -29,7 +29,7 @@ pub fn of(options: &Options, nonmortar: &Surface, mortar: &Surface) -> [i64; LEN
         (false, _) => 0,
         (_, SlipMeasure::Objective) => 1,
         (_, SlipMeasure::Increment) => 2,
-        (_, SlipMeasure::Seed) => 3,
+        (_, SlipMeasure::Paper) => 3,
     };
     let [shape, radius] = mortar.analytic.map_or([0; 2], |shape| {
         let [kind, radius] = AnalyticShape::words(shape);

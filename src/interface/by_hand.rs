@@ -1,0 +1,109 @@
+//! Each stage called by itself, without a handle: two facets, a quad of 1 x 1 that has sunk 0.001 into a larger one below.
+
+use super::data::counters::Counters;
+use super::data::effects::Effects;
+use super::data::extent::{Extent, Scope};
+use super::data::options::{Options, Stiffness};
+use super::data::pairs::PairRecord;
+use super::data::setup::Setup;
+use super::data::surface::{NO_EQUATION, Surface};
+use super::pairing::candidates::KeptTree;
+use super::pairing::given::{Given, Step};
+use super::pairing::settle::Pairing;
+use super::stages::commit;
+use super::stages::initial::initial_multipliers;
+use super::stages::integrate::integrate;
+use super::stages::residual::residual;
+use super::stages::respond::respond;
+use super::stages::sums::{NodeSums, sums};
+use super::tangent::blocks::blocks;
+use super::tangent::union::union;
+use crate::geometry::Vec3;
+use crate::law::State;
+use crate::mortar::PairWeights;
+
+const DEPTH: f64 = 1e-3;
+/// A few roundings of numbers of size 1.
+const ROUNDING: f64 = 1e-14;
+
+fn setup() -> Setup<3> {
+    let x1 = [(0.0, 0.0), (0.0, 1.0), (1.0, 1.0), (1.0, 0.0)].map(|(x, y)| Vec3::new(x, y, -DEPTH)).to_vec();
+    let x2 = [(-1.0, -1.0), (2.0, -1.0), (2.0, 2.0), (-1.0, 2.0)].map(|(x, y)| Vec3::new(x, y, 0.0)).to_vec();
+    let equations = |first: i64| (0..4).map(|a| [0, 1, 2].map(|i| first + 3 * a + i)).collect::<Vec<_>>();
+    let one = Surface::new("nonmortar", x1, &[vec![0, 1, 2, 3]], equations(0)).unwrap();
+    let two = Surface::new("mortar", x2, &[vec![0, 1, 2, 3]], vec![[NO_EQUATION; 3]; 4]).unwrap();
+    let options = Options { mu: 0.3, ..Options::new(Stiffness::Modulus(1000.0)) };
+    let mu = vec![0.3; 4];
+    let effects = Effects::of_three(&options, &two, &mu);
+    Setup::new((one, two), equations(12), options, mu, effects).unwrap()
+}
+
+fn step(setup: &Setup<3>) -> Step {
+    let at = (&setup.nonmortar.reference[..], &setup.mortar.reference[..]);
+    let work = (&mut Counters::default(), &mut KeptTree::default());
+    let start = commit::start(setup.surfaces(), &setup.options, Extent::Whole, work, at).unwrap();
+    let pairing = Pairing::new(setup, start.filter, &start.history).unwrap();
+    Step { history: start.history, pairing }
+}
+
+#[test]
+fn an_evaluation_stage_by_stage() {
+    let setup = setup();
+    let step = step(&setup);
+    let given = Given { setup: &setup, step: &step };
+    let x = (&setup.nonmortar.reference[..], &setup.mortar.reference[..]);
+    assert!(step.pairing.coverable == [true; 4] && step.pairing.carriers.is_empty());
+
+    let filter = step.pairing.filter.as_ref().unwrap();
+    let work = (&mut Counters::default(), &mut KeptTree::default());
+    let active = integrate(setup.surfaces(), &setup.options, filter, work, x).unwrap();
+    assert_eq!(active.pairs.iter().map(|p| (p.one, p.two)).collect::<Vec<_>>(), [(0, 0)]);
+    let area: f64 = (0..4).map(|a| active.pairs[0].weights.coverage(a)).sum();
+    assert!((area - 1.0).abs() < ROUNDING, "{area}");
+
+    let sums = sums(given, Some(&active), true, x).unwrap();
+    for sum in &sums {
+        assert!((sum.coverage - 0.25).abs() < ROUNDING && (sum.gap_now.z + 0.25 * DEPTH).abs() < ROUNDING, "{sum:?}");
+    }
+
+    let lambda = initial_multipliers(given, &sums).unwrap();
+    let scope = Scope { extent: Extent::Whole, apart: false };
+    let responses = respond(given, &lambda, &sums, scope).unwrap();
+    assert!(responses.nodes.iter().all(|r| r.state == State::Stick) && responses.counts.frictional == 4);
+
+    let forces = residual(given, &active.pairs, &lambda, &responses.nodes).unwrap();
+    let total: Vec3 = forces.nonmortar.iter().chain(&forces.mortar).sum();
+    assert!(total.norm() < ROUNDING, "{total}");
+    assert!(forces.rows.iter().all(|row| (row.z + 0.05).abs() < ROUNDING), "r_A M_A g_N: {:?}", forces.rows);
+
+    let union = union(&active.pairs, &step.history.pairs, true).unwrap();
+    let mut entries = 0;
+    let mut count = |_: i64, _: i64, _: f64| entries += 1;
+    blocks::<false, 3>((given, &[Vec3::zeros(); 4]), &union, Extent::Whole, None, &mut count).unwrap();
+    // 12 x 12 of the forces, 3 x 16 of the multipliers in them, 12 x 12 of the rows, 4 x 9 of the nodes.
+    assert_eq!(entries, 372);
+}
+
+#[test]
+fn what_nothing_covers_is_answered_without_the_law() {
+    let setup = setup();
+    let step = step(&setup);
+    let given = Given { setup: &setup, step: &step };
+    let lambda = [Vec3::new(0.0, 0.0, -2.0); 4];
+    let scope = Scope { extent: Extent::Whole, apart: true };
+    let responses = respond(given, &lambda, &[NodeSums::default(); 4], scope).unwrap();
+    assert_eq!(responses.counts.left_out, 4);
+    let row = Vec3::new(0.0, 0.0, 2.0 / given.augmentation(0));
+    assert!(responses.nodes.iter().all(|r| r.state == State::Gap && r.row == row));
+}
+
+#[test]
+fn the_union_merges_pairs_of_now_and_of_the_last_step() {
+    let pair = |one, two| PairRecord { one, two, weights: PairWeights::default() };
+    let (now, previous) = ([pair(0, 1), pair(2, 0)], [pair(0, 0), pair(0, 1), pair(1, 5)]);
+    let found = union(&now, &previous, true).unwrap();
+    let found: Vec<_> = found.iter().map(|p| (p.one, p.two, p.place, p.now.is_some(), p.previous.is_some())).collect();
+    let expected = [(0, 0, 0, false, true), (0, 1, 0, true, true), (1, 5, 1, false, true), (2, 0, 1, true, false)];
+    assert_eq!(found, expected);
+    assert_eq!(union(&now, &previous, false).unwrap().len(), 2);
+}
