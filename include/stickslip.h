@@ -224,11 +224,11 @@
 /// A mortar side without equations is treated as rigid.
 #define STICKSLIP_SHORTCUT_RIGID 2
 
-/// Surfaces whose boxes lie, at t_n and now and on the same side, farther apart than the deepest penetration that is a
-/// pair (see search_distance; on flat surfaces the shorter of their longest edges), and that look at each other: neither
-/// search nor integration; their nodes count as uncovered. An analytic surface: every node outside by more than the
-/// non-mortar side's longest edge there. Of calls with sums of handles nothing is left out; with weak_coverage no commit
-/// leaves anything out.
+/// Surfaces that are apart are neither searched nor integrated; their nodes count as uncovered. They are apart where their
+/// boxes lie farther from each other, along one axis, than the deepest penetration of a pair (see search_distance; on
+/// flat surfaces the shorter of their longest edges); this must hold at t_n and now, with the same side above, and the
+/// surfaces must look at each other. From an analytic surface every node must be outside by more than the non-mortar
+/// side's longest edge. Calls with sums of handles leave nothing out; with weak_coverage no commit leaves anything out.
 #define STICKSLIP_SHORTCUT_APART 4
 
 /// Nodes that nothing can cover before the next commit (no mortar facet passes the filters with a facet around them), and
@@ -409,9 +409,10 @@ typedef struct stickslip_options {
   /// Young's modulus of the softer body [F/L^2]: rhat_A = 0.1 E / sqrt(M_A); 0 (default): use the
   /// augmentation.
   double modulus;
-  /// Covered over full nodal area [-] at and below which a node counts as uncovered; default 1e-8. The least
-  /// singular value of a Newton matrix, rows and columns scaled, is a thousandth or so of it where a surface slides
-  /// off an edge, and the tractions of nodes that are hardly covered grow like its inverse: 1e-4 is milder there.
+  /// A node whose covered area over its full area [-] is at most this counts as uncovered; default 1e-8. Where a
+  /// surface slides off an edge, the tractions of nodes that are hardly covered grow like the inverse of their
+  /// coverage, and the least singular value of a scaled Newton matrix goes down to about a thousandth of this number.
+  /// 1e-4 is milder there.
   double coverage_min;
   /// Facets farther apart than this along the normal at the last commit, gap or penetration, are no pair
   /// [L]. 0 (default): any gap, and a penetration of one facet (the smaller of the two) beyond what the curved
@@ -436,9 +437,9 @@ typedef struct stickslip_options {
   /// step: covered neighbours carry it, lambda_A = sum_B w_AB lambda_B with sum_B w_AB = 1, and its gap counts in
   /// their rows. They carry newly covered nodes too, with friction, up to four facets away. At most 1; 0 (default):
   /// every covered node has its own, and that of a sliver grows without bound as the sliver goes; 0.5: none beyond
-  /// the mortar surface's edge has. It changes the answer at partly covered nodes alone. Not with sums of handles. Between
-  /// nodes of different normals mu = 0 with three multipliers is not quite no friction (one): of that, a node hands on
-  /// its normal traction alone.
+  /// the mortar surface's edge has. It changes the answer at partly covered nodes alone. Not with sums of handles. With
+  /// one multiplier a node (no friction) a node hands on its normal traction; with three it hands on the vector. So
+  /// between nodes of different normals mu = 0 and no friction give slightly different answers.
   double weak_coverage;
   /// How far a surface may turn from one commit to the next, in radians [-]: the normals are those of t_n. A commit
   /// refuses more with TURNED_TOO_FAR. Each side counts alone, in space; with WEIGHTS_REFERENCE the non-mortar side's
@@ -454,10 +455,11 @@ typedef struct stickslip_options {
 /// body, within 1e-8 of its lengths (INVALID_VALUE otherwise); to move the surface, move them. P0: a point of the
 /// plane, the sphere's centre, a point of the axis. P1 - P0: the plane's normal, out of its body, or the direction of
 /// the axis. The three edges P1 - P0, P2 - P0, P3 - P0 must not lie in one plane; take them about as long as the contact
-/// is wide. Where the shortest is so short that its rounding would move the surface by more than 1e-8 of the longest facet
-/// edge h (eps S D / (a h); a the shortest edge, D the distance from P0 to the farthest non-mortar node, S the frame's
-/// distance from the origin or D) they are refused, INVALID_VALUE. The forces on the four nodes are statically equivalent to those on the surface. A facet takes part in a step
-/// when at t_n its normal opposes the surface's; it then counts as covered.
+/// is wide. The points are rounded, and that moves the surface: by eps S D / a, with a the shortest of the three edges, D
+/// the distance from P0 to the farthest non-mortar node, and S the frame's distance from the origin or D, the larger. A
+/// frame that moves it by more than 1e-8 of the longest facet edge is refused, INVALID_VALUE. The forces on the four nodes
+/// are statically equivalent to those on the surface. A facet takes part in a step when at t_n its normal opposes the
+/// surface's; it then counts as covered.
 typedef struct stickslip_surface {
   /// sizeof(stickslip_surface).
   uint64_t struct_size;

@@ -53,11 +53,11 @@ pub const STICKSLIP_SHAPE_CYLINDER: i32 = 2;
 pub const STICKSLIP_SHORTCUT_FRICTIONLESS: i32 = 1;
 /// A mortar side without equations is treated as rigid.
 pub const STICKSLIP_SHORTCUT_RIGID: i32 = 2;
-/// Surfaces whose boxes lie, at t_n and now and on the same side, farther apart than the deepest penetration that is a
-/// pair (see search_distance; on flat surfaces the shorter of their longest edges), and that look at each other: neither
-/// search nor integration; their nodes count as uncovered. An analytic surface: every node outside by more than the
-/// non-mortar side's longest edge there. Of calls with sums of handles nothing is left out; with weak_coverage no commit
-/// leaves anything out.
+/// Surfaces that are apart are neither searched nor integrated; their nodes count as uncovered. They are apart where their
+/// boxes lie farther from each other, along one axis, than the deepest penetration of a pair (see search_distance; on
+/// flat surfaces the shorter of their longest edges); this must hold at t_n and now, with the same side above, and the
+/// surfaces must look at each other. From an analytic surface every node must be outside by more than the non-mortar
+/// side's longest edge. Calls with sums of handles leave nothing out; with weak_coverage no commit leaves anything out.
 pub const STICKSLIP_SHORTCUT_APART: i32 = 4;
 /// Nodes that nothing can cover before the next commit (no mortar facet passes the filters with a facet around them), and
 /// all while the surfaces are apart: no law, row -lambda / r; the former's tangent block is its diagonal.
@@ -140,9 +140,10 @@ pub struct stickslip_options {
     /// Young's modulus of the softer body [F/L^2]: rhat_A = 0.1 E / sqrt(M_A); 0 (default): use the
     /// augmentation.
     pub modulus: f64,
-    /// Covered over full nodal area [-] at and below which a node counts as uncovered; default 1e-8. The least
-    /// singular value of a Newton matrix, rows and columns scaled, is a thousandth or so of it where a surface slides
-    /// off an edge, and the tractions of nodes that are hardly covered grow like its inverse: 1e-4 is milder there.
+    /// A node whose covered area over its full area [-] is at most this counts as uncovered; default 1e-8. Where a
+    /// surface slides off an edge, the tractions of nodes that are hardly covered grow like the inverse of their
+    /// coverage, and the least singular value of a scaled Newton matrix goes down to about a thousandth of this number.
+    /// 1e-4 is milder there.
     pub coverage_min: f64,
     /// Facets farther apart than this along the normal at the last commit, gap or penetration, are no pair
     /// [L]. 0 (default): any gap, and a penetration of one facet (the smaller of the two) beyond what the curved
@@ -167,9 +168,9 @@ pub struct stickslip_options {
     /// step: covered neighbours carry it, lambda_A = sum_B w_AB lambda_B with sum_B w_AB = 1, and its gap counts in
     /// their rows. They carry newly covered nodes too, with friction, up to four facets away. At most 1; 0 (default):
     /// every covered node has its own, and that of a sliver grows without bound as the sliver goes; 0.5: none beyond
-    /// the mortar surface's edge has. It changes the answer at partly covered nodes alone. Not with sums of handles. Between
-    /// nodes of different normals mu = 0 with three multipliers is not quite no friction (one): of that, a node hands on
-    /// its normal traction alone.
+    /// the mortar surface's edge has. It changes the answer at partly covered nodes alone. Not with sums of handles. With
+    /// one multiplier a node (no friction) a node hands on its normal traction; with three it hands on the vector. So
+    /// between nodes of different normals mu = 0 and no friction give slightly different answers.
     pub weak_coverage: f64,
     /// How far a surface may turn from one commit to the next, in radians [-]: the normals are those of t_n. A commit
     /// refuses more with TURNED_TOO_FAR. Each side counts alone, in space; with WEIGHTS_REFERENCE the non-mortar side's

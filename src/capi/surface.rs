@@ -15,10 +15,11 @@ use std::fmt::Display;
 /// body, within 1e-8 of its lengths (INVALID_VALUE otherwise); to move the surface, move them. P0: a point of the
 /// plane, the sphere's centre, a point of the axis. P1 - P0: the plane's normal, out of its body, or the direction of
 /// the axis. The three edges P1 - P0, P2 - P0, P3 - P0 must not lie in one plane; take them about as long as the contact
-/// is wide. Where the shortest is so short that its rounding would move the surface by more than 1e-8 of the longest facet
-/// edge h (eps S D / (a h); a the shortest edge, D the distance from P0 to the farthest non-mortar node, S the frame's
-/// distance from the origin or D) they are refused, INVALID_VALUE. The forces on the four nodes are statically equivalent to those on the surface. A facet takes part in a step
-/// when at t_n its normal opposes the surface's; it then counts as covered.
+/// is wide. The points are rounded, and that moves the surface: by eps S D / a, with a the shortest of the three edges, D
+/// the distance from P0 to the farthest non-mortar node, and S the frame's distance from the origin or D, the larger. A
+/// frame that moves it by more than 1e-8 of the longest facet edge is refused, INVALID_VALUE. The forces on the four nodes
+/// are statically equivalent to those on the surface. A facet takes part in a step when at t_n its normal opposes the
+/// surface's; it then counts as covered.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct stickslip_surface {

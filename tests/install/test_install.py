@@ -47,11 +47,11 @@ class Tree:
         shutil.move(first, self.prefix)
         self.work = folder / "work"
         self.work.mkdir()
-        readme = self.prefix / "share/doc/stickslip/README.md"
-        self.readme = readme.read_text()
+        page = self.prefix / "share/doc/stickslip/docs/first_program.md"
+        self.page = page.read_text()
         for language, name in (("c", "demo.c"), ("fortran", "demo.f90")):
-            (self.work / name).write_text(self.readme.split(f"```{language}\n")[1].split("```")[0])
-        self.printed = re.search(r"it prints `([^`]*)`", self.readme)[1]
+            (self.work / name).write_text(self.page.split(f"```{language}\n")[1].split("```")[0])
+        self.printed = re.search(r"it prints `([^`]*)`", self.page)[1]
         hide = ["unshare", "--map-root-user", "--mount"]
         self.can_hide = subprocess.run([*hide, "true"], capture_output=True).returncode == 0
         self.hide = hide if self.can_hide else []
@@ -65,7 +65,7 @@ class Tree:
         return run(*self.hide, "sh", "-c", hidden + line, cwd=self.work, env=environment)
 
     def demo(self, line, what, **environment):
-        """A command line that builds ./demo, which must print what the README says."""
+        """A command line that builds ./demo, which must print what docs/first_program.md says."""
         printed = self.shell(f"{line} && ./demo", **environment).strip()
         expect(printed == self.printed, f"{what}: {printed}")
 
@@ -86,7 +86,7 @@ def test_tree(tree):
         if name.startswith(("lib/cmake", "lib/pkgconfig", "include", "share")):
             places = [place for place in (str(ROOT), str(tree.build), "first place") if place.encode() in data]
             expect(not places, f"{name}: no path of the machine that built it")
-    # As README says: make uninstall.
+    # As the page says: make uninstall.
     run("make", "-C", ROOT, "--no-print-directory", "uninstall", f"PREFIX={tree.prefix}")
     left = [p for p in tree.prefix.rglob("*")] if tree.prefix.exists() else []
     expect(not left, "uninstalled without a trace")
@@ -99,12 +99,12 @@ def test_tree(tree):
 
 
 def test_programs(tree):
-    """README's programs by README's command lines, and their variants."""
+    """The programs of docs/first_program.md by its command lines, and their variants."""
     is_command = re.compile(r"    (cc demo\.c -I|gfortran .*demo\.f90 )")
-    lines = [line.strip() for line in tree.readme.splitlines() if is_command.match(line)]
-    expect(len(lines) == 2, "README has a command line for C and one for Fortran")
+    lines = [line.strip() for line in tree.page.splitlines() if is_command.match(line)]
+    expect(len(lines) == 2, "the page has a command line for C and one for Fortran")
     shared = "-L$PREFIX/lib -lstickslip -Wl,-rpath,$PREFIX/lib"
-    expect(shared in tree.readme, "README has the flags of the shared library")
+    expect(shared in tree.page, "the page has the flags of the shared library")
     for line in lines:
         command = line.removesuffix(" && ./demo")
         archive = re.search(r"\$PREFIX/lib/libstickslip\.a( -l\w+)*", command)[0]
@@ -158,8 +158,8 @@ def test_pkg_config(tree):
     """pkg-config from the moved tree, shared and static, C, C++ and Fortran."""
     path = {"PKG_CONFIG_PATH": str(tree.prefix / "lib/pkgconfig")}
     rpath = "-Wl,-rpath,$PREFIX/lib"
-    line = re.search(r"^    (cc demo\.c \$\(pkg-config.*) && \./demo$", tree.readme, flags=re.M)[1]
-    tree.demo(f"export PKG_CONFIG_PATH=$PREFIX/lib/pkgconfig; {line}", "README's line")
+    line = re.search(r"^    (cc demo\.c \$\(pkg-config.*) && \./demo$", tree.page, flags=re.M)[1]
+    tree.demo(f"export PKG_CONFIG_PATH=$PREFIX/lib/pkgconfig; {line}", "the page's line")
     for package in ("stickslip", "stickslip-static"):
         flags = f"$(pkg-config --cflags --libs {package})"
         tree.demo(f"cc demo.c {flags} {rpath} -o demo", f"cc, {package}", **path)
@@ -180,7 +180,7 @@ def test_cmake(tree):
     shutil.copytree(ROOT / "tests/install/consumer", project)
     version = re.search(r"^## .*?(\d+)\.(\d+)\.", (ROOT / "CHANGELOG.md").read_text(), flags=re.M)
     major, minor = int(version[1]), int(version[2])
-    configure = f"'{tree.cmake}' -S consumer -DCMAKE_PREFIX_PATH=$PREFIX -DREADME_PROGRAMS={tree.work}"
+    configure = f"'{tree.cmake}' -S consumer -DCMAKE_PREFIX_PATH=$PREFIX -DFIRST_PROGRAMS={tree.work}"
     tree.shell(f"{configure} -DVERSION={major}.{minor} -B build && '{tree.cmake}' --build build")
     refused = tree.shell(f"! {configure} -DVERSION={major}.{minor + 1} -B newer 2>&1")
     expect("compatible with requested version" in refused, f"a request for version {major}.{minor + 1} is refused")

@@ -1,10 +1,12 @@
 //! What a commit settles about the pairs of the step that follows: which facets oppose each other, and how deep one may
-//! lie behind the other. Of the positions of t_n alone, so that evaluations within the step are functions.
+//! lie behind the other. It depends on the positions of t_n alone. So evaluations within the step are functions of the
+//! positions.
 //!
-//! A gap may be any; a penetration deeper than a facet is the far side of a body. But facets are chords: a surface that
-//! is curved lies off them by more than its partner's facets are long where those are fine. So a pair may be as deep as
-//! the smaller of its facets is long, and by what the surfaces bulge from their facets beyond it. That is the pair's own
-//! measure; a mortar facet that coarse non-mortar facets let in may lie as deep as it does (`depth.rs`).
+//! Two facets may be a pair over any gap. A penetration deeper than a facet would find the far side of a body, so it is
+//! no pair. But facets are chords of curved surfaces: a coarse chord lies farther off its surface than the facets of a
+//! fine partner are long. So a pair may be as deep as its smaller facet is long, plus what both surfaces bulge from
+//! their facets. This is the pair's own measure. A mortar facet that coarse non-mortar facets let in may lie deeper
+//! (`depth.rs`).
 
 use crate::error::Result;
 use crate::geometry::{Facet, Plane, Vec3};

@@ -1,8 +1,8 @@
 //! Surfaces that are apart: nothing is searched, integrated or linearised, and no node is covered.
 //!
-//! Never where the full machinery would find a node closed that carries no multiplier. A gap vector runs along the
-//! facet's normal e from one side to the other. So where a plane lies between the sides, its sign is that of e along the
-//! plane's normal: every facet that can have a pair must look at the other side, now, and its nodes' nu(t_n) away.
+//! The answer must be that of a full evaluation: no node is closed. Let a plane lie between the sides. A gap vector runs
+//! along the facet's normal e from one side to the other, so the gap is open where e points across the plane. Therefore
+//! every facet that can have a pair must look at the other side now, and nu(t_n) of its nodes must point away from it.
 
 use crate::error::Result;
 use crate::geometry::Vec3;
