@@ -7,35 +7,23 @@ use super::data::effects::Effects;
 use super::data::extent::Extent;
 use super::data::history::{History, Keeps};
 use super::data::node_data::free_directions;
-use super::data::options::{Form, Friction, Options, Weights};
+use super::data::options::{Friction, Options, Weights};
 use super::data::restart::Host;
 use super::data::setup::Setup;
 use super::data::surface::{NO_EQUATION, Surface};
 use super::inspect::bytes;
-use super::inspect::closing;
 use super::inspect::describe;
-use super::inspect::diagnosis::{self, Diagnosis};
-use super::inspect::equilibrium::{self, Equilibrium, Scales};
-use super::inspect::report::{self, Report};
 use super::pairing::given::{Given, Step};
 use super::pairing::settle::Pairing;
 use super::stages::commit::{self, Start};
-use super::stages::initial;
 use super::stages::lost::refuse_lost_contact;
-use super::stages::residual::{self, Residual};
 use super::stages::sums::{NodeSums, assemble};
 use super::stages::turn::refuse_turn;
-use super::tangent::blocks::{Numbers, blocks, node_tangents};
-use super::tangent::derivatives::Motion;
-use super::tangent::emission::Sink;
-use super::tangent::union::{UnionPair, possible_pairs, union};
 use crate::error::{Error, Kind, Result, Text};
 use crate::geometry::Vec3;
 use crate::law::{Coefficient, NodeResponse};
 use crate::memory::{self, Stored};
-use crate::mortar::PairWeights;
 use nalgebra::SVector;
-use std::time::Instant;
 
 /// An interface with three multipliers per non-mortar node.
 pub type Interface = Contact<3>;
@@ -44,10 +32,10 @@ pub type Interface = Contact<3>;
 /// thread at a time; distinct interfaces are independent.
 #[derive(Debug)]
 pub struct Contact<const N: usize> {
-    setup: Setup<N>,
-    step: Step,
+    pub(super) setup: Setup<N>,
+    pub(super) step: Step,
     rollback: Option<History>,
-    cache: Cache<N>,
+    pub(super) cache: Cache<N>,
 }
 
 impl Contact<3> {
@@ -113,7 +101,7 @@ impl<const N: usize> Contact<N> {
     }
 
     /// What the stages are given.
-    fn given(&self) -> Given<'_, N> {
+    pub(super) fn given(&self) -> Given<'_, N> {
         Given { setup: &self.setup, step: &self.step }
     }
 
@@ -263,7 +251,9 @@ impl<const N: usize> Contact<N> {
         sums: Option<&[NodeSums]>,
     ) -> Result<()> {
         let (extent, shared) = (Extent::of(sums), sums.is_some());
-        let (sums, responses) = self.evaluate(x1, x2, lambda, sums)?;
+        self.cache.respond(&self.setup, &mut self.step, (x1, x2), lambda, sums)?;
+        let answers = self.cache.answers();
+        let (sums, responses) = (memory::copied(&answers.sums)?, memory::copied(&answers.responses.nodes)?);
         refuse_turn(self.given(), (x1, x2), shared)?;
         let (surfaces, options, history) = (self.setup.surfaces(), &self.setup.options, &self.step.history);
         let mut new = if options.effective_weights() == Weights::Reference {
@@ -327,223 +317,5 @@ impl<const N: usize> Contact<N> {
         self.put_in_place(pairing, history, None);
         self.rollback = None;
         Ok(())
-    }
-}
-
-/// Evaluations.
-impl<const N: usize> Contact<N> {
-    /// Stage 1, assembled: every node's gaps and coverage.
-    pub fn sums(&mut self, x1: &[Vec3], x2: &[Vec3]) -> Result<Vec<NodeSums>> {
-        self.cache.sums(&self.setup, &mut self.step, (x1, x2), Extent::Whole)
-    }
-
-    /// This handle's share of them, of several handles whose shares a host adds up.
-    pub fn share_of_sums(&mut self, x1: &[Vec3], x2: &[Vec3]) -> Result<Vec<NodeSums>> {
-        self.cache.sums(&self.setup, &mut self.step, (x1, x2), Extent::Part)
-    }
-
-    /// Stage 2: the law at every node. `sums` overrides this handle's own, for parallel hosts.
-    pub fn responses(
-        &mut self,
-        x1: &[Vec3],
-        x2: &[Vec3],
-        lambda: &[SVector<f64, N>],
-        sums: Option<&[NodeSums]>,
-    ) -> Result<Vec<NodeResponse<N>>> {
-        self.evaluate(x1, x2, lambda, sums).map(|(_, responses)| responses)
-    }
-
-    /// Stages 1 and 2: the sums, `sums` or this handle's own, and the law's answers to them.
-    pub fn evaluate(
-        &mut self,
-        x1: &[Vec3],
-        x2: &[Vec3],
-        lambda: &[SVector<f64, N>],
-        sums: Option<&[NodeSums]>,
-    ) -> Result<(Vec<NodeSums>, Vec<NodeResponse<N>>)> {
-        self.cache.respond(&self.setup, &mut self.step, (x1, x2), lambda, sums)?;
-        let answers = self.cache.answers();
-        Ok((memory::copied(&answers.sums)?, memory::copied(&answers.responses.nodes)?))
-    }
-
-    /// Multipliers for the first step.
-    ///
-    /// # Errors
-    /// [`Kind::InvalidValue`] once a step is committed.
-    pub fn initial_multipliers(&mut self) -> Result<Vec<SVector<f64, N>>> {
-        let history = &self.step.history;
-        if history.commits > 0 {
-            let text = text!("initial multipliers belong before the first step; {} are committed", history.commits);
-            return Err(Error::new(Kind::InvalidValue, text));
-        }
-        // Those of now: the history may keep none, or those of t_n may be left out so far.
-        let (x1, x2) = (memory::copied(&history.x1)?, memory::copied(&history.x2)?);
-        let sums = self.sums(&x1, &x2)?;
-        initial::initial_multipliers(self.given(), &sums)
-    }
-
-    /// Forces and multiplier rows at (x, lambda).
-    pub fn residual(
-        &mut self,
-        x1: &[Vec3],
-        x2: &[Vec3],
-        lambda: &[SVector<f64, N>],
-        sums: Option<&[NodeSums]>,
-    ) -> Result<Residual<N>> {
-        self.cache.respond(&self.setup, &mut self.step, (x1, x2), lambda, sums)?;
-        let responses = &self.cache.answers().responses;
-        residual::residual(self.given(), self.cache.pairs(&self.step.history), lambda, &responses.nodes)
-    }
-
-    /// The exact tangent d residual / d (x1, x2, lambda) at (x, lambda).
-    pub fn tangent(
-        &mut self,
-        x1: &[Vec3],
-        x2: &[Vec3],
-        lambda: &[SVector<f64, N>],
-        sums: Option<&[NodeSums]>,
-        sink: &mut impl Sink,
-    ) -> Result<()> {
-        if sums.is_some() && self.setup.options.form == Form::Augmented {
-            let text =
-                "sums with the augmented form: its tangent couples pairs of different handles; use the multiplier form";
-            return Err(Error::new(Kind::Unsupported, text));
-        }
-        let extent = Extent::of(sums);
-        self.cache.respond(&self.setup, &mut self.step, (x1, x2), lambda, sums)?;
-        let differentiates = self.setup.options.differentiates_weights();
-        if differentiates {
-            self.cache.find_segments(&self.setup, &self.step)?;
-        }
-        let start = Instant::now();
-        let (given, mortar, options) = (self.given(), &self.setup.mortar, &self.setup.options);
-        let (normals, responses) = (given.normals()?, &self.cache.answers().responses);
-        let surface = mortar.analytic.map(|_| mortar.analytic_at(x2)).transpose()?;
-        let motion = Motion {
-            side: self.setup.effects.side,
-            surface: surface.as_ref(),
-            tangent: options.tangent,
-            rule: options.rule,
-        };
-        let numbers = Numbers {
-            x1,
-            responses,
-            nodes: node_tangents(given, lambda, responses, &normals)?,
-            active: self.cache.active().filter(|_| differentiates),
-            motion,
-        };
-        let linearised = self.blocks(&self.union()?, &normals, extent, Some(&numbers), sink)?;
-        self.cache.counters.pairs_linearised += linearised;
-        self.cache.counters.seconds_assembly += start.elapsed().as_secs_f64();
-        Ok(())
-    }
-
-    fn blocks(
-        &self,
-        union: &[UnionPair],
-        normals: &[Vec3],
-        extent: Extent,
-        numbers: Option<&Numbers<N>>,
-        sink: &mut dyn Sink,
-    ) -> Result<i64> {
-        let given = (self.given(), normals);
-        if self.setup.effects.moves() {
-            blocks::<true, N>(given, union, extent, numbers, sink)
-        } else {
-            blocks::<false, N>(given, union, extent, numbers, sink)
-        }
-    }
-
-    /// The pairs that a tangent has here.
-    fn union(&self) -> Result<Vec<UnionPair<'_>>> {
-        if self.cache.scope(Extent::Whole).apart {
-            return Ok(Vec::new());
-        }
-        union(self.cache.pairs(&self.step.history), &self.step.history.pairs, self.setup.effects.law.slips)
-    }
-
-    /// The entries of the tangent at (x1, x2), in its order: as many as [`Contact::tangent`] writes there, without sums
-    /// (`Whole`) or with those of all handles. Their values mean nothing.
-    pub fn pattern(&mut self, x1: &[Vec3], x2: &[Vec3], extent: Extent, sink: &mut impl Sink) -> Result<()> {
-        self.given().check_positions(x1, x2)?;
-        self.cache.integrate(&self.setup, &mut self.step, (x1, x2), extent)?;
-        let normals = memory::filled(Vec3::zeros(), self.setup.nonmortar.len())?;
-        self.blocks(&self.union()?, &normals, extent, None, sink).map(|_| ())
-    }
-
-    /// The entries of any tangent, with sums or without, while the surfaces slide by less than a quarter of a facet. A
-    /// larger motion may need entries beyond these.
-    pub fn superset_pattern(&mut self, x1: &[Vec3], x2: &[Vec3], sink: &mut impl Sink) -> Result<()> {
-        self.given().check_positions(x1, x2)?;
-        // Refuses what an evaluation here does, and serves the next one.
-        self.cache.integrate(&self.setup, &mut self.step, (x1, x2), Extent::Whole)?;
-        let weights = PairWeights::default();
-        let given = Given { setup: &self.setup, step: &self.step };
-        let pairs = possible_pairs(given, self.cache.work().1, (x1, x2))?;
-        let any = |&(one, two)| UnionPair { one, two, now: Some(&weights), place: 0, previous: Some(&weights) };
-        let all: Vec<_> = pairs.iter().map(any).stored()?;
-        let normals = memory::filled(Vec3::zeros(), self.setup.nonmortar.len())?;
-        self.blocks(&all, &normals, Extent::Part, None, sink).map(|_| ())
-    }
-}
-
-/// Looking at an interface.
-impl<const N: usize> Contact<N> {
-    /// The fraction of the step (dx1, dx2) from (x1, x2) that is allowed, above 0 and at most 1. `depth`: how much deeper a
-    /// node may go, over its shortest edge, or the default. Sides that are tied may move as they like.
-    pub fn step_limit(&mut self, x: (&[Vec3], &[Vec3]), dx: (&[Vec3], &[Vec3]), depth: Option<f64>) -> Result<f64> {
-        let given = Given { setup: &self.setup, step: &self.step };
-        closing::step_limit(given, self.cache.looked_at(), x, dx, depth)
-    }
-
-    /// The distance of (x, lambda) from equilibrium. Nodes without any multiplier equation have no part in it.
-    pub fn equilibrium(
-        &mut self,
-        x1: &[Vec3],
-        x2: &[Vec3],
-        lambda: &[SVector<f64, N>],
-        sums: Option<&[NodeSums]>,
-        scales: &Scales,
-    ) -> Result<Equilibrium> {
-        let extent = Extent::of(sums);
-        self.cache.respond(&self.setup, &mut self.step, (x1, x2), lambda, sums)?;
-        let (answers, scope) = (self.cache.answers(), self.cache.scope(extent));
-        let known = (&answers.sums[..], &answers.responses.carried[..]);
-        equilibrium::equilibrium(self.given(), (x1, x2), lambda, known, scope, scales)
-    }
-
-    /// Which nodes are covered, and how, at (x1, x2), however far apart the surfaces are there.
-    pub fn report(&mut self, x1: &[Vec3], x2: &[Vec3]) -> Result<Report> {
-        self.given().check_positions(x1, x2)?;
-        let given = Given { setup: &self.setup, step: &self.step };
-        report::report(given, self.cache.work(), (x1, x2))
-    }
-
-    /// The diagnosis at (x, lambda). The state of the interface stays as it is.
-    pub fn diagnose(
-        &mut self,
-        x1: &[Vec3],
-        x2: &[Vec3],
-        lambda: &[SVector<f64, N>],
-        sums: Option<&[NodeSums]>,
-    ) -> Result<Diagnosis> {
-        let (node_sums, responses) = self.evaluate(x1, x2, lambda, sums)?;
-        let states: Vec<_> = responses.iter().map(|r| r.state).stored()?;
-        // With sums a handle's rows are parts of rows: nothing can be said of them.
-        let suspects = if sums.is_some() {
-            Vec::new()
-        } else {
-            let mut rows = diagnosis::Rows::new(&self.setup.multiplier_equations)?;
-            self.tangent(x1, x2, lambda, None, &mut rows)?;
-            diagnosis::suspects(self.given(), rows, &node_sums, &states)?
-        };
-        Ok(diagnosis::diagnosis(
-            self.given(),
-            self.cache.pairs(&self.step.history),
-            (x1, x2),
-            &node_sums,
-            states,
-            suspects,
-        ))
     }
 }

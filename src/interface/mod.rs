@@ -11,6 +11,7 @@ mod by_hand;
 mod cache;
 mod contact;
 mod data;
+mod evaluation;
 mod inspect;
 mod pairing;
 mod stages;
