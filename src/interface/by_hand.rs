@@ -41,7 +41,7 @@ fn setup() -> Setup<3> {
 fn step(setup: &Setup<3>) -> Step {
     let at = (&setup.nonmortar.reference[..], &setup.mortar.reference[..]);
     let work = (&mut Counters::default(), &mut KeptTree::default());
-    let start = commit::start(setup.surfaces(), &setup.options, Extent::Whole, work, at).unwrap();
+    let start = commit::settled_at(setup.surfaces(), &setup.options, Extent::Whole, work, at).unwrap();
     let pairing = Pairing::new(setup, start.filter, &start.history).unwrap();
     Step { history: start.history, pairing }
 }

@@ -15,7 +15,7 @@ use super::inspect::bytes;
 use super::inspect::describe;
 use super::pairing::given::{Given, Step};
 use super::pairing::settle::Pairing;
-use super::stages::commit::{self, Start};
+use super::stages::commit::{self, Settled};
 use super::stages::lost::refuse_lost_contact;
 use super::stages::sums::{NodeSums, assemble};
 use super::stages::turn::refuse_turn;
@@ -92,7 +92,7 @@ impl<const N: usize> Contact<N> {
     fn build(setup: Setup<N>) -> Result<Contact<N>> {
         let mut cache = Cache::default();
         let at = (&setup.nonmortar.reference[..], &setup.mortar.reference[..]);
-        let start = commit::start(setup.surfaces(), &setup.options, Extent::Whole, cache.work(), at)?;
+        let start = commit::settled_at(setup.surfaces(), &setup.options, Extent::Whole, cache.work(), at)?;
         let pairing = Pairing::new(&setup, start.filter, &start.history)?;
         let step = Step { history: start.history, pairing };
         Given { setup: &setup, step: &step }.normals()?;
@@ -220,7 +220,7 @@ impl<const N: usize> Contact<N> {
 /// Steps.
 impl<const N: usize> Contact<N> {
     /// Puts a history in place with what belongs to its configuration; gives the old one back.
-    fn adopt(&mut self, start: Start) -> Result<History> {
+    fn adopt(&mut self, start: Settled) -> Result<History> {
         let pairing = Pairing::new(&self.setup, start.filter, &start.history)?;
         Ok(self.put_in_place(pairing, start.history, start.active))
     }
@@ -235,7 +235,7 @@ impl<const N: usize> Contact<N> {
     pub fn set_previous(&mut self, x1: &[Vec3], x2: &[Vec3]) -> Result<()> {
         self.given().check_positions(x1, x2)?;
         let work = self.cache.work();
-        let new = commit::start(self.setup.surfaces(), &self.setup.options, Extent::Whole, work, (x1, x2))?;
+        let new = commit::settled_at(self.setup.surfaces(), &self.setup.options, Extent::Whole, work, (x1, x2))?;
         new.history.check_finite()?;
         self.adopt(new)?;
         self.rollback = None;
@@ -263,9 +263,9 @@ impl<const N: usize> Contact<N> {
                 let gaps = assemble(surfaces, &history.pairs, x1, x2)?;
                 moved.gap = gaps.into_iter().map(|(_, gap)| gap).stored()?;
             }
-            Start { history: moved, filter: None, active: None }
+            Settled { history: moved, filter: None, active: None }
         } else {
-            commit::start(surfaces, options, extent, self.cache.work(), (x1, x2))?
+            commit::settled_at(surfaces, options, extent, self.cache.work(), (x1, x2))?
         };
         if let (Some(active), Weights::Current) = (self.cache.active(), options.effective_weights()) {
             refuse_lost_contact(&self.setup, (active, &history.areas), &new, (x1, x2), &responses)?;

@@ -13,7 +13,7 @@ use super::stages::initial;
 use super::stages::residual::{self, Residual};
 use super::stages::sums::NodeSums;
 use super::tangent::blocks::{Numbers, blocks, node_tangents};
-use super::tangent::derivatives::Motion;
+use super::tangent::derivatives::PairDerivatives;
 use super::tangent::emission::Sink;
 use super::tangent::union::{UnionPair, possible_pairs, union};
 use crate::error::{Error, Kind, Result};
@@ -113,8 +113,8 @@ impl<const N: usize> Contact<N> {
         let (given, mortar, options) = (self.given(), &self.setup.mortar, &self.setup.options);
         let (normals, responses) = (given.normals()?, &self.cache.answers().responses);
         let surface = mortar.analytic.map(|_| mortar.analytic_at(x2)).transpose()?;
-        let motion = Motion {
-            side: self.setup.effects.side,
+        let motion = PairDerivatives {
+            opposite: self.setup.effects.opposite,
             surface: surface.as_ref(),
             tangent: options.tangent,
             rule: options.rule,

@@ -1,9 +1,10 @@
 //! Two surfaces in contact: search, pairing, all four stages, history (docs/formulation.md 4.5).
 //!
-//! Residual and tangent are functions of (x, lambda, committed history) alone. The only place of the core that allocates.
+//! Residual and tangent are functions of (x, lambda, committed history) alone. Below the ABI this is the only place that
+//! allocates.
 //!
-//! Data flows one way. [`Contact`] owns it and calls the stages, which are functions of data: `pairing` at a commit, then
-//! `integrate`, `sums`, `respond`, `residual` and `tangent` in an evaluation. No stage knows the handle, nor calls an earlier
+//! Data flows one way. [`Contact`] owns it and calls functions of data: `pairing` at a commit; in an evaluation the stages
+//! `integrate`, `sums`, `respond`, `residual`, and `tangent`. None of them knows the handle, and no stage calls an earlier
 //! one.
 
 #[cfg(test)]

@@ -73,7 +73,7 @@ impl Law<3> for Coulomb {
             normal,
             tangential: lambda - node.normal * normal,
             held: (node.lambda - lambda).norm(),
-            mu: node.mu,
+            radius: Threshold::radius_of_cone(node.mu, normal),
         };
         node.nearest(measure)
     }

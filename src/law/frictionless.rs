@@ -22,7 +22,7 @@ fn close<const N: usize>(node: &Node<N>, lambda_n: f64) -> (f64, f64, bool) {
 /// Of a node with this lambda_N and lambda_T.
 fn nearest<const N: usize>(node: &Node<N>, normal: f64, tangential: Vec3, held: f64, measure: &Measure) -> Violation {
     let gap = node.normal.dot(&node.gap_now) / measure.coverage;
-    Covered { gap, slip: Vec3::zeros(), normal, tangential, held, mu: 0.0 }.nearest(measure)
+    Covered { gap, slip: Vec3::zeros(), normal, tangential, held, radius: 0.0 }.nearest(measure)
 }
 
 impl Law<1> for Frictionless {

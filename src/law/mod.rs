@@ -24,6 +24,6 @@ pub use frictionless::Frictionless;
 pub use node::{Law, Node, NodeResponse};
 pub use projection::{Projected, State, TIE, Threshold, project};
 pub use slip::SlipMeasure;
-pub use table::{Coefficient, Friction, Kernel, LAWS, Remembers, Row};
+pub use table::{Coefficient, Friction, LAWS, LawFunctions, LawRow, Remembers};
 pub use tied::Tied;
 pub use violation::{Measure, Violation};

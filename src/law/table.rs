@@ -43,7 +43,7 @@ pub enum Remembers {
 
 /// A law for nodes with N multipliers.
 #[derive(Clone, Copy, Debug)]
-pub struct Kernel<const N: usize> {
+pub struct LawFunctions<const N: usize> {
     /// Whether it looks at slip, and so at the weights and gaps of t_n.
     pub slips: bool,
     /// Its answer for one node.
@@ -52,25 +52,25 @@ pub struct Kernel<const N: usize> {
     pub violation: fn(&Node<N>, &Measure) -> Violation,
 }
 
-impl<const N: usize> Kernel<N> {
-    const fn of<L: Law<N>>() -> Kernel<N> {
-        Kernel { slips: L::SLIPS, respond: L::respond, violation: L::violation }
+impl<const N: usize> LawFunctions<N> {
+    const fn of<L: Law<N>>() -> LawFunctions<N> {
+        LawFunctions { slips: L::SLIPS, respond: L::respond, violation: L::violation }
     }
 }
 
-impl Kernel<1> {
+impl LawFunctions<1> {
     /// Without friction.
-    pub const FRICTIONLESS: Kernel<1> = Kernel::of::<Frictionless>();
+    pub const FRICTIONLESS: LawFunctions<1> = LawFunctions::of::<Frictionless>();
 }
 
-impl Kernel<3> {
+impl LawFunctions<3> {
     /// Without friction.
-    pub const FRICTIONLESS: Kernel<3> = Kernel::of::<Frictionless>();
+    pub const FRICTIONLESS: LawFunctions<3> = LawFunctions::of::<Frictionless>();
 }
 
 /// What the rest of the library knows of a law.
 #[derive(Clone, Copy, Debug)]
-pub struct Row {
+pub struct LawRow {
     /// Which law it is.
     pub friction: Friction,
     /// Its name in sentences.
@@ -86,12 +86,12 @@ pub struct Row {
     /// What it remembers.
     pub remembers: Remembers,
     /// With three multipliers a node.
-    pub kernel: Kernel<3>,
+    pub functions: LawFunctions<3>,
 }
 
 /// In the order of [`Friction`].
-pub const LAWS: [Row; 4] = [
-    Row {
+pub const LAWS: [LawRow; 4] = [
+    LawRow {
         friction: Friction::Coulomb,
         name: "Coulomb's law",
         effect: "Coulomb's law with mu",
@@ -99,9 +99,9 @@ pub const LAWS: [Row; 4] = [
         multipliers: 3,
         mu: Coefficient::Given,
         remembers: Remembers::Slip,
-        kernel: Kernel::of::<Coulomb>(),
+        functions: LawFunctions::of::<Coulomb>(),
     },
-    Row {
+    LawRow {
         friction: Friction::None,
         name: "no friction",
         effect: "none (asked for), no slip and no slip history",
@@ -109,9 +109,9 @@ pub const LAWS: [Row; 4] = [
         multipliers: 1,
         mu: Coefficient::Always(0.0),
         remembers: Remembers::Nothing,
-        kernel: Kernel::<3>::FRICTIONLESS,
+        functions: LawFunctions::<3>::FRICTIONLESS,
     },
-    Row {
+    LawRow {
         friction: Friction::Tied,
         name: "tied surfaces",
         effect: "tied (asked for), neither opens nor slips, linear where closed, an open gap turns with its facets",
@@ -119,9 +119,9 @@ pub const LAWS: [Row; 4] = [
         multipliers: 3,
         mu: Coefficient::Always(0.0),
         remembers: Remembers::FirstGap,
-        kernel: Kernel::of::<Tied>(),
+        functions: LawFunctions::of::<Tied>(),
     },
-    Row {
+    LawRow {
         friction: Friction::Rough,
         name: "rough surfaces",
         effect: "rough (asked for), opens and closes, never slips",
@@ -129,13 +129,13 @@ pub const LAWS: [Row; 4] = [
         multipliers: 3,
         mu: Coefficient::Always(f64::INFINITY),
         remembers: Remembers::Slip,
-        kernel: Kernel::of::<Coulomb>(),
+        functions: LawFunctions::of::<Coulomb>(),
     },
 ];
 
 impl Friction {
     /// Its row.
-    pub fn law(self) -> &'static Row {
+    pub fn law(self) -> &'static LawRow {
         &LAWS[self as usize]
     }
 }
@@ -148,7 +148,7 @@ mod tests {
     fn rows_stand_in_the_order_of_the_laws() {
         for (k, row) in LAWS.iter().enumerate() {
             assert_eq!((row.friction as usize, row.friction.law().name), (k, row.name));
-            assert_eq!(row.kernel.slips, row.remembers == Remembers::Slip, "{}", row.name);
+            assert_eq!(row.functions.slips, row.remembers == Remembers::Slip, "{}", row.name);
             assert!(row.multipliers == 3 || row.mu == Coefficient::Always(0.0), "{}", row.name);
         }
     }

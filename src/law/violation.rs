@@ -1,9 +1,8 @@
 //! How far a node is from the contact conditions, in lengths and tractions that vanish in equilibrium (docs/formulation.md
-//! 4.7). Nothing of it
-//! knows the augmentation, which decides how Newton's method gets there.
+//! 4.7). Nothing of it knows the augmentation, which decides how Newton's method gets there.
 //!
-//! With gbar = g_N / m, the mean gap over the covered area m, s = g_T / m(t_n), the slip, and the cone's radius
-//! k = -mu lambda_N (0 under tension), a node may be read in these ways:
+//! With gbar = g_N / m, the mean gap over the covered area m, s = g_T / m(t_n), the slip, and the law's threshold k at
+//! lambda_N (Coulomb: -mu lambda_N, 0 under tension), a node may be read in these ways:
 //!
 //! | read as | gap            | traction                               | slip                  |
 //! |---------|----------------|----------------------------------------|-----------------------|
@@ -58,8 +57,8 @@ pub(super) struct Covered {
     pub tangential: Vec3,
     /// What lambda has in prescribed directions.
     pub held: f64,
-    /// Coulomb's coefficient; infinite: rough.
-    pub mu: f64,
+    /// k at lambda_N: longer tangential tractions slip; infinite: none does.
+    pub radius: f64,
 }
 
 impl Violation {
@@ -90,11 +89,10 @@ impl Violation {
 impl Covered {
     /// The nearest reading; of equal ones the first.
     pub fn nearest(&self, measure: &Measure) -> Violation {
-        let (gap, pressed) = (self.gap.abs(), -self.normal);
+        let gap = self.gap.abs();
         let (tangential, slip) = (self.tangential.norm(), self.slip.norm());
         let tension = self.normal.max(self.held);
-        let rough = self.mu.is_infinite();
-        let cone = if rough { f64::INFINITY } else { self.mu * pressed.max(0.0) };
+        let (cone, rough) = (self.radius, self.radius.is_infinite());
         // Without a cone any slip is free.
         let astray = if tangential > 0.0 && cone > 0.0 {
             let direction = self.tangential / tangential;
@@ -135,7 +133,7 @@ mod tests {
 
     fn node() -> Covered {
         let (slip, tangential) = (Vec3::zeros(), Vec3::zeros());
-        Covered { gap: 0.0, slip, normal: -2.0, tangential, held: 0.0, mu: 0.5 }
+        Covered { gap: 0.0, slip, normal: -2.0, tangential, held: 0.0, radius: 1.0 }
     }
 
     fn found(node: Covered) -> (f64, f64, f64) {
@@ -146,12 +144,12 @@ mod tests {
     #[test]
     fn nothing_is_amiss_in_each_state() {
         let states = [
-            Covered { gap: 3.0, normal: 0.0, slip: Vec3::x(), ..node() },
+            Covered { gap: 3.0, normal: 0.0, radius: 0.0, slip: Vec3::x(), ..node() },
             Covered { tangential: Vec3::x() * 0.7, ..node() },
             Covered { tangential: Vec3::x(), slip: Vec3::x() * 0.2, ..node() },
-            Covered { slip: Vec3::x(), mu: 0.0, ..node() },
-            Covered { tangential: Vec3::x() * 9.0, mu: f64::INFINITY, ..node() },
-            Covered { normal: 0.0, ..node() },
+            Covered { slip: Vec3::x(), radius: 0.0, ..node() },
+            Covered { tangential: Vec3::x() * 9.0, radius: f64::INFINITY, ..node() },
+            Covered { normal: 0.0, radius: 0.0, ..node() },
         ];
         for state in states {
             assert_eq!(found(state), (0.0, 0.0, 0.0), "{state:?}");
@@ -162,13 +160,17 @@ mod tests {
     fn each_condition_by_itself() {
         assert_eq!(found(Covered { gap: -0.01, ..node() }), (0.01, 0.0, 0.0));
         assert_eq!(found(Covered { gap: 0.01, ..node() }), (0.01, 0.0, 0.0));
-        assert_eq!(found(Covered { gap: 9.0, normal: -0.01, ..node() }), (0.0, 0.01, 0.0), "the nearer is open");
         assert_eq!(
-            found(Covered { gap: -1.0, normal: 0.0, ..node() }),
+            found(Covered { gap: 9.0, normal: -0.01, radius: 0.005, ..node() }),
+            (0.0, 0.01, 0.0),
+            "the nearer is open"
+        );
+        assert_eq!(
+            found(Covered { gap: -1.0, normal: 0.0, radius: 0.0, ..node() }),
             (1.0, 0.0, 0.0),
             "no pressure in a penetration"
         );
-        assert_eq!(found(Covered { normal: 0.3, ..node() }), (0.0, 0.3, 0.0), "tension");
+        assert_eq!(found(Covered { normal: 0.3, radius: 0.0, ..node() }), (0.0, 0.3, 0.0), "tension");
         assert_eq!(found(Covered { tangential: Vec3::y() * 1.5, ..node() }), (0.0, 0.5, 0.0), "beyond the cone");
         assert_eq!(found(Covered { slip: Vec3::x() * 0.01, ..node() }), (0.0, 0.0, 0.01), "slip where it sticks");
         assert_eq!(found(Covered { held: 0.2, ..node() }), (0.0, 0.2, 0.0));
@@ -182,13 +184,18 @@ mod tests {
         );
         let inside = Covered { tangential: Vec3::x() * 0.75, slip: Vec3::x() * 0.25, ..node() };
         assert_eq!(found(inside), (0.0, 0.25, 0.0), "far slip a little inside of the cone");
-        assert_eq!(found(Covered { tangential: Vec3::x() * 0.5, mu: 0.0, ..node() }), (0.0, 0.5, 0.0), "no friction");
-        assert_eq!(found(Covered { slip: Vec3::x() * 0.1, mu: f64::INFINITY, ..node() }), (0.0, 0.0, 0.1), "rough");
+        assert_eq!(
+            found(Covered { tangential: Vec3::x() * 0.5, radius: 0.0, ..node() }),
+            (0.0, 0.5, 0.0),
+            "no friction"
+        );
+        assert_eq!(found(Covered { slip: Vec3::x() * 0.1, radius: f64::INFINITY, ..node() }), (0.0, 0.0, 0.1), "rough");
     }
 
     #[test]
     fn noise_of_a_grazing_node_has_no_direction() {
-        let grazing = Covered { normal: -1e-15, tangential: Vec3::x() * 5e-16, slip: Vec3::x() * -0.1, ..node() };
+        let grazing =
+            Covered { normal: -1e-15, radius: 5e-16, tangential: Vec3::x() * 5e-16, slip: Vec3::x() * -0.1, ..node() };
         let v = grazing.nearest(&MEASURE);
         assert!(v.gap == 0.0 && v.slip == 0.0 && v.traction < 2e-15, "{v:?}");
     }

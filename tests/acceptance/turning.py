@@ -37,8 +37,8 @@ def turning(verdicts, driver):
     for few, many in ((50, 100), (100, 200)):
         verdicts.below(f"drift at rest, {many} steps over {few}", rest[many] / rest[few], SPLIT_BOUND, "does not grow")
 
-    seed = {n: driver.run("turned_shaft", *steps(n), "-contact_slip", "paper", label=f"seed_{n}") for n in (50, 100)}
-    ends = {n: drift(run, 1, len(run.steps)) for n, run in seed.items()}  # it drifts while nothing turns, too
+    paper = {n: driver.run("turned_shaft", *steps(n), "-contact_slip", "paper", label=f"paper_{n}") for n in (50, 100)}
+    ends = {n: drift(run, 1, len(run.steps)) for n, run in paper.items()}  # it drifts while nothing turns, too
     verdicts.at_least("slip as printed in the paper, 100 steps: drift", ends[100], SEED_DRIFT, "it does drift")
     verdicts.at_least("slip as printed in the paper: drift, 100 steps over 50", ends[100] / ends[50], 1.2, "and grows")
 

@@ -3,11 +3,11 @@
 
 use super::options::{MortarSide, Options};
 use super::surface::{NO_EQUATION, Surface};
-use crate::law::{Coefficient, Kernel};
+use crate::law::{Coefficient, LawFunctions};
 
-/// What the mortar side is.
+/// What is opposite the non-mortar side.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Side {
+pub enum Opposite {
     /// Facets with rows and columns in the tangent.
     Moves,
     /// Facets without.
@@ -20,34 +20,34 @@ pub enum Side {
 #[derive(Clone, Copy, Debug)]
 pub struct Effects<const N: usize> {
     /// The law.
-    pub law: Kernel<N>,
+    pub law: LawFunctions<N>,
     /// The mortar side.
-    pub side: Side,
+    pub opposite: Opposite,
 }
 
 impl<const N: usize> Effects<N> {
     /// Whether the mortar side has rows and columns in the tangent.
     pub fn moves(&self) -> bool {
-        self.side == Side::Moves
+        self.opposite == Opposite::Moves
     }
 }
 
 /// Facets move when asked for, or because a node has an equation.
-fn mortar_side(options: &Options, mortar: &Surface) -> Side {
+fn opposite(options: &Options, mortar: &Surface) -> Opposite {
     let prescribed = || mortar.equations.iter().flatten().all(|&e| e == NO_EQUATION);
     if mortar.analytic.is_some() {
-        Side::Analytic
+        Opposite::Analytic
     } else if options.mortar_side == MortarSide::Rigid || (options.shortcuts.rigid && prescribed()) {
-        Side::Rests
+        Opposite::Rests
     } else {
-        Side::Moves
+        Opposite::Moves
     }
 }
 
 impl Effects<1> {
     /// One multiplier a node: without friction.
     pub fn of_one(options: &Options, mortar: &Surface) -> Effects<1> {
-        Effects { law: Kernel::<1>::FRICTIONLESS, side: mortar_side(options, mortar) }
+        Effects { law: LawFunctions::<1>::FRICTIONLESS, opposite: opposite(options, mortar) }
     }
 }
 
@@ -56,7 +56,7 @@ impl Effects<3> {
     pub fn of_three(options: &Options, mortar: &Surface, mu: &[f64]) -> Effects<3> {
         let row = options.friction.law();
         let smooth = row.mu == Coefficient::Given && options.shortcuts.frictionless && mu.iter().all(|&mu| mu == 0.0);
-        let law = if smooth { Kernel::<3>::FRICTIONLESS } else { row.kernel };
-        Effects { law, side: mortar_side(options, mortar) }
+        let law = if smooth { LawFunctions::<3>::FRICTIONLESS } else { row.functions };
+        Effects { law, opposite: opposite(options, mortar) }
     }
 }

@@ -1,4 +1,4 @@
-//! What an evaluation knows of the interface: all of it, or the part of one handle among several.
+//! What a call is about: the whole interface, or the share of one handle among several.
 
 /// What a call is about. It is an argument of each call and no state of the handle: what one call is about changes no
 /// later one.
@@ -18,7 +18,7 @@ impl Extent {
     }
 }
 
-/// What an evaluation leaves out.
+/// What an evaluation is about, and whether it found the surfaces apart: both decide what it leaves out.
 #[derive(Clone, Copy, Debug)]
 pub struct Scope {
     /// What it is about.

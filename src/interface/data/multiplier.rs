@@ -16,7 +16,7 @@ pub fn traction<const N: usize>(lambda: &SVector<f64, N>, nu: Vec3) -> Vec3 {
 }
 
 /// d traction / d lambda: I, or nu where there is one component.
-pub fn basis<const N: usize>(nu: Vec3) -> SMatrix<f64, 3, N> {
+pub fn direction<const N: usize>(nu: Vec3) -> SMatrix<f64, 3, N> {
     SMatrix::from_fn(|i, j| if N == 1 { nu[i] } else { f64::from(u8::from(i == j)) })
 }
 

@@ -106,7 +106,7 @@ pub struct FacetFilter {
     pub depths: Vec<f64>,
     /// Per non-mortar facet, whether any mortar facet can be a pair with it.
     pub reached: Vec<bool>,
-    /// Which non-mortar facets are integrated over cells, of a scheme that has both.
+    /// Per non-mortar facet, whether it is integrated over cells and not over points; empty unless the scheme has both.
     pub by_cells: Vec<bool>,
 }
 

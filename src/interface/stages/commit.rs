@@ -19,8 +19,8 @@ use crate::interface::pairing::settle;
 use crate::memory::{self, Store};
 use crate::normal;
 
-/// A configuration that becomes t_n, with nothing slipped.
-pub struct Start {
+/// What a configuration that becomes t_n has settled; nothing has slipped yet.
+pub struct Settled {
     pub history: History,
     /// The filter of the step that follows; `None` where the weights are frozen for good.
     pub filter: Option<Filter>,
@@ -28,14 +28,14 @@ pub struct Start {
     pub active: Option<Active>,
 }
 
-/// What a commit at (x1, x2) begins with.
-pub fn start(
+/// The t_n that (x1, x2) makes, of a commit or at the creation.
+pub fn settled_at(
     (nonmortar, mortar): (&Surface, &Surface),
     options: &Options,
     extent: Extent,
     (counters, tree): (&mut Counters, &mut KeptTree),
     (x1, x2): (&[Vec3], &[Vec3]),
-) -> Result<Start> {
+) -> Result<Settled> {
     let n1 = nonmortar.len();
     let keeps = Keeps::of(options);
     let zeros = |kept: usize| memory::filled(Vec3::zeros(), kept * n1);
@@ -86,7 +86,7 @@ pub fn start(
     // The weights alone: many interfaces never ask for a tangent where a step ends.
     let active = active.filter(|_| keeps == Keeps::Nothing);
     let active = active.map(|k| Active { segments: Vec::new(), ..k });
-    Ok(Start { history, filter: Some(filter), active })
+    Ok(Settled { history, filter: Some(filter), active })
 }
 
 /// Makes up for the weights of t_n where they were left out because the surfaces were apart then.

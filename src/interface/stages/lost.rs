@@ -2,7 +2,7 @@
 //! these positions a closed node must still have the pairs that it had. The new normals alone may change which facets
 //! look at each other, as long as they leave the node covered.
 
-use super::commit::Start;
+use super::commit::Settled;
 use crate::error::{Error, Kind, Result};
 use crate::geometry::Vec3;
 use crate::interface::data::active::Active;
@@ -25,7 +25,7 @@ const TOUCHES: f64 = 1e-6;
 pub fn refuse_lost_contact<const N: usize>(
     setup: &Setup<N>,
     (before, areas): (&Active, &[f64]),
-    new: &Start,
+    new: &Settled,
     (x1, x2): (&[Vec3], &[Vec3]),
     responses: &[NodeResponse<N>],
 ) -> Result<()> {

@@ -1,4 +1,5 @@
-//! What a commit and an evaluation are made of: functions from data to data, none of which calls an earlier one.
+//! What a commit and an evaluation are made of: functions from data to data. Of the stages of an evaluation (`integrate`,
+//! `sums`, `respond`, `residual`) none calls an earlier one; `commit` runs the first two at the new configuration.
 
 pub mod apart;
 pub mod away;

@@ -4,7 +4,7 @@
 use crate::element::{PairNow, frozen_rows, gap_rows};
 use crate::error::Result;
 use crate::geometry::{Mat3, Vec3};
-use crate::interface::data::multiplier::basis;
+use crate::interface::data::multiplier::direction;
 use crate::interface::pairing::given::Given;
 use crate::law::NodeResponse;
 use crate::memory::Store;
@@ -12,8 +12,8 @@ use crate::mortar::{MORTAR, PAIR_NODES, PairWeights, slots};
 
 /// dp/dg_now and dp/dg_previous of a node.
 pub fn dtraction<const N: usize>(given: Given<N>, a: usize, response: &NodeResponse<N>, nu: Vec3) -> (Mat3, Mat3) {
-    let basis = basis::<N>(nu) * given.augmentation(a);
-    (basis * response.drow_dnow, basis * response.drow_dprevious)
+    let direction = direction::<N>(nu) * given.augmentation(a);
+    (direction * response.drow_dnow, direction * response.drow_dprevious)
 }
 
 /// One node that a non-mortar node A is coupled with.

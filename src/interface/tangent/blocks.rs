@@ -5,7 +5,7 @@
 
 use super::augmented::{NodeCouplings, dtraction};
 use super::carried_tangent;
-use super::derivatives::Motion;
+use super::derivatives::PairDerivatives;
 use super::emission::{Emitter, Sink, entries};
 use super::facet_tangent::{FacetTangent, total};
 use super::union::UnionPair;
@@ -33,7 +33,7 @@ pub struct Numbers<'a, const N: usize> {
     /// The pairs whose weights are differentiated, with their overlaps; `None`: no weights are.
     pub active: Option<&'a Active>,
     /// How they are.
-    pub motion: Motion<'a>,
+    pub motion: PairDerivatives<'a>,
 }
 
 /// What a pair must know of every node's response.

@@ -2,7 +2,7 @@
 
 use crate::error::Result;
 use crate::geometry::AnalyticSurface;
-use crate::interface::data::effects::Side;
+use crate::interface::data::effects::Opposite;
 use crate::interface::data::options::Tangent;
 use crate::interface::data::pairs::PairRecord;
 use crate::mortar::{
@@ -14,9 +14,9 @@ use std::borrow::Cow;
 
 /// What the derivatives of one tangent have in common.
 #[derive(Clone, Copy, Debug)]
-pub struct Motion<'a> {
+pub struct PairDerivatives<'a> {
     /// The mortar side.
-    pub side: Side,
+    pub opposite: Opposite,
     /// The mortar surface where it is analytic.
     pub surface: Option<&'a AnalyticSurface>,
     /// What the tangent is to know.
@@ -25,7 +25,7 @@ pub struct Motion<'a> {
     pub rule: &'a Rule,
 }
 
-impl Motion<'_> {
+impl PairDerivatives<'_> {
     /// Of a non-mortar facet with its pairs and their overlaps (none against an analytic surface): one pair where the
     /// mortar side moves, all of the facet's where it rests. `traction[i][A]` is that of the forces, whose derivatives go to
     /// `forces`, which keeps the slots that have none.
@@ -44,7 +44,7 @@ impl Motion<'_> {
             frame.to_mut().plane.tilt = Default::default();
         }
         let by_points = segments[0].points.is_some();
-        Ok(GapDerivative::Facets(if self.side == Side::Moves || by_points {
+        Ok(GapDerivative::Facets(if self.opposite == Opposite::Moves || by_points {
             pair_motion((&frame, &segments[0], self.rule), &pairs[0].weights, traction, forces)
         } else {
             let pairs = segments.iter().zip(pairs.iter().map(|pair| &pair.weights));
