@@ -249,7 +249,7 @@ module stickslip
     integer(c_int64_t) :: evaluations_apart = 0    ! evaluations that found the surfaces apart
     integer(c_int64_t) :: commits_apart = 0        ! commits that did
     integer(c_int64_t) :: multipliers = 0          ! multiplier equations
-    integer(c_int64_t) :: nodes_evaluated = 0      ! nodes that the law was asked about, one a node and evaluation
+    integer(c_int64_t) :: nodes_evaluated = 0      ! nodes that the law was asked about, one a node and point
     integer(c_int64_t) :: nodes_frictional = 0     ! at the last evaluation, adding up to n1: covered, with friction
     integer(c_int64_t) :: nodes_frictionless = 0   ! covered, without friction
     integer(c_int64_t) :: nodes_new = 0            ! covered now, not at t_n: without friction for this step

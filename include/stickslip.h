@@ -549,7 +549,7 @@ typedef struct stickslip_counters {
   int64_t commits_apart;
   /// Multiplier equations.
   int64_t multipliers;
-  /// Nodes that the law was asked about, one a node and evaluation.
+  /// Nodes that the law was asked about, one a node and point: residual and tangent of one point ask once.
   int64_t nodes_evaluated;
   /// At the last evaluation (this member and those that follow, which add up to n1): nodes that were covered and had
   /// friction, Coulomb's with mu > 0 or rough.

@@ -42,7 +42,7 @@ pub struct stickslip_counters {
     pub commits_apart: i64,
     /// Multiplier equations.
     pub multipliers: i64,
-    /// Nodes that the law was asked about, one a node and evaluation.
+    /// Nodes that the law was asked about, one a node and point: residual and tangent of one point ask once.
     pub nodes_evaluated: i64,
     /// At the last evaluation (this member and those that follow, which add up to n1): nodes that were covered and had
     /// friction, Coulomb's with mu > 0 or rough.
