@@ -48,6 +48,18 @@ pub struct Answers<const N: usize> {
     pub responses: Responses<N>,
 }
 
+impl<const N: usize> Answers<N> {
+    fn is_at(&self, x: (&[Vec3], &[Vec3]), lambda: &[SVector<f64, N>]) -> bool {
+        are_same(&self.x[0], x.0) && are_same(&self.x[1], x.1) && are_same(&self.lambda, lambda)
+    }
+}
+
+/// Whether sums are to have what slip is measured from. The nodes that a handle shares may slip by what another one knows
+/// of their friction.
+fn asks_for_slip<const N: usize>(setup: &Setup<N>, extent: Extent) -> bool {
+    setup.effects.law.slips || extent == Extent::Part
+}
+
 /// What evaluations leave.
 #[derive(Debug)]
 pub struct Cache<const N: usize> {
@@ -101,7 +113,12 @@ impl<const N: usize> Cache<N> {
 
     /// What an evaluation of this extent leaves out at the last positions.
     pub fn scope(&self, extent: Extent) -> Scope {
-        Scope { extent, apart: self.kept.as_ref().is_some_and(|k| k.scope.apart) }
+        Scope { extent, apart: self.is_apart() }
+    }
+
+    /// Whether the surfaces were found apart at the last positions.
+    pub fn is_apart(&self) -> bool {
+        self.kept.as_ref().is_some_and(|k| k.scope.apart)
     }
 
     /// The law's answers at the last point.
@@ -179,21 +196,31 @@ impl<const N: usize> Cache<N> {
         x: (&[Vec3], &[Vec3]),
         extent: Extent,
     ) -> Result<Vec<NodeSums>> {
+        self.arrive(setup, step, x, extent)?;
+        self.sums_here(Given { setup, step }, x, extent)
+    }
+
+    /// What an evaluation with this handle's own sums begins with: finds the pairs, and counts.
+    fn arrive(&mut self, setup: &Setup<N>, step: &mut Step, x: (&[Vec3], &[Vec3]), extent: Extent) -> Result<()> {
         Given { setup, step }.check_positions(x.0, x.1)?;
         self.integrate(setup, step, x, extent)?;
-        let nodes = setup.nonmortar.len();
-        if self.scope(extent).apart {
-            return memory::filled(NodeSums::default(), nodes);
+        if !self.is_apart() && asks_for_slip(setup, extent) {
+            self.counters.nodes_slipping += setup.nonmortar.len() as i64;
         }
-        // The nodes that this handle shares may slip by what another one knows of their friction.
-        let slips = setup.effects.law.slips || extent == Extent::Part;
-        self.counters.nodes_slipping += if slips { nodes as i64 } else { 0 };
+        Ok(())
+    }
+
+    /// The sums over the pairs that were found.
+    fn sums_here(&mut self, given: Given<N>, x: (&[Vec3], &[Vec3]), extent: Extent) -> Result<Vec<NodeSums>> {
+        if self.is_apart() {
+            return memory::filled(NodeSums::default(), given.nodes());
+        }
         if let Some((of, sums)) = self.kept.as_ref().and_then(|k| k.sums.as_ref())
             && *of == extent
         {
             return memory::copied(sums);
         }
-        let sums = sums::sums(Given { setup, step }, self.active(), slips, x)?;
+        let sums = sums::sums(given, self.active(), asks_for_slip(given.setup, extent), x)?;
         if let Some(k) = &mut self.kept {
             k.sums = Some((extent, memory::copied(&sums)?));
         }
@@ -222,12 +249,14 @@ impl<const N: usize> Cache<N> {
                 self.integrate(setup, step, x, extent)?;
                 memory::copied(sums)?
             }
-            None => self.sums(setup, step, x, extent)?,
+            None => {
+                self.arrive(setup, step, x, extent)?;
+                if self.answers.as_ref().is_some_and(|a| !a.shared && a.is_at(x, lambda)) {
+                    return Ok(());
+                }
+                self.sums_here(Given { setup, step }, x, extent)?
+            }
         };
-        let known = self.answers.as_ref().filter(|a| !a.shared && shared.is_none());
-        if known.is_some_and(|a| are_same(&a.x[0], x.0) && are_same(&a.x[1], x.1) && are_same(&a.lambda, lambda)) {
-            return Ok(());
-        }
         self.answers = None;
         let responses = respond(Given { setup, step }, lambda, &sums, self.scope(extent))?;
         self.counters.nodes_evaluated += responses.counts.total() - responses.counts.left_out;

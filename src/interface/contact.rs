@@ -92,11 +92,11 @@ impl<const N: usize> Contact<N> {
     fn build(setup: Setup<N>) -> Result<Contact<N>> {
         let mut cache = Cache::default();
         let at = (&setup.nonmortar.reference[..], &setup.mortar.reference[..]);
-        let start = commit::settled_at(setup.surfaces(), &setup.options, Extent::Whole, cache.work(), at)?;
-        let pairing = Pairing::new(&setup, start.filter, &start.history)?;
-        let step = Step { history: start.history, pairing };
+        let settled = commit::settled_at(setup.surfaces(), &setup.options, Extent::Whole, cache.work(), at)?;
+        let pairing = Pairing::new(&setup, settled.filter, &settled.history)?;
+        let step = Step { history: settled.history, pairing };
         Given { setup: &setup, step: &step }.normals()?;
-        cache.begin(&step.history, start.active);
+        cache.begin(&step.history, settled.active);
         Ok(Contact { setup, step, rollback: None, cache })
     }
 
@@ -220,9 +220,9 @@ impl<const N: usize> Contact<N> {
 /// Steps.
 impl<const N: usize> Contact<N> {
     /// Puts a history in place with what belongs to its configuration; gives the old one back.
-    fn adopt(&mut self, start: Settled) -> Result<History> {
-        let pairing = Pairing::new(&self.setup, start.filter, &start.history)?;
-        Ok(self.put_in_place(pairing, start.history, start.active))
+    fn adopt(&mut self, settled: Settled) -> Result<History> {
+        let pairing = Pairing::new(&self.setup, settled.filter, &settled.history)?;
+        Ok(self.put_in_place(pairing, settled.history, settled.active))
     }
 
     fn put_in_place(&mut self, pairing: Pairing, history: History, active: Option<Active>) -> History {

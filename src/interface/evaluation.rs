@@ -150,7 +150,7 @@ impl<const N: usize> Contact<N> {
 
     /// The pairs that a tangent has here.
     fn union(&self) -> Result<Vec<UnionPair<'_>>> {
-        if self.cache.scope(Extent::Whole).apart {
+        if self.cache.is_apart() {
             return Ok(Vec::new());
         }
         union(self.cache.pairs(&self.step.history), &self.step.history.pairs, self.setup.effects.law.slips)
