@@ -1,7 +1,7 @@
 //! Memory that may run out: vectors are asked for, and where the system has none left the caller hears of it.
 //!
 //! A library that aborts its host because a vector did not fit loses the host's work. So nothing in the core grows by
-//! `vec!`, `collect`, `push` or the like, which abort, but by what is here (`tests/allocations.rs` looks through the
+//! `vec!`, `collect`, `push` or the like, which abort, but by what is here (`tests/memory/sources.rs` looks through the
 //! sources). A function computes into new vectors and puts them in place at its end, so that a call that finds no memory
 //! changes nothing.
 

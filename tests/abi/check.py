@@ -7,7 +7,7 @@
 The description is tests/abi/stickslip.abi (libabigail's XML: every function, struct and member as C sees them),
 tests/abi/functions.txt (the declarations as they stand: abidiff does not see that two parameters of one type have changed
 places) and tests/abi/constants.txt. It is made from the header, compiled with empty bodies, so that it depends on no version of
-the Rust compiler; that the library is what the header says is checked here (symbols), by tests/layout.rs and by tests/header.rs.
+the Rust compiler; that the library is what the header says is checked here (symbols), by tests/capi/layout.rs and by tests/capi/header.rs.
 """
 
 import argparse

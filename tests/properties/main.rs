@@ -4,34 +4,34 @@
 //!
 //! | law | on random input | elsewhere |
 //! |---|---|---|
-//! | 7.1, W3, W5 sums, bounds, symmetry of weights | P `laws_of_any_pair` | `mortar.rs` |
-//! | 7.2, I5 forces balance | I `laws_of_any_interface` | `identities.rs` |
-//! | 7.2, I5 moments are those of the gaps | I `laws_of_any_interface` | `identities.rs` |
+//! | 7.1, W3, W5 sums, bounds, symmetry of weights | P `laws_of_any_pair` | `mortar/golden.rs` |
+//! | 7.2, I5 forces balance | I `laws_of_any_interface` | `interface/identities.rs` |
+//! | 7.2, I5 moments are those of the gaps | I `laws_of_any_interface` | `interface/identities.rs` |
 //! | 7.4, I1 rigid motion: weights | P `rigid_motion_keeps_the_weights` | |
-//! | 7.4, I1 rigid motion: residual | I `rigid_motion_turns_the_residual` | `identities.rs` |
+//! | 7.4, I1 rigid motion: residual | I `rigid_motion_turns_the_residual` | `interface/identities.rs` |
 //! | 7.4, I1 rigid motion: projection | N `projection_is_homogeneous_and_turns_with_the_frame` | |
-//! | 8.3, I2 exact offsets | P `exact_offsets_change_no_bit` | `identities.rs` |
+//! | 8.3, I2 exact offsets | P `exact_offsets_change_no_bit` | `interface/identities.rs` |
 //! | 7.5, I4 units: weights, at sizes over 120 decades | P `powers_of_two_change_no_bit` | |
-//! | 7.5, I4 units: residual | I `units_change_no_bit` | `identities.rs` |
+//! | 7.5, I4 units: residual | I `units_change_no_bit` | `interface/identities.rs` |
 //! | 4.4, S4 Coulomb's conditions, any r | N `row_vanishes_at_the_solution_whatever_r` | check `invariance` |
-//! | 4.4, S2 the cone; 4.6 no friction | N `projection_lies_on_the_cone` | `identities.rs` |
+//! | 4.4, S2 the cone; 4.6 no friction | N `projection_lies_on_the_cone` | `interface/identities.rs` |
 //! | 7.6 patch test | | checks `patch` |
-//! | W1, W2, W8 golden weights and derivatives | | `mortar.rs`, `capi_golden.rs` |
-//! | W4 slivers, touching, no overlap | P `coincident_pairs_share_the_exact_area` | `mortar.rs` |
+//! | W1, W2, W8 golden weights and derivatives | | `mortar/golden.rs`, `capi/golden.rs` |
+//! | W4 slivers, touching, no overlap | P `coincident_pairs_share_the_exact_area` | `mortar/golden.rs` |
 //! | W6 parts add up | P `parts_of_a_mortar_facet_add_up` | |
-//! | W7 translation, rotation, Euler | P `laws_of_any_pair` | `mortar.rs` |
+//! | W7 translation, rotation, Euler | P `laws_of_any_pair` | `mortar/golden.rs` |
 //! | W9 differences of weights | P `derivatives_equal_differences` | |
-//! | S1, S2, K1, K6 golden residuals, states, tangents | | `reference.rs`, `capi_golden.rs` |
+//! | S1, S2, K1, K6 golden residuals, states, tangents | | `interface/golden.rs`, `capi/golden.rs` |
 //! | S3 continuity across the borders | N `projection_is_continuous_and_differentiated` | |
-//! | S5, A-B-A: a step taken back, a restart | I `laws_of_any_interface` | `history.rs` |
-//! | K2 differences of the residual | I `tangent_equals_differences` | `tangent.rs` |
+//! | S5, A-B-A: a step taken back, a restart | I `laws_of_any_interface` | `interface/history.rs` |
+//! | K2 differences of the residual | I `tangent_equals_differences` | `interface/tangent.rs` |
 //! | K3 dual numbers | | `src/law`, `src/mortar/oracle.rs` |
 //! | K4 sums of rows and columns | I `laws_of_any_interface` | |
-//! | K5 symmetry | | `tangent.rs` |
-//! | I3 numbering, begin, orientation | P `numbering_does_not_matter` | `identities.rs` |
-//! | I6 rigid motion within a step | | `identities.rs` |
+//! | K5 symmetry | | `interface/tangent.rs` |
+//! | I3 numbering, begin, orientation | P `numbering_does_not_matter` | `interface/identities.rs` |
+//! | I6 rigid motion within a step | | `interface/identities.rs` |
 //! | I7 threads | | `tests/capi/t50_threads.c` |
-//! | no law: maps that are all but singular are refused, or all is finite | G `facets_with_nearly_singular_maps_are_refused_or_finite` | `mortar.rs` |
+//! | no law: maps that are all but singular are refused, or all is finite | G `facets_with_nearly_singular_maps_are_refused_or_finite` | `mortar/golden.rs` |
 //!
 //! `cargo test` tries 1e4 pairs in all, the same in every run; `make random SEED=n` ten times as many others, with
 //! `CASES=150000` more than 1e6.

@@ -1,0 +1,263 @@
+//! Every struct of the ABI is laid out in Rust as the C compiler lays out the header's, without padding.
+
+use crate::support::c::*;
+use std::fmt::Write;
+use std::mem::{offset_of, size_of};
+use std::path::Path;
+use std::process::Command;
+use stickslip::capi::*;
+
+/// A struct's name, its size, and its members with offset and size, in order.
+struct Layout {
+    name: &'static str,
+    size: usize,
+    members: Vec<(&'static str, usize, usize)>,
+}
+
+/// The size of what a projection of a reference points to.
+fn size_of_member<S, M>(_: fn(&S) -> &M) -> usize {
+    size_of::<M>()
+}
+
+macro_rules! layout {
+    ($name:ident { $($member:ident),* }) => {{
+        // Every member by name: a new one does not compile until it is listed here.
+        let _ = |s: $name| { let $name { $($member: _),* } = s; };
+        Layout {
+            name: stringify!($name),
+            size: size_of::<$name>(),
+            members: vec![$((stringify!($member), offset_of!($name, $member), size_of_member(|s: &$name| &s.$member))),*],
+        }
+    }};
+}
+
+fn layouts() -> Vec<Layout> {
+    vec![
+        layout!(stickslip_surface {
+            struct_size,
+            n_nodes,
+            n_facets,
+            coordinates,
+            facet_offsets,
+            facet_nodes,
+            equations,
+            multiplier_equations,
+            owned
+        }),
+        layout!(stickslip_options {
+            struct_size,
+            form,
+            slip,
+            weights,
+            friction,
+            mortar_side,
+            multiplier_basis,
+            quadrature,
+            row_scale,
+            new_contact,
+            index_base,
+            mu,
+            augmentation,
+            modulus,
+            coverage_min,
+            search_distance,
+            no_shortcuts,
+            shape,
+            radius,
+            integration,
+            tangent,
+            element_points,
+            weak_coverage,
+            turn_max
+        }),
+        layout!(stickslip_states {
+            struct_size,
+            state,
+            normal,
+            traction,
+            gap,
+            slip,
+            coverage,
+            area,
+            dissipation,
+            augmentation
+        }),
+        layout!(stickslip_counters {
+            struct_size,
+            pairs_tested,
+            pairs_clipped,
+            pairs_integrated,
+            pairs_linearised,
+            searches,
+            pairs_active,
+            bytes,
+            seconds_search,
+            seconds_integration,
+            seconds_assembly,
+            pairs_reused,
+            nodes_slipping,
+            evaluations_apart,
+            commits_apart,
+            multipliers,
+            nodes_evaluated,
+            nodes_frictional,
+            nodes_frictionless,
+            nodes_new,
+            nodes_tied,
+            nodes_uncovered,
+            nodes_left_out,
+            boxes_visited,
+            nodes_carried
+        }),
+        layout!(stickslip_report {
+            struct_size,
+            cover,
+            fraction,
+            layers,
+            facets,
+            text,
+            text_capacity,
+            nodes_none,
+            nodes_part,
+            nodes_full,
+            nodes_several,
+            finding,
+            reserved,
+            penetration
+        }),
+        layout!(stickslip_diagnosis {
+            struct_size,
+            state,
+            suspect_nodes,
+            suspect_directions,
+            suspect_ratios,
+            suspect_causes,
+            suspect_capacity,
+            text,
+            text_capacity,
+            suspects,
+            state_changes,
+            nodes_gap,
+            nodes_stick,
+            nodes_slip,
+            covered_node,
+            covered_fraction,
+            overlap,
+            overlap_facets,
+            warp,
+            warp_facets,
+            angle,
+            angle_facets,
+            error,
+            error_facets
+        }),
+        layout!(stickslip_equilibrium {
+            struct_size,
+            modulus,
+            least_traction,
+            gap,
+            gap_scale,
+            traction,
+            traction_scale,
+            slip,
+            slip_scale,
+            gap_node,
+            traction_node,
+            slip_node
+        }),
+        layout!(stickslip_node {
+            struct_size,
+            slip,
+            n_directions,
+            lambda,
+            normal,
+            augmentation,
+            mu,
+            coverage,
+            coverage_previous,
+            coverage_min,
+            gap_now,
+            gap_previous,
+            gap_committed,
+            directions
+        }),
+        layout!(stickslip_node_response {
+            struct_size,
+            state,
+            reserved,
+            traction,
+            row,
+            gap_normal,
+            slip,
+            sigma,
+            dp_dlambda,
+            drow_dlambda,
+            drow_dnow,
+            drow_dprevious
+        }),
+        layout!(stickslip_pair { struct_size, n1, n2, x1, x2, quadrature, layout, element_points, neighbour_normals }),
+    ]
+}
+
+/// One line a struct, one a member: name, offset, size.
+fn rust_text() -> String {
+    let mut text = String::new();
+    for s in layouts() {
+        writeln!(text, "{} {}", s.name, s.size).unwrap();
+        for (member, offset, size) in s.members {
+            writeln!(text, "{}.{member} {offset} {size}", s.name).unwrap();
+        }
+    }
+    text
+}
+
+/// The same from the C compiler.
+fn c_text() -> String {
+    let mut code = String::from("#include <stddef.h>\n#include <stdio.h>\n#include <stickslip.h>\nint main(void) {\n");
+    for s in layouts() {
+        writeln!(code, "printf(\"{0} %d\\n\", (int)sizeof({0}));", s.name).unwrap();
+        for (member, ..) in s.members {
+            writeln!(
+                code,
+                "printf(\"{0}.{member} %d %d\\n\", (int)offsetof({0}, {member}), (int)sizeof((({0} *)0)->{member}));",
+                s.name
+            )
+            .unwrap();
+        }
+    }
+    code += "return 0;\n}\n";
+    let probe = Path::new(env!("CARGO_TARGET_TMPDIR")).join("layout_probe");
+    let source = probe.with_extension("c");
+    std::fs::write(&source, code).unwrap();
+    run(compiler(false).args(["-std=c99", "-I"]).arg(include()).arg("-o").args([&probe, &source]), "the layout probe");
+    run(&mut Command::new(probe), "the layout probe")
+}
+
+#[test]
+fn rust_and_c_agree() {
+    let (rust, c) = (rust_text(), c_text());
+    for (rust, c) in rust.lines().zip(c.lines()) {
+        assert_eq!(rust, c);
+    }
+    assert_eq!(rust, c);
+}
+
+/// Padding would be uninitialised memory in the host's files and in comparisons.
+#[test]
+fn no_padding() {
+    for s in layouts() {
+        let mut end = 0;
+        for (member, offset, size) in &s.members {
+            assert_eq!(*offset, end, "{}: padding before {member}", s.name);
+            end += size;
+        }
+        assert_eq!(s.size, end, "{}: padding at the end", s.name);
+    }
+}
+
+#[test]
+fn every_struct_begins_with_its_size() {
+    for s in layouts() {
+        assert_eq!(s.members[0], ("struct_size", 0, 8), "{}", s.name);
+    }
+}

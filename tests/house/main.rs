@@ -1,0 +1,10 @@
+//! The order of the house, read from its files: arrows between modules, rooms of the driver, citations, the header as a
+//! reference.
+
+#[path = "../support/mod.rs"]
+mod support;
+
+mod citations;
+mod driver_rooms;
+mod layers;
+mod reference;

@@ -1,0 +1,28 @@
+//! The interface (`src/interface`): the stages as a handle runs them, its history, its effects.
+
+#[path = "../support/mod.rs"]
+mod support;
+
+mod analytic;
+mod boundary;
+mod closing;
+mod commits;
+mod crease;
+mod crosspoints;
+mod diagnosis;
+mod effects;
+mod equilibrium;
+mod golden;
+mod history;
+mod identities;
+mod large_sliding;
+mod orders;
+mod ratios;
+mod report;
+mod search;
+mod stacked;
+mod surface;
+mod tangent;
+mod tied_gap;
+mod turns;
+mod weak;

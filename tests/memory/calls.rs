@@ -1,0 +1,176 @@
+//! The element calls allocate nothing: pairs, nodes and facets, through the C ABI and in Rust. A host may
+//! call them from any thread in its innermost loop.
+
+use crate::allocator::ALLOCATIONS;
+use std::mem::{size_of, zeroed};
+use std::ptr::null;
+use stickslip::capi::*;
+use stickslip::element::{FacetResponse, NodeTangent, PairNow, PairTangent, pair_force, row_columns};
+use stickslip::geometry::{Facet, Mat3, Vec3};
+use stickslip::law::{Node, SlipMeasure};
+use stickslip::mortar::{
+    self, AlongNormal, GapDerivative, NonmortarFrame, PairWeights, Segment, WeightDerivatives, pair_motion,
+};
+use stickslip::quadrature::{DEGREE_5, DEGREE_10};
+
+/// Asserts that the second call of `work` allocates nothing; the first one may set up what lasts (the ABI's
+/// panic hook).
+fn allocates_nothing<T>(what: &str, mut work: impl FnMut() -> T) {
+    let warm = work();
+    let before = ALLOCATIONS.get();
+    let result = work();
+    let count = ALLOCATIONS.get() - before;
+    assert_eq!(count, 0, "{what} allocates {count} times");
+    drop((warm, result));
+}
+
+const QUAD1: [f64; 12] = [0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 1.0, 1.0, 0.0, 1.0, 0.0, 0.0];
+/// Distorted and warped.
+const QUAD2: [f64; 12] = [0.3, -0.4, -0.02, 1.4, 0.1, 0.01, 1.1, 1.2, 0.04, 0.0, 0.7, 0.01];
+
+/// Quads and triangles, near and apart: (nodes of the first facet, of the second, shift of the second).
+const KINDS: [(usize, usize, f64); 5] = [(4, 4, 0.0), (4, 3, 0.0), (3, 4, 0.0), (3, 3, 0.0), (4, 4, 9.0)];
+
+#[test]
+fn the_counter_counts() {
+    let before = ALLOCATIONS.get();
+    drop(std::hint::black_box(vec![1.0; 10]));
+    assert!(ALLOCATIONS.get() > before);
+}
+
+#[test]
+fn c_element_calls_allocate_nothing() {
+    for (n1, n2, shift) in KINDS {
+        let x2 = QUAD2.map(|x| x + shift);
+        for quadrature in [STICKSLIP_QUADRATURE_DEGREE_5, STICKSLIP_QUADRATURE_DEGREE_10] {
+            let pair = stickslip_pair {
+                struct_size: size_of::<stickslip_pair>() as u64,
+                n1: n1 as i32,
+                n2: n2 as i32,
+                x1: QUAD1.as_ptr(),
+                x2: x2.as_ptr(),
+                quadrature,
+                layout: STICKSLIP_LAYOUT_COLUMN_MAJOR,
+                element_points: 0,
+                neighbour_normals: std::ptr::null(),
+            };
+            c_calls(&pair);
+        }
+    }
+}
+
+fn c_calls(pair: &stickslip_pair) {
+    let (mut ab, mut ac, mut dab, mut dac) = ([0.0; 16], [0.0; 16], [0.0; 384], [0.0; 384]);
+    let (mut gap, mut force, mut tangent) = ([0.0; 12], [0.0; 24], [0.0; 36 * 36]);
+    let (mut normals, mut areas, mut nu) = ([0.0; 12], [0.0; 4], [0.0; 3]);
+    let (mut row, mut block) = ([0.0; 3], [0.0; 9]);
+    let (traction, scale) = ([-1.0; 12], [2.0; 4]);
+    // SAFETY: numbers only.
+    let (mut node, mut response): (stickslip_node, stickslip_node_response) = unsafe { (zeroed(), zeroed()) };
+    node.struct_size = size_of::<stickslip_node>() as u64;
+    response.struct_size = size_of::<stickslip_node_response>() as u64;
+    node.normal = [0.0, 0.0, 1.0];
+    (node.augmentation, node.mu, node.coverage, node.coverage_previous) = (3.0, 0.5, 1.0, 1.0);
+    node.lambda = [0.1, 0.2, -1.0];
+
+    // SAFETY: all arrays are as long as two quadrilaterals need.
+    unsafe {
+        allocates_nothing("pair_weights", || {
+            assert_eq!(
+                stickslip_pair_weights(pair, ab.as_mut_ptr(), ac.as_mut_ptr(), dab.as_mut_ptr(), dac.as_mut_ptr()),
+                0
+            );
+        });
+        allocates_nothing("pair_gap", || {
+            assert_eq!(stickslip_pair_gap(pair, ab.as_ptr(), ac.as_ptr(), gap.as_mut_ptr()), 0);
+        });
+        allocates_nothing("node_respond", || assert_eq!(stickslip_node_respond(&node, &mut response), 0));
+        allocates_nothing("node_equilibrium", || {
+            let [g, t, s] = gap.first_chunk_mut::<3>().unwrap().each_mut().map(std::ptr::from_mut);
+            assert_eq!(stickslip_node_equilibrium(&node, 1.0, 0.0, g, t, s), 0);
+        });
+        allocates_nothing("node_block", || {
+            assert_eq!(stickslip_node_block(&response, 1.0, 0, row.as_mut_ptr(), block.as_mut_ptr()), 0);
+        });
+        allocates_nothing("pair_residual", || {
+            let status = stickslip_pair_residual(pair, ab.as_ptr(), ac.as_ptr(), traction.as_ptr(), force.as_mut_ptr());
+            assert_eq!(status, 0);
+        });
+        let responses = [response; 4];
+        for previous in [ab.as_ptr(), null()] {
+            let previous_ac = if previous.is_null() { null() } else { ac.as_ptr() };
+            allocates_nothing("pair_tangent", || {
+                let status = stickslip_pair_tangent(
+                    pair,
+                    ab.as_ptr(),
+                    ac.as_ptr(),
+                    dab.as_ptr(),
+                    dac.as_ptr(),
+                    previous,
+                    previous_ac,
+                    traction.as_ptr(),
+                    responses.as_ptr(),
+                    scale.as_ptr(),
+                    tangent.as_mut_ptr(),
+                    36,
+                );
+                assert_eq!(status, 0);
+            });
+        }
+        allocates_nothing("facet_geometry", || {
+            assert_eq!(stickslip_facet_geometry(pair.n1, pair.x1, normals.as_mut_ptr(), areas.as_mut_ptr()), 0);
+        });
+        allocates_nothing("facet_normal", || {
+            assert_eq!(stickslip_facet_normal(pair.n1, pair.x1, nu.as_mut_ptr()), 0);
+        });
+        allocates_nothing("node_normal", || {
+            assert_eq!(stickslip_node_normal(normals.as_ptr(), nu.as_mut_ptr()), 0);
+        });
+        allocates_nothing("texts", || {
+            (stickslip_version(), stickslip_status_string(3), stickslip_last_error_message())
+        });
+    }
+}
+
+#[test]
+fn rust_element_calls_allocate_nothing() {
+    let point = |v: &[f64]| Vec3::from_column_slice(v);
+    for (n1, n2, shift) in KINDS {
+        let one: Vec<_> = QUAD1.chunks_exact(3).map(point).take(n1).collect();
+        let two: Vec<_> = QUAD2.chunks_exact(3).map(|v| point(v).add_scalar(shift)).take(n2).collect();
+        for rule in [&DEGREE_5, &DEGREE_10] {
+            allocates_nothing("a pair in Rust", || {
+                let (one, two) = (Facet::new(&one).unwrap(), Facet::new(&two).unwrap());
+                let frame = NonmortarFrame::new(&one).unwrap();
+                let Some(segment) = Segment::new(&frame, &two).unwrap() else { return 0.0 };
+                let weights = PairWeights::integrate(&frame, &segment, rule);
+                let (_, derivatives) = WeightDerivatives::integrate(&frame, &segment, rule);
+                let gap = AlongNormal::from_weights(&frame, &segment.mortar, &weights, &derivatives);
+                let nodes = FacetResponse::<3>::new([&NodeTangent::default(); 4]);
+                let mut t = PairTangent::default();
+                let motion = pair_motion((&frame, &segment, rule), &weights, &nodes.traction, &mut t.forces);
+                for gap in [gap, motion] {
+                    let gap = GapDerivative::Facets(gap);
+                    let now = PairNow { weights: &weights, gap: Some(&gap) };
+                    row_columns::<true, 3>(Some(&now), Some(&weights), &nodes, &mut t.rows);
+                }
+                let g = mortar::gap(&weights, &one, &two);
+                pair_force(&weights, &g)[0].x + t.row_x(0, 0)[(0, 0)]
+            });
+        }
+    }
+    let node = Node {
+        lambda: Vec3::new(0.1, 0.2, -1.0),
+        normal: Vec3::z(),
+        augmentation: 3.0,
+        mu: 0.5,
+        gap_now: Vec3::zeros(),
+        gap_previous: Vec3::x(),
+        gap_committed: Vec3::zeros(),
+        covered: true,
+        covered_before: true,
+        slip: SlipMeasure::Objective,
+        free: Mat3::identity(),
+    };
+    allocates_nothing("a node in Rust", || node.respond().row.x);
+}

@@ -1,0 +1,7 @@
+//! Integration over pairs of facets (`src/mortar`).
+
+#[path = "../support/mod.rs"]
+mod support;
+
+mod element_rule;
+mod golden;
