@@ -19,6 +19,7 @@ use std::hint::black_box;
 use std::process::Command;
 use stickslip::element::PairTangent;
 use stickslip::geometry::Vec3;
+use stickslip::law::Friction;
 use stickslip::mortar::WeightDerivatives;
 use work::{Kind, Pair, node};
 
@@ -72,7 +73,9 @@ fn kernels(x: &[f64], interfaces: usize) -> Vec<Kernel> {
         over_pairs("tri3/tri3: weights, all derivatives", 0.0, triangles, derivatives()),
         over_pairs("tri3/tri3: residual, tangent", 0.40, triangles, tangent()),
         over_pairs("tri3/quad4: residual, tangent", 0.0, mixed, tangent()),
-        over_pairs("a node: Coulomb's law", 0.0, quads, |p| node(p.one.nodes[1] * 0.01, Vec3::z()).respond().row.x),
+        over_pairs("a node: Coulomb's law", 0.0, quads, |p| {
+            Friction::Coulomb.respond(&node(p.one.nodes[1] * 0.01, Vec3::z())).row.x
+        }),
     ];
     k.extend(calls::kernels(quads));
     for (matching, residual, tangent) in [

@@ -3,7 +3,7 @@
 use std::hint::black_box;
 use stickslip::element::{FacetResponse, NodeTangent, PairNow, PairTangent, pair_force, row_columns};
 use stickslip::geometry::{Facet, Mat3, Vec3};
-use stickslip::law::{Node, SlipMeasure};
+use stickslip::law::{Friction, Node, SlipMeasure};
 use stickslip::mortar::{self, GapDerivative, NonmortarFrame, PairWeights, Segment, WeightDerivatives, pair_motion};
 use stickslip::quadrature::DEGREE_5;
 
@@ -86,7 +86,7 @@ impl Pair {
         let mut tractions = [Vec3::zeros(); 4];
         for a in 0..self.one.len() {
             let node = node(gaps[a], frame.plane.e);
-            let response = node.respond();
+            let response = Friction::Coulomb.respond(&node);
             tractions[a] = node.lambda;
             nodes[a] = NodeTangent {
                 traction: node.lambda,
@@ -112,6 +112,7 @@ pub fn node(gap: Vec3, e: Vec3) -> Node<3> {
         normal: -e,
         augmentation: 3.0,
         mu: 0.3,
+        shear_limit: f64::INFINITY,
         gap_now: gap,
         gap_previous: gap * 1.01,
         gap_committed: Vec3::zeros(),

@@ -77,6 +77,7 @@ module stickslip
   integer(c_int32_t), parameter :: STICKSLIP_FRICTION_NONE = 1
   integer(c_int32_t), parameter :: STICKSLIP_FRICTION_TIED = 2
   integer(c_int32_t), parameter :: STICKSLIP_FRICTION_ROUGH = 3
+  integer(c_int32_t), parameter :: STICKSLIP_FRICTION_TRESCA = 4
 
   integer(c_int32_t), parameter :: STICKSLIP_MORTAR_DEFORMABLE = 0
   integer(c_int32_t), parameter :: STICKSLIP_MORTAR_RIGID = 1
@@ -157,7 +158,7 @@ module stickslip
   integer(c_int32_t), parameter :: STICKSLIP_STATE_SLIP = 2
 
   ! Sizes of the types in bytes (64-bit machines), their struct_size.
-  integer(c_int64_t), parameter :: stickslip_options_size = 136
+  integer(c_int64_t), parameter :: stickslip_options_size = 144
   integer(c_int64_t), parameter :: stickslip_surface_size = 72
   integer(c_int64_t), parameter :: stickslip_states_size = 80
   integer(c_int64_t), parameter :: stickslip_counters_size = 200
@@ -165,7 +166,7 @@ module stickslip
   integer(c_int64_t), parameter :: stickslip_diagnosis_size = 224
   integer(c_int64_t), parameter :: stickslip_pair_size = 56
   integer(c_int64_t), parameter :: stickslip_node_response_size = 408
-  integer(c_int64_t), parameter :: stickslip_node_size = 224
+  integer(c_int64_t), parameter :: stickslip_node_size = 240
   integer(c_int64_t), parameter :: stickslip_equilibrium_size = 96
 
   ! A contact interface, made by stickslip_interface_create and ended by stickslip_interface_destroy. A copy means the
@@ -201,6 +202,7 @@ module stickslip
     integer(c_int64_t) :: element_points = 0       ! along a side, without SEGMENTS: 2 to 10; 0: 4
     real(c_double) :: weak_coverage = 0            ! nodes covered less, over the best neighbour, are carried; 0: none
     real(c_double) :: turn_max = 0                 ! radians from one commit to the next; 0: pi / 9; pi: any
+    real(c_double) :: shear_limit = 0              ! largest shear traction, > 0 with TRESCA [F/L^2]
   end type
 
   ! One surface of an interface. nf facets with 3 or 4 nodes each.
@@ -352,6 +354,9 @@ module stickslip
     real(c_double) :: gap_previous(3) = 0          ! g[n_n, x_{n+1}] [L^3]
     real(c_double) :: gap_committed(3) = 0         ! g[n_n, x_n] [L^3]; read by STICKSLIP_SLIP_INCREMENT only
     real(c_double) :: directions(3, 2) = 0         ! orthonormal, one a column, orthogonal to the normal
+    integer(c_int32_t) :: friction = STICKSLIP_FRICTION_COULOMB
+    integer(c_int32_t) :: reserved = 0
+    real(c_double) :: shear_limit = 0              ! largest shear traction, > 0 with TRESCA [F/L^2]
   end type
 
   ! What stickslip_interface_equilibrium finds. Nodes in the index base, -1: all is zero.

@@ -199,6 +199,9 @@
 /// Opens and closes, never slips.
 #define STICKSLIP_FRICTION_ROUGH 3
 
+/// Coulomb friction with the coefficient mu, up to a largest shear traction, shear_limit.
+#define STICKSLIP_FRICTION_TRESCA 4
+
 /// The mortar side deforms (or is prescribed, where it has no equations). Default.
 #define STICKSLIP_MORTAR_DEFORMABLE 0
 
@@ -446,6 +449,8 @@ typedef struct stickslip_options {
   /// turn since the first configuration; tied surfaces may turn as they like. At most pi, which refuses nothing;
   /// 0 (default): pi / 9, 20 degrees. What a turn below it costs: docs/plug_in.md.
   double turn_max;
+  /// With STICKSLIP_FRICTION_TRESCA the largest shear traction, > 0 [F/L^2]; else 0 (default).
+  double shear_limit;
 } stickslip_options;
 
 /// One surface of an interface.
@@ -747,6 +752,13 @@ typedef struct stickslip_node {
   /// Orthonormal directions in which the node is prescribed on both sides [-], one after the other; the normal
   /// must be orthogonal to them.
   double directions[6];
+  /// STICKSLIP_FRICTION_...; 0, and an older caller's: Coulomb. TIED: gap_committed is the gap to keep. NONE acts on
+  /// three multipliers, of which the tangential two vanish.
+  int32_t friction;
+  /// Must be 0.
+  int32_t reserved;
+  /// With STICKSLIP_FRICTION_TRESCA the largest shear traction, > 0 [F/L^2]; else 0.
+  double shear_limit;
 } stickslip_node;
 
 /// What `stickslip_interface_equilibrium` finds: three violations, each of the node where it is largest over its scale.

@@ -56,13 +56,15 @@ impl Scene {
         options.form = bytes.choice(2);
         options.slip = bytes.choice(3);
         options.weights = bytes.choice(3);
-        options.friction = bytes.choice(4);
+        options.friction = bytes.choice(5);
         options.mortar_side = bytes.choice(2);
         options.quadrature = bytes.choice(6);
         options.row_scale = bytes.choice(2);
         options.new_contact = bytes.choice(2);
         options.no_shortcuts = bytes.choice(16);
-        options.mu = if options.friction == STICKSLIP_FRICTION_COULOMB { bytes.number(0.3) } else { bytes.number(0.0) };
+        let limited = options.friction == STICKSLIP_FRICTION_TRESCA;
+        options.mu = bytes.number(if limited || options.friction == STICKSLIP_FRICTION_COULOMB { 0.3 } else { 0.0 });
+        options.shear_limit = if limited { bytes.number(0.5) } else { 0.0 };
         options.modulus = bytes.number(1000.0);
         options.augmentation = if options.modulus == 0.0 { bytes.number(15.0) } else { 0.0 };
         options.coverage_min = bytes.number(1e-8);

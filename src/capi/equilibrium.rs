@@ -145,19 +145,22 @@ pub unsafe extern "C" fn stickslip_node_equilibrium(
     slip: *mut f64,
 ) -> i32 {
     guard(|| {
-        let law_node = read_node(node)?;
+        let (friction, law_node) = read_node(node)?;
         let given = sized::read(node)?;
         let (stiffness, rounding) = (not_negative(stiffness, "stiffness")?, not_negative(rounding, "rounding")?);
         raw::check_optional(gap, "gap")?;
         raw::check_optional(traction, "traction")?;
         raw::check_optional(slip, "slip")?;
-        let v = law_node.violation(&Measure {
-            coverage: given.coverage,
-            coverage_previous: given.coverage_previous,
-            stiffness,
-            rounding,
-            traction_rounding: stiffness * rounding,
-        });
+        let v = friction.violation(
+            &law_node,
+            &Measure {
+                coverage: given.coverage,
+                coverage_previous: given.coverage_previous,
+                stiffness,
+                rounding,
+                traction_rounding: stiffness * rounding,
+            },
+        );
         raw::check_results("gap, traction, slip", &[v.gap, v.traction, v.slip])?;
         raw::write(gap, &[v.gap]);
         raw::write(traction, &[v.traction]);

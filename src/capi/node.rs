@@ -2,12 +2,12 @@
 
 use super::guard::guard;
 use super::layout::column_major;
-use super::options::slip_measure;
+use super::options::{law, law_numbers, slip_measure};
 use super::raw;
 use super::sized::{self, Sized64};
 use crate::error::{Error, Kind, Result};
 use crate::geometry::{Mat3, Vec3};
-use crate::law::Node;
+use crate::law::{Coefficient, Friction, Node};
 
 /// State of a node: open or uncovered.
 pub const STICKSLIP_STATE_GAP: i32 = 0;
@@ -50,6 +50,13 @@ pub struct stickslip_node {
     /// Orthonormal directions in which the node is prescribed on both sides [-], one after the other; the normal
     /// must be orthogonal to them.
     pub directions: [f64; 6],
+    /// STICKSLIP_FRICTION_...; 0, and an older caller's: Coulomb. TIED: gap_committed is the gap to keep. NONE acts on
+    /// three multipliers, of which the tangential two vanish.
+    pub friction: i32,
+    /// Must be 0.
+    pub reserved: i32,
+    /// With STICKSLIP_FRICTION_TRESCA the largest shear traction, > 0 [F/L^2]; else 0.
+    pub shear_limit: f64,
 }
 
 // SAFETY: repr(C), struct_size first, numbers only.
@@ -122,7 +129,8 @@ pub(super) fn read_response(first: *const stickslip_node_response, a: usize) -> 
     ))
 }
 
-pub(super) fn read_node(p: *const stickslip_node) -> Result<Node> {
+/// The law that a host asks for, and the node as that law sees it.
+pub(super) fn read_node(p: *const stickslip_node) -> Result<(Friction, Node)> {
     // A normal farther from unit length, or a direction farther from orthonormal, is an input error.
     const UNIT: f64 = 1e-10;
     let n = sized::read(p)?;
@@ -165,11 +173,23 @@ pub(super) fn read_node(p: *const stickslip_node) -> Result<Node> {
         }
         free -= d * d.transpose();
     }
-    Ok(Node {
+    if !n.shear_limit.is_finite() {
+        return refuse("shear_limit", n.shear_limit, "finite");
+    }
+    if n.reserved != 0 {
+        return refuse("reserved", f64::from(n.reserved), "0");
+    }
+    let friction = law(n.friction, "node.friction")?;
+    law_numbers(friction, n.mu, n.shear_limit, "node")?;
+    let node = Node {
         lambda: vector(&n.lambda, "lambda")?,
         normal,
         augmentation: n.augmentation,
-        mu: n.mu,
+        mu: match friction.law().mu {
+            Coefficient::Given => n.mu,
+            Coefficient::Always(mu) => mu,
+        },
+        shear_limit: n.shear_limit,
         gap_now: vector(&n.gap_now, "gap_now")?,
         gap_previous: vector(&n.gap_previous, "gap_previous")?,
         gap_committed: vector(&n.gap_committed, "gap_committed")?,
@@ -177,7 +197,8 @@ pub(super) fn read_node(p: *const stickslip_node) -> Result<Node> {
         covered_before: n.coverage_previous > n.coverage_min,
         slip: slip_measure(n.slip, "node.slip")?,
         free,
-    })
+    };
+    Ok((friction, node))
 }
 
 /// Stage 2: gap, stick or slip of a node, its projected traction, its multiplier row and all
@@ -194,9 +215,9 @@ pub unsafe extern "C" fn stickslip_node_respond(
     response: *mut stickslip_node_response,
 ) -> i32 {
     guard(|| {
-        let node = read_node(node)?;
+        let (friction, node) = read_node(node)?;
         sized::check_output(response)?;
-        let r = node.respond();
+        let r = friction.respond(&node);
         let matrices = [&r.dp_dlambda, &r.drow_dlambda, &r.drow_dnow, &r.drow_dprevious];
         raw::check_results("response", r.row.iter().chain(r.sigma.iter()).chain(matrices.into_iter().flatten()))?;
         sized::write(

@@ -8,7 +8,7 @@ use crate::interface::{
     COVERAGE_MIN, Form, MortarSide, NewContact, Options, RowScale, Scheme, Shortcuts, Stiffness, TURN_MAX, Tangent,
     Weights,
 };
-use crate::law::{Coefficient, LAWS, SlipMeasure};
+use crate::law::{Coefficient, Friction, LAWS, SlipMeasure};
 use crate::quadrature::{DEGREE_1, DEGREE_2, DEGREE_4, DEGREE_5, DEGREE_6, DEGREE_10, Rule, cell};
 
 /// Forces use lambda, rows the projection; the tangent is a sum of pairs and nodes. Default.
@@ -36,6 +36,8 @@ pub const STICKSLIP_FRICTION_NONE: i32 = 1;
 pub const STICKSLIP_FRICTION_TIED: i32 = 2;
 /// Opens and closes, never slips.
 pub const STICKSLIP_FRICTION_ROUGH: i32 = 3;
+/// Coulomb friction with the coefficient mu, up to a largest shear traction, shear_limit.
+pub const STICKSLIP_FRICTION_TRESCA: i32 = 4;
 /// The mortar side deforms (or is prescribed, where it has no equations). Default.
 pub const STICKSLIP_MORTAR_DEFORMABLE: i32 = 0;
 /// The mortar side is rigid or prescribed (no equations): no rows and columns for it in the tangent.
@@ -177,6 +179,8 @@ pub struct stickslip_options {
     /// turn since the first configuration; tied surfaces may turn as they like. At most pi, which refuses nothing;
     /// 0 (default): pi / 9, 20 degrees. What a turn below it costs: docs/plug_in.md.
     pub turn_max: f64,
+    /// With STICKSLIP_FRICTION_TRESCA the largest shear traction, > 0 [F/L^2]; else 0 (default).
+    pub shear_limit: f64,
 }
 
 // SAFETY: repr(C), struct_size first, numbers only.
@@ -218,6 +222,7 @@ pub unsafe extern "C" fn stickslip_options_init(options: *mut stickslip_options,
             element_points: 0,
             weak_coverage: 0.0,
             turn_max: 0.0,
+            shear_limit: 0.0,
         };
         sized::initialise(options, struct_size, defaults, "options")
     })
@@ -288,6 +293,29 @@ pub(super) fn slip_measure(value: i32, name: &str) -> Result<SlipMeasure> {
     choose(value, name, &[SlipMeasure::Objective, SlipMeasure::Increment, SlipMeasure::Paper], 3)
 }
 
+/// The law of a STICKSLIP_FRICTION_... value.
+pub(super) fn law(value: i32, name: &str) -> Result<Friction> {
+    let laws = LAWS.map(|law| law.friction);
+    choose(value, name, &laws, laws.len() as i32)
+}
+
+/// Refuses numbers of other laws, and a law without its own.
+pub(super) fn law_numbers(friction: Friction, mu: f64, shear_limit: f64, of: &str) -> Result<()> {
+    let refuse = |text: Text| Err(Error::new(Kind::InvalidValue, text));
+    let law = friction.law();
+    if law.mu != Coefficient::Given && mu != 0.0 {
+        return refuse(text!(
+            "{of}.mu is {mu}; it must be 0 where {of}.friction is not Coulomb's, with a limit or without"
+        ));
+    }
+    match law.limits_shear {
+        true if shear_limit > 0.0 => Ok(()),
+        true => refuse(text!("{of}.shear_limit is {shear_limit}; it must be positive with STICKSLIP_FRICTION_TRESCA")),
+        false if shear_limit == 0.0 => Ok(()),
+        false => refuse(text!("{of}.shear_limit is {shear_limit}; it must be 0 where {of}.friction has no such limit")),
+    }
+}
+
 /// What an interface is created with.
 pub(super) struct Choices {
     /// The core's options.
@@ -347,9 +375,9 @@ pub(super) fn read_options(p: *const stickslip_options) -> Result<Choices> {
         element_points,
         weak_coverage,
         turn_max,
+        shear_limit,
     } = sized::read(p)?;
-    let laws = LAWS.map(|law| law.friction);
-    let friction = choose(friction, "options.friction", &laws, laws.len() as i32)?;
+    let friction = law(friction, "options.friction")?;
     let sides = [MortarSide::Deformable, MortarSide::Rigid, MortarSide::Rigid];
     let analytic = mortar_side == STICKSLIP_MORTAR_ANALYTIC;
     let mortar_side = choose(mortar_side, "options.mortar_side", &sides, 3)?;
@@ -363,16 +391,14 @@ pub(super) fn read_options(p: *const stickslip_options) -> Result<Choices> {
         ("radius", radius),
         ("weak_coverage", weak_coverage),
         ("turn_max", turn_max),
+        ("shear_limit", shear_limit),
     ];
     for (name, v) in numbers {
         if !v.is_finite() {
             return Err(Error::new(Kind::NotFinite, text!("options.{name} is {v}; it must be finite")));
         }
     }
-    if friction.law().mu != Coefficient::Given && mu != 0.0 {
-        let text = text!("options.mu is {mu}; it must be 0 where options.friction is not Coulomb's");
-        return Err(Error::new(Kind::InvalidValue, text));
-    }
+    law_numbers(friction, mu, shear_limit, "options")?;
     if modulus < 0.0 {
         return Err(Error::new(Kind::InvalidValue, text!("options.modulus is {modulus}; it must not be negative")));
     }
@@ -407,6 +433,7 @@ pub(super) fn read_options(p: *const stickslip_options) -> Result<Choices> {
         mortar_side,
         shortcuts: read_shortcuts(no_shortcuts)?,
         mu,
+        shear_limit: (shear_limit != 0.0).then_some(shear_limit),
         stiffness,
         coverage_min,
         weak_coverage,

@@ -6,9 +6,10 @@
 //! so projecting pair by pair would make the answer depend on the augmentation (docs/formulation.md
 //! 4.5).
 //!
-//! A law is a type: [`Coulomb`] (with an infinite coefficient: rough), [`Frictionless`], [`Tied`]; what the rest of the
+//! A law is a type: [`Coulomb`] (with an infinite coefficient: rough), [`Frictionless`], [`Tied`], [`Tresca`]; what the rest of the
 //! library knows of it is a row of [`LAWS`]. A node has N multiplier components, three or, without friction, one.
 
+mod cone;
 mod coulomb;
 mod frictionless;
 mod node;
@@ -17,8 +18,10 @@ mod slip;
 mod stateless;
 mod table;
 mod tied;
+mod tresca;
 mod violation;
 
+pub use cone::Cone;
 pub use coulomb::Coulomb;
 pub use frictionless::Frictionless;
 pub use node::{Law, Node, NodeResponse};
@@ -26,4 +29,5 @@ pub use projection::{Projected, State, TIE, Threshold, project};
 pub use slip::SlipMeasure;
 pub use table::{Coefficient, Friction, LAWS, LawFunctions, LawRow, Remembers};
 pub use tied::Tied;
+pub use tresca::Tresca;
 pub use violation::{Measure, Violation};

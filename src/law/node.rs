@@ -30,6 +30,8 @@ pub struct Node<const N: usize = 3> {
     pub augmentation: f64,
     /// Coulomb coefficient >= 0.
     pub mu: f64,
+    /// The largest shear traction that [`Tresca`](super::Tresca) allows [F/L^2]; others do not look at it.
+    pub shear_limit: f64,
     /// g[n_{n+1}, x_{n+1}], assembled over all pairs [L^3].
     pub gap_now: Vec3,
     /// g[n_n, x_{n+1}].

@@ -67,11 +67,6 @@ impl Threshold {
     pub fn cone(mu: f64, sigma_n: f64) -> Threshold {
         Threshold { radius: -mu * sigma_n, fall: mu }
     }
-
-    /// The cone's radius at a multiplier's lambda_N: 0 under tension, infinite where mu is.
-    pub(super) fn radius_of_cone(mu: f64, lambda_n: f64) -> f64 {
-        if mu.is_infinite() { f64::INFINITY } else { mu * (-lambda_n).max(0.0) }
-    }
 }
 
 /// Projects the augmented traction `sigma` of a covered node with unit normal `normal` and friction

@@ -1,20 +1,20 @@
-//! The stateless stage: one node under Coulomb's law, without an interface.
+//! The stateless stage: one node with three multipliers under any law, without an interface.
 
-use super::coulomb::Coulomb;
-use super::node::{Law, Node, NodeResponse};
+use super::node::{Node, NodeResponse};
+use super::table::Friction;
 use super::violation::{Measure, Violation};
 
-impl Node {
-    /// Coulomb's answer, of the stateless stage.
-    pub fn respond(&self) -> NodeResponse {
-        Coulomb::respond(self)
+impl Friction {
+    /// The law's answer.
+    pub fn respond(self, node: &Node) -> NodeResponse {
+        (self.law().functions.respond)(node)
     }
 
-    /// Its distance from equilibrium under Coulomb's law, of the stateless stage.
-    pub fn violation(&self, measure: &Measure) -> Violation {
-        match self.covered {
-            true => Coulomb::violation(self, measure),
-            false => Violation::uncovered(self.lambda.norm(), measure),
+    /// The node's distance from equilibrium.
+    pub fn violation(self, node: &Node, measure: &Measure) -> Violation {
+        match node.covered {
+            true => (self.law().functions.violation)(node, measure),
+            false => Violation::uncovered(node.lambda.norm(), measure),
         }
     }
 }

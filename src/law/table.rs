@@ -5,6 +5,7 @@ use super::coulomb::Coulomb;
 use super::frictionless::Frictionless;
 use super::node::{Law, Node, NodeResponse};
 use super::tied::Tied;
+use super::tresca::Tresca;
 use super::violation::{Measure, Violation};
 
 /// What happens along the surface. Its number, in the C ABI and in histories, is the place of its row.
@@ -19,6 +20,8 @@ pub enum Friction {
     Tied,
     /// Rough: opens and closes, never slips.
     Rough,
+    /// Coulomb's law with mu up to a limit of the shear traction.
+    Tresca,
 }
 
 /// Where a law has its coefficient from.
@@ -83,6 +86,8 @@ pub struct LawRow {
     pub multipliers: usize,
     /// mu.
     pub mu: Coefficient,
+    /// Whether it needs a shear limit; the others refuse one.
+    pub limits_shear: bool,
     /// What it remembers.
     pub remembers: Remembers,
     /// With three multipliers a node.
@@ -90,7 +95,7 @@ pub struct LawRow {
 }
 
 /// In the order of [`Friction`].
-pub const LAWS: [LawRow; 4] = [
+pub const LAWS: [LawRow; 5] = [
     LawRow {
         friction: Friction::Coulomb,
         name: "Coulomb's law",
@@ -98,6 +103,7 @@ pub const LAWS: [LawRow; 4] = [
         opens: true,
         multipliers: 3,
         mu: Coefficient::Given,
+        limits_shear: false,
         remembers: Remembers::Slip,
         functions: LawFunctions::of::<Coulomb>(),
     },
@@ -108,6 +114,7 @@ pub const LAWS: [LawRow; 4] = [
         opens: true,
         multipliers: 1,
         mu: Coefficient::Always(0.0),
+        limits_shear: false,
         remembers: Remembers::Nothing,
         functions: LawFunctions::<3>::FRICTIONLESS,
     },
@@ -118,6 +125,7 @@ pub const LAWS: [LawRow; 4] = [
         opens: false,
         multipliers: 3,
         mu: Coefficient::Always(0.0),
+        limits_shear: false,
         remembers: Remembers::FirstGap,
         functions: LawFunctions::of::<Tied>(),
     },
@@ -128,8 +136,20 @@ pub const LAWS: [LawRow; 4] = [
         opens: true,
         multipliers: 3,
         mu: Coefficient::Always(f64::INFINITY),
+        limits_shear: false,
         remembers: Remembers::Slip,
         functions: LawFunctions::of::<Coulomb>(),
+    },
+    LawRow {
+        friction: Friction::Tresca,
+        name: "Coulomb's law with a shear limit",
+        effect: "Coulomb's law up to a shear limit, with mu",
+        opens: true,
+        multipliers: 3,
+        mu: Coefficient::Given,
+        limits_shear: true,
+        remembers: Remembers::Slip,
+        functions: LawFunctions::of::<Tresca>(),
     },
 ];
 

@@ -61,6 +61,8 @@ BAD_SCENES = [
     BadScene("empty_surface", "within: [0.2, 0, 0, 3.8, 1, 0]", "within: [9, 0, 0, 10, 1, 0]", "zone.within"),
     BadScene("unknown_choice", "weights: reference", "weights: heavy", "base.weights"),
     BadScene("unknown_law", "friction: 0.5", "law: sticky", "base.law"),
+    BadScene("tresca_without_limit", "friction: 0.5", "friction: 0.5, law: tresca", "base.shear_limit"),
+    BadScene("limit_of_coulomb", "friction: 0.5", "friction: 0.5, shear_limit: 1", "base.shear_limit"),
     BadScene("friction_of_tied", "friction: 0.5", "friction: 0.5, law: tied", "base.friction"),
     BadScene(
         "not_rigid",

@@ -75,7 +75,7 @@ static inline int32_t every_create(every *c) {
 }
 static inline int32_t every_destroy(every *c) { return stickslip_interface_destroy(&c->other); }
 static inline int32_t every_friction(every *c) {
-  const double value = c->h.s.options.friction == STICKSLIP_FRICTION_COULOMB ? 0.6 : 0.0;
+  const double value = has_mu(c->h.s.options.friction) ? 0.6 : 0.0;
   double mu[N1];
   for (int a = 0; a < N1; ++a) mu[a] = value;
   return stickslip_interface_set_friction(c->h.s.interface, mu);

@@ -8,7 +8,7 @@
 typedef struct {
   const char *name;
   int32_t form, friction, weights, integration;
-  double weak_coverage, slide, lift;
+  double weak_coverage, slide, lift, shear_limit;
   int rigid, analytic;
   int unseen; /* the history is not looked at before the end: what a commit has left out is then made up for by a call */
 } kind;
@@ -21,6 +21,7 @@ static const kind kinds[] = {
     {.name = "tied", .friction = STICKSLIP_FRICTION_TIED},
     {.name = "tied over a gap", .friction = STICKSLIP_FRICTION_TIED, .lift = 0.1},
     {.name = "rough", .friction = STICKSLIP_FRICTION_ROUGH},
+    {.name = "shear limit", .friction = STICKSLIP_FRICTION_TRESCA, .shear_limit = 0.5},
     {.name = "committed weights", .weights = STICKSLIP_WEIGHTS_COMMITTED},
     {.name = "reference weights", .weights = STICKSLIP_WEIGHTS_REFERENCE},
     {.name = "weak coverage", .weak_coverage = 0.5, .slide = 0.9},
@@ -43,7 +44,8 @@ static inline void set_up(const kind *k, every *c) {
   s->options.weights = k->weights;
   s->options.integration = k->integration;
   s->options.weak_coverage = k->weak_coverage;
-  if (k->friction != STICKSLIP_FRICTION_COULOMB) s->options.mu = 0.0;
+  s->options.shear_limit = k->shear_limit;
+  if (!has_mu(k->friction)) s->options.mu = 0.0;
   if (k->rigid || k->analytic) {
     s->options.mortar_side = k->analytic ? STICKSLIP_MORTAR_ANALYTIC : STICKSLIP_MORTAR_RIGID;
     for (int i = 0; i < X2; ++i) s->equations2[i] = -1;
@@ -69,7 +71,7 @@ static inline void set_up(const kind *k, every *c) {
 }
 
 static inline int belongs(const kind *k, const entry_point *entry) {
-  if (entry->call == every_friction) return k->friction == STICKSLIP_FRICTION_COULOMB;
+  if (entry->call == every_friction) return has_mu(k->friction);
   return entry->call != every_with_sums || k->weak_coverage == 0.0;
 }
 

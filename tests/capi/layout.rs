@@ -68,7 +68,8 @@ fn layouts() -> Vec<Layout> {
             tangent,
             element_points,
             weak_coverage,
-            turn_max
+            turn_max,
+            shear_limit
         }),
         layout!(stickslip_states {
             struct_size,
@@ -179,7 +180,10 @@ fn layouts() -> Vec<Layout> {
             gap_now,
             gap_previous,
             gap_committed,
-            directions
+            directions,
+            friction,
+            reserved,
+            shear_limit
         }),
         layout!(stickslip_node_response {
             struct_size,

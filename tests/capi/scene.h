@@ -104,6 +104,11 @@ static inline void scene_init_base(scene *s, int64_t base) {
   s->options.augmentation = 15.0;
 }
 
+/* Laws that take a coefficient. */
+static inline int has_mu(int32_t friction) {
+  return friction == STICKSLIP_FRICTION_COULOMB || friction == STICKSLIP_FRICTION_TRESCA;
+}
+
 static inline void scene_init(scene *s) { scene_init_base(s, 0); }
 
 static inline void scene_create(scene *s) {

@@ -104,6 +104,36 @@ int main(void) {
     CHECK_NEAR(r.traction[0], -6.0, 1e-14);
   }
 
+  /* The other laws. With a shear limit below mu |sigma_N| = 5 that is the shear; above it mu decides. */
+  n = make_node(20.0, mu);
+  n.friction = STICKSLIP_FRICTION_TRESCA;
+  n.shear_limit = 3.0;
+  r = respond(&n);
+  CHECK(r.state == STICKSLIP_STATE_SLIP);
+  CHECK_NEAR(r.traction[1], 3.0, 1e-14);
+  check_derivative(&n, offsetof(stickslip_node, gap_now), r.drow_dnow, n.augmentation);
+  n.shear_limit = 6.0;
+  CHECK_NEAR(respond(&n).traction[1], 5.0, 1e-14);
+  CHECK_REFUSED((n.shear_limit = 0.0, stickslip_node_respond(&n, &r)), STICKSLIP_INVALID_VALUE, "node.shear_limit");
+  n = make_node(20.0, 0.0);
+  n.friction = STICKSLIP_FRICTION_ROUGH;
+  CHECK(state(&n) == STICKSLIP_STATE_STICK);
+  n.friction = STICKSLIP_FRICTION_NONE;
+  r = respond(&n);
+  CHECK(r.state == STICKSLIP_STATE_SLIP && max_abs(r.slip, 3) == 0.0);
+  CHECK_NEAR(r.traction[1], 0.0, 0.0);
+  /* Tied to the gap 2 nu, 2.5 away. */
+  n.friction = STICKSLIP_FRICTION_TIED;
+  for (int i = 0; i < 3; ++i) n.gap_committed[i] = 2.0 * nu[i];
+  r = respond(&n);
+  CHECK(r.state == STICKSLIP_STATE_STICK);
+  CHECK_NEAR(r.row[2], -2.5 * nu[2], 1e-15);
+  n.friction = 5;
+  CHECK_REFUSED(stickslip_node_respond(&n, &r), STICKSLIP_INVALID_VALUE, "node.friction");
+  n = make_node(20.0, mu);
+  n.friction = STICKSLIP_FRICTION_TIED;
+  CHECK_REFUSED(stickslip_node_respond(&n, &r), STICKSLIP_INVALID_VALUE, "node.mu");
+
   /* A huge coefficient sticks. */
   n = make_node(20.0, 1e6);
   CHECK(state(&n) == STICKSLIP_STATE_STICK);

@@ -13,7 +13,7 @@ static void options(void) {
       {&s.options.form, "options.form", 2, 2},
       {&s.options.slip, "options.slip", 3, 3},
       {&s.options.weights, "options.weights", 3, 3},
-      {&s.options.friction, "options.friction", 4, 4},
+      {&s.options.friction, "options.friction", 5, 5},
       {&s.options.mortar_side, "options.mortar_side", 3, 3},
       {&s.options.multiplier_basis, "options.multiplier_basis", 1, 2},
       {&s.options.quadrature, "options.quadrature", 6, 6},

@@ -263,10 +263,11 @@ static void sequence(int compared) {
   s->options.slip = (int32_t)draw(3);
   s->options.new_contact = (int32_t)draw(2);
   s->options.quadrature = (int32_t)draw(2);
-  s->options.friction = (int32_t)draw(4);
+  s->options.friction = (int32_t)draw(STICKSLIP_FRICTION_TRESCA + 1);
   s->options.no_shortcuts = (int32_t)draw(16);
   s->options.weak_coverage = 0.5 * (double)draw(3);
-  if (s->options.friction != STICKSLIP_FRICTION_COULOMB) s->options.mu = 0.0;
+  if (!has_mu(s->options.friction)) s->options.mu = 0.0;
+  if (s->options.friction == STICKSLIP_FRICTION_TRESCA) s->options.shear_limit = 0.5;
   if (draw(2)) spoil(&s->options.mu, 5);
   if (draw(4) == 0) spoil(s->reference1, X1);
   if (draw(4) == 0) spoil(s->reference2, X2);

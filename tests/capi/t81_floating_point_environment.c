@@ -61,13 +61,14 @@ static void run(environment e, int32_t form, int32_t friction, every *c) {
   scene_init(&c->h.s);
   c->h.s.options.form = form;
   c->h.s.options.friction = friction;
-  if (friction != STICKSLIP_FRICTION_COULOMB) c->h.s.options.mu = 0.0;
+  if (!has_mu(friction)) c->h.s.options.mu = 0.0;
+  c->h.s.options.shear_limit = friction == STICKSLIP_FRICTION_TRESCA ? 0.5 : 0.0;
   every_init(c);
   /* Thousandths beside lengths of 1, and subnormal numbers, which flushing would lose. */
   c->h.s.lambda[0] += 1e-310;
   c->e.traction[0] = 3e-310;
   for (int k = 0; k < COUNT(every_call); ++k) {
-    if (every_call[k].call == every_friction && friction != STICKSLIP_FRICTION_COULOMB) continue;
+    if (every_call[k].call == every_friction && !has_mu(friction)) continue;
     const int32_t status = kept(e, every_call[k].call, c, 0, every_call[k].name);
     if (status != STICKSLIP_OK) fprintf(stderr, "%s\n", every_call[k].name);
     CHECK(status == STICKSLIP_OK);
@@ -81,6 +82,7 @@ int main(void) {
   static const int roundings[] = {FE_TONEAREST, FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO};
   static const int32_t scenes[][2] = {{STICKSLIP_FORM_MULTIPLIER, STICKSLIP_FRICTION_COULOMB},
                                       {STICKSLIP_FORM_AUGMENTED, STICKSLIP_FRICTION_COULOMB},
+                                      {STICKSLIP_FORM_MULTIPLIER, STICKSLIP_FRICTION_TRESCA},
                                       {STICKSLIP_FORM_MULTIPLIER, STICKSLIP_FRICTION_NONE}};
   for (int k = 0; k < COUNT(scenes); ++k) {
     run((environment){FE_TONEAREST, 0, 0, 0}, scenes[k][0], scenes[k][1], &expected);

@@ -59,6 +59,38 @@ program t20_node
     CHECK_NEAR(r%traction(1), -6d0, ROUNDING_10)
   end do
 
+  ! The other laws. With a shear limit below mu |sigma_N| = 5 that is the shear; above it mu decides.
+  n = make_node(20d0, MU)
+  n%friction = STICKSLIP_FRICTION_TRESCA
+  n%shear_limit = 3
+  r = respond(n)
+  CHECK(r%state == STICKSLIP_STATE_SLIP)
+  CHECK_NEAR(r%traction(2), 3d0, ROUNDING_10)
+  call check_derivative(n, GAP_NOW, r%drow_dnow)
+  n%shear_limit = 6
+  r = respond(n)
+  CHECK_NEAR(r%traction(2), 5d0, ROUNDING_10)
+  n%shear_limit = 0
+  CHECK_REFUSED(stickslip_node_respond(n, r), STICKSLIP_INVALID_VALUE, 'node.shear_limit')
+  n = make_node(20d0, 0d0)
+  n%friction = STICKSLIP_FRICTION_ROUGH
+  CHECK(state(n) == STICKSLIP_STATE_STICK)
+  n%friction = STICKSLIP_FRICTION_NONE
+  r = respond(n)
+  CHECK(r%state == STICKSLIP_STATE_SLIP .and. all(r%slip == 0))
+  CHECK(r%traction(2) == 0)
+  ! Tied to the gap 2 nu, 2.5 away.
+  n%friction = STICKSLIP_FRICTION_TIED
+  n%gap_committed = 2 * NU
+  r = respond(n)
+  CHECK(r%state == STICKSLIP_STATE_STICK)
+  CHECK_NEAR(r%row(3), -2.5d0 * NU(3), ROUNDING)
+  n%friction = 5
+  CHECK_REFUSED(stickslip_node_respond(n, r), STICKSLIP_INVALID_VALUE, 'node.friction')
+  n = make_node(20d0, MU)
+  n%friction = STICKSLIP_FRICTION_TIED
+  CHECK_REFUSED(stickslip_node_respond(n, r), STICKSLIP_INVALID_VALUE, 'node.mu')
+
   ! A huge coefficient sticks.
   CHECK(state(make_node(20d0, 1d6)) == STICKSLIP_STATE_STICK)
 

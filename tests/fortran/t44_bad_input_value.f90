@@ -17,7 +17,7 @@ program t44_bad_input_value
   call check_option(s%options%form, 'form', 2, 2)
   call check_option(s%options%slip, 'slip', 3, 3)
   call check_option(s%options%weights, 'weights', 3, 3)
-  call check_option(s%options%friction, 'friction', 4, 4)
+  call check_option(s%options%friction, 'friction', 5, 5)
   call check_option(s%options%mortar_side, 'mortar_side', 3, 3)
   call check_option(s%options%multiplier_basis, 'multiplier_basis', 1, 2)
   call check_option(s%options%quadrature, 'quadrature', 6, 6)

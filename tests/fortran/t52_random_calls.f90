@@ -255,10 +255,11 @@ contains
     h%s%options%slip = random(3)
     h%s%options%new_contact = random(2)
     h%s%options%quadrature = random(2)
-    h%s%options%friction = random(4)
+    h%s%options%friction = random(int(STICKSLIP_FRICTION_TRESCA) + 1)
     h%s%options%no_shortcuts = random(16)
     h%s%options%weak_coverage = 0.5d0 * random(3)
-    if (h%s%options%friction /= STICKSLIP_FRICTION_COULOMB) h%s%options%mu = 0
+    if (all(h%s%options%friction /= [STICKSLIP_FRICTION_COULOMB, STICKSLIP_FRICTION_TRESCA])) h%s%options%mu = 0
+    if (h%s%options%friction == STICKSLIP_FRICTION_TRESCA) h%s%options%shear_limit = 0.5d0
     if (once_in(2)) then
       call spoil_scalar(h%s%options%mu)
       call spoil_scalar(h%s%options%augmentation)

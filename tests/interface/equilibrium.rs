@@ -7,6 +7,7 @@ use stickslip::geometry::Vec3;
 use stickslip::interface::{
     Contact, Equilibrium, Form, Friction, MortarSide, Options, RowScale, Scales, Stiffness, Weights,
 };
+use stickslip::law::{Coefficient, LAWS};
 
 /// Newton's method ends at such a step, relative to the unknowns: multipliers of slivers come no closer.
 const NEWTON: f64 = 1e-11;
@@ -18,6 +19,9 @@ const ROUNDING: f64 = 1e-11;
 const YOUNG: f64 = 100.0;
 /// Of the default; Newton's method with full steps finds the states in all of them.
 const AUGMENTATIONS: [f64; 3] = [1e-3, 3e-2, 1.0];
+
+/// Over the modulus; some nodes slip at it, others at mu times their pressure.
+const SHEAR_LIMIT: f64 = 3e-3;
 
 const SCALES: Scales = Scales { modulus: YOUNG, traction: 0.0 };
 
@@ -58,15 +62,16 @@ where
 
 #[test]
 fn nothing_is_amiss_at_a_solution_whatever_the_augmentation() {
-    for friction in [Friction::Coulomb, Friction::None, Friction::Rough, Friction::Tied] {
+    for friction in LAWS.map(|law| law.friction) {
         for (form, row_scale, scale) in AUGMENTATIONS
             .iter()
             .flat_map(|&s| [(Form::Multiplier, RowScale::Force, s), (Form::Augmented, RowScale::None, s)])
         {
             for rigid in [false, true] {
-                let mu = if friction == Friction::Coulomb { 0.3 } else { 0.0 };
+                let mu = if friction.law().mu == Coefficient::Given { 0.3 } else { 0.0 };
+                let shear_limit = friction.law().limits_shear.then_some(SHEAR_LIMIT * YOUNG);
                 let stiffness = Stiffness::Modulus(scale * YOUNG);
-                let options = Options { form, row_scale, friction, mu, ..Options::new(stiffness) };
+                let options = Options { form, row_scale, friction, mu, shear_limit, ..Options::new(stiffness) };
                 let (ends, between) = match friction {
                     Friction::None => press::<1>(options, rigid),
                     _ => press::<3>(options, rigid),

@@ -9,6 +9,7 @@ use stickslip::geometry::{AnalyticShape, Vec3};
 use stickslip::interface::{
     Contact, Extent, Form, Friction, NO_EQUATION, NodeSums, Options, Scheme, Shortcuts, Surface, Weights,
 };
+use stickslip::law::Coefficient;
 
 /// Sequences of calls, and calls of each.
 const SEQUENCES: usize = 1500;
@@ -101,7 +102,8 @@ impl Scene {
         let mut flag = || draw(random, 8) > 0;
         let shortcuts = Shortcuts { frictionless: flag(), rigid: flag(), apart: flag(), uncovered: flag() };
         let mut options = Options { friction, shortcuts, ..options() };
-        options.mu = if friction == Friction::Coulomb { [0.0, 0.6][draw(random, 2)] } else { 0.0 };
+        options.shear_limit = friction.law().limits_shear.then_some(0.02);
+        options.mu = if friction.law().mu == Coefficient::Given { [0.0, 0.6][draw(random, 2)] } else { 0.0 };
         options.form = [Form::Multiplier, Form::Multiplier, Form::Augmented][draw(random, 3)];
         options.weights =
             [Weights::Current, Weights::Current, Weights::Current, Weights::Committed, Weights::Reference]
@@ -316,10 +318,11 @@ where
 fn an_evaluation_knows_nothing_of_the_calls_before_it() {
     let (mut random, mut seen) = (Random(14), [0; 3]);
     for _ in 0..SEQUENCES {
-        match draw(&mut random, 6) {
+        match draw(&mut random, 7) {
             0 | 1 => run::<1>(&mut random, Friction::None, &mut seen),
             2 => run::<3>(&mut random, Friction::Rough, &mut seen),
             3 => run::<3>(&mut random, Friction::Tied, &mut seen),
+            4 => run::<3>(&mut random, Friction::Tresca, &mut seen),
             _ => run::<3>(&mut random, Friction::Coulomb, &mut seen),
         }
     }

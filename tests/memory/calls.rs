@@ -7,7 +7,7 @@ use std::ptr::null;
 use stickslip::capi::*;
 use stickslip::element::{FacetResponse, NodeTangent, PairNow, PairTangent, pair_force, row_columns};
 use stickslip::geometry::{Facet, Mat3, Vec3};
-use stickslip::law::{Node, SlipMeasure};
+use stickslip::law::{Friction, Node, SlipMeasure};
 use stickslip::mortar::{
     self, AlongNormal, GapDerivative, NonmortarFrame, PairWeights, Segment, WeightDerivatives, pair_motion,
 };
@@ -164,6 +164,7 @@ fn rust_element_calls_allocate_nothing() {
         normal: Vec3::z(),
         augmentation: 3.0,
         mu: 0.5,
+        shear_limit: f64::INFINITY,
         gap_now: Vec3::zeros(),
         gap_previous: Vec3::x(),
         gap_committed: Vec3::zeros(),
@@ -172,5 +173,5 @@ fn rust_element_calls_allocate_nothing() {
         slip: SlipMeasure::Objective,
         free: Mat3::identity(),
     };
-    allocates_nothing("a node in Rust", || node.respond().row.x);
+    allocates_nothing("a node in Rust", || Friction::Coulomb.respond(&node).row.x);
 }

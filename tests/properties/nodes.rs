@@ -4,7 +4,7 @@ use super::{angles, config};
 use nalgebra::Rotation3;
 use proptest::prelude::*;
 use stickslip::geometry::{Mat3, Vec3};
-use stickslip::law::{Node, SlipMeasure, State, TIE, project};
+use stickslip::law::{Friction, Node, SlipMeasure, State, TIE, project};
 
 /// Rounding of a dozen operations, relative to the trial traction; times 1 + mu where the rounding of the normal part
 /// moves the cone.
@@ -58,6 +58,7 @@ fn node(c: &Case, lambda: Vec3, r: f64, now: Vec3, previous: Vec3) -> Node {
         normal: c.normal,
         augmentation: r,
         mu: c.mu,
+        shear_limit: f64::INFINITY,
         gap_now: now,
         gap_previous: previous,
         gap_committed: Vec3::zeros(),
@@ -138,13 +139,13 @@ proptest! {
             State::Stick => (Vec3::zeros(), Vec3::zeros()),
             State::Slip => (Vec3::zeros(), tangential.try_normalize(1e-300).unwrap_or(Vec3::zeros()) * slid),
         };
-        let response = node(&c, lambda, r, now, previous).respond();
+        let response = Friction::Coulomb.respond(&node(&c, lambda, r, now, previous));
         // A multiplier within the tie of the cone counts as on it.
         let rounding = (8.0 * ROUNDING * (1.0 + c.mu) + TIE) * (lambda.norm() / r + slid);
         prop_assert!(response.row.norm() <= rounding, "{:?} {:e}", p.state, response.row.norm());
         prop_assert!((response.traction - lambda).norm() <= rounding * r);
         // c = (p - lambda) / r always, and it tells every other multiplier.
-        let wrong = node(&c, lambda + off * 0.5, r, now, previous).respond();
+        let wrong = Friction::Coulomb.respond(&node(&c, lambda + off * 0.5, r, now, previous));
         let row = (wrong.traction - lambda - off * 0.5) / r;
         prop_assert!((wrong.row - row).norm() <= 8.0 * ROUNDING * ((1.0 + lambda.norm()) / r + slid) * (1.0 + c.mu));
         // At a gap and in slip beyond it the multiplier is determined by the law; in stick by the displacements.
@@ -158,7 +159,7 @@ proptest! {
     #[test]
     fn uncovered_nodes_are_open(c in cases(), g in unit()) {
         let n = Node { covered: false, ..node(&c, c.sigma, 2.0, g, g) };
-        let response = n.respond();
+        let response = Friction::Coulomb.respond(&n);
         prop_assert_eq!(response.state, State::Gap);
         prop_assert_eq!(response.traction, Vec3::zeros());
         prop_assert_eq!(response.row, -c.sigma / 2.0);

@@ -61,6 +61,9 @@ Node = struct(
     ("gap_previous", c_double * 3),
     ("gap_committed", c_double * 3),
     ("directions", c_double * 6),
+    ("friction", c_int32),
+    ("reserved", c_int32),
+    ("shear_limit", c_double),
 )
 Response = struct(
     "Response",
@@ -106,6 +109,7 @@ Options = struct(
     ("element_points", c_int64),
     ("weak_coverage", c_double),
     ("turn_max", c_double),
+    ("shear_limit", c_double),
 )
 Surface = struct(
     "Surface",

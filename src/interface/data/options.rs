@@ -139,6 +139,8 @@ pub struct Options {
     pub shortcuts: Shortcuts,
     /// Coulomb coefficient of all nodes, >= 0.
     pub mu: f64,
+    /// The largest shear traction [F/L^2] of a law that has such a limit, else `None`.
+    pub shear_limit: Option<f64>,
     /// Source of the augmentation.
     pub stiffness: Stiffness,
     /// Covered over full nodal area at and below which a node counts as uncovered.
@@ -178,6 +180,7 @@ impl Options {
             mortar_side: MortarSide::default(),
             shortcuts: Shortcuts::default(),
             mu: 0.0,
+            shear_limit: None,
             stiffness,
             coverage_min: COVERAGE_MIN,
             weak_coverage: 0.0,
@@ -200,6 +203,12 @@ impl Options {
         }
         if !(self.mu >= 0.0 && self.mu.is_finite()) {
             return refuse("mu", self.mu, "finite and not negative");
+        }
+        match (self.friction.law().limits_shear, self.shear_limit) {
+            (true, Some(limit)) if limit > 0.0 && limit.is_finite() => {}
+            (true, limit) => return refuse("shear_limit", limit.unwrap_or(0.0), "positive and finite with this law"),
+            (false, Some(limit)) => return refuse("shear_limit", limit, "0 with a law that has no such limit"),
+            (false, None) => {}
         }
         if !(0.0..1.0).contains(&self.coverage_min) {
             return refuse("coverage_min", self.coverage_min, "at least 0 and below 1");

@@ -46,7 +46,10 @@ fn friction_sentence<const N: usize>(setup: &Setup<N>) -> Result<Text> {
     let what: Text = match law.mu {
         Coefficient::Always(_) => law.effect.into(),
         Coefficient::Given if !setup.effects.law.slips => "none (chosen: mu is 0 at every node), no slip".into(),
-        Coefficient::Given => say!("{} {}", law.effect, mu_range(setup)?)?,
+        Coefficient::Given => match setup.options.shear_limit {
+            None => say!("{} {}", law.effect, mu_range(setup)?)?,
+            Some(limit) => say!("{} {} and the limit {limit}", law.effect, mu_range(setup)?)?,
+        },
     };
     say!("Friction: {what}; {unknowns}.")
 }

@@ -9,6 +9,7 @@ mod rigid;
 mod rough;
 mod shortcuts;
 mod tied;
+mod tresca;
 mod uncovered;
 
 use crate::support::mesh::*;

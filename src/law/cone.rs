@@ -1,0 +1,87 @@
+//! Gap, stick and slip under any threshold k of the tangential traction (paper (17), (22), (24)). The row is written
+//! without subtracting lambda from p: stick c = g_N nu + g_T, slip c = g_N nu - (lambda_T - beta sigma_T) / r.
+
+use super::node::{Law, Node, NodeResponse};
+use super::projection::{Projected, State, Threshold, project_parts};
+use super::violation::{Covered, Measure, Violation};
+use crate::geometry::{Mat3, Vec3};
+
+/// A law that is told by its threshold. Implementing this makes it a [`Law`].
+pub trait Cone {
+    /// Which tangential tractions stick at a normal traction sigma_N < 0, the node's numbers being given.
+    fn threshold(node: &Node, sigma_n: f64) -> Threshold;
+}
+
+/// g_T; none where the node was not covered at t_n.
+fn weighted_slip(node: &Node) -> Vec3 {
+    if !node.covered_before {
+        return Vec3::zeros();
+    }
+    let (now, committed) = node.slip.coefficients();
+    let slip = node.gap_previous - node.gap_now * now - node.gap_committed * committed;
+    node.free * (slip - node.normal * node.normal.dot(&slip))
+}
+
+/// k at a multiplier's lambda_N: that of no pressure under tension, infinite where mu is.
+fn radius_at<C: Cone>(node: &Node, lambda_n: f64) -> f64 {
+    if node.mu.is_infinite() { f64::INFINITY } else { C::threshold(node, lambda_n.min(0.0)).radius }
+}
+
+impl<C: Cone> Law<3> for C {
+    const SLIPS: bool = true;
+
+    fn respond(node: &Node) -> NodeResponse {
+        let r = node.augmentation;
+        let (now, _) = node.slip.coefficients();
+
+        let lambda = node.free * node.lambda;
+        let gap_normal = node.normal.dot(&node.gap_now);
+        let slip = weighted_slip(node);
+        let lambda_n = node.normal.dot(&lambda);
+        // Part by part, so that sigma_N has no rounding of the slip: with mu = 0 the answer is that without friction.
+        let (sigma_n, sigma_t) = (lambda_n + r * gap_normal, lambda - node.normal * lambda_n + slip * r);
+        let threshold = C::threshold(node, sigma_n);
+        let p = if node.covered { project_parts(sigma_n, sigma_t, node.normal, threshold) } else { Projected::gap() };
+        let row = match p.state {
+            State::Gap => -node.lambda / r,
+            State::Stick => node.normal * gap_normal + slip - (node.lambda - lambda) / r,
+            State::Slip => {
+                let lambda_t = node.lambda - node.normal * lambda_n;
+                node.normal * gap_normal - (lambda_t - p.tangential) / r
+            }
+        };
+
+        // With F the free directions and H = dp/dsigma: dsigma/dlambda = F, dsigma/dg = nu nu^T - F (I - nu nu^T) now,
+        // dsigma/dg_previous = F (I - nu nu^T); without a history the first term alone.
+        let (h, along_normal) = (p.derivative * node.free, node.normal.transpose());
+        let normal = (p.derivative * node.normal) * along_normal;
+        let tangential = if node.covered_before { h - (h * node.normal) * along_normal } else { Mat3::zeros() };
+        NodeResponse {
+            state: p.state,
+            traction: p.traction,
+            row,
+            gap_normal,
+            slip,
+            sigma: node.normal * sigma_n + sigma_t,
+            dp_dlambda: h,
+            drow_dlambda: (h - Mat3::identity()) / r,
+            drow_dnow: normal - tangential * now,
+            drow_dprevious: tangential,
+        }
+    }
+
+    fn violation(node: &Node, measure: &Measure) -> Violation {
+        let lambda = node.free * node.lambda;
+        let normal = node.normal.dot(&lambda);
+        let slip = if node.covered_before { weighted_slip(node) / measure.coverage_previous } else { Vec3::zeros() };
+        let node = Covered {
+            gap: node.normal.dot(&node.gap_now) / measure.coverage,
+            slip,
+            normal,
+            tangential: lambda - node.normal * normal,
+            held: (node.lambda - lambda).norm(),
+            radius: radius_at::<C>(node, normal),
+        };
+        node.nearest(measure)
+    }
+}
