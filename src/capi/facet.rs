@@ -6,17 +6,17 @@ use crate::error::{Error, Kind, Result};
 use crate::geometry::{Facet, Plane, Vec3};
 use crate::mortar::NonmortarFrame;
 use crate::normal;
-use crate::shape::MAX_NODES;
+use crate::shape::MAX_CORNERS;
 
 /// A facet from `n` points of an argument called `name`; allocates nothing.
 pub(super) fn facet(n: i32, x: *const f64, name: &str) -> Result<Facet> {
-    if !(3..=MAX_NODES as i32).contains(&n) {
+    if !(3..=MAX_CORNERS as i32).contains(&n) {
         let text = text!("{name} has {n} nodes; 3 (tri3) or 4 (quad4) are allowed");
         return Err(Error::new(Kind::InvalidSize, text));
     }
     let n = n as usize;
     let values = raw::numbers(x, 3 * n, name)?;
-    let mut points = [Vec3::zeros(); MAX_NODES];
+    let mut points = [Vec3::zeros(); MAX_CORNERS];
     for (point, v) in points.iter_mut().zip(values.chunks_exact(3)) {
         *point = Vec3::from_column_slice(v);
     }
@@ -41,7 +41,7 @@ pub unsafe extern "C" fn stickslip_facet_geometry(n: i32, x: *const f64, normals
         raw::check_optional(normals, "normals")?;
         raw::check_optional(areas, "areas")?;
         let frame = NonmortarFrame::new(&facet).map_err(raw::named("x"))?;
-        let corners: [Vec3; MAX_NODES] = std::array::from_fn(|k| normal::corner_normal(&facet, k % facet.len()));
+        let corners: [Vec3; MAX_CORNERS] = std::array::from_fn(|k| normal::corner_normal(&facet, k % facet.len()));
         raw::write_each(normals, corners[..facet.len()].iter().flat_map(|v| v.iter().copied()));
         raw::write(areas, &frame.nodal_areas()[..facet.len()]);
         Ok(())

@@ -13,7 +13,7 @@ use crate::geometry::{Facet, Mat3, Projection, Vec3};
 use crate::mortar::{
     self, AlongNormal, GapDerivative, MORTAR, NonmortarFrame, PairWeights, Segment, WeightDerivatives,
 };
-use crate::shape::MAX_NODES;
+use crate::shape::MAX_CORNERS;
 
 /// A pair of facets, non-mortar first. Node order: right-hand, seen from outside each body.
 #[repr(C)]
@@ -120,8 +120,8 @@ impl Pair {
         Ok(d)
     }
 
-    fn tractions(&self, p: *const f64) -> Result<[Vec3; MAX_NODES]> {
-        let mut t = [Vec3::zeros(); MAX_NODES];
+    fn tractions(&self, p: *const f64) -> Result<[Vec3; MAX_CORNERS]> {
+        let mut t = [Vec3::zeros(); MAX_CORNERS];
         for (t, v) in t.iter_mut().zip(raw::numbers(p, 3 * self.one.len(), "traction")?.chunks_exact(3)) {
             *t = Vec3::from_column_slice(v);
         }
@@ -298,7 +298,7 @@ pub unsafe extern "C" fn stickslip_pair_tangent(
             .transpose()?;
         let traction = pair.tractions(traction)?;
         let scale = raw::optional_numbers(row_scale, n1, "row_scale")?;
-        let mut nodes = [NodeTangent::default(); MAX_NODES];
+        let mut nodes = [NodeTangent::default(); MAX_CORNERS];
         for (a, node) in nodes[..n1].iter_mut().enumerate() {
             let s = scale.map_or(1.0, |s| s[a]);
             let (now, previous) = super::node::read_response(responses, a)?;

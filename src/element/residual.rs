@@ -4,17 +4,17 @@
 
 use crate::geometry::Vec3;
 use crate::mortar::{MORTAR, PAIR_NODES, PairWeights};
-use crate::shape::MAX_NODES;
+use crate::shape::{MAX_CORNERS, MAX_NODES};
 use crate::simd::{self, Kernel, Lanes};
 
 /// Forces `[F]` at the pair's slots from the nodal tractions [F/L^2]. Their sum vanishes.
-pub fn pair_force(weights: &PairWeights, traction: &[Vec3; MAX_NODES]) -> [Vec3; PAIR_NODES] {
+pub fn pair_force(weights: &PairWeights, traction: &[Vec3; MAX_CORNERS]) -> [Vec3; PAIR_NODES] {
     simd::dispatch(Forces { weights, traction })
 }
 
 struct Forces<'a> {
     weights: &'a PairWeights,
-    traction: &'a [Vec3; MAX_NODES],
+    traction: &'a [Vec3; MAX_CORNERS],
 }
 
 impl Kernel for Forces<'_> {
@@ -26,7 +26,7 @@ impl Kernel for Forces<'_> {
         let mut f = [Vec3::zeros(); PAIR_NODES];
         for i in 0..3 {
             let (mut one, mut two) = (L::splat(0.0), L::splat(0.0)); // lanes B and C
-            for a in 0..MAX_NODES {
+            for a in 0..MAX_CORNERS {
                 let t = L::splat(traction[a][i]);
                 one = t.mul_add(L::load(&weights.ab[a]), one);
                 two = t.neg_mul_add(L::load(&weights.ac[a]), two);

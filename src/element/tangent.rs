@@ -13,7 +13,7 @@
 
 use crate::geometry::{Mat3, Vec3};
 use crate::mortar::{AlongNormal, ForceDerivatives, GapDerivative, MORTAR, PAIR_NODES, PairWeights, columns, slots};
-use crate::shape::MAX_NODES;
+use crate::shape::{MAX_CORNERS, MAX_NODES};
 use crate::simd::{self, Kernel, Lanes};
 use nalgebra::SMatrix;
 
@@ -34,25 +34,25 @@ impl<const N: usize> Default for NodeTangent<N> {
     }
 }
 
-/// drow / dg of the four nodes of a facet: component of the row, component of the gap, node.
-type Rows<const N: usize> = [[[f64; MAX_NODES]; 3]; N];
+/// drow / dg of the four multipliers of a facet: component of the row, component of the gap, node.
+type Rows<const N: usize> = [[[f64; MAX_CORNERS]; 3]; N];
 
 /// The responses of a facet's nodes, component by component.
 #[derive(Clone, Debug)]
 pub struct FacetResponse<const N: usize = 3> {
     /// `traction[i][A]`.
-    pub traction: [[f64; MAX_NODES]; 3],
+    pub traction: [[f64; MAX_CORNERS]; 3],
     now: Rows<N>,
     previous: Rows<N>,
 }
 
 impl<const N: usize> FacetResponse<N> {
     /// Of these nodes; what a facet has no node for has no effect.
-    pub fn new(nodes: [&NodeTangent<N>; MAX_NODES]) -> FacetResponse<N> {
+    pub fn new(nodes: [&NodeTangent<N>; MAX_CORNERS]) -> FacetResponse<N> {
         let mut f = FacetResponse {
-            traction: [[0.0; MAX_NODES]; 3],
-            now: [[[0.0; MAX_NODES]; 3]; N],
-            previous: [[[0.0; MAX_NODES]; 3]; N],
+            traction: [[0.0; MAX_CORNERS]; 3],
+            now: [[[0.0; MAX_CORNERS]; 3]; N],
+            previous: [[[0.0; MAX_CORNERS]; 3]; N],
         };
         for (a, node) in nodes.into_iter().enumerate() {
             for j in 0..3 {
@@ -68,7 +68,7 @@ impl<const N: usize> FacetResponse<N> {
 }
 
 /// `[k][j][n][A]`: d row_A,n / d x_k,j.
-pub type RowColumns<const N: usize> = [[[[f64; MAX_NODES]; N]; 3]; PAIR_NODES];
+pub type RowColumns<const N: usize> = [[[[f64; MAX_CORNERS]; N]; 3]; PAIR_NODES];
 
 /// The current weights of a pair.
 pub struct PairNow<'a> {
@@ -107,8 +107,8 @@ fn one_node<const MOVES: bool>(
     drow: &Mat3,
 ) -> [Mat3; PAIR_NODES] {
     let node = NodeTangent { traction: Vec3::zeros(), drow_dnow: *drow, drow_dprevious: *drow };
-    let mut rows = [[[[0.0; MAX_NODES]; 3]; 3]; PAIR_NODES];
-    row_columns::<MOVES, 3>(now, previous, &FacetResponse::new([&node; MAX_NODES]), &mut rows);
+    let mut rows = [[[[0.0; MAX_CORNERS]; 3]; 3]; PAIR_NODES];
+    row_columns::<MOVES, 3>(now, previous, &FacetResponse::new([&node; MAX_CORNERS]), &mut rows);
     rows.map(|columns| Mat3::from_fn(|i, j| columns[j][i][a]))
 }
 
@@ -157,6 +157,7 @@ fn with_motion<L: Lanes, const MOVES: bool, const N: usize>(
     previous: &PairWeights,
     rows: &mut RowColumns<N>,
 ) {
+    const { assert!(MAX_NODES == MAX_CORNERS) }; // the corners, which tilt the plane, are the nodes
     let (ab, ac, gamma) = (columns::<L>(&previous.ab), columns::<L>(&previous.ac), L::load(&d.gamma));
     for n in 0..N {
         let (drow, fixed) = (&nodes.now[n], &nodes.previous[n]);
@@ -183,7 +184,7 @@ fn with_motion<L: Lanes, const MOVES: bool, const N: usize>(
 /// drow . Dg of a facet's blocks; `ADD`: to what is there.
 #[inline(always)]
 fn with_blocks<L: Lanes, const N: usize, const ADD: bool>(
-    blocks: &[[[[f64; MAX_NODES]; 3]; 3]; MAX_NODES],
+    blocks: &[[[[f64; MAX_CORNERS]; 3]; 3]; MAX_NODES],
     nodes: &FacetResponse<N>,
     rows: &mut RowColumns<N>,
 ) {
@@ -204,7 +205,7 @@ fn with_blocks<L: Lanes, const N: usize, const ADD: bool>(
 
 /// drow . v, lanes A.
 #[inline(always)]
-fn component<L: Lanes>(drow: &[[f64; MAX_NODES]; 3], v: &Vec3) -> L {
+fn component<L: Lanes>(drow: &[[f64; MAX_CORNERS]; 3], v: &Vec3) -> L {
     let mut sum = L::load(&drow[0]) * L::splat(v[0]);
     for j in 1..3 {
         sum = L::load(&drow[j]).mul_add(L::splat(v[j]), sum);
@@ -243,7 +244,7 @@ pub struct PairTangent<const N: usize = 3> {
 
 impl<const N: usize> Default for PairTangent<N> {
     fn default() -> Self {
-        PairTangent { forces: ForceDerivatives::default(), rows: [[[[0.0; MAX_NODES]; N]; 3]; PAIR_NODES] }
+        PairTangent { forces: ForceDerivatives::default(), rows: [[[[0.0; MAX_CORNERS]; N]; 3]; PAIR_NODES] }
     }
 }
 

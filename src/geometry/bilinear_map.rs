@@ -3,7 +3,7 @@
 
 use super::projection::Projection;
 use super::vector::{Vec2, cross};
-use crate::shape::MAX_NODES;
+use crate::shape::MAX_CORNERS;
 use crate::simd::{Lanes, Real};
 
 /// A twist below this (over the facet's size) is rounding: the facet is a parallelogram.
@@ -23,7 +23,7 @@ pub struct BilinearMap {
     determinant: [f64; 3],
     /// 1 / (b x c).
     inverse_affine: f64,
-    coefficients: &'static [[f64; 4]; MAX_NODES],
+    coefficients: &'static [[f64; 4]; MAX_CORNERS],
     /// Whether the map is affine (triangle or parallelogram): then the weights are polynomials.
     pub is_affine: bool,
 }

@@ -14,7 +14,7 @@ use super::near_line::{LineOf, View, ends, is_before};
 use super::plane::Plane;
 use super::projection::Projection;
 use super::vector::Vec3;
-use crate::shape::MAX_NODES;
+use crate::shape::MAX_CORNERS;
 use crate::simd::Lanes;
 use nalgebra::SVector;
 
@@ -34,7 +34,7 @@ pub struct EdgeInterval {
 }
 
 /// The parts of a facet's edges, edge k from its k-th node on; `None`: nothing of it counts.
-pub type EdgeIntervals = [Option<EdgeInterval>; MAX_NODES];
+pub type EdgeIntervals = [Option<EdgeInterval>; MAX_CORNERS];
 
 /// Error of a crossing's parameter tau = d0 / (d0 - d1).
 const CROSSING: f64 = 1e-11;
@@ -47,12 +47,12 @@ const NEAR: f64 = 0.5 * ROUNDING / CROSSING;
 
 /// Component i of four points.
 #[inline(always)]
-fn component<L: Lanes, const K: usize>(x: &[SVector<f64, K>; MAX_NODES], i: usize) -> L {
+fn component<L: Lanes, const K: usize>(x: &[SVector<f64, K>; MAX_CORNERS], i: usize) -> L {
     L::load(&[x[0][i], x[1][i], x[2][i], x[3][i]])
 }
 
 /// How a facet's edges run as lines: 1 from the node that they are named after to the next one, or -1.
-type Orientation = [f64; MAX_NODES];
+type Orientation = [f64; MAX_CORNERS];
 
 /// Ends of line j of a facet.
 #[inline(always)]
@@ -65,8 +65,8 @@ fn line<'a>(facet: &'a Projection, orientation: &Orientation, j: usize) -> [&'a 
 /// e . ((b - a) x (p - a)) for each line a, b of a facet, a row a line, and the nodes p of the other one: positive to
 /// the left. Edge by edge, where it begins and where it ends.
 struct Distances {
-    from: [[f64; MAX_NODES]; MAX_NODES],
-    to: [[f64; MAX_NODES]; MAX_NODES],
+    from: [[f64; MAX_CORNERS]; MAX_CORNERS],
+    to: [[f64; MAX_CORNERS]; MAX_CORNERS],
 }
 
 impl Distances {
@@ -80,7 +80,7 @@ impl Distances {
     ) -> Distances {
         let x = [component::<L, 3>(&nodes.x, 0), component(&nodes.x, 1), component(&nodes.x, 2)];
         let near_squared = NEAR * NEAR * plane.condition_squared;
-        let zero = [[0.0; MAX_NODES]; MAX_NODES];
+        let zero = [[0.0; MAX_CORNERS]; MAX_CORNERS];
         let (mut distances, mut nearest) = (Distances { from: zero, to: zero }, L::splat(0.0));
         for j in 0..lines.shape.n {
             let [a, b] = line(lines, orientation, j);
@@ -138,7 +138,7 @@ pub fn edge_intervals<L: Lanes>(one: &Projection, two: &Projection, plane: &Plan
     let mut view = View::new(one, plane);
 
     // Mortar edges run from the end that comes first.
-    let mut orientation = [1.0; MAX_NODES];
+    let mut orientation = [1.0; MAX_CORNERS];
     for j in 0..n2 {
         if !is_before(&two.x[j & 3], &two.x[two.shape.next[j & 3] & 3]) {
             orientation[j & 3] = -1.0;
@@ -164,10 +164,10 @@ pub fn edge_intervals<L: Lanes>(one: &Projection, two: &Projection, plane: &Plan
     let v = [two.y[0].y, two.y[1].y, two.y[2].y, two.y[3].y];
     let direction =
         [(L::load(&ends(&u, n2)) - L::load(&u)) * forward, (L::load(&ends(&v, n2)) - L::load(&v)) * forward];
-    let distances = Distances::of::<L>(one, &[1.0; MAX_NODES], two, plane, |d| {
+    let distances = Distances::of::<L>(one, &[1.0; MAX_CORNERS], two, plane, |d| {
         let near = NEAR * plane.condition_squared.sqrt();
         for j in 0..n1 {
-            let line = (LineOf::Nonmortar(j), line(one, &[1.0; MAX_NODES], j));
+            let line = (LineOf::Nonmortar(j), line(one, &[1.0; MAX_CORNERS], j));
             view.refine(line, two, near, [&mut d.from[j], &mut d.to[j]]);
         }
     });
@@ -181,13 +181,13 @@ pub fn edge_intervals<L: Lanes>(one: &Projection, two: &Projection, plane: &Plan
         let tie = outwards.where_positive(L::splat(-INSIDE), L::splat(INSIDE));
         mortar.narrow(forward.where_positive(from, to), forward.where_positive(to, from), tie);
     }
-    [collect(nonmortar, &[1.0; MAX_NODES], n1), collect(mortar, &orientation, n2)]
+    [collect(nonmortar, &[1.0; MAX_CORNERS], n1), collect(mortar, &orientation, n2)]
 }
 
 #[inline(always)]
-fn collect<L: Lanes>(parts: Parts<L>, orientation: &[f64; MAX_NODES], n: usize) -> EdgeIntervals {
+fn collect<L: Lanes>(parts: Parts<L>, orientation: &[f64; MAX_CORNERS], n: usize) -> EdgeIntervals {
     let (low, high) = (parts.low.store(), parts.high.store());
-    let mut intervals = [None; MAX_NODES];
+    let mut intervals = [None; MAX_CORNERS];
     for k in 0..n {
         if high[k] > low[k] {
             let next = if k + 1 == n { 0 } else { k + 1 };

@@ -1,15 +1,15 @@
-//! A tri3 or quad4 facet: its nodes in space and its shape functions.
+//! A tri3 or quad4 facet: its nodes in space, which are the corners of its cell, and its kind.
 
 use super::vector::Vec3;
 use crate::error::{Error, Kind, Result};
-use crate::shape::{MAX_NODES, Shape};
+use crate::shape::{MAX_CORNERS, Shape};
 
-/// A facet. Nodes beyond the shape's number repeat the first one and have no weight anywhere.
+/// A facet. Nodes beyond the kind's number repeat the first one and have no weight anywhere.
 #[derive(Clone, Copy, Debug)]
 pub struct Facet {
     /// Node positions, right-hand order seen from outside the body.
-    pub nodes: [Vec3; MAX_NODES],
-    /// Shape functions of the facet's kind.
+    pub nodes: [Vec3; MAX_CORNERS],
+    /// The facet's kind.
     pub shape: &'static Shape,
 }
 
@@ -19,7 +19,7 @@ impl Facet {
         let shape = Shape::of(nodes.len()).ok_or_else(|| {
             Error::new(Kind::InvalidSize, text!("a facet has {} nodes; 3 or 4 are allowed", nodes.len()))
         })?;
-        let mut padded = [nodes[0]; MAX_NODES];
+        let mut padded = [nodes[0]; MAX_CORNERS];
         padded[..nodes.len()].copy_from_slice(nodes);
         Ok(Facet { nodes: padded, shape })
     }

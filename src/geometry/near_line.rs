@@ -17,7 +17,7 @@ use super::facet::Facet;
 use super::plane::Plane;
 use super::projection::Projection;
 use super::vector::Vec3;
-use crate::shape::MAX_NODES;
+use crate::shape::MAX_CORNERS;
 
 /// A distance below this (over the lengths that make it) is 0: a few dozen roundings of a pair of doubles, 2^-106 each,
 /// which is what points that lie on the line come out at.
@@ -49,7 +49,7 @@ pub fn is_before(a: &Vec3, b: &Vec3) -> bool {
 
 /// For every edge of a facet with `n` nodes the value at the node where it ends.
 #[inline(always)]
-pub fn ends(v: &[f64; MAX_NODES], n: usize) -> [f64; MAX_NODES] {
+pub fn ends(v: &[f64; MAX_CORNERS], n: usize) -> [f64; MAX_CORNERS] {
     [v[1], v[2], if n == 4 { v[3] } else { v[0] }, v[0]]
 }
 
@@ -98,7 +98,7 @@ impl<'a> View<'a> {
         (whose, line): (LineOf, [&Vec3; 2]),
         nodes: &Projection,
         near: f64,
-        [from, to]: [&mut [f64; MAX_NODES]; 2],
+        [from, to]: [&mut [f64; MAX_CORNERS]; 2],
     ) {
         let (mut left, x, n) = (None, &nodes.x, nodes.shape.n);
         let near_squared = near * near * (line[1] - line[0]).norm_squared();

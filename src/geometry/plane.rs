@@ -7,7 +7,7 @@
 use super::facet::Facet;
 use super::vector::{Mat3, Vec3};
 use crate::error::{Error, Kind, Result};
-use crate::shape::MAX_NODES;
+use crate::shape::MAX_CORNERS;
 
 /// A facet flatter than this (area over squared longest edge) has no usable normal. The aspect ratio
 /// 1e4 : 1 has 1e-4, rounding of the cross product 1e-16.
@@ -27,15 +27,15 @@ pub struct Plane {
     /// Unit normal, out of the non-mortar body.
     pub e: Vec3,
     /// Spin: Dt1 . t2 = `sum_c spin[c] t2 . Dx_c` [1/L].
-    pub spin: [f64; MAX_NODES],
+    pub spin: [f64; MAX_CORNERS],
     /// Tilt: t_j . De = `sum_c tilt[j][c] e . Dx_c` [1/L]. The spanning vectors lie in the plane, so only motions
     /// along e tilt it.
-    pub tilt: [[f64; MAX_NODES]; 2],
+    pub tilt: [[f64; MAX_CORNERS]; 2],
     /// What rounding of the spanning vectors is multiplied by in the direction of their cross product, squared:
     /// 1 / sin^2 of the angle between them.
     pub condition_squared: f64,
     /// Normals of the planes of the facets beyond each edge, where they are known.
-    pub beyond: [Option<Vec3>; MAX_NODES],
+    pub beyond: [Option<Vec3>; MAX_CORNERS],
 }
 
 impl Plane {
@@ -68,10 +68,10 @@ impl Plane {
             t1,
             t2,
             e,
-            spin: [0.0; MAX_NODES],
-            tilt: [[0.0; MAX_NODES]; 2],
+            spin: [0.0; MAX_CORNERS],
+            tilt: [[0.0; MAX_CORNERS]; 2],
             condition_squared: 1.0,
-            beyond: [None; MAX_NODES],
+            beyond: [None; MAX_CORNERS],
         };
         for x in facet.points() {
             plane.origin += (x - facet.nodes[0]) / facet.len() as f64;
@@ -93,7 +93,7 @@ impl Plane {
 
     /// Dv / Dx_c of a vector v that is fixed in the frame (t1, t2, e) and so turns with it: Dv = omega x v,
     /// omega = (t1 . De) t2 - (t2 . De) t1 + (t2 . Dt1) e.
-    pub fn derivative_of_fixed(&self, v: &Vec3) -> [Mat3; MAX_NODES] {
+    pub fn derivative_of_fixed(&self, v: &Vec3) -> [Mat3; MAX_CORNERS] {
         let (t1, t2, e) = (self.t1.cross(v), self.t2.cross(v), self.e.cross(v));
         std::array::from_fn(|c| {
             let tilted = t2 * self.tilt[0][c] - t1 * self.tilt[1][c];

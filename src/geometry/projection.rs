@@ -5,7 +5,7 @@ use super::facet::Facet;
 use super::plane::Plane;
 use super::plane::SMALLEST_AREA_RATIO;
 use super::vector::{Vec2, Vec3, cross};
-use crate::shape::{MAX_NODES, Shape};
+use crate::shape::{MAX_CORNERS, Shape};
 use crate::simd::{self, Kernel, Lanes};
 
 /// A corner is convex where the cross product of its edges, squared, is above this times the facet's area2, its size and
@@ -25,16 +25,16 @@ const TALL: f64 = 1e-10;
 /// A facet in the plane.
 #[derive(Clone, Copy, Debug)]
 pub struct Projection {
-    /// Shape functions, in the order of `y`.
+    /// The facet's kind; functions in the order of `y`.
     pub shape: &'static Shape,
     /// Position in space, as given.
-    pub x: [Vec3; MAX_NODES],
+    pub x: [Vec3; MAX_CORNERS],
     /// In-plane coordinates, counter-clockwise.
-    pub y: [Vec2; MAX_NODES],
+    pub y: [Vec2; MAX_CORNERS],
     /// Height over the plane.
-    pub d: [f64; MAX_NODES],
+    pub d: [f64; MAX_CORNERS],
     /// Where node k stands in the facet as given: the order is reversed when it came clockwise.
-    pub node: [usize; MAX_NODES],
+    pub node: [usize; MAX_CORNERS],
     /// Twice the projected area (>= 0) [L^2].
     pub area2: f64,
     /// Largest in-plane extent from the first node `[L]`.
@@ -55,8 +55,8 @@ impl Projection {
     #[inline(always)]
     pub fn on<L: Lanes>(facet: &Facet, plane: &Plane) -> Projection {
         let (shape, zero) = (facet.shape, L::splat(0.0));
-        let (mut x, mut y, mut d) = ([Vec3::zeros(); MAX_NODES], [zero; 2], zero);
-        for k in 0..MAX_NODES {
+        let (mut x, mut y, mut d) = ([Vec3::zeros(); MAX_CORNERS], [zero; 2], zero);
+        for k in 0..MAX_CORNERS {
             x[k] = facet.nodes[k] - plane.reference;
         }
         for i in 0..3 {
@@ -71,8 +71,8 @@ impl Projection {
         let mut p = Projection {
             shape,
             x: facet.nodes,
-            y: [Vec2::zeros(); MAX_NODES],
-            d: [0.0; MAX_NODES],
+            y: [Vec2::zeros(); MAX_CORNERS],
+            d: [0.0; MAX_CORNERS],
             node: [0, 1, 2, 3],
             area2: (u[2] - u[0]) * (v[3] - v[1]) - (u[3] - u[1]) * (v[2] - v[0]),
             size: (high[0] - u[0]).max(u[0] - low[0]).max(high[1] - v[0]).max(v[0] - low[1]),

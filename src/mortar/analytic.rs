@@ -19,7 +19,7 @@ use crate::error::{Error, Kind, Result};
 use crate::geometry::{AnalyticSurface, Closest, Vec3};
 use crate::quadrature::Rule;
 use crate::quadrature::cell::square_point;
-use crate::shape::MAX_NODES;
+use crate::shape::{MAX_CORNERS, MAX_NODES};
 use crate::simd::{self, Kernel, Lanes};
 
 /// A point of the facet and the closest one of the surface.
@@ -45,7 +45,7 @@ impl Place {
 
 /// The facet's nodes - P0. Differences of nodes and P0 come first: exact under a common offset.
 #[inline(always)]
-fn corners(frame: &NonmortarFrame, surface: &AnalyticSurface) -> [Vec3; MAX_NODES] {
+fn corners(frame: &NonmortarFrame, surface: &AnalyticSurface) -> [Vec3; MAX_CORNERS] {
     let x = &frame.projection.x;
     [x[0] - surface.origin, x[1] - surface.origin, x[2] - surface.origin, x[3] - surface.origin]
 }
@@ -58,8 +58,8 @@ struct Point {
     area: f64,
     /// 1, xi, eta: j is linear in them.
     powers: [f64; 3],
-    /// Shape functions.
-    n: [f64; MAX_NODES],
+    /// The functions of the map, which are N_A and N_B, too: other kinds have no table.
+    n: [f64; MAX_CORNERS],
     place: Place,
 }
 
@@ -74,7 +74,7 @@ fn cell_points(frame: &NonmortarFrame, rule: &Rule) -> usize {
 fn point(
     frame: &NonmortarFrame,
     surface: &AnalyticSurface,
-    corners: &[Vec3; MAX_NODES],
+    corners: &[Vec3; MAX_CORNERS],
     rule: &Rule,
     i: usize,
 ) -> Result<Point> {
@@ -87,7 +87,7 @@ fn point(
     };
     let n = facet.shape.values(xi, eta);
     let mut x = Vec3::zeros();
-    for k in 0..MAX_NODES {
+    for k in 0..MAX_CORNERS {
         x += corners[k] * n[k];
     }
     let (area, place) = (area[0] + area[1] * xi + area[2] * eta, Place::at(surface, x)?);
@@ -120,7 +120,7 @@ impl Kernel for Weights<'_> {
     #[inline(always)]
     fn run<L: Lanes>(self) -> Result<PairWeights> {
         let Weights { frame, surface, rule } = self;
-        let (ab, mut ac) = (mass::<L>(frame), [L::splat(0.0); MAX_NODES]);
+        let (ab, mut ac) = (mass::<L>(frame), [L::splat(0.0); MAX_CORNERS]);
         let (nodes, corners) = (frame.projection.shape.n, corners(frame, surface));
         if surface.is_flat() {
             for b in 0..nodes {
@@ -144,12 +144,12 @@ impl Kernel for Weights<'_> {
     }
 }
 
-/// n_AB of the whole facet, rows A, lanes B: int N_A N_B j over the cell, j the area element.
+/// n_AB of the whole facet, rows A, lanes B, symmetric: int N_A N_B j over the cell, j the area element.
 #[inline(always)]
-fn mass<L: Lanes>(frame: &NonmortarFrame) -> [L; MAX_NODES] {
-    let (det, products) = (frame.map.determinant(), &frame.projection.shape.products);
-    let mut ab = [L::splat(0.0); MAX_NODES];
-    for a in 0..MAX_NODES {
+fn mass<L: Lanes>(frame: &NonmortarFrame) -> [L; MAX_CORNERS] {
+    let (det, products) = (frame.map.determinant(), &frame.projection.shape.fields.products);
+    let mut ab = [L::splat(0.0); MAX_CORNERS];
+    for a in 0..MAX_CORNERS {
         for m in 0..3 {
             ab[a] = L::splat(det[m]).mul_add(L::load(&products[m][a]), ab[a]);
         }
@@ -166,7 +166,7 @@ pub fn analytic_motion(
     frame: &NonmortarFrame,
     surface: &AnalyticSurface,
     rule: &Rule,
-    p: &[[f64; MAX_NODES]; 3],
+    p: &[[f64; MAX_CORNERS]; 3],
     forces: &mut ForceDerivatives,
 ) -> Result<GapDerivative> {
     simd::dispatch(Motion { frame, surface, rule, p, forces })
@@ -176,7 +176,7 @@ struct Motion<'a> {
     frame: &'a NonmortarFrame,
     surface: &'a AnalyticSurface,
     rule: &'a Rule,
-    p: &'a [[f64; MAX_NODES]; 3],
+    p: &'a [[f64; MAX_CORNERS]; 3],
     forces: &'a mut ForceDerivatives,
 }
 
@@ -184,21 +184,22 @@ impl Kernel for Motion<'_> {
     type Output = Result<GapDerivative>;
     #[inline(always)]
     fn run<L: Lanes>(self) -> Result<GapDerivative> {
+        const { assert!(MAX_NODES == MAX_CORNERS) }; // the corners, which move the facet, are the nodes
         let Motion { frame, surface, rule, p, forces } = self;
         let zero = L::splat(0.0);
-        let products = &frame.projection.shape.products;
-        // Lanes A: int p^i N_A (1, xi, eta) over the cell.
+        let products = &frame.projection.shape.fields.products;
+        // Lanes B: int p^i N_B (1, xi, eta) over the cell.
         let mut fields = [[zero; 3]; 3];
         for m in 0..3 {
-            for b in 0..MAX_NODES {
+            for a in 0..MAX_CORNERS {
                 for i in 0..3 {
-                    fields[m][i] = L::splat(p[i][b]).mul_add(L::load(&products[m][b]), fields[m][i]);
+                    fields[m][i] = L::splat(p[i][a]).mul_add(L::load(&products[m][a]), fields[m][i]);
                 }
             }
         }
         let of = if surface.is_flat() { flat(frame, surface)? } else { curved(frame, surface, rule)? };
         let darea = area_derivative::<L>(frame);
-        let mut gap = [[[[0.0; MAX_NODES]; 3]; 3]; MAX_NODES];
+        let mut gap = [[[[0.0; MAX_CORNERS]; 3]; 3]; MAX_NODES];
         for k in 0..MAX_NODES {
             for j in 0..3 {
                 let d = [L::splat(darea[0][j][k]), L::splat(darea[1][j][k]), L::splat(darea[2][j][k])];
@@ -223,7 +224,7 @@ struct Gaps<L> {
 /// Over a plane: x - y = n sum N_B s_B with the distances s_B of the nodes, D(x - y)/Dx the same everywhere.
 #[inline(always)]
 fn flat<L: Lanes>(frame: &NonmortarFrame, surface: &AnalyticSurface) -> Result<Gaps<L>> {
-    let (zero, products) = (L::splat(0.0), &frame.projection.shape.products);
+    let (zero, products) = (L::splat(0.0), &frame.projection.shape.fields.products);
     let mut of = Gaps { gaps: [[zero; 3]; 3], blocks: [[[zero; 3]; 3]; MAX_NODES] };
     let (mut sums, mut normal, mass) = ([zero; 3], Vec3::zeros(), mass::<L>(frame));
     let corners = corners(frame, surface);
@@ -231,6 +232,7 @@ fn flat<L: Lanes>(frame: &NonmortarFrame, surface: &AnalyticSurface) -> Result<G
         let closest = Place::at(surface, corners[k])?.closest;
         let gradient = surface.gradient(&closest);
         for m in 0..3 {
+            // Lanes A of a row B: the products are symmetric.
             sums[m] = L::splat(closest.distance).mul_add(L::load(&products[m][k]), sums[m]);
         }
         for i in 0..3 {
@@ -286,10 +288,10 @@ fn along<L: Lanes>(d: &[L; 3], of: &[[L; 3]; 3], i: usize, sum: L) -> L {
 /// Dj / Dx_k,j in the powers (1, xi, eta) `[L]`: `[m][j]`, lanes k. Translation and spin of the plane change no area:
 /// its tilt is left.
 #[inline(always)]
-fn area_derivative<L: Lanes>(frame: &NonmortarFrame) -> [[[f64; MAX_NODES]; 3]; 3] {
+fn area_derivative<L: Lanes>(frame: &NonmortarFrame) -> [[[f64; MAX_CORNERS]; 3]; 3] {
     let (plane, g) = (&frame.plane, frame.map.gradients::<L>());
     let (tilt, sums) = ([L::load(&plane.tilt[0]), L::load(&plane.tilt[1])], dots(&g, L::load(&frame.projection.d)));
-    let mut d = [[[0.0; MAX_NODES]; 3]; 3];
+    let mut d = [[[0.0; MAX_CORNERS]; 3]; 3];
     for m in 0..3 {
         let along = tilt[0].mul_add(L::splat(sums[m][0]), tilt[1] * L::splat(sums[m][1]));
         for j in 0..3 {

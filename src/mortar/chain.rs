@@ -2,9 +2,9 @@
 //! (Dx_k - Dx0), spin and tilt of the plane (docs/formulation.md 3.2); and what comes out.
 
 use super::segment::{NonmortarFrame, Segment};
-use super::slots::{MORTAR, PAIR_NODES};
+use super::slots::{MORTAR, MORTAR_CORNER, PAIR_CORNERS, PAIR_NODES};
 use super::transport::PlaneDerivatives;
-use crate::shape::{Cell, MAX_NODES};
+use crate::shape::{Basis, Cell, MAX_CORNERS, MAX_NODES};
 use crate::simd::Lanes;
 
 /// d/dx of the forces f_B^i = int p^i N_B da, f_C^i = -int p^i N_C da of the three
@@ -28,20 +28,20 @@ impl Default for ForceDerivatives {
 #[derive(Clone, Debug)]
 pub struct WeightDerivatives {
     /// `ab[A][B][k]` = d n_AB / d x_k, k over the pair's slots.
-    pub ab: [[[[f64; 3]; PAIR_NODES]; MAX_NODES]; MAX_NODES],
+    pub ab: [[[[f64; 3]; PAIR_NODES]; MAX_NODES]; MAX_CORNERS],
     /// `ac[A][C][k]` = d n_AC / d x_k.
-    pub ac: [[[[f64; 3]; PAIR_NODES]; MAX_NODES]; MAX_NODES],
+    pub ac: [[[[f64; 3]; PAIR_NODES]; MAX_NODES]; MAX_CORNERS],
 }
 
 impl Default for WeightDerivatives {
     fn default() -> Self {
-        let zero = [[[[0.0; 3]; PAIR_NODES]; MAX_NODES]; MAX_NODES];
+        let zero = [[[[0.0; 3]; PAIR_NODES]; MAX_NODES]; MAX_CORNERS];
         WeightDerivatives { ab: zero, ac: zero }
     }
 }
 
 /// The fields N_A: their forces are the weights.
-pub(super) const SHAPES: [[f64; MAX_NODES]; MAX_NODES] =
+pub(super) const SHAPES: [[f64; MAX_CORNERS]; MAX_CORNERS] =
     [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0]];
 
 /// Where columns go: those of slot k, its three components.
@@ -74,9 +74,9 @@ impl<L: Lanes> Columns<L> for Flat<L> {
     }
 }
 
-/// Columns, lanes over the rows, into rows.
+/// Columns, lanes over the functions B or C of a displacement, into rows of these.
 #[inline(always)]
-pub(super) fn to_rows<L: Lanes, C: Cell>(
+pub(super) fn to_rows<L: Lanes, Field: Basis>(
     columns: &[[L; 3]; PAIR_NODES],
     sign: f64,
     rows: &mut [[[f64; 3]; PAIR_NODES]; MAX_NODES],
@@ -84,7 +84,7 @@ pub(super) fn to_rows<L: Lanes, C: Cell>(
     let (columns, sign) = (columns.as_flattened(), L::splat(sign));
     for (q, four) in columns.chunks_exact(4).enumerate() {
         let four = L::transpose([four[0] * sign, four[1] * sign, four[2] * sign, four[3] * sign]);
-        for b in 0..C::NODES {
+        for b in 0..Field::FUNCTIONS {
             rows[b].as_flattened_mut()[4 * q..][..4].copy_from_slice(&four[b].store());
         }
     }
@@ -95,9 +95,9 @@ pub(super) struct Chain<'a, L> {
     pub frame: &'a NonmortarFrame,
     pub segment: &'a Segment,
     /// y_1, -y_0 and height of the vertices, mortar slots in the order of the projection.
-    vertices: [[L; 3]; PAIR_NODES],
+    vertices: [[L; 3]; PAIR_CORNERS],
     /// Spin and negative tilts of the plane that the non-mortar nodes make.
-    turns: [[L; 3]; MAX_NODES],
+    turns: [[L; 3]; MAX_CORNERS],
     /// `[j]`: components j of t1, t2, e.
     pub axes: [[L; 3]; 3],
 }
@@ -113,10 +113,10 @@ impl<'a, L: Lanes> Chain<'a, L> {
     pub fn new(frame: &'a NonmortarFrame, segment: &'a Segment) -> Self {
         let (plane, one, two) = (&frame.plane, &frame.projection, &segment.mortar);
         let zero = [L::splat(0.0); 3];
-        let (mut vertices, mut turns, mut axes) = ([zero; PAIR_NODES], [zero; MAX_NODES], [zero; 3]);
-        for k in 0..MAX_NODES {
+        let (mut vertices, mut turns, mut axes) = ([zero; PAIR_CORNERS], [zero; MAX_CORNERS], [zero; 3]);
+        for k in 0..MAX_CORNERS {
             vertices[k] = spread([one.y[k].y, -one.y[k].x, one.d[k]]);
-            vertices[MORTAR + k] = spread([two.y[k].y, -two.y[k].x, two.d[k]]);
+            vertices[MORTAR_CORNER + k] = spread([two.y[k].y, -two.y[k].x, two.d[k]]);
             turns[k] = spread([plane.spin[k], -plane.tilt[0][k], -plane.tilt[1][k]]);
         }
         for j in 0..3 {
@@ -125,7 +125,8 @@ impl<'a, L: Lanes> Chain<'a, L> {
         Chain { frame, segment, vertices, turns, axes }
     }
 
-    /// sum_k g_k . Dy_k as coefficients of the Dx of the pair's nodes, mortar slots in the order of the facet as given.
+    /// sum_k g_k . Dy_k as coefficients of the Dx of the pair's nodes, mortar slots in the order of the facet as given:
+    /// the corners, which are projected, are the nodes.
     #[inline(always)]
     pub fn nodes<One: Cell, Two: Cell>(&self, g: &PlaneDerivatives<L>, to: &mut impl Columns<L>) {
         if L::SHARED { self.nodes_shared::<One, Two>(g, to) } else { self.nodes_inlined::<One, Two>(g, to) }
@@ -138,19 +139,20 @@ impl<'a, L: Lanes> Chain<'a, L> {
 
     #[inline(always)]
     fn nodes_inlined<One: Cell, Two: Cell>(&self, g: &PlaneDerivatives<L>, to: &mut impl Columns<L>) {
+        const { assert!(PAIR_NODES == PAIR_CORNERS) };
         // What the pair does to translation, tilt and spin of the plane.
         let (mut shift, mut tilt, mut spin) = ([L::splat(0.0); 2], [L::splat(0.0); 2], L::splat(0.0));
-        for k in 0..PAIR_NODES {
-            if k < One::NODES || (k >= MORTAR && k < MORTAR + Two::NODES) {
+        for k in 0..PAIR_CORNERS {
+            if k < One::CORNERS || (k >= MORTAR_CORNER && k < MORTAR_CORNER + Two::CORNERS) {
                 let ([y1, minus_y0, d], [g0, g1]) = (&self.vertices[k], g[k]);
                 shift = [shift[0] + g0, shift[1] + g1];
                 tilt = [d.mul_add(g0, tilt[0]), d.mul_add(g1, tilt[1])];
                 spin = y1.mul_add(g0, minus_y0.mul_add(g1, spin));
             }
         }
-        let mean = L::splat(1.0 / One::NODES as f64);
+        let mean = L::splat(1.0 / One::CORNERS as f64);
         shift = [shift[0] * mean, shift[1] * mean];
-        for k in 0..One::NODES {
+        for k in 0..One::CORNERS {
             let [spins, tilts0, tilts1] = &self.turns[k];
             let x = g[k][0] - shift[0];
             let y = spins.mul_add(spin, g[k][1] - shift[1]);
@@ -162,8 +164,8 @@ impl<'a, L: Lanes> Chain<'a, L> {
             }
             to.set(k, columns);
         }
-        for l in 0..Two::NODES {
-            let [x, y] = g[MORTAR + l];
+        for l in 0..Two::CORNERS {
+            let [x, y] = g[MORTAR_CORNER + l];
             let mut columns = [x; 3];
             for j in 0..3 {
                 let [t1, t2, _] = &self.axes[j];

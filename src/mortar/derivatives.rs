@@ -6,11 +6,11 @@ use super::element_rule;
 use super::gap::AlongNormal;
 use super::moments::Moments;
 use super::pair_weights::PairWeights;
-use super::segment::{CellKernel, Cells, NonmortarFrame, Segment};
+use super::segment::{KindKernel, Kinds, NonmortarFrame, Segment};
 use super::slots::PAIR_NODES;
 use super::transport::Transport;
 use crate::quadrature::Rule;
-use crate::shape::{Cell, MAX_NODES};
+use crate::shape::{Basis, Isoparametric, MAX_CORNERS, MAX_NODES, SingleBasis};
 use crate::simd::{Lanes, rolled};
 
 impl WeightDerivatives {
@@ -24,24 +24,24 @@ impl WeightDerivatives {
 
     /// The same in place of what is there: they are large.
     pub fn update(&mut self, frame: &NonmortarFrame, segment: &Segment, rule: &Rule) -> PairWeights {
-        if frame.projection.shape.n < MAX_NODES || segment.mortar.shape.n < MAX_NODES {
+        if frame.projection.shape.n < MAX_CORNERS || segment.mortar.shape.n < MAX_CORNERS {
             *self = WeightDerivatives::default(); // absent nodes
         }
         if let Some(points) = segment.points {
             return element_rule::derivatives(frame, segment, points, self);
         }
         let fine = rule.for_derivatives();
-        let weights = Cells::of(frame, segment).dispatch(OfWeights { frame, segment, rule: fine, derivatives: self });
+        let weights = Kinds::of(frame, segment).dispatch(OfWeights { frame, segment, rule: fine, derivatives: self });
         if fine.degree == rule.degree { weights } else { PairWeights::integrate(frame, segment, rule) }
     }
 
     /// The derivatives of the forces of the fields `p[i][A]` with these weights.
-    pub fn of_forces(&self, p: &[[f64; MAX_NODES]; 3]) -> ForceDerivatives {
+    pub fn of_forces(&self, p: &[[f64; MAX_CORNERS]; 3]) -> ForceDerivatives {
         let mut d = ForceDerivatives::default();
         for k in 0..PAIR_NODES {
             for (j, i) in (0..3).flat_map(|j| (0..3).map(move |i| (j, i))) {
                 for b in 0..MAX_NODES {
-                    for a in 0..MAX_NODES {
+                    for a in 0..MAX_CORNERS {
                         d.one[k][j][i][b] += p[i][a] * self.ab[a][b][k][j];
                         d.two[k][j][i][b] -= p[i][a] * self.ac[a][b][k][j];
                     }
@@ -58,14 +58,14 @@ impl WeightDerivatives {
 pub fn pair_motion(
     (frame, segment, rule): (&NonmortarFrame, &Segment, &Rule),
     weights: &PairWeights,
-    p: &[[f64; MAX_NODES]; 3],
+    p: &[[f64; MAX_CORNERS]; 3],
     forces: &mut ForceDerivatives,
 ) -> AlongNormal {
     if let Some(points) = segment.points {
         return element_rule::motion((frame, segment, points), weights, p, forces);
     }
     let rule = rule.for_derivatives();
-    Cells::of(frame, segment).dispatch(OfPair { frame, segment, rule, weights, p, forces })
+    Kinds::of(frame, segment).dispatch(OfPair { frame, segment, rule, weights, p, forces })
 }
 
 struct OfPair<'a> {
@@ -73,15 +73,15 @@ struct OfPair<'a> {
     segment: &'a Segment,
     rule: &'a Rule,
     weights: &'a PairWeights,
-    p: &'a [[f64; MAX_NODES]; 3],
+    p: &'a [[f64; MAX_CORNERS]; 3],
     forces: &'a mut ForceDerivatives,
 }
 
-impl CellKernel for OfPair<'_> {
+impl KindKernel for OfPair<'_> {
     type Output = AlongNormal;
 
     #[inline(always)]
-    fn run<L: Lanes, One: Cell, Two: Cell>(self) -> AlongNormal {
+    fn run<L: Lanes, One: SingleBasis, Two: Isoparametric>(self) -> AlongNormal {
         let OfPair { frame, segment, rule, weights, p, forces } = self;
         let moments = Moments::<L>::integrate::<One, Two>(frame, segment, rule);
         let mut edges = Edges::new();
@@ -89,8 +89,10 @@ impl CellKernel for OfPair<'_> {
         let transport = Transport::new::<One, Two>(frame, segment, &moments, &edges);
         let chain = Chain::new(frame, segment);
         for i in 0..rolled(3) {
-            chain.nodes::<One, Two>(&transport.one::<One>(&p[i]), &mut Component { to: &mut forces.one, i });
-            chain.nodes::<One, Two>(&transport.two::<One, Two>(&p[i]), &mut Component { to: &mut forces.two, i });
+            let (one, mut to) = (transport.one::<One>(&p[i]), Component { to: &mut forces.one, i });
+            chain.nodes::<One::Cell, Two::Cell>(&one, &mut to);
+            let (two, mut to) = (transport.two::<One, Two>(&p[i]), Component { to: &mut forces.two, i });
+            chain.nodes::<One::Cell, Two::Cell>(&two, &mut to);
         }
         AlongNormal::new::<L, One, Two>(&chain, &transport.gap::<One, Two>(&frame.projection.d), weights)
     }
@@ -103,11 +105,11 @@ struct OfWeights<'a> {
     derivatives: &'a mut WeightDerivatives,
 }
 
-impl CellKernel for OfWeights<'_> {
+impl KindKernel for OfWeights<'_> {
     type Output = PairWeights;
 
     #[inline(always)]
-    fn run<L: Lanes, One: Cell, Two: Cell>(self) -> PairWeights {
+    fn run<L: Lanes, One: SingleBasis, Two: Isoparametric>(self) -> PairWeights {
         let OfWeights { frame, segment, rule, derivatives } = self;
         let moments = Moments::<L>::integrate::<One, Two>(frame, segment, rule);
         let mut edges = Edges::new();
@@ -115,11 +117,11 @@ impl CellKernel for OfWeights<'_> {
         let transport = Transport::new::<One, Two>(frame, segment, &moments, &edges);
         let chain = Chain::new(frame, segment);
         let mut columns = Flat([[L::splat(0.0); 3]; PAIR_NODES]);
-        for a in 0..rolled(One::NODES) {
-            chain.nodes::<One, Two>(&transport.one::<One>(&SHAPES[a]), &mut columns);
-            to_rows::<L, One>(&columns.0, 1.0, &mut derivatives.ab[a]);
-            chain.nodes::<One, Two>(&transport.two::<One, Two>(&SHAPES[a]), &mut columns);
-            to_rows::<L, Two>(&columns.0, -1.0, &mut derivatives.ac[a]);
+        for a in 0..rolled(One::Multiplier::FUNCTIONS) {
+            chain.nodes::<One::Cell, Two::Cell>(&transport.one::<One>(&SHAPES[a]), &mut columns);
+            to_rows::<L, One::Displacement>(&columns.0, 1.0, &mut derivatives.ab[a]);
+            chain.nodes::<One::Cell, Two::Cell>(&transport.two::<One, Two>(&SHAPES[a]), &mut columns);
+            to_rows::<L, Two::Displacement>(&columns.0, -1.0, &mut derivatives.ac[a]);
         }
         moments.weights::<One>(&frame.map.determinant())
     }

@@ -16,15 +16,15 @@ use super::chain::{Chain, Component, Flat, ForceDerivatives, SHAPES, WeightDeriv
 use super::gap::AlongNormal;
 use super::overlap::{check, project};
 use super::pair_weights::PairWeights;
-use super::segment::{CellKernel, CellPoints, Cells, NonmortarFrame, Segment};
-use super::slots::{MORTAR, PAIR_NODES};
+use super::segment::{CellPoints, KindKernel, Kinds, NonmortarFrame, Segment};
+use super::slots::{MORTAR_CORNER, PAIR_CORNERS, PAIR_NODES};
 use super::transport::PlaneDerivatives;
 use crate::error::Result;
 use crate::geometry::bilinear_map::BilinearMap;
 use crate::geometry::clip::Polygon;
 use crate::geometry::{Facet, Projection, Vec2, cross};
 use crate::quadrature::cell::{square_point, triangle_point};
-use crate::shape::{Cell, MAX_NODES};
+use crate::shape::{Basis, Isoparametric, MAX_CORNERS, MAX_NODES, SingleBasis};
 use crate::simd::{self, Kernel, Lanes, Plain, Real};
 
 impl Segment {
@@ -92,7 +92,8 @@ struct Point {
     /// Weight on the reference cell, and times j [L^2].
     weight: f64,
     area: f64,
-    n: [f64; MAX_NODES],
+    /// The functions of the map, which are N_A and N_B, too: other kinds have no table of values.
+    n: [f64; MAX_CORNERS],
     y: Vec2,
 }
 
@@ -101,16 +102,17 @@ impl Point {
         let one = &frame.projection;
         let [xi, eta, weight] = if one.shape.n == 3 { triangle_point(line, i) } else { square_point(line, i) };
         let (n, j) = (one.shape.values(xi, eta), frame.map.determinant());
-        let y = (0..MAX_NODES).fold(Vec2::zeros(), |y, k| y + one.y[k] * n[k]);
+        let y = (0..MAX_CORNERS).fold(Vec2::zeros(), |y, k| y + one.y[k] * n[k]);
         Point { xi, eta, weight, area: weight * (j[0] + j[1] * xi + j[2] * eta), n, y }
     }
 
-    /// Those of a segment that count, each with N_C there and where on the mortar facet that is.
+    /// Those of a segment that count, each with the functions of the mortar facet's map there, which are N_C, and where on
+    /// the mortar facet that is.
     fn all<'a>(
         frame: &'a NonmortarFrame,
         segment: &'a Segment,
         points: CellPoints,
-    ) -> impl Iterator<Item = (Point, [f64; MAX_NODES], [f64; 3])> + 'a {
+    ) -> impl Iterator<Item = (Point, [f64; MAX_CORNERS], [f64; 3])> + 'a {
         (0..points.count()).filter(move |i| points.inside >> i & 1 == 1).map(move |i| {
             let p = Point::of(frame, points.line, i);
             let two = segment.mortar_map.inverse([p.y.x, p.y.y]);
@@ -124,7 +126,7 @@ impl Point {
 pub(super) fn weights(frame: &NonmortarFrame, segment: &Segment, points: CellPoints) -> PairWeights {
     let mut w = PairWeights::default();
     for (p, n2, _) in Point::all(frame, segment, points) {
-        for a in 0..MAX_NODES {
+        for a in 0..MAX_CORNERS {
             for k in 0..MAX_NODES {
                 w.ab[a][k] += p.area * p.n[a] * p.n[k];
                 w.ac[a][segment.mortar.node[k]] += p.area * p.n[a] * n2[k];
@@ -134,8 +136,8 @@ pub(super) fn weights(frame: &NonmortarFrame, segment: &Segment, points: CellPoi
     w
 }
 
-/// d/dy: per slot k the two components of y_k, of each four numbers; mortar slots in the order of the projection.
-type Sums = [[[f64; MAX_NODES]; 2]; PAIR_NODES];
+/// d/dy: per corner's slot k the two components of y_k, of each four numbers; mortar ones in the order of the projection.
+type Sums = [[[f64; 4]; 2]; PAIR_CORNERS];
 
 /// Derivatives with respect to the projected vertices.
 struct Derivatives<const F: usize> {
@@ -148,8 +150,8 @@ struct Derivatives<const F: usize> {
 }
 
 impl<const F: usize> Derivatives<F> {
-    fn new(frame: &NonmortarFrame, segment: &Segment, points: CellPoints, fields: &[[f64; MAX_NODES]; F]) -> Self {
-        let zero = [[[0.0; MAX_NODES]; 2]; PAIR_NODES];
+    fn new(frame: &NonmortarFrame, segment: &Segment, points: CellPoints, fields: &[[f64; MAX_CORNERS]; F]) -> Self {
+        let zero = [[[0.0; 4]; 2]; PAIR_CORNERS];
         let mut d = Derivatives { one: [zero; F], two: [zero; F], gap: zero };
         let (map1, map2) = (frame.map.gradients::<Plain>(), segment.mortar_map.gradients::<Plain>());
         let (heights, two) = (&frame.projection.d, &segment.mortar);
@@ -159,17 +161,17 @@ impl<const F: usize> Derivatives<F> {
                 let g2 = at(&map2, c, xi2, eta2).map(|g| g * p.area / det2); // w j grad N_C
                 let slope = dot(&g2, &two.d);
                 let gap = dot(&p.n, heights) - dot(&n2, &two.d);
-                for k in 0..MAX_NODES {
-                    for a in 0..MAX_NODES {
+                for k in 0..MAX_CORNERS {
+                    for a in 0..MAX_CORNERS {
                         d.gap[k][c][a] += p.n[a] * (gap * g1[k] - slope * p.n[k]);
-                        d.gap[MORTAR + k][c][a] += p.n[a] * slope * n2[k];
+                        d.gap[MORTAR_CORNER + k][c][a] += p.n[a] * slope * n2[k];
                     }
                     for (f, field) in fields.iter().enumerate() {
                         let value = dot(field, &p.n);
                         for b in 0..MAX_NODES {
                             d.one[f][k][c][b] += value * p.n[b] * g1[k];
                             d.two[f][k][c][two.node[b]] -= value * (n2[b] * g1[k] + g2[b] * p.n[k]);
-                            d.two[f][MORTAR + k][c][two.node[b]] += value * g2[b] * n2[k];
+                            d.two[f][MORTAR_CORNER + k][c][two.node[b]] += value * g2[b] * n2[k];
                         }
                     }
                 }
@@ -179,19 +181,19 @@ impl<const F: usize> Derivatives<F> {
     }
 }
 
-fn dot(a: &[f64; MAX_NODES], b: &[f64; MAX_NODES]) -> f64 {
-    (0..MAX_NODES).map(|k| a[k] * b[k]).sum()
+fn dot(a: &[f64; MAX_CORNERS], b: &[f64; MAX_CORNERS]) -> f64 {
+    (0..MAX_CORNERS).map(|k| a[k] * b[k]).sum()
 }
 
 /// Component `c` of det J dN_k/dy at a point.
-fn at(gradients: &[[Plain; 2]; 3], c: usize, xi: f64, eta: f64) -> [f64; MAX_NODES] {
+fn at(gradients: &[[Plain; 2]; 3], c: usize, xi: f64, eta: f64) -> [f64; MAX_CORNERS] {
     (gradients[0][c] + gradients[1][c] * Plain::splat(xi) + gradients[2][c] * Plain::splat(eta)).store()
 }
 
 /// As the chain to the nodes takes them.
 fn lanes<L: Lanes>(sums: &Sums) -> PlaneDerivatives<L> {
-    let mut d = [[L::splat(0.0); 2]; PAIR_NODES];
-    for k in 0..PAIR_NODES {
+    let mut d = [[L::splat(0.0); 2]; PAIR_CORNERS];
+    for k in 0..PAIR_CORNERS {
         d[k] = [L::load(&sums[k][0]), L::load(&sums[k][1])];
     }
     d
@@ -201,11 +203,11 @@ fn lanes<L: Lanes>(sums: &Sums) -> PlaneDerivatives<L> {
 pub(super) fn motion(
     (frame, segment, points): (&NonmortarFrame, &Segment, CellPoints),
     weights: &PairWeights,
-    p: &[[f64; MAX_NODES]; 3],
+    p: &[[f64; MAX_CORNERS]; 3],
     forces: &mut ForceDerivatives,
 ) -> AlongNormal {
     let plane = Derivatives::new(frame, segment, points, p);
-    Cells::of(frame, segment).plain(Motion { frame, segment, plane, weights, forces })
+    Kinds::of(frame, segment).plain(Motion { frame, segment, plane, weights, forces })
 }
 
 struct Motion<'a> {
@@ -216,16 +218,16 @@ struct Motion<'a> {
     forces: &'a mut ForceDerivatives,
 }
 
-impl CellKernel for Motion<'_> {
+impl KindKernel for Motion<'_> {
     type Output = AlongNormal;
 
     #[inline(always)]
-    fn run<L: Lanes, One: Cell, Two: Cell>(self) -> AlongNormal {
+    fn run<L: Lanes, One: SingleBasis, Two: Isoparametric>(self) -> AlongNormal {
         let Motion { frame, segment, plane, weights, forces } = self;
         let chain = Chain::new(frame, segment);
         for i in 0..3 {
-            chain.nodes::<One, Two>(&lanes::<L>(&plane.one[i]), &mut Component { to: &mut forces.one, i });
-            chain.nodes::<One, Two>(&lanes::<L>(&plane.two[i]), &mut Component { to: &mut forces.two, i });
+            chain.nodes::<One::Cell, Two::Cell>(&lanes::<L>(&plane.one[i]), &mut Component { to: &mut forces.one, i });
+            chain.nodes::<One::Cell, Two::Cell>(&lanes::<L>(&plane.two[i]), &mut Component { to: &mut forces.two, i });
         }
         AlongNormal::new::<L, One, Two>(&chain, &lanes::<L>(&plane.gap), weights)
     }
@@ -239,7 +241,7 @@ pub(super) fn derivatives(
     derivatives: &mut WeightDerivatives,
 ) -> PairWeights {
     let plane = Derivatives::new(frame, segment, points, &SHAPES);
-    Cells::of(frame, segment).plain(OfWeights { frame, segment, plane, derivatives });
+    Kinds::of(frame, segment).plain(OfWeights { frame, segment, plane, derivatives });
     weights(frame, segment, points)
 }
 
@@ -250,19 +252,19 @@ struct OfWeights<'a> {
     derivatives: &'a mut WeightDerivatives,
 }
 
-impl CellKernel for OfWeights<'_> {
+impl KindKernel for OfWeights<'_> {
     type Output = ();
 
     #[inline(always)]
-    fn run<L: Lanes, One: Cell, Two: Cell>(self) {
+    fn run<L: Lanes, One: SingleBasis, Two: Isoparametric>(self) {
         let OfWeights { frame, segment, plane, derivatives } = self;
         let chain = Chain::new(frame, segment);
         let mut columns = Flat([[L::splat(0.0); 3]; PAIR_NODES]);
-        for a in 0..One::NODES {
-            chain.nodes::<One, Two>(&lanes::<L>(&plane.one[a]), &mut columns);
-            to_rows::<L, One>(&columns.0, 1.0, &mut derivatives.ab[a]);
-            chain.nodes::<One, Two>(&lanes::<L>(&plane.two[a]), &mut columns);
-            to_rows::<L, Two>(&columns.0, -1.0, &mut derivatives.ac[a]);
+        for a in 0..One::Multiplier::FUNCTIONS {
+            chain.nodes::<One::Cell, Two::Cell>(&lanes::<L>(&plane.one[a]), &mut columns);
+            to_rows::<L, One::Displacement>(&columns.0, 1.0, &mut derivatives.ab[a]);
+            chain.nodes::<One::Cell, Two::Cell>(&lanes::<L>(&plane.two[a]), &mut columns);
+            to_rows::<L, Two::Displacement>(&columns.0, -1.0, &mut derivatives.ac[a]);
         }
     }
 }

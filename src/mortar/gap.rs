@@ -11,11 +11,11 @@ use super::segment::NonmortarFrame;
 use super::slots::{MORTAR, PAIR_NODES};
 use super::transport::PlaneDerivatives;
 use crate::geometry::{Facet, Projection, Vec3};
-use crate::shape::{Cell, MAX_NODES};
+use crate::shape::{FacetKind, MAX_CORNERS, MAX_NODES, StandardMultipliers};
 use crate::simd::{self, Kernel, Lanes, Plain};
 
 /// Weighted gap of the pair's non-mortar nodes with any weights: those of now or those of t_n.
-pub fn gap(weights: &PairWeights, one: &Facet, two: &Facet) -> [Vec3; MAX_NODES] {
+pub fn gap(weights: &PairWeights, one: &Facet, two: &Facet) -> [Vec3; MAX_CORNERS] {
     let g = simd::dispatch(Gap { weights, one, two });
     [0, 1, 2, 3].map(|a| Vec3::new(g[0][a], g[1][a], g[2][a]))
 }
@@ -27,9 +27,10 @@ struct Gap<'a> {
 }
 
 impl Kernel for Gap<'_> {
-    type Output = [[f64; MAX_NODES]; 3];
+    type Output = [[f64; MAX_CORNERS]; 3];
     #[inline(always)]
-    fn run<L: Lanes>(self) -> [[f64; MAX_NODES]; 3] {
+    fn run<L: Lanes>(self) -> [[f64; MAX_CORNERS]; 3] {
+        const { assert!(MAX_NODES == MAX_CORNERS) }; // positions of the corners are those of the nodes B and C
         let Gap { weights, one, two } = self;
         // Relative to one node of the pair: legal because sum_B n_AB = sum_C n_AC, and exact under offsets.
         let reference = one.nodes[0];
@@ -47,7 +48,7 @@ impl Kernel for Gap<'_> {
 
 /// The columns of weights, lanes A.
 #[inline(always)]
-pub fn columns<L: Lanes>([a, b, c, d]: &[[f64; MAX_NODES]; MAX_NODES]) -> [L; MAX_NODES] {
+pub fn columns<L: Lanes>([a, b, c, d]: &[[f64; MAX_NODES]; MAX_CORNERS]) -> [L; MAX_NODES] {
     L::transpose([L::load(a), L::load(b), L::load(c), L::load(d)])
 }
 
@@ -58,9 +59,9 @@ pub enum GapDerivative {
     /// Of two facets.
     Facets(AlongNormal),
     /// `[k][i][j]`, lanes A: d g_A,i / d x_k,j of a facet against an analytic surface, which is at rest.
-    Blocks([[[[f64; MAX_NODES]; 3]; 3]; MAX_NODES]),
+    Blocks([[[[f64; MAX_CORNERS]; 3]; 3]; MAX_NODES]),
     /// With weights held fixed, of g - g_0 where g_0 turns with the facet: what -Dg_0 adds, as in `Blocks`.
-    Turning([[[[f64; MAX_NODES]; 3]; 3]; MAX_NODES]),
+    Turning([[[[f64; MAX_CORNERS]; 3]; 3]; MAX_NODES]),
 }
 
 /// Dg_A of two facets in factors: Dg_A = e Dgamma_A + gamma_A De.
@@ -71,11 +72,11 @@ pub struct AlongNormal {
     /// t1, t2.
     pub axes: [Vec3; 2],
     /// t_j . De = sum_k `tilt[j][k]` e . Dx_k [1/L].
-    pub tilt: [[f64; MAX_NODES]; 2],
+    pub tilt: [[f64; MAX_CORNERS]; 2],
     /// gamma_A [L^3].
-    pub gamma: [f64; MAX_NODES],
+    pub gamma: [f64; MAX_CORNERS],
     /// `dgamma[k][j][A]` = d gamma_A / d x_k,j [L^2]; zero in mortar slots where that side does not move.
-    pub dgamma: [[[f64; MAX_NODES]; 3]; PAIR_NODES],
+    pub dgamma: [[[f64; MAX_CORNERS]; 3]; PAIR_NODES],
 }
 
 impl AlongNormal {
@@ -88,7 +89,7 @@ impl AlongNormal {
         derivatives: &WeightDerivatives,
     ) -> AlongNormal {
         let (plane, one) = (&frame.plane, &frame.projection);
-        let mut dgamma = [[[0.0; MAX_NODES]; 3]; PAIR_NODES];
+        let mut dgamma = [[[0.0; MAX_CORNERS]; 3]; PAIR_NODES];
         for (k, j) in (0..PAIR_NODES).flat_map(|k| (0..3).map(move |j| (k, j))) {
             for a in 0..one.shape.n {
                 for b in 0..one.shape.n {
@@ -107,7 +108,7 @@ impl AlongNormal {
 
     /// From `plane`, the derivatives of gamma_A at fixed heights.
     #[inline(always)]
-    pub(super) fn new<L: Lanes, One: Cell, Two: Cell>(
+    pub(super) fn new<L: Lanes, One: StandardMultipliers, Two: FacetKind>(
         chain: &Chain<L>,
         plane: &PlaneDerivatives<L>,
         weights: &PairWeights,
@@ -118,7 +119,7 @@ impl AlongNormal {
             axes: [frame_plane.t1, frame_plane.t2],
             tilt: frame_plane.tilt,
             gamma: gamma::<L>(chain.frame, &chain.segment.mortar, weights),
-            dgamma: [[[0.0; MAX_NODES]; 3]; PAIR_NODES],
+            dgamma: [[[0.0; MAX_CORNERS]; 3]; PAIR_NODES],
         };
         let mut to = Gaps {
             dgamma: &mut along.dgamma,
@@ -130,13 +131,13 @@ impl AlongNormal {
             to.heights[k] = L::load(&weights.ab[k]); // n_AB is symmetric
             to.heights[MORTAR + k] = -ac[k];
         }
-        chain.nodes::<One, Two>(plane, &mut to);
+        chain.nodes::<One::Cell, Two::Cell>(plane, &mut to);
         along
     }
 }
 
 struct Gaps<'a, L> {
-    dgamma: &'a mut [[[f64; MAX_NODES]; 3]; PAIR_NODES],
+    dgamma: &'a mut [[[f64; MAX_CORNERS]; 3]; PAIR_NODES],
     /// d gamma_A / d d_k, lanes A: n_AB, -n_AC.
     heights: [L; PAIR_NODES],
     e: [L; 3],
@@ -151,9 +152,10 @@ impl<L: Lanes> Columns<L> for Gaps<'_, L> {
     }
 }
 
-/// gamma_A = sum_B n_AB d_B - sum_C n_AC d_C.
+/// gamma_A = sum_B n_AB d_B - sum_C n_AC d_C; the heights of nodes are those of corners.
 #[inline(always)]
-pub(super) fn gamma<L: Lanes>(frame: &NonmortarFrame, two: &Projection, weights: &PairWeights) -> [f64; MAX_NODES] {
+pub(super) fn gamma<L: Lanes>(frame: &NonmortarFrame, two: &Projection, weights: &PairWeights) -> [f64; MAX_CORNERS] {
+    const { assert!(MAX_NODES == MAX_CORNERS) };
     let one = &frame.projection;
     let (ab, ac) = (columns::<L>(&weights.ab), columns::<L>(&weights.ac));
     let mut gamma = L::splat(0.0);

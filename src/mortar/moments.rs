@@ -3,6 +3,9 @@
 //! Q1[m][k][C] = int (mu1_m / det1) N_k N_C, R[m][k][B] = int (mu1_m / det1) N_k N_B, Q2[m][l][A] = int (mu2_m / det2)
 //! N_l N_A,
 //!
+//! N_k, N_l the functions of the two maps, N_A the multipliers', N_B and N_C the displacements'. R serves in place of the
+//! integrals with N_A, too, and its sums are fewer because N_B have the monomials of the map.
+//!
 //! mu = (1, xi, eta) of the facet whose det stands below (of a triangle 1 alone: the others have no coefficient). mu_m
 //! N_k has eight monomials, and the functions they are integrated with four, so what is summed over the points are
 //! products of monomials, each once; the nodes' integrals follow from the sums.
@@ -11,7 +14,7 @@ use super::pair_weights::PairWeights;
 use super::points::{Fan, Maps, Points, points, triangle_lanes};
 use super::segment::{NonmortarFrame, Segment};
 use crate::quadrature::Rule;
-use crate::shape::{Cell, MAX_NODES};
+use crate::shape::{Basis, Cell, Isoparametric, MAX_CORNERS, SingleBasis};
 use crate::simd::{Lanes, Stack};
 
 /// 1, xi, eta, xi eta, xi^2, eta^2, xi^2 eta, xi eta^2; of a triangle the first three.
@@ -19,11 +22,7 @@ pub(super) const MONOMIALS: usize = 8;
 /// Which monomials mu_m (1, xi, eta, xi eta) are.
 pub(super) const PRODUCTS: [[usize; 4]; 3] = [[0, 1, 2, 3], [1, 4, 3, 6], [2, 3, 5, 7]];
 
-/// Monomials of a cell's shape functions.
-pub(super) const fn terms<C: Cell>() -> usize {
-    if C::BILINEAR { 4 } else { 3 }
-}
-
+/// Monomials of mu_m N_k.
 pub(super) const fn monomials<C: Cell>() -> usize {
     if C::BILINEAR { MONOMIALS } else { 3 }
 }
@@ -60,8 +59,8 @@ struct Group<L> {
     at: [[L; 3]; 2],
 }
 
-/// [m][k], lanes over the third index.
-pub(super) type Table<L> = [[L; MAX_NODES]; 3];
+/// [m][k], k over corners, lanes over the third index.
+pub(super) type Table<L> = [[L; MAX_CORNERS]; 3];
 
 /// The integrals, lanes C in the order of the facet as given.
 pub(super) struct Moments<L> {
@@ -114,16 +113,17 @@ fn plain<L: Lanes, const FACET: usize>(groups: &[Group<L>], monomials: usize) ->
     s
 }
 
-/// Sums of the monomials of the non-mortar facet, and of those with its own functions, by their lanes.
+/// Sums of the monomials of the non-mortar facet, and of those with the monomials of its displacement, by their lanes:
+/// both are those of the map, so that most products are there twice.
 #[inline(always)]
-fn own<L: Lanes, One: Cell>(groups: &[Group<L>]) -> [L; OWN_SUMS] {
+fn own<L: Lanes, One: Isoparametric>(groups: &[Group<L>]) -> [L; OWN_SUMS] {
     let mut s = [L::splat(0.0); OWN_SUMS];
     for g in groups {
         let (m, [xi, eta, both]) = (&g.monomials[0], &g.at[0]);
-        for j in 0..monomials::<One>() {
+        for j in 0..monomials::<One::Cell>() {
             s[j] = s[j] + m[j];
         }
-        if One::BILINEAR {
+        if One::Cell::BILINEAR {
             s[8] = m[6].mul_add(*eta, s[8]);
             s[9] = m[4].mul_add(*xi, s[9]);
             s[10] = m[6].mul_add(*xi, s[10]);
@@ -140,52 +140,52 @@ fn own<L: Lanes, One: Cell>(groups: &[Group<L>]) -> [L; OWN_SUMS] {
     s
 }
 
-/// Integrals of the monomials of facet `FACET`, whose sums are `sums`, with the nodal functions of facet `OTHER`, lanes
-/// over these.
+/// Integrals of the monomials of facet `FACET`, whose sums are `sums`, with the functions of a field on facet `OTHER`,
+/// lanes over these.
 #[inline(always)]
-fn with_other<L: Lanes, Facet: Cell, Other: Cell, const FACET: usize, const OTHER: usize>(
+fn with_other<L: Lanes, Facet: Cell, Field: Basis, const FACET: usize, const OTHER: usize>(
     groups: &[Group<L>],
     sums: &[L],
 ) -> [L; MONOMIALS] {
     let mut whole = [L::splat(0.0); MONOMIALS];
     for first in (0..monomials::<Facet>()).step_by(4) {
-        let counts = ((monomials::<Facet>() - first).min(4), terms::<Other>() - 1);
+        let counts = ((monomials::<Facet>() - first).min(4), Field::TERMS - 1);
         let s = products::<L, FACET, OTHER>(groups, first, counts);
         for j in 0..counts.0 {
-            whole[first + j] = Other::nodal_lanes(L::sums([sums[first + j], s[j][0], s[j][1], s[j][2]]));
+            whole[first + j] = Field::nodal_lanes(L::sums([sums[first + j], s[j][0], s[j][1], s[j][2]]));
         }
     }
     whole
 }
 
-/// Integrals of the monomials of the non-mortar facet with its own nodal functions, lanes over these.
+/// Integrals of the monomials of the non-mortar facet with the functions of its displacement, lanes over these.
 #[inline(always)]
-fn with_own<L: Lanes, One: Cell>(sums: &[L; OWN_SUMS]) -> [L; MONOMIALS] {
+fn with_own<L: Lanes, One: Isoparametric>(sums: &[L; OWN_SUMS]) -> [L; MONOMIALS] {
     let mut whole = [L::splat(0.0); MONOMIALS];
-    for j in 0..monomials::<One>() {
+    for j in 0..monomials::<One::Cell>() {
         let [a, b, c, d] = OWN[j];
-        let last = if One::BILINEAR { sums[d] } else { L::splat(0.0) };
-        whole[j] = One::nodal_lanes(L::sums([sums[a], sums[b], sums[c], last]));
+        let last = if One::Displacement::TERMS == 4 { sums[d] } else { L::splat(0.0) };
+        whole[j] = One::Displacement::nodal_lanes(L::sums([sums[a], sums[b], sums[c], last]));
     }
     whole
 }
 
-/// Expanded to the nodes of the cell.
+/// Expanded to the functions of the map.
 #[inline(always)]
 pub(super) fn table<L: Lanes, C: Cell>(whole: &[L; MONOMIALS]) -> Table<L> {
-    let mut table = [[L::splat(0.0); MAX_NODES]; 3];
+    let mut table = [[L::splat(0.0); MAX_CORNERS]; 3];
     for m in 0..powers::<C>() {
         let [a, b, c, d] = PRODUCTS[m];
-        table[m] = C::nodal([whole[a], whole[b], whole[c], whole[d]]);
+        table[m] = C::Map::nodal([whole[a], whole[b], whole[c], whole[d]]);
     }
     table
 }
 
-/// sum_k c_k n_k, of the first `n`.
+/// sum_k c_k n_k, of the `first` ones.
 #[inline(always)]
-pub(super) fn combine<L: Lanes>(n: &[L; MAX_NODES], c: &[f64; MAX_NODES], nodes: usize) -> L {
+pub(super) fn combine<L: Lanes>(n: &[L; MAX_CORNERS], c: &[f64; MAX_CORNERS], first: usize) -> L {
     let mut sum = n[0] * L::splat(c[0]);
-    for k in 1..nodes {
+    for k in 1..first {
         sum = n[k].mul_add(L::splat(c[k]), sum);
     }
     sum
@@ -193,7 +193,11 @@ pub(super) fn combine<L: Lanes>(n: &[L; MAX_NODES], c: &[f64; MAX_NODES], nodes:
 
 impl<L: Lanes> Moments<L> {
     #[inline(always)]
-    pub fn integrate<One: Cell, Two: Cell>(frame: &NonmortarFrame, segment: &Segment, rule: &Rule) -> Self {
+    pub fn integrate<One: SingleBasis, Two: Isoparametric>(
+        frame: &NonmortarFrame,
+        segment: &Segment,
+        rule: &Rule,
+    ) -> Self {
         if L::SHARED {
             Self::shared::<One, Two>(frame, segment, rule)
         } else {
@@ -202,12 +206,12 @@ impl<L: Lanes> Moments<L> {
     }
 
     #[inline(never)]
-    fn shared<One: Cell, Two: Cell>(frame: &NonmortarFrame, segment: &Segment, rule: &Rule) -> Self {
+    fn shared<One: SingleBasis, Two: Isoparametric>(frame: &NonmortarFrame, segment: &Segment, rule: &Rule) -> Self {
         Self::inlined::<One, Two>(frame, segment, rule)
     }
 
     #[inline(always)]
-    fn inlined<One: Cell, Two: Cell>(frame: &NonmortarFrame, segment: &Segment, rule: &Rule) -> Self {
+    fn inlined<One: SingleBasis, Two: Isoparametric>(frame: &NonmortarFrame, segment: &Segment, rule: &Rule) -> Self {
         let mut whole = [[L::splat(0.0); MONOMIALS]; 3];
         let mut stack = Stack::<Group<L>, GROUPS>::new();
         let rule = triangle_lanes::<One, Two>(rule);
@@ -216,7 +220,7 @@ impl<L: Lanes> Moments<L> {
         let mut triangle = fan.triangle();
         let (mut i, mut more) = (0, false);
         while let Some(t) = &triangle {
-            stack.push(group::<L, One, Two>(&points::<L>(&maps, &rule[i], t)));
+            stack.push(group::<L, One::Cell, Two::Cell>(&points::<L>(&maps, &rule[i], t)));
             i += 1;
             if i == rule.len() {
                 (triangle, i) = (fan.triangle(), 0);
@@ -225,9 +229,12 @@ impl<L: Lanes> Moments<L> {
                 let groups = stack.values();
                 let sums = own::<L, One>(groups);
                 let batch = [
-                    with_other::<L, One, Two, 0, 1>(groups, &sums),
+                    with_other::<L, One::Cell, Two::Displacement, 0, 1>(groups, &sums),
                     with_own::<L, One>(&sums),
-                    with_other::<L, Two, One, 1, 0>(groups, &plain::<L, 1>(groups, monomials::<Two>())),
+                    with_other::<L, Two::Cell, One::Multiplier, 1, 0>(
+                        groups,
+                        &plain::<L, 1>(groups, monomials::<Two::Cell>()),
+                    ),
                 ];
                 if more {
                     for (sum, new) in whole.as_flattened_mut().iter_mut().zip(batch.as_flattened()) {
@@ -241,24 +248,26 @@ impl<L: Lanes> Moments<L> {
             }
         }
         let [q1, r, q2] = &mut whole;
+        // The nodes C are the corners, in their order.
         for q in q1.iter_mut() {
-            *q = Two::given(*q, segment.mortar.is_reversed());
+            *q = Two::Cell::given(*q, segment.mortar.is_reversed());
         }
-        Moments { q1: table::<L, One>(q1), r: table::<L, One>(r), q2: table::<L, Two>(q2) }
+        Moments { q1: table::<L, One::Cell>(q1), r: table::<L, One::Cell>(r), q2: table::<L, Two::Cell>(q2) }
     }
 
-    /// n_AB = sum_m j_m R[m][A][B] and n_AC = sum_m j_m Q1[m][A][C], det1 = j0 + j1 xi + j2 eta.
+    /// n_AB = sum_m j_m R[m][A][B] and n_AC = sum_m j_m Q1[m][A][C], det1 = j0 + j1 xi + j2 eta: the
+    /// multipliers N_A are the functions N_k of the map.
     #[inline(always)]
-    pub fn weights<One: Cell>(&self, determinant: &[f64; 3]) -> PairWeights {
-        let (mut ab, mut ac) = ([L::splat(0.0); MAX_NODES], [L::splat(0.0); MAX_NODES]);
-        for m in 0..powers::<One>() {
+    pub fn weights<One: SingleBasis>(&self, determinant: &[f64; 3]) -> PairWeights {
+        let (mut ab, mut ac) = ([L::splat(0.0); MAX_CORNERS], [L::splat(0.0); MAX_CORNERS]);
+        for m in 0..powers::<One::Cell>() {
             let j = L::splat(determinant[m]);
-            for a in 0..One::NODES {
+            for a in 0..One::Multiplier::FUNCTIONS {
                 ab[a] = j.mul_add(self.r[m][a], ab[a]);
                 ac[a] = j.mul_add(self.q1[m][a], ac[a]);
             }
         }
-        PairWeights::of_rows(One::NODES, &ab, &ac)
+        PairWeights::of_rows(One::Multiplier::FUNCTIONS, &ab, &ac)
     }
 }
 

@@ -7,10 +7,10 @@ use super::derivatives::pair_motion;
 use super::gap::AlongNormal;
 use super::pair_weights::PairWeights;
 use super::segment::{NonmortarFrame, Segment};
-use super::slots::{MORTAR, PAIR_NODES};
+use super::slots::{MORTAR, MORTAR_CORNER, PAIR_CORNERS, PAIR_NODES};
 use crate::geometry::{Facet, Projection, Vec2, Vec3, cross};
 use crate::quadrature::{DEGREE_5, DEGREE_10, Rule};
-use crate::shape::MAX_NODES;
+use crate::shape::{MAX_CORNERS, MAX_NODES};
 use crate::simd;
 use num_traits::ToPrimitive;
 use proptest::prelude::*;
@@ -26,8 +26,8 @@ const SAME: f64 = 1e-12;
 const SAME_ON_SLIVERS: f64 = 1e-10;
 /// Shape functions and their gradients at a point of a projected facet.
 struct At {
-    n: [f64; MAX_NODES],
-    gradient: [Vec2; MAX_NODES],
+    n: [f64; MAX_CORNERS],
+    gradient: [Vec2; MAX_CORNERS],
 }
 
 impl At {
@@ -36,7 +36,7 @@ impl At {
         let (mut tangents, mut at) = ([Vec2::zeros(); 2], y);
         let slopes = c.map(|c| [c[1] + c[3] * eta, c[2] + c[3] * xi]);
         let n = facet.shape.values(xi, eta);
-        for k in 0..MAX_NODES {
+        for k in 0..MAX_CORNERS {
             at -= facet.y[k] * n[k];
             tangents[0] += facet.y[k] * slopes[k][0];
             tangents[1] += facet.y[k] * slopes[k][1];
@@ -53,13 +53,13 @@ struct Straight<'a> {
     segment: &'a Segment,
     weights: PairWeights,
     /// d n / d y_k.
-    ab: [[[Vec2; MAX_NODES]; MAX_NODES]; PAIR_NODES],
-    ac: [[[Vec2; MAX_NODES]; MAX_NODES]; PAIR_NODES],
+    ab: [[[Vec2; MAX_NODES]; MAX_CORNERS]; PAIR_CORNERS],
+    ac: [[[Vec2; MAX_NODES]; MAX_CORNERS]; PAIR_CORNERS],
 }
 
 impl<'a> Straight<'a> {
     fn new(frame: &'a NonmortarFrame, segment: &'a Segment, rule: &Rule) -> Self {
-        let zero = [[[Vec2::zeros(); MAX_NODES]; MAX_NODES]; PAIR_NODES];
+        let zero = [[[Vec2::zeros(); MAX_NODES]; MAX_CORNERS]; PAIR_CORNERS];
         let mut s = Straight { frame, segment, weights: PairWeights::default(), ab: zero, ac: zero };
         let v = segment.polygon.vertices();
         let affine = frame.map.is_affine && segment.mortar_map.is_affine;
@@ -90,15 +90,15 @@ impl<'a> Straight<'a> {
     fn add_point(&mut self, y: Vec2, w: f64) {
         let (one, two) = self.at(y);
         let node = self.segment.mortar.node;
-        for a in 0..MAX_NODES {
+        for a in 0..MAX_CORNERS {
             for b in 0..MAX_NODES {
                 self.weights.ab[a][b] += w * one.n[a] * one.n[b];
                 self.weights.ac[a][node[b]] += w * one.n[a] * two.n[b];
-                for k in 0..MAX_NODES {
+                for k in 0..MAX_CORNERS {
                     let v = w * one.n[k];
                     self.ab[k][a][b] -= one.gradient[a] * (v * one.n[b]) + one.gradient[b] * (v * one.n[a]);
                     self.ac[k][a][node[b]] -= one.gradient[a] * (v * two.n[b]);
-                    self.ac[MORTAR + k][a][node[b]] -= two.gradient[b] * (w * two.n[k] * one.n[a]);
+                    self.ac[MORTAR_CORNER + k][a][node[b]] -= two.gradient[b] * (w * two.n[k] * one.n[a]);
                 }
             }
         }
@@ -151,12 +151,12 @@ impl<'a> Straight<'a> {
             let normal = Vec2::new(span.y, -span.x) * (orientation * w * (part.1 - part.0));
             let (at, _) = self.at(two.y[from] + span * t);
             for (k, l) in [(from, 1.0 - t), (to, t)] {
-                for a in 0..MAX_NODES {
+                for a in 0..MAX_CORNERS {
                     for b in 0..MAX_NODES {
-                        self.ab[MORTAR + k][a][b] += normal * (l * at.n[a] * at.n[b]);
+                        self.ab[MORTAR_CORNER + k][a][b] += normal * (l * at.n[a] * at.n[b]);
                     }
                     for (c, m) in [(from, 1.0 - t), (to, t)] {
-                        self.ac[MORTAR + k][a][two.node[c]] += normal * (l * m * at.n[a]);
+                        self.ac[MORTAR_CORNER + k][a][two.node[c]] += normal * (l * m * at.n[a]);
                     }
                 }
             }
@@ -165,7 +165,7 @@ impl<'a> Straight<'a> {
 
     /// sum_k g_k . Dy_k as coefficients of Dx_k. With a mortar side at rest the plane's own translation and spin are
     /// left out: as exact as the rule, which makes them cancel.
-    fn chain(&self, g: [Vec2; PAIR_NODES], moves: bool) -> [Vec3; PAIR_NODES] {
+    fn chain(&self, g: [Vec2; PAIR_CORNERS], moves: bool) -> [Vec3; PAIR_NODES] {
         let (plane, one, two) = (&self.frame.plane, &self.frame.projection, &self.segment.mortar);
         let mut x = [Vec3::zeros(); PAIR_NODES];
         let (mut shift, mut spin, mut tilt) = (Vec3::zeros(), 0.0, Vec2::zeros());
@@ -191,7 +191,7 @@ impl<'a> Straight<'a> {
 
     fn derivatives(&self, moves: bool) -> WeightDerivatives {
         let mut d = WeightDerivatives::default();
-        for a in 0..MAX_NODES {
+        for a in 0..MAX_CORNERS {
             for b in 0..MAX_NODES {
                 d.ab[a][b] = self.chain(self.ab.map(|g| g[a][b]), moves).map(Into::into);
                 d.ac[a][b] = self.chain(self.ac.map(|g| g[a][b]), moves).map(Into::into);
@@ -243,7 +243,7 @@ fn flat<const A: usize, const B: usize, const C: usize>(v: &[[[[f64; A]; B]; C]]
     v.as_flattened().as_flattened().as_flattened()
 }
 
-fn check(one: &Facet, two: &Facet, p: &[[f64; MAX_NODES]; 3], same: f64) -> Result<(), TestCaseError> {
+fn check(one: &Facet, two: &Facet, p: &[[f64; MAX_CORNERS]; 3], same: f64) -> Result<(), TestCaseError> {
     let Ok(frame) = NonmortarFrame::new(one) else { return Ok(()) };
     let Ok(Some(segment)) = Segment::new(&frame, two) else { return Ok(()) };
     let h = one.longest_edge();
@@ -314,7 +314,7 @@ proptest! {
 
     #[test]
     fn kernels_equal_the_formulas_on_every_back_end(one in facet(), two in facet(), p in proptest::collection::vec(-1.0..1.0f64, 12)) {
-        let mut fields = [[0.0; MAX_NODES]; 3];
+        let mut fields = [[0.0; MAX_CORNERS]; 3];
         fields.as_flattened_mut().copy_from_slice(&p);
         // A triangle has no fourth traction.
         if one.len() == 3 {

@@ -5,7 +5,7 @@ use super::segment::{NonmortarFrame, Segment};
 use crate::geometry::bilinear_map::{InverseMap, Preimage};
 use crate::geometry::{Vec2, cross};
 use crate::quadrature::{DEGREE_2, Rule};
-use crate::shape::Cell;
+use crate::shape::{Cell, Isoparametric, SingleBasis};
 use crate::simd::Lanes;
 
 /// Four quadrature points.
@@ -53,11 +53,12 @@ impl<'a> Fan<'a> {
     }
 }
 
-/// The points of a triangle, four at a time. Triangles have linear functions and constant gradients: nothing in their
-/// integrals is above degree 2, so that any finer rule gives the same with more points.
+/// The points of a triangle, four at a time. The functions of triangles, their maps' and so their fields', are linear with
+/// constant gradients: nothing in their integrals is above degree 2, so that any finer rule gives the same with more
+/// points.
 #[inline(always)]
-pub(super) fn triangle_lanes<One: Cell, Two: Cell>(rule: &Rule) -> &'static [[[f64; 4]; 3]] {
-    let linear = !One::BILINEAR && !Two::BILINEAR;
+pub(super) fn triangle_lanes<One: SingleBasis, Two: Isoparametric>(rule: &Rule) -> &'static [[[f64; 4]; 3]] {
+    let linear = !One::Cell::BILINEAR && !Two::Cell::BILINEAR;
     if linear && rule.degree > DEGREE_2.degree { DEGREE_2.triangle_lanes } else { rule.triangle_lanes }
 }
 

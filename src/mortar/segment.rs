@@ -5,7 +5,7 @@ use crate::error::{Error, Kind, Result};
 use crate::geometry::bilinear_map::BilinearMap;
 use crate::geometry::clip::Polygon;
 use crate::geometry::{Facet, Plane, Projection};
-use crate::shape::{Cell, MAX_NODES, Quad4, Tri3};
+use crate::shape::{Isoparametric, MAX_CORNERS, Quad4, SingleBasis, Tri3};
 use crate::simd::{self, Kernel, Lanes, Plain};
 use std::marker::PhantomData;
 
@@ -32,10 +32,10 @@ impl NonmortarFrame {
     }
 
     /// int N_A da over the whole facet, covered or not [L^2].
-    pub fn nodal_areas(&self) -> [f64; MAX_NODES] {
+    pub fn nodal_areas(&self) -> [f64; MAX_CORNERS] {
         let det = self.map.determinant();
-        let mut areas = [0.0; MAX_NODES];
-        for (area, m) in areas.iter_mut().zip(&self.projection.shape.moments) {
+        let mut areas = [0.0; MAX_CORNERS];
+        for (area, m) in areas.iter_mut().zip(&self.projection.shape.fields.moments) {
             *area = (0..3).map(|i| m[i] * det[i]).sum();
         }
         areas
@@ -77,59 +77,61 @@ impl CellPoints {
     }
 }
 
-/// A kernel over the kinds of both facets.
-pub(super) trait CellKernel {
+/// A kernel over the kinds of both facets. Kernels of a pair need all fields of the non-mortar facet, and the displacement
+/// of the mortar facet, to have the functions of the maps. For a kind with others these bounds have to go, and then the
+/// compiler names each place that needs them.
+pub(super) trait KindKernel {
     type Output;
     /// To be marked `#[inline(always)]`.
-    fn run<L: Lanes, One: Cell, Two: Cell>(self) -> Self::Output;
+    fn run<L: Lanes, One: SingleBasis, Two: Isoparametric>(self) -> Self::Output;
 }
 
 /// The kinds of a pair's facets.
 #[derive(Clone, Copy)]
-pub(super) enum Cells {
+pub(super) enum Kinds {
     TriTri,
     TriQuad,
     QuadTri,
     QuadQuad,
 }
 
-impl Cells {
+impl Kinds {
     #[inline]
-    pub fn of(frame: &NonmortarFrame, segment: &Segment) -> Cells {
+    pub fn of(frame: &NonmortarFrame, segment: &Segment) -> Kinds {
         match (frame.projection.shape.n, segment.mortar.shape.n) {
-            (3, 3) => Cells::TriTri,
-            (3, _) => Cells::TriQuad,
-            (_, 3) => Cells::QuadTri,
-            _ => Cells::QuadQuad,
+            (3, 3) => Kinds::TriTri,
+            (3, _) => Kinds::TriQuad,
+            (_, 3) => Kinds::QuadTri,
+            _ => Kinds::QuadQuad,
         }
     }
 
     /// Runs the kernel compiled for these kinds, for any processor.
     #[inline]
-    pub fn plain<K: CellKernel>(self, kernel: K) -> K::Output {
+    pub fn plain<K: KindKernel>(self, kernel: K) -> K::Output {
         match self {
-            Cells::TriTri => kernel.run::<Plain, Tri3, Tri3>(),
-            Cells::TriQuad => kernel.run::<Plain, Tri3, Quad4>(),
-            Cells::QuadTri => kernel.run::<Plain, Quad4, Tri3>(),
-            Cells::QuadQuad => kernel.run::<Plain, Quad4, Quad4>(),
+            Kinds::TriTri => kernel.run::<Plain, Tri3, Tri3>(),
+            Kinds::TriQuad => kernel.run::<Plain, Tri3, Quad4>(),
+            Kinds::QuadTri => kernel.run::<Plain, Quad4, Tri3>(),
+            Kinds::QuadQuad => kernel.run::<Plain, Quad4, Quad4>(),
         }
     }
 
     /// Runs the kernel compiled for these kinds, on this processor.
     #[inline]
-    pub fn dispatch<K: CellKernel>(self, kernel: K) -> K::Output {
+    pub fn dispatch<K: KindKernel>(self, kernel: K) -> K::Output {
         match self {
-            Cells::TriTri => simd::dispatch(ForCells(kernel, PhantomData::<(Tri3, Tri3)>)),
-            Cells::TriQuad => simd::dispatch(ForCells(kernel, PhantomData::<(Tri3, Quad4)>)),
-            Cells::QuadTri => simd::dispatch(ForCells(kernel, PhantomData::<(Quad4, Tri3)>)),
-            Cells::QuadQuad => simd::dispatch(ForCells(kernel, PhantomData::<(Quad4, Quad4)>)),
+            Kinds::TriTri => simd::dispatch(ForKinds(kernel, PhantomData::<(Tri3, Tri3)>)),
+            Kinds::TriQuad => simd::dispatch(ForKinds(kernel, PhantomData::<(Tri3, Quad4)>)),
+            Kinds::QuadTri => simd::dispatch(ForKinds(kernel, PhantomData::<(Quad4, Tri3)>)),
+            Kinds::QuadQuad => simd::dispatch(ForKinds(kernel, PhantomData::<(Quad4, Quad4)>)),
         }
     }
 }
 
-struct ForCells<K, One, Two>(K, PhantomData<(One, Two)>);
+struct ForKinds<K, One, Two>(K, PhantomData<(One, Two)>);
 
-impl<K: CellKernel, One: Cell, Two: Cell> Kernel for ForCells<K, One, Two> {
+impl<K: KindKernel, One: SingleBasis, Two: Isoparametric> Kernel for ForKinds<K, One, Two> {
     type Output = K::Output;
     #[inline(always)]
     fn run<L: Lanes>(self) -> K::Output {

@@ -16,22 +16,23 @@
 use super::edges::{Edges, in_lanes};
 use super::moments::{Moments, combine, powers};
 use super::segment::{NonmortarFrame, Segment};
-use super::slots::{MORTAR, PAIR_NODES};
-use crate::shape::{Cell, MAX_NODES};
+use super::slots::{MORTAR_CORNER, PAIR_CORNERS};
+use crate::shape::{Basis, Cell, CornerMultipliers, Isoparametric, MAX_CORNERS, SingleBasis};
 use crate::simd::Lanes;
 
-/// d/dy of four numbers in the lanes: per slot k the two components of y_k, mortar slots in the order of the
+/// d/dy of four numbers in the lanes: per corner's slot k the two components of y_k, mortar ones in the order of the
 /// projection.
-pub(super) type PlaneDerivatives<L> = [[L; 2]; PAIR_NODES];
+pub(super) type PlaneDerivatives<L> = [[L; 2]; PAIR_CORNERS];
 
 /// A pair whose derivatives follow from its integrals by contraction.
 pub(super) struct Transport<'a, L> {
     segment: &'a Segment,
     moments: &'a Moments<L>,
     edges: &'a Edges<L>,
-    /// int (mu1_m / det1) N_k v, v = sum N_C d_C.
-    q1v: [[f64; MAX_NODES]; 3],
-    /// det J grad N of both facets in powers (1, xi, eta), lanes over the nodes, of the mortar facet as given.
+    /// int (mu1_m / det1) N_k v, v = sum N_C d_C: the corners' heights are values of a displacement.
+    q1v: [[f64; MAX_CORNERS]; 3],
+    /// det J grad N of both maps in powers (1, xi, eta), lanes over the corners, of the mortar facet as given: those of
+    /// N_A, N_B and N_C.
     gradients: [[[L; 2]; 3]; 2],
     /// det2 grad v in the same powers.
     slope: [[f64; 2]; 3],
@@ -39,7 +40,7 @@ pub(super) struct Transport<'a, L> {
 
 impl<'a, L: Lanes> Transport<'a, L> {
     #[inline(always)]
-    pub fn new<One: Cell, Two: Cell>(
+    pub fn new<One: SingleBasis, Two: Isoparametric>(
         frame: &NonmortarFrame,
         segment: &'a Segment,
         moments: &'a Moments<L>,
@@ -49,14 +50,14 @@ impl<'a, L: Lanes> Transport<'a, L> {
         let mut gradients = [frame.map.gradients::<L>(), segment.mortar_map.gradients::<L>()];
         let d = L::load(&two.d);
         let slope = dots(&gradients[1], d);
-        for m in 0..powers::<Two>() {
+        for m in 0..powers::<Two::Cell>() {
             for c in 0..2 {
-                gradients[1][m][c] = Two::given(gradients[1][m][c], two.is_reversed());
+                gradients[1][m][c] = Two::Cell::given(gradients[1][m][c], two.is_reversed());
             }
         }
-        let v = Two::given(d, two.is_reversed());
-        let mut q1v = [[0.0; MAX_NODES]; 3];
-        for m in 0..powers::<One>() {
+        let v = Two::Cell::given(d, two.is_reversed());
+        let mut q1v = [[0.0; MAX_CORNERS]; 3];
+        for m in 0..powers::<One::Cell>() {
             let q = &moments.q1[m];
             q1v[m] = L::sums([q[0] * v, q[1] * v, q[2] * v, q[3] * v]).store();
         }
@@ -65,25 +66,26 @@ impl<'a, L: Lanes> Transport<'a, L> {
 
     /// Of the forces f_B of the field with the nodal values `p`, lanes B.
     #[inline(always)]
-    pub fn one<One: Cell>(&self, p: &[f64; MAX_NODES]) -> PlaneDerivatives<L> {
+    pub fn one<One: SingleBasis>(&self, p: &[f64; MAX_CORNERS]) -> PlaneDerivatives<L> {
         if L::SHARED { self.one_shared::<One>(p) } else { self.one_inlined::<One>(p) }
     }
 
     #[inline(never)]
-    fn one_shared<One: Cell>(&self, p: &[f64; MAX_NODES]) -> PlaneDerivatives<L> {
+    fn one_shared<One: SingleBasis>(&self, p: &[f64; MAX_CORNERS]) -> PlaneDerivatives<L> {
         self.one_inlined::<One>(p)
     }
 
     #[inline(always)]
-    fn one_inlined<One: Cell>(&self, p: &[f64; MAX_NODES]) -> PlaneDerivatives<L> {
-        let mut d = [[L::splat(0.0); 2]; PAIR_NODES];
+    fn one_inlined<One: SingleBasis>(&self, p: &[f64; MAX_CORNERS]) -> PlaneDerivatives<L> {
+        let mut d = [[L::splat(0.0); 2]; PAIR_CORNERS];
         let [g, _] = &self.gradients;
         let minus = (-L::load(p)).store();
         let slope = dots(g, L::load(&minus));
-        for m in 0..powers::<One>() {
+        for m in 0..powers::<One::Cell>() {
             let r = &self.moments.r[m];
-            let rp = combine(r, &minus, One::NODES).store(); // r is symmetric in k and B
-            for k in 0..One::NODES {
+            // sum_A R[k][A] p_A, lanes k: N_A, N_B and N_k are the same, so r is symmetric in k and B and serves for A.
+            let rp = combine(r, &minus, One::Multiplier::FUNCTIONS).store();
+            for k in 0..One::Cell::CORNERS {
                 for c in 0..2 {
                     let v = L::splat(slope[m][c]).mul_add(r[k], d[k][c]);
                     d[k][c] = g[m][c].mul_add(L::splat(rp[k]), v);
@@ -93,43 +95,44 @@ impl<'a, L: Lanes> Transport<'a, L> {
         for edge in self.edges.nonmortar.values() {
             add_products(&mut d, edge.ends, &edge.normal, p, &edge.own);
         }
+        let multipliers = One::Multiplier::FUNCTIONS;
         for edge in self.edges.mortar.values() {
-            let n = [combine(&edge.nonmortar[0], p, One::NODES), combine(&edge.nonmortar[1], p, One::NODES)];
-            add(&mut d, MORTAR, edge.ends, &edge.normal, n);
+            let n = [combine(&edge.nonmortar[0], p, multipliers), combine(&edge.nonmortar[1], p, multipliers)];
+            add(&mut d, MORTAR_CORNER, edge.ends, &edge.normal, n);
         }
         d
     }
 
     /// Of the forces f_C of the same field, lanes C.
     #[inline(always)]
-    pub fn two<One: Cell, Two: Cell>(&self, p: &[f64; MAX_NODES]) -> PlaneDerivatives<L> {
+    pub fn two<One: CornerMultipliers, Two: Isoparametric>(&self, p: &[f64; MAX_CORNERS]) -> PlaneDerivatives<L> {
         if L::SHARED { self.two_shared::<One, Two>(p) } else { self.two_inlined::<One, Two>(p) }
     }
 
     #[inline(never)]
-    fn two_shared<One: Cell, Two: Cell>(&self, p: &[f64; MAX_NODES]) -> PlaneDerivatives<L> {
+    fn two_shared<One: CornerMultipliers, Two: Isoparametric>(&self, p: &[f64; MAX_CORNERS]) -> PlaneDerivatives<L> {
         self.two_inlined::<One, Two>(p)
     }
 
     #[inline(always)]
-    fn two_inlined<One: Cell, Two: Cell>(&self, p: &[f64; MAX_NODES]) -> PlaneDerivatives<L> {
-        let mut d = [[L::splat(0.0); 2]; PAIR_NODES];
+    fn two_inlined<One: CornerMultipliers, Two: Isoparametric>(&self, p: &[f64; MAX_CORNERS]) -> PlaneDerivatives<L> {
+        let mut d = [[L::splat(0.0); 2]; PAIR_CORNERS];
         let lanes = L::load(p);
         let [g1, g2] = &self.gradients;
         let slope = dots(g1, lanes);
-        for m in 0..powers::<One>() {
-            for k in 0..One::NODES {
+        for m in 0..powers::<One::Cell>() {
+            for k in 0..One::Cell::CORNERS {
                 for c in 0..2 {
                     d[k][c] = L::splat(slope[m][c]).mul_add(self.moments.q1[m][k], d[k][c]);
                 }
             }
         }
-        for m in 0..powers::<Two>() {
+        for m in 0..powers::<Two::Cell>() {
             let q = &self.moments.q2[m];
             let qp = L::sums([q[0] * lanes, q[1] * lanes, q[2] * lanes, q[3] * lanes]).store();
-            for l in 0..Two::NODES {
+            for l in 0..Two::Cell::CORNERS {
                 for c in 0..2 {
-                    d[MORTAR + l][c] = g2[m][c].mul_add(L::splat(qp[l]), d[MORTAR + l][c]);
+                    d[MORTAR_CORNER + l][c] = g2[m][c].mul_add(L::splat(qp[l]), d[MORTAR_CORNER + l][c]);
                 }
             }
         }
@@ -140,29 +143,29 @@ impl<'a, L: Lanes> Transport<'a, L> {
         for edge in self.edges.mortar.values() {
             let n = &edge.own;
             let [s0, s1, s2, _] = L::sums([n[0] * lanes, n[1] * lanes, n[2] * lanes, L::splat(0.0)]).store();
-            subtract(&mut d, MORTAR, edge.ends, &edge.normal, in_lanes([s0, s1, s2], &edge.units));
+            subtract(&mut d, MORTAR_CORNER, edge.ends, &edge.normal, in_lanes([s0, s1, s2], &edge.units));
         }
         d
     }
 
     /// Of the gaps gamma_A at fixed heights, lanes A; `heights` are those of the non-mortar nodes.
     #[inline(always)]
-    pub fn gap<One: Cell, Two: Cell>(&self, heights: &[f64; MAX_NODES]) -> PlaneDerivatives<L> {
-        let mut d = self.one::<One>(heights);
+    pub fn gap<One: SingleBasis, Two: Isoparametric>(&self, heights: &[f64; MAX_CORNERS]) -> PlaneDerivatives<L> {
+        let mut d = self.one::<One>(heights); // n_AB is symmetric: the field of heights, lanes A
         // -int N_A v: the field of the mortar heights.
         let [g, _] = &self.gradients;
-        for m in 0..powers::<One>() {
-            for k in 0..One::NODES {
+        for m in 0..powers::<One::Cell>() {
+            for k in 0..One::Cell::CORNERS {
                 for c in 0..2 {
                     d[k][c] = g[m][c].mul_add(L::splat(self.q1v[m][k]), d[k][c]);
                 }
             }
         }
-        for m in 0..powers::<Two>() {
+        for m in 0..powers::<Two::Cell>() {
             for c in 0..2 {
                 let h = L::splat(self.slope[m][c]);
-                for l in 0..Two::NODES {
-                    d[MORTAR + l][c] = h.mul_add(self.moments.q2[m][l], d[MORTAR + l][c]);
+                for l in 0..Two::Cell::CORNERS {
+                    d[MORTAR_CORNER + l][c] = h.mul_add(self.moments.q2[m][l], d[MORTAR_CORNER + l][c]);
                 }
             }
         }
@@ -172,15 +175,15 @@ impl<'a, L: Lanes> Transport<'a, L> {
         for edge in self.edges.mortar.values() {
             let ([v0, v1], n) = (at_ends::<L>(&self.segment.mortar.d, edge.ends), &edge.own);
             let n = [v0.mul_add(n[0], v1 * n[1]), v0.mul_add(n[1], v1 * n[2])];
-            subtract(&mut d, MORTAR, edge.ends, &edge.normal, n);
+            subtract(&mut d, MORTAR_CORNER, edge.ends, &edge.normal, n);
         }
         d
     }
 }
 
-/// The values of a field at an edge's ends.
+/// The values of a field at an edge's ends, two corners.
 #[inline(always)]
-fn at_ends<L: Lanes>(field: &[f64; MAX_NODES], ends: [usize; 2]) -> [L; 2] {
+fn at_ends<L: Lanes>(field: &[f64; MAX_CORNERS], ends: [usize; 2]) -> [L; 2] {
     [L::splat(field[ends[0] & 3]), L::splat(field[ends[1] & 3])]
 }
 
@@ -208,7 +211,7 @@ fn add_products<L: Lanes>(
     d: &mut PlaneDerivatives<L>,
     ends: [usize; 2],
     normal: &[L; 2],
-    p: &[f64; MAX_NODES],
+    p: &[f64; MAX_CORNERS],
     of: &[L; 3],
 ) {
     let [p0, p1] = at_ends::<L>(p, ends);

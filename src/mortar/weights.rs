@@ -4,12 +4,11 @@
 //! both at the same quadrature points, so that sum_B n_AB = sum_C n_AC holds at any rule.
 
 use super::element_rule;
-use super::moments::terms;
 use super::pair_weights::PairWeights;
 use super::points::{Fan, Maps, points, triangle_lanes};
-use super::segment::{CellKernel, Cells, NonmortarFrame, Segment};
+use super::segment::{KindKernel, Kinds, NonmortarFrame, Segment};
 use crate::quadrature::Rule;
-use crate::shape::Cell;
+use crate::shape::{Basis, Cell, Isoparametric, SingleBasis};
 use crate::simd::Lanes;
 
 impl PairWeights {
@@ -18,7 +17,7 @@ impl PairWeights {
         if let Some(points) = segment.points {
             return element_rule::weights(frame, segment, points);
         }
-        Cells::of(frame, segment).dispatch(Integrate { frame, segment, rule })
+        Kinds::of(frame, segment).dispatch(Integrate { frame, segment, rule })
     }
 }
 
@@ -28,14 +27,23 @@ struct Integrate<'a> {
     rule: &'a Rule,
 }
 
-impl CellKernel for Integrate<'_> {
+impl KindKernel for Integrate<'_> {
     type Output = PairWeights;
 
     #[inline(always)]
-    fn run<L: Lanes, One: Cell, Two: Cell>(self) -> PairWeights {
+    fn run<L: Lanes, One: SingleBasis, Two: Isoparametric>(self) -> PairWeights {
+        self.integrate::<L, One, Two>()
+    }
+}
+
+impl Integrate<'_> {
+    /// n_AB is symmetric, and both of its functions have the monomials of the map.
+    #[inline(always)]
+    fn integrate<L: Lanes, One: SingleBasis, Two: Isoparametric>(self) -> PairWeights {
         let Integrate { frame, segment, rule } = self;
         let zero = L::splat(0.0);
-        // Integrals of 1, xi, eta, xi eta of one with those of two, and of those of one with another that are new.
+        // Integrals of 1, xi, eta, xi eta of one (those of N_A) with those of two (of N_C), and of those of one with another
+        // (N_B have the same as N_A) that are new.
         let (mut cross, mut own) = ([[zero; 4]; 4], [zero; 5]);
         let maps = Maps::new(frame, segment);
         let mut fan = Fan::new(frame, segment);
@@ -50,14 +58,14 @@ impl CellKernel for Integrate<'_> {
                 for j in 0..4 {
                     cross[j][0] = cross[j][0] + n[j];
                 }
-                for j in 0..terms::<One>() {
-                    for k in 1..terms::<Two>() {
+                for j in 0..One::Multiplier::TERMS {
+                    for k in 1..Two::Displacement::TERMS {
                         cross[j][k] = n[j].mul_add(with[k - 1], cross[j][k]);
                     }
                 }
                 own[0] = x.mul_add(xi, own[0]);
                 own[1] = e.mul_add(eta, own[1]);
-                if One::BILINEAR {
+                if One::Displacement::TERMS == 4 {
                     let xxe = xe * xi;
                     own[2] = own[2] + xxe;
                     own[3] = xe.mul_add(eta, own[3]);
@@ -70,10 +78,13 @@ impl CellKernel for Integrate<'_> {
         let [xxee, ..] = L::sums([own[4], zero, zero, zero]).store();
         let ab = [[n, x, e, xe], [x, xx, xe, xxe], [e, xe, ee, xee], [xe, xxe, xee, xxee]];
         let (mut by_one, mut by_two) = ([zero; 4], [zero; 4]);
-        for j in 0..terms::<One>() {
-            by_one[j] = One::nodal_lanes(L::load(&ab[j]));
-            by_two[j] = Two::given(Two::nodal_lanes(L::sums(cross[j])), segment.mortar.is_reversed());
+        for j in 0..One::Multiplier::TERMS {
+            by_one[j] = One::Displacement::nodal_lanes(L::load(&ab[j]));
+            // The nodes C are the corners, in their order.
+            let with_two = Two::Displacement::nodal_lanes(L::sums(cross[j]));
+            by_two[j] = Two::Cell::given(with_two, segment.mortar.is_reversed());
         }
-        PairWeights::of_rows(One::NODES, &One::nodal(by_one), &One::nodal(by_two))
+        let (ab, ac) = (One::Multiplier::nodal(by_one), One::Multiplier::nodal(by_two));
+        PairWeights::of_rows(One::Multiplier::FUNCTIONS, &ab, &ac)
     }
 }

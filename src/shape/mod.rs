@@ -1,15 +1,29 @@
-//! Shape functions of the facet kinds: N_k = c0 + c1 xi + c2 eta + c3 xi eta.
+//! What a facet is: its geometry (`cell`), the functions of its fields (`basis`), and which of both a kind has (`kind`).
 //!
-//! Both kinds share this bilinear form (tri3 has c3 = 0 and a fourth function that vanishes), so that
-//! every kernel above is written once with fixed arrays of four.
+//! All functions are N_k = c0 + c1 xi + c2 eta + c3 xi eta: those of the triangle have c3 = 0 and a fourth one that
+//! vanishes, so that every kernel above is written once with fixed arrays of four.
 
+mod basis;
 mod cell;
+mod kind;
+mod p1;
+mod q1;
 mod quad4;
+mod quadrilateral;
+mod table;
 mod tri3;
+mod triangle;
 
-pub use cell::{Cell, MAX_NODES, Shape};
+pub use basis::{Basis, MAX_NODES};
+pub use cell::{Cell, MAX_CORNERS};
+pub use kind::{CornerMultipliers, FacetKind, Isoparametric, Map, SingleBasis, StandardMultipliers};
+pub use p1::P1;
+pub use q1::Q1;
 pub use quad4::{QUAD4, Quad4};
+pub use quadrilateral::Quadrilateral;
+pub use table::{Fields, Shape};
 pub use tri3::{TRI3, Tri3};
+pub use triangle::Triangle;
 
 impl Shape {
     /// The kind with `n` nodes, if there is one.
@@ -37,7 +51,7 @@ mod tests {
         for (shape, nodes) in NODES {
             for (j, &(xi, eta)) in nodes.iter().enumerate() {
                 let n = shape.values(xi, eta);
-                for k in 0..MAX_NODES {
+                for k in 0..MAX_CORNERS {
                     assert_eq!(n[k], if k == j { 1.0 } else { 0.0 });
                 }
             }
@@ -46,22 +60,29 @@ mod tests {
         }
     }
 
-    fn check_cell<C: Cell>(shape: &Shape) {
+    fn check_functions<B: Basis>(shape: &Shape) {
         let (xi, eta) = (0.3125, 0.125); // exact in every sum
-        assert_eq!(C::NODES, shape.n);
-        assert_eq!(C::values(xi, eta), shape.values(xi, eta));
-        assert_eq!(C::nodal([1.0, xi, eta, xi * eta]), shape.values(xi, eta));
-        let lanes = C::nodal_lanes(Plain::load(&[1.0, xi, eta, xi * eta])).store();
+        assert_eq!(B::FUNCTIONS, shape.n);
+        assert_eq!(B::values(xi, eta), shape.values(xi, eta));
+        assert_eq!(B::nodal([1.0, xi, eta, xi * eta]), shape.values(xi, eta));
+        let lanes = B::nodal_lanes(Plain::load(&[1.0, xi, eta, xi * eta])).store();
         assert_eq!(lanes, shape.values(xi, eta));
-        let nodes = [0.0, 1.0, 2.0, 3.0];
-        assert_eq!(C::given(Plain::load(&nodes), false).store(), nodes);
-        assert_eq!(C::given(Plain::load(&nodes), true).store(), shape.reversed.map(|k| k as f64));
+        assert_eq!(B::TERMS == 4, B::COEFFICIENTS[3] != [0.0; MAX_NODES]);
+    }
+
+    fn check_kind<K: SingleBasis>(shape: &Shape) {
+        check_functions::<Map<K>>(shape);
+        check_functions::<K::Displacement>(shape);
+        check_functions::<K::Multiplier>(shape);
+        let corners = [0.0, 1.0, 2.0, 3.0];
+        assert_eq!(K::Cell::given(Plain::load(&corners), false).store(), corners);
+        assert_eq!(K::Cell::given(Plain::load(&corners), true).store(), shape.reversed.map(|k| k as f64));
     }
 
     #[test]
-    fn cells_have_the_shape_functions() {
-        check_cell::<Tri3>(&TRI3);
-        check_cell::<Quad4>(&QUAD4);
+    fn kinds_are_their_tables() {
+        check_kind::<Tri3>(&TRI3);
+        check_kind::<Quad4>(&QUAD4);
     }
 
     #[test]
@@ -81,9 +102,9 @@ mod tests {
                     m[2] += w * n * eta;
                 }
                 for i in 0..3 {
-                    assert!((m[i] - shape.moments[k][i]).abs() < 1e-15);
+                    assert!((m[i] - shape.fields.moments[k][i]).abs() < 1e-15);
                 }
-                for a in 0..MAX_NODES {
+                for a in 0..MAX_CORNERS {
                     let mut products = [0.0; 3];
                     for &(xi, eta, w) in rule {
                         let n = shape.values(xi, eta);
@@ -92,7 +113,7 @@ mod tests {
                         }
                     }
                     for i in 0..3 {
-                        assert!((products[i] - shape.products[i][a][k]).abs() < 1e-15);
+                        assert!((products[i] - shape.fields.products[i][a][k]).abs() < 1e-15);
                     }
                 }
             }

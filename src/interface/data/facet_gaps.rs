@@ -15,17 +15,17 @@ use crate::error::Result;
 use crate::geometry::{Mat3, Plane, Vec3};
 use crate::memory::{self, Stored};
 use crate::mortar::{GapDerivative, gap};
-use crate::shape::MAX_NODES;
+use crate::shape::{MAX_CORNERS, MAX_NODES};
 use std::borrow::Cow;
 
 /// Reals of a facet.
-pub const REALS_PER_FACET: usize = 3 * MAX_NODES;
+pub const REALS_PER_FACET: usize = 3 * MAX_CORNERS;
 /// A facet's gap below this, over its longest edge, is rounding: that of coordinates up to 1e4 facets from the origin.
 const CLOSED: f64 = 1e-12;
 
 /// Per non-mortar facet and node, c_f,A [L^3]; nothing where surfaces are not tied.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct FacetGaps(Vec<[Vec3; MAX_NODES]>);
+pub struct FacetGaps(Vec<[Vec3; MAX_CORNERS]>);
 
 fn axes(plane: &Plane) -> Mat3 {
     Mat3::from_columns(&[plane.t1, plane.t2, plane.e])
@@ -34,11 +34,11 @@ fn axes(plane: &Plane) -> Mat3 {
 impl FacetGaps {
     /// Takes the shares of open facets out of the nodes' gaps.
     pub(crate) fn of((one, two): (&Surface, &Surface), at: &Active, sums: &mut [(f64, Vec3)]) -> Result<FacetGaps> {
-        let mut all = memory::filled([Vec3::zeros(); MAX_NODES], one.facets.len())?;
+        let mut all = memory::filled([Vec3::zeros(); MAX_CORNERS], one.facets.len())?;
         for pairs in at.pairs.chunk_by(|p, q| p.one == q.one) {
             let f = pairs[0].one;
             let (facet, axes) = (one.facet(f, &at.x1), axes(&at.frames[f].plane));
-            let (mut shares, mut coverage) = ([Vec3::zeros(); MAX_NODES], 0.0);
+            let (mut shares, mut coverage) = ([Vec3::zeros(); MAX_CORNERS], 0.0);
             for pair in pairs {
                 let gaps = gap(&pair.weights, &facet, &two.facet(pair.two, &at.x2));
                 for k in 0..facet.len() {
@@ -82,10 +82,10 @@ impl FacetGaps {
     /// What the derivative of g - g_0 has of g_0 on facet `f` at x1.
     pub(crate) fn motion(&self, one: &Surface, f: usize, x1: &[Vec3]) -> Result<Option<GapDerivative>> {
         let Some(shares) = self.0.get(f).filter(|shares| is_open(shares)) else { return Ok(None) };
-        let (plane, mut blocks) = (plane(one, f, x1)?, [[[[0.0; MAX_NODES]; 3]; 3]; MAX_NODES]);
+        let (plane, mut blocks) = (plane(one, f, x1)?, [[[[0.0; MAX_CORNERS]; 3]; 3]; MAX_NODES]);
         for (a, share) in shares.iter().enumerate() {
             let turned = plane.derivative_of_fixed(&(axes(&plane) * share));
-            for (k, i, j) in (0..MAX_NODES).flat_map(|k| (0..9).map(move |ij| (k, ij / 3, ij % 3))) {
+            for (k, i, j) in (0..MAX_CORNERS).flat_map(|k| (0..9).map(move |ij| (k, ij / 3, ij % 3))) {
                 blocks[k][i][j][a] = -turned[k][(i, j)];
             }
         }
@@ -111,11 +111,11 @@ impl FacetGaps {
 
     /// On the heap `[bytes]`.
     pub(crate) fn bytes(&self) -> usize {
-        self.0.capacity() * size_of::<[Vec3; MAX_NODES]>()
+        self.0.capacity() * size_of::<[Vec3; MAX_CORNERS]>()
     }
 }
 
-fn is_open(shares: &[Vec3; MAX_NODES]) -> bool {
+fn is_open(shares: &[Vec3; MAX_CORNERS]) -> bool {
     shares.iter().any(|share| *share != Vec3::zeros())
 }
 

@@ -10,7 +10,7 @@ use crate::error::{Error, Kind, Result};
 use crate::geometry::Vec3;
 use crate::law::Remembers;
 use crate::memory::{self, Stored};
-use crate::shape::MAX_NODES;
+use crate::shape::{MAX_CORNERS, MAX_NODES};
 
 /// What a history holds besides configuration, normals, areas and coverage.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -92,7 +92,7 @@ pub struct History {
 }
 
 /// A pair's weights n_AB and n_AC.
-pub const REALS_PER_PAIR: usize = 2 * MAX_NODES * MAX_NODES;
+pub const REALS_PER_PAIR: usize = 2 * MAX_CORNERS * MAX_NODES;
 
 impl History {
     /// Takes each node's coverage and, of gaps and weights of t_n, what it keeps; leaves the rest. All of it or nothing.

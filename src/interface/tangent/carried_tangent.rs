@@ -10,7 +10,7 @@ use crate::interface::pairing::given::Given;
 use crate::interface::stages::carried::{multiplier_share, transfer};
 use crate::law::NodeResponse;
 use crate::mortar::{MORTAR, PAIR_NODES};
-use crate::shape::MAX_NODES;
+use crate::shape::MAX_CORNERS;
 use nalgebra::SMatrix;
 
 /// What the gaps of a pair's carried nodes add to their carriers' rows. `carried`: which nodes are; `None` for the pattern
@@ -24,7 +24,7 @@ pub fn rows<const MOVES: bool, const N: usize>(
     let (given, normals) = (emitter.given, emitter.normals);
     for (k, &a) in given.setup.nonmortar.facets[pair.one].as_slice().iter().enumerate() {
         for &(b, w) in given.carriers_of(a) {
-            let mut rows: RowColumns<N> = [[[[0.0; MAX_NODES]; N]; 3]; PAIR_NODES];
+            let mut rows: RowColumns<N> = [[[[0.0; MAX_CORNERS]; N]; 3]; PAIR_NODES];
             if let Some((_, nodes)) = carried.filter(|(carried, _)| carried[a]) {
                 let t = transfer(given, a, normals[a], normals[b]) * w;
                 let (zero, mut share) = (NodeTangent::default(), NodeTangent::default());

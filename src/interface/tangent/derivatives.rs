@@ -9,7 +9,7 @@ use crate::mortar::{
     ForceDerivatives, GapDerivative, NonmortarFrame, Segment, analytic_motion, facet_motion, pair_motion,
 };
 use crate::quadrature::Rule;
-use crate::shape::MAX_NODES;
+use crate::shape::MAX_CORNERS;
 use std::borrow::Cow;
 
 /// What the derivatives of one tangent have in common.
@@ -33,7 +33,7 @@ impl PairDerivatives<'_> {
         &self,
         frame: &NonmortarFrame,
         (pairs, segments): (&[PairRecord], &[Segment]),
-        traction: &[[f64; MAX_NODES]; 3],
+        traction: &[[f64; MAX_CORNERS]; 3],
         forces: &mut ForceDerivatives,
     ) -> Result<GapDerivative> {
         if let Some(surface) = self.surface {

@@ -14,7 +14,7 @@ use crate::interface::data::surface::{FacetNodes, NO_EQUATION};
 use crate::interface::pairing::given::Given;
 use crate::interface::stages::node::is_out_of_reach;
 use crate::mortar::MORTAR;
-use crate::shape::MAX_NODES;
+use crate::shape::{MAX_CORNERS, MAX_NODES};
 use nalgebra::SMatrix;
 
 /// Takes a tangent entry: (row equation, column equation, value).
@@ -49,7 +49,7 @@ impl<F: FnMut(i64, i64, f64)> Sink for F {
 pub fn entries<const MOVES: bool, const N: usize>(union: &[UnionPair], nodes: usize) -> usize {
     const COMPONENTS: usize = 3 * MAX_NODES;
     // Rows of the forces and of the multipliers, and columns of the multipliers.
-    let (forces, multipliers) = (COMPONENTS * COMPONENTS, COMPONENTS * MAX_NODES * (N + 1));
+    let (forces, multipliers) = (COMPONENTS * COMPONENTS, COMPONENTS * MAX_CORNERS * (N + 1));
     let pair = if MOVES { 3 * forces + multipliers } else { 0 };
     let facets = union.chunk_by(|p, q| p.one == q.one).count();
     union.len() * pair + facets * (forces + multipliers) + nodes * N * N
@@ -101,7 +101,7 @@ impl<'a, const N: usize> Emitter<'a, '_, N> {
     }
 
     /// What a facet's pairs have in common: rows and columns of the non-mortar side. `now`: of the pairs active now.
-    pub fn facet(&mut self, f: usize, now: Option<FacetNow>, rows: &[[[[f64; MAX_NODES]; N]; 3]]) {
+    pub fn facet(&mut self, f: usize, now: Option<FacetNow>, rows: &[[[[f64; MAX_CORNERS]; N]; 3]]) {
         let one = self.facet_equations(f);
         if let Some((forces, weights)) = now {
             if self.given.setup.options.differentiates_weights() {
@@ -115,9 +115,9 @@ impl<'a, const N: usize> Emitter<'a, '_, N> {
     }
 
     /// Multiplier equations of a facet's nodes, component by component.
-    fn facet_multipliers(&self, f: usize) -> [[i64; MAX_NODES]; N] {
+    fn facet_multipliers(&self, f: usize) -> [[i64; MAX_CORNERS]; N] {
         let facet = &self.given.setup.nonmortar.facets[f];
-        let mut equations = [[NO_EQUATION; MAX_NODES]; N];
+        let mut equations = [[NO_EQUATION; MAX_CORNERS]; N];
         for k in 0..facet.len {
             for n in 0..N {
                 equations[n][k] = self.given.setup.multiplier_equations[facet.nodes[k]][n];
@@ -127,12 +127,12 @@ impl<'a, const N: usize> Emitter<'a, '_, N> {
     }
 
     /// d forces / d multipliers of facet `f`, weights `n[A][row]`: n I, or n nu_A where there is one component.
-    fn multipliers(&mut self, f: usize, forces: &Equations, n: &[[f64; MAX_NODES]; MAX_NODES]) {
+    fn multipliers(&mut self, f: usize, forces: &Equations, n: &[[f64; MAX_NODES]; MAX_CORNERS]) {
         let multipliers = self.facet_multipliers(f);
         if N == 1 {
             let nu = self.given.setup.nonmortar.facets[f].nodes.map(|a| self.normals[a]);
-            let mut values = [[[0.0; MAX_NODES]; 3]; MAX_NODES];
-            for (a, i) in (0..MAX_NODES).flat_map(|a| (0..3).map(move |i| (a, i))) {
+            let mut values = [[[0.0; MAX_NODES]; 3]; MAX_CORNERS];
+            for (a, i) in (0..MAX_CORNERS).flat_map(|a| (0..3).map(move |i| (a, i))) {
                 values[a][i] = n[a].map(|n| n * nu[a][i]);
             }
             return self.sink.add_block(forces.rows(), &multipliers[0], values.as_flattened().as_flattened());

@@ -2,7 +2,7 @@
 
 use crate::element::{PairNow, PairTangent};
 use crate::mortar::{MORTAR, PairWeights};
-use crate::shape::MAX_NODES;
+use crate::shape::{MAX_CORNERS, MAX_NODES};
 use crate::simd::{self, Kernel, Lanes};
 use std::borrow::Cow;
 
@@ -16,16 +16,16 @@ pub fn total<'a>(weights: impl Iterator<Item = Option<&'a PairWeights>>) -> Opti
 }
 
 /// A facet's d force / d x, `[k][j][i][B]`, and its weights n_AB.
-pub type FacetNow<'a> = (&'a [[[[f64; MAX_NODES]; 3]; 3]], &'a [[f64; MAX_NODES]; MAX_NODES]);
+pub type FacetNow<'a> = (&'a [[[[f64; MAX_NODES]; 3]; 3]], &'a [[f64; MAX_NODES]; MAX_CORNERS]);
 
 /// What the pairs of a non-mortar facet add to the same entries of the tangent.
 pub struct FacetTangent<const N: usize> {
     /// `[k][j][i][B]`.
     pub forces: [[[[f64; MAX_NODES]; 3]; 3]; MAX_NODES],
     /// `[k][j][n][A]`.
-    pub rows: [[[[f64; MAX_NODES]; N]; 3]; MAX_NODES],
+    pub rows: [[[[f64; MAX_CORNERS]; N]; 3]; MAX_NODES],
     /// n_AB.
-    pub weights: [[f64; MAX_NODES]; MAX_NODES],
+    pub weights: [[f64; MAX_NODES]; MAX_CORNERS],
     /// Whether a pair is active now.
     pub acts: bool,
 }
@@ -34,8 +34,8 @@ impl<const N: usize> Default for FacetTangent<N> {
     fn default() -> Self {
         FacetTangent {
             forces: [[[[0.0; MAX_NODES]; 3]; 3]; MAX_NODES],
-            rows: [[[[0.0; MAX_NODES]; N]; 3]; MAX_NODES],
-            weights: [[0.0; MAX_NODES]; MAX_NODES],
+            rows: [[[[0.0; MAX_CORNERS]; N]; 3]; MAX_NODES],
+            weights: [[0.0; MAX_NODES]; MAX_CORNERS],
             acts: false,
         }
     }
