@@ -4,7 +4,7 @@
 ! file with your sources, with your compiler; a ready-made .mod file would serve one version of one compiler only.
 ! stickslip.h has the whole text of each function: errors, signs, units, who calls what when.
 !
-! Sides: 1 = non-mortar (carries the multipliers), 2 = mortar. nu points INTO the non-mortar body; a gap > 0 is open;
+! Sides: 1 = non-mortar (has the multipliers), 2 = mortar. nu points INTO the non-mortar body; a gap > 0 is open;
 ! lambda is minus the Cauchy traction on the non-mortar body, so lambda . nu <= 0 is compression. F force, L length.
 !
 ! Status: every function that can refuse returns one; 0 is success. After a refusal stickslip_last_error_padded says
@@ -103,7 +103,7 @@ module stickslip
   integer(c_int32_t), parameter :: STICKSLIP_QUADRATURE_DEGREE_4 = 4
   integer(c_int32_t), parameter :: STICKSLIP_QUADRATURE_DEGREE_6 = 5
 
-  ! Weights over cells of each overlap; over points on each non-mortar facet, patch tests fail; over cells where such a
+  ! Weights over triangles of each overlap; over points on each non-mortar facet, patch tests fail; over overlaps where such a
   ! facet is partly covered, points elsewhere.
   integer(c_int32_t), parameter :: STICKSLIP_INTEGRATION_SEGMENTS = 0
   integer(c_int32_t), parameter :: STICKSLIP_INTEGRATION_ELEMENTS = 1
@@ -318,7 +318,7 @@ module stickslip
     type(c_ptr) :: x2 = c_null_ptr                 ! real(c_double) (3, n2) [L]
     integer(c_int32_t) :: quadrature = STICKSLIP_QUADRATURE_DEGREE_5
     integer(c_int32_t) :: layout = STICKSLIP_LAYOUT_COLUMN_MAJOR ! of the tangent: k(row, column)
-    integer(c_int64_t) :: element_points = 0       ! 0: cells; 2 to 10: points along a side
+    integer(c_int64_t) :: element_points = 0       ! 0: overlaps; 2 to 10: points along a side
     type(c_ptr) :: neighbour_normals = c_null_ptr  ! real(c_double) (3, n1): of the facets beyond the edges, 0: none
   end type
 

@@ -6,7 +6,7 @@
  * lagrangiano aumentado (in Spanish; its accents left out here). "Paper (13)" is its equation 13; docs/formulation.md 1.3
  * lists its misprints.
  *
- * Sides: 1 = non-mortar (carries the multipliers), 2 = mortar; n1, n2: their numbers of nodes. nu points INTO the
+ * Sides: 1 = non-mortar (has the multipliers), 2 = mortar; n1, n2: their numbers of nodes. nu points INTO the
  * non-mortar body; a gap > 0 is open; lambda is minus the Cauchy traction on the non-mortar body, so lambda . nu <= 0
  * is compression.
  *
@@ -264,7 +264,7 @@
 /// 12 points a triangle, degree 6: for warped or distorted quadrilaterals.
 #define STICKSLIP_QUADRATURE_DEGREE_6 5
 
-/// Weights over cells of each overlap. Default.
+/// Weights over triangles of each overlap. Default.
 #define STICKSLIP_INTEGRATION_SEGMENTS 0
 
 /// Over element_points x element_points points on each non-mortar facet, each where it falls on a mortar facet: no
@@ -272,7 +272,7 @@
 /// many points there are. The tangent is that of the sums; they jump where a point passes a mortar edge.
 #define STICKSLIP_INTEGRATION_ELEMENTS 1
 
-/// As ELEMENTS; but cells for all pairs of a non-mortar facet of which a point or a corner was uncovered at the last
+/// As ELEMENTS; but as SEGMENTS for all pairs of a non-mortar facet of which a point or a corner was uncovered at the last
 /// commit. Patch tests fail.
 #define STICKSLIP_INTEGRATION_HYBRID 2
 
@@ -681,7 +681,7 @@ typedef struct stickslip_pair {
   int32_t quadrature;
   /// STICKSLIP_LAYOUT_... of the tangent.
   int32_t layout;
-  /// 0 (default): weights over cells of the overlap; 2 to 10: over so many points squared on the non-mortar facet,
+  /// 0 (default): weights over triangles of the overlap; 2 to 10: over so many points squared on the non-mortar facet,
   /// those that fall on the mortar facet (STICKSLIP_INTEGRATION_ELEMENTS; quadrature is not used).
   int64_t element_points;
   /// 3 n1: for each edge of the non-mortar facet, from its k-th node to the next one, the normal of the facet beyond it
@@ -889,7 +889,7 @@ int32_t stickslip_crosspoints_find(int64_t n_interfaces,
 
 /// Creates an interface between two surfaces, whose coordinates are the first configuration and t_0.
 ///
-/// nonmortar carries the multipliers, mortar is the other one. Take as nonmortar the side that stays covered, the smaller
+/// nonmortar has the multipliers, mortar is the other one. Take as nonmortar the side that stays covered, the smaller
 /// one or the one that slides on the other; of two that do the softer, of equally soft ones the finer. Where that cannot
 /// be, set `weak_coverage`.
 /// options: see `stickslip_options`. out, output: the handle. Surfaces that do not face each other are no error; look

@@ -9,7 +9,7 @@
 //!
 //! | symbol | here | unit |
 //! |---|---|---|
-//! | A, B / C | nodes of the non-mortar side (carries the multipliers) / of the mortar side | |
+//! | A, B / C | nodes of the non-mortar side (has the multipliers) / of the mortar side | |
 //! | n_AB, n_AC (13) | [`mortar::PairWeights`] `ab`, `ac` | L^2 |
 //! | g_A (11) | weighted gap; g_N = nu . g_A > 0 is open | L^3 |
 //! | nu_A | averaged normal of t_n, pointing INTO the non-mortar body | |

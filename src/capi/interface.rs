@@ -14,7 +14,7 @@ use crate::memory::{self, Store, Stored};
 
 /// Creates an interface between two surfaces, whose coordinates are the first configuration and t_0.
 ///
-/// nonmortar carries the multipliers, mortar is the other one. Take as nonmortar the side that stays covered, the smaller
+/// nonmortar has the multipliers, mortar is the other one. Take as nonmortar the side that stays covered, the smaller
 /// one or the one that slides on the other; of two that do the softer, of equally soft ones the finer. Where that cannot
 /// be, set `weak_coverage`.
 /// options: see `stickslip_options`. out, output: the handle. Surfaces that do not face each other are no error; look

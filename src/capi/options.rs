@@ -82,13 +82,13 @@ pub const STICKSLIP_QUADRATURE_DEGREE_2: i32 = 3;
 pub const STICKSLIP_QUADRATURE_DEGREE_4: i32 = 4;
 /// 12 points a triangle, degree 6: for warped or distorted quadrilaterals.
 pub const STICKSLIP_QUADRATURE_DEGREE_6: i32 = 5;
-/// Weights over cells of each overlap. Default.
+/// Weights over triangles of each overlap. Default.
 pub const STICKSLIP_INTEGRATION_SEGMENTS: i32 = 0;
 /// Over element_points x element_points points on each non-mortar facet, each where it falls on a mortar facet: no
 /// clipping. Functions with kinks at the mortar edges are integrated as if they were smooth: patch tests fail, however
 /// many points there are. The tangent is that of the sums; they jump where a point passes a mortar edge.
 pub const STICKSLIP_INTEGRATION_ELEMENTS: i32 = 1;
-/// As ELEMENTS; but cells for all pairs of a non-mortar facet of which a point or a corner was uncovered at the last
+/// As ELEMENTS; but as SEGMENTS for all pairs of a non-mortar facet of which a point or a corner was uncovered at the last
 /// commit. Patch tests fail.
 pub const STICKSLIP_INTEGRATION_HYBRID: i32 = 2;
 /// The tangent is exact. Default.

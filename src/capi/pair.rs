@@ -33,7 +33,7 @@ pub struct stickslip_pair {
     pub quadrature: i32,
     /// STICKSLIP_LAYOUT_... of the tangent.
     pub layout: i32,
-    /// 0 (default): weights over cells of the overlap; 2 to 10: over so many points squared on the non-mortar facet,
+    /// 0 (default): weights over triangles of the overlap; 2 to 10: over so many points squared on the non-mortar facet,
     /// those that fall on the mortar facet (STICKSLIP_INTEGRATION_ELEMENTS; quadrature is not used).
     pub element_points: i64,
     /// 3 n1: for each edge of the non-mortar facet, from its k-th node to the next one, the normal of the facet beyond it

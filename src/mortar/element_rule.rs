@@ -1,5 +1,5 @@
 //! Element-based integration: n x n points on the whole non-mortar facet, each projected on the mortar facet that it
-//! falls on, in place of cells of the overlap,
+//! falls on, in place of triangles of the overlap,
 //!
 //! n_AB = sum_g w_g j_g N_A N_B, n_AC = sum_g w_g j_g N_A N_C(xi2(y_g)) over the points g on the mortar facet,
 //!

@@ -1,4 +1,4 @@
-//! Where the nodes of a pair stand, and the corners of its cells.
+//! Where the nodes of a pair stand, and the corners of its two facets.
 
 use crate::shape::{MAX_CORNERS, MAX_NODES};
 

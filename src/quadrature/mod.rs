@@ -8,7 +8,7 @@ pub mod cell;
 pub mod line;
 pub mod triangle;
 
-/// The rules a pair is integrated with: cells of the overlap, and source-edge intervals; whole quadrilaterals against
+/// The rules a pair is integrated with: triangles of the overlap, and source-edge intervals; whole quadrilaterals against
 /// an analytic surface.
 #[derive(Clone, Copy, Debug)]
 pub struct Rule {

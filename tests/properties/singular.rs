@@ -284,7 +284,7 @@ fn is_true(error: &Error) -> TestCaseResult {
     Ok(())
 }
 
-/// The pair by its kernels, over cells and over points.
+/// The pair by its kernels, over the overlap and over points.
 fn pair(one: &Facet, two: &Facet, rule: &Rule, points: usize) -> TestCaseResult {
     let frame = match NonmortarFrame::new(one) {
         Ok(frame) => frame,

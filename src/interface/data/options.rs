@@ -31,13 +31,13 @@ pub enum Weights {
 /// How a pair's weights are integrated.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Scheme {
-    /// Over cells of the overlap: exact on affine facets.
+    /// Over triangles of the overlap: exact on affine facets.
     #[default]
     Segments,
     /// Over the products of these Gauss points on the whole non-mortar facet, each where it falls on a mortar facet: no
     /// clipping, and no patch test.
     Elements(&'static [[f64; 2]]),
-    /// As `Elements`, but over cells where a point or a corner of the non-mortar facet is uncovered.
+    /// As `Elements`, but over overlaps where a point or a corner of the non-mortar facet is uncovered.
     Hybrid(&'static [[f64; 2]]),
 }
 
@@ -121,9 +121,9 @@ pub struct Options {
     pub slip: SlipMeasure,
     /// Current or frozen weights.
     pub weights: Weights,
-    /// Quadrature of cells, and against an analytic mortar side.
+    /// Quadrature of triangles, and against an analytic mortar side.
     pub rule: &'static Rule,
-    /// Cells or points; nothing to choose against an analytic mortar side.
+    /// Overlaps or points; nothing to choose against an analytic mortar side.
     pub scheme: Scheme,
     /// Exact or frozen; the answer is the same, Newton's path is not.
     pub tangent: Tangent,

@@ -16,7 +16,7 @@ pub struct Setup<const N: usize> {
     pub options: Options,
     /// What follows from them.
     pub effects: Effects<N>,
-    /// The side that carries the multipliers.
+    /// The side that has the multipliers.
     pub nonmortar: Surface,
     /// The other side.
     pub mortar: Surface,

@@ -106,7 +106,7 @@ pub struct FacetFilter {
     pub depths: Vec<f64>,
     /// Per non-mortar facet, whether any mortar facet can be a pair with it.
     pub reached: Vec<bool>,
-    /// Per non-mortar facet, whether it is integrated over cells and not over points; empty unless the scheme has both.
+    /// Per non-mortar facet, whether it is integrated over overlaps and not over points; empty unless the scheme has both.
     pub by_cells: Vec<bool>,
 }
 

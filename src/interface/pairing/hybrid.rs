@@ -1,4 +1,4 @@
-//! Which non-mortar facets are integrated over cells and which by points, where a host asks for both. Settled at a
+//! Which non-mortar facets are integrated over overlaps and which by points, where a host asks for both. Settled at a
 //! commit: a facet at the rim of the mortar surface would change its rule with every rounding, and Newton's method not
 //! converge.
 

@@ -141,7 +141,7 @@ fn among(
     let mut areas = memory::filled(0.0, pairs.len())?;
     let mut regions = memory::with_room(pairs.len())?;
     for (pair, segment) in segments.iter().enumerate().filter(|(_, s)| s.area > 0.0) {
-        // Points in place of cells have no polygon.
+        // Points in place of an overlap have no polygon.
         let polygon = match segment.points {
             None => segment.polygon.clone(),
             Some(_) => clip::overlap::<Plain>(&frame.projection, &segment.mortar),

@@ -94,7 +94,7 @@ pub fn blocks<const MOVES: bool, const N: usize>(
     // Large, so that one of each serves all pairs.
     let (mut t, mut facet) = (PairTangent::default(), FacetTangent::default());
     // With a mortar side at rest all of it is linear in the weights of a facet's pairs; carried nodes and points in place
-    // of cells take them one by one.
+    // of overlaps take them one by one.
     let together = !MOVES && given.step.pairing.carriers.is_empty() && matches!(options.scheme, Scheme::Segments);
     sink.reserve(entries::<MOVES, N>(union, given.nodes()));
     let mut emitter = Emitter { given, normals, sink };
