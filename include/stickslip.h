@@ -557,7 +557,7 @@ typedef struct stickslip_counters {
   /// Nodes that the law was asked about, one a node and point: residual and tangent of one point ask once.
   int64_t nodes_evaluated;
   /// At the last evaluation (this member and those that follow, which add up to n1): nodes that were covered and had
-  /// friction, Coulomb's with mu > 0 or rough.
+  /// friction: a law with mu > 0, or rough.
   int64_t nodes_frictional;
   /// Covered, without friction: mu = 0, or STICKSLIP_FRICTION_NONE.
   int64_t nodes_frictionless;

@@ -40,7 +40,7 @@ static PetscErrorCode predict(Model *model, History *history, PetscReal t)
     PetscCall(VecAXPY(history->start, factor, history->last));
     PetscCall(VecAXPY(history->start, -factor, history->before));
   } else {
-    PetscCall(carry_supports(&model->solve, history->t_last, history->start));
+    PetscCall(move_supports(&model->solve, history->t_last, history->start));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

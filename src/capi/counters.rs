@@ -45,7 +45,7 @@ pub struct stickslip_counters {
     /// Nodes that the law was asked about, one a node and point: residual and tangent of one point ask once.
     pub nodes_evaluated: i64,
     /// At the last evaluation (this member and those that follow, which add up to n1): nodes that were covered and had
-    /// friction, Coulomb's with mu > 0 or rough.
+    /// friction: a law with mu > 0, or rough.
     pub nodes_frictional: i64,
     /// Covered, without friction: mu = 0, or STICKSLIP_FRICTION_NONE.
     pub nodes_frictionless: i64,

@@ -143,7 +143,7 @@ pub(super) fn refuse_multipliers(mortar: &stickslip_surface) -> Result<()> {
         [(!mortar.multiplier_equations.is_null(), "multiplier_equations"), (!mortar.owned.is_null(), "owned")]
     {
         if given {
-            let text = text!("mortar.{member} must be NULL: only the non-mortar side carries multipliers");
+            let text = text!("mortar.{member} must be NULL: only the non-mortar side has multipliers");
             return Err(Error::new(Kind::InvalidValue, text));
         }
     }

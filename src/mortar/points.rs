@@ -1,5 +1,5 @@
 //! The quadrature points of an overlap, four at a time: triangles of the polygon (docs/formulation.md 2.3) with the inverse
-//! maps of both facets (c.4).
+//! maps of both facets (2.2).
 
 use super::segment::{NonmortarFrame, Segment};
 use crate::geometry::bilinear_map::{InverseMap, Preimage};

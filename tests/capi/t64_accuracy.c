@@ -64,7 +64,7 @@ int main(void) {
     scene_destroy(&s);
   }
 
-  /* Points: nothing is clipped, more points come closer; wholly covered facets leave hybrid no cell. */
+  /* Points: nothing is clipped, more points come closer; wholly covered facets leave hybrid no point. */
   double error[2];
   const int32_t by_points[] = {STICKSLIP_INTEGRATION_ELEMENTS, STICKSLIP_INTEGRATION_HYBRID};
   for (int i = 0; i < COUNT(by_points); ++i) {

@@ -6,10 +6,12 @@ static PetscErrorCode read_material(Scene *scene, const char *body, Material *ma
   static const MaterialLaw *const laws[]        = {&MATERIAL_LINEAR, &MATERIAL_ST_VENANT_KIRCHHOFF,
                                                    &MATERIAL_NEO_HOOKE};
   static const char *const        dilatations[] = {"pointwise", "mean", NULL};
-  const char                     *law_names[]   = {laws[0]->name, laws[1]->name, laws[2]->name, NULL};
+  enum { N_LAWS = sizeof(laws) / sizeof(laws[0]) };
+  const char                     *law_names[N_LAWS + 1] = {NULL};
   PetscInt                        law = 0, dilatation = 0;
 
   PetscFunctionBegin;
+  for (PetscInt k = 0; k < N_LAWS; k++) law_names[k] = laws[k]->name;
   scene_real_required(scene, body, "young", &material->young);
   scene_real_required(scene, body, "poisson", &material->poisson);
   if (material->young <= 0) scene_fail(scene, body, "young", "it must be positive, not %g.", (double)material->young);

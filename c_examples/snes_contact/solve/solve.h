@@ -144,6 +144,6 @@ PetscBool step_size_cut(const Steps *steps, StepSize *size, PetscReal tried); /*
 /* jacobian_test.c: after newton_create() */
 PetscErrorCode jacobian_test_create(Solve *solve, Scene *scene);
 
-/* carry.c: moves x with the supports from their positions at t0 to those at physics->t */
-PetscErrorCode carry_supports(Solve *solve, PetscReal t0, Vec x);
+/* first_iterate.c: moves x with the supports from their positions at t0 to those at physics->t */
+PetscErrorCode move_supports(Solve *solve, PetscReal t0, Vec x);
 #endif

@@ -106,7 +106,7 @@ fn integration_sentence<const N: usize>(setup: &Setup<N>) -> Result<Text> {
     let coarse = if degree < 4 { ", not exact on any facet (asked for): patch tests fail" } else { "" };
     let what: Text = match setup.options.scheme {
         _ if setup.mortar.analytic.is_some() => "over whole facets".into(),
-        Scheme::Segments => say!("over triangles of each overlap, {points} points each{coarse}")?,
+        Scheme::Segments => say!("over triangles of each overlap, {points} points a triangle{coarse}")?,
         Scheme::Elements(line) => {
             say!("{0} x {0} points on each non-mortar facet (asked for), no clipping; {NOT_EXACT}", line.len())?
         }

@@ -74,8 +74,8 @@ pub fn filter((one, two): (&Surface, &Surface), options: &Options, (x1, x2): (&[
 
 /// The carriers of every node, by the history.
 fn carriers<const N: usize>(setup: &Setup<N>, h: &History, coverable: &[bool]) -> Result<Vec<Vec<Carrier>>> {
-    let threshold = setup.options.weak_coverage;
-    if threshold == 0.0 || !h.integrated {
+    let part = setup.options.weak_coverage;
+    if part == 0.0 || !h.integrated {
         return Ok(Vec::new());
     }
     let fraction = |a: usize| {
@@ -87,5 +87,5 @@ fn carriers<const N: usize>(setup: &Setup<N>, h: &History, coverable: &[bool]) -
         coverable,
         has_multiplier: &|a| setup.has_multiplier(a),
     };
-    weak::carriers(&nodes, &weak::links(&setup.nonmortar, h)?, threshold)
+    weak::carriers(&nodes, &weak::links(&setup.nonmortar, h)?, part)
 }

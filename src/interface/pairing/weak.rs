@@ -41,15 +41,15 @@ pub struct Nodes<'a> {
 const WHOLE: f64 = 0.99;
 
 /// Per node its carriers, sorted; none where it has a multiplier of its own. A node is weak where a part of it is not
-/// covered and what is covered is less than `threshold` times its best covered neighbour.
-pub fn carriers(nodes: &Nodes, links: &[Vec<Carrier>], threshold: f64) -> Result<Vec<Vec<Carrier>>> {
+/// covered and what is covered is less than `part` times its best covered neighbour.
+pub fn carriers(nodes: &Nodes, links: &[Vec<Carrier>], part: f64) -> Result<Vec<Vec<Carrier>>> {
     let n = nodes.fraction.len();
     let takes_part = |a: usize| nodes.coverable[a] && (nodes.has_multiplier)(a);
     let best = |a: usize| {
         let others = links[a].iter().map(|&(b, _)| b).filter(|&b| takes_part(b));
         others.map(|b| nodes.fraction[b]).fold(0.0, f64::max)
     };
-    let enough = |a: usize| nodes.fraction[a] >= WHOLE || nodes.fraction[a] >= threshold * best(a);
+    let enough = |a: usize| nodes.fraction[a] >= WHOLE || nodes.fraction[a] >= part * best(a);
     let strong = |a: usize| takes_part(a) && nodes.fraction[a] > 0.0 && enough(a);
     let strong: Vec<bool> = (0..n).map(strong).stored()?;
     let own = |a: usize| if strong[a] { memory::filled((a, 1.0), 1) } else { Ok(Vec::new()) };
@@ -113,13 +113,13 @@ pub fn links(surface: &Surface, history: &History) -> Result<Vec<Vec<Carrier>>> 
 mod tests {
     use super::*;
 
-    fn found(fraction: &[f64], threshold: f64) -> Vec<Vec<Carrier>> {
+    fn found(fraction: &[f64], part: f64) -> Vec<Vec<Carrier>> {
         let n = fraction.len();
         // A strip of facets.
         let neighbours = |a: usize| [a.checked_sub(1), (a + 1 < n).then_some(a + 1)];
         let links: Vec<_> = (0..n).map(|a| neighbours(a).into_iter().flatten().map(|b| (b, 2.0)).collect()).collect();
         let nodes = Nodes { fraction, coverable: &vec![true; n], has_multiplier: &|_| true };
-        carriers(&nodes, &links, threshold).unwrap()
+        carriers(&nodes, &links, part).unwrap()
     }
 
     #[test]

@@ -49,7 +49,7 @@ pub fn refuse_lost_contact<const N: usize>(
             lost[a] += coverage;
             if let Some(depth) = deep {
                 let text = text!(
-                    "non-mortar node {a} carries contact with mortar facet {}, which lies {depth:.3e} behind non-mortar facet {}: deeper than a pair may be in the next step; give search_distance, more than that, or smaller non-mortar facets",
+                    "non-mortar node {a} is in contact with mortar facet {}, which lies {depth:.3e} behind non-mortar facet {}: deeper than a pair may be in the next step; give search_distance, more than that, or smaller non-mortar facets",
                     pair.two,
                     pair.one
                 );
@@ -57,12 +57,12 @@ pub fn refuse_lost_contact<const N: usize>(
             }
         }
     }
-    let threshold = |a: usize| setup.options.coverage_min * new.history.areas[a];
-    match (0..lost.len()).find(|&a| lost[a] > threshold(a) && new.history.coverage[a] <= threshold(a)) {
+    let least = |a: usize| setup.options.coverage_min * new.history.areas[a];
+    match (0..lost.len()).find(|&a| lost[a] > least(a) && new.history.coverage[a] <= least(a)) {
         None => Ok(()),
         Some(a) => {
             let text = text!(
-                "non-mortar node {a} carries contact, but nothing that covers it could be its pair in the next step: with the normals of now the facets no longer look at each other, or search_distance is too small; take a smaller step, or give a larger search_distance"
+                "non-mortar node {a} is in contact, but nothing that covers it could be its pair in the next step: with the normals of now the facets no longer look at each other, or search_distance is too small; take a smaller step, or give a larger search_distance"
             );
             Err(Error::new(Kind::ContactLost, text))
         }

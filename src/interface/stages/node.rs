@@ -11,8 +11,8 @@ use nalgebra::SVector;
 
 /// What the law is asked about node A.
 pub fn node<const N: usize>(given: Given<N>, a: usize, lambda: SVector<f64, N>, sums: &NodeSums) -> Result<Node<N>> {
-    let (options, nodes, threshold) = (&given.setup.options, &given.setup.nodes, given.least_coverage(a));
-    let covered_before = sums.coverage_previous > threshold;
+    let (options, nodes, least) = (&given.setup.options, &given.setup.nodes, given.least_coverage(a));
+    let covered_before = sums.coverage_previous > least;
     let frictionless = !covered_before && options.new_contact == NewContact::Frictionless;
     Ok(Node {
         lambda,
@@ -23,7 +23,7 @@ pub fn node<const N: usize>(given: Given<N>, a: usize, lambda: SVector<f64, N>, 
         gap_now: sums.gap_now,
         gap_previous: sums.gap_previous,
         gap_committed: sums.gap_committed,
-        covered: sums.coverage > threshold,
+        covered: sums.coverage > least,
         covered_before,
         slip: options.effective_slip(),
         free: nodes.free[a],

@@ -1,6 +1,6 @@
 /* Where nothing can be extrapolated (the first step, and the one after a kink of a curve), Newton's first iterate is
  * the last state with the supports already moved. A body of finite strain whose cells are smaller than that motion
- * would be turned inside out at its supports. So there the motion of the supports is carried into the bodies of finite
+ * would be turned inside out at its supports. So there the motion of the supports is continued into the bodies of finite
  * strain: by linear elasticity on their undeformed cells, without contact. A prescribed translation moves a whole body,
  * a prescribed linear field strains it homogeneously, and a body without a prescribed motion stays.
  *
@@ -34,7 +34,7 @@ static PetscErrorCode solve_linear(Mat matrix, Vec b, Vec x)
   PC  pc;
   PetscFunctionBegin;
   PetscCall(KSPCreate(PetscObjectComm((PetscObject)matrix), &ksp));
-  PetscCall(KSPSetOptionsPrefix(ksp, "carry_"));
+  PetscCall(KSPSetOptionsPrefix(ksp, "first_"));
   PetscCall(KSPSetOperators(ksp, matrix, matrix));
   PetscCall(KSPSetType(ksp, KSPPREONLY));
   PetscCall(KSPGetPC(ksp, &pc));
@@ -62,7 +62,7 @@ static PetscErrorCode prescribed_increments(Solve *solve, PetscReal t0, Vec incr
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode carry_supports(Solve *solve, PetscReal t0, Vec x)
+PetscErrorCode move_supports(Solve *solve, PetscReal t0, Vec x)
 {
   const Mesh *mesh    = solve->mesh;
   Physics    *physics = solve->physics;
