@@ -1,10 +1,12 @@
 #!/usr/bin/env python3
-"""Every C test of the ABI has its twin in Fortran: tests/capi/tNN_name.c and tests/fortran/tNN_name.f90."""
+"""Every C test of the ABI has its twin in Fortran: tests/capi/tNN_name.c and tests/fortran/tNN_name.f90. But one, whose
+head says why."""
 
 import sys
 from pathlib import Path
 
 TESTS = Path(__file__).resolve().parents[1]
+WITHOUT_TWIN = {"t42_bad_input_content"}
 
 
 def names(folder, extension):
@@ -15,9 +17,9 @@ def main():
     c, fortran = names("capi", "c"), names("fortran", "f90")
     if not c:
         sys.exit("no C tests found")
-    if c != fortran:
+    if c - WITHOUT_TWIN != fortran or not WITHOUT_TWIN <= c:
         sys.exit(f"only in C: {sorted(c - fortran)}; only in Fortran: {sorted(fortran - c)}")
-    print(f"ok: {len(c)} C tests, each with a twin in Fortran")
+    print(f"ok: {len(c)} C tests, {len(fortran)} with a twin in Fortran")
 
 
 if __name__ == "__main__":

@@ -118,6 +118,13 @@ static inline void handle_fill(handle *h) {
   FILL(h->csr);
 }
 
+/* A CSR matrix with every entry, in the scene's index base. */
+static inline void handle_matrix(handle *h) {
+  const int64_t base = h->s.options.index_base;
+  for (int i = 0; i <= UNKNOWNS; ++i) h->offsets[i] = base + (int64_t)i * UNKNOWNS;
+  for (int i = 0; i < UNKNOWNS * UNKNOWNS; ++i) h->csr_columns[i] = base + i % UNKNOWNS;
+}
+
 /* A scene with one committed step. */
 static inline void handle_init(handle *h) {
   memset(h, 0, sizeof *h);
@@ -128,8 +135,7 @@ static inline void handle_init(handle *h) {
   h->states.struct_size = sizeof h->states;
   h->states.state = h->state;
   h->states.normal = h->normal;
-  for (int i = 0; i <= UNKNOWNS; ++i) h->offsets[i] = (int64_t)i * UNKNOWNS;
-  for (int i = 0; i < UNKNOWNS * UNKNOWNS; ++i) h->csr_columns[i] = i % UNKNOWNS;
+  handle_matrix(h);
   handle_fill(h);
 }
 

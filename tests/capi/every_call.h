@@ -270,23 +270,15 @@ static inline int32_t every_refusal(int k) {
 }
 enum { REFUSALS = 39 };
 
-/* Room and sizes; outputs hold zeros. `s` is set up by the test (scene_init and options) and not created yet. */
-static inline void every_init(every *c) {
-  static every empty;
-  const scene s = c->h.s;
-  *c = empty;
-  c->h.s = s;
-  element_init(&c->e);
+/* Room and sizes for the structs that come out. */
+static inline void every_room(every *c) {
   handle *h = &c->h;
-  scene_create(&h->s);
-  scene_commit(&h->s);
-  history_take(h->s.interface, &c->exported);
+  memset(&h->states, 0, sizeof h->states);
   h->states.struct_size = sizeof h->states;
   h->states.state = h->state;
   h->states.normal = h->normal;
-  for (int i = 0; i <= UNKNOWNS; ++i) h->offsets[i] = (int64_t)i * UNKNOWNS;
-  for (int i = 0; i < UNKNOWNS * UNKNOWNS; ++i) h->csr_columns[i] = i % UNKNOWNS;
   c->counters.struct_size = sizeof c->counters;
+  memset(&c->equilibrium, 0, sizeof c->equilibrium);
   c->equilibrium.struct_size = sizeof c->equilibrium;
   c->report.struct_size = sizeof c->report;
   c->report.cover = c->cover;
@@ -304,6 +296,21 @@ static inline void every_init(every *c) {
   c->diagnosis.suspect_capacity = COUNT(c->suspect_nodes);
   c->diagnosis.text = c->diagnosis_text;
   c->diagnosis.text_capacity = sizeof c->diagnosis_text;
+  memset(c->diagnosed_state, 0, sizeof c->diagnosed_state);
+}
+
+/* Room and sizes; outputs hold zeros. `s` is set up by the test (scene_init and options) and not created yet. */
+static inline void every_init(every *c) {
+  static every empty;
+  const scene s = c->h.s;
+  *c = empty;
+  c->h.s = s;
+  element_init(&c->e);
+  scene_create(&c->h.s);
+  scene_commit(&c->h.s);
+  history_take(c->h.s.interface, &c->exported);
+  handle_matrix(&c->h);
+  every_room(c);
 }
 
 /* Whether two contexts have got the same outputs to the bit, times apart. */

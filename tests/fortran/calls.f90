@@ -183,14 +183,16 @@ contains
   ! Room for the outputs, and what points to it.
   subroutine handle_prepare(h)
     type(handle), target, intent(inout) :: h
+    integer(c_int64_t) :: base
     integer :: i
+    base = h%s%options%index_base
     if (.not. allocated(h%values)) then
       allocate (h%values(MOST_ENTRIES), h%row_numbers(MOST_ENTRIES), h%columns(MOST_ENTRIES))
       allocate (h%csr(UNKNOWNS**2), h%csr_columns(UNKNOWNS**2))
     end if
     h%states = stickslip_states(state=c_loc(h%state), normal=c_loc(h%normal))
-    h%offsets = [(1_c_int64_t + i * UNKNOWNS, i = 0, UNKNOWNS)]
-    h%csr_columns = [(1_c_int64_t + mod(i, UNKNOWNS), i = 0, UNKNOWNS**2 - 1)]
+    h%offsets = [(base + i * UNKNOWNS, i = 0, UNKNOWNS)]
+    h%csr_columns = [(base + mod(i, UNKNOWNS), i = 0, UNKNOWNS**2 - 1)]
     call handle_fill(h)
   end subroutine
 

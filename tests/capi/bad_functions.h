@@ -1,0 +1,133 @@
+/* Every function of the ABI as a call on any pointers, with good ones, for the rows of bad_input.txt. */
+#ifndef BAD_FUNCTIONS_H
+#define BAD_FUNCTIONS_H
+
+#include "bad_rows.h"
+#include "every_call.h"
+
+/* All that goes in or comes out: first what `every` has, then the rest. */
+static struct {
+  every every;
+  int64_t ld, capacity, length, n_interfaces, n, n_rows, n_integers, n_reals, nodes[3];
+  int64_t offsets1[3], shared1[6], offsets2[3], shared2[4], options_size;
+  int32_t n_facet, layout, index_base;
+  double scale, stiffness, rounding, angle, penetration, neighbours[12];
+  double mu[N1], r[N1], normals[X1], directions[9], sums[STICKSLIP_SUMS_PER_NODE * N1], dx1[X1], dx2[X2];
+  weights previous;
+  history imported;
+  stickslip_node_response answer;
+  stickslip_interface *out;
+} b, before;
+static double expected[UNKNOWNS];
+#define E b.every.e
+#define H b.every.h
+#define S b.every.h.s
+
+/* An argument: what is good for it, and whether it may be null. */
+typedef struct {
+  const char *name;
+  void *good;
+  bad_type type;
+} argument;
+
+#define INTERFACE {"interface", &S.interface, NEEDED}
+#define AT INTERFACE, {"x1", S.x1, NEEDED}, {"x2", S.x2, NEEDED}
+#define POINT AT, {"lambda", S.lambda, NEEDED}, {"sums", NULL, OPTIONAL}
+#define PAIR {"pair", &E.pair, NEEDED}
+#define WEIGHTS {"n_ab", E.w.ab, NEEDED}, {"n_ac", E.w.ac, NEEDED}
+#define OUT(object) {"out", &(object), NEEDED}
+
+/* name, call, arguments: a function that is called with any pointers. */
+#define FUNCTION(name, call, ...)                                            \
+  static const argument arguments_##name[] = {__VA_ARGS__};                  \
+  static void *a_##name[COUNT(arguments_##name)];                            \
+  static int32_t on_##name(void **a) { return stickslip_##name call; }
+FUNCTION(pair_weights, (a[0], a[1], a[2], a[3], a[4]), PAIR, {"n_ab", E.w_out.ab, OPTIONAL},
+         {"n_ac", E.w_out.ac, OPTIONAL}, {"dn_ab", E.w_out.dab, OPTIONAL},
+         {"dn_ac", E.w_out.dac, OPTIONAL})
+FUNCTION(pair_gap, (a[0], a[1], a[2], a[3]), PAIR, WEIGHTS, {"gap", E.gap, NEEDED})
+FUNCTION(pair_residual, (a[0], a[1], a[2], a[3], a[4]), PAIR, WEIGHTS, {"traction", E.traction, NEEDED},
+         {"force", E.force, NEEDED})
+FUNCTION(pair_tangent, (a[0], a[1], a[2], a[3], a[4], a[5], a[6], a[7], a[8], a[9], a[10], b.ld), PAIR, WEIGHTS,
+         {"dn_ab", E.w.dab, NEEDED}, {"dn_ac", E.w.dac, NEEDED}, {"n_ab_previous", b.previous.ab, NEEDED},
+         {"n_ac_previous", b.previous.ac, NEEDED}, {"traction", E.traction, NEEDED}, {"responses", E.responses, NEEDED},
+         {"row_scale", E.row_scale, OPTIONAL}, {"k", E.k, NEEDED})
+FUNCTION(facet_geometry, (b.n_facet, a[0], a[1], a[2]), {"x", E.x1, NEEDED}, {"normals", E.normals, OPTIONAL},
+         {"areas", E.areas, OPTIONAL})
+FUNCTION(facet_normal, (b.n_facet, a[0], a[1]), {"x", E.x1, NEEDED}, {"normal", b.every.facet_normal, NEEDED})
+FUNCTION(node_normal, (a[0], a[1]), {"sum", E.sum, NEEDED}, {"normal", E.normal, NEEDED})
+FUNCTION(node_respond, (a[0], a[1]), {"node", &E.node, NEEDED}, {"response", &b.answer, NEEDED})
+FUNCTION(node_block, (a[0], b.scale, b.layout, a[1], a[2]), {"response", E.responses, NEEDED}, {"row", E.row, OPTIONAL},
+         {"block", E.block, OPTIONAL})
+FUNCTION(node_equilibrium, (a[0], b.stiffness, b.rounding, a[1], a[2], a[3]), {"node", &E.node, NEEDED},
+         {"gap", b.every.node_equilibrium, OPTIONAL}, {"traction", b.every.node_equilibrium + 1, OPTIONAL},
+         {"slip", b.every.node_equilibrium + 2, OPTIONAL})
+FUNCTION(options_init, (a[0], (uint64_t)b.options_size), {"options", &b.every.options, NEEDED})
+FUNCTION(last_error_padded, (a[0], b.length), {"text", b.every.last_error, LETTERS})
+FUNCTION(surface_split_creases, (a[0], b.angle, b.index_base, b.capacity, a[1], a[2], a[3]),
+         {"surface", &S.nonmortar, NEEDED}, {"facet_nodes", b.every.split_nodes, NEEDED},
+         {"originals", b.every.originals, NEEDED}, {"count", &b.every.split_count, NEEDED})
+FUNCTION(crosspoints_find, (b.n_interfaces, a[0], a[1], a[2], a[3], b.capacity, a[4], a[5], a[6], a[7]),
+         {"nonmortar_offsets", b.offsets1, NEEDED}, {"nonmortar_nodes", b.shared1, NEEDED},
+         {"mortar_offsets", b.offsets2, NEEDED}, {"mortar_nodes", b.shared2, NEEDED},
+         {"nodes", b.every.shared_nodes, NEEDED}, {"kinds", b.every.shared_kinds, NEEDED},
+         {"claims", b.every.shared_claims, NEEDED}, {"count", &b.every.shared_count, NEEDED})
+FUNCTION(interface_create, (a[0], a[1], a[2], a[3]), {"nonmortar", &S.nonmortar, NEEDED}, {"mortar", &S.mortar, NEEDED},
+         {"options", &S.options, NEEDED}, {"out", &b.out, NEEDED})
+FUNCTION(interface_destroy, (a[0]), {"interface", &b.every.other, OPTIONAL})
+FUNCTION(interface_set_friction, (a[0], a[1]), INTERFACE, {"mu", b.mu, NEEDED})
+FUNCTION(interface_set_augmentation, (a[0], a[1]), INTERFACE, {"r", b.r, OPTIONAL})
+FUNCTION(interface_set_normals, (a[0], a[1]), INTERFACE, {"normals", b.normals, OPTIONAL})
+FUNCTION(interface_set_constraints, (a[0], b.n, a[1], a[2]), INTERFACE, {"nodes", b.nodes, NEEDED},
+         {"directions", b.directions, NEEDED})
+FUNCTION(interface_set_previous, (a[0], a[1], a[2]), AT)
+FUNCTION(interface_initial_multipliers, (a[0], a[1]), {"interface", &b.every.other, NEEDED},
+         {"lambda", b.every.initial, NEEDED})
+FUNCTION(interface_sums, (a[0], a[1], a[2], a[3]), AT, {"sums", H.sums, NEEDED})
+FUNCTION(interface_states, (a[0], a[1], a[2], a[3], a[4], a[5]), POINT, OUT(H.states))
+FUNCTION(interface_residual, (a[0], a[1], a[2], a[3], a[4], a[5], a[6], a[7]), POINT, {"force1", H.force1, NEEDED},
+         {"force2", H.force2, NEEDED}, {"rows", H.rows, NEEDED})
+FUNCTION(interface_tangent_coo, (a[0], a[1], a[2], a[3], a[4], b.capacity, a[5], a[6], a[7], a[8]), POINT,
+         {"rows", H.row_numbers, NEEDED}, {"columns", H.columns, NEEDED}, {"values", H.values, NEEDED},
+         {"count", &H.count, NEEDED})
+FUNCTION(interface_tangent_csr, (a[0], a[1], a[2], a[3], a[4], b.n_rows, a[5], a[6], a[7]), POINT,
+         {"row_offsets", H.offsets, NEEDED}, {"columns", H.csr_columns, NEEDED}, {"values", H.csr, NEEDED})
+FUNCTION(interface_pattern_coo, (a[0], a[1], a[2], b.capacity, a[3], a[4], a[5]), AT, {"rows", H.row_numbers, NEEDED},
+         {"columns", H.columns, NEEDED}, {"count", &H.count, NEEDED})
+FUNCTION(interface_step_limit, (a[0], a[1], a[2], a[3], a[4], b.penetration, a[5]), AT, {"dx1", b.dx1, NEEDED},
+         {"dx2", b.dx2, NEEDED}, {"fraction", &H.fraction, NEEDED})
+FUNCTION(interface_commit, (a[0], a[1], a[2], a[3], a[4]), POINT)
+FUNCTION(interface_rollback, (a[0]), INTERFACE)
+FUNCTION(interface_history_size, (a[0], a[1], a[2]), INTERFACE, {"n_integers", &b.every.history.n_integers, NEEDED},
+         {"n_reals", &b.every.history.n_reals, NEEDED})
+FUNCTION(interface_history_export, (a[0], b.n_integers, a[1], b.n_reals, a[2]), INTERFACE,
+         {"integers", b.every.history.integers, NEEDED}, {"reals", b.every.history.reals, NEEDED})
+FUNCTION(interface_history_import, (a[0], b.n_integers, a[1], b.n_reals, a[2]), INTERFACE,
+         {"integers", b.imported.integers, NEEDED}, {"reals", b.imported.reals, NEEDED})
+FUNCTION(interface_counters, (a[0], a[1]), INTERFACE, OUT(b.every.counters))
+FUNCTION(interface_effects, (a[0], a[1], b.capacity), INTERFACE, {"text", b.every.effects, LETTERS})
+FUNCTION(interface_report, (a[0], a[1], a[2], a[3]), AT, OUT(b.every.report))
+FUNCTION(interface_diagnose, (a[0], a[1], a[2], a[3], a[4], a[5]), POINT, OUT(b.every.diagnosis))
+FUNCTION(interface_equilibrium, (a[0], a[1], a[2], a[3], a[4], a[5]), POINT, OUT(b.every.equilibrium))
+
+#define NAMED(name) {#name, on_##name, arguments_##name, a_##name, COUNT(arguments_##name)}
+static const struct {
+  const char *name;
+  int32_t (*call)(void **a);
+  const argument *arguments;
+  void **a;
+  int n;
+} functions[] = {
+    NAMED(pair_weights), NAMED(pair_gap), NAMED(pair_residual), NAMED(pair_tangent), NAMED(facet_geometry),
+    NAMED(facet_normal), NAMED(node_normal), NAMED(node_respond), NAMED(node_block), NAMED(node_equilibrium),
+    NAMED(options_init), NAMED(last_error_padded), NAMED(surface_split_creases), NAMED(crosspoints_find),
+    NAMED(interface_create), NAMED(interface_destroy), NAMED(interface_set_friction), NAMED(interface_set_augmentation),
+    NAMED(interface_set_normals), NAMED(interface_set_constraints), NAMED(interface_set_previous),
+    NAMED(interface_initial_multipliers), NAMED(interface_sums), NAMED(interface_states), NAMED(interface_residual),
+    NAMED(interface_tangent_coo), NAMED(interface_tangent_csr), NAMED(interface_pattern_coo),
+    NAMED(interface_step_limit), NAMED(interface_commit), NAMED(interface_rollback), NAMED(interface_history_size),
+    NAMED(interface_history_export), NAMED(interface_history_import), NAMED(interface_counters),
+    NAMED(interface_effects), NAMED(interface_report), NAMED(interface_diagnose), NAMED(interface_equilibrium),
+};
+
+#endif

@@ -1,0 +1,167 @@
+/* The rows of bad_input.txt: every function with one argument after the other spoilt, refused by name, nothing written.
+ * Here are good values for everything, and where all of it lies. */
+#include "bad_functions.h"
+
+#include <stddef.h>
+
+static int number_of(const char *name) {
+  for (int k = 0; k < COUNT(functions); ++k) {
+    if (strcmp(functions[k].name, name) == 0) return k;
+  }
+  fprintf(stderr, "no function has the name %s\n", name);
+  exit(1);
+}
+
+/* What a creation that succeeded has left. */
+static void end_created(void) {
+  stickslip_interface *nothing;
+  FILL(nothing);
+  if (b.out != nothing) CHECK_OK(stickslip_interface_destroy(&b.out));
+  b.out = nothing;
+}
+
+static int32_t call(const char *name) {
+  const int k = number_of(name);
+  end_created();
+  return functions[k].call(functions[k].a);
+}
+
+/* Good values for everything, and a pattern in all outputs. */
+static void set_up(const char *name, int32_t base) {
+  static const int64_t offsets1[] = {0, 3, 6}, shared1[] = {1, 2, 3, 3, 4, 5};
+  static const int64_t offsets2[] = {0, 2, 4}, shared2[] = {7, 5, 1, 4};
+  const int number = number_of(name);
+  memset(&b, 0, sizeof b);
+  scene_init_base(&S, base);
+  every_init(&b.every);
+  memset(&b.every.options, 0x5A, sizeof b.every - offsetof(every, options));
+  every_room(&b.every);
+  handle_fill(&H);
+  scene *s = &S;
+  CHECK_OK(stickslip_interface_create(&s->nonmortar, &s->mortar, &s->options, &b.every.other));
+  stickslip_states states = {.struct_size = sizeof states, .normal = b.normals};
+  CHECK_OK(stickslip_interface_states(s->interface, s->x1, s->x2, s->lambda, NULL, &states));
+  CHECK_OK(stickslip_interface_sums(s->interface, s->x1, s->x2, b.sums));
+  b.previous = E.w;
+  b.imported = b.every.exported;
+  b.n_integers = b.imported.n_integers;
+  b.n_reals = b.imported.n_reals;
+  b.ld = 36;
+  b.length = sizeof b.every.last_error;
+  b.options_size = sizeof b.every.options;
+  b.n_interfaces = 2;
+  b.n = 1;
+  b.n_rows = UNKNOWNS;
+  b.n_facet = 4;
+  b.index_base = base;
+  b.angle = 0.5;
+  b.scale = b.stiffness = 1.0;
+  b.directions[0] = b.directions[4] = b.directions[8] = 1.0;
+  b.dx1[0] = 1.0;
+  memcpy(b.offsets1, offsets1, sizeof offsets1);
+  memcpy(b.shared1, shared1, sizeof shared1);
+  memcpy(b.offsets2, offsets2, sizeof offsets2);
+  memcpy(b.shared2, shared2, sizeof shared2);
+  for (int a = 0; a < N1; ++a) b.mu[a] = b.r[a] = 1.0;
+  for (int k = 0; k < 3; ++k) b.nodes[k] = base + 4;
+  FILL(b.answer);
+  b.answer.struct_size = sizeof b.answer;
+  FILL(b.out);
+  for (int k = 0; k < functions[number].n; ++k) {
+    const argument *a = functions[number].arguments + k;
+    functions[number].a[k] = strcmp(a->name, "interface") == 0 && strcmp(name, "interface_destroy") != 0
+                                 ? *(stickslip_interface **)a->good
+                                 : a->good;
+  }
+  /* As much as is needed, where that can be asked. */
+  b.capacity = strcmp(name, "interface_effects") == 0 ? COUNT(b.every.effects) : N1;
+  if (strcmp(name, "crosspoints_find") == 0) {
+    CHECK_OK(stickslip_crosspoints_find(2, b.offsets1, b.shared1, b.offsets2, b.shared2, 0, NULL, NULL, NULL,
+                                        &b.capacity));
+  } else if (strcmp(name, "interface_tangent_coo") == 0) {
+    CHECK_OK(stickslip_interface_tangent_coo(s->interface, s->x1, s->x2, s->lambda, NULL, 0, NULL, NULL, NULL,
+                                             &b.capacity));
+  } else if (strcmp(name, "interface_pattern_coo") == 0) {
+    CHECK_OK(stickslip_interface_pattern_coo(s->interface, s->x1, s->x2, 0, NULL, NULL, &b.capacity));
+  }
+  memcpy(&before, &b, sizeof b);
+  scene_residual(s, expected);
+}
+
+static void compare(void) {
+  static double residual[UNKNOWNS];
+  static history now;
+  CHECK(memcmp(&b, &before, sizeof b) == 0);
+  history_take(S.interface, &now);
+  CHECK(history_equal(&b.every.exported, &now));
+  scene_residual(&S, residual);
+  CHECK(memcmp(residual, expected, sizeof residual) == 0);
+}
+
+static void tear_down(void) {
+  end_created();
+  CHECK_OK(stickslip_interface_destroy(&b.every.other));
+  scene_destroy(&S);
+}
+
+#define REALS(name, array) bad_place(name, REAL, array, COUNT(array))
+#define INTEGERS(name, array) bad_place(name, INT64, array, COUNT(array))
+#define NUMBER(type, name) bad_place(#name, type, &b.name, 0)
+
+/* Tells where all lies, under the header's names and those at the head of the rows. */
+static void tell(void) {
+  for (int f = 0; f < COUNT(functions); ++f) {
+    for (int k = 0; k < functions[f].n; ++k) {
+      char name[64];
+      snprintf(name, sizeof name, "%s:%s", functions[f].name, functions[f].arguments[k].name);
+      bad_place(name, functions[f].arguments[k].type, functions[f].a + k, 0);
+    }
+  }
+  bad_struct("pair", "pair", &E.pair);
+  bad_struct("node", "node", &E.node);
+  bad_struct("answer", "answer", &b.answer);
+  bad_struct("response", "response", E.responses);
+  bad_struct("responses", "responses[0]", E.responses);
+  bad_struct("responses", "responses[1]", E.responses + 1);
+  bad_struct("responses", "responses[2]", E.responses + 2);
+  bad_struct("responses", "responses[3]", E.responses + 3);
+  bad_struct("options", "options", &S.options);
+  bad_struct("surface", "nonmortar", &S.nonmortar);
+  bad_struct("surface", "mortar", &S.mortar);
+  bad_struct("states", "states", &H.states);
+  bad_struct("counters", "counters", &b.every.counters);
+  bad_struct("report", "report", &b.every.report);
+  bad_struct("diagnosis", "diagnosis", &b.every.diagnosis);
+  bad_struct("equilibrium", "equilibrium", &b.every.equilibrium);
+  REALS("pair.x1", E.x1), REALS("pair.x2", E.x2), REALS("pair.neighbour_normals", b.neighbours);
+  REALS("n_ab", E.w.ab), REALS("n_ac", E.w.ac), REALS("dn_ab", E.w.dab), REALS("dn_ac", E.w.dac);
+  REALS("n_ab_previous", b.previous.ab), REALS("n_ac_previous", b.previous.ac);
+  REALS("traction", E.traction), REALS("row_scale", E.row_scale), REALS("sum", E.sum);
+  REALS("nonmortar.coordinates", S.reference1), REALS("mortar.coordinates", S.reference2);
+  INTEGERS("nonmortar.facet_offsets", S.offsets1), INTEGERS("mortar.facet_offsets", S.offsets2);
+  INTEGERS("nonmortar.facet_nodes", S.nodes1), INTEGERS("mortar.facet_nodes", S.nodes2);
+  INTEGERS("nonmortar.equations", S.equations1), INTEGERS("mortar.equations", S.equations2);
+  INTEGERS("nonmortar.multiplier_equations", S.multipliers);
+  REALS("x1", S.x1), REALS("x2", S.x2), REALS("lambda", S.lambda), REALS("dx1", b.dx1), REALS("dx2", b.dx2);
+  REALS("sums", b.sums), REALS("mu", b.mu), REALS("r", b.r), REALS("normals", b.normals);
+  REALS("directions", b.directions), INTEGERS("nodes", b.nodes), INTEGERS("row_offsets", H.offsets);
+  INTEGERS("nonmortar_offsets", b.offsets1), INTEGERS("mortar_offsets", b.offsets2);
+  bad_place("imported_integers", INT64, b.imported.integers, (int32_t)b.n_integers);
+  bad_place("imported_reals", REAL, b.imported.reals, (int32_t)b.n_reals);
+  bad_place("diagnosis.state", INT32, b.every.diagnosed_state, N1);
+  bad_place("struct_size", INT64, &b.options_size, 0);
+  bad_place("handle", INT64, &b.every.other, 0);
+  NUMBER(INT64, ld), NUMBER(INT64, capacity), NUMBER(INT64, length), NUMBER(INT64, n_interfaces), NUMBER(INT64, n);
+  NUMBER(INT64, n_rows), NUMBER(INT64, n_integers), NUMBER(INT64, n_reals), NUMBER(INT32, n_facet);
+  NUMBER(INT32, layout), NUMBER(INT32, index_base), NUMBER(REAL, scale), NUMBER(REAL, stiffness);
+  NUMBER(REAL, rounding), NUMBER(REAL, angle), NUMBER(REAL, penetration);
+}
+
+int main(void) {
+  const bad_host host = {call, set_up, compare, tear_down};
+  set_up("pair_gap", 0);
+  tell();
+  tear_down();
+  bad_rows("C", 0, &host);
+  return 0;
+}
