@@ -15,6 +15,7 @@ use stickslip::shape::MAX_NODES;
 
 /// A pair, and the places of its mortar nodes among those of the facet.
 pub struct Pair {
+    pub facet: Facet,
     pub segment: Segment,
     pub weights: PairWeights,
     pub places: Vec<usize>,
@@ -23,6 +24,7 @@ pub struct Pair {
 /// A facet at some positions.
 pub struct Patch {
     pub name: String,
+    pub facet: Facet,
     pub frame: NonmortarFrame,
     pub nodes: usize,
     /// Number of mortar nodes.
@@ -59,18 +61,19 @@ impl Scene {
     }
 
     fn patch_of(&self, rule: &'static Rule, overlap: impl Fn(&NonmortarFrame, &Facet) -> Option<Segment>) -> Patch {
-        let frame = NonmortarFrame::new(&Facet::new(&self.x1).unwrap()).unwrap();
+        let facet = Facet::new(&self.x1).unwrap();
+        let frame = NonmortarFrame::new(&facet).unwrap();
         let mut pairs = Vec::new();
         for places in &self.facets2 {
             let two = Facet::new(&places.iter().map(|&k| self.x2[k]).collect::<Vec<_>>()).unwrap();
             if let Some(segment) = overlap(&frame, &two) {
                 let weights = PairWeights::integrate(&frame, &segment, rule);
-                pairs.push(Pair { segment, weights, places: places.clone() });
+                pairs.push(Pair { facet: two, segment, weights, places: places.clone() });
             }
         }
         let sums = FacetSums::of(&frame, pairs.iter().map(|p| (&p.segment, &p.weights)));
         let (nodes, mortar) = (self.x1.len(), self.x2.len());
-        Patch { name: self.name.clone(), frame, nodes, mortar, pairs, sums, rule }
+        Patch { name: self.name.clone(), facet, frame, nodes, mortar, pairs, sums, rule }
     }
 
     /// Component j of a node moved by h; nodes of the facet come first.

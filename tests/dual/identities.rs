@@ -8,8 +8,10 @@ use proptest::prelude::*;
 use proptest::test_runner::TestCaseResult;
 use std::sync::atomic::{AtomicU32, Ordering};
 use stickslip::dual::DualBasis;
+use stickslip::element::pair_force;
 use stickslip::error::Kind;
 use stickslip::geometry::Vec3;
+use stickslip::mortar::{self, MORTAR};
 use stickslip::quadrature::DEGREE_5;
 
 /// Rounding of sums of weights, times the largest coefficient a_AB that they are multiplied with.
@@ -46,10 +48,18 @@ fn identities(patch: &Patch, flat: Option<(&Scene, f64)>) -> TestCaseResult {
         let (standard, dual): (f64, f64) = (n.iter().sum(), d.iter().sum());
         prop_assert!((dual - basis.coverage.fade * standard).abs() <= areas, "{}", patch.name);
     }
-    // Shares of pairs: momentum is that of each, and they add up to the facet's.
-    let mut total = [[0.0; 4]; 4];
+    // Shares of pairs: momentum is that of each, and weights, gaps and forces add up to the facet's.
+    let (mut total, mut gaps) = ([[0.0; 4]; 4], [Vec3::zeros(); 4]);
+    let mut forces = vec![Vec3::zeros(); n + patch.mortar];
+    let p = [0, 1, 2, 3].map(|a| Vec3::new(0.3 - a as f64, 0.5, 1.0 + 0.2 * a as f64));
     for pair in &patch.pairs {
         let share = basis.weights(&pair.weights);
+        let (g, f) = (mortar::gap(&share, &patch.facet, &pair.facet), pair_force(&share, &p));
+        for i in 0..n {
+            gaps[i] += g[i];
+            forces[i] += f[i];
+        }
+        pair.places.iter().enumerate().for_each(|(c, place)| forces[n + place] += f[MORTAR + c]);
         for i in 0..n {
             let (ab, ac): (f64, f64) = (share.ab[i].iter().sum(), share.ac[i].iter().sum());
             prop_assert!((ab - ac).abs() <= areas, "{}: {ab:e} {ac:e}", patch.name);
@@ -61,6 +71,13 @@ fn identities(patch: &Patch, flat: Option<(&Scene, f64)>) -> TestCaseResult {
             let expected = if i == k { diagonal[i] } else { 0.0 };
             prop_assert!((total[i][k] - expected).abs() <= areas, "{}: {:e}", patch.name, total[i][k]);
         }
+        let off = (gaps[i] - patch.gaps()[i]).norm();
+        prop_assert!(off <= PLACES * largest * patch.sums.area * patch.sums.area.sqrt(), "{}: {off:e}", patch.name);
+    }
+    let fields = [0, 1, 2].map(|i| [0, 1, 2, 3].map(|a| p[a][i]));
+    for (found, expected) in forces.iter().zip(patch.forces(&fields)) {
+        let off = (found - expected).norm();
+        prop_assert!(off <= PLACES * largest * patch.sums.area, "{}: a force off by {off:e}", patch.name);
     }
     Ok(())
 }

@@ -7,3 +7,4 @@ mod derivatives;
 mod facet;
 mod golden;
 mod identities;
+mod interfaces;
