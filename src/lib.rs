@@ -22,9 +22,9 @@
 //! # Modules, lowest first
 //!
 //! [`error`]; [`memory`]; [`simd`]; [`adjacency`], [`shape`], [`quadrature`], [`geometry`], [`normal`] know nothing of contact;
-//! [`mortar`] integrates a pair and knows no law; [`law`] is nodal and knows no geometry; they meet in
-//! [`element`]; [`interface`] searches, assembles and remembers; [`capi`] is the C ABI, the only
-//! place that touches raw pointers.
+//! [`mortar`] integrates a pair and knows no law, [`dual`] changes the basis of a facet's multipliers; [`law`] is nodal
+//! and knows no geometry; they meet in [`element`]; [`interface`] searches, assembles and remembers; [`capi`] is the C
+//! ABI, the only place that touches raw pointers.
 //!
 //! # Example
 //!
@@ -65,6 +65,7 @@ pub mod error; // first, for its macro
 
 pub mod adjacency;
 pub mod capi;
+pub mod dual;
 pub mod element;
 pub mod geometry;
 pub mod interface;

@@ -12,9 +12,9 @@
 //! A translation and a spin of both facets change no integral: the shares of the plane's own cancel between the facets,
 //! and only its tilt is left.
 
-use super::chain::ForceDerivatives;
+use super::chain::{ForceDerivatives, ONE};
 use super::edges::{edge_points, in_lanes, intervals, line, unit};
-use super::gap::{AlongNormal, gamma};
+use super::gap::{AlongNormal, Raised, gamma, heights_over};
 use super::moments::{MONOMIALS, PRODUCTS, Table, combine, monomials, powers, powers_of, table};
 use super::pair_weights::PairWeights;
 use super::points::{Fan, Maps, points};
@@ -41,11 +41,34 @@ pub fn facet_motion<'a>(
     p: &[[f64; MAX_CORNERS]; 3],
     forces: &mut ForceDerivatives,
 ) -> AlongNormal {
+    motion(frame, pairs, rule, p, forces, None)
+}
+
+/// The same over a mortar surface that is raised, as [`super::pair_motion_raised`].
+pub fn facet_motion_raised<'a>(
+    frame: &NonmortarFrame,
+    pairs: impl Iterator<Item = (&'a Segment, &'a PairWeights)>,
+    rule: &Rule,
+    p: &[[f64; MAX_CORNERS]; 3],
+    forces: &mut ForceDerivatives,
+    raised: Raised,
+) -> AlongNormal {
+    motion(frame, pairs, rule, p, forces, Some(raised))
+}
+
+fn motion<'a>(
+    frame: &NonmortarFrame,
+    pairs: impl Iterator<Item = (&'a Segment, &'a PairWeights)>,
+    rule: &Rule,
+    p: &[[f64; MAX_CORNERS]; 3],
+    forces: &mut ForceDerivatives,
+    raised: Option<Raised>,
+) -> AlongNormal {
     let rule = rule.for_derivatives();
     if frame.projection.shape.n == 3 {
-        simd::dispatch(AtRest::<_, Tri3> { frame, pairs, rule, p, forces, one: PhantomData })
+        simd::dispatch(AtRest::<_, Tri3> { frame, pairs, rule, p, forces, raised, one: PhantomData })
     } else {
-        simd::dispatch(AtRest::<_, Quad4> { frame, pairs, rule, p, forces, one: PhantomData })
+        simd::dispatch(AtRest::<_, Quad4> { frame, pairs, rule, p, forces, raised, one: PhantomData })
     }
 }
 
@@ -55,6 +78,7 @@ struct AtRest<'a, I, One> {
     rule: &'a Rule,
     p: &'a [[f64; MAX_CORNERS]; 3],
     forces: &'a mut ForceDerivatives,
+    raised: Option<Raised<'a>>,
     one: PhantomData<One>,
 }
 
@@ -64,8 +88,8 @@ impl<'a, I: Iterator<Item = (&'a Segment, &'a PairWeights)>, One: SingleBasis> K
     #[inline(always)]
     fn run<L: Lanes>(self) -> AlongNormal {
         const { assert!(MAX_NODES == MAX_CORNERS) }; // what corners do is what nodes do
-        let AtRest { frame, pairs, rule, p, forces, .. } = self;
-        let (plane, facet) = (&frame.plane, &frame.projection);
+        let AtRest { frame, pairs, rule, p, forces, raised, .. } = self;
+        let plane = &frame.plane;
         let mut sums = Sums::<L>::new();
         let mut stack = Stack::<Group<L>, GROUPS>::new();
         let (mut heights, mut gammas) = ([L::splat(0.0); MAX_NODES], [0.0; MAX_CORNERS]);
@@ -90,7 +114,16 @@ impl<'a, I: Iterator<Item = (&'a Segment, &'a PairWeights)>, One: SingleBasis> K
                 }
             }
         }
-        let mut x = chain::<L, One::Cell>(frame, &integrals.gaps::<One>(&facet.d));
+        let lifted = heights_over(frame, &raised);
+        if let Some(raised) = raised {
+            let x = chain::<L, One::Cell>(frame, &integrals.forces::<One>(&ONE));
+            for k in 0..One::Cell::CORNERS {
+                for j in 0..3 {
+                    raised.areas[k][j] = column(frame, &x[k], j).store();
+                }
+            }
+        }
+        let mut x = chain::<L, One::Cell>(frame, &integrals.gaps::<One>(&lifted));
         let mut dgamma = [[[0.0; MAX_CORNERS]; 3]; PAIR_NODES];
         for k in 0..One::Cell::CORNERS {
             x[k][2] = x[k][2] + heights[k]; // n_AB e . Dx_B

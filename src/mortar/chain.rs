@@ -40,6 +40,24 @@ impl Default for WeightDerivatives {
     }
 }
 
+/// `[k][j][A]`: d m_A / d x_k,j of the covered areas, k over the pair's slots `[L]`.
+pub type AreaDerivatives = [[[f64; MAX_CORNERS]; 3]; PAIR_NODES];
+
+/// Where the derivatives of covered areas go.
+pub(super) struct Areas<'a>(pub &'a mut AreaDerivatives);
+
+impl<L: Lanes> Columns<L> for Areas<'_> {
+    #[inline(always)]
+    fn set(&mut self, k: usize, columns: [L; 3]) {
+        let to = &mut self.0[k];
+        for j in 0..3 {
+            to[j] = columns[j].store();
+        }
+    }
+}
+
+/// The field 1: its forces f_B are the covered areas.
+pub(super) const ONE: [f64; MAX_CORNERS] = [1.0; MAX_CORNERS];
 /// The fields N_A: their forces are the weights.
 pub(super) const SHAPES: [[f64; MAX_CORNERS]; MAX_CORNERS] =
     [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0]];

@@ -1,9 +1,9 @@
 //! Derivatives of a pair's weights, forces and gaps with respect to its nodes (docs/formulation.md 3).
 
-use super::chain::{Chain, Component, Flat, ForceDerivatives, SHAPES, WeightDerivatives, to_rows};
+use super::chain::{Areas, Chain, Component, Flat, ForceDerivatives, ONE, SHAPES, WeightDerivatives, to_rows};
 use super::edges::Edges;
 use super::element_rule;
-use super::gap::AlongNormal;
+use super::gap::{AlongNormal, Raised, heights_over};
 use super::moments::Moments;
 use super::pair_weights::PairWeights;
 use super::segment::{KindKernel, Kinds, NonmortarFrame, Segment};
@@ -61,11 +61,33 @@ pub fn pair_motion(
     p: &[[f64; MAX_CORNERS]; 3],
     forces: &mut ForceDerivatives,
 ) -> AlongNormal {
+    motion((frame, segment, rule), weights, p, forces, None)
+}
+
+/// The same over a mortar surface that is raised: `dgamma` is that of gamma_A - sum_B n_AB h_B, while `gamma` stays the
+/// pair's own.
+pub fn pair_motion_raised(
+    pair: (&NonmortarFrame, &Segment, &Rule),
+    weights: &PairWeights,
+    p: &[[f64; MAX_CORNERS]; 3],
+    forces: &mut ForceDerivatives,
+    raised: Raised,
+) -> AlongNormal {
+    motion(pair, weights, p, forces, Some(raised))
+}
+
+fn motion(
+    (frame, segment, rule): (&NonmortarFrame, &Segment, &Rule),
+    weights: &PairWeights,
+    p: &[[f64; MAX_CORNERS]; 3],
+    forces: &mut ForceDerivatives,
+    raised: Option<Raised>,
+) -> AlongNormal {
     if let Some(points) = segment.points {
-        return element_rule::motion((frame, segment, points), weights, p, forces);
+        return element_rule::motion((frame, segment, points), weights, p, forces, raised);
     }
     let rule = rule.for_derivatives();
-    Kinds::of(frame, segment).dispatch(OfPair { frame, segment, rule, weights, p, forces })
+    Kinds::of(frame, segment).dispatch(OfPair { frame, segment, rule, weights, p, forces, raised })
 }
 
 struct OfPair<'a> {
@@ -75,6 +97,7 @@ struct OfPair<'a> {
     weights: &'a PairWeights,
     p: &'a [[f64; MAX_CORNERS]; 3],
     forces: &'a mut ForceDerivatives,
+    raised: Option<Raised<'a>>,
 }
 
 impl KindKernel for OfPair<'_> {
@@ -82,7 +105,7 @@ impl KindKernel for OfPair<'_> {
 
     #[inline(always)]
     fn run<L: Lanes, One: SingleBasis, Two: Isoparametric>(self) -> AlongNormal {
-        let OfPair { frame, segment, rule, weights, p, forces } = self;
+        let OfPair { frame, segment, rule, weights, p, forces, raised } = self;
         let moments = Moments::<L>::integrate::<One, Two>(frame, segment, rule);
         let mut edges = Edges::new();
         edges.integrate::<One, Two>(frame, segment, rule);
@@ -94,7 +117,11 @@ impl KindKernel for OfPair<'_> {
             let (two, mut to) = (transport.two::<One, Two>(&p[i]), Component { to: &mut forces.two, i });
             chain.nodes::<One::Cell, Two::Cell>(&two, &mut to);
         }
-        AlongNormal::new::<L, One, Two>(&chain, &transport.gap::<One, Two>(&frame.projection.d), weights)
+        let heights = heights_over(frame, &raised);
+        if let Some(raised) = raised {
+            chain.nodes::<One::Cell, Two::Cell>(&transport.one::<One>(&ONE), &mut Areas(raised.areas));
+        }
+        AlongNormal::new::<L, One, Two>(&chain, &transport.gap::<One, Two>(&heights), weights)
     }
 }
 

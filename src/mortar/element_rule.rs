@@ -12,8 +12,10 @@
 //!
 //! For any processor alone: the rule is for comparisons and coarse answers, and a small library is worth more.
 
-use super::chain::{Chain, Component, Flat, ForceDerivatives, SHAPES, WeightDerivatives, to_rows};
-use super::gap::AlongNormal;
+use super::chain::{
+    AreaDerivatives, Areas, Chain, Component, Flat, ForceDerivatives, ONE, SHAPES, WeightDerivatives, to_rows,
+};
+use super::gap::{AlongNormal, Raised, heights_over};
 use super::overlap::{check, project};
 use super::pair_weights::PairWeights;
 use super::segment::{CellPoints, KindKernel, Kinds, NonmortarFrame, Segment};
@@ -150,11 +152,16 @@ struct Derivatives<const F: usize> {
 }
 
 impl<const F: usize> Derivatives<F> {
-    fn new(frame: &NonmortarFrame, segment: &Segment, points: CellPoints, fields: &[[f64; MAX_CORNERS]; F]) -> Self {
+    /// `heights`: the d_B.
+    fn new(
+        (frame, segment, points): (&NonmortarFrame, &Segment, CellPoints),
+        fields: &[[f64; MAX_CORNERS]; F],
+        heights: &[f64; MAX_CORNERS],
+    ) -> Self {
         let zero = [[[0.0; 4]; 2]; PAIR_CORNERS];
         let mut d = Derivatives { one: [zero; F], two: [zero; F], gap: zero };
         let (map1, map2) = (frame.map.gradients::<Plain>(), segment.mortar_map.gradients::<Plain>());
-        let (heights, two) = (&frame.projection.d, &segment.mortar);
+        let two = &segment.mortar;
         for (p, n2, [xi2, eta2, det2]) in Point::all(frame, segment, points) {
             for c in 0..2 {
                 let g1 = at(&map1, c, p.xi, p.eta).map(|g| g * p.weight); // w Dj / Dy1_k
@@ -205,17 +212,21 @@ pub(super) fn motion(
     weights: &PairWeights,
     p: &[[f64; MAX_CORNERS]; 3],
     forces: &mut ForceDerivatives,
+    raised: Option<Raised>,
 ) -> AlongNormal {
-    let plane = Derivatives::new(frame, segment, points, p);
-    Kinds::of(frame, segment).plain(Motion { frame, segment, plane, weights, forces })
+    let plane = Derivatives::new((frame, segment, points), &[p[0], p[1], p[2], ONE], &heights_over(frame, &raised));
+    let areas = raised.map(|raised| raised.areas);
+    Kinds::of(frame, segment).plain(Motion { frame, segment, plane, weights, forces, areas })
 }
 
 struct Motion<'a> {
     frame: &'a NonmortarFrame,
     segment: &'a Segment,
-    plane: Derivatives<3>,
+    /// Of the forces' three fields, and of the field 1.
+    plane: Derivatives<4>,
     weights: &'a PairWeights,
     forces: &'a mut ForceDerivatives,
+    areas: Option<&'a mut AreaDerivatives>,
 }
 
 impl KindKernel for Motion<'_> {
@@ -223,11 +234,14 @@ impl KindKernel for Motion<'_> {
 
     #[inline(always)]
     fn run<L: Lanes, One: SingleBasis, Two: Isoparametric>(self) -> AlongNormal {
-        let Motion { frame, segment, plane, weights, forces } = self;
+        let Motion { frame, segment, plane, weights, forces, areas } = self;
         let chain = Chain::new(frame, segment);
         for i in 0..3 {
             chain.nodes::<One::Cell, Two::Cell>(&lanes::<L>(&plane.one[i]), &mut Component { to: &mut forces.one, i });
             chain.nodes::<One::Cell, Two::Cell>(&lanes::<L>(&plane.two[i]), &mut Component { to: &mut forces.two, i });
+        }
+        if let Some(areas) = areas {
+            chain.nodes::<One::Cell, Two::Cell>(&lanes::<L>(&plane.one[3]), &mut Areas(areas));
         }
         AlongNormal::new::<L, One, Two>(&chain, &lanes::<L>(&plane.gap), weights)
     }
@@ -240,7 +254,7 @@ pub(super) fn derivatives(
     points: CellPoints,
     derivatives: &mut WeightDerivatives,
 ) -> PairWeights {
-    let plane = Derivatives::new(frame, segment, points, &SHAPES);
+    let plane = Derivatives::new((frame, segment, points), &SHAPES, &frame.projection.d);
     Kinds::of(frame, segment).plain(OfWeights { frame, segment, plane, derivatives });
     weights(frame, segment, points)
 }

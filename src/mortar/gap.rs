@@ -5,7 +5,7 @@
 //! inverse maps return the same in-plane point; so Dg_A = e Dgamma_A + gamma_A De: one scalar row a
 //! node, without cancellation of in-plane coordinates (docs/formulation.md 2.4).
 
-use super::chain::{Chain, Columns, WeightDerivatives};
+use super::chain::{AreaDerivatives, Chain, Columns, WeightDerivatives};
 use super::pair_weights::PairWeights;
 use super::segment::NonmortarFrame;
 use super::slots::{MORTAR, PAIR_NODES};
@@ -133,6 +133,49 @@ impl AlongNormal {
         }
         chain.nodes::<One::Cell, Two::Cell>(plane, &mut to);
         along
+    }
+}
+
+/// A mortar surface that is raised by the field sum_B N_B h_B, with h_B held fixed. Over it the gaps are
+/// gamma_A - sum_B n_AB h_B, and their derivatives Dgamma_A - sum_B Dn_AB h_B. The stage of a facet with dual multipliers
+/// asks for these, and for the derivatives of the covered areas (docs/formulation.md 10.4).
+#[derive(Debug)]
+pub struct Raised<'a> {
+    /// h_B `[L]`.
+    pub heights: &'a [f64; MAX_CORNERS],
+    /// Takes Dm_A. Nodes that a triangle does not have are left as they are.
+    pub areas: &'a mut AreaDerivatives,
+}
+
+/// The heights d_B of the facet's nodes, over a surface that is raised or not.
+#[inline(always)]
+pub(super) fn heights_over(frame: &NonmortarFrame, raised: &Option<Raised>) -> [f64; MAX_CORNERS] {
+    let mut heights = frame.projection.d;
+    if let Some(raised) = raised {
+        for b in 0..MAX_CORNERS {
+            heights[b] -= raised.heights[b];
+        }
+    }
+    heights
+}
+
+/// gamma_A of a pair with its current weights (docs/formulation.md 2.4) [L^3]; `two` is the mortar facet projected on the
+/// frame's plane.
+pub fn height_gap(frame: &NonmortarFrame, two: &Projection, weights: &PairWeights) -> [f64; MAX_CORNERS] {
+    simd::dispatch(HeightGap { frame, two, weights })
+}
+
+struct HeightGap<'a> {
+    frame: &'a NonmortarFrame,
+    two: &'a Projection,
+    weights: &'a PairWeights,
+}
+
+impl Kernel for HeightGap<'_> {
+    type Output = [f64; MAX_CORNERS];
+    #[inline(always)]
+    fn run<L: Lanes>(self) -> [f64; MAX_CORNERS] {
+        gamma::<L>(self.frame, self.two, self.weights)
     }
 }
 

@@ -23,10 +23,10 @@ mod transport;
 mod weights;
 
 pub use analytic::{analytic_motion, analytic_weights};
-pub use at_rest::facet_motion;
-pub use chain::{ForceDerivatives, WeightDerivatives};
-pub use derivatives::pair_motion;
-pub use gap::{AlongNormal, GapDerivative, columns, gap};
+pub use at_rest::{facet_motion, facet_motion_raised};
+pub use chain::{AreaDerivatives, ForceDerivatives, WeightDerivatives};
+pub use derivatives::{pair_motion, pair_motion_raised};
+pub use gap::{AlongNormal, GapDerivative, Raised, columns, gap, height_gap};
 pub use pair_weights::PairWeights;
 pub use segment::{CellPoints, NonmortarFrame, Segment};
 pub use slots::{MORTAR, PAIR_NODES, slots};

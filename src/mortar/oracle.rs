@@ -1,10 +1,10 @@
 //! The same integrals as they stand on paper, point by point and number by number: what the kernels must give, on
 //! every back end, to the rounding of their sums.
 
-use super::at_rest::facet_motion;
+use super::at_rest::{facet_motion, facet_motion_raised};
 use super::chain::{ForceDerivatives, WeightDerivatives};
-use super::derivatives::pair_motion;
-use super::gap::AlongNormal;
+use super::derivatives::{pair_motion, pair_motion_raised};
+use super::gap::{AlongNormal, Raised};
 use super::pair_weights::PairWeights;
 use super::segment::{NonmortarFrame, Segment};
 use super::slots::{MORTAR, MORTAR_CORNER, PAIR_CORNERS, PAIR_NODES};
@@ -270,6 +270,15 @@ fn check(one: &Facet, two: &Facet, p: &[[f64; MAX_CORNERS]; 3], same: f64) -> Re
         let dgamma = |g: &AlongNormal| g.dgamma.as_flattened().as_flattened().to_vec();
         check_same("gap", &dgamma(&found), &dgamma(&gap), (h * h, same))?;
 
+        // Over a mortar surface that is raised by the field p[2]: the forces are the same.
+        let (raised_gap, areas) = raised(&expected, &gap, &p[2]);
+        let (mut again, mut dm) = (ForceDerivatives::default(), [[[0.0; MAX_CORNERS]; 3]; PAIR_NODES]);
+        let over = Raised { heights: &p[2], areas: &mut dm };
+        let found = pair_motion_raised((&frame, &segment, rule), &weights, p, &mut again, over);
+        prop_assert_eq!((flat(&again.one), flat(&again.two)), (flat(&motion.one), flat(&motion.two)));
+        check_same("raised gap", &dgamma(&found), &raised_gap, (size.max(h) * h, same))?;
+        check_same("areas", dm.as_flattened().as_flattened(), &areas, (h, same))?;
+
         // At rest: the same columns of the non-mortar side, no others.
         let expected = straight.derivatives(false);
         let forces = expected.of_forces(p);
@@ -283,8 +292,31 @@ fn check(one: &Facet, two: &Facet, p: &[[f64; MAX_CORNERS]; 3], same: f64) -> Re
             .chain(flat(&motion.two))
             .chain(found.dgamma[MORTAR..].as_flattened().as_flattened());
         prop_assert_eq!(largest(untouched), 0.0);
+        let (raised_gap, areas) = raised(&expected, &gap, &p[2]);
+        let (mut again, mut dm) = (ForceDerivatives::default(), [[[0.0; MAX_CORNERS]; 3]; PAIR_NODES]);
+        let (pairs, over) = ([(&segment, &weights)].into_iter(), Raised { heights: &p[2], areas: &mut dm });
+        let found = facet_motion_raised(&frame, pairs, rule, p, &mut again, over);
+        prop_assert_eq!(flat(&again.one), flat(&motion.one));
+        let columns = 12 * MORTAR;
+        let scale = (size.max(h) * h, same);
+        check_same("raised gap at rest", &dgamma(&found)[..columns], &raised_gap[..columns], scale)?;
+        check_same("areas at rest", &dm.as_flattened().as_flattened()[..columns], &areas[..columns], (h, same))?;
     }
     Ok(())
+}
+
+/// Dgamma_A - sum_B Dn_AB h_B, and sum_B Dn_AB.
+fn raised(d: &WeightDerivatives, gap: &AlongNormal, heights: &[f64; MAX_CORNERS]) -> (Vec<f64>, Vec<f64>) {
+    let (mut gap, mut areas) = (gap.dgamma, [[[0.0; MAX_CORNERS]; 3]; PAIR_NODES]);
+    for (k, j) in (0..PAIR_NODES).flat_map(|k| (0..3).map(move |j| (k, j))) {
+        for a in 0..MAX_CORNERS {
+            for b in 0..MAX_NODES {
+                gap[k][j][a] -= d.ab[a][b][k][j] * heights[b];
+                areas[k][j][a] += d.ab[a][b][k][j];
+            }
+        }
+    }
+    [gap, areas].map(|v| v.as_flattened().as_flattened().to_vec()).into()
 }
 
 /// A facet over the square -1..1 with mild noise; `grid` quantises it, to force coincident vertices and edges; `flat`:

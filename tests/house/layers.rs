@@ -6,7 +6,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 
 /// Modules and what each may import, lowest first.
-const ALLOWED: [(&str, &[&str]); 12] = [
+const ALLOWED: [(&str, &[&str]); 13] = [
     ("error", &[]),
     ("memory", &["error"]),
     ("adjacency", &["error", "memory"]),
@@ -16,12 +16,14 @@ const ALLOWED: [(&str, &[&str]); 12] = [
     ("geometry", &["error", "shape", "simd"]),
     ("normal", &["error", "geometry"]),
     ("mortar", &["error", "geometry", "quadrature", "shape", "simd"]),
+    ("dual", &["error", "geometry", "mortar", "shape"]),
     ("law", &["error", "geometry"]),
     ("element", &["error", "geometry", "law", "mortar", "shape", "simd"]),
     (
         "interface",
         &[
             "adjacency",
+            "dual",
             "element",
             "error",
             "geometry",

@@ -17,6 +17,11 @@ use stickslip::geometry::{Facet, Vec3};
 
 /// The cases of a golden file: the full set where it is present, else the project's own small copy.
 pub fn golden(file: &str) -> Vec<Value> {
+    golden_part(file, "cases")
+}
+
+/// The cases of one part of it.
+pub fn golden_part(file: &str, part: &str) -> Vec<Value> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let full: PathBuf = root.join("../shared/golden").join(file);
     let path = if full.exists() {
@@ -27,7 +32,7 @@ pub fn golden(file: &str) -> Vec<Value> {
     };
     let text = std::fs::read_to_string(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
     let value: Value = serde_json::from_str(&text).unwrap();
-    let cases = value["cases"].as_array().unwrap().clone();
+    let cases = value[part].as_array().unwrap().clone();
     assert!(cases.len() >= 3, "{} holds too few cases to mean anything", path.display());
     cases
 }

@@ -1,0 +1,101 @@
+//! The dual basis of a facet and what follows from it for values (docs/formulation.md 10.1, 10.2):
+//!
+//! psi_A = sum_B a_AB N_B, a_AB = m_A (m^-1)_AB, which is biorthogonal over the covered part:
+//! int psi_A N_B da = m_A where A = B, 0 elsewhere.
+
+use super::coverage::Coverage;
+use super::mass::Mass;
+use super::sums::FacetSums;
+use crate::error::Result;
+use crate::mortar::PairWeights;
+use crate::shape::{MAX_CORNERS, MAX_NODES};
+
+/// The dual basis of one facet, with its measure phi.
+#[derive(Clone, Copy, Debug)]
+pub struct DualBasis {
+    /// Number of the facet's nodes.
+    pub nodes: usize,
+    /// |e|, the area of the projected facet [L^2].
+    pub area: f64,
+    /// m_A, the covered area of each node [L^2].
+    pub areas: [f64; MAX_CORNERS],
+    /// How much of the facet is covered, and phi.
+    pub coverage: Coverage,
+    mass: Mass,
+}
+
+impl DualBasis {
+    /// That of a facet's sums; `None` where the facet has faded out and contributes nothing.
+    ///
+    /// # Errors
+    /// [`crate::error::Kind::DegenerateFacet`] when what covers the facet does not determine its multipliers.
+    pub fn of(sums: &FacetSums) -> Result<Option<DualBasis>> {
+        let coverage = sums.coverage();
+        if !(coverage.fade > 0.0) {
+            return Ok(None);
+        }
+        let mass = Mass::new(sums.nodes, &sums.mass)?;
+        Ok(Some(DualBasis { nodes: sums.nodes, area: sums.area, areas: sums.areas(), coverage, mass }))
+    }
+
+    /// phi m_A = n^d_AA: what the nodes have of the facet's area [L^2]. The other n^d_AB vanish.
+    pub fn diagonal(&self) -> [f64; MAX_CORNERS] {
+        self.areas.map(|m| self.coverage.fade * m)
+    }
+
+    /// m^-1 v.
+    pub(super) fn solve(&self, v: &[f64; MAX_CORNERS]) -> [f64; MAX_CORNERS] {
+        self.mass.solve(v)
+    }
+
+    /// phi sum_B a_AB v_B: of a column n_BC of the facet's weights the dual ones n^d_AC, of gamma_B the gaps of the nodes
+    /// along e, phi m_A h_A.
+    pub fn dual(&self, v: &[f64; MAX_CORNERS]) -> [f64; MAX_CORNERS] {
+        let x = self.solve(v);
+        std::array::from_fn(|a| self.coverage.fade * self.areas[a] * x[a])
+    }
+
+    /// A pair's share of the dual weights, phi sum_B a_AB times n_BB' and n_BC. Over the facet's pairs those of the
+    /// non-mortar side add up to the diagonal. A frozen basis needs no more: gaps, forces and coverage of the pair
+    /// follow from them as from its own weights.
+    pub fn weights(&self, pair: &PairWeights) -> PairWeights {
+        let mut dual = PairWeights::default();
+        for k in 0..MAX_NODES {
+            let column = |n: &[[f64; MAX_NODES]; MAX_CORNERS]| self.dual(&[n[0][k], n[1][k], n[2][k], n[3][k]]);
+            let (ab, ac) = (column(&pair.ab), column(&pair.ac));
+            for a in 0..MAX_CORNERS {
+                (dual.ab[a][k], dual.ac[a][k]) = (ab[a], ac[a]);
+            }
+        }
+        dual
+    }
+
+    /// h = m^-1 gamma: heights of the nodes over the mortar surface, projected on the facet's functions `[L]`.
+    pub fn heights(&self, gamma: &[f64; MAX_CORNERS]) -> [f64; MAX_CORNERS] {
+        self.solve(gamma)
+    }
+
+    /// q with sum_B m_AB q_B = m_A p_A: nodal values in the standard basis of the field sum_A psi_A p_A, component by
+    /// component `[i][A]`. The forces of the facet's pairs are those of phi q.
+    pub fn tractions(&self, p: &[[f64; MAX_CORNERS]; 3]) -> [[f64; MAX_CORNERS]; 3] {
+        let mut q = *p;
+        for p in &mut q {
+            *p = self.solve(&std::array::from_fn(|a| self.areas[a] * p[a]));
+        }
+        q
+    }
+
+    /// a_AB.
+    pub fn coefficients(&self) -> [[f64; MAX_CORNERS]; MAX_CORNERS] {
+        let mut coefficients = [[0.0; MAX_CORNERS]; MAX_CORNERS];
+        for b in 0..self.nodes {
+            let mut unit = [0.0; MAX_CORNERS];
+            unit[b] = 1.0;
+            let x = self.solve(&unit);
+            for a in 0..self.nodes {
+                coefficients[a][b] = self.areas[a] * x[a];
+            }
+        }
+        coefficients
+    }
+}

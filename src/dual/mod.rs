@@ -1,0 +1,25 @@
+//! Dual multipliers: the stage of a facet, between the integration over pairs and the law of a node
+//! (docs/formulation.md 10). All of it is functions of plain data of one non-mortar facet:
+//!
+//! - values: [`FacetSums`] adds up the facet's pairs, [`DualBasis`] gives dual weights, heights and tractions;
+//! - derivatives: the kernels of `mortar` give those of a pair at the facet's heights and tractions, [`FacetMotion`]
+//!   makes of them the pair's share of the facet's, [`FacetColumns`] what couples the mortar nodes of all its pairs;
+//! - [`FullDerivatives`] has the derivatives of the dual weights themselves.
+//!
+//! Knows no contact law. Nothing here allocates.
+
+mod basis;
+mod columns;
+mod coverage;
+mod full;
+mod mass;
+mod motion;
+mod sums;
+
+pub use basis::DualBasis;
+pub use columns::{FacetColumns, TractionDerivatives};
+pub use coverage::{Coverage, FADE_BAND};
+pub use full::FullDerivatives;
+pub use mass::SMALLEST_PIVOT;
+pub use motion::{FacetMotion, PairShare};
+pub use sums::FacetSums;

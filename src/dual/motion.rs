@@ -1,0 +1,112 @@
+//! Exact derivatives of a facet's stage, pair by pair (docs/formulation.md 10.4).
+//!
+//! Every derivative of the stage is linear in those of m_AB, gamma_A and |e|, with m^-1, h, q held fixed, and so it is a
+//! sum over the facet's pairs: each pair has its share, with respect to its own nodes alone. The kernels of `mortar` give
+//! what stands in the brackets,
+//!
+//! D(phi m_A h_A) = D(phi m_A) h_A + phi m_A (m^-1 [Dgamma - Dm h])_A,
+//! D(phi q) = phi m^-1 (Dm_B p_B - [Dm q]_B) + Dphi q,
+//! Df_B = D(phi m_B) p_B,   Df_C = phi [-sum_B Dn_BC q_B] - sum_B n_BC D(phi q_B).
+//!
+//! The last term alone is no sum over pairs (`columns.rs`). Dphi = phi' (sum_A Dm_A - kappa D|e|) / |e|.
+
+use super::basis::DualBasis;
+use super::columns::TractionDerivatives;
+use super::coverage::whole_area_derivative;
+use crate::geometry::Vec3;
+use crate::mortar::{AlongNormal, AreaDerivatives, ForceDerivatives, MORTAR, NonmortarFrame, PairWeights, Raised};
+use crate::shape::MAX_CORNERS;
+
+/// A facet at its tractions and heights, which the derivatives of its pairs are taken at.
+#[derive(Clone, Debug)]
+pub struct FacetMotion<'a> {
+    basis: &'a DualBasis,
+    /// p_A, held fixed: `[i][A]`.
+    tractions: [[f64; MAX_CORNERS]; 3],
+    /// q_A, the tractions that kernels are to be given.
+    pub field: [[f64; MAX_CORNERS]; 3],
+    /// h_A, by which kernels are to raise the mortar surface.
+    pub heights: [f64; MAX_CORNERS],
+    /// D|e| / Dx_k.
+    area: [Vec3; MAX_CORNERS],
+}
+
+/// Derivatives of one pair: first as the kernels give them at the facet's field and heights, then the pair's share of the
+/// facet's.
+#[derive(Debug)]
+pub struct PairShare<'a> {
+    /// [Dm q] and [-Dn q]; then Df_B, and the part of Df_C that belongs to the pair.
+    pub forces: &'a mut ForceDerivatives,
+    /// gamma and [Dgamma - Dm h]; then phi m_A h_A and its derivative.
+    pub gap: &'a mut AlongNormal,
+    /// Dm_A; then D(phi m_A).
+    pub areas: &'a mut AreaDerivatives,
+    /// Takes D(phi q).
+    pub tractions: &'a mut TractionDerivatives,
+}
+
+impl<'a> FacetMotion<'a> {
+    /// At the tractions `p[i][A]` and the facet's sum of gamma.
+    pub fn new(
+        frame: &NonmortarFrame,
+        basis: &'a DualBasis,
+        gamma: &[f64; MAX_CORNERS],
+        p: &[[f64; MAX_CORNERS]; 3],
+    ) -> FacetMotion<'a> {
+        FacetMotion {
+            basis,
+            tractions: *p,
+            field: basis.tractions(p),
+            heights: basis.heights(gamma),
+            area: whole_area_derivative(frame),
+        }
+    }
+
+    /// What the kernels are asked for beside forces and gaps.
+    pub fn raised<'b>(&'b self, areas: &'b mut AreaDerivatives) -> Raised<'b> {
+        Raised { heights: &self.heights, areas }
+    }
+
+    /// Dphi, the share of a pair: `of_pair` is its share of kappa, `dm` its Dm_A with respect to x_k,j.
+    pub(super) fn dfade(&self, of_pair: f64, dm: &[f64; MAX_CORNERS], k: usize, j: usize) -> f64 {
+        let whole = if k < MORTAR { self.area[k][j] } else { 0.0 };
+        self.basis.coverage.slope * (dm.iter().sum::<f64>() - of_pair * whole) / self.basis.area
+    }
+
+    /// Makes of a pair's derivatives its share of the facet's, with respect to the facet's nodes and so many nodes of the
+    /// mortar facet: none where that side is at rest. `weights` are the pair's own. Where a kernel takes all pairs of a
+    /// facet together, they count as one pair with the sum of their weights.
+    pub fn share(&self, mortar: usize, weights: &PairWeights, pair: PairShare) {
+        let (basis, phi) = (self.basis, self.basis.coverage.fade);
+        let of_pair = share_of(basis, weights);
+        pair.gap.gamma = basis.dual(&pair.gap.gamma);
+        let slots = (0..basis.nodes).chain(MORTAR..MORTAR + mortar);
+        for (k, j) in slots.flat_map(|k| (0..3).map(move |j| (k, j))) {
+            let dm = pair.areas[k][j];
+            let dphi = self.dfade(of_pair, &dm, k, j);
+            let area = &mut pair.areas[k][j];
+            for a in 0..MAX_CORNERS {
+                area[a] = phi * dm[a] + dphi * basis.areas[a];
+            }
+            let dgamma = &mut pair.gap.dgamma[k][j];
+            *dgamma = basis.dual(dgamma);
+            for a in 0..MAX_CORNERS {
+                dgamma[a] += area[a] * self.heights[a];
+            }
+            for i in 0..3 {
+                let (p, q, force) = (&self.tractions[i], &self.field[i], &mut pair.forces.one[k][j][i]);
+                let dq = basis.solve(&std::array::from_fn(|b| dm[b] * p[b] - force[b]));
+                for b in 0..MAX_CORNERS {
+                    pair.tractions[k][j][i][b] = phi * dq[b] + dphi * q[b];
+                    force[b] = area[b] * p[b];
+                }
+                pair.forces.two[k][j][i].iter_mut().for_each(|f| *f *= phi);
+            }
+        }
+    }
+}
+
+/// A pair's share of kappa.
+pub(super) fn share_of(basis: &DualBasis, weights: &PairWeights) -> f64 {
+    (0..basis.nodes).map(|a| weights.coverage(a)).sum::<f64>() / basis.area
+}

@@ -1,0 +1,10 @@
+//! The stage of a facet with dual multipliers (`src/dual`).
+
+#[path = "../support/mod.rs"]
+mod support;
+
+mod derivatives;
+mod facet;
+mod golden;
+mod identities;
+mod interfaces;
