@@ -241,7 +241,10 @@
 /// Standard shape functions for the multiplier (the paper's). Default.
 #define STICKSLIP_BASIS_STANDARD 0
 
-/// Dual shape functions. Not in this version.
+/// Dual functions, biorthogonal to the shape functions over what is covered of a facet: a node's force is its multiplier
+/// times its covered area, and tractions do not oscillate beside edges and on curved surfaces. The tangent couples the
+/// mortar nodes of all pairs of a facet. Give weak_coverage, 0.2 say, where surfaces slide off an edge. UNSUPPORTED in
+/// this version: STICKSLIP_MORTAR_ANALYTIC, STICKSLIP_INTEGRATION_ELEMENTS and HYBRID, sums of handles, the stages.
 #define STICKSLIP_BASIS_DUAL 1
 
 /// 7 points a triangle, degree 5: exact for triangles and parallelograms. Default.

@@ -5,8 +5,8 @@ use super::sized::{self, Sized64};
 use crate::error::{Error, Kind, Result, Text};
 use crate::geometry::AnalyticShape;
 use crate::interface::{
-    COVERAGE_MIN, Form, MortarSide, NewContact, Options, RowScale, Scheme, Shortcuts, Stiffness, TURN_MAX, Tangent,
-    Weights,
+    COVERAGE_MIN, Form, MortarSide, MultiplierBasis, NewContact, Options, RowScale, Scheme, Shortcuts, Stiffness,
+    TURN_MAX, Tangent, Weights,
 };
 use crate::law::{Coefficient, Friction, LAWS, SlipMeasure};
 use crate::quadrature::{DEGREE_1, DEGREE_2, DEGREE_4, DEGREE_5, DEGREE_6, DEGREE_10, Rule, cell};
@@ -66,7 +66,10 @@ pub const STICKSLIP_SHORTCUT_APART: i32 = 4;
 pub const STICKSLIP_SHORTCUT_UNCOVERED: i32 = 8;
 /// Standard shape functions for the multiplier (the paper's). Default.
 pub const STICKSLIP_BASIS_STANDARD: i32 = 0;
-/// Dual shape functions. Not in this version.
+/// Dual functions, biorthogonal to the shape functions over what is covered of a facet: a node's force is its multiplier
+/// times its covered area, and tractions do not oscillate beside edges and on curved surfaces. The tangent couples the
+/// mortar nodes of all pairs of a facet. Give weak_coverage, 0.2 say, where surfaces slide off an edge. UNSUPPORTED in
+/// this version: STICKSLIP_MORTAR_ANALYTIC, STICKSLIP_INTEGRATION_ELEMENTS and HYBRID, sums of handles, the stages.
 pub const STICKSLIP_BASIS_DUAL: i32 = 1;
 /// 7 points a triangle, degree 5: exact for triangles and parallelograms. Default.
 pub const STICKSLIP_QUADRATURE_DEGREE_5: i32 = 0;
@@ -381,7 +384,8 @@ pub(super) fn read_options(p: *const stickslip_options) -> Result<Choices> {
     let sides = [MortarSide::Deformable, MortarSide::Rigid, MortarSide::Rigid];
     let analytic = mortar_side == STICKSLIP_MORTAR_ANALYTIC;
     let mortar_side = choose(mortar_side, "options.mortar_side", &sides, 3)?;
-    choose(multiplier_basis, "options.multiplier_basis", &[()], 2)?;
+    let bases = [MultiplierBasis::Standard, MultiplierBasis::Dual];
+    let basis = choose(multiplier_basis, "options.multiplier_basis", &bases, 2)?;
     let numbers = [
         ("mu", mu),
         ("augmentation", augmentation),
@@ -411,6 +415,7 @@ pub(super) fn read_options(p: *const stickslip_options) -> Result<Choices> {
         (r, _) => Stiffness::Augmentation(r),
     };
     let options = Options {
+        basis,
         form: choose(form, "options.form", &[Form::Multiplier, Form::Augmented], 2)?,
         slip: slip_measure(slip, "options.slip")?,
         weights: choose(weights, "options.weights", &[Weights::Current, Weights::Committed, Weights::Reference], 3)?,

@@ -15,8 +15,9 @@ use super::pairing::candidates::KeptTree;
 use super::pairing::filter::Filter;
 use super::pairing::given::{Given, Step, check_finite};
 use super::stages::apart::stays_apart;
-use super::stages::carried::refuse_carrying_over_handles;
+use super::stages::carried::refuse_sums;
 use super::stages::commit;
+use super::stages::facet::facet;
 use super::stages::integrate::{integrate, segments};
 use super::stages::respond::{Responses, respond};
 use super::stages::sums::{self, NodeSums};
@@ -166,7 +167,8 @@ impl<const N: usize> Cache<N> {
             } else if kept.is_none_or(|k| k.apart) {
                 self.complete(setup, step)?;
                 let filter = step.pairing.filter.as_ref().expect("current weights have one");
-                let active = integrate(setup.surfaces(), &setup.options, filter, self.work(), (x1, x2))?;
+                let mut active = integrate(setup.surfaces(), &setup.options, filter, self.work(), (x1, x2))?;
+                facet(&setup.nonmortar, setup.options.basis, &mut active)?;
                 self.kept = Some(Kept { active, scope: Scope { extent, apart }, sums: None });
             }
             if let Some(k) = &mut self.kept {
@@ -245,7 +247,7 @@ impl<const N: usize> Cache<N> {
             Some(sums) => {
                 Given { setup, step }.check_positions(x.0, x.1)?;
                 check_length("sums", sums.len(), nodes)?;
-                refuse_carrying_over_handles(&setup.options)?;
+                refuse_sums(&setup.options)?;
                 self.integrate(setup, step, x, extent)?;
                 memory::copied(sums)?
             }

@@ -4,7 +4,7 @@
 //! allocates.
 //!
 //! Data flows one way. [`Contact`] owns it and calls functions of data: `pairing` at a commit; in an evaluation the stages
-//! `integrate`, `sums`, `respond`, `residual`, and `tangent`. None of them knows the handle, and no stage calls an earlier
+//! `integrate`, `facet`, `sums`, `respond`, `residual`, and `tangent`. None of them knows the handle, and no stage calls an earlier
 //! one.
 
 #[cfg(test)]
@@ -27,8 +27,8 @@ pub use data::extent::Extent;
 pub use data::facet_gaps::FacetGaps;
 pub use data::history::History;
 pub use data::options::{
-    COVERAGE_MIN, Form, Friction, MODULUS_FACTOR, MortarSide, NewContact, Options, RowScale, Scheme, Shortcuts,
-    Stiffness, TURN_MAX, Tangent, Weights,
+    COVERAGE_MIN, Form, Friction, MODULUS_FACTOR, MortarSide, MultiplierBasis, NewContact, Options, RowScale, Scheme,
+    Shortcuts, Stiffness, TURN_MAX, Tangent, Weights,
 };
 pub use data::pairs::PairRecord;
 pub use data::surface::{FacetNodes, NO_EQUATION, Surface};

@@ -79,7 +79,7 @@ fn only_the_abi_and_the_processors_instructions_are_unsafe() {
 }
 
 /// The stages of an evaluation, in their order: none calls an earlier one, though it may know what that gives.
-const STAGES: [&str; 4] = ["integrate", "sums", "respond", "residual"];
+const STAGES: [&str; 5] = ["integrate", "facet", "sums", "respond", "residual"];
 
 /// The rooms of `src/interface`, lowest first.
 const ROOMS: [&str; 5] = ["data", "pairing", "stages", "tangent", "inspect"];

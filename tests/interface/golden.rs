@@ -31,6 +31,11 @@ pub struct Golden {
 
 /// An interface with equations numbered x1, x2, lambda and every golden input set.
 pub fn set_up(case: &Value, form: Form, rule: &'static Rule) -> Golden {
+    set_up_with(case, Options { form, rule, ..Options::new(Stiffness::Augmentation(1.0)) })
+}
+
+/// The same with more options than form and rule.
+pub fn set_up_with(case: &Value, mut options: Options) -> Golden {
     let (x1, x2) = (points(&case["x1"]), points(&case["x2"]));
     let (n1, n2) = (x1.len() as i64, x2.len() as i64);
     let equations = |first: i64, n: i64| (0..n).map(|k| [0, 1, 2].map(|i| first + 3 * k + i)).collect::<Vec<_>>();
@@ -41,9 +46,6 @@ pub fn set_up(case: &Value, form: Form, rule: &'static Rule) -> Golden {
     let one = Surface::new("nonmortar", points(&case["x1_prev"]), &facets(&case["facets1"]), equations(0, n1)).unwrap();
     let two =
         Surface::new("mortar", points(&case["x2_prev"]), &facets(&case["facets2"]), equations(3 * n1, n2)).unwrap();
-    let mut options = Options::new(Stiffness::Augmentation(1.0));
-    options.form = form;
-    options.rule = rule;
     options.row_scale = RowScale::None;
     options.new_contact = NewContact::KeepFriction;
     options.slip = match case["variant"].as_str().unwrap() {
@@ -60,7 +62,7 @@ pub fn set_up(case: &Value, form: Form, rule: &'static Rule) -> Golden {
 }
 
 /// Worst error over the blocks (f1, f2, c), each relative to its largest entry.
-fn residual_error(g: &mut Golden, expected: &[f64]) -> f64 {
+pub fn residual_error(g: &mut Golden, expected: &[f64]) -> f64 {
     let r = g.interface.residual(&g.x1, &g.x2, &g.lambda, None).unwrap();
     let blocks = [r.nonmortar, r.mortar, r.rows].map(|b| b.iter().flat_map(|v| v.iter().copied()).collect::<Vec<_>>());
     let mut first = 0;
@@ -76,7 +78,7 @@ fn residual_error(g: &mut Golden, expected: &[f64]) -> f64 {
     worst
 }
 
-fn dense_tangent(g: &mut Golden) -> (usize, Vec<f64>) {
+pub fn dense_tangent(g: &mut Golden) -> (usize, Vec<f64>) {
     let n = 3 * (2 * g.x1.len() + g.x2.len());
     let mut k = vec![0.0; n * n];
     let mut add = |i: i64, j: i64, v: f64| k[i as usize * n + j as usize] += v;
@@ -84,7 +86,7 @@ fn dense_tangent(g: &mut Golden) -> (usize, Vec<f64>) {
     (n, k)
 }
 
-fn expected_tangent(coo: &Value, n: usize) -> Vec<f64> {
+pub fn expected_tangent(coo: &Value, n: usize) -> Vec<f64> {
     let mut k = vec![0.0; n * n];
     let (i, j, v) = (numbers(&coo["i"]), numbers(&coo["j"]), numbers(&coo["v"]));
     for t in 0..v.len() {
@@ -93,11 +95,12 @@ fn expected_tangent(coo: &Value, n: usize) -> Vec<f64> {
     k
 }
 
-/// Worst error over the 3 x 3 blocks (f1, f2, c) x (x1, x2, lambda), relative to the block's largest.
-fn tangent_error(n1: usize, n: usize, k: &[f64], expected: &[f64]) -> f64 {
+/// Worst error over the 3 x 3 blocks (f1, f2, c) x (x1, x2, lambda), relative to the block's largest, or to the part
+/// `vanishing` of the matrix's largest where that is more.
+pub fn tangent_error(n1: usize, n: usize, k: &[f64], expected: &[f64], vanishing: f64) -> f64 {
     let ends = [0, 3 * n1, n - 3 * n1, n];
     let mut worst = 0.0_f64;
-    let least = VANISHING * max_abs(expected.iter().copied());
+    let least = vanishing * max_abs(expected.iter().copied());
     for rows in ends.windows(2) {
         for columns in ends.windows(2) {
             let (mut error, mut scale) = (0.0_f64, 0.0_f64);
@@ -150,7 +153,7 @@ fn golden_tangents() {
             true => ("tangent", TANGENT_NEAR_MATCHING),
             false => ("tangent_exactquad", RULE_TANGENT),
         };
-        let error = tangent_error(g.x1.len(), n, &k, &expected_tangent(&case[key], n));
+        let error = tangent_error(g.x1.len(), n, &k, &expected_tangent(&case[key], n), VANISHING);
         println!("{:32} tangent {error:.1e}", name(&case));
         assert!(error <= bound, "{}: tangent off by {error:e}", name(&case));
     }

@@ -10,6 +10,7 @@ mod commits;
 mod crease;
 mod crosspoints;
 mod diagnosis;
+mod dual;
 mod effects;
 mod equilibrium;
 mod golden;

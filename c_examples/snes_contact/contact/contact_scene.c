@@ -146,7 +146,7 @@ static void read_effects(Scene *scene, Interface *interface)
     options->no_shortcuts = STICKSLIP_SHORTCUT_RIGID;
 }
 
-/* `weights`, `slip`, `form`, `new_contact`, the augmentation and the search. */
+/* `basis`, `weights`, `slip`, `form`, `new_contact`, the augmentation and the search. */
 static void read_method(Scene *scene, Interface *interface)
 {
   static const char *const weights[]      = {"current", "committed", "reference", NULL};
@@ -156,7 +156,9 @@ static void read_method(Scene *scene, Interface *interface)
   static const char *const row_scales[]   = {"force", "none", NULL};
   stickslip_options       *options        = &interface->options;
   const char              *name           = interface->name;
-  PetscInt  weight = STICKSLIP_WEIGHTS_CURRENT, slip = STICKSLIP_SLIP_OBJECTIVE, form = STICKSLIP_FORM_MULTIPLIER,
+  static const char *const bases[]        = {"standard", "dual", NULL};
+  PetscInt  basis = STICKSLIP_BASIS_STANDARD, weight = STICKSLIP_WEIGHTS_CURRENT,
+           slip = STICKSLIP_SLIP_OBJECTIVE, form = STICKSLIP_FORM_MULTIPLIER,
            new_contact = STICKSLIP_NEW_CONTACT_FRICTIONLESS, row_scale = STICKSLIP_ROW_SCALE_FORCE;
   PetscReal augmentation = 0, modulus = 0, distance = 0, weak_coverage = 0, turn_max = 0, coverage_min = options->coverage_min;
 
@@ -168,6 +170,7 @@ static void read_method(Scene *scene, Interface *interface)
   if (!strcmp(word, "seed")) scene_fail(scene, name, "slip", "'seed' is called 'paper' now.");
   scene_choice(scene, name, "slip", slips, &slip);
   scene_choice(scene, name, "form", forms, &form);
+  scene_choice(scene, name, "basis", bases, &basis);
   scene_choice(scene, name, "new_contact", new_contacts, &new_contact);
   scene_choice(scene, name, "row_scale", row_scales, &row_scale);
   scene_bool(scene, name, "initial_contact", &interface->initial_contact);
@@ -187,6 +190,7 @@ static void read_method(Scene *scene, Interface *interface)
     scene_fail(scene, name, "coverage_min", "it must be at least 0 and below 1.");
   if (turn_max < 0 || turn_max > PETSC_PI)
     scene_fail(scene, name, "turn_max", "it is an angle in radians: from 0 to pi.");
+  options->multiplier_basis = (int32_t)basis;
   options->turn_max        = turn_max;
   options->weights         = (int32_t)weight;
   options->slip            = (int32_t)slip;

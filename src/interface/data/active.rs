@@ -17,13 +17,15 @@ pub struct Active {
     pub pairs: Vec<PairRecord>,
     /// The overlap of each pair, kept for the tangent; none against an analytic mortar side.
     pub segments: Vec<Segment>,
+    /// The weights as they were integrated, of each pair, where those in `pairs` are of the dual basis; else none.
+    pub integrated: Vec<PairWeights>,
 }
 
 impl Active {
     /// No pairs at a configuration.
     pub fn none(x1: &[Vec3], x2: &[Vec3]) -> Result<Active> {
         let (x1, x2) = (memory::copied(x1)?, memory::copied(x2)?);
-        Ok(Active { x1, x2, frames: Vec::new(), pairs: Vec::new(), segments: Vec::new() })
+        Ok(Active { x1, x2, frames: Vec::new(), pairs: Vec::new(), segments: Vec::new(), integrated: Vec::new() })
     }
 
     /// Whether it is that of these positions.

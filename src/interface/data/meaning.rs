@@ -12,9 +12,8 @@ use crate::law::{LAWS, Remembers, SlipMeasure};
 /// Integers of a meaning.
 pub const LENGTH: usize = 8;
 
-/// The place of the multipliers' basis in [`BASES`].
-const STANDARD_BASIS: i64 = 0;
-const BASES: [&str; 1] = ["the standard multiplier basis"];
+/// By [`MultiplierBasis`](super::options::MultiplierBasis).
+const BASES: [&str; 2] = ["the standard multiplier basis", "the dual multiplier basis"];
 const WEIGHTS: [&str; 3] =
     ["weights of now", "weights frozen at the last commit", "weights of the first configuration"];
 const SLIPS: [&str; 4] = ["no slip", "the objective slip measure", "the slip increment", "the paper's slip measure"];
@@ -46,7 +45,7 @@ pub fn of(options: &Options, nonmortar: &Surface, mortar: &Surface) -> [i64; LEN
     let coordinates = sides.iter().flat_map(|s| s.reference.iter().flatten().map(|v| (v + 0.0).to_bits()));
     [
         law.friction as i64,
-        STANDARD_BASIS,
+        options.basis as i64,
         weights,
         slip,
         shape as i64,

@@ -63,6 +63,16 @@ pub enum RowScale {
     None,
 }
 
+/// The functions that multiply the multipliers.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum MultiplierBasis {
+    /// The shape functions, as in the paper.
+    #[default]
+    Standard,
+    /// Biorthogonal to the shape functions over what is covered of a facet (docs/formulation.md 10).
+    Dual,
+}
+
 /// What a node does in the step in which it becomes covered: it has no slip history.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum NewContact {
@@ -117,6 +127,8 @@ pub enum Stiffness {
 pub struct Options {
     /// Multiplier or augmented form.
     pub form: Form,
+    /// Standard or dual multipliers.
+    pub basis: MultiplierBasis,
     /// Slip measure.
     pub slip: SlipMeasure,
     /// Current or frozen weights.
@@ -169,6 +181,7 @@ impl Options {
     pub fn new(stiffness: Stiffness) -> Options {
         Options {
             form: Form::default(),
+            basis: MultiplierBasis::default(),
             slip: SlipMeasure::default(),
             weights: Weights::default(),
             rule: &DEGREE_5,

@@ -1,7 +1,7 @@
 //! What an interface computes and why, one sentence an effect, for a host's log.
 
 use crate::error::{Result, Text};
-use crate::interface::data::options::{MortarSide, Scheme, Tangent, Weights};
+use crate::interface::data::options::{MortarSide, MultiplierBasis, Scheme, Tangent, Weights};
 use crate::interface::data::setup::Setup;
 use crate::interface::data::surface::NO_EQUATION;
 use crate::law::Coefficient;
@@ -27,6 +27,9 @@ pub fn effects<const N: usize>(setup: &Setup<N>) -> Result<Text> {
     ];
     for sentence in sentences {
         text.append(format_args!(" {sentence}"))?;
+    }
+    if setup.options.basis == MultiplierBasis::Dual {
+        text.append(format_args!(" Multipliers: dual (asked for)."))?;
     }
     text.append(format_args!("{}", weak_sentence(setup)?))?;
     Ok(text)

@@ -55,7 +55,7 @@ pub fn integrate(
     counters.pairs_integrated += pairs.len() as i64;
     counters.seconds_integration += start.elapsed().as_secs_f64();
     let (x1, x2) = (memory::copied(x1)?, memory::copied(x2)?);
-    Ok(Active { x1, x2, frames, pairs, segments: Vec::new() })
+    Ok(Active { x1, x2, frames, pairs, segments: Vec::new(), integrated: Vec::new() })
 }
 
 /// Whether every node is outside the surface by more than any facet's edge there, in all of the configurations (x1, x2).

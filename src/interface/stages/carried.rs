@@ -13,7 +13,7 @@ use super::node::node;
 use super::sums::NodeSums;
 use crate::error::{Error, Kind, Result};
 use crate::geometry::{Mat3, Vec3};
-use crate::interface::data::options::Options;
+use crate::interface::data::options::{MultiplierBasis, Options};
 use crate::interface::pairing::given::Given;
 use crate::law::NodeResponse;
 use crate::memory::{Store, Stored};
@@ -26,8 +26,12 @@ pub fn carried<const N: usize>(given: Given<N>, sums: &[NodeSums]) -> Result<Vec
     if given.step.pairing.carriers.is_empty() { Ok(Vec::new()) } else { (0..sums.len()).map(carried).stored() }
 }
 
-/// Sums of several handles: a node's carriers would have to be known to all of them.
-pub fn refuse_carrying_over_handles(options: &Options) -> Result<()> {
+/// Sums of several handles: a node's carriers, and all pairs of a facet, would have to be known to all of them.
+pub fn refuse_sums(options: &Options) -> Result<()> {
+    if options.basis == MultiplierBasis::Dual {
+        let text = "sums with the dual multiplier basis: it depends on all pairs of a facet, which are known within one handle only; take the standard one";
+        return Err(Error::new(Kind::Unsupported, text));
+    }
     if options.weak_coverage > 0.0 {
         let text = "sums with weak_coverage > 0: weakly covered nodes are carried within one handle only";
         return Err(Error::new(Kind::Unsupported, text));

@@ -1,6 +1,7 @@
 //! What becomes t_n at a commit: the history of a configuration, and the filter of the step that follows.
 
 use super::apart;
+use super::facet::facet;
 use super::integrate::integrate;
 use super::layers;
 use super::sums::assemble;
@@ -64,6 +65,7 @@ pub fn settled_at(
         &frames(nonmortar, x1)?
     } else {
         let mut new = integrate((nonmortar, mortar), options, &filter, (counters, tree), (x1, x2))?;
+        facet(nonmortar, options.basis, &mut new)?;
         layers::refuse(mortar, &new)?;
         let mut sums = assemble((nonmortar, mortar), &new.pairs, x1, x2)?;
         if keeps.facet_gaps() {
@@ -97,6 +99,7 @@ pub fn complete(
     kept: (&mut Counters, &mut KeptTree),
 ) -> Result<()> {
     let mut new = integrate(surfaces, options, filter, kept, (&history.x1, &history.x2))?;
+    facet(surfaces.0, options.basis, &mut new)?;
     let sums = assemble(surfaces, &new.pairs, &history.x1, &history.x2)?;
     layers::refuse(surfaces.1, &new)?;
     history.fill(&mut new.pairs, &sums)

@@ -43,6 +43,7 @@ pub fn integrate(
         // Large, too; candidates that do not overlap are few.
         pairs: memory::with_room(candidates.len())?,
         segments: memory::with_room(candidates.len())?,
+        integrated: Vec::new(),
     };
     for candidates in candidates.chunk_by(|p, q| p.0 == q.0) {
         let first = active.pairs.len();

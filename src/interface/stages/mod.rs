@@ -1,10 +1,11 @@
 //! What a commit and an evaluation are made of: functions from data to data. Of the stages of an evaluation (`integrate`,
-//! `sums`, `respond`, `residual`) none calls an earlier one; `commit` runs the first two at the new configuration.
+//! `facet`, `sums`, `respond`, `residual`) none calls an earlier one; `commit` runs the first three at the new configuration.
 
 pub mod apart;
 pub mod away;
 pub mod carried;
 pub mod commit;
+pub mod facet;
 pub mod initial;
 pub mod integrate;
 pub mod layers;

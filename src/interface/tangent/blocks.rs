@@ -6,20 +6,23 @@
 use super::augmented::{NodeCouplings, dtraction};
 use super::carried_tangent;
 use super::derivatives::PairDerivatives;
+use super::dual_facet::{self, DualFacet};
 use super::emission::{Emitter, Sink, entries};
 use super::facet_tangent::{FacetTangent, total};
 use super::union::UnionPair;
+use crate::dual::{FacetColumns, FacetMotion, TractionDerivatives};
 use crate::element::{FacetResponse, NodeTangent, PairNow, PairTangent, row_columns};
 use crate::error::Result;
 use crate::geometry::{Mat3, Vec3};
 use crate::interface::data::active::Active;
 use crate::interface::data::extent::Extent;
 use crate::interface::data::multiplier::force_traction;
-use crate::interface::data::options::{Form, Scheme};
+use crate::interface::data::options::{Form, MultiplierBasis, Scheme};
 use crate::interface::pairing::given::Given;
 use crate::interface::stages::respond::Responses;
 use crate::memory::{self, Stored};
-use crate::mortar::{GapDerivative, MORTAR};
+use crate::mortar::{ForceDerivatives, GapDerivative, MORTAR, PAIR_NODES};
+use crate::shape::{MAX_CORNERS, MAX_NODES};
 use nalgebra::{SMatrix, SVector};
 
 /// What the numbers of a tangent are made of.
@@ -60,6 +63,31 @@ impl<const N: usize> Numbers<'_, N> {
         (&self.responses.carried, &self.nodes)
     }
 
+    /// What the dual multipliers of a facet have in common over these pairs, all of its own.
+    fn dual(&self, given: Given<N>, pairs: &[UnionPair]) -> Result<Option<DualFacet>> {
+        self.active.map_or(Ok(None), |active| DualFacet::of(given, active, pairs))
+    }
+
+    /// As [`Numbers::derivatives`], of one pair of a facet with dual multipliers, which is `None` where it has faded out.
+    fn dual_share(
+        &self,
+        given: Given<N>,
+        (pair, facet): (&UnionPair, Option<&FacetMotion>),
+        t: &mut PairTangent<N>,
+        tractions: &mut TractionDerivatives,
+    ) -> Option<GapDerivative> {
+        let (active, facet) = match (self.active.filter(|_| pair.now.is_some()), facet) {
+            (Some(active), Some(facet)) => (active, facet),
+            _ => {
+                t.forces = ForceDerivatives::default();
+                return None;
+            }
+        };
+        let mortar = given.setup.mortar.facets[pair.two].len;
+        let share = (&active.integrated[pair.place], &active.segments[pair.place], mortar);
+        Some(self.motion.of_share(&active.frames[pair.one], facet, share, &mut t.forces, tractions))
+    }
+
     /// Derivatives of `pairs` of one facet, its first ones where `first`: of the gap, and of the forces into `t`.
     fn derivatives(
         &self,
@@ -93,9 +121,12 @@ pub fn blocks<const MOVES: bool, const N: usize>(
     let mut couplings: Option<Vec<NodeCouplings>> = augmented.then(|| memory::defaults(given.nodes())).transpose()?;
     // Large, so that one of each serves all pairs.
     let (mut t, mut facet) = (PairTangent::default(), FacetTangent::default());
+    let mut tractions: TractionDerivatives = [[[[0.0; MAX_CORNERS]; 3]; 3]; PAIR_NODES];
     // With a mortar side at rest all of it is linear in the weights of a facet's pairs; carried nodes and points in place
     // of overlaps take them one by one.
-    let together = !MOVES && given.step.pairing.carriers.is_empty() && matches!(options.scheme, Scheme::Segments);
+    let is_dual = options.basis == MultiplierBasis::Dual && options.differentiates_weights();
+    let together =
+        !MOVES && !is_dual && given.step.pairing.carriers.is_empty() && matches!(options.scheme, Scheme::Segments);
     sink.reserve(entries::<MOVES, N>(union, given.nodes()));
     let mut emitter = Emitter { given, normals, sink };
     let carried_nodes = numbers.map(Numbers::carried);
@@ -105,11 +136,31 @@ pub fn blocks<const MOVES: bool, const N: usize>(
         let one = &given.setup.nonmortar.facets[f];
         let facet_nodes = numbers.map(|n| FacetResponse::new(one.nodes.map(|a| &n.nodes[a])));
         facet.acts = false;
+        let dual = numbers.map_or(Ok(None), |n| n.dual(given, pairs))?;
+        let motion = match (&dual, &facet_nodes, numbers.and_then(|n| n.active)) {
+            (Some(dual), Some(nodes), Some(active)) => dual.motion(&active.frames[f], &nodes.traction),
+            _ => None,
+        };
+        let mortar = if MOVES && is_dual { dual_facet::mortar_nodes(given, pairs)? } else { Vec::new() };
+        let mut weights = memory::filled([0.0; MAX_CORNERS], mortar.len())?;
+        let mut share = memory::filled([[[0.0; MAX_CORNERS]; 3]; 3], MAX_NODES + mortar.len())?;
+        let mut columns = FacetColumns::new(one.len, &mut weights, &mut share);
         for (place, pairs) in pairs.chunks(if together { pairs.len() } else { 1 }).enumerate() {
             let (now, previous) = (total(pairs.iter().map(|p| p.now)), total(pairs.iter().map(|p| p.previous)));
             let (previous, mut gap) = (previous.as_deref(), None);
             if let (Some(numbers), Some(nodes)) = (numbers, &facet_nodes) {
-                gap = numbers.derivatives(given, (pairs, place == 0), nodes, &mut t)?;
+                gap = if dual.is_some() {
+                    let gap = numbers.dual_share(given, (&pairs[0], motion.as_ref()), &mut t, &mut tractions);
+                    if let (true, true, Some(active)) = (MOVES, gap.is_some(), numbers.active) {
+                        let two = &given.setup.mortar.facets[pairs[0].two];
+                        let places = dual_facet::places(two, &mortar);
+                        columns.add_weights(&active.integrated[pairs[0].place], &places[..two.len]);
+                        columns.add_tractions(&tractions, &places[..two.len]);
+                    }
+                    gap
+                } else {
+                    numbers.derivatives(given, (pairs, place == 0), nodes, &mut t)?
+                };
                 linearised += if numbers.active.is_some() { UnionPair::places(pairs).len() as i64 } else { 0 };
             }
             let now = now.as_deref().map(|weights| PairNow { weights, gap: gap.as_ref() });
@@ -142,6 +193,7 @@ pub fn blocks<const MOVES: bool, const N: usize>(
         if !together {
             emitter.facet(f, facet.now(), &facet.rows);
         }
+        dual_facet::emit(f, &mortar, numbers.map(|_| &columns), &mut emitter);
     }
     for a in 0..given.nodes() {
         let response = numbers.map(|n| &n.responses.nodes[a]);

@@ -4,6 +4,7 @@ pub mod augmented;
 pub mod blocks;
 pub mod carried_tangent;
 pub mod derivatives;
+pub mod dual_facet;
 pub mod emission;
 pub mod facet_tangent;
 pub mod union;

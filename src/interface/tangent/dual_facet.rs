@@ -1,0 +1,106 @@
+//! Facets of dual multipliers in the tangent (docs/formulation.md 10.4): derivatives of a pair become the pair's share of
+//! its facet's, and what couples the mortar nodes of all pairs of a facet is emitted once a facet.
+
+use super::derivatives::PairDerivatives;
+use super::emission::Emitter;
+use super::union::UnionPair;
+use crate::dual::{DualBasis, FacetColumns, FacetMotion, FacetSums, PairShare, TractionDerivatives};
+use crate::error::Result;
+use crate::geometry::Mat3;
+use crate::interface::data::active::Active;
+use crate::interface::data::effects::Opposite;
+use crate::interface::data::options::{MultiplierBasis, Tangent};
+use crate::interface::data::surface::FacetNodes;
+use crate::interface::pairing::given::Given;
+use crate::interface::stages::facet::dual_basis;
+use crate::memory::Store;
+use crate::mortar::{
+    AreaDerivatives, ForceDerivatives, GapDerivative, NonmortarFrame, PairWeights, Segment, facet_motion_raised,
+    pair_motion_raised,
+};
+use crate::shape::{MAX_CORNERS, MAX_NODES};
+use std::borrow::Cow;
+
+/// What a facet's pairs have in common where multipliers are dual.
+pub struct DualFacet {
+    sums: FacetSums,
+    basis: Option<DualBasis>,
+}
+
+impl DualFacet {
+    /// Of the pairs of a facet that are active; `None` with the standard basis, or without active pairs.
+    pub fn of<const N: usize>(given: Given<N>, active: &Active, pairs: &[UnionPair]) -> Result<Option<DualFacet>> {
+        let places = UnionPair::places(pairs);
+        if given.setup.options.basis == MultiplierBasis::Standard || places.is_empty() {
+            return Ok(None);
+        }
+        let (sums, basis) = dual_basis(&given.setup.nonmortar, active, places)?;
+        Ok(Some(DualFacet { sums, basis }))
+    }
+
+    /// The facet at these tractions `[i][A]`; `None` where it has faded out: it has no forces and no gap.
+    pub fn motion(&self, frame: &NonmortarFrame, tractions: &[[f64; MAX_CORNERS]; 3]) -> Option<FacetMotion<'_>> {
+        self.basis.as_ref().map(|basis| FacetMotion::new(frame, basis, &self.sums.gamma, tractions))
+    }
+}
+
+impl PairDerivatives<'_> {
+    /// As [`PairDerivatives::of`], of one pair with its weights as they were integrated and so many mortar nodes:
+    /// its share of the facet's derivatives, and D(phi q) into `tractions`.
+    pub fn of_share(
+        &self,
+        frame: &NonmortarFrame,
+        facet: &FacetMotion,
+        (weights, segment, mortar): (&PairWeights, &Segment, usize),
+        forces: &mut ForceDerivatives,
+        tractions: &mut TractionDerivatives,
+    ) -> GapDerivative {
+        let mut frame = Cow::Borrowed(frame);
+        if self.tangent == Tangent::FrozenNormals {
+            frame.to_mut().plane.tilt = Default::default();
+        }
+        let moves = self.opposite == Opposite::Moves;
+        let mut areas = AreaDerivatives::default();
+        let raised = facet.raised(&mut areas);
+        let mut gap = if moves || segment.points.is_some() {
+            pair_motion_raised((&frame, segment, self.rule), weights, &facet.field, forces, raised)
+        } else {
+            let pairs = std::iter::once((segment, weights));
+            facet_motion_raised(&frame, pairs, self.rule, &facet.field, forces, raised)
+        };
+        let share = PairShare { forces, gap: &mut gap, areas: &mut areas, tractions };
+        facet.share(if moves { mortar } else { 0 }, weights, share);
+        GapDerivative::Facets(gap)
+    }
+}
+
+/// The mortar nodes of a facet's active pairs, each once, in the order in which they are met.
+pub fn mortar_nodes<const N: usize>(given: Given<N>, pairs: &[UnionPair]) -> Result<Vec<usize>> {
+    let mut nodes = Vec::new();
+    for pair in pairs.iter().filter(|pair| pair.now.is_some()) {
+        for &node in given.setup.mortar.facets[pair.two].as_slice() {
+            if !nodes.contains(&node) {
+                nodes.store(node)?;
+            }
+        }
+    }
+    Ok(nodes)
+}
+
+/// The places of a pair's mortar nodes among those of its facet.
+pub fn places(facet: &FacetNodes, nodes: &[usize]) -> [usize; MAX_NODES] {
+    facet.nodes.map(|node| nodes.iter().position(|n| *n == node).unwrap_or(0))
+}
+
+/// The blocks of the coupling: rows of the facet's mortar nodes, columns of its own and of these.
+pub fn emit<const N: usize>(f: usize, nodes: &[usize], columns: Option<&FacetColumns>, emitter: &mut Emitter<N>) {
+    let (one, two) = emitter.given.setup.surfaces();
+    let own = one.facets[f].as_slice().iter().enumerate().map(|(k, &a)| (k, &one.equations[a]));
+    let all = own.chain(nodes.iter().enumerate().map(|(c, &node)| (MAX_NODES + c, &two.equations[node])));
+    for (column, equations) in all {
+        for (place, &node) in nodes.iter().enumerate() {
+            let block = columns.map_or_else(Mat3::zeros, |columns| columns.coupling(place, column));
+            emitter.sink.add_block(&two.equations[node], equations, block.as_slice());
+        }
+    }
+}
