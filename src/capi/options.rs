@@ -239,9 +239,14 @@ fn choose<T: Copy>(value: i32, name: &str, available: &[T], named: i32) -> Resul
         if (0..named).contains(&value) {
             Error::new(Kind::Unsupported, text!("{name} = {value} is not available in this version"))
         } else {
-            Error::new(Kind::InvalidValue, text!("{name} is {value}; the header names 0 to {}", named - 1))
+            unnamed(value, name, named)
         }
     })
+}
+
+#[cold]
+fn unnamed(value: i32, name: &str, named: i32) -> Error {
+    Error::new(Kind::InvalidValue, text!("{name} is {value}; the header names 0 to {}", named - 1))
 }
 
 fn read_shortcuts(off: i32) -> Result<Shortcuts> {
@@ -298,8 +303,8 @@ pub(super) fn slip_measure(value: i32, name: &str) -> Result<SlipMeasure> {
 
 /// The law of a STICKSLIP_FRICTION_... value.
 pub(super) fn law(value: i32, name: &str) -> Result<Friction> {
-    let laws = LAWS.map(|law| law.friction);
-    choose(value, name, &laws, laws.len() as i32)
+    let row = usize::try_from(value).ok().and_then(|k| LAWS.get(k));
+    row.map(|row| row.friction).ok_or_else(|| unnamed(value, name, LAWS.len() as i32))
 }
 
 /// Refuses numbers of other laws, and a law without its own.

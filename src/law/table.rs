@@ -95,7 +95,7 @@ pub struct LawRow {
 }
 
 /// In the order of [`Friction`].
-pub const LAWS: [LawRow; 5] = [
+pub static LAWS: [LawRow; 5] = [
     LawRow {
         friction: Friction::Coulomb,
         name: "Coulomb's law",

@@ -36,29 +36,32 @@ const V: usize = MAX_CORNERS;
 /// the fields `p[i][A]`, into `forces`, whose other slots are left as they are, and of the gaps.
 pub fn facet_motion<'a>(
     frame: &NonmortarFrame,
-    pairs: impl Iterator<Item = (&'a Segment, &'a PairWeights)>,
+    mut pairs: impl Iterator<Item = (&'a Segment, &'a PairWeights)>,
     rule: &Rule,
     p: &[[f64; MAX_CORNERS]; 3],
     forces: &mut ForceDerivatives,
 ) -> AlongNormal {
-    motion(frame, pairs, rule, p, forces, None)
+    motion(frame, &mut pairs, rule, p, forces, None)
 }
 
 /// The same over a mortar surface that is raised, as [`super::pair_motion_raised`].
 pub fn facet_motion_raised<'a>(
     frame: &NonmortarFrame,
-    pairs: impl Iterator<Item = (&'a Segment, &'a PairWeights)>,
+    mut pairs: impl Iterator<Item = (&'a Segment, &'a PairWeights)>,
     rule: &Rule,
     p: &[[f64; MAX_CORNERS]; 3],
     forces: &mut ForceDerivatives,
     raised: Raised,
 ) -> AlongNormal {
-    motion(frame, pairs, rule, p, forces, Some(raised))
+    motion(frame, &mut pairs, rule, p, forces, Some(raised))
 }
 
-fn motion<'a>(
-    frame: &NonmortarFrame,
-    pairs: impl Iterator<Item = (&'a Segment, &'a PairWeights)>,
+/// The pairs of a facet. Not a type of its own for each caller: each would compile the kernels once more.
+type Pairs<'a, 'p> = dyn Iterator<Item = (&'p Segment, &'p PairWeights)> + 'a;
+
+fn motion<'a, 'p>(
+    frame: &'a NonmortarFrame,
+    pairs: &'a mut Pairs<'a, 'p>,
     rule: &Rule,
     p: &[[f64; MAX_CORNERS]; 3],
     forces: &mut ForceDerivatives,
@@ -66,15 +69,15 @@ fn motion<'a>(
 ) -> AlongNormal {
     let rule = rule.for_derivatives();
     if frame.projection.shape.n == 3 {
-        simd::dispatch(AtRest::<_, Tri3> { frame, pairs, rule, p, forces, raised, one: PhantomData })
+        simd::dispatch(AtRest::<Tri3> { frame, pairs, rule, p, forces, raised, one: PhantomData })
     } else {
-        simd::dispatch(AtRest::<_, Quad4> { frame, pairs, rule, p, forces, raised, one: PhantomData })
+        simd::dispatch(AtRest::<Quad4> { frame, pairs, rule, p, forces, raised, one: PhantomData })
     }
 }
 
-struct AtRest<'a, I, One> {
+struct AtRest<'a, 'p, One> {
     frame: &'a NonmortarFrame,
-    pairs: I,
+    pairs: &'a mut Pairs<'a, 'p>,
     rule: &'a Rule,
     p: &'a [[f64; MAX_CORNERS]; 3],
     forces: &'a mut ForceDerivatives,
@@ -82,7 +85,7 @@ struct AtRest<'a, I, One> {
     one: PhantomData<One>,
 }
 
-impl<'a, I: Iterator<Item = (&'a Segment, &'a PairWeights)>, One: SingleBasis> Kernel for AtRest<'_, I, One> {
+impl<One: SingleBasis> Kernel for AtRest<'_, '_, One> {
     type Output = AlongNormal;
 
     #[inline(always)]

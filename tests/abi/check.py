@@ -26,8 +26,8 @@ FUNCTIONS = HERE / "functions.txt"
 CONSTANTS = HERE / "constants.txt"
 
 # A library to link without a second thought: stripped it stays below this many bytes. Two million held until refusals of
-# memory, the measures of equilibrium and the checks of a commit came: 2.16 million.
-LARGEST = 2_200_000
+# memory, the measures of equilibrium and the checks of a commit came: 2.16 million. Dual multipliers: 2.22 million.
+LARGEST = 2_300_000
 # glibc's own libraries, the loader, and the one that unwinds.
 ALLOWED = ("libc.so", "libm.so", "libdl.so", "librt.so", "libutil.so", "libpthread.so", "ld-linux", "libgcc_s.so")
 # Bits of abidiff's exit code.

@@ -6,11 +6,11 @@
 use super::augmented::{NodeCouplings, dtraction};
 use super::carried_tangent;
 use super::derivatives::PairDerivatives;
-use super::dual_facet::{self, DualFacet};
+use super::dual_facet::{self, Coupled, DualFacet};
 use super::emission::{Emitter, Sink, entries};
 use super::facet_tangent::{FacetTangent, total};
 use super::union::UnionPair;
-use crate::dual::{FacetColumns, FacetMotion, TractionDerivatives};
+use crate::dual::{FacetMotion, TractionDerivatives};
 use crate::element::{FacetResponse, NodeTangent, PairNow, PairTangent, row_columns};
 use crate::error::Result;
 use crate::geometry::{Mat3, Vec3};
@@ -22,7 +22,7 @@ use crate::interface::pairing::given::Given;
 use crate::interface::stages::respond::Responses;
 use crate::memory::{self, Stored};
 use crate::mortar::{ForceDerivatives, GapDerivative, MORTAR, PAIR_NODES};
-use crate::shape::{MAX_CORNERS, MAX_NODES};
+use crate::shape::MAX_CORNERS;
 use nalgebra::{SMatrix, SVector};
 
 /// What the numbers of a tangent are made of.
@@ -142,16 +142,15 @@ pub fn blocks<const MOVES: bool, const N: usize>(
             _ => None,
         };
         let mortar = if MOVES && is_dual { dual_facet::mortar_nodes(given, pairs)? } else { Vec::new() };
-        let mut weights = memory::filled([0.0; MAX_CORNERS], mortar.len())?;
-        let mut share = memory::filled([[[0.0; MAX_CORNERS]; 3]; 3], MAX_NODES + mortar.len())?;
-        let mut columns = FacetColumns::new(one.len, &mut weights, &mut share);
+        let mut coupled = Coupled::new(&mortar)?;
+        let mut columns = coupled.columns(one.len);
         for (place, pairs) in pairs.chunks(if together { pairs.len() } else { 1 }).enumerate() {
             let (now, previous) = (total(pairs.iter().map(|p| p.now)), total(pairs.iter().map(|p| p.previous)));
             let (previous, mut gap) = (previous.as_deref(), None);
             if let (Some(numbers), Some(nodes)) = (numbers, &facet_nodes) {
                 gap = if dual.is_some() {
                     let gap = numbers.dual_share(given, (&pairs[0], motion.as_ref()), &mut t, &mut tractions);
-                    if let (true, true, Some(active)) = (MOVES, gap.is_some(), numbers.active) {
+                    if let (true, Some(columns), Some(active)) = (gap.is_some(), &mut columns, numbers.active) {
                         let two = &given.setup.mortar.facets[pairs[0].two];
                         let places = dual_facet::places(two, &mortar);
                         columns.add_weights(&active.integrated[pairs[0].place], &places[..two.len]);
@@ -193,7 +192,7 @@ pub fn blocks<const MOVES: bool, const N: usize>(
         if !together {
             emitter.facet(f, facet.now(), &facet.rows);
         }
-        dual_facet::emit(f, &mortar, numbers.map(|_| &columns), &mut emitter);
+        dual_facet::emit(f, &mortar, columns.as_ref().filter(|_| numbers.is_some()), &mut emitter);
     }
     for a in 0..given.nodes() {
         let response = numbers.map(|n| &n.responses.nodes[a]);

@@ -13,7 +13,7 @@ use crate::interface::data::options::{MultiplierBasis, Tangent};
 use crate::interface::data::surface::FacetNodes;
 use crate::interface::pairing::given::Given;
 use crate::interface::stages::facet::dual_basis;
-use crate::memory::Store;
+use crate::memory::{self, Store};
 use crate::mortar::{
     AreaDerivatives, ForceDerivatives, GapDerivative, NonmortarFrame, PairWeights, Segment, facet_motion_raised,
     pair_motion_raised,
@@ -85,6 +85,28 @@ pub fn mortar_nodes<const N: usize>(given: Given<N>, pairs: &[UnionPair]) -> Res
         }
     }
     Ok(nodes)
+}
+
+/// Memory for what couples the mortar nodes of a facet's pairs; none where there are none.
+pub struct Coupled {
+    weights: Vec<[f64; MAX_CORNERS]>,
+    tractions: Vec<[[[f64; MAX_CORNERS]; 3]; 3]>,
+}
+
+impl Coupled {
+    /// For so many mortar nodes.
+    pub fn new(nodes: &[usize]) -> Result<Coupled> {
+        let (rows, columns) = if nodes.is_empty() { (0, 0) } else { (nodes.len(), MAX_NODES + nodes.len()) };
+        Ok(Coupled {
+            weights: memory::filled([0.0; MAX_CORNERS], rows)?,
+            tractions: memory::filled([[[0.0; MAX_CORNERS]; 3]; 3], columns)?,
+        })
+    }
+
+    /// The factors of the coupling of a facet with so many nodes, to which nothing has been added yet.
+    pub fn columns(&mut self, nodes: usize) -> Option<FacetColumns<'_>> {
+        (!self.weights.is_empty()).then(|| FacetColumns::new(nodes, &mut self.weights, &mut self.tractions))
+    }
 }
 
 /// The places of a pair's mortar nodes among those of its facet.
