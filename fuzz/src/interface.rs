@@ -67,6 +67,7 @@ impl Scene {
         options.shear_limit = if limited { bytes.number(0.5) } else { 0.0 };
         options.modulus = bytes.number(1000.0);
         options.augmentation = if options.modulus == 0.0 { bytes.number(15.0) } else { 0.0 };
+        options.multiplier_basis = bytes.choice(2);
         options.coverage_min = bytes.number(1e-8);
         options.search_distance = bytes.number(0.0);
         let components = if options.friction == STICKSLIP_FRICTION_NONE { 1 } else { 3 };

@@ -29,6 +29,7 @@ QUADS = ("-upper_cell", "hex", "-lower_cell", "hex", "-grip_value", "0.02,0.01,-
 NO_FRICTION = ("-contact_law", "none", "-contact_friction", "0")
 # Without slip multipliers are larger: a softer body keeps them within one order of the displacements.
 ROUGH = ("-contact_law", "rough", "-contact_friction", "0", "-upper_young", "1")
+DUAL = ("-contact_basis", "dual")
 # mu decides at some nodes that slip, the limit at others.
 TRESCA = ("-contact_law", "tresca", "-contact_shear_limit", "0.1")
 
@@ -53,6 +54,8 @@ VARIANTS = {
     "neo-Hooke, augmented form": (*finite("neo_hooke", "pointwise"), "-contact_form", "augmented"),
     "St. Venant-Kirchhoff, mean, quadrilaterals": (*QUADS, *finite("st_venant_kirchhoff", "mean")),
     "rough": ROUGH,
+    "dual": DUAL,
+    "dual, augmented form": (*DUAL, "-contact_form", "augmented"),
     "shear limit": TRESCA,
     "shear limit, augmented form": (*TRESCA, "-contact_form", "augmented"),
     "rough, augmented form": (*ROUGH, "-contact_form", "augmented"),

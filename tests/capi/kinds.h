@@ -7,7 +7,7 @@
 /* A kind of scene. */
 typedef struct {
   const char *name;
-  int32_t form, friction, weights, integration;
+  int32_t form, friction, weights, integration, basis;
   double weak_coverage, slide, lift, shear_limit;
   int rigid, analytic;
   int unseen; /* the history is not looked at before the end: what a commit has left out is then made up for by a call */
@@ -26,6 +26,10 @@ static const kind kinds[] = {
     {.name = "reference weights", .weights = STICKSLIP_WEIGHTS_REFERENCE},
     {.name = "weak coverage", .weak_coverage = 0.5, .slide = 0.9},
     {.name = "weak coverage, augmented", .weak_coverage = 0.5, .slide = 0.9, .form = STICKSLIP_FORM_AUGMENTED},
+    {.name = "dual", .basis = STICKSLIP_BASIS_DUAL},
+    {.name = "dual, augmented", .basis = STICKSLIP_BASIS_DUAL, .form = STICKSLIP_FORM_AUGMENTED},
+    {.name = "dual, frictionless", .basis = STICKSLIP_BASIS_DUAL, .friction = STICKSLIP_FRICTION_NONE},
+    {.name = "dual, weak coverage", .basis = STICKSLIP_BASIS_DUAL, .weak_coverage = 0.5, .slide = 0.9},
     {.name = "elements", .integration = STICKSLIP_INTEGRATION_ELEMENTS},
     {.name = "hybrid", .integration = STICKSLIP_INTEGRATION_HYBRID, .slide = 0.5},
     {.name = "rigid", .rigid = 1},
@@ -43,6 +47,7 @@ static inline void set_up(const kind *k, every *c) {
   s->options.friction = k->friction;
   s->options.weights = k->weights;
   s->options.integration = k->integration;
+  s->options.multiplier_basis = k->basis;
   s->options.weak_coverage = k->weak_coverage;
   s->options.shear_limit = k->shear_limit;
   if (!has_mu(k->friction)) s->options.mu = 0.0;
@@ -72,7 +77,7 @@ static inline void set_up(const kind *k, every *c) {
 
 static inline int belongs(const kind *k, const entry_point *entry) {
   if (entry->call == every_friction) return has_mu(k->friction);
-  return entry->call != every_with_sums || k->weak_coverage == 0.0;
+  return entry->call != every_with_sums || (k->weak_coverage == 0.0 && k->basis == STICKSLIP_BASIS_STANDARD);
 }
 
 static inline void end(every *c) {

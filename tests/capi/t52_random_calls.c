@@ -266,6 +266,7 @@ static void sequence(int compared) {
   s->options.friction = (int32_t)draw(STICKSLIP_FRICTION_TRESCA + 1);
   s->options.no_shortcuts = (int32_t)draw(16);
   s->options.weak_coverage = 0.5 * (double)draw(3);
+  s->options.multiplier_basis = (int32_t)draw(2);
   if (!has_mu(s->options.friction)) s->options.mu = 0.0;
   if (s->options.friction == STICKSLIP_FRICTION_TRESCA) s->options.shear_limit = 0.5;
   if (draw(2)) spoil(&s->options.mu, 5);

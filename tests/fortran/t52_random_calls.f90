@@ -258,6 +258,7 @@ contains
     h%s%options%friction = random(int(STICKSLIP_FRICTION_TRESCA) + 1)
     h%s%options%no_shortcuts = random(16)
     h%s%options%weak_coverage = 0.5d0 * random(3)
+    h%s%options%multiplier_basis = random(2)
     if (all(h%s%options%friction /= [STICKSLIP_FRICTION_COULOMB, STICKSLIP_FRICTION_TRESCA])) h%s%options%mu = 0
     if (h%s%options%friction == STICKSLIP_FRICTION_TRESCA) h%s%options%shear_limit = 0.5d0
     if (once_in(2)) then

@@ -8,12 +8,14 @@ use nalgebra::Rotation3;
 use proptest::prelude::*;
 use proptest::test_runner::TestCaseResult;
 use stickslip::geometry::Vec3;
-use stickslip::interface::{Form, Interface, Options, Residual, RowScale, Stiffness, Weights};
+use stickslip::interface::{Form, Interface, MultiplierBasis, Options, Residual, RowScale, Stiffness, Weights};
 use stickslip::law::{SlipMeasure, State};
 use stickslip::quadrature::DEGREE_10;
 
 /// 7.2, 7.2, K4: rounding of sums over all pairs, relative to the sum of the terms' sizes.
 const SUMS: f64 = 1e-13;
+/// The same with dual multipliers, whose functions reach 1e4 on facets of which little is covered.
+const SUMS_OF_DUAL: f64 = 1e-10;
 /// 7.4: a rotated copy has rounded coordinates; over the size of the facets, times the slopes of the states.
 const ROTATED: f64 = 1e-11;
 /// K2 on facets that stay affine, as in `tangent.rs`.
@@ -88,6 +90,7 @@ impl Recipe {
             slip: [SlipMeasure::Objective, SlipMeasure::Increment, SlipMeasure::Paper][usize::from(self.slip)],
             weights: [Weights::Current, Weights::Committed, Weights::Reference][usize::from(self.weights)],
             mu: self.mu,
+            basis: if self.seed.is_multiple_of(3) { MultiplierBasis::Dual } else { MultiplierBasis::Standard },
             ..options()
         }
     }
@@ -170,8 +173,13 @@ impl Scene {
     }
 }
 
+fn sums_bound(s: &Scene) -> f64 {
+    if s.interface.options().basis == MultiplierBasis::Dual { SUMS_OF_DUAL } else { SUMS }
+}
+
 /// 7.2, 7.2: forces balance, moments are those of the gaps.
 fn balance(s: &mut Scene) -> TestCaseResult {
+    let bound = sums_bound(s);
     let (r, t) = (s.residual(), s.tractions());
     let sums = s.interface.sums(&s.x1, &s.x2).unwrap();
     let forces = || r.nonmortar.iter().chain(&r.mortar);
@@ -180,18 +188,19 @@ fn balance(s: &mut Scene) -> TestCaseResult {
     let overlap: f64 = sums.iter().map(|s| s.coverage).sum();
     let scale = forces().map(|f| f.norm()).sum::<f64>() + overlap * t.iter().map(|t| t.norm()).fold(0.0, f64::max);
     let sum: Vec3 = forces().sum();
-    prop_assert!(sum.norm() <= SUMS * scale, "sum of forces {:e} of {scale:e}", sum.norm());
+    prop_assert!(sum.norm() <= bound * scale, "sum of forces {:e} of {scale:e}", sum.norm());
     if s.interface.options().weights == Weights::Current {
         let moments: Vec3 = s.x1.iter().chain(&s.x2).zip(forces()).map(|(x, f)| x.cross(f)).sum();
         let gaps: Vec3 = sums.iter().zip(&t).map(|(s, t)| s.gap_now.cross(t)).sum();
         let reach = s.x1.iter().chain(&s.x2).map(|x| x.norm()).fold(0.0, f64::max);
-        prop_assert!((moments - gaps).norm() <= SUMS * scale * reach, "moments {moments:?}, of the gaps {gaps:?}");
+        prop_assert!((moments - gaps).norm() <= bound * scale * reach, "moments {moments:?}, of the gaps {gaps:?}");
     }
     Ok(())
 }
 
 /// K4: force rows add up to nothing, and a translation of all changes nothing.
 fn tangent_balance(s: &mut Scene) -> TestCaseResult {
+    let bound = sums_bound(s);
     let mut point = s.point();
     let (k, n) = (point.tangent(), point.unknowns());
     let x = 3 * (s.x1.len() + s.x2.len());
@@ -202,8 +211,8 @@ fn tangent_balance(s: &mut Scene) -> TestCaseResult {
         for c in 0..3 {
             let column: f64 = (c..x).step_by(3).map(|i| k[i * n + j]).sum();
             let row: f64 = (c..x).step_by(3).map(|i| k[j * n + i]).sum();
-            prop_assert!(column.abs() <= 10.0 * SUMS * scale, "column {j}: {column:e} of {scale:e}");
-            prop_assert!(row.abs() <= 10.0 * SUMS * scale, "row {j} under a translation: {row:e} of {scale:e}");
+            prop_assert!(column.abs() <= 10.0 * bound * scale, "column {j}: {column:e} of {scale:e}");
+            prop_assert!(row.abs() <= 10.0 * bound * scale, "row {j} under a translation: {row:e} of {scale:e}");
         }
     }
     Ok(())
