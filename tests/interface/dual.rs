@@ -241,3 +241,14 @@ fn what_is_not_there_yet_is_refused_by_name() {
     let error = c.residual(&one.x, &two.x, &[Vec3::zeros(); 4], Some(&sums)).unwrap_err();
     assert!(error.kind == Kind::Unsupported && error.to_string().contains("dual"), "{error}");
 }
+
+/// The diagnosis compares a pair's own weights with those of a finer rule, not the ones that act.
+#[test]
+fn the_error_of_integration_is_that_of_the_standard_basis() {
+    let (_, rough, cells) = scenes().nth(3).unwrap();
+    let [standard, dual] = [options(), dual(options())].map(|options| {
+        let mut t = moved(&options, cells, rough, 3);
+        t.interface.diagnose(&t.x1, &t.x2, &t.lambda, None).unwrap().error.unwrap()
+    });
+    assert_eq!(standard, dual);
+}

@@ -28,6 +28,11 @@ impl Active {
         Ok(Active { x1, x2, frames: Vec::new(), pairs: Vec::new(), segments: Vec::new(), integrated: Vec::new() })
     }
 
+    /// The integrated weights of the pair in this place, whatever the multipliers' basis makes of them.
+    pub fn integrated(&self, place: usize) -> &PairWeights {
+        self.integrated.get(place).unwrap_or(&self.pairs[place].weights)
+    }
+
     /// Whether it is that of these positions.
     pub fn is_at(&self, x1: &[Vec3], x2: &[Vec3]) -> bool {
         are_same(&self.x1, x1) && are_same(&self.x2, x2)

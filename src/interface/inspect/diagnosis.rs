@@ -8,7 +8,7 @@
 
 use crate::error::{Error, Kind, Result, Text};
 use crate::geometry::{Facet, Plane, Vec3};
-use crate::interface::data::options::Weights;
+use crate::interface::data::options::{MultiplierBasis, Weights};
 use crate::interface::data::pairs::PairRecord;
 use crate::interface::data::surface::NO_EQUATION;
 use crate::interface::pairing::given::Given;
@@ -247,7 +247,12 @@ fn worst_pairs<const N: usize>(given: Given<N>, pairs: &[PairRecord], (x1, x2): 
             keep(&mut d.angle, frame.plane.e.cross(&plane.e).norm().atan2(-frame.plane.e.dot(&plane.e)), facets);
         }
         let fine = PairWeights::integrate(&frame, &segment, &DEGREE_10);
-        let (n, m) = (pair.weights.ab.iter().chain(&pair.weights.ac), fine.ab.iter().chain(&fine.ac));
+        // With dual multipliers the weights that act are not those of the pair alone.
+        let own = match given.setup.options.basis {
+            MultiplierBasis::Standard => pair.weights,
+            MultiplierBasis::Dual => PairWeights::integrate(&frame, &segment, given.setup.options.rule),
+        };
+        let (n, m) = (own.ab.iter().chain(&own.ac), fine.ab.iter().chain(&fine.ac));
         let apart = n.flatten().zip(m.flatten()).map(|(n, m)| (n - m).abs()).fold(0.0, f64::max);
         keep(&mut d.error, apart / whole, facets);
     }

@@ -32,7 +32,7 @@ pub fn refuse_lost_contact<const N: usize>(
     let Some(filter) = &new.filter else { return Ok(()) };
     let after = new.active.as_ref().map_or(&new.history.pairs, |k| &k.pairs);
     let mut lost = memory::filled(0.0, setup.nonmortar.len())?;
-    for pair in missing(&before.pairs, after) {
+    for (place, pair) in missing(&before.pairs, after) {
         let (low, deep) = match filter {
             Filter::Facets(filter) => {
                 let (low, high) = filter.heights(pair.one, pair.two);
@@ -42,7 +42,7 @@ pub fn refuse_lost_contact<const N: usize>(
         };
         let touches = low <= TOUCHES * setup.nonmortar.facet(pair.one, x1).longest_edge();
         for (k, &a) in setup.nonmortar.facets[pair.one].as_slice().iter().enumerate() {
-            let coverage = pair.weights.coverage(k);
+            let coverage = before.integrated(place).coverage(k);
             if !touches || coverage <= NOTHING * areas[a] || responses[a].state == State::Gap {
                 continue;
             }
@@ -75,10 +75,10 @@ fn lowest_over_surface<const N: usize>(setup: &Setup<N>, facet: usize, x1: &[Vec
     let nodes = setup.nonmortar.facets[facet].as_slice().iter();
     Ok(nodes.map(|&a| surface.distance(x1[a] - surface.origin)).fold(f64::INFINITY, f64::min))
 }
-/// Those of `before` that are not in `after`; both are sorted by their facets.
-fn missing<'a>(before: &'a [PairRecord], after: &'a [PairRecord]) -> impl Iterator<Item = &'a PairRecord> {
+/// Those of `before`, with their places, that are not in `after`; both are sorted by their facets.
+fn missing<'a>(before: &'a [PairRecord], after: &'a [PairRecord]) -> impl Iterator<Item = (usize, &'a PairRecord)> {
     let mut after = after.iter().peekable();
-    before.iter().filter(move |pair| {
+    before.iter().enumerate().filter(move |(_, pair)| {
         let place = (pair.one, pair.two);
         while after.next_if(|p| (p.one, p.two) < place).is_some() {}
         after.peek().is_none_or(|p| (p.one, p.two) != place)
