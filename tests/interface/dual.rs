@@ -252,3 +252,22 @@ fn the_error_of_integration_is_that_of_the_standard_basis() {
     });
     assert_eq!(standard, dual);
 }
+
+/// What may be taken of a step is told by the gaps of the weights that act, whether an evaluation has left them or not.
+#[test]
+fn the_limit_of_a_step_knows_nothing_of_the_calls_before_it() {
+    let mut limited = 0;
+    for (what, rough, cells) in scenes() {
+        let down = |t: &Moved| vec![t.interface.normal(0).unwrap() * -1.5; t.x1.len()];
+        let mut fresh = moved(&dual(options()), cells, rough, 3);
+        let mut used = moved(&dual(options()), cells, rough, 3);
+        used.interface.residual(&used.x1, &used.x2, &used.lambda, None).unwrap();
+        let [a, b] = [&mut fresh, &mut used].map(|t| {
+            let (dx1, dx2) = (down(t), vec![Vec3::zeros(); t.x2.len()]);
+            t.interface.step_limit((&t.x1, &t.x2), (&dx1, &dx2), None).unwrap()
+        });
+        assert_eq!(a, b, "{what}");
+        limited += usize::from(a < 1.0);
+    }
+    assert!(limited > 0);
+}
