@@ -316,12 +316,15 @@ pub(super) fn law_numbers(friction: Friction, mu: f64, shear_limit: f64, of: &st
             "{of}.mu is {mu}; it must be 0 where {of}.friction is not Coulomb's, with a limit or without"
         ));
     }
-    match law.limits_shear {
-        true if shear_limit > 0.0 => Ok(()),
-        true => refuse(text!("{of}.shear_limit is {shear_limit}; it must be positive with STICKSLIP_FRICTION_TRESCA")),
-        false if shear_limit == 0.0 => Ok(()),
-        false => refuse(text!("{of}.shear_limit is {shear_limit}; it must be 0 where {of}.friction has no such limit")),
+    match law.refuses(given_limit(shear_limit)) {
+        None => Ok(()),
+        Some(allowed) => refuse(text!("{of}.shear_limit is {shear_limit}; it must be {allowed}")),
     }
+}
+
+/// 0 stands for no limit.
+fn given_limit(shear_limit: f64) -> Option<f64> {
+    (shear_limit != 0.0).then_some(shear_limit)
 }
 
 /// What an interface is created with.
@@ -443,7 +446,7 @@ pub(super) fn read_options(p: *const stickslip_options) -> Result<Choices> {
         mortar_side,
         shortcuts: read_shortcuts(no_shortcuts)?,
         mu,
-        shear_limit: (shear_limit != 0.0).then_some(shear_limit),
+        shear_limit: given_limit(shear_limit),
         stiffness,
         coverage_min,
         weak_coverage,

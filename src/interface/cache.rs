@@ -14,11 +14,11 @@ use super::inspect::bytes;
 use super::pairing::candidates::KeptTree;
 use super::pairing::filter::Filter;
 use super::pairing::given::{Given, Step, check_finite};
+use super::stages::acting::acting;
 use super::stages::apart::stays_apart;
 use super::stages::carried::refuse_sums;
 use super::stages::commit;
-use super::stages::facet::facet;
-use super::stages::integrate::{integrate, segments};
+use super::stages::integrate::segments;
 use super::stages::respond::{Responses, respond};
 use super::stages::sums::{self, NodeSums};
 use crate::error::Result;
@@ -167,8 +167,7 @@ impl<const N: usize> Cache<N> {
             } else if kept.is_none_or(|k| k.apart) {
                 self.complete(setup, step)?;
                 let filter = step.pairing.filter.as_ref().expect("current weights have one");
-                let mut active = integrate(setup.surfaces(), &setup.options, filter, self.work(), (x1, x2))?;
-                facet(&setup.nonmortar, setup.options.basis, &mut active)?;
+                let active = acting(setup.surfaces(), &setup.options, filter, self.work(), (x1, x2))?;
                 self.kept = Some(Kept { active, scope: Scope { extent, apart }, sums: None });
             }
             if let Some(k) = &mut self.kept {

@@ -1,11 +1,11 @@
 //! Two surfaces in contact: search, pairing, all four stages, history (docs/formulation.md 4.5).
 //!
-//! Residual and tangent are functions of (x, lambda, committed history) alone. Below the ABI this is the only place that
-//! allocates.
+//! Residual and tangent are functions of (x, lambda, committed history) alone. Below the ABI nothing else allocates but
+//! `adjacency`, which it calls.
 //!
 //! Data flows one way. [`Contact`] owns it and calls functions of data: `pairing` at a commit; in an evaluation the stages
-//! `integrate`, `facet`, `sums`, `respond`, `residual`, and `tangent`. None of them knows the handle, and no stage calls an earlier
-//! one.
+//! `integrate`, `facet`, `sums`, `respond`, `residual`, and `tangent`. None of them knows the handle, and no stage calls an
+//! earlier one.
 
 #[cfg(test)]
 mod by_hand;

@@ -153,6 +153,18 @@ pub static LAWS: [LawRow; 5] = [
     },
 ];
 
+impl LawRow {
+    /// What a shear limit must be, if this one is not allowed.
+    pub fn refuses(&self, shear_limit: Option<f64>) -> Option<&'static str> {
+        match (self.limits_shear, shear_limit) {
+            (true, Some(limit)) if limit > 0.0 && limit.is_finite() => None,
+            (true, _) => Some("positive and finite with this law"),
+            (false, Some(_)) => Some("0 with a law that has no such limit"),
+            (false, None) => None,
+        }
+    }
+}
+
 impl Friction {
     /// Its row.
     pub fn law(self) -> &'static LawRow {

@@ -103,7 +103,8 @@ static PetscErrorCode read_surfaces(Scene *scene, Contact *contact, Interface *i
 /* What a law is called in a scene, by STICKSLIP_FRICTION_... */
 static const char *const LAWS[] = {"coulomb", "none", "tied", "rough", "tresca", NULL};
 
-/* `law`, `friction`, `shear_limit`. A scene that asks for no friction gets one multiplier a node, unless it says `law: coulomb`. */
+/* `law`, `friction`, `shear_limit`. A scene that asks for no friction gets one multiplier a node, unless it says
+ * `law: coulomb`. */
 static void read_law(Scene *scene, Interface *interface)
 {
   stickslip_options *options = &interface->options;
@@ -154,9 +155,9 @@ static void read_method(Scene *scene, Interface *interface)
   static const char *const forms[]        = {"multiplier", "augmented", NULL};
   static const char *const new_contacts[] = {"frictionless", "friction", NULL};
   static const char *const row_scales[]   = {"force", "none", NULL};
+  static const char *const bases[]        = {"standard", "dual", NULL};
   stickslip_options       *options        = &interface->options;
   const char              *name           = interface->name;
-  static const char *const bases[]        = {"standard", "dual", NULL};
   PetscInt  basis = STICKSLIP_BASIS_STANDARD, weight = STICKSLIP_WEIGHTS_CURRENT,
            slip = STICKSLIP_SLIP_OBJECTIVE, form = STICKSLIP_FORM_MULTIPLIER,
            new_contact = STICKSLIP_NEW_CONTACT_FRICTIONLESS, row_scale = STICKSLIP_ROW_SCALE_FORCE;
@@ -191,7 +192,7 @@ static void read_method(Scene *scene, Interface *interface)
   if (turn_max < 0 || turn_max > PETSC_PI)
     scene_fail(scene, name, "turn_max", "it is an angle in radians: from 0 to pi.");
   options->multiplier_basis = (int32_t)basis;
-  options->turn_max        = turn_max;
+  options->turn_max         = turn_max;
   options->weights         = (int32_t)weight;
   options->slip            = (int32_t)slip;
   options->form            = (int32_t)form;

@@ -217,11 +217,8 @@ impl Options {
         if !(self.mu >= 0.0 && self.mu.is_finite()) {
             return refuse("mu", self.mu, "finite and not negative");
         }
-        match (self.friction.law().limits_shear, self.shear_limit) {
-            (true, Some(limit)) if limit > 0.0 && limit.is_finite() => {}
-            (true, limit) => return refuse("shear_limit", limit.unwrap_or(0.0), "positive and finite with this law"),
-            (false, Some(limit)) => return refuse("shear_limit", limit, "0 with a law that has no such limit"),
-            (false, None) => {}
+        if let Some(allowed) = self.friction.law().refuses(self.shear_limit) {
+            return refuse("shear_limit", self.shear_limit.unwrap_or(0.0), allowed);
         }
         if !(0.0..1.0).contains(&self.coverage_min) {
             return refuse("coverage_min", self.coverage_min, "at least 0 and below 1");

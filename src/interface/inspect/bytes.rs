@@ -30,7 +30,7 @@ fn of_filter(filter: &Filter) -> usize {
             f.sides.iter().map(|s| heap(&s.facets) + heap(&s.edges) + heap(&s.bulges)).sum::<usize>()
                 + heap(&f.depths)
                 + heap(&f.reached)
-                + heap(&f.by_cells)
+                + heap(&f.by_overlaps)
         }
         Filter::Analytic(facing) => heap(facing),
     }

@@ -24,9 +24,8 @@ use crate::interface::data::surface::Surface;
 use crate::interface::pairing::candidates::KeptTree;
 use crate::interface::pairing::given::{Given, check_finite};
 use crate::interface::pairing::search::Aabb;
+use crate::interface::stages::acting::acting;
 use crate::interface::stages::away::looking_away;
-use crate::interface::stages::facet::facet;
-use crate::interface::stages::integrate::integrate;
 use crate::interface::stages::sums::assemble;
 use crate::memory::{self, Stored};
 
@@ -160,9 +159,7 @@ fn mean_gaps<const N: usize>(
     let known = active.filter(|k| k.x1 == x1 && k.x2 == x2);
     let now = match (&given.step.pairing.filter, options.effective_weights()) {
         (Some(filter), Weights::Current) if known.is_none() => {
-            let mut now = integrate(surfaces, options, filter, (counters, tree), (&x1, &x2))?;
-            facet(surfaces.0, options.basis, &mut now)?;
-            Some(now)
+            Some(acting(surfaces, options, filter, (counters, tree), (&x1, &x2))?)
         }
         _ => None,
     };

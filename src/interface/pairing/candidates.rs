@@ -62,6 +62,6 @@ pub fn by_points(options: &Options, filter: &FacetFilter, i: usize) -> Option<&'
     match options.scheme {
         Scheme::Segments => None,
         Scheme::Elements(line) => Some(line),
-        Scheme::Hybrid(line) => (!filter.by_cells[i]).then_some(line),
+        Scheme::Hybrid(line) => (!filter.by_overlaps[i]).then_some(line),
     }
 }

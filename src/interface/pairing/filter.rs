@@ -107,7 +107,7 @@ pub struct FacetFilter {
     /// Per non-mortar facet, whether any mortar facet can be a pair with it.
     pub reached: Vec<bool>,
     /// Per non-mortar facet, whether it is integrated over overlaps and not over points; empty unless the scheme has both.
-    pub by_cells: Vec<bool>,
+    pub by_overlaps: Vec<bool>,
 }
 
 impl FacetFilter {

@@ -91,7 +91,7 @@ mod tests {
                 distance: (round % 3 > 0).then_some(0.05),
                 depths: Vec::new(),
                 reached: Vec::new(),
-                by_cells: Vec::new(),
+                by_overlaps: Vec::new(),
             };
             let expected: Vec<_> = (0..20).map(|i| (0..12).any(|j| filter.admits(i, j))).collect();
             let tree = Tree::new(two.facets.iter().map(|f| Aabb::around(f.nodes.map(|k| two.reference[k]))).collect())

@@ -57,7 +57,7 @@ pub fn filter((one, two): (&Surface, &Surface), options: &Options, (x1, x2): (&[
         distance: options.search_distance,
         depths: Vec::new(),
         reached: Vec::new(),
-        by_cells: Vec::new(),
+        by_overlaps: Vec::new(),
     };
     let points = filter.sides[1].facets.iter().map(|(facet, _)| Aabb::around(facet.points().iter().copied()));
     let tree = Tree::new(points.stored()?)?;
@@ -68,7 +68,7 @@ pub fn filter((one, two): (&Surface, &Surface), options: &Options, (x1, x2): (&[
             filter.reached = reach::reached(&filter, &tree)?;
         }
     }
-    filter.by_cells = hybrid::partly_covered((one, two), options.scheme, &filter, (x1, x2))?;
+    filter.by_overlaps = hybrid::partly_covered((one, two), options.scheme, &filter, (x1, x2))?;
     Ok(Filter::Facets(filter))
 }
 

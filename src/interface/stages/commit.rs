@@ -1,8 +1,7 @@
 //! What becomes t_n at a commit: the history of a configuration, and the filter of the step that follows.
 
+use super::acting::acting;
 use super::apart;
-use super::facet::facet;
-use super::integrate::integrate;
 use super::layers;
 use super::sums::assemble;
 use crate::error::{Error, Kind, Result};
@@ -64,8 +63,7 @@ pub fn settled_at(
         counters.commits_apart += 1;
         &frames(nonmortar, x1)?
     } else {
-        let mut new = integrate((nonmortar, mortar), options, &filter, (counters, tree), (x1, x2))?;
-        facet(nonmortar, options.basis, &mut new)?;
+        let mut new = acting((nonmortar, mortar), options, &filter, (counters, tree), (x1, x2))?;
         layers::refuse(mortar, &new)?;
         let mut sums = assemble((nonmortar, mortar), &new.pairs, x1, x2)?;
         if keeps.facet_gaps() {
@@ -98,8 +96,7 @@ pub fn complete(
     (history, filter): (&mut History, &Filter),
     kept: (&mut Counters, &mut KeptTree),
 ) -> Result<()> {
-    let mut new = integrate(surfaces, options, filter, kept, (&history.x1, &history.x2))?;
-    facet(surfaces.0, options.basis, &mut new)?;
+    let mut new = acting(surfaces, options, filter, kept, (&history.x1, &history.x2))?;
     let sums = assemble(surfaces, &new.pairs, &history.x1, &history.x2)?;
     layers::refuse(surfaces.1, &new)?;
     history.fill(&mut new.pairs, &sums)

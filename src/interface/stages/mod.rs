@@ -1,6 +1,7 @@
 //! What a commit and an evaluation are made of: functions from data to data. Of the stages of an evaluation (`integrate`,
 //! `facet`, `sums`, `respond`, `residual`) none calls an earlier one; `commit` runs the first three at the new configuration.
 
+pub mod acting;
 pub mod apart;
 pub mod away;
 pub mod carried;

@@ -84,7 +84,7 @@ impl<const N: usize> Numbers<'_, N> {
             }
         };
         let mortar = given.setup.mortar.facets[pair.two].len;
-        let share = (&active.integrated[pair.place], &active.segments[pair.place], mortar);
+        let share = (active.integrated(pair.place), &active.segments[pair.place], mortar);
         Some(self.motion.of_share(&active.frames[pair.one], facet, share, &mut t.forces, tractions))
     }
 
@@ -152,9 +152,7 @@ pub fn blocks<const MOVES: bool, const N: usize>(
                     let gap = numbers.dual_share(given, (&pairs[0], motion.as_ref()), &mut t, &mut tractions);
                     if let (true, Some(columns), Some(active)) = (gap.is_some(), &mut columns, numbers.active) {
                         let two = &given.setup.mortar.facets[pairs[0].two];
-                        let places = dual_facet::places(two, &mortar);
-                        columns.add_weights(&active.integrated[pairs[0].place], &places[..two.len]);
-                        columns.add_tractions(&tractions, &places[..two.len]);
+                        dual_facet::add(columns, (two, &mortar), active.integrated(pairs[0].place), &tractions);
                     }
                     gap
                 } else {

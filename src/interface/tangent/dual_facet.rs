@@ -109,9 +109,16 @@ impl Coupled {
     }
 }
 
-/// The places of a pair's mortar nodes among those of its facet.
-pub fn places(facet: &FacetNodes, nodes: &[usize]) -> [usize; MAX_NODES] {
-    facet.nodes.map(|node| nodes.iter().position(|n| *n == node).unwrap_or(0))
+/// Adds a pair with its integrated weights and its D(phi q); `nodes` are all mortar nodes of its facet, `two` its own.
+pub fn add(
+    columns: &mut FacetColumns,
+    (two, nodes): (&FacetNodes, &[usize]),
+    weights: &PairWeights,
+    tractions: &TractionDerivatives,
+) {
+    let places = two.nodes.map(|node| nodes.iter().position(|n| *n == node).unwrap_or(0));
+    columns.add_weights(weights, &places[..two.len]);
+    columns.add_tractions(tractions, &places[..two.len]);
 }
 
 /// The blocks of the coupling: rows of the facet's mortar nodes, columns of its own and of these.
