@@ -20,6 +20,8 @@ typedef struct {
   int64_t             *equations; /* same layout */
   PetscSF              sf;        /* from the local vectors of all ranks to `gathered` */
   stickslip_interface *handle;
+  double              *lambda, *host, *rows; /* condensed.c: components n1 multipliers; same layout as `forces`, the forces of
+                                                bodies and loads, and what condensing adds to the residual */
   int64_t              coo_capacity, *coo_rows, *coo_columns;
   double              *coo_values;
   double               friction_work; /* up to the last converged step */
@@ -50,6 +52,9 @@ typedef struct {
   Physics   *physics;
   PetscInt   n_interfaces;
   Interface *interfaces;
+  PetscBool  condensed; /* `unknowns: displacements`: no multiplier is an unknown */
+  PetscBool  cold;      /* condensed: the multipliers are given ones */
+  PetscInt   committed; /* steps */
   Settling   settling;
   char       refusal[1024]; /* the library's last message, if it refused an evaluation */
   PetscLogDouble seconds_forces, seconds_tangent;
@@ -77,6 +82,18 @@ PetscErrorCode contact_forces(Contact *contact, Vec f_local, PetscInt *status); 
 PetscErrorCode contact_tangent(Contact *contact, Mat matrix, PetscInt *status);
 PetscErrorCode contact_pattern(Contact *contact, Mat matrix);
 PetscErrorCode contact_commit(Contact *contact, PetscInt *status);
+
+/* rank 0: into the interface's arrays: a piece of the condensed matrix, STICKSLIP_CONDENSED_..., or the tangent */
+enum { WHOLE_TANGENT = -1 };
+PetscErrorCode contact_entries(Interface *interface, int32_t piece, int64_t *count, int32_t *refused);
+PetscErrorCode contact_scatter(Interface *interface, const PetscScalar *from, Vec local, MPI_Op operation);
+
+/* condensed.c: nothing happens where multipliers are unknowns */
+PetscErrorCode condensed_check(const Contact *contact, char why[], size_t length); /* rank 0 */
+PetscErrorCode condensed_start(Contact *contact, PetscInt *status);
+PetscErrorCode condensed_eliminate(Contact *contact, PetscInt *status); /* by f_local: of bodies and loads */
+PetscErrorCode condensed_residual(Contact *contact, Vec r, PetscInt *status);
+PetscErrorCode condensed_matrix(Contact *contact, Mat J, PetscInt *status);
 
 /* states.c */
 PetscErrorCode contact_states_create(const Interface *interface, ContactStates *states); /* rank 0 */
