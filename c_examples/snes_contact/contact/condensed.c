@@ -1,9 +1,13 @@
-/* A system without multipliers (`unknowns: displacements`): the multipliers follow from the displacements, by the balance of
- * the non-mortar nodes, and the library says what to add and to multiply. They stay in the local vectors, as entries
- * that are no unknowns, and each interface keeps their values between evaluations.
+/* A system without multipliers (`unknowns: displacements`): the rows of the non-mortar nodes give the multipliers, and the
+ * library says what to multiply and to add. Multipliers stay in the local vectors, as entries that are no unknowns; each
+ * interface keeps their values.
  *
- * Cold start: undeformed bodies exert no forces, so their multipliers would be 0 and touching nodes open. The first
- * evaluation of the first step takes the library's initial multipliers instead, and so does the matrix there. */
+ * Newton's iterates are those of the system with multipliers. A step starts with given multipliers: those of the last
+ * one, extrapolated as the displacements are, or the library's initial ones. After an iteration the multipliers are
+ * those that the linearised rows give for the displacements: those at the place of the last matrix, J du added. So they
+ * are a function of the displacements for a line search, too. (To take those that the rows of now give is simpler, and
+ * as good where the start is: c_examples/profile_host.c. From an extrapolated start of a body that is nearly
+ * incompressible they are far off, and a press fit over an edge takes twice as many iterations.) */
 #include "contact/contact.h"
 
 /* rank 0: entries of a matrix, in PETSc's integers */
@@ -46,48 +50,147 @@ PetscErrorCode condensed_check(const Contact *contact, char why[], size_t length
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Before the first commit each attempt starts with the library's initial multipliers. */
-PetscErrorCode condensed_start(Contact *contact, PetscInt *status)
+static PetscInt n_multipliers(const Interface *interface)
+{
+  return interface->components * interface->n1;
+}
+
+/* The initial multipliers are those of the last step before the first one. */
+PetscErrorCode condensed_create(Contact *contact, PetscInt *status)
 {
   PetscFunctionBegin;
   *status = 0;
-  if (!contact->condensed || contact->committed) PetscFunctionReturn(PETSC_SUCCESS);
-  for (PetscInt i = 0; i < contact->n_interfaces && !*status; i++) {
+  for (PetscInt i = 0; i < contact->n_interfaces && !*status && contact->condensed; i++) {
     Interface *interface = &contact->interfaces[i];
     int32_t    refused   = 0;
     if (contact->mesh->rank == 0 && interface->initial_contact)
-      refused = stickslip_interface_initial_multipliers(interface->handle, interface->lambda);
+      refused = stickslip_interface_initial_multipliers(interface->handle, interface->lambda_last);
     PetscCall(contact_agree(contact, refused, status));
   }
-  contact->cold = PETSC_TRUE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The multipliers that balance the forces of the bodies, which f_local has so far, and the loads. */
-PetscErrorCode condensed_eliminate(Contact *contact, PetscInt *status)
+PetscErrorCode condensed_destroy(Contact *contact)
 {
-  Physics           *physics = contact->physics;
-  const PetscScalar *forces;
-  Vec                host;
+  PetscFunctionBegin;
+  PetscCall(MatDestroy(&contact->linear));
+  PetscCall(VecDestroy(&contact->place));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The multipliers that a step starts with: the last ones, and `factor` times what they differ by from those before. */
+void condensed_predict(Contact *contact, PetscReal factor)
+{
+  for (PetscInt i = 0; i < contact->n_interfaces && contact->condensed && contact->mesh->rank == 0; i++) {
+    Interface *interface = &contact->interfaces[i];
+    for (PetscInt k = 0; k < n_multipliers(interface); k++)
+      interface->lambda_start[k] =
+        interface->lambda_last[k] + factor * (interface->lambda_last[k] - interface->lambda_before[k]);
+  }
+}
+
+void condensed_accept(Contact *contact)
+{
+  for (PetscInt i = 0; i < contact->n_interfaces && contact->condensed && contact->mesh->rank == 0; i++) {
+    Interface *interface = &contact->interfaces[i];
+    for (PetscInt k = 0; k < n_multipliers(interface); k++) {
+      interface->lambda_before[k] = interface->lambda_last[k];
+      interface->lambda_last[k]   = interface->lambda[k];
+    }
+  }
+}
+
+/* Each attempt at a step starts alike. */
+PetscErrorCode condensed_begin(Contact *contact)
+{
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < contact->n_interfaces && contact->condensed && contact->mesh->rank == 0; i++)
+    PetscCall(PetscArraycpy(contact->interfaces[i].lambda, contact->interfaces[i].lambda_start,
+                            n_multipliers(&contact->interfaces[i])));
+  PetscCall(MatDestroy(&contact->linear));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* on rank 0: the rows of an interface's nodes, of a local vector that all ranks add up */
+static PetscErrorCode gather_rows(Contact *contact, Interface *interface, Vec local, double *rows)
+{
+  const PetscScalar *values;
+  PetscFunctionBegin;
+  PetscCall(unknowns_sum(contact->physics, local));
+  PetscCall(VecGetArrayRead(contact->physics->f_sum, &values));
+  PetscCall(PetscSFBcastBegin(interface->sf, MPIU_SCALAR, values, rows, MPI_REPLACE));
+  PetscCall(PetscSFBcastEnd(interface->sf, MPIU_SCALAR, values, rows, MPI_REPLACE));
+  PetscCall(VecRestoreArrayRead(contact->physics->f_sum, &values));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The multipliers at x, of the rows as they were linearised at `place`. */
+static PetscErrorCode update_multipliers(Contact *contact, Vec x, PetscInt *status)
+{
+  Vec du, f, local;
+  PetscFunctionBegin;
+  *status = 0;
+  if (!contact->linear) PetscFunctionReturn(PETSC_SUCCESS); /* the given ones */
+  PetscCall(VecDuplicate(x, &du));
+  PetscCall(VecDuplicate(x, &f));
+  PetscCall(VecWAXPY(du, -1, contact->place, x));
+  PetscCall(MatMult(contact->linear, du, f));
+  PetscCall(DMGetLocalVector(contact->mesh->dm, &local));
+  PetscCall(VecZeroEntries(local));
+  PetscCall(DMGlobalToLocalBegin(contact->mesh->dm, f, INSERT_VALUES, local));
+  PetscCall(DMGlobalToLocalEnd(contact->mesh->dm, f, INSERT_VALUES, local));
+  for (PetscInt i = 0; i < contact->n_interfaces && !*status; i++) {
+    Interface         *interface = &contact->interfaces[i];
+    double            *rows      = interface->rows;
+    int32_t            refused   = 0;
+    const PetscScalar *values;
+    PetscCall(VecGetArrayRead(local, &values)); /* complete on every rank */
+    PetscCall(PetscSFBcastBegin(interface->sf, MPIU_SCALAR, values, rows, MPI_REPLACE));
+    PetscCall(PetscSFBcastEnd(interface->sf, MPIU_SCALAR, values, rows, MPI_REPLACE));
+    PetscCall(VecRestoreArrayRead(local, &values));
+    if (contact->mesh->rank == 0) {
+      for (PetscInt k = 0; k < 3 * interface->n1; k++)
+        rows[k] += interface->host_there[k];
+      refused = stickslip_interface_condensed_multipliers(
+        interface->handle, interface->x_there, interface->x_there + 3 * interface->n1, rows, interface->lambda);
+    }
+    PetscCall(contact_agree(contact, refused, status));
+  }
+  PetscCall(DMRestoreLocalVector(contact->mesh->dm, &local));
+  PetscCall(VecDestroy(&du));
+  PetscCall(VecDestroy(&f));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Multipliers at x; the forces of the bodies, which f_local has so far, and the loads, at the interfaces' nodes. */
+PetscErrorCode condensed_eliminate(Contact *contact, Vec x, PetscInt *status)
+{
+  Physics *physics = contact->physics;
+  Vec      host;
   PetscFunctionBegin;
   *status = 0;
   if (!contact->condensed) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(DMGetLocalVector(contact->mesh->dm, &host));
   PetscCall(VecWAXPY(host, -1, physics->f_external, physics->f_local));
-  PetscCall(unknowns_sum(physics, host));
+  for (PetscInt i = 0; i < contact->n_interfaces; i++)
+    PetscCall(gather_rows(contact, &contact->interfaces[i], host, contact->interfaces[i].host));
   PetscCall(DMRestoreLocalVector(contact->mesh->dm, &host));
-  for (PetscInt i = 0; i < contact->n_interfaces && !*status; i++) {
+  PetscCall(update_multipliers(contact, x, status));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The rows are linearised at x. */
+static PetscErrorCode keep_rows(Contact *contact, Vec x, Mat J)
+{
+  PetscFunctionBegin;
+  PetscCall(MatDestroy(&contact->linear));
+  PetscCall(MatDuplicate(J, MAT_COPY_VALUES, &contact->linear));
+  if (!contact->place) PetscCall(VecDuplicate(x, &contact->place));
+  PetscCall(VecCopy(x, contact->place));
+  for (PetscInt i = 0; i < contact->n_interfaces && contact->mesh->rank == 0; i++) {
     Interface *interface = &contact->interfaces[i];
-    int32_t    refused   = 0;
-    PetscCall(VecGetArrayRead(physics->f_sum, &forces));
-    PetscCall(PetscSFBcastBegin(interface->sf, MPIU_SCALAR, forces, interface->host, MPI_REPLACE));
-    PetscCall(PetscSFBcastEnd(interface->sf, MPIU_SCALAR, forces, interface->host, MPI_REPLACE));
-    PetscCall(VecRestoreArrayRead(physics->f_sum, &forces));
-    PetscCall(contact_gather(contact, interface, physics->u_local));
-    if (contact->mesh->rank == 0 && !contact->cold)
-      refused = stickslip_interface_condensed_multipliers(
-        interface->handle, interface->x, interface->x + 3 * interface->n1, interface->host, interface->lambda);
-    PetscCall(contact_agree(contact, refused, status));
+    PetscCall(PetscArraycpy(interface->x_there, interface->x, 3 * (interface->n1 + interface->n2)));
+    PetscCall(PetscArraycpy(interface->host_there, interface->host, 3 * interface->n1));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -170,12 +273,13 @@ static PetscErrorCode assemble(Contact *contact, int32_t piece, Mat like, Mat *m
 }
 
 /* J becomes J + E J + G: E eliminates the multipliers, G has the constraints. */
-PetscErrorCode condensed_matrix(Contact *contact, Mat J, PetscInt *status)
+PetscErrorCode condensed_matrix(Contact *contact, Vec x, Mat J, PetscInt *status)
 {
   Mat E = NULL, G = NULL, EJ;
   PetscFunctionBegin;
   *status = 0;
   if (!contact->condensed) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(keep_rows(contact, x, J));
   PetscCall(assemble(contact, STICKSLIP_CONDENSED_ELIMINATION, J, &E, status));
   if (!*status) PetscCall(assemble(contact, STICKSLIP_CONDENSED_CONSTRAINTS, J, &G, status));
   if (!*status) {
@@ -187,6 +291,5 @@ PetscErrorCode condensed_matrix(Contact *contact, Mat J, PetscInt *status)
   }
   PetscCall(MatDestroy(&E));
   PetscCall(MatDestroy(&G));
-  contact->cold = PETSC_FALSE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -229,6 +229,5 @@ PetscErrorCode contact_commit(Contact *contact, PetscInt *status)
   }
   for (PetscInt i = 0; i < committed && *status && mesh->rank == 0; i++)
     PetscCallStickslip(stickslip_interface_rollback(contact->interfaces[i].handle));
-  if (!*status) contact->committed++;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -132,7 +132,9 @@ PetscErrorCode contact_create(Contact *contact, Scene *scene, PetscBool quiet, P
     PetscCall(unknowns_gather_create(contact->physics, 3, counts, nodes, fields, &interface->sf));
     PetscCall(PetscCalloc5(n, &interface->X, n, &interface->x, n, &interface->gathered, n, &interface->forces, n,
                            &interface->equations));
-    PetscCall(PetscCalloc3(n, &interface->lambda, n, &interface->host, n, &interface->rows));
+    PetscCall(PetscCalloc4(n, &interface->lambda, n, &interface->lambda_start, n, &interface->lambda_last, n,
+                           &interface->lambda_before));
+    PetscCall(PetscCalloc4(n, &interface->host, n, &interface->rows, n, &interface->host_there, n, &interface->x_there));
     PetscCall(gather_equations(contact, interface));
     if (mesh->rank == 0) {
       stickslip_surface surfaces[2];
@@ -156,18 +158,21 @@ PetscErrorCode contact_create(Contact *contact, Scene *scene, PetscBool quiet, P
     if (mesh->rank == 0) PetscCall(check_facing(contact, scene, quiet, interface));
     PetscCall(scene_root_end(scene));
   }
+  if (!*status) PetscCall(condensed_create(contact, status));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode contact_destroy(Contact *contact)
 {
   PetscFunctionBegin;
+  PetscCall(condensed_destroy(contact));
   for (PetscInt i = 0; i < contact->n_interfaces; i++) {
     Interface *interface = &contact->interfaces[i];
     PetscCallStickslip(stickslip_interface_destroy(&interface->handle));
     PetscCall(PetscSFDestroy(&interface->sf));
     PetscCall(PetscFree5(interface->X, interface->x, interface->gathered, interface->forces, interface->equations));
-    PetscCall(PetscFree3(interface->lambda, interface->host, interface->rows));
+    PetscCall(PetscFree4(interface->lambda, interface->lambda_start, interface->lambda_last, interface->lambda_before));
+    PetscCall(PetscFree4(interface->host, interface->rows, interface->host_there, interface->x_there));
     PetscCall(PetscFree3(interface->coo_rows, interface->coo_columns, interface->coo_values));
     PetscCall(PetscFree(interface->nodes));
     PetscCall(PetscFree(interface->removed));

@@ -145,7 +145,7 @@ static PetscErrorCode attempt(Solve *solve, int k, Vec x, PetscBool *converged)
   SNESLineSearch      line_search;
   PetscReal          *norms;
   PetscReal           atol, rtol, stol;
-  PetscInt            iterations, n, max_it, max_f, refused;
+  PetscInt            iterations, n, max_it, max_f;
 
   PetscFunctionBegin;
   PetscCall(SNESGetLineSearch(solve->snes, &line_search));
@@ -164,7 +164,7 @@ static PetscErrorCode attempt(Solve *solve, int k, Vec x, PetscBool *converged)
   cJSON_Delete(newton->state_changes);
   newton->state_changes = cJSON_CreateArray();
   newton->factor                                    = ATTEMPTS[k].factor;
-  PetscCall(condensed_start(contact, &refused));
+  PetscCall(condensed_begin(contact));
   PetscCall(SNESSolve(solve->snes, NULL, x));
   PetscCall(SNESSetTolerances(solve->snes, atol, rtol, stol, max_it, max_f));
   PetscCall(SNESGetConvergedReason(solve->snes, &reason));
