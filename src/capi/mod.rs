@@ -62,6 +62,10 @@ mod pair;
 
 mod node;
 
+mod dual;
+
+mod facet_tangent;
+
 mod equilibrium;
 
 mod fp_environment;
@@ -72,9 +76,11 @@ mod sized;
 pub use closing::*;
 pub use counters::*;
 pub use diagnosis::*;
+pub use dual::*;
 pub use equilibrium::*;
 pub use evaluation::*;
 pub use facet::*;
+pub use facet_tangent::*;
 pub use handle::*;
 pub use history::*;
 pub use interface::*;
