@@ -22,7 +22,7 @@ pub(super) fn basis(sums: &FacetSums, name: &str) -> Result<Option<DualBasis>> {
     for (a, b) in (0..n).flat_map(|a| (0..n).map(move |b| (a, b))) {
         if (m[a][b] - m[b][a]).abs() > SYMMETRIC * largest || (is_covered && !(m[a][b] > 0.0)) {
             let text = text!(
-                "{name}: entry ({a}, {b}) is {:e}, ({b}, {a}) is {:e}; a sum of n_ab as stickslip_pair_weights gives them is symmetric and positive",
+                "{name}: entry ({a}, {b}) is {:e}, ({b}, {a}) {:e}; sums of n_ab of stickslip_pair_weights are symmetric and positive",
                 m[a][b],
                 m[b][a]
             );

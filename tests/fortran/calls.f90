@@ -192,7 +192,7 @@ contains
     CHECK_UNTOUCHED(e%normal)
     CHECK_UNTOUCHED(e%row)
     CHECK_UNTOUCHED(e%block)
-    CHECK_UNTOUCHED(e%fade)
+    CHECK(untouched(e%fade))
     CHECK_UNTOUCHED(e%dual_areas)
     CHECK_UNTOUCHED(e%coefficients)
     CHECK_UNTOUCHED(e%dual_ab)
