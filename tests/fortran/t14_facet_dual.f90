@@ -33,9 +33,10 @@ program t14_facet_dual
   faded = 0
   partly = 0
   do n = 1, size(SLIDES)
-    call check_slide(SLIDES(n))
+    call check_slide(SLIDES(n), .false.)
   end do
   CHECK(all(states > 0) .and. faded > 0 .and. partly > 0)
+  call check_slide(0.05d0, .true.)
 
 contains
 
@@ -100,16 +101,20 @@ contains
     CHECK_NEAR(total, 0, limit)
   end subroutine
 
-  ! Stages 2 to 4 from the configurations of now and of t_n.
-  subroutine assemble(layout, r, k)
+  ! Stages 2 to 4 from the configurations of now and of t_n, with the weights of now or, frozen, those of t_n.
+  subroutine assemble(frozen, layout, r, k)
+    logical, intent(in) :: frozen
     integer(c_int32_t), intent(in) :: layout
     real(c_double), intent(out) :: r(UNKNOWNS)
     real(c_double), optional, intent(out) :: k(UNKNOWNS, UNKNOWNS)
+    type(patch), pointer :: w(:)
     type(stickslip_node) :: nodes(NA)
     type(stickslip_node_response) :: responses(NA)
     real(c_double), target :: of_normals(3, 4), of_areas(4), row(3), block(3, 3)
     real(c_double) :: normals(3, NA), areas(NA), scale(NA), share(3, 4), force(24)
     integer :: a, b, f, q, u(ROWS), first
+    w => now
+    if (frozen) w => before
     normals = 0
     areas = 0
     do f = 1, FACETS
@@ -118,11 +123,11 @@ contains
         a = int(s%nodes1(b, f))
         areas(a) = areas(a) + of_areas(b)
         normals(:, a) = normals(:, a) + of_normals(:, b)
-        nodes(a)%coverage = nodes(a)%coverage + sum(now(f)%dual_ab(:, b, :))
+        nodes(a)%coverage = nodes(a)%coverage + sum(w(f)%dual_ab(:, b, :))
         nodes(a)%coverage_previous = nodes(a)%coverage_previous + sum(before(f)%dual_ab(:, b, :))
       end do
       do q = 1, PAIRS_
-        CHECK_OK(stickslip_pair_gap(now(f)%pairs(q), now(f)%dual_ab(:, :, q), now(f)%dual_ac(:, :, q), share))
+        CHECK_OK(stickslip_pair_gap(now(f)%pairs(q), w(f)%dual_ab(:, :, q), w(f)%dual_ac(:, :, q), share))
         do b = 1, 4
           a = int(s%nodes1(b, f))
           nodes(a)%gap_now = nodes(a)%gap_now + share(:, b)
@@ -132,9 +137,16 @@ contains
           a = int(s%nodes1(b, f))
           nodes(a)%gap_previous = nodes(a)%gap_previous + share(:, b)
         end do
+        CHECK_OK(stickslip_pair_gap(before(f)%pairs(q), before(f)%dual_ab(:, :, q), before(f)%dual_ac(:, :, q), share))
+        do b = 1, 4
+          a = int(s%nodes1(b, f))
+          nodes(a)%gap_committed = nodes(a)%gap_committed + share(:, b)
+        end do
       end do
     end do
     do a = 1, NA
+      ! What the handle measures then.
+      nodes(a)%slip = merge(STICKSLIP_SLIP_INCREMENT, STICKSLIP_SLIP_OBJECTIVE, frozen)
       nodes(a)%coverage_min = 1d-8 * areas(a)
       nodes(a)%mu = merge(s%options%mu, 0d0, nodes(a)%coverage_previous > nodes(a)%coverage_min)
       nodes(a)%augmentation = s%options%augmentation / areas(a)
@@ -148,11 +160,16 @@ contains
     do f = 1, FACETS
       u = unknowns_of(f)
       do q = 1, PAIRS_
-        call pair_forces(now(f), q, s%lambda(:, s%nodes1(:, f)), force)
+        call pair_forces(w(f), q, s%lambda(:, s%nodes1(:, f)), force)
         r(u(:12)) = r(u(:12)) + force(:12)
         r(u(12 * q + 1:12 * q + 12)) = r(u(12 * q + 1:12 * q + 12)) + force(13:)
       end do
-      if (present(k)) call add_tangent(f, u, responses(s%nodes1(:, f)), scale(s%nodes1(:, f)), layout, k)
+      if (.not. present(k)) cycle
+      if (frozen) then
+        call add_frozen(f, u, responses(s%nodes1(:, f)), scale(s%nodes1(:, f)), layout, k)
+      else
+        call add_tangent(f, u, responses(s%nodes1(:, f)), scale(s%nodes1(:, f)), layout, k)
+      end if
     end do
     do a = 1, NA
       first = POSITIONS + 3 * (a - 1)
@@ -181,7 +198,6 @@ contains
     integer(c_int32_t), target :: n2(PAIRS_)
     type(stickslip_facet) :: facet
     integer(c_int32_t) :: status
-    integer :: i, j
     n2 = 4
     facet = stickslip_facet(n1=4, layout=layout, n_pairs=PAIRS_, x1=c_loc(now(f)%x1), n2=c_loc(n2), x2=c_loc(now(f)%x2))
     tangent = UNWRITTEN
@@ -189,8 +205,42 @@ contains
         s%lambda(:, s%nodes1(:, f)), responses, c_loc(scale), tangent, int(LD, c_int64_t))
     CHECK_OK(status)
     CHECK_UNTOUCHED(tangent(ROWS + 1:, :))
-    do j = 1, ROWS
-      do i = 1, ROWS
+    call add_entries(u, layout, tangent(:ROWS, :), k)
+  end subroutine
+
+  ! The same with frozen weights, pair by pair.
+  subroutine add_frozen(f, u, responses, scale, layout, k)
+    integer, intent(in) :: f, u(ROWS)
+    type(stickslip_node_response), intent(in) :: responses(4)
+    real(c_double), target, intent(in) :: scale(4)
+    integer(c_int32_t), intent(in) :: layout
+    real(c_double), intent(inout) :: k(UNKNOWNS, UNKNOWNS)
+    real(c_double) :: tangent(36, 36)
+    type(stickslip_pair) :: pair
+    type(c_ptr) :: ab, ac
+    integer(c_int32_t) :: status
+    integer :: q
+    do q = 1, PAIRS_
+      pair = now(f)%pairs(q)
+      pair%layout = layout
+      ab = c_loc(before(f)%dual_ab(1, 1, q))
+      ac = c_loc(before(f)%dual_ac(1, 1, q))
+      status = stickslip_pair_tangent(pair, ab, ac, c_null_ptr, c_null_ptr, ab, ac, s%lambda(:, s%nodes1(:, f)), responses, &
+          c_loc(scale), tangent, 36_c_int64_t)
+      CHECK_OK(status)
+      call add_entries([u(:12), u(12 * q + 1:12 * q + 12), u(ROWS - 11:)], layout, tangent, k)
+    end do
+  end subroutine
+
+  ! k of these unknowns + the tangent.
+  subroutine add_entries(u, layout, tangent, k)
+    integer, intent(in) :: u(:)
+    integer(c_int32_t), intent(in) :: layout
+    real(c_double), intent(in) :: tangent(:, :)
+    real(c_double), intent(inout) :: k(UNKNOWNS, UNKNOWNS)
+    integer :: i, j
+    do j = 1, size(u)
+      do i = 1, size(u)
         if (layout == STICKSLIP_LAYOUT_COLUMN_MAJOR) then
           k(u(i), u(j)) = k(u(i), u(j)) + tangent(i, j)
         else
@@ -200,8 +250,9 @@ contains
     end do
   end subroutine
 
-  subroutine check_slide(by)
+  subroutine check_slide(by, frozen)
     real(c_double), intent(in) :: by
+    logical, intent(in) :: frozen
     real(c_double), save :: r(UNKNOWNS), k(UNKNOWNS, UNKNOWNS), handle_r(UNKNOWNS), handle_k(UNKNOWNS, UNKNOWNS)
     type(triplets), save :: t
     integer(c_int32_t), target :: state(NA)
@@ -212,6 +263,7 @@ contains
     call scene_init(s)
     s%options%multiplier_basis = STICKSLIP_BASIS_DUAL
     s%options%weak_coverage = 0
+    s%options%weights = merge(STICKSLIP_WEIGHTS_COMMITTED, STICKSLIP_WEIGHTS_CURRENT, frozen)
     call scene_create(s)
     call scene_commit(s)
     call integrate(s%x1, s%x2, before)
@@ -233,27 +285,29 @@ contains
     call scene_residual(s, handle_r)
     call scene_dense(s, t, handle_k)
     do layout = 0, 1
-      call assemble(int(layout, c_int32_t), r, k)
+      call assemble(frozen, int(layout, c_int32_t), r, k)
       CHECK_NEAR(r, handle_r, ROUNDING * worst(handle_r))
       CHECK(block_difference(k, handle_k, 0.01d0 * worst(handle_k)) <= ROUNDING)
     end do
-    call check_differences(k)
+    call check_differences(frozen, k)
     call scene_destroy(s)
   end subroutine
 
-  subroutine check_differences(k)
+  subroutine check_differences(frozen, k)
+    logical, intent(in) :: frozen
     real(c_double), intent(in) :: k(UNKNOWNS, UNKNOWNS)
     real(c_double) :: plus(UNKNOWNS), minus(UNKNOWNS)
     integer :: j
     do j = 1, UNKNOWNS
-      call moved_residual(j, STEP, plus)
-      call moved_residual(j, -STEP, minus)
+      call moved_residual(frozen, j, STEP, plus)
+      call moved_residual(frozen, j, -STEP, minus)
       CHECK_NEAR(k(:, j), (plus - minus) / (2 * STEP), DIFFERENCES * worst(k))
     end do
   end subroutine
 
   ! The residual with the j-th unknown moved from where it is, and back.
-  subroutine moved_residual(j, by, r)
+  subroutine moved_residual(frozen, j, by, r)
+    logical, intent(in) :: frozen
     integer, intent(in) :: j
     real(c_double), intent(in) :: by
     real(c_double), intent(out) :: r(UNKNOWNS)
@@ -272,7 +326,7 @@ contains
       s%lambda(i, node - NA - NC) = s%lambda(i, node - NA - NC) + by
     end if
     call integrate(s%x1, s%x2, now)
-    call assemble(STICKSLIP_LAYOUT_COLUMN_MAJOR, r)
+    call assemble(frozen, STICKSLIP_LAYOUT_COLUMN_MAJOR, r)
     s%x1 = x1
     s%x2 = x2
     s%lambda = lambda
