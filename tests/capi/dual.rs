@@ -349,11 +349,12 @@ fn forces_and_gaps(patch: &Patch, traction: &[f64]) -> Vec<f64> {
 }
 
 /// Points in place of overlaps, and overlaps: with a law whose row is the gap, the matrix has the derivatives of forces and
-/// gaps. Facets that several pairs cover in part.
+/// gaps. Facets that several pairs cover in part. Even numbers of points: with odd ones a mortar corner of D15 lies under the
+/// middle one.
 #[test]
 fn facet_tangents_equal_differences_with_points_too() {
     let mut compared = 0;
-    for (case, points) in golden_part("golden_dual.json", "facets").iter().flat_map(|c| [(c, 0), (c, 4), (c, 7)]) {
+    for (case, points) in golden_part("golden_dual.json", "facets").iter().flat_map(|c| [(c, 0), (c, 4), (c, 6)]) {
         if !["D02", "D04", "D05", "D07", "D15"].iter().any(|start| name(case).starts_with(start)) {
             continue;
         }
