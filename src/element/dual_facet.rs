@@ -6,54 +6,16 @@
 //! allocates, so the pairs are gone through three times: for the facet's sums; for what they add to the same entries; and
 //! for the blocks. A node that several mortar facets share has a place in each of them, and a host adds these up.
 
+use super::facet_pairs::FacetPairs;
 use super::tangent::{FacetResponse, PairNow, PairTangent, row_columns};
 use crate::dual::{DualBasis, FacetMotion, FacetSums, PairShare, TractionDerivatives, coupling};
 use crate::error::{Error, Kind, Result};
 use crate::geometry::Mat3;
 use crate::mortar::{
-    AreaDerivatives, GapDerivative, MORTAR, NonmortarFrame, PAIR_NODES, PairWeights, Segment, height_gap,
-    pair_motion_raised,
+    AreaDerivatives, GapDerivative, MORTAR, NonmortarFrame, PAIR_NODES, PairWeights, pair_motion_raised,
 };
 use crate::quadrature::Rule;
 use crate::shape::MAX_CORNERS;
-
-/// The pairs of a non-mortar facet, by their number.
-pub trait FacetPairs {
-    /// How many there are.
-    fn count(&self) -> usize;
-    /// Number of a mortar facet's nodes.
-    fn nodes(&self, pair: usize) -> usize;
-    /// What overlaps now, if anything does.
-    ///
-    /// # Errors
-    /// Those of the overlap.
-    fn overlap(&self, pair: usize) -> Result<Option<Segment>>;
-    /// The weights of now, as they were integrated.
-    fn weights(&self, pair: usize) -> PairWeights;
-    /// The dual weights of t_n of a pair that overlapped then.
-    fn previous(&self, pair: usize) -> Option<PairWeights>;
-}
-
-/// The sums of a facet over its pairs.
-///
-/// # Errors
-/// Those of the overlaps; [`Kind::InvalidValue`] where facets that do not overlap have weights.
-pub fn facet_sums(frame: &NonmortarFrame, pairs: &impl FacetPairs) -> Result<FacetSums> {
-    let mut sums = FacetSums::new(frame);
-    for p in 0..pairs.count() {
-        let weights = pairs.weights(p);
-        match pairs.overlap(p)? {
-            Some(overlap) => sums.add(&weights, &height_gap(frame, &overlap.mortar, &weights)),
-            None if weights.ab.iter().chain(&weights.ac).flatten().all(|n| *n == 0.0) => {}
-            None => {
-                let text =
-                    text!("n_ab, n_ac of pair {p} are not 0, and its facets do not overlap: not the weights of now");
-                return Err(Error::new(Kind::InvalidValue, text));
-            }
-        }
-    }
-    Ok(sums)
-}
 
 /// A facet at its tractions, with the nodal states.
 pub struct DualFacet<'a, P> {
@@ -95,7 +57,7 @@ impl Places {
 }
 
 impl<'a, P: FacetPairs> DualFacet<'a, P> {
-    /// Of a facet with its sums ([`facet_sums`]) and their basis.
+    /// Of a facet with its sums ([`super::facet_sums`]) and their basis.
     pub fn new(
         (frame, rule): (&'a NonmortarFrame, &'a Rule),
         pairs: &'a P,

@@ -2,9 +2,11 @@
 //! nodal states (stage 3), and a node's own block (stage 4). With dual multipliers the tangent is a facet's.
 
 mod dual_facet;
+mod facet_pairs;
 mod residual;
 mod tangent;
 
-pub use dual_facet::{DualFacet, FacetPairs, facet_sums};
+pub use dual_facet::DualFacet;
+pub use facet_pairs::{FacetPairs, facet_sums};
 pub use residual::pair_force;
 pub use tangent::{FacetResponse, NodeTangent, PairNow, PairTangent, RowColumns, frozen_rows, gap_rows, row_columns};
