@@ -167,8 +167,8 @@ module stickslip
   integer(c_int64_t), parameter :: stickslip_pair_size = 56
   integer(c_int64_t), parameter :: stickslip_node_response_size = 408
   integer(c_int64_t), parameter :: stickslip_node_size = 240
-  integer(c_int64_t), parameter :: stickslip_equilibrium_size = 96
   integer(c_int64_t), parameter :: stickslip_facet_size = 72
+  integer(c_int64_t), parameter :: stickslip_equilibrium_size = 96
 
   ! A contact interface, made by stickslip_interface_create and ended by stickslip_interface_destroy. A copy means the
   ! same interface. One thread at a time.
@@ -323,21 +323,6 @@ module stickslip
     type(c_ptr) :: neighbour_normals = c_null_ptr  ! real(c_double) (3, n1): of the facets beyond the edges, 0: none
   end type
 
-  ! A non-mortar facet with all the mortar facets that it overlaps, or overlapped at t_n.
-  type, bind(C) :: stickslip_facet
-    integer(c_int64_t) :: struct_size = stickslip_facet_size
-    integer(c_int32_t) :: n1 = 0                   ! 3 (tri3) or 4 (quad4)
-    integer(c_int32_t) :: quadrature = STICKSLIP_QUADRATURE_DEGREE_5
-    integer(c_int32_t) :: layout = STICKSLIP_LAYOUT_COLUMN_MAJOR ! of the tangent: k(row, column)
-    integer(c_int32_t) :: reserved = 0
-    integer(c_int64_t) :: n_pairs = 0              ! mortar facets
-    type(c_ptr) :: x1 = c_null_ptr                 ! real(c_double) (3, n1) [L]
-    type(c_ptr) :: n2 = c_null_ptr                 ! integer(c_int32_t) (n_pairs)
-    type(c_ptr) :: x2 = c_null_ptr                 ! real(c_double) (3, sum(n2)), one mortar facet after the other [L]
-    integer(c_int64_t) :: element_points = 0       ! 0: overlaps; 2 to 10: points along a side
-    type(c_ptr) :: neighbour_normals = c_null_ptr  ! real(c_double) (3, n1): of the facets beyond the edges, 0: none
-  end type
-
   ! The law's answer for one node. Matrices are row-major in C, so dp_dlambda(j, i) = dp_i / dlambda_j.
   type, bind(C) :: stickslip_node_response
     integer(c_int64_t) :: struct_size = stickslip_node_response_size
@@ -373,6 +358,21 @@ module stickslip
     integer(c_int32_t) :: friction = STICKSLIP_FRICTION_COULOMB
     integer(c_int32_t) :: reserved = 0
     real(c_double) :: shear_limit = 0              ! largest shear traction, > 0 with TRESCA [F/L^2]
+  end type
+
+  ! A non-mortar facet with all the mortar facets that it overlaps, or overlapped at t_n.
+  type, bind(C) :: stickslip_facet
+    integer(c_int64_t) :: struct_size = stickslip_facet_size
+    integer(c_int32_t) :: n1 = 0                   ! 3 (tri3) or 4 (quad4)
+    integer(c_int32_t) :: quadrature = STICKSLIP_QUADRATURE_DEGREE_5
+    integer(c_int32_t) :: layout = STICKSLIP_LAYOUT_COLUMN_MAJOR ! of the tangent: k(row, column)
+    integer(c_int32_t) :: reserved = 0
+    integer(c_int64_t) :: n_pairs = 0              ! mortar facets
+    type(c_ptr) :: x1 = c_null_ptr                 ! real(c_double) (3, n1) [L]
+    type(c_ptr) :: n2 = c_null_ptr                 ! integer(c_int32_t) (n_pairs)
+    type(c_ptr) :: x2 = c_null_ptr                 ! real(c_double) (3, sum(n2)), one mortar facet after the other [L]
+    integer(c_int64_t) :: element_points = 0       ! 0: overlaps; 2 to 10: points along a side
+    type(c_ptr) :: neighbour_normals = c_null_ptr  ! real(c_double) (3, n1): of the facets beyond the edges, 0: none
   end type
 
   ! What stickslip_interface_equilibrium finds. Nodes in the index base, -1: all is zero.
