@@ -18,7 +18,7 @@ const ALLOWED: [(&str, &[&str]); 13] = [
     ("mortar", &["error", "geometry", "quadrature", "shape", "simd"]),
     ("dual", &["error", "geometry", "mortar", "shape"]),
     ("law", &["error", "geometry"]),
-    ("element", &["error", "geometry", "law", "mortar", "shape", "simd"]),
+    ("element", &["dual", "error", "geometry", "law", "mortar", "quadrature", "shape", "simd"]),
     (
         "interface",
         &[
