@@ -180,7 +180,7 @@ impl Owners {
         let all = equations.iter().enumerate().map(of_node);
         let all = all.flat_map(|node| node.into_iter().enumerate().map(|(i, (e, a))| (e, (a, i))));
         let mut all = all.filter(|(equation, _)| *equation != NO_EQUATION).stored()?;
-        all.sort_unstable();
+        memory::sort(&mut all)?;
         Ok(Owners(all))
     }
 
