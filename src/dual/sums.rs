@@ -37,6 +37,15 @@ impl FacetSums {
         sums
     }
 
+    /// Those of pairs whose gaps do not lie along the facet's normal: against an analytic surface. There is no gamma_A.
+    pub fn of_areas(frame: &NonmortarFrame, pairs: &[PairWeights]) -> FacetSums {
+        let mut sums = FacetSums::new(frame);
+        for weights in pairs {
+            sums.add(weights, &[0.0; MAX_CORNERS]);
+        }
+        sums
+    }
+
     /// Adds a pair's weights and its gamma_A.
     pub fn add(&mut self, weights: &PairWeights, gamma: &[f64; MAX_CORNERS]) {
         for a in 0..MAX_CORNERS {
