@@ -112,10 +112,7 @@ impl Scene {
         options.weak_coverage = [0.0, 0.5, 1.0][draw(random, 3)];
         const LINE: &[[f64; 2]] = &[[0.21132486540518713, 0.5], [0.7886751345948129, 0.5]];
         options.scheme = [Scheme::Segments, Scheme::Segments, Scheme::Hybrid(LINE)][draw(random, 3)];
-        // Some options are not there yet with dual multipliers.
-        if draw(random, 3) == 0 && mortar.analytic.is_none() && matches!(options.scheme, Scheme::Segments) {
-            options.basis = MultiplierBasis::Dual;
-        }
+        options.basis = [MultiplierBasis::Standard, MultiplierBasis::Standard, MultiplierBasis::Dual][draw(random, 3)];
         Scene { one: nonmortar, two: mortar, options }
     }
 

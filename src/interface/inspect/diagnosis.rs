@@ -264,7 +264,8 @@ fn worst_pairs<const N: usize>(given: Given<N>, pairs: &[PairRecord], (x1, x2): 
     d.overlap = smallest.map(|w: WorstPair| WorstPair { value: -w.value, ..w });
 }
 
-/// The weights of a pair as they are integrated; `None` where it is not known any more whether that is by points.
+/// The weights of a pair as they are integrated; `None` where it is not known whether that is by points: a history of
+/// frozen weights does not say so.
 fn integrated<const N: usize>(
     given: Given<N>,
     (f, frame): (usize, &NonmortarFrame),
@@ -272,10 +273,11 @@ fn integrated<const N: usize>(
     two: &Facet,
 ) -> Option<PairWeights> {
     let options = &given.setup.options;
+    let current = options.effective_weights() == Weights::Current;
     let line = match (options.scheme, &given.step.pairing.filter) {
         (Scheme::Segments, _) => None,
         (Scheme::Elements(line), _) => Some(line),
-        (Scheme::Hybrid(_), Some(Filter::Facets(filter))) => by_points(options, filter, f),
+        (Scheme::Hybrid(_), Some(Filter::Facets(filter))) if current => by_points(options, filter, f),
         (Scheme::Hybrid(_), _) => return None,
     };
     let Some(line) = line else { return Some(PairWeights::integrate(frame, overlap, options.rule)) };

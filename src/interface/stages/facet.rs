@@ -54,7 +54,7 @@ fn of_points(segments: &[Segment]) -> Option<Error> {
     let points = segments.first()?.points?;
     let count = |s: &Segment| s.points.map_or(0, |points| points.on_facet());
     let text = text!(
-        "{} of its {} points lie on the mortar side, and they do not determine its dual multipliers: take STICKSLIP_INTEGRATION_HYBRID, which has overlaps where a facet is covered in part (there already: take a smaller step), or the standard multipliers",
+        "{} of its {} points lie on the mortar side, and they do not determine its dual multipliers: take STICKSLIP_INTEGRATION_HYBRID, which has overlaps where a facet is covered in part at the start of a step (with it: take a smaller step), or the standard multipliers",
         segments.iter().map(count).sum::<u32>(),
         points.count()
     );
