@@ -22,7 +22,7 @@ pub use basis::DualBasis;
 pub use columns::{FacetColumns, TractionDerivatives};
 pub use coverage::{Coverage, FADE_BAND};
 pub use full::FullDerivatives;
-pub use mass::SMALLEST_PIVOT;
+pub use mass::{SMALLEST_DETERMINANT, SMALLEST_PIVOT};
 pub use motion::{FacetMotion, PairShare};
 pub use sums::FacetSums;
 pub use vectors::WholeFacet;

@@ -1,4 +1,4 @@
-//! Dual multipliers where facets are integrated by points in place of overlaps (docs/formulation.md 10.7): the tangent
+//! Dual multipliers where facets are integrated by points in place of overlaps (docs/formulation.md 10.8): the tangent
 //! against differences, what holds exactly, and which facets are refused by name.
 
 use crate::support::differences::Point;
@@ -202,12 +202,53 @@ fn facets_whose_points_determine_nothing_are_refused_by_name() {
             Interface::new(a, b, numbered(24, one.x.len()), dual(scheme))
         };
         assert!(of(Scheme::Hybrid(line(points))).is_ok());
+        // A triangle has points of several rows there, which may do.
         if cells == Cells::Quads {
             let error = of(Scheme::Elements(line(points))).err().unwrap();
             let words = format!("nonmortar facet 0: {points} of its {} points lie on the mortar side", points * points);
             assert!(is_of_points(&error) && error.to_string().contains(&words), "{error}");
         }
     }
+}
+
+/// Strips across a facet at any angle, with points in rows and clusters: the weights are right, or the facet is refused. The
+/// pivots of a singular matrix are no rounding where those before them are small: its determinant is.
+#[test]
+fn no_set_of_points_gives_wrong_weights() {
+    /// Of a solution with half of the digits lost.
+    const RIGHT: f64 = 1e-8;
+    let (mut random, mut taken, mut refused) = (Random(17), 0, 0);
+    for k in 0..3000 {
+        let cells = [Cells::Quads, Cells::Triangles][k % 2];
+        let scheme = Scheme::Elements(line([3, 5, 7, 10][k / 2 % 4]));
+        let one = grid(1, 1, [0.0, 0.0], [1.0, 1.0], 0.0, false, cells);
+        let mut two = grid(1, 1, [-2.0, -1.0], [2.0, 1.0], 0.0, true, Cells::Quads);
+        let (angle, length, width) = (3.2 * random.next(), random.next().abs(), 10f64.powf(1.2 * random.next() - 1.3));
+        let turn = nalgebra::Rotation3::from_euler_angles(0.0, 0.0, angle);
+        let at = Vec3::new(0.5 + 0.5 * random.next(), 0.5 + 0.5 * random.next(), 0.0);
+        two.x.iter_mut().for_each(|x| *x = at + turn * Vec3::new(x.x * length, x.y * width, 0.0));
+        let lambda: Vec<_> = one.x.iter().map(|_| random.vector(1.0)).collect();
+        let surface = |side, mesh: &Mesh, first| {
+            Surface::new(side, mesh.x.clone(), &mesh.facets, numbered(first, mesh.x.len())).unwrap()
+        };
+        let (a, b) = (surface("nonmortar", &one, 0), surface("mortar", &two, 12));
+        match Interface::new(a, b, numbered(24, one.x.len()), dual(scheme)) {
+            Ok(mut c) => {
+                let sums = c.sums(&one.x, &two.x).unwrap();
+                taken += i32::from(sums.iter().any(|s| s.coverage > 0.0));
+                let r = c.residual(&one.x, &two.x, &lambda, None).unwrap();
+                for ((force, sum), lambda) in r.nonmortar.iter().zip(&sums).zip(&lambda) {
+                    assert!((force - lambda * sum.coverage).amax() <= RIGHT, "{scheme:?} {two:?}", two = two.x);
+                    assert!(sum.gap_now.amax() <= RIGHT);
+                }
+            }
+            Err(error) => {
+                assert!(is_of_points(&error), "{error}");
+                refused += 1;
+            }
+        }
+    }
+    assert!(taken > 500 && refused > 500, "{taken} {refused}");
 }
 
 /// The diagnosis compares a pair's own weights with those of a finer rule, not the ones that act.

@@ -2,7 +2,7 @@
 //! standard basis nothing; the dual one depends on all pairs of a facet together.
 
 use crate::dual::{DualBasis, FacetSums};
-use crate::error::{Error, Kind, Result};
+use crate::error::{Error, Result};
 use crate::interface::data::active::Active;
 use crate::interface::data::options::MultiplierBasis;
 use crate::interface::data::surface::{Surface, at_facet};
@@ -44,19 +44,19 @@ pub fn dual_basis(nonmortar: &Surface, active: &Active, pairs: Range<usize>) -> 
         [] => FacetSums::of_areas(&active.frames[f], weights),
         _ => FacetSums::of(&active.frames[f], segments.iter().zip(weights)),
     };
-    let basis = DualBasis::of(&sums).map_err(|error| of_points(segments).unwrap_or(error));
+    let basis = DualBasis::of(&sums).map_err(|error| of_points(segments, &error).unwrap_or(error));
     Ok((sums, basis.map_err(at_facet(nonmortar.side, f))?))
 }
 
-/// Why a facet has no dual basis, where it is integrated by points.
+/// Why a facet has no dual basis, where it is integrated by points: how many of them there are, and what to do.
 #[cold]
-fn of_points(segments: &[Segment]) -> Option<Error> {
+fn of_points(segments: &[Segment], error: &Error) -> Option<Error> {
     let points = segments.first()?.points?;
     let count = |s: &Segment| s.points.map_or(0, |points| points.on_facet());
     let text = text!(
-        "{} of its {} points lie on the mortar side, and they do not determine its dual multipliers: take STICKSLIP_INTEGRATION_HYBRID, which has overlaps where a facet is covered in part at the start of a step (with it: take a smaller step), or the standard multipliers",
+        "{} of its {} points lie on the mortar side, which is too few, or they lie badly: its dual multipliers are not determined; take STICKSLIP_INTEGRATION_HYBRID, which has overlaps where a facet is covered in part at the start of a step (with it: take a smaller step), or the standard multipliers",
         segments.iter().map(count).sum::<u32>(),
         points.count()
     );
-    Some(Error::new(Kind::DegenerateFacet, text))
+    Some(Error::new(error.kind, text))
 }
