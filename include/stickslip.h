@@ -243,11 +243,14 @@
 
 /// Dual functions, biorthogonal to the shape functions over what is covered of a facet: a node's force is its multiplier
 /// times its covered area, and tractions do not oscillate beside edges and on curved surfaces. The tangent couples the
-/// mortar nodes of all pairs of a facet. Give weak_coverage, 0.2 say, where surfaces slide off an edge. With
+/// mortar nodes of all pairs of a facet. Neighbours carry weakly covered nodes unless weak_coverage says NONE. With
 /// STICKSLIP_INTEGRATION_ELEMENTS a facet whose covered points do not determine its multipliers is refused
 /// (DEGENERATE_FACET); STICKSLIP_INTEGRATION_HYBRID takes overlaps there from the next commit on. UNSUPPORTED in this
 /// version: sums of handles, the stages.
 #define STICKSLIP_BASIS_DUAL 1
+
+/// weak_coverage: every covered node has a multiplier of its own.
+#define STICKSLIP_WEAK_COVERAGE_NONE -1.0
 
 /// 7 points a triangle, degree 5: exact for triangles and parallelograms. Default.
 #define STICKSLIP_QUADRATURE_DEGREE_5 0
@@ -317,6 +320,16 @@
 
 /// Reals per node of `stickslip_interface_sums`.
 #define STICKSLIP_SUMS_PER_NODE 11
+
+/// A piece of a condensed matrix: what the contact forces add to the host's own matrix, their derivative with respect to the
+/// displacements at fixed multipliers.
+#define STICKSLIP_CONDENSED_FORCES 0
+
+/// The elimination without the identity, L - I.
+#define STICKSLIP_CONDENSED_ELIMINATION 1
+
+/// The contact constraints G, in the rows of the non-mortar nodes.
+#define STICKSLIP_CONDENSED_CONSTRAINTS 2
 
 /// Cover of a node: none (at and below coverage_min). It is open.
 #define STICKSLIP_COVER_NONE 0
@@ -443,9 +456,11 @@ typedef struct stickslip_options {
   int64_t element_points;
   /// A node covered less than this times its best covered neighbour at t_n [-] has no multiplier of its own in the
   /// step: covered neighbours carry it, lambda_A = sum_B w_AB lambda_B with sum_B w_AB = 1, and its gap counts in
-  /// their rows. They carry newly covered nodes too, with friction, up to four facets away. At most 1; 0 (default):
-  /// every covered node has its own, and that of a sliver grows without bound as the sliver goes; 0.5: none beyond
-  /// the mortar surface's edge has. It changes the answer at partly covered nodes alone. Not with sums of handles. With
+  /// their rows. They carry newly covered nodes too, with friction, up to four facets away. At most 1; 0 (default): the
+  /// library's choice, none with standard multipliers and 0.2 with dual ones, told by `stickslip_interface_effects`;
+  /// STICKSLIP_WEAK_COVERAGE_NONE: every covered node has its own, and that of a sliver grows without bound as the sliver
+  /// goes; 0.5: none beyond the mortar surface's edge has. It changes the answer at partly covered nodes alone. Not with
+  /// sums of handles. Who carries whom: `stickslip_interface_carriers`. With
   /// one multiplier a node (no friction) a node hands on its normal traction; with three it hands on the vector. So
   /// between nodes of different normals mu = 0 and no friction give slightly different answers.
   double weak_coverage;
@@ -1101,6 +1116,120 @@ int32_t stickslip_interface_pattern_coo(struct stickslip_interface *interface,
                                         int64_t *rows,
                                         int64_t *columns,
                                         int64_t *count);
+
+/// Which nodes carry weakly covered ones in this step: lambda_A = sum_B w_AB lambda_B. Settled by t_n; a node that carries
+/// another has a multiplier of its own. Read it after a commit, to carry in the stateless stages too.
+///
+/// Outputs: nodes A and carriers B (indices of non-mortar nodes, in the index base), weights w_AB [-] (capacity each), sorted
+/// by A, count. With all three arrays NULL only count is written, and capacity is not read.
+///
+/// Errors: NULL_POINTER, BUFFER_TOO_SMALL.
+/// Cost: a copy.
+int32_t stickslip_interface_carriers(struct stickslip_interface *interface,
+                                     int64_t capacity,
+                                     int64_t *nodes,
+                                     int64_t *carriers,
+                                     double *weights,
+                                     int64_t *count);
+
+/// The multipliers of a system without them, lambda_A = -(the host's own force at A) / D_A, D_A the covered area: those
+/// with which the rows of the non-mortar nodes are balanced. Weakly covered nodes have their carriers', uncovered ones 0.
+///
+/// x1 (3 n1), x2 (3 n2): positions [L]; host1 (3 n1): the residual of the host's own forces at the non-mortar nodes, internal
+/// minus external, without contact [F]. lambda (n1 multipliers, 3 or 1 components each), output [F/L^2].
+/// In each evaluation of a nonlinear solver: this call, then `stickslip_interface_condensed_residual`. After a linear solve
+/// from given multipliers: at the old positions, host1 being the residual there plus J du, J the host's matrix with
+/// STICKSLIP_CONDENSED_FORCES.
+///
+/// Errors: NULL_POINTER, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL, INVALID_VALUE (as
+/// `stickslip_interface_sums`); UNSUPPORTED: standard multipliers, the augmented form, a prescribed component (equation -1)
+/// of a node that has a multiplier there, two nodes with an equation in common (of which one has a multiplier), nodes that
+/// are not owned; and a node that carries others and is not covered any more: within Newton's method take a smaller step.
+/// Cost: as `stickslip_interface_sums`, and a sort of the nodes.
+int32_t stickslip_interface_condensed_multipliers(struct stickslip_interface *interface,
+                                                  const double *x1,
+                                                  const double *x2,
+                                                  const double *host1,
+                                                  double *lambda);
+
+/// The residual of a system without multipliers: rows1 in place of the host's rows of the non-mortar nodes, force2 to be added
+/// to those of the mortar nodes. All are forces. With multipliers of `stickslip_interface_condensed_multipliers` a function of
+/// the displacements alone, continuous across gap, stick and slip.
+///
+/// x1 (3 n1), x2 (3 n2): positions [L]; lambda (n1 multipliers) [F/L^2], read where a node is covered and not carried; host1
+/// (3 n1): the residual of the host's own forces at the non-mortar nodes, without contact [F]. Outputs: rows1 (3 n1; may be
+/// host1) and force2 (3 n2) [F].
+///
+/// Errors: as `stickslip_interface_condensed_multipliers`.
+/// Cost: as `stickslip_interface_residual`, and a sort of the pairs' nodes.
+int32_t stickslip_interface_condensed_residual(struct stickslip_interface *interface,
+                                               const double *x1,
+                                               const double *x2,
+                                               const double *lambda,
+                                               const double *host1,
+                                               double *rows1,
+                                               double *force2);
+
+/// A piece of the matrix of a system without multipliers as triplets in displacement equations. With K the host's own matrix,
+/// T the piece FORCES, E the piece ELIMINATION and G the piece CONSTRAINTS, and J = K + T, the matrix is J + E J + G. It is
+/// the derivative of the residual whose multipliers follow from the displacements, but for the change of the scale s_A =
+/// r_A D_A of constraint rows, which vanishes with the residual: Newton's method converges quadratically. Not symmetric.
+///
+/// x1 (3 n1), x2 (3 n2): positions [L]; lambda (n1 multipliers) [F/L^2], as for the residual; piece: STICKSLIP_CONDENSED_...
+/// Outputs: rows, columns, values (capacity each), count; duplicates add up; entries without an equation are left out. With
+/// all three arrays NULL only count is written, and capacity is not read. Units: F/L; ELIMINATION has none.
+///
+/// Errors: as `stickslip_interface_condensed_multipliers`, INVALID_VALUE (piece), BUFFER_TOO_SMALL.
+/// Cost: FORCES and CONSTRAINTS as `stickslip_interface_tangent_coo`, counting too; ELIMINATION as the residual. Allocates.
+int32_t stickslip_interface_condensed_coo(struct stickslip_interface *interface,
+                                          const double *x1,
+                                          const double *x2,
+                                          const double *lambda,
+                                          int32_t piece,
+                                          int64_t capacity,
+                                          int64_t *rows,
+                                          int64_t *columns,
+                                          double *values,
+                                          int64_t *count);
+
+/// Turns the host's own matrix, compressed sparse rows, into that of the system without multipliers, in place: J + E J + G,
+/// see `stickslip_interface_condensed_coo`. Several interfaces of one matrix: none may have a mortar node that is
+/// non-mortar in another one.
+///
+/// x1, x2, lambda as there; n_rows, row_offsets, columns, values as for `stickslip_interface_tangent_csr`; only the rows of
+/// the interface's nodes are read and changed.
+///
+/// Errors: as `stickslip_interface_condensed_multipliers`, NOT_FINITE (the result), INVALID_SIZE, INDEX_OUT_OF_RANGE, and
+/// MISSING_ENTRY where the matrix lacks an entry (renew its pattern by `stickslip_interface_condensed_pattern`); then
+/// nothing was changed.
+/// Cost: as `stickslip_interface_tangent_csr`, and a sum of rows for each mortar node near a non-mortar one. Allocates.
+int32_t stickslip_interface_condensed_csr(struct stickslip_interface *interface,
+                                          const double *x1,
+                                          const double *x2,
+                                          const double *lambda,
+                                          int64_t n_rows,
+                                          const int64_t *row_offsets,
+                                          const int64_t *columns,
+                                          double *values);
+
+/// The entries that `stickslip_interface_condensed_csr` may need in the host's matrix while the surfaces slide by less than a
+/// quarter of a facet, its own left aside: rows of mortar nodes gain the columns of the non-mortar nodes near them.
+///
+/// x1 (3 n1), x2 (3 n2): positions [L]; n_rows, row_offsets, columns: the pattern of the host's own matrix. Outputs:
+/// entry_rows, entry_columns (capacity each; both NULL: only count), count. Duplicates occur, and entries that are there.
+///
+/// Errors: as `stickslip_interface_condensed_multipliers`, INVALID_SIZE, INDEX_OUT_OF_RANGE, BUFFER_TOO_SMALL.
+/// Cost: as `stickslip_interface_pattern_coo`, and the entries sorted. Allocates.
+int32_t stickslip_interface_condensed_pattern(struct stickslip_interface *interface,
+                                              const double *x1,
+                                              const double *x2,
+                                              int64_t n_rows,
+                                              const int64_t *row_offsets,
+                                              const int64_t *columns,
+                                              int64_t capacity,
+                                              int64_t *entry_rows,
+                                              int64_t *entry_columns,
+                                              int64_t *count);
 
 /// How much of a step of Newton's method may be taken before the surfaces pass through each other: where contact alone
 /// holds a body that does not touch yet, Newton's step is far too long. Every covered node may go deeper by

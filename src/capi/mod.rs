@@ -44,6 +44,8 @@ mod evaluation;
 
 mod tangent;
 
+mod condensed;
+
 mod closing;
 
 mod history;
@@ -70,6 +72,7 @@ mod raw;
 mod sized;
 
 pub use closing::*;
+pub use condensed::*;
 pub use counters::*;
 pub use diagnosis::*;
 pub use equilibrium::*;

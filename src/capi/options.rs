@@ -68,11 +68,13 @@ pub const STICKSLIP_SHORTCUT_UNCOVERED: i32 = 8;
 pub const STICKSLIP_BASIS_STANDARD: i32 = 0;
 /// Dual functions, biorthogonal to the shape functions over what is covered of a facet: a node's force is its multiplier
 /// times its covered area, and tractions do not oscillate beside edges and on curved surfaces. The tangent couples the
-/// mortar nodes of all pairs of a facet. Give weak_coverage, 0.2 say, where surfaces slide off an edge. With
+/// mortar nodes of all pairs of a facet. Neighbours carry weakly covered nodes unless weak_coverage says NONE. With
 /// STICKSLIP_INTEGRATION_ELEMENTS a facet whose covered points do not determine its multipliers is refused
 /// (DEGENERATE_FACET); STICKSLIP_INTEGRATION_HYBRID takes overlaps there from the next commit on. UNSUPPORTED in this
 /// version: sums of handles, the stages.
 pub const STICKSLIP_BASIS_DUAL: i32 = 1;
+/// weak_coverage: every covered node has a multiplier of its own.
+pub const STICKSLIP_WEAK_COVERAGE_NONE: f64 = -1.0;
 /// 7 points a triangle, degree 5: exact for triangles and parallelograms. Default.
 pub const STICKSLIP_QUADRATURE_DEGREE_5: i32 = 0;
 /// 36 points a triangle, degree 10: for warped or distorted quadrilaterals where accuracy counts.
@@ -173,9 +175,11 @@ pub struct stickslip_options {
     pub element_points: i64,
     /// A node covered less than this times its best covered neighbour at t_n [-] has no multiplier of its own in the
     /// step: covered neighbours carry it, lambda_A = sum_B w_AB lambda_B with sum_B w_AB = 1, and its gap counts in
-    /// their rows. They carry newly covered nodes too, with friction, up to four facets away. At most 1; 0 (default):
-    /// every covered node has its own, and that of a sliver grows without bound as the sliver goes; 0.5: none beyond
-    /// the mortar surface's edge has. It changes the answer at partly covered nodes alone. Not with sums of handles. With
+    /// their rows. They carry newly covered nodes too, with friction, up to four facets away. At most 1; 0 (default): the
+    /// library's choice, none with standard multipliers and 0.2 with dual ones, told by `stickslip_interface_effects`;
+    /// STICKSLIP_WEAK_COVERAGE_NONE: every covered node has its own, and that of a sliver grows without bound as the sliver
+    /// goes; 0.5: none beyond the mortar surface's edge has. It changes the answer at partly covered nodes alone. Not with
+    /// sums of handles. Who carries whom: `stickslip_interface_carriers`. With
     /// one multiplier a node (no friction) a node hands on its normal traction; with three it hands on the vector. So
     /// between nodes of different normals mu = 0 and no friction give slightly different answers.
     pub weak_coverage: f64,
@@ -235,7 +239,7 @@ pub unsafe extern "C" fn stickslip_options_init(options: *mut stickslip_options,
 
 /// Looks up an option's number in a table of what this version has; numbers below `named` exist in the
 /// header.
-fn choose<T: Copy>(value: i32, name: &str, available: &[T], named: i32) -> Result<T> {
+pub(super) fn choose<T: Copy>(value: i32, name: &str, available: &[T], named: i32) -> Result<T> {
     let choice = usize::try_from(value).ok().and_then(|k| available.get(k));
     choice.copied().ok_or_else(|| {
         if (0..named).contains(&value) {

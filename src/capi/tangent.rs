@@ -5,16 +5,16 @@ use super::handle::{either, handle, stickslip_interface};
 use super::point::Point;
 use super::raw;
 use crate::error::{Error, Kind, Result};
-use crate::interface::{Extent, NO_EQUATION, Sink};
+use crate::interface::{Csr, Extent, NO_EQUATION, Sink};
 use crate::memory::{self, Store};
 use std::mem::MaybeUninit;
 
 /// Entries in the core's numbering.
 #[derive(Default)]
-struct Triplets {
-    rows: Vec<i64>,
-    columns: Vec<i64>,
-    values: Vec<f64>,
+pub(super) struct Triplets {
+    pub rows: Vec<i64>,
+    pub columns: Vec<i64>,
+    pub values: Vec<f64>,
     /// There was no memory for all of them.
     refused: Option<Error>,
 }
@@ -90,8 +90,23 @@ impl Triplets {
     }
 
     /// Copies to the caller's arrays, or only counts when they are all NULL. `values` may be absent.
-    fn write(
+    pub fn write(
         &self,
+        base: i64,
+        capacity: i64,
+        rows: *mut i64,
+        columns: *mut i64,
+        values: Option<*mut f64>,
+        count: *mut i64,
+    ) -> Result<()> {
+        self.write_as(["rows", "columns", "values"], base, capacity, rows, columns, values, count)
+    }
+
+    /// The same, with other names for these arrays.
+    #[expect(clippy::too_many_arguments, reason = "what a caller gives")]
+    pub fn write_as(
+        &self,
+        names: [&str; 3],
         base: i64,
         capacity: i64,
         rows: *mut i64,
@@ -103,10 +118,10 @@ impl Triplets {
         let n = self.values.len();
         let counting = rows.is_null() && columns.is_null() && values.is_none_or(<*mut f64>::is_null);
         if !counting {
-            raw::check(rows, "rows")?;
-            raw::check(columns, "columns")?;
+            raw::check(rows, names[0])?;
+            raw::check(columns, names[1])?;
             if let Some(values) = values {
-                raw::check(values, "values")?;
+                raw::check(values, names[2])?;
             }
             if capacity < n as i64 {
                 return Err(Error::new(Kind::BufferTooSmall, text!("capacity is {capacity}; {n} entries are needed")));
@@ -122,7 +137,7 @@ impl Triplets {
     }
 
     /// Refuses where an entry found no memory or left the range of doubles.
-    fn check(&mut self) -> Result<()> {
+    pub fn check(&mut self) -> Result<()> {
         self.refused.take().map_or(Ok(()), Err)?;
         // 0 v is 0 unless v is infinite or not a number; eight sums at a time.
         let (eights, rest) = self.values.as_chunks::<8>();
@@ -134,6 +149,15 @@ impl Triplets {
         }
         raw::check_results("values", sums.iter().chain(rest))
     }
+}
+
+/// The places of a host's matrix.
+pub(super) fn read_csr<'a>(base: i64, n_rows: i64, row_offsets: *const i64, columns: *const i64) -> Result<Csr<'a>> {
+    let n = raw::count(n_rows, 1, "n_rows")?;
+    let offsets = raw::slice(row_offsets, n + 1, "row_offsets")?;
+    let entries = raw::count(Csr::entries(base, offsets)?, 0, "row_offsets[n_rows]")?;
+    let columns = raw::slice(columns, entries, "columns")?;
+    Ok(Csr::new(base, offsets, columns))
 }
 
 /// The exact tangent d residual / d (x1, x2, lambda) as triplets in the host's equation numbers and index
@@ -204,35 +228,14 @@ pub unsafe extern "C" fn stickslip_interface_tangent_csr(
     guard(|| {
         let h = handle(interface)?;
         let point = Point::read(&h.inner, x1, x2, lambda, sums)?;
-        let n = raw::count(n_rows, 1, "n_rows")?;
-        let offsets = raw::slice(row_offsets, n + 1, "row_offsets")?;
-        let decreases = || (1..=n).find(|&k| offsets[k] < offsets[k - 1]);
-        if let Some(k) = if offsets[0] == h.base { decreases() } else { Some(0) } {
-            let text = text!("row_offsets[{k}] is {}; offsets start at {} and do not decrease", offsets[k], h.base);
-            return Err(Error::new(Kind::InvalidSize, text));
-        }
-        let entries = raw::count(offsets[n].saturating_sub(h.base), 0, "row_offsets[n_rows]")?;
-        let columns = raw::slice(columns, entries, "columns")?;
+        let csr = read_csr(h.base, n_rows, row_offsets, columns)?;
         raw::check(values, "values")?;
         let mut t = Triplets::default();
         either!(&mut h.inner, c => c.tangent(&point.x1, &point.x2, &point.lambda()?, point.sums(), &mut t)?);
         t.check()?;
         let mut places = memory::with_room(t.values.len())?;
         for (&row, &column) in t.rows.iter().zip(&t.columns) {
-            let Some(r) = usize::try_from(row).ok().filter(|&r| r < n) else {
-                let text = text!("the interface has equation {}; the matrix has {n} rows", row + h.base);
-                return Err(Error::new(Kind::IndexOutOfRange, text));
-            };
-            let (first, end) = ((offsets[r] - h.base) as usize, (offsets[r + 1] - h.base) as usize);
-            let range = &columns[first..end];
-            let target = column + h.base;
-            // Rows are usually sorted; where they are not, look at every entry.
-            let found = range.binary_search(&target).ok().or_else(|| range.iter().position(|&c| c == target));
-            let Some(found) = found else {
-                let text = text!("the matrix lacks the entry ({}, {target}); renew its pattern", row + h.base);
-                return Err(Error::new(Kind::MissingEntry, text));
-            };
-            places.store(first + found)?;
+            places.store(csr.place(row, column)?)?;
         }
         for (place, value) in places.into_iter().zip(t.values) {
             // SAFETY: place < entries, and the caller's values has that many.

@@ -79,7 +79,7 @@ fn an_evaluation_stage_by_stage() {
     let union = union(&active.pairs, &step.history.pairs, true).unwrap();
     let mut entries = 0;
     let mut count = |_: i64, _: i64, _: f64| entries += 1;
-    blocks::<false, 3>((given, &[Vec3::zeros(); 4]), &union, Extent::Whole, None, &mut count).unwrap();
+    blocks::<false, 3>((given, &[Vec3::zeros(); 4]), &union, Extent::Whole, None, (&mut count, None)).unwrap();
     // 12 x 12 of the forces, 3 x 16 of the multipliers in them, 12 x 12 of the rows, 4 x 9 of the nodes.
     assert_eq!(entries, 372);
 }

@@ -192,6 +192,12 @@ impl<const N: usize> Contact<N> {
         self.given().row_scale(a)
     }
 
+    /// Which nodes carry others in this step: (carried node, carrier, weight), sorted.
+    pub fn carriers(&self) -> impl Iterator<Item = (usize, usize, f64)> {
+        let all = self.step.pairing.carriers.iter().enumerate();
+        all.flat_map(|(a, carriers)| carriers.iter().map(move |&(b, w)| (a, b, w)))
+    }
+
     /// Slip of node A since the first configuration `[L]`, this step's included.
     pub fn slip_after(&self, a: usize, response: &NodeResponse<N>, coverage_previous: f64) -> Vec3 {
         self.given().slip_after(a, response, coverage_previous)

@@ -14,7 +14,7 @@ use super::stages::residual::{self, Residual};
 use super::stages::sums::NodeSums;
 use super::tangent::blocks::{Numbers, blocks, node_tangents};
 use super::tangent::derivatives::PairDerivatives;
-use super::tangent::emission::Sink;
+use super::tangent::emission::{Sink, Sinks};
 use super::tangent::union::{UnionPair, possible_pairs, union};
 use crate::error::{Error, Kind, Result};
 use crate::geometry::Vec3;
@@ -103,8 +103,19 @@ impl<const N: usize> Contact<N> {
                 "sums with the augmented form: its tangent couples pairs of different handles; use the multiplier form";
             return Err(Error::new(Kind::Unsupported, text));
         }
-        let extent = Extent::of(sums);
         self.cache.respond(&self.setup, &mut self.step, (x1, x2), lambda, sums)?;
+        self.linearise((x1, x2), lambda, Extent::of(sums), None, (sink, None))
+    }
+
+    /// The blocks of a tangent at the point of the last answers. `scales`: factors of the nodes' rows, in place of their own.
+    pub(super) fn linearise(
+        &mut self,
+        (x1, x2): (&[Vec3], &[Vec3]),
+        lambda: &[SVector<f64, N>],
+        extent: Extent,
+        scales: Option<&[f64]>,
+        sinks: Sinks,
+    ) -> Result<()> {
         let differentiates = self.setup.options.differentiates_weights();
         if differentiates {
             self.cache.find_segments(&self.setup, &self.step)?;
@@ -122,34 +133,36 @@ impl<const N: usize> Contact<N> {
         let numbers = Numbers {
             x1,
             responses,
-            nodes: node_tangents(given, lambda, responses, &normals)?,
+            nodes: node_tangents(given, lambda, responses, &normals, |a| {
+                scales.map_or_else(|| given.row_scale(a), |s| s[a])
+            })?,
             active: self.cache.active().filter(|_| differentiates),
             motion,
         };
-        let linearised = self.blocks(&self.union()?, &normals, extent, Some(&numbers), sink)?;
+        let linearised = self.blocks(&self.union()?, &normals, extent, Some(&numbers), sinks)?;
         self.cache.counters.pairs_linearised += linearised;
         self.cache.counters.seconds_assembly += start.elapsed().as_secs_f64();
         Ok(())
     }
 
-    fn blocks(
+    pub(super) fn blocks(
         &self,
         union: &[UnionPair],
         normals: &[Vec3],
         extent: Extent,
         numbers: Option<&Numbers<N>>,
-        sink: &mut dyn Sink,
+        sinks: Sinks,
     ) -> Result<i64> {
         let given = (self.given(), normals);
         if self.setup.effects.moves() {
-            blocks::<true, N>(given, union, extent, numbers, sink)
+            blocks::<true, N>(given, union, extent, numbers, sinks)
         } else {
-            blocks::<false, N>(given, union, extent, numbers, sink)
+            blocks::<false, N>(given, union, extent, numbers, sinks)
         }
     }
 
     /// The pairs that a tangent has here.
-    fn union(&self) -> Result<Vec<UnionPair<'_>>> {
+    pub(super) fn union(&self) -> Result<Vec<UnionPair<'_>>> {
         if self.cache.is_apart() {
             return Ok(Vec::new());
         }
@@ -162,13 +175,17 @@ impl<const N: usize> Contact<N> {
         self.given().check_positions(x1, x2)?;
         self.cache.integrate(&self.setup, &mut self.step, (x1, x2), extent)?;
         let normals = memory::filled(Vec3::zeros(), self.setup.nonmortar.len())?;
-        self.blocks(&self.union()?, &normals, extent, None, sink).map(|_| ())
+        self.blocks(&self.union()?, &normals, extent, None, (sink, None)).map(|_| ())
     }
 
     /// The entries of any tangent, with sums or without, while the surfaces slide by less than a quarter of a facet. A
     /// larger motion may need entries beyond these.
     pub fn superset_pattern(&mut self, x1: &[Vec3], x2: &[Vec3], sink: &mut impl Sink) -> Result<()> {
         self.given().check_positions(x1, x2)?;
+        self.superset((x1, x2), (sink, None))
+    }
+
+    pub(super) fn superset(&mut self, (x1, x2): (&[Vec3], &[Vec3]), sinks: Sinks) -> Result<()> {
         // Refuses what an evaluation here does, and serves the next one.
         self.cache.integrate(&self.setup, &mut self.step, (x1, x2), Extent::Whole)?;
         let weights = PairWeights::default();
@@ -177,7 +194,7 @@ impl<const N: usize> Contact<N> {
         let any = |&(one, two)| UnionPair { one, two, now: Some(&weights), place: 0, previous: Some(&weights) };
         let all: Vec<_> = pairs.iter().map(any).stored()?;
         let normals = memory::filled(Vec3::zeros(), self.setup.nonmortar.len())?;
-        self.blocks(&all, &normals, Extent::Part, None, sink).map(|_| ())
+        self.blocks(&all, &normals, Extent::Part, None, sinks).map(|_| ())
     }
 }
 

@@ -10,6 +10,8 @@
 #[cfg(test)]
 mod by_hand;
 mod cache;
+mod condensation;
+mod condensed;
 mod contact;
 mod data;
 mod evaluation;
@@ -18,17 +20,20 @@ mod pairing;
 mod stages;
 mod tangent;
 
+pub use condensation::Piece;
+pub use condensed::rows::CondensedRows;
 pub use contact::{Contact, Interface};
 pub use data::checksum::seal_history;
 pub use data::counters::{Counters, NodeCounts};
 pub use data::crease::Split;
 pub use data::crosspoints::{Crosspoint, InterfaceNodes, crosspoints};
+pub use data::csr::Csr;
 pub use data::extent::Extent;
 pub use data::facet_gaps::FacetGaps;
 pub use data::history::History;
 pub use data::options::{
-    COVERAGE_MIN, Form, Friction, MODULUS_FACTOR, MortarSide, MultiplierBasis, NewContact, Options, RowScale, Scheme,
-    Shortcuts, Stiffness, TURN_MAX, Tangent, Weights,
+    COVERAGE_MIN, Form, Friction, MODULUS_FACTOR, MortarSide, MultiplierBasis, NO_WEAK_COVERAGE, NewContact, Options,
+    RowScale, Scheme, Shortcuts, Stiffness, TURN_MAX, Tangent, Weights,
 };
 pub use data::pairs::PairRecord;
 pub use data::surface::{FacetNodes, NO_EQUATION, Surface};

@@ -9,7 +9,9 @@ use serde_json::Value;
 use std::collections::HashSet;
 use stickslip::error::Kind;
 use stickslip::geometry::Vec3;
-use stickslip::interface::{Contact, Extent, Form, Friction, Interface, MultiplierBasis, Options, Stiffness, Weights};
+use stickslip::interface::{
+    Contact, Extent, Form, Friction, Interface, MultiplierBasis, NO_WEAK_COVERAGE, Options, Stiffness, Weights,
+};
 use stickslip::quadrature::{DEGREE_5, DEGREE_10};
 
 /// Residual blocks, relative to the largest entry of the block.
@@ -25,7 +27,8 @@ const RULE_TANGENT: f64 = 1e-4;
 const DIFFERENCES: f64 = 1e-7;
 
 fn dual(of: Options) -> Options {
-    Options { basis: MultiplierBasis::Dual, ..of }
+    let weak_coverage = if of.weak_coverage == 0.0 { NO_WEAK_COVERAGE } else { of.weak_coverage };
+    Options { basis: MultiplierBasis::Dual, weak_coverage, ..of }
 }
 
 fn cases() -> Vec<Value> {
@@ -96,7 +99,7 @@ fn the_tangent_equals_differences_in_every_column() {
             for friction in [Friction::Coulomb, Friction::Rough, Friction::Tied, Friction::Tresca] {
                 let mu = if matches!(friction, Friction::Coulomb | Friction::Tresca) { 0.7 } else { 0.0 };
                 let shear_limit = friction.law().limits_shear.then_some(0.2);
-                for weak_coverage in [0.0, 0.2] {
+                for weak_coverage in [NO_WEAK_COVERAGE, 0.2] {
                     let options =
                         dual(Options { form, friction, mu, shear_limit, weak_coverage, rule, ..mesh::options() });
                     let mut t = moved(&options, cells, rough, 3);

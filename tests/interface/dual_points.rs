@@ -1,4 +1,4 @@
-//! Dual multipliers where facets are integrated by points in place of overlaps (docs/formulation.md 10.8): the tangent
+//! Dual multipliers where facets are integrated by points in place of overlaps (docs/formulation.md 10.9): the tangent
 //! against differences, what holds exactly, and which facets are refused by name.
 
 use crate::support::differences::Point;
@@ -6,7 +6,9 @@ use crate::support::max_abs;
 use crate::support::mesh::*;
 use stickslip::error::{Error, Kind};
 use stickslip::geometry::Vec3;
-use stickslip::interface::{Contact, Form, Friction, Interface, MultiplierBasis, Options, Scheme, Surface, Weights};
+use stickslip::interface::{
+    Contact, Form, Friction, Interface, MultiplierBasis, NO_WEAK_COVERAGE, Options, Scheme, Surface, Weights,
+};
 use stickslip::quadrature::{DEGREE_10, cell};
 
 /// The tangent against differences, relative to the largest entry of a block.
@@ -20,7 +22,8 @@ fn line(points: usize) -> &'static [[f64; 2]] {
 
 /// Of the degree 10: facets with overlaps are warped, too.
 fn dual(scheme: Scheme) -> Options {
-    Options { basis: MultiplierBasis::Dual, scheme, rule: &DEGREE_10, ..options() }
+    let weak_coverage = NO_WEAK_COVERAGE;
+    Options { basis: MultiplierBasis::Dual, scheme, weak_coverage, rule: &DEGREE_10, ..options() }
 }
 
 fn schemes() -> [Scheme; 4] {
@@ -64,9 +67,12 @@ fn the_tangent_equals_differences_in_every_column() {
     let (mut states, mut partly) = ([0; 3], 0);
     for scheme in schemes() {
         for form in [Form::Multiplier, Form::Augmented] {
-            for (friction, weak_coverage) in
-                [(Friction::Coulomb, 0.0), (Friction::Coulomb, 0.2), (Friction::Rough, 0.0), (Friction::Tied, 0.0)]
-            {
+            for (friction, weak_coverage) in [
+                (Friction::Coulomb, NO_WEAK_COVERAGE),
+                (Friction::Coulomb, 0.2),
+                (Friction::Rough, NO_WEAK_COVERAGE),
+                (Friction::Tied, NO_WEAK_COVERAGE),
+            ] {
                 let mu = if friction == Friction::Coulomb { 0.7 } else { 0.0 };
                 for (what, mut t) in scenes(Options { form, friction, mu, weak_coverage, ..dual(scheme) }) {
                     for r in t.interface.responses(&t.x1, &t.x2, &t.lambda, None).unwrap() {

@@ -13,18 +13,18 @@ const DIFFERENCES: f64 = 1e-7;
 /// Rounding of sums of a few hundred terms, relative to the largest.
 const ROUNDING: f64 = 1e-13;
 /// The threshold of these tests.
-const WEAK: f64 = 0.4;
+pub const WEAK: f64 = 0.4;
 
 /// A 3 x 2 grid of size 1 over a plate that ends at x = 0.45 at t_n, or at 0.75 after a step: the third column of nodes
 /// (x = 2/3) is weak at t_n, the fourth (x = 1) newly covered. Tilted, so that gaps of both signs occur.
-struct Scene<const N: usize> {
-    contact: Contact<N>,
-    x1: Vec<Vec3>,
-    x2: Vec<Vec3>,
-    lambda: Vec<SVector<f64, N>>,
+pub struct Scene<const N: usize> {
+    pub contact: Contact<N>,
+    pub x1: Vec<Vec3>,
+    pub x2: Vec<Vec3>,
+    pub lambda: Vec<SVector<f64, N>>,
 }
 
-fn scene<const N: usize>(options: &Options, cells: Cells) -> Scene<N>
+pub fn scene<const N: usize>(options: &Options, cells: Cells) -> Scene<N>
 where
     Contact<N>: Create<N>,
 {

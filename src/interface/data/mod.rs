@@ -5,6 +5,7 @@ pub mod checksum;
 pub mod counters;
 pub mod crease;
 pub mod crosspoints;
+pub mod csr;
 pub mod effects;
 pub mod extent;
 pub mod facet_gaps;

@@ -158,7 +158,8 @@ pub struct Options {
     /// Covered over full nodal area at and below which a node counts as uncovered.
     pub coverage_min: f64,
     /// A node covered less than this times its best covered neighbour at t_n has no multiplier of its own in the step:
-    /// its covered neighbours carry it (`weak.rs`). 0: every covered node has one.
+    /// its covered neighbours carry it (`weak.rs`). [`NO_WEAK_COVERAGE`]: every covered node has one. 0: the library's
+    /// choice, [`Options::effective_weak_coverage`].
     pub weak_coverage: f64,
     /// Facets farther apart than this along the normal at the last commit, gap or penetration, are no pair
     /// `[L]`. `None`: as far as the surfaces reach for a gap, one facet (the smaller of the two) for a
@@ -172,6 +173,12 @@ pub struct Options {
 pub const COVERAGE_MIN: f64 = 1e-8;
 /// rhat_A = this times E / sqrt(M_A) when a modulus is given. The answer does not depend on it.
 pub const MODULUS_FACTOR: f64 = 0.1;
+
+/// [`Options::weak_coverage`] for: every covered node has a multiplier of its own.
+pub const NO_WEAK_COVERAGE: f64 = -1.0;
+/// What dual multipliers take where the host says nothing. A facet that is covered at one end alone supports the node at the
+/// other end by nothing, and its multiplier grows as the covered part goes (docs/formulation.md 10.5).
+const WEAK_COVERAGE_OF_DUAL: f64 = 0.2;
 
 /// Default of [`Options::turn_max`]: 20 degrees.
 pub const TURN_MAX: f64 = PI / 9.0;
@@ -223,8 +230,8 @@ impl Options {
         if !(0.0..1.0).contains(&self.coverage_min) {
             return refuse("coverage_min", self.coverage_min, "at least 0 and below 1");
         }
-        if !(0.0..=1.0).contains(&self.weak_coverage) {
-            return refuse("weak_coverage", self.weak_coverage, "at least 0 and at most 1");
+        if !(0.0..=1.0).contains(&self.weak_coverage) && self.weak_coverage != NO_WEAK_COVERAGE {
+            return refuse("weak_coverage", self.weak_coverage, "at least 0 and at most 1, or -1 for none");
         }
         if !(self.turn_max > 0.0 && self.turn_max <= PI) {
             return refuse("turn_max", self.turn_max, "positive and at most pi");
@@ -243,6 +250,15 @@ impl Options {
     /// Whether the tangent has the weights' derivatives.
     pub fn differentiates_weights(&self) -> bool {
         self.effective_weights() == Weights::Current && self.tangent != Tangent::FrozenWeights
+    }
+
+    /// The weak coverage in force; 0: no node is carried.
+    pub fn effective_weak_coverage(&self) -> f64 {
+        match (self.weak_coverage, self.basis) {
+            (NO_WEAK_COVERAGE, _) | (0.0, MultiplierBasis::Standard) => 0.0,
+            (0.0, MultiplierBasis::Dual) => WEAK_COVERAGE_OF_DUAL,
+            (part, _) => part,
+        }
     }
 
     /// The slip measure in force: with frozen weights the objective one measures nothing (both its

@@ -35,11 +35,12 @@ pub fn effects<const N: usize>(setup: &Setup<N>) -> Result<Text> {
     Ok(text)
 }
 
-/// Only where it is asked for.
+/// Only where nodes are carried.
 fn weak_sentence<const N: usize>(setup: &Setup<N>) -> Result<Text> {
-    match setup.options.weak_coverage {
+    let why = if setup.options.weak_coverage > 0.0 { "asked for" } else { "chosen: multipliers are dual" };
+    match setup.options.effective_weak_coverage() {
         0.0 => Ok(Text::EMPTY),
-        w => say!(" Nodes covered less than {w} of their best covered neighbour: carried by it (asked for)."),
+        w => say!(" Nodes covered less than {w} of their best covered neighbour: carried by it ({why})."),
     }
 }
 

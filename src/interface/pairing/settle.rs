@@ -74,7 +74,7 @@ pub fn filter((one, two): (&Surface, &Surface), options: &Options, (x1, x2): (&[
 
 /// The carriers of every node, by the history.
 fn carriers<const N: usize>(setup: &Setup<N>, h: &History, coverable: &[bool]) -> Result<Vec<Vec<Carrier>>> {
-    let part = setup.options.weak_coverage;
+    let part = setup.options.effective_weak_coverage();
     if part == 0.0 || !h.integrated {
         return Ok(Vec::new());
     }

@@ -32,8 +32,8 @@ pub fn refuse_sums(options: &Options) -> Result<()> {
         let text = "sums with the dual multiplier basis: it depends on all pairs of a facet, which are known within one handle only; take the standard one";
         return Err(Error::new(Kind::Unsupported, text));
     }
-    if options.weak_coverage > 0.0 {
-        let text = "sums with weak_coverage > 0: weakly covered nodes are carried within one handle only";
+    if options.effective_weak_coverage() > 0.0 {
+        let text = "sums with weak_coverage > 0: weakly covered nodes are carried within one handle only; give STICKSLIP_WEAK_COVERAGE_NONE";
         return Err(Error::new(Kind::Unsupported, text));
     }
     Ok(())

@@ -58,7 +58,7 @@ pub fn settled_at(
     let filter = settle::filter((nonmortar, mortar), options, (x1, x2))?;
     let mut active = None;
     // Which nodes carry others follows from what is covered: a step must know it from the start.
-    let leaves_out = extent == Extent::Whole && options.weak_coverage == 0.0;
+    let leaves_out = extent == Extent::Whole && options.effective_weak_coverage() == 0.0;
     let frames = if leaves_out && apart::are_apart((nonmortar, mortar), options, &filter, &[(x1, x2)])? {
         counters.commits_apart += 1;
         &frames(nonmortar, x1)?

@@ -7,7 +7,7 @@ use super::augmented::{NodeCouplings, dtraction};
 use super::carried_tangent;
 use super::derivatives::PairDerivatives;
 use super::dual_facet::{self, Coupled, DualFacet};
-use super::emission::{Emitter, Sink, entries};
+use super::emission::{Emitter, Sinks, entries};
 use super::facet_tangent::{FacetTangent, total};
 use super::union::UnionPair;
 use crate::dual::{FacetMotion, TractionDerivatives};
@@ -39,15 +39,16 @@ pub struct Numbers<'a, const N: usize> {
     pub motion: PairDerivatives<'a>,
 }
 
-/// What a pair must know of every node's response.
+/// What a pair must know of every node's response; `scale`: the factor of a node's rows.
 pub fn node_tangents<const N: usize>(
     given: Given<N>,
     lambda: &[SVector<f64, N>],
     responses: &Responses<N>,
     normals: &[Vec3],
+    scale: impl Fn(usize) -> f64,
 ) -> Result<Vec<NodeTangent<N>>> {
     let node = |a: usize| {
-        let (response, scale) = (&responses.nodes[a], given.row_scale(a));
+        let (response, scale) = (&responses.nodes[a], scale(a));
         NodeTangent {
             traction: force_traction(given.setup.options.form, &lambda[a], response, normals[a]),
             drow_dnow: response.drow_dnow * scale,
@@ -114,13 +115,14 @@ impl<const N: usize> Numbers<'_, N> {
 }
 
 /// The blocks of a tangent of these pairs, `MOVES`: with rows and columns of the mortar side. `numbers`: `None` for the
-/// pattern alone. Gives the number of pairs whose weights were differentiated.
+/// pattern alone. `constraints`: of a condensed system, see [`Emitter::constraints`]. Gives the number of pairs whose weights
+/// were differentiated.
 pub fn blocks<const MOVES: bool, const N: usize>(
     (given, normals): (Given<N>, &[Vec3]),
     union: &[UnionPair],
     extent: Extent,
     numbers: Option<&Numbers<N>>,
-    sink: &mut dyn Sink,
+    (sink, constraints): Sinks,
 ) -> Result<i64> {
     let options = &given.setup.options;
     let mut linearised = 0;
@@ -135,7 +137,7 @@ pub fn blocks<const MOVES: bool, const N: usize>(
     let together =
         !MOVES && !is_dual && given.step.pairing.carriers.is_empty() && matches!(options.scheme, Scheme::Segments);
     sink.reserve(entries::<MOVES, N>(union, given.nodes()));
-    let mut emitter = Emitter { given, normals, sink };
+    let mut emitter = Emitter { given, normals, sink, constraints };
     let carried_nodes = numbers.map(Numbers::carried);
     let carried_responses = numbers.map(|n| (&n.responses.carried[..], &n.responses.nodes[..]));
     for pairs in union.chunk_by(|p, q| p.one == q.one) {

@@ -34,13 +34,12 @@ pub fn rows<const MOVES: bool, const N: usize>(
                 row_columns::<MOVES, N>(now, pair.previous, &FacetResponse::new(slots), &mut rows);
             }
             let values = rows.map(|columns| columns.map(|rows| rows.map(|nodes| nodes[k])));
-            let equations = &given.setup.multiplier_equations[b];
             let (own, other) = values.split_at(MORTAR);
             let columns = emitter.facet_equations(pair.one);
-            emitter.sink.add_block(equations, columns.columns(), own.as_flattened().as_flattened());
+            emitter.node_rows(b, columns.columns(), own.as_flattened().as_flattened());
             if MOVES {
                 let columns = emitter.mortar_equations(pair.two);
-                emitter.sink.add_block(equations, columns.columns(), other.as_flattened().as_flattened());
+                emitter.node_rows(b, columns.columns(), other.as_flattened().as_flattened());
             }
         }
     }
@@ -49,7 +48,7 @@ pub fn rows<const MOVES: bool, const N: usize>(
 /// Columns of the carriers' multipliers in A's row.
 pub fn multipliers<const N: usize>(a: usize, carried: bool, emitter: &mut Emitter<N>) {
     let given = emitter.given;
-    if !given.setup.nodes.owned[a] {
+    if !given.setup.nodes.owned[a] || emitter.constraints.is_some() {
         return;
     }
     let scale = if carried { given.row_scale(a) / given.augmentation(a) } else { 0.0 };

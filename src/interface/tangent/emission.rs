@@ -39,6 +39,9 @@ pub trait Sink {
     }
 }
 
+/// Who takes a tangent, and of a condensed system its constraints: see [`Emitter`].
+pub type Sinks<'a> = (&'a mut dyn Sink, Option<&'a mut dyn Sink>);
+
 impl<F: FnMut(i64, i64, f64)> Sink for F {
     fn add(&mut self, row: i64, column: i64, value: f64) {
         self(row, column, value);
@@ -63,6 +66,9 @@ pub struct Emitter<'a, 's, const N: usize> {
     pub normals: &'a [Vec3],
     /// Who takes the entries.
     pub sink: &'s mut dyn Sink,
+    /// Of a condensed system: who takes s_A Dc_A / Dx in the rows of node A's displacements. `sink` then takes what the
+    /// forces depend on the displacements by, and there are no multipliers.
+    pub constraints: Option<&'s mut dyn Sink>,
 }
 
 impl<'a, const N: usize> Emitter<'a, '_, N> {
@@ -88,7 +94,6 @@ impl<'a, const N: usize> Emitter<'a, '_, N> {
     /// A pair's rows and columns of the mortar side.
     pub fn pair(&mut self, pair: &UnionPair, t: &PairTangent<N>) {
         let (one, two) = (self.facet_equations(pair.one), self.mortar_equations(pair.two));
-        let multipliers = self.facet_multipliers(pair.one);
         if pair.now.is_some() && self.given.setup.options.differentiates_weights() {
             self.sink.add_block(one.rows(), two.columns(), t.forces.one[MORTAR..].flat());
             self.sink.add_block(two.rows(), one.columns(), t.forces.two[..MORTAR].flat());
@@ -97,7 +102,7 @@ impl<'a, const N: usize> Emitter<'a, '_, N> {
         if let (Some(weights), Form::Multiplier) = (pair.now, self.given.setup.options.form) {
             self.multipliers(pair.one, &two, &weights.ac.map(|row| row.map(|n| -n)));
         }
-        self.sink.add_block(multipliers.as_flattened(), two.columns(), t.rows[MORTAR..].flat());
+        self.facet_rows(pair.one, two.columns(), t.rows[MORTAR..].flat());
     }
 
     /// What a facet's pairs have in common: rows and columns of the non-mortar side. `now`: of the pairs active now.
@@ -111,7 +116,32 @@ impl<'a, const N: usize> Emitter<'a, '_, N> {
                 self.multipliers(f, &one, weights);
             }
         }
-        self.sink.add_block(self.facet_multipliers(f).as_flattened(), one.columns(), rows.flat());
+        self.facet_rows(f, one.columns(), rows.flat());
+    }
+
+    /// Derivatives of the rows of a facet's multipliers, in each column component by component.
+    fn facet_rows(&mut self, f: usize, columns: &[i64], values: &[f64]) {
+        match &mut self.constraints {
+            None => self.sink.add_block(self.facet_multipliers(f).as_flattened(), columns, values),
+            Some(sink) => {
+                let facet = &self.given.setup.nonmortar.facets[f];
+                let equations = Equations::of(facet, &self.given.setup.nonmortar.equations);
+                let normals = facet.nodes.map(|a| self.normals[a]);
+                in_space::<N, MAX_CORNERS>(&equations.by_component, &normals, columns, values, *sink);
+            }
+        }
+    }
+
+    /// The same of node A alone.
+    pub fn node_rows(&mut self, a: usize, columns: &[i64], values: &[f64]) {
+        let setup = self.given.setup;
+        match &mut self.constraints {
+            None => self.sink.add_block(&setup.multiplier_equations[a], columns, values),
+            Some(sink) => {
+                let equations = setup.nonmortar.equations[a].map(|e| [e]);
+                in_space::<N, 1>(&equations, &[self.normals[a]], columns, values, *sink);
+            }
+        }
     }
 
     /// Multiplier equations of a facet's nodes, component by component.
@@ -128,6 +158,9 @@ impl<'a, const N: usize> Emitter<'a, '_, N> {
 
     /// d forces / d multipliers of facet `f`, weights `n[A][row]`: n I, or n nu_A where there is one component.
     fn multipliers(&mut self, f: usize, forces: &Equations, n: &[[f64; MAX_NODES]; MAX_CORNERS]) {
+        if self.constraints.is_some() {
+            return;
+        }
         let multipliers = self.facet_multipliers(f);
         if N == 1 {
             let nu = self.given.setup.nonmortar.facets[f].nodes.map(|a| self.normals[a]);
@@ -145,7 +178,7 @@ impl<'a, const N: usize> Emitter<'a, '_, N> {
     /// Stage 4: the node's own block, once per node, covered or not.
     pub fn node(&mut self, a: usize, drow_dlambda: &SMatrix<f64, N, N>, extent: Extent) {
         let setup = self.given.setup;
-        if !setup.nodes.owned[a] {
+        if !setup.nodes.owned[a] || self.constraints.is_some() {
             return;
         }
         let equations = &setup.multiplier_equations[a];
@@ -169,6 +202,25 @@ impl<'a, const N: usize> Emitter<'a, '_, N> {
             let multipliers = &self.given.setup.multiplier_equations[a];
             self.sink.add_block(equations, multipliers, (dp_dlambda * row.weight).as_slice());
         }
+    }
+}
+
+/// Gives rows of multipliers to the displacements of their nodes, `equations[i][A]`: component by component, or along the
+/// normal.
+fn in_space<const N: usize, const A: usize>(
+    equations: &[[i64; A]; 3],
+    normals: &[Vec3; A],
+    columns: &[i64],
+    values: &[f64],
+    sink: &mut dyn Sink,
+) {
+    let rows = equations.as_flattened();
+    if N == 3 {
+        return sink.add_block(rows, columns, values);
+    }
+    for (column, values) in columns.iter().zip(values.chunks_exact(A)) {
+        let along: [[f64; A]; 3] = std::array::from_fn(|i| std::array::from_fn(|a| values[a] * normals[a][i]));
+        sink.add_block(rows, &[*column], along.as_flattened());
     }
 }
 

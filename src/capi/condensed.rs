@@ -1,0 +1,228 @@
+//! Systems without multipliers: for hosts that have no place for them, that do not pivot, or that want multigrid.
+
+use super::guard::guard;
+use super::handle::{either, flat, handle, sizes, stickslip_interface};
+use super::options::choose;
+use super::point::Point;
+use super::raw;
+use super::tangent::{Triplets, read_csr};
+use crate::interface::Piece;
+use crate::memory::Store;
+
+/// A piece of a condensed matrix: what the contact forces add to the host's own matrix, their derivative with respect to the
+/// displacements at fixed multipliers.
+pub const STICKSLIP_CONDENSED_FORCES: i32 = 0;
+/// The elimination without the identity, L - I.
+pub const STICKSLIP_CONDENSED_ELIMINATION: i32 = 1;
+/// The contact constraints G, in the rows of the non-mortar nodes.
+pub const STICKSLIP_CONDENSED_CONSTRAINTS: i32 = 2;
+
+/// Which nodes carry weakly covered ones in this step: lambda_A = sum_B w_AB lambda_B. Settled by t_n; a node that carries
+/// another has a multiplier of its own. Read it after a commit, to carry in the stateless stages too.
+///
+/// Outputs: nodes A and carriers B (indices of non-mortar nodes, in the index base), weights w_AB [-] (capacity each), sorted
+/// by A, count. With all three arrays NULL only count is written, and capacity is not read.
+///
+/// Errors: NULL_POINTER, BUFFER_TOO_SMALL.
+/// Cost: a copy.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn stickslip_interface_carriers(
+    interface: *mut stickslip_interface,
+    capacity: i64,
+    nodes: *mut i64,
+    carriers: *mut i64,
+    weights: *mut f64,
+    count: *mut i64,
+) -> i32 {
+    guard(|| {
+        let h = handle(interface)?;
+        let mut t = Triplets::default();
+        either!(&h.inner, c => for (a, b, w) in c.carriers() {
+            t.rows.store(a as i64)?;
+            t.columns.store(b as i64)?;
+            t.values.store(w)?;
+        });
+        t.write_as(["nodes", "carriers", "weights"], h.base, capacity, nodes, carriers, Some(weights), count)
+    })
+}
+
+/// The multipliers of a system without them, lambda_A = -(the host's own force at A) / D_A, D_A the covered area: those
+/// with which the rows of the non-mortar nodes are balanced. Weakly covered nodes have their carriers', uncovered ones 0.
+///
+/// x1 (3 n1), x2 (3 n2): positions [L]; host1 (3 n1): the residual of the host's own forces at the non-mortar nodes, internal
+/// minus external, without contact [F]. lambda (n1 multipliers, 3 or 1 components each), output [F/L^2].
+/// In each evaluation of a nonlinear solver: this call, then `stickslip_interface_condensed_residual`. After a linear solve
+/// from given multipliers: at the old positions, host1 being the residual there plus J du, J the host's matrix with
+/// STICKSLIP_CONDENSED_FORCES.
+///
+/// Errors: NULL_POINTER, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL, INVALID_VALUE (as
+/// `stickslip_interface_sums`); UNSUPPORTED: standard multipliers, the augmented form, a prescribed component (equation -1)
+/// of a node that has a multiplier there, two nodes with an equation in common (of which one has a multiplier), nodes that
+/// are not owned; and a node that carries others and is not covered any more: within Newton's method take a smaller step.
+/// Cost: as `stickslip_interface_sums`, and a sort of the nodes.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn stickslip_interface_condensed_multipliers(
+    interface: *mut stickslip_interface,
+    x1: *const f64,
+    x2: *const f64,
+    host1: *const f64,
+    lambda: *mut f64,
+) -> i32 {
+    guard(|| {
+        let h = &mut handle(interface)?.inner;
+        let point = Point::positions(h, x1, x2)?;
+        let host = raw::vectors(raw::numbers(host1, 3 * sizes(h).0, "host1")?)?;
+        raw::check(lambda, "lambda")?;
+        either!(h, c => {
+            let values = c.condensed_multipliers(&point.x1, &point.x2, &host)?;
+            raw::check_results("lambda", values.iter().flat_map(|v| v.iter()))?;
+            raw::write_each(lambda, flat(&values));
+        });
+        Ok(())
+    })
+}
+
+/// The residual of a system without multipliers: rows1 in place of the host's rows of the non-mortar nodes, force2 to be added
+/// to those of the mortar nodes. All are forces. With multipliers of `stickslip_interface_condensed_multipliers` a function of
+/// the displacements alone, continuous across gap, stick and slip.
+///
+/// x1 (3 n1), x2 (3 n2): positions [L]; lambda (n1 multipliers) [F/L^2], read where a node is covered and not carried; host1
+/// (3 n1): the residual of the host's own forces at the non-mortar nodes, without contact [F]. Outputs: rows1 (3 n1; may be
+/// host1) and force2 (3 n2) [F].
+///
+/// Errors: as `stickslip_interface_condensed_multipliers`.
+/// Cost: as `stickslip_interface_residual`, and a sort of the pairs' nodes.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn stickslip_interface_condensed_residual(
+    interface: *mut stickslip_interface,
+    x1: *const f64,
+    x2: *const f64,
+    lambda: *const f64,
+    host1: *const f64,
+    rows1: *mut f64,
+    force2: *mut f64,
+) -> i32 {
+    guard(|| {
+        let h = &mut handle(interface)?.inner;
+        let point = Point::read(h, x1, x2, lambda, std::ptr::null())?;
+        let host = raw::vectors(raw::numbers(host1, 3 * sizes(h).0, "host1")?)?;
+        raw::check(rows1, "rows1")?;
+        raw::check(force2, "force2")?;
+        either!(h, c => {
+            let (rows, gains) = c.condensed_residual(&point.x1, &point.x2, &point.lambda()?, &host)?;
+            raw::check_results("rows1, force2", rows.iter().chain(&gains).flat_map(|v| v.iter()))?;
+            raw::write_each(rows1, flat(&rows));
+            raw::write_each(force2, flat(&gains));
+        });
+        Ok(())
+    })
+}
+
+/// A piece of the matrix of a system without multipliers as triplets in displacement equations. With K the host's own matrix,
+/// T the piece FORCES, E the piece ELIMINATION and G the piece CONSTRAINTS, and J = K + T, the matrix is J + E J + G. It is
+/// the derivative of the residual whose multipliers follow from the displacements, but for the change of the scale s_A =
+/// r_A D_A of constraint rows, which vanishes with the residual: Newton's method converges quadratically. Not symmetric.
+///
+/// x1 (3 n1), x2 (3 n2): positions [L]; lambda (n1 multipliers) [F/L^2], as for the residual; piece: STICKSLIP_CONDENSED_...
+/// Outputs: rows, columns, values (capacity each), count; duplicates add up; entries without an equation are left out. With
+/// all three arrays NULL only count is written, and capacity is not read. Units: F/L; ELIMINATION has none.
+///
+/// Errors: as `stickslip_interface_condensed_multipliers`, INVALID_VALUE (piece), BUFFER_TOO_SMALL.
+/// Cost: FORCES and CONSTRAINTS as `stickslip_interface_tangent_coo`, counting too; ELIMINATION as the residual. Allocates.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn stickslip_interface_condensed_coo(
+    interface: *mut stickslip_interface,
+    x1: *const f64,
+    x2: *const f64,
+    lambda: *const f64,
+    piece: i32,
+    capacity: i64,
+    rows: *mut i64,
+    columns: *mut i64,
+    values: *mut f64,
+    count: *mut i64,
+) -> i32 {
+    guard(|| {
+        let h = handle(interface)?;
+        let point = Point::read(&h.inner, x1, x2, lambda, std::ptr::null())?;
+        let piece = choose(piece, "piece", &[Piece::Forces, Piece::Elimination, Piece::Constraints], 3)?;
+        let mut t = Triplets::default();
+        let at = (&point.x1[..], &point.x2[..]);
+        either!(&mut h.inner, c => c.condensed_tangent(at, &point.lambda()?, piece, &mut t)?);
+        t.check()?;
+        t.write(h.base, capacity, rows, columns, Some(values), count)
+    })
+}
+
+/// Turns the host's own matrix, compressed sparse rows, into that of the system without multipliers, in place: J + E J + G,
+/// see `stickslip_interface_condensed_coo`. Several interfaces of one matrix: none may have a mortar node that is
+/// non-mortar in another one.
+///
+/// x1, x2, lambda as there; n_rows, row_offsets, columns, values as for `stickslip_interface_tangent_csr`; only the rows of
+/// the interface's nodes are read and changed.
+///
+/// Errors: as `stickslip_interface_condensed_multipliers`, NOT_FINITE (the result), INVALID_SIZE, INDEX_OUT_OF_RANGE, and
+/// MISSING_ENTRY where the matrix lacks an entry (renew its pattern by `stickslip_interface_condensed_pattern`); then
+/// nothing was changed.
+/// Cost: as `stickslip_interface_tangent_csr`, and a sum of rows for each mortar node near a non-mortar one. Allocates.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn stickslip_interface_condensed_csr(
+    interface: *mut stickslip_interface,
+    x1: *const f64,
+    x2: *const f64,
+    lambda: *const f64,
+    n_rows: i64,
+    row_offsets: *const i64,
+    columns: *const i64,
+    values: *mut f64,
+) -> i32 {
+    guard(|| {
+        let h = handle(interface)?;
+        let point = Point::read(&h.inner, x1, x2, lambda, std::ptr::null())?;
+        let csr = read_csr(h.base, n_rows, row_offsets, columns)?;
+        raw::check(values, "values")?;
+        let at = (&point.x1[..], &point.x2[..]);
+        // SAFETY: places are below the number of entries, and the caller's values has that many.
+        let value = |place: usize| unsafe { *values.add(place) };
+        let rows = either!(&mut h.inner, c => c.condense(at, &point.lambda()?, csr, value)?);
+        raw::check_results("values", rows.values())?;
+        for (place, value) in rows.places() {
+            // SAFETY: as above.
+            unsafe { *values.add(place) = value };
+        }
+        Ok(())
+    })
+}
+
+/// The entries that `stickslip_interface_condensed_csr` may need in the host's matrix while the surfaces slide by less than a
+/// quarter of a facet, its own left aside: rows of mortar nodes gain the columns of the non-mortar nodes near them.
+///
+/// x1 (3 n1), x2 (3 n2): positions [L]; n_rows, row_offsets, columns: the pattern of the host's own matrix. Outputs:
+/// entry_rows, entry_columns (capacity each; both NULL: only count), count. Duplicates occur, and entries that are there.
+///
+/// Errors: as `stickslip_interface_condensed_multipliers`, INVALID_SIZE, INDEX_OUT_OF_RANGE, BUFFER_TOO_SMALL.
+/// Cost: as `stickslip_interface_pattern_coo`, and the entries sorted. Allocates.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn stickslip_interface_condensed_pattern(
+    interface: *mut stickslip_interface,
+    x1: *const f64,
+    x2: *const f64,
+    n_rows: i64,
+    row_offsets: *const i64,
+    columns: *const i64,
+    capacity: i64,
+    entry_rows: *mut i64,
+    entry_columns: *mut i64,
+    count: *mut i64,
+) -> i32 {
+    guard(|| {
+        let h = handle(interface)?;
+        let point = Point::positions(&h.inner, x1, x2)?;
+        let csr = read_csr(h.base, n_rows, row_offsets, columns)?;
+        let mut t = Triplets::default();
+        either!(&mut h.inner, c => c.condensed_pattern(&point.x1, &point.x2, &csr, &mut t)?);
+        t.check()?;
+        let names = ["entry_rows", "entry_columns", ""];
+        t.write_as(names, h.base, capacity, entry_rows, entry_columns, None, count)
+    })
+}

@@ -1,0 +1,203 @@
+//! A system without multipliers through the handle: what a host multiplies and adds, in pieces or in place, and the
+//! multipliers back (docs/formulation.md 10.7).
+
+use super::condensed::elimination::Elimination;
+use super::condensed::pattern::Columns;
+use super::condensed::refusal::refuse;
+use super::condensed::rows::CondensedRows;
+use super::contact::Contact;
+use super::data::csr::Csr;
+use super::data::extent::Extent;
+use super::data::node_data::check_length;
+use super::data::surface::NO_EQUATION;
+use super::pairing::given::{Given, check_finite};
+use super::stages::carried::carried;
+use super::stages::residual;
+use super::tangent::emission::Sink;
+use super::tangent::union::possible_pairs;
+use crate::error::{Error, Result};
+use crate::geometry::{Mat3, Vec3};
+use crate::memory::{self, Store};
+use nalgebra::SVector;
+
+/// A piece of the condensed matrix L J_uu + G.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Piece {
+    /// What the contact forces add to J_uu: their derivative at fixed multipliers.
+    Forces,
+    /// L - I.
+    Elimination,
+    /// G.
+    Constraints,
+}
+
+impl<const N: usize> Contact<N> {
+    /// The elimination at x.
+    fn elimination(&mut self, x: (&[Vec3], &[Vec3])) -> Result<Elimination<N>> {
+        let sums = self.cache.sums(&self.setup, &mut self.step, x, Extent::Whole)?;
+        let (given, pairs) = (self.given(), self.cache.pairs(&self.step.history));
+        let normals = given.normals()?;
+        refuse(given, &normals)?;
+        Elimination::new(given, &normals, pairs, &sums, carried(given, &sums)?)
+    }
+
+    /// The same, with the multipliers in force and the law's answers to them.
+    fn eliminated(
+        &mut self,
+        x: (&[Vec3], &[Vec3]),
+        lambda: &[SVector<f64, N>],
+    ) -> Result<(Elimination<N>, Vec<SVector<f64, N>>)> {
+        check_length("lambda", lambda.len(), self.setup.nonmortar.len())?;
+        check_finite("lambda", lambda)?;
+        let elimination = self.elimination(x)?;
+        let lambda = elimination.completed(self.given(), memory::copied(lambda)?);
+        self.cache.respond(&self.setup, &mut self.step, x, &lambda, None)?;
+        Ok((elimination, lambda))
+    }
+
+    /// The multipliers that balance `host`, the residual of the host's own forces at the non-mortar nodes `[F]`.
+    pub fn condensed_multipliers(&mut self, x1: &[Vec3], x2: &[Vec3], host: &[Vec3]) -> Result<Vec<SVector<f64, N>>> {
+        check_length("host", host.len(), self.setup.nonmortar.len())?;
+        self.elimination((x1, x2))?.multipliers(self.given(), host)
+    }
+
+    /// The rows of the non-mortar nodes, and what is added to those of the mortar nodes; `host` as above.
+    pub fn condensed_residual(
+        &mut self,
+        x1: &[Vec3],
+        x2: &[Vec3],
+        lambda: &[SVector<f64, N>],
+        host: &[Vec3],
+    ) -> Result<(Vec<Vec3>, Vec<Vec3>)> {
+        check_length("host", host.len(), self.setup.nonmortar.len())?;
+        let (elimination, lambda) = self.eliminated((x1, x2), lambda)?;
+        let (given, responses) = (self.given(), &self.cache.answers().responses.nodes);
+        let mut forces = residual::residual(given, self.cache.pairs(&self.step.history), &lambda, responses)?;
+        forces.nonmortar.iter_mut().zip(host).for_each(|(force, host)| *force += host);
+        let (rows, gains) = elimination.residual(given, &forces.nonmortar, responses)?;
+        forces.mortar.iter_mut().zip(gains).for_each(|(force, gain)| *force += gain);
+        Ok((rows, forces.mortar))
+    }
+
+    /// A piece of the condensed matrix.
+    pub fn condensed_tangent(
+        &mut self,
+        (x1, x2): (&[Vec3], &[Vec3]),
+        lambda: &[SVector<f64, N>],
+        piece: Piece,
+        sink: &mut dyn Sink,
+    ) -> Result<()> {
+        let (elimination, lambda) = self.eliminated((x1, x2), lambda)?;
+        let (given, mut nowhere) = (self.given(), |_: i64, _: i64, _: f64| {});
+        let scales = elimination.scales(given)?;
+        let sinks: (&mut dyn Sink, &mut dyn Sink) = match piece {
+            Piece::Forces => (sink, &mut nowhere),
+            Piece::Constraints => (&mut nowhere, sink),
+            Piece::Elimination => {
+                for t in &elimination.transfers {
+                    add(sink, equations(given, t.row), equations(given, t.own), &t.block);
+                }
+                for b in elimination.own() {
+                    let w = elimination.diagonal(given, b, &self.cache.answers().responses.nodes[b]);
+                    add(sink, equations(given, b), equations(given, b), &(w - Mat3::identity()));
+                }
+                return Ok(());
+            }
+        };
+        self.linearise((x1, x2), &lambda, Extent::Whole, Some(&scales), (sinks.0, Some(sinks.1)))
+    }
+
+    /// Turns the host's own matrix into the condensed one: the rows that change, with their new values.
+    pub fn condense<'a>(
+        &mut self,
+        (x1, x2): (&[Vec3], &[Vec3]),
+        lambda: &[SVector<f64, N>],
+        csr: Csr<'a>,
+        value: impl Fn(usize) -> f64,
+    ) -> Result<CondensedRows<'a>> {
+        let (elimination, lambda) = self.eliminated((x1, x2), lambda)?;
+        let scales = elimination.scales(self.given())?;
+        let (one, two) = self.setup.surfaces();
+        let mut changed = Vec::new();
+        for equations in [&one.equations, &two.equations] {
+            changed.store_all(equations.as_flattened().iter().copied())?;
+        }
+        let mut rows = CondensedRows::new(csr, memory::copied(&changed)?, value)?;
+        let mut constraints = CondensedRows::new(csr, changed, |_| 0.0)?;
+        self.linearise((x1, x2), &lambda, Extent::Whole, Some(&scales), (&mut rows, Some(&mut constraints)))?;
+        let given = self.given();
+        for t in &elimination.transfers {
+            rows.transfer(equations(given, t.row), equations(given, t.own), &t.block)?;
+        }
+        for b in elimination.own() {
+            let w = elimination.diagonal(given, b, &self.cache.answers().responses.nodes[b]);
+            rows.multiply(equations(given, b), &w)?;
+        }
+        rows.check()?;
+        constraints.check()?;
+        rows.add_rows(&constraints);
+        Ok(rows)
+    }
+
+    /// The entries of the condensed matrix that the interface may need while the surfaces slide by less than a quarter of
+    /// a facet; `csr` is the host's own pattern.
+    pub fn condensed_pattern(&mut self, x1: &[Vec3], x2: &[Vec3], csr: &Csr, sink: &mut dyn Sink) -> Result<()> {
+        let given = self.given();
+        given.check_positions(x1, x2)?;
+        refuse(given, &given.normals()?)?;
+        let mut columns = Columns::of(given, csr)?;
+        let (mut forces, mut constraints) = (Noted::default(), Noted::default());
+        self.superset((x1, x2), (&mut forces, Some(&mut constraints)))?;
+        for (row, column) in forces.entries()? {
+            columns.add(row, column)?;
+            sink.add(row, column, 0.0);
+        }
+        constraints.entries()?.into_iter().for_each(|(row, column)| sink.add(row, column, 0.0));
+        columns.settle();
+        let given = Given { setup: &self.setup, step: &self.step };
+        let pairs = possible_pairs(given, self.cache.work().1, (x1, x2))?;
+        columns.entries(given, &pairs, sink)
+    }
+}
+
+/// Displacement equations of a node over both surfaces.
+fn equations<const N: usize>(given: Given<'_, N>, node: usize) -> &[i64; 3] {
+    let (one, two) = given.setup.surfaces();
+    if node < one.len() { &one.equations[node] } else { &two.equations[node - one.len()] }
+}
+
+/// Adds the diagonal of a block, and what else is not 0.
+fn add(sink: &mut dyn Sink, rows: &[i64; 3], columns: &[i64; 3], block: &Mat3) {
+    for (i, &row) in rows.iter().enumerate().filter(|(_, e)| **e != NO_EQUATION) {
+        for (j, &column) in columns.iter().enumerate().filter(|(_, e)| **e != NO_EQUATION) {
+            if i == j || block[(i, j)] != 0.0 {
+                sink.add(row, column, block[(i, j)]);
+            }
+        }
+    }
+}
+
+/// Entries without values.
+#[derive(Default)]
+struct Noted {
+    entries: Vec<(i64, i64)>,
+    refused: Option<Error>,
+}
+
+impl Noted {
+    /// Each once.
+    fn entries(mut self) -> Result<Vec<(i64, i64)>> {
+        self.refused.take().map_or(Ok(()), Err)?;
+        self.entries.sort_unstable();
+        self.entries.dedup();
+        Ok(self.entries)
+    }
+}
+
+impl Sink for Noted {
+    fn add(&mut self, row: i64, column: i64, _value: f64) {
+        if let Err(error) = self.entries.store((row, column)) {
+            self.refused.get_or_insert(error);
+        }
+    }
+}

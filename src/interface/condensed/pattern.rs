@@ -1,0 +1,90 @@
+//! Which entries a condensed matrix has beyond the host's own: a mortar node's rows gain the columns of the rows of the
+//! non-mortar nodes above it.
+
+use crate::error::Result;
+use crate::interface::data::csr::Csr;
+use crate::interface::data::surface::NO_EQUATION;
+use crate::interface::pairing::given::Given;
+use crate::interface::tangent::emission::Sink;
+use crate::memory::{self, Store, Stored};
+
+/// The node of a displacement equation on the non-mortar side.
+type NodeOf = (i64, usize);
+
+/// The columns that the rows of every non-mortar node have in the host's matrix and by the contact forces.
+pub struct Columns {
+    nodes: Vec<NodeOf>,
+    of_node: Vec<Vec<i64>>,
+}
+
+impl Columns {
+    /// Those of the host's matrix.
+    pub fn of<const N: usize>(given: Given<N>, csr: &Csr) -> Result<Columns> {
+        let equations = &given.setup.nonmortar.equations;
+        let mut columns = Columns { nodes: Vec::new(), of_node: memory::defaults(given.nodes())? };
+        for (a, &e) in equations.iter().enumerate().flat_map(|(a, e)| e.iter().map(move |e| (a, e))) {
+            if e != NO_EQUATION {
+                columns.nodes.store((e, a))?;
+                columns.of_node[a].store_all(csr.row(e)?.map(|place| csr.column(place)))?;
+            }
+        }
+        columns.nodes.sort_unstable();
+        Ok(columns)
+    }
+
+    /// Adds an entry of the contact forces.
+    pub fn add(&mut self, row: i64, column: i64) -> Result<()> {
+        match self.nodes.binary_search_by_key(&row, |n| n.0) {
+            Ok(k) => self.of_node[self.nodes[k].1].store(column),
+            Err(_) => Ok(()),
+        }
+    }
+
+    /// Each column once.
+    pub fn settle(&mut self) {
+        for columns in &mut self.of_node {
+            columns.sort_unstable();
+            columns.dedup();
+        }
+    }
+
+    /// Gives the entries of all rows that these pairs of facets and the nodes that are carried can change.
+    pub fn entries<const N: usize>(
+        &self,
+        given: Given<N>,
+        pairs: &[(usize, usize)],
+        sink: &mut dyn Sink,
+    ) -> Result<()> {
+        let (one, two) = given.setup.surfaces();
+        let mut gains: Vec<(usize, usize)> = (0..given.nodes()).map(|a| (a, a)).stored()?;
+        let moving = if given.setup.effects.moves() { pairs } else { &[] };
+        for &(f, g) in moving {
+            for &a in one.facets[f].as_slice() {
+                let rows = || two.facets[g].as_slice().iter().map(|c| given.nodes() + c);
+                gains.store_all(rows().map(|row| (row, a)))?;
+                for &(b, _) in given.carriers_of(a) {
+                    gains.store_all(rows().map(|row| (row, b)))?;
+                }
+            }
+        }
+        for a in 0..given.nodes() {
+            gains.store_all(given.carriers_of(a).iter().map(|&(b, _)| (a, b)))?;
+        }
+        gains.sort_unstable();
+        gains.dedup();
+        for of_row in gains.chunk_by(|p, q| p.0 == q.0) {
+            let mut columns = Vec::new();
+            for (_, a) in of_row {
+                columns.store_all(self.of_node[*a].iter().copied())?;
+            }
+            columns.sort_unstable();
+            columns.dedup();
+            let row = of_row[0].0;
+            let equations = if row < one.len() { &one.equations[row] } else { &two.equations[row - one.len()] };
+            for &equation in equations.iter().filter(|e| **e != NO_EQUATION) {
+                columns.iter().for_each(|&column| sink.add(equation, column, 0.0));
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,83 @@
+//! What cannot be condensed, by name: multipliers are eliminated with the rows of their nodes, which must be there and serve
+//! one multiplier each.
+
+use crate::error::{Error, Kind, Result, Text};
+use crate::geometry::Vec3;
+use crate::interface::data::multiplier::direction;
+use crate::interface::data::options::{Form, MultiplierBasis};
+use crate::interface::data::surface::NO_EQUATION;
+use crate::interface::pairing::given::Given;
+use crate::memory::Store;
+
+/// A component of a unit direction below this is rounding of the normal.
+const NO_COMPONENT: f64 = 1e-8;
+
+/// Refuses an interface whose multipliers cannot be eliminated. O(n log n) in the nodes.
+pub fn refuse<const N: usize>(given: Given<N>, normals: &[Vec3]) -> Result<()> {
+    let (setup, refuse) = (given.setup, |text: Text| Err(Error::new(Kind::Unsupported, text)));
+    if setup.options.basis != MultiplierBasis::Dual {
+        let text = "condensation with standard multipliers: their forces couple neighbours; take the dual basis (STICKSLIP_BASIS_DUAL)";
+        return refuse(text.into());
+    }
+    if setup.options.form != Form::Multiplier {
+        let text = "condensation with the augmented form: its forces do not determine the multipliers of open nodes; take the multiplier form";
+        return refuse(text.into());
+    }
+    if let Some(a) = setup.nodes.owned.iter().position(|owned| !owned) {
+        let text = text!(
+            "condensation where non-mortar node {a} is not owned: all rows of a node must be known to one handle"
+        );
+        return refuse(text);
+    }
+    refuse_prescribed(given, normals)?;
+    refuse_shared(given)
+}
+
+/// A component that has a multiplier and no row to eliminate it with.
+fn refuse_prescribed<const N: usize>(given: Given<N>, normals: &[Vec3]) -> Result<()> {
+    let setup = given.setup;
+    for a in (0..given.nodes()).filter(|&a| setup.has_multiplier(a)) {
+        let t = direction::<N>(normals[a]);
+        for i in (0..3).filter(|&i| setup.nonmortar.equations[a][i] == NO_EQUATION) {
+            let axis = setup.nodes.free[a].column(i).norm() * t.row(i).norm();
+            if axis > NO_COMPONENT {
+                let text = text!(
+                    "condensation where component {i} of non-mortar node {a} is prescribed (equation -1) and has a multiplier: no row is left to eliminate it with. Where the mortar side is prescribed there too, take the multiplier away (multiplier equation -1, or stickslip_interface_set_constraints); else keep multipliers as unknowns, or end the interface before that edge"
+                );
+                return Err(Error::new(Kind::Unsupported, text));
+            }
+        }
+    }
+    Ok(())
+}
+
+/// A row that two nodes use: two multipliers, or a node on both sides.
+fn refuse_shared<const N: usize>(given: Given<N>) -> Result<()> {
+    let setup = given.setup;
+    let mut used = Vec::new();
+    let with = (0..given.nodes()).filter(|&a| setup.has_multiplier(a));
+    for (a, &e) in with.flat_map(|a| setup.nonmortar.equations[a].iter().map(move |e| (a, e))) {
+        if e != NO_EQUATION {
+            used.store((e, false, a))?;
+        }
+    }
+    for (k, equations) in setup.mortar.equations.iter().enumerate() {
+        used.store_all(equations.iter().filter(|e| **e != NO_EQUATION).map(|&e| (e, true, k)))?;
+    }
+    used.sort_unstable();
+    let clash = |one: &(i64, bool, usize), other: &(i64, bool, usize)| {
+        one.0 == other.0 && !one.1 && (other.1 || one.2 != other.2)
+    };
+    let found = used.windows(2).find(|pair| clash(&pair[0], &pair[1]));
+    let Some(&[(_, _, a), (_, mortar, k)]) = found else { return Ok(()) };
+    let text = if mortar {
+        text!(
+            "condensation where non-mortar node {a} and mortar node {k} have an equation in common: a node on both sides"
+        )
+    } else {
+        text!(
+            "condensation where non-mortar nodes {a} and {k} have an equation in common: two multipliers hold one displacement"
+        )
+    };
+    Err(Error::new(Kind::Unsupported, text))
+}
