@@ -71,6 +71,15 @@
  * interface_counters, interface_effects, interface_report, interface_diagnose. Before it: surface_split_creases where a non-mortar surface
  * has sharp edges, crosspoints_find where interfaces share nodes.
  *
+ * A host without multipliers among its unknowns (STICKSLIP_BASIS_DUAL) has in place of pattern, residual and tangent:
+ *
+ *     interface_condensed_pattern            to preallocate its matrix
+ *     interface_condensed_multipliers        in each evaluation, first: the multipliers follow from the displacements
+ *     interface_condensed_residual           with these multipliers
+ *     interface_condensed_csr                its own matrix becomes the condensed one; or, in pieces,
+ *     interface_condensed_coo
+ *     interface_carriers                     for information: which nodes have a multiplier of their own
+ *
  * A host that assembles elements itself:
  *
  *     facet_geometry, node_normal            once a step: nu_A, M_A
