@@ -808,6 +808,16 @@ module stickslip
       type(c_ptr), value :: row, block
     end function
 
+    ! What eliminating a node's multiplier makes of its rows, for hosts without multipliers that assemble element by
+    ! element: real(c_double) w(3, 3), row(3), row_scale, each or null.
+    integer(c_int32_t) function stickslip_node_condense(node, response, layout, w, row, row_scale) bind(C)
+      import :: c_int32_t, c_ptr, stickslip_node, stickslip_node_response
+      type(stickslip_node), intent(in) :: node
+      type(stickslip_node_response), intent(in) :: response
+      integer(c_int32_t), value :: layout
+      type(c_ptr), value :: w, row, row_scale
+    end function
+
     ! How far x1(3, n1), x2(3, n2), lambda(3, n1) is from contact equilibrium, whatever the augmentation: for the test of
     ! convergence. out: two inputs and all outputs.
     integer(c_int32_t) function stickslip_interface_equilibrium(interface, x1, x2, lambda, sums, out) bind(C)

@@ -89,6 +89,7 @@
  *     node_equilibrium                       the same, to see whether it has converged
  *     pair_residual, pair_tangent            each pair again
  *     node_block                             each non-mortar node, once
+ *     node_condense                          in its place without multipliers (STICKSLIP_BASIS_DUAL)
  *
  * Both: version, status_string, last_error_message, last_error_padded. */
 
@@ -1508,6 +1509,26 @@ int32_t stickslip_node_block(const struct stickslip_node_response *response,
                              int32_t layout,
                              double *row,
                              double *block);
+
+/// What eliminating a node's multiplier makes of its rows, for a host without multipliers that assembles element by
+/// element. The weights must be those of dual multipliers.
+///
+/// node, response: of `stickslip_node_respond`; of the node its covered area D, augmentation r and directions are read. layout:
+/// STICKSLIP_LAYOUT_... Outputs, each may be NULL: w (3 x 3) [-]; row (3) [F], s c; row_scale [F/L^3], s = r D. An uncovered
+/// node has I, 0 and 0.
+/// With the node's multiplier -R / D, R being the sum of the host's own forces at A, all that elements and pairs have in row i of A,
+/// of force and matrix, goes w[., i] times to A's three rows, and M_AC / D times to row i of each mortar node C, M_AC the
+/// sum of n_AC over the pairs; derivatives with respect to multipliers are left out. Then row is added to A's rows, and of `stickslip_pair_tangent` with this row_scale the
+/// derivatives of the multiplier rows with respect to displacements. Directions in which the node is prescribed have no rows.
+///
+/// Errors: as `stickslip_node_respond`: NULL_POINTER, STRUCT_SIZE, NOT_FINITE, INVALID_VALUE.
+/// Cost: nanoseconds; allocates nothing.
+int32_t stickslip_node_condense(const struct stickslip_node *node,
+                                const struct stickslip_node_response *response,
+                                int32_t layout,
+                                double *w,
+                                double *row,
+                                double *row_scale);
 
 /// How far (x1, x2, lambda) is from contact equilibrium, whatever augmentation, row scale and form are: for the test of
 /// convergence, beside the forces' residual of each body. The multiplier rows cannot serve there, for they go with the

@@ -108,6 +108,9 @@ FUNCTION(interface_counters, (a[0], a[1]), INTERFACE, OUT(b.every.counters))
 FUNCTION(interface_effects, (a[0], a[1], b.capacity), INTERFACE, {"text", b.every.effects, LETTERS})
 FUNCTION(interface_report, (a[0], a[1], a[2], a[3]), AT, OUT(b.every.report))
 FUNCTION(interface_diagnose, (a[0], a[1], a[2], a[3], a[4], a[5]), POINT, OUT(b.every.diagnosis))
+FUNCTION(node_condense, (a[0], a[1], b.layout, a[2], a[3], a[4]), {"node", &E.node, NEEDED},
+         {"response", E.responses, NEEDED}, {"w", b.every.node_condensed, OPTIONAL},
+         {"row", b.every.node_condensed + 9, OPTIONAL}, {"row_scale", b.every.node_condensed + 12, OPTIONAL})
 FUNCTION(interface_carriers, (a[0], b.capacity, a[1], a[2], a[3], a[4]), INTERFACE, {"nodes", H.row_numbers, NEEDED},
          {"carriers", H.columns, NEEDED}, {"weights", H.values, NEEDED}, {"count", &H.count, NEEDED})
 FUNCTION(interface_condensed_multipliers, (a[0], a[1], a[2], a[3], a[4]), AT, {"host1", H.host1, NEEDED},
@@ -144,7 +147,7 @@ static const struct {
     NAMED(interface_step_limit), NAMED(interface_commit), NAMED(interface_rollback), NAMED(interface_history_size),
     NAMED(interface_history_export), NAMED(interface_history_import), NAMED(interface_counters),
     NAMED(interface_effects), NAMED(interface_report), NAMED(interface_diagnose), NAMED(interface_equilibrium),
-    NAMED(interface_carriers), NAMED(interface_condensed_multipliers), NAMED(interface_condensed_residual),
+    NAMED(node_condense), NAMED(interface_carriers), NAMED(interface_condensed_multipliers), NAMED(interface_condensed_residual),
     NAMED(interface_condensed_coo), NAMED(interface_condensed_csr), NAMED(interface_condensed_pattern),
 };
 

@@ -33,7 +33,7 @@ typedef struct {
   stickslip_equilibrium equilibrium;
   double node_equilibrium[3], facet_normal[3];
   /* Of systems without multipliers: for each call with triplets their number, and a number made of their bits. */
-  double condensed_lambda[X1], condensed_rows[X1], condensed_force[X2];
+  double condensed_lambda[X1], condensed_rows[X1], condensed_force[X2], node_condensed[13];
   uint64_t condensed_counts[5], condensed_bits[5];
 } every;
 
@@ -186,6 +186,10 @@ static inline int32_t every_triplets(every *c, int k, int32_t status) {
   c->condensed_bits[k] = bits;
   return status;
 }
+static inline int32_t every_node_condense(every *c) {
+  double *out = c->node_condensed;
+  return stickslip_node_condense(&c->e.node, &c->e.responses[0], STICKSLIP_LAYOUT_ROW_MAJOR, out, out + 9, out + 12);
+}
 static inline int32_t every_carriers(every *c) { return every_triplets(c, 3, call_carriers(&c->h)); }
 static inline int32_t every_condensed_multipliers(every *c) {
   handle *h = &c->h;
@@ -253,6 +257,7 @@ static const entry_point every_call[] = {
     {"interface_equilibrium", every_equilibrium},
     {"node_equilibrium", every_node_equilibrium},
     {"facet_normal", every_facet_normal},
+    {"node_condense", every_node_condense},
     {"interface_carriers", every_carriers},
     {"interface_condensed_multipliers", every_condensed_multipliers},
     {"interface_condensed_residual", every_condensed_residual},
@@ -318,11 +323,12 @@ static inline int32_t every_refusal(int k) {
     case 40: return stickslip_interface_condensed_residual(NULL, NULL, NULL, NULL, NULL, NULL, NULL);
     case 41: return stickslip_interface_condensed_coo(NULL, NULL, NULL, NULL, 0, 0, NULL, NULL, NULL, NULL);
     case 42: return stickslip_interface_condensed_csr(NULL, NULL, NULL, NULL, 0, NULL, NULL, NULL);
+    case 44: return stickslip_node_condense(NULL, NULL, 0, NULL, NULL, NULL);
     case 43: return stickslip_interface_condensed_pattern(NULL, NULL, NULL, 0, NULL, NULL, 0, NULL, NULL, NULL);
     default: return stickslip_interface_diagnose(NULL, NULL, NULL, NULL, NULL, NULL);
   }
 }
-enum { REFUSALS = 45 };
+enum { REFUSALS = 46 };
 
 /* Room and sizes for the structs that come out. */
 static inline void every_room(every *c) {
@@ -385,7 +391,7 @@ static inline int every_equal(every *a, every *b) {
          SAME(suspect_ratios) && SAME(suspect_causes) && SAME(diagnosis_text) && SAME(diagnosis.overlap) &&
          SAME(diagnosis.error) && SAME(step_limit) && SAME(equilibrium) &&
          SAME(node_equilibrium) && SAME(facet_normal) && SAME(condensed_lambda) && SAME(condensed_rows) &&
-         SAME(condensed_force) && SAME(condensed_bits) && SAME(condensed_counts);
+         SAME(condensed_force) && SAME(node_condensed) && SAME(condensed_bits) && SAME(condensed_counts);
 #undef SAME
 }
 

@@ -49,6 +49,7 @@ module bad_input
     integer(c_int64_t) :: integers(256), facets(NA), suspect_nodes(8)
     real(c_double) :: reals(4096), initial(SIZE1), fractions(NA), suspect_directions(24), suspect_ratios(8), facet_normal(3)
     real(c_double) :: gap, traction, slip, condensed_lambda(SIZE1), rows1(SIZE1), force2(SIZE2)
+    real(c_double) :: w(9), scale
     integer(c_int32_t) :: kinds(8), cover(NA), layers(NA), state(NA), suspect_causes(8)
     character(kind=c_char) :: text(80), effects(1000), report_text(1000), diagnosis_text(2000)
   end type
@@ -71,11 +72,11 @@ module bad_input
   real(c_double), target, save :: mu(NA), r(NA), normals(SIZE1), directions(9), sums(STICKSLIP_SUMS_PER_NODE * NA)
   real(c_double), target, save :: dx1(SIZE1), dx2(SIZE2)
   ! Pointer arguments, by the names of the header.
-  integer, parameter :: POINTERS = 28
+  integer, parameter :: POINTERS = 29
   character(13), parameter :: NAMES(POINTERS) = [character(13) :: 'n_ab', 'n_ac', 'dn_ab', 'dn_ac', 'n_ab_previous', &
       'n_ac_previous', 'row_scale', 'normals', 'areas', 'row', 'block', 'gap', 'traction', 'slip', 'facet_nodes', &
       'originals', 'nodes', 'kinds', 'claims', 'rows', 'columns', 'values', 'sums', 'r', &
-      'carriers', 'weights', 'entry_rows', 'entry_columns']
+      'carriers', 'weights', 'entry_rows', 'entry_columns', 'w']
   type(c_ptr), target, save :: p(POINTERS)
 
 contains
@@ -178,6 +179,8 @@ contains
       status = stickslip_interface_diagnose(interface_, h%s%x1, h%s%x2, h%s%lambda, at('sums'), o%diagnosis)
     case ('interface_equilibrium')
       status = stickslip_interface_equilibrium(interface_, h%s%x1, h%s%x2, h%s%lambda, at('sums'), o%equilibrium)
+    case ('node_condense')
+      status = stickslip_node_condense(e%node, e%responses(1), layout, at('w'), at('row'), at('row_scale'))
     case ('interface_carriers')
       status = stickslip_interface_carriers(interface_, capacity, at('nodes'), at('carriers'), at('weights'), h%count)
     case ('interface_condensed_multipliers')
@@ -309,7 +312,8 @@ contains
          c_loc(e%row_scale), c_loc(e%normals), c_loc(e%areas), c_loc(e%row), c_loc(e%block), c_loc(o%gap), &
          c_loc(o%traction), c_loc(o%slip), c_loc(o%split_nodes), c_loc(o%originals), c_loc(o%shared_nodes), &
          c_loc(o%kinds), c_loc(o%claims), c_loc(h%row_numbers), c_loc(h%columns), c_loc(h%values), c_null_ptr, c_loc(r), &
-         c_loc(h%columns), c_loc(h%values), c_loc(h%row_numbers), c_loc(h%columns)]
+         c_loc(h%columns), c_loc(h%values), c_loc(h%row_numbers), c_loc(h%columns), c_loc(o%w)]
+    if (name == 'node_condense') p(7) = c_loc(o%scale)
     if (name == 'interface_carriers') p(17) = c_loc(h%row_numbers)
     if (name == 'pair_weights') p(1:4) = [c_loc(e%w_out%ab), c_loc(e%w_out%ac), c_loc(e%w_out%dab), c_loc(e%w_out%dac)]
     if (name == 'interface_set_normals') p(8) = c_loc(normals)

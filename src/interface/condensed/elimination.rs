@@ -51,6 +51,11 @@ pub struct Elimination<const N: usize> {
     pub transfers: Vec<Transfer>,
 }
 
+/// W_B of a covered node from T_B, r_B and dc_B/dlambda_B.
+pub fn own_rows<const N: usize>(t: &SMatrix<f64, 3, N>, r: f64, drow_dlambda: &SMatrix<f64, N, N>) -> Mat3 {
+    Mat3::identity() - t * (SMatrix::<f64, N, N>::identity() + drow_dlambda * r) * t.transpose()
+}
+
 /// A weight on its way into a block: (row, own node, node through which it acts), weight.
 type Share = ((usize, usize, usize), f64);
 
@@ -154,8 +159,7 @@ impl<const N: usize> Elimination<N> {
 
     /// W_B.
     pub fn diagonal(&self, given: Given<N>, b: usize, response: &NodeResponse<N>) -> Mat3 {
-        let (t, r) = (self.directions[b], given.augmentation(b));
-        Mat3::identity() - t * (SMatrix::<f64, N, N>::identity() + response.drow_dlambda * r) * t.transpose()
+        own_rows(&self.directions[b], given.augmentation(b), &response.drow_dlambda)
     }
 
     /// The condensed rows of the non-mortar nodes, L R_u + b, and what the mortar nodes' rows gain beyond R_u, of the forces'
