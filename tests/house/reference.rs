@@ -167,7 +167,7 @@ fn systems_without_multipliers_cost_what_the_header_says() {
         let of = Options { weights, basis: MultiplierBasis::Dual, ..options() };
         let Moved { mut interface, x1, x2, lambda } = moved(&of, [Cells::Quads; 2], FLAT, 1);
         let (i, x, host) = (&mut interface, (&x1[..], &x2[..]), vec![Vec3::z(); x1.len()]);
-        let mut piece = |i: &mut Interface, piece| {
+        let piece = |i: &mut Interface, piece| {
             let sink = &mut |_: i64, _: i64, _: f64| ();
             cost(i, |i| i.condensed_tangent(x, &lambda, piece, sink).unwrap())
         };
