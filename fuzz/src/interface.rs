@@ -163,9 +163,8 @@ impl Scene {
         let (mut rows, mut columns, mut values) = (Watched::new(MOST), Watched::new(MOST), Watched::new(MOST));
         let (r, c, v) = (rows.pointer(), columns.pointer(), values.pointer());
         let (piece, most, mut count) = (STICKSLIP_CONDENSED_ELIMINATION, MOST as i64, 0);
-        let status = unsafe {
-            stickslip_interface_condensed_coo(self.handle, x1, x2, lambda, piece, most, r, c, v, &mut count)
-        };
+        let status =
+            unsafe { stickslip_interface_condensed_coo(self.handle, x1, x2, lambda, piece, most, r, c, v, &mut count) };
         if !succeeded(status) {
             rows.assert_untouched();
             values.assert_untouched();
