@@ -176,6 +176,7 @@ module stickslip
   integer(c_int64_t), parameter :: stickslip_pair_size = 56
   integer(c_int64_t), parameter :: stickslip_node_response_size = 408
   integer(c_int64_t), parameter :: stickslip_node_size = 240
+  integer(c_int64_t), parameter :: stickslip_facet_size = 72
   integer(c_int64_t), parameter :: stickslip_equilibrium_size = 96
 
   ! A contact interface, made by stickslip_interface_create and ended by stickslip_interface_destroy. A copy means the
@@ -367,6 +368,21 @@ module stickslip
     integer(c_int32_t) :: friction = STICKSLIP_FRICTION_COULOMB
     integer(c_int32_t) :: reserved = 0
     real(c_double) :: shear_limit = 0              ! largest shear traction, > 0 with TRESCA [F/L^2]
+  end type
+
+  ! A non-mortar facet with all the mortar facets that it overlaps, or overlapped at t_n.
+  type, bind(C) :: stickslip_facet
+    integer(c_int64_t) :: struct_size = stickslip_facet_size
+    integer(c_int32_t) :: n1 = 0                   ! 3 (tri3) or 4 (quad4)
+    integer(c_int32_t) :: quadrature = STICKSLIP_QUADRATURE_DEGREE_5
+    integer(c_int32_t) :: layout = STICKSLIP_LAYOUT_COLUMN_MAJOR ! of the tangent: k(row, column)
+    integer(c_int32_t) :: reserved = 0
+    integer(c_int64_t) :: n_pairs = 0              ! mortar facets
+    type(c_ptr) :: x1 = c_null_ptr                 ! real(c_double) (3, n1) [L]
+    type(c_ptr) :: n2 = c_null_ptr                 ! integer(c_int32_t) (n_pairs)
+    type(c_ptr) :: x2 = c_null_ptr                 ! real(c_double) (3, sum(n2)), one mortar facet after the other [L]
+    integer(c_int64_t) :: element_points = 0       ! 0: overlaps; 2 to 10: points along a side
+    type(c_ptr) :: neighbour_normals = c_null_ptr  ! real(c_double) (3, n1): of the facets beyond the edges, 0: none
   end type
 
   ! What stickslip_interface_equilibrium finds. Nodes in the index base, -1: all is zero.
@@ -816,6 +832,41 @@ module stickslip
       type(stickslip_node_response), intent(in) :: response
       integer(c_int32_t), value :: layout
       type(c_ptr), value :: w, row, row_scale
+    end function
+
+    ! Stage 1b: dual multipliers of a facet x(3, n) with the sum mass(n, n) of its pairs' n_ab. Outputs, each may be null:
+    ! fade; areas(n) [L^2]; coefficients(n, n) as (b, a).
+    integer(c_int32_t) function stickslip_facet_dual(n, x, mass, fade, areas, coefficients) bind(C)
+      import :: c_double, c_int32_t, c_ptr
+      integer(c_int32_t), value :: n
+      real(c_double), intent(in) :: x(3, *), mass(*)
+      type(c_ptr), value :: fade, areas, coefficients
+    end function
+
+    ! Stage 1b: a pair's share of the dual weights, with the sum mass(n1, n1) of n_ab over all pairs of its facet. Outputs,
+    ! each may be null: dual_ab(n1, n1) as (b, a), dual_ac(n2, n1) as (c, a) [L^2].
+    integer(c_int32_t) function stickslip_pair_dual(pair, mass, n_ab, n_ac, dual_ab, dual_ac) bind(C)
+      import :: c_double, c_int32_t, c_ptr, stickslip_pair
+      type(stickslip_pair), intent(in) :: pair
+      real(c_double), intent(in) :: mass(*), n_ab(*), n_ac(*)
+      type(c_ptr), value :: dual_ab, dual_ac
+    end function
+
+    ! Stage 3 with dual multipliers: the share of a facet and all its pairs of the exact tangent, in place of
+    ! stickslip_pair_tangent. n_ab(n1, n1, n_pairs), n_ac: (n2, n1) of one pair after the other, as stickslip_pair_weights
+    ! gives them; n_ab_previous, n_ac_previous: the dual ones of t_n, both null where there are none; traction(3, n1);
+    ! responses(n1); row_scale(n1), null: 1; k(ld, *), output, rows and columns: x1, x2 of one pair after the other, lambda.
+    integer(c_int32_t) function stickslip_facet_tangent(facet, n_ab, n_ac, n_ab_previous, n_ac_previous, traction, responses, &
+        row_scale, k, ld) bind(C)
+      import :: c_double, c_int32_t, c_int64_t, c_ptr, stickslip_facet, stickslip_node_response
+      type(stickslip_facet), intent(in) :: facet
+      real(c_double), intent(in) :: n_ab(*), n_ac(*)
+      type(c_ptr), value :: n_ab_previous, n_ac_previous
+      real(c_double), intent(in) :: traction(3, *)
+      type(stickslip_node_response), intent(in) :: responses(*)
+      type(c_ptr), value :: row_scale
+      integer(c_int64_t), value :: ld
+      real(c_double), intent(inout) :: k(ld, *)
     end function
 
     ! How far x1(3, n1), x2(3, n2), lambda(3, n1) is from contact equilibrium, whatever the augmentation: for the test of

@@ -71,7 +71,7 @@
  * interface_counters, interface_effects, interface_report, interface_diagnose. Before it: surface_split_creases where a non-mortar surface
  * has sharp edges, crosspoints_find where interfaces share nodes.
  *
- * A host without multipliers among its unknowns (STICKSLIP_BASIS_DUAL) has in place of pattern, residual and tangent:
+ * A host without multipliers among its unknowns (dual basis) has in place of pattern, residual and tangent:
  *
  *     interface_condensed_pattern            to preallocate its matrix
  *     interface_condensed_multipliers        in each evaluation, first: the multipliers follow from the displacements
@@ -89,7 +89,12 @@
  *     node_equilibrium                       the same, to see whether it has converged
  *     pair_residual, pair_tangent            each pair again
  *     node_block                             each non-mortar node, once
- *     node_condense                          in its place without multipliers (STICKSLIP_BASIS_DUAL)
+ *     node_condense                          in its place without multipliers (dual basis)
+ *
+ * With dual multipliers it calls in addition, for each non-mortar facet:
+ *
+ *     pair_dual, facet_dual                  after pair_weights of all its pairs: their dual weights
+ *     facet_tangent                          in place of pair_tangent
  *
  * Both: version, status_string, last_error_message, last_error_padded. */
 
@@ -789,6 +794,33 @@ typedef struct stickslip_node {
   double shear_limit;
 } stickslip_node;
 
+/// A non-mortar facet with all the mortar facets that it overlaps, or overlapped at t_n. Node order: right-hand, seen from
+/// outside each body.
+typedef struct stickslip_facet {
+  /// sizeof(stickslip_facet).
+  uint64_t struct_size;
+  /// Nodes of the non-mortar facet: 3 (tri3) or 4 (quad4).
+  int32_t n1;
+  /// STICKSLIP_QUADRATURE_...
+  int32_t quadrature;
+  /// STICKSLIP_LAYOUT_... of the tangent.
+  int32_t layout;
+  /// Must be 0.
+  int32_t reserved;
+  /// Number of mortar facets, at least 1.
+  int64_t n_pairs;
+  /// 3 n1 coordinates of the non-mortar facet, node by node (in Fortran x1(3, n1)) [L].
+  const double *x1;
+  /// n_pairs: nodes of each mortar facet, 3 or 4.
+  const int32_t *n2;
+  /// Coordinates of the mortar facets' nodes, facet after facet, 3 for each of all their nodes [L].
+  const double *x2;
+  /// As in `stickslip_pair`.
+  int64_t element_points;
+  /// As in `stickslip_pair`: 3 n1 [-], or NULL.
+  const double *neighbour_normals;
+} stickslip_facet;
+
 /// What `stickslip_interface_equilibrium` finds: three violations, each of the node where it is largest over its scale.
 /// Nodes in the index base; -1 where all is zero, and the scale is then the least of all nodes.
 typedef struct stickslip_equilibrium {
@@ -1168,7 +1200,7 @@ int32_t stickslip_interface_condensed_multipliers(struct stickslip_interface *in
 /// (3 n1): the residual of the host's own forces at the non-mortar nodes, without contact [F]. Outputs: rows1 (3 n1; may be
 /// host1) and force2 (3 n2) [F].
 ///
-/// Errors: as `stickslip_interface_condensed_multipliers`.
+/// Errors: NULL_POINTER and the others of `stickslip_interface_condensed_multipliers`.
 /// Cost: as `stickslip_interface_residual`, and a sort of the pairs' nodes.
 int32_t stickslip_interface_condensed_residual(struct stickslip_interface *interface,
                                                const double *x1,
@@ -1516,10 +1548,12 @@ int32_t stickslip_node_block(const struct stickslip_node_response *response,
 /// node, response: of `stickslip_node_respond`; of the node its covered area D, augmentation r and directions are read. layout:
 /// STICKSLIP_LAYOUT_... Outputs, each may be NULL: w (3 x 3) [-]; row (3) [F], s c; row_scale [F/L^3], s = r D. An uncovered
 /// node has I, 0 and 0.
-/// With the node's multiplier -R / D, R being the sum of the host's own forces at A, all that elements and pairs have in row i of A,
-/// of force and matrix, goes w[., i] times to A's three rows, and M_AC / D times to row i of each mortar node C, M_AC the
-/// sum of n_AC over the pairs; derivatives with respect to multipliers are left out. Then row is added to A's rows, and of `stickslip_pair_tangent` with this row_scale the
-/// derivatives of the multiplier rows with respect to displacements. Directions in which the node is prescribed have no rows.
+///
+/// The multiplier of a covered node A is -R / D, R the sum of the host's own forces at A. What elements and pairs have in
+/// row i of A, of force and matrix, goes w[., i] times to the three rows of A. It goes M_AC / D times to row i of each
+/// mortar node C, M_AC the sum of n_AC over the pairs. The output row is added to the rows of A. Pairs are linearised with this
+/// row_scale (`stickslip_facet_tangent`, or `stickslip_pair_tangent` where weights are frozen): their multiplier rows go to
+/// the rows of A, once and not times w. Columns of multipliers are left out. A direction in which the node is prescribed has no rows.
 ///
 /// Errors: as `stickslip_node_respond`: NULL_POINTER, STRUCT_SIZE, NOT_FINITE, INVALID_VALUE.
 /// Cost: nanoseconds; allocates nothing.
@@ -1529,6 +1563,72 @@ int32_t stickslip_node_condense(const struct stickslip_node *node,
                                 double *w,
                                 double *row,
                                 double *row_scale);
+
+/// Stage 1b: what makes the weights of a facet's pairs those of dual multipliers, from the sum of n_ab over all of its
+/// pairs. docs/formulation.md 10.1.
+///
+/// n: 3 or 4; x: 3 n coordinates of the non-mortar facet [L]; mass (n x n): the sum of n_ab of `stickslip_pair_weights`
+/// [L^2]. Outputs, each may be NULL: fade (1) [-], phi: 1, less where below 1 % of the facet is covered, 0 below 0.01 %;
+/// areas (n): what the facet adds to the coverage of its nodes, phi m_A [L^2]; coefficients (n x n), row A [-]:
+/// phi a_AB, times n_ac of a pair its dual n_ac (in Fortran coefficients(B, A)). All are 0 where fade is 0.
+///
+/// Errors: NULL_POINTER, INVALID_SIZE, NOT_FINITE, DUPLICATE_NODE, INVALID_VALUE (mass is no such sum), DEGENERATE_FACET
+/// (the facet, or what covers it does not determine its multipliers).
+/// Cost: below a microsecond; allocates nothing.
+int32_t stickslip_facet_dual(int32_t n,
+                             const double *x,
+                             const double *mass,
+                             double *fade,
+                             double *areas,
+                             double *coefficients);
+
+/// Stage 1b: a pair's share of the dual weights. They take the place of the pair's weights in `stickslip_pair_gap`, in the
+/// coverage of nodes, in `stickslip_pair_residual`, and as weights of t_n. docs/formulation.md 10.2.
+///
+/// pair: quadrature and layout are not read. mass (n1 x n1): the sum of n_ab over all pairs of the non-mortar facet [L^2];
+/// n_ab (n1 x n1), n_ac (n1 x n2): the pair's own, of `stickslip_pair_weights` [L^2]. Outputs, each may be NULL: dual_ab
+/// (n1 x n1) and dual_ac (n1 x n2) [L^2], row A; they may be n_ab and n_ac themselves. Over all pairs dual_ab adds up to
+/// areas of `stickslip_facet_dual` on the diagonal, and to 0 elsewhere. With the sums in the order of the handle the
+/// weights have its bits.
+///
+/// Errors: NULL_POINTER, STRUCT_SIZE, INVALID_SIZE, NOT_FINITE, DUPLICATE_NODE, INVALID_VALUE (mass is no such sum),
+/// DEGENERATE_FACET (the facet, or what covers it does not determine its multipliers).
+/// Cost: below a microsecond; allocates nothing.
+int32_t stickslip_pair_dual(const struct stickslip_pair *pair,
+                            const double *mass,
+                            const double *n_ab,
+                            const double *n_ac,
+                            double *dual_ab,
+                            double *dual_ac);
+
+/// Stage 3 with dual multipliers: the share of a facet and all its pairs of the exact tangent, in the multiplier form. With
+/// the node blocks of `stickslip_node_block` the sum over all facets is the whole tangent. It takes the place of
+/// `stickslip_pair_tangent`, which knows one pair: dual weights of a pair depend on all pairs of the facet. (Where weights
+/// are frozen, that function with dual weights and without derivatives is right. The augmented form couples all facets of a
+/// node; the interface handle assembles it.) docs/formulation.md 10.4.
+///
+/// facet: rows and columns are x1 (3 n1), x2 of one mortar facet after the other, lambda (3 n1). A node of several mortar
+/// facets has rows and columns with each: add them up. n_ab (n_pairs x n1 x n1), n_ac (n1 x n2 of each pair, one pair
+/// after the other): weights of now as `stickslip_pair_weights` gives them, not the dual ones [L^2]; 0 of a pair that
+/// overlapped only at t_n. n_ab_previous, n_ac_previous: likewise the dual weights of t_n [L^2], 0 of a pair that did not
+/// overlap then; both NULL where none did. traction (3 n1): lambda [F/L^2]. responses: n1 results of
+/// `stickslip_node_respond`, from the gaps of dual weights assembled over all pairs. row_scale (n1) multiplies the
+/// multiplier rows, NULL: 1; r M_A [F/L^3] makes them forces. k: output, square in the facet's layout, leading dimension
+/// ld >= its size; overwritten, the block (lambda, lambda) with zeros. Units of an entry: its row's over its column's.
+///
+/// Errors: NULL_POINTER, STRUCT_SIZE, INVALID_SIZE, NOT_FINITE, DUPLICATE_NODE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX,
+/// INVALID_VALUE (layout, quadrature, element_points, neighbour_normals, reserved; weights that are not those of now).
+/// Cost: 12 microseconds a pair of two quad4, and 0.3 for every two pairs; allocates nothing.
+int32_t stickslip_facet_tangent(const struct stickslip_facet *facet,
+                                const double *n_ab,
+                                const double *n_ac,
+                                const double *n_ab_previous,
+                                const double *n_ac_previous,
+                                const double *traction,
+                                const struct stickslip_node_response *responses,
+                                const double *row_scale,
+                                double *k,
+                                int64_t ld);
 
 /// How far (x1, x2, lambda) is from contact equilibrium, whatever augmentation, row scale and form are: for the test of
 /// convergence, beside the forces' residual of each body. The multiplier rows cannot serve there, for they go with the

@@ -39,7 +39,9 @@ static PetscErrorCode predict(Model *model, History *history, PetscReal t)
     const PetscReal factor = (t - history->t_last) / (history->t_last - history->t_before);
     PetscCall(VecAXPY(history->start, factor, history->last));
     PetscCall(VecAXPY(history->start, -factor, history->before));
+    condensed_predict(&model->contact, factor);
   } else {
+    condensed_predict(&model->contact, 0);
     PetscCall(move_supports(&model->solve, history->t_last, history->start));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -87,6 +89,7 @@ static PetscErrorCode accept(Model *model, History *history)
   model->solve.iterations        = 0;
   parts_accept(&model->physics);
   equilibrium_accept(&model->contact);
+  condensed_accept(&model->contact);
   PetscCall(solver_refresh_pattern(&model->solve));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -194,6 +194,55 @@ fn facet_calls(bytes: &mut Bytes) {
     } else {
         normal.assert_untouched();
     }
+    dual_calls(bytes);
+}
+
+/// A facet with up to two pairs.
+fn dual_calls(bytes: &mut Bytes) {
+    let (x1, x2, mass) = (points(bytes, 12), points(bytes, 24), numbers(bytes, 16, 0.1));
+    let (ab, ac, traction) = (numbers(bytes, 32, 0.1), numbers(bytes, 32, 0.1), numbers(bytes, 12, -1.0));
+    let n2 = [bytes.integer(4) as i32, bytes.integer(4) as i32];
+    let mut facet = Struct::new(stickslip_facet {
+        struct_size: 0,
+        n1: bytes.integer(4) as i32,
+        quadrature: bytes.choice(6),
+        layout: bytes.choice(2),
+        reserved: bytes.choice(2),
+        n_pairs: bytes.count(1).min(2),
+        x1: bytes.pointer(x1.as_ptr()),
+        n2: bytes.pointer(n2.as_ptr()),
+        x2: bytes.pointer(x2.as_ptr()),
+        element_points: bytes.integer(0),
+        neighbour_normals: null(),
+    });
+    facet.declare(bytes);
+    let (mut fade, mut areas) = (Watched::<f64>::new(1), Watched::<f64>::new(4));
+    let (mut turn, mut k) = (Watched::<f64>::new(16), Watched::<f64>::new(48 * 48));
+    let n = bytes.integer(4) as i32;
+    // SAFETY: by the head of this file; so below.
+    let status = unsafe {
+        let (fade, areas) = (bytes.output(fade.pointer()), bytes.output(areas.pointer()));
+        let (x1, mass) = (bytes.pointer(x1.as_ptr()), bytes.pointer(mass.as_ptr()));
+        stickslip_facet_dual(n, x1, mass, fade, areas, bytes.output(turn.pointer()))
+    };
+    let pattern = Watched::<f64>::new(1).values()[0].to_bits();
+    let written = |o: &mut Watched<f64>| o.values().iter().all(|v| v.is_finite() || v.to_bits() == pattern);
+    for out in [&mut fade, &mut areas, &mut turn] {
+        if succeeded(status) { assert!(written(out)) } else { out.assert_untouched() }
+    }
+    let response = stickslip_node_response {
+        struct_size: size_of::<stickslip_node_response>() as u64,
+        drow_dnow: [1.0, 0.5, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0],
+        // SAFETY: numbers only.
+        ..unsafe { std::mem::zeroed() }
+    };
+    let responses = [response; 4];
+    let status = unsafe {
+        let (f, ab, ac) = (bytes.pointer(facet.pointer()), bytes.pointer(ab.as_ptr()), bytes.pointer(ac.as_ptr()));
+        let (t, ld) = (bytes.pointer(traction.as_ptr()), bytes.integer(48).min(48));
+        stickslip_facet_tangent(f, ab, ac, ab, ac, t, responses.as_ptr(), null(), k.pointer(), ld)
+    };
+    if succeeded(status) { assert!(written(&mut k)) } else { k.assert_untouched() }
 }
 
 /// A surface with up to so many facets and nodes.

@@ -26,6 +26,26 @@ pub(super) fn facet(n: i32, x: *const f64, name: &str) -> Result<Facet> {
     Facet::new(&points[..n])
 }
 
+/// Far above the rounding of a normalisation, far below any angle that matters.
+const UNIT: f64 = 1e-10;
+
+/// A non-mortar facet's frame, with what is known of the facets beyond its edges; `names` are those of the two arguments.
+pub(super) fn frame(one: &Facet, neighbour_normals: *const f64, names: [&str; 2]) -> Result<NonmortarFrame> {
+    let [x1, name] = names;
+    let mut frame = NonmortarFrame::new(one).map_err(raw::named(x1))?;
+    let normals = raw::optional_numbers(neighbour_normals, 3 * one.len(), name)?;
+    for (k, normal) in normals.unwrap_or_default().chunks_exact(3).enumerate() {
+        let normal = Vec3::from_column_slice(normal);
+        let (length, is_known) = (normal.norm(), normal != Vec3::zeros());
+        if is_known && !((length - 1.0).abs() <= UNIT) {
+            let text = text!("{name} of edge {k} has length {length}; it must be 1, or 0 for none");
+            return Err(Error::new(Kind::InvalidValue, text));
+        }
+        frame.plane.beyond[k] = is_known.then_some(normal);
+    }
+    Ok(frame)
+}
+
 /// A non-mortar facet's share of its nodes' normals and areas.
 ///
 /// n: 3 or 4; x: 3 n coordinates [L]. Outputs, each may be NULL: normals (3 n) [-], unit corner normals, out

@@ -1,6 +1,8 @@
 //! How matrices go out.
 
+use super::raw;
 use crate::error::{Error, Kind, Result};
+use crate::geometry::Mat3;
 
 /// Matrices go out row by row (what PETSc's MatSetValues takes).
 pub const STICKSLIP_LAYOUT_ROW_MAJOR: i32 = 0;
@@ -16,5 +18,34 @@ pub(super) fn column_major(layout: i32, name: &str) -> Result<bool> {
             Kind::InvalidValue,
             text!("{name} is {layout}; 0 (row-major) or 1 (column-major) are allowed"),
         )),
+    }
+}
+
+/// A caller's square matrix of 3 x 3 blocks.
+pub(super) struct Matrix {
+    k: *mut f64,
+    ld: usize,
+    column_major: bool,
+}
+
+impl Matrix {
+    /// The matrix k of so many rows, with its leading dimension.
+    pub fn new(k: *mut f64, size: usize, ld: i64, column_major: bool) -> Result<Matrix> {
+        if ld < size as i64 {
+            return Err(Error::new(Kind::InvalidSize, text!("ld is {ld}; it must be at least {size}")));
+        }
+        let ld = raw::count(ld, 1, "ld")?;
+        raw::check(k, "k")?;
+        Ok(Matrix { k, ld, column_major })
+    }
+
+    /// Writes a block; rows and columns are counted in blocks.
+    pub fn write(&mut self, row: usize, column: usize, block: &Mat3) {
+        for (i, j) in (0..3).flat_map(|i| (0..3).map(move |j| (i, j))) {
+            let (r, c) = (3 * row + i, 3 * column + j);
+            let at = if self.column_major { c * self.ld + r } else { r * self.ld + c };
+            // SAFETY: at < ld * size; the caller's k has that many entries.
+            unsafe { self.k.add(at).write(block[(i, j)]) };
+        }
     }
 }

@@ -64,6 +64,10 @@ mod pair;
 
 mod node;
 
+mod dual;
+
+mod facet_tangent;
+
 mod equilibrium;
 
 mod fp_environment;
@@ -75,9 +79,11 @@ pub use closing::*;
 pub use condensed::*;
 pub use counters::*;
 pub use diagnosis::*;
+pub use dual::*;
 pub use equilibrium::*;
 pub use evaluation::*;
 pub use facet::*;
+pub use facet_tangent::*;
 pub use handle::*;
 pub use history::*;
 pub use interface::*;

@@ -285,10 +285,12 @@ pub unsafe extern "C" fn stickslip_node_block(
 /// node, response: of `stickslip_node_respond`; of the node its covered area D, augmentation r and directions are read. layout:
 /// STICKSLIP_LAYOUT_... Outputs, each may be NULL: w (3 x 3) [-]; row (3) [F], s c; row_scale [F/L^3], s = r D. An uncovered
 /// node has I, 0 and 0.
-/// With the node's multiplier -R / D, R being the sum of the host's own forces at A, all that elements and pairs have in row i of A,
-/// of force and matrix, goes w[., i] times to A's three rows, and M_AC / D times to row i of each mortar node C, M_AC the
-/// sum of n_AC over the pairs; derivatives with respect to multipliers are left out. Then row is added to A's rows, and of `stickslip_pair_tangent` with this row_scale the
-/// derivatives of the multiplier rows with respect to displacements. Directions in which the node is prescribed have no rows.
+///
+/// The multiplier of a covered node A is -R / D, R the sum of the host's own forces at A. What elements and pairs have in
+/// row i of A, of force and matrix, goes w[., i] times to the three rows of A. It goes M_AC / D times to row i of each
+/// mortar node C, M_AC the sum of n_AC over the pairs. The output row is added to the rows of A. Pairs are linearised with this
+/// row_scale (`stickslip_facet_tangent`, or `stickslip_pair_tangent` where weights are frozen): their multiplier rows go to
+/// the rows of A, once and not times w. Columns of multipliers are left out. A direction in which the node is prescribed has no rows.
 ///
 /// Errors: as `stickslip_node_respond`: NULL_POINTER, STRUCT_SIZE, NOT_FINITE, INVALID_VALUE.
 /// Cost: nanoseconds; allocates nothing.

@@ -1,14 +1,14 @@
 //! Stages 1 and 3 for one pair of facets: stateless, re-entrant, without allocation.
 
-use super::facet::facet;
+use super::facet::{facet, frame};
 use super::guard::guard;
-use super::layout::column_major;
+use super::layout::{Matrix, column_major};
 use super::node::stickslip_node_response;
 use super::options::{element_line, rule};
 use super::raw::{self, Output};
 use super::sized::{self, Sized64};
 use crate::element::{FacetResponse, NodeTangent, PairNow, PairTangent, pair_force, row_columns};
-use crate::error::{Error, Kind, Result};
+use crate::error::Result;
 use crate::geometry::{Facet, Mat3, Projection, Vec3};
 use crate::mortar::{
     self, AlongNormal, GapDerivative, MORTAR, NonmortarFrame, PairWeights, Segment, WeightDerivatives,
@@ -49,40 +49,26 @@ unsafe impl Sized64 for stickslip_pair {
     const FIRST: usize = 40;
 }
 
-/// Far above the rounding of a normalisation, far below any angle that matters.
-const UNIT: f64 = 1e-10;
-
-struct Pair {
-    one: Facet,
+pub(super) struct Pair {
+    pub one: Facet,
     two: Facet,
     raw: stickslip_pair,
 }
 
 impl Pair {
-    fn read(p: *const stickslip_pair) -> Result<Pair> {
+    pub fn read(p: *const stickslip_pair) -> Result<Pair> {
         let raw = sized::read(p)?;
         Ok(Pair { one: facet(raw.n1, raw.x1, "pair.x1")?, two: facet(raw.n2, raw.x2, "pair.x2")?, raw })
     }
 
-    fn n(&self) -> (usize, usize) {
+    /// Numbers of nodes.
+    pub fn n(&self) -> (usize, usize) {
         (self.one.len(), self.two.len())
     }
 
     /// The non-mortar facet, with what is known of those beyond its edges.
     fn frame(&self) -> Result<NonmortarFrame> {
-        let mut frame = NonmortarFrame::new(&self.one).map_err(raw::named("pair.x1"))?;
-        let n1 = self.one.len();
-        let normals = raw::optional_numbers(self.raw.neighbour_normals, 3 * n1, "pair.neighbour_normals")?;
-        for (k, normal) in normals.unwrap_or_default().chunks_exact(3).enumerate() {
-            let normal = Vec3::from_column_slice(normal);
-            let (length, is_known) = (normal.norm(), normal != Vec3::zeros());
-            if is_known && !((length - 1.0).abs() <= UNIT) {
-                let text = text!("pair.neighbour_normals of edge {k} has length {length}; it must be 1, or 0 for none");
-                return Err(Error::new(Kind::InvalidValue, text));
-            }
-            frame.plane.beyond[k] = is_known.then_some(normal);
-        }
-        Ok(frame)
+        frame(&self.one, self.raw.neighbour_normals, ["pair.x1", "pair.neighbour_normals"])
     }
 
     /// Slot of the k-th of the pair's nodes, non-mortar first.
@@ -90,15 +76,9 @@ impl Pair {
         if k < self.one.len() { k } else { MORTAR + k - self.one.len() }
     }
 
-    fn weights(&self, ab: *const f64, ac: *const f64, names: [&str; 2]) -> Result<PairWeights> {
+    pub fn weights(&self, ab: *const f64, ac: *const f64, names: [&str; 2]) -> Result<PairWeights> {
         let (n1, n2) = self.n();
-        let (ab, ac) = (raw::numbers(ab, n1 * n1, names[0])?, raw::numbers(ac, n1 * n2, names[1])?);
-        let mut w = PairWeights::default();
-        for a in 0..n1 {
-            w.ab[a][..n1].copy_from_slice(&ab[a * n1..][..n1]);
-            w.ac[a][..n2].copy_from_slice(&ac[a * n2..][..n2]);
-        }
-        Ok(w)
+        Ok(pair_weights(raw::numbers(ab, n1 * n1, names[0])?, raw::numbers(ac, n1 * n2, names[1])?, n1))
     }
 
     fn derivatives(&self, ab: *const f64, ac: *const f64) -> Result<WeightDerivatives> {
@@ -119,14 +99,50 @@ impl Pair {
         }
         Ok(d)
     }
+}
 
-    fn tractions(&self, p: *const f64) -> Result<[Vec3; MAX_CORNERS]> {
-        let mut t = [Vec3::zeros(); MAX_CORNERS];
-        for (t, v) in t.iter_mut().zip(raw::numbers(p, 3 * self.one.len(), "traction")?.chunks_exact(3)) {
-            *t = Vec3::from_column_slice(v);
-        }
-        Ok(t)
+/// A pair's weights from a caller's n_ab and n_ac, row A, of so many non-mortar nodes.
+pub(super) fn pair_weights(ab: &[f64], ac: &[f64], n1: usize) -> PairWeights {
+    let (mut w, n2) = (PairWeights::default(), ac.len() / n1);
+    for a in 0..n1 {
+        w.ab[a][..n1].copy_from_slice(&ab[a * n1..][..n1]);
+        w.ac[a][..n2].copy_from_slice(&ac[a * n2..][..n2]);
     }
+    w
+}
+
+/// Writes n_ab and n_ac, row A, of a pair with so many nodes; each may be null.
+pub(super) fn write_weights(w: &PairWeights, (n1, n2): (usize, usize), n_ab: *mut f64, n_ac: *mut f64) {
+    let (mut ab, mut ac) = (Output::new(n_ab), Output::new(n_ac));
+    for a in 0..n1 {
+        ab.append(&w.ab[a][..n1]);
+        ac.append(&w.ac[a][..n2]);
+    }
+}
+
+/// 3 n numbers at `p` as vectors of the facet's nodes.
+pub(super) fn tractions(p: *const f64, n: usize) -> Result<[Vec3; MAX_CORNERS]> {
+    let mut t = [Vec3::zeros(); MAX_CORNERS];
+    for (t, v) in t.iter_mut().zip(raw::numbers(p, 3 * n, "traction")?.chunks_exact(3)) {
+        *t = Vec3::from_column_slice(v);
+    }
+    Ok(t)
+}
+
+/// What a facet must know of the responses of its nodes, at its tractions.
+pub(super) fn node_tangents(
+    traction: &[Vec3],
+    responses: *const stickslip_node_response,
+    row_scale: *const f64,
+) -> Result<[NodeTangent; MAX_CORNERS]> {
+    let scale = raw::optional_numbers(row_scale, traction.len(), "row_scale")?;
+    let mut nodes = [NodeTangent::default(); MAX_CORNERS];
+    for (a, (node, traction)) in nodes.iter_mut().zip(traction).enumerate() {
+        let s = scale.map_or(1.0, |s| s[a]);
+        let (now, previous) = super::node::read_response(responses, a)?;
+        *node = NodeTangent { traction: *traction, drow_dnow: now * s, drow_dprevious: previous * s };
+    }
+    Ok(nodes)
 }
 
 /// Stage 1: the mortar weights of a pair in its current configuration. Paper (13).
@@ -173,11 +189,7 @@ pub unsafe extern "C" fn stickslip_pair_weights(
         if wanted {
             raw::check_results("dn_ab, dn_ac", d.ab.iter().chain(&d.ac).flatten().flatten().flatten())?;
         }
-        let (mut ab, mut ac) = (Output::new(n_ab), Output::new(n_ac));
-        for a in 0..n1 {
-            ab.append(&w.ab[a][..n1]);
-            ac.append(&w.ac[a][..n2]);
-        }
+        write_weights(&w, (n1, n2), n_ab, n_ac);
         if !wanted {
             return Ok(());
         }
@@ -240,7 +252,7 @@ pub unsafe extern "C" fn stickslip_pair_residual(
     guard(|| {
         let pair = Pair::read(pair)?;
         let weights = pair.weights(n_ab, n_ac, ["n_ab", "n_ac"])?;
-        let traction = pair.tractions(traction)?;
+        let traction = tractions(traction, pair.one.len())?;
         raw::check(force, "force")?;
         let f = pair_force(&weights, &traction);
         raw::check_results("force", f.iter().flat_map(|v| v.iter()))?;
@@ -284,26 +296,15 @@ pub unsafe extern "C" fn stickslip_pair_tangent(
         let pair = Pair::read(pair)?;
         let (n1, n2) = pair.n();
         let size = 6 * n1 + 3 * n2;
-        if ld < size as i64 {
-            return Err(Error::new(Kind::InvalidSize, text!("ld is {ld}; it must be at least {size}")));
-        }
-        raw::count(ld, 1, "ld")?;
-        raw::check(k, "k")?;
-        let column_major = column_major(pair.raw.layout, "pair.layout")?;
+        let mut k = Matrix::new(k, size, ld, column_major(pair.raw.layout, "pair.layout")?)?;
         let weights =
             (!n_ab.is_null() || !n_ac.is_null()).then(|| pair.weights(n_ab, n_ac, ["n_ab", "n_ac"])).transpose()?;
         let dn = (!dn_ab.is_null() || !dn_ac.is_null()).then(|| pair.derivatives(dn_ab, dn_ac)).transpose()?;
         let before = (!n_ab_previous.is_null() || !n_ac_previous.is_null())
             .then(|| pair.weights(n_ab_previous, n_ac_previous, ["n_ab_previous", "n_ac_previous"]))
             .transpose()?;
-        let traction = pair.tractions(traction)?;
-        let scale = raw::optional_numbers(row_scale, n1, "row_scale")?;
-        let mut nodes = [NodeTangent::default(); MAX_CORNERS];
-        for (a, node) in nodes[..n1].iter_mut().enumerate() {
-            let s = scale.map_or(1.0, |s| s[a]);
-            let (now, previous) = super::node::read_response(responses, a)?;
-            *node = NodeTangent { traction: traction[a], drow_dnow: now * s, drow_dprevious: previous * s };
-        }
+        let traction = tractions(traction, n1)?;
+        let nodes = node_tangents(&traction[..n1], responses, row_scale)?;
         let gap = match (&weights, &dn) {
             (Some(w), Some(dn)) => {
                 let frame = NonmortarFrame::new(&pair.one).map_err(raw::named("pair.x1"))?;
@@ -335,13 +336,7 @@ pub unsafe extern "C" fn stickslip_pair_tangent(
         };
         for row in 0..size / 3 {
             for column in 0..size / 3 {
-                let block = block(row, column);
-                for (i, j) in (0..3).flat_map(|i| (0..3).map(move |j| (i, j))) {
-                    let (r, c) = (3 * row + i, 3 * column + j);
-                    let at = if column_major { c * ld as usize + r } else { r * ld as usize + c };
-                    // SAFETY: at < ld * size; the caller's k has that many entries.
-                    unsafe { k.add(at).write(block[(i, j)]) };
-                }
+                k.write(row, column, &block(row, column));
             }
         }
         Ok(())

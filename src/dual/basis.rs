@@ -98,4 +98,9 @@ impl DualBasis {
         }
         coefficients
     }
+
+    /// phi a_AB: times n_BC of a pair its share of n^d_AC.
+    pub fn faded_coefficients(&self) -> [[f64; MAX_CORNERS]; MAX_CORNERS] {
+        self.coefficients().map(|row| row.map(|a| self.coverage.fade * a))
+    }
 }

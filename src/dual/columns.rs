@@ -68,7 +68,11 @@ impl<'a> FacetColumns<'a> {
     /// -sum_B n_BC d(phi q_B) / dx: a block of the tangent, with the row of the mortar node in this place and the column
     /// of any node of the facet.
     pub fn coupling(&self, place: usize, column: usize) -> Mat3 {
-        let (n, dq) = (&self.weights[place], &self.tractions[column]);
-        Mat3::from_fn(|i, j| -(0..MAX_CORNERS).map(|b| n[b] * dq[j][i][b]).sum::<f64>())
+        coupling(&self.weights[place], &self.tractions[column])
     }
+}
+
+/// -sum_B n_BC d(phi q_B) / dx of a mortar node's weights n_BC and the derivatives `[j][i][B]` by one node's x_j.
+pub fn coupling(n: &[f64; MAX_CORNERS], dq: &[[[f64; MAX_CORNERS]; 3]; 3]) -> Mat3 {
+    Mat3::from_fn(|i, j| -(0..MAX_CORNERS).map(|b| n[b] * dq[j][i][b]).sum::<f64>())
 }

@@ -17,7 +17,7 @@ mod motion;
 mod sums;
 
 pub use basis::DualBasis;
-pub use columns::{FacetColumns, TractionDerivatives};
+pub use columns::{FacetColumns, TractionDerivatives, coupling};
 pub use coverage::{Coverage, FADE_BAND};
 pub use full::FullDerivatives;
 pub use mass::SMALLEST_PIVOT;

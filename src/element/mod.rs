@@ -1,8 +1,12 @@
 //! Where mortar integration and contact law meet: a pair's share of residual and tangent, given the
-//! nodal states (stage 3), and a node's own block (stage 4).
+//! nodal states (stage 3), and a node's own block (stage 4). With dual multipliers the tangent is a facet's.
 
+mod dual_facet;
+mod facet_pairs;
 mod residual;
 mod tangent;
 
+pub use dual_facet::DualFacet;
+pub use facet_pairs::{FacetPairs, facet_sums};
 pub use residual::pair_force;
 pub use tangent::{FacetResponse, NodeTangent, PairNow, PairTangent, RowColumns, frozen_rows, gap_rows, row_columns};

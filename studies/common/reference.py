@@ -7,6 +7,8 @@ import json
 from pathlib import Path
 
 import numpy as np
+from scipy import sparse
+from scipy.sparse.linalg import spsolve
 
 _HERE = Path(__file__).resolve().parent / "reference"
 BLOCK = json.loads((_HERE / "block.json").read_text())
@@ -68,7 +70,7 @@ def clamped_block(columns=20, rows=10, zone=(0.2, 3.8)):
     size = length / columns
     node = lambda i, j: j * (columns + 1) + i
     count = (columns + 1) * (rows + 1)
-    stiffness, load = np.zeros((2 * count, 2 * count)), np.zeros((count, 2))
+    load, entries = np.zeros((count, 2)), []
 
     square = size * np.array([[0, 0], [1, 0], [1, 1], [0, 1]])
     elastic = plane_strain(1000.0, 0.3)
@@ -77,7 +79,9 @@ def clamped_block(columns=20, rows=10, zone=(0.2, 3.8)):
         for i in range(columns):
             corners = np.array([node(i, j), node(i + 1, j), node(i + 1, j + 1), node(i, j + 1)])
             equations = np.stack([2 * corners, 2 * corners + 1], axis=1).ravel()
-            stiffness[np.ix_(equations, equations)] += element
+            entries.append((np.repeat(equations, 8), np.tile(equations, 8), element.ravel()))
+    at, across, values = (np.concatenate(part) for part in zip(*entries))
+    stiffness = sparse.csr_array((values, (at, across)), shape=(2 * count, 2 * count))
     for i in range(columns):
         load[[node(i, rows), node(i + 1, rows)], 1] -= top * size / 2
     for j in range(rows):
@@ -87,7 +91,7 @@ def clamped_block(columns=20, rows=10, zone=(0.2, 3.8)):
     clamped = np.flatnonzero((x > zone[0] - 1e-9) & (x < zone[1] + 1e-9))
     free = np.setdiff1d(np.arange(2 * count), np.concatenate([2 * clamped, 2 * clamped + 1]))
     displacement = np.zeros(2 * count)
-    displacement[free] = np.linalg.solve(stiffness[np.ix_(free, free)], load.ravel()[free])
+    displacement[free] = spsolve(stiffness[free][:, free].tocsc(), load.ravel()[free])
     reaction = (stiffness @ displacement - load.ravel()).reshape(count, 2)
     assert abs(height - rows * size) < 1e-12, "the elements are squares"
     return x[clamped], reaction[clamped]

@@ -10,7 +10,8 @@ from pathlib import Path
 
 sys.path.append(str(Path(__file__).resolve().parents[2] / "studies" / "common"))
 import acceptance  # noqa: E402
-from dual import dual  # noqa: E402
+from condensed import condensed, condensed_full  # noqa: E402
+from dual import dual, dual_full  # noqa: E402
 from effect_checks import effects  # noqa: E402
 from friction_checks import friction  # noqa: E402
 from hosts import hosts  # noqa: E402
@@ -27,7 +28,10 @@ from warnings_checks import warnings  # noqa: E402
 
 GROUPS = {
     **acceptance.GROUPS,
+    "condensed": condensed,
+    "condensed_full": condensed_full,  # minutes; not among the tests
     "dual": dual,
+    "dual_full": dual_full,  # minutes; not among the tests
     "effects": effects,
     "friction": friction,
     "hosts": hosts,

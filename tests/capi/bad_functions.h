@@ -52,6 +52,14 @@ FUNCTION(pair_tangent, (a[0], a[1], a[2], a[3], a[4], a[5], a[6], a[7], a[8], a[
          {"dn_ab", E.w.dab, NEEDED}, {"dn_ac", E.w.dac, NEEDED}, {"n_ab_previous", b.previous.ab, NEEDED},
          {"n_ac_previous", b.previous.ac, NEEDED}, {"traction", E.traction, NEEDED}, {"responses", E.responses, NEEDED},
          {"row_scale", E.row_scale, OPTIONAL}, {"k", E.k, NEEDED})
+FUNCTION(facet_dual, (b.n_facet, a[0], a[1], a[2], a[3], a[4]), {"x", E.x1, NEEDED}, {"mass", E.mass, NEEDED},
+         {"fade", &E.fade, OPTIONAL}, {"areas", E.dual_areas, OPTIONAL}, {"coefficients", E.coefficients, OPTIONAL})
+FUNCTION(pair_dual, (a[0], a[1], a[2], a[3], a[4], a[5]), PAIR, {"mass", E.mass, NEEDED}, WEIGHTS,
+         {"dual_ab", E.dual_ab, OPTIONAL}, {"dual_ac", E.dual_ac, OPTIONAL})
+FUNCTION(facet_tangent, (a[0], a[1], a[2], a[3], a[4], a[5], a[6], a[7], a[8], b.ld), {"facet", &E.facet, NEEDED}, WEIGHTS,
+         {"n_ab_previous", b.previous.ab, NEEDED}, {"n_ac_previous", b.previous.ac, NEEDED},
+         {"traction", E.traction, NEEDED}, {"responses", E.responses, NEEDED}, {"row_scale", E.row_scale, OPTIONAL},
+         {"k", E.facet_k, NEEDED})
 FUNCTION(facet_geometry, (b.n_facet, a[0], a[1], a[2]), {"x", E.x1, NEEDED}, {"normals", E.normals, OPTIONAL},
          {"areas", E.areas, OPTIONAL})
 FUNCTION(facet_normal, (b.n_facet, a[0], a[1]), {"x", E.x1, NEEDED}, {"normal", b.every.facet_normal, NEEDED})
@@ -138,6 +146,7 @@ static const struct {
   int n;
 } functions[] = {
     NAMED(pair_weights), NAMED(pair_gap), NAMED(pair_residual), NAMED(pair_tangent), NAMED(facet_geometry),
+    NAMED(facet_dual), NAMED(pair_dual), NAMED(facet_tangent),
     NAMED(facet_normal), NAMED(node_normal), NAMED(node_respond), NAMED(node_block), NAMED(node_equilibrium),
     NAMED(options_init), NAMED(last_error_padded), NAMED(surface_split_creases), NAMED(crosspoints_find),
     NAMED(interface_create), NAMED(interface_destroy), NAMED(interface_set_friction), NAMED(interface_set_augmentation),

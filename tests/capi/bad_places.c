@@ -4,7 +4,7 @@
 
 #include <stddef.h>
 
-static bad_at places[400];
+static bad_at places[500];
 static int n_places;
 
 void bad_place(const char *name, bad_type type, void *at, int32_t n) {
@@ -33,6 +33,9 @@ static const struct {
 } members[] = {
     I64(pair, struct_size), I32(pair, n1), I32(pair, n2), NEED(pair, x1), NEED(pair, x2), I32(pair, quadrature),
     I32(pair, layout), I64(pair, element_points), MAY(pair, neighbour_normals),
+    I64(facet, struct_size), I32(facet, n1), I32(facet, quadrature), I32(facet, layout), I32(facet, reserved),
+    I64(facet, n_pairs), NEED(facet, x1), NEED(facet, n2), NEED(facet, x2), I64(facet, element_points),
+    MAY(facet, neighbour_normals),
     I64(node, struct_size), I32(node, slip), I32(node, n_directions), I32(node, friction), I32(node, reserved),
     ONE(node, shear_limit), ONE(node, augmentation), ONE(node, mu), ONE(node, coverage), ONE(node, coverage_previous),
     ONE(node, coverage_min), ARRAY(node, lambda, 3), ARRAY(node, normal, 3), ARRAY(node, gap_now, 3),

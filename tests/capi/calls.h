@@ -11,12 +11,17 @@ typedef struct {
   double x1[12], x2[12];
   stickslip_pair pair;
   weights w;
+  /* The non-mortar facet with this one pair. */
+  int32_t n2[1];
+  stickslip_facet facet;
+  double mass[16];
   stickslip_node node;
   stickslip_node_response responses[4];
   double traction[12], row_scale[4], sum[3];
   /* Outputs. */
   weights w_out;
   double gap[12], force[24], k[36 * 36], normals[12], areas[4], normal[3], row[3], block[9];
+  double fade, dual_areas[4], coefficients[16], dual_ab[16], dual_ac[16], facet_k[36 * 36];
 } element;
 
 static inline void element_init(element *e) {
@@ -25,6 +30,9 @@ static inline void element_init(element *e) {
   memcpy(e->x2, quad2, sizeof quad2);
   e->pair = make_pair(4, e->x1, 4, e->x2);
   pair_weights(&e->pair, &e->w);
+  e->n2[0] = 4;
+  e->facet = (stickslip_facet){.struct_size = sizeof e->facet, .n1 = 4, .n_pairs = 1, .x1 = e->x1, .n2 = e->n2, .x2 = e->x2};
+  memcpy(e->mass, e->w.ab, sizeof e->mass);
   e->node.struct_size = sizeof e->node;
   e->node.normal[2] = 1.0;
   e->node.lambda[2] = -1.0;
@@ -47,6 +55,12 @@ static inline void element_init(element *e) {
   FILL(e->normal);
   FILL(e->row);
   FILL(e->block);
+  FILL(e->fade);
+  FILL(e->dual_areas);
+  FILL(e->coefficients);
+  FILL(e->dual_ab);
+  FILL(e->dual_ac);
+  FILL(e->facet_k);
 }
 
 static inline int32_t call_weights(element *e) {
@@ -70,6 +84,16 @@ static inline int32_t call_block(element *e) {
   return stickslip_node_block(&e->responses[0], 1.0, STICKSLIP_LAYOUT_ROW_MAJOR, e->row, e->block);
 }
 static inline int32_t call_facet(element *e) { return stickslip_facet_geometry(4, e->x1, e->normals, e->areas); }
+static inline int32_t call_facet_dual(element *e) {
+  return stickslip_facet_dual(4, e->x1, e->mass, &e->fade, e->dual_areas, e->coefficients);
+}
+static inline int32_t call_pair_dual(element *e) {
+  return stickslip_pair_dual(&e->pair, e->mass, e->w.ab, e->w.ac, e->dual_ab, e->dual_ac);
+}
+static inline int32_t call_facet_tangent(element *e) {
+  return stickslip_facet_tangent(&e->facet, e->w.ab, e->w.ac, e->w.ab, e->w.ac, e->traction, e->responses, e->row_scale,
+                                 e->facet_k, 36);
+}
 static inline int32_t call_normal(element *e) { return stickslip_node_normal(e->sum, e->normal); }
 
 static inline void element_untouched(element *e) {
@@ -82,6 +106,12 @@ static inline void element_untouched(element *e) {
   CHECK_UNTOUCHED(e->normal);
   CHECK_UNTOUCHED(e->row);
   CHECK_UNTOUCHED(e->block);
+  CHECK_UNTOUCHED(e->fade);
+  CHECK_UNTOUCHED(e->dual_areas);
+  CHECK_UNTOUCHED(e->coefficients);
+  CHECK_UNTOUCHED(e->dual_ab);
+  CHECK_UNTOUCHED(e->dual_ac);
+  CHECK_UNTOUCHED(e->facet_k);
 }
 
 static inline void response_untouched(element *e) {

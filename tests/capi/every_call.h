@@ -44,6 +44,9 @@ static inline int32_t every_pair_tangent(every *c) { return call_tangent(&c->e);
 static inline int32_t every_respond(every *c) { return call_respond(&c->e); }
 static inline int32_t every_block(every *c) { return call_block(&c->e); }
 static inline int32_t every_facet(every *c) { return call_facet(&c->e); }
+static inline int32_t every_facet_dual(every *c) { return call_facet_dual(&c->e); }
+static inline int32_t every_pair_dual(every *c) { return call_pair_dual(&c->e); }
+static inline int32_t every_facet_tangent(every *c) { return call_facet_tangent(&c->e); }
 static inline int32_t every_normal(every *c) { return call_normal(&c->e); }
 static inline int32_t every_options_init(every *c) { return stickslip_options_init(&c->options, sizeof c->options); }
 static inline int32_t every_padded(every *c) { return stickslip_last_error_padded(c->last_error, sizeof c->last_error); }
@@ -225,6 +228,9 @@ static const entry_point every_call[] = {
     {"pair_gap", every_gap},
     {"pair_residual", every_pair_residual},
     {"pair_tangent", every_pair_tangent},
+    {"facet_dual", every_facet_dual},
+    {"pair_dual", every_pair_dual},
+    {"facet_tangent", every_facet_tangent},
     {"node_respond", every_respond},
     {"node_block", every_block},
     {"facet_geometry", every_facet},
@@ -318,17 +324,20 @@ static inline int32_t every_refusal(int k) {
     case 35: return stickslip_interface_equilibrium(NULL, NULL, NULL, NULL, NULL, NULL);
     case 36: return stickslip_node_equilibrium(NULL, 0.0, 0.0, NULL, NULL, NULL);
     case 37: return stickslip_facet_normal(4, NULL, NULL);
-    case 38: return stickslip_interface_carriers(NULL, 0, NULL, NULL, NULL, NULL);
-    case 39: return stickslip_interface_condensed_multipliers(NULL, NULL, NULL, NULL, NULL);
-    case 40: return stickslip_interface_condensed_residual(NULL, NULL, NULL, NULL, NULL, NULL, NULL);
-    case 41: return stickslip_interface_condensed_coo(NULL, NULL, NULL, NULL, 0, 0, NULL, NULL, NULL, NULL);
-    case 42: return stickslip_interface_condensed_csr(NULL, NULL, NULL, NULL, 0, NULL, NULL, NULL);
-    case 44: return stickslip_node_condense(NULL, NULL, 0, NULL, NULL, NULL);
-    case 43: return stickslip_interface_condensed_pattern(NULL, NULL, NULL, 0, NULL, NULL, 0, NULL, NULL, NULL);
+    case 38: return stickslip_pair_dual(NULL, NULL, NULL, NULL, NULL, NULL);
+    case 39: return stickslip_facet_tangent(NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, 0);
+    case 40: return stickslip_facet_dual(4, NULL, NULL, NULL, NULL, NULL);
+    case 41: return stickslip_interface_carriers(NULL, 0, NULL, NULL, NULL, NULL);
+    case 42: return stickslip_interface_condensed_multipliers(NULL, NULL, NULL, NULL, NULL);
+    case 43: return stickslip_interface_condensed_residual(NULL, NULL, NULL, NULL, NULL, NULL, NULL);
+    case 44: return stickslip_interface_condensed_coo(NULL, NULL, NULL, NULL, 0, 0, NULL, NULL, NULL, NULL);
+    case 45: return stickslip_interface_condensed_csr(NULL, NULL, NULL, NULL, 0, NULL, NULL, NULL);
+    case 46: return stickslip_interface_condensed_pattern(NULL, NULL, NULL, 0, NULL, NULL, 0, NULL, NULL, NULL);
+    case 47: return stickslip_node_condense(NULL, NULL, 0, NULL, NULL, NULL);
     default: return stickslip_interface_diagnose(NULL, NULL, NULL, NULL, NULL, NULL);
   }
 }
-enum { REFUSALS = 46 };
+enum { REFUSALS = 49 };
 
 /* Room and sizes for the structs that come out. */
 static inline void every_room(every *c) {
@@ -381,7 +390,8 @@ static inline int every_equal(every *a, every *b) {
   a->counters.seconds_assembly = b->counters.seconds_assembly = 0.0;
 #define SAME(member) (memcmp(&a->member, &b->member, sizeof a->member) == 0)
   return SAME(e.w_out) && SAME(e.gap) && SAME(e.force) && SAME(e.k) && SAME(e.normals) && SAME(e.areas) &&
-         SAME(e.normal) && SAME(e.row) && SAME(e.block) && SAME(e.responses) && SAME(h.force1) && SAME(h.force2) &&
+         SAME(e.normal) && SAME(e.row) && SAME(e.block) && SAME(e.responses) && SAME(e.fade) && SAME(e.dual_areas) &&
+         SAME(e.coefficients) && SAME(e.dual_ab) && SAME(e.dual_ac) && SAME(e.facet_k) && SAME(h.force1) && SAME(h.force2) &&
          SAME(h.rows) && SAME(h.sums) && SAME(h.values) && SAME(h.row_numbers) && SAME(h.columns) && SAME(h.count) &&
          SAME(h.state) && SAME(h.normal) && SAME(h.csr) && SAME(options) && SAME(split_nodes) && SAME(originals) &&
          SAME(split_count) && SAME(shared_nodes) && SAME(shared_claims) && SAME(shared_count) && SAME(shared_kinds) &&

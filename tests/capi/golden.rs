@@ -64,27 +64,27 @@ macro_rules! sized {
 }
 
 /// Numbers of nested arrays, flat.
-fn flat(v: &Value) -> Vec<f64> {
+pub(super) fn flat(v: &Value) -> Vec<f64> {
     match v.as_array() {
         Some(items) => items.iter().flat_map(flat).collect(),
         None => vec![v.as_f64().unwrap()],
     }
 }
 
-fn difference(a: &[f64], b: &[f64]) -> f64 {
+pub(super) fn difference(a: &[f64], b: &[f64]) -> f64 {
     assert_eq!(a.len(), b.len());
     max_abs(a.iter().zip(b).map(|(a, b)| a - b))
 }
 
-fn relative(error: f64, scale: f64) -> f64 {
+pub(super) fn relative(error: f64, scale: f64) -> f64 {
     if scale > 0.0 { error / scale } else { error }
 }
 
 /// A pair of facets that owns its coordinates.
-struct Pair {
-    x1: Vec<f64>,
-    x2: Vec<f64>,
-    quadrature: i32,
+pub(super) struct Pair {
+    pub x1: Vec<f64>,
+    pub x2: Vec<f64>,
+    pub quadrature: i32,
 }
 
 /// Weights of a pair and their derivatives.
@@ -100,11 +100,11 @@ impl Pair {
         Pair { x1: flat(&case["x1"]), x2: flat(&case["x2"]), quadrature }
     }
 
-    fn n(&self) -> (usize, usize) {
+    pub fn n(&self) -> (usize, usize) {
         (self.x1.len() / 3, self.x2.len() / 3)
     }
 
-    fn raw(&self) -> stickslip_pair {
+    pub fn raw(&self) -> stickslip_pair {
         let mut pair = sized!(stickslip_pair);
         (pair.n1, pair.n2) = (self.n().0 as i32, self.n().1 as i32);
         (pair.x1, pair.x2) = (self.x1.as_ptr(), self.x2.as_ptr());
@@ -255,11 +255,11 @@ impl Drop for Golden {
     }
 }
 
-fn per_node(v: &Value, n: usize) -> Vec<f64> {
+pub(super) fn per_node(v: &Value, n: usize) -> Vec<f64> {
     if v.is_array() { numbers(v) } else { vec![v.as_f64().unwrap(); n] }
 }
 
-fn slip_option(case: &Value) -> i32 {
+pub(super) fn slip_option(case: &Value) -> i32 {
     match case["variant"].as_str().unwrap() {
         "seed" => STICKSLIP_SLIP_PAPER,
         "increment" => STICKSLIP_SLIP_INCREMENT,
@@ -267,7 +267,7 @@ fn slip_option(case: &Value) -> i32 {
     }
 }
 
-fn facets(v: &Value) -> Vec<Vec<i64>> {
+pub(super) fn facets(v: &Value) -> Vec<Vec<i64>> {
     let row = |f: &Value| f.as_array().unwrap().iter().map(|k| k.as_i64().unwrap()).collect();
     v.as_array().unwrap().iter().map(row).collect()
 }
@@ -396,7 +396,7 @@ impl Golden {
 }
 
 /// Worst error over the blocks (f1, f2, c), each relative to its largest entry.
-fn residual_error(ends: [usize; 4], r: &[f64], expected: &[f64]) -> f64 {
+pub(super) fn residual_error(ends: [usize; 4], r: &[f64], expected: &[f64]) -> f64 {
     let block = |e: &[usize]| {
         let (r, expected) = (&r[e[0]..e[1]], &expected[e[0]..e[1]]);
         relative(difference(r, expected), max_abs(expected.iter().copied()))
@@ -405,7 +405,7 @@ fn residual_error(ends: [usize; 4], r: &[f64], expected: &[f64]) -> f64 {
 }
 
 /// Worst error over the blocks (f1, f2, c) x (x1, x2, lambda), each relative to its largest entry.
-fn tangent_error(ends: [usize; 4], k: &[f64], expected: &[f64], vanishing: f64) -> f64 {
+pub(super) fn tangent_error(ends: [usize; 4], k: &[f64], expected: &[f64], vanishing: f64) -> f64 {
     let n = ends[3];
     let least = vanishing * max_abs(expected.iter().copied());
     let mut worst = 0.0_f64;
@@ -423,7 +423,7 @@ fn tangent_error(ends: [usize; 4], k: &[f64], expected: &[f64], vanishing: f64) 
     worst
 }
 
-fn dense(coo: &Value, n: usize) -> Vec<f64> {
+pub(super) fn dense(coo: &Value, n: usize) -> Vec<f64> {
     let mut k = vec![0.0; n * n];
     let (i, j, v) = (numbers(&coo["i"]), numbers(&coo["j"]), numbers(&coo["v"]));
     for t in 0..v.len() {
@@ -433,7 +433,7 @@ fn dense(coo: &Value, n: usize) -> Vec<f64> {
 }
 
 /// With mu = 0 and no tangential traction (I06b), stick and slip name the same thing.
-fn state_matches(case: &Value, found: i32, expected: f64) -> bool {
+pub(super) fn state_matches(case: &Value, found: i32, expected: f64) -> bool {
     found == expected as i32 || (name(case).starts_with("I06b") && found != STICKSLIP_STATE_GAP)
 }
 

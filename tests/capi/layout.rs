@@ -200,6 +200,19 @@ fn layouts() -> Vec<Layout> {
             drow_dprevious
         }),
         layout!(stickslip_pair { struct_size, n1, n2, x1, x2, quadrature, layout, element_points, neighbour_normals }),
+        layout!(stickslip_facet {
+            struct_size,
+            n1,
+            quadrature,
+            layout,
+            reserved,
+            n_pairs,
+            x1,
+            n2,
+            x2,
+            element_points,
+            neighbour_normals
+        }),
     ]
 }
 

@@ -4,6 +4,8 @@
 #[path = "../support/mod.rs"]
 mod support;
 
+#[macro_use]
 mod golden;
+mod dual;
 mod header;
 mod layout;

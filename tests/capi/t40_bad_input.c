@@ -129,6 +129,7 @@ static void tell(void) {
     }
   }
   bad_struct("pair", "pair", &E.pair);
+  bad_struct("facet", "facet", &E.facet);
   bad_struct("node", "node", &E.node);
   bad_struct("answer", "answer", &b.answer);
   bad_struct("response", "response", E.responses);
@@ -145,6 +146,8 @@ static void tell(void) {
   bad_struct("diagnosis", "diagnosis", &b.every.diagnosis);
   bad_struct("equilibrium", "equilibrium", &b.every.equilibrium);
   REALS("pair.x1", E.x1), REALS("pair.x2", E.x2), REALS("pair.neighbour_normals", b.neighbours);
+  REALS("facet.neighbour_normals", b.neighbours);
+  bad_place("facet.n2", INT32, E.n2, COUNT(E.n2)), REALS("mass", E.mass);
   REALS("n_ab", E.w.ab), REALS("n_ac", E.w.ac), REALS("dn_ab", E.w.dab), REALS("dn_ac", E.w.dac);
   REALS("n_ab_previous", b.previous.ab), REALS("n_ac_previous", b.previous.ac);
   REALS("traction", E.traction), REALS("row_scale", E.row_scale), REALS("sum", E.sum);

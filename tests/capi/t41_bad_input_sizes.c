@@ -8,6 +8,9 @@ static element e;
 static handle h;
 
 static int32_t pair_call(const void *p) { return stickslip_pair_weights(p, e.w_out.ab, e.w_out.ac, NULL, NULL); }
+static int32_t facet_call(const void *p) {
+  return stickslip_facet_tangent(p, e.w.ab, e.w.ac, NULL, NULL, e.traction, e.responses, NULL, e.facet_k, 36);
+}
 static int32_t node_call(const void *p) { return stickslip_node_respond(p, &e.responses[3]); }
 static int32_t response_call(const void *p) { return stickslip_node_block(p, 1.0, 0, e.row, e.block); }
 static int32_t states_call(const void *p) {
@@ -24,7 +27,7 @@ static int32_t nonmortar_call(const void *p) { return create(p, &h.s.mortar, &h.
 static int32_t mortar_call(const void *p) { return create(&h.s.nonmortar, p, &h.s.options); }
 static int32_t options_call(const void *p) { return create(&h.s.nonmortar, &h.s.mortar, p); }
 
-enum { FIRST_PAIR = 40, FIRST_NODE = 224, FIRST_RESPONSE = 408, FIRST_STATES = 80, FIRST_SURFACE = 72 };
+enum { FIRST_PAIR = 40, FIRST_NODE = 224, FIRST_RESPONSE = 408, FIRST_STATES = 80, FIRST_SURFACE = 72, FIRST_FACET = 72 };
 enum { FIRST_OPTIONS = 88, FIRST_COUNTERS = 88 };
 
 /* Structs that go in: of the first version, and longer ones. */
@@ -36,6 +39,7 @@ static void inputs(void) {
     int32_t (*call)(const void *);
   } all[] = {
       {"stickslip_pair", &e.pair, sizeof e.pair, FIRST_PAIR, pair_call},
+      {"stickslip_facet", &e.facet, sizeof e.facet, FIRST_FACET, facet_call},
       {"stickslip_node", &e.node, sizeof e.node, FIRST_NODE, node_call},
       {"stickslip_node_response", &e.responses[0], sizeof e.responses[0], FIRST_RESPONSE, response_call},
       {"stickslip_states", &h.states, sizeof h.states, FIRST_STATES, states_call},

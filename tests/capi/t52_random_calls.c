@@ -103,10 +103,19 @@ static void stateless(void) {
   if (draw(4) == 0) spoil(e.node.directions, 6);
   e.pair.x1 = any_pointer(e.x1);
   e.pair.x2 = any_pointer(e.x2);
+  spoil(e.mass, 16);
+  e.facet.n1 = e.pair.n1;
+  e.facet.quadrature = e.pair.quadrature;
+  e.facet.layout = e.pair.layout;
+  e.facet.n_pairs = draw(8) ? 1 : -(int64_t)draw(2);
+  e.n2[0] = e.pair.n2;
+  e.facet.x1 = e.pair.x1;
+  e.facet.n2 = any_pointer(e.n2);
+  e.facet.x2 = e.pair.x2;
   const int size = 6 * e.pair.n1 + 3 * e.pair.n2;
 
   int32_t status;
-  switch (draw(8)) {
+  switch (draw(11)) {
     case 0:
       status = stickslip_pair_weights(ANY(&e.pair), ANY(e.w_out.ab), ANY(e.w_out.ac), ANY(e.w_out.dab), ANY(e.w_out.dac));
       break;
@@ -133,6 +142,21 @@ static void stateless(void) {
       break;
     }
     case 6: status = stickslip_facet_geometry((int32_t)any_integer(4), ANY(e.x1), ANY(e.normals), ANY(e.areas)); break;
+    case 7:
+      status = stickslip_facet_dual((int32_t)any_integer(4), ANY(e.x1), ANY(e.mass), ANY(&e.fade), ANY(e.dual_areas),
+                                    ANY(e.coefficients));
+      break;
+    case 8:
+      status = stickslip_pair_dual(&e.pair, ANY(e.mass), ANY(e.w.ab), ANY(e.w.ac), ANY(e.dual_ab), ANY(e.dual_ac));
+      break;
+    case 9: {
+      const int before = draw(4) > 0;
+      const int64_t ld = draw(8) ? 36 : (int64_t)draw((uint64_t)(size > 0 && size < 36 ? size : 36));
+      status = stickslip_facet_tangent(&e.facet, ANY(e.w.ab), ANY(e.w.ac), before ? ANY(e.w.ab) : NULL,
+                                       before ? ANY(e.w.ac) : NULL, ANY(e.traction), ANY(e.responses), ANY(e.row_scale),
+                                       ANY(e.facet_k), ld);
+      break;
+    }
     default: status = stickslip_node_normal(ANY(e.sum), ANY(e.normal)); break;
   }
   if (succeeded(status)) {

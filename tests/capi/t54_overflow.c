@@ -20,6 +20,16 @@ int main(void) {
   REFUSED_OR_FINITE(call_gap(&e), e.gap, 12);
   REFUSED_OR_FINITE(call_residual(&e), e.force, 24);
   REFUSED_OR_FINITE(call_tangent(&e), e.k, 36 * 36);
+  REFUSED_OR_FINITE(call_facet_tangent(&e), e.facet_k, 36 * 36);
+  REFUSED_OR_FINITE(call_pair_dual(&e), e.dual_ab, 16 + 16);
+
+  element_init(&e);
+  for (int i = 0; i < 16; ++i) e.mass[i] *= 4e306;
+  REFUSED_OR_FINITE(call_facet_dual(&e), e.dual_areas, 4 + 16);
+
+  element_init(&e);
+  for (int i = 0; i < 4; ++i) e.row_scale[i] = 1e308;
+  REFUSED_OR_FINITE(call_facet_tangent(&e), e.facet_k, 36 * 36);
 
   element_init(&e);
   e.responses[0].row[0] = 1e300;

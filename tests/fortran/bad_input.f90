@@ -72,11 +72,11 @@ module bad_input
   real(c_double), target, save :: mu(NA), r(NA), normals(SIZE1), directions(9), sums(STICKSLIP_SUMS_PER_NODE * NA)
   real(c_double), target, save :: dx1(SIZE1), dx2(SIZE2)
   ! Pointer arguments, by the names of the header.
-  integer, parameter :: POINTERS = 29
+  integer, parameter :: POINTERS = 33
   character(13), parameter :: NAMES(POINTERS) = [character(13) :: 'n_ab', 'n_ac', 'dn_ab', 'dn_ac', 'n_ab_previous', &
       'n_ac_previous', 'row_scale', 'normals', 'areas', 'row', 'block', 'gap', 'traction', 'slip', 'facet_nodes', &
       'originals', 'nodes', 'kinds', 'claims', 'rows', 'columns', 'values', 'sums', 'r', &
-      'carriers', 'weights', 'entry_rows', 'entry_columns', 'w']
+      'fade', 'coefficients', 'dual_ab', 'dual_ac', 'carriers', 'weights', 'entry_rows', 'entry_columns', 'w']
   type(c_ptr), target, save :: p(POINTERS)
 
 contains
@@ -105,6 +105,13 @@ contains
     case ('pair_tangent')
       status = stickslip_pair_tangent(e%pair, at('n_ab'), at('n_ac'), at('dn_ab'), at('dn_ac'), at('n_ab_previous'), &
           at('n_ac_previous'), e%traction, e%responses, at('row_scale'), e%k, ld)
+    case ('facet_dual')
+      status = stickslip_facet_dual(n_facet, e%x1, e%mass, at('fade'), at('areas'), at('coefficients'))
+    case ('pair_dual')
+      status = stickslip_pair_dual(e%pair, e%mass, e%w%ab, e%w%ac, at('dual_ab'), at('dual_ac'))
+    case ('facet_tangent')
+      status = stickslip_facet_tangent(e%facet, e%w%ab, e%w%ac, at('n_ab_previous'), at('n_ac_previous'), e%traction, &
+          e%responses, at('row_scale'), e%facet_k, ld)
     case ('facet_geometry')
       status = stickslip_facet_geometry(n_facet, e%x1, at('normals'), at('areas'))
     case ('facet_normal')
@@ -312,6 +319,7 @@ contains
          c_loc(e%row_scale), c_loc(e%normals), c_loc(e%areas), c_loc(e%row), c_loc(e%block), c_loc(o%gap), &
          c_loc(o%traction), c_loc(o%slip), c_loc(o%split_nodes), c_loc(o%originals), c_loc(o%shared_nodes), &
          c_loc(o%kinds), c_loc(o%claims), c_loc(h%row_numbers), c_loc(h%columns), c_loc(h%values), c_null_ptr, c_loc(r), &
+         c_loc(e%fade), c_loc(e%coefficients), c_loc(e%dual_ab), c_loc(e%dual_ac), &
          c_loc(h%columns), c_loc(h%values), c_loc(h%row_numbers), c_loc(h%columns), c_loc(o%w)]
     if (name == 'node_condense') p(7) = c_loc(o%scale)
     if (name == 'interface_carriers') p(17) = c_loc(h%row_numbers)

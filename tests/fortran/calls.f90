@@ -15,12 +15,17 @@ module calls
     real(c_double) :: x1(3, 4), x2(3, 4)
     type(stickslip_pair) :: pair
     type(weights) :: w
+    ! The non-mortar facet with this one pair.
+    integer(c_int32_t) :: n2(1)
+    type(stickslip_facet) :: facet
+    real(c_double) :: mass(16)
     type(stickslip_node) :: node
     type(stickslip_node_response) :: responses(4)
     real(c_double) :: traction(3, 4), row_scale(4), sum(3)
     ! Outputs.
     type(weights) :: w_out
     real(c_double) :: gap(3, 4), force(3, 8), k(36, 36), normals(3, 4), areas(4), normal(3), row(3), block(3, 3)
+    real(c_double) :: fade, dual_areas(4), coefficients(16), dual_ab(16), dual_ac(16), facet_k(36, 36)
   end type
 
   ! Room for any tangent or pattern of the scene.
@@ -58,6 +63,9 @@ contains
     e%x2 = quad2
     e%pair = make_pair(4, e%x1, 4, e%x2)
     call pair_weights(e%pair, e%w)
+    e%n2 = 4
+    e%facet = stickslip_facet(n1=4, n_pairs=1, x1=c_loc(e%x1), n2=c_loc(e%n2), x2=c_loc(e%x2))
+    e%mass = e%w%ab
     e%node = stickslip_node(normal=[0d0, 0d0, 1d0], lambda=[0d0, 0d0, -1d0], augmentation=3d0, mu=0.5d0, &
         coverage=1d0, coverage_previous=1d0)
     e%sum = [0d0, 0d0, -2d0]
@@ -76,6 +84,12 @@ contains
     e%normal = UNWRITTEN
     e%row = UNWRITTEN
     e%block = UNWRITTEN
+    e%fade = UNWRITTEN
+    e%dual_areas = UNWRITTEN
+    e%coefficients = UNWRITTEN
+    e%dual_ab = UNWRITTEN
+    e%dual_ac = UNWRITTEN
+    e%facet_k = UNWRITTEN
   end subroutine
 
   integer(c_int32_t) function call_weights(e) result(status)
@@ -115,6 +129,22 @@ contains
   integer(c_int32_t) function call_facet(e) result(status)
     type(element), target, intent(inout) :: e
     status = stickslip_facet_geometry(4, e%x1, c_loc(e%normals), c_loc(e%areas))
+  end function
+
+  integer(c_int32_t) function call_facet_dual(e) result(status)
+    type(element), target, intent(inout) :: e
+    status = stickslip_facet_dual(4, e%x1, e%mass, c_loc(e%fade), c_loc(e%dual_areas), c_loc(e%coefficients))
+  end function
+
+  integer(c_int32_t) function call_pair_dual(e) result(status)
+    type(element), target, intent(inout) :: e
+    status = stickslip_pair_dual(e%pair, e%mass, e%w%ab, e%w%ac, c_loc(e%dual_ab), c_loc(e%dual_ac))
+  end function
+
+  integer(c_int32_t) function call_facet_tangent(e) result(status)
+    type(element), target, intent(inout) :: e
+    status = stickslip_facet_tangent(e%facet, e%w%ab, e%w%ac, c_loc(e%w%ab), c_loc(e%w%ac), e%traction, e%responses, &
+        c_loc(e%row_scale), e%facet_k, 36_c_int64_t)
   end function
 
   integer(c_int32_t) function call_normal(e) result(status)
@@ -164,6 +194,12 @@ contains
     CHECK_UNTOUCHED(e%normal)
     CHECK_UNTOUCHED(e%row)
     CHECK_UNTOUCHED(e%block)
+    CHECK(untouched(e%fade))
+    CHECK_UNTOUCHED(e%dual_areas)
+    CHECK_UNTOUCHED(e%coefficients)
+    CHECK_UNTOUCHED(e%dual_ab)
+    CHECK_UNTOUCHED(e%dual_ac)
+    CHECK_UNTOUCHED(e%facet_k)
   end subroutine
 
   subroutine handle_fill(h)

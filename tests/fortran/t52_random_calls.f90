@@ -193,6 +193,15 @@ contains
     if (once_in(4)) call spoil(6, e%node%directions)
     e%pair%x1 = any_pointer(c_loc(e%x1))
     e%pair%x2 = any_pointer(c_loc(e%x2))
+    call spoil(16, e%mass)
+    e%facet%n1 = e%pair%n1
+    e%facet%quadrature = e%pair%quadrature
+    e%facet%layout = e%pair%layout
+    e%facet%n_pairs = merge(-int(random(2), c_int64_t), 1_c_int64_t, once_in(8))
+    e%n2 = e%pair%n2
+    e%facet%x1 = e%pair%x1
+    e%facet%n2 = any_pointer(c_loc(e%n2))
+    e%facet%x2 = e%pair%x2
     call one_call(e, status)
     if (.not. succeeded(status)) call element_untouched(e)
   end subroutine
@@ -207,7 +216,7 @@ contains
     integer(c_int32_t), intent(out) :: status
     logical :: now, moving, before
     integer(c_int64_t) :: size_of, ld
-    select case (random(8))
+    select case (random(11))
     case (0)
       status = stickslip_pair_weights(e%pair, any_pointer(c_loc(e%w_out%ab)), any_pointer(c_loc(e%w_out%ac)), &
           any_pointer(c_loc(e%w_out%dab)), any_pointer(c_loc(e%w_out%dac)))
@@ -235,6 +244,16 @@ contains
           any_pointer(c_loc(e%block)))
     case (6)
       status = stickslip_facet_geometry(any_short(4), e%x1, any_pointer(c_loc(e%normals)), any_pointer(c_loc(e%areas)))
+    case (7)
+      status = stickslip_facet_dual(any_short(4), e%x1, e%mass, any_pointer(c_loc(e%fade)), any_pointer(c_loc(e%dual_areas)), &
+          any_pointer(c_loc(e%coefficients)))
+    case (8)
+      status = stickslip_pair_dual(e%pair, e%mass, e%w%ab, e%w%ac, any_pointer(c_loc(e%dual_ab)), &
+          any_pointer(c_loc(e%dual_ac)))
+    case (9)
+      before = .not. once_in(4)
+      status = stickslip_facet_tangent(e%facet, e%w%ab, e%w%ac, given(before, c_loc(e%w%ab)), given(before, c_loc(e%w%ac)), &
+          e%traction, e%responses, any_pointer(c_loc(e%row_scale)), e%facet_k, 36_c_int64_t)
     case default
       status = stickslip_node_normal(e%sum, e%normal)
     end select

@@ -29,6 +29,20 @@ program t54_overflow
   CHECK(status > STICKSLIP_OK .or. all(ieee_is_finite(e%force)))
   status = call_tangent(e)
   CHECK(status > STICKSLIP_OK .or. all(ieee_is_finite(e%k)))
+  status = call_facet_tangent(e)
+  CHECK(status > STICKSLIP_OK .or. all(ieee_is_finite(e%facet_k)))
+  status = call_pair_dual(e)
+  CHECK(status > STICKSLIP_OK .or. (all(ieee_is_finite(e%dual_ab)) .and. all(ieee_is_finite(e%dual_ac))))
+
+  call element_init(e)
+  e%mass = e%mass * 4d306
+  status = call_facet_dual(e)
+  CHECK(status > STICKSLIP_OK .or. (all(ieee_is_finite(e%dual_areas)) .and. all(ieee_is_finite(e%coefficients))))
+
+  call element_init(e)
+  e%row_scale = 1d308
+  status = call_facet_tangent(e)
+  CHECK(status > STICKSLIP_OK .or. all(ieee_is_finite(e%facet_k)))
 
   call element_init(e)
   e%responses(1)%row(1) = 1d300

@@ -121,6 +121,33 @@ fn c_calls(pair: &stickslip_pair) {
                 assert_eq!(status, 0);
             });
         }
+        let mass = ab;
+        allocates_nothing("stickslip_facet_dual", || {
+            let (fade, areas) = (row.as_mut_ptr(), areas.as_mut_ptr());
+            assert_eq!(stickslip_facet_dual(pair.n1, pair.x1, mass.as_ptr(), fade, areas, dab.as_mut_ptr()), 0);
+        });
+        allocates_nothing("stickslip_pair_dual", || {
+            let (ab, ac) = (ab.as_ptr(), ac.as_ptr());
+            assert_eq!(stickslip_pair_dual(pair, mass.as_ptr(), ab, ac, dab.as_mut_ptr(), dac.as_mut_ptr()), 0);
+        });
+        let facet = stickslip_facet {
+            struct_size: size_of::<stickslip_facet>() as u64,
+            n1: pair.n1,
+            quadrature: pair.quadrature,
+            layout: pair.layout,
+            reserved: 0,
+            n_pairs: 1,
+            x1: pair.x1,
+            n2: &pair.n2,
+            x2: pair.x2,
+            element_points: 0,
+            neighbour_normals: null(),
+        };
+        allocates_nothing("stickslip_facet_tangent", || {
+            let (ab, ac, t) = (ab.as_ptr(), ac.as_ptr(), traction.as_ptr());
+            let (responses, scale, k) = (responses.as_ptr(), scale.as_ptr(), tangent.as_mut_ptr());
+            assert_eq!(stickslip_facet_tangent(&facet, ab, ac, ab, ac, t, responses, scale, k, 36), 0);
+        });
         allocates_nothing("facet_geometry", || {
             assert_eq!(stickslip_facet_geometry(pair.n1, pair.x1, normals.as_mut_ptr(), areas.as_mut_ptr()), 0);
         });

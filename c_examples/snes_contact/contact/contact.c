@@ -31,10 +31,13 @@ PetscErrorCode contact_gather(Contact *contact, Interface *interface, Vec local)
   PetscCall(PetscSFBcastEnd(interface->sf, MPIU_SCALAR, array, interface->gathered, MPI_REPLACE));
   PetscCall(VecRestoreArrayRead(local, &array));
   if (contact->mesh->rank == 0) contact_positions(interface);
+  if (contact->mesh->rank == 0 && contact->condensed)
+    PetscCall(PetscArraycpy(interface->gathered + 3 * (interface->n1 + interface->n2), interface->lambda,
+                            interface->components * interface->n1));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode scatter(Interface *interface, const PetscScalar *from, Vec local, MPI_Op operation)
+PetscErrorCode contact_scatter(Interface *interface, const PetscScalar *from, Vec local, MPI_Op operation)
 {
   PetscScalar *array;
   PetscFunctionBegin;
@@ -62,7 +65,7 @@ PetscErrorCode contact_forces(Contact *contact, Vec f_local, PetscInt *status)
             PetscSqr(PetscAbsScalar(interface->forces[k]));
     }
     PetscCall(contact_agree(contact, refused, status));
-    if (!*status) PetscCall(scatter(interface, interface->forces, f_local, MPIU_SUM));
+    if (!*status) PetscCall(contact_scatter(interface, interface->forces, f_local, MPIU_SUM));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -107,27 +110,37 @@ static PetscErrorCode insert(const Interface *interface, int64_t count, const do
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* rank 0: into the arrays as they are; counted first where they turn out too small */
-static PetscErrorCode evaluate_tangent(Interface *interface, int64_t *count, int32_t *refused)
+static int32_t entries(Interface *interface, int32_t piece, int64_t capacity, int64_t *rows, int64_t *columns,
+                       double *values, int64_t *count)
+{
+  if (piece == WHOLE_TANGENT)
+    return stickslip_interface_tangent_coo(interface->handle, STATE_OF(interface), NULL, capacity, rows, columns, values,
+                                           count);
+  return stickslip_interface_condensed_coo(interface->handle, STATE_OF(interface), piece, capacity, rows, columns, values,
+                                           count);
+}
+
+/* Into the arrays as they are; counted first where they turn out too small. */
+PetscErrorCode contact_entries(Interface *interface, int32_t piece, int64_t *count, int32_t *refused)
 {
   PetscFunctionBegin;
-#define TANGENT(capacity, rows, columns, values)                                                                       \
-  stickslip_interface_tangent_coo(interface->handle, STATE_OF(interface), NULL, capacity, rows, columns, values, count)
   *refused = STICKSLIP_BUFFER_TOO_SMALL;
   for (int attempt = 0; attempt < 2 && *refused == STICKSLIP_BUFFER_TOO_SMALL; attempt++) {
     if (attempt || !interface->coo_capacity) {
-      *refused = TANGENT(0, NULL, NULL, NULL);
+      *refused = entries(interface, piece, 0, NULL, NULL, NULL, count);
       if (*refused) break;
       PetscCall(reserve(interface, *count));
     }
-    *refused = TANGENT(interface->coo_capacity, interface->coo_rows, interface->coo_columns, interface->coo_values);
+    *refused = entries(interface, piece, interface->coo_capacity, interface->coo_rows, interface->coo_columns,
+                       interface->coo_values, count);
   }
-#undef TANGENT
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Of a condensed system what the forces depend on the displacements by; condensed_matrix() does the rest. */
 PetscErrorCode contact_tangent(Contact *contact, Mat matrix, PetscInt *status)
 {
+  const int32_t piece = contact->condensed ? STICKSLIP_CONDENSED_FORCES : WHOLE_TANGENT;
   PetscFunctionBegin;
   *status = 0;
   PetscCall(MatSetOption(matrix, MAT_ROW_ORIENTED, PETSC_FALSE)); /* as insert() has them; all ranks must call this */
@@ -137,7 +150,7 @@ PetscErrorCode contact_tangent(Contact *contact, Mat matrix, PetscInt *status)
     int64_t    count     = 0;
     PetscCall(contact_gather(contact, interface, contact->physics->u_local));
     if (contact->mesh->rank == 0) {
-      PetscCall(evaluate_tangent(interface, &count, &refused));
+      PetscCall(contact_entries(interface, piece, &count, &refused));
       if (!refused) PetscCall(insert(interface, count, interface->coo_values, matrix));
     }
     PetscCall(contact_agree(contact, refused, status));
@@ -153,7 +166,7 @@ PetscErrorCode contact_pattern(Contact *contact, Mat matrix)
     Interface *interface = &contact->interfaces[i];
     int64_t    count;
     PetscCall(contact_gather(contact, interface, contact->physics->u_local));
-    if (contact->mesh->rank) continue;
+    if (contact->mesh->rank || contact->condensed) continue; /* condensed_matrix() makes a pattern of its own */
     PetscCallStickslip(stickslip_interface_pattern_coo(interface->handle, interface->x,
                                                        interface->x + 3 * interface->n1, 0, NULL, NULL, &count));
     PetscCall(reserve(interface, count));
@@ -181,7 +194,7 @@ PetscErrorCode contact_start(Contact *contact, Vec x, PetscInt *status)
       refused = stickslip_interface_initial_multipliers(interface->handle,
                                                         interface->gathered + 3 * (interface->n1 + interface->n2));
     PetscCall(contact_agree(contact, refused, status));
-    if (!*status) PetscCall(scatter(interface, interface->gathered, physics->u_local, MPI_REPLACE));
+    if (!*status) PetscCall(contact_scatter(interface, interface->gathered, physics->u_local, MPI_REPLACE));
   }
   PetscCall(DMLocalToGlobalBegin(mesh->dm, physics->u_local, INSERT_VALUES, x));
   PetscCall(DMLocalToGlobalEnd(mesh->dm, physics->u_local, INSERT_VALUES, x));

@@ -20,6 +20,9 @@ typedef struct {
   int64_t             *equations; /* same layout */
   PetscSF              sf;        /* from the local vectors of all ranks to `gathered` */
   stickslip_interface *handle;
+  /* condensed.c: multipliers, now and at the start of the step, of the last two; as `forces`, those of bodies and loads
+   * and what condensing adds to the residual; where the last matrix was made, the former and the positions */
+  double              *lambda, *lambda_start, *lambda_last, *lambda_before, *host, *rows, *host_there, *x_there;
   int64_t              coo_capacity, *coo_rows, *coo_columns;
   double              *coo_values;
   double               friction_work; /* up to the last converged step */
@@ -50,6 +53,9 @@ typedef struct {
   Physics   *physics;
   PetscInt   n_interfaces;
   Interface *interfaces;
+  PetscBool  condensed; /* `unknowns: displacements`: no multiplier is an unknown */
+  Mat        linear;    /* of the forces, before condensing; NULL: there is none yet in this attempt */
+  Vec        place;     /* where it was made */
   Settling   settling;
   char       refusal[1024]; /* the library's last message, if it refused an evaluation */
   PetscLogDouble seconds_forces, seconds_tangent;
@@ -77,6 +83,22 @@ PetscErrorCode contact_forces(Contact *contact, Vec f_local, PetscInt *status); 
 PetscErrorCode contact_tangent(Contact *contact, Mat matrix, PetscInt *status);
 PetscErrorCode contact_pattern(Contact *contact, Mat matrix);
 PetscErrorCode contact_commit(Contact *contact, PetscInt *status);
+
+/* rank 0: into the interface's arrays: a piece of the condensed matrix, STICKSLIP_CONDENSED_..., or the tangent */
+enum { WHOLE_TANGENT = -1 };
+PetscErrorCode contact_entries(Interface *interface, int32_t piece, int64_t *count, int32_t *refused);
+PetscErrorCode contact_scatter(Interface *interface, const PetscScalar *from, Vec local, MPI_Op operation);
+
+/* condensed.c: nothing happens where multipliers are unknowns */
+PetscErrorCode condensed_check(const Contact *contact, char why[], size_t length); /* rank 0 */
+PetscErrorCode condensed_create(Contact *contact, PetscInt *status);
+PetscErrorCode condensed_destroy(Contact *contact);
+void           condensed_predict(Contact *contact, PetscReal factor);
+PetscErrorCode condensed_begin(Contact *contact);
+PetscErrorCode condensed_eliminate(Contact *contact, Vec x, PetscInt *status);
+PetscErrorCode condensed_residual(Contact *contact, Vec r, PetscInt *status);
+PetscErrorCode condensed_matrix(Contact *contact, Vec x, Mat J, PetscInt *status);
+void           condensed_accept(Contact *contact);
 
 /* states.c */
 PetscErrorCode contact_states_create(const Interface *interface, ContactStates *states); /* rank 0 */

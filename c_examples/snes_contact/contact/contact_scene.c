@@ -185,8 +185,8 @@ static void read_method(Scene *scene, Interface *interface)
     scene_fail(scene, name, "augmentation", "it must be positive.");
   if (scene_has(scene, name, "modulus") && modulus <= 0) scene_fail(scene, name, "modulus", "it must be positive.");
   if (distance < 0) scene_fail(scene, name, "search_distance", "it cannot be negative.");
-  if (weak_coverage < 0 || weak_coverage > 1)
-    scene_fail(scene, name, "weak_coverage", "it is a fraction of an area: from 0 to 1.");
+  if (weak_coverage != STICKSLIP_WEAK_COVERAGE_NONE && (weak_coverage < 0 || weak_coverage > 1))
+    scene_fail(scene, name, "weak_coverage", "it is a fraction of an area: from 0 (the library's choice) to 1, or -1: none.");
   if (coverage_min < 0 || coverage_min >= 1)
     scene_fail(scene, name, "coverage_min", "it must be at least 0 and below 1.");
   if (turn_max < 0 || turn_max > PETSC_PI)
@@ -232,11 +232,21 @@ static void read_accuracy(Scene *scene, Interface *interface)
   options->element_points = points;
 }
 
+/* `unknowns`: whether the multipliers are among them. */
+static void read_unknowns(Scene *scene, Contact *contact)
+{
+  static const char *const kinds[]   = {"multipliers", "displacements", NULL};
+  PetscInt                 unknowns = 0;
+  scene_choice(scene, NULL, "unknowns", kinds, &unknowns);
+  contact->condensed = (PetscBool)(unknowns == 1);
+}
+
 PetscErrorCode contact_read(Scene *scene, Contact *contact)
 {
   char **names;
 
   PetscFunctionBegin;
+  read_unknowns(scene, contact);
   scene_names(scene, "interfaces", &contact->n_interfaces, &names);
   PetscCall(PetscCalloc1(contact->n_interfaces, &contact->interfaces));
   for (PetscInt i = 0; i < contact->n_interfaces; i++) {
@@ -263,7 +273,7 @@ PetscErrorCode contact_read(Scene *scene, Contact *contact)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* What multipliers there are, to be taken over by unknowns_create(). */
+/* What multipliers there are beside the displacements, to be taken over by unknowns_create(). */
 PetscErrorCode contact_fields(const Contact *contact, Field **fields)
 {
   PetscFunctionBegin;
@@ -287,7 +297,7 @@ PetscErrorCode contact_label(Contact *contact)
     PetscInt        *mask;
     PetscCall(PetscMalloc1(interface->n1, &mask));
     for (PetscInt a = 0; a < interface->n1; a++)
-      mask[a] = interface->components == 3 ? interface->removed[a] : interface->removed[a] == 7;
+      mask[a] = contact->condensed ? 7 : interface->components == 3 ? interface->removed[a] : interface->removed[a] == 7;
     PetscCall(PetscSNPrintf(label, sizeof(label), "multiplier.%s", interface->name));
     PetscCall(plex_label_vertices(contact->mesh->dm, label, interface->n1, interface->nodes, mask, 0));
     PetscCall(PetscFree(mask));

@@ -11,13 +11,23 @@ static int64_t n_entries(const Interface *interface)
 static PetscErrorCode gather_equations(Contact *contact, Interface *interface)
 {
   const int64_t n = contact->mesh->rank ? 0 : n_entries(interface);
-  PetscInt     *numbers;
+  PetscInt     *numbers, n_equations;
+  Vec           x;
   PetscFunctionBegin;
+  PetscCall(DMGetGlobalVector(contact->mesh->dm, &x));
+  PetscCall(VecGetSize(x, &n_equations));
+  PetscCall(DMRestoreGlobalVector(contact->mesh->dm, &x));
   PetscCall(PetscMalloc1(n, &numbers));
   PetscCall(PetscSFBcastBegin(interface->sf, MPIU_INT, contact->physics->unknowns.equations, numbers, MPI_REPLACE));
   PetscCall(PetscSFBcastEnd(interface->sf, MPIU_INT, contact->physics->unknowns.equations, numbers, MPI_REPLACE));
   for (int64_t k = 0; k < n; k++)
     interface->equations[k] = numbers[k] < 0 ? -1 : numbers[k];
+  /* No unknowns, but the library must know which there are: numbers beyond all equations. */
+  for (int64_t k = 0; k < (int64_t)interface->components * interface->n1 && contact->condensed && n; k++) {
+    const PetscInt removed = interface->removed[k / interface->components], i = k % interface->components;
+    const PetscBool none = (PetscBool)(interface->components == 3 ? (removed >> i) & 1 : removed == 7);
+    interface->equations[3 * ((int64_t)interface->n1 + interface->n2) + k] = none ? -1 : n_equations + k;
+  }
   PetscCall(PetscFree(numbers));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -105,8 +115,13 @@ static PetscErrorCode check_facing(const Contact *contact, Scene *scene, PetscBo
 PetscErrorCode contact_create(Contact *contact, Scene *scene, PetscBool quiet, PetscInt *status)
 {
   const Mesh *mesh = contact->mesh;
+  char          why[256] = "";
   PetscFunctionBegin;
   *status = 0;
+  scene_root_begin(scene);
+  if (mesh->rank == 0 && contact->condensed) PetscCall(condensed_check(contact, why, sizeof(why)));
+  if (why[0]) scene_fail(scene, NULL, "unknowns", "%s.", why);
+  PetscCall(scene_root_end(scene));
   for (PetscInt i = 0; i < contact->n_interfaces && !*status; i++) {
     Interface            *interface = &contact->interfaces[i];
     const PetscInt        counts[3] = {interface->n1, interface->n2, interface->n1}, fields[3] = {0, 0, 1 + i};
@@ -117,6 +132,9 @@ PetscErrorCode contact_create(Contact *contact, Scene *scene, PetscBool quiet, P
     PetscCall(unknowns_gather_create(contact->physics, 3, counts, nodes, fields, &interface->sf));
     PetscCall(PetscCalloc5(n, &interface->X, n, &interface->x, n, &interface->gathered, n, &interface->forces, n,
                            &interface->equations));
+    PetscCall(PetscCalloc4(n, &interface->lambda, n, &interface->lambda_start, n, &interface->lambda_last, n,
+                           &interface->lambda_before));
+    PetscCall(PetscCalloc4(n, &interface->host, n, &interface->rows, n, &interface->host_there, n, &interface->x_there));
     PetscCall(gather_equations(contact, interface));
     if (mesh->rank == 0) {
       stickslip_surface surfaces[2];
@@ -128,6 +146,9 @@ PetscErrorCode contact_create(Contact *contact, Scene *scene, PetscBool quiet, P
         PetscCall(describe_surface(contact, interface, side, &surfaces[side], &facet_nodes[side]));
       refused = stickslip_interface_create(&surfaces[0], &surfaces[1], &interface->options, &interface->handle);
       if (!refused) refused = set_constraints(interface);
+      if (!refused && contact->condensed) /* refused at once rather than in the first step */
+        refused = stickslip_interface_condensed_multipliers(interface->handle, interface->x, interface->x + 3 * interface->n1,
+                                                            interface->host, interface->lambda);
       for (int side = 0; side < 2; side++)
         PetscCall(PetscFree(facet_nodes[side]));
     }
@@ -137,17 +158,21 @@ PetscErrorCode contact_create(Contact *contact, Scene *scene, PetscBool quiet, P
     if (mesh->rank == 0) PetscCall(check_facing(contact, scene, quiet, interface));
     PetscCall(scene_root_end(scene));
   }
+  if (!*status) PetscCall(condensed_create(contact, status));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode contact_destroy(Contact *contact)
 {
   PetscFunctionBegin;
+  PetscCall(condensed_destroy(contact));
   for (PetscInt i = 0; i < contact->n_interfaces; i++) {
     Interface *interface = &contact->interfaces[i];
     PetscCallStickslip(stickslip_interface_destroy(&interface->handle));
     PetscCall(PetscSFDestroy(&interface->sf));
     PetscCall(PetscFree5(interface->X, interface->x, interface->gathered, interface->forces, interface->equations));
+    PetscCall(PetscFree4(interface->lambda, interface->lambda_start, interface->lambda_last, interface->lambda_before));
+    PetscCall(PetscFree4(interface->host, interface->rows, interface->host_there, interface->x_there));
     PetscCall(PetscFree3(interface->coo_rows, interface->coo_columns, interface->coo_values));
     PetscCall(PetscFree(interface->nodes));
     PetscCall(PetscFree(interface->removed));

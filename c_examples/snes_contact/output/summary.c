@@ -257,6 +257,7 @@ PetscErrorCode summary_write(Output *output, Summary **summary, Vec last, PetscI
     cJSON_AddItemReferenceToObject((*summary)->root, "held_by_contact", solve->held.by_contact);
   if (solve->held.by_nothing)
     cJSON_AddItemReferenceToObject((*summary)->root, "held_by_nothing", solve->held.by_nothing);
+  if (solve->least_pivot > 0) cJSON_AddNumberToObject((*summary)->root, "least_pivot", solve->least_pivot);
   PetscCall(range_report(output->physics, (*summary)->root));
   PetscCall(summary_counters(output, (*summary)->root));
   if (message[0])

@@ -230,6 +230,8 @@ PetscErrorCode jacobian_test_create(Solve *solve, Scene *scene)
   if (!wanted) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCallMPI(MPI_Comm_size(PETSC_COMM_WORLD, &ranks));
   if (ranks > 1) scene_fail(scene, NULL, "test_jacobian_blocks", "this test runs on one rank only.");
+  if (solve->contact->condensed)
+    scene_fail(scene, NULL, "test_jacobian_blocks", "this test looks at multipliers; take 'unknowns: multipliers'.");
   PetscCall(SNESMonitorSet(solve->snes, monitor, solve, NULL));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -164,6 +164,7 @@ static PetscErrorCode attempt(Solve *solve, int k, Vec x, PetscBool *converged)
   cJSON_Delete(newton->state_changes);
   newton->state_changes = cJSON_CreateArray();
   newton->factor                                    = ATTEMPTS[k].factor;
+  PetscCall(condensed_begin(contact));
   PetscCall(SNESSolve(solve->snes, NULL, x));
   PetscCall(SNESSetTolerances(solve->snes, atol, rtol, stol, max_it, max_f));
   PetscCall(SNESGetConvergedReason(solve->snes, &reason));

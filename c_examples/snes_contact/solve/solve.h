@@ -83,6 +83,7 @@ typedef struct {
   PetscInt  iterations;         /* of Newton, spent on the present step, failed attempts included */
   PetscReal size, stiffness;    /* of the model */
   struct cJSON  *jacobian_tests; /* of the present step (jacobian_test.c); NULL: none */
+  PetscReal      least_pivot; /* of a linear solver that exchanges no rows, over the largest; 0: of no such solver */
   PetscLogDouble seconds, started; /* in the linear solver; when it was called last */
 } Solve;
 

@@ -16,15 +16,17 @@ static PetscErrorCode residual(SNES snes, Vec x, Vec r, void *context)
   PetscCall(PetscArrayzero(solve->physics->parts.squares, N_SQUARES * solve->physics->parts.n));
   PetscCall(bulk_forces(solve->physics, solve->physics->f_local, &inverted));
   PetscCall(PetscTime(&start));
-  if (!inverted) PetscCall(contact_forces(solve->contact, solve->physics->f_local, &refused));
+  if (!inverted) PetscCall(condensed_eliminate(solve->contact, x, &refused));
+  if (!inverted && !refused) PetscCall(contact_forces(solve->contact, solve->physics->f_local, &refused));
   PetscCall(PetscTime(&end));
   solve->contact->seconds_forces += end - start;
-  if (inverted || refused) PetscCall(SNESSetFunctionDomainError(snes));
   PetscCall(VecAXPY(solve->physics->f_local, -1, solve->physics->f_external));
   PetscCall(VecZeroEntries(r));
   PetscCall(DMLocalToGlobalBegin(solve->mesh->dm, solve->physics->f_local, ADD_VALUES, r));
   PetscCall(DMLocalToGlobalEnd(solve->mesh->dm, solve->physics->f_local, ADD_VALUES, r));
   PetscCall(parts_measure(solve->physics));
+  if (!inverted && !refused) PetscCall(condensed_residual(solve->contact, r, &refused));
+  if (inverted || refused) PetscCall(SNESSetFunctionDomainError(snes));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -42,10 +44,11 @@ static PetscErrorCode tangent(SNES snes, Vec x, Mat J, Mat P, void *context)
   PetscCall(contact_tangent(solve->contact, P, &refused));
   PetscCall(PetscTime(&end));
   solve->contact->seconds_tangent += end - start;
-  if (inverted || refused) PetscCall(SNESSetJacobianDomainError(snes));
   PetscCall(MatAssemblyBegin(P, MAT_FINAL_ASSEMBLY));
   PetscCall(MatAssemblyEnd(P, MAT_FINAL_ASSEMBLY));
   if (!inverted && !refused) PetscCall(closing_shift(solve, P));
+  if (!inverted && !refused) PetscCall(condensed_matrix(solve->contact, x, P, &refused));
+  if (inverted || refused) PetscCall(SNESSetJacobianDomainError(snes));
   if (J != P) {
     PetscCall(MatAssemblyBegin(J, MAT_FINAL_ASSEMBLY));
     PetscCall(MatAssemblyEnd(J, MAT_FINAL_ASSEMBLY));
@@ -62,12 +65,39 @@ static PetscErrorCode solve_begins(KSP ksp, Vec b, Vec x, void *context)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* PETSc's own LU exchanges no rows: its pivots, the least over the largest of a matrix, say how far it went well. */
+static PetscErrorCode look_at_pivots(Solve *solve, KSP ksp)
+{
+  MatSolverType solver = NULL;
+  PetscBool     lu, own;
+  PetscReal     least, largest;
+  PC            pc;
+  Mat           factors;
+  Vec           pivots;
+  PetscFunctionBegin;
+  PetscCall(KSPGetPC(ksp, &pc));
+  PetscCall(PetscObjectTypeCompare((PetscObject)pc, PCLU, &lu));
+  if (lu) PetscCall(PCFactorGetMatSolverType(pc, &solver));
+  PetscCall(PetscStrcmp(solver, MATSOLVERPETSC, &own));
+  if (!own) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PCFactorGetMatrix(pc, &factors));
+  PetscCall(MatCreateVecs(solve->jacobian, &pivots, NULL));
+  PetscCall(MatGetDiagonal(factors, pivots));
+  PetscCall(VecAbs(pivots));
+  PetscCall(VecMin(pivots, NULL, &least));
+  PetscCall(VecMax(pivots, NULL, &largest));
+  PetscCall(VecDestroy(&pivots));
+  if (solve->least_pivot == 0 || least < solve->least_pivot * largest) solve->least_pivot = least / largest;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode solve_ends(KSP ksp, Vec b, Vec x, void *context)
 {
   Solve         *solve = context;
   PetscLogDouble now;
   PetscFunctionBegin;
-  (void)ksp, (void)b, (void)x;
+  (void)b, (void)x;
+  PetscCall(look_at_pivots(solve, ksp));
   PetscCall(PetscTime(&now));
   solve->seconds += now - solve->started;
   PetscFunctionReturn(PETSC_SUCCESS);

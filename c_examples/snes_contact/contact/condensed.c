@@ -1,0 +1,295 @@
+/* A system without multipliers (`unknowns: displacements`): the rows of the non-mortar nodes give the multipliers, and the
+ * library says what to multiply and to add. Multipliers stay in the local vectors, as entries that are no unknowns; each
+ * interface keeps their values.
+ *
+ * Newton's iterates are those of the system with multipliers. A step starts with given multipliers: those of the last
+ * one, extrapolated as the displacements are, or the library's initial ones. After an iteration the multipliers are
+ * those that the linearised rows give for the displacements: those at the place of the last matrix, J du added. So they
+ * are a function of the displacements for a line search, too. (To take those that the rows of now give is simpler, and
+ * as good where the start is: c_examples/profile_host.c. From an extrapolated start of a body that is nearly
+ * incompressible they are far off, and a press fit over an edge takes twice as many iterations.) */
+#include "contact/contact.h"
+
+/* rank 0: entries of a matrix, in PETSc's integers */
+typedef struct {
+  PetscInt     n, capacity, *rows, *columns;
+  PetscScalar *values;
+} Entries;
+
+/* An interface cannot share nodes with another one, where these have multipliers in either. */
+PetscErrorCode condensed_check(const Contact *contact, char why[], size_t length)
+{
+  int64_t *offsets[2], *nodes[2], n[2] = {0, 0}, found;
+  int32_t  status;
+
+  PetscFunctionBegin;
+  why[0] = 0;
+  for (int side = 0; side < 2; side++) {
+    PetscInt total = 0;
+    for (PetscInt i = 0; i < contact->n_interfaces; i++)
+      total += side ? contact->interfaces[i].n2 : contact->interfaces[i].n1;
+    PetscCall(PetscCalloc2(contact->n_interfaces + 1, &offsets[side], total, &nodes[side]));
+    for (PetscInt i = 0; i < contact->n_interfaces; i++) {
+      const Interface *interface = &contact->interfaces[i];
+      const PetscInt   first = side ? interface->n1 : 0, count = side ? interface->n2 : interface->n1;
+      for (PetscInt k = 0; k < count; k++)
+        nodes[side][n[side]++] = interface->nodes[first + k];
+      offsets[side][i + 1] = n[side];
+    }
+  }
+  status = stickslip_crosspoints_find(contact->n_interfaces, offsets[0], nodes[0], offsets[1], nodes[1], 0, NULL, NULL,
+                                      NULL, &found);
+  if (!status && found)
+    PetscCall(PetscSNPrintf(why, length,
+                            "%" PRId64 " nodes belong to several interfaces, and have a multiplier in one of them: their "
+                            "multipliers cannot be condensed; take `unknowns: multipliers`",
+                            found));
+  for (int side = 0; side < 2; side++)
+    PetscCall(PetscFree2(offsets[side], nodes[side]));
+  PetscCheck(!status, PETSC_COMM_SELF, PETSC_ERR_LIB, "stickslip: %s", stickslip_last_error_message());
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscInt n_multipliers(const Interface *interface)
+{
+  return interface->components * interface->n1;
+}
+
+/* The initial multipliers are those of the last step before the first one. */
+PetscErrorCode condensed_create(Contact *contact, PetscInt *status)
+{
+  PetscFunctionBegin;
+  *status = 0;
+  for (PetscInt i = 0; i < contact->n_interfaces && !*status && contact->condensed; i++) {
+    Interface *interface = &contact->interfaces[i];
+    int32_t    refused   = 0;
+    if (contact->mesh->rank == 0 && interface->initial_contact)
+      refused = stickslip_interface_initial_multipliers(interface->handle, interface->lambda_last);
+    PetscCall(contact_agree(contact, refused, status));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode condensed_destroy(Contact *contact)
+{
+  PetscFunctionBegin;
+  PetscCall(MatDestroy(&contact->linear));
+  PetscCall(VecDestroy(&contact->place));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The multipliers that a step starts with: the last ones, and `factor` times what they differ by from those before. */
+void condensed_predict(Contact *contact, PetscReal factor)
+{
+  for (PetscInt i = 0; i < contact->n_interfaces && contact->condensed && contact->mesh->rank == 0; i++) {
+    Interface *interface = &contact->interfaces[i];
+    for (PetscInt k = 0; k < n_multipliers(interface); k++)
+      interface->lambda_start[k] =
+        interface->lambda_last[k] + factor * (interface->lambda_last[k] - interface->lambda_before[k]);
+  }
+}
+
+void condensed_accept(Contact *contact)
+{
+  for (PetscInt i = 0; i < contact->n_interfaces && contact->condensed && contact->mesh->rank == 0; i++) {
+    Interface *interface = &contact->interfaces[i];
+    for (PetscInt k = 0; k < n_multipliers(interface); k++) {
+      interface->lambda_before[k] = interface->lambda_last[k];
+      interface->lambda_last[k]   = interface->lambda[k];
+    }
+  }
+}
+
+/* Each attempt at a step starts alike. */
+PetscErrorCode condensed_begin(Contact *contact)
+{
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < contact->n_interfaces && contact->condensed && contact->mesh->rank == 0; i++)
+    PetscCall(PetscArraycpy(contact->interfaces[i].lambda, contact->interfaces[i].lambda_start,
+                            n_multipliers(&contact->interfaces[i])));
+  PetscCall(MatDestroy(&contact->linear));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* on rank 0: the rows of an interface's nodes, of a local vector that all ranks add up */
+static PetscErrorCode gather_rows(Contact *contact, Interface *interface, Vec local, double *rows)
+{
+  const PetscScalar *values;
+  PetscFunctionBegin;
+  PetscCall(unknowns_sum(contact->physics, local));
+  PetscCall(VecGetArrayRead(contact->physics->f_sum, &values));
+  PetscCall(PetscSFBcastBegin(interface->sf, MPIU_SCALAR, values, rows, MPI_REPLACE));
+  PetscCall(PetscSFBcastEnd(interface->sf, MPIU_SCALAR, values, rows, MPI_REPLACE));
+  PetscCall(VecRestoreArrayRead(contact->physics->f_sum, &values));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The multipliers at x, of the rows as they were linearised at `place`. */
+static PetscErrorCode update_multipliers(Contact *contact, Vec x, PetscInt *status)
+{
+  Vec du, f, local;
+  PetscFunctionBegin;
+  *status = 0;
+  if (!contact->linear) PetscFunctionReturn(PETSC_SUCCESS); /* the given ones */
+  PetscCall(VecDuplicate(x, &du));
+  PetscCall(VecDuplicate(x, &f));
+  PetscCall(VecWAXPY(du, -1, contact->place, x));
+  PetscCall(MatMult(contact->linear, du, f));
+  PetscCall(DMGetLocalVector(contact->mesh->dm, &local));
+  PetscCall(VecZeroEntries(local));
+  PetscCall(DMGlobalToLocalBegin(contact->mesh->dm, f, INSERT_VALUES, local));
+  PetscCall(DMGlobalToLocalEnd(contact->mesh->dm, f, INSERT_VALUES, local));
+  for (PetscInt i = 0; i < contact->n_interfaces && !*status; i++) {
+    Interface         *interface = &contact->interfaces[i];
+    double            *rows      = interface->rows;
+    int32_t            refused   = 0;
+    const PetscScalar *values;
+    PetscCall(VecGetArrayRead(local, &values)); /* complete on every rank */
+    PetscCall(PetscSFBcastBegin(interface->sf, MPIU_SCALAR, values, rows, MPI_REPLACE));
+    PetscCall(PetscSFBcastEnd(interface->sf, MPIU_SCALAR, values, rows, MPI_REPLACE));
+    PetscCall(VecRestoreArrayRead(local, &values));
+    if (contact->mesh->rank == 0) {
+      for (PetscInt k = 0; k < 3 * interface->n1; k++)
+        rows[k] += interface->host_there[k];
+      refused = stickslip_interface_condensed_multipliers(
+        interface->handle, interface->x_there, interface->x_there + 3 * interface->n1, rows, interface->lambda);
+    }
+    PetscCall(contact_agree(contact, refused, status));
+  }
+  PetscCall(DMRestoreLocalVector(contact->mesh->dm, &local));
+  PetscCall(VecDestroy(&du));
+  PetscCall(VecDestroy(&f));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Multipliers at x; the forces of the bodies, which f_local has so far, and the loads, at the interfaces' nodes. */
+PetscErrorCode condensed_eliminate(Contact *contact, Vec x, PetscInt *status)
+{
+  Physics *physics = contact->physics;
+  Vec      host;
+  PetscFunctionBegin;
+  *status = 0;
+  if (!contact->condensed) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(DMGetLocalVector(contact->mesh->dm, &host));
+  PetscCall(VecWAXPY(host, -1, physics->f_external, physics->f_local));
+  for (PetscInt i = 0; i < contact->n_interfaces; i++)
+    PetscCall(gather_rows(contact, &contact->interfaces[i], host, contact->interfaces[i].host));
+  PetscCall(DMRestoreLocalVector(contact->mesh->dm, &host));
+  PetscCall(update_multipliers(contact, x, status));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The rows are linearised at x. */
+static PetscErrorCode keep_rows(Contact *contact, Vec x, Mat J)
+{
+  PetscFunctionBegin;
+  PetscCall(MatDestroy(&contact->linear));
+  PetscCall(MatDuplicate(J, MAT_COPY_VALUES, &contact->linear));
+  if (!contact->place) PetscCall(VecDuplicate(x, &contact->place));
+  PetscCall(VecCopy(x, contact->place));
+  for (PetscInt i = 0; i < contact->n_interfaces && contact->mesh->rank == 0; i++) {
+    Interface *interface = &contact->interfaces[i];
+    PetscCall(PetscArraycpy(interface->x_there, interface->x, 3 * (interface->n1 + interface->n2)));
+    PetscCall(PetscArraycpy(interface->host_there, interface->host, 3 * interface->n1));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Makes of the forces' residual that of the system without multipliers. */
+PetscErrorCode condensed_residual(Contact *contact, Vec r, PetscInt *status)
+{
+  Physics *physics = contact->physics;
+  PetscFunctionBegin;
+  *status = 0;
+  if (!contact->condensed) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(VecZeroEntries(physics->f_sum));
+  for (PetscInt i = 0; i < contact->n_interfaces && !*status; i++) {
+    Interface     *interface = &contact->interfaces[i];
+    const PetscInt n1 = 3 * interface->n1, n2 = 3 * interface->n2;
+    int32_t        refused = 0;
+    PetscCall(contact_gather(contact, interface, physics->u_local));
+    if (contact->mesh->rank == 0) {
+      double *rows = interface->rows;
+      refused = stickslip_interface_condensed_residual(interface->handle, STATE_OF(interface), interface->host, rows, rows + n1);
+      for (PetscInt k = 0; k < n1 + n2 && !refused; k++)
+        rows[k] -= interface->forces[k] + (k < n1 ? interface->host[k] : 0);
+    }
+    PetscCall(contact_agree(contact, refused, status));
+    if (!*status) PetscCall(contact_scatter(interface, interface->rows, physics->f_sum, MPIU_SUM));
+  }
+  PetscCall(DMLocalToGlobalBegin(contact->mesh->dm, physics->f_sum, ADD_VALUES, r));
+  PetscCall(DMLocalToGlobalEnd(contact->mesh->dm, physics->f_sum, ADD_VALUES, r));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* rank 0: adds a piece of an interface's matrix to the entries */
+static PetscErrorCode add_piece(Interface *interface, int32_t piece, Entries *entries, int32_t *refused)
+{
+  int64_t count;
+  PetscFunctionBegin;
+  PetscCall(contact_entries(interface, piece, &count, refused));
+  if (*refused) PetscFunctionReturn(PETSC_SUCCESS);
+  if (entries->n + count > entries->capacity) {
+    Entries larger = {.n = entries->n, .capacity = (PetscInt)(2 * entries->capacity + count)};
+    PetscCall(PetscMalloc3(larger.capacity, &larger.rows, larger.capacity, &larger.columns, larger.capacity, &larger.values));
+    PetscCall(PetscArraycpy(larger.rows, entries->rows, entries->n));
+    PetscCall(PetscArraycpy(larger.columns, entries->columns, entries->n));
+    PetscCall(PetscArraycpy(larger.values, entries->values, entries->n));
+    PetscCall(PetscFree3(entries->rows, entries->columns, entries->values));
+    *entries = larger;
+  }
+  for (int64_t k = 0; k < count; k++) {
+    entries->rows[entries->n]     = (PetscInt)interface->coo_rows[k];
+    entries->columns[entries->n]  = (PetscInt)interface->coo_columns[k];
+    entries->values[entries->n++] = interface->coo_values[k];
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* A piece of all interfaces, a matrix like another one. */
+static PetscErrorCode assemble(Contact *contact, int32_t piece, Mat like, Mat *matrix, PetscInt *status)
+{
+  Entries  entries = {0};
+  PetscInt n;
+  PetscFunctionBegin;
+  *matrix = NULL;
+  *status = 0;
+  for (PetscInt i = 0; i < contact->n_interfaces && !*status; i++) {
+    int32_t refused = 0;
+    PetscCall(contact_gather(contact, &contact->interfaces[i], contact->physics->u_local));
+    if (contact->mesh->rank == 0) PetscCall(add_piece(&contact->interfaces[i], piece, &entries, &refused));
+    PetscCall(contact_agree(contact, refused, status));
+  }
+  if (!*status) {
+    PetscCall(MatGetLocalSize(like, &n, NULL));
+    PetscCall(MatCreate(PETSC_COMM_WORLD, matrix));
+    PetscCall(MatSetSizes(*matrix, n, n, PETSC_DETERMINE, PETSC_DETERMINE));
+    PetscCall(MatSetType(*matrix, MATAIJ));
+    PetscCall(MatSetPreallocationCOO(*matrix, entries.n, entries.rows, entries.columns));
+    PetscCall(MatSetValuesCOO(*matrix, entries.values, ADD_VALUES));
+  }
+  PetscCall(PetscFree3(entries.rows, entries.columns, entries.values));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* J becomes J + E J + G: E eliminates the multipliers, G has the constraints. */
+PetscErrorCode condensed_matrix(Contact *contact, Vec x, Mat J, PetscInt *status)
+{
+  Mat E = NULL, G = NULL, EJ;
+  PetscFunctionBegin;
+  *status = 0;
+  if (!contact->condensed) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(keep_rows(contact, x, J));
+  PetscCall(assemble(contact, STICKSLIP_CONDENSED_ELIMINATION, J, &E, status));
+  if (!*status) PetscCall(assemble(contact, STICKSLIP_CONDENSED_CONSTRAINTS, J, &G, status));
+  if (!*status) {
+    PetscCall(MatMatMult(E, J, MAT_INITIAL_MATRIX, PETSC_DEFAULT, &EJ));
+    PetscCall(MatAXPY(EJ, 1, G, DIFFERENT_NONZERO_PATTERN));
+    PetscCall(MatAXPY(J, 1, EJ, DIFFERENT_NONZERO_PATTERN));
+    PetscCall(MatSetOption(J, MAT_NEW_NONZERO_ALLOCATION_ERR, PETSC_FALSE)); /* it has become another matrix */
+    PetscCall(MatDestroy(&EJ));
+  }
+  PetscCall(MatDestroy(&E));
+  PetscCall(MatDestroy(&G));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

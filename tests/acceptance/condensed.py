@@ -1,0 +1,129 @@
+"""Checks of systems without multipliers (`unknowns: displacements`): the answers and Newton's path are those with
+multipliers, a solver that exchanges no rows gets through, and what cannot be condensed is refused by name."""
+
+import re
+
+import numpy as np
+from scene import SCENES as SCENES_FOLDER
+from scene import SceneError
+from slider import SPRINGS, SWAPPED, SWAPPED_MESH, travel
+
+# Both systems are solved to rounding of their forces: Newton's iterations are then those that it takes, not those that a
+# residual just below or above the tolerance makes.
+TIGHT = ("-snes_rtol", "1e-13")
+# Displacements over the largest, forces over all of the model's; without row exchanges pivots of 1e-3 of the largest cost three digits.
+SAME, UNPIVOTED = 1e-10, 1e-9
+# An answer that is met a digit earlier saves an iteration.
+FEWER = 1
+QUIET = ("-output_csv", "none", "-output_vtu", "none")
+# A slider that is pushed by its top: no node of the contact is prescribed. It leaves the channel's end.
+PUSHED = ("-push_surface", "slider.zmax", "-slider_cells", "12,1,3")
+OFF_THE_END = (*travel(1475, 25), *PUSHED, *SPRINGS, "-contact_weak_coverage", "0.5")
+
+# Scene, label, options; the interfaces of all get dual multipliers. The first carry nodes.
+SCENES = (
+    ("press_fit", "swapped", (*SWAPPED, *SWAPPED_MESH)),
+    ("press_fit", "off the end", OFF_THE_END),
+    ("block_zone_mu05", "", ()),
+    ("block_bottom_mu02", "", ()),
+    ("block_bottom_mu02_current", "", ()),
+    ("symmetry_plane", "", ("-snes_rtol", "1e-12")),  # its rounding is 1e-13
+    ("third_body", "", ()),
+    ("patch_shear", "", ()),
+    ("keys", "", ()),
+    ("two_blocks", "", ()),
+    ("ball_on_block", "", ()),
+    ("jacobian_states", "", ()),
+    ("shrink_fit", "", ()),
+    ("rigid_punch", "", ()),
+    ("patch_flat_5_7", "", ()),
+    ("patch_tied", "", ()),
+    ("patch_mixed", "", ()),
+    ("patch_punch", "", ()),
+)
+LONG = (
+    ("hertz_line_coarse", "", ()),
+    ("cattaneo_line", "", ()),
+    ("shrink_fit_out", "", ()),
+    ("turned_shaft", "", ()),
+    ("mindlin", "", ()),
+)
+CARRYING = 2
+# Scene, options, words of the refusal.
+REFUSED = (
+    ("tied_beam", ("dual",), "component 0 of non-mortar node 0 is prescribed (equation -1) and has a multiplier"),
+    ("press_fit", ("dual",), "component 0 of non-mortar node 0 is prescribed (equation -1) and has a multiplier"),
+    ("two_blocks", ("standard",), "condensation with standard multipliers"),
+    ("two_blocks", ("dual", "-contact_form", "augmented"), "condensation with the augmented form"),
+)
+
+
+def condensed(verdicts, driver):
+    carrying = sum(compare(verdicts, driver, *scene) for scene in SCENES)
+    verdicts.at_least("scenes with carried nodes", carrying, CARRYING, "of those above")
+    for scene, (basis, *options), words in REFUSED:
+        refuse(verdicts, driver, scene, basis, options, words)
+
+
+def condensed_full(verdicts, driver):
+    """Minutes."""
+    for scene in LONG:
+        compare(verdicts, driver, *scene)
+
+
+def interfaces(scene):
+    """Their names in the scene's file."""
+    listed = re.search(r"^interfaces: \[(.*?)\]", (SCENES_FOLDER / f"{scene}.yaml").read_text(), re.MULTILINE | re.DOTALL)
+    return [name.strip() for name in listed[1].split(",")]
+
+
+def compare(verdicts, driver, scene, label, options):
+    """Whether nodes are carried."""
+    name = f"{scene} {label}".strip()
+    dual = [word for i in interfaces(scene) for word in (f"-{i}_basis", "dual", f"-{i}_weak_coverage", "0")]
+    options = (*dual, *TIGHT, *options, *QUIET)
+    tag = name.replace(" ", "_")
+    whole = driver.run(scene, *options, label=f"{tag}_multipliers")
+    small = driver.run(scene, *options, "-unknowns", "displacements", label=f"{tag}_displacements")
+    plain = ("-unknowns", "displacements", "-pc_factor_mat_solver_type", "petsc")
+    unpivoted = driver.run(scene, *options, *plain, label=f"{tag}_unpivoted")
+    verdicts.below(f"{name}: condensed against multipliers", difference(small, whole), SAME, "of all steps")
+    more = [b - a for a, b in zip(iterations(whole), iterations(small))]
+    reason = f"{whole.newton_iterations} with multipliers, {small.newton_iterations} without"
+    verdicts.below(f"{name}: Newton iterations of a step, more or less by", max(map(abs, more)), FEWER, reason)
+    verdicts.below(f"{name}: Newton iterations of the run, more by", sum(more), FEWER, reason)
+    pivot = unpivoted.summary.get("least_pivot")
+    reason = f"least pivot {pivot:.1e} of the largest" if pivot else "nothing to solve"
+    verdicts.below(f"{name}: without row exchanges", difference(unpivoted, whole), UNPIVOTED, reason)
+    return any(of["nodes_carried"] > 0 for of in small.summary["interfaces"].values())
+
+
+def iterations(run):
+    return [step["newton_iterations"] for step in run.steps]
+
+
+def difference(run, other):
+    """Largest difference of displacements, over the largest, and of forces, over the model's."""
+    if [s["t"] for s in run.steps] != [s["t"] for s in other.steps]:
+        raise SceneError("the runs took different steps")
+    worst = 0.0
+    for kinds in (("probes",), ("reactions", "interfaces")):
+        found, expected = (np.array([vectors(step, kinds) for step in r.steps]) for r in (run, other))
+        if found.size:
+            scale = np.abs(expected).max() if kinds == ("probes",) else max(s["reference_force"] for s in other.steps)
+            worst = max(worst, np.abs(found - expected).max() / scale)
+    return worst
+
+
+def vectors(step, kinds):
+    values = []
+    for kind in kinds:
+        for of in step[kind].values():
+            values.extend(of["force"] if isinstance(of, dict) else of)
+    return values
+
+
+def refuse(verdicts, driver, scene, basis, options, words):
+    given = [word for i in interfaces(scene) for word in (f"-{i}_basis", basis)]
+    run = driver.run(scene, *given, *options, "-unknowns", "displacements", label=f"{scene}_{basis}_refused", expect=3)
+    verdicts.true(f"{scene}, {' '.join((basis, *options))}: refused", words in " ".join(run.text.split()), words)
