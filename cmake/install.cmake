@@ -43,6 +43,7 @@ install(FILES docs/first_program.md docs/plug_in.md docs/formulation.md docs/abi
   DESTINATION "${CMAKE_INSTALL_DOCDIR}/docs")
 install(FILES ARCHITECTURE.md DESTINATION "${CMAKE_INSTALL_DOCDIR}")
 install(FILES c_examples/block_host.c c_examples/petsc_block.c c_examples/pair_demo.c
+  c_examples/profile_host.c
   DESTINATION "${CMAKE_INSTALL_DOCDIR}/c_examples")
 install(DIRECTORY c_examples/fortran DESTINATION "${CMAKE_INSTALL_DOCDIR}/c_examples" FILES_MATCHING PATTERN "*.f90")
 install(DIRECTORY docs/figures/ DESTINATION "${CMAKE_INSTALL_DOCDIR}/docs/figures")

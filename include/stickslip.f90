@@ -96,6 +96,9 @@ module stickslip
   integer(c_int32_t), parameter :: STICKSLIP_BASIS_STANDARD = 0
   integer(c_int32_t), parameter :: STICKSLIP_BASIS_DUAL = 1
 
+  ! weak_coverage: every covered node has a multiplier of its own.
+  real(c_double), parameter :: STICKSLIP_WEAK_COVERAGE_NONE = -1.0_c_double
+
   integer(c_int32_t), parameter :: STICKSLIP_QUADRATURE_DEGREE_5 = 0
   integer(c_int32_t), parameter :: STICKSLIP_QUADRATURE_DEGREE_10 = 1
   integer(c_int32_t), parameter :: STICKSLIP_QUADRATURE_DEGREE_1 = 2
@@ -127,6 +130,12 @@ module stickslip
 
   ! Reals per node of stickslip_interface_sums.
   integer(c_int32_t), parameter :: STICKSLIP_SUMS_PER_NODE = 11
+
+  ! Pieces of a condensed matrix: what the contact forces add to the host's own matrix, the elimination L - I, the contact
+  ! constraints.
+  integer(c_int32_t), parameter :: STICKSLIP_CONDENSED_FORCES = 0
+  integer(c_int32_t), parameter :: STICKSLIP_CONDENSED_ELIMINATION = 1
+  integer(c_int32_t), parameter :: STICKSLIP_CONDENSED_CONSTRAINTS = 2
 
   ! Cover of a node: none, in part, in full, by several layers.
   integer(c_int32_t), parameter :: STICKSLIP_COVER_NONE = 0
@@ -201,7 +210,8 @@ module stickslip
     integer(c_int32_t) :: integration = 0          ! STICKSLIP_INTEGRATION_...
     integer(c_int32_t) :: tangent = 0              ! STICKSLIP_TANGENT_...
     integer(c_int64_t) :: element_points = 0       ! along a side, without SEGMENTS: 2 to 10; 0: 4
-    real(c_double) :: weak_coverage = 0            ! nodes covered less, over the best neighbour, are carried; 0: none
+    real(c_double) :: weak_coverage = 0            ! nodes covered less, over the best neighbour, are carried; 0: the
+                                                   ! library's choice, 0.2 with dual multipliers, else none; or ..._NONE
     real(c_double) :: turn_max = 0                 ! radians from one commit to the next; 0: pi / 9; pi: any
     real(c_double) :: shear_limit = 0              ! largest shear traction, > 0 with TRESCA [F/L^2]
   end type
@@ -577,6 +587,74 @@ module stickslip
       integer(c_int64_t), intent(inout) :: count
     end function
 
+    ! Who carries weakly covered nodes in this step: integer(c_int64_t) nodes(capacity), carriers(capacity),
+    ! real(c_double) weights(capacity), and count. All three null: only count.
+    integer(c_int32_t) function stickslip_interface_carriers(interface, capacity, nodes, carriers, weights, count) &
+        bind(C)
+      import :: c_int32_t, c_int64_t, c_ptr, stickslip_interface
+      type(stickslip_interface), value :: interface
+      integer(c_int64_t), value :: capacity
+      type(c_ptr), value :: nodes, carriers, weights
+      integer(c_int64_t), intent(inout) :: count
+    end function
+
+    ! The multipliers of a system without them: lambda(3, n1), or a vector of n1 with STICKSLIP_FRICTION_NONE, output.
+    ! host1(3, n1): the residual of your own forces at the non-mortar nodes, without contact.
+    integer(c_int32_t) function stickslip_interface_condensed_multipliers(interface, x1, x2, host1, lambda) bind(C)
+      import :: c_double, c_int32_t, stickslip_interface
+      type(stickslip_interface), value :: interface
+      real(c_double), intent(in) :: x1(3, *), x2(3, *), host1(3, *)
+      real(c_double), intent(inout) :: lambda(3, *)
+    end function
+
+    ! The residual of a system without multipliers: rows1(3, n1) in place of your rows of the non-mortar nodes,
+    ! force2(3, n2) to be added to those of the mortar nodes.
+    integer(c_int32_t) function stickslip_interface_condensed_residual(interface, x1, x2, lambda, host1, rows1, &
+        force2) bind(C)
+      import :: c_double, c_int32_t, stickslip_interface
+      type(stickslip_interface), value :: interface
+      real(c_double), intent(in) :: x1(3, *), x2(3, *), lambda(3, *), host1(3, *)
+      real(c_double), intent(inout) :: rows1(3, *), force2(3, *)
+    end function
+
+    ! A piece of the matrix of a system without multipliers, STICKSLIP_CONDENSED_..., as triplets like those of the
+    ! tangent. With J your own matrix plus FORCES the matrix is J + ELIMINATION J + CONSTRAINTS.
+    integer(c_int32_t) function stickslip_interface_condensed_coo(interface, x1, x2, lambda, piece, capacity, rows, &
+        columns, values, count) bind(C)
+      import :: c_double, c_int32_t, c_int64_t, c_ptr, stickslip_interface
+      type(stickslip_interface), value :: interface
+      real(c_double), intent(in) :: x1(3, *), x2(3, *), lambda(3, *)
+      integer(c_int32_t), value :: piece
+      integer(c_int64_t), value :: capacity
+      type(c_ptr), value :: rows, columns, values
+      integer(c_int64_t), intent(inout) :: count
+    end function
+
+    ! Turns your own matrix, compressed sparse rows, into that of the system without multipliers, in place.
+    integer(c_int32_t) function stickslip_interface_condensed_csr(interface, x1, x2, lambda, n_rows, row_offsets, &
+        columns, values) bind(C)
+      import :: c_double, c_int32_t, c_int64_t, stickslip_interface
+      type(stickslip_interface), value :: interface
+      real(c_double), intent(in) :: x1(3, *), x2(3, *), lambda(3, *)
+      integer(c_int64_t), value :: n_rows
+      integer(c_int64_t), intent(in) :: row_offsets(*), columns(*)
+      real(c_double), intent(inout) :: values(*)
+    end function
+
+    ! Entries that stickslip_interface_condensed_csr may need in your matrix while the surfaces slide by less than a
+    ! quarter of a facet: integer(c_int64_t) entry_rows(capacity), entry_columns(capacity), and count. Both null: only count.
+    integer(c_int32_t) function stickslip_interface_condensed_pattern(interface, x1, x2, n_rows, row_offsets, columns, &
+        capacity, entry_rows, entry_columns, count) bind(C)
+      import :: c_double, c_int32_t, c_int64_t, c_ptr, stickslip_interface
+      type(stickslip_interface), value :: interface
+      real(c_double), intent(in) :: x1(3, *), x2(3, *)
+      integer(c_int64_t), value :: n_rows
+      integer(c_int64_t), intent(in) :: row_offsets(*), columns(*)
+      integer(c_int64_t), value :: capacity
+      type(c_ptr), value :: entry_rows, entry_columns
+      integer(c_int64_t), intent(inout) :: count
+    end function
+
     ! How much of a step dx1(3, n1), dx2(3, n2) from x1(3, n1), x2(3, n2) may be taken before the surfaces pass through
     ! each other: fraction, above 0 and at most 1. penetration: over the shortest edges; 0: the default, 0.1.
     integer(c_int32_t) function stickslip_interface_step_limit(interface, x1, x2, dx1, dx2, penetration, fraction) &
@@ -744,6 +822,16 @@ module stickslip
       real(c_double), value :: scale
       integer(c_int32_t), value :: layout
       type(c_ptr), value :: row, block
+    end function
+
+    ! What eliminating a node's multiplier makes of its rows, for hosts without multipliers that assemble element by
+    ! element: real(c_double) w(3, 3), row(3), row_scale, each or null.
+    integer(c_int32_t) function stickslip_node_condense(node, response, layout, w, row, row_scale) bind(C)
+      import :: c_int32_t, c_ptr, stickslip_node, stickslip_node_response
+      type(stickslip_node), intent(in) :: node
+      type(stickslip_node_response), intent(in) :: response
+      integer(c_int32_t), value :: layout
+      type(c_ptr), value :: w, row, row_scale
     end function
 
     ! Stage 1b: dual multipliers of a facet x(3, n) with the sum mass(n, n) of its pairs' n_ab. Outputs, each may be null:

@@ -71,6 +71,15 @@
  * interface_counters, interface_effects, interface_report, interface_diagnose. Before it: surface_split_creases where a non-mortar surface
  * has sharp edges, crosspoints_find where interfaces share nodes.
  *
+ * A host without multipliers among its unknowns (dual basis) has in place of pattern, residual and tangent:
+ *
+ *     interface_condensed_pattern            to preallocate its matrix
+ *     interface_condensed_multipliers        in each evaluation, first: the multipliers follow from the displacements
+ *     interface_condensed_residual           with these multipliers
+ *     interface_condensed_csr                its own matrix becomes the condensed one; or, in pieces,
+ *     interface_condensed_coo
+ *     interface_carriers                     for information: which nodes have a multiplier of their own
+ *
  * A host that assembles elements itself:
  *
  *     facet_geometry, node_normal            once a step: nu_A, M_A
@@ -80,6 +89,7 @@
  *     node_equilibrium                       the same, to see whether it has converged
  *     pair_residual, pair_tangent            each pair again
  *     node_block                             each non-mortar node, once
+ *     node_condense                          in its place without multipliers (dual basis)
  *
  * With dual multipliers it calls in addition, for each non-mortar facet:
  *
@@ -1192,7 +1202,7 @@ int32_t stickslip_interface_condensed_multipliers(struct stickslip_interface *in
 /// (3 n1): the residual of the host's own forces at the non-mortar nodes, without contact [F]. Outputs: rows1 (3 n1; may be
 /// host1) and force2 (3 n2) [F].
 ///
-/// Errors: as `stickslip_interface_condensed_multipliers`.
+/// Errors: NULL_POINTER and the others of `stickslip_interface_condensed_multipliers`.
 /// Cost: as `stickslip_interface_residual`, and a sort of the pairs' nodes.
 int32_t stickslip_interface_condensed_residual(struct stickslip_interface *interface,
                                                const double *x1,
@@ -1533,6 +1543,28 @@ int32_t stickslip_node_block(const struct stickslip_node_response *response,
                              int32_t layout,
                              double *row,
                              double *block);
+
+/// What eliminating a node's multiplier makes of its rows, for a host without multipliers that assembles element by
+/// element. The weights must be those of dual multipliers.
+///
+/// node, response: of `stickslip_node_respond`; of the node its covered area D, augmentation r and directions are read. layout:
+/// STICKSLIP_LAYOUT_... Outputs, each may be NULL: w (3 x 3) [-]; row (3) [F], s c; row_scale [F/L^3], s = r D. An uncovered
+/// node has I, 0 and 0.
+///
+/// The multiplier of a covered node A is -R / D, R the sum of the host's own forces at A. What elements and pairs have in
+/// row i of A, of force and matrix, goes w[., i] times to the three rows of A. It goes M_AC / D times to row i of each
+/// mortar node C, M_AC the sum of n_AC over the pairs. The output row is added to the rows of A. Pairs are linearised with this
+/// row_scale (`stickslip_facet_tangent`, or `stickslip_pair_tangent` where weights are frozen): their multiplier rows go to
+/// the rows of A, once and not times w. Columns of multipliers are left out. A direction in which the node is prescribed has no rows.
+///
+/// Errors: as `stickslip_node_respond`: NULL_POINTER, STRUCT_SIZE, NOT_FINITE, INVALID_VALUE.
+/// Cost: nanoseconds; allocates nothing.
+int32_t stickslip_node_condense(const struct stickslip_node *node,
+                                const struct stickslip_node_response *response,
+                                int32_t layout,
+                                double *w,
+                                double *row,
+                                double *row_scale);
 
 /// Stage 1b: what makes the weights of a facet's pairs those of dual multipliers, from the sum of n_ab over all of its
 /// pairs. docs/formulation.md 10.1.

@@ -24,7 +24,8 @@ module block_model
 
   real(dp), parameter :: young = 1000, poisson = 0.3_dp, friction = 0.2_dp
   real(dp), parameter :: model_size = norm2([5.0_dp, 2.0_dp, 3.0_dp]) ! the box around both bodies
-  real(dp), parameter :: block(3) = [4, 1, 2], press = -200, push = 60, end_time = 2
+  real(dp), parameter :: block(3) = [4, 1, 2], press = -200, end_time = 2
+  real(dp) :: push = 60
 
   real(dp) :: x(ndm, numnp)          ! positions of the undeformed bodies
   real(dp) :: u(ndf, numnp)          ! displacements, multipliers; zero where there is no equation

@@ -141,6 +141,41 @@ impl Scene {
         Some((0..n).map(entry).collect())
     }
 
+    /// The system without multipliers, where there are dual ones: residual and elimination, with the multipliers that
+    /// balance some forces.
+    fn condensed(&self) -> Option<Vec<u64>> {
+        let host: Vec<f64> = self.x1.iter().map(|x| 0.1 * x).collect();
+        let mut out = [self.components * N1, 3 * N1, 3 * N2].map(Watched::<f64>::new);
+        let [lambda, rows1, force2] = &mut out;
+        let (lambda, rows1, force2) = (lambda.pointer(), rows1.pointer(), force2.pointer());
+        let (x1, x2, host) = (self.x1.as_ptr(), self.x2.as_ptr(), host.as_ptr());
+        let status = unsafe { stickslip_interface_condensed_multipliers(self.handle, x1, x2, host, lambda) };
+        if !succeeded(status) {
+            out.iter().for_each(Watched::assert_untouched);
+            return None;
+        }
+        let status =
+            unsafe { stickslip_interface_condensed_residual(self.handle, x1, x2, lambda, host, rows1, force2) };
+        if !succeeded(status) {
+            out[1..].iter().for_each(Watched::assert_untouched);
+            return None;
+        }
+        let (mut rows, mut columns, mut values) = (Watched::new(MOST), Watched::new(MOST), Watched::new(MOST));
+        let (r, c, v) = (rows.pointer(), columns.pointer(), values.pointer());
+        let (piece, most, mut count) = (STICKSLIP_CONDENSED_ELIMINATION, MOST as i64, 0);
+        let status =
+            unsafe { stickslip_interface_condensed_coo(self.handle, x1, x2, lambda, piece, most, r, c, v, &mut count) };
+        if !succeeded(status) {
+            rows.assert_untouched();
+            values.assert_untouched();
+            return None;
+        }
+        let mut all: Vec<f64> = out.iter().flat_map(|o| o.values().to_vec()).collect();
+        all.extend(&values.values()[..count as usize]);
+        all_finite(&all);
+        Some(all.into_iter().map(f64::to_bits).collect())
+    }
+
     fn history(&self) -> Option<(Vec<i64>, Vec<u64>)> {
         let (mut n, mut m) = (0, 0);
         if !succeeded(unsafe { stickslip_interface_history_size(self.handle, &mut n, &mut m) }) {
@@ -264,15 +299,16 @@ impl Scene {
             }
             _ => {
                 // A, B, A.
-                let here = (self.residual(), self.tangent());
+                let here = (self.residual(), self.tangent(), self.condensed());
                 let x2 = self.x2.clone();
                 shake(bytes, &mut self.x2);
                 let history = self.history();
                 self.residual();
                 self.tangent();
+                self.condensed();
                 assert!(history == self.history(), "an evaluation has moved the history");
                 self.x2 = x2;
-                let again = (self.residual(), self.tangent());
+                let again = (self.residual(), self.tangent(), self.condensed());
                 assert!(here == again, "another answer at the same point");
             }
         }

@@ -90,7 +90,7 @@ pub unsafe extern "C" fn stickslip_interface_condensed_multipliers(
 /// (3 n1): the residual of the host's own forces at the non-mortar nodes, without contact [F]. Outputs: rows1 (3 n1; may be
 /// host1) and force2 (3 n2) [F].
 ///
-/// Errors: as `stickslip_interface_condensed_multipliers`.
+/// Errors: NULL_POINTER and the others of `stickslip_interface_condensed_multipliers`.
 /// Cost: as `stickslip_interface_residual`, and a sort of the pairs' nodes.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn stickslip_interface_condensed_residual(

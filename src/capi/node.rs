@@ -7,6 +7,7 @@ use super::raw;
 use super::sized::{self, Sized64};
 use crate::error::{Error, Kind, Result};
 use crate::geometry::{Mat3, Vec3};
+use crate::interface::own_rows;
 use crate::law::{Coefficient, Friction, Node};
 
 /// State of a node: open or uncovered.
@@ -274,6 +275,54 @@ pub unsafe extern "C" fn stickslip_node_block(
         raw::check_results("row, block", scaled.iter().chain(m.iter()))?;
         raw::write(row, &scaled);
         raw::write(block, &rows(&if column_major { m.transpose() } else { m }));
+        Ok(())
+    })
+}
+
+/// What eliminating a node's multiplier makes of its rows, for a host without multipliers that assembles element by
+/// element. The weights must be those of dual multipliers.
+///
+/// node, response: of `stickslip_node_respond`; of the node its covered area D, augmentation r and directions are read. layout:
+/// STICKSLIP_LAYOUT_... Outputs, each may be NULL: w (3 x 3) [-]; row (3) [F], s c; row_scale [F/L^3], s = r D. An uncovered
+/// node has I, 0 and 0.
+///
+/// The multiplier of a covered node A is -R / D, R the sum of the host's own forces at A. What elements and pairs have in
+/// row i of A, of force and matrix, goes w[., i] times to the three rows of A. It goes M_AC / D times to row i of each
+/// mortar node C, M_AC the sum of n_AC over the pairs. The output row is added to the rows of A. Pairs are linearised with this
+/// row_scale (`stickslip_facet_tangent`, or `stickslip_pair_tangent` where weights are frozen): their multiplier rows go to
+/// the rows of A, once and not times w. Columns of multipliers are left out. A direction in which the node is prescribed has no rows.
+///
+/// Errors: as `stickslip_node_respond`: NULL_POINTER, STRUCT_SIZE, NOT_FINITE, INVALID_VALUE.
+/// Cost: nanoseconds; allocates nothing.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn stickslip_node_condense(
+    node: *const stickslip_node,
+    response: *const stickslip_node_response,
+    layout: i32,
+    w: *mut f64,
+    row: *mut f64,
+    row_scale: *mut f64,
+) -> i32 {
+    guard(|| {
+        let (coverage, (_, node)) = (sized::read(node)?.coverage, read_node(node)?);
+        let response = sized::read(response)?;
+        let column_major = column_major(layout, "layout")?;
+        raw::check_optional(w, "w")?;
+        raw::check_optional(row, "row")?;
+        raw::check_optional(row_scale, "row_scale")?;
+        if !response.row.iter().all(|v| v.is_finite()) {
+            return Err(Error::new(Kind::NotFinite, "response.row is not finite"));
+        }
+        let drow_dlambda = matrix(&response.drow_dlambda, "response.drow_dlambda")?;
+        let (own, scale) = match node.covered {
+            true => (own_rows(&node.free, node.augmentation, &drow_dlambda), node.augmentation * coverage),
+            false => (Mat3::identity(), 0.0),
+        };
+        let scaled = node.free * Vec3::from(response.row) * scale;
+        raw::check_results("w, row, row_scale", own.iter().chain(scaled.iter()).chain([&scale]))?;
+        raw::write(w, &rows(&if column_major { own.transpose() } else { own }));
+        raw::write(row, scaled.as_slice());
+        raw::write(row_scale, &[scale]);
         Ok(())
     })
 }

@@ -21,6 +21,7 @@ mod stages;
 mod tangent;
 
 pub use condensation::Piece;
+pub use condensed::elimination::own_rows;
 pub use condensed::rows::CondensedRows;
 pub use contact::{Contact, Interface};
 pub use data::checksum::seal_history;

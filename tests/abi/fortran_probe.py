@@ -50,11 +50,20 @@ def names(members):
     return [name for _, _, _, name, _ in members]
 
 
+def real_among(constants):
+    """Tells which are real numbers, of which the programs print the bits."""
+    return lambda name: isinstance(constants[name], float)
+
+
 # The programs print for each type its size three times: in Fortran it comes from the compiler, from the module's
 # constant, and from the type's default value.
 def c_probe(constants, types):
-    lines = ["#include <stddef.h>", "#include <stdio.h>", "#include <stickslip.h>", "int main(void) {"]
-    lines += [f'  printf("{name} %d\\n", {name});' for name in constants]
+    is_real = real_among(constants)
+    lines = ["#include <stddef.h>", "#include <stdio.h>", "#include <string.h>", "#include <stickslip.h>",
+             "int main(void) {"]
+    lines += [f'  printf("{name} %d\\n", {name});' for name in constants if not is_real(name)]
+    lines += [f'  {{ const double v = {name}; long long bits; memcpy(&bits, &v, sizeof v); printf("{name} %lld\\n", bits); }}'
+              for name in constants if is_real(name)]
     for name, members in types.items():
         lines += [f'  printf("{name} %d %d %d\\n", (int)sizeof({name}), (int)sizeof({name}), (int)sizeof({name}));']
         lines += [f'  printf("{name}.{m} %d %d\\n", (int)offsetof({name}, {m}), (int)sizeof((({name} *)0)->{m}));'
@@ -64,10 +73,12 @@ def c_probe(constants, types):
 
 
 def fortran_probe(constants, types):
+    is_real = real_among(constants)
     lines = ["program probe", "  use, intrinsic :: iso_c_binding", "  use stickslip", "  implicit none"]
     lines += [f"  type({name}), target :: v_{name}" for name in types]
     lines += [f"  type({HANDLE}) :: handle"]
-    lines += [f"  write (*, '(a, i0)') '{name} ', {name}" for name in constants]
+    lines += [f"  write (*, '(a, i0)') '{name} ', {name}" for name in constants if not is_real(name)]
+    lines += [f"  write (*, '(a, i0)') '{name} ', transfer({name}, 0_c_int64_t)" for name in constants if is_real(name)]
     for name, members in types.items():
         v = f"v_{name}"
         lines += [f"  write (*, '(a, 3(1x, i0))') '{name}', c_sizeof({v}), {name}_size, {v}%struct_size"]
@@ -168,13 +179,13 @@ def main():
     arguments = parser.parse_args()
     c_header, module = arguments.include.resolve() / "stickslip.h", arguments.include.resolve() / "stickslip.f90"
 
-    constants, types = list(header.constants(c_header)), structs(header.text(c_header))
+    constants, types = header.constants(c_header), structs(header.text(c_header))
     functions = [f.name for f in header.functions(c_header)]
     if not (constants and types and functions):
         sys.exit("the header could not be read")
     f_constants, f_types, f_functions = declared_in(module)
     sizes = [f"{name}_size" for name in types]
-    complaints = [*compare_names("constants", constants, [n for n in f_constants if n not in sizes]),
+    complaints = [*compare_names("constants", list(constants), [n for n in f_constants if n not in sizes]),
                   *compare_names("constants of sizes", sizes, [n for n in f_constants if n in sizes]),
                   *compare_names("types", [HANDLE, *types], f_types),
                   *compare_names("functions", functions, f_functions),

@@ -23,10 +23,15 @@ def text(path=HEADER):
     return re.sub(r"\n\s*//[^\n]*", "", code)
 
 
+def number(text):
+    """A whole number, or a real one, which has a point."""
+    return float(text) if "." in text else int(text)
+
+
 def constants(path=HEADER):
     """Name -> value of every macro; each is a plain number."""
     macros = re.findall(r"^ *# *define +(STICKSLIP_\w+)(.*)$", text(path), flags=re.M)
-    return {name: int(value) for name, value in macros if name != "STICKSLIP_H"}
+    return {name: number(value) for name, value in macros if name != "STICKSLIP_H"}
 
 
 def functions(path=HEADER):

@@ -10,7 +10,7 @@ static struct {
   every every;
   int64_t ld, capacity, length, n_interfaces, n, n_rows, n_integers, n_reals, nodes[3];
   int64_t offsets1[3], shared1[6], offsets2[3], shared2[4], options_size;
-  int32_t n_facet, layout, index_base;
+  int32_t n_facet, layout, index_base, piece;
   double scale, stiffness, rounding, angle, penetration, neighbours[12];
   double mu[N1], r[N1], normals[X1], directions[9], sums[STICKSLIP_SUMS_PER_NODE * N1], dx1[X1], dx2[X2];
   weights previous;
@@ -116,6 +116,25 @@ FUNCTION(interface_counters, (a[0], a[1]), INTERFACE, OUT(b.every.counters))
 FUNCTION(interface_effects, (a[0], a[1], b.capacity), INTERFACE, {"text", b.every.effects, LETTERS})
 FUNCTION(interface_report, (a[0], a[1], a[2], a[3]), AT, OUT(b.every.report))
 FUNCTION(interface_diagnose, (a[0], a[1], a[2], a[3], a[4], a[5]), POINT, OUT(b.every.diagnosis))
+FUNCTION(node_condense, (a[0], a[1], b.layout, a[2], a[3], a[4]), {"node", &E.node, NEEDED},
+         {"response", E.responses, NEEDED}, {"w", b.every.node_condensed, OPTIONAL},
+         {"row", b.every.node_condensed + 9, OPTIONAL}, {"row_scale", b.every.node_condensed + 12, OPTIONAL})
+FUNCTION(interface_carriers, (a[0], b.capacity, a[1], a[2], a[3], a[4]), INTERFACE, {"nodes", H.row_numbers, NEEDED},
+         {"carriers", H.columns, NEEDED}, {"weights", H.values, NEEDED}, {"count", &H.count, NEEDED})
+FUNCTION(interface_condensed_multipliers, (a[0], a[1], a[2], a[3], a[4]), AT, {"host1", H.host1, NEEDED},
+         {"lambda", b.every.condensed_lambda, NEEDED})
+FUNCTION(interface_condensed_residual, (a[0], a[1], a[2], a[3], a[4], a[5], a[6]), AT, {"lambda", S.lambda, NEEDED},
+         {"host1", H.host1, NEEDED}, {"rows1", b.every.condensed_rows, NEEDED},
+         {"force2", b.every.condensed_force, NEEDED})
+FUNCTION(interface_condensed_coo, (a[0], a[1], a[2], a[3], b.piece, b.capacity, a[4], a[5], a[6], a[7]), AT,
+         {"lambda", S.lambda, NEEDED}, {"rows", H.row_numbers, NEEDED}, {"columns", H.columns, NEEDED},
+         {"values", H.values, NEEDED}, {"count", &H.count, NEEDED})
+FUNCTION(interface_condensed_csr, (a[0], a[1], a[2], a[3], b.n_rows, a[4], a[5], a[6]), AT,
+         {"lambda", S.lambda, NEEDED}, {"row_offsets", H.offsets, NEEDED}, {"columns", H.csr_columns, NEEDED},
+         {"values", H.csr, NEEDED})
+FUNCTION(interface_condensed_pattern, (a[0], a[1], a[2], b.n_rows, a[3], a[4], b.capacity, a[5], a[6], a[7]), AT,
+         {"row_offsets", H.offsets, NEEDED}, {"columns", H.csr_columns, NEEDED},
+         {"entry_rows", H.row_numbers, NEEDED}, {"entry_columns", H.columns, NEEDED}, {"count", &H.count, NEEDED})
 FUNCTION(interface_equilibrium, (a[0], a[1], a[2], a[3], a[4], a[5]), POINT, OUT(b.every.equilibrium))
 
 #define NAMED(name) {#name, on_##name, arguments_##name, a_##name, COUNT(arguments_##name)}
@@ -137,6 +156,8 @@ static const struct {
     NAMED(interface_step_limit), NAMED(interface_commit), NAMED(interface_rollback), NAMED(interface_history_size),
     NAMED(interface_history_export), NAMED(interface_history_import), NAMED(interface_counters),
     NAMED(interface_effects), NAMED(interface_report), NAMED(interface_diagnose), NAMED(interface_equilibrium),
+    NAMED(node_condense), NAMED(interface_carriers), NAMED(interface_condensed_multipliers), NAMED(interface_condensed_residual),
+    NAMED(interface_condensed_coo), NAMED(interface_condensed_csr), NAMED(interface_condensed_pattern),
 };
 
 #endif

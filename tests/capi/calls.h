@@ -128,6 +128,7 @@ typedef struct {
   int32_t state[N1];
   double normal[X1], fraction;
   stickslip_states states;
+  double host1[X1]; /* input: what a host's own forces leave at the non-mortar nodes */
   /* A CSR matrix with every entry. */
   int64_t offsets[UNKNOWNS + 1], csr_columns[UNKNOWNS * UNKNOWNS];
   double csr[UNKNOWNS * UNKNOWNS];
@@ -153,6 +154,10 @@ static inline void handle_matrix(handle *h) {
   const int64_t base = h->s.options.index_base;
   for (int i = 0; i <= UNKNOWNS; ++i) h->offsets[i] = base + (int64_t)i * UNKNOWNS;
   for (int i = 0; i < UNKNOWNS * UNKNOWNS; ++i) h->csr_columns[i] = base + i % UNKNOWNS;
+}
+
+static inline void handle_host(handle *h) {
+  for (int k = 0; k < X1; ++k) h->host1[k] = 0.01 * (k % 7) - 0.02;
 }
 
 /* A scene with one committed step. */
@@ -205,6 +210,33 @@ static inline int32_t call_interface_limit(handle *h) {
 }
 static inline int32_t call_interface_previous(handle *h) {
   return stickslip_interface_set_previous(h->s.interface, h->s.x1, h->s.x2);
+}
+
+static inline int32_t call_carriers(handle *h) {
+  return stickslip_interface_carriers(h->s.interface, MOST_ENTRIES, h->row_numbers, h->columns, h->values, &h->count);
+}
+
+/* Calls for systems without multipliers, which interfaces with dual ones accept in the multiplier form. */
+static inline int32_t call_condensed_multipliers(handle *h) {
+  return stickslip_interface_condensed_multipliers(h->s.interface, h->s.x1, h->s.x2, h->host1, h->rows);
+}
+static inline int32_t call_condensed_residual(handle *h) {
+  scene *s = &h->s;
+  return stickslip_interface_condensed_residual(s->interface, s->x1, s->x2, s->lambda, h->host1, h->force1, h->force2);
+}
+static inline int32_t call_condensed_coo(handle *h, int32_t piece) {
+  scene *s = &h->s;
+  return stickslip_interface_condensed_coo(s->interface, s->x1, s->x2, s->lambda, piece, MOST_ENTRIES, h->row_numbers,
+                                           h->columns, h->values, &h->count);
+}
+static inline int32_t call_condensed_csr(handle *h) {
+  scene *s = &h->s;
+  return stickslip_interface_condensed_csr(s->interface, s->x1, s->x2, s->lambda, UNKNOWNS, h->offsets, h->csr_columns,
+                                           h->csr);
+}
+static inline int32_t call_condensed_pattern(handle *h) {
+  return stickslip_interface_condensed_pattern(h->s.interface, h->s.x1, h->s.x2, UNKNOWNS, h->offsets, h->csr_columns,
+                                               MOST_ENTRIES, h->row_numbers, h->columns, &h->count);
 }
 
 /* The calls that take positions; the first `LAMBDA_CALLS` take multipliers too. */

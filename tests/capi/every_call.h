@@ -32,6 +32,9 @@ typedef struct {
   double step_limit;
   stickslip_equilibrium equilibrium;
   double node_equilibrium[3], facet_normal[3];
+  /* Of systems without multipliers: for each call with triplets their number, and a number made of their bits. */
+  double condensed_lambda[X1], condensed_rows[X1], condensed_force[X2], node_condensed[13];
+  uint64_t condensed_counts[5], condensed_bits[5];
 } every;
 
 static inline int32_t every_weights(every *c) { return call_weights(&c->e); }
@@ -174,10 +177,51 @@ static inline int32_t every_node_equilibrium(every *c) {
 }
 static inline int32_t every_facet_normal(every *c) { return stickslip_facet_normal(4, c->e.x1, c->facet_normal); }
 
+/* Keeps of triplets, which other calls write too, what tells them apart. In integers: it may be called with traps. */
+static inline int32_t every_triplets(every *c, int k, int32_t status) {
+  if (status != STICKSLIP_OK) return status;
+  uint64_t bits = 0, value = 0;
+  for (int64_t e = 0; e < c->h.count; ++e) {
+    if (k < 4) memcpy(&value, &c->h.values[e], sizeof value);
+    bits = 31 * (31 * (31 * bits + value) + (uint64_t)c->h.row_numbers[e]) + (uint64_t)c->h.columns[e];
+  }
+  c->condensed_counts[k] = (uint64_t)c->h.count;
+  c->condensed_bits[k] = bits;
+  return status;
+}
+static inline int32_t every_node_condense(every *c) {
+  double *out = c->node_condensed;
+  return stickslip_node_condense(&c->e.node, &c->e.responses[0], STICKSLIP_LAYOUT_ROW_MAJOR, out, out + 9, out + 12);
+}
+static inline int32_t every_carriers(every *c) { return every_triplets(c, 3, call_carriers(&c->h)); }
+static inline int32_t every_condensed_multipliers(every *c) {
+  handle *h = &c->h;
+  return stickslip_interface_condensed_multipliers(h->s.interface, h->s.x1, h->s.x2, h->host1, c->condensed_lambda);
+}
+static inline int32_t every_condensed_residual(every *c) {
+  handle *h = &c->h;
+  return stickslip_interface_condensed_residual(h->s.interface, h->s.x1, h->s.x2, c->condensed_lambda, h->host1,
+                                                c->condensed_rows, c->condensed_force);
+}
+static inline int32_t every_condensed_forces(every *c) {
+  return every_triplets(c, 0, call_condensed_coo(&c->h, STICKSLIP_CONDENSED_FORCES));
+}
+static inline int32_t every_condensed_elimination(every *c) {
+  return every_triplets(c, 1, call_condensed_coo(&c->h, STICKSLIP_CONDENSED_ELIMINATION));
+}
+static inline int32_t every_condensed_constraints(every *c) {
+  return every_triplets(c, 2, call_condensed_coo(&c->h, STICKSLIP_CONDENSED_CONSTRAINTS));
+}
+static inline int32_t every_condensed_csr(every *c) { return call_condensed_csr(&c->h); }
+static inline int32_t every_condensed_pattern(every *c) { return every_triplets(c, 4, call_condensed_pattern(&c->h)); }
+
 typedef struct {
   const char *name;
   int32_t (*call)(every *c);
 } entry_point;
+
+/* What asks for dual multipliers in the multiplier form. */
+static inline int is_condensed(const char *name) { return strncmp(name, "interface_condensed_", 20) == 0; }
 
 static const entry_point every_call[] = {
     {"pair_weights", every_weights},
@@ -219,6 +263,15 @@ static const entry_point every_call[] = {
     {"interface_equilibrium", every_equilibrium},
     {"node_equilibrium", every_node_equilibrium},
     {"facet_normal", every_facet_normal},
+    {"node_condense", every_node_condense},
+    {"interface_carriers", every_carriers},
+    {"interface_condensed_multipliers", every_condensed_multipliers},
+    {"interface_condensed_residual", every_condensed_residual},
+    {"interface_condensed_coo, forces", every_condensed_forces},
+    {"interface_condensed_coo, elimination", every_condensed_elimination},
+    {"interface_condensed_coo, constraints", every_condensed_constraints},
+    {"interface_condensed_csr", every_condensed_csr},
+    {"interface_condensed_pattern", every_condensed_pattern},
     {"interface_commit", every_commit},
     {"interface_residual, committed", every_residual},
     {"interface_history_size", every_history_size},
@@ -274,10 +327,17 @@ static inline int32_t every_refusal(int k) {
     case 38: return stickslip_pair_dual(NULL, NULL, NULL, NULL, NULL, NULL);
     case 39: return stickslip_facet_tangent(NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, 0);
     case 40: return stickslip_facet_dual(4, NULL, NULL, NULL, NULL, NULL);
+    case 41: return stickslip_interface_carriers(NULL, 0, NULL, NULL, NULL, NULL);
+    case 42: return stickslip_interface_condensed_multipliers(NULL, NULL, NULL, NULL, NULL);
+    case 43: return stickslip_interface_condensed_residual(NULL, NULL, NULL, NULL, NULL, NULL, NULL);
+    case 44: return stickslip_interface_condensed_coo(NULL, NULL, NULL, NULL, 0, 0, NULL, NULL, NULL, NULL);
+    case 45: return stickslip_interface_condensed_csr(NULL, NULL, NULL, NULL, 0, NULL, NULL, NULL);
+    case 46: return stickslip_interface_condensed_pattern(NULL, NULL, NULL, 0, NULL, NULL, 0, NULL, NULL, NULL);
+    case 47: return stickslip_node_condense(NULL, NULL, 0, NULL, NULL, NULL);
     default: return stickslip_interface_diagnose(NULL, NULL, NULL, NULL, NULL, NULL);
   }
 }
-enum { REFUSALS = 42 };
+enum { REFUSALS = 49 };
 
 /* Room and sizes for the structs that come out. */
 static inline void every_room(every *c) {
@@ -319,6 +379,7 @@ static inline void every_init(every *c) {
   scene_commit(&c->h.s);
   history_take(c->h.s.interface, &c->exported);
   handle_matrix(&c->h);
+  handle_host(&c->h);
   every_room(c);
 }
 
@@ -339,7 +400,8 @@ static inline int every_equal(every *a, every *b) {
          SAME(report.finding) && SAME(diagnosed_state) && SAME(suspect_nodes) && SAME(suspect_directions) &&
          SAME(suspect_ratios) && SAME(suspect_causes) && SAME(diagnosis_text) && SAME(diagnosis.overlap) &&
          SAME(diagnosis.error) && SAME(step_limit) && SAME(equilibrium) &&
-         SAME(node_equilibrium) && SAME(facet_normal);
+         SAME(node_equilibrium) && SAME(facet_normal) && SAME(condensed_lambda) && SAME(condensed_rows) &&
+         SAME(condensed_force) && SAME(node_condensed) && SAME(condensed_bits) && SAME(condensed_counts);
 #undef SAME
 }
 

@@ -80,6 +80,7 @@ static inline void set_up(const kind *k, every *c) {
 
 static inline int belongs(const kind *k, const entry_point *entry) {
   if (entry->call == every_friction) return has_mu(k->friction);
+  if (is_condensed(entry->name)) return k->basis == STICKSLIP_BASIS_DUAL && k->form == STICKSLIP_FORM_MULTIPLIER;
   return entry->call != every_with_sums || (k->weak_coverage == 0.0 && k->basis == STICKSLIP_BASIS_STANDARD);
 }
 

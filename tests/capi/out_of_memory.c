@@ -66,7 +66,8 @@ static int outputs_equal(const every *a, const every *b) {
          SAME(initial) && SAME(history) && SAME(effects) && SAME(report) && SAME(cover) && SAME(layers) &&
          SAME(fraction) && SAME(facets) && SAME(report_text) && SAME(diagnosis) && SAME(diagnosed_state) &&
          SAME(suspect_nodes) && SAME(suspect_directions) && SAME(suspect_ratios) && SAME(suspect_causes) &&
-         SAME(diagnosis_text) && SAME(step_limit) && SAME(equilibrium) && SAME(node_equilibrium);
+         SAME(diagnosis_text) && SAME(step_limit) && SAME(equilibrium) && SAME(node_equilibrium) &&
+         SAME(condensed_lambda) && SAME(condensed_rows) && SAME(condensed_force) && SAME(node_condensed);
 #undef LONG
 #undef SAME
 }

@@ -33,6 +33,9 @@ static void set_up(const char *name, int32_t base) {
   const int number = number_of(name);
   memset(&b, 0, sizeof b);
   scene_init_base(&S, base);
+  const int carried = strcmp(name, "interface_carriers") == 0;
+  if (is_condensed(name) || carried) S.options.multiplier_basis = STICKSLIP_BASIS_DUAL;
+  if (carried) scene_slide(&S, 0.9);
   every_init(&b.every);
   memset(&b.every.options, 0x5A, sizeof b.every - offsetof(every, options));
   every_room(&b.every);
@@ -83,6 +86,14 @@ static void set_up(const char *name, int32_t base) {
                                              &b.capacity));
   } else if (strcmp(name, "interface_pattern_coo") == 0) {
     CHECK_OK(stickslip_interface_pattern_coo(s->interface, s->x1, s->x2, 0, NULL, NULL, &b.capacity));
+  } else if (carried) {
+    CHECK_OK(stickslip_interface_carriers(s->interface, 0, NULL, NULL, NULL, &b.capacity));
+  } else if (strcmp(name, "interface_condensed_coo") == 0) {
+    CHECK_OK(stickslip_interface_condensed_coo(s->interface, s->x1, s->x2, s->lambda, b.piece, 0, NULL, NULL, NULL,
+                                               &b.capacity));
+  } else if (strcmp(name, "interface_condensed_pattern") == 0) {
+    CHECK_OK(stickslip_interface_condensed_pattern(s->interface, s->x1, s->x2, UNKNOWNS, H.offsets, H.csr_columns, 0,
+                                                   NULL, NULL, &b.capacity));
   }
   memcpy(&before, &b, sizeof b);
   scene_residual(s, expected);
@@ -145,6 +156,7 @@ static void tell(void) {
   INTEGERS("nonmortar.facet_nodes", S.nodes1), INTEGERS("mortar.facet_nodes", S.nodes2);
   INTEGERS("nonmortar.equations", S.equations1), INTEGERS("mortar.equations", S.equations2);
   INTEGERS("nonmortar.multiplier_equations", S.multipliers);
+  REALS("host1", H.host1), NUMBER(INT32, piece);
   REALS("x1", S.x1), REALS("x2", S.x2), REALS("lambda", S.lambda), REALS("dx1", b.dx1), REALS("dx2", b.dx2);
   REALS("sums", b.sums), REALS("mu", b.mu), REALS("r", b.r), REALS("normals", b.normals);
   REALS("directions", b.directions), INTEGERS("nodes", b.nodes), INTEGERS("row_offsets", H.offsets);

@@ -234,12 +234,17 @@ static int32_t look_history(handle *h) {
   if (status != STICKSLIP_OK) return status;
   return stickslip_interface_history_export(h->s.interface, MOST_ENTRIES, h->columns, MOST_ENTRIES, h->values);
 }
+static int32_t look_forces(handle *h) { return call_condensed_coo(h, STICKSLIP_CONDENSED_FORCES); }
+static int32_t look_elimination(handle *h) { return call_condensed_coo(h, STICKSLIP_CONDENSED_ELIMINATION); }
+static int32_t look_constraints(handle *h) { return call_condensed_coo(h, STICKSLIP_CONDENSED_CONSTRAINTS); }
 
 /* Calls that leave no trace. */
 static const interface_call looks[] = {
     call_interface_residual, call_interface_states, call_interface_coo, call_interface_csr, call_interface_sums,
     call_interface_pattern,  look_residual_sums,    look_coo_sums,      look_count,         look_start,
-    look_report,             look_diagnosis,        look_history};
+    look_report,             look_diagnosis,        look_history,       call_carriers,      call_condensed_csr,
+    look_forces,             look_elimination,      look_constraints,   call_condensed_multipliers,
+    call_condensed_residual, call_condensed_pattern};
 
 #define SAME(member) CHECK(memcmp(&h->member, &fresh.member, sizeof h->member) == 0)
 
@@ -252,6 +257,7 @@ static void check_fresh(handle *h, const change *changes, int n, interface_call 
   fresh.s.interface = NULL;
   memcpy(fresh.offsets, h->offsets, sizeof h->offsets);
   memcpy(fresh.csr_columns, h->csr_columns, sizeof h->csr_columns);
+  memcpy(fresh.host1, h->host1, sizeof h->host1);
   fresh.states = h->states;
   fresh.states.state = fresh.state;
   fresh.states.normal = fresh.normal;
@@ -323,6 +329,8 @@ static void sequence(int compared) {
       if (draw(2) == 0) spoil(s->lambda, X1);
     }
     handle_fill(&h);
+    handle_host(&h);
+    if (draw(2) == 0) spoil(h.host1, X1);
     history_take(s->interface, &h.before);
     change *c = &changes[n_changes];
     c->kind = (int)draw(2 * CHANGES);

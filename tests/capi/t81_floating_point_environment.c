@@ -56,11 +56,12 @@ static int32_t kept(environment e, int32_t (*call)(every *c), every *c, int refu
 }
 
 /* All calls in one environment. */
-static void run(environment e, int32_t form, int32_t friction, every *c) {
+static void run(environment e, int32_t form, int32_t friction, int32_t basis, every *c) {
   memset(c, 0, sizeof *c);
   scene_init(&c->h.s);
   c->h.s.options.form = form;
   c->h.s.options.friction = friction;
+  c->h.s.options.multiplier_basis = basis;
   if (!has_mu(friction)) c->h.s.options.mu = 0.0;
   c->h.s.options.shear_limit = friction == STICKSLIP_FRICTION_TRESCA ? 0.5 : 0.0;
   every_init(c);
@@ -68,7 +69,9 @@ static void run(environment e, int32_t form, int32_t friction, every *c) {
   c->h.s.lambda[0] += 1e-310;
   c->e.traction[0] = 3e-310;
   for (int k = 0; k < COUNT(every_call); ++k) {
+    const int dual = basis == STICKSLIP_BASIS_DUAL;
     if (every_call[k].call == every_friction && !has_mu(friction)) continue;
+    if (dual ? every_call[k].call == every_with_sums : is_condensed(every_call[k].name)) continue;
     const int32_t status = kept(e, every_call[k].call, c, 0, every_call[k].name);
     if (status != STICKSLIP_OK) fprintf(stderr, "%s\n", every_call[k].name);
     CHECK(status == STICKSLIP_OK);
@@ -80,15 +83,16 @@ static void run(environment e, int32_t form, int32_t friction, every *c) {
 int main(void) {
   static every expected, c;
   static const int roundings[] = {FE_TONEAREST, FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO};
-  static const int32_t scenes[][2] = {{STICKSLIP_FORM_MULTIPLIER, STICKSLIP_FRICTION_COULOMB},
+  static const int32_t scenes[][3] = {{STICKSLIP_FORM_MULTIPLIER, STICKSLIP_FRICTION_COULOMB},
                                       {STICKSLIP_FORM_AUGMENTED, STICKSLIP_FRICTION_COULOMB},
                                       {STICKSLIP_FORM_MULTIPLIER, STICKSLIP_FRICTION_TRESCA},
-                                      {STICKSLIP_FORM_MULTIPLIER, STICKSLIP_FRICTION_NONE}};
+                                      {STICKSLIP_FORM_MULTIPLIER, STICKSLIP_FRICTION_NONE},
+                                      {STICKSLIP_FORM_MULTIPLIER, STICKSLIP_FRICTION_COULOMB, STICKSLIP_BASIS_DUAL}};
   for (int k = 0; k < COUNT(scenes); ++k) {
-    run((environment){FE_TONEAREST, 0, 0, 0}, scenes[k][0], scenes[k][1], &expected);
+    run((environment){FE_TONEAREST, 0, 0, 0}, scenes[k][0], scenes[k][1], scenes[k][2], &expected);
     for (int bits = 0; bits < 4 * 8; ++bits) {
       const environment e = {roundings[bits / 8], bits & 1, bits >> 1 & 1, bits >> 2 & 1};
-      run(e, scenes[k][0], scenes[k][1], &c);
+      run(e, scenes[k][0], scenes[k][1], scenes[k][2], &c);
       CHECK(every_equal(&c, &expected));
     }
   }

@@ -48,7 +48,8 @@ module bad_input
     integer(c_int64_t) :: split_nodes(16), originals(2 * NA), shared_nodes(8), claims(8), count, n_integers, n_reals
     integer(c_int64_t) :: integers(256), facets(NA), suspect_nodes(8)
     real(c_double) :: reals(4096), initial(SIZE1), fractions(NA), suspect_directions(24), suspect_ratios(8), facet_normal(3)
-    real(c_double) :: gap, traction, slip
+    real(c_double) :: gap, traction, slip, condensed_lambda(SIZE1), rows1(SIZE1), force2(SIZE2)
+    real(c_double) :: w(9), scale
     integer(c_int32_t) :: kinds(8), cover(NA), layers(NA), state(NA), suspect_causes(8)
     character(kind=c_char) :: text(80), effects(1000), report_text(1000), diagnosis_text(2000)
   end type
@@ -66,16 +67,16 @@ module bad_input
   type(stickslip_interface), target, save :: interface_, other, created
   integer(c_int64_t), target, save :: ld, capacity, length, n_interfaces, n, n_rows, n_integers, n_reals, struct_size
   integer(c_int64_t), target, save :: nodes(3), offsets1(3), offsets2(3), shared1(6), shared2(4)
-  integer(c_int32_t), target, save :: n_facet, layout, index_base
+  integer(c_int32_t), target, save :: n_facet, layout, index_base, piece
   real(c_double), target, save :: scale, stiffness, rounding, angle, penetration, neighbours(12)
   real(c_double), target, save :: mu(NA), r(NA), normals(SIZE1), directions(9), sums(STICKSLIP_SUMS_PER_NODE * NA)
   real(c_double), target, save :: dx1(SIZE1), dx2(SIZE2)
   ! Pointer arguments, by the names of the header.
-  integer, parameter :: POINTERS = 28
+  integer, parameter :: POINTERS = 33
   character(13), parameter :: NAMES(POINTERS) = [character(13) :: 'n_ab', 'n_ac', 'dn_ab', 'dn_ac', 'n_ab_previous', &
       'n_ac_previous', 'row_scale', 'normals', 'areas', 'row', 'block', 'gap', 'traction', 'slip', 'facet_nodes', &
       'originals', 'nodes', 'kinds', 'claims', 'rows', 'columns', 'values', 'sums', 'r', &
-      'fade', 'coefficients', 'dual_ab', 'dual_ac']
+      'fade', 'coefficients', 'dual_ab', 'dual_ac', 'carriers', 'weights', 'entry_rows', 'entry_columns', 'w']
   type(c_ptr), target, save :: p(POINTERS)
 
 contains
@@ -185,6 +186,23 @@ contains
       status = stickslip_interface_diagnose(interface_, h%s%x1, h%s%x2, h%s%lambda, at('sums'), o%diagnosis)
     case ('interface_equilibrium')
       status = stickslip_interface_equilibrium(interface_, h%s%x1, h%s%x2, h%s%lambda, at('sums'), o%equilibrium)
+    case ('node_condense')
+      status = stickslip_node_condense(e%node, e%responses(1), layout, at('w'), at('row'), at('row_scale'))
+    case ('interface_carriers')
+      status = stickslip_interface_carriers(interface_, capacity, at('nodes'), at('carriers'), at('weights'), h%count)
+    case ('interface_condensed_multipliers')
+      status = stickslip_interface_condensed_multipliers(interface_, h%s%x1, h%s%x2, h%host1, o%condensed_lambda)
+    case ('interface_condensed_residual')
+      status = stickslip_interface_condensed_residual(interface_, h%s%x1, h%s%x2, h%s%lambda, h%host1, o%rows1, o%force2)
+    case ('interface_condensed_coo')
+      status = stickslip_interface_condensed_coo(interface_, h%s%x1, h%s%x2, h%s%lambda, piece, capacity, at('rows'), &
+          at('columns'), at('values'), h%count)
+    case ('interface_condensed_csr')
+      status = stickslip_interface_condensed_csr(interface_, h%s%x1, h%s%x2, h%s%lambda, n_rows, h%offsets, h%csr_columns, &
+          h%csr)
+    case ('interface_condensed_pattern')
+      status = stickslip_interface_condensed_pattern(interface_, h%s%x1, h%s%x2, n_rows, h%offsets, h%csr_columns, &
+          capacity, at('entry_rows'), at('entry_columns'), h%count)
     case default
       call check_true(.false., __FILE__, __LINE__, 'a function is called ' // name // ', which')
       status = 0
@@ -200,6 +218,9 @@ contains
     name = c_text(function_)
     call element_init(e)
     call scene_init(h%s, int(base))
+    if (name == 'interface_carriers' .or. index(name, 'interface_condensed_') == 1) &
+        h%s%options%multiplier_basis = STICKSLIP_BASIS_DUAL
+    if (name == 'interface_carriers') call scene_slide(h%s, 0.9d0)
     call scene_create(h%s)
     call scene_commit(h%s)
     call history_take(h%s%contact, h%before)
@@ -244,6 +265,7 @@ contains
     length = size(o%text)
     struct_size = stickslip_options_size
     index_base = base
+    piece = STICKSLIP_CONDENSED_FORCES
     layout = STICKSLIP_LAYOUT_COLUMN_MAJOR
     angle = 0.5d0
     scale = 1
@@ -276,6 +298,16 @@ contains
       CHECK_OK(status)
     case ('interface_pattern_coo')
       CHECK_OK(stickslip_interface_pattern_coo(h%s%contact, h%s%x1, h%s%x2, 0_c_int64_t, none, none, capacity))
+    case ('interface_carriers')
+      CHECK_OK(stickslip_interface_carriers(h%s%contact, 0_c_int64_t, none, none, none, capacity))
+    case ('interface_condensed_coo')
+      status = stickslip_interface_condensed_coo(h%s%contact, h%s%x1, h%s%x2, h%s%lambda, piece, 0_c_int64_t, none, none, &
+          none, capacity)
+      CHECK_OK(status)
+    case ('interface_condensed_pattern')
+      status = stickslip_interface_condensed_pattern(h%s%contact, h%s%x1, h%s%x2, n_rows, h%offsets, h%csr_columns, &
+          0_c_int64_t, none, none, capacity)
+      CHECK_OK(status)
     case default
       capacity = NA
     end select
@@ -287,7 +319,10 @@ contains
          c_loc(e%row_scale), c_loc(e%normals), c_loc(e%areas), c_loc(e%row), c_loc(e%block), c_loc(o%gap), &
          c_loc(o%traction), c_loc(o%slip), c_loc(o%split_nodes), c_loc(o%originals), c_loc(o%shared_nodes), &
          c_loc(o%kinds), c_loc(o%claims), c_loc(h%row_numbers), c_loc(h%columns), c_loc(h%values), c_null_ptr, c_loc(r), &
-         c_loc(e%fade), c_loc(e%coefficients), c_loc(e%dual_ab), c_loc(e%dual_ac)]
+         c_loc(e%fade), c_loc(e%coefficients), c_loc(e%dual_ab), c_loc(e%dual_ac), &
+         c_loc(h%columns), c_loc(h%values), c_loc(h%row_numbers), c_loc(h%columns), c_loc(o%w)]
+    if (name == 'node_condense') p(7) = c_loc(o%scale)
+    if (name == 'interface_carriers') p(17) = c_loc(h%row_numbers)
     if (name == 'pair_weights') p(1:4) = [c_loc(e%w_out%ab), c_loc(e%w_out%ac), c_loc(e%w_out%dab), c_loc(e%w_out%dac)]
     if (name == 'interface_set_normals') p(8) = c_loc(normals)
   end subroutine

@@ -43,6 +43,8 @@ module calls
     integer(c_int32_t) :: state(NA)
     real(c_double) :: normal(3, NA), fraction
     type(stickslip_states) :: states
+    ! Input: what a host's own forces leave at the non-mortar nodes.
+    real(c_double) :: host1(3, NA)
     ! A CSR matrix with every entry.
     integer(c_int64_t) :: offsets(UNKNOWNS + 1)
     integer(c_int64_t), allocatable :: csr_columns(:)
@@ -229,6 +231,7 @@ contains
     h%states = stickslip_states(state=c_loc(h%state), normal=c_loc(h%normal))
     h%offsets = [(base + i * UNKNOWNS, i = 0, UNKNOWNS)]
     h%csr_columns = [(base + mod(i, UNKNOWNS), i = 0, UNKNOWNS**2 - 1)]
+    h%host1 = reshape([(0.01d0 * mod(i, 7) - 0.02d0, i = 0, SIZE1 - 1)], [3, NA])
     call handle_fill(h)
   end subroutine
 
@@ -274,6 +277,42 @@ contains
     type(handle), target, intent(inout) :: h
     status = stickslip_interface_pattern_coo(h%s%contact, h%s%x1, h%s%x2, MOST_ENTRIES, c_loc(h%row_numbers), &
         c_loc(h%columns), h%count)
+  end function
+
+  integer(c_int32_t) function call_carriers(h) result(status)
+    type(handle), target, intent(inout) :: h
+    status = stickslip_interface_carriers(h%s%contact, MOST_ENTRIES, c_loc(h%row_numbers), c_loc(h%columns), &
+        c_loc(h%values), h%count)
+  end function
+
+  ! Calls for systems without multipliers, which interfaces with dual ones accept in the multiplier form.
+  integer(c_int32_t) function call_condensed_multipliers(h) result(status)
+    type(handle), target, intent(inout) :: h
+    status = stickslip_interface_condensed_multipliers(h%s%contact, h%s%x1, h%s%x2, h%host1, h%rows)
+  end function
+
+  integer(c_int32_t) function call_condensed_residual(h) result(status)
+    type(handle), target, intent(inout) :: h
+    status = stickslip_interface_condensed_residual(h%s%contact, h%s%x1, h%s%x2, h%s%lambda, h%host1, h%force1, h%force2)
+  end function
+
+  integer(c_int32_t) function call_condensed_coo(h, piece) result(status)
+    type(handle), target, intent(inout) :: h
+    integer(c_int32_t), intent(in) :: piece
+    status = stickslip_interface_condensed_coo(h%s%contact, h%s%x1, h%s%x2, h%s%lambda, piece, MOST_ENTRIES, &
+        c_loc(h%row_numbers), c_loc(h%columns), c_loc(h%values), h%count)
+  end function
+
+  integer(c_int32_t) function call_condensed_csr(h) result(status)
+    type(handle), target, intent(inout) :: h
+    status = stickslip_interface_condensed_csr(h%s%contact, h%s%x1, h%s%x2, h%s%lambda, int(UNKNOWNS, c_int64_t), &
+        h%offsets, h%csr_columns, h%csr)
+  end function
+
+  integer(c_int32_t) function call_condensed_pattern(h) result(status)
+    type(handle), target, intent(inout) :: h
+    status = stickslip_interface_condensed_pattern(h%s%contact, h%s%x1, h%s%x2, int(UNKNOWNS, c_int64_t), h%offsets, &
+        h%csr_columns, MOST_ENTRIES, c_loc(h%row_numbers), c_loc(h%columns), h%count)
   end function
 
   integer(c_int32_t) function call_interface_commit(h) result(status)

@@ -310,6 +310,7 @@ contains
         if (once_in(2)) call spoil(SIZE1, h%s%lambda)
       end if
       call handle_fill(h)
+      if (once_in(2)) call spoil(SIZE1, h%host1)
       call history_take(h%s%contact, h%before)
       call any_change(h, changes(n + 1))
       changed = changes(n + 1)%what < 8
@@ -335,12 +336,12 @@ contains
     s%x1 = s%x1 + spread(up, 2, NA)
   end subroutine
 
-  ! A change (0 to 7), or a look (8 to 15), with its numbers.
+  ! A change (0 to 7), or a look (8 to 23), with its numbers.
   subroutine any_change(h, c)
     type(handle), intent(in) :: h
     type(change), intent(out) :: c
     integer :: k, i
-    c%what = random(16)
+    c%what = random(24)
     c%given = .not. once_in(3)
     c%values = 1
     if (c%what == 2) c%values = spread([0d0, 0d0, merge(-1d0, 1d0, once_in(2))], 2, NA)
@@ -406,6 +407,18 @@ contains
       status = call_interface_pattern(h)
     case (14)
       status = stickslip_interface_initial_multipliers(h%s%contact, h%rows)
+    case (15)
+      status = call_carriers(h)
+    case (16)
+      status = call_condensed_multipliers(h)
+    case (17)
+      status = call_condensed_residual(h)
+    case (18, 19, 20)
+      status = call_condensed_coo(h, int(what - 18, c_int32_t))
+    case (21)
+      status = call_condensed_csr(h)
+    case (22)
+      status = call_condensed_pattern(h)
     case default
       report = stickslip_report(cover=c_loc(h%state), fraction=c_loc(h%rows))
       status = stickslip_interface_report(h%s%contact, h%s%x1, h%s%x2, report)
@@ -422,6 +435,7 @@ contains
     integer :: k
     fresh%s = h%s ! whose arrays the surfaces point to
     call handle_prepare(fresh)
+    fresh%host1 = h%host1
     CHECK_OK(stickslip_interface_create(h%s%nonmortar, h%s%mortar, h%s%options, fresh%s%contact))
     do k = 1, size(changes)
       CHECK_OK(apply(fresh%s%contact, changes(k)))

@@ -4,7 +4,8 @@
 
 use crate::support::mesh::*;
 use std::collections::BTreeSet;
-use stickslip::interface::{Extent, Interface, Options, Weights};
+use stickslip::geometry::Vec3;
+use stickslip::interface::{Extent, Interface, MultiplierBasis, Options, Piece, Weights};
 
 const HEADER: &str = include_str!("../../include/stickslip.h");
 const ALLOCATION_TESTS: &str = include_str!("../memory/calls.rs");
@@ -156,5 +157,24 @@ fn evaluations_cost_what_the_header_says() {
         assert_eq!(cost(i, |i| i.residual(&x1, &x2, &lambda, None).unwrap()), (search, false), "first after a commit");
         assert_eq!(cost(i, |i| i.roll_back().unwrap()), (0, false));
         assert_eq!(cost(i, |i| i.set_previous(&x1, &x2).unwrap()), (1, false));
+    }
+}
+
+#[test]
+fn systems_without_multipliers_cost_what_the_header_says() {
+    for (weights, search) in [(Weights::Current, 1), (Weights::Committed, 0), (Weights::Reference, 0)] {
+        let differentiated = weights == Weights::Current;
+        let of = Options { weights, basis: MultiplierBasis::Dual, ..options() };
+        let Moved { mut interface, x1, x2, lambda } = moved(&of, [Cells::Quads; 2], FLAT, 1);
+        let (i, x, host) = (&mut interface, (&x1[..], &x2[..]), vec![Vec3::z(); x1.len()]);
+        let piece = |i: &mut Interface, piece| {
+            let sink = &mut |_: i64, _: i64, _: f64| ();
+            cost(i, |i| i.condensed_tangent(x, &lambda, piece, sink).unwrap())
+        };
+        assert_eq!(cost(i, |i| i.condensed_multipliers(x.0, x.1, &host).unwrap()), (search, false), "new positions");
+        assert_eq!(cost(i, |i| i.condensed_residual(x.0, x.1, &lambda, &host).unwrap()), (0, false));
+        assert_eq!(piece(i, Piece::Elimination), (0, false));
+        assert_eq!(piece(i, Piece::Forces), (0, differentiated));
+        assert_eq!(piece(i, Piece::Constraints), (0, differentiated));
     }
 }

@@ -25,6 +25,7 @@ mod report;
 mod search;
 mod stacked;
 mod surface;
+mod symmetric;
 mod tangent;
 mod tied_gap;
 mod turns;

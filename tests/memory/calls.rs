@@ -92,6 +92,10 @@ fn c_calls(pair: &stickslip_pair) {
         allocates_nothing("node_block", || {
             assert_eq!(stickslip_node_block(&response, 1.0, 0, row.as_mut_ptr(), block.as_mut_ptr()), 0);
         });
+        allocates_nothing("node_condense", || {
+            let (w, s) = (block.as_mut_ptr(), &raw mut gap[0]);
+            assert_eq!(stickslip_node_condense(&node, &response, 0, w, row.as_mut_ptr(), s), 0);
+        });
         allocates_nothing("pair_residual", || {
             let status = stickslip_pair_residual(pair, ab.as_ptr(), ac.as_ptr(), traction.as_ptr(), force.as_mut_ptr());
             assert_eq!(status, 0);

@@ -91,6 +91,11 @@ pub struct Elimination {
     pub transfers: Vec<Transfer>,
 }
 
+/// W_B of a covered node from T_B, r_B and dc_B/dlambda_B.
+pub fn own_rows(t: &Mat3, r: f64, drow_dlambda: &Mat3) -> Mat3 {
+    Mat3::identity() - t * (Mat3::identity() + drow_dlambda * r) * t.transpose()
+}
+
 /// A weight on its way into a block: (row, own node, node through which it acts), weight.
 type Share = ((usize, usize, usize), f64);
 
@@ -205,8 +210,7 @@ impl Elimination {
 
     /// W_B.
     pub fn diagonal(&self, b: usize, row: &Row) -> Mat3 {
-        let Node { directions: t, augmentation: r, .. } = &self.nodes[b];
-        Mat3::identity() - t * (Mat3::identity() + row.derivative * *r) * t.transpose()
+        own_rows(&self.nodes[b].directions, self.nodes[b].augmentation, &row.derivative)
     }
 
     /// The condensed rows of the non-mortar nodes, L R_u + b, and what the rows of so many mortar nodes gain beyond R_u, of
