@@ -28,7 +28,7 @@ pub fn shared_edges<'a>(n_facets: usize, nodes: impl Fn(usize) -> &'a [usize]) -
             edges.store((a.min(b), a.max(b), a > b, f))?;
         }
     }
-    edges.sort_unstable();
+    memory::sort(&mut edges)?;
     let mut shared = memory::with_room(edges.len() / 2)?;
     for pair in edges.windows(2) {
         let ((a, b, against, f), (c, d, other, g)) = (pair[0], pair[1]);

@@ -9,14 +9,13 @@ use super::contact::Contact;
 use super::data::csr::Csr;
 use super::data::extent::Extent;
 use super::data::node_data::check_length;
-use super::data::surface::NO_EQUATION;
 use super::pairing::given::{Given, check_finite};
 use super::stages::carried::carried;
 use super::stages::residual;
 use super::tangent::emission::Sink;
 use super::tangent::union::possible_pairs;
 use crate::error::{Error, Result};
-use crate::geometry::{Mat3, Vec3};
+use crate::geometry::Vec3;
 use crate::memory::{self, Store, Stored};
 use nalgebra::SVector;
 
@@ -95,20 +94,13 @@ impl<const N: usize> Contact<N> {
         sink: &mut dyn Sink,
     ) -> Result<()> {
         let (elimination, lambda) = self.eliminated((x1, x2), lambda)?;
-        let (given, mut nowhere) = (self.given(), |_: i64, _: i64, _: f64| {});
+        let mut nowhere = |_: i64, _: i64, _: f64| {};
         let scales = elimination.scales()?;
         let sinks: (&mut dyn Sink, &mut dyn Sink) = match piece {
             Piece::Forces => (sink, &mut nowhere),
             Piece::Constraints => (&mut nowhere, sink),
             Piece::Elimination => {
-                for t in &elimination.transfers {
-                    add(sink, equations(given, t.row), equations(given, t.own), &t.block);
-                }
-                let rows = self.rows()?;
-                for b in elimination.own() {
-                    let w = elimination.diagonal(b, &rows[b]);
-                    add(sink, equations(given, b), equations(given, b), &(w - Mat3::identity()));
-                }
+                elimination.entries(&self.rows()?, self.setup.surfaces(), sink);
                 return Ok(());
             }
         };
@@ -133,14 +125,7 @@ impl<const N: usize> Contact<N> {
         let mut rows = CondensedRows::new(csr, memory::copied(&changed)?, value)?;
         let mut constraints = CondensedRows::new(csr, changed, &|_| 0.0)?;
         self.linearise((x1, x2), &lambda, Extent::Whole, Some(&scales), (&mut rows, Some(&mut constraints)))?;
-        let (given, answers) = (self.given(), self.rows()?);
-        for t in &elimination.transfers {
-            rows.transfer(equations(given, t.row), equations(given, t.own), &t.block)?;
-        }
-        for b in elimination.own() {
-            let w = elimination.diagonal(b, &answers[b]);
-            rows.multiply(equations(given, b), &w)?;
-        }
+        rows.eliminate(&elimination, &self.rows()?, self.setup.surfaces())?;
         rows.check()?;
         constraints.check()?;
         rows.add_rows(&constraints);
@@ -153,7 +138,7 @@ impl<const N: usize> Contact<N> {
         let given = self.given();
         given.check_positions(x1, x2)?;
         refuse(given, &given.normals()?)?;
-        let mut columns = Columns::of(given, csr)?;
+        let mut columns = Columns::of(&self.setup.nonmortar.equations, csr)?;
         let (mut forces, mut constraints) = (Noted::default(), Noted::default());
         self.superset((x1, x2), (&mut forces, Some(&mut constraints)))?;
         for (row, column) in forces.entries()? {
@@ -164,30 +149,14 @@ impl<const N: usize> Contact<N> {
         columns.settle()?;
         let given = Given { setup: &self.setup, step: &self.step };
         let pairs = possible_pairs(given, self.cache.work().1, (x1, x2))?;
-        columns.entries(given, &pairs, sink)
+        let moving = if self.setup.effects.moves() { &pairs[..] } else { &[] };
+        columns.entries(self.setup.surfaces(), &self.step.pairing.carriers, moving, sink)
     }
 }
 
 /// The components of multipliers that there are.
 fn narrowed<const N: usize>(lambda: &[Vec3]) -> Result<Vec<SVector<f64, N>>> {
     lambda.iter().map(|l| SVector::from_fn(|i, _| l[i])).stored()
-}
-
-/// Displacement equations of a node over both surfaces.
-fn equations<const N: usize>(given: Given<'_, N>, node: usize) -> &[i64; 3] {
-    let (one, two) = given.setup.surfaces();
-    if node < one.len() { &one.equations[node] } else { &two.equations[node - one.len()] }
-}
-
-/// Adds the diagonal of a block, and what else is not 0.
-fn add(sink: &mut dyn Sink, rows: &[i64; 3], columns: &[i64; 3], block: &Mat3) {
-    for (i, &row) in rows.iter().enumerate().filter(|(_, e)| **e != NO_EQUATION) {
-        for (j, &column) in columns.iter().enumerate().filter(|(_, e)| **e != NO_EQUATION) {
-            if i == j || block[(i, j)] != 0.0 {
-                sink.add(row, column, block[(i, j)]);
-            }
-        }
-    }
 }
 
 /// Entries without values.

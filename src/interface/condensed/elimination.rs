@@ -21,11 +21,12 @@ use crate::error::{Error, Kind, Result};
 use crate::geometry::{Mat3, Vec3};
 use crate::interface::data::multiplier::direction;
 use crate::interface::data::pairs::PairRecord;
-use crate::interface::data::surface::Surface;
+use crate::interface::data::surface::{NO_EQUATION, Surface};
 use crate::interface::pairing::given::Given;
 use crate::interface::pairing::weak::Carrier;
 use crate::interface::stages::carried::multiplier_share;
 use crate::interface::stages::sums::NodeSums;
+use crate::interface::tangent::emission::Sink;
 use crate::law::NodeResponse;
 use crate::memory::{self, Store, Stored};
 use nalgebra::{SMatrix, SVector};
@@ -55,6 +56,11 @@ impl Row {
     pub fn of<const N: usize>(response: &NodeResponse<N>) -> Row {
         Row { value: widened(&response.row), derivative: widened_matrix(&response.drow_dlambda) }
     }
+}
+
+/// Displacement equations of a node over both surfaces.
+pub fn equations<'a>((one, two): (&'a Surface, &'a Surface), node: usize) -> &'a [i64; 3] {
+    if node < one.len() { &one.equations[node] } else { &two.equations[node - one.len()] }
 }
 
 /// A multiplier as a vector of three components, of which those beyond N are 0.
@@ -195,6 +201,21 @@ impl Elimination {
             }
         }
         Ok(transfers)
+    }
+
+    /// Gives L - I: of each block the diagonal, and what else is not 0.
+    pub fn entries(&self, answers: &[Row], surfaces: (&Surface, &Surface), sink: &mut dyn Sink) {
+        let mut add = |row: usize, own: usize, block: &Mat3| {
+            let (rows, columns) = (equations(surfaces, row), equations(surfaces, own));
+            for (i, j) in (0..3).flat_map(|i| (0..3).map(move |j| (i, j))) {
+                let exists = rows[i] != NO_EQUATION && columns[j] != NO_EQUATION;
+                if exists && (i == j || block[(i, j)] != 0.0) {
+                    sink.add(rows[i], columns[j], block[(i, j)]);
+                }
+            }
+        };
+        self.transfers.iter().for_each(|t| add(t.row, t.own, &t.block));
+        self.own().for_each(|b| add(b, b, &(self.diagonal(b, &answers[b]) - Mat3::identity())));
     }
 
     /// s_A [F/L^3]; 0 where a node has no multiplier of its own.

@@ -3,8 +3,8 @@
 
 use crate::error::Result;
 use crate::interface::data::csr::Csr;
-use crate::interface::data::surface::NO_EQUATION;
-use crate::interface::pairing::given::Given;
+use crate::interface::data::surface::{NO_EQUATION, Surface};
+use crate::interface::pairing::weak::Carrier;
 use crate::interface::tangent::emission::Sink;
 use crate::memory::{self, Store, Stored};
 
@@ -19,9 +19,8 @@ pub struct Columns {
 
 impl Columns {
     /// Those of the host's matrix.
-    pub fn of<const N: usize>(given: Given<N>, csr: &Csr) -> Result<Columns> {
-        let equations = &given.setup.nonmortar.equations;
-        let mut columns = Columns { nodes: Vec::new(), of_node: memory::defaults(given.nodes())? };
+    pub fn of(equations: &[[i64; 3]], csr: &Csr) -> Result<Columns> {
+        let mut columns = Columns { nodes: Vec::new(), of_node: memory::defaults(equations.len())? };
         for (a, &e) in equations.iter().enumerate().flat_map(|(a, e)| e.iter().map(move |e| (a, e))) {
             if e != NO_EQUATION {
                 columns.nodes.store((e, a))?;
@@ -49,27 +48,27 @@ impl Columns {
         Ok(())
     }
 
-    /// Gives the entries of all rows that these pairs of facets and the nodes that are carried can change.
-    pub fn entries<const N: usize>(
+    /// Gives the entries of all rows that these pairs of facets, over a mortar side that moves, and the nodes that are
+    /// carried can change.
+    pub fn entries(
         &self,
-        given: Given<N>,
-        pairs: &[(usize, usize)],
+        (one, two): (&Surface, &Surface),
+        carriers: &[Vec<Carrier>],
+        moving: &[(usize, usize)],
         sink: &mut dyn Sink,
     ) -> Result<()> {
-        let (one, two) = given.setup.surfaces();
-        let mut gains: Vec<(usize, usize)> = (0..given.nodes()).map(|a| (a, a)).stored()?;
-        let moving = if given.setup.effects.moves() { pairs } else { &[] };
+        let mut gains: Vec<(usize, usize)> = (0..one.len()).map(|a| (a, a)).stored()?;
         for &(f, g) in moving {
             for &a in one.facets[f].as_slice() {
-                let rows = || two.facets[g].as_slice().iter().map(|c| given.nodes() + c);
+                let rows = || two.facets[g].as_slice().iter().map(|c| one.len() + c);
                 gains.store_all(rows().map(|row| (row, a)))?;
-                for &(b, _) in given.carriers_of(a) {
+                for &(b, _) in carriers.get(a).into_iter().flatten() {
                     gains.store_all(rows().map(|row| (row, b)))?;
                 }
             }
         }
-        for a in 0..given.nodes() {
-            gains.store_all(given.carriers_of(a).iter().map(|&(b, _)| (a, b)))?;
+        for (a, carriers) in carriers.iter().enumerate() {
+            gains.store_all(carriers.iter().map(|&(b, _)| (a, b)))?;
         }
         memory::sort(&mut gains)?;
         gains.dedup();

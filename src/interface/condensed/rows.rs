@@ -1,10 +1,11 @@
 //! The rows of a host's matrix that condensation changes, taken out of it and put back: J becomes L J + G in place
 //! (docs/formulation.md 10.7).
 
+use super::elimination::{Elimination, Row, equations};
 use crate::error::{Error, Result};
 use crate::geometry::Mat3;
 use crate::interface::data::csr::Csr;
-use crate::interface::data::surface::NO_EQUATION;
+use crate::interface::data::surface::{NO_EQUATION, Surface};
 use crate::interface::tangent::emission::Sink;
 use crate::memory::{self, Store};
 
@@ -69,7 +70,7 @@ impl<'a> CondensedRows<'a> {
     }
 
     /// Adds `block` times the rows of one node to those of another.
-    pub fn transfer(&mut self, to: &[i64; 3], from: &[i64; 3], block: &Mat3) -> Result<()> {
+    fn transfer(&mut self, to: &[i64; 3], from: &[i64; 3], block: &Mat3) -> Result<()> {
         let entries = self.entries(from)?;
         for (i, &equation) in to.iter().enumerate().filter(|(_, e)| **e != NO_EQUATION) {
             for (j, entries) in entries.iter().enumerate() {
@@ -80,7 +81,7 @@ impl<'a> CondensedRows<'a> {
     }
 
     /// Replaces the rows of a node by `block` times them.
-    pub fn multiply(&mut self, equations: &[i64; 3], block: &Mat3) -> Result<()> {
+    fn multiply(&mut self, equations: &[i64; 3], block: &Mat3) -> Result<()> {
         let entries = self.entries(equations)?;
         for (i, &equation) in equations.iter().enumerate() {
             let Some((start, places)) = self.row(equation) else { continue };
@@ -88,6 +89,17 @@ impl<'a> CondensedRows<'a> {
             for (j, entries) in entries.iter().enumerate() {
                 self.add_row(equation, entries, block[(i, j)]);
             }
+        }
+        Ok(())
+    }
+
+    /// J becomes L J.
+    pub fn eliminate(&mut self, e: &Elimination, answers: &[Row], surfaces: (&Surface, &Surface)) -> Result<()> {
+        for t in &e.transfers {
+            self.transfer(equations(surfaces, t.row), equations(surfaces, t.own), &t.block)?;
+        }
+        for b in e.own() {
+            self.multiply(equations(surfaces, b), &e.diagonal(b, &answers[b]))?;
         }
         Ok(())
     }

@@ -114,8 +114,8 @@ fn fans(corners: &[Corner], edges: &[[usize; 2]], least: f64) -> Result<Vec<Vec<
             rest.store((part, kept))?;
         }
     }
-    narrow_ones.sort_unstable();
-    Ok(narrow_ones)
+    let order = memory::order(narrow_ones.len(), &|i, j| narrow_ones[i].cmp(&narrow_ones[j]))?;
+    order.into_iter().map(|k| std::mem::take(&mut narrow_ones[k])).stored()
 }
 
 /// The parts of a fan that joints hold together, each sorted.

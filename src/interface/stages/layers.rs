@@ -124,6 +124,7 @@ struct Region {
 }
 
 /// What two of them cover both.
+#[derive(Clone, Copy)]
 struct Shared {
     sheets: [usize; 2],
     pairs: [usize; 2],
@@ -154,10 +155,10 @@ fn among(
         let (low, high) = (bound(f64::min, f64::INFINITY), bound(f64::max, f64::NEG_INFINITY));
         regions.store(Region { pair, sheet, polygon, low, high })?;
     }
-    let mut shared = overlaps(&mut regions, segments, is_twice)?;
+    let shared = overlaps(&regions, segments, is_twice)?;
     let area = 0.5 * frame.projection.area2;
     let covered_twice: f64 = shared.iter().map(|s| s.area).sum();
-    shared.sort_unstable_by_key(|s| (s.sheets, s.pairs));
+    let shared = memory::sorted(&shared, |s, t| (s.sheets, s.pairs).cmp(&(t.sheets, t.pairs)))?;
     let layers = shared.chunk_by(|s, t| s.sheets == t.sheets).find(|both| {
         let [a, b] = both[0].sheets;
         a != b && both.iter().map(|s| s.area).sum::<f64>() > SHARED * areas[a].min(areas[b])
@@ -178,17 +179,19 @@ fn among(
 
 /// Overlaps of regions of different sheets, and of the same one where `within`: only of those whose boxes overlap, found
 /// by a sweep along the longer axis.
-fn overlaps(regions: &mut [Region], segments: &[Segment], within: bool) -> Result<Vec<Shared>> {
+fn overlaps(regions: &[Region], segments: &[Segment], within: bool) -> Result<Vec<Shared>> {
     let extent = |i: usize| {
         let (low, high) =
             regions.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), r| (l.min(r.low[i]), h.max(r.high[i])));
         high - low
     };
     let (along, across) = if extent(0) > extent(1) { (0, 1) } else { (1, 0) };
-    regions.sort_unstable_by(|r, s| r.low[along].total_cmp(&s.low[along]).then(r.pair.cmp(&s.pair)));
+    let compare = |r: &Region, s: &Region| r.low[along].total_cmp(&s.low[along]).then(r.pair.cmp(&s.pair));
+    let order = memory::order(regions.len(), &|i, j| compare(&regions[i], &regions[j]))?;
     let mut shared = Vec::new();
-    for (k, r) in regions.iter().enumerate() {
-        for s in regions[k + 1..].iter().take_while(|s| s.low[along] < r.high[along]) {
+    for (k, &i) in order.iter().enumerate() {
+        let r = &regions[i];
+        for s in order[k + 1..].iter().map(|&j| &regions[j]).take_while(|s| s.low[along] < r.high[along]) {
             let apart = s.low[across] >= r.high[across] || r.low[across] >= s.high[across];
             if apart || (r.sheet == s.sheet && !within) {
                 continue;
