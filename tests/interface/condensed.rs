@@ -356,6 +356,9 @@ fn the_pattern_has_what_condensing_needs() {
     }
 }
 
+/// What is changed of the equations of both sides and of the multipliers.
+type Change<'a> = &'a dyn Fn(&mut [[i64; 3]], &mut [[i64; 3]], &mut [[i64; 3]]);
+
 #[test]
 fn what_cannot_be_condensed_is_refused_by_name() {
     let one = grid(2, 1, [0.0, 0.0], [1.0, 1.0], -0.01, false, Cells::Quads);
@@ -365,17 +368,16 @@ fn what_cannot_be_condensed_is_refused_by_name() {
     let surface = |side, mesh: &Mesh, equations: Vec<[i64; 3]>| {
         Surface::new(side, mesh.x.clone(), &mesh.facets, equations).unwrap()
     };
-    let refusal = |change: &dyn Fn(&mut [[i64; 3]], &mut [[i64; 3]], &mut [[i64; 3]]), options: Options| {
+    let refusal = |change: Change, options: Options| {
         let (mut e1, mut e2, mut m) = (numbered(0, n1), numbered(3 * n1, n - n1), numbered(3 * n, n1));
         change(&mut e1, &mut e2, &mut m);
         let mut c = Interface::new(surface("nonmortar", &one, e1), surface("mortar", &two, e2), m, options).unwrap();
         c.condensed_multipliers(&one.x, &two.x, &vec![Vec3::z(); n1]).map_err(|e| (e.kind, e.to_string()))
     };
-    let refused =
-        |change: &dyn Fn(&mut [[i64; 3]], &mut [[i64; 3]], &mut [[i64; 3]]), options: Options, words: &str| {
-            let (kind, text) = refusal(change, options).unwrap_err();
-            assert!(kind == Kind::Unsupported && text.contains(words), "{text}");
-        };
+    let refused = |change: Change, options: Options, words: &str| {
+        let (kind, text) = refusal(change, options).unwrap_err();
+        assert!(kind == Kind::Unsupported && text.contains(words), "{text}");
+    };
     refused(&|_, _, _| {}, options(), "standard multipliers");
     refused(&|_, _, _| {}, Options { form: Form::Augmented, ..dual }, "augmented form");
     refused(&|e1, _, _| e1[2][1] = NO_EQUATION, dual, "component 1 of non-mortar node 2 is prescribed");
