@@ -44,9 +44,21 @@ pub fn copied<T: Copy>(values: &[T]) -> Result<Vec<T>> {
 /// The values in an order in which those that compare equal stay as they were. (The standard library's stable sort
 /// takes its memory or aborts.)
 pub fn sorted<T: Copy>(values: &[T], compare: impl Fn(&T, &T) -> Ordering) -> Result<Vec<T>> {
-    let mut order = (0..values.len()).stored()?;
-    order.sort_unstable_by(|&i, &j| compare(&values[i], &values[j]).then(i.cmp(&j)));
+    let order = order(values.len(), &|i, j| compare(&values[i], &values[j]))?;
     order.iter().map(|&i| values[i]).stored()
+}
+
+/// Sorts values. (The standard library's own would be compiled for each type, 20 kB each: it is for where time counts.)
+pub fn sort<T: Copy + Ord>(values: &mut Vec<T>) -> Result<()> {
+    *values = sorted(values, T::cmp)?;
+    Ok(())
+}
+
+/// The order of so many values; those that compare equal stay as they were.
+pub fn order(n: usize, compare: &dyn Fn(usize, usize) -> Ordering) -> Result<Vec<usize>> {
+    let mut order = (0..n).stored()?;
+    order.sort_unstable_by(|&i, &j| compare(i, j).then(i.cmp(&j)));
+    Ok(order)
 }
 
 /// What a refusal may stand in place of: `None` for it, but that there is no memory stays a refusal.

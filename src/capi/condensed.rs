@@ -184,7 +184,7 @@ pub unsafe extern "C" fn stickslip_interface_condensed_csr(
         let at = (&point.x1[..], &point.x2[..]);
         // SAFETY: places are below the number of entries, and the caller's values has that many.
         let value = |place: usize| unsafe { *values.add(place) };
-        let rows = either!(&mut h.inner, c => c.condense(at, &point.lambda()?, csr, value)?);
+        let rows = either!(&mut h.inner, c => c.condense(at, &point.lambda()?, csr, &value)?);
         raw::check_results("values", rows.values())?;
         for (place, value) in rows.places() {
             // SAFETY: as above.

@@ -68,8 +68,10 @@ pub const STICKSLIP_SHORTCUT_UNCOVERED: i32 = 8;
 pub const STICKSLIP_BASIS_STANDARD: i32 = 0;
 /// Dual functions, biorthogonal to the shape functions over what is covered of a facet: a node's force is its multiplier
 /// times its covered area, and tractions do not oscillate beside edges and on curved surfaces. The tangent couples the
-/// mortar nodes of all pairs of a facet. Neighbours carry weakly covered nodes unless weak_coverage says NONE. UNSUPPORTED in
-/// this version: STICKSLIP_MORTAR_ANALYTIC, STICKSLIP_INTEGRATION_ELEMENTS and HYBRID, sums of handles, the stages.
+/// mortar nodes of all pairs of a facet. Neighbours carry weakly covered nodes unless weak_coverage says NONE. With
+/// STICKSLIP_INTEGRATION_ELEMENTS a facet whose covered points do not determine its multipliers is refused
+/// (DEGENERATE_FACET); STICKSLIP_INTEGRATION_HYBRID takes overlaps there from the next commit on. UNSUPPORTED in this
+/// version: sums of handles, the stages.
 pub const STICKSLIP_BASIS_DUAL: i32 = 1;
 /// weak_coverage: every covered node has a multiplier of its own.
 pub const STICKSLIP_WEAK_COVERAGE_NONE: f64 = -1.0;

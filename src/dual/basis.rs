@@ -4,7 +4,7 @@
 //! int psi_A N_B da = m_A where A = B, 0 elsewhere.
 
 use super::coverage::Coverage;
-use super::mass::Mass;
+use super::mass::{Mass, SMALLEST_DETERMINANT, too_few};
 use super::sums::FacetSums;
 use crate::error::Result;
 use crate::mortar::PairWeights;
@@ -35,6 +35,9 @@ impl DualBasis {
             return Ok(None);
         }
         let mass = Mass::new(sums.nodes, &sums.mass)?;
+        if sums.by_points && mass.determinant() <= SMALLEST_DETERMINANT {
+            return Err(too_few(mass.determinant()));
+        }
         Ok(Some(DualBasis { nodes: sums.nodes, area: sums.area, areas: sums.areas(), coverage, mass }))
     }
 

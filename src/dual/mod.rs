@@ -4,6 +4,7 @@
 //! - values: [`FacetSums`] adds up the facet's pairs, [`DualBasis`] gives dual weights, heights and tractions;
 //! - derivatives: the kernels of `mortar` give those of a pair at the facet's heights and tractions, [`FacetMotion`]
 //!   makes of them the pair's share of the facet's, [`FacetColumns`] what couples the mortar nodes of all its pairs;
+//! - [`WholeFacet`] does both against an analytic surface, where gaps are vectors;
 //! - [`FullDerivatives`] has the derivatives of the dual weights themselves.
 //!
 //! Knows no contact law. Nothing here allocates.
@@ -15,11 +16,13 @@ mod full;
 mod mass;
 mod motion;
 mod sums;
+mod vectors;
 
 pub use basis::DualBasis;
 pub use columns::{FacetColumns, TractionDerivatives, coupling};
 pub use coverage::{Coverage, FADE_BAND};
 pub use full::FullDerivatives;
-pub use mass::SMALLEST_PIVOT;
+pub use mass::{SMALLEST_DETERMINANT, SMALLEST_PIVOT};
 pub use motion::{FacetMotion, PairShare};
 pub use sums::FacetSums;
+pub use vectors::WholeFacet;

@@ -22,7 +22,7 @@ use crate::shape::MAX_CORNERS;
 pub struct FacetMotion<'a> {
     basis: &'a DualBasis,
     /// p_A, held fixed: `[i][A]`.
-    tractions: [[f64; MAX_CORNERS]; 3],
+    pub tractions: [[f64; MAX_CORNERS]; 3],
     /// q_A, the tractions that kernels are to be given.
     pub field: [[f64; MAX_CORNERS]; 3],
     /// h_A, by which kernels are to raise the mortar surface.

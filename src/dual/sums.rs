@@ -15,6 +15,8 @@ pub struct FacetSums {
     pub mass: [[f64; MAX_CORNERS]; MAX_CORNERS],
     /// The sum of gamma_A [L^3].
     pub gamma: [f64; MAX_CORNERS],
+    /// Whether points stand for overlaps: they may not determine the facet's functions.
+    pub by_points: bool,
 }
 
 impl FacetSums {
@@ -25,6 +27,7 @@ impl FacetSums {
             area: whole_area(frame),
             mass: [[0.0; MAX_CORNERS]; MAX_CORNERS],
             gamma: [0.0; MAX_CORNERS],
+            by_points: false,
         }
     }
 
@@ -32,7 +35,17 @@ impl FacetSums {
     pub fn of<'a>(frame: &NonmortarFrame, pairs: impl Iterator<Item = (&'a Segment, &'a PairWeights)>) -> FacetSums {
         let mut sums = FacetSums::new(frame);
         for (segment, weights) in pairs {
+            sums.by_points |= segment.points.is_some();
             sums.add(weights, &height_gap(frame, &segment.mortar, weights));
+        }
+        sums
+    }
+
+    /// Those of pairs whose gaps do not lie along the facet's normal: against an analytic surface. There is no gamma_A.
+    pub fn of_areas(frame: &NonmortarFrame, pairs: &[PairWeights]) -> FacetSums {
+        let mut sums = FacetSums::new(frame);
+        for weights in pairs {
+            sums.add(weights, &[0.0; MAX_CORNERS]);
         }
         sums
     }

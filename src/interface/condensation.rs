@@ -1,7 +1,7 @@
 //! A system without multipliers through the handle: what a host multiplies and adds, in pieces or in place, and the
 //! multipliers back (docs/formulation.md 10.7).
 
-use super::condensed::elimination::Elimination;
+use super::condensed::elimination::{Elimination, Row, widened};
 use super::condensed::pattern::Columns;
 use super::condensed::refusal::refuse;
 use super::condensed::rows::CondensedRows;
@@ -17,7 +17,7 @@ use super::tangent::emission::Sink;
 use super::tangent::union::possible_pairs;
 use crate::error::{Error, Result};
 use crate::geometry::{Mat3, Vec3};
-use crate::memory::{self, Store};
+use crate::memory::{self, Store, Stored};
 use nalgebra::SVector;
 
 /// A piece of the condensed matrix L J_uu + G.
@@ -33,12 +33,12 @@ pub enum Piece {
 
 impl<const N: usize> Contact<N> {
     /// The elimination at x.
-    fn elimination(&mut self, x: (&[Vec3], &[Vec3])) -> Result<Elimination<N>> {
+    fn elimination(&mut self, x: (&[Vec3], &[Vec3])) -> Result<Elimination> {
         let sums = self.cache.sums(&self.setup, &mut self.step, x, Extent::Whole)?;
         let (given, pairs) = (self.given(), self.cache.pairs(&self.step.history));
         let normals = given.normals()?;
         refuse(given, &normals)?;
-        Elimination::new(given, &normals, pairs, &sums, carried(given, &sums)?)
+        Elimination::of(given, &normals, pairs, &sums, &carried(given, &sums)?)
     }
 
     /// The same, with the multipliers in force and the law's answers to them.
@@ -46,11 +46,12 @@ impl<const N: usize> Contact<N> {
         &mut self,
         x: (&[Vec3], &[Vec3]),
         lambda: &[SVector<f64, N>],
-    ) -> Result<(Elimination<N>, Vec<SVector<f64, N>>)> {
+    ) -> Result<(Elimination, Vec<SVector<f64, N>>)> {
         check_length("lambda", lambda.len(), self.setup.nonmortar.len())?;
         check_finite("lambda", lambda)?;
         let elimination = self.elimination(x)?;
-        let lambda = elimination.completed(self.given(), memory::copied(lambda)?);
+        let lambda = elimination.completed(&self.step.pairing.carriers, lambda.iter().map(widened).stored()?);
+        let lambda = narrowed(&lambda)?;
         self.cache.respond(&self.setup, &mut self.step, x, &lambda, None)?;
         Ok((elimination, lambda))
     }
@@ -58,7 +59,13 @@ impl<const N: usize> Contact<N> {
     /// The multipliers that balance `host`, the residual of the host's own forces at the non-mortar nodes `[F]`.
     pub fn condensed_multipliers(&mut self, x1: &[Vec3], x2: &[Vec3], host: &[Vec3]) -> Result<Vec<SVector<f64, N>>> {
         check_length("host", host.len(), self.setup.nonmortar.len())?;
-        self.elimination((x1, x2))?.multipliers(self.given(), host)
+        let elimination = self.elimination((x1, x2))?;
+        narrowed(&elimination.multipliers(&self.step.pairing.carriers, host)?)
+    }
+
+    /// The multiplier rows at the last point.
+    fn rows(&self) -> Result<Vec<Row>> {
+        self.cache.answers().responses.nodes.iter().map(Row::of).stored()
     }
 
     /// The rows of the non-mortar nodes, and what is added to those of the mortar nodes; `host` as above.
@@ -74,7 +81,7 @@ impl<const N: usize> Contact<N> {
         let (given, responses) = (self.given(), &self.cache.answers().responses.nodes);
         let mut forces = residual::residual(given, self.cache.pairs(&self.step.history), &lambda, responses)?;
         forces.nonmortar.iter_mut().zip(host).for_each(|(force, host)| *force += host);
-        let (rows, gains) = elimination.residual(given, &forces.nonmortar, responses)?;
+        let (rows, gains) = elimination.residual(&forces.nonmortar, forces.mortar.len(), &self.rows()?)?;
         forces.mortar.iter_mut().zip(gains).for_each(|(force, gain)| *force += gain);
         Ok((rows, forces.mortar))
     }
@@ -89,7 +96,7 @@ impl<const N: usize> Contact<N> {
     ) -> Result<()> {
         let (elimination, lambda) = self.eliminated((x1, x2), lambda)?;
         let (given, mut nowhere) = (self.given(), |_: i64, _: i64, _: f64| {});
-        let scales = elimination.scales(given)?;
+        let scales = elimination.scales()?;
         let sinks: (&mut dyn Sink, &mut dyn Sink) = match piece {
             Piece::Forces => (sink, &mut nowhere),
             Piece::Constraints => (&mut nowhere, sink),
@@ -97,8 +104,9 @@ impl<const N: usize> Contact<N> {
                 for t in &elimination.transfers {
                     add(sink, equations(given, t.row), equations(given, t.own), &t.block);
                 }
+                let rows = self.rows()?;
                 for b in elimination.own() {
-                    let w = elimination.diagonal(given, b, &self.cache.answers().responses.nodes[b]);
+                    let w = elimination.diagonal(b, &rows[b]);
                     add(sink, equations(given, b), equations(given, b), &(w - Mat3::identity()));
                 }
                 return Ok(());
@@ -113,24 +121,24 @@ impl<const N: usize> Contact<N> {
         (x1, x2): (&[Vec3], &[Vec3]),
         lambda: &[SVector<f64, N>],
         csr: Csr<'a>,
-        value: impl Fn(usize) -> f64,
+        value: &dyn Fn(usize) -> f64,
     ) -> Result<CondensedRows<'a>> {
         let (elimination, lambda) = self.eliminated((x1, x2), lambda)?;
-        let scales = elimination.scales(self.given())?;
+        let scales = elimination.scales()?;
         let (one, two) = self.setup.surfaces();
         let mut changed = Vec::new();
         for equations in [&one.equations, &two.equations] {
             changed.store_all(equations.as_flattened().iter().copied())?;
         }
         let mut rows = CondensedRows::new(csr, memory::copied(&changed)?, value)?;
-        let mut constraints = CondensedRows::new(csr, changed, |_| 0.0)?;
+        let mut constraints = CondensedRows::new(csr, changed, &|_| 0.0)?;
         self.linearise((x1, x2), &lambda, Extent::Whole, Some(&scales), (&mut rows, Some(&mut constraints)))?;
-        let given = self.given();
+        let (given, answers) = (self.given(), self.rows()?);
         for t in &elimination.transfers {
             rows.transfer(equations(given, t.row), equations(given, t.own), &t.block)?;
         }
         for b in elimination.own() {
-            let w = elimination.diagonal(given, b, &self.cache.answers().responses.nodes[b]);
+            let w = elimination.diagonal(b, &answers[b]);
             rows.multiply(equations(given, b), &w)?;
         }
         rows.check()?;
@@ -153,11 +161,16 @@ impl<const N: usize> Contact<N> {
             sink.add(row, column, 0.0);
         }
         constraints.entries()?.into_iter().for_each(|(row, column)| sink.add(row, column, 0.0));
-        columns.settle();
+        columns.settle()?;
         let given = Given { setup: &self.setup, step: &self.step };
         let pairs = possible_pairs(given, self.cache.work().1, (x1, x2))?;
         columns.entries(given, &pairs, sink)
     }
+}
+
+/// The components of multipliers that there are.
+fn narrowed<const N: usize>(lambda: &[Vec3]) -> Result<Vec<SVector<f64, N>>> {
+    lambda.iter().map(|l| SVector::from_fn(|i, _| l[i])).stored()
 }
 
 /// Displacement equations of a node over both surfaces.
@@ -188,7 +201,7 @@ impl Noted {
     /// Each once.
     fn entries(mut self) -> Result<Vec<(i64, i64)>> {
         self.refused.take().map_or(Ok(()), Err)?;
-        self.entries.sort_unstable();
+        memory::sort(&mut self.entries)?;
         self.entries.dedup();
         Ok(self.entries)
     }

@@ -10,8 +10,8 @@
 //!
 //! Integrals of shape functions alone are constants of the cell; over a plane there are no others, and no quadrature.
 
-use super::chain::ForceDerivatives;
-use super::gap::GapDerivative;
+use super::chain::{ForceDerivatives, ONE};
+use super::gap::{GapBlocks, GapDerivative};
 use super::pair_weights::PairWeights;
 use super::segment::NonmortarFrame;
 use super::transport::dots;
@@ -169,7 +169,23 @@ pub fn analytic_motion(
     p: &[[f64; MAX_CORNERS]; 3],
     forces: &mut ForceDerivatives,
 ) -> Result<GapDerivative> {
-    simd::dispatch(Motion { frame, surface, rule, p, forces })
+    simd::dispatch(Motion { frame, surface, rule, p, forces, raised: None }).map(GapDerivative::Blocks)
+}
+
+/// The derivatives of the stage of a facet with dual multipliers: Dm_B of the covered areas as the forces f_B of the
+/// field 1, in each of their components, and D int N_A (x - y - h) da at a fixed field h = sum_B N_B h_B,
+/// `heights[i][B]`. The surface is raised by h, which is a vector here: x - y turns from point to point.
+///
+/// # Errors
+/// As [`analytic_weights`].
+pub fn analytic_motion_raised(
+    frame: &NonmortarFrame,
+    surface: &AnalyticSurface,
+    rule: &Rule,
+    heights: &[[f64; MAX_CORNERS]; 3],
+    areas: &mut ForceDerivatives,
+) -> Result<GapBlocks> {
+    simd::dispatch(Motion { frame, surface, rule, p: &[ONE; 3], forces: areas, raised: Some(heights) })
 }
 
 struct Motion<'a> {
@@ -178,14 +194,16 @@ struct Motion<'a> {
     rule: &'a Rule,
     p: &'a [[f64; MAX_CORNERS]; 3],
     forces: &'a mut ForceDerivatives,
+    /// Nodal values of the field by which the surface is raised: `[i][B]`.
+    raised: Option<&'a [[f64; MAX_CORNERS]; 3]>,
 }
 
 impl Kernel for Motion<'_> {
-    type Output = Result<GapDerivative>;
+    type Output = Result<GapBlocks>;
     #[inline(always)]
-    fn run<L: Lanes>(self) -> Result<GapDerivative> {
+    fn run<L: Lanes>(self) -> Result<GapBlocks> {
         const { assert!(MAX_NODES == MAX_CORNERS) }; // the corners, which move the facet, are the nodes
-        let Motion { frame, surface, rule, p, forces } = self;
+        let Motion { frame, surface, rule, p, forces, raised } = self;
         let zero = L::splat(0.0);
         let products = &frame.projection.shape.fields.products;
         // Lanes B: int p^i N_B (1, xi, eta) over the cell.
@@ -197,7 +215,18 @@ impl Kernel for Motion<'_> {
                 }
             }
         }
-        let of = if surface.is_flat() { flat(frame, surface)? } else { curved(frame, surface, rule)? };
+        let mut of = if surface.is_flat() { flat(frame, surface)? } else { curved(frame, surface, rule)? };
+        if let Some(heights) = raised {
+            // At a fixed place of the facet N_B h_B does not move: its integrals change with the area alone.
+            for m in 0..3 {
+                for b in 0..MAX_CORNERS {
+                    let product = L::load(&products[m][b]); // lanes A of a row B: the products are symmetric
+                    for i in 0..3 {
+                        of.gaps[m][i] = L::splat(-heights[i][b]).mul_add(product, of.gaps[m][i]);
+                    }
+                }
+            }
+        }
         let darea = area_derivative::<L>(frame);
         let mut gap = [[[[0.0; MAX_CORNERS]; 3]; 3]; MAX_NODES];
         for k in 0..MAX_NODES {
@@ -209,7 +238,7 @@ impl Kernel for Motion<'_> {
                 }
             }
         }
-        Ok(GapDerivative::Blocks(gap))
+        Ok(gap)
     }
 }
 

@@ -22,11 +22,11 @@ mod slots;
 mod transport;
 mod weights;
 
-pub use analytic::{analytic_motion, analytic_weights};
+pub use analytic::{analytic_motion, analytic_motion_raised, analytic_weights};
 pub use at_rest::{facet_motion, facet_motion_raised};
 pub use chain::{AreaDerivatives, ForceDerivatives, WeightDerivatives};
 pub use derivatives::{pair_motion, pair_motion_raised};
-pub use gap::{AlongNormal, GapDerivative, Raised, columns, gap, height_gap};
+pub use gap::{AlongNormal, GapBlocks, GapDerivative, Raised, columns, gap, height_gap};
 pub use pair_weights::PairWeights;
 pub use segment::{CellPoints, NonmortarFrame, Segment};
 pub use slots::{MORTAR, PAIR_NODES, slots};

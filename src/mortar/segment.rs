@@ -72,8 +72,14 @@ impl CellPoints {
         (1 << (line.len() * line.len() + frame.projection.shape.n)) - 1
     }
 
-    pub(super) fn count(&self) -> usize {
+    /// Points of the rule.
+    pub fn count(&self) -> usize {
         self.line.len() * self.line.len()
+    }
+
+    /// Those of them that lie on the mortar facet.
+    pub fn on_facet(&self) -> u32 {
+        (self.inside & ((1 << self.count()) - 1)).count_ones()
     }
 }
 

@@ -32,10 +32,13 @@ static const kind kinds[] = {
     {.name = "dual, weak coverage", .basis = STICKSLIP_BASIS_DUAL, .weak_coverage = 0.5, .slide = 0.9},
     {.name = "elements", .integration = STICKSLIP_INTEGRATION_ELEMENTS},
     {.name = "hybrid", .integration = STICKSLIP_INTEGRATION_HYBRID, .slide = 0.5},
+    {.name = "dual, elements", .basis = STICKSLIP_BASIS_DUAL, .integration = STICKSLIP_INTEGRATION_ELEMENTS},
+    {.name = "dual, hybrid", .basis = STICKSLIP_BASIS_DUAL, .integration = STICKSLIP_INTEGRATION_HYBRID},
     {.name = "rigid", .rigid = 1},
     {.name = "apart", .slide = 50.0},
     {.name = "apart, unseen", .slide = 50.0, .unseen = 1},
     {.name = "analytic", .analytic = 1},
+    {.name = "dual, analytic", .basis = STICKSLIP_BASIS_DUAL, .analytic = 1},
     {.name = "analytic, frictionless", .analytic = 1, .friction = STICKSLIP_FRICTION_NONE},
 };
 

@@ -64,7 +64,7 @@ impl<const N: usize> At<'_, N> {
     fn condensed(&mut self, host: &Dense) -> (DMatrix<f64>, DVector<f64>) {
         let (n, n1) = (host.r.len(), self.x1.len());
         let csr = Csr::new(0, &host.offsets, &host.columns);
-        let rows = self.contact.condense((self.x1, self.x2), self.lambda, csr, |k| host.j[(k / n, k % n)]).unwrap();
+        let rows = self.contact.condense((self.x1, self.x2), self.lambda, csr, &|k| host.j[(k / n, k % n)]).unwrap();
         let mut j = host.j.clone();
         rows.places().for_each(|(place, value)| j[(place / n, place % n)] = value);
         let of_one = host.of_nodes(0..n1);
@@ -337,7 +337,7 @@ fn the_pattern_has_what_condensing_needs() {
         };
         let (offsets, columns) = csr_of(&entries);
         let csr = Csr::new(0, &offsets, &columns);
-        let refused = s.contact.condense((&s.x1, &s.x2), &s.lambda, csr, |_| 1.0).unwrap_err();
+        let refused = s.contact.condense((&s.x1, &s.x2), &s.lambda, csr, &|_| 1.0).unwrap_err();
         assert_eq!(refused.kind, Kind::MissingEntry);
         let mut more = Vec::new();
         s.contact.condensed_pattern(&s.x1, &s.x2, &csr, &mut |i: i64, j: i64, _: f64| more.push((i, j))).unwrap();
@@ -348,7 +348,7 @@ fn the_pattern_has_what_condensing_needs() {
         let (offsets, columns) = csr_of(&entries);
         let value = |i: usize, j: usize| if coupled(i, j) { 1.0 + ((3 * i + 5 * j) % 7) as f64 } else { 0.0 };
         let at_place = |k: usize| value(entries[k].0 as usize, entries[k].1 as usize);
-        let rows = s.contact.condense((&s.x1, &s.x2), &s.lambda, Csr::new(0, &offsets, &columns), at_place).unwrap();
+        let rows = s.contact.condense((&s.x1, &s.x2), &s.lambda, Csr::new(0, &offsets, &columns), &at_place).unwrap();
         let host = Dense::new(DMatrix::from_fn(n, n, value), DVector::zeros(n));
         let mut sparse = host.j.clone();
         rows.places().for_each(|(k, v)| sparse[(entries[k].0 as usize, entries[k].1 as usize)] = v);
@@ -356,7 +356,7 @@ fn the_pattern_has_what_condensing_needs() {
     }
 }
 
-/// What is changed of the equations of both sides and of the multipliers.
+/// Changes the equations of the non-mortar side, of the mortar side, of the multipliers.
 type Change<'a> = &'a dyn Fn(&mut [[i64; 3]], &mut [[i64; 3]], &mut [[i64; 3]]);
 
 #[test]

@@ -8,12 +8,11 @@ use crate::support::*;
 use serde_json::Value;
 use std::collections::HashSet;
 use stickslip::error::Kind;
-use stickslip::geometry::{AnalyticShape, Vec3};
+use stickslip::geometry::Vec3;
 use stickslip::interface::{
-    Contact, Extent, Form, Friction, Interface, MultiplierBasis, NO_WEAK_COVERAGE, Options, Scheme, Stiffness, Surface,
-    Weights,
+    Contact, Extent, Form, Friction, Interface, MultiplierBasis, NO_WEAK_COVERAGE, Options, Stiffness, Weights,
 };
-use stickslip::quadrature::{DEGREE_5, DEGREE_10, cell};
+use stickslip::quadrature::{DEGREE_5, DEGREE_10};
 
 /// Residual blocks, relative to the largest entry of the block.
 const RESIDUAL: f64 = 1e-12;
@@ -220,24 +219,9 @@ fn a_nodes_force_is_its_multiplier_times_its_area() {
 }
 
 #[test]
-fn what_is_not_there_yet_is_refused_by_name() {
+fn sums_of_several_handles_are_refused_by_name() {
     let one = grid(1, 1, [0.0, 0.0], [1.0, 1.0], 0.0, false, Cells::Quads);
     let two = grid(1, 1, [-0.5, -0.5], [1.5, 1.5], 0.0, true, Cells::Quads);
-    let surface = |side, mesh: &Mesh| Surface::new(side, mesh.x.clone(), &mesh.facets, numbered(0, mesh.x.len()));
-    let create = |mortar: Surface, options: Options| {
-        Interface::new(surface("nonmortar", &one).unwrap(), mortar, numbered(24, one.x.len()), dual(options))
-    };
-    let frame = vec![Vec3::zeros(), Vec3::z(), Vec3::x(), Vec3::y()];
-    let plane = Surface::analytic("mortar", AnalyticShape::Plane, frame).unwrap();
-    let points = |scheme: fn(_) -> _| Options { scheme: scheme(cell::line_of(3).unwrap()), ..options() };
-    for (refused, words) in [
-        (create(plane, options()), "analytic"),
-        (create(surface("mortar", &two).unwrap(), points(Scheme::Elements)), "points in place of overlaps"),
-        (create(surface("mortar", &two).unwrap(), points(Scheme::Hybrid)), "points in place of overlaps"),
-    ] {
-        let error = refused.err().unwrap();
-        assert!(error.kind == Kind::Unsupported && error.to_string().contains(words), "{error}");
-    }
     let mut c: Interface = interface(&one, &two, dual(options()));
     let sums = c.sums(&one.x, &two.x).unwrap();
     let error = c.residual(&one.x, &two.x, &[Vec3::zeros(); 4], Some(&sums)).unwrap_err();

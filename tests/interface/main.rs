@@ -12,6 +12,7 @@ mod crease;
 mod crosspoints;
 mod diagnosis;
 mod dual;
+mod dual_points;
 mod effects;
 mod equilibrium;
 mod golden;

@@ -7,8 +7,8 @@ use nalgebra::SVector;
 use stickslip::error::Result;
 use stickslip::geometry::{AnalyticShape, Vec3};
 use stickslip::interface::{
-    Contact, Extent, Form, Friction, MultiplierBasis, NO_EQUATION, NodeSums, Options, Scheme, Shortcuts, Surface,
-    Weights,
+    Contact, Extent, Form, Friction, MultiplierBasis, NO_EQUATION, NO_WEAK_COVERAGE, NodeSums, Options, Scheme,
+    Shortcuts, Surface, Weights,
 };
 use stickslip::law::Coefficient;
 
@@ -109,13 +109,10 @@ impl Scene {
         options.weights =
             [Weights::Current, Weights::Current, Weights::Current, Weights::Committed, Weights::Reference]
                 [draw(random, 5)];
-        options.weak_coverage = [0.0, 0.5, 1.0][draw(random, 3)];
+        options.weak_coverage = [NO_WEAK_COVERAGE, 0.5, 1.0][draw(random, 3)];
         const LINE: &[[f64; 2]] = &[[0.21132486540518713, 0.5], [0.7886751345948129, 0.5]];
         options.scheme = [Scheme::Segments, Scheme::Segments, Scheme::Hybrid(LINE)][draw(random, 3)];
-        // Some options are not there yet with dual multipliers.
-        if draw(random, 3) == 0 && mortar.analytic.is_none() && matches!(options.scheme, Scheme::Segments) {
-            options.basis = MultiplierBasis::Dual;
-        }
+        options.basis = [MultiplierBasis::Standard, MultiplierBasis::Standard, MultiplierBasis::Dual][draw(random, 3)];
         Scene { one: nonmortar, two: mortar, options }
     }
 

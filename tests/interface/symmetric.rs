@@ -122,7 +122,7 @@ fn steps_agree<const N: usize>(s: &mut Scene<N>, what: &str) -> usize {
     let columns: Vec<i64> = (0..n * n).map(|e| (e % n) as i64).collect();
     let value = |e: usize| k[(e / n, e % n)];
     let places: Vec<_> =
-        s.contact.condense(x, &s.lambda, Csr::new(0, &offsets, &columns), value).unwrap().places().collect();
+        s.contact.condense(x, &s.lambda, Csr::new(0, &offsets, &columns), &value).unwrap().places().collect();
     let mut condensed = k.clone();
     places.iter().for_each(|&(e, v)| condensed[(e / n, e % n)] = v);
     assert!(asymmetry(&condensed) >= UNSYMMETRIC, "{what}: nothing to be done");

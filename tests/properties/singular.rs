@@ -10,7 +10,7 @@ use proptest::test_runner::TestCaseResult;
 use stickslip::error::{Error, Kind};
 use stickslip::geometry::bilinear_map::BilinearMap;
 use stickslip::geometry::{AnalyticShape, AnalyticSurface, Facet, Projection, Vec3};
-use stickslip::interface::{Interface, Options, Scheme, Stiffness, Surface};
+use stickslip::interface::{Interface, MultiplierBasis, Options, Scheme, Stiffness, Surface};
 use stickslip::mortar::{
     self, AlongNormal, ForceDerivatives, GapDerivative, NonmortarFrame, PairWeights, Segment, WeightDerivatives,
 };
@@ -329,16 +329,21 @@ fn against_analytic(one: &Facet, rule: &Rule) -> TestCaseResult {
             }
         }
         finite(f.one.iter().flatten().flatten().flatten(), "a force's derivative")?;
+        // Raised by its own distance, as dual multipliers ask for it.
+        let raised = [0, 1, 2].map(|i| [0, 1, 2, 3].map(|b| points[0][i] - one.nodes[b][i]));
+        let b = mortar::analytic_motion_raised(&frame, &surface, rule, &raised, &mut f).unwrap();
+        finite(b.iter().flatten().flatten().flatten(), "a gap's derivative over a raised surface")?;
+        finite(f.one.iter().flatten().flatten().flatten(), "an area's derivative")?;
     }
     Ok(())
 }
 
 /// What the handle says of an interface of these two facets, all of it.
-fn evaluate(one: &[Vec3], two: &[Vec3], scheme: Scheme) -> Result<Vec<f64>, Error> {
+fn evaluate(one: &[Vec3], two: &[Vec3], scheme: Scheme, basis: MultiplierBasis) -> Result<Vec<f64>, Error> {
     let (n1, n2) = (one.len(), two.len());
     let facet = |n: usize| [(0..n as i64).collect::<Vec<_>>()];
     let surface = |side, x: &[Vec3], first| Surface::new(side, x.to_vec(), &facet(x.len()), numbered(first, x.len()));
-    let options = Options { scheme, ..Options::new(Stiffness::Augmentation(1.0)) };
+    let options = Options { scheme, basis, ..Options::new(Stiffness::Augmentation(1.0)) };
     let (a, b) = (surface("nonmortar", one, 0)?, surface("mortar", two, 3 * n1)?);
     let mut contact = Interface::new(a, b, numbered(3 * (n1 + n2), n1), options)?;
     let lambda = vec![Vec3::new(0.1, 0.0, -1.0); n1];
@@ -350,8 +355,10 @@ fn evaluate(one: &[Vec3], two: &[Vec3], scheme: Scheme) -> Result<Vec<f64>, Erro
 
 fn handle(one: &[Vec3], two: &[Vec3], points: usize) -> TestCaseResult {
     let line = cell::line_of(points).unwrap();
-    for scheme in [Scheme::Segments, Scheme::Elements(line), Scheme::Hybrid(line)] {
-        match evaluate(one, two, scheme) {
+    let schemes = [Scheme::Segments, Scheme::Elements(line), Scheme::Hybrid(line)];
+    let bases = [MultiplierBasis::Standard, MultiplierBasis::Dual];
+    for (scheme, basis) in schemes.into_iter().flat_map(|scheme| bases.map(|basis| (scheme, basis))) {
+        match evaluate(one, two, scheme, basis) {
             Ok(values) => finite(&values, "an entry of the handle")?,
             Err(error) => {
                 let other = matches!(error.kind, Kind::DuplicateNode | Kind::UndefinedNormal);

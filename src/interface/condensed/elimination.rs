@@ -11,6 +11,9 @@
 //! - rows of a mortar node C: L_CB = P_BC = (M_BC T_B + sum_A w_AB M_AC T_A) T_B^T / D_B over the nodes A that B carries;
 //! - rows of a carried node A: L_AB = -D_A w_AB T_A T_B^T / D_B.
 //!
+//! Here all have three components: where a node's multiplier has one, T_A is nu_A in the first of three columns, so that
+//! this code need not know how many there are.
+//!
 //! Every other row stays as it is, and so does an uncovered node's, whose multiplier is 0. s_A counts as a constant: what
 //! D s_A would add to the matrix is c_A Ds_A, which vanishes with the residual.
 
@@ -18,7 +21,9 @@ use crate::error::{Error, Kind, Result};
 use crate::geometry::{Mat3, Vec3};
 use crate::interface::data::multiplier::direction;
 use crate::interface::data::pairs::PairRecord;
+use crate::interface::data::surface::Surface;
 use crate::interface::pairing::given::Given;
+use crate::interface::pairing::weak::Carrier;
 use crate::interface::stages::carried::multiplier_share;
 use crate::interface::stages::sums::NodeSums;
 use crate::law::NodeResponse;
@@ -36,79 +41,117 @@ pub struct Transfer {
     pub block: Mat3,
 }
 
+/// What the law says of a node's multiplier row.
+#[derive(Clone, Copy, Debug)]
+pub struct Row {
+    /// c_A.
+    value: Vec3,
+    /// dc_A/dlambda_A.
+    derivative: Mat3,
+}
+
+impl Row {
+    /// Of the law's answer.
+    pub fn of<const N: usize>(response: &NodeResponse<N>) -> Row {
+        Row { value: widened(&response.row), derivative: widened_matrix(&response.drow_dlambda) }
+    }
+}
+
+/// A multiplier as a vector of three components, of which those beyond N are 0.
+pub fn widened<const N: usize>(v: &SVector<f64, N>) -> Vec3 {
+    Vec3::from_fn(|i, _| if i < N { v[i] } else { 0.0 })
+}
+
+fn widened_matrix<const M: usize, const N: usize>(m: &SMatrix<f64, M, N>) -> Mat3 {
+    Mat3::from_fn(|i, j| if i < M && j < N { m[(i, j)] } else { 0.0 })
+}
+
+/// A node as its elimination sees it.
+#[derive(Clone, Copy, Debug)]
+struct Node {
+    /// T.
+    directions: Mat3,
+    /// Takes its carriers' multipliers to its own.
+    share: Mat3,
+    /// D [L^2].
+    area: f64,
+    /// r [F/L^5].
+    augmentation: f64,
+    /// Whether it has a multiplier of its own here: covered, and not carried.
+    own: bool,
+    /// Whether it is carried.
+    carried: bool,
+}
+
 /// The elimination at a configuration.
 #[derive(Debug)]
-pub struct Elimination<const N: usize> {
-    /// T of every node.
-    directions: Vec<SMatrix<f64, 3, N>>,
-    /// D_A [L^2].
-    areas: Vec<f64>,
-    /// Which nodes have a multiplier of their own here: covered, and not carried.
-    own: Vec<bool>,
-    /// Which are carried; empty where none is.
-    carried: Vec<bool>,
+pub struct Elimination {
+    nodes: Vec<Node>,
     /// Sorted by row, then by node.
     pub transfers: Vec<Transfer>,
 }
 
 /// W_B of a covered node from T_B, r_B and dc_B/dlambda_B.
-pub fn own_rows<const N: usize>(t: &SMatrix<f64, 3, N>, r: f64, drow_dlambda: &SMatrix<f64, N, N>) -> Mat3 {
-    Mat3::identity() - t * (SMatrix::<f64, N, N>::identity() + drow_dlambda * r) * t.transpose()
+pub fn own_rows(t: &Mat3, r: f64, drow_dlambda: &Mat3) -> Mat3 {
+    Mat3::identity() - t * (Mat3::identity() + drow_dlambda * r) * t.transpose()
 }
 
 /// A weight on its way into a block: (row, own node, node through which it acts), weight.
 type Share = ((usize, usize, usize), f64);
 
-impl<const N: usize> Elimination<N> {
+impl Elimination {
     /// At the pairs whose weights act, their sums, and the nodes that are carried there.
-    pub fn new(
+    pub fn of<const N: usize>(
         given: Given<N>,
         normals: &[Vec3],
         pairs: &[PairRecord],
         sums: &[NodeSums],
-        carried: Vec<bool>,
-    ) -> Result<Elimination<N>> {
-        let n1 = given.nodes();
-        let mut e = Elimination {
-            directions: memory::with_room(n1)?,
-            areas: memory::filled(0.0, n1)?,
-            own: memory::with_room(n1)?,
-            carried,
-            transfers: Vec::new(),
-        };
-        for pair in pairs {
-            for (k, &a) in given.setup.nonmortar.facets[pair.one].as_slice().iter().enumerate() {
-                e.areas[a] += pair.weights.coverage(k);
-            }
-        }
-        for (a, nu) in normals.iter().enumerate() {
-            e.directions.store(given.setup.nodes.free[a] * direction::<N>(*nu))?;
+        carried: &[bool],
+    ) -> Result<Elimination> {
+        let node = |a: usize| {
+            let carried = carried.get(a).is_some_and(|c| *c);
             let covered = sums[a].coverage > given.least_coverage(a);
-            e.own.store(given.setup.has_multiplier(a) && covered && !e.is_carried(a))?;
-        }
-        e.refuse_uncovered_carriers(given)?;
-        e.transfers = e.blocks(given, pairs)?;
+            Node {
+                directions: widened_matrix(&(given.setup.nodes.free[a] * direction::<N>(normals[a]))),
+                share: widened_matrix(&multiplier_share(given, a)),
+                area: 0.0,
+                augmentation: given.augmentation(a),
+                own: given.setup.has_multiplier(a) && covered && !carried,
+                carried,
+            }
+        };
+        let mut e = Elimination { nodes: (0..given.nodes()).map(node).stored()?, transfers: Vec::new() };
+        let carriers = &given.step.pairing.carriers;
+        e.refuse_uncovered_carriers(carriers)?;
+        e.add_areas(&given.setup.nonmortar, pairs);
+        let moving = if given.setup.effects.moves() { pairs } else { &[] };
+        e.transfers = e.blocks(given.setup.surfaces(), moving, carriers)?;
         Ok(e)
     }
 
-    fn is_carried(&self, a: usize) -> bool {
-        self.carried.get(a).is_some_and(|c| *c)
+    fn add_areas(&mut self, nonmortar: &Surface, pairs: &[PairRecord]) {
+        for pair in pairs {
+            for (k, &a) in nonmortar.facets[pair.one].as_slice().iter().enumerate() {
+                self.nodes[a].area += pair.weights.coverage(k);
+            }
+        }
     }
 
-    fn carried(&self) -> impl Iterator<Item = usize> {
-        (0..self.carried.len()).filter(|&a| self.carried[a])
+    /// Carried nodes with their carriers.
+    fn carried<'a>(&'a self, carriers: &'a [Vec<Carrier>]) -> impl Iterator<Item = (usize, &'a [Carrier])> {
+        carriers.iter().enumerate().filter(|(a, _)| self.nodes[*a].carried).map(|(a, c)| (a, &c[..]))
     }
 
     /// The nodes with multipliers of their own.
     pub fn own(&self) -> impl Iterator<Item = usize> {
-        (0..self.own.len()).filter(|&a| self.own[a])
+        (0..self.nodes.len()).filter(|&a| self.nodes[a].own)
     }
 
     /// A carrier that has lost its own cover within the step, while those that it carries have not, has no row to
     /// eliminate its multiplier with.
-    fn refuse_uncovered_carriers(&self, given: Given<N>) -> Result<()> {
-        for a in self.carried() {
-            if let Some((b, _)) = given.carriers_of(a).iter().find(|(b, _)| !self.own[*b]) {
+    fn refuse_uncovered_carriers(&self, carriers: &[Vec<Carrier>]) -> Result<()> {
+        for (a, carriers) in self.carried(carriers) {
+            if let Some((b, _)) = carriers.iter().find(|(b, _)| !self.nodes[*b].own) {
                 let text = text!(
                     "condensation where non-mortar node {b} is not covered any more and carries node {a}, which is: take a smaller step"
                 );
@@ -118,31 +161,34 @@ impl<const N: usize> Elimination<N> {
         Ok(())
     }
 
-    fn blocks(&self, given: Given<N>, pairs: &[PairRecord]) -> Result<Vec<Transfer>> {
+    fn blocks(
+        &self,
+        (one, two): (&Surface, &Surface),
+        moving: &[PairRecord],
+        carriers: &[Vec<Carrier>],
+    ) -> Result<Vec<Transfer>> {
         let mut shares: Vec<Share> = Vec::new();
-        let moving = if given.setup.effects.moves() { pairs } else { &[] };
         for pair in moving {
-            let (one, two) = (&given.setup.nonmortar.facets[pair.one], &given.setup.mortar.facets[pair.two]);
-            for (k, &a) in one.as_slice().iter().enumerate() {
-                for (c, &node) in two.as_slice().iter().enumerate() {
-                    let (row, weight) = (given.nodes() + node, pair.weights.ac[k][c]);
-                    if self.own[a] {
+            for (k, &a) in one.facets[pair.one].as_slice().iter().enumerate() {
+                for (c, &node) in two.facets[pair.two].as_slice().iter().enumerate() {
+                    let (row, weight) = (one.len() + node, pair.weights.ac[k][c]);
+                    if self.nodes[a].own {
                         shares.store(((row, a, a), weight))?;
-                    } else if self.is_carried(a) {
-                        let carriers = given.carriers_of(a).iter();
-                        shares.store_all(carriers.map(|&(b, w)| ((row, b, a), w * weight)))?;
+                    } else if self.nodes[a].carried {
+                        shares.store_all(carriers[a].iter().map(|&(b, w)| ((row, b, a), w * weight)))?;
                     }
                 }
             }
         }
-        for a in self.carried() {
-            shares.store_all(given.carriers_of(a).iter().map(|&(b, w)| ((a, b, a), -w * self.areas[a])))?;
+        for (a, carriers) in self.carried(carriers) {
+            shares.store_all(carriers.iter().map(|&(b, w)| ((a, b, a), -w * self.nodes[a].area)))?;
         }
         let shares = memory::sorted(&shares, |p, q| p.0.cmp(&q.0))?;
         let mut transfers: Vec<Transfer> = Vec::new();
         for same in shares.chunk_by(|p, q| p.0 == q.0) {
             let ((row, own, via), weight) = (same[0].0, same.iter().map(|s| s.1).sum::<f64>());
-            let block = self.directions[via] * self.directions[own].transpose() * (weight / self.areas[own]);
+            let (node, via) = (&self.nodes[own], &self.nodes[via]);
+            let block = via.directions * node.directions.transpose() * (weight / node.area);
             match transfers.last_mut() {
                 Some(last) if (last.row, last.own) == (row, own) => last.block += block,
                 _ => transfers.store(Transfer { row, own, block })?,
@@ -151,57 +197,56 @@ impl<const N: usize> Elimination<N> {
         Ok(transfers)
     }
 
-    /// s_A of every node [F/L^3]; 0 where it has no multiplier of its own.
-    pub fn scales(&self, given: Given<N>) -> Result<Vec<f64>> {
-        let scale = |a: usize| if self.own[a] { given.augmentation(a) * self.areas[a] } else { 0.0 };
-        (0..self.own.len()).map(scale).stored()
+    /// s_A [F/L^3]; 0 where a node has no multiplier of its own.
+    pub fn scale(&self, a: usize) -> f64 {
+        let node = &self.nodes[a];
+        if node.own { node.augmentation * node.area } else { 0.0 }
+    }
+
+    /// s of every node.
+    pub fn scales(&self) -> Result<Vec<f64>> {
+        (0..self.nodes.len()).map(|a| self.scale(a)).stored()
     }
 
     /// W_B.
-    pub fn diagonal(&self, given: Given<N>, b: usize, response: &NodeResponse<N>) -> Mat3 {
-        own_rows(&self.directions[b], given.augmentation(b), &response.drow_dlambda)
+    pub fn diagonal(&self, b: usize, row: &Row) -> Mat3 {
+        own_rows(&self.nodes[b].directions, self.nodes[b].augmentation, &row.derivative)
     }
 
-    /// The condensed rows of the non-mortar nodes, L R_u + b, and what the mortar nodes' rows gain beyond R_u, of the forces'
-    /// rows R_u of the non-mortar nodes.
-    pub fn residual(
-        &self,
-        given: Given<N>,
-        forces: &[Vec3],
-        responses: &[NodeResponse<N>],
-    ) -> Result<(Vec<Vec3>, Vec<Vec3>)> {
-        let (scales, n1) = (self.scales(given)?, forces.len());
-        let (mut rows, mut mortar) =
-            (memory::copied(forces)?, memory::filled(Vec3::zeros(), given.setup.mortar.len())?);
+    /// The condensed rows of the non-mortar nodes, L R_u + b, and what the rows of so many mortar nodes gain beyond R_u, of
+    /// the forces' rows R_u of the non-mortar nodes.
+    pub fn residual(&self, forces: &[Vec3], mortar: usize, rows: &[Row]) -> Result<(Vec<Vec3>, Vec<Vec3>)> {
+        let n1 = forces.len();
+        let (mut own, mut gains) = (memory::copied(forces)?, memory::filled(Vec3::zeros(), mortar)?);
         for t in &self.transfers {
-            let row = if t.row < n1 { &mut rows[t.row] } else { &mut mortar[t.row - n1] };
+            let row = if t.row < n1 { &mut own[t.row] } else { &mut gains[t.row - n1] };
             *row += t.block * forces[t.own];
         }
         for b in self.own() {
-            let constraint = self.directions[b] * responses[b].row * scales[b];
-            rows[b] = self.diagonal(given, b, &responses[b]) * forces[b] + constraint;
+            let constraint = self.nodes[b].directions * rows[b].value * self.scale(b);
+            own[b] = self.diagonal(b, &rows[b]) * forces[b] + constraint;
         }
-        Ok((rows, mortar))
+        Ok((own, gains))
     }
 
     /// The multipliers in force: those of `lambda` at the nodes that have their own, and what these tell of the others.
-    pub fn completed(&self, given: Given<N>, mut lambda: Vec<SVector<f64, N>>) -> Vec<SVector<f64, N>> {
-        for (a, lambda) in lambda.iter_mut().enumerate() {
-            *lambda = if self.own[a] { multiplier_share(given, a) * *lambda } else { SVector::zeros() };
+    pub fn completed(&self, carriers: &[Vec<Carrier>], mut lambda: Vec<Vec3>) -> Vec<Vec3> {
+        for (node, lambda) in self.nodes.iter().zip(&mut lambda) {
+            *lambda = if node.own { node.share * *lambda } else { Vec3::zeros() };
         }
-        for a in self.carried() {
-            let told = given.carriers_of(a).iter().map(|&(b, w)| lambda[b] * w).sum::<SVector<f64, N>>();
-            lambda[a] = multiplier_share(given, a) * told;
+        for (a, carriers) in self.carried(carriers) {
+            lambda[a] = self.nodes[a].share * carriers.iter().map(|&(b, w)| lambda[b] * w).sum::<Vec3>();
         }
         lambda
     }
 
     /// The multipliers that balance the host's own forces at the non-mortar nodes, lambda_B = -T_B^T R_B / D_B.
-    pub fn multipliers(&self, given: Given<N>, host: &[Vec3]) -> Result<Vec<SVector<f64, N>>> {
-        let mut lambda = memory::filled(SVector::zeros(), host.len())?;
+    pub fn multipliers(&self, carriers: &[Vec<Carrier>], host: &[Vec3]) -> Result<Vec<Vec3>> {
+        let mut lambda = memory::filled(Vec3::zeros(), host.len())?;
         for b in self.own() {
-            lambda[b] = self.directions[b].transpose() * host[b] * (-1.0 / self.areas[b]);
+            let Node { directions, area, .. } = &self.nodes[b];
+            lambda[b] = directions.transpose() * host[b] * (-1.0 / area);
         }
-        Ok(self.completed(given, lambda))
+        Ok(self.completed(carriers, lambda))
     }
 }

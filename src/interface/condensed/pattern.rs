@@ -28,7 +28,7 @@ impl Columns {
                 columns.of_node[a].store_all(csr.row(e)?.map(|place| csr.column(place)))?;
             }
         }
-        columns.nodes.sort_unstable();
+        memory::sort(&mut columns.nodes)?;
         Ok(columns)
     }
 
@@ -41,11 +41,12 @@ impl Columns {
     }
 
     /// Each column once.
-    pub fn settle(&mut self) {
+    pub fn settle(&mut self) -> Result<()> {
         for columns in &mut self.of_node {
-            columns.sort_unstable();
+            memory::sort(columns)?;
             columns.dedup();
         }
+        Ok(())
     }
 
     /// Gives the entries of all rows that these pairs of facets and the nodes that are carried can change.
@@ -70,14 +71,14 @@ impl Columns {
         for a in 0..given.nodes() {
             gains.store_all(given.carriers_of(a).iter().map(|&(b, _)| (a, b)))?;
         }
-        gains.sort_unstable();
+        memory::sort(&mut gains)?;
         gains.dedup();
         for of_row in gains.chunk_by(|p, q| p.0 == q.0) {
             let mut columns = Vec::new();
             for (_, a) in of_row {
                 columns.store_all(self.of_node[*a].iter().copied())?;
             }
-            columns.sort_unstable();
+            memory::sort(&mut columns)?;
             columns.dedup();
             let row = of_row[0].0;
             let equations = if row < one.len() { &one.equations[row] } else { &two.equations[row - one.len()] };

@@ -7,7 +7,7 @@ use crate::interface::data::multiplier::direction;
 use crate::interface::data::options::{Form, MultiplierBasis};
 use crate::interface::data::surface::NO_EQUATION;
 use crate::interface::pairing::given::Given;
-use crate::memory::Store;
+use crate::memory::{self, Store};
 
 /// A component of a unit direction below this is rounding of the normal.
 const NO_COMPONENT: f64 = 1e-8;
@@ -64,7 +64,7 @@ fn refuse_shared<const N: usize>(given: Given<N>) -> Result<()> {
     for (k, equations) in setup.mortar.equations.iter().enumerate() {
         used.store_all(equations.iter().filter(|e| **e != NO_EQUATION).map(|&e| (e, true, k)))?;
     }
-    used.sort_unstable();
+    memory::sort(&mut used)?;
     let clash = |one: &(i64, bool, usize), other: &(i64, bool, usize)| {
         one.0 == other.0 && !one.1 && (other.1 || one.2 != other.2)
     };

@@ -23,14 +23,14 @@ pub struct CondensedRows<'a> {
 
 impl<'a> CondensedRows<'a> {
     /// The rows of these equations, those that there are, with what `value` says of each place.
-    pub fn new(csr: Csr<'a>, mut equations: Vec<i64>, value: impl Fn(usize) -> f64) -> Result<CondensedRows<'a>> {
+    pub fn new(csr: Csr<'a>, mut equations: Vec<i64>, value: &dyn Fn(usize) -> f64) -> Result<CondensedRows<'a>> {
         equations.retain(|e| *e != NO_EQUATION);
-        equations.sort_unstable();
+        memory::sort(&mut equations)?;
         equations.dedup();
         let (mut starts, mut values) = (memory::with_room(equations.len())?, Vec::new());
         for &equation in &equations {
             starts.store(values.len())?;
-            values.store_all(csr.row(equation)?.map(&value))?;
+            values.store_all(csr.row(equation)?.map(value))?;
         }
         Ok(CondensedRows { csr, equations, starts, values, refused: None })
     }

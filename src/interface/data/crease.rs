@@ -137,7 +137,7 @@ fn parts(fan: &[usize], joints: &[Joint]) -> Result<Vec<Vec<usize>>> {
             }
             at += 1;
         }
-        part.sort_unstable();
+        memory::sort(&mut part)?;
         parts.store(part)?;
     }
     Ok(parts)

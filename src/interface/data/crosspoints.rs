@@ -5,7 +5,7 @@
 //! which is fine. A node on both sides of one interface touches itself.
 
 use crate::error::Result;
-use crate::memory::Store;
+use crate::memory::{self, Store};
 
 /// The nodes of one interface, in the host's numbers; a number may come more than once.
 #[derive(Clone, Copy, Debug)]
@@ -42,7 +42,7 @@ pub fn crosspoints(interfaces: &[InterfaceNodes]) -> Result<Vec<Crosspoint>> {
         uses.store_all(interface.nonmortar.iter().map(|&node| (node, k, false)))?;
         uses.store_all(interface.mortar.iter().map(|&node| (node, k, true)))?;
     }
-    uses.sort_unstable();
+    memory::sort(&mut uses)?;
     uses.dedup();
     let mut found = Vec::new();
     for uses in uses.chunk_by(|u, v| u.0 == v.0) {

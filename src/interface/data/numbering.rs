@@ -2,7 +2,7 @@
 
 use super::surface::{NO_EQUATION, Surface};
 use crate::error::{Error, Kind, Result};
-use crate::memory::{Store, Stored};
+use crate::memory::{self, Store, Stored};
 
 /// Refuses a multiplier whose equation is that of a displacement, of either side, or of another multiplier: both rows would
 /// be added up. (Displacements may share theirs, as copies of a node on a crease do.)
@@ -15,8 +15,7 @@ pub fn check<const N: usize>(multipliers: &[[i64; N]], sides: [&Surface; 2]) -> 
     let first_displacement = taken.len();
     taken.store_all(named("nonmortar.equations", sides[0].equations.as_flattened()))?;
     taken.store_all(named("mortar.equations", sides[1].equations.as_flattened()))?;
-    let mut order: Vec<usize> = (0..taken.len()).stored()?;
-    order.sort_unstable_by_key(|&i| (taken[i].0, i)); // of equal ones the multiplier comes first
+    let order = memory::order(taken.len(), &|i, j| taken[i].0.cmp(&taken[j].0))?; // of equal ones the multiplier comes first
     let twice = order.windows(2).find(|pair| taken[pair[0]].0 == taken[pair[1]].0 && pair[0] < first_displacement);
     let Some(&[one, other]) = twice else { return Ok(()) };
     let ((_, name, k), (_, other, j)) = (taken[one], taken[other]);

@@ -5,7 +5,7 @@ use super::effects::Effects;
 use super::frame::check_frame;
 use super::node_data::NodeData;
 use super::numbering;
-use super::options::{MortarSide, MultiplierBasis, Options, Scheme};
+use super::options::{MortarSide, Options};
 use super::surface::{NO_EQUATION, Surface, frames};
 use crate::error::{Error, Kind, Result};
 
@@ -51,7 +51,6 @@ impl<const N: usize> Setup<N> {
             let text = text!("the mortar side is rigid, but its node {k} has an equation; give it none (-1)");
             return Err(Error::new(Kind::InvalidValue, text));
         }
-        refuse_dual(&options, &mortar)?;
         if nonmortar.analytic.is_some() {
             let text = "nonmortar is an analytic surface; only the mortar side can be one";
             return Err(Error::new(Kind::InvalidValue, text));
@@ -74,19 +73,4 @@ impl<const N: usize> Setup<N> {
     pub fn has_multiplier(&self, a: usize) -> bool {
         self.multiplier_equations[a].iter().any(|&e| e != NO_EQUATION)
     }
-}
-
-/// Refuses what dual multipliers cannot do yet.
-fn refuse_dual(options: &Options, mortar: &Surface) -> Result<()> {
-    let missing = match options {
-        Options { basis: MultiplierBasis::Standard, .. } => return Ok(()),
-        _ if mortar.analytic.is_some() => "an analytic mortar side",
-        Options { scheme: Scheme::Elements(_) | Scheme::Hybrid(_), .. } => {
-            "points in place of overlaps (STICKSLIP_INTEGRATION_ELEMENTS, HYBRID)"
-        }
-        _ => return Ok(()),
-    };
-    let text =
-        text!("the dual multiplier basis with {missing} is not available in this version; take the standard one");
-    Err(Error::new(Kind::Unsupported, text))
 }

@@ -8,9 +8,11 @@
 
 use crate::error::{Error, Kind, Result, Text};
 use crate::geometry::{Facet, Plane, Vec3};
-use crate::interface::data::options::{MultiplierBasis, Weights};
+use crate::interface::data::options::{MultiplierBasis, Scheme, Weights};
 use crate::interface::data::pairs::PairRecord;
 use crate::interface::data::surface::NO_EQUATION;
+use crate::interface::pairing::candidates::by_points;
+use crate::interface::pairing::filter::Filter;
 use crate::interface::pairing::given::Given;
 use crate::interface::stages::sums::NodeSums;
 use crate::interface::tangent::emission::Sink;
@@ -180,7 +182,7 @@ impl Owners {
         let all = equations.iter().enumerate().map(of_node);
         let all = all.flat_map(|node| node.into_iter().enumerate().map(|(i, (e, a))| (e, (a, i))));
         let mut all = all.filter(|(equation, _)| *equation != NO_EQUATION).stored()?;
-        all.sort_unstable();
+        memory::sort(&mut all)?;
         Ok(Owners(all))
     }
 
@@ -250,13 +252,37 @@ fn worst_pairs<const N: usize>(given: Given<N>, pairs: &[PairRecord], (x1, x2): 
         // With dual multipliers the weights that act are not those of the pair alone.
         let own = match given.setup.options.basis {
             MultiplierBasis::Standard => pair.weights,
-            MultiplierBasis::Dual => PairWeights::integrate(&frame, &segment, given.setup.options.rule),
+            MultiplierBasis::Dual => match integrated(given, (pair.one, &frame), &segment, &two) {
+                Some(weights) => weights,
+                None => continue,
+            },
         };
         let (n, m) = (own.ab.iter().chain(&own.ac), fine.ab.iter().chain(&fine.ac));
         let apart = n.flatten().zip(m.flatten()).map(|(n, m)| (n - m).abs()).fold(0.0, f64::max);
         keep(&mut d.error, apart / whole, facets);
     }
     d.overlap = smallest.map(|w: WorstPair| WorstPair { value: -w.value, ..w });
+}
+
+/// The weights of a pair as they are integrated; `None` where it is not known whether that is by points: a history of
+/// frozen weights does not say so.
+fn integrated<const N: usize>(
+    given: Given<N>,
+    (f, frame): (usize, &NonmortarFrame),
+    overlap: &Segment,
+    two: &Facet,
+) -> Option<PairWeights> {
+    let options = &given.setup.options;
+    let current = options.effective_weights() == Weights::Current;
+    let line = match (options.scheme, &given.step.pairing.filter) {
+        (Scheme::Segments, _) => None,
+        (Scheme::Elements(line), _) => Some(line),
+        (Scheme::Hybrid(_), Some(Filter::Facets(filter))) if current => by_points(options, filter, f),
+        (Scheme::Hybrid(_), _) => return None,
+    };
+    let Some(line) = line else { return Some(PairWeights::integrate(frame, overlap, options.rule)) };
+    let points = Segment::of_points(frame, two, line).ok()??;
+    Some(PairWeights::integrate(frame, &points, options.rule))
 }
 
 /// The nodes and directions in which multiplier rows (nearly) vanish.

@@ -208,7 +208,7 @@ fn claims(one: &Surface, pairs: &[PairRecord]) -> Result<Vec<i64>> {
         let covered = (0..facet.len).filter(|&k| pair.weights.coverage(k) > 0.0);
         claims.store_all(covered.map(|k| (facet.nodes[k], pair.two)))?;
     }
-    claims.sort_unstable();
+    memory::sort(&mut claims)?;
     claims.dedup();
     let mut counts = memory::filled(0, one.len())?;
     claims.iter().for_each(|&(a, _)| counts[a] += 1);

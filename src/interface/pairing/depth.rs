@@ -84,8 +84,7 @@ fn facets_around(surface: &Surface) -> Result<Vec<Vec<usize>>> {
 fn places(x: &[Vec3]) -> Result<Vec<usize>> {
     // Adding 0 makes -0 the same place.
     let key = |a: usize| [0, 1, 2].map(|k| (x[a][k] + 0.0).to_bits());
-    let mut order = (0..x.len()).stored()?;
-    order.sort_unstable_by_key(|&a| (key(a), a));
+    let order = memory::order(x.len(), &|a, b| key(a).cmp(&key(b)))?;
     let mut places = memory::filled(0, x.len())?;
     for same in order.chunk_by(|&a, &b| key(a) == key(b)) {
         same.iter().for_each(|&a| places[a] = same[0]);

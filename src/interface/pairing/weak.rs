@@ -73,21 +73,21 @@ pub fn carriers(nodes: &Nodes, links: &[Vec<Carrier>], part: f64) -> Result<Vec<
 /// The weighted mean of some nodes' carriers, each node's sum being 1 or 0.
 fn mean<'a>(nodes: impl Iterator<Item = (&'a Vec<Carrier>, f64)>) -> Result<Vec<Carrier>> {
     let all = nodes.flat_map(|(carriers, w)| carriers.iter().map(move |&(b, v)| (b, w * v)));
-    let mut sum = gather(all.stored()?);
+    let mut sum = gather(all.stored()?)?;
     let total: f64 = sum.iter().map(|(_, w)| w).sum();
     sum.iter_mut().for_each(|(_, w)| *w /= total);
     Ok(sum)
 }
 
 /// Sorted by node, the weights of a node added up.
-fn gather(mut all: Vec<Carrier>) -> Vec<Carrier> {
-    all.sort_unstable_by(|p, q| p.0.cmp(&q.0).then(p.1.total_cmp(&q.1)));
+fn gather(all: Vec<Carrier>) -> Result<Vec<Carrier>> {
+    let mut all = memory::sorted(&all, |p, q| p.0.cmp(&q.0).then(p.1.total_cmp(&q.1)))?;
     all.dedup_by(|next, kept| {
         let same = next.0 == kept.0;
         kept.1 += if same { next.1 } else { 0.0 };
         same
     });
-    all
+    Ok(all)
 }
 
 /// Per node the nodes that share a facet with it, each with the facets' area, twice at an edge: as int N_A N_B da on
@@ -106,7 +106,7 @@ pub fn links(surface: &Surface, history: &History) -> Result<Vec<Vec<Carrier>>> 
             }
         }
     }
-    links.into_iter().map(gather).stored()
+    links.into_iter().map(gather).stored_if_ok()
 }
 
 #[cfg(test)]

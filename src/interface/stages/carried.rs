@@ -16,7 +16,7 @@ use crate::geometry::{Mat3, Vec3};
 use crate::interface::data::options::{MultiplierBasis, Options};
 use crate::interface::pairing::given::Given;
 use crate::law::NodeResponse;
-use crate::memory::{Store, Stored};
+use crate::memory::{self, Store, Stored};
 use nalgebra::{SMatrix, SVector};
 
 /// Which nodes are carried here, at these sums; empty where none is.
@@ -60,7 +60,7 @@ pub fn carriers_sums<const N: usize>(
     for a in (0..carried.len()).filter(|&a| carried[a]) {
         nodes.store_all(given.carriers_of(a).iter().map(|&(b, _)| b))?;
     }
-    nodes.sort_unstable();
+    memory::sort(&mut nodes)?;
     nodes.dedup();
     let mut all = nodes.iter().map(|&b| (b, sums[b])).stored()?;
     for a in (0..carried.len()).filter(|&a| carried[a]) {

@@ -21,7 +21,7 @@ use crate::interface::data::options::{Form, MultiplierBasis, Scheme};
 use crate::interface::pairing::given::Given;
 use crate::interface::stages::respond::Responses;
 use crate::memory::{self, Stored};
-use crate::mortar::{ForceDerivatives, GapDerivative, MORTAR, PAIR_NODES};
+use crate::mortar::{ForceDerivatives, GapDerivative, MORTAR, PAIR_NODES, gap};
 use crate::shape::MAX_CORNERS;
 use nalgebra::{SMatrix, SVector};
 
@@ -73,20 +73,27 @@ impl<const N: usize> Numbers<'_, N> {
     fn dual_share(
         &self,
         given: Given<N>,
-        (pair, facet): (&UnionPair, Option<&FacetMotion>),
+        (pair, dual, facet): (&UnionPair, &DualFacet, Option<&FacetMotion>),
         t: &mut PairTangent<N>,
         tractions: &mut TractionDerivatives,
-    ) -> Option<GapDerivative> {
+    ) -> Result<Option<GapDerivative>> {
         let (active, facet) = match (self.active.filter(|_| pair.now.is_some()), facet) {
             (Some(active), Some(facet)) => (active, facet),
             _ => {
                 t.forces = ForceDerivatives::default();
-                return None;
+                return Ok(None);
             }
         };
+        if let Some(surface) = self.motion.surface {
+            let (one, two) = given.setup.surfaces();
+            let (one, two) = (one.facet(pair.one, &active.x1), two.facet(pair.two, &active.x2));
+            let gaps = gap(active.integrated(pair.place), &one, &two);
+            let frame = &active.frames[pair.one];
+            return dual.of_analytic((&self.motion, surface), frame, (&facet.tractions, &gaps), &mut t.forces);
+        }
         let mortar = given.setup.mortar.facets[pair.two].len;
         let share = (active.integrated(pair.place), &active.segments[pair.place], mortar);
-        Some(self.motion.of_share(&active.frames[pair.one], facet, share, &mut t.forces, tractions))
+        Ok(Some(self.motion.of_share(&active.frames[pair.one], facet, share, &mut t.forces, tractions)))
     }
 
     /// Derivatives of `pairs` of one facet, its first ones where `first`: of the gap, and of the forces into `t`.
@@ -150,8 +157,8 @@ pub fn blocks<const MOVES: bool, const N: usize>(
             let (now, previous) = (total(pairs.iter().map(|p| p.now)), total(pairs.iter().map(|p| p.previous)));
             let (previous, mut gap) = (previous.as_deref(), None);
             if let (Some(numbers), Some(nodes)) = (numbers, &facet_nodes) {
-                gap = if dual.is_some() {
-                    let gap = numbers.dual_share(given, (&pairs[0], motion.as_ref()), &mut t, &mut tractions);
+                gap = if let Some(dual) = &dual {
+                    let gap = numbers.dual_share(given, (&pairs[0], dual, motion.as_ref()), &mut t, &mut tractions)?;
                     if let (true, Some(columns), Some(active)) = (gap.is_some(), &mut columns, numbers.active) {
                         let two = &given.setup.mortar.facets[pairs[0].two];
                         dual_facet::add(columns, (two, &mortar), active.integrated(pairs[0].place), &tractions);

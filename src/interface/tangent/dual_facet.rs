@@ -4,9 +4,9 @@
 use super::derivatives::PairDerivatives;
 use super::emission::Emitter;
 use super::union::UnionPair;
-use crate::dual::{DualBasis, FacetColumns, FacetMotion, FacetSums, PairShare, TractionDerivatives};
+use crate::dual::{DualBasis, FacetColumns, FacetMotion, FacetSums, PairShare, TractionDerivatives, WholeFacet};
 use crate::error::Result;
-use crate::geometry::Mat3;
+use crate::geometry::{AnalyticSurface, Mat3, Vec3};
 use crate::interface::data::active::Active;
 use crate::interface::data::effects::Opposite;
 use crate::interface::data::options::{MultiplierBasis, Tangent};
@@ -15,8 +15,8 @@ use crate::interface::pairing::given::Given;
 use crate::interface::stages::facet::dual_basis;
 use crate::memory::{self, Store};
 use crate::mortar::{
-    AreaDerivatives, ForceDerivatives, GapDerivative, NonmortarFrame, PairWeights, Segment, facet_motion_raised,
-    pair_motion_raised,
+    AreaDerivatives, ForceDerivatives, GapDerivative, NonmortarFrame, PairWeights, Segment, analytic_motion_raised,
+    facet_motion_raised, pair_motion_raised,
 };
 use crate::shape::{MAX_CORNERS, MAX_NODES};
 use std::borrow::Cow;
@@ -71,6 +71,23 @@ impl PairDerivatives<'_> {
         let share = PairShare { forces, gap: &mut gap, areas: &mut areas, tractions };
         facet.share(if moves { mortar } else { 0 }, weights, share);
         GapDerivative::Facets(gap)
+    }
+}
+
+impl DualFacet {
+    /// As [`PairDerivatives::of`], of a facet with its gaps, as they were integrated, against an analytic surface.
+    pub fn of_analytic(
+        &self,
+        (motion, surface): (&PairDerivatives, &AnalyticSurface),
+        frame: &NonmortarFrame,
+        (traction, gaps): (&[[f64; MAX_CORNERS]; 3], &[Vec3; MAX_CORNERS]),
+        forces: &mut ForceDerivatives,
+    ) -> Result<Option<GapDerivative>> {
+        let Some(basis) = &self.basis else { return Ok(None) };
+        let facet = WholeFacet::new(basis, gaps);
+        let mut blocks = analytic_motion_raised(frame, surface, motion.rule, &facet.heights, forces)?;
+        facet.share(traction, forces, &mut blocks);
+        Ok(Some(GapDerivative::Blocks(blocks)))
     }
 }
 

@@ -58,7 +58,9 @@ where
 
 #[test]
 fn plane_equals_a_large_facet() {
-    for cells in [Cells::Quads, Cells::Triangles] {
+    let cells = [Cells::Quads, Cells::Triangles];
+    for (cells, basis) in cells.into_iter().flat_map(|cells| BASES.map(|basis| (cells, basis))) {
+        let options = || Options { basis, ..options() };
         for slip in [SlipMeasure::Objective, SlipMeasure::Increment, SlipMeasure::Paper] {
             for weights in [Weights::Current, Weights::Committed, Weights::Reference] {
                 walk_over_plane::<3>(Options { slip, weights, ..options() }, cells, 0.0);

@@ -11,7 +11,7 @@ use crate::support::mesh::{Cells, Mesh, Random, grid};
 use nalgebra::{Rotation3, SVector};
 use stickslip::error::Result;
 use stickslip::geometry::{AnalyticShape, Vec3};
-use stickslip::interface::{Contact, Options, Residual, Surface};
+use stickslip::interface::{Contact, MultiplierBasis, Options, Residual, Surface};
 
 /// Equal but for rounding, relative to the largest entry.
 const ROUNDING: f64 = 1e-12;
@@ -23,6 +23,8 @@ const SHAPES: [AnalyticShape; 5] = [
     AnalyticShape::Cylinder(2.0),
     AnalyticShape::Cylinder(-5.0),
 ];
+
+const BASES: [MultiplierBasis; 2] = [MultiplierBasis::Standard, MultiplierBasis::Dual];
 
 /// Three multipliers a node, or one.
 trait Create: Sized {

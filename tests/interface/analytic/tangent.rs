@@ -78,10 +78,11 @@ where
 
 #[test]
 fn tangent_equals_differences_in_every_column() {
+    let forms = [Form::Multiplier, Form::Augmented];
     let mut seen = [0; 3];
-    for form in [Form::Multiplier, Form::Augmented] {
+    for (form, basis) in forms.into_iter().flat_map(|form| BASES.map(|basis| (form, basis))) {
         for weights in [Weights::Current, Weights::Committed, Weights::Reference] {
-            let options = Options { form, weights, ..options() };
+            let options = Options { form, weights, basis, ..options() };
             for slip in [SlipMeasure::Objective, SlipMeasure::Increment, SlipMeasure::Paper] {
                 let states = check_differences::<3>(Options { slip, ..options });
                 (0..3).for_each(|s| seen[s] += states[s]);
@@ -89,6 +90,8 @@ fn tangent_equals_differences_in_every_column() {
             for (friction, mu) in [(Friction::Rough, 0.0), (Friction::Tied, 0.0), (Friction::Coulomb, 0.0)] {
                 check_differences::<3>(Options { friction, mu, ..options });
             }
+            check_differences::<3>(Options { friction: Friction::Tresca, shear_limit: Some(0.2), ..options });
+            check_differences::<3>(Options { weak_coverage: 0.5, ..options });
             check_differences::<1>(Options { mu: 0.0, ..options });
         }
     }
