@@ -34,6 +34,13 @@ def write(scene, path):
     return path
 
 
+def interfaces(scene):
+    """The names of the interfaces of a scene, a file or the name of one in SCENES."""
+    path = scene if isinstance(scene, Path) else SCENES / f"{scene}.yaml"
+    listed = re.search(r"^\"?interfaces\"?: \[(.*?)\]", path.read_text(), re.MULTILINE | re.DOTALL)
+    return [name.strip(" \n\"") for name in listed[1].split(",")] if listed else []
+
+
 @dataclass
 class Line:
     """An interface seen along x: sums over the nodes with the same x, per unit thickness, ordered by x."""

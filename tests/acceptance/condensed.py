@@ -1,11 +1,8 @@
 """Checks of systems without multipliers (`unknowns: displacements`): the answers and Newton's path are those with
 multipliers, a solver that exchanges no rows gets through, and what cannot be condensed is refused by name."""
 
-import re
-
 import numpy as np
-from scene import SCENES as SCENES_FOLDER
-from scene import SceneError
+from scene import SceneError, interfaces
 from slider import SPRINGS, SWAPPED, SWAPPED_MESH, travel
 
 # Both systems are solved to rounding of their forces: Newton's iterations are then those that it takes, not those that a
@@ -69,12 +66,6 @@ def condensed_full(verdicts, driver):
     """Minutes."""
     for scene in LONG:
         compare(verdicts, driver, *scene)
-
-
-def interfaces(scene):
-    """Their names in the scene's file."""
-    listed = re.search(r"^interfaces: \[(.*?)\]", (SCENES_FOLDER / f"{scene}.yaml").read_text(), re.MULTILINE | re.DOTALL)
-    return [name.strip() for name in listed[1].split(",")]
 
 
 def compare(verdicts, driver, scene, label, options):

@@ -1,6 +1,7 @@
 """Runs the driver on a scene that is made here, and reads what the matrix wants to know."""
 
 import json
+import os
 import re
 import sys
 from dataclasses import dataclass
@@ -8,13 +9,18 @@ from pathlib import Path
 
 import condition
 from cell import Outcome
-from library import Library
+from library import BASIS, Library
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "studies" / "common"))
 import folders  # noqa: E402, F401  (needs the path; puts the others on it)
-from scene import SCENES, Driver, SceneError, write  # noqa: E402  (needs the path)
+from scene import SCENES, Driver, SceneError, interfaces, write  # noqa: E402  (needs the path)
 
 CONVERGED, BAD_SCENE, NOT_CONVERGED, REFUSED = range(4)  # exit codes of the driver
+
+
+def matrix_folder():
+    """Of the matrix with these multipliers."""
+    return f"stability_{os.environ[BASIS]}" if BASIS in os.environ else "stability"
 
 
 @dataclass
@@ -26,7 +32,7 @@ class Context:
 
     @property
     def folder(self):
-        return self.build / "stability" / "runs" / self.label
+        return self.build / matrix_folder() / "runs" / self.label
 
     @property
     def library(self):
@@ -50,6 +56,8 @@ class Context:
     def solve(self, scene, *options, name="run", kappa=False):
         """The finished Run of a scene (a dict, a file, or the name of one in c_examples/scenes); any exit code."""
         path = self.write(scene, name) if isinstance(scene, dict) else scene
+        if BASIS in os.environ:
+            options = (*(word for i in interfaces(path) for word in (f"-{i}_basis", os.environ[BASIS])), *options)
         matrix = self.folder / f"{name}_matrix.bin"
         if kappa:
             self.folder.mkdir(parents=True, exist_ok=True)

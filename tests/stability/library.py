@@ -4,6 +4,7 @@ Only what they use. A refusal is raised as Refused, with the call, the status an
 """
 
 import ctypes
+import os
 from ctypes import byref, c_char_p, c_double, c_int32, c_int64, c_uint64, c_void_p
 from pathlib import Path
 
@@ -131,6 +132,11 @@ States = struct(
 )
 
 
+# The variable of the environment that says which multipliers the matrix is about, and the library's numbers of them.
+BASIS = "STABILITY_BASIS"
+BASES = {"standard": 0, "dual": 1}
+
+
 class Library:
     def __init__(self, path):
         self.c = ctypes.CDLL(str(Path(path).resolve()))
@@ -181,6 +187,7 @@ class Interface:
         sides[0].multiplier_equations = self.keep(multipliers, np.int64)
         chosen = Options()
         library.call("options_init", byref(chosen), c_uint64(chosen.struct_size))
+        chosen.basis = BASES[os.environ.get(BASIS, "standard")]
         for name, value in options.items():
             setattr(chosen, name, value)
         self.handle = c_void_p()

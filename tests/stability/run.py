@@ -1,6 +1,6 @@
 """The stability matrix: hard cases x severity, every cell a run that is compared with an exact or refined answer.
 
-run.py --build DIR [--jobs N] [--quick] [--only FILE...] [--kind KIND] [--again] [--renew-figures]
+run.py --build DIR [--jobs N] [--quick] [--only FILE...] [--kind KIND] [--basis BASIS] [--again] [--renew-figures]
 
 Each cell runs in a process of its own, so that a crash or a hang is that cell's verdict and no end of the matrix.
 What it found goes to DIR/stability/cells/CELL.json; one that is newer than the programs and than the sources of its
@@ -27,7 +27,8 @@ sys.path.insert(0, str(HERE))
 import cell as cells  # noqa: E402
 import must_hold  # noqa: E402
 import report  # noqa: E402
-from host import Context  # noqa: E402
+from host import Context, matrix_folder  # noqa: E402
+from library import BASES, BASIS  # noqa: E402
 
 # A cell that takes longer hangs: the slowest takes some two minutes alone.
 HANGS = 600.0  # seconds
@@ -71,7 +72,7 @@ def store(cell, outcome, verdict, why, seconds, path):
 class Matrix:
     def __init__(self, build, jobs, chosen, again):
         self.build, self.jobs, self.chosen = build, jobs, chosen
-        self.folder = build / "stability" / "cells"
+        self.folder = build / matrix_folder() / "cells"
         self.folder.mkdir(parents=True, exist_ok=True)
         self.programs = [build / "c_examples" / "snes_contact", build / "lib" / "libstickslip.so"]
         self.again, self.start, self.done = again, time.monotonic(), 0
@@ -158,9 +159,12 @@ def main():
     parser.add_argument(
         "--kind", choices=(cells.SCENE, cells.ELEMENT), help="cells of the driver, or of single calls"
     )
+    parser.add_argument("--basis", choices=BASES, help="of the multipliers, where a cell says nothing; a report of its own")
     parser.add_argument("--again", action="store_true", help="keep nothing")
     parser.add_argument("--renew-figures", action="store_true", help="renew the committed figures too; all cells only")
     arguments = parser.parse_args()
+    if arguments.basis:
+        os.environ[BASIS] = arguments.basis
     if arguments.renew_figures and (arguments.quick or arguments.only or arguments.kind):
         parser.error("--renew-figures wants the whole matrix")
 
@@ -181,7 +185,7 @@ def main():
     name = "some" if arguments.only else "index"
     if arguments.quick or arguments.kind:
         name = "_".join(["quick"] * arguments.quick + [arguments.kind] * bool(arguments.kind))
-    page = report.write(matrix.build / "stability", name, results, lines, arguments.renew_figures)
+    page = report.write(matrix.build / matrix_folder(), name, results, lines, arguments.renew_figures)
     print(report.summary(results, lines))
     if page:
         print(f"written: {page}")
