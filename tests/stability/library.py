@@ -137,6 +137,11 @@ BASIS = "STABILITY_BASIS"
 BASES = {"standard": 0, "dual": 1}
 
 
+def basis_in_question():
+    """Which ones it is about."""
+    return os.environ.get(BASIS, "standard")
+
+
 class Library:
     def __init__(self, path):
         self.c = ctypes.CDLL(str(Path(path).resolve()))
@@ -187,7 +192,7 @@ class Interface:
         sides[0].multiplier_equations = self.keep(multipliers, np.int64)
         chosen = Options()
         library.call("options_init", byref(chosen), c_uint64(chosen.struct_size))
-        chosen.basis = BASES[os.environ.get(BASIS, "standard")]
+        chosen.basis = BASES[basis_in_question()]
         for name, value in options.items():
             setattr(chosen, name, value)
         self.handle = c_void_p()

@@ -3,7 +3,7 @@
 import numpy as np
 
 from cell import ELEMENT, Outcome, series
-from library import GAP, STICK, Interface
+from library import GAP, STICK, Interface, basis_in_question
 from scenes import EPS
 
 NOISES = ("1e-15", "1e-14", "1e-13", "1e-12", "1e-11", "1e-10")
@@ -68,6 +68,12 @@ def balance(outcome, interface, x1, x2, lam, scale):
     return f1, rows
 
 
+def fade(c):
+    """phi: facets of which less than a hundredth is covered fade out with dual multipliers (docs/formulation.md 10.5)."""
+    s = min(max((c - 1e-4) / (1e-2 - 1e-4), 0.0), 1.0)
+    return s**2 * (3 - 2 * s) if basis_in_question() == "dual" else 1.0
+
+
 def coverage(text):
     """A facet that overlaps with the mortar side by a strip of this part of it."""
     c = float(text)
@@ -81,7 +87,7 @@ def coverage(text):
         states = start.states(x1, x2, lam)
         # int N_A over a strip of width c next to the nodes of x = 0, and those of x = 1
         near, far = (c - c**2 / 2) / 2, c**2 / 4
-        exact = np.where(x1[:, 0] == 0, near, far)
+        exact = np.where(x1[:, 0] == 0, near, far) * fade(c)
         strip = np.spacing(1.0) * 2  # the width itself is a difference of coordinates of order one
         error = np.abs(states["coverage"] - exact).max()
         outcome.below("covered areas", error, strip + 1e-13 * c, "integrals over the strip")
