@@ -5,7 +5,9 @@ use crate::support::mesh::*;
 use nalgebra::{DMatrix, DVector, Rotation3, SVector};
 use stickslip::error::Kind;
 use stickslip::geometry::Vec3;
-use stickslip::interface::{Contact, Form, Friction, Options, RowScale, Stiffness, Weights};
+use stickslip::interface::{
+    Contact, Form, Friction, MultiplierBasis, NO_WEAK_COVERAGE, Options, RowScale, Stiffness, Weights,
+};
 use stickslip::law::SlipMeasure;
 
 /// Relative to the largest entry of a block, as in `tests/interface/tangent.rs`.
@@ -276,5 +278,38 @@ fn nodes_covered_as_a_whole_are_not_weak() {
         let mut contact = contact::<3>(&one, &two, false, options);
         contact.responses(&one.x, &two.x, &vec![SVector::zeros(); one.x.len()], None).unwrap();
         assert_eq!(contact.counters().nodes.carried, 0);
+    }
+}
+
+/// What a commit that changes carriers makes of the residual at the committed point: in the multiplier form no force, and
+/// no row but those of carried nodes and of carriers. A carried node's row is M_A times what its multiplier differs from
+/// its carriers' by.
+#[test]
+fn a_commit_changes_the_rows_of_carried_nodes_and_carriers_alone() {
+    for basis in [MultiplierBasis::Standard, MultiplierBasis::Dual] {
+        let committed = |weak_coverage| {
+            let mut s = scene::<3>(&Options { basis, weak_coverage, ..options() }, Cells::Quads);
+            s.contact.commit(&s.x1, &s.x2, &s.lambda, None).unwrap();
+            let r = s.contact.residual(&s.x1, &s.x2, &s.lambda, None).unwrap();
+            (s, r)
+        };
+        let ((s, carrying), (_, own)) = (committed(WEAK), committed(NO_WEAK_COVERAGE));
+        assert_eq!((&carrying.nonmortar, &carrying.mortar), (&own.nonmortar, &own.mortar), "{basis:?}");
+        let carriers: Vec<_> = s.contact.carriers().collect();
+        let covered = s.contact.history().coverage.clone();
+        let concerned = |a: usize| carriers.iter().any(|&(c, b, _)| c == a || b == a);
+        let mut changed = 0;
+        for a in 0..s.x1.len() {
+            let told: Vec<_> = carriers.iter().filter(|c| c.0 == a).collect();
+            if !concerned(a) {
+                assert_eq!(carrying.rows[a], own.rows[a], "{basis:?}: node {a}");
+            } else if !told.is_empty() && covered[a] > 0.0 {
+                let mean: Vec3 = told.iter().map(|c| s.lambda[c.1] * c.2).sum();
+                let expected = (mean - s.lambda[a]) * s.contact.row_scale(a) / s.contact.augmentation(a);
+                assert!((carrying.rows[a] - expected).amax() <= ROUNDING * expected.amax(), "{basis:?}: node {a}");
+                changed += 1;
+            }
+        }
+        assert!(changed > 0, "{basis:?}");
     }
 }

@@ -222,6 +222,8 @@ PetscErrorCode contact_commit(Contact *contact, PetscInt *status)
     int32_t    refused   = 0;
     PetscCall(contact_gather(contact, interface, contact->physics->u_local));
     if (mesh->rank == 0) refused = measure_memory(interface);
+    if (mesh->rank == 0 && !refused && contact->condensed) refused = condensed_settle(interface);
+    PetscCall(contact_gather(contact, interface, contact->physics->u_local));
     if (mesh->rank == 0 && !refused)
       refused = stickslip_interface_commit(interface->handle, STATE_OF(interface), NULL);
     PetscCall(contact_agree(contact, refused, status));
