@@ -142,6 +142,12 @@ def basis_in_question():
     return os.environ.get(BASIS, "standard")
 
 
+def fade(c):
+    """phi: facets of which less than a hundredth is covered fade out with dual multipliers (docs/formulation.md 10.5)."""
+    s = min(max((c - 1e-4) / (1e-2 - 1e-4), 0.0), 1.0)
+    return s**2 * (3 - 2 * s) if basis_in_question() == "dual" else 1.0
+
+
 class Library:
     def __init__(self, path):
         self.c = ctypes.CDLL(str(Path(path).resolve()))

@@ -3,7 +3,7 @@
 import numpy as np
 
 from cell import ELEMENT, Outcome, series
-from library import GAP, STICK, Interface, basis_in_question
+from library import GAP, STICK, Interface, fade
 from scenes import EPS
 
 NOISES = ("1e-15", "1e-14", "1e-13", "1e-12", "1e-11", "1e-10")
@@ -66,12 +66,6 @@ def balance(outcome, interface, x1, x2, lam, scale):
     outcome.below("sum of all forces", total / scale, 1e-13, "sum n_AB = sum n_AC")
     outcome.true("finite", all(np.isfinite(v).all() for v in (f1, f2, rows)), "no NaN")
     return f1, rows
-
-
-def fade(c):
-    """phi: facets of which less than a hundredth is covered fade out with dual multipliers (docs/formulation.md 10.5)."""
-    s = min(max((c - 1e-4) / (1e-2 - 1e-4), 0.0), 1.0)
-    return s**2 * (3 - 2 * s) if basis_in_question() == "dual" else 1.0
 
 
 def coverage(text):

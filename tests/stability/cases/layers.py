@@ -7,7 +7,7 @@ import numpy as np
 
 from cell import ELEMENT, Outcome, series
 from cases.assembled import OPTIONS, grid, pressed
-from library import Interface, Refused
+from library import Interface, Refused, fade
 
 GAPS = ("1", "0.2", "1e-2", "1e-4", "1e-6", "1e-8")
 SIZES = ("3", "0.9", "0.5", "0.1", "1e-2", "1e-3")  # of the plates, over the facet's
@@ -55,9 +55,10 @@ def stacked(size, gap, **options):
         if isinstance(found, Outcome):
             return found
         outcome, (near, far) = found
-        outcome.below("force of the farther plate over the nearer one's", far / near, EXACT, "it bears nothing")
         covered = min(size, 1.0) ** 2
-        outcome.below("force of the nearer plate", abs(near / covered - 1), EXACT, "the pressure on what it covers")
+        outcome.below("force of the farther plate over the nearer one's share", far / covered, EXACT, "it bears nothing")
+        error = abs(near / covered - fade(covered))
+        outcome.below("force of the nearer plate", error, EXACT, "the pressure on what it covers")
         return outcome
 
     return run
