@@ -11,7 +11,7 @@ from pathlib import Path
 sys.path.append(str(Path(__file__).resolve().parents[2] / "studies" / "common"))
 import acceptance  # noqa: E402
 from condensed import condensed, condensed_full  # noqa: E402
-from dual import dual, dual_full  # noqa: E402
+from dual import dual, dual_full, dual_iterations  # noqa: E402
 from effect_checks import effects  # noqa: E402
 from friction_checks import friction  # noqa: E402
 from hosts import hosts  # noqa: E402
@@ -32,6 +32,7 @@ GROUPS = {
     "condensed_full": condensed_full,  # minutes; not among the tests
     "dual": dual,
     "dual_full": dual_full,  # minutes; not among the tests
+    "dual_iterations": dual_iterations,  # a quarter of an hour; not among the tests
     "effects": effects,
     "friction": friction,
     "hosts": hosts,

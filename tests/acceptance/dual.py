@@ -5,6 +5,7 @@ import comparisons
 import numpy as np
 from comparisons import BLOCK
 from reference import clamped_block
+from scene import SCENES, interfaces
 
 DUAL = ("-base_basis", "dual")
 # Digits of the reference: five or six.
@@ -21,6 +22,8 @@ FINE_SCATTER, FINE_LARGEST = 0.005, 0.01
 FINE_BALLS = (8, 12)
 # Against an independent solver on the same mesh, without the two nodes at the ends, which are singular.
 BLOCKS, BLOCK_BOUND = ((40, 20), (80, 40), (160, 80)), 0.01
+# Of a scene more than so many, and more than this part, count; the longest scene is left out.
+MORE_ITERATIONS, MORE_PART, TOO_LONG = 3, 0.2, ("shallow_ironing",)
 # A node that is open has no force.
 FORCELESS = 0.01
 
@@ -127,3 +130,22 @@ def fine_ball(verdicts, driver, facets):
     verdicts.below(f"{label}: scatter of the pressure", rms, FINE_SCATTER, "a smooth profile")
     verdicts.below(f"{label}: largest deviation", largest, FINE_LARGEST, "a smooth profile")
     verdicts.below(f"{label}: largest force of an open node", of_open, FORCELESS, "open")
+
+
+def dual_iterations(verdicts, driver):
+    """A quarter of an hour: Newton's iterations over all scenes, with both bases."""
+    total = {"standard": 0, "dual": 0}
+    for path in sorted(SCENES.glob("*.yaml")):
+        names = interfaces(path)
+        if not names or path.stem in TOO_LONG:
+            continue
+        counts = {}
+        for basis in total:
+            options = [word for name in names for word in (f"-{name}_basis", basis)]
+            run = driver.run(path.stem, *options, "-output_vtu", "none", "-output_csv", "none", label=f"{path.stem}_{basis}")
+            counts[basis] = run.newton_iterations
+            total[basis] += run.newton_iterations
+        more = counts["dual"] - counts["standard"]
+        allowed = max(MORE_ITERATIONS, MORE_PART * counts["standard"])
+        verdicts.below(f"{path.stem}: more iterations", more, allowed, f"{counts['standard']}, dual {counts['dual']}")
+    verdicts.below("all scenes: iterations", total["dual"], total["standard"], "standard basis")
