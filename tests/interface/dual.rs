@@ -257,3 +257,19 @@ fn the_limit_of_a_step_knows_nothing_of_the_calls_before_it() {
     }
     assert!(limited > 0);
 }
+
+/// A pair's share of dual weights may be negative: the report counts the mortar facets of a node by overlaps all the same.
+#[test]
+fn the_report_counts_facets_whatever_the_sign_of_their_weights() {
+    for (what, rough, cells) in scenes() {
+        let [standard, dual] = [options(), dual(options())].map(|of| {
+            let options = Options { weights: Weights::Committed, ..of };
+            let mut t = moved(&options, cells, rough, 3);
+            t.interface.commit(&t.x1, &t.x2, &t.lambda, None).unwrap();
+            let report = t.interface.report(&t.x1, &t.x2).unwrap();
+            report.nodes.iter().map(|node| node.facets).collect::<Vec<_>>()
+        });
+        assert_eq!(standard, dual, "{what}");
+        assert!(standard.iter().any(|n| *n > 1), "{what}");
+    }
+}

@@ -205,7 +205,8 @@ fn claims(one: &Surface, pairs: &[PairRecord]) -> Result<Vec<i64>> {
     let mut claims = Vec::new();
     for pair in pairs {
         let facet = &one.facets[pair.one];
-        let covered = (0..facet.len).filter(|&k| pair.weights.coverage(k) > 0.0);
+        // A pair's share of dual weights may be negative; it is 0 only where nothing overlaps.
+        let covered = (0..facet.len).filter(|&k| pair.weights.coverage(k) != 0.0);
         claims.store_all(covered.map(|k| (facet.nodes[k], pair.two)))?;
     }
     memory::sort(&mut claims)?;
