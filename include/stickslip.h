@@ -260,8 +260,8 @@
 /// times its covered area, and tractions do not oscillate beside edges and on curved surfaces. The tangent couples the
 /// mortar nodes of all pairs of a facet. Neighbours carry weakly covered nodes unless weak_coverage says NONE. With
 /// STICKSLIP_INTEGRATION_ELEMENTS a facet whose covered points do not determine its multipliers is refused
-/// (DEGENERATE_FACET); STICKSLIP_INTEGRATION_HYBRID takes overlaps there from the next commit on. UNSUPPORTED in this
-/// version: sums of handles, the stages.
+/// (DEGENERATE_FACET); STICKSLIP_INTEGRATION_HYBRID takes overlaps there from the next commit on. The stages
+/// have calls of their own for it. UNSUPPORTED in this version: sums of handles.
 #define STICKSLIP_BASIS_DUAL 1
 
 /// weak_coverage: every covered node has a multiplier of its own.
@@ -1185,8 +1185,9 @@ int32_t stickslip_interface_carriers(struct stickslip_interface *interface,
 ///
 /// Errors: NULL_POINTER, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL, INVALID_VALUE (as
 /// `stickslip_interface_sums`); UNSUPPORTED: standard multipliers, the augmented form, a prescribed component (equation -1)
-/// of a node that has a multiplier there, two nodes with an equation in common (of which one has a multiplier), nodes that
-/// are not owned; and a node that carries others and is not covered any more: within Newton's method take a smaller step.
+/// of a node that has a multiplier there, two nodes with an equation in common (of which one has a multiplier), two
+/// components of one, nodes that are not owned; and a node that carries others and is not covered any more: within
+/// Newton's method take a smaller step.
 /// Cost: as `stickslip_interface_sums`, and a sort of the nodes.
 int32_t stickslip_interface_condensed_multipliers(struct stickslip_interface *interface,
                                                   const double *x1,

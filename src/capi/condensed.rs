@@ -57,8 +57,9 @@ pub unsafe extern "C" fn stickslip_interface_carriers(
 ///
 /// Errors: NULL_POINTER, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL, INVALID_VALUE (as
 /// `stickslip_interface_sums`); UNSUPPORTED: standard multipliers, the augmented form, a prescribed component (equation -1)
-/// of a node that has a multiplier there, two nodes with an equation in common (of which one has a multiplier), nodes that
-/// are not owned; and a node that carries others and is not covered any more: within Newton's method take a smaller step.
+/// of a node that has a multiplier there, two nodes with an equation in common (of which one has a multiplier), two
+/// components of one, nodes that are not owned; and a node that carries others and is not covered any more: within
+/// Newton's method take a smaller step.
 /// Cost: as `stickslip_interface_sums`, and a sort of the nodes.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn stickslip_interface_condensed_multipliers(

@@ -70,8 +70,8 @@ pub const STICKSLIP_BASIS_STANDARD: i32 = 0;
 /// times its covered area, and tractions do not oscillate beside edges and on curved surfaces. The tangent couples the
 /// mortar nodes of all pairs of a facet. Neighbours carry weakly covered nodes unless weak_coverage says NONE. With
 /// STICKSLIP_INTEGRATION_ELEMENTS a facet whose covered points do not determine its multipliers is refused
-/// (DEGENERATE_FACET); STICKSLIP_INTEGRATION_HYBRID takes overlaps there from the next commit on. UNSUPPORTED in this
-/// version: sums of handles, the stages.
+/// (DEGENERATE_FACET); STICKSLIP_INTEGRATION_HYBRID takes overlaps there from the next commit on. The stages
+/// have calls of their own for it. UNSUPPORTED in this version: sums of handles.
 pub const STICKSLIP_BASIS_DUAL: i32 = 1;
 /// weak_coverage: every covered node has a multiplier of its own.
 pub const STICKSLIP_WEAK_COVERAGE_NONE: f64 = -1.0;

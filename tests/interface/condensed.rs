@@ -362,7 +362,7 @@ type Change<'a> = &'a dyn Fn(&mut [[i64; 3]], &mut [[i64; 3]], &mut [[i64; 3]]);
 #[test]
 fn what_cannot_be_condensed_is_refused_by_name() {
     let one = grid(2, 1, [0.0, 0.0], [1.0, 1.0], -0.01, false, Cells::Quads);
-    let two = grid(1, 1, [-0.5, -0.5], [1.5, 1.5], 0.0, true, Cells::Quads);
+    let two = floor();
     let (n1, n) = (one.x.len(), one.x.len() + two.x.len());
     let dual = Options { basis: MultiplierBasis::Dual, ..options() };
     let surface = |side, mesh: &Mesh, equations: Vec<[i64; 3]>| {
@@ -383,13 +383,38 @@ fn what_cannot_be_condensed_is_refused_by_name() {
     refused(&|e1, _, _| e1[2][1] = NO_EQUATION, dual, "component 1 of non-mortar node 2 is prescribed");
     refused(&|e1, _, _| e1[2] = e1[3], dual, "non-mortar nodes 2 and 3 have an equation in common");
     refused(&|e1, e2, _| e2[1][0] = e1[4][0], dual, "non-mortar node 4 and mortar node 1");
+    refused(&|e1, _, _| e1[2][1] = e1[2][0], dual, "two components of non-mortar node 2");
     refusal(&|_, _, _| {}, dual).unwrap();
     // Without a multiplier there, it can be.
     refusal(&|e1, _, m| (e1[2][1], m[2][1]) = (NO_EQUATION, NO_EQUATION), dual).unwrap();
+    refusal(&|e1, _, m| (e1[2], m[2], m[3]) = (e1[3], [NO_EQUATION; 3], [NO_EQUATION; 3]), dual).unwrap();
     let mut c: Interface = interface(&one, &two, dual);
     let mut owned = vec![true; n1];
     owned[3] = false;
     c.set_owned(owned).unwrap();
     let error = c.condensed_multipliers(&one.x, &two.x, &vec![Vec3::z(); n1]).unwrap_err();
     assert!(error.kind == Kind::Unsupported && error.to_string().contains("node 3 is not owned"), "{error}");
+}
+
+/// A copy of a node on a crease that has no multiplier gave the host's row of both as its own, beside the condensed one: a
+/// host that wrote it last lost the constraint.
+#[test]
+fn a_copy_without_a_multiplier_took_the_row_of_the_node_that_has_one() {
+    let (one, two) = (grid(2, 1, [0.0, 0.0], [1.0, 1.0], -0.01, false, Cells::Quads), floor());
+    let n1 = one.x.len();
+    for (copy, node) in [(2, 3), (3, 2)] {
+        let (mut e1, mut m) = (numbered(0, n1), numbered(100, n1));
+        (e1[copy], m[copy]) = (e1[node], [NO_EQUATION; 3]);
+        let surface = |side, mesh: &Mesh, e| Surface::new(side, mesh.x.clone(), &mesh.facets, e).unwrap();
+        let sides = (surface("nonmortar", &one, e1), surface("mortar", &two, numbered(50, two.x.len())));
+        let options = Options { basis: MultiplierBasis::Dual, ..options() };
+        let mut c = Interface::new(sides.0, sides.1, m, options).unwrap();
+        let error = c.condensed_multipliers(&one.x, &two.x, &vec![Vec3::z(); n1]).unwrap_err();
+        let words = format!("non-mortar nodes {node} and {copy} have an equation in common, and node {copy} has no");
+        assert!(error.kind == Kind::Unsupported && error.to_string().contains(&words), "{error}");
+    }
+}
+
+fn floor() -> Mesh {
+    grid(1, 1, [-0.5, -0.5], [1.5, 1.5], 0.0, true, Cells::Quads)
 }

@@ -51,33 +51,44 @@ fn refuse_prescribed<const N: usize>(given: Given<N>, normals: &[Vec3]) -> Resul
     Ok(())
 }
 
-/// A row that two nodes use: two multipliers, or a node on both sides.
+/// Whose displacement equation it is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum User {
+    /// A non-mortar node with a multiplier.
+    Holder(usize),
+    /// A non-mortar node without.
+    Free(usize),
+    Mortar(usize),
+}
+
+/// A row of a node with a multiplier that serves another node, or another component, too.
 fn refuse_shared<const N: usize>(given: Given<N>) -> Result<()> {
     let setup = given.setup;
     let mut used = Vec::new();
-    let with = (0..given.nodes()).filter(|&a| setup.has_multiplier(a));
-    for (a, &e) in with.flat_map(|a| setup.nonmortar.equations[a].iter().map(move |e| (a, e))) {
-        if e != NO_EQUATION {
-            used.store((e, false, a))?;
-        }
+    for (a, equations) in setup.nonmortar.equations.iter().enumerate() {
+        let user = if setup.has_multiplier(a) { User::Holder(a) } else { User::Free(a) };
+        used.store_all(equations.iter().filter(|e| **e != NO_EQUATION).map(|&e| (e, user)))?;
     }
     for (k, equations) in setup.mortar.equations.iter().enumerate() {
-        used.store_all(equations.iter().filter(|e| **e != NO_EQUATION).map(|&e| (e, true, k)))?;
+        used.store_all(equations.iter().filter(|e| **e != NO_EQUATION).map(|&e| (e, User::Mortar(k))))?;
     }
+    // Holders come first among those of an equation.
     memory::sort(&mut used)?;
-    let clash = |one: &(i64, bool, usize), other: &(i64, bool, usize)| {
-        one.0 == other.0 && !one.1 && (other.1 || one.2 != other.2)
-    };
-    let found = used.windows(2).find(|pair| clash(&pair[0], &pair[1]));
-    let Some(&[(_, _, a), (_, mortar, k)]) = found else { return Ok(()) };
-    let text = if mortar {
-        text!(
+    let found = used.windows(2).find(|pair| pair[0].0 == pair[1].0 && matches!(pair[0].1, User::Holder(_)));
+    let Some(&[(_, User::Holder(a)), (_, other)]) = found else { return Ok(()) };
+    let text = match other {
+        User::Mortar(k) => text!(
             "condensation where non-mortar node {a} and mortar node {k} have an equation in common: a node on both sides"
-        )
-    } else {
-        text!(
+        ),
+        User::Holder(k) if k == a => text!(
+            "condensation where two components of non-mortar node {a} have an equation in common: one row is left for two components of its multiplier"
+        ),
+        User::Holder(k) => text!(
             "condensation where non-mortar nodes {a} and {k} have an equation in common: two multipliers hold one displacement"
-        )
+        ),
+        User::Free(k) => text!(
+            "condensation where non-mortar nodes {a} and {k} have an equation in common, and node {k} has no multiplier: a row can be that of one node alone"
+        ),
     };
     Err(Error::new(Kind::Unsupported, text))
 }
