@@ -100,6 +100,15 @@ class Run:
             raise SceneError(f"{self.directory}: no displacement in the .vtu, only {list(mesh.point_data)}")
         return mesh.points, mesh.cells_dict, displacement
 
+    def point_field(self, name, step=None):
+        """A field of the undeformed meshes' nodes, as `traction_NAME`; the CSV's `node` is the index."""
+        import meshio
+
+        fields = meshio.read(self._output(r"step_(\d+)\.vtu", step)).point_data
+        if name not in fields:
+            raise SceneError(f"{self.directory}: no {name} in the .vtu, only {list(fields)}")
+        return fields[name]
+
     def cell_stress(self, step=None):
         """Cauchy's stress at the cells' centres: (cells, 6), xx yy zz xy yz xz."""
         import meshio
