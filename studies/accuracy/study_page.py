@@ -176,7 +176,7 @@ def states_in_words(problems):
     for problem in problems:
         if problem.states:
             found.setdefault(problem.states[1], []).append(problem.title)
-    return {words: " and ".join(titles) for words, titles in found.items()}
+    return {words: ", ".join(titles) for words, titles in found.items()}
 
 
 def sections(problems, rows, measured, choice):
@@ -195,7 +195,7 @@ def sections(problems, rows, measured, choice):
          matrix(problems, rows)),
         ("Standard and dual multipliers", "Both bases on the same meshes, standard / dual. Nodal forces over areas hide how "
          "the standard multiplier oscillates, so both errors are given, of the same field. States: "
-         + "; ".join(f"{titles}: {words}" for words, titles in states_in_words(problems).items()) + ".",
+         + "; ".join(f"{words} ({titles})" for words, titles in states_in_words(problems).items()) + ".",
          bases(problems, rows)),
         ("Each knob against the default", "On one mesh: what a knob changes in the error, in contact's time (search, "
          "integration, derivatives) and in the number of Newton iterations.", against_default(problems, rows)),
@@ -227,7 +227,7 @@ def write(output, problems, rows, measured, choice, summary, figures, circumstan
     chosen = [section for section in every if section[0] not in LONG]
     text = [textwrap.fill(stated, 120), ""]
     for title, sentence, table in chosen:
-        text += [f"### {title}", "", textwrap.fill(sentence, 120), "", markdown(table), ""]
+        text += [f"### {title}", "", textwrap.fill(sentence, 120, break_on_hyphens=False), "", markdown(table), ""]
     (output / "accuracy.md").write_text("\n".join(text))
     return page
 
