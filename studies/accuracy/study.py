@@ -18,11 +18,12 @@ from pathlib import Path
 
 sys.path.append(str(Path(__file__).resolve().parents[1] / "common"))
 import folders  # noqa: E402  (puts the others on the path)
+import bases  # noqa: E402
 import study_figures  # noqa: E402
 import study_page  # noqa: E402
 import study_share  # noqa: E402
 from scene import Driver, SceneError  # noqa: E402
-from study_problems import DEFAULT, PROBLEMS, QUIET  # noqa: E402
+from study_problems import DEFAULT, DUAL, PROBLEMS, QUIET  # noqa: E402
 from verdict import Verdicts  # noqa: E402
 
 ROOT = folders.ROOT
@@ -140,6 +141,9 @@ def order(rows):
     falls("patch: cells beat any number of points", error("patch", DEFAULT), error("patch", "elements_10"))
     # The default on distorted facets: the rule's own error; a tenth of a thousandth would still be a patch test passed.
     verdicts.below("patch: default", error("patch", DEFAULT), 1e-4, "the rule's error on quadrilaterals")
+    verdicts.below("patch: dual multipliers", error("patch", DUAL), 1e-4, "the rule's error on quadrilaterals")
+    own = lambda setting: at["hertz_line", setting]["error_multiplier"]
+    falls("hertz_line: dual multipliers beat standard ones", own(DUAL), own(DEFAULT))
     for problem in {r["problem"] for r in rows}:
         of = lambda setting: at[problem, setting]
         verdicts.true(f"{problem}: points clip nothing", of("elements_2")["pairs_clipped"] == 0, "counter")
@@ -168,7 +172,7 @@ def study(arguments):
     repetitions = 1 if arguments.quick else arguments.runs
     count = repetitions * sum(len(p.settings(arguments.quick)) for p in problems)
     if not arguments.quick:
-        count += study_share.count(repetitions)
+        count += study_share.count(repetitions) + bases.COUNT
     progress = Progress(count)
     driver = Driver(arguments.build, output, keep=True, report=progress.report)
     start = time.monotonic()
@@ -184,10 +188,13 @@ def study(arguments):
     figures = [study_figures.precision(p, [r for r in rows if r["problem"] == p.name], front, output) for p in problems]
     figures += [study_figures.share(shares, output), study_figures.tails(tails, output)]
     summary = study_figures.summary(problems, rows, front, output / "accuracy.png")
+    both = bases.draw(driver, output)
+    figures.append(both)
     page = study_page.write(output, problems, rows, (shares, tails), (front, goals, GOALS), summary, figures,
                             (time.monotonic() - start, arguments.jobs))
     if arguments.renew_figures:
-        shutil.copy(summary, folders.FIGURES / summary.name)
+        for figure in (summary, both):
+            shutil.copy(figure, folders.FIGURES / figure.name)
         study_page.renew(ROOT / "docs" / "accuracy.md", output / "accuracy.md")
     print(f"{page.resolve()}\n{(output / 'study.csv').resolve()}")
     return True
@@ -200,7 +207,7 @@ def main():
     parser.add_argument("--jobs", type=int, default=1, help="runs at the same time; they disturb each other's times")
     parser.add_argument("--runs", type=int, default=RUNS, help="runs of each setting")
     parser.add_argument("--only", nargs="+", choices=[p.name for p in PROBLEMS], help="these problems alone")
-    parser.add_argument("--renew-figures", action="store_true", help="renew docs/accuracy.md and its figure too")
+    parser.add_argument("--renew-figures", action="store_true", help="renew docs/accuracy.md and the figures too")
     try:
         return 0 if study(parser.parse_args()) else 1
     except SceneError as problem:

@@ -13,7 +13,7 @@ from figures import BLUE, GREY, INK, RED, _save
 MARKS = {
     "default": ("*", INK), "integration": ("o", BLUE), "tangent": ("v", RED), "tolerance": ("s", "#3a8f5c"),
     "weights": ("D", "#8a5fb0"), "form": ("P", "#b07a1f"), "mesh": ("^", "#d0862c"), "steps": ("<", "#2a9aa8"),
-    "slip": ("X", "#a0407a"),
+    "slip": ("X", "#a0407a"), "basis": ("h", "#5b3fd0"),
 }
 
 
@@ -62,9 +62,8 @@ def summary(problems, rows, front, path):
     for axis in axes.flat[len(problems):]:
         axis.axis("off")
     handles = {label: h for a in axes.flat for h, label in zip(*a.get_legend_handles_labels())}
-    spare = axes.flat[-1] if len(problems) < columns * lines else axes.flat[0]
-    spare.legend(handles.values(), handles.keys(), frameon=False, loc="center", fontsize=8)
-    figure.tight_layout()
+    figure.tight_layout(rect=(0, 0.05, 1, 1))  # the legend below
+    figure.legend(handles.values(), handles.keys(), frameon=False, loc="lower center", ncols=len(handles))
     return _save(figure, path)
 
 

@@ -4,14 +4,20 @@ import html
 import textwrap
 
 from gallery_page import STYLE
-from study_problems import DEFAULT
+from study_problems import DEFAULT, DUAL
 from study_share import ASSEMBLY_BOUND, SHARE_BOUND
 
 LONG = ("What the next digit costs", "Each knob against the default")  # on the page alone
 MARKS = ("<!-- study -->", "<!-- /study -->")  # what lies between them is written by FIGURES=1
 
 
+# Relative to one: a double has sixteen digits.
+ROUNDING = 1e-15
+
+
 def per_cent(value):
+    if value < ROUNDING:
+        return "0"
     return f"{100 * value:.2g} %" if value >= 1e-4 else f"{value:.0e}"
 
 
@@ -43,29 +49,32 @@ def digit_table(problems, rows, front):
     return head, body
 
 
+def library(row):
+    return row["seconds_search"] + row["seconds_integration"] + row["seconds_contact_assembly"]
+
+
 def against_default(problems, rows):
     """Each setting against the default of its problem: the ratios that justify the defaults."""
     head = ["problem", "setting", "error", "error over default's", "contact's time over default's", "Newton (default)"]
     body = []
-    contact = lambda r: r["seconds_search"] + r["seconds_integration"] + r["seconds_contact_assembly"]
     for problem in problems:
         own = [r for r in rows if r["problem"] == problem.name]
         default = next((r for r in own if r["setting"] == DEFAULT and "error" in r), None)
         for row in own if default else []:
-            if row["knob"] in ("mesh", DEFAULT, "steps"):
+            if row["knob"] in (DEFAULT, "steps") or row["setting"].startswith("mesh_"):
                 continue
             if "error" not in row:
                 body.append([problem.title, row["setting"], "no answer", "", "", ""])
                 continue
             body.append([problem.title, row["setting"], f"{row['error']:.2e}", f"{row['error'] / default['error']:.3g}",
-                         f"{contact(row) / contact(default):.2f}", f"{row['newton']} ({default['newton']})"])
+                         f"{library(row) / library(default):.2f}", f"{row['newton']} ({default['newton']})"])
     return head, body
 
 
 # What the summary shows of the knobs, in this order.
 SHOWN = ("cells_1", "cells_3", "cells_6", "cells_12", "cells_36", "elements_2", "elements_4", "elements_10", "hybrid_3",
          "frozen_normals", "frozen_weights", "rtol_1e-8", "rtol_1e-5", "rtol_1e-3", "weights_committed",
-         "weights_reference", "augmented")
+         "weights_reference", "augmented", DUAL)
 
 
 def matrix(problems, rows):
@@ -86,6 +95,31 @@ def matrix(problems, rows):
                 error, newton = row["error"] / default["error"], row["newton"] / default["newton"]
                 line.append(f"{error:.0e}, {newton:.2f}" if error > 100 else f"{error:.2f}, {newton:.2f}")
         body.append(line)
+    return head, body
+
+
+def bases(problems, rows):
+    """Standard and dual multipliers on every mesh."""
+    head = ["problem", "mesh", "error in", "of nodal force over area", "of the multiplier", "states", "Newton",
+            "seconds", "the library's"]
+    at = {(r["problem"], r["setting"]): r for r in rows if "error" in r}
+    body = []
+    for problem in problems:
+        for size in problem.sizes:
+            middle = size == problem.sizes[problem.middle]
+            names = (DEFAULT, DUAL) if middle else (f"mesh_{size:g}", f"mesh_{size:g}_{DUAL}")
+            pair = [at.get((problem.name, name)) for name in names]
+            if None in pair:
+                continue
+            both = lambda text, pair=pair: " / ".join(text(row) for row in pair)
+            error_of = lambda name: lambda row: per_cent(row[f"error_{name}"])
+            multiplier = both(error_of("multiplier")) if "error_multiplier" in pair[0] else "-"
+            own = "error_multiplier" in pair[0] and pair[0]["error"] == pair[0]["error_multiplier"]
+            forces = "-" if own else both(lambda row: per_cent(row["error"]))
+            states = both(error_of(problem.states[0])) if problem.states else "-"
+            body.append([problem.title, f"{size:g}", problem.measure, forces, multiplier, states,
+                         both(lambda row: str(row["newton"])), both(lambda row: f"{row['seconds']:.2f}"),
+                         both(lambda row: f"{library(row):.3f}")])
     return head, body
 
 
@@ -136,13 +170,22 @@ def noise(rows):
     return (spreads[len(spreads) // 2], spreads[-1]) if spreads else (float("nan"), float("nan"))
 
 
+def states_in_words(problems):
+    """What the column of states is, by the problems' titles."""
+    found = {}
+    for problem in problems:
+        if problem.states:
+            found.setdefault(problem.states[1], []).append(problem.title)
+    return {words: ", ".join(titles) for words, titles in found.items()}
+
+
 def sections(problems, rows, measured, choice):
     """(title, sentence, table), in the order in which they are to be read."""
     (shares, tails), (front, goals, wanted) = measured, choice
     bound = f"Aimed at: at most {SHARE_BOUND:.0%} of an iteration and {ASSEMBLY_BOUND:.0%} of the bulk's assembly."
     return [
         ("Which settings", "The cheapest setting that reaches each error, with its processor time. A mesh goes by "
-         "the size of its facets (of the patch test by their number along a side); `cheap` is 2 x 2 points on each "
+         "the size of its facets (of the patch test and the block by their number along a side); `cheap` is 2 x 2 points on each "
          "facet and a tolerance of 1e-5.", goal_table(problems, rows, goals, wanted)),
         ("What the next digit costs", "The settings that no other one beats in both error and time.",
          digit_table(problems, rows, front)),
@@ -150,6 +193,10 @@ def sections(problems, rows, measured, choice):
          "rules with 1 and 3 points (cells_1, cells_3) with weights frozen within a step, for with current ones they "
          "find no answer.",
          matrix(problems, rows)),
+        ("Standard and dual multipliers", "Both bases on the same meshes, standard / dual. Nodal forces over areas hide how "
+         "the standard multiplier oscillates, so both errors are given, of the same field. States: "
+         + "; ".join(f"{words} ({titles})" for words, titles in states_in_words(problems).items()) + ".",
+         bases(problems, rows)),
         ("Each knob against the default", "On one mesh: what a knob changes in the error, in contact's time (search, "
          "integration, derivatives) and in the number of Newton iterations.", against_default(problems, rows)),
         ("Where the time goes", "Parts of the default's time.", phases(problems, rows)),
@@ -180,7 +227,7 @@ def write(output, problems, rows, measured, choice, summary, figures, circumstan
     chosen = [section for section in every if section[0] not in LONG]
     text = [textwrap.fill(stated, 120), ""]
     for title, sentence, table in chosen:
-        text += [f"### {title}", "", textwrap.fill(sentence, 120), "", markdown(table), ""]
+        text += [f"### {title}", "", textwrap.fill(sentence, 120, break_on_hyphens=False), "", markdown(table), ""]
     (output / "accuracy.md").write_text("\n".join(text))
     return page
 

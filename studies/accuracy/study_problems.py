@@ -14,19 +14,24 @@ import numpy as np
 import comparisons
 import formulas
 import friction_checks as friction
+from reference import clamped_block
+from scene import multiplier
 
-DEFAULT = "default"
+DEFAULT, DUAL = "default", "dual"
 # Points a triangle of each rule.
 RULES = {"degree_1": 1, "degree_2": 3, "degree_4": 6, "degree_6": 12, "degree_10": 36}
 ELEMENTS = (2, 3, 4, 6, 10)
 # What the press fit's reactions are compared with: the same meshes with the finest rule, steps a fifth as long.
 PRESS_TRAVEL, PRESS_STEP, PRESS_FINE = 1000, 50, 5
+# What the block's tractions are compared with: an independent solver's, on this many cells along it. From 0.2 to 3.8 it
+# is in contact; a facet of the coarsest mesh is left out at each corner, where the traction is singular.
+BLOCK_FINE, BLOCK_INNER = 320, (0.4, 3.6)
 
 
 @dataclass
 class Setting:
     name: str  # unique in a problem; without blanks
-    knob: str  # integration, tangent, tolerance, mesh, steps, form, weights, slip
+    knob: str  # integration, tangent, tolerance, mesh, steps, form, weights, slip, basis
     options: tuple
     label: str = ""  # beside the point in a figure
 
@@ -49,6 +54,7 @@ class Problem:
     options: tuple = ()  # of every run
     only: tuple = ()  # knobs that mean something here; empty: all
     extra: tuple = field(default=())  # further settings
+    states: tuple = ()  # (which of the errors says how far states are off, the same in words)
 
     def settings(self, quick=False):
         sizes, size = self.sizes, self.sizes[self.middle]
@@ -79,14 +85,17 @@ class Problem:
         for weights in ("committed", "reference"):
             add("weights", f"weights_{weights}", *option("weights", weights), label=f"{weights} weights")
         add("form", "augmented", *option("form", "augmented"))
+        dual = option("basis", "dual")
+        add("basis", DUAL, *dual)
         for other in sizes:
             if other != size:
+                add("basis", f"mesh_{other:g}_{DUAL}", *dual, label=f"mesh {other:g} dual", mesh=self.mesh(other))
                 add("mesh", f"mesh_{other:g}", label=f"mesh {other:g}", mesh=self.mesh(other))
             cheap = (*option("integration", "elements"), *option("points", 2), "-snes_rtol", "1e-5")
             add("mesh", f"mesh_{other:g}_cheap", *cheap, label=f"mesh {other:g} cheap", mesh=self.mesh(other))
         found += self.extra
         quick_names = {DEFAULT, "cells_1", "cells_3", "cells_36", "elements_2", "elements_10", "hybrid_3"}
-        quick_names |= {"frozen_weights"} | {f"mesh_{other:g}" for other in sizes[:-1]}
+        quick_names |= {"frozen_weights", DUAL} | {f"mesh_{other:g}" for other in sizes[:-1]}
         return [s for s in found if s.name in quick_names] if quick else found
 
 
@@ -111,11 +120,20 @@ def pressure_errors(line, hertz):
     }
 
 
+def open_force(force, state):
+    """Largest force of a node in gap, over the largest of all; none passes there."""
+    force = np.linalg.norm(np.atleast_2d(force.T).T, axis=1)
+    return float(force[state == "gap"].max(initial=0) / force.max())
+
+
 def line_errors(run, setting, driver):
     line = run.line("contact")
-    return pressure_errors(
-        line, formulas.LineContact(line.force[:, 2].sum(), friction.LINE_MODULUS, friction.LINE_RADIUS)
-    )
+    hertz = formulas.LineContact(line.force[:, 2].sum(), friction.LINE_MODULUS, friction.LINE_RADIUS)
+    return {
+        **pressure_errors(line, hertz),
+        "multiplier": friction.profile_error(line, line.multiplier[:, 2], hertz.pressure),
+        "open_force": open_force(line.force, line.state),
+    }
 
 
 # --- Cattaneo and Mindlin ---------------------------------------------------------------------------------------------
@@ -124,6 +142,7 @@ def cattaneo_errors(run, setting, driver):
     normal, pull = line.force[:, 2].sum(), -line.force[:, 0].sum()
     exact = formulas.LineContact(normal, friction.LINE_MODULUS, friction.LINE_RADIUS, friction.LINE_MU, pull)
     errors = {"shear_l2": friction.shear_error(line, exact), **pressure_errors(line, exact)}
+    errors["multiplier"] = friction.profile_error(line, -line.multiplier[:, 0], exact.shear)
     errors["stick_radius"] = abs(friction.stick_half_width(line) / exact.stick - 1)
     return errors
 
@@ -133,18 +152,31 @@ def cattaneo_mesh(h):
 
 
 # --- Hertz, ball ------------------------------------------------------------------------------------------------------
+BALL_STEPS = ("-steps_count", 1)
+
+
+def ball_pressures(table):
+    """(r, forces over areas, what the multipliers say, formula) of the ball on the block. Areas are those of the last
+    step's start: with BALL_STEPS undeformed, as the linear elastic bodies see them."""
+    hertz = formulas.PointContact(4 * table["fz"].sum(), friction.formulas.plane_modulus(1000, 0.3) / 2, 1.0)
+    area = table["area_full"]
+    own = -multiplier(table)[:, 2] * table["area_covered"] / area
+    return np.hypot(table["X"], table["Y"]), table["fz"] / area, own, hertz
+
+
 def ball_errors(run, setting, driver):
     table = run.interface("contact")
-    hertz = formulas.PointContact(4 * table["fz"].sum(), friction.formulas.plane_modulus(1000, 0.3) / 2, 1.0)
-    # Areas are those of the last step's start: with one step, undeformed, as the linear elastic bodies see them.
-    r, area = np.hypot(table["X"], table["Y"]), table["area_full"]
-    pressure, exact = table["fz"] / area, hertz.pressure(r)
+    r, pressure, own, hertz = ball_pressures(table)
+    area, exact = table["area_full"], hertz.pressure(r)
     inner = r < 0.8 * hertz.contact_radius  # nodes away from the rim, where a nodal mean is not a value
+    l2 = lambda values: float(np.sqrt((area * (values - exact) ** 2).sum() / (area * exact**2).sum()))
     return {
-        "pressure_l2": float(np.sqrt((area * (pressure - exact) ** 2).sum() / (area * exact**2).sum())),
+        "pressure_l2": l2(pressure),
+        "multiplier": l2(own),
         "peak": abs(pressure.max() / hertz.peak - 1),
         "inner": float(np.abs(pressure - exact)[inner].max() / hertz.peak),
         "contact_radius": abs(friction.fit_hertz(r, pressure)[1] / hertz.contact_radius - 1),
+        "open_force": open_force(table["fz"], table["state"]),
     }
 
 
@@ -156,6 +188,29 @@ def ball_mesh(h):
         z = np.sort(-1 + sign * depth) if sign > 0 else np.sort(top - depth)
         options += [f"-{body}_x", across, f"-{body}_y", across, f"-{body}_z", friction.numbers(z)]
     return tuple(options)
+
+
+# --- block ------------------------------------------------------------------------------------------------------------
+@functools.cache
+def block_reference():
+    """(x, force) on a fine mesh, on which every node sticks."""
+    return clamped_block(BLOCK_FINE, BLOCK_FINE // 2)
+
+
+def block_errors(run, setting, driver):
+    line, (x, force) = run.line("base"), block_reference()
+    # The fine forces as nodal ones of the coarse mesh, whose functions are linear along x.
+    share = np.array([np.interp(x, line.x, unit) for unit in np.eye(len(line.x))])
+    exact = share @ force / line.length[:, None]
+    inner = (line.x > BLOCK_INNER[0] - 1e-9) & (line.x < BLOCK_INNER[1] + 1e-9)
+    mean = lambda values: np.average((values**2).sum(axis=1)[inner], weights=line.length[inner])
+    l2 = lambda values: float(np.sqrt(mean(values[:, [0, 2]] - exact) / mean(exact)))
+    slipping = float(np.mean(line.state != "stick"))
+    return {"traction_l2": l2(line.traction), "multiplier": l2(line.multiplier), "slipping": slipping}
+
+
+def block_mesh(columns):
+    return ("-block_cells", f"{columns},1,{columns // 2}", "-floor_cells", f"{columns * 13 // 20},3,1")
 
 
 # --- press fit --------------------------------------------------------------------------------------------------------
@@ -194,18 +249,25 @@ def press_errors(run, setting, driver):
 
 QUIET = ("-output_vtu", "none", "-output_csv", "last", "-output_quiet", "true")
 
+OPEN = "largest force of an open node, over the largest of all"
+
 PROBLEMS = [
     Problem("patch", "Patch test on distorted facets", "patch_distorted", "base", "worst nodal multiplier",
             patch_errors, patch_mesh, (3, 5, 8), 1, ("-base_law", "none", "-base_friction", 0),
-            only=("integration", "tangent", "tolerance", "form", "mesh")),
+            only=("integration", "tangent", "tolerance", "form", "mesh", "basis")),
     Problem("hertz_line", "Hertz: half-cylinders", "cattaneo_line", "contact", "pressure, root mean square",
             line_errors, lambda h: tuple(friction.line_mesh(h)), (0.272, 0.136, 0.068, 0.034), 1, friction.FRICTIONLESS,
-            only=("integration", "tangent", "tolerance", "form", "mesh", "weights")),
+            only=("integration", "tangent", "tolerance", "form", "mesh", "weights", "basis"),
+            states=("open_force", OPEN)),
     Problem("hertz_ball", "Hertz: ball on block", "ball_on_block", "contact", "pressure, root mean square", ball_errors,
-            ball_mesh, (0.05, 0.025, 0.0167), 1, ("-steps_count", 1),
-            only=("integration", "tangent", "tolerance", "mesh")),
+            ball_mesh, (0.05, 0.025, 0.0167), 1, BALL_STEPS,
+            only=("integration", "tangent", "tolerance", "mesh", "basis"), states=("open_force", OPEN)),
+    Problem("block", "Block between two corners", "block_zone_mu05", "base", "tractions, root mean square", block_errors,
+            block_mesh, (20, 40, 80), 0, ("-steps_count", 4), only=("tolerance", "mesh", "basis"),
+            states=("slipping", "part of the nodes that do not stick")),
     Problem("cattaneo", "Cattaneo and Mindlin: shear", "cattaneo_line", "contact", "shear traction, root mean square",
             cattaneo_errors, cattaneo_mesh, (0.136, 0.068, 0.034), 0,
+            states=("stick_radius", "error of the half-width of stick"),
             extra=(Setting("slip_paper", "slip", (*cattaneo_mesh(0.136), "-contact_slip", "paper"), "slip as printed"),
                    Setting("slip_increment", "slip", (*cattaneo_mesh(0.136), "-contact_slip", "increment"),
                            "slip increment"),
@@ -213,7 +275,7 @@ PROBLEMS = [
                    Setting("steps_20", "steps", (*friction.line_mesh(0.136), *friction.pressing(20, 8)),
                            "20+8 steps"))),
     Problem("press_fit", "Press fit: reactions", "press_fit", "contact", "reactions, root mean square", press_errors,
-            press_mesh, (18,), 0, only=("integration", "tangent", "tolerance", "form", "weights"),
+            press_mesh, (18,), 0, only=("integration", "tangent", "tolerance", "form", "weights", "basis"),
             extra=(Setting("steps_10", "steps", (*press_mesh(18)[:2], *press_times(10)), "steps of 10"),
                    Setting("steps_25", "steps", (*press_mesh(18)[:2], *press_times(25)), "steps of 25"),
                    Setting("steps_100", "steps", (*press_mesh(18)[:2], *press_times(100)), "steps of 100"))),

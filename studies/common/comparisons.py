@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from reference import BLOCK, Hertz, clamped_block, fit_hertz
+from scene import multiplier
 
 INTERFACE = "base"  # its name in the patch and block scenes
 
@@ -28,13 +29,6 @@ HERTZ_BOUND = 0.03
 
 def thickness(run, interface=INTERFACE):
     return np.ptp(run.interface(interface)["Y"])
-
-
-def multiplier(table):
-    """(n, 3) multiplier of each node from its normal and tangential parts."""
-    normal = np.stack([table["nx"], table["ny"], table["nz"]], axis=1)
-    tangential = np.stack([table["lambda_tx"], table["lambda_ty"], table["lambda_tz"]], axis=1)
-    return table["lambda_n"][:, None] * normal + tangential
 
 
 def stretch(table):

@@ -41,6 +41,13 @@ def interfaces(scene):
     return [name.strip(" \n\"") for name in listed[1].split(",")] if listed else []
 
 
+def multiplier(table):
+    """(n, 3) multiplier of each node from its normal and tangential parts."""
+    normal = np.stack([table["nx"], table["ny"], table["nz"]], axis=1)
+    tangential = np.stack([table["lambda_tx"], table["lambda_ty"], table["lambda_tz"]], axis=1)
+    return table["lambda_n"][:, None] * normal + tangential
+
+
 @dataclass
 class Line:
     """An interface seen along x: sums over the nodes with the same x, per unit thickness, ordered by x."""
@@ -49,6 +56,9 @@ class Line:
     force: np.ndarray  # (n, 3) nodal force of the mortar on the non-mortar side
     length: np.ndarray  # tributary length, undeformed: half the way to each neighbour
     state: np.ndarray  # 'gap', 'stick' or 'slip'; 'mixed' where the nodes of one x differ
+    # (n, 3) what the multipliers say of the traction: minus each, times its covered area, summed over nodes of the same
+    # x, over tributary length. With dual multipliers it is `traction`. None: whoever solved this has none.
+    multiplier: np.ndarray | None = None
 
     @property
     def traction(self):
@@ -100,6 +110,15 @@ class Run:
             raise SceneError(f"{self.directory}: no displacement in the .vtu, only {list(mesh.point_data)}")
         return mesh.points, mesh.cells_dict, displacement
 
+    def point_field(self, name, step=None):
+        """A field of the undeformed meshes' nodes, as `traction_NAME`; the CSV's `node` is the index."""
+        import meshio
+
+        fields = meshio.read(self._output(r"step_(\d+)\.vtu", step)).point_data
+        if name not in fields:
+            raise SceneError(f"{self.directory}: no {name} in the .vtu, only {list(fields)}")
+        return fields[name]
+
     def cell_stress(self, step=None):
         """Cauchy's stress at the cells' centres: (cells, 6), xx yy zz xy yz xz."""
         import meshio
@@ -119,11 +138,15 @@ class Run:
         x, first, group = np.unique(np.round(table["X"], 9), return_index=True, return_inverse=True)
         total = lambda column: np.bincount(group, weights=table[column]) / np.ptp(table["Y"])
         half = np.hypot(np.diff(x), np.diff(table["Z"][first])) / 2
+        length = np.append(half, 0) + np.append(0, half)
         states = [set(table["state"][group == i]) for i in range(len(x))]
+        weights = -multiplier(table) * table["area_covered"][:, None] / np.ptp(table["Y"])
+        summed = np.stack([np.bincount(group, weights=weights[:, k]) for k in range(3)], axis=1)
         return Line(
             x=x,
             force=np.stack([total("fx"), total("fy"), total("fz")], axis=1),
-            length=np.append(half, 0) + np.append(0, half),
+            length=length,
+            multiplier=summed / length[:, None],
             state=np.array([s.pop() if len(s) == 1 else "mixed" for s in states]),
         )
 

@@ -15,6 +15,8 @@ TABLE_BOUND = 1e-3
 SCATTER_BOUND, LARGEST_BOUND = 0.005, 0.02
 STANDARD_SCATTER = 0.02
 INNER = 0.75
+# A node's force is its multiplier times its covered area: only rounding is left, over the largest traction.
+TRACTION_BOUND = 1e-12
 # Four facets a contact radius: both bases are as far from the limit.
 RESULTANT_BOUND = 0.01
 # Eight and twelve facets over the contact radius, 16 and 24 across the contact: 0.5 and 1 % are asked for.
@@ -47,8 +49,23 @@ def dual(verdicts, driver):
         verdicts.below(f"{scene}: cut-backs", run.summary["cutbacks"], 0, "as with the standard basis")
 
 
+def traction(verdicts, label, run, interface):
+    """The driver's tractions, nodal forces over covered areas, are minus the multipliers."""
+    table = run.interface(interface)
+    covered = table[table["area_covered"] > 0]
+    fields = {name: run.point_field(f"{name}_{interface}")[covered["node"]] for name in ("traction", "multiplier")}
+    largest = np.linalg.norm(fields["multiplier"], axis=1).max()
+    worst = np.linalg.norm(fields["traction"] + fields["multiplier"], axis=1).max() / largest
+    verdicts.below(f"{label}: traction_{interface} and the multiplier, VTU", worst, TRACTION_BOUND, "the same at covered nodes")
+    normal = np.stack([covered["nx"], covered["ny"], covered["nz"]], axis=1)
+    tangential = np.stack([covered[f"t_lumped_{k}"] for k in "xyz"], axis=1)
+    worst = np.linalg.norm(covered["p_lumped"][:, None] * normal + tangential - fields["traction"], axis=1).max() / largest
+    verdicts.below(f"{label}: p_lumped and t_lumped, CSV", worst, TRACTION_BOUND, f"parts of traction_{interface}")
+
+
 def block(verdicts, driver):
     run = driver.run("block_zone_mu05", *DUAL, label="block")
+    traction(verdicts, "block", run, "base")
     table, reference = run.interface("base"), BLOCK["zone36_stick"]
     front = np.flatnonzero(table["Y"] == table["Y"].min())
     front = front[np.argsort(table["X"][front])]
@@ -77,8 +94,10 @@ def scatter(run):
 
 
 def ball(verdicts, driver):
-    found = {basis: scatter(driver.run("ball_on_block", "-contact_basis", basis, label=f"ball_{basis}"))
-             for basis in ("standard", "dual")}
+    runs = {basis: driver.run("ball_on_block", "-contact_basis", basis, "-output_vtu", "last", label=f"ball_{basis}")
+            for basis in ("standard", "dual")}
+    traction(verdicts, "ball", runs["dual"], "contact")
+    found = {basis: scatter(run) for basis, run in runs.items()}
     rms, largest, of_open = found["dual"]
     verdicts.below("ball: scatter of the pressure", rms, SCATTER_BOUND, "a smooth profile")
     verdicts.below("ball: largest deviation", largest, LARGEST_BOUND, "a smooth profile")

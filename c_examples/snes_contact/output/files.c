@@ -4,6 +4,19 @@
 
 static const char *const STATE_NAMES[] = {"gap", "stick", "slip"}; /* by STICKSLIP_STATE_* */
 
+/* Of the mortar on non-mortar node a: its force over its covered area, or over the whole one where nothing is covered.
+ * Returns the normal part, along n. */
+static double nodal_traction(const Interface *interface, const ContactStates *states, PetscInt a, double traction[3])
+{
+  const double *n = states->normal + 3 * a, area = states->coverage[a] > 0 ? states->coverage[a] : states->area[a];
+  double        normal = 0;
+  for (int i = 0; i < 3; i++) {
+    traction[i] = -PetscRealPart(interface->forces[3 * a + i]) / area;
+    normal += traction[i] * n[i];
+  }
+  return normal;
+}
+
 PetscErrorCode csv_write(Output *output, const Interface *interface, const ContactStates *states, PetscInt step)
 {
   const PetscScalar *u = interface->gathered;
@@ -16,15 +29,13 @@ PetscErrorCode csv_write(Output *output, const Interface *interface, const Conta
   file = fopen(path, "w");
   PetscCheck(file, PETSC_COMM_SELF, PETSC_ERR_FILE_OPEN, "cannot write '%s'", path);
   fprintf(file, "node,X,Y,Z,ux,uy,uz,nx,ny,nz,lambda_n,lambda_tx,lambda_ty,lambda_tz,gap_weighted,slip_x,slip_y,slip_z,"
-                "area_covered,area_full,fx,fy,fz,p_lumped,state\n");
+                "area_covered,area_full,fx,fy,fz,p_lumped,state,t_lumped_x,t_lumped_y,t_lumped_z\n");
   for (PetscInt a = 0; a < interface->n1; a++) {
-    const double *n = states->normal + 3 * a, *lambda = states->multiplier + 3 * a, *slip = states->slip + 3 * a,
-                 area = states->coverage[a] > 0 ? states->coverage[a] : states->area[a];
-    double lambda_n = 0, force_n = 0, values[23], *v = values;
-    for (int i = 0; i < 3; i++) {
+    const double *n = states->normal + 3 * a, *lambda = states->multiplier + 3 * a, *slip = states->slip + 3 * a;
+    double        lambda_n = 0, traction[3], values[23], *v = values;
+    const double  pressure = nodal_traction(interface, states, a, traction);
+    for (int i = 0; i < 3; i++)
       lambda_n += lambda[i] * n[i];
-      force_n -= PetscRealPart(interface->forces[3 * a + i]) * n[i];
-    }
     for (int i = 0; i < 3; i++)
       *v++ = interface->X[3 * a + i];
     for (int i = 0; i < 3; i++)
@@ -41,11 +52,14 @@ PetscErrorCode csv_write(Output *output, const Interface *interface, const Conta
     *v++ = states->area[a];
     for (int i = 0; i < 3; i++)
       *v++ = -PetscRealPart(interface->forces[3 * a + i]);
-    *v++ = force_n / area;
+    *v++ = pressure;
     fprintf(file, "%d", (int)interface->nodes[a]);
     for (const double *w = values; w < v; w++)
       fprintf(file, ",%.17g", *w);
-    fprintf(file, ",%s\n", STATE_NAMES[states->state[a]]);
+    fprintf(file, ",%s", STATE_NAMES[states->state[a]]);
+    for (int i = 0; i < 3; i++)
+      fprintf(file, ",%.17g", traction[i] - pressure * n[i]);
+    fprintf(file, "\n");
   }
   fclose(file);
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -97,7 +111,8 @@ static void cell_stresses(FILE *file, const Mesh *mesh, const Material *material
   }
 }
 
-/* multiplier, force of the contact on the node (both sides), and state (-1 off the non-mortar side) of one interface */
+/* Of one interface: multiplier, force of the contact on the node (both sides), that force over the node's area
+ * (non-mortar side), and state (-1 off the non-mortar side). */
 static PetscErrorCode interface_fields(FILE *file, const Mesh *mesh, const Interface *interface)
 {
   const PetscInt n_both = interface->n1 + interface->n2;
@@ -118,6 +133,16 @@ static PetscErrorCode interface_fields(FILE *file, const Mesh *mesh, const Inter
   for (PetscInt k = 0; k < 3 * n_both; k++)
     field[3 * interface->nodes[k / 3] + k % 3] = -interface->forces[k];
   PetscCall(PetscSNPrintf(name, sizeof(name), "force_%s", interface->name));
+  vectors(file, name, mesh->n_vertices, field);
+
+  PetscCall(PetscArrayzero(field, 3 * mesh->n_vertices));
+  for (PetscInt a = 0; a < interface->n1; a++) {
+    double traction[3];
+    nodal_traction(interface, &states, a, traction);
+    for (int i = 0; i < 3; i++)
+      field[3 * interface->nodes[a] + i] = traction[i];
+  }
+  PetscCall(PetscSNPrintf(name, sizeof(name), "traction_%s", interface->name));
   vectors(file, name, mesh->n_vertices, field);
 
   for (PetscInt v = 0; v < mesh->n_vertices; v++)
