@@ -251,13 +251,30 @@ static void find_profile(void) {
 }
 
 /* Bulk forces and matrix become those of the system without multipliers. */
+/* The scale of the constraint rows changes with the covered areas, where the multipliers follow from the displacements. */
+static void add_scales(void) {
+  const int32_t piece = STICKSLIP_CONDENSED_SCALES;
+  int64_t n;
+  must(stickslip_interface_condensed_coo(contact, x1, x2, lambda, piece, 0, NULL, NULL, NULL, &n));
+  if (n == 0) return; /* frozen weights */
+  int64_t *of = malloc(2 * n * sizeof *of);
+  double *values = malloc(n * sizeof *values);
+  if (!of || !values) stop("out of memory");
+  must(stickslip_interface_condensed_coo(contact, x1, x2, lambda, piece, n, of, of + n, values, &n));
+  for (int64_t k = 0; k < n; k++) *entry(of[k], of[n + k]) += values[k];
+  free(of);
+  free(values);
+}
+
 static void condense(void) {
+  const int given = starting;
   present_positions();
   for (int k = 0; k < 3 * N1; k++) host[k] = force[at(surface_node, k)];
   if (!starting) must(stickslip_interface_condensed_multipliers(contact, x1, x2, host, lambda));
   starting = 0;
   must(stickslip_interface_condensed_residual(contact, x1, x2, lambda, host, rows, rows + 3 * N1));
   must(stickslip_interface_condensed_csr(contact, x1, x2, lambda, n_equations, row_start, columns, entries));
+  if (!given) add_scales();
   for (int k = 0; k < 3 * N1; k++) /* instead of the host's rows; reactions stay */
     if (equation[at(surface_node, k)] >= 0) force[at(surface_node, k)] = rows[k];
   for (int k = 3 * N1; k < 3 * (N1 + N2); k++) force[at(surface_node, k)] += rows[k];

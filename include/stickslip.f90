@@ -136,6 +136,7 @@ module stickslip
   integer(c_int32_t), parameter :: STICKSLIP_CONDENSED_FORCES = 0
   integer(c_int32_t), parameter :: STICKSLIP_CONDENSED_ELIMINATION = 1
   integer(c_int32_t), parameter :: STICKSLIP_CONDENSED_CONSTRAINTS = 2
+  integer(c_int32_t), parameter :: STICKSLIP_CONDENSED_SCALES = 3
 
   ! Cover of a node: none, in part, in full, by several layers.
   integer(c_int32_t), parameter :: STICKSLIP_COVER_NONE = 0

@@ -346,6 +346,10 @@
 /// The contact constraints G, in the rows of the non-mortar nodes.
 #define STICKSLIP_CONDENSED_CONSTRAINTS 2
 
+/// What is added to G where the multipliers follow from the displacements (`stickslip_interface_condensed_multipliers` at the
+/// same positions): the constraint rows' scale r_A D_A changes with the covered area D_A. Nothing with frozen weights.
+#define STICKSLIP_CONDENSED_SCALES 3
+
 /// Cover of a node: none (at and below coverage_min). It is open.
 #define STICKSLIP_COVER_NONE 0
 
@@ -1214,16 +1218,17 @@ int32_t stickslip_interface_condensed_residual(struct stickslip_interface *inter
                                                double *force2);
 
 /// A piece of the matrix of a system without multipliers as triplets in displacement equations. With K the host's own matrix,
-/// T the piece FORCES, E the piece ELIMINATION and G the piece CONSTRAINTS, and J = K + T, the matrix is J + E J + G. It is
-/// the derivative of the residual whose multipliers follow from the displacements, but for the change of the scale s_A =
-/// r_A D_A of constraint rows, which vanishes with the residual: Newton's method converges quadratically. Not symmetric.
+/// T the piece FORCES, E the piece ELIMINATION and G the piece CONSTRAINTS, and J = K + T, the matrix is J + E J + G. Its step is
+/// that of the system with multipliers from these multipliers. With the piece SCALES added it is the exact derivative of the
+/// residual whose multipliers follow from the displacements: without it Newton's method may cycle where surfaces slip
+/// with weights of now. Not symmetric.
 ///
 /// x1 (3 n1), x2 (3 n2): positions [L]; lambda (n1 multipliers) [F/L^2], as for the residual; piece: STICKSLIP_CONDENSED_...
 /// Outputs: rows, columns, values (capacity each), count; duplicates add up; entries without an equation are left out. With
 /// all three arrays NULL only count is written, and capacity is not read. Units: F/L; ELIMINATION has none.
 ///
 /// Errors: as `stickslip_interface_condensed_multipliers`, INVALID_VALUE (piece), BUFFER_TOO_SMALL.
-/// Cost: FORCES and CONSTRAINTS as `stickslip_interface_tangent_coo`, counting too; ELIMINATION as the residual. Allocates.
+/// Cost: FORCES, CONSTRAINTS and SCALES as `stickslip_interface_tangent_coo`, counting too; ELIMINATION as the residual. Allocates.
 int32_t stickslip_interface_condensed_coo(struct stickslip_interface *interface,
                                           const double *x1,
                                           const double *x2,
@@ -1236,7 +1241,8 @@ int32_t stickslip_interface_condensed_coo(struct stickslip_interface *interface,
                                           int64_t *count);
 
 /// Turns the host's own matrix, compressed sparse rows, into that of the system without multipliers, in place: J + E J + G,
-/// see `stickslip_interface_condensed_coo`. Several interfaces of one matrix: none may have a mortar node that is
+/// see `stickslip_interface_condensed_coo`. Where multipliers follow from the displacements add the piece SCALES to it: its
+/// entries are there. Several interfaces of one matrix: none may have a mortar node that is
 /// non-mortar in another one.
 ///
 /// x1, x2, lambda as there; n_rows, row_offsets, columns, values as for `stickslip_interface_tangent_csr`; only the rows of

@@ -192,12 +192,30 @@ contains
   subroutine condense
     host = f(:, node1)
     if (.not. starting) call must(stickslip_interface_condensed_multipliers(contact, x1(), x2(), host, lambda))
-    starting = .false.
     call must(stickslip_interface_condensed_residual(contact, x1(), x2(), lambda, host, rows1, force2))
     call must(stickslip_interface_condensed_csr(contact, x1(), x2(), lambda, int(neq, c_int64_t), start, columns, entries))
+    if (.not. starting) call add_scales
+    starting = .false.
     where (id(1:3, node1) == 0) rows1 = host ! reactions stay
     f(:, node1) = rows1
     f(:, nblock + 1:) = f(:, nblock + 1:) + force2
+  end subroutine
+
+  ! The scale of the constraint rows changes with the covered areas, where the multipliers follow from the displacements.
+  subroutine add_scales
+    integer(c_int64_t), allocatable, target :: entry_rows(:), entry_columns(:)
+    real(dp), allocatable, target :: values(:)
+    integer(c_int64_t) :: n, k, place
+    call must(stickslip_interface_condensed_coo(contact, x1(), x2(), lambda, STICKSLIP_CONDENSED_SCALES, 0_c_int64_t, &
+        c_null_ptr, c_null_ptr, c_null_ptr, n))
+    if (n == 0) return ! frozen weights
+    allocate (entry_rows(n), entry_columns(n), values(n))
+    call must(stickslip_interface_condensed_coo(contact, x1(), x2(), lambda, STICKSLIP_CONDENSED_SCALES, n, &
+        c_loc(entry_rows), c_loc(entry_columns), c_loc(values), n))
+    do k = 1, n
+      place = start(entry_rows(k)) + entry_columns(k) - first(entry_rows(k))
+      entries(place) = entries(place) + values(k)
+    end do
   end subroutine
 
   logical function in_equilibrium()

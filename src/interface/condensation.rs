@@ -28,6 +28,8 @@ pub enum Piece {
     Elimination,
     /// G.
     Constraints,
+    /// What G lacks where multipliers follow from the displacements: c_A Ds_A.
+    Scales,
 }
 
 impl<const N: usize> Contact<N> {
@@ -99,12 +101,34 @@ impl<const N: usize> Contact<N> {
         let sinks: (&mut dyn Sink, &mut dyn Sink) = match piece {
             Piece::Forces => (sink, &mut nowhere),
             Piece::Constraints => (&mut nowhere, sink),
+            Piece::Scales => return self.scale_derivatives((x1, x2), &elimination, sink),
             Piece::Elimination => {
                 elimination.entries(&self.rows()?, self.setup.surfaces(), sink);
                 return Ok(());
             }
         };
         self.linearise((x1, x2), &lambda, Extent::Whole, Some(&scales), (sinks.0, Some(sinks.1)))
+    }
+
+    /// T_A r_A c_A times DD_A in the rows of A: the forces at A of multipliers r_A c_A, differentiated at fixed multipliers.
+    fn scale_derivatives(
+        &mut self,
+        x: (&[Vec3], &[Vec3]),
+        elimination: &Elimination,
+        sink: &mut dyn Sink,
+    ) -> Result<()> {
+        let lambda = narrowed(&elimination.traction_changes(&self.rows()?)?)?;
+        let nonmortar = &self.setup.nonmortar.equations;
+        let mut own = Noted::default();
+        nonmortar.as_flattened().iter().for_each(|&e| own.add(e, 0, 0.0));
+        let rows = own.entries()?;
+        let mut forces = |row: i64, column: i64, value: f64| {
+            if rows.binary_search(&(row, 0)).is_ok() {
+                sink.add(row, column, value);
+            }
+        };
+        let (mut nowhere, scales) = (|_: i64, _: i64, _: f64| {}, memory::filled(0.0, nonmortar.len())?);
+        self.linearise(x, &lambda, Extent::Whole, Some(&scales), (&mut forces, Some(&mut nowhere)))
     }
 
     /// Turns the host's own matrix into the condensed one: the rows that change, with their new values.

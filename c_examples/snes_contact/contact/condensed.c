@@ -89,23 +89,6 @@ void condensed_predict(Contact *contact, PetscReal factor)
   }
 }
 
-/* rank 0, of a converged step: the multipliers are the projected tractions, from which they differ by rounding of the
- * bodies' forces. Nodes that slip are then on the cone to the last digits, and the next step does not begin with guesses
- * of who sticks. */
-int32_t condensed_settle(Interface *interface)
-{
-  stickslip_states wanted = {.struct_size = sizeof(wanted), .traction = interface->rows, .normal = interface->host};
-  const int32_t    status = stickslip_interface_states(interface->handle, STATE_OF(interface), NULL, &wanted);
-  for (PetscInt a = 0; a < interface->n1 && !status; a++) {
-    const double *p = interface->rows + 3 * a, *n = interface->host + 3 * a;
-    if (interface->components == 3)
-      PetscCallAbort(PETSC_COMM_SELF, PetscArraycpy(interface->lambda + 3 * a, p, 3));
-    else
-      interface->lambda[a] = p[0] * n[0] + p[1] * n[1] + p[2] * n[2];
-  }
-  return status;
-}
-
 void condensed_accept(Contact *contact)
 {
   for (PetscInt i = 0; i < contact->n_interfaces && contact->condensed && contact->mesh->rank == 0; i++) {

@@ -98,7 +98,6 @@ PetscErrorCode condensed_begin(Contact *contact);
 PetscErrorCode condensed_eliminate(Contact *contact, Vec x, PetscInt *status);
 PetscErrorCode condensed_residual(Contact *contact, Vec r, PetscInt *status);
 PetscErrorCode condensed_matrix(Contact *contact, Vec x, Mat J, PetscInt *status);
-int32_t        condensed_settle(Interface *interface); /* rank 0 */
 void           condensed_accept(Contact *contact);
 
 /* states.c */

@@ -14,8 +14,9 @@
 //! Here all have three components: where a node's multiplier has one, T_A is nu_A in the first of three columns, so that
 //! this code need not know how many there are.
 //!
-//! Every other row stays as it is, and so does an uncovered node's, whose multiplier is 0. s_A counts as a constant: what
-//! D s_A would add to the matrix is c_A Ds_A, which vanishes with the residual.
+//! Every other row stays as it is, and so does an uncovered node's, whose multiplier is 0. In a step from given multipliers s_A
+//! is a constant. Where the multipliers are a function of the displacements, c_A Ds_A belongs to the matrix, too
+//! (`Piece::Scales`).
 
 use crate::error::{Error, Kind, Result};
 use crate::geometry::{Mat3, Vec3};
@@ -227,6 +228,12 @@ impl Elimination {
     /// s of every node.
     pub fn scales(&self) -> Result<Vec<f64>> {
         (0..self.nodes.len()).map(|a| self.scale(a)).stored()
+    }
+
+    /// r_A c_A of the nodes with multipliers of their own: what the projection makes of these.
+    pub fn traction_changes(&self, rows: &[Row]) -> Result<Vec<Vec3>> {
+        let change = |(node, row): (&Node, &Row)| if node.own { row.value * node.augmentation } else { Vec3::zeros() };
+        self.nodes.iter().zip(rows).map(change).stored()
     }
 
     /// W_B.
