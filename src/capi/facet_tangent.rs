@@ -173,6 +173,6 @@ pub unsafe extern "C" fn stickslip_facet_tangent(
         let basis = basis(&sums, "n_ab")?;
         let nodes = FacetResponse::new(nodes.each_ref());
         let facet = DualFacet::new((&pairs.frame, rule), &pairs, (&sums, basis.as_ref()), &nodes);
-        facet.blocks(|row, column, block| k.write(row, column, block))
+        facet.blocks(|rows, column, block| k.write_rows(rows, column, block))
     })
 }

@@ -9,7 +9,7 @@ use super::union::UnionPair;
 use crate::element::PairTangent;
 use crate::geometry::Vec3;
 use crate::interface::data::extent::Extent;
-use crate::interface::data::options::Form;
+use crate::interface::data::options::{Form, MultiplierBasis};
 use crate::interface::data::surface::{FacetNodes, NO_EQUATION};
 use crate::interface::pairing::given::Given;
 use crate::interface::stages::node::is_out_of_reach;
@@ -91,13 +91,15 @@ impl<'a, const N: usize> Emitter<'a, '_, N> {
         Equations::of(&two.facets[f], &two.equations)
     }
 
-    /// A pair's rows and columns of the mortar side.
+    /// A pair's rows and columns of the mortar side; with dual multipliers forces on it are the facet's (`dual_facet.rs`).
     pub fn pair(&mut self, pair: &UnionPair, t: &PairTangent<N>) {
         let (one, two) = (self.facet_equations(pair.one), self.mortar_equations(pair.two));
         if pair.now.is_some() && self.given.setup.options.differentiates_weights() {
             self.sink.add_block(one.rows(), two.columns(), t.forces.one[MORTAR..].flat());
-            self.sink.add_block(two.rows(), one.columns(), t.forces.two[..MORTAR].flat());
-            self.sink.add_block(two.rows(), two.columns(), t.forces.two[MORTAR..].flat());
+            if self.given.setup.options.basis == MultiplierBasis::Standard {
+                self.sink.add_block(two.rows(), one.columns(), t.forces.two[..MORTAR].flat());
+                self.sink.add_block(two.rows(), two.columns(), t.forces.two[MORTAR..].flat());
+            }
         }
         if let (Some(weights), Form::Multiplier) = (pair.now, self.given.setup.options.form) {
             self.multipliers(pair.one, &two, &weights.ac.map(|row| row.map(|n| -n)));
