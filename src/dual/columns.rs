@@ -7,7 +7,7 @@
 
 use crate::mortar::{ForceDerivatives, MORTAR, PAIR_NODES, PairWeights};
 use crate::shape::{MAX_CORNERS, MAX_NODES};
-use crate::simd::{self, Kernel, Lanes};
+use crate::simd::{self, Kernel, Lanes, rolled};
 
 /// Mortar nodes whose rows stand side by side, as lanes.
 pub const GROUP: usize = 4;
@@ -55,7 +55,7 @@ impl FacetColumns<'_> {
     /// Adds a pair's share of D(phi q), and the part of Df_C that belongs to the pair.
     pub fn add_derivatives(&mut self, tractions: &TractionDerivatives, forces: &ForceDerivatives, mortar: &[usize]) {
         let columns = self.tractions.len();
-        for slot in 0..PAIR_NODES {
+        for slot in 0..rolled(PAIR_NODES) {
             let Some(column) = column(slot, self.nodes, mortar) else { continue };
             let sum = self.tractions[column].as_flattened_mut().as_flattened_mut();
             for (sum, share) in sum.iter_mut().zip(tractions[slot].as_flattened().as_flattened()) {
@@ -64,7 +64,7 @@ impl FacetColumns<'_> {
             for (c, &place) in mortar.iter().enumerate() {
                 let rows = self.rows[place / GROUP * columns + column].as_flattened_mut();
                 for (row, force) in rows.iter_mut().zip(forces.two[slot].as_flattened()) {
-                    row[place % GROUP] += force[c];
+                    row[place % GROUP] += force[c % GROUP]; // so that no bounds are checked
                 }
             }
         }

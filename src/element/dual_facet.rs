@@ -204,12 +204,7 @@ impl<'a, P: FacetPairs> DualFacet<'a, P> {
     }
 
     /// The blocks that have the facet's own nodes and multipliers alone.
-    fn own_blocks(
-        &self,
-        shared: &Shared,
-        places: &Places,
-        sink: &mut impl FnMut((usize, usize), usize, &Columns),
-    ) {
+    fn own_blocks(&self, shared: &Shared, places: &Places, sink: &mut impl FnMut((usize, usize), usize, &Columns)) {
         let areas = self.motion.as_ref().map_or([0.0; MAX_CORNERS], |(basis, _)| basis.diagonal());
         for k in 0..places.own {
             let mut area = [0.0; MAX_CORNERS];

@@ -111,12 +111,13 @@ pub struct MortarRows {
     nodes: Vec<usize>,
     equations: Vec<[i64; 3]>,
     weights: Vec<[[f64; GROUP]; MAX_CORNERS]>,
-    tractions: Vec<Columns>,
-    rows: Vec<Columns>,
+    /// D(phi q_B) of each column, then the rows of each group.
+    columns: Vec<Columns>,
 }
 
 impl MortarRows {
     /// Begins with a facet of these nodes and pairs, in the memory of the one before.
+    #[inline(never)]
     pub fn begin(&mut self, one: &FacetNodes, two: &Surface, pairs: &[UnionPair]) -> Result<()> {
         self.own = one.len;
         self.nodes.clear();
@@ -131,20 +132,16 @@ impl MortarRows {
         }
         let (groups, columns) = (self.nodes.len().div_ceil(GROUP), MAX_NODES + self.nodes.len());
         memory::refill(&mut self.weights, Default::default(), groups)?;
-        memory::refill(&mut self.tractions, Default::default(), columns)?;
-        memory::refill(&mut self.rows, Default::default(), groups * columns)
+        memory::refill(&mut self.columns, Default::default(), columns + groups * columns)
     }
 
     fn sums(&mut self) -> FacetColumns<'_> {
-        FacetColumns {
-            nodes: self.own,
-            weights: &mut self.weights,
-            tractions: &mut self.tractions,
-            rows: &mut self.rows,
-        }
+        let (tractions, rows) = self.columns.split_at_mut(MAX_NODES + self.nodes.len());
+        FacetColumns { nodes: self.own, weights: &mut self.weights, tractions, rows }
     }
 
     /// Adds a pair with its integrated weights and its share of the derivatives.
+    #[inline(never)]
     pub fn add(
         &mut self,
         two: &FacetNodes,
@@ -159,15 +156,17 @@ impl MortarRows {
     }
 
     /// Adds what couples the pairs, once all have been added.
+    #[inline(never)]
     pub fn couple(&mut self) {
         self.sums().couple();
     }
 
     /// The blocks of these rows, four nodes at a time: columns of the facet's nodes and of these. `own` are the equations of
     /// the facet's nodes. What was added is used up.
+    #[inline(never)]
     pub fn emit(&mut self, own: &Equations, sink: &mut dyn Sink) {
         let columns = MAX_NODES + self.nodes.len();
-        for (equations, values) in self.equations.chunks(GROUP).zip(self.rows.chunks_exact_mut(columns)) {
+        for (equations, values) in self.equations.chunks(GROUP).zip(self.columns[columns..].chunks_exact_mut(columns)) {
             let n = equations.len();
             let mut rows = [NO_EQUATION; 3 * GROUP];
             for (c, i) in (0..n).flat_map(|c| (0..3).map(move |i| (c, i))) {
