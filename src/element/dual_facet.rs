@@ -94,13 +94,14 @@ impl<'a, P: FacetPairs> DualFacet<'a, P> {
     /// [`Kind::NotFinite`] when a block may overflow, before any is given.
     pub fn blocks(&self, mut sink: impl FnMut((usize, usize), usize, &Columns)) -> Result<()> {
         let (mut d, mut shared, mut kept) = (Derivatives::default(), Shared::default(), [const { None }; KEPT]);
-        let acting = || (0..self.pairs.count()).filter(|&p| self.acts(p));
-        for (n, p) in acting().enumerate() {
-            let pair = self.differentiate(p, &mut d)?;
+        let mut n = 0;
+        for p in 0..self.pairs.count() {
+            let Some(pair) = self.differentiate(p, &mut d)? else { continue };
             shared.add(&d, &pair);
-            if n < KEPT {
-                kept[n] = Some(pair);
+            if let Some(kept) = kept.get_mut(n) {
+                *kept = Some((p, pair));
             }
+            n += 1;
         }
         if !(shared.sizes[0] + shared.sizes[1] * shared.sizes[2]).is_finite() {
             return Err(Error::new(Kind::NotFinite, "k overflows: the inputs are out of range"));
@@ -109,32 +110,29 @@ impl<'a, P: FacetPairs> DualFacet<'a, P> {
             own: self.frame.projection.shape.n,
             mortar: (0..self.pairs.count()).map(|p| self.pairs.nodes(p)).sum(),
         };
-        let (mut first, mut n) = (places.own, 0);
+        let last = if n > KEPT { kept[KEPT - 1].as_ref().map(|(p, _)| *p) } else { None };
+        let mut first = places.own;
         for p in 0..self.pairs.count() {
-            let (acts, mut again) = (self.acts(p), None);
-            if acts && n >= KEPT {
-                again = Some(self.differentiate(p, &mut d)?);
-            }
-            let pair = if acts { again.as_ref().or_else(|| kept[n].as_ref()) } else { None };
+            let again = if last.is_some_and(|last| p > last) { self.differentiate(p, &mut d)? } else { None };
+            let kept = kept.iter().flatten().find(|(q, _)| *q == p).map(|(_, pair)| pair);
+            let pair = kept.or(again.as_ref());
             self.columns_of_pair((p, first), pair, &places, &mut sink);
             self.rows_of_pair((p, first), pair, &shared, &places, &mut sink);
             first += self.pairs.nodes(p);
-            n += usize::from(acts);
         }
         self.own_blocks(&shared, &places, &mut sink);
         Ok(())
     }
 
-    /// Whether a pair overlaps now or did at t_n.
-    fn acts(&self, p: usize) -> bool {
-        let any = |n: &PairWeights| n.ab.as_flattened().iter().chain(n.ac.as_flattened()).any(|n| *n != 0.0);
-        any(&self.pairs.weights(p)) || self.pairs.previous(p).is_some_and(|n| any(&n))
-    }
-
-    /// The derivatives of a pair, zeros where it has none.
-    fn differentiate(&self, p: usize, d: &mut Derivatives) -> Result<PairBlocks> {
-        let (weights, previous) = (self.pairs.weights(p), self.pairs.previous(p));
+    /// The derivatives of a pair; `None` where it does not overlap and did not at t_n. (Pairs that only touch have
+    /// derivatives, though no weights: 3.6.)
+    fn differentiate(&self, p: usize, d: &mut Derivatives) -> Result<Option<PairBlocks>> {
+        let (weights, previous) =
+            (self.pairs.weights(p), self.pairs.previous(p).filter(|n| *n != PairWeights::default()));
         let overlap = self.pairs.overlap(p)?;
+        if overlap.is_none() && previous.is_none() {
+            return Ok(None);
+        }
         let Derivatives { tangent: PairTangent { forces, rows }, areas, tractions } = d;
         let (mut gap, mut dual) = (None, PairWeights::default());
         if let (Some((basis, facet)), Some(overlap)) = (&self.motion, &overlap) {
@@ -149,7 +147,7 @@ impl<'a, P: FacetPairs> DualFacet<'a, P> {
         }
         let now = gap.as_ref().map(|gap| PairNow { weights: &dual, gap: Some(gap) });
         row_columns::<true, 3>(now.as_ref(), previous.as_ref(), self.nodes, rows);
-        Ok(PairBlocks::of(d, &weights, &dual))
+        Ok(Some(PairBlocks::of(d, &weights, &dual)))
     }
 
     /// The columns of a pair's mortar nodes, with the rows of all nodes and multipliers.

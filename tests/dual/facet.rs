@@ -119,6 +119,7 @@ impl Patch {
         (vec![[[0.0; GROUP]; 4]; groups], of(columns), of(groups * columns))
     }
 
+    #[allow(clippy::type_complexity)]
     fn rows<'a>(
         &self,
         (weights, tractions, rows): (&'a mut [[[f64; GROUP]; 4]], &'a mut [Columns], &'a mut [Columns]),
