@@ -2,7 +2,8 @@
 //!
 //! Cholesky's factors are those of the matrix scaled to a unit diagonal. A facet that is covered along one edge has
 //! diagonals that differ by powers of the width, and no other ill condition: scaled, its condition is below 200 at any
-//! width. Values are solutions with these factors. Derivatives are products with the inverse (`motion.rs`).
+//! width. Values are solutions with these factors; derivatives are products with the inverse, whose columns are such solutions
+//! (`motion.rs`).
 
 use crate::error::{Error, Kind, Result};
 use crate::shape::MAX_CORNERS;

@@ -18,8 +18,8 @@ use crate::mortar::{
 use crate::quadrature::Rule;
 use crate::shape::{MAX_CORNERS, MAX_NODES};
 
-/// Pairs that keep their derivatives, 6 kB each on the stack. A facet over others of its size has four or so.
-const KEPT: usize = 6;
+/// Pairs that keep their derivatives, 6 kB each on the stack. A facet over others of its size has about as many.
+const KEPT: usize = 4;
 
 /// A facet at its tractions, with the nodal states.
 pub struct DualFacet<'a, P> {
@@ -49,11 +49,14 @@ struct Derivatives {
     areas: AreaDerivatives,
     /// D(phi q_B).
     tractions: TractionDerivatives,
+    /// n_BC and its share of n^d_AC: `[B][C]`, `[A][C]`.
+    weights: [[f64; GROUP]; MAX_CORNERS],
+    dual: [[f64; GROUP]; MAX_CORNERS],
 }
 
 /// What the blocks of a pair are made of, its mortar nodes in the rows or in the columns.
 struct PairBlocks {
-    /// n_BC and its share of n^d_AC: `[B][C]`, `[A][C]`.
+    number: usize,
     weights: [[f64; GROUP]; MAX_CORNERS],
     dual: [[f64; GROUP]; MAX_CORNERS],
     forces: [Columns; MAX_NODES],
@@ -96,12 +99,13 @@ impl<'a, P: FacetPairs> DualFacet<'a, P> {
         let (mut d, mut shared, mut kept) = (Derivatives::default(), Shared::default(), [const { None }; KEPT]);
         let mut n = 0;
         for p in 0..self.pairs.count() {
-            let Some(pair) = self.differentiate(p, &mut d)? else { continue };
-            shared.add(&d, &pair);
-            if let Some(kept) = kept.get_mut(n) {
-                *kept = Some((p, pair));
+            if self.differentiate(p, &mut d)? {
+                shared.add(&d);
+                if let Some(kept) = kept.get_mut(n) {
+                    *kept = Some(PairBlocks::of(p, &d));
+                }
+                n += 1;
             }
-            n += 1;
         }
         if !(shared.sizes[0] + shared.sizes[1] * shared.sizes[2]).is_finite() {
             return Err(Error::new(Kind::NotFinite, "k overflows: the inputs are out of range"));
@@ -110,12 +114,13 @@ impl<'a, P: FacetPairs> DualFacet<'a, P> {
             own: self.frame.projection.shape.n,
             mortar: (0..self.pairs.count()).map(|p| self.pairs.nodes(p)).sum(),
         };
-        let last = if n > KEPT { kept[KEPT - 1].as_ref().map(|(p, _)| *p) } else { None };
+        let last = if n > KEPT { kept[KEPT - 1].as_ref().map(|pair| pair.number) } else { None };
         let mut first = places.own;
         for p in 0..self.pairs.count() {
-            let again = if last.is_some_and(|last| p > last) { self.differentiate(p, &mut d)? } else { None };
-            let kept = kept.iter().flatten().find(|(q, _)| *q == p).map(|(_, pair)| pair);
-            let pair = kept.or(again.as_ref());
+            if last.is_some_and(|last| p > last) && self.differentiate(p, &mut d)? {
+                kept[0] = Some(PairBlocks::of(p, &d)); // all that are kept have had their turn
+            }
+            let pair = kept.iter().flatten().find(|pair| pair.number == p);
             self.columns_of_pair((p, first), pair, &places, &mut sink);
             self.rows_of_pair((p, first), pair, &shared, &places, &mut sink);
             first += self.pairs.nodes(p);
@@ -124,16 +129,16 @@ impl<'a, P: FacetPairs> DualFacet<'a, P> {
         Ok(())
     }
 
-    /// The derivatives of a pair; `None` where it does not overlap and did not at t_n. (Pairs that only touch have
-    /// derivatives, though no weights: 3.6.)
-    fn differentiate(&self, p: usize, d: &mut Derivatives) -> Result<Option<PairBlocks>> {
+    /// The derivatives of a pair; whether it overlaps or did at t_n, and has any. (Pairs that only touch have derivatives,
+    /// though no weights: 3.6.)
+    fn differentiate(&self, p: usize, d: &mut Derivatives) -> Result<bool> {
         let (weights, previous) =
             (self.pairs.weights(p), self.pairs.previous(p).filter(|n| *n != PairWeights::default()));
         let overlap = self.pairs.overlap(p)?;
         if overlap.is_none() && previous.is_none() {
-            return Ok(None);
+            return Ok(false);
         }
-        let Derivatives { tangent: PairTangent { forces, rows }, areas, tractions } = d;
+        let Derivatives { tangent: PairTangent { forces, rows }, areas, tractions, .. } = d;
         let (mut gap, mut dual) = (None, PairWeights::default());
         if let (Some((basis, facet)), Some(overlap)) = (&self.motion, &overlap) {
             let pair = (self.frame, overlap, self.rule);
@@ -147,7 +152,8 @@ impl<'a, P: FacetPairs> DualFacet<'a, P> {
         }
         let now = gap.as_ref().map(|gap| PairNow { weights: &dual, gap: Some(gap) });
         row_columns::<true, 3>(now.as_ref(), previous.as_ref(), self.nodes, rows);
-        Ok(Some(PairBlocks::of(d, &weights, &dual)))
+        (d.weights, d.dual) = (weights.ac, dual.ac);
+        Ok(true)
     }
 
     /// The columns of a pair's mortar nodes, with the rows of all nodes and multipliers.
@@ -216,12 +222,13 @@ impl<'a, P: FacetPairs> DualFacet<'a, P> {
 }
 
 impl PairBlocks {
-    fn of(d: &Derivatives, weights: &PairWeights, dual: &PairWeights) -> PairBlocks {
+    fn of(number: usize, d: &Derivatives) -> PairBlocks {
         let PairTangent { forces, rows } = &d.tangent;
         let mortar = |columns: &[Columns; PAIR_NODES]| *columns.last_chunk().expect("the mortar slots");
         PairBlocks {
-            weights: weights.ac,
-            dual: dual.ac,
+            number,
+            weights: d.weights,
+            dual: d.dual,
             forces: mortar(&forces.one),
             rows: mortar(rows),
             tractions: mortar(&d.tractions),
@@ -231,7 +238,7 @@ impl PairBlocks {
 }
 
 impl Shared {
-    fn add(&mut self, d: &Derivatives, pair: &PairBlocks) {
+    fn add(&mut self, d: &Derivatives) {
         let PairTangent { forces, rows } = &d.tangent;
         add(&mut self.forces, &forces.one[..MORTAR]);
         add(&mut self.rows, &rows[..MORTAR]);
@@ -240,8 +247,8 @@ impl Shared {
         for blocks in [&forces.one, &forces.two, rows] {
             self.sizes[0] += size(flat(blocks));
         }
-        self.sizes[0] += size(&pair.dual);
-        self.sizes[1] += size(&pair.weights);
+        self.sizes[0] += size(&d.dual);
+        self.sizes[1] += size(&d.weights);
         self.sizes[2] += size(flat(&d.tractions));
     }
 }
