@@ -374,7 +374,7 @@ fn compare_with_differences(patch: &mut Patch, what: &str) {
             let x = if column < own { &mut patch.x1[column] } else { &mut patch.x2[column - own] };
             *x += h;
             patch.integrate();
-            forces_and_gaps(&patch, &traction)
+            forces_and_gaps(patch, &traction)
         };
         let (plus, minus) = (at(STEP), at(-2.0 * STEP));
         at(STEP);
