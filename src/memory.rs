@@ -29,6 +29,14 @@ pub fn filled<T: Copy>(value: T, n: usize) -> Result<Vec<T>> {
     Ok(v)
 }
 
+/// `n` times the same value, in place of what was there.
+pub fn refill<T: Copy>(v: &mut Vec<T>, value: T, n: usize) -> Result<()> {
+    v.clear();
+    v.try_reserve(n)?;
+    v.resize(n, value);
+    Ok(())
+}
+
 /// `n` times the default value.
 pub fn defaults<T: Default>(n: usize) -> Result<Vec<T>> {
     (0..n).map(|_| T::default()).stored()

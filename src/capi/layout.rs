@@ -1,6 +1,7 @@
 //! How matrices go out.
 
 use super::raw;
+use crate::dual::Columns;
 use crate::error::{Error, Kind, Result};
 use crate::geometry::Mat3;
 
@@ -37,6 +38,18 @@ impl Matrix {
         let ld = raw::count(ld, 1, "ld")?;
         raw::check(k, "k")?;
         Ok(Matrix { k, ld, column_major })
+    }
+
+    /// Writes `[j][i][row]` of so many rows of blocks in a column; rows and columns are counted in blocks.
+    pub fn write_rows(&mut self, (row, rows): (usize, usize), column: usize, values: &Columns) {
+        let (down, right) = if self.column_major { (1, self.ld) } else { (self.ld, 1) };
+        for (c, i) in (0..rows).flat_map(|c| (0..3).map(move |i| (c, i))) {
+            let at = (3 * (row + c) + i) * down + 3 * column * right;
+            for j in 0..3 {
+                // SAFETY: at + j right < ld * size; the caller's k has that many entries.
+                unsafe { self.k.add(at + j * right).write(values[j][i][c]) };
+            }
+        }
     }
 
     /// Writes a block; rows and columns are counted in blocks.

@@ -7,7 +7,6 @@ use super::raw;
 use crate::error::{Error, Kind, Result};
 use crate::interface::{Csr, Extent, NO_EQUATION, Sink};
 use crate::memory::{self, Store};
-use std::mem::MaybeUninit;
 
 /// Entries in the core's numbering.
 #[derive(Default)]
@@ -40,10 +39,12 @@ impl Sink for Triplets {
             return;
         }
         // Nearly every block: all of its equations exist. The common lengths are known to the compiler.
-        let stored = match rows.len() {
-            12 => self.store_block::<12>(rows, columns, values),
-            4 => self.store_block::<4>(rows, columns, values),
-            _ => self.store_block::<1>(rows, columns, values),
+        let stored = if let Ok(rows) = <&[i64; 12]>::try_from(rows) {
+            self.store_block(rows, columns, values)
+        } else if let Ok(rows) = <&[i64; 4]>::try_from(rows) {
+            self.store_block(rows, columns, values)
+        } else {
+            self.store_block(rows, columns, values)
         };
         self.note(stored);
     }
@@ -64,21 +65,21 @@ impl Triplets {
         }
     }
 
-    /// A block, `N` rows at a time.
-    fn store_block<const N: usize>(&mut self, rows: &[i64], columns: &[i64], values: &[f64]) -> Result<()> {
-        let (rows, _) = rows.as_chunks::<N>();
-        let n = N * rows.len() * columns.len();
+    /// A block.
+    #[inline(always)]
+    fn store_block(&mut self, rows: &[i64], columns: &[i64], values: &[f64]) -> Result<()> {
+        let n = rows.len() * columns.len();
         self.rows.try_reserve(n)?;
         self.columns.try_reserve(n)?;
         self.values.store_all(values.iter().copied())?;
-        let (spare_rows, _) = self.rows.spare_capacity_mut()[..n].as_chunks_mut::<N>();
-        let (spare_columns, _) = self.columns.spare_capacity_mut()[..n].as_chunks_mut::<N>();
-        let mut at = 0;
-        for &column in columns {
-            for rows in rows {
-                spare_rows[at] = rows.map(MaybeUninit::new);
-                spare_columns[at] = [MaybeUninit::new(column); N];
-                at += 1;
+        let spare_rows = self.rows.spare_capacity_mut()[..n].chunks_exact_mut(rows.len());
+        let spare_columns = self.columns.spare_capacity_mut()[..n].chunks_exact_mut(rows.len());
+        for ((to_rows, to_columns), &column) in spare_rows.zip(spare_columns).zip(columns) {
+            for (to, &row) in to_rows.iter_mut().zip(rows) {
+                to.write(row);
+            }
+            for to in to_columns {
+                to.write(column);
             }
         }
         // SAFETY: the loops wrote all n of both.

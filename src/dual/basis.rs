@@ -51,6 +51,11 @@ impl DualBasis {
         self.mass.solve(v)
     }
 
+    /// m^-1, column by column.
+    pub(super) fn inverse(&self) -> [[f64; MAX_CORNERS]; MAX_CORNERS] {
+        self.mass.inverse()
+    }
+
     /// phi sum_B a_AB v_B: of a column n_BC of the facet's weights the dual ones n^d_AC, of gamma_B the gaps of the nodes
     /// along e, phi m_A h_A.
     pub fn dual(&self, v: &[f64; MAX_CORNERS]) -> [f64; MAX_CORNERS] {
@@ -90,16 +95,8 @@ impl DualBasis {
 
     /// a_AB.
     pub fn coefficients(&self) -> [[f64; MAX_CORNERS]; MAX_CORNERS] {
-        let mut coefficients = [[0.0; MAX_CORNERS]; MAX_CORNERS];
-        for b in 0..self.nodes {
-            let mut unit = [0.0; MAX_CORNERS];
-            unit[b] = 1.0;
-            let x = self.solve(&unit);
-            for a in 0..self.nodes {
-                coefficients[a][b] = self.areas[a] * x[a];
-            }
-        }
-        coefficients
+        let inverse = self.inverse();
+        std::array::from_fn(|a| std::array::from_fn(|b| self.areas[a] * inverse[b][a]))
     }
 
     /// phi a_AB: times n_BC of a pair its share of n^d_AC.

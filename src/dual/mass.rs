@@ -2,7 +2,8 @@
 //!
 //! Cholesky's factors are those of the matrix scaled to a unit diagonal. A facet that is covered along one edge has
 //! diagonals that differ by powers of the width, and no other ill condition: scaled, its condition is below 200 at any
-//! width. The inverse itself is never formed.
+//! width. Values are solutions with these factors; derivatives are products with the inverse, whose columns are such solutions
+//! (`motion.rs`).
 
 use crate::error::{Error, Kind, Result};
 use crate::shape::MAX_CORNERS;
@@ -82,6 +83,18 @@ impl Mass {
             x[a] *= s[a];
         }
         x
+    }
+}
+
+impl Mass {
+    /// m^-1, column by column: the solutions of unit vectors.
+    pub fn inverse(&self) -> [[f64; MAX_CORNERS]; MAX_CORNERS] {
+        let mut columns = [[0.0; MAX_CORNERS]; MAX_CORNERS];
+        for b in 0..self.nodes {
+            columns[b][b] = 1.0;
+            columns[b] = self.solve(&columns[b]);
+        }
+        columns
     }
 }
 

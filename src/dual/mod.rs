@@ -3,7 +3,7 @@
 //!
 //! - values: [`FacetSums`] adds up the facet's pairs, [`DualBasis`] gives dual weights, heights and tractions;
 //! - derivatives: the kernels of `mortar` give those of a pair at the facet's heights and tractions, [`FacetMotion`]
-//!   makes of them the pair's share of the facet's, [`FacetColumns`] what couples the mortar nodes of all its pairs;
+//!   makes of them the pair's share of the facet's, [`FacetColumns`] adds up the rows of the mortar nodes of all its pairs;
 //! - [`WholeFacet`] does both against an analytic surface, where gaps are vectors;
 //! - [`FullDerivatives`] has the derivatives of the dual weights themselves.
 //!
@@ -19,7 +19,7 @@ mod sums;
 mod vectors;
 
 pub use basis::DualBasis;
-pub use columns::{FacetColumns, TractionDerivatives, coupling};
+pub use columns::{Columns, FacetColumns, GROUP, TractionDerivatives, couple};
 pub use coverage::{Coverage, FADE_BAND};
 pub use full::FullDerivatives;
 pub use mass::{SMALLEST_DETERMINANT, SMALLEST_PIVOT};

@@ -16,6 +16,7 @@ use super::coverage::whole_area_derivative;
 use crate::geometry::Vec3;
 use crate::mortar::{AlongNormal, AreaDerivatives, ForceDerivatives, MORTAR, NonmortarFrame, PairWeights, Raised};
 use crate::shape::MAX_CORNERS;
+use crate::simd::{self, Kernel, Lanes, rolled};
 
 /// A facet at its tractions and heights, which the derivatives of its pairs are taken at.
 #[derive(Clone, Debug)]
@@ -27,6 +28,8 @@ pub struct FacetMotion<'a> {
     pub field: [[f64; MAX_CORNERS]; 3],
     /// h_A, by which kernels are to raise the mortar surface.
     pub heights: [f64; MAX_CORNERS],
+    /// phi m^-1, column by column: it is multiplied with some hundred columns of derivatives a pair.
+    inverse: [[f64; MAX_CORNERS]; MAX_CORNERS],
     /// D|e| / Dx_k.
     area: [Vec3; MAX_CORNERS],
 }
@@ -58,6 +61,7 @@ impl<'a> FacetMotion<'a> {
             tractions: *p,
             field: basis.tractions(p),
             heights: basis.heights(gamma),
+            inverse: basis.inverse().map(|column| column.map(|v| basis.coverage.fade * v)),
             area: whole_area_derivative(frame),
         }
     }
@@ -68,6 +72,7 @@ impl<'a> FacetMotion<'a> {
     }
 
     /// Dphi, the share of a pair: `of_pair` is its share of kappa, `dm` its Dm_A with respect to x_k,j.
+    #[inline(never)]
     pub(super) fn dfade(&self, of_pair: f64, dm: &[f64; MAX_CORNERS], k: usize, j: usize) -> f64 {
         let whole = if k < MORTAR { self.area[k][j] } else { 0.0 };
         self.basis.coverage.slope * (dm.iter().sum::<f64>() - of_pair * whole) / self.basis.area
@@ -77,32 +82,69 @@ impl<'a> FacetMotion<'a> {
     /// mortar facet: none where that side is at rest. `weights` are the pair's own. Where a kernel takes all pairs of a
     /// facet together, they count as one pair with the sum of their weights.
     pub fn share(&self, mortar: usize, weights: &PairWeights, pair: PairShare) {
-        let (basis, phi) = (self.basis, self.basis.coverage.fade);
-        let of_pair = share_of(basis, weights);
-        pair.gap.gamma = basis.dual(&pair.gap.gamma);
-        let slots = (0..basis.nodes).chain(MORTAR..MORTAR + mortar);
-        for (k, j) in slots.flat_map(|k| (0..3).map(move |j| (k, j))) {
-            let dm = pair.areas[k][j];
-            let dphi = self.dfade(of_pair, &dm, k, j);
-            let area = &mut pair.areas[k][j];
-            for a in 0..MAX_CORNERS {
-                area[a] = phi * dm[a] + dphi * basis.areas[a];
+        simd::dispatch(Share { facet: self, mortar, of_pair: share_of(self.basis, weights), pair });
+    }
+}
+
+struct Share<'a, 'b> {
+    facet: &'a FacetMotion<'a>,
+    mortar: usize,
+    of_pair: f64,
+    pair: PairShare<'b>,
+}
+
+impl Kernel for Share<'_, '_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<L: Lanes>(self) {
+        let Share { facet, mortar, of_pair, pair } = self;
+        let (basis, [a, b, c, d]) = (facet.basis, &facet.inverse);
+        let solve = Times([L::load(a), L::load(b), L::load(c), L::load(d)]);
+        let (phi, fades) = (L::splat(basis.coverage.fade), basis.coverage.slope != 0.0);
+        let (zero, areas, heights) = (L::splat(0.0), L::load(&basis.areas), L::load(&facet.heights));
+        let gamma = &mut pair.gap.gamma;
+        *gamma = (areas * solve.times(gamma, zero)).store();
+        for k in 0..MORTAR + mortar {
+            if k >= basis.nodes && k < MORTAR {
+                continue;
             }
-            let dgamma = &mut pair.gap.dgamma[k][j];
-            *dgamma = basis.dual(dgamma);
-            for a in 0..MAX_CORNERS {
-                dgamma[a] += area[a] * self.heights[a];
-            }
-            for i in 0..3 {
-                let (p, q, force) = (&self.tractions[i], &self.field[i], &mut pair.forces.one[k][j][i]);
-                let dq = basis.solve(&std::array::from_fn(|b| dm[b] * p[b] - force[b]));
-                for b in 0..MAX_CORNERS {
-                    pair.tractions[k][j][i][b] = phi * dq[b] + dphi * q[b];
-                    force[b] = area[b] * p[b];
+            for j in 0..rolled(3) {
+                let dm = L::load(&pair.areas[k][j]);
+                let (mut area, mut dphi) = (dm, zero);
+                if fades {
+                    dphi = L::splat(facet.dfade(of_pair, &pair.areas[k][j], k, j));
+                    area = dphi.mul_add(areas, phi * dm);
+                    pair.areas[k][j] = area.store();
                 }
-                pair.forces.two[k][j][i].iter_mut().for_each(|f| *f *= phi);
+                let dgamma = &mut pair.gap.dgamma[k][j];
+                *dgamma = areas.mul_add(solve.times(dgamma, zero), area * heights).store();
+                for i in 0..3 {
+                    let (p, force) = (L::load(&facet.tractions[i]), &mut pair.forces.one[k][j][i]);
+                    let r = dm.mul_sub(p, L::load(force)).store();
+                    *force = (area * p).store();
+                    pair.tractions[k][j][i] = solve.times(&r, dphi * L::load(&facet.field[i])).store();
+                    if fades {
+                        let force = &mut pair.forces.two[k][j][i];
+                        *force = (phi * L::load(force)).store();
+                    }
+                }
             }
         }
+    }
+}
+
+/// A matrix, by its columns.
+struct Times<L>([L; MAX_CORNERS]);
+
+impl<L: Lanes> Times<L> {
+    /// It times `v`, added to `sum`.
+    #[inline(always)]
+    fn times(&self, v: &[f64; MAX_CORNERS], mut sum: L) -> L {
+        for b in 0..MAX_CORNERS {
+            sum = self.0[b].mul_add(L::splat(v[b]), sum);
+        }
+        sum
     }
 }
 

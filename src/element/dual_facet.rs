@@ -2,20 +2,24 @@
 //! nodal states: for hosts that assemble facet by facet. Multiplier form; the mortar side moves.
 //!
 //! A pair's share of the facet's derivatives has columns of its own nodes alone, and is emitted pair by pair. What couples
-//! the mortar nodes of all pairs, -sum_B n_BC D(phi q_B), takes n_BC of each pair with D(phi q_B) of each. Nothing here
-//! allocates, so the pairs are gone through three times: for the facet's sums; for what they add to the same entries; and
-//! for the blocks. A node that several mortar facets share has a place in each of them, and a host adds these up.
+//! the mortar nodes of all pairs, -sum_B n_BC D(phi q_B), takes n_BC of each pair with D(phi q_B) of each. So the pairs are
+//! gone through twice after the facet's sums: for what they add to the same entries, and for the blocks. Nothing here
+//! allocates: the first few pairs keep their derivatives in between, the others are differentiated twice. A node that
+//! several mortar facets share has a place in each of them, and a host adds these up.
 
 use super::facet_pairs::FacetPairs;
 use super::tangent::{FacetResponse, PairNow, PairTangent, row_columns};
-use crate::dual::{DualBasis, FacetMotion, FacetSums, PairShare, TractionDerivatives, coupling};
+use crate::dual::{Columns, DualBasis, FacetMotion, FacetSums, GROUP, PairShare, TractionDerivatives, couple};
 use crate::error::{Error, Kind, Result};
-use crate::geometry::Mat3;
 use crate::mortar::{
-    AreaDerivatives, GapDerivative, MORTAR, NonmortarFrame, PAIR_NODES, PairWeights, pair_motion_raised,
+    AreaDerivatives, ForceDerivatives, GapDerivative, MORTAR, NonmortarFrame, PAIR_NODES, PairWeights,
+    pair_motion_raised,
 };
 use crate::quadrature::Rule;
-use crate::shape::MAX_CORNERS;
+use crate::shape::{MAX_CORNERS, MAX_NODES};
+
+/// Pairs that keep their derivatives, 6 kB each on the stack. A facet over others of its size has about as many.
+const KEPT: usize = 4;
 
 /// A facet at its tractions, with the nodal states.
 pub struct DualFacet<'a, P> {
@@ -27,21 +31,39 @@ pub struct DualFacet<'a, P> {
     motion: Option<(&'a DualBasis, FacetMotion<'a>)>,
 }
 
-/// What the pairs of a facet add to the same entries, `[k][j]` for the columns x_k,j of the facet's nodes.
+/// What the pairs of a facet add to the same entries, for the columns x_k of the facet's nodes.
+#[derive(Default)]
 struct Shared {
-    forces: [[[[f64; MAX_CORNERS]; 3]; 3]; MORTAR],
-    rows: [[[[f64; MAX_CORNERS]; 3]; 3]; MORTAR],
+    forces: [Columns; MORTAR],
+    rows: [Columns; MORTAR],
     /// D(phi q_B).
-    tractions: [[[[f64; MAX_CORNERS]; 3]; 3]; MORTAR],
-    /// The largest number that a block of the tangent can have: infinite or NaN where one overflows.
-    bound: f64,
+    tractions: [Columns; MORTAR],
+    /// Sizes of blocks, of weights n_BC, of D(phi q_B), added up.
+    sizes: [f64; 3],
 }
 
 /// Derivatives of one pair.
+#[derive(Default)]
 struct Derivatives {
     tangent: PairTangent<3>,
+    areas: AreaDerivatives,
     /// D(phi q_B).
     tractions: TractionDerivatives,
+    /// n_BC and its share of n^d_AC: `[B][C]`, `[A][C]`.
+    weights: [[f64; GROUP]; MAX_CORNERS],
+    dual: [[f64; GROUP]; MAX_CORNERS],
+}
+
+/// What the blocks of a pair are made of, its mortar nodes in the rows or in the columns.
+struct PairBlocks {
+    number: usize,
+    weights: [[f64; GROUP]; MAX_CORNERS],
+    dual: [[f64; GROUP]; MAX_CORNERS],
+    forces: [Columns; MAX_NODES],
+    rows: [Columns; MAX_NODES],
+    tractions: [Columns; MAX_NODES],
+    /// The pair's own part of the rows of its mortar nodes.
+    two: [Columns; PAIR_NODES],
 }
 
 /// Where a node of the facet stands among its blocks: its own nodes, those of the mortar facets, its multipliers.
@@ -68,98 +90,97 @@ impl<'a, P: FacetPairs> DualFacet<'a, P> {
         DualFacet { frame, rule, pairs, nodes, motion: basis.map(motion) }
     }
 
-    /// All blocks of the tangent, each once: row, column, block. Nodes are counted as in `x1`, `x2` of each pair, and the
-    /// multipliers, one after the other.
+    /// All blocks of the tangent, each once: first row and number of rows, column, `[j][i][row]` of them. Nodes are counted
+    /// as in `x1`, `x2` of each pair, and the multipliers, one after the other.
     ///
     /// # Errors
     /// [`Kind::NotFinite`] when a block may overflow, before any is given.
-    pub fn blocks(&self, mut sink: impl FnMut(usize, usize, &Mat3)) -> Result<()> {
-        let shared = self.shared()?;
-        if !shared.bound.is_finite() {
+    pub fn blocks(&self, mut sink: impl FnMut((usize, usize), usize, &Columns)) -> Result<()> {
+        let (mut d, mut shared, mut kept) = (Derivatives::default(), Shared::default(), [const { None }; KEPT]);
+        let mut n = 0;
+        for p in 0..self.pairs.count() {
+            if self.differentiate(p, &mut d)? {
+                shared.add(&d);
+                if let Some(kept) = kept.get_mut(n) {
+                    *kept = Some(PairBlocks::of(p, &d));
+                }
+                n += 1;
+            }
+        }
+        if !(shared.sizes[0] + shared.sizes[1] * shared.sizes[2]).is_finite() {
             return Err(Error::new(Kind::NotFinite, "k overflows: the inputs are out of range"));
         }
         let places = Places {
             own: self.frame.projection.shape.n,
             mortar: (0..self.pairs.count()).map(|p| self.pairs.nodes(p)).sum(),
         };
-        let mut derivatives = Derivatives::default();
+        let last = if n > KEPT { kept[KEPT - 1].as_ref().map(|pair| pair.number) } else { None };
         let mut first = places.own;
         for p in 0..self.pairs.count() {
-            self.differentiate(p, &mut derivatives)?;
-            self.columns_of_pair((p, first), &derivatives, &places, &mut sink);
-            self.rows_of_pair((p, first), &derivatives, &shared, &places, &mut sink);
+            if last.is_some_and(|last| p > last) && self.differentiate(p, &mut d)? {
+                kept[0] = Some(PairBlocks::of(p, &d)); // all that are kept have had their turn
+            }
+            let pair = kept.iter().flatten().find(|pair| pair.number == p);
+            self.columns_of_pair((p, first), pair, &places, &mut sink);
+            self.rows_of_pair((p, first), pair, &shared, &places, &mut sink);
             first += self.pairs.nodes(p);
         }
         self.own_blocks(&shared, &places, &mut sink);
         Ok(())
     }
 
-    /// The derivatives of a pair, zeros where it has none.
-    fn differentiate(&self, p: usize, d: &mut Derivatives) -> Result<()> {
-        *d = Derivatives::default();
-        let (weights, previous) = (self.pairs.weights(p), self.pairs.previous(p));
+    /// The derivatives of a pair; whether it overlaps or did at t_n, and has any. (Pairs that only touch have derivatives,
+    /// though no weights: 3.6.)
+    fn differentiate(&self, p: usize, d: &mut Derivatives) -> Result<bool> {
+        let (weights, previous) =
+            (self.pairs.weights(p), self.pairs.previous(p).filter(|n| *n != PairWeights::default()));
         let overlap = self.pairs.overlap(p)?;
-        let (dual, mut gap) = (self.dual_weights(&weights), None);
-        if let (Some((_, facet)), Some(overlap)) = (&self.motion, &overlap) {
-            let mut areas = AreaDerivatives::default();
-            let (pair, forces) = ((self.frame, overlap, self.rule), &mut d.tangent.forces);
-            let mut along = pair_motion_raised(pair, &weights, &facet.field, forces, facet.raised(&mut areas));
-            let share = PairShare { forces, gap: &mut along, areas: &mut areas, tractions: &mut d.tractions };
+        if overlap.is_none() && previous.is_none() {
+            return Ok(false);
+        }
+        let Derivatives { tangent: PairTangent { forces, rows }, areas, tractions, .. } = d;
+        let (mut gap, mut dual) = (None, PairWeights::default());
+        if let (Some((basis, facet)), Some(overlap)) = (&self.motion, &overlap) {
+            let pair = (self.frame, overlap, self.rule);
+            let mut along = pair_motion_raised(pair, &weights, &facet.field, forces, facet.raised(areas));
+            let share = PairShare { forces, gap: &mut along, areas, tractions };
             facet.share(self.pairs.nodes(p), &weights, share);
-            gap = Some(GapDerivative::Facets(along));
+            (gap, dual) = (Some(GapDerivative::Facets(along)), basis.weights(&weights));
+        } else {
+            (*forces, *tractions) = (ForceDerivatives::default(), TractionDerivatives::default());
+            *rows = Default::default();
         }
         let now = gap.as_ref().map(|gap| PairNow { weights: &dual, gap: Some(gap) });
-        row_columns::<true, 3>(now.as_ref(), previous.as_ref(), self.nodes, &mut d.tangent.rows);
-        Ok(())
-    }
-
-    /// A pair's share of the dual weights; none where the facet has faded out.
-    fn dual_weights(&self, weights: &PairWeights) -> PairWeights {
-        self.motion.as_ref().map_or_else(PairWeights::default, |(basis, _)| basis.weights(weights))
-    }
-
-    fn shared(&self) -> Result<Shared> {
-        let mut shared = Shared::default();
-        let mut d = Derivatives::default();
-        let (mut blocks, mut weights, mut tractions) = (0.0, 0.0, 0.0);
-        for p in 0..self.pairs.count() {
-            self.differentiate(p, &mut d)?;
-            let (PairTangent { forces, rows }, n) = (&d.tangent, self.pairs.weights(p));
-            add(&mut shared.forces, &forces.one[..MORTAR]);
-            add(&mut shared.rows, &rows[..MORTAR]);
-            add(&mut shared.tractions, &d.tractions[..MORTAR]);
-            // Sums of sizes: none overflows without them.
-            blocks += size(&forces.one) + size(&forces.two) + size(rows);
-            blocks += self.dual_weights(&n).ac.as_flattened().iter().map(|n| n.abs()).sum::<f64>();
-            weights += n.ac.as_flattened().iter().map(|n| n.abs()).sum::<f64>();
-            tractions += size(&d.tractions);
-        }
-        shared.bound = blocks + weights * tractions;
-        Ok(shared)
+        row_columns::<true, 3>(now.as_ref(), previous.as_ref(), self.nodes, rows);
+        (d.weights, d.dual) = (weights.ac, dual.ac);
+        Ok(true)
     }
 
     /// The columns of a pair's mortar nodes, with the rows of all nodes and multipliers.
     fn columns_of_pair(
         &self,
         (p, first): (usize, usize),
-        d: &Derivatives,
+        pair: Option<&PairBlocks>,
         places: &Places,
-        sink: &mut impl FnMut(usize, usize, &Mat3),
+        sink: &mut impl FnMut((usize, usize), usize, &Columns),
     ) {
+        let nothing = Columns::default();
         for c in 0..self.pairs.nodes(p) {
-            let (slot, column) = (MORTAR + c, first + c);
-            for a in 0..places.own {
-                sink(a, column, &d.tangent.force_x(a, slot));
-                sink(places.multiplier(a), column, &d.tangent.row_x(a, slot));
-            }
+            let (forces, rows) = pair.map_or((&nothing, &nothing), |pair| (&pair.forces[c], &pair.rows[c]));
+            sink((0, places.own), first + c, forces);
+            sink((places.multiplier(0), places.own), first + c, rows);
         }
         let mut row = places.own;
         for q in 0..self.pairs.count() {
-            let weights = self.pairs.weights(q);
-            for (b, c) in (0..self.pairs.nodes(q)).flat_map(|b| (0..self.pairs.nodes(p)).map(move |c| (b, c))) {
-                let coupled = coupling(&weights.ac.map(|n| n[b]), &d.tractions[MORTAR + c]);
-                let own = if p == q { d.tangent.force_x(MORTAR + b, MORTAR + c) } else { Mat3::zeros() };
-                sink(row + b, first + c, &(own + coupled));
+            let mut rows = [nothing; MAX_NODES];
+            if let Some(pair) = pair {
+                if p == q {
+                    rows.copy_from_slice(&pair.two[MORTAR..]);
+                }
+                couple(&self.pairs.weights(q).ac, &pair.tractions, &mut rows);
+            }
+            for c in 0..self.pairs.nodes(p) {
+                sink((row, self.pairs.nodes(q)), first + c, &rows[c]);
             }
             row += self.pairs.nodes(q);
         }
@@ -169,55 +190,97 @@ impl<'a, P: FacetPairs> DualFacet<'a, P> {
     fn rows_of_pair(
         &self,
         (p, first): (usize, usize),
-        d: &Derivatives,
+        pair: Option<&PairBlocks>,
         shared: &Shared,
         places: &Places,
-        sink: &mut impl FnMut(usize, usize, &Mat3),
+        sink: &mut impl FnMut((usize, usize), usize, &Columns),
     ) {
-        let weights = self.pairs.weights(p);
-        let dual = self.dual_weights(&weights);
-        for (c, k) in (0..self.pairs.nodes(p)).flat_map(|c| (0..places.own).map(move |k| (c, k))) {
-            let coupled = coupling(&weights.ac.map(|n| n[c]), &shared.tractions[k]);
-            sink(first + c, k, &(d.tangent.force_x(MORTAR + c, k) + coupled));
-            sink(first + c, places.multiplier(k), &Mat3::from_diagonal_element(-dual.ac[k][c]));
+        let (mut rows, mut dual) = ([Columns::default(); MORTAR], [[0.0; GROUP]; MAX_CORNERS]);
+        if let Some(pair) = pair {
+            rows.copy_from_slice(&pair.two[..MORTAR]);
+            couple(&pair.weights, &shared.tractions, &mut rows);
+            dual = pair.dual;
+        }
+        for k in 0..places.own {
+            sink((first, self.pairs.nodes(p)), k, &rows[k]);
+            sink((first, self.pairs.nodes(p)), places.multiplier(k), &diagonal(dual[k].map(|n| -n)));
         }
     }
 
     /// The blocks that have the facet's own nodes and multipliers alone.
-    fn own_blocks(&self, shared: &Shared, places: &Places, sink: &mut impl FnMut(usize, usize, &Mat3)) {
-        let diagonal = self.motion.as_ref().map_or([0.0; MAX_CORNERS], |(basis, _)| basis.diagonal());
-        for (a, k) in (0..places.own).flat_map(|a| (0..places.own).map(move |k| (a, k))) {
-            let of = |d: &[[[f64; MAX_CORNERS]; 3]; 3]| Mat3::from_fn(|i, j| d[j][i][a]);
-            sink(a, k, &of(&shared.forces[k]));
-            sink(places.multiplier(a), k, &of(&shared.rows[k]));
-            let area = if a == k { diagonal[a] } else { 0.0 };
-            sink(a, places.multiplier(k), &Mat3::from_diagonal_element(area));
-            sink(places.multiplier(a), places.multiplier(k), &Mat3::zeros());
+    fn own_blocks(&self, shared: &Shared, places: &Places, sink: &mut impl FnMut((usize, usize), usize, &Columns)) {
+        let areas = self.motion.as_ref().map_or([0.0; MAX_CORNERS], |(basis, _)| basis.diagonal());
+        for k in 0..places.own {
+            let mut area = [0.0; MAX_CORNERS];
+            area[k] = areas[k];
+            sink((0, places.own), k, &shared.forces[k]);
+            sink((places.multiplier(0), places.own), k, &shared.rows[k]);
+            sink((0, places.own), places.multiplier(k), &diagonal(area));
+            sink((places.multiplier(0), places.own), places.multiplier(k), &Columns::default());
         }
     }
 }
 
-impl Default for Derivatives {
-    fn default() -> Self {
-        Derivatives { tangent: PairTangent::default(), tractions: [[[[0.0; MAX_CORNERS]; 3]; 3]; PAIR_NODES] }
+impl PairBlocks {
+    fn of(number: usize, d: &Derivatives) -> PairBlocks {
+        let PairTangent { forces, rows } = &d.tangent;
+        let mortar = |columns: &[Columns; PAIR_NODES]| *columns.last_chunk().expect("the mortar slots");
+        PairBlocks {
+            number,
+            weights: d.weights,
+            dual: d.dual,
+            forces: mortar(&forces.one),
+            rows: mortar(rows),
+            tractions: mortar(&d.tractions),
+            two: forces.two,
+        }
     }
 }
 
-impl Default for Shared {
-    fn default() -> Self {
-        let nothing = [[[[0.0; MAX_CORNERS]; 3]; 3]; MORTAR];
-        Shared { forces: nothing, rows: nothing, tractions: nothing, bound: 0.0 }
+impl Shared {
+    fn add(&mut self, d: &Derivatives) {
+        let PairTangent { forces, rows } = &d.tangent;
+        add(&mut self.forces, &forces.one[..MORTAR]);
+        add(&mut self.rows, &rows[..MORTAR]);
+        add(&mut self.tractions, &d.tractions[..MORTAR]);
+        // Sums of sizes: none overflows without them.
+        for blocks in [&forces.one, &forces.two, rows] {
+            self.sizes[0] += size(flat(blocks));
+        }
+        self.sizes[0] += size(&d.dual);
+        self.sizes[1] += size(&d.weights);
+        self.sizes[2] += size(flat(&d.tractions));
     }
 }
 
-fn add(sum: &mut [[[[f64; MAX_CORNERS]; 3]; 3]], values: &[[[[f64; MAX_CORNERS]; 3]; 3]]) {
-    let sum = sum.as_flattened_mut().as_flattened_mut().as_flattened_mut();
-    for (sum, v) in sum.iter_mut().zip(values.as_flattened().as_flattened().as_flattened()) {
-        *sum += v;
+/// A block of one component each.
+fn diagonal(n: [f64; MAX_CORNERS]) -> Columns {
+    let mut block = Columns::default();
+    for i in 0..3 {
+        block[i][i] = n;
+    }
+    block
+}
+
+fn flat(columns: &[Columns]) -> &[[f64; MAX_CORNERS]] {
+    columns.as_flattened().as_flattened()
+}
+
+fn add(sum: &mut [Columns], values: &[Columns]) {
+    for (sum, v) in sum.as_flattened_mut().as_flattened_mut().iter_mut().zip(flat(values)) {
+        for b in 0..MAX_CORNERS {
+            sum[b] += v[b];
+        }
     }
 }
 
 /// The sum of the sizes of some numbers: NaN or infinite where one is.
-fn size(values: &[[[[f64; MAX_CORNERS]; 3]; 3]]) -> f64 {
-    values.as_flattened().as_flattened().as_flattened().iter().map(|v| v.abs()).sum()
+fn size(values: &[[f64; MAX_CORNERS]]) -> f64 {
+    let mut sums = [0.0; MAX_CORNERS];
+    for v in values {
+        for b in 0..MAX_CORNERS {
+            sums[b] += v[b].abs();
+        }
+    }
+    sums.iter().sum()
 }

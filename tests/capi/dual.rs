@@ -2,7 +2,7 @@
 
 use super::golden::*;
 use crate::support::*;
-use serde_json::Value;
+use serde_json::{Value, json};
 use std::ffi::CStr;
 use std::mem::{size_of, zeroed};
 use std::ptr::{null, null_mut};
@@ -348,8 +348,57 @@ fn forces_and_gaps(patch: &Patch, traction: &[f64]) -> Vec<f64> {
     values
 }
 
-/// Points in place of overlaps, and overlaps: with a law whose row is the gap, the matrix has the derivatives of forces and
-/// gaps. Facets that several pairs cover in part. Even numbers of points: with odd ones a mortar corner of D15 lies under the
+/// With a law whose row is the gap, the matrix of a facet has the derivatives of forces and gaps.
+fn compare_with_differences(patch: &mut Patch, what: &str) {
+    let (own, mortar) = (patch.x1.len(), patch.x2.len());
+    let traction: Vec<f64> = (0..own).map(|i| 0.3 - 0.2 * (i % 5) as f64).collect();
+    let mut response = sized!(stickslip_node_response);
+    response.drow_dnow = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0];
+    let size = 2 * own + mortar;
+    let mut k = vec![f64::NAN; size * size];
+    ok!(stickslip_facet_tangent(
+        &patch.raw(),
+        patch.ab.concat().as_ptr(),
+        patch.ac.concat().as_ptr(),
+        null(),
+        null(),
+        traction.as_ptr(),
+        [response; 4].as_ptr(),
+        null(),
+        k.as_mut_ptr(),
+        size as i64
+    ));
+    let largest = max_abs(k.iter().copied());
+    for column in 0..own + mortar {
+        let mut at = |h: f64| {
+            let x = if column < own { &mut patch.x1[column] } else { &mut patch.x2[column - own] };
+            *x += h;
+            patch.integrate();
+            forces_and_gaps(patch, &traction)
+        };
+        let (plus, minus) = (at(STEP), at(-2.0 * STEP));
+        at(STEP);
+        for row in 0..size {
+            let difference = (plus[row] - minus[row]) / (2.0 * STEP);
+            let error = (k[row * size + column] - difference).abs() / largest;
+            assert!(error <= DIFFERENCES, "{what}: ({row}, {column}) off by {error:e}");
+        }
+    }
+}
+
+/// More pairs than keep their derivatives.
+#[test]
+fn facet_tangents_equal_differences_with_many_pairs() {
+    let x1 = json!([[0.0, 0.0, 0.0], [0.0, 1.0, 0.0], [1.0, 1.0, 0.0], [1.0, 0.0, 0.0]]);
+    let place = |k: i64| [0.4 * (k % 4) as f64 - 0.1, 0.35 * (k / 4) as f64 - 0.07];
+    let x2: Vec<_> = (0..16).map(place).map(|[s, t]| [s, t, -0.1 + 0.03 * s - 0.02 * t]).collect();
+    let facets = (0..9).map(|f| f / 3 * 4 + f % 3).map(|a| vec![a, a + 1, a + 5, a + 4]).collect();
+    let mut patch = Patch::at((&x1, vec![0, 1, 2, 3]), (&json!(x2), facets), 0);
+    patch.integrate();
+    compare_with_differences(&mut patch, "many pairs");
+}
+
+/// Points in place of overlaps, and overlaps. Facets that several pairs cover in part. Even numbers of points: with odd ones a mortar corner of D15 lies under the
 /// middle one.
 #[test]
 fn facet_tangents_equal_differences_with_points_too() {
@@ -362,40 +411,7 @@ fn facet_tangents_equal_differences_with_points_too() {
         let mut patch = Patch::at((&case["x1"], nodes1), (&case["x2"], facets(&case["facets2"])), 0);
         patch.points = points;
         patch.integrate();
-        let (own, mortar) = (patch.x1.len(), patch.x2.len());
-        let traction: Vec<f64> = (0..own).map(|i| 0.3 - 0.2 * (i % 5) as f64).collect();
-        let mut response = sized!(stickslip_node_response);
-        response.drow_dnow = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0];
-        let size = 2 * own + mortar;
-        let mut k = vec![f64::NAN; size * size];
-        ok!(stickslip_facet_tangent(
-            &patch.raw(),
-            patch.ab.concat().as_ptr(),
-            patch.ac.concat().as_ptr(),
-            null(),
-            null(),
-            traction.as_ptr(),
-            [response; 4].as_ptr(),
-            null(),
-            k.as_mut_ptr(),
-            size as i64
-        ));
-        let largest = max_abs(k.iter().copied());
-        for column in 0..own + mortar {
-            let mut at = |h: f64| {
-                let x = if column < own { &mut patch.x1[column] } else { &mut patch.x2[column - own] };
-                *x += h;
-                patch.integrate();
-                forces_and_gaps(&patch, &traction)
-            };
-            let (plus, minus) = (at(STEP), at(-2.0 * STEP));
-            at(STEP);
-            for row in 0..size {
-                let difference = (plus[row] - minus[row]) / (2.0 * STEP);
-                let error = (k[row * size + column] - difference).abs() / largest;
-                assert!(error <= DIFFERENCES, "{} {points}: ({row}, {column}) off by {error:e}", name(case));
-            }
-        }
+        compare_with_differences(&mut patch, &format!("{} {points}", name(case)));
         compared += 1;
     }
     assert!(compared >= 6, "{compared}");

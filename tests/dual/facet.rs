@@ -2,7 +2,7 @@
 
 use crate::support::{name, numbers, points};
 use serde_json::Value;
-use stickslip::dual::{DualBasis, FacetColumns, FacetMotion, FacetSums, FullDerivatives, PairShare};
+use stickslip::dual::{Columns, DualBasis, FacetColumns, FacetMotion, FacetSums, FullDerivatives, GROUP, PairShare};
 use stickslip::element::{PairNow, gap_rows, pair_force};
 use stickslip::geometry::{Facet, Mat3, Vec3};
 use stickslip::mortar::{
@@ -106,15 +106,25 @@ impl Patch {
 
     /// n_BC, lanes B.
     pub fn columns(&self) -> Vec<[f64; 4]> {
-        let (mut weights, mut tractions) = self.room();
-        let mut columns = FacetColumns::new(self.nodes, &mut weights, &mut tractions);
+        let (mut weights, mut tractions, mut rows) = self.room();
+        let mut columns = self.rows((&mut weights, &mut tractions, &mut rows));
         self.pairs.iter().for_each(|p| columns.add_weights(&p.weights, &p.places));
-        weights
+        (0..self.mortar).map(|c| weights[c / GROUP].map(|n| n[c % GROUP])).collect()
     }
 
     #[allow(clippy::type_complexity)]
-    fn room(&self) -> (Vec<[f64; 4]>, Vec<[[[f64; 4]; 3]; 3]>) {
-        (vec![[0.0; 4]; self.mortar], vec![[[[0.0; 4]; 3]; 3]; MAX_NODES + self.mortar])
+    fn room(&self) -> (Vec<[[f64; GROUP]; 4]>, Vec<Columns>, Vec<Columns>) {
+        let (groups, columns) = (self.mortar.div_ceil(GROUP), MAX_NODES + self.mortar);
+        let of = |n| vec![[[[0.0; 4]; 3]; 3]; n];
+        (vec![[[0.0; GROUP]; 4]; groups], of(columns), of(groups * columns))
+    }
+
+    #[allow(clippy::type_complexity)]
+    fn rows<'a>(
+        &self,
+        (weights, tractions, rows): (&'a mut [[[f64; GROUP]; 4]], &'a mut [Columns], &'a mut [Columns]),
+    ) -> FacetColumns<'a> {
+        FacetColumns { nodes: self.nodes, weights, tractions, rows }
     }
 
     /// A node of the facet's columns, counted as in the golden file; nodes that a triangle does not have are left out.
@@ -178,8 +188,8 @@ impl Patch {
             diagonal: vec![[0.0; 4]; columns],
             forces: vec![vec![Vec3::zeros(); self.nodes + self.mortar]; columns],
         };
-        let (mut weights, mut tractions) = self.room();
-        let mut coupling = FacetColumns::new(self.nodes, &mut weights, &mut tractions);
+        let (mut weights, mut tractions, mut rows) = self.room();
+        let mut mortar = self.rows((&mut weights, &mut tractions, &mut rows));
         // One of each serves all pairs, as in a tangent: what a pair does not have keeps what was there.
         let (mut forces, mut areas, mut dq) =
             (ForceDerivatives::default(), [[[0.0; 4]; 3]; PAIR_NODES], [[[[0.0; 4]; 3]; 3]; PAIR_NODES]);
@@ -188,8 +198,8 @@ impl Patch {
             let mut gap = pair_motion_raised(kernel, &pair.weights, &facet.field, &mut forces, raised);
             let share = PairShare { forces: &mut forces, gap: &mut gap, areas: &mut areas, tractions: &mut dq };
             facet.share(pair.places.len(), &pair.weights, share);
-            coupling.add_weights(&pair.weights, &pair.places);
-            coupling.add_tractions(&dq, &pair.places);
+            mortar.add_weights(&pair.weights, &pair.places);
+            mortar.add_derivatives(&dq, &forces, &pair.places);
             let gap = GapDerivative::Facets(gap);
             let now = PairNow { weights: &pair.weights, gap: Some(&gap) };
             let slots = (0..self.nodes).map(|k| (k, k));
@@ -202,17 +212,15 @@ impl Patch {
                         motion.diagonal[column][a] += areas[slot][j][a];
                         motion.forces[column][a] += Vec3::from_fn(|i, _| forces.one[slot][j][i][a]);
                     }
-                    for (c, place) in pair.places.iter().enumerate() {
-                        motion.forces[column][self.nodes + place] += Vec3::from_fn(|i, _| forces.two[slot][j][i][c]);
-                    }
                 }
             }
         }
-        for column in 0..MAX_NODES + self.mortar {
+        mortar.couple();
+        let columns = MAX_NODES + self.mortar;
+        for (column, place) in (0..columns).flat_map(|column| (0..self.mortar).map(move |place| (column, place))) {
             let Some(node) = self.node(column) else { continue };
-            for place in 0..self.mortar {
-                let block = coupling.coupling(place, column);
-                (0..3).for_each(|j| motion.forces[3 * node + j][self.nodes + place] += block.column(j));
+            for (j, of_column) in rows[place / GROUP * columns + column].iter().enumerate() {
+                motion.forces[3 * node + j][self.nodes + place] = Vec3::from_fn(|i, _| of_column[i][place % GROUP]);
             }
         }
         motion

@@ -16,7 +16,7 @@ const ALLOWED: [(&str, &[&str]); 13] = [
     ("geometry", &["error", "shape", "simd"]),
     ("normal", &["error", "geometry"]),
     ("mortar", &["error", "geometry", "quadrature", "shape", "simd"]),
-    ("dual", &["error", "geometry", "mortar", "shape"]),
+    ("dual", &["error", "geometry", "mortar", "shape", "simd"]),
     ("law", &["error", "geometry"]),
     ("element", &["dual", "error", "geometry", "law", "mortar", "quadrature", "shape", "simd"]),
     (

@@ -6,11 +6,11 @@
 use super::augmented::{NodeCouplings, dtraction};
 use super::carried_tangent;
 use super::derivatives::PairDerivatives;
-use super::dual_facet::{self, Coupled, DualFacet};
+use super::dual_facet::{DualFacet, MortarRows, ShareRoom};
 use super::emission::{Emitter, Sinks, entries};
 use super::facet_tangent::{FacetTangent, total};
 use super::union::UnionPair;
-use crate::dual::{FacetMotion, TractionDerivatives};
+use crate::dual::FacetMotion;
 use crate::element::{FacetResponse, NodeTangent, PairNow, PairTangent, row_columns};
 use crate::error::Result;
 use crate::geometry::{Mat3, Vec3};
@@ -21,8 +21,7 @@ use crate::interface::data::options::{Form, MultiplierBasis, Scheme};
 use crate::interface::pairing::given::Given;
 use crate::interface::stages::respond::Responses;
 use crate::memory::{self, Stored};
-use crate::mortar::{ForceDerivatives, GapDerivative, MORTAR, PAIR_NODES, gap};
-use crate::shape::MAX_CORNERS;
+use crate::mortar::{ForceDerivatives, GapDerivative, MORTAR, gap};
 use nalgebra::{SMatrix, SVector};
 
 /// What the numbers of a tangent are made of.
@@ -75,7 +74,7 @@ impl<const N: usize> Numbers<'_, N> {
         given: Given<N>,
         (pair, dual, facet): (&UnionPair, &DualFacet, Option<&FacetMotion>),
         t: &mut PairTangent<N>,
-        tractions: &mut TractionDerivatives,
+        room: &mut ShareRoom,
     ) -> Result<Option<GapDerivative>> {
         let (active, facet) = match (self.active.filter(|_| pair.now.is_some()), facet) {
             (Some(active), Some(facet)) => (active, facet),
@@ -93,7 +92,7 @@ impl<const N: usize> Numbers<'_, N> {
         }
         let mortar = given.setup.mortar.facets[pair.two].len;
         let share = (active.integrated(pair.place), &active.segments[pair.place], mortar);
-        Ok(Some(self.motion.of_share(&active.frames[pair.one], facet, share, &mut t.forces, tractions)))
+        Ok(Some(self.motion.of_share(&active.frames[pair.one], facet, share, &mut t.forces, room)))
     }
 
     /// Derivatives of `pairs` of one facet, its first ones where `first`: of the gap, and of the forces into `t`.
@@ -130,7 +129,7 @@ pub fn blocks<const MOVES: bool, const N: usize>(
     let mut couplings: Option<Vec<NodeCouplings>> = augmented.then(|| memory::defaults(given.nodes())).transpose()?;
     // Large, so that one of each serves all pairs.
     let (mut t, mut facet) = (PairTangent::default(), FacetTangent::default());
-    let mut tractions: TractionDerivatives = [[[[0.0; MAX_CORNERS]; 3]; 3]; PAIR_NODES];
+    let (mut room, mut mortar) = (ShareRoom::default(), MortarRows::default());
     // With a mortar side at rest all of it is linear in the weights of a facet's pairs; carried nodes and points in place
     // of overlaps take them one by one.
     let is_dual = options.basis == MultiplierBasis::Dual && options.differentiates_weights();
@@ -150,18 +149,18 @@ pub fn blocks<const MOVES: bool, const N: usize>(
             (Some(dual), Some(nodes), Some(active)) => dual.motion(&active.frames[f], &nodes.traction),
             _ => None,
         };
-        let mortar = if MOVES && is_dual { dual_facet::mortar_nodes(given, pairs)? } else { Vec::new() };
-        let mut coupled = Coupled::new(&mortar)?;
-        let mut columns = coupled.columns(one.len);
+        if MOVES && is_dual {
+            mortar.begin(one, &given.setup.mortar, pairs)?;
+        }
         for (place, pairs) in pairs.chunks(if together { pairs.len() } else { 1 }).enumerate() {
             let (now, previous) = (total(pairs.iter().map(|p| p.now)), total(pairs.iter().map(|p| p.previous)));
             let (previous, mut gap) = (previous.as_deref(), None);
             if let (Some(numbers), Some(nodes)) = (numbers, &facet_nodes) {
                 gap = if let Some(dual) = &dual {
-                    let gap = numbers.dual_share(given, (&pairs[0], dual, motion.as_ref()), &mut t, &mut tractions)?;
-                    if let (true, Some(columns), Some(active)) = (gap.is_some(), &mut columns, numbers.active) {
+                    let gap = numbers.dual_share(given, (&pairs[0], dual, motion.as_ref()), &mut t, &mut room)?;
+                    if let (true, true, Some(active)) = (MOVES, gap.is_some(), numbers.active) {
                         let two = &given.setup.mortar.facets[pairs[0].two];
-                        dual_facet::add(columns, (two, &mortar), active.integrated(pairs[0].place), &tractions);
+                        mortar.add(two, active.integrated(pairs[0].place), &room.tractions, &t.forces);
                     }
                     gap
                 } else {
@@ -199,7 +198,12 @@ pub fn blocks<const MOVES: bool, const N: usize>(
         if !together {
             emitter.facet(f, facet.now(), &facet.rows);
         }
-        dual_facet::emit(f, &mortar, columns.as_ref().filter(|_| numbers.is_some()), &mut emitter);
+        if MOVES && is_dual {
+            if numbers.is_some() {
+                mortar.couple();
+            }
+            mortar.emit(&emitter.facet_equations(f), emitter.sink);
+        }
     }
     for a in 0..given.nodes() {
         let response = numbers.map(|n| &n.responses.nodes[a]);

@@ -46,6 +46,7 @@ pub fn rows<const MOVES: bool, const N: usize>(
 }
 
 /// Columns of the carriers' multipliers in A's row.
+#[inline(never)]
 pub fn multipliers<const N: usize>(a: usize, carried: bool, emitter: &mut Emitter<N>) {
     let given = emitter.given;
     if !given.setup.nodes.owned[a] || emitter.constraints.is_some() {
@@ -83,6 +84,7 @@ pub fn couple<const MOVES: bool, const N: usize>(
 }
 
 /// Augmented form: forces of A's traction, which is that of its carriers.
+#[inline(never)]
 pub fn forces<const N: usize>(
     a: usize,
     couplings: &[NodeCouplings],

@@ -1,16 +1,19 @@
 //! Facets of dual multipliers in the tangent (docs/formulation.md 10.4): derivatives of a pair become the pair's share of
-//! its facet's, and what couples the mortar nodes of all pairs of a facet is emitted once a facet.
+//! its facet's, and the rows of the mortar nodes of all pairs of a facet, which it couples, are emitted once a facet.
 
 use super::derivatives::PairDerivatives;
-use super::emission::Emitter;
+use super::emission::{Equations, Sink};
+use super::facet_tangent::Flat;
 use super::union::UnionPair;
-use crate::dual::{DualBasis, FacetColumns, FacetMotion, FacetSums, PairShare, TractionDerivatives, WholeFacet};
+use crate::dual::{
+    Columns, DualBasis, FacetColumns, FacetMotion, FacetSums, GROUP, PairShare, TractionDerivatives, WholeFacet,
+};
 use crate::error::Result;
-use crate::geometry::{AnalyticSurface, Mat3, Vec3};
+use crate::geometry::{AnalyticSurface, Vec3};
 use crate::interface::data::active::Active;
 use crate::interface::data::effects::Opposite;
 use crate::interface::data::options::{MultiplierBasis, Tangent};
-use crate::interface::data::surface::FacetNodes;
+use crate::interface::data::surface::{FacetNodes, NO_EQUATION, Surface};
 use crate::interface::pairing::given::Given;
 use crate::interface::stages::facet::dual_basis;
 use crate::memory::{self, Store};
@@ -44,31 +47,38 @@ impl DualFacet {
     }
 }
 
+/// What a pair's share takes place for. Large, so that one serves all pairs.
+#[derive(Default)]
+pub struct ShareRoom {
+    areas: AreaDerivatives,
+    /// D(phi q).
+    pub tractions: TractionDerivatives,
+}
+
 impl PairDerivatives<'_> {
     /// As [`PairDerivatives::of`], of one pair with its weights as they were integrated and so many mortar nodes:
-    /// its share of the facet's derivatives, and D(phi q) into `tractions`.
+    /// its share of the facet's derivatives, and D(phi q) into `room`.
     pub fn of_share(
         &self,
         frame: &NonmortarFrame,
         facet: &FacetMotion,
         (weights, segment, mortar): (&PairWeights, &Segment, usize),
         forces: &mut ForceDerivatives,
-        tractions: &mut TractionDerivatives,
+        ShareRoom { areas, tractions }: &mut ShareRoom,
     ) -> GapDerivative {
         let mut frame = Cow::Borrowed(frame);
         if self.tangent == Tangent::FrozenNormals {
             frame.to_mut().plane.tilt = Default::default();
         }
         let moves = self.opposite == Opposite::Moves;
-        let mut areas = AreaDerivatives::default();
-        let raised = facet.raised(&mut areas);
+        let raised = facet.raised(areas);
         let mut gap = if moves || segment.points.is_some() {
             pair_motion_raised((&frame, segment, self.rule), weights, &facet.field, forces, raised)
         } else {
             let pairs = std::iter::once((segment, weights));
             facet_motion_raised(&frame, pairs, self.rule, &facet.field, forces, raised)
         };
-        let share = PairShare { forces, gap: &mut gap, areas: &mut areas, tractions };
+        let share = PairShare { forces, gap: &mut gap, areas, tractions };
         facet.share(if moves { mortar } else { 0 }, weights, share);
         GapDerivative::Facets(gap)
     }
@@ -91,62 +101,88 @@ impl DualFacet {
     }
 }
 
-/// The mortar nodes of a facet's active pairs, each once, in the order in which they are met.
-pub fn mortar_nodes<const N: usize>(given: Given<N>, pairs: &[UnionPair]) -> Result<Vec<usize>> {
-    let mut nodes = Vec::new();
-    for pair in pairs.iter().filter(|pair| pair.now.is_some()) {
-        for &node in given.setup.mortar.facets[pair.two].as_slice() {
-            if !nodes.contains(&node) {
-                nodes.store(node)?;
+/// The rows of the mortar nodes of a facet's active pairs, which are emitted once a facet: what couples its pairs has all
+/// of these entries, so no pair has any of its own.
+#[derive(Default)]
+pub struct MortarRows {
+    /// Nodes of the facet.
+    own: usize,
+    /// Its mortar nodes, each once, in the order in which they are met, and their equations.
+    nodes: Vec<usize>,
+    equations: Vec<[i64; 3]>,
+    weights: Vec<[[f64; GROUP]; MAX_CORNERS]>,
+    /// D(phi q_B) of each column, then the rows of each group.
+    columns: Vec<Columns>,
+}
+
+impl MortarRows {
+    /// Begins with a facet of these nodes and pairs, in the memory of the one before.
+    #[inline(never)]
+    pub fn begin(&mut self, one: &FacetNodes, two: &Surface, pairs: &[UnionPair]) -> Result<()> {
+        self.own = one.len;
+        self.nodes.clear();
+        self.equations.clear();
+        for pair in pairs.iter().filter(|pair| pair.now.is_some()) {
+            for &node in two.facets[pair.two].as_slice() {
+                if !self.nodes.contains(&node) {
+                    self.nodes.store(node)?;
+                    self.equations.store(two.equations[node])?;
+                }
             }
         }
-    }
-    Ok(nodes)
-}
-
-/// Memory for what couples the mortar nodes of a facet's pairs; none where there are none.
-pub struct Coupled {
-    weights: Vec<[f64; MAX_CORNERS]>,
-    tractions: Vec<[[[f64; MAX_CORNERS]; 3]; 3]>,
-}
-
-impl Coupled {
-    /// For so many mortar nodes.
-    pub fn new(nodes: &[usize]) -> Result<Coupled> {
-        let (rows, columns) = if nodes.is_empty() { (0, 0) } else { (nodes.len(), MAX_NODES + nodes.len()) };
-        Ok(Coupled {
-            weights: memory::filled([0.0; MAX_CORNERS], rows)?,
-            tractions: memory::filled([[[0.0; MAX_CORNERS]; 3]; 3], columns)?,
-        })
+        let (groups, columns) = (self.nodes.len().div_ceil(GROUP), MAX_NODES + self.nodes.len());
+        memory::refill(&mut self.weights, Default::default(), groups)?;
+        memory::refill(&mut self.columns, Default::default(), columns + groups * columns)
     }
 
-    /// The factors of the coupling of a facet with so many nodes, to which nothing has been added yet.
-    pub fn columns(&mut self, nodes: usize) -> Option<FacetColumns<'_>> {
-        (!self.weights.is_empty()).then(|| FacetColumns::new(nodes, &mut self.weights, &mut self.tractions))
+    fn sums(&mut self) -> FacetColumns<'_> {
+        let (tractions, rows) = self.columns.split_at_mut(MAX_NODES + self.nodes.len());
+        FacetColumns { nodes: self.own, weights: &mut self.weights, tractions, rows }
     }
-}
 
-/// Adds a pair with its integrated weights and its D(phi q); `nodes` are all mortar nodes of its facet, `two` its own.
-pub fn add(
-    columns: &mut FacetColumns,
-    (two, nodes): (&FacetNodes, &[usize]),
-    weights: &PairWeights,
-    tractions: &TractionDerivatives,
-) {
-    let places = two.nodes.map(|node| nodes.iter().position(|n| *n == node).unwrap_or(0));
-    columns.add_weights(weights, &places[..two.len]);
-    columns.add_tractions(tractions, &places[..two.len]);
-}
+    /// Adds a pair with its integrated weights and its share of the derivatives.
+    #[inline(never)]
+    pub fn add(
+        &mut self,
+        two: &FacetNodes,
+        weights: &PairWeights,
+        tractions: &TractionDerivatives,
+        forces: &ForceDerivatives,
+    ) {
+        let places = two.nodes.map(|node| self.nodes.iter().position(|n| *n == node).unwrap_or(0));
+        let mut sums = self.sums();
+        sums.add_weights(weights, &places[..two.len]);
+        sums.add_derivatives(tractions, forces, &places[..two.len]);
+    }
 
-/// The blocks of the coupling: rows of the facet's mortar nodes, columns of its own and of these.
-pub fn emit<const N: usize>(f: usize, nodes: &[usize], columns: Option<&FacetColumns>, emitter: &mut Emitter<N>) {
-    let (one, two) = emitter.given.setup.surfaces();
-    let own = one.facets[f].as_slice().iter().enumerate().map(|(k, &a)| (k, &one.equations[a]));
-    let all = own.chain(nodes.iter().enumerate().map(|(c, &node)| (MAX_NODES + c, &two.equations[node])));
-    for (column, equations) in all {
-        for (place, &node) in nodes.iter().enumerate() {
-            let block = columns.map_or_else(Mat3::zeros, |columns| columns.coupling(place, column));
-            emitter.sink.add_block(&two.equations[node], equations, block.as_slice());
+    /// Adds what couples the pairs, once all have been added.
+    #[inline(never)]
+    pub fn couple(&mut self) {
+        self.sums().couple();
+    }
+
+    /// The blocks of these rows, four nodes at a time: columns of the facet's nodes and of these. `own` are the equations of
+    /// the facet's nodes. What was added is used up.
+    #[inline(never)]
+    pub fn emit(&mut self, own: &Equations, sink: &mut dyn Sink) {
+        let columns = MAX_NODES + self.nodes.len();
+        for (equations, values) in self.equations.chunks(GROUP).zip(self.columns[columns..].chunks_exact_mut(columns)) {
+            let n = equations.len();
+            let mut rows = [NO_EQUATION; 3 * GROUP];
+            for (c, i) in (0..n).flat_map(|c| (0..3).map(move |i| (c, i))) {
+                rows[i * n + c] = equations[c][i];
+            }
+            let values = values.flat_mut();
+            if n < GROUP {
+                for k in 0..9 * columns {
+                    for c in 0..n {
+                        values[k * n + c] = values[k * GROUP + c];
+                    }
+                }
+            }
+            let (rows, (of_own, of_mortar)) = (&rows[..3 * n], values[..9 * n * columns].split_at(9 * n * MAX_NODES));
+            sink.add_block(rows, &own.columns()[..3 * self.own], &of_own[..9 * n * self.own]);
+            sink.add_block(rows, self.equations.as_flattened(), of_mortar);
         }
     }
 }

@@ -9,7 +9,7 @@ use super::union::UnionPair;
 use crate::element::PairTangent;
 use crate::geometry::Vec3;
 use crate::interface::data::extent::Extent;
-use crate::interface::data::options::Form;
+use crate::interface::data::options::{Form, MultiplierBasis};
 use crate::interface::data::surface::{FacetNodes, NO_EQUATION};
 use crate::interface::pairing::given::Given;
 use crate::interface::stages::node::is_out_of_reach;
@@ -71,6 +71,7 @@ pub struct Emitter<'a, 's, const N: usize> {
     pub constraints: Option<&'s mut dyn Sink>,
 }
 
+// Not inlined: tangents with and without a moving mortar side share these functions.
 impl<'a, const N: usize> Emitter<'a, '_, N> {
     /// Displacement equations of a node over both surfaces.
     pub fn equations(&self, node: usize) -> &'a [i64; 3] {
@@ -91,13 +92,16 @@ impl<'a, const N: usize> Emitter<'a, '_, N> {
         Equations::of(&two.facets[f], &two.equations)
     }
 
-    /// A pair's rows and columns of the mortar side.
+    /// A pair's rows and columns of the mortar side; with dual multipliers forces on it are the facet's (`dual_facet.rs`).
+    #[inline(never)]
     pub fn pair(&mut self, pair: &UnionPair, t: &PairTangent<N>) {
         let (one, two) = (self.facet_equations(pair.one), self.mortar_equations(pair.two));
         if pair.now.is_some() && self.given.setup.options.differentiates_weights() {
             self.sink.add_block(one.rows(), two.columns(), t.forces.one[MORTAR..].flat());
-            self.sink.add_block(two.rows(), one.columns(), t.forces.two[..MORTAR].flat());
-            self.sink.add_block(two.rows(), two.columns(), t.forces.two[MORTAR..].flat());
+            if self.given.setup.options.basis == MultiplierBasis::Standard {
+                self.sink.add_block(two.rows(), one.columns(), t.forces.two[..MORTAR].flat());
+                self.sink.add_block(two.rows(), two.columns(), t.forces.two[MORTAR..].flat());
+            }
         }
         if let (Some(weights), Form::Multiplier) = (pair.now, self.given.setup.options.form) {
             self.multipliers(pair.one, &two, &weights.ac.map(|row| row.map(|n| -n)));
@@ -106,6 +110,7 @@ impl<'a, const N: usize> Emitter<'a, '_, N> {
     }
 
     /// What a facet's pairs have in common: rows and columns of the non-mortar side. `now`: of the pairs active now.
+    #[inline(never)]
     pub fn facet(&mut self, f: usize, now: Option<FacetNow>, rows: &[[[[f64; MAX_CORNERS]; N]; 3]]) {
         let one = self.facet_equations(f);
         if let Some((forces, weights)) = now {
@@ -120,6 +125,7 @@ impl<'a, const N: usize> Emitter<'a, '_, N> {
     }
 
     /// Derivatives of the rows of a facet's multipliers, in each column component by component.
+    #[inline(never)]
     fn facet_rows(&mut self, f: usize, columns: &[i64], values: &[f64]) {
         match &mut self.constraints {
             None => self.sink.add_block(self.facet_multipliers(f).as_flattened(), columns, values),
@@ -133,6 +139,7 @@ impl<'a, const N: usize> Emitter<'a, '_, N> {
     }
 
     /// The same of node A alone.
+    #[inline(never)]
     pub fn node_rows(&mut self, a: usize, columns: &[i64], values: &[f64]) {
         let setup = self.given.setup;
         match &mut self.constraints {
@@ -157,6 +164,7 @@ impl<'a, const N: usize> Emitter<'a, '_, N> {
     }
 
     /// d forces / d multipliers of facet `f`, weights `n[A][row]`: n I, or n nu_A where there is one component.
+    #[inline(never)]
     fn multipliers(&mut self, f: usize, forces: &Equations, n: &[[f64; MAX_NODES]; MAX_CORNERS]) {
         if self.constraints.is_some() {
             return;
@@ -176,6 +184,7 @@ impl<'a, const N: usize> Emitter<'a, '_, N> {
     }
 
     /// Stage 4: the node's own block, once per node, covered or not.
+    #[inline(never)]
     pub fn node(&mut self, a: usize, drow_dlambda: &SMatrix<f64, N, N>, extent: Extent) {
         let setup = self.given.setup;
         if !setup.nodes.owned[a] || self.constraints.is_some() {
@@ -192,6 +201,7 @@ impl<'a, const N: usize> Emitter<'a, '_, N> {
     }
 
     /// The augmented form's node-wise products n_A. (Dp_A).
+    #[inline(never)]
     pub fn couplings(&mut self, a: usize, couplings: &NodeCouplings, dp_dlambda: &SMatrix<f64, 3, N>) {
         for row in couplings.forces() {
             let equations = self.equations(row.node);
@@ -232,6 +242,7 @@ pub struct Equations {
 
 impl Equations {
     /// Of a facet.
+    #[inline(never)]
     pub fn of(facet: &FacetNodes, equations: &[[i64; 3]]) -> Equations {
         let mut e = Equations { by_node: [[NO_EQUATION; 3]; MAX_NODES], by_component: [[NO_EQUATION; MAX_NODES]; 3] };
         for k in 0..facet.len {

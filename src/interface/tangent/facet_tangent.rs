@@ -10,7 +10,7 @@ use std::borrow::Cow;
 pub fn total<'a>(weights: impl Iterator<Item = Option<&'a PairWeights>>) -> Option<Cow<'a, PairWeights>> {
     weights.flatten().map(Cow::Borrowed).reduce(|mut sum, weights| {
         let ab = &mut sum.to_mut().ab;
-        simd::dispatch(Add { first: false, sum: ab.as_flattened_mut(), values: weights.ab.as_flattened() });
+        add(false, ab.as_flattened_mut(), weights.ab.as_flattened());
         sum
     })
 }
@@ -49,12 +49,12 @@ impl<const N: usize> FacetTangent<N> {
 
     /// Adds a pair's share, or begins with the `first` one.
     pub fn add(&mut self, first: bool, now: Option<&PairNow>, t: &PairTangent<N>) {
-        simd::dispatch(Add { first, sum: self.rows.flat_mut(), values: t.rows[..MORTAR].flat() });
+        add(first, self.rows.flat_mut(), t.rows[..MORTAR].flat());
         if let Some(PairNow { weights, .. }) = now {
             let (first, n) = (!self.acts, &weights.ab);
             self.acts = true;
-            simd::dispatch(Add { first, sum: self.forces.flat_mut(), values: t.forces.one[..MORTAR].flat() });
-            simd::dispatch(Add { first, sum: self.weights.as_flattened_mut(), values: n.as_flattened() });
+            add(first, self.forces.flat_mut(), t.forces.one[..MORTAR].flat());
+            add(first, self.weights.as_flattened_mut(), n.as_flattened());
         }
     }
 }
@@ -77,8 +77,16 @@ impl<const I: usize, const J: usize, const K: usize> Flat for [[[[f64; I]; J]; K
 }
 
 /// Adds numbers, a multiple of four, to as many; the `first` ones replace what is there.
+#[inline(never)]
+fn add(first: bool, sum: &mut [f64], values: &[f64]) {
+    if first {
+        sum.copy_from_slice(values);
+    } else {
+        simd::dispatch(Add { sum, values });
+    }
+}
+
 struct Add<'a> {
-    first: bool,
     sum: &'a mut [f64],
     values: &'a [f64],
 }
@@ -87,9 +95,6 @@ impl Kernel for Add<'_> {
     type Output = ();
     #[inline(always)]
     fn run<L: Lanes>(self) {
-        if self.first {
-            return self.sum.copy_from_slice(self.values);
-        }
         for (sum, v) in self.sum.as_chunks_mut().0.iter_mut().zip(self.values.as_chunks().0) {
             *sum = (L::load(sum) + L::load(v)).store();
         }
