@@ -242,11 +242,11 @@ fn golden_pair_identities() {
 }
 
 /// A golden interface behind a handle, with every golden input set.
-struct Golden {
-    handle: *mut stickslip_interface,
-    x1: Vec<f64>,
-    x2: Vec<f64>,
-    lambda: Vec<f64>,
+pub(super) struct Golden {
+    pub handle: *mut stickslip_interface,
+    pub x1: Vec<f64>,
+    pub x2: Vec<f64>,
+    pub lambda: Vec<f64>,
 }
 
 impl Drop for Golden {
@@ -274,6 +274,11 @@ pub(super) fn facets(v: &Value) -> Vec<Vec<i64>> {
 
 impl Golden {
     fn new(case: &Value, form: i32, quadrature: i32) -> Golden {
+        Golden::with_basis(case, form, quadrature, STICKSLIP_BASIS_STANDARD)
+    }
+
+    /// Where each covered node has a multiplier of its own.
+    pub fn with_basis(case: &Value, form: i32, quadrature: i32, basis: i32) -> Golden {
         let (x1, x2) = (flat(&case["x1"]), flat(&case["x2"]));
         let equations: Vec<i64> = (0..(2 * x1.len() + x2.len()) as i64).collect();
         let arrays = |v: &Value| {
@@ -302,6 +307,8 @@ impl Golden {
         ok!(stickslip_options_init(&mut options, size_of::<stickslip_options>() as u64));
         options.augmentation = 1.0;
         options.form = form;
+        options.multiplier_basis = basis;
+        options.weak_coverage = STICKSLIP_WEAK_COVERAGE_NONE;
         options.quadrature = quadrature;
         options.slip = slip_option(case);
         options.row_scale = STICKSLIP_ROW_SCALE_NONE;
@@ -319,12 +326,12 @@ impl Golden {
     }
 
     /// Where the blocks x1, x2, lambda end.
-    fn ends(&self) -> [usize; 4] {
+    pub fn ends(&self) -> [usize; 4] {
         let (a, b) = (self.x1.len(), self.x1.len() + self.x2.len());
         [0, a, b, b + a]
     }
 
-    fn residual(&self) -> Vec<f64> {
+    pub fn residual(&self) -> Vec<f64> {
         let [_, a, b, n] = self.ends();
         let mut r = vec![f64::NAN; n];
         let p = r.as_mut_ptr();
@@ -341,7 +348,7 @@ impl Golden {
         r
     }
 
-    fn states(&self) -> Vec<i32> {
+    pub fn states(&self) -> Vec<i32> {
         let mut state = vec![-1; self.x1.len() / 3];
         let mut out = sized!(stickslip_states);
         out.state = state.as_mut_ptr();
@@ -356,7 +363,7 @@ impl Golden {
         state
     }
 
-    fn tangent(&self) -> Vec<f64> {
+    pub fn tangent(&self) -> Vec<f64> {
         let n = self.ends()[3];
         let (x1, x2, lambda) = (self.x1.as_ptr(), self.x2.as_ptr(), self.lambda.as_ptr());
         let mut count = 0;

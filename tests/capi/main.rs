@@ -6,6 +6,7 @@ mod support;
 
 #[macro_use]
 mod golden;
+mod condensed;
 mod dual;
 mod header;
 mod layout;
