@@ -823,7 +823,7 @@ typedef struct stickslip_facet {
   const double *x2;
   /// As in `stickslip_pair`.
   int64_t element_points;
-  /// As in `stickslip_pair`: 3 n1 [-], or NULL.
+  /// 3 n1, as in `stickslip_pair` [-], or NULL.
   const double *neighbour_normals;
 } stickslip_facet;
 
@@ -1564,7 +1564,7 @@ int32_t stickslip_node_block(const struct stickslip_node_response *response,
 /// row_scale (`stickslip_facet_tangent`, or `stickslip_pair_tangent` where weights are frozen): their multiplier rows go to
 /// the rows of A, once and not times w. Columns of multipliers are left out. A direction in which the node is prescribed has no rows.
 ///
-/// Errors: as `stickslip_node_respond`: NULL_POINTER, STRUCT_SIZE, NOT_FINITE, INVALID_VALUE.
+/// Errors: those of `stickslip_node_respond`, NULL_POINTER, STRUCT_SIZE, NOT_FINITE, INVALID_VALUE.
 /// Cost: nanoseconds; allocates nothing.
 int32_t stickslip_node_condense(const struct stickslip_node *node,
                                 const struct stickslip_node_response *response,

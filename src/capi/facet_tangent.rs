@@ -38,7 +38,7 @@ pub struct stickslip_facet {
     pub x2: *const f64,
     /// As in `stickslip_pair`.
     pub element_points: i64,
-    /// As in `stickslip_pair`: 3 n1 [-], or NULL.
+    /// 3 n1, as in `stickslip_pair` [-], or NULL.
     pub neighbour_normals: *const f64,
 }
 

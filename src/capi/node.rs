@@ -292,7 +292,7 @@ pub unsafe extern "C" fn stickslip_node_block(
 /// row_scale (`stickslip_facet_tangent`, or `stickslip_pair_tangent` where weights are frozen): their multiplier rows go to
 /// the rows of A, once and not times w. Columns of multipliers are left out. A direction in which the node is prescribed has no rows.
 ///
-/// Errors: as `stickslip_node_respond`: NULL_POINTER, STRUCT_SIZE, NOT_FINITE, INVALID_VALUE.
+/// Errors: those of `stickslip_node_respond`, NULL_POINTER, STRUCT_SIZE, NOT_FINITE, INVALID_VALUE.
 /// Cost: nanoseconds; allocates nothing.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn stickslip_node_condense(
