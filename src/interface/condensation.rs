@@ -119,11 +119,10 @@ impl<const N: usize> Contact<N> {
     ) -> Result<()> {
         let lambda = narrowed(&elimination.traction_changes(&self.rows()?)?)?;
         let nonmortar = &self.setup.nonmortar.equations;
-        let mut own = Noted::default();
-        nonmortar.as_flattened().iter().for_each(|&e| own.add(e, 0, 0.0));
-        let rows = own.entries()?;
+        let mut rows = memory::copied(nonmortar.as_flattened())?;
+        memory::sort(&mut rows)?;
         let mut forces = |row: i64, column: i64, value: f64| {
-            if rows.binary_search(&(row, 0)).is_ok() {
+            if rows.binary_search(&row).is_ok() {
                 sink.add(row, column, value);
             }
         };

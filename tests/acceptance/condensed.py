@@ -24,7 +24,7 @@ SCENES = (
     ("block_zone_mu05", "", ()),
     ("block_bottom_mu02", "", ()),
     ("block_bottom_mu02_current", "", ()),
-    ("symmetry_plane", "", ("-snes_rtol", "1e-12")),  # its rounding is 1e-13
+    ("symmetry_plane", "", ("-snes_rtol", "1e-11")),  # the rounding of its forces is 3e-12 of them
     ("third_body", "", ()),
     ("patch_shear", "", ()),
     ("keys", "", ()),

@@ -41,12 +41,6 @@ fn golden_dual_interfaces() {
     }
 }
 
-/// The golden host: J_host and R_host of n equations.
-fn host(n: usize) -> (DMatrix<f64>, DVector<f64>) {
-    let entry = |i: usize, j: usize| ((7 * i + 13 * j) % 17) as f64 / 16.0 - 0.5 + if i == j { 20.0 } else { 0.0 };
-    (DMatrix::from_fn(n, n, entry), DVector::from_fn(n, |i, _| ((5 * i) % 11) as f64 / 8.0 - 0.625))
-}
-
 /// A piece of the condensed matrix, full.
 fn piece(g: &Golden, n: usize, piece: i32) -> DMatrix<f64> {
     let (x1, x2, lambda) = (g.x1.as_ptr(), g.x2.as_ptr(), g.lambda.as_ptr());
@@ -70,7 +64,7 @@ fn golden_condensed_systems() {
     for case in golden_part("golden_dual.json", "interfaces").iter().filter(|c| c["condensed"].is_object()) {
         let (g, expected) = (open(case), &case["condensed"]);
         let (n1, n) = (g.x1.len(), g.x1.len() + g.x2.len());
-        let (j_host, r_host) = host(n);
+        let (j_host, r_host) = golden_host(n);
         let (x1, x2, lambda) = (g.x1.as_ptr(), g.x2.as_ptr(), g.lambda.as_ptr());
         let offsets: Vec<i64> = (0..=n).map(|k| (k * n) as i64).collect();
         let columns: Vec<i64> = (0..n * n).map(|k| (k % n) as i64).collect();

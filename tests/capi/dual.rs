@@ -289,13 +289,7 @@ fn assemble(case: &Value, quadrature: i32) -> ([Vec<f64>; 2], Vec<f64>) {
             row.iter().zip(&unknowns).for_each(|(v, &j)| tangent[i * n + j] += v);
         }
     }
-    for (a, response) in responses.iter().enumerate() {
-        let first = first + 3 * a;
-        let (mut row, mut block) = ([f64::NAN; 3], [f64::NAN; 9]);
-        ok!(stickslip_node_block(response, 1.0, STICKSLIP_LAYOUT_ROW_MAJOR, row.as_mut_ptr(), block.as_mut_ptr()));
-        residual.iter_mut().for_each(|r| r[first..first + 3].copy_from_slice(&row));
-        block.iter().enumerate().for_each(|(k, v)| tangent[(first + k / 3) * n + first + k % 3] += v);
-    }
+    add_node_blocks(&responses, (first, n), &mut residual, &mut tangent);
     (residual, tangent)
 }
 

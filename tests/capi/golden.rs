@@ -530,6 +530,22 @@ fn pointer(values: Option<&Vec<f64>>) -> *const f64 {
     values.map_or(null(), |v| v.as_ptr())
 }
 
+/// Stage 4: the nodes' own rows and blocks, from row `first` of n on.
+pub(super) fn add_node_blocks(
+    responses: &[stickslip_node_response],
+    (first, n): (usize, usize),
+    residual: &mut [Vec<f64>; 2],
+    tangent: &mut [f64],
+) {
+    for (a, response) in responses.iter().enumerate() {
+        let first = first + 3 * a;
+        let (mut row, mut block) = ([f64::NAN; 3], [f64::NAN; 9]);
+        ok!(stickslip_node_block(response, 1.0, STICKSLIP_LAYOUT_ROW_MAJOR, row.as_mut_ptr(), block.as_mut_ptr()));
+        residual.iter_mut().for_each(|r| r[first..first + 3].copy_from_slice(&row));
+        block.iter().enumerate().for_each(|(k, v)| tangent[(first + k / 3) * n + first + k % 3] += v);
+    }
+}
+
 fn stages(case: &Value) -> Stages {
     let (n1, n2) = (case["x1"].as_array().unwrap().len(), case["x2"].as_array().unwrap().len());
     let lambda = flat(&case["lambda"]);
@@ -620,13 +636,7 @@ fn stages(case: &Value) -> Stages {
             row.iter().zip(&unknowns).for_each(|(v, &j)| tangent[i * n + j] += v);
         }
     }
-    for (a, response) in responses.iter().enumerate() {
-        let first = 3 * (n1 + n2 + a);
-        let (mut row, mut block) = ([f64::NAN; 3], [f64::NAN; 9]);
-        ok!(stickslip_node_block(response, 1.0, STICKSLIP_LAYOUT_ROW_MAJOR, row.as_mut_ptr(), block.as_mut_ptr()));
-        residual.iter_mut().for_each(|r| r[first..first + 3].copy_from_slice(&row));
-        block.iter().enumerate().for_each(|(k, v)| tangent[(first + k / 3) * n + first + k % 3] += v);
-    }
+    add_node_blocks(&responses, (3 * (n1 + n2), n), &mut residual, &mut tangent);
     let [coverage, _] = coverage;
     let [gaps, ..] = gaps;
     Stages { responses, gaps, coverage, residual, tangent }

@@ -40,12 +40,6 @@ impl Dense {
         Dense { j, r, offsets, columns: (0..n * n).map(|k| k % n).collect() }
     }
 
-    /// That of the golden cases.
-    fn golden(n: usize) -> Dense {
-        let entry = |i: usize, j: usize| ((7 * i + 13 * j) % 17) as f64 / 16.0 - 0.5 + if i == j { 20.0 } else { 0.0 };
-        Dense::new(DMatrix::from_fn(n, n, entry), DVector::from_fn(n, |i, _| ((5 * i) % 11) as f64 / 8.0 - 0.625))
-    }
-
     fn of_nodes(&self, range: std::ops::Range<usize>) -> Vec<Vec3> {
         self.r.as_slice()[3 * range.start..3 * range.end].chunks_exact(3).map(Vec3::from_column_slice).collect()
     }
@@ -141,7 +135,8 @@ fn golden_condensed_systems() {
     for case in golden_part("golden_dual.json", "interfaces").iter().filter(|c| c["condensed"].is_object()) {
         let (mut g, expected) = (golden_dual(case), &case["condensed"]);
         let (n1, n) = (g.x1.len(), 3 * (g.x1.len() + g.x2.len()));
-        let host = Dense::golden(n);
+        let (j, r) = golden_host(n);
+        let host = Dense::new(j, r);
         let Golden { interface, x1, x2, lambda } = &mut g;
         let mut at = At { contact: interface, x1, x2, lambda };
         let (j, r) = at.condensed(&host);

@@ -10,7 +10,7 @@ pub mod mesh;
 pub mod press;
 pub mod random;
 
-use nalgebra::Vector3;
+use nalgebra::{DMatrix, DVector, Vector3};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 use stickslip::geometry::{Facet, Vec3};
@@ -35,6 +35,12 @@ pub fn golden_part(file: &str, part: &str) -> Vec<Value> {
     let cases = value[part].as_array().unwrap().clone();
     assert!(cases.len() >= 3, "{} holds too few cases to mean anything", path.display());
     cases
+}
+
+/// The host of the golden condensed systems: the derivative and the value of the residual of n equations.
+pub fn golden_host(n: usize) -> (DMatrix<f64>, DVector<f64>) {
+    let entry = |i: usize, j: usize| ((7 * i + 13 * j) % 17) as f64 / 16.0 - 0.5 + if i == j { 20.0 } else { 0.0 };
+    (DMatrix::from_fn(n, n, entry), DVector::from_fn(n, |i, _| ((5 * i) % 11) as f64 / 8.0 - 0.625))
 }
 
 pub fn numbers(v: &Value) -> Vec<f64> {

@@ -111,19 +111,6 @@ PetscErrorCode condensed_begin(Contact *contact)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* on rank 0: the rows of an interface's nodes, of a local vector that all ranks add up */
-static PetscErrorCode gather_rows(Contact *contact, Interface *interface, Vec local, double *rows)
-{
-  const PetscScalar *values;
-  PetscFunctionBegin;
-  PetscCall(unknowns_sum(contact->physics, local));
-  PetscCall(VecGetArrayRead(contact->physics->f_sum, &values));
-  PetscCall(PetscSFBcastBegin(interface->sf, MPIU_SCALAR, values, rows, MPI_REPLACE));
-  PetscCall(PetscSFBcastEnd(interface->sf, MPIU_SCALAR, values, rows, MPI_REPLACE));
-  PetscCall(VecRestoreArrayRead(contact->physics->f_sum, &values));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /* The multipliers at x, of the rows as they were linearised at `place`. */
 static PetscErrorCode update_multipliers(Contact *contact, Vec x, PetscInt *status)
 {
@@ -140,14 +127,10 @@ static PetscErrorCode update_multipliers(Contact *contact, Vec x, PetscInt *stat
   PetscCall(DMGlobalToLocalBegin(contact->mesh->dm, f, INSERT_VALUES, local));
   PetscCall(DMGlobalToLocalEnd(contact->mesh->dm, f, INSERT_VALUES, local));
   for (PetscInt i = 0; i < contact->n_interfaces && !*status; i++) {
-    Interface         *interface = &contact->interfaces[i];
-    double            *rows      = interface->rows;
-    int32_t            refused   = 0;
-    const PetscScalar *values;
-    PetscCall(VecGetArrayRead(local, &values)); /* complete on every rank */
-    PetscCall(PetscSFBcastBegin(interface->sf, MPIU_SCALAR, values, rows, MPI_REPLACE));
-    PetscCall(PetscSFBcastEnd(interface->sf, MPIU_SCALAR, values, rows, MPI_REPLACE));
-    PetscCall(VecRestoreArrayRead(local, &values));
+    Interface *interface = &contact->interfaces[i];
+    double    *rows      = interface->rows;
+    int32_t    refused   = 0;
+    PetscCall(contact_fetch(interface, local, rows));
     if (contact->mesh->rank == 0) {
       for (PetscInt k = 0; k < 3 * interface->n1; k++)
         rows[k] += interface->host_there[k];
@@ -172,9 +155,10 @@ PetscErrorCode condensed_eliminate(Contact *contact, Vec x, PetscInt *status)
   if (!contact->condensed) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(DMGetLocalVector(contact->mesh->dm, &host));
   PetscCall(VecWAXPY(host, -1, physics->f_external, physics->f_local));
-  for (PetscInt i = 0; i < contact->n_interfaces; i++)
-    PetscCall(gather_rows(contact, &contact->interfaces[i], host, contact->interfaces[i].host));
+  PetscCall(unknowns_sum(physics, host));
   PetscCall(DMRestoreLocalVector(contact->mesh->dm, &host));
+  for (PetscInt i = 0; i < contact->n_interfaces; i++)
+    PetscCall(contact_fetch(&contact->interfaces[i], physics->f_sum, contact->interfaces[i].host));
   PetscCall(update_multipliers(contact, x, status));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -22,14 +22,22 @@ void contact_positions(Interface *interface)
     interface->x[k] = interface->X[k] - interface->X[k % 3] + PetscRealPart(interface->gathered[k]);
 }
 
-PetscErrorCode contact_gather(Contact *contact, Interface *interface, Vec local)
+/* The interface's entries of a local vector, each as its owner has it, to rank 0. */
+PetscErrorCode contact_fetch(const Interface *interface, Vec local, PetscScalar *to)
 {
   const PetscScalar *array;
   PetscFunctionBegin;
   PetscCall(VecGetArrayRead(local, &array));
-  PetscCall(PetscSFBcastBegin(interface->sf, MPIU_SCALAR, array, interface->gathered, MPI_REPLACE));
-  PetscCall(PetscSFBcastEnd(interface->sf, MPIU_SCALAR, array, interface->gathered, MPI_REPLACE));
+  PetscCall(PetscSFBcastBegin(interface->sf, MPIU_SCALAR, array, to, MPI_REPLACE));
+  PetscCall(PetscSFBcastEnd(interface->sf, MPIU_SCALAR, array, to, MPI_REPLACE));
   PetscCall(VecRestoreArrayRead(local, &array));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode contact_gather(Contact *contact, Interface *interface, Vec local)
+{
+  PetscFunctionBegin;
+  PetscCall(contact_fetch(interface, local, interface->gathered));
   if (contact->mesh->rank == 0) contact_positions(interface);
   if (contact->mesh->rank == 0 && contact->condensed)
     PetscCall(PetscArraycpy(interface->gathered + 3 * (interface->n1 + interface->n2), interface->lambda,
@@ -240,7 +248,7 @@ PetscErrorCode contact_commit(Contact *contact, PetscInt *status)
     PetscCall(contact_gather(contact, interface, contact->physics->u_local));
     if (mesh->rank == 0) refused = measure_memory(interface);
     if (mesh->rank == 0 && !refused && contact->condensed) refused = settle_multipliers(interface);
-    PetscCall(contact_gather(contact, interface, contact->physics->u_local));
+    if (contact->condensed) PetscCall(contact_gather(contact, interface, contact->physics->u_local));
     if (mesh->rank == 0 && !refused)
       refused = stickslip_interface_commit(interface->handle, STATE_OF(interface), NULL);
     PetscCall(contact_agree(contact, refused, status));

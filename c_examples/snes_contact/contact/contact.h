@@ -77,6 +77,7 @@ PetscErrorCode contact_create(Contact *contact, Scene *scene, PetscBool quiet, P
 PetscErrorCode contact_destroy(Contact *contact);
 PetscErrorCode contact_agree(Contact *contact, int32_t refused, PetscInt *status);
 void           contact_positions(Interface *interface);
+PetscErrorCode contact_fetch(const Interface *interface, Vec local, PetscScalar *to);
 PetscErrorCode contact_gather(Contact *contact, Interface *interface, Vec local);
 PetscErrorCode contact_start(Contact *contact, Vec x, PetscInt *status);
 PetscErrorCode contact_forces(Contact *contact, Vec f_local, PetscInt *status); /* adds, to the parts' squares, too */

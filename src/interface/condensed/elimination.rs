@@ -22,7 +22,7 @@ use crate::error::{Error, Kind, Result};
 use crate::geometry::{Mat3, Vec3};
 use crate::interface::data::multiplier::direction;
 use crate::interface::data::pairs::PairRecord;
-use crate::interface::data::surface::{NO_EQUATION, Surface};
+use crate::interface::data::surface::{NO_EQUATION, Surface, node_equations};
 use crate::interface::pairing::given::Given;
 use crate::interface::pairing::weak::Carrier;
 use crate::interface::stages::carried::multiplier_share;
@@ -57,11 +57,6 @@ impl Row {
     pub fn of<const N: usize>(response: &NodeResponse<N>) -> Row {
         Row { value: widened(&response.row), derivative: widened_matrix(&response.drow_dlambda) }
     }
-}
-
-/// Displacement equations of a node over both surfaces.
-pub fn equations<'a>((one, two): (&'a Surface, &'a Surface), node: usize) -> &'a [i64; 3] {
-    if node < one.len() { &one.equations[node] } else { &two.equations[node - one.len()] }
 }
 
 /// A multiplier as a vector of three components, of which those beyond N are 0.
@@ -207,7 +202,7 @@ impl Elimination {
     /// Gives L - I: of each block the diagonal, and what else is not 0.
     pub fn entries(&self, answers: &[Row], surfaces: (&Surface, &Surface), sink: &mut dyn Sink) {
         let mut add = |row: usize, own: usize, block: &Mat3| {
-            let (rows, columns) = (equations(surfaces, row), equations(surfaces, own));
+            let (rows, columns) = (node_equations(surfaces, row), node_equations(surfaces, own));
             for (i, j) in (0..3).flat_map(|i| (0..3).map(move |j| (i, j))) {
                 let exists = rows[i] != NO_EQUATION && columns[j] != NO_EQUATION;
                 if exists && (i == j || block[(i, j)] != 0.0) {

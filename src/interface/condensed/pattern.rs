@@ -3,7 +3,7 @@
 
 use crate::error::Result;
 use crate::interface::data::csr::Csr;
-use crate::interface::data::surface::{NO_EQUATION, Surface};
+use crate::interface::data::surface::{NO_EQUATION, Surface, node_equations};
 use crate::interface::pairing::weak::Carrier;
 use crate::interface::tangent::emission::Sink;
 use crate::memory::{self, Store, Stored};
@@ -80,8 +80,7 @@ impl Columns {
             memory::sort(&mut columns)?;
             columns.dedup();
             let row = of_row[0].0;
-            let equations = if row < one.len() { &one.equations[row] } else { &two.equations[row - one.len()] };
-            for &equation in equations.iter().filter(|e| **e != NO_EQUATION) {
+            for &equation in node_equations((one, two), row).iter().filter(|e| **e != NO_EQUATION) {
                 columns.iter().for_each(|&column| sink.add(equation, column, 0.0));
             }
         }

@@ -1,11 +1,11 @@
 //! The rows of a host's matrix that condensation changes, taken out of it and put back: J becomes L J + G in place
 //! (docs/formulation.md 10.7).
 
-use super::elimination::{Elimination, Row, equations};
+use super::elimination::{Elimination, Row};
 use crate::error::{Error, Result};
 use crate::geometry::Mat3;
 use crate::interface::data::csr::Csr;
-use crate::interface::data::surface::{NO_EQUATION, Surface};
+use crate::interface::data::surface::{NO_EQUATION, Surface, node_equations};
 use crate::interface::tangent::emission::Sink;
 use crate::memory::{self, Store};
 
@@ -96,10 +96,10 @@ impl<'a> CondensedRows<'a> {
     /// J becomes L J.
     pub fn eliminate(&mut self, e: &Elimination, answers: &[Row], surfaces: (&Surface, &Surface)) -> Result<()> {
         for t in &e.transfers {
-            self.transfer(equations(surfaces, t.row), equations(surfaces, t.own), &t.block)?;
+            self.transfer(node_equations(surfaces, t.row), node_equations(surfaces, t.own), &t.block)?;
         }
         for b in e.own() {
-            self.multiply(equations(surfaces, b), &e.diagonal(b, &answers[b]))?;
+            self.multiply(node_equations(surfaces, b), &e.diagonal(b, &answers[b]))?;
         }
         Ok(())
     }

@@ -51,6 +51,11 @@ pub struct Surface {
     pub analytic: Option<AnalyticShape>,
 }
 
+/// Displacement equations of a node over both surfaces, mortar after non-mortar.
+pub fn node_equations<'a>((one, two): (&'a Surface, &'a Surface), node: usize) -> &'a [i64; 3] {
+    if node < one.len() { &one.equations[node] } else { &two.equations[node - one.len()] }
+}
+
 impl Surface {
     /// Checks and keeps a surface. `facets` lists 0-based node numbers.
     pub fn new(

@@ -10,7 +10,7 @@ use crate::element::PairTangent;
 use crate::geometry::Vec3;
 use crate::interface::data::extent::Extent;
 use crate::interface::data::options::{Form, MultiplierBasis};
-use crate::interface::data::surface::{FacetNodes, NO_EQUATION};
+use crate::interface::data::surface::{FacetNodes, NO_EQUATION, node_equations};
 use crate::interface::pairing::given::Given;
 use crate::interface::stages::node::is_out_of_reach;
 use crate::mortar::MORTAR;
@@ -75,9 +75,7 @@ pub struct Emitter<'a, 's, const N: usize> {
 impl<'a, const N: usize> Emitter<'a, '_, N> {
     /// Displacement equations of a node over both surfaces.
     pub fn equations(&self, node: usize) -> &'a [i64; 3] {
-        let (one, two) = self.given.setup.surfaces();
-        let n1 = one.len();
-        if node < n1 { &one.equations[node] } else { &two.equations[node - n1] }
+        node_equations(self.given.setup.surfaces(), node)
     }
 
     /// Those of a non-mortar facet.
