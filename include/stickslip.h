@@ -68,7 +68,8 @@
  * What it may add: interface_set_friction, interface_set_augmentation, interface_set_normals,
  * interface_set_constraints, interface_set_previous after interface_create; interface_history_size,
  * interface_history_export, interface_history_import for restarts; interface_sums on several processes;
- * interface_counters, interface_effects, interface_report, interface_diagnose. Before it: surface_split_creases where a non-mortar surface
+ * interface_counters, interface_effects, interface_report, interface_diagnose. With STICKSLIP_NORMALS_CURRENT: interface_turn_multipliers
+ * at the start of a step, interface_use_normals for a step in two phases. Before it: surface_split_creases where a non-mortar surface
  * has sharp edges, crosspoints_find where interfaces share nodes.
  *
  * A host without multipliers among its unknowns (dual basis) has in place of pattern, residual and tangent:
@@ -95,6 +96,11 @@
  *
  *     pair_dual, facet_dual                  after pair_weights of all its pairs: their dual weights
  *     facet_tangent                          in place of pair_tangent
+ *
+ * With normals of now, and facet_geometry, node_normal in each iteration:
+ *
+ *     facet_normal_derivatives               each facet around a node that has pairs
+ *     node_turn                              each such node, after node_respond
  *
  * Both: version, status_string, last_error_message, last_error_padded. */
 
@@ -203,6 +209,14 @@
 
 /// Coulomb friction with the coefficient mu (0 allowed). Default.
 #define STICKSLIP_FRICTION_COULOMB 0
+
+/// Normals nu of the last commit, as in the paper: data of a step. Default.
+#define STICKSLIP_NORMALS_COMMITTED 0
+
+/// Normals of the current configuration, linearised: the size of a step does not decide how accurate normals are, a surface may
+/// turn by any angle within it, and a step without load moves nothing. With STICKSLIP_WEIGHTS_CURRENT and averaged normals
+/// only; tied surfaces use no normals. Which facets look at each other follows the motion, too.
+#define STICKSLIP_NORMALS_CURRENT 1
 
 /// One multiplier per node, along the normal: multiplier_equations, lambda and rows have n1 entries. No slip history.
 #define STICKSLIP_FRICTION_NONE 1
@@ -483,13 +497,18 @@ typedef struct stickslip_options {
   /// one multiplier a node (no friction) a node hands on its normal traction; with three it hands on the vector. So
   /// between nodes of different normals mu = 0 and no friction give slightly different answers.
   double weak_coverage;
-  /// How far a surface may turn from one commit to the next, in radians [-]: the normals are those of t_n. A commit
-  /// refuses more with TURNED_TOO_FAR. Each side counts alone, in space; with WEIGHTS_REFERENCE the non-mortar side's
+  /// How far a surface may turn from one commit to the next, in radians [-], where the normals are those of t_n. A commit
+  /// refuses more with TURNED_TOO_FAR. With NORMALS_CURRENT only where slip is not measured by SLIP_OBJECTIVE, and at nodes on
+  /// a knife's edge, which keep nu(t_n). Each side counts alone, in space; with WEIGHTS_REFERENCE the non-mortar side's
   /// turn since the first configuration; tied surfaces may turn as they like. At most pi, which refuses nothing;
   /// 0 (default): pi / 9, 20 degrees. What a turn below it costs: docs/plug_in.md.
   double turn_max;
   /// With STICKSLIP_FRICTION_TRESCA the largest shear traction, > 0 [F/L^2]; else 0 (default).
   double shear_limit;
+  /// STICKSLIP_NORMALS_...
+  int32_t normals;
+  /// Must be 0.
+  int32_t reserved;
 } stickslip_options;
 
 /// One surface of an interface.
@@ -1572,6 +1591,68 @@ int32_t stickslip_node_condense(const struct stickslip_node *node,
                                 double *w,
                                 double *row,
                                 double *row_scale);
+
+/// Which normals evaluations of an interface with STICKSLIP_NORMALS_CURRENT use until the next commit, rollback or import:
+/// STICKSLIP_NORMALS_CURRENT, as after each of these, or STICKSLIP_NORMALS_COMMITTED, those of t_n.
+///
+/// A step that presses surfaces far into each other may not converge with normals that turn from one iterate to the next.
+/// Solve it with those of t_n first, and from there with the current ones: two solutions, so that a line search sees one
+/// function. A commit refuses (INVALID_VALUE) where those of t_n are in use. The pattern of the tangent is that of the current
+/// ones in either phase.
+///
+/// normals: STICKSLIP_NORMALS_... Of an interface with committed normals COMMITTED alone is allowed, and changes nothing.
+///
+/// Errors: NULL_POINTER, INVALID_VALUE.
+/// Cost: none; the next evaluation begins anew.
+int32_t stickslip_interface_use_normals(struct stickslip_interface *interface,
+                                        int32_t normals);
+
+/// Turns multipliers as the surface turns from t_n to x1: each by the smallest rotation that takes nu_A(t_n) to nu_A(x1). A
+/// start for Newton's method where a step turns the non-mortar body, for a multiplier is a vector in space; a host that knows
+/// the body's rotation may use that instead. The answer does not depend on it. Multipliers along the normal, and those of
+/// committed normals, stay as they are.
+///
+/// x1 (3 n1) [L]: the positions that Newton's method starts from; lambda (3 n1, without friction n1) [F/L^2]: those of t_n,
+/// in and out.
+///
+/// Errors: NULL_POINTER, NOT_FINITE, UNDEFINED_NORMAL (the normals around a node cancel at x1).
+/// Cost: O(n1); allocates.
+int32_t stickslip_interface_turn_multipliers(struct stickslip_interface *interface,
+                                             const double *x1,
+                                             double *lambda);
+
+/// Derivatives of a facet's unit corner normals m_k (`stickslip_facet_geometry`) with respect to its nodes, to be summed over
+/// the facets around a node like the normals themselves: D nu_A = (dnu/ds)_A sum Dm, with dnu/ds of `stickslip_node_turn`.
+///
+/// n: 3 or 4; x: 3 n coordinates [L]. derivatives (n x 3 x n x 3) [1/L], output: of component i of m_k with respect to
+/// component j of node l at ((3 k + i) n + l) 3 + j; in Fortran derivatives(j, l, i, k). Zero unless l is k or next to it.
+///
+/// Errors: NULL_POINTER, INVALID_SIZE, NOT_FINITE (also the result), DUPLICATE_NODE, DEGENERATE_FACET.
+/// Cost: below a microsecond; allocates nothing.
+int32_t stickslip_facet_normal_derivatives(int32_t n,
+                                           const double *x,
+                                           double *derivatives);
+
+/// What a node's answer depends on its normal by, where normals are those of now: with the matrices below, D nu_A of the sum of
+/// `stickslip_facet_normal_derivatives` around A, and weights assembled over all pairs of A,
+///
+/// - the multiplier rows of A gain row_scale drow_dnormal Dnu_A (row_scale of `stickslip_node_block`);
+/// - with forces of p (the augmented form) those of node B gain n_AB dp_dnormal Dnu_A, of C -n_AC dp_dnormal Dnu_A;
+/// - in the multiplier form forces gain nothing.
+///
+/// node: as for `stickslip_node_respond`, its normal being that of now; sum (3): of the corner normals around it
+/// (`stickslip_facet_geometry`), from which normal follows with the node's directions taken out. layout:
+/// STICKSLIP_LAYOUT_... Outputs (3 x 3 each), each may be NULL: dnu_dsum [-]; dp_dnormal [F/L^2]; drow_dnormal [L^3].
+///
+/// Errors: those of `stickslip_node_respond`; UNDEFINED_NORMAL (the sum cancels), INVALID_VALUE (layout; a normal that is not
+/// that of the sum).
+/// Cost: nanoseconds; allocates nothing.
+int32_t stickslip_node_turn(const struct stickslip_node *node,
+                            const double *sum,
+                            int32_t layout,
+                            double *dnu_dsum,
+                            double *dp_dnormal,
+                            double *drow_dnormal);
 
 /// Stage 1b: what makes the weights of a facet's pairs those of dual multipliers, from the sum of n_ab over all of its
 /// pairs. docs/formulation.md 10.1.

@@ -1,8 +1,8 @@
-//! Averaged nodal normals (docs/formulation.md 4.1): nu_A is minus the normalised, unweighted sum of the
-//! unit corner normals of the non-mortar facets at A, so it points INTO the non-mortar body.
+//! Averaged nodal normals (docs/formulation.md 4.1) and their derivatives (11.1): nu_A is minus the normalised, unweighted
+//! sum of the unit corner normals of the non-mortar facets at A, so it points INTO the non-mortar body.
 
 use crate::error::{Error, Kind, Result};
-use crate::geometry::{Facet, Vec3};
+use crate::geometry::{Facet, Mat3, Vec3};
 
 /// A sum of unit normals shorter than this has no direction: the facets around the node face each
 /// other, or the node is a knife's edge.
@@ -10,11 +10,54 @@ pub const SMALLEST_SUM: f64 = 1e-6;
 
 /// Unit normal at corner k of a facet, out of the body; zero where the corner is degenerate.
 pub fn corner_normal(facet: &Facet, k: usize) -> Vec3 {
-    let n = facet.len();
-    let x = &facet.nodes;
-    let w = (x[(k + 1) % n] - x[k]).cross(&(x[(k + n - 1) % n] - x[k]));
+    let [a, b] = edges(facet, k);
+    let w = a.cross(&b);
     let norm = w.norm();
     if norm > 0.0 { w / norm } else { Vec3::zeros() }
+}
+
+/// The edges at corner k of a facet, to the next corner and to the previous one.
+fn edges(facet: &Facet, k: usize) -> [Vec3; 2] {
+    let (n, x) = (facet.len(), &facet.nodes);
+    [x[(k + 1) % n] - x[k], x[(k + n - 1) % n] - x[k]]
+}
+
+/// Derivatives of m, the unit normal at corner k of a facet: each corner that it depends on, with Dm / Dx of it [1/L].
+/// With the edges a and b, Dm = (I - m m^T) (Da x b + a x Db) / |a x b|. Zero where the corner is degenerate.
+pub fn corner_normal_derivatives(facet: &Facet, k: usize) -> [(usize, Mat3); 3] {
+    let n = facet.len();
+    let [a, b] = edges(facet, k);
+    let w = a.cross(&b);
+    let norm = w.norm();
+    let tangential = if norm > 0.0 {
+        let m = w / norm;
+        (Mat3::identity() - m * m.transpose()) / norm
+    } else {
+        Mat3::zeros()
+    };
+    let (next, previous) = (tangential * -b.cross_matrix(), tangential * a.cross_matrix());
+    [((k + 1) % n, next), ((k + n - 1) % n, previous), (k, -next - previous)]
+}
+
+/// D nu / D s of the nodal normal nu = -Q s / |Q s| from the sum s of corner normals; Q projects on the free directions.
+pub fn nodal_normal_derivative(sum: Vec3, free: &Mat3) -> Mat3 {
+    let s = free * sum;
+    let norm = s.norm();
+    let nu = s / norm;
+    (nu * nu.transpose() - Mat3::identity()) * free / norm
+}
+
+/// A vector that turns as one unit normal turns to another, by the smallest rotation. Where they are opposite that is any
+/// half turn across the normal: what lies along the surface then stays.
+pub fn turned(v: Vec3, from: Vec3, to: Vec3) -> Vec3 {
+    let along = from.dot(&v);
+    let tangential = v - from * along;
+    let cosine = from.dot(&to);
+    // Rounding of the quotient below, over the square root of the machine epsilon.
+    const OPPOSITE: f64 = 1e-8;
+    let carried =
+        if 1.0 + cosine > OPPOSITE { (from + to) * (to.dot(&tangential) / (1.0 + cosine)) } else { Vec3::zeros() };
+    to * along + tangential - carried
 }
 
 /// nu_A from the sum of the corner normals around node `node`.

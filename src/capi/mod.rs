@@ -64,6 +64,8 @@ mod pair;
 
 mod node;
 
+mod normals;
+
 mod dual;
 
 mod facet_tangent;
@@ -90,6 +92,7 @@ pub use interface::*;
 pub use layout::*;
 pub use message::*;
 pub use node::*;
+pub use normals::*;
 pub use options::*;
 pub use pair::*;
 pub use point::*;

@@ -104,7 +104,7 @@ unsafe impl Sized64 for stickslip_node_response {
 }
 
 /// Row-major entries of a matrix.
-fn rows(m: &Mat3) -> [f64; 9] {
+pub(super) fn rows(m: &Mat3) -> [f64; 9] {
     std::array::from_fn(|k| m[(k / 3, k % 3)])
 }
 

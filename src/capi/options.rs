@@ -5,8 +5,8 @@ use super::sized::{self, Sized64};
 use crate::error::{Error, Kind, Result, Text};
 use crate::geometry::AnalyticShape;
 use crate::interface::{
-    COVERAGE_MIN, Form, MortarSide, MultiplierBasis, NewContact, Options, RowScale, Scheme, Shortcuts, Stiffness,
-    TURN_MAX, Tangent, Weights,
+    COVERAGE_MIN, Form, MortarSide, MultiplierBasis, NewContact, Normals, Options, RowScale, Scheme, Shortcuts,
+    Stiffness, TURN_MAX, Tangent, Weights,
 };
 use crate::law::{Coefficient, Friction, LAWS, SlipMeasure};
 use crate::quadrature::{DEGREE_1, DEGREE_2, DEGREE_4, DEGREE_5, DEGREE_6, DEGREE_10, Rule, cell};
@@ -29,6 +29,12 @@ pub const STICKSLIP_WEIGHTS_COMMITTED: i32 = 1;
 pub const STICKSLIP_WEIGHTS_REFERENCE: i32 = 2;
 /// Coulomb friction with the coefficient mu (0 allowed). Default.
 pub const STICKSLIP_FRICTION_COULOMB: i32 = 0;
+/// Normals nu of the last commit, as in the paper: data of a step. Default.
+pub const STICKSLIP_NORMALS_COMMITTED: i32 = 0;
+/// Normals of the current configuration, linearised: the size of a step does not decide how accurate normals are, a surface may
+/// turn by any angle within it, and a step without load moves nothing. With STICKSLIP_WEIGHTS_CURRENT and averaged normals
+/// only; tied surfaces use no normals. Which facets look at each other follows the motion, too.
+pub const STICKSLIP_NORMALS_CURRENT: i32 = 1;
 /// One multiplier per node, along the normal: multiplier_equations, lambda and rows have n1 entries. No slip history.
 pub const STICKSLIP_FRICTION_NONE: i32 = 1;
 /// Mesh tying: a node that is covered in the first configuration keeps its place; weights of the reference. A gap at the
@@ -183,13 +189,18 @@ pub struct stickslip_options {
     /// one multiplier a node (no friction) a node hands on its normal traction; with three it hands on the vector. So
     /// between nodes of different normals mu = 0 and no friction give slightly different answers.
     pub weak_coverage: f64,
-    /// How far a surface may turn from one commit to the next, in radians [-]: the normals are those of t_n. A commit
-    /// refuses more with TURNED_TOO_FAR. Each side counts alone, in space; with WEIGHTS_REFERENCE the non-mortar side's
+    /// How far a surface may turn from one commit to the next, in radians [-], where the normals are those of t_n. A commit
+    /// refuses more with TURNED_TOO_FAR. With NORMALS_CURRENT only where slip is not measured by SLIP_OBJECTIVE, and at nodes on
+    /// a knife's edge, which keep nu(t_n). Each side counts alone, in space; with WEIGHTS_REFERENCE the non-mortar side's
     /// turn since the first configuration; tied surfaces may turn as they like. At most pi, which refuses nothing;
     /// 0 (default): pi / 9, 20 degrees. What a turn below it costs: docs/plug_in.md.
     pub turn_max: f64,
     /// With STICKSLIP_FRICTION_TRESCA the largest shear traction, > 0 [F/L^2]; else 0 (default).
     pub shear_limit: f64,
+    /// STICKSLIP_NORMALS_...
+    pub normals: i32,
+    /// Must be 0.
+    pub reserved: i32,
 }
 
 // SAFETY: repr(C), struct_size first, numbers only.
@@ -232,6 +243,8 @@ pub unsafe extern "C" fn stickslip_options_init(options: *mut stickslip_options,
             weak_coverage: 0.0,
             turn_max: 0.0,
             shear_limit: 0.0,
+            normals: STICKSLIP_NORMALS_COMMITTED,
+            reserved: 0,
         };
         sized::initialise(options, struct_size, defaults, "options")
     })
@@ -305,6 +318,11 @@ fn read_scheme(integration: i32, points: i64) -> Result<Scheme> {
 /// The measure of a STICKSLIP_SLIP_... value.
 pub(super) fn slip_measure(value: i32, name: &str) -> Result<SlipMeasure> {
     choose(value, name, &[SlipMeasure::Objective, SlipMeasure::Increment, SlipMeasure::Paper], 3)
+}
+
+/// The normals of a STICKSLIP_NORMALS_... value.
+pub(super) fn choose_normals(value: i32, name: &str) -> Result<Normals> {
+    choose(value, name, &[Normals::Committed, Normals::Current], 2)
 }
 
 /// The law of a STICKSLIP_FRICTION_... value.
@@ -393,6 +411,8 @@ pub(super) fn read_options(p: *const stickslip_options) -> Result<Choices> {
         weak_coverage,
         turn_max,
         shear_limit,
+        normals,
+        reserved,
     } = sized::read(p)?;
     let friction = law(friction, "options.friction")?;
     let sides = [MortarSide::Deformable, MortarSide::Rigid, MortarSide::Rigid];
@@ -417,6 +437,9 @@ pub(super) fn read_options(p: *const stickslip_options) -> Result<Choices> {
         }
     }
     law_numbers(friction, mu, shear_limit, "options")?;
+    if reserved != 0 {
+        return Err(Error::new(Kind::InvalidValue, text!("options.reserved is {reserved}; it must be 0")));
+    }
     if modulus < 0.0 {
         return Err(Error::new(Kind::InvalidValue, text!("options.modulus is {modulus}; it must not be negative")));
     }
@@ -433,6 +456,7 @@ pub(super) fn read_options(p: *const stickslip_options) -> Result<Choices> {
         form: choose(form, "options.form", &[Form::Multiplier, Form::Augmented], 2)?,
         slip: slip_measure(slip, "options.slip")?,
         weights: choose(weights, "options.weights", &[Weights::Current, Weights::Committed, Weights::Reference], 3)?,
+        normals: choose_normals(normals, "options.normals")?,
         rule: rule(quadrature, "options.quadrature")?,
         scheme: read_scheme(integration, element_points)?,
         tangent: choose(

@@ -43,7 +43,7 @@ fn step(setup: &Setup<3>) -> Step {
     let work = (&mut Counters::default(), &mut KeptTree::default());
     let start = commit::settled_at(setup.surfaces(), &setup.options, Extent::Whole, work, at).unwrap();
     let pairing = Pairing::new(setup, start.filter, &start.history).unwrap();
-    Step { history: start.history, pairing }
+    Step { history: start.history, pairing, normals: Default::default(), now: None }
 }
 
 #[test]

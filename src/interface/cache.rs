@@ -19,6 +19,7 @@ use super::stages::apart::stays_apart;
 use super::stages::carried::refuse_sums;
 use super::stages::commit;
 use super::stages::integrate::segments;
+use super::stages::normals::follow;
 use super::stages::respond::{Responses, respond};
 use super::stages::sums::{self, NodeSums};
 use crate::error::Result;
@@ -136,7 +137,7 @@ impl<const N: usize> Cache<N> {
         if setup.options.effective_weights() != Weights::Current || step.history.integrated {
             return Ok(());
         }
-        let Step { history, pairing } = step;
+        let Step { history, pairing, .. } = step;
         match &pairing.filter {
             Some(filter) => commit::complete(setup.surfaces(), &setup.options, (history, filter), self.work()),
             None => Ok(()),
@@ -157,6 +158,7 @@ impl<const N: usize> Cache<N> {
             self.count_pairs(&step.history);
             return Ok(());
         }
+        follow(setup, step, x1)?;
         let kept = self.kept.as_ref().filter(|k| k.active.is_at(x1, x2)).map(|k| k.scope);
         let serves = kept.is_some_and(|k| k.extent == extent || (k.extent == Extent::Whole && !k.apart));
         if !serves {

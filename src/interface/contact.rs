@@ -94,7 +94,7 @@ impl<const N: usize> Contact<N> {
         let at = (&setup.nonmortar.reference[..], &setup.mortar.reference[..]);
         let settled = commit::settled_at(setup.surfaces(), &setup.options, Extent::Whole, cache.work(), at)?;
         let pairing = Pairing::new(&setup, settled.filter, &settled.history)?;
-        let step = Step { history: settled.history, pairing };
+        let step = Step { history: settled.history, pairing, normals: setup.options.normals, now: None };
         Given { setup: &setup, step: &step }.normals()?;
         cache.begin(&step.history, settled.active);
         Ok(Contact { setup, step, rollback: None, cache })
@@ -112,8 +112,12 @@ impl<const N: usize> Contact<N> {
         Ok(())
     }
 
-    /// Unit normals into the non-mortar body; `None` returns to the averaged ones.
+    /// Unit normals into the non-mortar body; `None` returns to the averaged ones. Not where the normals follow the motion.
     pub fn set_normals(&mut self, normals: Option<Vec<Vec3>>) -> Result<()> {
+        if normals.is_some() && self.setup.options.follows_normals() {
+            let text = "normals of the host with STICKSLIP_NORMALS_CURRENT: they would not follow the motion; take STICKSLIP_NORMALS_COMMITTED";
+            return Err(Error::new(Kind::Unsupported, text));
+        }
         self.setup.nodes.set_normals(normals)?;
         self.cache.forget();
         Ok(())
@@ -127,6 +131,7 @@ impl<const N: usize> Contact<N> {
     pub fn set_constraints(&mut self, directions: &[(usize, Vec3)]) -> Result<()> {
         let free = free_directions(&self.setup.multiplier_equations, directions)?;
         let old = std::mem::replace(&mut self.setup.nodes.free, free);
+        self.step.now = None;
         if let Err(e) = self.given().normals() {
             self.setup.nodes.free = old;
             return Err(e);
@@ -177,7 +182,8 @@ impl<const N: usize> Contact<N> {
         self.cache.counters.pairs_active
     }
 
-    /// nu_A: the host's or the committed one, normalised within the free directions.
+    /// nu_A: that of the last evaluation where it follows the motion, else the host's or the committed one; normalised
+    /// within the free directions.
     pub fn normal(&self, a: usize) -> Result<Vec3> {
         self.given().normal(a)
     }
@@ -218,6 +224,7 @@ impl<const N: usize> Contact<N> {
         bytes::of_setup(&self.setup)
             + bytes::of_history(&self.step.history)
             + bytes::of_pairing(&self.step.pairing)
+            + self.step.now.as_ref().map_or(0, bytes::of_normals)
             + self.rollback.as_ref().map_or(0, bytes::of_history)
             + self.cache.bytes()
     }
@@ -232,7 +239,8 @@ impl<const N: usize> Contact<N> {
     }
 
     fn put_in_place(&mut self, pairing: Pairing, history: History, active: Option<Active>) -> History {
-        let old = std::mem::replace(&mut self.step, Step { history, pairing }).history;
+        let step = Step { history, pairing, normals: self.setup.options.normals, now: None };
+        let old = std::mem::replace(&mut self.step, step).history;
         self.cache.begin(&self.step.history, active);
         old
     }
@@ -257,6 +265,10 @@ impl<const N: usize> Contact<N> {
         sums: Option<&[NodeSums]>,
     ) -> Result<()> {
         let (extent, shared) = (Extent::of(sums), sums.is_some());
+        if self.step.normals != self.setup.options.normals {
+            let text = "commit of a step that was solved with the normals of its start alone: with STICKSLIP_NORMALS_CURRENT these are for the first phase; call stickslip_interface_use_normals(..., STICKSLIP_NORMALS_CURRENT) and solve on";
+            return Err(Error::new(Kind::InvalidValue, text));
+        }
         self.cache.respond(&self.setup, &mut self.step, (x1, x2), lambda, sums)?;
         let answers = self.cache.answers();
         let (sums, responses) = (memory::copied(&answers.sums)?, memory::copied(&answers.responses.nodes)?);

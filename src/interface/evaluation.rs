@@ -10,11 +10,13 @@ use super::inspect::equilibrium::{self, Equilibrium, Scales};
 use super::inspect::report::{self, Report};
 use super::pairing::given::Given;
 use super::stages::initial;
+use super::stages::normals;
 use super::stages::residual::{self, Residual};
 use super::stages::sums::NodeSums;
 use super::tangent::blocks::{Numbers, blocks, node_tangents};
 use super::tangent::derivatives::PairDerivatives;
 use super::tangent::emission::{Sink, Sinks};
+use super::tangent::turning::Turns;
 use super::tangent::union::{UnionPair, possible_pairs, union};
 use crate::error::{Error, Kind, Result};
 use crate::geometry::Vec3;
@@ -122,7 +124,9 @@ impl<const N: usize> Contact<N> {
         }
         let start = Instant::now();
         let (given, mortar, options) = (self.given(), &self.setup.mortar, &self.setup.options);
-        let (normals, responses) = (given.normals()?, &self.cache.answers().responses);
+        let (normals, answers) = (given.normals()?, self.cache.answers());
+        let responses = &answers.responses;
+        let scale = |a: usize| scales.map_or_else(|| given.row_scale(a), |s| s[a]);
         let surface = mortar.analytic.map(|_| mortar.analytic_at(x2)).transpose()?;
         let motion = PairDerivatives {
             opposite: self.setup.effects.opposite,
@@ -133,11 +137,10 @@ impl<const N: usize> Contact<N> {
         let numbers = Numbers {
             x1,
             responses,
-            nodes: node_tangents(given, lambda, responses, &normals, |a| {
-                scales.map_or_else(|| given.row_scale(a), |s| s[a])
-            })?,
+            nodes: node_tangents(given, lambda, responses, &normals, scale)?,
             active: self.cache.active().filter(|_| differentiates),
             motion,
+            turns: Turns::at(given, (x1, lambda), (&answers.sums, responses), &normals, scale)?,
         };
         let linearised = self.blocks(&self.union()?, &normals, extent, Some(&numbers), sinks)?;
         self.cache.counters.pairs_linearised += linearised;
@@ -203,6 +206,8 @@ impl<const N: usize> Contact<N> {
     /// The fraction of the step (dx1, dx2) from (x1, x2) that is allowed, above 0 and at most 1. `depth`: how much deeper a
     /// node may go, over its shortest edge, or the default. Sides that are tied may move as they like.
     pub fn step_limit(&mut self, x: (&[Vec3], &[Vec3]), dx: (&[Vec3], &[Vec3]), depth: Option<f64>) -> Result<f64> {
+        // At a point in between they would say hardly more.
+        normals::follow(&self.setup, &mut self.step, x.0)?;
         let given = Given { setup: &self.setup, step: &self.step };
         closing::step_limit(given, self.cache.looked_at(), x, dx, depth)
     }
@@ -226,6 +231,7 @@ impl<const N: usize> Contact<N> {
     /// Which nodes are covered, and how, at (x1, x2), however far apart the surfaces are there.
     pub fn report(&mut self, x1: &[Vec3], x2: &[Vec3]) -> Result<Report> {
         self.given().check_positions(x1, x2)?;
+        normals::follow(&self.setup, &mut self.step, x1)?;
         let given = Given { setup: &self.setup, step: &self.step };
         report::report(given, self.cache.work(), (x1, x2))
     }

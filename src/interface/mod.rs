@@ -19,6 +19,7 @@ mod inspect;
 mod pairing;
 mod stages;
 mod tangent;
+mod turning;
 
 pub use condensation::Piece;
 pub use condensed::elimination::own_rows;
@@ -33,8 +34,8 @@ pub use data::extent::Extent;
 pub use data::facet_gaps::FacetGaps;
 pub use data::history::History;
 pub use data::options::{
-    COVERAGE_MIN, Form, Friction, MODULUS_FACTOR, MortarSide, MultiplierBasis, NO_WEAK_COVERAGE, NewContact, Options,
-    RowScale, Scheme, Shortcuts, Stiffness, TURN_MAX, Tangent, Weights,
+    COVERAGE_MIN, Form, Friction, MODULUS_FACTOR, MortarSide, MultiplierBasis, NO_WEAK_COVERAGE, NewContact, Normals,
+    Options, RowScale, Scheme, Shortcuts, Stiffness, TURN_MAX, Tangent, Weights,
 };
 pub use data::pairs::PairRecord;
 pub use data::surface::{FacetNodes, NO_EQUATION, Surface};

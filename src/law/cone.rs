@@ -1,8 +1,8 @@
 //! Gap, stick and slip under any threshold k of the tangential traction (paper (17), (22), (24)). The row is written
 //! without subtracting lambda from p: stick c = g_N nu + g_T, slip c = g_N nu - (lambda_T - beta sigma_T) / r.
 
-use super::node::{Law, Node, NodeResponse};
-use super::projection::{Projected, State, Threshold, project_parts};
+use super::node::{Law, Node, NodeResponse, Turn};
+use super::projection::{Projected, State, Threshold, project_parts, safe_norm};
 use super::violation::{Covered, Measure, Violation};
 use crate::geometry::{Mat3, Vec3};
 
@@ -12,14 +12,30 @@ pub trait Cone {
     fn threshold(node: &Node, sigma_n: f64) -> Threshold;
 }
 
-/// g_T; none where the node was not covered at t_n.
-fn weighted_slip(node: &Node) -> Vec3 {
+/// g_T before it is projected; none where the node was not covered at t_n.
+fn unprojected_slip(node: &Node) -> Vec3 {
     if !node.covered_before {
         return Vec3::zeros();
     }
     let (now, committed) = node.slip.coefficients();
-    let slip = node.gap_previous - node.gap_now * now - node.gap_committed * committed;
+    node.gap_previous - node.gap_now * now - node.gap_committed * committed
+}
+
+/// g_T.
+fn weighted_slip(node: &Node) -> Vec3 {
+    let slip = unprojected_slip(node);
     node.free * (slip - node.normal * node.normal.dot(&slip))
+}
+
+/// sigma_N, sigma_T and what they project to, apart from what is free. lambda: within the free directions.
+fn projected<C: Cone>(node: &Node, lambda: Vec3, gap_normal: f64, slip: Vec3) -> (f64, Vec3, Threshold, Projected) {
+    let r = node.augmentation;
+    let lambda_n = node.normal.dot(&lambda);
+    // Part by part, so that sigma_N has no rounding of the slip: with mu = 0 the answer is that without friction.
+    let (sigma_n, sigma_t) = (lambda_n + r * gap_normal, lambda - node.normal * lambda_n + slip * r);
+    let threshold = C::threshold(node, sigma_n);
+    let p = if node.covered { project_parts(sigma_n, sigma_t, node.normal, threshold) } else { Projected::gap() };
+    (sigma_n, sigma_t, threshold, p)
 }
 
 /// k at a multiplier's lambda_N: that of no pressure under tension, infinite where mu is.
@@ -37,16 +53,12 @@ impl<C: Cone> Law<3> for C {
         let lambda = node.free * node.lambda;
         let gap_normal = node.normal.dot(&node.gap_now);
         let slip = weighted_slip(node);
-        let lambda_n = node.normal.dot(&lambda);
-        // Part by part, so that sigma_N has no rounding of the slip: with mu = 0 the answer is that without friction.
-        let (sigma_n, sigma_t) = (lambda_n + r * gap_normal, lambda - node.normal * lambda_n + slip * r);
-        let threshold = C::threshold(node, sigma_n);
-        let p = if node.covered { project_parts(sigma_n, sigma_t, node.normal, threshold) } else { Projected::gap() };
+        let (sigma_n, sigma_t, _, p) = projected::<C>(node, lambda, gap_normal, slip);
         let row = match p.state {
             State::Gap => -node.lambda / r,
             State::Stick => node.normal * gap_normal + slip - (node.lambda - lambda) / r,
             State::Slip => {
-                let lambda_t = node.lambda - node.normal * lambda_n;
+                let lambda_t = node.lambda - node.normal * node.normal.dot(&lambda);
                 node.normal * gap_normal - (lambda_t - p.tangential) / r
             }
         };
@@ -68,6 +80,28 @@ impl<C: Cone> Law<3> for C {
             drow_dnow: normal - tangential * now,
             drow_dprevious: tangential,
         }
+    }
+
+    /// With g_t the unprojected slip, v = lambda + r g_t, w = g - g_t, all within the free directions, and t the direction
+    /// of slip: r ((nu.w) I + nu w^T) in stick, and in slip with k and its fall
+    /// (nu - fall t) (lambda + r g)^T + sigma_N I - k/|sigma_T| (I - t t^T) ((nu.v) I + nu v^T).
+    fn turn(node: &Node) -> Turn {
+        let (r, nu, free) = (node.augmentation, node.normal, node.free);
+        let (lambda, gap, slip) = (free * node.lambda, free * node.gap_now, free * unprojected_slip(node));
+        let (sigma_n, sigma_t, k, p) = projected::<C>(node, lambda, nu.dot(&gap), slip - nu * nu.dot(&slip));
+        // D (nu (nu.v)) / D nu.
+        let along = |v: Vec3| Mat3::identity() * nu.dot(&v) + nu * v.transpose();
+        let dp = match p.state {
+            State::Gap => return Turn::default(),
+            State::Stick => along(gap - slip) * r,
+            State::Slip => {
+                let size = safe_norm(sigma_t);
+                let (t, beta) = if size > 0.0 { (sigma_t / size, k.radius / size) } else { (Vec3::zeros(), 0.0) };
+                let tangential = (Mat3::identity() - t * t.transpose()) * along(lambda + slip * r) * beta;
+                (nu - t * k.fall) * (lambda + gap * r).transpose() + Mat3::identity() * sigma_n - tangential
+            }
+        };
+        Turn { dp_dnormal: dp, drow_dnormal: dp / r }
     }
 
     fn violation(node: &Node, measure: &Measure) -> Violation {

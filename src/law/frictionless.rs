@@ -1,7 +1,7 @@
 //! Contact without friction: Coulomb's law with mu = 0 and lambda along the normal, without its tangential part.
 //! Closed: p = lambda_N + r g_N < 0, c = g_N; open: p = 0, c = -lambda_N / r. A closed node is in the state slip.
 
-use super::node::{Law, Node, NodeResponse};
+use super::node::{Law, Node, NodeResponse, Turn};
 use super::projection::State;
 use super::violation::{Covered, Measure, Violation};
 use crate::geometry::{Mat3, Vec3};
@@ -47,6 +47,16 @@ impl Law<1> for Frictionless {
         }
     }
 
+    fn turn(node: &Node<1>) -> Turn<1> {
+        let (_, sigma_n, closed) = close(node, node.lambda[0]);
+        if !closed {
+            return Turn::default();
+        }
+        let dsigma_n = node.gap_now.transpose();
+        let dp_dnormal = Mat3::identity() * sigma_n + node.normal * dsigma_n * node.augmentation;
+        Turn { dp_dnormal, drow_dnormal: dsigma_n }
+    }
+
     fn violation(node: &Node<1>, measure: &Measure) -> Violation {
         nearest(node, node.lambda[0], Vec3::zeros(), 0.0, measure)
     }
@@ -74,6 +84,16 @@ impl Law<3> for Frictionless {
             drow_dnow: on,
             drow_dprevious: Mat3::zeros(),
         }
+    }
+
+    fn turn(node: &Node) -> Turn {
+        let (r, lambda) = (node.augmentation, node.free * node.lambda);
+        let (_, sigma_n, closed) = close(node, node.normal.dot(&lambda));
+        if !closed {
+            return Turn::default();
+        }
+        let dp = Mat3::identity() * sigma_n + node.normal * (lambda + node.gap_now * r).transpose();
+        Turn { dp_dnormal: dp, drow_dnormal: dp / r }
     }
 
     fn violation(node: &Node, measure: &Measure) -> Violation {

@@ -24,7 +24,7 @@ mod violation;
 pub use cone::Cone;
 pub use coulomb::Coulomb;
 pub use frictionless::Frictionless;
-pub use node::{Law, Node, NodeResponse};
+pub use node::{Law, Node, NodeResponse, Turn};
 pub use projection::{Projected, State, TIE, Threshold, project};
 pub use slip::SlipMeasure;
 pub use table::{Coefficient, Friction, LAWS, LawFunctions, LawRow, Remembers};

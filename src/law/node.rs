@@ -15,6 +15,9 @@ pub trait Law<const N: usize> {
     /// The law's answer for one node.
     fn respond(node: &Node<N>) -> NodeResponse<N>;
 
+    /// What traction and row depend on the normal by, its gaps and its multiplier held fixed.
+    fn turn(node: &Node<N>) -> Turn<N>;
+
     /// How far a covered node is from equilibrium. The augmentation has no part in it.
     fn violation(node: &Node<N>, measure: &Measure) -> Violation;
 }
@@ -24,7 +27,7 @@ pub trait Law<const N: usize> {
 pub struct Node<const N: usize = 3> {
     /// Multiplier: minus the Cauchy traction on the non-mortar body [F/L^2].
     pub lambda: SVector<f64, N>,
-    /// Unit normal into the non-mortar body, of t_n.
+    /// Unit normal into the non-mortar body, of t_n or of now.
     pub normal: Vec3,
     /// Augmentation r_A > 0 [F/L^5].
     pub augmentation: f64,
@@ -47,6 +50,21 @@ pub struct Node<const N: usize = 3> {
     /// Projector on the directions in which the node is free: I, or I - d d^T - ... for prescribed
     /// directions d. The normal must lie in its range.
     pub free: Mat3,
+}
+
+/// How a law's answer for one node turns with its normal (docs/formulation.md 11.2).
+#[derive(Clone, Copy, Debug)]
+pub struct Turn<const N: usize = 3> {
+    /// dp/dnu [F/L^2].
+    pub dp_dnormal: Mat3,
+    /// dc/dnu [L^3].
+    pub drow_dnormal: SMatrix<f64, N, 3>,
+}
+
+impl<const N: usize> Default for Turn<N> {
+    fn default() -> Self {
+        Turn { dp_dnormal: Mat3::zeros(), drow_dnormal: SMatrix::zeros() }
+    }
 }
 
 /// A law's answer for one node.

@@ -48,7 +48,7 @@ impl Projected {
 }
 
 /// Euclidean norm that neither underflows nor overflows before its result does.
-fn safe_norm(v: Vec3) -> f64 {
+pub(super) fn safe_norm(v: Vec3) -> f64 {
     let largest = v.amax();
     if largest == 0.0 { 0.0 } else { (v / largest).norm() * largest }
 }

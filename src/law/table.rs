@@ -3,7 +3,7 @@
 
 use super::coulomb::Coulomb;
 use super::frictionless::Frictionless;
-use super::node::{Law, Node, NodeResponse};
+use super::node::{Law, Node, NodeResponse, Turn};
 use super::tied::Tied;
 use super::tresca::Tresca;
 use super::violation::{Measure, Violation};
@@ -51,13 +51,15 @@ pub struct LawFunctions<const N: usize> {
     pub slips: bool,
     /// Its answer for one node.
     pub respond: fn(&Node<N>) -> NodeResponse<N>,
+    /// How that answer turns with the normal.
+    pub turn: fn(&Node<N>) -> Turn<N>,
     /// A covered node's distance from equilibrium.
     pub violation: fn(&Node<N>, &Measure) -> Violation,
 }
 
 impl<const N: usize> LawFunctions<N> {
     const fn of<L: Law<N>>() -> LawFunctions<N> {
-        LawFunctions { slips: L::SLIPS, respond: L::respond, violation: L::violation }
+        LawFunctions { slips: L::SLIPS, respond: L::respond, turn: L::turn, violation: L::violation }
     }
 }
 

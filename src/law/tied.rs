@@ -4,7 +4,7 @@
 //!
 //! c depends on the gap alone, and on g_0 as on -g: what is -Dg_0 of Dg goes with Dg.
 
-use super::node::{Law, Node, NodeResponse};
+use super::node::{Law, Node, NodeResponse, Turn};
 use super::projection::State;
 use super::violation::{Measure, Violation};
 use crate::geometry::{Mat3, Vec3};
@@ -37,6 +37,11 @@ impl Law<3> for Tied {
             drow_dnow: free,
             drow_dprevious: Mat3::zeros(),
         }
+    }
+
+    /// The normal decides nothing.
+    fn turn(_node: &Node) -> Turn {
+        Turn::default()
     }
 
     fn violation(node: &Node, measure: &Measure) -> Violation {

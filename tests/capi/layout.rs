@@ -69,7 +69,9 @@ fn layouts() -> Vec<Layout> {
             element_points,
             weak_coverage,
             turn_max,
-            shear_limit
+            shear_limit,
+            normals,
+            reserved
         }),
         layout!(stickslip_states {
             struct_size,

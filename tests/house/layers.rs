@@ -85,8 +85,14 @@ const STAGES: [&str; 5] = ["integrate", "facet", "sums", "respond", "residual"];
 const ROOMS: [&str; 6] = ["data", "pairing", "stages", "tangent", "condensed", "inspect"];
 
 /// Files that know the handle: itself, and those that give it to hosts.
-const KNOW_THE_HANDLE: [&str; 5] =
-    ["interface/condensation.rs", "interface/contact.rs", "interface/evaluation.rs", "interface/mod.rs", "capi/"];
+const KNOW_THE_HANDLE: [&str; 6] = [
+    "interface/condensation.rs",
+    "interface/contact.rs",
+    "interface/evaluation.rs",
+    "interface/mod.rs",
+    "interface/turning.rs",
+    "capi/",
+];
 
 /// The modules of a file below src: `interface/mod.rs` is `interface`.
 fn module_of(file: &str) -> Vec<String> {

@@ -19,6 +19,7 @@ mod golden;
 mod history;
 mod identities;
 mod large_sliding;
+mod normals;
 mod orders;
 mod ratios;
 mod report;

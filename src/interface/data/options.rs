@@ -28,6 +28,16 @@ pub enum Weights {
     Reference,
 }
 
+/// Which configuration the normals nu belong to.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Normals {
+    /// That of the last commit: data of a step, as in the paper.
+    #[default]
+    Committed,
+    /// The current one, linearised (docs/formulation.md 11).
+    Current,
+}
+
 /// How a pair's weights are integrated.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Scheme {
@@ -133,6 +143,8 @@ pub struct Options {
     pub slip: SlipMeasure,
     /// Current or frozen weights.
     pub weights: Weights,
+    /// Committed or current normals.
+    pub normals: Normals,
     /// Quadrature of triangles, and against an analytic mortar side.
     pub rule: &'static Rule,
     /// Overlaps or points; nothing to choose against an analytic mortar side.
@@ -191,6 +203,7 @@ impl Options {
             basis: MultiplierBasis::default(),
             slip: SlipMeasure::default(),
             weights: Weights::default(),
+            normals: Normals::default(),
             rule: &DEGREE_5,
             scheme: Scheme::default(),
             tangent: Tangent::default(),
@@ -236,6 +249,10 @@ impl Options {
         if !(self.turn_max > 0.0 && self.turn_max <= PI) {
             return refuse("turn_max", self.turn_max, "positive and at most pi");
         }
+        if self.follows_normals() && self.weights != Weights::Current {
+            let text = "normals of now with frozen weights: gaps and normals would be of different configurations; take STICKSLIP_WEIGHTS_CURRENT or STICKSLIP_NORMALS_COMMITTED";
+            return Err(Error::new(Kind::Unsupported, text));
+        }
         match self.search_distance {
             Some(d) if !(d > 0.0 && d.is_finite()) => refuse("search_distance", d, "positive and finite"),
             _ => Ok(()),
@@ -245,6 +262,11 @@ impl Options {
     /// The weights in force: tied surfaces keep those of the reference configuration.
     pub fn effective_weights(&self) -> Weights {
         if self.friction.law().opens { self.weights } else { Weights::Reference }
+    }
+
+    /// Whether the normals follow the motion within a step. Tied surfaces use none.
+    pub fn follows_normals(&self) -> bool {
+        self.normals == Normals::Current && self.friction.law().opens
     }
 
     /// Whether the tangent has the weights' derivatives.

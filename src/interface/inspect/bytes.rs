@@ -6,6 +6,7 @@ use crate::interface::data::setup::Setup;
 use crate::interface::data::surface::Surface;
 use crate::interface::pairing::candidates::KeptTree;
 use crate::interface::pairing::filter::Filter;
+use crate::interface::pairing::given::NormalsAt;
 use crate::interface::pairing::search::Tree;
 use crate::interface::pairing::settle::Pairing;
 
@@ -57,5 +58,10 @@ pub fn of_setup<const N: usize>(setup: &Setup<N>) -> usize {
 /// Of what t_n settles.
 pub fn of_pairing(pairing: &Pairing) -> usize {
     let carriers = heap(&pairing.carriers) + pairing.carriers.iter().map(heap).sum::<usize>();
-    pairing.filter.as_ref().map_or(0, of_filter) + heap(&pairing.coverable) + carriers
+    pairing.filter.as_ref().map_or(0, of_filter) + heap(&pairing.coverable) + heap(&pairing.keeps_normal) + carriers
+}
+
+/// Of the normals of now.
+pub fn of_normals(now: &NormalsAt) -> usize {
+    heap(&now.x1) + heap(&now.nu)
 }

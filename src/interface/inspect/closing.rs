@@ -165,7 +165,7 @@ fn mean_gaps<const N: usize>(
     };
     let pairs = now.as_ref().or(known).map_or(&given.history().pairs, |k| &k.pairs);
     let (sums, rates) = (assemble(surfaces, pairs, &x1, &x2)?, rates(surfaces, pairs, (&x1, &x2))?);
-    let away = looking_away(given)?;
+    let away = looking_away(given, (&x1, &x2))?;
     let gap = |(a, (coverage, gap)): (usize, &(f64, Vec3))| {
         let covered = !away.get(a).is_some_and(|away| *away) && *coverage > given.least_coverage(a);
         Ok(if covered { Some(Gap { mean: given.normal(a)?.dot(gap) / coverage, rate: rates[a] }) } else { None })

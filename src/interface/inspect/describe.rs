@@ -31,6 +31,9 @@ pub fn effects<const N: usize>(setup: &Setup<N>) -> Result<Text> {
     if setup.options.basis == MultiplierBasis::Dual {
         text.append(format_args!(" Multipliers: dual (asked for)."))?;
     }
+    if setup.options.follows_normals() {
+        text.append(format_args!(" Normals: of now, differentiated (asked for)."))?;
+    }
     text.append(format_args!("{}", weak_sentence(setup)?))?;
     Ok(text)
 }

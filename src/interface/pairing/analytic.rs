@@ -1,11 +1,11 @@
 //! Stage 1 against an analytic mortar side (plane, sphere, cylinder): no search and no clipping. A facet that faces the
-//! surface at t_n is a pair with it, and covered everywhere; one that does not has nothing to do with it. The surface
+//! surface at t_n, or now where the normals follow the motion, is a pair with it, and covered everywhere; one that does not has nothing to do with it. The surface
 //! counts as one facet with the frame's four points as its nodes, so that all that follows from the weights (gaps,
 //! forces, slip, history) is as for two facets.
 
 use super::filter::LEAST_OPPOSITION;
 use crate::error::Result;
-use crate::geometry::{AnalyticSurface, Plane, Vec3};
+use crate::geometry::{AnalyticSurface, Facet, Plane, Vec3};
 use crate::interface::data::active::Active;
 use crate::interface::data::counters::Counters;
 use crate::interface::data::options::Options;
@@ -19,19 +19,23 @@ use std::time::Instant;
 /// penetration and a gap, as between facets. A surface has no far side that a gap could reach: without a search
 /// distance any gap will do.
 pub fn facing(one: &Surface, surface: &AnalyticSurface, options: &Options, x1: &[Vec3]) -> Result<Vec<bool>> {
-    let gap = options.search_distance.unwrap_or(f64::INFINITY);
     let faces = |f: usize| {
         let facet = one.facet(f, x1);
-        let plane = Plane::of(&facet).map_err(at_facet(one.side, f))?;
-        let centre = plane.reference - surface.origin + plane.origin;
-        let points = facet.points().iter().map(|x| x - surface.origin).chain([centre]);
-        let distances = points.map(|x| surface.distance(x));
-        let (low, high) = distances.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), d| (l.min(d), h.max(d)));
-        let penetration = options.search_distance.unwrap_or_else(|| facet.longest_edge());
-        let opposing = surface.closest(centre).is_some_and(|c| plane.e.dot(&c.normal) < -LEAST_OPPOSITION);
-        Ok(opposing && low <= gap && high >= -penetration)
+        Ok(faces(&facet, &Plane::of(&facet).map_err(at_facet(one.side, f))?, surface, options))
     };
     (0..one.facets.len()).map(faces).stored_if_ok()
+}
+
+/// Whether this facet faces the surface.
+pub fn faces(facet: &Facet, plane: &Plane, surface: &AnalyticSurface, options: &Options) -> bool {
+    let gap = options.search_distance.unwrap_or(f64::INFINITY);
+    let centre = plane.reference - surface.origin + plane.origin;
+    let points = facet.points().iter().map(|x| x - surface.origin).chain([centre]);
+    let distances = points.map(|x| surface.distance(x));
+    let (low, high) = distances.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), d| (l.min(d), h.max(d)));
+    let penetration = options.search_distance.unwrap_or_else(|| facet.longest_edge());
+    let opposing = surface.closest(centre).is_some_and(|c| plane.e.dot(&c.normal) < -LEAST_OPPOSITION);
+    opposing && low <= gap && high >= -penetration
 }
 
 /// Weights of all facets that face the surface, at (x1, x2).
@@ -47,7 +51,9 @@ pub fn integrate(
     let mut pairs = memory::with_room(frames.len())?;
     for (i, frame) in frames.iter().enumerate() {
         counters.pairs_tested += 1;
-        if facing[i] {
+        // Where the normals follow the motion, so does which facets face the surface.
+        let faces_now = || options.follows_normals() && faces(&one.facet(i, x1), &frame.plane, &surface, options);
+        if facing[i] || faces_now() {
             let weights = analytic_weights(frame, &surface, options.rule).map_err(at_facet(one.side, i))?;
             pairs.store(PairRecord { one: i, two: 0, weights })?;
         }

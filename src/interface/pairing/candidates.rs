@@ -1,5 +1,8 @@
 //! Which pairs of facets may be active at a configuration: those that the filter of t_n admits and whose mortar facet may
 //! reach into the non-mortar facet's prism.
+//!
+//! Where the normals follow the motion, a surface may slide round a curve or turn by any angle within a step. Then a pair may
+//! be active, too, that the filter would admit where the facets are now.
 
 use super::filter::FacetFilter;
 use super::search::{Aabb, Prism, Tree};
@@ -40,19 +43,24 @@ impl KeptTree {
 /// Pairs that pass the filter and whose mortar facet may reach into the non-mortar facet's prism, grown by
 /// `skin` (over the facet's longest edge). Sorted.
 pub fn candidates(
-    one: &Surface,
+    (one, two): (&Surface, &Surface),
+    options: &Options,
     frames: &[NonmortarFrame],
-    x1: &[Vec3],
+    (x1, x2): (&[Vec3], &[Vec3]),
     (tree, filter): (&Tree, &FacetFilter),
     skin: f64,
     visited: &mut i64,
 ) -> Result<Vec<(usize, usize)>> {
     let (mut pairs, mut found) = (Vec::new(), Vec::new());
-    for (i, frame) in frames.iter().enumerate().filter(|&(i, _)| filter.reached[i]) {
+    let follows = options.follows_normals();
+    let all = follows && filter.has_turned((one, two), (x1, x2));
+    for (i, frame) in frames.iter().enumerate().filter(|&(i, _)| all || filter.reached[i]) {
         let facet = one.facet(i, x1);
         let prism = Prism::over(facet.points(), &frame.plane, (TOUCH_MARGIN + skin) * facet.longest_edge());
         *visited += tree.find(&prism, &mut found)? as i64;
-        pairs.store_all(found.iter().filter(|&&j| filter.admits(i, j)).map(|&j| (i, j)))?;
+        let admits_now = |j: usize| follows && filter.admits_at((i, &frame.plane), (j, &two.facet(j, x2)));
+        let admitted = found.iter().filter(|&&j| filter.admits(i, j) || admits_now(j));
+        pairs.store_all(admitted.map(|&j| (i, j)))?;
     }
     Ok(pairs)
 }

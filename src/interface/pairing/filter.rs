@@ -23,6 +23,9 @@ const SMOOTH: f64 = 0.7;
 /// where that is as long); this times h phi leaves a factor of 2.
 const BULGE: f64 = 0.5;
 
+/// Where the normals follow the motion, which facets can have a pair at all is that of t_n up to this turn: cos 20 degrees.
+const TURNED: f64 = 0.94;
+
 /// What settles at a commit which pairs there can be.
 #[derive(Debug)]
 #[expect(clippy::large_enum_variant, reason = "an interface has one")]
@@ -94,6 +97,11 @@ fn heights(facet: &Facet, plane: &Plane) -> impl Iterator<Item = f64> {
     facet.points().iter().map(|x| plane.e.dot(&(x - plane.reference - plane.origin)))
 }
 
+/// The lowest and the highest of a facet's nodes over a plane `[L]`.
+fn extremes(facet: &Facet, plane: &Plane) -> (f64, f64) {
+    heights(facet, plane).fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), d| (l.min(d), h.max(d)))
+}
+
 /// Whether two facets can be a pair: opposing normals, and heights over the non-mortar facet between a penetration and
 /// a gap.
 #[derive(Debug)]
@@ -113,10 +121,18 @@ pub struct FacetFilter {
 impl FacetFilter {
     /// Whether non-mortar facet i and mortar facet j can be a pair.
     pub fn admits(&self, i: usize, j: usize) -> bool {
-        if !self.opposes(i, j) {
-            return false;
-        }
-        let (low, high) = self.heights(i, j);
+        self.opposes(i, j) && self.reaches((i, j), self.heights(i, j))
+    }
+
+    /// Whether they can be a pair where non-mortar facet i has this plane and mortar facet j these nodes, by what t_n says of
+    /// sizes and bulges.
+    pub fn admits_at(&self, (i, plane): (usize, &Plane), (j, facet): (usize, &Facet)) -> bool {
+        let out = facet.area_vector();
+        plane.e.dot(&out) < -LEAST_OPPOSITION * out.norm() && self.reaches((i, j), extremes(facet, plane))
+    }
+
+    /// Whether these heights lie between a penetration and a gap.
+    fn reaches(&self, (i, j): (usize, usize), (low, high): (f64, f64)) -> bool {
         low <= self.gap() && high >= -self.penetration(i, j)
     }
 
@@ -129,8 +145,17 @@ impl FacetFilter {
     /// The lowest and the highest node of mortar facet j over the plane of non-mortar facet i `[L]`.
     pub fn heights(&self, i: usize, j: usize) -> (f64, f64) {
         let [one, two] = &self.sides;
-        let heights = heights(&two.facets[j].0, &one.facets[i].1);
-        heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), d| (l.min(d), h.max(d)))
+        extremes(&two.facets[j].0, &one.facets[i].1)
+    }
+
+    /// Whether a facet has turned since t_n by more than [`TURNED`].
+    pub fn has_turned(&self, (one, two): (&Surface, &Surface), (x1, x2): (&[Vec3], &[Vec3])) -> bool {
+        let [side1, side2] = &self.sides;
+        let turned = |side: &Side, surface: &Surface, x: &[Vec3]| {
+            let cosine = |f: usize| side.facets[f].1.e.dot(&surface.facet(f, x).area_vector().normalize());
+            (0..side.facets.len()).any(|f| cosine(f) < TURNED)
+        };
+        turned(side1, one, x1) || turned(side2, two, x2)
     }
 
     /// The widest gap of a pair `[L]`.

@@ -7,7 +7,7 @@ use crate::error::{Error, Kind, Result};
 use crate::geometry::{Mat3, Vec3};
 use crate::interface::data::history::History;
 use crate::interface::data::node_data::check_length;
-use crate::interface::data::options::RowScale;
+use crate::interface::data::options::{Normals, RowScale};
 use crate::interface::data::setup::Setup;
 use crate::law::{NodeResponse, State};
 use crate::memory::Stored;
@@ -21,6 +21,19 @@ pub struct Step {
     pub history: History,
     /// What it settles.
     pub pairing: Pairing,
+    /// Which normals evaluations use: the host may begin a step with those of t_n where the options say current.
+    pub normals: Normals,
+    /// nu at the last positions; `None`: those of t_n serve.
+    pub now: Option<NormalsAt>,
+}
+
+/// Averaged normals of the non-mortar surface at some positions.
+#[derive(Debug)]
+pub struct NormalsAt {
+    /// The positions.
+    pub x1: Vec<Vec3>,
+    /// Per node nu, prescribed directions not yet taken out.
+    pub nu: Vec<Vec3>,
 }
 
 /// What the interface is, and the step.
@@ -51,10 +64,20 @@ impl<'a, const N: usize> Given<'a, N> {
         self.setup.nonmortar.len()
     }
 
-    /// nu_A: the host's or the committed one, normalised within the free directions.
+    /// nu_A: that of now where it follows the motion, else the host's or the committed one; normalised within the free
+    /// directions.
     pub fn normal(self, a: usize) -> Result<Vec3> {
+        self.step.now.as_ref().map_or_else(|| self.normal_of_step(a), |now| self.free_normal(a, now.nu[a]))
+    }
+
+    /// nu_A at t_n: the host's or the committed one, normalised within the free directions.
+    pub fn normal_of_step(self, a: usize) -> Result<Vec3> {
+        let host = self.setup.nodes.normals.as_ref();
+        self.free_normal(a, host.map_or(self.history().normals[a], |n| n[a]))
+    }
+
+    fn free_normal(self, a: usize, normal: Vec3) -> Result<Vec3> {
         let nodes = &self.setup.nodes;
-        let normal = nodes.normals.as_ref().map_or(self.history().normals[a], |n| n[a]);
         if nodes.free[a] == Mat3::identity() {
             return Ok(normal);
         }

@@ -6,7 +6,7 @@ use super::candidates::{KeptTree, candidates};
 use super::filter::FacetFilter;
 use crate::error::Result;
 use crate::geometry::Vec3;
-use crate::interface::data::options::Scheme;
+use crate::interface::data::options::{Options, Scheme};
 use crate::interface::data::surface::{Surface, at_facet, frames};
 use crate::memory::{self, Stored};
 use crate::mortar::{CellPoints, Segment};
@@ -15,13 +15,13 @@ use crate::mortar::{CellPoints, Segment};
 /// is one and the same for all facets.
 pub fn partly_covered(
     (one, two): (&Surface, &Surface),
-    scheme: Scheme,
+    options: &Options,
     filter: &FacetFilter,
     (x1, x2): (&[Vec3], &[Vec3]),
 ) -> Result<Vec<bool>> {
-    let Scheme::Hybrid(line) = scheme else { return Ok(Vec::new()) };
+    let Scheme::Hybrid(line) = options.scheme else { return Ok(Vec::new()) };
     let (frames, mut tree) = (frames(one, x1)?, KeptTree::default());
-    let pairs = candidates(one, &frames, x1, (tree.at(two, x2)?, filter), 0.0, &mut 0)?;
+    let pairs = candidates((one, two), options, &frames, (x1, x2), (tree.at(two, x2)?, filter), 0.0, &mut 0)?;
     let mut covered = memory::filled(0, frames.len())?;
     for (i, j) in pairs {
         let segment = Segment::of_points(&frames[i], &two.facet(j, x2), line).map_err(at_facet(two.side, j))?;

@@ -15,7 +15,7 @@ use crate::interface::data::options::{Options, Weights};
 use crate::interface::data::pairs::PairRecord;
 use crate::interface::data::setup::Setup;
 use crate::interface::data::surface::Surface;
-use crate::memory::Stored;
+use crate::memory::{self, Stored};
 
 /// What t_n settles.
 #[derive(Debug)]
@@ -26,16 +26,25 @@ pub struct Pairing {
     pub coverable: Vec<bool>,
     /// Per non-mortar node those that carry it; empty where no node is carried.
     pub carriers: Vec<Vec<Carrier>>,
+    /// Per non-mortar node, whether it keeps nu(t_n) although the others follow the motion; empty where none does.
+    pub keeps_normal: Vec<bool>,
 }
+
+/// Near a knife's edge the sum s of the corner normals has next to no length, and Dnu grows like 1 / |s|. A node where |s|
+/// at t_n is below this times the number of corners keeps its nu(t_n) for the step.
+const KNIFE_EDGE: f64 = 0.1;
 
 impl Pairing {
     /// That of a history and the filter of its configuration.
     pub fn new<const N: usize>(setup: &Setup<N>, filter: Option<Filter>, history: &History) -> Result<Pairing> {
         let frozen = setup.options.effective_weights() != Weights::Current;
         let pairs: Option<&[PairRecord]> = frozen.then_some(&history.pairs);
-        let coverable = reach::coverable(&setup.nonmortar, filter.as_ref(), pairs)?;
+        // Where the normals follow the motion, so does which facets look at each other (`candidates.rs`).
+        let follows = setup.options.follows_normals();
+        let coverable = reach::coverable(&setup.nonmortar, filter.as_ref().filter(|_| !follows), pairs)?;
         let carriers = carriers(setup, history, &coverable)?;
-        Ok(Pairing { filter, coverable, carriers })
+        let keeps_normal = if follows { on_knife_edges(&setup.nonmortar, &history.x1)? } else { Vec::new() };
+        Ok(Pairing { filter, coverable, carriers, keeps_normal })
     }
 
     /// That of a history which is not of now; its positions may be refused.
@@ -68,8 +77,18 @@ pub fn filter((one, two): (&Surface, &Surface), options: &Options, (x1, x2): (&[
             filter.reached = reach::reached(&filter, &tree)?;
         }
     }
-    filter.by_overlaps = hybrid::partly_covered((one, two), options.scheme, &filter, (x1, x2))?;
+    filter.by_overlaps = hybrid::partly_covered((one, two), options, &filter, (x1, x2))?;
     Ok(Filter::Facets(filter))
+}
+
+/// Per node, whether it is near a knife's edge.
+fn on_knife_edges(nonmortar: &Surface, x1: &[Vec3]) -> Result<Vec<bool>> {
+    let mut corners = memory::filled(0.0, nonmortar.len())?;
+    for facet in &nonmortar.facets {
+        facet.as_slice().iter().for_each(|&a| corners[a] += 1.0);
+    }
+    let sums = nonmortar.sums_of_normals(x1)?;
+    sums.iter().zip(corners).map(|(sum, corners)| sum.norm() < KNIFE_EDGE * corners).stored()
 }
 
 /// The carriers of every node, by the history.

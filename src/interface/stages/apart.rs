@@ -49,6 +49,12 @@ pub fn stays_apart<const N: usize>(given: Given<N>, x1: &[Vec3], x2: &[Vec3]) ->
     if !are_apart(surfaces, &given.setup.options, filter, &places)? {
         return Ok(false);
     }
+    // Beyond that turn any facet may look at any other one.
+    if let (true, Filter::Facets(filter)) = (given.setup.options.follows_normals(), filter)
+        && filter.has_turned(surfaces, (x1, x2))
+    {
+        return Ok(false);
+    }
     // A normal that is undefined is refused where it is needed.
     let Some(nu) = memory::if_accepted(given.normals())? else { return Ok(false) };
     let (one, reached) = (surfaces.0, filter.reached());

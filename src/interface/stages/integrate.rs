@@ -1,7 +1,7 @@
 //! Stage 1 over a whole interface: which pairs are active at a configuration, and their weights.
 //!
 //! A pair is active when its facets overlap or touch in the auxiliary plane and it passed the filters of the last commit
-//! (opposing normals, heights). All of that is a function of the positions and the history, so evaluating at A, B, A gives
+//! (opposing normals, heights) or, where the normals follow the motion, passes them now. All of that is a function of the positions and the history, so evaluating at A, B, A gives
 //! equal bits. An analytic mortar side has its own filter and its own way (`analytic.rs`).
 
 use crate::error::Result;
@@ -31,7 +31,8 @@ pub fn integrate(
     };
     let start = Instant::now();
     let frames = frames(one, x1)?;
-    let candidates = candidates(one, &frames, x1, (tree.at(two, x2)?, filter), 0.0, &mut counters.boxes_visited)?;
+    let tree = (tree.at(two, x2)?, filter);
+    let candidates = candidates((one, two), options, &frames, (x1, x2), tree, 0.0, &mut counters.boxes_visited)?;
     counters.searches += 1;
     counters.seconds_search += start.elapsed().as_secs_f64();
 

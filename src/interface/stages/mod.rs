@@ -12,6 +12,7 @@ pub mod integrate;
 pub mod layers;
 pub mod lost;
 pub mod node;
+pub mod normals;
 pub mod residual;
 pub mod respond;
 pub mod sums;

@@ -65,7 +65,7 @@ pub fn sums<const N: usize>(
             gap_previous: Vec3::zeros(),
         })
         .stored()?;
-    for (sum, away) in sums.iter_mut().zip(looking_away(given)?) {
+    for (sum, away) in sums.iter_mut().zip(looking_away(given, (x1, x2))?) {
         if away {
             (sum.coverage, sum.gap_now) = (0.0, Vec3::zeros());
         }

@@ -5,6 +5,9 @@
 //! Both sides count, each against its own normals of t_n, and a turn of both together too: what is frozen is fixed in
 //! space. With weights of the reference it is the whole turn since then, and of the non-mortar side alone, for nothing
 //! else is asked. Tied surfaces use no normals. Surfaces that were apart and still are may turn as they like.
+//!
+//! Normals that follow the motion cure this, and so there is no limit with them, but for what they do not cure: slip whose
+//! measure is fixed in space (any but the objective one), and nodes on a knife's edge, which keep nu(t_n).
 
 use crate::error::{Error, Kind, Result, Text};
 use crate::geometry::Vec3;
@@ -14,6 +17,7 @@ use crate::interface::pairing::analytic;
 use crate::interface::pairing::filter::Filter;
 use crate::interface::pairing::given::Given;
 use crate::interface::pairing::search::Aabb;
+use crate::law::SlipMeasure;
 use crate::memory;
 use crate::normal;
 
@@ -31,8 +35,11 @@ pub fn refuse_turn<const N: usize>(given: Given<N>, (x1, x2): (&[Vec3], &[Vec3])
     if !options.friction.law().opens || !shared && is_apart_at_both(given, x1, x2)? {
         return Ok(());
     }
+    let follows =
+        options.follows_normals() && (!given.setup.effects.law.slips || options.slip == SlipMeasure::Objective);
+    let kept = |a: usize| !follows || given.step.pairing.keeps_normal[a];
     let mut most = (0.0, 0);
-    for (a, sum) in nonmortar.sums_of_normals(x1)?.into_iter().enumerate() {
+    for (a, sum) in nonmortar.sums_of_normals(x1)?.into_iter().enumerate().filter(|(a, _)| kept(*a)) {
         // One that cannot be averaged is refused in its own words where it is needed.
         if let Some(normal) = memory::if_accepted(normal::nodal_normal(sum, a))? {
             most = larger(most, &given.history().normals[a], &normal, a);
@@ -40,7 +47,7 @@ pub fn refuse_turn<const N: usize>(given: Given<N>, (x1, x2): (&[Vec3], &[Vec3])
     }
     let (angle, node) = most;
     refuse_angle(options, angle, || text!("the normal of non-mortar node {node}"))?;
-    if options.effective_weights() == Weights::Reference {
+    if options.effective_weights() == Weights::Reference || follows {
         return Ok(());
     }
     let (angle, facet) = turn_of_mortar(mortar, &given.history().x2, x2)?;
@@ -81,13 +88,18 @@ fn refuse_angle(options: &Options, angle: f64, what: impl Fn() -> Text) -> Resul
     if angle <= options.turn_max {
         return Ok(());
     }
+    let measure = if options.follows_normals() {
+        "; with the normals of now this limit is for slip that is not measured objectively, and for nodes on a knife's edge"
+    } else {
+        ""
+    };
     let since = if options.effective_weights() == Weights::Reference {
         "since the first configuration (weights are of the reference)"
     } else {
         "since the last commit"
     };
     let text = text!(
-        "{} has turned by {:.1} degrees {since}, more than the {:.1} that are allowed (options.turn_max): take smaller steps",
+        "{} has turned by {:.1} degrees {since}, more than the {:.1} that are allowed (options.turn_max): take smaller steps{measure}",
         what(),
         angle.to_degrees(),
         options.turn_max.to_degrees()

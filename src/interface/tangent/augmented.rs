@@ -1,5 +1,6 @@
-//! What only the augmented form needs (docs/formulation.md 5.4): its forces use the projected traction, whose
-//! derivative n_AB (dp/dsigma) r Dg_A couples all pairs of a node and is no sum over pairs.
+//! What couples all pairs of a node and is no sum over pairs (docs/formulation.md 5.4): forces of the augmented form use the
+//! projected traction, with its derivative n_AB (dp/dsigma) r Dg_A. Of the multiplier form it is n_AB lambda_N Dnu_A where nodes
+//! have one multiplier and normals follow the motion.
 
 use crate::element::{PairNow, frozen_rows, gap_rows};
 use crate::error::Result;
@@ -23,8 +24,10 @@ pub struct Coupling {
     pub node: usize,
     /// Assembled n_AB, or -n_AC: the share of p_A in the node's force [L^2].
     pub weight: f64,
-    /// Whether p_A acts on the node now, or only depends on it.
+    /// Whether p_A acts on the node now.
     pub acts: bool,
+    /// Whether p_A depends on it.
+    pub depends: bool,
     /// dp_A / dx of the node.
     pub dtraction: Mat3,
 }
@@ -47,6 +50,16 @@ impl NodeCouplings {
         dp: (Mat3, Mat3),
     ) -> Result<()> {
         self.add_gap::<MOVES>(k, nodes, now, previous, dp)?;
+        self.add_forces::<MOVES>(k, nodes, now)
+    }
+
+    /// Adds what p_A acts on, of such a pair.
+    pub fn add_forces<const MOVES: bool>(
+        &mut self,
+        k: usize,
+        nodes: &[Option<usize>; PAIR_NODES],
+        now: Option<&PairNow>,
+    ) -> Result<()> {
         let Some(PairNow { weights: w, .. }) = now else { return Ok(()) };
         for (j, node) in nodes[..slots(MOVES)].iter().enumerate() {
             let Some(node) = *node else { continue };
@@ -71,6 +84,7 @@ impl NodeCouplings {
         for (j, node) in nodes[..slots(MOVES)].iter().enumerate() {
             let Some(node) = *node else { continue };
             let coupling = self.find(node)?;
+            coupling.depends = true;
             for rows in [&by_now, &by_previous].into_iter().flatten() {
                 coupling.dtraction += rows[j];
             }
@@ -78,12 +92,25 @@ impl NodeCouplings {
         Ok(())
     }
 
+    /// Adds what p_A depends on a node by.
+    pub fn add_traction(&mut self, node: usize, dtraction: Mat3) -> Result<()> {
+        let coupling = self.find(node)?;
+        coupling.depends = true;
+        coupling.dtraction += dtraction;
+        Ok(())
+    }
+
     fn find(&mut self, node: usize) -> Result<&mut Coupling> {
         let at = self.nodes.iter().position(|c| c.node == node).unwrap_or(self.nodes.len());
         if at == self.nodes.len() {
-            self.nodes.store(Coupling { node, weight: 0.0, acts: false, dtraction: Mat3::zeros() })?;
+            self.nodes.store(Coupling { node, weight: 0.0, acts: false, depends: false, dtraction: Mat3::zeros() })?;
         }
         Ok(&mut self.nodes[at])
+    }
+
+    /// The nodes that p_A depends on.
+    pub fn places(&self) -> impl Iterator<Item = &Coupling> {
+        self.nodes.iter().filter(|c| c.depends)
     }
 
     /// The nodes that p_A acts on.

@@ -9,6 +9,7 @@ use super::derivatives::PairDerivatives;
 use super::dual_facet::{DualFacet, MortarRows, ShareRoom};
 use super::emission::{Emitter, Sinks, entries};
 use super::facet_tangent::{FacetTangent, total};
+use super::turning::{self, Turns};
 use super::union::UnionPair;
 use crate::dual::FacetMotion;
 use crate::element::{FacetResponse, NodeTangent, PairNow, PairTangent, row_columns};
@@ -36,6 +37,8 @@ pub struct Numbers<'a, const N: usize> {
     pub active: Option<&'a Active>,
     /// How they are.
     pub motion: PairDerivatives<'a>,
+    /// How answers turn with the normals of now; `None`: the normals are those of t_n.
+    pub turns: Option<Turns<'a, N>>,
 }
 
 /// What a pair must know of every node's response; `scale`: the factor of a node's rows.
@@ -126,7 +129,9 @@ pub fn blocks<const MOVES: bool, const N: usize>(
     let options = &given.setup.options;
     let mut linearised = 0;
     let augmented = options.form == Form::Augmented;
-    let mut couplings: Option<Vec<NodeCouplings>> = augmented.then(|| memory::defaults(given.nodes())).transpose()?;
+    let follows = options.follows_normals();
+    let coupled = augmented || (follows && N == 1);
+    let mut couplings: Option<Vec<NodeCouplings>> = coupled.then(|| memory::defaults(given.nodes())).transpose()?;
     // Large, so that one of each serves all pairs.
     let (mut t, mut facet) = (PairTangent::default(), FacetTangent::default());
     let (mut room, mut mortar) = (ShareRoom::default(), MortarRows::default());
@@ -138,6 +143,7 @@ pub fn blocks<const MOVES: bool, const N: usize>(
     sink.reserve(entries::<MOVES, N>(union, given.nodes()));
     let mut emitter = Emitter { given, normals, sink, constraints };
     let carried_nodes = numbers.map(Numbers::carried);
+    let turns = numbers.and_then(|n| n.turns.as_ref());
     let carried_responses = numbers.map(|n| (&n.responses.carried[..], &n.responses.nodes[..]));
     for pairs in union.chunk_by(|p, q| p.one == q.one) {
         let f = pairs[0].one;
@@ -172,6 +178,9 @@ pub fn blocks<const MOVES: bool, const N: usize>(
             if let Some(nodes) = &facet_nodes {
                 row_columns::<MOVES, N>(now.as_ref(), previous, nodes, &mut t.rows);
             }
+            if let (true, Some(turns)) = (together, turns) {
+                turns.add_rows(given, f, &mut t.rows);
+            }
             if together {
                 let now = now.as_ref().map(|now| (&t.forces.one[..MORTAR], &now.weights.ab));
                 emitter.facet(f, now, &t.rows[..MORTAR]);
@@ -185,15 +194,22 @@ pub fn blocks<const MOVES: bool, const N: usize>(
             if let Some(couplings) = &mut couplings {
                 let slots = pairs[0].slots(given.setup);
                 for (k, &a) in one.as_slice().iter().enumerate() {
+                    if !augmented {
+                        couplings[a].add_forces::<MOVES>(k, &slots, now.as_ref())?;
+                        continue;
+                    }
                     let dp = match numbers {
                         Some(n) => dtraction(given, a, &n.responses.nodes[a], normals[a]),
                         None => (Mat3::zeros(), Mat3::zeros()),
                     };
                     couplings[a].add_pair::<MOVES>(k, &slots, now.as_ref(), previous, dp)?;
                 }
-                let carried = carried_responses;
+                let carried = carried_responses.filter(|_| augmented);
                 carried_tangent::couple::<MOVES, N>((given, normals), &pairs[0], now.as_ref(), carried, couplings)?;
             }
+        }
+        if let (false, Some(turns)) = (together, turns) {
+            turns.add_rows(given, f, &mut facet.rows);
         }
         if !together {
             emitter.facet(f, facet.now(), &facet.rows);
@@ -205,6 +221,15 @@ pub fn blocks<const MOVES: bool, const N: usize>(
             mortar.emit(&emitter.facet_equations(f), emitter.sink);
         }
     }
+    if follows {
+        let drow_dnow = |b: usize| numbers.map_or_else(SMatrix::zeros, |n| n.nodes[b].drow_dnow);
+        let lone = turning::lone_facets(given, union)?;
+        let paired = union.chunk_by(|p, q| p.one == q.one).map(|pairs| pairs[0].one);
+        for f in paired.chain(lone.iter().copied()) {
+            turning::facet(f, (turns, drow_dnow), couplings.as_deref_mut(), &mut emitter)?;
+        }
+        lone.iter().for_each(|&f| turning::lone_rows(f, turns, &mut emitter));
+    }
     for a in 0..given.nodes() {
         let response = numbers.map(|n| &n.responses.nodes[a]);
         let is_carried = numbers.is_some_and(|n| n.responses.carried.get(a).is_some_and(|c| *c));
@@ -212,7 +237,9 @@ pub fn blocks<const MOVES: bool, const N: usize>(
         carried_tangent::multipliers(a, is_carried, &mut emitter);
         if let Some(couplings) = &couplings {
             emitter.couplings(a, &couplings[a], &response.map_or_else(SMatrix::zeros, |r| r.dp_dlambda));
-            carried_tangent::forces(a, couplings, carried_responses, &mut emitter);
+            if augmented {
+                carried_tangent::forces(a, couplings, carried_responses, &mut emitter);
+            }
         }
     }
     Ok(linearised)

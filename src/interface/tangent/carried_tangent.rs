@@ -100,7 +100,7 @@ pub fn forces<const N: usize>(
         }
         for row in couplings[a].forces() {
             let (equations, share) = (emitter.equations(row.node), t * row.weight);
-            for column in &couplings[b].nodes {
+            for column in couplings[b].places() {
                 let columns = emitter.equations(column.node);
                 emitter.sink.add_block(equations, columns, (share * column.dtraction).as_slice());
             }

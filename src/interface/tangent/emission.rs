@@ -124,7 +124,7 @@ impl<'a, const N: usize> Emitter<'a, '_, N> {
 
     /// Derivatives of the rows of a facet's multipliers, in each column component by component.
     #[inline(never)]
-    fn facet_rows(&mut self, f: usize, columns: &[i64], values: &[f64]) {
+    pub fn facet_rows(&mut self, f: usize, columns: &[i64], values: &[f64]) {
         match &mut self.constraints {
             None => self.sink.add_block(self.facet_multipliers(f).as_flattened(), columns, values),
             Some(sink) => {
@@ -198,14 +198,17 @@ impl<'a, const N: usize> Emitter<'a, '_, N> {
         }
     }
 
-    /// The augmented form's node-wise products n_A. (Dp_A).
+    /// Node-wise products n_A. (Dp_A), of the augmented form with the multipliers' columns.
     #[inline(never)]
     pub fn couplings(&mut self, a: usize, couplings: &NodeCouplings, dp_dlambda: &SMatrix<f64, 3, N>) {
         for row in couplings.forces() {
             let equations = self.equations(row.node);
-            for column in &couplings.nodes {
+            for column in couplings.places() {
                 let columns = self.equations(column.node);
                 self.sink.add_block(equations, columns, (column.dtraction * row.weight).as_slice());
+            }
+            if self.given.setup.options.form == Form::Multiplier {
+                continue;
             }
             let multipliers = &self.given.setup.multiplier_equations[a];
             self.sink.add_block(equations, multipliers, (dp_dlambda * row.weight).as_slice());

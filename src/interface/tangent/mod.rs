@@ -7,4 +7,5 @@ pub mod derivatives;
 pub mod dual_facet;
 pub mod emission;
 pub mod facet_tangent;
+pub mod turning;
 pub mod union;

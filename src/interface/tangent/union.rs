@@ -7,6 +7,7 @@ use crate::interface::data::options::Weights;
 use crate::interface::data::pairs::PairRecord;
 use crate::interface::data::setup::Setup;
 use crate::interface::data::surface::frames;
+use crate::interface::pairing::analytic;
 use crate::interface::pairing::candidates::{KeptTree, SKIN, candidates};
 use crate::interface::pairing::filter::Filter;
 use crate::interface::pairing::given::Given;
@@ -87,11 +88,21 @@ pub fn possible_pairs<const N: usize>(
                 let once = h.keeps == Keeps::Nothing || (x1, x2) == (&h.x1[..], &h.x2[..]);
                 for (x1, x2) in [(x1, x2), (&h.x1[..], &h.x2[..])].into_iter().take(if once { 1 } else { 2 }) {
                     let (frames, tree) = (frames(one, x1)?, tree.at(two, x2)?);
-                    let found = candidates(one, &frames, x1, (tree, filter), SKIN, &mut 0)?;
+                    let options = &given.setup.options;
+                    let found = candidates((one, two), options, &frames, (x1, x2), (tree, filter), SKIN, &mut 0)?;
                     pairs.store_all(found.into_iter())?;
                 }
             }
-            Filter::Analytic(facing) => pairs.store_all((0..facing.len()).filter(|&i| facing[i]).map(|i| (i, 0)))?,
+            Filter::Analytic(facing) => {
+                let options = &given.setup.options;
+                let now = if options.follows_normals() {
+                    analytic::facing(one, &two.analytic_at(x2)?, options, x1)?
+                } else {
+                    Vec::new()
+                };
+                let faces = |&i: &usize| facing[i] || now.get(i).is_some_and(|now| *now);
+                pairs.store_all((0..facing.len()).filter(faces).map(|i| (i, 0)))?;
+            }
         }
     }
     pairs.sort_unstable();

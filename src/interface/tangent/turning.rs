@@ -1,0 +1,172 @@
+//! What current normals add to the tangent (docs/formulation.md 11.2). nu_A depends on the corners of all facets around A, also
+//! of those without pairs. With Dnu_A = (dnu/ds)_A sum Dm over these corners:
+//!
+//! - rows of A: (dc/dnu) Dnu_A;
+//! - forces of A's traction t, which is p or, with one multiplier in the multiplier form, lambda_N nu: (dt/dnu) Dnu_A, at every
+//!   node that t acts on;
+//! - where A is carried and has one multiplier: w (nu_B . dc_B/dg) g_A . Dnu_A in the rows of its carriers, for the gaps that
+//!   they take over run along nu_A.
+
+use super::augmented::NodeCouplings;
+use super::emission::Emitter;
+use super::facet_tangent::Flat;
+use super::union::UnionPair;
+use crate::error::Result;
+use crate::geometry::{Mat3, Vec3};
+use crate::interface::data::multiplier::direction;
+use crate::interface::data::options::Form;
+use crate::interface::data::surface::FacetNodes;
+use crate::interface::pairing::given::Given;
+use crate::interface::stages::carried::carriers_sums;
+use crate::interface::stages::node::node;
+use crate::interface::stages::respond::Responses;
+use crate::interface::stages::sums::NodeSums;
+use crate::memory::{self, Stored};
+use crate::mortar::MORTAR;
+use crate::normal::{corner_normal_derivatives, nodal_normal_derivative};
+use crate::shape::MAX_CORNERS;
+use nalgebra::SMatrix;
+use nalgebra::SVector;
+
+/// Derivatives with respect to the normal of a node.
+#[derive(Clone, Copy, Debug)]
+struct NodeTurn<const N: usize> {
+    /// dnu/ds.
+    normal: Mat3,
+    /// dc/dnu times the row scale.
+    row: SMatrix<f64, N, 3>,
+    /// d traction of the forces / dnu.
+    traction: Mat3,
+    /// g, as a carried node hands it on.
+    gap: Vec3,
+}
+
+/// Derivatives with respect to the normals of the nodes, at some positions.
+pub struct Turns<'a, const N: usize> {
+    x1: &'a [Vec3],
+    nodes: Vec<NodeTurn<N>>,
+}
+
+impl<'a, const N: usize> Turns<'a, N> {
+    /// At the sums and the answers of x1; `scale`: the factor of a node's rows. `None`: the normals are those of t_n.
+    pub fn at(
+        given: Given<N>,
+        (x1, lambda): (&'a [Vec3], &[SVector<f64, N>]),
+        (sums, responses): (&[NodeSums], &Responses<N>),
+        normals: &[Vec3],
+        scale: impl Fn(usize) -> f64,
+    ) -> Result<Option<Turns<'a, N>>> {
+        if given.step.now.is_none() {
+            return Ok(None);
+        }
+        let (setup, carried) = (given.setup, &responses.carried);
+        let shared = if carried.contains(&true) { carriers_sums(given, sums, carried, normals)? } else { Vec::new() };
+        let corners = setup.nonmortar.sums_of_normals(x1)?;
+        let augmented = setup.options.form == Form::Augmented;
+        let turn = |a: usize| {
+            let sum = shared.binary_search_by_key(&a, |(b, _)| *b).map_or(&sums[a], |at| &shared[at].1);
+            let is_carried = carried.get(a).is_some_and(|c| *c);
+            let fixed = given.step.pairing.keeps_normal[a];
+            let turn = match is_carried {
+                true => Default::default(),
+                false => (setup.effects.law.turn)(&node(given, a, lambda[a], sum)?),
+            };
+            let traction = match (augmented, N) {
+                (true, 1) if is_carried => Mat3::identity() * normals[a].dot(&responses.nodes[a].traction),
+                (true, _) => turn.dp_dnormal,
+                (false, 1) => Mat3::identity() * lambda[a][0],
+                (false, _) => Mat3::zeros(),
+            };
+            Ok(NodeTurn {
+                normal: if fixed { Mat3::zeros() } else { nodal_normal_derivative(corners[a], &setup.nodes.free[a]) },
+                row: turn.drow_dnormal * if setup.nodes.owned[a] { scale(a) } else { 0.0 },
+                traction,
+                gap: if is_carried { sums[a].gap_now } else { Vec3::zeros() },
+            })
+        };
+        Ok(Some(Turns { x1, nodes: (0..lambda.len()).map(turn).stored_if_ok()? }))
+    }
+
+    /// Dnu of the k-th node of a facet with respect to each corner of that facet which it depends on.
+    fn of_corner(&self, given: Given<N>, f: usize, k: usize) -> [(usize, Mat3); 3] {
+        let one = &given.setup.nonmortar;
+        let normal = self.nodes[one.facets[f].nodes[k]].normal;
+        corner_normal_derivatives(&one.facet(f, self.x1), k).map(|(corner, dm)| (corner, normal * dm))
+    }
+
+    /// Adds to the rows of a facet's nodes, `[k][j][n][A]`.
+    pub fn add_rows(&self, given: Given<N>, f: usize, rows: &mut [[[[f64; MAX_CORNERS]; N]; 3]]) {
+        for (k, &a) in given.setup.nonmortar.facets[f].as_slice().iter().enumerate() {
+            for (corner, dnu) in self.of_corner(given, f, k) {
+                let row = self.nodes[a].row * dnu;
+                for (j, n) in (0..3).flat_map(|j| (0..N).map(move |n| (j, n))) {
+                    rows[corner][j][n][k] += row[(n, j)];
+                }
+            }
+        }
+    }
+}
+
+/// What a facet's corners add to tractions, and to the rows of those who carry its nodes. `drow_dnow`: of every node, times
+/// the row scale; `turns`: `None` for the pattern alone.
+pub fn facet<const N: usize>(
+    f: usize,
+    (turns, drow_dnow): (Option<&Turns<N>>, impl Fn(usize) -> SMatrix<f64, N, 3>),
+    mut couplings: Option<&mut [NodeCouplings]>,
+    emitter: &mut Emitter<N>,
+) -> Result<()> {
+    let (given, normals) = (emitter.given, emitter.normals);
+    let nodes = &given.setup.nonmortar.facets[f];
+    let nothing = |k: usize| [0, 1, nodes.len - 1].map(|step| ((k + step) % nodes.len, Mat3::zeros()));
+    for (k, &a) in nodes.as_slice().iter().enumerate() {
+        let dnu = turns.map_or_else(|| nothing(k), |turns| turns.of_corner(given, f, k));
+        let traction = turns.map_or(Mat3::zeros(), |turns| turns.nodes[a].traction);
+        if let Some(couplings) = couplings.as_deref_mut() {
+            add(&mut couplings[a], nodes, &dnu, &traction)?;
+        }
+        let carriers = if N == 1 { given.carriers_of(a) } else { &[] };
+        for &(b, w) in carriers {
+            let gap = turns.map_or(Vec3::zeros(), |turns| turns.nodes[a].gap) * w;
+            let along = normals[b] * gap.transpose();
+            let mut rows = [[[0.0; N]; 3]; MAX_CORNERS];
+            for (corner, dnu) in &dnu {
+                let row = drow_dnow(b) * along * dnu;
+                for (j, n) in (0..3).flat_map(|j| (0..N).map(move |n| (j, n))) {
+                    rows[*corner][j][n] += row[(n, j)];
+                }
+            }
+            emitter.node_rows(b, emitter.facet_equations(f).columns(), rows.as_flattened().as_flattened());
+            if let (Some(couplings), Form::Augmented) = (couplings.as_deref_mut(), given.setup.options.form) {
+                let scale = given.augmentation(b) / given.row_scale(b);
+                let traction = direction::<N>(normals[b]) * (drow_dnow(b) * along) * scale;
+                add(&mut couplings[b], nodes, &dnu, &traction)?;
+            }
+        }
+    }
+    Ok(())
+}
+
+fn add(couplings: &mut NodeCouplings, nodes: &FacetNodes, dnu: &[(usize, Mat3); 3], traction: &Mat3) -> Result<()> {
+    dnu.iter().try_for_each(|(corner, dnu)| couplings.add_traction(nodes.nodes[*corner], traction * dnu))
+}
+
+/// The facets without pairs around nodes that a pair covers: their corners enter through the normals alone.
+pub fn lone_facets<const N: usize>(given: Given<N>, union: &[UnionPair]) -> Result<Vec<usize>> {
+    let one = &given.setup.nonmortar;
+    let (mut paired, mut covered) = (memory::filled(false, one.facets.len())?, memory::filled(false, one.len())?);
+    for pair in union {
+        paired[pair.one] = true;
+        one.facets[pair.one].as_slice().iter().for_each(|&a| covered[a] = true);
+    }
+    let lone = |f: &usize| !paired[*f] && one.facets[*f].as_slice().iter().any(|&a| covered[a]);
+    (0..paired.len()).filter(lone).stored()
+}
+
+/// The rows of such a facet.
+pub fn lone_rows<const N: usize>(f: usize, turns: Option<&Turns<N>>, emitter: &mut Emitter<N>) {
+    let mut rows = [[[[0.0; MAX_CORNERS]; N]; 3]; MORTAR];
+    if let Some(turns) = turns {
+        turns.add_rows(emitter.given, f, &mut rows);
+    }
+    emitter.facet_rows(f, emitter.facet_equations(f).columns(), rows.flat());
+}

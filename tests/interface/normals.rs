@@ -1,0 +1,364 @@
+//! Normals of the current configuration (docs/formulation.md 11): golden cases, the tangent against differences, rigid turns
+//! within a step, what is refused.
+
+use super::golden::{dense_tangent, expected_tangent, residual_error, set_up_with, tangent_error};
+use super::weak;
+use crate::support::differences::Point;
+use crate::support::mesh::*;
+use crate::support::*;
+use nalgebra::{Rotation3, SVector};
+use serde_json::Value;
+use stickslip::error::Kind;
+use stickslip::geometry::Vec3;
+use stickslip::interface::{
+    Contact, Form, Friction, MultiplierBasis, NO_WEAK_COVERAGE, NewContact, Normals, Options, RowScale, Stiffness,
+    Surface, Weights,
+};
+use stickslip::law::SlipMeasure;
+use stickslip::quadrature::{DEGREE_5, DEGREE_10};
+
+/// Residual blocks and normals, relative to the largest entry of the block.
+const RESIDUAL: f64 = 1e-12;
+/// Tangent blocks of affine interfaces.
+const TANGENT: f64 = 1e-10;
+/// A block smaller than this part of the matrix is what is left of terms that cancel.
+const VANISHING: f64 = 1e-5;
+/// Non-affine facets with the rule of degree 10.
+const RULE_RESIDUAL: f64 = 1e-8;
+const RULE_TANGENT: f64 = 1e-4;
+/// The tangent against differences, relative to the largest entry of a block, on affine facets.
+const DIFFERENCES: f64 = 1e-7;
+/// A rigid motion of everything, over the largest of what it is about.
+const RIGID: f64 = 1e-12;
+
+fn current(of: Options) -> Options {
+    Options { normals: Normals::Current, ..of }
+}
+
+fn cases() -> Vec<Value> {
+    golden("golden_normals.json")
+}
+
+fn golden_options(case: &Value, form: Form) -> Options {
+    let basis = if case["basis"] == "dual" { MultiplierBasis::Dual } else { MultiplierBasis::Standard };
+    let options =
+        Options { form, basis, weak_coverage: NO_WEAK_COVERAGE, ..Options::new(Stiffness::Augmentation(1.0)) };
+    current(options)
+}
+
+#[test]
+fn golden_normals_states_and_residuals() {
+    for case in cases() {
+        for (form, key) in [(Form::Multiplier, "residual_mult"), (Form::Augmented, "residual")] {
+            let mut g = set_up_with(&case, golden_options(&case, form));
+            let responses = g.interface.responses(&g.x1, &g.x2, &g.lambda, None).unwrap();
+            for (a, (response, state)) in responses.iter().zip(numbers(&case["state"])).enumerate() {
+                assert!(response.state as i32 == state as i32, "{}: state of node {a}", name(&case));
+            }
+            for (a, nu) in points(&case["nu"]).iter().enumerate() {
+                let error = (g.interface.normal(a).unwrap() - nu).amax();
+                assert!(error <= RESIDUAL, "{}: nu of node {a} off by {error:e}", name(&case));
+            }
+            let error = residual_error(&mut g, &numbers(&case[key]));
+            println!("{:32} {key} {error:.1e}", name(&case));
+            assert!(error <= RESIDUAL, "{}: {key} off by {error:e}", name(&case));
+        }
+    }
+}
+
+#[test]
+fn golden_tangents() {
+    for case in cases() {
+        let affine = case["affine"].as_bool().unwrap();
+        let expected = if affine { &case } else { &case["exactquad"] };
+        for (form, key) in [(Form::Multiplier, "tangent_current_mult"), (Form::Augmented, "tangent_current")] {
+            let rule = if affine { &DEGREE_5 } else { &DEGREE_10 };
+            let mut g = set_up_with(&case, Options { rule, ..golden_options(&case, form) });
+            let (n, tangent) = dense_tangent(&mut g);
+            let error = tangent_error(g.x1.len(), n, &tangent, &expected_tangent(&expected[key], n), VANISHING);
+            println!("{:32} {key} {error:.1e}", name(&case));
+            assert!(error <= if affine { TANGENT } else { RULE_TANGENT }, "{}: {key} off by {error:e}", name(&case));
+            if !affine {
+                let key = if form == Form::Multiplier { "residual_mult" } else { "residual" };
+                let error = residual_error(&mut g, &numbers(&expected[key]));
+                assert!(error <= RULE_RESIDUAL, "{}: {key} off by {error:e}", name(&case));
+            }
+        }
+    }
+}
+
+#[test]
+fn golden_interfaces_with_one_multiplier() {
+    let mut compared = 0;
+    for case in cases().iter().filter(|case| case["lambda_N"].is_array()) {
+        for (form, suffix) in [(Form::Multiplier, "_mult"), (Form::Augmented, "")] {
+            let three = set_up_with(case, golden_options(case, form));
+            let (one, two) = three.interface.surfaces();
+            let options = Options { row_scale: RowScale::None, ..golden_options(case, form) };
+            let mut contact: Contact<1> = contact(&mesh_of(one), &mesh_of(two), false, options);
+            contact.set_augmentation(Some(numbers(&case["r"]))).unwrap();
+            let lambda: Vec<_> = numbers(&case["lambda_N"]).into_iter().map(|l| SVector::from([l])).collect();
+            let r = contact.residual(&three.x1, &three.x2, &lambda, None).unwrap();
+            let forces = r.nonmortar.iter().chain(&r.mortar).flat_map(|v| v.iter().copied());
+            let found: Vec<_> = forces.chain(r.rows.iter().map(|row| row[0])).collect();
+            let expected = numbers(&case[format!("one_residual{suffix}").as_str()]);
+            let error = max_abs(found.iter().zip(&expected).map(|(a, b)| a - b)) / max_abs(expected.iter().copied());
+            assert!(error <= RESIDUAL, "{}: residual off by {error:e}", name(case));
+            let mut at = Point { contact: &mut contact, x1: &three.x1, x2: &three.x2, lambda: &lambda };
+            let (n, k) = (at.unknowns(), at.tangent());
+            let expected = expected_tangent(&case[format!("one_tangent_current{suffix}").as_str()], n);
+            let error = max_abs(k.iter().zip(&expected).map(|(a, b)| a - b)) / max_abs(expected.iter().copied());
+            println!("{:32} one multiplier{suffix} {error:.1e}", name(case));
+            assert!(error <= TANGENT, "{}: tangent off by {error:e}", name(case));
+            compared += 1;
+        }
+    }
+    assert!(compared >= 2);
+}
+
+/// Curved surfaces, covered and in part; facets without pairs around covered nodes are among the second.
+fn scenes() -> impl Iterator<Item = (&'static str, Roughness, [Cells; 2])> {
+    let cells = [[Cells::Triangles, Cells::Triangles], [Cells::Triangles, Cells::Quads]];
+    let rough = Roughness { warp: 0.12, jitter: 0.08, slide: 0.02 };
+    let off = Roughness { slide: 1.3, ..rough };
+    cells.into_iter().flat_map(move |cells| [("covered", rough, cells), ("partly covered", off, cells)])
+}
+
+#[test]
+fn the_tangent_equals_differences_in_every_column() {
+    let mut states = [0; 3];
+    for (what, rough, cells) in scenes() {
+        let rule = if cells[1] == Cells::Quads { &DEGREE_10 } else { &DEGREE_5 };
+        for form in [Form::Multiplier, Form::Augmented] {
+            for friction in [Friction::Coulomb, Friction::Rough, Friction::Tresca, Friction::Tied] {
+                for basis in [MultiplierBasis::Standard, MultiplierBasis::Dual] {
+                    for (slip, weak_coverage) in [(SlipMeasure::Objective, NO_WEAK_COVERAGE), (SlipMeasure::Paper, 0.4)]
+                    {
+                        let mu = if matches!(friction, Friction::Coulomb | Friction::Tresca) { 0.7 } else { 0.0 };
+                        let shear_limit = friction.law().limits_shear.then_some(0.2);
+                        let options = Options { form, friction, mu, shear_limit, weak_coverage, basis, ..options() };
+                        let mut t = moved(&current(Options { slip, rule, ..options }), cells, rough, 3);
+                        for r in t.interface.responses(&t.x1, &t.x2, &t.lambda, None).unwrap() {
+                            states[r.state as usize] += 1;
+                        }
+                        let mut at = Point { contact: &mut t.interface, x1: &t.x1, x2: &t.x2, lambda: &t.lambda };
+                        let error = at.difference_error(0.0);
+                        assert!(error <= DIFFERENCES, "{what} {form:?} {friction:?} {basis:?} {slip:?}: {error:e}");
+                    }
+                }
+            }
+        }
+    }
+    assert!(states.iter().all(|n| *n > 50), "{states:?}");
+}
+
+/// Carried nodes, one multiplier a node and three.
+#[test]
+fn the_tangent_with_carried_nodes_equals_differences() {
+    fn compare<const N: usize>(options: Options)
+    where
+        Contact<N>: Create<N>,
+    {
+        let mut s = weak::scene::<N>(&options, Cells::Triangles);
+        let mut at = Point { contact: &mut s.contact, x1: &s.x1, x2: &s.x2, lambda: &s.lambda };
+        let error = at.difference_error(0.0);
+        assert!(error <= DIFFERENCES, "{N} {options:?}: {error:e}");
+        assert!(s.contact.counters().nodes.carried > 0);
+    }
+    for form in [Form::Multiplier, Form::Augmented] {
+        for basis in [MultiplierBasis::Standard, MultiplierBasis::Dual] {
+            for weights in [Weights::Current] {
+                let options = Options { form, basis, weights, weak_coverage: weak::WEAK, ..options() };
+                compare::<3>(current(options));
+                compare::<3>(current(Options { mu: 0.0, ..options }));
+                compare::<1>(current(Options { mu: 0.0, ..options }));
+            }
+        }
+    }
+}
+
+/// Prescribed directions: nu has no part along them, and neither has its derivative.
+#[test]
+fn the_tangent_with_prescribed_directions_equals_differences() {
+    for form in [Form::Multiplier, Form::Augmented] {
+        let (_, rough, cells) = scenes().next().unwrap();
+        let mut t = moved(&current(Options { form, ..options() }), cells, rough, 5);
+        let d = Vec3::new(0.3, -0.5, 0.2);
+        t.interface.set_constraints(&[(0, d), (1, d), (4, d), (4, Vec3::new(0.1, 0.9, -0.4))]).unwrap();
+        let mut at = Point { contact: &mut t.interface, x1: &t.x1, x2: &t.x2, lambda: &t.lambda };
+        let error = at.difference_error(0.0);
+        assert!(error <= DIFFERENCES, "{form:?}: {error:e}");
+    }
+}
+
+/// Without the derivative of nu the difference test of curved surfaces must fail.
+#[test]
+fn the_derivative_of_the_normal_is_no_small_part() {
+    let (_, rough, cells) = scenes().next().unwrap();
+    let mut now = moved(&current(options()), cells, rough, 3);
+    let mut then = moved(&options(), cells, rough, 3);
+    now.interface.responses(&now.x1, &now.x2, &now.lambda, None).unwrap();
+    let normals = (0..now.x1.len()).map(|a| now.interface.normal(a).unwrap()).collect();
+    then.interface.set_normals(Some(normals)).unwrap();
+    let (n, k) = dense(&mut now);
+    let (_, k0) = dense(&mut then);
+    let rows = n - 3 * now.x1.len()..n;
+    let part = |k: &dyn Fn(usize) -> f64| max_abs(rows.clone().flat_map(|i| (0..n).map(move |j| i * n + j)).map(k));
+    assert!(part(&|t| k[t] - k0[t]) > 1e-2 * part(&|t| k[t]));
+}
+
+fn dense(t: &mut Moved) -> (usize, Vec<f64>) {
+    let mut at = Point { contact: &mut t.interface, x1: &t.x1, x2: &t.x2, lambda: &t.lambda };
+    (at.unknowns(), at.tangent())
+}
+
+/// Everything turned by up to 150 degrees within the step, the multipliers with it: the residual turns, the states stay.
+#[test]
+fn a_rigid_turn_within_a_step_turns_the_residual() {
+    for (what, rough, cells) in scenes() {
+        for basis in [MultiplierBasis::Standard, MultiplierBasis::Dual] {
+            for mu in [0.0, 0.7] {
+                let options = current(Options { basis, mu, ..options() });
+                let mut t = moved(&options, cells, rough, 4);
+                let r = t.interface.residual(&t.x1, &t.x2, &t.lambda, None).unwrap();
+                let states = |t: &mut Moved| {
+                    let answers = t.interface.responses(&t.x1, &t.x2, &t.lambda, None).unwrap();
+                    answers.iter().map(|r| r.state).collect::<Vec<_>>()
+                };
+                let before = states(&mut t);
+                let axis = nalgebra::Unit::new_normalize(Vec3::new(0.5, -0.3, 0.8));
+                for degrees in [1.0_f64, 30.0, 90.0, 150.0] {
+                    let q = Rotation3::from_axis_angle(&axis, degrees.to_radians());
+                    let turned = |v: &[Vec3]| v.iter().map(|v| q * v).collect::<Vec<_>>();
+                    let mut now = Moved {
+                        interface: moved(&options, cells, rough, 4).interface,
+                        x1: turned(&t.x1),
+                        x2: turned(&t.x2),
+                        lambda: turned(&t.lambda),
+                    };
+                    let rotated = now.interface.residual(&now.x1, &now.x2, &now.lambda, None).unwrap();
+                    assert_eq!(states(&mut now), before, "{what} {degrees}");
+                    for (found, was) in
+                        [(&rotated.nonmortar, &r.nonmortar), (&rotated.mortar, &r.mortar), (&rotated.rows, &r.rows)]
+                    {
+                        let scale = max_abs(was.iter().map(|v| v.amax()));
+                        let error = max_abs(found.iter().zip(was).map(|(f, w)| (f - q * w).amax()));
+                        assert!(error <= RIGID * scale, "{what} {basis:?} {mu} {degrees}: {error:e} of {scale:e}");
+                    }
+                    now.interface.commit(&now.x1, &now.x2, &now.lambda, None).unwrap();
+                }
+            }
+        }
+    }
+}
+
+/// The pattern has every entry of the tangent, in both phases.
+#[test]
+fn the_pattern_is_that_of_the_tangent() {
+    for (what, rough, cells) in scenes() {
+        for form in [Form::Multiplier, Form::Augmented] {
+            let mut t = moved(&current(Options { form, ..options() }), cells, rough, 3);
+            for normals in [Normals::Current, Normals::Committed] {
+                t.interface.use_normals(normals).unwrap();
+                let (mut pattern, mut entries) = (Vec::new(), Vec::new());
+                let mut note = |i: i64, j: i64, _: f64| pattern.push((i, j));
+                t.interface.pattern(&t.x1, &t.x2, stickslip::interface::Extent::Whole, &mut note).unwrap();
+                let mut note = |i: i64, j: i64, _: f64| entries.push((i, j));
+                t.interface.tangent(&t.x1, &t.x2, &t.lambda, None, &mut note).unwrap();
+                assert_eq!(pattern, entries, "{what} {form:?} {normals:?}");
+            }
+        }
+    }
+}
+
+/// Normals of t_n as a phase of the step: the residual is that of committed normals, bit for bit; a commit needs the others.
+#[test]
+fn a_step_may_begin_with_the_normals_of_its_start() {
+    let (_, rough, cells) = scenes().next().unwrap();
+    let mut now = moved(&current(options()), cells, rough, 3);
+    let mut then = moved(&options(), cells, rough, 3);
+    now.interface.use_normals(Normals::Committed).unwrap();
+    let residual = |t: &mut Moved| t.interface.residual(&t.x1, &t.x2, &t.lambda, None).unwrap();
+    let first = residual(&mut now);
+    assert_eq!(first, residual(&mut then));
+    let refused = now.interface.commit(&now.x1, &now.x2, &now.lambda, None).unwrap_err();
+    assert!(refused.kind == Kind::InvalidValue && format!("{refused}").contains("use_normals"), "{refused}");
+    now.interface.use_normals(Normals::Current).unwrap();
+    assert_ne!(residual(&mut now), first);
+    now.interface.commit(&now.x1, &now.x2, &now.lambda, None).unwrap();
+    // The phase ends with the step.
+    now.interface.use_normals(Normals::Committed).unwrap();
+    now.interface.roll_back().unwrap();
+    assert_ne!(residual(&mut now), first);
+    assert!(then.interface.use_normals(Normals::Current).is_err());
+}
+
+/// Multipliers turn as the normals do; those of committed normals stay.
+#[test]
+fn multipliers_turn_with_the_surface() {
+    let (_, rough, cells) = scenes().next().unwrap();
+    let mut t = moved(&current(options()), cells, rough, 3);
+    let reference = t.interface.surfaces().0.reference.clone();
+    let normal = t.interface.normal(4).unwrap();
+    let axis = nalgebra::Unit::new_normalize(normal.cross(&Vec3::new(0.1, 0.7, 0.3)));
+    for degrees in [20.0_f64, 100.0, 179.0] {
+        let q = Rotation3::from_axis_angle(&axis, degrees.to_radians());
+        let x: Vec<_> = reference.iter().map(|x| q * x).collect();
+        let lambda = t.interface.turn_multipliers(&x, &t.lambda).unwrap();
+        // About an axis within the surface it is the smallest rotation itself.
+        assert!((lambda[4] - q * t.lambda[4]).amax() <= RIGID, "{degrees}");
+        assert!(lambda.iter().zip(&t.lambda).all(|(a, b)| (a.norm() - b.norm()).abs() <= RIGID));
+    }
+    let mut then = moved(&options(), cells, rough, 3);
+    assert_eq!(then.interface.turn_multipliers(&t.x1, &t.lambda).unwrap(), t.lambda);
+}
+
+#[test]
+fn what_it_cannot_go_with_is_refused_by_name() {
+    let one = grid(2, 2, [0.0, 0.0], [1.0, 1.0], 0.0, false, Cells::Quads);
+    let two = grid(2, 2, [0.0, 0.0], [1.0, 1.0], 0.0, true, Cells::Quads);
+    for weights in [Weights::Committed, Weights::Reference] {
+        let surface = |m: &Mesh, side| Surface::new(side, m.x.clone(), &m.facets, numbered(0, m.x.len())).unwrap();
+        let options = current(Options { weights, ..options() });
+        let equations = numbered(100, one.x.len());
+        let refused = stickslip::interface::Interface::new(
+            surface(&one, "nonmortar"),
+            surface(&two, "mortar"),
+            equations,
+            options,
+        )
+        .unwrap_err();
+        assert_eq!(refused.kind, Kind::Unsupported, "{refused}");
+    }
+    let mut contact = interface(&one, &two, current(options()));
+    let normals = vec![Vec3::z(); one.x.len()];
+    assert_eq!(contact.set_normals(Some(normals)).unwrap_err().kind, Kind::Unsupported);
+    contact.set_normals(None).unwrap();
+}
+
+/// With a measure of slip that is fixed in space, the limit of a turn stays.
+#[test]
+fn the_limit_of_a_turn_is_for_what_current_normals_do_not_cure() {
+    for (slip, allowed) in
+        [(SlipMeasure::Objective, true), (SlipMeasure::Increment, false), (SlipMeasure::Paper, false)]
+    {
+        let new_contact = NewContact::KeepFriction;
+        let (_, _, cells) = scenes().next().unwrap();
+        let mut t = moved(&current(Options { slip, new_contact, ..options() }), cells, FLAT, 3);
+        let q = Rotation3::from_euler_angles(0.6, 0.0, 0.0);
+        let (one, two) = t.interface.surfaces();
+        let turned = |x: &[Vec3]| x.iter().map(|x| q * x).collect::<Vec<_>>();
+        let (x1, x2) = (turned(&one.reference), turned(&two.reference));
+        let result = t.interface.commit(&x1, &x2, &t.lambda, None);
+        match allowed {
+            true => result.unwrap(),
+            false => {
+                let refused = result.unwrap_err();
+                assert!(
+                    refused.kind == Kind::TurnedTooFar && format!("{refused}").contains("objectively"),
+                    "{refused}"
+                );
+            }
+        }
+    }
+}
