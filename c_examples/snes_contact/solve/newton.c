@@ -13,11 +13,12 @@
  *      at the start of the step, else the last;
  *   6. if all fail, the caller takes a shorter step in time.
  * An extrapolated start may lie beyond the friction cone although the answer does not. Full steps fail there, and
- * damped ones lead to another equilibrium, in which the nodes have slid: hence 2, and before 3. From the start of 2 damped
- * steps crawl where bodies strain much (rounded sliders of the press fit: 15 cut-backs instead of 4). So the others have
- * the first start again. Where the user chose a line search it serves in all but 3, which is left out. Converged is what has converged with
- * the scene's own augmentation: the multiplier rows are forces of the augmentation, and would look small with a
- * small one. (Tried as well: a step damped by 1/2, 1/4, 1/8. It ends the cycles of fewer scenes, and later.)
+ * damped ones lead to another equilibrium, in which the nodes have slid: hence 2, and before 3. From the start of 2
+ * damped steps crawl where bodies strain much (rounded sliders of the press fit: 15 cut-backs instead of 4). So the
+ * others have the first start again. Where the user chose a line search it serves in all but 3, which is left out.
+ * Converged is what has converged with the scene's own augmentation: the multiplier rows are forces of the
+ * augmentation, and would look small with a small one. (Tried as well: a step damped by 1/2, 1/4, 1/8. It ends the
+ * cycles of fewer scenes, and later.)
  *
  * A failed attempt leaves nothing behind: the library's history changes on commit only, the augmentation is the
  * scene's again, and the matrix gets back the pattern that it had, so that the next factorisation is that of a run
