@@ -1,12 +1,11 @@
-/* Pseudo-time: predictor, Newton's method, cut-back, commit, report. */
+/* Pseudo-time: Newton's method, cut-back, commit, report. */
 #include "model.h"
 
 typedef struct {
-  Vec       x, start, last, before; /* the iterate; where it starts; the last two converged states, at: */
-  PetscReal t_last, t_before;
-  PetscBool have_before; /* on the same branch of all curves */
-  PetscBool tried;       /* a step has been solved, or tried */
-  PetscBool converged;   /* the last attempt had, so that its commit was refused if the library refused */
+  Vec       x; /* the iterate */
+  Past      past;
+  PetscBool tried;     /* a step has been solved, or tried */
+  PetscBool converged; /* the last attempt had, so that its commit was refused if the library refused */
 } History;
 
 static PetscErrorCode history_create(Model *model, History *history)
@@ -14,10 +13,9 @@ static PetscErrorCode history_create(Model *model, History *history)
   PetscFunctionBegin;
   *history = (History){0};
   PetscCall(DMCreateGlobalVector(model->mesh.dm, &history->x));
-  PetscCall(VecDuplicate(history->x, &history->start));
-  PetscCall(VecDuplicate(history->x, &history->last));
-  PetscCall(VecDuplicate(history->x, &history->before));
-  PetscCall(VecZeroEntries(history->last));
+  PetscCall(VecDuplicate(history->x, &history->past.last));
+  PetscCall(VecDuplicate(history->x, &history->past.before));
+  PetscCall(VecZeroEntries(history->past.last));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -25,25 +23,8 @@ static PetscErrorCode history_destroy(History *history)
 {
   PetscFunctionBegin;
   PetscCall(VecDestroy(&history->x));
-  PetscCall(VecDestroy(&history->start));
-  PetscCall(VecDestroy(&history->last));
-  PetscCall(VecDestroy(&history->before));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscErrorCode predict(Model *model, History *history, PetscReal t)
-{
-  PetscFunctionBegin;
-  PetscCall(VecCopy(history->last, history->start));
-  if (model->solve.steps.predictor && history->have_before) {
-    const PetscReal factor = (t - history->t_last) / (history->t_last - history->t_before);
-    PetscCall(VecAXPY(history->start, factor, history->last));
-    PetscCall(VecAXPY(history->start, -factor, history->before));
-    condensed_predict(&model->contact, factor);
-  } else {
-    condensed_predict(&model->contact, 0);
-    PetscCall(move_supports(&model->solve, history->t_last, history->start));
-  }
+  PetscCall(VecDestroy(&history->past.last));
+  PetscCall(VecDestroy(&history->past.before));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -57,8 +38,7 @@ static PetscErrorCode step_to(Model *model, Summary *summary, History *history, 
   model->physics.t = t;
   PetscCall(supports_values(&model->physics, t));
   PetscCall(loads_values(&model->physics, t));
-  PetscCall(predict(model, history, t));
-  PetscCall(newton_solve(&model->solve, history->start, history->x, done));
+  PetscCall(newton_solve(&model->solve, &history->past, history->x, done));
   model->solve.iterations += newton->iterations;
   history->tried     = PETSC_TRUE;
   history->converged = *done;
@@ -73,7 +53,7 @@ static PetscErrorCode step_to(Model *model, Summary *summary, History *history, 
                               model->contact.refusal));
     }
   }
-  if (!*done) PetscCall(summary_failed_attempt(&model->output, summary, history->t_last));
+  if (!*done) PetscCall(summary_failed_attempt(&model->output, summary, history->past.t_last));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -81,11 +61,11 @@ static PetscErrorCode accept(Model *model, History *history)
 {
   PetscFunctionBegin;
   /* How a gap closes is no rate, either. */
-  history->have_before = (PetscBool)(!times_bend(&model->physics, model->physics.t) && !model->solve.closing.ever_cut);
-  PetscCall(VecCopy(history->last, history->before));
-  PetscCall(VecCopy(history->x, history->last));
-  history->t_before        = history->t_last;
-  history->t_last          = model->physics.t;
+  history->past.have_before = (PetscBool)(!times_bend(&model->physics, model->physics.t) && !model->solve.closing.ever_cut);
+  PetscCall(VecCopy(history->past.last, history->past.before));
+  PetscCall(VecCopy(history->x, history->past.last));
+  history->past.t_before        = history->past.t_last;
+  history->past.t_last          = model->physics.t;
   model->solve.iterations        = 0;
   parts_accept(&model->physics);
   equilibrium_accept(&model->contact);
@@ -110,7 +90,7 @@ static PetscErrorCode give_up(Model *model, const History *history, int *exit_co
     PetscCall(PetscFPrintf(PETSC_COMM_WORLD, PETSC_STDERR,
                            "snes_contact: refused by the library: %s. That is the commit of the step from t = %.6g to "
                            "%.6g, which had converged.\n",
-                           refusal, (double)history->t_last, (double)model->physics.t));
+                           refusal, (double)history->past.t_last, (double)model->physics.t));
   else if (refusal[0])
     PetscCall(PetscFPrintf(PETSC_COMM_WORLD, PETSC_STDERR,
                            "snes_contact: refused by the library: %s. Newton's iterates may have run away to there: %s\n",
@@ -119,7 +99,7 @@ static PetscErrorCode give_up(Model *model, const History *history, int *exit_co
     PetscCall(PetscFPrintf(PETSC_COMM_WORLD, PETSC_STDERR,
                            "snes_contact: not converged beyond t = %.6g, not even by a step of %.2g: %s. %s See "
                            "scenes/README.md.\n",
-                           (double)history->t_last, (double)(model->physics.t - history->t_last),
+                           (double)history->past.t_last, (double)(model->physics.t - history->past.t_last),
                            model->solve.newton.why, held));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -139,11 +119,11 @@ PetscErrorCode run(Model *model, int *exit_code)
   PetscCall(summary_create(&model->output, &summary));
   PetscCall(history_create(model, &history));
   PetscCall(supports_values(&model->physics, 0));
-  PetscCall(contact_start(&model->contact, history.last, &status));
+  PetscCall(contact_start(&model->contact, history.past.last, &status));
   failed = (PetscBool)(status != 0);
   step_size_start(steps, &size);
-  while (!failed && history.t_last < steps->end) {
-    const PetscReal t = step_size_next(steps, &size, history.t_last), target = steps->targets[size.next];
+  while (!failed && history.past.t_last < steps->end) {
+    const PetscReal t = step_size_next(steps, &size, history.past.t_last), target = steps->targets[size.next];
     PetscCall(step_to(model, summary, &history, step + 1, t, (PetscBool)(t == target && steps->asked[size.next]),
                       (PetscBool)(t == steps->end), &done));
     if (done) {
@@ -151,19 +131,19 @@ PetscErrorCode run(Model *model, int *exit_code)
         scene_check_unread(model->scene, PETSC_TRUE);
         checked = PETSC_TRUE;
       }
-      step_size_accept(steps, &size, history.t_last, t, &model->solve.newton, times_bend(&model->physics, t));
+      step_size_accept(steps, &size, history.past.t_last, t, &model->solve.newton, times_bend(&model->physics, t));
       PetscCall(accept(model, &history));
       step++;
     } else {
       cutbacks++;
-      failed = (PetscBool)!step_size_cut(steps, &size, t - history.t_last);
+      failed = (PetscBool)!step_size_cut(steps, &size, t - history.past.t_last);
     }
   }
   if (failed) {
     PetscCall(summary_step(&model->output, summary, step + 1, PETSC_FALSE, PETSC_FALSE, PETSC_TRUE));
     PetscCall(give_up(model, &history, exit_code));
   }
-  PetscCall(summary_write(&model->output, &summary, history.last, cutbacks,
+  PetscCall(summary_write(&model->output, &summary, history.past.last, cutbacks,
                           *exit_code == 2 ? model->solve.newton.why : model->contact.refusal));
   PetscCall(history_destroy(&history));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -4,7 +4,7 @@ import re
 
 import numpy as np
 
-from comparisons import difference, multiplier
+from comparisons import PATCH_BOUND, PatchCase, difference, multiplier, patch_error
 from scene import SCENES, SceneError
 
 # The augmentation steers the iterations only; what is left is the Newton tolerance (see acceptance.py).
@@ -19,6 +19,10 @@ COARSE = ("-base_cells", "60,1,15", "-die_file", SCENES.parent / "meshes" / "iro
 CYCLING = {"1e2": 50, "1e3": 60, "1e4": 65}
 # Too large to be cured: here the report is what counts.
 HOPELESS = "1e9"
+# A brick under so much of the shear that friction can carry (10 x 0.25): the extrapolated state lies beyond the cone.
+NEAR_CONE, FRICTION_AT_CONE = 0.999999, 0.25
+# Full steps from the start that is not extrapolated take as many as in the first step.
+ITERATIONS_AT_CONE = 2
 # Two floors: E = 1000, nu = 0, one cell of 1 x 1 x 1, shortened by 0.4 - 0.1.
 FLOOR_FORCE = 300
 # symmetry_plane.yaml, all of it. Half of it has the same answer and takes the same iterations. With weights of now it
@@ -53,6 +57,7 @@ def stepping(verdicts, driver):
     automatic(verdicts, driver)
     rollback(verdicts, driver)
     singular(verdicts, driver)
+    beyond_the_cone(verdicts, driver)
     cycling(verdicts, driver)
     klarbring(verdicts, driver)
     symmetry(verdicts, driver)
@@ -129,6 +134,24 @@ def singular(verdicts, driver):
     verdicts.below("singular matrix: force of the floor out of reach", np.abs(left).max(), 0, "the block ends above it")
     whole = driver.run("two_floors", "-steps_smallest", 1, label="two_floors_at_once", expect=2)
     verdicts.true("singular matrix: a run that ends there says so", "singular" in whole.text, "exit code 2")
+
+
+def beyond_the_cone(verdicts, driver):
+    """A start beyond the friction cone: full steps fail there, and damped ones led to another equilibrium, slid by 2.5e-3."""
+    case = PatchCase("patch_shear", (-2.5, 0, 10))
+    for basis in ("standard", "dual"):
+        options = ("-base_friction", repr(FRICTION_AT_CONE / NEAR_CONE), "-base_basis", basis)
+        run = driver.run(case.scene, *options, label=f"beyond_the_cone_{basis}")
+        label = f"start beyond the friction cone, {basis} multipliers"
+        if basis == "dual":  # where rounding leads full steps of the standard basis is left open
+            last = len(run.steps[-1]["residual_norms"]) - 1
+            failed = run.steps[-1]["newton_iterations"] - last
+            verdicts.at_least(f"{label}: iterations of attempts that failed", failed, 1, "else nothing is tested")
+            verdicts.below(f"{label}: those of the one that did not", last, ITERATIONS_AT_CONE, "from the last state")
+        verdicts.below(f"{label}: multiplier error", patch_error(run, case), PATCH_BOUND, "exact solution")
+        verdicts.near(f"{label}: nodes that stick", run.steps[-1]["interfaces"]["base"]["stick"],
+                      len(run.interface("base")), 0, "all")
+        verdicts.below(f"{label}: cut-backs", run.summary["cutbacks"], 0, "none")
 
 
 def cycling(verdicts, driver):

@@ -1,8 +1,10 @@
-/* Where nothing can be extrapolated (the first step, and the one after a kink of a curve), Newton's first iterate is
- * the last state with the supports already moved. A body of finite strain whose cells are smaller than that motion
- * would be turned inside out at its supports. So there the motion of the supports is continued into the bodies of finite
- * strain: by linear elasticity on their undeformed cells, without contact. A prescribed translation moves a whole body,
- * a prescribed linear field strains it homogeneously, and a body without a prescribed motion stays.
+/* Newton's first iterate: extrapolated from the last two states, or the last state with the supports already moved.
+ *
+ * The second one serves where nothing can be extrapolated (the first step, and the one after a kink of a curve), and
+ * where full steps have failed from the first one (newton.c). A body of finite strain whose cells are smaller than that
+ * motion would be turned inside out at its supports. So there the motion of the supports is continued into the bodies
+ * of finite strain: by linear elasticity on their undeformed cells, without contact. A prescribed translation moves a
+ * whole body, a prescribed linear field strains it homogeneously, and a body without a prescribed motion stays.
  *
  * This chooses where Newton's method starts, not what it solves. */
 #include "solve/solve.h"
@@ -62,7 +64,8 @@ static PetscErrorCode prescribed_increments(Solve *solve, PetscReal t0, Vec incr
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode move_supports(Solve *solve, PetscReal t0, Vec x)
+/* Moves x with the supports from their positions at t0 to those at physics->t. */
+static PetscErrorCode move_supports(Solve *solve, PetscReal t0, Vec x)
 {
   const Mesh *mesh    = solve->mesh;
   Physics    *physics = solve->physics;
@@ -97,5 +100,25 @@ PetscErrorCode move_supports(Solve *solve, PetscReal t0, Vec x)
     PetscCall(VecDestroy(&local));
   }
   PetscCall(VecDestroy(&increments));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscBool first_iterate_extrapolates(const Solve *solve, const Past *past)
+{
+  return (PetscBool)(solve->steps.predictor && past->have_before);
+}
+
+PetscErrorCode first_iterate(Solve *solve, const Past *past, PetscBool extrapolate, Vec x)
+{
+  const PetscReal factor = extrapolate ? (solve->physics->t - past->t_last) / (past->t_last - past->t_before) : 0;
+  PetscFunctionBegin;
+  PetscCall(VecCopy(past->last, x));
+  if (extrapolate) {
+    PetscCall(VecAXPY(x, factor, past->last));
+    PetscCall(VecAXPY(x, -factor, past->before));
+  } else {
+    PetscCall(move_supports(solve, past->t_last, x));
+  }
+  condensed_predict(solve->contact, factor);
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -1,4 +1,4 @@
-/* One load step by Newton's method: attempts from the same start.
+/* One load step by Newton's method: attempts, from the same start but for one.
  *
  * Full Newton steps find the states of the nodes fastest, although the residual may grow on the way; a monotone line
  * search can crawl along a kink there. But full steps can also cycle between guesses of the states, where the
@@ -6,14 +6,19 @@
  * (klarbring.yaml). The answer does not depend on it, so where cycling.c finds a cycle, the augmentation of the
  * nodes that cycle is changed, a few times at most in one attempt:
  *   1. full steps; a cycle divides the augmentation by 100;
- *   2. backtracking; a cycle divides it, too;
- *   3. if there were cycles, full steps; a cycle multiplies it by 100;
- *   4. where the supports leave a body free to move, the attempt of closing.c: the first one, if such a body is loose
+ *   2. if the start was extrapolated, the same from the start that is not (first_iterate.c);
+ *   3. backtracking; a cycle divides it, too;
+ *   4. if there were cycles, full steps; a cycle multiplies it by 100;
+ *   5. where the supports leave a body free to move, the attempt of closing.c: the first one, if such a body is loose
  *      at the start of the step, else the last;
- *   5. if all fail, the caller takes a shorter step in time.
- * Where the user chose a line search it serves in 1, 3 and 4, and 2 is left out. Converged is what has converged with
- * the scene's own augmentation: the multiplier rows are forces of the augmentation, and would look small with a
- * small one. (Tried as well: a step damped by 1/2, 1/4, 1/8. It ends the cycles of fewer scenes, and later.)
+ *   6. if all fail, the caller takes a shorter step in time.
+ * An extrapolated start may lie beyond the friction cone although the answer does not. Full steps fail there, and
+ * damped ones lead to another equilibrium, in which the nodes have slid: hence 2, and before 3. From the start of 2
+ * damped steps crawl where bodies strain much (rounded sliders of the press fit: 15 cut-backs instead of 4). So the
+ * others have the first start again. Where the user chose a line search it serves in all but 3, which is left out.
+ * Converged is what has converged with the scene's own augmentation: the multiplier rows are forces of the
+ * augmentation, and would look small with a small one. (Tried as well: a step damped by 1/2, 1/4, 1/8. It ends the
+ * cycles of fewer scenes, and later.)
  *
  * A failed attempt leaves nothing behind: the library's history changes on commit only, the augmentation is the
  * scene's again, and the matrix gets back the pattern that it had, so that the next factorisation is that of a run
@@ -23,13 +28,14 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { FULL = 0, BACKTRACKING = 1, LARGER = 2, CLOSING = 3, N_ATTEMPTS = 4 };
+enum { FULL = 0, PLAIN = 1, BACKTRACKING = 2, LARGER = 3, CLOSING = 4, N_ATTEMPTS = 5 };
 /* Iterations of the closing attempt: each closes a gap by part of a facet. Other attempts: -snes_max_it. */
 enum { CLOSING_ITERATIONS = 60 };
 static const struct {
   SNESLineSearchType line_search;
   PetscReal          factor; /* of the augmentation of nodes that cycle */
 } ATTEMPTS[N_ATTEMPTS] = {[FULL]         = {SNESLINESEARCHBASIC, 0.01},
+                         [PLAIN]        = {SNESLINESEARCHBASIC, 0.01},
                          [BACKTRACKING] = {SNESLINESEARCHBT, 0.01},
                          [LARGER]       = {SNESLINESEARCHBASIC, 100},
                          [CLOSING]      = {SNESLINESEARCHBASIC, 0.01}};
@@ -184,25 +190,29 @@ static PetscErrorCode attempt(Solve *solve, int k, Vec x, PetscBool *converged)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode newton_solve(Solve *solve, Vec start, Vec x, PetscBool *converged)
+PetscErrorCode newton_solve(Solve *solve, const Past *past, Vec x, PetscBool *converged)
 {
-  Newton   *newton = &solve->newton;
-  PetscBool first;
-  Vec       r;
+  Newton         *newton       = &solve->newton;
+  const PetscBool extrapolates = first_iterate_extrapolates(solve, past);
+  PetscBool       closing_first, at_start = PETSC_TRUE;
+  Vec             r;
 
   PetscFunctionBegin;
   newton->iterations = 0;
   newton->cycle[0]   = 0;
   *converged         = PETSC_FALSE;
   closing_begin(solve, PETSC_FALSE);
-  PetscCall(closing_needed(solve, start, &first));
+  PetscCall(first_iterate(solve, past, extrapolates, x));
+  PetscCall(closing_needed(solve, x, &closing_first));
   for (int i = 0; i < N_ATTEMPTS && !*converged; i++) {
-    const int k = first ? (i + CLOSING) % N_ATTEMPTS : i;
+    const int k = closing_first ? (i + CLOSING) % N_ATTEMPTS : i;
+    if (k == PLAIN && !extrapolates) continue;
     if (k == BACKTRACKING && newton->fixed_line_search) continue;
     if (k == LARGER && !newton->cycle[0]) continue;
     if (k == CLOSING && !solve->closing.possible) continue;
     if (solve->closing.away[0]) break; /* whatever the attempt, nothing stops that body */
-    PetscCall(VecCopy(start, x));
+    if (!at_start) PetscCall(first_iterate(solve, past, (PetscBool)(extrapolates && k != PLAIN), x));
+    at_start = PETSC_FALSE;
     PetscCall(attempt(solve, k, x, converged));
   }
   if (!*converged) PetscFunctionReturn(PETSC_SUCCESS);

@@ -24,6 +24,13 @@ typedef struct {
   PetscReal length, longest; /* wanted; whose fraction Steps.smallest is */
 } StepSize;
 
+/* The converged states from which a step is taken (first_iterate.c) */
+typedef struct {
+  Vec       last, before; /* at: */
+  PetscReal t_last, t_before;
+  PetscBool have_before; /* on the same branch of all curves */
+} Past;
+
 /* The states of the nodes over Newton's iterations (cycling.c) */
 typedef struct Cycling Cycling;
 
@@ -116,7 +123,7 @@ PetscErrorCode cycling_describe(Solve *solve, PetscInt period, struct cJSON *par
 /* newton.c: creates SNES and all that belongs to it, too */
 PetscErrorCode newton_create(Solve *solve);
 PetscErrorCode newton_destroy(Solve *solve);
-PetscErrorCode newton_solve(Solve *solve, Vec start, Vec x, PetscBool *converged);
+PetscErrorCode newton_solve(Solve *solve, const Past *past, Vec x, PetscBool *converged);
 
 /* closing.c: bodies that contact alone holds and that do not touch yet */
 PetscErrorCode closing_create(Solve *solve);
@@ -145,6 +152,7 @@ PetscBool step_size_cut(const Steps *steps, StepSize *size, PetscReal tried); /*
 /* jacobian_test.c: after newton_create() */
 PetscErrorCode jacobian_test_create(Solve *solve, Scene *scene);
 
-/* first_iterate.c: moves x with the supports from their positions at t0 to those at physics->t */
-PetscErrorCode move_supports(Solve *solve, PetscReal t0, Vec x);
+/* first_iterate.c: where a step to physics->t starts, multipliers that are condensed included */
+PetscBool      first_iterate_extrapolates(const Solve *solve, const Past *past);
+PetscErrorCode first_iterate(Solve *solve, const Past *past, PetscBool extrapolate, Vec x);
 #endif
