@@ -101,6 +101,11 @@ PetscErrorCode condensed_residual(Contact *contact, Vec r, PetscInt *status);
 PetscErrorCode condensed_matrix(Contact *contact, Vec x, Mat J, PetscInt *status);
 void           condensed_accept(Contact *contact);
 
+/* normals.c */
+PetscBool      normals_follow(const Contact *contact); /* those of any interface */
+PetscErrorCode normals_use(Contact *contact, int32_t normals); /* STICKSLIP_NORMALS_..., where they follow */
+PetscErrorCode normals_turn_multipliers(Contact *contact, Vec x);
+
 /* states.c */
 PetscErrorCode contact_states_create(const Interface *interface, ContactStates *states); /* rank 0 */
 PetscErrorCode contact_states_destroy(ContactStates *states);

@@ -147,7 +147,7 @@ static void read_effects(Scene *scene, Interface *interface)
     options->no_shortcuts = STICKSLIP_SHORTCUT_RIGID;
 }
 
-/* `basis`, `weights`, `slip`, `form`, `new_contact`, the augmentation and the search. */
+/* `basis`, `normals`, `weights`, `slip`, `form`, `new_contact`, the augmentation and the search. */
 static void read_method(Scene *scene, Interface *interface)
 {
   static const char *const weights[]      = {"current", "committed", "reference", NULL};
@@ -156,9 +156,10 @@ static void read_method(Scene *scene, Interface *interface)
   static const char *const new_contacts[] = {"frictionless", "friction", NULL};
   static const char *const row_scales[]   = {"force", "none", NULL};
   static const char *const bases[]        = {"standard", "dual", NULL};
+  static const char *const normals[]      = {"committed", "current", NULL};
   stickslip_options       *options        = &interface->options;
   const char              *name           = interface->name;
-  PetscInt  basis = STICKSLIP_BASIS_STANDARD, weight = STICKSLIP_WEIGHTS_CURRENT,
+  PetscInt  basis = STICKSLIP_BASIS_STANDARD, normal = STICKSLIP_NORMALS_COMMITTED, weight = STICKSLIP_WEIGHTS_CURRENT,
            slip = STICKSLIP_SLIP_OBJECTIVE, form = STICKSLIP_FORM_MULTIPLIER,
            new_contact = STICKSLIP_NEW_CONTACT_FRICTIONLESS, row_scale = STICKSLIP_ROW_SCALE_FORCE;
   PetscReal augmentation = 0, modulus = 0, distance = 0, weak_coverage = 0, turn_max = 0, coverage_min = options->coverage_min;
@@ -172,6 +173,7 @@ static void read_method(Scene *scene, Interface *interface)
   scene_choice(scene, name, "slip", slips, &slip);
   scene_choice(scene, name, "form", forms, &form);
   scene_choice(scene, name, "basis", bases, &basis);
+  scene_choice(scene, name, "normals", normals, &normal);
   scene_choice(scene, name, "new_contact", new_contacts, &new_contact);
   scene_choice(scene, name, "row_scale", row_scales, &row_scale);
   scene_bool(scene, name, "initial_contact", &interface->initial_contact);
@@ -192,6 +194,7 @@ static void read_method(Scene *scene, Interface *interface)
   if (turn_max < 0 || turn_max > PETSC_PI)
     scene_fail(scene, name, "turn_max", "it is an angle in radians: from 0 to pi.");
   options->multiplier_basis = (int32_t)basis;
+  options->normals          = (int32_t)normal;
   options->turn_max         = turn_max;
   options->weights         = (int32_t)weight;
   options->slip            = (int32_t)slip;

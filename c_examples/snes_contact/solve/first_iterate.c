@@ -120,5 +120,7 @@ PetscErrorCode first_iterate(Solve *solve, const Past *past, PetscBool extrapola
     PetscCall(move_supports(solve, past->t_last, x));
   }
   condensed_predict(solve->contact, factor);
+  /* What is extrapolated turns as it has turned. */
+  if (!extrapolate) PetscCall(normals_turn_multipliers(solve->contact, x));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

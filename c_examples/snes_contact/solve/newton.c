@@ -6,16 +6,18 @@
  * (klarbring.yaml). The answer does not depend on it, so where cycling.c finds a cycle, the augmentation of the
  * nodes that cycle is changed, a few times at most in one attempt:
  *   1. full steps; a cycle divides the augmentation by 100;
- *   2. if the start was extrapolated, the same from the start that is not (first_iterate.c);
- *   3. backtracking; a cycle divides it, too;
- *   4. if there were cycles, full steps; a cycle multiplies it by 100;
- *   5. where the supports leave a body free to move, the attempt of closing.c: the first one, if such a body is loose
+ *   2. if normals follow the motion, the same in two phases: with the normals of the start of the step, and from there with
+ *      the current ones. Deep contact over facets that turn much needs it;
+ *   3. if the start was extrapolated, as 1 from the start that is not (first_iterate.c);
+ *   4. backtracking; a cycle divides it, too;
+ *   5. if there were cycles, full steps; a cycle multiplies it by 100;
+ *   6. where the supports leave a body free to move, the attempt of closing.c: the first one, if such a body is loose
  *      at the start of the step, else the last;
- *   6. if all fail, the caller takes a shorter step in time.
+ *   7. if all fail, the caller takes a shorter step in time.
  * An extrapolated start may lie beyond the friction cone although the answer does not. Full steps fail there, and
- * damped ones lead to another equilibrium, in which the nodes have slid: hence 2, and before 3. From the start of 2
+ * damped ones lead to another equilibrium, in which the nodes have slid: hence 3, and before 4. From the start of 3
  * damped steps crawl where bodies strain much (rounded sliders of the press fit: 15 cut-backs instead of 4). So the
- * others have the first start again. Where the user chose a line search it serves in all but 3, which is left out.
+ * others have the first start again. Where the user chose a line search it serves in all but 4, which is left out.
  * Converged is what has converged with the scene's own augmentation: the multiplier rows are forces of the
  * augmentation, and would look small with a small one. (Tried as well: a step damped by 1/2, 1/4, 1/8. It ends the
  * cycles of fewer scenes, and later.)
@@ -28,13 +30,14 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { FULL = 0, PLAIN = 1, BACKTRACKING = 2, LARGER = 3, CLOSING = 4, N_ATTEMPTS = 5 };
+enum { FULL = 0, SETTLING = 1, PLAIN = 2, BACKTRACKING = 3, LARGER = 4, CLOSING = 5, N_ATTEMPTS = 6 };
 /* Iterations of the closing attempt: each closes a gap by part of a facet. Other attempts: -snes_max_it. */
 enum { CLOSING_ITERATIONS = 60 };
 static const struct {
   SNESLineSearchType line_search;
   PetscReal          factor; /* of the augmentation of nodes that cycle */
 } ATTEMPTS[N_ATTEMPTS] = {[FULL]         = {SNESLINESEARCHBASIC, 0.01},
+                         [SETTLING]     = {SNESLINESEARCHBASIC, 0.01},
                          [PLAIN]        = {SNESLINESEARCHBASIC, 0.01},
                          [BACKTRACKING] = {SNESLINESEARCHBT, 0.01},
                          [LARGER]       = {SNESLINESEARCHBASIC, 100},
@@ -142,16 +145,35 @@ static PetscErrorCode explain(Solve *solve, SNESConvergedReason reason)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Solves from x, which becomes the last iterate, and counts. */
+static PetscErrorCode solve_from(Solve *solve, Vec x, SNESConvergedReason *reason)
+{
+  Newton    *newton = &solve->newton;
+  PetscReal *norms;
+  PetscInt   iterations, n;
+  PetscFunctionBegin;
+  PetscCall(cycling_restart(solve));
+  equilibrium_restart(solve->contact);
+  PetscCall(SNESSolve(solve->snes, NULL, x));
+  PetscCall(SNESGetConvergedReason(solve->snes, reason));
+  PetscCall(SNESGetIterationNumber(solve->snes, &iterations));
+  PetscCall(SNESGetConvergenceHistory(solve->snes, &norms, NULL, &n));
+  for (PetscInt j = 1; j < n; j++) {
+    if (norms[j] >= norms[j - 1]) newton->monotone = PETSC_FALSE;
+  }
+  newton->iterations += iterations;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* Attempt k from x, which becomes the last iterate. */
 static PetscErrorCode attempt(Solve *solve, int k, Vec x, PetscBool *converged)
 {
   Contact            *contact = solve->contact;
   Newton             *newton  = &solve->newton;
-  SNESConvergedReason reason;
+  SNESConvergedReason reason = SNES_CONVERGED_ITS;
   SNESLineSearch      line_search;
-  PetscReal          *norms;
   PetscReal           atol, rtol, stol;
-  PetscInt            iterations, n, max_it, max_f;
+  PetscInt            max_it, max_f;
 
   PetscFunctionBegin;
   PetscCall(SNESGetLineSearch(solve->snes, &line_search));
@@ -160,8 +182,6 @@ static PetscErrorCode attempt(Solve *solve, int k, Vec x, PetscBool *converged)
   if (k == CLOSING && !newton->fixed_max_it)
     PetscCall(SNESSetTolerances(solve->snes, atol, rtol, stol, CLOSING_ITERATIONS, max_f));
   closing_begin(solve, (PetscBool)(k == CLOSING));
-  PetscCall(cycling_restart(solve));
-  equilibrium_restart(contact);
   newton->drowned   = -1;
   contact->refusal[0] = solve->physics->inverted[0] = newton->why[0] = 0;
   newton->stopped = newton->stale = newton->changed = newton->refused_commit = PETSC_FALSE;
@@ -171,15 +191,13 @@ static PetscErrorCode attempt(Solve *solve, int k, Vec x, PetscBool *converged)
   newton->state_changes = cJSON_CreateArray();
   newton->factor                                    = ATTEMPTS[k].factor;
   PetscCall(condensed_begin(contact));
-  PetscCall(SNESSolve(solve->snes, NULL, x));
-  PetscCall(SNESSetTolerances(solve->snes, atol, rtol, stol, max_it, max_f));
-  PetscCall(SNESGetConvergedReason(solve->snes, &reason));
-  PetscCall(SNESGetIterationNumber(solve->snes, &iterations));
-  PetscCall(SNESGetConvergenceHistory(solve->snes, &norms, NULL, &n));
-  for (PetscInt j = 1; j < n; j++) {
-    if (norms[j] >= norms[j - 1]) newton->monotone = PETSC_FALSE;
+  if (k == SETTLING) {
+    PetscCall(normals_use(contact, STICKSLIP_NORMALS_COMMITTED));
+    PetscCall(solve_from(solve, x, &reason));
+    PetscCall(normals_use(contact, STICKSLIP_NORMALS_CURRENT));
   }
-  newton->iterations += iterations;
+  if (reason > 0) PetscCall(solve_from(solve, x, &reason));
+  PetscCall(SNESSetTolerances(solve->snes, atol, rtol, stol, max_it, max_f));
   *converged = (PetscBool)(reason > 0);
   if (newton->changed) PetscCall(contact_scale_augmentation(contact, NULL, 1));
   if (!*converged) {
@@ -206,6 +224,7 @@ PetscErrorCode newton_solve(Solve *solve, const Past *past, Vec x, PetscBool *co
   PetscCall(closing_needed(solve, x, &closing_first));
   for (int i = 0; i < N_ATTEMPTS && !*converged; i++) {
     const int k = closing_first ? (i + CLOSING) % N_ATTEMPTS : i;
+    if (k == SETTLING && !normals_follow(solve->contact)) continue;
     if (k == PLAIN && !extrapolates) continue;
     if (k == BACKTRACKING && newton->fixed_line_search) continue;
     if (k == LARGER && !newton->cycle[0]) continue;
