@@ -1,5 +1,5 @@
-/* What dual multipliers cost a caller: residual and tangent of an interface, by the handle and by the stages, over the
- * distinct entries that the tangent has, against standard multipliers in the same run.
+/* What dual multipliers and normals of now cost a caller: residual and tangent of an interface against standard multipliers
+ * and normals of t_n in the same run. Bases by the handle and by the stages, over the distinct entries that the tangent has.
  *
  * 16 x 16 facets over 19 x 19, which move between evaluations, with friction. Times are of this thread, the least of
  * several passes; passes of both bases alternate. Memory that a call has given back stays with the program: by default
@@ -61,7 +61,7 @@ static int ascending(const void *a, const void *b) {
   return (p > q) - (p < q);
 }
 
-static stickslip_interface *create(int32_t basis) {
+static stickslip_interface *create(int32_t basis, int32_t normals) {
   const stickslip_surface one = {.struct_size = sizeof one, .n_nodes = N1, .n_facets = F1, .coordinates = reference1,
       .facet_offsets = offsets1, .facet_nodes = nodes1, .equations = equations1, .multiplier_equations = multipliers};
   const stickslip_surface two = {.struct_size = sizeof two, .n_nodes = N2, .n_facets = F2, .coordinates = reference2,
@@ -70,6 +70,7 @@ static stickslip_interface *create(int32_t basis) {
   stickslip_interface *interface = NULL;
   CHECK(stickslip_options_init(&options, sizeof options));
   options.multiplier_basis = basis;
+  options.normals = normals;
   options.modulus = 1000.0;
   options.mu = 0.3;
   CHECK(stickslip_interface_create(&one, &two, &options, &interface));
@@ -149,8 +150,8 @@ static double by_stages(int dual, int pass) {
 }
 
 int main(void) {
-  double least[2][2] = {{1e300, 1e300}, {1e300, 1e300}};
-  int64_t distinct[2] = {0, 0};
+  double least[3][2] = {{1e300, 1e300}, {1e300, 1e300}, {1e300, 1e300}};
+  int64_t distinct[2] = {0, 0}, turning[2] = {0, 0};
 #ifdef __GLIBC__
   mallopt(M_MMAP_THRESHOLD, 32 << 20); /* the largest that is allowed */
   mallopt(M_TRIM_THRESHOLD, 1 << 30);
@@ -160,11 +161,16 @@ int main(void) {
   memcpy(x2, reference2, sizeof x2);
   for (int k = 0; k < X1; ++k) equations1[k] = k, multipliers[k] = X1 + X2 + k, lambda[k] = k % 3 == 2 ? -1.0 : 0.1;
   for (int k = 0; k < X2; ++k) equations2[k] = X1 + k;
-  stickslip_interface *interfaces[2] = {create(STICKSLIP_BASIS_STANDARD), create(STICKSLIP_BASIS_DUAL)};
+  stickslip_interface *interfaces[2][2];
+  for (int dual = 0; dual < 2; ++dual) {
+    interfaces[dual][0] = create(dual ? STICKSLIP_BASIS_DUAL : STICKSLIP_BASIS_STANDARD, STICKSLIP_NORMALS_COMMITTED);
+    interfaces[dual][1] = create(dual ? STICKSLIP_BASIS_DUAL : STICKSLIP_BASIS_STANDARD, STICKSLIP_NORMALS_CURRENT);
+  }
   for (int pass = 0; pass < PASSES; ++pass) {
     for (int dual = 0; dual < 2; ++dual) {
-      least[0][dual] = fmin(least[0][dual], by_handle(interfaces[dual], pass, &distinct[dual]));
+      least[0][dual] = fmin(least[0][dual], by_handle(interfaces[dual][0], pass, &distinct[dual]));
       least[1][dual] = fmin(least[1][dual], by_stages(dual, pass));
+      least[2][dual] = fmin(least[2][dual], by_handle(interfaces[dual][1], pass, &turning[dual]));
     }
   }
   printf("%-42s %10s %10s %8s\n", "residual and tangent", "standard", "dual", "ratio");
@@ -178,6 +184,14 @@ int main(void) {
     printf("%-42s %10.3f %10.3f %8.3f\n", how ? "stages: ns a distinct entry" : "handle: ns a distinct entry", a[0], a[1],
            a[1] / a[0]);
   }
-  for (int dual = 0; dual < 2; ++dual) CHECK(stickslip_interface_destroy(&interfaces[dual]));
+  printf("%-42s %10s %10s %8s\n", "handle: ns a facet", "normals", "normals", "");
+  printf("%-42s %10s %10s %8s\n", "", "of t_n", "of now", "ratio");
+  for (int dual = 0; dual < 2; ++dual) {
+    printf("%-42s %10.0f %10.0f %8.3f\n", dual ? "dual multipliers" : "standard multipliers", least[0][dual] / F1,
+           least[2][dual] / F1, least[2][dual] / least[0][dual]);
+    printf("%-42s %10lld %10lld %8.3f\n", "  distinct entries", (long long)distinct[dual], (long long)turning[dual],
+           (double)turning[dual] / (double)distinct[dual]);
+    for (int k = 0; k < 2; ++k) CHECK(stickslip_interface_destroy(&interfaces[dual][k]));
+  }
   return 0;
 }

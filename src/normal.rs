@@ -3,6 +3,7 @@
 
 use crate::error::{Error, Kind, Result};
 use crate::geometry::{Facet, Mat3, Vec3};
+use nalgebra::SMatrix;
 
 /// A sum of unit normals shorter than this has no direction: the facets around the node face each
 /// other, or the node is a knife's edge.
@@ -22,20 +23,30 @@ fn edges(facet: &Facet, k: usize) -> [Vec3; 2] {
     [x[(k + 1) % n] - x[k], x[(k + n - 1) % n] - x[k]]
 }
 
-/// Derivatives of m, the unit normal at corner k of a facet: each corner that it depends on, with Dm / Dx of it [1/L].
-/// With the edges a and b, Dm = (I - m m^T) (Da x b + a x Db) / |a x b|. Zero where the corner is degenerate.
-pub fn corner_normal_derivatives(facet: &Facet, k: usize) -> [(usize, Mat3); 3] {
+/// `rows` times the derivatives of m, the unit normal at corner k of a facet: each corner that it depends on, with
+/// `rows` Dm / Dx of it. With the edges a and b, Dm = (I - m m^T) (Da x b + a x Db) / |a x b|. Zero where the corner is degenerate.
+pub fn corner_normal_derivatives<const R: usize>(
+    facet: &Facet,
+    k: usize,
+    rows: &SMatrix<f64, R, 3>,
+) -> [(usize, SMatrix<f64, R, 3>); 3] {
     let n = facet.len();
     let [a, b] = edges(facet, k);
     let w = a.cross(&b);
     let norm = w.norm();
-    let tangential = if norm > 0.0 {
+    let (mut next, mut previous) = (SMatrix::zeros(), SMatrix::zeros());
+    if norm > 0.0 {
         let m = w / norm;
-        (Mat3::identity() - m * m.transpose()) / norm
-    } else {
-        Mat3::zeros()
-    };
-    let (next, previous) = (tangential * -b.cross_matrix(), tangential * a.cross_matrix());
+        for i in 0..R {
+            let row = Vec3::new(rows[(i, 0)], rows[(i, 1)], rows[(i, 2)]);
+            let row = (row - m * row.dot(&m)) / norm;
+            // row . (Da x b) = (b x row) . Da, row . (a x Db) = (row x a) . Db
+            let (of_a, of_b) = (b.cross(&row), row.cross(&a));
+            for j in 0..3 {
+                (next[(i, j)], previous[(i, j)]) = (of_a[j], of_b[j]);
+            }
+        }
+    }
     [((k + 1) % n, next), ((k + n - 1) % n, previous), (k, -next - previous)]
 }
 

@@ -8,7 +8,7 @@ use super::node::{read_node, rows, stickslip_node};
 use super::options::choose_normals;
 use super::raw;
 use crate::error::{Error, Kind};
-use crate::geometry::{Plane, Vec3};
+use crate::geometry::{Mat3, Plane, Vec3};
 use crate::memory::Stored;
 use crate::normal::{SMALLEST_SUM, corner_normal_derivatives, nodal_normal, nodal_normal_derivative};
 use nalgebra::SVector;
@@ -81,7 +81,7 @@ pub unsafe extern "C" fn stickslip_facet_normal_derivatives(n: i32, x: *const f6
         Plane::of(&facet).map_err(raw::named("x"))?;
         let (n, mut values) = (facet.len(), [0.0; 144]);
         for k in 0..n {
-            for (l, dm) in corner_normal_derivatives(&facet, k) {
+            for (l, dm) in corner_normal_derivatives(&facet, k, &Mat3::identity()) {
                 for (i, j) in (0..3).flat_map(|i| (0..3).map(move |j| (i, j))) {
                     values[((3 * k + i) * n + l) * 3 + j] = dm[(i, j)];
                 }

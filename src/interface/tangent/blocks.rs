@@ -225,7 +225,8 @@ pub fn blocks<const MOVES: bool, const N: usize>(
         let drow_dnow = |b: usize| numbers.map_or_else(SMatrix::zeros, |n| n.nodes[b].drow_dnow);
         let lone = turning::lone_facets(given, union)?;
         let paired = union.chunk_by(|p, q| p.one == q.one).map(|pairs| pairs[0].one);
-        for f in paired.chain(lone.iter().copied()) {
+        let beyond_rows = couplings.is_some() || (N == 1 && !given.step.pairing.carriers.is_empty());
+        for f in paired.chain(lone.iter().copied()).filter(|_| beyond_rows) {
             turning::facet(f, (turns, drow_dnow), couplings.as_deref_mut(), &mut emitter)?;
         }
         lone.iter().for_each(|&f| turning::lone_rows(f, turns, &mut emitter));

@@ -33,7 +33,7 @@ use nalgebra::SVector;
 struct NodeTurn<const N: usize> {
     /// dnu/ds.
     normal: Mat3,
-    /// dc/dnu times the row scale.
+    /// dc/ds times the row scale.
     row: SMatrix<f64, N, 3>,
     /// d traction of the forces / dnu.
     traction: Mat3,
@@ -77,9 +77,10 @@ impl<'a, const N: usize> Turns<'a, N> {
                 (false, 1) => Mat3::identity() * lambda[a][0],
                 (false, _) => Mat3::zeros(),
             };
+            let normal = if fixed { Mat3::zeros() } else { nodal_normal_derivative(corners[a], &setup.nodes.free[a]) };
             Ok(NodeTurn {
-                normal: if fixed { Mat3::zeros() } else { nodal_normal_derivative(corners[a], &setup.nodes.free[a]) },
-                row: turn.drow_dnormal * if setup.nodes.owned[a] { scale(a) } else { 0.0 },
+                normal,
+                row: turn.drow_dnormal * normal * if setup.nodes.owned[a] { scale(a) } else { 0.0 },
                 traction,
                 gap: if is_carried { sums[a].gap_now } else { Vec3::zeros() },
             })
@@ -90,15 +91,15 @@ impl<'a, const N: usize> Turns<'a, N> {
     /// Dnu of the k-th node of a facet with respect to each corner of that facet which it depends on.
     fn of_corner(&self, given: Given<N>, f: usize, k: usize) -> [(usize, Mat3); 3] {
         let one = &given.setup.nonmortar;
-        let normal = self.nodes[one.facets[f].nodes[k]].normal;
-        corner_normal_derivatives(&one.facet(f, self.x1), k).map(|(corner, dm)| (corner, normal * dm))
+        corner_normal_derivatives(&one.facet(f, self.x1), k, &self.nodes[one.facets[f].nodes[k]].normal)
     }
 
     /// Adds to the rows of a facet's nodes, `[k][j][n][A]`.
     pub fn add_rows(&self, given: Given<N>, f: usize, rows: &mut [[[[f64; MAX_CORNERS]; N]; 3]]) {
-        for (k, &a) in given.setup.nonmortar.facets[f].as_slice().iter().enumerate() {
-            for (corner, dnu) in self.of_corner(given, f, k) {
-                let row = self.nodes[a].row * dnu;
+        let one = &given.setup.nonmortar;
+        let facet = one.facet(f, self.x1);
+        for (k, &a) in one.facets[f].as_slice().iter().enumerate() {
+            for (corner, row) in corner_normal_derivatives(&facet, k, &self.nodes[a].row) {
                 for (j, n) in (0..3).flat_map(|j| (0..N).map(move |n| (j, n))) {
                     rows[corner][j][n][k] += row[(n, j)];
                 }
