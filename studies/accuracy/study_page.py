@@ -4,7 +4,7 @@ import html
 import textwrap
 
 from gallery_page import STYLE
-from study_problems import DEFAULT, DUAL
+from study_problems import DEFAULT, DUAL, NORMALS, PRESS_FINE, PRESS_STEP, PRESS_STEPS
 from study_share import ASSEMBLY_BOUND, SHARE_BOUND
 
 LONG = ("What the next digit costs", "Each knob against the default")  # on the page alone
@@ -74,7 +74,7 @@ def against_default(problems, rows):
 # What the summary shows of the knobs, in this order.
 SHOWN = ("cells_1", "cells_3", "cells_6", "cells_12", "cells_36", "elements_2", "elements_4", "elements_10", "hybrid_3",
          "frozen_normals", "frozen_weights", "rtol_1e-8", "rtol_1e-5", "rtol_1e-3", "weights_committed",
-         "weights_reference", "augmented", DUAL)
+         "weights_reference", "augmented", DUAL, NORMALS)
 
 
 def matrix(problems, rows):
@@ -120,6 +120,24 @@ def bases(problems, rows):
             body.append([problem.title, f"{size:g}", problem.measure, forces, multiplier, states,
                          both(lambda row: str(row["newton"])), both(lambda row: f"{row['seconds']:.2f}"),
                          both(lambda row: f"{library(row):.3f}")])
+    return head, body
+
+
+def steps(problems, rows):
+    """Steps of every length with normals of t_n and of now."""
+    head = ["problem", "step", "error: of t_n", "of now", "Newton", "cut-backs", "seconds"]
+    at = {(r["problem"], r["setting"]): r for r in rows if "error" in r}
+    body = []
+    for problem in (p for p in problems if p.name == "press_fit"):
+        for step in PRESS_STEPS:
+            names = (DEFAULT, NORMALS) if step == PRESS_STEP else (f"steps_{step}", f"steps_{step}_{NORMALS}")
+            pair = [at.get((problem.name, name)) for name in names]
+            if None in pair:
+                continue
+            both = lambda text, pair=pair: " / ".join(text(row) for row in pair)
+            body.append([problem.title, f"{step} mm", per_cent(pair[0]["error"]), f"{pair[1]['error']:.0e}",
+                         both(lambda row: str(row["newton"])), both(lambda row: str(row["cutbacks"])),
+                         both(lambda row: f"{row['seconds']:.2f}")])
     return head, body
 
 
@@ -197,6 +215,9 @@ def sections(problems, rows, measured, choice):
          "the standard multiplier oscillates, so both errors are given, of the same field. States: "
          + "; ".join(f"{words} ({titles})" for words, titles in states_in_words(problems).items()) + ".",
          bases(problems, rows)),
+        ("Steps, with normals of t_n and of now", "Both on the same steps, t_n / now. The reference has steps of "
+         f"{PRESS_FINE} mm, normals of now and the finest rule: what is left with normals of now is the default rule's error.",
+         steps(problems, rows)),
         ("Each knob against the default", "On one mesh: what a knob changes in the error, in contact's time (search, "
          "integration, derivatives) and in the number of Newton iterations.", against_default(problems, rows)),
         ("Where the time goes", "Parts of the default's time.", phases(problems, rows)),

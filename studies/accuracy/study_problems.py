@@ -17,12 +17,14 @@ import friction_checks as friction
 from reference import clamped_block
 from scene import multiplier
 
-DEFAULT, DUAL = "default", "dual"
+DEFAULT, DUAL, NORMALS = "default", "dual", "normals_current"
 # Points a triangle of each rule.
 RULES = {"degree_1": 1, "degree_2": 3, "degree_4": 6, "degree_6": 12, "degree_10": 36}
 ELEMENTS = (2, 3, 4, 6, 10)
-# What the press fit's reactions are compared with: the same meshes with the finest rule, steps a fifth as long.
+# What the press fit's reactions are compared with: the same meshes with the finest rule, normals of now, and steps a tenth as
+# long, on which the answer does not depend.
 PRESS_TRAVEL, PRESS_STEP, PRESS_FINE = 1000, 50, 5
+PRESS_STEPS = (100, 50, 25, 10, 5, 2)
 # What the block's tractions are compared with: an independent solver's, on this many cells along it. From 0.2 to 3.8 it
 # is in contact; a facet of the coarsest mesh is left out at each corner, where the traction is singular.
 BLOCK_FINE, BLOCK_INNER = 320, (0.4, 3.6)
@@ -31,7 +33,7 @@ BLOCK_FINE, BLOCK_INNER = 320, (0.4, 3.6)
 @dataclass
 class Setting:
     name: str  # unique in a problem; without blanks
-    knob: str  # integration, tangent, tolerance, mesh, steps, form, weights, slip, basis
+    knob: str  # integration, tangent, tolerance, mesh, steps, form, weights, slip, basis, normals
     options: tuple
     label: str = ""  # beside the point in a figure
 
@@ -85,6 +87,7 @@ class Problem:
         for weights in ("committed", "reference"):
             add("weights", f"weights_{weights}", *option("weights", weights), label=f"{weights} weights")
         add("form", "augmented", *option("form", "augmented"))
+        add("normals", NORMALS, *option("normals", "current"), label="normals of now")
         dual = option("basis", "dual")
         add("basis", DUAL, *dual)
         for other in sizes:
@@ -95,7 +98,7 @@ class Problem:
             add("mesh", f"mesh_{other:g}_cheap", *cheap, label=f"mesh {other:g} cheap", mesh=self.mesh(other))
         found += self.extra
         quick_names = {DEFAULT, "cells_1", "cells_3", "cells_36", "elements_2", "elements_10", "hybrid_3"}
-        quick_names |= {"frozen_weights", DUAL} | {f"mesh_{other:g}" for other in sizes[:-1]}
+        quick_names |= {"frozen_weights", DUAL, NORMALS} | {f"mesh_{other:g}" for other in sizes[:-1]}
         return [s for s in found if s.name in quick_names] if quick else found
 
 
@@ -219,6 +222,15 @@ def press_times(step):
     return ("-steps_times", friction.numbers(times))
 
 
+def press_steps():
+    """Steps of every length with either normals; those of PRESS_STEP are the default and NORMALS."""
+    for step in PRESS_STEPS:
+        if step != PRESS_STEP:
+            steps = (*press_mesh(18)[:2], *press_times(step))
+            yield Setting(f"steps_{step}", "steps", steps, f"steps of {step}")
+            yield Setting(f"steps_{step}_{NORMALS}", "normals", (*steps, "-contact_normals", "current"), f"{step}, normals of now")
+
+
 def press_mesh(cells):
     return ("-slider_cells", f"{cells},1,{cells // 6}", *press_times(PRESS_STEP))
 
@@ -229,7 +241,7 @@ def pushes(run):
 
 @functools.cache
 def press_reference(driver):
-    fine = ("-contact_quadrature", "degree_10", *press_times(PRESS_FINE))
+    fine = ("-contact_quadrature", "degree_10", "-contact_normals", "current", *press_times(PRESS_FINE))
     return pushes(driver.run("press_fit", *press_mesh(18)[:2], *fine, *QUIET, label="press_fit/reference"))
 
 
@@ -257,7 +269,7 @@ PROBLEMS = [
             only=("integration", "tangent", "tolerance", "form", "mesh", "basis")),
     Problem("hertz_line", "Hertz: half-cylinders", "cattaneo_line", "contact", "pressure, root mean square",
             line_errors, lambda h: tuple(friction.line_mesh(h)), (0.272, 0.136, 0.068, 0.034), 1, friction.FRICTIONLESS,
-            only=("integration", "tangent", "tolerance", "form", "mesh", "weights", "basis"),
+            only=("integration", "tangent", "tolerance", "form", "mesh", "weights", "basis", "normals"),
             states=("open_force", OPEN)),
     Problem("hertz_ball", "Hertz: ball on block", "ball_on_block", "contact", "pressure, root mean square", ball_errors,
             ball_mesh, (0.05, 0.025, 0.0167), 1, BALL_STEPS,
@@ -275,8 +287,6 @@ PROBLEMS = [
                    Setting("steps_20", "steps", (*friction.line_mesh(0.136), *friction.pressing(20, 8)),
                            "20+8 steps"))),
     Problem("press_fit", "Press fit: reactions", "press_fit", "contact", "reactions, root mean square", press_errors,
-            press_mesh, (18,), 0, only=("integration", "tangent", "tolerance", "form", "weights", "basis"),
-            extra=(Setting("steps_10", "steps", (*press_mesh(18)[:2], *press_times(10)), "steps of 10"),
-                   Setting("steps_25", "steps", (*press_mesh(18)[:2], *press_times(25)), "steps of 25"),
-                   Setting("steps_100", "steps", (*press_mesh(18)[:2], *press_times(100)), "steps of 100"))),
+            press_mesh, (18,), 0, only=("integration", "tangent", "tolerance", "form", "weights", "basis", "normals"),
+            extra=tuple(press_steps())),
 ]

@@ -7,7 +7,7 @@ use crate::support::press::{Failure, Place, Press};
 use nalgebra::{Isometry3, Rotation3, Translation3, UnitQuaternion};
 use stickslip::error::Kind;
 use stickslip::geometry::{AnalyticShape, Vec3};
-use stickslip::interface::{Contact, Friction, NO_EQUATION, Options, Stiffness, Surface, TURN_MAX, Weights};
+use stickslip::interface::{Contact, Friction, NO_EQUATION, Normals, Options, Stiffness, Surface, TURN_MAX, Weights};
 use stickslip::law::State;
 
 /// Against many small steps, of the largest pressure: without friction a step at rest forgets the path but for areas of
@@ -19,6 +19,9 @@ const STUCK: f64 = 1e-6;
 const STUCK_ON_A_CURVE: f64 = 5e-5;
 /// At most what a degree costs in the step itself, of the largest pressure: without friction, where all stick.
 const A_DEGREE: [f64; 2] = [0.12, 1e-3];
+/// With the normals of now nothing but the rounding of Newton's method is left of a turn, of the largest pressure: the
+/// stiffness times the rounding of positions of size 1, over a pressure of a hundredth.
+const RIGID: f64 = 1e-9;
 /// Turns in degrees.
 const TURNS: [f64; 12] = [1.0, 2.0, 5.0, 10.0, 15.0, 19.0, 21.0, 30.0, 45.0, 80.0, 90.0, 180.0];
 /// Into how many steps a turn is cut to compare with.
@@ -201,6 +204,34 @@ fn what_a_turn_costs_in_the_step_itself() {
             let stuck = in_the_step::<3>(shape, Options { mu: 100.0, ..base }, degrees);
             println!("{shape:?}, {degrees} degrees: {smooth:.1e} without friction, {stuck:.1e} where all stick");
             assert!(smooth < A_DEGREE[0] * degrees && stuck < A_DEGREE[1] * degrees, "{shape:?} {degrees}");
+        }
+    }
+}
+
+/// With the normals of now everything may turn by any angle in one step: the pressures are those from before.
+#[test]
+fn a_turn_in_one_step_is_right_with_the_normals_of_now() {
+    fn worst<const N: usize>(shape: Shape, options: Options, degrees: f64) -> f64
+    where
+        Contact<N>: Create<N>,
+    {
+        let (wanted, same) = Turning::<N>::new(shape, options).turned(0.0, 1, 0).unwrap();
+        let (found, states) = Turning::<N>::new(shape, options).turned(degrees.to_radians(), 1, 0).unwrap();
+        // Tractions on the cone stick or slip by their rounding.
+        let closed = |states: &[State]| states.iter().map(|s| *s != State::Gap).collect::<Vec<_>>();
+        assert_eq!(closed(&states), closed(&same), "{shape:?} {degrees}");
+        error(&found, &wanted)
+    }
+    let base = Options { normals: Normals::Current, ..Options::new(Stiffness::Modulus(100.0)) };
+    for shape in [Shape::ShaftInRing, Shape::BlockOnBlock, Shape::BallInCup, Shape::OnPlane] {
+        for degrees in [1.0, 5.0, 15.0, 30.0, 90.0, 150.0] {
+            let smooth = worst::<1>(shape, Options { friction: Friction::None, ..base }, degrees);
+            let stuck = worst::<3>(shape, Options { mu: 100.0, ..base }, degrees);
+            let slipping = worst::<3>(shape, Options { mu: 0.01, ..base }, degrees);
+            println!(
+                "{shape:?}, {degrees} degrees: {smooth:.0e} without friction, {stuck:.0e} stuck, {slipping:.0e} with little"
+            );
+            assert!(smooth.max(stuck).max(slipping) < RIGID, "{shape:?} {degrees}: {smooth:e} {stuck:e} {slipping:e}");
         }
     }
 }

@@ -108,7 +108,10 @@ where
     /// Equilibrium at a place, accepted; nothing has changed where it fails.
     pub fn step(&mut self, place: &Place) -> Result<(), Failure> {
         let (u, lambda) = (self.u.clone(), self.lambda.clone());
-        let result = self.solve(place).and_then(|()| {
+        // Where the normals follow the motion; elsewhere they stay.
+        let turned = self.contact.turn_multipliers(&self.positions(place), &self.lambda);
+        let result = turned.map(|turned| self.lambda = turned).map_err(Failure::Refused);
+        let result = result.and_then(|()| self.solve(place)).and_then(|()| {
             let x1 = self.positions(place);
             self.contact.commit(&x1, &place.mortar, &self.lambda, None).map_err(Failure::Refused)
         });
