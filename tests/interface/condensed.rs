@@ -9,8 +9,8 @@ use serde_json::Value;
 use stickslip::error::Kind;
 use stickslip::geometry::Vec3;
 use stickslip::interface::{
-    Contact, Csr, Form, Friction, Interface, MultiplierBasis, NO_EQUATION, NO_WEAK_COVERAGE, Options, Piece, Stiffness,
-    Surface, Weights,
+    Contact, Csr, Form, Friction, Interface, MultiplierBasis, NO_EQUATION, NO_WEAK_COVERAGE, Normals, Options, Piece,
+    Stiffness, Surface, Weights,
 };
 
 /// Golden L, J_cond and R_cond, relative to the largest entry.
@@ -211,15 +211,20 @@ fn is_the_system_with_multipliers<const N: usize>(s: &mut weak::Scene<N>, what: 
 /// nodes, and directions in which nodes have no multiplier.
 #[test]
 fn is_the_same_step_as_with_multipliers() {
-    let weights = [Weights::Current, Weights::Committed];
-    for (weak_coverage, weights) in [NO_WEAK_COVERAGE, WEAK].into_iter().flat_map(|w| weights.map(|v| (w, v))) {
+    let kinds = [
+        (Weights::Current, Normals::Committed),
+        (Weights::Current, Normals::Current),
+        (Weights::Committed, Normals::Committed),
+    ];
+    for (weak_coverage, (weights, normals)) in [NO_WEAK_COVERAGE, WEAK].into_iter().flat_map(|w| kinds.map(|v| (w, v)))
+    {
         for friction in [Friction::Coulomb, Friction::Rough, Friction::Tied, Friction::Tresca] {
             let mu = if matches!(friction, Friction::Coulomb | Friction::Tresca) { 0.4 } else { 0.0 };
             let shear_limit = friction.law().limits_shear.then_some(0.2);
-            let options = Options { friction, mu, shear_limit, weights, weak_coverage, ..options() };
+            let options = Options { friction, mu, shear_limit, weights, normals, weak_coverage, ..options() };
             let mut s = scene::<3>(options);
             complete(&mut s);
-            let what = format!("{friction:?} {weak_coverage} {weights:?}");
+            let what = format!("{friction:?} {weak_coverage} {weights:?} {normals:?}");
             is_the_system_with_multipliers(&mut s, &what);
             let in_plane = Rotation3::from_euler_angles(0.4, -0.9, 1.3) * Vec3::y();
             let directions: Vec<_> = (0..s.x1.len()).step_by(2).map(|a| (a, in_plane)).collect();
@@ -227,10 +232,10 @@ fn is_the_same_step_as_with_multipliers() {
             complete(&mut s);
             is_the_system_with_multipliers(&mut s, &format!("{what}, directions taken away"));
         }
-        let options = Options { friction: Friction::None, mu: 0.0, weights, weak_coverage, ..options() };
+        let options = Options { friction: Friction::None, mu: 0.0, weights, normals, weak_coverage, ..options() };
         let mut s = scene::<1>(options);
         complete(&mut s);
-        is_the_system_with_multipliers(&mut s, &format!("one multiplier {weak_coverage} {weights:?}"));
+        is_the_system_with_multipliers(&mut s, &format!("one multiplier {weak_coverage} {weights:?} {normals:?}"));
     }
 }
 
@@ -283,8 +288,12 @@ fn is_its_derivative<const N: usize>(s: &mut weak::Scene<N>, what: &str) {
 fn the_matrix_is_the_derivative_of_the_eliminated_residual() {
     for (friction, mu) in [(Friction::Coulomb, 0.4), (Friction::Tied, 0.0), (Friction::Rough, 0.0)] {
         for weak_coverage in [NO_WEAK_COVERAGE, WEAK] {
-            for weights in [Weights::Current, Weights::Committed] {
-                let options = Options { friction, mu, weak_coverage, weights, ..options() };
+            for (weights, normals) in [
+                (Weights::Current, Normals::Committed),
+                (Weights::Current, Normals::Current),
+                (Weights::Committed, Normals::Committed),
+            ] {
+                let options = Options { friction, mu, weak_coverage, weights, normals, ..options() };
                 let frozen = weights != Weights::Current || friction == Friction::Tied;
                 let what = format!("{friction:?} {weak_coverage} {}", if frozen { "frozen" } else { "" });
                 is_its_derivative(&mut scene::<3>(options), &what);

@@ -8,6 +8,7 @@ use crate::support::mesh::*;
 use crate::support::*;
 use nalgebra::{Rotation3, SVector};
 use serde_json::Value;
+use std::collections::HashSet;
 use stickslip::error::Kind;
 use stickslip::geometry::Vec3;
 use stickslip::interface::{
@@ -28,6 +29,8 @@ const RULE_RESIDUAL: f64 = 1e-8;
 const RULE_TANGENT: f64 = 1e-4;
 /// The tangent against differences, relative to the largest entry of a block, on affine facets.
 const DIFFERENCES: f64 = 1e-7;
+/// Step of the differences (facet size 0.5): rounding 1e-16/1e-6 and truncation 1e-12.
+const STEP: f64 = 1e-6;
 /// A rigid motion of everything, over the largest of what it is about.
 const RIGID: f64 = 1e-12;
 
@@ -359,6 +362,117 @@ fn the_limit_of_a_turn_is_for_what_current_normals_do_not_cure() {
                     "{refused}"
                 );
             }
+        }
+    }
+}
+
+/// Of a mortar side at rest there are no columns: those of x1 and of the multipliers by differences.
+#[test]
+fn the_tangent_of_a_rigid_side_equals_differences() {
+    for (what, rough, cells) in scenes() {
+        for basis in [MultiplierBasis::Standard, MultiplierBasis::Dual] {
+            for form in [Form::Multiplier, Form::Augmented] {
+                let options = current(Options { form, basis, weak_coverage: NO_WEAK_COVERAGE, ..options() });
+                let t = moved(&options, cells, rough, 3);
+                let (one, two) = t.interface.surfaces();
+                let mut c: Contact<3> = contact(&mesh_of(one), &mesh_of(two), true, options);
+                let (n1, n) = (3 * t.x1.len(), 3 * (2 * t.x1.len() + t.x2.len()));
+                let mut k = vec![0.0; n * n];
+                let mut add = |i: i64, j: i64, v: f64| k[i as usize * n + j as usize] += v;
+                c.tangent(&t.x1, &t.x2, &t.lambda, None, &mut add).unwrap();
+                let equations: Vec<_> = (0..n1).chain(n - n1..n).collect();
+                let largest = max_abs(k.iter().copied());
+                for column in 0..n1 {
+                    let mut at = |h: f64| {
+                        let mut x1 = t.x1.clone();
+                        x1[column / 3][column % 3] += h;
+                        let r = c.residual(&x1, &t.x2, &t.lambda, None).unwrap();
+                        r.nonmortar.iter().chain(&r.rows).flat_map(|v| v.iter().copied()).collect::<Vec<_>>()
+                    };
+                    let (plus, minus) = (at(STEP), at(-STEP));
+                    for ((&row, plus), minus) in equations.iter().zip(plus).zip(minus) {
+                        let off = (k[row * n + column] - (plus - minus) / (2.0 * STEP)).abs();
+                        assert!(off <= DIFFERENCES * largest, "{what} {basis:?} {form:?}: {row} {column}: {off:e}");
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// Two handles with a part of the mortar facets each: their residuals and tangents add up to those of one.
+#[test]
+fn shares_of_several_handles_add_up() {
+    let (_, rough, cells) = scenes().next().unwrap();
+    let mut whole = moved(&current(options()), cells, rough, 3);
+    let (n1, n2) = (whole.x1.len(), whole.x2.len());
+    let n = 3 * (2 * n1 + n2);
+    let (one, two) = whole.interface.surfaces();
+    let (one, two) = (mesh_of(one), mesh_of(two));
+    let mut parts: Vec<_> = (0..2)
+        .map(|part| {
+            let of_part = two.facets.iter().enumerate().filter(|(f, _)| f % 2 == part).map(|(_, f)| f);
+            let mut used: Vec<_> = of_part.clone().flatten().copied().collect();
+            used.sort_unstable();
+            used.dedup();
+            let facets: Vec<Vec<i64>> =
+                of_part.map(|f| f.iter().map(|k| used.iter().position(|u| u == k).unwrap() as i64).collect()).collect();
+            let equations = used.iter().map(|k| [0, 1, 2].map(|i| 3 * (n1 as i64 + k) + i)).collect();
+            let at = |x: &[Vec3]| used.iter().map(|&k| x[k as usize]).collect::<Vec<_>>();
+            let nonmortar = Surface::new("nonmortar", one.x.clone(), &one.facets, numbered(0, n1)).unwrap();
+            let mortar = Surface::new("mortar", at(&two.x), &facets, equations).unwrap();
+            let multipliers = numbered(3 * (n1 + n2), n1);
+            let mut c = Contact::<3>::new(nonmortar, mortar, multipliers, current(options())).unwrap();
+            c.set_owned((0..n1).map(|a| a % 2 == part).collect()).unwrap();
+            (c, at(&whole.x2))
+        })
+        .collect();
+    let shares: Vec<_> = parts.iter_mut().map(|(c, x2)| c.share_of_sums(&whole.x1, x2).unwrap()).collect();
+    let mut sums = shares[0].clone();
+    for (sum, share) in sums.iter_mut().zip(&shares[1]) {
+        sum.coverage += share.coverage;
+        sum.gap_now += share.gap_now;
+        sum.coverage_previous += share.coverage_previous;
+        sum.gap_previous += share.gap_previous;
+        sum.gap_committed += share.gap_committed;
+    }
+    let (mut k, mut rows) = (vec![0.0; n * n], vec![Vec3::zeros(); n1]);
+    for (c, x2) in &mut parts {
+        let mut add = |i: i64, j: i64, v: f64| k[i as usize * n + j as usize] += v;
+        c.tangent(&whole.x1, x2, &whole.lambda, Some(&sums), &mut add).unwrap();
+        let r = c.residual(&whole.x1, x2, &whole.lambda, Some(&sums)).unwrap();
+        rows.iter_mut().zip(r.rows).for_each(|(row, share)| *row += share);
+    }
+    let (_, expected) = dense(&mut whole);
+    let error = max_abs(k.iter().zip(&expected).map(|(a, b)| a - b)) / max_abs(expected.iter().copied());
+    assert!(error <= RIGID, "{error:e}");
+    let expected = whole.interface.residual(&whole.x1, &whole.x2, &whole.lambda, None).unwrap().rows;
+    let scale = max_abs(expected.iter().map(|v| v.amax()));
+    assert!(rows.iter().zip(&expected).all(|(a, b)| (a - b).amax() <= RIGID * scale));
+}
+
+/// The pattern for a matrix that is to last has every entry of a tangent, one multiplier a node and three.
+#[test]
+fn the_superset_has_every_entry_of_the_tangent() {
+    fn check<const N: usize>(t: &Moved, options: Options, what: &str)
+    where
+        Contact<N>: Create<N>,
+    {
+        let (one, two) = t.interface.surfaces();
+        let mut c: Contact<N> = contact(&mesh_of(one), &mesh_of(two), false, options);
+        let lambda = vec![SVector::<f64, N>::repeat(-0.1); t.x1.len()];
+        let (mut tangent, mut superset) = (Vec::new(), HashSet::new());
+        c.tangent(&t.x1, &t.x2, &lambda, None, &mut |i: i64, j: i64, _| tangent.push((i, j))).unwrap();
+        let at = (c.history().x1.clone(), c.history().x2.clone());
+        c.superset_pattern(&at.0, &at.1, &mut |i, j, _| _ = superset.insert((i, j))).unwrap();
+        assert!(tangent.iter().all(|e| superset.contains(e)), "{what}");
+    }
+    // Slid by less than a quarter of a facet.
+    for (what, rough, cells) in scenes().filter(|(_, rough, _)| rough.slide < 0.25) {
+        for form in [Form::Multiplier, Form::Augmented] {
+            let t = moved(&current(Options { form, ..options() }), cells, rough, 3);
+            check::<3>(&t, current(Options { form, ..options() }), what);
+            check::<1>(&t, current(Options { form, friction: Friction::None, mu: 0.0, ..options() }), what);
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::support::mesh::options;
-use stickslip::interface::{Form, Friction, Weights};
+use stickslip::interface::{Form, Friction, Normals, Weights};
 use stickslip::law::SlipMeasure;
 
 /// Step of the central differences (facet size 0.5): rounding 1e-16/1e-6 and truncation 1e-12.
@@ -81,8 +81,13 @@ fn tangent_equals_differences_in_every_column() {
     let forms = [Form::Multiplier, Form::Augmented];
     let mut seen = [0; 3];
     for (form, basis) in forms.into_iter().flat_map(|form| BASES.map(|basis| (form, basis))) {
-        for weights in [Weights::Current, Weights::Committed, Weights::Reference] {
-            let options = Options { form, weights, basis, ..options() };
+        for (weights, normals) in [
+            (Weights::Current, Normals::Committed),
+            (Weights::Current, Normals::Current),
+            (Weights::Committed, Normals::Committed),
+            (Weights::Reference, Normals::Committed),
+        ] {
+            let options = Options { form, weights, normals, basis, ..options() };
             for slip in [SlipMeasure::Objective, SlipMeasure::Increment, SlipMeasure::Paper] {
                 let states = check_differences::<3>(Options { slip, ..options });
                 (0..3).for_each(|s| seen[s] += states[s]);
