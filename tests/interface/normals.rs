@@ -68,10 +68,15 @@ fn golden_normals_states_and_residuals() {
 
 #[test]
 fn golden_tangents() {
+    let mut compared = 0;
     for case in cases() {
         let affine = case["affine"].as_bool().unwrap();
         let expected = if affine { &case } else { &case["exactquad"] };
         for (form, key) in [(Form::Multiplier, "tangent_current_mult"), (Form::Augmented, "tangent_current")] {
+            if !expected[key].is_object() {
+                continue; // left out of the small copy
+            }
+            compared += 1;
             let rule = if affine { &DEGREE_5 } else { &DEGREE_10 };
             let mut g = set_up_with(&case, Options { rule, ..golden_options(&case, form) });
             let (n, tangent) = dense_tangent(&mut g);
@@ -85,6 +90,7 @@ fn golden_tangents() {
             }
         }
     }
+    assert!(compared >= 6, "{compared}");
 }
 
 #[test]
