@@ -344,6 +344,12 @@ static void sequence(int compared) {
     handle_fill(&h);
     handle_host(&h);
     if (draw(2) == 0) spoil(h.host1, X1);
+    /* Weights of t_n that were left out while the surfaces were apart may be refused when they are asked for. */
+    int64_t lengths[2];
+    if (!succeeded(stickslip_interface_history_size(s->interface, &lengths[0], &lengths[1]))) {
+      ++refusals;
+      break;
+    }
     history_take(s->interface, &h.before);
     change *c = &changes[n_changes];
     c->kind = (int)draw(2 * CHANGES);

@@ -273,6 +273,7 @@ contains
     type(scene), target, save :: usual
     type(change), target, save :: changes(CALLS_OF_SEQUENCE)
     integer(c_int32_t) :: status
+    integer(c_int64_t) :: lengths(2)
     integer :: calls, n
     logical :: accepted, changed, again
     call scene_init(h%s)
@@ -319,6 +320,8 @@ contains
       end if
       call handle_fill(h)
       if (once_in(2)) call spoil(SIZE1, h%host1)
+      ! Weights of t_n that were left out while the surfaces were apart may be refused when they are asked for.
+      if (.not. succeeded(stickslip_interface_history_size(h%s%contact, lengths(1), lengths(2)))) exit
       call history_take(h%s%contact, h%before)
       call any_change(h, changes(n + 1))
       changed = changes(n + 1)%what < 8
