@@ -66,7 +66,11 @@ fn golden_tangents_with_current_normals() {
             let g = open(&case, |options| (options.form, options.quadrature) = (form, quadrature));
             let matrix = dense(&expected[tangent], g.ends()[3]);
             let error = tangent_error(g.ends(), &g.tangent(), &matrix, VANISHING);
-            assert!(error <= if affine { TANGENT } else { RULE_TANGENT }, "{}: {tangent} off by {error:e}", name(&case));
+            assert!(
+                error <= if affine { TANGENT } else { RULE_TANGENT },
+                "{}: {tangent} off by {error:e}",
+                name(&case)
+            );
             worst[usize::from(!affine)] = worst[usize::from(!affine)].max(error);
             if !affine {
                 let error = residual_off(&g, &expected[residual]);
