@@ -92,7 +92,11 @@ impl Recipe {
             slip: [SlipMeasure::Objective, SlipMeasure::Increment, SlipMeasure::Paper][usize::from(self.slip)],
             weights: [Weights::Current, Weights::Committed, Weights::Reference][usize::from(self.weights)],
             // They go with the weights of now alone.
-            normals: if self.weights == 0 && self.seed / 15 % 2 == 0 { Normals::Current } else { Normals::Committed },
+            normals: if self.weights == 0 && (self.seed / 15).is_multiple_of(2) {
+                Normals::Current
+            } else {
+                Normals::Committed
+            },
             mu: self.mu,
             scheme: match self.seed / 3 % 5 {
                 0 => Scheme::Elements(cell::line_of(3).unwrap()),
