@@ -73,6 +73,10 @@ module stickslip
   integer(c_int32_t), parameter :: STICKSLIP_WEIGHTS_COMMITTED = 1
   integer(c_int32_t), parameter :: STICKSLIP_WEIGHTS_REFERENCE = 2
 
+  ! Normals: of the last commit; of the current configuration, linearised, with current weights and averaged normals only.
+  integer(c_int32_t), parameter :: STICKSLIP_NORMALS_COMMITTED = 0
+  integer(c_int32_t), parameter :: STICKSLIP_NORMALS_CURRENT = 1
+
   integer(c_int32_t), parameter :: STICKSLIP_FRICTION_COULOMB = 0
   integer(c_int32_t), parameter :: STICKSLIP_FRICTION_NONE = 1
   integer(c_int32_t), parameter :: STICKSLIP_FRICTION_TIED = 2
@@ -168,7 +172,7 @@ module stickslip
   integer(c_int32_t), parameter :: STICKSLIP_STATE_SLIP = 2
 
   ! Sizes of the types in bytes (64-bit machines), their struct_size.
-  integer(c_int64_t), parameter :: stickslip_options_size = 144
+  integer(c_int64_t), parameter :: stickslip_options_size = 152
   integer(c_int64_t), parameter :: stickslip_surface_size = 72
   integer(c_int64_t), parameter :: stickslip_states_size = 80
   integer(c_int64_t), parameter :: stickslip_counters_size = 200
@@ -215,6 +219,8 @@ module stickslip
                                                    ! library's choice, 0.2 with dual multipliers, else none; or ..._NONE
     real(c_double) :: turn_max = 0                 ! radians from one commit to the next; 0: pi / 9; pi: any
     real(c_double) :: shear_limit = 0              ! largest shear traction, > 0 with TRESCA [F/L^2]
+    integer(c_int32_t) :: normals = 0              ! STICKSLIP_NORMALS_...
+    integer(c_int32_t) :: reserved = 0             ! must be 0
   end type
 
   ! One surface of an interface. nf facets with 3 or 4 nodes each.
@@ -833,6 +839,42 @@ module stickslip
       type(stickslip_node_response), intent(in) :: response
       integer(c_int32_t), value :: layout
       type(c_ptr), value :: w, row, row_scale
+    end function
+
+    ! Which normals evaluations use until the next commit, rollback or import: STICKSLIP_NORMALS_CURRENT, as after each of
+    ! these, or STICKSLIP_NORMALS_COMMITTED for a robust first phase of a step, with which a commit refuses.
+    integer(c_int32_t) function stickslip_interface_use_normals(interface, normals) bind(C)
+      import :: c_int32_t, stickslip_interface
+      type(stickslip_interface), value :: interface
+      integer(c_int32_t), value :: normals
+    end function
+
+    ! Turns multipliers lambda(3, n1), in and out, as the normals turn from t_n to x1(3, n1): a start for Newton's method.
+    integer(c_int32_t) function stickslip_interface_turn_multipliers(interface, x1, lambda) bind(C)
+      import :: c_double, c_int32_t, stickslip_interface
+      type(stickslip_interface), value :: interface
+      real(c_double), intent(in) :: x1(3, *)
+      real(c_double), intent(inout) :: lambda(3, *)
+    end function
+
+    ! Derivatives of a facet's corner normals m(i, k) with respect to its nodes x(j, l), to be summed over the facets
+    ! around a node: derivatives(3, n, 3, n) as (j, l, i, k), output [1/L].
+    integer(c_int32_t) function stickslip_facet_normal_derivatives(n, x, derivatives) bind(C)
+      import :: c_double, c_int32_t
+      integer(c_int32_t), value :: n
+      real(c_double), intent(in) :: x(3, *)
+      real(c_double), intent(inout) :: derivatives(*)
+    end function
+
+    ! How a node's answer turns with its normal, which is that of the sum of the corner normals around it. Outputs, each
+    ! may be null: dnu_dsum(3, 3) [-], dp_dnormal(3, 3) [F/L^2], drow_dnormal(3, 3) [L^3], which are (row, column) with
+    ! layout = STICKSLIP_LAYOUT_COLUMN_MAJOR.
+    integer(c_int32_t) function stickslip_node_turn(node, sum, layout, dnu_dsum, dp_dnormal, drow_dnormal) bind(C)
+      import :: c_double, c_int32_t, c_ptr, stickslip_node
+      type(stickslip_node), intent(in) :: node
+      real(c_double), intent(in) :: sum(3)
+      integer(c_int32_t), value :: layout
+      type(c_ptr), value :: dnu_dsum, dp_dnormal, drow_dnormal
     end function
 
     ! Stage 1b: dual multipliers of a facet x(3, n) with the sum mass(n, n) of its pairs' n_ab. Outputs, each may be null:

@@ -68,7 +68,7 @@
  * What it may add: interface_set_friction, interface_set_augmentation, interface_set_normals,
  * interface_set_constraints, interface_set_previous after interface_create; interface_history_size,
  * interface_history_export, interface_history_import for restarts; interface_sums on several processes;
- * interface_counters, interface_effects, interface_report, interface_diagnose. With STICKSLIP_NORMALS_CURRENT: interface_turn_multipliers
+ * interface_counters, interface_effects, interface_report, interface_diagnose. Where normals follow the motion: interface_turn_multipliers
  * at the start of a step, interface_use_normals for a step in two phases. Before it: surface_split_creases where a non-mortar surface
  * has sharp edges, crosspoints_find where interfaces share nodes.
  *
@@ -207,9 +207,6 @@
 /// Weights, normals and areas frozen at the first configuration: small displacements.
 #define STICKSLIP_WEIGHTS_REFERENCE 2
 
-/// Coulomb friction with the coefficient mu (0 allowed). Default.
-#define STICKSLIP_FRICTION_COULOMB 0
-
 /// Normals nu of the last commit, as in the paper: data of a step. Default.
 #define STICKSLIP_NORMALS_COMMITTED 0
 
@@ -217,6 +214,9 @@
 /// turn by any angle within it, and a step without load moves nothing. With STICKSLIP_WEIGHTS_CURRENT and averaged normals
 /// only; tied surfaces use no normals. Which facets look at each other follows the motion, too.
 #define STICKSLIP_NORMALS_CURRENT 1
+
+/// Coulomb friction with the coefficient mu (0 allowed). Default.
+#define STICKSLIP_FRICTION_COULOMB 0
 
 /// One multiplier per node, along the normal: multiplier_equations, lambda and rows have n1 entries. No slip history.
 #define STICKSLIP_FRICTION_NONE 1

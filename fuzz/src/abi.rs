@@ -148,8 +148,25 @@ fn node_calls(bytes: &mut Bytes) {
         *v = bytes.number(0.0);
     }
     node.directions[0] = bytes.number(1.0);
+    // Mostly a sum of which the normal is.
+    let sum = node.normal.map(|v| if bytes.once_in(8) { bytes.number(-v) } else { -2.0 * v });
     let mut node = Struct::new(node);
     node.declare(bytes);
+    let mut turn = [(); 3].map(|()| Watched::<f64>::new(9));
+    let status = unsafe {
+        let [a, b, c] = &mut turn;
+        let [a, b, c] = [a, b, c].map(|o| bytes.output(o.pointer()));
+        stickslip_node_turn(bytes.pointer(node.pointer()), bytes.pointer(sum.as_ptr()), bytes.choice(2), a, b, c)
+    };
+    succeeded(status);
+    for out in &turn {
+        let pattern = Watched::<f64>::new(1).values()[0].to_bits();
+        let written = out.values().iter().filter(|v| v.to_bits() != pattern);
+        written.for_each(|v| all_finite(&[*v]));
+        if status != 0 {
+            out.assert_untouched();
+        }
+    }
     // SAFETY: as above.
     let mut response = Struct::new(unsafe { std::mem::zeroed::<stickslip_node_response>() });
     response.declare(bytes);
@@ -193,6 +210,16 @@ fn facet_calls(bytes: &mut Bytes) {
         assert!((length - 1.0).abs() < 1e-14, "{length}");
     } else {
         normal.assert_untouched();
+    }
+    let mut derivatives = Watched::<f64>::new(144);
+    let status = unsafe {
+        let (n, x) = (bytes.integer(4) as i32, bytes.pointer(x.as_ptr()));
+        stickslip_facet_normal_derivatives(n, x, bytes.output(derivatives.pointer()))
+    };
+    if succeeded(status) {
+        all_finite(&derivatives.values()[..81]);
+    } else {
+        derivatives.assert_untouched();
     }
     dual_calls(bytes);
 }
@@ -327,7 +354,7 @@ fn options(bytes: &mut Bytes, base: i64) -> Struct<stickslip_options> {
     o.form = bytes.choice(2);
     o.weights = bytes.choice(3);
     for _ in 0..bytes.below(4) {
-        match bytes.below(12) {
+        match bytes.below(13) {
             0 => o.slip = bytes.choice(3),
             1 => o.mortar_side = bytes.choice(3),
             2 => o.multiplier_basis = bytes.choice(2),
@@ -339,6 +366,7 @@ fn options(bytes: &mut Bytes, base: i64) -> Struct<stickslip_options> {
             8 => o.augmentation = bytes.number(1.0),
             9 => o.coverage_min = bytes.number(1e-4),
             10 => o.no_shortcuts = bytes.choice(16),
+            11 => (o.normals, o.reserved) = (bytes.choice(2), bytes.choice(1)),
             _ => (o.shape, o.radius) = (bytes.choice(4), bytes.number(1.0)),
         }
     }

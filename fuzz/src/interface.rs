@@ -68,6 +68,7 @@ impl Scene {
         options.modulus = bytes.number(1000.0);
         options.augmentation = if options.modulus == 0.0 { bytes.number(15.0) } else { 0.0 };
         options.multiplier_basis = bytes.choice(2);
+        options.normals = if options.weights == STICKSLIP_WEIGHTS_CURRENT { bytes.choice(2) } else { 0 };
         options.coverage_min = bytes.number(1e-8);
         options.search_distance = bytes.number(0.0);
         let components = if options.friction == STICKSLIP_FRICTION_NONE { 1 } else { 3 };
@@ -205,7 +206,7 @@ impl Scene {
             shake(bytes, &mut self.lambda);
         }
         let h = self.handle;
-        match bytes.below(12) {
+        match bytes.below(14) {
             0 => {
                 // The history moves on success alone, and comes back.
                 let before = self.history();
@@ -295,6 +296,20 @@ impl Scene {
                     all_finite(lambda.values());
                 } else {
                     lambda.assert_untouched();
+                }
+            }
+            11 => {
+                // A phase of the step, whose residual is finite too.
+                succeeded(unsafe { stickslip_interface_use_normals(h, bytes.choice(2)) });
+                self.residual();
+            }
+            12 => {
+                let mut lambda = Watched::holding(&self.lambda);
+                if succeeded(unsafe { stickslip_interface_turn_multipliers(h, self.x1.as_ptr(), lambda.pointer()) }) {
+                    all_finite(lambda.values());
+                } else {
+                    let bits = |v: &[f64]| v.iter().map(|v| v.to_bits()).collect::<Vec<_>>();
+                    assert!(bits(lambda.values()) == bits(&self.lambda), "a refused call has written");
                 }
             }
             _ => {

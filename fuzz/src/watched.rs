@@ -36,6 +36,13 @@ impl<T: Pattern> Watched<T> {
         Watched(vec![T::PATTERN; n + MARGIN], n)
     }
 
+    /// One that goes in and comes out.
+    pub fn holding(values: &[T]) -> Watched<T> {
+        let mut watched = Watched::new(values.len());
+        watched.0[..values.len()].copy_from_slice(values);
+        watched
+    }
+
     pub fn pointer(&mut self) -> *mut T {
         self.0.as_mut_ptr()
     }

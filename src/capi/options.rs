@@ -27,14 +27,14 @@ pub const STICKSLIP_WEIGHTS_CURRENT: i32 = 0;
 pub const STICKSLIP_WEIGHTS_COMMITTED: i32 = 1;
 /// Weights, normals and areas frozen at the first configuration: small displacements.
 pub const STICKSLIP_WEIGHTS_REFERENCE: i32 = 2;
-/// Coulomb friction with the coefficient mu (0 allowed). Default.
-pub const STICKSLIP_FRICTION_COULOMB: i32 = 0;
 /// Normals nu of the last commit, as in the paper: data of a step. Default.
 pub const STICKSLIP_NORMALS_COMMITTED: i32 = 0;
 /// Normals of the current configuration, linearised: the size of a step does not decide how accurate normals are, a surface may
 /// turn by any angle within it, and a step without load moves nothing. With STICKSLIP_WEIGHTS_CURRENT and averaged normals
 /// only; tied surfaces use no normals. Which facets look at each other follows the motion, too.
 pub const STICKSLIP_NORMALS_CURRENT: i32 = 1;
+/// Coulomb friction with the coefficient mu (0 allowed). Default.
+pub const STICKSLIP_FRICTION_COULOMB: i32 = 0;
 /// One multiplier per node, along the normal: multiplier_equations, lambda and rows have n1 entries. No slip history.
 pub const STICKSLIP_FRICTION_NONE: i32 = 1;
 /// Mesh tying: a node that is covered in the first configuration keeps its place; weights of the reference. A gap at the

@@ -10,7 +10,7 @@ static struct {
   every every;
   int64_t ld, capacity, length, n_interfaces, n, n_rows, n_integers, n_reals, nodes[3];
   int64_t offsets1[3], shared1[6], offsets2[3], shared2[4], options_size;
-  int32_t n_facet, layout, index_base, piece;
+  int32_t n_facet, layout, index_base, piece, which_normals;
   double scale, stiffness, rounding, angle, penetration, neighbours[12];
   double mu[N1], r[N1], normals[X1], directions[9], sums[STICKSLIP_SUMS_PER_NODE * N1], dx1[X1], dx2[X2];
   weights previous;
@@ -135,6 +135,12 @@ FUNCTION(interface_condensed_csr, (a[0], a[1], a[2], a[3], b.n_rows, a[4], a[5],
 FUNCTION(interface_condensed_pattern, (a[0], a[1], a[2], b.n_rows, a[3], a[4], b.capacity, a[5], a[6], a[7]), AT,
          {"row_offsets", H.offsets, NEEDED}, {"columns", H.csr_columns, NEEDED},
          {"entry_rows", H.row_numbers, NEEDED}, {"entry_columns", H.columns, NEEDED}, {"count", &H.count, NEEDED})
+FUNCTION(interface_use_normals, (a[0], b.which_normals), INTERFACE)
+FUNCTION(interface_turn_multipliers, (a[0], a[1], a[2]), INTERFACE, {"x1", S.x1, NEEDED}, {"lambda", S.lambda, NEEDED})
+FUNCTION(facet_normal_derivatives, (b.n_facet, a[0], a[1]), {"x", E.x1, NEEDED},
+         {"derivatives", E.normal_derivatives, NEEDED})
+FUNCTION(node_turn, (a[0], a[1], b.layout, a[2], a[3], a[4]), {"node", &E.node, NEEDED}, {"sum", E.sum, NEEDED},
+         {"dnu_dsum", E.turn, OPTIONAL}, {"dp_dnormal", E.turn + 9, OPTIONAL}, {"drow_dnormal", E.turn + 18, OPTIONAL})
 FUNCTION(interface_equilibrium, (a[0], a[1], a[2], a[3], a[4], a[5]), POINT, OUT(b.every.equilibrium))
 
 #define NAMED(name) {#name, on_##name, arguments_##name, a_##name, COUNT(arguments_##name)}
@@ -158,6 +164,7 @@ static const struct {
     NAMED(interface_effects), NAMED(interface_report), NAMED(interface_diagnose), NAMED(interface_equilibrium),
     NAMED(node_condense), NAMED(interface_carriers), NAMED(interface_condensed_multipliers), NAMED(interface_condensed_residual),
     NAMED(interface_condensed_coo), NAMED(interface_condensed_csr), NAMED(interface_condensed_pattern),
+    NAMED(interface_use_normals), NAMED(interface_turn_multipliers), NAMED(facet_normal_derivatives), NAMED(node_turn),
 };
 
 #endif

@@ -22,6 +22,7 @@ typedef struct {
   weights w_out;
   double gap[12], force[24], k[36 * 36], normals[12], areas[4], normal[3], row[3], block[9];
   double fade, dual_areas[4], coefficients[16], dual_ab[16], dual_ac[16], facet_k[36 * 36];
+  double normal_derivatives[144], turn[27];
 } element;
 
 static inline void element_init(element *e) {
@@ -61,6 +62,8 @@ static inline void element_init(element *e) {
   FILL(e->dual_ab);
   FILL(e->dual_ac);
   FILL(e->facet_k);
+  FILL(e->normal_derivatives);
+  FILL(e->turn);
 }
 
 static inline int32_t call_weights(element *e) {
@@ -94,6 +97,12 @@ static inline int32_t call_facet_tangent(element *e) {
   return stickslip_facet_tangent(&e->facet, e->w.ab, e->w.ac, e->w.ab, e->w.ac, e->traction, e->responses, e->row_scale,
                                  e->facet_k, 36);
 }
+static inline int32_t call_normal_derivatives(element *e) {
+  return stickslip_facet_normal_derivatives(4, e->x1, e->normal_derivatives);
+}
+static inline int32_t call_turn(element *e) {
+  return stickslip_node_turn(&e->node, e->sum, STICKSLIP_LAYOUT_ROW_MAJOR, e->turn, e->turn + 9, e->turn + 18);
+}
 static inline int32_t call_normal(element *e) { return stickslip_node_normal(e->sum, e->normal); }
 
 static inline void element_untouched(element *e) {
@@ -112,6 +121,8 @@ static inline void element_untouched(element *e) {
   CHECK_UNTOUCHED(e->dual_ab);
   CHECK_UNTOUCHED(e->dual_ac);
   CHECK_UNTOUCHED(e->facet_k);
+  CHECK_UNTOUCHED(e->normal_derivatives);
+  CHECK_UNTOUCHED(e->turn);
 }
 
 static inline void response_untouched(element *e) {
@@ -214,6 +225,16 @@ static inline int32_t call_interface_previous(handle *h) {
 
 static inline int32_t call_carriers(handle *h) {
   return stickslip_interface_carriers(h->s.interface, MOST_ENTRIES, h->row_numbers, h->columns, h->values, &h->count);
+}
+
+/* The multipliers turn in the output, which holds its pattern again where the call is refused. */
+static inline int32_t call_turn_multipliers(handle *h) {
+  memcpy(h->rows, h->s.lambda, sizeof h->rows);
+  const int32_t status = stickslip_interface_turn_multipliers(h->s.interface, h->s.x1, h->rows);
+  if (status == STICKSLIP_OK) return status;
+  CHECK(memcmp(h->rows, h->s.lambda, sizeof h->rows) == 0);
+  FILL(h->rows);
+  return status;
 }
 
 /* Calls for systems without multipliers, which interfaces with dual ones accept in the multiplier form. */

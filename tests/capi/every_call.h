@@ -35,6 +35,7 @@ typedef struct {
   /* Of systems without multipliers: for each call with triplets their number, and a number made of their bits. */
   double condensed_lambda[X1], condensed_rows[X1], condensed_force[X2], node_condensed[13];
   uint64_t condensed_counts[5], condensed_bits[5];
+  double turned[X1];
 } every;
 
 static inline int32_t every_weights(every *c) { return call_weights(&c->e); }
@@ -215,6 +216,20 @@ static inline int32_t every_condensed_constraints(every *c) {
 static inline int32_t every_condensed_csr(every *c) { return call_condensed_csr(&c->h); }
 static inline int32_t every_condensed_pattern(every *c) { return every_triplets(c, 4, call_condensed_pattern(&c->h)); }
 
+static inline int32_t every_use_normals(every *c) {
+  return stickslip_interface_use_normals(c->h.s.interface, c->h.s.options.normals);
+}
+static inline int32_t every_use_committed(every *c) {
+  return stickslip_interface_use_normals(c->h.s.interface, STICKSLIP_NORMALS_COMMITTED);
+}
+static inline int32_t every_turn_multipliers(every *c) {
+  scene *s = &c->h.s;
+  memcpy(c->turned, s->lambda, sizeof c->turned);
+  return stickslip_interface_turn_multipliers(s->interface, s->x1, c->turned);
+}
+static inline int32_t every_normal_derivatives(every *c) { return call_normal_derivatives(&c->e); }
+static inline int32_t every_turn(every *c) { return call_turn(&c->e); }
+
 typedef struct {
   const char *name;
   int32_t (*call)(every *c);
@@ -272,6 +287,12 @@ static const entry_point every_call[] = {
     {"interface_condensed_coo, constraints", every_condensed_constraints},
     {"interface_condensed_csr", every_condensed_csr},
     {"interface_condensed_pattern", every_condensed_pattern},
+    {"facet_normal_derivatives", every_normal_derivatives},
+    {"node_turn", every_turn},
+    {"interface_use_normals", every_use_committed},
+    {"interface_residual, normals of t_n", every_residual},
+    {"interface_use_normals, as created", every_use_normals},
+    {"interface_turn_multipliers", every_turn_multipliers},
     {"interface_commit", every_commit},
     {"interface_residual, committed", every_residual},
     {"interface_history_size", every_history_size},
@@ -334,10 +355,14 @@ static inline int32_t every_refusal(int k) {
     case 45: return stickslip_interface_condensed_csr(NULL, NULL, NULL, NULL, 0, NULL, NULL, NULL);
     case 46: return stickslip_interface_condensed_pattern(NULL, NULL, NULL, 0, NULL, NULL, 0, NULL, NULL, NULL);
     case 47: return stickslip_node_condense(NULL, NULL, 0, NULL, NULL, NULL);
+    case 48: return stickslip_interface_use_normals(NULL, 0);
+    case 49: return stickslip_interface_turn_multipliers(NULL, NULL, NULL);
+    case 50: return stickslip_facet_normal_derivatives(4, NULL, NULL);
+    case 51: return stickslip_node_turn(NULL, NULL, 0, NULL, NULL, NULL);
     default: return stickslip_interface_diagnose(NULL, NULL, NULL, NULL, NULL, NULL);
   }
 }
-enum { REFUSALS = 49 };
+enum { REFUSALS = 53 };
 
 /* Room and sizes for the structs that come out. */
 static inline void every_room(every *c) {
@@ -401,7 +426,8 @@ static inline int every_equal(every *a, every *b) {
          SAME(suspect_ratios) && SAME(suspect_causes) && SAME(diagnosis_text) && SAME(diagnosis.overlap) &&
          SAME(diagnosis.error) && SAME(step_limit) && SAME(equilibrium) &&
          SAME(node_equilibrium) && SAME(facet_normal) && SAME(condensed_lambda) && SAME(condensed_rows) &&
-         SAME(condensed_force) && SAME(node_condensed) && SAME(condensed_bits) && SAME(condensed_counts);
+         SAME(condensed_force) && SAME(node_condensed) && SAME(condensed_bits) && SAME(condensed_counts) &&
+         SAME(e.normal_derivatives) && SAME(e.turn) && SAME(turned);
 #undef SAME
 }
 

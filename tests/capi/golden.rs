@@ -277,8 +277,15 @@ impl Golden {
         Golden::with_basis(case, form, quadrature, STICKSLIP_BASIS_STANDARD)
     }
 
-    /// Where each covered node has a multiplier of its own.
     pub fn with_basis(case: &Value, form: i32, quadrature: i32, basis: i32) -> Golden {
+        Golden::with_options(case, |options| {
+            (options.form, options.quadrature, options.multiplier_basis) = (form, quadrature, basis);
+        })
+    }
+
+    /// Where each covered node has a multiplier of its own. Normals are the golden ones where they are data; without
+    /// friction the multipliers are those along the normal.
+    pub fn with_options(case: &Value, choose: impl Fn(&mut stickslip_options)) -> Golden {
         let (x1, x2) = (flat(&case["x1"]), flat(&case["x2"]));
         let equations: Vec<i64> = (0..(2 * x1.len() + x2.len()) as i64).collect();
         let arrays = |v: &Value| {
@@ -306,29 +313,32 @@ impl Golden {
         let mut options = sized!(stickslip_options);
         ok!(stickslip_options_init(&mut options, size_of::<stickslip_options>() as u64));
         options.augmentation = 1.0;
-        options.form = form;
-        options.multiplier_basis = basis;
         options.weak_coverage = STICKSLIP_WEAK_COVERAGE_NONE;
-        options.quadrature = quadrature;
         options.slip = slip_option(case);
         options.row_scale = STICKSLIP_ROW_SCALE_NONE;
         options.new_contact = STICKSLIP_NEW_CONTACT_KEEP;
+        choose(&mut options);
+        let frictional = options.friction != STICKSLIP_FRICTION_NONE;
         let mut handle = null_mut();
         ok!(stickslip_interface_create(&one, &two, &options, &mut handle));
 
         let n1 = x1.len() / 3;
         let (x1_prev, x2_prev) = (flat(&case["x1_prev"]), flat(&case["x2_prev"]));
         ok!(stickslip_interface_set_previous(handle, x1_prev.as_ptr(), x2_prev.as_ptr()));
-        ok!(stickslip_interface_set_friction(handle, per_node(&case["mu"], n1).as_ptr()));
+        if frictional {
+            ok!(stickslip_interface_set_friction(handle, per_node(&case["mu"], n1).as_ptr()));
+        }
         ok!(stickslip_interface_set_augmentation(handle, per_node(&case["r"], n1).as_ptr()));
-        ok!(stickslip_interface_set_normals(handle, flat(&case["nu"]).as_ptr()));
-        Golden { handle, x1, x2, lambda: flat(&case["lambda"]) }
+        if options.normals == STICKSLIP_NORMALS_COMMITTED {
+            ok!(stickslip_interface_set_normals(handle, flat(&case["nu"]).as_ptr()));
+        }
+        Golden { handle, x1, x2, lambda: flat(&case[if frictional { "lambda" } else { "lambda_N" }]) }
     }
 
     /// Where the blocks x1, x2, lambda end.
     pub fn ends(&self) -> [usize; 4] {
         let (a, b) = (self.x1.len(), self.x1.len() + self.x2.len());
-        [0, a, b, b + a]
+        [0, a, b, b + self.lambda.len()]
     }
 
     pub fn residual(&self) -> Vec<f64> {
@@ -352,15 +362,27 @@ impl Golden {
         let mut state = vec![-1; self.x1.len() / 3];
         let mut out = sized!(stickslip_states);
         out.state = state.as_mut_ptr();
+        self.report(&out);
+        state
+    }
+
+    pub fn normals(&self) -> Vec<f64> {
+        let mut normals = vec![f64::NAN; self.x1.len()];
+        let mut out = sized!(stickslip_states);
+        out.normal = normals.as_mut_ptr();
+        self.report(&out);
+        normals
+    }
+
+    fn report(&self, out: &stickslip_states) {
         ok!(stickslip_interface_states(
             self.handle,
             self.x1.as_ptr(),
             self.x2.as_ptr(),
             self.lambda.as_ptr(),
             null(),
-            &out
+            out
         ));
-        state
     }
 
     pub fn tangent(&self) -> Vec<f64> {

@@ -7,7 +7,7 @@
 /* A kind of scene. */
 typedef struct {
   const char *name;
-  int32_t form, friction, weights, integration, basis;
+  int32_t form, friction, weights, integration, basis, normals;
   double weak_coverage, slide, lift, shear_limit;
   int rigid, analytic;
   int unseen; /* the history is not looked at before the end: what a commit has left out is then made up for by a call */
@@ -34,6 +34,11 @@ static const kind kinds[] = {
     {.name = "hybrid", .integration = STICKSLIP_INTEGRATION_HYBRID, .slide = 0.5},
     {.name = "dual, elements", .basis = STICKSLIP_BASIS_DUAL, .integration = STICKSLIP_INTEGRATION_ELEMENTS},
     {.name = "dual, hybrid", .basis = STICKSLIP_BASIS_DUAL, .integration = STICKSLIP_INTEGRATION_HYBRID},
+    {.name = "current normals", .normals = STICKSLIP_NORMALS_CURRENT},
+    {.name = "current normals, augmented", .normals = STICKSLIP_NORMALS_CURRENT, .form = STICKSLIP_FORM_AUGMENTED},
+    {.name = "current normals, frictionless", .normals = STICKSLIP_NORMALS_CURRENT, .friction = STICKSLIP_FRICTION_NONE},
+    {.name = "current normals, dual, weak coverage", .normals = STICKSLIP_NORMALS_CURRENT, .basis = STICKSLIP_BASIS_DUAL,
+     .weak_coverage = 0.5, .slide = 0.9},
     {.name = "rigid", .rigid = 1},
     {.name = "apart", .slide = 50.0},
     {.name = "apart, unseen", .slide = 50.0, .unseen = 1},
@@ -51,6 +56,7 @@ static inline void set_up(const kind *k, every *c) {
   s->options.weights = k->weights;
   s->options.integration = k->integration;
   s->options.multiplier_basis = k->basis;
+  s->options.normals = k->normals;
   s->options.weak_coverage = k->weak_coverage;
   s->options.shear_limit = k->shear_limit;
   if (!has_mu(k->friction)) s->options.mu = 0.0;
@@ -80,6 +86,7 @@ static inline void set_up(const kind *k, every *c) {
 
 static inline int belongs(const kind *k, const entry_point *entry) {
   if (entry->call == every_friction) return has_mu(k->friction);
+  if (entry->call == every_normals) return k->normals == STICKSLIP_NORMALS_COMMITTED;
   if (is_condensed(entry->name)) return k->basis == STICKSLIP_BASIS_DUAL && k->form == STICKSLIP_FORM_MULTIPLIER;
   return entry->call != every_with_sums || (k->weak_coverage == 0.0 && k->basis == STICKSLIP_BASIS_STANDARD);
 }

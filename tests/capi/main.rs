@@ -10,3 +10,4 @@ mod condensed;
 mod dual;
 mod header;
 mod layout;
+mod normals;

@@ -67,7 +67,8 @@ static int outputs_equal(const every *a, const every *b) {
          SAME(fraction) && SAME(facets) && SAME(report_text) && SAME(diagnosis) && SAME(diagnosed_state) &&
          SAME(suspect_nodes) && SAME(suspect_directions) && SAME(suspect_ratios) && SAME(suspect_causes) &&
          SAME(diagnosis_text) && SAME(step_limit) && SAME(equilibrium) && SAME(node_equilibrium) &&
-         SAME(condensed_lambda) && SAME(condensed_rows) && SAME(condensed_force) && SAME(node_condensed);
+         SAME(condensed_lambda) && SAME(condensed_rows) && SAME(condensed_force) && SAME(node_condensed) &&
+         SAME(e.normal_derivatives) && SAME(e.turn);
 #undef LONG
 #undef SAME
 }

@@ -36,6 +36,9 @@ static void set_up(const char *name, int32_t base) {
   const int carried = strcmp(name, "interface_carriers") == 0;
   if (is_condensed(name) || carried) S.options.multiplier_basis = STICKSLIP_BASIS_DUAL;
   if (carried) scene_slide(&S, 0.9);
+  if (strcmp(name, "interface_use_normals") == 0 || strcmp(name, "interface_turn_multipliers") == 0) {
+    S.options.normals = STICKSLIP_NORMALS_CURRENT;
+  }
   every_init(&b.every);
   memset(&b.every.options, 0x5A, sizeof b.every - offsetof(every, options));
   every_room(&b.every);
@@ -170,6 +173,7 @@ static void tell(void) {
   NUMBER(INT64, n_rows), NUMBER(INT64, n_integers), NUMBER(INT64, n_reals), NUMBER(INT32, n_facet);
   NUMBER(INT32, layout), NUMBER(INT32, index_base), NUMBER(REAL, scale), NUMBER(REAL, stiffness);
   NUMBER(REAL, rounding), NUMBER(REAL, angle), NUMBER(REAL, penetration);
+  bad_place("interface_use_normals:normals", INT32, &b.which_normals, 0);
 }
 
 int main(void) {

@@ -115,7 +115,7 @@ static void stateless(void) {
   const int size = 6 * e.pair.n1 + 3 * e.pair.n2;
 
   int32_t status;
-  switch (draw(11)) {
+  switch (draw(13)) {
     case 0:
       status = stickslip_pair_weights(ANY(&e.pair), ANY(e.w_out.ab), ANY(e.w_out.ac), ANY(e.w_out.dab), ANY(e.w_out.dac));
       break;
@@ -157,6 +157,17 @@ static void stateless(void) {
                                        ANY(e.facet_k), ld);
       break;
     }
+    case 10:
+      status = stickslip_facet_normal_derivatives((int32_t)any_integer(4), ANY(e.x1), ANY(e.normal_derivatives));
+      break;
+    case 11:
+      /* Mostly with a sum that fits: only one that does is looked into. */
+      if (draw(4)) {
+        for (int i = 0; i < 3; ++i) e.sum[i] = product(e.node.normal[i], -2.0);
+      }
+      status = stickslip_node_turn(ANY(&e.node), ANY(e.sum), (int32_t)draw(3), ANY(e.turn), ANY(e.turn + 9),
+                                   ANY(e.turn + 18));
+      break;
     default: status = stickslip_node_normal(ANY(e.sum), ANY(e.normal)); break;
   }
   if (succeeded(status)) {
@@ -168,7 +179,7 @@ static void stateless(void) {
 }
 
 /* A call that defines a handle's state, with its numbers. */
-enum { FRICTION, AUGMENTATION, NORMALS, CONSTRAINTS, ROLLBACK, IMPORT, COMMIT, PREVIOUS, CHANGES, CALLS = 8 };
+enum { FRICTION, AUGMENTATION, NORMALS, CONSTRAINTS, ROLLBACK, IMPORT, COMMIT, PREVIOUS, USE_NORMALS, CHANGES, CALLS = 8 };
 typedef struct {
   int kind, given;
   int64_t n, nodes[2];
@@ -186,6 +197,7 @@ static int32_t apply(stickslip_interface *i, const change *c) {
     case ROLLBACK: return stickslip_interface_rollback(i);
     case IMPORT:
       return stickslip_interface_history_import(i, c->n, c->imported.integers, c->imported.n_reals, c->imported.reals);
+    case USE_NORMALS: return stickslip_interface_use_normals(i, (int32_t)(c->n - 1));
     case COMMIT: return stickslip_interface_commit(i, c->x1, c->x2, c->lambda, NULL);
     default: return stickslip_interface_set_previous(i, c->x1, c->x2);
   }
@@ -244,7 +256,7 @@ static const interface_call looks[] = {
     call_interface_pattern,  look_residual_sums,    look_coo_sums,      look_count,         look_start,
     look_report,             look_diagnosis,        look_history,       call_carriers,      call_condensed_csr,
     look_forces,             look_elimination,      look_constraints,   call_condensed_multipliers,
-    call_condensed_residual, call_condensed_pattern};
+    call_condensed_residual, call_condensed_pattern, call_turn_multipliers};
 
 #define SAME(member) CHECK(memcmp(&h->member, &fresh.member, sizeof h->member) == 0)
 
@@ -297,6 +309,7 @@ static void sequence(int compared) {
   s->options.no_shortcuts = (int32_t)draw(16);
   s->options.weak_coverage = 0.5 * (double)draw(3);
   s->options.multiplier_basis = (int32_t)draw(2);
+  s->options.normals = s->options.weights == STICKSLIP_WEIGHTS_CURRENT ? (int32_t)draw(2) : STICKSLIP_NORMALS_COMMITTED;
   if (!has_mu(s->options.friction)) s->options.mu = 0.0;
   if (s->options.friction == STICKSLIP_FRICTION_TRESCA) s->options.shear_limit = 0.5;
   if (draw(2)) spoil(&s->options.mu, 5);
@@ -331,6 +344,12 @@ static void sequence(int compared) {
     handle_fill(&h);
     handle_host(&h);
     if (draw(2) == 0) spoil(h.host1, X1);
+    /* Weights of t_n that were left out while the surfaces were apart may be refused when they are asked for. */
+    int64_t lengths[2];
+    if (!succeeded(stickslip_interface_history_size(s->interface, &lengths[0], &lengths[1]))) {
+      ++refusals;
+      break;
+    }
     history_take(s->interface, &h.before);
     change *c = &changes[n_changes];
     c->kind = (int)draw(2 * CHANGES);
@@ -340,7 +359,7 @@ static void sequence(int compared) {
       for (int k = 0; k < X1; ++k) c->values[k] *= -1.0;
     }
     spoil(c->values, c->kind == NORMALS ? X1 : N1);
-    c->n = (int64_t)draw(3);
+    c->n = (int64_t)draw(3) + (c->kind == USE_NORMALS);
     for (int k = 0; k < 2; ++k) c->nodes[k] = any_integer(4);
     memcpy(c->x1, s->x1, sizeof c->x1);
     memcpy(c->x2, s->x2, sizeof c->x2);

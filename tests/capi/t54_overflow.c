@@ -35,6 +35,15 @@ int main(void) {
   e.responses[0].row[0] = 1e300;
   REFUSED_OR_FINITE(stickslip_node_block(&e.responses[0], 1e300, 0, e.row, e.block), e.row, 3);
 
+  /* A facet so small that the derivatives of its normals overflow; a node whose traction turns beyond all numbers. */
+  element_init(&e);
+  for (int i = 0; i < 12; ++i) e.x1[i] *= 1e-155;
+  REFUSED_OR_FINITE(call_normal_derivatives(&e), e.normal_derivatives, 144);
+  element_init(&e);
+  e.node.gap_now[2] = -1e300;
+  e.node.augmentation = 1e10;
+  REFUSED_OR_FINITE(call_turn(&e), e.turn, 27);
+
   /* 1 / r overflows. */
   element_init(&e);
   e.node.augmentation = 1e-310;

@@ -82,6 +82,8 @@ def choose(random):
     }
     if options["friction"]:
         options["mu"] = 0.0
+    # Normals of now go with weights of now.
+    options["normals"] = pick(0, 0, 1) if options["weights"] == 0 else 0
     if options["integration"]:
         options["element_points"] = pick(0, 3, 5)
     if options["mortar_side"] == ANALYTIC:

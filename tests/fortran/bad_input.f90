@@ -67,16 +67,17 @@ module bad_input
   type(stickslip_interface), target, save :: interface_, other, created
   integer(c_int64_t), target, save :: ld, capacity, length, n_interfaces, n, n_rows, n_integers, n_reals, struct_size
   integer(c_int64_t), target, save :: nodes(3), offsets1(3), offsets2(3), shared1(6), shared2(4)
-  integer(c_int32_t), target, save :: n_facet, layout, index_base, piece
+  integer(c_int32_t), target, save :: n_facet, layout, index_base, piece, which_normals
   real(c_double), target, save :: scale, stiffness, rounding, angle, penetration, neighbours(12)
   real(c_double), target, save :: mu(NA), r(NA), normals(SIZE1), directions(9), sums(STICKSLIP_SUMS_PER_NODE * NA)
   real(c_double), target, save :: dx1(SIZE1), dx2(SIZE2)
   ! Pointer arguments, by the names of the header.
-  integer, parameter :: POINTERS = 33
+  integer, parameter :: POINTERS = 36
   character(13), parameter :: NAMES(POINTERS) = [character(13) :: 'n_ab', 'n_ac', 'dn_ab', 'dn_ac', 'n_ab_previous', &
       'n_ac_previous', 'row_scale', 'normals', 'areas', 'row', 'block', 'gap', 'traction', 'slip', 'facet_nodes', &
       'originals', 'nodes', 'kinds', 'claims', 'rows', 'columns', 'values', 'sums', 'r', &
-      'fade', 'coefficients', 'dual_ab', 'dual_ac', 'carriers', 'weights', 'entry_rows', 'entry_columns', 'w']
+      'fade', 'coefficients', 'dual_ab', 'dual_ac', 'carriers', 'weights', 'entry_rows', 'entry_columns', 'w', &
+      'dnu_dsum', 'dp_dnormal', 'drow_dnormal']
   type(c_ptr), target, save :: p(POINTERS)
 
 contains
@@ -188,6 +189,14 @@ contains
       status = stickslip_interface_equilibrium(interface_, h%s%x1, h%s%x2, h%s%lambda, at('sums'), o%equilibrium)
     case ('node_condense')
       status = stickslip_node_condense(e%node, e%responses(1), layout, at('w'), at('row'), at('row_scale'))
+    case ('interface_use_normals')
+      status = stickslip_interface_use_normals(interface_, which_normals)
+    case ('interface_turn_multipliers')
+      status = stickslip_interface_turn_multipliers(interface_, h%s%x1, h%s%lambda)
+    case ('facet_normal_derivatives')
+      status = stickslip_facet_normal_derivatives(n_facet, e%x1, e%normal_derivatives)
+    case ('node_turn')
+      status = stickslip_node_turn(e%node, e%sum, layout, at('dnu_dsum'), at('dp_dnormal'), at('drow_dnormal'))
     case ('interface_carriers')
       status = stickslip_interface_carriers(interface_, capacity, at('nodes'), at('carriers'), at('weights'), h%count)
     case ('interface_condensed_multipliers')
@@ -221,6 +230,8 @@ contains
     if (name == 'interface_carriers' .or. index(name, 'interface_condensed_') == 1) &
         h%s%options%multiplier_basis = STICKSLIP_BASIS_DUAL
     if (name == 'interface_carriers') call scene_slide(h%s, 0.9d0)
+    if (name == 'interface_use_normals' .or. name == 'interface_turn_multipliers') &
+        h%s%options%normals = STICKSLIP_NORMALS_CURRENT
     call scene_create(h%s)
     call scene_commit(h%s)
     call history_take(h%s%contact, h%before)
@@ -266,6 +277,7 @@ contains
     struct_size = stickslip_options_size
     index_base = base
     piece = STICKSLIP_CONDENSED_FORCES
+    which_normals = STICKSLIP_NORMALS_COMMITTED
     layout = STICKSLIP_LAYOUT_COLUMN_MAJOR
     angle = 0.5d0
     scale = 1
@@ -320,7 +332,8 @@ contains
          c_loc(o%traction), c_loc(o%slip), c_loc(o%split_nodes), c_loc(o%originals), c_loc(o%shared_nodes), &
          c_loc(o%kinds), c_loc(o%claims), c_loc(h%row_numbers), c_loc(h%columns), c_loc(h%values), c_null_ptr, c_loc(r), &
          c_loc(e%fade), c_loc(e%coefficients), c_loc(e%dual_ab), c_loc(e%dual_ac), &
-         c_loc(h%columns), c_loc(h%values), c_loc(h%row_numbers), c_loc(h%columns), c_loc(o%w)]
+         c_loc(h%columns), c_loc(h%values), c_loc(h%row_numbers), c_loc(h%columns), c_loc(o%w), &
+         c_loc(e%turn(1, 1)), c_loc(e%turn(1, 2)), c_loc(e%turn(1, 3))]
     if (name == 'node_condense') p(7) = c_loc(o%scale)
     if (name == 'interface_carriers') p(17) = c_loc(h%row_numbers)
     if (name == 'pair_weights') p(1:4) = [c_loc(e%w_out%ab), c_loc(e%w_out%ac), c_loc(e%w_out%dab), c_loc(e%w_out%dac)]

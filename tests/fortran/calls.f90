@@ -26,6 +26,7 @@ module calls
     type(weights) :: w_out
     real(c_double) :: gap(3, 4), force(3, 8), k(36, 36), normals(3, 4), areas(4), normal(3), row(3), block(3, 3)
     real(c_double) :: fade, dual_areas(4), coefficients(16), dual_ab(16), dual_ac(16), facet_k(36, 36)
+    real(c_double) :: normal_derivatives(3, 4, 3, 4), turn(9, 3)
   end type
 
   ! Room for any tangent or pattern of the scene.
@@ -90,6 +91,8 @@ contains
     e%dual_ab = UNWRITTEN
     e%dual_ac = UNWRITTEN
     e%facet_k = UNWRITTEN
+    e%normal_derivatives = UNWRITTEN
+    e%turn = UNWRITTEN
   end subroutine
 
   integer(c_int32_t) function call_weights(e) result(status)
@@ -147,6 +150,17 @@ contains
         c_loc(e%row_scale), e%facet_k, 36_c_int64_t)
   end function
 
+  integer(c_int32_t) function call_normal_derivatives(e) result(status)
+    type(element), target, intent(inout) :: e
+    status = stickslip_facet_normal_derivatives(4, e%x1, e%normal_derivatives)
+  end function
+
+  integer(c_int32_t) function call_turn(e) result(status)
+    type(element), target, intent(inout) :: e
+    status = stickslip_node_turn(e%node, e%sum, STICKSLIP_LAYOUT_COLUMN_MAJOR, c_loc(e%turn(1, 1)), c_loc(e%turn(1, 2)), &
+        c_loc(e%turn(1, 3)))
+  end function
+
   integer(c_int32_t) function call_normal(e) result(status)
     type(element), target, intent(inout) :: e
     status = stickslip_node_normal(e%sum, e%normal)
@@ -200,6 +214,8 @@ contains
     CHECK_UNTOUCHED(e%dual_ab)
     CHECK_UNTOUCHED(e%dual_ac)
     CHECK_UNTOUCHED(e%facet_k)
+    CHECK_UNTOUCHED(e%normal_derivatives)
+    CHECK_UNTOUCHED(e%turn)
   end subroutine
 
   subroutine handle_fill(h)
@@ -283,6 +299,16 @@ contains
     type(handle), target, intent(inout) :: h
     status = stickslip_interface_carriers(h%s%contact, MOST_ENTRIES, c_loc(h%row_numbers), c_loc(h%columns), &
         c_loc(h%values), h%count)
+  end function
+
+  ! The multipliers turn in the output, which holds its mark again where the call is refused.
+  integer(c_int32_t) function call_turn_multipliers(h) result(status)
+    type(handle), target, intent(inout) :: h
+    h%rows = h%s%lambda
+    status = stickslip_interface_turn_multipliers(h%s%contact, h%s%x1, h%rows)
+    if (status == STICKSLIP_OK) return
+    CHECK(all(same(reshape(h%rows, [SIZE1]), reshape(h%s%lambda, [SIZE1]))))
+    h%rows = UNWRITTEN
   end function
 
   ! Calls for systems without multipliers, which interfaces with dual ones accept in the multiplier form.

@@ -49,6 +49,17 @@ program t54_overflow
   status = stickslip_node_block(e%responses(1), 1d300, STICKSLIP_LAYOUT_COLUMN_MAJOR, c_loc(e%row), c_loc(e%block))
   CHECK(status > STICKSLIP_OK .or. all(ieee_is_finite(e%row)))
 
+  ! A facet so small that the derivatives of its normals overflow; a node whose traction turns beyond all numbers.
+  call element_init(e)
+  e%x1 = e%x1 * 1d-155
+  status = call_normal_derivatives(e)
+  CHECK(status > STICKSLIP_OK .or. all(ieee_is_finite(e%normal_derivatives)))
+  call element_init(e)
+  e%node%gap_now(3) = -1d300
+  e%node%augmentation = 1d10
+  status = call_turn(e)
+  CHECK(status > STICKSLIP_OK .or. all(ieee_is_finite(e%turn)))
+
   ! 1 / r overflows.
   call element_init(e)
   e%node%augmentation = 1d-310

@@ -71,10 +71,15 @@ fn golden_normals_states_and_residuals() {
 
 #[test]
 fn golden_tangents() {
+    let mut compared = 0;
     for case in cases() {
         let affine = case["affine"].as_bool().unwrap();
         let expected = if affine { &case } else { &case["exactquad"] };
         for (form, key) in [(Form::Multiplier, "tangent_current_mult"), (Form::Augmented, "tangent_current")] {
+            if !expected[key].is_object() {
+                continue; // left out of the small copy
+            }
+            compared += 1;
             let rule = if affine { &DEGREE_5 } else { &DEGREE_10 };
             let mut g = set_up_with(&case, Options { rule, ..golden_options(&case, form) });
             let (n, tangent) = dense_tangent(&mut g);
@@ -88,6 +93,7 @@ fn golden_tangents() {
             }
         }
     }
+    assert!(compared >= 6, "{compared}");
 }
 
 #[test]
@@ -170,12 +176,10 @@ fn the_tangent_with_carried_nodes_equals_differences() {
     }
     for form in [Form::Multiplier, Form::Augmented] {
         for basis in [MultiplierBasis::Standard, MultiplierBasis::Dual] {
-            for weights in [Weights::Current] {
-                let options = Options { form, basis, weights, weak_coverage: weak::WEAK, ..options() };
-                compare::<3>(current(options));
-                compare::<3>(current(Options { mu: 0.0, ..options }));
-                compare::<1>(current(Options { mu: 0.0, ..options }));
-            }
+            let options = Options { form, basis, weak_coverage: weak::WEAK, ..options() };
+            compare::<3>(current(options));
+            compare::<3>(current(Options { mu: 0.0, ..options }));
+            compare::<1>(current(Options { mu: 0.0, ..options }));
         }
     }
 }

@@ -7,8 +7,8 @@ use nalgebra::SVector;
 use stickslip::error::Result;
 use stickslip::geometry::{AnalyticShape, Vec3};
 use stickslip::interface::{
-    Contact, Extent, Form, Friction, MultiplierBasis, NO_EQUATION, NO_WEAK_COVERAGE, NodeSums, Options, Scheme,
-    Shortcuts, Surface, Weights,
+    Contact, Extent, Form, Friction, MultiplierBasis, NO_EQUATION, NO_WEAK_COVERAGE, NodeSums, Normals, Options,
+    Scheme, Shortcuts, Surface, Weights,
 };
 use stickslip::law::Coefficient;
 
@@ -26,6 +26,7 @@ enum Change {
     Friction(u64),
     Augmentation(Option<u64>),
     Normals(Option<u64>),
+    UseNormals(Normals),
     Constraints(u64),
     Previous(usize),
     Commit(usize, u64, bool),
@@ -49,9 +50,10 @@ enum Look {
     Size,
     Export,
     Effects,
+    Turn,
 }
 
-const LOOKS: [Look; 18] = [
+const LOOKS: [Look; 19] = [
     Look::Sums,
     Look::Share,
     Look::Responses(false),
@@ -70,6 +72,7 @@ const LOOKS: [Look; 18] = [
     Look::Size,
     Look::Export,
     Look::Effects,
+    Look::Turn,
 ];
 
 /// What interfaces are made of.
@@ -113,6 +116,9 @@ impl Scene {
         const LINE: &[[f64; 2]] = &[[0.21132486540518713, 0.5], [0.7886751345948129, 0.5]];
         options.scheme = [Scheme::Segments, Scheme::Segments, Scheme::Hybrid(LINE)][draw(random, 3)];
         options.basis = [MultiplierBasis::Standard, MultiplierBasis::Standard, MultiplierBasis::Dual][draw(random, 3)];
+        if options.weights == Weights::Current {
+            options.normals = [Normals::Committed, Normals::Current][draw(random, 2)];
+        }
         Scene { one: nonmortar, two: mortar, options }
     }
 
@@ -187,6 +193,7 @@ where
             let up = if seed.is_multiple_of(3) { -Vec3::z() } else { Vec3::z() };
             (0..n).map(|_| (up + random.vector(0.1)).normalize()).collect()
         })),
+        Change::UseNormals(normals) => c.use_normals(normals),
         Change::Constraints(seed) => {
             let mut random = Random(seed);
             let list: Vec<_> = (0..seed % 4).map(|k| (k as usize, random.vector(1.0))).collect();
@@ -252,6 +259,7 @@ fn look<const N: usize>(c: &mut Contact<N>, scene: &Scene, look: Look, place: us
             let (integers, reals) = c.export_history()?;
             all.extend(integers.iter().map(|i| *i as u64).chain(reals.iter().map(|v| v.to_bits())));
         }
+        Look::Turn => all.extend(c.turn_multipliers(&x1, &lambda)?.iter().flatten().map(|v| v.to_bits())),
         Look::Effects => all.extend(c.effects().unwrap().bytes().map(u64::from)),
     }
     Ok(all)
@@ -260,7 +268,7 @@ fn look<const N: usize>(c: &mut Contact<N>, scene: &Scene, look: Look, place: us
 fn any_change(random: &mut Random) -> Change {
     let seed = draw(random, 1000) as u64;
     let place = draw(random, 2 * PLACES.len());
-    match draw(random, 12) {
+    match draw(random, 13) {
         0 => Change::Friction(seed),
         1 => Change::Augmentation((seed > 300).then_some(seed)),
         2 | 3 => Change::Normals((seed > 300).then_some(seed)),
@@ -268,8 +276,17 @@ fn any_change(random: &mut Random) -> Change {
         5 => Change::Previous(place),
         6 => Change::RollBack,
         7 => Change::Restart,
+        8 => Change::UseNormals([Normals::Committed, Normals::Current][draw(random, 2)]),
         _ => Change::Commit(place, seed, seed.is_multiple_of(4)),
     }
+}
+
+/// Which normals the host has asked for since the step began.
+fn in_step(changes: &[Change]) -> impl Iterator<Item = &Change> {
+    let begins =
+        |c: &Change| matches!(c, Change::Previous(_) | Change::Commit(..) | Change::RollBack | Change::Restart);
+    let first = changes.iter().rposition(begins).map_or(0, |k| k + 1);
+    changes[first..].iter().filter(|c| matches!(c, Change::UseNormals(_)))
 }
 
 /// Sequences of random calls; how many looks succeeded, and at how many of them nothing was looked at (apart).
@@ -308,6 +325,10 @@ where
                 apply(&mut restarted, &scene, change);
             }
             restarted.import_history(&integers, &reals).unwrap();
+            // Which normals are in use belongs to the step and not to its history.
+            for &change in in_step(&changes) {
+                apply(&mut restarted, &scene, change);
+            }
             assert!(look(&mut restarted, &scene, kind, place, seed) == expected, "restarted, {}", told());
         }
         seen[0] += usize::from(found.is_ok());

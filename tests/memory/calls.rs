@@ -157,6 +157,13 @@ fn c_calls(pair: &stickslip_pair) {
         allocates_nothing("node_normal", || {
             assert_eq!(stickslip_node_normal(normals.as_ptr(), nu.as_mut_ptr()), 0);
         });
+        allocates_nothing("facet_normal_derivatives", || {
+            assert_eq!(stickslip_facet_normal_derivatives(pair.n1, pair.x1, dab.as_mut_ptr()), 0);
+        });
+        allocates_nothing("node_turn", || {
+            let ([dnu, dp], sum) = ([&mut dab, &mut dac].map(|m| m.as_mut_ptr()), [0.0, 0.0, -2.0]);
+            assert_eq!(stickslip_node_turn(&node, sum.as_ptr(), 0, dnu, dp, block.as_mut_ptr()), 0);
+        });
         allocates_nothing("texts", || {
             (stickslip_version(), stickslip_status_string(3), stickslip_last_error_message())
         });

@@ -102,6 +102,7 @@ fn every_function_of_the_abi_is_among_those_that_are_tried() {
         let special = [
             "stickslip_facet_geometry",
             "stickslip_facet_normal",
+            "stickslip_facet_normal_derivatives",
             "stickslip_facet_dual",
             "stickslip_crosspoints_find",
             "stickslip_interface_destroy",

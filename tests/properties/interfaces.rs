@@ -8,7 +8,9 @@ use nalgebra::Rotation3;
 use proptest::prelude::*;
 use proptest::test_runner::TestCaseResult;
 use stickslip::geometry::Vec3;
-use stickslip::interface::{Form, Interface, MultiplierBasis, Options, Residual, RowScale, Scheme, Stiffness, Weights};
+use stickslip::interface::{
+    Form, Interface, MultiplierBasis, Normals, Options, Residual, RowScale, Scheme, Stiffness, Weights,
+};
 use stickslip::law::{SlipMeasure, State};
 use stickslip::quadrature::{DEGREE_10, cell};
 
@@ -89,6 +91,12 @@ impl Recipe {
             form: if self.form { Form::Augmented } else { Form::Multiplier },
             slip: [SlipMeasure::Objective, SlipMeasure::Increment, SlipMeasure::Paper][usize::from(self.slip)],
             weights: [Weights::Current, Weights::Committed, Weights::Reference][usize::from(self.weights)],
+            // They go with the weights of now alone.
+            normals: if self.weights == 0 && (self.seed / 15).is_multiple_of(2) {
+                Normals::Current
+            } else {
+                Normals::Committed
+            },
             mu: self.mu,
             scheme: match self.seed / 3 % 5 {
                 0 => Scheme::Elements(cell::line_of(3).unwrap()),

@@ -1,6 +1,6 @@
 //! Laws that hold exactly (docs/formulation.md 7) and the rows W, S, K, I of the hard tests (docs/formulation.md 9) that random
-//! input can try; and where each is tried. Numbers are sections of that document. P: `pairs`, N: `nodes`, I: `interfaces`, G: `singular`; in the last column
-//! other files, with chosen or golden cases.
+//! input can try; and where each is tried. Numbers are sections of that document. P: `pairs`, N: `nodes`, I: `interfaces`, G: `singular`, C: `normals`; in the
+//! last column other files, with chosen or golden cases.
 //!
 //! | law | on random input | elsewhere |
 //! |---|---|---|
@@ -30,6 +30,9 @@
 //! | K5 symmetry | | `interface/tangent.rs` |
 //! | I3 numbering, begin, orientation | P `numbering_does_not_matter` | `interface/identities.rs` |
 //! | I6 rigid motion within a step | | `interface/identities.rs` |
+//! | 11.1 derivative of the normal: translation, stretching, rotation | C `derivatives_of_a_normal_keep_its_identities` | |
+//! | 11.1 derivative of the normal: differences | C `derivatives_of_a_normal_equal_differences` | `interface/normals.rs` |
+//! | 11.2 laws under a turn of the normal | C `answers_turn_with_the_normal_as_differences_say` | `capi/normals.rs` |
 //! | I7 threads | | `tests/capi/t50_threads.c` |
 //! | no law: maps that are all but singular are refused, or all is finite | G `facets_with_nearly_singular_maps_are_refused_or_finite` | `mortar/golden.rs` |
 //!
@@ -43,6 +46,7 @@ mod exact;
 mod geometry;
 mod interfaces;
 mod nodes;
+mod normals;
 mod pairs;
 mod singular;
 

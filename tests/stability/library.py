@@ -111,6 +111,8 @@ Options = struct(
     ("weak_coverage", c_double),
     ("turn_max", c_double),
     ("shear_limit", c_double),
+    ("normals", c_int32),
+    ("reserved", c_int32),
 )
 Surface = struct(
     "Surface",
