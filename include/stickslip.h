@@ -68,7 +68,7 @@
  * What it may add: interface_set_friction, interface_set_augmentation, interface_set_normals,
  * interface_set_constraints, interface_set_previous after interface_create; interface_history_size,
  * interface_history_export, interface_history_import for restarts; interface_sums on several processes;
- * interface_counters, interface_effects, interface_report, interface_diagnose. With STICKSLIP_NORMALS_CURRENT: interface_turn_multipliers
+ * interface_counters, interface_effects, interface_report, interface_diagnose. With normals of now: interface_turn_multipliers
  * at the start of a step, interface_use_normals for a step in two phases. Before it: surface_split_creases where a non-mortar surface
  * has sharp edges, crosspoints_find where interfaces share nodes.
  *
