@@ -1,11 +1,12 @@
 //! Nodes split along creases; a punch with a sharp edge in the corner of a channel, which needs it.
 
+use crate::support::differences::Point;
 use crate::support::mesh::*;
 use nalgebra::{DMatrix, DVector, Rotation3};
 use proptest::prelude::*;
 use stickslip::error::Kind;
 use stickslip::geometry::Vec3;
-use stickslip::interface::{Contact, NO_EQUATION, Options, Split, Stiffness, Surface};
+use stickslip::interface::{Contact, Form, NO_EQUATION, Normals, Options, Split, Stiffness, Surface};
 use stickslip::law::State;
 use stickslip::normal::corner_normal;
 
@@ -416,4 +417,38 @@ fn the_edge_of_a_blade_has_both_normals_once_it_is_split() {
     let i = interface(&apply(&blade, &split), &table, options());
     assert!((i.normal(0).unwrap() - Vec3::z()).norm() < 1e-14, "the lower face's");
     assert!((i.normal(added).unwrap() - back.cross(&y) * -1.0).norm() < 1e-14, "the upper face's");
+}
+
+/// A punch with a sharp edge in a corner, normals of now: the tangent equals differences whether its edge is split or not.
+/// Copies have equations of their own here, so that each is moved alone.
+#[test]
+fn the_tangent_at_a_crease_equals_differences_with_normals_of_now() {
+    /// Relative to the largest entry of a block, on affine facets.
+    const DIFFERENCES: f64 = 1e-7;
+    let [x, y, z] = [Vec3::x(), Vec3::y(), Vec3::z()];
+    let mesh = corner(2, &[[y, x], [z, y]]);
+    let other = corner(3, &[[x, y], [y, z]]);
+    // The corner that the punch stands in is larger, and a little off.
+    let two = Mesh { x: other.x.iter().map(|p| p * 1.3 - Vec3::new(0.004, 0.15, 0.003)).collect(), ..other };
+    let split = surface("nonmortar", &mesh).split_creases(40.0 * DEGREE).unwrap();
+    let copied = apply(&mesh, &split);
+    assert!(copied.x.len() > mesh.x.len());
+    for (what, one) in [("split", copied), ("one node", mesh)] {
+        for form in [Form::Multiplier, Form::Augmented] {
+            let options = Options { form, normals: Normals::Current, search_distance: Some(0.2), ..options() };
+            let mut contact: Contact<3> = contact(&one, &two, false, options);
+            let mut random = Random(9);
+            // A homogeneous strain keeps the facets affine, copies apart.
+            let strain = nalgebra::Matrix3::from_fn(|i, j| 0.03 * random.next() + if i == j { 1.0 } else { 0.0 });
+            let x1: Vec<_> = one.x.iter().map(|p| strain * p).collect();
+            let lambda: Vec<_> = (0..x1.len())
+                .map(|a| contact.normal(a).unwrap() * (-0.6 + 0.5 * random.next()) + random.vector(0.2))
+                .collect();
+            let states = contact.responses(&x1, &two.x, &lambda, None).unwrap();
+            assert!(states.iter().filter(|r| r.state != State::Gap).count() > 3, "{what}");
+            let mut at = Point { contact: &mut contact, x1: &x1, x2: &two.x, lambda: &lambda };
+            let error = at.difference_error(0.0);
+            assert!(error <= DIFFERENCES, "{what} {form:?}: {error:e}");
+        }
+    }
 }
