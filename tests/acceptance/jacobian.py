@@ -30,6 +30,7 @@ NO_FRICTION = ("-contact_law", "none", "-contact_friction", "0")
 # Without slip multipliers are larger: a softer body keeps them within one order of the displacements.
 ROUGH = ("-contact_law", "rough", "-contact_friction", "0", "-upper_young", "1")
 DUAL = ("-contact_basis", "dual")
+CURRENT = ("-contact_normals", "current")
 # mu decides at some nodes that slip, the limit at others.
 TRESCA = ("-contact_law", "tresca", "-contact_shear_limit", "0.1")
 
@@ -56,6 +57,10 @@ VARIANTS = {
     "rough": ROUGH,
     "dual": DUAL,
     "dual, augmented form": (*DUAL, "-contact_form", "augmented"),
+    "normals of now": CURRENT,
+    "normals of now, augmented form": (*CURRENT, "-contact_form", "augmented"),
+    "normals of now, dual": (*CURRENT, *DUAL),
+    "no friction, normals of now": (*CURRENT, *NO_FRICTION),
     "shear limit": TRESCA,
     "shear limit, augmented form": (*TRESCA, "-contact_form", "augmented"),
     "rough, augmented form": (*ROUGH, "-contact_form", "augmented"),
