@@ -22,7 +22,7 @@ use crate::interface::data::options::{Form, MultiplierBasis, Scheme};
 use crate::interface::pairing::given::Given;
 use crate::interface::stages::respond::Responses;
 use crate::memory::{self, Stored};
-use crate::mortar::{ForceDerivatives, GapDerivative, MORTAR, gap};
+use crate::mortar::{ForceDerivatives, GapDerivative, MORTAR, PairWeights, gap};
 use nalgebra::{SMatrix, SVector};
 
 /// What the numbers of a tangent are made of.
@@ -116,6 +116,30 @@ impl<const N: usize> Numbers<'_, N> {
     }
 }
 
+/// Adds a pair to what its nodes' tractions are coupled with; in the multiplier form they act on its nodes, and no gap of
+/// it moves them.
+fn couple<const MOVES: bool, const N: usize>(
+    (given, normals): (Given<N>, &[Vec3]),
+    (pair, now, previous): (&UnionPair, Option<&PairNow>, Option<&PairWeights>),
+    numbers: Option<&Numbers<N>>,
+    couplings: &mut [NodeCouplings],
+) -> Result<()> {
+    let slots = pair.slots(given.setup);
+    let mut nodes = given.setup.nonmortar.facets[pair.one].as_slice().iter().enumerate();
+    if given.setup.options.form == Form::Multiplier {
+        return nodes.try_for_each(|(k, &a)| couplings[a].add_forces::<MOVES>(k, &slots, now));
+    }
+    for (k, &a) in nodes {
+        let dp = match numbers {
+            Some(n) => dtraction(given, a, &n.responses.nodes[a], normals[a]),
+            None => (Mat3::zeros(), Mat3::zeros()),
+        };
+        couplings[a].add_pair::<MOVES>(k, &slots, now, previous, dp)?;
+    }
+    let carried = numbers.map(|n| (&n.responses.carried[..], &n.responses.nodes[..]));
+    carried_tangent::couple::<MOVES, N>((given, normals), pair, now, carried, couplings)
+}
+
 /// The blocks of a tangent of these pairs, `MOVES`: with rows and columns of the mortar side. `numbers`: `None` for the
 /// pattern alone. `constraints`: of a condensed system, see [`Emitter::constraints`]. Gives the number of pairs whose weights
 /// were differentiated.
@@ -178,10 +202,10 @@ pub fn blocks<const MOVES: bool, const N: usize>(
             if let Some(nodes) = &facet_nodes {
                 row_columns::<MOVES, N>(now.as_ref(), previous, nodes, &mut t.rows);
             }
-            if let (true, Some(turns)) = (together, turns) {
-                turns.add_rows(given, f, &mut t.rows);
-            }
             if together {
+                if let Some(turns) = turns {
+                    turns.add_rows(given, f, &mut t.rows);
+                }
                 let now = now.as_ref().map(|now| (&t.forces.one[..MORTAR], &now.weights.ab));
                 emitter.facet(f, now, &t.rows[..MORTAR]);
             } else {
@@ -192,26 +216,13 @@ pub fn blocks<const MOVES: bool, const N: usize>(
             }
             carried_tangent::rows::<MOVES, N>(&pairs[0], now.as_ref(), carried_nodes, &mut emitter);
             if let Some(couplings) = &mut couplings {
-                let slots = pairs[0].slots(given.setup);
-                for (k, &a) in one.as_slice().iter().enumerate() {
-                    if !augmented {
-                        couplings[a].add_forces::<MOVES>(k, &slots, now.as_ref())?;
-                        continue;
-                    }
-                    let dp = match numbers {
-                        Some(n) => dtraction(given, a, &n.responses.nodes[a], normals[a]),
-                        None => (Mat3::zeros(), Mat3::zeros()),
-                    };
-                    couplings[a].add_pair::<MOVES>(k, &slots, now.as_ref(), previous, dp)?;
-                }
-                let carried = carried_responses.filter(|_| augmented);
-                carried_tangent::couple::<MOVES, N>((given, normals), &pairs[0], now.as_ref(), carried, couplings)?;
+                couple::<MOVES, N>((given, normals), (&pairs[0], now.as_ref(), previous), numbers, couplings)?;
             }
         }
-        if let (false, Some(turns)) = (together, turns) {
-            turns.add_rows(given, f, &mut facet.rows);
-        }
         if !together {
+            if let Some(turns) = turns {
+                turns.add_rows(given, f, &mut facet.rows);
+            }
             emitter.facet(f, facet.now(), &facet.rows);
         }
         if MOVES && is_dual {
