@@ -1018,7 +1018,7 @@ int32_t stickslip_interface_set_augmentation(struct stickslip_interface *interfa
 /// Normals per non-mortar node, normals (3 n1), INTO the non-mortar body, of length 1 within 1e-10, in place of
 /// the averaged ones of t_n, until set again; NULL returns to those. Not part of the history.
 ///
-/// Errors: NULL_POINTER, NOT_FINITE, INVALID_VALUE.
+/// Errors: NULL_POINTER, NOT_FINITE, INVALID_VALUE, UNSUPPORTED (normals with STICKSLIP_NORMALS_CURRENT: they would not follow).
 /// Cost: a copy; allocates it.
 int32_t stickslip_interface_set_normals(struct stickslip_interface *interface,
                                         const double *normals);
@@ -1610,7 +1610,7 @@ int32_t stickslip_interface_use_normals(struct stickslip_interface *interface,
 /// Turns multipliers as the surface turns from t_n to x1: each by the smallest rotation that takes nu_A(t_n) to nu_A(x1). A
 /// start for Newton's method where a step turns the non-mortar body, for a multiplier is a vector in space; a host that knows
 /// the body's rotation may use that instead. The answer does not depend on it. Multipliers along the normal, and those of
-/// committed normals, stay as they are.
+/// an interface with STICKSLIP_NORMALS_COMMITTED in its options, stay as they are; which normals evaluations use does not matter.
 ///
 /// x1 (3 n1) [L]: the positions that Newton's method starts from; lambda (3 n1, without friction n1) [F/L^2]: those of t_n,
 /// in and out.

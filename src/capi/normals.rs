@@ -37,7 +37,7 @@ pub unsafe extern "C" fn stickslip_interface_use_normals(interface: *mut sticksl
 /// Turns multipliers as the surface turns from t_n to x1: each by the smallest rotation that takes nu_A(t_n) to nu_A(x1). A
 /// start for Newton's method where a step turns the non-mortar body, for a multiplier is a vector in space; a host that knows
 /// the body's rotation may use that instead. The answer does not depend on it. Multipliers along the normal, and those of
-/// committed normals, stay as they are.
+/// an interface with STICKSLIP_NORMALS_COMMITTED in its options, stay as they are; which normals evaluations use does not matter.
 ///
 /// x1 (3 n1) [L]: the positions that Newton's method starts from; lambda (3 n1, without friction n1) [F/L^2]: those of t_n,
 /// in and out.

@@ -8,7 +8,7 @@ use super::pairing::given::check_finite;
 use super::stages::normals;
 use crate::error::{Error, Kind, Result};
 use crate::geometry::Vec3;
-use crate::memory::Stored;
+use crate::memory::{self, Stored};
 use crate::normal::turned;
 use nalgebra::SVector;
 
@@ -28,19 +28,18 @@ impl<const N: usize> Contact<N> {
 
     /// Turns multipliers as the normals turn from t_n to `x1`: a start for Newton's method. One along the normal, and
     /// those of interfaces whose normals do not follow the motion, stay as they are.
-    pub fn turn_multipliers(&mut self, x1: &[Vec3], lambda: &[SVector<f64, N>]) -> Result<Vec<SVector<f64, N>>> {
+    pub fn turn_multipliers(&self, x1: &[Vec3], lambda: &[SVector<f64, N>]) -> Result<Vec<SVector<f64, N>>> {
         check_length("x1", x1.len(), self.setup.nonmortar.len())?;
         check_length("lambda", lambda.len(), self.setup.nonmortar.len())?;
         check_finite("x1", x1)?;
         check_finite("lambda", lambda)?;
-        normals::follow(&self.setup, &mut self.step, x1)?;
-        let given = self.given();
+        if N != 3 || !self.setup.options.follows_normals() {
+            return memory::copied(lambda);
+        }
+        let (given, now) = (self.given(), normals::at(&self.setup, &self.step, x1)?);
         let turn = |(a, lambda): (usize, &SVector<f64, N>)| {
-            if N != 3 || given.step.now.is_none() {
-                return Ok(*lambda);
-            }
             let vector = Vec3::from_fn(|i, _| lambda[i]);
-            let vector = turned(vector, given.normal_of_step(a)?, given.normal(a)?);
+            let vector = turned(vector, given.normal_of_step(a)?, given.free_normal(a, now.nu[a])?);
             Ok(SVector::from_fn(|i, _| vector[i]))
         };
         lambda.iter().enumerate().map(turn).stored_if_ok()

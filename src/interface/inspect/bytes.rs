@@ -63,5 +63,5 @@ pub fn of_pairing(pairing: &Pairing) -> usize {
 
 /// Of the normals of now.
 pub fn of_normals(now: &NormalsAt) -> usize {
-    heap(&now.x1) + heap(&now.nu)
+    heap(&now.x1) + heap(&now.sums) + heap(&now.nu)
 }

@@ -32,6 +32,8 @@ pub struct Step {
 pub struct NormalsAt {
     /// The positions.
     pub x1: Vec<Vec3>,
+    /// Per node the sum of the corner normals around it.
+    pub sums: Vec<Vec3>,
     /// Per node nu, prescribed directions not yet taken out.
     pub nu: Vec<Vec3>,
 }
@@ -76,7 +78,8 @@ impl<'a, const N: usize> Given<'a, N> {
         self.free_normal(a, host.map_or(self.history().normals[a], |n| n[a]))
     }
 
-    fn free_normal(self, a: usize, normal: Vec3) -> Result<Vec3> {
+    /// A node's normal, normalised within its free directions.
+    pub fn free_normal(self, a: usize, normal: Vec3) -> Result<Vec3> {
         let nodes = &self.setup.nodes;
         if nodes.free[a] == Mat3::identity() {
             return Ok(normal);

@@ -56,12 +56,9 @@ impl<'a, const N: usize> Turns<'a, N> {
         normals: &[Vec3],
         scale: impl Fn(usize) -> f64,
     ) -> Result<Option<Turns<'a, N>>> {
-        if given.step.now.is_none() {
-            return Ok(None);
-        }
+        let Some(now) = &given.step.now else { return Ok(None) };
         let (setup, carried) = (given.setup, &responses.carried);
         let shared = if carried.contains(&true) { carriers_sums(given, sums, carried, normals)? } else { Vec::new() };
-        let corners = setup.nonmortar.sums_of_normals(x1)?;
         let augmented = setup.options.form == Form::Augmented;
         let turn = |a: usize| {
             let sum = shared.binary_search_by_key(&a, |(b, _)| *b).map_or(&sums[a], |at| &shared[at].1);
@@ -77,7 +74,7 @@ impl<'a, const N: usize> Turns<'a, N> {
                 (false, 1) => Mat3::identity() * lambda[a][0],
                 (false, _) => Mat3::zeros(),
             };
-            let normal = if fixed { Mat3::zeros() } else { nodal_normal_derivative(corners[a], &setup.nodes.free[a]) };
+            let normal = if fixed { Mat3::zeros() } else { nodal_normal_derivative(now.sums[a], &setup.nodes.free[a]) };
             Ok(NodeTurn {
                 normal,
                 row: turn.drow_dnormal * normal * if setup.nodes.owned[a] { scale(a) } else { 0.0 },
