@@ -1018,7 +1018,7 @@ int32_t stickslip_interface_set_augmentation(struct stickslip_interface *interfa
 /// Normals per non-mortar node, normals (3 n1), INTO the non-mortar body, of length 1 within 1e-10, in place of
 /// the averaged ones of t_n, until set again; NULL returns to those. Not part of the history.
 ///
-/// Errors: NULL_POINTER, NOT_FINITE, INVALID_VALUE, UNSUPPORTED (normals with STICKSLIP_NORMALS_CURRENT: they would not follow).
+/// Errors: NULL_POINTER, NOT_FINITE, INVALID_VALUE, UNSUPPORTED (normals, where the options ask for those of now).
 /// Cost: a copy; allocates it.
 int32_t stickslip_interface_set_normals(struct stickslip_interface *interface,
                                         const double *normals);

@@ -135,7 +135,7 @@ pub unsafe extern "C" fn stickslip_interface_set_augmentation(
 /// Normals per non-mortar node, normals (3 n1), INTO the non-mortar body, of length 1 within 1e-10, in place of
 /// the averaged ones of t_n, until set again; NULL returns to those. Not part of the history.
 ///
-/// Errors: NULL_POINTER, NOT_FINITE, INVALID_VALUE, UNSUPPORTED (normals with STICKSLIP_NORMALS_CURRENT: they would not follow).
+/// Errors: NULL_POINTER, NOT_FINITE, INVALID_VALUE, UNSUPPORTED (normals, where the options ask for those of now).
 /// Cost: a copy; allocates it.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn stickslip_interface_set_normals(
