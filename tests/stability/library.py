@@ -111,6 +111,8 @@ Options = struct(
     ("weak_coverage", c_double),
     ("turn_max", c_double),
     ("shear_limit", c_double),
+    ("normals", c_int32),
+    ("reserved", c_int32),
 )
 Surface = struct(
     "Surface",
@@ -140,6 +142,15 @@ BASES = {"standard": 0, "dual": 1}
 def basis_in_question():
     """Which ones it is about."""
     return os.environ.get(BASIS, "standard")
+
+
+# The same of the normals. Where weights are frozen, normals are committed whatever it says.
+NORMALS = "STABILITY_NORMALS"
+NORMALS_OF = {"committed": 0, "current": 1}
+
+
+def normals_in_question():
+    return os.environ.get(NORMALS, "committed")
 
 
 def fade(c):
@@ -199,6 +210,7 @@ class Interface:
         chosen = Options()
         library.call("options_init", byref(chosen), c_uint64(chosen.struct_size))
         chosen.basis = BASES[basis_in_question()]
+        chosen.normals = NORMALS_OF[normals_in_question()] if not options.get("weights") else NORMALS_OF["committed"]
         for name, value in options.items():
             setattr(chosen, name, value)
         self.handle = c_void_p()
