@@ -113,7 +113,8 @@ def ironing(verdicts, driver, mesh, name, counts):
     """V and H over the first fifth of the track, in either number of steps."""
     found = []
     for n in counts:
-        run = driver.run("shallow_ironing", *mesh, "-steps_stages", f"1,10,1.2,{n}", *CURRENT, *QUIET, label=f"ironing_{name}_{n}")
+        options = (*mesh, "-steps_stages", f"1,10,1.2,{n}", *CURRENT, *QUIET)
+        run = driver.run("shallow_ironing", *options, label=f"ironing_{name}_{n}")
         t, V, H, _ = history(run)
         found.append({round(k, 6): np.array([v, h]) for k, v, h in zip(t, V, H) if k > 1 + 1e-6})
         label = f"shallow ironing, {name}, {n} steps to t = 1.2: cut-backs"

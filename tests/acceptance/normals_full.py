@@ -41,7 +41,8 @@ def friction_on_an_arc(verdicts, driver):
             run = driver.run(scene, label=f"arc_{normals}_{n}")
             ends[normals, n] = run.resultant("contact"), run.steps[-1]["friction_work"], undissipated(run)
     force, work, _ = ends["current", FINEST]
-    wrong = {k: (np.linalg.norm(f - force) / np.linalg.norm(force), abs(w / work - 1), lost) for k, (f, w, lost) in ends.items()}
+    apart = lambda f: np.linalg.norm(f - force) / np.linalg.norm(force)
+    wrong = {k: (apart(f), abs(w / work - 1), lost) for k, (f, w, lost) in ends.items()}
     print(f"{'normals':<10} {'steps':>5} {'force':>9} {'work':>9} {'pull that is not dissipated':>28}")
     for (normals, n), row in wrong.items():
         print(f"{normals:<10} {n:>5} {row[0]:>9.2e} {row[1]:>9.2e} {row[2]:>28.3f}")
