@@ -43,7 +43,7 @@ GROUPS = {
     "materials": materials,
     "normals": normals,
     "normals_full": normals_full,  # ten minutes; not among the tests
-    "normals_iterations": normals_iterations,  # a quarter of an hour; not among the tests
+    "normals_iterations": normals_iterations,  # some minutes; not among the tests
     "roles": roles,
     "slider": slider,
     "slider_fine": slider_fine,  # minutes; not among the tests
