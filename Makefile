@@ -26,7 +26,8 @@ help:
 	@echo "make compare the same problems in other programs, those that are installed (FIGURES=1: renew the table)"
 	@echo "make bench   what the kernels cost, over a C++ baseline and in instructions (FIGURES=1: renew its table)"
 	@echo "make stability  hard cases x severity, each compared with an answer: build/stability/index.html; can be resumed;"
-	@echo "             QUICK=1: the part that make test runs; ONLY='FILE ...' of tests/stability/cases; BASIS=dual; FIGURES=1: as above"
+	@echo "             QUICK=1: the part that make test runs; ONLY='FILE ...' of tests/stability/cases; BASIS=dual;"
+	@echo "             NORMALS=current; FIGURES=1: as above"
 	@echo "make check   the quick part of it, two minutes once built: format, lints, Rust tests, a few scenes"
 	@echo "make test    every test and check, the same in every run"
 	@echo "make test-long  those that take too long for it; .ci/run runs both"
@@ -124,7 +125,7 @@ stability:
 	@$(MAKE) --no-print-directory cmake-build
 	$(SAY) "The stability matrix"
 	@$(PYTHON) tests/stability/run.py --build $(BUILD) --jobs $(JOBS) $(if $(QUICK),--quick) $(if $(ONLY),--only $(ONLY)) \
-		$(if $(BASIS),--basis $(BASIS)) $(if $(FIGURES),--renew-figures)
+		$(if $(BASIS),--basis $(BASIS)) $(if $(NORMALS),--normals $(NORMALS)) $(if $(FIGURES),--renew-figures)
 
 # Long enough for the targets to come to rest; see fuzz/README.md.
 FUZZ_SECONDS ?= 900

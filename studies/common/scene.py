@@ -41,6 +41,14 @@ def interfaces(scene):
     return [name.strip(" \n\"") for name in listed[1].split(",")] if listed else []
 
 
+def weights(scene, name):
+    """The mortar weights of one of its interfaces: "current", "committed" or "reference"."""
+    path = scene if isinstance(scene, Path) else SCENES / f"{scene}.yaml"
+    about = re.search(rf"^\"?{re.escape(name)}\"?:(.*(?:\n[ \t].*)*)", path.read_text(), re.MULTILINE)
+    given = about and re.search(r"\bweights\"?: *\"?(\w+)", about[1])
+    return given[1] if given else "current"
+
+
 def multiplier(table):
     """(n, 3) multiplier of each node from its normal and tangential parts."""
     normal = np.stack([table["nx"], table["ny"], table["nz"]], axis=1)

@@ -17,6 +17,8 @@ from friction_checks import friction  # noqa: E402
 from hosts import hosts  # noqa: E402
 from ironing import ironing, ironing_full  # noqa: E402
 from material_checks import materials  # noqa: E402
+from normals import normals  # noqa: E402
+from normals_full import normals_full, normals_iterations  # noqa: E402
 from roles import roles  # noqa: E402
 from slider import slider, slider_fine  # noqa: E402
 from scene import Driver, SceneError  # noqa: E402
@@ -39,6 +41,9 @@ GROUPS = {
     "ironing": ironing,
     "ironing_full": ironing_full,  # four minutes; not among the tests
     "materials": materials,
+    "normals": normals,
+    "normals_full": normals_full,  # ten minutes; not among the tests
+    "normals_iterations": normals_iterations,  # some minutes; not among the tests
     "roles": roles,
     "slider": slider,
     "slider_fine": slider_fine,  # minutes; not among the tests

@@ -9,18 +9,29 @@ from pathlib import Path
 
 import condition
 from cell import Outcome
-from library import BASIS, Library
+from library import BASIS, NORMALS, Library
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "studies" / "common"))
 import folders  # noqa: E402, F401  (needs the path; puts the others on it)
-from scene import SCENES, Driver, SceneError, interfaces, write  # noqa: E402  (needs the path)
+from scene import SCENES, Driver, SceneError, interfaces, weights, write  # noqa: E402  (needs the path)
 
 CONVERGED, BAD_SCENE, NOT_CONVERGED, REFUSED = range(4)  # exit codes of the driver
 
 
 def matrix_folder():
-    """Of the matrix with these multipliers."""
-    return f"stability_{os.environ[BASIS]}" if BASIS in os.environ else "stability"
+    """Of the matrix with these multipliers and these normals."""
+    return "_".join(["stability", *(os.environ[name] for name in (BASIS, NORMALS) if name in os.environ)])
+
+
+def in_question(path, options):
+    """The options that say so of the interfaces of a scene. Frozen weights, there or in its options, go with committed
+    normals only."""
+    names = interfaces(path)
+    if BASIS in os.environ:
+        yield from (word for name in names for word in (f"-{name}_basis", os.environ[BASIS]))
+    if NORMALS in os.environ:
+        free = [name for name in names if weights(path, name) == "current" and f"-{name}_weights" not in options]
+        yield from (word for name in free for word in (f"-{name}_normals", os.environ[NORMALS]))
 
 
 @dataclass
@@ -56,8 +67,7 @@ class Context:
     def solve(self, scene, *options, name="run", kappa=False):
         """The finished Run of a scene (a dict, a file, or the name of one in c_examples/scenes); any exit code."""
         path = self.write(scene, name) if isinstance(scene, dict) else scene
-        if BASIS in os.environ:
-            options = (*(word for i in interfaces(path) for word in (f"-{i}_basis", os.environ[BASIS])), *options)
+        options = (*in_question(path, options), *options)
         matrix = self.folder / f"{name}_matrix.bin"
         if kappa:
             self.folder.mkdir(parents=True, exist_ok=True)

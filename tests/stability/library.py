@@ -144,6 +144,15 @@ def basis_in_question():
     return os.environ.get(BASIS, "standard")
 
 
+# The same of the normals. Where weights are frozen, normals are committed whatever it says.
+NORMALS = "STABILITY_NORMALS"
+NORMALS_OF = {"committed": 0, "current": 1}
+
+
+def normals_in_question():
+    return os.environ.get(NORMALS, "committed")
+
+
 def fade(c):
     """phi: facets of which less than a hundredth is covered fade out with dual multipliers (docs/formulation.md 10.5)."""
     s = min(max((c - 1e-4) / (1e-2 - 1e-4), 0.0), 1.0)
@@ -201,6 +210,7 @@ class Interface:
         chosen = Options()
         library.call("options_init", byref(chosen), c_uint64(chosen.struct_size))
         chosen.basis = BASES[basis_in_question()]
+        chosen.normals = NORMALS_OF[normals_in_question()] if not options.get("weights") else NORMALS_OF["committed"]
         for name, value in options.items():
             setattr(chosen, name, value)
         self.handle = c_void_p()

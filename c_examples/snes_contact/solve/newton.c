@@ -14,6 +14,8 @@
  *   6. where the supports leave a body free to move, the attempt of closing.c: the first one, if such a body is loose
  *      at the start of the step, else the last;
  *   7. if all fail, the caller takes a shorter step in time.
+ * Where contact alone holds a body, Newton's method may throw it out of contact, and there it is in equilibrium. So an
+ * attempt after which a body is loose that was not loose before counts if no other one converges with it in contact.
  * An extrapolated start may lie beyond the friction cone although the answer does not. Full steps fail there, and
  * damped ones lead to another equilibrium, in which the nodes have slid: hence 3, and before 4. From the start of 3
  * damped steps crawl where bodies strain much (rounded sliders of the press fit: 15 cut-backs instead of 4). So the
@@ -212,7 +214,8 @@ PetscErrorCode newton_solve(Solve *solve, const Past *past, Vec x, PetscBool *co
 {
   Newton         *newton       = &solve->newton;
   const PetscBool extrapolates = first_iterate_extrapolates(solve, past);
-  PetscBool       closing_first, at_start = PETSC_TRUE;
+  PetscBool       closing_first, loose, at_start = PETSC_TRUE;
+  int             lost = -1; /* the first attempt that let a body go */
   Vec             r;
 
   PetscFunctionBegin;
@@ -233,6 +236,16 @@ PetscErrorCode newton_solve(Solve *solve, const Past *past, Vec x, PetscBool *co
     if (!at_start) PetscCall(first_iterate(solve, past, (PetscBool)(extrapolates && k != PLAIN), x));
     at_start = PETSC_FALSE;
     PetscCall(attempt(solve, k, x, converged));
+    if (!*converged || closing_first || k == CLOSING) continue;
+    PetscCall(closing_needed(solve, x, &loose));
+    if (!loose) continue;
+    if (lost < 0) lost = k;
+    *converged = PETSC_FALSE;
+    PetscCall(solver_restore_pattern(solve));
+  }
+  if (!*converged && lost >= 0) {
+    PetscCall(first_iterate(solve, past, (PetscBool)(extrapolates && lost != PLAIN), x));
+    PetscCall(attempt(solve, lost, x, converged));
   }
   if (!*converged) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SNESGetFunction(solve->snes, &r, NULL, NULL));
