@@ -59,8 +59,6 @@ BAD_SCENES = [
     BadScene("odd_curve", "curve: [1, 0, 2, 1]", "curve: [1, 0, 2]", "push.curve"),
     BadScene("unknown_surface", "mortar: floor.zmax", "mortar: floor.top", "base.mortar"),
     BadScene("empty_surface", "within: [0.2, 0, 0, 3.8, 1, 0]", "within: [9, 0, 0, 10, 1, 0]", "zone.within"),
-    BadScene("current_normals_of_frozen_weights", "weights: reference", "weights: reference, normals: current",
-             "STICKSLIP_NORMALS_COMMITTED"),
     BadScene("unknown_choice", "weights: reference", "weights: heavy", "base.weights"),
     BadScene("unknown_law", "friction: 0.5", "law: sticky", "base.law"),
     BadScene("tresca_without_limit", "friction: 0.5", "friction: 0.5, law: tresca", "base.shear_limit"),
