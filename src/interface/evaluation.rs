@@ -206,6 +206,7 @@ impl<const N: usize> Contact<N> {
     /// The fraction of the step (dx1, dx2) from (x1, x2) that is allowed, above 0 and at most 1. `depth`: how much deeper a
     /// node may go, over its shortest edge, or the default. Sides that are tied may move as they like.
     pub fn step_limit(&mut self, x: (&[Vec3], &[Vec3]), dx: (&[Vec3], &[Vec3]), depth: Option<f64>) -> Result<f64> {
+        self.given().check_positions(x.0, x.1)?;
         // At a point in between they would say hardly more.
         normals::follow(&self.setup, &mut self.step, x.0)?;
         let given = Given { setup: &self.setup, step: &self.step };

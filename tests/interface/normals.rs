@@ -10,7 +10,7 @@ use nalgebra::{Rotation3, SVector};
 use serde_json::Value;
 use std::collections::HashSet;
 use stickslip::error::Kind;
-use stickslip::geometry::Vec3;
+use stickslip::geometry::{AnalyticShape, Vec3};
 use stickslip::interface::{
     Contact, Form, Friction, MultiplierBasis, NO_WEAK_COVERAGE, NewContact, Normals, Options, RowScale, Stiffness,
     Surface, Weights,
@@ -479,4 +479,109 @@ fn the_superset_has_every_entry_of_the_tangent() {
             check::<1>(&t, current(Options { form, friction: Friction::None, mu: 0.0, ..options() }), what);
         }
     }
+}
+
+/// Both faces of a plate of this thickness, the upper one at height 0.
+fn both_faces(thickness: f64) -> Mesh {
+    let face = |z: f64, up: bool| grid(4, 3, [-0.7, -0.7], [0.7, 0.7], z, up, Cells::Quads);
+    joined(face(0.0, true), face(-thickness, false))
+}
+
+/// Two meshes as one.
+fn joined(mut one: Mesh, mut two: Mesh) -> Mesh {
+    let first = one.x.len() as i64;
+    two.facets.iter_mut().flatten().for_each(|k| *k += first);
+    one.x.append(&mut two.x);
+    one.facets.append(&mut two.facets);
+    one
+}
+
+/// Forces and rows of a step without friction that ends at (x1, x2), from where `c` is at t_n or from (x1, x2) itself.
+fn residuals_of(mut c: impl FnMut() -> Contact<1>, x1: &[Vec3], x2: &[Vec3]) -> [stickslip::interface::Residual<1>; 2] {
+    let lambda = vec![SVector::from([-0.1]); x1.len()];
+    [false, true].map(|idle| {
+        let mut c = c();
+        if idle {
+            c.set_previous(x1, x2).unwrap();
+        }
+        c.set_augmentation(Some(vec![15.0; x1.len()])).unwrap();
+        c.residual(x1, x2, &lambda, None).unwrap()
+    })
+}
+
+fn without_friction() -> Options {
+    current(Options { friction: Friction::None, mu: 0.0, row_scale: RowScale::None, ..options() })
+}
+
+/// Pairs of t_n whose facets have turned since may be far sides now: they are none then. Without friction a step has the
+/// residual of one that begins where it ends.
+#[test]
+fn pairs_of_the_start_that_have_turned_away_are_none() {
+    let one = grid(3, 3, [-0.4, -0.4], [0.4, 0.4], -0.001, false, Cells::Quads);
+    let plate = both_faces(0.05);
+    // About the middle of its thickness.
+    let turned = |degrees: f64| {
+        let (middle, q) = (Vec3::z() * -0.025, Rotation3::new(Vec3::x() * degrees.to_radians()));
+        Mesh { x: plate.x.iter().map(|x| q * (x - middle) + middle).collect(), facets: plate.facets.clone() }
+    };
+    for degrees in [30.0, 60.0, 120.0, 180.0] {
+        let start = turned(degrees);
+        let c = || contact::<1>(&one, &start, false, without_friction());
+        let [step, idle] = residuals_of(c, &one.x, &plate.x);
+        assert!(idle.rows.iter().all(|row| row[0] < 0.0), "all are in contact");
+        let off = max_abs(step.rows.iter().zip(&idle.rows).map(|(a, b)| a[0] - b[0]));
+        assert!(off <= RIGID, "{degrees}: {off:e}");
+    }
+}
+
+/// The same against an analytic surface: facets that have turned away from it are no pairs any more.
+#[test]
+fn facets_that_have_turned_away_from_an_analytic_surface_are_no_pairs() {
+    // A ball's facets meet at no sharp edge, so all of it follows from which facets are pairs.
+    let body = ball(4);
+    for shape in [AnalyticShape::Plane, AnalyticShape::Sphere(1.5), AnalyticShape::Cylinder(1.5)] {
+        let height = shape.radius() + 0.85;
+        // The axis of the cylinder is the first direction.
+        let x2 = [Vec3::zeros(), Vec3::z(), Vec3::x(), Vec3::y()].to_vec();
+        let x2 = if shape == AnalyticShape::Cylinder(1.5) { vec![x2[0], x2[2], x2[3], x2[1]] } else { x2 };
+        let at = |q: Rotation3<f64>| body.x.iter().map(|x| q * x + Vec3::z() * height).collect::<Vec<_>>();
+        for degrees in [30.0_f64, 90.0, 170.0] {
+            let c = || {
+                let start = at(Rotation3::new(Vec3::new(0.8, 0.6, 0.0) * degrees.to_radians()));
+                let one = Surface::new("nonmortar", start, &body.facets, numbered(0, body.x.len())).unwrap();
+                let two = Surface::analytic("mortar", shape, x2.clone()).unwrap();
+                Contact::create(one, two, numbered(3 * body.x.len(), body.x.len()), without_friction()).unwrap()
+            };
+            let [step, idle] = residuals_of(c, &at(Rotation3::identity()), &x2);
+            assert!(idle.rows.iter().any(|row| row[0] < 0.0), "some are in contact");
+            let off = max_abs(step.rows.iter().zip(&idle.rows).map(|(a, b)| a[0] - b[0]));
+            assert!(off <= RIGID, "{shape} {degrees}: {off:e}");
+        }
+    }
+}
+
+/// The pattern for a matrix that is to last knows the pairs that a small motion lets in, too: here steep facets, which
+/// oppose too little to be pairs before a turn of one degree.
+#[test]
+fn the_superset_knows_the_pairs_that_a_small_motion_lets_in() {
+    let one = grid(3, 3, [-0.5, -0.5], [0.5, 0.5], 0.0, false, Cells::Quads);
+    let flat = grid(3, 3, [-0.9, -0.9], [0.9, 0.9], -0.5, true, Cells::Quads);
+    // The filter asks for 80.2 degrees.
+    let at = |degrees: f64| {
+        let mut steep = grid(2, 2, [-0.4, -0.3], [0.4, 0.3], 0.0, true, Cells::Quads);
+        let q = Rotation3::new(Vec3::x() * degrees.to_radians());
+        steep.x.iter_mut().for_each(|x| *x = q * *x);
+        joined(flat.clone(), steep)
+    };
+    let (start, end) = (at(80.6), at(79.6));
+    let mut c = interface(&one, &start, current(options()));
+    let (mut superset, mut entries) = (HashSet::new(), Vec::new());
+    c.superset_pattern(&one.x, &start.x, &mut |i, j, _| _ = superset.insert((i, j))).unwrap();
+    let lambda = vec![Vec3::zeros(); one.x.len()];
+    let mut pairs_of = |x2: &[Vec3]| {
+        c.tangent(&one.x, x2, &lambda, None, &mut |i: i64, j: i64, _| entries.push((i, j))).unwrap();
+        c.active_pairs()
+    };
+    assert!(pairs_of(&end.x) > pairs_of(&start.x), "the turn lets pairs in");
+    assert!(entries.iter().all(|e| superset.contains(e)));
 }

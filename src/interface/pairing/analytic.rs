@@ -1,9 +1,9 @@
 //! Stage 1 against an analytic mortar side (plane, sphere, cylinder): no search and no clipping. A facet that faces the
-//! surface at t_n, or now where the normals follow the motion, is a pair with it, and covered everywhere; one that does not has nothing to do with it. The surface
-//! counts as one facet with the frame's four points as its nodes, so that all that follows from the weights (gaps,
-//! forces, slip, history) is as for two facets.
+//! surface at t_n (now where the normals follow the motion) is a pair with it, and covered everywhere; one that does not
+//! has nothing to do with it. The surface counts as one facet with the frame's four points as its nodes, so that all that
+//! follows from the weights (gaps, forces, slip, history) is as for two facets.
 
-use super::filter::LEAST_OPPOSITION;
+use super::filter::least_opposition;
 use crate::error::Result;
 use crate::geometry::{AnalyticSurface, Facet, Plane, Vec3};
 use crate::interface::data::active::Active;
@@ -17,25 +17,50 @@ use std::time::Instant;
 
 /// Per non-mortar facet, whether it faces the surface: opposing normals at its centre, and distances between a
 /// penetration and a gap, as between facets. A surface has no far side that a gap could reach: without a search
-/// distance any gap will do.
-pub fn facing(one: &Surface, surface: &AnalyticSurface, options: &Options, x1: &[Vec3]) -> Result<Vec<bool>> {
+/// distance any gap will do. `skin`: there, or after a motion of so much (over the facet's longest edge).
+pub fn facing(
+    one: &Surface,
+    surface: &AnalyticSurface,
+    options: &Options,
+    x1: &[Vec3],
+    skin: f64,
+) -> Result<Vec<bool>> {
     let faces = |f: usize| {
         let facet = one.facet(f, x1);
-        Ok(faces(&facet, &Plane::of(&facet).map_err(at_facet(one.side, f))?, surface, options))
+        Ok(faces(&facet, &Plane::of(&facet).map_err(at_facet(one.side, f))?, surface, options, skin))
     };
     (0..one.facets.len()).map(faces).stored_if_ok()
 }
 
 /// Whether this facet faces the surface.
-pub fn faces(facet: &Facet, plane: &Plane, surface: &AnalyticSurface, options: &Options) -> bool {
+fn faces(facet: &Facet, plane: &Plane, surface: &AnalyticSurface, options: &Options, skin: f64) -> bool {
     let gap = options.search_distance.unwrap_or(f64::INFINITY);
     let centre = plane.reference - surface.origin + plane.origin;
     let points = facet.points().iter().map(|x| x - surface.origin).chain([centre]);
     let distances = points.map(|x| surface.distance(x));
     let (low, high) = distances.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), d| (l.min(d), h.max(d)));
     let penetration = options.search_distance.unwrap_or_else(|| facet.longest_edge());
-    let opposing = surface.closest(centre).is_some_and(|c| plane.e.dot(&c.normal) < -LEAST_OPPOSITION);
-    opposing && low <= gap && high >= -penetration
+    let slack = skin * facet.longest_edge();
+    opposes(plane, surface, skin) && low - slack <= gap && high + slack >= -penetration
+}
+
+/// Whether a facet with this plane looks at the surface.
+fn opposes(plane: &Plane, surface: &AnalyticSurface, skin: f64) -> bool {
+    let centre = plane.reference - surface.origin + plane.origin;
+    surface.closest(centre).is_some_and(|c| plane.e.dot(&c.normal) < -least_opposition(skin))
+}
+
+/// Which facets are a pair with the surface at x1, where the normals follow the motion: those that face it there, and those
+/// that did at t_n and look at it still, however deep.
+pub fn facing_now<'a>(
+    one: &'a Surface,
+    (surface, facing): (&'a AnalyticSurface, &'a [bool]),
+    options: &'a Options,
+    x1: &'a [Vec3],
+) -> impl Fn((usize, &Plane)) -> bool + 'a {
+    move |(i, plane)| {
+        facing[i] && opposes(plane, surface, 0.0) || faces(&one.facet(i, x1), plane, surface, options, 0.0)
+    }
 }
 
 /// Weights of all facets that face the surface, at (x1, x2).
@@ -49,11 +74,11 @@ pub fn integrate(
     let start = Instant::now();
     let (frames, surface) = (frames(one, x1)?, two.analytic_at(x2)?);
     let mut pairs = memory::with_room(frames.len())?;
+    let faces_now = facing_now(one, (&surface, facing), options, x1);
     for (i, frame) in frames.iter().enumerate() {
         counters.pairs_tested += 1;
-        // Where the normals follow the motion, so does which facets face the surface.
-        let faces_now = || options.follows_normals() && faces(&one.facet(i, x1), &frame.plane, &surface, options);
-        if facing[i] || faces_now() {
+        let is_pair = if options.follows_normals() { faces_now((i, &frame.plane)) } else { facing[i] };
+        if is_pair {
             let weights = analytic_weights(frame, &surface, options.rule).map_err(at_facet(one.side, i))?;
             pairs.store(PairRecord { one: i, two: 0, weights })?;
         }

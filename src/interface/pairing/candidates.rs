@@ -2,7 +2,8 @@
 //! reach into the non-mortar facet's prism.
 //!
 //! Where the normals follow the motion, a surface may slide round a curve or turn by any angle within a step. Then a pair may
-//! be active, too, that the filter would admit where the facets are now.
+//! be active, too, that the filter would admit where the facets are now. And what t_n admits counts only while neither facet
+//! has turned far: a pair of t_n may be one of far sides now.
 
 use super::filter::FacetFilter;
 use super::search::{Aabb, Prism, Tree};
@@ -41,7 +42,8 @@ impl KeptTree {
 }
 
 /// Pairs that pass the filter and whose mortar facet may reach into the non-mortar facet's prism, grown by
-/// `skin` (over the facet's longest edge). Sorted.
+/// `skin` (over the facet's longest edge). Where the normals follow the motion, those too that pass it after such a motion.
+/// Sorted.
 pub fn candidates(
     (one, two): (&Surface, &Surface),
     options: &Options,
@@ -53,13 +55,20 @@ pub fn candidates(
 ) -> Result<Vec<(usize, usize)>> {
     let (mut pairs, mut found) = (Vec::new(), Vec::new());
     let follows = options.follows_normals();
-    let all = follows && filter.has_turned((one, two), (x1, x2));
+    let all = follows && (skin > 0.0 || filter.has_turned((one, two), (x1, x2)));
     for (i, frame) in frames.iter().enumerate().filter(|&(i, _)| all || filter.reached[i]) {
         let facet = one.facet(i, x1);
         let prism = Prism::over(facet.points(), &frame.plane, (TOUCH_MARGIN + skin) * facet.longest_edge());
         *visited += tree.find(&prism, &mut found)? as i64;
-        let admits_now = |j: usize| follows && filter.admits_at((i, &frame.plane), (j, &two.facet(j, x2)));
-        let admitted = found.iter().filter(|&&j| filter.admits(i, j) || admits_now(j));
+        let admits = |j: usize| {
+            if !follows {
+                return filter.admits(i, j);
+            }
+            let pair = ((i, &frame.plane), (j, &two.facet(j, x2)));
+            let then = filter.admits(i, j) && (skin > 0.0 || filter.holds_at(pair.0, pair.1));
+            then || filter.admits_at(pair.0, pair.1, skin)
+        };
+        let admitted = found.iter().filter(|&&j| admits(j));
         pairs.store_all(admitted.map(|&j| (i, j)))?;
     }
     Ok(pairs)

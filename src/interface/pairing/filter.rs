@@ -23,8 +23,14 @@ const SMOOTH: f64 = 0.7;
 /// where that is as long); this times h phi leaves a factor of 2.
 const BULGE: f64 = 0.5;
 
-/// Where the normals follow the motion, which facets can have a pair at all is that of t_n up to this turn: cos 20 degrees.
+/// Where the normals follow the motion, what t_n says of a facet counts up to this turn, cos 20 degrees: whether it can
+/// have a pair at all, and which ones it has whatever the filter says now.
 const TURNED: f64 = 0.94;
+
+/// How much the normals of a pair must oppose each other: at all where a motion by `skin` is still to come.
+pub fn least_opposition(skin: f64) -> f64 {
+    if skin > 0.0 { 0.0 } else { LEAST_OPPOSITION }
+}
 
 /// What settles at a commit which pairs there can be.
 #[derive(Debug)]
@@ -125,10 +131,22 @@ impl FacetFilter {
     }
 
     /// Whether they can be a pair where non-mortar facet i has this plane and mortar facet j these nodes, by what t_n says of
-    /// sizes and bulges.
-    pub fn admits_at(&self, (i, plane): (usize, &Plane), (j, facet): (usize, &Facet)) -> bool {
-        let out = facet.area_vector();
-        plane.e.dot(&out) < -LEAST_OPPOSITION * out.norm() && self.reaches((i, j), extremes(facet, plane))
+    /// sizes and bulges. `skin`: or after a motion of so much (over the longest edge of facet i); then they may turn, too,
+    /// and need but oppose each other at all.
+    pub fn admits_at(&self, (i, plane): (usize, &Plane), (j, facet): (usize, &Facet), skin: f64) -> bool {
+        let (out, (low, high), slack) = (facet.area_vector(), extremes(facet, plane), skin * self.sides[0].edges[i]);
+        let least = least_opposition(skin) * out.norm();
+        plane.e.dot(&out) < -least && self.reaches((i, j), (low - slack, high + slack))
+    }
+
+    /// Whether what t_n says of non-mortar facet i and mortar facet j still holds where i has this plane and j these nodes:
+    /// neither has turned by more than [`TURNED`], and they do not look the same way. A pair of t_n that has turned may
+    /// be one of far sides now.
+    pub fn holds_at(&self, (i, plane): (usize, &Plane), (j, facet): (usize, &Facet)) -> bool {
+        let ([one, two], out) = (&self.sides, facet.area_vector());
+        let least = TURNED * out.norm();
+        let turned = one.facets[i].1.e.dot(&plane.e) < TURNED || two.facets[j].1.e.dot(&out) < least;
+        !turned && plane.e.dot(&out) < 0.0
     }
 
     /// Whether these heights lie between a penetration and a gap.

@@ -58,7 +58,7 @@ impl Pairing {
 /// The filter of the configuration (x1, x2).
 pub fn filter((one, two): (&Surface, &Surface), options: &Options, (x1, x2): (&[Vec3], &[Vec3])) -> Result<Filter> {
     if two.analytic.is_some() {
-        return analytic::facing(one, &two.analytic_at(x2)?, options, x1).map(Filter::Analytic);
+        return analytic::facing(one, &two.analytic_at(x2)?, options, x1, 0.0).map(Filter::Analytic);
     }
     let sides = [Side::new(one, x1)?, Side::new(two, x2)?];
     let mut filter = FacetFilter {

@@ -58,12 +58,17 @@ pub fn stays_apart<const N: usize>(given: Given<N>, x1: &[Vec3], x2: &[Vec3]) ->
     // A normal that is undefined is refused where it is needed.
     let Some(nu) = memory::if_accepted(given.normals())? else { return Ok(false) };
     let (one, reached) = (surfaces.0, filter.reached());
-    let mut facets = (0..reached.len()).filter(|&f| reached[f]);
+    let facets = (0..reached.len()).filter(|&f| reached[f]);
     let nodes = |f: usize| &one.facets[f].nodes[..one.facets[f].len];
     let filter = match filter {
         Filter::Facets(filter) => filter,
         Filter::Analytic(_) => {
             let surface = surfaces.1.analytic_at(x2)?;
+            // Where the normals follow the motion, so does which facets face the surface.
+            let follows = given.setup.options.follows_normals();
+            let now =
+                if follows { analytic::facing(one, &surface, &given.setup.options, x1, 0.0)? } else { Vec::new() };
+            let mut facets = (0..reached.len()).filter(|&f| now.get(f).map_or(reached[f], |now| *now));
             return Ok(facets.all(|f| analytic::looks_at(&surface, nodes(f), x1, &nu)));
         }
     };

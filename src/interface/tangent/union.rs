@@ -96,7 +96,7 @@ pub fn possible_pairs<const N: usize>(
             Filter::Analytic(facing) => {
                 let options = &given.setup.options;
                 let now = if options.follows_normals() {
-                    analytic::facing(one, &two.analytic_at(x2)?, options, x1)?
+                    analytic::facing(one, &two.analytic_at(x2)?, options, x1, SKIN)?
                 } else {
                     Vec::new()
                 };
