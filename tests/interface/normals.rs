@@ -304,7 +304,7 @@ fn a_step_may_begin_with_the_normals_of_its_start() {
 #[test]
 fn multipliers_turn_with_the_surface() {
     let (_, rough, cells) = scenes().next().unwrap();
-    let mut t = moved(&current(options()), cells, rough, 3);
+    let t = moved(&current(options()), cells, rough, 3);
     let reference = t.interface.surfaces().0.reference.clone();
     let normal = t.interface.normal(4).unwrap();
     let axis = nalgebra::Unit::new_normalize(normal.cross(&Vec3::new(0.1, 0.7, 0.3)));
@@ -316,7 +316,7 @@ fn multipliers_turn_with_the_surface() {
         assert!((lambda[4] - q * t.lambda[4]).amax() <= RIGID, "{degrees}");
         assert!(lambda.iter().zip(&t.lambda).all(|(a, b)| (a.norm() - b.norm()).abs() <= RIGID));
     }
-    let mut then = moved(&options(), cells, rough, 3);
+    let then = moved(&options(), cells, rough, 3);
     assert_eq!(then.interface.turn_multipliers(&t.x1, &t.lambda).unwrap(), t.lambda);
 }
 
