@@ -108,6 +108,9 @@ PetscErrorCode supports_label(Physics *physics);
 PetscBool supports_agree(const Support *a, const Support *b, PetscReal end, const PetscReal X[3], int component);
 PetscErrorCode supports_values(Physics *physics, PetscReal t); /* into prescribed_local */
 PetscErrorCode supports_reactions(Physics *physics);
+/* which support turns each part, -1: none; a position turned as that support does from t0 to t */
+PetscErrorCode supports_turning(const Physics *physics, PetscInt support_of[]);
+void           supports_turn(const Support *support, PetscReal t0, PetscReal t, PetscReal x[3]);
 
 /* loads.c */
 PetscErrorCode loads_read(Scene *scene, Physics *physics);

@@ -153,3 +153,43 @@ PetscErrorCode supports_reactions(Physics *physics)
     PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, physics->supports[s].reaction, 3, MPIU_REAL, MPIU_SUM, PETSC_COMM_WORLD));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
+
+void supports_turn(const Support *support, PetscReal t0, PetscReal t, PetscReal x[3])
+{
+  const PetscReal turn = curve_value(&support->rotate_curve, t) - curve_value(&support->rotate_curve, t0);
+  PetscReal       w[3];
+  for (int i = 0; i < 3; i++) {
+    w[i] = turn * support->rotate[i];
+    x[i] -= support->origin[i];
+  }
+  rotate(w, x);
+  for (int i = 0; i < 3; i++)
+    x[i] += support->origin[i];
+}
+
+PetscErrorCode supports_turning(const Physics *physics, PetscInt support_of[])
+{
+  const Mesh *mesh = physics->mesh;
+  PetscFunctionBegin;
+  for (PetscInt p = 0; p < physics->parts.n; p++)
+    support_of[p] = -1;
+  for (PetscInt s = 0; s < physics->n_supports; s++) {
+    const PetscReal *w = physics->supports[s].rotate;
+    char             label[2 * NAME_LENGTH];
+    PetscInt         n;
+    const PetscInt  *points;
+    IS               is;
+    if (w[0] == 0 && w[1] == 0 && w[2] == 0) continue;
+    PetscCall(PetscSNPrintf(label, sizeof(label), "support.%s", physics->supports[s].name));
+    PetscCall(DMGetStratumIS(mesh->dm, label, 1, &is));
+    if (!is) continue; /* no such vertex on this rank */
+    PetscCall(ISGetLocalSize(is, &n));
+    PetscCall(ISGetIndices(is, &points));
+    for (PetscInt k = 0; k < n; k++)
+      support_of[physics->parts.of_vertex[points[k] - mesh->vStart]] = s;
+    PetscCall(ISRestoreIndices(is, &points));
+    PetscCall(ISDestroy(&is));
+  }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, support_of, (PetscMPIInt)physics->parts.n, MPIU_INT, MPI_MAX, PETSC_COMM_WORLD));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

@@ -6,6 +6,8 @@
  * of finite strain: by linear elasticity on their undeformed cells, without contact. A prescribed translation moves a
  * whole body, a prescribed linear field strains it homogeneously, and a body without a prescribed motion stays.
  *
+ * Where normals follow the motion and supports turn a part as a whole, it is turned with them first (turned_start.c).
+ *
  * This chooses where Newton's method starts, not what it solves. */
 #include "solve/solve.h"
 
@@ -48,16 +50,35 @@ static PetscErrorCode solve_linear(Mat matrix, Vec b, Vec x)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The prescribed displacements of `solve->physics->t` less those of t0, zero elsewhere; false if nothing moves. */
-static PetscErrorCode prescribed_increments(Solve *solve, PetscReal t0, Vec increments, PetscBool *moves)
+/* What is left to move: the prescribed displacements of `solve->physics->t` less those of u, zero elsewhere. u: local, of x at
+ * t0, its parts turned where supports turn them. False if nothing is left. */
+static PetscErrorCode prescribed_increments(Solve *solve, PetscReal t0, Vec x, Vec increments, PetscBool *moves)
 {
-  Physics  *physics = solve->physics;
-  PetscReal largest;
+  Physics           *physics = solve->physics;
+  PetscBool          turned;
+  PetscReal          largest;
+  PetscScalar       *left;
+  const PetscScalar *p;
+  Vec                u;
   PetscFunctionBegin;
+  PetscCall(VecDuplicate(physics->u_local, &u));
   PetscCall(supports_values(physics, t0));
-  PetscCall(VecCopy(physics->prescribed_local, increments));
+  PetscCall(unknowns_to_local(physics, x));
+  PetscCall(VecCopy(physics->u_local, u));
   PetscCall(supports_values(physics, physics->t));
-  PetscCall(VecAYPX(increments, -1, physics->prescribed_local));
+  PetscCall(turn_parts(solve, t0, u, &turned));
+  if (turned) {
+    PetscCall(DMLocalToGlobalBegin(solve->mesh->dm, u, INSERT_VALUES, x));
+    PetscCall(DMLocalToGlobalEnd(solve->mesh->dm, u, INSERT_VALUES, x));
+  }
+  PetscCall(VecCopy(u, increments));
+  PetscCall(VecGetArray(increments, &left));
+  PetscCall(VecGetArrayRead(physics->prescribed_local, &p));
+  for (PetscInt k = 0; k < physics->unknowns.n_local; k++)
+    left[k] = physics->unknowns.equations[k] < 0 ? p[k] - left[k] : 0;
+  PetscCall(VecRestoreArrayRead(physics->prescribed_local, &p));
+  PetscCall(VecRestoreArray(increments, &left));
+  PetscCall(VecDestroy(&u));
   PetscCall(VecNorm(increments, NORM_INFINITY, &largest));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPIU_REAL, MPIU_MAX, PETSC_COMM_WORLD));
   *moves = (PetscBool)(largest > 0);
@@ -78,7 +99,7 @@ static PetscErrorCode move_supports(Solve *solve, PetscReal t0, Vec x)
     finite = (PetscBool)(finite || physics->materials[k].law->finite);
   if (!finite) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(VecDuplicate(physics->u_local, &increments));
-  PetscCall(prescribed_increments(solve, t0, increments, &moves));
+  PetscCall(prescribed_increments(solve, t0, x, increments, &moves));
   if (moves) {
     PetscCall(VecDuplicate(physics->u_local, &local));
     PetscCall(VecDuplicate(x, &b));

@@ -120,6 +120,9 @@ PetscErrorCode cycling_record(Solve *solve, PetscReal norm, PetscInt *period); /
 PetscErrorCode cycling_change_augmentation(Solve *solve, PetscInt period, PetscReal factor);
 PetscErrorCode cycling_describe(Solve *solve, PetscInt period, struct cJSON *parent, char sentence[], size_t length);
 
+/* turned_start.c */
+PetscErrorCode turn_parts(Solve *solve, PetscReal t0, Vec u, PetscBool *turned);
+
 /* newton.c: creates SNES and all that belongs to it, too */
 PetscErrorCode newton_create(Solve *solve);
 PetscErrorCode newton_destroy(Solve *solve);
