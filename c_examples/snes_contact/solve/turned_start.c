@@ -5,7 +5,7 @@
  * This chooses where Newton's method starts, not what it solves. */
 #include "solve/solve.h"
 
-/* A part is turned as a whole where this of its prescribed motion, at most, is left when it has been turned: rounding. */
+/* A part is turned as a whole where this of the largest prescribed motion, at most, is left when it has been turned: rounding. */
 static const PetscReal RIGID = 1e-8;
 
 /* u after its part's turn, in the local vector `after`; what then is left at prescribed entries, and what there was. */
@@ -61,12 +61,25 @@ static PetscErrorCode take(const Physics *physics, const PetscInt support_of[], 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Where one support alone turns anything, parts that no support turns go with it, unless their own supports are against it
+ * (below): a body that contact alone holds would be left behind, and from half a turn behind it may be found to stick. */
+static void join_free_parts(const Physics *physics, PetscInt support_of[])
+{
+  PetscInt turning = -1;
+  for (PetscInt p = 0; p < physics->parts.n; p++) {
+    if (support_of[p] >= 0 && turning >= 0 && support_of[p] != turning) return;
+    turning = PetscMax(turning, support_of[p]);
+  }
+  for (PetscInt p = 0; p < physics->parts.n; p++)
+    support_of[p] = turning;
+}
+
 /* `u`: local, of x with its prescribed values of t0; those of physics->t are in prescribed_local. */
 PetscErrorCode turn_parts(Solve *solve, PetscReal t0, Vec u, PetscBool *turned)
 {
   Physics  *physics = solve->physics;
   PetscInt  n = physics->parts.n, *support_of;
-  PetscReal *left, *all;
+  PetscReal *left, *all, most = 0;
   Vec       after;
 
   PetscFunctionBegin;
@@ -74,12 +87,15 @@ PetscErrorCode turn_parts(Solve *solve, PetscReal t0, Vec u, PetscBool *turned)
   if (!normals_follow(solve->contact) || solve->mesh->rotated) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PetscCalloc3(n, &support_of, n, &left, n, &all));
   PetscCall(supports_turning(physics, support_of));
+  join_free_parts(physics, support_of);
   PetscCall(VecDuplicate(u, &after));
   PetscCall(turn_all(physics, t0, support_of, u, after, left, all));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, left, (PetscMPIInt)n, MPIU_REAL, MPIU_MAX, PETSC_COMM_WORLD));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, all, (PetscMPIInt)n, MPIU_REAL, MPIU_MAX, PETSC_COMM_WORLD));
+  for (PetscInt p = 0; p < n; p++)
+    most = PetscMax(most, all[p]);
   for (PetscInt p = 0; p < n; p++) {
-    if (support_of[p] >= 0 && !(all[p] > 0 && left[p] <= RIGID * all[p])) support_of[p] = -1;
+    if (support_of[p] >= 0 && !(left[p] <= RIGID * most && most > 0)) support_of[p] = -1;
     *turned = (PetscBool)(*turned || support_of[p] >= 0);
   }
   if (*turned) PetscCall(take(physics, support_of, after, u));
