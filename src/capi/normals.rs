@@ -11,6 +11,7 @@ use crate::error::{Error, Kind};
 use crate::geometry::{Mat3, Plane, Vec3};
 use crate::memory::Stored;
 use crate::normal::{SMALLEST_SUM, corner_normal_derivatives, nodal_normal, nodal_normal_derivative};
+use crate::shape::MAX_CORNERS;
 use nalgebra::SVector;
 
 /// Which normals evaluations of an interface with STICKSLIP_NORMALS_CURRENT use until the next commit, rollback or import:
@@ -79,7 +80,7 @@ pub unsafe extern "C" fn stickslip_facet_normal_derivatives(n: i32, x: *const f6
         let facet = facet(n, x, "x")?;
         raw::check(derivatives, "derivatives")?;
         Plane::of(&facet).map_err(raw::named("x"))?;
-        let (n, mut values) = (facet.len(), [0.0; 144]);
+        let (n, mut values) = (facet.len(), [0.0; 9 * MAX_CORNERS * MAX_CORNERS]);
         for k in 0..n {
             for (l, dm) in corner_normal_derivatives(&facet, k, &Mat3::identity()) {
                 for (i, j) in (0..3).flat_map(|i| (0..3).map(move |j| (i, j))) {

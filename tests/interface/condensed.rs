@@ -219,9 +219,7 @@ fn is_the_same_step_as_with_multipliers() {
     for (weak_coverage, (weights, normals)) in [NO_WEAK_COVERAGE, WEAK].into_iter().flat_map(|w| kinds.map(|v| (w, v)))
     {
         for friction in [Friction::Coulomb, Friction::Rough, Friction::Tied, Friction::Tresca] {
-            let mu = if matches!(friction, Friction::Coulomb | Friction::Tresca) { 0.4 } else { 0.0 };
-            let shear_limit = friction.law().limits_shear.then_some(0.2);
-            let options = Options { friction, mu, shear_limit, weights, normals, weak_coverage, ..options() };
+            let options = under(friction, 0.4, Options { weights, normals, weak_coverage, ..options() });
             let mut s = scene::<3>(options);
             complete(&mut s);
             let what = format!("{friction:?} {weak_coverage} {weights:?} {normals:?}");

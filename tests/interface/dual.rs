@@ -83,10 +83,7 @@ fn golden_tangents() {
 
 /// Meshes on which facets are covered by several pairs; the second is covered in part, at a corner too.
 fn scenes() -> impl Iterator<Item = (&'static str, Roughness, [Cells; 2])> {
-    let cells = [[Cells::Triangles, Cells::Triangles], [Cells::Triangles, Cells::Quads]];
-    let rough = Roughness { warp: 0.05, jitter: 0.08, slide: 0.02 };
-    let off = Roughness { slide: 1.3, ..rough };
-    cells.into_iter().flat_map(move |cells| [("covered", rough, cells), ("partly covered", off, cells)])
+    rough_scenes(0.05)
 }
 
 #[test]
@@ -97,17 +94,11 @@ fn the_tangent_equals_differences_in_every_column() {
         let rule = if cells[1] == Cells::Quads { &DEGREE_10 } else { &DEGREE_5 };
         for form in [Form::Multiplier, Form::Augmented] {
             for friction in [Friction::Coulomb, Friction::Rough, Friction::Tied, Friction::Tresca] {
-                let mu = if matches!(friction, Friction::Coulomb | Friction::Tresca) { 0.7 } else { 0.0 };
-                let shear_limit = friction.law().limits_shear.then_some(0.2);
                 for weak_coverage in [NO_WEAK_COVERAGE, 0.2] {
-                    let options =
-                        dual(Options { form, friction, mu, shear_limit, weak_coverage, rule, ..mesh::options() });
+                    let options = dual(under(friction, 0.7, Options { form, weak_coverage, rule, ..mesh::options() }));
                     let mut t = moved(&options, cells, rough, 3);
-                    for r in t.interface.responses(&t.x1, &t.x2, &t.lambda, None).unwrap() {
-                        states[r.state as usize] += 1;
-                    }
-                    let mut at = Point { contact: &mut t.interface, x1: &t.x1, x2: &t.x2, lambda: &t.lambda };
-                    let error = at.difference_error(0.0);
+                    states.iter_mut().zip(t.states()).for_each(|(all, here)| *all += here);
+                    let error = t.at().difference_error(0.0);
                     assert!(error <= DIFFERENCES, "{what} {form:?} {friction:?} {weak_coverage}: {error:e}");
                 }
             }
@@ -127,8 +118,7 @@ fn the_tangent_of_frozen_weights_equals_differences() {
             Options { weights: Weights::Reference, form: Form::Augmented, ..of },
         ] {
             let mut t = moved(&options, cells, rough, 3);
-            let mut at = Point { contact: &mut t.interface, x1: &t.x1, x2: &t.x2, lambda: &t.lambda };
-            let error = at.difference_error(0.0);
+            let error = t.at().difference_error(0.0);
             assert!(error <= DIFFERENCES, "{what} {options:?}: {error:e}");
         }
     }

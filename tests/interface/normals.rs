@@ -127,10 +127,7 @@ fn golden_interfaces_with_one_multiplier() {
 
 /// Curved surfaces, covered and in part; facets without pairs around covered nodes are among the second.
 fn scenes() -> impl Iterator<Item = (&'static str, Roughness, [Cells; 2])> {
-    let cells = [[Cells::Triangles, Cells::Triangles], [Cells::Triangles, Cells::Quads]];
-    let rough = Roughness { warp: 0.12, jitter: 0.08, slide: 0.02 };
-    let off = Roughness { slide: 1.3, ..rough };
-    cells.into_iter().flat_map(move |cells| [("covered", rough, cells), ("partly covered", off, cells)])
+    rough_scenes(0.12)
 }
 
 #[test]
@@ -143,15 +140,10 @@ fn the_tangent_equals_differences_in_every_column() {
                 for basis in [MultiplierBasis::Standard, MultiplierBasis::Dual] {
                     for (slip, weak_coverage) in [(SlipMeasure::Objective, NO_WEAK_COVERAGE), (SlipMeasure::Paper, 0.4)]
                     {
-                        let mu = if matches!(friction, Friction::Coulomb | Friction::Tresca) { 0.7 } else { 0.0 };
-                        let shear_limit = friction.law().limits_shear.then_some(0.2);
-                        let options = Options { form, friction, mu, shear_limit, weak_coverage, basis, ..options() };
-                        let mut t = moved(&current(Options { slip, rule, ..options }), cells, rough, 3);
-                        for r in t.interface.responses(&t.x1, &t.x2, &t.lambda, None).unwrap() {
-                            states[r.state as usize] += 1;
-                        }
-                        let mut at = Point { contact: &mut t.interface, x1: &t.x1, x2: &t.x2, lambda: &t.lambda };
-                        let error = at.difference_error(0.0);
+                        let options = Options { form, weak_coverage, basis, slip, rule, ..options() };
+                        let mut t = moved(&current(under(friction, 0.7, options)), cells, rough, 3);
+                        states.iter_mut().zip(t.states()).for_each(|(all, here)| *all += here);
+                        let error = t.at().difference_error(0.0);
                         assert!(error <= DIFFERENCES, "{what} {form:?} {friction:?} {basis:?} {slip:?}: {error:e}");
                     }
                 }
@@ -192,8 +184,7 @@ fn the_tangent_with_prescribed_directions_equals_differences() {
         let mut t = moved(&current(Options { form, ..options() }), cells, rough, 5);
         let d = Vec3::new(0.3, -0.5, 0.2);
         t.interface.set_constraints(&[(0, d), (1, d), (4, d), (4, Vec3::new(0.1, 0.9, -0.4))]).unwrap();
-        let mut at = Point { contact: &mut t.interface, x1: &t.x1, x2: &t.x2, lambda: &t.lambda };
-        let error = at.difference_error(0.0);
+        let error = t.at().difference_error(0.0);
         assert!(error <= DIFFERENCES, "{form:?}: {error:e}");
     }
 }
@@ -215,7 +206,7 @@ fn the_derivative_of_the_normal_is_no_small_part() {
 }
 
 fn dense(t: &mut Moved) -> (usize, Vec<f64>) {
-    let mut at = Point { contact: &mut t.interface, x1: &t.x1, x2: &t.x2, lambda: &t.lambda };
+    let mut at = t.at();
     (at.unknowns(), at.tangent())
 }
 

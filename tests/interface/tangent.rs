@@ -19,11 +19,11 @@ const DIFFERENCES_WARPED_DEGREE_5: f64 = 1e-5;
 const ROUNDING: f64 = 1e-13;
 
 impl Moved {
-    fn at(&mut self) -> Point<'_, 3> {
+    pub fn at(&mut self) -> Point<'_, 3> {
         Point { contact: &mut self.interface, x1: &self.x1, x2: &self.x2, lambda: &self.lambda }
     }
 
-    fn states(&mut self) -> [usize; 3] {
+    pub fn states(&mut self) -> [usize; 3] {
         let mut count = [0; 3];
         for r in self.interface.responses(&self.x1, &self.x2, &self.lambda, None).unwrap() {
             count[r.state as usize] += 1;

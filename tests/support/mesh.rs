@@ -4,7 +4,8 @@
 use std::collections::HashMap;
 use stickslip::error::Result;
 use stickslip::geometry::Vec3;
-use stickslip::interface::{Contact, Interface, NO_EQUATION, Options, Stiffness, Surface};
+use stickslip::interface::{Contact, Friction, Interface, NO_EQUATION, Options, Stiffness, Surface};
+use stickslip::law::Coefficient;
 
 /// Deterministic numbers in -1..1.
 pub struct Random(pub u64);
@@ -191,4 +192,19 @@ pub fn options() -> Options {
     let mut options = Options::new(Stiffness::Augmentation(15.0));
     options.mu = 0.7;
     options
+}
+
+/// Options with this law and the numbers that it asks for.
+pub fn under(friction: Friction, mu: f64, of: Options) -> Options {
+    let law = friction.law();
+    let mu = if law.mu == Coefficient::Given { mu } else { 0.0 };
+    Options { friction, mu, shear_limit: law.limits_shear.then_some(0.2), ..of }
+}
+
+/// Rough meshes for [`moved`] on which facets are covered by several pairs; the second is covered in part, at a corner too.
+pub fn rough_scenes(warp: f64) -> impl Iterator<Item = (&'static str, Roughness, [Cells; 2])> {
+    let cells = [[Cells::Triangles, Cells::Triangles], [Cells::Triangles, Cells::Quads]];
+    let rough = Roughness { warp, jitter: 0.08, slide: 0.02 };
+    let off = Roughness { slide: 1.3, ..rough };
+    cells.into_iter().flat_map(move |cells| [("covered", rough, cells), ("partly covered", off, cells)])
 }

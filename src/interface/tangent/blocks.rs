@@ -21,6 +21,7 @@ use crate::interface::data::multiplier::force_traction;
 use crate::interface::data::options::{Form, MultiplierBasis, Scheme};
 use crate::interface::pairing::given::Given;
 use crate::interface::stages::respond::Responses;
+use crate::law::NodeResponse;
 use crate::memory::{self, Stored};
 use crate::mortar::{ForceDerivatives, GapDerivative, MORTAR, PairWeights, gap};
 use nalgebra::{SMatrix, SVector};
@@ -64,6 +65,11 @@ impl<const N: usize> Numbers<'_, N> {
     /// Which nodes are carried, with what the pairs must know of their carriers.
     fn carried(&self) -> (&[bool], &[NodeTangent<N>]) {
         (&self.responses.carried, &self.nodes)
+    }
+
+    /// Which nodes are carried, with the law's answers.
+    fn answers(&self) -> (&[bool], &[NodeResponse<N>]) {
+        (&self.responses.carried, &self.responses.nodes)
     }
 
     /// What the dual multipliers of a facet have in common over these pairs, all of its own.
@@ -136,8 +142,7 @@ fn couple<const MOVES: bool, const N: usize>(
         };
         couplings[a].add_pair::<MOVES>(k, &slots, now, previous, dp)?;
     }
-    let carried = numbers.map(|n| (&n.responses.carried[..], &n.responses.nodes[..]));
-    carried_tangent::couple::<MOVES, N>((given, normals), pair, now, carried, couplings)
+    carried_tangent::couple::<MOVES, N>((given, normals), pair, now, numbers.map(Numbers::answers), couplings)
 }
 
 /// The blocks of a tangent of these pairs, `MOVES`: with rows and columns of the mortar side. `numbers`: `None` for the
@@ -168,7 +173,7 @@ pub fn blocks<const MOVES: bool, const N: usize>(
     let mut emitter = Emitter { given, normals, sink, constraints };
     let carried_nodes = numbers.map(Numbers::carried);
     let turns = numbers.and_then(|n| n.turns.as_ref());
-    let carried_responses = numbers.map(|n| (&n.responses.carried[..], &n.responses.nodes[..]));
+    let answers = numbers.map(Numbers::answers);
     for pairs in union.chunk_by(|p, q| p.one == q.one) {
         let f = pairs[0].one;
         let one = &given.setup.nonmortar.facets[f];
@@ -250,7 +255,7 @@ pub fn blocks<const MOVES: bool, const N: usize>(
         if let Some(couplings) = &couplings {
             emitter.couplings(a, &couplings[a], &response.map_or_else(SMatrix::zeros, |r| r.dp_dlambda));
             if augmented {
-                carried_tangent::forces(a, couplings, carried_responses, &mut emitter);
+                carried_tangent::forces(a, couplings, answers, &mut emitter);
             }
         }
     }
