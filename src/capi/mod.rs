@@ -44,6 +44,8 @@ mod evaluation;
 
 mod tangent;
 
+mod plan;
+
 mod condensed;
 
 mod closing;
@@ -95,6 +97,7 @@ pub use node::*;
 pub use normals::*;
 pub use options::*;
 pub use pair::*;
+pub use plan::*;
 pub use point::*;
 pub use preparation::*;
 pub use report::*;

@@ -86,6 +86,13 @@ pub(super) fn optional_numbers<'a>(p: *const f64, n: usize, name: &str) -> Resul
     if p.is_null() { Ok(None) } else { numbers(p, n, name).map(Some) }
 }
 
+/// Room for `n` numbers at `p`, which are written before they are read.
+pub(super) fn values<'a>(p: *mut f64, n: usize, name: &str) -> Result<&'a mut [f64]> {
+    check(p, name)?;
+    // SAFETY: non-null, aligned; writable for n values by the caller's contract, and apart from all other arrays.
+    Ok(unsafe { std::slice::from_raw_parts_mut(p, n) })
+}
+
 /// Numbers as points.
 pub(super) fn vectors(values: &[f64]) -> Result<Vec<Vec3>> {
     values.chunks_exact(3).map(Vec3::from_column_slice).stored()

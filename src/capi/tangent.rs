@@ -2,6 +2,7 @@
 
 use super::guard::guard;
 use super::handle::{either, handle, stickslip_interface};
+use super::plan::write_coo;
 use super::point::Point;
 use super::raw;
 use crate::error::{Error, Kind, Result};
@@ -47,12 +48,6 @@ impl Sink for Triplets {
             self.store_block(rows, columns, values)
         };
         self.note(stored);
-    }
-
-    fn reserve(&mut self, entries: usize) {
-        let (rows, columns) = (self.rows.try_reserve_exact(entries), self.columns.try_reserve_exact(entries));
-        let values = self.values.try_reserve_exact(entries);
-        self.note(rows.and(columns).and(values).map_err(Error::from));
     }
 }
 
@@ -190,15 +185,26 @@ pub unsafe extern "C" fn stickslip_interface_tangent_coo(
     guard(|| {
         let h = handle(interface)?;
         let point = Point::read(&h.inner, x1, x2, lambda, sums)?;
-        let mut t = Triplets::default();
-        if rows.is_null() && columns.is_null() && values.is_null() {
-            let extent = if point.sums().is_some() { Extent::Part } else { Extent::Whole };
-            either!(&mut h.inner, c => c.pattern(&point.x1, &point.x2, extent, &mut t)?);
-        } else {
-            either!(&mut h.inner, c => c.tangent(&point.x1, &point.x2, &point.lambda()?, point.sums(), &mut t)?);
+        let counting = rows.is_null() && columns.is_null() && values.is_null();
+        raw::check(count, "count")?;
+        if !counting {
+            raw::check(rows, "rows")?;
+            raw::check(columns, "columns")?;
+            raw::check(values, "values")?;
         }
-        t.check()?;
-        t.write(h.base, capacity, rows, columns, Some(values), count)
+        let (at, sums) = ((&point.x1[..], &point.x2[..]), point.sums());
+        let base = h.base;
+        either!(&mut h.inner, c => {
+            let n = c.plan_here(at, Extent::of(sums))?.0.len();
+            if !counting {
+                raw::room(capacity, n, "the entries")?;
+                c.values_here(at, &point.lambda()?, sums, raw::values(values, n, "values")?)?;
+                let (plan, of) = c.plan_here(at, Extent::of(sums))?;
+                write_coo(plan, of, base, rows, columns)?;
+            }
+            raw::write(count, &[n as i64]);
+        });
+        Ok(())
     })
 }
 
@@ -231,17 +237,22 @@ pub unsafe extern "C" fn stickslip_interface_tangent_csr(
         let point = Point::read(&h.inner, x1, x2, lambda, sums)?;
         let csr = read_csr(h.base, n_rows, row_offsets, columns)?;
         raw::check(values, "values")?;
-        let mut t = Triplets::default();
-        either!(&mut h.inner, c => c.tangent(&point.x1, &point.x2, &point.lambda()?, point.sums(), &mut t)?);
-        t.check()?;
-        let mut places = memory::with_room(t.values.len())?;
-        for (&row, &column) in t.rows.iter().zip(&t.columns) {
-            places.store(csr.place(row, column)?)?;
-        }
-        for (place, value) in places.into_iter().zip(t.values) {
-            // SAFETY: place < entries, and the caller's values has that many.
-            unsafe { *values.add(place) += value };
-        }
+        let (at, sums) = ((&point.x1[..], &point.x2[..]), point.sums());
+        either!(&mut h.inner, c => {
+            let mut entries = memory::filled(0.0, c.plan_here(at, Extent::of(sums))?.0.len())?;
+            c.values_here(at, &point.lambda()?, sums, &mut entries)?;
+            let (plan, of) = c.plan_here(at, Extent::of(sums))?;
+            let (mut places, (equations, _)) = (memory::with_room(entries.len())?, plan.rows());
+            let mut row = equations.iter();
+            plan.each_row(of, |columns| {
+                let row = *row.next().unwrap_or(&NO_EQUATION);
+                columns.iter().try_for_each(|&column| places.store(csr.place(row, column)?))
+            })?;
+            for (place, value) in places.into_iter().zip(entries) {
+                // SAFETY: place < entries of the matrix, and the caller's values has that many.
+                unsafe { *values.add(place) += value };
+            }
+        });
         Ok(())
     })
 }
@@ -268,9 +279,21 @@ pub unsafe extern "C" fn stickslip_interface_pattern_coo(
     guard(|| {
         let h = handle(interface)?;
         let point = Point::positions(&h.inner, x1, x2)?;
-        let mut t = Triplets::default();
-        either!(&mut h.inner, c => c.superset_pattern(&point.x1, &point.x2, &mut t)?);
-        t.check()?;
-        t.write(h.base, capacity, rows, columns, None, count)
+        let counting = rows.is_null() && columns.is_null();
+        raw::check(count, "count")?;
+        if !counting {
+            raw::check(rows, "rows")?;
+            raw::check(columns, "columns")?;
+        }
+        let base = h.base;
+        either!(&mut h.inner, c => {
+            let (plan, of) = c.possible_plan((&point.x1, &point.x2))?;
+            if !counting {
+                raw::room(capacity, plan.len(), "the entries")?;
+                write_coo(plan, of, base, rows, columns)?;
+            }
+            raw::write(count, &[plan.len() as i64]);
+        });
+        Ok(())
     })
 }

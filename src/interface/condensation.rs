@@ -9,10 +9,12 @@ use super::contact::Contact;
 use super::data::csr::Csr;
 use super::data::extent::Extent;
 use super::data::node_data::check_length;
+use super::linearisation::PlanPairs;
 use super::pairing::given::{Given, check_finite};
+use super::plan::pattern::System;
 use super::stages::carried::carried;
 use super::stages::residual;
-use super::tangent::emission::Sink;
+use super::tangent::by_equations::Sink;
 use super::tangent::union::possible_pairs;
 use crate::error::{Error, Result};
 use crate::geometry::Vec3;
@@ -107,7 +109,29 @@ impl<const N: usize> Contact<N> {
                 return Ok(());
             }
         };
-        self.linearise((x1, x2), &lambda, Extent::Whole, Some(&scales), (sinks.0, Some(sinks.1)))
+        self.linearise_by_equations((x1, x2), &lambda, Extent::Whole, Some(&scales), (sinks.0, Some(sinks.1)))
+    }
+
+    /// Makes the plans of forces and constraints of these pairs at x.
+    pub fn make_condensed_plan(&mut self, x: (&[Vec3], &[Vec3]), of: PlanPairs) -> Result<()> {
+        let given = self.given();
+        given.check_positions(x.0, x.1)?;
+        refuse(given, &given.normals()?)?;
+        self.linear.condensed = Some(self.plans(x, of, [System::Forces, System::Constraints])?);
+        Ok(())
+    }
+
+    /// Forces and constraints in the order of their plans. After an error the values mean nothing.
+    pub fn condensed_values(
+        &mut self,
+        x: (&[Vec3], &[Vec3]),
+        lambda: &[SVector<f64, N>],
+        values: [&mut [f64]; 2],
+    ) -> Result<()> {
+        self.plan(System::Forces)?;
+        let (elimination, lambda) = self.eliminated(x, lambda)?;
+        let scales = elimination.scales()?;
+        self.fill_condensed((x, &lambda, (Extent::Whole, Some(&scales))), values)
     }
 
     /// T_A r_A c_A times DD_A in the rows of A: the forces at A of multipliers r_A c_A, differentiated at fixed multipliers.
@@ -127,7 +151,7 @@ impl<const N: usize> Contact<N> {
             }
         };
         let (mut nowhere, scales) = (|_: i64, _: i64, _: f64| {}, memory::filled(0.0, nonmortar.len())?);
-        self.linearise(x, &lambda, Extent::Whole, Some(&scales), (&mut forces, Some(&mut nowhere)))
+        self.linearise_by_equations(x, &lambda, Extent::Whole, Some(&scales), (&mut forces, Some(&mut nowhere)))
     }
 
     /// Turns the host's own matrix into the condensed one: the rows that change, with their new values.
@@ -147,7 +171,13 @@ impl<const N: usize> Contact<N> {
         }
         let mut rows = CondensedRows::new(csr, memory::copied(&changed)?, value)?;
         let mut constraints = CondensedRows::new(csr, changed, &|_| 0.0)?;
-        self.linearise((x1, x2), &lambda, Extent::Whole, Some(&scales), (&mut rows, Some(&mut constraints)))?;
+        self.linearise_by_equations(
+            (x1, x2),
+            &lambda,
+            Extent::Whole,
+            Some(&scales),
+            (&mut rows, Some(&mut constraints)),
+        )?;
         rows.eliminate(&elimination, &self.rows()?, self.setup.surfaces())?;
         rows.check()?;
         constraints.check()?;

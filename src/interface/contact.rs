@@ -13,6 +13,7 @@ use super::data::setup::Setup;
 use super::data::surface::{NO_EQUATION, Surface};
 use super::inspect::bytes;
 use super::inspect::describe;
+use super::linearisation::Linear;
 use super::pairing::given::{Given, Step};
 use super::pairing::settle::Pairing;
 use super::stages::commit::{self, Settled};
@@ -36,6 +37,7 @@ pub struct Contact<const N: usize> {
     pub(super) step: Step,
     rollback: Option<History>,
     pub(super) cache: Cache<N>,
+    pub(super) linear: Linear<N>,
 }
 
 impl Contact<3> {
@@ -97,7 +99,7 @@ impl<const N: usize> Contact<N> {
         let step = Step { history: settled.history, pairing, normals: setup.options.normals, now: None };
         Given { setup: &setup, step: &step }.normals()?;
         cache.begin(&step.history, settled.active);
-        Ok(Contact { setup, step, rollback: None, cache })
+        Ok(Contact { setup, step, rollback: None, cache, linear: Linear::default() })
     }
 
     /// What the stages are given.
@@ -144,6 +146,7 @@ impl<const N: usize> Contact<N> {
     pub fn set_owned(&mut self, owned: Vec<bool>) -> Result<()> {
         self.setup.nodes.set_owned(owned)?;
         self.cache.forget();
+        self.linear.forget();
         Ok(())
     }
 
@@ -227,6 +230,7 @@ impl<const N: usize> Contact<N> {
             + self.step.now.as_ref().map_or(0, bytes::of_normals)
             + self.rollback.as_ref().map_or(0, bytes::of_history)
             + self.cache.bytes()
+            + self.linear.bytes()
     }
 }
 
@@ -242,6 +246,7 @@ impl<const N: usize> Contact<N> {
         let step = Step { history, pairing, normals: self.setup.options.normals, now: None };
         let old = std::mem::replace(&mut self.step, step).history;
         self.cache.begin(&self.step.history, active);
+        self.linear.forget();
         old
     }
 

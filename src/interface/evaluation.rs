@@ -1,9 +1,7 @@
-//! Evaluating and looking at an interface through its handle: sums, answers, residual, tangent, pattern; the report, the
-//! diagnosis, the distance from equilibrium.
+//! Evaluating and looking at an interface through its handle: sums, answers, residual; the report, the diagnosis, the distance from equilibrium.
 
 use super::contact::Contact;
 use super::data::extent::Extent;
-use super::data::options::Form;
 use super::inspect::closing;
 use super::inspect::diagnosis::{self, Diagnosis};
 use super::inspect::equilibrium::{self, Equilibrium, Scales};
@@ -13,18 +11,11 @@ use super::stages::initial;
 use super::stages::normals;
 use super::stages::residual::{self, Residual};
 use super::stages::sums::NodeSums;
-use super::tangent::blocks::{Numbers, blocks, node_tangents};
-use super::tangent::derivatives::PairDerivatives;
-use super::tangent::emission::{Sink, Sinks};
-use super::tangent::turning::Turns;
-use super::tangent::union::{UnionPair, possible_pairs, union};
 use crate::error::{Error, Kind, Result};
 use crate::geometry::Vec3;
 use crate::law::NodeResponse;
 use crate::memory::{self, Stored};
-use crate::mortar::PairWeights;
 use nalgebra::SVector;
-use std::time::Instant;
 
 /// Evaluations.
 impl<const N: usize> Contact<N> {
@@ -89,115 +80,6 @@ impl<const N: usize> Contact<N> {
         self.cache.respond(&self.setup, &mut self.step, (x1, x2), lambda, sums)?;
         let responses = &self.cache.answers().responses;
         residual::residual(self.given(), self.cache.pairs(&self.step.history), lambda, &responses.nodes)
-    }
-
-    /// The exact tangent d residual / d (x1, x2, lambda) at (x, lambda).
-    pub fn tangent(
-        &mut self,
-        x1: &[Vec3],
-        x2: &[Vec3],
-        lambda: &[SVector<f64, N>],
-        sums: Option<&[NodeSums]>,
-        sink: &mut impl Sink,
-    ) -> Result<()> {
-        if sums.is_some() && self.setup.options.form == Form::Augmented {
-            let text =
-                "sums with the augmented form: its tangent couples pairs of different handles; use the multiplier form";
-            return Err(Error::new(Kind::Unsupported, text));
-        }
-        self.cache.respond(&self.setup, &mut self.step, (x1, x2), lambda, sums)?;
-        self.linearise((x1, x2), lambda, Extent::of(sums), None, (sink, None))
-    }
-
-    /// The blocks of a tangent at the point of the last answers. `scales`: factors of the nodes' rows, in place of their own.
-    pub(super) fn linearise(
-        &mut self,
-        (x1, x2): (&[Vec3], &[Vec3]),
-        lambda: &[SVector<f64, N>],
-        extent: Extent,
-        scales: Option<&[f64]>,
-        sinks: Sinks,
-    ) -> Result<()> {
-        let differentiates = self.setup.options.differentiates_weights();
-        if differentiates {
-            self.cache.find_segments(&self.setup, &self.step)?;
-        }
-        let start = Instant::now();
-        let (given, mortar, options) = (self.given(), &self.setup.mortar, &self.setup.options);
-        let (normals, answers) = (given.normals()?, self.cache.answers());
-        let responses = &answers.responses;
-        let scale = |a: usize| scales.map_or_else(|| given.row_scale(a), |s| s[a]);
-        let surface = mortar.analytic.map(|_| mortar.analytic_at(x2)).transpose()?;
-        let motion = PairDerivatives {
-            opposite: self.setup.effects.opposite,
-            surface: surface.as_ref(),
-            tangent: options.tangent,
-            rule: options.rule,
-        };
-        let numbers = Numbers {
-            x1,
-            responses,
-            nodes: node_tangents(given, lambda, responses, &normals, scale)?,
-            active: self.cache.active().filter(|_| differentiates),
-            motion,
-            turns: Turns::at(given, (x1, lambda), (&answers.sums, responses), &normals, scale)?,
-        };
-        let linearised = self.blocks(&self.union()?, &normals, extent, Some(&numbers), sinks)?;
-        self.cache.counters.pairs_linearised += linearised;
-        self.cache.counters.seconds_assembly += start.elapsed().as_secs_f64();
-        Ok(())
-    }
-
-    pub(super) fn blocks(
-        &self,
-        union: &[UnionPair],
-        normals: &[Vec3],
-        extent: Extent,
-        numbers: Option<&Numbers<N>>,
-        sinks: Sinks,
-    ) -> Result<i64> {
-        let given = (self.given(), normals);
-        if self.setup.effects.moves() {
-            blocks::<true, N>(given, union, extent, numbers, sinks)
-        } else {
-            blocks::<false, N>(given, union, extent, numbers, sinks)
-        }
-    }
-
-    /// The pairs that a tangent has here.
-    pub(super) fn union(&self) -> Result<Vec<UnionPair<'_>>> {
-        if self.cache.is_apart() {
-            return Ok(Vec::new());
-        }
-        union(self.cache.pairs(&self.step.history), &self.step.history.pairs, self.setup.effects.law.slips)
-    }
-
-    /// The entries of the tangent at (x1, x2), in its order: as many as [`Contact::tangent`] writes there, without sums
-    /// (`Whole`) or with those of all handles. Their values mean nothing.
-    pub fn pattern(&mut self, x1: &[Vec3], x2: &[Vec3], extent: Extent, sink: &mut impl Sink) -> Result<()> {
-        self.given().check_positions(x1, x2)?;
-        self.cache.integrate(&self.setup, &mut self.step, (x1, x2), extent)?;
-        let normals = memory::filled(Vec3::zeros(), self.setup.nonmortar.len())?;
-        self.blocks(&self.union()?, &normals, extent, None, (sink, None)).map(|_| ())
-    }
-
-    /// The entries of any tangent, with sums or without, while the surfaces slide by less than a quarter of a facet. A
-    /// larger motion may need entries beyond these.
-    pub fn superset_pattern(&mut self, x1: &[Vec3], x2: &[Vec3], sink: &mut impl Sink) -> Result<()> {
-        self.given().check_positions(x1, x2)?;
-        self.superset((x1, x2), (sink, None))
-    }
-
-    pub(super) fn superset(&mut self, (x1, x2): (&[Vec3], &[Vec3]), sinks: Sinks) -> Result<()> {
-        // Refuses what an evaluation here does, and serves the next one.
-        self.cache.integrate(&self.setup, &mut self.step, (x1, x2), Extent::Whole)?;
-        let weights = PairWeights::default();
-        let given = Given { setup: &self.setup, step: &self.step };
-        let pairs = possible_pairs(given, self.cache.work().1, (x1, x2))?;
-        let any = |&(one, two)| UnionPair { one, two, now: Some(&weights), place: 0, previous: Some(&weights) };
-        let all: Vec<_> = pairs.iter().map(any).stored()?;
-        let normals = memory::filled(Vec3::zeros(), self.setup.nonmortar.len())?;
-        self.blocks(&all, &normals, Extent::Part, None, sinks).map(|_| ())
     }
 }
 

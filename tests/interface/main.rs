@@ -21,6 +21,7 @@ mod identities;
 mod large_sliding;
 mod normals;
 mod orders;
+mod plan;
 mod ratios;
 mod report;
 mod search;

@@ -27,7 +27,7 @@ use crate::interface::pairing::given::Given;
 use crate::interface::pairing::weak::Carrier;
 use crate::interface::stages::carried::multiplier_share;
 use crate::interface::stages::sums::NodeSums;
-use crate::interface::tangent::emission::Sink;
+use crate::interface::tangent::by_equations::Sink;
 use crate::law::NodeResponse;
 use crate::memory::{self, Store, Stored};
 use nalgebra::{SMatrix, SVector};

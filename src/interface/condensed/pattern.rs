@@ -5,7 +5,7 @@ use crate::error::Result;
 use crate::interface::data::csr::Csr;
 use crate::interface::data::surface::{NO_EQUATION, Surface, node_equations};
 use crate::interface::pairing::weak::Carrier;
-use crate::interface::tangent::emission::Sink;
+use crate::interface::tangent::by_equations::Sink;
 use crate::memory::{self, Store, Stored};
 
 /// The node of a displacement equation on the non-mortar side.

@@ -6,7 +6,7 @@ use crate::error::{Error, Result};
 use crate::geometry::Mat3;
 use crate::interface::data::csr::Csr;
 use crate::interface::data::surface::{NO_EQUATION, Surface, node_equations};
-use crate::interface::tangent::emission::Sink;
+use crate::interface::tangent::by_equations::Sink;
 use crate::memory::{self, Store};
 
 /// CondensedRows of a matrix, to be changed.

@@ -15,7 +15,7 @@ use crate::interface::pairing::candidates::by_points;
 use crate::interface::pairing::filter::Filter;
 use crate::interface::pairing::given::Given;
 use crate::interface::stages::sums::NodeSums;
-use crate::interface::tangent::emission::Sink;
+use crate::interface::tangent::by_equations::Sink;
 use crate::law::State;
 use crate::memory::{self, Store, Stored};
 use crate::mortar::{NonmortarFrame, PairWeights, Segment};

@@ -10,7 +10,7 @@ use crate::interface::data::node_data::check_length;
 use crate::interface::data::options::{Normals, RowScale};
 use crate::interface::data::setup::Setup;
 use crate::law::{NodeResponse, State};
-use crate::memory::Stored;
+use crate::memory::{Store, Stored};
 use crate::normal::SMALLEST_SUM;
 use nalgebra::SVector;
 
@@ -97,6 +97,12 @@ impl<'a, const N: usize> Given<'a, N> {
     /// nu of every node.
     pub fn normals(self) -> Result<Vec<Vec3>> {
         (0..self.nodes()).map(|a| self.normal(a)).stored_if_ok()
+    }
+
+    /// The same, in place of what was there.
+    pub fn normals_into(self, normals: &mut Vec<Vec3>) -> Result<()> {
+        normals.clear();
+        (0..self.nodes()).try_for_each(|a| normals.store(self.normal(a)?))
     }
 
     /// r_A [F/L^5]: the host's, or rhat_A / M_A.

@@ -7,10 +7,10 @@ use super::augmented::{NodeCouplings, dtraction};
 use super::carried_tangent;
 use super::derivatives::PairDerivatives;
 use super::dual_facet::{DualFacet, MortarRows, ShareRoom};
-use super::emission::{Emitter, Sinks, entries};
+use super::emission::{Emitter, Takers};
 use super::facet_tangent::{FacetTangent, total};
 use super::turning::{self, Turns};
-use super::union::UnionPair;
+use super::union::{Pairs, UnionPair, Walk};
 use crate::dual::FacetMotion;
 use crate::element::{FacetResponse, NodeTangent, PairNow, PairTangent, row_columns};
 use crate::error::Result;
@@ -22,9 +22,10 @@ use crate::interface::data::options::{Form, MultiplierBasis, Scheme};
 use crate::interface::pairing::given::Given;
 use crate::interface::stages::respond::Responses;
 use crate::law::NodeResponse;
-use crate::memory::{self, Stored};
+use crate::memory::{self, Store};
 use crate::mortar::{ForceDerivatives, GapDerivative, MORTAR, PairWeights, gap};
 use nalgebra::{SMatrix, SVector};
+use std::ops::Range;
 
 /// What the numbers of a tangent are made of.
 pub struct Numbers<'a, const N: usize> {
@@ -33,7 +34,7 @@ pub struct Numbers<'a, const N: usize> {
     /// The law's answers.
     pub responses: &'a Responses<N>,
     /// What the pairs must know of them.
-    pub nodes: Vec<NodeTangent<N>>,
+    pub nodes: &'a [NodeTangent<N>],
     /// The pairs whose weights are differentiated, with their overlaps; `None`: no weights are.
     pub active: Option<&'a Active>,
     /// How they are.
@@ -42,14 +43,15 @@ pub struct Numbers<'a, const N: usize> {
     pub turns: Option<Turns<'a, N>>,
 }
 
-/// What a pair must know of every node's response; `scale`: the factor of a node's rows.
+/// What a pair must know of every node's response, into `nodes`; `scale`: the factor of a node's rows.
 pub fn node_tangents<const N: usize>(
     given: Given<N>,
     lambda: &[SVector<f64, N>],
     responses: &Responses<N>,
     normals: &[Vec3],
     scale: impl Fn(usize) -> f64,
-) -> Result<Vec<NodeTangent<N>>> {
+    nodes: &mut Vec<NodeTangent<N>>,
+) -> Result<()> {
     let node = |a: usize| {
         let (response, scale) = (&responses.nodes[a], scale(a));
         NodeTangent {
@@ -58,13 +60,14 @@ pub fn node_tangents<const N: usize>(
             drow_dprevious: response.drow_dprevious * scale,
         }
     };
-    (0..lambda.len()).map(node).stored()
+    nodes.clear();
+    nodes.store_all((0..lambda.len()).map(node))
 }
 
 impl<const N: usize> Numbers<'_, N> {
     /// Which nodes are carried, with what the pairs must know of their carriers.
     fn carried(&self) -> (&[bool], &[NodeTangent<N>]) {
-        (&self.responses.carried, &self.nodes)
+        (&self.responses.carried, self.nodes)
     }
 
     /// Which nodes are carried, with the law's answers.
@@ -85,7 +88,7 @@ impl<const N: usize> Numbers<'_, N> {
         t: &mut PairTangent<N>,
         room: &mut ShareRoom,
     ) -> Result<Option<GapDerivative>> {
-        let (active, facet) = match (self.active.filter(|_| pair.now.is_some()), facet) {
+        let (active, facet) = match (self.active.filter(|_| pair.is_active), facet) {
             (Some(active), Some(facet)) => (active, facet),
             _ => {
                 t.forces = ForceDerivatives::default();
@@ -142,122 +145,208 @@ fn couple<const MOVES: bool, const N: usize>(
         };
         couplings[a].add_pair::<MOVES>(k, &slots, now, previous, dp)?;
     }
-    carried_tangent::couple::<MOVES, N>((given, normals), pair, now, numbers.map(Numbers::answers), couplings)
+    carried_tangent::couple::<MOVES, N>(
+        (given, normals),
+        (pair, previous),
+        now,
+        numbers.map(Numbers::answers),
+        couplings,
+    )
 }
 
-/// The blocks of a tangent of these pairs, `MOVES`: with rows and columns of the mortar side. `numbers`: `None` for the
-/// pattern alone. `constraints`: of a condensed system, see [`Emitter::constraints`]. Gives the number of pairs whose weights
-/// were differentiated.
-pub fn blocks<const MOVES: bool, const N: usize>(
-    (given, normals): (Given<N>, &[Vec3]),
-    union: &[UnionPair],
-    extent: Extent,
-    numbers: Option<&Numbers<N>>,
-    (sink, constraints): Sinks,
+/// What the blocks of a facet are computed in. Large, so that one serves all facets.
+#[derive(Debug, Default)]
+pub struct Room<const N: usize> {
+    pair: PairTangent<N>,
+    facet: FacetTangent<N>,
+    share: ShareRoom,
+    mortar: MortarRows,
+    pairs: Vec<UnionPair>,
+}
+
+/// The tangent of some pairs.
+#[derive(Clone, Copy)]
+pub struct Task<'a, const N: usize> {
+    /// The interface and its step.
+    pub given: Given<'a, N>,
+    /// nu of every node; zeros for the pattern alone.
+    pub normals: &'a [Vec3],
+    /// The pairs.
+    pub pairs: Pairs<'a>,
+    /// What the tangent is of.
+    pub extent: Extent,
+    /// `None` for the pattern alone.
+    pub numbers: Option<&'a Numbers<'a, N>>,
+}
+
+/// All blocks of a tangent. `takers`: see [`Emitter`]. Gives the number of pairs whose weights were differentiated.
+pub fn blocks<const N: usize>(task: Task<N>, room: &mut Room<N>, (taker, constraints): Takers<N>) -> Result<i64> {
+    let mut emitter = Emitter { given: task.given, normals: task.normals, taker, constraints };
+    let mut couplings: Option<Vec<NodeCouplings>> =
+        is_coupled(task.given).then(|| memory::defaults(task.given.nodes())).transpose()?;
+    let linearised = of_facets(task, 0..usize::MAX, room, couplings.as_deref_mut(), &mut emitter)?;
+    of_nodes(task, room, couplings.as_deref_mut(), &mut emitter)?;
+    Ok(linearised)
+}
+
+/// Whether the tangent has what couples all pairs of a node.
+pub fn is_coupled<const N: usize>(given: Given<N>) -> bool {
+    let options = &given.setup.options;
+    options.form == Form::Augmented || (options.follows_normals() && N == 1)
+}
+
+/// The blocks of the pairs of these facets.
+pub fn of_facets<const N: usize>(
+    task: Task<N>,
+    facets: Range<usize>,
+    room: &mut Room<N>,
+    couplings: Option<&mut [NodeCouplings]>,
+    emitter: &mut Emitter<N>,
+) -> Result<i64> {
+    if task.given.setup.effects.moves() {
+        moving_or_not::<true, N>(task, facets, room, couplings, emitter)
+    } else {
+        moving_or_not::<false, N>(task, facets, room, couplings, emitter)
+    }
+}
+
+/// The same, `MOVES`: with rows and columns of the mortar side.
+fn moving_or_not<const MOVES: bool, const N: usize>(
+    task: Task<N>,
+    facets: Range<usize>,
+    room: &mut Room<N>,
+    mut couplings: Option<&mut [NodeCouplings]>,
+    emitter: &mut Emitter<N>,
+) -> Result<i64> {
+    let (mut linearised, mut walk) = (0, Walk::through(task.pairs, facets));
+    let mut pairs = std::mem::take(&mut room.pairs);
+    while let Some(f) = walk.next(&mut pairs)? {
+        emitter.begin(f);
+        linearised += of_facet::<MOVES, N>(task, &pairs, room, couplings.as_deref_mut(), emitter)?;
+    }
+    room.pairs = pairs;
+    Ok(linearised)
+}
+
+/// The blocks of the pairs of a facet.
+fn of_facet<const MOVES: bool, const N: usize>(
+    Task { given, normals, pairs: all, numbers, .. }: Task<N>,
+    pairs: &[UnionPair],
+    Room { pair: t, facet, share: room, mortar, .. }: &mut Room<N>,
+    mut couplings: Option<&mut [NodeCouplings]>,
+    emitter: &mut Emitter<N>,
 ) -> Result<i64> {
     let options = &given.setup.options;
     let mut linearised = 0;
-    let augmented = options.form == Form::Augmented;
-    let follows = options.follows_normals();
-    let coupled = augmented || (follows && N == 1);
-    let mut couplings: Option<Vec<NodeCouplings>> = coupled.then(|| memory::defaults(given.nodes())).transpose()?;
-    // Large, so that one of each serves all pairs.
-    let (mut t, mut facet) = (PairTangent::default(), FacetTangent::default());
-    let (mut room, mut mortar) = (ShareRoom::default(), MortarRows::default());
     // With a mortar side at rest all of it is linear in the weights of a facet's pairs; carried nodes and points in place
     // of overlaps take them one by one.
     let is_dual = options.basis == MultiplierBasis::Dual && options.differentiates_weights();
     let together =
         !MOVES && !is_dual && given.step.pairing.carriers.is_empty() && matches!(options.scheme, Scheme::Segments);
-    sink.reserve(entries::<MOVES, N>(union, given.nodes()));
-    let mut emitter = Emitter { given, normals, sink, constraints };
     let carried_nodes = numbers.map(Numbers::carried);
     let turns = numbers.and_then(|n| n.turns.as_ref());
-    let answers = numbers.map(Numbers::answers);
-    for pairs in union.chunk_by(|p, q| p.one == q.one) {
-        let f = pairs[0].one;
-        let one = &given.setup.nonmortar.facets[f];
-        let facet_nodes = numbers.map(|n| FacetResponse::new(one.nodes.map(|a| &n.nodes[a])));
-        facet.acts = false;
-        let dual = numbers.map_or(Ok(None), |n| n.dual(given, pairs))?;
-        let motion = match (&dual, &facet_nodes, numbers.and_then(|n| n.active)) {
-            (Some(dual), Some(nodes), Some(active)) => dual.motion(&active.frames[f], &nodes.traction),
-            _ => None,
-        };
-        if MOVES && is_dual {
-            mortar.begin(one, &given.setup.mortar, pairs)?;
-        }
-        for (place, pairs) in pairs.chunks(if together { pairs.len() } else { 1 }).enumerate() {
-            let (now, previous) = (total(pairs.iter().map(|p| p.now)), total(pairs.iter().map(|p| p.previous)));
-            let (previous, mut gap) = (previous.as_deref(), None);
-            if let (Some(numbers), Some(nodes)) = (numbers, &facet_nodes) {
-                gap = if let Some(dual) = &dual {
-                    let gap = numbers.dual_share(given, (&pairs[0], dual, motion.as_ref()), &mut t, &mut room)?;
-                    if let (true, true, Some(active)) = (MOVES, gap.is_some(), numbers.active) {
-                        let two = &given.setup.mortar.facets[pairs[0].two];
-                        mortar.add(two, active.integrated(pairs[0].place), &room.tractions, &t.forces);
-                    }
-                    gap
-                } else {
-                    numbers.derivatives(given, (pairs, place == 0), nodes, &mut t)?
-                };
-                linearised += if numbers.active.is_some() { UnionPair::places(pairs).len() as i64 } else { 0 };
-            }
-            let now = now.as_deref().map(|weights| PairNow { weights, gap: gap.as_ref() });
-            if let Some(nodes) = &facet_nodes {
-                row_columns::<MOVES, N>(now.as_ref(), previous, nodes, &mut t.rows);
-            }
-            if together {
-                if let Some(turns) = turns {
-                    turns.add_rows(given, f, &mut t.rows);
+    let f = pairs[0].one;
+    let one = &given.setup.nonmortar.facets[f];
+    let facet_nodes = numbers.map(|n| FacetResponse::new(one.nodes.map(|a| &n.nodes[a])));
+    facet.acts = false;
+    let dual = numbers.map_or(Ok(None), |n| n.dual(given, pairs))?;
+    let motion = match (&dual, &facet_nodes, numbers.and_then(|n| n.active)) {
+        (Some(dual), Some(nodes), Some(active)) => dual.motion(&active.frames[f], &nodes.traction),
+        _ => None,
+    };
+    if MOVES && is_dual {
+        mortar.begin(one, &given.setup.mortar, pairs)?;
+    }
+    for (place, pairs) in pairs.chunks(if together { pairs.len() } else { 1 }).enumerate() {
+        let now = total(pairs.iter().map(|p| all.now(p)));
+        let previous = total(pairs.iter().map(|p| all.previous(p)));
+        let (previous, mut gap) = (previous.as_deref(), None);
+        if let (Some(numbers), Some(nodes)) = (numbers, &facet_nodes) {
+            gap = if let Some(dual) = &dual {
+                let gap = numbers.dual_share(given, (&pairs[0], dual, motion.as_ref()), t, room)?;
+                if let (true, true, Some(active)) = (MOVES, gap.is_some(), numbers.active) {
+                    let two = &given.setup.mortar.facets[pairs[0].two];
+                    mortar.add(two, active.integrated(pairs[0].place), &room.tractions, &t.forces);
                 }
-                let now = now.as_ref().map(|now| (&t.forces.one[..MORTAR], &now.weights.ab));
-                emitter.facet(f, now, &t.rows[..MORTAR]);
+                gap
             } else {
-                facet.add(place == 0, now.as_ref(), &t);
-            }
-            if MOVES {
-                emitter.pair(&pairs[0], &t);
-            }
-            carried_tangent::rows::<MOVES, N>(&pairs[0], now.as_ref(), carried_nodes, &mut emitter);
-            if let Some(couplings) = &mut couplings {
-                couple::<MOVES, N>((given, normals), (&pairs[0], now.as_ref(), previous), numbers, couplings)?;
-            }
+                numbers.derivatives(given, (pairs, place == 0), nodes, t)?
+            };
+            linearised += if numbers.active.is_some() { UnionPair::places(pairs).len() as i64 } else { 0 };
         }
-        if !together {
+        let now = now.as_deref().map(|weights| PairNow { weights, gap: gap.as_ref() });
+        if let Some(nodes) = &facet_nodes {
+            row_columns::<MOVES, N>(now.as_ref(), previous, nodes, &mut t.rows);
+        }
+        if together {
             if let Some(turns) = turns {
-                turns.add_rows(given, f, &mut facet.rows);
+                turns.add_rows(given, f, &mut t.rows);
             }
-            emitter.facet(f, facet.now(), &facet.rows);
+            let now = now.as_ref().map(|now| (&t.forces.one[..MORTAR], &now.weights.ab));
+            emitter.facet(f, now, &t.rows[..MORTAR]);
+        } else {
+            facet.add(place == 0, now.as_ref(), t);
         }
-        if MOVES && is_dual {
-            if numbers.is_some() {
-                mortar.couple();
-            }
-            mortar.emit(&emitter.facet_equations(f), emitter.sink);
+        if MOVES {
+            emitter.pair(&pairs[0], all.now(&pairs[0]), t);
+        }
+        carried_tangent::rows::<MOVES, N>((&pairs[0], previous), now.as_ref(), carried_nodes, emitter);
+        if let Some(couplings) = &mut couplings {
+            couple::<MOVES, N>((given, normals), (&pairs[0], now.as_ref(), previous), numbers, couplings)?;
         }
     }
-    if follows {
-        let drow_dnow = |b: usize| numbers.map_or_else(SMatrix::zeros, |n| n.nodes[b].drow_dnow);
-        let lone = turning::lone_facets(given, union)?;
-        let paired = union.chunk_by(|p, q| p.one == q.one).map(|pairs| pairs[0].one);
-        let beyond_rows = couplings.is_some() || (N == 1 && !given.step.pairing.carriers.is_empty());
-        for f in paired.chain(lone.iter().copied()).filter(|_| beyond_rows) {
-            turning::facet(f, (turns, drow_dnow), couplings.as_deref_mut(), &mut emitter)?;
+    if !together {
+        if let Some(turns) = turns {
+            turns.add_rows(given, f, &mut facet.rows);
         }
-        lone.iter().for_each(|&f| turning::lone_rows(f, turns, &mut emitter));
+        emitter.facet(f, facet.now(), &facet.rows);
+    }
+    if MOVES && is_dual {
+        if numbers.is_some() {
+            mortar.couple();
+        }
+        mortar.emit(emitter.taker);
+    }
+    Ok(linearised)
+}
+
+/// What is not of the pairs of one facet alone: what normals that follow the motion add, and the nodes' own blocks.
+pub fn of_nodes<const N: usize>(
+    task: Task<N>,
+    room: &mut Room<N>,
+    mut couplings: Option<&mut [NodeCouplings]>,
+    emitter: &mut Emitter<N>,
+) -> Result<()> {
+    let Task { given, pairs, extent, numbers, .. } = task;
+    let turns = numbers.and_then(|n| n.turns.as_ref());
+    let answers = numbers.map(Numbers::answers);
+    let options = &given.setup.options;
+    if options.follows_normals() {
+        let drow_dnow = |b: usize| numbers.map_or_else(SMatrix::zeros, |n| n.nodes[b].drow_dnow);
+        let lone = turning::lone_facets(given, pairs, &mut room.pairs)?;
+        let beyond_rows = couplings.is_some() || (N == 1 && !given.step.pairing.carriers.is_empty());
+        if beyond_rows {
+            let mut walk = Walk::through(pairs, 0..usize::MAX);
+            while let Some(f) = walk.next(&mut room.pairs)? {
+                turning::facet(f, (turns, drow_dnow), couplings.as_deref_mut(), emitter)?;
+            }
+            for &f in &lone {
+                turning::facet(f, (turns, drow_dnow), couplings.as_deref_mut(), emitter)?;
+            }
+        }
+        lone.iter().for_each(|&f| turning::lone_rows(f, turns, emitter));
     }
     for a in 0..given.nodes() {
         let response = numbers.map(|n| &n.responses.nodes[a]);
         let is_carried = numbers.is_some_and(|n| n.responses.carried.get(a).is_some_and(|c| *c));
         emitter.node(a, &response.map_or_else(SMatrix::zeros, |r| r.drow_dlambda), extent);
-        carried_tangent::multipliers(a, is_carried, &mut emitter);
+        carried_tangent::multipliers(a, is_carried, emitter);
         if let Some(couplings) = &couplings {
             emitter.couplings(a, &couplings[a], &response.map_or_else(SMatrix::zeros, |r| r.dp_dlambda));
-            if augmented {
-                carried_tangent::forces(a, couplings, answers, &mut emitter);
+            if options.form == Form::Augmented {
+                carried_tangent::forces(a, couplings, answers, emitter);
             }
         }
     }
-    Ok(linearised)
+    Ok(())
 }

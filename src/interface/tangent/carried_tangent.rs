@@ -1,7 +1,7 @@
 //! What carried nodes (`carried.rs`) add to the tangent.
 
 use super::augmented::{NodeCouplings, dtraction};
-use super::emission::Emitter;
+use super::emission::{Emitter, Place};
 use super::union::UnionPair;
 use crate::element::{FacetResponse, NodeTangent, PairNow, RowColumns, row_columns};
 use crate::error::Result;
@@ -9,14 +9,14 @@ use crate::geometry::{Mat3, Vec3};
 use crate::interface::pairing::given::Given;
 use crate::interface::stages::carried::{multiplier_share, transfer};
 use crate::law::NodeResponse;
-use crate::mortar::{MORTAR, PAIR_NODES};
+use crate::mortar::{PAIR_NODES, PairWeights, slots};
 use crate::shape::MAX_CORNERS;
 use nalgebra::SMatrix;
 
 /// What the gaps of a pair's carried nodes add to their carriers' rows. `carried`: which nodes are; `None` for the pattern
 /// alone.
 pub fn rows<const MOVES: bool, const N: usize>(
-    pair: &UnionPair,
+    (pair, previous): (&UnionPair, Option<&PairWeights>),
     now: Option<&PairNow>,
     carried: Option<(&[bool], &[NodeTangent<N>])>,
     emitter: &mut Emitter<N>,
@@ -31,15 +31,13 @@ pub fn rows<const MOVES: bool, const N: usize>(
                 share.drow_dnow = nodes[b].drow_dnow * t;
                 share.drow_dprevious = nodes[b].drow_dprevious * t;
                 let slots = std::array::from_fn(|j| if j == k { &share } else { &zero });
-                row_columns::<MOVES, N>(now, pair.previous, &FacetResponse::new(slots), &mut rows);
+                row_columns::<MOVES, N>(now, previous, &FacetResponse::new(slots), &mut rows);
             }
             let values = rows.map(|columns| columns.map(|rows| rows.map(|nodes| nodes[k])));
-            let (own, other) = values.split_at(MORTAR);
-            let columns = emitter.facet_equations(pair.one);
-            emitter.node_rows(b, columns.columns(), own.as_flattened().as_flattened());
-            if MOVES {
-                let columns = emitter.mortar_equations(pair.two);
-                emitter.node_rows(b, columns.columns(), other.as_flattened().as_flattened());
+            for (node, values) in pair.slots(given.setup).iter().zip(&values).take(slots(MOVES)) {
+                if let Some(node) = *node {
+                    emitter.node_row(b, node, values);
+                }
             }
         }
     }
@@ -53,17 +51,16 @@ pub fn multipliers<const N: usize>(a: usize, carried: bool, emitter: &mut Emitte
         return;
     }
     let scale = if carried { given.row_scale(a) / given.augmentation(a) } else { 0.0 };
-    let equations = &given.setup.multiplier_equations;
     for &(b, w) in given.carriers_of(a) {
         let block = multiplier_share(given, a) * (scale * w);
-        emitter.sink.add_block(&equations[a], &equations[b], block.as_slice());
+        emitter.taker.node(Place::Multiplier(a), Place::Multiplier(b), block.as_slice());
     }
 }
 
 /// Augmented form: the gaps of a pair's carried nodes in their carriers' tractions.
 pub fn couple<const MOVES: bool, const N: usize>(
     (given, normals): (Given<N>, &[Vec3]),
-    pair: &UnionPair,
+    (pair, previous): (&UnionPair, Option<&PairWeights>),
     now: Option<&PairNow>,
     carried: Option<(&[bool], &[NodeResponse<N>])>,
     couplings: &mut [NodeCouplings],
@@ -77,7 +74,7 @@ pub fn couple<const MOVES: bool, const N: usize>(
                 let (on_now, on_previous) = dtraction(given, b, &responses[b], normals[b]);
                 dp = (on_now * t, on_previous * t);
             }
-            couplings[b].add_gap::<MOVES>(k, &slots, now, pair.previous, dp)?;
+            couplings[b].add_gap::<MOVES>(k, &slots, now, previous, dp)?;
         }
     }
     Ok(())
@@ -99,13 +96,12 @@ pub fn forces<const N: usize>(
             dp_dlambda = responses[b].dp_dlambda;
         }
         for row in couplings[a].forces() {
-            let (equations, share) = (emitter.equations(row.node), t * row.weight);
+            let (place, share) = (Place::Displacement(row.node), t * row.weight);
             for column in couplings[b].places() {
-                let columns = emitter.equations(column.node);
-                emitter.sink.add_block(equations, columns, (share * column.dtraction).as_slice());
+                let block = share * column.dtraction;
+                emitter.taker.node(place, Place::Displacement(column.node), block.as_slice());
             }
-            let multipliers = &given.setup.multiplier_equations[b];
-            emitter.sink.add_block(equations, multipliers, (share * dp_dlambda).as_slice());
+            emitter.taker.node(place, Place::Multiplier(b), (share * dp_dlambda).as_slice());
         }
     }
 }

@@ -2,8 +2,7 @@
 //! its facet's, and the rows of the mortar nodes of all pairs of a facet, which it couples, are emitted once a facet.
 
 use super::derivatives::PairDerivatives;
-use super::emission::{Equations, Sink};
-use super::facet_tangent::Flat;
+use super::emission::{Blocks, MortarBlock};
 use super::union::UnionPair;
 use crate::dual::{
     Columns, DualBasis, FacetColumns, FacetMotion, FacetSums, GROUP, PairShare, TractionDerivatives, WholeFacet,
@@ -13,7 +12,7 @@ use crate::geometry::{AnalyticSurface, Vec3};
 use crate::interface::data::active::Active;
 use crate::interface::data::effects::Opposite;
 use crate::interface::data::options::{MultiplierBasis, Tangent};
-use crate::interface::data::surface::{FacetNodes, NO_EQUATION, Surface};
+use crate::interface::data::surface::{FacetNodes, Surface};
 use crate::interface::pairing::given::Given;
 use crate::interface::stages::facet::dual_basis;
 use crate::memory::{self, Store};
@@ -48,7 +47,7 @@ impl DualFacet {
 }
 
 /// What a pair's share takes place for. Large, so that one serves all pairs.
-#[derive(Default)]
+#[derive(Debug, Default)]
 pub struct ShareRoom {
     areas: AreaDerivatives,
     /// D(phi q).
@@ -103,13 +102,12 @@ impl DualFacet {
 
 /// The rows of the mortar nodes of a facet's active pairs, which are emitted once a facet: what couples its pairs has all
 /// of these entries, so no pair has any of its own.
-#[derive(Default)]
+#[derive(Debug, Default)]
 pub struct MortarRows {
     /// Nodes of the facet.
     own: usize,
-    /// Its mortar nodes, each once, in the order in which they are met, and their equations.
+    /// Its mortar nodes, each once, in the order in which they are met.
     nodes: Vec<usize>,
-    equations: Vec<[i64; 3]>,
     weights: Vec<[[f64; GROUP]; MAX_CORNERS]>,
     /// D(phi q_B) of each column, then the rows of each group.
     columns: Vec<Columns>,
@@ -121,12 +119,10 @@ impl MortarRows {
     pub fn begin(&mut self, one: &FacetNodes, two: &Surface, pairs: &[UnionPair]) -> Result<()> {
         self.own = one.len;
         self.nodes.clear();
-        self.equations.clear();
-        for pair in pairs.iter().filter(|pair| pair.now.is_some()) {
+        for pair in pairs.iter().filter(|pair| pair.is_active) {
             for &node in two.facets[pair.two].as_slice() {
                 if !self.nodes.contains(&node) {
                     self.nodes.store(node)?;
-                    self.equations.store(two.equations[node])?;
                 }
             }
         }
@@ -161,28 +157,13 @@ impl MortarRows {
         self.sums().couple();
     }
 
-    /// The blocks of these rows, four nodes at a time: columns of the facet's nodes and of these. `own` are the equations of
-    /// the facet's nodes. What was added is used up.
+    /// Gives the blocks of these rows, four nodes at a time: columns of the facet's nodes and of these. What was added is used
+    /// up.
     #[inline(never)]
-    pub fn emit(&mut self, own: &Equations, sink: &mut dyn Sink) {
+    pub fn emit<const N: usize>(&mut self, taker: &mut dyn Blocks<N>) {
         let columns = MAX_NODES + self.nodes.len();
-        for (equations, values) in self.equations.chunks(GROUP).zip(self.columns[columns..].chunks_exact_mut(columns)) {
-            let n = equations.len();
-            let mut rows = [NO_EQUATION; 3 * GROUP];
-            for (c, i) in (0..n).flat_map(|c| (0..3).map(move |i| (c, i))) {
-                rows[i * n + c] = equations[c][i];
-            }
-            let values = values.flat_mut();
-            if n < GROUP {
-                for k in 0..9 * columns {
-                    for c in 0..n {
-                        values[k * n + c] = values[k * GROUP + c];
-                    }
-                }
-            }
-            let (rows, (of_own, of_mortar)) = (&rows[..3 * n], values[..9 * n * columns].split_at(9 * n * MAX_NODES));
-            sink.add_block(rows, &own.columns()[..3 * self.own], &of_own[..9 * n * self.own]);
-            sink.add_block(rows, self.equations.as_flattened(), of_mortar);
+        for (rows, values) in self.nodes.chunks(GROUP).zip(self.columns[columns..].chunks_exact(columns)) {
+            taker.mortar(&MortarBlock { rows, own: self.own, columns: &self.nodes, values });
         }
     }
 }

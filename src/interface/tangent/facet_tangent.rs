@@ -19,6 +19,7 @@ pub fn total<'a>(weights: impl Iterator<Item = Option<&'a PairWeights>>) -> Opti
 pub type FacetNow<'a> = (&'a [[[[f64; MAX_NODES]; 3]; 3]], &'a [[f64; MAX_NODES]; MAX_CORNERS]);
 
 /// What the pairs of a non-mortar facet add to the same entries of the tangent.
+#[derive(Debug)]
 pub struct FacetTangent<const N: usize> {
     /// `[k][j][i][B]`.
     pub forces: [[[[f64; MAX_NODES]; 3]; 3]; MAX_NODES],

@@ -2,6 +2,7 @@
 
 pub mod augmented;
 pub mod blocks;
+pub mod by_equations;
 pub mod carried_tangent;
 pub mod derivatives;
 pub mod dual_facet;

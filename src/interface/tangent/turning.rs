@@ -8,9 +8,8 @@
 //!   they take over run along nu_A.
 
 use super::augmented::NodeCouplings;
-use super::emission::Emitter;
-use super::facet_tangent::Flat;
-use super::union::UnionPair;
+use super::emission::{Emitter, Span};
+use super::union::{Pairs, UnionPair, Walk};
 use crate::error::Result;
 use crate::geometry::{Mat3, Vec3};
 use crate::interface::data::multiplier::direction;
@@ -133,7 +132,7 @@ pub fn facet<const N: usize>(
                     rows[*corner][j][n] += row[(n, j)];
                 }
             }
-            emitter.node_rows(b, emitter.facet_equations(f).columns(), rows.as_flattened().as_flattened());
+            nodes.as_slice().iter().zip(&rows).for_each(|(&node, row)| emitter.node_row(b, node, row));
             if let (Some(couplings), Form::Augmented) = (couplings.as_deref_mut(), given.setup.options.form) {
                 let scale = given.augmentation(b) / given.row_scale(b);
                 let traction = direction::<N>(normals[b]) * (drow_dnow(b) * along) * scale;
@@ -149,12 +148,13 @@ fn add(couplings: &mut NodeCouplings, nodes: &FacetNodes, dnu: &[(usize, Mat3); 
 }
 
 /// The facets without pairs around nodes that a pair covers: their corners enter through the normals alone.
-pub fn lone_facets<const N: usize>(given: Given<N>, union: &[UnionPair]) -> Result<Vec<usize>> {
+pub fn lone_facets<const N: usize>(given: Given<N>, pairs: Pairs, of_facet: &mut Vec<UnionPair>) -> Result<Vec<usize>> {
     let one = &given.setup.nonmortar;
     let (mut paired, mut covered) = (memory::filled(false, one.facets.len())?, memory::filled(false, one.len())?);
-    for pair in union {
-        paired[pair.one] = true;
-        one.facets[pair.one].as_slice().iter().for_each(|&a| covered[a] = true);
+    let mut walk = Walk::through(pairs, 0..usize::MAX);
+    while let Some(f) = walk.next(of_facet)? {
+        paired[f] = true;
+        one.facets[f].as_slice().iter().for_each(|&a| covered[a] = true);
     }
     let lone = |f: &usize| !paired[*f] && one.facets[*f].as_slice().iter().any(|&a| covered[a]);
     (0..paired.len()).filter(lone).stored()
@@ -166,5 +166,6 @@ pub fn lone_rows<const N: usize>(f: usize, turns: Option<&Turns<N>>, emitter: &m
     if let Some(turns) = turns {
         turns.add_rows(emitter.given, f, &mut rows);
     }
-    emitter.facet_rows(f, emitter.facet_equations(f).columns(), rows.flat());
+    emitter.begin(f);
+    emitter.facet_rows(f, Span::Own, &rows);
 }

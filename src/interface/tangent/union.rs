@@ -2,6 +2,7 @@
 
 use crate::error::Result;
 use crate::geometry::Vec3;
+use crate::interface::data::checksum::of_words;
 use crate::interface::data::history::Keeps;
 use crate::interface::data::options::Weights;
 use crate::interface::data::pairs::PairRecord;
@@ -11,34 +12,31 @@ use crate::interface::pairing::analytic;
 use crate::interface::pairing::candidates::{KeptTree, SKIN, candidates};
 use crate::interface::pairing::filter::Filter;
 use crate::interface::pairing::given::Given;
-use crate::memory::{self, Store, Stored};
+use crate::memory::{Store, Stored};
 use crate::mortar::{MORTAR, PAIR_NODES, PairWeights};
+use crate::shape::{MAX_CORNERS, MAX_NODES};
 use std::ops::Range;
 
 /// A pair of the union of those active now and those of t_n.
 #[derive(Clone, Copy, Debug)]
-pub struct UnionPair<'a> {
+pub struct UnionPair {
     /// Non-mortar facet.
     pub one: usize,
     /// Mortar facet.
     pub two: usize,
-    /// Its weights of now.
-    pub now: Option<&'a PairWeights>,
+    /// Whether it is active now.
+    pub is_active: bool,
     /// Its place among the current pairs, or that of the next one.
     pub place: usize,
-    /// Its weights of t_n.
-    pub previous: Option<&'a PairWeights>,
+    /// Its place among those of t_n.
+    pub previous: Option<usize>,
 }
 
-impl<'a> UnionPair<'a> {
-    fn now((place, pair): (usize, &'a PairRecord)) -> UnionPair<'a> {
-        UnionPair { one: pair.one, two: pair.two, now: Some(&pair.weights), place, previous: None }
-    }
-
+impl UnionPair {
     /// The places of those that are active now among the current pairs, of pairs that follow each other.
     pub fn places(pairs: &[UnionPair]) -> Range<usize> {
         let first = pairs[0].place;
-        first..first + pairs.iter().filter(|pair| pair.now.is_some()).count()
+        first..first + pairs.iter().filter(|pair| pair.is_active).count()
     }
 
     /// The nodes in the pair's slots, as indices over both surfaces (mortar after non-mortar).
@@ -54,21 +52,92 @@ impl<'a> UnionPair<'a> {
     }
 }
 
-/// The union of the pairs active now and, where `slips`, of those of t_n; both are sorted by their facets, and so is it.
-pub fn union<'a>(now: &'a [PairRecord], previous: &'a [PairRecord], slips: bool) -> Result<Vec<UnionPair<'a>>> {
-    if !slips {
-        return now.iter().enumerate().map(UnionPair::now).stored();
+/// The pairs that a tangent has, sorted by their facets.
+#[derive(Clone, Copy, Debug)]
+pub enum Pairs<'a> {
+    /// Those active now and, where slip counts, those of t_n.
+    Union([&'a [PairRecord]; 2]),
+    /// All that there may be.
+    Possible(&'a [(usize, usize)]),
+}
+
+impl<'a> Pairs<'a> {
+    /// A number that tells these pairs, and this fact of them, from others.
+    pub fn checksum(self, fact: bool) -> u64 {
+        let lists = match self {
+            Pairs::Union(lists) => lists,
+            Pairs::Possible(list) => {
+                let pairs = list.iter().flat_map(|&(one, two)| [one as u64, two as u64]);
+                return of_words([2 + u64::from(fact)].into_iter().chain(pairs));
+            }
+        };
+        let list = |list: &'a [PairRecord]| {
+            let pairs = list.iter().flat_map(|pair| [pair.one as u64, pair.two as u64]);
+            std::iter::once(list.len() as u64).chain(pairs)
+        };
+        of_words(std::iter::once(u64::from(fact)).chain(lists.into_iter().flat_map(list)))
     }
-    let (mut now, mut previous) = (now.iter().peekable(), previous.iter().peekable());
-    let mut place = 0;
-    let mut union = memory::with_room(now.len().max(previous.len()))?;
-    loop {
-        let heads = [now.peek(), previous.peek()];
-        let Some((one, two)) = heads.into_iter().flatten().map(|p| (p.one, p.two)).min() else { return Ok(union) };
-        let n = now.next_if(|p| (p.one, p.two) == (one, two));
-        let p = previous.next_if(|p| (p.one, p.two) == (one, two));
-        union.store(UnionPair { one, two, now: n.map(|p| &p.weights), place, previous: p.map(|p| &p.weights) })?;
-        place += usize::from(n.is_some());
+
+    /// The weights of now of a pair; 0 where it is possible alone.
+    pub fn now(self, pair: &UnionPair) -> Option<&'a PairWeights> {
+        self.weights(0, pair.is_active.then_some(pair.place))
+    }
+
+    /// Its weights of t_n.
+    pub fn previous(self, pair: &UnionPair) -> Option<&'a PairWeights> {
+        self.weights(1, pair.previous)
+    }
+
+    fn weights(self, list: usize, place: Option<usize>) -> Option<&'a PairWeights> {
+        static NONE: PairWeights =
+            PairWeights { ab: [[0.0; MAX_NODES]; MAX_CORNERS], ac: [[0.0; MAX_NODES]; MAX_CORNERS] };
+        place.map(|place| match self {
+            Pairs::Union(lists) => &lists[list][place].weights,
+            Pairs::Possible(_) => &NONE,
+        })
+    }
+}
+
+/// Walks through pairs facet by facet.
+#[derive(Clone, Copy, Debug)]
+pub struct Walk<'a> {
+    pairs: Pairs<'a>,
+    next: [usize; 2],
+    /// The first facet that is none of these.
+    end: usize,
+}
+
+impl<'a> Walk<'a> {
+    /// Through those of these facets.
+    pub fn through(pairs: Pairs<'a>, facets: Range<usize>) -> Walk<'a> {
+        let next = match pairs {
+            Pairs::Union(lists) => lists.map(|list| list.partition_point(|pair| pair.one < facets.start)),
+            Pairs::Possible(list) => [list.partition_point(|pair| pair.0 < facets.start), 0],
+        };
+        Walk { pairs, next, end: facets.end }
+    }
+
+    /// Puts the pairs of the next facet into `of_facet`; gives the facet.
+    pub fn next(&mut self, of_facet: &mut Vec<UnionPair>) -> Result<Option<usize>> {
+        of_facet.clear();
+        loop {
+            let heads = match self.pairs {
+                Pairs::Union([now, previous]) => {
+                    [(now, self.next[0]), (previous, self.next[1])].map(|(list, k)| list.get(k).map(|p| (p.one, p.two)))
+                }
+                Pairs::Possible(list) => [list.get(self.next[0]).copied(); 2],
+            };
+            let facet = of_facet.first().map(|pair| pair.one);
+            let head = heads.into_iter().flatten().min();
+            let Some((one, two)) = head.filter(|h| h.0 < self.end && facet.is_none_or(|f| f == h.0)) else {
+                return Ok(facet);
+            };
+            let [is_active, was_active] = heads.map(|head| head == Some((one, two)));
+            let previous = was_active.then_some(self.next[1]);
+            of_facet.store(UnionPair { one, two, is_active, place: self.next[0], previous })?;
+            self.next[0] += usize::from(is_active);
+            self.next[1] += usize::from(was_active);
+        }
     }
 }
 

@@ -1,0 +1,194 @@
+//! Plans of a tangent: their entries are those of the tangent, each once, and their values its sums.
+
+use super::weak;
+use crate::support::mesh::*;
+use nalgebra::SVector;
+use std::collections::BTreeMap;
+use stickslip::error::Kind;
+use stickslip::geometry::Vec3;
+use stickslip::interface::{
+    Contact, Extent, Form, Friction, MultiplierBasis, NO_EQUATION, Normals, Options, Plan, PlanOf, PlanPairs,
+    PlanSystem, Surface,
+};
+
+/// Sums of a few dozen terms in another order, over the largest entry.
+const ROUNDING: f64 = 1e-14;
+
+fn entries<const N: usize>((plan, of): (&Plan, PlanOf<N>)) -> Vec<(i64, i64)> {
+    let (rows, offsets) = plan.rows();
+    let (mut entries, mut k) = (Vec::new(), 0);
+    plan.each_row(of, |columns| {
+        assert_eq!(offsets[k + 1] - offsets[k], columns.len());
+        entries.extend(columns.iter().map(|&column| (rows[k], column)));
+        k += 1;
+        Ok(())
+    })
+    .unwrap();
+    assert_eq!((k, plan.len()), (rows.len(), entries.len()));
+    assert!(entries.windows(2).all(|e| e[0] < e[1]), "sorted, each once");
+    entries
+}
+
+/// Compares plans at a point with the tangent entry by entry.
+fn agrees<const N: usize>(c: &mut Contact<N>, x1: &[Vec3], x2: &[Vec3], lambda: &[SVector<f64, N>], what: &str) {
+    let mut expected = BTreeMap::new();
+    c.tangent(x1, x2, lambda, None, &mut |i: i64, j: i64, v: f64| *expected.entry((i, j)).or_insert(0.0) += v).unwrap();
+    let largest = expected.values().fold(0.0, |m: f64, v| m.max(v.abs()));
+    for pairs in [PlanPairs::Active(Extent::Whole), PlanPairs::Active(Extent::Part), PlanPairs::Possible] {
+        let n = c.make_plan((x1, x2), pairs).unwrap();
+        let found = entries(c.plan(PlanSystem::Whole).unwrap());
+        assert_eq!(n, found.len());
+        if pairs == PlanPairs::Active(Extent::Whole) {
+            assert!(found.iter().eq(expected.keys()), "{what}: {} entries for {}", found.len(), expected.len());
+        }
+        for _ in 0..2 {
+            let mut values = vec![f64::NAN; n];
+            c.plan_values((x1, x2), lambda, None, &mut values).unwrap_or_else(|e| panic!("{what} {pairs:?}: {e}"));
+            let values: BTreeMap<_, _> = found.iter().copied().zip(values).collect();
+            for (entry, value) in &expected {
+                let found = values.get(entry).unwrap_or_else(|| panic!("{what} {pairs:?} lacks {entry:?}"));
+                assert!((found - value).abs() <= ROUNDING * largest, "{what} {pairs:?} {entry:?}: {found} for {value}");
+            }
+            let others = values.iter().filter(|(entry, _)| !expected.contains_key(entry));
+            assert!(others.into_iter().all(|(_, value)| *value == 0.0), "{what} {pairs:?}");
+        }
+    }
+}
+
+fn variants(of: Options) -> impl Iterator<Item = Options> {
+    let bases = [MultiplierBasis::Standard, MultiplierBasis::Dual];
+    let forms = [Form::Multiplier, Form::Augmented];
+    let normals = [Normals::Committed, Normals::Current];
+    let all = bases.into_iter().flat_map(move |b| forms.into_iter().map(move |f| (b, f)));
+    let all = all.flat_map(move |(b, f)| normals.into_iter().map(move |n| (b, f, n)));
+    all.map(move |(basis, form, normals)| Options { basis, form, normals, ..of })
+}
+
+fn scenes() -> impl Iterator<Item = (&'static str, Roughness, [Cells; 2])> {
+    let quads = [Cells::Quads, Cells::Quads];
+    rough_scenes(0.0).chain([("quads", Roughness { warp: 0.01, jitter: 0.05, slide: 0.02 }, quads)])
+}
+
+#[test]
+fn a_plan_has_the_tangents_entries_once() {
+    for (what, rough, cells) in scenes() {
+        for options in variants(options()) {
+            let mut t = moved(&options, cells, rough, 3);
+            agrees(&mut t.interface, &t.x1, &t.x2, &t.lambda, &format!("{what} {options:?}"));
+        }
+    }
+}
+
+#[test]
+fn a_plan_without_friction_has_the_tangents_entries_once() {
+    for (what, rough, cells) in scenes() {
+        for options in variants(Options { friction: Friction::None, mu: 0.0, ..options() }) {
+            for prescribed in [false, true] {
+                let t = moved(&standard(), cells, rough, 3);
+                let (one, two) = t.interface.surfaces();
+                let mut c: Contact<1> = contact(&mesh_of(one), &mesh_of(two), prescribed, options);
+                let lambda: Vec<_> = t.lambda.iter().map(|l| nalgebra::Vector1::new(l.z)).collect();
+                agrees(&mut c, &t.x1, &t.x2, &lambda, &format!("{what} {prescribed} {options:?}"));
+            }
+        }
+    }
+}
+
+fn standard() -> Options {
+    options()
+}
+
+#[test]
+fn a_plan_has_what_carried_nodes_add() {
+    for options in variants(Options { weak_coverage: weak::WEAK, ..options() }) {
+        let mut s = weak::scene::<3>(&options, Cells::Quads);
+        agrees(&mut s.contact, &s.x1, &s.x2, &s.lambda, &format!("{options:?}"));
+        let options = Options { friction: Friction::None, mu: 0.0, ..options };
+        let mut s = weak::scene::<1>(&options, Cells::Triangles);
+        agrees(&mut s.contact, &s.x1, &s.x2, &s.lambda, &format!("{options:?}"));
+    }
+}
+
+/// Numberings of a host, as functions of (node over both surfaces and multipliers, component).
+type Numbers = Box<dyn Fn(usize, usize) -> i64>;
+
+fn numberings(n1: usize, n2: usize) -> Vec<(&'static str, Numbers)> {
+    let n = 2 * n1 + n2;
+    let by_node = |k: usize, i: usize| (3 * k + i) as i64;
+    // A non-mortar node's displacements, then its multipliers.
+    let beside = move |k: usize, i: usize| {
+        let k = if k < n1 {
+            2 * k
+        } else if k < n1 + n2 {
+            n1 + k
+        } else {
+            2 * (k - n1 - n2) + 1
+        };
+        (3 * k + i) as i64
+    };
+    vec![
+        ("multipliers beside displacements", Box::new(beside)),
+        ("component by component", Box::new(move |k, i| (n * i + k) as i64)),
+        ("backwards", Box::new(move |k, i| (3 * n - 1 - 3 * k - i) as i64)),
+        ("scattered, with gaps", Box::new(move |k, i| 7 * by_node((k * 5 + 2) % n.next_power_of_two().max(n), i) + 3)),
+        ("prescribed plane", Box::new(move |k, i| if i == 2 { NO_EQUATION } else { by_node(k, i) })),
+        ("prescribed nodes", Box::new(move |k, i| if k % 5 == 1 { NO_EQUATION } else { by_node(k, i) })),
+        ("a symmetry plane", Box::new(move |k, i| if k % 3 == 0 && i == 0 { NO_EQUATION } else { by_node(k, i) })),
+        (
+            "shared displacements",
+            Box::new(move |k, i| {
+                by_node(
+                    if k == 3 {
+                        1
+                    } else if k == n1 + 5 {
+                        n1 + 4
+                    } else {
+                        k
+                    },
+                    i,
+                )
+            }),
+        ),
+        ("a shared component", Box::new(move |k, i| by_node(if k == n1 + 5 && i == 1 { n1 + 4 } else { k }, i))),
+    ]
+}
+
+#[test]
+fn a_plan_follows_any_numbering() {
+    for (what, rough, cells) in scenes() {
+        for options in variants(options()) {
+            let t = moved(&options, cells, rough, 3);
+            let (one, two) = t.interface.surfaces();
+            let (one, two) = (mesh_of(one), mesh_of(two));
+            let (n1, n2) = (one.x.len(), two.x.len());
+            for (numbering, number) in numberings(n1, n2) {
+                let of = |first: usize, n: usize| -> Vec<[i64; 3]> {
+                    (first..first + n).map(|k| std::array::from_fn(|i| number(k, i))).collect()
+                };
+                let one = Surface::new("nonmortar", one.x.clone(), &one.facets, of(0, n1)).unwrap();
+                let two = Surface::new("mortar", two.x.clone(), &two.facets, of(n1, n2)).unwrap();
+                let mut c = Contact::new(one, two, of(n1 + n2, n1), options).unwrap();
+                agrees(&mut c, &t.x1, &t.x2, &t.lambda, &format!("{numbering}, {what} {options:?}"));
+            }
+        }
+    }
+}
+
+/// A plan of active pairs does not suffice where there are others; the values that it had are then gone, and nothing else.
+#[test]
+fn a_plan_that_does_not_suffice_is_refused() {
+    let (_, rough, cells) = scenes().next().unwrap();
+    let mut t = moved(&options(), cells, rough, 3);
+    let c = &mut t.interface;
+    let refused = c.plan_values((&t.x1, &t.x2), &t.lambda, None, &mut []).unwrap_err();
+    assert_eq!(refused.kind, Kind::InvalidValue, "{refused}");
+    let n = c.make_plan((&t.x1, &t.x2), PlanPairs::Active(Extent::Whole)).unwrap();
+    let (mut values, mut again) = (vec![0.0; n], vec![0.0; n]);
+    c.plan_values((&t.x1, &t.x2), &t.lambda, None, &mut values).unwrap();
+    let far: Vec<_> = t.x1.iter().map(|x| x + (t.x1[8] - t.x1[0]) * 0.4).collect();
+    let refused = c.plan_values((&far, &t.x2), &t.lambda, None, &mut again).unwrap_err();
+    assert_eq!(refused.kind, Kind::MissingEntry, "{refused}");
+    assert!(format!("{refused}").contains("stickslip_interface_plan"), "{refused}");
+    c.plan_values((&t.x1, &t.x2), &t.lambda, None, &mut again).unwrap();
+    assert!(values.iter().zip(&again).all(|(v, w)| v.to_bits() == w.to_bits()));
+}
