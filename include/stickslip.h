@@ -350,6 +350,25 @@
 /// Reals per node of `stickslip_interface_sums`.
 #define STICKSLIP_SUMS_PER_NODE 11
 
+/// A plan of the pairs that are active at the positions, and of those of t_n: exactly the entries of the tangent there.
+#define STICKSLIP_PLAN_ACTIVE 0
+
+/// The same for values with sums of several handles.
+#define STICKSLIP_PLAN_ACTIVE_SUMS 1
+
+/// A plan of all pairs that may be active, here and at t_n, while the surfaces slide by less than a quarter of a facet; for
+/// values with sums or without.
+#define STICKSLIP_PLAN_SKIN 2
+
+/// The entries of the plan of `stickslip_interface_plan`: the tangent.
+#define STICKSLIP_ENTRIES_TANGENT 0
+
+/// Those of the first part of `stickslip_interface_condensed_plan`: what contact forces depend on the displacements by.
+#define STICKSLIP_ENTRIES_FORCES 1
+
+/// Those of its second part: the contact constraints.
+#define STICKSLIP_ENTRIES_CONSTRAINTS 2
+
 /// A piece of a condensed matrix: what the contact forces add to the host's own matrix, their derivative with respect to the
 /// displacements at fixed multipliers.
 #define STICKSLIP_CONDENSED_FORCES 0
@@ -1181,6 +1200,119 @@ int32_t stickslip_interface_pattern_coo(struct stickslip_interface *interface,
                                         int64_t *rows,
                                         int64_t *columns,
                                         int64_t *count);
+
+/// Makes the plan of the tangent: its entries, each once, and where every block of it goes. The handle keeps it, in place of
+/// an older one, until it is made again; `stickslip_interface_plan_values` fills it in every evaluation.
+///
+/// x1 (3 n1), x2 (3 n2): positions [L]; pairs: STICKSLIP_PLAN_... Outputs: rows, the number of equations that have
+/// entries; count, the number of entries. Make it again when values are refused with MISSING_ENTRY.
+///
+/// Errors: NULL_POINTER, NOT_FINITE, INVALID_VALUE (pairs, and as `stickslip_interface_sums`), DEGENERATE_FACET,
+/// PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL, UNSUPPORTED (more than 2^30 nodes).
+/// Cost: at new positions those of the residual, then O(entries); STICKSLIP_PLAN_SKIN one search more. Allocates.
+int32_t stickslip_interface_plan(struct stickslip_interface *interface,
+                                 const double *x1,
+                                 const double *x2,
+                                 int32_t pairs,
+                                 int64_t *rows,
+                                 int64_t *count);
+
+/// The entries of a plan as pairs of row and column, by rows and within a row by columns, each once: what PETSc's
+/// MatSetPreallocationCOO takes.
+///
+/// entries: STICKSLIP_ENTRIES_... Outputs, in the host's equations and index base: rows, columns (capacity each).
+///
+/// Errors: NULL_POINTER, INVALID_VALUE (entries; there is no plan), BUFFER_TOO_SMALL.
+/// Cost: O(entries).
+int32_t stickslip_interface_plan_coo(struct stickslip_interface *interface,
+                                     int32_t entries,
+                                     int64_t capacity,
+                                     int64_t *rows,
+                                     int64_t *columns);
+
+/// As `stickslip_interface_plan_coo`, in 32 bits.
+///
+/// Errors: as there, and INDEX_OUT_OF_RANGE where a number does not fit.
+/// Cost: O(entries).
+int32_t stickslip_interface_plan_coo32(struct stickslip_interface *interface,
+                                       int32_t entries,
+                                       int64_t capacity,
+                                       int32_t *rows,
+                                       int32_t *columns);
+
+/// The entries of a plan as compressed sparse rows. Only equations that have entries have a row.
+///
+/// entries: STICKSLIP_ENTRIES_... Outputs: rows, their equations, ascending, as many as `stickslip_interface_plan` says;
+/// row_offsets, one more, from the index base; columns (capacity), within a row ascending. All in the host's index base.
+///
+/// Errors: NULL_POINTER, INVALID_VALUE (entries; there is no plan), BUFFER_TOO_SMALL.
+/// Cost: O(entries).
+int32_t stickslip_interface_plan_csr(struct stickslip_interface *interface,
+                                     int32_t entries,
+                                     int64_t capacity,
+                                     int64_t *rows,
+                                     int64_t *row_offsets,
+                                     int64_t *columns);
+
+/// As `stickslip_interface_plan_csr`, in 32 bits.
+///
+/// Errors: as there, and INDEX_OUT_OF_RANGE where a number does not fit.
+/// Cost: O(entries).
+int32_t stickslip_interface_plan_csr32(struct stickslip_interface *interface,
+                                       int32_t entries,
+                                       int64_t capacity,
+                                       int32_t *rows,
+                                       int32_t *row_offsets,
+                                       int32_t *columns);
+
+/// The exact tangent d residual / d (x1, x2, lambda) in the order of the plan's entries. Paper (29)-(31).
+///
+/// x1, x2, lambda, sums as for `stickslip_interface_residual`. values (capacity), output: overwritten, as many as the
+/// plan has entries. Units of an entry: its row's over its column's. After MISSING_ENTRY and NOT_FINITE (a value overflows)
+/// they mean nothing; after any other error they are as they were.
+///
+/// Errors: those of `stickslip_interface_residual`, INVALID_VALUE (there is no plan), BUFFER_TOO_SMALL, UNSUPPORTED (sums with
+/// the augmented form or weak_coverage), MISSING_ENTRY: the plan lacks an entry; make it again.
+/// Cost: at new positions those of the residual, then the derivatives of every pair's weights (frozen weights: none). After
+/// the first calls it allocates nothing.
+int32_t stickslip_interface_plan_values(struct stickslip_interface *interface,
+                                        const double *x1,
+                                        const double *x2,
+                                        const double *lambda,
+                                        const double *sums,
+                                        int64_t capacity,
+                                        double *values);
+
+/// Makes the plans of what a system without multipliers has of displacements: its pieces FORCES and CONSTRAINTS (see
+/// `stickslip_interface_condensed_coo`). The handle keeps them until they are made again.
+///
+/// x1 (3 n1), x2 (3 n2): positions [L]; pairs: STICKSLIP_PLAN_... Outputs: rows (2) and counts (2): how many equations have
+/// entries, and how many entries there are, of FORCES and of CONSTRAINTS.
+///
+/// Errors: as `stickslip_interface_condensed_multipliers` and `stickslip_interface_plan`.
+/// Cost: as `stickslip_interface_plan`, twice. Allocates.
+int32_t stickslip_interface_condensed_plan(struct stickslip_interface *interface,
+                                           const double *x1,
+                                           const double *x2,
+                                           int32_t pairs,
+                                           int64_t *rows,
+                                           int64_t *counts);
+
+/// The pieces FORCES and CONSTRAINTS of the matrix of a system without multipliers (`stickslip_interface_condensed_coo`) in
+/// the order of their plans, of one linearisation.
+///
+/// x1 (3 n1), x2 (3 n2): positions [L]; lambda (n1 multipliers) [F/L^2], as for `stickslip_interface_condensed_residual`.
+/// Outputs: forces, constraints, as many as the counts of `stickslip_interface_condensed_plan` [F/L]. After MISSING_ENTRY and
+/// NOT_FINITE (a value overflows) they mean nothing.
+///
+/// Errors: as `stickslip_interface_condensed_coo` and `stickslip_interface_plan_values`.
+/// Cost: as `stickslip_interface_plan_values`, and a sort of the pairs' nodes.
+int32_t stickslip_interface_condensed_values(struct stickslip_interface *interface,
+                                             const double *x1,
+                                             const double *x2,
+                                             const double *lambda,
+                                             double *forces,
+                                             double *constraints);
 
 /// Which nodes carry weakly covered ones in this step: lambda_A = sum_B w_AB lambda_B. Settled by t_n; a node that carries
 /// another has a multiplier of its own. Read it after a commit, to carry in the stateless stages too.
