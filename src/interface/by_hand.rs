@@ -10,14 +10,18 @@ use super::data::surface::{NO_EQUATION, Surface};
 use super::pairing::candidates::KeptTree;
 use super::pairing::given::{Given, Step};
 use super::pairing::settle::Pairing;
+use super::plan::numbering::{Nodes, Numbering};
+use super::plan::pattern::System;
+use super::plan::whole::Plan;
 use super::stages::commit;
 use super::stages::initial::initial_multipliers;
 use super::stages::integrate::integrate;
 use super::stages::residual::residual;
 use super::stages::respond::respond;
 use super::stages::sums::{NodeSums, sums};
-use super::tangent::blocks::blocks;
-use super::tangent::union::union;
+use super::tangent::blocks::{Room, Task, blocks};
+use super::tangent::by_equations::ByEquations;
+use super::tangent::union::{Pairs, Walk};
 use crate::geometry::Vec3;
 use crate::law::State;
 use crate::mortar::PairWeights;
@@ -76,12 +80,17 @@ fn an_evaluation_stage_by_stage() {
     assert!(total.norm() < ROUNDING, "{total}");
     assert!(forces.rows.iter().all(|row| (row.z + 0.05).abs() < ROUNDING), "r_A M_A g_N: {:?}", forces.rows);
 
-    let union = union(&active.pairs, &step.history.pairs, true).unwrap();
+    let pairs = Pairs::Union([&active.pairs, &step.history.pairs]);
     let mut entries = 0;
     let mut count = |_: i64, _: i64, _: f64| entries += 1;
-    blocks::<false, 3>((given, &[Vec3::zeros(); 4]), &union, Extent::Whole, None, (&mut count, None)).unwrap();
+    let task = Task { given, normals: &[Vec3::zeros(); 4], pairs, extent: Extent::Whole, numbers: None };
+    blocks(task, &mut Room::default(), (&mut ByEquations::new(&setup, &mut count), None)).unwrap();
     // 12 x 12 of the forces, 3 x 16 of the multipliers in them, 12 x 12 of the rows, 4 x 9 of the nodes.
     assert_eq!(entries, 372);
+    let numbering = Numbering::of(Nodes::of(&setup)).unwrap();
+    let plan = Plan::new((&setup, &numbering), System::Whole, pairs, Vec::new(), |_| false).unwrap();
+    // The four rows of multipliers have each other as columns, too, of which each has its own alone: no block twice here.
+    assert_eq!(plan.len(), 372);
 }
 
 #[test]
@@ -101,9 +110,17 @@ fn what_nothing_covers_is_answered_without_the_law() {
 fn the_union_merges_pairs_of_now_and_of_the_last_step() {
     let pair = |one, two| PairRecord { one, two, weights: PairWeights::default() };
     let (now, previous) = ([pair(0, 1), pair(2, 0)], [pair(0, 0), pair(0, 1), pair(1, 5)]);
-    let found = union(&now, &previous, true).unwrap();
-    let found: Vec<_> = found.iter().map(|p| (p.one, p.two, p.place, p.now.is_some(), p.previous.is_some())).collect();
-    let expected = [(0, 0, 0, false, true), (0, 1, 0, true, true), (1, 5, 1, false, true), (2, 0, 1, true, false)];
-    assert_eq!(found, expected);
-    assert_eq!(union(&now, &previous, false).unwrap().len(), 2);
+    let of = |pairs: Pairs| {
+        let (mut walk, mut of_facet, mut found) = (Walk::through(pairs, 0..usize::MAX), Vec::new(), Vec::new());
+        while let Some(f) = walk.next(&mut of_facet).unwrap() {
+            assert!(of_facet.iter().all(|p| p.one == f));
+            found.extend(of_facet.iter().map(|p| (p.one, p.two, p.place, p.is_active, p.previous)));
+        }
+        found
+    };
+    let expected =
+        [(0, 0, 0, false, Some(0)), (0, 1, 0, true, Some(1)), (1, 5, 1, false, Some(2)), (2, 0, 1, true, None)];
+    assert_eq!(of(Pairs::Union([&now, &previous])), expected);
+    assert_eq!(of(Pairs::Union([&now, &[]])).len(), 2);
+    assert_eq!(of(Pairs::Possible(&[(0, 3), (4, 1)])), [(0, 3, 0, true, Some(0)), (4, 1, 1, true, Some(1))]);
 }

@@ -5,7 +5,8 @@
 
 use super::numbering::{NO_RANK, SCALARS};
 use super::places::{Layout, NOWHERE, NodeRows, Places};
-use super::scatter::{LACKS, Offsets, SKIP, Scatter};
+use super::scatter::{LACKS, MortarOffsets, SKIP, Scatter};
+use crate::dual::Columns;
 use crate::error::Result;
 use crate::geometry::Vec3;
 use crate::interface::data::setup::Setup;
@@ -44,25 +45,23 @@ impl FillRoom {
     }
 }
 
-/// The rows of four nodes at most, and where their columns begin: by row, then by column.
-struct Target {
-    rows: [NodeRows; MAX_NODES],
-    n_rows: usize,
-    offsets: [[u32; MAX_NODES]; MAX_NODES],
-    n_columns: usize,
-}
+/// Where the columns of four nodes begin in the rows of four nodes: by row, then by column.
+type Starts = [[u32; MAX_NODES]; MAX_NODES];
 
 /// Wider forms of the marks of `scatter.rs`.
 const WIDE_LACKS: u32 = u32::MAX;
 const WIDE_SKIP: u32 = u32::MAX - 1;
 
+#[inline(always)]
 fn widened(offset: u16) -> u32 {
-    match offset {
-        LACKS => WIDE_LACKS,
-        SKIP => WIDE_SKIP,
-        offset => u32::from(offset),
-    }
+    if offset >= SKIP { WIDE_SKIP + u32::from(offset - SKIP) } else { u32::from(offset) }
 }
+
+/// Of a mortar node that the facet does not have.
+static MISSING: MortarOffsets = {
+    let lacks = [LACKS; MAX_NODES];
+    MortarOffsets { column: lacks, row: lacks, forces: lacks, multipliers: lacks }
+};
 
 /// Takes blocks and adds them to the entries of a plan.
 pub struct Fill<'a, const N: usize> {
@@ -80,8 +79,19 @@ pub struct Fill<'a, const N: usize> {
 #[derive(Debug, Default)]
 struct State {
     facet: usize,
-    /// Places of the mortar nodes of the mortar facet that was looked up last.
-    last: Option<(usize, [Option<usize>; MAX_NODES])>,
+    /// Nodes of the facet.
+    len: usize,
+    /// The rows of their displacements, and of their multipliers.
+    own: [NodeRows; MAX_NODES],
+    multipliers: [NodeRows; MAX_NODES],
+    /// The mortar facet at hand, how many nodes it has, and their rows.
+    mortar: Option<usize>,
+    mortar_len: usize,
+    mortar_rows: [NodeRows; MAX_NODES],
+    /// The places of these nodes among the mortar nodes of the facets.
+    places: [Option<usize>; MAX_NODES],
+    /// Of the blocks at hand.
+    starts: Starts,
     /// An entry that the plan lacks: row and column.
     lacks: Option<(Place, Place)>,
     /// 0 times all values: 0, or not a number where one is not finite.
@@ -142,23 +152,23 @@ impl<'a, const N: usize> Fill<'a, N> {
 
     fn len_of(&self, span: Span) -> usize {
         match span {
-            Span::Own => self.setup.nonmortar.facets[self.state.facet].len,
-            Span::Mortar(j) => self.setup.mortar.facets[j].len,
+            Span::Own => self.state.len,
+            Span::Mortar(_) => self.state.mortar_len,
         }
     }
 
-    /// The places of a mortar facet's nodes among those of the facet at hand.
-    fn places_of(&mut self, scatter: &Scatter, j: usize) -> [Option<usize>; MAX_NODES] {
-        match self.state.last {
-            Some((of, places)) if of == j => places,
-            _ => {
-                let facet = &self.setup.mortar.facets[j];
-                let places = std::array::from_fn(|k| {
-                    if k < facet.len { scatter.place(self.state.facet, facet.nodes[k]) } else { None }
-                });
-                self.state.last = Some((j, places));
-                places
-            }
+    /// Looks at a span, if it is a mortar facet and not that at hand.
+    #[inline]
+    fn look(&mut self, span: Span) {
+        let Span::Mortar(j) = span else { return };
+        if self.state.mortar == Some(j) {
+            return;
+        }
+        let facet = &self.setup.mortar.facets[j];
+        (self.state.mortar, self.state.mortar_len) = (Some(j), facet.len);
+        for (k, &node) in facet.as_slice().iter().enumerate() {
+            self.state.mortar_rows[k] = self.touch(self.layout.nodes.mortar(node));
+            self.state.places[k] = self.scatter.and_then(|s| s.place(self.state.facet, node));
         }
     }
 
@@ -171,54 +181,92 @@ impl<'a, const N: usize> Fill<'a, N> {
         self.layout.offset(row, column, &self.places.rows[row]).unwrap_or(WIDE_LACKS)
     }
 
-    /// Rows and columns of two spans, multipliers in place of displacements of the facet's own nodes where asked for.
-    fn target(&mut self, (rows, of_multipliers): (Span, bool), (columns, by_multipliers): (Span, bool)) -> Target {
-        let (n_rows, n_columns) = (self.len_of(rows), self.len_of(columns));
-        let n1 = self.layout.nodes.multiplier(0);
-        let row_node = |fill: &Self, b: usize| fill.node_of(rows, b) + if of_multipliers { n1 } else { 0 };
-        let mut target =
-            Target { rows: Default::default(), n_rows, offsets: [[WIDE_SKIP; MAX_NODES]; MAX_NODES], n_columns };
-        for b in 0..n_rows {
-            let node = row_node(self, b);
-            target.rows[b] = self.touch(node);
-        }
+    /// Finds where the columns of one span begin in the rows of another; multipliers in place of displacements of the facet's
+    /// own nodes where asked for.
+    #[inline]
+    fn find(&mut self, (rows, of_multipliers): (Span, bool), (columns, by_multipliers): (Span, bool)) {
+        self.look(rows);
+        self.look(columns);
         let f = self.state.facet;
         // Facets without pairs in the plan have no offsets.
-        let scatter = self.scatter.filter(|s| s.first_node[f] < s.first_node[f + 1] || !self.setup.effects.moves());
-        let Some(scatter) = scatter else {
-            for (b, k) in (0..n_rows).flat_map(|b| (0..n_columns).map(move |k| (b, k))) {
-                let column = self.node_of(columns, k) + if by_multipliers { n1 } else { 0 };
-                target.offsets[b][k] = self.found(row_node(self, b), column);
-            }
-            return target;
-        };
-        let own = &scatter.own[f];
-        let mut take = |from: &Offsets| target.offsets = from.map(|row| row.map(widened));
-        match (rows, columns) {
-            (Span::Own, Span::Own) => take(match (of_multipliers, by_multipliers) {
-                (false, false) => &own.forces,
-                (false, true) => &own.multipliers,
-                (true, _) => &own.rows,
-            }),
-            (Span::Own, Span::Mortar(j)) => {
-                for (k, place) in self.places_of(scatter, j).into_iter().enumerate().take(n_columns) {
-                    let from = place.map(|p| &scatter.mortar[p]);
-                    for b in 0..n_rows {
-                        let offset = from.map(|m| if of_multipliers { m.row[b] } else { m.column[b] });
-                        target.offsets[b][k] = offset.map_or(WIDE_LACKS, widened);
+        let scatter = self.scatter.filter(|s| s.has(f));
+        let Some(scatter) = scatter else { return self.search((rows, of_multipliers), (columns, by_multipliers)) };
+        let (own, starts) = (&scatter.own[f], &mut self.state.starts);
+        let table = match (rows, columns) {
+            (Span::Own, Span::Own) if of_multipliers => &own.rows,
+            (Span::Own, Span::Own) if by_multipliers => &own.multipliers,
+            (Span::Own, Span::Own) => &own.forces,
+            (Span::Mortar(j), Span::Mortar(_)) => &scatter.among[j],
+            (Span::Own, Span::Mortar(_)) => {
+                for (k, place) in self.state.places.iter().enumerate() {
+                    let from = place.map_or(&MISSING, |p| &scatter.mortar[p]);
+                    let from = if of_multipliers { &from.row } else { &from.column };
+                    for b in 0..MAX_NODES {
+                        starts[b][k] = widened(from[b]);
                     }
                 }
+                return;
             }
-            (Span::Mortar(j), Span::Own) => {
-                for (b, place) in self.places_of(scatter, j).into_iter().enumerate().take(n_rows) {
-                    let from = place.map(|p| &scatter.mortar[p]);
-                    let from = from.map(|m| if by_multipliers { m.multipliers } else { m.forces });
-                    target.offsets[b] = from.map_or([WIDE_LACKS; MAX_NODES], |m| m.map(widened));
+            (Span::Mortar(_), Span::Own) => {
+                for (b, place) in self.state.places.iter().enumerate() {
+                    let from = place.map_or(&MISSING, |p| &scatter.mortar[p]);
+                    let from = if by_multipliers { &from.multipliers } else { &from.forces };
+                    for k in 0..MAX_NODES {
+                        starts[b][k] = widened(from[k]);
+                    }
                 }
+                return;
             }
-            (Span::Mortar(j), Span::Mortar(_)) => take(&scatter.among[j]),
+        };
+        for b in 0..MAX_NODES {
+            for k in 0..MAX_NODES {
+                starts[b][k] = widened(table[b][k]);
+            }
         }
-        target
+    }
+
+    /// The same by a search for each.
+    #[cold]
+    fn search(&mut self, (rows, of_multipliers): (Span, bool), (columns, by_multipliers): (Span, bool)) {
+        let multiplier = self.layout.nodes.multiplier(0);
+        let (n_rows, n_columns) = (self.len_of(rows), self.len_of(columns));
+        for (b, k) in (0..n_rows).flat_map(|b| (0..n_columns).map(move |k| (b, k))) {
+            let row = self.node_of(rows, b) + if of_multipliers { multiplier } else { 0 };
+            let column = self.node_of(columns, k) + if by_multipliers { multiplier } else { 0 };
+            self.state.starts[b][k] = self.found(row, column);
+        }
+    }
+
+    /// Adds blocks to the rows of a span, or of the facet's multipliers.
+    #[inline]
+    fn add<const R: usize>(
+        &mut self,
+        (rows, of_multipliers): (Span, bool),
+        columns: Span,
+        values: &[[[[f64; 4]; R]; 3]],
+    ) {
+        self.find((rows, of_multipliers), (columns, false));
+        let shape = (self.len_of(rows), self.len_of(columns));
+        let State { own, multipliers, mortar_rows, starts, nothing, .. } = &mut self.state;
+        let node_rows = match (rows, of_multipliers) {
+            (Span::Own, true) => multipliers,
+            (Span::Own, false) => own,
+            (Span::Mortar(_), _) => mortar_rows,
+        };
+        let beside = &mut self.room.beside;
+        let lacks =
+            simd::dispatch(Add { entries: self.values, beside, rows: node_rows, starts, shape, values, nothing });
+        if lacks {
+            let place = |span: Span| Place::Displacement(self.node_of(span, 0));
+            let row = if of_multipliers { Place::Multiplier(self.node_of(rows, 0)) } else { place(rows) };
+            self.note(true, row, place(columns));
+        }
+    }
+
+    fn add_mortar(&mut self, shape: (usize, usize), values: &[Columns]) -> bool {
+        let State { mortar_rows, starts, nothing, .. } = &mut self.state;
+        let beside = &mut self.room.beside;
+        simd::dispatch(Add { entries: self.values, beside, rows: mortar_rows, starts, shape, values, nothing })
     }
 
     /// Notes that the plan lacks one of these blocks, if it does.
@@ -227,91 +275,76 @@ impl<'a, const N: usize> Fill<'a, N> {
             self.state.lacks = Some((row, column));
         }
     }
-
-    fn add<const R: usize>(&mut self, target: &Target, values: &[[[[f64; 4]; R]; 3]]) -> bool {
-        let beside = &mut self.room.beside;
-        let nothing = &mut self.state.nothing;
-        simd::dispatch(Add { entries: self.values, beside, target, values, nothing })
-    }
-
-    fn place_of(&self, span: Span) -> Place {
-        Place::Displacement(self.node_of(span, 0))
-    }
 }
 
 impl<const N: usize> Blocks<N> for Fill<'_, N> {
     fn begin(&mut self, f: usize) {
-        (self.state.facet, self.state.last) = (f, None);
+        let facet = &self.setup.nonmortar.facets[f];
+        (self.state.facet, self.state.len, self.state.mortar) = (f, facet.len, None);
+        for (k, &a) in facet.as_slice().iter().enumerate() {
+            self.state.own[k] = self.touch(a);
+            self.state.multipliers[k] = self.touch(self.layout.nodes.multiplier(a));
+        }
     }
 
     fn forces(&mut self, rows: Span, columns: Span, values: &[[[[f64; MAX_NODES]; 3]; 3]]) {
-        let target = self.target((rows, false), (columns, false));
-        let lacks = self.add::<3>(&target, values);
-        self.note(lacks, self.place_of(rows), self.place_of(columns));
+        self.add::<3>((rows, false), columns, values);
     }
 
     fn multipliers(&mut self, rows: Span, n: &[[f64; MAX_NODES]; MAX_CORNERS], nu: &[Vec3; MAX_CORNERS]) {
-        let target = self.target((rows, false), (Span::Own, true));
-        let mut lacks = false;
-        for (a, b) in (0..target.n_columns).flat_map(|a| (0..target.n_rows).map(move |b| (a, b))) {
-            let (rows, offset, value) = (&target.rows[b], target.offsets[b][a], n[a][b]);
-            if offset >= WIDE_SKIP {
-                lacks |= offset == WIDE_LACKS;
-                continue;
-            }
+        self.find((rows, false), (Span::Own, true));
+        let (n_rows, n_columns, mut lacks) = (self.len_of(rows), self.state.len, false);
+        let State { own, mortar_rows, starts, nothing, .. } = &mut self.state;
+        let node_rows = if rows == Span::Own { own } else { mortar_rows };
+        for (b, rows) in node_rows.iter().enumerate().take(n_rows) {
             let to = if rows.is_direct { &mut *self.values } else { &mut self.room.beside[..] };
-            let (at, len) = (rows.start + offset as usize, rows.len as usize);
-            for i in 0..SCALARS {
-                to[at + i * len] += if N == 1 { value * nu[a][i] } else { value };
+            for a in 0..n_columns {
+                let (offset, value) = (starts[b][a], n[a][b]);
+                if offset >= WIDE_SKIP {
+                    lacks |= offset == WIDE_LACKS;
+                    continue;
+                }
+                let (at, len) = (rows.start + offset as usize, rows.len as usize);
+                for i in 0..SCALARS {
+                    to[at + i * len] += if N == 1 { value * nu[a][i] } else { value };
+                }
+                nothing[a] += 0.0 * value;
             }
-            self.state.nothing[0] += 0.0 * value;
         }
-        self.note(lacks, self.place_of(rows), Place::Multiplier(self.node_of(Span::Own, 0)));
+        let row = Place::Displacement(self.node_of(rows, 0));
+        self.note(lacks, row, Place::Multiplier(self.node_of(Span::Own, 0)));
     }
 
     fn rows(&mut self, columns: Span, values: &[[[[f64; MAX_CORNERS]; N]; 3]]) {
-        let target = self.target((Span::Own, true), (columns, false));
-        let lacks = self.add::<N>(&target, values);
-        self.note(lacks, Place::Multiplier(self.node_of(Span::Own, 0)), self.place_of(columns));
+        self.add::<N>((Span::Own, true), columns, values);
     }
 
     fn mortar(&mut self, block: &MortarBlock) {
-        let f = self.state.facet;
-        let nodes = self.layout.nodes;
-        let places = |fill: &Self, node: usize| fill.scatter.and_then(|s| s.place(f, node));
-        let mut target = Target {
-            rows: Default::default(),
-            n_rows: block.rows.len(),
-            offsets: [[WIDE_SKIP; MAX_NODES]; MAX_NODES],
-            n_columns: block.own,
-        };
+        let (f, nodes) = (self.state.facet, self.layout.nodes);
         let mut of_rows = [None; MAX_NODES];
+        self.state.mortar = None;
         for (c, &node) in block.rows.iter().enumerate() {
-            target.rows[c] = self.touch(nodes.mortar(node));
-            of_rows[c] = places(self, node);
+            self.state.mortar_rows[c] = self.touch(nodes.mortar(node));
+            of_rows[c] = self.scatter.and_then(|s| s.place(f, node));
             for k in 0..block.own {
-                target.offsets[c][k] = match (self.scatter, of_rows[c]) {
+                self.state.starts[c][k] = match (self.scatter, of_rows[c]) {
                     (Some(scatter), Some(place)) => widened(scatter.mortar[place].forces[k]),
                     _ => self.found(nodes.mortar(node), self.node_of(Span::Own, k)),
                 };
             }
         }
-        let mut lacks = self.add::<3>(&target, &block.values[..block.own]);
+        let mut lacks = self.add_mortar((block.rows.len(), block.own), block.values);
         for (columns, values) in block.columns.chunks(MAX_NODES).zip(block.values[MAX_NODES..].chunks(MAX_NODES)) {
-            target.n_columns = columns.len();
             for (k, &column) in columns.iter().enumerate() {
-                let place = places(self, column);
+                let place = self.scatter.and_then(|s| s.place(f, column));
                 for (c, &row) in block.rows.iter().enumerate() {
-                    target.offsets[c][k] = match (self.scatter, place, of_rows[c]) {
-                        (Some(s), Some(column), Some(row)) => {
-                            let (first, m) = (s.first_node[f], s.first_node[f + 1] - s.first_node[f]);
-                            widened(s.couplings[s.first_coupling[f] + (row - first) * m + column - first])
-                        }
+                    self.state.starts[c][k] = match (self.scatter, place, of_rows[c]) {
+                        (Some(s), Some(column), Some(row)) => widened(s.coupling(f, row, column)),
                         _ => self.found(nodes.mortar(row), nodes.mortar(column)),
                     };
                 }
             }
-            lacks |= self.add::<3>(&target, values);
+            lacks |= self.add_mortar((block.rows.len(), columns.len()), values);
         }
         let place = Place::Displacement(nodes.mortar(block.rows[0]));
         self.note(lacks, place, place);
@@ -357,7 +390,10 @@ impl<const N: usize> Blocks<N> for Fill<'_, N> {
 struct Add<'a, const R: usize> {
     entries: &'a mut [f64],
     beside: &'a mut [f64],
-    target: &'a Target,
+    rows: &'a [NodeRows; MAX_NODES],
+    starts: &'a Starts,
+    /// Nodes of the rows and of the columns.
+    shape: (usize, usize),
     values: &'a [[[[f64; 4]; R]; 3]],
     nothing: &'a mut [f64; 4],
 }
@@ -367,23 +403,30 @@ impl<const R: usize> Kernel for Add<'_, R> {
 
     #[inline(always)]
     fn run<L: Lanes>(self) -> bool {
-        let Add { entries, beside, target, values, nothing } = self;
+        let Add { entries, beside, rows, starts, shape, values, nothing } = self;
         let (mut lacks, mut sum) = (false, L::load(nothing));
-        for k in 0..target.n_columns {
+        let zero = L::splat(0.0);
+        for k in 0..shape.1 {
+            let mut by_node = [[[0.0; 4]; MAX_NODES]; R];
             for i in 0..R {
-                let [x, y, z] = [0, 1, 2].map(|j| L::load(&values[k][j][i]));
-                let zero = L::splat(0.0);
+                let (x, y, z) = (L::load(&values[k][0][i]), L::load(&values[k][1][i]), L::load(&values[k][2][i]));
                 sum = zero.mul_add(x, zero.mul_add(y, zero.mul_add(z, sum)));
-                let by_node = L::transpose([x, y, z, zero]);
-                for b in 0..target.n_rows {
-                    let (rows, offset) = (&target.rows[b], target.offsets[b][k]);
-                    if offset >= WIDE_SKIP {
-                        lacks |= offset == WIDE_LACKS;
-                        continue;
-                    }
-                    let at = rows.start + offset as usize + i * rows.len as usize;
-                    let to = if rows.is_direct { &mut entries[at..at + 3] } else { &mut beside[at..at + 3] };
-                    let [x, y, z, _] = by_node[b].store();
+                let nodes = L::transpose([x, y, z, zero]);
+                for b in 0..MAX_NODES {
+                    by_node[i][b] = nodes[b].store();
+                }
+            }
+            for b in 0..shape.0 {
+                let (rows, start) = (&rows[b], starts[b][k]);
+                if start >= WIDE_SKIP {
+                    lacks |= start == WIDE_LACKS;
+                    continue;
+                }
+                let (at, len) = (rows.start + start as usize, rows.len as usize);
+                let to = if rows.is_direct { &mut *entries } else { &mut *beside };
+                for i in 0..R {
+                    let to = &mut to[at + i * len..at + i * len + 3];
+                    let [x, y, z, _] = by_node[i][b];
                     to[0] += x;
                     to[1] += y;
                     to[2] += z;

@@ -5,7 +5,7 @@ use super::numbering::{NO_RANK, Nodes, Numbering};
 use super::pattern::{FacetPairs, Finder};
 use crate::error::Result;
 use crate::interface::data::setup::Setup;
-use crate::memory;
+use crate::memory::{self, Stored};
 use crate::shape::MAX_NODES;
 
 /// There is no such block.
@@ -39,6 +39,8 @@ pub struct MortarOffsets {
 /// All offsets of a plan.
 #[derive(Debug, Default)]
 pub struct Scatter {
+    /// Per facet, whether it has pairs.
+    has: Vec<bool>,
     /// Per facet.
     pub own: Vec<OwnOffsets>,
     /// Where the mortar nodes of each facet begin; one more at the end.
@@ -62,6 +64,7 @@ impl Scatter {
         let nothing = [SKIP; MAX_NODES];
         let mortar = MortarOffsets { column: nothing, row: nothing, forces: nothing, multipliers: nothing };
         let mut s = Scatter {
+            has: (0..setup.nonmortar.facets.len()).map(|f| !pairs.pairs(f).is_empty()).stored()?,
             own: memory::filled(own, setup.nonmortar.facets.len())?,
             first_node: memory::copied(&pairs.first_node)?,
             nodes: memory::filled(0, pairs.nodes.len())?,
@@ -86,7 +89,20 @@ impl Scatter {
         let own = self.own.capacity() * size_of::<OwnOffsets>() + self.among.capacity() * size_of::<Offsets>();
         let lists = (self.first_node.capacity() + self.first_coupling.capacity()) * size_of::<usize>();
         let mortar = self.nodes.capacity() * size_of::<u32>() + self.mortar.capacity() * size_of::<MortarOffsets>();
-        own + lists + mortar + self.couplings.capacity() * size_of::<u16>()
+        own + lists + mortar + self.couplings.capacity() * size_of::<u16>() + self.has.capacity()
+    }
+
+    /// Whether a facet has pairs here.
+    #[inline]
+    pub fn has(&self, f: usize) -> bool {
+        self.has[f]
+    }
+
+    /// Of two mortar nodes of a facet by their places: row and column.
+    #[inline]
+    pub fn coupling(&self, f: usize, row: usize, column: usize) -> u16 {
+        let (first, m) = (self.first_node[f], self.first_node[f + 1] - self.first_node[f]);
+        self.couplings[self.first_coupling[f] + (row - first) * m + column - first]
     }
 
     /// The mortar nodes of a facet.
