@@ -78,7 +78,9 @@ impl Tree {
 
     /// Builds what is over the boxes.
     fn grow(&mut self, normals: &[Vec3]) -> Result<()> {
-        (self.nodes.clear(), self.order.clear(), self.branches.clear());
+        self.nodes.clear();
+        self.order.clear();
+        self.branches.clear();
         self.order.store_all(0..self.boxes.len())?;
         if !self.boxes.is_empty() {
             let sum = self.boxes.iter().fold(Vec3::zeros(), |sum, b| sum + (b.high - b.low));
