@@ -199,8 +199,9 @@ pub struct stickslip_options {
     pub shear_limit: f64,
     /// STICKSLIP_NORMALS_...
     pub normals: i32,
-    /// Must be 0.
-    pub reserved: i32,
+    /// Threads that `stickslip_interface_plan_values`, the residual and a commit may use, 1 to 256; 0 (default): the calling one
+    /// alone. They end with the call. The results are the same bit for bit, whatever their number.
+    pub threads: i32,
 }
 
 // SAFETY: repr(C), struct_size first, numbers only.
@@ -244,7 +245,7 @@ pub unsafe extern "C" fn stickslip_options_init(options: *mut stickslip_options,
             turn_max: 0.0,
             shear_limit: 0.0,
             normals: STICKSLIP_NORMALS_COMMITTED,
-            reserved: 0,
+            threads: 0,
         };
         sized::initialise(options, struct_size, defaults, "options")
     })
@@ -319,6 +320,9 @@ fn read_scheme(integration: i32, points: i64) -> Result<Scheme> {
 pub(super) fn slip_measure(value: i32, name: &str) -> Result<SlipMeasure> {
     choose(value, name, &[SlipMeasure::Objective, SlipMeasure::Increment, SlipMeasure::Paper], 3)
 }
+
+/// More than any one interface gains from.
+const MAX_THREADS: i32 = 256;
 
 /// The normals of a STICKSLIP_NORMALS_... value.
 pub(super) fn choose_normals(value: i32, name: &str) -> Result<Normals> {
@@ -412,7 +416,7 @@ pub(super) fn read_options(p: *const stickslip_options) -> Result<Choices> {
         turn_max,
         shear_limit,
         normals,
-        reserved,
+        threads,
     } = sized::read(p)?;
     let friction = law(friction, "options.friction")?;
     let sides = [MortarSide::Deformable, MortarSide::Rigid, MortarSide::Rigid];
@@ -437,8 +441,9 @@ pub(super) fn read_options(p: *const stickslip_options) -> Result<Choices> {
         }
     }
     law_numbers(friction, mu, shear_limit, "options")?;
-    if reserved != 0 {
-        return Err(Error::new(Kind::InvalidValue, text!("options.reserved is {reserved}; it must be 0")));
+    if !(0..=MAX_THREADS).contains(&threads) {
+        let text = text!("options.threads is {threads}; 0 to {MAX_THREADS} are allowed");
+        return Err(Error::new(Kind::InvalidValue, text));
     }
     if modulus < 0.0 {
         return Err(Error::new(Kind::InvalidValue, text!("options.modulus is {modulus}; it must not be negative")));
@@ -457,6 +462,7 @@ pub(super) fn read_options(p: *const stickslip_options) -> Result<Choices> {
         slip: slip_measure(slip, "options.slip")?,
         weights: choose(weights, "options.weights", &[Weights::Current, Weights::Committed, Weights::Reference], 3)?,
         normals: choose_normals(normals, "options.normals")?,
+        threads: (threads as usize).max(1),
         rule: rule(quadrature, "options.quadrature")?,
         scheme: read_scheme(integration, element_points)?,
         tangent: choose(

@@ -9,7 +9,7 @@ use super::contact::Contact;
 use super::data::csr::Csr;
 use super::data::extent::Extent;
 use super::data::node_data::check_length;
-use super::linearisation::PlanPairs;
+use super::linear::PlanPairs;
 use super::pairing::given::{Given, check_finite};
 use super::plan::pattern::System;
 use super::stages::carried::carried;

@@ -13,7 +13,7 @@ use super::data::setup::Setup;
 use super::data::surface::{NO_EQUATION, Surface};
 use super::inspect::bytes;
 use super::inspect::describe;
-use super::linearisation::Linear;
+use super::linear::Linear;
 use super::pairing::given::{Given, Step};
 use super::pairing::settle::Pairing;
 use super::stages::commit::{self, Settled};

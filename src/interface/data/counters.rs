@@ -3,7 +3,7 @@
 /// What an interface has done since its creation.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Counters {
-    /// Pairs whose boxes met.
+    /// Pairs that came near each other, seen along the normal.
     pub pairs_tested: i64,
     /// Pairs that overlapped or touched.
     pub pairs_clipped: i64,

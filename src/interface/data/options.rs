@@ -145,6 +145,8 @@ pub struct Options {
     pub weights: Weights,
     /// Committed or current normals.
     pub normals: Normals,
+    /// Threads that an evaluation may use, at least 1.
+    pub threads: usize,
     /// Quadrature of triangles, and against an analytic mortar side.
     pub rule: &'static Rule,
     /// Overlaps or points; nothing to choose against an analytic mortar side.
@@ -204,6 +206,7 @@ impl Options {
             slip: SlipMeasure::default(),
             weights: Weights::default(),
             normals: Normals::default(),
+            threads: 1,
             rule: &DEGREE_5,
             scheme: Scheme::default(),
             tangent: Tangent::default(),

@@ -39,8 +39,8 @@ fn of_filter(filter: &Filter) -> usize {
 
 /// Of a search tree.
 pub fn of_tree(kept: &KeptTree) -> usize {
-    let of = |t: &Tree| heap(&t.boxes) + heap(&t.nodes) + heap(&t.order) + heap(&t.branches);
-    heap(&kept.x2) + kept.tree.as_ref().map_or(0, of)
+    let KeptTree { x2, tree: Tree { boxes, nodes, order, branches, .. }, found } = kept;
+    heap(x2) + heap(boxes) + heap(nodes) + heap(order) + heap(branches) + heap(found)
 }
 
 /// Of the pairs at a configuration.

@@ -3,7 +3,7 @@
 
 use crate::geometry::Vec3;
 use crate::interface::data::surface::Surface;
-use crate::interface::pairing::search::Aabb;
+use crate::interface::pairing::boxes::Aabb;
 
 /// Positions nearer to the other side's first ones than this times the distance to their own are the other side's: bodies do
 /// not move so, node by node.

@@ -9,8 +9,10 @@
 //! share a node, oppose and lie in a prism, to one that the pair's own measure admits. One that is reached may lie as
 //! deep as it does there. It is a number per mortar facet, not a list of pairs: in the next step it may slide to others.
 
+use super::ends::MARGIN;
 use super::filter::FacetFilter;
-use super::search::{Prism, Tree};
+use super::prism::{Prism, Slab};
+use super::search::Tree;
 use crate::adjacency::root;
 use crate::error::Result;
 use crate::geometry::Vec3;
@@ -60,7 +62,10 @@ pub fn followed(surfaces: (&Surface, &Surface), filter: &FacetFilter, tree: &Tre
 fn over(i: usize, filter: &FacetFilter, tree: &Tree) -> Result<Vec<Over>> {
     let (facet, plane) = &filter.sides[0].facets[i];
     let mut found = Vec::new();
-    tree.find(&Prism::over(facet.points(), plane, 0.0), &mut found)?;
+    // Deeper than that the coarser one of no pair lets a body in.
+    let low = plane.e.dot(&plane.origin) - filter.deepest_let_in(i);
+    let ends = Slab { direction: plane.e, low: low - MARGIN * filter.sides[0].edges[i], high: f64::INFINITY };
+    tree.find(&Prism::over(facet.points(), plane, 0.0).within([ends]), &mut found)?;
     let pair = |&j: &usize| {
         let depth = filter.opposes(i, j).then(|| -filter.heights(i, j).1)?;
         let [own, most] = filter.penetrations(i, j);

@@ -59,6 +59,8 @@ pub struct Side {
     pub edges: Vec<f64>,
     /// How far the surface may lie off each of them `[L]`.
     pub bulges: Vec<f64>,
+    /// The largest of the edges and of the bulges `[L]`.
+    largest: (f64, f64),
 }
 
 impl Side {
@@ -83,13 +85,10 @@ impl Side {
         }
         let edges: Vec<_> = facets.iter().map(|(facet, _)| facet.longest_edge()).stored()?;
         let bulge = |f: usize| warp(&facets[f].0, &facets[f].1) + BULGE * near[f] * edges[f];
-        let bulges = (0..facets.len()).map(bulge).stored()?;
-        Ok(Side { facets, edges, bulges })
-    }
-
-    fn largest(&self) -> (f64, f64) {
+        let bulges: Vec<_> = (0..facets.len()).map(bulge).stored()?;
         let largest = |v: &[f64]| v.iter().copied().fold(0.0, f64::max);
-        (largest(&self.edges), largest(&self.bulges))
+        let largest = (largest(&edges), largest(&bulges));
+        Ok(Side { facets, edges, bulges, largest })
     }
 }
 
@@ -194,21 +193,30 @@ impl FacetFilter {
     }
 
     /// The most that any mortar facet may lie beyond that.
-    fn largest_depth(&self) -> f64 {
+    pub fn largest_depth(&self) -> f64 {
         self.depths.iter().copied().fold(0.0, f64::max)
     }
 
-    /// At least the deepest penetration of any pair of each non-mortar facet `[L]`.
-    pub fn deepest_of_each(&self) -> Result<Vec<f64>> {
-        let [one, two] = &self.sides;
-        let ((_, bulge), depth) = (two.largest(), self.largest_depth());
-        let own = one.edges.iter().zip(&one.bulges).map(|(edge, bulge)| edge + bulge);
-        own.map(|own| self.distance.unwrap_or(own + bulge + depth)).stored()
+    /// At least the deepest penetration of any pair of non-mortar facet i `[L]`; `depth`: [`FacetFilter::largest_depth`].
+    pub fn deepest_of(&self, i: usize, depth: f64) -> f64 {
+        self.deepest_beside(i, self.sides[1].largest, depth)
+    }
+
+    /// The same of pairs with mortar facets whose edges and bulges are at most so large, and which may lie so much deeper.
+    pub fn deepest_beside(&self, i: usize, (edge, bulge): (f64, f64), depth: f64) -> f64 {
+        let one = &self.sides[0];
+        self.distance.unwrap_or(one.edges[i].min(edge) + one.bulges[i] + bulge + depth)
+    }
+
+    /// At least how deep the coarser facet of any pair of non-mortar facet i lets a body in `[L]`.
+    pub fn deepest_let_in(&self, i: usize) -> f64 {
+        let (one, (edge, bulge)) = (&self.sides[0], self.sides[1].largest);
+        one.edges[i].max(edge) + one.bulges[i] + bulge
     }
 
     /// At least the deepest penetration of any pair `[L]`.
     pub fn deepest(&self) -> f64 {
-        let [(h1, b1), (h2, b2)] = self.sides.each_ref().map(Side::largest);
+        let [(h1, b1), (h2, b2)] = self.sides.each_ref().map(|side| side.largest);
         self.distance.unwrap_or(h1.min(h2) + b1 + b2 + self.largest_depth())
     }
 }

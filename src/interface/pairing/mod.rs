@@ -1,11 +1,15 @@
 //! What a commit settles about the step that follows: which facets may meet, what can be covered, who carries whom.
 
 pub mod analytic;
+pub mod boxes;
 pub mod candidates;
 pub mod depth;
+pub mod ends;
 pub mod filter;
 pub mod given;
 pub mod hybrid;
+pub mod orientation;
+pub mod prism;
 pub mod reach;
 pub mod search;
 pub mod settle;

@@ -2,134 +2,35 @@
 //! boxes, asked with the prism that a non-mortar facet sweeps along its normal. O(log n) a facet,
 //! whatever the orientation; the answer is a superset and depends on the positions alone.
 
+use super::boxes::{Aabb, Four};
+use super::orientation::{self, Axes, facet_box};
+use super::prism::Prism;
 use crate::error::Result;
-use crate::geometry::{Plane, Vec3};
+use crate::geometry::{Facet, Vec3};
 use crate::memory::{Store, Stored};
 use crate::simd::{self, Kernel, Lanes, Stack};
 
-/// An axis-aligned box.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Aabb {
-    low: Vec3,
-    high: Vec3,
-}
-
-impl Aabb {
-    /// The box around some points.
-    pub fn around(points: impl IntoIterator<Item = Vec3>) -> Aabb {
-        let empty = Aabb { low: Vec3::repeat(f64::INFINITY), high: Vec3::repeat(f64::NEG_INFINITY) };
-        points.into_iter().fold(empty, |b, p| Aabb { low: b.low.inf(&p), high: b.high.sup(&p) })
-    }
-
-    /// The box around both.
-    pub fn union(&self, other: &Aabb) -> Aabb {
-        Aabb { low: self.low.inf(&other.low), high: self.high.sup(&other.high) }
-    }
-
-    /// Whether all of the other box is in this one.
-    pub fn contains(&self, other: &Aabb) -> bool {
-        self.union(other) == *self
-    }
-
-    /// Its middle.
-    pub fn centre(&self) -> Vec3 {
-        (self.low + self.high) * 0.5
-    }
-
-    /// The largest distance along any axis that lies between the boxes; 0 where they overlap along all.
-    pub fn distance(&self, other: &Aabb) -> f64 {
-        (self.low - other.high).sup(&(other.low - self.high)).max().max(0.0)
-    }
-
-    /// Along which axes more than `distance` lies between the boxes: this one above the other, then below it.
-    pub fn sides(&self, other: &Aabb, distance: f64) -> [bool; 6] {
-        let (above, below) = (self.low - other.high, other.low - self.high);
-        [above.x, above.y, above.z, below.x, below.y, below.z].map(|between| between > distance)
-    }
-
-    /// The least and the largest height of any point of the box along `direction`, over `origin`.
-    pub fn along(&self, direction: Vec3, origin: Vec3) -> (f64, f64) {
-        let (centre, half) = (self.centre() - origin, (self.high - self.low) * 0.5);
-        let (c, r) = (direction.dot(&centre), direction.abs().dot(&half));
-        (c - r, c + r)
-    }
-}
-
-/// What a facet sweeps along its normal, both ways without end: intervals along the plane's two axes.
-#[derive(Clone, Copy, Debug)]
-pub struct Prism {
-    origin: Vec3,
-    axes: [Vec3; 2],
-    low: [f64; 2],
-    high: [f64; 2],
-}
-
-impl Prism {
-    /// The prism over `points` in the directions of `plane`, grown by `margin` on every side.
-    pub fn over(points: &[Vec3], plane: &Plane, margin: f64) -> Prism {
-        let (origin, axes) = (plane.reference, [plane.t1, plane.t2]);
-        let along = |k: usize| points.iter().map(move |p| axes[k].dot(&(p - origin)));
-        Prism {
-            origin,
-            axes,
-            low: [0, 1].map(|k| along(k).fold(f64::INFINITY, f64::min) - margin),
-            high: [0, 1].map(|k| along(k).fold(f64::NEG_INFINITY, f64::max) + margin),
-        }
-    }
-
-    /// Of four boxes, how far the two overlap along the prism's axes: at least 0 when the box may reach into the prism;
-    /// never less when it does.
-    #[inline(always)]
-    fn overlaps<L: Lanes>(&self, b: &Four) -> [f64; 4] {
-        let half = L::splat(0.5);
-        let mut most = L::splat(f64::INFINITY);
-        // Differences of coordinates first: a common offset costs no digits.
-        let (mut centre, mut extent, mut farthest) = ([half; 3], [half; 3], [half; 3]);
-        for i in 0..3 {
-            let origin = L::splat(self.origin[i]);
-            let (low, high) = (L::load(&b.low[i]) - origin, L::load(&b.high[i]) - origin);
-            (centre[i], extent[i]) = ((low + high) * half, (high - low) * half);
-            farthest[i] = high.max(-low).max(low.max(-high));
-        }
-        for k in 0..2 {
-            let (mut c, mut r) = (L::splat(0.0), L::splat(0.0));
-            for i in 0..3 {
-                let axis = self.axes[k][i];
-                let (size, rounding) = (L::splat(axis.abs()), L::splat(ROUNDING));
-                c = L::splat(axis).mul_add(centre[i], c);
-                r = size.mul_add(rounding.mul_add(farthest[i], extent[i]), r);
-            }
-            most = most.min(c + r - L::splat(self.low[k])).min(L::splat(self.high[k]) - (c - r));
-        }
-        most.store()
-    }
-}
-
-/// Four boxes, component by component.
-#[derive(Debug)]
-struct Four {
-    low: [[f64; 4]; 3],
-    high: [[f64; 4]; 3],
-}
-
-impl Four {
-    fn of(b: [&Aabb; 4]) -> Four {
-        Four { low: [0, 1, 2].map(|i| b.map(|b| b.low[i])), high: [0, 1, 2].map(|i| b.map(|b| b.high[i])) }
-    }
-}
-
-/// Rounding of a scalar product of three terms and of the interval's ends, over the terms' size: a facet that is huge
-/// beside the prism must not be lost to it.
-const ROUNDING: f64 = 16.0 * f64::EPSILON;
-
 /// Leaves hold at most this many boxes: as many as are compared at once.
 const LEAF: usize = 4;
-/// Branches that a query has found and not yet looked into: three a level of a tree over all that a memory can hold.
-const PENDING: usize = 96;
+/// The smaller part of a node has at least this of its boxes, or half.
+const LEAST_PART: f64 = 0.3;
+/// Branches that a query has found and not yet looked into: three for every two levels of a tree over all that a memory can
+/// hold. 2^42 boxes have 82 levels if each parts them 3 to 7, and normals are parted up to three times along each axis.
+const PENDING: usize = 144;
+
+/// Where the normals of the things in a node differ by more than this along an axis, they are parted by their normals first.
+/// Below that, normals that oppose a facet are told from others well enough.
+const SPREAD: f64 = 0.25;
+
+/// Boxes are parted along the axis on which most of them would stand side by side, and those that are thinner than this,
+/// over how long they are, count as so thick: rounding does not part what is flat.
+const THINNEST: f64 = 1e-3;
 
 /// A bounding-volume tree over boxes.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub struct Tree {
+    /// Along which axes the boxes lie; `None`: those of space.
+    axes: Option<Axes>,
     pub(crate) boxes: Vec<Aabb>,
     pub(crate) nodes: Vec<TreeNode>,
     pub(crate) order: Vec<usize>,
@@ -157,22 +58,63 @@ pub struct TreeNode {
 impl Tree {
     /// The tree over `boxes`.
     pub fn new(boxes: Vec<Aabb>) -> Result<Tree> {
-        let order = (0..boxes.len()).stored()?;
-        let mut tree = Tree { nodes: Vec::new(), order, boxes: Vec::new(), branches: Vec::new() };
-        if !boxes.is_empty() {
-            tree.build(&boxes, 0, boxes.len())?;
-            tree.boxes = boxes;
-            tree.branch(0)?;
-        }
+        Tree::parted(boxes, &[])
+    }
+
+    /// The same over boxes around things with these normals: what looks elsewhere is in other parts of the tree.
+    pub fn parted(boxes: Vec<Aabb>, normals: &[Vec3]) -> Result<Tree> {
+        let mut tree = Tree { boxes, ..Tree::default() };
+        tree.grow(normals)?;
         Ok(tree)
+    }
+
+    /// Becomes the tree over `n` facets, in the memory it has.
+    pub fn renew(&mut self, n: usize, facet: &impl Fn(usize) -> Facet) -> Result<()> {
+        self.axes = orientation::axes(n, facet);
+        self.boxes.clear();
+        self.boxes.store_all((0..n).map(|f| facet_box(&facet(f), self.axes.as_ref())))?;
+        self.grow(&[])
+    }
+
+    /// Builds what is over the boxes.
+    fn grow(&mut self, normals: &[Vec3]) -> Result<()> {
+        self.nodes.clear();
+        self.order.clear();
+        self.branches.clear();
+        self.order.store_all(0..self.boxes.len())?;
+        if !self.boxes.is_empty() {
+            let sum = self.boxes.iter().fold(Vec3::zeros(), |sum, b| sum + (b.high - b.low));
+            let mean = sum / self.boxes.len() as f64;
+            let thick = mean.map(|size| size.max(THINNEST * mean.max()).max(f64::MIN_POSITIVE));
+            self.build(&Parting { normals, thick }, 0, self.boxes.len())?;
+            self.branch(0)?;
+        }
+        Ok(())
     }
 
     /// Fills `found` with the boxes that may reach into `prism`, in ascending order; how many it compared.
     pub fn find(&self, prism: &Prism, found: &mut Vec<usize>) -> Result<usize> {
         found.clear();
+        let Some(root) = self.nodes.first() else { return Ok(0) };
+        let prism = &prism.among(&root.bounds, self.axes.as_ref());
         let visited = simd::dispatch(Query { branches: &self.branches, prism, found });
         found.sort_unstable();
         visited
+    }
+
+    /// Whether its boxes lie along the axes of space.
+    #[cfg(test)]
+    pub fn is_along_space(&self) -> bool {
+        self.axes.is_none()
+    }
+
+    /// Between which heights along `direction`, over `origin`, all boxes lie.
+    pub fn along(&self, direction: Vec3, origin: Vec3) -> (f64, f64) {
+        let none = (f64::INFINITY, f64::NEG_INFINITY);
+        self.nodes.first().map_or(none, |root| match &self.axes {
+            None => root.bounds.along(direction, origin),
+            Some(axes) => root.bounds.along(axes.direction(&direction), axes.place(&origin)),
+        })
     }
 
     /// Appends the branch of a node and all that is below it; its number.
@@ -232,21 +174,76 @@ impl Tree {
         self.any_below(node + 1, may, is) || self.any_below(n.right, may, is)
     }
 
-    fn build(&mut self, boxes: &[Aabb], first: usize, end: usize) -> Result<usize> {
-        let range = &mut self.order[first..end];
-        let bounds = range.iter().skip(1).fold(boxes[range[0]], |b, &i| b.union(&boxes[i]));
+    fn build(&mut self, parting: &Parting, first: usize, end: usize) -> Result<usize> {
         let me = self.nodes.len();
+        let bounds = self.boxes[self.order[first]];
         self.nodes.store(TreeNode { bounds, first, count: end - first, right: 0 })?;
-        if end - first > LEAF {
-            let axis = (bounds.high - bounds.low).imax();
-            let half = (end - first) / 2;
-            range.select_nth_unstable_by(half, |&i, &j| boxes[i].centre()[axis].total_cmp(&boxes[j].centre()[axis]));
-            self.build(boxes, first, first + half)?;
-            let right = self.build(boxes, first + half, end)?;
+        if end - first <= LEAF {
+            let held = &self.order[first + 1..end];
+            self.nodes[me].bounds = held.iter().fold(bounds, |b, &i| b.union(&self.boxes[i]));
+        } else {
+            let left = parting.split(&self.boxes, &mut self.order[first..end]);
+            self.build(parting, first, first + left)?;
+            let right = self.build(parting, first + left, end)?;
+            self.nodes[me].bounds = self.nodes[me + 1].bounds.union(&self.nodes[right].bounds);
             self.nodes[me].right = right;
         }
         Ok(me)
     }
+}
+
+/// By what the boxes of a node are parted.
+struct Parting<'a> {
+    /// Of the things in the boxes; empty: where the boxes are decides alone.
+    normals: &'a [Vec3],
+    /// How thick the boxes are along the axes.
+    thick: Vec3,
+}
+
+impl Parting<'_> {
+    /// Orders boxes so that the first ones, whose number it gives, make one half of a node.
+    fn split(&self, boxes: &[Aabb], order: &mut [usize]) -> usize {
+        let Parting { normals, thick } = self;
+        if !normals.is_empty() {
+            let among = Aabb::around(order.iter().map(|&i| normals[i]));
+            let (spread, axis) = widest(&(among.high - among.low));
+            if spread > SPREAD {
+                let middle = 0.5 * (among.low[axis] + among.high[axis]);
+                let below = order.iter().filter(|&&i| normals[i][axis] < middle).count();
+                order.select_nth_unstable_by(below, |&i, &j| normals[i][axis].total_cmp(&normals[j][axis]));
+                return below;
+            }
+        }
+        let middle = |i: usize| boxes[i].low + boxes[i].high; // twice, as all of them
+        let among = Aabb::around(order.iter().map(|&i| middle(i)));
+        let (_, axis) = widest(&(among.high - among.low).component_div(thick));
+        let along = |i: usize| boxes[i].low[axis] + boxes[i].high[axis];
+        let part = |order: &mut [usize], at: usize| {
+            order.select_nth_unstable_by(at, |&i, &j| along(i).total_cmp(&along(j)));
+        };
+        let half = order.len() / 2;
+        part(order, half);
+        // What lies side by side at the middle, as a row or a layer, stays together.
+        let (middle, near) = (along(order[half]), 0.5 * thick[axis]);
+        let below = order[..half].iter().filter(|&&i| along(i) < middle - near).count();
+        let above = half + order[half..].iter().filter(|&&i| along(i) <= middle + near).count();
+        let cut = if half - below <= above - half { below } else { above };
+        if (cut as f64) < LEAST_PART * order.len() as f64 || (cut as f64) > (1.0 - LEAST_PART) * order.len() as f64 {
+            return half;
+        }
+        if cut < half {
+            part(&mut order[..half], cut)
+        } else if cut > half {
+            part(&mut order[half..], cut - half)
+        }
+        cut
+    }
+}
+
+/// The largest component, and which it is.
+fn widest(size: &Vec3) -> (f64, usize) {
+    let axis = size.imax();
+    (size[axis], axis)
 }
 
 /// The boxes of leaves that may reach into a prism; how many boxes were compared.
@@ -285,7 +282,7 @@ impl Kernel for Query<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::Facet;
+    use crate::geometry::Plane;
     use crate::simd::Plain;
 
     fn meets(prism: &Prism, b: &Aabb) -> bool {

@@ -2,11 +2,12 @@
 //! carry others.
 
 use super::analytic;
+use super::boxes::Aabb;
 use super::depth;
 use super::filter::{FacetFilter, Filter, Side};
 use super::hybrid;
 use super::reach;
-use super::search::{Aabb, Tree};
+use super::search::Tree;
 use super::weak::{self, Carrier};
 use crate::error::Result;
 use crate::geometry::Vec3;
@@ -69,7 +70,8 @@ pub fn filter((one, two): (&Surface, &Surface), options: &Options, (x1, x2): (&[
         by_overlaps: Vec::new(),
     };
     let points = filter.sides[1].facets.iter().map(|(facet, _)| Aabb::around(facet.points().iter().copied()));
-    let tree = Tree::new(points.stored()?)?;
+    let normals: Vec<_> = filter.sides[1].facets.iter().map(|(_, plane)| plane.e).stored()?;
+    let tree = Tree::parted(points.stored()?, &normals)?;
     filter.reached = reach::reached(&filter, &tree)?;
     if filter.distance.is_none() {
         filter.depths = depth::followed((one, two), &filter, &tree, x2)?;

@@ -10,9 +10,9 @@ use crate::interface::data::history::History;
 use crate::interface::data::options::{Options, Weights};
 use crate::interface::data::surface::Surface;
 use crate::interface::pairing::analytic;
+use crate::interface::pairing::boxes::Aabb;
 use crate::interface::pairing::filter::Filter;
 use crate::interface::pairing::given::Given;
-use crate::interface::pairing::search::Aabb;
 use crate::memory::{self, Stored};
 
 /// Whether the surfaces are apart in all of the configurations (x1, x2), by more than the deepest penetration that is a
