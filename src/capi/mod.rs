@@ -62,6 +62,8 @@ mod layout;
 
 mod pair;
 
+mod pair_state;
+
 mod node;
 
 mod normals;
@@ -95,6 +97,7 @@ pub use node::*;
 pub use normals::*;
 pub use options::*;
 pub use pair::*;
+pub use pair_state::*;
 pub use point::*;
 pub use preparation::*;
 pub use report::*;

@@ -7,10 +7,12 @@
 
 #[cfg(target_arch = "x86_64")]
 mod avx2;
+mod finite;
 mod lanes;
 mod plain;
 mod stack;
 
+pub use finite::are_finite;
 pub use lanes::{Kernel, Lanes, Real, rolled};
 pub use plain::Plain;
 pub use stack::Stack;
