@@ -8,8 +8,8 @@ use super::sized::{self, Sized64};
 use crate::error::{Error, Kind, Result};
 use crate::geometry::{Mat3, Vec3};
 use crate::interface::own_rows;
-use crate::simd::are_finite;
 use crate::law::{Coefficient, Friction, Node};
+use crate::simd::are_finite;
 
 /// State of a node: open or uncovered.
 pub const STICKSLIP_STATE_GAP: i32 = 0;

@@ -6,8 +6,8 @@ use super::guard::guard;
 use super::layout::Matrix;
 use super::node::stickslip_node_response;
 use super::pair::{
-    Pair, check_tangent, check_weights, node_tangents, read_previous, stickslip_pair, tractions, write_force, write_gap,
-    write_tangent, write_weights,
+    Pair, check_tangent, check_weights, node_tangents, read_previous, stickslip_pair, tractions, write_force,
+    write_gap, write_tangent, write_weights,
 };
 use super::raw::{self, refuse};
 use crate::element::{FacetResponse, PairNow, PairTangent, pair_force, row_columns};
@@ -19,10 +19,12 @@ use crate::quadrature::Rule;
 /// What a state begins with, but for where the library lies: "stickslip" in letters of a keypad, and the state's version.
 const MAGIC: u64 = 0x7842_5754_7547_0001;
 
-/// What stands in the caller's memory.
+/// What stands in the caller's memory, in this order.
+#[repr(C)]
 struct PairState {
     /// See [`magic`].
     magic: u64,
+    /// As the pair's layout has it.
     column_major: bool,
     rule: &'static Rule,
     one: Facet,
@@ -62,7 +64,7 @@ impl PairState {
     }
 }
 
-/// How many doubles the state of a pair takes (some 270), for `stickslip_pair_begin`.
+/// How many doubles the state of a pair takes (below 290), for `stickslip_pair_begin`.
 #[unsafe(no_mangle)]
 pub extern "C" fn stickslip_pair_state_size() -> i64 {
     SIZE as i64
@@ -71,7 +73,7 @@ pub extern "C" fn stickslip_pair_state_size() -> i64 {
 /// Stage 1 with a state: weights and gap of a pair in its current configuration, and what the other stages need of it. In
 /// place of `stickslip_pair_weights` and `stickslip_pair_gap`, with their results. Paper (11), (13).
 ///
-/// pair: see `stickslip_pair`; it and its arrays are read here and not kept. length: number of doubles in state, at least
+/// pair: see `stickslip_pair`; it and its arrays are read here and not kept. capacity: number of doubles in state, at least
 /// `stickslip_pair_state_size`. state: output; opaque, the caller's, with nothing to give back. It may be copied, and be used by
 /// several threads at once while no one fills it. It belongs to this process: it must not be stored. A refused call leaves it as it was.
 /// Outputs, each may be NULL: n_ab (n1 x n1) and n_ac (n1 x n2) [L^2], row A; gap (3 n1), g[n_{n+1}, x_{n+1}] [L^3],
@@ -83,7 +85,7 @@ pub extern "C" fn stickslip_pair_state_size() -> i64 {
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn stickslip_pair_begin(
     pair: *const stickslip_pair,
-    length: i64,
+    capacity: i64,
     state: *mut f64,
     n_ab: *mut f64,
     n_ac: *mut f64,
@@ -93,10 +95,7 @@ pub unsafe extern "C" fn stickslip_pair_begin(
         let pair = &Pair::read(pair)?;
         let column_major = pair.column_major()?;
         raw::check(state, "state")?;
-        if length < SIZE as i64 {
-            let text = text!("length is {length}; a state needs {SIZE} doubles");
-            return refuse(Kind::BufferTooSmall, text);
-        }
+        raw::room(capacity, SIZE, "the doubles of a state")?;
         for (p, name) in [(n_ab, "n_ab"), (n_ac, "n_ac"), (gap, "gap")] {
             raw::check_optional(p, name)?;
         }
@@ -111,7 +110,7 @@ pub unsafe extern "C" fn stickslip_pair_begin(
             }
             write_weights(&weights, pair.n(), n_ab, n_ac);
             let to = state.cast::<PairState>();
-            // SAFETY: aligned, `length` doubles by the caller's declaration, and those are enough. Member by member, for
+            // SAFETY: aligned, `capacity` doubles by the caller's declaration, and those are enough. Member by member, for
             // the large ones are then copied once. What they hold needs no end.
             unsafe {
                 (&raw mut (*to).magic).write(magic());
