@@ -94,19 +94,17 @@ static void stateless(void) {
   }
 }
 
-#ifndef STAGES_OLD
 static void by_state(int p, double *k) {
   const stickslip_pair pair = pair_of(p);
   double gap[12], traction[12];
-  stickslip_node nodes[4];
   stickslip_node_response responses[4];
   CHECK(stickslip_pair_begin(&pair, STATE, state, ab, ac, gap));
   for (int a = 0; a < 4; ++a) {
-    nodes[a] = node_of(p, gap + 3 * a);
+    const stickslip_node node = node_of(p, gap + 3 * a);
     responses[a].struct_size = sizeof responses[a];
-    memcpy(traction + 3 * a, nodes[a].lambda, sizeof nodes[a].lambda);
+    CHECK(stickslip_node_respond(&node, &responses[a]));
+    memcpy(traction + 3 * a, node.lambda, sizeof node.lambda);
   }
-  CHECK(stickslip_nodes_respond(4, nodes, responses));
   CHECK(stickslip_pair_state_residual(state, traction, force));
   CHECK(stickslip_pair_state_tangent(state, ab, ac, traction, responses, NULL, k, 36));
   for (int a = 0; a < 4; ++a) CHECK(stickslip_node_block(&responses[a], 1.0, STICKSLIP_LAYOUT_ROW_MAJOR, row, block));
@@ -118,7 +116,6 @@ static void with_state(void) {
     sink = tangents[1][0];
   }
 }
-#endif
 
 static void baseline(void) { sink = baseline_pass(PAIRS, coordinates); }
 
@@ -131,9 +128,7 @@ int main(void) {
       {"pair_weights", weights},
       {"pair_weights with all derivatives", derivatives},
       {"residual and tangent, stateless calls", stateless},
-#ifndef STAGES_OLD
       {"residual and tangent, pair state", with_state},
-#endif
   };
   enum { WAYS = sizeof ways / sizeof *ways };
   double least[WAYS];
@@ -149,7 +144,6 @@ int main(void) {
   }
   printf("%-40s %10s %8s\n", "", "ns a pair", "ratio");
   for (int w = 0; w < WAYS; ++w) printf("%-40s %10.0f %8.3f\n", ways[w].name, least[w] / PAIRS, least[w] / least[0]);
-#ifndef STAGES_OLD
   double difference = 0.0;
   for (int p = 0; p < PAIRS; ++p) {
     double largest = 0.0, apart = 0.0;
@@ -162,6 +156,5 @@ int main(void) {
     difference = fmax(difference, apart / largest);
   }
   printf("tangents of both ways: %.1e of the largest entry apart\n", difference);
-#endif
   return 0;
 }

@@ -158,7 +158,8 @@ fn state_calls(bytes: &mut Bytes, pair: *const stickslip_pair, [ab, ac, traction
     unsafe {
         succeeded(stickslip_pair_state_gap(state, old_ab, old_ac, g.pointer()));
         succeeded(stickslip_pair_state_residual(state, t, force.pointer()));
-        let tangent = stickslip_pair_state_tangent(state, old_ab, old_ac, t, responses.as_ptr(), scale, k.pointer(), 36);
+        let tangent =
+            stickslip_pair_state_tangent(state, old_ab, old_ac, t, responses.as_ptr(), scale, k.pointer(), 36);
         if !succeeded(tangent) {
             k.assert_untouched();
         }

@@ -188,21 +188,23 @@ pub(super) fn check_weights(w: &PairWeights) -> Result<()> {
     raw::check_array("n_ab, n_ac", w.ac.as_flattened())
 }
 
-/// Writes the derivatives of a pair's weights; either may be null. Apart from the rest: they are large.
+/// Weights and their derivatives; each may be null. Apart from the rest: they are large.
 #[inline(never)]
-fn write_derivatives(
+fn with_derivatives(
     (n1, n2): (usize, usize),
-    frame: &NonmortarFrame,
-    segment: &Option<Segment>,
-    rule: &Rule,
+    (frame, segment, rule): (&NonmortarFrame, &Option<Segment>, &Rule),
+    [n_ab, n_ac]: [*mut f64; 2],
     [dn_ab, dn_ac]: [*mut f64; 2],
 ) -> Result<()> {
     let (mut d, n) = (WeightDerivatives::default(), n1 + n2);
-    if let Some(segment) = segment {
-        d.update(frame, segment, rule);
-    }
+    let weights = match segment {
+        Some(segment) => d.update(frame, segment, rule),
+        None => PairWeights::default(),
+    };
+    check_weights(&weights)?;
     raw::check_array("dn_ab, dn_ac", flat(&d.ab))?;
     raw::check_array("dn_ab, dn_ac", flat(&d.ac))?;
+    write_weights(&weights, (n1, n2), n_ab, n_ac);
     let (mut ab, mut ac) = (Output::new(dn_ab), Output::new(dn_ac));
     if n == PAIR_NODES {
         ab.append(flat(&d.ab));
@@ -318,18 +320,21 @@ pub unsafe extern "C" fn stickslip_pair_weights(
         for (p, name) in [(n_ab, "n_ab"), (n_ac, "n_ac"), (dn_ab, "dn_ab"), (dn_ac, "dn_ac")] {
             raw::check_optional(p, name)?;
         }
-        pair.overlapping(|frame, segment, rule| {
-            // The same bits, whatever else is wanted.
-            let weights = match segment {
-                Some(segment) => PairWeights::integrate(frame, segment, rule),
-                None => PairWeights::default(),
-            };
-            check_weights(&weights)?;
-            if !(dn_ab.is_null() && dn_ac.is_null()) {
-                write_derivatives(pair.n(), frame, segment, rule, [dn_ab, dn_ac])?;
+        pair.overlapping(|frame, segment, rule| match segment {
+            // The weights have the same bits, whatever else is wanted.
+            _ if !(dn_ab.is_null() && dn_ac.is_null()) => {
+                with_derivatives(pair.n(), (frame, segment, rule), [n_ab, n_ac], [dn_ab, dn_ac])
             }
-            write_weights(&weights, pair.n(), n_ab, n_ac);
-            Ok(())
+            Some(segment) => {
+                let weights = PairWeights::integrate(frame, segment, rule);
+                check_weights(&weights)?;
+                write_weights(&weights, pair.n(), n_ab, n_ac);
+                Ok(())
+            }
+            None => {
+                write_weights(&PairWeights::default(), pair.n(), n_ab, n_ac);
+                Ok(())
+            }
         })
     })
 }
