@@ -96,7 +96,7 @@
  *
  *     pair_state_size                        once
  *     pair_begin                             in place of pair_weights, pair_gap
- *     pair_state_gap                         with the weights of t_n
+ *     pair_state_gap                         with the weights of the last commit
  *     pair_state_residual, pair_state_tangent  in place of pair_residual, pair_tangent
  *
  * With dual multipliers it calls in addition, for each non-mortar facet:
@@ -1552,7 +1552,10 @@ int32_t stickslip_pair_tangent(const struct stickslip_pair *pair,
                                double *k,
                                int64_t ld);
 
-/// How many doubles the state of a pair takes (below 290), for `stickslip_pair_begin`.
+/// How many doubles the state of a pair takes (below 290), for `stickslip_pair_begin`. It may be another number in another
+/// version of the library, so it is to be asked for when the program runs.
+///
+/// Cost: nanoseconds; allocates nothing.
 int64_t stickslip_pair_state_size(void);
 
 /// Stage 1 with a state: weights and gap of a pair in its current configuration, and what the other stages need of it. In

@@ -9,7 +9,7 @@ use super::pair_weights::PairWeights;
 use super::segment::{KindKernel, Kinds, NonmortarFrame, Segment};
 use super::slots::PAIR_NODES;
 use super::transport::Transport;
-use super::weights::Sums;
+use super::weight_sums::Sums;
 use crate::quadrature::Rule;
 use crate::shape::{Basis, Isoparametric, MAX_CORNERS, MAX_NODES, SingleBasis};
 use crate::simd::{Lanes, rolled};

@@ -12,7 +12,7 @@
 
 use super::points::{Fan, Maps, Points, points, triangle_lanes};
 use super::segment::{NonmortarFrame, Segment};
-use super::weights::Sums;
+use super::weight_sums::Sums;
 use crate::quadrature::Rule;
 use crate::shape::{Basis, Cell, Isoparametric, MAX_CORNERS, SingleBasis};
 use crate::simd::{Lanes, Stack};

@@ -4,18 +4,13 @@ use super::lanes::{Kernel, Lanes};
 
 /// Fewer numbers than this are added up at once where they are asked for: to look for the processor's back end and to call
 /// it costs as much.
-const FEW: usize = 40;
+pub(super) const FEW: usize = 40;
 /// Lanes whose sums do not wait for each other.
 const CHAINS: usize = 4;
 
-/// Whether all of them are finite.
-#[inline]
-pub fn are_finite(values: &[f64]) -> bool {
-    if values.len() < FEW { few(values) } else { super::dispatch(AreFinite { values }) }
-}
-
+/// The same of few numbers, for any processor.
 #[inline(always)]
-fn few(values: &[f64]) -> bool {
+pub(super) fn few(values: &[f64]) -> bool {
     let (fours, rest) = values.as_chunks::<4>();
     let mut sums = [0.0; 4];
     for four in fours {
@@ -29,8 +24,9 @@ fn few(values: &[f64]) -> bool {
     (sums[0] + sums[1]) + (sums[2] + sums[3]) == 0.0
 }
 
-struct AreFinite<'a> {
-    values: &'a [f64],
+/// Whether all of many numbers are finite.
+pub(super) struct AreFinite<'a> {
+    pub values: &'a [f64],
 }
 
 impl Kernel for AreFinite<'_> {
@@ -61,8 +57,7 @@ impl Kernel for AreFinite<'_> {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
-    use crate::simd::on_plain_lanes;
+    use crate::simd::{are_finite, on_plain_lanes};
 
     #[test]
     fn a_single_one_that_is_not_finite_is_found_wherever_it_stands() {
