@@ -60,7 +60,7 @@ pub struct Segment {
 /// Points of a non-mortar facet's product rule, and which of them count. Packed, so that a segment may lie wherever a double
 /// may, in a caller's array of these.
 #[derive(Clone, Copy, Debug)]
-#[repr(packed(8))]
+#[repr(C, packed(8))]
 pub struct CellPoints {
     /// Gauss points on a line.
     pub(super) line: &'static [[f64; 2]],
