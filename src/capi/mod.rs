@@ -76,6 +76,7 @@ mod equilibrium;
 
 mod fp_environment;
 mod guard;
+mod pair_out;
 mod raw;
 mod sized;
 

@@ -5,13 +5,14 @@ use super::guard::guard;
 use super::layout::{Matrix, column_major};
 use super::node::stickslip_node_response;
 use super::options::{element_line, rule};
+use super::pair_out::{check_tangent, slot, write_force, write_gap, write_tangent, write_weights};
 use super::raw::{self, Output};
 use super::sized::{self, Sized64};
-use crate::element::{FacetResponse, NodeTangent, PairNow, PairTangent, pair_force, row_columns, write_pair};
+use crate::element::{FacetResponse, NodeTangent, PairNow, PairTangent, pair_force, row_columns};
 use crate::error::Result;
-use crate::geometry::{Facet, Mat3, Projection, Vec3};
+use crate::geometry::{Facet, Projection, Vec3};
 use crate::mortar::{
-    self, AlongNormal, GapDerivative, MORTAR, NonmortarFrame, PAIR_NODES, PairWeights, Segment, WeightDerivatives,
+    self, AlongNormal, GapDerivative, NonmortarFrame, PAIR_NODES, PairWeights, Segment, WeightDerivatives,
 };
 use crate::quadrature::Rule;
 use crate::shape::{MAX_CORNERS, MAX_NODES};
@@ -125,11 +126,6 @@ impl Pair {
     }
 }
 
-/// Slot of the k-th of a pair's nodes, non-mortar first.
-fn slot(n1: usize, k: usize) -> usize {
-    if k < n1 { k } else { MORTAR + k - n1 }
-}
-
 /// Derivatives of weights, as they lie with a caller whose facets have as many nodes as there are slots.
 type Derivatives = [[[[f64; 3]; PAIR_NODES]; MAX_NODES]; MAX_CORNERS];
 
@@ -165,20 +161,6 @@ pub(super) fn pair_weights(ab: &[f64], ac: &[f64], n1: usize) -> PairWeights {
         w.ac[a][..n2].copy_from_slice(&ac[a * n2..][..n2]);
     }
     w
-}
-
-/// Writes n_ab and n_ac, row A, of a pair with so many nodes; each may be null.
-pub(super) fn write_weights(w: &PairWeights, (n1, n2): (usize, usize), n_ab: *mut f64, n_ac: *mut f64) {
-    let (mut ab, mut ac) = (Output::new(n_ab), Output::new(n_ac));
-    if n1 + n2 == PAIR_NODES {
-        ab.append(w.ab.as_flattened());
-        ac.append(w.ac.as_flattened());
-        return;
-    }
-    for a in 0..n1 {
-        ab.append(&w.ab[a][..n1]);
-        ac.append(&w.ac[a][..n2]);
-    }
 }
 
 /// Refuses weights that left the range of doubles.
@@ -245,55 +227,6 @@ pub(super) fn node_tangents(
         *node = NodeTangent { traction: *traction, drow_dnow: now * s, drow_dprevious: previous * s };
     }
     Ok(nodes)
-}
-
-/// Writes gaps of so many nodes.
-pub(super) fn write_gap(g: &[Vec3; MAX_CORNERS], n1: usize, gap: *mut f64) -> Result<()> {
-    let flat = g.each_ref().map(|v| [v.x, v.y, v.z]);
-    raw::check_array("gap", flat.as_flattened())?;
-    raw::write(gap, &flat.as_flattened()[..3 * n1]);
-    Ok(())
-}
-
-/// Writes the forces of a pair with so many nodes.
-pub(super) fn write_force(f: &[Vec3; PAIR_NODES], (n1, n2): (usize, usize), force: *mut f64) -> Result<()> {
-    let flat = f.each_ref().map(|v| [v.x, v.y, v.z]);
-    raw::check_array("force", flat.as_flattened())?;
-    let mut to = Output::new(force);
-    to.append(flat[..n1].as_flattened());
-    to.append(flat[MORTAR..][..n2].as_flattened());
-    Ok(())
-}
-
-/// Refuses a tangent that left the range of doubles.
-pub(super) fn check_tangent(t: &PairTangent) -> Result<()> {
-    for part in [&t.forces.one, &t.forces.two, &t.rows] {
-        raw::check_array("k", part.as_flattened().as_flattened().as_flattened())?;
-    }
-    Ok(())
-}
-
-/// Writes the tangent of a pair with so many nodes and with these weights of now, if it has any.
-pub(super) fn write_tangent(t: &PairTangent, now: Option<&PairWeights>, (n1, n2): (usize, usize), k: &mut Matrix) {
-    let none = PairWeights::default();
-    let (now, n) = (now.unwrap_or(&none), n1 + n2);
-    if n == PAIR_NODES {
-        return write_pair(t, now, k);
-    }
-    let force_lambda = |row: usize, a: usize| if row < MORTAR { now.ab[a][row] } else { -now.ac[a][row - MORTAR] };
-    let block = |row: usize, column: usize| -> Mat3 {
-        match (row < n, column < n) {
-            (true, true) => t.force_x(slot(n1, row), slot(n1, column)),
-            (true, false) => Mat3::from_diagonal_element(force_lambda(slot(n1, row), column - n)),
-            (false, true) => t.row_x(row - n, slot(n1, column)),
-            (false, false) => Mat3::zeros(),
-        }
-    };
-    for row in 0..n + n1 {
-        for column in 0..n + n1 {
-            k.write(row, column, &block(row, column));
-        }
-    }
 }
 
 /// Stage 1: the mortar weights of a pair in its current configuration. Paper (13).
