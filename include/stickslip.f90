@@ -814,6 +814,48 @@ module stickslip
       real(c_double), intent(inout) :: k(ld, *)
     end function
 
+    ! How many doubles the state of a pair takes, for stickslip_pair_begin.
+    integer(c_int64_t) function stickslip_pair_state_size() bind(C)
+      import :: c_int64_t
+    end function
+
+    ! Stage 1 with a state, real(c_double) state(capacity), which the other stages of the pair read: opaque, of this process,
+    ! not to be stored. Outputs, each may be null: n_ab(n1, n1) as (b, a), n_ac(n2, n1) as (c, a) [L^2], gap(3, n1) [L^3].
+    integer(c_int32_t) function stickslip_pair_begin(pair, capacity, state, n_ab, n_ac, gap) bind(C)
+      import :: c_double, c_int32_t, c_int64_t, c_ptr, stickslip_pair
+      type(stickslip_pair), intent(in) :: pair
+      integer(c_int64_t), value :: capacity
+      real(c_double), intent(inout) :: state(*)
+      type(c_ptr), value :: n_ab, n_ac, gap
+    end function
+
+    ! The weighted gap(3, n1) [L^3] at the positions of a state with the weights of t_n, both null: with those of now.
+    integer(c_int32_t) function stickslip_pair_state_gap(state, n_ab_previous, n_ac_previous, gap) bind(C)
+      import :: c_double, c_int32_t, c_ptr
+      real(c_double), intent(in) :: state(*)
+      type(c_ptr), value :: n_ab_previous, n_ac_previous
+      real(c_double), intent(inout) :: gap(3, *)
+    end function
+
+    ! Stage 3 with a state: force(3, n1 + n2) of traction(3, n1), as stickslip_pair_residual.
+    integer(c_int32_t) function stickslip_pair_state_residual(state, traction, force) bind(C)
+      import :: c_double, c_int32_t
+      real(c_double), intent(in) :: state(*), traction(3, *)
+      real(c_double), intent(inout) :: force(3, *)
+    end function
+
+    ! Stage 3 with a state: the tangent k(ld, *), as stickslip_pair_tangent with the weights of now and their derivatives.
+    ! n_ab_previous, n_ac_previous: of t_n, both null where there are none; row_scale(n1), null: 1.
+    integer(c_int32_t) function stickslip_pair_state_tangent(state, n_ab_previous, n_ac_previous, traction, responses, &
+        row_scale, k, ld) bind(C)
+      import :: c_double, c_int32_t, c_int64_t, c_ptr, stickslip_node_response
+      real(c_double), intent(in) :: state(*), traction(3, *)
+      type(c_ptr), value :: n_ab_previous, n_ac_previous, row_scale
+      type(stickslip_node_response), intent(in) :: responses(*)
+      integer(c_int64_t), value :: ld
+      real(c_double), intent(inout) :: k(ld, *)
+    end function
+
     ! Stage 2: gap, stick or slip of a node from the gaps assembled over ALL its pairs, with all derivatives.
     integer(c_int32_t) function stickslip_node_respond(node, response) bind(C)
       import :: c_int32_t, stickslip_node, stickslip_node_response

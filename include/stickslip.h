@@ -92,6 +92,13 @@
  *     node_block                             each non-mortar node, once
  *     node_condense                          in its place without multipliers (dual basis)
  *
+ * With a state of each pair in its memory nothing is integrated twice:
+ *
+ *     pair_state_size                        once
+ *     pair_begin                             in place of pair_weights, pair_gap
+ *     pair_state_gap                         with the weights of the last commit
+ *     pair_state_residual, pair_state_tangent  in place of pair_residual, pair_tangent
+ *
  * With dual multipliers it calls in addition, for each non-mortar facet:
  *
  *     pair_dual, facet_dual                  after pair_weights of all its pairs: their dual weights
@@ -1676,6 +1683,75 @@ int32_t stickslip_pair_tangent(const struct stickslip_pair *pair,
                                const double *row_scale,
                                double *k,
                                int64_t ld);
+
+/// How many doubles the state of a pair takes (below 290), for `stickslip_pair_begin`. It may be another number in another
+/// version of the library, so it is to be asked for when the program runs.
+///
+/// Cost: nanoseconds; allocates nothing.
+int64_t stickslip_pair_state_size(void);
+
+/// Stage 1 with a state: weights and gap of a pair in its current configuration, and what the other stages need of it. In
+/// place of `stickslip_pair_weights` and `stickslip_pair_gap`, with their results. Paper (11), (13).
+///
+/// pair: see `stickslip_pair`; it and its arrays are read here and not kept. capacity: number of doubles in state, at least
+/// `stickslip_pair_state_size`. state: output; opaque, the caller's, with nothing to give back. It may be copied, and be used by
+/// several threads at once while no one fills it. It belongs to this process: it must not be stored. A refused call leaves it as it was.
+/// Outputs, each may be NULL: n_ab (n1 x n1) and n_ac (n1 x n2) [L^2], row A; gap (3 n1), g[n_{n+1}, x_{n+1}] [L^3],
+/// to be summed over the pairs of a node. Facets that do not overlap give zeros: not an error.
+///
+/// Errors: NULL_POINTER, STRUCT_SIZE, INVALID_SIZE, NOT_FINITE, DUPLICATE_NODE, DEGENERATE_FACET,
+/// PROJECTION_NOT_CONVEX, INVALID_VALUE, BUFFER_TOO_SMALL.
+/// Cost: that of `stickslip_pair_weights` without derivatives; allocates nothing.
+int32_t stickslip_pair_begin(const struct stickslip_pair *pair,
+                             int64_t capacity,
+                             double *state,
+                             double *n_ab,
+                             double *n_ac,
+                             double *gap);
+
+/// The weighted gap of a pair at the positions of its state with other weights, those of t_n: g[n_n, x_{n+1}]. Paper (11).
+///
+/// state: of `stickslip_pair_begin`. n_ab_previous (n1 x n1), n_ac_previous (n1 x n2) [L^2], row A; both NULL: the weights of
+/// now. gap (3 n1), output [L^3].
+///
+/// Errors: NULL_POINTER, INVALID_VALUE (state), NOT_FINITE.
+/// Cost: nanoseconds; allocates nothing.
+int32_t stickslip_pair_state_gap(const double *state,
+                                 const double *n_ab_previous,
+                                 const double *n_ac_previous,
+                                 double *gap);
+
+/// Stage 3 with a state: `stickslip_pair_residual` with the weights of now. Paper (23).
+///
+/// state: of `stickslip_pair_begin`. traction (3 n1): the multipliers lambda (multiplier form) or the projected tractions
+/// p (augmented form) [F/L^2]; force (3 (n1 + n2)), output [F], in internal-force sign.
+///
+/// Errors: NULL_POINTER, INVALID_VALUE (state), NOT_FINITE.
+/// Cost: nanoseconds; allocates nothing.
+int32_t stickslip_pair_state_residual(const double *state,
+                                      const double *traction,
+                                      double *force);
+
+/// Stage 3 with a state: `stickslip_pair_tangent` with the weights of now and their derivatives, which are never expanded.
+/// A pair whose facets do not overlap now has the terms of t_n alone. Where weights are frozen, the stateless call
+/// serves. Paper (29)-(31).
+///
+/// state: of `stickslip_pair_begin`, where the pair's layout was read. n_ab_previous, n_ac_previous: weights of t_n [L^2], both
+/// NULL for a pair that did not overlap then. traction (3 n1): lambda [F/L^2]. responses: n1 results of
+/// `stickslip_node_respond`, from the gaps assembled over all pairs. row_scale (n1) multiplies the multiplier rows,
+/// NULL: 1; r M_A [F/L^3] makes them forces. k: output, (6 n1 + 3 n2) squared, leading dimension ld >= 6 n1 + 3 n2;
+/// rows and columns x1 (3 n1), x2 (3 n2), lambda (3 n1); overwritten, the block (lambda, lambda) with zeros.
+///
+/// Errors: NULL_POINTER, STRUCT_SIZE, INVALID_SIZE, NOT_FINITE, INVALID_VALUE (state).
+/// Cost: 1 to 2 microseconds; allocates nothing.
+int32_t stickslip_pair_state_tangent(const double *state,
+                                     const double *n_ab_previous,
+                                     const double *n_ac_previous,
+                                     const double *traction,
+                                     const struct stickslip_node_response *responses,
+                                     const double *row_scale,
+                                     double *k,
+                                     int64_t ld);
 
 /// Stage 2: gap, stick or slip of a node, its projected traction, its multiplier row and all
 /// derivatives, from the gaps assembled over ALL its pairs (projecting pair by pair would make the answer

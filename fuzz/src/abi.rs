@@ -76,8 +76,9 @@ fn pair_calls(bytes: &mut Bytes) {
     let [a, b, c, d] = [a, b, c, d].map(|o| bytes.output(o.pointer()));
     // SAFETY: by the head of this file; so below.
     let status = unsafe {
-        match bytes.below(4) {
+        match bytes.below(5) {
             0 => stickslip_pair_weights(p, a, b, c, d),
+            4 => return state_calls(bytes, p, [&ab, &ac, &traction]),
             1 => stickslip_pair_gap(p, bytes.pointer(ab.as_ptr()), bytes.pointer(ac.as_ptr()), a),
             2 => stickslip_pair_residual(p, ab.as_ptr(), ac.as_ptr(), bytes.pointer(traction.as_ptr()), d),
             _ => {
@@ -127,6 +128,41 @@ fn pair_calls(bytes: &mut Bytes) {
         written.for_each(|v| all_finite(&[*v]));
     } else {
         out.iter().for_each(Watched::assert_untouched);
+    }
+}
+
+/// A pair's stages with a state.
+fn state_calls(bytes: &mut Bytes, pair: *const stickslip_pair, [ab, ac, traction]: [&[f64]; 3]) {
+    let mut state = Watched::<f64>::new(stickslip_pair_state_size() as usize);
+    let mut out = [16, 16, 12, 24, 36 * 36].map(Watched::<f64>::new);
+    let [a, b, g, force, k] = &mut out;
+    let capacity = if bytes.once_in(8) { bytes.below(8) as i64 } else { stickslip_pair_state_size() };
+    let (a, b, gap) = (bytes.output(a.pointer()), bytes.output(b.pointer()), bytes.output(g.pointer()));
+    // SAFETY: by the head of this file; so below.
+    let status = unsafe { stickslip_pair_begin(pair, capacity, state.pointer(), a, b, gap) };
+    if !succeeded(status) {
+        state.assert_untouched();
+        return out.iter().for_each(Watched::assert_untouched);
+    }
+    let state = state.pointer();
+    // SAFETY: a response is numbers alone.
+    let mut responses: [stickslip_node_response; 4] = unsafe { std::mem::zeroed() };
+    for response in &mut responses {
+        response.struct_size = std::mem::size_of::<stickslip_node_response>() as u64;
+        response.drow_dnow.copy_from_slice(&ab[..9]);
+        response.drow_dprevious.copy_from_slice(&ac[..9]);
+    }
+    let [old_ab, old_ac] = [ab, ac].map(|n| bytes.pointer(n.as_ptr()));
+    let (t, scale) = (traction.as_ptr(), bytes.pointer(traction.as_ptr()));
+    // SAFETY: as above.
+    unsafe {
+        succeeded(stickslip_pair_state_gap(state, old_ab, old_ac, g.pointer()));
+        succeeded(stickslip_pair_state_residual(state, t, force.pointer()));
+        let tangent =
+            stickslip_pair_state_tangent(state, old_ab, old_ac, t, responses.as_ptr(), scale, k.pointer(), 36);
+        if !succeeded(tangent) {
+            k.assert_untouched();
+        }
     }
 }
 

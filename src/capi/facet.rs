@@ -6,7 +6,7 @@ use crate::error::{Error, Kind, Result};
 use crate::geometry::{Facet, Plane, Vec3};
 use crate::mortar::NonmortarFrame;
 use crate::normal;
-use crate::shape::MAX_CORNERS;
+use crate::shape::{MAX_CORNERS, Shape};
 
 /// A facet from `n` points of an argument called `name`; allocates nothing.
 pub(super) fn facet(n: i32, x: *const f64, name: &str) -> Result<Facet> {
@@ -16,25 +16,25 @@ pub(super) fn facet(n: i32, x: *const f64, name: &str) -> Result<Facet> {
     }
     let n = n as usize;
     let values = raw::numbers(x, 3 * n, name)?;
-    let mut points = [Vec3::zeros(); MAX_CORNERS];
-    for (point, v) in points.iter_mut().zip(values.chunks_exact(3)) {
-        *point = Vec3::from_column_slice(v);
-    }
-    if let Some(k) = (1..n).find(|&k| points[..k].contains(&points[k])) {
+    let Some(shape) = Shape::of(n) else { unreachable!("3 or 4 nodes") };
+    let at = |k: usize| Vec3::new(values[3 * k], values[3 * k + 1], values[3 * k + 2]);
+    let nodes = [at(0), at(1), at(2), at(if n == 4 { 3 } else { 0 })];
+    if let Some(k) = (1..n).find(|&k| nodes[..k].contains(&nodes[k])) {
         return Err(Error::new(Kind::DuplicateNode, text!("{name} has two nodes at the same place (node {k})")));
     }
-    Facet::new(&points[..n])
+    Ok(Facet { nodes, shape })
 }
 
 /// Far above the rounding of a normalisation, far below any angle that matters.
 const UNIT: f64 = 1e-10;
 
-/// A non-mortar facet's frame, with what is known of the facets beyond its edges; `names` are those of the two arguments.
-pub(super) fn frame(one: &Facet, neighbour_normals: *const f64, names: [&str; 2]) -> Result<NonmortarFrame> {
-    let [x1, name] = names;
-    let mut frame = NonmortarFrame::new(one).map_err(raw::named(x1))?;
-    let normals = raw::optional_numbers(neighbour_normals, 3 * one.len(), name)?;
-    for (k, normal) in normals.unwrap_or_default().chunks_exact(3).enumerate() {
+/// Gives a frame what is known of the facets beyond its facet's edges; `name` is that of the argument.
+pub(super) fn set_neighbours(frame: &mut NonmortarFrame, neighbour_normals: *const f64, name: &str) -> Result<()> {
+    if neighbour_normals.is_null() {
+        return Ok(());
+    }
+    let normals = raw::numbers(neighbour_normals, 3 * frame.projection.shape.n, name)?;
+    for (k, normal) in normals.chunks_exact(3).enumerate() {
         let normal = Vec3::from_column_slice(normal);
         let (length, is_known) = (normal.norm(), normal != Vec3::zeros());
         if is_known && !((length - 1.0).abs() <= UNIT) {
@@ -43,7 +43,7 @@ pub(super) fn frame(one: &Facet, neighbour_normals: *const f64, names: [&str; 2]
         }
         frame.plane.beyond[k] = is_known.then_some(normal);
     }
-    Ok(frame)
+    Ok(())
 }
 
 /// A non-mortar facet's share of its nodes' normals and areas.

@@ -1,7 +1,7 @@
 //! Stage 3 with dual multipliers, for one non-mortar facet with its pairs: stateless, re-entrant, without allocation.
 
 use super::dual::basis;
-use super::facet::{facet, frame};
+use super::facet::{facet, set_neighbours};
 use super::guard::guard;
 use super::layout::{Matrix, column_major};
 use super::node::stickslip_node_response;
@@ -66,7 +66,8 @@ impl Pairs<'_> {
         if raw.reserved != 0 {
             return Err(Error::new(Kind::InvalidValue, text!("facet.reserved is {}; it must be 0", raw.reserved)));
         }
-        let frame = frame(&one, raw.neighbour_normals, ["facet.x1", "facet.neighbour_normals"])?;
+        let mut frame = NonmortarFrame::new(&one).map_err(raw::named("facet.x1"))?;
+        set_neighbours(&mut frame, raw.neighbour_normals, "facet.neighbour_normals")?;
         let line = match raw.element_points {
             0 => None,
             points => Some(element_line(points, "facet.element_points")?),

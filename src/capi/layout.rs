@@ -2,6 +2,7 @@
 
 use super::raw;
 use crate::dual::Columns;
+use crate::element::Lines;
 use crate::error::{Error, Kind, Result};
 use crate::geometry::Mat3;
 
@@ -60,5 +61,18 @@ impl Matrix {
             // SAFETY: at < ld * size; the caller's k has that many entries.
             unsafe { self.k.add(at).write(block[(i, j)]) };
         }
+    }
+}
+
+impl Lines for Matrix {
+    #[inline(always)]
+    fn are_columns(&self) -> bool {
+        self.column_major
+    }
+
+    #[inline(always)]
+    fn set(&mut self, line: usize, at: usize, values: [f64; 4]) {
+        // SAFETY: at + 3 < size <= ld and line < size, so all four lie in the caller's k; doubles are aligned as it is.
+        unsafe { self.k.add(line * self.ld + at).cast::<[f64; 4]>().write(values) };
     }
 }

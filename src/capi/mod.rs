@@ -64,6 +64,8 @@ mod layout;
 
 mod pair;
 
+mod pair_state;
+
 mod node;
 
 mod normals;
@@ -76,6 +78,7 @@ mod equilibrium;
 
 mod fp_environment;
 mod guard;
+mod pair_out;
 mod raw;
 mod sized;
 
@@ -98,6 +101,7 @@ pub use normals::*;
 pub use options::*;
 pub use pair::*;
 pub use plan::*;
+pub use pair_state::*;
 pub use point::*;
 pub use preparation::*;
 pub use report::*;

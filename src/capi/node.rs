@@ -9,6 +9,7 @@ use crate::error::{Error, Kind, Result};
 use crate::geometry::{Mat3, Vec3};
 use crate::interface::own_rows;
 use crate::law::{Coefficient, Friction, Node};
+use crate::simd::are_finite;
 
 /// State of a node: open or uncovered.
 pub const STICKSLIP_STATE_GAP: i32 = 0;
@@ -109,7 +110,7 @@ pub(super) fn rows(m: &Mat3) -> [f64; 9] {
 }
 
 fn matrix(rows: &[f64; 9], name: &str) -> Result<Mat3> {
-    if rows.iter().any(|v| !v.is_finite()) {
+    if !are_finite(rows) {
         return Err(Error::new(Kind::NotFinite, text!("{name} is not finite")));
     }
     Ok(Mat3::from_row_slice(rows))
@@ -118,11 +119,8 @@ fn matrix(rows: &[f64; 9], name: &str) -> Result<Mat3> {
 /// (drow_dnow, drow_dprevious) of the a-th of an array of responses.
 pub(super) fn read_response(first: *const stickslip_node_response, a: usize) -> Result<(Mat3, Mat3)> {
     raw::check(first, "responses")?;
-    // SAFETY: the first response begins with its size, by which the array's members lie apart.
-    let stride = unsafe { first.cast::<u64>().read() } as usize;
-    if a > 0 {
-        sized::read(first)?; // a valid size before it serves as a stride
-    }
+    // The first response begins with its size, by which the array's members lie apart.
+    let stride = sized::declared_size(first)?;
     let response = sized::read(first.wrapping_byte_add(a * stride))?;
     Ok((
         matrix(&response.drow_dnow, "responses.drow_dnow")?,

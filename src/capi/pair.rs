@@ -1,19 +1,21 @@
 //! Stages 1 and 3 for one pair of facets: stateless, re-entrant, without allocation.
 
-use super::facet::{facet, frame};
+use super::facet::{facet, set_neighbours};
 use super::guard::guard;
 use super::layout::{Matrix, column_major};
 use super::node::stickslip_node_response;
 use super::options::{element_line, rule};
+use super::pair_out::{check_tangent, slot, write_force, write_gap, write_tangent, write_weights};
 use super::raw::{self, Output};
 use super::sized::{self, Sized64};
 use crate::element::{FacetResponse, NodeTangent, PairNow, PairTangent, pair_force, row_columns};
 use crate::error::Result;
-use crate::geometry::{Facet, Mat3, Projection, Vec3};
+use crate::geometry::{Facet, Projection, Vec3};
 use crate::mortar::{
-    self, AlongNormal, GapDerivative, MORTAR, NonmortarFrame, PairWeights, Segment, WeightDerivatives,
+    self, AlongNormal, GapDerivative, NonmortarFrame, PAIR_NODES, PairWeights, Segment, WeightDerivatives,
 };
-use crate::shape::MAX_CORNERS;
+use crate::quadrature::Rule;
+use crate::shape::{MAX_CORNERS, MAX_NODES};
 
 /// A pair of facets, non-mortar first. Node order: right-hand, seen from outside each body.
 #[repr(C)]
@@ -51,11 +53,12 @@ unsafe impl Sized64 for stickslip_pair {
 
 pub(super) struct Pair {
     pub one: Facet,
-    two: Facet,
+    pub two: Facet,
     raw: stickslip_pair,
 }
 
 impl Pair {
+    #[inline]
     pub fn read(p: *const stickslip_pair) -> Result<Pair> {
         let raw = sized::read(p)?;
         Ok(Pair { one: facet(raw.n1, raw.x1, "pair.x1")?, two: facet(raw.n2, raw.x2, "pair.x2")?, raw })
@@ -66,19 +69,36 @@ impl Pair {
         (self.one.len(), self.two.len())
     }
 
-    /// The non-mortar facet, with what is known of those beyond its edges.
-    fn frame(&self) -> Result<NonmortarFrame> {
-        frame(&self.one, self.raw.neighbour_normals, ["pair.x1", "pair.neighbour_normals"])
+    /// Whether the matrix goes out by columns.
+    pub fn column_major(&self) -> Result<bool> {
+        column_major(self.raw.layout, "pair.layout")
     }
 
-    /// Slot of the k-th of the pair's nodes, non-mortar first.
-    fn slot(&self, k: usize) -> usize {
-        if k < self.one.len() { k } else { MORTAR + k - self.one.len() }
+    /// Planes and overlap of now, and the rule that is asked for; then `work` with them. By reference: they are large.
+    #[inline]
+    pub fn overlapping<T>(
+        &self,
+        work: impl FnOnce(&NonmortarFrame, &Option<Segment>, &'static Rule) -> Result<T>,
+    ) -> Result<T> {
+        let rule = rule(self.raw.quadrature, "pair.quadrature")?;
+        let mut frame = NonmortarFrame::new(&self.one);
+        let frame = match &mut frame {
+            Ok(frame) => frame,
+            Err(error) => return Err(raw::named_one("pair.x1", error)),
+        };
+        set_neighbours(frame, self.raw.neighbour_normals, "pair.neighbour_normals")?;
+        let segment = match self.raw.element_points {
+            0 => Segment::new(frame, &self.two),
+            points => Segment::of_points(frame, &self.two, element_line(points, "pair.element_points")?),
+        };
+        match &segment {
+            Ok(segment) => work(frame, segment, rule),
+            Err(error) => Err(raw::named_one("pair.x2", error)),
+        }
     }
 
     pub fn weights(&self, ab: *const f64, ac: *const f64, names: [&str; 2]) -> Result<PairWeights> {
-        let (n1, n2) = self.n();
-        Ok(pair_weights(raw::numbers(ab, n1 * n1, names[0])?, raw::numbers(ac, n1 * n2, names[1])?, n1))
+        read_weights(self.n(), ab, ac, names)
     }
 
     fn derivatives(&self, ab: *const f64, ac: *const f64) -> Result<WeightDerivatives> {
@@ -86,19 +106,51 @@ impl Pair {
         let n = n1 + n2;
         let (ab, ac) = (raw::numbers(ab, n1 * n1 * 3 * n, "dn_ab")?, raw::numbers(ac, n1 * n2 * 3 * n, "dn_ac")?);
         let mut d = WeightDerivatives::default();
+        if n == PAIR_NODES {
+            flat_mut(&mut d.ab).copy_from_slice(ab);
+            flat_mut(&mut d.ac).copy_from_slice(ac);
+            return Ok(d);
+        }
         for a in 0..n1 {
             for k in 0..n {
                 let at = |row: usize| 3 * (row * n + k);
                 for b in 0..n1 {
-                    d.ab[a][b][self.slot(k)].copy_from_slice(&ab[at(a * n1 + b)..][..3]);
+                    d.ab[a][b][slot(n1, k)].copy_from_slice(&ab[at(a * n1 + b)..][..3]);
                 }
                 for c in 0..n2 {
-                    d.ac[a][c][self.slot(k)].copy_from_slice(&ac[at(a * n2 + c)..][..3]);
+                    d.ac[a][c][slot(n1, k)].copy_from_slice(&ac[at(a * n2 + c)..][..3]);
                 }
             }
         }
         Ok(d)
     }
+}
+
+/// Derivatives of weights, as they lie with a caller whose facets have as many nodes as there are slots.
+type Derivatives = [[[[f64; 3]; PAIR_NODES]; MAX_NODES]; MAX_CORNERS];
+
+fn flat(d: &Derivatives) -> &[f64] {
+    d.as_flattened().as_flattened().as_flattened()
+}
+
+fn flat_mut(d: &mut Derivatives) -> &mut [f64] {
+    d.as_flattened_mut().as_flattened_mut().as_flattened_mut()
+}
+
+/// The weights that a caller gives to a pair of so many nodes.
+pub(super) fn read_weights(
+    (n1, n2): (usize, usize),
+    ab: *const f64,
+    ac: *const f64,
+    names: [&str; 2],
+) -> Result<PairWeights> {
+    Ok(pair_weights(raw::numbers(ab, n1 * n1, names[0])?, raw::numbers(ac, n1 * n2, names[1])?, n1))
+}
+
+/// Weights of t_n, or nothing where both are null.
+pub(super) fn read_previous(n: (usize, usize), ab: *const f64, ac: *const f64) -> Result<Option<PairWeights>> {
+    let is_given = !ab.is_null() || !ac.is_null();
+    is_given.then(|| read_weights(n, ab, ac, ["n_ab_previous", "n_ac_previous"])).transpose()
 }
 
 /// A pair's weights from a caller's n_ab and n_ac, row A, of so many non-mortar nodes.
@@ -111,13 +163,45 @@ pub(super) fn pair_weights(ab: &[f64], ac: &[f64], n1: usize) -> PairWeights {
     w
 }
 
-/// Writes n_ab and n_ac, row A, of a pair with so many nodes; each may be null.
-pub(super) fn write_weights(w: &PairWeights, (n1, n2): (usize, usize), n_ab: *mut f64, n_ac: *mut f64) {
-    let (mut ab, mut ac) = (Output::new(n_ab), Output::new(n_ac));
-    for a in 0..n1 {
-        ab.append(&w.ab[a][..n1]);
-        ac.append(&w.ac[a][..n2]);
+/// Refuses weights that left the range of doubles.
+#[inline]
+pub(super) fn check_weights(w: &PairWeights) -> Result<()> {
+    raw::check_array("n_ab, n_ac", w.ab.as_flattened())?;
+    raw::check_array("n_ab, n_ac", w.ac.as_flattened())
+}
+
+/// Weights and their derivatives; each may be null. Apart from the rest: they are large.
+#[inline(never)]
+fn with_derivatives(
+    (n1, n2): (usize, usize),
+    (frame, segment, rule): (&NonmortarFrame, &Option<Segment>, &Rule),
+    [n_ab, n_ac]: [*mut f64; 2],
+    [dn_ab, dn_ac]: [*mut f64; 2],
+) -> Result<()> {
+    let (mut d, n) = (WeightDerivatives::default(), n1 + n2);
+    let weights = match segment {
+        Some(segment) => d.update(frame, segment, rule),
+        None => PairWeights::default(),
+    };
+    check_weights(&weights)?;
+    raw::check_array("dn_ab, dn_ac", flat(&d.ab))?;
+    raw::check_array("dn_ab, dn_ac", flat(&d.ac))?;
+    write_weights(&weights, (n1, n2), n_ab, n_ac);
+    let (mut ab, mut ac) = (Output::new(dn_ab), Output::new(dn_ac));
+    if n == PAIR_NODES {
+        ab.append(flat(&d.ab));
+        ac.append(flat(&d.ac));
+        return Ok(());
     }
+    for a in 0..n1 {
+        for k in 0..n1 * n {
+            ab.append(&d.ab[a][k / n][slot(n1, k % n)]);
+        }
+        for k in 0..n2 * n {
+            ac.append(&d.ac[a][k / n][slot(n1, k % n)]);
+        }
+    }
+    Ok(())
 }
 
 /// 3 n numbers at `p` as vectors of the facet's nodes.
@@ -165,44 +249,26 @@ pub unsafe extern "C" fn stickslip_pair_weights(
     dn_ac: *mut f64,
 ) -> i32 {
     guard(|| {
-        let pair = Pair::read(pair)?;
-        let rule = rule(pair.raw.quadrature, "pair.quadrature")?;
+        let pair = &Pair::read(pair)?;
         for (p, name) in [(n_ab, "n_ab"), (n_ac, "n_ac"), (dn_ab, "dn_ab"), (dn_ac, "dn_ac")] {
             raw::check_optional(p, name)?;
         }
-        let frame = pair.frame()?;
-        let segment = match pair.raw.element_points {
-            0 => Segment::new(&frame, &pair.two),
-            points => Segment::of_points(&frame, &pair.two, element_line(points, "pair.element_points")?),
-        };
-        let segment = segment.map_err(raw::named("pair.x2"))?;
-        let (n1, n2) = pair.n();
-        let wanted = !(dn_ab.is_null() && dn_ac.is_null());
-        let (mut w, mut d) = (PairWeights::default(), WeightDerivatives::default());
-        if let Some(segment) = &segment {
-            w = PairWeights::integrate(&frame, segment, rule); // the same bits, whatever else is wanted
-            if wanted {
-                d.update(&frame, segment, rule);
+        pair.overlapping(|frame, segment, rule| match segment {
+            // The weights have the same bits, whatever else is wanted.
+            _ if !(dn_ab.is_null() && dn_ac.is_null()) => {
+                with_derivatives(pair.n(), (frame, segment, rule), [n_ab, n_ac], [dn_ab, dn_ac])
             }
-        }
-        raw::check_results("n_ab, n_ac", w.ab.iter().chain(&w.ac).flatten())?;
-        if wanted {
-            raw::check_results("dn_ab, dn_ac", d.ab.iter().chain(&d.ac).flatten().flatten().flatten())?;
-        }
-        write_weights(&w, (n1, n2), n_ab, n_ac);
-        if !wanted {
-            return Ok(());
-        }
-        let (mut ab, mut ac) = (Output::new(dn_ab), Output::new(dn_ac));
-        for a in 0..n1 {
-            for k in 0..n1 * (n1 + n2) {
-                ab.append(&d.ab[a][k / (n1 + n2)][pair.slot(k % (n1 + n2))]);
+            Some(segment) => {
+                let weights = PairWeights::integrate(frame, segment, rule);
+                check_weights(&weights)?;
+                write_weights(&weights, pair.n(), n_ab, n_ac);
+                Ok(())
             }
-            for k in 0..n2 * (n1 + n2) {
-                ac.append(&d.ac[a][k / (n1 + n2)][pair.slot(k % (n1 + n2))]);
+            None => {
+                write_weights(&PairWeights::default(), pair.n(), n_ab, n_ac);
+                Ok(())
             }
-        }
-        Ok(())
+        })
     })
 }
 
@@ -225,10 +291,7 @@ pub unsafe extern "C" fn stickslip_pair_gap(
         let pair = Pair::read(pair)?;
         let weights = pair.weights(n_ab, n_ac, ["n_ab", "n_ac"])?;
         raw::check(gap, "gap")?;
-        let g = mortar::gap(&weights, &pair.one, &pair.two);
-        raw::check_results("gap", g.iter().flat_map(|v| v.iter()))?;
-        raw::write_each(gap, g[..pair.one.len()].iter().flat_map(|v| [v.x, v.y, v.z]));
-        Ok(())
+        write_gap(&mortar::gap(&weights, &pair.one, &pair.two), pair.one.len(), gap)
     })
 }
 
@@ -254,11 +317,7 @@ pub unsafe extern "C" fn stickslip_pair_residual(
         let weights = pair.weights(n_ab, n_ac, ["n_ab", "n_ac"])?;
         let traction = tractions(traction, pair.one.len())?;
         raw::check(force, "force")?;
-        let f = pair_force(&weights, &traction);
-        raw::check_results("force", f.iter().flat_map(|v| v.iter()))?;
-        let (n1, n2) = pair.n();
-        raw::write_each(force, (0..n1 + n2).map(|k| f[pair.slot(k)]).flat_map(|v| [v.x, v.y, v.z]));
-        Ok(())
+        write_force(&pair_force(&weights, &traction), pair.n(), force)
     })
 }
 
@@ -296,13 +355,11 @@ pub unsafe extern "C" fn stickslip_pair_tangent(
         let pair = Pair::read(pair)?;
         let (n1, n2) = pair.n();
         let size = 6 * n1 + 3 * n2;
-        let mut k = Matrix::new(k, size, ld, column_major(pair.raw.layout, "pair.layout")?)?;
+        let mut k = Matrix::new(k, size, ld, pair.column_major()?)?;
         let weights =
             (!n_ab.is_null() || !n_ac.is_null()).then(|| pair.weights(n_ab, n_ac, ["n_ab", "n_ac"])).transpose()?;
         let dn = (!dn_ab.is_null() || !dn_ac.is_null()).then(|| pair.derivatives(dn_ab, dn_ac)).transpose()?;
-        let before = (!n_ab_previous.is_null() || !n_ac_previous.is_null())
-            .then(|| pair.weights(n_ab_previous, n_ac_previous, ["n_ab_previous", "n_ac_previous"]))
-            .transpose()?;
+        let before = read_previous((n1, n2), n_ab_previous, n_ac_previous)?;
         let traction = tractions(traction, n1)?;
         let nodes = node_tangents(&traction[..n1], responses, row_scale)?;
         let gap = match (&weights, &dn) {
@@ -320,25 +377,8 @@ pub unsafe extern "C" fn stickslip_pair_tangent(
         }
         let now = weights.as_ref().map(|weights| PairNow { weights, gap: gap.as_ref() });
         row_columns::<true, 3>(now.as_ref(), before.as_ref(), &nodes, &mut t.rows);
-        let all = [&t.forces.one, &t.forces.two, &t.rows].into_iter().flatten().flatten().flatten();
-        raw::check_results("k", all.flatten())?;
-        let force_lambda = |row: usize, a: usize| {
-            weights.as_ref().map_or(0.0, |n| if row < MORTAR { n.ab[a][row] } else { -n.ac[a][row - MORTAR] })
-        };
-        let block = |row: usize, column: usize| -> Mat3 {
-            let n = n1 + n2;
-            match (row < n, column < n) {
-                (true, true) => t.force_x(pair.slot(row), pair.slot(column)),
-                (true, false) => Mat3::from_diagonal_element(force_lambda(pair.slot(row), column - n)),
-                (false, true) => t.row_x(row - n, pair.slot(column)),
-                (false, false) => Mat3::zeros(),
-            }
-        };
-        for row in 0..size / 3 {
-            for column in 0..size / 3 {
-                k.write(row, column, &block(row, column));
-            }
-        }
+        check_tangent(&t)?;
+        write_tangent(&t, weights.as_ref(), (n1, n2), &mut k);
         Ok(())
     })
 }

@@ -7,6 +7,7 @@
 use crate::error::{Error, Kind, Result, Text};
 use crate::geometry::Vec3;
 use crate::memory::{self, Store, Stored};
+use crate::simd;
 use libc::c_char;
 use std::fmt::{self, Display};
 use std::mem::MaybeUninit;
@@ -30,7 +31,13 @@ impl Display for Member<'_> {
 
 /// Puts an argument's name before a refusal of the core.
 pub(super) fn named(name: &str) -> impl FnOnce(Error) -> Error + '_ {
-    move |e| Error::new(e.kind, text!("{name}: {}", e.message))
+    move |e| named_one(name, &e)
+}
+
+/// The same of a refusal that stays where it is, in place of something large.
+#[cold]
+pub(super) fn named_one(name: &str, e: &Error) -> Error {
+    Error::new(e.kind, text!("{name}: {}", e.message))
 }
 
 /// Refuses null and misaligned pointers.
@@ -65,6 +72,11 @@ pub(super) fn slice<'a, T>(p: *const T, n: usize, name: impl Display) -> Result<
 /// `n` finite numbers at `p`.
 pub(super) fn numbers<'a>(p: *const f64, n: usize, name: impl Display) -> Result<&'a [f64]> {
     let values = slice(p, n, &name)?;
+    if simd::are_finite(values) { Ok(values) } else { not_finite(values, &name) }
+}
+
+#[cold]
+fn not_finite<'a>(values: &'a [f64], name: &dyn Display) -> Result<&'a [f64]> {
     match values.iter().position(|v| !v.is_finite()) {
         None => Ok(values),
         Some(k) => refuse(Kind::NotFinite, text!("{name}[{k}] is {}; it must be finite", values[k])),
@@ -77,8 +89,19 @@ pub(super) fn check_results<'a>(name: &str, values: impl IntoIterator<Item = &'a
     // Looks at all of them, several at once, rather than stop at the first one.
     match values.into_iter().fold(true, |fine, v| fine & v.is_finite()) {
         true => Ok(()),
-        false => refuse(Kind::NotFinite, text!("{name} overflows: the inputs are out of range")),
+        false => overflow(name),
     }
+}
+
+/// The same of results that lie one after the other.
+#[inline]
+pub(super) fn check_array(name: &str, values: &[f64]) -> Result<()> {
+    if simd::are_finite(values) { Ok(()) } else { overflow(name) }
+}
+
+#[cold]
+pub(super) fn overflow<T>(name: &str) -> Result<T> {
+    refuse(Kind::NotFinite, text!("{name} overflows: the inputs are out of range"))
 }
 
 /// Like [`numbers`], or nothing where `p` is null.

@@ -24,6 +24,7 @@ pub(super) unsafe trait Sized64: Copy {
 }
 
 /// Checks a size that a caller declares.
+#[inline]
 fn check_size<T: Sized64>(size: u64) -> Result<usize> {
     const { assert!(16 <= T::FIRST && T::FIRST <= size_of::<T>(), "structs only grow") }
     match usize::try_from(size) {
@@ -36,15 +37,27 @@ fn check_size<T: Sized64>(size: u64) -> Result<usize> {
 }
 
 /// Reads the size a caller has put first into a struct.
-fn declared_size<T: Sized64>(p: *const T) -> Result<usize> {
+#[inline]
+pub(super) fn declared_size<T: Sized64>(p: *const T) -> Result<usize> {
     check(p, T::NAME)?;
     // SAFETY: non-null and aligned; every struct of the ABI begins with a readable u64.
     check_size::<T>(unsafe { p.cast::<u64>().read() })
 }
 
 /// A struct from the caller; what an older caller's one lacks is 0.
+#[inline]
 pub(super) fn read<T: Sized64>(p: *const T) -> Result<T> {
     let size = declared_size(p)?;
+    if size == size_of::<T>() {
+        // SAFETY: non-null, aligned, and as long as the caller declares; T is valid for every bit pattern (Sized64).
+        return Ok(unsafe { p.read() });
+    }
+    read_other(p, size)
+}
+
+/// The same of a caller whose struct has another size.
+#[inline(never)]
+fn read_other<T: Sized64>(p: *const T, size: usize) -> Result<T> {
     // SAFETY: the caller's struct has `size` readable bytes by its own declaration.
     let bytes = unsafe { std::slice::from_raw_parts(p.cast::<u8>(), size) };
     let known = size.min(size_of::<T>());
@@ -72,7 +85,11 @@ pub(super) fn write<T: Sized64>(p: *mut T, value: T) {
     // SAFETY: checked by check_output: `size` writable bytes by the caller's declaration, the first 8 its size.
     unsafe {
         let size = p.cast::<u64>().read();
-        fill(p, &value, size as usize);
+        if size == size_of::<T>() as u64 {
+            p.write(value);
+        } else {
+            fill(p, &value, size as usize);
+        }
         p.cast::<u64>().write(size);
     }
 }

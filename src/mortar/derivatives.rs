@@ -9,6 +9,7 @@ use super::pair_weights::PairWeights;
 use super::segment::{KindKernel, Kinds, NonmortarFrame, Segment};
 use super::slots::PAIR_NODES;
 use super::transport::Transport;
+use super::weight_sums::Sums;
 use crate::quadrature::Rule;
 use crate::shape::{Basis, Isoparametric, MAX_CORNERS, MAX_NODES, SingleBasis};
 use crate::simd::{Lanes, rolled};
@@ -16,7 +17,7 @@ use crate::simd::{Lanes, rolled};
 impl WeightDerivatives {
     /// The weights and their exact derivatives over a segment (exact when the rule is: affine facets, degree 5; a
     /// coarser rule's derivatives are those of degree 5; of points, those of their own sums). The weights are those of
-    /// [`PairWeights::integrate`] but for rounding.
+    /// [`PairWeights::integrate`] to the last bit.
     pub fn integrate(frame: &NonmortarFrame, segment: &Segment, rule: &Rule) -> (PairWeights, WeightDerivatives) {
         let mut derivatives = WeightDerivatives::default();
         (derivatives.update(frame, segment, rule), derivatives)
@@ -106,7 +107,7 @@ impl KindKernel for OfPair<'_> {
     #[inline(always)]
     fn run<L: Lanes, One: SingleBasis, Two: Isoparametric>(self) -> AlongNormal {
         let OfPair { frame, segment, rule, weights, p, forces, raised } = self;
-        let moments = Moments::<L>::integrate::<One, Two>(frame, segment, rule);
+        let moments = Moments::<L>::integrate::<One, Two>(frame, segment, rule, None);
         let mut edges = Edges::new();
         edges.integrate::<One, Two>(frame, segment, rule);
         let transport = Transport::new::<One, Two>(frame, segment, &moments, &edges);
@@ -138,7 +139,8 @@ impl KindKernel for OfWeights<'_> {
     #[inline(always)]
     fn run<L: Lanes, One: SingleBasis, Two: Isoparametric>(self) -> PairWeights {
         let OfWeights { frame, segment, rule, derivatives } = self;
-        let moments = Moments::<L>::integrate::<One, Two>(frame, segment, rule);
+        let mut weights = Sums::new();
+        let moments = Moments::<L>::integrate::<One, Two>(frame, segment, rule, Some(&mut weights));
         let mut edges = Edges::new();
         edges.integrate::<One, Two>(frame, segment, rule);
         let transport = Transport::new::<One, Two>(frame, segment, &moments, &edges);
@@ -150,6 +152,6 @@ impl KindKernel for OfWeights<'_> {
             chain.nodes::<One::Cell, Two::Cell>(&transport.two::<One, Two>(&SHAPES[a]), &mut columns);
             to_rows::<L, Two::Displacement>(&columns.0, -1.0, &mut derivatives.ac[a]);
         }
-        moments.weights::<One>(&frame.map.determinant())
+        weights.weights::<One, Two>(segment)
     }
 }

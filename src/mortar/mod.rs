@@ -20,6 +20,7 @@ mod points;
 mod segment;
 mod slots;
 mod transport;
+mod weight_sums;
 mod weights;
 
 pub use analytic::{analytic_motion, analytic_motion_raised, analytic_weights};

@@ -10,9 +10,9 @@
 //! N_k has eight monomials, and the functions they are integrated with four, so what is summed over the points are
 //! products of monomials, each once; the nodes' integrals follow from the sums.
 
-use super::pair_weights::PairWeights;
 use super::points::{Fan, Maps, Points, points, triangle_lanes};
 use super::segment::{NonmortarFrame, Segment};
+use super::weight_sums::Sums;
 use crate::quadrature::Rule;
 use crate::shape::{Basis, Cell, Isoparametric, MAX_CORNERS, SingleBasis};
 use crate::simd::{Lanes, Stack};
@@ -192,26 +192,38 @@ pub(super) fn combine<L: Lanes>(n: &[L; MAX_CORNERS], c: &[f64; MAX_CORNERS], fi
 }
 
 impl<L: Lanes> Moments<L> {
+    /// Over a segment; `weights`, where they are wanted from the same points, get what their own integration adds up.
     #[inline(always)]
     pub fn integrate<One: SingleBasis, Two: Isoparametric>(
         frame: &NonmortarFrame,
         segment: &Segment,
         rule: &Rule,
+        weights: Option<&mut Sums<L>>,
     ) -> Self {
         if L::SHARED {
-            Self::shared::<One, Two>(frame, segment, rule)
+            Self::shared::<One, Two>(frame, segment, rule, weights)
         } else {
-            Self::inlined::<One, Two>(frame, segment, rule)
+            Self::inlined::<One, Two>(frame, segment, rule, weights)
         }
     }
 
     #[inline(never)]
-    fn shared<One: SingleBasis, Two: Isoparametric>(frame: &NonmortarFrame, segment: &Segment, rule: &Rule) -> Self {
-        Self::inlined::<One, Two>(frame, segment, rule)
+    fn shared<One: SingleBasis, Two: Isoparametric>(
+        frame: &NonmortarFrame,
+        segment: &Segment,
+        rule: &Rule,
+        weights: Option<&mut Sums<L>>,
+    ) -> Self {
+        Self::inlined::<One, Two>(frame, segment, rule, weights)
     }
 
     #[inline(always)]
-    fn inlined<One: SingleBasis, Two: Isoparametric>(frame: &NonmortarFrame, segment: &Segment, rule: &Rule) -> Self {
+    fn inlined<One: SingleBasis, Two: Isoparametric>(
+        frame: &NonmortarFrame,
+        segment: &Segment,
+        rule: &Rule,
+        mut weights: Option<&mut Sums<L>>,
+    ) -> Self {
         let mut whole = [[L::splat(0.0); MONOMIALS]; 3];
         let mut stack = Stack::<Group<L>, GROUPS>::new();
         let rule = triangle_lanes::<One, Two>(rule);
@@ -220,7 +232,11 @@ impl<L: Lanes> Moments<L> {
         let mut triangle = fan.triangle();
         let (mut i, mut more) = (0, false);
         while let Some(t) = &triangle {
-            stack.push(group::<L, One::Cell, Two::Cell>(&points::<L>(&maps, &rule[i], t)));
+            let p = points::<L>(&maps, &rule[i], t);
+            if let Some(weights) = &mut weights {
+                weights.add::<One, Two>(&p);
+            }
+            stack.push(group::<L, One::Cell, Two::Cell>(&p));
             i += 1;
             if i == rule.len() {
                 (triangle, i) = (fan.triangle(), 0);
@@ -253,21 +269,6 @@ impl<L: Lanes> Moments<L> {
             *q = Two::Cell::given(*q, segment.mortar.is_reversed());
         }
         Moments { q1: table::<L, One::Cell>(q1), r: table::<L, One::Cell>(r), q2: table::<L, Two::Cell>(q2) }
-    }
-
-    /// n_AB = sum_m j_m R[m][A][B] and n_AC = sum_m j_m Q1[m][A][C], det1 = j0 + j1 xi + j2 eta: the
-    /// multipliers N_A are the functions N_k of the map.
-    #[inline(always)]
-    pub fn weights<One: SingleBasis>(&self, determinant: &[f64; 3]) -> PairWeights {
-        let (mut ab, mut ac) = ([L::splat(0.0); MAX_CORNERS], [L::splat(0.0); MAX_CORNERS]);
-        for m in 0..powers::<One::Cell>() {
-            let j = L::splat(determinant[m]);
-            for a in 0..One::Multiplier::FUNCTIONS {
-                ab[a] = j.mul_add(self.r[m][a], ab[a]);
-                ac[a] = j.mul_add(self.q1[m][a], ac[a]);
-            }
-        }
-        PairWeights::of_rows(One::Multiplier::FUNCTIONS, &ab, &ac)
     }
 }
 

@@ -57,8 +57,10 @@ pub struct Segment {
     pub points: Option<CellPoints>,
 }
 
-/// Points of a non-mortar facet's product rule, and which of them count.
+/// Points of a non-mortar facet's product rule, and which of them count. Packed, so that a segment may lie wherever a double
+/// may, in a caller's array of these.
 #[derive(Clone, Copy, Debug)]
+#[repr(C, packed(8))]
 pub struct CellPoints {
     /// Gauss points on a line.
     pub(super) line: &'static [[f64; 2]],

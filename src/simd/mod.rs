@@ -7,10 +7,12 @@
 
 #[cfg(target_arch = "x86_64")]
 mod avx2;
+mod finite;
 mod lanes;
 mod plain;
 mod stack;
 
+use finite::{AreFinite, FEW, few};
 pub use lanes::{Kernel, Lanes, Real, rolled};
 pub use plain::Plain;
 pub use stack::Stack;
@@ -27,6 +29,12 @@ pub fn dispatch<K: Kernel>(kernel: K) -> K::Output {
         return avx2::run(kernel);
     }
     kernel.run::<Plain>()
+}
+
+/// Whether all of them are finite.
+#[inline]
+pub fn are_finite(values: &[f64]) -> bool {
+    if values.len() < FEW { few(values) } else { dispatch(AreFinite { values }) }
 }
 
 #[cfg(test)]

@@ -52,6 +52,16 @@ FUNCTION(pair_tangent, (a[0], a[1], a[2], a[3], a[4], a[5], a[6], a[7], a[8], a[
          {"dn_ab", E.w.dab, NEEDED}, {"dn_ac", E.w.dac, NEEDED}, {"n_ab_previous", b.previous.ab, NEEDED},
          {"n_ac_previous", b.previous.ac, NEEDED}, {"traction", E.traction, NEEDED}, {"responses", E.responses, NEEDED},
          {"row_scale", E.row_scale, OPTIONAL}, {"k", E.k, NEEDED})
+FUNCTION(pair_begin, (a[0], b.capacity, a[1], a[2], a[3], a[4]), PAIR, {"state", E.state_out, NEEDED},
+         {"n_ab", E.w_out.ab, OPTIONAL}, {"n_ac", E.w_out.ac, OPTIONAL}, {"gap", E.gap, OPTIONAL})
+FUNCTION(pair_state_gap, (a[0], a[1], a[2], a[3]), {"state", E.state, NEEDED}, {"n_ab_previous", b.previous.ab, NEEDED},
+         {"n_ac_previous", b.previous.ac, NEEDED}, {"gap", E.gap, NEEDED})
+FUNCTION(pair_state_residual, (a[0], a[1], a[2]), {"state", E.state, NEEDED}, {"traction", E.traction, NEEDED},
+         {"force", E.force, NEEDED})
+FUNCTION(pair_state_tangent, (a[0], a[1], a[2], a[3], a[4], a[5], a[6], b.ld), {"state", E.state, NEEDED},
+         {"n_ab_previous", b.previous.ab, NEEDED}, {"n_ac_previous", b.previous.ac, NEEDED},
+         {"traction", E.traction, NEEDED}, {"responses", E.responses, NEEDED}, {"row_scale", E.row_scale, OPTIONAL},
+         {"k", E.k, NEEDED})
 FUNCTION(facet_dual, (b.n_facet, a[0], a[1], a[2], a[3], a[4]), {"x", E.x1, NEEDED}, {"mass", E.mass, NEEDED},
          {"fade", &E.fade, OPTIONAL}, {"areas", E.dual_areas, OPTIONAL}, {"coefficients", E.coefficients, OPTIONAL})
 FUNCTION(pair_dual, (a[0], a[1], a[2], a[3], a[4], a[5]), PAIR, {"mass", E.mass, NEEDED}, WEIGHTS,
@@ -152,6 +162,7 @@ static const struct {
   int n;
 } functions[] = {
     NAMED(pair_weights), NAMED(pair_gap), NAMED(pair_residual), NAMED(pair_tangent), NAMED(facet_geometry),
+    NAMED(pair_begin), NAMED(pair_state_gap), NAMED(pair_state_residual), NAMED(pair_state_tangent),
     NAMED(facet_dual), NAMED(pair_dual), NAMED(facet_tangent),
     NAMED(facet_normal), NAMED(node_normal), NAMED(node_respond), NAMED(node_block), NAMED(node_equilibrium),
     NAMED(options_init), NAMED(last_error_padded), NAMED(surface_split_creases), NAMED(crosspoints_find),

@@ -6,6 +6,9 @@
 #include "pair.h"
 #include "scene.h"
 
+/* Room for the state of a pair, twice as much as it takes. */
+enum { STATE_SIZE = 512 };
+
 /* Stateless calls on two quadrilaterals. */
 typedef struct {
   double x1[12], x2[12];
@@ -17,12 +20,12 @@ typedef struct {
   double mass[16];
   stickslip_node node;
   stickslip_node_response responses[4];
-  double traction[12], row_scale[4], sum[3];
+  double traction[12], row_scale[4], sum[3], state[STATE_SIZE];
   /* Outputs. */
   weights w_out;
   double gap[12], force[24], k[36 * 36], normals[12], areas[4], normal[3], row[3], block[9];
   double fade, dual_areas[4], coefficients[16], dual_ab[16], dual_ac[16], facet_k[36 * 36];
-  double normal_derivatives[144], turn[27];
+  double normal_derivatives[144], turn[27], state_out[STATE_SIZE];
 } element;
 
 static inline void element_init(element *e) {
@@ -31,6 +34,7 @@ static inline void element_init(element *e) {
   memcpy(e->x2, quad2, sizeof quad2);
   e->pair = make_pair(4, e->x1, 4, e->x2);
   pair_weights(&e->pair, &e->w);
+  CHECK_OK(stickslip_pair_begin(&e->pair, STATE_SIZE, e->state, NULL, NULL, NULL));
   e->n2[0] = 4;
   e->facet = (stickslip_facet){.struct_size = sizeof e->facet, .n1 = 4, .n_pairs = 1, .x1 = e->x1, .n2 = e->n2, .x2 = e->x2};
   memcpy(e->mass, e->w.ab, sizeof e->mass);
@@ -64,6 +68,7 @@ static inline void element_init(element *e) {
   FILL(e->facet_k);
   FILL(e->normal_derivatives);
   FILL(e->turn);
+  FILL(e->state_out);
 }
 
 static inline int32_t call_weights(element *e) {
@@ -76,6 +81,16 @@ static inline int32_t call_residual(element *e) {
 static inline int32_t call_tangent(element *e) {
   return stickslip_pair_tangent(&e->pair, e->w.ab, e->w.ac, e->w.dab, e->w.dac, e->w.ab, e->w.ac, e->traction,
                                 e->responses, e->row_scale, e->k, 36);
+}
+static inline int32_t call_begin(element *e) {
+  return stickslip_pair_begin(&e->pair, STATE_SIZE, e->state_out, e->w_out.ab, e->w_out.ac, e->gap);
+}
+static inline int32_t call_state_gap(element *e) { return stickslip_pair_state_gap(e->state, e->w.ab, e->w.ac, e->gap); }
+static inline int32_t call_state_residual(element *e) {
+  return stickslip_pair_state_residual(e->state, e->traction, e->force);
+}
+static inline int32_t call_state_tangent(element *e) {
+  return stickslip_pair_state_tangent(e->state, e->w.ab, e->w.ac, e->traction, e->responses, e->row_scale, e->k, 36);
 }
 static inline int32_t call_respond(element *e) {
   /* Into the last response, of which all but the size is filled with the pattern. */
@@ -123,6 +138,7 @@ static inline void element_untouched(element *e) {
   CHECK_UNTOUCHED(e->facet_k);
   CHECK_UNTOUCHED(e->normal_derivatives);
   CHECK_UNTOUCHED(e->turn);
+  CHECK_UNTOUCHED(e->state_out);
 }
 
 static inline void response_untouched(element *e) {

@@ -42,6 +42,15 @@ static inline int32_t every_weights(every *c) { return call_weights(&c->e); }
 static inline int32_t every_gap(every *c) { return call_gap(&c->e); }
 static inline int32_t every_pair_residual(every *c) { return call_residual(&c->e); }
 static inline int32_t every_pair_tangent(every *c) { return call_tangent(&c->e); }
+/* The state holds addresses, which differ from run to run: only that the call succeeds is looked at. */
+static inline int32_t every_begin(every *c) {
+  const int32_t status = call_begin(&c->e);
+  FILL(c->e.state_out);
+  return status;
+}
+static inline int32_t every_state_gap(every *c) { return call_state_gap(&c->e); }
+static inline int32_t every_state_residual(every *c) { return call_state_residual(&c->e); }
+static inline int32_t every_state_tangent(every *c) { return call_state_tangent(&c->e); }
 static inline int32_t every_respond(every *c) { return call_respond(&c->e); }
 static inline int32_t every_block(every *c) { return call_block(&c->e); }
 static inline int32_t every_facet(every *c) { return call_facet(&c->e); }
@@ -243,6 +252,10 @@ static const entry_point every_call[] = {
     {"pair_gap", every_gap},
     {"pair_residual", every_pair_residual},
     {"pair_tangent", every_pair_tangent},
+    {"pair_begin", every_begin},
+    {"pair_state_gap", every_state_gap},
+    {"pair_state_residual", every_state_residual},
+    {"pair_state_tangent", every_state_tangent},
     {"facet_dual", every_facet_dual},
     {"pair_dual", every_pair_dual},
     {"facet_tangent", every_facet_tangent},
@@ -359,10 +372,14 @@ static inline int32_t every_refusal(int k) {
     case 49: return stickslip_interface_turn_multipliers(NULL, NULL, NULL);
     case 50: return stickslip_facet_normal_derivatives(4, NULL, NULL);
     case 51: return stickslip_node_turn(NULL, NULL, 0, NULL, NULL, NULL);
+    case 52: return stickslip_pair_begin(NULL, 0, NULL, NULL, NULL, NULL);
+    case 53: return stickslip_pair_state_gap(NULL, NULL, NULL, NULL);
+    case 54: return stickslip_pair_state_residual(NULL, NULL, NULL);
+    case 55: return stickslip_pair_state_tangent(NULL, NULL, NULL, NULL, NULL, NULL, NULL, 0);
     default: return stickslip_interface_diagnose(NULL, NULL, NULL, NULL, NULL, NULL);
   }
 }
-enum { REFUSALS = 53 };
+enum { REFUSALS = 57 };
 
 /* Room and sizes for the structs that come out. */
 static inline void every_room(every *c) {

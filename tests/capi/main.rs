@@ -11,3 +11,4 @@ mod dual;
 mod header;
 mod layout;
 mod normals;
+mod pair_state;

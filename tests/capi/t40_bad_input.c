@@ -81,7 +81,9 @@ static void set_up(const char *name, int32_t base) {
   }
   /* As much as is needed, where that can be asked. */
   b.capacity = strcmp(name, "interface_effects") == 0 ? COUNT(b.every.effects) : N1;
-  if (strcmp(name, "crosspoints_find") == 0) {
+  if (strcmp(name, "pair_begin") == 0) {
+    b.capacity = stickslip_pair_state_size();
+  } else if (strcmp(name, "crosspoints_find") == 0) {
     CHECK_OK(stickslip_crosspoints_find(2, b.offsets1, b.shared1, b.offsets2, b.shared2, 0, NULL, NULL, NULL,
                                         &b.capacity));
   } else if (strcmp(name, "interface_tangent_coo") == 0) {
@@ -150,7 +152,7 @@ static void tell(void) {
   bad_struct("equilibrium", "equilibrium", &b.every.equilibrium);
   REALS("pair.x1", E.x1), REALS("pair.x2", E.x2), REALS("pair.neighbour_normals", b.neighbours);
   REALS("facet.neighbour_normals", b.neighbours);
-  bad_place("facet.n2", INT32, E.n2, COUNT(E.n2)), REALS("mass", E.mass);
+  bad_place("facet.n2", INT32, E.n2, COUNT(E.n2)), REALS("mass", E.mass), REALS("state", E.state);
   REALS("n_ab", E.w.ab), REALS("n_ac", E.w.ac), REALS("dn_ab", E.w.dab), REALS("dn_ac", E.w.dac);
   REALS("n_ab_previous", b.previous.ab), REALS("n_ac_previous", b.previous.ac);
   REALS("traction", E.traction), REALS("row_scale", E.row_scale), REALS("sum", E.sum);

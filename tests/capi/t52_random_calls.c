@@ -115,7 +115,7 @@ static void stateless(void) {
   const int size = 6 * e.pair.n1 + 3 * e.pair.n2;
 
   int32_t status;
-  switch (draw(13)) {
+  switch (draw(15)) {
     case 0:
       status = stickslip_pair_weights(ANY(&e.pair), ANY(e.w_out.ab), ANY(e.w_out.ac), ANY(e.w_out.dab), ANY(e.w_out.dac));
       break;
@@ -168,6 +168,24 @@ static void stateless(void) {
       status = stickslip_node_turn(ANY(&e.node), ANY(e.sum), (int32_t)draw(3), ANY(e.turn), ANY(e.turn + 9),
                                    ANY(e.turn + 18));
       break;
+    case 12:
+      /* A buffer may hold more than is said, and must not hold less. */
+      status = stickslip_pair_begin(ANY(&e.pair), draw(8) ? STATE_SIZE : (int64_t)draw(200), ANY(e.state_out), ANY(e.w_out.ab),
+                                    ANY(e.w_out.ac), ANY(e.gap));
+      break;
+    case 13: {
+      const int before = draw(4) > 0;
+      switch (draw(3)) {
+        case 0: status = stickslip_pair_state_gap(ANY(e.state), ANY(e.w.ab), ANY(e.w.ac), ANY(e.gap)); break;
+        case 1: status = stickslip_pair_state_residual(ANY(e.state), ANY(e.traction), ANY(e.force)); break;
+        default:
+          status = stickslip_pair_state_tangent(ANY(e.state), before ? ANY(e.w.ab) : NULL, before ? ANY(e.w.ac) : NULL,
+                                                ANY(e.traction), ANY(e.responses), ANY(e.row_scale), ANY(e.k),
+                                                draw(8) ? 36 : (int64_t)draw(36));
+          break;
+      }
+      break;
+    }
     default: status = stickslip_node_normal(ANY(e.sum), ANY(e.normal)); break;
   }
   if (succeeded(status)) {

@@ -106,6 +106,15 @@ contains
     case ('pair_tangent')
       status = stickslip_pair_tangent(e%pair, at('n_ab'), at('n_ac'), at('dn_ab'), at('dn_ac'), at('n_ab_previous'), &
           at('n_ac_previous'), e%traction, e%responses, at('row_scale'), e%k, ld)
+    case ('pair_begin')
+      status = stickslip_pair_begin(e%pair, capacity, e%state_out, at('n_ab'), at('n_ac'), at('gap'))
+    case ('pair_state_gap')
+      status = stickslip_pair_state_gap(e%state, at('n_ab_previous'), at('n_ac_previous'), e%gap)
+    case ('pair_state_residual')
+      status = stickslip_pair_state_residual(e%state, e%traction, e%force)
+    case ('pair_state_tangent')
+      status = stickslip_pair_state_tangent(e%state, at('n_ab_previous'), at('n_ac_previous'), e%traction, e%responses, &
+          at('row_scale'), e%k, ld)
     case ('facet_dual')
       status = stickslip_facet_dual(n_facet, e%x1, e%mass, at('fade'), at('areas'), at('coefficients'))
     case ('pair_dual')
@@ -298,6 +307,8 @@ contains
     shared2 = [7, 5, 1, 4]
     ! As much as is needed, where that can be asked.
     select case (name)
+    case ('pair_begin')
+      capacity = stickslip_pair_state_size()
     case ('interface_effects')
       capacity = size(o%effects)
     case ('crosspoints_find')
@@ -336,6 +347,7 @@ contains
          c_loc(e%turn(1, 1)), c_loc(e%turn(1, 2)), c_loc(e%turn(1, 3))]
     if (name == 'node_condense') p(7) = c_loc(o%scale)
     if (name == 'interface_carriers') p(17) = c_loc(h%row_numbers)
+    if (name == 'pair_begin') p([1, 2, 12]) = [c_loc(e%w_out%ab), c_loc(e%w_out%ac), c_loc(e%gap)]
     if (name == 'pair_weights') p(1:4) = [c_loc(e%w_out%ab), c_loc(e%w_out%ac), c_loc(e%w_out%dab), c_loc(e%w_out%dac)]
     if (name == 'interface_set_normals') p(8) = c_loc(normals)
   end subroutine

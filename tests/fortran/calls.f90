@@ -10,6 +10,9 @@ module calls
   implicit none
   public
 
+  ! Room for the state of a pair, twice as much as it takes.
+  integer, parameter :: STATE_SIZE = 512
+
   ! Stateless calls on two quadrilaterals.
   type element
     real(c_double) :: x1(3, 4), x2(3, 4)
@@ -21,12 +24,12 @@ module calls
     real(c_double) :: mass(16)
     type(stickslip_node) :: node
     type(stickslip_node_response) :: responses(4)
-    real(c_double) :: traction(3, 4), row_scale(4), sum(3)
+    real(c_double) :: traction(3, 4), row_scale(4), sum(3), state(STATE_SIZE)
     ! Outputs.
     type(weights) :: w_out
     real(c_double) :: gap(3, 4), force(3, 8), k(36, 36), normals(3, 4), areas(4), normal(3), row(3), block(3, 3)
     real(c_double) :: fade, dual_areas(4), coefficients(16), dual_ab(16), dual_ac(16), facet_k(36, 36)
-    real(c_double) :: normal_derivatives(3, 4, 3, 4), turn(9, 3)
+    real(c_double) :: normal_derivatives(3, 4, 3, 4), turn(9, 3), state_out(STATE_SIZE)
   end type
 
   ! Room for any tangent or pattern of the scene.
@@ -64,6 +67,7 @@ contains
     e%x2 = quad2
     e%pair = make_pair(4, e%x1, 4, e%x2)
     call pair_weights(e%pair, e%w)
+    CHECK_OK(stickslip_pair_begin(e%pair, size(e%state, kind=c_int64_t), e%state, c_null_ptr, c_null_ptr, c_null_ptr))
     e%n2 = 4
     e%facet = stickslip_facet(n1=4, n_pairs=1, x1=c_loc(e%x1), n2=c_loc(e%n2), x2=c_loc(e%x2))
     e%mass = e%w%ab
@@ -93,6 +97,7 @@ contains
     e%facet_k = UNWRITTEN
     e%normal_derivatives = UNWRITTEN
     e%turn = UNWRITTEN
+    e%state_out = UNWRITTEN
   end subroutine
 
   integer(c_int32_t) function call_weights(e) result(status)
@@ -115,6 +120,28 @@ contains
     type(element), target, intent(inout) :: e
     status = stickslip_pair_tangent(e%pair, c_loc(e%w%ab), c_loc(e%w%ac), c_loc(e%w%dab), c_loc(e%w%dac), &
         c_loc(e%w%ab), c_loc(e%w%ac), e%traction, e%responses, c_loc(e%row_scale), e%k, 36_c_int64_t)
+  end function
+
+  integer(c_int32_t) function call_begin(e) result(status)
+    type(element), target, intent(inout) :: e
+    status = stickslip_pair_begin(e%pair, size(e%state_out, kind=c_int64_t), e%state_out, c_loc(e%w_out%ab), &
+        c_loc(e%w_out%ac), c_loc(e%gap))
+  end function
+
+  integer(c_int32_t) function call_state_gap(e) result(status)
+    type(element), target, intent(inout) :: e
+    status = stickslip_pair_state_gap(e%state, c_loc(e%w%ab), c_loc(e%w%ac), e%gap)
+  end function
+
+  integer(c_int32_t) function call_state_residual(e) result(status)
+    type(element), target, intent(inout) :: e
+    status = stickslip_pair_state_residual(e%state, e%traction, e%force)
+  end function
+
+  integer(c_int32_t) function call_state_tangent(e) result(status)
+    type(element), target, intent(inout) :: e
+    status = stickslip_pair_state_tangent(e%state, c_loc(e%w%ab), c_loc(e%w%ac), e%traction, e%responses, &
+        c_loc(e%row_scale), e%k, 36_c_int64_t)
   end function
 
   ! Into the last response, of which all but the size is filled.
@@ -216,6 +243,7 @@ contains
     CHECK_UNTOUCHED(e%facet_k)
     CHECK_UNTOUCHED(e%normal_derivatives)
     CHECK_UNTOUCHED(e%turn)
+    CHECK_UNTOUCHED(e%state_out)
   end subroutine
 
   subroutine handle_fill(h)

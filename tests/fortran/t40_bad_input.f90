@@ -45,14 +45,15 @@ contains
         'pair.x1', 'pair.x2', 'pair.neighbour_normals', 'n_ab', 'n_ac', 'dn_ab', 'dn_ac', 'n_ab_previous', 'n_ac_previous', &
         'traction', 'row_scale', 'sum', 'nonmortar.coordinates', 'mortar.coordinates', 'x1', 'x2', 'lambda', 'dx1', 'dx2', &
         'sums', 'mu', 'r', 'normals', 'directions', 'imported_reals', 'scale', 'stiffness', 'rounding', 'angle', &
-        'penetration', 'facet.neighbour_normals', 'mass', 'host1'], [ &
+        'penetration', 'facet.neighbour_normals', 'mass', 'host1', 'state'], [ &
         c_loc(e%x1), c_loc(e%x2), c_loc(neighbours), c_loc(e%w%ab), c_loc(e%w%ac), c_loc(e%w%dab), c_loc(e%w%dac), &
         c_loc(previous%ab), c_loc(previous%ac), c_loc(e%traction), c_loc(e%row_scale), c_loc(e%sum), c_loc(h%s%reference1), &
         c_loc(h%s%reference2), c_loc(h%s%x1), c_loc(h%s%x2), c_loc(h%s%lambda), c_loc(dx1), c_loc(dx2), c_loc(sums), &
         c_loc(mu), c_loc(r), c_loc(normals), c_loc(directions), c_loc(imported%reals), c_loc(scale), c_loc(stiffness), &
-        c_loc(rounding), c_loc(angle), c_loc(penetration), c_loc(neighbours), c_loc(e%mass), c_loc(h%host1)], [ &
+        c_loc(rounding), c_loc(angle), c_loc(penetration), c_loc(neighbours), c_loc(e%mass), c_loc(h%host1), &
+        c_loc(e%state)], [ &
         12, 12, 12, 16, 16, size(e%w%dab), size(e%w%dac), 16, 16, 12, 4, 3, SIZE1, SIZE2, SIZE1, SIZE2, SIZE1, SIZE1, &
-        SIZE2, size(sums), NA, NA, SIZE1, 9, int(n_reals), 0, 0, 0, 0, 0, 12, 16, SIZE1])
+        SIZE2, size(sums), NA, NA, SIZE1, 9, int(n_reals), 0, 0, 0, 0, 0, 12, 16, SIZE1, STATE_SIZE])
     call places(INT64, [character(30) :: &
         'imported_integers', 'nonmortar.facet_offsets', 'mortar.facet_offsets', 'nonmortar.facet_nodes', &
         'mortar.facet_nodes', 'nonmortar.equations', 'mortar.equations', 'nonmortar.multiplier_equations', 'nodes', &

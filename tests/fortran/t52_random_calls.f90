@@ -216,7 +216,7 @@ contains
     integer(c_int32_t), intent(out) :: status
     logical :: now, moving, before
     integer(c_int64_t) :: size_of, ld
-    select case (random(13))
+    select case (random(16))
     case (0)
       status = stickslip_pair_weights(e%pair, any_pointer(c_loc(e%w_out%ab)), any_pointer(c_loc(e%w_out%ac)), &
           any_pointer(c_loc(e%w_out%dab)), any_pointer(c_loc(e%w_out%dac)))
@@ -261,6 +261,20 @@ contains
       if (.not. once_in(4)) e%sum = product_of(e%node%normal, -2d0)
       status = stickslip_node_turn(e%node, e%sum, random(3), any_pointer(c_loc(e%turn(1, 1))), &
           any_pointer(c_loc(e%turn(1, 2))), any_pointer(c_loc(e%turn(1, 3))))
+    case (12)
+      status = stickslip_pair_begin(e%pair, merge(int(random(200), c_int64_t), size(e%state_out, kind=c_int64_t), once_in(8)), &
+          e%state_out, any_pointer(c_loc(e%w_out%ab)), any_pointer(c_loc(e%w_out%ac)), any_pointer(c_loc(e%gap)))
+    case (13)
+      before = .not. once_in(4)
+      status = stickslip_pair_state_gap(e%state, given(before, c_loc(e%w%ab)), given(before, c_loc(e%w%ac)), e%gap)
+    case (14)
+      if (once_in(2)) then
+        status = stickslip_pair_state_residual(e%state, e%traction, e%force)
+      else
+        before = .not. once_in(4)
+        status = stickslip_pair_state_tangent(e%state, given(before, c_loc(e%w%ab)), given(before, c_loc(e%w%ac)), &
+            e%traction, e%responses, any_pointer(c_loc(e%row_scale)), e%k, 36_c_int64_t)
+      end if
     case default
       status = stickslip_node_normal(e%sum, e%normal)
     end select

@@ -121,6 +121,24 @@ fn c_calls(pair: &stickslip_pair) {
                 assert_eq!(status, 0);
             });
         }
+        let mut state = [0.0; 512];
+        allocates_nothing("pair_begin", || {
+            let (ab, ac, capacity) = (dab.as_mut_ptr(), dac.as_mut_ptr(), state.len() as i64);
+            assert!(stickslip_pair_state_size() <= capacity);
+            assert_eq!(stickslip_pair_begin(pair, capacity, state.as_mut_ptr(), ab, ac, gap.as_mut_ptr()), 0);
+        });
+        allocates_nothing("pair_state_gap", || {
+            assert_eq!(stickslip_pair_state_gap(state.as_ptr(), ab.as_ptr(), ac.as_ptr(), gap.as_mut_ptr()), 0);
+        });
+        allocates_nothing("pair_state_residual", || {
+            assert_eq!(stickslip_pair_state_residual(state.as_ptr(), traction.as_ptr(), force.as_mut_ptr()), 0);
+        });
+        allocates_nothing("pair_state_tangent", || {
+            let (state, t, responses) = (state.as_ptr(), traction.as_ptr(), responses.as_ptr());
+            let (scale, k) = (scale.as_ptr(), tangent.as_mut_ptr());
+            let status = stickslip_pair_state_tangent(state, ab.as_ptr(), ac.as_ptr(), t, responses, scale, k, 36);
+            assert_eq!(status, 0);
+        });
         let mass = ab;
         allocates_nothing("stickslip_facet_dual", || {
             let (fade, areas) = (row.as_mut_ptr(), areas.as_mut_ptr());
