@@ -193,9 +193,9 @@ pub unsafe extern "C" fn stickslip_interface_tangent_coo(
         let mut t = Triplets::default();
         if rows.is_null() && columns.is_null() && values.is_null() {
             let extent = if point.sums().is_some() { Extent::Part } else { Extent::Whole };
-            either!(&mut h.inner, c => c.pattern(&point.x1, &point.x2, extent, &mut t)?);
+            either!(&mut h.inner, c => c.pattern(point.x1, point.x2, extent, &mut t)?);
         } else {
-            either!(&mut h.inner, c => c.tangent(&point.x1, &point.x2, &point.lambda()?, point.sums(), &mut t)?);
+            either!(&mut h.inner, c => c.tangent(point.x1, point.x2, point.lambda()?, point.sums(), &mut t)?);
         }
         t.check()?;
         t.write(h.base, capacity, rows, columns, Some(values), count)
@@ -232,7 +232,7 @@ pub unsafe extern "C" fn stickslip_interface_tangent_csr(
         let csr = read_csr(h.base, n_rows, row_offsets, columns)?;
         raw::check(values, "values")?;
         let mut t = Triplets::default();
-        either!(&mut h.inner, c => c.tangent(&point.x1, &point.x2, &point.lambda()?, point.sums(), &mut t)?);
+        either!(&mut h.inner, c => c.tangent(point.x1, point.x2, point.lambda()?, point.sums(), &mut t)?);
         t.check()?;
         let mut places = memory::with_room(t.values.len())?;
         for (&row, &column) in t.rows.iter().zip(&t.columns) {
@@ -269,7 +269,7 @@ pub unsafe extern "C" fn stickslip_interface_pattern_coo(
         let h = handle(interface)?;
         let point = Point::positions(&h.inner, x1, x2)?;
         let mut t = Triplets::default();
-        either!(&mut h.inner, c => c.superset_pattern(&point.x1, &point.x2, &mut t)?);
+        either!(&mut h.inner, c => c.superset_pattern(point.x1, point.x2, &mut t)?);
         t.check()?;
         t.write(h.base, capacity, rows, columns, None, count)
     })

@@ -30,11 +30,16 @@ use std::time::Instant;
 impl<const N: usize> Contact<N> {
     /// Stage 1, assembled: every node's gaps and coverage.
     pub fn sums(&mut self, x1: &[Vec3], x2: &[Vec3]) -> Result<Vec<NodeSums>> {
-        self.cache.sums(&self.setup, &mut self.step, (x1, x2), Extent::Whole)
+        memory::copied(self.cache.sums(&self.setup, &mut self.step, (x1, x2), Extent::Whole)?)
     }
 
     /// This handle's share of them, of several handles whose shares a host adds up.
     pub fn share_of_sums(&mut self, x1: &[Vec3], x2: &[Vec3]) -> Result<Vec<NodeSums>> {
+        memory::copied(self.kept_share_of_sums(x1, x2)?)
+    }
+
+    /// The same, which the interface keeps.
+    pub fn kept_share_of_sums(&mut self, x1: &[Vec3], x2: &[Vec3]) -> Result<&[NodeSums]> {
         self.cache.sums(&self.setup, &mut self.step, (x1, x2), Extent::Part)
     }
 
@@ -57,9 +62,27 @@ impl<const N: usize> Contact<N> {
         lambda: &[SVector<f64, N>],
         sums: Option<&[NodeSums]>,
     ) -> Result<(Vec<NodeSums>, Vec<NodeResponse<N>>)> {
-        self.cache.respond(&self.setup, &mut self.step, (x1, x2), lambda, sums)?;
+        self.respond(x1, x2, lambda, sums)?;
+        let (sums, responses) = self.answers();
+        Ok((memory::copied(sums)?, memory::copied(responses)?))
+    }
+
+    /// The same, to be looked at by [`Contact::answers`].
+    pub fn respond(
+        &mut self,
+        x1: &[Vec3],
+        x2: &[Vec3],
+        lambda: &[SVector<f64, N>],
+        sums: Option<&[NodeSums]>,
+    ) -> Result<()> {
+        self.cache.respond(&self.setup, &mut self.step, (x1, x2), lambda, sums)
+    }
+
+    /// The sums and the law's answers where [`Contact::respond`] was called last, before anything else that changes the
+    /// interface.
+    pub fn answers(&self) -> (&[NodeSums], &[NodeResponse<N>]) {
         let answers = self.cache.answers();
-        Ok((memory::copied(&answers.sums)?, memory::copied(&answers.responses.nodes)?))
+        (&answers.sums, &answers.responses.nodes)
     }
 
     /// Multipliers for the first step.
@@ -86,9 +109,24 @@ impl<const N: usize> Contact<N> {
         lambda: &[SVector<f64, N>],
         sums: Option<&[NodeSums]>,
     ) -> Result<Residual<N>> {
-        self.cache.respond(&self.setup, &mut self.step, (x1, x2), lambda, sums)?;
-        let responses = &self.cache.answers().responses;
-        residual::residual(self.given(), self.cache.pairs(&self.step.history), lambda, &responses.nodes)
+        let r = self.kept_residual(x1, x2, lambda, sums)?;
+        let (nonmortar, mortar) = (memory::copied(&r.nonmortar)?, memory::copied(&r.mortar)?);
+        Ok(Residual { nonmortar, mortar, rows: memory::copied(&r.rows)? })
+    }
+
+    /// The same, which the interface keeps.
+    pub fn kept_residual(
+        &mut self,
+        x1: &[Vec3],
+        x2: &[Vec3],
+        lambda: &[SVector<f64, N>],
+        sums: Option<&[NodeSums]>,
+    ) -> Result<&Residual<N>> {
+        self.respond(x1, x2, lambda, sums)?;
+        let (pairs, answers, work) = self.cache.acting(&self.step.history);
+        let (given, responses) = (Given { setup: &self.setup, step: &self.step }, &answers.responses.nodes);
+        residual::refresh(given, pairs, lambda, responses, &mut work.room.vectors, &mut self.residual)?;
+        Ok(&self.residual)
     }
 
     /// The exact tangent d residual / d (x1, x2, lambda) at (x, lambda).
@@ -119,9 +157,6 @@ impl<const N: usize> Contact<N> {
         sinks: Sinks,
     ) -> Result<()> {
         let differentiates = self.setup.options.differentiates_weights();
-        if differentiates {
-            self.cache.find_segments(&self.setup, &self.step)?;
-        }
         let start = Instant::now();
         let (given, mortar, options) = (self.given(), &self.setup.mortar, &self.setup.options);
         let (normals, answers) = (given.normals()?, self.cache.answers());
@@ -143,8 +178,8 @@ impl<const N: usize> Contact<N> {
             turns: Turns::at(given, (x1, lambda), (&answers.sums, responses), &normals, scale)?,
         };
         let linearised = self.blocks(&self.union()?, &normals, extent, Some(&numbers), sinks)?;
-        self.cache.counters.pairs_linearised += linearised;
-        self.cache.counters.seconds_assembly += start.elapsed().as_secs_f64();
+        self.cache.work.counters.pairs_linearised += linearised;
+        self.cache.work.counters.seconds_assembly += start.elapsed().as_secs_f64();
         Ok(())
     }
 
@@ -193,7 +228,7 @@ impl<const N: usize> Contact<N> {
         self.cache.integrate(&self.setup, &mut self.step, (x1, x2), Extent::Whole)?;
         let weights = PairWeights::default();
         let given = Given { setup: &self.setup, step: &self.step };
-        let pairs = possible_pairs(given, self.cache.work().1, (x1, x2))?;
+        let pairs = possible_pairs(given, &mut self.cache.work.tree, (x1, x2))?;
         let any = |&(one, two)| UnionPair { one, two, now: Some(&weights), place: 0, previous: Some(&weights) };
         let all: Vec<_> = pairs.iter().map(any).stored()?;
         let normals = memory::filled(Vec3::zeros(), self.setup.nonmortar.len())?;
@@ -234,7 +269,7 @@ impl<const N: usize> Contact<N> {
         self.given().check_positions(x1, x2)?;
         normals::follow(&self.setup, &mut self.step, x1)?;
         let given = Given { setup: &self.setup, step: &self.step };
-        report::report(given, self.cache.work(), (x1, x2))
+        report::report(given, &mut self.cache.work, (x1, x2))
     }
 
     /// The diagnosis at (x, lambda). The state of the interface stays as it is.

@@ -128,7 +128,7 @@ const LEAF: usize = 4;
 const PENDING: usize = 96;
 
 /// A bounding-volume tree over boxes.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub struct Tree {
     pub(crate) boxes: Vec<Aabb>,
     pub(crate) nodes: Vec<TreeNode>,
@@ -157,14 +157,32 @@ pub struct TreeNode {
 impl Tree {
     /// The tree over `boxes`.
     pub fn new(boxes: Vec<Aabb>) -> Result<Tree> {
-        let order = (0..boxes.len()).stored()?;
-        let mut tree = Tree { nodes: Vec::new(), order, boxes: Vec::new(), branches: Vec::new() };
-        if !boxes.is_empty() {
-            tree.build(&boxes, 0, boxes.len())?;
-            tree.boxes = boxes;
-            tree.branch(0)?;
-        }
+        let mut tree = Tree { boxes, ..Tree::default() };
+        tree.grow()?;
         Ok(tree)
+    }
+
+    /// Becomes the tree over other boxes, in the memory of the one before.
+    pub fn renew(&mut self, boxes: impl Iterator<Item = Aabb>) -> Result<()> {
+        self.boxes.clear();
+        self.boxes.store_all(boxes)?;
+        self.grow()
+    }
+
+    /// Builds all that is above the boxes.
+    fn grow(&mut self) -> Result<()> {
+        self.nodes.clear();
+        self.branches.clear();
+        self.order.clear();
+        self.order.store_all(0..self.boxes.len())?;
+        if !self.boxes.is_empty() {
+            let boxes = std::mem::take(&mut self.boxes);
+            let built = self.build(&boxes, 0, boxes.len());
+            self.boxes = boxes;
+            built?;
+            self.branch(0)?;
+        }
+        Ok(())
     }
 
     /// Fills `found` with the boxes that may reach into `prism`, in ascending order; how many it compared.

@@ -2,11 +2,11 @@
 //! carry others.
 
 use super::analytic;
+use super::candidates::KeptTree;
 use super::depth;
 use super::filter::{FacetFilter, Filter, Side};
 use super::hybrid;
 use super::reach;
-use super::search::{Aabb, Tree};
 use super::weak::{self, Carrier};
 use crate::error::Result;
 use crate::geometry::Vec3;
@@ -50,13 +50,19 @@ impl Pairing {
     /// That of a history which is not of now; its positions may be refused.
     pub fn again<const N: usize>(setup: &Setup<N>, history: &History) -> Result<Pairing> {
         let current = setup.options.effective_weights() == Weights::Current;
-        let at = || filter(setup.surfaces(), &setup.options, (&history.x1, &history.x2));
+        let mut tree = KeptTree::default();
+        let at = || filter(setup.surfaces(), &setup.options, (&history.x1, &history.x2), &mut tree);
         Pairing::new(setup, current.then(at).transpose()?, history)
     }
 }
 
 /// The filter of the configuration (x1, x2).
-pub fn filter((one, two): (&Surface, &Surface), options: &Options, (x1, x2): (&[Vec3], &[Vec3])) -> Result<Filter> {
+pub fn filter(
+    (one, two): (&Surface, &Surface),
+    options: &Options,
+    (x1, x2): (&[Vec3], &[Vec3]),
+    tree: &mut KeptTree,
+) -> Result<Filter> {
     if two.analytic.is_some() {
         return analytic::facing(one, &two.analytic_at(x2)?, options, x1, 0.0).map(Filter::Analytic);
     }
@@ -68,16 +74,15 @@ pub fn filter((one, two): (&Surface, &Surface), options: &Options, (x1, x2): (&[
         reached: Vec::new(),
         by_overlaps: Vec::new(),
     };
-    let points = filter.sides[1].facets.iter().map(|(facet, _)| Aabb::around(facet.points().iter().copied()));
-    let tree = Tree::new(points.stored()?)?;
-    filter.reached = reach::reached(&filter, &tree)?;
+    let tree = tree.at(two, x2)?;
+    filter.reached = reach::reached(&filter, tree)?;
     if filter.distance.is_none() {
-        filter.depths = depth::followed((one, two), &filter, &tree, x2)?;
+        filter.depths = depth::followed((one, two), &filter, tree, x2)?;
         if !filter.depths.is_empty() {
-            filter.reached = reach::reached(&filter, &tree)?;
+            filter.reached = reach::reached(&filter, tree)?;
         }
     }
-    filter.by_overlaps = hybrid::partly_covered((one, two), options, &filter, (x1, x2))?;
+    filter.by_overlaps = hybrid::partly_covered((one, two), options, &filter, (x1, x2), tree)?;
     Ok(Filter::Facets(filter))
 }
 

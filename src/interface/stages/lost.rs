@@ -10,7 +10,7 @@ use crate::interface::data::pairs::PairRecord;
 use crate::interface::data::setup::Setup;
 use crate::interface::pairing::filter::Filter;
 use crate::law::{NodeResponse, State};
-use crate::memory;
+use crate::memory::{self, Store};
 
 /// A pair with less of a node's area carries none of its traction: the rounding of an overlap.
 const NOTHING: f64 = 1e-12;
@@ -19,20 +19,19 @@ const NOTHING: f64 = 1e-12;
 /// contact, far below a gap.
 const TOUCHES: f64 = 1e-6;
 
-/// Refuses a commit at (x1, x2) after which a closed node would have lost a pair because it is deep, or all that
-/// covers it. `before`: the pairs of now, of weights of now: frozen
-/// ones do not say what the old filter would admit here; with the nodes' areas of t_n.
+/// Refuses a commit at (x1, x2) after which a closed node would have lost a pair because it is deep, or all that covers it.
+/// `dropped`: the pairs of now that will be none, as they were integrated; of weights of now: frozen ones do not say what the
+/// old filter would admit here; with the nodes' areas of t_n.
 pub fn refuse_lost_contact<const N: usize>(
     setup: &Setup<N>,
-    (before, areas): (&Active, &[f64]),
+    (dropped, areas): (&[PairRecord], &[f64]),
     new: &Settled,
     (x1, x2): (&[Vec3], &[Vec3]),
     responses: &[NodeResponse<N>],
 ) -> Result<()> {
-    let Some(filter) = &new.filter else { return Ok(()) };
-    let after = new.active.as_ref().map_or(&new.history.pairs, |k| &k.pairs);
+    let Some(filter) = new.filter.as_ref().filter(|_| !dropped.is_empty()) else { return Ok(()) };
     let mut lost = memory::filled(0.0, setup.nonmortar.len())?;
-    for (place, pair) in missing(&before.pairs, after) {
+    for pair in dropped {
         let (low, deep) = match filter {
             Filter::Facets(filter) => {
                 let (low, high) = filter.heights(pair.one, pair.two);
@@ -42,7 +41,7 @@ pub fn refuse_lost_contact<const N: usize>(
         };
         let touches = low <= TOUCHES * setup.nonmortar.facet(pair.one, x1).longest_edge();
         for (k, &a) in setup.nonmortar.facets[pair.one].as_slice().iter().enumerate() {
-            let coverage = before.integrated(place).coverage(k);
+            let coverage = pair.weights.coverage(k);
             if !touches || coverage <= NOTHING * areas[a] || responses[a].state == State::Gap {
                 continue;
             }
@@ -75,12 +74,16 @@ fn lowest_over_surface<const N: usize>(setup: &Setup<N>, facet: usize, x1: &[Vec
     let nodes = setup.nonmortar.facets[facet].as_slice().iter();
     Ok(nodes.map(|&a| surface.distance(x1[a] - surface.origin)).fold(f64::INFINITY, f64::min))
 }
-/// Those of `before`, with their places, that are not in `after`; both are sorted by their facets.
-fn missing<'a>(before: &'a [PairRecord], after: &'a [PairRecord]) -> impl Iterator<Item = (usize, &'a PairRecord)> {
+
+/// Adds those of `before` that are not in `after`, as they were integrated, to `dropped`; both are sorted by their facets.
+pub fn find_dropped(before: &Active, after: &[PairRecord], dropped: &mut Vec<PairRecord>) -> Result<()> {
     let mut after = after.iter().peekable();
-    before.iter().enumerate().filter(move |(_, pair)| {
+    for (k, pair) in before.pairs.iter().enumerate() {
         let place = (pair.one, pair.two);
         while after.next_if(|p| (p.one, p.two) < place).is_some() {}
-        after.peek().is_none_or(|p| (p.one, p.two) != place)
-    })
+        if after.peek().is_none_or(|p| (p.one, p.two) != place) {
+            dropped.store(PairRecord { weights: *before.integrated(k), ..*pair })?;
+        }
+    }
+    Ok(())
 }
