@@ -53,8 +53,16 @@ const SPARE: usize = 16;
 /// as much, as vectors take of themselves, would stay.
 #[inline]
 pub fn grow<T>(v: &mut Vec<T>, more: usize) -> Result<()> {
+    grow_to(v, more, 0)
+}
+
+/// The same of a vector that will probably have this length in the end: it takes up to twice as much on the way there, so that
+/// what it holds is not copied again and again.
+#[inline]
+pub fn grow_to<T>(v: &mut Vec<T>, more: usize, length: usize) -> Result<()> {
     if v.capacity() - v.len() < more {
-        v.try_reserve_exact(more.max(v.len() / SPARE))?;
+        let to_length = length.saturating_sub(v.len()).min(v.len());
+        v.try_reserve_exact(more.max(v.len() / SPARE).max(to_length))?;
     }
     Ok(())
 }

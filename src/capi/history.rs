@@ -16,7 +16,8 @@ use crate::error::{Error, Kind};
 /// has moved.
 /// Cost: as `stickslip_interface_states`, then O(n1 + n2) for what the next step needs. Of facets between which there can be
 /// contact in the next step alone the weights are integrated; with WEIGHTS_COMMITTED, an analytic mortar side or
-/// STICKSLIP_INTEGRATION_HYBRID all are, after one search (WEIGHTS_REFERENCE: none). Allocates. The history before it is kept, for `stickslip_interface_rollback`.
+/// STICKSLIP_INTEGRATION_HYBRID all are, after one search (WEIGHTS_REFERENCE: none). Allocates. The history before it is
+/// kept, for `stickslip_interface_rollback`.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn stickslip_interface_commit(
     interface: *mut stickslip_interface,

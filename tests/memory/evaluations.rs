@@ -13,6 +13,9 @@ const FIRST: usize = 2;
 /// Histories that take turns: that of t_n, the one before it for a rollback, and memory for the next one. All of them have
 /// served once after so many commits.
 const HISTORIES: usize = 4;
+/// Vectors of a commit: 10 of the filter's two sides, 6 of what each facet reaches, 12 of depths, the rest of normals, nodes and
+/// growth.
+const MOST_VECTORS: usize = 64;
 /// Bytes of a handle per non-mortar facet before any commit, of 4.4 pairs a facet, with friction.
 const MOST_BYTES: f64 = 8000.0;
 
@@ -129,11 +132,14 @@ impl Host {
         ALLOCATIONS.get() - before
     }
 
-    fn commit(&self) {
+    /// Allocations of a commit at the positions of now.
+    fn commit(&self) -> usize {
+        let before = ALLOCATIONS.get();
         let [x1, x2] = self.x.each_ref().map(|x| x.as_ptr());
         // SAFETY: all arrays are as long as the interface needs.
         let status = unsafe { stickslip_interface_commit(self.handle, x1, x2, self.lambda.as_ptr(), null()) };
         assert_eq!(status, 0);
+        ALLOCATIONS.get() - before
     }
 
     fn bytes(&self) -> f64 {
@@ -199,6 +205,25 @@ fn evaluations_between_commits_take_no_memory() {
             if round % 2 == 1 {
                 host.commit();
             }
+        }
+    });
+}
+
+/// What a commit settles anew (the filter of the step that follows, which nodes can be covered) has memory of its own: so many
+/// vectors, some of which double as they grow, however large the surfaces are. Where weakly covered nodes are carried, each node
+/// has a list of its own besides.
+#[test]
+fn a_commit_takes_a_number_of_vectors_that_does_not_grow_with_the_surfaces() {
+    each_kind(|what, set| {
+        let mut host = Host::new(16, 18, |options| {
+            set(options);
+            options.weak_coverage = STICKSLIP_WEAK_COVERAGE_NONE;
+        });
+        for round in 0..2 * HISTORIES {
+            host.move_to(round);
+            host.evaluate();
+            let count = host.commit();
+            assert!(round < HISTORIES || count <= MOST_VECTORS, "{what}: {count} allocations of a commit");
         }
     });
 }

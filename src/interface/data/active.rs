@@ -45,10 +45,10 @@ impl Active {
         self.knows_excluded = false;
     }
 
-    /// Room for so many pairs more.
-    pub fn grow(&mut self, pairs: usize) -> Result<()> {
-        memory::grow(&mut self.pairs, pairs)?;
-        memory::grow(&mut self.areas, pairs)
+    /// Room for so many pairs more, of which there will probably be so many in all.
+    pub fn grow(&mut self, pairs: usize, all: usize) -> Result<()> {
+        memory::grow_to(&mut self.pairs, pairs, all)?;
+        memory::grow_to(&mut self.areas, pairs, all)
     }
 
     /// Adds a pair with the area of its overlap.
@@ -60,6 +60,19 @@ impl Active {
     /// The integrated weights of the pair in this place, whatever the multipliers' basis makes of them.
     pub fn integrated(&self, place: usize) -> &PairWeights {
         self.integrated.get(place).unwrap_or(&self.pairs[place].weights)
+    }
+
+    /// Adds those that are not in `after`, as they were integrated, to `dropped`; both are sorted by their facets.
+    pub fn find_dropped(&self, after: &[PairRecord], dropped: &mut Vec<PairRecord>) -> Result<()> {
+        let mut after = after.iter().peekable();
+        for (k, pair) in self.pairs.iter().enumerate() {
+            let place = (pair.one, pair.two);
+            while after.next_if(|p| (p.one, p.two) < place).is_some() {}
+            if after.peek().is_none_or(|p| (p.one, p.two) != place) {
+                dropped.store(PairRecord { weights: *self.integrated(k), ..*pair })?;
+            }
+        }
+        Ok(())
     }
 
     /// Whether it is that of these positions.

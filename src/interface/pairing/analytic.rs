@@ -4,7 +4,7 @@
 //! follows from the weights (gaps, forces, slip, history) is as for two facets.
 
 use super::filter::least_opposition;
-use super::work::Work;
+use super::work::{Following, Work};
 use crate::error::Result;
 use crate::geometry::{AnalyticSurface, Facet, Plane, Vec3};
 use crate::interface::data::active::Active;
@@ -12,7 +12,7 @@ use crate::interface::data::options::Options;
 use crate::interface::data::pairs::PairRecord;
 use crate::interface::data::surface::{Surface, at_facet};
 use crate::memory::{self, Store, Stored};
-use crate::mortar::{NonmortarFrame, Segment, analytic_weights};
+use crate::mortar::analytic_weights;
 use std::time::Instant;
 
 /// Per non-mortar facet, whether it faces the surface: opposing normals at its centre, and distances between a
@@ -71,8 +71,7 @@ pub fn facing_now<'a>(
     }
 }
 
-/// Adds the weights of all facets that face the surface, at (x1, x2), to an empty `active`. `following`: see
-/// `stages/integrate.rs`.
+/// Adds the weights of all facets that face the surface, at (x1, x2), to an empty `active`.
 pub fn integrate(
     (one, two): (&Surface, &Surface),
     options: &Options,
@@ -80,7 +79,7 @@ pub fn integrate(
     Work { counters, .. }: &mut Work,
     (x1, x2): (&[Vec3], &[Vec3]),
     active: &mut Active,
-    mut following: Option<&mut dyn FnMut(&mut Active, usize, (&NonmortarFrame, &[Segment])) -> Result<()>>,
+    mut following: Following,
 ) -> Result<()> {
     let start = Instant::now();
     one.plane_normals(x1, &mut active.normals)?;

@@ -1,6 +1,7 @@
 //! What searches and integrations work with, in memory that is kept from one to the next.
 
 use super::candidates::KeptTree;
+use crate::error::Result;
 use crate::geometry::Vec3;
 use crate::interface::data::active::Active;
 use crate::interface::data::counters::Counters;
@@ -10,6 +11,9 @@ use crate::mortar::{NonmortarFrame, Segment};
 /// Facets that are searched for and then integrated in a row: their frames, 0.7 kB each, stay in the processor's second
 /// cache, and what is done once a row counts for nothing. Rows do not know of each other.
 pub const ROW: usize = 32;
+
+/// What follows at once for a facet, while its overlaps are there: given the place of its first pair. `None`: nothing does.
+pub type Following<'a> = Option<&'a mut dyn FnMut(&mut Active, usize, (&NonmortarFrame, &[Segment])) -> Result<()>>;
 
 /// What searches and integrations work with.
 #[derive(Debug, Default)]

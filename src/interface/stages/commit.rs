@@ -4,7 +4,6 @@ use super::acting::acting;
 use super::apart;
 use super::keep::keep;
 use super::layers;
-use super::lost::find_dropped;
 use super::sums::assemble;
 use crate::error::{Error, Kind, Result};
 use crate::geometry::Vec3;
@@ -60,7 +59,7 @@ pub fn settled_at(
     if leaves_out && apart::are_apart(surfaces, options, &filter, &[(x1, x2)])? {
         work.counters.commits_apart += 1;
         if found_by.is_some() {
-            find_dropped(active, &[], &mut work.room.dropped)?;
+            active.find_dropped(&[], &mut work.room.dropped)?;
         }
         active.clear();
     } else {
@@ -73,7 +72,7 @@ pub fn settled_at(
                 let mut anew = std::mem::take(&mut work.room.anew);
                 acting(surfaces, options, &filter, work, (x1, x2), &mut anew)?;
                 if found_by.is_some() {
-                    find_dropped(active, &anew.pairs, &mut work.room.dropped)?;
+                    active.find_dropped(&anew.pairs, &mut work.room.dropped)?;
                 }
                 std::mem::swap(active, &mut anew);
                 if found_by.is_some() {

@@ -14,13 +14,10 @@ use crate::interface::pairing::analytic;
 use crate::interface::pairing::candidates::{Search, by_points};
 use crate::interface::pairing::filter::{FacetFilter, Filter};
 use crate::interface::pairing::overlaps::overlap;
-use crate::interface::pairing::work::{ROW, Work};
+use crate::interface::pairing::work::{Following, ROW, Work};
 use crate::memory::{self, Store};
-use crate::mortar::{NonmortarFrame, PairWeights, Segment};
+use crate::mortar::PairWeights;
 use std::time::Instant;
-
-/// What follows at once for a facet, while its overlaps are there: given the place of its first pair. `None`: nothing does.
-pub type Following<'a> = Option<&'a mut dyn FnMut(&mut Active, usize, (&NonmortarFrame, &[Segment])) -> Result<()>>;
 
 /// Weights of all active pairs at (x1, x2), with the filter of another or the same configuration, in the memory of `active`.
 /// What is there after a refusal means nothing.
@@ -68,7 +65,9 @@ fn by_facets(
         counters.seconds_search += (searched - start).as_secs_f64();
         start = searched;
 
-        active.grow(room.candidates.len())?;
+        // As many a facet as so far.
+        let all = (active.pairs.len() * one.facets.len()).checked_div(first).unwrap_or(0);
+        active.grow(room.candidates.len(), all)?;
         for candidates in room.candidates.chunk_by(|p, q| p.0 == q.0) {
             let (i, place) = (candidates[0].0, active.pairs.len());
             let (frame, line) = (&room.frames[i - first], by_points(options, filter, i));

@@ -92,7 +92,7 @@ pub fn keep(
 /// Puts pairs in their places among those that there are; both are sorted.
 fn insert(active: &mut Active, added: &[(PairRecord, f64)], is_dual: bool) -> Result<()> {
     let mut from = active.pairs.len();
-    active.grow(added.len())?;
+    active.grow(added.len(), 0)?;
     for (pair, area) in added {
         active.add(*pair, *area)?;
     }

@@ -5,12 +5,11 @@
 use super::commit::Settled;
 use crate::error::{Error, Kind, Result};
 use crate::geometry::Vec3;
-use crate::interface::data::active::Active;
 use crate::interface::data::pairs::PairRecord;
 use crate::interface::data::setup::Setup;
 use crate::interface::pairing::filter::Filter;
 use crate::law::{NodeResponse, State};
-use crate::memory::{self, Store};
+use crate::memory;
 
 /// A pair with less of a node's area carries none of its traction: the rounding of an overlap.
 const NOTHING: f64 = 1e-12;
@@ -73,17 +72,4 @@ fn lowest_over_surface<const N: usize>(setup: &Setup<N>, facet: usize, x1: &[Vec
     let surface = setup.mortar.analytic_at(x2)?;
     let nodes = setup.nonmortar.facets[facet].as_slice().iter();
     Ok(nodes.map(|&a| surface.distance(x1[a] - surface.origin)).fold(f64::INFINITY, f64::min))
-}
-
-/// Adds those of `before` that are not in `after`, as they were integrated, to `dropped`; both are sorted by their facets.
-pub fn find_dropped(before: &Active, after: &[PairRecord], dropped: &mut Vec<PairRecord>) -> Result<()> {
-    let mut after = after.iter().peekable();
-    for (k, pair) in before.pairs.iter().enumerate() {
-        let place = (pair.one, pair.two);
-        while after.next_if(|p| (p.one, p.two) < place).is_some() {}
-        if after.peek().is_none_or(|p| (p.one, p.two) != place) {
-            dropped.store(PairRecord { weights: *before.integrated(k), ..*pair })?;
-        }
-    }
-    Ok(())
 }
