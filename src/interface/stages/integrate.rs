@@ -56,10 +56,9 @@ fn by_facets(
         room.frames.clear();
         room.candidates.clear();
         for f in first..one.facets.len().min(first + ROW) {
-            let frame = one.frame(f, x1, &active.normals)?;
-            let excluded = Some(&mut active.excluded);
-            counters.boxes_visited += search.of_facet((f, &frame), &mut room.found, &mut room.candidates, excluded)?;
-            room.frames.store(frame)?;
+            room.frames.store(one.frame(f, x1, &active.normals)?)?;
+            let (frame, excluded) = (&room.frames[f - first], Some(&mut active.excluded));
+            counters.boxes_visited += search.of_facet((f, frame), &mut room.found, &mut room.candidates, excluded)?;
         }
         let searched = Instant::now();
         counters.seconds_search += (searched - start).as_secs_f64();
@@ -74,14 +73,16 @@ fn by_facets(
             room.segments.clear();
             memory::grow(&mut room.segments, if following.is_some() { candidates.len() } else { 0 })?;
             for &(_, j) in candidates {
+                // Large: looked at where it is, and kept only where something follows.
                 let found = overlap(frame, &two.facet(j, x2), line);
-                let Some(segment) = found.map_err(|e| at_facet(one.side, i)(at_facet(two.side, j)(e)))? else {
-                    continue;
+                let segment = match &found {
+                    Ok(Some(segment)) => segment,
+                    Ok(None) => continue,
+                    Err(_) => return found.map(|_| ()).map_err(|e| at_facet(one.side, i)(at_facet(two.side, j)(e))),
                 };
-                let weights = PairWeights::integrate(frame, &segment, options.rule);
+                let weights = PairWeights::integrate(frame, segment, options.rule);
                 active.add(PairRecord { one: i, two: j, weights }, segment.area)?;
-                // Large: kept only where something follows.
-                if following.is_some() {
+                if let (true, Ok(Some(segment))) = (following.is_some(), found) {
                     room.segments.store(segment)?;
                 }
             }
