@@ -1102,7 +1102,8 @@ int32_t stickslip_interface_initial_multipliers(struct stickslip_interface *inte
 /// layers at t_n, and was not looked at because the surfaces were apart then); with an analytic mortar side also
 /// INVALID_VALUE (x2 is no rigid motion of the first frame) and UNDEFINED_NORMAL (a facet reaches its centre or axis).
 /// Cost: at other positions than those of the last evaluation one search and one integration (frozen weights:
-/// none), then O(pairs); allocates.
+/// none), then O(pairs). Allocates what the handle has not had before: from the third call on, as long as about as many
+/// facets meet, nothing.
 int32_t stickslip_interface_sums(struct stickslip_interface *interface,
                                  const double *x1,
                                  const double *x2,
@@ -1476,8 +1477,10 @@ int32_t stickslip_interface_step_limit(struct stickslip_interface *interface,
 /// mortar surface in layers, an analytic surface's frame), TURNED_TOO_FAR (by more than options.turn_max since the last commit),
 /// CONTACT_LOST (a closed node would lose a pair that is deeper than one may be, or all that covers it); then nothing
 /// has moved.
-/// Cost: as `stickslip_interface_states`, then one search and one integration (WEIGHTS_REFERENCE: none);
-/// allocates. The history before it is kept, for `stickslip_interface_rollback`.
+/// Cost: as `stickslip_interface_states`, then O(n1 + n2) for what the next step needs. Of facets between which there can be
+/// contact in the next step alone the weights are integrated; with WEIGHTS_COMMITTED, an analytic mortar side or
+/// STICKSLIP_INTEGRATION_HYBRID all are, after one search (WEIGHTS_REFERENCE: none). Allocates. The history before it is
+/// kept, for `stickslip_interface_rollback`.
 int32_t stickslip_interface_commit(struct stickslip_interface *interface,
                                    const double *x1,
                                    const double *x2,

@@ -37,6 +37,36 @@ pub fn refill<T: Copy>(v: &mut Vec<T>, value: T, n: usize) -> Result<()> {
     Ok(())
 }
 
+/// A copy of some values, in place of what was there.
+pub fn recopy<T: Copy>(v: &mut Vec<T>, values: &[T]) -> Result<()> {
+    v.clear();
+    v.try_reserve_exact(values.len())?;
+    v.extend_from_slice(values);
+    Ok(())
+}
+
+/// What a vector that grows piece by piece takes more than it needs, over its length: little, for such vectors are kept, and
+/// enough that the next surface of about as many pieces finds room.
+const SPARE: usize = 16;
+
+/// Room for `more` values in a vector that is kept. Where there is none it takes a small part of its length beyond them: twice
+/// as much, as vectors take of themselves, would stay.
+#[inline]
+pub fn grow<T>(v: &mut Vec<T>, more: usize) -> Result<()> {
+    grow_to(v, more, 0)
+}
+
+/// The same of a vector that will probably have this length in the end: it takes up to twice as much on the way there, so that
+/// what it holds is not copied again and again.
+#[inline]
+pub fn grow_to<T>(v: &mut Vec<T>, more: usize, length: usize) -> Result<()> {
+    if v.capacity() - v.len() < more {
+        let to_length = length.saturating_sub(v.len()).min(v.len());
+        v.try_reserve_exact(more.max(v.len() / SPARE).max(to_length))?;
+    }
+    Ok(())
+}
+
 /// `n` times the default value.
 pub fn defaults<T: Default>(n: usize) -> Result<Vec<T>> {
     (0..n).map(|_| T::default()).stored()

@@ -6,8 +6,8 @@ use super::point::Point;
 use super::raw;
 use super::sized::{self, Sized64};
 use crate::error::Result;
+use crate::geometry::Vec3;
 use crate::interface::{Contact, NodeSums};
-use crate::memory::{self, Stored};
 
 /// Stage 1, assembled: this handle's share of every node's coverage and gaps. A parallel host whose
 /// handles hold the whole non-mortar surface and disjoint mortar facets adds them over its ranks and
@@ -27,7 +27,8 @@ use crate::memory::{self, Stored};
 /// layers at t_n, and was not looked at because the surfaces were apart then); with an analytic mortar side also
 /// INVALID_VALUE (x2 is no rigid motion of the first frame) and UNDEFINED_NORMAL (a facet reaches its centre or axis).
 /// Cost: at other positions than those of the last evaluation one search and one integration (frozen weights:
-/// none), then O(pairs); allocates.
+/// none), then O(pairs). Allocates what the handle has not had before: from the third call on, as long as about as many
+/// facets meet, nothing.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn stickslip_interface_sums(
     interface: *mut stickslip_interface,
@@ -39,7 +40,7 @@ pub unsafe extern "C" fn stickslip_interface_sums(
         let h = handle(interface)?;
         let point = Point::positions(&h.inner, x1, x2)?;
         raw::check(sums, "sums")?;
-        let values = either!(&mut h.inner, c => c.share_of_sums(&point.x1, &point.x2)?);
+        let values = either!(&mut h.inner, c => c.kept_share_of_sums(point.x1, point.x2)?);
         let per_node = |s: &NodeSums| {
             let (g, p, c) = (s.gap_now, s.gap_previous, s.gap_committed);
             [s.coverage, g.x, g.y, g.z, s.coverage_previous, p.x, p.y, p.z, c.x, c.y, c.z]
@@ -122,29 +123,46 @@ pub unsafe extern "C" fn stickslip_interface_states(
 }
 
 fn write_states<const N: usize>(c: &mut Contact<N>, point: &Point, out: &stickslip_states) -> Result<()> {
-    let (sums, responses) = c.evaluate(&point.x1, &point.x2, &point.lambda()?, point.sums())?;
+    c.respond(point.x1, point.x2, point.lambda()?, point.sums())?;
+    let (sums, responses) = c.answers();
+    for a in 0..responses.len() {
+        c.normal(a)?;
+    }
     let nodes = || responses.iter().enumerate();
-    let normals = (0..responses.len()).map(|a| c.normal(a)).stored_if_ok()?;
-    let slip: Vec<_> = nodes().map(|(a, r)| c.slip_after(a, r, sums[a].coverage_previous)).stored()?;
-    let traction: Vec<_> = responses.iter().map(|r| r.traction).stored()?;
-    let numbers: [(_, &str, Vec<f64>); 8] = [
-        (out.normal, "normal", flat(&normals).stored()?),
-        (out.traction, "traction", flat(&traction).stored()?),
-        (out.gap, "gap", nodes().map(|(_, r)| r.gap_normal).stored()?),
-        (out.slip, "slip", flat(&slip).stored()?),
-        (out.coverage, "coverage", sums.iter().map(|s| s.coverage).stored()?),
-        (out.area, "area", memory::copied(&c.history().areas)?),
-        (out.dissipation, "dissipation", nodes().map(|(_, r)| r.traction.dot(&r.slip)).stored()?),
-        (out.augmentation, "augmentation", nodes().map(|(a, _)| c.augmentation(a)).stored()?),
-    ];
-    for (_, name, values) in &numbers {
-        raw::check_results(name, values)?;
-    }
-    raw::write_each(out.state, nodes().map(|(_, r)| r.state as i32));
-    for (to, _, values) in numbers {
-        raw::write_each(to, values.into_iter());
-    }
+    let normals = || (0..responses.len()).filter_map(|a| c.normal(a).ok()).flat_map(components);
+    let slip = || nodes().map(|(a, r)| c.slip_after(a, r, sums[a].coverage_previous)).flat_map(components);
+    let traction = || responses.iter().flat_map(|r| components(r.traction));
+    let gap = || responses.iter().map(|r| r.gap_normal);
+    let coverage = || sums.iter().map(|s| s.coverage);
+    let area = || c.history().areas.iter().copied();
+    let dissipation = || responses.iter().map(|r| r.traction.dot(&r.slip));
+    let augmentation = || (0..responses.len()).map(|a| c.augmentation(a));
+    check("normal", normals())?;
+    check("traction", traction())?;
+    check("gap", gap())?;
+    check("slip", slip())?;
+    check("coverage", coverage())?;
+    check("area", area())?;
+    check("dissipation", dissipation())?;
+    check("augmentation", augmentation())?;
+    raw::write_each(out.state, responses.iter().map(|r| r.state as i32));
+    raw::write_each(out.normal, normals());
+    raw::write_each(out.traction, traction());
+    raw::write_each(out.gap, gap());
+    raw::write_each(out.slip, slip());
+    raw::write_each(out.coverage, coverage());
+    raw::write_each(out.area, area());
+    raw::write_each(out.dissipation, dissipation());
+    raw::write_each(out.augmentation, augmentation());
     Ok(())
+}
+
+fn components(v: Vec3) -> [f64; 3] {
+    v.into()
+}
+
+fn check(name: &str, mut values: impl Iterator<Item = f64>) -> Result<()> {
+    if values.all(|v| v.is_finite()) { Ok(()) } else { raw::check_results(name, &[f64::INFINITY]) }
 }
 
 /// Residual in internal-force sign: what to ADD to the host's internal forces. The force ON the
@@ -177,7 +195,7 @@ pub unsafe extern "C" fn stickslip_interface_residual(
         raw::check(force2, "force2")?;
         raw::check(rows, "rows")?;
         either!(h, c => {
-            let r = c.residual(&point.x1, &point.x2, &point.lambda()?, point.sums())?;
+            let r = c.kept_residual(point.x1, point.x2, point.lambda()?, point.sums())?;
             let all = r.nonmortar.iter().chain(&r.mortar).flat_map(|v| v.iter());
             raw::check_results("force1, force2, rows", all.chain(r.rows.iter().flat_map(|v| v.iter())))?;
             raw::write_each(force1, flat(&r.nonmortar));

@@ -14,8 +14,10 @@ use crate::error::{Error, Kind};
 /// mortar surface in layers, an analytic surface's frame), TURNED_TOO_FAR (by more than options.turn_max since the last commit),
 /// CONTACT_LOST (a closed node would lose a pair that is deeper than one may be, or all that covers it); then nothing
 /// has moved.
-/// Cost: as `stickslip_interface_states`, then one search and one integration (WEIGHTS_REFERENCE: none);
-/// allocates. The history before it is kept, for `stickslip_interface_rollback`.
+/// Cost: as `stickslip_interface_states`, then O(n1 + n2) for what the next step needs. Of facets between which there can be
+/// contact in the next step alone the weights are integrated; with WEIGHTS_COMMITTED, an analytic mortar side or
+/// STICKSLIP_INTEGRATION_HYBRID all are, after one search (WEIGHTS_REFERENCE: none). Allocates. The history before it is
+/// kept, for `stickslip_interface_rollback`.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn stickslip_interface_commit(
     interface: *mut stickslip_interface,
@@ -27,7 +29,7 @@ pub unsafe extern "C" fn stickslip_interface_commit(
     guard(|| {
         let h = &mut handle(interface)?.inner;
         let point = Point::read(h, x1, x2, lambda, sums)?;
-        either!(h, c => c.commit(&point.x1, &point.x2, &point.lambda()?, point.sums()))
+        either!(h, c => c.commit(point.x1, point.x2, point.lambda()?, point.sums()))
     })
 }
 

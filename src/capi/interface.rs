@@ -202,7 +202,7 @@ pub unsafe extern "C" fn stickslip_interface_set_previous(
     guard(|| {
         let h = handle(interface)?;
         let point = Point::positions(&h.inner, x1, x2)?;
-        either!(&mut h.inner, c => c.set_previous(&point.x1, &point.x2))
+        either!(&mut h.inner, c => c.set_previous(point.x1, point.x2))
     })
 }
 

@@ -9,6 +9,7 @@ use crate::geometry::Vec3;
 use crate::memory::{self, Store, Stored};
 use crate::simd;
 use libc::c_char;
+use nalgebra::SVector;
 use std::fmt::{self, Display};
 use std::mem::MaybeUninit;
 
@@ -119,6 +120,14 @@ pub(super) fn values<'a>(p: *mut f64, n: usize, name: &str) -> Result<&'a mut [f
 /// Numbers as points.
 pub(super) fn vectors(values: &[f64]) -> Result<Vec<Vec3>> {
     values.chunks_exact(3).map(Vec3::from_column_slice).stored()
+}
+
+/// The same in their place.
+pub(super) fn as_vectors<const N: usize>(values: &[f64]) -> &[SVector<f64, N>] {
+    const { assert!(size_of::<SVector<f64, N>>() == N * size_of::<f64>()) }
+    const { assert!(align_of::<SVector<f64, N>>() == align_of::<f64>()) }
+    // SAFETY: a vector is its components, one after the other, of as many bytes and the same alignment; any numbers are one.
+    unsafe { std::slice::from_raw_parts(values.as_ptr().cast(), values.len() / N) }
 }
 
 /// Copies `values` to `p`; nothing where `p` is null.

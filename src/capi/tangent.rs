@@ -192,13 +192,13 @@ pub unsafe extern "C" fn stickslip_interface_tangent_coo(
             raw::check(columns, "columns")?;
             raw::check(values, "values")?;
         }
-        let (at, sums) = ((&point.x1[..], &point.x2[..]), point.sums());
+        let (at, sums) = ((point.x1, point.x2), point.sums());
         let base = h.base;
         either!(&mut h.inner, c => {
             let n = c.plan_here(at, Extent::of(sums))?.0.len();
             if !counting {
                 raw::room(capacity, n, "the entries")?;
-                c.values_here(at, &point.lambda()?, sums, raw::values(values, n, "values")?)?;
+                c.values_here(at, point.lambda()?, sums, raw::values(values, n, "values")?)?;
                 let (plan, of) = c.plan_here(at, Extent::of(sums))?;
                 write_coo(plan, of, base, rows, columns)?;
             }
@@ -237,10 +237,10 @@ pub unsafe extern "C" fn stickslip_interface_tangent_csr(
         let point = Point::read(&h.inner, x1, x2, lambda, sums)?;
         let csr = read_csr(h.base, n_rows, row_offsets, columns)?;
         raw::check(values, "values")?;
-        let (at, sums) = ((&point.x1[..], &point.x2[..]), point.sums());
+        let (at, sums) = ((point.x1, point.x2), point.sums());
         either!(&mut h.inner, c => {
             let mut entries = memory::filled(0.0, c.plan_here(at, Extent::of(sums))?.0.len())?;
-            c.values_here(at, &point.lambda()?, sums, &mut entries)?;
+            c.values_here(at, point.lambda()?, sums, &mut entries)?;
             let (plan, of) = c.plan_here(at, Extent::of(sums))?;
             let (mut places, (equations, _)) = (memory::with_room(entries.len())?, plan.rows());
             let mut row = equations.iter();
@@ -287,7 +287,7 @@ pub unsafe extern "C" fn stickslip_interface_pattern_coo(
         }
         let base = h.base;
         either!(&mut h.inner, c => {
-            let (plan, of) = c.possible_plan((&point.x1, &point.x2))?;
+            let (plan, of) = c.possible_plan((point.x1, point.x2))?;
             if !counting {
                 raw::room(capacity, plan.len(), "the entries")?;
                 write_coo(plan, of, base, rows, columns)?;

@@ -1,15 +1,16 @@
 //! Each stage called by itself, without a handle: two facets, a quad of 1 x 1 that has sunk 0.001 into a larger one below.
 
-use super::data::counters::Counters;
+use super::data::active::Active;
 use super::data::effects::Effects;
 use super::data::extent::{Extent, Scope};
+use super::data::history::History;
 use super::data::options::{Options, Stiffness};
 use super::data::pairs::PairRecord;
 use super::data::setup::Setup;
 use super::data::surface::{NO_EQUATION, Surface};
-use super::pairing::candidates::KeptTree;
 use super::pairing::given::{Given, Step};
 use super::pairing::settle::Pairing;
+use super::pairing::work::Work;
 use super::plan::numbering::{Nodes, Numbering};
 use super::plan::pattern::System;
 use super::plan::whole::Plan;
@@ -17,7 +18,7 @@ use super::stages::commit;
 use super::stages::initial::initial_multipliers;
 use super::stages::integrate::integrate;
 use super::stages::residual::residual;
-use super::stages::respond::respond;
+use super::stages::respond::{Responses, respond};
 use super::stages::sums::{NodeSums, sums};
 use super::tangent::blocks::{Room, Task, blocks};
 use super::tangent::by_equations::ByEquations;
@@ -44,10 +45,11 @@ fn setup() -> Setup<3> {
 
 fn step(setup: &Setup<3>) -> Step {
     let at = (&setup.nonmortar.reference[..], &setup.mortar.reference[..]);
-    let work = (&mut Counters::default(), &mut KeptTree::default());
-    let start = commit::settled_at(setup.surfaces(), &setup.options, Extent::Whole, work, at).unwrap();
+    let (work, active) = (&mut Work::default(), &mut Active::default());
+    let (known, history) = (commit::Known { active, filter: None }, History::empty());
+    let start = commit::settled_at(setup.surfaces(), &setup.options, Extent::Whole, work, at, known, history).unwrap();
     let pairing = Pairing::new(setup, start.filter, &start.history).unwrap();
-    Step { history: start.history, pairing, normals: Default::default(), now: None }
+    Step { history: start.history, pairing, normals: Default::default(), now: None, room: Default::default() }
 }
 
 #[test]
@@ -59,20 +61,23 @@ fn an_evaluation_stage_by_stage() {
     assert!(step.pairing.coverable == [true; 4] && step.pairing.carriers.is_empty());
 
     let filter = step.pairing.filter.as_ref().unwrap();
-    let work = (&mut Counters::default(), &mut KeptTree::default());
-    let active = integrate(setup.surfaces(), &setup.options, filter, work, x).unwrap();
+    let (work, mut active) = (&mut Work::default(), Active::default());
+    integrate(setup.surfaces(), &setup.options, filter, work, x, &mut active, None).unwrap();
     assert_eq!(active.pairs.iter().map(|p| (p.one, p.two)).collect::<Vec<_>>(), [(0, 0)]);
     let area: f64 = (0..4).map(|a| active.pairs[0].weights.coverage(a)).sum();
     assert!((area - 1.0).abs() < ROUNDING, "{area}");
 
-    let sums = sums(given, Some(&active), true, x).unwrap();
+    let mut all = Vec::new();
+    sums(given, Some(&active), true, x, &mut all).unwrap();
+    let sums = all;
     for sum in &sums {
         assert!((sum.coverage - 0.25).abs() < ROUNDING && (sum.gap_now.z + 0.25 * DEPTH).abs() < ROUNDING, "{sum:?}");
     }
 
     let lambda = initial_multipliers(given, &sums).unwrap();
     let scope = Scope { extent: Extent::Whole, apart: false };
-    let responses = respond(given, &lambda, &sums, scope).unwrap();
+    let mut responses = Responses::default();
+    respond(given, &lambda, &sums, scope, &mut responses).unwrap();
     assert!(responses.nodes.iter().all(|r| r.state == State::Stick) && responses.counts.frictional == 4);
 
     let forces = residual(given, &active.pairs, &lambda, &responses.nodes).unwrap();
@@ -100,7 +105,8 @@ fn what_nothing_covers_is_answered_without_the_law() {
     let given = Given { setup: &setup, step: &step };
     let lambda = [Vec3::new(0.0, 0.0, -2.0); 4];
     let scope = Scope { extent: Extent::Whole, apart: true };
-    let responses = respond(given, &lambda, &[NodeSums::default(); 4], scope).unwrap();
+    let mut responses = Responses::default();
+    respond(given, &lambda, &[NodeSums::default(); 4], scope, &mut responses).unwrap();
     assert_eq!(responses.counts.left_out, 4);
     let row = Vec3::new(0.0, 0.0, 2.0 / given.augmentation(0));
     assert!(responses.nodes.iter().all(|r| r.state == State::Gap && r.row == row));

@@ -1,8 +1,8 @@
 //! What evaluations leave for the next one at the same positions: the pairs of now, the nodes' sums, the law's answers, the
-//! search tree. A host asks for residual and tangent of one point, and both need the same.
+//! search tree. A host asks for residual and tangent of one point, and both need the same. Its memory serves all evaluations:
+//! what does not hold any more is room.
 
 use super::data::active::Active;
-use super::data::counters::Counters;
 use super::data::extent::{Extent, Scope};
 use super::data::history::History;
 use super::data::node_data::check_length;
@@ -11,14 +11,12 @@ use super::data::pairs::PairRecord;
 use super::data::setup::Setup;
 use super::data::surface::are_same;
 use super::inspect::bytes;
-use super::pairing::candidates::KeptTree;
-use super::pairing::filter::Filter;
 use super::pairing::given::{Given, Step, check_finite};
+use super::pairing::work::Work;
 use super::stages::acting::acting;
 use super::stages::apart::stays_apart;
 use super::stages::carried::refuse_sums;
 use super::stages::commit;
-use super::stages::integrate::segments;
 use super::stages::normals::follow;
 use super::stages::respond::{Responses, respond};
 use super::stages::sums::{self, NodeSums};
@@ -28,13 +26,16 @@ use crate::memory;
 use nalgebra::SVector;
 
 /// The pairs at the last positions, of weights of now.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 struct Kept {
     active: Active,
-    /// What the evaluation was about, and whether it found the surfaces apart; then there are no pairs.
-    scope: Scope,
-    /// What the nodes assemble over the pairs here, once it was asked for, and for what.
-    sums: Option<(Extent, Vec<NodeSums>)>,
+    /// What the evaluation was about, and whether it found the surfaces apart; then there are no pairs. `None`: nothing is
+    /// kept.
+    scope: Option<Scope>,
+    /// What the nodes assemble over the pairs.
+    sums: Vec<NodeSums>,
+    /// What for; `None`: it is not what they assemble here.
+    sums_of: Option<Extent>,
 }
 
 /// The law's answers at a point.
@@ -44,10 +45,19 @@ pub struct Answers<const N: usize> {
     lambda: Vec<SVector<f64, N>>,
     /// Whether the sums are the host's, who may give others.
     shared: bool,
+    /// Whether there are any.
+    are_known: bool,
     /// Of every node.
     pub sums: Vec<NodeSums>,
     /// To these sums.
     pub responses: Responses<N>,
+}
+
+impl<const N: usize> Default for Answers<N> {
+    fn default() -> Self {
+        let (x, lambda, sums) = (Default::default(), Vec::new(), Vec::new());
+        Answers { x, lambda, shared: false, are_known: false, sums, responses: Responses::default() }
+    }
 }
 
 impl<const N: usize> Answers<N> {
@@ -65,52 +75,57 @@ fn asks_for_slip<const N: usize>(setup: &Setup<N>, extent: Extent) -> bool {
 /// What evaluations leave.
 #[derive(Debug)]
 pub struct Cache<const N: usize> {
-    kept: Option<Kept>,
-    answers: Option<Answers<N>>,
-    tree: KeptTree,
-    /// What has been done so far.
-    pub counters: Counters,
+    kept: Kept,
+    answers: Answers<N>,
+    /// What searches and integrations work with.
+    pub work: Work,
 }
 
 impl<const N: usize> Default for Cache<N> {
     fn default() -> Self {
-        Cache { kept: None, answers: None, tree: KeptTree::default(), counters: Counters::default() }
+        Cache { kept: Kept::default(), answers: Answers::default(), work: Work::default() }
     }
 }
 
 impl<const N: usize> Cache<N> {
-    /// What searches and integrations work with.
-    pub fn work(&mut self) -> (&mut Counters, &mut KeptTree) {
-        (&mut self.counters, &mut self.tree)
-    }
-
     /// Drops what must not outlive what it was found with.
     pub fn forget(&mut self) {
-        (self.kept, self.answers) = (None, None);
+        (self.kept.scope, self.kept.sums_of, self.answers.are_known) = (None, None, false);
     }
 
-    /// A step begins. `active`: the pairs where the last one ended, for the next evaluation may well be there.
-    pub fn begin(&mut self, history: &History, active: Option<Active>) {
+    /// A step begins. `active`: whether the pairs are those where the last one ended, for the next evaluation may well be
+    /// there.
+    pub fn begin(&mut self, history: &History, active: bool) {
         self.forget();
-        let scope = Scope { extent: Extent::Part, apart: false };
-        self.kept = active.map(|active| Kept { active, scope, sums: None });
+        self.kept.scope = active.then_some(Scope { extent: Extent::Part, apart: false });
         self.count_pairs(history);
     }
 
     /// The pairs that were found at the last positions; `None`: the weights are frozen, or there are none yet.
     pub fn active(&self) -> Option<&Active> {
-        self.kept.as_ref().map(|k| &k.active)
+        self.kept.scope.map(|_| &self.kept.active)
     }
 
     /// The same with what searches work with; `None` also where the surfaces are apart and nothing was looked at.
-    pub fn looked_at(&mut self) -> (Option<&Active>, &mut Counters, &mut KeptTree) {
-        let active = self.kept.as_ref().filter(|k| !k.scope.apart).map(|k| &k.active);
-        (active, &mut self.counters, &mut self.tree)
+    pub fn looked_at(&mut self) -> (Option<&Active>, &mut Work) {
+        (self.kept.scope.filter(|scope| !scope.apart).map(|_| &self.kept.active), &mut self.work)
+    }
+
+    /// What a commit works with: whether the pairs are those at the last positions, their memory, which is the commit's own
+    /// from here on, and the law's answers.
+    pub fn leave(&mut self) -> (bool, &mut Active, &mut Work, &Answers<N>) {
+        (self.kept.scope.take().is_some(), &mut self.kept.active, &mut self.work, &self.answers)
     }
 
     /// The pairs whose weights act now.
     pub fn pairs<'a>(&'a self, history: &'a History) -> &'a [PairRecord] {
         self.active().map_or(&history.pairs, |k| &k.pairs)
+    }
+
+    /// The same, with the law's answers and what stages work with.
+    pub fn acting<'a>(&'a mut self, history: &'a History) -> (&'a [PairRecord], &'a Answers<N>, &'a mut Work) {
+        let pairs = self.kept.scope.map_or(&history.pairs, |_| &self.kept.active.pairs);
+        (pairs, &self.answers, &mut self.work)
     }
 
     /// What an evaluation of this extent leaves out at the last positions.
@@ -120,16 +135,17 @@ impl<const N: usize> Cache<N> {
 
     /// Whether the surfaces were found apart at the last positions.
     pub fn is_apart(&self) -> bool {
-        self.kept.as_ref().is_some_and(|k| k.scope.apart)
+        self.kept.scope.is_some_and(|scope| scope.apart)
     }
 
     /// The law's answers at the last point.
     pub fn answers(&self) -> &Answers<N> {
-        self.answers.as_ref().expect("asked for after respond()")
+        assert!(self.answers.are_known, "asked for after respond()");
+        &self.answers
     }
 
     fn count_pairs(&mut self, history: &History) {
-        self.counters.pairs_active = self.pairs(history).len();
+        self.work.counters.pairs_active = self.pairs(history).len();
     }
 
     /// Makes up for weights of t_n that a commit has left out because the surfaces were apart. Frozen weights never are.
@@ -139,7 +155,7 @@ impl<const N: usize> Cache<N> {
         }
         let Step { history, pairing, .. } = step;
         match &pairing.filter {
-            Some(filter) => commit::complete(setup.surfaces(), &setup.options, (history, filter), self.work()),
+            Some(filter) => commit::complete(setup.surfaces(), &setup.options, (history, filter), &mut self.work),
             None => Ok(()),
         }
     }
@@ -154,40 +170,29 @@ impl<const N: usize> Cache<N> {
         extent: Extent,
     ) -> Result<()> {
         if setup.options.effective_weights() != Weights::Current {
-            self.counters.pairs_reused += step.history.pairs.len() as i64;
+            self.work.counters.pairs_reused += step.history.pairs.len() as i64;
             self.count_pairs(&step.history);
             return Ok(());
         }
         follow(setup, step, x1)?;
-        let kept = self.kept.as_ref().filter(|k| k.active.is_at(x1, x2)).map(|k| k.scope);
+        let kept = self.kept.scope.filter(|_| self.kept.active.is_at(x1, x2));
         let serves = kept.is_some_and(|k| k.extent == extent || (k.extent == Extent::Whole && !k.apart));
         if !serves {
             let apart = extent == Extent::Whole && stays_apart(Given { setup, step }, x1, x2)?;
-            self.counters.evaluations_apart += i64::from(apart);
+            self.work.counters.evaluations_apart += i64::from(apart);
             if apart {
-                self.kept = Some(Kept { active: Active::none(x1, x2)?, scope: Scope { extent, apart }, sums: None });
+                (self.kept.scope, self.kept.sums_of) = (None, None);
+                self.kept.active.begin(x1, x2)?;
             } else if kept.is_none_or(|k| k.apart) {
                 self.complete(setup, step)?;
+                (self.kept.scope, self.kept.sums_of) = (None, None);
                 let filter = step.pairing.filter.as_ref().expect("current weights have one");
-                let active = acting(setup.surfaces(), &setup.options, filter, self.work(), (x1, x2))?;
-                self.kept = Some(Kept { active, scope: Scope { extent, apart }, sums: None });
+                let (work, active) = (&mut self.work, &mut self.kept.active);
+                acting(setup.surfaces(), &setup.options, filter, work, (x1, x2), active)?;
             }
-            if let Some(k) = &mut self.kept {
-                k.scope.extent = extent;
-            }
+            self.kept.scope = Some(Scope { extent, apart });
         }
         self.count_pairs(&step.history);
-        Ok(())
-    }
-
-    /// Makes up for overlaps that a commit did not keep.
-    pub fn find_segments(&mut self, setup: &Setup<N>, step: &Step) -> Result<()> {
-        let Some(k) = self.kept.as_mut().filter(|k| k.active.segments.len() < k.active.pairs.len()) else {
-            return Ok(());
-        };
-        if let Some(filter @ Filter::Facets(_)) = &step.pairing.filter {
-            k.active.segments = segments(&setup.mortar, &setup.options, filter, &k.active)?;
-        }
         Ok(())
     }
 
@@ -198,9 +203,10 @@ impl<const N: usize> Cache<N> {
         step: &mut Step,
         x: (&[Vec3], &[Vec3]),
         extent: Extent,
-    ) -> Result<Vec<NodeSums>> {
+    ) -> Result<&[NodeSums]> {
         self.arrive(setup, step, x, extent)?;
-        self.sums_here(Given { setup, step }, x, extent)
+        self.find_sums(Given { setup, step }, x, extent)?;
+        Ok(&self.kept.sums)
     }
 
     /// What an evaluation with this handle's own sums begins with: finds the pairs, and counts.
@@ -208,26 +214,26 @@ impl<const N: usize> Cache<N> {
         Given { setup, step }.check_positions(x.0, x.1)?;
         self.integrate(setup, step, x, extent)?;
         if !self.is_apart() && asks_for_slip(setup, extent) {
-            self.counters.nodes_slipping += setup.nonmortar.len() as i64;
+            self.work.counters.nodes_slipping += setup.nonmortar.len() as i64;
         }
         Ok(())
     }
 
-    /// The sums over the pairs that were found.
-    fn sums_here(&mut self, given: Given<N>, x: (&[Vec3], &[Vec3]), extent: Extent) -> Result<Vec<NodeSums>> {
-        if self.is_apart() {
-            return memory::filled(NodeSums::default(), given.nodes());
+    /// Puts the sums over the pairs that were found in place.
+    fn find_sums(&mut self, given: Given<N>, x: (&[Vec3], &[Vec3]), extent: Extent) -> Result<()> {
+        let Kept { active, scope, sums, sums_of } = &mut self.kept;
+        let active = scope.map(|_| &*active);
+        if scope.is_some_and(|scope| scope.apart) {
+            *sums_of = None;
+            return memory::refill(sums, NodeSums::default(), given.nodes());
         }
-        if let Some((of, sums)) = self.kept.as_ref().and_then(|k| k.sums.as_ref())
-            && *of == extent
-        {
-            return memory::copied(sums);
+        if active.is_some() && *sums_of == Some(extent) {
+            return Ok(());
         }
-        let sums = sums::sums(given, self.active(), asks_for_slip(given.setup, extent), x)?;
-        if let Some(k) = &mut self.kept {
-            k.sums = Some((extent, memory::copied(&sums)?));
-        }
-        Ok(sums)
+        *sums_of = None;
+        sums::sums(given, active, asks_for_slip(given.setup, extent), x, sums)?;
+        *sums_of = Some(extent);
+        Ok(())
     }
 
     /// Stages 1 and 2 at (x1, x2, lambda): leaves [`Cache::answers`]. `shared`: the sums of all handles, in place of this
@@ -244,39 +250,44 @@ impl<const N: usize> Cache<N> {
         check_length("lambda", lambda.len(), nodes)?;
         check_finite("lambda", lambda)?;
         let extent = Extent::of(shared);
-        let sums = match shared {
+        match shared {
             Some(sums) => {
                 Given { setup, step }.check_positions(x.0, x.1)?;
                 check_length("sums", sums.len(), nodes)?;
                 refuse_sums(&setup.options)?;
                 self.integrate(setup, step, x, extent)?;
-                memory::copied(sums)?
+                self.answers.are_known = false;
+                memory::recopy(&mut self.answers.sums, sums)?;
             }
             None => {
                 self.arrive(setup, step, x, extent)?;
-                if self.answers.as_ref().is_some_and(|a| !a.shared && a.is_at(x, lambda)) {
+                if self.answers.are_known && !self.answers.shared && self.answers.is_at(x, lambda) {
                     return Ok(());
                 }
-                self.sums_here(Given { setup, step }, x, extent)?
+                self.find_sums(Given { setup, step }, x, extent)?;
+                self.answers.are_known = false;
+                memory::recopy(&mut self.answers.sums, &self.kept.sums)?;
             }
-        };
-        self.answers = None;
-        let responses = respond(Given { setup, step }, lambda, &sums, self.scope(extent))?;
-        self.counters.nodes_evaluated += responses.counts.total() - responses.counts.left_out;
-        self.counters.nodes = responses.counts;
-        let (x, lambda) = ([memory::copied(x.0)?, memory::copied(x.1)?], memory::copied(lambda)?);
-        self.answers = Some(Answers { x, lambda, shared: shared.is_some(), sums, responses });
+        }
+        let scope = self.scope(extent);
+        let answers = &mut self.answers;
+        respond(Given { setup, step }, lambda, &answers.sums, scope, &mut answers.responses)?;
+        let counts = answers.responses.counts;
+        self.work.counters.nodes_evaluated += counts.total() - counts.left_out;
+        self.work.counters.nodes = counts;
+        memory::recopy(&mut answers.x[0], x.0)?;
+        memory::recopy(&mut answers.x[1], x.1)?;
+        memory::recopy(&mut answers.lambda, lambda)?;
+        (answers.shared, answers.are_known) = (shared.is_some(), true);
         Ok(())
     }
 
     /// On the heap `[bytes]`.
     pub fn bytes(&self) -> usize {
-        let sums = |k: &Kept| k.sums.as_ref().map_or(0, |(_, sums)| bytes::heap(sums));
-        let kept = self.kept.as_ref().map_or(0, |k| bytes::of_active(&k.active) + sums(k));
-        let answers = self.answers.as_ref().map_or(0, |a| {
-            let given = a.x.iter().map(bytes::heap).sum::<usize>() + bytes::heap(&a.lambda) + bytes::heap(&a.sums);
-            given + bytes::heap(&a.responses.nodes) + bytes::heap(&a.responses.carried)
-        });
-        kept + answers + bytes::of_tree(&self.tree)
+        let kept = bytes::of_active(&self.kept.active) + bytes::heap(&self.kept.sums);
+        let a = &self.answers;
+        let given = a.x.iter().map(bytes::heap).sum::<usize>() + bytes::heap(&a.lambda) + bytes::heap(&a.sums);
+        let answers = given + bytes::heap(&a.responses.nodes) + bytes::heap(&a.responses.carried);
+        kept + answers + bytes::of_work(&self.work)
     }
 }

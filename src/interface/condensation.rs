@@ -37,7 +37,7 @@ pub enum Piece {
 impl<const N: usize> Contact<N> {
     /// The elimination at x.
     fn elimination(&mut self, x: (&[Vec3], &[Vec3])) -> Result<Elimination> {
-        let sums = self.cache.sums(&self.setup, &mut self.step, x, Extent::Whole)?;
+        let sums = memory::copied(self.cache.sums(&self.setup, &mut self.step, x, Extent::Whole)?)?;
         let (given, pairs) = (self.given(), self.cache.pairs(&self.step.history));
         let normals = given.normals()?;
         refuse(given, &normals)?;
@@ -201,7 +201,7 @@ impl<const N: usize> Contact<N> {
         constraints.entries()?.into_iter().for_each(|(row, column)| sink.add(row, column, 0.0));
         columns.settle()?;
         let given = Given { setup: &self.setup, step: &self.step };
-        let pairs = possible_pairs(given, self.cache.work().1, (x1, x2))?;
+        let pairs = possible_pairs(given, &mut self.cache.work.tree, (x1, x2))?;
         let moving = if self.setup.effects.moves() { &pairs[..] } else { &[] };
         columns.entries(self.setup.surfaces(), &self.step.pairing.carriers, moving, sink)
     }

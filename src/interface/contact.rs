@@ -1,7 +1,6 @@
 //! The handle: it owns an interface's data and calls the stages on it.
 
 use super::cache::Cache;
-use super::data::active::Active;
 use super::data::counters::Counters;
 use super::data::effects::Effects;
 use super::data::extent::Extent;
@@ -14,16 +13,17 @@ use super::data::surface::{NO_EQUATION, Surface};
 use super::inspect::bytes;
 use super::inspect::describe;
 use super::linear::Linear;
-use super::pairing::given::{Given, Step};
+use super::pairing::given::{Given, NormalsAt, Step};
 use super::pairing::settle::Pairing;
-use super::stages::commit::{self, Settled};
+use super::stages::commit::{self, Known, Settled};
 use super::stages::lost::refuse_lost_contact;
+use super::stages::residual::Residual;
 use super::stages::sums::{NodeSums, assemble};
 use super::stages::turn::refuse_turn;
 use crate::error::{Error, Kind, Result, Text};
 use crate::geometry::Vec3;
 use crate::law::{Coefficient, NodeResponse};
-use crate::memory::{self, Stored};
+use crate::memory::{self, Store};
 use nalgebra::SVector;
 
 /// An interface with three multipliers per non-mortar node.
@@ -36,8 +36,12 @@ pub struct Contact<const N: usize> {
     pub(super) setup: Setup<N>,
     pub(super) step: Step,
     rollback: Option<History>,
+    /// Memory for the history that a commit makes; `None`: it takes new one.
+    spare: Option<History>,
     pub(super) cache: Cache<N>,
     pub(super) linear: Linear<N>,
+    /// The last residual.
+    pub(super) residual: Residual<N>,
 }
 
 impl Contact<3> {
@@ -94,12 +98,17 @@ impl<const N: usize> Contact<N> {
     fn build(setup: Setup<N>) -> Result<Contact<N>> {
         let mut cache = Cache::default();
         let at = (&setup.nonmortar.reference[..], &setup.mortar.reference[..]);
-        let settled = commit::settled_at(setup.surfaces(), &setup.options, Extent::Whole, cache.work(), at)?;
+        let (_, active, work, _) = cache.leave();
+        let known = Known { active, filter: None };
+        let (surfaces, history) = (setup.surfaces(), History::empty());
+        let settled = commit::settled_at(surfaces, &setup.options, Extent::Whole, work, at, known, history)?;
         let pairing = Pairing::new(&setup, settled.filter, &settled.history)?;
-        let step = Step { history: settled.history, pairing, normals: setup.options.normals, now: None };
+        let normals = setup.options.normals;
+        let step = Step { history: settled.history, pairing, normals, now: None, room: NormalsAt::default() };
         Given { setup: &setup, step: &step }.normals()?;
         cache.begin(&step.history, settled.active);
-        Ok(Contact { setup, step, rollback: None, cache, linear: Linear::default() })
+        let (linear, residual) = (Linear::default(), Residual::default());
+        Ok(Contact { setup, step, rollback: None, spare: None, cache, linear, residual })
     }
 
     /// What the stages are given.
@@ -133,7 +142,7 @@ impl<const N: usize> Contact<N> {
     pub fn set_constraints(&mut self, directions: &[(usize, Vec3)]) -> Result<()> {
         let free = free_directions(&self.setup.multiplier_equations, directions)?;
         let old = std::mem::replace(&mut self.setup.nodes.free, free);
-        self.step.now = None;
+        self.step.forget_normals();
         if let Err(e) = self.given().normals() {
             self.setup.nodes.free = old;
             return Err(e);
@@ -177,12 +186,12 @@ impl<const N: usize> Contact<N> {
 
     /// What has been done so far.
     pub fn counters(&self) -> Counters {
-        self.cache.counters
+        self.cache.work.counters
     }
 
     /// Pairs active at the last evaluation, commit or creation.
     pub fn active_pairs(&self) -> usize {
-        self.cache.counters.pairs_active
+        self.cache.work.counters.pairs_active
     }
 
     /// nu_A: that of the last evaluation where it follows the motion, else the host's or the committed one; normalised
@@ -228,7 +237,9 @@ impl<const N: usize> Contact<N> {
             + bytes::of_history(&self.step.history)
             + bytes::of_pairing(&self.step.pairing)
             + self.step.now.as_ref().map_or(0, bytes::of_normals)
-            + self.rollback.as_ref().map_or(0, bytes::of_history)
+            + bytes::of_normals(&self.step.room)
+            + [&self.rollback, &self.spare].into_iter().flatten().map(bytes::of_history).sum::<usize>()
+            + bytes::of_residual(&self.residual)
             + self.cache.bytes()
             + self.linear.bytes()
     }
@@ -242,9 +253,10 @@ impl<const N: usize> Contact<N> {
         Ok(self.put_in_place(pairing, settled.history, settled.active))
     }
 
-    fn put_in_place(&mut self, pairing: Pairing, history: History, active: Option<Active>) -> History {
-        let step = Step { history, pairing, normals: self.setup.options.normals, now: None };
-        let old = std::mem::replace(&mut self.step, step).history;
+    fn put_in_place(&mut self, pairing: Pairing, history: History, active: bool) -> History {
+        self.step.forget_normals();
+        (self.step.pairing, self.step.normals) = (pairing, self.setup.options.normals);
+        let old = std::mem::replace(&mut self.step.history, history);
         self.cache.begin(&self.step.history, active);
         self.linear.forget();
         old
@@ -253,8 +265,10 @@ impl<const N: usize> Contact<N> {
     /// Takes (x1, x2) as the configuration of t_n, with nothing slipped yet, instead of the reference.
     pub fn set_previous(&mut self, x1: &[Vec3], x2: &[Vec3]) -> Result<()> {
         self.given().check_positions(x1, x2)?;
-        let work = self.cache.work();
-        let new = commit::settled_at(self.setup.surfaces(), &self.setup.options, Extent::Whole, work, (x1, x2))?;
+        let (surfaces, options) = (self.setup.surfaces(), &self.setup.options);
+        let (_, active, work, _) = self.cache.leave();
+        let known = Known { active, filter: None };
+        let new = commit::settled_at(surfaces, options, Extent::Whole, work, (x1, x2), known, History::empty())?;
         new.history.check_finite()?;
         self.adopt(new)?;
         self.rollback = None;
@@ -275,33 +289,38 @@ impl<const N: usize> Contact<N> {
             return Err(Error::new(Kind::InvalidValue, text));
         }
         self.cache.respond(&self.setup, &mut self.step, (x1, x2), lambda, sums)?;
-        let answers = self.cache.answers();
-        let (sums, responses) = (memory::copied(&answers.sums)?, memory::copied(&answers.responses.nodes)?);
-        refuse_turn(self.given(), (x1, x2), shared)?;
+        let given = Given { setup: &self.setup, step: &self.step };
+        refuse_turn(given, (x1, x2), shared, &mut self.cache.work.room.vectors)?;
         let (surfaces, options, history) = (self.setup.surfaces(), &self.setup.options, &self.step.history);
+        let mut moved = self.spare.take().unwrap_or_else(History::empty);
+        let (is_known, active, work, answers) = self.cache.leave();
+        let responses = &answers.responses.nodes;
         let mut new = if options.effective_weights() == Weights::Reference {
-            let mut moved = history.moved_to(x1, x2)?;
+            moved.move_to(history, x1, x2)?;
             // Also where mu is 0 at every node: it may be set before the next step. Tied nodes keep their first gap.
             if history.keeps == Keeps::Slip {
-                let gaps = assemble(surfaces, &history.pairs, x1, x2)?;
-                moved.gap = gaps.into_iter().map(|(_, gap)| gap).stored()?;
+                assemble(surfaces, &history.pairs, (x1, x2), &mut work.room.sums)?;
+                moved.gap.iter_mut().zip(&work.room.sums).for_each(|(to, (_, gap))| *to = *gap);
             }
-            Settled { history: moved, filter: None, active: None }
+            Settled { history: moved, filter: None, active: false }
         } else {
-            commit::settled_at(surfaces, options, extent, self.cache.work(), (x1, x2))?
+            let filter = self.step.pairing.filter.as_ref().filter(|_| is_known);
+            let new = commit::settled_at(surfaces, options, extent, work, (x1, x2), Known { active, filter }, moved)?;
+            let dropped = (&work.room.dropped[..], &history.areas[..]);
+            refuse_lost_contact(&self.setup, dropped, &new, (x1, x2), responses)?;
+            new
         };
-        if let (Some(active), Weights::Current) = (self.cache.active(), options.effective_weights()) {
-            refuse_lost_contact(&self.setup, (active, &history.areas), &new, (x1, x2), &responses)?;
-        }
         new.history.commits = history.commits.saturating_add(1); // an imported history may hold any number
+        new.history.slip.clear();
         if self.setup.effects.law.slips {
-            let slip = |a: usize| self.slip_after(a, &responses[a], sums[a].coverage_previous);
-            new.history.slip = (0..responses.len()).map(slip).stored()?;
+            let slip = |a: usize| given.slip_after(a, &responses[a], answers.sums[a].coverage_previous);
+            new.history.slip.store_all((0..responses.len()).map(slip))?;
         } else {
-            new.history.slip = memory::copied(&history.slip)?;
+            memory::recopy(&mut new.history.slip, &history.slip)?;
         }
         new.history.check_finite()?;
-        self.rollback = Some(self.adopt(new)?);
+        let old = self.adopt(new)?;
+        self.spare = self.rollback.replace(old);
         Ok(())
     }
 
@@ -316,7 +335,7 @@ impl<const N: usize> Contact<N> {
         };
         let pairing = Pairing::again(&self.setup, history)?;
         if let Some(history) = self.rollback.take() {
-            self.put_in_place(pairing, history, None);
+            self.put_in_place(pairing, history, false);
         }
         Ok(())
     }
@@ -337,7 +356,7 @@ impl<const N: usize> Contact<N> {
     pub fn import_history(&mut self, integers: &[i64], reals: &[f64]) -> Result<()> {
         let history = History::import((integers, reals), &Host::new(self.setup.surfaces(), &self.setup.options))?;
         let pairing = Pairing::again(&self.setup, &history)?;
-        self.put_in_place(pairing, history, None);
+        self.put_in_place(pairing, history, false);
         self.rollback = None;
         Ok(())
     }

@@ -21,11 +21,16 @@ use nalgebra::SVector;
 impl<const N: usize> Contact<N> {
     /// Stage 1, assembled: every node's gaps and coverage.
     pub fn sums(&mut self, x1: &[Vec3], x2: &[Vec3]) -> Result<Vec<NodeSums>> {
-        self.cache.sums(&self.setup, &mut self.step, (x1, x2), Extent::Whole)
+        memory::copied(self.cache.sums(&self.setup, &mut self.step, (x1, x2), Extent::Whole)?)
     }
 
     /// This handle's share of them, of several handles whose shares a host adds up.
     pub fn share_of_sums(&mut self, x1: &[Vec3], x2: &[Vec3]) -> Result<Vec<NodeSums>> {
+        memory::copied(self.kept_share_of_sums(x1, x2)?)
+    }
+
+    /// The same, which the interface keeps.
+    pub fn kept_share_of_sums(&mut self, x1: &[Vec3], x2: &[Vec3]) -> Result<&[NodeSums]> {
         self.cache.sums(&self.setup, &mut self.step, (x1, x2), Extent::Part)
     }
 
@@ -48,9 +53,27 @@ impl<const N: usize> Contact<N> {
         lambda: &[SVector<f64, N>],
         sums: Option<&[NodeSums]>,
     ) -> Result<(Vec<NodeSums>, Vec<NodeResponse<N>>)> {
-        self.cache.respond(&self.setup, &mut self.step, (x1, x2), lambda, sums)?;
+        self.respond(x1, x2, lambda, sums)?;
+        let (sums, responses) = self.answers();
+        Ok((memory::copied(sums)?, memory::copied(responses)?))
+    }
+
+    /// The same, to be looked at by [`Contact::answers`].
+    pub fn respond(
+        &mut self,
+        x1: &[Vec3],
+        x2: &[Vec3],
+        lambda: &[SVector<f64, N>],
+        sums: Option<&[NodeSums]>,
+    ) -> Result<()> {
+        self.cache.respond(&self.setup, &mut self.step, (x1, x2), lambda, sums)
+    }
+
+    /// The sums and the law's answers where [`Contact::respond`] was called last, before anything else that changes the
+    /// interface.
+    pub fn answers(&self) -> (&[NodeSums], &[NodeResponse<N>]) {
         let answers = self.cache.answers();
-        Ok((memory::copied(&answers.sums)?, memory::copied(&answers.responses.nodes)?))
+        (&answers.sums, &answers.responses.nodes)
     }
 
     /// Multipliers for the first step.
@@ -77,9 +100,24 @@ impl<const N: usize> Contact<N> {
         lambda: &[SVector<f64, N>],
         sums: Option<&[NodeSums]>,
     ) -> Result<Residual<N>> {
-        self.cache.respond(&self.setup, &mut self.step, (x1, x2), lambda, sums)?;
-        let responses = &self.cache.answers().responses;
-        residual::residual(self.given(), self.cache.pairs(&self.step.history), lambda, &responses.nodes)
+        let r = self.kept_residual(x1, x2, lambda, sums)?;
+        let (nonmortar, mortar) = (memory::copied(&r.nonmortar)?, memory::copied(&r.mortar)?);
+        Ok(Residual { nonmortar, mortar, rows: memory::copied(&r.rows)? })
+    }
+
+    /// The same, which the interface keeps.
+    pub fn kept_residual(
+        &mut self,
+        x1: &[Vec3],
+        x2: &[Vec3],
+        lambda: &[SVector<f64, N>],
+        sums: Option<&[NodeSums]>,
+    ) -> Result<&Residual<N>> {
+        self.respond(x1, x2, lambda, sums)?;
+        let (pairs, answers, work) = self.cache.acting(&self.step.history);
+        let (given, responses) = (Given { setup: &self.setup, step: &self.step }, &answers.responses.nodes);
+        residual::refresh(given, pairs, lambda, responses, &mut work.room.vectors, &mut self.residual)?;
+        Ok(&self.residual)
     }
 }
 
@@ -116,7 +154,7 @@ impl<const N: usize> Contact<N> {
         self.given().check_positions(x1, x2)?;
         normals::follow(&self.setup, &mut self.step, x1)?;
         let given = Given { setup: &self.setup, step: &self.step };
-        report::report(given, self.cache.work(), (x1, x2))
+        report::report(given, &mut self.cache.work, (x1, x2))
     }
 
     /// The diagnosis at (x, lambda). The state of the interface stays as it is.

@@ -43,7 +43,6 @@ impl<const N: usize> Contact<N> {
         scales: Option<&[f64]>,
         (sink, constraints): (&mut dyn Sink, Option<&mut dyn Sink>),
     ) -> Result<()> {
-        self.cache.find_segments(&self.setup, &self.step)?;
         let here = Here { given: Given { setup: &self.setup, step: &self.step }, cache: &self.cache };
         let Linear { room, normals, nodes, .. } = &mut self.linear;
         let mut taker = ByEquations::new(&self.setup, sink);
@@ -207,7 +206,6 @@ impl<const N: usize> Contact<N> {
         of: (Positions, &[SVector<f64, N>], (Extent, Option<&[f64]>)),
         values: &mut [f64],
     ) -> Result<()> {
-        self.cache.find_segments(&self.setup, &self.step)?;
         let here = Here { given: Given { setup: &self.setup, step: &self.step }, cache: &self.cache };
         let Linear { numbering, plan, own, fill, room, normals, nodes, .. } = &mut self.linear;
         let plan = if is_own { own.as_ref().map(|own| &own.1) } else { plan.as_ref() };
@@ -223,7 +221,6 @@ impl<const N: usize> Contact<N> {
         of: (Positions, &[SVector<f64, N>], (Extent, Option<&[f64]>)),
         [forces, constraints]: [&mut [f64]; 2],
     ) -> Result<()> {
-        self.cache.find_segments(&self.setup, &self.step)?;
         let here = Here { given: Given { setup: &self.setup, step: &self.step }, cache: &self.cache };
         let Linear { numbering, condensed, fill, room, normals, nodes, .. } = &mut self.linear;
         let Some([first, second]) = condensed else { return Err(no_plan()) };
@@ -251,11 +248,11 @@ impl<const N: usize> Contact<N> {
         // Refuses what an evaluation here does, and serves the next one.
         self.cache.integrate(&self.setup, &mut self.step, x, Extent::Whole)?;
         let given = Given { setup: &self.setup, step: &self.step };
-        possible_pairs(given, self.cache.work().1, x)
+        possible_pairs(given, &mut self.cache.work.tree, x)
     }
 
     fn count(&mut self, (pairs, seconds): (i64, f64)) {
-        self.cache.counters.pairs_linearised += pairs;
-        self.cache.counters.seconds_assembly += seconds;
+        self.cache.work.counters.pairs_linearised += pairs;
+        self.cache.work.counters.seconds_assembly += seconds;
     }
 }

@@ -21,7 +21,7 @@ impl<const N: usize> Contact<N> {
             return Err(Error::new(Kind::InvalidValue, text));
         }
         self.step.normals = normals;
-        self.step.now = None;
+        self.step.forget_normals();
         self.cache.forget();
         Ok(())
     }

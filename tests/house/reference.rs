@@ -152,7 +152,7 @@ fn evaluations_cost_what_the_header_says() {
         let sink = &mut |_: i64, _: i64, _: f64| ();
         assert_eq!(cost(i, |i| i.tangent(&x1, &x2, &lambda, None, sink).unwrap()), (0, differentiated));
         assert_eq!(cost(i, |i| i.pattern(&x1, &x2, Extent::Whole, sink).unwrap()), (0, false), "counting");
-        let commit = i64::from(weights != Weights::Reference);
+        let commit = i64::from(weights == Weights::Committed);
         assert_eq!(cost(i, |i| i.commit(&x1, &x2, &lambda, None).unwrap()), (commit, false));
         assert_eq!(cost(i, |i| i.residual(&x1, &x2, &lambda, None).unwrap()), (search, false), "first after a commit");
         assert_eq!(cost(i, |i| i.roll_back().unwrap()), (0, false));

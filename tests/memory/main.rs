@@ -7,4 +7,5 @@ mod support;
 mod allocator;
 mod bytes;
 mod calls;
+mod evaluations;
 mod sources;

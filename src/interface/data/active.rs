@@ -1,31 +1,60 @@
-//! The pairs that are active at a configuration, with their weights: what stage 1 gives.
+//! The pairs that are active at a configuration, with their weights: what stage 1 gives. Overlaps are not among it: they take
+//! three times as much memory as the weights, and are found again where they are needed (`pairing/overlaps.rs`).
 
 use super::pairs::PairRecord;
-use super::surface::{Surface, are_same, at_facet};
+use super::surface::are_same;
 use crate::error::Result;
-use crate::geometry::{Facet, Vec3};
+use crate::geometry::Vec3;
 use crate::memory::{self, Store};
-use crate::mortar::{NonmortarFrame, PairWeights, Segment};
-use crate::quadrature::Rule;
+use crate::mortar::PairWeights;
 
-/// The active pairs at one configuration.
-#[derive(Debug)]
+/// The active pairs at one configuration. Its memory is kept from one configuration to the next.
+#[derive(Debug, Default)]
 pub struct Active {
     pub x1: Vec<Vec3>,
     pub x2: Vec<Vec3>,
-    pub frames: Vec<NonmortarFrame>,
+    /// Unit normals of the planes of all non-mortar facets, of which a facet's edges must know those beyond; none without
+    /// an integration.
+    pub normals: Vec<Vec3>,
     pub pairs: Vec<PairRecord>,
-    /// The overlap of each pair, kept for the tangent; none against an analytic mortar side.
-    pub segments: Vec<Segment>,
+    /// The overlap's area of each pair, 0 where facets only touch [L^2]; none against an analytic mortar side.
+    pub areas: Vec<f64>,
     /// The weights as they were integrated, of each pair, where those in `pairs` are of the dual basis; else none.
     pub integrated: Vec<PairWeights>,
+    /// Pairs that the search found here and the filter did not admit; none against an analytic mortar side.
+    pub excluded: Vec<(u32, u32)>,
+    /// Whether these are all that the filter of the step does not admit, of facets that it says can have a pair.
+    pub knows_excluded: bool,
 }
 
 impl Active {
-    /// No pairs at a configuration.
-    pub fn none(x1: &[Vec3], x2: &[Vec3]) -> Result<Active> {
-        let (x1, x2) = (memory::copied(x1)?, memory::copied(x2)?);
-        Ok(Active { x1, x2, frames: Vec::new(), pairs: Vec::new(), segments: Vec::new(), integrated: Vec::new() })
+    /// Begins anew, without pairs.
+    pub fn begin(&mut self, x1: &[Vec3], x2: &[Vec3]) -> Result<()> {
+        self.clear();
+        memory::recopy(&mut self.x1, x1)?;
+        memory::recopy(&mut self.x2, x2)
+    }
+
+    /// Takes all pairs away.
+    pub fn clear(&mut self) {
+        self.normals.clear();
+        self.pairs.clear();
+        self.areas.clear();
+        self.integrated.clear();
+        self.excluded.clear();
+        self.knows_excluded = false;
+    }
+
+    /// Room for so many pairs more, of which there will probably be so many in all.
+    pub fn grow(&mut self, pairs: usize, all: usize) -> Result<()> {
+        memory::grow_to(&mut self.pairs, pairs, all)?;
+        memory::grow_to(&mut self.areas, pairs, all)
+    }
+
+    /// Adds a pair with the area of its overlap.
+    pub fn add(&mut self, pair: PairRecord, area: f64) -> Result<()> {
+        self.areas.store(area)?;
+        self.pairs.store(pair)
     }
 
     /// The integrated weights of the pair in this place, whatever the multipliers' basis makes of them.
@@ -33,29 +62,21 @@ impl Active {
         self.integrated.get(place).unwrap_or(&self.pairs[place].weights)
     }
 
+    /// Adds those that are not in `after`, as they were integrated, to `dropped`; both are sorted by their facets.
+    pub fn find_dropped(&self, after: &[PairRecord], dropped: &mut Vec<PairRecord>) -> Result<()> {
+        let mut after = after.iter().peekable();
+        for (k, pair) in self.pairs.iter().enumerate() {
+            let place = (pair.one, pair.two);
+            while after.next_if(|p| (p.one, p.two) < place).is_some() {}
+            if after.peek().is_none_or(|p| (p.one, p.two) != place) {
+                dropped.store(PairRecord { weights: *self.integrated(k), ..*pair })?;
+            }
+        }
+        Ok(())
+    }
+
     /// Whether it is that of these positions.
     pub fn is_at(&self, x1: &[Vec3], x2: &[Vec3]) -> bool {
         are_same(&self.x1, x1) && are_same(&self.x2, x2)
-    }
-
-    /// Adds those of a facet's candidates that have an overlap.
-    pub fn add(
-        &mut self,
-        (one, two): (&Surface, &Surface),
-        candidates: &[(usize, usize)],
-        rule: &Rule,
-        overlap: impl Fn(&NonmortarFrame, &Facet) -> Result<Option<Segment>>,
-    ) -> Result<()> {
-        for &(i, j) in candidates {
-            let frame = &self.frames[i];
-            match overlap(frame, &two.facet(j, &self.x2)) {
-                Ok(Some(segment)) => self.segments.store(segment)?,
-                Ok(None) => continue,
-                Err(e) => return Err(at_facet(one.side, i)(at_facet(two.side, j)(e))),
-            }
-            let segment = &self.segments[self.segments.len() - 1];
-            self.pairs.store(PairRecord { one: i, two: j, weights: PairWeights::integrate(frame, segment, rule) })?;
-        }
-        Ok(())
     }
 }

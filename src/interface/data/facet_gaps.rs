@@ -16,7 +16,6 @@ use crate::geometry::{Mat3, Plane, Vec3};
 use crate::memory::{self, Stored};
 use crate::mortar::{GapDerivative, gap};
 use crate::shape::{MAX_CORNERS, MAX_NODES};
-use std::borrow::Cow;
 
 /// Reals of a facet.
 pub const REALS_PER_FACET: usize = 3 * MAX_CORNERS;
@@ -33,11 +32,17 @@ fn axes(plane: &Plane) -> Mat3 {
 
 impl FacetGaps {
     /// Takes the shares of open facets out of the nodes' gaps.
-    pub(crate) fn of((one, two): (&Surface, &Surface), at: &Active, sums: &mut [(f64, Vec3)]) -> Result<FacetGaps> {
-        let mut all = memory::filled([Vec3::zeros(); MAX_CORNERS], one.facets.len())?;
+    pub(crate) fn take(
+        &mut self,
+        (one, two): (&Surface, &Surface),
+        at: &Active,
+        sums: &mut [(f64, Vec3)],
+    ) -> Result<()> {
+        let all = &mut self.0;
+        memory::refill(all, [Vec3::zeros(); MAX_CORNERS], one.facets.len())?;
         for pairs in at.pairs.chunk_by(|p, q| p.one == q.one) {
             let f = pairs[0].one;
-            let (facet, axes) = (one.facet(f, &at.x1), axes(&at.frames[f].plane));
+            let (facet, axes) = (one.facet(f, &at.x1), axes(&plane(one, f, &at.x1)?));
             let (mut shares, mut coverage) = ([Vec3::zeros(); MAX_CORNERS], 0.0);
             for pair in pairs {
                 let gaps = gap(&pair.weights, &facet, &two.facet(pair.two, &at.x2));
@@ -56,27 +61,28 @@ impl FacetGaps {
                 sums[node].1 -= shares[k];
             }
         }
-        Ok(FacetGaps(all))
+        Ok(())
     }
 
-    /// A copy.
-    pub(crate) fn copied(&self) -> Result<FacetGaps> {
-        memory::copied(&self.0).map(FacetGaps)
+    /// Takes all away.
+    pub(crate) fn clear(&mut self) {
+        self.0.clear();
     }
 
-    /// g_0 of every node at x1; `rest`: of every node, too.
-    pub(crate) fn turned<'a>(&self, one: &Surface, x1: &[Vec3], rest: &'a [Vec3]) -> Result<Cow<'a, [Vec3]>> {
-        if !self.0.iter().any(is_open) {
-            return Ok(Cow::Borrowed(rest));
-        }
-        let mut gaps = memory::copied(rest)?;
+    /// Becomes a copy.
+    pub(crate) fn recopy(&mut self, other: &FacetGaps) -> Result<()> {
+        memory::recopy(&mut self.0, &other.0)
+    }
+
+    /// What each facet adds to g_0 of each of its nodes at x1.
+    pub(crate) fn each_turned(&self, one: &Surface, x1: &[Vec3], mut add: impl FnMut(usize, Vec3)) -> Result<()> {
         for (f, shares) in self.0.iter().enumerate().filter(|(_, shares)| is_open(shares)) {
             let axes = axes(&plane(one, f, x1)?);
             for (k, &node) in one.facets[f].as_slice().iter().enumerate() {
-                gaps[node] += axes * shares[k];
+                add(node, axes * shares[k]);
             }
         }
-        Ok(Cow::Owned(gaps))
+        Ok(())
     }
 
     /// What the derivative of g - g_0 has of g_0 on facet `f` at x1.

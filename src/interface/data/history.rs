@@ -9,7 +9,7 @@ use super::pairs::PairRecord;
 use crate::error::{Error, Kind, Result};
 use crate::geometry::Vec3;
 use crate::law::Remembers;
-use crate::memory::{self, Stored};
+use crate::memory;
 use crate::shape::{MAX_CORNERS, MAX_NODES};
 
 /// What a history holds besides configuration, normals, areas and coverage.
@@ -97,27 +97,62 @@ pub const REALS_PER_PAIR: usize = 2 * MAX_CORNERS * MAX_NODES;
 impl History {
     /// Takes each node's coverage and, of gaps and weights of t_n, what it keeps; leaves the rest. All of it or nothing.
     pub(crate) fn fill(&mut self, pairs: &mut Vec<PairRecord>, sums: &[(f64, Vec3)]) -> Result<()> {
-        let coverage = sums.iter().map(|(coverage, _)| *coverage).stored()?;
-        if self.keeps.gaps_and_slips()[0] == 1 {
-            self.gap = sums.iter().map(|(_, gap)| *gap).stored()?;
-        }
-        self.coverage = coverage;
+        // There is room for as many: zeros are there.
+        self.coverage.iter_mut().zip(sums).for_each(|(to, (coverage, _))| *to = *coverage);
+        self.gap.iter_mut().zip(sums).for_each(|(to, (_, gap))| *to = *gap);
         if self.keeps != Keeps::Nothing {
-            self.pairs = std::mem::take(pairs);
+            std::mem::swap(&mut self.pairs, pairs);
         }
         self.integrated = true;
         Ok(())
     }
 
-    /// A copy with other positions.
-    pub(crate) fn moved_to(&self, x1: &[Vec3], x2: &[Vec3]) -> Result<History> {
-        let History { keeps, commits, integrated, .. } = *self;
-        let (normals, areas, coverage) =
-            (memory::copied(&self.normals)?, memory::copied(&self.areas)?, memory::copied(&self.coverage)?);
-        let (gap, slip) = (memory::copied(&self.gap)?, memory::copied(&self.slip)?);
-        let facet_gaps = self.facet_gaps.copied()?;
-        let (x1, x2, pairs) = (memory::copied(x1)?, memory::copied(x2)?, memory::copied(&self.pairs)?);
-        Ok(History { keeps, commits, x1, x2, normals, areas, coverage, gap, facet_gaps, slip, pairs, integrated })
+    /// None yet: memory for one.
+    pub(crate) fn empty() -> History {
+        History {
+            keeps: Keeps::Nothing,
+            commits: 0,
+            x1: Vec::new(),
+            x2: Vec::new(),
+            normals: Vec::new(),
+            areas: Vec::new(),
+            coverage: Vec::new(),
+            gap: Vec::new(),
+            facet_gaps: FacetGaps::default(),
+            slip: Vec::new(),
+            pairs: Vec::new(),
+            integrated: false,
+        }
+    }
+
+    /// Begins anew with these positions, all zeros and no normals and pairs.
+    pub(crate) fn begin(&mut self, keeps: Keeps, (x1, x2): (&[Vec3], &[Vec3])) -> Result<()> {
+        let (n1, [gap, slip]) = (x1.len(), keeps.gaps_and_slips());
+        (self.keeps, self.commits, self.integrated) = (keeps, 0, false);
+        memory::recopy(&mut self.x1, x1)?;
+        memory::recopy(&mut self.x2, x2)?;
+        self.normals.clear();
+        memory::refill(&mut self.areas, 0.0, n1)?;
+        memory::refill(&mut self.coverage, 0.0, n1)?;
+        memory::refill(&mut self.gap, Vec3::zeros(), gap * n1)?;
+        self.facet_gaps.clear();
+        memory::refill(&mut self.slip, Vec3::zeros(), slip * n1)?;
+        self.pairs.clear();
+        Ok(())
+    }
+
+    /// Becomes a copy of another one, with other positions.
+    pub(crate) fn move_to(&mut self, other: &History, x1: &[Vec3], x2: &[Vec3]) -> Result<()> {
+        (self.keeps, self.commits, self.integrated) = (other.keeps, other.commits, other.integrated);
+        memory::recopy(&mut self.x1, x1)?;
+        memory::recopy(&mut self.x2, x2)?;
+        memory::recopy(&mut self.normals, &other.normals)?;
+        memory::recopy(&mut self.areas, &other.areas)?;
+        memory::recopy(&mut self.coverage, &other.coverage)?;
+        memory::recopy(&mut self.gap, &other.gap)?;
+        self.facet_gaps.recopy(&other.facet_gaps)?;
+        memory::recopy(&mut self.slip, &other.slip)?;
+        memory::recopy(&mut self.pairs, &other.pairs)
     }
 
     /// Refuses a history that has left the range of doubles: nothing could be measured from it, and no import takes it.

@@ -2,7 +2,7 @@
 
 use crate::adjacency::{SharedEdge, shared_edges};
 use crate::error::{Error, Kind, Result, Text};
-use crate::geometry::{AnalyticShape, AnalyticSurface, FRAME, Facet, Vec3, check_rigid_motion};
+use crate::geometry::{AnalyticShape, AnalyticSurface, FRAME, Facet, Plane, Vec3, check_rigid_motion};
 use crate::memory::{self, Store};
 use crate::mortar::NonmortarFrame;
 use crate::normal;
@@ -15,6 +15,9 @@ const FOLDED: f64 = -1.0 + 1e-6;
 
 /// No equation: the component is prescribed or absent.
 pub const NO_EQUATION: i64 = -1;
+
+/// No facet: the edge is on the rim.
+pub const NO_FACET: u32 = u32::MAX;
 
 /// A facet's nodes as indices into the surface.
 #[derive(Clone, Copy, Debug)]
@@ -47,6 +50,8 @@ pub struct Surface {
     pub longest_edge: f64,
     /// Edges between neighbouring facets.
     pub edges: Vec<SharedEdge>,
+    /// Per facet the one beyond each edge, or [`NO_FACET`].
+    pub neighbours: Vec<[u32; MAX_NODES]>,
     /// The shape of an analytic surface, whose one facet are the four points of its frame; `None`: real facets.
     pub analytic: Option<AnalyticShape>,
 }
@@ -110,8 +115,12 @@ impl Surface {
             Ok(edges) => edges,
             Err(e) => return fail(e.kind, e.message),
         };
+        if kept.len() >= NO_FACET as usize {
+            return fail(Kind::InvalidSize, text!("{} facets; fewer than {NO_FACET} are allowed", kept.len()));
+        }
+        let neighbours = neighbours(&kept, &edges)?;
         let mut surface =
-            Surface { side, reference, facets: kept, equations, longest_edge: 0.0, edges, analytic: None };
+            Surface { side, reference, facets: kept, equations, longest_edge: 0.0, edges, neighbours, analytic: None };
         surface.longest_edge = surface.longest_edge_at(&surface.reference);
         match surface.folded_edge() {
             None => Ok(surface),
@@ -152,6 +161,7 @@ impl Surface {
             equations: memory::filled([NO_EQUATION; 3], FRAME)?,
             longest_edge: 0.0,
             edges: Vec::new(),
+            neighbours: memory::filled([NO_FACET; MAX_NODES], 1)?,
             analytic: Some(shape),
         };
         match surface.analytic_at(&surface.reference) {
@@ -183,12 +193,44 @@ impl Surface {
 
     /// Per node the sum of the unit normals of its facets' corners, which gives nu (docs/formulation.md 4.1).
     pub(crate) fn sums_of_normals(&self, x: &[Vec3]) -> Result<Vec<Vec3>> {
-        let mut sums = memory::filled(Vec3::zeros(), self.len())?;
+        let mut sums = Vec::new();
+        self.add_normals(x, &mut sums)?;
+        Ok(sums)
+    }
+
+    /// The same, in place of what was in `sums`.
+    pub(crate) fn add_normals(&self, x: &[Vec3], sums: &mut Vec<Vec3>) -> Result<()> {
+        memory::refill(sums, Vec3::zeros(), self.len())?;
         for (f, nodes) in self.facets.iter().enumerate() {
             let facet = self.facet(f, x);
             nodes.as_slice().iter().enumerate().for_each(|(k, &a)| sums[a] += normal::corner_normal(&facet, k));
         }
-        Ok(sums)
+        Ok(())
+    }
+
+    /// Unit normals of the planes of all facets, in place of what was in `normals`; zeros of degenerate ones, of which
+    /// [`Surface::frame`] says more.
+    pub(crate) fn plane_normals(&self, x: &[Vec3], normals: &mut Vec<Vec3>) -> Result<()> {
+        normals.clear();
+        normals.store_all((0..self.facets.len()).map(|f| Plane::of(&self.facet(f, x)).map_or(Vec3::zeros(), |p| p.e)))
+    }
+
+    /// The frame of a facet; `normals`: those of all planes.
+    pub(crate) fn frame(&self, f: usize, x: &[Vec3], normals: &[Vec3]) -> Result<NonmortarFrame> {
+        let mut frame = NonmortarFrame::new(&self.facet(f, x)).map_err(at_facet(self.side, f))?;
+        for (beyond, &g) in frame.plane.beyond.iter_mut().zip(&self.neighbours[f]) {
+            if g != NO_FACET {
+                *beyond = Some(normals[g as usize]);
+            }
+        }
+        Ok(frame)
+    }
+
+    /// The first refusal of any facet's frame at `x`, if there is one.
+    #[cold]
+    pub(crate) fn refused_frame(&self, x: &[Vec3]) -> Option<Error> {
+        let refusal = |f: usize| NonmortarFrame::new(&self.facet(f, x)).map_err(at_facet(self.side, f)).err();
+        (0..self.facets.len()).find_map(refusal)
     }
 
     /// Number of nodes.
@@ -211,21 +253,29 @@ pub fn at_facet(side: &str, facet: usize) -> impl FnOnce(Error) -> Error {
 
 /// The frames of all facets of a surface.
 pub fn frames(surface: &Surface, x: &[Vec3]) -> Result<Vec<NonmortarFrame>> {
+    let mut normals = Vec::new();
+    surface.plane_normals(x, &mut normals)?;
     // A collected Result knows no length, and frames are large.
     let mut frames = memory::with_room(surface.facets.len())?;
     for f in 0..surface.facets.len() {
-        frames.store(NonmortarFrame::new(&surface.facet(f, x)).map_err(at_facet(surface.side, f))?)?;
+        frames.store(surface.frame(f, x, &normals)?)?;
     }
-    for edge in &surface.edges {
+    Ok(frames)
+}
+
+/// Per facet the one beyond each edge.
+fn neighbours(facets: &[FacetNodes], edges: &[SharedEdge]) -> Result<Vec<[u32; MAX_NODES]>> {
+    let mut neighbours = memory::filled([NO_FACET; MAX_NODES], facets.len())?;
+    for edge in edges {
         // Each runs the edge from another end.
         for (i, from) in edge.nodes.into_iter().enumerate() {
-            let (facet, beyond) = (edge.facets[i], frames[edge.facets[1 - i]].plane.e);
-            if let Some(k) = surface.facets[facet].as_slice().iter().position(|&node| node == from) {
-                frames[facet].plane.beyond[k] = Some(beyond);
+            let (facet, beyond) = (edge.facets[i], edge.facets[1 - i]);
+            if let Some(k) = facets[facet].as_slice().iter().position(|&node| node == from) {
+                neighbours[facet][k] = beyond as u32;
             }
         }
     }
-    Ok(frames)
+    Ok(neighbours)
 }
 
 /// Whether vectors are the same numbers; 0 and -0 are not, nor are results in every bit.

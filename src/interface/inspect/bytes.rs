@@ -9,6 +9,8 @@ use crate::interface::pairing::filter::Filter;
 use crate::interface::pairing::given::NormalsAt;
 use crate::interface::pairing::search::Tree;
 use crate::interface::pairing::settle::Pairing;
+use crate::interface::pairing::work::Work;
+use crate::interface::stages::residual::Residual;
 
 /// A vector's memory `[bytes]`: what it holds and what it has taken for more.
 pub fn heap<T>(v: &Vec<T>) -> usize {
@@ -16,7 +18,7 @@ pub fn heap<T>(v: &Vec<T>) -> usize {
 }
 
 fn of_surface(s: &Surface) -> usize {
-    heap(&s.reference) + heap(&s.facets) + heap(&s.equations) + heap(&s.edges)
+    heap(&s.reference) + heap(&s.facets) + heap(&s.equations) + heap(&s.edges) + heap(&s.neighbours)
 }
 
 /// Of a history.
@@ -38,14 +40,23 @@ fn of_filter(filter: &Filter) -> usize {
 }
 
 /// Of a search tree.
-pub fn of_tree(kept: &KeptTree) -> usize {
-    let KeptTree { x2, tree: Tree { boxes, nodes, order, branches, .. }, found } = kept;
-    heap(x2) + heap(boxes) + heap(nodes) + heap(order) + heap(branches) + heap(found)
+fn of_tree(kept: &KeptTree) -> usize {
+    let KeptTree { x2, tree: Tree { boxes, nodes, order, branches, .. }, .. } = kept;
+    heap(x2) + heap(boxes) + heap(nodes) + heap(order) + heap(branches)
+}
+
+/// Of what searches and integrations work with.
+pub fn of_work(work: &Work) -> usize {
+    let r = &work.room;
+    let of_row = heap(&r.frames) + heap(&r.candidates) + heap(&r.found) + heap(&r.segments) + heap(&r.sheets);
+    let of_nodes = heap(&r.met) + heap(&r.sums) + heap(&r.vectors);
+    of_tree(&work.tree) + of_row + of_nodes + heap(&r.dropped) + heap(&r.added) + of_active(&r.anew)
 }
 
 /// Of the pairs at a configuration.
 pub fn of_active(k: &Active) -> usize {
-    heap(&k.x1) + heap(&k.x2) + heap(&k.frames) + heap(&k.pairs) + heap(&k.segments)
+    let of_pairs = heap(&k.pairs) + heap(&k.areas) + heap(&k.integrated) + heap(&k.excluded);
+    heap(&k.x1) + heap(&k.x2) + heap(&k.normals) + of_pairs
 }
 
 /// Of surfaces, equations and what is set per node.
@@ -59,6 +70,11 @@ pub fn of_setup<const N: usize>(setup: &Setup<N>) -> usize {
 pub fn of_pairing(pairing: &Pairing) -> usize {
     let carriers = heap(&pairing.carriers) + pairing.carriers.iter().map(heap).sum::<usize>();
     pairing.filter.as_ref().map_or(0, of_filter) + heap(&pairing.coverable) + heap(&pairing.keeps_normal) + carriers
+}
+
+/// Of a residual.
+pub fn of_residual<const N: usize>(r: &Residual<N>) -> usize {
+    heap(&r.nonmortar) + heap(&r.mortar) + heap(&r.rows)
 }
 
 /// Of the normals of now.

@@ -16,16 +16,15 @@
 use crate::error::{Error, Kind, Result};
 use crate::geometry::Vec3;
 use crate::interface::data::active::Active;
-use crate::interface::data::counters::Counters;
 use crate::interface::data::node_data::check_length;
 use crate::interface::data::options::Weights;
 use crate::interface::data::pairs::PairRecord;
 use crate::interface::data::surface::Surface;
 use crate::interface::pairing::boxes::Aabb;
-use crate::interface::pairing::candidates::KeptTree;
 use crate::interface::pairing::given::{Given, check_finite};
+use crate::interface::pairing::work::Work;
 use crate::interface::stages::acting::acting;
-use crate::interface::stages::away::looking_away;
+use crate::interface::stages::away::LookingAway;
 use crate::interface::stages::sums::assemble;
 use crate::memory::{self, Stored};
 
@@ -86,7 +85,7 @@ fn shortest_edges(surface: &Surface, x: &[Vec3]) -> Result<Vec<f64>> {
 /// default. Sides that are tied may move as they like.
 pub fn step_limit<const N: usize>(
     given: Given<N>,
-    (active, counters, tree): (Option<&Active>, &mut Counters, &mut KeptTree),
+    (active, work): (Option<&Active>, &mut Work),
     (x1, x2): (&[Vec3], &[Vec3]),
     (dx1, dx2): (&[Vec3], &[Vec3]),
     depth: Option<f64>,
@@ -112,7 +111,7 @@ pub fn step_limit<const N: usize>(
         return Ok(1.0);
     }
     let edges = shortest_edges(nonmortar, x1)?;
-    let mut mean_gaps = |fraction: f64| mean_gaps(given, (active, &mut *counters, &mut *tree), &step, fraction);
+    let mut mean_gaps = |fraction: f64| mean_gaps(given, (active, &mut *work), &step, fraction);
     let start = mean_gaps(0.0)?;
     let limit = |a: usize| start[a].map_or(0.0, |gap| gap.mean.min(0.0)) - depth * edges[a];
     let limits: Vec<_> = (0..edges.len()).map(limit).stored()?;
@@ -150,24 +149,32 @@ pub fn step_limit<const N: usize>(
 /// The mean gap of each node at a fraction of a step; `None`: it is uncovered.
 fn mean_gaps<const N: usize>(
     given: Given<N>,
-    (active, counters, tree): (Option<&Active>, &mut Counters, &mut KeptTree),
+    (active, work): (Option<&Active>, &mut Work),
     step: &Motion,
     fraction: f64,
 ) -> Result<Vec<Option<Gap>>> {
     let (x1, x2) = (step.at(0, fraction)?, step.at(1, fraction)?);
     let (surfaces, options) = (given.setup.surfaces(), &given.setup.options);
     let known = active.filter(|k| k.x1 == x1 && k.x2 == x2);
-    let now = match (&given.step.pairing.filter, options.effective_weights()) {
+    // Its memory serves all fractions, and commits.
+    let mut now = std::mem::take(&mut work.room.anew);
+    let is_new = match (&given.step.pairing.filter, options.effective_weights()) {
         (Some(filter), Weights::Current) if known.is_none() => {
-            Some(acting(surfaces, options, filter, (counters, tree), (&x1, &x2))?)
+            acting(surfaces, options, filter, work, (&x1, &x2), &mut now)?;
+            true
         }
-        _ => None,
+        _ => false,
     };
-    let pairs = now.as_ref().or(known).map_or(&given.history().pairs, |k| &k.pairs);
-    let (sums, rates) = (assemble(surfaces, pairs, &x1, &x2)?, rates(surfaces, pairs, (&x1, &x2))?);
-    let away = looking_away(given, (&x1, &x2))?;
+    let known = if is_new { Some(&now) } else { known };
+    let pairs = known.map_or(&given.history().pairs, |k| &k.pairs);
+    let sums = &mut work.room.sums;
+    assemble(surfaces, pairs, (&x1, &x2), sums)?;
+    let rates = rates(surfaces, pairs, (&x1, &x2))?;
+    work.room.anew = now;
+    let away = LookingAway::at(given, (&x1, &x2))?;
     let gap = |(a, (coverage, gap)): (usize, &(f64, Vec3))| {
-        let covered = !away.get(a).is_some_and(|away| *away) && *coverage > given.least_coverage(a);
+        let looks_away = away.as_ref().map_or(Ok(false), |away| away.is(a))?;
+        let covered = !looks_away && *coverage > given.least_coverage(a);
         Ok(if covered { Some(Gap { mean: given.normal(a)?.dot(gap) / coverage, rate: rates[a] }) } else { None })
     };
     sums.iter().enumerate().map(gap).stored_if_ok()

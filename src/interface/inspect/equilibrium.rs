@@ -14,7 +14,6 @@ use crate::interface::stages::carried::{carriers_sums, multiplier_share};
 use crate::interface::stages::node::{is_left_out, node};
 use crate::interface::stages::sums::NodeSums;
 use crate::law::{Measure, Violation};
-use crate::memory::Stored;
 use nalgebra::SVector;
 
 /// How many roundings of the largest coordinate may meet in a gap or a slip: a difference of two sums over some nodes,
@@ -71,10 +70,10 @@ pub fn equilibrium<const N: usize>(
     scales: &Scales,
 ) -> Result<Equilibrium> {
     let areas = &given.history().areas;
-    let nodes: Vec<usize> = (0..lambda.len()).filter(|&a| given.setup.has_multiplier(a)).stored()?;
+    let nodes = || (0..lambda.len()).filter(|&a| given.setup.has_multiplier(a));
     // A sliver's multiplier is a point load: it counts by its force.
-    let traction = |&a: &usize| lambda[a].norm() * (sums[a].coverage / areas[a]).min(1.0);
-    let traction = nodes.iter().map(traction).fold(scales.traction, f64::max);
+    let traction = |a: usize| lambda[a].norm() * (sums[a].coverage / areas[a]).min(1.0);
+    let traction = nodes().map(traction).fold(scales.traction, f64::max);
     let position = x1.iter().chain(x2).map(|x| x.amax()).fold(0.0, f64::max);
     let rounding = ROUNDINGS * f64::EPSILON * position;
     let length = |a: usize| areas[a].sqrt();
@@ -82,13 +81,13 @@ pub fn equilibrium<const N: usize>(
         0.0 => length(a),
         modulus => length(a) * (traction / modulus),
     };
-    let least = nodes.iter().map(|&a| length_scale(a)).fold(f64::INFINITY, f64::min);
+    let least = nodes().map(length_scale).fold(f64::INFINITY, f64::min);
     let none = Largest { value: 0.0, scale: if least.is_finite() { least } else { 0.0 }, node: None };
     let mut all = Equilibrium { gap: none, traction: Largest { scale: traction, ..none }, slip: none };
 
     let shared =
         if carried.contains(&true) { carriers_sums(given, sums, carried, &given.normals()?)? } else { Vec::new() };
-    for a in nodes {
+    for a in nodes() {
         let sum = shared.binary_search_by_key(&a, |(b, _)| *b).map_or(&sums[a], |at| &shared[at].1);
         let stiffness = if scales.modulus > 0.0 { scales.modulus } else { traction } / length(a);
         let share = (sum.coverage / areas[a]).min(1.0);

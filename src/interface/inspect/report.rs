@@ -4,16 +4,16 @@
 use super::mistakes;
 use crate::error::{Result, Text};
 use crate::geometry::{Plane, Vec3};
-use crate::interface::data::counters::Counters;
+use crate::interface::data::active::Active;
 use crate::interface::data::options::Weights;
 use crate::interface::data::pairs::PairRecord;
 use crate::interface::data::surface::{Surface, frames};
 use crate::interface::pairing::boxes::Aabb;
-use crate::interface::pairing::candidates::KeptTree;
 use crate::interface::pairing::filter::LEAST_OPPOSITION;
 use crate::interface::pairing::given::Given;
 use crate::interface::pairing::prism::Prism;
 use crate::interface::pairing::search::Tree;
+use crate::interface::pairing::work::Work;
 use crate::interface::stages::integrate::integrate;
 use crate::interface::stages::layers;
 use crate::interface::stages::sums::assemble;
@@ -131,18 +131,14 @@ impl Report {
 }
 
 /// Which nodes are covered, and how, at (x1, x2), however far apart the surfaces are there.
-pub fn report<const N: usize>(
-    given: Given<N>,
-    (counters, tree): (&mut Counters, &mut KeptTree),
-    (x1, x2): (&[Vec3], &[Vec3]),
-) -> Result<Report> {
+pub fn report<const N: usize>(given: Given<N>, work: &mut Work, (x1, x2): (&[Vec3], &[Vec3])) -> Result<Report> {
     let (surfaces, options, h) = (given.setup.surfaces(), &given.setup.options, given.history());
-    let now;
+    let mut now = Active::default();
     let mut several = memory::filled(false, given.nodes())?;
     let (pairs, at) = match (options.effective_weights(), &given.step.pairing.filter) {
         (Weights::Current, Some(filter)) => {
-            now = integrate(surfaces, options, filter, (counters, tree), (x1, x2))?;
-            for found in layers::find(surfaces.1, &now)? {
+            integrate(surfaces, options, filter, work, (x1, x2), &mut now, None)?;
+            for found in layers::find(surfaces, (options, filter), &mut work.room, &now)? {
                 surfaces.0.facets[found?.under].as_slice().iter().for_each(|&a| several[a] = true);
             }
             (&now.pairs, x1)
@@ -150,7 +146,8 @@ pub fn report<const N: usize>(
         (Weights::Committed, _) => (&h.pairs, &h.x1[..]),
         (_, _) => (&h.pairs, &surfaces.0.reference[..]),
     };
-    let sums = assemble(surfaces, pairs, x1, x2)?;
+    let mut sums = Vec::new();
+    assemble(surfaces, pairs, (x1, x2), &mut sums)?;
     let layers = covered_times(surfaces.0, pairs, at)?;
     let claims = claims(surfaces.0, pairs)?;
     let node = |a: usize| {

@@ -4,13 +4,13 @@
 //! follows from the weights (gaps, forces, slip, history) is as for two facets.
 
 use super::filter::least_opposition;
+use super::work::{Following, Work};
 use crate::error::Result;
 use crate::geometry::{AnalyticSurface, Facet, Plane, Vec3};
 use crate::interface::data::active::Active;
-use crate::interface::data::counters::Counters;
 use crate::interface::data::options::Options;
 use crate::interface::data::pairs::PairRecord;
-use crate::interface::data::surface::{Surface, at_facet, frames};
+use crate::interface::data::surface::{Surface, at_facet};
 use crate::memory::{self, Store, Stored};
 use crate::mortar::analytic_weights;
 use std::time::Instant;
@@ -25,11 +25,19 @@ pub fn facing(
     x1: &[Vec3],
     skin: f64,
 ) -> Result<Vec<bool>> {
-    let faces = |f: usize| {
-        let facet = one.facet(f, x1);
-        Ok(faces(&facet, &Plane::of(&facet).map_err(at_facet(one.side, f))?, surface, options, skin))
-    };
-    (0..one.facets.len()).map(faces).stored_if_ok()
+    (0..one.facets.len()).map(|f| faces_at(one, surface, options, x1, (f, skin))).stored_if_ok()
+}
+
+/// The same of one facet.
+pub fn faces_at(
+    one: &Surface,
+    surface: &AnalyticSurface,
+    options: &Options,
+    x1: &[Vec3],
+    (f, skin): (usize, f64),
+) -> Result<bool> {
+    let facet = one.facet(f, x1);
+    Ok(faces(&facet, &Plane::of(&facet).map_err(at_facet(one.side, f))?, surface, options, skin))
 }
 
 /// Whether this facet faces the surface.
@@ -63,30 +71,36 @@ pub fn facing_now<'a>(
     }
 }
 
-/// Weights of all facets that face the surface, at (x1, x2).
+/// Adds the weights of all facets that face the surface, at (x1, x2), to an empty `active`.
 pub fn integrate(
     (one, two): (&Surface, &Surface),
     options: &Options,
     facing: &[bool],
-    counters: &mut Counters,
+    Work { counters, .. }: &mut Work,
     (x1, x2): (&[Vec3], &[Vec3]),
-) -> Result<Active> {
+    active: &mut Active,
+    mut following: Following,
+) -> Result<()> {
     let start = Instant::now();
-    let (frames, surface) = (frames(one, x1)?, two.analytic_at(x2)?);
-    let mut pairs = memory::with_room(frames.len())?;
+    one.plane_normals(x1, &mut active.normals)?;
+    let surface = two.analytic_at(x2)?;
     let faces_now = facing_now(one, (&surface, facing), options, x1);
-    for (i, frame) in frames.iter().enumerate() {
+    memory::grow(&mut active.pairs, one.facets.len())?;
+    for i in 0..one.facets.len() {
+        let (frame, place) = (one.frame(i, x1, &active.normals)?, active.pairs.len());
         counters.pairs_tested += 1;
         let is_pair = if options.follows_normals() { faces_now((i, &frame.plane)) } else { facing[i] };
         if is_pair {
-            let weights = analytic_weights(frame, &surface, options.rule).map_err(at_facet(one.side, i))?;
-            pairs.store(PairRecord { one: i, two: 0, weights })?;
+            let weights = analytic_weights(&frame, &surface, options.rule).map_err(at_facet(one.side, i))?;
+            active.pairs.store(PairRecord { one: i, two: 0, weights })?;
+            if let Some(following) = &mut following {
+                following(active, place, (&frame, &[]))?;
+            }
         }
     }
-    counters.pairs_integrated += pairs.len() as i64;
+    counters.pairs_integrated += active.pairs.len() as i64;
     counters.seconds_integration += start.elapsed().as_secs_f64();
-    let (x1, x2) = (memory::copied(x1)?, memory::copied(x2)?);
-    Ok(Active { x1, x2, frames, pairs, segments: Vec::new(), integrated: Vec::new() })
+    Ok(())
 }
 
 /// Whether every node is outside the surface by more than any facet's edge there, in all of the configurations (x1, x2).
@@ -104,7 +118,19 @@ pub fn are_apart((one, two): (&Surface, &Surface), places: &[(&[Vec3], &[Vec3])]
 
 /// Whether the gap is one, and no penetration, all over a facet that is outside: its vector runs along the surface's
 /// normal n, of which nu . n > 0 holds between the nodes if it does at all of them.
-pub fn looks_at(surface: &AnalyticSurface, nodes: &[usize], x1: &[Vec3], nu: &[Vec3]) -> bool {
-    let normal = |&k: &usize| surface.closest(x1[k] - surface.origin).map(|closest| closest.normal);
-    nodes.iter().all(|k| normal(k).is_some_and(|n| nodes.iter().all(|&a| nu[a].dot(&n) > 0.0)))
+pub fn looks_at(
+    surface: &AnalyticSurface,
+    nodes: &[usize],
+    x1: &[Vec3],
+    nu: impl Fn(usize) -> Result<Vec3>,
+) -> Result<bool> {
+    for &k in nodes {
+        let Some(closest) = surface.closest(x1[k] - surface.origin) else { return Ok(false) };
+        for &a in nodes {
+            if !(nu(a)?.dot(&closest.normal) > 0.0) {
+                return Ok(false);
+            }
+        }
+    }
+    Ok(true)
 }

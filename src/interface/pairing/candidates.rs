@@ -13,7 +13,7 @@ use crate::error::Result;
 use crate::geometry::Vec3;
 use crate::interface::data::options::{Options, Scheme};
 use crate::interface::data::surface::{Surface, are_same};
-use crate::memory::Store;
+use crate::memory::{self, Store};
 use crate::mortar::NonmortarFrame;
 
 /// Prisms are grown by this (over the facet's longest edge), so that touching facets are visited.
@@ -27,19 +27,22 @@ pub const SKIN: f64 = 0.25;
 pub struct KeptTree {
     pub x2: Vec<Vec3>,
     pub tree: Tree,
-    /// Facets that a query finds.
-    pub found: Vec<usize>,
+    /// Whether the tree is of these positions; if not it is room.
+    is_current: bool,
 }
 
 impl KeptTree {
-    /// The tree of `two` at `x2`, and room for what it finds.
-    pub fn at(&mut self, two: &Surface, x2: &[Vec3]) -> Result<(&Tree, &mut Vec<usize>)> {
+    /// The tree of `two` at `x2`.
+    pub fn at(&mut self, two: &Surface, x2: &[Vec3]) -> Result<&Tree> {
         if !are_same(&self.x2, x2) {
-            self.x2.clear(); // whatever happens, the tree is none of these positions any more
-            self.tree.renew(two.facets.len(), &|f| two.facet(f, x2))?;
-            self.x2.store_all(x2.iter().copied())?;
+            self.is_current = false;
+            memory::recopy(&mut self.x2, x2)?;
         }
-        Ok((&self.tree, &mut self.found))
+        if !self.is_current {
+            self.tree.renew(two.facets.len(), &|f| two.facet(f, x2))?;
+            self.is_current = true;
+        }
+        Ok(&self.tree)
     }
 }
 
@@ -51,33 +54,106 @@ pub fn candidates(
     options: &Options,
     frames: &[NonmortarFrame],
     (x1, x2): (&[Vec3], &[Vec3]),
-    ((tree, found), filter): ((&Tree, &mut Vec<usize>), &FacetFilter),
+    (tree, filter): (&Tree, &FacetFilter),
     skin: f64,
     visited: &mut i64,
 ) -> Result<Vec<(usize, usize)>> {
-    let mut pairs = Vec::new();
-    let follows = options.follows_normals();
-    let ends = Ends::new((tree, filter), (two, x2), follows.then_some(skin));
-    let all = follows && (skin > 0.0 || filter.has_turned((one, two), (x1, x2)));
-    for (i, frame) in frames.iter().enumerate().filter(|&(i, _)| all || filter.reached[i]) {
-        let facet = one.facet(i, x1);
-        let prism = Prism::over(facet.points(), &frame.plane, (TOUCH_MARGIN + skin) * facet.longest_edge());
-        *visited += tree.find(&ends.of(prism, i, &frame.plane), found)? as i64;
-        if skin == 0.0 {
-            prism.keep_near(two, x2, found);
-        }
-        let admits = |j: usize| {
-            if !follows {
-                return filter.admits(i, j);
-            }
-            let pair = ((i, &frame.plane), (j, &two.facet(j, x2)));
-            let then = filter.admits(i, j) && (skin > 0.0 || filter.holds_at(pair.0, pair.1));
-            then || filter.admits_at(pair.0, pair.1, skin)
-        };
-        let admitted = found.iter().filter(|&&j| admits(j));
-        pairs.store_all(admitted.map(|&j| (i, j)))?;
+    let (mut pairs, mut found) = (Vec::new(), Vec::new());
+    let search = Search::new((one, two), options, (x1, x2), (tree, filter), skin);
+    for (i, frame) in frames.iter().enumerate() {
+        *visited += search.of_facet((i, frame), &mut found, &mut pairs, None)?;
     }
     Ok(pairs)
+}
+
+/// A search, facet by facet.
+pub struct Search<'a> {
+    surfaces: (&'a Surface, &'a Surface),
+    x: (&'a [Vec3], &'a [Vec3]),
+    tree: &'a Tree,
+    filter: &'a FacetFilter,
+    ends: Ends<'a>,
+    skin: f64,
+    /// Whether the normals follow the motion.
+    pub follows: bool,
+    all: bool,
+}
+
+impl<'a> Search<'a> {
+    /// At these positions; see [`candidates`].
+    pub fn new(
+        surfaces: (&'a Surface, &'a Surface),
+        options: &Options,
+        x: (&'a [Vec3], &'a [Vec3]),
+        (tree, filter): (&'a Tree, &'a FacetFilter),
+        skin: f64,
+    ) -> Search<'a> {
+        let follows = options.follows_normals();
+        let all = follows && (skin > 0.0 || filter.has_turned(surfaces, x));
+        let ends = Ends::new((tree, filter), (surfaces.1, x.1), follows.then_some(skin));
+        Search { surfaces, x, tree, filter, ends, skin, follows, all }
+    }
+
+    /// Whether facet i, which has this frame, may have facet j as its partner.
+    pub fn admits(&self, (i, frame): (usize, &NonmortarFrame), j: usize) -> bool {
+        let (filter, skin) = (self.filter, self.skin);
+        if !self.follows {
+            return filter.admits(i, j);
+        }
+        let pair = ((i, &frame.plane), (j, &self.surfaces.1.facet(j, self.x.1)));
+        let then = filter.admits(i, j) && (skin > 0.0 || filter.holds_at(pair.0, pair.1));
+        then || filter.admits_at(pair.0, pair.1, skin)
+    }
+
+    /// Whether facet i can have a partner at all.
+    pub fn reaches(&self, i: usize) -> bool {
+        self.all || self.filter.reached[i]
+    }
+
+    /// The prism over facet i, which has this frame, without ends.
+    fn prism(&self, i: usize, frame: &NonmortarFrame) -> Prism {
+        let facet = self.surfaces.0.facet(i, self.x.0);
+        Prism::over(facet.points(), &frame.plane, (TOUCH_MARGIN + self.skin) * facet.longest_edge())
+    }
+
+    /// Whether the search of facet i, whose plane has this normal, may not look at all heights.
+    pub fn may_end(&self, i: usize, normal: Vec3) -> bool {
+        let facet = self.surfaces.0.facet(i, self.x.0);
+        self.ends.may_cut(i, (normal, facet.points()[0]), facet.longest_edge())
+    }
+
+    /// Whether the search of facet i, which has this frame, looks at all heights: what it finds then does not depend on the
+    /// filter.
+    pub fn is_endless(&self, (i, frame): (usize, &NonmortarFrame)) -> bool {
+        self.ends.of(self.prism(i, frame), i, &frame.plane).is_endless()
+    }
+
+    /// Appends the candidates of facet i, which has this frame, and to `excluded` what was found and is none. Gives how many
+    /// boxes were compared.
+    pub fn of_facet(
+        &self,
+        (i, frame): (usize, &NonmortarFrame),
+        found: &mut Vec<usize>,
+        pairs: &mut Vec<(usize, usize)>,
+        mut excluded: Option<&mut Vec<(u32, u32)>>,
+    ) -> Result<i64> {
+        if !self.reaches(i) {
+            return Ok(0);
+        }
+        let prism = self.prism(i, frame);
+        let visited = self.tree.find(&self.ends.of(prism, i, &frame.plane), found)?;
+        if self.skin == 0.0 {
+            prism.keep_near(self.surfaces.1, self.x.1, found);
+        }
+        for &j in found.iter() {
+            if self.admits((i, frame), j) {
+                pairs.store((i, j))?;
+            } else if let Some(excluded) = &mut excluded {
+                excluded.store((i as u32, j as u32))?;
+            }
+        }
+        Ok(visited as i64)
+    }
 }
 
 /// The points of non-mortar facet `i` where it is integrated by points.

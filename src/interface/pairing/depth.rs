@@ -17,7 +17,7 @@ use crate::adjacency::root;
 use crate::error::Result;
 use crate::geometry::Vec3;
 use crate::interface::data::surface::Surface;
-use crate::memory::{self, Store, Stored};
+use crate::memory::{self, Store};
 
 /// A mortar facet in the prism of a non-mortar facet that it opposes, and how deep behind it, where that is deeper than
 /// their own measure.
@@ -35,17 +35,22 @@ pub fn followed(surfaces: (&Surface, &Surface), filter: &FacetFilter, tree: &Tre
     let nodes = |f: usize| one.facets[f].as_slice().iter();
     let mut near = memory::filled(false, one.facets.len())?;
     for i in (0..near.len()).filter(|&i| filter.reached[i]) {
-        nodes(i).flat_map(|&a| &around[a]).for_each(|&k| near[k] = true);
+        nodes(i).flat_map(|&a| around.of(a)).for_each(|&k| near[k] = true);
     }
-    let over = |i: usize| if near[i] { over(i, filter, tree) } else { Ok(Vec::new()) };
-    let over: Vec<_> = (0..near.len()).map(over).stored_if_ok()?;
-    if !over.iter().flatten().any(|pair| pair.deep.is_some()) {
+    let (mut over, mut found) = (Lists::with_room(near.len())?, Vec::new());
+    for i in 0..near.len() {
+        if near[i] {
+            add_over(i, filter, tree, &mut found, &mut over.items)?;
+        }
+        over.end()?;
+    }
+    if !over.items.iter().any(|pair| pair.deep.is_some()) {
         return Ok(Vec::new());
     }
     let places = places(x2)?;
     let (mut depth, mut sheets) = (memory::filled(0.0_f64, two.facets.len())?, Sheets::new(two, &places)?);
-    for facets in &around {
-        let pairs = || facets.iter().flat_map(|&i| &over[i]);
+    for a in 0..one.len() {
+        let pairs = || around.of(a).iter().flat_map(|&i| over.of(i));
         if pairs().any(|pair| pair.deep.is_some()) {
             sheets.start();
             pairs().for_each(|pair| sheets.add(pair.two, pair.deep.is_none()));
@@ -59,30 +64,60 @@ pub fn followed(surfaces: (&Surface, &Surface), filter: &FacetFilter, tree: &Tre
     Ok(depth)
 }
 
-fn over(i: usize, filter: &FacetFilter, tree: &Tree) -> Result<Vec<Over>> {
+/// Appends the mortar facets over non-mortar facet i; `found`: room.
+fn add_over(i: usize, filter: &FacetFilter, tree: &Tree, found: &mut Vec<usize>, over: &mut Vec<Over>) -> Result<()> {
     let (facet, plane) = &filter.sides[0].facets[i];
-    let mut found = Vec::new();
     // Deeper than that the coarser one of no pair lets a body in.
     let low = plane.e.dot(&plane.origin) - filter.deepest_let_in(i);
     let ends = Slab { direction: plane.e, low: low - MARGIN * filter.sides[0].edges[i], high: f64::INFINITY };
-    tree.find(&Prism::over(facet.points(), plane, 0.0).within([ends]), &mut found)?;
+    tree.find(&Prism::over(facet.points(), plane, 0.0).within([ends]), found)?;
     let pair = |&j: &usize| {
         let depth = filter.opposes(i, j).then(|| -filter.heights(i, j).1)?;
         let [own, most] = filter.penetrations(i, j);
         (depth <= most).then_some(Over { two: j, deep: (depth > own).then_some(depth) })
     };
-    found.iter().filter_map(pair).stored()
+    over.store_all(found.iter().filter_map(pair))
 }
 
-/// Per node the facets around it.
-fn facets_around(surface: &Surface) -> Result<Vec<Vec<usize>>> {
-    let mut around = memory::defaults::<Vec<_>>(surface.len())?;
-    for (f, facet) in surface.facets.iter().enumerate() {
-        for &a in facet.as_slice() {
-            around[a].store(f)?;
-        }
+/// Lists, one after the other: one vector for all of them.
+struct Lists<T> {
+    items: Vec<T>,
+    /// Where each list ends, after a 0.
+    ends: Vec<usize>,
+}
+
+impl<T> Lists<T> {
+    fn with_room(lists: usize) -> Result<Lists<T>> {
+        let mut ends = memory::with_room(lists + 1)?;
+        ends.store(0)?;
+        Ok(Lists { items: Vec::new(), ends })
     }
-    Ok(around)
+
+    /// The list that items were added to is complete.
+    fn end(&mut self) -> Result<()> {
+        self.ends.store(self.items.len())
+    }
+
+    fn of(&self, k: usize) -> &[T] {
+        &self.items[self.ends[k]..self.ends[k + 1]]
+    }
+}
+
+/// Per node the facets around it, in their order.
+fn facets_around(surface: &Surface) -> Result<Lists<usize>> {
+    let mut ends = memory::filled(0, surface.len() + 1)?;
+    let nodes =
+        || surface.facets.iter().enumerate().flat_map(|(f, facet)| facet.as_slice().iter().map(move |&a| (f, a)));
+    nodes().for_each(|(_, a)| ends[a + 1] += 1);
+    for a in 0..surface.len() {
+        ends[a + 1] += ends[a];
+    }
+    let (mut next, mut items) = (memory::copied(&ends)?, memory::filled(0, ends[surface.len()])?);
+    for (f, a) in nodes() {
+        items[next[a]] = f;
+        next[a] += 1;
+    }
+    Ok(Lists { items, ends })
 }
 
 /// Per node a number that nodes at the same place share: a mesh whose facets have nodes of their own hangs together too.

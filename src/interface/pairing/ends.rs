@@ -41,6 +41,12 @@ impl<'a> Ends<'a> {
         Ends { filter, tree, two, x2, follows, depth: filter.largest_depth(), moved: OnceCell::new() }
     }
 
+    /// Whether the prism of non-mortar facet i may have ends that cut anything off. The point may be off its plane's by `slack`.
+    pub fn may_cut(&self, i: usize, (normal, point): (Vec3, Vec3), slack: f64) -> bool {
+        let (low, high) = self.tree.along(normal, point);
+        low - slack < -self.filter.deepest_of(i, self.depth) || high + slack > self.filter.gap()
+    }
+
     /// The prism of non-mortar facet i, whose plane is this one now, with its ends.
     pub fn of(&self, prism: Prism, i: usize, plane: &Plane) -> Prism {
         let one = &self.filter.sides[0];

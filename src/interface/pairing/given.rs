@@ -25,10 +25,21 @@ pub struct Step {
     pub normals: Normals,
     /// nu at the last positions; `None`: those of t_n serve.
     pub now: Option<NormalsAt>,
+    /// Room for them where there are none.
+    pub room: NormalsAt,
+}
+
+impl Step {
+    /// Those of t_n serve until others are found.
+    pub fn forget_normals(&mut self) {
+        if let Some(now) = self.now.take() {
+            self.room = now;
+        }
+    }
 }
 
 /// Averaged normals of the non-mortar surface at some positions.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub struct NormalsAt {
     /// The positions.
     pub x1: Vec<Vec3>,

@@ -2,8 +2,9 @@
 //! commit: a facet at the rim of the mortar surface would change its rule with every rounding, and Newton's method not
 //! converge.
 
-use super::candidates::{KeptTree, candidates};
+use super::candidates::candidates;
 use super::filter::FacetFilter;
+use super::search::Tree;
 use crate::error::Result;
 use crate::geometry::Vec3;
 use crate::interface::data::options::{Options, Scheme};
@@ -18,10 +19,11 @@ pub fn partly_covered(
     options: &Options,
     filter: &FacetFilter,
     (x1, x2): (&[Vec3], &[Vec3]),
+    tree: &Tree,
 ) -> Result<Vec<bool>> {
     let Scheme::Hybrid(line) = options.scheme else { return Ok(Vec::new()) };
-    let (frames, mut tree) = (frames(one, x1)?, KeptTree::default());
-    let pairs = candidates((one, two), options, &frames, (x1, x2), (tree.at(two, x2)?, filter), 0.0, &mut 0)?;
+    let frames = frames(one, x1)?;
+    let pairs = candidates((one, two), options, &frames, (x1, x2), (tree, filter), 0.0, &mut 0)?;
     let mut covered = memory::filled(0, frames.len())?;
     for (i, j) in pairs {
         let segment = Segment::of_points(&frames[i], &two.facet(j, x2), line).map_err(at_facet(two.side, j))?;

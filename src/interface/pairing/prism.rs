@@ -66,6 +66,11 @@ impl Prism {
         self
     }
 
+    /// Whether it has no ends.
+    pub fn is_endless(&self) -> bool {
+        self.ends == 0
+    }
+
     /// The prism for a search among boxes that lie in `root`, along these axes if they are not those of space. It loses
     /// its ends where none of them can tell any boxes apart.
     pub fn among(&self, root: &Aabb, axes: Option<&Axes>) -> Prism {

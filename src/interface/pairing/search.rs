@@ -61,6 +61,17 @@ impl Tree {
         Tree::parted(boxes, &[])
     }
 
+    /// Whether it has axes of its own.
+    pub fn has_axes(&self) -> bool {
+        self.axes.is_some()
+    }
+
+    /// Whether things with these normals are parted by them.
+    pub fn parts(normals: &[Vec3]) -> bool {
+        let among = Aabb::around(normals.iter().copied());
+        widest(&(among.high - among.low)).0 > SPREAD
+    }
+
     /// The same over boxes around things with these normals: what looks elsewhere is in other parts of the tree.
     pub fn parted(boxes: Vec<Aabb>, normals: &[Vec3]) -> Result<Tree> {
         let mut tree = Tree { boxes, ..Tree::default() };

@@ -3,6 +3,7 @@
 
 use super::analytic;
 use super::boxes::Aabb;
+use super::candidates::KeptTree;
 use super::depth;
 use super::filter::{FacetFilter, Filter, Side};
 use super::hybrid;
@@ -51,13 +52,19 @@ impl Pairing {
     /// That of a history which is not of now; its positions may be refused.
     pub fn again<const N: usize>(setup: &Setup<N>, history: &History) -> Result<Pairing> {
         let current = setup.options.effective_weights() == Weights::Current;
-        let at = || filter(setup.surfaces(), &setup.options, (&history.x1, &history.x2));
+        let mut tree = KeptTree::default();
+        let at = || filter(setup.surfaces(), &setup.options, (&history.x1, &history.x2), &mut tree);
         Pairing::new(setup, current.then(at).transpose()?, history)
     }
 }
 
 /// The filter of the configuration (x1, x2).
-pub fn filter((one, two): (&Surface, &Surface), options: &Options, (x1, x2): (&[Vec3], &[Vec3])) -> Result<Filter> {
+pub fn filter(
+    (one, two): (&Surface, &Surface),
+    options: &Options,
+    (x1, x2): (&[Vec3], &[Vec3]),
+    tree: &mut KeptTree,
+) -> Result<Filter> {
     if two.analytic.is_some() {
         return analytic::facing(one, &two.analytic_at(x2)?, options, x1, 0.0).map(Filter::Analytic);
     }
@@ -69,17 +76,24 @@ pub fn filter((one, two): (&Surface, &Surface), options: &Options, (x1, x2): (&[
         reached: Vec::new(),
         by_overlaps: Vec::new(),
     };
-    let points = filter.sides[1].facets.iter().map(|(facet, _)| Aabb::around(facet.points().iter().copied()));
+    let tree = tree.at(two, x2)?;
     let normals: Vec<_> = filter.sides[1].facets.iter().map(|(_, plane)| plane.e).stored()?;
-    let tree = Tree::parted(points.stored()?, &normals)?;
-    filter.reached = reach::reached(&filter, &tree)?;
+    // The answers of a search that counts boxes depend on its axes; those of space are wanted.
+    let parted = if tree.has_axes() || Tree::parts(&normals) {
+        let points = filter.sides[1].facets.iter().map(|(facet, _)| Aabb::around(facet.points().iter().copied()));
+        Some(Tree::parted(points.stored()?, &normals)?)
+    } else {
+        None
+    };
+    let over = parted.as_ref().unwrap_or(tree);
+    filter.reached = reach::reached(&filter, over)?;
     if filter.distance.is_none() {
-        filter.depths = depth::followed((one, two), &filter, &tree, x2)?;
+        filter.depths = depth::followed((one, two), &filter, over, x2)?;
         if !filter.depths.is_empty() {
-            filter.reached = reach::reached(&filter, &tree)?;
+            filter.reached = reach::reached(&filter, over)?;
         }
     }
-    filter.by_overlaps = hybrid::partly_covered((one, two), options, &filter, (x1, x2))?;
+    filter.by_overlaps = hybrid::partly_covered((one, two), options, &filter, (x1, x2), tree)?;
     Ok(Filter::Facets(filter))
 }
 

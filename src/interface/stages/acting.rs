@@ -6,21 +6,33 @@ use super::integrate::integrate;
 use crate::error::Result;
 use crate::geometry::Vec3;
 use crate::interface::data::active::Active;
-use crate::interface::data::counters::Counters;
-use crate::interface::data::options::Options;
+use crate::interface::data::options::{MultiplierBasis, Options};
 use crate::interface::data::surface::Surface;
-use crate::interface::pairing::candidates::KeptTree;
 use crate::interface::pairing::filter::Filter;
+use crate::interface::pairing::work::Work;
+use crate::mortar::{NonmortarFrame, Segment};
 
-/// All active pairs at x, with the filter of another or the same configuration.
+/// All active pairs at x, with the filter of another or the same configuration, in the memory of `active`. What is there
+/// after a refusal means nothing.
 pub fn acting(
     surfaces: (&Surface, &Surface),
     options: &Options,
     filter: &Filter,
-    kept: (&mut Counters, &mut KeptTree),
+    work: &mut Work,
     x: (&[Vec3], &[Vec3]),
-) -> Result<Active> {
-    let mut active = integrate(surfaces, options, filter, kept, x)?;
-    facet(surfaces.0, options.basis, &mut active)?;
-    Ok(active)
+    active: &mut Active,
+) -> Result<()> {
+    if options.basis == MultiplierBasis::Standard {
+        return integrate(surfaces, options, filter, work, x, active, None);
+    }
+    // That pairs cannot be integrated is said before what their facets lack.
+    let mut refused = Ok(());
+    let mut following = |active: &mut Active, first: usize, overlaps: (&NonmortarFrame, &[Segment])| {
+        if refused.is_ok() {
+            refused = facet(surfaces.0, active, first, overlaps);
+        }
+        Ok(())
+    };
+    integrate(surfaces, options, filter, work, x, active, Some(&mut following))?;
+    refused
 }

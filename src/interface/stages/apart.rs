@@ -13,7 +13,7 @@ use crate::interface::pairing::analytic;
 use crate::interface::pairing::boxes::Aabb;
 use crate::interface::pairing::filter::Filter;
 use crate::interface::pairing::given::Given;
-use crate::memory::{self, Stored};
+use crate::memory;
 
 /// Whether the surfaces are apart in all of the configurations (x1, x2), by more than the deepest penetration that is a
 /// pair. Only where the weights follow the motion, so that they can be made up for later.
@@ -28,17 +28,20 @@ pub fn are_apart(
     }
     match filter {
         Filter::Analytic(_) => analytic::are_apart(surfaces, places),
-        Filter::Facets(filter) => Ok(directions(filter.deepest(), places)?.next().is_some()),
+        Filter::Facets(filter) => Ok(directions(filter.deepest(), places).iter().any(Option::is_some)),
     }
 }
 
 /// The axes, one way or the other, along which the non-mortar side must go to reach the other one, in all of the
 /// configurations: between two of them on different sides it passes through it.
-fn directions(distance: f64, places: &[(&[Vec3], &[Vec3])]) -> Result<impl Iterator<Item = Vec3> + use<>> {
+fn directions(distance: f64, places: &[(&[Vec3], &[Vec3])]) -> [Option<Vec3>; 6] {
     let around = |x: &[Vec3]| Aabb::around(x.iter().copied());
-    let above: Vec<_> = places.iter().map(|(x1, x2)| around(x1).sides(&around(x2), distance)).stored()?;
-    let axes = [-Vec3::x(), -Vec3::y(), -Vec3::z(), Vec3::x(), Vec3::y(), Vec3::z()];
-    Ok((0..6).filter(move |&side| above.iter().all(|sides| sides[side])).map(move |side| axes[side]))
+    let mut directions = [-Vec3::x(), -Vec3::y(), -Vec3::z(), Vec3::x(), Vec3::y(), Vec3::z()].map(Some);
+    for (x1, x2) in places {
+        let sides = around(x1).sides(&around(x2), distance);
+        directions.iter_mut().zip(sides).filter(|(_, side)| !side).for_each(|(direction, _)| *direction = None);
+    }
+    directions
 }
 
 /// Whether the surfaces are apart at (x1, x2), were so at t_n, and look at each other.
@@ -56,24 +59,44 @@ pub fn stays_apart<const N: usize>(given: Given<N>, x1: &[Vec3], x2: &[Vec3]) ->
         return Ok(false);
     }
     // A normal that is undefined is refused where it is needed.
-    let Some(nu) = memory::if_accepted(given.normals())? else { return Ok(false) };
+    for a in 0..given.nodes() {
+        if memory::if_accepted(given.normal(a))?.is_none() {
+            return Ok(false);
+        }
+    }
     let (one, reached) = (surfaces.0, filter.reached());
-    let facets = (0..reached.len()).filter(|&f| reached[f]);
-    let nodes = |f: usize| &one.facets[f].nodes[..one.facets[f].len];
+    let nodes = |f: usize| one.facets[f].as_slice();
     let filter = match filter {
         Filter::Facets(filter) => filter,
-        Filter::Analytic(_) => {
+        Filter::Analytic(facing) => {
             let surface = surfaces.1.analytic_at(x2)?;
             // Where the normals follow the motion, so does which facets face the surface.
             let follows = given.setup.options.follows_normals();
-            let now =
-                if follows { analytic::facing(one, &surface, &given.setup.options, x1, 0.0)? } else { Vec::new() };
-            let mut facets = (0..reached.len()).filter(|&f| now.get(f).map_or(reached[f], |now| *now));
-            return Ok(facets.all(|f| analytic::looks_at(&surface, nodes(f), x1, &nu)));
+            for f in 0..reached.len() {
+                let faces = if follows {
+                    analytic::faces_at(one, &surface, &given.setup.options, x1, (f, 0.0))?
+                } else {
+                    facing[f]
+                };
+                if faces && !analytic::looks_at(&surface, nodes(f), x1, |a| given.normal(a))? {
+                    return Ok(false);
+                }
+            }
+            return Ok(true);
         }
     };
-    let out: Vec<_> = facets.map(|f| (f, one.facet(f, x1).area_vector())).stored()?;
-    let nodes_look = out.iter().all(|(f, out)| nodes(*f).iter().all(|&a| nu[a].dot(out) < 0.0));
-    let mut directions = directions(filter.deepest(), &places)?;
-    Ok(nodes_look && directions.any(|direction| out.iter().all(|(_, out)| out.dot(&direction) > 0.0)))
+    // Those that all facets look along.
+    let mut directions = directions(filter.deepest(), &places);
+    for f in (0..reached.len()).filter(|&f| reached[f]) {
+        let out = one.facet(f, x1).area_vector();
+        for &a in nodes(f) {
+            if !(given.normal(a)?.dot(&out) < 0.0) {
+                return Ok(false);
+            }
+        }
+        for direction in &mut directions {
+            *direction = direction.filter(|direction| out.dot(direction) > 0.0);
+        }
+    }
+    Ok(directions.iter().any(Option::is_some))
 }

@@ -21,9 +21,18 @@ use nalgebra::{SMatrix, SVector};
 
 /// Which nodes are carried here, at these sums; empty where none is.
 pub fn carried<const N: usize>(given: Given<N>, sums: &[NodeSums]) -> Result<Vec<bool>> {
+    let mut all = Vec::new();
+    find_carried(given, sums, &mut all)?;
+    Ok(all)
+}
+
+/// The same, in place of what was in `all`.
+pub fn find_carried<const N: usize>(given: Given<N>, sums: &[NodeSums], all: &mut Vec<bool>) -> Result<()> {
     let covered = |a: usize| sums[a].coverage > given.least_coverage(a);
     let carried = |a: usize| !given.carriers_of(a).is_empty() && covered(a);
-    if given.step.pairing.carriers.is_empty() { Ok(Vec::new()) } else { (0..sums.len()).map(carried).stored() }
+    all.clear();
+    let nodes = if given.step.pairing.carriers.is_empty() { 0 } else { sums.len() };
+    all.store_all((0..nodes).map(carried))
 }
 
 /// Sums of several handles: a node's carriers, and all pairs of a facet, would have to be known to all of them.

@@ -2,21 +2,21 @@
 
 use super::acting::acting;
 use super::apart;
+use super::keep::keep;
 use super::layers;
 use super::sums::assemble;
 use crate::error::{Error, Kind, Result};
 use crate::geometry::Vec3;
 use crate::interface::data::active::Active;
-use crate::interface::data::counters::Counters;
 use crate::interface::data::extent::Extent;
-use crate::interface::data::facet_gaps::FacetGaps;
 use crate::interface::data::history::{History, Keeps};
-use crate::interface::data::options::Options;
-use crate::interface::data::surface::{Surface, frames};
-use crate::interface::pairing::candidates::KeptTree;
+use crate::interface::data::options::{Options, Scheme};
+use crate::interface::data::surface::{Surface, at_facet};
 use crate::interface::pairing::filter::Filter;
 use crate::interface::pairing::settle;
+use crate::interface::pairing::work::Work;
 use crate::memory::{self, Store};
+use crate::mortar::NonmortarFrame;
 use crate::normal;
 
 /// What a configuration that becomes t_n has settled; nothing has slipped yet.
@@ -24,69 +24,86 @@ pub struct Settled {
     pub history: History,
     /// The filter of the step that follows; `None` where the weights are frozen for good.
     pub filter: Option<Filter>,
-    /// The weights, where the history does not keep them: the next evaluation may well be here.
-    pub active: Option<Active>,
+    /// Whether the active pairs are those of the step that follows: where the history does not keep them, for the next
+    /// evaluation may well be here.
+    pub active: bool,
 }
 
-/// The t_n that (x1, x2) makes, of a commit or at the creation.
+/// What is known of the pairs at the positions that become t_n.
+pub struct Known<'a> {
+    /// The pairs, or memory for them.
+    pub active: &'a mut Active,
+    /// The filter that has found them; `None`: none has.
+    pub filter: Option<&'a Filter>,
+}
+
+/// The t_n that (x1, x2) makes, of a commit or at the creation, in the memory of another `history`. Pairs that were known and
+/// will be none are left in the room's `dropped`.
 pub fn settled_at(
     (nonmortar, mortar): (&Surface, &Surface),
     options: &Options,
     extent: Extent,
-    (counters, tree): (&mut Counters, &mut KeptTree),
+    work: &mut Work,
     (x1, x2): (&[Vec3], &[Vec3]),
+    Known { active, filter: found_by }: Known,
+    mut history: History,
 ) -> Result<Settled> {
-    let n1 = nonmortar.len();
-    let keeps = Keeps::of(options);
-    let zeros = |kept: usize| memory::filled(Vec3::zeros(), kept * n1);
-    let [gap, slip] = keeps.gaps_and_slips();
-    let mut history = History {
-        keeps,
-        commits: 0,
-        x1: memory::copied(x1)?,
-        x2: memory::copied(x2)?,
-        normals: memory::with_room(n1)?,
-        areas: memory::filled(0.0, n1)?,
-        coverage: memory::filled(0.0, n1)?,
-        gap: zeros(gap)?,
-        facet_gaps: FacetGaps::default(),
-        slip: zeros(slip)?,
-        pairs: Vec::new(),
-        integrated: false,
-    };
+    let (surfaces, keeps) = ((nonmortar, mortar), Keeps::of(options));
+    history.begin(keeps, (x1, x2))?;
+    work.room.dropped.clear();
     // Also where the surfaces are apart: a commit refuses degenerate facets of either side.
-    let filter = settle::filter((nonmortar, mortar), options, (x1, x2))?;
-    let mut active = None;
+    let filter = settle::filter(surfaces, options, (x1, x2), &mut work.tree)?;
+    let mut is_active = false;
     // Which nodes carry others follows from what is covered: a step must know it from the start.
     let leaves_out = extent == Extent::Whole && options.effective_weak_coverage() == 0.0;
-    let frames = if leaves_out && apart::are_apart((nonmortar, mortar), options, &filter, &[(x1, x2)])? {
-        counters.commits_apart += 1;
-        &frames(nonmortar, x1)?
-    } else {
-        let mut new = acting((nonmortar, mortar), options, &filter, (counters, tree), (x1, x2))?;
-        layers::refuse(mortar, &new)?;
-        let mut sums = assemble((nonmortar, mortar), &new.pairs, x1, x2)?;
-        if keeps.facet_gaps() {
-            history.facet_gaps = FacetGaps::of((nonmortar, mortar), &new, &mut sums)?;
+    if leaves_out && apart::are_apart(surfaces, options, &filter, &[(x1, x2)])? {
+        work.counters.commits_apart += 1;
+        if found_by.is_some() {
+            active.find_dropped(&[], &mut work.room.dropped)?;
         }
-        history.fill(&mut new.pairs, &sums)?;
-        &active.insert(new).frames
-    };
-    for (facet, frame) in nonmortar.facets.iter().zip(frames) {
+        active.clear();
+    } else {
+        match found_by {
+            // A facet of a hybrid scheme may be integrated in another way from here on.
+            Some(Filter::Facets(old)) if active.knows_excluded && !matches!(options.scheme, Scheme::Hybrid(_)) => {
+                keep(surfaces, options, (old, &filter), work, active)?;
+            }
+            _ => {
+                let mut anew = std::mem::take(&mut work.room.anew);
+                acting(surfaces, options, &filter, work, (x1, x2), &mut anew)?;
+                if found_by.is_some() {
+                    active.find_dropped(&anew.pairs, &mut work.room.dropped)?;
+                }
+                std::mem::swap(active, &mut anew);
+                if found_by.is_some() {
+                    work.room.anew = anew;
+                }
+            }
+        }
+        layers::refuse(surfaces, (options, &filter), &mut work.room, active)?;
+        let sums = &mut work.room.sums;
+        assemble(surfaces, &active.pairs, (x1, x2), sums)?;
+        if keeps.facet_gaps() {
+            history.facet_gaps.take(surfaces, active, sums)?;
+        }
+        history.fill(&mut active.pairs, sums)?;
+        is_active = keeps == Keeps::Nothing;
+    }
+    for (f, facet) in nonmortar.facets.iter().enumerate() {
+        let frame = NonmortarFrame::new(&nonmortar.facet(f, x1)).map_err(at_facet(nonmortar.side, f))?;
         facet.as_slice().iter().zip(frame.nodal_areas()).for_each(|(&node, area)| history.areas[node] += area);
     }
-    for (node, sum) in nonmortar.sums_of_normals(x1)?.into_iter().enumerate() {
-        history.normals.store(normal::nodal_normal(sum, node)?)?;
+    nonmortar.add_normals(x1, &mut work.room.vectors)?;
+    memory::grow(&mut history.normals, nonmortar.len())?;
+    for (node, sum) in work.room.vectors.iter().enumerate() {
+        history.normals.store(normal::nodal_normal(*sum, node)?)?;
         if !(history.areas[node] > 0.0) {
             let text =
                 text!("the area of non-mortar node {node} is not positive: the facets around it are too distorted");
             return Err(Error::new(Kind::DegenerateFacet, text));
         }
     }
-    // The weights alone: many interfaces never ask for a tangent where a step ends.
-    let active = active.filter(|_| keeps == Keeps::Nothing);
-    let active = active.map(|k| Active { segments: Vec::new(), ..k });
-    Ok(Settled { history, filter: Some(filter), active })
+    Ok(Settled { history, filter: Some(filter), active: is_active })
 }
 
 /// Makes up for the weights of t_n where they were left out because the surfaces were apart then.
@@ -94,10 +111,11 @@ pub fn complete(
     surfaces: (&Surface, &Surface),
     options: &Options,
     (history, filter): (&mut History, &Filter),
-    kept: (&mut Counters, &mut KeptTree),
+    work: &mut Work,
 ) -> Result<()> {
-    let mut new = acting(surfaces, options, filter, kept, (&history.x1, &history.x2))?;
-    let sums = assemble(surfaces, &new.pairs, &history.x1, &history.x2)?;
-    layers::refuse(surfaces.1, &new)?;
+    let (mut new, mut sums) = (Active::default(), Vec::new());
+    acting(surfaces, options, filter, work, (&history.x1, &history.x2), &mut new)?;
+    assemble(surfaces, &new.pairs, (&history.x1, &history.x2), &mut sums)?;
+    layers::refuse(surfaces, (options, filter), &mut work.room, &new)?;
     history.fill(&mut new.pairs, &sums)
 }

@@ -4,45 +4,42 @@
 use crate::dual::{DualBasis, FacetSums};
 use crate::error::{Error, Result};
 use crate::interface::data::active::Active;
-use crate::interface::data::options::MultiplierBasis;
 use crate::interface::data::surface::{Surface, at_facet};
-use crate::memory::Stored;
-use crate::mortar::{PairWeights, Segment};
-use std::ops::Range;
+use crate::memory::{self, Store};
+use crate::mortar::{NonmortarFrame, PairWeights, Segment};
 
-/// Puts the weights that act in place of the integrated ones, which are kept beside them.
-pub fn facet(nonmortar: &Surface, basis: MultiplierBasis, active: &mut Active) -> Result<()> {
-    if basis == MultiplierBasis::Standard {
-        return Ok(());
-    }
-    active.integrated = active.pairs.iter().map(|pair| pair.weights).stored()?;
-    let mut first = 0;
-    while first < active.pairs.len() {
-        let end = end_of_facet(active, first);
-        let (_, basis) = dual_basis(nonmortar, active, first..end)?;
-        for pair in &mut active.pairs[first..end] {
-            // A facet that has faded out has no weights.
-            pair.weights = basis.as_ref().map_or_else(PairWeights::default, |basis| basis.weights(&pair.weights));
-        }
-        first = end;
+/// Puts the dual weights of a facet, whose pairs are those from place `first` on, in place of the integrated ones, which are
+/// kept beside them.
+pub fn facet(
+    nonmortar: &Surface,
+    active: &mut Active,
+    first: usize,
+    overlaps: (&NonmortarFrame, &[Segment]),
+) -> Result<()> {
+    let Some(pair) = active.pairs.get(first) else { return Ok(()) };
+    let f = pair.one;
+    let more = active.pairs.capacity() - active.integrated.len();
+    memory::grow(&mut active.integrated, more)?;
+    active.integrated.store_all(active.pairs[first..].iter().map(|pair| pair.weights))?;
+    let (_, basis) = dual_basis(nonmortar, f, overlaps, &active.integrated[first..])?;
+    for pair in &mut active.pairs[first..] {
+        // A facet that has faded out has no weights.
+        pair.weights = basis.as_ref().map_or_else(PairWeights::default, |basis| basis.weights(&pair.weights));
     }
     Ok(())
 }
 
-/// Where the pairs of the facet end whose first pair this is.
-fn end_of_facet(active: &Active, first: usize) -> usize {
-    let f = active.pairs[first].one;
-    first + active.pairs[first..].iter().take_while(|pair| pair.one == f).count()
-}
-
-/// The sums of a facet over these pairs of it, and its basis, if it has not faded out.
-pub fn dual_basis(nonmortar: &Surface, active: &Active, pairs: Range<usize>) -> Result<(FacetSums, Option<DualBasis>)> {
-    let (f, weights) = (active.pairs[pairs.start].one, &active.integrated[pairs.start..pairs.end]);
-    // Against an analytic surface there are none.
-    let segments = active.segments.get(pairs.start..pairs.end).unwrap_or_default();
+/// The sums of facet f over all of its pairs with these weights, and its basis, if it has not faded out. Against an analytic
+/// surface there are no segments.
+pub fn dual_basis(
+    nonmortar: &Surface,
+    f: usize,
+    (frame, segments): (&NonmortarFrame, &[Segment]),
+    weights: &[PairWeights],
+) -> Result<(FacetSums, Option<DualBasis>)> {
     let sums = match segments {
-        [] => FacetSums::of_areas(&active.frames[f], weights),
-        _ => FacetSums::of(&active.frames[f], segments.iter().zip(weights)),
+        [] => FacetSums::of_areas(frame, weights),
+        _ => FacetSums::of(frame, segments.iter().zip(weights)),
     };
     let basis = DualBasis::of(&sums).map_err(|error| of_points(segments, &error).unwrap_or(error));
     Ok((sums, basis.map_err(at_facet(nonmortar.side, f))?))

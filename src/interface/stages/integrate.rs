@@ -4,76 +4,99 @@
 //! (opposing normals, heights) or, where the normals follow the motion, passes them now. All of that is a function of the positions and the history, so evaluating at A, B, A gives
 //! equal bits. An analytic mortar side has its own filter and its own way (`analytic.rs`).
 
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::geometry::Vec3;
 use crate::interface::data::active::Active;
-use crate::interface::data::counters::Counters;
 use crate::interface::data::options::Options;
-use crate::interface::data::surface::{Surface, frames};
+use crate::interface::data::pairs::PairRecord;
+use crate::interface::data::surface::{Surface, at_facet};
 use crate::interface::pairing::analytic;
-use crate::interface::pairing::candidates::{KeptTree, by_points, candidates};
-use crate::interface::pairing::filter::Filter;
+use crate::interface::pairing::candidates::{Search, by_points};
+use crate::interface::pairing::filter::{FacetFilter, Filter};
+use crate::interface::pairing::overlaps::overlap;
+use crate::interface::pairing::work::{Following, ROW, Work};
 use crate::memory::{self, Store};
-use crate::mortar::Segment;
+use crate::mortar::PairWeights;
 use std::time::Instant;
 
-/// Weights of all active pairs at (x1, x2), with the filter of another or the same configuration.
+/// Weights of all active pairs at (x1, x2), with the filter of another or the same configuration, in the memory of `active`.
+/// What is there after a refusal means nothing.
 pub fn integrate(
     (one, two): (&Surface, &Surface),
     options: &Options,
     filter: &Filter,
-    (counters, tree): (&mut Counters, &mut KeptTree),
-    (x1, x2): (&[Vec3], &[Vec3]),
-) -> Result<Active> {
-    let filter = match filter {
-        Filter::Facets(filter) => filter,
-        Filter::Analytic(facing) => return analytic::integrate((one, two), options, facing, counters, (x1, x2)),
+    work: &mut Work,
+    x: (&[Vec3], &[Vec3]),
+    active: &mut Active,
+    following: Following,
+) -> Result<()> {
+    active.begin(x.0, x.1)?;
+    let outcome = match filter {
+        Filter::Facets(filter) => by_facets((one, two), options, filter, work, x, active, following),
+        Filter::Analytic(facing) => analytic::integrate((one, two), options, facing, work, x, active, following),
     };
-    let start = Instant::now();
-    let frames = frames(one, x1)?;
-    let tree = (tree.at(two, x2)?, filter);
-    let candidates = candidates((one, two), options, &frames, (x1, x2), tree, 0.0, &mut counters.boxes_visited)?;
-    counters.searches += 1;
-    counters.seconds_search += start.elapsed().as_secs_f64();
-
-    let start = Instant::now();
-    let mut active = Active {
-        x1: memory::copied(x1)?,
-        x2: memory::copied(x2)?,
-        frames,
-        // Large, too; candidates that do not overlap are few.
-        pairs: memory::with_room(candidates.len())?,
-        segments: memory::with_room(candidates.len())?,
-        integrated: Vec::new(),
-    };
-    for candidates in candidates.chunk_by(|p, q| p.0 == q.0) {
-        let first = active.pairs.len();
-        counters.pairs_tested += candidates.len() as i64;
-        let by_points = by_points(options, filter, candidates[0].0);
-        match by_points {
-            Some(line) => active
-                .add((one, two), candidates, options.rule, |frame, facet| Segment::of_points(frame, facet, line))?,
-            None => active.add((one, two), candidates, options.rule, Segment::new)?,
-        }
-        let new = &active.segments[first..];
-        counters.pairs_clipped += if by_points.is_none() { new.len() as i64 } else { 0 };
-        counters.pairs_integrated += new.iter().filter(|s| s.area > 0.0).count() as i64;
-    }
-    counters.seconds_integration += start.elapsed().as_secs_f64();
-    Ok(active)
+    // A facet that has no frame is named before any pair.
+    outcome.map_err(|error: Error| one.refused_frame(x.0).unwrap_or(error))
 }
 
-/// The overlaps of active pairs that were kept without them.
-pub fn segments(mortar: &Surface, options: &Options, filter: &Filter, active: &Active) -> Result<Vec<Segment>> {
-    let Filter::Facets(filter) = filter else { return Ok(Vec::new()) };
-    let mut segments = memory::with_room(active.pairs.len())?;
-    for pair in &active.pairs {
-        let (frame, facet) = (&active.frames[pair.one], mortar.facet(pair.two, &active.x2));
-        let segment = match by_points(options, filter, pair.one) {
-            Some(line) => Segment::of_points(frame, &facet, line)?,
-            None => Segment::new(frame, &facet)?,
-        };
-        segments.store(segment.expect("an active pair has a segment at the positions it was found at"))?;
+fn by_facets(
+    (one, two): (&Surface, &Surface),
+    options: &Options,
+    filter: &FacetFilter,
+    Work { counters, tree, room }: &mut Work,
+    (x1, x2): (&[Vec3], &[Vec3]),
+    active: &mut Active,
+    mut following: Following,
+) -> Result<()> {
+    let mut start = Instant::now();
+    one.plane_normals(x1, &mut active.normals)?;
+    let search = Search::new((one, two), options, (x1, x2), (tree.at(two, x2)?, filter), 0.0);
+    counters.searches += 1;
+    for first in (0..one.facets.len()).step_by(ROW) {
+        room.frames.clear();
+        room.candidates.clear();
+        for f in first..one.facets.len().min(first + ROW) {
+            room.frames.store(one.frame(f, x1, &active.normals)?)?;
+            let (frame, excluded) = (&room.frames[f - first], Some(&mut active.excluded));
+            counters.boxes_visited += search.of_facet((f, frame), &mut room.found, &mut room.candidates, excluded)?;
+        }
+        let searched = Instant::now();
+        counters.seconds_search += (searched - start).as_secs_f64();
+        start = searched;
+
+        // As many a facet as so far.
+        let all = (active.pairs.len() * one.facets.len()).checked_div(first).unwrap_or(0);
+        active.grow(room.candidates.len(), all)?;
+        for candidates in room.candidates.chunk_by(|p, q| p.0 == q.0) {
+            let (i, place) = (candidates[0].0, active.pairs.len());
+            let (frame, line) = (&room.frames[i - first], by_points(options, filter, i));
+            room.segments.clear();
+            memory::grow(&mut room.segments, if following.is_some() { candidates.len() } else { 0 })?;
+            for &(_, j) in candidates {
+                // Large: looked at where it is, and kept only where something follows.
+                let found = overlap(frame, &two.facet(j, x2), line);
+                let segment = match &found {
+                    Ok(Some(segment)) => segment,
+                    Ok(None) => continue,
+                    Err(_) => return found.map(|_| ()).map_err(|e| at_facet(one.side, i)(at_facet(two.side, j)(e))),
+                };
+                let weights = PairWeights::integrate(frame, segment, options.rule);
+                active.add(PairRecord { one: i, two: j, weights }, segment.area)?;
+                if let (true, Ok(Some(segment))) = (following.is_some(), found) {
+                    room.segments.store(segment)?;
+                }
+            }
+            counters.pairs_tested += candidates.len() as i64;
+            counters.pairs_clipped += if line.is_none() { (active.pairs.len() - place) as i64 } else { 0 };
+            counters.pairs_integrated += active.areas[place..].iter().filter(|area| **area > 0.0).count() as i64;
+            if let Some(following) = &mut following {
+                following(active, place, (frame, &room.segments))?;
+            }
+        }
+        let integrated = Instant::now();
+        counters.seconds_integration += (integrated - start).as_secs_f64();
+        start = integrated;
     }
-    Ok(segments)
+    active.knows_excluded = true;
+    Ok(())
 }

@@ -11,11 +11,16 @@ use crate::error::{Error, Kind, Result};
 use crate::geometry::Vec2;
 use crate::geometry::clip::{self, Polygon};
 use crate::interface::data::active::Active;
+use crate::interface::data::options::Options;
 use crate::interface::data::pairs::PairRecord;
 use crate::interface::data::surface::Surface;
+use crate::interface::pairing::filter::Filter;
+use crate::interface::pairing::overlaps::FacetOverlaps;
+use crate::interface::pairing::work::Room;
 use crate::memory::{self, Store};
 use crate::mortar::{NonmortarFrame, Segment};
 use crate::simd::Plain;
+use std::ops::Range;
 
 /// There are layers where two sheets share more than this of the smaller one, or all that is covered twice is more than
 /// this of the facet. Parts side by side whose meshes do not match along a curve share less: a polygon of 12 edges lacks
@@ -24,6 +29,9 @@ pub const SHARED: f64 = 0.05;
 /// Overlaps below this, over the smaller facet's area, are rounding of facets that touch: of positions a million facets
 /// from the origin, with four digits to spare.
 const SLIVER: f64 = 1e-6;
+/// A facet's area as two ways of reckoning it find it differs by less than this: rounding of coordinates a million facets from
+/// the origin, with six digits to spare.
+const DIFFERENT: f64 = 1e-4;
 /// Facets closer than this, over the size of the smaller one, lie on each other: rounding of a rotated mesh is 1e-16 of
 /// its extent.
 const TOGETHER: f64 = 1e-8;
@@ -40,8 +48,8 @@ pub struct Layers {
 }
 
 /// Refuses a mortar surface that lies in layers.
-pub fn refuse(mortar: &Surface, at: &Active) -> Result<()> {
-    let Some(found) = find(mortar, at)?.next() else { return Ok(()) };
+pub fn refuse(surfaces: (&Surface, &Surface), by: (&Options, &Filter), room: &mut Room, at: &Active) -> Result<()> {
+    let Some(found) = find(surfaces, by, room, at)?.next() else { return Ok(()) };
     let Layers { under, facets: [a, b], apart } = found?;
     let text = if apart > 0.0 {
         text!(
@@ -57,53 +65,67 @@ pub fn refuse(mortar: &Surface, at: &Active) -> Result<()> {
 
 /// One pair of mortar facets for each non-mortar facet that has layers over it. None against an analytic mortar side,
 /// which has no overlaps.
-pub fn find<'a>(mortar: &'a Surface, at: &'a Active) -> Result<impl Iterator<Item = Result<Layers>> + 'a> {
-    let mut sheets = Sheets { met: memory::filled((usize::MAX, 0), mortar.reference.len())?, of: Vec::new() };
-    let pairs = if at.segments.is_empty() { &[] } else { &at.pairs[..] };
+pub fn find<'a>(
+    (one, two): (&'a Surface, &'a Surface),
+    by: (&'a Options, &'a Filter),
+    Room { met, sheets, .. }: &'a mut Room,
+    at: &'a Active,
+) -> Result<impl Iterator<Item = Result<Layers>> + 'a> {
+    memory::refill(met, (usize::MAX, 0), two.reference.len())?;
+    let (mut sheets, mut overlaps) = (Sheets { met, of: sheets }, FacetOverlaps::default());
+    let pairs = if at.areas.is_empty() { &[] } else { &at.pairs[..] };
     let mut first = 0;
     Ok(pairs.chunk_by(|p, q| p.one == q.one).filter_map(move |pairs| {
-        let segments = &at.segments[first..first + pairs.len()];
-        first += pairs.len();
+        let places = first..first + pairs.len();
+        first = places.end;
         if pairs.len() < 2 {
             return None;
         }
-        sheets.over(&at.frames[pairs[0].one], mortar, (pairs, segments)).transpose()
+        sheets.over((one, two), by, (at, places), &mut overlaps).transpose()
     }))
 }
 
 /// Which mortar facets over one non-mortar facet hang together.
-struct Sheets {
-    /// Per mortar node the non-mortar facet, and the place among its pairs, that met it last.
-    met: Vec<(usize, usize)>,
-    /// Per pair another one of its sheet, or itself.
-    of: Vec<usize>,
+struct Sheets<'a> {
+    /// See [`Room::met`].
+    met: &'a mut [(usize, usize)],
+    /// See [`Room::sheets`].
+    of: &'a mut Vec<usize>,
 }
 
-impl Sheets {
-    /// Layers over one non-mortar facet.
+impl Sheets<'_> {
+    /// Layers over one non-mortar facet, that of the pairs in these places. Overlaps are found again where there may be any.
     fn over(
         &mut self,
-        frame: &NonmortarFrame,
-        mortar: &Surface,
-        (pairs, segments): (&[PairRecord], &[Segment]),
+        (one, two): (&Surface, &Surface),
+        by: (&Options, &Filter),
+        (at, places): (&Active, Range<usize>),
+        overlaps: &mut FacetOverlaps,
     ) -> Result<Option<Layers>> {
-        let area = 0.5 * frame.projection.area2;
-        let is_twice = segments.iter().map(|s| s.area).sum::<f64>() > (1.0 + SHARED) * area;
-        let is_several = self.unite(mortar, pairs, segments)?;
-        if is_several || is_twice { among(frame, (pairs, segments), &mut self.of, is_twice) } else { Ok(None) }
+        let (pairs, areas) = (&at.pairs[places.start..places.end], &at.areas[places.start..places.end]);
+        let covered = areas.iter().sum::<f64>();
+        let is_several = self.unite(two, pairs, areas)?;
+        let area = 0.5 * one.facet(pairs[0].one, &at.x1).area_vector().norm();
+        if !is_several && covered <= (1.0 + SHARED - DIFFERENT) * area {
+            return Ok(None);
+        }
+        overlaps.find((one, two), by, at, places)?;
+        let (frame, segments) = (overlaps.frame(), &overlaps.segments[..]);
+        let is_twice = covered > (1.0 + SHARED) * (0.5 * frame.projection.area2);
+        if is_several || is_twice { among(frame, (pairs, segments), self.of, is_twice) } else { Ok(None) }
     }
 
     /// Joins the pairs of a non-mortar facet that have an area; whether there are several sheets.
-    fn unite(&mut self, mortar: &Surface, pairs: &[PairRecord], segments: &[Segment]) -> Result<bool> {
+    fn unite(&mut self, mortar: &Surface, pairs: &[PairRecord], areas: &[f64]) -> Result<bool> {
         self.of.clear();
         self.of.store_all(0..pairs.len())?;
         let mut sheets = 0;
-        for (p, pair) in pairs.iter().enumerate().filter(|(p, _)| segments[*p].area > 0.0) {
+        for (p, pair) in pairs.iter().enumerate().filter(|(p, _)| areas[*p] > 0.0) {
             sheets += 1;
             for &node in mortar.facets[pair.two].as_slice() {
                 let (one, q) = std::mem::replace(&mut self.met[node], (pair.one, p));
                 if one == pair.one {
-                    let (a, b) = (root(&mut self.of, p), root(&mut self.of, q));
+                    let (a, b) = (root(self.of, p), root(self.of, q));
                     self.of[a] = b;
                     sheets -= usize::from(a != b);
                 }

@@ -5,7 +5,6 @@
 use super::commit::Settled;
 use crate::error::{Error, Kind, Result};
 use crate::geometry::Vec3;
-use crate::interface::data::active::Active;
 use crate::interface::data::pairs::PairRecord;
 use crate::interface::data::setup::Setup;
 use crate::interface::pairing::filter::Filter;
@@ -19,20 +18,19 @@ const NOTHING: f64 = 1e-12;
 /// contact, far below a gap.
 const TOUCHES: f64 = 1e-6;
 
-/// Refuses a commit at (x1, x2) after which a closed node would have lost a pair because it is deep, or all that
-/// covers it. `before`: the pairs of now, of weights of now: frozen
-/// ones do not say what the old filter would admit here; with the nodes' areas of t_n.
+/// Refuses a commit at (x1, x2) after which a closed node would have lost a pair because it is deep, or all that covers it.
+/// `dropped`: the pairs of now that will be none, as they were integrated; of weights of now: frozen ones do not say what the
+/// old filter would admit here; with the nodes' areas of t_n.
 pub fn refuse_lost_contact<const N: usize>(
     setup: &Setup<N>,
-    (before, areas): (&Active, &[f64]),
+    (dropped, areas): (&[PairRecord], &[f64]),
     new: &Settled,
     (x1, x2): (&[Vec3], &[Vec3]),
     responses: &[NodeResponse<N>],
 ) -> Result<()> {
-    let Some(filter) = &new.filter else { return Ok(()) };
-    let after = new.active.as_ref().map_or(&new.history.pairs, |k| &k.pairs);
+    let Some(filter) = new.filter.as_ref().filter(|_| !dropped.is_empty()) else { return Ok(()) };
     let mut lost = memory::filled(0.0, setup.nonmortar.len())?;
-    for (place, pair) in missing(&before.pairs, after) {
+    for pair in dropped {
         let (low, deep) = match filter {
             Filter::Facets(filter) => {
                 let (low, high) = filter.heights(pair.one, pair.two);
@@ -42,7 +40,7 @@ pub fn refuse_lost_contact<const N: usize>(
         };
         let touches = low <= TOUCHES * setup.nonmortar.facet(pair.one, x1).longest_edge();
         for (k, &a) in setup.nonmortar.facets[pair.one].as_slice().iter().enumerate() {
-            let coverage = before.integrated(place).coverage(k);
+            let coverage = pair.weights.coverage(k);
             if !touches || coverage <= NOTHING * areas[a] || responses[a].state == State::Gap {
                 continue;
             }
@@ -74,13 +72,4 @@ fn lowest_over_surface<const N: usize>(setup: &Setup<N>, facet: usize, x1: &[Vec
     let surface = setup.mortar.analytic_at(x2)?;
     let nodes = setup.nonmortar.facets[facet].as_slice().iter();
     Ok(nodes.map(|&a| surface.distance(x1[a] - surface.origin)).fold(f64::INFINITY, f64::min))
-}
-/// Those of `before`, with their places, that are not in `after`; both are sorted by their facets.
-fn missing<'a>(before: &'a [PairRecord], after: &'a [PairRecord]) -> impl Iterator<Item = (usize, &'a PairRecord)> {
-    let mut after = after.iter().peekable();
-    before.iter().enumerate().filter(move |(_, pair)| {
-        let place = (pair.one, pair.two);
-        while after.next_if(|p| (p.one, p.two) < place).is_some() {}
-        after.peek().is_none_or(|p| (p.one, p.two) != place)
-    })
 }

@@ -9,6 +9,7 @@ pub mod commit;
 pub mod facet;
 pub mod initial;
 pub mod integrate;
+pub mod keep;
 pub mod layers;
 pub mod lost;
 pub mod node;

@@ -7,7 +7,7 @@ use crate::interface::data::multiplier::force_traction;
 use crate::interface::data::pairs::PairRecord;
 use crate::interface::pairing::given::Given;
 use crate::law::NodeResponse;
-use crate::memory::{self, Stored};
+use crate::memory::{self, Store};
 use crate::mortar::MORTAR;
 use nalgebra::SVector;
 
@@ -22,6 +22,12 @@ pub struct Residual<const N: usize = 3> {
     pub rows: Vec<SVector<f64, N>>,
 }
 
+impl<const N: usize> Default for Residual<N> {
+    fn default() -> Self {
+        Residual { nonmortar: Vec::new(), mortar: Vec::new(), rows: Vec::new() }
+    }
+}
+
 /// Of the pairs whose weights act, at the law's answers.
 pub fn residual<const N: usize>(
     given: Given<N>,
@@ -29,15 +35,29 @@ pub fn residual<const N: usize>(
     lambda: &[SVector<f64, N>],
     responses: &[NodeResponse<N>],
 ) -> Result<Residual<N>> {
+    let mut r = Residual::default();
+    refresh(given, pairs, lambda, responses, &mut Vec::new(), &mut r)?;
+    Ok(r)
+}
+
+/// The same in place of what was in `r`; `tractions`: room.
+pub fn refresh<const N: usize>(
+    given: Given<N>,
+    pairs: &[PairRecord],
+    lambda: &[SVector<f64, N>],
+    responses: &[NodeResponse<N>],
+    tractions: &mut Vec<Vec3>,
+    r: &mut Residual<N>,
+) -> Result<()> {
     let ((nonmortar, mortar), nodes) = (given.setup.surfaces(), &given.setup.nodes);
-    let mut r = Residual {
-        nonmortar: memory::filled(Vec3::zeros(), nonmortar.len())?,
-        mortar: memory::filled(Vec3::zeros(), mortar.len())?,
-        rows: memory::filled(SVector::zeros(), nonmortar.len())?,
-    };
-    let (normals, form) = (given.normals()?, given.setup.options.form);
-    let traction = |a: usize| force_traction(form, &lambda[a], &responses[a], normals[a]);
-    let tractions: Vec<_> = (0..responses.len()).map(traction).stored()?;
+    memory::refill(&mut r.nonmortar, Vec3::zeros(), nonmortar.len())?;
+    memory::refill(&mut r.mortar, Vec3::zeros(), mortar.len())?;
+    memory::refill(&mut r.rows, SVector::zeros(), nonmortar.len())?;
+    tractions.clear();
+    memory::grow(tractions, nonmortar.len())?;
+    for (a, response) in responses.iter().enumerate() {
+        tractions.store(force_traction(given.setup.options.form, &lambda[a], response, given.normal(a)?))?;
+    }
     for pair in pairs {
         let (one, two) = (&nonmortar.facets[pair.one], &mortar.facets[pair.two]);
         let f = pair_force(&pair.weights, &one.nodes.map(|a| tractions[a]));
@@ -53,5 +73,5 @@ pub fn residual<const N: usize>(
             r.rows[a] = response.row * given.row_scale(a);
         }
     }
-    Ok(r)
+    Ok(())
 }

@@ -1,6 +1,6 @@
 //! Stage 2 over a whole interface: the law's answers at every node.
 
-use super::carried::{carried, carry};
+use super::carried::{carry, find_carried};
 use super::node::{count_of, is_left_out, node};
 use super::sums::NodeSums;
 use crate::error::{Error, Kind, Result};
@@ -22,16 +22,25 @@ pub struct Responses<const N: usize> {
     pub counts: NodeCounts,
 }
 
-/// The law's answers to the sums of every node.
+impl<const N: usize> Default for Responses<N> {
+    fn default() -> Self {
+        Responses { nodes: Vec::new(), carried: Vec::new(), counts: NodeCounts::default() }
+    }
+}
+
+/// The law's answers to the sums of every node, in place of what was in `answers`.
 pub fn respond<const N: usize>(
     given: Given<N>,
     lambda: &[SVector<f64, N>],
     sums: &[NodeSums],
     scope: Scope,
-) -> Result<Responses<N>> {
-    let carried = carried(given, sums)?;
-    let mut counts = NodeCounts::default();
-    let mut responses = memory::with_room(lambda.len())?;
+    answers: &mut Responses<N>,
+) -> Result<()> {
+    let Responses { nodes: responses, carried, counts } = answers;
+    find_carried(given, sums, carried)?;
+    *counts = NodeCounts::default();
+    responses.clear();
+    memory::grow(responses, lambda.len())?;
     for a in 0..lambda.len() {
         responses.store(if is_left_out(given, a, scope) {
             counts.left_out += 1;
@@ -39,12 +48,12 @@ pub fn respond<const N: usize>(
         } else {
             let node = node(given, a, lambda[a], &sums[a])?;
             let is_carried = carried.get(a).is_some_and(|c| *c);
-            *(if is_carried { &mut counts.carried } else { count_of(given, a, &node, &mut counts) }) += 1;
+            *(if is_carried { &mut counts.carried } else { count_of(given, a, &node, counts) }) += 1;
             (given.setup.effects.law.respond)(&node)
         })?;
     }
     if carried.contains(&true) {
-        carry(given, lambda, sums, &carried, &mut responses)?;
+        carry(given, lambda, sums, carried, responses)?;
     }
     for (a, response) in responses.iter().enumerate() {
         if !response.row.iter().chain(response.traction.iter()).all(|v| v.is_finite()) {
@@ -52,5 +61,5 @@ pub fn respond<const N: usize>(
             return Err(Error::new(Kind::NotFinite, text));
         }
     }
-    Ok(Responses { nodes: responses, carried, counts })
+    Ok(())
 }

@@ -1,17 +1,19 @@
 //! What the nodes assemble over their pairs: gaps and coverage.
 
-use super::away::looking_away;
+use super::away::LookingAway;
 use crate::error::Result;
 use crate::geometry::Vec3;
 use crate::interface::data::active::Active;
 use crate::interface::data::pairs::PairRecord;
 use crate::interface::data::surface::Surface;
 use crate::interface::pairing::given::Given;
-use crate::memory::{self, Stored};
+use crate::memory;
 use crate::mortar::gap;
 
 /// What a node assembles over its pairs. A parallel host adds these over its ranks.
+/// In the order of the ABI, whose arrays are read as these.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[repr(C)]
 pub struct NodeSums {
     /// Covered area now [L^2].
     pub coverage: f64,
@@ -25,57 +27,71 @@ pub struct NodeSums {
     pub gap_committed: Vec3,
 }
 
-/// Coverage and gap of every non-mortar node from a list of pairs.
+/// Coverage and gap of every non-mortar node from a list of pairs, in place of what was in `sums`.
 pub fn assemble(
+    surfaces: (&Surface, &Surface),
+    pairs: &[PairRecord],
+    x: (&[Vec3], &[Vec3]),
+    sums: &mut Vec<(f64, Vec3)>,
+) -> Result<()> {
+    memory::refill(sums, (0.0, Vec3::zeros()), surfaces.0.len())?;
+    each_gap(surfaces, pairs, x, |node, coverage, gap| {
+        sums[node].0 += coverage;
+        sums[node].1 += gap;
+    });
+    Ok(())
+}
+
+/// What each pair adds to the coverage and the gap of each of its non-mortar nodes.
+#[inline]
+fn each_gap(
     (nonmortar, mortar): (&Surface, &Surface),
     pairs: &[PairRecord],
-    x1: &[Vec3],
-    x2: &[Vec3],
-) -> Result<Vec<(f64, Vec3)>> {
-    let mut sums = memory::filled((0.0, Vec3::zeros()), nonmortar.len())?;
+    (x1, x2): (&[Vec3], &[Vec3]),
+    mut add: impl FnMut(usize, f64, Vec3),
+) {
     for pair in pairs {
         let (one, two) = (nonmortar.facet(pair.one, x1), mortar.facet(pair.two, x2));
         let gaps = gap(&pair.weights, &one, &two);
         for k in 0..one.len() {
-            let (coverage, g) = &mut sums[nonmortar.facets[pair.one].nodes[k]];
-            *coverage += pair.weights.coverage(k);
-            *g += gaps[k];
+            add(nonmortar.facets[pair.one].nodes[k], pair.weights.coverage(k), gaps[k]);
         }
     }
-    Ok(sums)
 }
 
-/// The sums of every node at (x1, x2). `active`: the pairs there; `None`: the weights are frozen. `slips`: with what slip is
-/// measured from.
+/// The sums of every node at x, in place of what was in `sums`. `active`: the pairs there; `None`: the weights are frozen.
+/// `slips`: with what slip is measured from.
 pub fn sums<const N: usize>(
     given: Given<N>,
     active: Option<&Active>,
     slips: bool,
-    (x1, x2): (&[Vec3], &[Vec3]),
-) -> Result<Vec<NodeSums>> {
+    x: (&[Vec3], &[Vec3]),
+    sums: &mut Vec<NodeSums>,
+) -> Result<()> {
     let (surfaces, h) = (given.setup.surfaces(), given.history());
-    let now = assemble(surfaces, active.map_or(&h.pairs, |k| &k.pairs), x1, x2)?;
-    let committed = h.facet_gaps.turned(surfaces.0, x1, &h.gap)?;
-    let mut sums: Vec<_> = (0..given.nodes())
-        .map(|a| NodeSums {
-            coverage: now[a].0,
-            gap_now: now[a].1,
-            coverage_previous: h.coverage[a],
-            gap_committed: committed.get(a).copied().unwrap_or_default(),
-            gap_previous: Vec3::zeros(),
-        })
-        .stored()?;
-    for (sum, away) in sums.iter_mut().zip(looking_away(given, (x1, x2))?) {
-        if away {
-            (sum.coverage, sum.gap_now) = (0.0, Vec3::zeros());
+    memory::refill(sums, NodeSums::default(), given.nodes())?;
+    each_gap(surfaces, active.map_or(&h.pairs, |k| &k.pairs), x, |node, coverage, gap| {
+        sums[node].coverage += coverage;
+        sums[node].gap_now += gap;
+    });
+    for (sum, coverage) in sums.iter_mut().zip(&h.coverage) {
+        sum.coverage_previous = *coverage;
+    }
+    for (sum, gap) in sums.iter_mut().zip(&h.gap) {
+        sum.gap_committed = *gap;
+    }
+    h.facet_gaps.each_turned(surfaces.0, x.0, |node, gap| sums[node].gap_committed += gap)?;
+    match active {
+        Some(_) if slips => each_gap(surfaces, &h.pairs, x, |node, _, gap| sums[node].gap_previous += gap),
+        None if slips => sums.iter_mut().for_each(|sum| sum.gap_previous = sum.gap_now),
+        _ => {}
+    }
+    if let Some(away) = LookingAway::at(given, x)? {
+        for (a, sum) in sums.iter_mut().enumerate() {
+            if away.is(a)? {
+                (sum.coverage, sum.gap_now) = (0.0, Vec3::zeros());
+            }
         }
     }
-    if slips {
-        let previous = active.map(|_| assemble(surfaces, &h.pairs, x1, x2)).transpose()?;
-        let previous = previous.as_ref().unwrap_or(&now);
-        for (sum, (_, gap)) in sums.iter_mut().zip(previous) {
-            sum.gap_previous = *gap;
-        }
-    }
-    Ok(sums)
+    Ok(())
 }

@@ -29,8 +29,13 @@ fn larger(found: (f64, usize), from: &Vec3, to: &Vec3, what: usize) -> (f64, usi
 }
 
 /// Refuses a commit at (x1, x2) where a surface has turned by more than the option allows.
-/// `shared`: other handles have other parts of the mortar side, which are not known here.
-pub fn refuse_turn<const N: usize>(given: Given<N>, (x1, x2): (&[Vec3], &[Vec3]), shared: bool) -> Result<()> {
+/// `shared`: other handles have other parts of the mortar side, which are not known here. `sums`: room.
+pub fn refuse_turn<const N: usize>(
+    given: Given<N>,
+    (x1, x2): (&[Vec3], &[Vec3]),
+    shared: bool,
+    sums: &mut Vec<Vec3>,
+) -> Result<()> {
     let ((nonmortar, mortar), options) = (given.setup.surfaces(), &given.setup.options);
     if !options.friction.law().opens || !shared && is_apart_at_both(given, x1, x2)? {
         return Ok(());
@@ -39,9 +44,10 @@ pub fn refuse_turn<const N: usize>(given: Given<N>, (x1, x2): (&[Vec3], &[Vec3])
         options.follows_normals() && (!given.setup.effects.law.slips || options.slip == SlipMeasure::Objective);
     let kept = |a: usize| !follows || given.step.pairing.keeps_normal[a];
     let mut most = (0.0, 0);
-    for (a, sum) in nonmortar.sums_of_normals(x1)?.into_iter().enumerate().filter(|(a, _)| kept(*a)) {
+    nonmortar.add_normals(x1, sums)?;
+    for (a, sum) in sums.iter().enumerate().filter(|(a, _)| kept(*a)) {
         // One that cannot be averaged is refused in its own words where it is needed.
-        if let Some(normal) = memory::if_accepted(normal::nodal_normal(sum, a))? {
+        if let Some(normal) = memory::if_accepted(normal::nodal_normal(*sum, a))? {
             most = larger(most, &given.history().normals[a], &normal, a);
         }
     }

@@ -20,6 +20,7 @@ use crate::interface::data::extent::Extent;
 use crate::interface::data::multiplier::force_traction;
 use crate::interface::data::options::{Form, MultiplierBasis, Scheme};
 use crate::interface::pairing::given::Given;
+use crate::interface::pairing::overlaps::FacetOverlaps;
 use crate::interface::stages::respond::Responses;
 use crate::law::NodeResponse;
 use crate::memory::{self, Store};
@@ -35,7 +36,7 @@ pub struct Numbers<'a, const N: usize> {
     pub responses: &'a Responses<N>,
     /// What the pairs must know of them.
     pub nodes: &'a [NodeTangent<N>],
-    /// The pairs whose weights are differentiated, with their overlaps; `None`: no weights are.
+    /// The pairs whose weights are differentiated; `None`: no weights are.
     pub active: Option<&'a Active>,
     /// How they are.
     pub motion: PairDerivatives<'a>,
@@ -76,8 +77,8 @@ impl<const N: usize> Numbers<'_, N> {
     }
 
     /// What the dual multipliers of a facet have in common over these pairs, all of its own.
-    fn dual(&self, given: Given<N>, pairs: &[UnionPair]) -> Result<Option<DualFacet>> {
-        self.active.map_or(Ok(None), |active| DualFacet::of(given, active, pairs))
+    fn dual(&self, given: Given<N>, pairs: &[UnionPair], overlaps: &FacetOverlaps) -> Result<Option<DualFacet>> {
+        self.active.map_or(Ok(None), |active| DualFacet::of(given, (active, overlaps), pairs))
     }
 
     /// As [`Numbers::derivatives`], of one pair of a facet with dual multipliers, which is `None` where it has faded out.
@@ -85,6 +86,7 @@ impl<const N: usize> Numbers<'_, N> {
         &self,
         given: Given<N>,
         (pair, dual, facet): (&UnionPair, &DualFacet, Option<&FacetMotion>),
+        (overlaps, first): (&FacetOverlaps, usize),
         t: &mut PairTangent<N>,
         room: &mut ShareRoom,
     ) -> Result<Option<GapDerivative>> {
@@ -99,29 +101,39 @@ impl<const N: usize> Numbers<'_, N> {
             let (one, two) = given.setup.surfaces();
             let (one, two) = (one.facet(pair.one, &active.x1), two.facet(pair.two, &active.x2));
             let gaps = gap(active.integrated(pair.place), &one, &two);
-            let frame = &active.frames[pair.one];
-            return dual.of_analytic((&self.motion, surface), frame, (&facet.tractions, &gaps), &mut t.forces);
+            return dual.of_analytic(
+                (&self.motion, surface),
+                overlaps.frame(),
+                (&facet.tractions, &gaps),
+                &mut t.forces,
+            );
         }
         let mortar = given.setup.mortar.facets[pair.two].len;
-        let share = (active.integrated(pair.place), &active.segments[pair.place], mortar);
-        Ok(Some(self.motion.of_share(&active.frames[pair.one], facet, share, &mut t.forces, room)))
+        let share = (active.integrated(pair.place), &overlaps.segments[pair.place - first], mortar);
+        Ok(Some(self.motion.of_share(overlaps.frame(), facet, share, &mut t.forces, room)))
     }
 
-    /// Derivatives of `pairs` of one facet, its first ones where `first`: of the gap, and of the forces into `t`.
+    /// Derivatives of `pairs` of one facet, whose first one has this place, its first ones where `is_first`: of the gap, and of
+    /// the forces into `t`.
     fn derivatives(
         &self,
         given: Given<N>,
-        (pairs, first): (&[UnionPair], bool),
+        (pairs, place_of_first): (&[UnionPair], usize),
+        (overlaps, is_first): (&FacetOverlaps, bool),
         nodes: &FacetResponse<N>,
         t: &mut PairTangent<N>,
     ) -> Result<Option<GapDerivative>> {
         let place = UnionPair::places(pairs);
         if let (false, Some(k)) = (place.is_empty(), self.active) {
-            let overlaps = k.segments.get(place.clone()).unwrap_or_default();
-            let frame = &k.frames[pairs[0].one];
-            return self.motion.of(frame, (&k.pairs[place], overlaps), &nodes.traction, &mut t.forces).map(Some);
+            let of_facet = place.start - place_of_first..place.end - place_of_first;
+            let (frame, segments) = (overlaps.frame(), overlaps.segments.get(of_facet).unwrap_or_default());
+            return self.motion.of(frame, (&k.pairs[place], segments), &nodes.traction, &mut t.forces).map(Some);
         }
-        if first { given.history().facet_gaps.motion(&given.setup.nonmortar, pairs[0].one, self.x1) } else { Ok(None) }
+        if is_first {
+            given.history().facet_gaps.motion(&given.setup.nonmortar, pairs[0].one, self.x1)
+        } else {
+            Ok(None)
+        }
     }
 }
 
@@ -161,6 +173,7 @@ pub struct Room<const N: usize> {
     facet: FacetTangent<N>,
     share: ShareRoom,
     mortar: MortarRows,
+    overlaps: FacetOverlaps,
     pairs: Vec<UnionPair>,
 }
 
@@ -232,7 +245,7 @@ fn moving_or_not<const MOVES: bool, const N: usize>(
 fn of_facet<const MOVES: bool, const N: usize>(
     Task { given, normals, pairs: all, numbers, .. }: Task<N>,
     pairs: &[UnionPair],
-    Room { pair: t, facet, share: room, mortar, .. }: &mut Room<N>,
+    Room { pair: t, facet, share: room, mortar, overlaps, .. }: &mut Room<N>,
     mut couplings: Option<&mut [NodeCouplings]>,
     emitter: &mut Emitter<N>,
 ) -> Result<i64> {
@@ -249,9 +262,13 @@ fn of_facet<const MOVES: bool, const N: usize>(
     let one = &given.setup.nonmortar.facets[f];
     let facet_nodes = numbers.map(|n| FacetResponse::new(one.nodes.map(|a| &n.nodes[a])));
     facet.acts = false;
-    let dual = numbers.map_or(Ok(None), |n| n.dual(given, pairs))?;
-    let motion = match (&dual, &facet_nodes, numbers.and_then(|n| n.active)) {
-        (Some(dual), Some(nodes), Some(active)) => dual.motion(&active.frames[f], &nodes.traction),
+    let places = UnionPair::places(pairs);
+    if let Some(active) = numbers.and_then(|n| n.active).filter(|_| !places.is_empty()) {
+        overlaps.of(given, active, UnionPair::places(pairs))?;
+    }
+    let dual = numbers.map_or(Ok(None), |n| n.dual(given, pairs, overlaps))?;
+    let motion = match (&dual, &facet_nodes) {
+        (Some(dual), Some(nodes)) => dual.motion(overlaps.frame(), &nodes.traction),
         _ => None,
     };
     if MOVES && is_dual {
@@ -263,14 +280,15 @@ fn of_facet<const MOVES: bool, const N: usize>(
         let (previous, mut gap) = (previous.as_deref(), None);
         if let (Some(numbers), Some(nodes)) = (numbers, &facet_nodes) {
             gap = if let Some(dual) = &dual {
-                let gap = numbers.dual_share(given, (&pairs[0], dual, motion.as_ref()), t, room)?;
+                let pair = (&pairs[0], dual, motion.as_ref());
+                let gap = numbers.dual_share(given, pair, (overlaps, places.start), t, room)?;
                 if let (true, true, Some(active)) = (MOVES, gap.is_some(), numbers.active) {
                     let two = &given.setup.mortar.facets[pairs[0].two];
                     mortar.add(two, active.integrated(pairs[0].place), &room.tractions, &t.forces);
                 }
                 gap
             } else {
-                numbers.derivatives(given, (pairs, place == 0), nodes, t)?
+                numbers.derivatives(given, (pairs, places.start), (overlaps, place == 0), nodes, t)?
             };
             linearised += if numbers.active.is_some() { UnionPair::places(pairs).len() as i64 } else { 0 };
         }

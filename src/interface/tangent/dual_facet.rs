@@ -14,6 +14,7 @@ use crate::interface::data::effects::Opposite;
 use crate::interface::data::options::{MultiplierBasis, Tangent};
 use crate::interface::data::surface::{FacetNodes, Surface};
 use crate::interface::pairing::given::Given;
+use crate::interface::pairing::overlaps::FacetOverlaps;
 use crate::interface::stages::facet::dual_basis;
 use crate::memory::{self, Store};
 use crate::mortar::{
@@ -31,12 +32,18 @@ pub struct DualFacet {
 
 impl DualFacet {
     /// Of the pairs of a facet that are active; `None` with the standard basis, or without active pairs.
-    pub fn of<const N: usize>(given: Given<N>, active: &Active, pairs: &[UnionPair]) -> Result<Option<DualFacet>> {
+    pub fn of<const N: usize>(
+        given: Given<N>,
+        (active, overlaps): (&Active, &FacetOverlaps),
+        pairs: &[UnionPair],
+    ) -> Result<Option<DualFacet>> {
         let places = UnionPair::places(pairs);
         if given.setup.options.basis == MultiplierBasis::Standard || places.is_empty() {
             return Ok(None);
         }
-        let (sums, basis) = dual_basis(&given.setup.nonmortar, active, places)?;
+        let overlaps = (overlaps.frame(), &overlaps.segments[..]);
+        let (sums, basis) =
+            dual_basis(&given.setup.nonmortar, pairs[0].one, overlaps, &active.integrated[places.start..places.end])?;
         Ok(Some(DualFacet { sums, basis }))
     }
 
