@@ -230,7 +230,8 @@ mod tests {
                 ..Options::new(Stiffness::Modulus(1.0))
             };
             let Filter::Facets(filter) =
-                settle::filter((&one, &two), &options, (&one.reference, &two.reference)).unwrap()
+                settle::filter((&one, &two), &options, (&one.reference, &two.reference), &mut KeptTree::default())
+                    .unwrap()
             else {
                 panic!("facets")
             };
@@ -242,7 +243,7 @@ mod tests {
             for skin in [0.0, SKIN] {
                 let mut kept = KeptTree::default();
                 let kept = kept.at(&two, &x2).unwrap();
-                let is_turned = !kept.0.is_along_space();
+                let is_turned = !kept.is_along_space();
                 let (args, mut visited) = (((&one, &two), &options), 0);
                 let found =
                     candidates(args.0, args.1, &frames, (&x1, &x2), (kept, &filter), skin, &mut visited).unwrap();

@@ -61,11 +61,6 @@ impl Tree {
         Tree::parted(boxes, &[])
     }
 
-    /// Whether it has axes of its own.
-    pub fn has_axes(&self) -> bool {
-        self.axes.is_some()
-    }
-
     /// Whether things with these normals are parted by them.
     pub fn parts(normals: &[Vec3]) -> bool {
         let among = Aabb::around(normals.iter().copied());
@@ -114,7 +109,6 @@ impl Tree {
     }
 
     /// Whether its boxes lie along the axes of space.
-    #[cfg(test)]
     pub fn is_along_space(&self) -> bool {
         self.axes.is_none()
     }

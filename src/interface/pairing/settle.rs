@@ -79,7 +79,7 @@ pub fn filter(
     let tree = tree.at(two, x2)?;
     let normals: Vec<_> = filter.sides[1].facets.iter().map(|(_, plane)| plane.e).stored()?;
     // The answers of a search that counts boxes depend on its axes; those of space are wanted.
-    let parted = if tree.has_axes() || Tree::parts(&normals) {
+    let parted = if !tree.is_along_space() || Tree::parts(&normals) {
         let points = filter.sides[1].facets.iter().map(|(facet, _)| Aabb::around(facet.points().iter().copied()));
         Some(Tree::parted(points.stored()?, &normals)?)
     } else {
