@@ -76,3 +76,4 @@ pub mod normal;
 pub mod quadrature;
 pub mod shape;
 pub mod simd;
+mod threads;

@@ -93,7 +93,7 @@ fn an_evaluation_stage_by_stage() {
     // 12 x 12 of the forces, 3 x 16 of the multipliers in them, 12 x 12 of the rows, 4 x 9 of the nodes.
     assert_eq!(entries, 372);
     let numbering = Numbering::of(Nodes::of(&setup)).unwrap();
-    let plan = Plan::new((&setup, &numbering), System::Whole, pairs, Vec::new(), |_| false).unwrap();
+    let plan = Plan::new((&setup, &numbering), System::Whole, pairs, (Vec::new(), true), |_| false).unwrap();
     // The four rows of multipliers have each other as columns, too, of which each has its own alone: no block twice here.
     assert_eq!(plan.len(), 372);
 }

@@ -5,21 +5,24 @@ use super::data::extent::Extent;
 use super::data::setup::Setup;
 use super::pairing::given::Given;
 use super::plan::extras::Extras;
-use super::plan::fill::FillRoom;
+use super::plan::fill::{FillRoom, Shown};
 use super::plan::numbering::{Nodes, Numbering};
 use super::plan::pattern::System;
 use super::plan::whole::Plan;
 use super::stages::node::is_out_of_reach;
-use super::tangent::blocks::{Numbers, Room, Task, blocks, is_coupled, node_tangents};
+use super::tangent::augmented::NodeCouplings;
+use super::tangent::blocks::{Numbers, Room, Task, blocks, is_coupled, node_tangents, of_facets, of_nodes};
 use super::tangent::derivatives::PairDerivatives;
-use super::tangent::emission::{Place, Takers};
+use super::tangent::emission::{Emitter, Place};
 use super::tangent::turning::Turns;
 use super::tangent::union::Pairs;
 use crate::element::NodeTangent;
 use crate::error::{Error, Kind, Result};
 use crate::geometry::Vec3;
-use crate::memory;
+use crate::memory::{self, Store};
+use crate::threads;
 use nalgebra::SVector;
+use std::ops::Range;
 use std::time::Instant;
 
 /// Which pairs a plan has.
@@ -41,7 +44,7 @@ pub struct Linear<const N: usize> {
     /// The entries of the tangent at the last positions that asked for them, and of which pairs.
     pub own: Option<(u64, Plan)>,
     pub fill: [FillRoom; 2],
-    pub room: Room<N>,
+    pub rooms: Vec<ThreadRoom<N>>,
     pub normals: Vec<Vec3>,
     pub nodes: Vec<NodeTangent<N>>,
 }
@@ -54,7 +57,7 @@ impl<const N: usize> Default for Linear<N> {
             condensed: None,
             own: None,
             fill: Default::default(),
-            room: Room::default(),
+            rooms: Vec::new(),
             normals: Vec::new(),
             nodes: Vec::new(),
         }
@@ -96,16 +99,16 @@ impl<'a, const N: usize> Here<'a, N> {
         Pairs::Union([self.cache.pairs(history), previous])
     }
 
-    /// The blocks of a tangent at the point of the last answers, and what they cost: pairs and seconds. `scales`: factors of
-    /// the nodes' rows, in place of their own.
-    pub fn linearise(
+    /// Makes what the blocks of a tangent at the point of the last answers need, and gives it to `make`; tells what that says
+    /// and the seconds that it took. `scales`: factors of the nodes' rows, in place of their own.
+    pub fn linearise<T>(
         self,
-        (x1, x2): (&[Vec3], &[Vec3]),
+        (x1, x2): Positions,
         lambda: &[SVector<f64, N>],
         (extent, scales): (Extent, Option<&[f64]>),
         work: Work<N>,
-        takers: Takers<N>,
-    ) -> Result<(i64, f64)> {
+        make: impl FnOnce(Task<N>, &mut [ThreadRoom<N>]) -> Result<T>,
+    ) -> Result<(T, f64)> {
         let start = Instant::now();
         let (given, options) = (self.given, &self.given.setup.options);
         let (mortar, differentiates) = (&given.setup.mortar, options.differentiates_weights());
@@ -129,9 +132,12 @@ impl<'a, const N: usize> Here<'a, N> {
             motion,
             turns: Turns::at(given, (x1, lambda), (&answers.sums, responses), normals, scale)?,
         };
+        while work.rooms.len() < options.threads {
+            work.rooms.store(ThreadRoom::default())?;
+        }
         let task = Task { given, normals, pairs: self.pairs(), extent, numbers: Some(&numbers) };
-        let linearised = blocks(task, work.room, takers)?;
-        Ok((linearised, start.elapsed().as_secs_f64()))
+        let made = make(task, work.rooms)?;
+        Ok((made, start.elapsed().as_secs_f64()))
     }
 
     /// The blocks that are not those of facets and pairs: of the tangent, or of forces and of constraints.
@@ -169,39 +175,99 @@ impl<'a, const N: usize> Here<'a, N> {
         }
         let Some(numbering) = numbering else { return Err(no_plan()) };
         let mut extras = self.extras(pairs, extent, systems[0] == System::Whole)?.into_iter();
+        // Carried nodes add to rows of other facets' nodes.
+        let alone = given.step.pairing.carriers.is_empty();
         let is_diagonal = |a: usize| is_out_of_reach(given, a, extent);
         let mut plans = [const { None }; S];
         for (plan, system) in plans.iter_mut().zip(systems) {
             let extras = extras.next().unwrap_or_default();
-            *plan = Some(Plan::new((given.setup, numbering), system, pairs, extras, is_diagonal)?);
+            *plan = Some(Plan::new((given.setup, numbering), system, pairs, (extras, alone), is_diagonal)?);
         }
         Ok(plans.map(|plan| plan.expect("each was made")))
     }
 
-    /// Fills plans with a tangent at the point of the last answers.
+    /// Fills a plan, or those of forces and of constraints, with a tangent at the point of the last answers; tells the pairs
+    /// whose weights were differentiated and the seconds.
     pub fn fill(
         self,
         (x, lambda, of): (Positions, &[SVector<f64, N>], (Extent, Option<&[f64]>)),
         numbering: &Option<Numbering>,
-        rooms: &mut [FillRoom; 2],
+        [first, second]: &mut [FillRoom; 2],
         work: Work<N>,
-        plans: [Option<(&Plan, &mut [f64])>; 2],
+        (plan, values): (&Plan, &mut [f64]),
+        constraints: Option<(&Plan, &mut [f64])>,
     ) -> Result<(i64, f64)> {
         let Some(numbering) = numbering else { return Err(no_plan()) };
-        let mut fills = [None, None];
-        for ((fill, room), plan) in fills.iter_mut().zip(rooms).zip(plans) {
-            if let Some((plan, values)) = plan {
-                if values.len() != plan.len() {
-                    let text = text!("values has {} entries; the plan has {}", values.len(), plan.len());
-                    return Err(Error::new(Kind::InvalidSize, text));
+        let belongs = (self.given.setup, numbering);
+        let mut table = plan.table(values, first)?;
+        let mut other = match constraints {
+            Some((plan, values)) => Some((plan, plan.table(values, second)?)),
+            None => None,
+        };
+        let make = |task: Task<N>, rooms: &mut [ThreadRoom<N>]| {
+            rooms.iter_mut().for_each(ThreadRoom::begin);
+            let mut couplings: Option<Vec<NodeCouplings>> =
+                is_coupled(task.given).then(|| memory::defaults(task.given.nodes())).transpose()?;
+            // The chunks of a phase, and in the last one what is of no facet.
+            for chunks in plan.phases().iter().map(Some).chain([None]) {
+                let phase = table.phase();
+                let other = other.as_mut().map(|(plan, table)| (&**plan, table.phase()));
+                let work = |chunk: Option<&Range<usize>>,
+                            room: &mut ThreadRoom<N>,
+                            couplings: Option<&mut [NodeCouplings]>|
+                 -> Result<()> {
+                    let mut taker = plan.fill(belongs, phase.hand());
+                    let mut constraints = other.as_ref().map(|(plan, phase)| plan.fill(belongs, phase.hand()));
+                    let mut emitter = Emitter {
+                        given: task.given,
+                        normals: task.normals,
+                        taker: &mut taker,
+                        constraints: constraints.as_mut().map(|taker| taker as _),
+                    };
+                    match chunk {
+                        Some(chunk) => {
+                            room.linearised +=
+                                of_facets(task, Range { ..*chunk }, &mut room.room, couplings, &mut emitter)?;
+                        }
+                        None => of_nodes(task, &mut room.room, couplings, &mut emitter)?,
+                    }
+                    room.shown.add(taker.shown());
+                    constraints.iter().for_each(|taker| room.shown.add(taker.shown()));
+                    Ok(())
+                };
+                match (chunks, &mut couplings) {
+                    (None, couplings) => work(None, &mut rooms[0], couplings.as_deref_mut())?,
+                    (Some(chunks), Some(couplings)) => {
+                        chunks.iter().try_for_each(|chunk| work(Some(chunk), &mut rooms[0], Some(couplings)))?;
+                    }
+                    (Some(chunks), None) => {
+                        threads::share(chunks.len(), rooms, |k, room| work(Some(&chunks[k]), room, None))?;
+                    }
                 }
-                *fill = Some(plan.fill((self.given.setup, numbering), values, room)?);
             }
+            rooms.iter().try_for_each(|room| check(room.shown))?;
+            Ok(rooms.iter().map(|room| room.linearised).sum())
+        };
+        let made = self.linearise(x, lambda, of, work, make)?;
+        plan.finish(&mut table);
+        if let Some((plan, mut table)) = other {
+            plan.finish(&mut table);
         }
-        let [Some(taker), constraints] = &mut fills else { return Err(no_plan()) };
-        let linearised = self.linearise(x, lambda, of, work, (taker, constraints.as_mut().map(|taker| taker as _)))?;
-        fills.into_iter().flatten().try_for_each(|fill| check(fill.end()))?;
-        Ok(linearised)
+        Ok(made)
+    }
+}
+
+/// What one thread works with.
+#[derive(Debug, Default)]
+pub struct ThreadRoom<const N: usize> {
+    pub room: Room<N>,
+    linearised: i64,
+    shown: Shown,
+}
+
+impl<const N: usize> ThreadRoom<N> {
+    fn begin(&mut self) {
+        (self.linearised, self.shown) = (0, Shown::default());
     }
 }
 
@@ -210,7 +276,7 @@ pub type Positions<'a> = (&'a [Vec3], &'a [Vec3]);
 
 /// What a tangent is made with.
 pub struct Work<'a, const N: usize> {
-    pub room: &'a mut Room<N>,
+    pub rooms: &'a mut Vec<ThreadRoom<N>>,
     pub normals: &'a mut Vec<Vec3>,
     pub nodes: &'a mut Vec<NodeTangent<N>>,
 }
@@ -225,22 +291,22 @@ pub fn no_plan() -> Error {
     )
 }
 
-/// What came up while a plan was filled.
-fn check(end: std::result::Result<bool, (Place, Place)>) -> Result<()> {
+/// Refuses what came up while a plan was filled.
+fn check(shown: Shown) -> Result<()> {
     let name = |place: Place| match place {
         Place::Displacement(node) => text!("node {node} (mortar nodes after non-mortar ones)"),
         Place::Multiplier(a) => text!("the multiplier of non-mortar node {a}"),
     };
-    match end {
-        Ok(true) => Ok(()),
-        Ok(false) => Err(Error::new(Kind::NotFinite, "values overflows: the inputs are out of range")),
-        Err((row, column)) => {
-            let text = text!(
-                "the plan lacks the entries of {} in the rows of {}: the pairs have changed; make it again (stickslip_interface_plan)",
-                name(column),
-                name(row)
-            );
-            Err(Error::new(Kind::MissingEntry, text))
-        }
+    if let Some((row, column)) = shown.lacks {
+        let text = text!(
+            "the plan lacks the entries of {} in the rows of {}: the pairs have changed; make it again (stickslip_interface_plan)",
+            name(column),
+            name(row)
+        );
+        return Err(Error::new(Kind::MissingEntry, text));
     }
+    if shown.nothing == 0.0 {
+        return Ok(());
+    }
+    Err(Error::new(Kind::NotFinite, "values overflows: the inputs are out of range"))
 }

@@ -4,7 +4,7 @@
 use super::contact::Contact;
 use super::data::extent::Extent;
 use super::data::options::Form;
-use super::linear::{Here, Linear, PlanOf, PlanPairs, Positions, Work, no_plan};
+use super::linear::{Here, Linear, PlanOf, PlanPairs, Positions, ThreadRoom, Work, no_plan};
 use super::pairing::given::Given;
 use super::plan::pattern::System;
 use super::plan::whole::Plan;
@@ -44,11 +44,12 @@ impl<const N: usize> Contact<N> {
         (sink, constraints): (&mut dyn Sink, Option<&mut dyn Sink>),
     ) -> Result<()> {
         let here = Here { given: Given { setup: &self.setup, step: &self.step }, cache: &self.cache };
-        let Linear { room, normals, nodes, .. } = &mut self.linear;
+        let Linear { rooms, normals, nodes, .. } = &mut self.linear;
         let mut taker = ByEquations::new(&self.setup, sink);
         let mut constraints = constraints.map(|sink| ByEquations::new(&self.setup, sink));
         let takers: Takers<N> = (&mut taker, constraints.as_mut().map(|taker| taker as _));
-        let cost = here.linearise(x, lambda, (extent, scales), Work { room, normals, nodes }, takers)?;
+        let make = |task: Task<N>, rooms: &mut [ThreadRoom<N>]| blocks(task, &mut rooms[0].room, takers);
+        let cost = here.linearise(x, lambda, (extent, scales), Work { rooms, normals, nodes }, make)?;
         self.count(cost);
         Ok(())
     }
@@ -207,10 +208,10 @@ impl<const N: usize> Contact<N> {
         values: &mut [f64],
     ) -> Result<()> {
         let here = Here { given: Given { setup: &self.setup, step: &self.step }, cache: &self.cache };
-        let Linear { numbering, plan, own, fill, room, normals, nodes, .. } = &mut self.linear;
+        let Linear { numbering, plan, own, fill, rooms, normals, nodes, .. } = &mut self.linear;
         let plan = if is_own { own.as_ref().map(|own| &own.1) } else { plan.as_ref() };
-        let plans = [plan.map(|plan| (plan, values)), None];
-        let cost = here.fill(of, numbering, fill, Work { room, normals, nodes }, plans)?;
+        let Some(plan) = plan else { return Err(no_plan()) };
+        let cost = here.fill(of, numbering, fill, Work { rooms, normals, nodes }, (plan, values), None)?;
         self.count(cost);
         Ok(())
     }
@@ -222,10 +223,10 @@ impl<const N: usize> Contact<N> {
         [forces, constraints]: [&mut [f64]; 2],
     ) -> Result<()> {
         let here = Here { given: Given { setup: &self.setup, step: &self.step }, cache: &self.cache };
-        let Linear { numbering, condensed, fill, room, normals, nodes, .. } = &mut self.linear;
+        let Linear { numbering, condensed, fill, rooms, normals, nodes, .. } = &mut self.linear;
         let Some([first, second]) = condensed else { return Err(no_plan()) };
-        let plans = [Some((&*first, forces)), Some((&*second, constraints))];
-        let cost = here.fill(of, numbering, fill, Work { room, normals, nodes }, plans)?;
+        let (work, constraints) = (Work { rooms, normals, nodes }, Some((&*second, constraints)));
+        let cost = here.fill(of, numbering, fill, work, (first, forces), constraints)?;
         self.count(cost);
         Ok(())
     }

@@ -1,6 +1,6 @@
 //! Values into the entries of a plan, as the blocks of a tangent come.
 //!
-//! A row is set to 0 when the first block of it comes: the array of entries is larger than any cache, and would otherwise pass
+//! Rows are set to 0 when the first block of them comes: the array of entries is larger than any cache, and would otherwise pass
 //! through it once more. Rows that no block came for are set to 0 at the end.
 
 use super::numbering::{NO_RANK, SCALARS};
@@ -14,35 +14,61 @@ use crate::interface::tangent::emission::{Blocks, MortarBlock, Place, Span};
 use crate::memory;
 use crate::shape::{MAX_CORNERS, MAX_NODES};
 use crate::simd::{self, Kernel, Lanes};
+use crate::threads::{Hand, Owners, Table};
 
-/// What a fill works with, kept from one to the next.
+/// What fills work with, kept from one to the next.
 #[derive(Debug, Default)]
 pub struct FillRoom {
-    /// The last fill that touched the rows of each node.
-    touched: Vec<u32>,
-    fill: u32,
+    owners: Owners,
     /// The rows beside the entries.
     beside: Vec<f64>,
 }
 
 impl FillRoom {
-    /// Begins with a fill of these places.
-    pub fn begin(&mut self, places: &Places) -> Result<()> {
-        if self.touched.len() != places.rows.len() || self.fill == u32::MAX {
-            memory::refill(&mut self.touched, 0, places.rows.len())?;
-            self.fill = 0;
-        }
-        self.fill += 1;
+    /// The table of these places with their values; at most so many chunks fill it.
+    pub fn table<'a>(&'a mut self, places: &'a Places, values: &'a mut [f64], chunks: usize) -> Result<Table<'a>> {
         if self.beside.len() != places.beside.len() {
             memory::refill(&mut self.beside, 0.0, places.beside.len())?;
         }
-        Ok(())
+        Table::new(&places.parts, &mut self.owners, [values, &mut self.beside], chunks)
     }
 
     /// On the heap `[bytes]`.
     pub fn bytes(&self) -> usize {
-        self.touched.capacity() * size_of::<u32>() + self.beside.capacity() * size_of::<f64>()
+        self.owners.bytes() + self.beside.capacity() * size_of::<f64>()
     }
+}
+
+/// Ends a fill, all of whose chunks are done: what no block came for becomes 0, and what stands beside the entries is added to
+/// them.
+pub fn finish(places: &Places, table: &mut Table) {
+    for &(first, end) in &places.indirect {
+        table.arrays()[0][first..end].fill(0.0);
+    }
+    for (node, rows) in places.rows.iter().enumerate() {
+        let (range, is_claimed) = (places.parts.range(node), table.is_claimed(node));
+        let [values, beside] = table.arrays();
+        match (rows.is_direct, is_claimed) {
+            (true, false) => values[range].fill(0.0),
+            (false, true) => {
+                for (&to, &value) in places.beside[range.start..range.end].iter().zip(&beside[range]) {
+                    if to != NOWHERE {
+                        values[to] += value;
+                    }
+                }
+            }
+            _ => {}
+        }
+    }
+}
+
+/// What the blocks of a chunk have shown.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Shown {
+    /// An entry that the plan lacks: row and column.
+    pub lacks: Option<(Place, Place)>,
+    /// 0 times all values: 0, or not a number where one is not finite.
+    pub nothing: f64,
 }
 
 /// Where the columns of four nodes begin in the rows of four nodes: by row, then by column.
@@ -63,16 +89,29 @@ static MISSING: MortarOffsets = {
     MortarOffsets { column: lacks, row: lacks, forces: lacks, multipliers: lacks }
 };
 
-/// Takes blocks and adds them to the entries of a plan.
+impl Shown {
+    /// Adds what others have shown.
+    pub fn add(&mut self, other: Shown) {
+        self.lacks = self.lacks.or(other.lacks);
+        self.nothing += other.nothing;
+    }
+}
+
+/// Takes blocks of one chunk and adds them to the entries of a plan.
 pub struct Fill<'a, const N: usize> {
-    pub setup: &'a Setup<N>,
-    pub layout: Layout<'a, N>,
-    pub places: &'a Places,
-    pub scatter: Option<&'a Scatter>,
-    /// The values of the entries.
-    pub values: &'a mut [f64],
-    pub room: &'a mut FillRoom,
+    setup: &'a Setup<N>,
+    layout: Layout<'a, N>,
+    places: &'a Places,
+    scatter: Option<&'a Scatter>,
+    hand: Hand<'a>,
     state: State,
+}
+
+/// A node with rows.
+#[derive(Clone, Copy, Debug, Default)]
+struct Target {
+    node: usize,
+    rows: NodeRows,
 }
 
 /// The facet at hand, and what has come up so far.
@@ -82,12 +121,12 @@ struct State {
     /// Nodes of the facet.
     len: usize,
     /// The rows of their displacements, and of their multipliers.
-    own: [NodeRows; MAX_NODES],
-    multipliers: [NodeRows; MAX_NODES],
+    own: [Target; MAX_NODES],
+    multipliers: [Target; MAX_NODES],
     /// The mortar facet at hand, how many nodes it has, and their rows.
     mortar: Option<usize>,
     mortar_len: usize,
-    mortar_rows: [NodeRows; MAX_NODES],
+    mortar_rows: [Target; MAX_NODES],
     /// The places of these nodes among the mortar nodes of the facets.
     places: [Option<usize>; MAX_NODES],
     /// Of the blocks at hand.
@@ -99,47 +138,24 @@ struct State {
 }
 
 impl<'a, const N: usize> Fill<'a, N> {
-    /// Into these values.
+    /// With this hand.
     pub fn new(
         setup: &'a Setup<N>,
         layout: Layout<'a, N>,
         (places, scatter): (&'a Places, Option<&'a Scatter>),
-        values: &'a mut [f64],
-        room: &'a mut FillRoom,
+        hand: Hand<'a>,
     ) -> Self {
-        Fill { setup, layout, places, scatter, values, room, state: State::default() }
+        Fill { setup, layout, places, scatter, hand, state: State::default() }
     }
 
-    /// Ends: what no block came for is 0, and what stands beside the entries is added to them. Whether all values are finite,
-    /// or an entry that the plan lacks.
-    pub fn end(self) -> std::result::Result<bool, (Place, Place)> {
-        for &(first, end) in &self.places.indirect {
-            self.values[first..end].fill(0.0);
-        }
-        for (rows, &touched) in self.places.rows.iter().zip(&self.room.touched) {
-            let range = rows.start..rows.start + usize::from(rows.scalars) * rows.len as usize;
-            match (rows.is_direct, touched == self.room.fill) {
-                (true, false) => self.values[range].fill(0.0),
-                (false, true) => {
-                    for (&to, &value) in self.places.beside[range.clone()].iter().zip(&self.room.beside[range]) {
-                        if to != NOWHERE {
-                            self.values[to] += value;
-                        }
-                    }
-                }
-                _ => {}
-            }
-        }
-        self.state.lacks.map_or(Ok(self.state.nothing.iter().sum::<f64>() == 0.0), Err)
+    /// What has come up.
+    pub fn shown(&self) -> Shown {
+        Shown { lacks: self.state.lacks, nothing: self.state.nothing.iter().sum() }
     }
 
-    fn touch(&mut self, node: usize) -> NodeRows {
-        let rows = self.places.rows[node];
-        if std::mem::replace(&mut self.room.touched[node], self.room.fill) != self.room.fill {
-            let range = rows.start..rows.start + usize::from(rows.scalars) * rows.len as usize;
-            if rows.is_direct { &mut self.values[range] } else { &mut self.room.beside[range] }.fill(0.0);
-        }
-        rows
+    fn touch(&mut self, node: usize) -> Target {
+        self.hand.claim(node);
+        Target { node, rows: self.places.rows[node] }
     }
 
     /// The number of the k-th node of a span of the facet at hand.
@@ -253,9 +269,8 @@ impl<'a, const N: usize> Fill<'a, N> {
             (Span::Own, false) => own,
             (Span::Mortar(_), _) => mortar_rows,
         };
-        let beside = &mut self.room.beside;
-        let lacks =
-            simd::dispatch(Add { entries: self.values, beside, rows: node_rows, starts, shape, values, nothing });
+        let hand = &mut self.hand;
+        let lacks = simd::dispatch(Add { hand, rows: node_rows, starts, shape, values, nothing });
         if lacks {
             let place = |span: Span| Place::Displacement(self.node_of(span, 0));
             let row = if of_multipliers { Place::Multiplier(self.node_of(rows, 0)) } else { place(rows) };
@@ -265,8 +280,7 @@ impl<'a, const N: usize> Fill<'a, N> {
 
     fn add_mortar(&mut self, shape: (usize, usize), values: &[Columns]) -> bool {
         let State { mortar_rows, starts, nothing, .. } = &mut self.state;
-        let beside = &mut self.room.beside;
-        simd::dispatch(Add { entries: self.values, beside, rows: mortar_rows, starts, shape, values, nothing })
+        simd::dispatch(Add { hand: &mut self.hand, rows: mortar_rows, starts, shape, values, nothing })
     }
 
     /// Notes that the plan lacks one of these blocks, if it does.
@@ -296,17 +310,16 @@ impl<const N: usize> Blocks<N> for Fill<'_, N> {
         let (n_rows, n_columns, mut lacks) = (self.len_of(rows), self.state.len, false);
         let State { own, mortar_rows, starts, nothing, .. } = &mut self.state;
         let node_rows = if rows == Span::Own { own } else { mortar_rows };
-        for (b, rows) in node_rows.iter().enumerate().take(n_rows) {
-            let to = if rows.is_direct { &mut *self.values } else { &mut self.room.beside[..] };
+        for (b, target) in node_rows.iter().enumerate().take(n_rows) {
+            let (to, len) = (self.hand.row(target.node), target.rows.len as usize);
             for a in 0..n_columns {
                 let (offset, value) = (starts[b][a], n[a][b]);
                 if offset >= WIDE_SKIP {
                     lacks |= offset == WIDE_LACKS;
                     continue;
                 }
-                let (at, len) = (rows.start + offset as usize, rows.len as usize);
                 for i in 0..SCALARS {
-                    to[at + i * len] += if N == 1 { value * nu[a][i] } else { value };
+                    to[offset as usize + i * len] += if N == 1 { value * nu[a][i] } else { value };
                 }
                 nothing[a] += 0.0 * value;
             }
@@ -356,12 +369,11 @@ impl<const N: usize> Blocks<N> for Fill<'_, N> {
         if offset >= WIDE_SKIP {
             return self.note(offset == WIDE_LACKS, row, column);
         }
-        let rows = self.touch(r);
+        let rows = self.touch(r).rows;
         if self.layout.is_diagonal(r, c, &rows) {
             return self.note(true, row, column);
         }
-        let to = if rows.is_direct { &mut *self.values } else { &mut self.room.beside[..] };
-        let (at, n) = (rows.start + offset as usize, usize::from(rows.scalars));
+        let (to, at, n) = (self.hand.row(r), offset as usize, usize::from(rows.scalars));
         for (j, values) in values.chunks_exact(n).enumerate() {
             for (i, value) in values.iter().enumerate() {
                 to[at + i * rows.len as usize + j] += value;
@@ -376,21 +388,20 @@ impl<const N: usize> Blocks<N> for Fill<'_, N> {
         if offset >= WIDE_SKIP {
             return self.note(offset == WIDE_LACKS, Place::Multiplier(a), Place::Multiplier(a));
         }
-        let rows = self.touch(node);
-        let to = if rows.is_direct { &mut *self.values } else { &mut self.room.beside[..] };
+        let rows = self.touch(node).rows;
+        let to = self.hand.row(node);
         for (i, value) in values.iter().enumerate() {
             let j = if rows.is_diagonal { 0 } else { i };
-            to[rows.start + offset as usize + i * rows.len as usize + j] += value;
+            to[offset as usize + i * rows.len as usize + j] += value;
             self.state.nothing[0] += 0.0 * value;
         }
     }
 }
 
 /// Adds the blocks of up to four by four nodes, `[k][j][i][B]`. Gives whether one of them has no place.
-struct Add<'a, const R: usize> {
-    entries: &'a mut [f64],
-    beside: &'a mut [f64],
-    rows: &'a [NodeRows; MAX_NODES],
+struct Add<'a, 'h, const R: usize> {
+    hand: &'a mut Hand<'h>,
+    rows: &'a [Target; MAX_NODES],
     starts: &'a Starts,
     /// Nodes of the rows and of the columns.
     shape: (usize, usize),
@@ -398,35 +409,38 @@ struct Add<'a, const R: usize> {
     nothing: &'a mut [f64; 4],
 }
 
-impl<const R: usize> Kernel for Add<'_, R> {
+impl<const R: usize> Kernel for Add<'_, '_, R> {
     type Output = bool;
 
     #[inline(always)]
     fn run<L: Lanes>(self) -> bool {
-        let Add { entries, beside, rows, starts, shape, values, nothing } = self;
+        let Add { hand, rows, starts, shape, values, nothing } = self;
         let (mut lacks, mut sum) = (false, L::load(nothing));
         let zero = L::splat(0.0);
+        // [row][column][component of the row]: the components of the column.
+        let mut blocks = [[[[0.0; 4]; R]; MAX_NODES]; MAX_NODES];
         for k in 0..shape.1 {
-            let mut by_node = [[[0.0; 4]; MAX_NODES]; R];
             for i in 0..R {
                 let (x, y, z) = (L::load(&values[k][0][i]), L::load(&values[k][1][i]), L::load(&values[k][2][i]));
                 sum = zero.mul_add(x, zero.mul_add(y, zero.mul_add(z, sum)));
                 let nodes = L::transpose([x, y, z, zero]);
                 for b in 0..MAX_NODES {
-                    by_node[i][b] = nodes[b].store();
+                    blocks[b][k][i] = nodes[b].store();
                 }
             }
-            for b in 0..shape.0 {
-                let (rows, start) = (&rows[b], starts[b][k]);
+        }
+        for b in 0..shape.0 {
+            let (to, len) = (hand.row(rows[b].node), rows[b].rows.len as usize);
+            for k in 0..shape.1 {
+                let start = starts[b][k];
                 if start >= WIDE_SKIP {
                     lacks |= start == WIDE_LACKS;
                     continue;
                 }
-                let (at, len) = (rows.start + start as usize, rows.len as usize);
-                let to = if rows.is_direct { &mut *entries } else { &mut *beside };
                 for i in 0..R {
-                    let to = &mut to[at + i * len..at + i * len + 3];
-                    let [x, y, z, _] = by_node[i][b];
+                    let at = start as usize + i * len;
+                    let to = &mut to[at..at + 3];
+                    let [x, y, z, _] = blocks[b][k][i];
                     to[0] += x;
                     to[1] += y;
                     to[2] += z;

@@ -3,12 +3,13 @@
 //!
 //! `numbering` orders the nodes as the host's equations are; `pattern` finds which blocks the rows of a node have; `places`
 //! turns these into entries of compressed sparse rows; `scatter` keeps where the blocks of facets and pairs begin;
-//! `fill` adds values.
+//! `phases` parts the facets among threads; `fill` adds values.
 
 pub mod extras;
 pub mod fill;
 pub mod numbering;
 pub mod pattern;
+pub mod phases;
 pub mod places;
 pub mod scatter;
 pub mod whole;

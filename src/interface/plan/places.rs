@@ -12,6 +12,7 @@ use crate::interface::data::options::Form;
 use crate::interface::data::setup::Setup;
 use crate::interface::data::surface::NO_EQUATION;
 use crate::memory::{self, Store};
+use crate::threads::Parts;
 
 /// The place of an entry beside that has no equation.
 pub const NOWHERE: usize = usize::MAX;
@@ -19,8 +20,6 @@ pub const NOWHERE: usize = usize::MAX;
 /// The rows of a node.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct NodeRows {
-    /// Where the first one begins, among the entries or beside them.
-    pub start: usize,
     /// The length of each; 0: the node has none.
     pub len: u32,
     /// How many there are.
@@ -29,6 +28,13 @@ pub struct NodeRows {
     pub is_direct: bool,
     /// Whether the block of the node with itself is a diagonal.
     pub is_diagonal: bool,
+}
+
+impl NodeRows {
+    /// Numbers of all of them.
+    pub fn size(&self) -> usize {
+        usize::from(self.scalars) * self.len as usize
+    }
 }
 
 /// How wide blocks are in one row.
@@ -64,6 +70,8 @@ impl Widths {
 pub struct Places {
     /// Of every node.
     pub rows: Vec<NodeRows>,
+    /// Where those of every node begin, among the entries or beside them.
+    pub parts: Parts,
     /// The equations that have entries, ascending.
     pub equations: Vec<i64>,
     /// Where the entries of each begin; one more at the end.
@@ -170,7 +178,7 @@ impl<const N: usize> Layout<'_, N> {
     pub fn places(&self, is_diagonal: impl Fn(usize) -> bool) -> Result<Places> {
         let nodes = self.nodes;
         let mut p = Places { rows: memory::filled(NodeRows::default(), nodes.len())?, ..Places::default() };
-        let mut beside = 0;
+        let (mut beside, mut starts) = (0, memory::filled(0, nodes.len())?);
         for node in 0..nodes.len() {
             let columns = self.columns.get(node);
             if columns.is_empty() {
@@ -186,7 +194,7 @@ impl<const N: usize> Layout<'_, N> {
             };
             self.each_offset(node, rows.is_diagonal, columns, |_, offset, width| rows.len = offset + width);
             if !rows.is_direct {
-                rows.start = beside;
+                starts[node] = beside;
                 beside += scalars * rows.len as usize;
             }
             p.rows[node] = rows;
@@ -198,7 +206,7 @@ impl<const N: usize> Layout<'_, N> {
             let before = at;
             if p.rows[node].is_direct {
                 if i == 0 {
-                    p.rows[node].start = at;
+                    starts[node] = at;
                 }
                 at += p.rows[node].len as usize;
             } else {
@@ -207,7 +215,7 @@ impl<const N: usize> Layout<'_, N> {
                 for &scalar in scalars {
                     let (node, i) = (scalar as usize / SCALARS, scalar as usize % SCALARS);
                     let rows = &p.rows[node];
-                    let (start, to) = (rows.start + i * rows.len as usize, &mut p.beside);
+                    let (start, to) = (starts[node] + i * rows.len as usize, &mut p.beside);
                     self.row(node, i, rows, |equation, offset| {
                         if let Ok(k) = columns.binary_search(&equation) {
                             to[start + offset as usize] = before + k;
@@ -226,6 +234,8 @@ impl<const N: usize> Layout<'_, N> {
             }
         }
         p.offsets.store(at)?;
+        let part = |(rows, start): (&NodeRows, usize)| (start..start + rows.size(), !rows.is_direct);
+        p.parts = Parts::new(p.rows.iter().zip(starts).map(part))?;
         Ok(p)
     }
 
@@ -253,6 +263,6 @@ impl Places {
     pub fn bytes(&self) -> usize {
         let rows = self.rows.capacity() * size_of::<NodeRows>() + self.equations.capacity() * size_of::<i64>();
         let places = (self.offsets.capacity() + self.beside.capacity()) * size_of::<usize>();
-        rows + places + self.indirect.capacity() * size_of::<(usize, usize)>()
+        self.parts.bytes() + rows + places + self.indirect.capacity() * size_of::<(usize, usize)>()
     }
 }

@@ -1,14 +1,17 @@
 //! A plan: made of pairs, asked for its entries, filled with values.
 
-use super::fill::{Fill, FillRoom};
+use super::fill::{Fill, FillRoom, finish};
 use super::numbering::{Nodes, Numbering};
 use super::pattern::{FacetPairs, Finder, Lists, System};
+use super::phases;
 use super::places::{Layout, Places, Widths};
 use super::scatter::{SKIP, Scatter};
-use crate::error::Result;
+use crate::error::{Error, Kind, Result};
 use crate::interface::data::setup::Setup;
 use crate::interface::tangent::union::Pairs;
 use crate::memory::{self, Store};
+use crate::threads::{Hand, Table};
+use std::ops::Range;
 
 /// A plan.
 #[derive(Debug)]
@@ -19,15 +22,16 @@ pub struct Plan {
     widths: Widths,
     places: Places,
     scatter: Option<Scatter>,
+    phases: Vec<Vec<Range<usize>>>,
 }
 
 impl Plan {
-    /// Of these pairs and further blocks; `is_diagonal`: of which nodes the multiplier's block with itself is a diagonal.
+    /// Of these pairs and further blocks, and whether those of facets are in rows of their own nodes alone; `is_diagonal`: of which nodes the multiplier's block with itself is a diagonal.
     pub fn new<const N: usize>(
         (setup, numbering): (&Setup<N>, &Numbering),
         system: System,
         pairs: Pairs,
-        mut extras: Vec<(u32, u32)>,
+        (mut extras, alone): (Vec<(u32, u32)>, bool),
         is_diagonal: impl Fn(usize) -> bool,
     ) -> Result<Plan> {
         let nodes = Nodes::of(setup);
@@ -67,7 +71,8 @@ impl Plan {
         drop(finder);
         let layout = Layout { nodes, numbering, columns: &columns, widths };
         let places = layout.places(is_diagonal)?;
-        Ok(Plan { system, widths, places, scatter, columns })
+        let phases = phases::of(setup, &pairs, alone)?;
+        Ok(Plan { system, widths, places, scatter, columns, phases })
     }
 
     /// Entries.
@@ -93,16 +98,33 @@ impl Plan {
         Layout { nodes: Nodes::of(setup), numbering, columns: &self.columns, widths: self.widths }
     }
 
-    /// What takes the blocks of a tangent and adds them to `values`, as many as there are entries.
+    /// The chunks of facets whose blocks are added at the same time: no two of a phase have rows in common.
+    pub fn phases(&self) -> &[Vec<Range<usize>>] {
+        &self.phases
+    }
+
+    /// The table of the entries with their values.
+    pub fn table<'a>(&'a self, values: &'a mut [f64], room: &'a mut FillRoom) -> Result<Table<'a>> {
+        if values.len() != self.len() {
+            let text = text!("values has {} entries; the plan has {}", values.len(), self.len());
+            return Err(Error::new(Kind::InvalidSize, text));
+        }
+        // One more for what is of no facet.
+        room.table(&self.places, values, self.phases.iter().map(Vec::len).sum::<usize>() + 1)
+    }
+
+    /// What takes the blocks of a chunk and adds them to what the hand is of.
     pub fn fill<'a, const N: usize>(
         &'a self,
         (setup, numbering): (&'a Setup<N>, &'a Numbering),
-        values: &'a mut [f64],
-        room: &'a mut FillRoom,
-    ) -> Result<Fill<'a, N>> {
-        room.begin(&self.places)?;
-        let layout = self.layout((setup, numbering));
-        Ok(Fill::new(setup, layout, (&self.places, self.scatter.as_ref()), values, room))
+        hand: Hand<'a>,
+    ) -> Fill<'a, N> {
+        Fill::new(setup, self.layout((setup, numbering)), (&self.places, self.scatter.as_ref()), hand)
+    }
+
+    /// Ends a fill.
+    pub fn finish(&self, table: &mut Table) {
+        finish(&self.places, table);
     }
 
     /// On the heap `[bytes]`.
