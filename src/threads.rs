@@ -93,6 +93,7 @@ pub struct Table<'a> {
     parts: &'a Parts,
     owners: &'a mut Owners,
     arrays: [*mut f64; 2],
+    len: [usize; 2],
     of: PhantomData<&'a mut [f64]>,
 }
 
@@ -109,7 +110,8 @@ impl<'a> Table<'a> {
             return Err(Error::new(Kind::InvalidSize, "the values of a plan are fewer than its entries"));
         }
         owners.begin(parts.rows.len(), chunks)?;
-        Ok(Table { parts, owners, arrays: arrays.map(<[f64]>::as_mut_ptr), of: PhantomData })
+        let len = arrays.each_ref().map(|array| array.len());
+        Ok(Table { parts, owners, arrays: arrays.map(<[f64]>::as_mut_ptr), len, of: PhantomData })
     }
 
     /// Whether a chunk has claimed a row so far.
@@ -119,7 +121,7 @@ impl<'a> Table<'a> {
 
     /// All numbers, once the chunks are done: of the array, and beside it.
     pub fn arrays(&mut self) -> [&mut [f64]; 2] {
-        let [first, second] = [0, 1].map(|k| (self.arrays[k], self.parts.len[k]));
+        let [first, second] = [0, 1].map(|k| (self.arrays[k], self.len[k]));
         // SAFETY: these many are there, and `&mut self`: there is no hand.
         unsafe {
             [std::slice::from_raw_parts_mut(first.0, first.1), std::slice::from_raw_parts_mut(second.0, second.1)]

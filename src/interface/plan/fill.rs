@@ -417,30 +417,27 @@ impl<const R: usize> Kernel for Add<'_, '_, R> {
         let Add { hand, rows, starts, shape, values, nothing } = self;
         let (mut lacks, mut sum) = (false, L::load(nothing));
         let zero = L::splat(0.0);
-        // [row][column][component of the row]: the components of the column.
-        let mut blocks = [[[[0.0; 4]; R]; MAX_NODES]; MAX_NODES];
         for k in 0..shape.1 {
+            let mut by_node = [[[0.0; 4]; R]; MAX_NODES];
             for i in 0..R {
                 let (x, y, z) = (L::load(&values[k][0][i]), L::load(&values[k][1][i]), L::load(&values[k][2][i]));
                 sum = zero.mul_add(x, zero.mul_add(y, zero.mul_add(z, sum)));
                 let nodes = L::transpose([x, y, z, zero]);
                 for b in 0..MAX_NODES {
-                    blocks[b][k][i] = nodes[b].store();
+                    by_node[b][i] = nodes[b].store();
                 }
             }
-        }
-        for b in 0..shape.0 {
-            let (to, len) = (hand.row(rows[b].node), rows[b].rows.len as usize);
-            for k in 0..shape.1 {
+            for b in 0..shape.0 {
                 let start = starts[b][k];
                 if start >= WIDE_SKIP {
                     lacks |= start == WIDE_LACKS;
                     continue;
                 }
+                let (to, len) = (hand.row(rows[b].node), rows[b].rows.len as usize);
                 for i in 0..R {
                     let at = start as usize + i * len;
                     let to = &mut to[at..at + 3];
-                    let [x, y, z, _] = blocks[b][k][i];
+                    let [x, y, z, _] = by_node[b][i];
                     to[0] += x;
                     to[1] += y;
                     to[2] += z;
