@@ -53,8 +53,13 @@ impl FacetOverlaps {
         let line = by_points(options, filter, f);
         for pair in pairs {
             let facet = two.facet(pair.two, &active.x2);
-            let segment = overlap(frame, &facet, line)?;
-            segments.store(segment.expect("an active pair has an overlap at the positions it was found at"))?;
+            // Large: moved once.
+            let found = overlap(frame, &facet, line);
+            match found {
+                Ok(Some(segment)) => segments.store(segment)?,
+                Ok(None) => unreachable!("an active pair has an overlap at the positions it was found at"),
+                Err(error) => return Err(error),
+            }
         }
         Ok(())
     }
