@@ -14,7 +14,7 @@ use super::tangent::augmented::NodeCouplings;
 use super::tangent::blocks::{Numbers, Room, Task, blocks, is_coupled, node_tangents, of_facets, of_nodes};
 use super::tangent::derivatives::PairDerivatives;
 use super::tangent::emission::{Emitter, Place};
-use super::tangent::turning::Turns;
+use super::tangent::turning::{NodeTurn, Turns};
 use super::tangent::union::Pairs;
 use crate::element::NodeTangent;
 use crate::error::{Error, Kind, Result};
@@ -47,6 +47,8 @@ pub struct Linear<const N: usize> {
     pub rooms: Vec<ThreadRoom<N>>,
     pub normals: Vec<Vec3>,
     pub nodes: Vec<NodeTangent<N>>,
+    pub turns: Vec<NodeTurn<N>>,
+    pub couplings: Vec<NodeCouplings>,
 }
 
 impl<const N: usize> Default for Linear<N> {
@@ -60,6 +62,8 @@ impl<const N: usize> Default for Linear<N> {
             rooms: Vec::new(),
             normals: Vec::new(),
             nodes: Vec::new(),
+            turns: Vec::new(),
+            couplings: Vec::new(),
         }
     }
 }
@@ -74,7 +78,9 @@ impl<const N: usize> Linear<N> {
     pub fn bytes(&self) -> usize {
         let plans = self.plan.iter().chain(self.condensed.iter().flatten()).chain(self.own.iter().map(|own| &own.1));
         let rooms = self.fill.iter().map(FillRoom::bytes).sum::<usize>();
-        let nodes = self.normals.capacity() * size_of::<Vec3>() + self.nodes.capacity() * size_of::<NodeTangent<N>>();
+        let nodes = self.normals.capacity() * size_of::<Vec3>()
+            + self.nodes.capacity() * size_of::<NodeTangent<N>>()
+            + self.turns.capacity() * size_of::<NodeTurn<N>>();
         plans.map(Plan::bytes).sum::<usize>() + self.numbering.as_ref().map_or(0, Numbering::bytes) + rooms + nodes
     }
 }
@@ -130,7 +136,7 @@ impl<'a, const N: usize> Here<'a, N> {
             nodes: work.nodes,
             active: self.cache.active().filter(|_| differentiates),
             motion,
-            turns: Turns::at(given, (x1, lambda), (&answers.sums, responses), normals, scale)?,
+            turns: Turns::at(given, (x1, lambda), (&answers.sums, responses), normals, scale, work.turns)?,
         };
         while work.rooms.len() < options.threads {
             work.rooms.store(ThreadRoom::default())?;
@@ -193,7 +199,7 @@ impl<'a, const N: usize> Here<'a, N> {
         (x, lambda, of): (Positions, &[SVector<f64, N>], (Extent, Option<&[f64]>)),
         numbering: &Option<Numbering>,
         [first, second]: &mut [FillRoom; 2],
-        work: Work<N>,
+        (work, kept_couplings): (Work<N>, &mut Vec<NodeCouplings>),
         (plan, values): (&Plan, &mut [f64]),
         constraints: Option<(&Plan, &mut [f64])>,
     ) -> Result<(i64, f64)> {
@@ -206,8 +212,9 @@ impl<'a, const N: usize> Here<'a, N> {
         };
         let make = |task: Task<N>, rooms: &mut [ThreadRoom<N>]| {
             rooms.iter_mut().for_each(ThreadRoom::begin);
-            let mut couplings: Option<Vec<NodeCouplings>> =
-                is_coupled(task.given).then(|| memory::defaults(task.given.nodes())).transpose()?;
+            let is_coupled = is_coupled(task.given);
+            NodeCouplings::renew(kept_couplings, if is_coupled { task.given.nodes() } else { 0 })?;
+            let mut couplings = is_coupled.then_some(&mut kept_couplings[..]);
             // The chunks of a phase, and in the last one what is of no facet.
             for chunks in plan.phases().iter().map(Some).chain([None]) {
                 let phase = table.phase();
@@ -279,6 +286,7 @@ pub struct Work<'a, const N: usize> {
     pub rooms: &'a mut Vec<ThreadRoom<N>>,
     pub normals: &'a mut Vec<Vec3>,
     pub nodes: &'a mut Vec<NodeTangent<N>>,
+    pub turns: &'a mut Vec<NodeTurn<N>>,
 }
 
 /// What plans belong to: the interface, and the order of its nodes.

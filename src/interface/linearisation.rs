@@ -44,12 +44,12 @@ impl<const N: usize> Contact<N> {
         (sink, constraints): (&mut dyn Sink, Option<&mut dyn Sink>),
     ) -> Result<()> {
         let here = Here { given: Given { setup: &self.setup, step: &self.step }, cache: &self.cache };
-        let Linear { rooms, normals, nodes, .. } = &mut self.linear;
+        let Linear { rooms, normals, nodes, turns, .. } = &mut self.linear;
         let mut taker = ByEquations::new(&self.setup, sink);
         let mut constraints = constraints.map(|sink| ByEquations::new(&self.setup, sink));
         let takers: Takers<N> = (&mut taker, constraints.as_mut().map(|taker| taker as _));
         let make = |task: Task<N>, rooms: &mut [ThreadRoom<N>]| blocks(task, &mut rooms[0].room, takers);
-        let cost = here.linearise(x, lambda, (extent, scales), Work { rooms, normals, nodes }, make)?;
+        let cost = here.linearise(x, lambda, (extent, scales), Work { rooms, normals, nodes, turns }, make)?;
         self.count(cost);
         Ok(())
     }
@@ -208,10 +208,13 @@ impl<const N: usize> Contact<N> {
         values: &mut [f64],
     ) -> Result<()> {
         let here = Here { given: Given { setup: &self.setup, step: &self.step }, cache: &self.cache };
-        let Linear { numbering, plan, own, fill, rooms, normals, nodes, .. } = &mut self.linear;
+        let Linear { numbering, plan, own, fill, rooms, normals, nodes, turns, couplings, .. } = &mut self.linear;
         let plan = if is_own { own.as_ref().map(|own| &own.1) } else { plan.as_ref() };
         let Some(plan) = plan else { return Err(no_plan()) };
-        let cost = here.fill(of, numbering, fill, Work { rooms, normals, nodes }, (plan, values), None)?;
+        let cost = {
+            let work = (Work { rooms, normals, nodes, turns }, couplings);
+            here.fill(of, numbering, fill, work, (plan, values), None)?
+        };
         self.count(cost);
         Ok(())
     }
@@ -223,9 +226,10 @@ impl<const N: usize> Contact<N> {
         [forces, constraints]: [&mut [f64]; 2],
     ) -> Result<()> {
         let here = Here { given: Given { setup: &self.setup, step: &self.step }, cache: &self.cache };
-        let Linear { numbering, condensed, fill, rooms, normals, nodes, .. } = &mut self.linear;
+        let Linear { numbering, condensed, fill, rooms, normals, nodes, turns, couplings, .. } = &mut self.linear;
         let Some([first, second]) = condensed else { return Err(no_plan()) };
-        let (work, constraints) = (Work { rooms, normals, nodes }, Some((&*second, constraints)));
+        let work = (Work { rooms, normals, nodes, turns }, couplings);
+        let constraints = Some((&*second, constraints));
         let cost = here.fill(of, numbering, fill, work, (first, forces), constraints)?;
         self.count(cost);
         Ok(())

@@ -132,6 +132,28 @@ impl Host {
         ALLOCATIONS.get() - before
     }
 
+    /// Allocations of the values of a plan at the positions of now.
+    fn fill(&self, values: &mut [f64]) -> usize {
+        let [x1, x2] = self.x.each_ref().map(|x| x.as_ptr());
+        let (lambda, n) = (self.lambda.as_ptr(), values.len() as i64);
+        let before = ALLOCATIONS.get();
+        // SAFETY: all arrays are as long as the interface needs.
+        let status =
+            unsafe { stickslip_interface_plan_values(self.handle, x1, x2, lambda, null(), n, values.as_mut_ptr()) };
+        assert_eq!(status, 0);
+        ALLOCATIONS.get() - before
+    }
+
+    /// Makes a plan with a skin; room for its values.
+    fn plan(&self) -> Vec<f64> {
+        let ([x1, x2], mut rows, mut count) = (self.x.each_ref().map(|x| x.as_ptr()), 0, 0);
+        // SAFETY: all arrays are as long as the interface needs.
+        let status =
+            unsafe { stickslip_interface_plan(self.handle, x1, x2, STICKSLIP_PLAN_SKIN, &mut rows, &mut count) };
+        assert_eq!(status, 0);
+        vec![0.0; count as usize]
+    }
+
     /// Allocations of a commit at the positions of now.
     fn commit(&self) -> usize {
         let before = ALLOCATIONS.get();
@@ -190,6 +212,24 @@ fn evaluations_take_no_memory_after_the_first_two() {
             host.move_to(round);
             let count = host.evaluate();
             assert!(round < FIRST || count == 0, "{what}: {count} allocations in round {round}");
+        }
+    });
+}
+
+#[test]
+fn values_of_a_plan_take_no_memory_after_the_first_two() {
+    each_kind(|what, set| {
+        for form in [STICKSLIP_FORM_MULTIPLIER, STICKSLIP_FORM_AUGMENTED] {
+            let mut host = Host::new(8, 9, |options| {
+                set(options);
+                options.form = form;
+            });
+            let mut values = host.plan();
+            for round in 0..8 {
+                host.move_to(round);
+                let count = host.fill(&mut values);
+                assert!(round < FIRST || count == 0, "{what}, form {form}: {count} allocations in round {round}");
+            }
         }
     });
 }

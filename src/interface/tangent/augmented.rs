@@ -40,6 +40,16 @@ pub struct NodeCouplings {
 }
 
 impl NodeCouplings {
+    /// So many without couplings, in the memory of those that there were.
+    pub fn renew(all: &mut Vec<NodeCouplings>, n: usize) -> Result<()> {
+        all.truncate(n);
+        all.iter_mut().for_each(|node| node.nodes.clear());
+        while all.len() < n {
+            all.store(NodeCouplings::default())?;
+        }
+        Ok(())
+    }
+
     /// Adds a pair in which A is the k-th non-mortar node. `dp` = (dp/dg_now, dp/dg_previous).
     pub fn add_pair<const MOVES: bool>(
         &mut self,

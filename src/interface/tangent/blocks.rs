@@ -174,6 +174,7 @@ pub struct Room<const N: usize> {
     share: ShareRoom,
     mortar: MortarRows,
     overlaps: FacetOverlaps,
+    lone: turning::LoneRoom,
     pairs: Vec<UnionPair>,
 }
 
@@ -341,18 +342,18 @@ pub fn of_nodes<const N: usize>(
     let options = &given.setup.options;
     if options.follows_normals() {
         let drow_dnow = |b: usize| numbers.map_or_else(SMatrix::zeros, |n| n.nodes[b].drow_dnow);
-        let lone = turning::lone_facets(given, pairs, &mut room.pairs)?;
+        turning::lone_facets(given, pairs, &mut room.lone)?;
         let beyond_rows = couplings.is_some() || (N == 1 && !given.step.pairing.carriers.is_empty());
         if beyond_rows {
             let mut walk = Walk::through(pairs, 0..usize::MAX);
             while let Some(f) = walk.next(&mut room.pairs)? {
                 turning::facet(f, (turns, drow_dnow), couplings.as_deref_mut(), emitter)?;
             }
-            for &f in &lone {
+            for &f in &room.lone.lone {
                 turning::facet(f, (turns, drow_dnow), couplings.as_deref_mut(), emitter)?;
             }
         }
-        lone.iter().for_each(|&f| turning::lone_rows(f, turns, emitter));
+        room.lone.lone.iter().for_each(|&f| turning::lone_rows(f, turns, emitter));
     }
     for a in 0..given.nodes() {
         let response = numbers.map(|n| &n.responses.nodes[a]);

@@ -20,7 +20,7 @@ use crate::interface::stages::carried::carriers_sums;
 use crate::interface::stages::node::node;
 use crate::interface::stages::respond::Responses;
 use crate::interface::stages::sums::NodeSums;
-use crate::memory::{self, Stored};
+use crate::memory::{self, Store};
 use crate::mortar::MORTAR;
 use crate::normal::{corner_normal_derivatives, nodal_normal_derivative};
 use crate::shape::MAX_CORNERS;
@@ -29,7 +29,7 @@ use nalgebra::SVector;
 
 /// Derivatives with respect to the normal of a node.
 #[derive(Clone, Copy, Debug)]
-struct NodeTurn<const N: usize> {
+pub struct NodeTurn<const N: usize> {
     /// dnu/ds.
     normal: Mat3,
     /// dc/ds times the row scale.
@@ -43,23 +43,24 @@ struct NodeTurn<const N: usize> {
 /// Derivatives with respect to the normals of the nodes, at some positions.
 pub struct Turns<'a, const N: usize> {
     x1: &'a [Vec3],
-    nodes: Vec<NodeTurn<N>>,
+    nodes: &'a [NodeTurn<N>],
 }
 
 impl<'a, const N: usize> Turns<'a, N> {
-    /// At the sums and the answers of x1; `scale`: the factor of a node's rows. `None`: the normals are those of t_n.
+    /// At the sums and the answers of x1, in `nodes`; `scale`: the factor of a node's rows. `None`: the normals are those of t_n.
     pub fn at(
         given: Given<N>,
         (x1, lambda): (&'a [Vec3], &[SVector<f64, N>]),
         (sums, responses): (&[NodeSums], &Responses<N>),
         normals: &[Vec3],
         scale: impl Fn(usize) -> f64,
+        nodes: &'a mut Vec<NodeTurn<N>>,
     ) -> Result<Option<Turns<'a, N>>> {
         let Some(now) = &given.step.now else { return Ok(None) };
         let (setup, carried) = (given.setup, &responses.carried);
         let shared = if carried.contains(&true) { carriers_sums(given, sums, carried, normals)? } else { Vec::new() };
         let augmented = setup.options.form == Form::Augmented;
-        let turn = |a: usize| {
+        let turn = |a: usize| -> Result<NodeTurn<N>> {
             let sum = shared.binary_search_by_key(&a, |(b, _)| *b).map_or(&sums[a], |at| &shared[at].1);
             let is_carried = carried.get(a).is_some_and(|c| *c);
             let fixed = given.step.pairing.keeps_normal[a];
@@ -81,7 +82,9 @@ impl<'a, const N: usize> Turns<'a, N> {
                 gap: if is_carried { sums[a].gap_now } else { Vec3::zeros() },
             })
         };
-        Ok(Some(Turns { x1, nodes: (0..lambda.len()).map(turn).stored_if_ok()? }))
+        nodes.clear();
+        (0..lambda.len()).try_for_each(|a| nodes.store(turn(a)?))?;
+        Ok(Some(Turns { x1, nodes }))
     }
 
     /// Dnu of the k-th node of a facet with respect to each corner of that facet which it depends on.
@@ -147,17 +150,33 @@ fn add(couplings: &mut NodeCouplings, nodes: &FacetNodes, dnu: &[(usize, Mat3); 
     dnu.iter().try_for_each(|(corner, dnu)| couplings.add_traction(nodes.nodes[*corner], traction * dnu))
 }
 
+/// What lone facets are found in.
+#[derive(Debug, Default)]
+pub struct LoneRoom {
+    paired: Vec<bool>,
+    covered: Vec<bool>,
+    of_facet: Vec<UnionPair>,
+    /// The facets that were found last.
+    pub lone: Vec<usize>,
+}
+
 /// The facets without pairs around nodes that a pair covers: their corners enter through the normals alone.
-pub fn lone_facets<const N: usize>(given: Given<N>, pairs: Pairs, of_facet: &mut Vec<UnionPair>) -> Result<Vec<usize>> {
+pub fn lone_facets<const N: usize>(
+    given: Given<N>,
+    pairs: Pairs,
+    LoneRoom { paired, covered, of_facet, lone }: &mut LoneRoom,
+) -> Result<()> {
     let one = &given.setup.nonmortar;
-    let (mut paired, mut covered) = (memory::filled(false, one.facets.len())?, memory::filled(false, one.len())?);
+    memory::refill(paired, false, one.facets.len())?;
+    memory::refill(covered, false, one.len())?;
     let mut walk = Walk::through(pairs, 0..usize::MAX);
     while let Some(f) = walk.next(of_facet)? {
         paired[f] = true;
         one.facets[f].as_slice().iter().for_each(|&a| covered[a] = true);
     }
-    let lone = |f: &usize| !paired[*f] && one.facets[*f].as_slice().iter().any(|&a| covered[a]);
-    (0..paired.len()).filter(lone).stored()
+    let is_lone = |f: &usize| !paired[*f] && one.facets[*f].as_slice().iter().any(|&a| covered[a]);
+    lone.clear();
+    (0..paired.len()).filter(is_lone).try_for_each(|f| lone.store(f))
 }
 
 /// The rows of such a facet.
