@@ -79,6 +79,13 @@ pub fn copied<T: Copy>(values: &[T]) -> Result<Vec<T>> {
     Ok(v)
 }
 
+/// Appends some values.
+pub fn extend<T: Copy>(v: &mut Vec<T>, values: &[T]) -> Result<()> {
+    v.try_reserve(values.len())?;
+    v.extend_from_slice(values);
+    Ok(())
+}
+
 /// The values in an order in which those that compare equal stay as they were. (The standard library's stable sort
 /// takes its memory or aborts.)
 pub fn sorted<T: Copy>(values: &[T], compare: impl Fn(&T, &T) -> Ordering) -> Result<Vec<T>> {

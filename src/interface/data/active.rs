@@ -3,7 +3,7 @@
 
 use super::pairs::PairRecord;
 use super::surface::are_same;
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::geometry::Vec3;
 use crate::memory::{self, Store};
 use crate::mortar::PairWeights;
@@ -25,6 +25,8 @@ pub struct Active {
     pub excluded: Vec<(u32, u32)>,
     /// Whether these are all that the filter of the step does not admit, of facets that it says can have a pair.
     pub knows_excluded: bool,
+    /// What is wrong with the multipliers' basis of a facet: said after what is wrong with any pair.
+    pub refused: Option<Error>,
 }
 
 impl Active {
@@ -43,6 +45,7 @@ impl Active {
         self.integrated.clear();
         self.excluded.clear();
         self.knows_excluded = false;
+        self.refused = None;
     }
 
     /// Room for so many pairs more, of which there will probably be so many in all.
@@ -55,6 +58,16 @@ impl Active {
     pub fn add(&mut self, pair: PairRecord, area: f64) -> Result<()> {
         self.areas.store(area)?;
         self.pairs.store(pair)
+    }
+
+    /// Adds the pairs of facets that follow, and what is wrong with them.
+    pub fn append(&mut self, other: &mut Active) -> Result<()> {
+        memory::extend(&mut self.pairs, &other.pairs)?;
+        memory::extend(&mut self.areas, &other.areas)?;
+        memory::extend(&mut self.integrated, &other.integrated)?;
+        memory::extend(&mut self.excluded, &other.excluded)?;
+        self.refused = self.refused.take().or(other.refused.take());
+        Ok(())
     }
 
     /// The integrated weights of the pair in this place, whatever the multipliers' basis makes of them.

@@ -37,6 +37,18 @@ pub struct Counters {
     pub seconds_assembly: f64,
 }
 
+impl Counters {
+    /// Adds what a thread has done of an integration.
+    pub fn add(&mut self, other: &Counters) {
+        self.pairs_tested += other.pairs_tested;
+        self.pairs_clipped += other.pairs_clipped;
+        self.pairs_integrated += other.pairs_integrated;
+        self.boxes_visited += other.boxes_visited;
+        self.seconds_search += other.seconds_search;
+        self.seconds_integration += other.seconds_integration;
+    }
+}
+
 /// How the nodes were treated at the last evaluation. They add up to all of them.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct NodeCounts {

@@ -9,8 +9,9 @@ use crate::interface::pairing::filter::Filter;
 use crate::interface::pairing::given::NormalsAt;
 use crate::interface::pairing::search::Tree;
 use crate::interface::pairing::settle::Pairing;
-use crate::interface::pairing::work::Work;
+use crate::interface::pairing::work::{Room, ThreadRoom, Work};
 use crate::interface::stages::residual::Residual;
+use std::sync::Mutex;
 
 /// A vector's memory `[bytes]`: what it holds and what it has taken for more.
 pub fn heap<T>(v: &Vec<T>) -> usize {
@@ -47,10 +48,16 @@ fn of_tree(kept: &KeptTree) -> usize {
 
 /// Of what searches and integrations work with.
 pub fn of_work(work: &Work) -> usize {
-    let r = &work.room;
+    let of_thread = |thread: &ThreadRoom| of_room(&thread.room);
+    let of_chunk = |chunk: &Mutex<Active>| chunk.lock().map_or(0, |chunk| of_active(&chunk));
+    let threads = work.threads.iter().map(of_thread).sum::<usize>() + work.chunks.iter().map(of_chunk).sum::<usize>();
+    of_tree(&work.tree) + of_room(&work.room) + threads
+}
+
+fn of_room(r: &Room) -> usize {
     let of_row = heap(&r.frames) + heap(&r.candidates) + heap(&r.found) + heap(&r.segments) + heap(&r.sheets);
     let of_nodes = heap(&r.met) + heap(&r.sums) + heap(&r.vectors);
-    of_tree(&work.tree) + of_row + of_nodes + heap(&r.dropped) + heap(&r.added) + of_active(&r.anew)
+    of_row + of_nodes + heap(&r.dropped) + heap(&r.added) + of_active(&r.anew)
 }
 
 /// Of the pairs at a configuration.

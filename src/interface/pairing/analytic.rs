@@ -79,7 +79,7 @@ pub fn integrate(
     Work { counters, .. }: &mut Work,
     (x1, x2): (&[Vec3], &[Vec3]),
     active: &mut Active,
-    mut following: Following,
+    following: Following,
 ) -> Result<()> {
     let start = Instant::now();
     one.plane_normals(x1, &mut active.normals)?;
@@ -93,8 +93,8 @@ pub fn integrate(
         if is_pair {
             let weights = analytic_weights(&frame, &surface, options.rule).map_err(at_facet(one.side, i))?;
             active.pairs.store(PairRecord { one: i, two: 0, weights })?;
-            if let Some(following) = &mut following {
-                following(active, place, (&frame, &[]))?;
+            if let Some(following) = following {
+                following(active, place, (&frame, &[]));
             }
         }
     }

@@ -12,7 +12,7 @@ use super::prism::{Prism, ROUNDING, Slab};
 use super::search::Tree;
 use crate::geometry::{Plane, Vec3};
 use crate::interface::data::surface::Surface;
-use std::cell::OnceCell;
+use std::sync::OnceLock;
 
 /// Room for rounding in heights, over the facet's longest edge: an end never cuts off what the filter would admit.
 pub const MARGIN: f64 = 1e-9;
@@ -28,7 +28,7 @@ pub struct Ends<'a> {
     /// The most that any mortar facet may lie deeper than the pairs' own measure `[L]`.
     depth: f64,
     /// The box around the motions of all mortar nodes since t_n, once it was asked for.
-    moved: OnceCell<Aabb>,
+    moved: OnceLock<Aabb>,
 }
 
 impl<'a> Ends<'a> {
@@ -38,7 +38,7 @@ impl<'a> Ends<'a> {
         (two, x2): (&'a Surface, &'a [Vec3]),
         follows: Option<f64>,
     ) -> Ends<'a> {
-        Ends { filter, tree, two, x2, follows, depth: filter.largest_depth(), moved: OnceCell::new() }
+        Ends { filter, tree, two, x2, follows, depth: filter.largest_depth(), moved: OnceLock::new() }
     }
 
     /// Whether the prism of non-mortar facet i may have ends that cut anything off. The point may be off its plane's by `slack`.

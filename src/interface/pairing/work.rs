@@ -1,19 +1,19 @@
 //! What searches and integrations work with, in memory that is kept from one to the next.
 
 use super::candidates::KeptTree;
-use crate::error::Result;
 use crate::geometry::Vec3;
 use crate::interface::data::active::Active;
 use crate::interface::data::counters::Counters;
 use crate::interface::data::pairs::PairRecord;
 use crate::mortar::{NonmortarFrame, Segment};
+use std::sync::Mutex;
 
 /// Facets that are searched for and then integrated in a row: their frames, 0.7 kB each, stay in the processor's second
 /// cache, and what is done once a row counts for nothing. Rows do not know of each other.
 pub const ROW: usize = 32;
 
 /// What follows at once for a facet, while its overlaps are there: given the place of its first pair. `None`: nothing does.
-pub type Following<'a> = Option<&'a mut dyn FnMut(&mut Active, usize, (&NonmortarFrame, &[Segment])) -> Result<()>>;
+pub type Following<'a> = Option<&'a (dyn Fn(&mut Active, usize, (&NonmortarFrame, &[Segment])) + Sync)>;
 
 /// What searches and integrations work with.
 #[derive(Debug, Default)]
@@ -23,6 +23,16 @@ pub struct Work {
     /// The search tree.
     pub tree: KeptTree,
     /// Room.
+    pub room: Room,
+    /// What threads have for themselves, and the pairs of each chunk of facets, where there are several threads.
+    pub threads: Vec<ThreadRoom>,
+    pub chunks: Vec<Mutex<Active>>,
+}
+
+/// What one thread works with.
+#[derive(Debug, Default)]
+pub struct ThreadRoom {
+    pub counters: Counters,
     pub room: Room,
 }
 

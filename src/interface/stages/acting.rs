@@ -26,13 +26,11 @@ pub fn acting(
         return integrate(surfaces, options, filter, work, x, active, None);
     }
     // That pairs cannot be integrated is said before what their facets lack.
-    let mut refused = Ok(());
-    let mut following = |active: &mut Active, first: usize, overlaps: (&NonmortarFrame, &[Segment])| {
-        if refused.is_ok() {
-            refused = facet(surfaces.0, active, first, overlaps);
+    let following = |active: &mut Active, first: usize, overlaps: (&NonmortarFrame, &[Segment])| {
+        if active.refused.is_none() {
+            active.refused = facet(surfaces.0, active, first, overlaps).err();
         }
-        Ok(())
     };
-    integrate(surfaces, options, filter, work, x, active, Some(&mut following))?;
-    refused
+    integrate(surfaces, options, filter, work, x, active, Some(&following))?;
+    active.refused.take().map_or(Ok(()), Err)
 }

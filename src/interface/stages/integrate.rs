@@ -7,6 +7,7 @@
 use crate::error::{Error, Result};
 use crate::geometry::Vec3;
 use crate::interface::data::active::Active;
+use crate::interface::data::counters::Counters;
 use crate::interface::data::options::Options;
 use crate::interface::data::pairs::PairRecord;
 use crate::interface::data::surface::{Surface, at_facet};
@@ -14,9 +15,12 @@ use crate::interface::pairing::analytic;
 use crate::interface::pairing::candidates::{Search, by_points};
 use crate::interface::pairing::filter::{FacetFilter, Filter};
 use crate::interface::pairing::overlaps::overlap;
-use crate::interface::pairing::work::{Following, ROW, Work};
+use crate::interface::pairing::work::{Following, ROW, Room, ThreadRoom, Work};
 use crate::memory::{self, Store};
 use crate::mortar::PairWeights;
+use crate::threads;
+use std::ops::Range;
+use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
 
 /// Weights of all active pairs at (x1, x2), with the filter of another or the same configuration, in the memory of `active`.
@@ -39,64 +43,121 @@ pub fn integrate(
     outcome.map_err(|error: Error| one.refused_frame(x.0).unwrap_or(error))
 }
 
+/// Facets of a chunk: what one thread does at a time.
+const CHUNK: usize = 1024;
+
 fn by_facets(
     (one, two): (&Surface, &Surface),
     options: &Options,
     filter: &FacetFilter,
-    Work { counters, tree, room }: &mut Work,
+    Work { counters, tree, room, threads, chunks }: &mut Work,
     (x1, x2): (&[Vec3], &[Vec3]),
     active: &mut Active,
-    mut following: Following,
+    following: Following,
 ) -> Result<()> {
-    let mut start = Instant::now();
-    one.plane_normals(x1, &mut active.normals)?;
+    let start = Instant::now();
+    let mut normals = std::mem::take(&mut active.normals);
+    one.plane_normals(x1, &mut normals)?;
     let search = Search::new((one, two), options, (x1, x2), (tree.at(two, x2)?, filter), 0.0);
     counters.searches += 1;
-    for first in (0..one.facets.len()).step_by(ROW) {
-        room.frames.clear();
-        room.candidates.clear();
-        for f in first..one.facets.len().min(first + ROW) {
-            room.frames.store(one.frame(f, x1, &active.normals)?)?;
-            let (frame, excluded) = (&room.frames[f - first], Some(&mut active.excluded));
-            counters.boxes_visited += search.of_facet((f, frame), &mut room.found, &mut room.candidates, excluded)?;
+    counters.seconds_search += start.elapsed().as_secs_f64();
+    let stage = Stage { surfaces: (one, two), options, filter, x: (x1, x2), search, normals: &normals, following };
+    let facets = one.facets.len();
+    if options.threads == 1 || facets <= CHUNK {
+        stage.of_facets(0..facets, (counters, room), active)?;
+    } else {
+        while threads.len() < options.threads {
+            threads.store(ThreadRoom::default())?;
         }
-        let searched = Instant::now();
-        counters.seconds_search += (searched - start).as_secs_f64();
-        start = searched;
-
-        // As many a facet as so far.
-        let all = (active.pairs.len() * one.facets.len()).checked_div(first).unwrap_or(0);
-        active.grow(room.candidates.len(), all)?;
-        for candidates in room.candidates.chunk_by(|p, q| p.0 == q.0) {
-            let (i, place) = (candidates[0].0, active.pairs.len());
-            let (frame, line) = (&room.frames[i - first], by_points(options, filter, i));
-            room.segments.clear();
-            memory::grow(&mut room.segments, if following.is_some() { candidates.len() } else { 0 })?;
-            for &(_, j) in candidates {
-                // Large: looked at where it is, and kept only where something follows.
-                let found = overlap(frame, &two.facet(j, x2), line);
-                let segment = match &found {
-                    Ok(Some(segment)) => segment,
-                    Ok(None) => continue,
-                    Err(_) => return found.map(|_| ()).map_err(|e| at_facet(one.side, i)(at_facet(two.side, j)(e))),
-                };
-                let weights = PairWeights::integrate(frame, segment, options.rule);
-                active.add(PairRecord { one: i, two: j, weights }, segment.area)?;
-                if let (true, Ok(Some(segment))) = (following.is_some(), found) {
-                    room.segments.store(segment)?;
-                }
-            }
-            counters.pairs_tested += candidates.len() as i64;
-            counters.pairs_clipped += if line.is_none() { (active.pairs.len() - place) as i64 } else { 0 };
-            counters.pairs_integrated += active.areas[place..].iter().filter(|area| **area > 0.0).count() as i64;
-            if let Some(following) = &mut following {
-                following(active, place, (frame, &room.segments))?;
-            }
+        while chunks.len() < facets.div_ceil(CHUNK) {
+            chunks.store(Mutex::default())?;
         }
-        let integrated = Instant::now();
-        counters.seconds_integration += (integrated - start).as_secs_f64();
-        start = integrated;
+        threads.iter_mut().for_each(|thread| thread.counters = Counters::default());
+        threads::share(chunks.len(), threads, |k, ThreadRoom { counters, room }| {
+            let mut chunk = chunks[k].lock().unwrap_or_else(PoisonError::into_inner);
+            chunk.clear();
+            stage.of_facets(k * CHUNK..facets.min((k + 1) * CHUNK), (counters, room), &mut chunk)
+        })?;
+        for chunk in chunks {
+            active.append(chunk.get_mut().unwrap_or_else(PoisonError::into_inner))?;
+        }
+        threads.iter().for_each(|thread| counters.add(&thread.counters));
     }
+    active.normals = normals;
     active.knows_excluded = true;
     Ok(())
+}
+
+/// What the integration of any facet needs.
+struct Stage<'a> {
+    surfaces: (&'a Surface, &'a Surface),
+    options: &'a Options,
+    filter: &'a FacetFilter,
+    x: (&'a [Vec3], &'a [Vec3]),
+    search: Search<'a>,
+    /// Unit normals of the planes of all non-mortar facets.
+    normals: &'a [Vec3],
+    following: Following<'a>,
+}
+
+impl Stage<'_> {
+    /// Adds the pairs of these facets.
+    fn of_facets(
+        &self,
+        facets: Range<usize>,
+        (counters, room): (&mut Counters, &mut Room),
+        active: &mut Active,
+    ) -> Result<()> {
+        let Stage { surfaces: (one, two), options, filter, x: (x1, x2), ref search, normals, following } = *self;
+        let mut start = Instant::now();
+        for first in facets.clone().step_by(ROW) {
+            room.frames.clear();
+            room.candidates.clear();
+            for f in first..facets.end.min(first + ROW) {
+                room.frames.store(one.frame(f, x1, normals)?)?;
+                let (frame, excluded) = (&room.frames[f - first], Some(&mut active.excluded));
+                counters.boxes_visited +=
+                    search.of_facet((f, frame), &mut room.found, &mut room.candidates, excluded)?;
+            }
+            let searched = Instant::now();
+            counters.seconds_search += (searched - start).as_secs_f64();
+            start = searched;
+
+            // As many a facet as so far.
+            let all = (active.pairs.len() * facets.len()).checked_div(first - facets.start).unwrap_or(0);
+            active.grow(room.candidates.len(), all)?;
+            for candidates in room.candidates.chunk_by(|p, q| p.0 == q.0) {
+                let (i, place) = (candidates[0].0, active.pairs.len());
+                let (frame, line) = (&room.frames[i - first], by_points(options, filter, i));
+                room.segments.clear();
+                memory::grow(&mut room.segments, if following.is_some() { candidates.len() } else { 0 })?;
+                for &(_, j) in candidates {
+                    // Large: looked at where it is, and kept only where something follows.
+                    let found = overlap(frame, &two.facet(j, x2), line);
+                    let segment = match &found {
+                        Ok(Some(segment)) => segment,
+                        Ok(None) => continue,
+                        Err(_) => {
+                            return found.map(|_| ()).map_err(|e| at_facet(one.side, i)(at_facet(two.side, j)(e)));
+                        }
+                    };
+                    let weights = PairWeights::integrate(frame, segment, options.rule);
+                    active.add(PairRecord { one: i, two: j, weights }, segment.area)?;
+                    if let (true, Ok(Some(segment))) = (following.is_some(), found) {
+                        room.segments.store(segment)?;
+                    }
+                }
+                counters.pairs_tested += candidates.len() as i64;
+                counters.pairs_clipped += if line.is_none() { (active.pairs.len() - place) as i64 } else { 0 };
+                counters.pairs_integrated += active.areas[place..].iter().filter(|area| **area > 0.0).count() as i64;
+                if let Some(following) = following {
+                    following(active, place, (frame, &room.segments));
+                }
+            }
+            let integrated = Instant::now();
+            counters.seconds_integration += (integrated - start).as_secs_f64();
+            start = integrated;
+        }
+        Ok(())
+    }
 }

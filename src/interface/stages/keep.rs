@@ -25,7 +25,7 @@ pub fn keep(
     active: &mut Active,
 ) -> Result<()> {
     let Filter::Facets(filter) = new else { unreachable!("facets stay facets") };
-    let Work { counters, tree, room } = work;
+    let Work { counters, tree, room, .. } = work;
     room.added.clear();
     let Active { x1, x2, normals, pairs, areas, integrated, excluded, .. } = active;
     let tree = tree.at(two, x2)?;
