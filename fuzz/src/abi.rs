@@ -366,7 +366,7 @@ fn options(bytes: &mut Bytes, base: i64) -> Struct<stickslip_options> {
             8 => o.augmentation = bytes.number(1.0),
             9 => o.coverage_min = bytes.number(1e-4),
             10 => o.no_shortcuts = bytes.choice(16),
-            11 => (o.normals, o.reserved) = (bytes.choice(2), bytes.choice(1)),
+            11 => (o.normals, o.threads) = (bytes.choice(2), bytes.choice(4)),
             _ => (o.shape, o.radius) = (bytes.choice(4), bytes.number(1.0)),
         }
     }

@@ -107,17 +107,16 @@ impl<const N: usize> Contact<N> {
         systems: [System; S],
     ) -> Result<[Plan; S]> {
         self.given().check_positions(x.0, x.1)?;
+        let mut possible = None;
+        match of {
+            PlanPairs::Active(extent) => self.cache.integrate(&self.setup, &mut self.step, x, extent)?,
+            PlanPairs::Possible => possible = Some(self.possible_pairs(x)?),
+        }
+        // Nothing may leave between here and where it is put back: an older plan needs it.
         let mut numbering = self.linear.numbering.take();
-        let plans = match of {
-            PlanPairs::Active(extent) => {
-                self.cache.integrate(&self.setup, &mut self.step, x, extent)?;
-                self.here().plans((self.here().pairs(), extent), systems, &mut numbering)
-            }
-            PlanPairs::Possible => {
-                let pairs = self.possible_pairs(x)?;
-                self.here().plans((Pairs::Possible(&pairs), Extent::Part), systems, &mut numbering)
-            }
-        };
+        let pairs = possible.as_ref().map_or_else(|| self.here().pairs(), |pairs| Pairs::Possible(pairs));
+        let extent = if let PlanPairs::Active(extent) = of { extent } else { Extent::Part };
+        let plans = self.here().plans((pairs, extent), systems, &mut numbering);
         self.linear.numbering = numbering;
         plans
     }

@@ -117,11 +117,11 @@ impl<'a, const N: usize> Fill<'a, N> {
             self.values[first..end].fill(0.0);
         }
         for (rows, &touched) in self.places.rows.iter().zip(&self.room.touched) {
-            let range = rows.start..rows.start + usize::from(rows.scalars) * rows.len as usize;
+            let (start, end) = (rows.start, rows.start + usize::from(rows.scalars) * rows.len as usize);
             match (rows.is_direct, touched == self.room.fill) {
-                (true, false) => self.values[range].fill(0.0),
+                (true, false) => self.values[start..end].fill(0.0),
                 (false, true) => {
-                    for (&to, &value) in self.places.beside[range.clone()].iter().zip(&self.room.beside[range]) {
+                    for (&to, &value) in self.places.beside[start..end].iter().zip(&self.room.beside[start..end]) {
                         if to != NOWHERE {
                             self.values[to] += value;
                         }
