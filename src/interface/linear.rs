@@ -236,7 +236,7 @@ fn check(end: std::result::Result<bool, (Place, Place)>) -> Result<()> {
         Ok(false) => Err(Error::new(Kind::NotFinite, "values overflows: the inputs are out of range")),
         Err((row, column)) => {
             let text = text!(
-                "the plan lacks the entries of {} in the rows of {}: the pairs have changed; make it again (stickslip_interface_plan)",
+                "the plan lacks the entries of {} in the rows of {}: the pairs have changed; make it again (stickslip_interface_plan, stickslip_interface_condensed_plan)",
                 name(column),
                 name(row)
             );

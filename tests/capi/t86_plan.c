@@ -171,7 +171,7 @@ static void check_condensed(int64_t base, int32_t pairs, double slide) {
   scene_slide(&s, slide == 0.0 ? 0.6 : -0.9);
   const int32_t status =
       stickslip_interface_condensed_values(s.interface, s.x1, s.x2, s.lambda, forces_of_plan, constraints);
-  CHECK(status == (pairs == STICKSLIP_PLAN_SKIN ? STICKSLIP_OK : STICKSLIP_MISSING_ENTRY));
+  CHECK(status == STICKSLIP_MISSING_ENTRY || (pairs == STICKSLIP_PLAN_SKIN && status == STICKSLIP_OK));
   CHECK_OK(stickslip_interface_condensed_plan(s.interface, s.x1, s.x2, pairs, n_rows, counts));
   CHECK_OK(stickslip_interface_condensed_values(s.interface, s.x1, s.x2, s.lambda, forces_of_plan, constraints));
   scene_destroy(&s);
