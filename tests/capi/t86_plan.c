@@ -49,18 +49,24 @@ static void check_entries(int32_t entries, int64_t n_rows, int64_t count) {
   for (int64_t i = 0; i <= n_rows; ++i) CHECK(offsets32[i] == offsets[i]);
 }
 
-static void set_up(int64_t base, int32_t form, int32_t weights) {
+/* `shared`: some nodes have equations of others. */
+static void set_up(int64_t base, int32_t form, int32_t weights, int shared) {
   scene_init_base(&s, base);
   s.options.form = form;
   s.options.weights = weights;
+  for (int i = 0; i < 3 && shared; ++i) {
+    s.equations1[12 + i] = s.equations1[i];
+    s.equations2[3 + i] = s.equations1[6 + i];
+    s.equations2[30 + i] = s.equations2[15 + i];
+  }
   scene_create(&s);
   scene_commit(&s);
 }
 
 /* Entries and values are those of the triplets; then with all pairs that may come, which has zeros besides. */
-static void check_tangent(int64_t base, int32_t form, int32_t weights) {
+static void check_tangent(int64_t base, int32_t form, int32_t weights, int shared) {
   int64_t n_rows;
-  set_up(base, form, weights);
+  set_up(base, form, weights, shared);
   scene_tangent(&s, &t);
   int64_t count = plan(STICKSLIP_PLAN_ACTIVE, &n_rows);
   CHECK(count == t.n);
@@ -85,7 +91,7 @@ static void check_tangent(int64_t base, int32_t form, int32_t weights) {
 
 /* A fifth of a facet, 0.1 here, is within the skin. Further off entries are missing, until the plan is made again. */
 static void check_slides(void) {
-  set_up(0, STICKSLIP_FORM_MULTIPLIER, STICKSLIP_WEIGHTS_CURRENT);
+  set_up(0, STICKSLIP_FORM_MULTIPLIER, STICKSLIP_WEIGHTS_CURRENT, 0);
   const int64_t skin = plan(STICKSLIP_PLAN_SKIN, NULL);
   scene_slide(&s, 0.1);
   CHECK_OK(fill(NULL, skin));
@@ -116,7 +122,7 @@ static void check_slides(void) {
 /* Sums of all handles may close nodes that this handle's own leave open: such a plan has their entries. */
 static void check_sums(void) {
   static double sums[STICKSLIP_SUMS_PER_NODE * N1];
-  set_up(0, STICKSLIP_FORM_MULTIPLIER, STICKSLIP_WEIGHTS_CURRENT);
+  set_up(0, STICKSLIP_FORM_MULTIPLIER, STICKSLIP_WEIGHTS_CURRENT, 0);
   CHECK_OK(stickslip_interface_sums(s.interface, s.x1, s.x2, sums));
   CHECK_OK(stickslip_interface_tangent_coo(s.interface, s.x1, s.x2, s.lambda, sums, MOST_ENTRIES, t.rows, t.columns,
                                            t.values, &t.n));
@@ -178,7 +184,7 @@ static void check_condensed(int64_t base, int32_t pairs, double slide) {
 }
 
 static void check_refusals(void) {
-  set_up(0, STICKSLIP_FORM_MULTIPLIER, STICKSLIP_WEIGHTS_CURRENT);
+  set_up(0, STICKSLIP_FORM_MULTIPLIER, STICKSLIP_WEIGHTS_CURRENT, 0);
   FILL(values), FILL(rows), FILL(columns), FILL(rows32), FILL(columns32), FILL(offsets);
   CHECK_REFUSED(stickslip_interface_plan_values(s.interface, s.x1, s.x2, s.lambda, NULL, MOST, values),
                 STICKSLIP_INVALID_VALUE, "there is no plan");
@@ -236,7 +242,10 @@ static void check_threads(void) {
 int main(void) {
   for (int64_t base = 0; base < 2; ++base) {
     for (int32_t form = 0; form < 2; ++form) {
-      for (int32_t weights = 0; weights < 3; ++weights) check_tangent(base, form, weights);
+      for (int32_t weights = 0; weights < 3; ++weights) {
+        check_tangent(base, form, weights, 0);
+        check_tangent(base, form, weights, 1);
+      }
     }
     for (int32_t pairs = 0; pairs < 3; ++pairs) {
       check_condensed(base, pairs, 0.0);

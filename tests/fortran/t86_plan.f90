@@ -23,7 +23,8 @@ program t86_plan
   do base = 0, 1
     do form = 0, 1
       do weights = 0, 2
-        call check_tangent(base, form, weights)
+        call check_tangent(base, form, weights, .false.)
+        call check_tangent(base, form, weights, .true.)
       end do
     end do
     do pairs = 0, 2
@@ -78,18 +79,25 @@ contains
     CHECK(all(row_list32(:n_rows) == row_list(:n_rows)) .and. all(offsets32(:n_rows + 1) == offsets(:n_rows + 1)))
   end subroutine
 
-  subroutine set_up(base, form, weights)
+  ! `shared`: some nodes have equations of others.
+  subroutine set_up(base, form, weights, shared)
     integer, intent(in) :: base
     integer(c_int32_t), intent(in) :: form, weights
+    logical, intent(in) :: shared
     call scene_init(s, base)
     s%options%form = form
     s%options%weights = weights
+    if (shared) then
+      s%equations1(:, 5) = s%equations1(:, 1)
+      s%equations2(:, 2) = s%equations1(:, 3)
+      s%equations2(:, 11) = s%equations2(:, 6)
+    end if
     call scene_create(s)
     call scene_commit(s)
   end subroutine
 
   subroutine default_scene()
-    call set_up(1, STICKSLIP_FORM_MULTIPLIER, STICKSLIP_WEIGHTS_CURRENT)
+    call set_up(1, STICKSLIP_FORM_MULTIPLIER, STICKSLIP_WEIGHTS_CURRENT, .false.)
   end subroutine
 
   ! Values in their places of a full matrix.
@@ -111,12 +119,13 @@ contains
   end function
 
   ! Entries and values are those of the triplets; then with all pairs that may come, which has zeros besides.
-  subroutine check_tangent(base, form, weights)
+  subroutine check_tangent(base, form, weights, shared)
     integer, intent(in) :: base
     integer(c_int32_t), intent(in) :: form, weights
+    logical, intent(in) :: shared
     real(c_double) :: expected(UNKNOWNS, UNKNOWNS)
     integer(c_int64_t) :: n_rows, n
-    call set_up(base, form, weights)
+    call set_up(base, form, weights, shared)
     call scene_dense(s, t, expected)
     call make(STICKSLIP_PLAN_ACTIVE, n_rows, n)
     CHECK(n == t%n)
