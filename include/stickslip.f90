@@ -135,13 +135,6 @@ module stickslip
   ! Reals per node of stickslip_interface_sums.
   integer(c_int32_t), parameter :: STICKSLIP_SUMS_PER_NODE = 11
 
-  ! Pieces of a condensed matrix: what the contact forces add to the host's own matrix, the elimination L - I, the contact
-  ! constraints.
-  integer(c_int32_t), parameter :: STICKSLIP_CONDENSED_FORCES = 0
-  integer(c_int32_t), parameter :: STICKSLIP_CONDENSED_ELIMINATION = 1
-  integer(c_int32_t), parameter :: STICKSLIP_CONDENSED_CONSTRAINTS = 2
-  integer(c_int32_t), parameter :: STICKSLIP_CONDENSED_SCALES = 3
-
   ! Plans: of the pairs that are active; the same for values with sums; of all that may be while the surfaces slide by less
   ! than a quarter of a facet.
   integer(c_int32_t), parameter :: STICKSLIP_PLAN_ACTIVE = 0
@@ -152,6 +145,13 @@ module stickslip
   integer(c_int32_t), parameter :: STICKSLIP_ENTRIES_TANGENT = 0
   integer(c_int32_t), parameter :: STICKSLIP_ENTRIES_FORCES = 1
   integer(c_int32_t), parameter :: STICKSLIP_ENTRIES_CONSTRAINTS = 2
+
+  ! Pieces of a condensed matrix: what the contact forces add to the host's own matrix, the elimination L - I, the contact
+  ! constraints.
+  integer(c_int32_t), parameter :: STICKSLIP_CONDENSED_FORCES = 0
+  integer(c_int32_t), parameter :: STICKSLIP_CONDENSED_ELIMINATION = 1
+  integer(c_int32_t), parameter :: STICKSLIP_CONDENSED_CONSTRAINTS = 2
+  integer(c_int32_t), parameter :: STICKSLIP_CONDENSED_SCALES = 3
 
   ! Cover of a node: none, in part, in full, by several layers.
   integer(c_int32_t), parameter :: STICKSLIP_COVER_NONE = 0
@@ -665,6 +665,24 @@ module stickslip
       real(c_double), intent(inout) :: values(*)
     end function
 
+    ! Makes the plans of the pieces FORCES and CONSTRAINTS of a system without multipliers: rows(2) and counts(2).
+    integer(c_int32_t) function stickslip_interface_condensed_plan(interface, x1, x2, pairs, rows, counts) bind(C)
+      import :: c_double, c_int32_t, c_int64_t, stickslip_interface
+      type(stickslip_interface), value :: interface
+      real(c_double), intent(in) :: x1(3, *), x2(3, *)
+      integer(c_int32_t), value :: pairs
+      integer(c_int64_t), intent(inout) :: rows(2), counts(2)
+    end function
+
+    ! These pieces in the order of their plans: forces(counts(1)), constraints(counts(2)), overwritten.
+    integer(c_int32_t) function stickslip_interface_condensed_values(interface, x1, x2, lambda, forces, constraints) &
+        bind(C)
+      import :: c_double, c_int32_t, stickslip_interface
+      type(stickslip_interface), value :: interface
+      real(c_double), intent(in) :: x1(3, *), x2(3, *), lambda(3, *)
+      real(c_double), intent(inout) :: forces(*), constraints(*)
+    end function
+
     ! Who carries weakly covered nodes in this step: integer(c_int64_t) nodes(capacity), carriers(capacity),
     ! real(c_double) weights(capacity), and count. All three null: only count.
     integer(c_int32_t) function stickslip_interface_carriers(interface, capacity, nodes, carriers, weights, count) &
@@ -731,24 +749,6 @@ module stickslip
       integer(c_int64_t), value :: capacity
       type(c_ptr), value :: entry_rows, entry_columns
       integer(c_int64_t), intent(inout) :: count
-    end function
-
-    ! Makes the plans of the pieces FORCES and CONSTRAINTS of a system without multipliers: rows(2) and counts(2).
-    integer(c_int32_t) function stickslip_interface_condensed_plan(interface, x1, x2, pairs, rows, counts) bind(C)
-      import :: c_double, c_int32_t, c_int64_t, stickslip_interface
-      type(stickslip_interface), value :: interface
-      real(c_double), intent(in) :: x1(3, *), x2(3, *)
-      integer(c_int32_t), value :: pairs
-      integer(c_int64_t), intent(inout) :: rows(2), counts(2)
-    end function
-
-    ! These pieces in the order of their plans: forces(counts(1)), constraints(counts(2)), overwritten.
-    integer(c_int32_t) function stickslip_interface_condensed_values(interface, x1, x2, lambda, forces, constraints) &
-        bind(C)
-      import :: c_double, c_int32_t, stickslip_interface
-      type(stickslip_interface), value :: interface
-      real(c_double), intent(in) :: x1(3, *), x2(3, *), lambda(3, *)
-      real(c_double), intent(inout) :: forces(*), constraints(*)
     end function
 
     ! How much of a step dx1(3, n1), dx2(3, n2) from x1(3, n1), x2(3, n2) may be taken before the surfaces pass through

@@ -487,7 +487,10 @@ fn plan_calls(bytes: &mut Bytes, handle: *mut stickslip_interface, [x1, x2, lamb
     if !succeeded(status) && ![STICKSLIP_NOT_FINITE, STICKSLIP_MISSING_ENTRY].contains(&status) {
         values.assert_untouched();
     }
-    (rows.values(), offsets.values(), columns.values(), values.values());
+    rows.values();
+    offsets.values();
+    columns.values();
+    values.values();
 }
 
 fn preparation_calls(bytes: &mut Bytes) {

@@ -181,7 +181,7 @@ impl<'a, const N: usize> Here<'a, N> {
     /// Fills plans with a tangent at the point of the last answers.
     pub fn fill(
         self,
-        (x, lambda, of): (Positions, &[SVector<f64, N>], (Extent, Option<&[f64]>)),
+        (x, lambda, of): AtPoint<N>,
         numbering: &Option<Numbering>,
         rooms: &mut [FillRoom; 2],
         work: Work<N>,
@@ -207,6 +207,9 @@ impl<'a, const N: usize> Here<'a, N> {
 
 /// Non-mortar and mortar positions.
 pub type Positions<'a> = (&'a [Vec3], &'a [Vec3]);
+
+/// Where a tangent is: positions, multipliers, what of, and factors of the nodes' rows in place of their own.
+pub type AtPoint<'a, const N: usize> = (Positions<'a>, &'a [SVector<f64, N>], (Extent, Option<&'a [f64]>));
 
 /// What a tangent is made with.
 pub struct Work<'a, const N: usize> {

@@ -4,7 +4,7 @@
 use super::contact::Contact;
 use super::data::extent::Extent;
 use super::data::options::Form;
-use super::linear::{Here, Linear, PlanOf, PlanPairs, Positions, Work, no_plan};
+use super::linear::{AtPoint, Here, Linear, PlanOf, PlanPairs, Positions, Work, no_plan};
 use super::pairing::given::Given;
 use super::plan::pattern::System;
 use super::plan::whole::Plan;
@@ -200,12 +200,7 @@ impl<const N: usize> Contact<N> {
         self.fill_plan(true, (x, lambda, (Extent::of(sums), None)), values)
     }
 
-    fn fill_plan(
-        &mut self,
-        is_own: bool,
-        of: (Positions, &[SVector<f64, N>], (Extent, Option<&[f64]>)),
-        values: &mut [f64],
-    ) -> Result<()> {
+    fn fill_plan(&mut self, is_own: bool, of: AtPoint<N>, values: &mut [f64]) -> Result<()> {
         self.cache.find_segments(&self.setup, &self.step)?;
         let here = Here { given: Given { setup: &self.setup, step: &self.step }, cache: &self.cache };
         let Linear { numbering, plan, own, fill, room, normals, nodes, .. } = &mut self.linear;
@@ -217,11 +212,7 @@ impl<const N: usize> Contact<N> {
     }
 
     /// Fills the plans of a condensed system: what the forces depend on the displacements by, and the constraints.
-    pub(super) fn fill_condensed(
-        &mut self,
-        of: (Positions, &[SVector<f64, N>], (Extent, Option<&[f64]>)),
-        [forces, constraints]: [&mut [f64]; 2],
-    ) -> Result<()> {
+    pub(super) fn fill_condensed(&mut self, of: AtPoint<N>, [forces, constraints]: [&mut [f64]; 2]) -> Result<()> {
         self.cache.find_segments(&self.setup, &self.step)?;
         let here = Here { given: Given { setup: &self.setup, step: &self.step }, cache: &self.cache };
         let Linear { numbering, condensed, fill, room, normals, nodes, .. } = &mut self.linear;
