@@ -29,6 +29,12 @@ static char help[] = "An elastic block is pressed on a rigid base and pushed alo
 /* The library's status as a PETSc error, where a refusal is nothing to recover from. */
 #define PetscCallStickslip(...) \
   PetscCheck(!(__VA_ARGS__), PETSC_COMM_SELF, PETSC_ERR_LIB, "%s", stickslip_last_error_message())
+/* Entries in PETSc's integers. */
+#if defined(PETSC_USE_64BIT_INDICES)
+  #define PLAN_COO stickslip_interface_plan_coo
+#else
+  #define PLAN_COO stickslip_interface_plan_coo32
+#endif
 /* Edges of the block; its material; Newton's tolerance, and ten times it for the contact, over scales of its own. */
 static const PetscReal SIZE[3] = {2, 2, 1}, YOUNG = 1000, POISSON = 0.3, RTOL = 1e-11, CONTACT_RTOL = 1e-10;
 static const double    BASE[12] = {-1, -1, 0, 3, -1, 0, 3, 3, 0, -1, 3, 0}; /* corners, counter-clockwise from above */
@@ -45,6 +51,9 @@ typedef struct {
   PetscReal            K[24][24];                        /* of every element: all are alike */
   int64_t             *equation;                         /* of each displacement; -1: prescribed */
   stickslip_interface *interface;
+  PetscInt             n_elastic;                        /* entries of the matrix from elements and prescribed values, */
+  int64_t              n_contact;                        /* and after them those from contact */
+  PetscScalar         *values;                           /* of all of them */
 } AppCtx;
 
 /* Components of an element's displacements among all: lower face counter-clockwise from above, then the upper. */
@@ -168,37 +177,54 @@ static PetscErrorCode FormFunction(SNES snes, Vec x, Vec f, void *ctx)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Entries with a negative row or column are left out, duplicates add up. Which facets touch changes from one iterate to
- * the next, and the pattern with it: it is made anew each time. Compare with differences: -snes_test_jacobian. */
+/* All entries of the matrix: the elements' and those of contact, of all pairs of facets that may meet while the block slides
+ * by less than a quarter of a facet. Entries with a negative row or column are left out, duplicates add up. */
+static PetscErrorCode Preallocate(AppCtx *app, Mat P)
+{
+  PetscInt at[24], *i, *j, n = 0;
+  int64_t  n_rows;
+  PetscFunctionBeginUser;
+  PetscCallStickslip(
+    stickslip_interface_plan(app->interface, app->x1, BASE, STICKSLIP_PLAN_SKIN, &n_rows, &app->n_contact));
+  const PetscInt most = 24 * 24 * app->n_elements + app->n_displacements + (PetscInt)app->n_contact;
+  PetscCall(PetscFree(app->values));
+  PetscCall(PetscMalloc1(most, &app->values));
+  PetscCall(PetscMalloc2(most, &i, most, &j));
+  for (PetscInt e = 0; e < app->n_elements; e++) {
+    ElementComponents(app, e, at);
+    for (int k = 0; k < 24 * 24; k++, n++)
+      i[n] = app->equation[at[k / 24]], j[n] = at[k % 24], app->values[n] = app->K[k / 24][k % 24];
+  }
+  for (PetscInt k = 0; k < app->n_displacements; k++)
+    if (app->equation[k] < 0) i[n] = j[n] = k, app->values[n++] = app->K[0][0];
+  PetscCallStickslip(PLAN_COO(app->interface, STICKSLIP_ENTRIES_TANGENT, app->n_contact, i + n, j + n));
+  app->n_elastic = n;
+  PetscCall(MatSetPreallocationCOO(P, n + (PetscInt)app->n_contact, i, j));
+  PetscCall(PetscFree2(i, j));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The values of contact; the elements' stay. Compare with differences: -snes_test_jacobian. */
 static PetscErrorCode FormJacobian(SNES snes, Vec x, Mat J, Mat P, void *ctx)
 {
-  AppCtx            *app = ctx;
+  AppCtx            *app    = ctx;
+  int32_t            status = STICKSLIP_MISSING_ENTRY;
   const PetscScalar *u, *lambda;
-  PetscScalar       *v;
-  PetscInt           at[24], *i, *j, n = 0;
-  int64_t            count, *rows, *columns;
   PetscFunctionBeginUser;
   (void)snes, (void)J; /* J is P */
   PetscCall(VecGetArrayRead(x, &u));
   lambda = Positions(app, u);
-  PetscCallStickslip(
-    stickslip_interface_tangent_coo(app->interface, app->x1, BASE, lambda, NULL, 0, NULL, NULL, NULL, &count));
-  count += 24 * 24 * app->n_elements + app->n_displacements;
-  PetscCall(PetscMalloc5(count, &i, count, &j, count, &v, count, &rows, count, &columns));
-  for (PetscInt e = 0; e < app->n_elements; e++) {
-    ElementComponents(app, e, at);
-    for (int k = 0; k < 24 * 24; k++, n++)
-      i[n] = app->equation[at[k / 24]], j[n] = at[k % 24], v[n] = app->K[k / 24][k % 24];
+  if (app->values)
+    status = stickslip_interface_plan_values(app->interface, app->x1, BASE, lambda, NULL, app->n_contact,
+                                             app->values + app->n_elastic);
+  if (status == STICKSLIP_MISSING_ENTRY) { /* at first, and where the block has slid on */
+    PetscCall(Preallocate(app, P));
+    status = stickslip_interface_plan_values(app->interface, app->x1, BASE, lambda, NULL, app->n_contact,
+                                             app->values + app->n_elastic);
   }
-  for (PetscInt k = 0; k < app->n_displacements; k++)
-    if (app->equation[k] < 0) i[n] = j[n] = k, v[n++] = app->K[0][0];
-  PetscCallStickslip(stickslip_interface_tangent_coo(app->interface, app->x1, BASE, lambda, NULL, count - n, rows,
-                                                     columns, v + n, &count));
-  for (PetscInt k = 0; k < count; k++, n++) i[n] = rows[k], j[n] = columns[k];
+  PetscCallStickslip(status);
   PetscCall(VecRestoreArrayRead(x, &u));
-  PetscCall(MatSetPreallocationCOO(P, n, i, j));
-  PetscCall(MatSetValuesCOO(P, v, INSERT_VALUES));
-  PetscCall(PetscFree5(i, j, v, rows, columns));
+  PetscCall(MatSetValuesCOO(P, app->values, INSERT_VALUES));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -293,6 +319,7 @@ int main(int argc, char **argv)
   }
   PetscCallStickslip(stickslip_interface_destroy(&app.interface));
   PetscCall(PetscFree4(app.X, app.x1, app.force1, app.equation));
+  PetscCall(PetscFree(app.values));
   PetscCall(VecDestroy(&x));
   PetscCall(MatDestroy(&J));
   PetscCall(SNESDestroy(&snes));

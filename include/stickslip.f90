@@ -135,6 +135,17 @@ module stickslip
   ! Reals per node of stickslip_interface_sums.
   integer(c_int32_t), parameter :: STICKSLIP_SUMS_PER_NODE = 11
 
+  ! Plans: of the pairs that are active; the same for values with sums; of all that may be while the surfaces slide by less
+  ! than a quarter of a facet.
+  integer(c_int32_t), parameter :: STICKSLIP_PLAN_ACTIVE = 0
+  integer(c_int32_t), parameter :: STICKSLIP_PLAN_ACTIVE_SUMS = 1
+  integer(c_int32_t), parameter :: STICKSLIP_PLAN_SKIN = 2
+
+  ! Entries of plans: of the tangent; of both parts of a system without multipliers.
+  integer(c_int32_t), parameter :: STICKSLIP_ENTRIES_TANGENT = 0
+  integer(c_int32_t), parameter :: STICKSLIP_ENTRIES_FORCES = 1
+  integer(c_int32_t), parameter :: STICKSLIP_ENTRIES_CONSTRAINTS = 2
+
   ! Pieces of a condensed matrix: what the contact forces add to the host's own matrix, the elimination L - I, the contact
   ! constraints.
   integer(c_int32_t), parameter :: STICKSLIP_CONDENSED_FORCES = 0
@@ -220,7 +231,7 @@ module stickslip
     real(c_double) :: turn_max = 0                 ! radians from one commit to the next; 0: pi / 9; pi: any
     real(c_double) :: shear_limit = 0              ! largest shear traction, > 0 with TRESCA [F/L^2]
     integer(c_int32_t) :: normals = 0              ! STICKSLIP_NORMALS_...
-    integer(c_int32_t) :: reserved = 0             ! must be 0
+    integer(c_int32_t) :: threads = 0              ! that values, residual and commit may use; 0: the calling one alone
   end type
 
   ! One surface of an interface. nf facets with 3 or 4 nodes each.
@@ -556,8 +567,8 @@ module stickslip
       real(c_double), intent(inout) :: force1(3, *), force2(3, *), rows(3, *)
     end function
 
-    ! The exact tangent as triplets in your equation numbers: integer(c_int64_t) rows(capacity), columns(capacity),
-    ! real(c_double) values(capacity), and count. All three null: only count is written, cheaply.
+    ! The exact tangent as triplets in your equation numbers, sorted by rows, each entry once: integer(c_int64_t)
+    ! rows(capacity), columns(capacity), real(c_double) values(capacity), and count. All three null: only count.
     integer(c_int32_t) function stickslip_interface_tangent_coo(interface, x1, x2, lambda, sums, capacity, rows, &
         columns, values, count) bind(C)
       import :: c_double, c_int32_t, c_int64_t, c_ptr, stickslip_interface
@@ -582,7 +593,7 @@ module stickslip
       real(c_double), intent(inout) :: values(*)
     end function
 
-    ! Entries of any tangent while the surfaces slide by less than a quarter of a facet: integer(c_int64_t)
+    ! Entries of any tangent while the surfaces slide by less than a quarter of a facet, each once: integer(c_int64_t)
     ! rows(capacity), columns(capacity), and count. Both null: only count.
     integer(c_int32_t) function stickslip_interface_pattern_coo(interface, x1, x2, capacity, rows, columns, count) &
         bind(C)
@@ -592,6 +603,84 @@ module stickslip
       integer(c_int64_t), value :: capacity
       type(c_ptr), value :: rows, columns
       integer(c_int64_t), intent(inout) :: count
+    end function
+
+    ! Makes the plan of the tangent, which the handle keeps: its entries once, pairs being STICKSLIP_PLAN_... Outputs: rows,
+    ! how many equations have entries, and count, how many entries. Make it again after STICKSLIP_MISSING_ENTRY.
+    integer(c_int32_t) function stickslip_interface_plan(interface, x1, x2, pairs, rows, count) bind(C)
+      import :: c_double, c_int32_t, c_int64_t, stickslip_interface
+      type(stickslip_interface), value :: interface
+      real(c_double), intent(in) :: x1(3, *), x2(3, *)
+      integer(c_int32_t), value :: pairs
+      integer(c_int64_t), intent(inout) :: rows, count
+    end function
+
+    ! The entries of a plan, STICKSLIP_ENTRIES_..., sorted by rows: rows(capacity), columns(capacity).
+    integer(c_int32_t) function stickslip_interface_plan_coo(interface, entries, capacity, rows, columns) bind(C)
+      import :: c_int32_t, c_int64_t, stickslip_interface
+      type(stickslip_interface), value :: interface
+      integer(c_int32_t), value :: entries
+      integer(c_int64_t), value :: capacity
+      integer(c_int64_t), intent(inout) :: rows(*), columns(*)
+    end function
+
+    ! The same in 32 bits.
+    integer(c_int32_t) function stickslip_interface_plan_coo32(interface, entries, capacity, rows, columns) bind(C)
+      import :: c_int32_t, c_int64_t, stickslip_interface
+      type(stickslip_interface), value :: interface
+      integer(c_int32_t), value :: entries
+      integer(c_int64_t), value :: capacity
+      integer(c_int32_t), intent(inout) :: rows(*), columns(*)
+    end function
+
+    ! The entries of a plan as compressed sparse rows: the equations that have entries, where the columns of each begin,
+    ! one more at the end, from the index base, and columns(capacity).
+    integer(c_int32_t) function stickslip_interface_plan_csr(interface, entries, capacity, rows, row_offsets, columns) &
+        bind(C)
+      import :: c_int32_t, c_int64_t, stickslip_interface
+      type(stickslip_interface), value :: interface
+      integer(c_int32_t), value :: entries
+      integer(c_int64_t), value :: capacity
+      integer(c_int64_t), intent(inout) :: rows(*), row_offsets(*), columns(*)
+    end function
+
+    ! The same in 32 bits.
+    integer(c_int32_t) function stickslip_interface_plan_csr32(interface, entries, capacity, rows, row_offsets, columns) &
+        bind(C)
+      import :: c_int32_t, c_int64_t, stickslip_interface
+      type(stickslip_interface), value :: interface
+      integer(c_int32_t), value :: entries
+      integer(c_int64_t), value :: capacity
+      integer(c_int32_t), intent(inout) :: rows(*), row_offsets(*), columns(*)
+    end function
+
+    ! The exact tangent in the order of the plan's entries: values(capacity), overwritten.
+    integer(c_int32_t) function stickslip_interface_plan_values(interface, x1, x2, lambda, sums, capacity, values) &
+        bind(C)
+      import :: c_double, c_int32_t, c_int64_t, c_ptr, stickslip_interface
+      type(stickslip_interface), value :: interface
+      real(c_double), intent(in) :: x1(3, *), x2(3, *), lambda(3, *)
+      type(c_ptr), value :: sums
+      integer(c_int64_t), value :: capacity
+      real(c_double), intent(inout) :: values(*)
+    end function
+
+    ! Makes the plans of the pieces FORCES and CONSTRAINTS of a system without multipliers: rows(2) and counts(2).
+    integer(c_int32_t) function stickslip_interface_condensed_plan(interface, x1, x2, pairs, rows, counts) bind(C)
+      import :: c_double, c_int32_t, c_int64_t, stickslip_interface
+      type(stickslip_interface), value :: interface
+      real(c_double), intent(in) :: x1(3, *), x2(3, *)
+      integer(c_int32_t), value :: pairs
+      integer(c_int64_t), intent(inout) :: rows(2), counts(2)
+    end function
+
+    ! These pieces in the order of their plans: forces(counts(1)), constraints(counts(2)), overwritten.
+    integer(c_int32_t) function stickslip_interface_condensed_values(interface, x1, x2, lambda, forces, constraints) &
+        bind(C)
+      import :: c_double, c_int32_t, stickslip_interface
+      type(stickslip_interface), value :: interface
+      real(c_double), intent(in) :: x1(3, *), x2(3, *), lambda(3, *)
+      real(c_double), intent(inout) :: forces(*), constraints(*)
     end function
 
     ! Who carries weakly covered nodes in this step: integer(c_int64_t) nodes(capacity), carriers(capacity),

@@ -59,6 +59,10 @@
  *     interface_pattern_coo                  to preallocate a matrix
  *     interface_residual                     in each Newton iteration; with it one of
  *     interface_tangent_coo, interface_tangent_csr
+ *     or, in place of pattern and tangent calls, for speed: the entries once, values in every iteration
+ *     interface_plan                         once, and again when values are refused because an entry is missing
+ *     interface_plan_csr, interface_plan_coo    its entries; interface_plan_csr32, interface_plan_coo32 for 32 bits
+ *     interface_plan_values                  in each Newton iteration
  *     interface_step_limit                   where contact alone holds a body: how much of Newton's step may be taken
  *     interface_equilibrium                  to see whether it has converged, beside the host's own residual
  *     interface_states                       for output
@@ -79,6 +83,8 @@
  *     interface_condensed_residual           with these multipliers
  *     interface_condensed_csr                its own matrix becomes the condensed one; or, in pieces,
  *     interface_condensed_coo
+ *     interface_condensed_plan               for speed, in place of the pieces FORCES and CONSTRAINTS of it: their
+ *     interface_condensed_values             entries once (interface_plan_csr and so on), values in each iteration
  *     interface_carriers                     for information: which nodes have a multiplier of their own
  *
  * A host that assembles elements itself:
@@ -533,8 +539,9 @@ typedef struct stickslip_options {
   double shear_limit;
   /// STICKSLIP_NORMALS_...
   int32_t normals;
-  /// Must be 0.
-  int32_t reserved;
+  /// Threads that `stickslip_interface_plan_values`, the residual and a commit may use, 1 to 256; 0 (default): the calling one
+  /// alone. They end with the call. The results are the same bit for bit, whatever their number.
+  int32_t threads;
 } stickslip_options;
 
 /// One surface of an interface.
@@ -1147,13 +1154,15 @@ int32_t stickslip_interface_residual(struct stickslip_interface *interface,
                                      double *rows);
 
 /// The exact tangent d residual / d (x1, x2, lambda) as triplets in the host's equation numbers and index
-/// base. Entries without an equation are left out; duplicates add up. Entries depend on the active pairs,
-/// so the pattern may change between evaluations; within one evaluation point it does not. Not symmetric,
-/// even without friction. Paper (29)-(31).
+/// base, by rows and within a row by columns, each once. Entries without an equation are left out. Entries depend on
+/// the active pairs, so the pattern may change between evaluations; within one evaluation point it does not. Not
+/// symmetric, even without friction. Paper (29)-(31). A host that fills a matrix of its own again and again takes
+/// `stickslip_interface_plan` and `stickslip_interface_plan_values`.
 ///
 /// Inputs x1, x2, lambda, sums as for `stickslip_interface_residual`. Outputs: rows, columns, values (capacity
 /// each), count. With all three arrays NULL only count is written, and capacity is not read. Units of an entry:
-/// its row's over its column's.
+/// its row's over its column's. After NOT_FINITE because a value overflows, values mean nothing; after any other error
+/// they are as they were.
 ///
 /// Errors: NULL_POINTER, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL, INVALID_VALUE (as the
 /// residual), BUFFER_TOO_SMALL, UNSUPPORTED (sums with the augmented form or weak_coverage).
@@ -1174,7 +1183,8 @@ int32_t stickslip_interface_tangent_coo(struct stickslip_interface *interface,
 ///
 /// Inputs x1, x2, lambda, sums as for `stickslip_interface_residual`; n_rows rows; row_offsets (n_rows + 1),
 /// starting at the index base; columns and values (as many as row_offsets says), columns in the index base, in
-/// any order within a row.
+/// any order within a row. Every entry of the tangent is looked up once; a host that does so in every iteration takes
+/// `stickslip_interface_plan_csr` and keeps the places.
 ///
 /// Errors: NULL_POINTER, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL, INVALID_VALUE (as the
 /// residual), INVALID_SIZE, INDEX_OUT_OF_RANGE (an equation beyond n_rows), UNSUPPORTED (sums with the augmented form or weak_coverage),
@@ -1192,11 +1202,10 @@ int32_t stickslip_interface_tangent_csr(struct stickslip_interface *interface,
                                         const int64_t *columns,
                                         double *values);
 
-/// Entries of any tangent, with sums or without, while the surfaces slide by less than a quarter of a facet.
-/// Preallocate with this; a larger motion may need entries beyond these; call again then.
+/// Entries of any tangent, with sums or without, while the surfaces slide by less than a quarter of a facet: by rows and
+/// within a row by columns, each once. Preallocate with this; a larger motion may need entries beyond these; call again then.
 ///
 /// x1 (3 n1), x2 (3 n2): positions [L]. Outputs: rows, columns (capacity each; both NULL: only count), count.
-/// Duplicates occur.
 ///
 /// Errors: NULL_POINTER, NOT_FINITE, BUFFER_TOO_SMALL, DEGENERATE_FACET, PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL,
 /// INVALID_VALUE (as `stickslip_interface_sums`).
@@ -1213,7 +1222,8 @@ int32_t stickslip_interface_pattern_coo(struct stickslip_interface *interface,
 /// an older one, until it is made again; `stickslip_interface_plan_values` fills it in every evaluation.
 ///
 /// x1 (3 n1), x2 (3 n2): positions [L]; pairs: STICKSLIP_PLAN_... Outputs: rows, the number of equations that have
-/// entries; count, the number of entries. Make it again when values are refused with MISSING_ENTRY.
+/// entries; count, the number of entries. Make it again when values are refused with MISSING_ENTRY, at the positions of
+/// that call. A refused call leaves the older plan as it was.
 ///
 /// Errors: NULL_POINTER, NOT_FINITE, INVALID_VALUE (pairs, and as `stickslip_interface_sums`), DEGENERATE_FACET,
 /// PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL, UNSUPPORTED (more than 2^30 nodes).
@@ -1228,7 +1238,8 @@ int32_t stickslip_interface_plan(struct stickslip_interface *interface,
 /// The entries of a plan as pairs of row and column, by rows and within a row by columns, each once: what PETSc's
 /// MatSetPreallocationCOO takes.
 ///
-/// entries: STICKSLIP_ENTRIES_... Outputs, in the host's equations and index base: rows, columns (capacity each).
+/// entries: STICKSLIP_ENTRIES_...; capacity: how many entries rows and columns have room for, at least the count that the plan
+/// was made with. Outputs, in the host's equations and index base: rows, columns.
 ///
 /// Errors: NULL_POINTER, INVALID_VALUE (entries; there is no plan), BUFFER_TOO_SMALL.
 /// Cost: O(entries).
@@ -1238,7 +1249,7 @@ int32_t stickslip_interface_plan_coo(struct stickslip_interface *interface,
                                      int64_t *rows,
                                      int64_t *columns);
 
-/// As `stickslip_interface_plan_coo`, in 32 bits.
+/// As `stickslip_interface_plan_coo`, in 32 bits: entries, capacity; outputs rows, columns.
 ///
 /// Errors: as there, and INDEX_OUT_OF_RANGE where a number does not fit.
 /// Cost: O(entries).
@@ -1250,8 +1261,9 @@ int32_t stickslip_interface_plan_coo32(struct stickslip_interface *interface,
 
 /// The entries of a plan as compressed sparse rows. Only equations that have entries have a row.
 ///
-/// entries: STICKSLIP_ENTRIES_... Outputs: rows, their equations, ascending, as many as `stickslip_interface_plan` says;
-/// row_offsets, one more, from the index base; columns (capacity), within a row ascending. All in the host's index base.
+/// entries: STICKSLIP_ENTRIES_...; capacity: how many entries columns has room for, at least the count that the plan was made
+/// with. Outputs: rows, their equations, ascending, as many as the plan was made with; row_offsets, one more, where the columns
+/// of each begin; columns, within a row ascending. All in the host's index base, row_offsets too.
 ///
 /// Errors: NULL_POINTER, INVALID_VALUE (entries; there is no plan), BUFFER_TOO_SMALL.
 /// Cost: O(entries).
@@ -1262,7 +1274,7 @@ int32_t stickslip_interface_plan_csr(struct stickslip_interface *interface,
                                      int64_t *row_offsets,
                                      int64_t *columns);
 
-/// As `stickslip_interface_plan_csr`, in 32 bits.
+/// As `stickslip_interface_plan_csr`, in 32 bits: entries, capacity; outputs rows, row_offsets, columns.
 ///
 /// Errors: as there, and INDEX_OUT_OF_RANGE where a number does not fit.
 /// Cost: O(entries).
@@ -1275,14 +1287,15 @@ int32_t stickslip_interface_plan_csr32(struct stickslip_interface *interface,
 
 /// The exact tangent d residual / d (x1, x2, lambda) in the order of the plan's entries. Paper (29)-(31).
 ///
-/// x1, x2, lambda, sums as for `stickslip_interface_residual`. values (capacity), output: overwritten, as many as the
-/// plan has entries. Units of an entry: its row's over its column's. After MISSING_ENTRY and NOT_FINITE (a value overflows)
-/// they mean nothing; after any other error they are as they were.
+/// x1, x2, lambda, sums as for `stickslip_interface_residual`; with sums the plan is of STICKSLIP_PLAN_ACTIVE_SUMS or _SKIN.
+/// capacity: how many values there is room for, at least as many as the plan has entries. Output: values, overwritten.
+/// Units of an entry: its row's over its column's. After MISSING_ENTRY and NOT_FINITE (a value overflows) they mean
+/// nothing; after any other error they are as they were.
 ///
 /// Errors: those of `stickslip_interface_residual`, INVALID_VALUE (there is no plan), BUFFER_TOO_SMALL, UNSUPPORTED (sums with
 /// the augmented form or weak_coverage), MISSING_ENTRY: the plan lacks an entry; make it again.
-/// Cost: at new positions those of the residual, then the derivatives of every pair's weights (frozen weights: none). After
-/// the first calls it allocates nothing.
+/// Cost: at new positions those of the residual, then the derivatives of every pair's weights (frozen weights: none), each
+/// block added at its place without a search. Allocates.
 int32_t stickslip_interface_plan_values(struct stickslip_interface *interface,
                                         const double *x1,
                                         const double *x2,
@@ -1297,7 +1310,7 @@ int32_t stickslip_interface_plan_values(struct stickslip_interface *interface,
 /// x1 (3 n1), x2 (3 n2): positions [L]; pairs: STICKSLIP_PLAN_... Outputs: rows (2) and counts (2): how many equations have
 /// entries, and how many entries there are, of FORCES and of CONSTRAINTS.
 ///
-/// Errors: as `stickslip_interface_condensed_multipliers` and `stickslip_interface_plan`.
+/// Errors: as `stickslip_interface_condensed_multipliers` and `stickslip_interface_plan`, INVALID_VALUE (pairs) among them.
 /// Cost: as `stickslip_interface_plan`, twice. Allocates.
 int32_t stickslip_interface_condensed_plan(struct stickslip_interface *interface,
                                            const double *x1,
@@ -1313,7 +1326,8 @@ int32_t stickslip_interface_condensed_plan(struct stickslip_interface *interface
 /// Outputs: forces, constraints, as many as the counts of `stickslip_interface_condensed_plan` [F/L]. After MISSING_ENTRY and
 /// NOT_FINITE (a value overflows) they mean nothing.
 ///
-/// Errors: as `stickslip_interface_condensed_coo` and `stickslip_interface_plan_values`.
+/// Errors: as `stickslip_interface_condensed_coo`, INVALID_VALUE (there is no plan), MISSING_ENTRY: a plan lacks an entry;
+/// make both again.
 /// Cost: as `stickslip_interface_plan_values`, and a sort of the pairs' nodes.
 int32_t stickslip_interface_condensed_values(struct stickslip_interface *interface,
                                              const double *x1,

@@ -86,6 +86,14 @@ pub fn extend<T: Copy>(v: &mut Vec<T>, values: &[T]) -> Result<()> {
     Ok(())
 }
 
+/// Gives back the room that values do not need. (`shrink_to_fit` ends the program where there is no memory for the move.)
+pub fn fit<T: Copy>(v: &mut Vec<T>) -> Result<()> {
+    if v.len() < v.capacity() {
+        *v = copied(v)?;
+    }
+    Ok(())
+}
+
 /// The values in an order in which those that compare equal stay as they were. (The standard library's stable sort
 /// takes its memory or aborts.)
 pub fn sorted<T: Copy>(values: &[T], compare: impl Fn(&T, &T) -> Ordering) -> Result<Vec<T>> {
@@ -191,6 +199,9 @@ mod tests {
         v.store(2).unwrap();
         v.store_all([3, 4].into_iter()).unwrap();
         assert_eq!(v, [1, 2, 3, 4]);
+        v.reserve(10);
+        fit(&mut v).unwrap();
+        assert_eq!((&v[..], v.capacity()), (&[1, 2, 3, 4][..], 4));
         let refused = || Error::new(Kind::InvalidValue, "odd");
         let even = |k: i32| if k % 2 == 0 { Ok(k) } else { Err(refused()) };
         assert_eq!([0, 2].into_iter().map(even).stored_if_ok(), Ok(vec![0, 2]));

@@ -159,8 +159,8 @@ subroutine uel(rhs, amatrx, svars, energy, ndofel, nrhs, nsvars, props, nprops, 
     rhs(1:ndofel, 1) = -reshape(internal, [ndofel])
   end if
   if (lflags(3) /= residual_only) then
-    do k = 1, count ! duplicates add up
-      amatrx(row(k), column(k)) = amatrx(row(k), column(k)) + entry(k)
+    do k = 1, count ! each entry once
+      amatrx(row(k), column(k)) = entry(k)
     end do
   end if
 end subroutine

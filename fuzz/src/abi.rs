@@ -402,7 +402,7 @@ fn options(bytes: &mut Bytes, base: i64) -> Struct<stickslip_options> {
             8 => o.augmentation = bytes.number(1.0),
             9 => o.coverage_min = bytes.number(1e-4),
             10 => o.no_shortcuts = bytes.choice(16),
-            11 => (o.normals, o.reserved) = (bytes.choice(2), bytes.choice(1)),
+            11 => (o.normals, o.threads) = (bytes.choice(2), bytes.choice(4)),
             _ => (o.shape, o.radius) = (bytes.choice(4), bytes.number(1.0)),
         }
     }
@@ -448,7 +448,9 @@ fn create_calls(bytes: &mut Bytes) {
     if !succeeded(status) {
         rows.assert_untouched();
         columns.assert_untouched();
-        values.assert_untouched();
+        if status != STICKSLIP_NOT_FINITE {
+            values.assert_untouched(); // they mean nothing where one overflows
+        }
     }
     rows.values();
     columns.values();
@@ -487,8 +489,44 @@ fn create_calls(bytes: &mut Bytes) {
     }
     state.values();
     gap.values();
+    plan_calls(bytes, handle, [x1, x2, lambda]);
     assert!(succeeded(unsafe { stickslip_interface_destroy(&mut handle) }) && handle.is_null());
     assert!(succeeded(unsafe { stickslip_interface_destroy(&mut handle) }), "once more does nothing");
+}
+
+/// Any plan, its entries and values into too little room.
+fn plan_calls(bytes: &mut Bytes, handle: *mut stickslip_interface, [x1, x2, lambda]: [*const f64; 3]) {
+    let (mut n, mut counts) = (Watched::new(2), Watched::new(2));
+    let (pairs, to, count) = (bytes.choice(3), bytes.output(n.pointer()), bytes.output(counts.pointer()));
+    let status = unsafe {
+        if bytes.once_in(4) {
+            stickslip_interface_condensed_plan(handle, x1, x2, pairs, to, count)
+        } else {
+            stickslip_interface_plan(handle, x1, x2, pairs, to, count)
+        }
+    };
+    if !succeeded(status) {
+        n.assert_untouched();
+        counts.assert_untouched();
+    }
+    let (mut rows, mut offsets, mut columns) = (Watched::<i32>::new(400), Watched::new(400), Watched::new(400));
+    let (entries, capacity) = (bytes.choice(3), bytes.count(400).min(400));
+    let (r, o, c) = (rows.pointer(), offsets.pointer(), bytes.output(columns.pointer()));
+    if !succeeded(unsafe { stickslip_interface_plan_csr32(handle, entries, capacity, r, o, c) }) {
+        rows.assert_untouched();
+        offsets.assert_untouched();
+        columns.assert_untouched();
+    }
+    let mut values = Watched::<f64>::new(400);
+    let v = bytes.output(values.pointer());
+    let status = unsafe { stickslip_interface_plan_values(handle, x1, x2, lambda, null(), capacity, v) };
+    if !succeeded(status) && ![STICKSLIP_NOT_FINITE, STICKSLIP_MISSING_ENTRY].contains(&status) {
+        values.assert_untouched();
+    }
+    rows.values();
+    offsets.values();
+    columns.values();
+    values.values();
 }
 
 fn preparation_calls(bytes: &mut Bytes) {

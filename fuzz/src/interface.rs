@@ -133,13 +133,35 @@ impl Scene {
         };
         if !succeeded(status) {
             rows.assert_untouched();
-            values.assert_untouched();
+            if status != STICKSLIP_NOT_FINITE {
+                values.assert_untouched(); // they mean nothing where one overflows
+            }
             return None;
         }
         let n = count as usize;
         all_finite(&values.values()[..n]);
         let entry = |k: usize| (rows.values()[k], columns.values()[k], values.values()[k].to_bits());
         Some((0..n).map(entry).collect())
+    }
+
+    /// The same by a plan.
+    fn tangent_by_plan(&self) -> Option<Vec<(i64, i64, u64)>> {
+        let (x1, x2, lambda) = (self.x1.as_ptr(), self.x2.as_ptr(), self.lambda.as_ptr());
+        let (h, mut n, mut count) = (self.handle, 0, 0);
+        if !succeeded(unsafe { stickslip_interface_plan(h, x1, x2, STICKSLIP_PLAN_ACTIVE, &mut n, &mut count) }) {
+            return None;
+        }
+        assert!(n <= count);
+        let m = count as usize;
+        let (mut rows, mut columns, mut values) = (Watched::new(m), Watched::new(m), Watched::new(m));
+        let (r, c, v) = (rows.pointer(), columns.pointer(), values.pointer());
+        assert!(succeeded(unsafe { stickslip_interface_plan_coo(h, STICKSLIP_ENTRIES_TANGENT, count, r, c) }));
+        if !succeeded(unsafe { stickslip_interface_plan_values(h, x1, x2, lambda, std::ptr::null(), count, v) }) {
+            return None;
+        }
+        all_finite(values.values());
+        let entry = |k: usize| (rows.values()[k], columns.values()[k], values.values()[k].to_bits());
+        Some((0..m).map(entry).collect())
     }
 
     /// The system without multipliers, where there are dual ones: residual and elimination, with the multipliers that
@@ -315,6 +337,7 @@ impl Scene {
             _ => {
                 // A, B, A.
                 let here = (self.residual(), self.tangent(), self.condensed());
+                assert!(here.1 == self.tangent_by_plan(), "another answer by a plan");
                 let x2 = self.x2.clone();
                 shake(bytes, &mut self.x2);
                 let history = self.history();

@@ -83,7 +83,7 @@ fn write_entries<I: Index, const N: usize>(
 
 /// The largest number that a plan hands out fits.
 fn refuse_large<I: Index, const N: usize>(plan: &Plan, of: PlanOf<N>, base: i64) -> Result<()> {
-    index::<I>(plan.len() as i64)?;
+    index::<I>(plan.len() as i64 + base)?;
     plan.each_row(of, |columns| index::<I>(columns[columns.len() - 1] + base).map(|_| ()))?;
     plan.rows().0.last().map_or(Ok(()), |row| index::<I>(row + base).map(|_| ()))
 }
@@ -139,7 +139,8 @@ fn csr<I: Index>(
 /// an older one, until it is made again; `stickslip_interface_plan_values` fills it in every evaluation.
 ///
 /// x1 (3 n1), x2 (3 n2): positions [L]; pairs: STICKSLIP_PLAN_... Outputs: rows, the number of equations that have
-/// entries; count, the number of entries. Make it again when values are refused with MISSING_ENTRY.
+/// entries; count, the number of entries. Make it again when values are refused with MISSING_ENTRY, at the positions of
+/// that call. A refused call leaves the older plan as it was.
 ///
 /// Errors: NULL_POINTER, NOT_FINITE, INVALID_VALUE (pairs, and as `stickslip_interface_sums`), DEGENERATE_FACET,
 /// PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL, UNSUPPORTED (more than 2^30 nodes).
@@ -172,7 +173,8 @@ pub unsafe extern "C" fn stickslip_interface_plan(
 /// The entries of a plan as pairs of row and column, by rows and within a row by columns, each once: what PETSc's
 /// MatSetPreallocationCOO takes.
 ///
-/// entries: STICKSLIP_ENTRIES_... Outputs, in the host's equations and index base: rows, columns (capacity each).
+/// entries: STICKSLIP_ENTRIES_...; capacity: how many entries rows and columns have room for, at least the count that the plan
+/// was made with. Outputs, in the host's equations and index base: rows, columns.
 ///
 /// Errors: NULL_POINTER, INVALID_VALUE (entries; there is no plan), BUFFER_TOO_SMALL.
 /// Cost: O(entries).
@@ -187,7 +189,7 @@ pub unsafe extern "C" fn stickslip_interface_plan_coo(
     guard(|| coo(interface, entries, capacity, rows, columns))
 }
 
-/// As `stickslip_interface_plan_coo`, in 32 bits.
+/// As `stickslip_interface_plan_coo`, in 32 bits: entries, capacity; outputs rows, columns.
 ///
 /// Errors: as there, and INDEX_OUT_OF_RANGE where a number does not fit.
 /// Cost: O(entries).
@@ -204,8 +206,9 @@ pub unsafe extern "C" fn stickslip_interface_plan_coo32(
 
 /// The entries of a plan as compressed sparse rows. Only equations that have entries have a row.
 ///
-/// entries: STICKSLIP_ENTRIES_... Outputs: rows, their equations, ascending, as many as `stickslip_interface_plan` says;
-/// row_offsets, one more, from the index base; columns (capacity), within a row ascending. All in the host's index base.
+/// entries: STICKSLIP_ENTRIES_...; capacity: how many entries columns has room for, at least the count that the plan was made
+/// with. Outputs: rows, their equations, ascending, as many as the plan was made with; row_offsets, one more, where the columns
+/// of each begin; columns, within a row ascending. All in the host's index base, row_offsets too.
 ///
 /// Errors: NULL_POINTER, INVALID_VALUE (entries; there is no plan), BUFFER_TOO_SMALL.
 /// Cost: O(entries).
@@ -221,7 +224,7 @@ pub unsafe extern "C" fn stickslip_interface_plan_csr(
     guard(|| csr(interface, entries, capacity, rows, row_offsets, columns))
 }
 
-/// As `stickslip_interface_plan_csr`, in 32 bits.
+/// As `stickslip_interface_plan_csr`, in 32 bits: entries, capacity; outputs rows, row_offsets, columns.
 ///
 /// Errors: as there, and INDEX_OUT_OF_RANGE where a number does not fit.
 /// Cost: O(entries).
@@ -239,14 +242,15 @@ pub unsafe extern "C" fn stickslip_interface_plan_csr32(
 
 /// The exact tangent d residual / d (x1, x2, lambda) in the order of the plan's entries. Paper (29)-(31).
 ///
-/// x1, x2, lambda, sums as for `stickslip_interface_residual`. values (capacity), output: overwritten, as many as the
-/// plan has entries. Units of an entry: its row's over its column's. After MISSING_ENTRY and NOT_FINITE (a value overflows)
-/// they mean nothing; after any other error they are as they were.
+/// x1, x2, lambda, sums as for `stickslip_interface_residual`; with sums the plan is of STICKSLIP_PLAN_ACTIVE_SUMS or _SKIN.
+/// capacity: how many values there is room for, at least as many as the plan has entries. Output: values, overwritten.
+/// Units of an entry: its row's over its column's. After MISSING_ENTRY and NOT_FINITE (a value overflows) they mean
+/// nothing; after any other error they are as they were.
 ///
 /// Errors: those of `stickslip_interface_residual`, INVALID_VALUE (there is no plan), BUFFER_TOO_SMALL, UNSUPPORTED (sums with
 /// the augmented form or weak_coverage), MISSING_ENTRY: the plan lacks an entry; make it again.
-/// Cost: at new positions those of the residual, then the derivatives of every pair's weights (frozen weights: none). After
-/// the first calls it allocates nothing.
+/// Cost: at new positions those of the residual, then the derivatives of every pair's weights (frozen weights: none), each
+/// block added at its place without a search. Allocates.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn stickslip_interface_plan_values(
     interface: *mut stickslip_interface,
@@ -275,7 +279,7 @@ pub unsafe extern "C" fn stickslip_interface_plan_values(
 /// x1 (3 n1), x2 (3 n2): positions [L]; pairs: STICKSLIP_PLAN_... Outputs: rows (2) and counts (2): how many equations have
 /// entries, and how many entries there are, of FORCES and of CONSTRAINTS.
 ///
-/// Errors: as `stickslip_interface_condensed_multipliers` and `stickslip_interface_plan`.
+/// Errors: as `stickslip_interface_condensed_multipliers` and `stickslip_interface_plan`, INVALID_VALUE (pairs) among them.
 /// Cost: as `stickslip_interface_plan`, twice. Allocates.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn stickslip_interface_condensed_plan(
@@ -310,7 +314,8 @@ pub unsafe extern "C" fn stickslip_interface_condensed_plan(
 /// Outputs: forces, constraints, as many as the counts of `stickslip_interface_condensed_plan` [F/L]. After MISSING_ENTRY and
 /// NOT_FINITE (a value overflows) they mean nothing.
 ///
-/// Errors: as `stickslip_interface_condensed_coo` and `stickslip_interface_plan_values`.
+/// Errors: as `stickslip_interface_condensed_coo`, INVALID_VALUE (there is no plan), MISSING_ENTRY: a plan lacks an entry;
+/// make both again.
 /// Cost: as `stickslip_interface_plan_values`, and a sort of the pairs' nodes.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn stickslip_interface_condensed_values(

@@ -157,13 +157,15 @@ pub(super) fn read_csr<'a>(base: i64, n_rows: i64, row_offsets: *const i64, colu
 }
 
 /// The exact tangent d residual / d (x1, x2, lambda) as triplets in the host's equation numbers and index
-/// base. Entries without an equation are left out; duplicates add up. Entries depend on the active pairs,
-/// so the pattern may change between evaluations; within one evaluation point it does not. Not symmetric,
-/// even without friction. Paper (29)-(31).
+/// base, by rows and within a row by columns, each once. Entries without an equation are left out. Entries depend on
+/// the active pairs, so the pattern may change between evaluations; within one evaluation point it does not. Not
+/// symmetric, even without friction. Paper (29)-(31). A host that fills a matrix of its own again and again takes
+/// `stickslip_interface_plan` and `stickslip_interface_plan_values`.
 ///
 /// Inputs x1, x2, lambda, sums as for `stickslip_interface_residual`. Outputs: rows, columns, values (capacity
 /// each), count. With all three arrays NULL only count is written, and capacity is not read. Units of an entry:
-/// its row's over its column's.
+/// its row's over its column's. After NOT_FINITE because a value overflows, values mean nothing; after any other error
+/// they are as they were.
 ///
 /// Errors: NULL_POINTER, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL, INVALID_VALUE (as the
 /// residual), BUFFER_TOO_SMALL, UNSUPPORTED (sums with the augmented form or weak_coverage).
@@ -212,7 +214,8 @@ pub unsafe extern "C" fn stickslip_interface_tangent_coo(
 ///
 /// Inputs x1, x2, lambda, sums as for `stickslip_interface_residual`; n_rows rows; row_offsets (n_rows + 1),
 /// starting at the index base; columns and values (as many as row_offsets says), columns in the index base, in
-/// any order within a row.
+/// any order within a row. Every entry of the tangent is looked up once; a host that does so in every iteration takes
+/// `stickslip_interface_plan_csr` and keeps the places.
 ///
 /// Errors: NULL_POINTER, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL, INVALID_VALUE (as the
 /// residual), INVALID_SIZE, INDEX_OUT_OF_RANGE (an equation beyond n_rows), UNSUPPORTED (sums with the augmented form or weak_coverage),
@@ -257,11 +260,10 @@ pub unsafe extern "C" fn stickslip_interface_tangent_csr(
     })
 }
 
-/// Entries of any tangent, with sums or without, while the surfaces slide by less than a quarter of a facet.
-/// Preallocate with this; a larger motion may need entries beyond these; call again then.
+/// Entries of any tangent, with sums or without, while the surfaces slide by less than a quarter of a facet: by rows and
+/// within a row by columns, each once. Preallocate with this; a larger motion may need entries beyond these; call again then.
 ///
 /// x1 (3 n1), x2 (3 n2): positions [L]. Outputs: rows, columns (capacity each; both NULL: only count), count.
-/// Duplicates occur.
 ///
 /// Errors: NULL_POINTER, NOT_FINITE, BUFFER_TOO_SMALL, DEGENERATE_FACET, PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL,
 /// INVALID_VALUE (as `stickslip_interface_sums`).

@@ -196,7 +196,7 @@ impl<'a, const N: usize> Here<'a, N> {
     /// whose weights were differentiated and the seconds.
     pub fn fill(
         self,
-        (x, lambda, of): (Positions, &[SVector<f64, N>], (Extent, Option<&[f64]>)),
+        (x, lambda, of): AtPoint<N>,
         numbering: &Option<Numbering>,
         [first, second]: &mut [FillRoom; 2],
         (work, kept_couplings): (Work<N>, &mut Vec<NodeCouplings>),
@@ -281,6 +281,9 @@ impl<const N: usize> ThreadRoom<N> {
 /// Non-mortar and mortar positions.
 pub type Positions<'a> = (&'a [Vec3], &'a [Vec3]);
 
+/// Where a tangent is: positions, multipliers, what of, and factors of the nodes' rows in place of their own.
+pub type AtPoint<'a, const N: usize> = (Positions<'a>, &'a [SVector<f64, N>], (Extent, Option<&'a [f64]>));
+
 /// What a tangent is made with.
 pub struct Work<'a, const N: usize> {
     pub rooms: &'a mut Vec<ThreadRoom<N>>,
@@ -307,7 +310,7 @@ fn check(shown: Shown) -> Result<()> {
     };
     if let Some((row, column)) = shown.lacks {
         let text = text!(
-            "the plan lacks the entries of {} in the rows of {}: the pairs have changed; make it again (stickslip_interface_plan)",
+            "the plan lacks the entries of {} in the rows of {}: the pairs have changed; make it again (stickslip_interface_plan, stickslip_interface_condensed_plan)",
             name(column),
             name(row)
         );

@@ -4,7 +4,7 @@
 use super::contact::Contact;
 use super::data::extent::Extent;
 use super::data::options::Form;
-use super::linear::{Here, Linear, PlanOf, PlanPairs, Positions, ThreadRoom, Work, no_plan};
+use super::linear::{AtPoint, Here, Linear, PlanOf, PlanPairs, Positions, ThreadRoom, Work, no_plan};
 use super::pairing::given::Given;
 use super::plan::pattern::System;
 use super::plan::whole::Plan;
@@ -107,17 +107,16 @@ impl<const N: usize> Contact<N> {
         systems: [System; S],
     ) -> Result<[Plan; S]> {
         self.given().check_positions(x.0, x.1)?;
+        let mut possible = None;
+        match of {
+            PlanPairs::Active(extent) => self.cache.integrate(&self.setup, &mut self.step, x, extent)?,
+            PlanPairs::Possible => possible = Some(self.possible_pairs(x)?),
+        }
+        // Nothing may leave between here and where it is put back: an older plan needs it.
         let mut numbering = self.linear.numbering.take();
-        let plans = match of {
-            PlanPairs::Active(extent) => {
-                self.cache.integrate(&self.setup, &mut self.step, x, extent)?;
-                self.here().plans((self.here().pairs(), extent), systems, &mut numbering)
-            }
-            PlanPairs::Possible => {
-                let pairs = self.possible_pairs(x)?;
-                self.here().plans((Pairs::Possible(&pairs), Extent::Part), systems, &mut numbering)
-            }
-        };
+        let pairs = possible.as_ref().map_or_else(|| self.here().pairs(), |pairs| Pairs::Possible(pairs));
+        let extent = if let PlanPairs::Active(extent) = of { extent } else { Extent::Part };
+        let plans = self.here().plans((pairs, extent), systems, &mut numbering);
         self.linear.numbering = numbering;
         plans
     }
@@ -201,12 +200,7 @@ impl<const N: usize> Contact<N> {
         self.fill_plan(true, (x, lambda, (Extent::of(sums), None)), values)
     }
 
-    fn fill_plan(
-        &mut self,
-        is_own: bool,
-        of: (Positions, &[SVector<f64, N>], (Extent, Option<&[f64]>)),
-        values: &mut [f64],
-    ) -> Result<()> {
+    fn fill_plan(&mut self, is_own: bool, of: AtPoint<N>, values: &mut [f64]) -> Result<()> {
         let here = Here { given: Given { setup: &self.setup, step: &self.step }, cache: &self.cache };
         let Linear { numbering, plan, own, fill, rooms, normals, nodes, turns, couplings, .. } = &mut self.linear;
         let plan = if is_own { own.as_ref().map(|own| &own.1) } else { plan.as_ref() };
@@ -220,11 +214,7 @@ impl<const N: usize> Contact<N> {
     }
 
     /// Fills the plans of a condensed system: what the forces depend on the displacements by, and the constraints.
-    pub(super) fn fill_condensed(
-        &mut self,
-        of: (Positions, &[SVector<f64, N>], (Extent, Option<&[f64]>)),
-        [forces, constraints]: [&mut [f64]; 2],
-    ) -> Result<()> {
+    pub(super) fn fill_condensed(&mut self, of: AtPoint<N>, [forces, constraints]: [&mut [f64]; 2]) -> Result<()> {
         let here = Here { given: Given { setup: &self.setup, step: &self.step }, cache: &self.cache };
         let Linear { numbering, condensed, fill, rooms, normals, nodes, turns, couplings, .. } = &mut self.linear;
         let Some([first, second]) = condensed else { return Err(no_plan()) };

@@ -10,7 +10,7 @@ static struct {
   every every;
   int64_t ld, capacity, length, n_interfaces, n, n_rows, n_integers, n_reals, nodes[3];
   int64_t offsets1[3], shared1[6], offsets2[3], shared2[4], options_size;
-  int32_t n_facet, layout, index_base, piece, which_normals;
+  int32_t n_facet, layout, index_base, piece, which_normals, pairs, entries;
   double scale, stiffness, rounding, angle, penetration, neighbours[12];
   double mu[N1], r[N1], normals[X1], directions[9], sums[STICKSLIP_SUMS_PER_NODE * N1], dx1[X1], dx2[X2];
   weights previous;
@@ -112,6 +112,24 @@ FUNCTION(interface_tangent_csr, (a[0], a[1], a[2], a[3], a[4], b.n_rows, a[5], a
          {"row_offsets", H.offsets, NEEDED}, {"columns", H.csr_columns, NEEDED}, {"values", H.csr, NEEDED})
 FUNCTION(interface_pattern_coo, (a[0], a[1], a[2], b.capacity, a[3], a[4], a[5]), AT, {"rows", H.row_numbers, NEEDED},
          {"columns", H.columns, NEEDED}, {"count", &H.count, NEEDED})
+FUNCTION(interface_plan, (a[0], a[1], a[2], b.pairs, a[3], a[4]), AT, {"rows", b.every.plan_rows, NEEDED},
+         {"count", b.every.plan_counts, NEEDED})
+FUNCTION(interface_plan_coo, (a[0], b.entries, b.capacity, a[1], a[2]), INTERFACE, {"rows", H.row_numbers, NEEDED},
+         {"columns", H.columns, NEEDED})
+FUNCTION(interface_plan_coo32, (a[0], b.entries, b.capacity, a[1], a[2]), INTERFACE, {"rows", b.every.rows32, NEEDED},
+         {"columns", b.every.columns32, NEEDED})
+FUNCTION(interface_plan_csr, (a[0], b.entries, b.capacity, a[1], a[2], a[3]), INTERFACE,
+         {"rows", b.every.row_list, NEEDED}, {"row_offsets", b.every.row_offsets, NEEDED},
+         {"columns", b.every.plan_columns, NEEDED})
+FUNCTION(interface_plan_csr32, (a[0], b.entries, b.capacity, a[1], a[2], a[3]), INTERFACE,
+         {"rows", b.every.row_list32, NEEDED}, {"row_offsets", b.every.row_offsets32, NEEDED},
+         {"columns", b.every.columns32, NEEDED})
+FUNCTION(interface_plan_values, (a[0], a[1], a[2], a[3], a[4], b.capacity, a[5]), POINT,
+         {"values", b.every.plan_values[0], NEEDED})
+FUNCTION(interface_condensed_plan, (a[0], a[1], a[2], b.pairs, a[3], a[4]), AT, {"rows", b.every.plan_rows, NEEDED},
+         {"counts", b.every.plan_counts, NEEDED})
+FUNCTION(interface_condensed_values, (a[0], a[1], a[2], a[3], a[4], a[5]), AT, {"lambda", S.lambda, NEEDED},
+         {"forces", b.every.plan_values[0], NEEDED}, {"constraints", b.every.plan_values[1], NEEDED})
 FUNCTION(interface_step_limit, (a[0], a[1], a[2], a[3], a[4], b.penetration, a[5]), AT, {"dx1", b.dx1, NEEDED},
          {"dx2", b.dx2, NEEDED}, {"fraction", &H.fraction, NEEDED})
 FUNCTION(interface_commit, (a[0], a[1], a[2], a[3], a[4]), POINT)
@@ -176,6 +194,9 @@ static const struct {
     NAMED(node_condense), NAMED(interface_carriers), NAMED(interface_condensed_multipliers), NAMED(interface_condensed_residual),
     NAMED(interface_condensed_coo), NAMED(interface_condensed_csr), NAMED(interface_condensed_pattern),
     NAMED(interface_use_normals), NAMED(interface_turn_multipliers), NAMED(facet_normal_derivatives), NAMED(node_turn),
+    NAMED(interface_plan), NAMED(interface_plan_coo), NAMED(interface_plan_coo32), NAMED(interface_plan_csr),
+    NAMED(interface_plan_csr32), NAMED(interface_plan_values), NAMED(interface_condensed_plan),
+    NAMED(interface_condensed_values),
 };
 
 #endif

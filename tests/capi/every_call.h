@@ -36,6 +36,10 @@ typedef struct {
   double condensed_lambda[X1], condensed_rows[X1], condensed_force[X2], node_condensed[13];
   uint64_t condensed_counts[5], condensed_bits[5];
   double turned[X1];
+  /* Of plans, two for those of condensed systems. */
+  int64_t plan_rows[2], plan_counts[2], row_list[UNKNOWNS], row_offsets[UNKNOWNS + 1], plan_columns[UNKNOWNS * UNKNOWNS];
+  int32_t row_list32[UNKNOWNS], row_offsets32[UNKNOWNS + 1], rows32[UNKNOWNS * UNKNOWNS], columns32[UNKNOWNS * UNKNOWNS];
+  double plan_values[2][UNKNOWNS * UNKNOWNS];
 } every;
 
 static inline int32_t every_weights(every *c) { return call_weights(&c->e); }
@@ -236,6 +240,47 @@ static inline int32_t every_turn_multipliers(every *c) {
   memcpy(c->turned, s->lambda, sizeof c->turned);
   return stickslip_interface_turn_multipliers(s->interface, s->x1, c->turned);
 }
+/* By plans: two kinds, each filled with values; the entries of the last one in all four ways. */
+static inline int32_t every_plan(every *c) {
+  scene *s = &c->h.s;
+  return stickslip_interface_plan(s->interface, s->x1, s->x2, STICKSLIP_PLAN_ACTIVE, c->plan_rows, c->plan_counts);
+}
+static inline int32_t every_skin(every *c) {
+  scene *s = &c->h.s;
+  return stickslip_interface_plan(s->interface, s->x1, s->x2, STICKSLIP_PLAN_SKIN, c->plan_rows, c->plan_counts);
+}
+static inline int32_t every_plan_coo(every *c) {
+  return stickslip_interface_plan_coo(c->h.s.interface, STICKSLIP_ENTRIES_TANGENT, MOST_ENTRIES, c->h.row_numbers,
+                                      c->h.columns);
+}
+static inline int32_t every_plan_coo32(every *c) {
+  return stickslip_interface_plan_coo32(c->h.s.interface, STICKSLIP_ENTRIES_TANGENT, COUNT(c->rows32), c->rows32,
+                                        c->columns32);
+}
+static inline int32_t every_plan_csr(every *c) {
+  return stickslip_interface_plan_csr(c->h.s.interface, STICKSLIP_ENTRIES_TANGENT, COUNT(c->plan_columns), c->row_list,
+                                      c->row_offsets, c->plan_columns);
+}
+static inline int32_t every_plan_csr32(every *c) {
+  return stickslip_interface_plan_csr32(c->h.s.interface, STICKSLIP_ENTRIES_TANGENT, COUNT(c->columns32), c->row_list32,
+                                        c->row_offsets32, c->columns32);
+}
+static inline int32_t every_plan_values(every *c) {
+  scene *s = &c->h.s;
+  return stickslip_interface_plan_values(s->interface, s->x1, s->x2, s->lambda, NULL, COUNT(c->plan_values[0]),
+                                         c->plan_values[0]);
+}
+static inline int32_t every_condensed_plan(every *c) {
+  scene *s = &c->h.s;
+  return stickslip_interface_condensed_plan(s->interface, s->x1, s->x2, STICKSLIP_PLAN_ACTIVE, c->plan_rows,
+                                            c->plan_counts);
+}
+static inline int32_t every_condensed_values(every *c) {
+  scene *s = &c->h.s;
+  return stickslip_interface_condensed_values(s->interface, s->x1, s->x2, c->condensed_lambda, c->plan_values[0],
+                                              c->plan_values[1]);
+}
+
 static inline int32_t every_normal_derivatives(every *c) { return call_normal_derivatives(&c->e); }
 static inline int32_t every_turn(every *c) { return call_turn(&c->e); }
 
@@ -284,6 +329,14 @@ static const entry_point every_call[] = {
     {"interface_tangent_csr", every_csr},
     {"interface_tangent_coo, count", every_count},
     {"interface_pattern_coo", every_pattern},
+    {"interface_plan", every_plan},
+    {"interface_plan_values", every_plan_values},
+    {"interface_plan, skin", every_skin},
+    {"interface_plan_coo", every_plan_coo},
+    {"interface_plan_coo32", every_plan_coo32},
+    {"interface_plan_csr", every_plan_csr},
+    {"interface_plan_csr32", every_plan_csr32},
+    {"interface_plan_values, skin", every_plan_values},
     {"interface_report", every_report},
     {"interface_diagnose", every_diagnose},
     {"interface_effects", every_effects},
@@ -300,6 +353,8 @@ static const entry_point every_call[] = {
     {"interface_condensed_coo, constraints", every_condensed_constraints},
     {"interface_condensed_csr", every_condensed_csr},
     {"interface_condensed_pattern", every_condensed_pattern},
+    {"interface_condensed_plan", every_condensed_plan},
+    {"interface_condensed_values", every_condensed_values},
     {"facet_normal_derivatives", every_normal_derivatives},
     {"node_turn", every_turn},
     {"interface_use_normals", every_use_committed},
@@ -376,10 +431,18 @@ static inline int32_t every_refusal(int k) {
     case 53: return stickslip_pair_state_gap(NULL, NULL, NULL, NULL);
     case 54: return stickslip_pair_state_residual(NULL, NULL, NULL);
     case 55: return stickslip_pair_state_tangent(NULL, NULL, NULL, NULL, NULL, NULL, NULL, 0);
+    case 56: return stickslip_interface_plan(NULL, NULL, NULL, 0, NULL, NULL);
+    case 57: return stickslip_interface_plan_coo(NULL, 0, 0, NULL, NULL);
+    case 58: return stickslip_interface_plan_coo32(NULL, 0, 0, NULL, NULL);
+    case 59: return stickslip_interface_plan_csr(NULL, 0, 0, NULL, NULL, NULL);
+    case 60: return stickslip_interface_plan_csr32(NULL, 0, 0, NULL, NULL, NULL);
+    case 61: return stickslip_interface_plan_values(NULL, NULL, NULL, NULL, NULL, 0, NULL);
+    case 62: return stickslip_interface_condensed_plan(NULL, NULL, NULL, 0, NULL, NULL);
+    case 63: return stickslip_interface_condensed_values(NULL, NULL, NULL, NULL, NULL, NULL);
     default: return stickslip_interface_diagnose(NULL, NULL, NULL, NULL, NULL, NULL);
   }
 }
-enum { REFUSALS = 57 };
+enum { REFUSALS = 65 };
 
 /* Room and sizes for the structs that come out. */
 static inline void every_room(every *c) {
@@ -444,7 +507,9 @@ static inline int every_equal(every *a, every *b) {
          SAME(diagnosis.error) && SAME(step_limit) && SAME(equilibrium) &&
          SAME(node_equilibrium) && SAME(facet_normal) && SAME(condensed_lambda) && SAME(condensed_rows) &&
          SAME(condensed_force) && SAME(node_condensed) && SAME(condensed_bits) && SAME(condensed_counts) &&
-         SAME(e.normal_derivatives) && SAME(e.turn) && SAME(turned);
+         SAME(e.normal_derivatives) && SAME(e.turn) && SAME(turned) && SAME(plan_rows) && SAME(plan_counts) &&
+         SAME(row_list) && SAME(row_offsets) && SAME(plan_columns) && SAME(row_list32) && SAME(row_offsets32) &&
+         SAME(rows32) && SAME(columns32) && SAME(plan_values);
 #undef SAME
 }
 

@@ -71,7 +71,7 @@ fn layouts() -> Vec<Layout> {
             turn_max,
             shear_limit,
             normals,
-            reserved
+            threads
         }),
         layout!(stickslip_states {
             struct_size,

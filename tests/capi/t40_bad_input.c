@@ -100,6 +100,13 @@ static void set_up(const char *name, int32_t base) {
     CHECK_OK(stickslip_interface_condensed_pattern(s->interface, s->x1, s->x2, UNKNOWNS, H.offsets, H.csr_columns, 0,
                                                    NULL, NULL, &b.capacity));
   }
+  if (strncmp(name, "interface_plan_", 15) == 0) {
+    int64_t rows;
+    CHECK_OK(stickslip_interface_plan(s->interface, s->x1, s->x2, STICKSLIP_PLAN_ACTIVE, &rows, &b.capacity));
+  } else if (strcmp(name, "interface_condensed_values") == 0) {
+    int64_t rows[2], counts[2];
+    CHECK_OK(stickslip_interface_condensed_plan(s->interface, s->x1, s->x2, STICKSLIP_PLAN_ACTIVE, rows, counts));
+  }
   memcpy(&before, &b, sizeof b);
   scene_residual(s, expected);
 }
@@ -173,6 +180,7 @@ static void tell(void) {
   bad_place("handle", INT64, &b.every.other, 0);
   NUMBER(INT64, ld), NUMBER(INT64, capacity), NUMBER(INT64, length), NUMBER(INT64, n_interfaces), NUMBER(INT64, n);
   NUMBER(INT64, n_rows), NUMBER(INT64, n_integers), NUMBER(INT64, n_reals), NUMBER(INT32, n_facet);
+  NUMBER(INT32, pairs), NUMBER(INT32, entries);
   NUMBER(INT32, layout), NUMBER(INT32, index_base), NUMBER(REAL, scale), NUMBER(REAL, stiffness);
   NUMBER(REAL, rounding), NUMBER(REAL, angle), NUMBER(REAL, penetration);
   bad_place("interface_use_normals:normals", INT32, &b.which_normals, 0);

@@ -268,13 +268,41 @@ static int32_t look_forces(handle *h) { return call_condensed_coo(h, STICKSLIP_C
 static int32_t look_elimination(handle *h) { return call_condensed_coo(h, STICKSLIP_CONDENSED_ELIMINATION); }
 static int32_t look_constraints(handle *h) { return call_condensed_coo(h, STICKSLIP_CONDENSED_CONSTRAINTS); }
 
+/* By plans. Values go out on success alone: after a refusal they mean nothing. */
+static double values[2][UNKNOWNS * UNKNOWNS];
+static int32_t look_plan(handle *h) {
+  scene *s = &h->s;
+  int64_t rows, count;
+  int32_t status = stickslip_interface_plan(s->interface, s->x1, s->x2, STICKSLIP_PLAN_ACTIVE, &rows, &count);
+  if (status != STICKSLIP_OK) return status;
+  CHECK(count <= COUNT(values[0]));
+  status = stickslip_interface_plan_values(s->interface, s->x1, s->x2, s->lambda, NULL, count, values[0]);
+  if (status != STICKSLIP_OK) return status;
+  h->count = count;
+  memcpy(h->values, values, (size_t)count * sizeof values[0][0]);
+  return stickslip_interface_plan_coo(s->interface, STICKSLIP_ENTRIES_TANGENT, count, h->row_numbers, h->columns);
+}
+static int32_t look_condensed_plan(handle *h) {
+  scene *s = &h->s;
+  int64_t rows[2], counts[2];
+  int32_t status = stickslip_interface_condensed_plan(s->interface, s->x1, s->x2, STICKSLIP_PLAN_SKIN, rows, counts);
+  if (status != STICKSLIP_OK) return status;
+  CHECK(counts[0] <= COUNT(values[0]) && counts[1] <= COUNT(values[1]));
+  status = stickslip_interface_condensed_values(s->interface, s->x1, s->x2, s->lambda, values[0], values[1]);
+  if (status != STICKSLIP_OK) return status;
+  h->count = counts[1];
+  memcpy(h->csr, values[0], (size_t)counts[0] * sizeof values[0][0]);
+  memcpy(h->values, values[1], (size_t)counts[1] * sizeof values[0][0]);
+  return stickslip_interface_plan_coo(s->interface, STICKSLIP_ENTRIES_CONSTRAINTS, counts[1], h->row_numbers, h->columns);
+}
+
 /* Calls that leave no trace. */
 static const interface_call looks[] = {
     call_interface_residual, call_interface_states, call_interface_coo, call_interface_csr, call_interface_sums,
     call_interface_pattern,  look_residual_sums,    look_coo_sums,      look_count,         look_start,
     look_report,             look_diagnosis,        look_history,       call_carriers,      call_condensed_csr,
     look_forces,             look_elimination,      look_constraints,   call_condensed_multipliers,
-    call_condensed_residual, call_condensed_pattern, call_turn_multipliers};
+    call_condensed_residual, call_condensed_pattern, call_turn_multipliers, look_plan, look_condensed_plan};
 
 #define SAME(member) CHECK(memcmp(&h->member, &fresh.member, sizeof h->member) == 0)
 
@@ -408,6 +436,7 @@ static void sequence(int compared) {
       n_changes += !look;
     } else {
       ++refusals;
+      if (status == STICKSLIP_NOT_FINITE && (look == call_interface_coo || look == look_coo_sums)) FILL(h.values);
       handle_untouched(&h);
     }
   }

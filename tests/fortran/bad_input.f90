@@ -50,6 +50,10 @@ module bad_input
     real(c_double) :: reals(4096), initial(SIZE1), fractions(NA), suspect_directions(24), suspect_ratios(8), facet_normal(3)
     real(c_double) :: gap, traction, slip, condensed_lambda(SIZE1), rows1(SIZE1), force2(SIZE2)
     real(c_double) :: w(9), scale
+    integer(c_int64_t) :: plan_rows(2), plan_counts(2), row_list(UNKNOWNS), row_offsets(UNKNOWNS + 1)
+    integer(c_int64_t) :: plan_columns(UNKNOWNS**2)
+    integer(c_int32_t) :: row_list32(UNKNOWNS), row_offsets32(UNKNOWNS + 1), rows32(UNKNOWNS**2), columns32(UNKNOWNS**2)
+    real(c_double) :: plan_values(UNKNOWNS**2), constraints(UNKNOWNS**2)
     integer(c_int32_t) :: kinds(8), cover(NA), layers(NA), state(NA), suspect_causes(8)
     character(kind=c_char) :: text(80), effects(1000), report_text(1000), diagnosis_text(2000)
   end type
@@ -67,7 +71,7 @@ module bad_input
   type(stickslip_interface), target, save :: interface_, other, created
   integer(c_int64_t), target, save :: ld, capacity, length, n_interfaces, n, n_rows, n_integers, n_reals, struct_size
   integer(c_int64_t), target, save :: nodes(3), offsets1(3), offsets2(3), shared1(6), shared2(4)
-  integer(c_int32_t), target, save :: n_facet, layout, index_base, piece, which_normals
+  integer(c_int32_t), target, save :: n_facet, layout, index_base, piece, which_normals, which_pairs, entries
   real(c_double), target, save :: scale, stiffness, rounding, angle, penetration, neighbours(12)
   real(c_double), target, save :: mu(NA), r(NA), normals(SIZE1), directions(9), sums(STICKSLIP_SUMS_PER_NODE * NA)
   real(c_double), target, save :: dx1(SIZE1), dx2(SIZE2)
@@ -174,6 +178,22 @@ contains
           h%csr_columns, h%csr)
     case ('interface_pattern_coo')
       status = stickslip_interface_pattern_coo(interface_, h%s%x1, h%s%x2, capacity, at('rows'), at('columns'), h%count)
+    case ('interface_plan')
+      status = stickslip_interface_plan(interface_, h%s%x1, h%s%x2, which_pairs, o%plan_rows(1), o%plan_counts(1))
+    case ('interface_plan_coo')
+      status = stickslip_interface_plan_coo(interface_, entries, capacity, h%row_numbers, h%columns)
+    case ('interface_plan_coo32')
+      status = stickslip_interface_plan_coo32(interface_, entries, capacity, o%rows32, o%columns32)
+    case ('interface_plan_csr')
+      status = stickslip_interface_plan_csr(interface_, entries, capacity, o%row_list, o%row_offsets, o%plan_columns)
+    case ('interface_plan_csr32')
+      status = stickslip_interface_plan_csr32(interface_, entries, capacity, o%row_list32, o%row_offsets32, o%columns32)
+    case ('interface_plan_values')
+      status = stickslip_interface_plan_values(interface_, h%s%x1, h%s%x2, h%s%lambda, at('sums'), capacity, o%plan_values)
+    case ('interface_condensed_plan')
+      status = stickslip_interface_condensed_plan(interface_, h%s%x1, h%s%x2, which_pairs, o%plan_rows, o%plan_counts)
+    case ('interface_condensed_values')
+      status = stickslip_interface_condensed_values(interface_, h%s%x1, h%s%x2, h%s%lambda, o%plan_values, o%constraints)
     case ('interface_step_limit')
       status = stickslip_interface_step_limit(interface_, h%s%x1, h%s%x2, dx1, dx2, penetration, h%fraction)
     case ('interface_commit')
@@ -273,6 +293,7 @@ contains
     integer(c_int32_t), intent(in) :: base
     type(c_ptr), parameter :: none = c_null_ptr
     integer(c_int32_t) :: status
+    integer(c_int64_t) :: rows(2), counts(2)
     imported = h%before
     n_integers = imported%n_integers
     n_reals = imported%n_reals
@@ -287,6 +308,8 @@ contains
     index_base = base
     piece = STICKSLIP_CONDENSED_FORCES
     which_normals = STICKSLIP_NORMALS_COMMITTED
+    which_pairs = STICKSLIP_PLAN_ACTIVE
+    entries = STICKSLIP_ENTRIES_TANGENT
     layout = STICKSLIP_LAYOUT_COLUMN_MAJOR
     angle = 0.5d0
     scale = 1
@@ -321,6 +344,10 @@ contains
       CHECK_OK(status)
     case ('interface_pattern_coo')
       CHECK_OK(stickslip_interface_pattern_coo(h%s%contact, h%s%x1, h%s%x2, 0_c_int64_t, none, none, capacity))
+    case ('interface_plan_coo', 'interface_plan_coo32', 'interface_plan_csr', 'interface_plan_csr32', 'interface_plan_values')
+      CHECK_OK(stickslip_interface_plan(h%s%contact, h%s%x1, h%s%x2, STICKSLIP_PLAN_ACTIVE, rows(1), capacity))
+    case ('interface_condensed_values')
+      CHECK_OK(stickslip_interface_condensed_plan(h%s%contact, h%s%x1, h%s%x2, STICKSLIP_PLAN_ACTIVE, rows, counts))
     case ('interface_carriers')
       CHECK_OK(stickslip_interface_carriers(h%s%contact, 0_c_int64_t, none, none, none, capacity))
     case ('interface_condensed_coo')

@@ -65,9 +65,10 @@ contains
         c_loc(n_interfaces), c_loc(n), c_loc(n_rows), c_loc(n_integers), c_loc(n_reals)], [ &
         int(n_integers), 5, 10, 16, 36, SIZE1, SIZE2, SIZE1, 3, size(h%offsets), 3, 3, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0])
     call places(INT32, [character(30) :: &
-        'n_facet', 'layout', 'index_base', 'diagnosis.state', 'facet.n2', 'piece', 'interface_use_normals:normals'], [ &
+        'n_facet', 'layout', 'index_base', 'diagnosis.state', 'facet.n2', 'piece', 'interface_use_normals:normals', &
+        'pairs', 'entries'], [ &
         c_loc(n_facet), c_loc(layout), c_loc(index_base), c_loc(o%state), c_loc(e%n2), c_loc(piece), &
-        c_loc(which_normals)], [0, 0, 0, NA, 1, 0, 0])
+        c_loc(which_normals), c_loc(which_pairs), c_loc(entries)], [0, 0, 0, NA, 1, 0, 0, 0, 0])
   end subroutine
 
   subroutine structs(kind, name, there)

@@ -346,6 +346,8 @@ contains
       end if
       accepted = succeeded(status)
       if (compared .and. .not. changed) call check_fresh(h, changes(:n), changes(n + 1)%what, status)
+      ! The values of a tangent that has overflowed mean nothing.
+      if (status == STICKSLIP_NOT_FINITE .and. changes(n + 1)%what == 10) h%values = UNWRITTEN
       if (.not. accepted) call handle_untouched(h)
       if (accepted .and. changed) n = n + 1
     end do
@@ -361,12 +363,12 @@ contains
     s%x1 = s%x1 + spread(up, 2, NA)
   end subroutine
 
-  ! A change (-1 to 7), or a look (8 to 24), with its numbers.
+  ! A change (-1 to 7), or a look (8 to 26), with its numbers.
   subroutine any_change(h, c)
     type(handle), intent(in) :: h
     type(change), intent(out) :: c
     integer :: k, i
-    c%what = random(26) - 1
+    c%what = random(28) - 1
     c%given = .not. once_in(3)
     c%values = 1
     if (c%what == 2) c%values = spread([0d0, 0d0, merge(-1d0, 1d0, once_in(2))], 2, NA)
@@ -448,10 +450,44 @@ contains
       status = call_condensed_pattern(h)
     case (24)
       status = call_turn_multipliers(h)
+    case (25)
+      status = look_plan(h)
+    case (26)
+      status = look_condensed_plan(h)
     case default
       report = stickslip_report(cover=c_loc(h%state), fraction=c_loc(h%rows))
       status = stickslip_interface_report(h%s%contact, h%s%x1, h%s%x2, report)
     end select
+  end function
+
+  ! By plans. Values go out on success alone: after a refusal they mean nothing.
+  integer(c_int32_t) function look_plan(h) result(status)
+    type(handle), target, intent(inout) :: h
+    integer(c_int64_t) :: rows, count
+    real(c_double), save :: values(UNKNOWNS**2)
+    status = stickslip_interface_plan(h%s%contact, h%s%x1, h%s%x2, STICKSLIP_PLAN_ACTIVE, rows, count)
+    if (status /= STICKSLIP_OK) return
+    CHECK(count <= size(values))
+    status = stickslip_interface_plan_values(h%s%contact, h%s%x1, h%s%x2, h%s%lambda, c_null_ptr, count, values)
+    if (status /= STICKSLIP_OK) return
+    h%count = count
+    h%values(:count) = values(:count)
+    status = stickslip_interface_plan_coo(h%s%contact, STICKSLIP_ENTRIES_TANGENT, count, h%row_numbers, h%columns)
+  end function
+
+  integer(c_int32_t) function look_condensed_plan(h) result(status)
+    type(handle), target, intent(inout) :: h
+    integer(c_int64_t) :: rows(2), counts(2)
+    real(c_double), save :: forces(UNKNOWNS**2), constraints(UNKNOWNS**2)
+    status = stickslip_interface_condensed_plan(h%s%contact, h%s%x1, h%s%x2, STICKSLIP_PLAN_SKIN, rows, counts)
+    if (status /= STICKSLIP_OK) return
+    CHECK(all(counts <= size(forces)))
+    status = stickslip_interface_condensed_values(h%s%contact, h%s%x1, h%s%x2, h%s%lambda, forces, constraints)
+    if (status /= STICKSLIP_OK) return
+    h%count = counts(2)
+    h%csr(:counts(1)) = forces(:counts(1))
+    h%values(:counts(2)) = constraints(:counts(2))
+    status = stickslip_interface_plan_coo(h%s%contact, STICKSLIP_ENTRIES_CONSTRAINTS, counts(2), h%row_numbers, h%columns)
   end function
 
   ! What a call has given is what a fresh handle gives.

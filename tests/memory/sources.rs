@@ -4,7 +4,7 @@
 use crate::support::files::{below, root};
 
 /// What asks for memory and aborts. Of what a line holds, the last words before it decide.
-const INFALLIBLE: [&str; 33] = [
+const INFALLIBLE: [&str; 34] = [
     "vec!",
     "format!",
     "with_capacity",
@@ -25,6 +25,7 @@ const INFALLIBLE: [&str; 33] = [
     ".reserve(",
     ".reserve_exact(",
     ".repeat(",
+    ".shrink_to_fit()",
     ".concat()",
     ".join(",
     ".sort()",

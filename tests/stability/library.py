@@ -112,7 +112,7 @@ Options = struct(
     ("turn_max", c_double),
     ("shear_limit", c_double),
     ("normals", c_int32),
-    ("reserved", c_int32),
+    ("threads", c_int32),
 )
 Surface = struct(
     "Surface",

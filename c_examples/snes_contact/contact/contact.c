@@ -99,7 +99,8 @@ static PetscBool repeats(const int64_t *head, const int64_t *rows, const int64_t
   return PETSC_TRUE;
 }
 
-/* Entries come block after block, each by columns: one call for a block, which ends where its rows do not repeat. */
+/* Entries of a plan come row after row, those of a piece block after block, each by columns: one call for a row or a block,
+ * which ends where its rows do not repeat. */
 static PetscErrorCode insert(const Interface *interface, int64_t count, const double *values, Mat matrix)
 {
   enum { LONGEST = 64 };
@@ -118,17 +119,47 @@ static PetscErrorCode insert(const Interface *interface, int64_t count, const do
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Which entries the tangent has here; kept until values lack one. */
+static PetscErrorCode plan(Interface *interface, int32_t pairs, int32_t *refused)
+{
+  int64_t n_rows;
+
+  PetscFunctionBegin;
+  *refused = stickslip_interface_plan(interface->handle, interface->x, interface->x + 3 * interface->n1, pairs, &n_rows,
+                                      &interface->planned);
+  if (*refused) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(reserve(interface, interface->planned));
+  *refused = stickslip_interface_plan_coo(interface->handle, STICKSLIP_ENTRIES_TANGENT, interface->coo_capacity,
+                                          interface->coo_rows, interface->coo_columns);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static int32_t plan_values(Interface *interface)
+{
+  return stickslip_interface_plan_values(interface->handle, STATE_OF(interface), NULL, interface->coo_capacity,
+                                         interface->coo_values);
+}
+
+/* Where pairs have come that the plan does not have, one of the pairs of now takes its place. */
+static PetscErrorCode tangent(Interface *interface, int32_t *refused)
+{
+  PetscFunctionBegin;
+  *refused = interface->planned ? plan_values(interface) : STICKSLIP_MISSING_ENTRY;
+  if (*refused == STICKSLIP_MISSING_ENTRY) {
+    PetscCall(plan(interface, STICKSLIP_PLAN_ACTIVE, refused));
+    if (!*refused) *refused = plan_values(interface);
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static int32_t entries(Interface *interface, int32_t piece, int64_t capacity, int64_t *rows, int64_t *columns,
                        double *values, int64_t *count)
 {
-  if (piece == WHOLE_TANGENT)
-    return stickslip_interface_tangent_coo(interface->handle, STATE_OF(interface), NULL, capacity, rows, columns, values,
-                                           count);
   return stickslip_interface_condensed_coo(interface->handle, STATE_OF(interface), piece, capacity, rows, columns, values,
                                            count);
 }
 
-/* Into the arrays as they are; counted first where they turn out too small. */
+/* A piece into the arrays as they are; counted first where they turn out too small. */
 PetscErrorCode contact_entries(Interface *interface, int32_t piece, int64_t *count, int32_t *refused)
 {
   PetscFunctionBegin;
@@ -148,7 +179,6 @@ PetscErrorCode contact_entries(Interface *interface, int32_t piece, int64_t *cou
 /* Of a condensed system what the forces depend on the displacements by; condensed_matrix() does the rest. */
 PetscErrorCode contact_tangent(Contact *contact, Mat matrix, PetscInt *status)
 {
-  const int32_t piece = contact->condensed ? STICKSLIP_CONDENSED_FORCES : WHOLE_TANGENT;
   PetscFunctionBegin;
   *status = 0;
   PetscCall(MatSetOption(matrix, MAT_ROW_ORIENTED, PETSC_FALSE)); /* as insert() has them; all ranks must call this */
@@ -158,7 +188,12 @@ PetscErrorCode contact_tangent(Contact *contact, Mat matrix, PetscInt *status)
     int64_t    count     = 0;
     PetscCall(contact_gather(contact, interface, contact->physics->u_local));
     if (contact->mesh->rank == 0) {
-      PetscCall(contact_entries(interface, piece, &count, &refused));
+      if (contact->condensed) {
+        PetscCall(contact_entries(interface, STICKSLIP_CONDENSED_FORCES, &count, &refused));
+      } else {
+        PetscCall(tangent(interface, &refused));
+        count = interface->planned;
+      }
       if (!refused) PetscCall(insert(interface, count, interface->coo_values, matrix));
     }
     PetscCall(contact_agree(contact, refused, status));
@@ -167,23 +202,27 @@ PetscErrorCode contact_tangent(Contact *contact, Mat matrix, PetscInt *status)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* With the pairs that may come while the surfaces slide by less than a quarter of a facet. */
 PetscErrorCode contact_pattern(Contact *contact, Mat matrix)
 {
   PetscFunctionBegin;
   for (PetscInt i = 0; i < contact->n_interfaces; i++) {
     Interface *interface = &contact->interfaces[i];
-    int64_t    count;
+    int32_t    refused;
     PetscCall(contact_gather(contact, interface, contact->physics->u_local));
     if (contact->mesh->rank || contact->condensed) continue; /* condensed_matrix() makes a pattern of its own */
-    PetscCallStickslip(stickslip_interface_pattern_coo(interface->handle, interface->x,
-                                                       interface->x + 3 * interface->n1, 0, NULL, NULL, &count));
-    PetscCall(reserve(interface, count));
-    PetscCallStickslip(stickslip_interface_pattern_coo(interface->handle, interface->x,
-                                                       interface->x + 3 * interface->n1, interface->coo_capacity,
-                                                       interface->coo_rows, interface->coo_columns, &count));
-    PetscCall(insert(interface, count, NULL, matrix));
+    PetscCall(plan(interface, STICKSLIP_PLAN_SKIN, &refused));
+    PetscCallStickslip(refused);
+    PetscCall(insert(interface, interface->planned, NULL, matrix));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* What plans hold beyond the pairs of now would come into a matrix that has not got it. */
+void contact_forget_plans(Contact *contact)
+{
+  for (PetscInt i = 0; i < contact->n_interfaces; i++)
+    contact->interfaces[i].planned = 0;
 }
 
 /* A slightly compressive multiplier on nodes that touch: without it a body held by contact alone starts without support. */

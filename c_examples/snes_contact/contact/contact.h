@@ -24,6 +24,7 @@ typedef struct {
    * and what condensing adds to the residual; where the last matrix was made, the former and the positions */
   double              *lambda, *lambda_start, *lambda_last, *lambda_before, *host, *rows, *host_there, *x_there;
   int64_t              coo_capacity, *coo_rows, *coo_columns;
+  int64_t              planned; /* the entries of the library's plan, which lie in these arrays; 0: there is none */
   double              *coo_values;
   double               friction_work; /* up to the last converged step */
   double               young, largest_traction; /* of the softer body; up to the last converged step */
@@ -83,10 +84,10 @@ PetscErrorCode contact_start(Contact *contact, Vec x, PetscInt *status);
 PetscErrorCode contact_forces(Contact *contact, Vec f_local, PetscInt *status); /* adds, to the parts' squares, too */
 PetscErrorCode contact_tangent(Contact *contact, Mat matrix, PetscInt *status);
 PetscErrorCode contact_pattern(Contact *contact, Mat matrix);
+void           contact_forget_plans(Contact *contact);
 PetscErrorCode contact_commit(Contact *contact, PetscInt *status);
 
-/* rank 0: into the interface's arrays: a piece of the condensed matrix, STICKSLIP_CONDENSED_..., or the tangent */
-enum { WHOLE_TANGENT = -1 };
+/* rank 0: into the interface's arrays: a piece of the condensed matrix, STICKSLIP_CONDENSED_... */
 PetscErrorCode contact_entries(Interface *interface, int32_t piece, int64_t *count, int32_t *refused);
 PetscErrorCode contact_scatter(Interface *interface, const PetscScalar *from, Vec local, MPI_Op operation);
 

@@ -197,6 +197,7 @@ PetscErrorCode solver_restore_pattern(Solve *solve)
   if (!grown) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(MatDestroy(&solve->jacobian));
   PetscCall(MatDuplicate(solve->pattern, MAT_DO_NOT_COPY_VALUES, &solve->jacobian));
+  contact_forget_plans(solve->contact);
   PetscCall(SNESSetJacobian(solve->snes, solve->jacobian, solve->jacobian, tangent, solve));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

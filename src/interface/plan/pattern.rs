@@ -157,14 +157,14 @@ impl<'a, const N: usize> Finder<'a, N> {
         let has_forces = setup.options.differentiates_weights() && system != System::Constraints;
         let has_multipliers = system == System::Whole && setup.options.form == Form::Multiplier;
         let couples = has_forces && setup.options.basis == MultiplierBasis::Dual && setup.effects.moves();
-        let facets = 0..one.facets.len();
+        let facets = one.facets.len();
         let around = Lists::of(one.len(), |give| {
-            for f in facets.clone().filter(|&f| !pairs.pairs(f).is_empty()) {
+            for f in (0..facets).filter(|&f| !pairs.pairs(f).is_empty()) {
                 one.facets[f].as_slice().iter().for_each(|&a| give(a, f as u32));
             }
         })?;
         let below = Lists::of(two.len(), |give| {
-            facets.clone().for_each(|f| pairs.mortar_nodes(f).iter().for_each(|n| give(n.0 as usize, f as u32)));
+            (0..facets).for_each(|f| pairs.mortar_nodes(f).iter().for_each(|n| give(n.0 as usize, f as u32)));
         })?;
         let mortar = setup.effects.moves() && has_forces && !couples;
         let mut paired = memory::filled(false, if mortar { two.facets.len() } else { 0 })?;

@@ -67,7 +67,7 @@ impl Plan {
             }
         }
         columns.first.store(columns.all.len())?;
-        columns.all.shrink_to_fit();
+        memory::fit(&mut columns.all)?;
         drop(finder);
         let layout = Layout { nodes, numbering, columns: &columns, widths };
         let places = layout.places(is_diagonal)?;
