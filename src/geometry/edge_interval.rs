@@ -10,7 +10,7 @@
 //! cancel with; where it follows a non-mortar mesh line, the facets at that line agree on what lies on it
 //! (`near_line.rs`), and the tie rule decides.
 
-use super::near_line::{LineOf, View, ends, is_before};
+use super::near_line::{LineOf, View};
 use super::plane::Plane;
 use super::projection::Projection;
 use super::vector::Vec3;
@@ -51,6 +51,48 @@ fn component<L: Lanes, const K: usize>(x: &[SVector<f64, K>; MAX_CORNERS], i: us
     L::load(&[x[0][i], x[1][i], x[2][i], x[3][i]])
 }
 
+/// The value at the end of every edge, from those where they begin. A triangle's fourth node is its first one, so that its
+/// third edge ends there; there is no fourth.
+#[inline(always)]
+fn ends<L: Lanes>(v: L) -> L {
+    v.swap_neighbours().swap_1_3()
+}
+
+/// A facet's edges as lines, lanes over the edges.
+struct Lines<L> {
+    /// Where they begin.
+    from: [L; 3],
+    /// From there to where they end.
+    along: [L; 3],
+    /// 1 for those that run from the node that they are named after to the next one, else -1.
+    forward: L,
+}
+
+impl<L: Lanes> Lines<L> {
+    /// As the facet's order has them.
+    #[inline(always)]
+    fn around(x: &[L; 3]) -> Self {
+        let along = [ends(x[0]) - x[0], ends(x[1]) - x[1], ends(x[2]) - x[2]];
+        Lines { from: *x, along, forward: L::splat(1.0) }
+    }
+
+    /// Each from the end that comes first (see `near_line::is_before`): without branches, for no processor foresees them.
+    #[inline(always)]
+    fn canonical(x: &[L; 3]) -> Self {
+        let Lines { mut from, mut along, .. } = Self::around(x);
+        let (plus, minus) = (L::splat(1.0), L::splat(-1.0));
+        let mut forward = minus;
+        for i in [2, 1, 0] {
+            forward = along[i].where_positive(plus, (-along[i]).where_positive(minus, forward));
+        }
+        for i in 0..3 {
+            from[i] = forward.where_positive(x[i], ends(x[i]));
+            along[i] = along[i] * forward;
+        }
+        Lines { from, along, forward }
+    }
+}
+
 /// How a facet's edges run as lines: 1 from the node that they are named after to the next one, or -1.
 type Orientation = [f64; MAX_CORNERS];
 
@@ -70,31 +112,37 @@ struct Distances {
 }
 
 impl Distances {
+    /// Of the first `n` lines from the nodes `x`.
     #[inline(always)]
     fn of<L: Lanes>(
-        lines: &Projection,
-        orientation: &Orientation,
-        nodes: &Projection,
+        lines: &Lines<L>,
+        n: usize,
+        x: &[L; 3],
         plane: &Plane,
         anew: impl FnOnce(&mut Distances),
     ) -> Distances {
-        let x = [component::<L, 3>(&nodes.x, 0), component(&nodes.x, 1), component(&nodes.x, 2)];
-        let near_squared = NEAR * NEAR * plane.condition_squared;
+        let (Lines { from, along, .. }, e) = (lines, &plane.e);
+        let a = [from[0].store(), from[1].store(), from[2].store()];
+        let (mut normals, mut squared) = ([[0.0; MAX_CORNERS]; 3], along[0] * along[0]);
+        for (i, j, k) in [(0, 1, 2), (1, 2, 0), (2, 0, 1)] {
+            normals[i] = (L::splat(e[j]) * along[k] - L::splat(e[k]) * along[j]).store();
+        }
+        for i in 1..3 {
+            squared = along[i].mul_add(along[i], squared);
+        }
+        let near_squared = (L::splat(NEAR * NEAR * plane.condition_squared) * squared).store();
         let zero = [[0.0; MAX_CORNERS]; MAX_CORNERS];
         let (mut distances, mut nearest) = (Distances { from: zero, to: zero }, L::splat(0.0));
-        for j in 0..lines.shape.n {
-            let [a, b] = line(lines, orientation, j);
-            let ab = b - a;
-            let normal = plane.e.cross(&ab);
-            let ap = [x[0] - L::splat(a.x), x[1] - L::splat(a.y), x[2] - L::splat(a.z)];
-            let (mut d, mut squared) = (L::splat(normal.x) * ap[0], ap[0] * ap[0]);
+        for j in 0..n {
+            let j = j & 3; // so that no bounds are checked
+            let ap = [x[0] - L::splat(a[0][j]), x[1] - L::splat(a[1][j]), x[2] - L::splat(a[2][j])];
+            let (mut d, mut squared) = (L::splat(normals[0][j]) * ap[0], ap[0] * ap[0]);
             for i in 1..3 {
-                d = L::splat(normal[i]).mul_add(ap[i], d);
+                d = L::splat(normals[i][j]).mul_add(ap[i], d);
                 squared = ap[i].mul_add(ap[i], squared);
             }
-            nearest = nearest.max(squared * L::splat(near_squared * ab.norm_squared()) - d * d);
-            distances.from[j & 3] = d.store();
-            distances.to[j & 3] = ends(&distances.from[j & 3], nodes.shape.n);
+            nearest = nearest.max(squared * L::splat(near_squared[j]) - d * d);
+            (distances.from[j], distances.to[j]) = (d.store(), ends(d).store());
         }
         if nearest.any_positive() {
             anew(&mut distances);
@@ -136,15 +184,13 @@ impl<L: Lanes> Parts<L> {
 pub fn edge_intervals<L: Lanes>(one: &Projection, two: &Projection, plane: &Plane) -> [EdgeIntervals; 2] {
     let (n1, n2) = (one.shape.n, two.shape.n);
     let mut view = View::new(one, plane);
+    let x1 = [component::<L, 3>(&one.x, 0), component(&one.x, 1), component(&one.x, 2)];
+    let x2 = [component::<L, 3>(&two.x, 0), component(&two.x, 1), component(&two.x, 2)];
 
     // Mortar edges run from the end that comes first.
-    let mut orientation = [1.0; MAX_CORNERS];
-    for j in 0..n2 {
-        if !is_before(&two.x[j & 3], &two.x[two.shape.next[j & 3] & 3]) {
-            orientation[j & 3] = -1.0;
-        }
-    }
-    let distances = Distances::of::<L>(two, &orientation, one, plane, |d| {
+    let lines = Lines::canonical(&x2);
+    let orientation = lines.forward.store();
+    let distances = Distances::of(&lines, n2, &x1, plane, |d| {
         let near = NEAR * plane.condition_squared.sqrt();
         for j in 0..n2 {
             let line = (LineOf::Mortar, line(two, &orientation, j));
@@ -159,25 +205,25 @@ pub fn edge_intervals<L: Lanes>(one: &Projection, two: &Projection, plane: &Plan
         nonmortar.narrow(from, to, L::splat(INSIDE) * forward);
     }
 
-    let forward = L::load(&orientation);
-    let u = [two.y[0].x, two.y[1].x, two.y[2].x, two.y[3].x];
-    let v = [two.y[0].y, two.y[1].y, two.y[2].y, two.y[3].y];
-    let direction =
-        [(L::load(&ends(&u, n2)) - L::load(&u)) * forward, (L::load(&ends(&v, n2)) - L::load(&v)) * forward];
-    let distances = Distances::of::<L>(one, &[1.0; MAX_CORNERS], two, plane, |d| {
+    let forward = lines.forward;
+    let [u, v] = two.in_plane::<L>();
+    let direction = [(ends(u) - u) * forward, (ends(v) - v) * forward];
+    let distances = Distances::of(&Lines::around(&x1), n1, &x2, plane, |d| {
         let near = NEAR * plane.condition_squared.sqrt();
         for j in 0..n1 {
             let line = (LineOf::Nonmortar(j), line(one, &[1.0; MAX_CORNERS], j));
             view.refine(line, two, near, [&mut d.from[j], &mut d.to[j]]);
         }
     });
+    let [u, v] = one.in_plane::<L>();
+    let edges = [(ends(u) - u).store(), (ends(v) - v).store()];
     let mut mortar = Parts::whole();
     for j in 0..n1 {
-        let (from, to) = (L::load(&distances.from[j & 3]), L::load(&distances.to[j & 3]));
+        let j = j & 3;
+        let (from, to) = (L::load(&distances.from[j]), L::load(&distances.to[j]));
         // A point of the mortar line moves to the right of `direction`: inwards when that runs
         // against the non-mortar edge. Only a collinear edge depends on it.
-        let edge = one.y[one.shape.next[j & 3] & 3] - one.y[j & 3];
-        let outwards = L::splat(edge.x).mul_add(direction[0], L::splat(edge.y) * direction[1]);
+        let outwards = L::splat(edges[0][j]).mul_add(direction[0], L::splat(edges[1][j]) * direction[1]);
         let tie = outwards.where_positive(L::splat(-INSIDE), L::splat(INSIDE));
         mortar.narrow(forward.where_positive(from, to), forward.where_positive(to, from), tie);
     }

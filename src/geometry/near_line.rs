@@ -43,14 +43,8 @@ fn dot(a: &Vector, b: &Vector) -> DoubleDouble {
 
 /// Whether `a` comes before `b`: which end of an edge is its beginning, whoever looks at it.
 #[inline]
-pub fn is_before(a: &Vec3, b: &Vec3) -> bool {
+fn is_before(a: &Vec3, b: &Vec3) -> bool {
     (a.x, a.y, a.z) < (b.x, b.y, b.z)
-}
-
-/// For every edge of a facet with `n` nodes the value at the node where it ends.
-#[inline(always)]
-pub fn ends(v: &[f64; MAX_CORNERS], n: usize) -> [f64; MAX_CORNERS] {
-    [v[1], v[2], if n == 4 { v[3] } else { v[0] }, v[0]]
 }
 
 /// Whether planes with these normals both see a point on a line: the same for either of them and for the line in either

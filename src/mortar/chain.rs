@@ -159,21 +159,22 @@ impl<'a, L: Lanes> Chain<'a, L> {
     fn nodes_inlined<One: Cell, Two: Cell>(&self, g: &PlaneDerivatives<L>, to: &mut impl Columns<L>) {
         const { assert!(PAIR_NODES == PAIR_CORNERS) };
         // What the pair does to translation, tilt and spin of the plane.
-        let (mut shift, mut tilt, mut spin) = ([L::splat(0.0); 2], [L::splat(0.0); 2], L::splat(0.0));
+        let [mut shift, mut tilt, mut spins] = [[L::splat(0.0); 2]; 3];
         for k in 0..PAIR_CORNERS {
             if k < One::CORNERS || (k >= MORTAR_CORNER && k < MORTAR_CORNER + Two::CORNERS) {
                 let ([y1, minus_y0, d], [g0, g1]) = (&self.vertices[k], g[k]);
                 shift = [shift[0] + g0, shift[1] + g1];
                 tilt = [d.mul_add(g0, tilt[0]), d.mul_add(g1, tilt[1])];
-                spin = y1.mul_add(g0, minus_y0.mul_add(g1, spin));
+                spins = [y1.mul_add(g0, spins[0]), minus_y0.mul_add(g1, spins[1])];
             }
         }
         let mean = L::splat(1.0 / One::CORNERS as f64);
         shift = [shift[0] * mean, shift[1] * mean];
+        let spin = spins[0] + spins[1]; // in two parts: one sum would be twice as long a chain
         for k in 0..One::CORNERS {
-            let [spins, tilts0, tilts1] = &self.turns[k];
+            let [turn, tilts0, tilts1] = &self.turns[k];
             let x = g[k][0] - shift[0];
-            let y = spins.mul_add(spin, g[k][1] - shift[1]);
+            let y = turn.mul_add(spin, g[k][1] - shift[1]);
             let z = tilts0.mul_add(tilt[0], *tilts1 * tilt[1]);
             let mut columns = [x; 3];
             for j in 0..3 {

@@ -112,17 +112,19 @@ impl KindKernel for OfPair<'_> {
         edges.integrate::<One, Two>(frame, segment, rule);
         let transport = Transport::new::<One, Two>(frame, segment, &moments, &edges);
         let chain = Chain::new(frame, segment);
-        for i in 0..rolled(3) {
-            let (one, mut to) = (transport.one::<One>(&p[i]), Component { to: &mut forces.one, i });
-            chain.nodes::<One::Cell, Two::Cell>(&one, &mut to);
-            let (two, mut to) = (transport.two::<One, Two>(&p[i]), Component { to: &mut forces.two, i });
-            chain.nodes::<One::Cell, Two::Cell>(&two, &mut to);
-        }
+        // The gap first: the rows of multipliers wait for it, the forces do not wait for each other.
         let heights = heights_over(frame, &raised);
+        let along = AlongNormal::new::<L, One, Two>(&chain, &transport.gap::<One, Two>(&heights), weights);
+        for i in 0..rolled(3) {
+            // Both sides before either is chained: sums of one are ready while those of the other are made.
+            let (one, two) = (transport.one::<One>(&p[i]), transport.two::<One, Two>(&p[i]));
+            chain.nodes::<One::Cell, Two::Cell>(&one, &mut Component { to: &mut forces.one, i });
+            chain.nodes::<One::Cell, Two::Cell>(&two, &mut Component { to: &mut forces.two, i });
+        }
         if let Some(raised) = raised {
             chain.nodes::<One::Cell, Two::Cell>(&transport.one::<One>(&ONE), &mut Areas(raised.areas));
         }
-        AlongNormal::new::<L, One, Two>(&chain, &transport.gap::<One, Two>(&heights), weights)
+        along
     }
 }
 
@@ -147,9 +149,10 @@ impl KindKernel for OfWeights<'_> {
         let chain = Chain::new(frame, segment);
         let mut columns = Flat([[L::splat(0.0); 3]; PAIR_NODES]);
         for a in 0..rolled(One::Multiplier::FUNCTIONS) {
-            chain.nodes::<One::Cell, Two::Cell>(&transport.one::<One>(&SHAPES[a]), &mut columns);
+            let (one, two) = (transport.one::<One>(&SHAPES[a]), transport.two::<One, Two>(&SHAPES[a]));
+            chain.nodes::<One::Cell, Two::Cell>(&one, &mut columns);
             to_rows::<L, One::Displacement>(&columns.0, 1.0, &mut derivatives.ab[a]);
-            chain.nodes::<One::Cell, Two::Cell>(&transport.two::<One, Two>(&SHAPES[a]), &mut columns);
+            chain.nodes::<One::Cell, Two::Cell>(&two, &mut columns);
             to_rows::<L, Two::Displacement>(&columns.0, -1.0, &mut derivatives.ac[a]);
         }
         weights.weights::<One, Two>(segment)
