@@ -52,26 +52,14 @@ fn index<I: Index>(value: i64) -> Result<I> {
 }
 
 /// Writes rows and columns of all entries, counted from `base`.
-pub(super) fn write_coo<const N: usize>(
-    plan: &Plan,
-    of: PlanOf<N>,
-    base: i64,
-    rows: *mut i64,
-    columns: *mut i64,
-) -> Result<()> {
+pub(super) fn write_coo(plan: &Plan, of: PlanOf, base: i64, rows: *mut i64, columns: *mut i64) -> Result<()> {
     write_entries(plan, of, base, rows, columns)
 }
 
-fn write_entries<I: Index, const N: usize>(
-    plan: &Plan,
-    of: PlanOf<N>,
-    base: i64,
-    rows: *mut I,
-    columns: *mut I,
-) -> Result<()> {
+fn write_entries<I: Index>(plan: &Plan, of: PlanOf, base: i64, rows: *mut I, columns: *mut I) -> Result<()> {
     let (mut to_rows, mut to_columns) = (raw::Output::new(rows), raw::Output::new(columns));
     let mut equations = plan.rows().0.iter();
-    plan.each_row(of, |of_row| {
+    plan.each_row(of, &mut |of_row| {
         let row = index(equations.next().map_or(0, |row| row + base))?;
         of_row.iter().try_for_each(|&column| {
             to_rows.append(&[row]);
@@ -82,9 +70,9 @@ fn write_entries<I: Index, const N: usize>(
 }
 
 /// The largest number that a plan hands out fits.
-fn refuse_large<I: Index, const N: usize>(plan: &Plan, of: PlanOf<N>, base: i64) -> Result<()> {
+fn refuse_large<I: Index>(plan: &Plan, of: PlanOf, base: i64) -> Result<()> {
     index::<I>(plan.len() as i64 + base)?;
-    plan.each_row(of, |columns| index::<I>(columns[columns.len() - 1] + base).map(|_| ()))?;
+    plan.each_row(of, &mut |columns| index::<I>(columns[columns.len() - 1] + base).map(|_| ()))?;
     plan.rows().0.last().map_or(Ok(()), |row| index::<I>(row + base).map(|_| ()))
 }
 
@@ -102,7 +90,7 @@ fn coo<I: Index>(
     either!(&h.inner, c => {
         let (plan, of) = c.plan(system)?;
         raw::room(capacity, plan.len(), "the entries")?;
-        refuse_large::<I, _>(plan, of, h.base)?;
+        refuse_large::<I>(plan, of, h.base)?;
         write_entries(plan, of, h.base, rows, columns)
     })
 }
@@ -123,13 +111,13 @@ fn csr<I: Index>(
     either!(&h.inner, c => {
         let (plan, of) = c.plan(system)?;
         raw::room(capacity, plan.len(), "the entries")?;
-        refuse_large::<I, _>(plan, of, h.base)?;
+        refuse_large::<I>(plan, of, h.base)?;
         let (equations, offsets) = plan.rows();
         let (mut to_rows, mut to_offsets) = (raw::Output::new(rows), raw::Output::new(row_offsets));
         equations.iter().try_for_each(|row| index(row + h.base).map(|row| to_rows.append(&[row])))?;
         offsets.iter().try_for_each(|at| index(*at as i64 + h.base).map(|at| to_offsets.append(&[at])))?;
         let mut to_columns = raw::Output::new(columns);
-        plan.each_row(of, |of_row| {
+        plan.each_row(of, &mut |of_row| {
             of_row.iter().try_for_each(|column| index(column + h.base).map(|column| to_columns.append(&[column])))
         })
     })

@@ -247,7 +247,7 @@ pub unsafe extern "C" fn stickslip_interface_tangent_csr(
             let (plan, of) = c.plan_here(at, Extent::of(sums))?;
             let (mut places, (equations, _)) = (memory::with_room(entries.len())?, plan.rows());
             let mut row = equations.iter();
-            plan.each_row(of, |columns| {
+            plan.each_row(of, &mut |columns| {
                 let row = *row.next().unwrap_or(&NO_EQUATION);
                 columns.iter().try_for_each(|&column| places.store(csr.place(row, column)?))
             })?;

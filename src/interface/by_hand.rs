@@ -11,7 +11,7 @@ use super::data::surface::{NO_EQUATION, Surface};
 use super::pairing::given::{Given, Step};
 use super::pairing::settle::Pairing;
 use super::pairing::work::Work;
-use super::plan::numbering::{Nodes, Numbering};
+use super::plan::numbering::{Nodes, Numbering, Sides};
 use super::plan::pattern::System;
 use super::plan::whole::Plan;
 use super::stages::commit;
@@ -92,8 +92,9 @@ fn an_evaluation_stage_by_stage() {
     blocks(task, &mut Room::default(), (&mut ByEquations::new(&setup, &mut count), None)).unwrap();
     // 12 x 12 of the forces, 3 x 16 of the multipliers in them, 12 x 12 of the rows, 4 x 9 of the nodes.
     assert_eq!(entries, 372);
-    let numbering = Numbering::of(Nodes::of(&setup)).unwrap();
-    let plan = Plan::new((&setup, &numbering), System::Whole, pairs, (Vec::new(), true), |_| false).unwrap();
+    let numbering = Numbering::of(Nodes::of(Sides::of(&setup))).unwrap();
+    let plan =
+        Plan::new((Sides::of(&setup), &numbering), System::Whole, pairs, (Vec::new(), true), &|_| false).unwrap();
     // The four rows of multipliers have each other as columns, too, of which each has its own alone: no block twice here.
     assert_eq!(plan.len(), 372);
 }

@@ -2,11 +2,10 @@
 
 use super::cache::Cache;
 use super::data::extent::Extent;
-use super::data::setup::Setup;
 use super::pairing::given::Given;
 use super::plan::extras::Extras;
 use super::plan::fill::{FillRoom, Shown};
-use super::plan::numbering::{Nodes, Numbering};
+use super::plan::numbering::{Nodes, Numbering, Sides};
 use super::plan::pattern::System;
 use super::plan::whole::Plan;
 use super::stages::node::is_out_of_reach;
@@ -107,14 +106,14 @@ impl<'a, const N: usize> Here<'a, N> {
 
     /// Makes what the blocks of a tangent at the point of the last answers need, and gives it to `make`; tells what that says
     /// and the seconds that it took. `scales`: factors of the nodes' rows, in place of their own.
-    pub fn linearise<T>(
+    pub fn linearise(
         self,
         (x1, x2): Positions,
         lambda: &[SVector<f64, N>],
         (extent, scales): (Extent, Option<&[f64]>),
         work: Work<N>,
-        make: impl FnOnce(Task<N>, &mut [ThreadRoom<N>]) -> Result<T>,
-    ) -> Result<(T, f64)> {
+        make: &mut dyn FnMut(Task<N>, &mut [ThreadRoom<N>]) -> Result<i64>,
+    ) -> Result<(i64, f64)> {
         let start = Instant::now();
         let (given, options) = (self.given, &self.given.setup.options);
         let (mortar, differentiates) = (&given.setup.mortar, options.differentiates_weights());
@@ -153,7 +152,7 @@ impl<'a, const N: usize> Here<'a, N> {
         if !carries && !is_coupled(given) && !given.setup.options.follows_normals() {
             return Ok(Default::default());
         }
-        let nodes = Nodes::of(given.setup);
+        let nodes = Nodes::of(Sides::of(given.setup));
         let (mut taker, mut constraints) = (Extras::new(given.setup), Extras::new(given.setup));
         let normals = memory::filled(Vec3::zeros(), given.nodes())?;
         let task = Task { given, normals: &normals, pairs, extent, numbers: None };
@@ -177,7 +176,7 @@ impl<'a, const N: usize> Here<'a, N> {
     ) -> Result<[Plan; S]> {
         let given = self.given;
         if numbering.is_none() {
-            *numbering = Some(Numbering::of(Nodes::of(given.setup))?);
+            *numbering = Some(Numbering::of(Nodes::of(Sides::of(given.setup)))?);
         }
         let Some(numbering) = numbering else { return Err(no_plan()) };
         let mut extras = self.extras(pairs, extent, systems[0] == System::Whole)?.into_iter();
@@ -187,7 +186,7 @@ impl<'a, const N: usize> Here<'a, N> {
         let mut plans = [const { None }; S];
         for (plan, system) in plans.iter_mut().zip(systems) {
             let extras = extras.next().unwrap_or_default();
-            *plan = Some(Plan::new((given.setup, numbering), system, pairs, (extras, alone), is_diagonal)?);
+            *plan = Some(Plan::new((Sides::of(given.setup), numbering), system, pairs, (extras, alone), &is_diagonal)?);
         }
         Ok(plans.map(|plan| plan.expect("each was made")))
     }
@@ -204,13 +203,13 @@ impl<'a, const N: usize> Here<'a, N> {
         constraints: Option<(&Plan, &mut [f64])>,
     ) -> Result<(i64, f64)> {
         let Some(numbering) = numbering else { return Err(no_plan()) };
-        let belongs = (self.given.setup, numbering);
+        let belongs = (Sides::of(self.given.setup), numbering);
         let mut table = plan.table(values, first)?;
         let mut other = match constraints {
             Some((plan, values)) => Some((plan, plan.table(values, second)?)),
             None => None,
         };
-        let make = |task: Task<N>, rooms: &mut [ThreadRoom<N>]| {
+        let mut make = |task: Task<N>, rooms: &mut [ThreadRoom<N>]| {
             rooms.iter_mut().for_each(ThreadRoom::begin);
             let is_coupled = is_coupled(task.given);
             NodeCouplings::renew(kept_couplings, if is_coupled { task.given.nodes() } else { 0 })?;
@@ -255,7 +254,7 @@ impl<'a, const N: usize> Here<'a, N> {
             rooms.iter().try_for_each(|room| check(room.shown))?;
             Ok(rooms.iter().map(|room| room.linearised).sum())
         };
-        let made = self.linearise(x, lambda, of, work, make)?;
+        let made = self.linearise(x, lambda, of, work, &mut make)?;
         plan.finish(&mut table);
         if let Some((plan, mut table)) = other {
             plan.finish(&mut table);
@@ -293,7 +292,7 @@ pub struct Work<'a, const N: usize> {
 }
 
 /// What plans belong to: the interface, and the order of its nodes.
-pub type PlanOf<'a, const N: usize> = (&'a Setup<N>, &'a Numbering);
+pub type PlanOf<'a> = (Sides<'a>, &'a Numbering);
 
 pub fn no_plan() -> Error {
     Error::new(

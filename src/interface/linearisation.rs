@@ -6,6 +6,7 @@ use super::data::extent::Extent;
 use super::data::options::Form;
 use super::linear::{AtPoint, Here, Linear, PlanOf, PlanPairs, Positions, ThreadRoom, Work, no_plan};
 use super::pairing::given::Given;
+use super::plan::numbering::Sides;
 use super::plan::pattern::System;
 use super::plan::whole::Plan;
 use super::stages::sums::NodeSums;
@@ -48,8 +49,12 @@ impl<const N: usize> Contact<N> {
         let mut taker = ByEquations::new(&self.setup, sink);
         let mut constraints = constraints.map(|sink| ByEquations::new(&self.setup, sink));
         let takers: Takers<N> = (&mut taker, constraints.as_mut().map(|taker| taker as _));
-        let make = |task: Task<N>, rooms: &mut [ThreadRoom<N>]| blocks(task, &mut rooms[0].room, takers);
-        let cost = here.linearise(x, lambda, (extent, scales), Work { rooms, normals, nodes, turns }, make)?;
+        let mut takers = Some(takers);
+        let mut make = |task: Task<N>, rooms: &mut [ThreadRoom<N>]| match takers.take() {
+            Some(takers) => blocks(task, &mut rooms[0].room, takers),
+            None => Ok(0),
+        };
+        let cost = here.linearise(x, lambda, (extent, scales), Work { rooms, normals, nodes, turns }, &mut make)?;
         self.count(cost);
         Ok(())
     }
@@ -125,7 +130,7 @@ impl<const N: usize> Contact<N> {
     ///
     /// # Errors
     /// [`Kind::InvalidValue`]: there is none.
-    pub fn plan(&self, system: System) -> Result<(&Plan, PlanOf<'_, N>)> {
+    pub fn plan(&self, system: System) -> Result<(&Plan, PlanOf<'_>)> {
         let condensed = self.linear.condensed.as_ref();
         self.with_numbering(match system {
             System::Whole => self.linear.plan.as_ref(),
@@ -134,9 +139,9 @@ impl<const N: usize> Contact<N> {
         })
     }
 
-    fn with_numbering<'a>(&'a self, plan: Option<&'a Plan>) -> Result<(&'a Plan, PlanOf<'a, N>)> {
+    fn with_numbering<'a>(&'a self, plan: Option<&'a Plan>) -> Result<(&'a Plan, PlanOf<'a>)> {
         match (plan, &self.linear.numbering) {
-            (Some(plan), Some(numbering)) => Ok((plan, (&self.setup, numbering))),
+            (Some(plan), Some(numbering)) => Ok((plan, (Sides::of(&self.setup), numbering))),
             _ => Err(no_plan()),
         }
     }
@@ -159,7 +164,7 @@ impl<const N: usize> Contact<N> {
     }
 
     /// The plan of all pairs that there may be near x, for those who ask for its entries alone.
-    pub fn possible_plan(&mut self, x: Positions) -> Result<(&Plan, PlanOf<'_, N>)> {
+    pub fn possible_plan(&mut self, x: Positions) -> Result<(&Plan, PlanOf<'_>)> {
         self.given().check_positions(x.0, x.1)?;
         let pairs = self.possible_pairs(x)?;
         let pairs = Pairs::Possible(&pairs);
@@ -175,7 +180,7 @@ impl<const N: usize> Contact<N> {
     }
 
     /// The plan of the tangent at these positions alone, for those who ask for its entries in each evaluation.
-    pub fn plan_here(&mut self, x: Positions, extent: Extent) -> Result<(&Plan, PlanOf<'_, N>)> {
+    pub fn plan_here(&mut self, x: Positions, extent: Extent) -> Result<(&Plan, PlanOf<'_>)> {
         self.given().check_positions(x.0, x.1)?;
         self.cache.integrate(&self.setup, &mut self.step, x, extent)?;
         let key = self.here().pairs().checksum(extent == Extent::Whole);

@@ -14,10 +14,10 @@ use stickslip::interface::{
 /// Sums of a few dozen terms in another order, over the largest entry.
 const ROUNDING: f64 = 1e-14;
 
-fn entries<const N: usize>((plan, of): (&Plan, PlanOf<N>)) -> Vec<(i64, i64)> {
+fn entries((plan, of): (&Plan, PlanOf)) -> Vec<(i64, i64)> {
     let (rows, offsets) = plan.rows();
     let (mut entries, mut k) = (Vec::new(), 0);
-    plan.each_row(of, |columns| {
+    plan.each_row(of, &mut |columns| {
         assert_eq!(offsets[k + 1] - offsets[k], columns.len());
         entries.extend(columns.iter().map(|&column| (rows[k], column)));
         k += 1;

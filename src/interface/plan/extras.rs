@@ -1,7 +1,7 @@
 //! Blocks of a tangent that are not those of facets and pairs: of carried nodes, of normals that follow the motion, of forces
 //! that use the projected traction. What takes them here notes which there are.
 
-use super::numbering::Nodes;
+use super::numbering::{Nodes, Sides};
 use crate::error::Error;
 use crate::geometry::Vec3;
 use crate::interface::data::setup::Setup;
@@ -57,7 +57,7 @@ impl<const N: usize> Blocks<N> for Extras<'_, N> {
     fn diagonal(&mut self, _a: usize, _values: &[f64]) {}
 
     fn node(&mut self, row: Place, column: Place, _values: &[f64]) {
-        let nodes = Nodes::of(self.setup);
+        let nodes = Nodes::of(Sides::of(self.setup));
         if let Err(error) = self.blocks.store((nodes.number(row) as u32, nodes.number(column) as u32)) {
             self.refused.get_or_insert(error);
         }

@@ -3,13 +3,12 @@
 //! Rows are set to 0 when the first block of them comes: the array of entries is larger than any cache, and would otherwise pass
 //! through it once more. Rows that no block came for are set to 0 at the end.
 
-use super::numbering::{NO_RANK, SCALARS};
+use super::numbering::{NO_RANK, SCALARS, Sides};
 use super::places::{Layout, NOWHERE, NodeRows, Places};
 use super::scatter::{LACKS, MortarOffsets, SKIP, Scatter};
 use crate::dual::Columns;
 use crate::error::Result;
 use crate::geometry::Vec3;
-use crate::interface::data::setup::Setup;
 use crate::interface::tangent::emission::{Blocks, MortarBlock, Place, Span};
 use crate::memory;
 use crate::shape::{MAX_CORNERS, MAX_NODES};
@@ -99,8 +98,8 @@ impl Shown {
 
 /// Takes blocks of one chunk and adds them to the entries of a plan.
 pub struct Fill<'a, const N: usize> {
-    setup: &'a Setup<N>,
-    layout: Layout<'a, N>,
+    setup: Sides<'a>,
+    layout: Layout<'a>,
     places: &'a Places,
     scatter: Option<&'a Scatter>,
     hand: Hand<'a>,
@@ -140,8 +139,8 @@ struct State {
 impl<'a, const N: usize> Fill<'a, N> {
     /// With this hand.
     pub fn new(
-        setup: &'a Setup<N>,
-        layout: Layout<'a, N>,
+        setup: Sides<'a>,
+        layout: Layout<'a>,
         (places, scatter): (&'a Places, Option<&'a Scatter>),
         hand: Hand<'a>,
     ) -> Self {

@@ -5,8 +5,9 @@
 //! node has any of them. The entries of plain nodes stand side by side in a row, and their rows one after the other.
 
 use crate::error::{Error, Kind, Result};
+use crate::interface::data::options::Options;
 use crate::interface::data::setup::Setup;
-use crate::interface::data::surface::{NO_EQUATION, node_equations};
+use crate::interface::data::surface::{NO_EQUATION, Surface, node_equations};
 use crate::interface::tangent::emission::Place;
 use crate::memory::{self, Store, Stored};
 
@@ -17,15 +18,49 @@ pub const NO_RANK: u32 = u32::MAX;
 /// Nodes at most: a rank and the kind of its node have to fit into 32 bits.
 const MOST_NODES: usize = 1 << 30;
 
-/// The nodes of an interface with N multipliers a node.
+/// What a plan must know of an interface, however many multipliers a node has.
 #[derive(Clone, Copy, Debug)]
-pub struct Nodes<'a, const N: usize> {
-    setup: &'a Setup<N>,
+pub struct Sides<'a> {
+    /// The side with the multipliers.
+    pub nonmortar: &'a Surface,
+    /// The other side.
+    pub mortar: &'a Surface,
+    /// The multipliers' equations, node by node.
+    multipliers: &'a [i64],
+    /// Multipliers of a node.
+    pub components: usize,
+    /// The choices.
+    pub options: &'a Options,
+    /// Whether the mortar side has rows and columns.
+    pub moves: bool,
+    /// Which nodes add their own block.
+    pub owned: &'a [bool],
 }
 
-impl<'a, const N: usize> Nodes<'a, N> {
+impl<'a> Sides<'a> {
     /// Of this interface.
-    pub fn of(setup: &'a Setup<N>) -> Nodes<'a, N> {
+    pub fn of<const N: usize>(setup: &'a Setup<N>) -> Sides<'a> {
+        Sides {
+            nonmortar: &setup.nonmortar,
+            mortar: &setup.mortar,
+            multipliers: setup.multiplier_equations.as_flattened(),
+            components: N,
+            options: &setup.options,
+            moves: setup.effects.moves(),
+            owned: &setup.nodes.owned,
+        }
+    }
+}
+
+/// The nodes of an interface.
+#[derive(Clone, Copy, Debug)]
+pub struct Nodes<'a> {
+    setup: Sides<'a>,
+}
+
+impl<'a> Nodes<'a> {
+    /// Of this interface.
+    pub fn of(setup: Sides<'a>) -> Nodes<'a> {
         Nodes { setup }
     }
 
@@ -60,8 +95,8 @@ impl<'a, const N: usize> Nodes<'a, N> {
     /// Its equations.
     pub fn equations(self, node: usize) -> &'a [i64] {
         match node.checked_sub(self.multiplier(0)) {
-            Some(a) => &self.setup.multiplier_equations[a],
-            None => node_equations(self.setup.surfaces(), node),
+            Some(a) => &self.setup.multipliers[self.setup.components * a..self.setup.components * (a + 1)],
+            None => node_equations((self.setup.nonmortar, self.setup.mortar), node),
         }
     }
 }
@@ -87,7 +122,7 @@ impl Numbering {
     }
 
     /// Of an interface.
-    pub fn of<const N: usize>(nodes: Nodes<N>) -> Result<Numbering> {
+    pub fn of(nodes: Nodes) -> Result<Numbering> {
         if nodes.len() > MOST_NODES {
             let text = text!("{} nodes of both sides; a plan holds {MOST_NODES} at most", nodes.len());
             return Err(Error::new(Kind::Unsupported, text));
@@ -98,7 +133,7 @@ impl Numbering {
                 equations.store((equation, (SCALARS * node + i) as u32))?;
             }
         }
-        equations.sort_unstable();
+        memory::sort(&mut equations)?;
         let mut numbering = Numbering {
             rank: memory::filled(NO_RANK, nodes.len())?,
             node: memory::with_room(nodes.len())?,

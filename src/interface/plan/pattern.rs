@@ -1,10 +1,9 @@
 //! Which blocks the rows of each node have: the nodes of their columns, by rank. Of the pairs of a plan and what else couples
 //! nodes (`extras.rs`).
 
-use super::numbering::{NO_RANK, Nodes, Numbering};
+use super::numbering::{NO_RANK, Nodes, Numbering, Sides};
 use crate::error::Result;
 use crate::interface::data::options::{Form, MultiplierBasis};
-use crate::interface::data::setup::Setup;
 use crate::interface::tangent::union::{Pairs, UnionPair, Walk};
 use crate::memory::{self, Store};
 
@@ -37,11 +36,11 @@ pub struct FacetPairs {
 
 impl FacetPairs {
     /// Those of a walk.
-    pub fn of<const N: usize>(setup: &Setup<N>, pairs: Pairs) -> Result<FacetPairs> {
+    pub fn of(setup: Sides, pairs: Pairs) -> Result<FacetPairs> {
         let facets = setup.nonmortar.facets.len();
         let mut all = FacetPairs::default();
         let (mut walk, mut of_facet, mut nodes) = (Walk::through(pairs, 0..facets), Vec::new(), Vec::new());
-        let moves = setup.effects.moves();
+        let moves = setup.moves;
         let close = |all: &mut FacetPairs, facet: usize| -> Result<()> {
             while all.first.len() <= facet {
                 all.first.store(all.two.len())?;
@@ -57,13 +56,13 @@ impl FacetPairs {
             for &UnionPair { two, is_active, .. } in &of_facet {
                 all.two.store((two as u32, is_active))?;
                 let facet = &setup.mortar.facets[two];
-                // Active ones first among equals.
-                let of_pair = facet.as_slice().iter().map(|&node| (node as u32, !is_active));
+                // Twice the number, and 1 where the pair is idle: active ones come first among equals.
+                let of_pair = facet.as_slice().iter().map(|&node| 2 * node as u32 + u32::from(!is_active));
                 nodes.store_all(of_pair.take(if moves { facet.len } else { 0 }))?;
             }
             nodes.sort_unstable();
-            nodes.dedup_by_key(|node| node.0);
-            all.nodes.store_all(nodes.iter().map(|&(node, idle)| (node, !idle)))?;
+            nodes.dedup_by_key(|node| *node / 2);
+            all.nodes.store_all(nodes.iter().map(|&node| (node / 2, node % 2 == 0)))?;
         }
         close(&mut all, facets)?;
         Ok(all)
@@ -134,13 +133,13 @@ pub struct Neighbours {
 }
 
 /// What finds the columns of the rows of each node.
-pub struct Finder<'a, const N: usize> {
-    setup: &'a Setup<N>,
+pub struct Finder<'a> {
+    setup: Sides<'a>,
     system: System,
     numbering: &'a Numbering,
     pairs: &'a FacetPairs,
     pub neighbours: Neighbours,
-    nodes: Nodes<'a, N>,
+    nodes: Nodes<'a>,
     /// Whether a facet of dual multipliers couples its mortar nodes.
     pub couples: bool,
     has_forces: bool,
@@ -150,13 +149,13 @@ pub struct Finder<'a, const N: usize> {
     search: u32,
 }
 
-impl<'a, const N: usize> Finder<'a, N> {
+impl<'a> Finder<'a> {
     /// Of the rows of these pairs.
-    pub fn new(setup: &'a Setup<N>, system: System, numbering: &'a Numbering, pairs: &'a FacetPairs) -> Result<Self> {
+    pub fn new(setup: Sides<'a>, system: System, numbering: &'a Numbering, pairs: &'a FacetPairs) -> Result<Self> {
         let (nodes, one, two) = (Nodes::of(setup), &setup.nonmortar, &setup.mortar);
         let has_forces = setup.options.differentiates_weights() && system != System::Constraints;
         let has_multipliers = system == System::Whole && setup.options.form == Form::Multiplier;
-        let couples = has_forces && setup.options.basis == MultiplierBasis::Dual && setup.effects.moves();
+        let couples = has_forces && setup.options.basis == MultiplierBasis::Dual && setup.moves;
         let facets = one.facets.len();
         let around = Lists::of(one.len(), |give| {
             for f in (0..facets).filter(|&f| !pairs.pairs(f).is_empty()) {
@@ -166,7 +165,7 @@ impl<'a, const N: usize> Finder<'a, N> {
         let below = Lists::of(two.len(), |give| {
             (0..facets).for_each(|f| pairs.mortar_nodes(f).iter().for_each(|n| give(n.0 as usize, f as u32)));
         })?;
-        let mortar = setup.effects.moves() && has_forces && !couples;
+        let mortar = setup.moves && has_forces && !couples;
         let mut paired = memory::filled(false, if mortar { two.facets.len() } else { 0 })?;
         pairs.two.iter().filter(|pair| pair.1 && mortar).for_each(|pair| paired[pair.0 as usize] = true);
         let beside = Lists::of(two.len(), |give| {
@@ -204,7 +203,7 @@ impl<'a, const N: usize> Finder<'a, N> {
             self.row(node, keys)?;
         } else if self.nodes.is_multiplier(node) && self.system == System::Whole {
             let a = node - self.nodes.multiplier(0);
-            if self.setup.nodes.owned[a] {
+            if self.setup.owned[a] {
                 self.add(node, keys)?;
             }
             self.row(a, keys)?;

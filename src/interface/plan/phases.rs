@@ -1,9 +1,9 @@
 //! Facets in chunks, and chunks in phases: those of a phase have no rows in common, so that threads may add their blocks at
 //! the same time. The order in which blocks are added up is that of phases and chunks, however many threads there are.
 
+use super::numbering::Sides;
 use super::pattern::FacetPairs;
 use crate::error::Result;
-use crate::interface::data::setup::Setup;
 use crate::memory::{self, Store};
 use std::ops::Range;
 
@@ -14,7 +14,7 @@ const LEAST_FACETS: usize = 1024;
 
 /// The phases of these pairs, each with its chunks of facets; `alone`: whether facets add to rows of their own nodes alone. If
 /// not there is one chunk.
-pub fn of<const N: usize>(setup: &Setup<N>, pairs: &FacetPairs, alone: bool) -> Result<Vec<Vec<Range<usize>>>> {
+pub fn of(setup: Sides, pairs: &FacetPairs, alone: bool) -> Result<Vec<Vec<Range<usize>>>> {
     let (one, facets) = (&setup.nonmortar, setup.nonmortar.facets.len());
     let size = if alone { LEAST_FACETS.max(facets.div_ceil(MOST_CHUNKS)) } else { facets };
     // Per node the phases that have its rows.

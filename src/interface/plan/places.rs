@@ -5,11 +5,10 @@
 //! rows are direct. All others (an equation is prescribed, or shared by two nodes, or the numbering goes component by
 //! component) are laid out in the same way beside the entries, as if all equations existed, and go from there to the entries.
 
-use super::numbering::{NO_RANK, Nodes, Numbering, SCALARS};
+use super::numbering::{NO_RANK, Nodes, Numbering, SCALARS, Sides};
 use super::pattern::{Key, Lists};
 use crate::error::Result;
 use crate::interface::data::options::Form;
-use crate::interface::data::setup::Setup;
 use crate::interface::data::surface::NO_EQUATION;
 use crate::memory::{self, Store};
 use crate::threads::Parts;
@@ -48,10 +47,10 @@ pub struct Widths {
 
 impl Widths {
     /// In plans of this interface.
-    pub fn of<const N: usize>(setup: &Setup<N>) -> Widths {
+    pub fn of(setup: Sides) -> Widths {
         // n I: component i in row i alone.
-        let force = if setup.options.form == Form::Multiplier { 1 } else { N as u32 };
-        Widths { multiplier: N as u32, force }
+        let force = if setup.options.form == Form::Multiplier { 1 } else { setup.components as u32 };
+        Widths { multiplier: setup.components as u32, force }
     }
 
     /// Of a column in the rows of a node; `own`: its block with itself.
@@ -83,14 +82,14 @@ pub struct Places {
 }
 
 /// What the layout of a row follows from.
-pub struct Layout<'a, const N: usize> {
-    pub nodes: Nodes<'a, N>,
+pub struct Layout<'a> {
+    pub nodes: Nodes<'a>,
     pub numbering: &'a Numbering,
     pub columns: &'a Lists,
     pub widths: Widths,
 }
 
-impl<const N: usize> Layout<'_, N> {
+impl Layout<'_> {
     fn own(&self, node: usize, is_diagonal: bool) -> Option<(Key, bool)> {
         let rank = Some(self.numbering.rank[node]).filter(|rank| *rank != NO_RANK)?;
         Some((2 * rank + u32::from(self.nodes.is_multiplier(node)), is_diagonal))
@@ -132,7 +131,7 @@ impl<const N: usize> Layout<'_, N> {
     }
 
     /// The columns of one row in equations, with their places in a layout that has all.
-    fn row(&self, node: usize, i: usize, rows: &NodeRows, mut give: impl FnMut(i64, u32) -> Result<()>) -> Result<()> {
+    fn row(&self, node: usize, i: usize, rows: &NodeRows, give: &mut dyn FnMut(i64, u32) -> Result<()>) -> Result<()> {
         let mut outcome = Ok(());
         self.each_offset(node, rows.is_diagonal, self.columns.get(node), |column, offset, _| {
             let equations = self.nodes.equations(column);
@@ -151,16 +150,11 @@ impl<const N: usize> Layout<'_, N> {
         columns.clear();
         for &scalar in scalars {
             let (node, i) = (scalar as usize / SCALARS, scalar as usize % SCALARS);
-            self.row(
-                node,
-                i,
-                &rows[node],
-                |equation, _| {
-                    if equation != NO_EQUATION { columns.store(equation) } else { Ok(()) }
-                },
-            )?;
+            self.row(node, i, &rows[node], &mut |equation, _| {
+                if equation != NO_EQUATION { columns.store(equation) } else { Ok(()) }
+            })?;
         }
-        columns.sort_unstable();
+        memory::sort(columns)?;
         columns.dedup();
         Ok(())
     }
@@ -175,7 +169,7 @@ impl<const N: usize> Layout<'_, N> {
     }
 
     /// The places of all rows; `is_diagonal`: of which non-mortar nodes the multiplier's block with itself is a diagonal.
-    pub fn places(&self, is_diagonal: impl Fn(usize) -> bool) -> Result<Places> {
+    pub fn places(&self, is_diagonal: &dyn Fn(usize) -> bool) -> Result<Places> {
         let nodes = self.nodes;
         let mut p = Places { rows: memory::filled(NodeRows::default(), nodes.len())?, ..Places::default() };
         let (mut beside, mut starts) = (0, memory::filled(0, nodes.len())?);
@@ -216,7 +210,7 @@ impl<const N: usize> Layout<'_, N> {
                     let (node, i) = (scalar as usize / SCALARS, scalar as usize % SCALARS);
                     let rows = &p.rows[node];
                     let (start, to) = (starts[node] + i * rows.len as usize, &mut p.beside);
-                    self.row(node, i, rows, |equation, offset| {
+                    self.row(node, i, rows, &mut |equation, offset| {
                         if let Ok(k) = columns.binary_search(&equation) {
                             to[start + offset as usize] = before + k;
                         }
@@ -240,13 +234,13 @@ impl<const N: usize> Layout<'_, N> {
     }
 
     /// Gives the columns of every row that has entries, row by row.
-    pub fn each_row(&self, p: &Places, mut give: impl FnMut(&[i64]) -> Result<()>) -> Result<()> {
+    pub fn each_row(&self, p: &Places, give: &mut dyn FnMut(&[i64]) -> Result<()>) -> Result<()> {
         let mut columns = Vec::new();
         for scalars in self.groups() {
             let (node, i) = (scalars[0] as usize / SCALARS, scalars[0] as usize % SCALARS);
             if p.rows[node].is_direct {
                 columns.clear();
-                self.row(node, i, &p.rows[node], |equation, _| columns.store(equation))?;
+                self.row(node, i, &p.rows[node], &mut |equation, _| columns.store(equation))?;
             } else {
                 self.equation_columns(scalars, &p.rows, &mut columns)?;
             }

@@ -1,10 +1,9 @@
 //! Where the blocks of facets and pairs begin within the rows of their nodes: 16 bits each, so that nothing is searched for
 //! while values are added. Per facet and per mortar node of it, and per mortar facet for what its nodes have among each other.
 
-use super::numbering::{NO_RANK, Nodes, Numbering};
+use super::numbering::{NO_RANK, Nodes, Numbering, Sides};
 use super::pattern::{FacetPairs, Finder};
 use crate::error::Result;
-use crate::interface::data::setup::Setup;
 use crate::memory::{self, Stored};
 use crate::shape::MAX_NODES;
 
@@ -58,7 +57,7 @@ pub struct Scatter {
 
 impl Scatter {
     /// With room for the offsets of these pairs.
-    pub fn of<const N: usize>(setup: &Setup<N>, pairs: &FacetPairs, couples: bool, among: bool) -> Result<Scatter> {
+    pub fn of(setup: Sides, pairs: &FacetPairs, couples: bool, among: bool) -> Result<Scatter> {
         let nothing = [[SKIP; MAX_NODES]; MAX_NODES];
         let own = OwnOffsets { forces: nothing, multipliers: nothing, rows: nothing };
         let nothing = [SKIP; MAX_NODES];
@@ -117,14 +116,7 @@ impl Scatter {
     }
 
     /// Takes the rows of a node, whose columns were found last; `at`: the offset of each node met.
-    pub fn take<const N: usize>(
-        &mut self,
-        setup: &Setup<N>,
-        node: usize,
-        numbering: &Numbering,
-        finder: &Finder<N>,
-        at: &[u16],
-    ) {
+    pub fn take(&mut self, setup: Sides, node: usize, numbering: &Numbering, finder: &Finder, at: &[u16]) {
         if numbering.rank[node] == NO_RANK {
             return;
         }

@@ -1,13 +1,12 @@
 //! A plan: made of pairs, asked for its entries, filled with values.
 
 use super::fill::{Fill, FillRoom, finish};
-use super::numbering::{Nodes, Numbering};
+use super::numbering::{Nodes, Numbering, Sides};
 use super::pattern::{FacetPairs, Finder, Lists, System};
 use super::phases;
 use super::places::{Layout, Places, Widths};
 use super::scatter::{SKIP, Scatter};
 use crate::error::{Error, Kind, Result};
-use crate::interface::data::setup::Setup;
 use crate::interface::tangent::union::Pairs;
 use crate::memory::{self, Store};
 use crate::threads::{Hand, Table};
@@ -27,19 +26,19 @@ pub struct Plan {
 
 impl Plan {
     /// Of these pairs and further blocks, and whether those of facets are in rows of their own nodes alone; `is_diagonal`: of which nodes the multiplier's block with itself is a diagonal.
-    pub fn new<const N: usize>(
-        (setup, numbering): (&Setup<N>, &Numbering),
+    pub fn new(
+        (setup, numbering): (Sides, &Numbering),
         system: System,
         pairs: Pairs,
         (mut extras, alone): (Vec<(u32, u32)>, bool),
-        is_diagonal: impl Fn(usize) -> bool,
+        is_diagonal: &dyn Fn(usize) -> bool,
     ) -> Result<Plan> {
         let nodes = Nodes::of(setup);
-        extras.sort_unstable();
+        memory::sort(&mut extras)?;
         extras.dedup();
         let (pairs, mut rest) = (FacetPairs::of(setup, pairs)?, &extras[..]);
         let mut finder = Finder::new(setup, system, numbering, &pairs)?;
-        let among = system != System::Constraints && !finder.couples && setup.effects.moves();
+        let among = system != System::Constraints && !finder.couples && setup.moves;
         let mut scatter = Some(Scatter::of(setup, &pairs, finder.couples, among)?);
         let widths = Widths::of(setup);
         let mut columns = Lists { first: memory::with_room(nodes.len() + 1)?, all: Vec::new() };
@@ -86,15 +85,15 @@ impl Plan {
     }
 
     /// Gives the columns of each of these rows, ascending.
-    pub fn each_row<const N: usize>(
+    pub fn each_row(
         &self,
-        (setup, numbering): (&Setup<N>, &Numbering),
-        give: impl FnMut(&[i64]) -> Result<()>,
+        (setup, numbering): (Sides, &Numbering),
+        give: &mut dyn FnMut(&[i64]) -> Result<()>,
     ) -> Result<()> {
         self.layout((setup, numbering)).each_row(&self.places, give)
     }
 
-    fn layout<'a, const N: usize>(&'a self, (setup, numbering): (&'a Setup<N>, &'a Numbering)) -> Layout<'a, N> {
+    fn layout<'a>(&'a self, (setup, numbering): (Sides<'a>, &'a Numbering)) -> Layout<'a> {
         Layout { nodes: Nodes::of(setup), numbering, columns: &self.columns, widths: self.widths }
     }
 
@@ -116,7 +115,7 @@ impl Plan {
     /// What takes the blocks of a chunk and adds them to what the hand is of.
     pub fn fill<'a, const N: usize>(
         &'a self,
-        (setup, numbering): (&'a Setup<N>, &'a Numbering),
+        (setup, numbering): (Sides<'a>, &'a Numbering),
         hand: Hand<'a>,
     ) -> Fill<'a, N> {
         Fill::new(setup, self.layout((setup, numbering)), (&self.places, self.scatter.as_ref()), hand)

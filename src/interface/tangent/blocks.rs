@@ -214,21 +214,6 @@ pub fn of_facets<const N: usize>(
     task: Task<N>,
     facets: Range<usize>,
     room: &mut Room<N>,
-    couplings: Option<&mut [NodeCouplings]>,
-    emitter: &mut Emitter<N>,
-) -> Result<i64> {
-    if task.given.setup.effects.moves() {
-        moving_or_not::<true, N>(task, facets, room, couplings, emitter)
-    } else {
-        moving_or_not::<false, N>(task, facets, room, couplings, emitter)
-    }
-}
-
-/// The same, `MOVES`: with rows and columns of the mortar side.
-fn moving_or_not<const MOVES: bool, const N: usize>(
-    task: Task<N>,
-    facets: Range<usize>,
-    room: &mut Room<N>,
     mut couplings: Option<&mut [NodeCouplings]>,
     emitter: &mut Emitter<N>,
 ) -> Result<i64> {
@@ -236,27 +221,27 @@ fn moving_or_not<const MOVES: bool, const N: usize>(
     let mut pairs = std::mem::take(&mut room.pairs);
     while let Some(f) = walk.next(&mut pairs)? {
         emitter.begin(f);
-        linearised += of_facet::<MOVES, N>(task, &pairs, room, couplings.as_deref_mut(), emitter)?;
+        linearised += of_facet(task, &pairs, room, couplings.as_deref_mut(), emitter)?;
     }
     room.pairs = pairs;
     Ok(linearised)
 }
 
 /// The blocks of the pairs of a facet.
-fn of_facet<const MOVES: bool, const N: usize>(
+fn of_facet<const N: usize>(
     Task { given, normals, pairs: all, numbers, .. }: Task<N>,
     pairs: &[UnionPair],
     Room { pair: t, facet, share: room, mortar, overlaps, .. }: &mut Room<N>,
     mut couplings: Option<&mut [NodeCouplings]>,
     emitter: &mut Emitter<N>,
 ) -> Result<i64> {
-    let options = &given.setup.options;
+    let (options, moves) = (&given.setup.options, given.setup.effects.moves());
     let mut linearised = 0;
     // With a mortar side at rest all of it is linear in the weights of a facet's pairs; carried nodes and points in place
     // of overlaps take them one by one.
     let is_dual = options.basis == MultiplierBasis::Dual && options.differentiates_weights();
     let together =
-        !MOVES && !is_dual && given.step.pairing.carriers.is_empty() && matches!(options.scheme, Scheme::Segments);
+        !moves && !is_dual && given.step.pairing.carriers.is_empty() && matches!(options.scheme, Scheme::Segments);
     let carried_nodes = numbers.map(Numbers::carried);
     let turns = numbers.and_then(|n| n.turns.as_ref());
     let f = pairs[0].one;
@@ -272,7 +257,7 @@ fn of_facet<const MOVES: bool, const N: usize>(
         (Some(dual), Some(nodes)) => dual.motion(overlaps.frame(), &nodes.traction),
         _ => None,
     };
-    if MOVES && is_dual {
+    if moves && is_dual {
         mortar.begin(one, &given.setup.mortar, pairs)?;
     }
     for (place, pairs) in pairs.chunks(if together { pairs.len() } else { 1 }).enumerate() {
@@ -283,7 +268,7 @@ fn of_facet<const MOVES: bool, const N: usize>(
             gap = if let Some(dual) = &dual {
                 let pair = (&pairs[0], dual, motion.as_ref());
                 let gap = numbers.dual_share(given, pair, (overlaps, places.start), t, room)?;
-                if let (true, true, Some(active)) = (MOVES, gap.is_some(), numbers.active) {
+                if let (true, true, Some(active)) = (moves, gap.is_some(), numbers.active) {
                     let two = &given.setup.mortar.facets[pairs[0].two];
                     mortar.add(two, active.integrated(pairs[0].place), &room.tractions, &t.forces);
                 }
@@ -295,7 +280,10 @@ fn of_facet<const MOVES: bool, const N: usize>(
         }
         let now = now.as_deref().map(|weights| PairNow { weights, gap: gap.as_ref() });
         if let Some(nodes) = &facet_nodes {
-            row_columns::<MOVES, N>(now.as_ref(), previous, nodes, &mut t.rows);
+            match moves {
+                true => row_columns::<true, N>(now.as_ref(), previous, nodes, &mut t.rows),
+                false => row_columns::<false, N>(now.as_ref(), previous, nodes, &mut t.rows),
+            }
         }
         if together {
             if let Some(turns) = turns {
@@ -306,12 +294,19 @@ fn of_facet<const MOVES: bool, const N: usize>(
         } else {
             facet.add(place == 0, now.as_ref(), t);
         }
-        if MOVES {
+        if moves {
             emitter.pair(&pairs[0], all.now(&pairs[0]), t);
         }
-        carried_tangent::rows::<MOVES, N>((&pairs[0], previous), now.as_ref(), carried_nodes, emitter);
+        match moves {
+            true => carried_tangent::rows::<true, N>((&pairs[0], previous), now.as_ref(), carried_nodes, emitter),
+            false => carried_tangent::rows::<false, N>((&pairs[0], previous), now.as_ref(), carried_nodes, emitter),
+        }
         if let Some(couplings) = &mut couplings {
-            couple::<MOVES, N>((given, normals), (&pairs[0], now.as_ref(), previous), numbers, couplings)?;
+            let pair = (&pairs[0], now.as_ref(), previous);
+            match moves {
+                true => couple::<true, N>((given, normals), pair, numbers, couplings)?,
+                false => couple::<false, N>((given, normals), pair, numbers, couplings)?,
+            }
         }
     }
     if !together {
@@ -320,7 +315,7 @@ fn of_facet<const MOVES: bool, const N: usize>(
         }
         emitter.facet(f, facet.now(), &facet.rows);
     }
-    if MOVES && is_dual {
+    if moves && is_dual {
         if numbers.is_some() {
             mortar.couple();
         }
