@@ -86,10 +86,9 @@ bench:
 	@.ci/setup library
 	$(SAY) "Times and instructions of the kernels"
 	@cargo bench --locked --bench kernels -- $(if $(FIGURES),--write benches/README.md)
-	$(SAY) "What dual multipliers cost a caller"
+	$(SAY) "What stages and handle cost a caller"
 	@cargo build --locked --release --quiet
-	@cc -O2 -I include benches/caller.c -o target/release/caller -L target/release -l:libstickslip.a -lm -lpthread -ldl
-	@target/release/caller
+	@benches/caller.sh target/release $(SIZES)
 
 # Other input than make test draws, the same for the same SEED. CASES: of each law of a pair; the others have fewer.
 SEED  ?= 1

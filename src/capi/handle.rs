@@ -12,7 +12,6 @@ pub struct stickslip_interface {
 }
 
 /// The interface by its number of multipliers per node.
-#[expect(clippy::large_enum_variant, reason = "it lies on the heap, one a handle")]
 pub(super) enum Inner {
     One(Contact<1>),
     Three(Contact<3>),

@@ -110,7 +110,7 @@ impl Stage<'_> {
     ) -> Result<()> {
         let Stage { surfaces: (one, two), options, filter, x: (x1, x2), ref search, normals, following } = *self;
         let mut start = Instant::now();
-        for first in facets.clone().step_by(ROW) {
+        for first in (facets.start..facets.end).step_by(ROW) {
             room.frames.clear();
             room.candidates.clear();
             for f in first..facets.end.min(first + ROW) {
