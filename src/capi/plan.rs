@@ -232,8 +232,8 @@ pub unsafe extern "C" fn stickslip_interface_plan_csr32(
 ///
 /// x1, x2, lambda, sums as for `stickslip_interface_residual`; with sums the plan is of STICKSLIP_PLAN_ACTIVE_SUMS or _SKIN.
 /// capacity: how many values there is room for, at least as many as the plan has entries. Output: values, overwritten.
-/// Units of an entry: its row's over its column's. After MISSING_ENTRY and NOT_FINITE (a value overflows) they mean
-/// nothing; after any other error they are as they were.
+/// Units of an entry: its row's over its column's. After MISSING_ENTRY, OUT_OF_MEMORY and NOT_FINITE (a value overflows) they
+/// mean nothing; after any other error they are as they were.
 ///
 /// Errors: those of `stickslip_interface_residual`, INVALID_VALUE (there is no plan), BUFFER_TOO_SMALL, UNSUPPORTED (sums with
 /// the augmented form or weak_coverage), MISSING_ENTRY: the plan lacks an entry; make it again.
@@ -299,8 +299,8 @@ pub unsafe extern "C" fn stickslip_interface_condensed_plan(
 /// the order of their plans, of one linearisation.
 ///
 /// x1 (3 n1), x2 (3 n2): positions [L]; lambda (n1 multipliers) [F/L^2], as for `stickslip_interface_condensed_residual`.
-/// Outputs: forces, constraints, as many as the counts of `stickslip_interface_condensed_plan` [F/L]. After MISSING_ENTRY and
-/// NOT_FINITE (a value overflows) they mean nothing.
+/// Outputs: forces, constraints, as many as the counts of `stickslip_interface_condensed_plan` [F/L]. After MISSING_ENTRY,
+/// OUT_OF_MEMORY and NOT_FINITE (a value overflows) they mean nothing.
 ///
 /// Errors: as `stickslip_interface_condensed_coo`, INVALID_VALUE (there is no plan), MISSING_ENTRY: a plan lacks an entry;
 /// make both again.

@@ -30,7 +30,7 @@ ROOT = folders.ROOT
 RUNS = 3
 PHASES = ("search", "integration", "contact_assembly", "contact_forces", "contact_tangent", "bulk_assembly",
           "linear_solve", "total", "processor")
-COUNTERS = ("bytes", "pairs_tested", "pairs_clipped", "pairs_integrated", "pairs_linearised")
+COUNTERS = ("bytes", "searches", "pairs_tested", "pairs_clipped", "pairs_integrated", "pairs_linearised")
 # What a user may want, relative.
 GOALS = (0.1, 0.01, 0.001)
 
@@ -147,8 +147,9 @@ def order(rows):
     for problem in {r["problem"] for r in rows}:
         of = lambda setting: at[problem, setting]
         verdicts.true(f"{problem}: points clip nothing", of("elements_2")["pairs_clipped"] == 0, "counter")
-        verdicts.true(f"{problem}: hybrid clips less than cells",
-                      of("hybrid_3")["pairs_clipped"] < of(DEFAULT)["pairs_clipped"], "counter")
+        # Over the searches: a commit looks again at what it knows, but for the hybrid scheme, which begins anew.
+        clipped = lambda setting: of(setting)["pairs_clipped"] / of(setting)["searches"]
+        verdicts.true(f"{problem}: hybrid clips less than cells", clipped("hybrid_3") < clipped(DEFAULT), "counter")
         frozen = of("frozen_weights")
         if "error" in frozen:
             name = f"{problem}: frozen weights are not differentiated"
