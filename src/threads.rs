@@ -201,6 +201,24 @@ impl Hand<'_> {
     }
 }
 
+impl Hand<'_> {
+    /// The numbers of the first `n` of some rows that this chunk has claimed, no two of them the same; of the others none.
+    ///
+    /// # Panics
+    /// If it has not, or two are the same.
+    #[inline(always)]
+    pub fn rows<const K: usize>(&mut self, rows: [usize; K], n: usize) -> [&mut [f64]; K] {
+        let mut all: [&mut [f64]; K] = std::array::from_fn(|_| Default::default());
+        for k in 0..n {
+            assert!(rows[..k].iter().all(|row| *row != rows[k]), "a row that was asked for twice");
+            let row = self.row(rows[k]);
+            // SAFETY: rows do not overlap, no two of these are the same, and `&mut self` is the only way to any of them.
+            all[k] = unsafe { std::slice::from_raw_parts_mut(row.as_mut_ptr(), row.len()) };
+        }
+        all
+    }
+}
+
 /// Does `work` for the numbers 0 to n - 1 on so many threads, this one among them; each has one of `rooms`, of which there are
 /// as many. The first refusal, by these numbers, is the outcome.
 ///

@@ -268,8 +268,8 @@ impl<'a, const N: usize> Fill<'a, N> {
             (Span::Own, false) => own,
             (Span::Mortar(_), _) => mortar_rows,
         };
-        let hand = &mut self.hand;
-        let lacks = simd::dispatch(Add { hand, rows: node_rows, starts, shape, values, nothing });
+        let to = self.hand.rows(node_rows.each_ref().map(|target| target.node), shape.0);
+        let lacks = simd::dispatch(Add { to, rows: node_rows, starts, shape, values, nothing });
         if lacks {
             let place = |span: Span| Place::Displacement(self.node_of(span, 0));
             let row = if of_multipliers { Place::Multiplier(self.node_of(rows, 0)) } else { place(rows) };
@@ -279,7 +279,8 @@ impl<'a, const N: usize> Fill<'a, N> {
 
     fn add_mortar(&mut self, shape: (usize, usize), values: &[Columns]) -> bool {
         let State { mortar_rows, starts, nothing, .. } = &mut self.state;
-        simd::dispatch(Add { hand: &mut self.hand, rows: mortar_rows, starts, shape, values, nothing })
+        let to = self.hand.rows(mortar_rows.each_ref().map(|target| target.node), shape.0);
+        simd::dispatch(Add { to, rows: mortar_rows, starts, shape, values, nothing })
     }
 
     /// Notes that the plan lacks one of these blocks, if it does.
@@ -398,8 +399,8 @@ impl<const N: usize> Blocks<N> for Fill<'_, N> {
 }
 
 /// Adds the blocks of up to four by four nodes, `[k][j][i][B]`. Gives whether one of them has no place.
-struct Add<'a, 'h, const R: usize> {
-    hand: &'a mut Hand<'h>,
+struct Add<'a, const R: usize> {
+    to: [&'a mut [f64]; MAX_NODES],
     rows: &'a [Target; MAX_NODES],
     starts: &'a Starts,
     /// Nodes of the rows and of the columns.
@@ -408,12 +409,12 @@ struct Add<'a, 'h, const R: usize> {
     nothing: &'a mut [f64; 4],
 }
 
-impl<const R: usize> Kernel for Add<'_, '_, R> {
+impl<const R: usize> Kernel for Add<'_, R> {
     type Output = bool;
 
     #[inline(always)]
     fn run<L: Lanes>(self) -> bool {
-        let Add { hand, rows, starts, shape, values, nothing } = self;
+        let Add { to, rows, starts, shape, values, nothing } = self;
         let (mut lacks, mut sum) = (false, L::load(nothing));
         let zero = L::splat(0.0);
         for k in 0..shape.1 {
@@ -432,14 +433,17 @@ impl<const R: usize> Kernel for Add<'_, '_, R> {
                     lacks |= start == WIDE_LACKS;
                     continue;
                 }
-                let (to, len) = (hand.row(rows[b].node), rows[b].rows.len as usize);
+                // The rows of a node are equally long: their parts of this block are as far from each other.
+                let (mut row, len) = (&mut to[b][start as usize..], rows[b].rows.len as usize);
                 for i in 0..R {
-                    let at = start as usize + i * len;
-                    let to = &mut to[at..at + 3];
                     let [x, y, z, _] = by_node[b][i];
-                    to[0] += x;
-                    to[1] += y;
-                    to[2] += z;
+                    let part = &mut row[..3];
+                    part[0] += x;
+                    part[1] += y;
+                    part[2] += z;
+                    if i + 1 < R {
+                        row = &mut row[len..];
+                    }
                 }
             }
         }

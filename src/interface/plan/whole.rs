@@ -34,7 +34,7 @@ impl Plan {
         is_diagonal: &dyn Fn(usize) -> bool,
     ) -> Result<Plan> {
         let nodes = Nodes::of(setup);
-        memory::sort(&mut extras)?;
+        extras.sort_unstable();
         extras.dedup();
         let (pairs, mut rest) = (FacetPairs::of(setup, pairs)?, &extras[..]);
         let mut finder = Finder::new(setup, system, numbering, &pairs)?;
