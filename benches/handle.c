@@ -3,7 +3,7 @@
  * 1.13 N x 1.13 N mortar side, Coulomb friction, both sides move. Standard and dual multipliers, normals of t_n and of now.
  *
  *   handle [N ...]       sizes; by default 50 100 200 500
- *   handle -o N          standard multipliers alone, two passes: for sizes that fill the memory
+ *   handle -o N          standard multipliers and active pairs alone, two passes: for sizes that fill the memory
  *
  * Times are of this thread, the least of several passes; passes of the baseline alternate with them. Without the
  * baseline (it is no part of this project) times are in microseconds a pair. */
@@ -22,8 +22,8 @@ double baseline_pass(int n, const double *coordinates);
 #endif
 
 enum { BASELINE_PAIRS = 2000 };
-enum { RESIDUAL, ACTIVE, SKIN, AGAIN, COMMIT, PLAN_ACTIVE, PLAN_SKIN, ROWS };
-static const char *const names[ROWS] = {"residual", "values, active pairs", "values, with a skin", "values, same positions",
+enum { RESIDUAL, ACTIVE, SKIN, COMMIT, PLAN_ACTIVE, PLAN_SKIN, ROWS };
+static const char *const names[ROWS] = {"residual", "values, active pairs", "values, with a skin",
     "commit", "plan, active pairs", "plan, with a skin"};
 
 #define CHECK(call)                                                       \
@@ -141,7 +141,7 @@ static void time_baseline(void) {
 }
 
 /* All rows of one interface. */
-static costs measure(scene *s, int32_t basis, int32_t normals, int passes) {
+static costs measure(scene *s, int32_t basis, int32_t normals, int passes, int plans) {
   costs c = {.pairs = 0};
   for (int k = 0; k < ROWS; ++k) c.time[k] = 1e300;
   stickslip_interface *interface = create(s, basis, normals);
@@ -154,12 +154,13 @@ static costs measure(scene *s, int32_t basis, int32_t normals, int passes) {
     CHECK(stickslip_interface_residual(interface, s->x1, s->x2, s->lambda, NULL, s->force1, s->force2, s->rows));
     least(&c.time[RESIDUAL], start);
     if (pass == 0) c.bytes = (double)counters(interface).bytes / (double)s->f1;
-    for (int kind = 0; kind < 2; ++kind) {
+    for (int kind = 0; kind < plans; ++kind) {
+      free(s->values);
+      s->values = NULL;
       start = now();
       CHECK(stickslip_interface_plan(interface, s->x1, s->x2, kinds[kind], &rows, &count[kind]));
       least(&c.time[PLAN_ACTIVE + kind], start);
       if (pass == 0) c.plan_bytes[kind] = (double)counters(interface).bytes / (double)s->f1 - c.bytes;
-      free(s->values);
       s->values = room(count[kind], sizeof(double));
       CHECK(stickslip_interface_plan_values(interface, s->x1, s->x2, s->lambda, NULL, count[kind], s->values));
       for (int again = 0; again < 2; ++again) {
@@ -204,7 +205,7 @@ int main(int argc, char **argv) {
     scene s = make(sizes[k]);
     const int passes = only ? 2 : sizes[k] > 250 ? 3 : sizes[k] > 60 ? 8 : 20, used = only ? 1 : KINDS;
     costs c[KINDS];
-    for (int kind = 0; kind < used; ++kind) c[kind] = measure(&s, kinds[kind].basis, kinds[kind].normals, passes);
+    for (int kind = 0; kind < used; ++kind) c[kind] = measure(&s, kinds[kind].basis, kinds[kind].normals, passes, only ? 1 : 2);
 #ifdef BASELINE
     printf("\n%lld x %lld facets, a pair's times over the baseline's (%.2f us)\n%-28s", (long long)s.n, (long long)s.n, baseline, "");
 #else
@@ -212,7 +213,7 @@ int main(int argc, char **argv) {
 #endif
     for (int kind = 0; kind < used; ++kind) printf(" %24s", kinds[kind].name);
     for (int row = 0; row < ROWS; ++row) {
-      if (row == AGAIN) continue;
+      if (only && (row == SKIN || row == PLAN_SKIN)) continue;
       printf("\n%-28s", names[row]);
       for (int kind = 0; kind < used; ++kind) printf(" %24.3f", c[kind].time[row] / c[kind].pairs / baseline);
     }

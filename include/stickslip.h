@@ -373,13 +373,13 @@
 /// values with sums or without.
 #define STICKSLIP_PLAN_SKIN 2
 
-/// The entries of the plan of `stickslip_interface_plan`: the tangent.
+/// The entries of the tangent, the plan of `stickslip_interface_plan`.
 #define STICKSLIP_ENTRIES_TANGENT 0
 
-/// Those of the first part of `stickslip_interface_condensed_plan`: what contact forces depend on the displacements by.
+/// What contact forces depend on the displacements by, the first part of `stickslip_interface_condensed_plan`.
 #define STICKSLIP_ENTRIES_FORCES 1
 
-/// Those of its second part: the contact constraints.
+/// The contact constraints, its second part.
 #define STICKSLIP_ENTRIES_CONSTRAINTS 2
 
 /// A piece of a condensed matrix: what the contact forces add to the host's own matrix, their derivative with respect to the

@@ -16,11 +16,11 @@ pub const STICKSLIP_PLAN_ACTIVE_SUMS: i32 = 1;
 /// values with sums or without.
 pub const STICKSLIP_PLAN_SKIN: i32 = 2;
 
-/// The entries of the plan of `stickslip_interface_plan`: the tangent.
+/// The entries of the tangent, the plan of `stickslip_interface_plan`.
 pub const STICKSLIP_ENTRIES_TANGENT: i32 = 0;
-/// Those of the first part of `stickslip_interface_condensed_plan`: what contact forces depend on the displacements by.
+/// What contact forces depend on the displacements by, the first part of `stickslip_interface_condensed_plan`.
 pub const STICKSLIP_ENTRIES_FORCES: i32 = 1;
-/// Those of its second part: the contact constraints.
+/// The contact constraints, its second part.
 pub const STICKSLIP_ENTRIES_CONSTRAINTS: i32 = 2;
 
 const PAIRS: [PlanPairs; 3] = [PlanPairs::Active(Extent::Whole), PlanPairs::Active(Extent::Part), PlanPairs::Possible];

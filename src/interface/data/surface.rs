@@ -50,7 +50,7 @@ pub struct Surface {
     pub longest_edge: f64,
     /// Edges between neighbouring facets.
     pub edges: Vec<SharedEdge>,
-    /// Per facet the one beyond each edge, or [`NO_FACET`].
+    /// Per facet the one beyond each edge, or `NO_FACET`.
     pub neighbours: Vec<[u32; MAX_NODES]>,
     /// The shape of an analytic surface, whose one facet are the four points of its frame; `None`: real facets.
     pub analytic: Option<AnalyticShape>,
