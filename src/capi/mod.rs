@@ -1,4 +1,4 @@
-//! The C ABI: converts, checks, calls the core, and nothing else. With `simd` and `threads` the only place with `unsafe`.
+//! The C ABI: converts, checks, calls the core, and nothing else. With `simd` the only place with `unsafe`.
 //!
 //! # Error handling
 //! Every fallible function returns an int32 status: 0 is success; positive means the call was refused

@@ -4,9 +4,10 @@ use super::cache::Cache;
 use super::data::extent::Extent;
 use super::pairing::given::Given;
 use super::plan::extras::Extras;
-use super::plan::fill::{FillRoom, Shown};
+use super::plan::fill::Shown;
 use super::plan::numbering::{Nodes, Numbering, Sides};
 use super::plan::pattern::System;
+use super::plan::table::{Hand, Table, TableRoom};
 use super::plan::whole::Plan;
 use super::stages::node::is_out_of_reach;
 use super::tangent::augmented::NodeCouplings;
@@ -42,7 +43,7 @@ pub struct Linear<const N: usize> {
     pub condensed: Option<[Plan; 2]>,
     /// The entries of the tangent at the last positions that asked for them, and of which pairs.
     pub own: Option<(u64, Plan)>,
-    pub fill: [FillRoom; 2],
+    pub fill: [TableRoom; 2],
     pub rooms: Vec<ThreadRoom<N>>,
     pub normals: Vec<Vec3>,
     pub nodes: Vec<NodeTangent<N>>,
@@ -76,7 +77,7 @@ impl<const N: usize> Linear<N> {
     /// On the heap `[bytes]`.
     pub fn bytes(&self) -> usize {
         let plans = self.plan.iter().chain(self.condensed.iter().flatten()).chain(self.own.iter().map(|own| &own.1));
-        let rooms = self.fill.iter().map(FillRoom::bytes).sum::<usize>();
+        let rooms = self.fill.iter().map(TableRoom::bytes).sum::<usize>();
         let nodes = self.normals.capacity() * size_of::<Vec3>()
             + self.nodes.capacity() * size_of::<NodeTangent<N>>()
             + self.turns.capacity() * size_of::<NodeTurn<N>>();
@@ -197,7 +198,7 @@ impl<'a, const N: usize> Here<'a, N> {
         self,
         (x, lambda, of): AtPoint<N>,
         numbering: &Option<Numbering>,
-        [first, second]: &mut [FillRoom; 2],
+        [first, second]: &mut [TableRoom; 2],
         (work, kept_couplings): (Work<N>, &mut Vec<NodeCouplings>),
         (plan, values): (&Plan, &mut [f64]),
         constraints: Option<(&Plan, &mut [f64])>,
@@ -205,59 +206,68 @@ impl<'a, const N: usize> Here<'a, N> {
         let Some(numbering) = numbering else { return Err(no_plan()) };
         let belongs = (Sides::of(self.given.setup), numbering);
         let mut table = plan.table(values, first)?;
-        let mut other = match constraints {
-            Some((plan, values)) => Some((plan, plan.table(values, second)?)),
-            None => None,
+        let (other_plan, mut other) = match constraints {
+            Some((plan, values)) => (Some(plan), Some(plan.table(values, second)?)),
+            None => (None, None),
         };
         let mut make = |task: Task<N>, rooms: &mut [ThreadRoom<N>]| {
             rooms.iter_mut().for_each(ThreadRoom::begin);
             let is_coupled = is_coupled(task.given);
             NodeCouplings::renew(kept_couplings, if is_coupled { task.given.nodes() } else { 0 })?;
             let mut couplings = is_coupled.then_some(&mut kept_couplings[..]);
-            // The chunks of a phase, and in the last one what is of no facet.
-            for chunks in plan.phases().iter().map(Some).chain([None]) {
-                let phase = table.phase();
-                let other = other.as_mut().map(|(plan, table)| (&**plan, table.phase()));
-                let work = |chunk: Option<&Range<usize>>,
+            let of_chunk = |chunk: Option<&Range<usize>>,
+                            (hand, other_hand): (Hand, Option<Hand>),
                             room: &mut ThreadRoom<N>,
                             couplings: Option<&mut [NodeCouplings]>|
-                 -> Result<()> {
-                    let mut taker = plan.fill(belongs, phase.hand());
-                    let mut constraints = other.as_ref().map(|(plan, phase)| plan.fill(belongs, phase.hand()));
-                    let mut emitter = Emitter {
-                        given: task.given,
-                        normals: task.normals,
-                        taker: &mut taker,
-                        constraints: constraints.as_mut().map(|taker| taker as _),
-                    };
-                    match chunk {
-                        Some(chunk) => {
-                            room.linearised +=
-                                of_facets(task, Range { ..*chunk }, &mut room.room, couplings, &mut emitter)?;
-                        }
-                        None => of_nodes(task, &mut room.room, couplings, &mut emitter)?,
-                    }
-                    room.shown.add(taker.shown());
-                    constraints.iter().for_each(|taker| room.shown.add(taker.shown()));
-                    Ok(())
+             -> Result<()> {
+                let mut taker = plan.fill(belongs, hand);
+                let mut constraints = other_plan.zip(other_hand).map(|(plan, hand)| plan.fill(belongs, hand));
+                let mut emitter = Emitter {
+                    given: task.given,
+                    normals: task.normals,
+                    taker: &mut taker,
+                    constraints: constraints.as_mut().map(|taker| taker as _),
                 };
-                match (chunks, &mut couplings) {
-                    (None, couplings) => work(None, &mut rooms[0], couplings.as_deref_mut())?,
-                    (Some(chunks), Some(couplings)) => {
-                        chunks.iter().try_for_each(|chunk| work(Some(chunk), &mut rooms[0], Some(couplings)))?;
+                match chunk {
+                    Some(chunk) => {
+                        room.linearised +=
+                            of_facets(task, Range { ..*chunk }, &mut room.room, couplings, &mut emitter)?;
                     }
-                    (Some(chunks), None) => {
-                        threads::share(chunks.len(), rooms, |k, room| work(Some(&chunks[k]), room, None))?;
-                    }
+                    None => of_nodes(task, &mut room.room, couplings, &mut emitter)?,
                 }
+                room.shown.add(taker.shown());
+                constraints.iter().for_each(|taker| room.shown.add(taker.shown()));
+                Ok(())
+            };
+            for chunks in plan.phases() {
+                if rooms.len() == 1 || chunks.len() == 1 || is_coupled {
+                    for chunk in chunks {
+                        let hands = (table.hand(), other.as_mut().map(Table::hand));
+                        of_chunk(Some(chunk), hands, &mut rooms[0], couplings.as_deref_mut())?;
+                    }
+                    continue;
+                }
+                let parted = plan.parted(belongs, chunks, &mut table)?;
+                let other = match (other_plan, &mut other) {
+                    (Some(plan), Some(table)) => Some(plan.parted(belongs, chunks, table)?),
+                    _ => None,
+                };
+                threads::share(chunks.len(), rooms, |k, room| {
+                    let (mut pieces, mut others) = (parted.pieces(k), other.as_ref().map(|other| other.pieces(k)));
+                    let other_hand = other.as_ref().zip(others.as_mut()).map(|(other, pieces)| other.hand(k, pieces));
+                    of_chunk(Some(&chunks[k]), (parted.hand(k, &mut pieces), other_hand), room, None)
+                })?;
             }
+            // What is of no facet.
+            let hands = (table.hand(), other.as_mut().map(Table::hand));
+            of_chunk(None, hands, &mut rooms[0], couplings)?;
             rooms.iter().try_for_each(|room| check(room.shown))?;
             Ok(rooms.iter().map(|room| room.linearised).sum())
         };
         let made = self.linearise(x, lambda, of, work, &mut make)?;
-        plan.finish(&mut table);
-        if let Some((plan, mut table)) = other {
-            plan.finish(&mut table);
+        table.finish();
+        if let Some(table) = other {
+            table.finish();
         }
         Ok(made)
     }

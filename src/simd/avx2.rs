@@ -1,7 +1,6 @@
 //! Four lanes in one register, with fused multiplication and addition.
 //!
-//! With `stack.rs` and `threads.rs` the only `unsafe` below the ABI: instructions that [`super::dispatch`] has found the processor to
-//! have.
+//! With `stack.rs` the only `unsafe` below the ABI: instructions that [`super::dispatch`] has found the processor to have.
 #![allow(unsafe_code)]
 
 use super::lanes::{Kernel, Lanes, Real};

@@ -1,5 +1,5 @@
 //! The direction of dependencies (ARCHITECTURE.md): leaf mathematics knows no contact, the law knows no integration, only
-//! `capi`, `simd` and `threads` are unsafe; no circles among files; stages are called in one order, and know no handle.
+//! `capi` and `simd` are unsafe; no circles among files; stages are called in one order, and know no handle.
 
 use crate::support::files::{below, root};
 use std::collections::{BTreeMap, BTreeSet};
@@ -71,11 +71,8 @@ fn only_the_abi_and_the_processors_instructions_are_unsafe() {
         for file in sources(module) {
             let text = std::fs::read_to_string(&file).unwrap();
             for word in ["unsafe ", "libc::", "*const ", "*mut "] {
-                let may_be_unsafe = ["simd", "threads"].contains(&module) && word == "unsafe ";
-                if may_be_unsafe || (module == "threads" && word == "*mut ") {
-                    continue;
-                }
-                assert!(!text.contains(word), "{} contains '{word}'", file.display());
+                let may_be_unsafe = module == "simd" && word == "unsafe ";
+                assert!(may_be_unsafe || !text.contains(word), "{} contains '{word}'", file.display());
             }
         }
     }

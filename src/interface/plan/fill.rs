@@ -1,65 +1,15 @@
 //! Values into the entries of a plan, as the blocks of a tangent come.
-//!
-//! Rows are set to 0 when the first block of them comes: the array of entries is larger than any cache, and would otherwise pass
-//! through it once more. Rows that no block came for are set to 0 at the end.
 
+use super::add::{Add, LACKS, SKIP, Starts};
 use super::numbering::{NO_RANK, SCALARS, Sides};
-use super::places::{Layout, NOWHERE, NodeRows, Places};
-use super::scatter::{LACKS, MortarOffsets, SKIP, Scatter};
+use super::places::{Layout, Places};
+use super::scatter::{self, MortarOffsets, Scatter};
+use super::table::{Hand, Target};
 use crate::dual::Columns;
-use crate::error::Result;
 use crate::geometry::Vec3;
 use crate::interface::tangent::emission::{Blocks, MortarBlock, Place, Span};
-use crate::memory;
 use crate::shape::{MAX_CORNERS, MAX_NODES};
-use crate::simd::{self, Kernel, Lanes};
-use crate::threads::{Hand, Owners, Table};
-
-/// What fills work with, kept from one to the next.
-#[derive(Debug, Default)]
-pub struct FillRoom {
-    owners: Owners,
-    /// The rows beside the entries.
-    beside: Vec<f64>,
-}
-
-impl FillRoom {
-    /// The table of these places with their values; at most so many chunks fill it.
-    pub fn table<'a>(&'a mut self, places: &'a Places, values: &'a mut [f64], chunks: usize) -> Result<Table<'a>> {
-        if self.beside.len() != places.beside.len() {
-            memory::refill(&mut self.beside, 0.0, places.beside.len())?;
-        }
-        Table::new(&places.parts, &mut self.owners, [values, &mut self.beside], chunks)
-    }
-
-    /// On the heap `[bytes]`.
-    pub fn bytes(&self) -> usize {
-        self.owners.bytes() + self.beside.capacity() * size_of::<f64>()
-    }
-}
-
-/// Ends a fill, all of whose chunks are done: what no block came for becomes 0, and what stands beside the entries is added to
-/// them.
-pub fn finish(places: &Places, table: &mut Table) {
-    for &(first, end) in &places.indirect {
-        table.arrays()[0][first..end].fill(0.0);
-    }
-    for (node, rows) in places.rows.iter().enumerate() {
-        let (range, is_claimed) = (places.parts.range(node), table.is_claimed(node));
-        let [values, beside] = table.arrays();
-        match (rows.is_direct, is_claimed) {
-            (true, false) => values[range].fill(0.0),
-            (false, true) => {
-                for (&to, &value) in places.beside[range.start..range.end].iter().zip(&beside[range]) {
-                    if to != NOWHERE {
-                        values[to] += value;
-                    }
-                }
-            }
-            _ => {}
-        }
-    }
-}
+use crate::simd;
 
 /// What the blocks of a chunk have shown.
 #[derive(Clone, Copy, Debug, Default)]
@@ -70,21 +20,15 @@ pub struct Shown {
     pub nothing: f64,
 }
 
-/// Where the columns of four nodes begin in the rows of four nodes: by row, then by column.
-type Starts = [[u32; MAX_NODES]; MAX_NODES];
-
-/// Wider forms of the marks of `scatter.rs`.
-const WIDE_LACKS: u32 = u32::MAX;
-const WIDE_SKIP: u32 = u32::MAX - 1;
-
+/// An offset of `scatter.rs` with its marks in the wider form.
 #[inline(always)]
 fn widened(offset: u16) -> u32 {
-    if offset >= SKIP { WIDE_SKIP + u32::from(offset - SKIP) } else { u32::from(offset) }
+    if offset >= scatter::SKIP { SKIP + u32::from(offset - scatter::SKIP) } else { u32::from(offset) }
 }
 
 /// Of a mortar node that the facet does not have.
 static MISSING: MortarOffsets = {
-    let lacks = [LACKS; MAX_NODES];
+    let lacks = [scatter::LACKS; MAX_NODES];
     MortarOffsets { column: lacks, row: lacks, forces: lacks, multipliers: lacks }
 };
 
@@ -97,20 +41,13 @@ impl Shown {
 }
 
 /// Takes blocks of one chunk and adds them to the entries of a plan.
-pub struct Fill<'a, const N: usize> {
+pub struct Fill<'a, 'p, const N: usize> {
     setup: Sides<'a>,
     layout: Layout<'a>,
     places: &'a Places,
     scatter: Option<&'a Scatter>,
-    hand: Hand<'a>,
+    hand: Hand<'a, 'p>,
     state: State,
-}
-
-/// A node with rows.
-#[derive(Clone, Copy, Debug, Default)]
-struct Target {
-    node: usize,
-    rows: NodeRows,
 }
 
 /// The facet at hand, and what has come up so far.
@@ -126,6 +63,8 @@ struct State {
     mortar: Option<usize>,
     mortar_len: usize,
     mortar_rows: [Target; MAX_NODES],
+    /// Whether one of them is another chunk's.
+    is_foreign: bool,
     /// The places of these nodes among the mortar nodes of the facets.
     places: [Option<usize>; MAX_NODES],
     /// Of the blocks at hand.
@@ -136,13 +75,13 @@ struct State {
     nothing: [f64; 4],
 }
 
-impl<'a, const N: usize> Fill<'a, N> {
+impl<'a, 'p, const N: usize> Fill<'a, 'p, N> {
     /// With this hand.
     pub fn new(
         setup: Sides<'a>,
         layout: Layout<'a>,
         (places, scatter): (&'a Places, Option<&'a Scatter>),
-        hand: Hand<'a>,
+        hand: Hand<'a, 'p>,
     ) -> Self {
         Fill { setup, layout, places, scatter, hand, state: State::default() }
     }
@@ -152,9 +91,14 @@ impl<'a, const N: usize> Fill<'a, N> {
         Shown { lacks: self.state.lacks, nothing: self.state.nothing.iter().sum() }
     }
 
-    fn touch(&mut self, node: usize) -> Target {
-        self.hand.claim(node);
-        Target { node, rows: self.places.rows[node] }
+    /// The rows of a node. Where no pair of the plan leads there they may be another chunk's, and nothing can be added.
+    #[inline]
+    fn touch(&mut self, place: Place) -> Option<Target> {
+        let target = self.hand.claim(self.layout.nodes.number(place));
+        if target.is_none() {
+            self.note(true, place, Place::Displacement(self.node_of(Span::Own, 0)));
+        }
+        target
     }
 
     /// The number of the k-th node of a span of the facet at hand.
@@ -180,9 +124,11 @@ impl<'a, const N: usize> Fill<'a, N> {
             return;
         }
         let facet = &self.setup.mortar.facets[j];
-        (self.state.mortar, self.state.mortar_len) = (Some(j), facet.len);
+        (self.state.mortar, self.state.mortar_len, self.state.is_foreign) = (Some(j), facet.len, false);
         for (k, &node) in facet.as_slice().iter().enumerate() {
-            self.state.mortar_rows[k] = self.touch(self.layout.nodes.mortar(node));
+            let target = self.touch(Place::Displacement(self.layout.nodes.mortar(node)));
+            self.state.is_foreign |= target.is_none();
+            self.state.mortar_rows[k] = target.unwrap_or_default();
             self.state.places[k] = self.scatter.and_then(|s| s.place(self.state.facet, node));
         }
     }
@@ -191,9 +137,9 @@ impl<'a, const N: usize> Fill<'a, N> {
     fn found(&self, row: usize, column: usize) -> u32 {
         let rank = &self.layout.numbering.rank;
         if rank[row] == NO_RANK || rank[column] == NO_RANK {
-            return WIDE_SKIP;
+            return SKIP;
         }
-        self.layout.offset(row, column, &self.places.rows[row]).unwrap_or(WIDE_LACKS)
+        self.layout.offset(row, column, &self.places.rows[row]).unwrap_or(LACKS)
     }
 
     /// Finds where the columns of one span begin in the rows of another; multipliers in place of displacements of the facet's
@@ -202,6 +148,10 @@ impl<'a, const N: usize> Fill<'a, N> {
     fn find(&mut self, (rows, of_multipliers): (Span, bool), (columns, by_multipliers): (Span, bool)) {
         self.look(rows);
         self.look(columns);
+        if self.state.is_foreign && (rows, columns) != (Span::Own, Span::Own) {
+            self.state.starts = [[LACKS; MAX_NODES]; MAX_NODES];
+            return;
+        }
         let f = self.state.facet;
         // Facets without pairs in the plan have no offsets.
         let scatter = self.scatter.filter(|s| s.has(f));
@@ -268,8 +218,8 @@ impl<'a, const N: usize> Fill<'a, N> {
             (Span::Own, false) => own,
             (Span::Mortar(_), _) => mortar_rows,
         };
-        let to = self.hand.rows(node_rows.each_ref().map(|target| target.node), shape.0);
-        let lacks = simd::dispatch(Add { to, rows: node_rows, starts, shape, values, nothing });
+        let pieces = &mut *self.hand.pieces;
+        let lacks = simd::dispatch(Add { pieces, rows: node_rows, starts, shape, values, nothing });
         if lacks {
             let place = |span: Span| Place::Displacement(self.node_of(span, 0));
             let row = if of_multipliers { Place::Multiplier(self.node_of(rows, 0)) } else { place(rows) };
@@ -279,8 +229,8 @@ impl<'a, const N: usize> Fill<'a, N> {
 
     fn add_mortar(&mut self, shape: (usize, usize), values: &[Columns]) -> bool {
         let State { mortar_rows, starts, nothing, .. } = &mut self.state;
-        let to = self.hand.rows(mortar_rows.each_ref().map(|target| target.node), shape.0);
-        simd::dispatch(Add { to, rows: mortar_rows, starts, shape, values, nothing })
+        let pieces = &mut *self.hand.pieces;
+        simd::dispatch(Add { pieces, rows: mortar_rows, starts, shape, values, nothing })
     }
 
     /// Notes that the plan lacks one of these blocks, if it does.
@@ -291,13 +241,13 @@ impl<'a, const N: usize> Fill<'a, N> {
     }
 }
 
-impl<const N: usize> Blocks<N> for Fill<'_, N> {
+impl<const N: usize> Blocks<N> for Fill<'_, '_, N> {
     fn begin(&mut self, f: usize) {
         let facet = &self.setup.nonmortar.facets[f];
         (self.state.facet, self.state.len, self.state.mortar) = (f, facet.len, None);
         for (k, &a) in facet.as_slice().iter().enumerate() {
-            self.state.own[k] = self.touch(a);
-            self.state.multipliers[k] = self.touch(self.layout.nodes.multiplier(a));
+            self.state.own[k] = self.touch(Place::Displacement(a)).unwrap_or_default();
+            self.state.multipliers[k] = self.touch(Place::Multiplier(a)).unwrap_or_default();
         }
     }
 
@@ -311,15 +261,15 @@ impl<const N: usize> Blocks<N> for Fill<'_, N> {
         let State { own, mortar_rows, starts, nothing, .. } = &mut self.state;
         let node_rows = if rows == Span::Own { own } else { mortar_rows };
         for (b, target) in node_rows.iter().enumerate().take(n_rows) {
-            let (to, len) = (self.hand.row(target.node), target.rows.len as usize);
+            let (to, first, len) = (&mut *self.hand.pieces[target.piece], target.start, target.rows.len as usize);
             for a in 0..n_columns {
                 let (offset, value) = (starts[b][a], n[a][b]);
-                if offset >= WIDE_SKIP {
-                    lacks |= offset == WIDE_LACKS;
+                if offset >= SKIP {
+                    lacks |= offset == LACKS;
                     continue;
                 }
                 for i in 0..SCALARS {
-                    to[offset as usize + i * len] += if N == 1 { value * nu[a][i] } else { value };
+                    to[first + offset as usize + i * len] += if N == 1 { value * nu[a][i] } else { value };
                 }
                 nothing[a] += 0.0 * value;
             }
@@ -337,7 +287,8 @@ impl<const N: usize> Blocks<N> for Fill<'_, N> {
         let mut of_rows = [None; MAX_NODES];
         self.state.mortar = None;
         for (c, &node) in block.rows.iter().enumerate() {
-            self.state.mortar_rows[c] = self.touch(nodes.mortar(node));
+            let Some(target) = self.touch(Place::Displacement(nodes.mortar(node))) else { return };
+            self.state.mortar_rows[c] = target;
             of_rows[c] = self.scatter.and_then(|s| s.place(f, node));
             for k in 0..block.own {
                 self.state.starts[c][k] = match (self.scatter, of_rows[c]) {
@@ -366,14 +317,14 @@ impl<const N: usize> Blocks<N> for Fill<'_, N> {
     fn node(&mut self, row: Place, column: Place, values: &[f64]) {
         let (r, c) = (self.layout.nodes.number(row), self.layout.nodes.number(column));
         let offset = self.found(r, c);
-        if offset >= WIDE_SKIP {
-            return self.note(offset == WIDE_LACKS, row, column);
+        if offset >= SKIP {
+            return self.note(offset == LACKS, row, column);
         }
-        let rows = self.touch(r).rows;
+        let Some(Target { rows, piece, start }) = self.touch(row) else { return };
         if self.layout.is_diagonal(r, c, &rows) {
             return self.note(true, row, column);
         }
-        let (to, at, n) = (self.hand.row(r), offset as usize, usize::from(rows.scalars));
+        let (to, at, n) = (&mut *self.hand.pieces[piece], start + offset as usize, usize::from(rows.scalars));
         for (j, values) in values.chunks_exact(n).enumerate() {
             for (i, value) in values.iter().enumerate() {
                 to[at + i * rows.len as usize + j] += value;
@@ -385,69 +336,15 @@ impl<const N: usize> Blocks<N> for Fill<'_, N> {
     fn diagonal(&mut self, a: usize, values: &[f64]) {
         let node = self.layout.nodes.multiplier(a);
         let offset = self.found(node, node);
-        if offset >= WIDE_SKIP {
-            return self.note(offset == WIDE_LACKS, Place::Multiplier(a), Place::Multiplier(a));
+        if offset >= SKIP {
+            return self.note(offset == LACKS, Place::Multiplier(a), Place::Multiplier(a));
         }
-        let rows = self.touch(node).rows;
-        let to = self.hand.row(node);
+        let Some(Target { rows, piece, start }) = self.touch(Place::Multiplier(a)) else { return };
+        let (to, at) = (&mut *self.hand.pieces[piece], start + offset as usize);
         for (i, value) in values.iter().enumerate() {
             let j = if rows.is_diagonal { 0 } else { i };
-            to[offset as usize + i * rows.len as usize + j] += value;
+            to[at + i * rows.len as usize + j] += value;
             self.state.nothing[0] += 0.0 * value;
         }
-    }
-}
-
-/// Adds the blocks of up to four by four nodes, `[k][j][i][B]`. Gives whether one of them has no place.
-struct Add<'a, const R: usize> {
-    to: [&'a mut [f64]; MAX_NODES],
-    rows: &'a [Target; MAX_NODES],
-    starts: &'a Starts,
-    /// Nodes of the rows and of the columns.
-    shape: (usize, usize),
-    values: &'a [[[[f64; 4]; R]; 3]],
-    nothing: &'a mut [f64; 4],
-}
-
-impl<const R: usize> Kernel for Add<'_, R> {
-    type Output = bool;
-
-    #[inline(always)]
-    fn run<L: Lanes>(self) -> bool {
-        let Add { to, rows, starts, shape, values, nothing } = self;
-        let (mut lacks, mut sum) = (false, L::load(nothing));
-        let zero = L::splat(0.0);
-        for k in 0..shape.1 {
-            let mut by_node = [[[0.0; 4]; R]; MAX_NODES];
-            for i in 0..R {
-                let (x, y, z) = (L::load(&values[k][0][i]), L::load(&values[k][1][i]), L::load(&values[k][2][i]));
-                sum = zero.mul_add(x, zero.mul_add(y, zero.mul_add(z, sum)));
-                let nodes = L::transpose([x, y, z, zero]);
-                for b in 0..MAX_NODES {
-                    by_node[b][i] = nodes[b].store();
-                }
-            }
-            for b in 0..shape.0 {
-                let start = starts[b][k];
-                if start >= WIDE_SKIP {
-                    lacks |= start == WIDE_LACKS;
-                    continue;
-                }
-                // The rows of a node are equally long: their parts of this block are as far from each other.
-                let (mut row, len) = (&mut to[b][start as usize..], rows[b].rows.len as usize);
-                for i in 0..R {
-                    let [x, y, z, _] = by_node[b][i];
-                    let part = &mut row[..3];
-                    part[0] += x;
-                    part[1] += y;
-                    part[2] += z;
-                    if i + 1 < R {
-                        row = &mut row[len..];
-                    }
-                }
-            }
-        }
-        *nothing = sum.store();
-        lacks
     }
 }

@@ -11,7 +11,6 @@ use crate::error::Result;
 use crate::interface::data::options::Form;
 use crate::interface::data::surface::NO_EQUATION;
 use crate::memory::{self, Store};
-use crate::threads::Parts;
 
 /// The place of an entry beside that has no equation.
 pub const NOWHERE: usize = usize::MAX;
@@ -19,6 +18,8 @@ pub const NOWHERE: usize = usize::MAX;
 /// The rows of a node.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct NodeRows {
+    /// Where the first begins, among the entries or beside them; the others follow.
+    pub start: usize,
     /// The length of each; 0: the node has none.
     pub len: u32,
     /// How many there are.
@@ -33,6 +34,11 @@ impl NodeRows {
     /// Numbers of all of them.
     pub fn size(&self) -> usize {
         usize::from(self.scalars) * self.len as usize
+    }
+
+    /// Where these are.
+    pub fn range(&self) -> std::ops::Range<usize> {
+        self.start..self.start + self.size()
     }
 }
 
@@ -69,8 +75,6 @@ impl Widths {
 pub struct Places {
     /// Of every node.
     pub rows: Vec<NodeRows>,
-    /// Where those of every node begin, among the entries or beside them.
-    pub parts: Parts,
     /// The equations that have entries, ascending.
     pub equations: Vec<i64>,
     /// Where the entries of each begin; one more at the end.
@@ -172,7 +176,7 @@ impl Layout<'_> {
     pub fn places(&self, is_diagonal: &dyn Fn(usize) -> bool) -> Result<Places> {
         let nodes = self.nodes;
         let mut p = Places { rows: memory::filled(NodeRows::default(), nodes.len())?, ..Places::default() };
-        let (mut beside, mut starts) = (0, memory::filled(0, nodes.len())?);
+        let mut beside = 0;
         for node in 0..nodes.len() {
             let columns = self.columns.get(node);
             if columns.is_empty() {
@@ -188,8 +192,8 @@ impl Layout<'_> {
             };
             self.each_offset(node, rows.is_diagonal, columns, |_, offset, width| rows.len = offset + width);
             if !rows.is_direct {
-                starts[node] = beside;
-                beside += scalars * rows.len as usize;
+                rows.start = beside;
+                beside += rows.size();
             }
             p.rows[node] = rows;
         }
@@ -200,7 +204,7 @@ impl Layout<'_> {
             let before = at;
             if p.rows[node].is_direct {
                 if i == 0 {
-                    starts[node] = at;
+                    p.rows[node].start = at;
                 }
                 at += p.rows[node].len as usize;
             } else {
@@ -209,7 +213,7 @@ impl Layout<'_> {
                 for &scalar in scalars {
                     let (node, i) = (scalar as usize / SCALARS, scalar as usize % SCALARS);
                     let rows = &p.rows[node];
-                    let (start, to) = (starts[node] + i * rows.len as usize, &mut p.beside);
+                    let (start, to) = (rows.start + i * rows.len as usize, &mut p.beside);
                     self.row(node, i, rows, &mut |equation, offset| {
                         if let Ok(k) = columns.binary_search(&equation) {
                             to[start + offset as usize] = before + k;
@@ -228,8 +232,6 @@ impl Layout<'_> {
             }
         }
         p.offsets.store(at)?;
-        let part = |(rows, start): (&NodeRows, usize)| (start..start + rows.size(), !rows.is_direct);
-        p.parts = Parts::new(p.rows.iter().zip(starts).map(part))?;
         Ok(p)
     }
 
@@ -257,6 +259,6 @@ impl Places {
     pub fn bytes(&self) -> usize {
         let rows = self.rows.capacity() * size_of::<NodeRows>() + self.equations.capacity() * size_of::<i64>();
         let places = (self.offsets.capacity() + self.beside.capacity()) * size_of::<usize>();
-        self.parts.bytes() + rows + places + self.indirect.capacity() * size_of::<(usize, usize)>()
+        rows + places + self.indirect.capacity() * size_of::<(usize, usize)>()
     }
 }

@@ -1,22 +1,20 @@
 //! A plan: made of pairs, asked for its entries, filled with values.
 
-use super::fill::{Fill, FillRoom, finish};
+use super::fill::Fill;
 use super::numbering::{Nodes, Numbering, Sides};
 use super::pattern::{FacetPairs, Finder, Lists, System};
 use super::phases;
 use super::places::{Layout, Places, Widths};
 use super::scatter::{SKIP, Scatter};
+use super::table::{Hand, Parted, Table, TableRoom};
 use crate::error::{Error, Kind, Result};
 use crate::interface::tangent::union::Pairs;
 use crate::memory::{self, Store};
-use crate::threads::{Hand, Table};
 use std::ops::Range;
 
 /// A plan.
 #[derive(Debug)]
 pub struct Plan {
-    /// What it is of.
-    pub system: System,
     columns: Lists,
     widths: Widths,
     places: Places,
@@ -25,7 +23,8 @@ pub struct Plan {
 }
 
 impl Plan {
-    /// Of these pairs and further blocks, and whether those of facets are in rows of their own nodes alone; `is_diagonal`: of which nodes the multiplier's block with itself is a diagonal.
+    /// Of these pairs and of further blocks. `alone`: whether the blocks of facets are in rows of their own nodes alone;
+    /// `is_diagonal`: of which nodes the multiplier's block with itself is a diagonal.
     pub fn new(
         (setup, numbering): (Sides, &Numbering),
         system: System,
@@ -70,8 +69,9 @@ impl Plan {
         drop(finder);
         let layout = Layout { nodes, numbering, columns: &columns, widths };
         let places = layout.places(is_diagonal)?;
-        let phases = phases::of(setup, &pairs, alone)?;
-        Ok(Plan { system, widths, places, scatter, columns, phases })
+        // Without offsets nobody knows afterwards which rows the facets have.
+        let phases = phases::of(setup, &pairs, alone && scatter.is_some())?;
+        Ok(Plan { widths, places, scatter, columns, phases })
     }
 
     /// Entries.
@@ -103,27 +103,42 @@ impl Plan {
     }
 
     /// The table of the entries with their values.
-    pub fn table<'a>(&'a self, values: &'a mut [f64], room: &'a mut FillRoom) -> Result<Table<'a>> {
+    pub fn table<'a>(&'a self, values: &'a mut [f64], room: &'a mut TableRoom) -> Result<Table<'a>> {
         if values.len() != self.len() {
             let text = text!("values has {} entries; the plan has {}", values.len(), self.len());
             return Err(Error::new(Kind::InvalidSize, text));
         }
-        // One more for what is of no facet.
-        room.table(&self.places, values, self.phases.iter().map(Vec::len).sum::<usize>() + 1)
+        room.table(&self.places, values)
+    }
+
+    /// The table in parts, for the chunks of a phase at the same time.
+    pub fn parted<'a>(
+        &self,
+        (setup, numbering): (Sides, &Numbering),
+        chunks: &[Range<usize>],
+        table: &'a mut Table<'_>,
+    ) -> Result<Parted<'a>> {
+        let nodes = Nodes::of(setup);
+        let own = |facets: &Range<usize>, give: &mut dyn FnMut(usize)| {
+            for f in facets.start..facets.end {
+                for &a in setup.nonmortar.facets[f].as_slice() {
+                    give(a);
+                    give(nodes.multiplier(a));
+                }
+                let mortar = self.scatter.as_ref().map_or(&[][..], |scatter| scatter.mortar_nodes(f));
+                mortar.iter().for_each(|&node| give(nodes.mortar(node as usize)));
+            }
+        };
+        table.parted(chunks, own, &numbering.node)
     }
 
     /// What takes the blocks of a chunk and adds them to what the hand is of.
-    pub fn fill<'a, const N: usize>(
+    pub fn fill<'a, 'p, const N: usize>(
         &'a self,
         (setup, numbering): (Sides<'a>, &'a Numbering),
-        hand: Hand<'a>,
-    ) -> Fill<'a, N> {
+        hand: Hand<'a, 'p>,
+    ) -> Fill<'a, 'p, N> {
         Fill::new(setup, self.layout((setup, numbering)), (&self.places, self.scatter.as_ref()), hand)
-    }
-
-    /// Ends a fill.
-    pub fn finish(&self, table: &mut Table) {
-        finish(&self.places, table);
     }
 
     /// On the heap `[bytes]`.
