@@ -27,7 +27,7 @@ const PAIRS: [PlanPairs; 3] = [PlanPairs::Active(Extent::Whole), PlanPairs::Acti
 const SYSTEMS: [PlanSystem; 3] = [PlanSystem::Whole, PlanSystem::Forces, PlanSystem::Constraints];
 
 /// An index of the caller's, 64 or 32 bits.
-trait Index: Copy {
+pub(super) trait Index: Copy {
     fn of(value: i64) -> Option<Self>;
 }
 
@@ -52,11 +52,7 @@ fn index<I: Index>(value: i64) -> Result<I> {
 }
 
 /// Writes rows and columns of all entries, counted from `base`.
-pub(super) fn write_coo(plan: &Plan, of: PlanOf, base: i64, rows: *mut i64, columns: *mut i64) -> Result<()> {
-    write_entries(plan, of, base, rows, columns)
-}
-
-fn write_entries<I: Index>(plan: &Plan, of: PlanOf, base: i64, rows: *mut I, columns: *mut I) -> Result<()> {
+pub(super) fn write_coo<I: Index>(plan: &Plan, of: PlanOf, base: i64, rows: *mut I, columns: *mut I) -> Result<()> {
     let (mut to_rows, mut to_columns) = (raw::Output::new(rows), raw::Output::new(columns));
     let mut equations = plan.rows().0.iter();
     plan.each_row(of, &mut |of_row| {
@@ -69,11 +65,22 @@ fn write_entries<I: Index>(plan: &Plan, of: PlanOf, base: i64, rows: *mut I, col
     })
 }
 
-/// The largest number that a plan hands out fits.
-fn refuse_large<I: Index>(plan: &Plan, of: PlanOf, base: i64) -> Result<()> {
-    index::<I>(plan.len() as i64 + base)?;
-    plan.each_row(of, &mut |columns| index::<I>(columns[columns.len() - 1] + base).map(|_| ()))?;
-    plan.rows().0.last().map_or(Ok(()), |row| index::<I>(row + base).map(|_| ()))
+/// Gives the plan of a handle, and what it belongs to, to `write`: all of its numbers fit, and there is room for its entries.
+fn with_plan<I: Index>(
+    h: &stickslip_interface,
+    (entries, capacity): (i32, i64),
+    write: impl FnOnce(&Plan, PlanOf) -> Result<()>,
+) -> Result<()> {
+    let (system, base) = (choose(entries, "entries", &SYSTEMS, 3)?, h.base);
+    either!(&h.inner, c => {
+        let (plan, of) = c.plan(system)?;
+        raw::room(capacity, plan.len(), "the entries")?;
+        // The largest number of each kind.
+        index::<I>(plan.len() as i64 + base)?;
+        plan.each_row(of, &mut |columns| index::<I>(columns[columns.len() - 1] + base).map(|_| ()))?;
+        plan.rows().0.last().map_or(Ok(()), |row| index::<I>(row + base).map(|_| ()))?;
+        write(plan, of)
+    })
 }
 
 fn coo<I: Index>(
@@ -84,15 +91,9 @@ fn coo<I: Index>(
     columns: *mut I,
 ) -> Result<()> {
     let h = handle(interface)?;
-    let system = choose(entries, "entries", &SYSTEMS, 3)?;
     raw::check(rows, "rows")?;
     raw::check(columns, "columns")?;
-    either!(&h.inner, c => {
-        let (plan, of) = c.plan(system)?;
-        raw::room(capacity, plan.len(), "the entries")?;
-        refuse_large::<I>(plan, of, h.base)?;
-        write_entries(plan, of, h.base, rows, columns)
-    })
+    with_plan::<I>(h, (entries, capacity), |plan, of| write_coo(plan, of, h.base, rows, columns))
 }
 
 fn csr<I: Index>(
@@ -104,14 +105,10 @@ fn csr<I: Index>(
     columns: *mut I,
 ) -> Result<()> {
     let h = handle(interface)?;
-    let system = choose(entries, "entries", &SYSTEMS, 3)?;
     raw::check(rows, "rows")?;
     raw::check(row_offsets, "row_offsets")?;
     raw::check(columns, "columns")?;
-    either!(&h.inner, c => {
-        let (plan, of) = c.plan(system)?;
-        raw::room(capacity, plan.len(), "the entries")?;
-        refuse_large::<I>(plan, of, h.base)?;
+    with_plan::<I>(h, (entries, capacity), |plan, of| {
         let (equations, offsets) = plan.rows();
         let (mut to_rows, mut to_offsets) = (raw::Output::new(rows), raw::Output::new(row_offsets));
         equations.iter().try_for_each(|row| index(row + h.base).map(|row| to_rows.append(&[row])))?;

@@ -161,6 +161,15 @@ impl<T: Copy> Output<T> {
     }
 }
 
+/// Whether a caller only counts: all of its arrays are NULL, of 64 bits each. One alone must not be.
+pub(super) fn only_counts(arrays: &[(*const i64, &str)]) -> Result<bool> {
+    let counts = arrays.iter().all(|array| array.0.is_null());
+    if !counts {
+        arrays.iter().try_for_each(|(array, name)| check(*array, name))?;
+    }
+    Ok(counts)
+}
+
 /// Refuses a caller's array that is too short for `n` values.
 pub(super) fn room(capacity: i64, n: usize, name: &str) -> Result<()> {
     if capacity < n as i64 {

@@ -6,7 +6,7 @@ use super::plan::write_coo;
 use super::point::Point;
 use super::raw;
 use crate::error::{Error, Kind, Result};
-use crate::interface::{Csr, Extent, NO_EQUATION, Sink};
+use crate::interface::{Csr, Extent, NO_EQUATION, PlanPairs, Sink};
 use crate::memory::{self, Store};
 
 /// Entries in the core's numbering.
@@ -112,13 +112,12 @@ impl Triplets {
     ) -> Result<()> {
         raw::check(count, "count")?;
         let n = self.values.len();
-        let counting = rows.is_null() && columns.is_null() && values.is_none_or(<*mut f64>::is_null);
-        if !counting {
-            raw::check(rows, names[0])?;
-            raw::check(columns, names[1])?;
-            if let Some(values) = values {
-                raw::check(values, names[2])?;
-            }
+        let indices = [(rows.cast_const(), names[0]), (columns.cast_const(), names[1])];
+        let counts = match values {
+            Some(values) => raw::only_counts(&[indices[0], indices[1], (values.cast(), names[2])])?,
+            None => raw::only_counts(&indices)?,
+        };
+        if !counts {
             if capacity < n as i64 {
                 return Err(Error::new(Kind::BufferTooSmall, text!("capacity is {capacity}; {n} entries are needed")));
             }
@@ -187,21 +186,16 @@ pub unsafe extern "C" fn stickslip_interface_tangent_coo(
     guard(|| {
         let h = handle(interface)?;
         let point = Point::read(&h.inner, x1, x2, lambda, sums)?;
-        let counting = rows.is_null() && columns.is_null() && values.is_null();
         raw::check(count, "count")?;
-        if !counting {
-            raw::check(rows, "rows")?;
-            raw::check(columns, "columns")?;
-            raw::check(values, "values")?;
-        }
+        let counts =
+            raw::only_counts(&[(rows.cast(), "rows"), (columns.cast(), "columns"), (values.cast(), "values")])?;
         let (at, sums) = ((point.x1, point.x2), point.sums());
         let base = h.base;
         either!(&mut h.inner, c => {
-            let n = c.plan_here(at, Extent::of(sums))?.0.len();
-            if !counting {
+            let n = c.own_plan(at, PlanPairs::Active(Extent::of(sums)))?.0.len();
+            if !counts {
                 raw::room(capacity, n, "the entries")?;
-                c.values_here(at, point.lambda()?, sums, raw::values(values, n, "values")?)?;
-                let (plan, of) = c.plan_here(at, Extent::of(sums))?;
+                let (plan, of) = c.own_values(at, point.lambda()?, sums, raw::values(values, n, "values")?)?;
                 write_coo(plan, of, base, rows, columns)?;
             }
             raw::write(count, &[n as i64]);
@@ -242,9 +236,9 @@ pub unsafe extern "C" fn stickslip_interface_tangent_csr(
         raw::check(values, "values")?;
         let (at, sums) = ((point.x1, point.x2), point.sums());
         either!(&mut h.inner, c => {
-            let mut entries = memory::filled(0.0, c.plan_here(at, Extent::of(sums))?.0.len())?;
-            c.values_here(at, point.lambda()?, sums, &mut entries)?;
-            let (plan, of) = c.plan_here(at, Extent::of(sums))?;
+            let n = c.own_plan(at, PlanPairs::Active(Extent::of(sums)))?.0.len();
+            let mut entries = memory::filled(0.0, n)?;
+            let (plan, of) = c.own_values(at, point.lambda()?, sums, &mut entries)?;
             let (mut places, (equations, _)) = (memory::with_room(entries.len())?, plan.rows());
             let mut row = equations.iter();
             plan.each_row(of, &mut |columns| {
@@ -281,16 +275,12 @@ pub unsafe extern "C" fn stickslip_interface_pattern_coo(
     guard(|| {
         let h = handle(interface)?;
         let point = Point::positions(&h.inner, x1, x2)?;
-        let counting = rows.is_null() && columns.is_null();
         raw::check(count, "count")?;
-        if !counting {
-            raw::check(rows, "rows")?;
-            raw::check(columns, "columns")?;
-        }
+        let counts = raw::only_counts(&[(rows.cast(), "rows"), (columns.cast(), "columns")])?;
         let base = h.base;
         either!(&mut h.inner, c => {
-            let (plan, of) = c.possible_plan((point.x1, point.x2))?;
-            if !counting {
+            let (plan, of) = c.own_plan((point.x1, point.x2), PlanPairs::Possible)?;
+            if !counts {
                 raw::room(capacity, plan.len(), "the entries")?;
                 write_coo(plan, of, base, rows, columns)?;
             }

@@ -34,6 +34,13 @@ pub enum PlanPairs {
     Possible,
 }
 
+impl PlanPairs {
+    /// What the tangents of such a plan are of.
+    pub fn extent(self) -> Extent {
+        if let PlanPairs::Active(extent) = self { extent } else { Extent::Part }
+    }
+}
+
 /// What tangents are made with, kept from one to the next.
 #[derive(Debug)]
 pub struct Linear<const N: usize> {
@@ -80,7 +87,8 @@ impl<const N: usize> Linear<N> {
         let rooms = self.fill.iter().map(TableRoom::bytes).sum::<usize>();
         let nodes = self.normals.capacity() * size_of::<Vec3>()
             + self.nodes.capacity() * size_of::<NodeTangent<N>>()
-            + self.turns.capacity() * size_of::<NodeTurn<N>>();
+            + self.turns.capacity() * size_of::<NodeTurn<N>>()
+            + self.couplings.iter().map(NodeCouplings::bytes).sum::<usize>();
         plans.map(Plan::bytes).sum::<usize>() + self.numbering.as_ref().map_or(0, Numbering::bytes) + rooms + nodes
     }
 }

@@ -111,17 +111,35 @@ impl<const N: usize> Contact<N> {
         of: PlanPairs,
         systems: [System; S],
     ) -> Result<[Plan; S]> {
+        let possible = self.find_pairs(x, of)?;
+        self.plans_of(&possible, of, systems)
+    }
+
+    /// Finds the pairs of a plan: the active ones in the handle, or those that there may be.
+    fn find_pairs(&mut self, x: Positions, of: PlanPairs) -> Result<Option<Vec<(usize, usize)>>> {
         self.given().check_positions(x.0, x.1)?;
-        let mut possible = None;
         match of {
-            PlanPairs::Active(extent) => self.cache.integrate(&self.setup, &mut self.step, x, extent)?,
-            PlanPairs::Possible => possible = Some(self.possible_pairs(x)?),
+            PlanPairs::Active(extent) => {
+                self.cache.integrate(&self.setup, &mut self.step, x, extent)?;
+                Ok(None)
+            }
+            PlanPairs::Possible => self.possible_pairs(x).map(Some),
         }
+    }
+
+    fn found_pairs<'a>(&'a self, possible: &'a Option<Vec<(usize, usize)>>) -> Pairs<'a> {
+        possible.as_ref().map_or_else(|| self.here().pairs(), |pairs| Pairs::Possible(pairs))
+    }
+
+    fn plans_of<const S: usize>(
+        &mut self,
+        possible: &Option<Vec<(usize, usize)>>,
+        of: PlanPairs,
+        systems: [System; S],
+    ) -> Result<[Plan; S]> {
         // Nothing may leave between here and where it is put back: an older plan needs it.
         let mut numbering = self.linear.numbering.take();
-        let pairs = possible.as_ref().map_or_else(|| self.here().pairs(), |pairs| Pairs::Possible(pairs));
-        let extent = if let PlanPairs::Active(extent) = of { extent } else { Extent::Part };
-        let plans = self.here().plans((pairs, extent), systems, &mut numbering);
+        let plans = self.here().plans((self.found_pairs(possible), of.extent()), systems, &mut numbering);
         self.linear.numbering = numbering;
         plans
     }
@@ -163,46 +181,30 @@ impl<const N: usize> Contact<N> {
         self.fill_plan(false, (x, lambda, (Extent::of(sums), None)), values)
     }
 
-    /// The plan of all pairs that there may be near x, for those who ask for its entries alone.
-    pub fn possible_plan(&mut self, x: Positions) -> Result<(&Plan, PlanOf<'_>)> {
-        self.given().check_positions(x.0, x.1)?;
-        let pairs = self.possible_pairs(x)?;
-        let pairs = Pairs::Possible(&pairs);
-        let key = pairs.checksum(true);
+    /// The plan of these pairs at (x1, x2) that the handle makes and keeps for itself, for those who ask for its entries in
+    /// each evaluation.
+    pub fn own_plan(&mut self, x: Positions, of: PlanPairs) -> Result<(&Plan, PlanOf<'_>)> {
+        let possible = self.find_pairs(x, of)?;
+        let key = self.found_pairs(&possible).checksum(of.extent() == Extent::Whole);
         if self.linear.own.as_ref().is_none_or(|own| own.0 != key) {
-            let mut numbering = self.linear.numbering.take();
-            let plans = self.here().plans((pairs, Extent::Part), [System::Whole], &mut numbering);
-            self.linear.numbering = numbering;
-            let [plan] = plans?;
+            let [plan] = self.plans_of(&possible, of, [System::Whole])?;
             self.linear.own = Some((key, plan));
         }
         self.with_numbering(self.linear.own.as_ref().map(|own| &own.1))
     }
 
-    /// The plan of the tangent at these positions alone, for those who ask for its entries in each evaluation.
-    pub fn plan_here(&mut self, x: Positions, extent: Extent) -> Result<(&Plan, PlanOf<'_>)> {
-        self.given().check_positions(x.0, x.1)?;
-        self.cache.integrate(&self.setup, &mut self.step, x, extent)?;
-        let key = self.here().pairs().checksum(extent == Extent::Whole);
-        if self.linear.own.as_ref().is_none_or(|own| own.0 != key) {
-            let [plan] = self.plans(x, PlanPairs::Active(extent), [System::Whole])?;
-            self.linear.own = Some((key, plan));
-        }
-        self.with_numbering(self.linear.own.as_ref().map(|own| &own.1))
-    }
-
-    /// The values of [`Contact::plan_here`].
-    pub fn values_here(
+    /// The values of [`Contact::own_plan`] of the active pairs, which has just been asked for here.
+    pub fn own_values(
         &mut self,
         x: Positions,
         lambda: &[SVector<f64, N>],
         sums: Option<&[NodeSums]>,
         values: &mut [f64],
-    ) -> Result<()> {
+    ) -> Result<(&Plan, PlanOf<'_>)> {
         self.refuse_sums(sums)?;
         self.cache.respond(&self.setup, &mut self.step, x, lambda, sums)?;
-        self.plan_here(x, Extent::of(sums))?;
-        self.fill_plan(true, (x, lambda, (Extent::of(sums), None)), values)
+        self.fill_plan(true, (x, lambda, (Extent::of(sums), None)), values)?;
+        self.with_numbering(self.linear.own.as_ref().map(|own| &own.1))
     }
 
     fn fill_plan(&mut self, is_own: bool, of: AtPoint<N>, values: &mut [f64]) -> Result<()> {

@@ -305,7 +305,7 @@ mod tests {
         let own = |chunk: &Range<usize>, give: &mut dyn FnMut(usize)| chunk.clone().for_each(give);
         let parted = table.parted(&[0..2, 3..4], own, &[0, 3, 1]).unwrap();
         assert_eq!([0, 1].map(|k| parted.pieces(k).len()), [2, 1]);
-        let parted = table.parted(&[0..4], own, &[0, 3, 1]).unwrap();
+        let parted = table.parted(&[0..4, 4..5], own, &[0, 3, 1]).unwrap();
         assert_eq!(parted.pieces(0).iter().map(|piece| piece.len()).collect::<Vec<_>>(), [6, 3]);
     }
 }

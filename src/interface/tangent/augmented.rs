@@ -50,6 +50,11 @@ impl NodeCouplings {
         Ok(())
     }
 
+    /// On the heap `[bytes]`.
+    pub fn bytes(&self) -> usize {
+        self.nodes.capacity() * size_of::<Coupling>()
+    }
+
     /// Adds a pair in which A is the k-th non-mortar node. `dp` = (dp/dg_now, dp/dg_previous).
     pub fn add_pair<const MOVES: bool>(
         &mut self,

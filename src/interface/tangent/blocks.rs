@@ -175,6 +175,8 @@ pub struct Room<const N: usize> {
     mortar: MortarRows,
     overlaps: FacetOverlaps,
     lone: turning::LoneRoom,
+    /// Weights of several pairs, now and of t_n.
+    sums: [PairWeights; 2],
     pairs: Vec<UnionPair>,
 }
 
@@ -231,7 +233,7 @@ pub fn of_facets<const N: usize>(
 fn of_facet<const N: usize>(
     Task { given, normals, pairs: all, numbers, .. }: Task<N>,
     pairs: &[UnionPair],
-    Room { pair: t, facet, share: room, mortar, overlaps, .. }: &mut Room<N>,
+    Room { pair: t, facet, share: room, mortar, overlaps, sums, .. }: &mut Room<N>,
     mut couplings: Option<&mut [NodeCouplings]>,
     emitter: &mut Emitter<N>,
 ) -> Result<i64> {
@@ -261,9 +263,10 @@ fn of_facet<const N: usize>(
         mortar.begin(one, &given.setup.mortar, pairs)?;
     }
     for (place, pairs) in pairs.chunks(if together { pairs.len() } else { 1 }).enumerate() {
-        let now = total(pairs.iter().map(|p| all.now(p)));
-        let previous = total(pairs.iter().map(|p| all.previous(p)));
-        let (previous, mut gap) = (previous.as_deref(), None);
+        let [sum_now, sum_previous] = &mut *sums;
+        let now = total(sum_now, pairs.iter().map(|p| all.now(p)));
+        let previous = total(sum_previous, pairs.iter().map(|p| all.previous(p)));
+        let mut gap = None;
         if let (Some(numbers), Some(nodes)) = (numbers, &facet_nodes) {
             gap = if let Some(dual) = &dual {
                 let pair = (&pairs[0], dual, motion.as_ref());
@@ -278,7 +281,7 @@ fn of_facet<const N: usize>(
             };
             linearised += if numbers.active.is_some() { UnionPair::places(pairs).len() as i64 } else { 0 };
         }
-        let now = now.as_deref().map(|weights| PairNow { weights, gap: gap.as_ref() });
+        let now = now.map(|weights| PairNow { weights, gap: gap.as_ref() });
         if let Some(nodes) = &facet_nodes {
             match moves {
                 true => row_columns::<true, N>(now.as_ref(), previous, nodes, &mut t.rows),

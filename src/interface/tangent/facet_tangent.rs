@@ -4,15 +4,20 @@ use crate::element::{PairNow, PairTangent};
 use crate::mortar::{MORTAR, PairWeights};
 use crate::shape::{MAX_CORNERS, MAX_NODES};
 use crate::simd::{self, Kernel, Lanes};
-use std::borrow::Cow;
 
-/// The sum of those weights that there are; n_AC of one pair alone.
-pub fn total<'a>(weights: impl Iterator<Item = Option<&'a PairWeights>>) -> Option<Cow<'a, PairWeights>> {
-    weights.flatten().map(Cow::Borrowed).reduce(|mut sum, weights| {
-        let ab = &mut sum.to_mut().ab;
-        add(false, ab.as_flattened_mut(), weights.ab.as_flattened());
-        sum
-    })
+/// The sum of those weights that there are, in `sum` where they are several; n_AC of one pair alone.
+pub fn total<'a>(
+    sum: &'a mut PairWeights,
+    weights: impl Iterator<Item = Option<&'a PairWeights>>,
+) -> Option<&'a PairWeights> {
+    let mut weights = weights.flatten();
+    let first = weights.next()?;
+    let Some(second) = weights.next() else { return Some(first) };
+    *sum = *first;
+    for next in std::iter::once(second).chain(weights) {
+        add(false, sum.ab.as_flattened_mut(), next.ab.as_flattened());
+    }
+    Some(sum)
 }
 
 /// A facet's d force / d x, `[k][j][i][B]`, and its weights n_AB.
