@@ -7,7 +7,7 @@ use crate::support::press::{Place, Press};
 use nalgebra::{Isometry3, Rotation3};
 use stickslip::error::Kind;
 use stickslip::geometry::Vec3;
-use stickslip::interface::{Contact, Friction, NO_EQUATION, Options, Stiffness, Surface};
+use stickslip::interface::{Contact, Friction, MultiplierBasis, NO_EQUATION, Options, Stiffness, Surface};
 use stickslip::law::State;
 
 /// Gaps and coverage of the same pairs, which another tree may bring in another order: rounding.
@@ -127,4 +127,75 @@ fn a_fine_tip_in_coarse_facets_is_not_lost_at_commits() {
             assert!(error < SAME_FORCE, "{steps} steps: {found} for {wanted}");
         }
     }
+}
+
+/// Two sheets over each other, of which now one and now the other is in reach: a commit, which keeps the pairs of the
+/// evaluation before it, settles what is settled where there was none, also where that evaluation's search had an end
+/// (`src/interface/stages/keep.rs`, `pairing/ends.rs`).
+#[test]
+fn a_commit_settles_the_pairs_that_a_search_of_its_own_finds() {
+    let (mut refused, mut changed, mut compared) = (0, 0, 0);
+    for seed in 0..60 {
+        let mut random = Random(seed);
+        let basis = if seed % 2 == 0 { MultiplierBasis::Standard } else { MultiplierBasis::Dual };
+        let one = grid(7, 7, [0.0, 0.0], [1.0, 1.0], 0.0, false, Cells::Quads);
+        let sheet = grid(9, 9, [-0.2, -0.2], [1.2, 1.2], 0.0, true, Cells::Quads);
+        let first = sheet.x.len();
+        let two = Mesh {
+            x: sheet
+                .x
+                .iter()
+                .chain(&sheet.x)
+                .enumerate()
+                .map(|(k, x)| x - Vec3::z() * if k < first { 0.1 } else { 2.0 })
+                .collect(),
+            facets: sheet
+                .facets
+                .iter()
+                .cloned()
+                .chain(sheet.facets.iter().map(|f| f.iter().map(|k| k + first as i64).collect()))
+                .collect(),
+        };
+        let options = Options { basis, search_distance: Some(0.5), ..options() };
+        let make = || -> Contact<3> { contact(&one, &two, false, options.clone()) };
+        let (mut stepping, mut pairs) = (make(), make().history().pairs.len());
+        let lambda = vec![Vec3::zeros(); one.x.len()];
+        for _ in 0..6 {
+            // One sheet in reach, the other beyond it on this side, or far behind.
+            let (near, far) =
+                (0.2 + 0.25 * random.next(), [0.7, 2.0, 40.0, -3.0][(2.0 * random.next() + 2.0) as usize % 4]);
+            let heights = if random.next() < 0.0 { [near, far] } else { [far, near] };
+            let (slide, bend) = (random.vector(0.1), 0.05 * random.next());
+            let x1: Vec<_> = one.x.iter().map(|x| x + slide.xy().push(bend * (3.0 * x.x).sin())).collect();
+            let turn = Rotation3::new(random.vector(0.02));
+            let x2: Vec<_> = two
+                .x
+                .iter()
+                .enumerate()
+                .map(|(k, x)| turn * Vec3::new(x.x, x.y, -heights[usize::from(k >= first)]))
+                .collect();
+            stepping.residual(&x1, &x2, &lambda, None).unwrap();
+            let mut anew = make();
+            let outcome = (stepping.commit(&x1, &x2, &lambda, None), anew.set_previous(&x1, &x2));
+            let (Ok(()), Ok(())) = outcome else {
+                assert!(
+                    outcome.0.is_err() && outcome.1.is_err() || outcome.0.is_err_and(|e| e.kind == Kind::ContactLost),
+                    "seed {seed}"
+                );
+                refused += 1;
+                break;
+            };
+            let flat = |c: &Contact<3>| {
+                c.history().pairs.iter().map(|p| (p.one, p.two, p.weights.ab, p.weights.ac)).collect::<Vec<_>>()
+            };
+            assert!(flat(&stepping) == flat(&anew), "seed {seed}");
+            // The filters of the step that follows are the same, too.
+            let next: Vec<_> = x2.iter().map(|x| x - Vec3::z() * 0.1 * random.next()).collect();
+            assert!(stepping.sums(&x1, &next).unwrap() == anew.sums(&x1, &next).unwrap(), "seed {seed}");
+            compared += 1;
+            changed += usize::from(flat(&anew).len() != std::mem::replace(&mut pairs, flat(&anew).len()));
+        }
+    }
+    println!("{compared} commits compared, {changed} with other pairs than before, {refused} refused");
+    assert!(compared > 150 && changed > 60);
 }
