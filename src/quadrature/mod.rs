@@ -62,11 +62,20 @@ pub static DEGREE_6: Rule = Rule {
     ..DEGREE_1
 };
 
+/// 12 points a triangle: exact for quadratic facets whose sub-facets are affine, where the others need degree 5.
+pub static DEGREE_7: Rule = Rule {
+    triangle: &triangle::GATERMANN_12,
+    square: &line::GAUSS_4,
+    triangle_lanes: &lanes::<3, 12, 3>(&triangle::GATERMANN_12),
+    degree: 7,
+    ..DEGREE_1
+};
+
 /// Most groups of four points that a rule has on an interval.
 pub const LINE_GROUPS: usize = 2;
 
 /// All of them, by degree.
-pub static RULES: [&Rule; 6] = [&DEGREE_1, &DEGREE_2, &DEGREE_4, &DEGREE_5, &DEGREE_6, &DEGREE_10];
+pub static RULES: [&Rule; 7] = [&DEGREE_1, &DEGREE_2, &DEGREE_4, &DEGREE_5, &DEGREE_6, &DEGREE_7, &DEGREE_10];
 
 impl Rule {
     /// The rule for integrals of derivatives: of degree 5 at least.

@@ -5,3 +5,4 @@ mod support;
 
 mod element_rule;
 mod golden;
+mod quadratic;
