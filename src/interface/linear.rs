@@ -327,7 +327,7 @@ fn check(shown: Shown) -> Result<()> {
     };
     if let Some((row, column)) = shown.lacks {
         let text = text!(
-            "the plan lacks the entries of {} in the rows of {}: the pairs have changed; make it again (stickslip_interface_plan, stickslip_interface_condensed_plan)",
+            "the plan has no place for the entries of {} in the rows of {}: the pairs have changed; make it again (stickslip_interface_plan, stickslip_interface_condensed_plan)",
             name(column),
             name(row)
         );

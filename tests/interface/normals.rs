@@ -395,9 +395,17 @@ fn the_tangent_of_a_rigid_side_equals_differences() {
     }
 }
 
-/// Two handles with a part of the mortar facets each: their residuals and tangents add up to those of one.
+/// Two handles with a part of the mortar facets each: their residuals and tangents add up to those of one. Facets in turn,
+/// and those of one half, where the nodes' owner has no pairs around many of them.
 #[test]
 fn shares_of_several_handles_add_up() {
+    shares_add_up(&|f, _| f % 2, &|a| a % 2);
+    shares_add_up(&|_, left| usize::from(!left), &|_| 0);
+    shares_add_up(&|_, left| usize::from(!left), &|_| 1);
+}
+
+/// `part`: whose a mortar facet is, by its number and whether it is in the left half; `owner`: whose a node is.
+fn shares_add_up(part_of: &dyn Fn(usize, bool) -> usize, owner: &dyn Fn(usize) -> usize) {
     let (_, rough, cells) = scenes().next().unwrap();
     let mut whole = moved(&current(options()), cells, rough, 3);
     let (n1, n2) = (whole.x1.len(), whole.x2.len());
@@ -406,7 +414,10 @@ fn shares_of_several_handles_add_up() {
     let (one, two) = (mesh_of(one), mesh_of(two));
     let mut parts: Vec<_> = (0..2)
         .map(|part| {
-            let of_part = two.facets.iter().enumerate().filter(|(f, _)| f % 2 == part).map(|(_, f)| f);
+            let middle = two.x.iter().map(|x| x.x).sum::<f64>() / n2 as f64;
+            let is_left = |f: &[i64]| f.iter().map(|k| two.x[*k as usize].x).sum::<f64>() < f.len() as f64 * middle;
+            let of_part =
+                two.facets.iter().enumerate().filter(|(k, f)| part_of(*k, is_left(f)) == part).map(|(_, f)| f);
             let mut used: Vec<_> = of_part.clone().flatten().copied().collect();
             used.sort_unstable();
             used.dedup();
@@ -418,7 +429,7 @@ fn shares_of_several_handles_add_up() {
             let mortar = Surface::new("mortar", at(&two.x), &facets, equations).unwrap();
             let multipliers = numbered(3 * (n1 + n2), n1);
             let mut c = Contact::<3>::new(nonmortar, mortar, multipliers, current(options())).unwrap();
-            c.set_owned((0..n1).map(|a| a % 2 == part).collect()).unwrap();
+            c.set_owned((0..n1).map(|a| owner(a) == part).collect()).unwrap();
             (c, at(&whole.x2))
         })
         .collect();

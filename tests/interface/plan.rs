@@ -8,7 +8,7 @@ use stickslip::error::Kind;
 use stickslip::geometry::Vec3;
 use stickslip::interface::{
     Contact, Extent, Form, Friction, MultiplierBasis, NO_EQUATION, Normals, Options, Plan, PlanOf, PlanPairs,
-    PlanSystem, Surface,
+    PlanSystem, Shortcuts, Surface,
 };
 
 /// Sums of a few dozen terms in another order, over the largest entry.
@@ -243,5 +243,47 @@ fn a_plan_of_many_facets_that_does_not_suffice_is_refused() {
             assert_eq!(refused.kind, Kind::MissingEntry, "{basis:?}, {threads} threads: {refused}");
         }
         assert!(values_of(&mut c, (&one, &two), &lambda, n) == before, "{basis:?}, {threads} threads");
+    }
+}
+
+/// A quad over four triangles that meet in a point. A fourth one, all of whose nodes the plan knows by the other three, has
+/// blocks of its nodes with each other that the plan lacks: they were left out, and values came without a word.
+#[test]
+fn a_mortar_facet_whose_nodes_the_plan_has_by_others_alone_is_missing() {
+    let corners = |list: &[[f64; 2]]| list.iter().map(|x| Vec3::new(x[0], x[1], 0.0)).collect::<Vec<_>>();
+    let one =
+        Mesh { x: corners(&[[0.05, -0.3], [0.05, 0.3], [0.5, 0.3], [0.5, -0.3]]), facets: vec![vec![0, 1, 2, 3]] };
+    let two = Mesh {
+        x: corners(&[[0.0, 0.0], [1.0, 1.0], [-1.0, 1.0], [-1.0, -1.0], [1.0, -1.0]]),
+        facets: [[0, 4, 1], [0, 1, 2], [0, 2, 3], [0, 3, 4]].map(|f| f.to_vec()).to_vec(),
+    };
+    let moved: Vec<_> = one.x.iter().map(|x| x - Vec3::x() * 0.15).collect();
+    let lambda = vec![Vec3::new(0.02, 0.01, -0.5); 4];
+    for extent in [Extent::Whole, Extent::Part] {
+        let mut c: Contact<3> = contact(&one, &two, false, options());
+        let n = c.make_plan((&one.x, &two.x), PlanPairs::Active(extent)).unwrap();
+        let refused = c.plan_values((&moved, &two.x), &lambda, None, &mut vec![0.0; n]).unwrap_err();
+        assert_eq!(refused.kind, Kind::MissingEntry, "{refused}");
+        agrees(&mut c, &moved, &two.x, &lambda, "made again");
+    }
+}
+
+/// What has no equations needs no place: a mortar facet that comes new there is no reason to make a plan again.
+#[test]
+fn mortar_nodes_without_equations_are_never_missing() {
+    for basis in [MultiplierBasis::Standard, MultiplierBasis::Dual] {
+        let one = grid(3, 3, [0.0, 0.0], [1.0, 1.0], 0.0, false, Cells::Quads);
+        let two = grid(9, 9, [-0.5, -0.5], [1.5, 1.5], -1e-3, true, Cells::Quads);
+        let (n1, n2) = (one.x.len(), two.x.len());
+        let nonmortar = Surface::new("nonmortar", one.x.clone(), &one.facets, numbered(0, n1)).unwrap();
+        let none = vec![[NO_EQUATION; 3]; n2];
+        let mortar = Surface::new("mortar", two.x.clone(), &two.facets, none).unwrap();
+        let options = Options { basis, shortcuts: Shortcuts { rigid: false, ..Shortcuts::default() }, ..options() };
+        let mut c: Contact<3> = Contact::new(nonmortar, mortar, numbered(3 * n1, n1), options).unwrap();
+        let lambda = vec![Vec3::new(0.02, 0.01, -0.5); n1];
+        let n = c.make_plan((&one.x, &two.x), PlanPairs::Active(Extent::Whole)).unwrap();
+        let slid: Vec<_> = one.x.iter().map(|x| x + Vec3::new(0.3, 0.2, 0.0)).collect();
+        c.plan_values((&slid, &two.x), &lambda, None, &mut vec![0.0; n]).unwrap();
+        agrees(&mut c, &slid, &two.x, &lambda, &format!("{basis:?}"));
     }
 }

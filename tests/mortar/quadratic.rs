@@ -135,8 +135,10 @@ fn linear_facets_are_their_own_parents() {
                 assert!(pairs.iter().all(|(v, w)| (v - w).abs() < WEIGHTS * size * size), "{}", name(&case));
                 for (k, j) in (0..8).flat_map(|k| (0..3).map(move |j| (k, j))) {
                     let slot = if k < 4 { k } else { 9 + k - 4 };
-                    let pairs =
-                        [(d.ab[a][b][slot][j], derivatives.ab[a][b][k][j]), (d.ac[a][b][slot][j], derivatives.ac[a][b][k][j])];
+                    let pairs = [
+                        (d.ab[a][b][slot][j], derivatives.ab[a][b][k][j]),
+                        (d.ac[a][b][slot][j], derivatives.ac[a][b][k][j]),
+                    ];
                     let same = pairs.iter().all(|(v, w)| (v - w).abs() < DERIVATIVES * (scale + size));
                     assert!(same, "{} {pairs:?}", name(&case));
                 }

@@ -26,11 +26,24 @@ fn widened(offset: u16) -> u32 {
     if offset >= scatter::SKIP { SKIP + u32::from(offset - scatter::SKIP) } else { u32::from(offset) }
 }
 
-/// Of a mortar node that the facet does not have.
-static MISSING: MortarOffsets = {
-    let lacks = [scatter::LACKS; MAX_NODES];
-    MortarOffsets { column: lacks, row: lacks, forces: lacks, multipliers: lacks }
-};
+/// Of a mortar node that the facet does not have, and of one without equations.
+static MISSING: MortarOffsets = all(scatter::LACKS);
+static SKIPPED: MortarOffsets = all(scatter::SKIP);
+
+/// The offsets of a mortar node that has this place.
+#[inline]
+fn of_mortar(scatter: &Scatter, place: Option<usize>, has_equations: bool) -> &MortarOffsets {
+    match place {
+        Some(place) => &scatter.mortar[place],
+        None if has_equations => &MISSING,
+        None => &SKIPPED,
+    }
+}
+
+const fn all(offset: u16) -> MortarOffsets {
+    let all = [offset; MAX_NODES];
+    MortarOffsets { column: all, row: all, forces: all, multipliers: all }
+}
 
 impl Shown {
     /// Adds what others have shown.
@@ -67,6 +80,8 @@ struct State {
     is_foreign: bool,
     /// The places of these nodes among the mortar nodes of the facets.
     places: [Option<usize>; MAX_NODES],
+    /// Which of these nodes have equations.
+    has_equations: [bool; MAX_NODES],
     /// Of the blocks at hand.
     starts: Starts,
     /// An entry that the plan lacks: row and column.
@@ -94,7 +109,11 @@ impl<'a, 'p, const N: usize> Fill<'a, 'p, N> {
     /// The rows of a node. Where no pair of the plan leads there they may be another chunk's, and nothing can be added.
     #[inline]
     fn touch(&mut self, place: Place) -> Option<Target> {
-        let target = self.hand.claim(self.layout.nodes.number(place));
+        let node = self.layout.nodes.number(place);
+        if self.layout.numbering.rank[node] == NO_RANK {
+            return Some(Target::default()); // nothing is ever added
+        }
+        let target = self.hand.claim(node);
         if target.is_none() {
             self.note(true, place, Place::Displacement(self.node_of(Span::Own, 0)));
         }
@@ -130,6 +149,7 @@ impl<'a, 'p, const N: usize> Fill<'a, 'p, N> {
             self.state.is_foreign |= target.is_none();
             self.state.mortar_rows[k] = target.unwrap_or_default();
             self.state.places[k] = self.scatter.and_then(|s| s.place(self.state.facet, node));
+            self.state.has_equations[k] = self.layout.numbering.rank[self.layout.nodes.mortar(node)] != NO_RANK;
         }
     }
 
@@ -161,10 +181,13 @@ impl<'a, 'p, const N: usize> Fill<'a, 'p, N> {
             (Span::Own, Span::Own) if of_multipliers => &own.rows,
             (Span::Own, Span::Own) if by_multipliers => &own.multipliers,
             (Span::Own, Span::Own) => &own.forces,
+            (Span::Mortar(j), Span::Mortar(_)) if scatter.among[j][0][0] == scatter::LACKS => {
+                return self.search((rows, of_multipliers), (columns, by_multipliers));
+            }
             (Span::Mortar(j), Span::Mortar(_)) => &scatter.among[j],
             (Span::Own, Span::Mortar(_)) => {
-                for (k, place) in self.state.places.iter().enumerate() {
-                    let from = place.map_or(&MISSING, |p| &scatter.mortar[p]);
+                for k in 0..MAX_NODES {
+                    let from = of_mortar(scatter, self.state.places[k], self.state.has_equations[k]);
                     let from = if of_multipliers { &from.row } else { &from.column };
                     for b in 0..MAX_NODES {
                         starts[b][k] = widened(from[b]);
@@ -173,8 +196,8 @@ impl<'a, 'p, const N: usize> Fill<'a, 'p, N> {
                 return;
             }
             (Span::Mortar(_), Span::Own) => {
-                for (b, place) in self.state.places.iter().enumerate() {
-                    let from = place.map_or(&MISSING, |p| &scatter.mortar[p]);
+                for b in 0..MAX_NODES {
+                    let from = of_mortar(scatter, self.state.places[b], self.state.has_equations[b]);
                     let from = if by_multipliers { &from.multipliers } else { &from.forces };
                     for k in 0..MAX_NODES {
                         starts[b][k] = widened(from[k]);

@@ -48,7 +48,8 @@ pub struct Scatter {
     pub nodes: Vec<u32>,
     /// Of each of them.
     pub mortar: Vec<MortarOffsets>,
-    /// Per mortar facet, of its nodes with each other; nothing where facets of dual multipliers couple them.
+    /// Per mortar facet, of its nodes with each other: [`LACKS`] where it has no pairs; nothing where facets of dual
+    /// multipliers couple them.
     pub among: Vec<Offsets>,
     /// Where the couplings of each facet begin: of each of its mortar nodes with each.
     pub first_coupling: Vec<usize>,
@@ -60,7 +61,7 @@ impl Scatter {
     pub fn of(setup: Sides, pairs: &FacetPairs, couples: bool, among: bool) -> Result<Scatter> {
         let nothing = [[SKIP; MAX_NODES]; MAX_NODES];
         let own = OwnOffsets { forces: nothing, multipliers: nothing, rows: nothing };
-        let nothing = [SKIP; MAX_NODES];
+        let (nothing, lacks) = ([SKIP; MAX_NODES], [LACKS; MAX_NODES]);
         let mortar = MortarOffsets { column: nothing, row: nothing, forces: nothing, multipliers: nothing };
         let mut s = Scatter {
             has: (0..setup.nonmortar.facets.len()).map(|f| !pairs.pairs(f).is_empty()).stored()?,
@@ -68,9 +69,14 @@ impl Scatter {
             first_node: memory::copied(&pairs.first_node)?,
             nodes: memory::filled(0, pairs.nodes.len())?,
             mortar: memory::filled(mortar, pairs.nodes.len())?,
-            among: memory::filled([nothing; MAX_NODES], if among { setup.mortar.facets.len() } else { 0 })?,
+            among: memory::filled([lacks; MAX_NODES], if among { setup.mortar.facets.len() } else { 0 })?,
             ..Scatter::default()
         };
+        if among {
+            (0..s.has.len())
+                .flat_map(|f| pairs.pairs(f))
+                .for_each(|pair| s.among[pair.0 as usize] = [nothing; MAX_NODES]);
+        }
         s.nodes.iter_mut().zip(&pairs.nodes).for_each(|(to, node)| *to = node.0);
         if couples {
             s.first_coupling = memory::filled(0, s.first_node.len())?;

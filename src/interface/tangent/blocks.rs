@@ -340,7 +340,7 @@ pub fn of_nodes<const N: usize>(
     let options = &given.setup.options;
     if options.follows_normals() {
         let drow_dnow = |b: usize| numbers.map_or_else(SMatrix::zeros, |n| n.nodes[b].drow_dnow);
-        turning::lone_facets(given, pairs, &mut room.lone)?;
+        turning::lone_facets(given, (pairs, extent), &mut room.lone)?;
         let beyond_rows = couplings.is_some() || (N == 1 && !given.step.pairing.carriers.is_empty());
         if beyond_rows {
             let mut walk = Walk::through(pairs, 0..usize::MAX);

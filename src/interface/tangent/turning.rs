@@ -12,6 +12,7 @@ use super::emission::{Emitter, Span};
 use super::union::{Pairs, UnionPair, Walk};
 use crate::error::Result;
 use crate::geometry::{Mat3, Vec3};
+use crate::interface::data::extent::Extent;
 use crate::interface::data::multiplier::direction;
 use crate::interface::data::options::Form;
 use crate::interface::data::surface::FacetNodes;
@@ -160,15 +161,19 @@ pub struct LoneRoom {
     pub lone: Vec<usize>,
 }
 
-/// The facets without pairs around nodes that a pair covers: their corners enter through the normals alone.
+/// The facets without pairs around nodes that a pair covers: their corners enter through the normals alone. With sums of
+/// several handles a pair of another one may cover any node, and its row is in the tangent of who owns it.
 pub fn lone_facets<const N: usize>(
     given: Given<N>,
-    pairs: Pairs,
+    (pairs, extent): (Pairs, Extent),
     LoneRoom { paired, covered, of_facet, lone }: &mut LoneRoom,
 ) -> Result<()> {
     let one = &given.setup.nonmortar;
     memory::refill(paired, false, one.facets.len())?;
     memory::refill(covered, false, one.len())?;
+    if extent == Extent::Part {
+        covered.copy_from_slice(&given.setup.nodes.owned);
+    }
     let mut walk = Walk::through(pairs, 0..usize::MAX);
     while let Some(f) = walk.next(of_facet)? {
         paired[f] = true;
