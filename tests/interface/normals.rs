@@ -399,17 +399,34 @@ fn the_tangent_of_a_rigid_side_equals_differences() {
 /// and those of one half, where the nodes' owner has no pairs around many of them.
 #[test]
 fn shares_of_several_handles_add_up() {
-    shares_add_up(&|f, _| f % 2, &|a| a % 2);
-    shares_add_up(&|_, left| usize::from(!left), &|_| 0);
-    shares_add_up(&|_, left| usize::from(!left), &|_| 1);
+    let (_, rough, cells) = scenes().next().unwrap();
+    let scene = || moved(&current(options()), cells, rough, 3);
+    shares_add_up(scene(), &|f, _| f % 2, &|a| a % 2);
+    for owner in 0..2 {
+        shares_add_up(scene(), &|_, left| usize::from(!left), &|_| owner);
+        shares_add_up(strip(), &|_, left| usize::from(!left), &|_| owner);
+    }
+}
+
+/// A strip of six curved facets over two facets below its ends.
+fn strip() -> Moved {
+    let mut one = grid(6, 1, [0.0, 0.0], [6.0, 1.0], 0.0, false, Cells::Quads);
+    one.x.iter_mut().for_each(|x| x.z = 0.02 * (x.x - 3.0).powi(2) - 0.2 + 0.01 * x.y * x.x);
+    let mut two = grid(1, 1, [-0.1, -0.2], [1.4, 1.3], -0.06, true, Cells::Quads);
+    let other = grid(1, 1, [4.7, -0.2], [6.1, 1.3], -0.06, true, Cells::Quads);
+    two.facets.extend(other.facets.iter().map(|f| f.iter().map(|k| k + 4).collect::<Vec<_>>()));
+    two.x.extend(other.x);
+    let x1 = one.x.iter().enumerate().map(|(k, x)| x + Vec3::repeat(0.005 * (3.0 * k as f64).sin())).collect();
+    let lambda = vec![Vec3::new(0.05, 0.02, -0.5); one.x.len()];
+    let options = Options { search_distance: Some(0.5), ..current(options()) };
+    Moved { interface: interface(&one, &two, options), x1, x2: two.x, lambda }
 }
 
 /// `part`: whose a mortar facet is, by its number and whether it is in the left half; `owner`: whose a node is.
-fn shares_add_up(part_of: &dyn Fn(usize, bool) -> usize, owner: &dyn Fn(usize) -> usize) {
-    let (_, rough, cells) = scenes().next().unwrap();
-    let mut whole = moved(&current(options()), cells, rough, 3);
+fn shares_add_up(mut whole: Moved, part_of: &dyn Fn(usize, bool) -> usize, owner: &dyn Fn(usize) -> usize) {
     let (n1, n2) = (whole.x1.len(), whole.x2.len());
     let n = 3 * (2 * n1 + n2);
+    let options = *whole.interface.options();
     let (one, two) = whole.interface.surfaces();
     let (one, two) = (mesh_of(one), mesh_of(two));
     let mut parts: Vec<_> = (0..2)
@@ -428,7 +445,7 @@ fn shares_add_up(part_of: &dyn Fn(usize, bool) -> usize, owner: &dyn Fn(usize) -
             let nonmortar = Surface::new("nonmortar", one.x.clone(), &one.facets, numbered(0, n1)).unwrap();
             let mortar = Surface::new("mortar", at(&two.x), &facets, equations).unwrap();
             let multipliers = numbered(3 * (n1 + n2), n1);
-            let mut c = Contact::<3>::new(nonmortar, mortar, multipliers, current(options())).unwrap();
+            let mut c = Contact::<3>::new(nonmortar, mortar, multipliers, options).unwrap();
             c.set_owned((0..n1).map(|a| owner(a) == part).collect()).unwrap();
             (c, at(&whole.x2))
         })
