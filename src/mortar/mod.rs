@@ -33,6 +33,6 @@ pub use derivatives::{pair_motion, pair_motion_raised};
 pub use field::MultiplierSpace;
 pub use gap::{AlongNormal, GapBlocks, GapDerivative, Raised, columns, gap, height_gap};
 pub use pair_weights::PairWeights;
-pub use parent_pair::{OfParents, PARENT_PAIR_NODES, ParentDerivatives, ParentFacet, ParentWeights, parent_weights};
+pub use parent_pair::{ParentDerivatives, ParentFacet, ParentWeights, parent_weights};
 pub use segment::{CellPoints, NonmortarFrame, Segment};
 pub use slots::{MORTAR, PAIR_NODES, slots};

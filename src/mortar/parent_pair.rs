@@ -3,14 +3,12 @@
 
 use super::field::MultiplierSpace;
 use super::segment::{NonmortarFrame, Segment};
-use super::sub_pair::{SubDerivatives, SubWeights, rule_for, sub_derivatives, sub_weights};
+use super::slots::{MORTAR, PAIR_NODES};
+use super::sub_pair::{COLUMNS, Side, SubDerivatives, SubWeights, rule_for, sub_derivatives, sub_weights};
 use crate::error::{Error, Kind, Result};
-use crate::geometry::{Facet, Vec3};
+use crate::geometry::{Facet, Plane, Vec3};
 use crate::quadrature::Rule;
-use crate::shape::{MAX_CORNERS, MAX_PARENT_NODES, Parent, SubFacet};
-
-/// Nodes of a pair: the non-mortar ones, then the mortar ones, each in [`MAX_PARENT_NODES`] slots.
-pub const PARENT_PAIR_NODES: usize = 2 * MAX_PARENT_NODES;
+use crate::shape::{MAX_CORNERS, MAX_PARENT_NODES, Parent, SubFacet, TERMS, monomials};
 
 /// A facet as hosts have it.
 #[derive(Clone, Copy, Debug)]
@@ -47,6 +45,25 @@ impl ParentFacet {
         Ok(facet)
     }
 
+    /// How many multipliers it has: its first so many nodes do.
+    pub fn multipliers(&self, space: MultiplierSpace) -> usize {
+        if space == MultiplierSpace::Corner { self.parent.corners } else { self.parent.n }
+    }
+
+    /// Unit normal at node k, out of the body: x_xi x x_eta (docs/formulation.md 7.4).
+    pub fn normal(&self, k: usize) -> Vec3 {
+        let [x, y] = self.parent.at[k];
+        let [_, dx, dy] = monomials(x, y);
+        let tangent = |m: &[f64; TERMS]| -> Vec3 {
+            let function = |b: usize| (0..TERMS).map(|t| self.parent.functions[t][b / 4][b % 4] * m[t]).sum::<f64>();
+            // Differences of nodes: exact under a common offset.
+            (1..self.parent.n).map(|b| (self.x[b] - self.x[0]) * function(b)).sum()
+        };
+        let w = tangent(&dx).cross(&tangent(&dy));
+        let norm = w.norm();
+        if norm > 0.0 { w / norm } else { Vec3::zeros() }
+    }
+
     /// A sub-facet.
     #[inline]
     pub fn sub(&self, s: usize) -> Facet {
@@ -76,44 +93,29 @@ fn frame(one: &ParentFacet, s: usize) -> Result<NonmortarFrame> {
     let mut frame = NonmortarFrame::new(&one.sub(s)).map_err(named)?;
     for (k, beyond) in one.parent.subs[s].beyond.iter().enumerate() {
         if let Some(other) = *beyond {
-            frame.plane.beyond[k] = Some(crate::geometry::Plane::of(&one.sub(other)).map_err(named)?.e);
+            frame.plane.beyond[k] = Some(Plane::of(&one.sub(other)).map_err(named)?.e);
         }
     }
     Ok(frame)
 }
 
-/// n_AB and n_AC of a pair of parents, rows and columns their nodes; rows of nodes without a multiplier are zero [L^2].
-#[derive(Clone, Debug, PartialEq)]
+/// n_AB and n_AC of a pair of parents: rows, the nodes with multipliers, which are the first ones; columns, the parents' nodes
+/// [L^2].
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ParentWeights {
     /// n_AB.
     pub ab: [[f64; MAX_PARENT_NODES]; MAX_PARENT_NODES],
     /// n_AC.
     pub ac: [[f64; MAX_PARENT_NODES]; MAX_PARENT_NODES],
-    /// The area of the overlap, of every pair of sub-facets in the plane of the non-mortar one [L^2].
+    /// The area of the overlap, that of every pair of sub-facets in the plane of the non-mortar one [L^2].
     pub area: f64,
 }
 
-/// Derivatives of weights, `[A][B][k][j]`: with respect to component j of slot k of the pair's nodes `[L]`.
-pub type OfParents = [[[[f64; 3]; PARENT_PAIR_NODES]; MAX_PARENT_NODES]; MAX_PARENT_NODES];
+/// Derivatives of n_AB and n_AC, row by row as a caller has them: `[A][B][k][j]` with respect to component j of the pair's
+/// k-th node, mortar ones after non-mortar ones; m n1 3 (n1 + n2) and m n2 3 (n1 + n2) numbers of m multipliers `[L]`.
+pub type ParentDerivatives<'a> = [&'a mut [f64]; 2];
 
-/// Derivatives of n_AB and n_AC. Large: made once by who keeps them.
-#[derive(Clone, Debug)]
-pub struct ParentDerivatives {
-    /// Of n_AB.
-    pub ab: OfParents,
-    /// Of n_AC.
-    pub ac: OfParents,
-}
-
-impl ParentDerivatives {
-    /// Zeros.
-    pub const ZERO: ParentDerivatives = {
-        let zero = [[[[0.0; 3]; PARENT_PAIR_NODES]; MAX_PARENT_NODES]; MAX_PARENT_NODES];
-        ParentDerivatives { ab: zero, ac: zero }
-    };
-}
-
-/// The weights of a pair, and their derivatives, which begin with zeros, where asked for.
+/// The weights of a pair; where asked for, their derivatives are added to what is there.
 ///
 /// # Errors
 /// [`Kind::DegenerateFacet`] of a sub-facet, which is named; [`Kind::ProjectionNotConvex`].
@@ -121,10 +123,9 @@ pub fn parent_weights(
     (one, two): (&ParentFacet, &ParentFacet),
     space: MultiplierSpace,
     rule: &'static Rule,
-    mut derivatives: Option<&mut ParentDerivatives>,
+    mut derivatives: Option<ParentDerivatives>,
 ) -> Result<ParentWeights> {
-    let zero = [[0.0; MAX_PARENT_NODES]; MAX_PARENT_NODES];
-    let mut sum = ParentWeights { ab: zero, ac: zero, area: 0.0 };
+    let mut sum = ParentWeights::default();
     let rule = rule_for(rule, [one.parent, two.parent]);
     for (s, sigma) in one.parent.subs.iter().enumerate() {
         let frame = frame(one, s)?;
@@ -135,10 +136,11 @@ pub fn parent_weights(
             sum.area += segment.area;
             match &mut derivatives {
                 None => sum.add(rows, &sub_weights(pair, sides, space)),
-                Some(to) => {
+                Some([ab, ac]) => {
                     let mut d = SubDerivatives::default();
                     sum.add(rows, &sub_derivatives(pair, sides, space, &mut d));
-                    to.add(rows, (sigma, tau), &d);
+                    add_derivatives(rows, sides, (&d.ab, one.parent.n), ab);
+                    add_derivatives(rows, sides, (&d.ac, two.parent.n), ac);
                 }
             }
         }
@@ -157,18 +159,20 @@ impl ParentWeights {
     }
 }
 
-impl ParentDerivatives {
-    fn add(&mut self, rows: &[usize], (sigma, tau): (&SubFacet, &SubFacet), d: &SubDerivatives) {
-        let slots = |k: usize| match k.checked_sub(MAX_CORNERS) {
-            None => (k < sigma.shape.n).then(|| sigma.nodes[k]),
-            Some(l) => (l < tau.shape.n).then(|| MAX_PARENT_NODES + tau.nodes[l]),
-        };
+/// Adds those of so many columns, of a pair of sub-facets, to those of the parents.
+fn add_derivatives(
+    rows: &[usize],
+    ((one, sigma), (two, tau)): (Side, Side),
+    (d, columns): (&[[[[f64; COLUMNS]; 3]; PAIR_NODES]; MAX_CORNERS], usize),
+    to: &mut [f64],
+) {
+    let n = one.n + two.n;
+    let non_mortar = (0..sigma.shape.n).map(|k| (k, sigma.nodes[k]));
+    let mortar = (0..tau.shape.n).map(|l| (MORTAR + l, one.n + tau.nodes[l]));
+    for (slot, node) in non_mortar.chain(mortar) {
         for (a, &row) in rows.iter().enumerate() {
-            for (k, slot) in (0..2 * MAX_CORNERS).filter_map(|k| Some((k, slots(k)?))) {
-                for (b, j) in (0..MAX_PARENT_NODES).flat_map(|b| (0..3).map(move |j| (b, j))) {
-                    self.ab[row][b][slot][j] += d.ab[a][k][j][b];
-                    self.ac[row][b][slot][j] += d.ac[a][k][j][b];
-                }
+            for (b, j) in (0..columns).flat_map(|b| (0..3).map(move |j| (b, j))) {
+                to[3 * ((row * columns + b) * n + node) + j] += d[a][slot][j][b];
             }
         }
     }

@@ -148,7 +148,7 @@ impl KindKernel for Integrate<'_> {
         let zero = L::splat(0.0);
         let (mut ab, mut ac) = ([[zero; GROUPS]; MAX_CORNERS], [[zero; GROUPS]; MAX_CORNERS]);
         let mut sums: Option<[Sums<L>; 2]> =
-            derivatives.is_some().then(|| [[[[[zero; 2]; PAIR_CORNERS]; GROUPS]; MAX_CORNERS]; 2]);
+            derivatives.is_some().then_some([[[[[zero; 2]; PAIR_CORNERS]; GROUPS]; MAX_CORNERS]; 2]);
         let mut fan = Fan::new(frame, segment);
         while let Some(triangle) = fan.triangle() {
             for four in rule.triangle_lanes {

@@ -9,8 +9,8 @@ use serde_json::Value;
 use stickslip::error::Kind;
 use stickslip::geometry::Vec3;
 use stickslip::mortar::{
-    MultiplierSpace, NonmortarFrame, PairWeights, ParentDerivatives, ParentFacet, ParentWeights, Segment,
-    WeightDerivatives, parent_weights,
+    MORTAR, MultiplierSpace, NonmortarFrame, PairWeights, ParentFacet, ParentWeights, Segment, WeightDerivatives,
+    parent_weights,
 };
 use stickslip::quadrature::{DEGREE_5, DEGREE_10, Rule};
 
@@ -33,14 +33,30 @@ fn weights(one: &ParentFacet, two: &ParentFacet, space: MultiplierSpace, rule: &
     parent_weights((one, two), space, rule, None).unwrap()
 }
 
+/// Derivatives of n_AB and n_AC, `[A][B][k][j]` one after the other.
+struct Derivatives {
+    of: [Vec<f64>; 2],
+    columns: [usize; 2],
+}
+
+impl Derivatives {
+    /// Of n_AB (which = 0) or n_AC, with respect to component j of the pair's k-th node.
+    fn at(&self, which: usize, a: usize, b: usize, k: usize, j: usize) -> f64 {
+        let n = self.columns[0] + self.columns[1];
+        self.of[which][3 * ((a * self.columns[which] + b) * n + k) + j]
+    }
+}
+
 fn with_derivatives(
     one: &ParentFacet,
     two: &ParentFacet,
     space: MultiplierSpace,
     rule: &'static Rule,
-) -> (ParentWeights, Box<ParentDerivatives>) {
-    let mut d = Box::new(ParentDerivatives::ZERO);
-    (parent_weights((one, two), space, rule, Some(&mut d)).unwrap(), d)
+) -> (ParentWeights, Derivatives) {
+    let (m, columns) = (one.multipliers(space), [one.parent.n, two.parent.n]);
+    let [mut ab, mut ac] = columns.map(|c| vec![0.0; 3 * m * c * (columns[0] + columns[1])]);
+    let w = parent_weights((one, two), space, rule, Some([&mut ab, &mut ac])).unwrap();
+    (w, Derivatives { of: [ab, ac], columns })
 }
 
 /// The largest difference from golden weights, relative to the largest of them.
@@ -83,7 +99,7 @@ fn golden_derivatives() {
     let mut compared = 0;
     for case in golden_part("golden_quadratic.json", "pairs") {
         let (one, two) = (parent(&case["x1"]), parent(&case["x2"]));
-        let (n1, n) = (one.parent.n, one.parent.n + two.parent.n);
+        let n = one.parent.n + two.parent.n;
         for (key, space) in SPACES {
             let expected = &case[key];
             if expected["dnAB"].is_null() {
@@ -93,13 +109,16 @@ fn golden_derivatives() {
                 let (found, d) = with_derivatives(&one, &two, space, rule);
                 assert_eq!(found, weights(&one, &two, space, rule), "{}", name(&case));
                 let (mut error, mut largest) = (0.0_f64, 0.0_f64);
-                for (of, golden) in [(&d.ab, &expected["dnAB"]), (&d.ac, &expected["dnAC"])] {
+                for (of, golden) in [&expected["dnAB"], &expected["dnAC"]].into_iter().enumerate() {
                     for (a, row) in golden.as_array().unwrap().iter().enumerate() {
                         for (b, entry) in table(row).iter().enumerate() {
                             assert_eq!(entry.len(), 3 * n);
+                            if a >= one.multipliers(space) {
+                                assert!(max_abs(entry.iter().copied()) == 0.0, "a node without a multiplier");
+                                continue;
+                            }
                             for (k, v) in entry.iter().enumerate() {
-                                let slot = if k / 3 < n1 { k / 3 } else { 9 + k / 3 - n1 };
-                                error = error.max((of[a][b][slot][k % 3] - v).abs());
+                                error = error.max((d.at(of, a, b, k / 3, k % 3) - v).abs());
                                 largest = largest.max(v.abs());
                             }
                         }
@@ -130,19 +149,191 @@ fn linear_facets_are_their_own_parents() {
         let size = max_abs(x1.iter().flat_map(|x| (x - x1[0]).iter().copied().collect::<Vec<_>>()));
         for (_, space) in SPACES {
             let (found, d) = with_derivatives(&p1, &p2, space, &DEGREE_5);
-            for (a, b) in (0..4).flat_map(|a| (0..4).map(move |b| (a, b))) {
-                let pairs = [(found.ab[a][b], expected.ab[a][b]), (found.ac[a][b], expected.ac[a][b])];
-                assert!(pairs.iter().all(|(v, w)| (v - w).abs() < WEIGHTS * size * size), "{}", name(&case));
-                for (k, j) in (0..8).flat_map(|k| (0..3).map(move |j| (k, j))) {
-                    let slot = if k < 4 { k } else { 9 + k - 4 };
-                    let pairs = [
-                        (d.ab[a][b][slot][j], derivatives.ab[a][b][k][j]),
-                        (d.ac[a][b][slot][j], derivatives.ac[a][b][k][j]),
-                    ];
-                    let same = pairs.iter().all(|(v, w)| (v - w).abs() < DERIVATIVES * (scale + size));
-                    assert!(same, "{} {pairs:?}", name(&case));
+            let n = [one.len(), two.len()];
+            for (a, which) in (0..n[0]).flat_map(|a| [(a, 0), (a, 1)]) {
+                for b in 0..n[which] {
+                    let (v, w) = match which {
+                        0 => (found.ab[a][b], expected.ab[a][b]),
+                        _ => (found.ac[a][b], expected.ac[a][b]),
+                    };
+                    assert!((v - w).abs() < WEIGHTS * size * size, "{}", name(&case));
+                    let derivatives = if which == 0 { &derivatives.ab } else { &derivatives.ac };
+                    for (k, j) in (0..n[0] + n[1]).flat_map(|k| (0..3).map(move |j| (k, j))) {
+                        let slot = if k < n[0] { k } else { MORTAR + k - n[0] };
+                        let (v, w) = (d.at(which, a, b, k, j), derivatives[a][b][slot][j]);
+                        assert!((v - w).abs() < DERIVATIVES * (scale + size), "{}: {v} {w}", name(&case));
+                    }
                 }
             }
         }
+    }
+}
+
+/// Sums of a few hundred terms.
+const ROUNDING: f64 = 1e-13;
+/// Differences in double: their step's error and rounding's together.
+const DIFFERENCES: f64 = 1e-8;
+
+/// Rows of nodes, corners first, of a parent with mid nodes off the middle and off the plane; seen from above, counter-clockwise.
+fn random_parent(n: usize, scale: f64, turn: f64, noise: &[f64], up: bool) -> ParentFacet {
+    let kind = stickslip::shape::Parent::of(n).unwrap();
+    let rotation = Rotation3::from_euler_angles(0.0, 0.0, turn);
+    let mut x: Vec<Vec3> = (0..n)
+        .map(|k| {
+            let [u, v] = kind.at[k];
+            let at = if kind.corners == 3 { [2.0 * u - 0.7, 2.0 * v - 0.7] } else { [u, v] };
+            let d = Vector3::new(noise[3 * k], noise[3 * k + 1], noise[3 * k + 2]) * 0.08;
+            rotation * (Vec3::new(at[0], at[1], 0.0) + d) * scale
+        })
+        .collect();
+    if !up {
+        x.iter_mut().for_each(|x| x.y = -x.y);
+    }
+    ParentFacet::new(&x).unwrap()
+}
+
+fn kinds() -> impl Strategy<Value = usize> {
+    prop::sample::select(vec![3_usize, 4, 6, 8, 9])
+}
+
+fn scene() -> impl Strategy<Value = (ParentFacet, ParentFacet)> {
+    let noise = || prop::collection::vec(-1.0..1.0_f64, 27);
+    (kinds(), kinds(), noise(), noise(), -3.0..3.0_f64, -0.4..0.4_f64, -0.4..0.4_f64).prop_map(
+        |(n1, n2, one, two, turn, u, v)| {
+            let one = random_parent(n1, 1.0, 0.0, &one, false);
+            let mut two = random_parent(n2, 1.2, turn, &two, true);
+            two.x.iter_mut().for_each(|x| *x += Vec3::new(u, v, -0.05));
+            (one, two)
+        },
+    )
+}
+
+/// g_A of the weights.
+fn gaps(w: &ParentWeights, one: &ParentFacet, two: &ParentFacet, m: usize) -> Vec<Vec3> {
+    let part = |of: &[f64; 9], facet: &ParentFacet| -> Vec3 {
+        (0..facet.parent.n).map(|b| (facet.x[b] - one.x[0]) * of[b]).sum()
+    };
+    (0..m).map(|a| part(&w.ab[a], one) - part(&w.ac[a], two)).collect()
+}
+
+proptest! {
+    #![proptest_config(cases(60))]
+
+    /// sum_B n_AB = sum_C n_AC: momentum, at any rule and any shape.
+    #[test]
+    fn row_sums_of_both_sides_are_equal((one, two) in scene()) {
+        for (_, space) in SPACES {
+            let w = weights(&one, &two, space, &DEGREE_5);
+            for a in 0..one.multipliers(space) {
+                let (ab, ac) = (w.ab[a].iter().sum::<f64>(), w.ac[a].iter().sum::<f64>());
+                prop_assert!((ab - ac).abs() < ROUNDING, "{ab} {ac}");
+            }
+        }
+    }
+
+    /// The moment of the forces about any point is sum_A g_A x p_A.
+    #[test]
+    fn the_moment_is_that_of_gaps_and_tractions((one, two) in scene()) {
+        for (_, space) in SPACES {
+            let (m, w) = (one.multipliers(space), weights(&one, &two, space, &DEGREE_5));
+            let p: Vec<Vec3> = (0..m).map(|a| Vec3::new(0.3 * a as f64, 1.0 - 0.1 * a as f64, -0.7)).collect();
+            let force = |of: &[[f64; 9]; 9], b: usize| -> Vec3 { (0..m).map(|a| p[a] * of[a][b]).sum() };
+            let moment = |facet: &ParentFacet, of| -> Vec3 {
+                (0..facet.parent.n).map(|b| (facet.x[b] - one.x[0]).cross(&force(of, b))).sum()
+            };
+            let expected: Vec3 = gaps(&w, &one, &two, m).iter().zip(&p).map(|(g, p)| g.cross(p)).sum();
+            prop_assert!((moment(&one, &w.ab) - moment(&two, &w.ac) - expected).norm() < ROUNDING);
+        }
+    }
+
+    /// Translations and rotations of everything leave the weights.
+    #[test]
+    fn derivatives_vanish_along_rigid_motions((one, two) in scene(), axis in prop::array::uniform3(-1.0..1.0_f64)) {
+        for (_, space) in SPACES {
+            let (_, d) = with_derivatives(&one, &two, space, &DEGREE_5);
+            let n = [one.parent.n, two.parent.n];
+            let nodes: Vec<Vec3> = one.x[..n[0]].iter().chain(&two.x[..n[1]]).copied().collect();
+            for which in 0..2 {
+                for (a, b) in (0..one.multipliers(space)).flat_map(|a| (0..n[which]).map(move |b| (a, b))) {
+                    let along = |motion: &dyn Fn(&Vec3) -> Vec3| -> f64 {
+                        let at = |k: usize| Vec3::from_fn(|j, _| d.at(which, a, b, k, j));
+                        nodes.iter().enumerate().map(|(k, x)| at(k).dot(&motion(x))).sum()
+                    };
+                    let axis = Vec3::from(axis);
+                    prop_assert!(along(&|_| axis).abs() < 10.0 * ROUNDING);
+                    prop_assert!(along(&|x| axis.cross(x)).abs() < 10.0 * ROUNDING);
+                }
+            }
+        }
+    }
+
+    /// On affine sub-facets, against differences of the weights.
+    #[test]
+    fn derivatives_are_those_of_differences((n1, n2) in (prop::sample::select(vec![3_usize, 6]), kinds()),
+        noise in prop::collection::vec(-1.0..1.0_f64, 27), turn in -3.0..3.0_f64, direction in prop::collection::vec(-1.0..1.0_f64, 54)) {
+        let one = random_parent(n1, 1.0, 0.0, &noise, false);
+        // Mortar quadrilaterals are parallelograms in the plane if they are flat and it is.
+        let flat = vec![0.0; 27];
+        let mut two = random_parent(n2, 1.2, turn, if n2 == 3 || n2 == 6 { &noise } else { &flat }, true);
+        two.x.iter_mut().for_each(|x| *x += Vec3::new(0.21, -0.13, -0.05));
+        for (_, space) in SPACES {
+            let (_, d) = with_derivatives(&one, &two, space, &DEGREE_10);
+            let n = [n1, n2];
+            let at = |t: f64| {
+                let (mut p, mut q) = (one, two);
+                for (k, x) in p.x[..n1].iter_mut().chain(&mut q.x[..n2]).enumerate() {
+                    *x += Vec3::from_column_slice(&direction[3 * k..3 * k + 3]) * t;
+                }
+                weights(&p, &q, space, &DEGREE_10)
+            };
+            let t = 1e-5;
+            let (plus, minus) = (at(t), at(-t));
+            for which in 0..2 {
+                let of = |w: &ParentWeights| if which == 0 { w.ab } else { w.ac };
+                for (a, b) in (0..one.multipliers(space)).flat_map(|a| (0..n[which]).map(move |b| (a, b))) {
+                    let difference = (of(&plus)[a][b] - of(&minus)[a][b]) / (2.0 * t);
+                    let along: f64 = (0..3 * (n1 + n2)).map(|k| d.at(which, a, b, k / 3, k % 3) * direction[k]).sum();
+                    prop_assert!((difference - along).abs() < DIFFERENCES, "{n1} {n2} {which} {a} {b}: {difference} {along}");
+                }
+            }
+        }
+    }
+}
+
+/// G6: with `sub` the row sums are those of the linear mesh of the sub-facets.
+#[test]
+fn row_sums_of_sub_are_those_of_the_linear_mesh() {
+    for case in golden_part("golden_quadratic.json", "pairs") {
+        let (one, two) = (parent(&case["x1"]), parent(&case["x2"]));
+        let found = weights(&one, &two, MultiplierSpace::Sub, &DEGREE_10);
+        let mut expected = [0.0; 9];
+        for s in 0..one.parent.subs.len() {
+            let frame = NonmortarFrame::new(&one.sub(s)).unwrap();
+            for t in 0..two.parent.subs.len() {
+                let Some(segment) = Segment::new(&frame, &two.sub(t)).unwrap() else { continue };
+                let linear = PairWeights::integrate(&frame, &segment, &DEGREE_10);
+                let sub = &one.parent.subs[s];
+                (0..sub.shape.n).for_each(|a| expected[sub.nodes[a]] += linear.ab[a].iter().sum::<f64>());
+            }
+        }
+        let error = max_abs((0..9).map(|a| found.ab[a].iter().sum::<f64>() - expected[a]));
+        assert!(error <= ROUNDING * max_abs(expected), "{}: {error:e}", name(&case));
+    }
+}
+
+#[test]
+fn facets_that_are_none_are_refused_by_name() {
+    let kind = stickslip::shape::Parent::of(8).unwrap();
+    let x: Vec<Vec3> = kind.at[..8].iter().map(|[u, v]| Vec3::new(*u, *v, 0.0)).collect();
+    assert!(ParentFacet::new(&x).is_ok());
+    let refused = ParentFacet::new(&x[..5]).unwrap_err();
+    assert!(refused.kind == Kind::InvalidSize && refused.message.contains("5 nodes; 3, 4, 6, 8 or 9"), "{refused}");
+    // A corner between two mid nodes, as other programs have them.
+    let around: Vec<Vec3> = [0, 4, 1, 5, 2, 6, 3, 7].iter().map(|k| x[*k]).collect();
+    // Mid nodes that begin one edge later.
+    let shifted: Vec<Vec3> = [0, 1, 2, 3, 5, 6, 7, 4].iter().map(|k| x[*k]).collect();
+    for wrong in [around, shifted] {
+        let refused = ParentFacet::new(&wrong).unwrap_err();
+        assert!(refused.kind == Kind::DegenerateFacet && refused.message.contains("mid node"), "{refused}");
     }
 }
