@@ -177,6 +177,10 @@ module stickslip
   integer(c_int32_t), parameter :: STICKSLIP_LAYOUT_ROW_MAJOR = 0
   integer(c_int32_t), parameter :: STICKSLIP_LAYOUT_COLUMN_MAJOR = 1
 
+  ! Where multipliers of a quadratic facet stand: at its corners, or at all nodes with the functions of its parts.
+  integer(c_int32_t), parameter :: STICKSLIP_SPACE_CORNER = 0
+  integer(c_int32_t), parameter :: STICKSLIP_SPACE_SUB = 1
+
   ! State of a node: open or uncovered; closed, sticking; closed, sliding or on the friction cone.
   integer(c_int32_t), parameter :: STICKSLIP_STATE_GAP = 0
   integer(c_int32_t), parameter :: STICKSLIP_STATE_STICK = 1
@@ -189,7 +193,7 @@ module stickslip
   integer(c_int64_t), parameter :: stickslip_counters_size = 200
   integer(c_int64_t), parameter :: stickslip_report_size = 104
   integer(c_int64_t), parameter :: stickslip_diagnosis_size = 224
-  integer(c_int64_t), parameter :: stickslip_pair_size = 56
+  integer(c_int64_t), parameter :: stickslip_pair_size = 64
   integer(c_int64_t), parameter :: stickslip_node_response_size = 408
   integer(c_int64_t), parameter :: stickslip_node_size = 240
   integer(c_int64_t), parameter :: stickslip_facet_size = 72
@@ -341,7 +345,7 @@ module stickslip
   ! A pair of facets, non-mortar first. Node order: right-hand, seen from outside each body.
   type, bind(C) :: stickslip_pair
     integer(c_int64_t) :: struct_size = stickslip_pair_size
-    integer(c_int32_t) :: n1 = 0                   ! 3 (tri3) or 4 (quad4)
+    integer(c_int32_t) :: n1 = 0                   ! 3 (tri3) or 4 (quad4); 6, 8, 9 where quadratic facets are taken
     integer(c_int32_t) :: n2 = 0
     type(c_ptr) :: x1 = c_null_ptr                 ! real(c_double) (3, n1) [L]
     type(c_ptr) :: x2 = c_null_ptr                 ! real(c_double) (3, n2) [L]
@@ -349,6 +353,8 @@ module stickslip
     integer(c_int32_t) :: layout = STICKSLIP_LAYOUT_COLUMN_MAJOR ! of the tangent: k(row, column)
     integer(c_int64_t) :: element_points = 0       ! 0: overlaps; 2 to 10: points along a side
     type(c_ptr) :: neighbour_normals = c_null_ptr  ! real(c_double) (3, n1): of the facets beyond the edges, 0: none
+    integer(c_int32_t) :: multiplier_space = STICKSLIP_SPACE_CORNER ! of a quadratic non-mortar facet
+    integer(c_int32_t) :: reserved = 0
   end type
 
   ! The law's answer for one node. Matrices are row-major in C, so dp_dlambda(j, i) = dp_i / dlambda_j.
@@ -840,7 +846,7 @@ module stickslip
     end function
 
     ! A non-mortar facet's share of its nodes' normals and areas. x(3, n); outputs, each may be null: normals(3, n),
-    ! areas(n).
+    ! areas(n), of a quadratic facet those of its corners.
     integer(c_int32_t) function stickslip_facet_geometry(n, x, normals, areas) bind(C)
       import :: c_double, c_int32_t, c_ptr
       integer(c_int32_t), value :: n
@@ -863,15 +869,16 @@ module stickslip
       real(c_double), intent(inout) :: normal(3)
     end function
 
-    ! Stage 1: the mortar weights of a pair. Outputs, each may be null: n_ab(n1, n1) as (b, a), n_ac(n2, n1) as (c, a)
-    ! [L^2]; derivatives dn_ab(3 (n1 + n2), n1, n1), dn_ac(3 (n1 + n2), n2, n1) [L], first the coordinate of (x1, x2).
+    ! Stage 1: the mortar weights of a pair. Outputs, each may be null: n_ab(n1, m) as (b, a), n_ac(n2, m) as (c, a)
+    ! [L^2]; derivatives dn_ab(3 (n1 + n2), n1, m), dn_ac(3 (n1 + n2), n2, m) [L], first the coordinate of (x1, x2).
+    ! m multipliers, at the first nodes: n1; of a quadratic facet with STICKSLIP_SPACE_CORNER its 3 or 4 corners.
     integer(c_int32_t) function stickslip_pair_weights(pair, n_ab, n_ac, dn_ab, dn_ac) bind(C)
       import :: c_int32_t, c_ptr, stickslip_pair
       type(stickslip_pair), intent(in) :: pair
       type(c_ptr), value :: n_ab, n_ac, dn_ab, dn_ac
     end function
 
-    ! The weighted gap of a pair with any weights: n_ab(n1, n1) as (b, a), n_ac(n2, n1) as (c, a); gap(3, n1), output.
+    ! The weighted gap of a pair with any weights: n_ab(n1, m) as (b, a), n_ac(n2, m) as (c, a); gap(3, m), output.
     integer(c_int32_t) function stickslip_pair_gap(pair, n_ab, n_ac, gap) bind(C)
       import :: c_double, c_int32_t, stickslip_pair
       type(stickslip_pair), intent(in) :: pair
@@ -879,7 +886,7 @@ module stickslip
       real(c_double), intent(inout) :: gap(3, *)
     end function
 
-    ! Stage 3: a pair's nodal forces in internal-force sign. Weights as above; traction(3, n1);
+    ! Stage 3: a pair's nodal forces in internal-force sign. Weights as above; traction(3, m);
     ! force(3, n1 + n2), output.
     integer(c_int32_t) function stickslip_pair_residual(pair, n_ab, n_ac, traction, force) bind(C)
       import :: c_double, c_int32_t, stickslip_pair
@@ -889,8 +896,8 @@ module stickslip
     end function
 
     ! Stage 3: a pair's share of the exact tangent in the multiplier form. Weights and derivatives as
-    ! stickslip_pair_weights has them, null in pairs as the header says; traction(3, n1); responses(n1);
-    ! row_scale(n1), null: 1; k(ld, *), output, rows and columns: x1, x2, lambda.
+    ! stickslip_pair_weights has them, null in pairs as the header says; traction(3, m); responses(m);
+    ! row_scale(m), null: 1; k(ld, *), output, rows and columns: x1, x2, lambda.
     integer(c_int32_t) function stickslip_pair_tangent(pair, n_ab, n_ac, dn_ab, dn_ac, n_ab_previous, n_ac_previous, &
         traction, responses, row_scale, k, ld) bind(C)
       import :: c_double, c_int32_t, c_int64_t, c_ptr, stickslip_node_response, stickslip_pair

@@ -450,6 +450,12 @@
 /// Matrices go out column by column (what a Fortran array is).
 #define STICKSLIP_LAYOUT_COLUMN_MAJOR 1
 
+/// Multipliers of a quadratic facet at its corners, with the linear functions of these: the recommended ones.
+#define STICKSLIP_SPACE_CORNER 0
+
+/// Multipliers at all nodes, with the functions of the linear parts that the facet is cut into.
+#define STICKSLIP_SPACE_SUB 1
+
 /// State of a node: open or uncovered.
 #define STICKSLIP_STATE_GAP 0
 
@@ -760,9 +766,10 @@ typedef struct stickslip_diagnosis {
 typedef struct stickslip_pair {
   /// sizeof(stickslip_pair).
   uint64_t struct_size;
-  /// Nodes of the non-mortar facet: 3 (tri3) or 4 (quad4).
+  /// Nodes of the non-mortar facet: 3 (tri3) or 4 (quad4); 6 (tri6), 8 (quad8) or 9 (quad9) where the function takes
+  /// quadratic facets: corners, then mid nodes, k between the corners k and k + 1, then the centre.
   int32_t n1;
-  /// Nodes of the mortar facet: 3 or 4.
+  /// Nodes of the mortar facet, likewise.
   int32_t n2;
   /// 3 n1 coordinates of the non-mortar facet, node by node (in Fortran x1(3, n1)) [L].
   const double *x1;
@@ -780,6 +787,10 @@ typedef struct stickslip_pair {
   /// known. Read by `stickslip_pair_weights` alone. With it a pair has the weights that a handle has, to the last bit;
   /// without, a border of the mortar surface that follows the edge may count for both of its facets or for none.
   const double *neighbour_normals;
+  /// STICKSLIP_SPACE_..., of a quadratic non-mortar facet.
+  int32_t multiplier_space;
+  /// Not used.
+  int32_t reserved;
 } stickslip_pair;
 
 /// The law's answer for one node. Matrices are row-major 3 x 3 and not symmetric: in Fortran m(j, i) is row i,
@@ -1600,13 +1611,17 @@ int32_t stickslip_interface_diagnose(struct stickslip_interface *interface,
 
 /// A non-mortar facet's share of its nodes' normals and areas.
 ///
-/// n: 3 or 4; x: 3 n coordinates [L]. Outputs, each may be NULL: normals (3 n) [-], unit corner normals, out
-/// of the body, to be summed over the facets around a node for `stickslip_node_normal`; areas (n)
-/// int N_A da over the facet [L^2], to be summed to M_A.
+/// n: 3, 4, 6, 8 or 9 (`stickslip_pair`); x: 3 n coordinates [L]. Outputs, each may be NULL: normals (3 n) [-], unit
+/// normals at the nodes, out of the body, to be summed over the facets around a node for `stickslip_node_normal`; areas (n;
+/// of a quadratic facet 3 or 4, those of its corners with STICKSLIP_SPACE_CORNER) int N_A da over the facet [L^2], to be
+/// summed to M_A. (With STICKSLIP_SPACE_SUB areas are those of the facet's parts, each a linear facet.)
 ///
 /// Errors: NULL_POINTER, INVALID_SIZE, NOT_FINITE, DUPLICATE_NODE, DEGENERATE_FACET.
 /// Cost: below a microsecond; allocates nothing.
-int32_t stickslip_facet_geometry(int32_t n, const double *x, double *normals, double *areas);
+int32_t stickslip_facet_geometry(int32_t n,
+                                 const double *x,
+                                 double *normals,
+                                 double *areas);
 
 /// The unit normal of a facet's auxiliary plane, out of its body: (x2 - x1) x (x3 - x1) of a tri3, (x3 - x1) x (x4 - x2) of
 /// a quad4, over its length. For `neighbour_normals` of `stickslip_pair`.
@@ -1630,15 +1645,18 @@ int32_t stickslip_node_normal(const double *sum, double *normal);
 
 /// Stage 1: the mortar weights of a pair in its current configuration. Paper (13).
 ///
-/// Outputs, each may be NULL: n_ab (n1 x n1) and n_ac (n1 x n2) [L^2], row A; dn_ab (n1 x n1 x 3(n1+n2))
-/// and dn_ac (n1 x n2 x 3(n1+n2)) [L], their exact derivatives with respect to (x1, x2), always row-major
-/// in this order (in Fortran: n_ac(n2, n1), dn_ac(3 (n1+n2), n2, n1)). Facets that do not overlap give zeros, as
-/// does a mortar facet seen edge-on: not an error.
+/// Outputs, each may be NULL: n_ab (m x n1) and n_ac (m x n2) [L^2], row A; dn_ab (m x n1 x 3(n1+n2))
+/// and dn_ac (m x n2 x 3(n1+n2)) [L], their exact derivatives with respect to (x1, x2), always row-major
+/// in this order (in Fortran: n_ac(n2, m), dn_ac(3 (n1+n2), n2, m)). m: multipliers, at the first m nodes of the non-mortar
+/// facet; n1 where it is linear; of a quadratic one 3 or 4 with STICKSLIP_SPACE_CORNER, n1 with STICKSLIP_SPACE_SUB. Facets
+/// that do not overlap give zeros, as does a mortar facet seen edge-on: not an error.
 ///
-/// Errors: NULL_POINTER, STRUCT_SIZE, INVALID_SIZE, NOT_FINITE, DUPLICATE_NODE, DEGENERATE_FACET,
-/// PROJECTION_NOT_CONVEX, INVALID_VALUE.
+/// Errors: NULL_POINTER, STRUCT_SIZE, INVALID_SIZE, NOT_FINITE, DUPLICATE_NODE, DEGENERATE_FACET (of a quadratic facet, also
+/// where mid nodes do not follow the corners in order), PROJECTION_NOT_CONVEX, INVALID_VALUE, UNSUPPORTED (quadratic facets
+/// with element_points or neighbour_normals).
 /// Cost: 1 (tri3) to 2 (quad4) microseconds, 1 to 7 with derivatives, 2 to 2.5 times that with QUADRATURE_DEGREE_10;
-/// allocates nothing.
+/// quadratic facets as many pairs of their parts, some ten, each dearer. Allocates nothing, but memory for derivatives of
+/// quadratic facets.
 int32_t stickslip_pair_weights(const struct stickslip_pair *pair,
                                double *n_ab,
                                double *n_ac,
@@ -1648,10 +1666,11 @@ int32_t stickslip_pair_weights(const struct stickslip_pair *pair,
 /// The weighted gap g[n, x] of a pair with any weights, those of now or those of t_n; to be summed over
 /// the pairs of a node. Paper (11).
 ///
-/// pair: quadrature and layout are not read. n_ab (n1 x n1), n_ac (n1 x n2) [L^2], row A; gap (3 n1),
-/// output [L^3].
+/// pair: quadrature and layout are not read. n_ab (m x n1), n_ac (m x n2) [L^2], row A, of m multipliers as for
+/// `stickslip_pair_weights`; gap (3 m), output [L^3].
 ///
-/// Errors: NULL_POINTER, STRUCT_SIZE, INVALID_SIZE, NOT_FINITE, DUPLICATE_NODE.
+/// Errors: NULL_POINTER, STRUCT_SIZE, INVALID_SIZE, NOT_FINITE, DUPLICATE_NODE, DEGENERATE_FACET, INVALID_VALUE, UNSUPPORTED (as
+/// `stickslip_pair_weights`, of quadratic facets).
 /// Cost: below a microsecond; allocates nothing.
 int32_t stickslip_pair_gap(const struct stickslip_pair *pair,
                            const double *n_ab,
@@ -1661,11 +1680,12 @@ int32_t stickslip_pair_gap(const struct stickslip_pair *pair,
 /// Stage 3: a pair's nodal forces in internal-force sign; the force ON the non-mortar body is minus the
 /// first 3 n1. Paper (23).
 ///
-/// pair: quadrature and layout are not read. n_ab (n1 x n1), n_ac (n1 x n2): weights of now [L^2], row A;
-/// traction (3 n1): the multipliers lambda (multiplier form) or the projected tractions p of
+/// pair: quadrature and layout are not read. n_ab (m x n1), n_ac (m x n2): weights of now [L^2], row A, of m multipliers as
+/// for `stickslip_pair_weights`; traction (3 m): the multipliers lambda (multiplier form) or the projected tractions p of
 /// `stickslip_node_respond` (augmented form) [F/L^2]; force (3 (n1 + n2)), output [F].
 ///
-/// Errors: NULL_POINTER, STRUCT_SIZE, INVALID_SIZE, NOT_FINITE, DUPLICATE_NODE.
+/// Errors: NULL_POINTER, STRUCT_SIZE, INVALID_SIZE, NOT_FINITE, DUPLICATE_NODE, DEGENERATE_FACET, INVALID_VALUE, UNSUPPORTED (as
+/// `stickslip_pair_weights`, of quadratic facets).
 /// Cost: below a microsecond; allocates nothing.
 int32_t stickslip_pair_residual(const struct stickslip_pair *pair,
                                 const double *n_ab,
@@ -1677,17 +1697,18 @@ int32_t stickslip_pair_residual(const struct stickslip_pair *pair,
 /// `stickslip_node_block` the sum over all pairs is the whole tangent. (The augmented form couples all
 /// pairs of a node; the interface handle assembles it.) Paper (29)-(31).
 ///
-/// pair: quadrature is not read. Rows and columns: x1 (3 n1), x2 (3 n2), lambda (3 n1). n_ab, n_ac: weights of now
+/// pair: quadrature is not read. Rows and columns: x1 (3 n1), x2 (3 n2), lambda (3 m), of m multipliers as for
+/// `stickslip_pair_weights`. n_ab, n_ac: weights of now
 /// [L^2], both NULL for a pair that overlapped only at t_n. dn_ab, dn_ac: their derivatives [L], both NULL where
 /// the weights are frozen. n_ab_previous, n_ac_previous: weights of t_n [L^2], both NULL for a pair that did not
-/// overlap then. traction (3 n1): lambda [F/L^2]. responses: n1 results of `stickslip_node_respond`, from the gaps
-/// assembled over all pairs. row_scale (n1) multiplies the multiplier rows, NULL: 1; r M_A [F/L^3] makes them
-/// forces. k: output, (6 n1 + 3 n2) squared in the pair's layout, leading dimension ld >= 6 n1 + 3 n2; overwritten,
+/// overlap then. traction (3 m): lambda [F/L^2]. responses: m results of `stickslip_node_respond`, from the gaps
+/// assembled over all pairs. row_scale (m) multiplies the multiplier rows, NULL: 1; r M_A [F/L^3] makes them
+/// forces. k: output, 3 (n1 + n2 + m) squared in the pair's layout, leading dimension ld >= that; overwritten,
 /// the block (lambda, lambda) with zeros. Units of an entry: its row's over its column's.
 ///
 /// Errors: NULL_POINTER, STRUCT_SIZE, INVALID_SIZE, NOT_FINITE, DUPLICATE_NODE, DEGENERATE_FACET, INVALID_VALUE
-/// (layout).
-/// Cost: 5 microseconds for two quad4; allocates nothing.
+/// (layout, multiplier_space), UNSUPPORTED (as `stickslip_pair_weights`, of quadratic facets).
+/// Cost: 5 microseconds for two quad4, 100 for two quad9; allocates nothing.
 int32_t stickslip_pair_tangent(const struct stickslip_pair *pair,
                                const double *n_ab,
                                const double *n_ac,

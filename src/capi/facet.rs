@@ -1,10 +1,11 @@
 //! A facet's share of nodal normals and areas, for hosts that assemble them themselves.
 
 use super::guard::guard;
+use super::parents::parent;
 use super::raw;
 use crate::error::{Error, Kind, Result};
 use crate::geometry::{Facet, Plane, Vec3};
-use crate::mortar::NonmortarFrame;
+use crate::mortar::{MultiplierSpace, NonmortarFrame};
 use crate::normal;
 use crate::shape::{MAX_CORNERS, Shape};
 
@@ -48,18 +49,26 @@ pub(super) fn set_neighbours(frame: &mut NonmortarFrame, neighbour_normals: *con
 
 /// A non-mortar facet's share of its nodes' normals and areas.
 ///
-/// n: 3 or 4; x: 3 n coordinates [L]. Outputs, each may be NULL: normals (3 n) [-], unit corner normals, out
-/// of the body, to be summed over the facets around a node for `stickslip_node_normal`; areas (n)
-/// int N_A da over the facet [L^2], to be summed to M_A.
+/// n: 3, 4, 6, 8 or 9 (`stickslip_pair`); x: 3 n coordinates [L]. Outputs, each may be NULL: normals (3 n) [-], unit
+/// normals at the nodes, out of the body, to be summed over the facets around a node for `stickslip_node_normal`; areas (n;
+/// of a quadratic facet 3 or 4, those of its corners with STICKSLIP_SPACE_CORNER) int N_A da over the facet [L^2], to be
+/// summed to M_A. (With STICKSLIP_SPACE_SUB areas are those of the facet's parts, each a linear facet.)
 ///
 /// Errors: NULL_POINTER, INVALID_SIZE, NOT_FINITE, DUPLICATE_NODE, DEGENERATE_FACET.
 /// Cost: below a microsecond; allocates nothing.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn stickslip_facet_geometry(n: i32, x: *const f64, normals: *mut f64, areas: *mut f64) -> i32 {
     guard(|| {
-        let facet = facet(n, x, "x")?;
         raw::check_optional(normals, "normals")?;
         raw::check_optional(areas, "areas")?;
+        if n > MAX_CORNERS as i32 {
+            let facet = parent(n, x, "x")?;
+            let of_corners = facet.areas(MultiplierSpace::Corner).map_err(raw::named("x"))?;
+            raw::write_each(normals, (0..facet.parent.n).flat_map(|k| <[f64; 3]>::from(facet.normal(k))));
+            raw::write(areas, &of_corners[..facet.parent.corners]);
+            return Ok(());
+        }
+        let facet = facet(n, x, "x")?;
         let frame = NonmortarFrame::new(&facet).map_err(raw::named("x"))?;
         let corners: [Vec3; MAX_CORNERS] = std::array::from_fn(|k| normal::corner_normal(&facet, k % facet.len()));
         raw::write_each(normals, corners[..facet.len()].iter().flat_map(|v| v.iter().copied()));

@@ -65,6 +65,7 @@ mod layout;
 mod pair;
 
 mod pair_state;
+mod parents;
 
 mod node;
 
@@ -101,6 +102,7 @@ pub use normals::*;
 pub use options::*;
 pub use pair::*;
 pub use pair_state::*;
+pub use parents::*;
 pub use plan::*;
 pub use point::*;
 pub use preparation::*;

@@ -6,6 +6,7 @@ use super::layout::{Matrix, column_major};
 use super::node::stickslip_node_response;
 use super::options::{element_line, rule};
 use super::pair_out::{check_tangent, slot, write_force, write_gap, write_tangent, write_weights};
+use super::parents::Parents;
 use super::raw::{self, Output};
 use super::sized::{self, Sized64};
 use crate::element::{FacetResponse, NodeTangent, PairNow, PairTangent, pair_force, row_columns};
@@ -23,9 +24,10 @@ use crate::shape::{MAX_CORNERS, MAX_NODES};
 pub struct stickslip_pair {
     /// sizeof(stickslip_pair).
     pub struct_size: u64,
-    /// Nodes of the non-mortar facet: 3 (tri3) or 4 (quad4).
+    /// Nodes of the non-mortar facet: 3 (tri3) or 4 (quad4); 6 (tri6), 8 (quad8) or 9 (quad9) where the function takes
+    /// quadratic facets: corners, then mid nodes, k between the corners k and k + 1, then the centre.
     pub n1: i32,
-    /// Nodes of the mortar facet: 3 or 4.
+    /// Nodes of the mortar facet, likewise.
     pub n2: i32,
     /// 3 n1 coordinates of the non-mortar facet, node by node (in Fortran x1(3, n1)) [L].
     pub x1: *const f64,
@@ -43,6 +45,10 @@ pub struct stickslip_pair {
     /// known. Read by `stickslip_pair_weights` alone. With it a pair has the weights that a handle has, to the last bit;
     /// without, a border of the mortar surface that follows the edge may count for both of its facets or for none.
     pub neighbour_normals: *const f64,
+    /// STICKSLIP_SPACE_..., of a quadratic non-mortar facet.
+    pub multiplier_space: i32,
+    /// Not used.
+    pub reserved: i32,
 }
 
 // SAFETY: repr(C), struct_size first, integers and raw pointers only.
@@ -231,15 +237,18 @@ pub(super) fn node_tangents(
 
 /// Stage 1: the mortar weights of a pair in its current configuration. Paper (13).
 ///
-/// Outputs, each may be NULL: n_ab (n1 x n1) and n_ac (n1 x n2) [L^2], row A; dn_ab (n1 x n1 x 3(n1+n2))
-/// and dn_ac (n1 x n2 x 3(n1+n2)) [L], their exact derivatives with respect to (x1, x2), always row-major
-/// in this order (in Fortran: n_ac(n2, n1), dn_ac(3 (n1+n2), n2, n1)). Facets that do not overlap give zeros, as
-/// does a mortar facet seen edge-on: not an error.
+/// Outputs, each may be NULL: n_ab (m x n1) and n_ac (m x n2) [L^2], row A; dn_ab (m x n1 x 3(n1+n2))
+/// and dn_ac (m x n2 x 3(n1+n2)) [L], their exact derivatives with respect to (x1, x2), always row-major
+/// in this order (in Fortran: n_ac(n2, m), dn_ac(3 (n1+n2), n2, m)). m: multipliers, at the first m nodes of the non-mortar
+/// facet; n1 where it is linear; of a quadratic one 3 or 4 with STICKSLIP_SPACE_CORNER, n1 with STICKSLIP_SPACE_SUB. Facets
+/// that do not overlap give zeros, as does a mortar facet seen edge-on: not an error.
 ///
-/// Errors: NULL_POINTER, STRUCT_SIZE, INVALID_SIZE, NOT_FINITE, DUPLICATE_NODE, DEGENERATE_FACET,
-/// PROJECTION_NOT_CONVEX, INVALID_VALUE.
+/// Errors: NULL_POINTER, STRUCT_SIZE, INVALID_SIZE, NOT_FINITE, DUPLICATE_NODE, DEGENERATE_FACET (of a quadratic facet, also
+/// where mid nodes do not follow the corners in order), PROJECTION_NOT_CONVEX, INVALID_VALUE, UNSUPPORTED (quadratic facets
+/// with element_points or neighbour_normals).
 /// Cost: 1 (tri3) to 2 (quad4) microseconds, 1 to 7 with derivatives, 2 to 2.5 times that with QUADRATURE_DEGREE_10;
-/// allocates nothing.
+/// quadratic facets as many pairs of their parts, some ten, each dearer. Allocates nothing, but memory for derivatives of
+/// quadratic facets.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn stickslip_pair_weights(
     pair: *const stickslip_pair,
@@ -249,6 +258,9 @@ pub unsafe extern "C" fn stickslip_pair_weights(
     dn_ac: *mut f64,
 ) -> i32 {
     guard(|| {
+        if let Some(pair) = Parents::read(pair)? {
+            return pair.weights([n_ab, n_ac], [dn_ab, dn_ac]);
+        }
         let pair = &Pair::read(pair)?;
         for (p, name) in [(n_ab, "n_ab"), (n_ac, "n_ac"), (dn_ab, "dn_ab"), (dn_ac, "dn_ac")] {
             raw::check_optional(p, name)?;
@@ -275,10 +287,11 @@ pub unsafe extern "C" fn stickslip_pair_weights(
 /// The weighted gap g[n, x] of a pair with any weights, those of now or those of t_n; to be summed over
 /// the pairs of a node. Paper (11).
 ///
-/// pair: quadrature and layout are not read. n_ab (n1 x n1), n_ac (n1 x n2) [L^2], row A; gap (3 n1),
-/// output [L^3].
+/// pair: quadrature and layout are not read. n_ab (m x n1), n_ac (m x n2) [L^2], row A, of m multipliers as for
+/// `stickslip_pair_weights`; gap (3 m), output [L^3].
 ///
-/// Errors: NULL_POINTER, STRUCT_SIZE, INVALID_SIZE, NOT_FINITE, DUPLICATE_NODE.
+/// Errors: NULL_POINTER, STRUCT_SIZE, INVALID_SIZE, NOT_FINITE, DUPLICATE_NODE, DEGENERATE_FACET, INVALID_VALUE, UNSUPPORTED (as
+/// `stickslip_pair_weights`, of quadratic facets).
 /// Cost: below a microsecond; allocates nothing.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn stickslip_pair_gap(
@@ -288,6 +301,9 @@ pub unsafe extern "C" fn stickslip_pair_gap(
     gap: *mut f64,
 ) -> i32 {
     guard(|| {
+        if let Some(pair) = Parents::read(pair)? {
+            return pair.gap([n_ab, n_ac], gap);
+        }
         let pair = Pair::read(pair)?;
         let weights = pair.weights(n_ab, n_ac, ["n_ab", "n_ac"])?;
         raw::check(gap, "gap")?;
@@ -298,11 +314,12 @@ pub unsafe extern "C" fn stickslip_pair_gap(
 /// Stage 3: a pair's nodal forces in internal-force sign; the force ON the non-mortar body is minus the
 /// first 3 n1. Paper (23).
 ///
-/// pair: quadrature and layout are not read. n_ab (n1 x n1), n_ac (n1 x n2): weights of now [L^2], row A;
-/// traction (3 n1): the multipliers lambda (multiplier form) or the projected tractions p of
+/// pair: quadrature and layout are not read. n_ab (m x n1), n_ac (m x n2): weights of now [L^2], row A, of m multipliers as
+/// for `stickslip_pair_weights`; traction (3 m): the multipliers lambda (multiplier form) or the projected tractions p of
 /// `stickslip_node_respond` (augmented form) [F/L^2]; force (3 (n1 + n2)), output [F].
 ///
-/// Errors: NULL_POINTER, STRUCT_SIZE, INVALID_SIZE, NOT_FINITE, DUPLICATE_NODE.
+/// Errors: NULL_POINTER, STRUCT_SIZE, INVALID_SIZE, NOT_FINITE, DUPLICATE_NODE, DEGENERATE_FACET, INVALID_VALUE, UNSUPPORTED (as
+/// `stickslip_pair_weights`, of quadratic facets).
 /// Cost: below a microsecond; allocates nothing.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn stickslip_pair_residual(
@@ -313,6 +330,9 @@ pub unsafe extern "C" fn stickslip_pair_residual(
     force: *mut f64,
 ) -> i32 {
     guard(|| {
+        if let Some(pair) = Parents::read(pair)? {
+            return pair.residual([n_ab, n_ac], traction, force);
+        }
         let pair = Pair::read(pair)?;
         let weights = pair.weights(n_ab, n_ac, ["n_ab", "n_ac"])?;
         let traction = tractions(traction, pair.one.len())?;
@@ -325,17 +345,18 @@ pub unsafe extern "C" fn stickslip_pair_residual(
 /// `stickslip_node_block` the sum over all pairs is the whole tangent. (The augmented form couples all
 /// pairs of a node; the interface handle assembles it.) Paper (29)-(31).
 ///
-/// pair: quadrature is not read. Rows and columns: x1 (3 n1), x2 (3 n2), lambda (3 n1). n_ab, n_ac: weights of now
+/// pair: quadrature is not read. Rows and columns: x1 (3 n1), x2 (3 n2), lambda (3 m), of m multipliers as for
+/// `stickslip_pair_weights`. n_ab, n_ac: weights of now
 /// [L^2], both NULL for a pair that overlapped only at t_n. dn_ab, dn_ac: their derivatives [L], both NULL where
 /// the weights are frozen. n_ab_previous, n_ac_previous: weights of t_n [L^2], both NULL for a pair that did not
-/// overlap then. traction (3 n1): lambda [F/L^2]. responses: n1 results of `stickslip_node_respond`, from the gaps
-/// assembled over all pairs. row_scale (n1) multiplies the multiplier rows, NULL: 1; r M_A [F/L^3] makes them
-/// forces. k: output, (6 n1 + 3 n2) squared in the pair's layout, leading dimension ld >= 6 n1 + 3 n2; overwritten,
+/// overlap then. traction (3 m): lambda [F/L^2]. responses: m results of `stickslip_node_respond`, from the gaps
+/// assembled over all pairs. row_scale (m) multiplies the multiplier rows, NULL: 1; r M_A [F/L^3] makes them
+/// forces. k: output, 3 (n1 + n2 + m) squared in the pair's layout, leading dimension ld >= that; overwritten,
 /// the block (lambda, lambda) with zeros. Units of an entry: its row's over its column's.
 ///
 /// Errors: NULL_POINTER, STRUCT_SIZE, INVALID_SIZE, NOT_FINITE, DUPLICATE_NODE, DEGENERATE_FACET, INVALID_VALUE
-/// (layout).
-/// Cost: 5 microseconds for two quad4; allocates nothing.
+/// (layout, multiplier_space), UNSUPPORTED (as `stickslip_pair_weights`, of quadratic facets).
+/// Cost: 5 microseconds for two quad4, 100 for two quad9; allocates nothing.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn stickslip_pair_tangent(
     pair: *const stickslip_pair,
@@ -352,6 +373,10 @@ pub unsafe extern "C" fn stickslip_pair_tangent(
     ld: i64,
 ) -> i32 {
     guard(|| {
+        if let Some(pair) = Parents::read(pair)? {
+            let now = ([n_ab, n_ac], [dn_ab, dn_ac]);
+            return pair.tangent(now, [n_ab_previous, n_ac_previous], (traction, responses, row_scale), (k, ld));
+        }
         let pair = Pair::read(pair)?;
         let (n1, n2) = pair.n();
         let size = 6 * n1 + 3 * n2;

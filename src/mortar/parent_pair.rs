@@ -7,7 +7,7 @@ use super::slots::{MORTAR, PAIR_NODES};
 use super::sub_pair::{COLUMNS, Side, SubDerivatives, SubWeights, rule_for, sub_derivatives, sub_weights};
 use crate::error::{Error, Kind, Result};
 use crate::geometry::{Facet, Plane, Vec3};
-use crate::quadrature::Rule;
+use crate::quadrature::{DEGREE_5, Rule};
 use crate::shape::{MAX_CORNERS, MAX_PARENT_NODES, Parent, SubFacet, TERMS, monomials};
 
 /// A facet as hosts have it.
@@ -62,6 +62,43 @@ impl ParentFacet {
         let w = tangent(&dx).cross(&tangent(&dy));
         let norm = w.norm();
         if norm > 0.0 { w / norm } else { Vec3::zeros() }
+    }
+
+    /// int N_A da of the multipliers over the whole facet, covered or not [L^2].
+    ///
+    /// # Errors
+    /// [`Kind::DegenerateFacet`] of a sub-facet, which is named.
+    pub fn areas(&self, space: MultiplierSpace) -> Result<[f64; MAX_PARENT_NODES]> {
+        let mut areas = [0.0; MAX_PARENT_NODES];
+        for (s, sub) in self.parent.subs.iter().enumerate() {
+            let [j0, j1, j2] = frame(self, s)?.map.determinant();
+            let mut add = |u: f64, v: f64, weight: f64| {
+                let at = sub.shape.values(u, v);
+                let n = match space {
+                    MultiplierSpace::Sub => at,
+                    MultiplierSpace::Corner => {
+                        let xi =
+                            [0, 1].map(|i| (0..sub.shape.n).map(|k| at[k] * self.parent.at[sub.nodes[k]][i]).sum());
+                        self.parent.cell.values(xi[0], xi[1])
+                    }
+                };
+                for (a, &node) in space.nodes(self.parent, sub).iter().enumerate() {
+                    areas[node] += weight * (j0 + j1 * u + j2 * v) * n[a];
+                }
+            };
+            // Both exact: the determinant is linear, and the functions are of degree 2 at most.
+            match sub.shape.n {
+                3 => DEGREE_5.triangle.iter().for_each(|[u, v, w]| add(*u, *v, 0.5 * w)),
+                _ => {
+                    for ([u, wu], [v, wv]) in
+                        DEGREE_5.square.iter().flat_map(|u| DEGREE_5.square.iter().map(move |v| (u, v)))
+                    {
+                        add(2.0 * u - 1.0, 2.0 * v - 1.0, 4.0 * wu * wv);
+                    }
+                }
+            }
+        }
+        Ok(areas)
     }
 
     /// A sub-facet.

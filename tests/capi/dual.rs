@@ -92,7 +92,7 @@ impl Patch {
     fn pair(&self, p: usize) -> Pair {
         let first = 3 * self.n2[..p].iter().sum::<i32>() as usize;
         let x2 = self.x2[first..][..3 * self.n2[p] as usize].to_vec();
-        Pair { x1: self.x1.clone(), x2, quadrature: self.quadrature }
+        Pair { x1: self.x1.clone(), x2, quadrature: self.quadrature, space: STICKSLIP_SPACE_CORNER }
     }
 
     fn raw(&self) -> stickslip_facet {

@@ -85,19 +85,29 @@ pub(super) struct Pair {
     pub x1: Vec<f64>,
     pub x2: Vec<f64>,
     pub quadrature: i32,
+    pub space: i32,
 }
 
 /// Weights of a pair and their derivatives.
-struct Weights {
-    ab: Vec<f64>,
-    ac: Vec<f64>,
-    dab: Vec<f64>,
-    dac: Vec<f64>,
+pub(super) struct Weights {
+    pub ab: Vec<f64>,
+    pub ac: Vec<f64>,
+    pub dab: Vec<f64>,
+    pub dac: Vec<f64>,
 }
 
 impl Pair {
-    fn of(case: &Value, quadrature: i32) -> Pair {
-        Pair { x1: flat(&case["x1"]), x2: flat(&case["x2"]), quadrature }
+    pub fn of(case: &Value, quadrature: i32) -> Pair {
+        Pair { x1: flat(&case["x1"]), x2: flat(&case["x2"]), quadrature, space: STICKSLIP_SPACE_CORNER }
+    }
+
+    /// Multipliers.
+    pub fn m(&self) -> usize {
+        match self.n().0 {
+            6 if self.space == STICKSLIP_SPACE_CORNER => 3,
+            8 | 9 if self.space == STICKSLIP_SPACE_CORNER => 4,
+            n => n,
+        }
     }
 
     pub fn n(&self) -> (usize, usize) {
@@ -108,20 +118,20 @@ impl Pair {
         let mut pair = sized!(stickslip_pair);
         (pair.n1, pair.n2) = (self.n().0 as i32, self.n().1 as i32);
         (pair.x1, pair.x2) = (self.x1.as_ptr(), self.x2.as_ptr());
-        pair.quadrature = self.quadrature;
+        (pair.quadrature, pair.multiplier_space) = (self.quadrature, self.space);
         pair
     }
 
-    fn weights(&self) -> Weights {
-        let (n1, n2) = self.n();
+    pub fn weights(&self) -> Weights {
+        let ((n1, n2), m) = (self.n(), self.m());
         let columns = 3 * (n1 + n2);
         // NaN, so that an entry which is not written shows.
         let fresh = |n: usize| vec![f64::NAN; n];
         let mut w = Weights {
-            ab: fresh(n1 * n1),
-            ac: fresh(n1 * n2),
-            dab: fresh(n1 * n1 * columns),
-            dac: fresh(n1 * n2 * columns),
+            ab: fresh(m * n1),
+            ac: fresh(m * n2),
+            dab: fresh(m * n1 * columns),
+            dac: fresh(m * n2 * columns),
         };
         ok!(stickslip_pair_weights(
             &self.raw(),
@@ -135,7 +145,7 @@ impl Pair {
     }
 
     fn gap(&self, w: &Weights) -> Vec<f64> {
-        let mut gap = vec![f64::NAN; self.x1.len()];
+        let mut gap = vec![f64::NAN; 3 * self.m()];
         ok!(stickslip_pair_gap(&self.raw(), w.ab.as_ptr(), w.ac.as_ptr(), gap.as_mut_ptr()));
         gap
     }
@@ -510,13 +520,13 @@ fn golden_interface_tangents() {
 }
 
 /// What a host without the handle does: pairs, nodes, pairs again, node blocks.
-struct Stages {
-    responses: Vec<stickslip_node_response>,
-    gaps: Vec<f64>,
-    coverage: Vec<f64>,
+pub(super) struct Stages {
+    pub responses: Vec<stickslip_node_response>,
+    pub gaps: Vec<f64>,
+    pub coverage: Vec<f64>,
     /// (forces of the multiplier form, forces of the augmented form); rows in both.
-    residual: [Vec<f64>; 2],
-    tangent: Vec<f64>,
+    pub residual: [Vec<f64>; 2],
+    pub tangent: Vec<f64>,
 }
 
 /// One pair of an interface: its unknowns, and its weights where it overlaps.
@@ -528,6 +538,7 @@ struct Element {
 }
 
 fn elements(case: &Value) -> Vec<Element> {
+    let space = if case["multiplier_space"] == "sub" { STICKSLIP_SPACE_SUB } else { STICKSLIP_SPACE_CORNER };
     let gather = |x: &Value, nodes: &[i64]| nodes.iter().flat_map(|&k| flat(&x[k as usize])).collect::<Vec<_>>();
     let mut elements = Vec::new();
     for nodes1 in facets(&case["facets1"]) {
@@ -536,6 +547,7 @@ fn elements(case: &Value) -> Vec<Element> {
                 x1: gather(&case[x1], &nodes1),
                 x2: gather(&case[x2], &nodes2),
                 quadrature: STICKSLIP_QUADRATURE_DEGREE_5,
+                space,
             };
             let (now, before) = (pair("x1", "x2"), pair("x1_prev", "x2_prev"));
             // Facets that touch have no area, but a derivative.
@@ -568,7 +580,7 @@ pub(super) fn add_node_blocks(
     }
 }
 
-fn stages(case: &Value) -> Stages {
+pub(super) fn stages(case: &Value) -> Stages {
     let (n1, n2) = (case["x1"].as_array().unwrap().len(), case["x2"].as_array().unwrap().len());
     let lambda = flat(&case["lambda"]);
     let elements = elements(case);
@@ -578,13 +590,12 @@ fn stages(case: &Value) -> Stages {
     let mut gaps = [vec![0.0; 3 * n1], vec![0.0; 3 * n1], vec![0.0; 3 * n1]];
     for e in &elements {
         let gather = |x: &Value, nodes: &[i64]| nodes.iter().flat_map(|&k| flat(&x[k as usize])).collect::<Vec<_>>();
-        let old =
-            Pair { x1: gather(&case["x1_prev"], &e.nodes1), x2: gather(&case["x2_prev"], &e.nodes2), quadrature: 0 };
+        let old = Pair { x1: gather(&case["x1_prev"], &e.nodes1), x2: gather(&case["x2_prev"], &e.nodes2), ..e.now };
         let [now, before] = &e.weights;
         for (k, (weights, pair)) in [(now, &e.now), (before, &e.now), (before, &old)].into_iter().enumerate() {
             let Some(w) = weights else { continue };
             let gap = pair.gap(w);
-            for (a, &node) in e.nodes1.iter().enumerate() {
+            for (a, &node) in e.nodes1[..pair.m()].iter().enumerate() {
                 (0..3).for_each(|i| gaps[k][3 * node as usize + i] += gap[3 * a + i]);
                 if k < 2 {
                     coverage[k][node as usize] += w.ab.chunks_exact(e.nodes1.len()).nth(a).unwrap().iter().sum::<f64>();
@@ -618,10 +629,11 @@ fn stages(case: &Value) -> Stages {
     let mut tangent = vec![0.0; n * n];
     let projected: Vec<f64> = responses.iter().flat_map(|r| r.traction).collect();
     for e in &elements {
-        let local = |v: &[f64]| e.nodes1.iter().flat_map(|&a| triple(v, a as usize)).collect::<Vec<_>>();
+        let multipliers = &e.nodes1[..e.now.m()];
+        let local = |v: &[f64]| multipliers.iter().flat_map(|&a| triple(v, a as usize)).collect::<Vec<_>>();
         let unknowns: Vec<usize> = (e.nodes1.iter().map(|&a| 3 * a as usize))
             .chain(e.nodes2.iter().map(|&c| 3 * (n1 + c as usize)))
-            .chain(e.nodes1.iter().map(|&a| 3 * (n1 + n2 + a as usize)))
+            .chain(multipliers.iter().map(|&a| 3 * (n1 + n2 + a as usize)))
             .flat_map(|first| first..first + 3)
             .collect();
         let [now, before] = &e.weights;
@@ -638,7 +650,7 @@ fn stages(case: &Value) -> Stages {
         }
         let size = unknowns.len();
         let mut k = vec![f64::NAN; size * size];
-        let local_responses: Vec<_> = e.nodes1.iter().map(|&a| responses[a as usize]).collect();
+        let local_responses: Vec<_> = multipliers.iter().map(|&a| responses[a as usize]).collect();
         let [now, before] = [now.as_ref(), before.as_ref()];
         ok!(stickslip_pair_tangent(
             &e.now.raw(),

@@ -201,7 +201,19 @@ fn layouts() -> Vec<Layout> {
             drow_dnow,
             drow_dprevious
         }),
-        layout!(stickslip_pair { struct_size, n1, n2, x1, x2, quadrature, layout, element_points, neighbour_normals }),
+        layout!(stickslip_pair {
+            struct_size,
+            n1,
+            n2,
+            x1,
+            x2,
+            quadrature,
+            layout,
+            element_points,
+            neighbour_normals,
+            multiplier_space,
+            reserved
+        }),
         layout!(stickslip_facet {
             struct_size,
             n1,

@@ -12,3 +12,4 @@ mod header;
 mod layout;
 mod normals;
 mod pair_state;
+mod quadratic;
