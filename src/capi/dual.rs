@@ -3,7 +3,7 @@
 
 use super::facet::facet;
 use super::guard::guard;
-use super::pair::{Pair, stickslip_pair};
+use super::pair_in::{Pair, stickslip_pair};
 use super::pair_out::write_weights;
 use super::raw::{self, Output};
 use crate::dual::{DualBasis, FacetSums};

@@ -1,13 +1,12 @@
 //! A facet's share of nodal normals and areas, for hosts that assemble them themselves.
 
 use super::guard::guard;
-use super::parents::parent;
 use super::raw;
 use crate::error::{Error, Kind, Result};
 use crate::geometry::{Facet, Plane, Vec3};
-use crate::mortar::{MultiplierSpace, NonmortarFrame};
+use crate::mortar::{MultiplierSpace, NonmortarFrame, ParentFacet};
 use crate::normal;
-use crate::shape::{MAX_CORNERS, Shape};
+use crate::shape::{MAX_CORNERS, MAX_PARENT_NODES, Parent, Shape};
 
 /// A facet from `n` points of an argument called `name`; allocates nothing.
 pub(super) fn facet(n: i32, x: *const f64, name: &str) -> Result<Facet> {
@@ -24,6 +23,21 @@ pub(super) fn facet(n: i32, x: *const f64, name: &str) -> Result<Facet> {
         return Err(Error::new(Kind::DuplicateNode, text!("{name} has two nodes at the same place (node {k})")));
     }
     Ok(Facet { nodes, shape })
+}
+
+/// A facet as hosts have it, from `n` points of an argument called `name`; allocates nothing.
+pub(super) fn parent(n: i32, x: *const f64, name: &str) -> Result<ParentFacet> {
+    let Some(kind) = usize::try_from(n).ok().and_then(Parent::of) else {
+        let text = text!("{name} has {n} nodes; 3 (tri3), 4 (quad4), 6 (tri6), 8 (quad8) or 9 (quad9) are allowed");
+        return Err(Error::new(Kind::InvalidSize, text));
+    };
+    let values = raw::numbers(x, 3 * kind.n, name)?;
+    let mut nodes = [Vec3::zeros(); MAX_PARENT_NODES];
+    nodes.iter_mut().zip(values.chunks_exact(3)).for_each(|(x, v)| *x = Vec3::from_column_slice(v));
+    if let Some(k) = (1..kind.n).find(|&k| nodes[..k].contains(&nodes[k])) {
+        return Err(Error::new(Kind::DuplicateNode, text!("{name} has two nodes at the same place (node {k})")));
+    }
+    ParentFacet::new(&nodes[..kind.n]).map_err(raw::named(name))
 }
 
 /// Far above the rounding of a normalisation, far below any angle that matters.

@@ -6,7 +6,7 @@ use super::guard::guard;
 use super::layout::{Matrix, column_major};
 use super::node::stickslip_node_response;
 use super::options::{element_line, rule};
-use super::pair::{node_tangents, pair_weights, tractions};
+use super::pair_in::{node_tangents, pair_weights, tractions};
 use super::raw;
 use super::sized::{self, Sized64};
 use crate::element::{DualFacet, FacetPairs, FacetResponse, facet_sums};

@@ -79,6 +79,7 @@ mod equilibrium;
 
 mod fp_environment;
 mod guard;
+mod pair_in;
 mod pair_out;
 mod raw;
 mod sized;
@@ -101,6 +102,7 @@ pub use node::*;
 pub use normals::*;
 pub use options::*;
 pub use pair::*;
+pub use pair_in::*;
 pub use pair_state::*;
 pub use parents::*;
 pub use plan::*;

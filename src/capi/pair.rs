@@ -1,180 +1,19 @@
 //! Stages 1 and 3 for one pair of facets: stateless, re-entrant, without allocation.
 
-use super::facet::{facet, set_neighbours};
 use super::guard::guard;
-use super::layout::{Matrix, column_major};
+use super::layout::Matrix;
 use super::node::stickslip_node_response;
-use super::options::{element_line, rule};
-use super::pair_out::{check_tangent, slot, write_force, write_gap, write_tangent, write_weights};
+use super::pair_in::{Pair, flat, node_tangents, read_previous, stickslip_pair, tractions};
+use super::pair_out::{check_tangent, check_weights, slot, write_force, write_gap, write_tangent, write_weights};
 use super::parents::Parents;
 use super::raw::{self, Output};
-use super::sized::{self, Sized64};
-use crate::element::{FacetResponse, NodeTangent, PairNow, PairTangent, pair_force, row_columns};
+use crate::element::{FacetResponse, PairNow, PairTangent, pair_force, row_columns};
 use crate::error::Result;
-use crate::geometry::{Facet, Projection, Vec3};
+use crate::geometry::Projection;
 use crate::mortar::{
     self, AlongNormal, GapDerivative, NonmortarFrame, PAIR_NODES, PairWeights, Segment, WeightDerivatives,
 };
 use crate::quadrature::Rule;
-use crate::shape::{MAX_CORNERS, MAX_NODES};
-
-/// A pair of facets, non-mortar first. Node order: right-hand, seen from outside each body.
-#[repr(C)]
-#[derive(Clone, Copy)]
-pub struct stickslip_pair {
-    /// sizeof(stickslip_pair).
-    pub struct_size: u64,
-    /// Nodes of the non-mortar facet: 3 (tri3) or 4 (quad4); 6 (tri6), 8 (quad8) or 9 (quad9) where the function takes
-    /// quadratic facets: corners, then mid nodes, k between the corners k and k + 1, then the centre.
-    pub n1: i32,
-    /// Nodes of the mortar facet, likewise.
-    pub n2: i32,
-    /// 3 n1 coordinates of the non-mortar facet, node by node (in Fortran x1(3, n1)) [L].
-    pub x1: *const f64,
-    /// 3 n2 coordinates of the mortar facet [L].
-    pub x2: *const f64,
-    /// STICKSLIP_QUADRATURE_...
-    pub quadrature: i32,
-    /// STICKSLIP_LAYOUT_... of the tangent.
-    pub layout: i32,
-    /// 0 (default): weights over triangles of the overlap; 2 to 10: over so many points squared on the non-mortar facet,
-    /// those that fall on the mortar facet (STICKSLIP_INTEGRATION_ELEMENTS; quadrature is not used).
-    pub element_points: i64,
-    /// 3 n1: for each edge of the non-mortar facet, from its k-th node to the next one, the normal of the facet beyond it
-    /// (`stickslip_facet_normal`, of length 1 within 1e-10), or (0, 0, 0) where the surface ends [-]. NULL (default): not
-    /// known. Read by `stickslip_pair_weights` alone. With it a pair has the weights that a handle has, to the last bit;
-    /// without, a border of the mortar surface that follows the edge may count for both of its facets or for none.
-    pub neighbour_normals: *const f64,
-    /// STICKSLIP_SPACE_..., of a quadratic non-mortar facet.
-    pub multiplier_space: i32,
-    /// Not used.
-    pub reserved: i32,
-}
-
-// SAFETY: repr(C), struct_size first, integers and raw pointers only.
-unsafe impl Sized64 for stickslip_pair {
-    const NAME: &'static str = "stickslip_pair";
-    const FIRST: usize = 40;
-}
-
-pub(super) struct Pair {
-    pub one: Facet,
-    pub two: Facet,
-    raw: stickslip_pair,
-}
-
-impl Pair {
-    #[inline]
-    pub fn read(p: *const stickslip_pair) -> Result<Pair> {
-        let raw = sized::read(p)?;
-        Ok(Pair { one: facet(raw.n1, raw.x1, "pair.x1")?, two: facet(raw.n2, raw.x2, "pair.x2")?, raw })
-    }
-
-    /// Numbers of nodes.
-    pub fn n(&self) -> (usize, usize) {
-        (self.one.len(), self.two.len())
-    }
-
-    /// Whether the matrix goes out by columns.
-    pub fn column_major(&self) -> Result<bool> {
-        column_major(self.raw.layout, "pair.layout")
-    }
-
-    /// Planes and overlap of now, and the rule that is asked for; then `work` with them. By reference: they are large.
-    #[inline]
-    pub fn overlapping<T>(
-        &self,
-        work: impl FnOnce(&NonmortarFrame, &Option<Segment>, &'static Rule) -> Result<T>,
-    ) -> Result<T> {
-        let rule = rule(self.raw.quadrature, "pair.quadrature")?;
-        let mut frame = NonmortarFrame::new(&self.one);
-        let frame = match &mut frame {
-            Ok(frame) => frame,
-            Err(error) => return Err(raw::named_one("pair.x1", error)),
-        };
-        set_neighbours(frame, self.raw.neighbour_normals, "pair.neighbour_normals")?;
-        let segment = match self.raw.element_points {
-            0 => Segment::new(frame, &self.two),
-            points => Segment::of_points(frame, &self.two, element_line(points, "pair.element_points")?),
-        };
-        match &segment {
-            Ok(segment) => work(frame, segment, rule),
-            Err(error) => Err(raw::named_one("pair.x2", error)),
-        }
-    }
-
-    pub fn weights(&self, ab: *const f64, ac: *const f64, names: [&str; 2]) -> Result<PairWeights> {
-        read_weights(self.n(), ab, ac, names)
-    }
-
-    fn derivatives(&self, ab: *const f64, ac: *const f64) -> Result<WeightDerivatives> {
-        let (n1, n2) = self.n();
-        let n = n1 + n2;
-        let (ab, ac) = (raw::numbers(ab, n1 * n1 * 3 * n, "dn_ab")?, raw::numbers(ac, n1 * n2 * 3 * n, "dn_ac")?);
-        let mut d = WeightDerivatives::default();
-        if n == PAIR_NODES {
-            flat_mut(&mut d.ab).copy_from_slice(ab);
-            flat_mut(&mut d.ac).copy_from_slice(ac);
-            return Ok(d);
-        }
-        for a in 0..n1 {
-            for k in 0..n {
-                let at = |row: usize| 3 * (row * n + k);
-                for b in 0..n1 {
-                    d.ab[a][b][slot(n1, k)].copy_from_slice(&ab[at(a * n1 + b)..][..3]);
-                }
-                for c in 0..n2 {
-                    d.ac[a][c][slot(n1, k)].copy_from_slice(&ac[at(a * n2 + c)..][..3]);
-                }
-            }
-        }
-        Ok(d)
-    }
-}
-
-/// Derivatives of weights, as they lie with a caller whose facets have as many nodes as there are slots.
-type Derivatives = [[[[f64; 3]; PAIR_NODES]; MAX_NODES]; MAX_CORNERS];
-
-fn flat(d: &Derivatives) -> &[f64] {
-    d.as_flattened().as_flattened().as_flattened()
-}
-
-fn flat_mut(d: &mut Derivatives) -> &mut [f64] {
-    d.as_flattened_mut().as_flattened_mut().as_flattened_mut()
-}
-
-/// The weights that a caller gives to a pair of so many nodes.
-pub(super) fn read_weights(
-    (n1, n2): (usize, usize),
-    ab: *const f64,
-    ac: *const f64,
-    names: [&str; 2],
-) -> Result<PairWeights> {
-    Ok(pair_weights(raw::numbers(ab, n1 * n1, names[0])?, raw::numbers(ac, n1 * n2, names[1])?, n1))
-}
-
-/// Weights of t_n, or nothing where both are null.
-pub(super) fn read_previous(n: (usize, usize), ab: *const f64, ac: *const f64) -> Result<Option<PairWeights>> {
-    let is_given = !ab.is_null() || !ac.is_null();
-    is_given.then(|| read_weights(n, ab, ac, ["n_ab_previous", "n_ac_previous"])).transpose()
-}
-
-/// A pair's weights from a caller's n_ab and n_ac, row A, of so many non-mortar nodes.
-pub(super) fn pair_weights(ab: &[f64], ac: &[f64], n1: usize) -> PairWeights {
-    let (mut w, n2) = (PairWeights::default(), ac.len() / n1);
-    for a in 0..n1 {
-        w.ab[a][..n1].copy_from_slice(&ab[a * n1..][..n1]);
-        w.ac[a][..n2].copy_from_slice(&ac[a * n2..][..n2]);
-    }
-    w
-}
-
-/// Refuses weights that left the range of doubles.
-#[inline]
-pub(super) fn check_weights(w: &PairWeights) -> Result<()> {
-    raw::check_array("n_ab, n_ac", w.ab.as_flattened())?;
-    raw::check_array("n_ab, n_ac", w.ac.as_flattened())
-}
 
 /// Weights and their derivatives; each may be null. Apart from the rest: they are large.
 #[inline(never)]
@@ -208,31 +47,6 @@ fn with_derivatives(
         }
     }
     Ok(())
-}
-
-/// 3 n numbers at `p` as vectors of the facet's nodes.
-pub(super) fn tractions(p: *const f64, n: usize) -> Result<[Vec3; MAX_CORNERS]> {
-    let mut t = [Vec3::zeros(); MAX_CORNERS];
-    for (t, v) in t.iter_mut().zip(raw::numbers(p, 3 * n, "traction")?.chunks_exact(3)) {
-        *t = Vec3::from_column_slice(v);
-    }
-    Ok(t)
-}
-
-/// What a facet must know of the responses of its nodes, at its tractions.
-pub(super) fn node_tangents(
-    traction: &[Vec3],
-    responses: *const stickslip_node_response,
-    row_scale: *const f64,
-) -> Result<[NodeTangent; MAX_CORNERS]> {
-    let scale = raw::optional_numbers(row_scale, traction.len(), "row_scale")?;
-    let mut nodes = [NodeTangent::default(); MAX_CORNERS];
-    for (a, (node, traction)) in nodes.iter_mut().zip(traction).enumerate() {
-        let s = scale.map_or(1.0, |s| s[a]);
-        let (now, previous) = super::node::read_response(responses, a)?;
-        *node = NodeTangent { traction: *traction, drow_dnow: now * s, drow_dprevious: previous * s };
-    }
-    Ok(nodes)
 }
 
 /// Stage 1: the mortar weights of a pair in its current configuration. Paper (13).

@@ -75,3 +75,10 @@ pub(super) fn write_tangent(t: &PairTangent, now: Option<&PairWeights>, (n1, n2)
         }
     }
 }
+
+/// Refuses weights that left the range of doubles.
+#[inline]
+pub(super) fn check_weights(w: &PairWeights) -> Result<()> {
+    raw::check_array("n_ab, n_ac", w.ab.as_flattened())?;
+    raw::check_array("n_ab, n_ac", w.ac.as_flattened())
+}

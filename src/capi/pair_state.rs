@@ -5,8 +5,8 @@
 use super::guard::guard;
 use super::layout::Matrix;
 use super::node::stickslip_node_response;
-use super::pair::{Pair, check_weights, node_tangents, read_previous, stickslip_pair, tractions};
-use super::pair_out::{check_tangent, write_force, write_gap, write_tangent, write_weights};
+use super::pair_in::{Pair, node_tangents, read_previous, stickslip_pair, tractions};
+use super::pair_out::{check_tangent, check_weights, write_force, write_gap, write_tangent, write_weights};
 use super::raw::{self, refuse};
 use crate::element::{FacetResponse, PairNow, PairTangent, pair_force, row_columns};
 use crate::error::{Kind, Result};

@@ -1,9 +1,10 @@
 //! A pair with a quadratic facet, as a caller gives it to the functions of pairs (`pair.rs`).
 
+use super::facet::parent;
 use super::layout::{Matrix, column_major};
 use super::node::{read_response, stickslip_node_response};
 use super::options::rule;
-use super::pair::stickslip_pair;
+use super::pair_in::stickslip_pair;
 use super::raw::{self, Output};
 use super::sized;
 use crate::element::ParentPair;
@@ -11,27 +12,12 @@ use crate::error::{Error, Kind, Result};
 use crate::geometry::{Mat3, Vec3};
 use crate::memory;
 use crate::mortar::{MultiplierSpace, ParentFacet, ParentWeights, parent_weights};
-use crate::shape::{MAX_CORNERS, MAX_PARENT_NODES, Parent};
+use crate::shape::{MAX_CORNERS, MAX_PARENT_NODES};
 
 /// Multipliers of a quadratic facet at its corners, with the linear functions of these: the recommended ones.
 pub const STICKSLIP_SPACE_CORNER: i32 = 0;
 /// Multipliers at all nodes, with the functions of the linear parts that the facet is cut into.
 pub const STICKSLIP_SPACE_SUB: i32 = 1;
-
-/// A facet as hosts have it, from `n` points of an argument called `name`; allocates nothing.
-pub(super) fn parent(n: i32, x: *const f64, name: &str) -> Result<ParentFacet> {
-    let Some(kind) = usize::try_from(n).ok().and_then(Parent::of) else {
-        let text = text!("{name} has {n} nodes; 3 (tri3), 4 (quad4), 6 (tri6), 8 (quad8) or 9 (quad9) are allowed");
-        return Err(Error::new(Kind::InvalidSize, text));
-    };
-    let values = raw::numbers(x, 3 * kind.n, name)?;
-    let mut nodes = [Vec3::zeros(); MAX_PARENT_NODES];
-    nodes.iter_mut().zip(values.chunks_exact(3)).for_each(|(x, v)| *x = Vec3::from_column_slice(v));
-    if let Some(k) = (1..kind.n).find(|&k| nodes[..k].contains(&nodes[k])) {
-        return Err(Error::new(Kind::DuplicateNode, text!("{name} has two nodes at the same place (node {k})")));
-    }
-    ParentFacet::new(&nodes[..kind.n]).map_err(raw::named(name))
-}
 
 /// Such a pair.
 pub(super) struct Parents {

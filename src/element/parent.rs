@@ -1,5 +1,5 @@
 //! Gap, forces and tangent of a pair of facets as hosts have them, linear or quadratic (paper (11), (23), (29)-(31);
-//! docs/formulation.md 7.4): with sums over the nodes of both sides, for gaps of a quadratic pair are not along a normal.
+//! docs/formulation.md 12.4): with sums over the nodes of both sides, for gaps of a quadratic pair are not along a normal.
 
 use crate::geometry::{Mat3, Vec3};
 use crate::mortar::{ParentFacet, ParentWeights};

@@ -1,5 +1,5 @@
 //! A pair of facets as hosts have them, linear or quadratic: the sum over the pairs of their sub-facets
-//! (docs/formulation.md 7.2).
+//! (docs/formulation.md 12.2).
 
 use super::field::MultiplierSpace;
 use super::segment::{NonmortarFrame, Segment};
@@ -50,7 +50,7 @@ impl ParentFacet {
         if space == MultiplierSpace::Corner { self.parent.corners } else { self.parent.n }
     }
 
-    /// Unit normal at node k, out of the body: x_xi x x_eta (docs/formulation.md 7.4).
+    /// Unit normal at node k, out of the body: x_xi x x_eta (docs/formulation.md 12.4).
     pub fn normal(&self, k: usize) -> Vec3 {
         let [x, y] = self.parent.at[k];
         let [_, dx, dy] = monomials(x, y);
