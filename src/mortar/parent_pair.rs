@@ -4,7 +4,7 @@
 use super::field::MultiplierSpace;
 use super::segment::{NonmortarFrame, Segment};
 use super::slots::{MORTAR, PAIR_NODES};
-use super::sub_pair::{COLUMNS, Side, SubDerivatives, SubWeights, rule_for, sub_derivatives, sub_weights};
+use super::sub_pair::{COLUMNS, Side, SubDerivatives, SubWeights, rule_for, sub_weights};
 use crate::error::{Error, Kind, Result};
 use crate::geometry::{Facet, Plane, Vec3};
 use crate::quadrature::{DEGREE_5, Rule};
@@ -172,10 +172,10 @@ pub fn parent_weights(
             let rows = space.nodes(one.parent, sigma);
             sum.area += segment.area;
             match &mut derivatives {
-                None => sum.add(rows, &sub_weights(pair, sides, space)),
+                None => sum.add(rows, &sub_weights(pair, sides, space, None)),
                 Some([ab, ac]) => {
                     let mut d = SubDerivatives::default();
-                    sum.add(rows, &sub_derivatives(pair, sides, space, &mut d));
+                    sum.add(rows, &sub_weights(pair, sides, space, Some(&mut d)));
                     add_derivatives(rows, sides, (&d.ab, one.parent.n), ab);
                     add_derivatives(rows, sides, (&d.ac, two.parent.n), ac);
                 }

@@ -10,13 +10,15 @@ use super::chain::{Chain, Flat};
 use super::edges::{edge_points, intervals, line};
 use super::field::{Field, MultiplierSpace, Multipliers, Values, cell_corners};
 use super::points::{Fan, Maps, points};
-use super::segment::{KindKernel, Kinds, NonmortarFrame, Segment};
+use super::segment::{NonmortarFrame, Segment};
 use super::slots::{MORTAR_CORNER, PAIR_CORNERS, PAIR_NODES};
 use super::transport::PlaneDerivatives;
-use crate::geometry::edge_interval::EdgeInterval;
+use crate::geometry::Vec2;
+use crate::geometry::bilinear_map::Preimage;
+use crate::geometry::edge_interval::{EdgeInterval, EdgeIntervals};
 use crate::quadrature::{DEGREE_5, DEGREE_7, Rule};
-use crate::shape::{Basis, Cell, GROUPS, Isoparametric, MAX_CORNERS, Map, Parent, SingleBasis, SubFacet};
-use crate::simd::{Lanes, rolled};
+use crate::shape::{GROUPS, MAX_CORNERS, Parent, Quadrilateral, SubFacet, Triangle};
+use crate::simd::{self, Kernel, Lanes, rolled};
 
 /// Lanes of a parent's functions.
 pub const COLUMNS: usize = 4 * GROUPS;
@@ -66,218 +68,194 @@ pub fn rule_for(rule: &'static Rule, parents: [&Parent; 2]) -> &'static Rule {
     }
 }
 
-/// The weights over an overlap, by a rule of [`rule_for`].
+/// The weights over an overlap, by a rule of [`rule_for`], and their derivatives where asked for.
 pub fn sub_weights(
     (frame, segment, rule): (&NonmortarFrame, &Segment, &Rule),
-    (one, two): (Side, Side),
+    sides: (Side, Side),
     space: MultiplierSpace,
+    derivatives: Option<&mut SubDerivatives>,
 ) -> SubWeights {
-    let mut weights = SubWeights::default();
-    let to = (&mut weights, None);
-    Kinds::of(frame, segment).dispatch(Integrate { frame, segment, rule, one, two, space, to });
-    weights
+    simd::dispatch(Integrate { frame, segment, rule, sides, space, derivatives })
 }
 
-/// The same with their derivatives.
-pub fn sub_derivatives(
-    (frame, segment, rule): (&NonmortarFrame, &Segment, &Rule),
-    (one, two): (Side, Side),
-    space: MultiplierSpace,
-    derivatives: &mut SubDerivatives,
-) -> SubWeights {
-    let mut weights = SubWeights::default();
-    let to = (&mut weights, Some(derivatives));
-    Kinds::of(frame, segment).dispatch(Integrate { frame, segment, rule, one, two, space, to });
-    weights
-}
-
+/// For both kinds of cells at once: of a pair of sub-facets the functions of the parents cost most.
 struct Integrate<'a> {
     frame: &'a NonmortarFrame,
     segment: &'a Segment,
     rule: &'a Rule,
-    one: Side,
-    two: Side,
+    sides: (Side, Side),
     space: MultiplierSpace,
-    to: (&'a mut SubWeights, Option<&'a mut SubDerivatives>),
+    derivatives: Option<&'a mut SubDerivatives>,
 }
 
 /// Per row A and group of functions, the derivatives with respect to the projected corners.
 type Sums<L> = [[PlaneDerivatives<L>; GROUPS]; MAX_CORNERS];
 
-/// All functions at a point.
-struct At<L> {
-    /// N_A, and the components of its gradient.
-    a: [f64; MAX_CORNERS],
-    gradient: [[f64; MAX_CORNERS]; 2],
-    b: Values<L, GROUPS>,
-    c: Values<L, GROUPS>,
+/// Four points: of the overlap, or of an edge's part that bounds it.
+struct Four {
+    weight: [f64; 4],
+    /// Coordinates on both sub-facets, and the determinants of their maps.
+    one: [[f64; 4]; 3],
+    two: [[f64; 4]; 3],
+    edge: Option<OnEdge>,
 }
 
-struct Functions {
-    multipliers: Multipliers,
-    one: Field,
-    two: Field,
+/// An edge: the slots of its ends, their functions at the points, n ds/dt.
+struct OnEdge {
+    slots: [usize; 2],
+    ends: [[f64; 4]; 2],
+    normal: [f64; 2],
 }
 
-impl Functions {
+/// All points of a pair, four at a time.
+struct Points<'a, L> {
+    frame: &'a NonmortarFrame,
+    segment: &'a Segment,
+    rule: &'a Rule,
+    maps: Maps<L>,
+    fan: Fan<'a>,
+    triangle: Option<[Vec2; 3]>,
+    /// The edges' parts of both sub-facets; none where no derivatives are asked for.
+    edges: [EdgeIntervals; 2],
+    /// The next group of points, and the edge that it is on, once the triangles are through.
+    group: usize,
+    edge: usize,
+}
+
+impl<L: Lanes> Points<'_, L> {
     #[inline(always)]
-    fn at<L: Lanes>(&self, one: ([f64; 2], f64), two: ([f64; 2], f64)) -> At<L> {
-        let a = self.multipliers.at::<L>(one.0, one.1);
-        At {
-            a: a.n[0].store(),
-            gradient: a.gradient[0].map(L::store),
-            b: self.one.at(one.0, one.1),
-            c: self.two.at(two.0, two.1),
+    fn next(&mut self) -> Option<Four> {
+        while let Some(triangle) = &self.triangle {
+            if let Some(four) = self.rule.triangle_lanes.get(self.group) {
+                self.group += 1;
+                let p = points::<L>(&self.maps, four, triangle);
+                let of = |at: &Preimage<L>| [at.xi.store(), at.eta.store(), at.det.store()];
+                return Some(Four { weight: p.weight.store(), one: of(&p.one), two: of(&p.two), edge: None });
+            }
+            (self.triangle, self.group) = (self.fan.triangle(), 0);
         }
+        while self.edge < 2 * MAX_CORNERS {
+            let (side, k) = (self.edge / MAX_CORNERS, self.edge % MAX_CORNERS);
+            if let (Some(edge), Some(four)) = (&self.edges[side][k], self.rule.line_lanes.get(self.group)) {
+                self.group += 1;
+                return Some(self.on_edge(side, edge, four));
+            }
+            (self.edge, self.group) = (self.edge + 1, 0);
+        }
+        None
+    }
+
+    /// Along its own edge a point's coordinates are known. Gradients, and so the determinants, are not asked for.
+    #[inline(always)]
+    fn on_edge(&self, side: usize, edge: &EdgeInterval, four: &[[f64; 4]; 2]) -> Four {
+        let projection = [&self.frame.projection, &self.segment.mortar][side];
+        let corners = cell_corners(projection.shape.n);
+        let (from, to) = (corners[edge.from & 3], corners[edge.to & 3]);
+        let (y0, span, normal) = line(&projection.y, edge);
+        let (w, [l0, l1], y) = edge_points::<L>(four, edge, y0, span);
+        let own = [0, 1].map(|i| L::splat(from[i]).mul_add(l0, L::splat(to[i]) * l1).store());
+        let there = if side == 0 { self.maps.two.at(y) } else { self.maps.one.at(y) };
+        let (own, there) = ([own[0], own[1], [1.0; 4]], [there.xi.store(), there.eta.store(), [1.0; 4]]);
+        let slots = [edge.from, edge.to].map(|end| side * MORTAR_CORNER + (end & 3));
+        let edge = OnEdge { slots, ends: [l0.store(), l1.store()], normal: [normal.x, normal.y] };
+        let (one, two) = if side == 0 { (own, there) } else { (there, own) };
+        Four { weight: w.store(), one, two, edge: Some(edge) }
     }
 }
 
-impl KindKernel for Integrate<'_> {
-    type Output = ();
+impl Kernel for Integrate<'_> {
+    type Output = SubWeights;
 
     #[inline(always)]
-    fn run<L: Lanes, One: SingleBasis, Two: Isoparametric>(self) {
-        let Integrate { frame, segment, rule, one, two, space, to: (weights, derivatives) } = self;
-        let f = Functions {
-            multipliers: Multipliers::new::<L>(space, one, &frame.projection, &frame.map),
-            one: Field::new::<L>(one.0, one.1, &frame.projection, &frame.map),
-            two: Field::new::<L>(two.0, two.1, &segment.mortar, &segment.mortar_map),
-        };
+    fn run<L: Lanes>(self) -> SubWeights {
+        let Integrate { frame, segment, rule, sides: (one, two), space, derivatives } = self;
+        let multipliers = Multipliers::new::<L>(space, one, &frame.projection, &frame.map);
+        let fields = [
+            Field::new::<L>(one.0, one.1, &frame.projection, &frame.map),
+            Field::new::<L>(two.0, two.1, &segment.mortar, &segment.mortar_map),
+        ];
         let rows = space.nodes(one.0, one.1).len();
-        let maps = Maps::<L>::new(frame, segment);
+        let shapes = [frame.projection.shape, segment.mortar.shape];
         let zero = L::splat(0.0);
-        let (mut ab, mut ac) = ([[zero; GROUPS]; MAX_CORNERS], [[zero; GROUPS]; MAX_CORNERS]);
-        let mut sums: Option<[Sums<L>; 2]> =
-            derivatives.is_some().then_some([[[[[zero; 2]; PAIR_CORNERS]; GROUPS]; MAX_CORNERS]; 2]);
-        let mut fan = Fan::new(frame, segment);
-        while let Some(triangle) = fan.triangle() {
-            for four in rule.triangle_lanes {
-                let p = points::<L>(&maps, four, &triangle);
-                let weight = p.weight.store();
-                let one = [p.one.xi.store(), p.one.eta.store(), p.one.det.store()];
-                let two = [p.two.xi.store(), p.two.eta.store(), p.two.det.store()];
-                for q in 0..rolled(4) {
-                    let w = weight[q];
-                    if w == 0.0 {
-                        continue;
-                    }
-                    let at = f.at::<L>(([one[0][q], one[1][q]], one[2][q]), ([two[0][q], two[1][q]], two[2][q]));
-                    for a in 0..rows {
-                        let wn = L::splat(w * at.a[a]);
-                        for g in 0..f.one.groups() {
-                            ab[a][g] = wn.mul_add(at.b.n[g], ab[a][g]);
+        let mut weights = [[[zero; GROUPS]; MAX_CORNERS]; 2];
+        let mut sums: [Sums<L>; 2] = [[[[[zero; 2]; PAIR_CORNERS]; GROUPS]; MAX_CORNERS]; 2];
+        let edges = match &derivatives {
+            Some(_) => intervals::<L>(&frame.projection, &segment.mortar, &frame.plane),
+            None => [[None; MAX_CORNERS]; 2],
+        };
+        let (mut fan, maps) = (Fan::new(frame, segment), Maps::<L>::new(frame, segment));
+        let triangle = fan.triangle();
+        let mut points = Points { frame, segment, rule, maps, fan, triangle, edges, group: 0, edge: 0 };
+        while let Some(four) = points.next() {
+            for q in 0..rolled(4) {
+                let w = four.weight[q];
+                if w == 0.0 {
+                    continue;
+                }
+                let [at1, at2] = [&four.one, &four.two].map(|at| ([at[0][q], at[1][q]], at[2][q]));
+                let a = multipliers.at::<L>(at1.0, at1.1);
+                let (n, gradient) = (a.n[0].store(), a.gradient[0].map(L::store));
+                for which in 0..rolled(2) {
+                    let at = [at1, at2][which];
+                    let f: Values<L, GROUPS> = fields[which].at(at.0, at.1);
+                    let (weights, sums) = (&mut weights[which], &mut sums[which]);
+                    for (row, g) in (0..rows).flat_map(|row| (0..fields[which].groups()).map(move |g| (row, g))) {
+                        let wn = L::splat(w * n[row]);
+                        if let Some(edge) = &four.edge {
+                            for (slot, end) in edge.slots.iter().zip(&edge.ends) {
+                                let along = f.n[g] * L::splat(end[q]) * wn;
+                                for c in 0..2 {
+                                    let sum = &mut sums[row][g][*slot][c];
+                                    *sum = along.mul_add(L::splat(edge.normal[c]), *sum);
+                                }
+                            }
+                            continue;
                         }
-                        for g in 0..f.two.groups() {
-                            ac[a][g] = wn.mul_add(at.c.n[g], ac[a][g]);
+                        weights[row][g] = wn.mul_add(f.n[g], weights[row][g]);
+                        if derivatives.is_none() {
+                            continue;
+                        }
+                        let v = [at1, at2].map(|at| at.0);
+                        let v = [0, 1].map(|side| shapes[side].values(v[side][0], v[side][1]));
+                        for c in 0..2 {
+                            // -(grad N_A . v1) N, and -N_A grad N . v of the side that has N.
+                            let (of_a, of_n) = (f.n[g] * L::splat(-w * gradient[c][row]), -wn * f.gradient[g][c]);
+                            for (k, v) in v[0].iter().enumerate() {
+                                let sum = &mut sums[row][g][k][c];
+                                *sum = of_a.mul_add(L::splat(*v), *sum);
+                            }
+                            for (k, v) in v[which].iter().enumerate() {
+                                let sum = &mut sums[row][g][which * MORTAR_CORNER + k][c];
+                                *sum = of_n.mul_add(L::splat(*v), *sum);
+                            }
                         }
                     }
-                    let Some(sums) = &mut sums else { continue };
-                    let v1 = <Map<One> as Basis>::values(one[0][q], one[1][q]);
-                    let v2 = <Map<Two> as Basis>::values(two[0][q], two[1][q]);
-                    add_area::<L, One, Two>(sums, (rows, [f.one.groups(), f.two.groups()]), &at, w, [v1, v2]);
                 }
             }
         }
-        for a in 0..rows {
-            for g in 0..GROUPS {
-                weights.ab[a][4 * g..][..4].copy_from_slice(&ab[a][g].store());
-                weights.ac[a][4 * g..][..4].copy_from_slice(&ac[a][g].store());
-            }
-        }
-        let (Some(mut sums), Some(derivatives)) = (sums, derivatives) else { return };
-        let [ones, twos] = intervals::<L>(&frame.projection, &segment.mortar, &frame.plane);
-        for (first, edges) in [(0, &ones), (MORTAR_CORNER, &twos)] {
-            for edge in edges.iter().flatten() {
-                add_edge::<L>((frame, segment, rule), &maps, &f, rows, (first, edge), &mut sums);
-            }
-        }
-        let chain = Chain::new(frame, segment);
-        for (sums, to) in sums.iter().zip([&mut derivatives.ab, &mut derivatives.ac]) {
-            for a in 0..rolled(rows) {
-                for g in 0..rolled(GROUPS) {
+        if let Some(derivatives) = derivatives {
+            let chain = Chain::new(frame, segment);
+            for (sums, to) in sums.iter().zip([&mut derivatives.ab, &mut derivatives.ac]) {
+                for (a, g) in (0..rows).flat_map(|a| (0..GROUPS).map(move |g| (a, g))) {
                     let mut columns = Flat([[zero; 3]; PAIR_NODES]);
-                    chain.nodes::<One::Cell, Two::Cell>(&sums[a][g], &mut columns);
+                    match (shapes[0].n, shapes[1].n) {
+                        (3, 3) => chain.nodes::<Triangle, Triangle>(&sums[a][g], &mut columns),
+                        (3, _) => chain.nodes::<Triangle, Quadrilateral>(&sums[a][g], &mut columns),
+                        (_, 3) => chain.nodes::<Quadrilateral, Triangle>(&sums[a][g], &mut columns),
+                        _ => chain.nodes::<Quadrilateral, Quadrilateral>(&sums[a][g], &mut columns),
+                    }
                     for (k, j) in (0..PAIR_NODES).flat_map(|k| (0..3).map(move |j| (k, j))) {
                         to[a][k][j][4 * g..][..4].copy_from_slice(&columns.0[k][j].store());
                     }
                 }
             }
         }
-    }
-}
-
-/// What a point of the area adds.
-#[inline(always)]
-fn add_area<L: Lanes, One: SingleBasis, Two: Isoparametric>(
-    [ab, ac]: &mut [Sums<L>; 2],
-    (rows, groups): (usize, [usize; 2]),
-    at: &At<L>,
-    w: f64,
-    [v1, v2]: [[f64; MAX_CORNERS]; 2],
-) {
-    for a in 0..rows {
-        for c in 0..2 {
-            let (n, gradient) = (L::splat(-w * at.a[a]), L::splat(-w * at.gradient[c][a]));
-            for g in 0..groups[0] {
-                let both = gradient.mul_add(at.b.n[g], n * at.b.gradient[g][c]);
-                for k in 0..One::Cell::CORNERS {
-                    ab[a][g][k][c] = both.mul_add(L::splat(v1[k]), ab[a][g][k][c]);
-                }
-            }
-            for g in 0..groups[1] {
-                let (own, other) = (gradient * at.c.n[g], n * at.c.gradient[g][c]);
-                for k in 0..One::Cell::CORNERS {
-                    ac[a][g][k][c] = own.mul_add(L::splat(v1[k]), ac[a][g][k][c]);
-                }
-                for l in 0..Two::Cell::CORNERS {
-                    let sum = &mut ac[a][g][MORTAR_CORNER + l][c];
-                    *sum = other.mul_add(L::splat(v2[l]), *sum);
-                }
-            }
-        }
-    }
-}
-
-/// What an edge's part that bounds the overlap adds; `first`: the slot of its facet's first corner.
-#[inline(always)]
-fn add_edge<L: Lanes>(
-    (frame, segment, rule): (&NonmortarFrame, &Segment, &Rule),
-    maps: &Maps<L>,
-    f: &Functions,
-    rows: usize,
-    (first, edge): (usize, &EdgeInterval),
-    [ab, ac]: &mut [Sums<L>; 2],
-) {
-    let is_own = first == 0;
-    let projection = if is_own { &frame.projection } else { &segment.mortar };
-    let corners = cell_corners(projection.shape.n);
-    let (from, to) = (corners[edge.from & 3], corners[edge.to & 3]);
-    let (y0, span, normal) = line(&projection.y, edge);
-    for four in rule.line_lanes {
-        let (w, [l0, l1], y) = edge_points::<L>(four, edge, y0, span);
-        let (w, l0, l1) = (w.store(), l0.store(), l1.store());
-        // Along its own edge a point's coordinates are known; the gradients, and so the determinant, are not asked for.
-        let other = if is_own { maps.two.at(y) } else { maps.one.at(y) };
-        let other = [other.xi.store(), other.eta.store()];
-        for q in 0..rolled(4) {
-            let own = [0, 1].map(|i| from[i] * l0[q] + to[i] * l1[q]);
-            let there = [other[0][q], other[1][q]];
-            let (one, two) = if is_own { (own, there) } else { (there, own) };
-            let at = f.at::<L>((one, 1.0), (two, 1.0));
-            for (end, l) in [(edge.from, l0[q]), (edge.to, l1[q])] {
-                let slot = first + (end & 3);
-                for a in 0..rows {
-                    for c in 0..2 {
-                        let n = L::splat(w[q] * l * at.a[a] * normal[c]);
-                        for g in 0..f.one.groups() {
-                            ab[a][g][slot][c] = n.mul_add(at.b.n[g], ab[a][g][slot][c]);
-                        }
-                        for g in 0..f.two.groups() {
-                            ac[a][g][slot][c] = n.mul_add(at.c.n[g], ac[a][g][slot][c]);
-                        }
-                    }
-                }
-            }
-        }
+        let [ab, ac] = weights.map(|of| {
+            of.map(|row| {
+                let groups = row.map(L::store);
+                std::array::from_fn(|b| groups[b / 4][b % 4])
+            })
+        });
+        SubWeights { ab, ac }
     }
 }
