@@ -7,7 +7,7 @@
 use super::transport::dots;
 use crate::geometry::Projection;
 use crate::geometry::bilinear_map::BilinearMap;
-use crate::shape::{GROUPS, MAX_CORNERS, Parent, SubFacet, monomials};
+use crate::shape::{GROUPS, MAX_CORNERS, Parent, SubFacet, TERMS, monomial_slopes, monomials};
 use crate::simd::Lanes;
 
 /// Coordinates that are affine in a sub-facet's own, with their gradients in the plane.
@@ -42,6 +42,17 @@ impl Coordinates {
         c
     }
 
+    /// Of four points with these coordinates of the sub-facet.
+    #[inline(always)]
+    fn of_four<L: Lanes>(&self, eta: [L; 2]) -> [L; 2] {
+        let mut at = eta;
+        for i in 0..2 {
+            let [a, b, c] = self.affine[i];
+            at[i] = L::splat(c).mul_add(eta[1], L::splat(b).mul_add(eta[0], L::splat(a)));
+        }
+        at
+    }
+
     /// At a point with these coordinates of the sub-facet, and the determinant there.
     #[inline(always)]
     pub fn at(&self, eta: [f64; 2], det: f64) -> Place {
@@ -49,7 +60,9 @@ impl Coordinates {
         for i in 0..2 {
             let ([a, b, c], s) = (self.affine[i], &self.slopes[i]);
             place.at[i] = a + b * eta[0] + c * eta[1];
-            place.gradient[i] = [0, 1].map(|j| (s[0][j] + s[1][j] * eta[0] + s[2][j] * eta[1]) / det);
+            for j in 0..2 {
+                place.gradient[i][j] = (s[0][j] + s[1][j] * eta[0] + s[2][j] * eta[1]) / det;
+            }
         }
         place
     }
@@ -83,10 +96,42 @@ impl Field {
         self.parent.groups()
     }
 
+    /// Adds the integrals of `wn`, functions times weights at four points, and each monomial.
+    #[inline(always)]
+    pub fn add_moments<L: Lanes>(&self, eta: [L; 2], wn: &[L], moments: &mut [[L; TERMS]; MAX_CORNERS]) {
+        let [x, y] = self.coordinates.of_four(eta);
+        let m = monomials(x, y);
+        for a in 0..wn.len() {
+            for t in 0..TERMS {
+                moments[a][t] = wn[a].mul_add(m[t], moments[a][t]);
+            }
+        }
+    }
+
+    /// The integrals of a function and each N_B from those of the monomials, lanes over points.
+    #[inline(always)]
+    pub fn of_moments<L: Lanes>(&self, moments: &[L; TERMS]) -> [L; GROUPS] {
+        let zero = L::splat(0.0);
+        let m = moments;
+        let sums = [
+            L::sums([m[0], m[1], m[2], m[3]]).store(),
+            L::sums([m[4], m[5], m[6], m[7]]).store(),
+            L::sums([m[8], zero, zero, zero]).store(),
+        ];
+        let mut n = [zero; GROUPS];
+        for t in 0..self.parent.terms {
+            let sum = L::splat(sums[t / 4][t % 4]);
+            for g in 0..self.parent.groups() {
+                n[g] = L::load(&self.parent.functions[t][g]).mul_add(sum, n[g]);
+            }
+        }
+        n
+    }
+
     #[inline(always)]
     pub fn at<L: Lanes>(&self, eta: [f64; 2], det: f64) -> Values<L, GROUPS> {
         let Place { at: [x, y], gradient } = self.coordinates.at(eta, det);
-        let [m, mx, my] = monomials(x, y);
+        let [m, mx, my] = monomial_slopes(x, y);
         let zero = L::splat(0.0);
         let mut v = Values { n: [zero; GROUPS], gradient: [[zero; 2]; GROUPS] };
         for g in 0..self.parent.groups() {
@@ -148,15 +193,32 @@ impl Multipliers {
         Multipliers { coefficients, coordinates: Coordinates::new::<L>(projection, map, corners) }
     }
 
+    /// The functions at four points, one function after the other.
+    #[inline(always)]
+    pub fn of_four<L: Lanes>(&self, eta: [L; 2]) -> [L; MAX_CORNERS] {
+        let [x, y] = self.coordinates.of_four(eta);
+        let mut n = [x; MAX_CORNERS];
+        for a in 0..MAX_CORNERS {
+            let c = &self.coefficients;
+            let slope = L::splat(c[3][a]).mul_add(y, L::splat(c[1][a]));
+            n[a] = slope.mul_add(x, L::splat(c[2][a]).mul_add(y, L::splat(c[0][a])));
+        }
+        n
+    }
+
     #[inline(always)]
     pub fn at<L: Lanes>(&self, eta: [f64; 2], det: f64) -> Values<L, 1> {
         let Place { at: [x, y], gradient } = self.coordinates.at(eta, det);
-        let [one, cx, cy, cxy] = self.coefficients.map(|c| L::load(&c));
+        let [one, cx, cy, cxy] = &self.coefficients;
+        let (cx, cy, cxy) = (L::load(cx), L::load(cy), L::load(cxy));
         let dx = cxy.mul_add(L::splat(y), cx);
         let dy = cxy.mul_add(L::splat(x), cy);
-        let n = dx.mul_add(L::splat(x), cy.mul_add(L::splat(y), one));
-        let along = |c: usize| dx.mul_add(L::splat(gradient[0][c]), dy * L::splat(gradient[1][c]));
-        Values { n: [n], gradient: [[along(0), along(1)]] }
+        let n = dx.mul_add(L::splat(x), cy.mul_add(L::splat(y), L::load(one)));
+        let mut along = [n; 2];
+        for c in 0..2 {
+            along[c] = dx.mul_add(L::splat(gradient[0][c]), dy * L::splat(gradient[1][c]));
+        }
+        Values { n: [n], gradient: [along] }
     }
 }
 

@@ -8,7 +8,7 @@ use super::sub_pair::{COLUMNS, Side, SubDerivatives, SubWeights, rule_for, sub_w
 use crate::error::{Error, Kind, Result};
 use crate::geometry::{Facet, Plane, Vec3};
 use crate::quadrature::{DEGREE_5, Rule};
-use crate::shape::{MAX_CORNERS, MAX_PARENT_NODES, Parent, SubFacet, TERMS, monomials};
+use crate::shape::{MAX_CORNERS, MAX_PARENT_NODES, Parent, SubFacet, TERMS, monomial_slopes};
 
 /// A facet as hosts have it.
 #[derive(Clone, Copy, Debug)]
@@ -53,7 +53,7 @@ impl ParentFacet {
     /// Unit normal at node k, out of the body: x_xi x x_eta (docs/formulation.md 12.4).
     pub fn normal(&self, k: usize) -> Vec3 {
         let [x, y] = self.parent.at[k];
-        let [_, dx, dy] = monomials(x, y);
+        let [_, dx, dy] = monomial_slopes(x, y);
         let tangent = |m: &[f64; TERMS]| -> Vec3 {
             let function = |b: usize| (0..TERMS).map(|t| self.parent.functions[t][b / 4][b % 4] * m[t]).sum::<f64>();
             // Differences of nodes: exact under a common offset.

@@ -17,7 +17,7 @@ use crate::geometry::Vec2;
 use crate::geometry::bilinear_map::Preimage;
 use crate::geometry::edge_interval::{EdgeInterval, EdgeIntervals};
 use crate::quadrature::{DEGREE_5, DEGREE_7, Rule};
-use crate::shape::{GROUPS, MAX_CORNERS, Parent, Quadrilateral, SubFacet, Triangle};
+use crate::shape::{GROUPS, MAX_CORNERS, Parent, Quadrilateral, SubFacet, TERMS, Triangle};
 use crate::simd::{self, Kernel, Lanes, rolled};
 
 /// Lanes of a parent's functions.
@@ -92,11 +92,11 @@ struct Integrate<'a> {
 type Sums<L> = [[PlaneDerivatives<L>; GROUPS]; MAX_CORNERS];
 
 /// Four points: of the overlap, or of an edge's part that bounds it.
-struct Four {
-    weight: [f64; 4],
+struct Four<L> {
+    weight: L,
     /// Coordinates on both sub-facets, and the determinants of their maps.
-    one: [[f64; 4]; 3],
-    two: [[f64; 4]; 3],
+    one: [L; 3],
+    two: [L; 3],
     edge: Option<OnEdge>,
 }
 
@@ -122,15 +122,25 @@ struct Points<'a, L> {
     edge: usize,
 }
 
+/// Coordinates and determinant.
+#[inline(always)]
+fn at<L: Lanes>(at: &Preimage<L>) -> [L; 3] {
+    [at.xi, at.eta, at.det]
+}
+
+#[inline(always)]
+fn stored<L: Lanes>(v: &[L; 3]) -> [[f64; 4]; 3] {
+    [v[0].store(), v[1].store(), v[2].store()]
+}
+
 impl<L: Lanes> Points<'_, L> {
     #[inline(always)]
-    fn next(&mut self) -> Option<Four> {
+    fn next(&mut self) -> Option<Four<L>> {
         while let Some(triangle) = &self.triangle {
             if let Some(four) = self.rule.triangle_lanes.get(self.group) {
                 self.group += 1;
                 let p = points::<L>(&self.maps, four, triangle);
-                let of = |at: &Preimage<L>| [at.xi.store(), at.eta.store(), at.det.store()];
-                return Some(Four { weight: p.weight.store(), one: of(&p.one), two: of(&p.two), edge: None });
+                return Some(Four { weight: p.weight, one: at(&p.one), two: at(&p.two), edge: None });
             }
             (self.triangle, self.group) = (self.fan.triangle(), 0);
         }
@@ -147,19 +157,23 @@ impl<L: Lanes> Points<'_, L> {
 
     /// Along its own edge a point's coordinates are known. Gradients, and so the determinants, are not asked for.
     #[inline(always)]
-    fn on_edge(&self, side: usize, edge: &EdgeInterval, four: &[[f64; 4]; 2]) -> Four {
+    fn on_edge(&self, side: usize, edge: &EdgeInterval, four: &[[f64; 4]; 2]) -> Four<L> {
         let projection = [&self.frame.projection, &self.segment.mortar][side];
         let corners = cell_corners(projection.shape.n);
         let (from, to) = (corners[edge.from & 3], corners[edge.to & 3]);
         let (y0, span, normal) = line(&projection.y, edge);
         let (w, [l0, l1], y) = edge_points::<L>(four, edge, y0, span);
-        let own = [0, 1].map(|i| L::splat(from[i]).mul_add(l0, L::splat(to[i]) * l1).store());
+        let one = L::splat(1.0);
+        let mut own = [one; 3];
+        for i in 0..2 {
+            own[i] = L::splat(from[i]).mul_add(l0, L::splat(to[i]) * l1);
+        }
         let there = if side == 0 { self.maps.two.at(y) } else { self.maps.one.at(y) };
-        let (own, there) = ([own[0], own[1], [1.0; 4]], [there.xi.store(), there.eta.store(), [1.0; 4]]);
+        let there = [there.xi, there.eta, one];
         let slots = [edge.from, edge.to].map(|end| side * MORTAR_CORNER + (end & 3));
         let edge = OnEdge { slots, ends: [l0.store(), l1.store()], normal: [normal.x, normal.y] };
         let (one, two) = if side == 0 { (own, there) } else { (there, own) };
-        Four { weight: w.store(), one, two, edge: Some(edge) }
+        Four { weight: w, one, two, edge: Some(edge) }
     }
 }
 
@@ -177,7 +191,7 @@ impl Kernel for Integrate<'_> {
         let rows = space.nodes(one.0, one.1).len();
         let shapes = [frame.projection.shape, segment.mortar.shape];
         let zero = L::splat(0.0);
-        let mut weights = [[[zero; GROUPS]; MAX_CORNERS]; 2];
+        let mut moments = [[[zero; TERMS]; MAX_CORNERS]; 2];
         let mut sums: [Sums<L>; 2] = [[[[[zero; 2]; PAIR_CORNERS]; GROUPS]; MAX_CORNERS]; 2];
         let edges = match &derivatives {
             Some(_) => intervals::<L>(&frame.projection, &segment.mortar, &frame.plane),
@@ -187,46 +201,57 @@ impl Kernel for Integrate<'_> {
         let triangle = fan.triangle();
         let mut points = Points { frame, segment, rule, maps, fan, triangle, edges, group: 0, edge: 0 };
         while let Some(four) = points.next() {
+            if four.edge.is_none() {
+                let mut n = multipliers.of_four([four.one[0], four.one[1]]);
+                for a in 0..MAX_CORNERS {
+                    n[a] = n[a] * four.weight;
+                }
+                let (one, two) = (&four.one, &four.two);
+                fields[0].add_moments([one[0], one[1]], &n[..rows], &mut moments[0]);
+                fields[1].add_moments([two[0], two[1]], &n[..rows], &mut moments[1]);
+                if derivatives.is_none() {
+                    continue;
+                }
+            }
+            let (weight, at) = (four.weight.store(), [stored(&four.one), stored(&four.two)]);
             for q in 0..rolled(4) {
-                let w = four.weight[q];
+                let w = weight[q];
                 if w == 0.0 {
                     continue;
                 }
-                let [at1, at2] = [&four.one, &four.two].map(|at| ([at[0][q], at[1][q]], at[2][q]));
-                let a = multipliers.at::<L>(at1.0, at1.1);
-                let (n, gradient) = (a.n[0].store(), a.gradient[0].map(L::store));
+                let [one, two] = &at;
+                let at = [([one[0][q], one[1][q]], one[2][q]), ([two[0][q], two[1][q]], two[2][q])];
+                let a = multipliers.at::<L>(at[0].0, at[0].1);
+                let (n, gradient) = (a.n[0].store(), [a.gradient[0][0].store(), a.gradient[0][1].store()]);
+                let v = [shapes[0].values(at[0].0[0], at[0].0[1]), shapes[1].values(at[1].0[0], at[1].0[1])];
                 for which in 0..rolled(2) {
-                    let at = [at1, at2][which];
-                    let f: Values<L, GROUPS> = fields[which].at(at.0, at.1);
-                    let (weights, sums) = (&mut weights[which], &mut sums[which]);
-                    for (row, g) in (0..rows).flat_map(|row| (0..fields[which].groups()).map(move |g| (row, g))) {
-                        let wn = L::splat(w * n[row]);
+                    let f: Values<L, GROUPS> = fields[which].at(at[which].0, at[which].1);
+                    let (sums, groups) = (&mut sums[which], fields[which].groups());
+                    for (row, g) in (0..rows).flat_map(|row| (0..groups).map(move |g| (row, g))) {
+                        let (wn, sums) = (L::splat(w * n[row]), &mut sums[row][g]);
                         if let Some(edge) = &four.edge {
                             for (slot, end) in edge.slots.iter().zip(&edge.ends) {
                                 let along = f.n[g] * L::splat(end[q]) * wn;
                                 for c in 0..2 {
-                                    let sum = &mut sums[row][g][*slot][c];
-                                    *sum = along.mul_add(L::splat(edge.normal[c]), *sum);
+                                    sums[*slot][c] = along.mul_add(L::splat(edge.normal[c]), sums[*slot][c]);
                                 }
                             }
                             continue;
                         }
-                        weights[row][g] = wn.mul_add(f.n[g], weights[row][g]);
-                        if derivatives.is_none() {
-                            continue;
-                        }
-                        let v = [at1, at2].map(|at| at.0);
-                        let v = [0, 1].map(|side| shapes[side].values(v[side][0], v[side][1]));
                         for c in 0..2 {
                             // -(grad N_A . v1) N, and -N_A grad N . v of the side that has N.
                             let (of_a, of_n) = (f.n[g] * L::splat(-w * gradient[c][row]), -wn * f.gradient[g][c]);
-                            for (k, v) in v[0].iter().enumerate() {
-                                let sum = &mut sums[row][g][k][c];
-                                *sum = of_a.mul_add(L::splat(*v), *sum);
+                            if which == 0 {
+                                let both = of_a + of_n;
+                                for k in 0..MAX_CORNERS {
+                                    sums[k][c] = both.mul_add(L::splat(v[0][k]), sums[k][c]);
+                                }
+                                continue;
                             }
-                            for (k, v) in v[which].iter().enumerate() {
-                                let sum = &mut sums[row][g][which * MORTAR_CORNER + k][c];
-                                *sum = of_n.mul_add(L::splat(*v), *sum);
+                            for k in 0..MAX_CORNERS {
+                                let l = MORTAR_CORNER + k;
+                                sums[k][c] = of_a.mul_add(L::splat(v[0][k]), sums[k][c]);
+                                sums[l][c] = of_n.mul_add(L::splat(v[1][k]), sums[l][c]);
                             }
                         }
                     }
@@ -250,12 +275,14 @@ impl Kernel for Integrate<'_> {
                 }
             }
         }
-        let [ab, ac] = weights.map(|of| {
-            of.map(|row| {
-                let groups = row.map(L::store);
-                std::array::from_fn(|b| groups[b / 4][b % 4])
-            })
-        });
-        SubWeights { ab, ac }
+        let mut weights = SubWeights::default();
+        for a in 0..rolled(rows) {
+            let (ab, ac) = (fields[0].of_moments(&moments[0][a]), fields[1].of_moments(&moments[1][a]));
+            for g in 0..GROUPS {
+                weights.ab[a][4 * g..][..4].copy_from_slice(&ab[g].store());
+                weights.ac[a][4 * g..][..4].copy_from_slice(&ac[g].store());
+            }
+        }
+        weights
     }
 }

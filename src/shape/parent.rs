@@ -11,6 +11,7 @@ use super::cell::MAX_CORNERS;
 use super::quad4::QUAD4;
 use super::table::Shape;
 use super::tri3::TRI3;
+use crate::simd::Real;
 
 /// Most nodes of a parent.
 pub const MAX_PARENT_NODES: usize = 9;
@@ -76,12 +77,19 @@ impl Parent {
     }
 }
 
+/// The monomials at (x, y).
+#[inline(always)]
+pub fn monomials<R: Real>(x: R, y: R) -> [R; TERMS] {
+    let (xx, xy, yy) = (x * x, x * y, y * y);
+    [R::splat(1.0), x, y, xx, xy, yy, xx * y, x * yy, xx * yy]
+}
+
 /// The monomials at (x, y), and their derivatives with respect to x and y.
 #[inline(always)]
-pub fn monomials(x: f64, y: f64) -> [[f64; TERMS]; 3] {
+pub fn monomial_slopes(x: f64, y: f64) -> [[f64; TERMS]; 3] {
     let (xx, xy, yy) = (x * x, x * y, y * y);
     [
-        [1.0, x, y, xx, xy, yy, xx * y, x * yy, xx * yy],
+        monomials(x, y),
         [0.0, 1.0, 0.0, 2.0 * x, y, 0.0, 2.0 * xy, yy, 2.0 * x * yy],
         [0.0, 0.0, 1.0, 0.0, x, 2.0 * y, xx, 2.0 * xy, 2.0 * xx * y],
     ]
@@ -273,7 +281,7 @@ mod tests {
 
     /// Values and derivatives of all functions.
     fn functions(parent: &Parent, x: f64, y: f64) -> [[f64; MAX_PARENT_NODES]; 3] {
-        monomials(x, y)
+        monomial_slopes(x, y)
             .map(|m| std::array::from_fn(|b| (0..TERMS).map(|t| parent.functions[t][b / 4][b % 4] * m[t]).sum()))
     }
 
@@ -305,10 +313,9 @@ mod tests {
     #[test]
     fn derivatives_of_monomials_are_those_of_differences() {
         let (x, y, h) = (0.3, -0.7, 1e-6);
-        let [_, dx, dy] = monomials(x, y);
+        let [_, dx, dy] = monomial_slopes(x, y);
         for t in 0..TERMS {
-            let difference =
-                |a: f64, b: f64| (monomials(x + a, y + b)[0][t] - monomials(x - a, y - b)[0][t]) / (2.0 * h);
+            let difference = |a: f64, b: f64| (monomials(x + a, y + b)[t] - monomials(x - a, y - b)[t]) / (2.0 * h);
             assert!((difference(h, 0.0) - dx[t]).abs() < 1e-9 && (difference(0.0, h) - dy[t]).abs() < 1e-9);
         }
     }
