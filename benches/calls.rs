@@ -55,6 +55,8 @@ fn pair_weights(pair: &Pair) -> f64 {
         layout: STICKSLIP_LAYOUT_ROW_MAJOR,
         element_points: 0,
         neighbour_normals: std::ptr::null(),
+        multiplier_space: 0,
+        reserved: 0,
     };
     let null = std::ptr::null_mut();
     // SAFETY: points are three numbers each, one after the other; the outputs hold 16.

@@ -450,12 +450,6 @@
 /// Matrices go out column by column (what a Fortran array is).
 #define STICKSLIP_LAYOUT_COLUMN_MAJOR 1
 
-/// Multipliers of a quadratic facet at its corners, with the linear functions of these: the recommended ones.
-#define STICKSLIP_SPACE_CORNER 0
-
-/// Multipliers at all nodes, with the functions of the linear parts that the facet is cut into.
-#define STICKSLIP_SPACE_SUB 1
-
 /// State of a node: open or uncovered.
 #define STICKSLIP_STATE_GAP 0
 
@@ -464,6 +458,12 @@
 
 /// State of a node: closed, sliding or on the friction cone.
 #define STICKSLIP_STATE_SLIP 2
+
+/// Multipliers of a quadratic facet at its corners, with the linear functions of these: the recommended ones.
+#define STICKSLIP_SPACE_CORNER 0
+
+/// Multipliers at all nodes, with the functions of the linear parts that the facet is cut into.
+#define STICKSLIP_SPACE_SUB 1
 
 /// A contact interface. Created and destroyed by the library; one thread at a time.
 typedef struct stickslip_interface stickslip_interface;
@@ -775,7 +775,7 @@ typedef struct stickslip_pair {
   const double *x1;
   /// 3 n2 coordinates of the mortar facet [L].
   const double *x2;
-  /// STICKSLIP_QUADRATURE_...
+  /// STICKSLIP_QUADRATURE_...; of quadratic facets at least that of degree 5, with a quad8 or a quad9 12 points of degree 7.
   int32_t quadrature;
   /// STICKSLIP_LAYOUT_... of the tangent.
   int32_t layout;
@@ -789,7 +789,7 @@ typedef struct stickslip_pair {
   const double *neighbour_normals;
   /// STICKSLIP_SPACE_..., of a quadratic non-mortar facet.
   int32_t multiplier_space;
-  /// Not used.
+  /// Must be 0.
   int32_t reserved;
 } stickslip_pair;
 
@@ -834,11 +834,11 @@ typedef struct stickslip_node {
   double lambda[3];
   /// nu(t_n): unit normal INTO the non-mortar body [-].
   double normal[3];
-  /// r > 0 [F/L^5].
+  /// r > 0 [F/L^5]; about 0.1 E / M_A^1.5, E the softer body's modulus, M_A the node's area. The answer does not depend on it.
   double augmentation;
   /// Coulomb coefficient >= 0 [-].
   double mu;
-  /// Covered area now [L^2].
+  /// Covered area now [L^2]: the sum of n_AB over all B and all pairs.
   double coverage;
   /// Covered area at t_n [L^2]. 0: no slip history, g_T = 0; pass mu = 0 for that one step, or a
   /// sticking node has zero rows.
@@ -1617,7 +1617,7 @@ int32_t stickslip_interface_diagnose(struct stickslip_interface *interface,
 /// summed to M_A. (With STICKSLIP_SPACE_SUB areas are those of the facet's parts, each a linear facet.)
 ///
 /// Errors: NULL_POINTER, INVALID_SIZE, NOT_FINITE, DUPLICATE_NODE, DEGENERATE_FACET.
-/// Cost: below a microsecond; allocates nothing.
+/// Cost: below a microsecond, of a quadratic facet some; allocates nothing.
 int32_t stickslip_facet_geometry(int32_t n,
                                  const double *x,
                                  double *normals,
@@ -1655,7 +1655,7 @@ int32_t stickslip_node_normal(const double *sum, double *normal);
 /// where mid nodes do not follow the corners in order), PROJECTION_NOT_CONVEX, INVALID_VALUE, UNSUPPORTED (quadratic facets
 /// with element_points or neighbour_normals).
 /// Cost: 1 (tri3) to 2 (quad4) microseconds, 1 to 7 with derivatives, 2 to 2.5 times that with QUADRATURE_DEGREE_10;
-/// quadratic facets as many pairs of their parts, some ten, each dearer. Allocates nothing, but memory for derivatives of
+/// two quadratic facets 7 (tri6) to 14 (quad8), 50 to 140 with derivatives. Allocates nothing, but memory for derivatives of
 /// quadratic facets.
 int32_t stickslip_pair_weights(const struct stickslip_pair *pair,
                                double *n_ab,

@@ -11,7 +11,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 /// as many. The first refusal, by these numbers, is the outcome.
 ///
 /// # Errors
-/// Those of `work`; [`Kind::OutOfMemory`] where no thread can be started is none: fewer do the work.
+/// Those of `work`. That no thread can be started is none: fewer do the work.
 pub fn share<R: Send>(n: usize, rooms: &mut [R], work: impl Fn(usize, &mut R) -> Result<()> + Sync) -> Result<()> {
     let next = AtomicUsize::new(0);
     let run = |room: &mut R| -> Option<(usize, Error)> {

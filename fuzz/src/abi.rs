@@ -35,6 +35,15 @@ impl<T: Copy> Struct<T> {
     }
 }
 
+/// How many nodes a facet has.
+fn nodes(bytes: &mut Bytes) -> i32 {
+    match bytes.integer(4) as i32 {
+        4 if bytes.once_in(4) => 8,
+        4 if bytes.once_in(4) => 9,
+        n => n,
+    }
+}
+
 fn numbers(bytes: &mut Bytes, n: usize, usual: f64) -> Vec<f64> {
     (0..n).map(|_| if bytes.once_in(2) { bytes.coordinate() } else { bytes.number(usual) }).collect()
 }
@@ -49,29 +58,35 @@ fn points(bytes: &mut Bytes, n: usize) -> Vec<f64> {
     x
 }
 
+/// Mid nodes and centre of the square of [`points`]: with them it is a quad8 or a quad9.
+const MIDS: [f64; 15] = [0.5, 0.0, 0.0, 1.0, 0.5, 0.0, 0.5, 1.0, 0.0, 0.0, 0.5, 0.0, 0.5, 0.5, 0.0];
+
 fn pair_calls(bytes: &mut Bytes) {
-    let (x1, x2) = (points(bytes, 12), points(bytes, 12));
+    let [x1, x2] = [0, 1].map(|_| [points(bytes, 12), MIDS.to_vec()].concat());
     let mut beyond = [0.0, 0.0, 1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.6, 0.8];
     if bytes.once_in(8) {
         beyond[bytes.below(12)] = bytes.number(1.0);
     }
     let mut pair = Struct::new(stickslip_pair {
         struct_size: 0,
-        n1: bytes.integer(4) as i32,
-        n2: bytes.integer(4) as i32,
+        n1: nodes(bytes),
+        n2: nodes(bytes),
         x1: bytes.pointer(x1.as_ptr()),
         x2: bytes.pointer(x2.as_ptr()),
         quadrature: bytes.choice(6),
         layout: bytes.choice(2),
         element_points: bytes.integer(0),
         neighbour_normals: if bytes.once_in(2) { bytes.pointer(beyond.as_ptr()) } else { null() },
+        multiplier_space: i32::from(bytes.once_in(2)),
+        reserved: 0,
     });
     pair.declare(bytes);
     let p = bytes.pointer(pair.pointer());
     let (ab, ac, dn) = (numbers(bytes, 16, 0.1), numbers(bytes, 16, 0.1), numbers(bytes, 16, 0.1));
-    let derivatives: Vec<f64> = dn.iter().copied().cycle().take(16 * 24).collect();
-    let traction = numbers(bytes, 12, -1.0);
-    let mut out = [16, 16, 16 * 24, 16 * 24].map(Watched::<f64>::new);
+    let many = |of: &[f64], n: usize| -> Vec<f64> { of.iter().copied().cycle().take(n).collect() };
+    let (ab, ac, derivatives) = (many(&ab, 81), many(&ac, 81), many(&dn, 81 * 54));
+    let traction = many(&numbers(bytes, 12, -1.0), 27);
+    let mut out = [81, 81, 81 * 54, 81 * 54].map(Watched::<f64>::new);
     let [a, b, c, d] = &mut out;
     let [a, b, c, d] = [a, b, c, d].map(|o| bytes.output(o.pointer()));
     // SAFETY: by the head of this file; so below.
@@ -84,17 +99,17 @@ fn pair_calls(bytes: &mut Bytes) {
             _ => {
                 let mut response = Struct::new(std::mem::zeroed::<stickslip_node_response>());
                 response.declare(bytes);
-                let mut responses = vec![0u64; 5 * WORDS]; // four, as far apart as the first one says
+                let mut responses = vec![0u64; 10 * WORDS]; // nine, as far apart as the first one says
                 let stride = (response.0[0] as usize / 8).min(WORDS);
-                for k in 0..4 {
+                for k in 0..9 {
                     responses[k * stride..k * stride + stride.min(WORDS)].copy_from_slice(&response.0[..stride]);
                 }
-                let mut k = Watched::<f64>::new(36 * 36);
+                let mut k = Watched::<f64>::new(81 * 81);
                 let moving = [0, 1].map(|_| bytes.pointer(derivatives.as_ptr()));
                 let [now, before] = [ab.as_ptr(), ac.as_ptr()].map(|n| bytes.pointer(n));
                 let scale = bytes.pointer(traction.as_ptr());
-                let ld = match bytes.integer(36) {
-                    ld if ld > 36 => 36,
+                let ld = match bytes.integer(81) {
+                    ld if ld > 81 => 81,
                     ld => ld,
                 };
                 let status = stickslip_pair_tangent(

@@ -104,7 +104,6 @@ pub use options::*;
 pub use pair::*;
 pub use pair_in::*;
 pub use pair_state::*;
-pub use parents::*;
 pub use plan::*;
 pub use point::*;
 pub use preparation::*;

@@ -32,11 +32,11 @@ pub struct stickslip_node {
     pub lambda: [f64; 3],
     /// nu(t_n): unit normal INTO the non-mortar body [-].
     pub normal: [f64; 3],
-    /// r > 0 [F/L^5].
+    /// r > 0 [F/L^5]; about 0.1 E / M_A^1.5, E the softer body's modulus, M_A the node's area. The answer does not depend on it.
     pub augmentation: f64,
     /// Coulomb coefficient >= 0 [-].
     pub mu: f64,
-    /// Covered area now [L^2].
+    /// Covered area now [L^2]: the sum of n_AB over all B and all pairs.
     pub coverage: f64,
     /// Covered area at t_n [L^2]. 0: no slip history, g_T = 0; pass mu = 0 for that one step, or a
     /// sticking node has zero rows.

@@ -1,9 +1,9 @@
-//! Stages 1 and 3 for one pair of facets: stateless, re-entrant, without allocation.
+//! Stages 1 and 3 for one pair of facets: stateless, re-entrant, without allocation but for derivatives of quadratic facets.
 
 use super::guard::guard;
 use super::layout::Matrix;
 use super::node::stickslip_node_response;
-use super::pair_in::{Pair, flat, node_tangents, read_previous, stickslip_pair, tractions};
+use super::pair_in::{self, Pair, flat, node_tangents, read_previous, stickslip_pair, tractions};
 use super::pair_out::{check_tangent, check_weights, slot, write_force, write_gap, write_tangent, write_weights};
 use super::parents::Parents;
 use super::raw::{self, Output};
@@ -61,7 +61,7 @@ fn with_derivatives(
 /// where mid nodes do not follow the corners in order), PROJECTION_NOT_CONVEX, INVALID_VALUE, UNSUPPORTED (quadratic facets
 /// with element_points or neighbour_normals).
 /// Cost: 1 (tri3) to 2 (quad4) microseconds, 1 to 7 with derivatives, 2 to 2.5 times that with QUADRATURE_DEGREE_10;
-/// quadratic facets as many pairs of their parts, some ten, each dearer. Allocates nothing, but memory for derivatives of
+/// two quadratic facets 7 (tri6) to 14 (quad8), 50 to 140 with derivatives. Allocates nothing, but memory for derivatives of
 /// quadratic facets.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn stickslip_pair_weights(
@@ -72,10 +72,11 @@ pub unsafe extern "C" fn stickslip_pair_weights(
     dn_ac: *mut f64,
 ) -> i32 {
     guard(|| {
-        if let Some(pair) = Parents::read(pair)? {
+        let raw = pair_in::read(pair)?;
+        if let Some(pair) = Parents::of(&raw)? {
             return pair.weights([n_ab, n_ac], [dn_ab, dn_ac]);
         }
-        let pair = &Pair::read(pair)?;
+        let pair = &Pair::of(raw)?;
         for (p, name) in [(n_ab, "n_ab"), (n_ac, "n_ac"), (dn_ab, "dn_ab"), (dn_ac, "dn_ac")] {
             raw::check_optional(p, name)?;
         }
@@ -115,10 +116,11 @@ pub unsafe extern "C" fn stickslip_pair_gap(
     gap: *mut f64,
 ) -> i32 {
     guard(|| {
-        if let Some(pair) = Parents::read(pair)? {
+        let raw = pair_in::read(pair)?;
+        if let Some(pair) = Parents::of(&raw)? {
             return pair.gap([n_ab, n_ac], gap);
         }
-        let pair = Pair::read(pair)?;
+        let pair = Pair::of(raw)?;
         let weights = pair.weights(n_ab, n_ac, ["n_ab", "n_ac"])?;
         raw::check(gap, "gap")?;
         write_gap(&mortar::gap(&weights, &pair.one, &pair.two), pair.one.len(), gap)
@@ -144,10 +146,11 @@ pub unsafe extern "C" fn stickslip_pair_residual(
     force: *mut f64,
 ) -> i32 {
     guard(|| {
-        if let Some(pair) = Parents::read(pair)? {
+        let raw = pair_in::read(pair)?;
+        if let Some(pair) = Parents::of(&raw)? {
             return pair.residual([n_ab, n_ac], traction, force);
         }
-        let pair = Pair::read(pair)?;
+        let pair = Pair::of(raw)?;
         let weights = pair.weights(n_ab, n_ac, ["n_ab", "n_ac"])?;
         let traction = tractions(traction, pair.one.len())?;
         raw::check(force, "force")?;
@@ -187,11 +190,12 @@ pub unsafe extern "C" fn stickslip_pair_tangent(
     ld: i64,
 ) -> i32 {
     guard(|| {
-        if let Some(pair) = Parents::read(pair)? {
+        let raw = pair_in::read(pair)?;
+        if let Some(pair) = Parents::of(&raw)? {
             let now = ([n_ab, n_ac], [dn_ab, dn_ac]);
             return pair.tangent(now, [n_ab_previous, n_ac_previous], (traction, responses, row_scale), (k, ld));
         }
-        let pair = Pair::read(pair)?;
+        let pair = Pair::of(raw)?;
         let (n1, n2) = pair.n();
         let size = 6 * n1 + 3 * n2;
         let mut k = Matrix::new(k, size, ld, pair.column_major()?)?;

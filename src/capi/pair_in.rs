@@ -8,11 +8,16 @@ use super::pair_out::slot;
 use super::raw;
 use super::sized::{self, Sized64};
 use crate::element::NodeTangent;
-use crate::error::Result;
+use crate::error::{Error, Kind, Result};
 use crate::geometry::{Facet, Vec3};
 use crate::mortar::{NonmortarFrame, PAIR_NODES, PairWeights, Segment, WeightDerivatives};
 use crate::quadrature::Rule;
 use crate::shape::{MAX_CORNERS, MAX_NODES};
+
+/// Multipliers of a quadratic facet at its corners, with the linear functions of these: the recommended ones.
+pub const STICKSLIP_SPACE_CORNER: i32 = 0;
+/// Multipliers at all nodes, with the functions of the linear parts that the facet is cut into.
+pub const STICKSLIP_SPACE_SUB: i32 = 1;
 
 /// A pair of facets, non-mortar first. Node order: right-hand, seen from outside each body.
 #[repr(C)]
@@ -29,7 +34,7 @@ pub struct stickslip_pair {
     pub x1: *const f64,
     /// 3 n2 coordinates of the mortar facet [L].
     pub x2: *const f64,
-    /// STICKSLIP_QUADRATURE_...
+    /// STICKSLIP_QUADRATURE_...; of quadratic facets at least that of degree 5, with a quad8 or a quad9 12 points of degree 7.
     pub quadrature: i32,
     /// STICKSLIP_LAYOUT_... of the tangent.
     pub layout: i32,
@@ -43,7 +48,7 @@ pub struct stickslip_pair {
     pub neighbour_normals: *const f64,
     /// STICKSLIP_SPACE_..., of a quadratic non-mortar facet.
     pub multiplier_space: i32,
-    /// Not used.
+    /// Must be 0.
     pub reserved: i32,
 }
 
@@ -51,6 +56,21 @@ pub struct stickslip_pair {
 unsafe impl Sized64 for stickslip_pair {
     const NAME: &'static str = "stickslip_pair";
     const FIRST: usize = 40;
+}
+
+/// What a caller gives, with numbers that mean something.
+#[inline]
+pub(super) fn read(p: *const stickslip_pair) -> Result<stickslip_pair> {
+    let raw = sized::read(p)?;
+    let space = raw.multiplier_space;
+    if ![STICKSLIP_SPACE_CORNER, STICKSLIP_SPACE_SUB].contains(&space) {
+        let text = text!("pair.multiplier_space is {space}; 0 (corner) or 1 (sub) are allowed");
+        return Err(Error::new(Kind::InvalidValue, text));
+    }
+    if raw.reserved != 0 {
+        return Err(Error::new(Kind::InvalidValue, text!("pair.reserved is {}; it must be 0", raw.reserved)));
+    }
+    Ok(raw)
 }
 
 pub(super) struct Pair {
@@ -62,7 +82,12 @@ pub(super) struct Pair {
 impl Pair {
     #[inline]
     pub fn read(p: *const stickslip_pair) -> Result<Pair> {
-        let raw = sized::read(p)?;
+        Pair::of(read(p)?)
+    }
+
+    /// Of linear facets.
+    #[inline]
+    pub fn of(raw: stickslip_pair) -> Result<Pair> {
         Ok(Pair { one: facet(raw.n1, raw.x1, "pair.x1")?, two: facet(raw.n2, raw.x2, "pair.x2")?, raw })
     }
 

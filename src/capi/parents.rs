@@ -4,20 +4,14 @@ use super::facet::parent;
 use super::layout::{Matrix, column_major};
 use super::node::{read_response, stickslip_node_response};
 use super::options::rule;
-use super::pair_in::stickslip_pair;
+use super::pair_in::{STICKSLIP_SPACE_SUB, stickslip_pair};
 use super::raw::{self, Output};
-use super::sized;
 use crate::element::ParentPair;
 use crate::error::{Error, Kind, Result};
 use crate::geometry::{Mat3, Vec3};
 use crate::memory;
 use crate::mortar::{MultiplierSpace, ParentFacet, ParentWeights, parent_weights};
 use crate::shape::{MAX_CORNERS, MAX_PARENT_NODES};
-
-/// Multipliers of a quadratic facet at its corners, with the linear functions of these: the recommended ones.
-pub const STICKSLIP_SPACE_CORNER: i32 = 0;
-/// Multipliers at all nodes, with the functions of the linear parts that the facet is cut into.
-pub const STICKSLIP_SPACE_SUB: i32 = 1;
 
 /// Such a pair.
 pub(super) struct Parents {
@@ -28,26 +22,21 @@ pub(super) struct Parents {
 }
 
 impl Parents {
-    /// A pair with more nodes than corners; `None`: both facets are linear.
-    pub fn read(p: *const stickslip_pair) -> Result<Option<Parents>> {
-        let raw = sized::read(p)?;
+    /// Of what a caller gives; `None`: both facets are linear.
+    pub fn of(raw: &stickslip_pair) -> Result<Option<Parents>> {
         if raw.n1.max(raw.n2) <= MAX_CORNERS as i32 {
             return Ok(None);
         }
         let space = match raw.multiplier_space {
-            STICKSLIP_SPACE_CORNER => MultiplierSpace::Corner,
             STICKSLIP_SPACE_SUB => MultiplierSpace::Sub,
-            other => {
-                let text = text!("pair.multiplier_space is {other}; 0 (corner) or 1 (sub) are allowed");
-                return Err(Error::new(Kind::InvalidValue, text));
-            }
+            _ => MultiplierSpace::Corner,
         };
+        let (one, two) = (parent(raw.n1, raw.x1, "pair.x1")?, parent(raw.n2, raw.x2, "pair.x2")?);
         if raw.element_points != 0 || !raw.neighbour_normals.is_null() {
             let text = "pair.element_points and pair.neighbour_normals are for linear facets; leave them 0 and NULL";
             return Err(Error::new(Kind::Unsupported, text));
         }
-        let (one, two) = (parent(raw.n1, raw.x1, "pair.x1")?, parent(raw.n2, raw.x2, "pair.x2")?);
-        Ok(Some(Parents { one, two, space, raw }))
+        Ok(Some(Parents { one, two, space, raw: *raw }))
     }
 
     fn pair(&self) -> ParentPair<'_> {

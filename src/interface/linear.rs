@@ -248,7 +248,8 @@ impl<'a, const N: usize> Here<'a, N> {
                 Ok(())
             };
             for chunks in plan.phases() {
-                if rooms.len() == 1 || chunks.len() == 1 || is_coupled {
+                let has_parts = plan.has_parts() && other_plan.is_none_or(Plan::has_parts);
+                if rooms.len() == 1 || chunks.len() == 1 || is_coupled || !has_parts {
                     for chunk in chunks {
                         let hands = (table.hand(), other.as_mut().map(Table::hand));
                         of_chunk(Some(chunk), hands, &mut rooms[0], couplings.as_deref_mut())?;
@@ -269,7 +270,7 @@ impl<'a, const N: usize> Here<'a, N> {
             // What is of no facet.
             let hands = (table.hand(), other.as_mut().map(Table::hand));
             of_chunk(None, hands, &mut rooms[0], couplings)?;
-            rooms.iter().try_for_each(|room| check(room.shown))?;
+            rooms.iter().try_for_each(|room| check(room.shown, task.given.nodes()))?;
             Ok(rooms.iter().map(|room| room.linearised).sum())
         };
         let made = self.linearise(x, lambda, of, work, &mut make)?;
@@ -315,14 +316,15 @@ pub type PlanOf<'a> = (Sides<'a>, &'a Numbering);
 pub fn no_plan() -> Error {
     Error::new(
         Kind::InvalidValue,
-        "there is no plan; call stickslip_interface_plan or stickslip_interface_condensed_plan first",
+        "there is no such plan; for the tangent call stickslip_interface_plan first, for FORCES and CONSTRAINTS stickslip_interface_condensed_plan",
     )
 }
 
-/// Refuses what came up while a plan was filled.
-fn check(shown: Shown) -> Result<()> {
+/// Refuses what came up while a plan was filled, of so many non-mortar nodes.
+fn check(shown: Shown, n1: usize) -> Result<()> {
     let name = |place: Place| match place {
-        Place::Displacement(node) => text!("node {node} (mortar nodes after non-mortar ones)"),
+        Place::Displacement(node) if node < n1 => text!("non-mortar node {node}"),
+        Place::Displacement(node) => text!("mortar node {}", node - n1),
         Place::Multiplier(a) => text!("the multiplier of non-mortar node {a}"),
     };
     if let Some((row, column)) = shown.lacks {

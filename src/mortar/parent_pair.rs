@@ -10,6 +10,12 @@ use crate::geometry::{Facet, Plane, Vec3};
 use crate::quadrature::{DEGREE_5, Rule};
 use crate::shape::{MAX_CORNERS, MAX_PARENT_NODES, Parent, SubFacet, TERMS, monomial_slopes};
 
+/// The Jacobian at a node, over that of the linear facet on the corners, is above this. 0 is a mid node at a quarter of a straight
+/// edge, where the normal at the corner is made of rounding; at 0.2505 it is 0.002.
+const LEAST_JACOBIAN: f64 = 1e-3;
+
+const MID_NODES: &str = "nodes count from 0, corners first; mid node k lies between the corners k and k + 1, farther than a quarter of the edge from both";
+
 /// A facet as hosts have it.
 #[derive(Clone, Copy, Debug)]
 pub struct ParentFacet {
@@ -24,7 +30,7 @@ impl ParentFacet {
     ///
     /// # Errors
     /// [`Kind::InvalidSize`]: another number; [`Kind::DegenerateFacet`]: a sub-facet that is turned over, as where mid nodes
-    /// do not follow the corners in order.
+    /// do not follow the corners in order, or a mid node a quarter of its edge from a corner, or nearer.
     pub fn new(nodes: &[Vec3]) -> Result<ParentFacet> {
         let parent = Parent::of(nodes.len()).ok_or_else(|| {
             let text = text!("a facet has {} nodes; 3, 4, 6, 8 or 9 are allowed", nodes.len());
@@ -38,7 +44,17 @@ impl ParentFacet {
             let whole = Facet { nodes: corners, shape: parent.cell }.area_vector();
             for (s, sub) in parent.subs.iter().enumerate() {
                 if !(facet.sub(s).area_vector().dot(&whole) > 0.0) {
-                    return Err(turned_over(sub));
+                    let nodes = &sub.nodes[..sub.shape.n];
+                    let text = text!("its part between the nodes {nodes:?} is turned over; {MID_NODES}");
+                    return Err(Error::new(Kind::DegenerateFacet, text));
+                }
+            }
+            // The area vector at the centre of a cell and x_xi x x_eta differ by a factor of the cell.
+            let least = LEAST_JACOBIAN * whole.norm_squared() * if parent.corners == 3 { 1.0 } else { 0.125 };
+            for k in 0..parent.n {
+                if !(facet.area_vector(k).dot(&whole) > least) {
+                    let text = text!("at its node {k} its mapping has no area or turns over; {MID_NODES}");
+                    return Err(Error::new(Kind::DegenerateFacet, text));
                 }
             }
         }
@@ -50,8 +66,13 @@ impl ParentFacet {
         if space == MultiplierSpace::Corner { self.parent.corners } else { self.parent.n }
     }
 
-    /// Unit normal at node k, out of the body: x_xi x x_eta (docs/formulation.md 12.4).
+    /// Unit normal at node k, out of the body (docs/formulation.md 12.4).
     pub fn normal(&self, k: usize) -> Vec3 {
+        self.area_vector(k).normalize()
+    }
+
+    /// x_xi x x_eta at node k [L^2].
+    fn area_vector(&self, k: usize) -> Vec3 {
         let [x, y] = self.parent.at[k];
         let [_, dx, dy] = monomial_slopes(x, y);
         let tangent = |m: &[f64; TERMS]| -> Vec3 {
@@ -59,9 +80,7 @@ impl ParentFacet {
             // Differences of nodes: exact under a common offset.
             (1..self.parent.n).map(|b| (self.x[b] - self.x[0]) * function(b)).sum()
         };
-        let w = tangent(&dx).cross(&tangent(&dy));
-        let norm = w.norm();
-        if norm > 0.0 { w / norm } else { Vec3::zeros() }
+        tangent(&dx).cross(&tangent(&dy))
     }
 
     /// int N_A da of the multipliers over the whole facet, covered or not [L^2].
@@ -109,16 +128,7 @@ impl ParentFacet {
     }
 }
 
-/// The first mid node of a sub-facet, or the centre: what is at fault where it is degenerate.
-fn turned_over(sub: &SubFacet) -> Error {
-    let nodes = &sub.nodes[..sub.shape.n];
-    let text = text!(
-        "the part of the facet between its nodes {nodes:?} (counted from 0) is turned over: mid node k must lie between corners k and k + 1, counted from 0, in the middle half of the edge"
-    );
-    Error::new(Kind::DegenerateFacet, text)
-}
-
-/// The frames of all sub-facets, each with the planes beyond its edges within the parent.
+/// The frame of a sub-facet, with the planes beyond its edges within the parent.
 fn frame(one: &ParentFacet, s: usize) -> Result<NonmortarFrame> {
     let named = |e: Error| {
         let nodes = &one.parent.subs[s].nodes[..one.parent.subs[s].shape.n];

@@ -126,7 +126,15 @@ fn what_quadratic_pairs_do_not_take_is_refused_by_name() {
     check(&|p| p.n2 = 10, STICKSLIP_INVALID_SIZE, "pair.x2 has 10 nodes");
     check(&|p| p.multiplier_space = 2, STICKSLIP_INVALID_VALUE, "pair.multiplier_space is 2; 0 (corner) or 1 (sub)");
     check(&|p| p.element_points = 4, STICKSLIP_UNSUPPORTED, "pair.element_points and pair.neighbour_normals");
+    check(&|p| p.neighbour_normals = p.x1, STICKSLIP_UNSUPPORTED, "pair.element_points and pair.neighbour_normals");
+    check(&|p| p.reserved = 1, STICKSLIP_INVALID_VALUE, "pair.reserved is 1; it must be 0");
     check(&|p| p.x1 = null(), STICKSLIP_NULL_POINTER, "pair.x1");
+    // An older caller, whose struct has no space of multipliers, has them at the corners.
+    let (mut raw, w) = (pair.raw(), pair.weights());
+    (raw.struct_size, raw.multiplier_space) = (40, 77);
+    let mut n_ab = vec![f64::NAN; w.ab.len()];
+    ok!(stickslip_pair_weights(&raw, n_ab.as_mut_ptr(), null_mut(), null_mut(), null_mut()));
+    assert_eq!(n_ab, w.ab);
     // Mid nodes that begin one edge later.
     let mut x = pair.x1.clone();
     x[9..].rotate_left(3);

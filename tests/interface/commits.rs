@@ -157,7 +157,7 @@ fn a_commit_settles_the_pairs_that_a_search_of_its_own_finds() {
                 .collect(),
         };
         let options = Options { basis, search_distance: Some(0.5), ..options() };
-        let make = || -> Contact<3> { contact(&one, &two, false, options.clone()) };
+        let make = || -> Contact<3> { contact(&one, &two, false, options) };
         let (mut stepping, mut pairs) = (make(), make().history().pairs.len());
         let lambda = vec![Vec3::zeros(); one.x.len()];
         for _ in 0..6 {

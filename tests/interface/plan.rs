@@ -265,6 +265,29 @@ fn a_mortar_facet_whose_nodes_the_plan_has_by_others_alone_is_missing() {
         let refused = c.plan_values((&moved, &two.x), &lambda, None, &mut vec![0.0; n]).unwrap_err();
         assert_eq!(refused.kind, Kind::MissingEntry, "{refused}");
         agrees(&mut c, &moved, &two.x, &lambda, "made again");
+        // The fourth one met the quad at t_n, and does not now: the plan has its pair, but no forces among its nodes.
+        c.set_previous(&moved, &two.x).unwrap();
+        let n = c.make_plan((&one.x, &two.x), PlanPairs::Active(extent)).unwrap();
+        agrees_or_misses(&mut c, (&moved, &two.x), &lambda, n);
+    }
+}
+
+/// Values of the plan that was made last, with so many entries, are those of the tangent, or are refused.
+fn agrees_or_misses(c: &mut Contact<3>, x: (&[Vec3], &[Vec3]), lambda: &[Vec3], n: usize) {
+    let found = entries(c.plan(PlanSystem::Whole).unwrap());
+    let mut values = vec![f64::NAN; n];
+    match c.plan_values(x, lambda, None, &mut values) {
+        Err(refused) => assert_eq!(refused.kind, Kind::MissingEntry, "{refused}"),
+        Ok(()) => {
+            let mut expected = BTreeMap::new();
+            let mut add = |i: i64, j: i64, v: f64| *expected.entry((i, j)).or_insert(0.0) += v;
+            c.tangent(x.0, x.1, lambda, None, &mut add).unwrap();
+            for (entry, value) in found.into_iter().zip(values) {
+                let expected = expected.remove(&entry).unwrap_or(0.0);
+                assert!((value - expected).abs() < ROUNDING, "{entry:?}: {value} for {expected}");
+            }
+            assert!(expected.values().all(|v| *v == 0.0));
+        }
     }
 }
 

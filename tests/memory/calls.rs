@@ -53,6 +53,8 @@ fn c_element_calls_allocate_nothing() {
                 layout: STICKSLIP_LAYOUT_COLUMN_MAJOR,
                 element_points: 0,
                 neighbour_normals: std::ptr::null(),
+                multiplier_space: 0,
+                reserved: 0,
             };
             c_calls(&pair);
         }

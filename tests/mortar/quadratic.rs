@@ -338,3 +338,52 @@ fn facets_that_are_none_are_refused_by_name() {
         assert!(refused.kind == Kind::DegenerateFacet && refused.message.contains("mid node"), "{refused}");
     }
 }
+
+/// A mid node a quarter of its edge from a corner leaves that corner without a normal, and a nearer one turns it over: such
+/// facets were taken, and a normal that points into the body went out.
+#[test]
+fn mid_nodes_at_a_quarter_are_refused() {
+    for (n, mid) in [(6, 3), (8, 4), (9, 7)] {
+        let kind = stickslip::shape::Parent::of(n).unwrap();
+        let (from, to) = (mid - kind.corners, (mid - kind.corners + 1) % kind.corners);
+        for (s, fine) in
+            [(0.5, true), (0.3, true), (0.26, true), (0.25, false), (0.2, false), (0.02, false), (0.8, false)]
+        {
+            let mut x: Vec<Vec3> = kind.at[..n].iter().map(|[u, v]| Vec3::new(*u, *v, 0.0)).collect();
+            x[mid] = x[from] + (x[to] - x[from]) * s;
+            let facet = ParentFacet::new(&x);
+            assert_eq!(facet.is_ok(), fine, "{n} nodes, at {s}");
+            match facet {
+                Ok(facet) => {
+                    assert!((0..n).all(|k| (facet.normal(k) - Vec3::z()).norm() < ROUNDING), "{n} nodes, at {s}")
+                }
+                Err(e) => {
+                    assert!(e.kind == Kind::DegenerateFacet && e.message.contains("farther than a quarter"), "{e}")
+                }
+            }
+        }
+    }
+}
+
+/// On a paraboloid over a square or a triangle the facets are exact: their normals are those of z = (x^2 + 2 y^2) / 5.
+#[test]
+fn normals_of_curved_facets_are_those_of_the_surface() {
+    for n in [6, 8, 9] {
+        let kind = stickslip::shape::Parent::of(n).unwrap();
+        let at = |k: usize| (kind.at[k][0], kind.at[k][1]);
+        let x: Vec<Vec3> = (0..n).map(at).map(|(u, v)| Vec3::new(u, v, 0.2 * (u * u + 2.0 * v * v))).collect();
+        let facet = ParentFacet::new(&x).unwrap();
+        for k in 0..n {
+            let (u, v) = at(k);
+            let expected = Vec3::new(-0.4 * u, -0.8 * v, 1.0).normalize();
+            assert!((facet.normal(k) - expected).norm() < ROUNDING, "{n} nodes, node {k}: {}", facet.normal(k));
+        }
+        // Areas are of the sub-facets: their sum is that of the facets of the linear mesh.
+        for (_, space) in SPACES {
+            let areas = facet.areas(space).unwrap();
+            let frame = |s| NonmortarFrame::new(&facet.sub(s)).unwrap().nodal_areas().iter().sum::<f64>();
+            let expected: f64 = (0..kind.subs.len()).map(frame).sum();
+            assert!((areas.iter().sum::<f64>() - expected).abs() < ROUNDING && areas.iter().all(|a| *a >= 0.0));
+        }
+    }
+}

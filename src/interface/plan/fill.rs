@@ -173,11 +173,13 @@ impl<'a, 'p, const N: usize> Fill<'a, 'p, N> {
             return;
         }
         let f = self.state.facet;
-        // Facets without pairs in the plan have no offsets.
-        let scatter = self.scatter.filter(|s| s.has(f));
-        let Some(scatter) = scatter else { return self.search((rows, of_multipliers), (columns, by_multipliers)) };
+        let Some(scatter) = self.scatter else { return self.search((rows, of_multipliers), (columns, by_multipliers)) };
         let (own, starts) = (&scatter.own[f], &mut self.state.starts);
         let table = match (rows, columns) {
+            // Facets without pairs in the plan have no offsets.
+            (Span::Own, Span::Own) if !scatter.has(f) => {
+                return self.search((rows, of_multipliers), (columns, by_multipliers));
+            }
             (Span::Own, Span::Own) if of_multipliers => &own.rows,
             (Span::Own, Span::Own) if by_multipliers => &own.multipliers,
             (Span::Own, Span::Own) => &own.forces,
@@ -284,15 +286,16 @@ impl<const N: usize> Blocks<N> for Fill<'_, '_, N> {
         let State { own, mortar_rows, starts, nothing, .. } = &mut self.state;
         let node_rows = if rows == Span::Own { own } else { mortar_rows };
         for (b, target) in node_rows.iter().enumerate().take(n_rows) {
-            let (to, first, len) = (&mut *self.hand.pieces[target.piece], target.start, target.rows.len as usize);
+            let len = target.rows.len as usize;
             for a in 0..n_columns {
                 let (offset, value) = (starts[b][a], n[a][b]);
                 if offset >= SKIP {
                     lacks |= offset == LACKS;
                     continue;
                 }
+                let to = &mut self.hand.pieces[target.piece][target.start + offset as usize..];
                 for i in 0..SCALARS {
-                    to[first + offset as usize + i * len] += if N == 1 { value * nu[a][i] } else { value };
+                    to[i * len] += if N == 1 { value * nu[a][i] } else { value };
                 }
                 nothing[a] += 0.0 * value;
             }
@@ -313,6 +316,11 @@ impl<const N: usize> Blocks<N> for Fill<'_, '_, N> {
             let Some(target) = self.touch(Place::Displacement(nodes.mortar(node))) else { return };
             self.state.mortar_rows[c] = target;
             of_rows[c] = self.scatter.and_then(|s| s.place(f, node));
+            let has_equations = self.layout.numbering.rank[nodes.mortar(node)] != NO_RANK;
+            if self.scatter.is_some() && of_rows[c].is_none() && has_equations {
+                let row = Place::Displacement(nodes.mortar(node));
+                return self.note(true, row, Place::Displacement(self.node_of(Span::Own, 0)));
+            }
             for k in 0..block.own {
                 self.state.starts[c][k] = match (self.scatter, of_rows[c]) {
                     (Some(scatter), Some(place)) => widened(scatter.mortar[place].forces[k]),

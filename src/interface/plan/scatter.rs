@@ -48,7 +48,7 @@ pub struct Scatter {
     pub nodes: Vec<u32>,
     /// Of each of them.
     pub mortar: Vec<MortarOffsets>,
-    /// Per mortar facet, of its nodes with each other: [`LACKS`] where it has no pairs; nothing where facets of dual
+    /// Per mortar facet, of its nodes with each other: [`LACKS`] where it has no active pairs; nothing where facets of dual
     /// multipliers couple them.
     pub among: Vec<Offsets>,
     /// Where the couplings of each facet begin: of each of its mortar nodes with each.
@@ -73,9 +73,8 @@ impl Scatter {
             ..Scatter::default()
         };
         if among {
-            (0..s.has.len())
-                .flat_map(|f| pairs.pairs(f))
-                .for_each(|pair| s.among[pair.0 as usize] = [nothing; MAX_NODES]);
+            let active = (0..s.has.len()).flat_map(|f| pairs.pairs(f)).filter(|pair| pair.1);
+            active.for_each(|pair| s.among[pair.0 as usize] = [nothing; MAX_NODES]);
         }
         s.nodes.iter_mut().zip(&pairs.nodes).for_each(|(to, node)| *to = node.0);
         if couples {

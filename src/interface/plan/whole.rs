@@ -111,6 +111,11 @@ impl Plan {
         room.table(&self.places, values)
     }
 
+    /// Whether it knows which rows the facets of a chunk have.
+    pub fn has_parts(&self) -> bool {
+        self.scatter.is_some()
+    }
+
     /// The table in parts, for the chunks of a phase at the same time.
     pub fn parted<'a>(
         &self,
