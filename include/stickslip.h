@@ -450,6 +450,12 @@
 /// Matrices go out column by column (what a Fortran array is).
 #define STICKSLIP_LAYOUT_COLUMN_MAJOR 1
 
+/// Multipliers of a quadratic facet at its corners, with the linear functions of these: the recommended ones.
+#define STICKSLIP_SPACE_CORNER 0
+
+/// Multipliers at all nodes, with the functions of the linear parts that the facet is cut into.
+#define STICKSLIP_SPACE_SUB 1
+
 /// State of a node: open or uncovered.
 #define STICKSLIP_STATE_GAP 0
 
@@ -458,12 +464,6 @@
 
 /// State of a node: closed, sliding or on the friction cone.
 #define STICKSLIP_STATE_SLIP 2
-
-/// Multipliers of a quadratic facet at its corners, with the linear functions of these: the recommended ones.
-#define STICKSLIP_SPACE_CORNER 0
-
-/// Multipliers at all nodes, with the functions of the linear parts that the facet is cut into.
-#define STICKSLIP_SPACE_SUB 1
 
 /// A contact interface. Created and destroyed by the library; one thread at a time.
 typedef struct stickslip_interface stickslip_interface;

@@ -63,6 +63,7 @@ mod facet;
 mod layout;
 
 mod pair;
+mod pair_in;
 
 mod pair_state;
 mod parents;
@@ -79,7 +80,6 @@ mod equilibrium;
 
 mod fp_environment;
 mod guard;
-mod pair_in;
 mod pair_out;
 mod raw;
 mod sized;

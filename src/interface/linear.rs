@@ -316,7 +316,7 @@ pub type PlanOf<'a> = (Sides<'a>, &'a Numbering);
 pub fn no_plan() -> Error {
     Error::new(
         Kind::InvalidValue,
-        "there is no such plan; for the tangent call stickslip_interface_plan first, for FORCES and CONSTRAINTS stickslip_interface_condensed_plan",
+        "there is no plan of these entries; for the tangent call stickslip_interface_plan first, for FORCES and CONSTRAINTS stickslip_interface_condensed_plan",
     )
 }
 
