@@ -5,7 +5,7 @@ use super::layout::Matrix;
 use super::node::stickslip_node_response;
 use super::pair_in::{self, Pair, flat, node_tangents, read_previous, stickslip_pair, tractions};
 use super::pair_out::{check_tangent, check_weights, slot, write_force, write_gap, write_tangent, write_weights};
-use super::parents::Parents;
+use super::parents;
 use super::raw::{self, Output};
 use crate::element::{FacetResponse, PairNow, PairTangent, pair_force, row_columns};
 use crate::error::Result;
@@ -73,8 +73,8 @@ pub unsafe extern "C" fn stickslip_pair_weights(
 ) -> i32 {
     guard(|| {
         let raw = pair_in::read(pair)?;
-        if let Some(pair) = Parents::of(&raw)? {
-            return pair.weights([n_ab, n_ac], [dn_ab, dn_ac]);
+        if raw.is_quadratic() {
+            return parents::weights(&raw, [n_ab, n_ac], [dn_ab, dn_ac]);
         }
         let pair = &Pair::of(raw)?;
         for (p, name) in [(n_ab, "n_ab"), (n_ac, "n_ac"), (dn_ab, "dn_ab"), (dn_ac, "dn_ac")] {
@@ -117,8 +117,8 @@ pub unsafe extern "C" fn stickslip_pair_gap(
 ) -> i32 {
     guard(|| {
         let raw = pair_in::read(pair)?;
-        if let Some(pair) = Parents::of(&raw)? {
-            return pair.gap([n_ab, n_ac], gap);
+        if raw.is_quadratic() {
+            return parents::gap(&raw, [n_ab, n_ac], gap);
         }
         let pair = Pair::of(raw)?;
         let weights = pair.weights(n_ab, n_ac, ["n_ab", "n_ac"])?;
@@ -147,8 +147,8 @@ pub unsafe extern "C" fn stickslip_pair_residual(
 ) -> i32 {
     guard(|| {
         let raw = pair_in::read(pair)?;
-        if let Some(pair) = Parents::of(&raw)? {
-            return pair.residual([n_ab, n_ac], traction, force);
+        if raw.is_quadratic() {
+            return parents::residual(&raw, [n_ab, n_ac], traction, force);
         }
         let pair = Pair::of(raw)?;
         let weights = pair.weights(n_ab, n_ac, ["n_ab", "n_ac"])?;
@@ -191,9 +191,15 @@ pub unsafe extern "C" fn stickslip_pair_tangent(
 ) -> i32 {
     guard(|| {
         let raw = pair_in::read(pair)?;
-        if let Some(pair) = Parents::of(&raw)? {
+        if raw.is_quadratic() {
             let now = ([n_ab, n_ac], [dn_ab, dn_ac]);
-            return pair.tangent(now, [n_ab_previous, n_ac_previous], (traction, responses, row_scale), (k, ld));
+            return parents::tangent(
+                &raw,
+                now,
+                [n_ab_previous, n_ac_previous],
+                (traction, responses, row_scale),
+                (k, ld),
+            );
         }
         let pair = Pair::of(raw)?;
         let (n1, n2) = pair.n();

@@ -58,6 +58,13 @@ unsafe impl Sized64 for stickslip_pair {
     const FIRST: usize = 40;
 }
 
+impl stickslip_pair {
+    /// Whether a facet has more nodes than corners.
+    pub(super) fn is_quadratic(&self) -> bool {
+        self.n1.max(self.n2) > MAX_CORNERS as i32
+    }
+}
+
 /// What a caller gives, with numbers that mean something.
 #[inline]
 pub(super) fn read(p: *const stickslip_pair) -> Result<stickslip_pair> {

@@ -11,10 +11,49 @@ use crate::error::{Error, Kind, Result};
 use crate::geometry::{Mat3, Vec3};
 use crate::memory;
 use crate::mortar::{MultiplierSpace, ParentFacet, ParentWeights, parent_weights};
-use crate::shape::{MAX_CORNERS, MAX_PARENT_NODES};
+use crate::shape::MAX_PARENT_NODES;
+
+/// What a call gives: n_ab and n_ac, or their derivatives.
+type Two<T> = [T; 2];
+
+// Apart from the linear pairs, whose calls need no room for these.
+
+/// `stickslip_pair_weights`.
+#[cold]
+#[inline(never)]
+pub(super) fn weights(raw: &stickslip_pair, n: Two<*mut f64>, dn: Two<*mut f64>) -> Result<()> {
+    Parents::of(raw)?.weights(n, dn)
+}
+
+/// `stickslip_pair_gap`.
+#[cold]
+#[inline(never)]
+pub(super) fn gap(raw: &stickslip_pair, n: Two<*const f64>, gap: *mut f64) -> Result<()> {
+    Parents::of(raw)?.gap(n, gap)
+}
+
+/// `stickslip_pair_residual`.
+#[cold]
+#[inline(never)]
+pub(super) fn residual(raw: &stickslip_pair, n: Two<*const f64>, traction: *const f64, force: *mut f64) -> Result<()> {
+    Parents::of(raw)?.residual(n, traction, force)
+}
+
+/// `stickslip_pair_tangent`.
+#[cold]
+#[inline(never)]
+pub(super) fn tangent(
+    raw: &stickslip_pair,
+    now: (Two<*const f64>, Two<*const f64>),
+    previous: Two<*const f64>,
+    nodes: (*const f64, *const stickslip_node_response, *const f64),
+    to: (*mut f64, i64),
+) -> Result<()> {
+    Parents::of(raw)?.tangent(now, previous, nodes, to)
+}
 
 /// Such a pair.
-pub(super) struct Parents {
+struct Parents {
     one: ParentFacet,
     two: ParentFacet,
     space: MultiplierSpace,
@@ -22,11 +61,8 @@ pub(super) struct Parents {
 }
 
 impl Parents {
-    /// Of what a caller gives; `None`: both facets are linear.
-    pub fn of(raw: &stickslip_pair) -> Result<Option<Parents>> {
-        if raw.n1.max(raw.n2) <= MAX_CORNERS as i32 {
-            return Ok(None);
-        }
+    /// Of what a caller gives.
+    fn of(raw: &stickslip_pair) -> Result<Parents> {
         let space = match raw.multiplier_space {
             STICKSLIP_SPACE_SUB => MultiplierSpace::Sub,
             _ => MultiplierSpace::Corner,
@@ -36,7 +72,7 @@ impl Parents {
             let text = "pair.element_points and pair.neighbour_normals are for linear facets; leave them 0 and NULL";
             return Err(Error::new(Kind::Unsupported, text));
         }
-        Ok(Some(Parents { one, two, space, raw: *raw }))
+        Ok(Parents { one, two, space, raw: *raw })
     }
 
     fn pair(&self) -> ParentPair<'_> {
@@ -48,8 +84,7 @@ impl Parents {
         (self.one.multipliers(self.space), self.one.parent.n, self.two.parent.n)
     }
 
-    /// `stickslip_pair_weights`.
-    pub fn weights(&self, n: [*mut f64; 2], dn: [*mut f64; 2]) -> Result<()> {
+    fn weights(&self, n: [*mut f64; 2], dn: [*mut f64; 2]) -> Result<()> {
         for (p, name) in n.into_iter().chain(dn).zip(["n_ab", "n_ac", "dn_ab", "dn_ac"]) {
             raw::check_optional(p, name)?;
         }
@@ -96,8 +131,7 @@ impl Parents {
         Ok(t)
     }
 
-    /// `stickslip_pair_gap`.
-    pub fn gap(&self, weights: [*const f64; 2], gap: *mut f64) -> Result<()> {
+    fn gap(&self, weights: [*const f64; 2], gap: *mut f64) -> Result<()> {
         let w = self.read_weights(weights, ["n_ab", "n_ac"])?;
         raw::check(gap, "gap")?;
         let g = self.pair().gap(&w);
@@ -106,8 +140,7 @@ impl Parents {
         Ok(())
     }
 
-    /// `stickslip_pair_residual`.
-    pub fn residual(&self, weights: [*const f64; 2], traction: *const f64, force: *mut f64) -> Result<()> {
+    fn residual(&self, weights: [*const f64; 2], traction: *const f64, force: *mut f64) -> Result<()> {
         let w = self.read_weights(weights, ["n_ab", "n_ac"])?;
         let (traction, (m, n1, n2)) = (self.tractions(traction)?, self.counts());
         raw::check(force, "force")?;
@@ -117,8 +150,7 @@ impl Parents {
         Ok(())
     }
 
-    /// `stickslip_pair_tangent`.
-    pub fn tangent(
+    fn tangent(
         &self,
         (n, dn): ([*const f64; 2], [*const f64; 2]),
         previous: [*const f64; 2],
