@@ -4,8 +4,9 @@
  *
  *   handle [N ...]       sizes; by default 50 100 200 500
  *   handle -o N          standard multipliers and active pairs alone, two passes: for sizes that fill the memory
+ *   handle -t 2 [N ...]  with two threads, in time on the wall; beside it `-t 1`
  *
- * Times are of this thread, the least of several passes; passes of the baseline alternate with them. Without the
+ * Else times are of this thread, the least of several passes; passes of the baseline alternate with them. Without the
  * baseline (it is no part of this project) times are in microseconds a pair. */
 #define _POSIX_C_SOURCE 199309L
 #include <math.h>
@@ -40,9 +41,11 @@ typedef struct {
   int64_t *offsets1, *nodes1, *offsets2, *nodes2, *equations1, *equations2, *multipliers;
 } scene;
 
+static int threads = 0;
+
 static double now(void) {
   struct timespec t;
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+  clock_gettime(threads ? CLOCK_MONOTONIC : CLOCK_THREAD_CPUTIME_ID, &t);
   return 1e6 * (double)t.tv_sec + 1e-3 * (double)t.tv_nsec;
 }
 
@@ -109,6 +112,7 @@ static stickslip_interface *create(const scene *s, int32_t basis, int32_t normal
   CHECK(stickslip_options_init(&options, sizeof options));
   options.multiplier_basis = basis, options.normals = normals;
   options.modulus = 1000.0, options.mu = 0.3;
+  if (threads) options.threads = threads;
   CHECK(stickslip_interface_create(&one, &two, &options, &interface));
   return interface;
 }
@@ -191,8 +195,10 @@ int main(int argc, char **argv) {
     n_sizes = 0;
     for (int k = 1; k < argc && n_sizes < 16; ++k) {
       if (strcmp(argv[k], "-o") == 0) only = 1;
+      else if (strcmp(argv[k], "-t") == 0 && k + 1 < argc) threads = atoi(argv[++k]);
       else sizes[n_sizes++] = atoll(argv[k]);
     }
+    if (!n_sizes) n_sizes = 4;
   }
   static const struct {
     const char *name;
