@@ -1671,7 +1671,7 @@ int32_t stickslip_pair_weights(const struct stickslip_pair *pair,
 ///
 /// Errors: NULL_POINTER, STRUCT_SIZE, INVALID_SIZE, NOT_FINITE, DUPLICATE_NODE, DEGENERATE_FACET, INVALID_VALUE, UNSUPPORTED (as
 /// `stickslip_pair_weights`, of quadratic facets).
-/// Cost: below a microsecond; allocates nothing.
+/// Cost: below a microsecond, of two quad9 1.4; allocates nothing.
 int32_t stickslip_pair_gap(const struct stickslip_pair *pair,
                            const double *n_ab,
                            const double *n_ac,
@@ -1686,7 +1686,7 @@ int32_t stickslip_pair_gap(const struct stickslip_pair *pair,
 ///
 /// Errors: NULL_POINTER, STRUCT_SIZE, INVALID_SIZE, NOT_FINITE, DUPLICATE_NODE, DEGENERATE_FACET, INVALID_VALUE, UNSUPPORTED (as
 /// `stickslip_pair_weights`, of quadratic facets).
-/// Cost: below a microsecond; allocates nothing.
+/// Cost: below a microsecond, of two quad9 1.4; allocates nothing.
 int32_t stickslip_pair_residual(const struct stickslip_pair *pair,
                                 const double *n_ab,
                                 const double *n_ac,
@@ -1708,7 +1708,7 @@ int32_t stickslip_pair_residual(const struct stickslip_pair *pair,
 ///
 /// Errors: NULL_POINTER, STRUCT_SIZE, INVALID_SIZE, NOT_FINITE, DUPLICATE_NODE, DEGENERATE_FACET, INVALID_VALUE
 /// (layout, multiplier_space), UNSUPPORTED (as `stickslip_pair_weights`, of quadratic facets).
-/// Cost: 5 microseconds for two quad4, 100 for two quad9; allocates nothing.
+/// Cost: 5 microseconds for two quad4, 11 for two quad9. Allocates nothing, but memory for the matrix of quadratic facets.
 int32_t stickslip_pair_tangent(const struct stickslip_pair *pair,
                                const double *n_ab,
                                const double *n_ac,

@@ -12,6 +12,7 @@ use super::sized::{self, Sized64};
 use crate::element::{DualFacet, FacetPairs, FacetResponse, facet_sums};
 use crate::error::{Error, Kind, Result};
 use crate::mortar::{NonmortarFrame, PairWeights, Segment};
+use crate::shape::MAX_CORNERS;
 
 /// A non-mortar facet with all the mortar facets that it overlaps, or overlapped at t_n. Node order: right-hand, seen from
 /// outside each body.
@@ -167,7 +168,7 @@ pub unsafe extern "C" fn stickslip_facet_tangent(
         let rule = rule(pairs.raw.quadrature, "facet.quadrature")?;
         let size = 6 * n1 + 3 * nodes_of(pairs.n2);
         let mut k = Matrix::new(k, size, ld, column_major(pairs.raw.layout, "facet.layout")?)?;
-        let traction = tractions(traction, n1)?;
+        let traction = tractions::<MAX_CORNERS>(traction, n1)?;
         let nodes = node_tangents(&traction[..n1], responses, row_scale)?;
         let sums = facet_sums(&pairs.frame, &pairs)?;
         raw::check_results("k", sums.mass.iter().flatten().chain(&sums.gamma))?;

@@ -14,6 +14,7 @@ use crate::mortar::{
     self, AlongNormal, GapDerivative, NonmortarFrame, PAIR_NODES, PairWeights, Segment, WeightDerivatives,
 };
 use crate::quadrature::Rule;
+use crate::shape::MAX_CORNERS;
 
 /// Weights and their derivatives; each may be null. Apart from the rest: they are large.
 #[inline(never)]
@@ -72,11 +73,11 @@ pub unsafe extern "C" fn stickslip_pair_weights(
     dn_ac: *mut f64,
 ) -> i32 {
     guard(|| {
-        let raw = pair_in::read(pair)?;
-        if raw.is_quadratic() {
-            return parents::weights(&raw, [n_ab, n_ac], [dn_ab, dn_ac]);
+        let given = pair_in::read(pair)?;
+        if given.is_quadratic() {
+            return parents::weights(&given, [n_ab, n_ac], [dn_ab, dn_ac]);
         }
-        let pair = &Pair::of(raw)?;
+        let pair = &Pair::of(given)?;
         for (p, name) in [(n_ab, "n_ab"), (n_ac, "n_ac"), (dn_ab, "dn_ab"), (dn_ac, "dn_ac")] {
             raw::check_optional(p, name)?;
         }
@@ -107,7 +108,7 @@ pub unsafe extern "C" fn stickslip_pair_weights(
 ///
 /// Errors: NULL_POINTER, STRUCT_SIZE, INVALID_SIZE, NOT_FINITE, DUPLICATE_NODE, DEGENERATE_FACET, INVALID_VALUE, UNSUPPORTED (as
 /// `stickslip_pair_weights`, of quadratic facets).
-/// Cost: below a microsecond; allocates nothing.
+/// Cost: below a microsecond, of two quad9 1.4; allocates nothing.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn stickslip_pair_gap(
     pair: *const stickslip_pair,
@@ -116,11 +117,11 @@ pub unsafe extern "C" fn stickslip_pair_gap(
     gap: *mut f64,
 ) -> i32 {
     guard(|| {
-        let raw = pair_in::read(pair)?;
-        if raw.is_quadratic() {
-            return parents::gap(&raw, [n_ab, n_ac], gap);
+        let given = pair_in::read(pair)?;
+        if given.is_quadratic() {
+            return parents::gap(&given, [n_ab, n_ac], gap);
         }
-        let pair = Pair::of(raw)?;
+        let pair = Pair::of(given)?;
         let weights = pair.weights(n_ab, n_ac, ["n_ab", "n_ac"])?;
         raw::check(gap, "gap")?;
         write_gap(&mortar::gap(&weights, &pair.one, &pair.two), pair.one.len(), gap)
@@ -136,7 +137,7 @@ pub unsafe extern "C" fn stickslip_pair_gap(
 ///
 /// Errors: NULL_POINTER, STRUCT_SIZE, INVALID_SIZE, NOT_FINITE, DUPLICATE_NODE, DEGENERATE_FACET, INVALID_VALUE, UNSUPPORTED (as
 /// `stickslip_pair_weights`, of quadratic facets).
-/// Cost: below a microsecond; allocates nothing.
+/// Cost: below a microsecond, of two quad9 1.4; allocates nothing.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn stickslip_pair_residual(
     pair: *const stickslip_pair,
@@ -146,11 +147,11 @@ pub unsafe extern "C" fn stickslip_pair_residual(
     force: *mut f64,
 ) -> i32 {
     guard(|| {
-        let raw = pair_in::read(pair)?;
-        if raw.is_quadratic() {
-            return parents::residual(&raw, [n_ab, n_ac], traction, force);
+        let given = pair_in::read(pair)?;
+        if given.is_quadratic() {
+            return parents::residual(&given, [n_ab, n_ac], traction, force);
         }
-        let pair = Pair::of(raw)?;
+        let pair = Pair::of(given)?;
         let weights = pair.weights(n_ab, n_ac, ["n_ab", "n_ac"])?;
         let traction = tractions(traction, pair.one.len())?;
         raw::check(force, "force")?;
@@ -173,7 +174,7 @@ pub unsafe extern "C" fn stickslip_pair_residual(
 ///
 /// Errors: NULL_POINTER, STRUCT_SIZE, INVALID_SIZE, NOT_FINITE, DUPLICATE_NODE, DEGENERATE_FACET, INVALID_VALUE
 /// (layout, multiplier_space), UNSUPPORTED (as `stickslip_pair_weights`, of quadratic facets).
-/// Cost: 5 microseconds for two quad4, 100 for two quad9; allocates nothing.
+/// Cost: 5 microseconds for two quad4, 11 for two quad9. Allocates nothing, but memory for the matrix of quadratic facets.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn stickslip_pair_tangent(
     pair: *const stickslip_pair,
@@ -190,18 +191,18 @@ pub unsafe extern "C" fn stickslip_pair_tangent(
     ld: i64,
 ) -> i32 {
     guard(|| {
-        let raw = pair_in::read(pair)?;
-        if raw.is_quadratic() {
+        let given = pair_in::read(pair)?;
+        if given.is_quadratic() {
             let now = ([n_ab, n_ac], [dn_ab, dn_ac]);
             return parents::tangent(
-                &raw,
+                &given,
                 now,
                 [n_ab_previous, n_ac_previous],
                 (traction, responses, row_scale),
                 (k, ld),
             );
         }
-        let pair = Pair::of(raw)?;
+        let pair = Pair::of(given)?;
         let (n1, n2) = pair.n();
         let size = 6 * n1 + 3 * n2;
         let mut k = Matrix::new(k, size, ld, pair.column_major()?)?;
@@ -209,7 +210,7 @@ pub unsafe extern "C" fn stickslip_pair_tangent(
             (!n_ab.is_null() || !n_ac.is_null()).then(|| pair.weights(n_ab, n_ac, ["n_ab", "n_ac"])).transpose()?;
         let dn = (!dn_ab.is_null() || !dn_ac.is_null()).then(|| pair.derivatives(dn_ab, dn_ac)).transpose()?;
         let before = read_previous((n1, n2), n_ab_previous, n_ac_previous)?;
-        let traction = tractions(traction, n1)?;
+        let traction = tractions::<MAX_CORNERS>(traction, n1)?;
         let nodes = node_tangents(&traction[..n1], responses, row_scale)?;
         let gap = match (&weights, &dn) {
             (Some(w), Some(dn)) => {

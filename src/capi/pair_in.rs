@@ -10,7 +10,7 @@ use super::sized::{self, Sized64};
 use crate::element::NodeTangent;
 use crate::error::{Error, Kind, Result};
 use crate::geometry::{Facet, Vec3};
-use crate::mortar::{NonmortarFrame, PAIR_NODES, PairWeights, Segment, WeightDerivatives};
+use crate::mortar::{MultiplierSpace, NonmortarFrame, PAIR_NODES, PairWeights, Segment, WeightDerivatives};
 use crate::quadrature::Rule;
 use crate::shape::{MAX_CORNERS, MAX_NODES};
 
@@ -65,15 +65,23 @@ impl stickslip_pair {
     }
 }
 
+/// The space of a STICKSLIP_SPACE_... value.
+pub(super) fn multiplier_space(value: i32) -> Result<MultiplierSpace> {
+    match value {
+        STICKSLIP_SPACE_CORNER => Ok(MultiplierSpace::Corner),
+        STICKSLIP_SPACE_SUB => Ok(MultiplierSpace::Sub),
+        _ => {
+            let text = text!("pair.multiplier_space is {value}; 0 (corner) or 1 (sub) are allowed");
+            Err(Error::new(Kind::InvalidValue, text))
+        }
+    }
+}
+
 /// What a caller gives, with numbers that mean something.
 #[inline]
 pub(super) fn read(p: *const stickslip_pair) -> Result<stickslip_pair> {
     let raw = sized::read(p)?;
-    let space = raw.multiplier_space;
-    if ![STICKSLIP_SPACE_CORNER, STICKSLIP_SPACE_SUB].contains(&space) {
-        let text = text!("pair.multiplier_space is {space}; 0 (corner) or 1 (sub) are allowed");
-        return Err(Error::new(Kind::InvalidValue, text));
-    }
+    multiplier_space(raw.multiplier_space)?;
     if raw.reserved != 0 {
         return Err(Error::new(Kind::InvalidValue, text!("pair.reserved is {}; it must be 0", raw.reserved)));
     }
@@ -197,23 +205,23 @@ pub(super) fn pair_weights(ab: &[f64], ac: &[f64], n1: usize) -> PairWeights {
     w
 }
 
-/// 3 n numbers at `p` as vectors of the facet's nodes.
-pub(super) fn tractions(p: *const f64, n: usize) -> Result<[Vec3; MAX_CORNERS]> {
-    let mut t = [Vec3::zeros(); MAX_CORNERS];
+/// 3 n numbers at `p` as vectors of the first n of at most K nodes.
+pub(super) fn tractions<const K: usize>(p: *const f64, n: usize) -> Result<[Vec3; K]> {
+    let mut t = [Vec3::zeros(); K];
     for (t, v) in t.iter_mut().zip(raw::numbers(p, 3 * n, "traction")?.chunks_exact(3)) {
         *t = Vec3::from_column_slice(v);
     }
     Ok(t)
 }
 
-/// What a facet must know of the responses of its nodes, at its tractions.
-pub(super) fn node_tangents(
+/// What a facet must know of the responses of its nodes, at most K, at its tractions.
+pub(super) fn node_tangents<const K: usize>(
     traction: &[Vec3],
     responses: *const stickslip_node_response,
     row_scale: *const f64,
-) -> Result<[NodeTangent; MAX_CORNERS]> {
+) -> Result<[NodeTangent; K]> {
     let scale = raw::optional_numbers(row_scale, traction.len(), "row_scale")?;
-    let mut nodes = [NodeTangent::default(); MAX_CORNERS];
+    let mut nodes = [NodeTangent::default(); K];
     for (a, (node, traction)) in nodes.iter_mut().zip(traction).enumerate() {
         let s = scale.map_or(1.0, |s| s[a]);
         let (now, previous) = super::node::read_response(responses, a)?;

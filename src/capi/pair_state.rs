@@ -13,6 +13,7 @@ use crate::error::{Kind, Result};
 use crate::geometry::Facet;
 use crate::mortar::{self, GapDerivative, NonmortarFrame, PairWeights, Segment, pair_motion};
 use crate::quadrature::Rule;
+use crate::shape::MAX_CORNERS;
 
 /// What a state begins with, but for where the library lies: "stickslip" in letters of a keypad, and the state's version.
 const MAGIC: u64 = 0x7842_5754_7547_0001;
@@ -200,7 +201,7 @@ pub unsafe extern "C" fn stickslip_pair_state_tangent(
         let (n1, n2) = pair.n();
         let mut k = Matrix::new(k, 6 * n1 + 3 * n2, ld, pair.column_major)?;
         let previous = read_previous((n1, n2), n_ab_previous, n_ac_previous)?;
-        let traction = tractions(traction, n1)?;
+        let traction = tractions::<MAX_CORNERS>(traction, n1)?;
         let nodes = node_tangents(&traction[..n1], responses, row_scale)?;
         let nodes = FacetResponse::new(nodes.each_ref());
         let mut t = PairTangent::default();

@@ -1,6 +1,7 @@
 //! Gap, forces and tangent of a pair of facets as hosts have them, linear or quadratic (paper (11), (23), (29)-(31);
 //! docs/formulation.md 12.4): with sums over the nodes of both sides, for gaps of a quadratic pair are not along a normal.
 
+use super::tangent::NodeTangent;
 use crate::geometry::{Mat3, Vec3};
 use crate::mortar::{ParentFacet, ParentWeights};
 use crate::shape::MAX_PARENT_NODES;
@@ -63,15 +64,15 @@ impl ParentPair<'_> {
         Vec3::from_column_slice(&of[3 * ((a * columns + column) * (n1 + n2) + k)..][..3]) * sign
     }
 
-    /// The exact tangent in the multiplier form, block by block: rows and columns are the pair's nodes, then the multipliers.
-    /// `now`: the weights of now, and their derivatives unless they are frozen; `previous`: those of t_n; `nodes`: of every
-    /// multiplier its traction, d row / d g_now and d row / d g_previous.
+    /// The exact tangent in the multiplier form, block by block but those of multipliers with each other, which are zero: rows
+    /// and columns are the pair's nodes, then the multipliers. `now`: the weights of now, and their derivatives unless they are
+    /// frozen; `previous`: those of t_n; `nodes`: of every multiplier.
     pub fn tangent(
         &self,
         now: Option<(&ParentWeights, Option<[&[f64]; 2]>)>,
         previous: Option<&ParentWeights>,
-        nodes: &[(Vec3, Mat3, Mat3)],
-        mut give: impl FnMut(usize, usize, &Mat3),
+        nodes: &[NodeTangent],
+        mut give: impl FnMut(usize, usize, Mat3),
     ) {
         let n = self.one.parent.n + self.two.parent.n;
         let (weights, slopes) = (now.map(|now| now.0), now.and_then(|now| now.1));
@@ -79,23 +80,23 @@ impl ParentPair<'_> {
             let mut block = Mat3::zeros();
             if let Some(slopes) = slopes {
                 for (a, node) in nodes.iter().enumerate() {
-                    block += node.0 * self.slope(slopes, a, row, column).transpose();
+                    block += node.traction * self.slope(slopes, a, row, column).transpose();
                 }
             }
-            give(row, column, &block);
+            give(row, column, block);
         }
-        for (a, (_, of_now, of_previous)) in nodes.iter().enumerate() {
+        for (a, node) in nodes.iter().enumerate() {
             for k in 0..n {
                 let weight = |w: &ParentWeights| Mat3::from_diagonal_element(self.weight(w, a, k));
-                give(k, n + a, &weights.map_or(Mat3::zeros(), weight));
+                give(k, n + a, weights.map_or(Mat3::zeros(), weight));
                 // Dg_A: the nodes carried along, and the weights' change.
                 let mut gap = weights.map_or(Mat3::zeros(), weight);
                 if let Some(slopes) = slopes {
                     gap += (0..n).map(|b| self.x(b) * self.slope(slopes, a, b, k).transpose()).sum::<Mat3>();
                 }
-                give(n + a, k, &(of_now * gap + of_previous * previous.map_or(Mat3::zeros(), weight)));
+                let before = previous.map_or(Mat3::zeros(), weight);
+                give(n + a, k, node.drow_dnow * gap + node.drow_dprevious * before);
             }
-            (0..nodes.len()).for_each(|b| give(n + a, n + b, &Mat3::zeros()));
         }
     }
 }
