@@ -82,7 +82,7 @@ pub unsafe extern "C" fn stickslip_facet_geometry(n: i32, x: *const f64, normals
             raw::check_results("normals", found.iter().flat_map(|v| v.iter()))?;
             raw::check_results("areas", &of_corners)?;
             raw::write_each(normals, found[..facet.parent.n].iter().flat_map(|v| v.iter().copied()));
-            raw::write(areas, &of_corners[..facet.parent.corners]);
+            raw::write(areas, &of_corners[..facet.parent.corners()]);
             return Ok(());
         }
         let facet = facet(n, x, "x")?;

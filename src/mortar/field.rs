@@ -7,7 +7,7 @@
 use super::transport::dots;
 use crate::geometry::Projection;
 use crate::geometry::bilinear_map::BilinearMap;
-use crate::shape::{GROUPS, MAX_CORNERS, Parent, SubFacet, TERMS, monomial_slopes, monomials};
+use crate::shape::{GROUPS, MAX_CORNERS, Parent, SubFacet, TERMS, cell_corners, monomial_slopes, monomials};
 use crate::simd::Lanes;
 
 /// Coordinates that are affine in a sub-facet's own, with their gradients in the plane.
@@ -72,6 +72,16 @@ impl Coordinates {
 pub(super) struct Values<L, const G: usize> {
     pub n: [L; G],
     pub gradient: [[L; 2]; G],
+}
+
+/// Gradients in the plane from the derivatives with respect to two coordinates.
+#[inline(always)]
+fn in_plane<L: Lanes>([dx, dy]: [L; 2], gradient: &[[f64; 2]; 2]) -> [L; 2] {
+    let mut of = [dx; 2];
+    for c in 0..2 {
+        of[c] = dx.mul_add(L::splat(gradient[0][c]), dy * L::splat(gradient[1][c]));
+    }
+    of
 }
 
 /// A parent's functions N_B over a sub-facet.
@@ -142,9 +152,7 @@ impl Field {
                 dx = c.mul_add(L::splat(mx[t]), dx);
                 dy = c.mul_add(L::splat(my[t]), dy);
             }
-            for c in 0..2 {
-                v.gradient[g][c] = dx.mul_add(L::splat(gradient[0][c]), dy * L::splat(gradient[1][c]));
-            }
+            v.gradient[g] = in_plane([dx, dy], &gradient);
         }
         v
     }
@@ -164,7 +172,7 @@ impl MultiplierSpace {
     pub fn nodes<'a>(self, parent: &Parent, sub: &'a SubFacet) -> &'a [usize] {
         const CORNERS: [usize; MAX_CORNERS] = [0, 1, 2, 3];
         match self {
-            MultiplierSpace::Corner => &CORNERS[..parent.corners],
+            MultiplierSpace::Corner => &CORNERS[..parent.corners()],
             MultiplierSpace::Sub => &sub.nodes[..sub.shape.n],
         }
     }
@@ -187,7 +195,7 @@ impl Multipliers {
     ) -> Self {
         let (shape, corners) = match space {
             MultiplierSpace::Corner => (parent.cell, corners(parent, sub, projection)),
-            MultiplierSpace::Sub => (sub.shape, cell_corners(sub.shape.n)),
+            MultiplierSpace::Sub => (sub.shape, cell_corners(sub.shape)),
         };
         let coefficients = std::array::from_fn(|t| std::array::from_fn(|a| shape.coefficients[a][t]));
         Multipliers { coefficients, coordinates: Coordinates::new::<L>(projection, map, corners) }
@@ -214,18 +222,6 @@ impl Multipliers {
         let dx = cxy.mul_add(L::splat(y), cx);
         let dy = cxy.mul_add(L::splat(x), cy);
         let n = dx.mul_add(L::splat(x), cy.mul_add(L::splat(y), L::load(one)));
-        let mut along = [n; 2];
-        for c in 0..2 {
-            along[c] = dx.mul_add(L::splat(gradient[0][c]), dy * L::splat(gradient[1][c]));
-        }
-        Values { n: [n], gradient: [along] }
-    }
-}
-
-/// The corners of the reference cell with `n` of them.
-pub(super) fn cell_corners(n: usize) -> [[f64; 2]; MAX_CORNERS] {
-    match n {
-        3 => [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [0.0, 0.0]],
-        _ => [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]],
+        Values { n: [n], gradient: [in_plane([dx, dy], &gradient)] }
     }
 }

@@ -40,7 +40,7 @@ impl ParentFacet {
         x[..nodes.len()].copy_from_slice(nodes);
         let facet = ParentFacet { parent, x };
         if parent.subs.len() > 1 {
-            let corners = [0, 1, 2, 3].map(|k| x[k % parent.corners]);
+            let corners = [0, 1, 2, 3].map(|k| x[k % parent.corners()]);
             let whole = Facet { nodes: corners, shape: parent.cell }.area_vector();
             for (s, sub) in parent.subs.iter().enumerate() {
                 if !(facet.sub(s).area_vector().dot(&whole) > 0.0) {
@@ -50,7 +50,7 @@ impl ParentFacet {
                 }
             }
             // The area vector at the centre of a cell and x_xi x x_eta differ by a factor of the cell.
-            let least = LEAST_JACOBIAN * whole.norm_squared() * if parent.corners == 3 { 1.0 } else { 0.125 };
+            let least = LEAST_JACOBIAN * whole.norm_squared() * if parent.corners() == 3 { 1.0 } else { 0.125 };
             for k in 0..parent.n {
                 if !(facet.area_vector(k).dot(&whole) > least) {
                     let text = text!("at its node {k} its mapping has no area or turns over; {MID_NODES}");
@@ -63,7 +63,7 @@ impl ParentFacet {
 
     /// How many multipliers it has: its first so many nodes do.
     pub fn multipliers(&self, space: MultiplierSpace) -> usize {
-        if space == MultiplierSpace::Corner { self.parent.corners } else { self.parent.n }
+        if space == MultiplierSpace::Corner { self.parent.corners() } else { self.parent.n }
     }
 
     /// Unit normal at node k, out of the body (docs/formulation.md 12.4).

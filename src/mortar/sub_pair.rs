@@ -8,7 +8,7 @@
 
 use super::chain::{Chain, Flat};
 use super::edges::{edge_points, intervals, line};
-use super::field::{Field, MultiplierSpace, Multipliers, Values, cell_corners};
+use super::field::{Field, MultiplierSpace, Multipliers, Values};
 use super::points::{Fan, Maps, points};
 use super::segment::{NonmortarFrame, Segment};
 use super::slots::{MORTAR_CORNER, PAIR_CORNERS, PAIR_NODES};
@@ -17,7 +17,7 @@ use crate::geometry::Vec2;
 use crate::geometry::bilinear_map::Preimage;
 use crate::geometry::edge_interval::{EdgeInterval, EdgeIntervals};
 use crate::quadrature::{DEGREE_5, DEGREE_7, Rule};
-use crate::shape::{GROUPS, MAX_CORNERS, Parent, Quadrilateral, SubFacet, TERMS, Triangle};
+use crate::shape::{GROUPS, MAX_CORNERS, Parent, Quadrilateral, SubFacet, TERMS, Triangle, cell_corners};
 use crate::simd::{self, Kernel, Lanes, rolled};
 
 /// Lanes of a parent's functions.
@@ -60,12 +60,8 @@ pub type Side = (&'static Parent, &'static SubFacet);
 
 /// The rule for pairs of these parents: the one asked for, or a finer one where that is not exact on affine facets.
 pub fn rule_for(rule: &'static Rule, parents: [&Parent; 2]) -> &'static Rule {
-    let least = parents.iter().map(|parent| parent.degree()).fold(0, u32::max);
-    match (rule.degree >= least, least > DEGREE_5.degree) {
-        (true, _) => rule,
-        (false, true) => &DEGREE_7,
-        (false, false) => &DEGREE_5,
-    }
+    let needs_more = parents.iter().any(|parent| parent.degree() > DEGREE_5.degree);
+    if needs_more && rule.degree < DEGREE_7.degree { &DEGREE_7 } else { rule.for_derivatives() }
 }
 
 /// The weights over an overlap, by a rule of [`rule_for`], and their derivatives where asked for.
@@ -159,7 +155,7 @@ impl<L: Lanes> Points<'_, L> {
     #[inline(always)]
     fn on_edge(&self, side: usize, edge: &EdgeInterval, four: &[[f64; 4]; 2]) -> Four<L> {
         let projection = [&self.frame.projection, &self.segment.mortar][side];
-        let corners = cell_corners(projection.shape.n);
+        let corners = cell_corners(projection.shape);
         let (from, to) = (corners[edge.from & 3], corners[edge.to & 3]);
         let (y0, span, normal) = line(&projection.y, edge);
         let (w, [l0, l1], y) = edge_points::<L>(four, edge, y0, span);
@@ -174,6 +170,25 @@ impl<L: Lanes> Points<'_, L> {
         let edge = OnEdge { slots, ends: [l0.store(), l1.store()], normal: [normal.x, normal.y] };
         let (one, two) = if side == 0 { (own, there) } else { (there, own) };
         Four { weight: w, one, two, edge: Some(edge) }
+    }
+}
+
+/// Adds `n` (v . n) ds of the q-th point of an edge.
+#[inline(always)]
+fn add_edge<L: Lanes>(edge: &OnEdge, q: usize, n: L, sums: &mut PlaneDerivatives<L>) {
+    for (slot, end) in edge.slots.iter().zip(&edge.ends) {
+        for c in 0..2 {
+            let along = L::splat(end[q] * edge.normal[c]);
+            sums[*slot][c] = n.mul_add(along, sums[*slot][c]);
+        }
+    }
+}
+
+/// Adds `n` times component c of a point's velocity, sum_k v_k Dy_k over the corners from slot `first` on.
+#[inline(always)]
+fn add_velocity<L: Lanes>(n: L, v: &[f64; MAX_CORNERS], (first, c): (usize, usize), sums: &mut PlaneDerivatives<L>) {
+    for k in 0..MAX_CORNERS {
+        sums[first + k][c] = n.mul_add(L::splat(v[k]), sums[first + k][c]);
     }
 }
 
@@ -229,29 +244,20 @@ impl Kernel for Integrate<'_> {
                     let (sums, groups) = (&mut sums[which], fields[which].groups());
                     for (row, g) in (0..rows).flat_map(|row| (0..groups).map(move |g| (row, g))) {
                         let (wn, sums) = (L::splat(w * n[row]), &mut sums[row][g]);
-                        if let Some(edge) = &four.edge {
-                            for (slot, end) in edge.slots.iter().zip(&edge.ends) {
-                                let along = f.n[g] * L::splat(end[q]) * wn;
+                        match &four.edge {
+                            Some(edge) => add_edge(edge, q, wn * f.n[g], sums),
+                            None => {
+                                // -(grad N_A . v1) N, and -N_A grad N . v of the side that has N.
                                 for c in 0..2 {
-                                    sums[*slot][c] = along.mul_add(L::splat(edge.normal[c]), sums[*slot][c]);
+                                    let of_a = f.n[g] * L::splat(-w * gradient[c][row]);
+                                    let of_n = -wn * f.gradient[g][c];
+                                    if which == 0 {
+                                        add_velocity(of_a + of_n, &v[0], (0, c), sums);
+                                    } else {
+                                        add_velocity(of_a, &v[0], (0, c), sums);
+                                        add_velocity(of_n, &v[1], (MORTAR_CORNER, c), sums);
+                                    }
                                 }
-                            }
-                            continue;
-                        }
-                        for c in 0..2 {
-                            // -(grad N_A . v1) N, and -N_A grad N . v of the side that has N.
-                            let (of_a, of_n) = (f.n[g] * L::splat(-w * gradient[c][row]), -wn * f.gradient[g][c]);
-                            if which == 0 {
-                                let both = of_a + of_n;
-                                for k in 0..MAX_CORNERS {
-                                    sums[k][c] = both.mul_add(L::splat(v[0][k]), sums[k][c]);
-                                }
-                                continue;
-                            }
-                            for k in 0..MAX_CORNERS {
-                                let l = MORTAR_CORNER + k;
-                                sums[k][c] = of_a.mul_add(L::splat(v[0][k]), sums[k][c]);
-                                sums[l][c] = of_n.mul_add(L::splat(v[1][k]), sums[l][c]);
                             }
                         }
                     }

@@ -19,7 +19,7 @@ pub use basis::{Basis, MAX_NODES};
 pub use cell::{Cell, MAX_CORNERS};
 pub use kind::{CornerMultipliers, FacetKind, Isoparametric, Map, SingleBasis, StandardMultipliers};
 pub use p1::P1;
-pub use parent::{GROUPS, MAX_PARENT_NODES, Parent, SubFacet, TERMS, monomial_slopes, monomials};
+pub use parent::{GROUPS, MAX_PARENT_NODES, Parent, SubFacet, TERMS, cell_corners, monomial_slopes, monomials};
 pub use q1::Q1;
 pub use quad4::{QUAD4, Quad4};
 pub use quadrilateral::Quadrilateral;

@@ -38,8 +38,6 @@ pub struct Parent {
     pub name: &'static str,
     /// Nodes.
     pub n: usize,
-    /// How many of them are corners.
-    pub corners: usize,
     /// The parent's coordinates of its nodes.
     pub at: [[f64; 2]; MAX_PARENT_NODES],
     /// Coefficients of the functions N_B: `[term][group]`, lanes over the functions.
@@ -65,6 +63,11 @@ impl Parent {
         }
     }
 
+    /// How many of the nodes are corners; they come first.
+    pub fn corners(&self) -> usize {
+        self.cell.n
+    }
+
     /// Groups of four functions.
     pub fn groups(&self) -> usize {
         self.n.div_ceil(4)
@@ -75,6 +78,12 @@ impl Parent {
     pub fn degree(&self) -> u32 {
         if self.n >= 8 { 7 } else { 5 }
     }
+}
+
+/// The reference coordinates of a cell's corners.
+pub fn cell_corners(cell: &Shape) -> [[f64; 2]; MAX_CORNERS] {
+    let at = if cell.n == 3 { &TRIANGLE } else { &SQUARE };
+    [at[0], at[1], at[2], at[3]]
 }
 
 /// The monomials at (x, y).
@@ -201,7 +210,6 @@ const fn quadrilateral(nodes: [usize; 4], beyond: [Option<usize>; 4]) -> SubFace
 pub static PARENT_TRI3: Parent = Parent {
     name: "tri3",
     n: 3,
-    corners: 3,
     at: TRIANGLE,
     functions: linear(&TRI3),
     terms: 3,
@@ -213,7 +221,6 @@ pub static PARENT_TRI3: Parent = Parent {
 pub static PARENT_QUAD4: Parent = Parent {
     name: "quad4",
     n: 4,
-    corners: 4,
     at: SQUARE,
     functions: linear(&QUAD4),
     terms: 5,
@@ -225,7 +232,6 @@ pub static PARENT_QUAD4: Parent = Parent {
 pub static TRI6: Parent = Parent {
     name: "tri6",
     n: 6,
-    corners: 3,
     at: TRIANGLE,
     functions: grouped(&TRI6_FUNCTIONS),
     terms: 6,
@@ -242,7 +248,6 @@ pub static TRI6: Parent = Parent {
 pub static QUAD8: Parent = Parent {
     name: "quad8",
     n: 8,
-    corners: 4,
     at: SQUARE,
     functions: grouped(&quad8_functions()),
     terms: 8,
@@ -260,7 +265,6 @@ pub static QUAD8: Parent = Parent {
 pub static QUAD9: Parent = Parent {
     name: "quad9",
     n: 9,
-    corners: 4,
     at: SQUARE,
     functions: grouped(&quad9_functions()),
     terms: 9,
@@ -343,7 +347,7 @@ mod tests {
                     assert!((0..2).all(|i| at(0)[i] + at(2)[i] == at(1)[i] + at(3)[i]));
                 }
             }
-            assert_eq!(area, if parent.corners == 3 { 0.5 } else { 4.0 }, "{}", parent.name);
+            assert_eq!(area, if parent.corners() == 3 { 0.5 } else { 4.0 }, "{}", parent.name);
         }
     }
 }

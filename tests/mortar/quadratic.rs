@@ -182,7 +182,7 @@ fn random_parent(n: usize, scale: f64, turn: f64, noise: &[f64], up: bool) -> Pa
     let mut x: Vec<Vec3> = (0..n)
         .map(|k| {
             let [u, v] = kind.at[k];
-            let at = if kind.corners == 3 { [2.0 * u - 0.7, 2.0 * v - 0.7] } else { [u, v] };
+            let at = if kind.corners() == 3 { [2.0 * u - 0.7, 2.0 * v - 0.7] } else { [u, v] };
             let d = Vector3::new(noise[3 * k], noise[3 * k + 1], noise[3 * k + 2]) * 0.08;
             rotation * (Vec3::new(at[0], at[1], 0.0) + d) * scale
         })
@@ -346,7 +346,7 @@ fn facets_that_are_none_are_refused_by_name() {
 fn mid_nodes_at_a_quarter_are_refused() {
     for (n, mid) in [(6, 3), (8, 4), (9, 7)] {
         let kind = stickslip::shape::Parent::of(n).unwrap();
-        let (from, to) = (mid - kind.corners, (mid - kind.corners + 1) % kind.corners);
+        let (from, to) = (mid - kind.corners(), (mid - kind.corners() + 1) % kind.corners());
         for (s, fine) in
             [(0.5, true), (0.3, true), (0.26, true), (0.25, false), (0.2, false), (0.02, false), (0.8, false)]
         {
