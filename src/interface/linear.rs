@@ -247,9 +247,10 @@ impl<'a, const N: usize> Here<'a, N> {
                 constraints.iter().for_each(|taker| room.shown.add(taker.shown()));
                 Ok(())
             };
+            let has_parts = plan.has_parts() && other_plan.is_none_or(Plan::has_parts);
+            let one_by_one = rooms.len() == 1 || is_coupled || !has_parts;
             for chunks in plan.phases() {
-                let has_parts = plan.has_parts() && other_plan.is_none_or(Plan::has_parts);
-                if rooms.len() == 1 || chunks.len() == 1 || is_coupled || !has_parts {
+                if one_by_one || chunks.len() == 1 {
                     for chunk in chunks {
                         let hands = (table.hand(), other.as_mut().map(Table::hand));
                         of_chunk(Some(chunk), hands, &mut rooms[0], couplings.as_deref_mut())?;

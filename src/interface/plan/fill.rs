@@ -1,7 +1,7 @@
 //! Values into the entries of a plan, as the blocks of a tangent come.
 
 use super::add::{Add, LACKS, SKIP, Starts};
-use super::numbering::{NO_RANK, SCALARS, Sides};
+use super::numbering::{SCALARS, Sides};
 use super::places::{Layout, Places};
 use super::scatter::{self, MortarOffsets, Scatter};
 use super::table::{Hand, Target};
@@ -110,7 +110,7 @@ impl<'a, 'p, const N: usize> Fill<'a, 'p, N> {
     #[inline]
     fn touch(&mut self, place: Place) -> Option<Target> {
         let node = self.layout.nodes.number(place);
-        if self.layout.numbering.rank[node] == NO_RANK {
+        if !self.layout.numbering.has_equations(node) {
             return Some(Target::default()); // nothing is ever added
         }
         let target = self.hand.claim(node);
@@ -149,14 +149,14 @@ impl<'a, 'p, const N: usize> Fill<'a, 'p, N> {
             self.state.is_foreign |= target.is_none();
             self.state.mortar_rows[k] = target.unwrap_or_default();
             self.state.places[k] = self.scatter.and_then(|s| s.place(self.state.facet, node));
-            self.state.has_equations[k] = self.layout.numbering.rank[self.layout.nodes.mortar(node)] != NO_RANK;
+            self.state.has_equations[k] = self.layout.numbering.has_equations(self.layout.nodes.mortar(node));
         }
     }
 
     /// Where a block begins in the rows of a node, by a search.
     fn found(&self, row: usize, column: usize) -> u32 {
-        let rank = &self.layout.numbering.rank;
-        if rank[row] == NO_RANK || rank[column] == NO_RANK {
+        let numbering = self.layout.numbering;
+        if !numbering.has_equations(row) || !numbering.has_equations(column) {
             return SKIP;
         }
         self.layout.offset(row, column, &self.places.rows[row]).unwrap_or(LACKS)
@@ -316,7 +316,7 @@ impl<const N: usize> Blocks<N> for Fill<'_, '_, N> {
             let Some(target) = self.touch(Place::Displacement(nodes.mortar(node))) else { return };
             self.state.mortar_rows[c] = target;
             of_rows[c] = self.scatter.and_then(|s| s.place(f, node));
-            let has_equations = self.layout.numbering.rank[nodes.mortar(node)] != NO_RANK;
+            let has_equations = self.layout.numbering.has_equations(nodes.mortar(node));
             if self.scatter.is_some() && of_rows[c].is_none() && has_equations {
                 let row = Place::Displacement(nodes.mortar(node));
                 return self.note(true, row, Place::Displacement(self.node_of(Span::Own, 0)));

@@ -115,6 +115,12 @@ pub struct Numbering {
 }
 
 impl Numbering {
+    /// Whether a node has an equation.
+    #[inline]
+    pub fn has_equations(&self, node: usize) -> bool {
+        self.rank[node] != NO_RANK
+    }
+
     /// On the heap `[bytes]`.
     pub fn bytes(&self) -> usize {
         let numbers = self.rank.capacity() + self.node.capacity() + self.scalars.capacity();

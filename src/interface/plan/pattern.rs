@@ -194,7 +194,7 @@ impl<'a> Finder<'a> {
     pub fn find(&mut self, node: usize, extras: &[(u32, u32)], keys: &mut Vec<Key>) -> Result<()> {
         keys.clear();
         self.search += 1;
-        if self.numbering.rank[node] == NO_RANK {
+        if !self.numbering.has_equations(node) {
             return Ok(());
         }
         let n1 = self.setup.nonmortar.len();

@@ -122,7 +122,7 @@ impl Scatter {
 
     /// Takes the rows of a node, whose columns were found last; `at`: the offset of each node met.
     pub fn take(&mut self, setup: Sides, node: usize, numbering: &Numbering, finder: &Finder, at: &[u16]) {
-        if numbering.rank[node] == NO_RANK {
+        if !numbering.has_equations(node) {
             return;
         }
         let (nodes, n1) = (Nodes::of(setup), setup.nonmortar.len());
