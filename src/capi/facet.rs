@@ -8,6 +8,15 @@ use crate::mortar::{MultiplierSpace, NonmortarFrame, ParentFacet};
 use crate::normal;
 use crate::shape::{MAX_CORNERS, MAX_PARENT_NODES, Parent, Shape};
 
+/// Refuses nodes at the same place.
+#[inline]
+fn check_distinct(nodes: &[Vec3], name: &str) -> Result<()> {
+    match (1..nodes.len()).find(|&k| nodes[..k].contains(&nodes[k])) {
+        None => Ok(()),
+        Some(k) => Err(Error::new(Kind::DuplicateNode, text!("{name} has two nodes at the same place (node {k})"))),
+    }
+}
+
 /// A facet from `n` points of an argument called `name`; allocates nothing.
 pub(super) fn facet(n: i32, x: *const f64, name: &str) -> Result<Facet> {
     if !(3..=MAX_CORNERS as i32).contains(&n) {
@@ -19,9 +28,7 @@ pub(super) fn facet(n: i32, x: *const f64, name: &str) -> Result<Facet> {
     let Some(shape) = Shape::of(n) else { unreachable!("3 or 4 nodes") };
     let at = |k: usize| Vec3::new(values[3 * k], values[3 * k + 1], values[3 * k + 2]);
     let nodes = [at(0), at(1), at(2), at(if n == 4 { 3 } else { 0 })];
-    if let Some(k) = (1..n).find(|&k| nodes[..k].contains(&nodes[k])) {
-        return Err(Error::new(Kind::DuplicateNode, text!("{name} has two nodes at the same place (node {k})")));
-    }
+    check_distinct(&nodes[..n], name)?;
     Ok(Facet { nodes, shape })
 }
 
@@ -34,9 +41,7 @@ pub(super) fn parent(n: i32, x: *const f64, name: &str) -> Result<ParentFacet> {
     let values = raw::numbers(x, 3 * kind.n, name)?;
     let mut nodes = [Vec3::zeros(); MAX_PARENT_NODES];
     nodes.iter_mut().zip(values.chunks_exact(3)).for_each(|(x, v)| *x = Vec3::from_column_slice(v));
-    if let Some(k) = (1..kind.n).find(|&k| nodes[..k].contains(&nodes[k])) {
-        return Err(Error::new(Kind::DuplicateNode, text!("{name} has two nodes at the same place (node {k})")));
-    }
+    check_distinct(&nodes[..kind.n], name)?;
     ParentFacet::new(&nodes[..kind.n]).map_err(raw::named(name))
 }
 
