@@ -117,6 +117,7 @@ fn matrix(rows: &[f64; 9], name: &str) -> Result<Mat3> {
 }
 
 /// (drow_dnow, drow_dprevious) of the a-th of an array of responses.
+#[inline(always)] // called from loops over nodes, of linear and of quadratic facets
 pub(super) fn read_response(first: *const stickslip_node_response, a: usize) -> Result<(Mat3, Mat3)> {
     raw::check(first, "responses")?;
     // The first response begins with its size, by which the array's members lie apart.
