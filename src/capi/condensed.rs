@@ -1,8 +1,8 @@
 //! Systems without multipliers: for hosts that have no place for them, that do not pivot, or that want multigrid.
 
+use super::choice::choose;
 use super::guard::guard;
 use super::handle::{either, flat, handle, sizes, stickslip_interface};
-use super::options::choose;
 use super::point::Point;
 use super::raw;
 use super::tangent::{Triplets, read_csr};

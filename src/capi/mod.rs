@@ -64,6 +64,7 @@ mod layout;
 
 mod pair;
 mod pair_in;
+mod space;
 
 mod pair_state;
 mod parents;
@@ -78,6 +79,7 @@ mod facet_tangent;
 
 mod equilibrium;
 
+mod choice;
 mod fp_environment;
 mod guard;
 mod pair_out;

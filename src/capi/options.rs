@@ -1,7 +1,9 @@
 //! Options of an interface and their numbers.
 
+use super::choice::{check_reserved, choose, unnamed};
 use super::guard::guard;
 use super::sized::{self, Sized64};
+use super::space::{STICKSLIP_SPACE_CORNER, multiplier_space as read_multiplier_space};
 use crate::error::{Error, Kind, Result, Text};
 use crate::geometry::AnalyticShape;
 use crate::interface::{
@@ -202,6 +204,11 @@ pub struct stickslip_options {
     /// Threads that `stickslip_interface_plan_values`, the residual and a commit may use, 1 to 256; 0 (default): the calling one
     /// alone. They end with the call. The results are the same bit for bit, whatever their number.
     pub threads: i32,
+    /// STICKSLIP_SPACE_..., for interfaces with quadratic facets: where the multipliers of such facets stand. Nodes of
+    /// the non-mortar side at which no facet has a multiplier have no multiplier equations (-1).
+    pub multiplier_space: i32,
+    /// 0.
+    pub reserved: i32,
 }
 
 // SAFETY: repr(C), struct_size first, numbers only.
@@ -246,27 +253,11 @@ pub unsafe extern "C" fn stickslip_options_init(options: *mut stickslip_options,
             shear_limit: 0.0,
             normals: STICKSLIP_NORMALS_COMMITTED,
             threads: 0,
+            multiplier_space: STICKSLIP_SPACE_CORNER,
+            reserved: 0,
         };
         sized::initialise(options, struct_size, defaults, "options")
     })
-}
-
-/// Looks up an option's number in a table of what this version has; numbers below `named` exist in the
-/// header.
-pub(super) fn choose<T: Copy>(value: i32, name: &str, available: &[T], named: i32) -> Result<T> {
-    let choice = usize::try_from(value).ok().and_then(|k| available.get(k));
-    choice.copied().ok_or_else(|| {
-        if (0..named).contains(&value) {
-            Error::new(Kind::Unsupported, text!("{name} = {value} is not available in this version"))
-        } else {
-            unnamed(value, name, named)
-        }
-    })
-}
-
-#[cold]
-fn unnamed(value: i32, name: &str, named: i32) -> Error {
-    Error::new(Kind::InvalidValue, text!("{name} is {value}; the header names 0 to {}", named - 1))
 }
 
 fn read_shortcuts(off: i32) -> Result<Shortcuts> {
@@ -417,6 +408,8 @@ pub(super) fn read_options(p: *const stickslip_options) -> Result<Choices> {
         shear_limit,
         normals,
         threads,
+        multiplier_space,
+        reserved,
     } = sized::read(p)?;
     let friction = law(friction, "options.friction")?;
     let sides = [MortarSide::Deformable, MortarSide::Rigid, MortarSide::Rigid];
@@ -456,8 +449,10 @@ pub(super) fn read_options(p: *const stickslip_options) -> Result<Choices> {
         (0.0, e) => Stiffness::Modulus(e),
         (r, _) => Stiffness::Augmentation(r),
     };
+    check_reserved(reserved, "options.reserved")?;
     let options = Options {
         basis,
+        space: read_multiplier_space(multiplier_space, "options.multiplier_space")?,
         form: choose(form, "options.form", &[Form::Multiplier, Form::Augmented], 2)?,
         slip: slip_measure(slip, "options.slip")?,
         weights: choose(weights, "options.weights", &[Weights::Current, Weights::Committed, Weights::Reference], 3)?,

@@ -1,5 +1,6 @@
 //! What comes in of a pair of facets: the pair, its weights and their derivatives, tractions and responses.
 
+use super::choice::check_reserved;
 use super::facet::{facet, set_neighbours};
 use super::layout::column_major;
 use super::node::stickslip_node_response;
@@ -7,17 +8,13 @@ use super::options::{element_line, rule};
 use super::pair_out::slot;
 use super::raw;
 use super::sized::{self, Sized64};
+use super::space::multiplier_space;
 use crate::element::NodeTangent;
-use crate::error::{Error, Kind, Result};
+use crate::error::Result;
 use crate::geometry::{Facet, Vec3};
-use crate::mortar::{MultiplierSpace, NonmortarFrame, PAIR_NODES, PairWeights, Segment, WeightDerivatives};
+use crate::mortar::{NonmortarFrame, PAIR_NODES, PairWeights, Segment, WeightDerivatives};
 use crate::quadrature::Rule;
 use crate::shape::{MAX_CORNERS, MAX_NODES};
-
-/// Multipliers of a quadratic facet at its corners, with the linear functions of these: the recommended ones.
-pub const STICKSLIP_SPACE_CORNER: i32 = 0;
-/// Multipliers at all nodes, with the functions of the linear parts that the facet is cut into.
-pub const STICKSLIP_SPACE_SUB: i32 = 1;
 
 /// A pair of facets, non-mortar first. Node order: right-hand, seen from outside each body.
 #[repr(C)]
@@ -65,26 +62,12 @@ impl stickslip_pair {
     }
 }
 
-/// The space of a STICKSLIP_SPACE_... value.
-pub(super) fn multiplier_space(value: i32) -> Result<MultiplierSpace> {
-    match value {
-        STICKSLIP_SPACE_CORNER => Ok(MultiplierSpace::Corner),
-        STICKSLIP_SPACE_SUB => Ok(MultiplierSpace::Sub),
-        _ => {
-            let text = text!("pair.multiplier_space is {value}; 0 (corner) or 1 (sub) are allowed");
-            Err(Error::new(Kind::InvalidValue, text))
-        }
-    }
-}
-
 /// What a caller gives, with numbers that mean something.
 #[inline]
 pub(super) fn read(p: *const stickslip_pair) -> Result<stickslip_pair> {
     let raw = sized::read(p)?;
-    multiplier_space(raw.multiplier_space)?;
-    if raw.reserved != 0 {
-        return Err(Error::new(Kind::InvalidValue, text!("pair.reserved is {}; it must be 0", raw.reserved)));
-    }
+    multiplier_space(raw.multiplier_space, "pair.multiplier_space")?;
+    check_reserved(raw.reserved, "pair.reserved")?;
     Ok(raw)
 }
 

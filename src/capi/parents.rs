@@ -5,8 +5,9 @@ use super::facet::parent;
 use super::layout::{Matrix, column_major};
 use super::node::stickslip_node_response;
 use super::options::rule;
-use super::pair_in::{multiplier_space, node_tangents, stickslip_pair, tractions};
+use super::pair_in::{node_tangents, stickslip_pair, tractions};
 use super::raw::{self, Output};
+use super::space::multiplier_space;
 use crate::element::{NodeTangent, ParentPair};
 use crate::error::{Error, Kind, Result};
 use crate::geometry::{Mat3, Vec3};
@@ -119,7 +120,7 @@ impl Parents {
             let text = "pair.element_points and pair.neighbour_normals are for linear facets; leave them 0 and NULL";
             return Err(Error::new(Kind::Unsupported, text));
         }
-        Ok(Parents { one, two, space: multiplier_space(given.multiplier_space)? })
+        Ok(Parents { one, two, space: multiplier_space(given.multiplier_space, "pair.multiplier_space")? })
     }
 
     fn pair(&self) -> ParentPair<'_> {

@@ -1,8 +1,8 @@
 //! The interface's tangent by a plan: its entries once, values as often as they suffice.
 
+use super::choice::choose;
 use super::guard::guard;
 use super::handle::{either, handle, stickslip_interface};
-use super::options::choose;
 use super::point::Point;
 use super::raw;
 use crate::error::{Error, Kind, Result};

@@ -35,8 +35,8 @@ pub struct stickslip_surface {
     /// has the entries facet_offsets[f] to facet_offsets[f + 1] - 1 of C's array; counted from 1, the
     /// entries facet_offsets(f) + 1 to facet_offsets(f + 1) of Fortran's.
     pub facet_offsets: *const i64,
-    /// Node numbers in the index base, 3 (tri3) or 4 (quad4) a facet, right-hand order seen from outside
-    /// the body.
+    /// Node numbers in the index base, 3 (tri3), 4 (quad4), 6 (tri6), 8 (quad8) or 9 (quad9) a facet, right-hand order seen
+    /// from outside the body: corners, then the mid nodes, k between the corners k and k + 1, then the centre.
     pub facet_nodes: *const i64,
     /// 3 n_nodes displacement equations, node by node, in the index base; -1: none (prescribed), whatever the
     /// index base.
@@ -90,14 +90,16 @@ pub(super) fn read_facets(s: &stickslip_surface, base: i64, side: &str) -> Resul
     let coordinates = raw::numbers(s.coordinates, 3 * n, name("coordinates"))?;
     let offsets = raw::slice(s.facet_offsets, n_facets + 1, name("facet_offsets"))?;
     let wrong = |f: usize| {
-        let text = text!("{side}.facet_offsets[{f}] is {}; offsets start at 0 and grow by 3 or 4", offsets[f]);
+        let text = text!("{side}.facet_offsets[{f}] is {}; offsets start at 0 and grow by 3, 4, 6, 8 or 9", offsets[f]);
         Error::new(Kind::InvalidSize, text)
     };
     if offsets[0] != 0 {
         return Err(wrong(0));
     }
     // Checked before anything is read through them: the last offset is the length of facet_nodes.
-    if let Some(f) = (1..=n_facets).find(|&f| !matches!(offsets[f].checked_sub(offsets[f - 1]), Some(3 | 4))) {
+    if let Some(f) =
+        (1..=n_facets).find(|&f| !matches!(offsets[f].checked_sub(offsets[f - 1]), Some(3 | 4 | 6 | 8 | 9)))
+    {
         return Err(wrong(f));
     }
     let nodes = raw::slice(s.facet_nodes, offsets[n_facets] as usize, name("facet_nodes"))?;

@@ -11,6 +11,6 @@ mod tangent;
 pub use dual_facet::DualFacet;
 pub use facet_pairs::{FacetPairs, facet_sums};
 pub use pair_matrix::{Lines, write_pair};
-pub use parent::ParentPair;
+pub use parent::{ParentPair, parent_force};
 pub use residual::pair_force;
 pub use tangent::{FacetResponse, NodeTangent, PairNow, PairTangent, RowColumns, frozen_rows, gap_rows, row_columns};

@@ -17,6 +17,11 @@ pub struct ParentPair<'a> {
     pub multipliers: usize,
 }
 
+/// sum_A n_A t_A of the k-th column of n_AB or n_AC: its node's share of the tractions `[F]`.
+pub fn parent_force(n: &[[f64; MAX_PARENT_NODES]; MAX_PARENT_NODES], traction: &[Vec3], k: usize) -> Vec3 {
+    traction.iter().zip(n).map(|(t, row)| t * row[k]).sum()
+}
+
 impl ParentPair<'_> {
     /// Nodes, non-mortar ones first.
     pub fn n(&self) -> (usize, usize) {
@@ -51,7 +56,8 @@ impl ParentPair<'_> {
         let (n1, n2) = self.n();
         let mut force = [Vec3::zeros(); 2 * MAX_PARENT_NODES];
         for (k, force) in force.iter_mut().enumerate().take(n1 + n2) {
-            *force = traction.iter().enumerate().map(|(a, t)| t * self.weight(w, a, k)).sum();
+            let n1 = self.one.parent.n;
+            *force = if k < n1 { parent_force(&w.ab, traction, k) } else { -parent_force(&w.ac, traction, k - n1) };
         }
         force
     }

@@ -7,9 +7,9 @@ use super::data::extent::{Extent, Scope};
 use super::data::history::History;
 use super::data::node_data::check_length;
 use super::data::options::Weights;
-use super::data::pairs::PairRecord;
+use super::data::pairs::{PairRecord, ParentRecord, Weighted};
 use super::data::setup::Setup;
-use super::data::surface::are_same;
+use super::data::surface::{Surface, are_same};
 use super::inspect::bytes;
 use super::pairing::given::{Given, Step, check_finite};
 use super::pairing::work::Work;
@@ -122,9 +122,24 @@ impl<const N: usize> Cache<N> {
         self.active().map_or(&history.pairs, |k| &k.pairs)
     }
 
+    /// The pairs whose weights act between these surfaces.
+    pub fn weighted<'a>(&'a self, surfaces: (&Surface, &Surface), history: &'a History) -> Weighted<'a> {
+        self.active().map_or(history.weighted(surfaces), |k| k.weighted(surfaces))
+    }
+
+    /// Those of parents.
+    pub fn parents<'a>(&'a self, history: &'a History) -> &'a [ParentRecord] {
+        self.active().map_or(&history.parents, |k| &k.parents)
+    }
+
     /// The same, with the law's answers and what stages work with.
-    pub fn acting<'a>(&'a mut self, history: &'a History) -> (&'a [PairRecord], &'a Answers<N>, &'a mut Work) {
-        let pairs = self.kept.scope.map_or(&history.pairs, |_| &self.kept.active.pairs);
+    pub fn acting<'a>(
+        &'a mut self,
+        surfaces: (&Surface, &Surface),
+        history: &'a History,
+    ) -> (Weighted<'a>, &'a Answers<N>, &'a mut Work) {
+        let active = self.kept.scope.map(|_| &self.kept.active);
+        let pairs = active.map_or(history.weighted(surfaces), |k| k.weighted(surfaces));
         (pairs, &self.answers, &mut self.work)
     }
 
@@ -145,7 +160,10 @@ impl<const N: usize> Cache<N> {
     }
 
     fn count_pairs(&mut self, history: &History) {
-        self.work.counters.pairs_active = self.pairs(history).len();
+        self.work.counters.pairs_active = match self.parents(history).len() {
+            0 => self.pairs(history).len(),
+            parents => parents,
+        };
     }
 
     /// Makes up for weights of t_n that a commit has left out because the surfaces were apart. Frozen weights never are.
@@ -170,7 +188,7 @@ impl<const N: usize> Cache<N> {
         extent: Extent,
     ) -> Result<()> {
         if setup.options.effective_weights() != Weights::Current {
-            self.work.counters.pairs_reused += step.history.pairs.len() as i64;
+            self.work.counters.pairs_reused += step.history.weighted(setup.surfaces()).len() as i64;
             self.count_pairs(&step.history);
             return Ok(());
         }

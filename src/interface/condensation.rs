@@ -82,7 +82,8 @@ impl<const N: usize> Contact<N> {
         check_length("host", host.len(), self.setup.nonmortar.len())?;
         let (elimination, lambda) = self.eliminated((x1, x2), lambda)?;
         let (given, responses) = (self.given(), &self.cache.answers().responses.nodes);
-        let mut forces = residual::residual(given, self.cache.pairs(&self.step.history), &lambda, responses)?;
+        let mut forces =
+            residual::residual(given, self.cache.weighted(self.setup.surfaces(), given.history()), &lambda, responses)?;
         forces.nonmortar.iter_mut().zip(host).for_each(|(force, host)| *force += host);
         let (rows, gains) = elimination.residual(&forces.nonmortar, forces.mortar.len(), &self.rows()?)?;
         forces.mortar.iter_mut().zip(gains).for_each(|(force, gain)| *force += gain);

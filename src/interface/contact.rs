@@ -299,7 +299,7 @@ impl<const N: usize> Contact<N> {
             moved.move_to(history, x1, x2)?;
             // Also where mu is 0 at every node: it may be set before the next step. Tied nodes keep their first gap.
             if history.keeps == Keeps::Slip {
-                assemble(surfaces, &history.pairs, (x1, x2), &mut work.room.sums)?;
+                assemble(surfaces, history.weighted(surfaces), (x1, x2), &mut work.room.sums)?;
                 moved.gap.iter_mut().zip(&work.room.sums).for_each(|(to, (_, gap))| *to = *gap);
             }
             Settled { history: moved, filter: None, active: false }

@@ -114,7 +114,7 @@ impl<const N: usize> Contact<N> {
         sums: Option<&[NodeSums]>,
     ) -> Result<&Residual<N>> {
         self.respond(x1, x2, lambda, sums)?;
-        let (pairs, answers, work) = self.cache.acting(&self.step.history);
+        let (pairs, answers, work) = self.cache.acting(self.setup.surfaces(), &self.step.history);
         let (given, responses) = (Given { setup: &self.setup, step: &self.step }, &answers.responses.nodes);
         residual::refresh(given, pairs, lambda, responses, &mut work.room.vectors, &mut self.residual)?;
         Ok(&self.residual)

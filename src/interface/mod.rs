@@ -35,13 +35,15 @@ pub use data::crosspoints::{Crosspoint, InterfaceNodes, crosspoints};
 pub use data::csr::Csr;
 pub use data::extent::Extent;
 pub use data::facet_gaps::FacetGaps;
+pub use data::facet_nodes::{FacetNodes, ParentNodes};
 pub use data::history::History;
 pub use data::options::{
     COVERAGE_MIN, Form, Friction, MODULUS_FACTOR, MortarSide, MultiplierBasis, NO_WEAK_COVERAGE, NewContact, Normals,
     Options, RowScale, Scheme, Shortcuts, Stiffness, TURN_MAX, Tangent, Weights,
 };
-pub use data::pairs::PairRecord;
-pub use data::surface::{FacetNodes, NO_EQUATION, Surface};
+pub use data::pairs::{PairRecord, ParentRecord};
+pub use data::parents::Parents;
+pub use data::surface::{NO_EQUATION, Surface};
 pub use inspect::diagnosis::{Cause, Diagnosis, SUSPECT, Suspect, WorstPair};
 pub use inspect::equilibrium::{Equilibrium, Largest, ROUNDINGS, Scales};
 pub use inspect::report::{Cover, Finding, NodeCover, Report};

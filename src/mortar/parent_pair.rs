@@ -196,13 +196,19 @@ pub fn parent_weights(
 }
 
 impl ParentWeights {
-    fn add(&mut self, rows: &[usize], weights: &SubWeights) {
+    /// Adds those of a pair of sub-facets, whose rows are these nodes of the parent.
+    pub fn add(&mut self, rows: &[usize], weights: &SubWeights) {
         for (a, &row) in rows.iter().enumerate() {
             for b in 0..MAX_PARENT_NODES {
                 self.ab[row][b] += weights.ab[a][b];
                 self.ac[row][b] += weights.ac[a][b];
             }
         }
+    }
+
+    /// What is covered of the area of multiplier `a` [L^2].
+    pub fn coverage(&self, a: usize) -> f64 {
+        self.ab[a].iter().sum()
     }
 }
 

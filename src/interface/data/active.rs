@@ -1,12 +1,12 @@
 //! The pairs that are active at a configuration, with their weights: what stage 1 gives. Overlaps are not among it: they take
 //! three times as much memory as the weights, and are found again where they are needed (`pairing/overlaps.rs`).
 
-use super::pairs::PairRecord;
-use super::surface::are_same;
+use super::pairs::{PairRecord, ParentRecord, Weighted};
+use super::surface::{Surface, are_same};
 use crate::error::{Error, Result};
 use crate::geometry::Vec3;
 use crate::memory::{self, Store};
-use crate::mortar::PairWeights;
+use crate::mortar::{PairWeights, ParentWeights, SubWeights};
 
 /// The active pairs at one configuration. Its memory is kept from one configuration to the next.
 #[derive(Debug, Default)]
@@ -21,6 +21,10 @@ pub struct Active {
     pub areas: Vec<f64>,
     /// The weights as they were integrated, of each pair, where those in `pairs` are of the dual basis; else none.
     pub integrated: Vec<PairWeights>,
+    /// The pairs of parents, sorted, where either side has quadratic facets; else none.
+    pub parents: Vec<ParentRecord>,
+    /// Their weights as they were integrated, where those in `parents` are of the dual basis; else none.
+    pub integrated_parents: Vec<ParentWeights>,
     /// Pairs that the search found here and the filter did not admit; none against an analytic mortar side.
     pub excluded: Vec<(u32, u32)>,
     /// Whether these are all that the filter of the step does not admit, of facets that it says can have a pair.
@@ -43,6 +47,8 @@ impl Active {
         self.pairs.clear();
         self.areas.clear();
         self.integrated.clear();
+        self.parents.clear();
+        self.integrated_parents.clear();
         self.excluded.clear();
         self.knows_excluded = false;
         self.refused = None;
@@ -60,14 +66,42 @@ impl Active {
         self.pairs.store(pair)
     }
 
+    /// Adds what a pair of parts has to the pair of their parents `one` and `two`; those of `one` alone are the last ones.
+    /// `rows`: which of the nodes of `one` the rows of the weights are.
+    pub fn add_share(&mut self, (one, two): (usize, usize), rows: &[usize], share: &SubWeights) -> Result<()> {
+        let place = match self.parents.iter().rposition(|p| p.one != one || p.two == two) {
+            Some(k) if self.parents[k].one == one => k,
+            _ => {
+                self.parents.store(ParentRecord { one, two, weights: ParentWeights::default() })?;
+                self.parents.len() - 1
+            }
+        };
+        self.parents[place].weights.add(rows, share);
+        Ok(())
+    }
+
+    /// The weights of the pair of parents in this place as they were integrated.
+    pub fn integrated_parent(&self, place: usize) -> &ParentWeights {
+        self.integrated_parents.get(place).unwrap_or(&self.parents[place].weights)
+    }
+
     /// Adds the pairs of facets that follow, and what is wrong with them.
     pub fn append(&mut self, other: &mut Active) -> Result<()> {
         memory::extend(&mut self.pairs, &other.pairs)?;
         memory::extend(&mut self.areas, &other.areas)?;
         memory::extend(&mut self.integrated, &other.integrated)?;
+        memory::extend(&mut self.parents, &other.parents)?;
         memory::extend(&mut self.excluded, &other.excluded)?;
         self.refused = self.refused.take().or(other.refused.take());
         Ok(())
+    }
+
+    /// The pairs whose weights act between these surfaces.
+    pub fn weighted(&self, surfaces: (&Surface, &Surface)) -> Weighted<'_> {
+        match surfaces.0.parents {
+            None => Weighted::Facets(&self.pairs),
+            Some(_) => Weighted::Parents(&self.parents),
+        }
     }
 
     /// The integrated weights of the pair in this place, whatever the multipliers' basis makes of them.

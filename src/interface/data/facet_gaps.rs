@@ -10,7 +10,7 @@
 //! surfaces that are closed all over remain linear.
 
 use super::active::Active;
-use super::surface::{Surface, at_facet};
+use super::surface::Surface;
 use crate::error::Result;
 use crate::geometry::{Mat3, Plane, Vec3};
 use crate::memory::{self, Stored};
@@ -126,5 +126,5 @@ fn is_open(shares: &[Vec3; MAX_CORNERS]) -> bool {
 }
 
 fn plane(one: &Surface, f: usize, x1: &[Vec3]) -> Result<Plane> {
-    Plane::of(&one.facet(f, x1)).map_err(at_facet(one.side, f))
+    Plane::of(&one.facet(f, x1)).map_err(one.at(f))
 }

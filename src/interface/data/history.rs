@@ -3,14 +3,15 @@
 //! slip to measure: no gaps, no slip, and weights only where they are frozen. Tied surfaces keep the gap, that of their
 //! facets too (`facet_gaps.rs`), and no slip.
 
+use super::active::Active;
 use super::facet_gaps::{FacetGaps, REALS_PER_FACET};
 use super::options::{Options, Weights};
-use super::pairs::PairRecord;
+use super::pairs::{PairRecord, ParentRecord, Weighted};
+use super::surface::Surface;
 use crate::error::{Error, Kind, Result};
 use crate::geometry::Vec3;
 use crate::law::Remembers;
 use crate::memory;
-use crate::shape::{MAX_CORNERS, MAX_NODES};
 
 /// What a history holds besides configuration, normals, areas and coverage.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -55,10 +56,10 @@ impl Keeps {
         2 + self.gaps_and_slips().iter().sum::<usize>()
     }
 
-    /// Reals of a history of n1 + n2 nodes, so many non-mortar facets and pairs.
-    pub fn reals(self, [n1, n2]: [usize; 2], facets: usize, pairs: usize) -> usize {
+    /// Reals of a history of n1 + n2 nodes and so many non-mortar facets, but for its pairs.
+    pub fn reals(self, [n1, n2]: [usize; 2], facets: usize) -> usize {
         let facets = if self.facet_gaps() { REALS_PER_FACET * facets } else { 0 };
-        (3 * self.vectors() + 2) * n1 + 3 * n2 + facets + REALS_PER_PAIR * pairs
+        (3 * self.vectors() + 2) * n1 + 3 * n2 + facets
     }
 }
 
@@ -87,24 +88,34 @@ pub struct History {
     pub slip: Vec<Vec3>,
     /// n(t_n), sorted by facets; none without friction, unless they are frozen.
     pub pairs: Vec<PairRecord>,
+    /// In place of them, where either side has quadratic facets: those of pairs of parents.
+    pub parents: Vec<ParentRecord>,
     /// Whether coverage, gap and pairs are known; if not they are 0, and made up for when the surfaces come near.
     pub integrated: bool,
 }
 
-/// A pair's weights n_AB and n_AC.
-pub const REALS_PER_PAIR: usize = 2 * MAX_CORNERS * MAX_NODES;
-
 impl History {
     /// Takes each node's coverage and, of gaps and weights of t_n, what it keeps; leaves the rest. All of it or nothing.
-    pub(crate) fn fill(&mut self, pairs: &mut Vec<PairRecord>, sums: &[(f64, Vec3)]) -> Result<()> {
+    pub(crate) fn fill(&mut self, active: &mut Active, has_parents: bool, sums: &[(f64, Vec3)]) -> Result<()> {
         // There is room for as many: zeros are there.
         self.coverage.iter_mut().zip(sums).for_each(|(to, (coverage, _))| *to = *coverage);
         self.gap.iter_mut().zip(sums).for_each(|(to, (_, gap))| *to = *gap);
         if self.keeps != Keeps::Nothing {
-            std::mem::swap(&mut self.pairs, pairs);
+            match has_parents {
+                false => std::mem::swap(&mut self.pairs, &mut active.pairs),
+                true => std::mem::swap(&mut self.parents, &mut active.parents),
+            }
         }
         self.integrated = true;
         Ok(())
+    }
+
+    /// The pairs of t_n between these surfaces.
+    pub(crate) fn weighted(&self, surfaces: (&Surface, &Surface)) -> Weighted<'_> {
+        match surfaces.0.parents {
+            None => Weighted::Facets(&self.pairs),
+            Some(_) => Weighted::Parents(&self.parents),
+        }
     }
 
     /// None yet: memory for one.
@@ -121,6 +132,7 @@ impl History {
             facet_gaps: FacetGaps::default(),
             slip: Vec::new(),
             pairs: Vec::new(),
+            parents: Vec::new(),
             integrated: false,
         }
     }
@@ -138,6 +150,7 @@ impl History {
         self.facet_gaps.clear();
         memory::refill(&mut self.slip, Vec3::zeros(), slip * n1)?;
         self.pairs.clear();
+        self.parents.clear();
         Ok(())
     }
 
@@ -152,7 +165,8 @@ impl History {
         memory::recopy(&mut self.gap, &other.gap)?;
         self.facet_gaps.recopy(&other.facet_gaps)?;
         memory::recopy(&mut self.slip, &other.slip)?;
-        memory::recopy(&mut self.pairs, &other.pairs)
+        memory::recopy(&mut self.pairs, &other.pairs)?;
+        memory::recopy(&mut self.parents, &other.parents)
     }
 
     /// Refuses a history that has left the range of doubles: nothing could be measured from it, and no import takes it.

@@ -39,7 +39,12 @@ pub fn of(options: &Options, nonmortar: &Surface, mortar: &Surface) -> [i64; LEN
     let sides = [nonmortar, mortar];
     let facets = sides.iter().flat_map(|s| {
         let facets = s.facets.iter().flat_map(|f| std::iter::once(f.len).chain(f.nodes));
-        std::iter::once(s.facets.len()).chain(facets).map(|word| word as u64)
+        // Of parents the nodes of their parts, how many these are, and where the multipliers stand.
+        let parents = s.parents.iter().flat_map(|p| {
+            let kinds = p.facets.iter().map(|f| f.parent.n);
+            std::iter::once(p.space as usize).chain(kinds)
+        });
+        std::iter::once(s.facets.len()).chain(facets).chain(parents).map(|word| word as u64)
     });
     // 0 and -0 are one place: a text file may not tell them apart.
     let coordinates = sides.iter().flat_map(|s| s.reference.iter().flatten().map(|v| (v + 0.0).to_bits()));

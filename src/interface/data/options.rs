@@ -3,6 +3,7 @@
 use crate::error::{Error, Kind, Result};
 pub use crate::law::Friction;
 use crate::law::SlipMeasure;
+use crate::mortar::MultiplierSpace;
 use crate::quadrature::{DEGREE_5, Rule};
 use std::f64::consts::PI;
 
@@ -139,6 +140,8 @@ pub struct Options {
     pub form: Form,
     /// Standard or dual multipliers.
     pub basis: MultiplierBasis,
+    /// Where multipliers of quadratic facets stand.
+    pub space: MultiplierSpace,
     /// Slip measure.
     pub slip: SlipMeasure,
     /// Current or frozen weights.
@@ -203,6 +206,7 @@ impl Options {
         Options {
             form: Form::default(),
             basis: MultiplierBasis::default(),
+            space: MultiplierSpace::Corner,
             slip: SlipMeasure::default(),
             weights: Weights::default(),
             normals: Normals::default(),

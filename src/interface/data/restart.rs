@@ -6,15 +6,16 @@
 
 use super::checksum::{self, PLACE};
 use super::facet_gaps::{FacetGaps, REALS_PER_FACET};
-use super::history::{History, Keeps, REALS_PER_PAIR};
+use super::history::{History, Keeps};
 use super::meaning;
 use super::options::{Options, Weights};
-use super::pairs::PairRecord;
+use super::pairs::{PairRecord, ParentRecord};
 use super::surface::Surface;
 use crate::error::{Error, Kind, Result, Text};
 use crate::geometry::{Plane, Vec3};
 use crate::memory::{self, Store, Stored};
-use crate::mortar::{NonmortarFrame, PairWeights};
+use crate::mortar::{NonmortarFrame, PairWeights, ParentWeights};
+use crate::shape::{MAX_CORNERS, MAX_NODES, MAX_PARENT_NODES};
 
 /// First integer: "stickslip history", layout 5.
 const LAYOUT: i64 = 0x57_1C_05;
@@ -22,6 +23,10 @@ const LAYOUT: i64 = 0x57_1C_05;
 const OLD_LAYOUTS: std::ops::RangeInclusive<i64> = 0x57_1C_01..=0x57_1C_04;
 /// Integers before the lists.
 const HEADER: usize = 2 + meaning::LENGTH + 3;
+/// A pair's weights n_AB and n_AC.
+const REALS_PER_PAIR: usize = 2 * MAX_CORNERS * MAX_NODES;
+/// Those of a pair of parents.
+const REALS_PER_PARENT_PAIR: usize = 2 * MAX_PARENT_NODES * MAX_PARENT_NODES;
 /// A normal farther from unit length than rounding takes it was not written by the library.
 const UNIT: f64 = 1e-10;
 
@@ -75,15 +80,20 @@ fn vectors(rest: &mut &[f64], n: usize) -> Result<Vec<Vec3>> {
 impl History {
     /// Lengths of the flat arrays: (integers, reals).
     pub fn flat_size(&self) -> (usize, usize) {
-        let n = self.pairs.len();
-        (HEADER + 1 + 2 * n, self.keeps.reals([self.x1.len(), self.x2.len()], self.facet_gaps.len(), n))
+        let (n, per_pair) = match self.parents.len() {
+            0 => (self.pairs.len(), REALS_PER_PAIR),
+            n => (n, REALS_PER_PARENT_PAIR),
+        };
+        let nodes = [self.x1.len(), self.x2.len()];
+        (HEADER + 1 + 2 * n, self.keeps.reals(nodes, self.facet_gaps.len()) + n * per_pair)
     }
 
     /// The history as flat arrays.
     pub fn export(&self, host: &Host) -> Result<(Vec<i64>, Vec<f64>)> {
         let (n_integers, n_reals) = self.flat_size();
         let (mut integers, mut reals) = (memory::with_room(n_integers)?, memory::with_room(n_reals)?);
-        let counts = [self.commits, self.x1.len() as i64, self.x2.len() as i64, self.pairs.len() as i64];
+        let pairs = self.pairs.len() + self.parents.len(); // one of the lists is empty
+        let counts = [self.commits, self.x1.len() as i64, self.x2.len() as i64, pairs as i64];
         integers.store_all([LAYOUT, 0].into_iter().chain(host.meaning).chain(counts))?;
         for x in [&self.x1, &self.x2, &self.normals, &self.gap, &self.slip] {
             reals.store_all(x.iter().flat_map(|v| v.iter().copied()))?;
@@ -92,6 +102,10 @@ impl History {
         reals.store_all(self.areas.iter().copied())?;
         reals.store_all(self.coverage.iter().copied())?;
         for pair in &self.pairs {
+            integers.store_all([pair.one as i64, pair.two as i64].into_iter())?;
+            reals.store_all(pair.weights.ab.iter().chain(&pair.weights.ac).flatten().copied())?;
+        }
+        for pair in &self.parents {
             integers.store_all([pair.one as i64, pair.two as i64].into_iter())?;
             reals.store_all(pair.weights.ab.iter().chain(&pair.weights.ac).flatten().copied())?;
         }
@@ -107,7 +121,9 @@ impl History {
         let &Host { surfaces: (nonmortar, mortar), keeps, frozen, .. } = host;
         let (n1, n2) = (nonmortar.len(), mortar.len());
         let (commits, facets) = check_header((integers, reals), host)?;
-        let n_reals = keeps.reals([n1, n2], nonmortar.facets.len(), facets.len() / 2);
+        let has_parents = nonmortar.parents.is_some();
+        let per_pair = if has_parents { REALS_PER_PARENT_PAIR } else { REALS_PER_PAIR };
+        let n_reals = keeps.reals([n1, n2], nonmortar.facets.len()) + facets.len() / 2 * per_pair;
         if reals.len() != n_reals {
             return mismatch(text!("reals has {} entries; {n_reals} are needed", reals.len()));
         }
@@ -118,21 +134,42 @@ impl History {
         let kept = if keeps.facet_gaps() { nonmortar.facets.len() } else { 0 };
         let facet_gaps = FacetGaps::from_reals(take(&mut rest, REALS_PER_FACET * kept))?;
         let (areas, coverage) = (memory::copied(take(&mut rest, n1))?, memory::copied(take(&mut rest, n1))?);
-        let mut pairs = memory::with_room(facets.len() / 2)?;
+        let (mut pairs, mut parents) = (Vec::new(), Vec::new());
         for f in facets.chunks_exact(2) {
             let index = |v: i64, n: usize| usize::try_from(v).ok().filter(|&i| i < n);
-            let (Some(one), Some(two)) = (index(f[0], nonmortar.facets.len()), index(f[1], mortar.facets.len())) else {
+            let (Some(one), Some(two)) = (index(f[0], nonmortar.host_facets()), index(f[1], mortar.host_facets()))
+            else {
                 return mismatch(text!("a pair names the facets {} and {}, which do not exist", f[0], f[1]));
             };
+            let values = take(&mut rest, per_pair);
+            if has_parents {
+                let mut weights = ParentWeights::default();
+                weights.ab.as_flattened_mut().copy_from_slice(&values[..REALS_PER_PARENT_PAIR / 2]);
+                weights.ac.as_flattened_mut().copy_from_slice(&values[REALS_PER_PARENT_PAIR / 2..]);
+                parents.store(ParentRecord { one, two, weights })?;
+                continue;
+            }
             let mut weights = PairWeights::default();
-            let values = take(&mut rest, REALS_PER_PAIR);
             weights.ab.as_flattened_mut().copy_from_slice(&values[..REALS_PER_PAIR / 2]);
             weights.ac.as_flattened_mut().copy_from_slice(&values[REALS_PER_PAIR / 2..]);
             pairs.store(PairRecord { one, two, weights })?;
         }
         let integrated = true;
-        let history =
-            History { keeps, commits, x1, x2, normals, areas, coverage, gap, facet_gaps, slip, pairs, integrated };
+        let history = History {
+            keeps,
+            commits,
+            x1,
+            x2,
+            normals,
+            areas,
+            coverage,
+            gap,
+            facet_gaps,
+            slip,
+            pairs,
+            parents,
+            integrated,
+        };
         check_contents(&history, (nonmortar, mortar), frozen)?;
         match mortar.check_rigid(&history.x2) {
             Ok(()) => Ok(history),
@@ -187,7 +224,9 @@ fn check_header<'a>((integers, reals): (&'a [i64], &[f64]), host: &Host) -> Resu
 
 /// Refuses numbers that no evaluation could use.
 fn check_contents(history: &History, (nonmortar, mortar): (&Surface, &Surface), frozen: bool) -> Result<()> {
-    if !history.pairs.is_sorted_by(|p, q| (p.one, p.two) < (q.one, q.two)) {
+    let is_sorted = history.pairs.is_sorted_by(|p, q| (p.one, p.two) < (q.one, q.two))
+        && history.parents.is_sorted_by(|p, q| (p.one, p.two) < (q.one, q.two));
+    if !is_sorted {
         return mismatch("the pairs are not sorted by their facets, or one comes twice");
     }
     if let Some(k) = history.areas.iter().position(|&a| a <= 0.0) {

@@ -5,9 +5,12 @@ use super::effects::Effects;
 use super::frame::check_frame;
 use super::node_data::NodeData;
 use super::numbering;
-use super::options::{MortarSide, Options};
+use super::options::{Form, MortarSide, MultiplierBasis, Options, Scheme};
+use super::parents::Parents;
 use super::surface::{NO_EQUATION, Surface, frames};
 use crate::error::{Error, Kind, Result};
+use crate::memory;
+use crate::mortar::MultiplierSpace;
 
 /// What an interface is.
 #[derive(Debug)]
@@ -29,7 +32,7 @@ pub struct Setup<const N: usize> {
 impl<const N: usize> Setup<N> {
     /// Checks what a host gives; `mu` of every node.
     pub fn new(
-        (nonmortar, mortar): (Surface, Surface),
+        (mut nonmortar, mut mortar): (Surface, Surface),
         multiplier_equations: Vec<[i64; N]>,
         options: Options,
         mu: Vec<f64>,
@@ -60,6 +63,7 @@ impl<const N: usize> Setup<N> {
             frames(&mortar, &mortar.reference)?;
         }
         check_frame(&nonmortar, &mortar)?;
+        put_parents([&mut nonmortar, &mut mortar], &multiplier_equations, &options)?;
         let nodes = NodeData::new(&multiplier_equations, mu)?;
         Ok(Setup { options, effects, nonmortar, mortar, multiplier_equations, nodes })
     }
@@ -69,8 +73,67 @@ impl<const N: usize> Setup<N> {
         (&self.nonmortar, &self.mortar)
     }
 
+    /// Whether either side has quadratic facets: gaps and forces are those of parents then.
+    pub fn has_parents(&self) -> bool {
+        self.nonmortar.parents.is_some()
+    }
+
     /// Whether a node has a multiplier at all.
     pub fn has_multiplier(&self, a: usize) -> bool {
         self.multiplier_equations[a].iter().any(|&e| e != NO_EQUATION)
+    }
+}
+
+/// Where either side has quadratic facets, gives both sides parents and puts the multipliers where the options say.
+fn put_parents<const N: usize>(
+    sides: [&mut Surface; 2],
+    multiplier_equations: &[[i64; N]],
+    options: &Options,
+) -> Result<()> {
+    if sides.iter().all(|side| side.parents.is_none()) {
+        return Ok(());
+    }
+    let [nonmortar, mortar] = sides;
+    let unsupported = |text: &'static str| Err(Error::new(Kind::Unsupported, text));
+    if mortar.analytic.is_some() {
+        return unsupported("quadratic facets against an analytic mortar surface; give it facets");
+    }
+    if !matches!(options.scheme, Scheme::Segments) {
+        return unsupported(
+            "options.element_points with quadratic facets: they are integrated over overlaps; leave it 0",
+        );
+    }
+    if options.form == Form::Augmented {
+        return unsupported("the augmented form with quadratic facets; take STICKSLIP_FORM_MULTIPLIER");
+    }
+    if options.follows_normals() {
+        return unsupported("normals of now with quadratic facets; take STICKSLIP_NORMALS_COMMITTED");
+    }
+    let is_quadratic = nonmortar.parents.is_some();
+    if is_quadratic && options.basis == MultiplierBasis::Dual && options.space == MultiplierSpace::Sub {
+        return unsupported(
+            "dual multipliers at all nodes of quadratic facets: their areas would not be positive; take STICKSLIP_SPACE_CORNER, or the standard basis",
+        );
+    }
+    for side in [&mut *nonmortar, &mut *mortar] {
+        if side.parents.is_none() {
+            side.parents = Some(Parents::of_linear(&side.facets)?);
+        }
+    }
+    let Some(parents) = &mut nonmortar.parents else { return Ok(()) };
+    parents.put(options.space)?;
+    let mut has_row = memory::filled(false, nonmortar.reference.len())?;
+    for part in 0..nonmortar.facets.len() {
+        parents.rows(part).as_slice().iter().for_each(|&a| has_row[a] = true);
+    }
+    let numbered = |a: &usize| !has_row[*a] && multiplier_equations[*a].iter().any(|&e| e != NO_EQUATION);
+    match (0..has_row.len()).find(numbered) {
+        None => Ok(()),
+        Some(a) => {
+            let text = text!(
+                "non-mortar node {a} has a multiplier's equation, but multipliers of quadratic facets stand at their corners; give it none (-1), or take STICKSLIP_SPACE_SUB"
+            );
+            Err(Error::new(Kind::InvalidValue, text))
+        }
     }
 }

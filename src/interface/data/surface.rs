@@ -1,12 +1,14 @@
 //! One side of an interface: its nodes, facets and equation numbers, checked once.
 
+use super::facet_nodes::{FacetNodes, ParentNodes};
+use super::parents::Parents;
 use crate::adjacency::{SharedEdge, shared_edges};
 use crate::error::{Error, Kind, Result, Text};
 use crate::geometry::{AnalyticShape, AnalyticSurface, FRAME, Facet, Plane, Vec3, check_rigid_motion};
-use crate::memory::{self, Store};
+use crate::memory::{self, Store, Stored};
 use crate::mortar::NonmortarFrame;
 use crate::normal;
-use crate::shape::{MAX_NODES, Shape};
+use crate::shape::{MAX_NODES, MAX_PARENT_NODES, Parent, Shape};
 use nalgebra::SVector;
 
 /// Neighbouring facets whose normals have a scalar product below this lie on each other: a wedge thinner than a tenth
@@ -18,22 +20,6 @@ pub const NO_EQUATION: i64 = -1;
 
 /// No facet: the edge is on the rim.
 pub const NO_FACET: u32 = u32::MAX;
-
-/// A facet's nodes as indices into the surface.
-#[derive(Clone, Copy, Debug)]
-pub struct FacetNodes {
-    /// Indices; entries beyond `len` repeat the first one.
-    pub nodes: [usize; MAX_NODES],
-    /// 3 or 4.
-    pub len: usize,
-}
-
-impl FacetNodes {
-    /// The nodes in use.
-    pub fn as_slice(&self) -> &[usize] {
-        &self.nodes[..self.len]
-    }
-}
 
 /// A checked surface.
 #[derive(Clone, Debug)]
@@ -52,6 +38,8 @@ pub struct Surface {
     pub edges: Vec<SharedEdge>,
     /// Per facet the one beyond each edge, or `NO_FACET`.
     pub neighbours: Vec<[u32; MAX_NODES]>,
+    /// Facets as the host has them, where a side of the interface has quadratic ones; `facets` are their parts then.
+    pub parents: Option<Parents>,
     /// The shape of an analytic surface, whose one facet are the four points of its frame; `None`: real facets.
     pub analytic: Option<AnalyticShape>,
 }
@@ -83,13 +71,14 @@ impl Surface {
         if let Some(k) = reference.iter().position(|x| !x.iter().all(|v| v.is_finite())) {
             return fail(Kind::NotFinite, text!("coordinates of node {k} are not finite"));
         }
-        let mut kept = memory::with_room(facets.len())?;
+        let mut given = memory::with_room(facets.len())?;
         let mut used = memory::filled(false, n)?;
         for (f, nodes) in facets.iter().enumerate() {
-            if !(3..=MAX_NODES).contains(&nodes.len()) {
-                return fail(Kind::InvalidSize, text!("facet {f} has {} nodes; 3 or 4 are allowed", nodes.len()));
-            }
-            let mut indices = [0; MAX_NODES];
+            let Some(parent) = Parent::of(nodes.len()) else {
+                let text = text!("facet {f} has {} nodes; 3, 4, 6, 8 or 9 are allowed", nodes.len());
+                return fail(Kind::InvalidSize, text);
+            };
+            let mut indices = [0; MAX_PARENT_NODES];
             for (k, &node) in nodes.iter().enumerate() {
                 let index = usize::try_from(node).ok().filter(|&i| i < n);
                 let Some(index) = index else {
@@ -106,11 +95,24 @@ impl Surface {
             }
             let first = indices[0];
             indices[nodes.len()..].fill(first);
-            kept.store(FacetNodes { nodes: indices, len: nodes.len() })?;
+            given.store(ParentNodes { parent, nodes: indices })?;
         }
         if let Some(k) = used.iter().position(|u| !u) {
             return fail(Kind::InvalidValue, text!("node {k} belongs to no facet; leave it out"));
         }
+        let (parents, kept) = match given.iter().any(|facet| facet.parent.n > MAX_NODES) {
+            false => {
+                let linear = |f: &ParentNodes| FacetNodes { nodes: [0, 1, 2, 3].map(|k| f.nodes[k]), len: f.parent.n };
+                (None, given.iter().map(linear).stored()?)
+            }
+            true => {
+                let (parents, parts) = Parents::of(given)?;
+                if let Err(e) = parents.check(&reference) {
+                    return fail(e.kind, e.message);
+                }
+                (Some(parents), parts)
+            }
+        };
         let edges = match shared_edges(kept.len(), |f| kept[f].as_slice()) {
             Ok(edges) => edges,
             Err(e) => return fail(e.kind, e.message),
@@ -119,15 +121,26 @@ impl Surface {
             return fail(Kind::InvalidSize, text!("{} facets; fewer than {NO_FACET} are allowed", kept.len()));
         }
         let neighbours = neighbours(&kept, &edges)?;
-        let mut surface =
-            Surface { side, reference, facets: kept, equations, longest_edge: 0.0, edges, neighbours, analytic: None };
+        let mut surface = Surface {
+            side,
+            reference,
+            facets: kept,
+            equations,
+            longest_edge: 0.0,
+            edges,
+            neighbours,
+            parents,
+            analytic: None,
+        };
         surface.longest_edge = surface.longest_edge_at(&surface.reference);
         match surface.folded_edge() {
             None => Ok(surface),
             Some(SharedEdge { nodes: [a, b], facets: [f, g] }) => fail(
                 Kind::InvalidValue,
                 text!(
-                    "facets {f} and {g} lie on each other: the surface is folded along the edge of nodes {a} and {b}"
+                    "facets {} and {} lie on each other: the surface is folded along the edge of nodes {a} and {b}",
+                    surface.host_facet(f),
+                    surface.host_facet(g)
                 ),
             ),
         }
@@ -162,6 +175,7 @@ impl Surface {
             longest_edge: 0.0,
             edges: Vec::new(),
             neighbours: memory::filled([NO_FACET; MAX_NODES], 1)?,
+            parents: None,
             analytic: Some(shape),
         };
         match surface.analytic_at(&surface.reference) {
@@ -201,6 +215,13 @@ impl Surface {
     /// The same, in place of what was in `sums`.
     pub(crate) fn add_normals(&self, x: &[Vec3], sums: &mut Vec<Vec3>) -> Result<()> {
         memory::refill(sums, Vec3::zeros(), self.len())?;
+        if let Some(parents) = &self.parents {
+            for (f, facet) in parents.facets.iter().enumerate() {
+                let at = parents.at(f, x);
+                facet.as_slice().iter().enumerate().for_each(|(k, &a)| sums[a] += at.normal(k));
+            }
+            return Ok(());
+        }
         for (f, nodes) in self.facets.iter().enumerate() {
             let facet = self.facet(f, x);
             nodes.as_slice().iter().enumerate().for_each(|(k, &a)| sums[a] += normal::corner_normal(&facet, k));
@@ -217,7 +238,7 @@ impl Surface {
 
     /// The frame of a facet; `normals`: those of all planes.
     pub(crate) fn frame(&self, f: usize, x: &[Vec3], normals: &[Vec3]) -> Result<NonmortarFrame> {
-        let mut frame = NonmortarFrame::new(&self.facet(f, x)).map_err(at_facet(self.side, f))?;
+        let mut frame = NonmortarFrame::new(&self.facet(f, x)).map_err(self.at(f))?;
         for (beyond, &g) in frame.plane.beyond.iter_mut().zip(&self.neighbours[f]) {
             if g != NO_FACET {
                 *beyond = Some(normals[g as usize]);
@@ -229,7 +250,7 @@ impl Surface {
     /// The first refusal of any facet's frame at `x`, if there is one.
     #[cold]
     pub(crate) fn refused_frame(&self, x: &[Vec3]) -> Option<Error> {
-        let refusal = |f: usize| NonmortarFrame::new(&self.facet(f, x)).map_err(at_facet(self.side, f)).err();
+        let refusal = |f: usize| NonmortarFrame::new(&self.facet(f, x)).map_err(self.at(f)).err();
         (0..self.facets.len()).find_map(refusal)
     }
 
@@ -244,11 +265,6 @@ impl Surface {
         let shape = Shape::of(nodes.len).expect("a checked facet has 3 or 4 nodes");
         Facet { nodes: nodes.nodes.map(|k| x[k]), shape }
     }
-}
-
-/// Names the facets in a refusal.
-pub fn at_facet(side: &str, facet: usize) -> impl FnOnce(Error) -> Error {
-    move |e| Error::new(e.kind, text!("{side} facet {facet}: {}", e.message))
 }
 
 /// The frames of all facets of a surface.

@@ -2,6 +2,7 @@
 
 use crate::interface::data::active::Active;
 use crate::interface::data::history::History;
+use crate::interface::data::parents::Parents;
 use crate::interface::data::setup::Setup;
 use crate::interface::data::surface::Surface;
 use crate::interface::pairing::candidates::KeptTree;
@@ -19,13 +20,23 @@ pub fn heap<T>(v: &Vec<T>) -> usize {
 }
 
 fn of_surface(s: &Surface) -> usize {
-    heap(&s.reference) + heap(&s.facets) + heap(&s.equations) + heap(&s.edges) + heap(&s.neighbours)
+    heap(&s.reference)
+        + heap(&s.facets)
+        + heap(&s.equations)
+        + heap(&s.edges)
+        + heap(&s.neighbours)
+        + s.parents.as_ref().map_or(0, Parents::bytes)
 }
 
 /// Of a history.
 pub fn of_history(h: &History) -> usize {
     let vectors = [&h.x1, &h.x2, &h.normals, &h.gap, &h.slip];
-    vectors.map(heap).iter().sum::<usize>() + heap(&h.areas) + heap(&h.coverage) + h.facet_gaps.bytes() + heap(&h.pairs)
+    vectors.map(heap).iter().sum::<usize>()
+        + heap(&h.areas)
+        + heap(&h.coverage)
+        + h.facet_gaps.bytes()
+        + heap(&h.pairs)
+        + heap(&h.parents)
 }
 
 fn of_filter(filter: &Filter) -> usize {

@@ -166,9 +166,10 @@ fn mean_gaps<const N: usize>(
         _ => false,
     };
     let known = if is_new { Some(&now) } else { known };
+    let weighted = known.map_or(given.history().weighted(surfaces), |k| k.weighted(surfaces));
     let pairs = known.map_or(&given.history().pairs, |k| &k.pairs);
     let sums = &mut work.room.sums;
-    assemble(surfaces, pairs, (&x1, &x2), sums)?;
+    assemble(surfaces, weighted, (&x1, &x2), sums)?;
     let rates = rates(surfaces, pairs, (&x1, &x2))?;
     work.room.anew = now;
     let away = LookingAway::at(given, (&x1, &x2))?;
@@ -201,7 +202,7 @@ fn rates((one, two): (&Surface, &Surface), pairs: &[PairRecord], (x1, x2): (&[Ve
     for pair in pairs.iter().filter(|_| two.analytic.is_none()) {
         let (e, n) = (one.facet(pair.one, x1).area_vector(), two.facet(pair.two, x2).area_vector());
         let rate = e.norm() * n.norm() / e.dot(&n).abs().max(f64::MIN_POSITIVE);
-        one.facets[pair.one].as_slice().iter().for_each(|&a| rates[a] = rates[a].max(rate));
+        one.rows(pair.one).as_slice().iter().for_each(|&a| rates[a] = rates[a].max(rate));
     }
     Ok(rates)
 }

@@ -6,7 +6,7 @@ use crate::error::{Result, Text};
 use crate::geometry::{Plane, Vec3};
 use crate::interface::data::active::Active;
 use crate::interface::data::options::Weights;
-use crate::interface::data::pairs::PairRecord;
+use crate::interface::data::pairs::Weighted;
 use crate::interface::data::surface::{Surface, frames};
 use crate::interface::pairing::boxes::Aabb;
 use crate::interface::pairing::filter::LEAST_OPPOSITION;
@@ -139,12 +139,12 @@ pub fn report<const N: usize>(given: Given<N>, work: &mut Work, (x1, x2): (&[Vec
         (Weights::Current, Some(filter)) => {
             integrate(surfaces, options, filter, work, (x1, x2), &mut now, None)?;
             for found in layers::find(surfaces, (options, filter), &mut work.room, &now)? {
-                surfaces.0.facets[found?.under].as_slice().iter().for_each(|&a| several[a] = true);
+                surfaces.0.rows(found?.under).as_slice().iter().for_each(|&a| several[a] = true);
             }
-            (&now.pairs, x1)
+            (now.weighted(surfaces), x1)
         }
-        (Weights::Committed, _) => (&h.pairs, &h.x1[..]),
-        (_, _) => (&h.pairs, &surfaces.0.reference[..]),
+        (Weights::Committed, _) => (h.weighted(surfaces), &h.x1[..]),
+        (_, _) => (h.weighted(surfaces), &surfaces.0.reference[..]),
     };
     let mut sums = Vec::new();
     assemble(surfaces, pairs, (x1, x2), &mut sums)?;
@@ -186,28 +186,45 @@ pub fn report<const N: usize>(given: Given<N>, work: &mut Work, (x1, x2): (&[Vec
 }
 
 /// Per non-mortar node the most that a facet around it is covered, over the facet's area at `x`.
-fn covered_times(one: &Surface, pairs: &[PairRecord], x: &[Vec3]) -> Result<Vec<f64>> {
-    let mut covered = memory::filled(0.0, one.facets.len())?;
-    for pair in pairs {
-        covered[pair.one] += (0..one.facets[pair.one].len).map(|k| pair.weights.coverage(k)).sum::<f64>();
-    }
+fn covered_times(one: &Surface, pairs: Weighted, x: &[Vec3]) -> Result<Vec<f64>> {
+    let mut covered = memory::filled(0.0, one.host_facets())?;
+    each_coverage(one, pairs, |[f, _], _, area| {
+        covered[f] += area;
+        Ok(())
+    })?;
     let mut most = memory::filled(0.0_f64, one.len())?;
-    for (f, facet) in one.facets.iter().enumerate().filter(|(f, _)| covered[*f] > 0.0) {
-        let area: f64 = NonmortarFrame::new(&one.facet(f, x))?.nodal_areas().iter().sum();
-        facet.as_slice().iter().for_each(|&a| most[a] = most[a].max(covered[f] / area));
+    for f in (0..covered.len()).filter(|&f| covered[f] > 0.0) {
+        let area: f64 = match &one.parents {
+            None => NonmortarFrame::new(&one.facet(f, x))?.nodal_areas().iter().sum(),
+            Some(parents) => parents.at(f, x).areas(parents.space)?.iter().sum(),
+        };
+        one.host_nodes(f).iter().for_each(|&a| most[a] = most[a].max(covered[f] / area));
     }
     Ok(most)
 }
 
-/// Per non-mortar node the mortar facets that overlap with the facets around it.
-fn claims(one: &Surface, pairs: &[PairRecord]) -> Result<Vec<i64>> {
-    let mut claims = Vec::new();
-    for pair in pairs {
-        let facet = &one.facets[pair.one];
-        // A pair's share of dual weights may be negative; it is 0 only where nothing overlaps.
-        let covered = (0..facet.len).filter(|&k| pair.weights.coverage(k) != 0.0);
-        claims.store_all(covered.map(|k| (facet.nodes[k], pair.two)))?;
+/// Gives the facets of the host of each pair with each of its multipliers' nodes and what it covers of it [L^2].
+fn each_coverage(
+    one: &Surface,
+    pairs: Weighted,
+    mut give: impl FnMut([usize; 2], usize, f64) -> Result<()>,
+) -> Result<()> {
+    let nodes = |f: usize| one.host_nodes(f).iter().take(one.multipliers(f)).enumerate();
+    match pairs {
+        Weighted::Facets(pairs) => pairs.iter().try_for_each(|pair| {
+            nodes(pair.one).try_for_each(|(k, &a)| give([pair.one, pair.two], a, pair.weights.coverage(k)))
+        }),
+        Weighted::Parents(pairs) => pairs.iter().try_for_each(|pair| {
+            nodes(pair.one).try_for_each(|(k, &a)| give([pair.one, pair.two], a, pair.weights.coverage(k)))
+        }),
     }
+}
+
+/// Per non-mortar node the mortar facets that overlap with the facets around it.
+fn claims(one: &Surface, pairs: Weighted) -> Result<Vec<i64>> {
+    let mut claims = Vec::new();
+    // A pair's share of dual weights may be negative; it is 0 only where nothing overlaps.
+    each_coverage(one, pairs, |[_, g], a, area| if area != 0.0 { claims.store((a, g)) } else { Ok(()) })?;
     memory::sort(&mut claims)?;
     claims.dedup();
     let mut counts = memory::filled(0, one.len())?;

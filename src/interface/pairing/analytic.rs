@@ -10,7 +10,7 @@ use crate::geometry::{AnalyticSurface, Facet, Plane, Vec3};
 use crate::interface::data::active::Active;
 use crate::interface::data::options::Options;
 use crate::interface::data::pairs::PairRecord;
-use crate::interface::data::surface::{Surface, at_facet};
+use crate::interface::data::surface::Surface;
 use crate::memory::{self, Store, Stored};
 use crate::mortar::analytic_weights;
 use std::time::Instant;
@@ -37,7 +37,7 @@ pub fn faces_at(
     (f, skin): (usize, f64),
 ) -> Result<bool> {
     let facet = one.facet(f, x1);
-    Ok(faces(&facet, &Plane::of(&facet).map_err(at_facet(one.side, f))?, surface, options, skin))
+    Ok(faces(&facet, &Plane::of(&facet).map_err(one.at(f))?, surface, options, skin))
 }
 
 /// Whether this facet faces the surface.
@@ -91,7 +91,7 @@ pub fn integrate(
         counters.pairs_tested += 1;
         let is_pair = if options.follows_normals() { faces_now((i, &frame.plane)) } else { facing[i] };
         if is_pair {
-            let weights = analytic_weights(&frame, &surface, options.rule).map_err(at_facet(one.side, i))?;
+            let weights = analytic_weights(&frame, &surface, options.rule).map_err(one.at(i))?;
             active.pairs.store(PairRecord { one: i, two: 0, weights })?;
             if let Some(following) = following {
                 following(active, place, (&frame, &[]));

@@ -10,7 +10,7 @@
 
 use crate::error::Result;
 use crate::geometry::{Facet, Plane, Vec3};
-use crate::interface::data::surface::{Surface, at_facet};
+use crate::interface::data::surface::Surface;
 use crate::memory::{self, Stored};
 
 /// Facets whose normals oppose each other less than this are no pair: beyond 80 degrees the
@@ -68,7 +68,7 @@ impl Side {
     pub fn new(surface: &Surface, x: &[Vec3]) -> Result<Side> {
         let facet = |f: usize| {
             let facet = surface.facet(f, x);
-            Plane::of(&facet).map(|plane| (facet, plane)).map_err(at_facet(surface.side, f))
+            Plane::of(&facet).map(|plane| (facet, plane)).map_err(surface.at(f))
         };
         let facets = (0..surface.facets.len()).map(facet).stored_if_ok()?;
         let normal = |f: usize| facets[f].1.e;

@@ -8,7 +8,7 @@ use super::search::Tree;
 use crate::error::Result;
 use crate::geometry::Vec3;
 use crate::interface::data::options::{Options, Scheme};
-use crate::interface::data::surface::{Surface, at_facet, frames};
+use crate::interface::data::surface::{Surface, frames};
 use crate::memory::{self, Stored};
 use crate::mortar::{CellPoints, Segment};
 
@@ -26,7 +26,7 @@ pub fn partly_covered(
     let pairs = candidates((one, two), options, &frames, (x1, x2), (tree, filter), 0.0, &mut 0)?;
     let mut covered = memory::filled(0, frames.len())?;
     for (i, j) in pairs {
-        let segment = Segment::of_points(&frames[i], &two.facet(j, x2), line).map_err(at_facet(two.side, j))?;
+        let segment = Segment::of_points(&frames[i], &two.facet(j, x2), line).map_err(two.at(j))?;
         covered[i] |= segment.and_then(|s| s.points).map_or(0, |points| points.inside);
     }
     covered.iter().zip(&frames).map(|(covered, frame)| *covered != CellPoints::all(frame, line)).stored()

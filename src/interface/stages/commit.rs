@@ -11,12 +11,13 @@ use crate::interface::data::active::Active;
 use crate::interface::data::extent::Extent;
 use crate::interface::data::history::{History, Keeps};
 use crate::interface::data::options::{Options, Scheme};
-use crate::interface::data::surface::{Surface, at_facet};
+use crate::interface::data::parents::Parents;
+use crate::interface::data::surface::Surface;
 use crate::interface::pairing::filter::Filter;
 use crate::interface::pairing::settle;
 use crate::interface::pairing::work::Work;
 use crate::memory::{self, Store};
-use crate::mortar::NonmortarFrame;
+use crate::mortar::{MultiplierSpace, NonmortarFrame};
 use crate::normal;
 
 /// What a configuration that becomes t_n has settled; nothing has slipped yet.
@@ -65,7 +66,12 @@ pub fn settled_at(
     } else {
         match found_by {
             // A facet of a hybrid scheme may be integrated in another way from here on.
-            Some(Filter::Facets(old)) if active.knows_excluded && !matches!(options.scheme, Scheme::Hybrid(_)) => {
+            // Nor are shares of parents' weights taken out one by one.
+            Some(Filter::Facets(old))
+                if active.knows_excluded
+                    && !matches!(options.scheme, Scheme::Hybrid(_))
+                    && nonmortar.parents.is_none() =>
+            {
                 keep(surfaces, options, (old, &filter), work, active)?;
             }
             _ => {
@@ -82,15 +88,20 @@ pub fn settled_at(
         }
         layers::refuse(surfaces, (options, &filter), &mut work.room, active)?;
         let sums = &mut work.room.sums;
-        assemble(surfaces, &active.pairs, (x1, x2), sums)?;
+        assemble(surfaces, active.weighted(surfaces), (x1, x2), sums)?;
         if keeps.facet_gaps() {
             history.facet_gaps.take(surfaces, active, sums)?;
         }
-        history.fill(&mut active.pairs, sums)?;
+        history.fill(active, nonmortar.parents.is_some(), sums)?;
         is_active = keeps == Keeps::Nothing;
     }
-    for (f, facet) in nonmortar.facets.iter().enumerate() {
-        let frame = NonmortarFrame::new(&nonmortar.facet(f, x1)).map_err(at_facet(nonmortar.side, f))?;
+    if let Some(parents) = &nonmortar.parents {
+        check_parents(surfaces, (x1, x2))?;
+        nodal_areas(parents, x1, &mut history.areas)?;
+    }
+    let linear = if nonmortar.parents.is_none() { &nonmortar.facets[..] } else { &[] };
+    for (f, facet) in linear.iter().enumerate() {
+        let frame = NonmortarFrame::new(&nonmortar.facet(f, x1)).map_err(nonmortar.at(f))?;
         facet.as_slice().iter().zip(frame.nodal_areas()).for_each(|(&node, area)| history.areas[node] += area);
     }
     nonmortar.add_normals(x1, &mut work.room.vectors)?;
@@ -115,7 +126,30 @@ pub fn complete(
 ) -> Result<()> {
     let (mut new, mut sums) = (Active::default(), Vec::new());
     acting(surfaces, options, filter, work, (&history.x1, &history.x2), &mut new)?;
-    assemble(surfaces, &new.pairs, (&history.x1, &history.x2), &mut sums)?;
+    assemble(surfaces, new.weighted(surfaces), (&history.x1, &history.x2), &mut sums)?;
     layers::refuse(surfaces, (options, filter), &mut work.room, &new)?;
-    history.fill(&mut new.pairs, &sums)
+    history.fill(&mut new, surfaces.0.parents.is_some(), &sums)
+}
+
+/// Refuses quadratic facets of either side whose mapping has no area somewhere, or turns over.
+fn check_parents((one, two): (&Surface, &Surface), (x1, x2): (&[Vec3], &[Vec3])) -> Result<()> {
+    for (side, x) in [(one, x1), (two, x2)] {
+        let named = |e: Error| Error::new(e.kind, text!("{} {}", side.side, e.message));
+        side.parents.as_ref().map_or(Ok(()), |parents| parents.check(x)).map_err(named)?;
+    }
+    Ok(())
+}
+
+/// Adds the areas of the nodes of parents: int N_A da of the multipliers. Nodes at which no facet has a multiplier are given the area
+/// that they would have with multipliers everywhere: nothing depends on it.
+fn nodal_areas(parents: &Parents, x1: &[Vec3], areas: &mut [f64]) -> Result<()> {
+    for space in [parents.space, MultiplierSpace::Sub] {
+        let mut add = memory::filled(0.0, areas.len())?;
+        for (f, facet) in parents.facets.iter().enumerate() {
+            let own = parents.at(f, x1).areas(space)?;
+            facet.as_slice().iter().zip(own).for_each(|(&node, area)| add[node] += area);
+        }
+        areas.iter_mut().zip(add).filter(|(area, _)| **area == 0.0).for_each(|(area, add)| *area = add);
+    }
+    Ok(())
 }

@@ -4,7 +4,7 @@
 use crate::dual::{DualBasis, FacetSums};
 use crate::error::{Error, Result};
 use crate::interface::data::active::Active;
-use crate::interface::data::surface::{Surface, at_facet};
+use crate::interface::data::surface::Surface;
 use crate::memory::{self, Store};
 use crate::mortar::{NonmortarFrame, PairWeights, Segment};
 
@@ -42,7 +42,7 @@ pub fn dual_basis(
         _ => FacetSums::of(frame, segments.iter().zip(weights)),
     };
     let basis = DualBasis::of(&sums).map_err(|error| of_points(segments, &error).unwrap_or(error));
-    Ok((sums, basis.map_err(at_facet(nonmortar.side, f))?))
+    Ok((sums, basis.map_err(nonmortar.at(f))?))
 }
 
 /// Why a facet has no dual basis, where it is integrated by points: how many of them there are, and what to do.

@@ -10,14 +10,16 @@ use crate::interface::data::active::Active;
 use crate::interface::data::counters::Counters;
 use crate::interface::data::options::Options;
 use crate::interface::data::pairs::PairRecord;
-use crate::interface::data::surface::{Surface, at_facet};
+use crate::interface::data::parents::Parents;
+use crate::interface::data::surface::Surface;
 use crate::interface::pairing::analytic;
 use crate::interface::pairing::candidates::{Search, by_points};
 use crate::interface::pairing::filter::{FacetFilter, Filter};
 use crate::interface::pairing::overlaps::overlap;
 use crate::interface::pairing::work::{Following, ROW, Room, ThreadRoom, Work};
 use crate::memory::{self, Store};
-use crate::mortar::PairWeights;
+use crate::mortar::{NonmortarFrame, PairWeights, Segment, rule_for, sub_weights};
+use crate::quadrature::Rule;
 use crate::threads;
 use std::ops::Range;
 use std::sync::{Mutex, PoisonError};
@@ -76,7 +78,9 @@ fn by_facets(
         threads::share(chunks.len(), threads, |k, ThreadRoom { counters, room }| {
             let mut chunk = chunks[k].lock().unwrap_or_else(PoisonError::into_inner);
             chunk.clear();
-            stage.of_facets(k * CHUNK..facets.min((k + 1) * CHUNK), (counters, room), &mut chunk)
+            // No facet of the host is in two chunks.
+            let [first, end] = [k, k + 1].map(|k| one.begin_of_host(facets.min(k * CHUNK)));
+            stage.of_facets(first..end, (counters, room), &mut chunk)
         })?;
         for chunk in chunks {
             active.append(chunk.get_mut().unwrap_or_else(PoisonError::into_inner))?;
@@ -85,6 +89,9 @@ fn by_facets(
     }
     active.normals = normals;
     active.knows_excluded = true;
+    for of_one in active.parents.chunk_by_mut(|p, q| p.one == q.one) {
+        of_one.sort_unstable_by_key(|pair| pair.two);
+    }
     Ok(())
 }
 
@@ -109,6 +116,7 @@ impl Stage<'_> {
         active: &mut Active,
     ) -> Result<()> {
         let Stage { surfaces: (one, two), options, filter, x: (x1, x2), ref search, normals, following } = *self;
+        let parents = one.parents.as_ref().zip(two.parents.as_ref());
         let mut start = Instant::now();
         for first in (facets.start..facets.end).step_by(ROW) {
             room.frames.clear();
@@ -138,10 +146,13 @@ impl Stage<'_> {
                         Ok(Some(segment)) => segment,
                         Ok(None) => continue,
                         Err(_) => {
-                            return found.map(|_| ()).map_err(|e| at_facet(one.side, i)(at_facet(two.side, j)(e)));
+                            return found.map(|_| ()).map_err(|e| one.at(i)(two.at(j)(e)));
                         }
                     };
-                    let weights = PairWeights::integrate(frame, segment, options.rule);
+                    let weights = match parents {
+                        None => PairWeights::integrate(frame, segment, options.rule),
+                        Some(parents) => of_parts(parents, (i, j), (frame, segment, options.rule), active)?,
+                    };
                     active.add(PairRecord { one: i, two: j, weights }, segment.area)?;
                     if let (true, Ok(Some(segment))) = (following.is_some(), found) {
                         room.segments.store(segment)?;
@@ -160,4 +171,24 @@ impl Stage<'_> {
         }
         Ok(())
     }
+}
+
+/// Adds the weights of a pair of parts to those of their parents; gives what is covered of each of its rows.
+#[inline(never)]
+fn of_parts(
+    (one, two): (&Parents, &Parents),
+    (i, j): (usize, usize),
+    (frame, segment, rule): (&NonmortarFrame, &Segment, &'static Rule),
+    active: &mut Active,
+) -> Result<PairWeights> {
+    let (f, g) = (one.parent(i), two.parent(j));
+    let sides = ((one.facets[f].parent, one.sub(i)), (two.facets[g].parent, two.sub(j)));
+    let rule = rule_for(rule, [sides.0.0, sides.1.0]);
+    let share = sub_weights((frame, segment, rule), sides, one.space, None);
+    active.add_share((f, g), one.space.nodes(sides.0.0, sides.0.1), &share)?;
+    let mut weights = PairWeights::default();
+    for (a, row) in share.ab.iter().enumerate() {
+        weights.ab[a][a] = row.iter().sum();
+    }
+    Ok(weights)
 }

@@ -6,7 +6,7 @@ use crate::error::Result;
 use crate::interface::data::active::Active;
 use crate::interface::data::options::{MultiplierBasis, Options};
 use crate::interface::data::pairs::PairRecord;
-use crate::interface::data::surface::{Surface, at_facet};
+use crate::interface::data::surface::Surface;
 use crate::interface::pairing::candidates::{Search, by_points};
 use crate::interface::pairing::filter::{FacetFilter, Filter};
 use crate::interface::pairing::overlaps::{FacetOverlaps, overlap};
@@ -78,7 +78,7 @@ pub fn keep(
         let line = by_points(options, filter, f);
         for &(_, j) in &room.candidates {
             let found = overlap(frame, &two.facet(j, x2), line);
-            if let Some(segment) = found.map_err(|e| at_facet(one.side, f)(at_facet(two.side, j)(e)))? {
+            if let Some(segment) = found.map_err(|e| one.at(f)(two.at(j)(e)))? {
                 let weights = PairWeights::integrate(frame, &segment, options.rule);
                 room.added.store((PairRecord { one: f, two: j, weights }, segment.area))?;
             }

@@ -1,14 +1,16 @@
 //! Stage 3: the forces of both sides, and the multiplier rows.
 
-use crate::element::pair_force;
+use crate::element::{pair_force, parent_force};
 use crate::error::Result;
 use crate::geometry::Vec3;
 use crate::interface::data::multiplier::force_traction;
-use crate::interface::data::pairs::PairRecord;
+use crate::interface::data::pairs::{ParentRecord, Weighted};
+use crate::interface::data::surface::Surface;
 use crate::interface::pairing::given::Given;
 use crate::law::NodeResponse;
 use crate::memory::{self, Store};
 use crate::mortar::MORTAR;
+use crate::shape::MAX_PARENT_NODES;
 use nalgebra::SVector;
 
 /// Residual of an interface.
@@ -31,7 +33,7 @@ impl<const N: usize> Default for Residual<N> {
 /// Of the pairs whose weights act, at the law's answers.
 pub fn residual<const N: usize>(
     given: Given<N>,
-    pairs: &[PairRecord],
+    pairs: Weighted,
     lambda: &[SVector<f64, N>],
     responses: &[NodeResponse<N>],
 ) -> Result<Residual<N>> {
@@ -43,7 +45,7 @@ pub fn residual<const N: usize>(
 /// The same in place of what was in `r`; `tractions`: room.
 pub fn refresh<const N: usize>(
     given: Given<N>,
-    pairs: &[PairRecord],
+    pairs: Weighted,
     lambda: &[SVector<f64, N>],
     responses: &[NodeResponse<N>],
     tractions: &mut Vec<Vec3>,
@@ -58,6 +60,13 @@ pub fn refresh<const N: usize>(
     for (a, response) in responses.iter().enumerate() {
         tractions.store(force_traction(given.setup.options.form, &lambda[a], response, given.normal(a)?))?;
     }
+    let pairs = match pairs {
+        Weighted::Facets(pairs) => pairs,
+        Weighted::Parents(pairs) => {
+            of_parents((nonmortar, mortar), pairs, tractions, (&mut r.nonmortar, &mut r.mortar));
+            &[]
+        }
+    };
     for pair in pairs {
         let (one, two) = (&nonmortar.facets[pair.one], &mortar.facets[pair.two]);
         let f = pair_force(&pair.weights, &one.nodes.map(|a| tractions[a]));
@@ -74,4 +83,22 @@ pub fn refresh<const N: usize>(
         }
     }
     Ok(())
+}
+
+/// Adds the forces of pairs of parents at the nodes' tractions.
+#[inline(never)]
+fn of_parents(
+    (nonmortar, mortar): (&Surface, &Surface),
+    pairs: &[ParentRecord],
+    tractions: &[Vec3],
+    (of_one, of_two): (&mut [Vec3], &mut [Vec3]),
+) {
+    for pair in pairs {
+        let (one, two) = (nonmortar.host_nodes(pair.one), mortar.host_nodes(pair.two));
+        let mut t = [Vec3::zeros(); MAX_PARENT_NODES];
+        one.iter().zip(&mut t).for_each(|(&a, t)| *t = tractions[a]);
+        let t = &t[..nonmortar.multipliers(pair.one)];
+        one.iter().enumerate().for_each(|(b, &node)| of_one[node] += parent_force(&pair.weights.ab, t, b));
+        two.iter().enumerate().for_each(|(c, &node)| of_two[node] -= parent_force(&pair.weights.ac, t, c));
+    }
 }

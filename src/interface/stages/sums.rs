@@ -1,10 +1,12 @@
 //! What the nodes assemble over their pairs: gaps and coverage.
 
 use super::away::LookingAway;
+use crate::element::ParentPair;
 use crate::error::Result;
 use crate::geometry::Vec3;
 use crate::interface::data::active::Active;
-use crate::interface::data::pairs::PairRecord;
+use crate::interface::data::host_facets::parents_at;
+use crate::interface::data::pairs::{ParentRecord, Weighted};
 use crate::interface::data::surface::Surface;
 use crate::interface::pairing::given::Given;
 use crate::memory;
@@ -30,7 +32,7 @@ pub struct NodeSums {
 /// Coverage and gap of every non-mortar node from a list of pairs, in place of what was in `sums`.
 pub fn assemble(
     surfaces: (&Surface, &Surface),
-    pairs: &[PairRecord],
+    pairs: Weighted,
     x: (&[Vec3], &[Vec3]),
     sums: &mut Vec<(f64, Vec3)>,
 ) -> Result<()> {
@@ -46,15 +48,37 @@ pub fn assemble(
 #[inline]
 fn each_gap(
     (nonmortar, mortar): (&Surface, &Surface),
-    pairs: &[PairRecord],
+    pairs: Weighted,
     (x1, x2): (&[Vec3], &[Vec3]),
     mut add: impl FnMut(usize, f64, Vec3),
 ) {
+    let pairs = match pairs {
+        Weighted::Facets(pairs) => pairs,
+        Weighted::Parents(pairs) => return each_gap_of_parents((nonmortar, mortar), pairs, (x1, x2), &mut add),
+    };
     for pair in pairs {
         let (one, two) = (nonmortar.facet(pair.one, x1), mortar.facet(pair.two, x2));
         let gaps = gap(&pair.weights, &one, &two);
         for k in 0..one.len() {
             add(nonmortar.facets[pair.one].nodes[k], pair.weights.coverage(k), gaps[k]);
+        }
+    }
+}
+
+/// The same of pairs of parents.
+#[inline(never)]
+fn each_gap_of_parents(
+    surfaces: (&Surface, &Surface),
+    pairs: &[ParentRecord],
+    x: (&[Vec3], &[Vec3]),
+    add: &mut dyn FnMut(usize, f64, Vec3),
+) {
+    for record in pairs {
+        let (one, two) = parents_at(surfaces, record, x);
+        let pair = ParentPair { one: &one, two: &two, multipliers: surfaces.0.multipliers(record.one) };
+        let gaps = pair.gap(&record.weights);
+        for (a, &node) in surfaces.0.host_nodes(record.one).iter().enumerate().take(pair.multipliers) {
+            add(node, record.weights.coverage(a), gaps[a]);
         }
     }
 }
@@ -70,7 +94,7 @@ pub fn sums<const N: usize>(
 ) -> Result<()> {
     let (surfaces, h) = (given.setup.surfaces(), given.history());
     memory::refill(sums, NodeSums::default(), given.nodes())?;
-    each_gap(surfaces, active.map_or(&h.pairs, |k| &k.pairs), x, |node, coverage, gap| {
+    each_gap(surfaces, active.map_or(h.weighted(surfaces), |k| k.weighted(surfaces)), x, |node, coverage, gap| {
         sums[node].coverage += coverage;
         sums[node].gap_now += gap;
     });
@@ -82,7 +106,7 @@ pub fn sums<const N: usize>(
     }
     h.facet_gaps.each_turned(surfaces.0, x.0, |node, gap| sums[node].gap_committed += gap)?;
     match active {
-        Some(_) if slips => each_gap(surfaces, &h.pairs, x, |node, _, gap| sums[node].gap_previous += gap),
+        Some(_) if slips => each_gap(surfaces, h.weighted(surfaces), x, |node, _, gap| sums[node].gap_previous += gap),
         None if slips => sums.iter_mut().for_each(|sum| sum.gap_previous = sum.gap_now),
         _ => {}
     }

@@ -3,8 +3,9 @@
 
 use super::emission::{Blocks, MortarBlock, Place, Span};
 use crate::geometry::Vec3;
+use crate::interface::data::facet_nodes::FacetNodes;
 use crate::interface::data::setup::Setup;
-use crate::interface::data::surface::{FacetNodes, NO_EQUATION, node_equations};
+use crate::interface::data::surface::{NO_EQUATION, node_equations};
 use crate::shape::{MAX_CORNERS, MAX_NODES};
 
 /// Takes a tangent entry: (row equation, column equation, value).

@@ -1,0 +1,73 @@
+//! What a surface knows of the facets of its host: their numbers, their nodes, and where their multipliers stand. Of a surface of
+//! linear facets they are the facets that its geometry is made of.
+
+use super::facet_nodes::FacetNodes;
+use super::pairs::ParentRecord;
+use super::surface::Surface;
+use crate::error::Error;
+use crate::geometry::Vec3;
+use crate::mortar::ParentFacet;
+
+impl Surface {
+    /// The facets of the host: how many there are.
+    pub fn host_facets(&self) -> usize {
+        self.parents.as_ref().map_or(self.facets.len(), |p| p.facets.len())
+    }
+
+    /// The nodes of one of them.
+    pub fn host_nodes(&self, f: usize) -> &[usize] {
+        match &self.parents {
+            None => self.facets[f].as_slice(),
+            Some(parents) => parents.facets[f].as_slice(),
+        }
+    }
+
+    /// The one that facet `f` is, or is part of.
+    pub fn host_facet(&self, f: usize) -> usize {
+        self.parents.as_ref().map_or(f, |p| p.parent(f))
+    }
+
+    /// The nodes that have the multipliers over facet `f`.
+    pub fn rows(&self, f: usize) -> &FacetNodes {
+        self.parents.as_ref().map_or(&self.facets[f], |p| p.rows(f))
+    }
+
+    /// How many multipliers a facet of the host has: at the first so many of its nodes.
+    pub fn multipliers(&self, f: usize) -> usize {
+        self.parents.as_ref().map_or_else(|| self.facets[f].len, |p| p.multipliers(f))
+    }
+
+    /// The first facet at or after which another facet of the host begins.
+    pub fn begin_of_host(&self, f: usize) -> usize {
+        self.parents.as_ref().map_or(f, |p| p.of.get(f).map_or(f, |&host| p.first[host as usize]))
+    }
+
+    /// Names facet `f` in a refusal.
+    pub fn at(&self, f: usize) -> impl FnOnce(Error) -> Error + use<'_> {
+        move |e| {
+            let name = text!("{} facet {}", self.side, self.host_facet(f));
+            let of_part = self.parents.as_ref().filter(|p| p.parts(p.parent(f)).len() > 1);
+            Error::new(
+                e.kind,
+                match of_part {
+                    None => text!("{name}: {}", e.message),
+                    Some(_) => {
+                        text!("{name}, the part between its nodes {:?}: {}", self.facets[f].as_slice(), e.message)
+                    }
+                },
+            )
+        }
+    }
+}
+
+/// The two facets of a pair of parents at these positions.
+pub fn parents_at(
+    (one, two): (&Surface, &Surface),
+    pair: &ParentRecord,
+    (x1, x2): (&[Vec3], &[Vec3]),
+) -> (ParentFacet, ParentFacet) {
+    let at = |surface: &Surface, f: usize, x: &[Vec3]| {
+        surface.parents.as_ref().expect("pairs of parents have parents on both sides").at(f, x)
+    };
+    (at(one, pair.one, x1), at(two, pair.two, x2))
+}

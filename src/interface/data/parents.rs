@@ -1,0 +1,123 @@
+//! Quadratic facets of a surface, as hosts have them (docs/formulation.md 12). Planes, overlaps, search and normals' planes are
+//! of the linear facets between their nodes, the parts, which are what a surface calls its facets. Gaps, forces and histories are
+//! of the facets of the host, the parents.
+//!
+//! An interface where either side has a quadratic facet has parents on both: a linear facet is its own part.
+
+use super::facet_nodes::{FacetNodes, ParentNodes};
+use crate::error::{Error, Result};
+use crate::geometry::Vec3;
+use crate::memory::{self, Store, Stored};
+use crate::mortar::{MultiplierSpace, ParentFacet};
+use crate::shape::{MAX_PARENT_NODES, Parent, SubFacet};
+use std::ops::Range;
+
+/// The parents of a surface.
+#[derive(Clone, Debug)]
+pub struct Parents {
+    /// All of them.
+    pub facets: Vec<ParentNodes>,
+    /// Where the parts of each begin; one more at the end.
+    pub(super) first: Vec<usize>,
+    /// Per part its parent.
+    pub(super) of: Vec<u32>,
+    /// Where multipliers stand.
+    pub space: MultiplierSpace,
+    /// Per part the nodes that have the multipliers over it.
+    rows: Vec<FacetNodes>,
+}
+
+impl Parents {
+    /// These, and the parts that they consist of.
+    pub fn of(facets: Vec<ParentNodes>) -> Result<(Parents, Vec<FacetNodes>)> {
+        let parts = facets.iter().map(|facet| facet.parent.subs.len()).sum();
+        let (mut first, mut of) = (memory::with_room(facets.len() + 1)?, memory::with_room(parts)?);
+        let mut nodes = memory::with_room(parts)?;
+        for (f, facet) in facets.iter().enumerate() {
+            first.store(of.len())?;
+            for sub in facet.parent.subs {
+                of.store(f as u32)?;
+                nodes.store(facet.part(&sub.nodes[..sub.shape.n]))?;
+            }
+        }
+        first.store(of.len())?;
+        let mut parents = Parents { facets, first, of, space: MultiplierSpace::Corner, rows: Vec::new() };
+        parents.put(MultiplierSpace::Corner)?;
+        Ok((parents, nodes))
+    }
+
+    /// Those of a surface of linear facets alone.
+    pub fn of_linear(parts: &[FacetNodes]) -> Result<Parents> {
+        let parent = |part: &FacetNodes| {
+            let mut nodes = [part.nodes[0]; MAX_PARENT_NODES];
+            nodes[..part.len].copy_from_slice(part.as_slice());
+            ParentNodes { parent: Parent::of(part.len).expect("a checked facet has 3 or 4 nodes"), nodes }
+        };
+        Ok(Parents::of(parts.iter().map(parent).stored()?)?.0)
+    }
+
+    /// Puts multipliers where a space has them.
+    pub fn put(&mut self, space: MultiplierSpace) -> Result<()> {
+        let row = |part: usize| {
+            let facet = &self.facets[self.parent(part)];
+            facet.part(space.nodes(facet.parent, self.sub(part)))
+        };
+        self.rows = (0..self.of.len()).map(row).stored()?;
+        self.space = space;
+        Ok(())
+    }
+
+    /// Refuses facets that no evaluation could use at these node positions.
+    ///
+    /// # Errors
+    /// [`crate::error::Kind::DegenerateFacet`]: see [`ParentFacet::new`].
+    pub fn check(&self, x: &[Vec3]) -> Result<()> {
+        for (f, facet) in self.facets.iter().enumerate() {
+            let at = self.at(f, x);
+            let named = |e: Error| Error::new(e.kind, text!("facet {f}, nodes {:?}: {}", facet.as_slice(), e.message));
+            ParentFacet::new(&at.x[..facet.parent.n]).map_err(named)?;
+        }
+        Ok(())
+    }
+
+    /// The nodes that have the multipliers over a part.
+    pub fn rows(&self, part: usize) -> &FacetNodes {
+        &self.rows[part]
+    }
+
+    /// The parent of a part.
+    pub fn parent(&self, part: usize) -> usize {
+        self.of[part] as usize
+    }
+
+    /// Which part of its parent it is.
+    pub fn sub(&self, part: usize) -> &'static SubFacet {
+        let f = self.parent(part);
+        &self.facets[f].parent.subs[part - self.first[f]]
+    }
+
+    /// The parts of a parent.
+    pub fn parts(&self, f: usize) -> Range<usize> {
+        self.first[f]..self.first[f + 1]
+    }
+
+    /// How many multipliers a parent has: at the first so many of its nodes.
+    pub fn multipliers(&self, f: usize) -> usize {
+        let parent = self.facets[f].parent;
+        if self.space == MultiplierSpace::Corner { parent.corners() } else { parent.n }
+    }
+
+    /// A parent at these node positions.
+    pub fn at(&self, f: usize, x: &[Vec3]) -> ParentFacet {
+        let ParentNodes { parent, nodes } = &self.facets[f];
+        ParentFacet { parent, x: nodes.map(|k| x[k]) }
+    }
+
+    /// On the heap `[bytes]`.
+    pub fn bytes(&self) -> usize {
+        self.facets.capacity() * size_of::<ParentNodes>()
+            + self.first.capacity() * size_of::<usize>()
+            + self.of.capacity() * size_of::<u32>()
+            + self.rows.capacity() * size_of::<FacetNodes>()
+    }
+}
