@@ -110,6 +110,7 @@ pub use plan::*;
 pub use point::*;
 pub use preparation::*;
 pub use report::*;
+pub use space::*;
 pub use status::*;
 pub use surface::*;
 pub use tangent::*;

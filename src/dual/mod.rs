@@ -15,6 +15,7 @@ mod coverage;
 mod full;
 mod mass;
 mod motion;
+mod parents;
 mod sums;
 mod vectors;
 
@@ -24,5 +25,6 @@ pub use coverage::{Coverage, FADE_BAND};
 pub use full::FullDerivatives;
 pub use mass::{SMALLEST_DETERMINANT, SMALLEST_PIVOT};
 pub use motion::{FacetMotion, PairShare};
+pub use parents::corner_shares;
 pub use sums::FacetSums;
 pub use vectors::WholeFacet;

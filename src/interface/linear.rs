@@ -109,6 +109,10 @@ impl<'a, const N: usize> Here<'a, N> {
             return Pairs::Union([&[], &[]]);
         }
         let history = self.given.history();
+        if self.given.setup.has_parents() {
+            let previous: &[_] = if self.given.setup.effects.law.slips { &history.parents } else { &[] };
+            return Pairs::Parents([self.cache.parents(history), previous]);
+        }
         let previous: &[_] = if self.given.setup.effects.law.slips { &history.pairs } else { &[] };
         Pairs::Union([self.cache.pairs(history), previous])
     }

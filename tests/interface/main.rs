@@ -24,6 +24,7 @@ mod normals;
 mod orders;
 mod orientation;
 mod plan;
+mod quadratic;
 mod ratios;
 mod report;
 mod search;

@@ -30,7 +30,7 @@ fn entries((plan, of): (&Plan, PlanOf)) -> Vec<(i64, i64)> {
 }
 
 /// Compares plans at a point with the tangent entry by entry.
-fn agrees<const N: usize>(c: &mut Contact<N>, x1: &[Vec3], x2: &[Vec3], lambda: &[SVector<f64, N>], what: &str) {
+pub fn agrees<const N: usize>(c: &mut Contact<N>, x1: &[Vec3], x2: &[Vec3], lambda: &[SVector<f64, N>], what: &str) {
     let mut expected = BTreeMap::new();
     c.tangent(x1, x2, lambda, None, &mut |i: i64, j: i64, v: f64| *expected.entry((i, j)).or_insert(0.0) += v).unwrap();
     let largest = expected.values().fold(0.0, |m: f64, v| m.max(v.abs()));
@@ -39,7 +39,14 @@ fn agrees<const N: usize>(c: &mut Contact<N>, x1: &[Vec3], x2: &[Vec3], lambda: 
         let found = entries(c.plan(PlanSystem::Whole).unwrap());
         assert_eq!(n, found.len());
         if pairs == PlanPairs::Active(Extent::Whole) {
-            assert!(found.iter().eq(expected.keys()), "{what}: {} entries for {}", found.len(), expected.len());
+            let lacks = expected.keys().find(|e| !found.contains(e));
+            let more = found.iter().find(|e| !expected.contains_key(e));
+            assert!(
+                lacks.is_none() && more.is_none(),
+                "{what}: {} entries for {}, lacks {lacks:?}, more {more:?}",
+                found.len(),
+                expected.len()
+            );
         }
         for _ in 0..2 {
             let mut values = vec![f64::NAN; n];

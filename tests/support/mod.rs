@@ -7,6 +7,7 @@ pub mod exact;
 pub mod files;
 pub mod host;
 pub mod mesh;
+pub mod parents;
 pub mod press;
 pub mod random;
 

@@ -59,8 +59,8 @@ impl Columns {
     ) -> Result<()> {
         let mut gains: Vec<(usize, usize)> = (0..one.len()).map(|a| (a, a)).stored()?;
         for &(f, g) in moving {
-            for &a in one.facets[f].as_slice() {
-                let rows = || two.facets[g].as_slice().iter().map(|c| one.len() + c);
+            for &a in one.host_nodes(f) {
+                let rows = || two.host_nodes(g).iter().map(|c| one.len() + c);
                 gains.store_all(rows().map(|row| (row, a)))?;
                 for &(b, _) in carriers.get(a).into_iter().flatten() {
                     gains.store_all(rows().map(|row| (row, b)))?;

@@ -10,11 +10,13 @@
 //! surfaces that are closed all over remain linear.
 
 use super::active::Active;
+use super::pairs::PairRecord;
 use super::surface::Surface;
 use crate::error::Result;
 use crate::geometry::{Mat3, Plane, Vec3};
 use crate::memory::{self, Stored};
-use crate::mortar::{GapDerivative, gap};
+use crate::mortar::{GapDerivative, Segment, gap};
+use crate::quadrature::Rule;
 use crate::shape::{MAX_CORNERS, MAX_NODES};
 
 /// Reals of a facet.
@@ -36,6 +38,7 @@ impl FacetGaps {
         &mut self,
         (one, two): (&Surface, &Surface),
         at: &Active,
+        rule: &'static Rule,
         sums: &mut [(f64, Vec3)],
     ) -> Result<()> {
         let all = &mut self.0;
@@ -45,8 +48,11 @@ impl FacetGaps {
             let (facet, axes) = (one.facet(f, &at.x1), axes(&plane(one, f, &at.x1)?));
             let (mut shares, mut coverage) = ([Vec3::zeros(); MAX_CORNERS], 0.0);
             for pair in pairs {
-                let gaps = gap(&pair.weights, &facet, &two.facet(pair.two, &at.x2));
-                for k in 0..facet.len() {
+                let gaps = match &one.parents {
+                    None => gap(&pair.weights, &facet, &two.facet(pair.two, &at.x2)),
+                    Some(_) => gap_of_parts((one, two), at, pair, rule)?,
+                };
+                for k in 0..MAX_CORNERS {
                     shares[k] += gaps[k];
                     coverage += pair.weights.coverage(k);
                 }
@@ -55,7 +61,7 @@ impl FacetGaps {
             if largest <= CLOSED * facet.longest_edge() * coverage {
                 continue;
             }
-            for (k, &node) in one.facets[f].as_slice().iter().enumerate() {
+            for (k, &node) in one.rows(f).as_slice().iter().enumerate() {
                 all[f][k] = axes.transpose() * shares[k];
                 // What overflowed is no number from here on, and refused with the history.
                 sums[node].1 -= shares[k];
@@ -78,7 +84,7 @@ impl FacetGaps {
     pub(crate) fn each_turned(&self, one: &Surface, x1: &[Vec3], mut add: impl FnMut(usize, Vec3)) -> Result<()> {
         for (f, shares) in self.0.iter().enumerate().filter(|(_, shares)| is_open(shares)) {
             let axes = axes(&plane(one, f, x1)?);
-            for (k, &node) in one.facets[f].as_slice().iter().enumerate() {
+            for (k, &node) in one.rows(f).as_slice().iter().enumerate() {
                 add(node, axes * shares[k]);
             }
         }
@@ -123,6 +129,27 @@ impl FacetGaps {
 
 fn is_open(shares: &[Vec3; MAX_CORNERS]) -> bool {
     shares.iter().any(|share| *share != Vec3::zeros())
+}
+
+/// What a pair of parts adds to the gaps of the nodes that have the multipliers over the non-mortar one [L^3].
+fn gap_of_parts(
+    (one, two): (&Surface, &Surface),
+    at: &Active,
+    pair: &PairRecord,
+    rule: &'static Rule,
+) -> Result<[Vec3; MAX_CORNERS]> {
+    let mut gaps = [Vec3::zeros(); MAX_CORNERS];
+    let frame = one.frame(pair.one, &at.x1, &at.normals)?;
+    let (Some(p), Some(q)) = (&one.parents, &two.parents) else { return Ok(gaps) };
+    let Some(segment) = Segment::new(&frame, &two.facet(pair.two, &at.x2))? else { return Ok(gaps) };
+    let share = p.share(q, (pair.one, pair.two), (&frame, &segment, rule));
+    let (of_one, of_two) = (p.at(p.parent(pair.one), &at.x1), q.at(q.parent(pair.two), &at.x2));
+    for (a, gap) in gaps.iter_mut().enumerate() {
+        // Sums of weights vanish, and so does a common offset.
+        let from = |x: &[Vec3], n: &[f64]| -> Vec3 { x.iter().zip(n).map(|(x, n)| (x - of_one.x[0]) * *n).sum() };
+        *gap = from(&of_one.x, &share.ab[a]) - from(&of_two.x, &share.ac[a]);
+    }
+    Ok(gaps)
 }
 
 fn plane(one: &Surface, f: usize, x1: &[Vec3]) -> Result<Plane> {

@@ -37,6 +37,11 @@ impl Surface {
         self.parents.as_ref().map_or_else(|| self.facets[f].len, |p| p.multipliers(f))
     }
 
+    /// Whether any facet has a multiplier at this node.
+    pub fn has_row(&self, node: usize) -> bool {
+        self.parents.as_ref().is_none_or(|p| p.has_row[node])
+    }
+
     /// The first facet at or after which another facet of the host begins.
     pub fn begin_of_host(&self, f: usize) -> usize {
         self.parents.as_ref().map_or(f, |p| p.of.get(f).map_or(f, |&host| p.first[host as usize]))

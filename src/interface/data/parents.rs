@@ -8,7 +8,8 @@ use super::facet_nodes::{FacetNodes, ParentNodes};
 use crate::error::{Error, Result};
 use crate::geometry::Vec3;
 use crate::memory::{self, Store, Stored};
-use crate::mortar::{MultiplierSpace, ParentFacet};
+use crate::mortar::{MultiplierSpace, NonmortarFrame, ParentFacet, Segment, Side, SubWeights, rule_for, sub_weights};
+use crate::quadrature::Rule;
 use crate::shape::{MAX_PARENT_NODES, Parent, SubFacet};
 use std::ops::Range;
 
@@ -25,6 +26,8 @@ pub struct Parents {
     pub space: MultiplierSpace,
     /// Per part the nodes that have the multipliers over it.
     rows: Vec<FacetNodes>,
+    /// Per node, whether any facet has a multiplier there.
+    pub has_row: Vec<bool>,
 }
 
 impl Parents {
@@ -41,7 +44,8 @@ impl Parents {
             }
         }
         first.store(of.len())?;
-        let mut parents = Parents { facets, first, of, space: MultiplierSpace::Corner, rows: Vec::new() };
+        let mut parents =
+            Parents { facets, first, of, space: MultiplierSpace::Corner, rows: Vec::new(), has_row: Vec::new() };
         parents.put(MultiplierSpace::Corner)?;
         Ok((parents, nodes))
     }
@@ -63,6 +67,11 @@ impl Parents {
             facet.part(space.nodes(facet.parent, self.sub(part)))
         };
         self.rows = (0..self.of.len()).map(row).stored()?;
+        let nodes = self.facets.iter().flat_map(|facet| facet.as_slice()).max().map_or(0, |last| last + 1);
+        memory::refill(&mut self.has_row, false, nodes)?;
+        for row in &self.rows {
+            row.as_slice().iter().for_each(|&a| self.has_row[a] = true);
+        }
         self.space = space;
         Ok(())
     }
@@ -113,11 +122,30 @@ impl Parents {
         ParentFacet { parent, x: nodes.map(|k| x[k]) }
     }
 
+    /// The two sides of a pair of parts: part `i` of these and part `j` of `two`.
+    pub fn sides(&self, two: &Parents, (i, j): (usize, usize)) -> (Side, Side) {
+        let side = |parents: &Parents, part: usize| (parents.facets[parents.parent(part)].parent, parents.sub(part));
+        (side(self, i), side(two, j))
+    }
+
+    /// The weights over an overlap of such a pair, by a rule that is fine enough for its functions.
+    pub fn share(
+        &self,
+        two: &Parents,
+        parts: (usize, usize),
+        (frame, segment, rule): (&NonmortarFrame, &Segment, &'static Rule),
+    ) -> SubWeights {
+        let sides = self.sides(two, parts);
+        let rule = rule_for(rule, [sides.0.0, sides.1.0]);
+        sub_weights((frame, segment, rule), sides, self.space, None)
+    }
+
     /// On the heap `[bytes]`.
     pub fn bytes(&self) -> usize {
         self.facets.capacity() * size_of::<ParentNodes>()
             + self.first.capacity() * size_of::<usize>()
             + self.of.capacity() * size_of::<u32>()
             + self.rows.capacity() * size_of::<FacetNodes>()
+            + self.has_row.capacity()
     }
 }

@@ -9,7 +9,6 @@ use super::options::{Form, MortarSide, MultiplierBasis, Options, Scheme};
 use super::parents::Parents;
 use super::surface::{NO_EQUATION, Surface, frames};
 use crate::error::{Error, Kind, Result};
-use crate::memory;
 use crate::mortar::MultiplierSpace;
 
 /// What an interface is.
@@ -122,10 +121,7 @@ fn put_parents<const N: usize>(
     }
     let Some(parents) = &mut nonmortar.parents else { return Ok(()) };
     parents.put(options.space)?;
-    let mut has_row = memory::filled(false, nonmortar.reference.len())?;
-    for part in 0..nonmortar.facets.len() {
-        parents.rows(part).as_slice().iter().for_each(|&a| has_row[a] = true);
-    }
+    let has_row = &parents.has_row;
     let numbered = |a: &usize| !has_row[*a] && multiplier_equations[*a].iter().any(|&e| e != NO_EQUATION);
     match (0..has_row.len()).find(numbered) {
         None => Ok(()),

@@ -36,6 +36,13 @@ impl FacetOverlaps {
         self.frame.as_ref().expect("asked for after a facet is")
     }
 
+    /// Makes derivatives leave out how the facet's plane tilts.
+    pub fn freeze_normals(&mut self) {
+        if let Some(frame) = &mut self.frame {
+            frame.plane.tilt = Default::default();
+        }
+    }
+
     /// Takes those of the active pairs in these places, all of one facet and at least one.
     pub fn find(
         &mut self,

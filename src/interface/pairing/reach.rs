@@ -7,7 +7,7 @@ use super::filter::{FacetFilter, Filter, LEAST_OPPOSITION};
 use super::search::Tree;
 use crate::error::Result;
 use crate::geometry::Vec3;
-use crate::interface::data::pairs::PairRecord;
+use crate::interface::data::pairs::Weighted;
 use crate::interface::data::surface::Surface;
 use crate::memory::{self, Stored};
 use std::cell::Cell;
@@ -54,16 +54,24 @@ fn counted(filter: &FacetFilter, tree: &Tree, visited: &Cell<usize>) -> Result<V
 /// Per non-mortar node, whether it belongs to one of some facets.
 fn nodes_of(nonmortar: &Surface, facets: impl Iterator<Item = usize>) -> Result<Vec<bool>> {
     let mut nodes = memory::filled(false, nonmortar.len())?;
-    for facet in facets.map(|f| &nonmortar.facets[f]) {
-        facet.nodes[..facet.len].iter().for_each(|&a| nodes[a] = true);
+    for facet in facets.map(|f| nonmortar.rows(f)) {
+        facet.as_slice().iter().for_each(|&a| nodes[a] = true);
     }
     Ok(nodes)
 }
 
 /// Per non-mortar node, whether anything can cover it: by the filter, or by the pairs whose weights are frozen.
-pub fn coverable(nonmortar: &Surface, filter: Option<&Filter>, frozen: Option<&[PairRecord]>) -> Result<Vec<bool>> {
+pub fn coverable(nonmortar: &Surface, filter: Option<&Filter>, frozen: Option<Weighted>) -> Result<Vec<bool>> {
     match (frozen, filter.map(Filter::reached)) {
-        (Some(pairs), _) => nodes_of(nonmortar, pairs.iter().map(|pair| pair.one)),
+        (Some(Weighted::Facets(pairs)), _) => nodes_of(nonmortar, pairs.iter().map(|pair| pair.one)),
+        (Some(Weighted::Parents(pairs)), _) => {
+            let mut nodes = memory::filled(false, nonmortar.len())?;
+            for pair in pairs {
+                let rows = nonmortar.host_nodes(pair.one).iter().take(nonmortar.multipliers(pair.one));
+                rows.for_each(|&a| nodes[a] = true);
+            }
+            Ok(nodes)
+        }
         (None, Some(reached)) => nodes_of(nonmortar, (0..reached.len()).filter(|&f| reached[f])),
         (None, None) => memory::filled(true, nonmortar.len()),
     }

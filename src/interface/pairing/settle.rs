@@ -14,7 +14,6 @@ use crate::error::Result;
 use crate::geometry::Vec3;
 use crate::interface::data::history::History;
 use crate::interface::data::options::{Options, Weights};
-use crate::interface::data::pairs::PairRecord;
 use crate::interface::data::setup::Setup;
 use crate::interface::data::surface::Surface;
 use crate::memory::{self, Stored};
@@ -40,7 +39,7 @@ impl Pairing {
     /// That of a history and the filter of its configuration.
     pub fn new<const N: usize>(setup: &Setup<N>, filter: Option<Filter>, history: &History) -> Result<Pairing> {
         let frozen = setup.options.effective_weights() != Weights::Current;
-        let pairs: Option<&[PairRecord]> = frozen.then_some(&history.pairs);
+        let pairs = frozen.then(|| history.weighted(setup.surfaces()));
         // Where the normals follow the motion, so does which facets look at each other (`candidates.rs`).
         let follows = setup.options.follows_normals();
         let coverable = reach::coverable(&setup.nonmortar, filter.as_ref().filter(|_| !follows), pairs)?;

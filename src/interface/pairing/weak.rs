@@ -94,9 +94,9 @@ fn gather(all: Vec<Carrier>) -> Result<Vec<Carrier>> {
 /// parallelograms.
 pub fn links(surface: &Surface, history: &History) -> Result<Vec<Vec<Carrier>>> {
     let mut links = memory::defaults::<Vec<_>>(surface.len())?;
-    for (f, facet) in surface.facets.iter().enumerate() {
+    for f in 0..surface.facets.len() {
         let area = surface.facet(f, &history.x1).area_vector().norm();
-        let nodes = facet.as_slice();
+        let nodes = surface.rows(f).as_slice();
         for (i, &a) in nodes.iter().enumerate() {
             for (j, &b) in nodes.iter().enumerate().filter(|&(j, _)| j != i) {
                 let diagonal = nodes.len() == 4 && (i + 2) % 4 == j;

@@ -53,6 +53,7 @@ impl<const N: usize> Blocks<N> for Extras<'_, N> {
         }
     }
 
+    fn multiplier(&mut self, _row: Place, _a: usize, _n: f64, _nu: &Vec3) {}
     fn mortar(&mut self, _block: &MortarBlock) {}
     fn diagonal(&mut self, _a: usize, _values: &[f64]) {}
 

@@ -364,6 +364,20 @@ impl<const N: usize> Blocks<N> for Fill<'_, '_, N> {
         }
     }
 
+    fn multiplier(&mut self, row: Place, a: usize, n: f64, nu: &Vec3) {
+        let (r, c) = (self.layout.nodes.number(row), self.layout.nodes.multiplier(a));
+        let offset = self.found(r, c);
+        if offset >= SKIP {
+            return self.note(offset == LACKS, row, Place::Multiplier(a));
+        }
+        let Some(Target { rows, piece, start }) = self.touch(row) else { return };
+        let (to, at) = (&mut *self.hand.pieces[piece], start + offset as usize);
+        for i in 0..SCALARS {
+            to[at + i * rows.len as usize] += if N == 1 { n * nu[i] } else { n };
+        }
+        self.state.nothing[0] += 0.0 * n;
+    }
+
     fn diagonal(&mut self, a: usize, values: &[f64]) {
         let node = self.layout.nodes.multiplier(a);
         let offset = self.found(node, node);

@@ -37,7 +37,7 @@ pub struct FacetPairs {
 impl FacetPairs {
     /// Those of a walk.
     pub fn of(setup: Sides, pairs: Pairs) -> Result<FacetPairs> {
-        let facets = setup.nonmortar.facets.len();
+        let facets = setup.nonmortar.host_facets();
         let mut all = FacetPairs::default();
         let (mut walk, mut of_facet, mut nodes) = (Walk::through(pairs, 0..facets), Vec::new(), Vec::new());
         let moves = setup.moves;
@@ -55,10 +55,10 @@ impl FacetPairs {
             nodes.clear();
             for &UnionPair { two, is_active, .. } in &of_facet {
                 all.two.store((two as u32, is_active))?;
-                let facet = &setup.mortar.facets[two];
+                let nodes_of_two = setup.mortar.host_nodes(two);
                 // Twice the number, and 1 where the pair is idle: active ones come first among equals.
-                let of_pair = facet.as_slice().iter().map(|&node| 2 * node as u32 + u32::from(!is_active));
-                nodes.store_all(of_pair.take(if moves { facet.len } else { 0 }))?;
+                let of_pair = nodes_of_two.iter().map(|&node| 2 * node as u32 + u32::from(!is_active));
+                nodes.store_all(of_pair.take(if moves { nodes_of_two.len() } else { 0 }))?;
             }
             nodes.sort_unstable();
             nodes.dedup_by_key(|node| *node / 2);
@@ -156,21 +156,21 @@ impl<'a> Finder<'a> {
         let has_forces = setup.options.differentiates_weights() && system != System::Constraints;
         let has_multipliers = system == System::Whole && setup.options.form == Form::Multiplier;
         let couples = has_forces && setup.options.basis == MultiplierBasis::Dual && setup.moves;
-        let facets = one.facets.len();
+        let facets = one.host_facets();
         let around = Lists::of(one.len(), |give| {
             for f in (0..facets).filter(|&f| !pairs.pairs(f).is_empty()) {
-                one.facets[f].as_slice().iter().for_each(|&a| give(a, f as u32));
+                one.host_nodes(f).iter().for_each(|&a| give(a, f as u32));
             }
         })?;
         let below = Lists::of(two.len(), |give| {
             (0..facets).for_each(|f| pairs.mortar_nodes(f).iter().for_each(|n| give(n.0 as usize, f as u32)));
         })?;
         let mortar = setup.moves && has_forces && !couples;
-        let mut paired = memory::filled(false, if mortar { two.facets.len() } else { 0 })?;
+        let mut paired = memory::filled(false, if mortar { two.host_facets() } else { 0 })?;
         pairs.two.iter().filter(|pair| pair.1 && mortar).for_each(|pair| paired[pair.0 as usize] = true);
         let beside = Lists::of(two.len(), |give| {
             for j in (0..paired.len()).filter(|&j| paired[j]) {
-                two.facets[j].as_slice().iter().for_each(|&c| give(c, j as u32));
+                two.host_nodes(j).iter().for_each(|&c| give(c, j as u32));
             }
         })?;
         let neighbours = Neighbours { around, below, beside };
@@ -237,7 +237,7 @@ impl<'a> Finder<'a> {
     }
 
     fn own(&mut self, f: usize, keys: &mut Vec<Key>) -> Result<()> {
-        self.setup.nonmortar.facets[f].as_slice().iter().try_for_each(|&b| self.add(b, keys))
+        self.setup.nonmortar.host_nodes(f).iter().try_for_each(|&b| self.add(b, keys))
     }
 
     /// The mortar nodes of a facet, of active pairs and, if asked for, of others.
@@ -270,7 +270,7 @@ impl<'a> Finder<'a> {
             self.mortar(f, false, keys)?;
         }
         if self.has_multipliers {
-            let mut nodes = setup.nonmortar.facets[f].as_slice().iter();
+            let mut nodes = setup.nonmortar.host_nodes(f).iter();
             nodes.try_for_each(|&b| self.add(self.nodes.multiplier(b), keys))?;
         }
         Ok(())
@@ -286,7 +286,7 @@ impl<'a> Finder<'a> {
         }
         let setup = self.setup;
         for k in self.neighbours.beside.range(c) {
-            let mut nodes = setup.mortar.facets[self.neighbours.beside.all[k] as usize].as_slice().iter();
+            let mut nodes = setup.mortar.host_nodes(self.neighbours.beside.all[k] as usize).iter();
             nodes.try_for_each(|&d| self.add(self.nodes.mortar(d), keys))?;
         }
         Ok(())

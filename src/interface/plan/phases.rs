@@ -15,7 +15,7 @@ const LEAST_FACETS: usize = 1024;
 /// The phases of these pairs, each with its chunks of facets; `alone`: whether facets add to rows of their own nodes alone. If
 /// not there is one chunk.
 pub fn of(setup: Sides, pairs: &FacetPairs, alone: bool) -> Result<Vec<Vec<Range<usize>>>> {
-    let (one, facets) = (&setup.nonmortar, setup.nonmortar.facets.len());
+    let (one, facets) = (&setup.nonmortar, setup.nonmortar.host_facets());
     let size = if alone { LEAST_FACETS.max(facets.div_ceil(MOST_CHUNKS)) } else { facets };
     // Per node the phases that have its rows.
     let mut own = memory::filled(0_u64, one.len())?;
@@ -25,12 +25,12 @@ pub fn of(setup: Sides, pairs: &FacetPairs, alone: bool) -> Result<Vec<Vec<Range
         let chunk = first..facets.min(first + size);
         let mut taken = 0;
         for f in chunk.start..chunk.end {
-            one.facets[f].as_slice().iter().for_each(|&a| taken |= own[a]);
+            one.host_nodes(f).iter().for_each(|&a| taken |= own[a]);
             pairs.mortar_nodes(f).iter().for_each(|node| taken |= mortar[node.0 as usize]);
         }
         let phase = (!taken).trailing_zeros() as usize;
         for f in chunk.start..chunk.end {
-            one.facets[f].as_slice().iter().for_each(|&a| own[a] |= 1 << phase);
+            one.host_nodes(f).iter().for_each(|&a| own[a] |= 1 << phase);
             pairs.mortar_nodes(f).iter().for_each(|node| mortar[node.0 as usize] |= 1 << phase);
         }
         if phase == phases.len() {

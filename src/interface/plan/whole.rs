@@ -38,7 +38,9 @@ impl Plan {
         let (pairs, mut rest) = (FacetPairs::of(setup, pairs)?, &extras[..]);
         let mut finder = Finder::new(setup, system, numbering, &pairs)?;
         let among = system != System::Constraints && !finder.couples && setup.moves;
-        let mut scatter = Some(Scatter::of(setup, &pairs, finder.couples, among)?);
+        // Its tables are of facets of four nodes at most: the blocks of larger ones are looked up one by one.
+        let has_tables = setup.nonmortar.parents.is_none();
+        let mut scatter = has_tables.then(|| Scatter::of(setup, &pairs, finder.couples, among)).transpose()?;
         let widths = Widths::of(setup);
         let mut columns = Lists { first: memory::with_room(nodes.len() + 1)?, all: Vec::new() };
         let (mut keys, mut at) = (Vec::new(), memory::filled(0, nodes.len())?);
@@ -126,7 +128,7 @@ impl Plan {
         let nodes = Nodes::of(setup);
         let own = |facets: &Range<usize>, give: &mut dyn FnMut(usize)| {
             for f in facets.start..facets.end {
-                for &a in setup.nonmortar.facets[f].as_slice() {
+                for &a in setup.nonmortar.host_nodes(f) {
                     give(a);
                     give(nodes.multiplier(a));
                 }

@@ -1,7 +1,7 @@
 //! Stages 1 and 1b in a row: the pairs of a configuration with the weights that act. Who wants integrated weights, whatever
 //! the multipliers' basis, asks for stage 1 alone.
 
-use super::facet::facet;
+use super::facet::{dual_parents, facet};
 use super::integrate::integrate;
 use crate::error::Result;
 use crate::geometry::Vec3;
@@ -24,6 +24,10 @@ pub fn acting(
 ) -> Result<()> {
     if options.basis == MultiplierBasis::Standard {
         return integrate(surfaces, options, filter, work, x, active, None);
+    }
+    if surfaces.0.parents.is_some() {
+        integrate(surfaces, options, filter, work, x, active, None)?;
+        return dual_parents(surfaces.0, active);
     }
     // That pairs cannot be integrated is said before what their facets lack.
     let following = |active: &mut Active, first: usize, overlaps: (&NonmortarFrame, &[Segment])| {

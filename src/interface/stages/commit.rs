@@ -90,7 +90,7 @@ pub fn settled_at(
         let sums = &mut work.room.sums;
         assemble(surfaces, active.weighted(surfaces), (x1, x2), sums)?;
         if keeps.facet_gaps() {
-            history.facet_gaps.take(surfaces, active, sums)?;
+            history.facet_gaps.take(surfaces, active, options.rule, sums)?;
         }
         history.fill(active, nonmortar.parents.is_some(), sums)?;
         is_active = keeps == Keeps::Nothing;

@@ -18,7 +18,7 @@ use crate::interface::pairing::filter::{FacetFilter, Filter};
 use crate::interface::pairing::overlaps::overlap;
 use crate::interface::pairing::work::{Following, ROW, Room, ThreadRoom, Work};
 use crate::memory::{self, Store};
-use crate::mortar::{NonmortarFrame, PairWeights, Segment, rule_for, sub_weights};
+use crate::mortar::{NonmortarFrame, PairWeights, Segment};
 use crate::quadrature::Rule;
 use crate::threads;
 use std::ops::Range;
@@ -181,11 +181,9 @@ fn of_parts(
     (frame, segment, rule): (&NonmortarFrame, &Segment, &'static Rule),
     active: &mut Active,
 ) -> Result<PairWeights> {
-    let (f, g) = (one.parent(i), two.parent(j));
-    let sides = ((one.facets[f].parent, one.sub(i)), (two.facets[g].parent, two.sub(j)));
-    let rule = rule_for(rule, [sides.0.0, sides.1.0]);
-    let share = sub_weights((frame, segment, rule), sides, one.space, None);
-    active.add_share((f, g), one.space.nodes(sides.0.0, sides.0.1), &share)?;
+    let share = one.share(two, (i, j), (frame, segment, rule));
+    let rows = one.space.nodes(one.facets[one.parent(i)].parent, one.sub(i));
+    active.add_share((one.parent(i), two.parent(j)), rows, &share)?;
     let mut weights = PairWeights::default();
     for (a, row) in share.ab.iter().enumerate() {
         weights.ab[a][a] = row.iter().sum();

@@ -50,7 +50,8 @@ pub struct Layers {
 /// Refuses a mortar surface that lies in layers.
 pub fn refuse(surfaces: (&Surface, &Surface), by: (&Options, &Filter), room: &mut Room, at: &Active) -> Result<()> {
     let Some(found) = find(surfaces, by, room, at)?.next() else { return Ok(()) };
-    let Layers { under, facets: [a, b], apart } = found?;
+    let Layers { under, facets, apart } = found?;
+    let (under, [a, b]) = (surfaces.0.host_facet(under), facets.map(|f| surfaces.1.host_facet(f)));
     let text = if apart > 0.0 {
         text!(
             "the mortar surface lies in layers over non-mortar facet {under}: mortar facets {a} and {b} lie over each other, {apart:.3e} apart; set search_distance below their distance, or leave the farther ones out"

@@ -39,7 +39,7 @@ pub fn refuse_lost_contact<const N: usize>(
             Filter::Analytic(_) => (lowest_over_surface(setup, pair.one, x1, x2)?, None),
         };
         let touches = low <= TOUCHES * setup.nonmortar.facet(pair.one, x1).longest_edge();
-        for (k, &a) in setup.nonmortar.facets[pair.one].as_slice().iter().enumerate() {
+        for (k, &a) in setup.nonmortar.rows(pair.one).as_slice().iter().enumerate() {
             let coverage = pair.weights.coverage(k);
             if !touches || coverage <= NOTHING * areas[a] || responses[a].state == State::Gap {
                 continue;
@@ -48,8 +48,8 @@ pub fn refuse_lost_contact<const N: usize>(
             if let Some(depth) = deep {
                 let text = text!(
                     "non-mortar node {a} is in contact with mortar facet {}, which lies {depth:.3e} behind non-mortar facet {}: deeper than a pair may be in the next step; give search_distance, more than that, or smaller non-mortar facets",
-                    pair.two,
-                    pair.one
+                    setup.mortar.host_facet(pair.two),
+                    setup.nonmortar.host_facet(pair.one)
                 );
                 return Err(Error::new(Kind::ContactLost, text));
             }

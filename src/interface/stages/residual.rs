@@ -78,7 +78,7 @@ pub fn refresh<const N: usize>(
         }
     }
     for (a, response) in responses.iter().enumerate() {
-        if nodes.owned[a] {
+        if nodes.owned[a] && nonmortar.has_row(a) {
             r.rows[a] = response.row * given.row_scale(a);
         }
     }

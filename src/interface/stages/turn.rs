@@ -59,7 +59,7 @@ pub fn refuse_turn<const N: usize>(
     let (angle, facet) = turn_of_mortar(mortar, &given.history().x2, x2)?;
     refuse_angle(options, angle, || match mortar.analytic {
         Some(shape) => text!("the mortar side, {shape},"),
-        None => text!("mortar facet {facet}"),
+        None => text!("mortar facet {}", mortar.host_facet(facet)),
     })
 }
 

@@ -9,6 +9,7 @@ use super::derivatives::PairDerivatives;
 use super::dual_facet::{DualFacet, MortarRows, ShareRoom};
 use super::emission::{Emitter, Takers};
 use super::facet_tangent::{FacetTangent, total};
+use super::parents::{self, ParentNumbers, ParentRoom};
 use super::turning::{self, Turns};
 use super::union::{Pairs, UnionPair, Walk};
 use crate::dual::FacetMotion;
@@ -74,6 +75,12 @@ impl<const N: usize> Numbers<'_, N> {
     /// Which nodes are carried, with the law's answers.
     fn answers(&self) -> (&[bool], &[NodeResponse<N>]) {
         (&self.responses.carried, &self.responses.nodes)
+    }
+
+    /// Those of facets of the host, where either side has quadratic ones.
+    fn of_parents(&self) -> ParentNumbers<'_, N> {
+        let carried = &self.responses.carried;
+        ParentNumbers { x1: self.x1, nodes: self.nodes, carried, active: self.active, motion: self.motion }
     }
 
     /// What the dual multipliers of a facet have in common over these pairs, all of its own.
@@ -174,6 +181,7 @@ pub struct Room<const N: usize> {
     share: ShareRoom,
     mortar: MortarRows,
     overlaps: FacetOverlaps,
+    parent: ParentRoom,
     lone: turning::LoneRoom,
     /// Weights of several pairs, now and of t_n.
     sums: [PairWeights; 2],
@@ -220,6 +228,15 @@ pub fn of_facets<const N: usize>(
     emitter: &mut Emitter<N>,
 ) -> Result<i64> {
     let (mut linearised, mut walk) = (0, Walk::through(task.pairs, facets));
+    if task.given.setup.has_parents() {
+        let numbers = task.numbers.map(Numbers::of_parents);
+        while let Some(f) = walk.next(&mut room.pairs)? {
+            let pairs = (f, task.pairs, &room.pairs[..]);
+            let at = (task.given, task.normals);
+            linearised += parents::of_parent(at, pairs, numbers.as_ref(), &mut room.parent, emitter)?;
+        }
+        return Ok(linearised);
+    }
     let mut pairs = std::mem::take(&mut room.pairs);
     while let Some(f) = walk.next(&mut pairs)? {
         emitter.begin(f);

@@ -123,6 +123,14 @@ impl<const N: usize> Blocks<N> for ByEquations<'_, N> {
         self.sink.add_block(self.place(row), self.place(column), values);
     }
 
+    fn multiplier(&mut self, row: Place, a: usize, n: f64, nu: &Vec3) {
+        let (rows, multipliers) = (self.place(row), &self.setup.multiplier_equations[a]);
+        if N == 1 {
+            return self.sink.add_block(rows, multipliers, (nu * n).as_slice());
+        }
+        rows.iter().zip(multipliers).for_each(|(row, column)| self.sink.add_block(&[*row], &[*column], &[n]));
+    }
+
     fn diagonal(&mut self, a: usize, values: &[f64]) {
         for (equation, value) in self.setup.multiplier_equations[a].iter().zip(values) {
             self.sink.add_block(&[*equation], &[*equation], &[*value]);

@@ -22,7 +22,7 @@ pub struct PairDerivatives<'a> {
     /// What the tangent is to know.
     pub tangent: Tangent,
     /// The rule of the weights.
-    pub rule: &'a Rule,
+    pub rule: &'static Rule,
 }
 
 impl PairDerivatives<'_> {

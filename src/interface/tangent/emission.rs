@@ -67,6 +67,9 @@ pub trait Blocks<const N: usize> {
     /// One block of two nodes, column by column.
     fn node(&mut self, row: Place, column: Place, values: &[f64]);
 
+    /// d force of one node / d multiplier of node a, in the multiplier form: weight n, n I, or n nu_A where there is one component.
+    fn multiplier(&mut self, row: Place, a: usize, n: f64, nu: &Vec3);
+
     /// The diagonal of the block of a multiplier with itself, which has nothing else.
     fn diagonal(&mut self, a: usize, values: &[f64]);
 }

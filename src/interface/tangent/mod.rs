@@ -8,5 +8,7 @@ pub mod derivatives;
 pub mod dual_facet;
 pub mod emission;
 pub mod facet_tangent;
+pub mod parent_table;
+pub mod parents;
 pub mod turning;
 pub mod union;

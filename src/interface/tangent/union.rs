@@ -5,7 +5,7 @@ use crate::geometry::Vec3;
 use crate::interface::data::checksum::of_words;
 use crate::interface::data::history::Keeps;
 use crate::interface::data::options::Weights;
-use crate::interface::data::pairs::PairRecord;
+use crate::interface::data::pairs::{PairRecord, ParentRecord};
 use crate::interface::data::setup::Setup;
 use crate::interface::data::surface::frames;
 use crate::interface::pairing::analytic;
@@ -13,7 +13,7 @@ use crate::interface::pairing::candidates::{KeptTree, SKIN, candidates};
 use crate::interface::pairing::filter::Filter;
 use crate::interface::pairing::given::Given;
 use crate::memory::{Store, Stored};
-use crate::mortar::{MORTAR, PAIR_NODES, PairWeights};
+use crate::mortar::{MORTAR, PAIR_NODES, PairWeights, ParentWeights};
 use crate::shape::{MAX_CORNERS, MAX_NODES};
 use std::ops::Range;
 
@@ -57,6 +57,8 @@ impl UnionPair {
 pub enum Pairs<'a> {
     /// Those active now and, where slip counts, those of t_n.
     Union([&'a [PairRecord]; 2]),
+    /// The same of pairs of parents.
+    Parents([&'a [ParentRecord]; 2]),
     /// All that there may be.
     Possible(&'a [(usize, usize)]),
 }
@@ -64,18 +66,51 @@ pub enum Pairs<'a> {
 impl<'a> Pairs<'a> {
     /// A number that tells these pairs, and this fact of them, from others.
     pub fn checksum(self, fact: bool) -> u64 {
-        let lists = match self {
-            Pairs::Union(lists) => lists,
-            Pairs::Possible(list) => {
-                let pairs = list.iter().flat_map(|&(one, two)| [one as u64, two as u64]);
-                return of_words([2 + u64::from(fact)].into_iter().chain(pairs));
+        if let Pairs::Possible(list) = self {
+            let pairs = list.iter().flat_map(|&(one, two)| [one as u64, two as u64]);
+            return of_words([2 + u64::from(fact)].into_iter().chain(pairs));
+        }
+        let list = |list: usize| {
+            let pairs = (0..self.len(list)).filter_map(move |k| self.get(list, k));
+            std::iter::once(self.len(list) as u64).chain(pairs.flat_map(|pair| [pair.0 as u64, pair.1 as u64]))
+        };
+        of_words(std::iter::once(u64::from(fact)).chain((0..2).flat_map(list)))
+    }
+
+    /// Pairs of a list: those of now, those of t_n.
+    fn len(self, list: usize) -> usize {
+        match self {
+            Pairs::Union(lists) => lists[list].len(),
+            Pairs::Parents(lists) => lists[list].len(),
+            Pairs::Possible(possible) => {
+                if list == 0 {
+                    possible.len()
+                } else {
+                    0
+                }
             }
-        };
-        let list = |list: &'a [PairRecord]| {
-            let pairs = list.iter().flat_map(|pair| [pair.one as u64, pair.two as u64]);
-            std::iter::once(list.len() as u64).chain(pairs)
-        };
-        of_words(std::iter::once(u64::from(fact)).chain(lists.into_iter().flat_map(list)))
+        }
+    }
+
+    /// The facets of the k-th of them.
+    fn get(self, list: usize, k: usize) -> Option<(usize, usize)> {
+        match self {
+            Pairs::Union(lists) => lists[list].get(k).map(|p| (p.one, p.two)),
+            Pairs::Parents(lists) => lists[list].get(k).map(|p| (p.one, p.two)),
+            Pairs::Possible(possible) => possible.get(k).copied(), // active and of t_n
+        }
+    }
+
+    /// The weights of now of a pair of parents.
+    pub fn parent_now(self, pair: &UnionPair) -> Option<&'a ParentWeights> {
+        let Pairs::Parents([now, _]) = self else { return None };
+        pair.is_active.then(|| &now[pair.place].weights)
+    }
+
+    /// Its weights of t_n.
+    pub fn parent_previous(self, pair: &UnionPair) -> Option<&'a ParentWeights> {
+        let Pairs::Parents([_, previous]) = self else { return None };
+        pair.previous.map(|place| &previous[place].weights)
     }
 
     /// The weights of now of a pair; 0 where it is possible alone.
@@ -93,7 +128,7 @@ impl<'a> Pairs<'a> {
             PairWeights { ab: [[0.0; MAX_NODES]; MAX_CORNERS], ac: [[0.0; MAX_NODES]; MAX_CORNERS] };
         place.map(|place| match self {
             Pairs::Union(lists) => &lists[list][place].weights,
-            Pairs::Possible(_) => &NONE,
+            Pairs::Parents(_) | Pairs::Possible(_) => &NONE,
         })
     }
 }
@@ -112,6 +147,7 @@ impl<'a> Walk<'a> {
     pub fn through(pairs: Pairs<'a>, facets: Range<usize>) -> Walk<'a> {
         let next = match pairs {
             Pairs::Union(lists) => lists.map(|list| list.partition_point(|pair| pair.one < facets.start)),
+            Pairs::Parents(lists) => lists.map(|list| list.partition_point(|pair| pair.one < facets.start)),
             Pairs::Possible(list) => [list.partition_point(|pair| pair.0 < facets.start), 0],
         };
         Walk { pairs, next, end: facets.end }
@@ -122,10 +158,8 @@ impl<'a> Walk<'a> {
         of_facet.clear();
         loop {
             let heads = match self.pairs {
-                Pairs::Union([now, previous]) => {
-                    [(now, self.next[0]), (previous, self.next[1])].map(|(list, k)| list.get(k).map(|p| (p.one, p.two)))
-                }
-                Pairs::Possible(list) => [list.get(self.next[0]).copied(); 2],
+                Pairs::Possible(_) => [self.pairs.get(0, self.next[0]); 2],
+                pairs => [0, 1].map(|list| pairs.get(list, self.next[list])),
             };
             let facet = of_facet.first().map(|pair| pair.one);
             let head = heads.into_iter().flatten().min();
@@ -173,6 +207,10 @@ pub fn possible_pairs<const N: usize>(
                 pairs.store_all((0..facing.len()).filter(faces).map(|i| (i, 0)))?;
             }
         }
+    }
+    if let (Some(p), Some(q)) = (&one.parents, &two.parents) {
+        pairs.iter_mut().for_each(|pair| *pair = (p.parent(pair.0), q.parent(pair.1)));
+        pairs.store_all(h.parents.iter().map(|p| (p.one, p.two)))?;
     }
     pairs.sort_unstable();
     pairs.dedup();

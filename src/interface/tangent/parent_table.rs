@@ -1,0 +1,217 @@
+//! What a facet of the host adds up over its parts before its blocks leave, where either side has quadratic facets: derivatives
+//! over its own nodes and those of its mortar facets (docs/formulation.md 12.5).
+
+use crate::dual::{DualBasis, corner_shares};
+use crate::error::Result;
+use crate::geometry::{Mat3, Vec3};
+use crate::memory::{self, Store};
+use crate::mortar::{COLUMNS, MORTAR, ParentWeights, SubMotion};
+use crate::shape::{MAX_CORNERS, MAX_PARENT_NODES, Parent};
+
+/// Sums over the parts of a facet. Rows and columns of nodes: the facet's own, then mortar nodes, each once.
+#[derive(Debug, Default)]
+pub struct ParentTable {
+    /// Own nodes.
+    pub own: usize,
+    /// Multipliers, at the first own nodes.
+    pub multipliers: usize,
+    /// Mortar nodes, and whether any active pair has them.
+    pub mortar: Vec<(usize, bool)>,
+    /// Derivatives of forces with fixed tractions, `[row][column]`.
+    forces: Vec<Mat3>,
+    /// Dg, `[multiplier][column]`.
+    gaps: Vec<Mat3>,
+    /// Derivatives of covered areas, of the multipliers.
+    areas: Vec<Vec3>,
+    /// n_AB and - n_AC of now as they act, of now as they were integrated, and of t_n, `[multiplier][column]`.
+    pub now: Vec<f64>,
+    integrated: Vec<f64>,
+    pub previous: Vec<f64>,
+}
+
+/// A facet with dual multipliers: its basis, its tractions, and what its kernels are asked for.
+pub struct DualParent<'a> {
+    pub basis: &'a DualBasis,
+    pub parent: &'static Parent,
+    /// p_A.
+    pub tractions: [Vec3; MAX_CORNERS],
+    /// q_A with sum_B m_AB q_B = m_A p_A.
+    pub field: [Vec3; MAX_CORNERS],
+    /// h_A = (m^-1 gamma)_A.
+    pub heights: [Vec3; MAX_CORNERS],
+    /// D|e| of the own nodes.
+    pub area: [Vec3; MAX_PARENT_NODES],
+}
+
+/// A linear function of three components, of each.
+fn each(v: &[Vec3; MAX_CORNERS], f: impl Fn(&[f64; MAX_CORNERS]) -> [f64; MAX_CORNERS]) -> [Vec3; MAX_CORNERS] {
+    let rows = [0, 1, 2].map(|i| f(&v.map(|v| v[i])));
+    std::array::from_fn(|a| Vec3::new(rows[0][a], rows[1][a], rows[2][a]))
+}
+
+impl<'a> DualParent<'a> {
+    /// At these tractions and gaps as they were integrated.
+    pub fn new(
+        basis: &'a DualBasis,
+        parent: &'static Parent,
+        tractions: [Vec3; MAX_CORNERS],
+        gaps: &[Vec3; MAX_CORNERS],
+        area: [Vec3; MAX_PARENT_NODES],
+    ) -> DualParent<'a> {
+        let p = [0, 1, 2].map(|i| tractions.map(|t| t[i]));
+        let q = basis.tractions(&p);
+        let field = std::array::from_fn(|a| Vec3::new(q[0][a], q[1][a], q[2][a]));
+        let heights = each(gaps, |g| basis.heights(g));
+        DualParent { basis, parent, tractions, field, heights, area }
+    }
+
+    /// The own nodes with their heights taken away: over these the kernels' gaps are gamma_A - (m h)_A.
+    pub fn lowered(&self, x: &[Vec3; MAX_PARENT_NODES]) -> [Vec3; MAX_PARENT_NODES] {
+        let c = corner_shares(self.parent);
+        let height = |k: usize| -> Vec3 { (0..self.basis.nodes).map(|b| self.heights[b] * c[b][k]).sum() };
+        std::array::from_fn(|k| x[k] - height(k))
+    }
+}
+
+impl ParentTable {
+    /// Begins with these nodes, in the memory of the facet before.
+    pub fn begin(
+        &mut self,
+        (own, multipliers): (usize, usize),
+        mortar: impl Iterator<Item = (usize, bool)>,
+        has_numbers: bool,
+    ) -> Result<()> {
+        (self.own, self.multipliers) = (own, multipliers);
+        self.mortar.clear();
+        for (node, is_active) in mortar {
+            match self.mortar.iter_mut().find(|known| known.0 == node) {
+                Some(known) => known.1 |= is_active,
+                None => self.mortar.store((node, is_active))?,
+            }
+        }
+        let n = if has_numbers { self.columns() } else { 0 };
+        memory::refill(&mut self.forces, Mat3::zeros(), n * n)?;
+        memory::refill(&mut self.gaps, Mat3::zeros(), multipliers * n)?;
+        memory::refill(&mut self.areas, Vec3::zeros(), multipliers * n)?;
+        for weights in [&mut self.now, &mut self.integrated, &mut self.previous] {
+            memory::refill(weights, 0.0, multipliers * n)?;
+        }
+        Ok(())
+    }
+
+    /// Own and mortar nodes.
+    pub fn columns(&self) -> usize {
+        self.own + self.mortar.len()
+    }
+
+    /// The column of a mortar node, if it has one.
+    pub fn column(&self, node: usize) -> Option<usize> {
+        self.mortar.iter().position(|known| known.0 == node).map(|k| self.own + k)
+    }
+
+    /// Df of one node with respect to another.
+    pub fn force(&self, row: usize, column: usize) -> &Mat3 {
+        &self.forces[row * self.columns() + column]
+    }
+
+    /// Dg_A with respect to a node.
+    pub fn gap(&self, a: usize, column: usize) -> &Mat3 {
+        &self.gaps[a * self.columns() + column]
+    }
+
+    /// Adds to Dg_A.
+    pub fn add_gap(&mut self, a: usize, column: usize, block: &Mat3) {
+        let columns = self.columns();
+        self.gaps[a * columns + column] += block;
+    }
+
+    /// Adds the weights of a pair whose mortar nodes have these columns: those that act now, those of now as they were
+    /// integrated, those of t_n.
+    pub fn add_weights(&mut self, two: &[Option<usize>], weights: [Option<&ParentWeights>; 3]) {
+        let columns = self.columns();
+        for (to, n) in [&mut self.now, &mut self.integrated, &mut self.previous].into_iter().zip(weights) {
+            let Some(n) = n else { continue };
+            for a in 0..self.multipliers {
+                let row = &mut to[a * columns..][..columns];
+                (0..self.own).for_each(|b| row[b] += n.ab[a][b]);
+                for (c, column) in two.iter().enumerate() {
+                    if let Some(column) = *column {
+                        row[column] -= n.ac[a][c];
+                    }
+                }
+            }
+        }
+    }
+
+    /// Adds what a pair of parts has, by the columns of its slots, of the mortar facet's nodes, and by the multipliers of its
+    /// rows.
+    pub fn add_motion(
+        &mut self,
+        d: &SubMotion,
+        slots: &[Option<usize>; 2 * MORTAR],
+        two: &[Option<usize>],
+        rows: &[usize],
+    ) {
+        let columns = self.columns();
+        for (k, column) in slots.iter().enumerate() {
+            let Some(column) = *column else { continue };
+            let add = |to: &mut Mat3, of: &[[[f64; COLUMNS]; 3]; 3], b: usize| {
+                (0..9).for_each(|ij| to[(ij / 3, ij % 3)] += of[ij % 3][ij / 3][b]);
+            };
+            (0..self.own).for_each(|b| add(&mut self.forces[b * columns + column], &d.one[k], b));
+            for (c, row) in two.iter().enumerate() {
+                if let Some(row) = *row {
+                    add(&mut self.forces[row * columns + column], &d.two[k], c);
+                }
+            }
+            for (a, &row) in rows.iter().enumerate() {
+                let gap = &mut self.gaps[row * columns + column];
+                (0..9).for_each(|ij| gap[(ij / 3, ij % 3)] += d.gap[k][ij % 3][ij / 3][a]);
+                (0..3).for_each(|j| self.areas[row * columns + column][j] += d.areas[k][j][a]);
+            }
+        }
+    }
+
+    /// Adds what the nodes' own motion does to the gaps.
+    pub fn carry(&mut self) {
+        for (gap, n) in self.gaps.iter_mut().zip(&self.integrated) {
+            *gap += Mat3::from_diagonal_element(*n);
+        }
+    }
+
+    /// Makes of sums with the field q and lowered nodes those of dual gaps and forces (docs/formulation.md 10.4, of vectors).
+    pub fn make_dual(&mut self, d: &DualParent) {
+        let (columns, m, basis, c) = (self.columns(), self.multipliers, d.basis, corner_shares(d.parent));
+        let (phi, slope, inverse) = (basis.coverage.fade, basis.coverage.slope, basis.coefficients());
+        // (m^-1)_AB = a_AB / m_A.
+        let inverse = |a: usize, b: usize| inverse[a][b] / basis.areas[a];
+        for column in 0..columns {
+            let dm = |table: &ParentTable, a: usize| table.areas[a * columns + column];
+            let whole = if column < self.own { d.area[column] } else { Vec3::zeros() };
+            let all: Vec3 = (0..m).map(|a| dm(self, a)).sum();
+            let dphi = (all - whole * basis.coverage.share) * (slope / basis.area);
+            // p_B Dm_B - (Dm q)_B.
+            let mut r = [Mat3::zeros(); MAX_CORNERS];
+            for (b, r) in r.iter_mut().enumerate().take(m) {
+                let dmq: Mat3 = (0..self.own).map(|k| self.forces[k * columns + column] * c[b][k]).sum();
+                *r = d.tractions[b] * dm(self, b).transpose() - dmq;
+            }
+            // D(phi q_A), and with it the forces.
+            (0..columns).for_each(|row| self.forces[row * columns + column] *= phi);
+            for a in 0..m {
+                let solved: Mat3 = (0..m).map(|b| r[b] * inverse(a, b)).sum();
+                let change = solved * phi + d.field[a] * dphi.transpose();
+                for row in 0..columns {
+                    self.forces[row * columns + column] += change * self.integrated[a * columns + row];
+                }
+            }
+            let old: [Mat3; MAX_CORNERS] =
+                std::array::from_fn(|b| if b < m { self.gaps[b * columns + column] } else { Mat3::zeros() });
+            for a in 0..m {
+                let solved: Mat3 = (0..m).map(|b| old[b] * inverse(a, b)).sum();
+                let area = dphi * basis.areas[a] + dm(self, a) * phi;
+                self.gaps[a * columns + column] = solved * (phi * basis.areas[a]) + d.heights[a] * area.transpose();
+            }
+        }
+    }
+}
