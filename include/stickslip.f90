@@ -187,7 +187,7 @@ module stickslip
   integer(c_int32_t), parameter :: STICKSLIP_STATE_SLIP = 2
 
   ! Sizes of the types in bytes (64-bit machines), their struct_size.
-  integer(c_int64_t), parameter :: stickslip_options_size = 152
+  integer(c_int64_t), parameter :: stickslip_options_size = 160
   integer(c_int64_t), parameter :: stickslip_surface_size = 72
   integer(c_int64_t), parameter :: stickslip_states_size = 80
   integer(c_int64_t), parameter :: stickslip_counters_size = 200
@@ -236,9 +236,11 @@ module stickslip
     real(c_double) :: shear_limit = 0              ! largest shear traction, > 0 with TRESCA [F/L^2]
     integer(c_int32_t) :: normals = 0              ! STICKSLIP_NORMALS_...
     integer(c_int32_t) :: threads = 0              ! that values, residual and commit may use; 0: the calling one alone
+    integer(c_int32_t) :: multiplier_space = STICKSLIP_SPACE_CORNER ! where quadratic facets have multipliers
+    integer(c_int32_t) :: reserved = 0
   end type
 
-  ! One surface of an interface. nf facets with 3 or 4 nodes each.
+  ! One surface of an interface. nf facets with 3, 4, 6, 8 or 9 nodes each: corners, mid nodes, centre.
   type, bind(C) :: stickslip_surface
     integer(c_int64_t) :: struct_size = stickslip_surface_size
     integer(c_int64_t) :: n_nodes = 0

@@ -548,6 +548,11 @@ typedef struct stickslip_options {
   /// Threads that `stickslip_interface_plan_values`, the residual and a commit may use, 1 to 256; 0 (default): the calling one
   /// alone. They end with the call. The results are the same bit for bit, whatever their number.
   int32_t threads;
+  /// STICKSLIP_SPACE_..., for interfaces with quadratic facets: where the multipliers of such facets stand. Nodes of
+  /// the non-mortar side at which no facet has a multiplier have no multiplier equations (-1).
+  int32_t multiplier_space;
+  /// 0.
+  int32_t reserved;
 } stickslip_options;
 
 /// One surface of an interface.
@@ -575,14 +580,15 @@ typedef struct stickslip_surface {
   /// has the entries facet_offsets[f] to facet_offsets[f + 1] - 1 of C's array; counted from 1, the
   /// entries facet_offsets(f) + 1 to facet_offsets(f + 1) of Fortran's.
   const int64_t *facet_offsets;
-  /// Node numbers in the index base, 3 (tri3) or 4 (quad4) a facet, right-hand order seen from outside
-  /// the body.
+  /// Node numbers in the index base, 3 (tri3), 4 (quad4), 6 (tri6), 8 (quad8) or 9 (quad9) a facet, right-hand order seen
+  /// from outside the body: corners, then the mid nodes, k between the corners k and k + 1, then the centre.
   const int64_t *facet_nodes;
   /// 3 n_nodes displacement equations, node by node, in the index base; -1: none (prescribed), whatever the
   /// index base.
   const int64_t *equations;
   /// Non-mortar: 3 n_nodes multiplier equations, each in use nowhere else in the interface; -1: the component is removed and its axis a constrained
-  /// direction (see `stickslip_interface_set_constraints`); a node with three -1 keeps its normal. With
+  /// direction (see `stickslip_interface_set_constraints`); a node with three -1 keeps its normal. All are -1 at a node
+  /// where no facet has a multiplier, as at the mid nodes of quadratic facets with STICKSLIP_SPACE_CORNER. With
   /// STICKSLIP_FRICTION_NONE n_nodes equations, one a node, along the normal; -1: none. A longer array cannot be told
   /// from a pointer: of 3 n_nodes the first n_nodes would be read as those of the nodes, without an error; so check that
   /// `multipliers` of `stickslip_interface_counters` is what you expect. Mortar: NULL.

@@ -42,7 +42,8 @@ pub struct stickslip_surface {
     /// index base.
     pub equations: *const i64,
     /// Non-mortar: 3 n_nodes multiplier equations, each in use nowhere else in the interface; -1: the component is removed and its axis a constrained
-    /// direction (see `stickslip_interface_set_constraints`); a node with three -1 keeps its normal. With
+    /// direction (see `stickslip_interface_set_constraints`); a node with three -1 keeps its normal. All are -1 at a node
+    /// where no facet has a multiplier, as at the mid nodes of quadratic facets with STICKSLIP_SPACE_CORNER. With
     /// STICKSLIP_FRICTION_NONE n_nodes equations, one a node, along the normal; -1: none. A longer array cannot be told
     /// from a pointer: of 3 n_nodes the first n_nodes would be read as those of the nodes, without an error; so check that
     /// `multipliers` of `stickslip_interface_counters` is what you expect. Mortar: NULL.

@@ -80,7 +80,7 @@ fn an_evaluation_stage_by_stage() {
     respond(given, &lambda, &sums, scope, &mut responses).unwrap();
     assert!(responses.nodes.iter().all(|r| r.state == State::Stick) && responses.counts.frictional == 4);
 
-    let forces = residual(given, &active.pairs, &lambda, &responses.nodes).unwrap();
+    let forces = residual(given, active.weighted(setup.surfaces()), &lambda, &responses.nodes).unwrap();
     let total: Vec3 = forces.nonmortar.iter().chain(&forces.mortar).sum();
     assert!(total.norm() < ROUNDING, "{total}");
     assert!(forces.rows.iter().all(|row| (row.z + 0.05).abs() < ROUNDING), "r_A M_A g_N: {:?}", forces.rows);

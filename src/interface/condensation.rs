@@ -9,6 +9,7 @@ use super::contact::Contact;
 use super::data::csr::Csr;
 use super::data::extent::Extent;
 use super::data::node_data::check_length;
+use super::data::surface::NO_EQUATION;
 use super::linear::PlanPairs;
 use super::pairing::given::{Given, check_finite};
 use super::plan::pattern::System;
@@ -38,7 +39,7 @@ impl<const N: usize> Contact<N> {
     /// The elimination at x.
     fn elimination(&mut self, x: (&[Vec3], &[Vec3])) -> Result<Elimination> {
         let sums = memory::copied(self.cache.sums(&self.setup, &mut self.step, x, Extent::Whole)?)?;
-        let (given, pairs) = (self.given(), self.cache.pairs(&self.step.history));
+        let (given, pairs) = (self.given(), self.cache.weighted(self.setup.surfaces(), &self.step.history));
         let normals = given.normals()?;
         refuse(given, &normals)?;
         Elimination::of(given, &normals, pairs, &sums, &carried(given, &sums)?)
@@ -144,11 +145,27 @@ impl<const N: usize> Contact<N> {
     ) -> Result<()> {
         let lambda = narrowed(&elimination.traction_changes(&self.rows()?)?)?;
         let nonmortar = &self.setup.nonmortar.equations;
-        let mut rows = memory::copied(nonmortar.as_flattened())?;
-        memory::sort(&mut rows)?;
+        // Which rows the rows of each equation are gathered in, and their shares.
+        let mut rows = Vec::new();
+        for (a, own) in nonmortar.iter().enumerate() {
+            // What dual multipliers of linear facets do to other nodes' rows is 0.
+            if self.setup.has_parents() && elimination.scale(a) == 0.0 {
+                continue;
+            }
+            rows.store_all(own.iter().map(|&e| (e, e, 1.0)))?;
+            for &(m, c) in elimination.hat(a) {
+                rows.store_all(nonmortar[m].iter().zip(own).map(|(&from, &to)| (from, to, c)))?;
+            }
+        }
+        let rows = memory::sorted(&rows, |p, q| (p.0, p.1).cmp(&(q.0, q.1)))?;
         let mut forces = |row: i64, column: i64, value: f64| {
-            if rows.binary_search(&row).is_ok() {
-                sink.add(row, column, value);
+            let first = rows.partition_point(|r| r.0 < row);
+            let mut last = None;
+            for &(_, to, c) in rows[first..].iter().take_while(|r| r.0 == row && r.1 != NO_EQUATION) {
+                // Nodes may share an equation.
+                if last.replace(to) != Some(to) {
+                    sink.add(to, column, c * value);
+                }
             }
         };
         let (mut nowhere, scales) = (|_: i64, _: i64, _: f64| {}, memory::filled(0.0, nonmortar.len())?);
@@ -203,8 +220,8 @@ impl<const N: usize> Contact<N> {
         columns.settle()?;
         let given = Given { setup: &self.setup, step: &self.step };
         let pairs = possible_pairs(given, &mut self.cache.work.tree, (x1, x2))?;
-        let moving = if self.setup.effects.moves() { &pairs[..] } else { &[] };
-        columns.entries(self.setup.surfaces(), &self.step.pairing.carriers, moving, sink)
+        let (carriers, moves) = (&self.step.pairing.carriers, self.setup.effects.moves());
+        columns.entries(self.setup.surfaces(), carriers, (&pairs, moves), sink)
     }
 }
 

@@ -154,8 +154,6 @@ pub struct ParentWeights {
     pub ab: [[f64; MAX_PARENT_NODES]; MAX_PARENT_NODES],
     /// n_AC.
     pub ac: [[f64; MAX_PARENT_NODES]; MAX_PARENT_NODES],
-    /// The area of the overlap, that of every pair of sub-facets in the plane of the non-mortar one [L^2].
-    pub area: f64,
 }
 
 /// Derivatives of n_AB and n_AC, row by row as a caller has them: `[A][B][k][j]` with respect to component j of the pair's
@@ -180,7 +178,6 @@ pub fn parent_weights(
             let Some(segment) = Segment::new(&frame, &two.sub(t))? else { continue };
             let (pair, sides) = ((&frame, &segment, rule), ((one.parent, sigma), (two.parent, tau)));
             let rows = space.nodes(one.parent, sigma);
-            sum.area += segment.area;
             match &mut derivatives {
                 None => sum.add(rows, &sub_weights(pair, sides, space, None)),
                 Some([ab, ac]) => {

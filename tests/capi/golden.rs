@@ -297,7 +297,7 @@ impl Golden {
     /// friction the multipliers are those along the normal.
     pub fn with_options(case: &Value, choose: impl Fn(&mut stickslip_options)) -> Golden {
         let (x1, x2) = (flat(&case["x1"]), flat(&case["x2"]));
-        let equations: Vec<i64> = (0..(2 * x1.len() + x2.len()) as i64).collect();
+        let mut equations: Vec<i64> = (0..(2 * x1.len() + x2.len()) as i64).collect();
         let arrays = |v: &Value| {
             let facets = facets(v);
             let offsets = facets.iter().scan(0, |end, f| {
@@ -306,6 +306,11 @@ impl Golden {
             });
             (std::iter::once(0).chain(offsets).collect::<Vec<i64>>(), facets.concat())
         };
+        // Nodes of quadratic facets that have no multiplier.
+        let has = case["has_multiplier"].as_array().into_iter().flatten();
+        for (a, _) in has.enumerate().filter(|(_, has)| **has == false) {
+            equations[x1.len() + x2.len() + 3 * a..][..3].fill(-1);
+        }
         let (offsets1, nodes1) = arrays(&case["facets1"]);
         let (offsets2, nodes2) = arrays(&case["facets2"]);
         let mut one = sized!(stickslip_surface);

@@ -71,7 +71,9 @@ fn layouts() -> Vec<Layout> {
             turn_max,
             shear_limit,
             normals,
-            threads
+            threads,
+            multiplier_space,
+            reserved
         }),
         layout!(stickslip_states {
             struct_size,

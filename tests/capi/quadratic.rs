@@ -75,6 +75,28 @@ fn golden_interfaces_of_quadratic_facets_by_stages() {
     println!("G4 residual {:.1e}, tangent {:.1e}", worst[0], worst[1]);
 }
 
+/// The same by a handle.
+#[test]
+fn golden_interfaces_of_quadratic_facets_by_a_handle() {
+    for case in golden_part("golden_quadratic.json", "interfaces") {
+        let space = if case["multiplier_space"] == "sub" { STICKSLIP_SPACE_SUB } else { STICKSLIP_SPACE_CORNER };
+        let g = Golden::with_options(&case, |options| options.multiplier_space = space);
+        let has: Vec<bool> = case["has_multiplier"].as_array().unwrap().iter().map(|h| h == true).collect();
+        let states = g.states().into_iter().zip(numbers(&case["state"])).zip(&has);
+        for (a, ((found, state), _)) in states.enumerate().filter(|(_, (_, has))| **has) {
+            assert_eq!(found as f64, state, "{}: state of node {a}", name(&case));
+        }
+        let ends = g.ends();
+        let error = residual_error(ends, &g.residual(), &numbers(&case["residual_mult"]));
+        assert!(error <= RESIDUAL, "{}: residual off by {error:e}", name(&case));
+        let (n, mut expected) = (ends[3], dense(&case["tangent_mult"], ends[3]));
+        // Nodes without multipliers have no equations for them; the data have -1 / r on the diagonal there.
+        (ends[2]..n).filter(|i| !has[(i - ends[2]) / 3]).for_each(|i| expected[i * n + i] = 0.0);
+        let error = tangent_error(ends, &g.tangent(), &expected, VANISHING);
+        assert!(error <= TANGENT, "{}: tangent off by {error:e}", name(&case));
+    }
+}
+
 /// Areas of multipliers at corners: those of the weights where all is covered. Normals of a flat facet: its own.
 #[test]
 fn geometry_of_quadratic_facets() {
@@ -124,7 +146,7 @@ fn what_quadratic_pairs_do_not_take_is_refused_by_name() {
         "pair.x1 has 7 nodes; 3 (tri3), 4 (quad4), 6 (tri6), 8 (quad8) or 9 (quad9)",
     );
     check(&|p| p.n2 = 10, STICKSLIP_INVALID_SIZE, "pair.x2 has 10 nodes");
-    check(&|p| p.multiplier_space = 2, STICKSLIP_INVALID_VALUE, "pair.multiplier_space is 2; 0 (corner) or 1 (sub)");
+    check(&|p| p.multiplier_space = 2, STICKSLIP_INVALID_VALUE, "pair.multiplier_space is 2; the header names 0 to 1");
     check(&|p| p.element_points = 4, STICKSLIP_UNSUPPORTED, "pair.element_points and pair.neighbour_normals");
     check(&|p| p.neighbour_normals = p.x1, STICKSLIP_UNSUPPORTED, "pair.element_points and pair.neighbour_normals");
     check(&|p| p.reserved = 1, STICKSLIP_INVALID_VALUE, "pair.reserved is 1; it must be 0");

@@ -3,6 +3,7 @@
 use super::golden::{Golden, set_up_with};
 use super::weak::{self, WEAK};
 use crate::support::mesh::*;
+use crate::support::parents::*;
 use crate::support::*;
 use nalgebra::{DMatrix, DVector, Rotation3, SVector};
 use serde_json::Value;
@@ -409,4 +410,42 @@ fn a_copy_without_a_multiplier_took_the_row_of_the_node_that_has_one() {
 
 fn floor() -> Mesh {
     grid(1, 1, [-0.5, -0.5], [1.5, 1.5], 0.0, true, Cells::Quads)
+}
+
+/// Quadratic facets, mixed, covered in part, with carried nodes and without: the rows of nodes without multipliers are changed too.
+fn of_parents<const N: usize>(options: Options, prescribed: bool, kinds: [&[usize]; 2]) -> weak::Scene<N>
+where
+    Contact<N>: Create<N>,
+{
+    let options = Options { basis: MultiplierBasis::Dual, ..options };
+    let m = moved_parents::<N>(&options, kinds, Roughness { slide: 2.6, ..FLAT }, 0.0, prescribed, 5);
+    weak::Scene { contact: m.contact, x1: m.x1, x2: m.x2, lambda: m.lambda }
+}
+
+#[test]
+fn quadratic_facets_take_the_same_step_as_with_multipliers() {
+    for kinds in [[&[8][..], &[6][..]], [&[9, 8, 6, 6], &[8, 6, 9, 9, 8]], [&[6], &[4]], [&[4], &[9]]] {
+        for (weak_coverage, weights) in
+            [NO_WEAK_COVERAGE, WEAK].into_iter().flat_map(|w| [Weights::Current, Weights::Committed].map(|v| (w, v)))
+        {
+            for friction in [Friction::Coulomb, Friction::Rough, Friction::Tied] {
+                let options = under(friction, 0.4, Options { weights, weak_coverage, ..options() });
+                let mut s = of_parents::<3>(options, false, kinds);
+                complete(&mut s);
+                is_the_system_with_multipliers(&mut s, &format!("{kinds:?} {friction:?} {weak_coverage} {weights:?}"));
+            }
+            let options = Options { friction: Friction::None, mu: 0.0, weights, weak_coverage, ..options() };
+            let mut s = of_parents::<1>(options, false, kinds);
+            complete(&mut s);
+            is_the_system_with_multipliers(&mut s, &format!("{kinds:?} one multiplier {weak_coverage} {weights:?}"));
+        }
+    }
+}
+
+#[test]
+fn the_matrix_of_quadratic_facets_is_the_derivative() {
+    for weak_coverage in [NO_WEAK_COVERAGE, WEAK] {
+        let options = Options { mu: 0.4, weak_coverage, ..options() };
+        is_its_derivative(&mut of_parents::<3>(options, false, [&[8], &[6]]), &format!("quadratic {weak_coverage}"));
+    }
 }

@@ -14,14 +14,18 @@
 //! Here all have three components: where a node's multiplier has one, T_A is nu_A in the first of three columns, so that
 //! this code need not know how many there are.
 //!
+//! Of quadratic facets R stands for (C R)_B of a node B with a multiplier (`hats.rs`), and the rows of all other non-mortar nodes k act
+//! like those of mortar nodes with the other sign: L_kB = -sum_A n_Ak T_A T_B^T / D_B.
+//!
 //! Every other row stays as it is, and so does an uncovered node's, whose multiplier is 0. In a step from given multipliers s_A
 //! is a constant. Where the multipliers are a function of the displacements, c_A Ds_A belongs to the matrix, too
 //! (`Piece::Scales`).
 
+use super::hats::Hats;
 use crate::error::{Error, Kind, Result};
 use crate::geometry::{Mat3, Vec3};
 use crate::interface::data::multiplier::direction;
-use crate::interface::data::pairs::PairRecord;
+use crate::interface::data::pairs::{PairRecord, ParentRecord, Weighted};
 use crate::interface::data::surface::{NO_EQUATION, Surface, node_equations};
 use crate::interface::pairing::given::Given;
 use crate::interface::pairing::weak::Carrier;
@@ -89,6 +93,7 @@ struct Node {
 #[derive(Debug)]
 pub struct Elimination {
     nodes: Vec<Node>,
+    hats: Hats,
     /// Sorted by row, then by node.
     pub transfers: Vec<Transfer>,
 }
@@ -106,7 +111,7 @@ impl Elimination {
     pub fn of<const N: usize>(
         given: Given<N>,
         normals: &[Vec3],
-        pairs: &[PairRecord],
+        pairs: Weighted,
         sums: &[NodeSums],
         carried: &[bool],
     ) -> Result<Elimination> {
@@ -122,16 +127,41 @@ impl Elimination {
                 carried,
             }
         };
-        let mut e = Elimination { nodes: (0..given.nodes()).map(node).stored()?, transfers: Vec::new() };
+        let hats = Hats::of(&given.setup.nonmortar)?;
+        let mut e = Elimination { nodes: (0..given.nodes()).map(node).stored()?, hats, transfers: Vec::new() };
         let carriers = &given.step.pairing.carriers;
         e.refuse_uncovered_carriers(carriers)?;
         e.add_areas(&given.setup.nonmortar, pairs);
-        let moving = if given.setup.effects.moves() { pairs } else { &[] };
-        e.transfers = e.blocks(given.setup.surfaces(), moving, carriers)?;
+        let mut shares = Vec::new();
+        match pairs {
+            Weighted::Facets(pairs) => {
+                let moving = if given.setup.effects.moves() { pairs } else { &[] };
+                e.shares(given.setup.surfaces(), moving, carriers, &mut shares)?;
+            }
+            Weighted::Parents(pairs) => {
+                e.shares_of_parents(
+                    given.setup.surfaces(),
+                    (pairs, given.setup.effects.moves()),
+                    carriers,
+                    &mut shares,
+                )?;
+            }
+        }
+        e.transfers = e.blocks(&shares)?;
         Ok(e)
     }
 
-    fn add_areas(&mut self, nonmortar: &Surface, pairs: &[PairRecord]) {
+    fn add_areas(&mut self, nonmortar: &Surface, pairs: Weighted) {
+        let pairs = match pairs {
+            Weighted::Facets(pairs) => pairs,
+            Weighted::Parents(pairs) => {
+                for pair in pairs {
+                    let rows = nonmortar.host_nodes(pair.one).iter().take(nonmortar.multipliers(pair.one));
+                    rows.enumerate().for_each(|(k, &a)| self.nodes[a].area += pair.weights.coverage(k));
+                }
+                return;
+            }
+        };
         for pair in pairs {
             for (k, &a) in nonmortar.facets[pair.one].as_slice().iter().enumerate() {
                 self.nodes[a].area += pair.weights.coverage(k);
@@ -163,13 +193,13 @@ impl Elimination {
         Ok(())
     }
 
-    fn blocks(
+    fn shares(
         &self,
         (one, two): (&Surface, &Surface),
         moving: &[PairRecord],
         carriers: &[Vec<Carrier>],
-    ) -> Result<Vec<Transfer>> {
-        let mut shares: Vec<Share> = Vec::new();
+        shares: &mut Vec<Share>,
+    ) -> Result<()> {
         for pair in moving {
             for (k, &a) in one.facets[pair.one].as_slice().iter().enumerate() {
                 for (c, &node) in two.facets[pair.two].as_slice().iter().enumerate() {
@@ -185,7 +215,41 @@ impl Elimination {
         for (a, carriers) in self.carried(carriers) {
             shares.store_all(carriers.iter().map(|&(b, w)| ((a, b, a), -w * self.nodes[a].area)))?;
         }
-        let shares = memory::sorted(&shares, |p, q| p.0.cmp(&q.0))?;
+        Ok(())
+    }
+
+    /// The same of pairs of parents: with the rows of non-mortar nodes that have no multiplier of their own.
+    fn shares_of_parents(
+        &self,
+        (one, two): (&Surface, &Surface),
+        (pairs, moves): (&[ParentRecord], bool),
+        carriers: &[Vec<Carrier>],
+        shares: &mut Vec<Share>,
+    ) -> Result<()> {
+        for pair in pairs {
+            let own = one.host_nodes(pair.one);
+            let weights = &pair.weights;
+            for (k, &a) in own.iter().enumerate().take(one.multipliers(pair.one)) {
+                let mut add = |row: usize, weight: f64| {
+                    if self.nodes[a].own {
+                        return shares.store(((row, a, a), weight));
+                    }
+                    let carriers: &[Carrier] = if self.nodes[a].carried { &carriers[a] } else { &[] };
+                    shares.store_all(carriers.iter().map(|&(b, w)| ((row, b, a), w * weight)))
+                };
+                for (b, &node) in own.iter().enumerate().filter(|(_, node)| !self.nodes[**node].own) {
+                    add(node, -weights.ab[k][b])?;
+                }
+                for (c, &node) in two.host_nodes(pair.two).iter().enumerate().filter(|_| moves) {
+                    add(one.len() + node, weights.ac[k][c])?;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn blocks(&self, shares: &[Share]) -> Result<Vec<Transfer>> {
+        let shares = memory::sorted(shares, |p, q| p.0.cmp(&q.0))?;
         let mut transfers: Vec<Transfer> = Vec::new();
         for same in shares.chunk_by(|p, q| p.0 == q.0) {
             let ((row, own, via), weight) = (same[0].0, same.iter().map(|s| s.1).sum::<f64>());
@@ -210,8 +274,25 @@ impl Elimination {
                 }
             }
         };
-        self.transfers.iter().for_each(|t| add(t.row, t.own, &t.block));
-        self.own().for_each(|b| add(b, b, &(self.diagonal(b, &answers[b]) - Mat3::identity())));
+        for t in &self.transfers {
+            add(t.row, t.own, &t.block);
+            self.hats.get(t.own).iter().for_each(|&(m, c)| add(t.row, m, &(t.block * c)));
+        }
+        for b in self.own() {
+            let diagonal = self.diagonal(b, &answers[b]);
+            add(b, b, &(diagonal - Mat3::identity()));
+            self.hats.get(b).iter().for_each(|&(m, c)| add(b, m, &(diagonal * c)));
+        }
+    }
+
+    /// m and c_Bm of node B.
+    pub fn hat(&self, b: usize) -> &[(usize, f64)] {
+        self.hats.get(b)
+    }
+
+    /// (C R)_B of a node B.
+    fn gathered(&self, rows: &[Vec3], b: usize) -> Vec3 {
+        rows[b] + self.hats.get(b).iter().map(|&(m, c)| rows[m] * c).sum::<Vec3>()
     }
 
     /// s_A [F/L^3]; 0 where a node has no multiplier of its own.
@@ -243,11 +324,11 @@ impl Elimination {
         let (mut own, mut gains) = (memory::copied(forces)?, memory::filled(Vec3::zeros(), mortar)?);
         for t in &self.transfers {
             let row = if t.row < n1 { &mut own[t.row] } else { &mut gains[t.row - n1] };
-            *row += t.block * forces[t.own];
+            *row += t.block * self.gathered(forces, t.own);
         }
         for b in self.own() {
             let constraint = self.nodes[b].directions * rows[b].value * self.scale(b);
-            own[b] = self.diagonal(b, &rows[b]) * forces[b] + constraint;
+            own[b] = self.diagonal(b, &rows[b]) * self.gathered(forces, b) + constraint;
         }
         Ok((own, gains))
     }
@@ -268,7 +349,7 @@ impl Elimination {
         let mut lambda = memory::filled(Vec3::zeros(), host.len())?;
         for b in self.own() {
             let Node { directions, area, .. } = &self.nodes[b];
-            lambda[b] = directions.transpose() * host[b] * (-1.0 / area);
+            lambda[b] = directions.transpose() * self.gathered(host, b) * (-1.0 / area);
         }
         Ok(self.completed(carriers, lambda))
     }

@@ -2,6 +2,7 @@
 //! area, so that the node's own rows give the multiplier, and what is left has displacements alone.
 
 pub mod elimination;
+pub mod hats;
 pub mod pattern;
 pub mod refusal;
 pub mod rows;

@@ -1,6 +1,7 @@
 //! Which entries a condensed matrix has beyond the host's own: a mortar node's rows gain the columns of the rows of the
 //! non-mortar nodes above it.
 
+use super::hats::Hats;
 use crate::error::Result;
 use crate::interface::data::csr::Csr;
 use crate::interface::data::surface::{NO_EQUATION, Surface, node_equations};
@@ -48,22 +49,29 @@ impl Columns {
         Ok(())
     }
 
-    /// Gives the entries of all rows that these pairs of facets, over a mortar side that moves, and the nodes that are
-    /// carried can change.
+    /// Gives the entries of all rows that these pairs of facets of the host, over a mortar side that moves or not, and the nodes
+    /// that are carried can change.
     pub fn entries(
         &self,
         (one, two): (&Surface, &Surface),
         carriers: &[Vec<Carrier>],
-        moving: &[(usize, usize)],
+        (pairs, moves): (&[(usize, usize)], bool),
         sink: &mut dyn Sink,
     ) -> Result<()> {
         let mut gains: Vec<(usize, usize)> = (0..one.len()).map(|a| (a, a)).stored()?;
-        for &(f, g) in moving {
-            for &a in one.host_nodes(f) {
-                let rows = || two.host_nodes(g).iter().map(|c| one.len() + c);
-                gains.store_all(rows().map(|row| (row, a)))?;
-                for &(b, _) in carriers.get(a).into_iter().flatten() {
-                    gains.store_all(rows().map(|row| (row, b)))?;
+        let hats = Hats::of(one)?;
+        for b in 0..one.len() {
+            gains.store_all(hats.get(b).iter().map(|share| (b, share.0)))?;
+        }
+        for &(f, g) in pairs {
+            let own: &[usize] = if one.parents.is_some() { one.host_nodes(f) } else { &[] };
+            let mortar: &[usize] = if moves { two.host_nodes(g) } else { &[] };
+            for &a in one.host_nodes(f).iter().take(one.multipliers(f)) {
+                for b in std::iter::once(a).chain(carriers.get(a).into_iter().flatten().map(|carrier| carrier.0)) {
+                    for s in std::iter::once(b).chain(hats.get(b).iter().map(|share| share.0)) {
+                        gains.store_all(own.iter().map(|&row| (row, s)))?;
+                        gains.store_all(mortar.iter().map(|c| (one.len() + c, s)))?;
+                    }
                 }
             }
         }

@@ -95,6 +95,13 @@ impl<'a> CondensedRows<'a> {
 
     /// J becomes L J.
     pub fn eliminate(&mut self, e: &Elimination, answers: &[Row], surfaces: (&Surface, &Surface)) -> Result<()> {
+        // (C R)_B first: rows of nodes without multipliers are still the host's.
+        for b in e.own() {
+            for &(m, c) in e.hat(b) {
+                let share = Mat3::from_diagonal_element(c);
+                self.transfer(node_equations(surfaces, b), node_equations(surfaces, m), &share)?;
+            }
+        }
         for t in &e.transfers {
             self.transfer(node_equations(surfaces, t.row), node_equations(surfaces, t.own), &t.block)?;
         }
