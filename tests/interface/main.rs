@@ -23,6 +23,7 @@ mod large_sliding;
 mod normals;
 mod orders;
 mod orientation;
+mod patch;
 mod plan;
 mod quadratic;
 mod ratios;

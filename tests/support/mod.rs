@@ -10,6 +10,7 @@ pub mod mesh;
 pub mod parents;
 pub mod press;
 pub mod random;
+pub mod solid;
 
 use nalgebra::{DMatrix, DVector, Vector3};
 use serde_json::Value;
