@@ -11,6 +11,7 @@
 mod baseline;
 mod calls;
 mod patches;
+mod sub_facets;
 mod work;
 
 use baseline::Baseline;
@@ -25,6 +26,8 @@ use work::{Kind, Pair, node};
 
 /// Pairs of the times; the baseline's set.
 const PAIRS: usize = 20_000;
+/// Pairs of quadratic facets, of which each has about ten of sub-facets.
+const SUB_FACET_PARENTS: usize = 40;
 /// Passes over them.
 const PASSES: usize = 31;
 /// Pairs and interfaces under callgrind, which is fifty times slower.
@@ -78,6 +81,7 @@ fn kernels(x: &[f64], interfaces: usize) -> Vec<Kernel> {
         }),
     ];
     k.extend(calls::kernels(quads));
+    k.extend(sub_facets::kernels(SUB_FACET_PARENTS));
     for (matching, residual, tangent) in [
         (false, "interface: search, residual, a pair", "interface: tangent, a pair"),
         (true, "matching meshes: search, residual, a pair", "matching meshes: tangent, a pair"),

@@ -38,4 +38,4 @@ pub use parent_pair::{ParentDerivatives, ParentFacet, ParentWeights, parent_weig
 pub use segment::{CellPoints, NonmortarFrame, Segment};
 pub use slots::{MORTAR, PAIR_NODES, slots};
 pub use sub_motion::{ParentPositions, SubMotion, sub_motion};
-pub use sub_pair::{COLUMNS, SubWeights, rule_for, sub_weights};
+pub use sub_pair::{COLUMNS, Side, SubWeights, rule_for, sub_weights};
