@@ -93,7 +93,7 @@ pub fn kernels(parents: usize) -> Vec<Kernel> {
                 let pair = (&p.frame, &p.segment, rule);
                 sub_motion(pair, p.sides, MultiplierSpace::Corner, &TRACTIONS, (&p.x[0], &p.x[1]), &mut to);
                 black_box(&to);
-                sum += to.areas[0][0][0];
+                sum += to.gap[0][0][0][3];
             }
             sum
         });

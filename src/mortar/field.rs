@@ -13,9 +13,9 @@ use crate::simd::Lanes;
 /// Coordinates that are affine in a sub-facet's own, with their gradients in the plane.
 pub(super) struct Coordinates {
     /// c0, c1, c2 of each of the two.
-    affine: [[f64; 3]; 2],
-    /// det J times the gradient of each, in powers 1, eta_1, eta_2.
-    slopes: [[[f64; 2]; 3]; 2],
+    pub affine: [[f64; 3]; 2],
+    /// det J times the gradient of each, in powers 1, eta_1, eta_2: `[i][m][c]`.
+    pub slopes: [[[f64; 2]; 3]; 2],
 }
 
 /// Two coordinates of a point, and `[i][c]`, their derivatives with respect to y_c.
@@ -44,7 +44,7 @@ impl Coordinates {
 
     /// Of four points with these coordinates of the sub-facet.
     #[inline(always)]
-    fn of_four<L: Lanes>(&self, eta: [L; 2]) -> [L; 2] {
+    pub fn of_four<L: Lanes>(&self, eta: [L; 2]) -> [L; 2] {
         let mut at = eta;
         for i in 0..2 {
             let [a, b, c] = self.affine[i];
@@ -91,7 +91,7 @@ pub(super) struct Field {
 }
 
 /// The parent's coordinates of a sub-facet's corners, in the order of its projection.
-fn corners(parent: &Parent, sub: &SubFacet, projection: &Projection) -> [[f64; 2]; MAX_CORNERS] {
+pub(super) fn corners(parent: &Parent, sub: &SubFacet, projection: &Projection) -> [[f64; 2]; MAX_CORNERS] {
     projection.node.map(|k| parent.at[sub.nodes[k & 3]])
 }
 
