@@ -2,7 +2,7 @@
 //! and with positions: those over the overlap from moments, those along edges point by point.
 
 use super::slots::{MORTAR_CORNER, PAIR_CORNERS};
-use super::sub_moments::{SubMoments, Summation, at};
+use super::sub_moments::{Batch, SubMoments, Summation, at};
 use super::sub_pair::{Four, OnEdge};
 use super::sub_polynomials::{Degree, MU, NU, Polynomials, degree_of_nu};
 use crate::shape::{MAX_CORNERS, TERMS, monomials};
@@ -103,15 +103,15 @@ impl Integrals<'_> {
 
     /// The moments that are needed.
     #[inline(always)]
-    pub fn moments<L: Lanes>(&self) -> Summation<L> {
+    pub fn moments<'a, L: Lanes>(&self, batch: &'a mut Batch<L>, moments: &'a mut SubMoments) -> Summation<'a, L> {
         let (one, two) = (self.one, self.two);
         let own = one.beside_map(degree_of_nu(self.nu).times(one.of_parent));
-        Summation::new(
+        let degrees = [
             one.of_map.times(own),
             one.of_map.times(self.of_row_slopes()),
             two.of_map.times(two.beside_map(two.of_parent)),
-            [self.nu, self.mu[1]],
-        )
+        ];
+        Summation::new(degrees, [self.nu, self.mu[1]], batch, moments)
     }
 
     /// Adds what is over the overlap.

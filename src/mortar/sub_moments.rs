@@ -9,8 +9,14 @@ use super::sub_polynomials::{Degree, Polynomials};
 use crate::shape::monomials;
 use crate::simd::Lanes;
 
+/// No points.
+#[inline(always)]
+pub(super) fn no_points<L: Lanes>() -> Batch<L> {
+    [[L::splat(0.0); BATCH]; SLOTS]
+}
+
 /// Groups of four points that are summed at once.
-const BATCH: usize = 8;
+const BATCH: usize = 4;
 /// Most monomials of x1, y1 beside det1, and of x2, y2 beside det2.
 const ROWS: usize = 36;
 /// Where the rows of `two`, its columns and those of `one` begin in a batch.
@@ -29,6 +35,13 @@ pub(super) struct SubMoments {
     pub own: [f64; 64],
     pub one: [[f64; 12]; 40],
     pub two: [[f64; 8]; 48],
+}
+
+impl SubMoments {
+    #[inline(always)]
+    pub fn zero() -> Self {
+        SubMoments { own: [0.0; 64], one: [[0.0; 12]; 40], two: [[0.0; 8]; 48] }
+    }
 }
 
 /// Monomials up to a degree, one after the other.
@@ -54,22 +67,30 @@ impl List {
 }
 
 /// Points and the sums over them.
-pub(super) struct Summation<L> {
+pub(super) struct Summation<'a, L> {
     own: List,
     one: List,
     two: List,
     /// Where the monomials of `one` stand among those of `own`.
     place: [usize; ROWS],
     counts: [usize; 2],
-    batch: [[L; BATCH]; SLOTS],
+    batch: &'a mut Batch<L>,
     len: usize,
-    pub moments: SubMoments,
+    pub moments: &'a mut SubMoments,
 }
 
-impl<L: Lanes> Summation<L> {
+/// Points that wait for their sums: rows and columns, four points in lanes.
+pub(super) type Batch<L> = [[L; BATCH]; SLOTS];
+
+impl<'a, L: Lanes> Summation<'a, L> {
     /// Of these degrees of the three, with so many nu_s and mu_t.
     #[inline(always)]
-    pub fn new(own: Degree, one: Degree, two: Degree, counts: [usize; 2]) -> Self {
+    pub fn new(
+        [own, one, two]: [Degree; 3],
+        counts: [usize; 2],
+        batch: &'a mut Batch<L>,
+        moments: &'a mut SubMoments,
+    ) -> Self {
         let (own, one, two) = (List::new(own), List::new(one), List::new(two));
         let mut place = [0; ROWS];
         for n in 0..one.len {
@@ -79,8 +100,7 @@ impl<L: Lanes> Summation<L> {
                 }
             }
         }
-        let moments = SubMoments { own: [0.0; 64], one: [[0.0; 12]; 40], two: [[0.0; 8]; 48] };
-        Summation { own, one, two, place, counts, batch: [[L::splat(0.0); BATCH]; SLOTS], len: 0, moments }
+        Summation { own, one, two, place, counts, batch, len: 0, moments }
     }
 
     #[inline(always)]
@@ -125,7 +145,7 @@ impl<L: Lanes> Summation<L> {
         for first in (0..self.one.len).step_by(3) {
             for t in (0..self.counts[1]).step_by(4) {
                 let n = [first, first + 1, first + 2].map(|n| n.min(self.one.len - 1));
-                let s = products(&self.batch, [self.place[n[0]], self.place[n[1]], self.place[n[2]]], MUS + t, groups);
+                let s = products(self.batch, [self.place[n[0]], self.place[n[1]], self.place[n[2]]], MUS + t, groups);
                 for r in 0..3.min(self.one.len - first) {
                     add(s[r], &mut self.moments.one[self.one.at[first + r]][t..]);
                 }
@@ -134,7 +154,7 @@ impl<L: Lanes> Summation<L> {
         for first in (0..self.two.len).step_by(3) {
             for k in (0..self.counts[0]).step_by(4) {
                 let n = [first, first + 1, first + 2].map(|n| TWO + n.min(self.two.len - 1));
-                let s = products(&self.batch, n, NUS + k, groups);
+                let s = products(self.batch, n, NUS + k, groups);
                 for r in 0..3.min(self.two.len - first) {
                     add(s[r], &mut self.moments.two[self.two.at[first + r]][k..]);
                 }

@@ -15,6 +15,7 @@ use super::field::MultiplierSpace;
 use super::segment::{NonmortarFrame, Segment};
 use super::slots::{PAIR_CORNERS, PAIR_NODES};
 use super::sub_integrals::{Fields, Integrals, Plane, Sums};
+use super::sub_moments::{SubMoments, no_points};
 use super::sub_pair::{Points, Side};
 use super::sub_polynomials::Polynomials;
 use super::transport::PlaneDerivatives;
@@ -99,16 +100,17 @@ impl Kernel for Motion<'_> {
         let zero = [[[L::splat(0.0); TERMS]; 2]; PAIR_CORNERS];
         let mut sums = Sums { one: zero, two: zero, gap: zero };
         let integrals = Integrals { one: &one, two: &two, nu: rows.n, mu: [side1.0.terms, side2.0.terms] };
-        let mut moments = integrals.moments::<L>();
+        let (mut batch, mut moments) = (no_points::<L>(), SubMoments::zero());
+        let mut summation = integrals.moments(&mut batch, &mut moments);
         let mut points = Points::<L>::new(pair, true);
         while let Some(four) = points.next() {
             match &four.edge {
-                None => moments.add(&four, &one, &two),
+                None => summation.add(&four, &one, &two),
                 Some(edge) => integrals.add_edge(&four, edge, &fields, &mut sums),
             }
         }
-        moments.flush();
-        integrals.contract(&moments.moments, &fields, &mut sums);
+        summation.flush();
+        integrals.contract(&moments, &fields, &mut sums);
         let chain = Chain::new(frame, segment);
         for b in 0..rolled(side1.0.n) {
             let function = Function::of_parent(side1.0, b);
