@@ -1,15 +1,16 @@
 //! The integrals that the derivatives of a pair of sub-facets consist of (docs/formulation.md 12.3), contracted with tractions
 //! and with positions: those over the overlap from moments, those along edges point by point.
 
-use super::slots::{MORTAR_CORNER, PAIR_CORNERS};
+use super::slots::MORTAR_CORNER;
 use super::sub_moments::{Batch, SubMoments, Summation, at};
 use super::sub_pair::{Four, OnEdge};
-use super::sub_polynomials::{Degree, MU, NU, Polynomials, degree_of_nu};
+use super::sub_polynomials::{Degree, MU, NU, Polynomials, Powers, degree_of_nu};
+use super::transport::PlaneDerivatives;
 use crate::shape::{MAX_CORNERS, TERMS, monomials};
 use crate::simd::Lanes;
 
-/// Derivatives with respect to the projected corners: `[slot][c][monomial]`, lanes i.
-pub(super) type Plane<L> = [[[L; TERMS]; 2]; PAIR_CORNERS];
+/// Derivatives with respect to the projected corners, monomial by monomial, lanes i.
+pub(super) type Plane<L> = [PlaneDerivatives<L>; TERMS];
 
 /// Of forces and gaps.
 pub(super) struct Sums<L> {
@@ -26,8 +27,8 @@ pub(super) struct Fields<L> {
     pub x: [[L; TERMS]; 2],
 }
 
-/// Integrals with the functions of a map, `[c][s][t]`, lanes over these.
-type Products = [[[[f64; 4]; TERMS]; 6]; 2];
+/// Integrals with the functions of a map, `[c][t][s]`, lanes over these.
+type Products = [[[[f64; 4]; 6]; TERMS]; 2];
 
 /// Where x^a y^b times 1, x, y stands, after where x^a y^b does.
 const TIMES: [usize; 3] = [at(0, 0), at(1, 0), at(0, 1)];
@@ -40,30 +41,51 @@ pub(super) struct Integrals<'a> {
     pub mu: [usize; 2],
 }
 
-/// Integrals of a monomial at `place` with the N_k of a map, from moments of which one has so many columns: column `c`.
+/// Where nu_s and mu_t stand.
+const NU_AT: [usize; 6] = places(&NU);
+const MU_AT: [usize; TERMS] = places(&MU);
+
+const fn places<const N: usize>(powers: &[Powers; N]) -> [usize; N] {
+    let mut of = [0; N];
+    let mut n = 0;
+    while n < N {
+        of[n] = at(powers[n][0], powers[n][1]);
+        n += 1;
+    }
+    of
+}
+
+/// Integrals of a function with the N_k of a map of `N` monomials, from those with these.
 #[inline(always)]
-fn with_map<L: Lanes>(map: &Polynomials, moments: &[f64], place: usize, columns: usize, c: usize) -> L {
-    let mut sum = L::splat(0.0);
-    for s in 0..map.n {
-        let moment = moments[(place + at(NU[s][0], NU[s][1])) * columns + c];
-        sum = L::load(&map.map[s]).mul_add(L::splat(moment), sum);
+fn with_map<L: Lanes, const N: usize>(map: &Polynomials, moments: [f64; N]) -> L {
+    let mut sum = L::load(&map.map[0]) * L::splat(moments[0]);
+    for s in 1..N {
+        sum = L::load(&map.map[s]).mul_add(L::splat(moments[s]), sum);
     }
     sum
 }
 
-/// Integrals of N_k d_c (x^a y^b) from those of N_k times monomials over the determinant.
+/// Integrals of N_k d_c (x^a y^b), both c, from those of N_k times monomials over the determinant.
 #[inline(always)]
-fn slope<L: Lanes>(map: &Polynomials, moments: &[L; 64], [a, b]: [usize; 2], c: usize) -> L {
-    let mut sum = L::splat(0.0);
-    for m in 0..map.powers {
+fn slopes<L: Lanes, const N: usize>(map: &Polynomials, moments: &[L; 64], [a, b]: Powers) -> [L; 2] {
+    let mut sums = [L::splat(0.0); 2];
+    let powers = if N == 3 { 1 } else { 3 };
+    let (place, x, y) = (at(a, b), L::splat(a as f64), L::splat(b as f64));
+    for m in 0..powers {
         if a > 0 {
-            sum = moments[at(a - 1, b) + TIMES[m]].mul_add(L::splat(a as f64 * map.slopes[0][c][m]), sum);
+            let n = moments[(place + TIMES[m] - at(1, 0)) & 63] * x;
+            for c in 0..2 {
+                sums[c] = n.mul_add(L::splat(map.slopes[0][c][m]), sums[c]);
+            }
         }
         if b > 0 {
-            sum = moments[at(a, b - 1) + TIMES[m]].mul_add(L::splat(b as f64 * map.slopes[1][c][m]), sum);
+            let n = moments[(place + TIMES[m] - at(0, 1)) & 63] * y;
+            for c in 0..2 {
+                sums[c] = n.mul_add(L::splat(map.slopes[1][c][m]), sums[c]);
+            }
         }
     }
-    sum
+    sums
 }
 
 /// Contracts integrals of the corners from slot `first` on.
@@ -76,19 +98,20 @@ fn contract<L: Lanes, const NUS: usize>(
     forces: &mut Plane<L>,
     gaps: &mut Plane<L>,
 ) {
-    for k in 0..corners {
+    for k in 0..corners.min(MAX_CORNERS) {
         for c in 0..2 {
-            let (force, gap) = (&mut forces[first + k][c], &mut gaps[first + k][c]);
             let mut g = [L::splat(0.0); NUS];
-            for t in 0..mu {
+            for t in 0..mu.min(TERMS) {
+                let mut force = forces[t][first + k][c];
                 for s in 0..NUS {
-                    let n = L::splat(products[c][s][t][k & 3]);
-                    force[t] = n.mul_add(p[s], force[t]);
+                    let n = L::splat(products[c][t][s][k]);
+                    force = n.mul_add(p[s], force);
                     g[s] = n.mul_add(x[t], g[s]);
                 }
+                forces[t][first + k][c] = force;
             }
             for s in 0..NUS {
-                gap[s] = gap[s] + g[s];
+                gaps[s][first + k][c] = gaps[s][first + k][c] + g[s];
             }
         }
     }
@@ -124,13 +147,25 @@ impl Integrals<'_> {
         for t in 0..TERMS {
             x[t] = -x[t];
         }
-        let corners = [self.one, self.two].map(|side| if side.powers == 1 { 3 } else { 4 });
-        let mut products = [[[[0.0; 4]; TERMS]; 6]; 2];
-        self.own::<L>(moments, &mut products);
+        let corners = [self.one.n.min(4), self.two.n.min(4)];
+        let mut products = [[[[0.0; 4]; 6]; TERMS]; 2];
+        match self.one.n {
+            3 => self.own::<L, 3>(moments, &mut products),
+            4 => self.own::<L, 4>(moments, &mut products),
+            _ => self.own::<L, 6>(moments, &mut products),
+        }
         self.add(&products, (0, corners[0], self.mu[0]), &p, &x, &mut sums.one, &mut sums.gap);
-        self.first::<L>(moments, &mut products);
+        match self.one.n {
+            3 => self.first::<L, 3>(moments, &mut products),
+            4 => self.first::<L, 4>(moments, &mut products),
+            _ => self.first::<L, 6>(moments, &mut products),
+        }
         self.add(&products, (0, corners[0], self.mu[1]), &fields.p, &fields.x[1], &mut sums.two, &mut sums.gap);
-        self.second::<L>(moments, &mut products);
+        match self.two.n {
+            3 => self.second::<L, 3>(moments, &mut products),
+            4 => self.second::<L, 4>(moments, &mut products),
+            _ => self.second::<L, 6>(moments, &mut products),
+        }
         let first = MORTAR_CORNER;
         self.add(&products, (first, corners[1], self.mu[1]), &fields.p, &fields.x[1], &mut sums.two, &mut sums.gap);
     }
@@ -154,26 +189,33 @@ impl Integrals<'_> {
 
     /// int N_k d_c (nu_s mu1_t).
     #[inline(always)]
-    fn own<L: Lanes>(&self, moments: &SubMoments, to: &mut Products) {
+    fn own<L: Lanes, const N: usize>(&self, moments: &SubMoments, to: &mut Products) {
         let map = self.one;
         let products = degree_of_nu(self.nu).times(map.of_parent);
         let degree = map.beside_map(products);
         let mut with = [L::splat(0.0); 64];
-        for a in 0..=degree.each {
-            for b in 0..=degree.beside(a) {
-                with[at(a, b)] = with_map(map, &moments.own, at(a, b), 1, 0);
+        for a in 0..degree.each + 1 {
+            for b in 0..degree.beside(a) + 1 {
+                let mut of = [0.0; N];
+                for s in 0..N {
+                    of[s] = moments.own[(at(a, b) + NU_AT[s]) & 63];
+                }
+                with[at(a, b) & 63] = with_map::<L, N>(map, of);
+            }
+        }
+        let mut of = [[[0.0; 4]; 64]; 2];
+        for a in 0..products.each + 1 {
+            for b in 0..products.beside(a) + 1 {
+                let s = slopes::<L, N>(map, &with, [a, b]);
+                for c in 0..2 {
+                    of[c][at(a, b) & 63] = s[c].store();
+                }
             }
         }
         for c in 0..2 {
-            let mut slopes = [[0.0; 4]; 40];
-            for a in 0..=products.each {
-                for b in 0..=products.beside(a) {
-                    slopes[at(a, b)] = slope(map, &with, [a, b], c).store();
-                }
-            }
-            for s in 0..self.nu {
-                for t in 0..self.mu[0] {
-                    to[c][s][t] = slopes[at(NU[s][0] + MU[t][0], NU[s][1] + MU[t][1])];
+            for t in 0..self.mu[0].min(TERMS) {
+                for s in 0..self.nu.min(6) {
+                    to[c][t][s] = of[c][(NU_AT[s] + MU_AT[t]) & 63];
                 }
             }
         }
@@ -181,13 +223,8 @@ impl Integrals<'_> {
 
     /// int N_k (d_c nu_s) mu2_t.
     #[inline(always)]
-    fn first<L: Lanes>(&self, moments: &SubMoments, to: &mut Products) {
+    fn first<L: Lanes, const N: usize>(&self, moments: &SubMoments, to: &mut Products) {
         let map = self.one;
-        let slopes = match self.of_row_slopes().total {
-            0 => 1,
-            1 => 3,
-            _ => 6,
-        };
         // det J1 d_c nu_s in monomials 1, x, y, xy, x^2, y^2.
         let mut of = [[[0.0; 6]; 6]; 2];
         for c in 0..2 {
@@ -201,38 +238,53 @@ impl Integrals<'_> {
                 [0.0, 0.0, 2.0 * y0, 2.0 * y1, 0.0, 2.0 * y2],
             ];
         }
-        for t in 0..self.mu[1] {
+        let monomials = match self.of_row_slopes().total {
+            0 => 1,
+            1 => 3,
+            _ => 6,
+        };
+        for t in 0..self.mu[1].min(TERMS) {
             let mut with = [L::splat(0.0); 6];
-            for r in 0..slopes {
-                with[r] = with_map(map, moments.one.as_flattened(), at(NU[r][0], NU[r][1]), 12, t);
+            for r in 0..monomials {
+                let mut of = [0.0; N];
+                for s in 0..N {
+                    of[s] = moments.one[(NU_AT[r] + NU_AT[s]).min(39)][t / 4][t % 4];
+                }
+                with[r] = with_map::<L, N>(map, of);
             }
             for c in 0..2 {
-                for s in 0..self.nu {
+                for s in 1..self.nu.min(6) {
                     let mut sum = L::splat(0.0);
-                    for r in 0..slopes {
+                    for r in 0..monomials {
                         sum = with[r].mul_add(L::splat(of[c][s][r]), sum);
                     }
-                    to[c][s][t] = sum.store();
+                    to[c][t][s] = sum.store();
                 }
+                to[c][t][0] = [0.0; 4];
             }
         }
     }
 
     /// int N_l nu_s (d_c mu2_t).
     #[inline(always)]
-    fn second<L: Lanes>(&self, moments: &SubMoments, to: &mut Products) {
+    fn second<L: Lanes, const N: usize>(&self, moments: &SubMoments, to: &mut Products) {
         let map = self.two;
         let degree = map.beside_map(map.of_parent);
-        let mut with = [L::splat(0.0); 64];
-        for s in 0..self.nu {
-            for a in 0..=degree.each {
-                for b in 0..=degree.beside(a) {
-                    with[at(a, b)] = with_map(map, moments.two.as_flattened(), at(a, b), 8, s);
+        for s in 0..self.nu.min(6) {
+            let mut with = [L::splat(0.0); 64];
+            for a in 0..degree.each + 1 {
+                for b in 0..degree.beside(a) + 1 {
+                    let mut of = [0.0; N];
+                    for m in 0..N {
+                        of[m] = moments.two[(at(a, b) + NU_AT[m]).min(47)][s / 4][s % 4];
+                    }
+                    with[at(a, b) & 63] = with_map::<L, N>(map, of);
                 }
             }
-            for c in 0..2 {
-                for t in 0..self.mu[1] {
-                    to[c][s][t] = slope(map, &with, MU[t], c).store();
+            for t in 0..self.mu[1].min(TERMS) {
+                let of = slopes::<L, N>(map, &with, MU[t]);
+                for c in 0..2 {
+                    to[c][t][s] = of[c].store();
                 }
             }
         }
@@ -247,19 +299,19 @@ impl Integrals<'_> {
         (nu[1], nu[2], nu[3], nu[4], nu[5]) = (x1, y1, x1 * y1, x1 * x1, y1 * y1);
         let zero = L::splat(0.0);
         let (mut p, mut minus_p, mut gap) = ([zero; MAX_CORNERS], [zero; MAX_CORNERS], [zero; MAX_CORNERS]);
-        for s in 0..self.nu {
+        for s in 0..self.nu.min(6) {
             let n = nu[s].store();
             for q in 0..4 {
                 p[q] = fields.p[s].mul_add(L::splat(n[q]), p[q]);
             }
         }
-        for t in 0..self.mu[0] {
+        for t in 0..self.mu[0].min(TERMS) {
             let n = mu[0][t].store();
             for q in 0..4 {
                 gap[q] = fields.x[0][t].mul_add(L::splat(n[q]), gap[q]);
             }
         }
-        for t in 0..self.mu[1] {
+        for t in 0..self.mu[1].min(TERMS) {
             let n = mu[1][t].store();
             for q in 0..4 {
                 gap[q] = fields.x[1][t].neg_mul_add(L::splat(n[q]), gap[q]);
@@ -279,16 +331,15 @@ impl Integrals<'_> {
 #[inline(always)]
 fn add<L: Lanes>(edge: &OnEdge, ends: &[L; 2], f: &[L; TERMS], n: usize, v: &[L; 4], to: &mut Plane<L>) {
     let normal = [L::splat(edge.normal[0]), L::splat(edge.normal[1])];
-    for e in 0..2 {
-        let to = &mut to[edge.slots[e] & 7];
-        for t in 0..n {
-            let w = (ends[e] * f[t]).store();
+    for t in 0..n.min(TERMS) {
+        for e in 0..2 {
+            let (w, to) = ((ends[e] * f[t]).store(), &mut to[t][edge.slots[e] & 7]);
             let mut sum = v[0] * L::splat(w[0]);
             for q in 1..4 {
                 sum = v[q].mul_add(L::splat(w[q]), sum);
             }
             for c in 0..2 {
-                to[c][t] = normal[c].mul_add(sum, to[c][t]);
+                to[c] = normal[c].mul_add(sum, to[c]);
             }
         }
     }

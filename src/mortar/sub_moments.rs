@@ -33,14 +33,14 @@ pub(super) const fn at(a: usize, b: usize) -> usize {
 
 pub(super) struct SubMoments {
     pub own: [f64; 64],
-    pub one: [[f64; 12]; 40],
-    pub two: [[f64; 8]; 48],
+    pub one: [[[f64; 4]; 3]; 40],
+    pub two: [[[f64; 4]; 2]; 48],
 }
 
 impl SubMoments {
     #[inline(always)]
     pub fn zero() -> Self {
-        SubMoments { own: [0.0; 64], one: [[0.0; 12]; 40], two: [[0.0; 8]; 48] }
+        SubMoments { own: [0.0; 64], one: [[[0.0; 4]; 3]; 40], two: [[[0.0; 4]; 2]; 48] }
     }
 }
 
@@ -56,8 +56,8 @@ impl List {
     #[inline(always)]
     fn new(degree: Degree) -> Self {
         let mut list = List { degree, len: 0, at: [0; ROWS] };
-        for a in 0..=degree.each {
-            for b in 0..=degree.beside(a) {
+        for a in 0..degree.each + 1 {
+            for b in 0..degree.beside(a) + 1 {
                 list.at[list.len] = at(a, b);
                 list.len += 1;
             }
@@ -73,7 +73,9 @@ pub(super) struct Summation<'a, L> {
     two: List,
     /// Where the monomials of `one` stand among those of `own`.
     place: [usize; ROWS],
+    /// How many nu_s and mu_t there are, and groups of four of these.
     counts: [usize; 2],
+    groups: [usize; 2],
     batch: &'a mut Batch<L>,
     len: usize,
     pub moments: &'a mut SubMoments,
@@ -92,15 +94,15 @@ impl<'a, L: Lanes> Summation<'a, L> {
         moments: &'a mut SubMoments,
     ) -> Self {
         let (own, one, two) = (List::new(own), List::new(one), List::new(two));
-        let mut place = [0; ROWS];
-        for n in 0..one.len {
-            for i in 0..own.len {
-                if own.at[i] == one.at[n] {
-                    place[n] = i;
-                }
-            }
+        let (mut place, mut of) = ([0; ROWS], [0; 64]);
+        for i in 0..own.len {
+            of[own.at[i] & 63] = i;
         }
-        Summation { own, one, two, place, counts, batch, len: 0, moments }
+        for n in 0..one.len {
+            place[n] = of[one.at[n] & 63];
+        }
+        let groups = [counts[0].div_ceil(4), counts[1].div_ceil(4)];
+        Summation { own, one, two, place, counts, groups, batch, len: 0, moments }
     }
 
     #[inline(always)]
@@ -112,11 +114,11 @@ impl<'a, L: Lanes> Summation<'a, L> {
         rows(&self.own, [over * four.two[2], x1, y1], &mut self.batch[..TWO], g);
         rows(&self.two, [over * four.one[2], x2, y2], &mut self.batch[TWO..NUS], g);
         let nu = [L::splat(1.0), x1, y1, x1 * y1, x1 * x1, y1 * y1];
-        for s in 0..self.counts[0] {
+        for s in 0..self.counts[0].min(6) {
             self.batch[NUS + s][g] = nu[s];
         }
         let mu = monomials(x2, y2);
-        for t in 0..self.counts[1] {
+        for t in 0..self.counts[1].min(9) {
             self.batch[MUS + t][g] = mu[t];
         }
         self.len += 1;
@@ -142,33 +144,36 @@ impl<'a, L: Lanes> Summation<'a, L> {
             let [a, b, c, d] = sum.store();
             self.moments.own[self.own.at[n] & 63] += (a + b) + (c + d);
         }
-        for first in (0..self.one.len).step_by(3) {
-            for t in (0..self.counts[1]).step_by(4) {
-                let n = [first, first + 1, first + 2].map(|n| n.min(self.one.len - 1));
-                let s = products(self.batch, [self.place[n[0]], self.place[n[1]], self.place[n[2]]], MUS + t, groups);
-                for r in 0..3.min(self.one.len - first) {
-                    add(s[r], &mut self.moments.one[self.one.at[first + r]][t..]);
+        let (mut first, last) = (0, self.one.len - 1);
+        while first <= last {
+            let n = [first, last.min(first + 1), last.min(first + 2)];
+            let rows = [self.place[n[0]], self.place[n[1]], self.place[n[2]]];
+            for t in 0..self.groups[1] {
+                let s = products(self.batch, rows, MUS + 4 * t, groups);
+                for r in 0..3 {
+                    if r == 0 || n[r] > n[r - 1] {
+                        let to = &mut self.moments.one[self.one.at[n[r]]][t];
+                        *to = (L::load(to) + s[r]).store();
+                    }
                 }
             }
+            first += 3;
         }
-        for first in (0..self.two.len).step_by(3) {
-            for k in (0..self.counts[0]).step_by(4) {
-                let n = [first, first + 1, first + 2].map(|n| TWO + n.min(self.two.len - 1));
-                let s = products(self.batch, n, NUS + k, groups);
-                for r in 0..3.min(self.two.len - first) {
-                    add(s[r], &mut self.moments.two[self.two.at[first + r]][k..]);
+        let (mut first, last) = (0, self.two.len - 1);
+        while first <= last {
+            let n = [first, last.min(first + 1), last.min(first + 2)];
+            for k in 0..self.groups[0] {
+                let s = products(self.batch, [TWO + n[0], TWO + n[1], TWO + n[2]], NUS + 4 * k, groups);
+                for r in 0..3 {
+                    if r == 0 || n[r] > n[r - 1] {
+                        let to = &mut self.moments.two[self.two.at[n[r]]][k];
+                        *to = (L::load(to) + s[r]).store();
+                    }
                 }
             }
+            first += 3;
         }
         self.len = 0;
-    }
-}
-
-/// Adds four sums to the first numbers.
-#[inline(always)]
-fn add<L: Lanes>(sums: L, to: &mut [f64]) {
-    if let Some(to) = to.first_chunk_mut::<4>() {
-        *to = (L::load(to) + sums).store();
     }
 }
 
@@ -176,9 +181,9 @@ fn add<L: Lanes>(sums: L, to: &mut [f64]) {
 #[inline(always)]
 fn rows<L: Lanes>(list: &List, [mut w, x, y]: [L; 3], to: &mut [[L; BATCH]], g: usize) {
     let mut n = 0;
-    for a in 0..=list.degree.each {
+    for a in 0..list.degree.each + 1 {
         let mut m = w;
-        for _ in 0..=list.degree.beside(a) {
+        for _ in 0..list.degree.beside(a) + 1 {
             to[n][g] = m;
             m = m * y;
             n += 1;

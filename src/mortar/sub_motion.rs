@@ -97,7 +97,7 @@ impl Kernel for Motion<'_> {
                 in_monomials(side2.0, positions.1, &positions.0[0], 0.0),
             ],
         };
-        let zero = [[[L::splat(0.0); TERMS]; 2]; PAIR_CORNERS];
+        let zero = [[[L::splat(0.0); 2]; PAIR_CORNERS]; TERMS];
         let mut sums = Sums { one: zero, two: zero, gap: zero };
         let integrals = Integrals { one: &one, two: &two, nu: rows.n, mu: [side1.0.terms, side2.0.terms] };
         let (mut batch, mut moments) = (no_points::<L>(), SubMoments::zero());
@@ -208,10 +208,11 @@ impl<L: Lanes> Function<L> {
         let mut g: PlaneDerivatives<L> = [[L::splat(0.0); 2]; PAIR_CORNERS];
         for side in 0..2 {
             let mut sums = [[L::splat(0.0); 2]; 4];
-            for (t, n) in &self.of[..self.n] {
+            for (t, n) in &self.of[..self.n.min(TERMS)] {
+                let of = &plane[*t];
                 for k in 0..4 {
                     for c in 0..2 {
-                        sums[k][c] = plane[4 * side + k][c][*t].mul_add(*n, sums[k][c]);
+                        sums[k][c] = of[4 * side + k][c].mul_add(*n, sums[k][c]);
                     }
                 }
             }
