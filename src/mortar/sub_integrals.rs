@@ -2,7 +2,7 @@
 //! and with positions: those over the overlap from moments, those along edges point by point.
 
 use super::slots::MORTAR_CORNER;
-use super::sub_moments::{Batch, SubMoments, Summation, at};
+use super::sub_moments::{BATCH, SubMoments, Summation, at};
 use super::sub_pair::{Four, OnEdge};
 use super::sub_polynomials::{Degree, MU, NU, Polynomials, Powers, degree_of_nu};
 use super::transport::PlaneDerivatives;
@@ -126,7 +126,7 @@ impl Integrals<'_> {
 
     /// The moments that are needed.
     #[inline(always)]
-    pub fn moments<'a, L: Lanes>(&self, batch: &'a mut Batch<L>, moments: &'a mut SubMoments) -> Summation<'a, L> {
+    pub fn moments<'a, L: Lanes>(&self, batch: &'a mut [[L; BATCH]], moments: &'a mut SubMoments) -> Summation<'a, L> {
         let (one, two) = (self.one, self.two);
         let own = one.beside_map(degree_of_nu(self.nu).times(one.of_parent));
         let degrees = [
@@ -248,7 +248,7 @@ impl Integrals<'_> {
             for r in 0..monomials {
                 let mut of = [0.0; N];
                 for s in 0..N {
-                    of[s] = moments.one[(NU_AT[r] + NU_AT[s]).min(39)][t / 4][t % 4];
+                    of[s] = moments.one[(NU_AT[r] + NU_AT[s]) & 63][t / 4][t % 4];
                 }
                 with[r] = with_map::<L, N>(map, of);
             }
@@ -270,13 +270,13 @@ impl Integrals<'_> {
     fn second<L: Lanes, const N: usize>(&self, moments: &SubMoments, to: &mut Products) {
         let map = self.two;
         let degree = map.beside_map(map.of_parent);
+        let mut with = [L::splat(0.0); 64];
         for s in 0..self.nu.min(6) {
-            let mut with = [L::splat(0.0); 64];
             for a in 0..degree.each + 1 {
                 for b in 0..degree.beside(a) + 1 {
                     let mut of = [0.0; N];
                     for m in 0..N {
-                        of[m] = moments.two[(at(a, b) + NU_AT[m]).min(47)][s / 4][s % 4];
+                        of[m] = moments.two[(at(a, b) + NU_AT[m]) & 63][s / 4][s % 4];
                     }
                     with[at(a, b) & 63] = with_map::<L, N>(map, of);
                 }

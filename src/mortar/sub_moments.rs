@@ -9,21 +9,13 @@ use super::sub_polynomials::{Degree, Polynomials};
 use crate::shape::monomials;
 use crate::simd::Lanes;
 
-/// No points.
-#[inline(always)]
-pub(super) fn no_points<L: Lanes>() -> Batch<L> {
-    [[L::splat(0.0); BATCH]; SLOTS]
-}
-
 /// Groups of four points that are summed at once.
-const BATCH: usize = 4;
+pub(super) const BATCH: usize = 4;
 /// Most monomials of x1, y1 beside det1, and of x2, y2 beside det2.
 const ROWS: usize = 36;
-/// Where the rows of `two`, its columns and those of `one` begin in a batch.
-const TWO: usize = ROWS;
-const NUS: usize = 2 * ROWS;
-const MUS: usize = NUS + 8;
-const SLOTS: usize = MUS + 12;
+/// Rows and columns of a batch at most, and of two triangles with six nodes or three.
+pub(super) const SLOTS: usize = ROWS + 22 + 8 + 12;
+pub(super) const FEW_SLOTS: usize = 10 + 6 + 4 + 8;
 
 /// Where x^a y^b stands.
 #[inline(always)]
@@ -33,14 +25,14 @@ pub(super) const fn at(a: usize, b: usize) -> usize {
 
 pub(super) struct SubMoments {
     pub own: [f64; 64],
-    pub one: [[[f64; 4]; 3]; 40],
-    pub two: [[[f64; 4]; 2]; 48],
+    pub one: [[[f64; 4]; 3]; 64],
+    pub two: [[[f64; 4]; 2]; 64],
 }
 
 impl SubMoments {
     #[inline(always)]
     pub fn zero() -> Self {
-        SubMoments { own: [0.0; 64], one: [[[0.0; 4]; 3]; 40], two: [[[0.0; 4]; 2]; 48] }
+        SubMoments { own: [0.0; 64], one: [[[0.0; 4]; 3]; 64], two: [[[0.0; 4]; 2]; 64] }
     }
 }
 
@@ -76,13 +68,14 @@ pub(super) struct Summation<'a, L> {
     /// How many nu_s and mu_t there are, and groups of four of these.
     counts: [usize; 2],
     groups: [usize; 2],
-    batch: &'a mut Batch<L>,
+    /// Where in the batch the rows of `two` begin, its columns, those of `one`: after the rows of `own`.
+    first: [usize; 3],
+    /// Sums for `own`, four points in lanes.
+    sums: [L; ROWS],
+    batch: &'a mut [[L; BATCH]],
     len: usize,
     pub moments: &'a mut SubMoments,
 }
-
-/// Points that wait for their sums: rows and columns, four points in lanes.
-pub(super) type Batch<L> = [[L; BATCH]; SLOTS];
 
 impl<'a, L: Lanes> Summation<'a, L> {
     /// Of these degrees of the three, with so many nu_s and mu_t.
@@ -90,7 +83,7 @@ impl<'a, L: Lanes> Summation<'a, L> {
     pub fn new(
         [own, one, two]: [Degree; 3],
         counts: [usize; 2],
-        batch: &'a mut Batch<L>,
+        batch: &'a mut [[L; BATCH]],
         moments: &'a mut SubMoments,
     ) -> Self {
         let (own, one, two) = (List::new(own), List::new(one), List::new(two));
@@ -102,7 +95,9 @@ impl<'a, L: Lanes> Summation<'a, L> {
             place[n] = of[one.at[n] & 63];
         }
         let groups = [counts[0].div_ceil(4), counts[1].div_ceil(4)];
-        Summation { own, one, two, place, counts, groups, batch, len: 0, moments }
+        let nus = own.len + two.len;
+        let first = [own.len, nus, nus + 4 * groups[0]];
+        Summation { own, one, two, place, counts, groups, first, sums: [L::splat(0.0); ROWS], batch, len: 0, moments }
     }
 
     #[inline(always)]
@@ -111,15 +106,18 @@ impl<'a, L: Lanes> Summation<'a, L> {
         let [x2, y2] = two.coordinates.of_four([four.two[0], four.two[1]]);
         let over = four.weight / (four.one[2] * four.two[2]);
         let g = self.len & (BATCH - 1);
-        rows(&self.own, [over * four.two[2], x1, y1], &mut self.batch[..TWO], g);
-        rows(&self.two, [over * four.one[2], x2, y2], &mut self.batch[TWO..NUS], g);
+        rows_of(&self.own, [over * four.two[2], x1, y1], self.batch, g);
+        for n in 0..self.own.len.min(ROWS) {
+            self.sums[n] = self.sums[n] + self.batch[n][g];
+        }
+        rows_of(&self.two, [over * four.one[2], x2, y2], &mut self.batch[self.first[0]..], g);
         let nu = [L::splat(1.0), x1, y1, x1 * y1, x1 * x1, y1 * y1];
         for s in 0..self.counts[0].min(6) {
-            self.batch[NUS + s][g] = nu[s];
+            self.batch[self.first[1] + s][g] = nu[s];
         }
         let mu = monomials(x2, y2);
         for t in 0..self.counts[1].min(9) {
-            self.batch[MUS + t][g] = mu[t];
+            self.batch[self.first[2] + t][g] = mu[t];
         }
         self.len += 1;
         if self.len == BATCH {
@@ -127,46 +125,53 @@ impl<'a, L: Lanes> Summation<'a, L> {
         }
     }
 
+    /// The moments of all points.
+    #[inline(always)]
+    pub fn finish(&mut self) {
+        if self.len > 0 {
+            self.flush();
+        }
+        let mut n = 0;
+        while n < ROWS {
+            let sums = L::sums([self.sums[n], self.sums[n + 1], self.sums[n + 2], self.sums[n + 3]]).store();
+            for i in 0..4 {
+                self.moments.own[self.own.at[n + i] & 63] += sums[i];
+            }
+            n += 4;
+            if n >= self.own.len {
+                break;
+            }
+        }
+    }
+
     /// Adds what is there.
     #[inline(always)]
-    pub fn flush(&mut self) {
+    fn flush(&mut self) {
         let groups = self.len;
-        if groups == 0 {
-            return;
-        }
-        for n in 0..self.own.len {
-            let row = &self.batch[n];
-            let mut sum = row[0];
-            for g in 1..groups {
-                sum = sum + row[g];
-            }
-            // Summed over the lanes when all are there: see `own`.
-            let [a, b, c, d] = sum.store();
-            self.moments.own[self.own.at[n] & 63] += (a + b) + (c + d);
-        }
         let (mut first, last) = (0, self.one.len - 1);
         while first <= last {
             let n = [first, last.min(first + 1), last.min(first + 2)];
             let rows = [self.place[n[0]], self.place[n[1]], self.place[n[2]]];
             for t in 0..self.groups[1] {
-                let s = products(self.batch, rows, MUS + 4 * t, groups);
+                let s = products(self.batch, rows, self.first[2] + 4 * t, groups);
                 for r in 0..3 {
                     if r == 0 || n[r] > n[r - 1] {
-                        let to = &mut self.moments.one[self.one.at[n[r]]][t];
+                        let to = &mut self.moments.one[self.one.at[n[r]] & 63][t];
                         *to = (L::load(to) + s[r]).store();
                     }
                 }
             }
             first += 3;
         }
+        let two = self.first[0];
         let (mut first, last) = (0, self.two.len - 1);
         while first <= last {
             let n = [first, last.min(first + 1), last.min(first + 2)];
             for k in 0..self.groups[0] {
-                let s = products(self.batch, [TWO + n[0], TWO + n[1], TWO + n[2]], NUS + 4 * k, groups);
+                let s = products(self.batch, [two + n[0], two + n[1], two + n[2]], self.first[1] + 4 * k, groups);
                 for r in 0..3 {
                     if r == 0 || n[r] > n[r - 1] {
-                        let to = &mut self.moments.two[self.two.at[n[r]]][k];
+                        let to = &mut self.moments.two[self.two.at[n[r]] & 63][k];
                         *to = (L::load(to) + s[r]).store();
                     }
                 }
@@ -179,14 +184,40 @@ impl<'a, L: Lanes> Summation<'a, L> {
 
 /// Monomials with a weight.
 #[inline(always)]
-fn rows<L: Lanes>(list: &List, [mut w, x, y]: [L; 3], to: &mut [[L; BATCH]], g: usize) {
+fn rows_of<L: Lanes>(list: &List, wxy: [L; 3], to: &mut [[L; BATCH]], g: usize) {
+    // Of every kind of facet, so that loops have known lengths.
+    match (list.degree.total, list.degree.each) {
+        (1, _) => rows::<L, 1, 1, 3>(wxy, to, g),
+        (2, _) => rows::<L, 2, 2, 6>(wxy, to, g),
+        (3, _) => rows::<L, 3, 3, 10>(wxy, to, g),
+        (4, 3) => rows::<L, 4, 3, 13>(wxy, to, g),
+        (4, _) => rows::<L, 4, 4, 15>(wxy, to, g),
+        (5, 4) => rows::<L, 5, 4, 19>(wxy, to, g),
+        (5, _) => rows::<L, 5, 5, 21>(wxy, to, g),
+        (6, _) => rows::<L, 6, 4, 22>(wxy, to, g),
+        (7, 6) => rows::<L, 7, 6, 34>(wxy, to, g),
+        (7, _) => rows::<L, 7, 7, 36>(wxy, to, g),
+        _ => rows::<L, 8, 5, 33>(wxy, to, g),
+    }
+}
+
+/// Those up to degree `TOTAL`, and `EACH` in x and in y, in the order of [`List`].
+#[inline(always)]
+fn rows<L: Lanes, const TOTAL: usize, const EACH: usize, const COUNT: usize>(
+    [mut w, x, y]: [L; 3],
+    to: &mut [[L; BATCH]],
+    g: usize,
+) {
+    let Some(to) = to.first_chunk_mut::<COUNT>() else { return };
     let mut n = 0;
-    for a in 0..list.degree.each + 1 {
+    for a in 0..EACH + 1 {
         let mut m = w;
-        for _ in 0..list.degree.beside(a) + 1 {
-            to[n][g] = m;
-            m = m * y;
-            n += 1;
+        for b in 0..EACH + 1 {
+            if a + b <= TOTAL {
+                to[n][g & (BATCH - 1)] = m;
+                m = m * y;
+                n += 1;
+            }
         }
         w = w * x;
     }
@@ -194,7 +225,7 @@ fn rows<L: Lanes>(list: &List, [mut w, x, y]: [L; 3], to: &mut [[L; BATCH]], g: 
 
 /// Sums of the products of three rows and four columns from `first` on: twelve stay in registers.
 #[inline(always)]
-fn products<L: Lanes>(batch: &[[L; BATCH]; SLOTS], rows: [usize; 3], first: usize, groups: usize) -> [L; 3] {
+fn products<L: Lanes>(batch: &[[L; BATCH]], rows: [usize; 3], first: usize, groups: usize) -> [L; 3] {
     let mut s = [[L::splat(0.0); 4]; 3];
     let rows = [&batch[rows[0]], &batch[rows[1]], &batch[rows[2]]];
     let columns = [&batch[first], &batch[first + 1], &batch[first + 2], &batch[first + 3]];

@@ -15,13 +15,13 @@ use super::field::MultiplierSpace;
 use super::segment::{NonmortarFrame, Segment};
 use super::slots::{PAIR_CORNERS, PAIR_NODES};
 use super::sub_integrals::{Fields, Integrals, Plane, Sums};
-use super::sub_moments::{SubMoments, no_points};
+use super::sub_moments::{BATCH, FEW_SLOTS, SLOTS, SubMoments};
 use super::sub_pair::{Points, Side};
 use super::sub_polynomials::Polynomials;
 use super::transport::PlaneDerivatives;
 use crate::geometry::Vec3;
 use crate::quadrature::Rule;
-use crate::shape::{MAX_CORNERS, MAX_PARENT_NODES, Parent, Quadrilateral, TERMS, Triangle};
+use crate::shape::{GROUPS, MAX_CORNERS, MAX_PARENT_NODES, Parent, Quadrilateral, TERMS, Triangle};
 use crate::simd::{self, Kernel, Lanes, rolled};
 
 /// `[k][j][B]`, lanes over the three components i and one more number: derivatives with respect to component j of the k-th
@@ -97,11 +97,23 @@ impl Kernel for Motion<'_> {
                 in_monomials(side2.0, positions.1, &positions.0[0], 0.0),
             ],
         };
-        let zero = [[[L::splat(0.0); 2]; PAIR_CORNERS]; TERMS];
-        let mut sums = Sums { one: zero, two: zero, gap: zero };
+        let mut sums = Sums {
+            one: [[[L::splat(0.0); 2]; PAIR_CORNERS]; TERMS],
+            two: [[[L::splat(0.0); 2]; PAIR_CORNERS]; TERMS],
+            gap: [[[L::splat(0.0); 2]; PAIR_CORNERS]; TERMS],
+        };
         let integrals = Integrals { one: &one, two: &two, nu: rows.n, mu: [side1.0.terms, side2.0.terms] };
-        let (mut batch, mut moments) = (no_points::<L>(), SubMoments::zero());
-        let mut summation = integrals.moments(&mut batch, &mut moments);
+        // What is not needed is not begun with zeros: of two triangles with six nodes or three it would be three quarters.
+        let (mut few, mut many);
+        let batch: &mut [[L; BATCH]] = if side1.0.n.max(side2.0.n) <= 6 && one.n == 3 && two.n == 3 {
+            few = [[L::splat(0.0); BATCH]; FEW_SLOTS];
+            &mut few
+        } else {
+            many = [[L::splat(0.0); BATCH]; SLOTS];
+            &mut many
+        };
+        let mut moments = SubMoments::zero();
+        let mut summation = integrals.moments(batch, &mut moments);
         let mut points = Points::<L>::new(pair, true);
         while let Some(four) = points.next() {
             match &four.edge {
@@ -109,23 +121,23 @@ impl Kernel for Motion<'_> {
                 Some(edge) => integrals.add_edge(&four, edge, &fields, &mut sums),
             }
         }
-        summation.flush();
+        summation.finish();
         integrals.contract(&moments, &fields, &mut sums);
         let chain = Chain::new(frame, segment);
         for b in 0..rolled(side1.0.n) {
-            let function = Function::of_parent(side1.0, b);
-            function.to_nodes(&chain, &sums.one, &mut Block { to: &mut to.one, column: b });
+            let mut to = Block { to: &mut to.one, column: b };
+            to_nodes(&chain, &sums.one, &function(side1.0, b), side1.0.terms, &mut to);
         }
         for c in 0..rolled(side2.0.n) {
-            let function = Function::of_parent(side2.0, c);
-            function.to_nodes(&chain, &sums.two, &mut Block { to: &mut to.two, column: c });
+            let mut to = Block { to: &mut to.two, column: c };
+            to_nodes(&chain, &sums.two, &function(side2.0, c), side2.0.terms, &mut to);
         }
         for a in 0..rolled(space.nodes(side1.0, side1.1).len()) {
-            let mut function = Function::none();
-            for s in 0..rows.n {
-                function.push(s, rows.of[s][a & 3]);
+            let mut function = [0.0; TERMS];
+            for s in 0..6 {
+                function[s] = rows.of[s][a & 3];
             }
-            function.to_nodes(&chain, &sums.gap, &mut Block { to: &mut to.gap, column: a });
+            to_nodes(&chain, &sums.gap, &function, rows.n, &mut Block { to: &mut to.gap, column: a });
         }
     }
 }
@@ -173,60 +185,48 @@ fn in_monomials<L: Lanes>(parent: &Parent, x: &[Vec3; MAX_PARENT_NODES], base: &
     of
 }
 
-/// A function in the monomials that it has.
-struct Function<L> {
-    of: [(usize, L); TERMS],
-    n: usize,
-}
-
-impl<L: Lanes> Function<L> {
-    #[inline(always)]
-    fn none() -> Self {
-        Function { of: [(0, L::splat(0.0)); TERMS], n: 0 }
-    }
-
-    #[inline(always)]
-    fn push(&mut self, t: usize, c: f64) {
-        if c != 0.0 {
-            self.of[self.n] = (t, L::splat(c));
-            self.n += 1;
-        }
-    }
-
-    #[inline(always)]
-    fn of_parent(parent: &Parent, b: usize) -> Self {
-        let mut function = Function::none();
-        for t in 0..parent.terms {
-            function.push(t, parent.functions[t][b / 4][b % 4]);
-        }
-        function
-    }
-
-    /// From monomials to this function, and from corners to nodes.
-    #[inline(always)]
-    fn to_nodes(&self, chain: &Chain<L>, plane: &Plane<L>, to: &mut impl Columns<L>) {
-        let mut g: PlaneDerivatives<L> = [[L::splat(0.0); 2]; PAIR_CORNERS];
-        for side in 0..2 {
-            let mut sums = [[L::splat(0.0); 2]; 4];
-            for (t, n) in &self.of[..self.n.min(TERMS)] {
-                let of = &plane[*t];
-                for k in 0..4 {
+/// From monomials to a function with these coefficients, and from corners to nodes.
+#[inline(always)]
+fn to_nodes<L: Lanes, const N: usize>(
+    chain: &Chain<L>,
+    plane: &Plane<L>,
+    function: &[f64; TERMS],
+    terms: usize,
+    to: &mut Block<N>,
+) {
+    let mut g: PlaneDerivatives<L> = [[L::splat(0.0); 2]; PAIR_CORNERS];
+    for side in 0..2 {
+        let mut sums = [[L::splat(0.0); 2]; MAX_CORNERS];
+        for t in 0..terms.min(TERMS) {
+            if function[t] != 0.0 {
+                let (n, of) = (L::splat(function[t]), &plane[t]);
+                for k in 0..MAX_CORNERS {
                     for c in 0..2 {
-                        sums[k][c] = of[4 * side + k][c].mul_add(*n, sums[k][c]);
+                        sums[k][c] = of[MAX_CORNERS * side + k][c].mul_add(n, sums[k][c]);
                     }
                 }
             }
-            for k in 0..4 {
-                g[4 * side + k] = sums[k];
-            }
         }
-        match (chain.frame.projection.shape.n, chain.segment.mortar.shape.n) {
-            (3, 3) => chain.nodes::<Triangle, Triangle>(&g, to),
-            (3, _) => chain.nodes::<Triangle, Quadrilateral>(&g, to),
-            (_, 3) => chain.nodes::<Quadrilateral, Triangle>(&g, to),
-            _ => chain.nodes::<Quadrilateral, Quadrilateral>(&g, to),
+        for k in 0..MAX_CORNERS {
+            g[MAX_CORNERS * side + k] = sums[k];
         }
     }
+    match (chain.frame.projection.shape.n, chain.segment.mortar.shape.n) {
+        (3, 3) => chain.nodes::<Triangle, Triangle>(&g, to),
+        (3, _) => chain.nodes::<Triangle, Quadrilateral>(&g, to),
+        (_, 3) => chain.nodes::<Quadrilateral, Triangle>(&g, to),
+        _ => chain.nodes::<Quadrilateral, Quadrilateral>(&g, to),
+    }
+}
+
+/// Coefficients of a parent's function.
+#[inline(always)]
+fn function(parent: &Parent, b: usize) -> [f64; TERMS] {
+    let mut of = [0.0; TERMS];
+    for t in 0..TERMS {
+        of[t] = parent.functions[t][b / 4 % GROUPS][b % 4];
+    }
+    of
 }
 
 /// Where the derivatives of a column go.
