@@ -11,6 +11,7 @@
 mod baseline;
 mod calls;
 mod patches;
+mod sub_facets;
 mod work;
 
 use baseline::Baseline;
@@ -25,6 +26,8 @@ use work::{Kind, Pair, node};
 
 /// Pairs of the times; the baseline's set.
 const PAIRS: usize = 20_000;
+/// Pairs of quadratic facets, of which each has about ten of sub-facets.
+const SUB_FACET_PARENTS: usize = 40;
 /// Passes over them.
 const PASSES: usize = 31;
 /// Pairs and interfaces under callgrind, which is fifty times slower.
@@ -78,6 +81,7 @@ fn kernels(x: &[f64], interfaces: usize) -> Vec<Kernel> {
         }),
     ];
     k.extend(calls::kernels(quads));
+    k.extend(sub_facets::kernels(SUB_FACET_PARENTS));
     for (matching, residual, tangent) in [
         (false, "interface: search, residual, a pair", "interface: tangent, a pair"),
         (true, "matching meshes: search, residual, a pair", "matching meshes: tangent, a pair"),
@@ -176,6 +180,21 @@ fn main() {
         let mut kernels = counted_kernels();
         let kernel = kernels.iter_mut().find(|kernel| kernel.name == arguments[k + 1]).expect("a kernel's name");
         stickslip_bench_counted(kernel);
+        return;
+    }
+    if arguments.iter().any(|a| a == "--motion") {
+        let mut kernels = sub_facets::kernels(SUB_FACET_PARENTS);
+        let (_, t) = times(None, &[], &mut kernels);
+        for i in 0..kernels.len() / 2 {
+            println!(
+                "{} {} calls: {:.0} ns, {:.0} ns: {:.2}",
+                kernels[2 * i].name,
+                kernels[2 * i].calls,
+                1e9 * t[2 * i],
+                1e9 * t[2 * i + 1],
+                t[2 * i + 1] / t[2 * i]
+            );
+        }
         return;
     }
     // Without `cargo bench`, which says so, it is a test.

@@ -13,9 +13,9 @@ use crate::simd::Lanes;
 /// Coordinates that are affine in a sub-facet's own, with their gradients in the plane.
 pub(super) struct Coordinates {
     /// c0, c1, c2 of each of the two.
-    affine: [[f64; 3]; 2],
-    /// det J times the gradient of each, in powers 1, eta_1, eta_2.
-    slopes: [[[f64; 2]; 3]; 2],
+    pub affine: [[f64; 3]; 2],
+    /// det J times the gradient of each, in powers 1, eta_1, eta_2: `[i][m][c]`.
+    pub slopes: [[[f64; 2]; 3]; 2],
 }
 
 /// Two coordinates of a point, and `[i][c]`, their derivatives with respect to y_c.
@@ -31,11 +31,14 @@ impl Coordinates {
         let gradients = map.gradients::<L>();
         let mut c = Coordinates { affine: [[0.0; 3]; 2], slopes: [[[0.0; 2]; 3]; 2] };
         for i in 0..2 {
-            let v = corners.map(|corner| corner[i]);
+            let v = [corners[0][i], corners[1][i], corners[2][i], corners[3][i]];
             c.affine[i] = match projection.shape.n {
                 3 => [v[0], v[1] - v[0], v[2] - v[0]],
-                _ => [v[0] + v[1] + v[2] + v[3], v[1] + v[2] - v[0] - v[3], v[2] + v[3] - v[0] - v[1]]
-                    .map(|sum| 0.25 * sum),
+                _ => [
+                    0.25 * (v[0] + v[1] + v[2] + v[3]),
+                    0.25 * (v[1] + v[2] - v[0] - v[3]),
+                    0.25 * (v[2] + v[3] - v[0] - v[1]),
+                ],
             };
             c.slopes[i] = dots(&gradients, L::load(&v));
         }
@@ -44,7 +47,7 @@ impl Coordinates {
 
     /// Of four points with these coordinates of the sub-facet.
     #[inline(always)]
-    fn of_four<L: Lanes>(&self, eta: [L; 2]) -> [L; 2] {
+    pub fn of_four<L: Lanes>(&self, eta: [L; 2]) -> [L; 2] {
         let mut at = eta;
         for i in 0..2 {
             let [a, b, c] = self.affine[i];
@@ -91,8 +94,13 @@ pub(super) struct Field {
 }
 
 /// The parent's coordinates of a sub-facet's corners, in the order of its projection.
-fn corners(parent: &Parent, sub: &SubFacet, projection: &Projection) -> [[f64; 2]; MAX_CORNERS] {
-    projection.node.map(|k| parent.at[sub.nodes[k & 3]])
+#[inline(always)]
+pub(super) fn corners(parent: &Parent, sub: &SubFacet, projection: &Projection) -> [[f64; 2]; MAX_CORNERS] {
+    let mut at = [[0.0; 2]; MAX_CORNERS];
+    for k in 0..MAX_CORNERS {
+        at[k] = parent.at[sub.nodes[projection.node[k] & 3]];
+    }
+    at
 }
 
 impl Field {
@@ -197,7 +205,12 @@ impl Multipliers {
             MultiplierSpace::Corner => (parent.cell, corners(parent, sub, projection)),
             MultiplierSpace::Sub => (sub.shape, cell_corners(sub.shape)),
         };
-        let coefficients = std::array::from_fn(|t| std::array::from_fn(|a| shape.coefficients[a][t]));
+        let mut coefficients = [[0.0; 4]; 4];
+        for a in 0..MAX_CORNERS {
+            for t in 0..4 {
+                coefficients[t][a] = shape.coefficients[a][t];
+            }
+        }
         Multipliers { coefficients, coordinates: Coordinates::new::<L>(projection, map, corners) }
     }
 

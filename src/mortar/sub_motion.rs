@@ -1,74 +1,246 @@
 //! What a pair of sub-facets adds to a tangent (docs/formulation.md 12.3): derivatives of the forces of a field of tractions
 //! p = sum_A N_A p_A, and of the gaps of its multipliers, with respect to the sub-facets' nodes. The weights alone are
 //! differentiated: nodes that forces and gaps depend on through their own motion are the caller's.
+//!
+//! With nu_s the monomials of N_A, mu_t those of N_B or N_C, the derivatives with respect to the projected corners are made of
+//!
+//! int N_k d_c (nu_s mu1_t), int N_k (d_c nu_s) mu2_t, int N_l nu_s (d_c mu2_t),
+//!
+//! which follow from moments (`sub_moments.rs`); contracted with tractions they give the forces' derivatives, with positions
+//! those of the gaps, lanes over the components of both. Edges are added point by point. Only then monomials become functions,
+//! and corners nodes.
 
-use super::chain::AreaDerivatives;
+use super::chain::{Chain, Columns};
 use super::field::MultiplierSpace;
 use super::segment::{NonmortarFrame, Segment};
-use super::slots::PAIR_NODES;
-use super::sub_pair::{COLUMNS, Side, SubDerivatives, sub_weights};
+use super::slots::{PAIR_CORNERS, PAIR_NODES};
+use super::sub_integrals::{Fields, Integrals, Plane, Sums};
+use super::sub_moments::{BATCH, FEW_SLOTS, SLOTS, SubMoments};
+use super::sub_pair::{Points, Side};
+use super::sub_polynomials::Polynomials;
+use super::transport::PlaneDerivatives;
 use crate::geometry::Vec3;
 use crate::quadrature::Rule;
-use crate::shape::{MAX_CORNERS, MAX_PARENT_NODES};
+use crate::shape::{GROUPS, MAX_CORNERS, MAX_PARENT_NODES, Parent, Quadrilateral, TERMS, Triangle};
+use crate::simd::{self, Kernel, Lanes, rolled};
 
-/// `[k][j][i][B]`: derivatives of components i with respect to component j of the k-th node of the two sub-facets.
-type Columns<const LANES: usize> = [[[[f64; LANES]; 3]; 3]; PAIR_NODES];
+/// `[k][j][B]`, lanes over the three components i and one more number: derivatives with respect to component j of the k-th
+/// node of the two sub-facets.
+type Blocks<const N: usize> = [[[[f64; 4]; N]; 3]; PAIR_NODES];
 
 /// Derivatives of forces and gaps of a pair of sub-facets.
 #[derive(Clone, Debug)]
 pub struct SubMotion {
-    /// Of f_B = sum_A n_AB p_A at the non-mortar parent's nodes [F/L].
-    pub one: Columns<COLUMNS>,
-    /// Of f_C = -sum_A n_AC p_A at the mortar parent's [F/L].
-    pub two: Columns<COLUMNS>,
-    /// Of g_A = sum_B n_AB x_B - sum_C n_AC x_C at fixed nodes, rows A [L^2].
-    pub gap: Columns<MAX_CORNERS>,
-    /// Of the covered areas int N_A da of the rows A [L].
-    pub areas: AreaDerivatives,
+    /// Of f_B = sum_A n_AB p_A at the non-mortar parent's nodes [F/L]; the fourth number is 0.
+    pub one: Blocks<MAX_PARENT_NODES>,
+    /// Of f_C = -sum_A n_AC p_A at the mortar parent's, likewise.
+    pub two: Blocks<MAX_PARENT_NODES>,
+    /// Of g_A = sum_B n_AB x_B - sum_C n_AC x_C at fixed nodes, rows A [L^2]; the fourth number: of the covered area
+    /// int N_A da [L].
+    pub gap: Blocks<MAX_CORNERS>,
 }
 
 impl Default for SubMotion {
     fn default() -> Self {
-        let zero = [[[[0.0; COLUMNS]; 3]; 3]; PAIR_NODES];
-        SubMotion {
-            one: zero,
-            two: zero,
-            gap: [[[[0.0; MAX_CORNERS]; 3]; 3]; PAIR_NODES],
-            areas: [[[0.0; MAX_CORNERS]; 3]; PAIR_NODES],
-        }
+        let zero = [[[[0.0; 4]; MAX_PARENT_NODES]; 3]; PAIR_NODES];
+        SubMotion { one: zero, two: zero, gap: [[[[0.0; 4]; MAX_CORNERS]; 3]; PAIR_NODES] }
     }
 }
 
 /// Nodes of both parents, from any point that both have in common `[L]`.
 pub type ParentPositions<'a> = (&'a [Vec3; MAX_PARENT_NODES], &'a [Vec3; MAX_PARENT_NODES]);
 
-/// Those of a pair with these tractions, `[i][A]` of the rows A, by a rule of `rule_for`, in place of what was in `to`.
+/// Those of a pair with these tractions, `[i][A]` of the rows A, by a rule of `rule_for`, in place of what was in `to`. Nodes
+/// that a sub-facet, and columns that a parent, does not have are left as they are.
 pub fn sub_motion(
     pair: (&NonmortarFrame, &Segment, &Rule),
     sides: (Side, Side),
     space: MultiplierSpace,
     tractions: &[[f64; MAX_CORNERS]; 3],
-    (x1, x2): ParentPositions,
+    positions: ParentPositions,
     to: &mut SubMotion,
 ) {
-    let mut d = SubDerivatives::default();
-    sub_weights(pair, sides, space, Some(&mut d));
-    *to = SubMotion::default();
-    let (n1, n2, rows) = (sides.0.0.n, sides.1.0.n, space.nodes(sides.0.0, sides.0.1).len());
-    for (k, j) in (0..PAIR_NODES).flat_map(|k| (0..3).map(move |j| (k, j))) {
-        for a in 0..rows {
-            to.areas[k][j][a] = d.ab[a][k][j][..n1].iter().sum();
+    simd::dispatch(Motion { pair, sides, space, tractions, positions, to });
+}
+
+struct Motion<'a> {
+    pair: (&'a NonmortarFrame, &'a Segment, &'a Rule),
+    sides: (Side, Side),
+    space: MultiplierSpace,
+    tractions: &'a [[f64; MAX_CORNERS]; 3],
+    positions: ParentPositions<'a>,
+    to: &'a mut SubMotion,
+}
+
+/// Multipliers in monomials.
+struct Rows {
+    /// Coefficients, monomial by monomial, lanes A.
+    of: [[f64; 4]; 6],
+    /// How many monomials nu_s there are.
+    n: usize,
+}
+
+impl Kernel for Motion<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<L: Lanes>(self) {
+        let Motion { pair, sides: (side1, side2), space, tractions, positions, to } = self;
+        let (frame, segment, _) = pair;
+        let one = Polynomials::new::<L>(side1.0, side1.1, &frame.projection, &frame.map);
+        let two = Polynomials::new::<L>(side2.0, side2.1, &segment.mortar, &segment.mortar_map);
+        let rows = rows(space, side1.0, &one);
+        let fields = Fields {
+            p: tractions_in_monomials(&rows, tractions),
+            x: [
+                in_monomials(side1.0, positions.0, &positions.0[0], 1.0),
+                in_monomials(side2.0, positions.1, &positions.0[0], 0.0),
+            ],
+        };
+        let mut sums = Sums {
+            one: [[[L::splat(0.0); 2]; PAIR_CORNERS]; TERMS],
+            two: [[[L::splat(0.0); 2]; PAIR_CORNERS]; TERMS],
+            gap: [[[L::splat(0.0); 2]; PAIR_CORNERS]; TERMS],
+        };
+        let integrals = Integrals { one: &one, two: &two, nu: rows.n, mu: [side1.0.terms, side2.0.terms] };
+        // What is not needed is not begun with zeros: of two triangles with six nodes or three it would be three quarters.
+        let (mut few, mut many);
+        let batch: &mut [[L; BATCH]] = if side1.0.n.max(side2.0.n) <= 6 && one.n == 3 && two.n == 3 {
+            few = [[L::splat(0.0); BATCH]; FEW_SLOTS];
+            &mut few
+        } else {
+            many = [[L::splat(0.0); BATCH]; SLOTS];
+            &mut many
+        };
+        let mut moments = SubMoments::zero();
+        let mut summation = integrals.moments(batch, &mut moments);
+        let mut points = Points::<L>::new(pair, true);
+        while let Some(four) = points.next() {
+            match &four.edge {
+                None => summation.add(&four, &one, &two),
+                Some(edge) => integrals.add_edge(&four, edge, &fields, &mut sums),
+            }
         }
-        for (a, i) in (0..rows).flat_map(|a| (0..3).map(move |i| (a, i))) {
-            let p = tractions[i][a];
-            for b in 0..n1 {
-                to.one[k][j][i][b] += d.ab[a][k][j][b] * p;
-                to.gap[k][j][i][a] += d.ab[a][k][j][b] * x1[b][i];
+        summation.finish();
+        integrals.contract(&moments, &fields, &mut sums);
+        let chain = Chain::new(frame, segment);
+        for b in 0..rolled(side1.0.n) {
+            let mut to = Block { to: &mut to.one, column: b };
+            to_nodes(&chain, &sums.one, &function(side1.0, b), side1.0.terms, &mut to);
+        }
+        for c in 0..rolled(side2.0.n) {
+            let mut to = Block { to: &mut to.two, column: c };
+            to_nodes(&chain, &sums.two, &function(side2.0, c), side2.0.terms, &mut to);
+        }
+        for a in 0..rolled(space.nodes(side1.0, side1.1).len()) {
+            let mut function = [0.0; TERMS];
+            for s in 0..6 {
+                function[s] = rows.of[s][a & 3];
             }
-            for c in 0..n2 {
-                to.two[k][j][i][c] -= d.ac[a][k][j][c] * p;
-                to.gap[k][j][i][a] -= d.ac[a][k][j][c] * x2[c][i];
+            to_nodes(&chain, &sums.gap, &function, rows.n, &mut Block { to: &mut to.gap, column: a });
+        }
+    }
+}
+
+#[inline(always)]
+fn rows(space: MultiplierSpace, parent: &Parent, one: &Polynomials) -> Rows {
+    if space == MultiplierSpace::Sub {
+        return Rows { of: one.map, n: one.n };
+    }
+    let mut of = [[0.0; 4]; 6];
+    for a in 0..MAX_CORNERS {
+        for s in 0..4 {
+            of[s][a] = parent.cell.coefficients[a][s];
+        }
+    }
+    Rows { of, n: parent.corners() }
+}
+
+#[inline(always)]
+fn tractions_in_monomials<L: Lanes>(rows: &Rows, [x, y, z]: &[[f64; MAX_CORNERS]; 3]) -> [L; 6] {
+    let nodal = L::transpose([L::load(x), L::load(y), L::load(z), L::splat(0.0)]);
+    let mut p = [L::splat(0.0); 6];
+    for s in 0..rows.n {
+        for a in 0..MAX_CORNERS {
+            p[s] = nodal[a].mul_add(L::splat(rows.of[s][a]), p[s]);
+        }
+    }
+    p
+}
+
+/// Coefficients of the monomials, in the lanes of three components, and of the field `constant` in the fourth.
+#[inline(always)]
+fn in_monomials<L: Lanes>(parent: &Parent, x: &[Vec3; MAX_PARENT_NODES], base: &Vec3, constant: f64) -> [L; TERMS] {
+    let mut of = [L::splat(0.0); TERMS];
+    of[0] = L::load(&[0.0, 0.0, 0.0, constant]);
+    for b in 0..parent.n {
+        let at = L::load(&[x[b].x - base.x, x[b].y - base.y, x[b].z - base.z, 0.0]);
+        for t in 0..parent.terms {
+            let c = parent.functions[t][b / 4][b % 4];
+            if c != 0.0 {
+                of[t] = at.mul_add(L::splat(c), of[t]);
             }
+        }
+    }
+    of
+}
+
+/// From monomials to a function with these coefficients, and from corners to nodes.
+#[inline(always)]
+fn to_nodes<L: Lanes, const N: usize>(
+    chain: &Chain<L>,
+    plane: &Plane<L>,
+    function: &[f64; TERMS],
+    terms: usize,
+    to: &mut Block<N>,
+) {
+    let mut g: PlaneDerivatives<L> = [[L::splat(0.0); 2]; PAIR_CORNERS];
+    for side in 0..2 {
+        let mut sums = [[L::splat(0.0); 2]; MAX_CORNERS];
+        for t in 0..terms.min(TERMS) {
+            if function[t] != 0.0 {
+                let (n, of) = (L::splat(function[t]), &plane[t]);
+                for k in 0..MAX_CORNERS {
+                    for c in 0..2 {
+                        sums[k][c] = of[MAX_CORNERS * side + k][c].mul_add(n, sums[k][c]);
+                    }
+                }
+            }
+        }
+        for k in 0..MAX_CORNERS {
+            g[MAX_CORNERS * side + k] = sums[k];
+        }
+    }
+    match (chain.frame.projection.shape.n, chain.segment.mortar.shape.n) {
+        (3, 3) => chain.nodes::<Triangle, Triangle>(&g, to),
+        (3, _) => chain.nodes::<Triangle, Quadrilateral>(&g, to),
+        (_, 3) => chain.nodes::<Quadrilateral, Triangle>(&g, to),
+        _ => chain.nodes::<Quadrilateral, Quadrilateral>(&g, to),
+    }
+}
+
+/// Coefficients of a parent's function.
+#[inline(always)]
+fn function(parent: &Parent, b: usize) -> [f64; TERMS] {
+    let mut of = [0.0; TERMS];
+    for t in 0..TERMS {
+        of[t] = parent.functions[t][b / 4 % GROUPS][b % 4];
+    }
+    of
+}
+
+/// Where the derivatives of a column go.
+struct Block<'a, const N: usize> {
+    to: &'a mut Blocks<N>,
+    column: usize,
+}
+
+impl<L: Lanes, const N: usize> Columns<L> for Block<'_, N> {
+    #[inline(always)]
+    fn set(&mut self, k: usize, columns: [L; 3]) {
+        let to = &mut self.to[k];
+        for j in 0..3 {
+            to[j][self.column] = columns[j].store();
         }
     }
 }

@@ -88,23 +88,23 @@ struct Integrate<'a> {
 type Sums<L> = [[PlaneDerivatives<L>; GROUPS]; MAX_CORNERS];
 
 /// Four points: of the overlap, or of an edge's part that bounds it.
-struct Four<L> {
-    weight: L,
+pub(super) struct Four<L> {
+    pub weight: L,
     /// Coordinates on both sub-facets, and the determinants of their maps.
-    one: [L; 3],
-    two: [L; 3],
-    edge: Option<OnEdge>,
+    pub one: [L; 3],
+    pub two: [L; 3],
+    pub edge: Option<OnEdge>,
 }
 
 /// An edge: the slots of its ends, their functions at the points, n ds/dt.
-struct OnEdge {
-    slots: [usize; 2],
-    ends: [[f64; 4]; 2],
-    normal: [f64; 2],
+pub(super) struct OnEdge {
+    pub slots: [usize; 2],
+    pub ends: [[f64; 4]; 2],
+    pub normal: [f64; 2],
 }
 
 /// All points of a pair, four at a time.
-struct Points<'a, L> {
+pub(super) struct Points<'a, L> {
     frame: &'a NonmortarFrame,
     segment: &'a Segment,
     rule: &'a Rule,
@@ -129,9 +129,21 @@ fn stored<L: Lanes>(v: &[L; 3]) -> [[f64; 4]; 3] {
     [v[0].store(), v[1].store(), v[2].store()]
 }
 
-impl<L: Lanes> Points<'_, L> {
+impl<'a, L: Lanes> Points<'a, L> {
+    /// Those on edges where derivatives are asked for.
     #[inline(always)]
-    fn next(&mut self) -> Option<Four<L>> {
+    pub fn new((frame, segment, rule): (&'a NonmortarFrame, &'a Segment, &'a Rule), derivatives: bool) -> Self {
+        let edges = match derivatives {
+            true => intervals::<L>(&frame.projection, &segment.mortar, &frame.plane),
+            false => [[None; MAX_CORNERS]; 2],
+        };
+        let (mut fan, maps) = (Fan::new(frame, segment), Maps::<L>::new(frame, segment));
+        let triangle = fan.triangle();
+        Points { frame, segment, rule, maps, fan, triangle, edges, group: 0, edge: 0 }
+    }
+
+    #[inline(always)]
+    pub fn next(&mut self) -> Option<Four<L>> {
         while let Some(triangle) = &self.triangle {
             if let Some(four) = self.rule.triangle_lanes.get(self.group) {
                 self.group += 1;
@@ -208,13 +220,7 @@ impl Kernel for Integrate<'_> {
         let zero = L::splat(0.0);
         let mut moments = [[[zero; TERMS]; MAX_CORNERS]; 2];
         let mut sums: [Sums<L>; 2] = [[[[[zero; 2]; PAIR_CORNERS]; GROUPS]; MAX_CORNERS]; 2];
-        let edges = match &derivatives {
-            Some(_) => intervals::<L>(&frame.projection, &segment.mortar, &frame.plane),
-            None => [[None; MAX_CORNERS]; 2],
-        };
-        let (mut fan, maps) = (Fan::new(frame, segment), Maps::<L>::new(frame, segment));
-        let triangle = fan.triangle();
-        let mut points = Points { frame, segment, rule, maps, fan, triangle, edges, group: 0, edge: 0 };
+        let mut points = Points::<L>::new((frame, segment, rule), derivatives.is_some());
         while let Some(four) = points.next() {
             if four.edge.is_none() {
                 let mut n = multipliers.of_four([four.one[0], four.one[1]]);

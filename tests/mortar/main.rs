@@ -6,3 +6,4 @@ mod support;
 mod element_rule;
 mod golden;
 mod quadratic;
+mod sub_motion;
