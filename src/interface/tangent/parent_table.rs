@@ -5,7 +5,7 @@ use crate::dual::{DualBasis, corner_shares};
 use crate::error::Result;
 use crate::geometry::{Mat3, Vec3};
 use crate::memory::{self, Store};
-use crate::mortar::{COLUMNS, MORTAR, ParentWeights, SubMotion};
+use crate::mortar::{MORTAR, ParentWeights, SubMotion};
 use crate::shape::{MAX_CORNERS, MAX_PARENT_NODES, Parent};
 
 /// Sums over the parts of a facet. Rows and columns of nodes: the facet's own, then mortar nodes, each once.
@@ -18,11 +18,9 @@ pub struct ParentTable {
     /// Mortar nodes, and whether any active pair has them.
     pub mortar: Vec<(usize, bool)>,
     /// Derivatives of forces with fixed tractions, `[row][column]`.
-    forces: Vec<Mat3>,
-    /// Dg, `[multiplier][column]`.
-    gaps: Vec<Mat3>,
-    /// Derivatives of covered areas, of the multipliers.
-    areas: Vec<Vec3>,
+    forces: Vec<Block>,
+    /// Dg, `[multiplier][column]`; the fourth number: of the covered area.
+    gaps: Vec<Block>,
     /// n_AB and - n_AC of now as they act, of now as they were integrated, and of t_n, `[multiplier][column]`.
     pub now: Vec<f64>,
     integrated: Vec<f64>,
@@ -41,6 +39,25 @@ pub struct DualParent<'a> {
     pub heights: [Vec3; MAX_CORNERS],
     /// D|e| of the own nodes.
     pub area: [Vec3; MAX_PARENT_NODES],
+}
+
+/// Derivatives of three components, and of a fourth number, `[j][i]`, with respect to component j of a node.
+type Block = [[f64; 4]; 3];
+
+fn add(to: &mut Block, of: Block) {
+    for j in 0..3 {
+        for i in 0..4 {
+            to[j][i] += of[j][i];
+        }
+    }
+}
+
+fn matrix(block: &Block) -> Mat3 {
+    Mat3::from_fn(|i, j| block[j][i])
+}
+
+fn set(to: &mut Block, of: &Mat3) {
+    (0..9).for_each(|ij| to[ij % 3][ij / 3] = of[(ij / 3, ij % 3)]);
 }
 
 /// A linear function of three components, of each.
@@ -90,9 +107,8 @@ impl ParentTable {
             }
         }
         let n = if has_numbers { self.columns() } else { 0 };
-        memory::refill(&mut self.forces, Mat3::zeros(), n * n)?;
-        memory::refill(&mut self.gaps, Mat3::zeros(), multipliers * n)?;
-        memory::refill(&mut self.areas, Vec3::zeros(), multipliers * n)?;
+        memory::refill(&mut self.forces, Block::default(), n * n)?;
+        memory::refill(&mut self.gaps, Block::default(), multipliers * n)?;
         for weights in [&mut self.now, &mut self.integrated, &mut self.previous] {
             memory::refill(weights, 0.0, multipliers * n)?;
         }
@@ -110,19 +126,20 @@ impl ParentTable {
     }
 
     /// Df of one node with respect to another.
-    pub fn force(&self, row: usize, column: usize) -> &Mat3 {
-        &self.forces[row * self.columns() + column]
+    pub fn force(&self, row: usize, column: usize) -> Mat3 {
+        matrix(&self.forces[row * self.columns() + column])
     }
 
     /// Dg_A with respect to a node.
-    pub fn gap(&self, a: usize, column: usize) -> &Mat3 {
-        &self.gaps[a * self.columns() + column]
+    pub fn gap(&self, a: usize, column: usize) -> Mat3 {
+        matrix(&self.gaps[a * self.columns() + column])
     }
 
     /// Adds to Dg_A.
     pub fn add_gap(&mut self, a: usize, column: usize, block: &Mat3) {
         let columns = self.columns();
-        self.gaps[a * columns + column] += block;
+        let to = &mut self.gaps[a * columns + column];
+        (0..9).for_each(|ij| to[ij % 3][ij / 3] += block[(ij / 3, ij % 3)]);
     }
 
     /// Adds the weights of a pair whose mortar nodes have these columns: those that act now, those of now as they were
@@ -155,19 +172,14 @@ impl ParentTable {
         let columns = self.columns();
         for (k, column) in slots.iter().enumerate() {
             let Some(column) = *column else { continue };
-            let add = |to: &mut Mat3, of: &[[[f64; COLUMNS]; 3]; 3], b: usize| {
-                (0..9).for_each(|ij| to[(ij / 3, ij % 3)] += of[ij % 3][ij / 3][b]);
-            };
-            (0..self.own).for_each(|b| add(&mut self.forces[b * columns + column], &d.one[k], b));
+            (0..self.own).for_each(|b| add(&mut self.forces[b * columns + column], d.one[k].map(|j| j[b])));
             for (c, row) in two.iter().enumerate() {
                 if let Some(row) = *row {
-                    add(&mut self.forces[row * columns + column], &d.two[k], c);
+                    add(&mut self.forces[row * columns + column], d.two[k].map(|j| j[c]));
                 }
             }
             for (a, &row) in rows.iter().enumerate() {
-                let gap = &mut self.gaps[row * columns + column];
-                (0..9).for_each(|ij| gap[(ij / 3, ij % 3)] += d.gap[k][ij % 3][ij / 3][a]);
-                (0..3).for_each(|j| self.areas[row * columns + column][j] += d.areas[k][j][a]);
+                add(&mut self.gaps[row * columns + column], d.gap[k].map(|j| j[a]));
             }
         }
     }
@@ -175,7 +187,7 @@ impl ParentTable {
     /// Adds what the nodes' own motion does to the gaps.
     pub fn carry(&mut self) {
         for (gap, n) in self.gaps.iter_mut().zip(&self.integrated) {
-            *gap += Mat3::from_diagonal_element(*n);
+            (0..3).for_each(|i| gap[i][i] += n);
         }
     }
 
@@ -186,31 +198,37 @@ impl ParentTable {
         // (m^-1)_AB = a_AB / m_A.
         let inverse = |a: usize, b: usize| inverse[a][b] / basis.areas[a];
         for column in 0..columns {
-            let dm = |table: &ParentTable, a: usize| table.areas[a * columns + column];
+            let dm = |table: &ParentTable, a: usize| {
+                let block = &table.gaps[a * columns + column];
+                Vec3::new(block[0][3], block[1][3], block[2][3])
+            };
             let whole = if column < self.own { d.area[column] } else { Vec3::zeros() };
             let all: Vec3 = (0..m).map(|a| dm(self, a)).sum();
             let dphi = (all - whole * basis.coverage.share) * (slope / basis.area);
             // p_B Dm_B - (Dm q)_B.
             let mut r = [Mat3::zeros(); MAX_CORNERS];
             for (b, r) in r.iter_mut().enumerate().take(m) {
-                let dmq: Mat3 = (0..self.own).map(|k| self.forces[k * columns + column] * c[b][k]).sum();
+                let dmq: Mat3 =
+                    (0..self.own).filter(|k| c[b][*k] != 0.0).map(|k| self.force(k, column) * c[b][k]).sum();
                 *r = d.tractions[b] * dm(self, b).transpose() - dmq;
             }
             // D(phi q_A), and with it the forces.
-            (0..columns).for_each(|row| self.forces[row * columns + column] *= phi);
-            for a in 0..m {
-                let solved: Mat3 = (0..m).map(|b| r[b] * inverse(a, b)).sum();
-                let change = solved * phi + d.field[a] * dphi.transpose();
-                for row in 0..columns {
-                    self.forces[row * columns + column] += change * self.integrated[a * columns + row];
-                }
+            let solved = |r: &[Mat3; MAX_CORNERS], a: usize| (0..m).map(|b| r[b] * inverse(a, b)).sum::<Mat3>();
+            let change: [Mat3; MAX_CORNERS] = std::array::from_fn(|a| match a < m {
+                true => solved(&r, a) * phi + d.field[a] * dphi.transpose(),
+                false => Mat3::zeros(),
+            });
+            for row in 0..columns {
+                let mut force = self.force(row, column) * phi;
+                (0..m).for_each(|a| force += change[a] * self.integrated[a * columns + row]);
+                set(&mut self.forces[row * columns + column], &force);
             }
             let old: [Mat3; MAX_CORNERS] =
-                std::array::from_fn(|b| if b < m { self.gaps[b * columns + column] } else { Mat3::zeros() });
+                std::array::from_fn(|b| if b < m { self.gap(b, column) } else { Mat3::zeros() });
             for a in 0..m {
-                let solved: Mat3 = (0..m).map(|b| old[b] * inverse(a, b)).sum();
                 let area = dphi * basis.areas[a] + dm(self, a) * phi;
-                self.gaps[a * columns + column] = solved * (phi * basis.areas[a]) + d.heights[a] * area.transpose();
+                let gap = solved(&old, a) * (phi * basis.areas[a]) + d.heights[a] * area.transpose();
+                set(&mut self.gaps[a * columns + column], &gap);
             }
         }
     }

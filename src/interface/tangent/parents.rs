@@ -240,7 +240,7 @@ fn emit<const N: usize>(
         let place = Place::Displacement(node(row));
         if options.differentiates_weights() {
             for column in (0..columns).filter(|&column| acts(column) && together(row, column)) {
-                let block = numbers.map_or_else(Mat3::zeros, |_| *table.force(row, column));
+                let block = numbers.map_or_else(Mat3::zeros, |_| table.force(row, column));
                 emitter.taker.node(place, Place::Displacement(node(column)), block.as_slice());
             }
         }
