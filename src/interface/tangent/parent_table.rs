@@ -8,6 +8,19 @@ use crate::memory::{self, Store};
 use crate::mortar::{MORTAR, ParentWeights, SubMotion};
 use crate::shape::{MAX_CORNERS, MAX_PARENT_NODES, Parent};
 
+/// A mortar node of a facet's pairs.
+#[derive(Clone, Copy, Debug)]
+pub struct MortarNode {
+    pub node: usize,
+    /// Which of the active pairs have it, a bit each; the last one stands for all that have no bit of their own.
+    pub pairs: u128,
+}
+
+/// The bit of the k-th pair.
+pub fn bit(k: usize) -> u128 {
+    1 << k.min(127)
+}
+
 /// Sums over the parts of a facet. Rows and columns of nodes: the facet's own, then mortar nodes, each once.
 #[derive(Debug, Default)]
 pub struct ParentTable {
@@ -15,8 +28,8 @@ pub struct ParentTable {
     pub own: usize,
     /// Multipliers, at the first own nodes.
     pub multipliers: usize,
-    /// Mortar nodes, and whether any active pair has them.
-    pub mortar: Vec<(usize, bool)>,
+    /// Mortar nodes.
+    pub mortar: Vec<MortarNode>,
     /// Derivatives of forces with fixed tractions, `[row][column]`.
     forces: Vec<Block>,
     /// Dg, `[multiplier][column]`; the fourth number: of the covered area.
@@ -44,10 +57,12 @@ pub struct DualParent<'a> {
 /// Derivatives of three components, and of a fourth number, `[j][i]`, with respect to component j of a node.
 type Block = [[f64; 4]; 3];
 
-fn add(to: &mut Block, of: Block) {
+/// Adds those of the b-th function.
+#[inline(always)]
+fn add<const B: usize>(to: &mut Block, of: &[[[f64; 4]; B]; 3], b: usize) {
     for j in 0..3 {
         for i in 0..4 {
-            to[j][i] += of[j][i];
+            to[j][i] += of[j][b][i];
         }
     }
 }
@@ -95,15 +110,15 @@ impl ParentTable {
     pub fn begin(
         &mut self,
         (own, multipliers): (usize, usize),
-        mortar: impl Iterator<Item = (usize, bool)>,
+        mortar: impl Iterator<Item = MortarNode>,
         has_numbers: bool,
     ) -> Result<()> {
         (self.own, self.multipliers) = (own, multipliers);
         self.mortar.clear();
-        for (node, is_active) in mortar {
-            match self.mortar.iter_mut().find(|known| known.0 == node) {
-                Some(known) => known.1 |= is_active,
-                None => self.mortar.store((node, is_active))?,
+        for new in mortar {
+            match self.mortar.iter_mut().find(|known| known.node == new.node) {
+                Some(known) => known.pairs |= new.pairs,
+                None => self.mortar.store(new)?,
             }
         }
         let n = if has_numbers { self.columns() } else { 0 };
@@ -122,7 +137,7 @@ impl ParentTable {
 
     /// The column of a mortar node, if it has one.
     pub fn column(&self, node: usize) -> Option<usize> {
-        self.mortar.iter().position(|known| known.0 == node).map(|k| self.own + k)
+        self.mortar.iter().position(|known| known.node == node).map(|k| self.own + k)
     }
 
     /// Df of one node with respect to another.
@@ -172,14 +187,14 @@ impl ParentTable {
         let columns = self.columns();
         for (k, column) in slots.iter().enumerate() {
             let Some(column) = *column else { continue };
-            (0..self.own).for_each(|b| add(&mut self.forces[b * columns + column], d.one[k].map(|j| j[b])));
+            (0..self.own).for_each(|b| add(&mut self.forces[b * columns + column], &d.one[k], b));
             for (c, row) in two.iter().enumerate() {
                 if let Some(row) = *row {
-                    add(&mut self.forces[row * columns + column], d.two[k].map(|j| j[c]));
+                    add(&mut self.forces[row * columns + column], &d.two[k], c);
                 }
             }
             for (a, &row) in rows.iter().enumerate() {
-                add(&mut self.gaps[row * columns + column], d.gap[k].map(|j| j[a]));
+                add(&mut self.gaps[row * columns + column], &d.gap[k], a);
             }
         }
     }

@@ -3,7 +3,7 @@
 
 use super::derivatives::PairDerivatives;
 use super::emission::{Emitter, Place};
-use super::parent_table::{DualParent, ParentTable};
+use super::parent_table::{DualParent, MortarNode, ParentTable, bit};
 use super::union::{Pairs, UnionPair};
 use crate::element::{NodeTangent, ParentPair};
 use crate::error::Result;
@@ -54,10 +54,9 @@ pub fn of_parent<const N: usize>(
 ) -> Result<i64> {
     let ((one, two), moves) = (given.setup.surfaces(), given.setup.effects.moves());
     let (own, multipliers) = (one.host_nodes(f), one.multipliers(f));
-    let mortar = pairs
-        .iter()
-        .filter(|_| moves)
-        .flat_map(|pair| two.host_nodes(pair.two).iter().map(|&node| (node, pair.is_active)));
+    let of_pair = |(k, pair): (usize, &UnionPair)| (two.host_nodes(pair.two), if pair.is_active { bit(k) } else { 0 });
+    let mortar = pairs.iter().enumerate().filter(|_| moves).map(of_pair);
+    let mortar = mortar.flat_map(|(nodes, pairs)| nodes.iter().map(move |&node| MortarNode { node, pairs }));
     room.table.begin((own.len(), multipliers), mortar, numbers.is_some())?;
     let mut linearised = 0;
     if let Some(numbers) = numbers {
@@ -218,23 +217,27 @@ fn emit<const N: usize>(
     let own = one.host_nodes(f);
     let node = |column: usize| match column.checked_sub(own.len()) {
         None => own[column],
-        Some(k) => one.len() + table.mortar[k].0,
+        Some(k) => one.len() + table.mortar[k].node,
     };
     let acts = |column: usize| match column.checked_sub(own.len()) {
         None => pairs.iter().any(|pair| pair.is_active),
-        Some(k) => table.mortar[k].1,
+        Some(k) => table.mortar[k].pairs != 0,
     };
     let columns = table.columns();
     let is_dual = options.basis == MultiplierBasis::Dual;
     // Mortar nodes of different facets are coupled by dual multipliers alone.
     let together = |row: usize, column: usize| {
         let (Some(c), Some(d)) = (row.checked_sub(own.len()), column.checked_sub(own.len())) else { return true };
-        let [c, d] = [table.mortar[c].0, table.mortar[d].0];
+        let [c, d] = [table.mortar[c], table.mortar[d]];
+        let common = c.pairs & d.pairs;
+        if is_dual || common != bit(usize::MAX) {
+            return is_dual || common != 0;
+        }
         let both = |pair: &UnionPair| {
             let nodes = two.host_nodes(pair.two);
-            pair.is_active && nodes.contains(&c) && nodes.contains(&d)
+            pair.is_active && nodes.contains(&c.node) && nodes.contains(&d.node)
         };
-        is_dual || pairs.iter().any(both)
+        pairs.iter().any(both)
     };
     for row in (0..columns).filter(|&row| acts(row)) {
         let place = Place::Displacement(node(row));
