@@ -42,6 +42,11 @@ impl Surface {
         self.parents.as_ref().is_none_or(|p| p.has_row[node])
     }
 
+    /// How many nodes there are at which no facet has a multiplier.
+    pub fn nodes_without_row(&self) -> usize {
+        self.parents.as_ref().map_or(0, |p| p.has_row.iter().filter(|has| !**has).count())
+    }
+
     /// The first facet at or after which another facet of the host begins.
     pub fn begin_of_host(&self, f: usize) -> usize {
         self.parents.as_ref().map_or(f, |p| p.of.get(f).map_or(f, |&host| p.first[host as usize]))

@@ -18,7 +18,7 @@ use crate::interface::stages::sums::NodeSums;
 use crate::interface::tangent::by_equations::Sink;
 use crate::law::State;
 use crate::memory::{self, Store, Stored};
-use crate::mortar::{NonmortarFrame, PairWeights, Segment};
+use crate::mortar::{NonmortarFrame, PairWeights, Segment, SubWeights};
 use crate::quadrature::DEGREE_10;
 use nalgebra::{SMatrix, SVector, SymmetricEigen};
 
@@ -73,6 +73,8 @@ pub struct WorstPair {
 pub struct Diagnosis {
     /// Of every node.
     pub states: Vec<State>,
+    /// How many nodes there are at which no facet has a multiplier, as mid nodes: they are in gap, and not counted.
+    pub without_multiplier: usize,
     /// The node that is covered least, of those that are covered, and its covered over full area [-].
     pub least_covered: Option<(usize, f64)>,
     /// Smallest overlap over the smaller facet's area [-].
@@ -90,7 +92,8 @@ pub struct Diagnosis {
 impl Diagnosis {
     /// How many nodes are in this state.
     pub fn count(&self, state: State) -> usize {
-        self.states.iter().filter(|s| **s == state).count()
+        let without = if state == State::Gap { self.without_multiplier } else { 0 };
+        self.states.iter().filter(|s| **s == state).count() - without
     }
 
     /// The diagnosis in sentences; nodes and facets counted from `base`.
@@ -216,14 +219,23 @@ pub fn diagnosis<const N: usize>(
     let fraction = |a: usize| sums[a].coverage / given.history().areas[a];
     let covered = (0..states.len()).filter(|&a| fraction(a) > given.setup.options.coverage_min);
     let least_covered = covered.min_by(|&a, &b| fraction(a).total_cmp(&fraction(b))).map(|a| (a, fraction(a)));
-    let mut diagnosis =
-        Diagnosis { states, least_covered, overlap: None, warp: None, angle: None, error: None, suspects };
+    let without_multiplier = given.setup.nonmortar.nodes_without_row();
+    let mut diagnosis = Diagnosis {
+        states,
+        without_multiplier,
+        least_covered,
+        overlap: None,
+        warp: None,
+        angle: None,
+        error: None,
+        suspects,
+    };
     worst_pairs(given, pairs, (x1, x2), &mut diagnosis);
     diagnosis
 }
 
 fn worst_pairs<const N: usize>(given: Given<N>, pairs: &[PairRecord], (x1, x2): (&[Vec3], &[Vec3]), d: &mut Diagnosis) {
-    let ((nonmortar, mortar), h) = (given.setup.surfaces(), given.history());
+    let ((nonmortar, mortar), options, h) = (given.setup.surfaces(), &given.setup.options, given.history());
     if mortar.analytic.is_some() {
         return;
     }
@@ -236,7 +248,7 @@ fn worst_pairs<const N: usize>(given: Given<N>, pairs: &[PairRecord], (x1, x2): 
     let mut smallest = None;
     for pair in pairs {
         let (one, two) = (nonmortar.facet(pair.one, x1), mortar.facet(pair.two, x2));
-        let facets = [pair.one, pair.two];
+        let facets = [nonmortar.host_facet(pair.one), mortar.host_facet(pair.two)];
         let Ok(frame) = NonmortarFrame::new(&one) else { continue };
         let Ok(Some(segment)) = Segment::new(&frame, &two) else { continue };
         if segment.area == 0.0 {
@@ -247,6 +259,14 @@ fn worst_pairs<const N: usize>(given: Given<N>, pairs: &[PairRecord], (x1, x2): 
         keep(&mut d.warp, warp(&one).max(warp(&two)), facets);
         if let Ok(plane) = Plane::of(&two) {
             keep(&mut d.angle, frame.plane.e.cross(&plane.e).norm().atan2(-frame.plane.e.dot(&plane.e)), facets);
+        }
+        if let (Some(p), Some(q)) = (&nonmortar.parents, &mortar.parents) {
+            let by = |rule| p.share(q, (pair.one, pair.two), (&frame, &segment, rule));
+            let (own, fine) = (by(options.rule), by(&DEGREE_10));
+            let all = |w: &SubWeights| w.ab.into_iter().chain(w.ac).flatten();
+            let apart = all(&own).zip(all(&fine)).map(|(n, m)| (n - m).abs()).fold(0.0, f64::max);
+            keep(&mut d.error, apart / whole, facets);
+            continue;
         }
         let fine = PairWeights::integrate(&frame, &segment, &DEGREE_10);
         // With dual multipliers the weights that act are not those of the pair alone.

@@ -72,8 +72,10 @@ pub enum Finding {
 /// The report at one configuration.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Report {
-    /// Per non-mortar node.
+    /// Per non-mortar node; one at which no facet has a multiplier, as mid nodes, is covered by nothing.
     pub nodes: Vec<NodeCover>,
+    /// How many of these there are.
+    pub without_multiplier: usize,
     /// The deepest penetration of a covered node, -g_N over its covered area `[L]`; 0 where there is none.
     pub penetration: f64,
     /// With covered nodes `Swapped` or `InsideOut` alone.
@@ -81,9 +83,10 @@ pub struct Report {
 }
 
 impl Report {
-    /// How many nodes have this cover.
+    /// How many nodes at which facets have multipliers have this cover.
     pub fn count(&self, cover: Cover) -> usize {
-        self.nodes.iter().filter(|n| n.cover == cover).count()
+        let without = if cover == Cover::None { self.without_multiplier } else { 0 };
+        self.nodes.iter().filter(|n| n.cover == cover).count() - without
     }
 
     /// The report in sentences.
@@ -97,7 +100,7 @@ impl Report {
         text.append(format_args!(
             "Of {} non-mortar nodes {full} are covered in full, {part} in part, {none} not at all, {several} by several \
              layers.",
-            self.nodes.len()
+            self.nodes.len() - self.without_multiplier
         ))?;
         let least = self.nodes.iter().enumerate().filter(|(_, n)| n.cover == Cover::Part);
         if let Some((a, n)) = least.min_by(|(_, m), (_, n)| m.fraction.total_cmp(&n.fraction)) {
@@ -182,7 +185,8 @@ pub fn report<const N: usize>(given: Given<N>, work: &mut Work, (x1, x2): (&[Vec
     } else {
         inside_out.then_some(Finding::InsideOut)
     };
-    Ok(Report { nodes, penetration, finding })
+    let without_multiplier = surfaces.0.nodes_without_row();
+    Ok(Report { nodes, without_multiplier, penetration, finding })
 }
 
 /// Per non-mortar node the most that a facet around it is covered, over the facet's area at `x`.
