@@ -199,10 +199,13 @@ mod tests {
     /// Relative to the largest.
     const SAME: f64 = 1e-12;
 
-    /// A parent over its reference cell, seen from below or, larger and shifted, from above.
+    /// A parent over its reference cell, seen from below or, larger, from above.
     fn nodes(parent: &Parent, up: bool) -> [Vec3; MAX_PARENT_NODES] {
-        let scale = if up { 1.3 } else { -1.0 };
-        parent.at.map(|[u, v]| Vec3::new(1.1 * u + 0.1 * u * v, scale * v + 0.07 * u * u, 0.1 * (u * u + v * v)))
+        let (scale, from) = if up { (1.3, -0.1) } else { (1.0, 0.0) };
+        parent.at.map(|at| {
+            let [u, v] = if up { at } else { [at[1], at[0]] };
+            Vec3::new(scale * u + 0.1 * u * v + from, scale * v + 0.07 * u * u, 0.1 * (u * u + v * v))
+        })
     }
 
     /// `sub_motion` of all pairs of sub-facets, one after the other.
