@@ -182,21 +182,6 @@ fn main() {
         stickslip_bench_counted(kernel);
         return;
     }
-    if arguments.iter().any(|a| a == "--motion") {
-        let mut kernels = sub_facets::kernels(SUB_FACET_PARENTS);
-        let (_, t) = times(None, &[], &mut kernels);
-        for i in 0..kernels.len() / 2 {
-            println!(
-                "{} {} calls: {:.0} ns, {:.0} ns: {:.2}",
-                kernels[2 * i].name,
-                kernels[2 * i].calls,
-                1e9 * t[2 * i],
-                1e9 * t[2 * i + 1],
-                t[2 * i + 1] / t[2 * i]
-            );
-        }
-        return;
-    }
     // Without `cargo bench`, which says so, it is a test.
     if arguments.iter().any(|a| a == "--quick") || !arguments.iter().any(|a| a == "--bench") {
         return try_all();

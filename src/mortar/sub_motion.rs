@@ -14,7 +14,8 @@ use super::chain::{Chain, Columns};
 use super::field::MultiplierSpace;
 use super::segment::{NonmortarFrame, Segment};
 use super::slots::{PAIR_CORNERS, PAIR_NODES};
-use super::sub_integrals::{Fields, Integrals, Plane, Sums};
+use super::sub_fields::{Fields, Rows};
+use super::sub_integrals::{Integrals, Plane, Sums};
 use super::sub_moments::{BATCH, FEW_SLOTS, SLOTS, SubMoments};
 use super::sub_pair::{Points, Side};
 use super::sub_polynomials::Polynomials;
@@ -72,14 +73,6 @@ struct Motion<'a> {
     to: &'a mut SubMotion,
 }
 
-/// Multipliers in monomials.
-struct Rows {
-    /// Coefficients, monomial by monomial, lanes A.
-    of: [[f64; 4]; 6],
-    /// How many monomials nu_s there are.
-    n: usize,
-}
-
 impl Kernel for Motion<'_> {
     type Output = ();
 
@@ -89,14 +82,8 @@ impl Kernel for Motion<'_> {
         let (frame, segment, _) = pair;
         let one = Polynomials::new::<L>(side1.0, side1.1, &frame.projection, &frame.map);
         let two = Polynomials::new::<L>(side2.0, side2.1, &segment.mortar, &segment.mortar_map);
-        let rows = rows(space, side1.0, &one);
-        let fields = Fields {
-            p: tractions_in_monomials(&rows, tractions),
-            x: [
-                in_monomials(side1.0, positions.0, &positions.0[0], 1.0),
-                in_monomials(side2.0, positions.1, &positions.0[0], 0.0),
-            ],
-        };
+        let rows = Rows::new(space, side1.0, &one);
+        let fields = Fields::new(&rows, [side1.0, side2.0], tractions, [positions.0, positions.1]);
         let mut sums = Sums {
             one: [[[L::splat(0.0); 2]; PAIR_CORNERS]; TERMS],
             two: [[[L::splat(0.0); 2]; PAIR_CORNERS]; TERMS],
@@ -140,49 +127,6 @@ impl Kernel for Motion<'_> {
             to_nodes(&chain, &sums.gap, &function, rows.n, &mut Block { to: &mut to.gap, column: a });
         }
     }
-}
-
-#[inline(always)]
-fn rows(space: MultiplierSpace, parent: &Parent, one: &Polynomials) -> Rows {
-    if space == MultiplierSpace::Sub {
-        return Rows { of: one.map, n: one.n };
-    }
-    let mut of = [[0.0; 4]; 6];
-    for a in 0..MAX_CORNERS {
-        for s in 0..4 {
-            of[s][a] = parent.cell.coefficients[a][s];
-        }
-    }
-    Rows { of, n: parent.corners() }
-}
-
-#[inline(always)]
-fn tractions_in_monomials<L: Lanes>(rows: &Rows, [x, y, z]: &[[f64; MAX_CORNERS]; 3]) -> [L; 6] {
-    let nodal = L::transpose([L::load(x), L::load(y), L::load(z), L::splat(0.0)]);
-    let mut p = [L::splat(0.0); 6];
-    for s in 0..rows.n {
-        for a in 0..MAX_CORNERS {
-            p[s] = nodal[a].mul_add(L::splat(rows.of[s][a]), p[s]);
-        }
-    }
-    p
-}
-
-/// Coefficients of the monomials, in the lanes of three components, and of the field `constant` in the fourth.
-#[inline(always)]
-fn in_monomials<L: Lanes>(parent: &Parent, x: &[Vec3; MAX_PARENT_NODES], base: &Vec3, constant: f64) -> [L; TERMS] {
-    let mut of = [L::splat(0.0); TERMS];
-    of[0] = L::load(&[0.0, 0.0, 0.0, constant]);
-    for b in 0..parent.n {
-        let at = L::load(&[x[b].x - base.x, x[b].y - base.y, x[b].z - base.z, 0.0]);
-        for t in 0..parent.terms {
-            let c = parent.functions[t][b / 4][b % 4];
-            if c != 0.0 {
-                of[t] = at.mul_add(L::splat(c), of[t]);
-            }
-        }
-    }
-    of
 }
 
 /// From monomials to a function with these coefficients, and from corners to nodes.
@@ -241,6 +185,65 @@ impl<L: Lanes, const N: usize> Columns<L> for Block<'_, N> {
         let to = &mut self.to[k];
         for j in 0..3 {
             to[j][self.column] = columns[j].store();
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::Facet;
+    use crate::mortar::rule_for;
+    use crate::quadrature::DEGREE_5;
+
+    /// Relative to the largest.
+    const SAME: f64 = 1e-12;
+
+    /// A parent over its reference cell, seen from below or, larger, from above.
+    fn nodes(parent: &Parent, up: bool) -> [Vec3; MAX_PARENT_NODES] {
+        let (scale, from) = if up { (1.3, -0.1) } else { (1.0, 0.0) };
+        parent.at.map(|at| {
+            let [u, v] = if up { at } else { [at[1], at[0]] };
+            Vec3::new(scale * u + 0.1 * u * v + from, scale * v + 0.07 * u * u, 0.1 * (u * u + v * v))
+        })
+    }
+
+    /// `sub_motion` of all pairs of sub-facets, one after the other.
+    fn motions(one: &'static Parent, two: &'static Parent, space: MultiplierSpace) -> Vec<f64> {
+        let (x1, x2, mut all) = (nodes(one, false), nodes(two, true), Vec::new());
+        let facet =
+            |x: &[Vec3], sub: &crate::shape::SubFacet| Facet { nodes: sub.nodes.map(|k| x[k]), shape: sub.shape };
+        let p = [[0.3, -0.2, 0.4, 0.1], [0.7, 0.9, 0.2, -0.5], [-1.0, -1.1, -0.8, -0.9]];
+        for sigma in one.subs {
+            let frame = NonmortarFrame::new(&facet(&x1, sigma)).unwrap();
+            for tau in two.subs {
+                let Some(segment) = Segment::new(&frame, &facet(&x2, tau)).unwrap() else { continue };
+                let (pair, mut to) = ((&frame, &segment, rule_for(&DEGREE_5, [one, two])), SubMotion::default());
+                sub_motion(pair, ((one, sigma), (two, tau)), space, &p, (&x1, &x2), &mut to);
+                for blocks in [&to.one, &to.two] {
+                    all.extend(blocks.as_flattened().as_flattened().as_flattened());
+                }
+                all.extend(to.gap.as_flattened().as_flattened().as_flattened());
+            }
+        }
+        all
+    }
+
+    #[test]
+    fn all_lanes_give_the_same() {
+        let kinds = [3, 4, 6, 8, 9].map(|n| Parent::of(n).unwrap());
+        for (one, two) in kinds.iter().flat_map(|one| kinds.map(|two| (one, two))) {
+            for space in [MultiplierSpace::Corner, MultiplierSpace::Sub] {
+                let (fast, plain) = (motions(one, two, space), simd::on_plain_lanes(|| motions(one, two, space)));
+                let largest = plain.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
+                let error = fast.iter().zip(&plain).fold(0.0_f64, |m, (v, w)| m.max((v - w).abs()));
+                assert!(
+                    fast.len() == plain.len() && largest > 0.1 && error < SAME * largest,
+                    "{} {}",
+                    one.name,
+                    two.name
+                );
+            }
         }
     }
 }

@@ -59,10 +59,8 @@ pub(super) struct Polynomials {
     pub map: [[f64; 4]; 6],
     /// How many of these monomials there are.
     pub n: usize,
-    /// det J grad x and det J grad y: `[x or y][c]`, coefficients of 1, x, y.
+    /// det J grad x and det J grad y: `[x or y][c]`, coefficients of 1, x, y; of a triangle the first alone.
     pub slopes: [[[f64; 3]; 2]; 2],
-    /// How many of these coefficients there are: of a triangle 1.
-    pub powers: usize,
     /// Degrees of N_k, of the slopes, of the parent's functions.
     pub of_map: Degree,
     pub of_slopes: Degree,
@@ -101,10 +99,10 @@ impl Polynomials {
                 slopes[i][c][0] += s[0][c];
             }
         }
-        let (n, powers) = match (projection.shape.n, parent.n) {
-            (3, _) => (3, 1),
-            (_, 8) => (6, 3),
-            _ => (4, 3),
+        let n = match (projection.shape.n, parent.n) {
+            (3, _) => 3,
+            (_, 8) => 6,
+            _ => 4,
         };
         let of_parent = match parent.n {
             3 => Degree { total: 1, each: 1 },
@@ -113,8 +111,8 @@ impl Polynomials {
             8 => Degree { total: 3, each: 2 },
             _ => Degree { total: 4, each: 2 },
         };
-        let of_slopes = Degree { total: powers / 3, each: powers / 3 };
-        Polynomials { map: of_map, n, slopes, powers, of_map: degree_of_nu(n), of_slopes, of_parent, coordinates }
+        let of_slopes = if n == 3 { Degree { total: 0, each: 0 } } else { Degree { total: 1, each: 1 } };
+        Polynomials { map: of_map, n, slopes, of_map: degree_of_nu(n), of_slopes, of_parent, coordinates }
     }
 
     /// What N_k are multiplied with in a moment: the slopes times the derivatives of functions of this degree.
