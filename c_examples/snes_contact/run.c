@@ -128,7 +128,9 @@ PetscErrorCode run(Model *model, int *exit_code)
                       (PetscBool)(t == steps->end), &done));
     if (done) {
       if (model->solve.iterations && !checked) { /* the solvers have read their options by now */
-        scene_check_unread(model->scene, PETSC_TRUE);
+        scene_root_begin(model->scene); /* rank 0 alone has read keys of meshes */
+        if (model->mesh.rank == 0) scene_check_unread(model->scene, PETSC_TRUE);
+        PetscCall(scene_root_end(model->scene));
         checked = PETSC_TRUE;
       }
       step_size_accept(steps, &size, history.past.t_last, t, &model->solve.newton, times_bend(&model->physics, t));

@@ -302,7 +302,7 @@ PetscErrorCode contact_label(Contact *contact)
     for (PetscInt a = 0; a < interface->n1; a++)
       mask[a] = contact->condensed ? 7 : interface->components == 3 ? interface->removed[a] : interface->removed[a] == 7;
     PetscCall(PetscSNPrintf(label, sizeof(label), "multiplier.%s", interface->name));
-    PetscCall(plex_label_vertices(contact->mesh->dm, label, interface->n1, interface->nodes, mask, 0));
+    PetscCall(plex_label_vertices(contact->mesh, label, interface->n1, interface->nodes, mask, 0));
     PetscCall(PetscFree(mask));
   }
   PetscFunctionReturn(PETSC_SUCCESS);

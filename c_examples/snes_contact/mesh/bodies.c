@@ -3,20 +3,21 @@
 #include "mesh/cell.h"
 #include "mesh/mesh.h"
 
-/* whole faces of `whole` whose centre lies within the box */
+/* whole faces of `whole` whose centre, the mean of their corners, lies within the box */
 static void cut_out(const Mesh *mesh, const Surface *whole, const PetscReal box[6], Surface *part)
 {
   part->inner = (PetscBool)(part->inner || whole->inner);
   for (PetscInt f = 0; f < whole->n_faces; f++) {
-    const PetscInt n_corners = whole->offsets[f + 1] - whole->offsets[f], *vertices = whole->vertices + whole->offsets[f];
-    PetscBool      inside    = PETSC_TRUE;
+    const PetscInt n = whole->offsets[f + 1] - whole->offsets[f], n_corners = face_corners(n),
+                  *vertices = whole->vertices + whole->offsets[f];
+    PetscBool      inside   = PETSC_TRUE;
     for (int i = 0; i < 3; i++) {
       PetscReal centre = 0;
       for (PetscInt a = 0; a < n_corners; a++)
         centre += mesh->coordinates[3 * vertices[a] + i] / n_corners;
       if (centre < box[i] || centre > box[3 + i]) inside = PETSC_FALSE;
     }
-    if (inside) surface_push(part, n_corners, vertices);
+    if (inside) surface_push(part, n, vertices);
   }
 }
 
@@ -52,14 +53,14 @@ static PetscErrorCode derived_surfaces(Scene *scene, Mesh *mesh)
 static void check_volumes(Scene *scene, const Mesh *mesh, const char *body, PetscInt first_cell)
 {
   for (PetscInt c = first_cell; c < mesh->n_cells; c++) {
-    const PetscInt corners   = mesh->cell_offsets[c + 1] - mesh->cell_offsets[c],
+    const PetscInt n         = mesh->cell_offsets[c + 1] - mesh->cell_offsets[c],
                    *vertices = mesh->cell_vertices + mesh->cell_offsets[c];
-    PetscReal      X[24];
-    for (PetscInt a = 0; a < corners; a++) {
+    PetscReal      X[3 * CELL_NODES];
+    for (PetscInt a = 0; a < n; a++) {
       for (int i = 0; i < 3; i++)
         X[3 * a + i] = mesh->coordinates[3 * vertices[a] + i];
     }
-    if (!(cell_smallest_jacobian(corners, X) > 0))
+    if (!(cell_smallest_jacobian(n, X) > 0))
       scene_fail(scene, body, NULL, "cell %d (near [%g, %g, %g]) is turned inside out or flat.", (int)(c - first_cell),
                  (double)X[0], (double)X[1], (double)X[2]);
   }

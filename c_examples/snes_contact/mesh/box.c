@@ -1,6 +1,20 @@
 /* A structured box of hexahedra, or of six tetrahedra per hexahedron (Kuhn's split, conforming by construction). Its sides
- * are the surfaces xmin, xmax, ymin, ymax, zmin, zmax. box_shape.c bends it. */
+ * are the surfaces xmin, xmax, ymin, ymax, zmin, zmax. box_shape.c bends it.
+ *
+ * Nodes lie on a lattice with `order` steps a cell: 1, or 2 where edges have nodes in their middle. These are bent as the
+ * others are, so that edges follow a curved side. A lattice point that no cell uses (of hex20: the middles of faces and
+ * cells) is no vertex. */
+#include "mesh/cell.h"
 #include "mesh/mesh.h"
+
+typedef struct {
+  PetscInt  nodes, order;
+  PetscInt  n[3];      /* cells, each split in six if they are tetrahedra */
+  PetscInt  layers[3]; /* of lattice points; those of a full circle meet where they began */
+  PetscInt *vertex;    /* of each lattice point its number, -1: none */
+  PetscInt *place;     /* of each vertex its lattice point */
+  PetscInt  n_vertices, n_cells, *cells;
+} Box;
 
 /* Positions along the axes: explicit planes, or equal cells between lower and upper, or fractions of [0,1] for corners. */
 static PetscErrorCode read_planes(Scene *scene, const char *body, PetscBool unit, PetscInt n[3], PetscReal *planes[3])
@@ -48,8 +62,8 @@ static PetscErrorCode read_planes(Scene *scene, const char *body, PetscBool unit
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* six tetrahedra: one per path from corner (0,0,0) to (1,1,1) along the three axes */
-static PetscInt split_hexahedron(const PetscInt corner[2][2][2], PetscInt tets[24])
+/* six tetrahedra: one per path from corner (0,0,0) to (1,1,1) along the three axes; each corner as its three steps */
+static void split_hexahedron(int tets[6][4][3])
 {
   static const int paths[6][3] = {
       {0, 1, 2},
@@ -62,39 +76,127 @@ static PetscInt split_hexahedron(const PetscInt corner[2][2][2], PetscInt tets[2
   for (int p = 0; p < 6; p++) {
     int at[3] = {0, 0, 0};
     for (int k = 0; k < 4; k++) {
-      tets[4 * p + k] = corner[at[2]][at[1]][at[0]];
+      const int node = p >= 3 && (k == 1 || k == 2) ? 3 - k : k; /* odd permutations are left-handed */
+      for (int i = 0; i < 3; i++)
+        tets[p][node][i] = at[i];
       if (k < 3) at[paths[p][k]] = 1;
     }
-    if (p >= 3) { /* odd permutations are left-handed */
-      const PetscInt swap = tets[4 * p + 1];
-      tets[4 * p + 1]     = tets[4 * p + 2];
-      tets[4 * p + 2]     = swap;
+  }
+}
+
+/* The lattice point of a node: the mean of corners, which are given by their steps from the cell's first one. */
+static PetscInt lattice_point(const Box *box, const PetscInt cell[3], PetscInt n, const int *const corners[])
+{
+  PetscInt at[3];
+  for (int i = 0; i < 3; i++) {
+    PetscInt steps = 0;
+    for (PetscInt c = 0; c < n; c++)
+      steps += corners[c][i];
+    at[i] = (box->order * cell[i] + box->order * steps / n) % box->layers[i];
+  }
+  return (at[2] * box->layers[1] + at[1]) * box->layers[0] + at[0];
+}
+
+/* lattice points of all cells */
+static PetscErrorCode create_cells(Box *box)
+{
+  static const int hex[8][3] = {
+      {0, 0, 0},
+      {1, 0, 0},
+      {1, 1, 0},
+      {0, 1, 0},
+      {0, 0, 1},
+      {1, 0, 1},
+      {1, 1, 1},
+      {0, 1, 1}
+  };
+  const PetscInt n_hexes = box->n[0] * box->n[1] * box->n[2], pieces = cell_corners(box->nodes) == 4 ? 6 : 1;
+  int            tets[6][4][3];
+  PetscInt      *cell;
+  PetscFunctionBegin;
+  split_hexahedron(tets);
+  box->n_cells = pieces * n_hexes;
+  PetscCall(PetscMalloc1(box->nodes * box->n_cells, &box->cells));
+  cell = box->cells;
+  for (PetscInt h = 0; h < n_hexes; h++) {
+    const PetscInt place[3] = {h % box->n[0], (h / box->n[0]) % box->n[1], h / (box->n[0] * box->n[1])};
+    for (PetscInt p = 0; p < pieces; p++) {
+      for (PetscInt a = 0; a < box->nodes; a++) {
+        PetscInt       its[8];
+        const PetscInt count = cell_node_corners(box->nodes, a, its);
+        const int     *corners[8];
+        for (PetscInt c = 0; c < count; c++)
+          corners[c] = pieces == 6 ? tets[p][its[c]] : hex[its[c]];
+        *cell++ = lattice_point(box, place, count, corners);
+      }
     }
   }
-  return 6;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Vertices in the order of the lattice; the cells get their numbers. */
+static PetscErrorCode number_vertices(Box *box)
+{
+  const PetscInt size = box->layers[0] * box->layers[1] * box->layers[2];
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc2(size, &box->vertex, size, &box->place));
+  for (PetscInt p = 0; p < size; p++)
+    box->vertex[p] = -1;
+  for (PetscInt k = 0; k < box->nodes * box->n_cells; k++)
+    box->vertex[box->cells[k]] = 0;
+  box->n_vertices = 0;
+  for (PetscInt p = 0; p < size; p++) {
+    if (box->vertex[p] < 0) continue;
+    box->place[box->n_vertices] = p;
+    box->vertex[p]              = box->n_vertices++;
+  }
+  for (PetscInt k = 0; k < box->nodes * box->n_cells; k++)
+    box->cells[k] = box->vertex[box->cells[k]];
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* between the planes of nodes, half way */
+static PetscReal position(const PetscReal planes[], PetscInt order, PetscInt k)
+{
+  const PetscInt first = k / order;
+  return k % order == 0 ? planes[first] : (planes[first] + planes[first + 1]) / 2;
+}
+
+/* trilinear map of the eight corners, in VTK's order */
+static void map_corners(const PetscReal corners[24], PetscReal x[3])
+{
+  const PetscReal s[3] = {x[0], x[1], x[2]};
+  for (int i = 0; i < 3; i++) {
+    x[i] = 0;
+    for (int a = 0; a < 8; a++) {
+      const PetscReal sx = (a % 4 == 1 || a % 4 == 2) ? s[0] : 1 - s[0], sy = (a % 4 >= 2) ? s[1] : 1 - s[1],
+                      sz = a >= 4 ? s[2] : 1 - s[2];
+      x[i] += sx * sy * sz * corners[3 * a + i];
+    }
+  }
 }
 
 /* the faces of the box's cells that lie in one of its six sides */
-static PetscErrorCode add_side(Mesh *mesh, const char *body, const PetscInt n[3], const PetscInt layers[3], int side)
+static PetscErrorCode add_side(Mesh *mesh, const char *body, const Box *box, int side)
 {
   static const char *const sides[] = {"xmin", "xmax", "ymin", "ymax", "zmin", "zmax"};
-  const PetscInt axis = side / 2, level = side % 2 ? n[axis] : 0, stride[3] = {1, layers[0], layers[0] * layers[1]};
-  const PetscInt first = mesh->n_vertices - stride[2] * layers[2]; /* the box was appended last */
+  const PetscInt axis = side / 2, level = side % 2 ? box->order * box->n[axis] : 0;
+  const PetscInt stride[3] = {1, box->layers[0], box->layers[0] * box->layers[1]};
+  const PetscInt first = mesh->n_vertices - box->n_vertices; /* the box was appended last */
   char           name[2 * NAME_LENGTH];
   Surface       *surface;
 
   PetscFunctionBegin;
   PetscCall(PetscSNPrintf(name, sizeof(name), "%s.%s", body, sides[side]));
-  PetscCall(mesh_add_surface(mesh, name, 2 * n[(axis + 1) % 3] * n[(axis + 2) % 3],
+  PetscCall(mesh_add_surface(mesh, name, 2 * box->n[(axis + 1) % 3] * box->n[(axis + 2) % 3],
                              &surface)); /* two triangles per quadrilateral */
   for (PetscInt c = 0; c < mesh->n_cells; c++) {
-    const PetscInt corners = mesh->cell_offsets[c + 1] - mesh->cell_offsets[c];
     if (mesh->cell_body[c] != mesh->n_bodies) continue;
-    for (PetscInt f = 0; f < (corners == 8 ? 6 : 4); f++) {
-      PetscInt       vertices[4], on_side = 0;
-      const PetscInt n_face = cell_face(corners, f, mesh->cell_vertices + mesh->cell_offsets[c], vertices);
+    for (PetscInt f = 0; f < cell_faces(box->nodes); f++) {
+      PetscInt       vertices[FACE_NODES], on_side = 0;
+      const PetscInt n_face = cell_face(box->nodes, f, mesh->cell_vertices + mesh->cell_offsets[c], vertices);
       for (PetscInt k = 0; k < n_face; k++)
-        on_side += ((vertices[k] - first) / stride[axis]) % layers[axis] == level;
+        on_side += (box->place[vertices[k] - first] / stride[axis]) % box->layers[axis] == level;
       if (on_side == n_face) surface_push(surface, n_face, vertices);
     }
   }
@@ -103,55 +205,43 @@ static PetscErrorCode add_side(Mesh *mesh, const char *body, const PetscInt n[3]
 
 PetscErrorCode box_create(Scene *scene, const char *body, Mesh *mesh)
 {
-  static const char *const kinds[] = {"hex", "tet", NULL};
+  static const char *const kinds[] = {"hex", "tet", "tet10", "hex20", "hex27", NULL};
+  static const PetscInt    nodes[] = {8, 4, 10, 20, 27};
   PetscReal                corners[24], *planes[3], *coordinates;
-  PetscInt                 kind = 0, n[3] = {0, 0, 0}, layers[3], n_vertices, n_hexes, *cells, count = 0;
+  PetscInt                 kind   = 0;
   const PetscBool          mapped = scene_vector(scene, body, "corners", 24, corners);
   BoxShape                 shape;
+  Box                      box = {0};
 
   PetscFunctionBegin;
   scene_choice(scene, body, "cell", kinds, &kind);
-  PetscCall(read_planes(scene, body, mapped, n, planes));
-  box_shape_read(scene, body, n, planes, &shape);
-  for (int axis = 0; axis < 3; axis++) /* of vertices; those of a full circle meet where they began */
-    layers[axis] = n[axis] + !(axis == 1 && shape.closed);
-  n_vertices = layers[0] * layers[1] * layers[2];
-  n_hexes    = n[0] * n[1] * n[2];
-  PetscCall(PetscMalloc2(3 * n_vertices, &coordinates, 24 * n_hexes, &cells));
-  for (PetscInt v = 0; v < n_vertices; v++) {
-    const PetscReal x[3] = {planes[0][v % layers[0]], planes[1][(v / layers[0]) % layers[1]],
-                            planes[2][v / (layers[0] * layers[1])]};
-    for (int i = 0; i < 3; i++) {
-      coordinates[3 * v + i] = mapped ? 0 : x[i];
-      for (int a = 0; a < 8 && mapped; a++) { /* trilinear map of the eight corners, in VTK's order */
-        const PetscReal sx = (a % 4 == 1 || a % 4 == 2) ? x[0] : 1 - x[0], sy = (a % 4 >= 2) ? x[1] : 1 - x[1],
-                        sz = a >= 4 ? x[2] : 1 - x[2];
-        coordinates[3 * v + i] += sx * sy * sz * corners[3 * a + i];
-      }
-    }
-    box_shape_bend(&shape, coordinates + 3 * v);
+  box.nodes = nodes[kind];
+  box.order = box.nodes > 8 ? 2 : 1;
+  PetscCall(read_planes(scene, body, mapped, box.n, planes));
+  box_shape_read(scene, body, box.n, planes, &shape);
+  for (int axis = 0; axis < 3; axis++)
+    box.layers[axis] = box.order * box.n[axis] + !(axis == 1 && shape.closed);
+  PetscCall(create_cells(&box));
+  PetscCall(number_vertices(&box));
+  PetscCall(PetscMalloc1(3 * box.n_vertices, &coordinates));
+  for (PetscInt v = 0; v < box.n_vertices; v++) {
+    const PetscInt p = box.place[v], at[3] = {p % box.layers[0], (p / box.layers[0]) % box.layers[1],
+                                              p / (box.layers[0] * box.layers[1])};
+    PetscReal     *x = coordinates + 3 * v;
+    for (int i = 0; i < 3; i++)
+      x[i] = position(planes[i], box.order, at[i]);
+    if (mapped) map_corners(corners, x);
+    box_shape_bend(&shape, x);
   }
-  for (PetscInt h = 0; h < n_hexes; h++) {
-    const PetscInt i = h % n[0], j = (h / n[0]) % n[1], k = h / (n[0] * n[1]);
-    PetscInt       corner[2][2][2];
-    for (int a = 0; a < 8; a++)
-      corner[a / 4][(a / 2) % 2][a % 2] =
-          ((k + a / 4) * layers[1] + (j + (a / 2) % 2) % layers[1]) * layers[0] + i + a % 2;
-    if (kind == 1) {
-      count += split_hexahedron((const PetscInt(*)[2][2])corner, cells + 4 * count);
-    } else {
-      for (int a = 0; a < 8; a++)
-        cells[8 * count + a] = corner[a / 4][(a / 2) % 2][(a + (a / 2) % 2) % 2]; /* VTK turns around the quad */
-      count++;
-    }
-  }
-  PetscCall(mesh_append(mesh, n_vertices, coordinates, count, kind == 1 ? 4 : 8, cells));
+  PetscCall(mesh_append(mesh, box.n_vertices, coordinates, box.n_cells, box.nodes, box.cells));
   for (int side = 0; side < 6; side++) {
     if (side / 2 == 1 && shape.closed) continue; /* a full circle has no ends */
-    PetscCall(add_side(mesh, body, n, layers, side));
+    PetscCall(add_side(mesh, body, &box, side));
   }
   for (int axis = 0; axis < 3; axis++)
     PetscCall(PetscFree(planes[axis]));
-  PetscCall(PetscFree2(coordinates, cells));
+  PetscCall(PetscFree2(box.vertex, box.place));
+  PetscCall(PetscFree(box.cells));
+  PetscCall(PetscFree(coordinates));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -1,5 +1,6 @@
 /* A body from a Gmsh file, read by PETSc. Names of physical surfaces become surfaces "body.name"; with `volume`, only the
  * cells of that physical volume are taken, so that several bodies may share one file. */
+#include "mesh/cell.h"
 #include "mesh/mesh.h"
 #include <petscdmplex.h>
 #include <stdio.h>
@@ -19,7 +20,7 @@ static PetscErrorCode point_vertices(DM dm, PetscInt point, PetscInt *n, PetscIn
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode cell_corners(DM dm, PetscInt cell, PetscInt *n, PetscInt vertices[8])
+static PetscErrorCode corners_of_cell(DM dm, PetscInt cell, PetscInt *n, PetscInt vertices[8])
 {
   DMPolytopeType type;
   PetscFunctionBegin;
@@ -67,7 +68,7 @@ static PetscErrorCode append_cells(Scene *scene, const char *body, DM dm, DMLabe
                  "lead to others, or split them.",
                  cell_kind(type));
     kind = type == DM_POLYTOPE_HEXAHEDRON;
-    PetscCall(cell_corners(dm, c, &n, corners));
+    PetscCall(corners_of_cell(dm, c, &n, corners));
     for (PetscInt a = 0; a < n; a++) {
       PetscInt *number = &new_number[corners[a] - vStart];
       if (*number < 0) { /* vertices of other volumes in the file stay out */
@@ -109,7 +110,7 @@ static PetscErrorCode append_surface(const char *body, DM dm, DMLabel label, con
   PetscCall(DMPlexGetDepthStratum(dm, 0, &vStart, &vEnd));
   for (int pass = 0; pass < 2; pass++) { /* count, then fill */
     for (PetscInt f = fStart; f < fEnd; f++) {
-      PetscInt        value, n_support, cell = -1, owners = 0, corners[8], on_face[8], vertices[4], n, n_on_face;
+      PetscInt        value, n_support, cell = -1, owners = 0, corners[8], on_face[8], vertices[FACE_NODES], n, n_on_face;
       const PetscInt *support;
       PetscCall(DMLabelGetValue(label, f, &value));
       if (value < 0) continue;
@@ -125,9 +126,9 @@ static PetscErrorCode append_surface(const char *body, DM dm, DMLabel label, con
       if (!pass) count += owners > 0;
       if (!pass || !owners) continue;
       if (owners > 1) surface->inner = PETSC_TRUE;
-      PetscCall(cell_corners(dm, cell, &n, corners));
+      PetscCall(corners_of_cell(dm, cell, &n, corners));
       PetscCall(point_vertices(dm, f, &n_on_face, on_face));
-      for (PetscInt k = 0; k < (n == 8 ? 6 : 4); k++) { /* which face of the cell is it? */
+      for (PetscInt k = 0; k < cell_faces(n); k++) { /* which face of the cell is it? */
         const PetscInt n_corners = cell_face(n, k, corners, vertices);
         PetscInt       shared    = 0;
         for (PetscInt a = 0; a < n_corners; a++) {

@@ -1,49 +1,26 @@
 /* The mesh's arrays: what the readers of one body add to, and its rotation as a whole. */
+#include "mesh/cell.h"
 #include "mesh/mesh.h"
 
-/* faces of a hexahedron and a tetrahedron in VTK's order of corners, right-hand normal outward */
-static const PetscInt HEX_FACES[6][4] = {
-    {0, 3, 2, 1},
-    {4, 5, 6, 7},
-    {0, 1, 5, 4},
-    {1, 2, 6, 5},
-    {2, 3, 7, 6},
-    {3, 0, 4, 7}
-};
-static const PetscInt TET_FACES[4][3] = {
-    {0, 2, 1},
-    {0, 1, 3},
-    {1, 2, 3},
-    {2, 0, 3}
-};
-
-PetscInt cell_face(PetscInt corners, PetscInt face, const PetscInt cell[], PetscInt vertices[4])
-{
-  const PetscInt n = corners == 8 ? 4 : 3;
-  for (PetscInt k = 0; k < n; k++)
-    vertices[k] = cell[corners == 8 ? HEX_FACES[face][k] : TET_FACES[face][k]];
-  return n;
-}
-
 PetscErrorCode mesh_append(Mesh *mesh, PetscInt n_vertices, const PetscReal *coordinates, PetscInt n_cells,
-                           PetscInt corners, const PetscInt *cells)
+                           PetscInt nodes, const PetscInt *cells)
 {
   const PetscInt used = mesh->n_cells ? mesh->cell_offsets[mesh->n_cells] : 0;
   PetscFunctionBegin;
   PetscCall(PetscRealloc(sizeof(PetscReal) * (size_t)(3 * (mesh->n_vertices + n_vertices)), &mesh->coordinates));
   PetscCall(PetscRealloc(sizeof(PetscInt) * (size_t)(mesh->n_cells + n_cells + 1), &mesh->cell_offsets));
   PetscCall(PetscRealloc(sizeof(PetscInt) * (size_t)(mesh->n_cells + n_cells), &mesh->cell_body));
-  PetscCall(PetscRealloc(sizeof(PetscInt) * (size_t)(used + n_cells * corners), &mesh->cell_vertices));
+  PetscCall(PetscRealloc(sizeof(PetscInt) * (size_t)(used + n_cells * nodes), &mesh->cell_vertices));
   PetscCall(PetscArraycpy(mesh->coordinates + 3 * mesh->n_vertices, coordinates, 3 * n_vertices));
-  for (PetscInt k = 0; k < n_cells * corners; k++)
+  for (PetscInt k = 0; k < n_cells * nodes; k++)
     mesh->cell_vertices[used + k] = cells[k] + mesh->n_vertices;
   for (PetscInt c = 0; c < n_cells; c++) {
-    mesh->cell_offsets[mesh->n_cells + c] = used + c * corners;
+    mesh->cell_offsets[mesh->n_cells + c] = used + c * nodes;
     mesh->cell_body[mesh->n_cells + c]    = mesh->n_bodies; /* the body being read */
   }
   mesh->n_cells += n_cells;
   mesh->n_vertices += n_vertices;
-  mesh->cell_offsets[mesh->n_cells] = used + n_cells * corners;
+  mesh->cell_offsets[mesh->n_cells] = used + n_cells * nodes;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -55,7 +32,7 @@ PetscErrorCode mesh_add_surface(Mesh *mesh, const char *name, PetscInt max_faces
   surface = &mesh->surfaces[mesh->n_surfaces++];
   PetscCall(PetscMemzero(surface, sizeof(*surface)));
   PetscCall(PetscSNPrintf(surface->name, sizeof(surface->name), "%s", name));
-  PetscCall(PetscMalloc2(max_faces + 1, &surface->offsets, 4 * max_faces, &surface->vertices));
+  PetscCall(PetscMalloc2(max_faces + 1, &surface->offsets, FACE_NODES * max_faces, &surface->vertices));
   surface->offsets[0] = 0;
   *out                = surface;
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -96,7 +73,8 @@ PetscErrorCode mesh_destroy(Mesh *mesh)
   PetscCall(PetscFree(mesh->cell_offsets));
   PetscCall(PetscFree(mesh->cell_vertices));
   PetscCall(PetscFree(mesh->cell_body));
-  PetscCall(PetscFree(mesh->original));
+  PetscCall(PetscFree(mesh->points));
+  PetscCall(PetscFree2(mesh->original, mesh->here));
   PetscCall(DMDestroy(&mesh->dm));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

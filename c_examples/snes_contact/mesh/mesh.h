@@ -1,5 +1,6 @@
 /* The scene's geometry: all bodies in one list of vertices and cells, with named surfaces, on rank 0 only. From it come the
- * distributed DMPlex (plex.c), the contact surfaces, and the files for ParaView. */
+ * distributed DMPlex (plex.c), the contact surfaces, and the files for ParaView. A vertex is any node of a cell, those in
+ * the middle of edges, faces and cells too. */
 #ifndef SNES_CONTACT_MESH_H
 #define SNES_CONTACT_MESH_H
 #include "scene/petsc_compat.h"
@@ -11,7 +12,7 @@ typedef struct {
   char      name[2 * NAME_LENGTH]; /* "block.zmin", or a name of `surfaces` */
   PetscInt  n_faces;
   PetscInt *offsets;  /* n_faces + 1 */
-  PetscInt *vertices; /* 3 or 4 per face, right-hand normal out of the body */
+  PetscInt *vertices; /* 3, 4, 6, 8 or 9 per face, in the order of cell_face() */
   PetscBool inner;    /* lies inside a body: good for supports only */
   PetscBool analytic; /* a plane, sphere or cylinder without faces: good for a mortar side only */
   PetscInt  shape;    /* STICKSLIP_SHAPE_... */
@@ -32,15 +33,17 @@ typedef struct {
   PetscInt   n_vertices, n_cells, n_surfaces;
   PetscReal *coordinates;   /* 3 per vertex */
   PetscInt  *cell_offsets;  /* n_cells + 1 */
-  PetscInt  *cell_vertices; /* 4 (tet) or 8 (hex) per cell, in VTK's order */
+  PetscInt  *cell_vertices; /* 4, 8, 10, 20 or 27 per cell, in VTK's order */
   PetscInt  *cell_body;
   Surface   *surfaces;
   PetscReal  rotation[9]; /* of the whole scene, row-major; identity unless `frame` says otherwise */
   PetscBool  rotated;
-  /* plex.c */
+  /* plex.c: each vertex is a point of the DMPlex: one of its vertices, or the edge, face or cell that it is in the middle
+   * of. Before the mesh is distributed: of all vertices, on rank 0. Afterwards: of those here, by increasing points. */
   DM        dm;
-  PetscInt *original; /* mesh vertex of each of this rank's vertices */
-  PetscInt  vStart, vEnd;
+  PetscInt  n_points, *points;
+  PetscInt *original; /* mesh vertex of each vertex here */
+  PetscInt *here;     /* of each point: the number of its vertex here, or -1 */
 } Mesh;
 
 /* A box along the axes around some points. */
@@ -64,10 +67,15 @@ PetscInt       mesh_nearest_vertex(Scene *scene, const Mesh *mesh, const char *m
 
 /* plex.c */
 PetscErrorCode plex_create(Mesh *mesh);
-PetscErrorCode plex_label_vertices(DM dm, const char *label, PetscInt n, const PetscInt *vertices,
+PetscErrorCode plex_label_vertices(const Mesh *mesh, const char *label, PetscInt n, const PetscInt *vertices,
                                    const PetscInt *values, PetscInt value);
-PetscErrorCode plex_label_faces(DM dm, const char *label, const Surface *surface);
+PetscErrorCode plex_label_faces(const Mesh *mesh, const char *label, const Surface *surface);
 PetscErrorCode plex_distribute(Mesh *mesh);
+/* plex_nodes.c: the points of the nodes of a cell, in VTK's order, or of a face, as cell_face() has them but turning either
+ * way, once the mesh is distributed */
+PetscErrorCode plex_amid(DM dm, PetscInt n, const PetscInt points[], PetscInt *point);
+PetscErrorCode plex_cell_nodes(const Mesh *mesh, PetscInt cell, PetscInt *n, PetscInt points[]);
+PetscErrorCode plex_face_nodes(const Mesh *mesh, PetscInt face, PetscInt *n, PetscInt points[]);
 
 /* trees.c: what belongs together, as trees; at first each entry is its own parent */
 void     trees_join(PetscInt parent[], PetscInt a, PetscInt b);
@@ -75,7 +83,7 @@ PetscInt trees_number(PetscInt n, PetscInt parent[]); /* from trees to numbers f
 
 /* for the readers of one body: box.c, gmsh.c, analytic.c */
 PetscErrorCode mesh_append(Mesh *mesh, PetscInt n_vertices, const PetscReal *coordinates, PetscInt n_cells,
-                           PetscInt corners, const PetscInt *cells);
+                           PetscInt nodes, const PetscInt *cells);
 PetscErrorCode mesh_add_surface(Mesh *mesh, const char *name, PetscInt max_faces, Surface **surface);
 void           surface_push(Surface *surface, PetscInt n, const PetscInt vertices[]);
 PetscErrorCode box_create(Scene *scene, const char *body, Mesh *mesh);
@@ -97,7 +105,4 @@ PetscErrorCode gmsh_create(Scene *scene, const char *body, Mesh *mesh);
 PetscErrorCode gmsh_without_signs(const char *path, char copy[], size_t length);
 PetscErrorCode analytic_create(Scene *scene, const char *body, Mesh *mesh);
 void           analytic_fit(Mesh *mesh);
-
-/* vertices of face 0..5 of a hex, 0..3 of a tet, outward; returns the number of vertices of that face */
-PetscInt cell_face(PetscInt corners, PetscInt face, const PetscInt cell[], PetscInt vertices[4]);
 #endif

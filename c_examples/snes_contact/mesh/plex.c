@@ -1,95 +1,192 @@
-/* The mesh as one distributed DMPlex: rank 0 builds it with all its labels, PETSc partitions and sends it. */
+/* The mesh as one distributed DMPlex: rank 0 builds it with all its labels, PETSc partitions and sends it. Cells are
+ * described by their corners; PETSc adds edges and faces, of which those with a node in their middle are vertices of the
+ * mesh, too, with coordinates. */
+#include "mesh/cell.h"
 #include "mesh/mesh.h"
+
+/* rank 0: in the order of the mesh those that are corners; `number` -1: a node in the middle of an edge, a face or a cell */
+static PetscInt number_corners(const Mesh *mesh, PetscInt number[])
+{
+  PetscInt n = 0;
+  for (PetscInt v = 0; v < mesh->n_vertices; v++)
+    number[v] = 0;
+  for (PetscInt c = 0; c < mesh->n_cells; c++) {
+    const PetscInt first = mesh->cell_offsets[c], corners = cell_corners(mesh->cell_offsets[c + 1] - first);
+    for (PetscInt k = first + corners; k < mesh->cell_offsets[c + 1]; k++)
+      number[mesh->cell_vertices[k]] = -1;
+  }
+  for (PetscInt v = 0; v < mesh->n_vertices; v++)
+    number[v] = number[v] < 0 ? -1 : n++;
+  return n;
+}
+
+/* cells, by their corners, and these corners */
+static PetscErrorCode create_linear(const Mesh *mesh, const PetscInt number[], PetscInt n_corners, DM *dm)
+{
+  PetscReal *coordinates;
+  PetscFunctionBegin;
+  PetscCall(DMPlexCreate(PETSC_COMM_WORLD, dm));
+  PetscCall(DMSetDimension(*dm, 3));
+  PetscCall(DMPlexSetChart(*dm, 0, mesh->n_cells + n_corners));
+  for (PetscInt c = 0; c < mesh->n_cells; c++)
+    PetscCall(DMPlexSetConeSize(*dm, c, cell_corners(mesh->cell_offsets[c + 1] - mesh->cell_offsets[c])));
+  PetscCall(DMSetUp(*dm));
+  PetscCall(DMCreateLabel(*dm, "celltype"));
+  for (PetscInt c = 0; c < mesh->n_cells; c++) {
+    const PetscInt       n    = cell_corners(mesh->cell_offsets[c + 1] - mesh->cell_offsets[c]);
+    const DMPolytopeType type = n == 8 ? DM_POLYTOPE_HEXAHEDRON : DM_POLYTOPE_TETRAHEDRON;
+    PetscInt             cone[8];
+    for (PetscInt a = 0; a < n; a++)
+      cone[a] = mesh->n_cells + number[mesh->cell_vertices[mesh->cell_offsets[c] + a]];
+    PetscCall(DMPlexInvertCell(type, cone)); /* from VTK's order */
+    PetscCall(DMPlexSetCone(*dm, c, cone));
+    PetscCall(DMPlexSetCellType(*dm, c, type));
+  }
+  for (PetscInt v = 0; v < n_corners; v++)
+    PetscCall(DMPlexSetCellType(*dm, mesh->n_cells + v, DM_POLYTOPE_POINT));
+  PetscCall(DMPlexSymmetrize(*dm));
+  PetscCall(DMPlexStratify(*dm));
+  PetscCall(DMSetCoordinateDim(*dm, 3));
+  PetscCall(PetscMalloc1(3 * n_corners, &coordinates));
+  for (PetscInt v = 0; v < mesh->n_vertices; v++) {
+    if (number[v] >= 0) PetscCall(PetscArraycpy(coordinates + 3 * number[v], mesh->coordinates + 3 * v, 3));
+  }
+  PetscCall(DMPlexBuildCoordinatesFromCellList(*dm, 3, coordinates));
+  PetscCall(PetscFree(coordinates));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* rank 0: the point of each vertex of the mesh */
+static PetscErrorCode find_points(Mesh *mesh, const PetscInt number[])
+{
+  PetscInt vStart;
+  PetscFunctionBegin;
+  PetscCall(DMPlexGetDepthStratum(mesh->dm, 0, &vStart, NULL));
+  mesh->n_points = mesh->n_vertices;
+  PetscCall(PetscMalloc1(mesh->n_points, &mesh->points));
+  for (PetscInt v = 0; v < mesh->n_vertices; v++)
+    mesh->points[v] = number[v] < 0 ? -1 : vStart + number[v];
+  for (PetscInt c = 0; c < mesh->n_cells; c++) {
+    const PetscInt *cell = mesh->cell_vertices + mesh->cell_offsets[c];
+    const PetscInt  n    = mesh->cell_offsets[c + 1] - mesh->cell_offsets[c];
+    for (PetscInt a = cell_corners(n); a < n; a++) {
+      PetscInt       its[8];
+      const PetscInt count = cell_node_corners(n, a, its);
+      if (mesh->points[cell[a]] >= 0) continue;
+      for (PetscInt k = 0; k < count; k++)
+        its[k] = mesh->points[cell[its[k]]];
+      PetscCall(plex_amid(mesh->dm, count, its, &mesh->points[cell[a]]));
+    }
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* In place of PETSc's, which are those of the corners: coordinates of all vertices. */
+static PetscErrorCode set_coordinates(Mesh *mesh)
+{
+  PetscInt     pStart, pEnd, n;
+  PetscScalar *array;
+  PetscSection section;
+  Vec          coordinates;
+  PetscFunctionBegin;
+  PetscCall(DMPlexGetChart(mesh->dm, &pStart, &pEnd));
+  PetscCall(PetscSectionCreate(PetscObjectComm((PetscObject)mesh->dm), &section));
+  PetscCall(PetscSectionSetNumFields(section, 1));
+  PetscCall(PetscSectionSetFieldComponents(section, 0, 3));
+  PetscCall(PetscSectionSetChart(section, pStart, pEnd));
+  for (PetscInt v = 0; v < mesh->n_points; v++) {
+    PetscCall(PetscSectionSetDof(section, mesh->points[v], 3));
+    PetscCall(PetscSectionSetFieldDof(section, mesh->points[v], 0, 3));
+  }
+  PetscCall(PetscSectionSetUp(section));
+  PetscCall(PetscSectionGetStorageSize(section, &n));
+  PetscCall(VecCreateSeq(PETSC_COMM_SELF, n, &coordinates));
+  PetscCall(VecSetBlockSize(coordinates, 3));
+  PetscCall(VecGetArray(coordinates, &array));
+  for (PetscInt v = 0; v < mesh->n_points; v++) {
+    PetscInt at;
+    PetscCall(PetscSectionGetOffset(section, mesh->points[v], &at));
+    for (int i = 0; i < 3; i++)
+      array[at + i] = mesh->coordinates[3 * v + i];
+  }
+  PetscCall(VecRestoreArray(coordinates, &array));
+  PetscCall(DMSetCoordinateSection(mesh->dm, 3, section));
+  PetscCall(DMSetCoordinatesLocal(mesh->dm, coordinates));
+  PetscCall(VecDestroy(&coordinates));
+  PetscCall(PetscSectionDestroy(&section));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
 
 PetscErrorCode plex_create(Mesh *mesh)
 {
-  DM      dm, interpolated;
-  DMLabel body;
+  DM        dm;
+  DMLabel   body;
+  PetscInt *number, n_corners;
+  PetscBool quadratic;
 
   PetscFunctionBegin;
-  PetscCall(DMPlexCreate(PETSC_COMM_WORLD, &dm));
-  PetscCall(DMSetDimension(dm, 3));
-  PetscCall(DMPlexSetChart(dm, 0, mesh->n_cells + mesh->n_vertices));
-  for (PetscInt c = 0; c < mesh->n_cells; c++)
-    PetscCall(DMPlexSetConeSize(dm, c, mesh->cell_offsets[c + 1] - mesh->cell_offsets[c]));
-  PetscCall(DMSetUp(dm));
-  PetscCall(DMCreateLabel(dm, "celltype"));
-  for (PetscInt c = 0; c < mesh->n_cells; c++) {
-    const PetscInt n = mesh->cell_offsets[c + 1] - mesh->cell_offsets[c];
-    PetscInt       cone[8];
-    for (PetscInt a = 0; a < n; a++)
-      cone[a] = mesh->n_cells + mesh->cell_vertices[mesh->cell_offsets[c] + a];
-    PetscCall(DMPlexInvertCell(n == 8 ? DM_POLYTOPE_HEXAHEDRON : DM_POLYTOPE_TETRAHEDRON, cone)); /* from VTK's order */
-    PetscCall(DMPlexSetCone(dm, c, cone));
-    PetscCall(DMPlexSetCellType(dm, c, n == 8 ? DM_POLYTOPE_HEXAHEDRON : DM_POLYTOPE_TETRAHEDRON));
-  }
-  for (PetscInt v = 0; v < mesh->n_vertices; v++)
-    PetscCall(DMPlexSetCellType(dm, mesh->n_cells + v, DM_POLYTOPE_POINT));
-  PetscCall(DMPlexSymmetrize(dm));
-  PetscCall(DMPlexStratify(dm));
-  PetscCall(DMSetCoordinateDim(dm, 3));
-  PetscCall(DMPlexBuildCoordinatesFromCellList(dm, 3, mesh->coordinates));
-  PetscCall(DMPlexInterpolate(dm, &interpolated)); /* adds edges and faces; keeps the numbers of cells and vertices */
+  PetscCall(PetscMalloc1(mesh->n_vertices, &number));
+  n_corners = number_corners(mesh, number);
+  PetscCall(create_linear(mesh, number, n_corners, &dm));
+  PetscCall(DMPlexInterpolate(dm, &mesh->dm)); /* adds edges and faces; keeps the numbers of cells and vertices */
   PetscCall(DMDestroy(&dm));
-  PetscCall(DMCreateLabel(interpolated, "body"));
-  PetscCall(DMGetLabel(interpolated, "body", &body));
+  PetscCall(find_points(mesh, number));
+  PetscCall(PetscFree(number));
+  quadratic = (PetscBool)(n_corners < mesh->n_vertices);
+  PetscCallMPI(MPI_Bcast(&quadratic, 1, MPIU_BOOL, 0, PETSC_COMM_WORLD));
+  if (quadratic) PetscCall(set_coordinates(mesh));
+  PetscCall(DMCreateLabel(mesh->dm, "body"));
+  PetscCall(DMGetLabel(mesh->dm, "body", &body));
   for (PetscInt c = 0; c < mesh->n_cells; c++)
     PetscCall(DMLabelSetValue(body, c, mesh->cell_body[c]));
-  mesh->dm = interpolated;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* `values` per vertex, or NULL for one `value` for all */
-PetscErrorCode plex_label_vertices(DM dm, const char *name, PetscInt n, const PetscInt *vertices,
+PetscErrorCode plex_label_vertices(const Mesh *mesh, const char *name, PetscInt n, const PetscInt *vertices,
                                    const PetscInt *values, PetscInt value)
 {
-  DMLabel  label;
-  PetscInt vStart;
+  DMLabel label;
   PetscFunctionBegin;
-  PetscCall(DMCreateLabel(dm, name)); /* on every rank, also where it stays empty */
-  PetscCall(DMGetLabel(dm, name, &label));
-  PetscCall(DMPlexGetDepthStratum(dm, 0, &vStart, NULL));
+  PetscCall(DMCreateLabel(mesh->dm, name)); /* on every rank, also where it stays empty */
+  PetscCall(DMGetLabel(mesh->dm, name, &label));
   for (PetscInt k = 0; k < n; k++)
-    PetscCall(DMLabelSetValue(label, vStart + (vertices ? vertices[k] : k), values ? values[k] : value));
+    PetscCall(DMLabelSetValue(label, mesh->points[vertices ? vertices[k] : k], values ? values[k] : value));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode plex_label_faces(DM dm, const char *name, const Surface *surface)
+PetscErrorCode plex_label_faces(const Mesh *mesh, const char *name, const Surface *surface)
 {
-  DMLabel  label;
-  PetscInt vStart;
+  DMLabel label;
   PetscFunctionBegin;
-  PetscCall(DMCreateLabel(dm, name));
-  PetscCall(DMGetLabel(dm, name, &label));
-  PetscCall(DMPlexGetDepthStratum(dm, 0, &vStart, NULL));
+  PetscCall(DMCreateLabel(mesh->dm, name));
+  PetscCall(DMGetLabel(mesh->dm, name, &label));
   for (PetscInt f = 0; surface && f < surface->n_faces; f++) {
-    const PetscInt  n = surface->offsets[f + 1] - surface->offsets[f];
-    PetscInt        vertices[4], n_found;
-    const PetscInt *found;
+    const PetscInt first = surface->offsets[f], n = face_corners(surface->offsets[f + 1] - first);
+    PetscInt       corners[4], face;
     for (PetscInt k = 0; k < n; k++)
-      vertices[k] = vStart + surface->vertices[surface->offsets[f] + k];
-    PetscCall(DMPlexGetFullJoin(dm, n, vertices, &n_found, &found));
-    PetscCheck(n_found == 1, PETSC_COMM_SELF, PETSC_ERR_PLIB,
-               "%" PetscInt_FMT " faces have the vertices of one face of '%s'", n_found, surface->name);
-    PetscCall(DMLabelSetValue(label, found[0], 1));
-    PetscCall(DMPlexRestoreJoin(dm, n, vertices, &n_found, &found));
+      corners[k] = mesh->points[surface->vertices[first + k]];
+    PetscCall(plex_amid(mesh->dm, n, corners, &face));
+    PetscCall(DMLabelSetValue(label, face, 1));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Partition, send, and remember for each vertex here which mesh vertex it was on rank 0. */
+/* Partition, send, and remember which vertices of the mesh are here, and at which points. */
 PetscErrorCode plex_distribute(Mesh *mesh)
 {
   DM       distributed = NULL;
   PetscSF  migration   = NULL;
-  PetscInt pStart, pEnd, qStart, qEnd, vStart, *number, *received;
+  PetscInt pStart, pEnd, qStart, qEnd, *number, *received;
 
   PetscFunctionBegin;
   PetscCall(DMPlexGetChart(mesh->dm, &pStart, &pEnd));
-  PetscCall(DMPlexGetDepthStratum(mesh->dm, 0, &vStart, NULL));
   PetscCall(PetscMalloc1(pEnd - pStart, &number));
   for (PetscInt p = pStart; p < pEnd; p++)
-    number[p - pStart] = p - vStart;
+    number[p - pStart] = -1;
+  for (PetscInt v = 0; v < mesh->n_points; v++)
+    number[mesh->points[v] - pStart] = v;
+  PetscCall(PetscFree(mesh->points));
   PetscCall(DMPlexDistribute(mesh->dm, 0, &migration, &distributed));
   if (distributed) {
     PetscCall(DMPlexGetChart(distributed, &qStart, &qEnd));
@@ -100,12 +197,18 @@ PetscErrorCode plex_distribute(Mesh *mesh)
     PetscCall(PetscFree(number));
     PetscCall(DMDestroy(&mesh->dm));
     mesh->dm = distributed;
-    number    = received;
+    number   = received;
   }
-  PetscCall(DMPlexGetDepthStratum(mesh->dm, 0, &mesh->vStart, &mesh->vEnd));
-  PetscCall(PetscMalloc1(mesh->vEnd - mesh->vStart, &mesh->original));
-  for (PetscInt v = mesh->vStart; v < mesh->vEnd; v++)
-    mesh->original[v - mesh->vStart] = number[v];
+  PetscCall(DMPlexGetChart(mesh->dm, &pStart, &pEnd));
+  PetscCall(PetscMalloc1(pEnd, &mesh->points));
+  PetscCall(PetscMalloc2(pEnd, &mesh->original, pEnd, &mesh->here));
+  mesh->n_points = 0;
+  for (PetscInt p = pStart; p < pEnd; p++) {
+    mesh->here[p] = number[p] < 0 ? -1 : mesh->n_points;
+    if (number[p] < 0) continue;
+    mesh->points[mesh->n_points]     = p;
+    mesh->original[mesh->n_points++] = number[p];
+  }
   PetscCall(PetscFree(number));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

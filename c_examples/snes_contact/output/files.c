@@ -93,7 +93,7 @@ static void cell_stresses(FILE *file, const Mesh *mesh, const Material *material
     for (PetscInt c = 0; c < mesh->n_cells; c++) {
       const PetscInt *cell = mesh->cell_vertices + mesh->cell_offsets[c],
                      n     = mesh->cell_offsets[c + 1] - mesh->cell_offsets[c];
-      PetscReal X[24], u[24], s[9]; /* s: Cauchy's stress */
+      PetscReal X[3 * CELL_NODES], u[3 * CELL_NODES], s[9]; /* s: Cauchy's stress */
       for (PetscInt k = 0; k < 3 * n; k++) {
         X[k] = mesh->coordinates[3 * cell[k / 3] + k % 3];
         u[k] = PetscRealPart(displacements[3 * cell[k / 3] + k % 3]);
@@ -108,6 +108,18 @@ static void cell_stresses(FILE *file, const Mesh *mesh, const Material *material
                 (double)s[5], (double)s[2]);
     }
     end_array(file);
+  }
+}
+
+/* VTK's number of the kind of cell with so many nodes */
+static int vtk_type(PetscInt nodes)
+{
+  switch (nodes) {
+  case 4: return 10;  /* VTK_TETRA */
+  case 8: return 12;  /* VTK_HEXAHEDRON */
+  case 10: return 24; /* VTK_QUADRATIC_TETRA */
+  case 20: return 25; /* VTK_QUADRATIC_HEXAHEDRON */
+  default: return 29; /* VTK_TRIQUADRATIC_HEXAHEDRON */
   }
 }
 
@@ -192,8 +204,7 @@ PetscErrorCode vtu_write(Output *output, const PetscScalar *displacements, Petsc
   end_array(file);
   start_array(file, "UInt8", "types", 1);
   for (PetscInt c = 0; c < mesh->n_cells; c++)
-    fprintf(file, "%d\n",
-            mesh->cell_offsets[c + 1] - mesh->cell_offsets[c] == 8 ? 12 : 10); /* VTK_HEXAHEDRON, VTK_TETRA */
+    fprintf(file, "%d\n", vtk_type(mesh->cell_offsets[c + 1] - mesh->cell_offsets[c]));
   end_array(file);
   fprintf(file, "</Cells>\n<PointData Vectors=\"displacement\">\n");
   vectors(file, "displacement", mesh->n_vertices, displacements);

@@ -7,8 +7,8 @@ static const PetscReal ROUNDINGS = 2;
 /* of a cell at rest: the largest diagonal entry */
 static PetscErrorCode cell_stiffness(const Material *material, PetscInt n, const PetscReal X[], PetscReal *stiffness)
 {
-  const PetscReal at_rest[24] = {0};
-  PetscReal       f[24], K[24 * 24];
+  const PetscReal at_rest[3 * CELL_NODES] = {0};
+  PetscReal       f[3 * CELL_NODES], K[9 * CELL_NODES * CELL_NODES];
   PetscBool       inverted;
   PetscFunctionBegin;
   PetscCall(cell_forces(n, material, X, at_rest, f, K, &inverted));
@@ -22,7 +22,7 @@ PetscErrorCode bulk_create(Physics *physics)
 {
   const Mesh        *mesh  = physics->mesh;
   Cells             *cells = &physics->cells;
-  PetscInt           cStart, cEnd, n_corners = 0;
+  PetscInt           cStart, cEnd, n_nodes = 0;
   DMLabel            body;
   PetscSection       coordinate_section;
   Vec                coordinate_vector;
@@ -35,38 +35,31 @@ PetscErrorCode bulk_create(Physics *physics)
   PetscCall(DMGetCoordinatesLocal(mesh->dm, &coordinate_vector));
   PetscCall(VecGetArrayRead(coordinate_vector, &coordinates));
   cells->n = cEnd - cStart;
-  PetscCall(PetscMalloc6(cells->n + 1, &cells->offsets, 8 * cells->n, &cells->dofs,
-                         cells->n, &cells->body, cells->n, &cells->part, 24 * cells->n,
+  PetscCall(PetscMalloc6(cells->n + 1, &cells->offsets, CELL_NODES * cells->n, &cells->dofs,
+                         cells->n, &cells->body, cells->n, &cells->part, 3 * CELL_NODES * cells->n,
                          &cells->X, cells->n, &cells->stiffness));
   cells->offsets[0] = 0;
   for (PetscInt c = cStart; c < cEnd; c++) {
-    PetscInt      *closure = NULL, size, corners[8], n = 0, at;
-    DMPolytopeType type;
-    PetscCall(DMPlexGetTransitiveClosure(mesh->dm, c, PETSC_TRUE, &size, &closure));
-    for (PetscInt k = 0; k < size; k++) {
-      if (closure[2 * k] >= mesh->vStart && closure[2 * k] < mesh->vEnd) corners[n++] = closure[2 * k];
-    }
-    PetscCall(DMPlexRestoreTransitiveClosure(mesh->dm, c, PETSC_TRUE, &size, &closure));
-    PetscCall(DMPlexGetCellType(mesh->dm, c, &type));
-    PetscCall(DMPlexInvertCell(type, corners)); /* to VTK's order */
+    PetscInt nodes[CELL_NODES], n, at;
+    PetscCall(plex_cell_nodes(mesh, c, &n, nodes));
     PetscCall(DMLabelGetValue(body, c, &cells->body[c - cStart]));
-    cells->part[c - cStart] = physics->parts.of_vertex[corners[0] - mesh->vStart];
+    cells->part[c - cStart] = physics->parts.of_vertex[mesh->here[nodes[0]]];
     for (PetscInt a = 0; a < n; a++) {
-      PetscCall(PetscSectionGetOffset(physics->unknowns.section, corners[a], &cells->dofs[n_corners + a]));
-      PetscCall(PetscSectionGetOffset(coordinate_section, corners[a], &at));
+      PetscCall(PetscSectionGetOffset(physics->unknowns.section, nodes[a], &cells->dofs[n_nodes + a]));
+      PetscCall(PetscSectionGetOffset(coordinate_section, nodes[a], &at));
       for (int i = 0; i < 3; i++)
-        cells->X[3 * (n_corners + a) + i] = PetscRealPart(coordinates[at + i]);
+        cells->X[3 * (n_nodes + a) + i] = PetscRealPart(coordinates[at + i]);
     }
     PetscCall(cell_stiffness(&physics->materials[cells->body[c - cStart]], n,
-                             cells->X + 3 * n_corners, &cells->stiffness[c - cStart]));
-    n_corners += n;
-    cells->offsets[c - cStart + 1] = n_corners;
+                             cells->X + 3 * n_nodes, &cells->stiffness[c - cStart]));
+    n_nodes += n;
+    cells->offsets[c - cStart + 1] = n_nodes;
   }
   PetscCall(VecRestoreArrayRead(coordinate_vector, &coordinates));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* displacements of the corners of one cell */
+/* displacements of the nodes of one cell */
 static void cell_displacements(const Physics *physics, PetscInt c, const PetscScalar *u, PetscReal u_cell[])
 {
   const Cells *cells = &physics->cells;
@@ -133,7 +126,7 @@ PetscErrorCode bulk_forces(Physics *physics, Vec f_local, PetscInt *status)
   for (PetscInt c = 0; c < cells->n && first_inverted < 0; c++) {
     const PetscInt *dofs = cells->dofs + cells->offsets[c],
                    n     = cells->offsets[c + 1] - cells->offsets[c];
-    PetscReal u_cell[24], f_cell[24];
+    PetscReal u_cell[3 * CELL_NODES], f_cell[3 * CELL_NODES];
     PetscBool inverted;
     cell_displacements(physics, c, u, u_cell);
     PetscCall(cell_forces(n, &physics->materials[cells->body[c]],
@@ -159,7 +152,7 @@ static PetscErrorCode insert(const Physics *physics, PetscInt c, const PetscReal
   const Cells    *cells = &physics->cells;
   const PetscInt *dofs  = cells->dofs + cells->offsets[c];
   const PetscInt  n     = cells->offsets[c + 1] - cells->offsets[c];
-  PetscInt        equations[24];
+  PetscInt        equations[3 * CELL_NODES];
   PetscFunctionBegin;
   for (PetscInt k = 0; k < 3 * n; k++)
     equations[k] = physics->unknowns.equations[dofs[k / 3] + k % 3];
@@ -178,7 +171,7 @@ PetscErrorCode bulk_stiffness(Physics *physics, Mat matrix, PetscInt *status)
   PetscCall(PetscTime(&start));
   PetscCall(VecGetArrayRead(physics->u_local, &u));
   for (PetscInt c = 0; c < cells->n && first_inverted < 0; c++) {
-    PetscReal u_cell[24], f_cell[24], K[24 * 24];
+    PetscReal u_cell[3 * CELL_NODES], f_cell[3 * CELL_NODES], K[9 * CELL_NODES * CELL_NODES];
     PetscBool inverted;
     cell_displacements(physics, c, u, u_cell);
     PetscCall(cell_forces(cells->offsets[c + 1] - cells->offsets[c],
@@ -207,7 +200,7 @@ PetscErrorCode bulk_extension(Physics *physics, Vec u_local, Vec f_local, Mat ma
   PetscCall(VecGetArray(f_local, &f));
   for (PetscInt c = 0; c < cells->n; c++) {
     const PetscInt first = cells->offsets[c], n = cells->offsets[c + 1] - first;
-    PetscReal      u_cell[24], f_cell[24], K[24 * 24];
+    PetscReal      u_cell[3 * CELL_NODES], f_cell[3 * CELL_NODES], K[9 * CELL_NODES * CELL_NODES];
     PetscBool      inverted;
     if (!physics->materials[cells->body[c]].law->finite) continue;
     cell_displacements(physics, c, u, u_cell);
@@ -223,8 +216,8 @@ PetscErrorCode bulk_extension(Physics *physics, Vec u_local, Vec f_local, Mat ma
 
 PetscErrorCode bulk_pattern(Physics *physics, Mat matrix)
 {
-  const Cells    *cells          = &physics->cells;
-  const PetscReal zeros[24 * 24] = {0};
+  static const PetscReal zeros[9 * CELL_NODES * CELL_NODES];
+  const Cells           *cells = &physics->cells;
   PetscFunctionBegin;
   for (PetscInt c = 0; c < cells->n; c++)
     PetscCall(insert(physics, c, zeros, matrix));

@@ -52,18 +52,41 @@ PetscErrorCode loads_label(Physics *physics)
   PetscFunctionBegin;
   for (PetscInt l = 0; l < physics->n_loads; l++) {
     PetscCall(PetscSNPrintf(label, sizeof(label), "load.%s", physics->loads[l].name));
-    if (!physics->loads[l].n_surfaces) PetscCall(plex_label_faces(physics->mesh->dm, label, NULL));
+    if (!physics->loads[l].n_surfaces) PetscCall(plex_label_faces(physics->mesh, label, NULL));
     for (PetscInt k = 0; k < physics->loads[l].n_surfaces; k++)
-      PetscCall(plex_label_faces(physics->mesh->dm, label, physics->loads[l].surfaces[k]));
+      PetscCall(plex_label_faces(physics->mesh, label, physics->loads[l].surfaces[k]));
   }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* the mean of a point's vertices */
+static PetscErrorCode middle(const Mesh *mesh, PetscInt point, PetscSection section, const PetscScalar *coordinates,
+                             PetscReal mean[3])
+{
+  PetscInt *closure = NULL, size, vStart, vEnd, n = 0, at;
+  PetscFunctionBegin;
+  mean[0] = mean[1] = mean[2] = 0;
+  PetscCall(DMPlexGetDepthStratum(mesh->dm, 0, &vStart, &vEnd));
+  PetscCall(DMPlexGetTransitiveClosure(mesh->dm, point, PETSC_TRUE, &size, &closure));
+  for (PetscInt k = 0; k < size; k++) {
+    if (closure[2 * k] < vStart || closure[2 * k] >= vEnd) continue;
+    PetscCall(PetscSectionGetOffset(section, closure[2 * k], &at));
+    for (int i = 0; i < 3; i++)
+      mean[i] += PetscRealPart(coordinates[at + i]);
+    n++;
+  }
+  PetscCall(DMPlexRestoreTransitiveClosure(mesh->dm, point, PETSC_TRUE, &size, &closure));
+  for (int i = 0; i < 3; i++)
+    mean[i] /= (PetscReal)n;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 static PetscErrorCode add_face(Physics *physics, const Load *load, PetscInt face, PetscScalar *forces)
 {
-  const Mesh        *mesh    = physics->mesh;
-  PetscInt          *closure = NULL, size, n = 0, offsets[4], at;
-  PetscReal          X[12], f[12];
+  const Mesh        *mesh = physics->mesh;
+  PetscInt           n, nodes[FACE_NODES], at;
+  const PetscInt    *cells;
+  PetscReal          X[3 * FACE_NODES], f[3 * FACE_NODES], cell_middle[3], face_middle[3], outward = 0;
   PetscSection       section;
   Vec                vector;
   const PetscScalar *coordinates;
@@ -72,35 +95,26 @@ static PetscErrorCode add_face(Physics *physics, const Load *load, PetscInt face
   PetscCall(DMGetCoordinateSection(mesh->dm, &section));
   PetscCall(DMGetCoordinatesLocal(mesh->dm, &vector));
   PetscCall(VecGetArrayRead(vector, &coordinates));
-  PetscCall(DMPlexGetTransitiveClosure(mesh->dm, face, PETSC_TRUE, &size, &closure));
-  for (PetscInt k = 0; k < size; k++) {
-    const PetscInt v = closure[2 * k];
-    if (v < mesh->vStart || v >= mesh->vEnd) continue;
-    PetscCall(PetscSectionGetOffset(section, v, &at));
-    PetscCall(PetscSectionGetOffset(physics->unknowns.section, v, &offsets[n]));
-    for (int i = 0; i < 3; i++)
-      X[3 * n + i] = PetscRealPart(coordinates[at + i]);
-    n++;
-  }
-  PetscCall(DMPlexRestoreTransitiveClosure(mesh->dm, face, PETSC_TRUE, &size, &closure));
-  PetscCall(VecRestoreArrayRead(vector, &coordinates));
-  { /* DMPlex may see the face from inside: the pressure must act against the outward normal */
-    const PetscInt *support, *cells;
-    PetscReal       volume, cell_centre[3], face_centre[3], normal[3], outward = 0;
-    PetscCall(DMPlexGetSupport(mesh->dm, face, &support));
-    cells = support;
-    PetscCall(DMPlexComputeCellGeometryFVM(mesh->dm, cells[0], &volume, cell_centre, NULL));
-    PetscCall(DMPlexComputeCellGeometryFVM(mesh->dm, face, &volume, face_centre, NULL));
-    for (int i = 0; i < 3; i++) { /* of the triangle 0, 1, 2 */
-      const int j = (i + 1) % 3, k = (i + 2) % 3;
-      normal[i] = (X[3 + j] - X[j]) * (X[6 + k] - X[k]) - (X[3 + k] - X[k]) * (X[6 + j] - X[j]);
-      outward += normal[i] * (face_centre[i] - cell_centre[i]);
-    }
-    face_forces(n, X, load->traction, outward > 0 ? load->pressure : -load->pressure, f);
-  }
+  PetscCall(plex_face_nodes(mesh, face, &n, nodes));
   for (PetscInt a = 0; a < n; a++) {
+    PetscCall(PetscSectionGetOffset(section, nodes[a], &at));
     for (int i = 0; i < 3; i++)
-      forces[offsets[a] + i] += f[3 * a + i];
+      X[3 * a + i] = PetscRealPart(coordinates[at + i]);
+  }
+  PetscCall(DMPlexGetSupport(mesh->dm, face, &cells));
+  PetscCall(middle(mesh, cells[0], section, coordinates, cell_middle));
+  PetscCall(middle(mesh, face, section, coordinates, face_middle));
+  PetscCall(VecRestoreArrayRead(vector, &coordinates));
+  for (int i = 0; i < 3; i++) { /* DMPlex may see the face from inside: the pressure acts against the outward normal */
+    const int       j = (i + 1) % 3, k = (i + 2) % 3; /* normal of the triangle 0, 1, 2 */
+    const PetscReal normal = (X[3 + j] - X[j]) * (X[6 + k] - X[k]) - (X[3 + k] - X[k]) * (X[6 + j] - X[j]);
+    outward += normal * (face_middle[i] - cell_middle[i]);
+  }
+  face_forces(n, X, load->traction, outward > 0 ? load->pressure : -load->pressure, f);
+  for (PetscInt a = 0; a < n; a++) {
+    PetscCall(PetscSectionGetOffset(physics->unknowns.section, nodes[a], &at));
+    for (int i = 0; i < 3; i++)
+      forces[at + i] += f[3 * a + i];
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -59,7 +59,7 @@ PetscErrorCode parts_label(Physics *physics)
   parts->of_mesh = part;
   PetscCall(PetscCalloc2(parts->n, &parts->part, N_SQUARES * parts->n, &parts->squares));
   if (mesh->rank == 0) PetscCall(measure(physics));
-  PetscCall(plex_label_vertices(mesh->dm, "part", mesh->rank ? 0 : mesh->n_vertices, NULL, part, 0));
+  PetscCall(plex_label_vertices(mesh, "part", mesh->rank ? 0 : mesh->n_vertices, NULL, part, 0));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -73,9 +73,9 @@ PetscErrorCode parts_create(Physics *physics)
   PetscCallMPI(MPI_Bcast(parts->part, (PetscMPIInt)(sizeof(Part) * (size_t)parts->n), MPI_BYTE, 0,
                          PETSC_COMM_WORLD));
   PetscCall(DMGetLabel(mesh->dm, "part", &label));
-  PetscCall(PetscMalloc1(mesh->vEnd - mesh->vStart, &parts->of_vertex));
-  for (PetscInt v = mesh->vStart; v < mesh->vEnd; v++)
-    PetscCall(DMLabelGetValue(label, v, &parts->of_vertex[v - mesh->vStart]));
+  PetscCall(PetscMalloc1(mesh->n_points, &parts->of_vertex));
+  for (PetscInt k = 0; k < mesh->n_points; k++)
+    PetscCall(DMLabelGetValue(label, mesh->points[k], &parts->of_vertex[k]));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -90,11 +90,11 @@ static PetscErrorCode add_squares(Physics *physics, Vec local, int prescribed, i
   PetscFunctionBegin;
   PetscCall(unknowns_sum(physics, local));
   PetscCall(VecGetArrayRead(physics->f_sum, &f));
-  for (PetscInt v = mesh->vStart; v < mesh->vEnd; v++) {
-    PetscReal *squares = parts->squares + N_SQUARES * parts->of_vertex[v - mesh->vStart];
+  for (PetscInt k = 0; k < mesh->n_points; k++) {
+    PetscReal *squares = parts->squares + N_SQUARES * parts->of_vertex[k];
     PetscInt   at;
-    if (unknowns->ghost[v - mesh->vStart]) continue;
-    PetscCall(PetscSectionGetOffset(unknowns->section, v, &at));
+    if (unknowns->ghost[k]) continue;
+    PetscCall(PetscSectionGetOffset(unknowns->section, mesh->points[k], &at));
     for (int i = 0; i < 3; i++) {
       const int kind = unknowns->equations[at + i] < 0 ? prescribed : free;
       if (kind >= 0) squares[kind] += PetscSqr(PetscAbsScalar(f[at + i]));

@@ -52,8 +52,8 @@ typedef struct {
 
 /* This rank's cells */
 typedef struct {
-  PetscInt   n, *offsets, *dofs, *body, *part; /* dofs: local offset of each corner */
-  PetscReal *X, *stiffness;                    /* coordinates of the corners; stiffness at rest */
+  PetscInt   n, *offsets, *dofs, *body, *part; /* dofs: local offset of each node */
+  PetscReal *X, *stiffness;                    /* coordinates of the nodes; stiffness at rest */
 } Cells;
 
 /* Connected cells: bodies, or pieces of them, that nothing but contact joins to others */

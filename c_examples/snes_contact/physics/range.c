@@ -90,7 +90,7 @@ PetscErrorCode range_check(Physics *physics, const PetscScalar *displacements)
     const PetscInt *vertices = mesh->cell_vertices + mesh->cell_offsets[c];
     const Body    *body  = &mesh->bodies[mesh->cell_body[c]];
     Range         *range = &physics->ranges[mesh->cell_body[c]];
-    PetscReal      X[24], u[24], H[9], strain, rotation;
+    PetscReal      X[3 * CELL_NODES], u[3 * CELL_NODES], H[9], strain, rotation;
     PetscInt       held = 7;
     if (body->analytic || physics->materials[mesh->cell_body[c]].law != &MATERIAL_LINEAR) continue;
     for (PetscInt k = 0; k < 3 * n; k++) {

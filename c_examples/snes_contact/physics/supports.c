@@ -60,11 +60,11 @@ PetscErrorCode supports_label(Physics *physics)
   const Mesh *mesh = physics->mesh;
   char        label[2 * NAME_LENGTH];
   PetscFunctionBegin;
-  PetscCall(plex_label_vertices(mesh->dm, "prescribed", mesh->n_vertices, NULL, physics->prescribed, 0));
+  PetscCall(plex_label_vertices(mesh, "prescribed", mesh->n_vertices, NULL, physics->prescribed, 0));
   for (PetscInt s = 0; s < physics->n_supports; s++) {
     PetscCall(PetscSNPrintf(label, sizeof(label), "support.%s", physics->supports[s].name));
     PetscCall(
-        plex_label_vertices(mesh->dm, label, physics->supports[s].n_vertices, physics->supports[s].vertices, NULL, 1));
+        plex_label_vertices(mesh, label, physics->supports[s].n_vertices, physics->supports[s].vertices, NULL, 1));
     PetscCall(PetscFree(physics->supports[s].vertices));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -186,7 +186,7 @@ PetscErrorCode supports_turning(const Physics *physics, PetscInt support_of[])
     PetscCall(ISGetLocalSize(is, &n));
     PetscCall(ISGetIndices(is, &points));
     for (PetscInt k = 0; k < n; k++)
-      support_of[physics->parts.of_vertex[points[k] - mesh->vStart]] = s;
+      support_of[physics->parts.of_vertex[mesh->here[points[k]]]] = s;
     PetscCall(ISRestoreIndices(is, &points));
     PetscCall(ISDestroy(&is));
   }

@@ -2,15 +2,15 @@
  * rank 0. */
 #include "physics/physics.h"
 
-/* Fields of a vertex follow each other; `mask` bit i set: component i is prescribed (displacement) or removed (multiplier).
- * Returns -1 where the vertex has no such field. */
-static PetscErrorCode field_mask(Physics *physics, PetscInt vertex, PetscInt field, PetscInt *mask)
+/* Fields of a vertex, which is a point of the DMPlex, follow each other; `mask` bit i set: component i is prescribed
+ * (displacement) or removed (multiplier). Returns -1 where the vertex has no such field. */
+static PetscErrorCode field_mask(Physics *physics, PetscInt point, PetscInt field, PetscInt *mask)
 {
   Unknowns   *unknowns = &physics->unknowns;
   const Mesh *mesh     = physics->mesh;
   const char *label    = field ? unknowns->fields[field - 1].label : "prescribed";
   PetscFunctionBegin;
-  PetscCall(DMGetLabelValue(mesh->dm, label, vertex, mask));
+  PetscCall(DMGetLabelValue(mesh->dm, label, point, mask));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -38,7 +38,8 @@ static PetscErrorCode create_section(Physics *physics)
   }
   PetscCall(DMPlexGetChart(mesh->dm, &pStart, &pEnd));
   PetscCall(PetscSectionSetChart(section, pStart, pEnd));
-  for (PetscInt v = mesh->vStart; v < mesh->vEnd; v++) {
+  for (PetscInt k = 0; k < mesh->n_points; k++) {
+    const PetscInt v = mesh->points[k];
     for (PetscInt f = 0; f < n_fields; f++) {
       const PetscInt components = field_components(physics, f);
       PetscCall(field_mask(physics, v, f, &mask));
@@ -53,8 +54,9 @@ static PetscErrorCode create_section(Physics *physics)
     }
   }
   PetscCall(PetscSectionSetUp(section));
-  for (PetscInt v = mesh->vStart; v < mesh->vEnd; v++) {
-    PetscInt *all, in_field[3], n_all = 0, first = 0;
+  for (PetscInt k = 0; k < mesh->n_points; k++) {
+    const PetscInt v = mesh->points[k];
+    PetscInt      *all, in_field[3], n_all = 0, first = 0;
     PetscCall(PetscMalloc1(3 * n_fields, &all));
     for (PetscInt f = 0; f < n_fields; f++) {
       const PetscInt components = field_components(physics, f);
@@ -90,19 +92,20 @@ static PetscErrorCode collect_owners(Physics *physics)
 
   PetscFunctionBegin;
   PetscCallMPI(MPI_Comm_size(PETSC_COMM_WORLD, &size));
-  PetscCall(PetscCalloc1(mesh->vEnd - mesh->vStart, &unknowns->ghost));
+  PetscCall(PetscCalloc1(mesh->n_points, &unknowns->ghost));
   PetscCall(DMGetPointSF(mesh->dm, &sf));
   PetscCall(PetscSFGetGraph(sf, NULL, &n_leaves, &leaves, NULL));
   for (PetscInt k = 0; k < n_leaves; k++) {
     const PetscInt p = leaves ? leaves[k] : k;
-    if (p >= mesh->vStart && p < mesh->vEnd) unknowns->ghost[p - mesh->vStart] = PETSC_TRUE;
+    if (mesh->here[p] >= 0) unknowns->ghost[mesh->here[p]] = PETSC_TRUE;
   }
-  PetscCall(PetscMalloc1(width * (mesh->vEnd - mesh->vStart), &mine));
-  for (PetscInt v = mesh->vStart; v < mesh->vEnd; v++) {
-    PetscInt offset;
-    if (unknowns->ghost[v - mesh->vStart]) continue;
+  PetscCall(PetscMalloc1(width * mesh->n_points, &mine));
+  for (PetscInt k = 0; k < mesh->n_points; k++) {
+    const PetscInt v = mesh->points[k];
+    PetscInt       offset;
+    if (unknowns->ghost[k]) continue;
     PetscCall(PetscSectionGetOffset(unknowns->section, v, &offset));
-    mine[n_mine++] = mesh->original[v - mesh->vStart];
+    mine[n_mine++] = mesh->original[k];
     for (PetscInt f = 0; f < n_fields; f++) {
       PetscCall(field_mask(physics, v, f, &mask));
       mine[n_mine++] = mask < 0 ? -1 : offset;

@@ -57,9 +57,9 @@ PetscErrorCode closing_create(Solve *solve)
   PetscCall(DMCreateLocalVector(mesh->dm, &local));
   PetscCall(VecZeroEntries(local));
   PetscCall(VecGetArray(local, &ones));
-  for (PetscInt v = mesh->vStart; v < mesh->vEnd; v++) {
+  for (PetscInt k = 0; k < mesh->n_points; k++) {
     PetscInt at;
-    PetscCall(PetscSectionGetOffset(solve->physics->unknowns.section, v, &at));
+    PetscCall(PetscSectionGetOffset(solve->physics->unknowns.section, mesh->points[k], &at));
     ones[at] = ones[at + 1] = ones[at + 2] = 1;
   }
   PetscCall(VecRestoreArray(local, &ones));
@@ -232,11 +232,11 @@ static PetscErrorCode describe_motion(Solve *solve, PetscInt body, Vec step)
   PetscFunctionBegin;
   PetscCallMPI(MPI_Bcast(range, 2, MPIU_INT, 0, PETSC_COMM_WORLD));
   PetscCall(VecGetArrayRead(step, &array));
-  for (PetscInt v = mesh->vStart; v < mesh->vEnd; v++) {
-    const PetscInt vertex = mesh->original[v - mesh->vStart];
+  for (PetscInt k = 0; k < mesh->n_points; k++) {
+    const PetscInt vertex = mesh->original[k];
     PetscInt       at;
-    if (solve->physics->unknowns.ghost[v - mesh->vStart] || vertex < range[0] || vertex >= range[1]) continue;
-    PetscCall(PetscSectionGetOffset(solve->physics->unknowns.section, v, &at));
+    if (solve->physics->unknowns.ghost[k] || vertex < range[0] || vertex >= range[1]) continue;
+    PetscCall(PetscSectionGetOffset(solve->physics->unknowns.section, mesh->points[k], &at));
     for (int i = 0; i < 3; i++)
       mean[i] += PetscRealPart(array[at + i]);
   }
