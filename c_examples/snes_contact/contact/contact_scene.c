@@ -47,6 +47,30 @@ static void describe_analytic(Scene *scene, Interface *interface)
   interface->options.radius      = interface->surface[1]->radius;
 }
 
+/* `multiplier_space`: with `corner` all components of a node that is no corner of a face go, in the middle of edges and faces. */
+static PetscErrorCode remove_middles(Scene *scene, const Mesh *mesh, Interface *interface)
+{
+  static const char *const spaces[] = {"corner", "sub", NULL};
+  PetscInt                 space    = STICKSLIP_SPACE_CORNER;
+  const Surface *surface = interface->surface[0];
+  PetscBool     *corner;
+  PetscFunctionBegin;
+  scene_choice(scene, interface->name, "multiplier_space", spaces, &space);
+  interface->options.multiplier_space = (int32_t)space;
+  if (space == STICKSLIP_SPACE_SUB) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PetscCalloc1(mesh->n_vertices, &corner));
+  for (PetscInt f = 0; f < surface->n_faces; f++) {
+    const PetscInt first = surface->offsets[f], n = face_corners(surface->offsets[f + 1] - first);
+    for (PetscInt k = 0; k < n; k++)
+      corner[surface->vertices[first + k]] = PETSC_TRUE;
+  }
+  for (PetscInt a = 0; a < interface->n1; a++) {
+    if (!corner[interface->nodes[a]]) interface->removed[a] = 7;
+  }
+  PetscCall(PetscFree(corner));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* rank 0: surfaces, nodes, default stiffness, removed components */
 static PetscErrorCode read_surfaces(Scene *scene, Contact *contact, Interface *interface)
 {
@@ -91,6 +115,7 @@ static PetscErrorCode read_surfaces(Scene *scene, Contact *contact, Interface *i
     interface->removed[a] =
         (physics->prescribed[interface->nodes[a]] & mortar_mask) | symmetry[interface->nodes[a]];
   PetscCall(PetscFree(symmetry));
+  PetscCall(remove_middles(scene, mesh, interface));
 
   interface->young = PetscMin(surface_young(contact, interface->nodes, interface->n1),
                               surface_young(contact, interface->nodes + interface->n1, interface->n2));
