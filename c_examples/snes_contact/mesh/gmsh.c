@@ -1,4 +1,4 @@
-/* A body from a Gmsh file, read by PETSc. Names of physical surfaces become surfaces "body.name"; with `volume`, only the
+/* A body from a Gmsh file, read by PETSc (one of second order: gmsh_second.c). Names of physical surfaces become surfaces "body.name"; with `volume`, only the
  * cells of that physical volume are taken, so that several bodies may share one file. */
 #include "mesh/cell.h"
 #include "mesh/mesh.h"
@@ -63,10 +63,7 @@ static PetscErrorCode append_cells(Scene *scene, const char *body, DM dm, DMLabe
     if (value < 0) continue;
     PetscCall(DMPlexGetCellType(dm, c, &type));
     if (type != DM_POLYTOPE_HEXAHEDRON && type != DM_POLYTOPE_TETRAHEDRON)
-      scene_fail(scene, body, "file",
-                 "it holds %s; tetrahedra and hexahedra are supported: mesh it in Gmsh without layers or `Recombine` that "
-                 "lead to others, or split them.",
-                 cell_kind(type));
+      gmsh_fail_kind(scene, body, cell_kind(type));
     kind = type == DM_POLYTOPE_HEXAHEDRON;
     PetscCall(corners_of_cell(dm, c, &n, corners));
     for (PetscInt a = 0; a < n; a++) {
@@ -77,7 +74,9 @@ static PetscErrorCode append_cells(Scene *scene, const char *body, DM dm, DMLabe
         PetscCall(DMGetCoordinateSection(dm, &section));
         PetscCall(PetscSectionGetDof(section, corners[a], &n_coordinates));
         if (n_coordinates != 3) /* PETSc keeps curved cells' coordinates elsewhere */
-          scene_fail(scene, body, "file", "its cells are of second or higher order; write it as `gmsh -3 -order 1`.");
+          scene_fail(scene, body, "file",
+                     "its cells are of second or higher order: of second order they are read from text of format 4.1 or "
+                     "2.2 (`gmsh -3 -order 2 -format msh41`, not binary), of higher order not at all.");
         PetscCall(PetscSectionGetOffset(section, corners[a], &offset));
         for (int i = 0; i < 3; i++)
           compact[3 * n_vertices + i] = PetscRealPart(coordinates[offset + i]);
@@ -193,7 +192,7 @@ PetscErrorCode gmsh_create(Scene *scene, const char *body, Mesh *mesh)
   char                     file[PETSC_MAX_PATH_LEN] = "", path[PETSC_MAX_PATH_LEN], copy[PETSC_MAX_PATH_LEN];
   char                     volume_name[NAME_LENGTH] = "", names[1024];
   PetscInt                 dimension, n_labels, vStart, vEnd, *new_number;
-  PetscBool                exists;
+  PetscBool                exists, done;
   PetscErrorCode           failed;
   DMLabel                  volume = NULL;
   DM                       dm     = NULL;
@@ -204,6 +203,8 @@ PetscErrorCode gmsh_create(Scene *scene, const char *body, Mesh *mesh)
   PetscCall(scene_relative_path(scene, file, path, sizeof(path)));
   PetscCall(PetscTestFile(path, 'r', &exists));
   if (!exists) scene_fail(scene, body, "file", "cannot read '%s'.", path);
+  PetscCall(gmsh_second_create(scene, body, path, volume_name, mesh, &done));
+  if (done) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PetscOptionsSetValue(NULL, "-dm_plex_gmsh_use_regions", "true")); /* labels by physical name */
   PetscCall(gmsh_without_signs(path, copy, sizeof(copy)));
   PetscCall(PetscPushErrorHandler(PetscReturnErrorHandler, NULL));
@@ -212,7 +213,9 @@ PetscErrorCode gmsh_create(Scene *scene, const char *body, Mesh *mesh)
   if (copy[0]) (void)remove(copy);
   if (failed)
     scene_fail(scene, body, "file",
-               "PETSc cannot read '%s' as a Gmsh mesh (write it as `gmsh -3 -format msh41 -order 1`).", path);
+               "PETSc cannot read '%s' as a Gmsh mesh (write it as `gmsh -3 -format msh41`, with `-order 1` or, as text, "
+               "`-order 2`).",
+               path);
   PetscCall(DMGetDimension(dm, &dimension));
   if (dimension != 3)
     scene_fail(scene, body, "file", "'%s' holds no volume cells; mesh it in 3D and give the volume a physical name.",
@@ -220,8 +223,7 @@ PetscErrorCode gmsh_create(Scene *scene, const char *body, Mesh *mesh)
   if (volume_name[0]) {
     PetscCall(DMGetLabel(dm, volume_name, &volume));
     PetscCall(list_names(dm, 0, names, sizeof(names)));
-    if (!volume)
-      scene_fail(scene, body, "volume", "'%s' has no physical volume '%s'; there are: %s.", path, volume_name, names);
+    if (!volume) gmsh_fail_volume(scene, body, path, volume_name, names);
   }
   PetscCall(DMPlexGetDepthStratum(dm, 0, &vStart, &vEnd));
   PetscCall(PetscMalloc1(vEnd - vStart, &new_number));
@@ -230,11 +232,7 @@ PetscErrorCode gmsh_create(Scene *scene, const char *body, Mesh *mesh)
   PetscCall(append_cells(scene, body, dm, volume, new_number, mesh));
   if (mesh->n_vertices == first) scene_fail(scene, body, "volume", "'%s' has no cell in '%s'.", path, volume_name);
   PetscCall(list_names(dm, 1, names, sizeof(names)));
-  if (!strcmp(names, "none"))
-    scene_fail(scene, body, "file",
-               "'%s' has no physical surface, so that nothing can be said of its faces; give those names, as in "
-               "`Physical Surface(\"contact\") = {...};`.",
-               path);
+  if (!strcmp(names, "none")) gmsh_fail_nameless(scene, body, path);
   PetscCall(DMGetNumLabels(dm, &n_labels));
   for (PetscInt l = 0; l < n_labels; l++) {
     const char *name;

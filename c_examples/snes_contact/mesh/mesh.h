@@ -103,6 +103,13 @@ void box_shape_bend(const BoxShape *shape, PetscReal x[3]);
 PetscErrorCode gmsh_create(Scene *scene, const char *body, Mesh *mesh);
 /* name of a temporary copy of a Gmsh file whose physical surfaces have no signs; "": there are none in the file itself */
 PetscErrorCode gmsh_without_signs(const char *path, char copy[], size_t length);
+/* gmsh_faults.c: they end the run */
+void           gmsh_fail_kind(Scene *scene, const char *body, const char *kind);
+void           gmsh_fail_volume(Scene *scene, const char *body, const char *path, const char *volume, const char *names);
+void           gmsh_fail_nameless(Scene *scene, const char *body, const char *path);
+/* `done`: the file is of second order */
+PetscErrorCode gmsh_second_create(Scene *scene, const char *body, const char *path, const char *volume, Mesh *mesh,
+                                  PetscBool *done);
 PetscErrorCode analytic_create(Scene *scene, const char *body, Mesh *mesh);
 void           analytic_fit(Mesh *mesh);
 #endif
