@@ -452,3 +452,34 @@ fn the_tangent_at_a_crease_equals_differences_with_normals_of_now() {
         }
     }
 }
+
+/// Two facets with eight nodes, a right angle between them: the three nodes of their edge are listed once a side, mid node
+/// included, and parts of one facet are not split from each other.
+#[test]
+fn a_crease_between_quadratic_facets_is_split_at_its_mid_nodes_too() {
+    let at = |x: f64, y: f64, z: f64| Vec3::new(x, y, z);
+    let x = vec![
+        at(0.0, 0.0, 0.0),
+        at(1.0, 0.0, 0.0),
+        at(1.0, 1.0, 0.0),
+        at(0.0, 1.0, 0.0),
+        at(0.5, 0.0, 0.0),
+        at(1.0, 0.5, 0.0),
+        at(0.5, 1.0, 0.0),
+        at(0.0, 0.5, 0.0),
+        at(1.0, 0.0, -1.0),
+        at(1.0, 1.0, -1.0),
+        at(1.0, 0.0, -0.5),
+        at(1.0, 0.5, -1.0),
+        at(1.0, 1.0, -0.5),
+    ];
+    let facets = vec![vec![0, 1, 2, 3, 4, 5, 6, 7], vec![1, 8, 9, 2, 10, 11, 12, 5]];
+    let equations = vec![[NO_EQUATION; 3]; x.len()];
+    let surface = Surface::new("surface", x, &facets, equations).unwrap();
+    let split = surface.split_creases(0.5).unwrap();
+    assert_eq!(split.facet_nodes.len(), 16);
+    assert_eq!(split.originals[13..], [1, 2, 5]);
+    assert_eq!(split.facet_nodes[..8], [0, 1, 2, 3, 4, 5, 6, 7]);
+    assert_eq!(split.facet_nodes[8..], [13, 8, 9, 14, 10, 11, 12, 15]);
+    assert_eq!(surface.split_creases(2.0).unwrap().originals.len(), 13);
+}

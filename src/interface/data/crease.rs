@@ -12,6 +12,7 @@ use crate::error::{Error, Kind, Result};
 use crate::geometry::Vec3;
 use crate::memory::{self, Store, Stored};
 use crate::normal::corner_normal;
+use crate::shape::MAX_PARENT_NODES;
 
 /// A surface's facets with nodes of their own on each side of a crease.
 #[derive(Clone, Debug, PartialEq)]
@@ -54,31 +55,44 @@ impl Surface {
         }
         let least = angle.cos();
         let mut corners = memory::defaults::<Vec<_>>(self.len())?;
-        for (f, facet) in self.facets.iter().enumerate() {
-            let shape = self.facet(f, &self.reference);
-            for (k, &node) in facet.as_slice().iter().enumerate() {
-                corners[node].store(Corner { facet: f, normal: corner_normal(&shape, k) })?;
+        for f in 0..self.host_facets() {
+            for (k, &node) in self.host_nodes(f).iter().enumerate() {
+                let normal = match &self.parents {
+                    None => corner_normal(&self.facet(f, &self.reference), k),
+                    Some(parents) => parents.at(f, &self.reference).normal(k),
+                };
+                corners[node].store(Corner { facet: f, normal })?;
             }
         }
         let mut edges = memory::defaults::<Vec<_>>(self.len())?;
         for edge in &self.edges {
-            for node in edge.nodes {
-                edges[node].store(edge.facets)?;
+            // Not those between parts of one facet.
+            let facets = edge.facets.map(|f| self.host_facet(f));
+            for node in edge.nodes.into_iter().filter(|_| facets[0] != facets[1]) {
+                edges[node].store(facets)?;
             }
         }
-        let mut numbers: Vec<_> = self.facets.iter().map(|f| f.nodes).stored()?;
+        let own = |f: usize| {
+            let mut nodes = [0; MAX_PARENT_NODES];
+            self.host_nodes(f).iter().zip(&mut nodes).for_each(|(&from, to)| *to = from);
+            nodes
+        };
+        let mut numbers: Vec<_> = (0..self.host_facets()).map(own).stored()?;
         let mut originals: Vec<_> = (0..self.len()).stored()?;
         for node in 0..self.len() {
             for copy in fans(&corners[node], &edges[node], least)?.iter().skip(1) {
                 for &corner in copy {
                     let facet = corners[node][corner].facet;
-                    let at = self.facets[facet].as_slice().iter().position(|&k| k == node);
+                    let at = self.host_nodes(facet).iter().position(|&k| k == node);
                     numbers[facet][at.expect("the corner's facet has the node")] = originals.len();
                 }
                 originals.store(node)?;
             }
         }
-        let facet_nodes = numbers.iter().zip(&self.facets).flat_map(|(n, f)| n[..f.len].iter().copied()).stored()?;
+        let mut facet_nodes = Vec::new();
+        for (f, nodes) in numbers.iter().enumerate() {
+            facet_nodes.store_all(nodes.iter().copied().take(self.host_nodes(f).len()))?;
+        }
         Ok(Split { facet_nodes, originals })
     }
 }
