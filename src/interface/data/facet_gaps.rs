@@ -57,6 +57,9 @@ impl FacetGaps {
                     coverage += pair.weights.coverage(k);
                 }
             }
+            if !at.integrated_parents.is_empty() {
+                shares = dual_shares(one, at, one.host_facet(f), &shares)?;
+            }
             let largest = shares.iter().map(|share| share.norm()).fold(0.0, f64::max);
             if largest <= CLOSED * facet.longest_edge() * coverage {
                 continue;
@@ -129,6 +132,16 @@ impl FacetGaps {
 
 fn is_open(shares: &[Vec3; MAX_CORNERS]) -> bool {
     shares.iter().any(|share| *share != Vec3::zeros())
+}
+
+/// What dual multipliers make of a part's gaps, with all pairs of its facet f of the host.
+fn dual_shares(one: &Surface, at: &Active, f: usize, shares: &[Vec3; MAX_CORNERS]) -> Result<[Vec3; MAX_CORNERS]> {
+    let [first, end] = [f, f + 1].map(|f| at.parents.partition_point(|pair| pair.one < f));
+    let Some(basis) = one.parent_basis(f, &at.x1, at.integrated_parents[first..end].iter())? else {
+        return Ok([Vec3::zeros(); MAX_CORNERS]);
+    };
+    let a = basis.faded_coefficients();
+    Ok(std::array::from_fn(|k| (0..MAX_CORNERS).map(|b| shares[b] * a[k][b]).sum()))
 }
 
 /// What a pair of parts adds to the gaps of the nodes that have the multipliers over the non-mortar one [L^3].

@@ -4,9 +4,10 @@
 use super::facet_nodes::FacetNodes;
 use super::pairs::ParentRecord;
 use super::surface::Surface;
-use crate::error::Error;
+use crate::dual::DualBasis;
+use crate::error::{Error, Result};
 use crate::geometry::Vec3;
-use crate::mortar::ParentFacet;
+use crate::mortar::{ParentFacet, ParentWeights};
 
 impl Surface {
     /// The facets of the host: how many there are.
@@ -45,6 +46,19 @@ impl Surface {
     /// How many nodes there are at which no facet has a multiplier.
     pub fn nodes_without_row(&self) -> usize {
         self.parents.as_ref().map_or(0, |p| p.has_row.iter().filter(|has| !**has).count())
+    }
+
+    /// The dual basis of facet f of the host, which has parents, with these weights of all of its pairs, if it has not faded out.
+    pub fn parent_basis<'a>(
+        &self,
+        f: usize,
+        x: &[Vec3],
+        weights: impl Iterator<Item = &'a ParentWeights>,
+    ) -> Result<Option<DualBasis>> {
+        let parents = self.parents.as_ref().expect("asked of surfaces with parents");
+        let area = parents.parts(f).map(|part| 0.5 * self.facet(part, x).area_vector().norm()).sum();
+        let named = |e: Error| Error::new(e.kind, text!("{} facet {f}: {}", self.side, e.message));
+        DualBasis::of_parent(parents.facets[f].parent, area, weights).map_err(named)
     }
 
     /// The first facet at or after which another facet of the host begins.

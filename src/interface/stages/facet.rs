@@ -3,7 +3,6 @@
 
 use crate::dual::{DualBasis, FacetSums};
 use crate::error::{Error, Result};
-use crate::geometry::Vec3;
 use crate::interface::data::active::Active;
 use crate::interface::data::surface::Surface;
 use crate::memory::{self, Store};
@@ -52,25 +51,12 @@ pub fn dual_parents(nonmortar: &Surface, active: &mut Active) -> Result<()> {
     active.integrated_parents.store_all(active.parents.iter().map(|pair| pair.weights))?;
     let x1 = &active.x1;
     for pairs in active.parents.chunk_by_mut(|p, q| p.one == q.one) {
-        let basis = parent_basis(nonmortar, pairs[0].one, x1, pairs.iter().map(|pair| &pair.weights))?;
+        let basis = nonmortar.parent_basis(pairs[0].one, x1, pairs.iter().map(|pair| &pair.weights))?;
         for pair in pairs {
             pair.weights = basis.as_ref().map_or_else(ParentWeights::default, |b| b.parent_weights(&pair.weights));
         }
     }
     Ok(())
-}
-
-/// The basis of facet f of the host with these weights of all of its pairs, if it has not faded out.
-pub fn parent_basis<'a>(
-    nonmortar: &Surface,
-    f: usize,
-    x1: &[Vec3],
-    weights: impl Iterator<Item = &'a ParentWeights>,
-) -> Result<Option<DualBasis>> {
-    let parents = nonmortar.parents.as_ref().expect("asked of surfaces with parents");
-    let area = parents.parts(f).map(|part| 0.5 * nonmortar.facet(part, x1).area_vector().norm()).sum();
-    let named = |e: Error| Error::new(e.kind, text!("{} facet {f}: {}", nonmortar.side, e.message));
-    DualBasis::of_parent(parents.facets[f].parent, area, weights).map_err(named)
 }
 
 /// Why a facet has no dual basis, where it is integrated by points: how many of them there are, and what to do.

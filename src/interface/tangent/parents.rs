@@ -17,7 +17,6 @@ use crate::interface::data::surface::Surface;
 use crate::interface::pairing::given::Given;
 use crate::interface::pairing::overlaps::FacetOverlaps;
 use crate::interface::stages::carried::transfer;
-use crate::interface::stages::facet::parent_basis;
 use crate::mortar::{GapDerivative, MORTAR, SubMotion, rule_for, sub_motion};
 use crate::shape::{MAX_CORNERS, MAX_PARENT_NODES};
 use nalgebra::SMatrix;
@@ -98,7 +97,7 @@ fn differentiate<const N: usize>(
     let mut basis = None;
     if given.setup.options.basis == MultiplierBasis::Dual {
         let of_pairs = pairs.iter().filter(|pair| pair.is_active).map(|pair| active.integrated_parent(pair.place));
-        basis = parent_basis(one, f, &active.x1, of_pairs)?;
+        basis = one.parent_basis(f, &active.x1, of_pairs)?;
         if basis.is_none() {
             return Ok(0); // it has faded out
         }
