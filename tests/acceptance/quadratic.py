@@ -6,6 +6,7 @@ convergence.
 
 import numpy as np
 
+from jacobian import whole_matrix
 from scene import write
 from second_order import SecondOrder
 
@@ -213,7 +214,7 @@ def beam(verdicts, driver):
 
 
 def contact(verdicts, driver):
-    """Two bodies with quadratic faces: the patch test, with multipliers at corners alone."""
+    """Two bodies with quadratic faces: the patch test, with multipliers at corners alone and at all nodes; the tangent."""
     for kind in KINDS:
         options = ("-upper_cell", kind, "-lower_cell", kind, "-base_weights", "reference")
         run = driver.run("patch_flat_5_7", *options, label=f"contact_{kind}")
@@ -224,3 +225,11 @@ def contact(verdicts, driver):
         verdicts.below(f"patch test of contact, {kind}: multipliers at corners", error, EXACT_BOUND, "exact solution")
         others = np.abs(table["lambda_n"][~corners]).max()
         verdicts.below(f"patch test of contact, {kind}: at other nodes", others, 0, "they have none")
+        error = np.abs(table["p_lumped"] - 10).max() / 10
+        verdicts.below(f"patch test of contact, {kind}: nodal tractions", error, EXACT_BOUND, "exact, at every node")
+        everywhere = driver.run("patch_flat_5_7", *options, "-base_multiplier_space", "sub", label=f"sub_{kind}")
+        error = np.abs(everywhere.interface("base")["p_lumped"] - 10).max() / 10
+        verdicts.below(f"patch test of contact, {kind}, sub: nodal tractions", error, EXACT_BOUND, "exact, at every node")
+        pair = ("-upper_cell", kind, "-lower_cell", kind)
+        run = driver.run("jacobian_states", *pair, "-snes_test_jacobian", label=f"tangent_{kind}")
+        whole_matrix(verdicts, f"contact, {kind}", run)
