@@ -9,8 +9,7 @@
 static const double STEP = 1e-5, DIFFERENCE_BOUND = 1e-8;
 /* What is the same by algebra: some hundreds of roundings of numbers of order one. */
 static const double ROUNDING_BOUND = 1e-13;
-/* An eigenvalue over the largest one: a deformation without energy has rounding only. Those with energy have 1e-3 or more
- * in cells that are as long as they are wide. */
+/* An eigenvalue over the largest one: a deformation without energy has rounding only, others have far more. */
 static const double FREE = 1e-10;
 
 static const PetscInt           KINDS[] = {4, 8, 10, 20, 27};

@@ -44,6 +44,9 @@ def one_cell(gmsh_type, points):
 PRISM = one_cell(6, [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (0, 1, 1)])
 PYRAMID = one_cell(7, [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0.5, 0.5, 1)])
 
+PRISM_2 = one_cell(18, [(k, k * k, k**3) for k in range(15)])
+TET_3 = one_cell(29, [(k, k * k, k**3) for k in range(20)])
+
 BAD_SCENES = [
     BadScene("misspelt_key", "friction: 0.5", "frictoin: 0.5", "base.frictoin"),
     BadScene("missing_key", "young: 1000, poisson: 0.3, small", "poisson: 0.3, small", "block.young"),
@@ -136,6 +139,8 @@ BAD_SCENES = [
     BadScene("unknown_key_of_load", "traction: [60, 0, 0]", "colour: 3", "push.colour", says="traction, pressure"),
     BadScene("prism", BOX, "type: gmsh, file: prism.msh", "block.file", says="a prism (wedge)"),
     BadScene("pyramid", BOX, "type: gmsh, file: pyramid.msh", "block.file", says="a pyramid"),
+    BadScene("prism_of_second_order", BOX, "type: gmsh, file: prism_2.msh", "block.file", says="a prism (wedge)"),
+    BadScene("tetrahedron_of_third_order", BOX, "type: gmsh, file: tet_3.msh", "block.file", says="order 2"),
     BadScene("option_of_nobody", "", "", "-stpes_count", ("-stpes_count", "3"), says="nothing reads this option"),
     BadScene("misspelt_option", "", "", "base.frictoin", ("-base_frictoin", "0.3")),
     # their surfaces lie over each other and are no pairs: the bodies would pass through each other without a word
@@ -168,5 +173,7 @@ def write_bad_scene(bad, folder):
     (folder / "nameless.msh").write_text(nameless)
     (folder / "prism.msh").write_text(PRISM)
     (folder / "pyramid.msh").write_text(PYRAMID)
+    (folder / "prism_2.msh").write_text(PRISM_2)
+    (folder / "tet_3.msh").write_text(TET_3)
     path.write_text(text.replace(bad.old, bad.new, 1))
     return path

@@ -1,5 +1,6 @@
-/* A body from a Gmsh file, read by PETSc (one of second order: gmsh_second.c). Names of physical surfaces become surfaces "body.name"; with `volume`, only the
- * cells of that physical volume are taken, so that several bodies may share one file. */
+/* A body from a Gmsh file, read by PETSc (one of second order: gmsh_second.c). Names of physical surfaces become surfaces
+ * "body.name"; with `volume`, only the cells of that physical volume are taken, so that several bodies may share one
+ * file. */
 #include "mesh/cell.h"
 #include "mesh/mesh.h"
 #include <petscdmplex.h>

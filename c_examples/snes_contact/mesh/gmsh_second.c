@@ -58,7 +58,8 @@ static void check_element(Scene *scene, const char *body, const GmshElement *ele
     scene_fail(scene, body, "file", "it holds hexahedra with 20 nodes and with 27; one kind is expected.");
 }
 
-/* Cells of one kind after the other, as mesh_append() takes them; `number`: of each node, -1: not in this body. */
+/* Cells of one kind after the other, as mesh_append() takes them: vertices go with the first kind, and the numbers of
+ * another one are relative to its empty block. `number`: of each node, -1: not in this body. */
 static PetscErrorCode append_cells(Scene *scene, const char *body, const GmshText *text, const GmshGroup *volume,
                                    PetscInt number[], Mesh *mesh)
 {
@@ -93,7 +94,7 @@ static PetscErrorCode append_cells(Scene *scene, const char *body, const GmshTex
         *cell = number[text->node_list[element->nodes + from]] - (appended ? n_vertices : 0);
       }
     }
-    if (cell == cells) continue; /* the vertices go with the first kind; numbers of another one are relative to its empty block */
+    if (cell == cells) continue;
     PetscCall(mesh_append(mesh, appended ? 0 : n_vertices, coordinates, counts[kinds[kind]], kinds[kind], cells));
     appended = 1;
   }
@@ -140,8 +141,8 @@ static PetscErrorCode list_faces(const Mesh *mesh, PetscInt first_cell, PetscInt
 }
 
 /* faces of one physical surface, each as a face of a cell of this body; none for a surface of another body in the file */
-static PetscErrorCode append_surface(const char *body, const GmshText *text, const GmshGroup *group, const PetscInt number[],
-                                     PetscInt first, PetscInt n_faces, const Face *faces, Mesh *mesh)
+static PetscErrorCode append_surface(const char *body, const GmshText *text, const GmshGroup *group,
+                                     const PetscInt number[], PetscInt first, PetscInt n_faces, const Face *faces, Mesh *mesh)
 {
   Surface *surface = NULL;
   char     name[2 * NAME_LENGTH];
@@ -166,8 +167,9 @@ static PetscErrorCode append_surface(const char *body, const GmshText *text, con
       PetscCall(PetscSNPrintf(name, sizeof(name), "%s.%s", body, group->name));
       PetscCall(mesh_add_surface(mesh, name, text->n_elements - e, &surface));
     }
-    if ((found > faces && !by_corners(found - 1, found)) || (found + 1 < faces + n_faces && !by_corners(found + 1, found)))
-      surface->inner = PETSC_TRUE;
+    if ((found > faces && !by_corners(found - 1, found)) ||
+        (found + 1 < faces + n_faces && !by_corners(found + 1, found)))
+      surface->inner = PETSC_TRUE; /* a face of two cells */
     n_face = cell_face(mesh->cell_offsets[found->cell + 1] - mesh->cell_offsets[found->cell], found->face,
                        mesh->cell_vertices + mesh->cell_offsets[found->cell], vertices);
     surface_push(surface, n_face, vertices);

@@ -4,26 +4,16 @@
 
 static const char *const STATE_NAMES[] = {"gap", "stick", "slip"}; /* by STICKSLIP_STATE_* */
 
-/* Of the mortar on non-mortar node a: its force over its covered area, or over the whole one where nothing is covered.
- * Returns the normal part, along n. */
-static double nodal_traction(const Interface *interface, const ContactStates *states, PetscInt a, double traction[3])
-{
-  const double *n = states->normal + 3 * a, area = states->coverage[a] > 0 ? states->coverage[a] : states->area[a];
-  double        normal = 0;
-  for (int i = 0; i < 3; i++) {
-    traction[i] = -PetscRealPart(interface->forces[3 * a + i]) / area;
-    normal += traction[i] * n[i];
-  }
-  return normal;
-}
-
 PetscErrorCode csv_write(Output *output, const Interface *interface, const ContactStates *states, PetscInt step)
 {
   const PetscScalar *u = interface->gathered;
   char               path[PETSC_MAX_PATH_LEN];
+  double            *tractions;
   FILE              *file;
 
   PetscFunctionBegin;
+  PetscCall(PetscMalloc1(3 * interface->n1, &tractions));
+  PetscCall(nodal_tractions(output->mesh, interface, states, tractions));
   PetscCall(PetscSNPrintf(path, sizeof(path), "%s/interface_%s_%" PetscInt_FMT ".csv", output->directory,
                           interface->name, step));
   file = fopen(path, "w");
@@ -32,10 +22,12 @@ PetscErrorCode csv_write(Output *output, const Interface *interface, const Conta
                 "area_covered,area_full,fx,fy,fz,p_lumped,state,t_lumped_x,t_lumped_y,t_lumped_z\n");
   for (PetscInt a = 0; a < interface->n1; a++) {
     const double *n = states->normal + 3 * a, *lambda = states->multiplier + 3 * a, *slip = states->slip + 3 * a;
-    double        lambda_n = 0, traction[3], values[23], *v = values;
-    const double  pressure = nodal_traction(interface, states, a, traction);
-    for (int i = 0; i < 3; i++)
+    const double *traction = tractions + 3 * a;
+    double        lambda_n = 0, pressure = 0, values[23], *v = values;
+    for (int i = 0; i < 3; i++) {
       lambda_n += lambda[i] * n[i];
+      pressure += traction[i] * n[i];
+    }
     for (int i = 0; i < 3; i++)
       *v++ = interface->X[3 * a + i];
     for (int i = 0; i < 3; i++)
@@ -62,6 +54,7 @@ PetscErrorCode csv_write(Output *output, const Interface *interface, const Conta
     fprintf(file, "\n");
   }
   fclose(file);
+  PetscCall(PetscFree(tractions));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -130,6 +123,7 @@ static PetscErrorCode interface_fields(FILE *file, const Mesh *mesh, const Inter
   const PetscInt n_both = interface->n1 + interface->n2;
   PetscScalar   *field;
   PetscInt      *state;
+  double        *tractions;
   ContactStates  states;
   char           name[2 * NAME_LENGTH];
 
@@ -148,12 +142,11 @@ static PetscErrorCode interface_fields(FILE *file, const Mesh *mesh, const Inter
   vectors(file, name, mesh->n_vertices, field);
 
   PetscCall(PetscArrayzero(field, 3 * mesh->n_vertices));
-  for (PetscInt a = 0; a < interface->n1; a++) {
-    double traction[3];
-    nodal_traction(interface, &states, a, traction);
-    for (int i = 0; i < 3; i++)
-      field[3 * interface->nodes[a] + i] = traction[i];
-  }
+  PetscCall(PetscMalloc1(3 * interface->n1, &tractions));
+  PetscCall(nodal_tractions(mesh, interface, &states, tractions));
+  for (PetscInt k = 0; k < 3 * interface->n1; k++)
+    field[3 * interface->nodes[k / 3] + k % 3] = tractions[k];
+  PetscCall(PetscFree(tractions));
   PetscCall(PetscSNPrintf(name, sizeof(name), "traction_%s", interface->name));
   vectors(file, name, mesh->n_vertices, field);
 

@@ -42,6 +42,9 @@ PetscErrorCode uniqueness_check(Output *output, Vec x, struct cJSON *root);
 PetscErrorCode summary_counters(Output *output, struct cJSON *root);
 /* diagnosis.c: what may be wrong; told and kept */
 PetscErrorCode diagnosis_failed(Output *output, struct cJSON *root);
+/* tractions.c */
+PetscErrorCode nodal_tractions(const Mesh *mesh, const Interface *interface, const ContactStates *states,
+                               double tractions[]);
 /* files.c */
 PetscErrorCode csv_write(Output *output, const Interface *interface, const ContactStates *states, PetscInt step);
 PetscErrorCode vtu_write(Output *output, const PetscScalar *displacements, PetscInt step);
