@@ -37,7 +37,7 @@ pub struct SubMotion {
     /// Of f_C = -sum_A n_AC p_A at the mortar parent's, likewise.
     pub two: Blocks<MAX_PARENT_NODES>,
     /// Of g_A = sum_B n_AB x_B - sum_C n_AC x_C at fixed nodes, rows A [L^2]; the fourth number: of the covered area
-    /// int N_A da [L].
+    /// int N_A da `[L]`.
     pub gap: Blocks<MAX_CORNERS>,
 }
 
