@@ -17,6 +17,7 @@ use crate::interface::data::surface::Surface;
 use crate::interface::pairing::given::Given;
 use crate::interface::pairing::overlaps::FacetOverlaps;
 use crate::interface::stages::carried::transfer;
+use crate::memory::Store;
 use crate::mortar::{GapDerivative, MORTAR, SubMotion, rule_for, sub_motion};
 use crate::shape::{MAX_CORNERS, MAX_PARENT_NODES};
 use nalgebra::SMatrix;
@@ -25,7 +26,8 @@ use nalgebra::SMatrix;
 #[derive(Debug, Default)]
 pub struct ParentRoom {
     table: ParentTable,
-    motion: SubMotion,
+    /// One, once it was needed: too large for the stack of a caller.
+    motion: Vec<SubMotion>,
     overlaps: FacetOverlaps,
 }
 
@@ -111,6 +113,10 @@ fn differentiate<const N: usize>(
         tractions[..MAX_CORNERS].copy_from_slice(&dual.field);
         x1 = dual.lowered(&x1);
     }
+    if motion.is_empty() {
+        motion.store(SubMotion::default())?;
+    }
+    let motion = &mut motion[0];
     let (mut linearised, moves) = (0, given.setup.effects.opposite == Opposite::Moves);
     for part in parents.parts(f) {
         let first = active.pairs.partition_point(|pair| pair.one < part);
