@@ -13,6 +13,8 @@ import numpy as np
 DEGREE_5, DEGREE_10 = 0, 1
 GAP, STICK, SLIP = 0, 1, 2
 STATES = ("gap", "stick", "slip")
+SPACES = ("corner", "sub")  # where the multipliers of quadratic facets stand, in the header's order
+CORNERS = {3: 3, 4: 4, 6: 3, 8: 4, 9: 4}  # of a facet, by its number of nodes
 
 
 class Refused(Exception):
@@ -46,6 +48,10 @@ Pair = struct(
     ("x2", c_void_p),
     ("quadrature", c_int32),
     ("layout", c_int32),
+    ("element_points", c_int64),
+    ("neighbour_normals", c_void_p),
+    ("multiplier_space", c_int32),
+    ("reserved", c_int32),
 )
 Node = struct(
     "Node",
@@ -113,6 +119,8 @@ Options = struct(
     ("shear_limit", c_double),
     ("normals", c_int32),
     ("threads", c_int32),
+    ("multiplier_space", c_int32),
+    ("reserved", c_int32),
 )
 Surface = struct(
     "Surface",
@@ -172,14 +180,16 @@ class Library:
             text = f"status {status} ({words}): {self.c.stickslip_last_error_message().decode()}"
             raise Refused(name, status, text)
 
-    def weights(self, x1, x2, derivatives=False, quadrature=DEGREE_5):
+    def weights(self, x1, x2, derivatives=False, quadrature=DEGREE_5, space="corner"):
         """n_ab, n_ac of a pair, and with `derivatives` dn_ab, dn_ac behind them."""
         x1, x2 = (np.ascontiguousarray(x, float) for x in (x1, x2))
         n1, n2 = len(x1), len(x2)
         pair = Pair(n1=n1, n2=n2, x1=pointer(x1), x2=pointer(x2), quadrature=quadrature)
-        out = [np.zeros((n1, n1)), np.zeros((n1, n2))]
+        pair.multiplier_space = SPACES.index(space)
+        rows = CORNERS[n1] if space == "corner" else n1
+        out = [np.zeros((rows, n1)), np.zeros((rows, n2))]
         if derivatives:
-            out += [np.zeros((n1, n, 3 * (n1 + n2))) for n in (n1, n2)]
+            out += [np.zeros((rows, n, 3 * (n1 + n2))) for n in (n1, n2)]
         self.call("pair_weights", byref(pair), *map(pointer, out), *([None, None] if not derivatives else []))
         return out
 
@@ -191,8 +201,16 @@ class Library:
         return response
 
 
+def mid_nodes(n_nodes, facets):
+    """Which nodes are no facet's corner."""
+    found = np.ones(n_nodes, bool)
+    for f in facets:
+        found[f[: CORNERS[len(f)]]] = False
+    return found
+
+
 class Interface:
-    """Two surfaces: x (n, 3), facets of 3 or 4 nodes each; `facets2` None: an analytic surface, of which x2 is the frame.
+    """Two surfaces: x (n, 3), facets of 3, 4, 6, 8 or 9 nodes each; `facets2` None: an analytic surface, of which x2 is the frame.
     `components`: multipliers a node has, 1 without friction. Equations are counted through x1, x2, lambda; a mortar side
     that is analytic or `rigid` has none. A point is given as x1, x2, lambda."""
 
@@ -206,6 +224,8 @@ class Interface:
             two = np.full_like(two, -1)
         self.kept = []
         sides = [self.surface(x1, facets1, one), self.surface(x2, facets2, two)]
+        if options.get("multiplier_space", 0) == 0:
+            multipliers.reshape(-1, components)[mid_nodes(len(x1), facets1)] = -1
         sides[0].multiplier_equations = self.keep(multipliers, np.int64)
         chosen = Options()
         library.call("options_init", byref(chosen), c_uint64(chosen.struct_size))
