@@ -256,6 +256,17 @@ fn plans_have_the_entries_of_the_tangent() {
 }
 
 #[test]
+fn effects_say_where_multipliers_stand() {
+    for (space, words) in
+        [(MultiplierSpace::Corner, "at the corners (default)"), (MultiplierSpace::Sub, "at all nodes (asked for)")]
+    {
+        let scene = moved_parents::<3>(&Options { space, ..options() }, [&[8], &[6]], FLAT, 0.1, false, 5);
+        let text = scene.contact.effects().unwrap().to_string();
+        assert!(text.contains(&format!("Multipliers of quadratic facets: {words}.")), "{text}");
+    }
+}
+
+#[test]
 fn histories_of_quadratic_facets_are_kept_undone_and_imported() {
     let mixed: [&[usize]; 2] = [&[9, 8, 4, 6], &[4, 6, 9, 3, 8]];
     for options in choices(options()).flat_map(|o| [o, Options { weights: Weights::Committed, ..o }]) {

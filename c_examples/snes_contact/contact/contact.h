@@ -12,6 +12,7 @@ typedef struct {
   PetscInt            *nodes;      /* n1 + n2 mesh vertices */
   PetscInt             components; /* multipliers a node: 1, along the normal, without friction; else 3 */
   PetscInt            *removed;    /* n1: mask of directions without a multiplier, see read_surfaces() */
+  PetscBool           *middle;     /* n1: no multiplier, since it is no corner of a face */
   stickslip_options    options;
   PetscBool            initial_contact; /* nodes that touch start slightly compressed: contact_start() */
   double              *X, *x;     /* 3 (n1 + n2): reference coordinates; current ones, see contact_positions() */

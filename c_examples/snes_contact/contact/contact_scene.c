@@ -65,7 +65,8 @@ static PetscErrorCode remove_middles(Scene *scene, const Mesh *mesh, Interface *
       corner[surface->vertices[first + k]] = PETSC_TRUE;
   }
   for (PetscInt a = 0; a < interface->n1; a++) {
-    if (!corner[interface->nodes[a]]) interface->removed[a] = 7;
+    interface->middle[a] = (PetscBool)!corner[interface->nodes[a]];
+    if (interface->middle[a]) interface->removed[a] = 7;
   }
   PetscCall(PetscFree(corner));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -109,6 +110,7 @@ static PetscErrorCode read_surfaces(Scene *scene, Contact *contact, Interface *i
     scene_fail(scene, interface->name, "mortar_side", "'%s' is not rigid: support all of it in x, y and z.", name);
   describe_analytic(scene, interface);
   PetscCall(PetscMalloc1(interface->n1, &interface->removed));
+  PetscCall(PetscCalloc1(interface->n1, &interface->middle));
   PetscCall(PetscCalloc1(mesh->n_vertices, &symmetry));
   PetscCall(symmetry_mask(physics, interface, symmetry));
   for (PetscInt a = 0; a < interface->n1; a++)

@@ -176,6 +176,7 @@ PetscErrorCode contact_destroy(Contact *contact)
     PetscCall(PetscFree3(interface->coo_rows, interface->coo_columns, interface->coo_values));
     PetscCall(PetscFree(interface->nodes));
     PetscCall(PetscFree(interface->removed));
+    PetscCall(PetscFree(interface->middle));
   }
   PetscCall(PetscFree(contact->interfaces));
   PetscFunctionReturn(PETSC_SUCCESS);

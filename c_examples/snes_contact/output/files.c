@@ -48,7 +48,7 @@ PetscErrorCode csv_write(Output *output, const Interface *interface, const Conta
     fprintf(file, "%d", (int)interface->nodes[a]);
     for (const double *w = values; w < v; w++)
       fprintf(file, ",%.17g", *w);
-    fprintf(file, ",%s", STATE_NAMES[states->state[a]]);
+    fprintf(file, ",%s", interface->middle[a] ? "none" : STATE_NAMES[states->state[a]]);
     for (int i = 0; i < 3; i++)
       fprintf(file, ",%.17g", traction[i] - pressure * n[i]);
     fprintf(file, "\n");

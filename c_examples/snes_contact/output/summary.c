@@ -76,7 +76,7 @@ static PetscErrorCode interface_results(Output *output, Interface *interface, Pe
   PetscFunctionBegin;
   PetscCall(contact_states_create(interface, &states));
   for (PetscInt a = 0; a < interface->n1; a++) {
-    counts[states.state[a]]++;
+    if (!interface->middle[a]) counts[states.state[a]]++;
     for (int i = 0; i < 3; i++)
       force[i] -= PetscRealPart(interface->forces[3 * a + i]); /* f1 is an internal force */
     interface->friction_work += states.dissipation[a];

@@ -5,6 +5,7 @@ use crate::interface::data::options::{MortarSide, MultiplierBasis, Scheme, Tange
 use crate::interface::data::setup::Setup;
 use crate::interface::data::surface::NO_EQUATION;
 use crate::law::Coefficient;
+use crate::mortar::MultiplierSpace;
 
 /// A sentence, if there is memory for it.
 macro_rules! say {
@@ -27,6 +28,11 @@ pub fn effects<const N: usize>(setup: &Setup<N>) -> Result<Text> {
     ];
     for sentence in sentences {
         text.append(format_args!(" {sentence}"))?;
+    }
+    if setup.nonmortar.parents.is_some() {
+        let corner = setup.options.space == MultiplierSpace::Corner;
+        let nodes = if corner { "the corners (default)" } else { "all nodes (asked for)" };
+        text.append(format_args!(" Multipliers of quadratic facets: at {nodes}."))?;
     }
     if setup.options.basis == MultiplierBasis::Dual {
         text.append(format_args!(" Multipliers: dual (asked for)."))?;
