@@ -6,7 +6,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 
 /// Modules and what each may import, lowest first.
-const ALLOWED: [(&str, &[&str]); 14] = [
+const ALLOWED: [(&str, &[&str]); 15] = [
     ("error", &[]),
     ("memory", &["error"]),
     ("adjacency", &["error", "memory"]),
@@ -17,6 +17,7 @@ const ALLOWED: [(&str, &[&str]); 14] = [
     ("geometry", &["error", "shape", "simd"]),
     ("normal", &["error", "geometry"]),
     ("mortar", &["error", "geometry", "quadrature", "shape", "simd"]),
+    ("line", &["error", "geometry", "mortar", "quadrature"]),
     ("dual", &["error", "geometry", "mortar", "shape", "simd"]),
     ("law", &["error", "geometry"]),
     ("element", &["dual", "error", "geometry", "law", "mortar", "quadrature", "shape", "simd"]),

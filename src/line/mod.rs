@@ -1,0 +1,12 @@
+//! Facets of plane and axisymmetric models: lines with two or three nodes, the weights of their pairs and the exact derivatives
+//! (docs/formulation.md 13). Positions have two components, (x, y) or, axisymmetric, (r, z).
+
+mod derivatives;
+mod facet;
+mod segment;
+mod weights;
+
+pub use derivatives::LineDerivatives;
+pub use facet::{LineFacet, MAX_LINE_NODES};
+pub use segment::Measure;
+pub use weights::LineWeights;

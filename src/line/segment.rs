@@ -1,0 +1,82 @@
+//! A part of a non-mortar line and one of a mortar line, projected on the first (docs/formulation.md 13.1):
+//!
+//! s_k = (x_k - x0) . t,  d_k = (x_k - x0) . e,  x0 the middle of the non-mortar part, t its direction, e across.
+//!
+//! Their overlap is an interval of s. Its ends are nodes of one or the other.
+
+use crate::geometry::Vec2;
+
+/// Nodes of a pair of parts: a and b of the non-mortar one, c and d of the mortar one.
+pub(super) const NODES: usize = 4;
+
+/// The factor rho of a length: what one of the plane stands for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Measure {
+    /// Plane strain or stress of this thickness `[L]`.
+    Thickness(f64),
+    /// 2 pi r, r the first coordinate, on the chord of the non-mortar part.
+    Axisymmetric,
+}
+
+impl Measure {
+    /// rho where the shares of a and b are these.
+    pub(super) fn at(self, shares: [f64; 2], r: [f64; 2]) -> f64 {
+        match self {
+            Measure::Thickness(thickness) => thickness,
+            Measure::Axisymmetric => std::f64::consts::TAU * (shares[0] * r[0] + shares[1] * r[1]),
+        }
+    }
+
+    /// d rho / d r.
+    pub(super) fn slope(self) -> f64 {
+        if self == Measure::Axisymmetric { std::f64::consts::TAU } else { 0.0 }
+    }
+}
+
+/// Two parts that overlap.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct LineSegment {
+    t: Vec2,
+    e: Vec2,
+    length: f64,
+    /// s of a, b, c, d.
+    pub s: [f64; NODES],
+    d: [f64; NODES],
+    /// First coordinates of a and b.
+    pub r: [f64; 2],
+    /// The interval's ends, and the nodes that they are.
+    pub ends: [(f64, usize); 2],
+}
+
+impl LineSegment {
+    /// `None` where they do not overlap, or the mortar part is seen end-on.
+    pub fn new(x: [Vec2; NODES]) -> Option<LineSegment> {
+        let along = x[1] - x[0];
+        let length = along.norm();
+        let (t, middle) = (along / length, x[0] + along * 0.5);
+        let e = Vec2::new(-t.y, t.x);
+        let (s, d) = (x.map(|x| (x - middle).dot(&t)), x.map(|x| (x - middle).dot(&e)));
+        let [low, high] = if s[2] < s[3] { [2, 3] } else { [3, 2] };
+        // Where nodes coincide the end is the non-mortar one's.
+        let from = if s[low] > s[0] { low } else { 0 };
+        let to = if s[high] < s[1] { high } else { 1 };
+        let ends = [(s[from], from), (s[to], to)];
+        (s[to] > s[from]).then_some(LineSegment { t, e, length, s, d, r: [x[0].x, x[1].x], ends })
+    }
+
+    /// Shares of a and b, or of c and d (`side` 1), at s: those of node k of the side are its linear function.
+    pub fn shares(&self, side: usize, s: f64) -> [f64; 2] {
+        let [from, to] = [self.s[2 * side], self.s[2 * side + 1]];
+        [(to - s) / (to - from), (s - from) / (to - from)]
+    }
+
+    /// d s_k / d x of a, b, c, d.
+    pub fn motion(&self, k: usize) -> [Vec2; NODES] {
+        let turn = self.e * (self.d[k] / self.length);
+        let mut d = [Vec2::zeros(); NODES];
+        d[0] -= self.t * 0.5 + turn;
+        d[1] -= self.t * 0.5 - turn;
+        d[k] += self.t;
+        d
+    }
+}
