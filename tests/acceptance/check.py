@@ -21,6 +21,7 @@ from normals import normals  # noqa: E402
 from normals_full import normals_full, normals_iterations  # noqa: E402
 from quadratic import quadratic  # noqa: E402
 from quadratic_contact import quadratic_contact  # noqa: E402
+from quadratic_line import quadratic_line  # noqa: E402
 from quadratic_tied import quadratic_tied  # noqa: E402
 from roles import roles  # noqa: E402
 from slider import slider, slider_fine  # noqa: E402
@@ -49,6 +50,7 @@ GROUPS = {
     "normals_iterations": normals_iterations,  # some minutes; not among the tests
     "quadratic": quadratic,
     "quadratic_contact": quadratic_contact,
+    "quadratic_line": quadratic_line,
     "quadratic_tied": quadratic_tied,
     "roles": roles,
     "slider": slider,

@@ -17,8 +17,8 @@ SAME_PLACE = 1e-6
 FACETS, OTHERS = (12, 16), (5 / 6, 4 / 3)
 KINDS = ("tet10", "hex20", "hex27")
 YOUNG, POISSON = 1000.0, 0.3
-# A square pillar, 2 x 2 x 1, with a paraboloid below. The contact radius is 0.72, so that it has 4.3 of 12 facets a side, and
-# 5.7 of 16.
+# A square pillar, 2 x 2 x 1, with a paraboloid below. The contact radius is 0.72: that is 4.3 of 12 facets a side, 5.7 of
+# 16.
 RADIUS, HALF, DEPTH = 20.0, 1.0, 0.018
 
 

@@ -12,7 +12,7 @@ ORDERS, ORDER_BOUND = {"H1": 2.0, "L2": 3.0}, 0.2
 KINDS, SPACES = ("hex20", "hex27", "tet10"), ("corner", "sub")
 # Facets a side of the upper block's lower face; the lower block has one and a half as many.
 FACETS = (4, 8, 12)
-# Dual multipliers at corners hold constants, not linear functions: order 1.5, of which 1.66 is left here. The check can fail.
+# Dual multipliers at corners hold constants, not linear functions: order 1.5, which is 1.66 here. The check can fail.
 DUAL_ORDER = 1.75
 # Of each block, so that the interface is not far from where the solution is largest.
 HEIGHT = 0.25
