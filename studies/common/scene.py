@@ -28,9 +28,12 @@ class SceneError(Exception):
 
 
 def write(scene, path):
-    """A scene (a dict) as a YAML file, in flow style, which JSON is; returns its path."""
+    """A scene (a dict) as a YAML file, in flow style, which JSON is; returns its path. A file that says the same stays as it
+    is, so that runs of it can be kept."""
     path.parent.mkdir(parents=True, exist_ok=True)
-    path.write_text("".join(f"{key}: {json.dumps(value)}\n" for key, value in scene.items()))
+    text = "".join(f"{key}: {json.dumps(value)}\n" for key, value in scene.items())
+    if not path.is_file() or path.read_text() != text:
+        path.write_text(text)
     return path
 
 

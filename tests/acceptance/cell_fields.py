@@ -7,13 +7,14 @@ import numpy as np
 # Exact for polynomials of degree 9 in each direction; squares of gradients of what is left have a higher degree, but are
 # known to some digits by it.
 POINTS = 5
+TETRAHEDRA = {4: 1, 10: 2}  # nodes: degree
 
 
 def exponents(nodes):
-    """The monomials of a cell's displacements, by its number of nodes: P2, serendipity, Q2."""
-    box = list(itertools.product(range(3), repeat=3))
-    if nodes == 10:
-        return np.array([e for e in box if sum(e) <= 2])
+    """The monomials of a cell's displacements, by its number of nodes: P1, Q1, P2, serendipity, Q2."""
+    box = list(itertools.product(range(2 if nodes <= 8 else 3), repeat=3))
+    if nodes in TETRAHEDRA:
+        return np.array([e for e in box if sum(e) <= TETRAHEDRA[nodes]])
     if nodes == 20:  # degree at most 3, where squares do not count if they are not alone
         return np.array([e for e in box if sum(x for x in e if x > 1) <= 2])
     return np.array(box)
@@ -36,7 +37,7 @@ def rule(X):
     s, w = (s + 1) / 2, w / 2
     place = np.array(list(itertools.product(s, repeat=3)))
     weight = np.prod(list(itertools.product(w, repeat=3)), axis=1)
-    if X.shape[1] == 10:  # a cube whose one side shrinks to an edge, and that to a corner
+    if X.shape[1] in TETRAHEDRA:  # a cube whose one side shrinks to an edge, and that to a corner
         a, b, c = place.T
         weight = weight * a**2 * b
         place = np.stack([a * (1 - b), a * b * (1 - c), a * b * c], axis=1)
