@@ -6,6 +6,7 @@ contact decides. The figure goes to DIR/study/cells.png; with --renew-figures it
 """
 
 import argparse
+import itertools
 import math
 import shutil
 import sys
@@ -31,13 +32,14 @@ from study_page import markdown, per_cent  # noqa: E402
 DOCUMENT = folders.ROOT / "docs" / "accuracy.md"
 MARKS = ("<!-- cells -->", "<!-- /cells -->")
 QUIET = ("-output_quiet", "true")
-RUNS = 1
+RUNS = 2
 # What a user may want, relative.
 GOALS = (0.1, 0.03, 0.01, 0.003, 0.001)
 # Half-widths over the coarsest facets: an error goes up and down with the place of the rim in its facet.
 HALF_WIDTHS = (3.2, 3.5, 3.8)
 # Of the integral of the pressure's error over x.
 POINTS = 4001
+QUICK = 8  # facets a side
 GREEN, ORANGE = "#3a8f5c", "#d0862c"
 
 
@@ -82,7 +84,7 @@ COUNT = RUNS * sum(len(sizes_of(problem, curve)) * (len(HALF_WIDTHS) if problem 
 
 
 def solve(driver, path, interface, curve):
-    """(a run, least processor time of RUNS)"""
+    """(a run, least processor time of RUNS); of linear cells the corners are all nodes"""
     options = [f"-{interface}_multiplier_space", curve.space] if curve.cell not in ("hex", "tet") else []
     options += [f"-{interface}_basis", curve.basis, *QUIET]
     label = f"cells/{path.stem}_{curve.space}_{curve.basis}"
@@ -90,9 +92,17 @@ def solve(driver, path, interface, curve):
     return runs[0], min(run.summary["seconds"]["processor"] for run in runs)
 
 
+@dataclass
+class Point:
+    error: float
+    unknowns: int
+    newton: float
+    seconds: float
+
+
 def tied(driver, scenes, curve, facets):
     run, seconds = solve(driver, quadratic_tied.scene(scenes, curve.cell, facets), "base", curve)
-    return {"strain": errors(run, quadratic_tied.exact)[0]}, run.summary["unknowns"], seconds
+    return {"strain": errors(run, quadratic_tied.exact)[0]}, run.summary["unknowns"], run.newton_iterations, seconds
 
 
 def pressure_error(table, curve, a):
@@ -107,15 +117,15 @@ def pressure_error(table, curve, a):
 
 
 def line(driver, scenes, curve, parts):
-    """Root mean squares over the half-widths; mean of the seconds."""
+    """Root mean squares over the half-widths; means of iterations and seconds."""
     found = []
     for a in HALF_WIDTHS:
         run, seconds = solve(driver, quadratic_line.scene(scenes, curve.cell, a, parts), "contact", curve)
         force = 2 * np.abs(run.resultant("contact")[2]) / quadratic_line.force(a) - 1
-        found.append((force, pressure_error(run.interface("contact"), curve, a), seconds))
-    force, pressure, seconds = np.array(found).T
+        found.append((force, pressure_error(run.interface("contact"), curve, a), run.newton_iterations, seconds))
+    force, pressure, newton, seconds = np.array(found).T
     mean = lambda values: float(np.sqrt((values**2).mean()))
-    return {"force": mean(force), "pressure": mean(pressure)}, run.summary["unknowns"], seconds.mean()
+    return {"force": mean(force), "pressure": mean(pressure)}, run.summary["unknowns"], newton.mean(), seconds.mean()
 
 
 @dataclass
@@ -126,63 +136,74 @@ class Scenes:
 
 
 def measure(driver):
-    """Per error the rows of each curve: {error: {label: [(error, unknowns, seconds)]}}"""
+    """{error: {curve's label: [Point of each mesh]}}"""
     scenes = Scenes(driver.output / "cells")
     scenes.output.mkdir(parents=True, exist_ok=True)
     found = {error: {} for error in TITLES}
     for problem, curves in CURVES.items():
         for curve in curves:
             for size in sizes_of(problem, curve):
-                values, unknowns, seconds = {"tied": tied, "line": line}[problem](driver, scenes, curve, size)
+                values, *costs = {"tied": tied, "line": line}[problem](driver, scenes, curve, size)
                 for name, value in values.items():
-                    found[name].setdefault(curve.label, []).append((value, unknowns, seconds))
+                    found[name].setdefault(curve.label, []).append(Point(value, *costs))
     return found
 
 
-def seconds_for(goal, rows):
-    """Between the meshes, as powers; None outside of what was measured."""
-    for (coarse, _, less), (fine, _, more) in zip(rows, rows[1:]):
-        if fine <= goal <= coarse:
-            return math.exp(np.interp(math.log(goal), np.log([fine, coarse]), np.log([more, less])))
-    return None
+def seconds_for(goal, points):
+    """In words; between the meshes, as powers."""
+    if points[0].error <= goal:
+        return f"below {points[0].seconds:.2f} s"
+    for coarse, fine in itertools.pairwise(points):
+        if fine.error <= goal:
+            errors, seconds = ([math.log(getattr(p, name)) for p in (fine, coarse)] for name in ("error", "seconds"))
+            return f"{math.exp(np.interp(math.log(goal), errors, seconds)):.2f} s"
+    return "not reached"
 
 
 def table(found):
-    head = ["problem", "cells, multipliers", *(per_cent(goal) for goal in GOALS), "finest mesh: error", "unknowns", "seconds"]
+    head = ["problem", "cells, multipliers", *(per_cent(goal) for goal in GOALS), "finest mesh: error", "unknowns",
+            "Newton", "seconds"]
     body = []
     for error, curves in found.items():
-        for label, rows in curves.items():
-            times = [seconds_for(goal, rows) for goal in GOALS]
-            last = rows[-1]
-            body.append([TITLES[error], label, *("-" if t is None else f"{t:.2f} s" for t in times),
-                         f"{last[0]:.1e}", str(last[1]), f"{last[2]:.2f}"])
-    return markdown((head, body))
+        for label, points in curves.items():
+            last = points[-1]
+            body.append([TITLES[error], label, *(seconds_for(goal, points) for goal in GOALS), per_cent(last.error),
+                         str(last.unknowns), f"{last.newton:.0f}", f"{last.seconds:.2f}"])
+    return head, body
 
 
 def draw(driver, folder):
-    """Runs all, writes the table beside the figure; returns the figure's path."""
+    """Runs all; returns the figure's path and the table."""
     found = measure(driver)
-    (folder / "cells.md").write_text(table(found) + "\n")
     styles = {curve.label: curve for curves in CURVES.values() for curve in curves}
     figure, axes = plt.subplots(1, len(TITLES), figsize=(14.4, 4.4))
     for axis, (error, curves) in zip(axes, found.items()):
-        for label, rows in curves.items():
-            values, _, seconds = zip(*rows)
-            axis.loglog(seconds, values, marker=styles[label].mark, color=styles[label].colour, markersize=5, linewidth=1,
-                        mfc="none" if styles[label].mark == "^" else None, label=label)
+        for label, points in curves.items():
+            style = styles[label]
+            axis.loglog([p.seconds for p in points], [p.error for p in points], marker=style.mark, color=style.colour,
+                        mfc="none" if style.mark == "^" else None, markersize=5, linewidth=1, label=label)
         axis.set_title(TITLES[error])
         axis.set_xlabel("processor time [s]")
         axis.grid(True, which="major", color="#eeeeee", zorder=0)
         axis.legend(frameon=False, fontsize=7)
     axes[0].set_ylabel("error")
     figure.tight_layout()
-    return _save(figure, folder / "cells.png")
+    return _save(figure, folder / "cells.png"), table(found)
 
 
-def renew(figure):
+def renew(figure, rows):
     shutil.copy(figure, folders.FIGURES / figure.name)
-    text, rows = DOCUMENT.read_text(), (figure.parent / "cells.md").read_text()
-    DOCUMENT.write_text(f"{text.split(MARKS[0])[0]}{MARKS[0]}\n\n{rows}\n{MARKS[1]}{text.split(MARKS[1])[1]}")
+    text = DOCUMENT.read_text()
+    DOCUMENT.write_text(f"{text.split(MARKS[0])[0]}{MARKS[0]}\n\n{markdown(rows)}\n\n{MARKS[1]}{text.split(MARKS[1])[1]}")
+
+
+def quick(driver, verdicts):
+    """On coarse meshes: the order that errors must have."""
+    scenes = Scenes(driver.output / "cells")
+    scenes.output.mkdir(parents=True, exist_ok=True)
+    linear, quadratic = (tied(driver, scenes, curve, QUICK)[0]["strain"] for curve in (LINEAR[0], QUADRATIC[0]))
+    what = f"tied blocks: quadratic cells beat linear ones, {quadratic:.1e} < {linear:.1e}"
+    verdicts.true(what, quadratic < linear, "order")
 
 
 def main():
@@ -193,13 +214,13 @@ def main():
     output = arguments.build / "study"
     output.mkdir(parents=True, exist_ok=True)
     try:
-        path = draw(Driver(arguments.build, output, keep=True), output)
+        path, rows = draw(Driver(arguments.build, output, keep=True), output)
     except SceneError as problem:
         print(f"\n{problem}", file=sys.stderr)
         return 1
     if arguments.renew_figures:
-        renew(path)
-    print((output / "cells.md").read_text())
+        renew(path, rows)
+    print(markdown(rows))
     print(path.resolve())
     return 0
 
