@@ -137,12 +137,12 @@ class Run:
         mesh = meshio.read(self._output(r"step_(\d+)\.vtu", step))
         return np.concatenate(mesh.cell_data["stress_xx_yy_zz_xy_yz_xz"])
 
-    def cell_bodies(self, step=None):
-        """Number of the body of each hexahedron, in the order of mesh()."""
+    def cell_bodies(self, step=None, kind="hexahedron"):
+        """Number of the body of each cell of a kind, in the order of mesh()."""
         import meshio
 
         mesh = meshio.read(self._output(r"step_(\d+)\.vtu", step))
-        return np.asarray(mesh.cell_data_dict["body"]["hexahedron"]).ravel()
+        return np.asarray(mesh.cell_data_dict["body"][kind]).ravel()
 
     def line(self, name, step=None):
         table = self.interface(name, step)
