@@ -19,6 +19,7 @@ from pathlib import Path
 sys.path.append(str(Path(__file__).resolve().parents[1] / "common"))
 import folders  # noqa: E402  (puts the others on the path)
 import bases  # noqa: E402
+import cells  # noqa: E402
 import study_figures  # noqa: E402
 import study_page  # noqa: E402
 import study_share  # noqa: E402
@@ -173,7 +174,7 @@ def study(arguments):
     repetitions = 1 if arguments.quick else arguments.runs
     count = repetitions * sum(len(p.settings(arguments.quick)) for p in problems)
     if not arguments.quick:
-        count += study_share.count(repetitions) + bases.COUNT
+        count += study_share.count(repetitions) + bases.COUNT + cells.COUNT
     progress = Progress(count)
     driver = Driver(arguments.build, output, keep=True, report=progress.report)
     start = time.monotonic()
@@ -181,6 +182,7 @@ def study(arguments):
     write(output / "study.csv", rows)
     if arguments.quick:
         verdicts = order(rows)
+        cells.quick(driver, verdicts)
         verdicts.print()
         return verdicts.passed
     shares, tails = study_share.shares(driver, repetitions), study_share.tails(driver, repetitions)
@@ -191,11 +193,14 @@ def study(arguments):
     summary = study_figures.summary(problems, rows, front, output / "accuracy.png")
     both = bases.draw(driver, output)
     figures.append(both)
-    page = study_page.write(output, problems, rows, (shares, tails), (front, goals, GOALS), summary, figures,
+    kinds, kinds_table = cells.draw(driver, output)
+    figures.append(kinds)
+    page = study_page.write(output, problems, rows, (shares, tails, kinds_table), (front, goals, GOALS), summary, figures,
                             (time.monotonic() - start, arguments.jobs))
     if arguments.renew_figures:
         for figure in (summary, both):
             shutil.copy(figure, folders.FIGURES / figure.name)
+        cells.renew(kinds, kinds_table)
         study_page.renew(ROOT / "docs" / "accuracy.md", output / "accuracy.md")
     print(f"{page.resolve()}\n{(output / 'study.csv').resolve()}")
     return True

@@ -28,9 +28,12 @@ class SceneError(Exception):
 
 
 def write(scene, path):
-    """A scene (a dict) as a YAML file, in flow style, which JSON is; returns its path."""
+    """A scene (a dict) as a YAML file, in flow style, which JSON is; returns its path. A file that says the same stays as it
+    is, so that runs of it can be kept."""
     path.parent.mkdir(parents=True, exist_ok=True)
-    path.write_text("".join(f"{key}: {json.dumps(value)}\n" for key, value in scene.items()))
+    text = "".join(f"{key}: {json.dumps(value)}\n" for key, value in scene.items())
+    if not path.is_file() or path.read_text() != text:
+        path.write_text(text)
     return path
 
 
@@ -134,12 +137,12 @@ class Run:
         mesh = meshio.read(self._output(r"step_(\d+)\.vtu", step))
         return np.concatenate(mesh.cell_data["stress_xx_yy_zz_xy_yz_xz"])
 
-    def cell_bodies(self, step=None):
-        """Number of the body of each hexahedron, in the order of mesh()."""
+    def cell_bodies(self, step=None, kind="hexahedron"):
+        """Number of the body of each cell of a kind, in the order of mesh()."""
         import meshio
 
         mesh = meshio.read(self._output(r"step_(\d+)\.vtu", step))
-        return np.asarray(mesh.cell_data_dict["body"]["hexahedron"]).ravel()
+        return np.asarray(mesh.cell_data_dict["body"][kind]).ravel()
 
     def line(self, name, step=None):
         table = self.interface(name, step)

@@ -1,6 +1,7 @@
 """The same problems in other programs, on the same meshes: `make compare`. compare.py --build DIR [--renew].
 
-Errors are of nodal contact forces, which follow from each program's displacements by the same elements. A program that
+Errors are of nodal contact forces, which follow from each program's displacements by the same elements; on hexahedra of 20
+nodes, of the whole force. A program that
 is not installed is left out with a word; one that finds no answer is shown with what it said. Seconds are wall time of
 each program's own solution, with whatever linear solver it brings, and include its start: for orders of magnitude.
 --renew: puts the table into docs/accuracy.md.
@@ -17,6 +18,7 @@ sys.path.append(str(Path(__file__).resolve().parents[1] / "common"))
 import folders  # noqa: E402  (puts the others on the path)
 import formulas  # noqa: E402
 import friction_checks as friction  # noqa: E402
+import half_plane  # noqa: E402
 import peers  # noqa: E402
 import study_page  # noqa: E402
 from scene import Driver, Line, SceneError  # noqa: E402
@@ -110,35 +112,55 @@ def hertz(driver):
     return "Hertz, half-cylinders, 5 facets over the half-width", case, (run, small), hertz_error
 
 
-PROGRAMS = [
+CALCULIX = [
     ("CalculiX, surface to surface (penalty)", lambda case, folder: peers.calculix(case, folder, "SURFACE TO SURFACE")),
     ("CalculiX, mortar", lambda case, folder: peers.calculix(case, folder, "MORTAR")),
+]
+PROGRAMS = [
+    *CALCULIX,
     ("GetFEM, nodes against faces, augmented Lagrangian", peers.getfem),
     ("Kratos, mortar, augmented Lagrangian", peers.kratos),
 ]
 
 
+def rows_of(driver, title, case, ours, programs, error, missing):
+    """`ours`: (name, run, its error); `error` of a program's answer. What is not installed goes to `missing`."""
+    for name, run, own in ours:
+        yield [title, name, f"{own:.1e}", str(run.newton_iterations), f"{run.summary['seconds']['total']:.1f}", ""]
+    for name, program in programs:
+        try:
+            answer = program(case, driver.output / f"{case.name}_{re.sub(r'[^a-z]+', '_', name.lower())}")
+        except peers.Missing as what:
+            missing.add(str(what))
+        except Exception as failure:  # whatever another program does
+            yield [title, name, "", "", "", f"{type(failure).__name__}: {failure}".replace("\n", " ")[:110]]
+        else:
+            yield [title, f"{name}, {answer.version}", f"{error(answer):.1e}", str(answer.iterations),
+                   f"{answer.seconds:.1f}", ""]
+
+
+def linear(driver, make, missing):
+    title, case, runs, error = make(driver)
+    names = ("stickslip, defaults", "stickslip, small displacements")
+    ours = [(name, run, error(case, run.mesh()[2])) for run, name in zip(runs, names)]
+    return rows_of(driver, title, case, ours, PROGRAMS, lambda answer: error(case, answer.displacement), missing)
+
+
+def quadratic(driver, missing):
+    found = list(half_plane.runs(driver))
+    ours = [(name, run, half_plane.force_error(run.resultant("contact")[2])) for name, run in found]
+    case, parabola = half_plane.case_of(found[0][1])
+    error = lambda answer: half_plane.force_error(answer.reactions[parabola, 2].sum())
+    return rows_of(driver, half_plane.TITLE, case, ours, CALCULIX, error, missing)
+
+
 def compare(build, renew):
     driver = Driver(build, build / "compare", keep=True)
+    driver.output.mkdir(parents=True, exist_ok=True)
     body, missing = [], set()
-    for title, case, runs, error in (make(driver) for make in (patch, hertz)):
-        for run, name in zip(runs, ("stickslip, defaults", "stickslip, small displacements")):
-            row = [title, name, f"{error(case, run.mesh()[2]):.1e}", str(run.newton_iterations)]
-            body.append([*row, f"{run.summary['seconds']['total']:.1f}", ""])
-            print(" | ".join(body[-1]), flush=True)
-        for name, program in PROGRAMS:
-            try:
-                answer = program(case, driver.output / f"{case.name}_{re.sub(r'[^a-z]+', '_', name.lower())}")
-            except peers.Missing as what:
-                missing.add(str(what))
-                continue
-            except Exception as failure:  # whatever another program does
-                row = [title, name, "", "", "", f"{type(failure).__name__}: {failure}".replace("\n", " ")[:110]]
-            else:
-                row = [title, f"{name}, {answer.version}", f"{error(case, answer.displacement):.1e}",
-                       str(answer.iterations), f"{answer.seconds:.1f}", ""]
-            body.append(row)
-            print(" | ".join(row), flush=True)
+    for row in (*linear(driver, patch, missing), *linear(driver, hertz, missing), *quadratic(driver, missing)):
+        body.append(row)
+        print(" | ".join(row), flush=True)
     for what in sorted(missing):
         print(f"left out, not installed: {what}")
     table = study_page.markdown((["problem", "program", "error", "Newton iterations", "seconds", "failure"], body))

@@ -1,6 +1,6 @@
 """The same meshes in other programs: a problem as every one of them takes it, and what is run of each. `make compare`.
 
-A Case is a mesh of hexahedra with two bodies, supports, nodal loads and the two faces in contact, read from what the
+A Case is a mesh of hexahedra (of 20 nodes, too, for CalculiX) with two bodies, supports, nodal loads and the two faces in contact, read from what the
 example driver wrote. A peer gives back nodal displacements; nodal contact forces follow from them, for all programs by
 the same elements (eight nodes, 2 x 2 x 2 points, small strain).
 """
@@ -20,6 +20,8 @@ CORNERS = np.array([(x, y, z) for z in (-1, 1) for x, y in ((-1, -1), (1, -1), (
 # Penalty over the modulus per length 1: the manual's advice is 5 to 50 times; the largest is the most exact.
 PENALTY = 50.0
 TIMEOUT = 600
+# CalculiX' element by the number of nodes; the one of 20 with reduced integration, its usual choice.
+CALCULIX_CELLS = {8: "C3D8", 20: "C3D20R"}
 
 
 class Missing(Exception):
@@ -46,6 +48,7 @@ class Answer:
     iterations: int
     seconds: float
     version: str
+    reactions: np.ndarray | None = None  # nodal forces of the supports, from a program that tells them
 
 
 def faces_on(case_cells, points, bodies, body, on):
@@ -94,8 +97,10 @@ def calculix(case, folder, kind):
     if not program:
         raise Missing("CalculiX (Debian: calculix-ccx)")
     lines = ["*NODE, NSET=ALL", *(f"{k + 1}, {x:.15g}, {y:.15g}, {z:.15g}" for k, (x, y, z) in enumerate(case.points))]
-    lines += ["*ELEMENT, TYPE=C3D8, ELSET=BODY"]
-    lines += [f"{k + 1}, " + ", ".join(str(n + 1) for n in cell) for k, cell in enumerate(case.cells)]
+    lines += [f"*ELEMENT, TYPE={CALCULIX_CELLS[case.cells.shape[1]]}, ELSET=BODY"]
+    for k, cell in enumerate(case.cells):
+        entries = [str(n + 1) for n in (k, *cell)]
+        lines += [", ".join(entries[:16]) + ("," if entries[16:] else ""), *([", ".join(entries[16:])] if entries[16:] else [])]
     lines += ["*MATERIAL, NAME=M", "*ELASTIC", f"{case.young}, {case.poisson}"]
     lines += ["*SOLID SECTION, ELSET=BODY, MATERIAL=M"]
     for name, faces in (("SLAVE", case.nonmortar), ("MASTER", case.mortar)):
@@ -112,7 +117,7 @@ def calculix(case, folder, kind):
     if np.any(case.loads):
         lines += ["*CLOAD"]
         lines += [f"{n + 1}, {c + 1}, {case.loads[n, c]:.15g}" for n, c in zip(*np.nonzero(case.loads))]
-    lines += ["*NODE PRINT, NSET=ALL, FREQUENCY=1000", "U", "*END STEP", ""]
+    lines += ["*NODE PRINT, NSET=ALL, FREQUENCY=1000", "U, RF", "*END STEP", ""]
     folder.mkdir(parents=True, exist_ok=True)
     (folder / "job.inp").write_text("\n".join(lines))
     start = time.monotonic()
@@ -125,17 +130,22 @@ def calculix(case, folder, kind):
         said = [line.strip() for line in (done.stdout + done.stderr).splitlines() if line.strip()]
         errors = [line for line in said if "error" in line.lower()]
         raise RuntimeError(f"exit code {done.returncode} after '{(errors or said[-1:])[0][:80]}'")
-    blocks = re.split(r"displacements.*\n", data.read_text())[1:]
-    if not blocks:
-        raise RuntimeError("no displacements: not converged")
-    displacement = np.zeros_like(case.points)
-    for line in blocks[-1].splitlines():
-        words = line.split()
-        if len(words) == 4:
-            displacement[int(words[0]) - 1] = [float(w) for w in words[1:]]
+    displacement, reactions = (last_table(data.read_text(), name, len(case.points)) for name in ("displacements", "forces"))
     steps = [line.split() for line in (folder / "job.sta").read_text().splitlines() if re.match(r"\s*\d", line)]
     version = re.search(r"Version ([\w.]+)", subprocess.run([program, "-v"], capture_output=True, text=True).stdout)
-    return Answer(displacement, sum(int(words[3]) for words in steps), seconds, version.group(1) if version else "?")
+    iterations = sum(int(words[3]) for words in steps)
+    return Answer(displacement, iterations, seconds, version.group(1) if version else "?", reactions)
+
+
+def last_table(text, name, nodes):
+    """CalculiX' last table of three components per node."""
+    blocks = re.findall(rf"^ *{name}.*\n((?: *\n| *\d.*\n)*)", text, re.MULTILINE)
+    if not blocks:
+        raise RuntimeError(f"no {name}: not converged")
+    found = np.zeros((nodes, 3))
+    for number, *values in (line.split() for line in blocks[-1].splitlines() if line.strip()):
+        found[int(number) - 1] = [float(value) for value in values]
+    return found
 
 
 # --- GetFEM -----------------------------------------------------------------------------------------------------------

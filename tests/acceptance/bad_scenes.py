@@ -59,6 +59,9 @@ BAD_SCENES = [
     BadScene("incompressible", "poisson: 0.3, small", "poisson: 0.5, small", "block.poisson"),
     BadScene("no_cells", "cells: [20, 1, 10]", "cells: [20, 0, 10]", "block.cells"),
     BadScene("wrong_length", "traction: [60, 0, 0]", "traction: [60, 0]", "push.traction"),
+    BadScene("no_field", "rigid: {body: floor,", "rigid: {body: floor, file: nowhere.txt,", "rigid.file"),
+    BadScene("field_of_words", "rigid: {body: floor,", "rigid: {body: floor, file: nameless.msh,", "rigid.file", says="line 1 of"),
+    BadScene("field_of_few", "rigid: {body: floor,", "rigid: {body: floor, file: one_row.txt,", "rigid.file", says="no row for"),
     BadScene("odd_curve", "curve: [1, 0, 2, 1]", "curve: [1, 0, 2]", "push.curve"),
     BadScene("unknown_surface", "mortar: floor.zmax", "mortar: floor.top", "base.mortar"),
     BadScene("empty_surface", "within: [0.2, 0, 0, 3.8, 1, 0]", "within: [9, 0, 0, 10, 1, 0]", "zone.within"),
@@ -171,6 +174,7 @@ def write_bad_scene(bad, folder):
     named = (MESHES / "brick_tet_upper.msh").read_text()
     nameless = re.sub(r"\$PhysicalNames.*\$EndPhysicalNames\n", "", named, flags=re.DOTALL)
     (folder / "nameless.msh").write_text(nameless)
+    (folder / "one_row.txt").write_text("# X Y Z ux uy uz\n0 0 0 0 0 0\n")
     (folder / "prism.msh").write_text(PRISM)
     (folder / "pyramid.msh").write_text(PYRAMID)
     (folder / "prism_2.msh").write_text(PRISM_2)

@@ -79,18 +79,24 @@ def block(verdicts, driver):
     verdicts.below("block: changes of the shear's sign", changes, 1, "smooth")
 
 
-def scatter(run):
-    """Root mean square and largest deviation of nodal pressures from a smooth radial profile, over the largest one; and
-    the largest force of a node in gap over the largest of all."""
-    table = run.interface("contact")
+def about_profile(table):
+    """Root mean square and largest deviation of nodal pressures from a smooth radial profile, over the largest one; and of
+    how many nodes: those of an interface's table within INNER of the contact radius."""
     r, p = np.hypot(table["X"], table["Y"]), -table["lambda_n"]
     radius = r[table["state"] != "gap"].max()
     inner = r < INNER * radius
     fit = np.linalg.lstsq(np.stack([r[inner] ** k for k in (0, 2, 4)], axis=1), p[inner] ** 2, rcond=None)[0]
     smooth = np.sqrt(sum(c * r[inner] ** k for c, k in zip(fit, (0, 2, 4))))
     off = np.abs(p[inner] - smooth) / smooth.max()
+    return np.sqrt((off**2).mean()), off.max(), len(off)
+
+
+def scatter(run):
+    """about_profile(), and the largest force of a node in gap over the largest of all."""
+    table = run.interface("contact")
+    rms, largest, _ = about_profile(table)
     forces = np.abs(table["fz"])
-    return np.sqrt((off**2).mean()), off.max(), forces[table["state"] == "gap"].max() / forces.max()
+    return rms, largest, forces[table["state"] == "gap"].max() / forces.max()
 
 
 def ball(verdicts, driver):

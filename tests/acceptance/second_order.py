@@ -11,6 +11,8 @@ HEX_FACES = [(0, 1, 2, 3), (0, 1, 5, 4), (0, 3, 7, 4), (1, 2, 6, 5), (2, 3, 7, 6
 TET_FACES = [(0, 2, 1), (0, 1, 3), (0, 3, 2), (3, 1, 2)]
 # Gmsh's numbers of the elements: of the cell, of its face
 TYPES = {"tet10": (11, 9), "hex20": (17, 16), "hex27": (12, 10)}
+# In a cube of size 1: nodes of up to 100 cells a side are further apart.
+SAME_PLACE = 1e-3
 STEPS = np.array([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1)])
 
 
@@ -20,9 +22,9 @@ def corners_of_nodes(kind):
     return cell + HEX_FACES + [tuple(range(8))] if kind == "hex27" else cell
 
 
-def cells_of(kind, n):
-    """Corners of the cells of a unit cube, as points of an n x n x n lattice."""
-    for place in itertools.product(range(n), repeat=3):
+def cells_of(kind, counts):
+    """Corners of the cells of a unit cube, as points of a lattice with so many cells along each axis."""
+    for place in itertools.product(*map(range, counts)):
         if kind != "tet10":
             yield STEPS + place
             continue
@@ -36,19 +38,21 @@ def cells_of(kind, n):
 
 
 class SecondOrder:
-    """Nodes, cells and the faces in the plane `side` (axis, 0 or 1) of a unit cube; `bend` moves points."""
+    """Nodes, cells and the faces in the plane `side` (axis, 0 or 1) of a unit cube with n cells a side, or with so many
+    along each axis; `bend` moves points."""
 
     def __init__(self, kind, n, bend):
+        counts = np.broadcast_to(n, 3)
         self.kind, self.numbers, self.points = kind, {}, []
         nodes = corners_of_nodes(kind)
         self.cells, self.faces = [], {}
-        for corners in cells_of(kind, n):
-            positions = [np.mean([corners[c] for c in its], axis=0) / n for its in nodes]
+        for corners in cells_of(kind, counts):
+            positions = [np.mean([corners[c] for c in its], axis=0) / counts for its in nodes]
             self.cells.append([self._number(p, bend) for p in positions])
             self._add_faces(nodes, positions)
 
     def _number(self, position, bend):
-        key = tuple(np.round(position * 1000).astype(int))
+        key = tuple(np.round(position / SAME_PLACE).astype(int))
         if key not in self.numbers:
             self.numbers[key] = len(self.points) + 1
             self.points.append(bend(position))

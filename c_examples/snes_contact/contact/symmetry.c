@@ -42,6 +42,7 @@ static Plane plane_of(const Mesh *mesh, const Support *support, PetscReal tolera
 {
   Plane plane = {.axis = NO_PLANE};
   int   axis  = 0;
+  if (support->given) return plane;
   for (int k = 0; k < 9; k++) {
     if (support->gradient[k] != 0 || support->rotate[k % 3] != 0) return plane;
   }
@@ -81,7 +82,6 @@ PetscErrorCode symmetry_mask(const Physics *physics, const Interface *interface,
   for (PetscInt s = 0; s < physics->n_supports; s++) {
     const Support  *wall  = &physics->supports[s];
     const Plane     plane = plane_of(mesh, wall, tolerance);
-    const PetscReal *X    = mesh->coordinates + 3 * wall->vertices[0];
     PetscInt        n1;
     PetscBool       both = PETSC_FALSE;
     if (plane.axis == NO_PLANE) continue;
@@ -91,7 +91,7 @@ PetscErrorCode symmetry_mask(const Physics *physics, const Interface *interface,
       const Support *other = &physics->supports[t];
       const Plane    its   = plane_of(mesh, other, tolerance);
       both = its.axis == plane.axis && PetscAbsReal(its.position - plane.position) <= tolerance &&
-             supports_agree(wall, other, physics->end, X, plane.axis) &&
+             supports_agree(physics, wall, other, wall->vertices[0], plane.axis) &&
              count_held(other, interface->n2, interface->nodes + interface->n1, held) > 0;
     }
     for (PetscInt k = 0; k < wall->n_vertices && both; k++)

@@ -20,6 +20,7 @@ PetscErrorCode physics_destroy(Physics *physics)
 
   PetscFunctionBegin;
   for (PetscInt s = 0; s < physics->n_supports; s++) {
+    PetscCall(PetscFree(physics->supports[s].given));
     PetscCall(PetscFree(physics->supports[s].curve.points));
     PetscCall(PetscFree(physics->supports[s].rotate_curve.points));
   }

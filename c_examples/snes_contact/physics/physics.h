@@ -11,14 +11,15 @@
 
 struct cJSON;
 
-/* x - origin = R (X - origin + factor(t) (value + gradient (X - origin))) in the components of the mask (bit i: axis i);
- * R turns about `rotate` by rotate_factor(t) |rotate| radians */
+/* x - origin = R (X - origin + factor(t) (value + given + gradient (X - origin))) in the components of the mask (bit i:
+ * axis i); R turns about `rotate` by rotate_factor(t) |rotate| radians */
 typedef struct {
   char      name[NAME_LENGTH];
   PetscInt  mask;
   PetscReal value[3], gradient[9], origin[3], rotate[3];
   Curve     curve, rotate_curve;
   PetscInt  n_vertices, *vertices; /* rank 0 */
+  PetscReal *given;                /* 3 per vertex of the mesh; NULL: no file says them */
   PetscReal reaction[3];           /* of the last evaluation, summed over ranks by supports_reactions() */
 } Support;
 
@@ -105,12 +106,16 @@ PetscErrorCode materials_read(Scene *scene, Physics *physics);
 /* supports_scene.c, supports.c */
 PetscErrorCode supports_read(Scene *scene, Physics *physics);
 PetscErrorCode supports_label(Physics *physics);
-PetscBool supports_agree(const Support *a, const Support *b, PetscReal end, const PetscReal X[3], int component);
+PetscBool supports_agree(const Physics *physics, const Support *a, const Support *b, PetscInt vertex, int component);
 PetscErrorCode supports_values(Physics *physics, PetscReal t); /* into prescribed_local */
 PetscErrorCode supports_reactions(Physics *physics);
 /* which support turns each part, -1: none; a position turned as that support does from t0 to t */
 PetscErrorCode supports_turning(const Physics *physics, PetscInt support_of[]);
 void           supports_turn(const Support *support, PetscReal t0, PetscReal t, PetscReal x[3]);
+
+/* supports_file.c */
+PetscErrorCode supports_file_read(Scene *scene, const Mesh *mesh, Support *support); /* rank 0 */
+PetscErrorCode supports_file_share(const Mesh *mesh, Support *support);
 
 /* loads.c */
 PetscErrorCode loads_read(Scene *scene, Physics *physics);

@@ -17,13 +17,14 @@ static void rotate(const PetscReal w[3], PetscReal x[3])
     x[i] += s * wx[i] + c * wwx[i];
 }
 
-/* at t; X in the axes of the scene file, the result too */
-static void prescribed_displacement(const Support *support, PetscReal t, const PetscReal X[3], PetscReal u[3])
+/* at t; X of a vertex of the mesh, in the axes of the scene file, the result too */
+static void prescribed_displacement(const Support *support, PetscReal t, PetscInt vertex, const PetscReal X[3],
+                                    PetscReal u[3])
 {
   const PetscReal factor = curve_value(&support->curve, t), turn = curve_value(&support->rotate_curve, t);
   PetscReal       w[3], x[3];
   for (int i = 0; i < 3; i++) {
-    u[i] = support->value[i];
+    u[i] = support->value[i] + (support->given ? support->given[3 * vertex + i] : 0);
     for (int j = 0; j < 3; j++)
       u[i] += support->gradient[3 * i + j] * (X[j] - support->origin[j]);
     u[i] *= factor;
@@ -36,19 +37,20 @@ static void prescribed_displacement(const Support *support, PetscReal t, const P
     u[i] = x[i] - (X[i] - support->origin[i]);
 }
 
-/* Do both prescribe the same u_i at X? At times between which both move evenly, and at some in between, where they
- * turn. */
-PetscBool supports_agree(const Support *a, const Support *b, PetscReal end, const PetscReal X[3], int i)
+/* Do both prescribe the same u_i at a vertex of the mesh, before it is turned into another frame? At times between which
+ * both move evenly, and at some in between, where they turn. (rank 0) */
+PetscBool supports_agree(const Physics *physics, const Support *a, const Support *b, PetscInt vertex, int i)
 {
+  const PetscReal   *X        = physics->mesh->coordinates + 3 * vertex;
   const Curve *const curves[] = {&a->curve, &a->rotate_curve, &b->curve, &b->rotate_curve};
   const PetscInt     n_even   = 16;
   for (int c = 0; c <= 4; c++) {
     const PetscInt n = c < 4 ? curves[c]->n : n_even;
     for (PetscInt k = 0; k < n; k++) {
-      const PetscReal t = c < 4 ? curves[c]->points[2 * k] : end * (k + 1) / n_even;
+      const PetscReal t = c < 4 ? curves[c]->points[2 * k] : physics->end * (k + 1) / n_even;
       PetscReal       ua[3], ub[3];
-      prescribed_displacement(a, t, X, ua);
-      prescribed_displacement(b, t, X, ub);
+      prescribed_displacement(a, t, vertex, X, ua);
+      prescribed_displacement(b, t, vertex, X, ub);
       if (PetscAbsReal(ua[i] - ub[i]) > 1e-12 * PetscMax(PetscAbsReal(ua[i]), PetscAbsReal(ub[i]))) return PETSC_FALSE;
     }
   }
@@ -107,7 +109,7 @@ static PetscErrorCode visit(Physics *physics, Vec local, PetscReal t, VertexVisi
         for (int j = 0; j < 3; j++)
           X[i] += mesh->rotation[3 * j + i] * PetscRealPart(coordinates[at + j]);
       }
-      prescribed_displacement(support, t, X, u);
+      prescribed_displacement(support, t, mesh->original[mesh->here[points[k]]], X, u);
       mesh_rotate_vector(mesh, u);
       action(support, u, array + offset);
     }

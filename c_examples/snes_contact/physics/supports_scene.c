@@ -73,7 +73,7 @@ static PetscErrorCode check_overlaps(Scene *scene, Physics *physics)
           continue;
         }
         earlier = &physics->supports[first[3 * v + i]];
-        if (!supports_agree(support, earlier, physics->end, X, i))
+        if (!supports_agree(physics, support, earlier, v, i))
           scene_fail(scene, support->name, "components",
                      "u_%c of the vertex at [%g, %g, %g] is prescribed differently by '%s'.", 'x' + i, (double)X[0],
                      (double)X[1], (double)X[2], earlier->name);
@@ -137,11 +137,15 @@ PetscErrorCode supports_read(Scene *scene, Physics *physics)
   scene_root_begin(scene);
   if (mesh->rank == 0) {
     PetscCall(PetscCalloc1(mesh->n_vertices, &physics->prescribed));
-    for (PetscInt s = 0; s < physics->n_supports; s++)
+    for (PetscInt s = 0; s < physics->n_supports; s++) {
       PetscCall(select_vertices(scene, physics, &physics->supports[s]));
+      PetscCall(supports_file_read(scene, mesh, &physics->supports[s]));
+    }
     PetscCall(check_overlaps(scene, physics));
     PetscCall(check_analytic(scene, physics));
   }
   PetscCall(scene_root_end(scene));
+  for (PetscInt s = 0; s < physics->n_supports; s++)
+    PetscCall(supports_file_share(mesh, &physics->supports[s]));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
