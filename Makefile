@@ -22,7 +22,7 @@ help:
 	@echo "make gallery solve, compare and draw every scene, half an hour, can be resumed; ONLY='NAME ...': some"
 	@echo "make effects what each effect of an interface costs: a table and a figure (FIGURES=1: renew the committed one)"
 	@echo "make aids    what each convergence aid is good for: a table"
-	@echo "make study   what accuracy costs in time, five to twenty minutes, resumed; QUICK=1: a check; FIGURES=1: as above"
+	@echo "make study   what accuracy costs in time, ten to thirty minutes, resumed; QUICK=1: a check; FIGURES=1: as above"
 	@echo "make compare the same problems in other programs, those that are installed (FIGURES=1: renew the table)"
 	@echo "make bench   what the kernels cost, over a C++ baseline and in instructions (FIGURES=1: renew its table)"
 	@echo "make stability  hard cases x severity, each compared with an answer: build/stability/index.html; can be resumed;"
