@@ -408,6 +408,25 @@ fn a_copy_without_a_multiplier_took_the_row_of_the_node_that_has_one() {
     }
 }
 
+/// Two quadrilaterals at the middle of an edge of one with eight nodes: the multiplier of the node between them came back off by
+/// as much as it was, with status 0.
+#[test]
+fn a_mid_node_that_is_a_corner_elsewhere_is_not_condensed() {
+    let at = [[0, 0], [0, 2], [2, 2], [2, 0], [0, 1], [1, 2], [2, 1], [1, 0], [3, 0], [3, 1], [3, 2]];
+    let x: Vec<_> = at.iter().map(|p| Vec3::new(0.25 * f64::from(p[0]), 0.25 * f64::from(p[1]), -0.01)).collect();
+    let facets = [(0..8).collect(), vec![3, 6, 9, 8], vec![6, 2, 10, 9]];
+    let (two, n1) = (floor(), x.len());
+    let mut multipliers = numbered(100, n1);
+    [4, 5, 7].iter().for_each(|&a| multipliers[a] = [NO_EQUATION; 3]);
+    let one = Surface::new("nonmortar", x.clone(), &facets, numbered(0, n1)).unwrap();
+    let mortar = Surface::new("mortar", two.x.clone(), &two.facets, numbered(50, two.x.len())).unwrap();
+    let options = Options { basis: MultiplierBasis::Dual, ..options() };
+    let mut c = Interface::new(one, mortar, multipliers, options).unwrap();
+    let error = c.condensed_multipliers(&x, &two.x, &vec![Vec3::z(); n1]).unwrap_err();
+    let words = "non-mortar node 6 is a mid node of facet 0 and a corner of another one";
+    assert!(error.kind == Kind::Unsupported && error.to_string().contains(words), "{error}");
+}
+
 fn floor() -> Mesh {
     grid(1, 1, [-0.5, -0.5], [1.5, 1.5], 0.0, true, Cells::Quads)
 }

@@ -29,8 +29,24 @@ pub fn refuse<const N: usize>(given: Given<N>, normals: &[Vec3]) -> Result<()> {
         );
         return refuse(text);
     }
+    refuse_hanging(given)?;
     refuse_prescribed(given, normals)?;
     refuse_shared(given)
+}
+
+/// A mid node of one facet that is another's corner: the hats of the first one's corners would meet its multiplier.
+fn refuse_hanging<const N: usize>(given: Given<N>) -> Result<()> {
+    let surface = &given.setup.nonmortar;
+    for (f, facet) in surface.parents.iter().flat_map(|parents| &parents.facets).enumerate() {
+        let mids = &facet.as_slice()[facet.parent.corners()..];
+        if let Some(a) = mids.iter().find(|&&a| surface.has_row(a)) {
+            let text = text!(
+                "condensation where non-mortar node {a} is a mid node of facet {f} and a corner of another one: its multiplier is no unknown of one row; keep multipliers as unknowns, or mesh facet {f} with the same edges as its neighbours"
+            );
+            return Err(Error::new(Kind::Unsupported, text));
+        }
+    }
+    Ok(())
 }
 
 /// A component that has a multiplier and no row to eliminate it with.
