@@ -22,7 +22,7 @@
 //! # Modules, lowest first
 //!
 //! [`error`]; [`memory`]; [`simd`]; [`adjacency`], [`shape`], [`quadrature`], [`geometry`], [`normal`] know nothing of contact;
-//! [`mortar`] integrates a pair and knows no law, [`line`] one of a plane model, [`dual`] changes the basis of a facet's multipliers; [`law`] is nodal
+//! [`mortar`] integrates a pair and knows no law, [`line`](mod@line) one of a plane model, [`dual`] changes the basis of a facet's multipliers; [`law`] is nodal
 //! and knows no geometry; they meet in [`element`]; [`interface`] searches, assembles and remembers; [`capi`] is the C
 //! ABI, the only place that touches raw pointers.
 //!
