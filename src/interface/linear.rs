@@ -251,8 +251,7 @@ impl<'a, const N: usize> Here<'a, N> {
                 constraints.iter().for_each(|taker| room.shown.add(taker.shown()));
                 Ok(())
             };
-            let has_parts = plan.has_parts() && other_plan.is_none_or(Plan::has_parts);
-            let one_by_one = rooms.len() == 1 || is_coupled || !has_parts;
+            let one_by_one = rooms.len() == 1 || is_coupled;
             for chunks in plan.phases() {
                 if one_by_one || chunks.len() == 1 {
                     for chunk in chunks {

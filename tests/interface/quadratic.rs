@@ -327,29 +327,32 @@ fn tied_gaps_of_quadratic_facets_turn_with_them() {
     }
 }
 
+/// Facets enough for several chunks a phase (`src/interface/plan/phases.rs`), in whose order a plan adds blocks up.
 #[test]
 fn threads_do_not_change_a_bit() {
-    let options = |threads| Options { threads, ..options() };
-    // More parts than a chunk of facets.
-    let make = |options: Options| {
-        let one = grid_of(20, 20, [0.0, 0.0], [1.0, 1.0], false, &[8, 9, 6]);
-        let mut two = grid_of(17, 18, [-0.1, -0.1], [1.1, 1.1], true, &[6, 9, 8]);
-        two.x.iter_mut().for_each(|x| x.z = 0.001 * x.x * x.y);
-        let lambda = has_row(&one, options.space)
-            .iter()
-            .map(|has| Vec3::new(0.1, 0.0, if *has { -0.5 } else { 0.0 }))
-            .collect::<Vec<_>>();
-        (contact_of::<3>(&one, &two, false, options), one.x, two.x, lambda)
-    };
-    let (mut c, x1, x2, lambda) = make(options(1));
-    assert!(c.surfaces().0.facets.len() > 1024);
-    let expected = c.residual(&x1, &x2, &lambda, None).unwrap();
-    for threads in [2, 3] {
-        let (mut other, x1, x2, lambda) = make(options(threads));
-        assert_eq!(other.residual(&x1, &x2, &lambda, None).unwrap(), expected);
-        let n = other.make_plan((&x1, &x2), PlanPairs::Active(Extent::Whole)).unwrap();
-        let mut values = vec![0.0; n];
-        other.plan_values((&x1, &x2), &lambda, None, &mut values).unwrap();
+    const CELLS: i64 = 58;
+    let one = grid_of(CELLS, CELLS, [0.0, 0.0], [1.0, 1.0], false, &[8, 9]);
+    let mut two = grid_of(40, 41, [-0.1, -0.1], [1.1, 1.1], true, &[6, 9, 8]);
+    two.x.iter_mut().for_each(|x| x.z = 0.001 * x.x * x.y);
+    for basis in [MultiplierBasis::Standard, MultiplierBasis::Dual] {
+        let mut expected = None;
+        for threads in [1, 2, 3] {
+            let options = Options { threads, basis, ..options() };
+            let has = has_row(&one, options.space);
+            let lambda: Vec<_> = has.iter().map(|has| Vec3::new(0.1, 0.0, if *has { -0.5 } else { 0.0 })).collect();
+            let mut c = contact_of::<3>(&one, &two, false, options);
+            let residual = c.residual(&one.x, &two.x, &lambda, None).unwrap();
+            let n = c.make_plan((&one.x, &two.x), PlanPairs::Active(Extent::Whole)).unwrap();
+            let mut values = vec![f64::NAN; n];
+            c.plan_values((&one.x, &two.x), &lambda, None, &mut values).unwrap();
+            assert!(values.iter().all(|v| v.is_finite()) && values.iter().any(|v| v.abs() > 1e-5));
+            let found = (residual, values);
+            assert!(*expected.get_or_insert_with(|| found.clone()) == found, "{basis:?}, {threads} threads");
+            // Too few entries: refused, on threads too.
+            let far: Vec<_> = one.x.iter().map(|x| x + Vec3::new(0.05, 0.02, 0.0)).collect();
+            let refused = c.plan_values((&far, &two.x), &lambda, None, &mut vec![0.0; n]).unwrap_err();
+            assert_eq!(refused.kind, stickslip::error::Kind::MissingEntry, "{basis:?}, {threads} threads: {refused}");
+        }
     }
 }
 

@@ -5,7 +5,7 @@ use super::numbering::{Nodes, Sides};
 use crate::error::Error;
 use crate::geometry::Vec3;
 use crate::interface::data::setup::Setup;
-use crate::interface::tangent::emission::{Blocks, MortarBlock, Place, Span};
+use crate::interface::tangent::emission::{Blocks, Directions, MortarBlock, Place, Span, Weights};
 use crate::memory::Store;
 use crate::shape::{MAX_CORNERS, MAX_NODES};
 
@@ -53,7 +53,7 @@ impl<const N: usize> Blocks<N> for Extras<'_, N> {
         }
     }
 
-    fn multiplier(&mut self, _row: Place, _a: usize, _n: f64, _nu: &Vec3) {}
+    fn multiplier_row(&mut self, _row: Place, _columns: &[(usize, Place)], _n: &Weights, _nu: &Directions) {}
     fn mortar(&mut self, _block: &MortarBlock) {}
     fn diagonal(&mut self, _a: usize, _values: &[f64]) {}
 

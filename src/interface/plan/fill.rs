@@ -7,7 +7,7 @@ use super::scatter::{self, MortarOffsets, Scatter};
 use super::table::{Hand, Target};
 use crate::dual::Columns;
 use crate::geometry::Vec3;
-use crate::interface::tangent::emission::{Blocks, MortarBlock, Place, Span};
+use crate::interface::tangent::emission::{Blocks, Directions, MortarBlock, NodeBlock, Place, Span, Weights};
 use crate::shape::{MAX_CORNERS, MAX_NODES};
 use crate::simd;
 
@@ -258,6 +258,34 @@ impl<'a, 'p, const N: usize> Fill<'a, 'p, N> {
         simd::dispatch(Add { pieces, rows: mortar_rows, starts, shape, values, nothing })
     }
 
+    /// Adds to the rows of one node, column by column in their order: `add` is given the row from there, the length of each of the
+    /// node's rows, and the column's index.
+    #[inline]
+    fn add_row(
+        &mut self,
+        row: Place,
+        columns: &[(usize, Place)],
+        mut add: impl FnMut(&mut [f64], usize, usize, &mut [f64; 4]),
+    ) {
+        let node = self.layout.nodes.number(row);
+        if !self.layout.numbering.has_equations(node) {
+            return;
+        }
+        let Some(Target { rows, piece, start }) = self.hand.claim(node) else {
+            return self.note(!columns.is_empty(), row, columns.first().map_or(row, |column| column.1));
+        };
+        let (to, nothing) = (&mut self.hand.pieces[piece][start..start + rows.size()], &mut self.state.nothing);
+        let (nodes, mut lacks) = (self.layout.nodes, None);
+        let columns = columns.iter().map(|(k, place)| ((*k, *place), nodes.number(*place)));
+        self.layout.offsets(node, &rows, columns, |(k, place), offset| match offset {
+            Some(offset) => add(&mut to[offset as usize..], rows.len as usize, k, nothing),
+            None => lacks = lacks.or(Some(place)),
+        });
+        if let Some(column) = lacks {
+            self.note(true, row, column);
+        }
+    }
+
     /// Notes that the plan lacks one of these blocks, if it does.
     fn note(&mut self, lacks: bool, row: Place, column: Place) {
         if lacks && self.state.lacks.is_none() {
@@ -364,18 +392,25 @@ impl<const N: usize> Blocks<N> for Fill<'_, '_, N> {
         }
     }
 
-    fn multiplier(&mut self, row: Place, a: usize, n: f64, nu: &Vec3) {
-        let (r, c) = (self.layout.nodes.number(row), self.layout.nodes.multiplier(a));
-        let offset = self.found(r, c);
-        if offset >= SKIP {
-            return self.note(offset == LACKS, row, Place::Multiplier(a));
-        }
-        let Some(Target { rows, piece, start }) = self.touch(row) else { return };
-        let (to, at) = (&mut *self.hand.pieces[piece], start + offset as usize);
-        for i in 0..SCALARS {
-            to[at + i * rows.len as usize] += if N == 1 { n * nu[i] } else { n };
-        }
-        self.state.nothing[0] += 0.0 * n;
+    fn order(&self, column: Place) -> u32 {
+        self.layout.key(self.layout.nodes.number(column))
+    }
+
+    fn row(&mut self, row: Place, columns: &[(usize, Place)], blocks: &[NodeBlock]) {
+        let scalars = if matches!(row, Place::Displacement(_)) { SCALARS } else { N };
+        self.add_row(row, columns, |to, len, k, nothing| {
+            for (j, of) in blocks[k].iter().enumerate() {
+                (0..scalars).for_each(|i| to[i * len + j] += of[i]);
+                nothing.iter_mut().zip(of).for_each(|(nothing, value)| *nothing += 0.0 * value);
+            }
+        });
+    }
+
+    fn multiplier_row(&mut self, row: Place, columns: &[(usize, Place)], n: &Weights, nu: &Directions) {
+        self.add_row(row, columns, |to, len, k, nothing| {
+            (0..SCALARS).for_each(|i| to[i * len] += if N == 1 { n[k] * nu[k][i] } else { n[k] });
+            nothing[0] += 0.0 * n[k];
+        });
     }
 
     fn diagonal(&mut self, a: usize, values: &[f64]) {

@@ -125,6 +125,34 @@ impl Layout<'_> {
         Some(displacements + multipliers * width - if narrow { self.widths.multiplier - 1 } else { 0 })
     }
 
+    /// Where a node's columns come among all: columns in [`Layout::offsets`] ascend by it.
+    #[inline]
+    pub fn key(&self, column: usize) -> Key {
+        self.numbering.rank[column].saturating_mul(2).saturating_add(u32::from(self.nodes.is_multiplier(column)))
+    }
+
+    /// [`Layout::offset`] of several columns, which ascend by their keys, in one walk through the row; columns without equations
+    /// are left out.
+    #[inline]
+    pub fn offsets<T>(
+        &self,
+        node: usize,
+        rows: &NodeRows,
+        columns: impl Iterator<Item = (T, usize)>,
+        mut give: impl FnMut(T, Option<u32>),
+    ) {
+        let (own, is_multiplier) = (self.own(node, rows.is_diagonal), self.nodes.is_multiplier(node));
+        let (mut keys, mut at) = (self.columns.get(node), 0);
+        for (of, column) in columns.filter(|column| self.numbering.has_equations(column.1)) {
+            let key = self.key(column);
+            while let Some((_, rest)) = keys.split_first().filter(|(first, _)| **first < key) {
+                at += self.widths.of_key(keys[0], is_multiplier, own);
+                keys = rest;
+            }
+            give(of, (keys.first() == Some(&key)).then_some(at));
+        }
+    }
+
     /// Whether a column is one scalar in each row, that of the row's component.
     pub fn is_diagonal(&self, node: usize, column: usize, rows: &NodeRows) -> bool {
         match (self.nodes.is_multiplier(node), self.nodes.is_multiplier(column)) {

@@ -9,7 +9,7 @@ use super::scatter::{SKIP, Scatter};
 use super::table::{Hand, Parted, Table, TableRoom};
 use crate::error::{Error, Kind, Result};
 use crate::interface::tangent::union::Pairs;
-use crate::memory::{self, Store};
+use crate::memory::{self, Store, Stored};
 use std::ops::Range;
 
 /// A plan.
@@ -19,6 +19,8 @@ pub struct Plan {
     widths: Widths,
     places: Places,
     scatter: Option<Scatter>,
+    /// The mortar nodes of each facet, where `scatter` does not have them.
+    mortar: Option<Lists>,
     phases: Vec<Vec<Range<usize>>>,
 }
 
@@ -38,7 +40,7 @@ impl Plan {
         let (pairs, mut rest) = (FacetPairs::of(setup, pairs)?, &extras[..]);
         let mut finder = Finder::new(setup, system, numbering, &pairs)?;
         let among = system != System::Constraints && !finder.couples && setup.moves;
-        // Its tables are of facets of four nodes at most: the blocks of larger ones are looked up one by one.
+        // Its tables are of facets of four nodes at most: the blocks of larger ones are looked up row by row.
         let has_tables = setup.nonmortar.parents.is_none();
         let mut scatter = has_tables.then(|| Scatter::of(setup, &pairs, finder.couples, among)).transpose()?;
         let widths = Widths::of(setup);
@@ -71,9 +73,13 @@ impl Plan {
         drop(finder);
         let layout = Layout { nodes, numbering, columns: &columns, widths };
         let places = layout.places(is_diagonal)?;
-        // Without offsets nobody knows afterwards which rows the facets have.
-        let phases = phases::of(setup, &pairs, alone && scatter.is_some())?;
-        Ok(Plan { widths, places, scatter, columns, phases })
+        let phases = phases::of(setup, &pairs, alone)?;
+        let nodes = pairs.nodes.iter().map(|node| node.0);
+        let mortar = match scatter {
+            Some(_) => None,
+            None => Some(Lists { first: memory::copied(&pairs.first_node)?, all: nodes.stored()? }),
+        };
+        Ok(Plan { widths, places, scatter, mortar, columns, phases })
     }
 
     /// Entries.
@@ -113,11 +119,6 @@ impl Plan {
         room.table(&self.places, values)
     }
 
-    /// Whether it knows which rows the facets of a chunk have.
-    pub fn has_parts(&self) -> bool {
-        self.scatter.is_some()
-    }
-
     /// The table in parts, for the chunks of a phase at the same time.
     pub fn parted<'a>(
         &self,
@@ -132,8 +133,9 @@ impl Plan {
                     give(a);
                     give(nodes.multiplier(a));
                 }
-                let mortar = self.scatter.as_ref().map_or(&[][..], |scatter| scatter.mortar_nodes(f));
-                mortar.iter().for_each(|&node| give(nodes.mortar(node as usize)));
+                let of_table = self.scatter.iter().flat_map(|scatter| scatter.mortar_nodes(f));
+                let mortar = of_table.chain(self.mortar.iter().flat_map(|nodes| nodes.get(f)));
+                mortar.for_each(|&node| give(nodes.mortar(node as usize)));
             }
         };
         table.parted(chunks, own, &numbering.node)
@@ -150,6 +152,7 @@ impl Plan {
 
     /// On the heap `[bytes]`.
     pub fn bytes(&self) -> usize {
-        self.columns.bytes() + self.places.bytes() + self.scatter.as_ref().map_or(0, Scatter::bytes)
+        let of_facets = self.scatter.as_ref().map_or(0, Scatter::bytes) + self.mortar.as_ref().map_or(0, Lists::bytes);
+        self.columns.bytes() + self.places.bytes() + of_facets
     }
 }

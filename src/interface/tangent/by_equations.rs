@@ -1,7 +1,7 @@
 //! The tangent's blocks entry by entry, in the host's equations. Entries without an equation are left out, and duplicates add
 //! up. For those who look at a tangent: what solves with it takes a plan.
 
-use super::emission::{Blocks, MortarBlock, Place, Span};
+use super::emission::{Blocks, Directions, MortarBlock, Place, Span, Weights};
 use crate::geometry::Vec3;
 use crate::interface::data::facet_nodes::FacetNodes;
 use crate::interface::data::setup::Setup;
@@ -123,12 +123,18 @@ impl<const N: usize> Blocks<N> for ByEquations<'_, N> {
         self.sink.add_block(self.place(row), self.place(column), values);
     }
 
-    fn multiplier(&mut self, row: Place, a: usize, n: f64, nu: &Vec3) {
-        let (rows, multipliers) = (self.place(row), &self.setup.multiplier_equations[a]);
-        if N == 1 {
-            return self.sink.add_block(rows, multipliers, (nu * n).as_slice());
+    fn multiplier_row(&mut self, row: Place, columns: &[(usize, Place)], n: &Weights, nu: &Directions) {
+        let rows = self.place(row);
+        for &(k, column) in columns {
+            let multipliers = self.place(column);
+            if N == 1 {
+                self.sink.add_block(rows, multipliers, (nu[k] * n[k]).as_slice());
+            } else {
+                rows.iter()
+                    .zip(multipliers)
+                    .for_each(|(row, column)| self.sink.add_block(&[*row], &[*column], &[n[k]]));
+            }
         }
-        rows.iter().zip(multipliers).for_each(|(row, column)| self.sink.add_block(&[*row], &[*column], &[n]));
     }
 
     fn diagonal(&mut self, a: usize, values: &[f64]) {

@@ -14,7 +14,7 @@ use crate::interface::data::options::{Form, MultiplierBasis};
 use crate::interface::pairing::given::Given;
 use crate::interface::stages::node::is_out_of_reach;
 use crate::mortar::{MORTAR, PairWeights};
-use crate::shape::{MAX_CORNERS, MAX_NODES};
+use crate::shape::{MAX_CORNERS, MAX_NODES, MAX_PARENT_NODES};
 use nalgebra::SMatrix;
 
 /// Nodes of the rows or columns of a block.
@@ -47,6 +47,13 @@ pub struct MortarBlock<'a> {
     pub values: &'a [Columns],
 }
 
+/// `[j][i]`: component i of a row with respect to component j of a column's node, and a fourth number that nobody takes.
+pub type NodeBlock = [[f64; 4]; 3];
+
+/// Weights of the multipliers of a facet, and their normals.
+pub type Weights = [f64; MAX_PARENT_NODES];
+pub type Directions = [Vec3; MAX_PARENT_NODES];
+
 /// Takes the blocks of a tangent. Blocks of the same rows and columns add up.
 pub trait Blocks<const N: usize> {
     /// The blocks of this non-mortar facet follow.
@@ -67,8 +74,24 @@ pub trait Blocks<const N: usize> {
     /// One block of two nodes, column by column.
     fn node(&mut self, row: Place, column: Place, values: &[f64]);
 
-    /// d force of one node / d multiplier of node a, in the multiplier form: weight n, n I, or n nu_A where there is one component.
-    fn multiplier(&mut self, row: Place, a: usize, n: f64, nu: &Vec3);
+    /// Where this column comes among those of [`Blocks::row`].
+    fn order(&self, _column: Place) -> u32 {
+        0
+    }
+
+    /// Blocks of one node's row with displacements, in their order, each with the index of its block; zeros where it has none.
+    fn row(&mut self, row: Place, columns: &[(usize, Place)], blocks: &[NodeBlock]) {
+        let components = if matches!(row, Place::Displacement(_)) { 3 } else { N };
+        for &(k, column) in columns {
+            let (block, mut values) = (blocks.get(k).copied().unwrap_or_default(), [0.0; 9]);
+            (0..3 * components).for_each(|ij| values[ij] = block[ij / components][ij % components]);
+            self.node(row, column, &values[..3 * components]);
+        }
+    }
+
+    /// d force of one node / d multipliers of these nodes, in the multiplier form and in the order of [`Blocks::order`], each with
+    /// the index of its weight n and of its nu_A: n I, or n nu_A where there is one component.
+    fn multiplier_row(&mut self, row: Place, columns: &[(usize, Place)], n: &Weights, nu: &Directions);
 
     /// The diagonal of the block of a multiplier with itself, which has nothing else.
     fn diagonal(&mut self, a: usize, values: &[f64]);
@@ -156,6 +179,19 @@ impl<const N: usize> Emitter<'_, '_, N> {
         let block = values.map(|row| std::array::from_fn(|i| if N == 1 { row[0] * nu[i] } else { row[i] }));
         let block: [[f64; 3]; 3] = block;
         constraints.node(Place::Displacement(a), Place::Displacement(column), block.as_flattened());
+    }
+
+    /// [`Emitter::node_row`] with respect to several nodes, in their order; `blocks` are made those of forces where there are
+    /// constraints.
+    pub fn node_rows(&mut self, a: usize, columns: &[(usize, Place)], blocks: &mut [NodeBlock]) {
+        let Some(constraints) = &mut self.constraints else {
+            return self.taker.row(Place::Multiplier(a), columns, blocks);
+        };
+        let nu = self.normals[a];
+        if N == 1 {
+            blocks.as_flattened_mut().iter_mut().for_each(|c| *c = [c[0] * nu.x, c[0] * nu.y, c[0] * nu.z, 0.0]);
+        }
+        constraints.row(Place::Displacement(a), columns, blocks);
     }
 
     /// d forces / d multipliers of facet `f`, weights `n[A][row]`: n I, or n nu_A where there is one component.

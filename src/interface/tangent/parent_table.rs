@@ -1,9 +1,12 @@
 //! What a facet of the host adds up over its parts before its blocks leave, where either side has quadratic facets: derivatives
 //! over its own nodes and those of its mortar facets (docs/formulation.md 12.5).
 
+use super::emission::NodeBlock;
+use super::union::UnionPair;
 use crate::dual::{DualBasis, corner_shares};
 use crate::error::Result;
 use crate::geometry::{Mat3, Vec3};
+use crate::interface::data::surface::Surface;
 use crate::memory::{self, Store};
 use crate::mortar::{MORTAR, ParentWeights, SubMotion};
 use crate::shape::{MAX_CORNERS, MAX_PARENT_NODES, Parent};
@@ -31,9 +34,9 @@ pub struct ParentTable {
     /// Mortar nodes.
     pub mortar: Vec<MortarNode>,
     /// Derivatives of forces with fixed tractions, `[row][column]`.
-    forces: Vec<Block>,
+    forces: Vec<NodeBlock>,
     /// Dg, `[multiplier][column]`; the fourth number: of the covered area.
-    gaps: Vec<Block>,
+    gaps: Vec<NodeBlock>,
     /// n_AB and - n_AC of now as they act, of now as they were integrated, and of t_n, `[multiplier][column]`.
     pub now: Vec<f64>,
     integrated: Vec<f64>,
@@ -54,12 +57,9 @@ pub struct DualParent<'a> {
     pub area: [Vec3; MAX_PARENT_NODES],
 }
 
-/// Derivatives of three components, and of a fourth number, `[j][i]`, with respect to component j of a node.
-type Block = [[f64; 4]; 3];
-
 /// Adds those of the b-th function.
 #[inline(always)]
-fn add<const B: usize>(to: &mut Block, of: &[[[f64; 4]; B]; 3], b: usize) {
+fn add<const B: usize>(to: &mut NodeBlock, of: &[[[f64; 4]; B]; 3], b: usize) {
     for j in 0..3 {
         for i in 0..4 {
             to[j][i] += of[j][b][i];
@@ -67,11 +67,11 @@ fn add<const B: usize>(to: &mut Block, of: &[[[f64; 4]; B]; 3], b: usize) {
     }
 }
 
-fn matrix(block: &Block) -> Mat3 {
+fn matrix(block: &NodeBlock) -> Mat3 {
     Mat3::from_fn(|i, j| block[j][i])
 }
 
-fn set(to: &mut Block, of: &Mat3) {
+fn set(to: &mut NodeBlock, of: &Mat3) {
     (0..9).for_each(|ij| to[ij % 3][ij / 3] = of[(ij / 3, ij % 3)]);
 }
 
@@ -122,8 +122,8 @@ impl ParentTable {
             }
         }
         let n = if has_numbers { self.columns() } else { 0 };
-        memory::refill(&mut self.forces, Block::default(), n * n)?;
-        memory::refill(&mut self.gaps, Block::default(), multipliers * n)?;
+        memory::refill(&mut self.forces, NodeBlock::default(), n * n)?;
+        memory::refill(&mut self.gaps, NodeBlock::default(), multipliers * n)?;
         for weights in [&mut self.now, &mut self.integrated, &mut self.previous] {
             memory::refill(weights, 0.0, multipliers * n)?;
         }
@@ -140,13 +140,43 @@ impl ParentTable {
         self.mortar.iter().position(|known| known.node == node).map(|k| self.own + k)
     }
 
+    /// Whether two mortar nodes are of one facet of these pairs that is active.
+    pub fn share_a_pair(&self, nodes: [usize; 2], pairs: &[UnionPair], two: &Surface) -> bool {
+        let [c, d] = nodes.map(|k| self.mortar[k]);
+        let common = c.pairs & d.pairs;
+        // The last bit stands for several pairs.
+        let both = |pair: &UnionPair| {
+            let nodes = two.host_nodes(pair.two);
+            pair.is_active && nodes.contains(&c.node) && nodes.contains(&d.node)
+        };
+        if common == bit(usize::MAX) { pairs.iter().any(both) } else { common != 0 }
+    }
+
+    /// Df of one node with respect to each.
+    pub fn force_row(&self, row: usize) -> &[NodeBlock] {
+        let columns = self.columns();
+        self.forces.get(row * columns..(row + 1) * columns).unwrap_or_default()
+    }
+
+    /// Of the row of multiplier A, by how it depends on its gaps of now and of t_n: with respect to each node.
+    pub fn gap_row(&self, a: usize, [now, previous]: [&Mat3; 2], row: &mut [NodeBlock]) {
+        let columns = a * self.columns()..(a + 1) * self.columns();
+        for ((to, gap), n) in row.iter_mut().zip(&self.gaps[columns.clone()]).zip(&self.previous[columns]) {
+            for j in 0..3 {
+                for i in 0..3 {
+                    to[j][i] = (0..3).map(|k| now[(i, k)] * gap[j][k]).sum::<f64>() + previous[(i, j)] * n;
+                }
+            }
+        }
+    }
+
     /// Df of one node with respect to another.
-    pub fn force(&self, row: usize, column: usize) -> Mat3 {
+    fn force(&self, row: usize, column: usize) -> Mat3 {
         matrix(&self.forces[row * self.columns() + column])
     }
 
     /// Dg_A with respect to a node.
-    pub fn gap(&self, a: usize, column: usize) -> Mat3 {
+    fn gap(&self, a: usize, column: usize) -> Mat3 {
         matrix(&self.gaps[a * self.columns() + column])
     }
 

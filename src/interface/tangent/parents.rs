@@ -2,7 +2,7 @@
 //! Its parts are linearised one by one; what they add is summed up over the facet's nodes and then leaves node by node.
 
 use super::derivatives::PairDerivatives;
-use super::emission::{Emitter, Place};
+use super::emission::{Blocks, Emitter, NodeBlock, Place};
 use super::parent_table::{DualParent, MortarNode, ParentTable, bit};
 use super::union::{Pairs, UnionPair};
 use crate::element::{NodeTangent, ParentPair};
@@ -17,7 +17,7 @@ use crate::interface::data::surface::Surface;
 use crate::interface::pairing::given::Given;
 use crate::interface::pairing::overlaps::FacetOverlaps;
 use crate::interface::stages::carried::transfer;
-use crate::memory::Store;
+use crate::memory::{self, Store};
 use crate::mortar::{GapDerivative, MORTAR, SubMotion, rule_for, sub_motion};
 use crate::shape::{MAX_CORNERS, MAX_PARENT_NODES};
 use nalgebra::SMatrix;
@@ -26,6 +26,7 @@ use nalgebra::SMatrix;
 #[derive(Debug, Default)]
 pub struct ParentRoom {
     table: ParentTable,
+    columns: Columns,
     /// One, once it was needed: too large for the stack of a caller.
     motion: Vec<SubMotion>,
     overlaps: FacetOverlaps,
@@ -73,7 +74,11 @@ pub fn of_parent<const N: usize>(
         }
         linearised = differentiate(given, f, pairs, numbers, room)?;
     }
-    emit((given, normals), (f, pairs, numbers), &room.table, emitter);
+    let (one_len, is_active) = (one.len(), pairs.iter().any(|pair| pair.is_active));
+    let of_own = own.iter().map(|&a| (a, is_active));
+    let displacements = of_own.chain(room.table.mortar.iter().map(|known| (one_len + known.node, known.pairs != 0)));
+    room.columns.begin(displacements, own.iter().copied().take(multipliers), &*emitter.taker)?;
+    emit((given, normals), (f, pairs, numbers), &room.table, &mut room.columns, emitter)?;
     Ok(linearised)
 }
 
@@ -83,7 +88,7 @@ fn differentiate<const N: usize>(
     f: usize,
     pairs: &[UnionPair],
     numbers: &ParentNumbers<N>,
-    ParentRoom { table, motion, overlaps }: &mut ParentRoom,
+    ParentRoom { table, motion, overlaps, .. }: &mut ParentRoom,
 ) -> Result<i64> {
     let (one, two) = given.setup.surfaces();
     let (Some(parents), Some(opposite)) = (&one.parents, &two.parents) else { return Ok(0) };
@@ -211,73 +216,102 @@ fn add_turned<const N: usize>(
     Ok(0)
 }
 
+/// The columns of a facet's blocks, each with its index in the table, in the order in which they are taken.
+#[derive(Debug, Default)]
+struct Columns {
+    all: Vec<(usize, Place)>,
+    /// Those that act: of active pairs.
+    active: Vec<(usize, Place)>,
+    /// Those with blocks in the row at hand.
+    of_row: Vec<(usize, Place)>,
+    multipliers: Vec<(usize, Place)>,
+    /// The row of a multiplier.
+    row: Vec<NodeBlock>,
+}
+
+impl Columns {
+    fn begin<const N: usize>(
+        &mut self,
+        displacements: impl Iterator<Item = (usize, bool)>,
+        multipliers: impl Iterator<Item = usize>,
+        taker: &dyn Blocks<N>,
+    ) -> Result<()> {
+        [&mut self.all, &mut self.active, &mut self.multipliers].into_iter().for_each(Vec::clear);
+        let order =
+            |columns: &mut [(usize, Place)]| columns.sort_unstable_by_key(|(k, place)| (taker.order(*place), *k));
+        self.multipliers.store_all(multipliers.map(Place::Multiplier).enumerate())?;
+        order(&mut self.multipliers);
+        for (k, (node, acts)) in displacements.enumerate() {
+            let column = (k, Place::Displacement(node));
+            self.all.store(column)?;
+            if acts {
+                self.active.store(column)?;
+            }
+        }
+        order(&mut self.all);
+        order(&mut self.active);
+        Ok(())
+    }
+}
+
 /// Gives the blocks of a facet's table. Which there are depends on its pairs alone.
 fn emit<const N: usize>(
     (given, normals): (Given<N>, &[Vec3]),
     (f, pairs, numbers): (usize, &[UnionPair], Option<&ParentNumbers<N>>),
     table: &ParentTable,
+    Columns { all, active, of_row, multipliers, row: values }: &mut Columns,
     emitter: &mut Emitter<N>,
-) {
+) -> Result<()> {
     let ((one, two), options) = (given.setup.surfaces(), &given.setup.options);
     let own = one.host_nodes(f);
-    let node = |column: usize| match column.checked_sub(own.len()) {
-        None => own[column],
-        Some(k) => one.len() + table.mortar[k].node,
-    };
-    let acts = |column: usize| match column.checked_sub(own.len()) {
-        None => pairs.iter().any(|pair| pair.is_active),
-        Some(k) => table.mortar[k].pairs != 0,
-    };
-    let columns = table.columns();
     let is_dual = options.basis == MultiplierBasis::Dual;
-    // Mortar nodes of different facets are coupled by dual multipliers alone.
-    let together = |row: usize, column: usize| {
-        let (Some(c), Some(d)) = (row.checked_sub(own.len()), column.checked_sub(own.len())) else { return true };
-        let [c, d] = [table.mortar[c], table.mortar[d]];
-        let common = c.pairs & d.pairs;
-        if is_dual || common != bit(usize::MAX) {
-            return is_dual || common != 0;
-        }
-        let both = |pair: &UnionPair| {
-            let nodes = two.host_nodes(pair.two);
-            pair.is_active && nodes.contains(&c.node) && nodes.contains(&d.node)
-        };
-        pairs.iter().any(both)
-    };
-    for row in (0..columns).filter(|&row| acts(row)) {
-        let place = Place::Displacement(node(row));
+    let mut nu = [Vec3::zeros(); MAX_PARENT_NODES];
+    own.iter().zip(&mut nu).for_each(|(&a, nu)| *nu = normals[a]);
+    for &(row, place) in &*active {
         if options.differentiates_weights() {
-            for column in (0..columns).filter(|&column| acts(column) && together(row, column)) {
-                let block = numbers.map_or_else(Mat3::zeros, |_| table.force(row, column));
-                emitter.taker.node(place, Place::Displacement(node(column)), block.as_slice());
-            }
+            let of = match row.checked_sub(own.len()).filter(|_| !is_dual) {
+                None => &*active,
+                Some(row) => {
+                    // Mortar nodes of different facets are coupled by dual multipliers alone.
+                    let coupled = |(column, _): &(usize, Place)| {
+                        column.checked_sub(own.len()).is_none_or(|column| table.share_a_pair([row, column], pairs, two))
+                    };
+                    of_row.clear();
+                    of_row.store_all(active.iter().copied().filter(coupled))?;
+                    &*of_row
+                }
+            };
+            emitter.taker.row(place, of, table.force_row(row));
         }
         if emitter.constraints.is_none() {
-            for a in 0..table.multipliers {
-                let weight = numbers.map_or(0.0, |_| table.now[a * columns + row]);
-                emitter.taker.multiplier(place, own[a], weight, &normals[own[a]]);
-            }
+            let mut n = [0.0; MAX_PARENT_NODES];
+            (0..table.multipliers).for_each(|a| n[a] = numbers.map_or(0.0, |_| table.now[a * table.columns() + row]));
+            emitter.taker.multiplier_row(place, multipliers, &n, &nu);
         }
     }
     for (a, &of) in own.iter().enumerate().take(table.multipliers) {
-        for column in 0..columns {
-            // (dc/dg_now) Dg and (dc/dg_previous) Dg at t_n's weights, of node `b` through a share T of them.
-            let row = |b: usize, t: &Mat3| {
-                let mut row = SMatrix::<f64, N, 3>::zeros();
-                if let Some(numbers) = numbers {
-                    let previous = Mat3::from_diagonal_element(table.previous[a * columns + column]);
-                    row = numbers.nodes[b].drow_dnow * (t * table.gap(a, column));
-                    row += numbers.nodes[b].drow_dprevious * (t * previous);
-                }
-                let values: [[f64; N]; 3] = std::array::from_fn(|j| std::array::from_fn(|n| row[(n, j)]));
-                values
-            };
-            emitter.node_row(of, node(column), &row(of, &Mat3::identity()));
-            for &(b, w) in given.carriers_of(of) {
-                let is_carried = numbers.is_some_and(|n| n.carried.get(of).is_some_and(|c| *c));
-                let share = if is_carried { transfer(given, of, normals[of], normals[b]) * w } else { Mat3::zeros() };
-                emitter.node_row(b, node(column), &row(b, &share));
+        // Of node `b` through a share T of the gaps: (dc/dg_now) T Dg and (dc/dg_previous) T Dg at t_n's weights.
+        let mut row = |b: usize, share: Option<&Mat3>| -> Result<()> {
+            memory::refill(values, NodeBlock::default(), if numbers.is_some() { all.len() } else { 0 })?;
+            if let Some(numbers) = numbers {
+                let of = |d: &SMatrix<f64, N, 3>| {
+                    let mut square = Mat3::zeros();
+                    let d = share.map_or(*d, |share| d * share);
+                    (0..3 * N).for_each(|ij| square[(ij % N, ij / N)] = d[(ij % N, ij / N)]);
+                    square
+                };
+                let node = &numbers.nodes[b];
+                table.gap_row(a, [&of(&node.drow_dnow), &of(&node.drow_dprevious)], values);
             }
+            emitter.node_rows(b, all, values);
+            Ok(())
+        };
+        row(of, None)?;
+        for &(b, w) in given.carriers_of(of) {
+            let is_carried = numbers.is_some_and(|n| n.carried.get(of).is_some_and(|c| *c));
+            let share = if is_carried { transfer(given, of, normals[of], normals[b]) * w } else { Mat3::zeros() };
+            row(b, Some(&share))?;
         }
     }
+    Ok(())
 }
