@@ -7,7 +7,7 @@
 
 use super::facet::{LineFacet, MAX_LINE_NODES};
 use super::segment::{Measure, NODES};
-use super::weights::{PartPair, Point, for_parts};
+use super::weights::{PartPair, Point, all_parts};
 use crate::mortar::MultiplierSpace;
 
 /// Columns: two components of each of the non-mortar line's nodes, then of the mortar line's.
@@ -35,20 +35,36 @@ struct ByMotion {
     of: [[[[f64; MOTIONS]; MAX_LINE_NODES]; MAX_LINE_NODES]; 2],
 }
 
+impl Default for LineDerivatives {
+    fn default() -> Self {
+        let zeros = [[[0.0; LINE_COLUMNS]; MAX_LINE_NODES]; MAX_LINE_NODES];
+        LineDerivatives { ab: zeros, ac: zeros }
+    }
+}
+
 impl LineDerivatives {
     /// Those of a pair; zeros where it does not overlap. Cost: some four times that of the weights.
     pub fn new(one: &LineFacet, two: &LineFacet, space: MultiplierSpace, measure: Measure) -> LineDerivatives {
-        let zeros = [[[0.0; LINE_COLUMNS]; MAX_LINE_NODES]; MAX_LINE_NODES];
-        let mut d = LineDerivatives { ab: zeros, ac: zeros };
-        for_parts([one, two], space, |parts| {
-            let mut motions = ByMotion::default();
-            parts.for_points(|p| motions.add_point(parts, p, measure));
-            for (end, sign) in parts.segment.ends.into_iter().zip([-1.0, 1.0]) {
-                motions.add_end(parts, &parts.at(end.0, sign), end.1, measure);
-            }
-            d.chain(parts, &motions);
-        });
+        let mut d = LineDerivatives::default();
+        all_parts(one, two).for_each(|parts| d.add_parts([one, two], parts, space, measure));
         d
+    }
+
+    /// Adds those over part `i` of the first facet and part `j` of the second one.
+    pub fn add_parts(
+        &mut self,
+        facets: [&LineFacet; 2],
+        parts: (usize, usize),
+        space: MultiplierSpace,
+        measure: Measure,
+    ) {
+        let Some(pair) = PartPair::of(facets, parts, space) else { return };
+        let mut motions = ByMotion::default();
+        pair.for_points(|p| motions.add_point(&pair, p, measure));
+        for (end, sign) in pair.segment.ends.into_iter().zip([-1.0, 1.0]) {
+            motions.add_end(&pair, &pair.at(end.0, sign), end.1, measure);
+        }
+        self.chain(&pair, &motions);
     }
 
     /// Adds what the nodes' motions make of those of s and r.

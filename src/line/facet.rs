@@ -1,6 +1,7 @@
 //! A line facet: two end nodes a and b, and of the quadratic kind a node in the middle, in this order. Its parts are the
 //! straight lines between neighbouring nodes; xi runs from -1 at a to 1 at b.
 
+use super::segment::Measure;
 use crate::error::{Error, Kind, Result};
 use crate::geometry::Vec2;
 use crate::mortar::MultiplierSpace;
@@ -44,10 +45,8 @@ impl LineFacet {
         if !(chord.norm_squared() > 0.0) {
             return Err(Error::new(Kind::DegenerateFacet, text!("the ends of a line are at one place")));
         }
-        for (k, &xi) in XI[..n].iter().enumerate() {
-            let slopes = facet.slopes(xi);
-            let tangent: Vec2 = (1..n).map(|b| (x[b] - x[0]) * slopes[b]).sum();
-            if !(tangent.dot(&chord) > LEAST_JACOBIAN * 0.5 * chord.norm_squared()) {
+        for k in 0..n {
+            if !(facet.tangent(k).dot(&chord) > LEAST_JACOBIAN * 0.5 * chord.norm_squared()) {
                 let text = text!(
                     "at its node {k} a line turns back; the nodes are the ends, then the middle one, farther than a quarter of the line from both"
                 );
@@ -57,14 +56,56 @@ impl LineFacet {
         Ok(facet)
     }
 
-    /// Pairs of nodes, from a to b.
-    pub(super) fn parts(&self) -> &'static [[usize; 2]] {
+    /// The parts, pairs of nodes, from a to b.
+    pub fn parts(&self) -> &'static [[usize; 2]] {
         if self.n == 2 { &[[0, 1]] } else { &[[0, 2], [2, 1]] }
     }
 
     /// How many multipliers it has: its first so many nodes do.
     pub fn multipliers(&self, space: MultiplierSpace) -> usize {
         if space == MultiplierSpace::Corner { 2 } else { self.n }
+    }
+
+    /// int N_A rho ds of the multipliers over the whole facet, covered or not: lengths times rho's unit.
+    pub fn areas(&self, space: MultiplierSpace, measure: Measure) -> [f64; MAX_LINE_NODES] {
+        let mut areas = [0.0; MAX_LINE_NODES];
+        for &part in self.parts() {
+            let [a, b] = part.map(|k| self.x[k]);
+            // Both factors are linear along the part: Simpson's rule is exact.
+            for (at, weight) in [(0.0, 1.0), (0.5, 4.0), (1.0, 1.0)] {
+                let shares = [1.0 - at, at];
+                let w = (b - a).norm() * weight / 6.0 * measure.at(shares, [a.x, b.x]);
+                match space {
+                    MultiplierSpace::Sub => (0..2).for_each(|end| areas[part[end]] += w * shares[end]),
+                    MultiplierSpace::Corner => {
+                        let n = ends(shares[0] * XI[part[0]] + shares[1] * XI[part[1]]);
+                        (0..2).for_each(|end| areas[end] += w * n[end]);
+                    }
+                }
+            }
+        }
+        areas
+    }
+
+    /// The derivative of int rho ds over the whole facet with respect to its nodes.
+    pub fn area_derivative(&self, measure: Measure) -> [Vec2; MAX_LINE_NODES] {
+        let mut d = [Vec2::zeros(); MAX_LINE_NODES];
+        for &[k, l] in self.parts() {
+            let (a, b) = (self.x[k], self.x[l]);
+            let (length, rho) = ((b - a).norm(), measure.at([0.5, 0.5], [a.x, b.x]));
+            let stretch = (b - a) * (rho / length);
+            let wider = Vec2::new(0.5 * length * measure.slope(), 0.0);
+            d[k] += wider - stretch;
+            d[l] += wider + stretch;
+        }
+        d
+    }
+
+    /// The direction of the line at a node, from a to b, not of length 1 `[L]`.
+    pub fn tangent(&self, node: usize) -> Vec2 {
+        let slopes = self.slopes(XI[node]);
+        // Differences of nodes: exact under a common offset.
+        (1..self.n).map(|b| (self.x[b] - self.x[0]) * slopes[b]).sum()
     }
 
     /// Shape functions.

@@ -3,10 +3,12 @@
 
 mod derivatives;
 mod facet;
+mod motion;
 mod segment;
 mod weights;
 
 pub use derivatives::LineDerivatives;
 pub use facet::{LineFacet, MAX_LINE_NODES};
+pub use motion::line_motion;
 pub use segment::Measure;
 pub use weights::LineWeights;

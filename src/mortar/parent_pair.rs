@@ -71,7 +71,7 @@ impl ParentFacet {
         self.area_vector(k).normalize()
     }
 
-    /// x_xi x x_eta at node k [L^2].
+    /// x_xi x x_eta at node k [L^2]; of a line the second direction is z.
     fn area_vector(&self, k: usize) -> Vec3 {
         let [x, y] = self.parent.at[k];
         let [_, dx, dy] = monomial_slopes(x, y);
@@ -80,7 +80,8 @@ impl ParentFacet {
             // Differences of nodes: exact under a common offset.
             (1..self.parent.n).map(|b| (self.x[b] - self.x[0]) * function(b)).sum()
         };
-        tangent(&dx).cross(&tangent(&dy))
+        let across = if self.parent.corners() == 2 { Vec3::z() } else { tangent(&dy) };
+        tangent(&dx).cross(&across)
     }
 
     /// int N_A da of the multipliers over the whole facet, covered or not [L^2].

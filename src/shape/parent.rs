@@ -7,9 +7,10 @@
 //! Node order: corners, then the mid nodes, k between corners k and k + 1, then the centre. A linear facet is its own
 //! sub-facet.
 
+use super::basis::MAX_NODES;
 use super::cell::MAX_CORNERS;
 use super::quad4::QUAD4;
-use super::table::Shape;
+use super::table::{Fields, Shape};
 use super::tri3::TRI3;
 use crate::simd::Real;
 
@@ -59,6 +60,15 @@ impl Parent {
             6 => Some(&TRI6),
             8 => Some(&QUAD8),
             9 => Some(&QUAD9),
+            _ => None,
+        }
+    }
+
+    /// The kind of line with `n` nodes, of a plane or axisymmetric model, if there is one.
+    pub fn of_line(n: usize) -> Option<&'static Parent> {
+        match n {
+            2 => Some(&LINE2),
+            3 => Some(&LINE3),
             _ => None,
         }
     }
@@ -277,6 +287,61 @@ pub static QUAD9: Parent = Parent {
     ],
 };
 
+/// The cell of a line, whose second coordinate is not used. No [`crate::geometry::Facet`] has this shape.
+static LINE: Shape = Shape {
+    n: 2,
+    coefficients: [[0.5, -0.5, 0.0, 0.0], [0.5, 0.5, 0.0, 0.0], [0.0; 4], [0.0; 4]],
+    next: [1, 0, 0, 0],
+    reversed: [1, 0, 0, 0],
+    fields: Fields { moments: [[0.0; 3]; MAX_CORNERS], products: [[[0.0; MAX_NODES]; MAX_CORNERS]; 3] },
+};
+
+/// Ends, then the middle.
+const ON_LINE: [[f64; 2]; MAX_PARENT_NODES] = {
+    let mut at = [[0.0; 2]; MAX_PARENT_NODES];
+    (at[0], at[1]) = ([-1.0, 0.0], [1.0, 0.0]);
+    at
+};
+
+/// Functions of lines, of 1, x, x^2.
+const fn on_line(functions: [[f64; 3]; 3]) -> [[[f64; 4]; GROUPS]; TERMS] {
+    let mut rows = [NONE; MAX_PARENT_NODES];
+    let mut k = 0;
+    while k < 3 {
+        let c = functions[k];
+        rows[k] = [c[0], c[1], 0.0, c[2], 0.0, 0.0, 0.0, 0.0, 0.0];
+        k += 1;
+    }
+    grouped(&rows)
+}
+
+/// The ends of a part, up one side and down the other: a line of some width is a quadrilateral.
+const fn straight(from: usize, to: usize, beyond: [Option<usize>; 2]) -> SubFacet {
+    SubFacet { nodes: [from, to, to, from], shape: &LINE, beyond: [None, beyond[0], None, beyond[1]] }
+}
+
+/// A straight line.
+static LINE2: Parent = Parent {
+    name: "line2",
+    n: 2,
+    at: ON_LINE,
+    functions: on_line([[0.5, -0.5, 0.0], [0.5, 0.5, 0.0], [0.0; 3]]),
+    terms: 2,
+    cell: &LINE,
+    subs: &[straight(0, 1, [None; 2])],
+};
+
+/// A quadratic line, in two.
+static LINE3: Parent = Parent {
+    name: "line3",
+    n: 3,
+    at: ON_LINE,
+    functions: on_line([line(-1.0), line(1.0), line(0.0)]),
+    terms: 4,
+    cell: &LINE,
+    subs: &[straight(0, 2, [Some(1), None]), straight(2, 1, [None, Some(0)])],
+};
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -299,6 +364,22 @@ mod tests {
             let at = functions(parent, 0.3125, 0.125); // exact in every sum
             assert_eq!(at.map(|v| v.iter().sum::<f64>()), [1.0, 0.0, 0.0], "{}", parent.name);
             assert!(parent.functions[parent.terms..].as_flattened().as_flattened().iter().all(|c| *c == 0.0));
+        }
+    }
+
+    #[test]
+    fn functions_of_lines_are_one_at_their_node_and_give_linear_fields() {
+        for parent in [2, 3].map(|n| Parent::of_line(n).unwrap()) {
+            for k in 0..parent.n {
+                let [n, ..] = functions(parent, parent.at[k][0], 0.0);
+                assert!((0..parent.n).all(|b| n[b] == if b == k { 1.0 } else { 0.0 }), "{}", parent.name);
+            }
+            let [n, nx, ny] = functions(parent, 0.3125, 0.125);
+            let of = |n: &[f64; MAX_PARENT_NODES]| (0..parent.n).map(|b| n[b] * (2.0 + 3.0 * parent.at[b][0])).sum();
+            assert_eq!([of(&n), of(&nx), of(&ny)], [2.0 + 3.0 * 0.3125, 3.0, 0.0], "{}", parent.name);
+            assert!(parent.functions[parent.terms..].as_flattened().as_flattened().iter().all(|c| *c == 0.0));
+            assert_eq!(parent.cell.values(-1.0, 0.0)[..2], [1.0, 0.0]);
+            assert_eq!(parent.cell.values(0.5, 0.0)[..2], [0.25, 0.75]);
         }
     }
 

@@ -20,6 +20,7 @@ mod golden;
 mod history;
 mod identities;
 mod large_sliding;
+mod lines;
 mod normals;
 mod orders;
 mod orientation;

@@ -6,6 +6,7 @@ pub mod differences;
 pub mod exact;
 pub mod files;
 pub mod host;
+pub mod lines;
 pub mod mesh;
 pub mod parents;
 pub mod press;

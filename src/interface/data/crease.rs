@@ -68,7 +68,8 @@ impl Surface {
         for edge in &self.edges {
             // Not those between parts of one facet.
             let facets = edge.facets.map(|f| self.host_facet(f));
-            for node in edge.nodes.into_iter().filter(|_| facets[0] != facets[1]) {
+            let ends = if edge.nodes[0] == edge.nodes[1] { 1 } else { 2 }; // of a line's node they are the same
+            for node in edge.nodes.into_iter().take(ends).filter(|_| facets[0] != facets[1]) {
                 edges[node].store(facets)?;
             }
         }

@@ -155,7 +155,7 @@ fn gap_of_parts(
     let frame = one.frame(pair.one, &at.x1, &at.normals)?;
     let (Some(p), Some(q)) = (&one.parents, &two.parents) else { return Ok(gaps) };
     let Some(segment) = Segment::new(&frame, &two.facet(pair.two, &at.x2))? else { return Ok(gaps) };
-    let share = p.share(q, (pair.one, pair.two), (&frame, &segment, rule));
+    let share = p.share(q, (pair.one, pair.two), (&frame, &segment, rule), (&at.x1, &at.x2));
     let (of_one, of_two) = (p.at(p.parent(pair.one), &at.x1), q.at(q.parent(pair.two), &at.x2));
     for (a, gap) in gaps.iter_mut().enumerate() {
         // Sums of weights vanish, and so does a common offset.

@@ -7,7 +7,7 @@ use crate::shape::{MAX_NODES, MAX_PARENT_NODES, Parent};
 pub struct FacetNodes {
     /// Indices; entries beyond `len` repeat the first one.
     pub nodes: [usize; MAX_NODES],
-    /// 3 or 4.
+    /// 3 or 4; 2 of a part of a line.
     pub len: usize,
 }
 

@@ -56,7 +56,10 @@ impl Surface {
         weights: impl Iterator<Item = &'a ParentWeights>,
     ) -> Result<Option<DualBasis>> {
         let parents = self.parents.as_ref().expect("asked of surfaces with parents");
-        let area = parents.parts(f).map(|part| 0.5 * self.facet(part, x).area_vector().norm()).sum();
+        let area = match parents.measure {
+            None => parents.parts(f).map(|part| 0.5 * self.facet(part, x).area_vector().norm()).sum(),
+            Some(_) => parents.areas(f, x, parents.space)?.iter().sum(),
+        };
         let named = |e: Error| Error::new(e.kind, text!("{} facet {f}: {}", self.side, e.message));
         DualBasis::of_parent(parents.facets[f].parent, area, weights).map_err(named)
     }

@@ -13,6 +13,7 @@ pub mod facet_nodes;
 pub mod frame;
 pub mod history;
 pub mod host_facets;
+pub mod lines;
 pub mod meaning;
 pub mod multiplier;
 pub mod node_data;

@@ -5,8 +5,10 @@
 //! An interface where either side has a quadratic facet has parents on both: a linear facet is its own part.
 
 use super::facet_nodes::{FacetNodes, ParentNodes};
+use super::lines::line;
 use crate::error::{Error, Result};
 use crate::geometry::Vec3;
+use crate::line::{LineFacet, LineWeights, MAX_LINE_NODES, Measure};
 use crate::memory::{self, Store, Stored};
 use crate::mortar::{MultiplierSpace, NonmortarFrame, ParentFacet, Segment, Side, SubWeights, rule_for, sub_weights};
 use crate::quadrature::Rule;
@@ -24,6 +26,8 @@ pub struct Parents {
     pub(super) of: Vec<u32>,
     /// Where multipliers stand.
     pub space: MultiplierSpace,
+    /// rho, of lines.
+    pub measure: Option<Measure>,
     /// Per part the nodes that have the multipliers over it.
     rows: Vec<FacetNodes>,
     /// Per node, whether any facet has a multiplier there.
@@ -44,8 +48,8 @@ impl Parents {
             }
         }
         first.store(of.len())?;
-        let mut parents =
-            Parents { facets, first, of, space: MultiplierSpace::Corner, rows: Vec::new(), has_row: Vec::new() };
+        let (space, measure) = (MultiplierSpace::Corner, None);
+        let mut parents = Parents { facets, first, of, space, measure, rows: Vec::new(), has_row: Vec::new() };
         parents.put(MultiplierSpace::Corner)?;
         Ok((parents, nodes))
     }
@@ -84,7 +88,10 @@ impl Parents {
         for (f, facet) in self.facets.iter().enumerate() {
             let at = self.at(f, x);
             let named = |e: Error| Error::new(e.kind, text!("facet {f}, nodes {:?}: {}", facet.as_slice(), e.message));
-            ParentFacet::new(&at.x[..facet.parent.n]).map_err(named)?;
+            match self.measure {
+                None => ParentFacet::new(&at.x[..facet.parent.n]).map(|_| ()).map_err(named)?,
+                Some(_) => LineFacet::new(&line(&at).x[..facet.parent.n]).map(|_| ()).map_err(named)?,
+            }
         }
         Ok(())
     }
@@ -128,16 +135,49 @@ impl Parents {
         (side(self, i), side(two, j))
     }
 
-    /// The weights over an overlap of such a pair, by a rule that is fine enough for its functions.
+    /// int N_A da of the multipliers of a space over a parent, covered or not [L^2].
+    pub fn areas(&self, f: usize, x: &[Vec3], space: MultiplierSpace) -> Result<[f64; MAX_PARENT_NODES]> {
+        let Some(measure) = self.measure else { return self.at(f, x).areas(space) };
+        let mut areas = [0.0; MAX_PARENT_NODES];
+        areas[..MAX_LINE_NODES].copy_from_slice(&line(&self.at(f, x)).areas(space, measure));
+        Ok(areas)
+    }
+
+    /// The weights over an overlap of such a pair at these positions of both sides, by a rule that is fine enough for its
+    /// functions.
     pub fn share(
         &self,
         two: &Parents,
         parts: (usize, usize),
         (frame, segment, rule): (&NonmortarFrame, &Segment, &'static Rule),
+        x: (&[Vec3], &[Vec3]),
     ) -> SubWeights {
+        if let Some(measure) = self.measure {
+            return self.share_of_lines(two, parts, measure, x);
+        }
         let sides = self.sides(two, parts);
         let rule = rule_for(rule, [sides.0.0, sides.1.0]);
         sub_weights((frame, segment, rule), sides, self.space, None)
+    }
+
+    /// The same of lines, whose overlaps need no frame and no rule.
+    fn share_of_lines(
+        &self,
+        two: &Parents,
+        (i, j): (usize, usize),
+        measure: Measure,
+        (x1, x2): (&[Vec3], &[Vec3]),
+    ) -> SubWeights {
+        let (f, g) = (self.parent(i), two.parent(j));
+        let [one, other] = [line(&self.at(f, x1)), line(&two.at(g, x2))];
+        let mut n = LineWeights::default();
+        n.add_parts([&one, &other], (i - self.first[f], j - two.first[g]), self.space, measure);
+        let mut share = SubWeights::default();
+        for (a, &row) in self.space.nodes(self.facets[f].parent, self.sub(i)).iter().enumerate() {
+            share.ab[a][..MAX_LINE_NODES].copy_from_slice(&n.ab[row]);
+            share.ac[a][..MAX_LINE_NODES].copy_from_slice(&n.ac[row]);
+        }
+        share
     }
 
     /// On the heap `[bytes]`.

@@ -5,10 +5,10 @@ use super::effects::Effects;
 use super::frame::check_frame;
 use super::node_data::NodeData;
 use super::numbering;
-use super::options::{Form, MortarSide, MultiplierBasis, Options, Scheme};
+use super::options::{Form, MortarSide, MultiplierBasis, Options, Scheme, Tangent};
 use super::parents::Parents;
 use super::surface::{NO_EQUATION, Surface, frames};
-use crate::error::{Error, Kind, Result};
+use crate::error::{Error, Kind, Result, Text};
 use crate::mortar::MultiplierSpace;
 
 /// What an interface is.
@@ -57,6 +57,7 @@ impl<const N: usize> Setup<N> {
             let text = "nonmortar is an analytic surface; only the mortar side can be one";
             return Err(Error::new(Kind::InvalidValue, text));
         }
+        put_width([&mut nonmortar, &mut mortar])?;
         // Facets that are degenerate, folded or concave are refused, whether they meet a non-mortar facet or not.
         if mortar.analytic.is_none() {
             frames(&mortar, &mortar.reference)?;
@@ -83,6 +84,20 @@ impl<const N: usize> Setup<N> {
     }
 }
 
+/// Gives lines of both sides the same width: the shortest of their parts' lengths, so that no edge is longer than the line that it
+/// belongs to.
+fn put_width([one, two]: [&mut Surface; 2]) -> Result<()> {
+    match (&mut one.lines, &mut two.lines) {
+        (None, None) => Ok(()),
+        (Some(of_one), Some(of_two)) if of_one.measure == of_two.measure => {
+            let width = of_one.width.min(of_two.width);
+            (of_one.width, of_two.width) = (width, width);
+            Ok(())
+        }
+        _ => Err(Error::new(Kind::InvalidValue, "one side is of another model than the other one, or has another thickness")),
+    }
+}
+
 /// Where either side has quadratic facets, gives both sides parents and puts the multipliers where the options say.
 fn put_parents<const N: usize>(
     sides: [&mut Surface; 2],
@@ -93,26 +108,30 @@ fn put_parents<const N: usize>(
         return Ok(());
     }
     let [nonmortar, mortar] = sides;
-    let unsupported = |text: &'static str| Err(Error::new(Kind::Unsupported, text));
+    let (kind, has_lines) = if nonmortar.lines.is_some() { ("lines", true) } else { ("quadratic facets", false) };
+    let unsupported = |text: Text| Err(Error::new(Kind::Unsupported, text));
     if mortar.analytic.is_some() {
-        return unsupported("quadratic facets against an analytic mortar surface; give it facets");
+        return unsupported(text!("{kind} against an analytic mortar surface; give it facets"));
     }
     if !matches!(options.scheme, Scheme::Segments) {
-        return unsupported(
-            "options.element_points with quadratic facets: they are integrated over overlaps; leave it 0",
-        );
+        return unsupported(text!(
+            "options.element_points with {kind}: they are integrated over overlaps; leave it 0"
+        ));
     }
     if options.form == Form::Augmented {
-        return unsupported("the augmented form with quadratic facets; take STICKSLIP_FORM_MULTIPLIER");
+        return unsupported(text!("the augmented form with {kind}; take STICKSLIP_FORM_MULTIPLIER"));
     }
     if options.follows_normals() {
-        return unsupported("normals of now with quadratic facets; take STICKSLIP_NORMALS_COMMITTED");
+        return unsupported(text!("normals of now with {kind}; take STICKSLIP_NORMALS_COMMITTED"));
+    }
+    if has_lines && options.tangent == Tangent::FrozenNormals {
+        return unsupported("STICKSLIP_TANGENT_FROZEN_NORMALS with lines; take the exact tangent".into());
     }
     let is_quadratic = nonmortar.parents.is_some();
     if is_quadratic && options.basis == MultiplierBasis::Dual && options.space == MultiplierSpace::Sub {
-        return unsupported(
-            "dual multipliers at all nodes of quadratic facets: their areas would not be positive; take STICKSLIP_SPACE_CORNER, or the standard basis",
-        );
+        return unsupported(text!(
+            "dual multipliers at all nodes of quadratic facets or lines: their areas would not be positive; take STICKSLIP_SPACE_CORNER, or the standard basis"
+        ));
     }
     for side in [&mut *nonmortar, &mut *mortar] {
         if side.parents.is_none() {
@@ -127,7 +146,7 @@ fn put_parents<const N: usize>(
         None => Ok(()),
         Some(a) => {
             let text = text!(
-                "non-mortar node {a} has a multiplier's equation, but multipliers of quadratic facets stand at their corners; give it none (-1), or take STICKSLIP_SPACE_SUB"
+                "non-mortar node {a} has a multiplier's equation, but multipliers of {kind} stand at their corners; give it none (-1), or take STICKSLIP_SPACE_SUB"
             );
             Err(Error::new(Kind::InvalidValue, text))
         }

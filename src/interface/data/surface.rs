@@ -1,10 +1,12 @@
 //! One side of an interface: its nodes, facets and equation numbers, checked once.
 
 use super::facet_nodes::{FacetNodes, ParentNodes};
+use super::lines::{Lines, shared_ends};
 use super::parents::Parents;
 use crate::adjacency::{SharedEdge, shared_edges};
 use crate::error::{Error, Kind, Result, Text};
 use crate::geometry::{AnalyticShape, AnalyticSurface, FRAME, Facet, Plane, Vec3, check_rigid_motion};
+use crate::line::Measure;
 use crate::memory::{self, Store, Stored};
 use crate::mortar::NonmortarFrame;
 use crate::normal;
@@ -40,6 +42,8 @@ pub struct Surface {
     pub neighbours: Vec<[u32; MAX_NODES]>,
     /// Facets as the host has them, where a side of the interface has quadratic ones; `facets` are their parts then.
     pub parents: Option<Parents>,
+    /// What the facets of a plane or axisymmetric model are, all of which are parts of lines; `None`: of a model in space.
+    pub lines: Option<Lines>,
     /// The shape of an analytic surface, whose one facet are the four points of its frame; `None`: real facets.
     pub analytic: Option<AnalyticShape>,
 }
@@ -56,6 +60,26 @@ impl Surface {
         reference: Vec<Vec3>,
         facets: &[Vec<i64>],
         equations: Vec<[i64; 3]>,
+    ) -> Result<Surface> {
+        Surface::build(side, (reference, facets), equations, None)
+    }
+
+    /// The same of lines: nodes with z = 0 and without an equation there.
+    pub fn of_lines(
+        side: &'static str,
+        reference: Vec<Vec3>,
+        facets: &[Vec<i64>],
+        equations: Vec<[i64; 3]>,
+        measure: Measure,
+    ) -> Result<Surface> {
+        Surface::build(side, (reference, facets), equations, Some(measure))
+    }
+
+    fn build(
+        side: &'static str,
+        (reference, facets): (Vec<Vec3>, &[Vec<i64>]),
+        equations: Vec<[i64; 3]>,
+        measure: Option<Measure>,
     ) -> Result<Surface> {
         let fail = |kind, text: Text| Err(Error::new(kind, text!("{side}: {text}")));
         let n = reference.len();
@@ -74,9 +98,12 @@ impl Surface {
         let mut given = memory::with_room(facets.len())?;
         let mut used = memory::filled(false, n)?;
         for (f, nodes) in facets.iter().enumerate() {
-            let Some(parent) = Parent::of(nodes.len()) else {
-                let text = text!("facet {f} has {} nodes; 3, 4, 6, 8 or 9 are allowed", nodes.len());
-                return fail(Kind::InvalidSize, text);
+            let (parent, allowed) = match measure {
+                None => (Parent::of(nodes.len()), "3, 4, 6, 8 or 9 are allowed"),
+                Some(_) => (Parent::of_line(nodes.len()), "a line has 2 or 3"),
+            };
+            let Some(parent) = parent else {
+                return fail(Kind::InvalidSize, text!("facet {f} has {} nodes; {allowed}", nodes.len()));
             };
             let mut indices = [0; MAX_PARENT_NODES];
             for (k, &node) in nodes.iter().enumerate() {
@@ -100,20 +127,25 @@ impl Surface {
         if let Some(k) = used.iter().position(|u| !u) {
             return fail(Kind::InvalidValue, text!("node {k} belongs to no facet; leave it out"));
         }
-        let (parents, kept) = match given.iter().any(|facet| facet.parent.n > MAX_NODES) {
+        let (parents, kept) = match measure.is_some() || given.iter().any(|facet| facet.parent.n > MAX_NODES) {
             false => {
                 let linear = |f: &ParentNodes| FacetNodes { nodes: [0, 1, 2, 3].map(|k| f.nodes[k]), len: f.parent.n };
                 (None, given.iter().map(linear).stored()?)
             }
             true => {
-                let (parents, parts) = Parents::of(given)?;
+                let (mut parents, parts) = Parents::of(given)?;
+                parents.measure = measure;
                 if let Err(e) = parents.check(&reference) {
                     return fail(e.kind, e.message);
                 }
                 (Some(parents), parts)
             }
         };
-        let edges = match shared_edges(kept.len(), |f| kept[f].as_slice()) {
+        let edges = match measure {
+            None => shared_edges(kept.len(), |f| kept[f].as_slice()),
+            Some(_) => shared_ends(kept.len(), |f| kept[f].as_slice()),
+        };
+        let edges = match edges {
             Ok(edges) => edges,
             Err(e) => return fail(e.kind, e.message),
         };
@@ -130,8 +162,14 @@ impl Surface {
             edges,
             neighbours,
             parents,
+            lines: measure.map(|measure| Lines { measure, width: 0.0 }),
             analytic: None,
         };
+        let shortest = surface.shortest_part();
+        if let Some(lines) = &mut surface.lines {
+            lines.width = shortest;
+        }
+        surface.check_lines(&surface.reference)?;
         surface.longest_edge = surface.longest_edge_at(&surface.reference);
         match surface.folded_edge() {
             None => Ok(surface),
@@ -176,6 +214,7 @@ impl Surface {
             edges: Vec::new(),
             neighbours: memory::filled([NO_FACET; MAX_NODES], 1)?,
             parents: None,
+            lines: None,
             analytic: Some(shape),
         };
         match surface.analytic_at(&surface.reference) {
@@ -198,6 +237,12 @@ impl Surface {
         let frame = |x: &[Vec3]| self.facets[0].nodes.map(|k| x[k]);
         check_rigid_motion(&frame(&self.reference), &frame(x))
             .map_err(|e| Error::new(e.kind, text!("{}: {}", self.side, e.message)))
+    }
+
+    /// The length of the shortest part of lines in the first configuration `[L]`.
+    pub(super) fn shortest_part(&self) -> f64 {
+        let length = |f: &FacetNodes| (self.reference[f.nodes[1]] - self.reference[f.nodes[0]]).norm();
+        self.facets.iter().map(length).fold(f64::INFINITY, f64::min)
     }
 
     /// The longest edge of any facet at the node positions `x` `[L]`.
@@ -262,6 +307,9 @@ impl Surface {
     /// Facet `f` at the node positions `x`.
     pub fn facet(&self, f: usize, x: &[Vec3]) -> Facet {
         let nodes = &self.facets[f];
+        if let Some(lines) = &self.lines {
+            return lines.facet([x[nodes.nodes[0]], x[nodes.nodes[1]]]);
+        }
         let shape = Shape::of(nodes.len).expect("a checked facet has 3 or 4 nodes");
         Facet { nodes: nodes.nodes.map(|k| x[k]), shape }
     }
@@ -287,7 +335,9 @@ fn neighbours(facets: &[FacetNodes], edges: &[SharedEdge]) -> Result<Vec<[u32; M
         for (i, from) in edge.nodes.into_iter().enumerate() {
             let (facet, beyond) = (edge.facets[i], edge.facets[1 - i]);
             if let Some(k) = facets[facet].as_slice().iter().position(|&node| node == from) {
-                neighbours[facet][k] = beyond as u32;
+                // The quadrilateral of a line has its neighbours beyond its second edge and its last one.
+                let edge = if facets[facet].len == 2 { [3, 1][k] } else { k };
+                neighbours[facet][edge] = beyond as u32;
             }
         }
     }

@@ -261,7 +261,7 @@ fn worst_pairs<const N: usize>(given: Given<N>, pairs: &[PairRecord], (x1, x2): 
             keep(&mut d.angle, frame.plane.e.cross(&plane.e).norm().atan2(-frame.plane.e.dot(&plane.e)), facets);
         }
         if let (Some(p), Some(q)) = (&nonmortar.parents, &mortar.parents) {
-            let by = |rule| p.share(q, (pair.one, pair.two), (&frame, &segment, rule));
+            let by = |rule| p.share(q, (pair.one, pair.two), (&frame, &segment, rule), (x1, x2));
             let (own, fine) = (by(options.rule), by(&DEGREE_10));
             let all = |w: &SubWeights| w.ab.into_iter().chain(w.ac).flatten();
             let apart = all(&own).zip(all(&fine)).map(|(n, m)| (n - m).abs()).fold(0.0, f64::max);

@@ -200,7 +200,7 @@ fn covered_times(one: &Surface, pairs: Weighted, x: &[Vec3]) -> Result<Vec<f64>>
     for f in (0..covered.len()).filter(|&f| covered[f] > 0.0) {
         let area: f64 = match &one.parents {
             None => NonmortarFrame::new(&one.facet(f, x))?.nodal_areas().iter().sum(),
-            Some(parents) => parents.at(f, x).areas(parents.space)?.iter().sum(),
+            Some(parents) => parents.areas(f, x, parents.space)?.iter().sum(),
         };
         one.host_nodes(f).iter().for_each(|&a| most[a] = most[a].max(covered[f] / area));
     }

@@ -157,6 +157,8 @@ impl<'a, const N: usize> Given<'a, N> {
         check_length("x2", x2.len(), two.len())?;
         check_finite("x1", x1)?;
         check_finite("x2", x2)?;
+        one.check_lines(x1)?;
+        two.check_lines(x2)?;
         two.check_rigid(x2)
     }
 }

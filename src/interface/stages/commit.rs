@@ -146,7 +146,7 @@ fn nodal_areas(parents: &Parents, x1: &[Vec3], areas: &mut [f64]) -> Result<()> 
     for space in [parents.space, MultiplierSpace::Sub] {
         let mut add = memory::filled(0.0, areas.len())?;
         for (f, facet) in parents.facets.iter().enumerate() {
-            let own = parents.at(f, x1).areas(space)?;
+            let own = parents.areas(f, x1, space)?;
             facet.as_slice().iter().zip(own).for_each(|(&node, area)| add[node] += area);
         }
         areas.iter_mut().zip(add).filter(|(area, _)| **area == 0.0).for_each(|(area, add)| *area = add);

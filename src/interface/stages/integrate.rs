@@ -151,7 +151,9 @@ impl Stage<'_> {
                     };
                     let weights = match parents {
                         None => PairWeights::integrate(frame, segment, options.rule),
-                        Some(parents) => of_parts(parents, (i, j), (frame, segment, options.rule), active)?,
+                        Some(parents) => {
+                            of_parts(parents, (i, j), (frame, segment, options.rule), (x1, x2), active)?
+                        }
                     };
                     active.add(PairRecord { one: i, two: j, weights }, segment.area)?;
                     if let (true, Ok(Some(segment))) = (following.is_some(), found) {
@@ -178,10 +180,11 @@ impl Stage<'_> {
 fn of_parts(
     (one, two): (&Parents, &Parents),
     (i, j): (usize, usize),
-    (frame, segment, rule): (&NonmortarFrame, &Segment, &'static Rule),
+    over: (&NonmortarFrame, &Segment, &'static Rule),
+    x: (&[Vec3], &[Vec3]),
     active: &mut Active,
 ) -> Result<PairWeights> {
-    let share = one.share(two, (i, j), (frame, segment, rule));
+    let share = one.share(two, (i, j), over, x);
     let rows = one.space.nodes(one.facets[one.parent(i)].parent, one.sub(i));
     active.add_share((one.parent(i), two.parent(j)), rows, &share)?;
     let mut weights = PairWeights::default();

@@ -2,6 +2,7 @@
 //! Its parts are linearised one by one; what they add is summed up over the facet's nodes and then leaves node by node.
 
 use super::derivatives::PairDerivatives;
+use super::lines::add_lines;
 use super::emission::{Blocks, Emitter, NodeBlock, Place};
 use super::parent_table::{DualParent, MortarNode, ParentTable, bit};
 use super::union::{Pairs, UnionPair};
@@ -10,6 +11,7 @@ use crate::error::Result;
 use crate::geometry::{Mat3, Vec3};
 use crate::interface::data::active::Active;
 use crate::interface::data::effects::Opposite;
+use crate::interface::data::lines::{ENDS, line};
 use crate::interface::data::host_facets::parents_at;
 use crate::interface::data::options::{MultiplierBasis, Tangent};
 use crate::interface::data::parents::Parents;
@@ -122,6 +124,34 @@ fn differentiate<const N: usize>(
         motion.store(SubMotion::default())?;
     }
     let motion = &mut motion[0];
+    let moves = given.setup.effects.opposite == Opposite::Moves;
+    let linearised = match parents.measure {
+        Some(measure) => {
+            let [first, end] = [parents.parts(f).start, parents.parts(f).end]
+                .map(|part| active.pairs.partition_point(|pair| pair.one < part));
+            let sides = (parents, opposite, moves.then_some(two));
+            add_lines(sides, (f, measure), (active, first..end), (&tractions, &x1, base), table, motion)
+        }
+        None => add_parts(given, (f, base), (active, numbers.motion), (&tractions, &x1), (table, motion, overlaps))?,
+    };
+    table.carry();
+    if let Some(dual) = &dual {
+        table.make_dual(dual);
+    }
+    Ok(linearised)
+}
+
+/// Adds the derivatives of facet f with its pairs part by part, at these tractions of its multipliers and positions of its nodes from
+/// `base`; gives the number of pairs of parts.
+fn add_parts<const N: usize>(
+    given: Given<N>,
+    (f, base): (usize, Vec3),
+    (active, how): (&Active, PairDerivatives),
+    (tractions, x1): (&[Vec3], &[Vec3; MAX_PARENT_NODES]),
+    (table, motion, overlaps): (&mut ParentTable, &mut SubMotion, &mut FacetOverlaps),
+) -> Result<i64> {
+    let (one, two) = given.setup.surfaces();
+    let (Some(parents), Some(opposite)) = (&one.parents, &two.parents) else { return Ok(0) };
     let (mut linearised, moves) = (0, given.setup.effects.opposite == Opposite::Moves);
     for part in parents.parts(f) {
         let first = active.pairs.partition_point(|pair| pair.one < part);
@@ -130,11 +160,11 @@ fn differentiate<const N: usize>(
             continue;
         }
         overlaps.of(given, active, first..first + of_part)?;
-        if numbers.motion.tangent == Tangent::FrozenNormals {
+        if how.tangent == Tangent::FrozenNormals {
             overlaps.freeze_normals();
         }
         let sub = parents.sub(part);
-        let rows = parents.space.nodes(at.parent, sub);
+        let rows = parents.space.nodes(parents.facets[f].parent, sub);
         let mut p = [[0.0; MAX_CORNERS]; 3];
         for (a, i) in (0..rows.len()).flat_map(|a| (0..3).map(move |i| (a, i))) {
             p[i][a] = tractions[rows[a]][i];
@@ -142,8 +172,8 @@ fn differentiate<const N: usize>(
         for (pair, segment) in active.pairs[first..first + of_part].iter().zip(&overlaps.segments) {
             let (g, sides) = (opposite.parent(pair.two), parents.sides(opposite, (part, pair.two)));
             let x2 = opposite.at(g, &active.x2).x.map(|x| x - base);
-            let rule = rule_for(numbers.motion.rule, [sides.0.0, sides.1.0]);
-            sub_motion((overlaps.frame(), segment, rule), sides, parents.space, &p, (&x1, &x2), motion);
+            let rule = rule_for(how.rule, [sides.0.0, sides.1.0]);
+            sub_motion((overlaps.frame(), segment, rule), sides, parents.space, &p, (x1, &x2), motion);
             let mut slots = [None; 2 * MORTAR];
             (0..sub.shape.n).for_each(|k| slots[k] = Some(sub.nodes[k]));
             let mut columns = [None; MAX_PARENT_NODES];
@@ -156,10 +186,6 @@ fn differentiate<const N: usize>(
             table.add_motion(motion, &slots, &columns, rows);
             linearised += 1;
         }
-    }
-    table.carry();
-    if let Some(dual) = &dual {
-        table.make_dual(dual);
     }
     Ok(linearised)
 }
@@ -184,6 +210,11 @@ fn whole_area_derivative<const N: usize>(
     x1: &[Vec3],
 ) -> [Vec3; MAX_PARENT_NODES] {
     let mut d = [Vec3::zeros(); MAX_PARENT_NODES];
+    if let Some(measure) = parents.measure {
+        let of_line = line(&parents.at(f, x1)).area_derivative(measure);
+        of_line.iter().zip(&mut d).for_each(|(of, d)| *d = Vec3::new(of.x, of.y, 0.0));
+        return d;
+    }
     for part in parents.parts(f) {
         let (facet, sub) = (given.setup.nonmortar.facet(part, x1), parents.sub(part));
         let (e, n) = (facet.area_vector().normalize(), sub.shape.n);
@@ -208,7 +239,9 @@ fn add_turned<const N: usize>(
         let turned = given.history().facet_gaps.motion(&given.setup.nonmortar, part, x1)?;
         let Some(GapDerivative::Turning(blocks)) = turned else { continue };
         for (a, &row) in parents.space.nodes(parent, sub).iter().enumerate() {
-            for k in 0..sub.shape.n {
+            // A line's two nodes are those of its quadrilateral, each twice.
+            let corners = if parents.measure.is_some() { ENDS.len() } else { sub.shape.n };
+            for k in 0..corners {
                 table.add_gap(row, sub.nodes[k], &Mat3::from_fn(|i, j| blocks[k][i][j][a]));
             }
         }

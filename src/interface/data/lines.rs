@@ -1,0 +1,90 @@
+//! Surfaces of plane and axisymmetric models: their facets are lines (docs/formulation.md 13). Nodes have z = 0.
+//!
+//! Search, heights and overlaps are those of quadrilaterals: each part of a line is given a width along z, the same one on
+//! both sides. Weights, areas and derivatives are those of lines (`src/line`), whatever the width is.
+
+use super::surface::Surface;
+use crate::adjacency::SharedEdge;
+use crate::error::{Error, Kind, Result};
+use crate::geometry::{Facet, Vec3};
+use crate::line::{LineFacet, Measure};
+use crate::memory::{self, Store};
+use crate::mortar::ParentFacet;
+use crate::shape::Shape;
+
+/// What the lines of a surface stand for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Lines {
+    /// rho.
+    pub measure: Measure,
+    /// Their width along z `[L]`.
+    pub width: f64,
+}
+
+impl Lines {
+    /// The quadrilateral of the part from a to b. Its normal is that of the line, out of the body: across a to b, to the right.
+    pub fn facet(&self, [a, b]: [Vec3; 2]) -> Facet {
+        let half = Vec3::new(0.0, 0.0, 0.5 * self.width);
+        let shape = Shape::of(4).expect("there are quadrilaterals");
+        Facet { nodes: [a - half, b - half, b + half, a + half], shape }
+    }
+}
+
+/// Which nodes of a part the corners of its quadrilateral stand for.
+pub const ENDS: [usize; 4] = [0, 1, 1, 0];
+
+/// The line that a facet of the host is.
+pub fn line(facet: &ParentFacet) -> LineFacet {
+    LineFacet { n: facet.parent.n, x: [0, 1, 2].map(|k| facet.x[k].xy()) }
+}
+
+/// Neighbouring parts: the node that both have, twice; the part that ends there, and the one that begins.
+///
+/// # Errors
+/// [`Kind::InvalidValue`] where two parts end, or begin, at one node, naming both.
+pub fn shared_ends<'a>(parts: usize, nodes: impl Fn(usize) -> &'a [usize]) -> Result<Vec<SharedEdge>> {
+    let mut ends = memory::with_room(2 * parts)?;
+    for f in 0..parts {
+        ends.store((nodes(f)[1], false, f))?;
+        ends.store((nodes(f)[0], true, f))?;
+    }
+    memory::sort(&mut ends)?;
+    let mut shared = memory::with_room(parts)?;
+    for pair in ends.windows(2) {
+        let ((a, f_begins, f), (b, g_begins, g)) = (pair[0], pair[1]);
+        if a != b {
+            continue;
+        }
+        if f_begins == g_begins {
+            let what = if f_begins { "begin" } else { "end" };
+            let text = text!(
+                "facets {f} and {g} both {what} at node {a}: the node order of one of them is reversed, or the surface branches there"
+            );
+            return Err(Error::new(Kind::InvalidValue, text));
+        }
+        shared.store(SharedEdge { nodes: [a, a], facets: [f, g] })?;
+    }
+    Ok(shared)
+}
+
+impl Surface {
+    /// Refuses positions of lines that lie out of their plane, or beyond the axis of their model.
+    pub fn check_lines(&self, x: &[Vec3]) -> Result<()> {
+        let Some(lines) = &self.lines else { return Ok(()) };
+        if let Some(k) = x.iter().position(|x| x.z != 0.0) {
+            let text = text!("{}: node {k} has z = {:e}; nodes of plane models have z = 0", self.side, x[k].z);
+            return Err(Error::new(Kind::InvalidValue, text));
+        }
+        match x.iter().position(|x| lines.measure == Measure::Axisymmetric && x.x < 0.0) {
+            None => Ok(()),
+            Some(k) => {
+                let text = text!(
+                    "{}: node {k} has r = {:e}, beyond the axis; r is the first coordinate, 0 or more",
+                    self.side,
+                    x[k].x
+                );
+                Err(Error::new(Kind::InvalidValue, text))
+            }
+        }
+    }
+}
