@@ -180,6 +180,9 @@ module stickslip
   ! Where multipliers of a quadratic facet stand: at its corners, or at all nodes with the functions of its parts.
   integer(c_int32_t), parameter :: STICKSLIP_SPACE_CORNER = 0
   integer(c_int32_t), parameter :: STICKSLIP_SPACE_SUB = 1
+  integer(c_int32_t), parameter :: STICKSLIP_MODEL_SOLID = 0
+  integer(c_int32_t), parameter :: STICKSLIP_MODEL_PLANE = 1
+  integer(c_int32_t), parameter :: STICKSLIP_MODEL_AXISYMMETRIC = 2
 
   ! State of a node: open or uncovered; closed, sticking; closed, sliding or on the friction cone.
   integer(c_int32_t), parameter :: STICKSLIP_STATE_GAP = 0
@@ -187,7 +190,7 @@ module stickslip
   integer(c_int32_t), parameter :: STICKSLIP_STATE_SLIP = 2
 
   ! Sizes of the types in bytes (64-bit machines), their struct_size.
-  integer(c_int64_t), parameter :: stickslip_options_size = 160
+  integer(c_int64_t), parameter :: stickslip_options_size = 168
   integer(c_int64_t), parameter :: stickslip_surface_size = 72
   integer(c_int64_t), parameter :: stickslip_states_size = 80
   integer(c_int64_t), parameter :: stickslip_counters_size = 200
@@ -237,7 +240,8 @@ module stickslip
     integer(c_int32_t) :: normals = 0              ! STICKSLIP_NORMALS_...
     integer(c_int32_t) :: threads = 0              ! that values, residual and commit may use; 0: the calling one alone
     integer(c_int32_t) :: multiplier_space = STICKSLIP_SPACE_CORNER ! where quadratic facets have multipliers
-    integer(c_int32_t) :: reserved = 0
+    integer(c_int32_t) :: model = STICKSLIP_MODEL_SOLID ! STICKSLIP_MODEL_...: in space, or lines
+    real(c_double) :: thickness = 0                ! of a plane model [L]; 0: 1
   end type
 
   ! One surface of an interface. nf facets with 3, 4, 6, 8 or 9 nodes each: corners, mid nodes, centre.

@@ -196,6 +196,16 @@
 /// The library is at fault; please report it. The handle is suspect.
 #define STICKSLIP_PANIC -1
 
+/// A model in space: facets are tri3, quad4, tri6, quad8, quad9; three components a node.
+#define STICKSLIP_MODEL_SOLID 0
+
+/// Plane strain or plane stress: facets are line2 or line3; two components a node, x and y.
+#define STICKSLIP_MODEL_PLANE 1
+
+/// Axisymmetric: facets are line2 or line3; two components a node, r and z. Areas and forces are those of the whole ring, with
+/// 2 pi r.
+#define STICKSLIP_MODEL_AXISYMMETRIC 2
+
 /// Forces use lambda, rows the projection; the tangent is a sum of pairs and nodes. Default.
 #define STICKSLIP_FORM_MULTIPLIER 0
 
@@ -551,8 +561,13 @@ typedef struct stickslip_options {
   /// STICKSLIP_SPACE_..., for interfaces with quadratic facets: where the multipliers of such facets stand. Nodes of
   /// the non-mortar side at which no facet has a multiplier have no multiplier equations (-1).
   int32_t multiplier_space;
-  /// 0.
-  int32_t reserved;
+  /// STICKSLIP_MODEL_...: whether facets are of a model in space, or lines of a plane or axisymmetric one. With lines every array of
+  /// vectors of this interface has two components a node in place of three: positions, forces, multipliers, normals,
+  /// directions; so have equations. Not with STICKSLIP_MORTAR_ANALYTIC, STICKSLIP_FORM_AUGMENTED, STICKSLIP_NORMALS_CURRENT,
+  /// STICKSLIP_TANGENT_FROZEN_NORMALS or element points (UNSUPPORTED).
+  int32_t model;
+  /// Thickness of a plane model [L]; 0 (default): 1. 0 of other models.
+  double thickness;
 } stickslip_options;
 
 /// One surface of an interface.

@@ -2,7 +2,7 @@
 
 use super::guard::guard;
 use super::handle::{either, handle, sizes, stickslip_interface};
-use super::point::Point;
+use super::point::{Point, vectors};
 use super::raw;
 
 /// How much of a step of Newton's method may be taken before the surfaces pass through each other: where contact alone
@@ -41,11 +41,11 @@ pub unsafe extern "C" fn stickslip_interface_step_limit(
         let h = &mut handle(interface)?.inner;
         let (n1, n2) = sizes(h);
         let point = Point::positions(h, x1, x2)?;
-        let dx1 = raw::as_vectors(raw::numbers(dx1, 3 * n1, "dx1")?);
-        let dx2 = raw::as_vectors(raw::numbers(dx2, 3 * n2, "dx2")?);
+        let (dx1, dx2) = (vectors(h, dx1, n1, "dx1")?, vectors(h, dx2, n2, "dx2")?);
+        let (dx1, dx2) = (raw::as_vectors(&dx1), raw::as_vectors(&dx2));
         let depth = (penetration != 0.0).then_some(penetration);
         raw::check(fraction, "fraction")?;
-        let limit = either!(h, c => c.step_limit((point.x1, point.x2), (dx1, dx2), depth)?);
+        let limit = either!(h, c => c.step_limit((point.x1(), point.x2()), (dx1, dx2), depth)?);
         raw::write(fraction, &[limit]);
         Ok(())
     })

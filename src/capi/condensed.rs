@@ -2,8 +2,8 @@
 
 use super::choice::choose;
 use super::guard::guard;
-use super::handle::{either, flat, handle, sizes, stickslip_interface};
-use super::point::Point;
+use super::handle::{dimension, either, flat, handle, sizes, stickslip_interface};
+use super::point::{Point, vectors};
 use super::raw;
 use super::tangent::{Triplets, read_csr};
 use crate::interface::Piece;
@@ -75,12 +75,13 @@ pub unsafe extern "C" fn stickslip_interface_condensed_multipliers(
     guard(|| {
         let h = &mut handle(interface)?.inner;
         let point = Point::positions(h, x1, x2)?;
-        let host = raw::vectors(raw::numbers(host1, 3 * sizes(h).0, "host1")?)?;
+        let host = vectors(h, host1, sizes(h).0, "host1")?;
+        let (host, dimension) = (raw::as_vectors(&host), dimension(h));
         raw::check(lambda, "lambda")?;
         either!(h, c => {
-            let values = c.condensed_multipliers(point.x1, point.x2, &host)?;
+            let values = c.condensed_multipliers(point.x1(), point.x2(), host)?;
             raw::check_results("lambda", values.iter().flat_map(|v| v.iter()))?;
-            raw::write_each(lambda, flat(&values));
+            raw::write_each(lambda, flat(&values, dimension));
         });
         Ok(())
     })
@@ -109,14 +110,15 @@ pub unsafe extern "C" fn stickslip_interface_condensed_residual(
     guard(|| {
         let h = &mut handle(interface)?.inner;
         let point = Point::read(h, x1, x2, lambda, std::ptr::null())?;
-        let host = raw::vectors(raw::numbers(host1, 3 * sizes(h).0, "host1")?)?;
+        let host = vectors(h, host1, sizes(h).0, "host1")?;
+        let (host, dimension) = (raw::as_vectors(&host), dimension(h));
         raw::check(rows1, "rows1")?;
         raw::check(force2, "force2")?;
         either!(h, c => {
-            let (rows, gains) = c.condensed_residual(point.x1, point.x2, point.lambda()?, &host)?;
+            let (rows, gains) = c.condensed_residual(point.x1(), point.x2(), point.lambda(), host)?;
             raw::check_results("rows1, force2", rows.iter().chain(&gains).flat_map(|v| v.iter()))?;
-            raw::write_each(rows1, flat(&rows));
-            raw::write_each(force2, flat(&gains));
+            raw::write_each(rows1, flat(&rows, dimension));
+            raw::write_each(force2, flat(&gains, dimension));
         });
         Ok(())
     })
@@ -152,8 +154,8 @@ pub unsafe extern "C" fn stickslip_interface_condensed_coo(
         let point = Point::read(&h.inner, x1, x2, lambda, std::ptr::null())?;
         let piece = choose(piece, "piece", &[Piece::Forces, Piece::Elimination, Piece::Constraints, Piece::Scales], 4)?;
         let mut t = Triplets::default();
-        let at = (point.x1, point.x2);
-        either!(&mut h.inner, c => c.condensed_tangent(at, point.lambda()?, piece, &mut t)?);
+        let at = (point.x1(), point.x2());
+        either!(&mut h.inner, c => c.condensed_tangent(at, point.lambda(), piece, &mut t)?);
         t.check()?;
         t.write(h.base, capacity, rows, columns, Some(values), count)
     })
@@ -187,10 +189,10 @@ pub unsafe extern "C" fn stickslip_interface_condensed_csr(
         let point = Point::read(&h.inner, x1, x2, lambda, std::ptr::null())?;
         let csr = read_csr(h.base, n_rows, row_offsets, columns)?;
         raw::check(values, "values")?;
-        let at = (point.x1, point.x2);
+        let at = (point.x1(), point.x2());
         // SAFETY: places are below the number of entries, and the caller's values has that many.
         let value = |place: usize| unsafe { *values.add(place) };
-        let rows = either!(&mut h.inner, c => c.condense(at, point.lambda()?, csr, &value)?);
+        let rows = either!(&mut h.inner, c => c.condense(at, point.lambda(), csr, &value)?);
         raw::check_results("values", rows.values())?;
         for (place, value) in rows.places() {
             // SAFETY: as above.
@@ -226,7 +228,7 @@ pub unsafe extern "C" fn stickslip_interface_condensed_pattern(
         let point = Point::positions(&h.inner, x1, x2)?;
         let csr = read_csr(h.base, n_rows, row_offsets, columns)?;
         let mut t = Triplets::default();
-        either!(&mut h.inner, c => c.condensed_pattern(point.x1, point.x2, &csr, &mut t)?);
+        either!(&mut h.inner, c => c.condensed_pattern(point.x1(), point.x2(), &csr, &mut t)?);
         t.check()?;
         let names = ["entry_rows", "entry_columns", ""];
         t.write_as(names, h.base, capacity, entry_rows, entry_columns, None, count)

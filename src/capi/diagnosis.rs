@@ -113,8 +113,8 @@ pub unsafe extern "C" fn stickslip_interface_diagnose(
         sized::check_output(out)?;
         let wanted = sized::read(out)?;
         let room = check(&wanted)?;
-        let before = states_before(&wanted, point.x1.len())?;
-        let d = either!(&mut h.inner, c => c.diagnose(point.x1, point.x2, point.lambda()?, point.sums())?);
+        let before = states_before(&wanted, point.x1().len())?;
+        let d = either!(&mut h.inner, c => c.diagnose(point.x1(), point.x2(), point.lambda(), point.sums())?);
         write(&wanted, out, &d, (&before, room, h.base))
     })
 }

@@ -93,7 +93,7 @@ pub unsafe extern "C" fn stickslip_interface_equilibrium(
             traction: not_negative(given.least_traction, "stickslip_equilibrium.least_traction")?,
         };
         let found =
-            either!(&mut h.inner, c => c.equilibrium(point.x1, point.x2, point.lambda()?, point.sums(), &scales)?);
+            either!(&mut h.inner, c => c.equilibrium(point.x1(), point.x2(), point.lambda(), point.sums(), &scales)?);
         let node = |largest: &Largest| largest.node.map_or(-1, |a| a as i64 + h.base);
         let (gap, traction, slip) = (found.gap, found.traction, found.slip);
         let numbers = [gap, traction, slip].map(|l| [l.value, l.scale]);

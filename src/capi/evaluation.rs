@@ -1,7 +1,7 @@
 //! Evaluating an interface: sums, states, residual.
 
 use super::guard::guard;
-use super::handle::{either, flat, handle, stickslip_interface};
+use super::handle::{components_of, dimension, either, flat, handle, stickslip_interface};
 use super::point::Point;
 use super::raw;
 use super::sized::{self, Sized64};
@@ -40,7 +40,7 @@ pub unsafe extern "C" fn stickslip_interface_sums(
         let h = handle(interface)?;
         let point = Point::positions(&h.inner, x1, x2)?;
         raw::check(sums, "sums")?;
-        let values = either!(&mut h.inner, c => c.kept_share_of_sums(point.x1, point.x2)?);
+        let values = either!(&mut h.inner, c => c.kept_share_of_sums(point.x1(), point.x2())?);
         let per_node = |s: &NodeSums| {
             let (g, p, c) = (s.gap_now, s.gap_previous, s.gap_committed);
             [s.coverage, g.x, g.y, g.z, s.coverage_previous, p.x, p.y, p.z, c.x, c.y, c.z]
@@ -123,7 +123,9 @@ pub unsafe extern "C" fn stickslip_interface_states(
 }
 
 fn write_states<const N: usize>(c: &mut Contact<N>, point: &Point, out: &stickslip_states) -> Result<()> {
-    c.respond(point.x1, point.x2, point.lambda()?, point.sums())?;
+    c.respond(point.x1(), point.x2(), point.lambda(), point.sums())?;
+    let dimension = components_of(c);
+    let components = |v: Vec3| <[f64; 3]>::from(v).into_iter().take(dimension);
     let (sums, responses) = c.answers();
     for a in 0..responses.len() {
         c.normal(a)?;
@@ -155,10 +157,6 @@ fn write_states<const N: usize>(c: &mut Contact<N>, point: &Point, out: &sticksl
     raw::write_each(out.dissipation, dissipation());
     raw::write_each(out.augmentation, augmentation());
     Ok(())
-}
-
-fn components(v: Vec3) -> [f64; 3] {
-    v.into()
 }
 
 fn check(name: &str, mut values: impl Iterator<Item = f64>) -> Result<()> {
@@ -194,13 +192,14 @@ pub unsafe extern "C" fn stickslip_interface_residual(
         raw::check(force1, "force1")?;
         raw::check(force2, "force2")?;
         raw::check(rows, "rows")?;
+        let dimension = dimension(h);
         either!(h, c => {
-            let r = c.kept_residual(point.x1, point.x2, point.lambda()?, point.sums())?;
+            let r = c.kept_residual(point.x1(), point.x2(), point.lambda(), point.sums())?;
             let all = r.nonmortar.iter().chain(&r.mortar).flat_map(|v| v.iter());
             raw::check_results("force1, force2, rows", all.chain(r.rows.iter().flat_map(|v| v.iter())))?;
-            raw::write_each(force1, flat(&r.nonmortar));
-            raw::write_each(force2, flat(&r.mortar));
-            raw::write_each(rows, flat(&r.rows));
+            raw::write_each(force1, flat(&r.nonmortar, dimension));
+            raw::write_each(force2, flat(&r.mortar, dimension));
+            raw::write_each(rows, flat(&r.rows, dimension));
         });
         Ok(())
     })

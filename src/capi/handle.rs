@@ -42,7 +42,17 @@ pub(super) fn sizes(interface: &Inner) -> (usize, usize) {
     (one.len(), two.len())
 }
 
-/// Components node by node.
-pub(super) fn flat<const N: usize>(v: &[SVector<f64, N>]) -> impl Iterator<Item = f64> {
-    v.iter().flat_map(|v| v.iter().copied())
+/// Components of a vector in the caller's arrays: 3, or 2 of plane and axisymmetric models.
+pub(super) fn dimension(interface: &Inner) -> usize {
+    either!(interface, c => components_of(c))
+}
+
+/// The same of what is behind a handle.
+pub(super) fn components_of<const N: usize>(c: &Contact<N>) -> usize {
+    if c.surfaces().0.lines.is_some() { 2 } else { 3 }
+}
+
+/// Components node by node: of vectors the first `dimension` ones.
+pub(super) fn flat<const N: usize>(v: &[SVector<f64, N>], dimension: usize) -> impl Iterator<Item = f64> {
+    v.iter().flat_map(move |v| v.iter().copied().take(dimension))
 }

@@ -29,7 +29,7 @@ pub unsafe extern "C" fn stickslip_interface_commit(
     guard(|| {
         let h = &mut handle(interface)?.inner;
         let point = Point::read(h, x1, x2, lambda, sums)?;
-        either!(h, c => c.commit(point.x1, point.x2, point.lambda()?, point.sums()))
+        either!(h, c => c.commit(point.x1(), point.x2(), point.lambda(), point.sums()))
     })
 }
 

@@ -1,9 +1,9 @@
 //! The interface handle: creation and overrides.
 
 use super::guard::guard;
-use super::handle::{Inner, either, flat, handle, sizes, stickslip_interface};
+use super::handle::{Inner, components_of, either, flat, handle, sizes, stickslip_interface};
 use super::options::{Choices, read_options, stickslip_options};
-use super::point::Point;
+use super::point::{Point, vectors};
 use super::surface::{
     read_analytic, read_multipliers, read_owned, read_surface, refuse_multipliers, stickslip_surface,
 };
@@ -56,18 +56,18 @@ pub unsafe extern "C" fn stickslip_interface_create(
 }
 
 fn create_inner(one: &stickslip_surface, two: &stickslip_surface, choices: Choices) -> Result<Inner> {
-    let Choices { options, base, shape } = choices;
+    let Choices { options, base, shape, measure } = choices;
     let mortar = || match shape {
         Some(shape) => read_analytic(two, shape, base),
-        None => read_surface(two, base, "mortar"),
+        None => read_surface(two, base, "mortar", measure),
     };
-    let nonmortar = || read_surface(one, base, "nonmortar");
+    let nonmortar = || read_surface(one, base, "nonmortar", measure);
     // The multipliers first: what is wrong with them is said first.
     if options.friction.law().multipliers == 1 {
-        let equations = read_multipliers(one, base)?;
+        let equations = read_multipliers(one, base, 1)?;
         return Contact::frictionless(nonmortar()?, mortar()?, equations, options).map(Inner::One);
     }
-    let equations = read_multipliers(one, base)?;
+    let equations = read_multipliers(one, base, if measure.is_some() { 2 } else { 3 })?;
     Contact::new(nonmortar()?, mortar()?, equations, options).map(Inner::Three)
 }
 
@@ -144,8 +144,12 @@ pub unsafe extern "C" fn stickslip_interface_set_normals(
 ) -> i32 {
     guard(|| {
         let h = handle(interface)?;
-        let normals = raw::optional_numbers(normals, 3 * sizes(&h.inner).0, "normals")?;
-        either!(&mut h.inner, c => c.set_normals(normals.map(raw::vectors).transpose()?))
+        let n1 = sizes(&h.inner).0;
+        let normals = match normals.is_null() {
+            true => None,
+            false => Some(raw::vectors(&vectors(&h.inner, normals, n1, "normals")?)?),
+        };
+        either!(&mut h.inner, c => c.set_normals(normals))
     })
 }
 
@@ -172,11 +176,11 @@ pub unsafe extern "C" fn stickslip_interface_set_constraints(
         if n == 0 {
             return either!(&mut h.inner, c => c.set_constraints(&[]));
         }
-        let (nodes, directions) = (raw::slice(nodes, n, "nodes")?, raw::numbers(directions, 3 * n, "directions")?);
+        let (nodes, directions) = (raw::slice(nodes, n, "nodes")?, vectors(&h.inner, directions, n, "directions")?);
         let n1 = sizes(&h.inner).0;
         let index = |k: i64| k.checked_sub(h.base).and_then(|k| usize::try_from(k).ok()).filter(|&k| k < n1);
         let mut list = memory::with_room(n)?;
-        for (k, (&node, direction)) in nodes.iter().zip(raw::vectors(directions)?).enumerate() {
+        for (k, (&node, direction)) in nodes.iter().zip(raw::vectors(&directions)?).enumerate() {
             let Some(node) = index(node) else {
                 let text = text!("nodes[{k}] is {node}; {} to {} are allowed", h.base, n1 as i64 - 1 + h.base);
                 return Err(Error::new(Kind::IndexOutOfRange, text));
@@ -202,7 +206,7 @@ pub unsafe extern "C" fn stickslip_interface_set_previous(
     guard(|| {
         let h = handle(interface)?;
         let point = Point::positions(&h.inner, x1, x2)?;
-        either!(&mut h.inner, c => c.set_previous(point.x1, point.x2))
+        either!(&mut h.inner, c => c.set_previous(point.x1(), point.x2()))
     })
 }
 
@@ -222,7 +226,8 @@ pub unsafe extern "C" fn stickslip_interface_initial_multipliers(
     guard(|| {
         let h = handle(interface)?;
         raw::check(lambda, "lambda")?;
-        let values: Vec<f64> = either!(&mut h.inner, c => flat(&c.initial_multipliers()?).stored()?);
+        let values: Vec<f64> =
+            either!(&mut h.inner, c => { let d = components_of(c); flat(&c.initial_multipliers()?, d).stored()? });
         raw::check_results("lambda", &values)?;
         raw::write(lambda, &values);
         Ok(())

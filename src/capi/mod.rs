@@ -27,6 +27,7 @@ mod version;
 mod status;
 
 mod message;
+mod model;
 
 mod options;
 
@@ -100,6 +101,7 @@ pub use history::*;
 pub use interface::*;
 pub use layout::*;
 pub use message::*;
+pub use model::*;
 pub use node::*;
 pub use normals::*;
 pub use options::*;

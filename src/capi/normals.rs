@@ -2,17 +2,17 @@
 
 use super::facet::facet;
 use super::guard::guard;
-use super::handle::{either, flat, handle, sizes, stickslip_interface};
+use super::handle::{dimension, either, flat, handle, sizes, stickslip_interface};
 use super::layout::column_major;
 use super::node::{read_node, rows, stickslip_node};
 use super::options::choose_normals;
+use super::point::{multipliers, vectors};
 use super::raw;
 use crate::error::{Error, Kind};
 use crate::geometry::{Mat3, Plane, Vec3};
 use crate::memory::Stored;
 use crate::normal::{SMALLEST_SUM, corner_normal_derivatives, nodal_normal, nodal_normal_derivative};
 use crate::shape::MAX_CORNERS;
-use nalgebra::SVector;
 
 /// Which normals evaluations of an interface with STICKSLIP_NORMALS_CURRENT use until the next commit, rollback or import:
 /// STICKSLIP_NORMALS_CURRENT, as after each of these, or STICKSLIP_NORMALS_COMMITTED, those of t_n.
@@ -54,11 +54,10 @@ pub unsafe extern "C" fn stickslip_interface_turn_multipliers(
     guard(|| {
         let h = handle(interface)?;
         let n1 = sizes(&h.inner).0;
-        let x1 = raw::vectors(raw::numbers(x1, 3 * n1, "x1")?)?;
+        let (x1, dimension) = (vectors(&h.inner, x1, n1, "x1")?, dimension(&h.inner));
+        let values = multipliers(&h.inner, lambda, n1)?;
         let turned: Vec<f64> = either!(&mut h.inner, c => {
-            let values = raw::numbers(lambda, n1 * c.components(), "lambda")?;
-            let lambda = values.chunks_exact(c.components()).map(SVector::from_column_slice).stored()?;
-            flat(&c.turn_multipliers(&x1, &lambda)?).stored()?
+            flat(&c.turn_multipliers(raw::as_vectors(&x1), raw::as_vectors(&values))?, dimension).stored()?
         });
         raw::check_results("lambda", &turned)?;
         raw::write(lambda, &turned);

@@ -1,7 +1,8 @@
 //! Options of an interface and their numbers.
 
-use super::choice::{check_reserved, choose, unnamed};
+use super::choice::{choose, unnamed};
 use super::guard::guard;
+use super::model::{STICKSLIP_MODEL_SOLID, measure};
 use super::sized::{self, Sized64};
 use super::space::{STICKSLIP_SPACE_CORNER, multiplier_space as read_multiplier_space};
 use crate::error::{Error, Kind, Result, Text};
@@ -11,6 +12,7 @@ use crate::interface::{
     Stiffness, TURN_MAX, Tangent, Weights,
 };
 use crate::law::{Coefficient, Friction, LAWS, SlipMeasure};
+use crate::line::Measure;
 use crate::quadrature::{DEGREE_1, DEGREE_2, DEGREE_4, DEGREE_5, DEGREE_6, DEGREE_10, Rule, cell};
 
 /// Forces use lambda, rows the projection; the tangent is a sum of pairs and nodes. Default.
@@ -207,8 +209,13 @@ pub struct stickslip_options {
     /// STICKSLIP_SPACE_..., for interfaces with quadratic facets: where the multipliers of such facets stand. Nodes of
     /// the non-mortar side at which no facet has a multiplier have no multiplier equations (-1).
     pub multiplier_space: i32,
-    /// 0.
-    pub reserved: i32,
+    /// STICKSLIP_MODEL_...: whether facets are of a model in space, or lines of a plane or axisymmetric one. With lines every array of
+    /// vectors of this interface has two components a node in place of three: positions, forces, multipliers, normals,
+    /// directions; so have equations. Not with STICKSLIP_MORTAR_ANALYTIC, STICKSLIP_FORM_AUGMENTED, STICKSLIP_NORMALS_CURRENT,
+    /// STICKSLIP_TANGENT_FROZEN_NORMALS or element points (UNSUPPORTED).
+    pub model: i32,
+    /// Thickness of a plane model [L]; 0 (default): 1. 0 of other models.
+    pub thickness: f64,
 }
 
 // SAFETY: repr(C), struct_size first, numbers only.
@@ -254,7 +261,8 @@ pub unsafe extern "C" fn stickslip_options_init(options: *mut stickslip_options,
             normals: STICKSLIP_NORMALS_COMMITTED,
             threads: 0,
             multiplier_space: STICKSLIP_SPACE_CORNER,
-            reserved: 0,
+            model: STICKSLIP_MODEL_SOLID,
+            thickness: 0.0,
         };
         sized::initialise(options, struct_size, defaults, "options")
     })
@@ -354,6 +362,8 @@ pub(super) struct Choices {
     pub base: i64,
     /// The shape of an analytic mortar side.
     pub shape: Option<AnalyticShape>,
+    /// rho of lines; `None`: a model in space.
+    pub measure: Option<Measure>,
 }
 
 fn read_shape(analytic: bool, shape: i32, radius: f64) -> Result<Option<AnalyticShape>> {
@@ -409,7 +419,8 @@ pub(super) fn read_options(p: *const stickslip_options) -> Result<Choices> {
         normals,
         threads,
         multiplier_space,
-        reserved,
+        model,
+        thickness,
     } = sized::read(p)?;
     let friction = law(friction, "options.friction")?;
     let sides = [MortarSide::Deformable, MortarSide::Rigid, MortarSide::Rigid];
@@ -449,7 +460,11 @@ pub(super) fn read_options(p: *const stickslip_options) -> Result<Choices> {
         (0.0, e) => Stiffness::Modulus(e),
         (r, _) => Stiffness::Augmentation(r),
     };
-    check_reserved(reserved, "options.reserved")?;
+    let measure = measure(model, thickness, "options")?;
+    if measure.is_some() && analytic {
+        let text = "lines against an analytic mortar surface; give it facets (options.model, options.mortar_side)";
+        return Err(Error::new(Kind::Unsupported, text));
+    }
     let options = Options {
         basis,
         space: read_multiplier_space(multiplier_space, "options.multiplier_space")?,
@@ -486,5 +501,5 @@ pub(super) fn read_options(p: *const stickslip_options) -> Result<Choices> {
     };
     options.validate()?;
     let base = choose(index_base, "options.index_base", &[0, 1], 2)?;
-    Ok(Choices { options, base, shape: read_shape(analytic, shape, radius)? })
+    Ok(Choices { options, base, shape: read_shape(analytic, shape, radius)?, measure })
 }

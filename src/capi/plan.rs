@@ -146,7 +146,7 @@ pub unsafe extern "C" fn stickslip_interface_plan(
         raw::check(rows, "rows")?;
         raw::check(count, "count")?;
         either!(&mut h.inner, c => {
-            c.make_plan((point.x1, point.x2), pairs)?;
+            c.make_plan((point.x1(), point.x2()), pairs)?;
             let plan = c.plan(PlanSystem::Whole)?.0;
             raw::write(rows, &[plan.rows().0.len() as i64]);
             raw::write(count, &[plan.len() as i64]);
@@ -253,7 +253,7 @@ pub unsafe extern "C" fn stickslip_interface_plan_values(
             let n = c.plan(PlanSystem::Whole)?.0.len();
             raw::room(capacity, n, "the values")?;
             let values = raw::values(values, n, "values")?;
-            c.plan_values((point.x1, point.x2), point.lambda()?, point.sums(), values)
+            c.plan_values((point.x1(), point.x2()), point.lambda(), point.sums(), values)
         })
     })
 }
@@ -282,7 +282,7 @@ pub unsafe extern "C" fn stickslip_interface_condensed_plan(
         raw::check(rows, "rows")?;
         raw::check(counts, "counts")?;
         either!(&mut h.inner, c => {
-            c.make_condensed_plan((point.x1, point.x2), pairs)?;
+            c.make_condensed_plan((point.x1(), point.x2()), pairs)?;
             let [forces, constraints] = [PlanSystem::Forces, PlanSystem::Constraints].map(|system| c.plan(system));
             let (forces, constraints) = (forces?.0, constraints?.0);
             raw::write(rows, &[forces, constraints].map(|plan| plan.rows().0.len() as i64));
@@ -317,7 +317,7 @@ pub unsafe extern "C" fn stickslip_interface_condensed_values(
         either!(&mut h.inner, c => {
             let counts = [c.plan(PlanSystem::Forces)?.0.len(), c.plan(PlanSystem::Constraints)?.0.len()];
             let values = [raw::values(forces, counts[0], "forces")?, raw::values(constraints, counts[1], "constraints")?];
-            c.condensed_values((point.x1, point.x2), point.lambda()?, values)
+            c.condensed_values((point.x1(), point.x2()), point.lambda(), values)
         })
     })
 }

@@ -41,7 +41,7 @@ pub unsafe extern "C" fn stickslip_surface_split_creases(
         raw::check(surface, "surface")?;
         raw::check(count, "count")?;
         let base = read_base(index_base)?;
-        let (x, facets) = read_facets(&sized::read(surface)?, base, "surface")?;
+        let (x, facets) = read_facets(&sized::read(surface)?, base, "surface", false)?;
         let equations = memory::filled([crate::interface::NO_EQUATION; 3], x.len())?;
         let split = Surface::new("surface", x, &facets, equations)?.split_creases(angle)?;
         let n = split.originals.len();

@@ -102,7 +102,7 @@ pub unsafe extern "C" fn stickslip_interface_report(
         sized::check_output(out)?;
         let wanted = sized::read(out)?;
         check(&wanted)?;
-        let report = either!(h, c => c.report(point.x1, point.x2)?);
+        let report = either!(h, c => c.report(point.x1(), point.x2())?);
         raw::check_results(
             "fraction, penetration",
             report.nodes.iter().map(|n| &n.fraction).chain([&report.penetration]),

@@ -5,6 +5,7 @@ use super::sized::Sized64;
 use crate::error::{Error, Kind, Result, Text};
 use crate::geometry::{AnalyticShape, FRAME, Vec3};
 use crate::interface::{NO_EQUATION, Surface};
+use crate::line::Measure;
 use crate::memory::{self, Store, Stored};
 use std::fmt::Display;
 
@@ -59,11 +60,17 @@ unsafe impl Sized64 for stickslip_surface {
     const FIRST: usize = 72;
 }
 
-/// N equations per node, 0-based.
-fn equations<const N: usize>(p: *const i64, n: usize, base: i64, name: impl Display) -> Result<Vec<[i64; N]>> {
-    let values = raw::slice(p, N * n, &name)?;
+/// Equations per node, 0-based: the first `per` of N, which the caller has.
+fn equations<const N: usize>(
+    p: *const i64,
+    n: usize,
+    (base, per): (i64, usize),
+    name: impl Display,
+) -> Result<Vec<[i64; N]>> {
+    let values = raw::slice(p, per * n, &name)?;
     let mut equations = memory::filled([NO_EQUATION; N], n)?;
-    for (k, (equation, &v)) in equations.as_flattened_mut().iter_mut().zip(values).enumerate() {
+    let places = equations.iter_mut().flat_map(|of_node| of_node.iter_mut().take(per));
+    for (k, (equation, &v)) in places.zip(values).enumerate() {
         if v == NO_EQUATION {
             continue;
         }
@@ -77,21 +84,39 @@ fn equations<const N: usize>(p: *const i64, n: usize, base: i64, name: impl Disp
 }
 
 /// A checked surface; `side` is "nonmortar" or "mortar".
-pub(super) fn read_surface(s: &stickslip_surface, base: i64, side: &'static str) -> Result<Surface> {
-    let (x, facets) = read_facets(s, base, side)?;
-    let equations = equations(s.equations, x.len(), base, Member(side, "equations"))?;
-    Surface::new(side, x, &facets, equations)
+pub(super) fn read_surface(
+    s: &stickslip_surface,
+    base: i64,
+    side: &'static str,
+    measure: Option<Measure>,
+) -> Result<Surface> {
+    let (x, facets) = read_facets(s, base, side, measure.is_some())?;
+    let per = if measure.is_some() { 2 } else { 3 };
+    let equations = equations(s.equations, x.len(), (base, per), Member(side, "equations"))?;
+    match measure {
+        None => Surface::new(side, x, &facets, equations),
+        Some(measure) => Surface::of_lines(side, x, &facets, equations, measure),
+    }
 }
 
-/// A surface's coordinates and the nodes of its facets, from 0.
-pub(super) fn read_facets(s: &stickslip_surface, base: i64, side: &str) -> Result<(Vec<Vec3>, Vec<Vec<i64>>)> {
+/// A surface's coordinates and the nodes of its facets, from 0; `lines`: whether it has two coordinates a node.
+pub(super) fn read_facets(
+    s: &stickslip_surface,
+    base: i64,
+    side: &str,
+    lines: bool,
+) -> Result<(Vec<Vec3>, Vec<Vec<i64>>)> {
     let name = |member| Member(side, member);
-    let n = raw::count(s.n_nodes, 3, name("n_nodes"))?;
+    let (dimension, allowed, sizes) = match lines {
+        true => (2, "2 or 3 with lines (options.model)", &[2, 3][..]),
+        false => (3, "3, 4, 6, 8 or 9", &[3, 4, 6, 8, 9][..]),
+    };
+    let n = raw::count(s.n_nodes, dimension as i64, name("n_nodes"))?;
     let n_facets = raw::count(s.n_facets, 1, name("n_facets"))?;
-    let coordinates = raw::numbers(s.coordinates, 3 * n, name("coordinates"))?;
+    let coordinates = raw::numbers(s.coordinates, dimension * n, name("coordinates"))?;
     let offsets = raw::slice(s.facet_offsets, n_facets + 1, name("facet_offsets"))?;
     let wrong = |f: usize| {
-        let text = text!("{side}.facet_offsets[{f}] is {}; offsets start at 0 and grow by 3, 4, 6, 8 or 9", offsets[f]);
+        let text = text!("{side}.facet_offsets[{f}] is {}; offsets start at 0 and grow by {allowed}", offsets[f]);
         Error::new(Kind::InvalidSize, text)
     };
     if offsets[0] != 0 {
@@ -99,7 +124,7 @@ pub(super) fn read_facets(s: &stickslip_surface, base: i64, side: &str) -> Resul
     }
     // Checked before anything is read through them: the last offset is the length of facet_nodes.
     if let Some(f) =
-        (1..=n_facets).find(|&f| !matches!(offsets[f].checked_sub(offsets[f - 1]), Some(3 | 4 | 6 | 8 | 9)))
+        (1..=n_facets).find(|&f| offsets[f].checked_sub(offsets[f - 1]).is_none_or(|n| !sizes.contains(&n)))
     {
         return Err(wrong(f));
     }
@@ -111,7 +136,8 @@ pub(super) fn read_facets(s: &stickslip_surface, base: i64, side: &str) -> Resul
         let node = |k: &i64| k.checked_sub(base).ok_or_else(beyond);
         facets.store(nodes[range].iter().map(node).stored_if_ok()?)?;
     }
-    Ok((raw::vectors(coordinates)?, facets))
+    let at = |x: &[f64]| Vec3::new(x[0], x[1], x.get(2).copied().unwrap_or(0.0));
+    Ok((coordinates.chunks_exact(dimension).map(at).stored()?, facets))
 }
 
 /// A checked analytic surface: four nodes, no facets, no equations.
@@ -130,7 +156,7 @@ pub(super) fn read_analytic(s: &stickslip_surface, shape: AnalyticShape, base: i
         return refuse(Kind::InvalidValue, text.into());
     }
     if !s.equations.is_null() {
-        let equations = equations::<3>(s.equations, FRAME, base, "mortar.equations")?;
+        let equations = equations::<3>(s.equations, FRAME, (base, 3), "mortar.equations")?;
         if let Some(k) = equations.as_flattened().iter().position(|&e| e != NO_EQUATION) {
             let text = text!("mortar.equations[{k}] is an equation; an analytic surface is rigid and has none (-1)");
             return refuse(Kind::InvalidValue, text);
@@ -153,10 +179,10 @@ pub(super) fn refuse_multipliers(mortar: &stickslip_surface) -> Result<()> {
     Ok(())
 }
 
-/// The non-mortar side's multiplier equations, N a node.
-pub(super) fn read_multipliers<const N: usize>(s: &stickslip_surface, base: i64) -> Result<Vec<[i64; N]>> {
-    let n = raw::count(s.n_nodes, 3, "nonmortar.n_nodes")?;
-    equations(s.multiplier_equations, n, base, "nonmortar.multiplier_equations")
+/// The non-mortar side's multiplier equations, of which the caller has `per` a node.
+pub(super) fn read_multipliers<const N: usize>(s: &stickslip_surface, base: i64, per: usize) -> Result<Vec<[i64; N]>> {
+    let n = raw::count(s.n_nodes, 2, "nonmortar.n_nodes")?;
+    equations(s.multiplier_equations, n, (base, per), "nonmortar.multiplier_equations")
 }
 
 /// Which non-mortar nodes are owned; `None`: all.
@@ -164,6 +190,6 @@ pub(super) fn read_owned(s: &stickslip_surface) -> Result<Option<Vec<bool>>> {
     if s.owned.is_null() {
         return Ok(None);
     }
-    let n = raw::count(s.n_nodes, 3, "nonmortar.n_nodes")?;
+    let n = raw::count(s.n_nodes, 2, "nonmortar.n_nodes")?;
     raw::slice(s.owned, n, "nonmortar.owned")?.iter().map(|&o| o != 0).stored().map(Some)
 }

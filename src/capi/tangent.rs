@@ -189,13 +189,13 @@ pub unsafe extern "C" fn stickslip_interface_tangent_coo(
         raw::check(count, "count")?;
         let counts =
             raw::only_counts(&[(rows.cast(), "rows"), (columns.cast(), "columns"), (values.cast(), "values")])?;
-        let (at, sums) = ((point.x1, point.x2), point.sums());
+        let (at, sums) = ((point.x1(), point.x2()), point.sums());
         let base = h.base;
         either!(&mut h.inner, c => {
             let n = c.own_plan(at, PlanPairs::Active(Extent::of(sums)))?.0.len();
             if !counts {
                 raw::room(capacity, n, "the entries")?;
-                let (plan, of) = c.own_values(at, point.lambda()?, sums, raw::values(values, n, "values")?)?;
+                let (plan, of) = c.own_values(at, point.lambda(), sums, raw::values(values, n, "values")?)?;
                 write_coo(plan, of, base, rows, columns)?;
             }
             raw::write(count, &[n as i64]);
@@ -234,11 +234,11 @@ pub unsafe extern "C" fn stickslip_interface_tangent_csr(
         let point = Point::read(&h.inner, x1, x2, lambda, sums)?;
         let csr = read_csr(h.base, n_rows, row_offsets, columns)?;
         raw::check(values, "values")?;
-        let (at, sums) = ((point.x1, point.x2), point.sums());
+        let (at, sums) = ((point.x1(), point.x2()), point.sums());
         either!(&mut h.inner, c => {
             let n = c.own_plan(at, PlanPairs::Active(Extent::of(sums)))?.0.len();
             let mut entries = memory::filled(0.0, n)?;
-            let (plan, of) = c.own_values(at, point.lambda()?, sums, &mut entries)?;
+            let (plan, of) = c.own_values(at, point.lambda(), sums, &mut entries)?;
             let (mut places, (equations, _)) = (memory::with_room(entries.len())?, plan.rows());
             let mut row = equations.iter();
             plan.each_row(of, &mut |columns| {
@@ -279,7 +279,7 @@ pub unsafe extern "C" fn stickslip_interface_pattern_coo(
         let counts = raw::only_counts(&[(rows.cast(), "rows"), (columns.cast(), "columns")])?;
         let base = h.base;
         either!(&mut h.inner, c => {
-            let (plan, of) = c.own_plan((point.x1, point.x2), PlanPairs::Possible)?;
+            let (plan, of) = c.own_plan((point.x1(), point.x2()), PlanPairs::Possible)?;
             if !counts {
                 raw::room(capacity, plan.len(), "the entries")?;
                 write_coo(plan, of, base, rows, columns)?;

@@ -73,7 +73,8 @@ fn layouts() -> Vec<Layout> {
             normals,
             threads,
             multiplier_space,
-            reserved
+            model,
+            thickness
         }),
         layout!(stickslip_states {
             struct_size,

@@ -1,10 +1,10 @@
 //! Lines of plane and axisymmetric models through the interface (docs/formulation.md 13).
 
 use crate::support::lines::*;
-use crate::support::mesh::*;
 use crate::support::max_abs;
+use crate::support::mesh::*;
 use stickslip::geometry::Vec3;
-use stickslip::interface::{Friction, Interface, MultiplierBasis, Options, Weights};
+use stickslip::interface::{Form, Friction, Interface, MultiplierBasis, Normals, Options, Surface, Tangent, Weights};
 use stickslip::law::State;
 use stickslip::line::Measure;
 use stickslip::mortar::MultiplierSpace;
@@ -27,7 +27,9 @@ fn tangents_are_those_of_differences_for_every_kind_on_every_kind() {
     let mut seen = [0; 3];
     let kinds = [[2, 2], [2, 3], [3, 2], [3, 3]];
     for (nodes, measure) in kinds.into_iter().flat_map(|nodes| MEASURES.map(|measure| (nodes, measure))) {
-        for (options, seed) in choices(options()).into_iter().flat_map(|o| [1, 2, 3].map(|seed| (o, seed))) {
+        for (options, seed) in choices(options()).into_iter().flat_map(|o| [1, 2, 3, 4].map(|seed| (o, seed))) {
+            // Half of the scenes with so much friction that nodes stick.
+            let options = Options { mu: if seed % 2 == 0 { 3.0 } else { options.mu }, ..options };
             let mut s = moved_lines::<3>(&options, nodes, measure, seed);
             for r in s.contact.responses(&s.x1, &s.x2, &s.lambda, None).unwrap() {
                 seen[r.state as usize] += 1;
@@ -44,12 +46,19 @@ fn tangents_are_those_of_differences_for_every_kind_on_every_kind() {
 #[test]
 fn tangents_of_all_laws() {
     for (friction, mu) in [(Friction::Tied, 0.0), (Friction::None, 0.0), (Friction::Tresca, 0.2)] {
-        for (options, measure) in choices(under(friction, mu, options())).into_iter().flat_map(|o| MEASURES.map(|m| (o, m))) {
+        for (options, measure) in
+            choices(under(friction, mu, options())).into_iter().flat_map(|o| MEASURES.map(|m| (o, m)))
+        {
             let error = match friction {
                 Friction::None => moved_lines::<1>(&options, [3, 2], measure, 5).difference_error(),
                 _ => moved_lines::<3>(&options, [3, 2], measure, 5).difference_error(),
             };
-            assert!(error <= DIFFERENCES, "{friction:?} {measure:?} {:?} {:?}: {error:e}", options.space, options.basis);
+            assert!(
+                error <= DIFFERENCES,
+                "{friction:?} {measure:?} {:?} {:?}: {error:e}",
+                options.space,
+                options.basis
+            );
         }
     }
 }
@@ -68,7 +77,8 @@ fn layer(mesh: &Mesh, thickness: f64) -> Mesh {
 fn lines_are_one_layer_of_quadrilaterals() {
     const THICKNESS: f64 = 0.45;
     let laws = [(Friction::Coulomb, 0.3), (Friction::Tied, 0.0), (Friction::Tresca, 0.2)];
-    let all = laws.into_iter().flat_map(|law| [MultiplierBasis::Standard, MultiplierBasis::Dual].map(|basis| (law, basis)));
+    let all =
+        laws.into_iter().flat_map(|law| [MultiplierBasis::Standard, MultiplierBasis::Dual].map(|basis| (law, basis)));
     for (((friction, mu), basis), weights) in
         all.flat_map(|of| [Weights::Current, Weights::Committed].map(|weights| (of, weights)))
     {
@@ -109,10 +119,18 @@ fn lines_are_one_layer_of_quadrilaterals() {
             // The tangent, with the equations of a layer made those of the lines.
             let n = 2 * (2 * n1 + n2);
             let (mut k, mut of_layer) = (vec![0.0; n * n], vec![0.0; n * n]);
-            s.contact.tangent(&x1, &x2, &s.lambda, None, &mut |i: i64, j: i64, v: f64| k[i as usize * n + j as usize] += v).unwrap();
+            s.contact
+                .tangent(&x1, &x2, &s.lambda, None, &mut |i: i64, j: i64, v: f64| k[i as usize * n + j as usize] += v)
+                .unwrap();
             let equation = |i: i64| {
                 let (i, [a, b]) = (i as usize, [6 * n1, 6 * (n1 + n2)]);
-                let (first, from, nodes) = if i < a { (0, 0, n1) } else if i < b { (2 * n1, a, n2) } else { (2 * (n1 + n2), b, n1) };
+                let (first, from, nodes) = if i < a {
+                    (0, 0, n1)
+                } else if i < b {
+                    (2 * n1, a, n2)
+                } else {
+                    (2 * (n1 + n2), b, n1)
+                };
                 let (node, component) = ((i - from) / 3 % nodes, (i - from) % 3);
                 (component < 2).then_some(first + 2 * node + component)
             };
@@ -124,6 +142,26 @@ fn lines_are_one_layer_of_quadrilaterals() {
             space.tangent(&y1, &y2, &lambda, None, &mut add).unwrap();
             let (largest, error) = (max_abs(k.iter().copied()), max_abs(k.iter().zip(&of_layer).map(|(a, b)| a - b)));
             assert!(error <= SAME * largest, "{friction:?} {basis:?} {weights:?}: tangent {error:e} of {largest:e}");
+            if basis == MultiplierBasis::Dual {
+                let mut random = Random(3);
+                let host: Vec<_> = (0..n1).map(|_| Vec3::new(random.next(), random.next(), 0.0)).collect();
+                let halves: Vec<_> = host.iter().chain(&host).map(|f| f * 0.5).collect();
+                let own = s.contact.condensed_multipliers(&x1, &x2, &host).unwrap();
+                let of_space = space.condensed_multipliers(&y1, &y2, &halves).unwrap();
+                let largest = max_abs(own.iter().flat_map(|v| v.iter().copied()));
+                assert!(
+                    (0..n1).all(|a| ((own[a] - of_space[a]).xy()).amax() <= SAME * largest),
+                    "{friction:?} {weights:?}"
+                );
+                let (own, gain) = s.contact.condensed_residual(&x1, &x2, &own, &host).unwrap();
+                let (rows, gains) = space.condensed_residual(&y1, &y2, &of_space, &halves).unwrap();
+                let largest = max_abs(own.iter().chain(&gain).flat_map(|v| v.iter().copied()));
+                for (own, all) in [(&own, &rows), (&gain, &gains)] {
+                    let n = own.len();
+                    let error = max_abs((0..n).flat_map(|k| [0, 1].map(|i| own[k][i] - all[k][i] - all[k + n][i])));
+                    assert!(error <= SAME * largest, "{friction:?} {weights:?}: condensed {error:e} of {largest:e}");
+                }
+            }
             s.contact.commit(&x1, &x2, &s.lambda, None).unwrap();
             space.commit(&y1, &y2, &lambda, None).unwrap();
         }
@@ -137,4 +175,158 @@ fn plans_have_the_entries_of_the_tangent() {
         let what = format!("{nodes:?} {:?} {:?}", options.space, options.basis);
         super::plan::agrees(&mut s.contact, &s.x1, &s.x2, &s.lambda, &what);
     }
+}
+
+/// int N_k rho dr of the nodes of a line from r = a to b, by a rule of its own: Gauss with three points.
+fn loads(nodes: usize, [a, b]: [f64; 2], rho: impl Fn(f64) -> f64) -> Vec<f64> {
+    let root = 0.6_f64.sqrt();
+    let mut loads = vec![0.0; nodes];
+    for (xi, w) in [(-root, 5.0 / 9.0), (0.0, 8.0 / 9.0), (root, 5.0 / 9.0)] {
+        let n = match nodes {
+            2 => vec![0.5 * (1.0 - xi), 0.5 * (1.0 + xi)],
+            _ => vec![0.5 * xi * (xi - 1.0), 0.5 * xi * (xi + 1.0), 1.0 - xi * xi],
+        };
+        let r = 0.5 * (a + b) + 0.5 * (b - a) * xi;
+        (0..nodes).for_each(|k| loads[k] += n[k] * w * 0.5 * (b - a) * rho(r));
+    }
+    loads
+}
+
+/// Under one pressure the forces on both sides are its consistent loads, on meshes that do not match: plane, and ring on ring. With a
+/// node on the axis.
+#[test]
+fn one_pressure_gives_consistent_loads() {
+    const PRESSURE: f64 = 2.5;
+    let thickness = 0.7;
+    for (nodes, measure, from) in [[2, 2], [2, 3], [3, 2], [3, 3]].into_iter().flat_map(|nodes| {
+        [(Measure::Thickness(thickness), -1.0), (Measure::Axisymmetric, 1.0), (Measure::Axisymmetric, 0.0)]
+            .map(|(m, from)| (nodes, m, from))
+    }) {
+        let rho = |r: f64| if measure == Measure::Axisymmetric { std::f64::consts::TAU * r } else { thickness };
+        for options in choices(Options { mu: 0.0, ..options() }) {
+            let one = lines(5, nodes[0], [from, from + 2.0], false);
+            let two = lines(3, nodes[1], [from, from + 2.0], true);
+            let mut c = contact_of_lines::<3>(&one, &two, measure, options);
+            let lambda: Vec<_> = has_row(&one, options.space)
+                .iter()
+                .map(|has| Vec3::new(0.0, if *has { -PRESSURE } else { 0.0 }, 0.0))
+                .collect();
+            let r = c.residual(&one.x, &two.x, &lambda, None).unwrap();
+            for (mesh, forces, sign) in [(&one, &r.nonmortar, -1.0), (&two, &r.mortar, 1.0)] {
+                let mut expected = vec![0.0; mesh.x.len()];
+                for facet in &mesh.facets {
+                    let ends = [facet[0], facet[1]].map(|k| mesh.x[k as usize].x);
+                    let [low, high] = [ends[0].min(ends[1]), ends[0].max(ends[1])];
+                    let mut own = loads(facet.len(), [low, high], rho);
+                    if ends[0] > ends[1] {
+                        own.swap(0, 1);
+                    }
+                    facet.iter().zip(own).for_each(|(&k, load)| expected[k as usize] += sign * PRESSURE * load);
+                }
+                let error = max_abs(forces.iter().zip(&expected).flat_map(|(f, e)| [f.x, f.y - e]));
+                let what = format!("{nodes:?} {measure:?} from {from} {:?} {:?}", options.space, options.basis);
+                assert!(error <= SAME * max_abs(expected.iter().copied()), "{what}: {error:e}");
+            }
+            assert!(max_abs(r.rows.iter().flat_map(|row| row.iter().copied())) <= SAME, "closed, in equilibrium");
+            // Areas are all that there is.
+            let whole: f64 = loads(2, [from, from + 2.0], rho).iter().sum();
+            let areas: f64 =
+                (0..one.x.len()).filter(|&a| c.surfaces().0.has_row(a)).map(|a| c.history().areas[a]).sum();
+            assert!((areas - whole).abs() <= SAME * whole);
+        }
+    }
+}
+
+#[test]
+fn histories_of_lines_are_kept_undone_and_imported() {
+    for (options, measure) in choices(options()).into_iter().flat_map(|o| MEASURES.map(|m| (o, m))) {
+        let mut s = moved_lines::<3>(&options, [3, 2], measure, 6);
+        let z = s.unknowns();
+        s.contact.commit(&s.x1, &s.x2, &s.lambda, None).unwrap();
+        let after = s.residual(&z);
+        let (integers, reals) = s.contact.export_history().unwrap();
+        let mut other = moved_lines::<3>(&options, [3, 2], measure, 6);
+        other.contact.import_history(&integers, &reals).unwrap();
+        assert_eq!(other.residual(&z), after);
+        s.contact.roll_back().unwrap();
+        assert_ne!(s.residual(&z), after);
+        // Of another thickness it is another interface.
+        let foreign = if measure == Measure::Axisymmetric { Measure::Thickness(0.7) } else { Measure::Thickness(0.8) };
+        let mut foreign = moved_lines::<3>(&options, [3, 2], foreign, 6);
+        assert!(foreign.contact.import_history(&integers, &reals).is_err());
+    }
+}
+
+fn refusal(options: Options, sides: [stickslip::error::Result<Surface>; 2]) -> String {
+    let [one, two] = sides;
+    let made = one.and_then(|one| {
+        let n = one.len();
+        Interface::new(one, two?, plane_equations(100, n), options)
+    });
+    made.map(|_| ()).unwrap_err().to_string()
+}
+
+#[test]
+fn what_lines_do_not_take_is_refused() {
+    let (one, two) = (lines(2, 2, [0.0, 1.0], false), lines(3, 2, [0.0, 1.0], true));
+    let of = |mesh: &Mesh, side, measure| {
+        let n = mesh.x.len();
+        Surface::of_lines(
+            side,
+            mesh.x.clone(),
+            &mesh.facets,
+            plane_equations(if side == "mortar" { 20 } else { 0 }, n),
+            measure,
+        )
+    };
+    let plane = Measure::Thickness(1.0);
+    let sides = || [of(&one, "nonmortar", plane), of(&two, "mortar", plane)];
+    for (options, name) in [
+        (Options { form: Form::Augmented, ..options() }, "augmented form with lines"),
+        (Options { normals: Normals::Current, ..options() }, "normals of now with lines"),
+        (Options { tangent: Tangent::FrozenNormals, ..options() }, "FROZEN_NORMALS with lines"),
+        (
+            Options { basis: MultiplierBasis::Dual, space: MultiplierSpace::Sub, ..options() },
+            "dual multipliers at all nodes",
+        ),
+    ] {
+        let text = refusal(options, sides());
+        assert!(text.contains(name), "{text}");
+    }
+    let layer = layer(&two, 1.0);
+    let solid = Surface::new("mortar", layer.x.clone(), &layer.facets, numbered(20, layer.x.len()));
+    let text = refusal(options(), [of(&one, "nonmortar", plane), solid]);
+    assert!(text.contains("another model"), "{text}");
+    let text = refusal(options(), [of(&one, "nonmortar", plane), of(&two, "mortar", Measure::Thickness(2.0))]);
+    assert!(text.contains("another thickness"), "{text}");
+    let text = refusal(options(), [of(&layer, "nonmortar", plane), of(&two, "mortar", plane)]);
+    assert!(text.contains("facet 0 has 4 nodes; a line has 2 or 3"), "{text}");
+    let behind = Mesh { x: one.x.iter().map(|x| x - Vec3::new(0.25, 0.0, 0.0)).collect(), facets: one.facets.clone() };
+    let text = refusal(
+        options(),
+        [of(&behind, "nonmortar", Measure::Axisymmetric), of(&two, "mortar", Measure::Axisymmetric)],
+    );
+    assert!(text.contains("node 0 has r = -2.5e-1, beyond the axis"), "{text}");
+    let reversed = Mesh { x: one.x.clone(), facets: vec![vec![0, 1], vec![2, 1]] };
+    let text = refusal(options(), [of(&reversed, "nonmortar", plane), of(&two, "mortar", plane)]);
+    assert!(text.contains("facets 0 and 1 both end at node 1"), "{text}");
+    let back = Mesh { x: vec![Vec3::zeros(), Vec3::x(), Vec3::new(0.2, 0.0, 0.0)], facets: vec![vec![0, 1, 2]] };
+    let text = refusal(options(), [of(&back, "nonmortar", plane), of(&two, "mortar", plane)]);
+    assert!(text.contains("a line turns back"), "{text}");
+    // Later positions are looked at, too, and nothing is lost.
+    let mut c = Interface::new(
+        of(&one, "nonmortar", Measure::Axisymmetric).unwrap(),
+        of(&two, "mortar", Measure::Axisymmetric).unwrap(),
+        plane_equations(100, one.x.len()),
+        options(),
+    )
+    .unwrap();
+    let lambda = vec![Vec3::new(0.0, -1.0, 0.0); one.x.len()];
+    let before = c.residual(&one.x, &two.x, &lambda, None).unwrap();
+    let text = c.residual(&behind.x, &two.x, &lambda, None).unwrap_err().to_string();
+    assert!(text.contains("nonmortar: node 0 has r = -2.5e-1, beyond the axis"), "{text}");
+    let lifted: Vec<_> = two.x.iter().map(|x| x + Vec3::z()).collect();
+    let text = c.residual(&one.x, &lifted, &lambda, None).unwrap_err().to_string();
+    assert!(text.contains("mortar: node 0 has z = 1e0"), "{text}");
+    assert_eq!(c.residual(&one.x, &two.x, &lambda, None).unwrap(), before);
 }

@@ -120,7 +120,8 @@ Options = struct(
     ("normals", c_int32),
     ("threads", c_int32),
     ("multiplier_space", c_int32),
-    ("reserved", c_int32),
+    ("model", c_int32),
+    ("thickness", c_double),
 )
 Surface = struct(
     "Surface",

@@ -70,12 +70,7 @@ pub struct MovedLines<const N: usize> {
 }
 
 /// Four lines over five, both bent and rough, which then slide and turn; in a rotated frame, or at r > 0.
-pub fn moved_lines<const N: usize>(
-    options: &Options,
-    nodes: [usize; 2],
-    measure: Measure,
-    seed: u64,
-) -> MovedLines<N>
+pub fn moved_lines<const N: usize>(options: &Options, nodes: [usize; 2], measure: Measure, seed: u64) -> MovedLines<N>
 where
     Contact<N>: Create<N>,
 {

@@ -8,6 +8,7 @@ use super::surface::Surface;
 use crate::error::{Error, Kind, Result, Text};
 use crate::geometry::AnalyticShape;
 use crate::law::{LAWS, Remembers, SlipMeasure};
+use crate::line::Measure;
 
 /// Integers of a meaning.
 pub const LENGTH: usize = 8;
@@ -44,7 +45,12 @@ pub fn of(options: &Options, nonmortar: &Surface, mortar: &Surface) -> [i64; LEN
             let kinds = p.facets.iter().map(|f| f.parent.n);
             std::iter::once(p.space as usize).chain(kinds)
         });
-        std::iter::once(s.facets.len()).chain(facets).chain(parents).map(|word| word as u64)
+        // Of lines what their lengths stand for.
+        let measure = s.lines.iter().map(|lines| match lines.measure {
+            Measure::Axisymmetric => u64::MAX,
+            Measure::Thickness(thickness) => thickness.to_bits(),
+        });
+        std::iter::once(s.facets.len()).chain(facets).chain(parents).map(|word| word as u64).chain(measure)
     });
     // 0 and -0 are one place: a text file may not tell them apart.
     let coordinates = sides.iter().flat_map(|s| s.reference.iter().flatten().map(|v| (v + 0.0).to_bits()));

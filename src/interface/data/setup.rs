@@ -94,7 +94,10 @@ fn put_width([one, two]: [&mut Surface; 2]) -> Result<()> {
             (of_one.width, of_two.width) = (width, width);
             Ok(())
         }
-        _ => Err(Error::new(Kind::InvalidValue, "one side is of another model than the other one, or has another thickness")),
+        _ => Err(Error::new(
+            Kind::InvalidValue,
+            "one side is of another model than the other one, or has another thickness",
+        )),
     }
 }
 
@@ -114,9 +117,7 @@ fn put_parents<const N: usize>(
         return unsupported(text!("{kind} against an analytic mortar surface; give it facets"));
     }
     if !matches!(options.scheme, Scheme::Segments) {
-        return unsupported(text!(
-            "options.element_points with {kind}: they are integrated over overlaps; leave it 0"
-        ));
+        return unsupported(text!("options.element_points with {kind}: they are integrated over overlaps; leave it 0"));
     }
     if options.form == Form::Augmented {
         return unsupported(text!("the augmented form with {kind}; take STICKSLIP_FORM_MULTIPLIER"));

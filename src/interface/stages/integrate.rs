@@ -151,9 +151,7 @@ impl Stage<'_> {
                     };
                     let weights = match parents {
                         None => PairWeights::integrate(frame, segment, options.rule),
-                        Some(parents) => {
-                            of_parts(parents, (i, j), (frame, segment, options.rule), (x1, x2), active)?
-                        }
+                        Some(parents) => of_parts(parents, (i, j), (frame, segment, options.rule), (x1, x2), active)?,
                     };
                     active.add(PairRecord { one: i, two: j, weights }, segment.area)?;
                     if let (true, Ok(Some(segment))) = (following.is_some(), found) {

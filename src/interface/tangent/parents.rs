@@ -2,8 +2,8 @@
 //! Its parts are linearised one by one; what they add is summed up over the facet's nodes and then leaves node by node.
 
 use super::derivatives::PairDerivatives;
-use super::lines::add_lines;
 use super::emission::{Blocks, Emitter, NodeBlock, Place};
+use super::lines::add_lines;
 use super::parent_table::{DualParent, MortarNode, ParentTable, bit};
 use super::union::{Pairs, UnionPair};
 use crate::element::{NodeTangent, ParentPair};
@@ -11,8 +11,8 @@ use crate::error::Result;
 use crate::geometry::{Mat3, Vec3};
 use crate::interface::data::active::Active;
 use crate::interface::data::effects::Opposite;
-use crate::interface::data::lines::{ENDS, line};
 use crate::interface::data::host_facets::parents_at;
+use crate::interface::data::lines::{ENDS, line};
 use crate::interface::data::options::{MultiplierBasis, Tangent};
 use crate::interface::data::parents::Parents;
 use crate::interface::data::surface::Surface;
