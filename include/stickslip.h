@@ -196,16 +196,6 @@
 /// The library is at fault; please report it. The handle is suspect.
 #define STICKSLIP_PANIC -1
 
-/// A model in space: facets are tri3, quad4, tri6, quad8, quad9; three components a node.
-#define STICKSLIP_MODEL_SOLID 0
-
-/// Plane strain or plane stress: facets are line2 or line3; two components a node, x and y.
-#define STICKSLIP_MODEL_PLANE 1
-
-/// Axisymmetric: facets are line2 or line3; two components a node, r and z. Areas and forces are those of the whole ring, with
-/// 2 pi r.
-#define STICKSLIP_MODEL_AXISYMMETRIC 2
-
 /// Forces use lambda, rows the projection; the tangent is a sum of pairs and nodes. Default.
 #define STICKSLIP_FORM_MULTIPLIER 0
 
@@ -460,6 +450,16 @@
 /// Matrices go out column by column (what a Fortran array is).
 #define STICKSLIP_LAYOUT_COLUMN_MAJOR 1
 
+/// A model in space: facets are tri3, quad4, tri6, quad8, quad9; three components a node.
+#define STICKSLIP_MODEL_SOLID 0
+
+/// Plane strain or plane stress: facets are line2 or line3; two components a node, x and y.
+#define STICKSLIP_MODEL_PLANE 1
+
+/// Axisymmetric: facets are line2 or line3; two components a node, r and z. Areas and forces are those of the whole ring, with
+/// 2 pi r.
+#define STICKSLIP_MODEL_AXISYMMETRIC 2
+
 /// Multipliers of a quadratic facet at its corners, with the linear functions of these: the recommended ones.
 #define STICKSLIP_SPACE_CORNER 0
 
@@ -589,19 +589,20 @@ typedef struct stickslip_surface {
   int64_t n_nodes;
   /// Number of facets. Analytic: 0.
   int64_t n_facets;
-  /// 3 n_nodes coordinates of the first configuration, node by node [L].
+  /// 3 n_nodes coordinates of the first configuration, node by node; 2 n_nodes of lines (`model` of `stickslip_options`) [L].
   const double *coordinates;
   /// n_facets + 1 offsets into facet_nodes, starting at 0 whatever the index base: facet f, counted from 0,
   /// has the entries facet_offsets[f] to facet_offsets[f + 1] - 1 of C's array; counted from 1, the
   /// entries facet_offsets(f) + 1 to facet_offsets(f + 1) of Fortran's.
   const int64_t *facet_offsets;
   /// Node numbers in the index base, 3 (tri3), 4 (quad4), 6 (tri6), 8 (quad8) or 9 (quad9) a facet, right-hand order seen
-  /// from outside the body: corners, then the mid nodes, k between the corners k and k + 1, then the centre.
+  /// from outside the body: corners, then the mid nodes, k between the corners k and k + 1, then the centre. Of lines 2
+  /// (line2) or 3 (line3): the ends, with the body to the left of the way from the first to the second, then the middle.
   const int64_t *facet_nodes;
-  /// 3 n_nodes displacement equations, node by node, in the index base; -1: none (prescribed), whatever the
-  /// index base.
+  /// 3 n_nodes displacement equations (of lines 2 n_nodes), node by node, in the index base; -1: none (prescribed), whatever
+  /// the index base.
   const int64_t *equations;
-  /// Non-mortar: 3 n_nodes multiplier equations, each in use nowhere else in the interface; -1: the component is removed and its axis a constrained
+  /// Non-mortar: 3 n_nodes multiplier equations (of lines 2 n_nodes), each in use nowhere else in the interface; -1: the component is removed and its axis a constrained
   /// direction (see `stickslip_interface_set_constraints`); a node with three -1 keeps its normal. All are -1 at a node
   /// where no facet has a multiplier, as at the mid nodes of quadratic facets with STICKSLIP_SPACE_CORNER. With
   /// STICKSLIP_FRICTION_NONE n_nodes equations, one a node, along the normal; -1: none. A longer array cannot be told

@@ -27,7 +27,6 @@ mod version;
 mod status;
 
 mod message;
-mod model;
 
 mod options;
 
@@ -65,6 +64,7 @@ mod layout;
 
 mod pair;
 mod pair_in;
+mod model;
 mod space;
 
 mod pair_state;

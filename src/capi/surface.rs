@@ -30,19 +30,20 @@ pub struct stickslip_surface {
     pub n_nodes: i64,
     /// Number of facets. Analytic: 0.
     pub n_facets: i64,
-    /// 3 n_nodes coordinates of the first configuration, node by node [L].
+    /// 3 n_nodes coordinates of the first configuration, node by node; 2 n_nodes of lines (`model` of `stickslip_options`) [L].
     pub coordinates: *const f64,
     /// n_facets + 1 offsets into facet_nodes, starting at 0 whatever the index base: facet f, counted from 0,
     /// has the entries facet_offsets[f] to facet_offsets[f + 1] - 1 of C's array; counted from 1, the
     /// entries facet_offsets(f) + 1 to facet_offsets(f + 1) of Fortran's.
     pub facet_offsets: *const i64,
     /// Node numbers in the index base, 3 (tri3), 4 (quad4), 6 (tri6), 8 (quad8) or 9 (quad9) a facet, right-hand order seen
-    /// from outside the body: corners, then the mid nodes, k between the corners k and k + 1, then the centre.
+    /// from outside the body: corners, then the mid nodes, k between the corners k and k + 1, then the centre. Of lines 2
+    /// (line2) or 3 (line3): the ends, with the body to the left of the way from the first to the second, then the middle.
     pub facet_nodes: *const i64,
-    /// 3 n_nodes displacement equations, node by node, in the index base; -1: none (prescribed), whatever the
-    /// index base.
+    /// 3 n_nodes displacement equations (of lines 2 n_nodes), node by node, in the index base; -1: none (prescribed), whatever
+    /// the index base.
     pub equations: *const i64,
-    /// Non-mortar: 3 n_nodes multiplier equations, each in use nowhere else in the interface; -1: the component is removed and its axis a constrained
+    /// Non-mortar: 3 n_nodes multiplier equations (of lines 2 n_nodes), each in use nowhere else in the interface; -1: the component is removed and its axis a constrained
     /// direction (see `stickslip_interface_set_constraints`); a node with three -1 keeps its normal. All are -1 at a node
     /// where no facet has a multiplier, as at the mid nodes of quadratic facets with STICKSLIP_SPACE_CORNER. With
     /// STICKSLIP_FRICTION_NONE n_nodes equations, one a node, along the normal; -1: none. A longer array cannot be told

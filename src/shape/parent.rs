@@ -287,7 +287,7 @@ pub static QUAD9: Parent = Parent {
     ],
 };
 
-/// The cell of a line, whose second coordinate is not used. No [`crate::geometry::Facet`] has this shape.
+/// The cell of a line, whose second coordinate is not used. No facet of the geometry has this shape.
 static LINE: Shape = Shape {
     n: 2,
     coefficients: [[0.5, -0.5, 0.0, 0.0], [0.5, 0.5, 0.0, 0.0], [0.0; 4], [0.0; 4]],

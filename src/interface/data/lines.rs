@@ -3,7 +3,6 @@
 //! Search, heights and overlaps are those of quadrilaterals: each part of a line is given a width along z, the same one on
 //! both sides. Weights, areas and derivatives are those of lines (`src/line`), whatever the width is.
 
-use super::surface::Surface;
 use crate::adjacency::SharedEdge;
 use crate::error::{Error, Kind, Result};
 use crate::geometry::{Facet, Vec3};
@@ -27,6 +26,23 @@ impl Lines {
         let half = Vec3::new(0.0, 0.0, 0.5 * self.width);
         let shape = Shape::of(4).expect("there are quadrilaterals");
         Facet { nodes: [a - half, b - half, b + half, a + half], shape }
+    }
+
+    /// Refuses positions of a side that lie out of the plane, or beyond the axis.
+    pub fn check(&self, side: &str, x: &[Vec3]) -> Result<()> {
+        if let Some(k) = x.iter().position(|x| x.z != 0.0) {
+            let text = text!("{side}: node {k} has z = {:e}; nodes of plane models have z = 0", x[k].z);
+            return Err(Error::new(Kind::InvalidValue, text));
+        }
+        match x.iter().position(|x| self.measure == Measure::Axisymmetric && x.x < 0.0) {
+            None => Ok(()),
+            Some(k) => {
+                let r = x[k].x;
+                let text =
+                    text!("{side}: node {k} has r = {r:e}, beyond the axis; r is the first coordinate, 0 or more");
+                Err(Error::new(Kind::InvalidValue, text))
+            }
+        }
     }
 }
 
@@ -65,26 +81,4 @@ pub fn shared_ends<'a>(parts: usize, nodes: impl Fn(usize) -> &'a [usize]) -> Re
         shared.store(SharedEdge { nodes: [a, a], facets: [f, g] })?;
     }
     Ok(shared)
-}
-
-impl Surface {
-    /// Refuses positions of lines that lie out of their plane, or beyond the axis of their model.
-    pub fn check_lines(&self, x: &[Vec3]) -> Result<()> {
-        let Some(lines) = &self.lines else { return Ok(()) };
-        if let Some(k) = x.iter().position(|x| x.z != 0.0) {
-            let text = text!("{}: node {k} has z = {:e}; nodes of plane models have z = 0", self.side, x[k].z);
-            return Err(Error::new(Kind::InvalidValue, text));
-        }
-        match x.iter().position(|x| lines.measure == Measure::Axisymmetric && x.x < 0.0) {
-            None => Ok(()),
-            Some(k) => {
-                let text = text!(
-                    "{}: node {k} has r = {:e}, beyond the axis; r is the first coordinate, 0 or more",
-                    self.side,
-                    x[k].x
-                );
-                Err(Error::new(Kind::InvalidValue, text))
-            }
-        }
-    }
 }

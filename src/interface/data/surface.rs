@@ -245,6 +245,11 @@ impl Surface {
         self.facets.iter().map(length).fold(f64::INFINITY, f64::min)
     }
 
+    /// Refuses positions of lines that lie out of their plane, or beyond the axis of their model.
+    pub fn check_lines(&self, x: &[Vec3]) -> Result<()> {
+        self.lines.as_ref().map_or(Ok(()), |lines| lines.check(self.side, x))
+    }
+
     /// The longest edge of any facet at the node positions `x` `[L]`.
     pub fn longest_edge_at(&self, x: &[Vec3]) -> f64 {
         (0..self.facets.len()).map(|f| self.facet(f, x).longest_edge()).fold(0.0, f64::max)
