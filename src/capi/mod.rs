@@ -66,6 +66,9 @@ mod pair;
 mod pair_in;
 mod space;
 
+mod model;
+
+mod lines;
 mod pair_state;
 mod parents;
 
@@ -82,6 +85,7 @@ mod equilibrium;
 mod choice;
 mod fp_environment;
 mod guard;
+mod nodal;
 mod pair_out;
 mod raw;
 mod sized;
@@ -100,6 +104,7 @@ pub use history::*;
 pub use interface::*;
 pub use layout::*;
 pub use message::*;
+pub use model::*;
 pub use node::*;
 pub use normals::*;
 pub use options::*;

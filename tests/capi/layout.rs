@@ -214,7 +214,8 @@ fn layouts() -> Vec<Layout> {
             element_points,
             neighbour_normals,
             multiplier_space,
-            reserved
+            model,
+            thickness
         }),
         layout!(stickslip_facet {
             struct_size,
