@@ -184,6 +184,8 @@ module stickslip
   integer(c_int32_t), parameter :: STICKSLIP_MODEL_PLANE = 1
   integer(c_int32_t), parameter :: STICKSLIP_MODEL_AXISYMMETRIC = 2
 
+  ! What facets are: of a solid; lines (x, y) of a plane model; lines (r, z) of an axisymmetric one.
+
   ! State of a node: open or uncovered; closed, sticking; closed, sliding or on the friction cone.
   integer(c_int32_t), parameter :: STICKSLIP_STATE_GAP = 0
   integer(c_int32_t), parameter :: STICKSLIP_STATE_STICK = 1
@@ -196,7 +198,7 @@ module stickslip
   integer(c_int64_t), parameter :: stickslip_counters_size = 200
   integer(c_int64_t), parameter :: stickslip_report_size = 104
   integer(c_int64_t), parameter :: stickslip_diagnosis_size = 224
-  integer(c_int64_t), parameter :: stickslip_pair_size = 64
+  integer(c_int64_t), parameter :: stickslip_pair_size = 72
   integer(c_int64_t), parameter :: stickslip_node_response_size = 408
   integer(c_int64_t), parameter :: stickslip_node_size = 240
   integer(c_int64_t), parameter :: stickslip_facet_size = 72
@@ -348,7 +350,8 @@ module stickslip
     integer(c_int64_t) :: error_facets(2) = -1
   end type
 
-  ! A pair of facets, non-mortar first. Node order: right-hand, seen from outside each body.
+  ! A pair of facets, non-mortar first. Node order: right-hand, seen from outside each body; of a line: its direction, turned
+  ! from the first axis towards the second, points into the body. A line's arrays have 2 in place of 3 in their first dimension.
   type, bind(C) :: stickslip_pair
     integer(c_int64_t) :: struct_size = stickslip_pair_size
     integer(c_int32_t) :: n1 = 0                   ! 3 (tri3) or 4 (quad4); 6, 8, 9 where quadratic facets are taken
@@ -359,8 +362,9 @@ module stickslip
     integer(c_int32_t) :: layout = STICKSLIP_LAYOUT_COLUMN_MAJOR ! of the tangent: k(row, column)
     integer(c_int64_t) :: element_points = 0       ! 0: overlaps; 2 to 10: points along a side
     type(c_ptr) :: neighbour_normals = c_null_ptr  ! real(c_double) (3, n1): of the facets beyond the edges, 0: none
-    integer(c_int32_t) :: multiplier_space = STICKSLIP_SPACE_CORNER ! of a quadratic non-mortar facet
-    integer(c_int32_t) :: reserved = 0
+    integer(c_int32_t) :: multiplier_space = STICKSLIP_SPACE_CORNER ! of a quadratic non-mortar facet or a line3
+    integer(c_int32_t) :: model = STICKSLIP_MODEL_SOLID ! the others: lines, n1, n2 2 or 3, x1(2, n1), x2(2, n2)
+    real(c_double) :: thickness = 0                ! of STICKSLIP_MODEL_PLANE alone [L]; 0: 1
   end type
 
   ! The law's answer for one node. Matrices are row-major in C, so dp_dlambda(j, i) = dp_i / dlambda_j.
@@ -877,14 +881,16 @@ module stickslip
 
     ! Stage 1: the mortar weights of a pair. Outputs, each may be null: n_ab(n1, m) as (b, a), n_ac(n2, m) as (c, a)
     ! [L^2]; derivatives dn_ab(3 (n1 + n2), n1, m), dn_ac(3 (n1 + n2), n2, m) [L], first the coordinate of (x1, x2).
-    ! m multipliers, at the first nodes: n1; of a quadratic facet with STICKSLIP_SPACE_CORNER its 3 or 4 corners.
+    ! m multipliers, at the first nodes: n1; of a quadratic facet with STICKSLIP_SPACE_CORNER its 3 or 4 corners, of a line3 its
+    ! 2 ends. Lines: dn_ab(2 (n1 + n2), n1, m), dn_ac(2 (n1 + n2), n2, m).
     integer(c_int32_t) function stickslip_pair_weights(pair, n_ab, n_ac, dn_ab, dn_ac) bind(C)
       import :: c_int32_t, c_ptr, stickslip_pair
       type(stickslip_pair), intent(in) :: pair
       type(c_ptr), value :: n_ab, n_ac, dn_ab, dn_ac
     end function
 
-    ! The weighted gap of a pair with any weights: n_ab(n1, m) as (b, a), n_ac(n2, m) as (c, a); gap(3, m), output.
+    ! The weighted gap of a pair with any weights: n_ab(n1, m) as (b, a), n_ac(n2, m) as (c, a); gap(3, m), of lines
+    ! gap(2, m), output.
     integer(c_int32_t) function stickslip_pair_gap(pair, n_ab, n_ac, gap) bind(C)
       import :: c_double, c_int32_t, stickslip_pair
       type(stickslip_pair), intent(in) :: pair
@@ -893,7 +899,7 @@ module stickslip
     end function
 
     ! Stage 3: a pair's nodal forces in internal-force sign. Weights as above; traction(3, m);
-    ! force(3, n1 + n2), output.
+    ! force(3, n1 + n2), output. Lines: traction(2, m), force(2, n1 + n2).
     integer(c_int32_t) function stickslip_pair_residual(pair, n_ab, n_ac, traction, force) bind(C)
       import :: c_double, c_int32_t, stickslip_pair
       type(stickslip_pair), intent(in) :: pair
@@ -903,7 +909,7 @@ module stickslip
 
     ! Stage 3: a pair's share of the exact tangent in the multiplier form. Weights and derivatives as
     ! stickslip_pair_weights has them, null in pairs as the header says; traction(3, m); responses(m);
-    ! row_scale(m), null: 1; k(ld, *), output, rows and columns: x1, x2, lambda.
+    ! row_scale(m), null: 1; k(ld, *), output, rows and columns: x1, x2, lambda. Lines: traction(2, m), 2 (n1 + n2 + m) rows.
     integer(c_int32_t) function stickslip_pair_tangent(pair, n_ab, n_ac, dn_ab, dn_ac, n_ab_previous, n_ac_previous, &
         traction, responses, row_scale, k, ld) bind(C)
       import :: c_double, c_int32_t, c_int64_t, c_ptr, stickslip_node_response, stickslip_pair

@@ -450,21 +450,20 @@
 /// Matrices go out column by column (what a Fortran array is).
 #define STICKSLIP_LAYOUT_COLUMN_MAJOR 1
 
-/// A model in space: facets are tri3, quad4, tri6, quad8, quad9; three components a node.
-#define STICKSLIP_MODEL_SOLID 0
-
-/// Plane strain or plane stress: facets are line2 or line3; two components a node, x and y.
-#define STICKSLIP_MODEL_PLANE 1
-
-/// Axisymmetric: facets are line2 or line3; two components a node, r and z. Areas and forces are those of the whole ring, with
-/// 2 pi r.
-#define STICKSLIP_MODEL_AXISYMMETRIC 2
-
 /// Multipliers of a quadratic facet at its corners, with the linear functions of these: the recommended ones.
 #define STICKSLIP_SPACE_CORNER 0
 
 /// Multipliers at all nodes, with the functions of the linear parts that the facet is cut into.
 #define STICKSLIP_SPACE_SUB 1
+
+/// Facets of a solid: positions have three components.
+#define STICKSLIP_MODEL_SOLID 0
+
+/// Lines of a plane model, strain or stress: positions are (x, y).
+#define STICKSLIP_MODEL_PLANE 1
+
+/// Lines of an axisymmetric model: positions are (r, z). Forces are those of the whole ring.
+#define STICKSLIP_MODEL_AXISYMMETRIC 2
 
 /// State of a node: open or uncovered.
 #define STICKSLIP_STATE_GAP 0
@@ -784,20 +783,24 @@ typedef struct stickslip_diagnosis {
   int64_t error_facets[2];
 } stickslip_diagnosis;
 
-/// A pair of facets, non-mortar first. Node order: right-hand, seen from outside each body.
+/// A pair of facets, non-mortar first. Node order: right-hand, seen from outside each body. Lines of plane and axisymmetric
+/// models: the direction from the first node to the second one, turned by a right angle from the first axis towards the second,
+/// points INTO the body. (Weights do not depend on it.)
 typedef struct stickslip_pair {
   /// sizeof(stickslip_pair).
   uint64_t struct_size;
   /// Nodes of the non-mortar facet: 3 (tri3) or 4 (quad4); 6 (tri6), 8 (quad8) or 9 (quad9) where the function takes
-  /// quadratic facets: corners, then mid nodes, k between the corners k and k + 1, then the centre.
+  /// quadratic facets: corners, then mid nodes, k between the corners k and k + 1, then the centre. Of a line 2 (line2) or 3
+  /// (line3): the ends, then the middle.
   int32_t n1;
   /// Nodes of the mortar facet, likewise.
   int32_t n2;
-  /// 3 n1 coordinates of the non-mortar facet, node by node (in Fortran x1(3, n1)) [L].
+  /// 3 n1 coordinates of the non-mortar facet, node by node (in Fortran x1(3, n1)) [L]; of a line 2 n1, (x, y) or (r, z).
   const double *x1;
-  /// 3 n2 coordinates of the mortar facet [L].
+  /// 3 n2 coordinates of the mortar facet, 2 n2 of a line [L].
   const double *x2;
   /// STICKSLIP_QUADRATURE_...; of quadratic facets at least that of degree 5, with a quad8 or a quad9 12 points of degree 7.
+  /// Lines do not use it: theirs is exact.
   int32_t quadrature;
   /// STICKSLIP_LAYOUT_... of the tangent.
   int32_t layout;
@@ -809,10 +812,12 @@ typedef struct stickslip_pair {
   /// known. Read by `stickslip_pair_weights` alone. With it a pair has the weights that a handle has, to the last bit;
   /// without, a border of the mortar surface that follows the edge may count for both of its facets or for none.
   const double *neighbour_normals;
-  /// STICKSLIP_SPACE_..., of a quadratic non-mortar facet.
+  /// STICKSLIP_SPACE_..., of a quadratic non-mortar facet or a line3.
   int32_t multiplier_space;
-  /// Must be 0.
-  int32_t reserved;
+  /// STICKSLIP_MODEL_...; 0 (default), and an older caller's: facets of a solid. The other models have lines.
+  int32_t model;
+  /// Of STICKSLIP_MODEL_PLANE alone: the model's thickness [L]; 0 (default): 1.
+  double thickness;
 } stickslip_pair;
 
 /// The law's answer for one node. Matrices are row-major 3 x 3 and not symmetric: in Fortran m(j, i) is row i,
@@ -1672,13 +1677,16 @@ int32_t stickslip_node_normal(const double *sum, double *normal);
 /// in this order (in Fortran: n_ac(n2, m), dn_ac(3 (n1+n2), n2, m)). m: multipliers, at the first m nodes of the non-mortar
 /// facet; n1 where it is linear; of a quadratic one 3 or 4 with STICKSLIP_SPACE_CORNER, n1 with STICKSLIP_SPACE_SUB. Facets
 /// that do not overlap give zeros, as does a mortar facet seen edge-on: not an error.
+/// Lines (model): dn_ab (m x n1 x 2(n1+n2)), dn_ac (m x n2 x 2(n1+n2)), for positions have two components; m is 2 with
+/// STICKSLIP_SPACE_CORNER, n1 with STICKSLIP_SPACE_SUB. Weights hold the thickness or, axisymmetric, 2 pi r. A line over itself has
+/// the areas of its multipliers: the sums of the rows of its n_ab.
 ///
 /// Errors: NULL_POINTER, STRUCT_SIZE, INVALID_SIZE, NOT_FINITE, DUPLICATE_NODE, DEGENERATE_FACET (of a quadratic facet, also
-/// where mid nodes do not follow the corners in order), PROJECTION_NOT_CONVEX, INVALID_VALUE, UNSUPPORTED (quadratic facets
-/// with element_points or neighbour_normals).
+/// where mid nodes do not follow the corners in order), PROJECTION_NOT_CONVEX, INVALID_VALUE (also a node at r < 0),
+/// UNSUPPORTED (quadratic facets or lines with element_points or neighbour_normals).
 /// Cost: 1 (tri3) to 2 (quad4) microseconds, 1 to 7 with derivatives, 2 to 2.5 times that with QUADRATURE_DEGREE_10;
-/// two quadratic facets 7 (tri6) to 14 (quad8), 50 to 140 with derivatives. Allocates nothing, but memory for derivatives of
-/// quadratic facets.
+/// two quadratic facets 7 (tri6) to 14 (quad8), 50 to 140 with derivatives; lines below 1. Allocates nothing, but memory for
+/// derivatives of quadratic facets.
 int32_t stickslip_pair_weights(const struct stickslip_pair *pair,
                                double *n_ab,
                                double *n_ac,
@@ -1689,10 +1697,10 @@ int32_t stickslip_pair_weights(const struct stickslip_pair *pair,
 /// the pairs of a node. Paper (11).
 ///
 /// pair: quadrature and layout are not read. n_ab (m x n1), n_ac (m x n2) [L^2], row A, of m multipliers as for
-/// `stickslip_pair_weights`; gap (3 m), output [L^3].
+/// `stickslip_pair_weights`; gap (3 m), of lines (2 m), output [L^3].
 ///
 /// Errors: NULL_POINTER, STRUCT_SIZE, INVALID_SIZE, NOT_FINITE, DUPLICATE_NODE, DEGENERATE_FACET, INVALID_VALUE, UNSUPPORTED (as
-/// `stickslip_pair_weights`, of quadratic facets).
+/// `stickslip_pair_weights`, of quadratic facets and lines).
 /// Cost: below a microsecond, of two quad9 1.4; allocates nothing.
 int32_t stickslip_pair_gap(const struct stickslip_pair *pair,
                            const double *n_ab,
@@ -1704,10 +1712,11 @@ int32_t stickslip_pair_gap(const struct stickslip_pair *pair,
 ///
 /// pair: quadrature and layout are not read. n_ab (m x n1), n_ac (m x n2): weights of now [L^2], row A, of m multipliers as
 /// for `stickslip_pair_weights`; traction (3 m): the multipliers lambda (multiplier form) or the projected tractions p of
-/// `stickslip_node_respond` (augmented form) [F/L^2]; force (3 (n1 + n2)), output [F].
+/// `stickslip_node_respond` (augmented form) [F/L^2]; force (3 (n1 + n2)), output [F]. Of lines traction (2 m) and force
+/// (2 (n1 + n2)), in an axisymmetric model that of the whole ring.
 ///
 /// Errors: NULL_POINTER, STRUCT_SIZE, INVALID_SIZE, NOT_FINITE, DUPLICATE_NODE, DEGENERATE_FACET, INVALID_VALUE, UNSUPPORTED (as
-/// `stickslip_pair_weights`, of quadratic facets).
+/// `stickslip_pair_weights`, of quadratic facets and lines).
 /// Cost: below a microsecond, of two quad9 1.4; allocates nothing.
 int32_t stickslip_pair_residual(const struct stickslip_pair *pair,
                                 const double *n_ab,
@@ -1726,11 +1735,13 @@ int32_t stickslip_pair_residual(const struct stickslip_pair *pair,
 /// overlap then. traction (3 m): lambda [F/L^2]. responses: m results of `stickslip_node_respond`, from the gaps
 /// assembled over all pairs. row_scale (m) multiplies the multiplier rows, NULL: 1; r M_A [F/L^3] makes them
 /// forces. k: output, 3 (n1 + n2 + m) squared in the pair's layout, leading dimension ld >= that; overwritten,
-/// the block (lambda, lambda) with zeros. Units of an entry: its row's over its column's.
+/// the block (lambda, lambda) with zeros. Units of an entry: its row's over its column's. Of lines k is 2 (n1 + n2 + m) squared
+/// and traction (2 m): of each response the first two rows and columns are read (`stickslip_node_respond`).
 ///
 /// Errors: NULL_POINTER, STRUCT_SIZE, INVALID_SIZE, NOT_FINITE, DUPLICATE_NODE, DEGENERATE_FACET, INVALID_VALUE
-/// (layout, multiplier_space), UNSUPPORTED (as `stickslip_pair_weights`, of quadratic facets).
-/// Cost: 5 microseconds for two quad4, 11 for two quad9. Allocates nothing, but memory for the matrix of quadratic facets.
+/// (layout, multiplier_space, model, thickness, r < 0), UNSUPPORTED (as `stickslip_pair_weights`, of quadratic facets and lines).
+/// Cost: 5 microseconds for two quad4, 11 for two quad9, below 1 for two lines. Allocates nothing, but memory for the matrix of
+/// quadratic facets.
 int32_t stickslip_pair_tangent(const struct stickslip_pair *pair,
                                const double *n_ab,
                                const double *n_ac,
@@ -1760,7 +1771,7 @@ int64_t stickslip_pair_state_size(void);
 /// to be summed over the pairs of a node. Facets that do not overlap give zeros: not an error.
 ///
 /// Errors: NULL_POINTER, STRUCT_SIZE, INVALID_SIZE, NOT_FINITE, DUPLICATE_NODE, DEGENERATE_FACET,
-/// PROJECTION_NOT_CONVEX, INVALID_VALUE, BUFFER_TOO_SMALL.
+/// PROJECTION_NOT_CONVEX, INVALID_VALUE, BUFFER_TOO_SMALL, UNSUPPORTED (lines).
 /// Cost: that of `stickslip_pair_weights` without derivatives; allocates nothing.
 int32_t stickslip_pair_begin(const struct stickslip_pair *pair,
                              int64_t capacity,
@@ -1817,11 +1828,14 @@ int32_t stickslip_pair_state_tangent(const double *state,
 /// derivatives, from the gaps assembled over ALL its pairs (projecting pair by pair would make the answer
 /// depend on the augmentation). Paper (17)-(31).
 ///
-/// node: see `stickslip_node`; response, output, its struct_size set by the caller.
+/// node: see `stickslip_node`; response, output, its struct_size set by the caller. A node of a plane or axisymmetric model has a
+/// third component of 0 in all vectors, and (0, 0, 1) as its one prescribed direction: then the first two components of the
+/// answer are those of the model, and what mixes them with the third is 0.
 ///
 /// Errors: NULL_POINTER, STRUCT_SIZE, NOT_FINITE, INVALID_VALUE.
 /// Cost: below a microsecond; allocates nothing.
-int32_t stickslip_node_respond(const struct stickslip_node *node, struct stickslip_node_response *response);
+int32_t stickslip_node_respond(const struct stickslip_node *node,
+                               struct stickslip_node_response *response);
 
 /// Stage 4: the node's own block, to be added once per non-mortar node, covered or not. Paper (25)-(27),
 /// (29)-(31), third rows.

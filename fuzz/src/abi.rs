@@ -9,22 +9,22 @@ use stickslip::capi::*;
 const WORDS: usize = 4096 / 8 + 1;
 
 /// A struct in as much room as its declared size may claim.
-struct Struct<T>(Box<[u64; WORDS]>, std::marker::PhantomData<T>);
+pub(super) struct Struct<T>(Box<[u64; WORDS]>, std::marker::PhantomData<T>);
 
 impl<T: Copy> Struct<T> {
-    fn new(value: T) -> Struct<T> {
+    pub(super) fn new(value: T) -> Struct<T> {
         let mut words = Box::new([0; WORDS]);
         // SAFETY: the ABI's structs are shorter and need no more than a word's alignment.
         unsafe { words.as_mut_ptr().cast::<T>().write(value) }
         Struct(words, std::marker::PhantomData)
     }
 
-    fn pointer(&mut self) -> *mut T {
+    pub(super) fn pointer(&mut self) -> *mut T {
         self.0.as_mut_ptr().cast()
     }
 
     /// Its size as declared: right, another word's, or anything.
-    fn declare(&mut self, bytes: &mut Bytes) {
+    pub(super) fn declare(&mut self, bytes: &mut Bytes) {
         self.0[0] = bytes.integer(size_of::<T>() as i64) as u64;
         if bytes.once_in(8) {
             self.0[0] = 8 * u64::from(bytes.byte());
@@ -78,7 +78,8 @@ fn pair_calls(bytes: &mut Bytes) {
         element_points: bytes.integer(0),
         neighbour_normals: if bytes.once_in(2) { bytes.pointer(beyond.as_ptr()) } else { null() },
         multiplier_space: i32::from(bytes.once_in(2)),
-        reserved: 0,
+        model: STICKSLIP_MODEL_SOLID,
+        thickness: 0.0,
     });
     pair.declare(bytes);
     let p = bytes.pointer(pair.pointer());
@@ -598,4 +599,6 @@ pub fn run(data: &[u8]) {
             _ => create_calls(&mut bytes),
         }
     }
+    // Of the same bytes, which are read from the beginning: kept inputs go on meaning what they did.
+    super::lines::calls(&mut Bytes(data));
 }

@@ -4,6 +4,7 @@
 pub mod abi;
 mod bytes;
 pub mod interface;
+mod lines;
 pub mod pair;
 mod watched;
 

@@ -19,11 +19,3 @@ pub(super) fn choose<T: Copy>(value: i32, name: &str, available: &[T], named: i3
 pub(super) fn unnamed(value: i32, name: &str, named: i32) -> Error {
     Error::new(Kind::InvalidValue, text!("{name} is {value}; the header names 0 to {}", named - 1))
 }
-
-/// Refuses a number in a place that is kept for later.
-pub(super) fn check_reserved(value: i32, name: &str) -> Result<()> {
-    match value {
-        0 => Ok(()),
-        _ => Err(Error::new(Kind::InvalidValue, text!("{name} is {value}; it must be 0"))),
-    }
-}

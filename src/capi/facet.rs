@@ -7,10 +7,11 @@ use crate::geometry::{Facet, Plane, Vec3};
 use crate::mortar::{MultiplierSpace, NonmortarFrame, ParentFacet};
 use crate::normal;
 use crate::shape::{MAX_CORNERS, MAX_PARENT_NODES, Parent, Shape};
+use nalgebra::SVector;
 
 /// Refuses nodes at the same place.
 #[inline]
-fn check_distinct(nodes: &[Vec3], name: &str) -> Result<()> {
+pub(super) fn check_distinct<const D: usize>(nodes: &[SVector<f64, D>], name: &str) -> Result<()> {
     match (1..nodes.len()).find(|&k| nodes[..k].contains(&nodes[k])) {
         None => Ok(()),
         Some(k) => Err(Error::new(Kind::DuplicateNode, text!("{name} has two nodes at the same place (node {k})"))),

@@ -168,7 +168,7 @@ pub unsafe extern "C" fn stickslip_facet_tangent(
         let rule = rule(pairs.raw.quadrature, "facet.quadrature")?;
         let size = 6 * n1 + 3 * nodes_of(pairs.n2);
         let mut k = Matrix::new(k, size, ld, column_major(pairs.raw.layout, "facet.layout")?)?;
-        let traction = tractions::<MAX_CORNERS>(traction, n1)?;
+        let traction = tractions::<MAX_CORNERS, 3>(traction, n1)?;
         let nodes = node_tangents(&traction[..n1], responses, row_scale)?;
         let sums = facet_sums(&pairs.frame, &pairs)?;
         raw::check_results("k", sums.mass.iter().flatten().chain(&sums.gamma))?;

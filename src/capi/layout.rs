@@ -4,7 +4,7 @@ use super::raw;
 use crate::dual::Columns;
 use crate::element::Lines;
 use crate::error::{Error, Kind, Result};
-use crate::geometry::Mat3;
+use nalgebra::SMatrix;
 
 /// Matrices go out row by row (what PETSc's MatSetValues takes).
 pub const STICKSLIP_LAYOUT_ROW_MAJOR: i32 = 0;
@@ -23,7 +23,7 @@ pub(super) fn column_major(layout: i32, name: &str) -> Result<bool> {
     }
 }
 
-/// A caller's square matrix of 3 x 3 blocks.
+/// A caller's square matrix of blocks, 3 x 3 or of lines 2 x 2.
 pub(super) struct Matrix {
     k: *mut f64,
     ld: usize,
@@ -54,9 +54,9 @@ impl Matrix {
     }
 
     /// Writes a block; rows and columns are counted in blocks.
-    pub fn write(&mut self, row: usize, column: usize, block: &Mat3) {
-        for (i, j) in (0..3).flat_map(|i| (0..3).map(move |j| (i, j))) {
-            let (r, c) = (3 * row + i, 3 * column + j);
+    pub fn write<const D: usize>(&mut self, row: usize, column: usize, block: &SMatrix<f64, D, D>) {
+        for (i, j) in (0..D).flat_map(|i| (0..D).map(move |j| (i, j))) {
+            let (r, c) = (D * row + i, D * column + j);
             let at = if self.column_major { c * self.ld + r } else { r * self.ld + c };
             // SAFETY: at < ld * size; the caller's k has that many entries.
             unsafe { self.k.add(at).write(block[(i, j)]) };

@@ -64,9 +64,11 @@ mod layout;
 
 mod pair;
 mod pair_in;
-mod model;
 mod space;
 
+mod model;
+
+mod lines;
 mod pair_state;
 mod parents;
 
@@ -83,6 +85,7 @@ mod equilibrium;
 mod choice;
 mod fp_environment;
 mod guard;
+mod nodal;
 mod pair_out;
 mod raw;
 mod sized;

@@ -1,28 +1,44 @@
-//! The kind of model that facets belong to, as a caller says it.
+//! Of how many dimensions a caller's model is, and what a length of its lines stands for.
 
 use super::choice::choose;
 use crate::error::{Error, Kind, Result};
 use crate::line::Measure;
 
-/// A model in space: facets are tri3, quad4, tri6, quad8, quad9; three components a node.
+/// Facets of a solid: positions have three components.
 pub const STICKSLIP_MODEL_SOLID: i32 = 0;
-/// Plane strain or plane stress: facets are line2 or line3; two components a node, x and y.
+/// Lines of a plane model, strain or stress: positions are (x, y).
 pub const STICKSLIP_MODEL_PLANE: i32 = 1;
-/// Axisymmetric: facets are line2 or line3; two components a node, r and z. Areas and forces are those of the whole ring, with
-/// 2 pi r.
+/// Lines of an axisymmetric model: positions are (r, z). Forces are those of the whole ring.
 pub const STICKSLIP_MODEL_AXISYMMETRIC: i32 = 2;
 
-/// What the lengths of a model's lines stand for; `None`: its facets are no lines.
-pub(super) fn measure(model: i32, thickness: f64, of: &str) -> Result<Option<Measure>> {
-    let measure = choose(model, &text!("{of}.model"), &[None, Some(false), Some(true)], 3)?;
+/// A STICKSLIP_MODEL_... value.
+#[derive(Clone, Copy, PartialEq)]
+pub(super) enum Model {
+    Solid,
+    Plane,
+    Axisymmetric,
+}
+
+/// The model of a STICKSLIP_MODEL_... value.
+pub(super) fn model(value: i32, name: &str) -> Result<Model> {
+    choose(value, name, &[Model::Solid, Model::Plane, Model::Axisymmetric], 3)
+}
+
+/// What a length of a line stands for in a model of this thickness, `None` in a solid. 0 of a plane model is 1.
+pub(super) fn measure(model: Model, thickness: f64, name: &str) -> Result<Option<Measure>> {
     if !thickness.is_finite() {
-        return Err(Error::new(Kind::NotFinite, text!("{of}.thickness is {thickness}; it must be finite")));
+        return Err(Error::new(Kind::NotFinite, text!("{name} is {thickness}; it must be finite")));
     }
-    let plane = measure == Some(false);
-    if if plane { thickness < 0.0 } else { thickness != 0.0 } {
-        let allowed = if plane { "positive, or 0 for 1" } else { "0 where the model is not STICKSLIP_MODEL_PLANE" };
-        return Err(Error::new(Kind::InvalidValue, text!("{of}.thickness is {thickness}; it must be {allowed}")));
+    if thickness < 0.0 {
+        return Err(Error::new(Kind::InvalidValue, text!("{name} is {thickness}; it must not be negative")));
     }
-    let thickness = if thickness == 0.0 { 1.0 } else { thickness };
-    Ok(measure.map(|axisymmetric| if axisymmetric { Measure::Axisymmetric } else { Measure::Thickness(thickness) }))
+    if model != Model::Plane && thickness != 0.0 {
+        let text = text!("{name} is {thickness}; it is of plane models (STICKSLIP_MODEL_PLANE), leave it 0 in others");
+        return Err(Error::new(Kind::InvalidValue, text));
+    }
+    Ok(match model {
+        Model::Solid => None,
+        Model::Plane => Some(Measure::Thickness(if thickness == 0.0 { 1.0 } else { thickness })),
+        Model::Axisymmetric => Some(Measure::Axisymmetric),
+    })
 }

@@ -205,7 +205,9 @@ pub(super) fn read_node(p: *const stickslip_node) -> Result<(Friction, Node)> {
 /// derivatives, from the gaps assembled over ALL its pairs (projecting pair by pair would make the answer
 /// depend on the augmentation). Paper (17)-(31).
 ///
-/// node: see `stickslip_node`; response, output, its struct_size set by the caller.
+/// node: see `stickslip_node`; response, output, its struct_size set by the caller. A node of a plane or axisymmetric model has a
+/// third component of 0 in all vectors, and (0, 0, 1) as its one prescribed direction: then the first two components of the
+/// answer are those of the model, and what mixes them with the third is 0.
 ///
 /// Errors: NULL_POINTER, STRUCT_SIZE, NOT_FINITE, INVALID_VALUE.
 /// Cost: below a microsecond; allocates nothing.

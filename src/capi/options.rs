@@ -2,7 +2,7 @@
 
 use super::choice::{choose, unnamed};
 use super::guard::guard;
-use super::model::{STICKSLIP_MODEL_SOLID, measure};
+use super::model::{STICKSLIP_MODEL_SOLID, measure, model as read_model};
 use super::sized::{self, Sized64};
 use super::space::{STICKSLIP_SPACE_CORNER, multiplier_space as read_multiplier_space};
 use crate::error::{Error, Kind, Result, Text};
@@ -460,7 +460,7 @@ pub(super) fn read_options(p: *const stickslip_options) -> Result<Choices> {
         (0.0, e) => Stiffness::Modulus(e),
         (r, _) => Stiffness::Augmentation(r),
     };
-    let measure = measure(model, thickness, "options")?;
+    let measure = measure(read_model(model, "options.model")?, thickness, "options.thickness")?;
     if measure.is_some() && analytic {
         let text = "lines against an analytic mortar surface; give it facets (options.model, options.mortar_side)";
         return Err(Error::new(Kind::Unsupported, text));

@@ -1,7 +1,8 @@
-//! Stages 1 and 3 for one pair of facets: stateless, re-entrant, without allocation but for derivatives of quadratic facets.
+//! Stages 1 and 3 for one pair of facets or lines: stateless, re-entrant, without allocation but for derivatives of quadratic facets.
 
 use super::guard::guard;
 use super::layout::Matrix;
+use super::lines;
 use super::node::stickslip_node_response;
 use super::pair_in::{self, Pair, flat, node_tangents, read_previous, stickslip_pair, tractions};
 use super::pair_out::{check_tangent, check_weights, slot, write_force, write_gap, write_tangent, write_weights};
@@ -57,13 +58,16 @@ fn with_derivatives(
 /// in this order (in Fortran: n_ac(n2, m), dn_ac(3 (n1+n2), n2, m)). m: multipliers, at the first m nodes of the non-mortar
 /// facet; n1 where it is linear; of a quadratic one 3 or 4 with STICKSLIP_SPACE_CORNER, n1 with STICKSLIP_SPACE_SUB. Facets
 /// that do not overlap give zeros, as does a mortar facet seen edge-on: not an error.
+/// Lines (model): dn_ab (m x n1 x 2(n1+n2)), dn_ac (m x n2 x 2(n1+n2)), for positions have two components; m is 2 with
+/// STICKSLIP_SPACE_CORNER, n1 with STICKSLIP_SPACE_SUB. Weights hold the thickness or, axisymmetric, 2 pi r. A line over itself has
+/// the areas of its multipliers: the sums of the rows of its n_ab.
 ///
 /// Errors: NULL_POINTER, STRUCT_SIZE, INVALID_SIZE, NOT_FINITE, DUPLICATE_NODE, DEGENERATE_FACET (of a quadratic facet, also
-/// where mid nodes do not follow the corners in order), PROJECTION_NOT_CONVEX, INVALID_VALUE, UNSUPPORTED (quadratic facets
-/// with element_points or neighbour_normals).
+/// where mid nodes do not follow the corners in order), PROJECTION_NOT_CONVEX, INVALID_VALUE (also a node at r < 0),
+/// UNSUPPORTED (quadratic facets or lines with element_points or neighbour_normals).
 /// Cost: 1 (tri3) to 2 (quad4) microseconds, 1 to 7 with derivatives, 2 to 2.5 times that with QUADRATURE_DEGREE_10;
-/// two quadratic facets 7 (tri6) to 14 (quad8), 50 to 140 with derivatives. Allocates nothing, but memory for derivatives of
-/// quadratic facets.
+/// two quadratic facets 7 (tri6) to 14 (quad8), 50 to 140 with derivatives; lines below 1. Allocates nothing, but memory for
+/// derivatives of quadratic facets.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn stickslip_pair_weights(
     pair: *const stickslip_pair,
@@ -74,6 +78,9 @@ pub unsafe extern "C" fn stickslip_pair_weights(
 ) -> i32 {
     guard(|| {
         let given = pair_in::read(pair)?;
+        if given.is_line() {
+            return lines::weights(&given, [n_ab, n_ac], [dn_ab, dn_ac]);
+        }
         if given.is_quadratic() {
             return parents::weights(&given, [n_ab, n_ac], [dn_ab, dn_ac]);
         }
@@ -104,10 +111,10 @@ pub unsafe extern "C" fn stickslip_pair_weights(
 /// the pairs of a node. Paper (11).
 ///
 /// pair: quadrature and layout are not read. n_ab (m x n1), n_ac (m x n2) [L^2], row A, of m multipliers as for
-/// `stickslip_pair_weights`; gap (3 m), output [L^3].
+/// `stickslip_pair_weights`; gap (3 m), of lines (2 m), output [L^3].
 ///
 /// Errors: NULL_POINTER, STRUCT_SIZE, INVALID_SIZE, NOT_FINITE, DUPLICATE_NODE, DEGENERATE_FACET, INVALID_VALUE, UNSUPPORTED (as
-/// `stickslip_pair_weights`, of quadratic facets).
+/// `stickslip_pair_weights`, of quadratic facets and lines).
 /// Cost: below a microsecond, of two quad9 1.4; allocates nothing.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn stickslip_pair_gap(
@@ -118,6 +125,9 @@ pub unsafe extern "C" fn stickslip_pair_gap(
 ) -> i32 {
     guard(|| {
         let given = pair_in::read(pair)?;
+        if given.is_line() {
+            return lines::gap(&given, [n_ab, n_ac], gap);
+        }
         if given.is_quadratic() {
             return parents::gap(&given, [n_ab, n_ac], gap);
         }
@@ -133,10 +143,11 @@ pub unsafe extern "C" fn stickslip_pair_gap(
 ///
 /// pair: quadrature and layout are not read. n_ab (m x n1), n_ac (m x n2): weights of now [L^2], row A, of m multipliers as
 /// for `stickslip_pair_weights`; traction (3 m): the multipliers lambda (multiplier form) or the projected tractions p of
-/// `stickslip_node_respond` (augmented form) [F/L^2]; force (3 (n1 + n2)), output [F].
+/// `stickslip_node_respond` (augmented form) [F/L^2]; force (3 (n1 + n2)), output [F]. Of lines traction (2 m) and force
+/// (2 (n1 + n2)), in an axisymmetric model that of the whole ring.
 ///
 /// Errors: NULL_POINTER, STRUCT_SIZE, INVALID_SIZE, NOT_FINITE, DUPLICATE_NODE, DEGENERATE_FACET, INVALID_VALUE, UNSUPPORTED (as
-/// `stickslip_pair_weights`, of quadratic facets).
+/// `stickslip_pair_weights`, of quadratic facets and lines).
 /// Cost: below a microsecond, of two quad9 1.4; allocates nothing.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn stickslip_pair_residual(
@@ -148,6 +159,9 @@ pub unsafe extern "C" fn stickslip_pair_residual(
 ) -> i32 {
     guard(|| {
         let given = pair_in::read(pair)?;
+        if given.is_line() {
+            return lines::residual(&given, [n_ab, n_ac], traction, force);
+        }
         if given.is_quadratic() {
             return parents::residual(&given, [n_ab, n_ac], traction, force);
         }
@@ -170,11 +184,13 @@ pub unsafe extern "C" fn stickslip_pair_residual(
 /// overlap then. traction (3 m): lambda [F/L^2]. responses: m results of `stickslip_node_respond`, from the gaps
 /// assembled over all pairs. row_scale (m) multiplies the multiplier rows, NULL: 1; r M_A [F/L^3] makes them
 /// forces. k: output, 3 (n1 + n2 + m) squared in the pair's layout, leading dimension ld >= that; overwritten,
-/// the block (lambda, lambda) with zeros. Units of an entry: its row's over its column's.
+/// the block (lambda, lambda) with zeros. Units of an entry: its row's over its column's. Of lines k is 2 (n1 + n2 + m) squared
+/// and traction (2 m): of each response the first two rows and columns are read (`stickslip_node_respond`).
 ///
 /// Errors: NULL_POINTER, STRUCT_SIZE, INVALID_SIZE, NOT_FINITE, DUPLICATE_NODE, DEGENERATE_FACET, INVALID_VALUE
-/// (layout, multiplier_space), UNSUPPORTED (as `stickslip_pair_weights`, of quadratic facets).
-/// Cost: 5 microseconds for two quad4, 11 for two quad9. Allocates nothing, but memory for the matrix of quadratic facets.
+/// (layout, multiplier_space, model, thickness, r < 0), UNSUPPORTED (as `stickslip_pair_weights`, of quadratic facets and lines).
+/// Cost: 5 microseconds for two quad4, 11 for two quad9, below 1 for two lines. Allocates nothing, but memory for the matrix of
+/// quadratic facets.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn stickslip_pair_tangent(
     pair: *const stickslip_pair,
@@ -192,15 +208,10 @@ pub unsafe extern "C" fn stickslip_pair_tangent(
 ) -> i32 {
     guard(|| {
         let given = pair_in::read(pair)?;
-        if given.is_quadratic() {
-            let now = ([n_ab, n_ac], [dn_ab, dn_ac]);
-            return parents::tangent(
-                &given,
-                now,
-                [n_ab_previous, n_ac_previous],
-                (traction, responses, row_scale),
-                (k, ld),
-            );
+        if given.is_line() || given.is_quadratic() {
+            let (now, at) = (([n_ab, n_ac], [dn_ab, dn_ac]), (traction, responses, row_scale));
+            let tangent = if given.is_line() { lines::tangent } else { parents::tangent };
+            return tangent(&given, now, [n_ab_previous, n_ac_previous], at, (k, ld));
         }
         let pair = Pair::of(given)?;
         let (n1, n2) = pair.n();
@@ -210,7 +221,7 @@ pub unsafe extern "C" fn stickslip_pair_tangent(
             (!n_ab.is_null() || !n_ac.is_null()).then(|| pair.weights(n_ab, n_ac, ["n_ab", "n_ac"])).transpose()?;
         let dn = (!dn_ab.is_null() || !dn_ac.is_null()).then(|| pair.derivatives(dn_ab, dn_ac)).transpose()?;
         let before = read_previous((n1, n2), n_ab_previous, n_ac_previous)?;
-        let traction = tractions::<MAX_CORNERS>(traction, n1)?;
+        let traction = tractions::<MAX_CORNERS, 3>(traction, n1)?;
         let nodes = node_tangents(&traction[..n1], responses, row_scale)?;
         let gap = match (&weights, &dn) {
             (Some(w), Some(dn)) => {

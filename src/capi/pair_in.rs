@@ -1,8 +1,8 @@
 //! What comes in of a pair of facets: the pair, its weights and their derivatives, tractions and responses.
 
-use super::choice::check_reserved;
 use super::facet::{facet, set_neighbours};
 use super::layout::column_major;
+use super::model::{STICKSLIP_MODEL_SOLID, measure, model};
 use super::node::stickslip_node_response;
 use super::options::{element_line, rule};
 use super::pair_out::slot;
@@ -10,28 +10,33 @@ use super::raw;
 use super::sized::{self, Sized64};
 use super::space::multiplier_space;
 use crate::element::NodeTangent;
-use crate::error::Result;
-use crate::geometry::{Facet, Vec3};
+use crate::error::{Error, Kind, Result};
+use crate::geometry::{Facet, Mat3};
 use crate::mortar::{NonmortarFrame, PAIR_NODES, PairWeights, Segment, WeightDerivatives};
 use crate::quadrature::Rule;
 use crate::shape::{MAX_CORNERS, MAX_NODES};
+use nalgebra::{SMatrix, SVector};
 
-/// A pair of facets, non-mortar first. Node order: right-hand, seen from outside each body.
+/// A pair of facets, non-mortar first. Node order: right-hand, seen from outside each body. Lines of plane and axisymmetric
+/// models: the direction from the first node to the second one, turned by a right angle from the first axis towards the second,
+/// points INTO the body. (Weights do not depend on it.)
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct stickslip_pair {
     /// sizeof(stickslip_pair).
     pub struct_size: u64,
     /// Nodes of the non-mortar facet: 3 (tri3) or 4 (quad4); 6 (tri6), 8 (quad8) or 9 (quad9) where the function takes
-    /// quadratic facets: corners, then mid nodes, k between the corners k and k + 1, then the centre.
+    /// quadratic facets: corners, then mid nodes, k between the corners k and k + 1, then the centre. Of a line 2 (line2) or 3
+    /// (line3): the ends, then the middle.
     pub n1: i32,
     /// Nodes of the mortar facet, likewise.
     pub n2: i32,
-    /// 3 n1 coordinates of the non-mortar facet, node by node (in Fortran x1(3, n1)) [L].
+    /// 3 n1 coordinates of the non-mortar facet, node by node (in Fortran x1(3, n1)) [L]; of a line 2 n1, (x, y) or (r, z).
     pub x1: *const f64,
-    /// 3 n2 coordinates of the mortar facet [L].
+    /// 3 n2 coordinates of the mortar facet, 2 n2 of a line [L].
     pub x2: *const f64,
     /// STICKSLIP_QUADRATURE_...; of quadratic facets at least that of degree 5, with a quad8 or a quad9 12 points of degree 7.
+    /// Lines do not use it: theirs is exact.
     pub quadrature: i32,
     /// STICKSLIP_LAYOUT_... of the tangent.
     pub layout: i32,
@@ -43,10 +48,12 @@ pub struct stickslip_pair {
     /// known. Read by `stickslip_pair_weights` alone. With it a pair has the weights that a handle has, to the last bit;
     /// without, a border of the mortar surface that follows the edge may count for both of its facets or for none.
     pub neighbour_normals: *const f64,
-    /// STICKSLIP_SPACE_..., of a quadratic non-mortar facet.
+    /// STICKSLIP_SPACE_..., of a quadratic non-mortar facet or a line3.
     pub multiplier_space: i32,
-    /// Must be 0.
-    pub reserved: i32,
+    /// STICKSLIP_MODEL_...; 0 (default), and an older caller's: facets of a solid. The other models have lines.
+    pub model: i32,
+    /// Of STICKSLIP_MODEL_PLANE alone: the model's thickness [L]; 0 (default): 1.
+    pub thickness: f64,
 }
 
 // SAFETY: repr(C), struct_size first, integers and raw pointers only.
@@ -56,6 +63,11 @@ unsafe impl Sized64 for stickslip_pair {
 }
 
 impl stickslip_pair {
+    /// Whether its facets are lines.
+    pub(super) fn is_line(&self) -> bool {
+        self.model != STICKSLIP_MODEL_SOLID
+    }
+
     /// Whether a facet has more nodes than corners.
     pub(super) fn is_quadratic(&self) -> bool {
         self.n1.max(self.n2) > MAX_CORNERS as i32
@@ -67,7 +79,7 @@ impl stickslip_pair {
 pub(super) fn read(p: *const stickslip_pair) -> Result<stickslip_pair> {
     let raw = sized::read(p)?;
     multiplier_space(raw.multiplier_space, "pair.multiplier_space")?;
-    check_reserved(raw.reserved, "pair.reserved")?;
+    measure(model(raw.model, "pair.model")?, raw.thickness, "pair.thickness")?;
     Ok(raw)
 }
 
@@ -80,7 +92,13 @@ pub(super) struct Pair {
 impl Pair {
     #[inline]
     pub fn read(p: *const stickslip_pair) -> Result<Pair> {
-        Pair::of(read(p)?)
+        let raw = read(p)?;
+        if raw.is_line() {
+            let text =
+                text!("pair.model is {}; this function takes pairs of solids alone, STICKSLIP_MODEL_SOLID", raw.model);
+            return Err(Error::new(Kind::Unsupported, text));
+        }
+        Pair::of(raw)
     }
 
     /// Of linear facets.
@@ -188,27 +206,28 @@ pub(super) fn pair_weights(ab: &[f64], ac: &[f64], n1: usize) -> PairWeights {
     w
 }
 
-/// 3 n numbers at `p` as vectors of the first n of at most K nodes.
-pub(super) fn tractions<const K: usize>(p: *const f64, n: usize) -> Result<[Vec3; K]> {
-    let mut t = [Vec3::zeros(); K];
-    for (t, v) in t.iter_mut().zip(raw::numbers(p, 3 * n, "traction")?.chunks_exact(3)) {
-        *t = Vec3::from_column_slice(v);
+/// D n numbers at `p` as vectors of the first n of at most K nodes.
+pub(super) fn tractions<const K: usize, const D: usize>(p: *const f64, n: usize) -> Result<[SVector<f64, D>; K]> {
+    let mut t = [SVector::zeros(); K];
+    for (t, v) in t.iter_mut().zip(raw::numbers(p, D * n, "traction")?.chunks_exact(D)) {
+        *t = SVector::from_column_slice(v);
     }
     Ok(t)
 }
 
-/// What a facet must know of the responses of its nodes, at most K, at its tractions.
-pub(super) fn node_tangents<const K: usize>(
-    traction: &[Vec3],
+/// What a facet must know of the responses of its nodes, at most K, at its tractions: the first D rows and columns of each.
+pub(super) fn node_tangents<const K: usize, const D: usize>(
+    traction: &[SVector<f64, D>],
     responses: *const stickslip_node_response,
     row_scale: *const f64,
-) -> Result<[NodeTangent; K]> {
+) -> Result<[NodeTangent<D, D>; K]> {
     let scale = raw::optional_numbers(row_scale, traction.len(), "row_scale")?;
     let mut nodes = [NodeTangent::default(); K];
     for (a, (node, traction)) in nodes.iter_mut().zip(traction).enumerate() {
         let s = scale.map_or(1.0, |s| s[a]);
         let (now, previous) = super::node::read_response(responses, a)?;
-        *node = NodeTangent { traction: *traction, drow_dnow: now * s, drow_dprevious: previous * s };
+        let first = |m: Mat3| SMatrix::from_fn(|i, j| m[(i, j)] * s);
+        *node = NodeTangent { traction: *traction, drow_dnow: first(now), drow_dprevious: first(previous) };
     }
     Ok(nodes)
 }

@@ -82,7 +82,7 @@ pub extern "C" fn stickslip_pair_state_size() -> i64 {
 /// to be summed over the pairs of a node. Facets that do not overlap give zeros: not an error.
 ///
 /// Errors: NULL_POINTER, STRUCT_SIZE, INVALID_SIZE, NOT_FINITE, DUPLICATE_NODE, DEGENERATE_FACET,
-/// PROJECTION_NOT_CONVEX, INVALID_VALUE, BUFFER_TOO_SMALL.
+/// PROJECTION_NOT_CONVEX, INVALID_VALUE, BUFFER_TOO_SMALL, UNSUPPORTED (lines).
 /// Cost: that of `stickslip_pair_weights` without derivatives; allocates nothing.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn stickslip_pair_begin(
@@ -201,7 +201,7 @@ pub unsafe extern "C" fn stickslip_pair_state_tangent(
         let (n1, n2) = pair.n();
         let mut k = Matrix::new(k, 6 * n1 + 3 * n2, ld, pair.column_major)?;
         let previous = read_previous((n1, n2), n_ab_previous, n_ac_previous)?;
-        let traction = tractions::<MAX_CORNERS>(traction, n1)?;
+        let traction = tractions::<MAX_CORNERS, 3>(traction, n1)?;
         let nodes = node_tangents(&traction[..n1], responses, row_scale)?;
         let nodes = FacetResponse::new(nodes.each_ref());
         let mut t = PairTangent::default();

@@ -3,6 +3,7 @@
 
 mod dual_facet;
 mod facet_pairs;
+mod nodal;
 mod pair_matrix;
 mod parent;
 mod residual;
@@ -10,6 +11,7 @@ mod tangent;
 
 pub use dual_facet::DualFacet;
 pub use facet_pairs::{FacetPairs, facet_sums};
+pub use nodal::{NodalPair, NodalWeights, column_force};
 pub use pair_matrix::{Lines, write_pair};
 pub use parent::{ParentPair, parent_force};
 pub use residual::pair_force;

@@ -15,22 +15,22 @@ use crate::geometry::{Mat3, Vec3};
 use crate::mortar::{AlongNormal, ForceDerivatives, GapDerivative, MORTAR, PAIR_NODES, PairWeights, columns, slots};
 use crate::shape::{MAX_CORNERS, MAX_NODES};
 use crate::simd::{self, Kernel, Lanes};
-use nalgebra::SMatrix;
+use nalgebra::{SMatrix, SVector};
 
-/// What a pair must know of a node's response.
+/// What a pair must know of a node's response: N multipliers at the node, D components of a position.
 #[derive(Clone, Copy, Debug)]
-pub struct NodeTangent<const N: usize = 3> {
+pub struct NodeTangent<const N: usize = 3, const D: usize = 3> {
     /// The traction its forces use [F/L^2].
-    pub traction: Vec3,
+    pub traction: SVector<f64, D>,
     /// dc/dg_now times the row scale.
-    pub drow_dnow: SMatrix<f64, N, 3>,
+    pub drow_dnow: SMatrix<f64, N, D>,
     /// dc/dg_previous times the row scale.
-    pub drow_dprevious: SMatrix<f64, N, 3>,
+    pub drow_dprevious: SMatrix<f64, N, D>,
 }
 
-impl<const N: usize> Default for NodeTangent<N> {
+impl<const N: usize, const D: usize> Default for NodeTangent<N, D> {
     fn default() -> Self {
-        NodeTangent { traction: Vec3::zeros(), drow_dnow: SMatrix::zeros(), drow_dprevious: SMatrix::zeros() }
+        NodeTangent { traction: SVector::zeros(), drow_dnow: SMatrix::zeros(), drow_dprevious: SMatrix::zeros() }
     }
 }
 

@@ -33,6 +33,7 @@ static const struct {
 } members[] = {
     I64(pair, struct_size), I32(pair, n1), I32(pair, n2), NEED(pair, x1), NEED(pair, x2), I32(pair, quadrature),
     I32(pair, layout), I64(pair, element_points), MAY(pair, neighbour_normals),
+    I32(pair, multiplier_space), I32(pair, model), ONE(pair, thickness),
     I64(facet, struct_size), I32(facet, n1), I32(facet, quadrature), I32(facet, layout), I32(facet, reserved),
     I64(facet, n_pairs), NEED(facet, x1), NEED(facet, n2), NEED(facet, x2), I64(facet, element_points),
     MAY(facet, neighbour_normals),

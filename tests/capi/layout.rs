@@ -215,7 +215,8 @@ fn layouts() -> Vec<Layout> {
             element_points,
             neighbour_normals,
             multiplier_space,
-            reserved
+            model,
+            thickness
         }),
         layout!(stickslip_facet {
             struct_size,

@@ -10,6 +10,7 @@ mod condensed;
 mod dual;
 mod header;
 mod layout;
+mod lines;
 mod normals;
 mod pair_state;
 mod quadratic;

@@ -59,7 +59,8 @@ impl Scene {
             element_points: self.element_points,
             neighbour_normals: null(),
             multiplier_space: 0,
-            reserved: 0,
+            model: STICKSLIP_MODEL_SOLID,
+            thickness: 0.0,
         }
     }
 
@@ -183,7 +184,8 @@ fn a_state_is_known_by_what_it_begins_with() {
         element_points: 0,
         neighbour_normals: null(),
         multiplier_space: 0,
-        reserved: 0,
+        model: STICKSLIP_MODEL_SOLID,
+        thickness: 0.0,
     };
     let (needed, mut state, mut gap) = (stickslip_pair_state_size(), [0.0; ROOM], [5.0; 12]);
     assert!(needed <= ROOM as i64 / 2 + 32, "{needed} doubles are more than the header says");

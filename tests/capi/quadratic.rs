@@ -149,7 +149,8 @@ fn what_quadratic_pairs_do_not_take_is_refused_by_name() {
     check(&|p| p.multiplier_space = 2, STICKSLIP_INVALID_VALUE, "pair.multiplier_space is 2; the header names 0 to 1");
     check(&|p| p.element_points = 4, STICKSLIP_UNSUPPORTED, "pair.element_points and pair.neighbour_normals");
     check(&|p| p.neighbour_normals = p.x1, STICKSLIP_UNSUPPORTED, "pair.element_points and pair.neighbour_normals");
-    check(&|p| p.reserved = 1, STICKSLIP_INVALID_VALUE, "pair.reserved is 1; it must be 0");
+    check(&|p| p.model = 3, STICKSLIP_INVALID_VALUE, "pair.model is 3; the header names 0 to 2");
+    check(&|p| p.thickness = 0.5, STICKSLIP_INVALID_VALUE, "pair.thickness is 0.5");
     check(&|p| p.x1 = null(), STICKSLIP_NULL_POINTER, "pair.x1");
     // An older caller, whose struct has no space of multipliers, has them at the corners.
     let (mut raw, w) = (pair.raw(), pair.weights());

@@ -54,7 +54,8 @@ fn c_element_calls_allocate_nothing() {
                 element_points: 0,
                 neighbour_normals: std::ptr::null(),
                 multiplier_space: 0,
-                reserved: 0,
+                model: STICKSLIP_MODEL_SOLID,
+                thickness: 0.0,
             };
             c_calls(&pair);
         }

@@ -51,7 +51,8 @@ Pair = struct(
     ("element_points", c_int64),
     ("neighbour_normals", c_void_p),
     ("multiplier_space", c_int32),
-    ("reserved", c_int32),
+    ("model", c_int32),
+    ("thickness", c_double),
 )
 Node = struct(
     "Node",

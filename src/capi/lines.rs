@@ -1,0 +1,122 @@
+//! A pair of lines of a plane or axisymmetric model, as a caller gives it to the functions of pairs (`pair.rs`).
+
+use super::facet::check_distinct;
+use super::layout::{Matrix, column_major};
+use super::model::{measure, model};
+use super::nodal::{self, Two};
+use super::node::stickslip_node_response;
+use super::options::rule;
+use super::pair_in::stickslip_pair;
+use super::parents::check_linear_alone;
+use super::raw::{self, Output};
+use super::space::multiplier_space;
+use crate::element::NodalPair;
+use crate::error::{Error, Kind, Result};
+use crate::geometry::Vec2;
+use crate::line::{LineDerivatives, LineFacet, LineWeights, MAX_LINE_NODES, Measure};
+use crate::mortar::MultiplierSpace;
+use nalgebra::SMatrix;
+
+/// Nodes of both lines, and with them the multipliers.
+const NODES: usize = 2 * MAX_LINE_NODES;
+const SLOTS: usize = 3 * MAX_LINE_NODES;
+
+/// `stickslip_pair_weights`.
+#[inline(never)]
+pub(super) fn weights(given: &stickslip_pair, n: Two<*mut f64>, dn: Two<*mut f64>) -> Result<()> {
+    let pair = Lines::of(given)?;
+    for (p, name) in n.into_iter().chain(dn).zip(["n_ab", "n_ac", "dn_ab", "dn_ac"]) {
+        raw::check_optional(p, name)?;
+    }
+    rule(given.quadrature, "pair.quadrature")?;
+    let (one, two, of) = (&pair.one, &pair.two, pair.nodal());
+    let w = LineWeights::new(one, two, pair.space, pair.measure);
+    raw::check_results("n_ab, n_ac", w.ab.as_flattened().iter().chain(w.ac.as_flattened()))?;
+    if !(dn[0].is_null() && dn[1].is_null()) {
+        let d = LineDerivatives::new(one, two, pair.space, pair.measure);
+        for d in [&d.ab, &d.ac] {
+            raw::check_array("dn_ab, dn_ac", d.as_flattened().as_flattened())?;
+        }
+        for (to, (d, columns)) in dn.into_iter().zip([(&d.ab, one.n), (&d.ac, two.n)]) {
+            let mut to = Output::new(to);
+            for of in d[..of.multipliers].iter().flat_map(|row| &row[..columns]) {
+                to.append(&of[..2 * one.n]);
+                to.append(&of[2 * MAX_LINE_NODES..][..2 * two.n]);
+            }
+        }
+    }
+    nodal::write_weights(&of, [&w.ab, &w.ac], n);
+    Ok(())
+}
+
+/// `stickslip_pair_gap`.
+#[inline(never)]
+pub(super) fn gap(given: &stickslip_pair, n: Two<*const f64>, gap: *mut f64) -> Result<()> {
+    nodal::gap::<2, MAX_LINE_NODES>(&Lines::of(given)?.nodal(), n, gap)
+}
+
+/// `stickslip_pair_residual`.
+#[inline(never)]
+pub(super) fn residual(given: &stickslip_pair, n: Two<*const f64>, t: *const f64, force: *mut f64) -> Result<()> {
+    let mut room = [Vec2::zeros(); NODES];
+    nodal::residual::<2, MAX_LINE_NODES>(&Lines::of(given)?.nodal(), n, t, force, &mut room)
+}
+
+/// `stickslip_pair_tangent`.
+#[inline(never)]
+pub(super) fn tangent(
+    given: &stickslip_pair,
+    now: (Two<*const f64>, Two<*const f64>),
+    previous: Two<*const f64>,
+    at: (*const f64, *const stickslip_node_response, *const f64),
+    (k, ld): (*mut f64, i64),
+) -> Result<()> {
+    let (pair, column_major) = (Lines::of(given)?, column_major(given.layout, "pair.layout")?);
+    let pair = pair.nodal();
+    let size = pair.one.len() + pair.two.len() + pair.multipliers;
+    let mut k = Matrix::new(k, 2 * size, ld, column_major)?;
+    let mut blocks = [SMatrix::zeros(); SLOTS * SLOTS];
+    nodal::tangent::<2, MAX_LINE_NODES>(&pair, now, previous, at, &mut k, &mut blocks)
+}
+
+/// Such a pair.
+struct Lines {
+    one: LineFacet,
+    two: LineFacet,
+    space: MultiplierSpace,
+    measure: Measure,
+}
+
+impl Lines {
+    /// A pair whose model is of lines.
+    fn of(given: &stickslip_pair) -> Result<Lines> {
+        let measure = measure(model(given.model, "pair.model")?, given.thickness, "pair.thickness")?;
+        let Some(measure) = measure else { unreachable!("a model of lines") };
+        let axisymmetric = measure == Measure::Axisymmetric;
+        let one = line(given.n1, given.x1, axisymmetric, "pair.x1")?;
+        let two = line(given.n2, given.x2, axisymmetric, "pair.x2")?;
+        check_linear_alone(given, "linear facets of solids")?;
+        let space = multiplier_space(given.multiplier_space, "pair.multiplier_space")?;
+        Ok(Lines { one, two, space, measure })
+    }
+
+    fn nodal(&self) -> NodalPair<'_, 2> {
+        let (one, two) = (&self.one, &self.two);
+        NodalPair { one: &one.x[..one.n], two: &two.x[..two.n], multipliers: one.multipliers(self.space) }
+    }
+}
+
+/// A line from `n` points of an argument called `name`; allocates nothing.
+fn line(n: i32, x: *const f64, axisymmetric: bool, name: &str) -> Result<LineFacet> {
+    if !(2..=MAX_LINE_NODES as i32).contains(&n) {
+        let text = text!("{name} has {n} nodes; 2 (line2) or 3 (line3) are allowed in this model");
+        return Err(Error::new(Kind::InvalidSize, text));
+    }
+    let nodes = raw::as_vectors::<2>(raw::numbers(x, 2 * n as usize, name)?);
+    check_distinct(nodes, name)?;
+    if axisymmetric && let Some(k) = nodes.iter().position(|x| x.x < 0.0) {
+        let text = text!("{name}: node {k} has r = {}; no node lies beyond the axis, r = 0", nodes[k].x);
+        return Err(Error::new(Kind::InvalidValue, text));
+    }
+    LineFacet::new(nodes).map_err(raw::named(name))
+}

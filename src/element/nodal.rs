@@ -1,0 +1,116 @@
+//! Gap, forces and tangent of a pair of facets as hosts have them: triangles, quadrilaterals and lines, linear or quadratic (paper
+//! (11), (23), (29)-(31); docs/formulation.md 12.4, 13.4). They are sums over the nodes of both sides, for gaps of a quadratic pair
+//! are not along a normal. D is the number of components of a position.
+
+use super::tangent::NodeTangent;
+use nalgebra::{SMatrix, SVector};
+
+/// n_AB and n_AC, row A; W is the most nodes that a facet of the kind has.
+pub type NodalWeights<'a, const W: usize> = [&'a [[f64; W]; W]; 2];
+
+/// A pair's nodes and how many multipliers it has.
+#[derive(Clone, Copy)]
+pub struct NodalPair<'a, const D: usize> {
+    /// Of the non-mortar facet.
+    pub one: &'a [SVector<f64, D>],
+    /// Of the mortar facet.
+    pub two: &'a [SVector<f64, D>],
+    /// Multipliers, at the first nodes of the non-mortar facet.
+    pub multipliers: usize,
+}
+
+/// sum_A n_A t_A of the k-th column of n_AB or n_AC: its node's share of the tractions `[F]`.
+#[inline]
+pub fn column_force<const D: usize, const W: usize>(
+    n: &[[f64; W]; W],
+    traction: &[SVector<f64, D>],
+    k: usize,
+) -> SVector<f64, D> {
+    traction.iter().zip(n).map(|(t, row)| t * row[k]).sum()
+}
+
+impl<const D: usize> NodalPair<'_, D> {
+    /// Nodes, non-mortar ones first.
+    pub fn n(&self) -> (usize, usize) {
+        (self.one.len(), self.two.len())
+    }
+
+    /// n_AB of a non-mortar node and - n_AC of a mortar one: what a traction at A does to the k-th node.
+    fn weight<const W: usize>(&self, [ab, ac]: NodalWeights<W>, a: usize, k: usize) -> f64 {
+        let n1 = self.one.len();
+        if k < n1 { ab[a][k] } else { -ac[a][k - n1] }
+    }
+
+    /// The k-th node from the first one: sums of weights vanish, and so does a common offset.
+    fn x(&self, k: usize) -> SVector<f64, D> {
+        let n1 = self.one.len();
+        let x = if k < n1 { self.one[k] } else { self.two[k - n1] };
+        x - self.one[0]
+    }
+
+    /// g_A = sum_B n_AB x_B - sum_C n_AC x_C of every multiplier [L^3].
+    pub fn gap<const W: usize>(&self, w: NodalWeights<W>) -> [SVector<f64, D>; W] {
+        let (n1, n2) = self.n();
+        let mut gap = [SVector::zeros(); W];
+        for (a, gap) in gap.iter_mut().enumerate().take(self.multipliers) {
+            *gap = (0..n1 + n2).map(|k| self.x(k) * self.weight(w, a, k)).sum();
+        }
+        gap
+    }
+
+    /// The force at the k-th of the pair's nodes `[F]` from the tractions of the multipliers [F/L^2], internal-force sign.
+    pub fn force<const W: usize>(
+        &self,
+        [ab, ac]: NodalWeights<W>,
+        traction: &[SVector<f64, D>],
+        k: usize,
+    ) -> SVector<f64, D> {
+        let n1 = self.one.len();
+        if k < n1 { column_force(ab, traction, k) } else { -column_force(ac, traction, k - n1) }
+    }
+
+    /// Of the weights' derivative: + that of n_AB and - that of n_AC, for what a traction does to the b-th node, with respect
+    /// to the k-th.
+    fn slope(&self, [ab, ac]: [&[f64]; 2], a: usize, b: usize, k: usize) -> SVector<f64, D> {
+        let (n1, n2) = self.n();
+        let (of, column, columns, sign) = if b < n1 { (ab, b, n1, 1.0) } else { (ac, b - n1, n2, -1.0) };
+        SVector::from_column_slice(&of[D * ((a * columns + column) * (n1 + n2) + k)..][..D]) * sign
+    }
+
+    /// The exact tangent in the multiplier form, block by block but those of multipliers with each other, which are zero: rows
+    /// and columns are the pair's nodes, then the multipliers. `now`: the weights of now, and their derivatives unless they are
+    /// frozen; `previous`: those of t_n; `nodes`: of every multiplier.
+    pub fn tangent<const W: usize>(
+        &self,
+        now: Option<(NodalWeights<W>, Option<[&[f64]; 2]>)>,
+        previous: Option<NodalWeights<W>>,
+        nodes: &[NodeTangent<D, D>],
+        mut give: impl FnMut(usize, usize, SMatrix<f64, D, D>),
+    ) {
+        let n = self.one.len() + self.two.len();
+        let (weights, slopes) = (now.map(|now| now.0), now.and_then(|now| now.1));
+        for (row, column) in (0..n).flat_map(|row| (0..n).map(move |column| (row, column))) {
+            let mut block = SMatrix::zeros();
+            if let Some(slopes) = slopes {
+                for (a, node) in nodes.iter().enumerate() {
+                    block += node.traction * self.slope(slopes, a, row, column).transpose();
+                }
+            }
+            give(row, column, block);
+        }
+        for (a, node) in nodes.iter().enumerate() {
+            for k in 0..n {
+                let weight = |w: NodalWeights<W>| SMatrix::from_diagonal_element(self.weight(w, a, k));
+                give(k, n + a, weights.map_or(SMatrix::zeros(), weight));
+                // Dg_A: the nodes carried along, and the weights' change.
+                let mut gap = weights.map_or(SMatrix::zeros(), weight);
+                if let Some(slopes) = slopes {
+                    let change = |b: usize| self.x(b) * self.slope(slopes, a, b, k).transpose();
+                    gap += (0..n).map(change).sum::<SMatrix<f64, D, D>>();
+                }
+                let before = previous.map_or(SMatrix::zeros(), weight);
+                give(n + a, k, node.drow_dnow * gap + node.drow_dprevious * before);
+            }
+        }
+    }
+}
