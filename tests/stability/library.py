@@ -15,6 +15,7 @@ GAP, STICK, SLIP = 0, 1, 2
 STATES = ("gap", "stick", "slip")
 SPACES = ("corner", "sub")  # where the multipliers of quadratic facets stand, in the header's order
 CORNERS = {3: 3, 4: 4, 6: 3, 8: 4, 9: 4}  # of a facet, by its number of nodes
+ENDS = {2: 2, 3: 2}  # the same of a line
 
 
 class Refused(Exception):
@@ -203,31 +204,33 @@ class Library:
         return response
 
 
-def mid_nodes(n_nodes, facets):
+def mid_nodes(n_nodes, facets, corners=CORNERS):
     """Which nodes are no facet's corner."""
     found = np.ones(n_nodes, bool)
     for f in facets:
-        found[f[: CORNERS[len(f)]]] = False
+        found[f[: corners[len(f)]]] = False
     return found
 
 
 class Interface:
     """Two surfaces: x (n, 3), facets of 3, 4, 6, 8 or 9 nodes each; `facets2` None: an analytic surface, of which x2 is the frame.
     `components`: multipliers a node has, 1 without friction. Equations are counted through x1, x2, lambda; a mortar side
-    that is analytic or `rigid` has none. A point is given as x1, x2, lambda."""
+    that is analytic or `rigid` has none. A point is given as x1, x2, lambda. With lines (`model`) x is (n, 2)."""
 
-    def __init__(self, library, x1, facets1, x2, facets2, components=3, rigid=False, **options):
-        self.library, self.components = library, components
+    def __init__(self, library, x1, facets1, x2, facets2, components=None, rigid=False, **options):
+        self.dimension = dimension = 2 if options.get("model") else 3
+        self.library, self.components = library, components or dimension
+        components = self.components
         self.n1, self.n2 = len(x1), len(x2)
-        self.unknowns = (3 + components) * self.n1 + 3 * self.n2
+        self.unknowns = (dimension + components) * self.n1 + dimension * self.n2
         numbers = np.arange(self.unknowns, dtype=np.int64)
-        one, two, multipliers = np.split(numbers, [3 * self.n1, 3 * (self.n1 + self.n2)])
+        one, two, multipliers = np.split(numbers, [dimension * self.n1, dimension * (self.n1 + self.n2)])
         if rigid or facets2 is None:
             two = np.full_like(two, -1)
         self.kept = []
         sides = [self.surface(x1, facets1, one), self.surface(x2, facets2, two)]
         if options.get("multiplier_space", 0) == 0:
-            multipliers.reshape(-1, components)[mid_nodes(len(x1), facets1)] = -1
+            multipliers.reshape(-1, components)[mid_nodes(len(x1), facets1, CORNERS if dimension == 3 else ENDS)] = -1
         sides[0].multiplier_equations = self.keep(multipliers, np.int64)
         chosen = Options()
         library.call("options_init", byref(chosen), c_uint64(chosen.struct_size))
@@ -272,7 +275,7 @@ class Interface:
 
     def residual(self, *at):
         """f1, f2, rows"""
-        out = [np.zeros((self.n1, 3)), np.zeros((self.n2, 3)), np.zeros((self.n1, self.components))]
+        out = [np.zeros((self.n1, self.dimension)), np.zeros((self.n2, self.dimension)), np.zeros((self.n1, self.components))]
         self.call("residual", at, *map(pointer, out))
         return out
 
@@ -294,7 +297,7 @@ class Interface:
     def states(self, *at):
         """What the nodes do, by the names of the header's struct."""
         out = {"state": np.zeros(self.n1, np.int32)}
-        out |= {name: np.zeros((self.n1, 3)) for name in ("normal", "traction", "slip")}
+        out |= {name: np.zeros((self.n1, self.dimension)) for name in ("normal", "traction", "slip")}
         out |= {name: np.zeros(self.n1) for name in ("gap", "coverage", "area", "dissipation", "augmentation")}
         wanted = States(**{name: pointer(array) for name, array in out.items()})
         self.call("states", at, byref(wanted))
