@@ -778,8 +778,8 @@ typedef struct stickslip_diagnosis {
 } stickslip_diagnosis;
 
 /// A pair of facets, non-mortar first. Node order: right-hand, seen from outside each body. Lines of plane and axisymmetric
-/// models: with the body on the left of the way from the first node to the second, so that turning that direction by a right
-/// angle to the left gives nu, INTO the body.
+/// models: the direction from the first node to the second one, turned by a right angle from the first axis towards the second,
+/// points INTO the body. (Weights do not depend on it.)
 typedef struct stickslip_pair {
   /// sizeof(stickslip_pair).
   uint64_t struct_size;
@@ -1679,8 +1679,8 @@ int32_t stickslip_node_normal(const double *sum, double *normal);
 /// where mid nodes do not follow the corners in order), PROJECTION_NOT_CONVEX, INVALID_VALUE (also a node at r < 0),
 /// UNSUPPORTED (quadratic facets or lines with element_points or neighbour_normals).
 /// Cost: 1 (tri3) to 2 (quad4) microseconds, 1 to 7 with derivatives, 2 to 2.5 times that with QUADRATURE_DEGREE_10;
-/// two quadratic facets 7 (tri6) to 14 (quad8), 50 to 140 with derivatives; lines below 1. Allocates nothing, but memory for derivatives of
-/// quadratic facets.
+/// two quadratic facets 7 (tri6) to 14 (quad8), 50 to 140 with derivatives; lines 0.5, up to 2 with derivatives. Allocates nothing, but memory for
+/// derivatives of quadratic facets.
 int32_t stickslip_pair_weights(const struct stickslip_pair *pair,
                                double *n_ab,
                                double *n_ac,
@@ -1707,7 +1707,7 @@ int32_t stickslip_pair_gap(const struct stickslip_pair *pair,
 /// pair: quadrature and layout are not read. n_ab (m x n1), n_ac (m x n2): weights of now [L^2], row A, of m multipliers as
 /// for `stickslip_pair_weights`; traction (3 m): the multipliers lambda (multiplier form) or the projected tractions p of
 /// `stickslip_node_respond` (augmented form) [F/L^2]; force (3 (n1 + n2)), output [F]. Of lines traction (2 m) and force
-/// (2 (n1 + n2)); of an axisymmetric model those of the whole ring, which vanish in sum along the axis alone.
+/// (2 (n1 + n2)), in an axisymmetric model that of the whole ring.
 ///
 /// Errors: NULL_POINTER, STRUCT_SIZE, INVALID_SIZE, NOT_FINITE, DUPLICATE_NODE, DEGENERATE_FACET, INVALID_VALUE, UNSUPPORTED (as
 /// `stickslip_pair_weights`, of quadratic facets and lines).
@@ -1734,7 +1734,8 @@ int32_t stickslip_pair_residual(const struct stickslip_pair *pair,
 ///
 /// Errors: NULL_POINTER, STRUCT_SIZE, INVALID_SIZE, NOT_FINITE, DUPLICATE_NODE, DEGENERATE_FACET, INVALID_VALUE
 /// (layout, multiplier_space, model, thickness, r < 0), UNSUPPORTED (as `stickslip_pair_weights`, of quadratic facets and lines).
-/// Cost: 5 microseconds for two quad4, 11 for two quad9, below 1 for two lines. Allocates nothing, but memory for the matrix of quadratic facets.
+/// Cost: 5 microseconds for two quad4, 11 for two quad9, 1 for two lines. Allocates nothing, but memory for the matrix of
+/// quadratic facets.
 int32_t stickslip_pair_tangent(const struct stickslip_pair *pair,
                                const double *n_ab,
                                const double *n_ac,

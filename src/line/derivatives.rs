@@ -51,39 +51,37 @@ impl LineDerivatives {
 
     /// Adds those of a pair, and gives its weights, with the bits of [`LineWeights::new`]. Cost: some twice that of the weights.
     pub fn add(&mut self, one: &LineFacet, two: &LineFacet, space: MultiplierSpace, measure: Measure) -> LineWeights {
-        // Compiled apart for each number of nodes and of multipliers, so that loops have known ends.
-        let pair = ([one, two], space, measure);
-        match (one.multipliers(space), one.n, two.n) {
-            (2, 2, 2) => self.add_pair::<2, 2, 2>(pair),
-            (2, 2, _) => self.add_pair::<2, 2, 3>(pair),
-            (2, _, 2) => self.add_pair::<2, 3, 2>(pair),
-            (2, _, _) => self.add_pair::<2, 3, 3>(pair),
-            (_, _, 2) => self.add_pair::<3, 3, 2>(pair),
-            (_, _, _) => self.add_pair::<3, 3, 3>(pair),
+        // Compiled apart for two line2, whose loops are short; the functions of nodes that a line has not are 0.
+        match one.n.max(two.n) {
+            2 => self.add_pair::<2>([one, two], space, measure),
+            _ => self.add_pair::<MAX_LINE_NODES>([one, two], space, measure),
         }
     }
 
-    /// The same of a pair with M multipliers, N1 and N2 nodes.
-    fn add_pair<const M: usize, const N1: usize, const N2: usize>(
+    /// The same of a pair with at most N nodes a line.
+    fn add_pair<const N: usize>(
         &mut self,
-        (facets, space, measure): ([&LineFacet; 2], MultiplierSpace, Measure),
+        facets: [&LineFacet; 2],
+        space: MultiplierSpace,
+        measure: Measure,
     ) -> LineWeights {
         let mut weights = LineWeights::default();
         for_parts(facets, space, |parts| {
-            let (mut of_ab, mut of_ac) = ([[ByMotion::default(); N1]; M], [[ByMotion::default(); N2]; M]);
+            let mut motions = [[[ByMotion::default(); N]; N]; 2];
             parts.for_points(|p| {
                 weights.add(parts, p, measure);
-                add_point::<0, M, N1>(&mut of_ab, (parts, p), measure);
-                add_point::<1, M, N2>(&mut of_ac, (parts, p), measure);
+                add_point::<0, N>(&mut motions[0], (parts, p), measure);
+                add_point::<1, N>(&mut motions[1], (parts, p), measure);
             });
             for (end, sign) in parts.segment.ends.into_iter().zip([-1.0, 1.0]) {
                 let p = parts.at(end.0, sign);
-                add_end::<0, M, N1>(&mut of_ab, (parts, &p), end.1, measure);
-                add_end::<1, M, N2>(&mut of_ac, (parts, &p), end.1, measure);
+                add_end::<0, N>(&mut motions[0], (parts, &p), end.1, measure);
+                add_end::<1, N>(&mut motions[1], (parts, &p), end.1, measure);
             }
-            for a in 0..M {
-                (0..N1).for_each(|b| chain(parts, &of_ab[a][b], &mut self.ab[a][b]));
-                (0..N2).for_each(|c| chain(parts, &of_ac[a][c], &mut self.ac[a][c]));
+            for (to, of) in [&mut self.ab, &mut self.ac].into_iter().zip(&motions) {
+                for (a, b) in (0..N).flat_map(|a| (0..N).map(move |b| (a, b))) {
+                    chain(parts, &of[a][b], &mut to[a][b]);
+                }
             }
         });
         weights
@@ -106,17 +104,17 @@ fn chain(parts: &PartPair, of: &ByMotion, row: &mut [f64; LINE_COLUMNS]) {
     row[2 * b] += of.of_r[1];
 }
 
-/// The integrand at a point, of the weights with the N nodes of a side.
+/// The integrand at a point, of the weights with the nodes of a side, at most N.
 #[inline(always)]
-fn add_point<const SIDE: usize, const M: usize, const N: usize>(
-    to: &mut [[ByMotion; N]; M],
+fn add_point<const SIDE: usize, const N: usize>(
+    to: &mut [[ByMotion; N]; N],
     (parts, p): (&PartPair, &Point),
     measure: Measure,
 ) {
     let (segment, rho) = (&parts.segment, measure.at(p.shares[0], parts.segment.r) * p.ds);
     let slope = measure.slope() * p.ds;
     let lean = slope * (segment.r[1] - segment.r[0]) * segment.per[0];
-    for (a, b) in (0..M).flat_map(|a| (0..N).map(move |b| (a, b))) {
+    for (a, b) in (0..N).flat_map(|a| (0..N).map(move |b| (a, b))) {
         let n = p.test[a] * p.n[SIDE][b];
         let of_test = p.test_slope[a] * p.n[SIDE][b];
         let of_other = p.test[a] * p.slope[SIDE][b];
@@ -135,14 +133,14 @@ fn add_point<const SIDE: usize, const M: usize, const N: usize>(
 
 /// An end of the overlap, which is the part's node `node`; `p.ds` is its sign.
 #[inline(always)]
-fn add_end<const SIDE: usize, const M: usize, const N: usize>(
-    to: &mut [[ByMotion; N]; M],
+fn add_end<const SIDE: usize, const N: usize>(
+    to: &mut [[ByMotion; N]; N],
     (parts, p): (&PartPair, &Point),
     node: usize,
     measure: Measure,
 ) {
     let rho = measure.at(p.shares[0], parts.segment.r) * p.ds;
-    for (a, b) in (0..M).flat_map(|a| (0..N).map(move |b| (a, b))) {
+    for (a, b) in (0..N).flat_map(|a| (0..N).map(move |b| (a, b))) {
         to[a][b].of_s[node] += rho * p.test[a] * p.n[SIDE][b];
     }
 }
