@@ -39,7 +39,7 @@ typedef struct {
 
 static stickslip_pair pair_at(const double *x1, const double *x2) {
   stickslip_pair pair = {sizeof pair, N1, N2, x1, x2, STICKSLIP_QUADRATURE_DEGREE_10, STICKSLIP_LAYOUT_ROW_MAJOR, 0,
-                          NULL, STICKSLIP_SPACE_CORNER, 0};
+                          NULL, STICKSLIP_SPACE_CORNER, STICKSLIP_MODEL_SOLID, 0.0};
   return pair;
 }
 

@@ -70,30 +70,20 @@ pub fn calls(bytes: &mut Bytes) {
         [&ab, &ac, &dn].map(|n| bytes.pointer(n.as_ptr())),
     );
     // SAFETY: pointers lead to as much as the header says of any pair, or are NULL or crooked.
-    let statuses = unsafe {
+    let fine = unsafe {
+        let tangent = || {
+            let (t, responses, scale) = (t.as_ptr(), responses.as_ptr(), scale.as_ptr());
+            stickslip_pair_tangent(p, n_ab, n_ac, dn, dn, n_ab, n_ac, t, responses, scale, k, ld)
+        };
         [
-            stickslip_pair_weights(p, a, b, bytes.output(c), bytes.output(d)),
-            stickslip_pair_gap(p, n_ab, n_ac, gap),
-            stickslip_pair_residual(p, n_ab, n_ac, t.as_ptr(), force),
-            stickslip_pair_tangent(
-                p,
-                n_ab,
-                n_ac,
-                dn,
-                dn,
-                n_ab,
-                n_ac,
-                t.as_ptr(),
-                responses.as_ptr(),
-                scale.as_ptr(),
-                k,
-                ld,
-            ),
+            succeeded(stickslip_pair_weights(p, a, b, bytes.output(c), bytes.output(d))),
+            succeeded(stickslip_pair_gap(p, n_ab, n_ac, gap)),
+            succeeded(stickslip_pair_residual(p, n_ab, n_ac, t.as_ptr(), force)),
+            succeeded(tangent()),
         ]
     };
     let pattern = Watched::<f64>::new(1).values()[0].to_bits();
-    for (status, written) in statuses.into_iter().zip([0..4, 4..5, 5..6, 6..7]) {
-        let fine = succeeded(status);
+    for (fine, written) in fine.into_iter().zip([0..4, 4..5, 5..6, 6..7]) {
         for out in &out[written] {
             match fine {
                 true => assert!(out.values().iter().all(|v| v.is_finite() || v.to_bits() == pattern)),

@@ -29,24 +29,37 @@ pub(super) fn weights(given: &stickslip_pair, n: Two<*mut f64>, dn: Two<*mut f64
         raw::check_optional(p, name)?;
     }
     rule(given.quadrature, "pair.quadrature")?;
-    let (one, two, of) = (&pair.one, &pair.two, pair.nodal());
-    let w = LineWeights::new(one, two, pair.space, pair.measure);
-    raw::check_results("n_ab, n_ac", w.ab.as_flattened().iter().chain(w.ac.as_flattened()))?;
-    if !(dn[0].is_null() && dn[1].is_null()) {
-        let d = LineDerivatives::new(one, two, pair.space, pair.measure);
-        for d in [&d.ab, &d.ac] {
-            raw::check_array("dn_ab, dn_ac", d.as_flattened().as_flattened())?;
-        }
-        for (to, (d, columns)) in dn.into_iter().zip([(&d.ab, one.n), (&d.ac, two.n)]) {
-            let mut to = Output::new(to);
-            for of in d[..of.multipliers].iter().flat_map(|row| &row[..columns]) {
-                to.append(&of[..2 * one.n]);
-                to.append(&of[2 * MAX_LINE_NODES..][..2 * two.n]);
-            }
+    let w = match dn.iter().all(|p| p.is_null()) {
+        true => checked(LineWeights::new(&pair.one, &pair.two, pair.space, pair.measure))?,
+        false => derivatives(&pair, dn)?,
+    };
+    nodal::write_weights(&pair.nodal(), [&w.ab, &w.ac], n);
+    Ok(())
+}
+
+fn checked(w: LineWeights) -> Result<LineWeights> {
+    raw::check_array("n_ab, n_ac", w.ab.as_flattened())?;
+    raw::check_array("n_ab, n_ac", w.ac.as_flattened())?;
+    Ok(w)
+}
+
+/// Writes derivatives, each pointer may be null, and gives the weights.
+#[inline(never)]
+fn derivatives(pair: &Lines, to: Two<*mut f64>) -> Result<LineWeights> {
+    let (mut d, (one, two)) = (LineDerivatives::default(), (&pair.one, &pair.two));
+    let w = checked(d.add(one, two, pair.space, pair.measure))?;
+    for d in [&d.ab, &d.ac] {
+        raw::check_array("dn_ab, dn_ac", d.as_flattened().as_flattened())?;
+    }
+    for (to, (d, columns)) in to.into_iter().zip([(&d.ab, one.n), (&d.ac, two.n)]) {
+        let mut to = Output::new(to.cast::<[f64; 2]>());
+        for row in d[..one.multipliers(pair.space)].iter().flat_map(|rows| &rows[..columns]) {
+            let (nodes, _) = row.as_chunks::<2>();
+            (0..one.n).for_each(|k| to.append(&[nodes[k]]));
+            (0..two.n).for_each(|k| to.append(&[nodes[MAX_LINE_NODES + k]]));
         }
     }
-    nodal::write_weights(&of, [&w.ab, &w.ac], n);
-    Ok(())
+    Ok(w)
 }
 
 /// `stickslip_pair_gap`.

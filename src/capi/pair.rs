@@ -66,7 +66,7 @@ fn with_derivatives(
 /// where mid nodes do not follow the corners in order), PROJECTION_NOT_CONVEX, INVALID_VALUE (also a node at r < 0),
 /// UNSUPPORTED (quadratic facets or lines with element_points or neighbour_normals).
 /// Cost: 1 (tri3) to 2 (quad4) microseconds, 1 to 7 with derivatives, 2 to 2.5 times that with QUADRATURE_DEGREE_10;
-/// two quadratic facets 7 (tri6) to 14 (quad8), 50 to 140 with derivatives; lines below 1. Allocates nothing, but memory for
+/// two quadratic facets 7 (tri6) to 14 (quad8), 50 to 140 with derivatives; lines 0.5, up to 2 with derivatives. Allocates nothing, but memory for
 /// derivatives of quadratic facets.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn stickslip_pair_weights(
@@ -189,7 +189,7 @@ pub unsafe extern "C" fn stickslip_pair_residual(
 ///
 /// Errors: NULL_POINTER, STRUCT_SIZE, INVALID_SIZE, NOT_FINITE, DUPLICATE_NODE, DEGENERATE_FACET, INVALID_VALUE
 /// (layout, multiplier_space, model, thickness, r < 0), UNSUPPORTED (as `stickslip_pair_weights`, of quadratic facets and lines).
-/// Cost: 5 microseconds for two quad4, 11 for two quad9, below 1 for two lines. Allocates nothing, but memory for the matrix of
+/// Cost: 5 microseconds for two quad4, 11 for two quad9, 1 for two lines. Allocates nothing, but memory for the matrix of
 /// quadratic facets.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn stickslip_pair_tangent(

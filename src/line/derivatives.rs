@@ -7,7 +7,8 @@
 
 use super::facet::{LineFacet, MAX_LINE_NODES};
 use super::segment::{Measure, NODES};
-use super::weights::{PartPair, Point, all_parts};
+use super::weights::{LineWeights, PartPair, Point, all_parts};
+use crate::geometry::Vec2;
 use crate::mortar::MultiplierSpace;
 
 /// Columns: two components of each of the non-mortar line's nodes, then of the mortar line's.
@@ -26,97 +27,128 @@ pub struct LineDerivatives {
     pub ac: Row,
 }
 
-/// What a weight depends on within two parts: s of the four nodes, then r of the non-mortar ones.
-const MOTIONS: usize = NODES + 2;
-
-/// Derivatives of all weights with respect to the motions.
-#[derive(Default)]
+/// A weight's derivatives by what it depends on within two parts: s of the four nodes, then r of the non-mortar ones.
+#[derive(Clone, Copy, Default)]
 struct ByMotion {
-    of: [[[[f64; MOTIONS]; MAX_LINE_NODES]; MAX_LINE_NODES]; 2],
+    of_s: [f64; NODES],
+    of_r: [f64; 2],
 }
 
 impl Default for LineDerivatives {
-    fn default() -> Self {
+    fn default() -> LineDerivatives {
         let zeros = [[[0.0; LINE_COLUMNS]; MAX_LINE_NODES]; MAX_LINE_NODES];
         LineDerivatives { ab: zeros, ac: zeros }
     }
 }
 
 impl LineDerivatives {
-    /// Those of a pair; zeros where it does not overlap. Cost: some four times that of the weights.
+    /// Those of a pair; zeros where it does not overlap.
     pub fn new(one: &LineFacet, two: &LineFacet, space: MultiplierSpace, measure: Measure) -> LineDerivatives {
         let mut d = LineDerivatives::default();
-        all_parts(one, two).for_each(|parts| d.add_parts([one, two], parts, space, measure));
+        d.add(one, two, space, measure);
         d
     }
 
-    /// Adds those over part `i` of the first facet and part `j` of the second one.
+    /// Adds those of a pair, and gives its weights, with the bits of [`LineWeights::new`]. Cost: some twice that of the weights.
+    pub fn add(&mut self, one: &LineFacet, two: &LineFacet, space: MultiplierSpace, measure: Measure) -> LineWeights {
+        let mut weights = LineWeights::default();
+        for parts in all_parts(one, two) {
+            self.add_parts([one, two], parts, space, measure, &mut weights);
+        }
+        weights
+    }
+
+    /// Adds those over part `i` of the first facet and part `j` of the second one, and to `weights` the weights.
     pub fn add_parts(
         &mut self,
         facets: [&LineFacet; 2],
         parts: (usize, usize),
         space: MultiplierSpace,
         measure: Measure,
+        weights: &mut LineWeights,
     ) {
         let Some(pair) = PartPair::of(facets, parts, space) else { return };
-        let mut motions = ByMotion::default();
-        pair.for_points(|p| motions.add_point(&pair, p, measure));
-        for (end, sign) in pair.segment.ends.into_iter().zip([-1.0, 1.0]) {
-            motions.add_end(&pair, &pair.at(end.0, sign), end.1, measure);
+        // Compiled apart for two line2, whose loops are short; the functions of nodes that a line has not are 0.
+        match facets[0].n.max(facets[1].n) {
+            2 => self.add_part_pair::<2>(&pair, measure, weights),
+            _ => self.add_part_pair::<MAX_LINE_NODES>(&pair, measure, weights),
         }
-        self.chain(&pair, &motions);
     }
 
-    /// Adds what the nodes' motions make of those of s and r.
-    fn chain(&mut self, parts: &PartPair, motions: &ByMotion) {
-        let [[a, b], [c, d]] = parts.nodes;
-        let slots = [a, b, MAX_LINE_NODES + c, MAX_LINE_NODES + d];
-        let of_s: [_; NODES] = std::array::from_fn(|k| parts.segment.motion(k));
-        for (target, source) in [&mut self.ab, &mut self.ac].into_iter().zip(&motions.of) {
-            for (row, of) in target.iter_mut().flatten().zip(source.iter().flatten()) {
-                for (node, slot) in slots.into_iter().enumerate() {
-                    for i in 0..2 {
-                        row[2 * slot + i] += (0..NODES).map(|k| of[k] * of_s[k][node][i]).sum::<f64>();
-                    }
-                }
-                row[2 * slots[0]] += of[NODES];
-                row[2 * slots[1]] += of[NODES + 1];
+    /// The same of lines with at most N nodes.
+    fn add_part_pair<const N: usize>(&mut self, parts: &PartPair, measure: Measure, weights: &mut LineWeights) {
+        let mut motions = [[[ByMotion::default(); N]; N]; 2];
+        parts.for_points(|p| {
+            weights.add(parts, p, measure);
+            add_point::<0, N>(&mut motions[0], (parts, p), measure);
+            add_point::<1, N>(&mut motions[1], (parts, p), measure);
+        });
+        for (end, sign) in parts.segment.ends.into_iter().zip([-1.0, 1.0]) {
+            let p = parts.at(end.0, sign);
+            add_end::<0, N>(&mut motions[0], (parts, &p), end.1, measure);
+            add_end::<1, N>(&mut motions[1], (parts, &p), end.1, measure);
+        }
+        for (to, of) in [&mut self.ab, &mut self.ac].into_iter().zip(&motions) {
+            for (a, b) in (0..N).flat_map(|a| (0..N).map(move |b| (a, b))) {
+                chain(parts, &of[a][b], &mut to[a][b]);
             }
         }
     }
 }
 
-impl ByMotion {
-    /// The integrand at a point.
-    fn add_point(&mut self, parts: &PartPair, p: &Point, measure: Measure) {
-        let (segment, rho) = (&parts.segment, measure.at(p.shares[0], parts.segment.r) * p.ds);
-        let slope = measure.slope() * p.ds;
-        let lean = slope * (segment.r[1] - segment.r[0]) / (segment.s[1] - segment.s[0]);
-        for side in 0..2 {
-            for (a, b) in (0..MAX_LINE_NODES).flat_map(|a| (0..MAX_LINE_NODES).map(move |b| (a, b))) {
-                let n = p.test[a] * p.n[side][b];
-                let of_test = p.test_slope[a] * p.n[side][b];
-                let of_other = p.test[a] * p.slope[side][b];
-                // What moves with the non-mortar part, and with the mortar one.
-                let one = -rho * (of_test + if side == 0 { of_other } else { 0.0 }) - n * lean;
-                let two = if side == 0 { 0.0 } else { -rho * of_other };
-                let of = &mut self.of[side][a][b];
-                for end in 0..2 {
-                    of[end] += one * p.shares[0][end];
-                    of[2 + end] += two * p.shares[1][end];
-                    of[NODES + end] += n * slope * p.shares[0][end];
-                }
+/// Adds what the nodes' motions make of those of s and r.
+#[inline(always)]
+fn chain(parts: &PartPair, of: &ByMotion, row: &mut [f64; LINE_COLUMNS]) {
+    let [[a, b], [c, d]] = parts.nodes;
+    let slots = [a, b, MAX_LINE_NODES + c, MAX_LINE_NODES + d];
+    let [along, turn] = parts.segment.motion(&of.of_s);
+    let frame: [Vec2; NODES] = [along - turn, along + turn, Vec2::zeros(), Vec2::zeros()];
+    for (k, slot) in slots.into_iter().enumerate() {
+        let v = frame[k] + parts.segment.t * of.of_s[k];
+        row[2 * slot] += v.x;
+        row[2 * slot + 1] += v.y;
+    }
+    row[2 * a] += of.of_r[0];
+    row[2 * b] += of.of_r[1];
+}
+
+/// The integrand at a point, of the weights with the nodes of a side, at most N.
+#[inline(always)]
+fn add_point<const SIDE: usize, const N: usize>(
+    to: &mut [[ByMotion; N]; N],
+    (parts, p): (&PartPair, &Point),
+    measure: Measure,
+) {
+    let (segment, rho) = (&parts.segment, measure.at(p.shares[0], parts.segment.r) * p.ds);
+    let slope = measure.slope() * p.ds;
+    let lean = slope * (segment.r[1] - segment.r[0]) * segment.per[0];
+    for (a, b) in (0..N).flat_map(|a| (0..N).map(move |b| (a, b))) {
+        let n = p.test[a] * p.n[SIDE][b];
+        let of_test = p.test_slope[a] * p.n[SIDE][b];
+        let of_other = p.test[a] * p.slope[SIDE][b];
+        // What moves with the non-mortar part, and with the mortar one.
+        let one = -rho * (of_test + if SIDE == 0 { of_other } else { 0.0 }) - n * lean;
+        let of = &mut to[a][b];
+        for end in 0..2 {
+            of.of_s[end] += one * p.shares[0][end];
+            of.of_r[end] += n * slope * p.shares[0][end];
+            if SIDE == 1 {
+                of.of_s[2 + end] -= rho * of_other * p.shares[1][end];
             }
         }
     }
+}
 
-    /// An end of the overlap, which is the part's node `node`; `p.ds` is its sign.
-    fn add_end(&mut self, parts: &PartPair, p: &Point, node: usize, measure: Measure) {
-        let rho = measure.at(p.shares[0], parts.segment.r) * p.ds;
-        for side in 0..2 {
-            for (a, b) in (0..MAX_LINE_NODES).flat_map(|a| (0..MAX_LINE_NODES).map(move |b| (a, b))) {
-                self.of[side][a][b][node] += rho * p.test[a] * p.n[side][b];
-            }
-        }
+/// An end of the overlap, which is the part's node `node`; `p.ds` is its sign.
+#[inline(always)]
+fn add_end<const SIDE: usize, const N: usize>(
+    to: &mut [[ByMotion; N]; N],
+    (parts, p): (&PartPair, &Point),
+    node: usize,
+    measure: Measure,
+) {
+    let rho = measure.at(p.shares[0], parts.segment.r) * p.ds;
+    for (a, b) in (0..N).flat_map(|a| (0..N).map(move |b| (a, b))) {
+        to[a][b].of_s[node] += rho * p.test[a] * p.n[SIDE][b];
     }
 }

@@ -36,12 +36,16 @@ impl Measure {
 /// Two parts that overlap.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct LineSegment {
-    t: Vec2,
+    /// Along the non-mortar part.
+    pub t: Vec2,
     e: Vec2,
     length: f64,
     /// s of a, b, c, d.
     pub s: [f64; NODES],
-    d: [f64; NODES],
+    /// d of c, d.
+    d: [f64; 2],
+    /// 1 / (s_b - s_a), 1 / (s_d - s_c).
+    pub per: [f64; 2],
     /// First coordinates of a and b.
     pub r: [f64; 2],
     /// The interval's ends, and the nodes that they are.
@@ -55,28 +59,31 @@ impl LineSegment {
         let length = along.norm();
         let (t, middle) = (along / length, x[0] + along * 0.5);
         let e = Vec2::new(-t.y, t.x);
-        let (s, d) = (x.map(|x| (x - middle).dot(&t)), x.map(|x| (x - middle).dot(&e)));
+        let (s, d) = (x.map(|x| (x - middle).dot(&t)), [x[2], x[3]].map(|x| (x - middle).dot(&e)));
         let [low, high] = if s[2] < s[3] { [2, 3] } else { [3, 2] };
         // Where nodes coincide the end is the non-mortar one's.
         let from = if s[low] > s[0] { low } else { 0 };
         let to = if s[high] < s[1] { high } else { 1 };
         let ends = [(s[from], from), (s[to], to)];
-        (s[to] > s[from]).then_some(LineSegment { t, e, length, s, d, r: [x[0].x, x[1].x], ends })
+        if !(s[to] > s[from]) {
+            return None;
+        }
+        let per = [1.0 / (s[1] - s[0]), 1.0 / (s[3] - s[2])];
+        Some(LineSegment { t, e, length, s, d, per, r: [x[0].x, x[1].x], ends })
     }
 
     /// Shares of a and b, or of c and d (`side` 1), at s: those of node k of the side are its linear function.
     pub fn shares(&self, side: usize, s: f64) -> [f64; 2] {
-        let [from, to] = [self.s[2 * side], self.s[2 * side + 1]];
-        [(to - s) / (to - from), (s - from) / (to - from)]
+        let ([from, to], per) = ([self.s[2 * side], self.s[2 * side + 1]], self.per[side]);
+        [(to - s) * per, (s - from) * per]
     }
 
-    /// d s_k / d x of a, b, c, d.
-    pub fn motion(&self, k: usize) -> [Vec2; NODES] {
-        let turn = self.e * (self.d[k] / self.length);
-        let mut d = [Vec2::zeros(); NODES];
-        d[0] -= self.t * 0.5 + turn;
-        d[1] -= self.t * 0.5 - turn;
-        d[k] += self.t;
-        d
+    /// What the frame's motion makes of derivatives f_k by s_k: (- t sum f_k / 2, e sum f_k d_k / L). With Ds_k as in
+    /// docs/formulation.md 13.3, a has their difference, b their sum, and every node besides t f_k.
+    #[inline]
+    pub fn motion(&self, f: &[f64; NODES]) -> [Vec2; 2] {
+        // a and b lie on t: their d is 0.
+        let turn = f[2] * self.d[0] + f[3] * self.d[1];
+        [self.t * (-0.5 * (f[0] + f[1] + f[2] + f[3])), self.e * (turn / self.length)]
     }
 }

@@ -53,6 +53,11 @@ pub(super) fn all_parts(one: &LineFacet, two: &LineFacet) -> impl Iterator<Item 
 }
 
 impl PartPair<'_> {
+    /// Multipliers, at the first nodes of the non-mortar line.
+    pub fn rows(&self) -> usize {
+        self.facets[0].multipliers(self.space)
+    }
+
     /// The functions at s.
     pub fn at(&self, s: f64, ds: f64) -> Point {
         let mut point = Point {
@@ -67,7 +72,7 @@ impl PartPair<'_> {
         for side in 0..2 {
             let ([k, l], [p, q]) = (self.nodes[side], point.shares[side]);
             let (xi, rise) = (p * XI[k] + q * XI[l], XI[l] - XI[k]);
-            let per_s = 1.0 / (self.segment.s[2 * side + 1] - self.segment.s[2 * side]);
+            let per_s = self.segment.per[side];
             place[side] = (xi, rise * per_s);
             point.n[side] = self.facets[side].values(xi);
             point.slope[side] = self.facets[side].slopes(xi).map(|d| d * rise * per_s);
@@ -79,7 +84,7 @@ impl PartPair<'_> {
                 point.test_slope[..2].copy_from_slice(&[-0.5 * per_s, 0.5 * per_s]);
             }
             MultiplierSpace::Sub => {
-                let per_s = 1.0 / (self.segment.s[1] - self.segment.s[0]);
+                let per_s = self.segment.per[0];
                 for (end, &node) in self.nodes[0].iter().enumerate() {
                     point.test[node] = point.shares[0][end];
                     point.test_slope[node] = if end == 0 { -per_s } else { per_s };
@@ -115,15 +120,20 @@ impl LineWeights {
         space: MultiplierSpace,
         measure: Measure,
     ) {
-        let Some(pair) = PartPair::of(facets, parts, space) else { return };
-        pair.for_points(|p| {
-            let w = p.ds * measure.at(p.shares[0], pair.segment.r);
-            for a in 0..MAX_LINE_NODES {
-                for b in 0..MAX_LINE_NODES {
-                    self.ab[a][b] += w * p.test[a] * p.n[0][b];
-                    self.ac[a][b] += w * p.test[a] * p.n[1][b];
-                }
-            }
-        });
+        if let Some(pair) = PartPair::of(facets, parts, space) {
+            pair.for_points(|p| self.add(&pair, p, measure));
+        }
+    }
+
+    /// The integrand at a point.
+    #[inline(always)]
+    pub(super) fn add(&mut self, parts: &PartPair, p: &Point, measure: Measure) {
+        let w = p.ds * measure.at(p.shares[0], parts.segment.r);
+        let [n1, n2] = parts.facets.map(|facet| facet.n);
+        for a in 0..parts.rows() {
+            let w = w * p.test[a];
+            (0..n1).for_each(|b| self.ab[a][b] += w * p.n[0][b]);
+            (0..n2).for_each(|c| self.ac[a][c] += w * p.n[1][c]);
+        }
     }
 }

@@ -107,7 +107,7 @@ int main(void) {
   const double x1[12] = {0, 0, 0, 0, 1, 0, 1, 1, 0, 1, 0, 0}, x2[12] = {-1, -1, 0, 0.5, -1, 0, 0.5, 0.5, 0, -1, 0.5, 0};
   double ab[16], sum = 0.0;
   stickslip_pair pair = {sizeof pair, 4, 4, x1, x2, STICKSLIP_QUADRATURE_DEGREE_5, STICKSLIP_LAYOUT_ROW_MAJOR, 2,
-                          NULL, 0, 0, 0.0};
+                          NULL, 0, STICKSLIP_MODEL_SOLID, 0.0};
   CHECK_OK(stickslip_pair_weights(&pair, ab, NULL, NULL, NULL));
   for (int k = 0; k < 16; ++k) sum += ab[k];
   CHECK(fabs(sum - 0.25) < ROUNDING); /* one point of four */

@@ -62,6 +62,46 @@ fn c_element_calls_allocate_nothing() {
     }
 }
 
+#[test]
+fn c_calls_with_lines_allocate_nothing() {
+    let (x1, x2) = ([1.0, 0.0, 2.0, 0.0, 1.5, 0.1], [2.2, 0.0, 1.2, 0.1, 1.7, 0.0]);
+    for (n1, n2, model) in [(2, 2, STICKSLIP_MODEL_PLANE), (3, 3, STICKSLIP_MODEL_AXISYMMETRIC)] {
+        let pair = stickslip_pair {
+            struct_size: size_of::<stickslip_pair>() as u64,
+            n1,
+            n2,
+            x1: x1.as_ptr(),
+            x2: x2.as_ptr(),
+            model,
+            multiplier_space: STICKSLIP_SPACE_SUB,
+            // SAFETY: numbers and pointers, of which NULL is one that is not given.
+            ..unsafe { zeroed() }
+        };
+        let (mut ab, mut ac, mut dab, mut dac) = ([0.0; 9], [0.0; 9], [0.0; 108], [0.0; 108]);
+        let (mut gap, mut force, mut tangent) = ([0.0; 6], [0.0; 12], [0.0; 18 * 18]);
+        let (traction, size) = ([-1.0; 6], 2 * i64::from(2 * n1 + n2));
+        let response = stickslip_node_response {
+            struct_size: size_of::<stickslip_node_response>() as u64,
+            // SAFETY: numbers only.
+            ..unsafe { zeroed() }
+        };
+        let responses = [response; 3];
+        let (a, b, c, d) = (ab.as_mut_ptr(), ac.as_mut_ptr(), dab.as_mut_ptr(), dac.as_mut_ptr());
+        let (t, r, k) = (traction.as_ptr(), responses.as_ptr(), tangent.as_mut_ptr());
+        // SAFETY: arrays as long as two line3 need.
+        unsafe {
+            allocates_nothing("pair_weights", || assert_eq!(stickslip_pair_weights(&pair, a, b, c, d), 0));
+            allocates_nothing("pair_gap", || assert_eq!(stickslip_pair_gap(&pair, a, b, gap.as_mut_ptr()), 0));
+            allocates_nothing("pair_residual", || {
+                assert_eq!(stickslip_pair_residual(&pair, a, b, t, force.as_mut_ptr()), 0);
+            });
+            allocates_nothing("pair_tangent", || {
+                assert_eq!(stickslip_pair_tangent(&pair, a, b, c, d, null(), null(), t, r, null(), k, size), 0);
+            });
+        }
+    }
+}
+
 fn c_calls(pair: &stickslip_pair) {
     let (mut ab, mut ac, mut dab, mut dac) = ([0.0; 16], [0.0; 16], [0.0; 384], [0.0; 384]);
     let (mut gap, mut force, mut tangent) = ([0.0; 12], [0.0; 24], [0.0; 36 * 36]);

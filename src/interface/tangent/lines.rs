@@ -7,7 +7,7 @@ use crate::interface::data::active::Active;
 use crate::interface::data::lines::line;
 use crate::interface::data::parents::Parents;
 use crate::interface::data::surface::Surface;
-use crate::line::{LineDerivatives, LineFacet, MAX_LINE_NODES, Measure, line_motion};
+use crate::line::{LineDerivatives, LineFacet, LineWeights, MAX_LINE_NODES, Measure, line_motion};
 use crate::mortar::{MORTAR, SubMotion};
 use crate::shape::{MAX_CORNERS, MAX_PARENT_NODES};
 use std::ops::Range;
@@ -36,7 +36,7 @@ pub fn add_lines(
         let parts = (pair.one - one.parts(f).start, pair.two - other.parts(g).start);
         // Weights are of the nodes where they are, for r counts from the axis; gaps of what a basis makes of them.
         let (mut d, at) = (LineDerivatives::default(), line(&other.at(g, &active.x2)));
-        d.add_parts([&line(&one.at(f, &active.x1)), &at], parts, one.space, measure);
+        d.add_parts([&line(&one.at(f, &active.x1)), &at], parts, one.space, measure, &mut LineWeights::default());
         let at = LineFacet { x: at.x.map(|x| x - base.xy()), ..at };
         line_motion(&d, (&own, &at), &p, motion);
         let (mut slots, mut columns) = ([None; 2 * MORTAR], [None; MAX_PARENT_NODES]);
