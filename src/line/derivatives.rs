@@ -49,7 +49,7 @@ impl LineDerivatives {
         d
     }
 
-    /// Adds those of a pair, and gives its weights, with the bits of [`LineWeights::new`]. Cost: some twice that of the weights.
+    /// Adds those of a pair, and gives its weights, with the bits of [`LineWeights::new`]. Cost: two to three times theirs.
     pub fn add(&mut self, one: &LineFacet, two: &LineFacet, space: MultiplierSpace, measure: Measure) -> LineWeights {
         let mut weights = LineWeights::default();
         for parts in all_parts(one, two) {
