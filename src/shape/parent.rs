@@ -375,7 +375,8 @@ mod tests {
                 assert!((0..parent.n).all(|b| n[b] == if b == k { 1.0 } else { 0.0 }), "{}", parent.name);
             }
             let [n, nx, ny] = functions(parent, 0.3125, 0.125);
-            let of = |n: &[f64; MAX_PARENT_NODES]| (0..parent.n).map(|b| n[b] * (2.0 + 3.0 * parent.at[b][0])).sum();
+            let field = |b: usize| 2.0 + 3.0 * parent.at[b][0];
+            let of = |n: &[f64; MAX_PARENT_NODES]| (0..parent.n).map(|b| n[b] * field(b)).sum::<f64>();
             assert_eq!([of(&n), of(&nx), of(&ny)], [2.0 + 3.0 * 0.3125, 3.0, 0.0], "{}", parent.name);
             assert!(parent.functions[parent.terms..].as_flattened().as_flattened().iter().all(|c| *c == 0.0));
             assert_eq!(parent.cell.values(-1.0, 0.0)[..2], [1.0, 0.0]);

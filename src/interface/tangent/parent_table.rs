@@ -161,7 +161,7 @@ impl ParentTable {
     /// Of the row of multiplier A, by how it depends on its gaps of now and of t_n: with respect to each node.
     pub fn gap_row(&self, a: usize, [now, previous]: [&Mat3; 2], row: &mut [NodeBlock]) {
         let columns = a * self.columns()..(a + 1) * self.columns();
-        for ((to, gap), n) in row.iter_mut().zip(&self.gaps[columns.clone()]).zip(&self.previous[columns]) {
+        for ((to, gap), n) in row.iter_mut().zip(&self.gaps[columns.start..columns.end]).zip(&self.previous[columns]) {
             for j in 0..3 {
                 for i in 0..3 {
                     to[j][i] = (0..3).map(|k| now[(i, k)] * gap[j][k]).sum::<f64>() + previous[(i, j)] * n;
