@@ -507,7 +507,7 @@ typedef struct stickslip_options {
   /// rhat [F/L^3]; 0 (default): use the modulus. One of the two is needed: nothing else has the unit
   /// of a stiffness. The answer does not depend on it.
   double augmentation;
-  /// Young's modulus of the softer body [F/L^2]: rhat_A = 0.1 E / sqrt(M_A); 0 (default): use the
+  /// Young's modulus of the softer body [F/L^2]: rhat_A = 0.1 E / h_A, h_A = sqrt(M_A), of lines about their length; 0 (default): use the
   /// augmentation.
   double modulus;
   /// A node whose covered area over its full area [-] is at most this counts as uncovered; default 1e-8. Where a
@@ -930,7 +930,7 @@ typedef struct stickslip_equilibrium {
   /// Output: largest penetration, or opening under pressure: g_N over the covered area; of tied surfaces, of the change
   /// of the gap [L].
   double gap;
-  /// Output: what to compare it with: h traction_scale / modulus, h the root of the node's area M_A; without a modulus
+  /// Output: what to compare it with: h traction_scale / modulus, h the root of the node's area M_A (with lines about their length); without a modulus
   /// h alone [L].
   double gap_scale;
   /// Output: largest traction that the law forbids: tension, what is beyond the cone, what an open or uncovered node
@@ -1119,7 +1119,7 @@ int32_t stickslip_interface_set_previous(struct stickslip_interface *interface,
                                          const double *x1,
                                          const double *x2);
 
-/// Writes multipliers to start the first step with: a slight compression, -1e-6 rhat_A sqrt(M_A) nu_A, on
+/// Writes multipliers to start the first step with: a slight compression, -1e-6 rhat_A h_A nu_A (h_A: see `modulus` of `stickslip_options`), on
 /// covered closed nodes, 0 elsewhere. lambda = 0 at zero gap is a body without support.
 ///
 /// lambda (3 n1), output [F/L^2]; from then on it is the host's unknown, the library keeps no copy.
@@ -1127,7 +1127,8 @@ int32_t stickslip_interface_set_previous(struct stickslip_interface *interface,
 /// Errors: NULL_POINTER, NOT_FINITE (overflow), UNDEFINED_NORMAL, INVALID_VALUE (a step is committed; or as
 /// `stickslip_interface_sums`).
 /// Cost: O(n1); allocates.
-int32_t stickslip_interface_initial_multipliers(struct stickslip_interface *interface, double *lambda);
+int32_t stickslip_interface_initial_multipliers(struct stickslip_interface *interface,
+                                                double *lambda);
 
 /// Stage 1, assembled: this handle's share of every node's coverage and gaps. A parallel host whose
 /// handles hold the whole non-mortar surface and disjoint mortar facets adds them over its ranks and

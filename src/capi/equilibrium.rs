@@ -25,7 +25,7 @@ pub struct stickslip_equilibrium {
     /// Output: largest penetration, or opening under pressure: g_N over the covered area; of tied surfaces, of the change
     /// of the gap [L].
     pub gap: f64,
-    /// Output: what to compare it with: h traction_scale / modulus, h the root of the node's area M_A; without a modulus
+    /// Output: what to compare it with: h traction_scale / modulus, h the root of the node's area M_A (with lines about their length); without a modulus
     /// h alone [L].
     pub gap_scale: f64,
     /// Output: largest traction that the law forbids: tension, what is beyond the cone, what an open or uncovered node

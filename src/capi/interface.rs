@@ -210,7 +210,7 @@ pub unsafe extern "C" fn stickslip_interface_set_previous(
     })
 }
 
-/// Writes multipliers to start the first step with: a slight compression, -1e-6 rhat_A sqrt(M_A) nu_A, on
+/// Writes multipliers to start the first step with: a slight compression, -1e-6 rhat_A h_A nu_A (h_A: see `modulus` of `stickslip_options`), on
 /// covered closed nodes, 0 elsewhere. lambda = 0 at zero gap is a body without support.
 ///
 /// lambda (3 n1), output [F/L^2]; from then on it is the host's unknown, the library keeps no copy.

@@ -156,7 +156,7 @@ pub struct stickslip_options {
     /// rhat [F/L^3]; 0 (default): use the modulus. One of the two is needed: nothing else has the unit
     /// of a stiffness. The answer does not depend on it.
     pub augmentation: f64,
-    /// Young's modulus of the softer body [F/L^2]: rhat_A = 0.1 E / sqrt(M_A); 0 (default): use the
+    /// Young's modulus of the softer body [F/L^2]: rhat_A = 0.1 E / h_A, h_A = sqrt(M_A), of lines about their length; 0 (default): use the
     /// augmentation.
     pub modulus: f64,
     /// A node whose covered area over its full area [-] is at most this counts as uncovered; default 1e-8. Where a

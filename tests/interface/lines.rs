@@ -4,7 +4,9 @@ use crate::support::lines::*;
 use crate::support::max_abs;
 use crate::support::mesh::*;
 use stickslip::geometry::Vec3;
-use stickslip::interface::{Form, Friction, Interface, MultiplierBasis, Normals, Options, Surface, Tangent, Weights};
+use stickslip::interface::{
+    Form, Friction, Interface, MultiplierBasis, Normals, Options, Stiffness, Surface, Tangent, Weights,
+};
 use stickslip::law::State;
 use stickslip::line::Measure;
 use stickslip::mortar::MultiplierSpace;
@@ -254,6 +256,38 @@ fn histories_of_lines_are_kept_undone_and_imported() {
         let foreign = if measure == Measure::Axisymmetric { Measure::Thickness(0.7) } else { Measure::Thickness(0.8) };
         let mut foreign = moved_lines::<3>(&options, [3, 2], foreign, 6);
         assert!(foreign.contact.import_history(&integers, &reals).is_err());
+    }
+}
+
+/// Forces and rows are proportional to the thickness, in every bit of a power of two, and nothing else depends on it: the size of a node
+/// is a length.
+#[test]
+fn the_thickness_is_a_factor() {
+    const FACTOR: f64 = 1024.0;
+    for options in choices(options()) {
+        let mut thin = moved_lines::<3>(&options, [3, 2], Measure::Thickness(1.0), 8);
+        let mut thick = moved_lines::<3>(&options, [3, 2], Measure::Thickness(FACTOR), 8);
+        let z = thin.unknowns();
+        let (own, other) = (thin.residual(&z), thick.residual(&z));
+        assert!(own.iter().zip(&other).all(|(f, g)| f * FACTOR == *g), "{:?} {:?}", options.space, options.basis);
+        let starts = [&mut thin, &mut thick].map(|s| s.contact.initial_multipliers().unwrap());
+        assert_eq!(starts[0], starts[1]);
+    }
+}
+
+/// A node's size is about the length of its lines, at the axis and far from it.
+#[test]
+fn the_augmentation_follows_the_length_of_lines() {
+    for (from, n) in [(0.0, 8), (1.0, 8), (1000.0, 8), (0.0, 80)] {
+        let (one, two) = (lines(n, 2, [from, from + 2.0], false), lines(3, 2, [from, from + 2.0], true));
+        let options = Options { stiffness: Stiffness::Modulus(1.0), ..options() };
+        let mut rings = contact_of_lines::<3>(&one, &two, Measure::Axisymmetric, options);
+        let mut plane = contact_of_lines::<3>(&one, &two, Measure::Thickness(3.0), options);
+        for a in 0..one.x.len() {
+            let hat = |c: &mut Interface| c.augmentation(a) * c.history().areas[a];
+            let ratio = hat(&mut rings) / hat(&mut plane);
+            assert!((0.5..2.0).contains(&ratio), "node {a} from {from}: {ratio}");
+        }
     }
 }
 

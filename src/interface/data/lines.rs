@@ -10,6 +10,7 @@ use crate::line::{LineFacet, Measure};
 use crate::memory::{self, Store};
 use crate::mortar::ParentFacet;
 use crate::shape::Shape;
+use std::f64::consts::TAU;
 
 /// What the lines of a surface stand for.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -26,6 +27,15 @@ impl Lines {
         let half = Vec3::new(0.0, 0.0, 0.5 * self.width);
         let shape = Shape::of(4).expect("there are quadrilaterals");
         Facet { nodes: [a - half, b - half, b + half, a + half], shape }
+    }
+
+    /// How long the lines around a node at `x` with this area M_A are: M_A over rho, whatever the thickness is `[L]`. At the axis
+    /// rho is that of a line away from it.
+    pub fn size(&self, area: f64, x: Vec3) -> f64 {
+        match self.measure {
+            Measure::Thickness(thickness) => area / thickness,
+            Measure::Axisymmetric => (area / (TAU * x.x)).min((area / TAU).sqrt()),
+        }
     }
 
     /// Refuses positions of a side that lie out of the plane, or beyond the axis.

@@ -299,11 +299,11 @@ impl Options {
         }
     }
 
-    /// rhat_A of a node with tributary area `area` [F/L^3].
-    pub fn augmentation(&self, area: f64) -> f64 {
+    /// rhat_A of a node of this size `[L]` (`Surface::size`) [F/L^3].
+    pub fn augmentation(&self, size: f64) -> f64 {
         match self.stiffness {
             Stiffness::Augmentation(r) => r,
-            Stiffness::Modulus(e) => MODULUS_FACTOR * e / area.sqrt(),
+            Stiffness::Modulus(e) => MODULUS_FACTOR * e / size,
         }
     }
 }

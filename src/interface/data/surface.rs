@@ -245,6 +245,11 @@ impl Surface {
         self.facets.iter().map(length).fold(f64::INFINITY, f64::min)
     }
 
+    /// h_A, about as long as the facets around a node at `x` with this area M_A are wide `[L]`.
+    pub fn size(&self, area: f64, x: Vec3) -> f64 {
+        self.lines.as_ref().map_or_else(|| area.sqrt(), |lines| lines.size(area, x))
+    }
+
     /// Refuses positions of lines that lie out of their plane, or beyond the axis of their model.
     pub fn check_lines(&self, x: &[Vec3]) -> Result<()> {
         self.lines.as_ref().map_or(Ok(()), |lines| lines.check(self.side, x))

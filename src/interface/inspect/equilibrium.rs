@@ -76,7 +76,7 @@ pub fn equilibrium<const N: usize>(
     let traction = nodes().map(traction).fold(scales.traction, f64::max);
     let position = x1.iter().chain(x2).map(|x| x.amax()).fold(0.0, f64::max);
     let rounding = ROUNDINGS * f64::EPSILON * position;
-    let length = |a: usize| areas[a].sqrt();
+    let length = |a: usize| given.size(a);
     let length_scale = |a: usize| match scales.modulus {
         0.0 => length(a),
         modulus => length(a) * (traction / modulus),

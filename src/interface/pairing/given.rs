@@ -120,7 +120,13 @@ impl<'a, const N: usize> Given<'a, N> {
     pub fn augmentation(self, a: usize) -> f64 {
         let area = self.history().areas[a];
         let given = self.setup.nodes.augmentations.as_ref();
-        given.map_or_else(|| self.setup.options.augmentation(area) / area, |r| r[a])
+        given.map_or_else(|| self.setup.options.augmentation(self.size(a)) / area, |r| r[a])
+    }
+
+    /// h_A: the root of M_A, or how long the lines of a plane model are around the node `[L]`.
+    pub fn size(self, a: usize) -> f64 {
+        let history = self.history();
+        self.setup.nonmortar.size(history.areas[a], history.x1[a])
     }
 
     /// Factor of node A's multiplier rows.
