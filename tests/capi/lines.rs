@@ -345,7 +345,8 @@ fn what_lines_do_not_take_is_refused_by_name() {
     check(&|p| p.x2 = same.as_ptr(), STICKSLIP_DUPLICATE_NODE, "pair.x2 has two nodes at the same place (node 1)");
     check(&|p| p.x1 = null(), STICKSLIP_NULL_POINTER, "pair.x1");
     // x beyond 0 means nothing in a plane model, and a caller from before the thickness had a thickness of 1.
-    let (mut raw, mut n) = (Lines { model: STICKSLIP_MODEL_PLANE, ..lines.clone() }.raw(), [f64::NAN; 4]);
+    let plane = Lines { model: STICKSLIP_MODEL_PLANE, ..lines.clone() };
+    let (mut raw, mut n) = (plane.raw(), [f64::NAN; 4]);
     (raw.x1, raw.struct_size, raw.thickness) = (below.as_ptr(), 64, f64::NAN);
     ok!(stickslip_pair_weights(&raw, n.as_mut_ptr(), null_mut(), null_mut(), null_mut()));
     // Functions that take pairs of solids alone.
