@@ -49,7 +49,7 @@ pub(super) fn dimension(interface: &Inner) -> usize {
 
 /// The same of what is behind a handle.
 pub(super) fn components_of<const N: usize>(c: &Contact<N>) -> usize {
-    if c.surfaces().0.lines.is_some() { 2 } else { 3 }
+    if c.surfaces().0.lines().is_some() { 2 } else { 3 }
 }
 
 /// Components node by node: of vectors the first `dimension` ones.

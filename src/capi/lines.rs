@@ -1,7 +1,6 @@
 //! A pair of lines of a plane or axisymmetric model, as a caller gives it to the functions of pairs (`pair.rs`).
 
 use super::facet::check_distinct;
-use super::layout::{Matrix, column_major};
 use super::model::{measure, model};
 use super::nodal::{self, Two};
 use super::node::stickslip_node_response;
@@ -84,12 +83,15 @@ pub(super) fn tangent(
     at: (*const f64, *const stickslip_node_response, *const f64),
     (k, ld): (*mut f64, i64),
 ) -> Result<()> {
-    let (pair, column_major) = (Lines::of(given)?, column_major(given.layout, "pair.layout")?);
-    let pair = pair.nodal();
-    let size = pair.one.len() + pair.two.len() + pair.multipliers;
-    let mut k = Matrix::new(k, 2 * size, ld, column_major)?;
     let mut blocks = [SMatrix::zeros(); SLOTS * SLOTS];
-    nodal::tangent::<2, MAX_LINE_NODES>(&pair, now, previous, at, &mut k, &mut blocks)
+    nodal::tangent::<2, MAX_LINE_NODES>(
+        &Lines::of(given)?.nodal(),
+        now,
+        previous,
+        at,
+        (given.layout, k, ld),
+        &mut blocks,
+    )
 }
 
 /// Such a pair.
@@ -105,9 +107,8 @@ impl Lines {
     fn of(given: &stickslip_pair) -> Result<Lines> {
         let measure = measure(model(given.model, "pair.model")?, given.thickness, "pair.thickness")?;
         let Some(measure) = measure else { unreachable!("a model of lines") };
-        let axisymmetric = measure == Measure::Axisymmetric;
-        let one = line(given.n1, given.x1, axisymmetric, "pair.x1")?;
-        let two = line(given.n2, given.x2, axisymmetric, "pair.x2")?;
+        let one = line(given.n1, given.x1, measure, "pair.x1")?;
+        let two = line(given.n2, given.x2, measure, "pair.x2")?;
         check_linear_alone(given, "linear facets of solids")?;
         let space = multiplier_space(given.multiplier_space, "pair.multiplier_space")?;
         Ok(Lines { one, two, space, measure })
@@ -120,14 +121,14 @@ impl Lines {
 }
 
 /// A line from `n` points of an argument called `name`; allocates nothing.
-fn line(n: i32, x: *const f64, axisymmetric: bool, name: &str) -> Result<LineFacet> {
+fn line(n: i32, x: *const f64, measure: Measure, name: &str) -> Result<LineFacet> {
     if !(2..=MAX_LINE_NODES as i32).contains(&n) {
         let text = text!("{name} has {n} nodes; 2 (line2) or 3 (line3) are allowed in this model");
         return Err(Error::new(Kind::InvalidSize, text));
     }
     let nodes = raw::as_vectors::<2>(raw::numbers(x, 2 * n as usize, name)?);
     check_distinct(nodes, name)?;
-    if axisymmetric && let Some(k) = nodes.iter().position(|x| x.x < 0.0) {
+    if let Some(k) = measure.beyond_axis(nodes) {
         let text = text!("{name}: node {k} has r = {}; no node lies beyond the axis, r = 0", nodes[k].x);
         return Err(Error::new(Kind::InvalidValue, text));
     }

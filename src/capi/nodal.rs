@@ -1,7 +1,7 @@
 //! What the functions of pairs (`pair.rs`) do with a pair whose formulas go node by node (`element/nodal.rs`): with a quadratic
 //! facet, or of lines. D components a position, at most W nodes a facet.
 
-use super::layout::Matrix;
+use super::layout::{Matrix, column_major};
 use super::node::stickslip_node_response;
 use super::pair_in::{node_tangents, tractions};
 use super::raw::{self, Output};
@@ -93,11 +93,11 @@ pub(super) fn tangent<const D: usize, const W: usize>(
     (n, dn): (Two<*const f64>, Two<*const f64>),
     previous: Two<*const f64>,
     (traction, responses, row_scale): (*const f64, *const stickslip_node_response, *const f64),
-    k: &mut Matrix,
+    (layout, k, ld): (i32, *mut f64, i64),
     blocks: &mut [SMatrix<f64, D, D>],
 ) -> Result<()> {
-    let ((n1, n2), m) = (pair.n(), pair.multipliers);
-    let size = n1 + n2 + m;
+    let (size, m) = (pair.size(), pair.multipliers);
+    let mut k = Matrix::new(k, D * size, ld, column_major(layout, "pair.layout")?)?;
     let now = optional_weights::<D, W>(pair, n, ["n_ab", "n_ac"])?;
     let slopes = match dn.iter().any(|p| !p.is_null()) {
         true => {

@@ -2,7 +2,6 @@
 //! need no room for these.
 
 use super::facet::parent;
-use super::layout::{Matrix, column_major};
 use super::nodal::{self, Two};
 use super::node::stickslip_node_response;
 use super::options::rule;
@@ -62,12 +61,9 @@ pub(super) fn tangent(
     at: (*const f64, *const stickslip_node_response, *const f64),
     (k, ld): (*mut f64, i64),
 ) -> Result<()> {
-    let (pair, column_major) = (Parents::of(given)?, column_major(given.layout, "pair.layout")?);
-    let pair = pair.nodal();
-    let size = pair.one.len() + pair.two.len() + pair.multipliers;
-    let mut k = Matrix::new(k, 3 * size, ld, column_major)?;
-    let mut blocks = memory::filled(Mat3::zeros(), size * size)?;
-    nodal::tangent::<3, MAX_PARENT_NODES>(&pair, now, previous, at, &mut k, &mut blocks)
+    let pair = Parents::of(given)?;
+    let mut blocks = memory::filled(Mat3::zeros(), pair.nodal().size().pow(2))?;
+    nodal::tangent::<3, MAX_PARENT_NODES>(&pair.nodal(), now, previous, at, (given.layout, k, ld), &mut blocks)
 }
 
 /// Such a pair.

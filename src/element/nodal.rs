@@ -35,6 +35,11 @@ impl<const D: usize> NodalPair<'_, D> {
         (self.one.len(), self.two.len())
     }
 
+    /// Rows of blocks of its tangent: nodes and multipliers.
+    pub fn size(&self) -> usize {
+        self.one.len() + self.two.len() + self.multipliers
+    }
+
     /// n_AB of a non-mortar node and - n_AC of a mortar one: what a traction at A does to the k-th node.
     fn weight<const W: usize>(&self, [ab, ac]: NodalWeights<W>, a: usize, k: usize) -> f64 {
         let n1 = self.one.len();

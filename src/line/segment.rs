@@ -5,6 +5,7 @@
 //! Their overlap is an interval of s. Its ends are nodes of one or the other.
 
 use crate::geometry::Vec2;
+use nalgebra::SVector;
 
 /// Nodes of a pair of parts: a and b of the non-mortar one, c and d of the mortar one.
 pub(super) const NODES: usize = 4;
@@ -25,6 +26,11 @@ impl Measure {
             Measure::Thickness(thickness) => thickness,
             Measure::Axisymmetric => std::f64::consts::TAU * (shares[0] * r[0] + shares[1] * r[1]),
         }
+    }
+
+    /// The first of these nodes that is at r < 0 in an axisymmetric model.
+    pub fn beyond_axis<const D: usize>(self, x: &[SVector<f64, D>]) -> Option<usize> {
+        x.iter().position(|x| self == Measure::Axisymmetric && x[0] < 0.0)
     }
 
     /// d rho / d r.

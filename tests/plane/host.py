@@ -3,7 +3,7 @@ quadrilaterals of a model in space, whose nodes above each other have the same u
 
 import numpy as np
 
-from library import Interface
+from library import ENDS, Interface, mid_nodes
 
 MODELS = {"strain": 1, "stress": 1, "ring": 2}
 # Of Newton's method: the last step over all displacements, after which its square is left; and iterations.
@@ -15,11 +15,7 @@ class Lines:
 
     def __init__(self, library, x1, lines1, x2, lines2, body, **options):
         self.interface = Interface(library, x1, lines1, x2, lines2, model=MODELS[body.model], thickness=thickness(body), **options)
-        self.has_row = np.ones(len(x1), bool)
-        if not options.get("multiplier_space"):
-            self.has_row[:] = False
-            for line in lines1:
-                self.has_row[line[:2]] = True
+        self.has_row = np.full(len(x1), bool(options.get("multiplier_space"))) | ~mid_nodes(len(x1), lines1, ENDS)
 
     def residual(self, *at):
         return np.concatenate([v.ravel() for v in self.interface.residual(*at)])

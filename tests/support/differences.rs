@@ -50,39 +50,51 @@ impl<const N: usize> Point<'_, N> {
         forces.chain(r.rows.iter().flat_map(|v| v.iter().copied())).collect()
     }
 
-    /// Worst difference per block (f1, f2, rows) x (x1, x2, lambda), relative to the block's largest, or to
-    /// `floor` times the matrix's if that is larger.
+    /// See [`worst_difference`].
     pub fn difference_error(&mut self, floor: f64) -> f64 {
-        let (n, k) = (self.unknowns(), self.tangent());
+        let (k, ends) = (self.tangent(), self.ends());
         let x: Vec<f64> = (self.x1.iter().chain(self.x2).flat_map(|v| v.iter().copied()))
             .chain(self.lambda.iter().flat_map(|v| v.iter().copied()))
             .collect();
-        let mut fd = vec![0.0; n * n];
-        for j in 0..n {
-            let at = |h: f64| {
-                let mut y = x.clone();
-                y[j] += h;
-                y
-            };
-            let (plus, minus) = (at(STEP), at(-STEP));
-            let h = plus[j] - minus[j];
-            let (plus, minus) = (self.residual(&plus), self.residual(&minus));
-            for i in 0..n {
-                fd[i * n + j] = (plus[i] - minus[i]) / h;
-            }
-        }
-        let noise = NOISE / STEP * max_abs(self.residual(&x));
-        let least = (floor * max_abs(k.iter().copied())).max(f64::MIN_POSITIVE);
-        let mut worst = 0.0_f64;
-        for rows in self.ends().windows(2) {
-            for columns in self.ends().windows(2) {
-                let block = || (rows[0]..rows[1]).flat_map(|i| (columns[0]..columns[1]).map(move |j| i * n + j));
-                let error = max_abs(block().map(|t| k[t] - fd[t]));
-                let scale = max_abs(block().map(|t| k[t]));
-                // Blocks that vanish, as rows of sticking nodes over lambda do, differ by the noise alone.
-                worst = worst.max((error - noise).max(0.0) / scale.max(least));
-            }
-        }
-        worst
+        worst_difference(&k, ends, &x, floor, |y| self.residual(y))
     }
+}
+
+/// Worst difference of the full matrix `k` from central differences of `residual` at `x`, per block (f1, f2, rows) x (x1, x2,
+/// lambda), relative to the block's largest, or to `floor` times the matrix's if that is larger.
+pub fn worst_difference(
+    k: &[f64],
+    ends: [usize; 4],
+    x: &[f64],
+    floor: f64,
+    mut residual: impl FnMut(&[f64]) -> Vec<f64>,
+) -> f64 {
+    let n = x.len();
+    let mut fd = vec![0.0; n * n];
+    for j in 0..n {
+        let at = |h: f64| {
+            let mut y = x.to_vec();
+            y[j] += h;
+            y
+        };
+        let (plus, minus) = (at(STEP), at(-STEP));
+        let h = plus[j] - minus[j];
+        let (plus, minus) = (residual(&plus), residual(&minus));
+        for i in 0..n {
+            fd[i * n + j] = (plus[i] - minus[i]) / h;
+        }
+    }
+    let noise = NOISE / STEP * max_abs(residual(x));
+    let least = (floor * max_abs(k.iter().copied())).max(f64::MIN_POSITIVE);
+    let mut worst = 0.0_f64;
+    for rows in ends.windows(2) {
+        for columns in ends.windows(2) {
+            let block = || (rows[0]..rows[1]).flat_map(|i| (columns[0]..columns[1]).map(move |j| i * n + j));
+            let error = max_abs(block().map(|t| k[t] - fd[t]));
+            let scale = max_abs(block().map(|t| k[t]));
+            // Blocks that vanish, as rows of sticking nodes over lambda do, differ by the noise alone.
+            worst = worst.max((error - noise).max(0.0) / scale.max(least));
+        }
+    }
+    worst
 }

@@ -1,18 +1,13 @@
 //! Lines of plane and axisymmetric models: meshes, interfaces, and their tangents against differences in two components a node.
 #![allow(dead_code)]
 
-use super::max_abs;
+use super::differences::worst_difference;
 use super::mesh::{Create, Mesh, Random};
 use nalgebra::SVector;
 use stickslip::geometry::Vec3;
 use stickslip::interface::{Contact, NO_EQUATION, Options, Surface};
 use stickslip::line::Measure;
 use stickslip::mortar::MultiplierSpace;
-
-/// Step of the differences (lines of length 0.5): rounding 1e-16/1e-6 and truncation 1e-12.
-const STEP: f64 = 1e-6;
-/// Rounding of a residual entry, relative to the largest.
-const NOISE: f64 = 1e-15;
 
 /// `n` lines with `nodes` nodes each from x = a to b: of a body above them (`up` false) or below them.
 pub fn lines(n: usize, nodes: usize, [a, b]: [f64; 2], up: bool) -> Mesh {
@@ -136,31 +131,9 @@ impl<const N: usize> MovedLines<N> {
         forces.chain(r.rows.iter().flat_map(|row| row.iter().copied().take(components(N)))).collect()
     }
 
-    /// Worst difference per block (f1, f2, rows) x (x1, x2, lambda), relative to the block's largest, or to the smallest part of
-    /// the matrix that is not rounding, if that is larger.
+    /// See [`worst_difference`]; relative to each block's largest.
     pub fn difference_error(&mut self) -> f64 {
-        let (k, x) = (self.tangent(), self.unknowns());
-        let n = x.len();
-        let mut fd = vec![0.0; n * n];
-        for j in 0..n {
-            let mut at = |h: f64| {
-                let mut y = x.clone();
-                y[j] += h;
-                (y[j], self.residual(&y))
-            };
-            let ((up, plus), (down, minus)) = (at(STEP), at(-STEP));
-            (0..n).for_each(|i| fd[i * n + j] = (plus[i] - minus[i]) / (up - down));
-        }
-        let noise = NOISE / STEP * max_abs(self.residual(&x));
-        let ends = self.ends();
-        let mut worst = 0.0_f64;
-        for rows in ends.windows(2) {
-            for columns in ends.windows(2) {
-                let block = || (rows[0]..rows[1]).flat_map(|i| (columns[0]..columns[1]).map(move |j| i * n + j));
-                let error = max_abs(block().map(|t| k[t] - fd[t]));
-                worst = worst.max((error - noise).max(0.0) / max_abs(block().map(|t| k[t])).max(f64::MIN_POSITIVE));
-            }
-        }
-        worst
+        let (k, x, ends) = (self.tangent(), self.unknowns(), self.ends());
+        worst_difference(&k, ends, &x, 0.0, |z| self.residual(z))
     }
 }

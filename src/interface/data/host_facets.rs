@@ -56,7 +56,7 @@ impl Surface {
         weights: impl Iterator<Item = &'a ParentWeights>,
     ) -> Result<Option<DualBasis>> {
         let parents = self.parents.as_ref().expect("asked of surfaces with parents");
-        let area = match parents.measure {
+        let area = match parents.lines {
             None => parents.parts(f).map(|part| 0.5 * self.facet(part, x).area_vector().norm()).sum(),
             Some(_) => parents.areas(f, x, parents.space)?.iter().sum(),
         };

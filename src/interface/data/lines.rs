@@ -3,6 +3,7 @@
 //! Search, heights and overlaps are those of quadrilaterals: each part of a line is given a width along z, the same one on
 //! both sides. Weights, areas and derivatives are those of lines (`src/line`), whatever the width is.
 
+use super::facet_nodes::FacetNodes;
 use crate::adjacency::SharedEdge;
 use crate::error::{Error, Kind, Result};
 use crate::geometry::{Facet, Vec3};
@@ -22,6 +23,12 @@ pub struct Lines {
 }
 
 impl Lines {
+    /// Of parts between these nodes, as wide as the shortest one is long.
+    pub fn of(measure: Measure, x: &[Vec3], parts: &[FacetNodes]) -> Lines {
+        let length = |part: &FacetNodes| (x[part.nodes[1]] - x[part.nodes[0]]).norm();
+        Lines { measure, width: parts.iter().map(length).fold(f64::INFINITY, f64::min) }
+    }
+
     /// The quadrilateral of the part from a to b. Its normal is that of the line, out of the body: across a to b, to the right.
     pub fn facet(&self, [a, b]: [Vec3; 2]) -> Facet {
         let half = Vec3::new(0.0, 0.0, 0.5 * self.width);
@@ -44,7 +51,7 @@ impl Lines {
             let text = text!("{side}: node {k} has z = {:e}; nodes of plane models have z = 0", x[k].z);
             return Err(Error::new(Kind::InvalidValue, text));
         }
-        match x.iter().position(|x| self.measure == Measure::Axisymmetric && x.x < 0.0) {
+        match self.measure.beyond_axis(x) {
             None => Ok(()),
             Some(k) => {
                 let r = x[k].x;
@@ -55,9 +62,6 @@ impl Lines {
         }
     }
 }
-
-/// Which nodes of a part the corners of its quadrilateral stand for.
-pub const ENDS: [usize; 4] = [0, 1, 1, 0];
 
 /// The line that a facet of the host is.
 pub fn line(facet: &ParentFacet) -> LineFacet {

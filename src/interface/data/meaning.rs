@@ -46,7 +46,7 @@ pub fn of(options: &Options, nonmortar: &Surface, mortar: &Surface) -> [i64; LEN
             std::iter::once(p.space as usize).chain(kinds)
         });
         // Of lines what their lengths stand for.
-        let measure = s.lines.iter().map(|lines| match lines.measure {
+        let measure = s.lines().into_iter().map(|lines| match lines.measure {
             Measure::Axisymmetric => u64::MAX,
             Measure::Thickness(thickness) => thickness.to_bits(),
         });

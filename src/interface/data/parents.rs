@@ -5,7 +5,7 @@
 //! An interface where either side has a quadratic facet has parents on both: a linear facet is its own part.
 
 use super::facet_nodes::{FacetNodes, ParentNodes};
-use super::lines::line;
+use super::lines::{Lines, line};
 use crate::error::{Error, Result};
 use crate::geometry::Vec3;
 use crate::line::{LineFacet, LineWeights, MAX_LINE_NODES, Measure};
@@ -26,8 +26,8 @@ pub struct Parents {
     pub(super) of: Vec<u32>,
     /// Where multipliers stand.
     pub space: MultiplierSpace,
-    /// rho, of lines.
-    pub measure: Option<Measure>,
+    /// What they are where all of them are lines, of a plane or axisymmetric model; `None`: of a model in space.
+    pub lines: Option<Lines>,
     /// Per part the nodes that have the multipliers over it.
     rows: Vec<FacetNodes>,
     /// Per node, whether any facet has a multiplier there.
@@ -48,8 +48,8 @@ impl Parents {
             }
         }
         first.store(of.len())?;
-        let (space, measure) = (MultiplierSpace::Corner, None);
-        let mut parents = Parents { facets, first, of, space, measure, rows: Vec::new(), has_row: Vec::new() };
+        let (space, lines) = (MultiplierSpace::Corner, None);
+        let mut parents = Parents { facets, first, of, space, lines, rows: Vec::new(), has_row: Vec::new() };
         parents.put(MultiplierSpace::Corner)?;
         Ok((parents, nodes))
     }
@@ -88,7 +88,7 @@ impl Parents {
         for (f, facet) in self.facets.iter().enumerate() {
             let at = self.at(f, x);
             let named = |e: Error| Error::new(e.kind, text!("facet {f}, nodes {:?}: {}", facet.as_slice(), e.message));
-            match self.measure {
+            match self.lines {
                 None => ParentFacet::new(&at.x[..facet.parent.n]).map(|_| ()).map_err(named)?,
                 Some(_) => LineFacet::new(&line(&at).x[..facet.parent.n]).map(|_| ()).map_err(named)?,
             }
@@ -137,7 +137,7 @@ impl Parents {
 
     /// int N_A da of the multipliers of a space over a parent, covered or not [L^2].
     pub fn areas(&self, f: usize, x: &[Vec3], space: MultiplierSpace) -> Result<[f64; MAX_PARENT_NODES]> {
-        let Some(measure) = self.measure else { return self.at(f, x).areas(space) };
+        let Some(Lines { measure, .. }) = self.lines else { return self.at(f, x).areas(space) };
         let mut areas = [0.0; MAX_PARENT_NODES];
         areas[..MAX_LINE_NODES].copy_from_slice(&line(&self.at(f, x)).areas(space, measure));
         Ok(areas)
@@ -152,7 +152,7 @@ impl Parents {
         (frame, segment, rule): (&NonmortarFrame, &Segment, &'static Rule),
         x: (&[Vec3], &[Vec3]),
     ) -> SubWeights {
-        if let Some(measure) = self.measure {
+        if let Some(Lines { measure, .. }) = self.lines {
             return self.share_of_lines(two, parts, measure, x);
         }
         let sides = self.sides(two, parts);

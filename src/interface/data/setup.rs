@@ -87,7 +87,8 @@ impl<const N: usize> Setup<N> {
 /// Gives lines of both sides the same width: the shortest of their parts' lengths, so that no edge is longer than the line that it
 /// belongs to.
 fn put_width([one, two]: [&mut Surface; 2]) -> Result<()> {
-    match (&mut one.lines, &mut two.lines) {
+    let [of_one, of_two] = [one, two].map(|side| side.parents.as_mut().and_then(|parents| parents.lines.as_mut()));
+    match (of_one, of_two) {
         (None, None) => Ok(()),
         (Some(of_one), Some(of_two)) if of_one.measure == of_two.measure => {
             let width = of_one.width.min(of_two.width);
@@ -111,7 +112,7 @@ fn put_parents<const N: usize>(
         return Ok(());
     }
     let [nonmortar, mortar] = sides;
-    let (kind, has_lines) = if nonmortar.lines.is_some() { ("lines", true) } else { ("quadratic facets", false) };
+    let (kind, has_lines) = if nonmortar.lines().is_some() { ("lines", true) } else { ("quadratic facets", false) };
     let unsupported = |text: Text| Err(Error::new(Kind::Unsupported, text));
     if mortar.analytic.is_some() {
         return unsupported(text!("{kind} against an analytic mortar surface; give it facets"));

@@ -40,10 +40,8 @@ pub struct Surface {
     pub edges: Vec<SharedEdge>,
     /// Per facet the one beyond each edge, or `NO_FACET`.
     pub neighbours: Vec<[u32; MAX_NODES]>,
-    /// Facets as the host has them, where a side of the interface has quadratic ones; `facets` are their parts then.
+    /// Facets as the host has them, where a side of the interface has quadratic ones or lines; `facets` are their parts then.
     pub parents: Option<Parents>,
-    /// What the facets of a plane or axisymmetric model are, all of which are parts of lines; `None`: of a model in space.
-    pub lines: Option<Lines>,
     /// The shape of an analytic surface, whose one facet are the four points of its frame; `None`: real facets.
     pub analytic: Option<AnalyticShape>,
 }
@@ -134,7 +132,7 @@ impl Surface {
             }
             true => {
                 let (mut parents, parts) = Parents::of(given)?;
-                parents.measure = measure;
+                parents.lines = measure.map(|measure| Lines::of(measure, &reference, &parts));
                 if let Err(e) = parents.check(&reference) {
                     return fail(e.kind, e.message);
                 }
@@ -162,13 +160,8 @@ impl Surface {
             edges,
             neighbours,
             parents,
-            lines: measure.map(|measure| Lines { measure, width: 0.0 }),
             analytic: None,
         };
-        let shortest = surface.shortest_part();
-        if let Some(lines) = &mut surface.lines {
-            lines.width = shortest;
-        }
         surface.check_lines(&surface.reference)?;
         surface.longest_edge = surface.longest_edge_at(&surface.reference);
         match surface.folded_edge() {
@@ -214,7 +207,6 @@ impl Surface {
             edges: Vec::new(),
             neighbours: memory::filled([NO_FACET; MAX_NODES], 1)?,
             parents: None,
-            lines: None,
             analytic: Some(shape),
         };
         match surface.analytic_at(&surface.reference) {
@@ -239,20 +231,19 @@ impl Surface {
             .map_err(|e| Error::new(e.kind, text!("{}: {}", self.side, e.message)))
     }
 
-    /// The length of the shortest part of lines in the first configuration `[L]`.
-    pub(super) fn shortest_part(&self) -> f64 {
-        let length = |f: &FacetNodes| (self.reference[f.nodes[1]] - self.reference[f.nodes[0]]).norm();
-        self.facets.iter().map(length).fold(f64::INFINITY, f64::min)
+    /// What the lines of a plane or axisymmetric model are; `None`: the model is in space.
+    pub fn lines(&self) -> Option<&Lines> {
+        self.parents.as_ref().and_then(|parents| parents.lines.as_ref())
     }
 
     /// h_A, about as long as the facets around a node at `x` with this area M_A are wide `[L]`.
     pub fn size(&self, area: f64, x: Vec3) -> f64 {
-        self.lines.as_ref().map_or_else(|| area.sqrt(), |lines| lines.size(area, x))
+        self.lines().map_or_else(|| area.sqrt(), |lines| lines.size(area, x))
     }
 
     /// Refuses positions of lines that lie out of their plane, or beyond the axis of their model.
     pub fn check_lines(&self, x: &[Vec3]) -> Result<()> {
-        self.lines.as_ref().map_or(Ok(()), |lines| lines.check(self.side, x))
+        self.lines().map_or(Ok(()), |lines| lines.check(self.side, x))
     }
 
     /// The longest edge of any facet at the node positions `x` `[L]`.
@@ -317,7 +308,7 @@ impl Surface {
     /// Facet `f` at the node positions `x`.
     pub fn facet(&self, f: usize, x: &[Vec3]) -> Facet {
         let nodes = &self.facets[f];
-        if let Some(lines) = &self.lines {
+        if let Some(lines) = self.lines() {
             return lines.facet([x[nodes.nodes[0]], x[nodes.nodes[1]]]);
         }
         let shape = Shape::of(nodes.len).expect("a checked facet has 3 or 4 nodes");

@@ -172,16 +172,12 @@ impl<const N: usize> Emitter<'_, '_, N> {
     /// The same of node A alone with respect to one node, column by column.
     #[inline(never)]
     pub fn node_row(&mut self, a: usize, column: usize, values: &[[f64; N]; 3]) {
-        let Some(constraints) = &mut self.constraints else {
-            return self.taker.node(Place::Multiplier(a), Place::Displacement(column), values.as_flattened());
-        };
-        let nu = self.normals[a];
-        let block = values.map(|row| std::array::from_fn(|i| if N == 1 { row[0] * nu[i] } else { row[i] }));
-        let block: [[f64; 3]; 3] = block;
-        constraints.node(Place::Displacement(a), Place::Displacement(column), block.as_flattened());
+        let mut block = NodeBlock::default();
+        block.iter_mut().zip(values).for_each(|(to, of)| to[..N].copy_from_slice(of));
+        self.node_rows(a, &[(0, Place::Displacement(column))], &mut [block]);
     }
 
-    /// [`Emitter::node_row`] with respect to several nodes, in their order; `blocks` are made those of forces where there are
+    /// The same with respect to several nodes, in their order; `blocks` are made those of forces where there are
     /// constraints.
     pub fn node_rows(&mut self, a: usize, columns: &[(usize, Place)], blocks: &mut [NodeBlock]) {
         let Some(constraints) = &mut self.constraints else {

@@ -26,6 +26,8 @@ pub fn add_lines(
     motion: &mut SubMotion,
 ) -> i64 {
     let own = LineFacet { n: one.facets[f].parent.n, x: [0, 1, 2].map(|k| x1[k].xy()) };
+    // Weights are of the nodes where they are, for r counts from the axis; gaps of what a basis makes of them.
+    let here = line(&one.at(f, &active.x1));
     let rows = &NODES[..one.multipliers(f)];
     let mut p = [[0.0; MAX_CORNERS]; 3];
     for (a, i) in rows.iter().flat_map(|&a| (0..3).map(move |i| (a, i))) {
@@ -34,9 +36,8 @@ pub fn add_lines(
     for pair in &active.pairs[places.start..places.end] {
         let g = other.parent(pair.two);
         let parts = (pair.one - one.parts(f).start, pair.two - other.parts(g).start);
-        // Weights are of the nodes where they are, for r counts from the axis; gaps of what a basis makes of them.
         let (mut d, at) = (LineDerivatives::default(), line(&other.at(g, &active.x2)));
-        d.add_parts([&line(&one.at(f, &active.x1)), &at], parts, one.space, measure, &mut LineWeights::default());
+        d.add_parts([&here, &at], parts, one.space, measure, &mut LineWeights::default());
         let at = LineFacet { x: at.x.map(|x| x - base.xy()), ..at };
         line_motion(&d, (&own, &at), &p, motion);
         let (mut slots, mut columns) = ([None; 2 * MORTAR], [None; MAX_PARENT_NODES]);

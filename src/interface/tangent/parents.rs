@@ -12,7 +12,7 @@ use crate::geometry::{Mat3, Vec3};
 use crate::interface::data::active::Active;
 use crate::interface::data::effects::Opposite;
 use crate::interface::data::host_facets::parents_at;
-use crate::interface::data::lines::{ENDS, line};
+use crate::interface::data::lines::{Lines, line};
 use crate::interface::data::options::{MultiplierBasis, Tangent};
 use crate::interface::data::parents::Parents;
 use crate::interface::data::surface::Surface;
@@ -125,8 +125,8 @@ fn differentiate<const N: usize>(
     }
     let motion = &mut motion[0];
     let moves = given.setup.effects.opposite == Opposite::Moves;
-    let linearised = match parents.measure {
-        Some(measure) => {
+    let linearised = match parents.lines {
+        Some(Lines { measure, .. }) => {
             let [first, end] = [parents.parts(f).start, parents.parts(f).end]
                 .map(|part| active.pairs.partition_point(|pair| pair.one < part));
             let sides = (parents, opposite, moves.then_some(two));
@@ -210,7 +210,7 @@ fn whole_area_derivative<const N: usize>(
     x1: &[Vec3],
 ) -> [Vec3; MAX_PARENT_NODES] {
     let mut d = [Vec3::zeros(); MAX_PARENT_NODES];
-    if let Some(measure) = parents.measure {
+    if let Some(Lines { measure, .. }) = parents.lines {
         let of_line = line(&parents.at(f, x1)).area_derivative(measure);
         of_line.iter().zip(&mut d).for_each(|(of, d)| *d = Vec3::new(of.x, of.y, 0.0));
         return d;
@@ -239,10 +239,9 @@ fn add_turned<const N: usize>(
         let turned = given.history().facet_gaps.motion(&given.setup.nonmortar, part, x1)?;
         let Some(GapDerivative::Turning(blocks)) = turned else { continue };
         for (a, &row) in parents.space.nodes(parent, sub).iter().enumerate() {
-            // A line's two nodes are those of its quadrilateral, each twice.
-            let corners = if parents.measure.is_some() { ENDS.len() } else { sub.shape.n };
-            for k in 0..corners {
-                table.add_gap(row, sub.nodes[k], &Mat3::from_fn(|i, j| blocks[k][i][j][a]));
+            // A line's two nodes are those of its quadrilateral, each twice; a triangle has zeros for a fourth one.
+            for (k, &node) in sub.nodes.iter().enumerate() {
+                table.add_gap(row, node, &Mat3::from_fn(|i, j| blocks[k][i][j][a]));
             }
         }
     }
