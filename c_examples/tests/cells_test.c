@@ -1,5 +1,5 @@
-/* Cells and faces of all kinds by themselves: functions, Gauss points, which nodes faces have, stiffness, consistent loads.
- * Prints a line per check; exit code 1 if one fails. */
+/* Cells and faces of all kinds by themselves, in every space: functions, Gauss points, which nodes faces have, stiffness,
+ * consistent loads. Prints a line per check; exit code 1 if one fails. */
 #include "physics/elasticity.h"
 #include <math.h>
 #include <petscblaslapack.h>
@@ -11,18 +11,28 @@ static const double STEP = 1e-5, DIFFERENCE_BOUND = 1e-8;
 static const double ROUNDING_BOUND = 1e-13;
 /* An eigenvalue over the largest one: a deformation without energy has rounding only, others have far more. */
 static const double FREE = 1e-10;
+/* Where cells of rings begin: away from the axis. */
+static const double RADIUS = 2;
 
-static const PetscInt           KINDS[] = {4, 8, 10, 20, 27};
-static const char *const        NAMES[] = {"tet4", "hex8", "tet10", "hex20", "hex27"};
-static const MaterialLaw *const LAWS[]  = {&MATERIAL_LINEAR, &MATERIAL_ST_VENANT_KIRCHHOFF, &MATERIAL_NEO_HOOKE};
-enum { N_KINDS = 5, N_LAWS = 3, RIGID_MOTIONS = 6 };
+static const char *const        NAMES[]  = {"line2", "line3", "tri3",  "tri6", "quad4", "quad8",
+                                            "quad9", "tet4",  "tet10", "hex8", "hex20", "hex27"}; /* by CellKind */
+static const char *const        SPACES[] = {"solid", "plane strain", "plane stress", "ring"}; /* by SpaceKind */
+static const MaterialLaw *const LAWS[]   = {&MATERIAL_LINEAR, &MATERIAL_ST_VENANT_KIRCHHOFF, &MATERIAL_NEO_HOOKE};
+enum { N_LAWS = 3 };
 static int failures = 0;
 
-static void check(const char *kind, const char *what, double error, double bound)
+static void check(CellKind kind, const char *what, double error, double bound)
 {
   const int passed = error <= bound; /* not a number fails */
-  printf("%-8s %-72s %9.2e <= %.0e  %s\n", kind, what, error, bound, passed ? "ok" : "FAILED");
+  printf("%-6s %-82s %9.2e <= %.0e  %s\n", NAMES[kind], what, error, bound, passed ? "ok" : "FAILED");
   failures += !passed;
+}
+
+static void check_in(CellKind kind, const Space *space, const char *what, double error, double bound)
+{
+  char text[128];
+  snprintf(text, sizeof(text), "%s: %s", SPACES[space->kind], what);
+  check(kind, text, error, bound);
 }
 
 /* numbers in [-1, 1], the same in every run */
@@ -34,22 +44,27 @@ static double pseudo_random(void)
 }
 
 /* the cell of reference, each node moved: its edges and faces are curved */
-static void curved_cell(PetscInt nodes, double amount, double X[])
+static void curved_cell(CellKind kind, const Space *space, double amount, double X[])
 {
-  for (PetscInt a = 0; a < nodes; a++) {
-    cell_node_position(nodes, a, X + 3 * a);
-    for (int i = 0; i < 3; i++)
-      X[3 * a + i] += amount * pseudo_random();
+  for (PetscInt a = 0; a < cell_nodes(kind); a++) {
+    cell_node_position(kind, a, X + 3 * a);
+    for (int i = 0; i < cell_dimension(kind); i++)
+      X[3 * a + i] += amount * pseudo_random() + (i == 0 && space->kind == SPACE_AXISYMMETRIC ? RADIUS : 0);
   }
 }
 
-/* The functions of a kind hold these monomials x^a y^b z^c: of degree 1 or 2 (tetrahedra), of degree 1 or 2 in each variable
- * (hex8, hex27), of degree 2 (hex20). */
-static int holds(PetscInt nodes, int a, int b, int c)
+/* The functions of a kind hold these monomials x^a y^b z^c: of degree 1 or 2 together, or in each variable where they are
+ * whole products. */
+static int holds(CellKind kind, const int e[3])
 {
-  const int each = a > b ? (a > c ? a : c) : (b > c ? b : c);
-  if (nodes == 8 || nodes == 27) return each <= (nodes == 8 ? 1 : 2);
-  return a + b + c <= (nodes == 4 ? 1 : 2);
+  const int degree = cell_nodes(kind) > cell_corners(kind) ? 2 : 1, product = !cell_is_simplex(kind) && kind != QUAD8 && kind != HEX20;
+  int       together = 0, most = 0;
+  for (int k = 0; k < 3; k++) {
+    if (e[k] && k >= cell_dimension(kind)) return 0;
+    together += e[k];
+    most = e[k] > most ? e[k] : most;
+  }
+  return (product ? most : together) <= degree;
 }
 
 static double power(double x, int n)
@@ -57,150 +72,213 @@ static double power(double x, int n)
   return n == 0 ? 1 : n == 1 ? x : x * x;
 }
 
-/* gradients at a point of monomials that are interpolated at the nodes */
-static void test_functions(int kind)
+/* monomials that are interpolated at the nodes, and their gradients, at a point */
+static void test_functions(CellKind kind)
 {
-  const PetscInt  nodes = KINDS[kind];
-  const PetscReal xi[3] = {0.21, 0.13, 0.37};
-  PetscReal       dN[CELL_NODES][3];
-  double          error = 0;
-  cell_reference_gradients(nodes, xi, dN);
+  PetscReal xi[3] = {0.21, 0.13, 0.37}, N[CELL_NODES], dN[CELL_NODES][3];
+  double    error = 0;
+  for (int k = cell_dimension(kind); k < 3; k++)
+    xi[k] = 0;
+  cell_functions(kind, xi, N, dN);
   for (int m = 0; m < 27; m++) {
     const int e[3] = {m % 3, m / 3 % 3, m / 9};
-    if (!holds(nodes, e[0], e[1], e[2])) continue;
-    for (int k = 0; k < 3; k++) {
-      double exact = e[k] * power(xi[k], e[k] - 1), sum = 0;
+    if (!holds(kind, e)) continue;
+    for (int k = -1; k < 3; k++) { /* -1: the function itself */
+      double exact = k < 0 ? power(xi[0], e[0]) : e[k] * power(xi[k], e[k] - 1), sum = 0;
       for (int i = 1; i < 3; i++)
-        exact *= power(xi[(k + i) % 3], e[(k + i) % 3]);
-      for (PetscInt a = 0; a < nodes; a++) {
+        exact *= power(xi[(PetscMax(k, 0) + i) % 3], e[(PetscMax(k, 0) + i) % 3]);
+      for (PetscInt a = 0; a < cell_nodes(kind); a++) {
         PetscReal p[3];
-        cell_node_position(nodes, a, p);
-        sum += dN[a][k] * power(p[0], e[0]) * power(p[1], e[1]) * power(p[2], e[2]);
+        cell_node_position(kind, a, p);
+        sum += (k < 0 ? N[a] : dN[a][k]) * power(p[0], e[0]) * power(p[1], e[1]) * power(p[2], e[2]);
       }
-      error = fmax(error, fabs(sum - (e[k] ? exact : 0)));
+      error = fmax(error, fabs(sum - (k >= 0 && !e[k] ? 0 : exact)));
     }
   }
-  check(NAMES[kind], "gradients of the polynomials that the functions hold", error, ROUNDING_BOUND);
+  check(kind, "polynomials that the functions hold, and their gradients", error, ROUNDING_BOUND);
 }
 
-/* int N_a n dA over the faces against int dN_a/dX dV, node by node: what a uniform pressure does to a curved cell. It needs
- * the right nodes of each face, outward, and points enough on faces and within. */
-static void test_divergence(int kind)
+/* int N_a n dA over the faces against int dN_a/dX dV, in rings with N_a / r, node by node: what a uniform pressure does to a
+ * curved cell. It needs the right nodes of each face, outward, and points enough on faces and within. */
+static void test_divergence(CellKind kind, const Space *space)
 {
-  const PetscInt nodes = KINDS[kind];
-  PetscReal      X[3 * CELL_NODES], sum[3 * CELL_NODES] = {0}, dN[CELL_NODES][3], xi[3], error = 0;
+  const PetscInt nodes = cell_nodes(kind);
+  PetscReal      X[3 * CELL_NODES], sum[3 * CELL_NODES] = {0}, N[CELL_NODES], dN[CELL_NODES][3], xi[3], error = 0;
   PetscInt       own[CELL_NODES];
-  curved_cell(nodes, 0.07, X);
-  for (PetscInt q = 0; q < cell_quadrature_points(nodes); q++) {
-    PetscReal weight = cell_quadrature_point(nodes, q, xi);
-    cell_reference_gradients(nodes, xi, dN);
-    weight *= cell_physical_gradients(nodes, X, dN);
+  curved_cell(kind, space, 0.07, X);
+  for (PetscInt q = 0; q < cell_quadrature_points(kind); q++) {
+    PetscReal weight = cell_quadrature_point(kind, q, xi), r = 0;
+    cell_functions(kind, xi, N, dN);
+    for (PetscInt a = 0; a < nodes; a++)
+      r += N[a] * X[3 * a];
+    weight *= cell_physical_gradients(kind, X, dN) * space_measure(space, r);
     for (PetscInt k = 0; k < 3 * nodes; k++)
-      sum[k] += weight * dN[k / 3][k % 3];
+      sum[k] += weight * (dN[k / 3][k % 3] + (space->kind == SPACE_AXISYMMETRIC && k % 3 == 0 ? N[k / 3] / r : 0));
   }
   for (PetscInt a = 0; a < nodes; a++)
     own[a] = a;
-  for (PetscInt face = 0; face < cell_faces(nodes); face++) {
+  for (PetscInt face = 0; face < cell_faces(kind); face++) {
     const PetscReal nothing[3] = {0, 0, 0};
     PetscInt        its[FACE_NODES];
     PetscReal       of_face[3 * FACE_NODES], f[3 * FACE_NODES];
-    const PetscInt  n = cell_face(nodes, face, own, its);
+    const PetscInt  n = cell_face(kind, face, own, its);
     for (PetscInt k = 0; k < 3 * n; k++)
       of_face[k] = X[3 * its[k / 3] + k % 3];
-    face_forces(n, of_face, nothing, 1, f); /* against the outward normal */
+    face_forces(cell_kind(cell_dimension(kind) - 1, n), space, of_face, nothing, 1, f); /* against the outward normal */
     for (PetscInt k = 0; k < 3 * n; k++)
       sum[3 * its[k / 3] + k % 3] += f[k];
   }
   for (PetscInt k = 0; k < 3 * nodes; k++)
     error = PetscMax(error, PetscAbsReal(sum[k]));
-  check(NAMES[kind], "pressure on all faces of a curved cell against its volume", error, ROUNDING_BOUND);
+  check_in(kind, space, "pressure on all faces of a curved cell against its volume", error,
+           ROUNDING_BOUND * (space->kind == SPACE_AXISYMMETRIC ? 2 * PETSC_PI * RADIUS : 1));
 }
 
-static void test_stiffness(int kind, const MaterialLaw *law, PetscBool mean)
+/* Displacements have no third component in the plane. */
+static int is_unknown(CellKind kind, PetscInt k)
 {
-  const PetscInt nodes = KINDS[kind], n = 3 * nodes;
+  return k % 3 < cell_dimension(kind);
+}
+
+static void test_stiffness(CellKind kind, const Space *space, const MaterialLaw *law, PetscBool mean)
+{
+  const PetscInt n = 3 * cell_nodes(kind);
   const Material m = {.young = 3, .poisson = 0.3, .law = law, .mean_dilatation = mean};
   static double  X[81], u[81], f[81], high[81], low[81], K[81 * 81];
+  const double   size  = m.young * space_measure(space, RADIUS);
   double         error = 0, asymmetry = 0;
   char           what[80];
   PetscBool      inverted, any = PETSC_FALSE;
-  curved_cell(nodes, 0.05, X);
+  curved_cell(kind, space, 0.05, X);
   for (PetscInt k = 0; k < n; k++)
-    u[k] = 0.05 * pseudo_random();
-  if (cell_forces(nodes, &m, X, u, f, K, &inverted) || inverted) failures++;
+    u[k] = is_unknown(kind, k) ? 0.05 * pseudo_random() : 0;
+  if (cell_forces(kind, space, &m, X, u, f, K, &inverted) || inverted) failures++;
   for (PetscInt k = 0; k < n; k++) {
     const double value = u[k];
-    u[k]               = value + STEP;
-    if (cell_forces(nodes, &m, X, u, high, NULL, &inverted) || inverted) any = PETSC_TRUE;
+    if (!is_unknown(kind, k)) continue;
+    u[k] = value + STEP;
+    if (cell_forces(kind, space, &m, X, u, high, NULL, &inverted) || inverted) any = PETSC_TRUE;
     u[k] = value - STEP;
-    if (cell_forces(nodes, &m, X, u, low, NULL, &inverted) || inverted) any = PETSC_TRUE;
+    if (cell_forces(kind, space, &m, X, u, low, NULL, &inverted) || inverted) any = PETSC_TRUE;
     u[k] = value;
     for (PetscInt j = 0; j < n; j++) {
-      error     = fmax(error, fabs(K[n * j + k] - (high[j] - low[j]) / (2 * STEP)));
-      asymmetry = fmax(asymmetry, fabs(K[n * j + k] - K[n * k + j]));
+      error = fmax(error, fabs(K[n * j + k] - (high[j] - low[j]) / (2 * STEP)));
+      if (is_unknown(kind, j)) asymmetry = fmax(asymmetry, fabs(K[n * j + k] - K[n * k + j]));
     }
   }
   failures += any;
   snprintf(what, sizeof(what), "%s, %s: stiffness against differences", law->name, mean ? "mean" : "pointwise");
-  check(NAMES[kind], what, error / m.young, DIFFERENCE_BOUND);
+  check_in(kind, space, what, error / size, DIFFERENCE_BOUND);
   snprintf(what, sizeof(what), "%s, %s: stiffness is symmetric", law->name, mean ? "mean" : "pointwise");
-  check(NAMES[kind], what, asymmetry / m.young, ROUNDING_BOUND);
+  check_in(kind, space, what, asymmetry / size, ROUNDING_BOUND);
 }
 
-/* Six rigid motions are without energy, and nothing else: there are points enough. */
-static void test_rank(int kind)
+/* Rigid motions are without energy, and nothing else: there are points enough. A ring has one, along its axis. */
+static void test_rank(CellKind kind, const Space *space)
 {
-  const PetscInt nodes = KINDS[kind];
-  const Material m     = {.young = 1, .poisson = 0.3, .law = &MATERIAL_LINEAR};
-  const double   u[81] = {0};
-  static double  X[81], f[81], K[81 * 81], values[81], work[1024];
-  PetscBLASInt   n = (PetscBLASInt)(3 * nodes), length = 1024, info;
-  PetscBool      inverted;
-  int            n_free = 0;
-  curved_cell(nodes, 0, X);
-  if (cell_forces(nodes, &m, X, u, f, K, &inverted)) failures++;
+  static const int rigid[] = {6, 3, 3, 1}; /* by SpaceKind */
+  const PetscInt   all     = 3 * cell_nodes(kind);
+  const Material   m       = {.young = 1, .poisson = 0.3, .law = &MATERIAL_LINEAR};
+  const double     u[81]   = {0};
+  static double    X[81], f[81], K[81 * 81], values[81], work[1024];
+  PetscBLASInt     n = 0, length = 1024, info;
+  PetscBool        inverted;
+  int              n_free = 0, entry = 0;
+  curved_cell(kind, space, 0, X);
+  if (cell_forces(kind, space, &m, X, u, f, K, &inverted)) failures++;
+  for (PetscInt k = 0; k < all * all; k++) {
+    if (is_unknown(kind, k / all) && is_unknown(kind, k % all)) K[entry++] = K[k];
+    n += k < all && is_unknown(kind, k);
+  }
   LAPACKsyev_("N", "U", &n, K, &n, values, work, &length, &info);
   for (int k = 0; k < n; k++)
     n_free += fabs(values[k]) <= FREE * values[n - 1];
-  check(NAMES[kind], "motions without energy, less the six rigid ones", abs(n_free - RIGID_MOTIONS) + abs((int)info), 0);
+  check_in(kind, space, "motions without energy, less the rigid ones", abs(n_free - rigid[space->kind]) + abs((int)info), 0);
 }
 
-/* Nodal forces of a uniform traction on a flat square or triangle, over the whole: corner, middle of an edge, centre. */
-static void test_loads(const char *name, PetscInt nodes, double corner, double edge, double centre)
+/* A layer of hexahedra that nothing lets move across is in plane strain. */
+static void test_layer(const MaterialLaw *law)
 {
-  const PetscReal traction[3] = {1, -2, 3};
-  PetscReal       X[3 * FACE_NODES] = {0}, f[3 * FACE_NODES], error = 0;
-  const double    area = face_corners(nodes) == 4 ? 4 : 0.5;
-  for (PetscInt a = 0; a < nodes; a++) {
-    PetscInt       its[4];
-    const PetscInt n = face_node_corners(nodes, a, its);
-    for (PetscInt k = 0; k < 2 * n; k++)
-      X[3 * a + k % 2] += (face_corners(nodes) == 4 ? CELL_HEX[its[k / 2]][k % 2] : its[k / 2] == 1 + k % 2) / (double)n;
+  const Space    plane = {SPACE_PLANE_STRAIN, 0.7}, solid = {SPACE_SOLID, 1};
+  const Material m     = {.young = 3, .poisson = 0.3, .law = law, .mean_dilatation = PETSC_TRUE};
+  double         X[24], u[24], f[12], whole[24], error = 0;
+  PetscBool      inverted;
+  curved_cell(QUAD4, &plane, 0.1, X);
+  for (int k = 0; k < 12; k++) {
+    u[k]      = k % 3 < 2 ? 0.1 * pseudo_random() : 0;
+    u[12 + k] = u[k];
+    X[12 + k] = X[k] + (k % 3 == 2 ? plane.thickness : 0);
   }
-  face_forces(nodes, X, traction, 0, f);
-  for (PetscInt k = 0; k < 3 * nodes; k++) {
-    const PetscInt corners = face_corners(nodes);
-    const double   part    = k / 3 < corners ? corner : k / 3 < 2 * corners ? edge : centre;
-    error                  = PetscMax(error, PetscAbsReal(f[k] - area * part * traction[k % 3]));
+  if (cell_forces(QUAD4, &plane, &m, X, u, f, NULL, &inverted) || inverted) failures++;
+  if (cell_forces(HEX8, &solid, &m, X, u, whole, NULL, &inverted) || inverted) failures++;
+  for (int k = 0; k < 12; k++)
+    error = fmax(error, k % 3 < 2 ? fabs(f[k] - whole[k] - whole[12 + k]) : 0);
+  check_in(QUAD4, &plane, law->name, error / m.young, ROUNDING_BOUND);
+}
+
+/* Nothing pulls across the plane: Cauchy's stress, and of the linear law Young's modulus along a bar. */
+static void test_plane_stress(const MaterialLaw *law)
+{
+  const Space    space = {SPACE_PLANE_STRESS, 0.7};
+  const Material m     = {.young = 3, .poisson = 0.3, .law = law};
+  double         X[12], u[12] = {0}, s[9];
+  curved_cell(QUAD4, &space, 0, X);
+  for (int a = 0; a < 4; a++) {
+    u[3 * a]     = 0.1 * X[3 * a];
+    u[3 * a + 1] = -0.03 * X[3 * a + 1];
   }
-  check(name, "nodal forces of a uniform traction", error, ROUNDING_BOUND);
+  cell_centre_stress(QUAD4, &space, &m, X, u, s);
+  check_in(QUAD4, &space, law->name, fabs(s[8]) / m.young, ROUNDING_BOUND);
+  if (law->finite) return;
+  check_in(QUAD4, &space, "a bar has Young's modulus", fabs(s[0] - 0.1 * m.young) + fabs(s[4]), ROUNDING_BOUND);
+}
+
+/* Nodal forces of a uniform traction on a flat cell of reference, over the whole: corner, middle of an edge, centre. */
+static void test_loads(CellKind kind, const Space *space, double corner, double edge, double centre)
+{
+  const PetscReal traction[3] = {1, -2, cell_dimension(kind) == 2 ? 3 : 0};
+  const PetscInt  corners     = cell_corners(kind), edges = cell_dimension(kind) == 1 ? 1 : corners;
+  const double    area = (cell_dimension(kind) == 1 ? 2 : cell_is_simplex(kind) ? 0.5 : 4) * space_measure(space, 0);
+  PetscReal       X[3 * FACE_NODES], f[3 * FACE_NODES], error = 0;
+  curved_cell(kind, space, 0, X);
+  face_forces(kind, space, X, traction, 0, f);
+  for (PetscInt k = 0; k < 3 * cell_nodes(kind); k++) {
+    const double part = k / 3 < corners ? corner : k / 3 < corners + edges ? edge : centre;
+    error             = PetscMax(error, PetscAbsReal(f[k] - area * part * traction[k % 3]));
+  }
+  check_in(kind, space, "nodal forces of a uniform traction", error, ROUNDING_BOUND);
 }
 
 int main(int argc, char **argv)
 {
+  const Space solid = {SPACE_SOLID, 1}, strain = {SPACE_PLANE_STRAIN, 0.7}, stress = {SPACE_PLANE_STRESS, 0.7},
+              ring     = {SPACE_AXISYMMETRIC, 1};
+  const Space *all[][3] = {{&solid}, {&strain, &stress, &ring}};
   PetscCall(PetscInitialize(&argc, &argv, NULL, NULL));
-  for (int kind = 0; kind < N_KINDS; kind++) {
-    test_functions(kind);
-    test_divergence(kind);
-    test_rank(kind);
-    for (int k = 0; k < 2 * N_LAWS; k++)
-      test_stiffness(kind, LAWS[k / 2], (PetscBool)(k % 2));
+  for (int kind = 0; kind < CELL_KINDS; kind++) {
+    const int plane = cell_dimension(kind) == 2;
+    test_functions((CellKind)kind);
+    for (int s = 0; s < (plane ? 3 : 1) && cell_dimension(kind) > 1; s++) {
+      const Space *space = all[plane][s];
+      test_divergence((CellKind)kind, space);
+      test_rank((CellKind)kind, space);
+      for (int k = 0; k < 2 * N_LAWS; k++) {
+        if (k % 2 && space->kind == SPACE_PLANE_STRESS) continue;
+        test_stiffness((CellKind)kind, space, LAWS[k / 2], (PetscBool)(k % 2));
+      }
+    }
   }
-  test_loads("tri3", 3, 1.0 / 3, 0, 0);
-  test_loads("quad4", 4, 1.0 / 4, 0, 0);
-  test_loads("tri6", 6, 0, 1.0 / 3, 0);
-  test_loads("quad8", 8, -1.0 / 12, 1.0 / 3, 0);
-  test_loads("quad9", 9, 1.0 / 36, 1.0 / 9, 4.0 / 9);
+  for (int k = 0; k < N_LAWS; k++) {
+    test_layer(LAWS[k]);
+    test_plane_stress(LAWS[k]);
+  }
+  test_loads(TRI3, &solid, 1.0 / 3, 0, 0);
+  test_loads(QUAD4, &solid, 1.0 / 4, 0, 0);
+  test_loads(TRI6, &solid, 0, 1.0 / 3, 0);
+  test_loads(QUAD8, &solid, -1.0 / 12, 1.0 / 3, 0);
+  test_loads(QUAD9, &solid, 1.0 / 36, 1.0 / 9, 4.0 / 9);
+  test_loads(LINE2, &strain, 1.0 / 2, 0, 0);
+  test_loads(LINE3, &strain, 1.0 / 6, 2.0 / 3, 0);
   PetscCall(PetscFinalize());
   return failures ? 1 : 0;
 }

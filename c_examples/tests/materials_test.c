@@ -14,6 +14,7 @@ static const double ROTATION_BOUND = 1e-12;
 
 static const MaterialLaw *const LAWS[] = {&MATERIAL_LINEAR, &MATERIAL_ST_VENANT_KIRCHHOFF, &MATERIAL_NEO_HOOKE};
 enum { N_LAWS = 3 };
+static const Space SOLID = {SPACE_SOLID, 1};
 static int failures = 0;
 
 static void check(const char *law, const char *what, double error, double bound)
@@ -174,13 +175,13 @@ static void test_cell(Material m, PetscBool mean)
   PetscBool   inverted, any = PETSC_FALSE;
   m.mean_dilatation = mean;
   random_cell(8, 0.1, X, u);
-  if (cell_forces(8, &m, X, u, f, K, &inverted) || inverted) failures++;
+  if (cell_forces(HEX8, &SOLID, &m, X, u, f, K, &inverted) || inverted) failures++;
   for (int k = 0; k < 24; k++) {
     const double value = u[k];
     u[k]               = value + STEP;
-    if (cell_forces(8, &m, X, u, high, NULL, &inverted) || inverted) any = PETSC_TRUE;
+    if (cell_forces(HEX8, &SOLID, &m, X, u, high, NULL, &inverted) || inverted) any = PETSC_TRUE;
     u[k] = value - STEP;
-    if (cell_forces(8, &m, X, u, low, NULL, &inverted) || inverted) any = PETSC_TRUE;
+    if (cell_forces(HEX8, &SOLID, &m, X, u, low, NULL, &inverted) || inverted) any = PETSC_TRUE;
     u[k] = value;
     for (int j = 0; j < 24; j++) {
       error     = fmax(error, fabs(K[24 * j + k] - (high[j] - low[j]) / (2 * STEP)));
@@ -212,7 +213,7 @@ static void test_mean_is_pointwise(Material m)
       u[k] = product(H + 3 * (k % 3), X + k - k % 3);
     for (int mean = 0; mean < 2; mean++) {
       m.mean_dilatation = (PetscBool)mean;
-      if (cell_forces(corners, &m, X, u, f[mean], K[mean], &inverted) || inverted) failures++;
+      if (cell_forces(corners == 4 ? TET4 : HEX8, &SOLID, &m, X, u, f[mean], K[mean], &inverted) || inverted) failures++;
     }
     check(m.law->name,
           corners == 4 ? "tetrahedron: mean = pointwise, forces" : "homogeneous: mean = pointwise, forces",
@@ -232,7 +233,7 @@ static void test_inverted(Material m)
     random_cell(corners, 0, X, u);
     for (int k = 3 * (corners - 4) + (corners == 4 ? 9 : 0); k < 3 * corners; k++)
       u[k] = k % 3 == 2 ? -2 : 0;
-    if (cell_forces(corners, &m, X, u, f, NULL, &inverted)) failures++;
+    if (cell_forces(corners == 4 ? TET4 : HEX8, &SOLID, &m, X, u, f, NULL, &inverted)) failures++;
     check(m.law->name, corners == 4 ? "inverted tetrahedron is told" : "inverted hexahedron is told",
           inverted == m.law->finite ? 0 : 1, 0);
   }

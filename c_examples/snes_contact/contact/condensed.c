@@ -132,10 +132,10 @@ static PetscErrorCode update_multipliers(Contact *contact, Vec x, PetscInt *stat
     int32_t    refused   = 0;
     PetscCall(contact_fetch(interface, local, rows));
     if (contact->mesh->rank == 0) {
-      for (PetscInt k = 0; k < 3 * interface->n1; k++)
+      for (PetscInt k = 0; k < interface->dimension * interface->n1; k++)
         rows[k] += interface->host_there[k];
       refused = stickslip_interface_condensed_multipliers(
-        interface->handle, interface->x_there, interface->x_there + 3 * interface->n1, rows, interface->lambda);
+        interface->handle, interface->x_there, MORTAR_OF(interface, interface->x_there), rows, interface->lambda);
     }
     PetscCall(contact_agree(contact, refused, status));
   }
@@ -173,8 +173,8 @@ static PetscErrorCode keep_rows(Contact *contact, Vec x, Mat J)
   PetscCall(VecCopy(x, contact->place));
   for (PetscInt i = 0; i < contact->n_interfaces && contact->mesh->rank == 0; i++) {
     Interface *interface = &contact->interfaces[i];
-    PetscCall(PetscArraycpy(interface->x_there, interface->x, 3 * (interface->n1 + interface->n2)));
-    PetscCall(PetscArraycpy(interface->host_there, interface->host, 3 * interface->n1));
+    PetscCall(PetscArraycpy(interface->x_there, interface->x, interface->dimension * (interface->n1 + interface->n2)));
+    PetscCall(PetscArraycpy(interface->host_there, interface->host, interface->dimension * interface->n1));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -189,7 +189,7 @@ PetscErrorCode condensed_residual(Contact *contact, Vec r, PetscInt *status)
   PetscCall(VecZeroEntries(physics->f_sum));
   for (PetscInt i = 0; i < contact->n_interfaces && !*status; i++) {
     Interface     *interface = &contact->interfaces[i];
-    const PetscInt n1 = 3 * interface->n1, n2 = 3 * interface->n2;
+    const PetscInt n1 = interface->dimension * interface->n1, n2 = interface->dimension * interface->n2;
     int32_t        refused = 0;
     PetscCall(contact_gather(contact, interface, physics->u_local));
     if (contact->mesh->rank == 0) {

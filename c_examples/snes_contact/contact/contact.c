@@ -15,11 +15,20 @@ PetscErrorCode contact_agree(Contact *contact, int32_t refused, PetscInt *status
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Current positions, from the interface's first node: far from the origin X + u would round u away. */
+/* Current positions, from the interface's first node: far from the origin X + u would round u away. A radius counts from
+ * the axis. */
 void contact_positions(Interface *interface)
 {
-  for (PetscInt k = 0; k < 3 * (interface->n1 + interface->n2); k++)
-    interface->x[k] = interface->X[k] - interface->X[k % 3] + PetscRealPart(interface->gathered[k]);
+  const PetscInt  d    = interface->dimension;
+  const PetscBool ring = (PetscBool)(interface->options.model == STICKSLIP_MODEL_AXISYMMETRIC);
+  for (PetscInt k = 0; k < d * (interface->n1 + interface->n2); k++)
+    interface->x[k] = interface->X[k] - (ring && k % d == 0 ? 0 : interface->X[k % d]) + PetscRealPart(interface->gathered[k]);
+}
+
+void contact_vector(const Interface *interface, const PetscScalar vectors[], PetscInt node, PetscReal v[3])
+{
+  for (int i = 0; i < 3; i++)
+    v[i] = i < interface->dimension ? PetscRealPart(vectors[interface->dimension * node + i]) : 0;
 }
 
 /* The interface's entries of a local vector, each as its owner has it, to rank 0. */
@@ -40,7 +49,7 @@ PetscErrorCode contact_gather(Contact *contact, Interface *interface, Vec local)
   PetscCall(contact_fetch(interface, local, interface->gathered));
   if (contact->mesh->rank == 0) contact_positions(interface);
   if (contact->mesh->rank == 0 && contact->condensed)
-    PetscCall(PetscArraycpy(interface->gathered + 3 * (interface->n1 + interface->n2), interface->lambda,
+    PetscCall(PetscArraycpy(MULTIPLIERS_OF(interface, interface->gathered), interface->lambda,
                             interface->components * interface->n1));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -66,10 +75,12 @@ PetscErrorCode contact_forces(Contact *contact, Vec f_local, PetscInt *status)
     int32_t    refused   = 0;
     PetscCall(contact_gather(contact, interface, physics->u_local));
     if (contact->mesh->rank == 0) {
-      PetscScalar *f1 = interface->forces, *f2 = f1 + 3 * interface->n1, *rows = f2 + 3 * interface->n2;
-      refused = stickslip_interface_residual(interface->handle, STATE_OF(interface), NULL, f1, f2, rows);
-      for (PetscInt k = 0; k < 3 * (interface->n1 + interface->n2) && !refused; k++)
-        physics->parts.squares[N_SQUARES * physics->parts.of_mesh[interface->nodes[k / 3]] + SQUARES_CONTACT] +=
+      PetscScalar   *f = interface->forces;
+      const PetscInt d = interface->dimension;
+      refused = stickslip_interface_residual(interface->handle, STATE_OF(interface), NULL, f, MORTAR_OF(interface, f),
+                                             MULTIPLIERS_OF(interface, f));
+      for (PetscInt k = 0; k < d * (interface->n1 + interface->n2) && !refused; k++)
+        physics->parts.squares[N_SQUARES * physics->parts.of_mesh[interface->nodes[k / d]] + SQUARES_CONTACT] +=
             PetscSqr(PetscAbsScalar(interface->forces[k]));
     }
     PetscCall(contact_agree(contact, refused, status));
@@ -125,7 +136,7 @@ static PetscErrorCode plan(Interface *interface, int32_t pairs, int32_t *refused
   int64_t n_rows;
 
   PetscFunctionBegin;
-  *refused = stickslip_interface_plan(interface->handle, interface->x, interface->x + 3 * interface->n1, pairs, &n_rows,
+  *refused = stickslip_interface_plan(interface->handle, interface->x, MORTAR_OF(interface, interface->x), pairs, &n_rows,
                                       &interface->planned);
   if (*refused) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(reserve(interface, interface->planned));
@@ -238,8 +249,7 @@ PetscErrorCode contact_start(Contact *contact, Vec x, PetscInt *status)
     int32_t    refused   = 0;
     PetscCall(contact_gather(contact, interface, physics->u_local));
     if (mesh->rank == 0 && interface->initial_contact)
-      refused = stickslip_interface_initial_multipliers(interface->handle,
-                                                        interface->gathered + 3 * (interface->n1 + interface->n2));
+      refused = stickslip_interface_initial_multipliers(interface->handle, MULTIPLIERS_OF(interface, interface->gathered));
     PetscCall(contact_agree(contact, refused, status));
     if (!*status) PetscCall(contact_scatter(interface, interface->gathered, physics->u_local, MPI_REPLACE));
   }
@@ -264,10 +274,13 @@ static int32_t settle_multipliers(Interface *interface)
 {
   stickslip_states wanted = {.struct_size = sizeof(wanted), .traction = interface->rows, .normal = interface->host};
   const int32_t    status = stickslip_interface_states(interface->handle, STATE_OF(interface), NULL, &wanted);
+  const PetscInt   d      = interface->dimension;
   for (PetscInt a = 0; a < interface->n1 && !status; a++) {
-    const double *p = interface->rows + 3 * a, *n = interface->host + 3 * a;
-    if (interface->components == 3)
-      PetscCallAbort(PETSC_COMM_SELF, PetscArraycpy(interface->lambda + 3 * a, p, 3));
+    PetscReal p[3], n[3];
+    contact_vector(interface, interface->rows, a, p);
+    contact_vector(interface, interface->host, a, n);
+    if (interface->components > 1)
+      PetscCallAbort(PETSC_COMM_SELF, PetscArraycpy(interface->lambda + d * a, p, d));
     else
       interface->lambda[a] = p[0] * n[0] + p[1] * n[1] + p[2] * n[2];
   }

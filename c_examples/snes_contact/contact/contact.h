@@ -10,13 +10,14 @@ typedef struct {
   const Surface       *surface[2]; /* non-mortar, mortar */
   PetscInt             n1, n2;     /* their numbers of nodes */
   PetscInt            *nodes;      /* n1 + n2 mesh vertices */
-  PetscInt             components; /* multipliers a node: 1, along the normal, without friction; else 3 */
+  PetscInt             dimension;  /* numbers a node of every vector here: 3, in the plane 2 */
+  PetscInt             components; /* multipliers a node: 1, along the normal, without friction; else `dimension` */
   PetscInt            *removed;    /* n1: mask of directions without a multiplier, see read_surfaces() */
   PetscBool           *middle;     /* n1: no multiplier, since it is no corner of a face */
   stickslip_options    options;
   PetscBool            initial_contact; /* nodes that touch start slightly compressed: contact_start() */
-  double              *X, *x;     /* 3 (n1 + n2): reference coordinates; current ones, see contact_positions() */
-  PetscScalar         *gathered;  /* 3 (n1 + n2) displacements, components n1 multipliers */
+  double              *X, *x;     /* n1 + n2 vectors: reference coordinates; current ones, see contact_positions() */
+  PetscScalar         *gathered;  /* n1 + n2 displacement vectors, components n1 multipliers */
   PetscScalar         *forces;    /* same layout: f1, f2, multiplier rows */
   int64_t             *equations; /* same layout */
   PetscSF              sf;        /* from the local vectors of all ranks to `gathered` */
@@ -33,11 +34,14 @@ typedef struct {
   int64_t              bytes;         /* of the library's, the most at the end of a step */
 } Interface;
 
+/* In the interface's arrays: where the mortar's vectors begin, where the multipliers do. */
+#define MORTAR_OF(interface, array) ((array) + (interface)->dimension * (interface)->n1)
+#define MULTIPLIERS_OF(interface, array) ((array) + (interface)->dimension * ((interface)->n1 + (interface)->n2))
 /* The library takes x1, x2 and the multipliers: */
 #define STATE_OF(interface)                                                                                            \
-  (interface)->x, (interface)->x + 3 * (interface)->n1, (interface)->gathered + 3 * ((interface)->n1 + (interface)->n2)
+  (interface)->x, MORTAR_OF(interface, (interface)->x), MULTIPLIERS_OF(interface, (interface)->gathered)
 
-/* nodal results of one interface; every array has n1 entries, vectors 3 n1 */
+/* nodal results of one interface; every array has n1 entries, vectors 3 n1, in the plane too */
 typedef struct {
   int32_t *state;
   double  *normal, *multiplier, *gap, *slip, *coverage, *area, *dissipation; /* multiplier: as a vector */
@@ -79,6 +83,8 @@ PetscErrorCode contact_create(Contact *contact, Scene *scene, PetscBool quiet, P
 PetscErrorCode contact_destroy(Contact *contact);
 PetscErrorCode contact_agree(Contact *contact, int32_t refused, PetscInt *status);
 void           contact_positions(Interface *interface);
+/* of a node, from vectors of the interface; the third component is 0 in the plane */
+void           contact_vector(const Interface *interface, const PetscScalar vectors[], PetscInt node, PetscReal v[3]);
 PetscErrorCode contact_fetch(const Interface *interface, Vec local, PetscScalar *to);
 PetscErrorCode contact_gather(Contact *contact, Interface *interface, Vec local);
 PetscErrorCode contact_start(Contact *contact, Vec x, PetscInt *status);
@@ -112,7 +118,7 @@ PetscErrorCode normals_turn_multipliers(Contact *contact, Vec x);
 PetscErrorCode contact_states_create(const Interface *interface, ContactStates *states); /* rank 0 */
 PetscErrorCode contact_states_destroy(ContactStates *states);
 /* of all interfaces at u_local */
-PetscErrorCode contact_tendencies(Contact *contact, int32_t *state, double *tangential);
+PetscErrorCode contact_tendencies(Contact *contact, int32_t *state, double *tangential); /* 3 a node */
 PetscErrorCode contact_scale_augmentation(Contact *contact, const PetscBool *marked, PetscReal factor);
 
 /* equilibrium.c */

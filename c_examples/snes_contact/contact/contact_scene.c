@@ -7,7 +7,7 @@ static PetscErrorCode collect_nodes(const Mesh *mesh, const Surface *surface, Pe
   PetscBool *seen;
   PetscFunctionBegin;
   if (surface->analytic) { /* its frame */
-    for (*n = 0; *n < 4; (*n)++)
+    for (*n = 0; *n <= mesh->dimension; (*n)++)
       nodes[*n] = surface->frame + *n;
     PetscFunctionReturn(PETSC_SUCCESS);
   }
@@ -60,7 +60,7 @@ static PetscErrorCode remove_middles(Scene *scene, const Mesh *mesh, Interface *
   if (space == STICKSLIP_SPACE_SUB) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PetscCalloc1(mesh->n_vertices, &corner));
   for (PetscInt f = 0; f < surface->n_faces; f++) {
-    const PetscInt first = surface->offsets[f], n = face_corners(surface->offsets[f + 1] - first);
+    const PetscInt first = surface->offsets[f], n = cell_corners(mesh_face_kind(mesh, surface, f));
     for (PetscInt k = 0; k < n; k++)
       corner[surface->vertices[first + k]] = PETSC_TRUE;
   }
@@ -90,7 +90,7 @@ static PetscErrorCode read_surfaces(Scene *scene, Contact *contact, Interface *i
     if (interface->surface[side]->analytic && side == 0)
       scene_fail(scene, interface->name, side_key[side], "'%s' is analytic: it can be the mortar side only.", name);
     n_corners[side] =
-        interface->surface[side]->analytic ? 4 : interface->surface[side]->offsets[interface->surface[side]->n_faces];
+        interface->surface[side]->analytic ? mesh->dimension + 1 : interface->surface[side]->offsets[interface->surface[side]->n_faces];
   }
   PetscCall(PetscMalloc1(n_corners[0] + n_corners[1], &interface->nodes));
   PetscCall(collect_nodes(mesh, interface->surface[0], interface->nodes, &interface->n1));
@@ -107,7 +107,8 @@ static PetscErrorCode read_surfaces(Scene *scene, Contact *contact, Interface *i
   for (PetscInt b = 0; b < interface->n2; b++)
     mortar_mask &= physics->prescribed[interface->nodes[interface->n1 + b]];
   if (interface->options.mortar_side == STICKSLIP_MORTAR_RIGID && mortar_mask != 7)
-    scene_fail(scene, interface->name, "mortar_side", "'%s' is not rigid: support all of it in x, y and z.", name);
+    scene_fail(scene, interface->name, "mortar_side", "'%s' is not rigid: support all of it in %s.", name,
+               mesh->dimension == 3 ? "x, y and z" : "x and y");
   describe_analytic(scene, interface);
   PetscCall(PetscMalloc1(interface->n1, &interface->removed));
   PetscCall(PetscCalloc1(interface->n1, &interface->middle));
@@ -125,6 +126,16 @@ static PetscErrorCode read_surfaces(Scene *scene, Contact *contact, Interface *i
   if (interface->options.augmentation == 0 && interface->options.modulus == 0)
     interface->options.modulus = interface->young;
   PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The scene's space, as the library has it. */
+static void read_model(const Space *space, Interface *interface)
+{
+  static const int32_t models[] = {STICKSLIP_MODEL_SOLID, STICKSLIP_MODEL_PLANE, STICKSLIP_MODEL_PLANE,
+                                   STICKSLIP_MODEL_AXISYMMETRIC}; /* by SPACE_... */
+  interface->dimension         = space_dimension(space);
+  interface->options.model     = models[space->kind];
+  interface->options.thickness = interface->options.model == STICKSLIP_MODEL_PLANE ? space->thickness : 0;
 }
 
 /* What a law is called in a scene, by STICKSLIP_FRICTION_... */
@@ -153,7 +164,7 @@ static void read_law(Scene *scene, Interface *interface)
   options->friction     = (int32_t)law;
   options->mu           = mu;
   options->shear_limit  = shear_limit;
-  interface->components = law == STICKSLIP_FRICTION_NONE ? 1 : 3;
+  interface->components = law == STICKSLIP_FRICTION_NONE ? 1 : interface->dimension;
 }
 
 /* `mortar_side`, `shortcuts`: left open, the library chooses. */
@@ -283,6 +294,7 @@ PetscErrorCode contact_read(Scene *scene, Contact *contact)
     Interface *interface = &contact->interfaces[i];
     PetscCall(PetscSNPrintf(interface->name, NAME_LENGTH, "%s", names[i]));
     PetscCallStickslip(stickslip_options_init(&interface->options, sizeof(interface->options)));
+    read_model(&contact->mesh->space, interface);
     read_law(scene, interface);
     read_effects(scene, interface);
     read_method(scene, interface);
@@ -327,7 +339,7 @@ PetscErrorCode contact_label(Contact *contact)
     PetscInt        *mask;
     PetscCall(PetscMalloc1(interface->n1, &mask));
     for (PetscInt a = 0; a < interface->n1; a++)
-      mask[a] = contact->condensed ? 7 : interface->components == 3 ? interface->removed[a] : interface->removed[a] == 7;
+      mask[a] = contact->condensed ? 7 : interface->components > 1 ? interface->removed[a] : interface->removed[a] == 7;
     PetscCall(PetscSNPrintf(label, sizeof(label), "multiplier.%s", interface->name));
     PetscCall(plex_label_vertices(contact->mesh, label, interface->n1, interface->nodes, mask, 0));
     PetscCall(PetscFree(mask));

@@ -4,7 +4,7 @@
 /* of `gathered`, `forces` and `equations` */
 static int64_t n_entries(const Interface *interface)
 {
-  return 3 * ((int64_t)interface->n1 + interface->n2) + (int64_t)interface->components * interface->n1;
+  return interface->dimension * ((int64_t)interface->n1 + interface->n2) + (int64_t)interface->components * interface->n1;
 }
 
 /* equations of the gathered entries, as the library wants them */
@@ -25,8 +25,8 @@ static PetscErrorCode gather_equations(Contact *contact, Interface *interface)
   /* No unknowns, but the library must know which there are: numbers beyond all equations. */
   for (int64_t k = 0; k < (int64_t)interface->components * interface->n1 && contact->condensed && n; k++) {
     const PetscInt removed = interface->removed[k / interface->components], i = k % interface->components;
-    const PetscBool none = (PetscBool)(interface->components == 3 ? (removed >> i) & 1 : removed == 7);
-    interface->equations[3 * ((int64_t)interface->n1 + interface->n2) + k] = none ? -1 : n_equations + k;
+    const PetscBool none = (PetscBool)(interface->components > 1 ? (removed >> i) & 1 : removed == 7);
+    MULTIPLIERS_OF(interface, interface->equations)[k] = none ? -1 : n_equations + k;
   }
   PetscCall(PetscFree(numbers));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -54,11 +54,11 @@ static PetscErrorCode describe_surface(const Contact *contact, const Interface *
   *out               = (stickslip_surface){.struct_size = sizeof(*out)};
   out->n_nodes       = n;
   out->n_facets      = surface->n_faces;
-  out->coordinates   = interface->x + 3 * first;
+  out->coordinates   = interface->x + interface->dimension * first;
   out->facet_offsets = surface->analytic ? NULL : offsets;
   out->facet_nodes   = surface->analytic ? NULL : *facet_nodes;
-  out->equations     = interface->equations + 3 * first;
-  if (!side) out->multiplier_equations = interface->equations + 3 * (interface->n1 + interface->n2);
+  out->equations     = interface->equations + interface->dimension * first;
+  if (!side) out->multiplier_equations = MULTIPLIERS_OF(interface, interface->equations);
   PetscCall(PetscFree(local));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -69,13 +69,14 @@ static int32_t set_constraints(const Interface *interface)
   int64_t *nodes, n = 0;
   double  *directions;
   int32_t  status;
-  PetscCallAbort(PETSC_COMM_SELF, PetscCalloc2(2 * interface->n1, &nodes, 6 * interface->n1, &directions));
+  const PetscInt d = interface->dimension;
+  PetscCallAbort(PETSC_COMM_SELF, PetscCalloc2(2 * interface->n1, &nodes, 2 * d * interface->n1, &directions));
   for (PetscInt a = 0; a < interface->n1; a++) {
     if (interface->removed[a] == 7) continue; /* wholly prescribed: no unknown is left, and the normal stays free */
-    for (int i = 0; i < 3; i++) {
+    for (int i = 0; i < d; i++) {
       if (!(interface->removed[a] & (1 << i))) continue;
       nodes[n]              = a;
-      directions[3 * n + i] = 1;
+      directions[d * n + i] = 1;
       n++;
     }
   }
@@ -101,7 +102,7 @@ static PetscErrorCode check_facing(const Contact *contact, Scene *scene, PetscBo
   for (int side = 0; side < 2; side++)
     PetscCall(describe_surface(contact, interface, side, &surfaces[side], &facet_nodes[side]));
   PetscCallStickslip(stickslip_interface_create(&surfaces[0], &surfaces[1], &interface->options, &asked));
-  PetscCallStickslip(stickslip_interface_report(asked, interface->x, interface->x + 3 * interface->n1, &report));
+  PetscCallStickslip(stickslip_interface_report(asked, interface->x, MORTAR_OF(interface, interface->x), &report));
   PetscCallStickslip(stickslip_interface_destroy(&asked));
   for (int side = 0; side < 2; side++)
     PetscCall(PetscFree(facet_nodes[side]));
@@ -125,11 +126,12 @@ PetscErrorCode contact_create(Contact *contact, Scene *scene, PetscBool quiet, P
   for (PetscInt i = 0; i < contact->n_interfaces && !*status; i++) {
     Interface            *interface = &contact->interfaces[i];
     const PetscInt        counts[3] = {interface->n1, interface->n2, interface->n1}, fields[3] = {0, 0, 1 + i};
+    const PetscInt        widths[3] = {interface->dimension, interface->dimension, interface->components};
     const PetscInt *const nodes[3] = {interface->nodes, interface->nodes + interface->n1, interface->nodes};
     int32_t               refused  = 0;
     const int64_t         n        = mesh->rank ? 0 : n_entries(interface);
 
-    PetscCall(unknowns_gather_create(contact->physics, 3, counts, nodes, fields, &interface->sf));
+    PetscCall(unknowns_gather_create(contact->physics, 3, counts, nodes, fields, widths, &interface->sf));
     PetscCall(PetscCalloc5(n, &interface->X, n, &interface->x, n, &interface->gathered, n, &interface->forces, n,
                            &interface->equations));
     PetscCall(PetscCalloc4(n, &interface->lambda, n, &interface->lambda_start, n, &interface->lambda_last, n,
@@ -139,15 +141,16 @@ PetscErrorCode contact_create(Contact *contact, Scene *scene, PetscBool quiet, P
     if (mesh->rank == 0) {
       stickslip_surface surfaces[2];
       int64_t          *facet_nodes[2];
-      for (PetscInt k = 0; k < 3 * (interface->n1 + interface->n2); k++)
-        interface->X[k] = mesh->coordinates[3 * interface->nodes[k / 3] + k % 3];
+      const PetscInt    d = interface->dimension;
+      for (PetscInt k = 0; k < d * (interface->n1 + interface->n2); k++)
+        interface->X[k] = mesh->coordinates[3 * interface->nodes[k / d] + k % d];
       contact_positions(interface);
       for (int side = 0; side < 2; side++)
         PetscCall(describe_surface(contact, interface, side, &surfaces[side], &facet_nodes[side]));
       refused = stickslip_interface_create(&surfaces[0], &surfaces[1], &interface->options, &interface->handle);
       if (!refused) refused = set_constraints(interface);
       if (!refused && contact->condensed) /* refused at once rather than in the first step */
-        refused = stickslip_interface_condensed_multipliers(interface->handle, interface->x, interface->x + 3 * interface->n1,
+        refused = stickslip_interface_condensed_multipliers(interface->handle, interface->x, MORTAR_OF(interface, interface->x),
                                                             interface->host, interface->lambda);
       for (int side = 0; side < 2; side++)
         PetscCall(PetscFree(facet_nodes[side]));

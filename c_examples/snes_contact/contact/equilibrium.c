@@ -30,14 +30,15 @@ static PetscReal worst(PetscReal tolerance, const Interface *interface, char wor
   const double                 scales[] = {e->gap_scale, e->traction_scale, e->slip_scale};
   const int64_t                nodes[]  = {e->gap_node, e->traction_node, e->slip_node};
   static const char *const     names[]  = {"gap", "traction", "slip"};
-  PetscReal                    largest  = 0;
+  PetscReal                    largest  = 0, X[3];
   for (int k = 0; k < 3; k++) {
     const PetscReal ratio = values[k] > 0 ? values[k] / (tolerance * scales[k]) : 0;
     if (!(ratio > largest)) continue;
     largest = ratio;
+    contact_vector(interface, interface->X, (PetscInt)nodes[k], X);
     snprintf(words, length, "%s: a %s of %.2g that the law forbids, of a scale of %.2g, at node %d at (%g, %g, %g)",
              interface->name, names[k], values[k], scales[k], (int)interface->nodes[nodes[k]],
-             interface->X[3 * nodes[k]], interface->X[3 * nodes[k] + 1], interface->X[3 * nodes[k] + 2]);
+             (double)X[0], (double)X[1], (double)X[2]);
   }
   return largest;
 }

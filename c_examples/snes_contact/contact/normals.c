@@ -39,7 +39,7 @@ PetscErrorCode normals_turn_multipliers(Contact *contact, Vec x)
     if (!follows(interface)) continue;
     PetscCall(contact_gather(contact, interface, physics->u_local));
     if (contact->mesh->rank == 0) {
-      double *of_x = interface->gathered + 3 * (interface->n1 + interface->n2);
+      double *of_x = MULTIPLIERS_OF(interface, interface->gathered);
       (void)stickslip_interface_turn_multipliers(interface->handle, interface->x,
                                                  contact->condensed ? interface->lambda_start : of_x);
     }

@@ -1,10 +1,21 @@
 /* What the library says of the nodes: their states and results; and the augmentation that single nodes are given. */
 #include "contact/contact.h"
 
+/* vectors of the interface, as the library has them, each made of three components where it has two */
+static void widen(const Interface *interface, double vectors[])
+{
+  for (PetscInt a = interface->n1 - 1; a >= 0; a--) {
+    PetscReal v[3];
+    contact_vector(interface, vectors, a, v);
+    for (int i = 0; i < 3; i++)
+      vectors[3 * a + i] = v[i];
+  }
+}
+
 PetscErrorCode contact_states_create(const Interface *interface, ContactStates *states)
 {
   const PetscInt     n1     = interface->n1;
-  const PetscScalar *lambda = interface->gathered + 3 * (n1 + interface->n2);
+  const PetscScalar *lambda = MULTIPLIERS_OF(interface, interface->gathered);
   stickslip_states   wanted = {.struct_size = sizeof(wanted)};
 
   PetscFunctionBegin;
@@ -19,9 +30,14 @@ PetscErrorCode contact_states_create(const Interface *interface, ContactStates *
   wanted.area        = states->area;
   wanted.dissipation = states->dissipation;
   PetscCallStickslip(stickslip_interface_states(interface->handle, STATE_OF(interface), NULL, &wanted));
-  for (PetscInt k = 0; k < 3 * n1; k++)
-    states->multiplier[k] = interface->components == 3 ? PetscRealPart(lambda[k])
-                                                       : PetscRealPart(lambda[k / 3]) * states->normal[k];
+  widen(interface, states->normal);
+  widen(interface, states->slip);
+  for (PetscInt a = 0; a < n1; a++) {
+    double *vector = states->multiplier + 3 * a;
+    if (interface->components > 1) contact_vector(interface, lambda, a, vector);
+    for (int i = 0; i < 3 && interface->components == 1; i++)
+      vector[i] = PetscRealPart(lambda[a]) * states->normal[3 * a + i];
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -39,6 +55,8 @@ PetscErrorCode contact_tendencies(Contact *contact, int32_t *state, double *tang
     PetscCall(PetscMalloc1(3 * interface->n1, &normal));
     wanted.normal = normal;
     PetscCallStickslip(stickslip_interface_states(interface->handle, STATE_OF(interface), NULL, &wanted));
+    widen(interface, tangential);
+    widen(interface, normal);
     for (PetscInt a = 0; a < interface->n1; a++, tangential += 3) {
       const double *n = normal + 3 * a, p = tangential[0] * n[0] + tangential[1] * n[1] + tangential[2] * n[2];
       for (int k = 0; k < 3; k++)

@@ -42,7 +42,7 @@ static Plane plane_of(const Mesh *mesh, const Support *support, PetscReal tolera
 {
   Plane plane = {.axis = NO_PLANE};
   int   axis  = 0;
-  if (support->given) return plane;
+  if (support->given || !support->n_vertices) return plane;
   for (int k = 0; k < 9; k++) {
     if (support->gradient[k] != 0 || support->rotate[k % 3] != 0) return plane;
   }

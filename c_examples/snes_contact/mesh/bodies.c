@@ -1,15 +1,17 @@
 /* The bodies of the scene, one after the other, and surfaces cut out of theirs. All on rank 0, in the axes of the scene
  * file. */
-#include "mesh/cell.h"
 #include "mesh/mesh.h"
+
+/* Vertices this close to the axis, relative to the size of their body, lie on it: mesh files keep at least 7 digits. */
+static const PetscReal ON_AXIS = 1e-6;
 
 /* whole faces of `whole` whose centre, the mean of their corners, lies within the box */
 static void cut_out(const Mesh *mesh, const Surface *whole, const PetscReal box[6], Surface *part)
 {
   part->inner = (PetscBool)(part->inner || whole->inner);
   for (PetscInt f = 0; f < whole->n_faces; f++) {
-    const PetscInt n = whole->offsets[f + 1] - whole->offsets[f], n_corners = face_corners(n),
-                  *vertices = whole->vertices + whole->offsets[f];
+    const CellKind kind      = mesh_face_kind(mesh, whole, f);
+    const PetscInt n_corners = cell_corners(kind), *vertices = whole->vertices + whole->offsets[f];
     PetscBool      inside   = PETSC_TRUE;
     for (int i = 0; i < 3; i++) {
       PetscReal centre = 0;
@@ -17,7 +19,7 @@ static void cut_out(const Mesh *mesh, const Surface *whole, const PetscReal box[
         centre += mesh->coordinates[3 * vertices[a] + i] / n_corners;
       if (centre < box[i] || centre > box[3 + i]) inside = PETSC_FALSE;
     }
-    if (inside) surface_push(part, n, vertices);
+    if (inside) surface_push(part, cell_nodes(kind), vertices);
   }
 }
 
@@ -35,7 +37,7 @@ static PetscErrorCode derived_surfaces(Scene *scene, Mesh *mesh)
     Surface  *part;
     scene_strings(scene, names[k], "of", &n_of, &of);
     if (!n_of) scene_fail(scene, names[k], "of", "this key is missing.");
-    if (!scene_vector(scene, names[k], "within", 6, box)) scene_fail(scene, names[k], "within", "this key is missing.");
+    if (!space_box(scene, &mesh->space, names[k], "within", box)) scene_fail(scene, names[k], "within", "this key is missing.");
     for (PetscInt i = 0; i < n_of; i++)
       most += mesh_surface(scene, mesh, names[k], "of", of[i])->n_faces;
     PetscCall(mesh_add_surface(mesh, names[k], most, &part));
@@ -53,16 +55,33 @@ static PetscErrorCode derived_surfaces(Scene *scene, Mesh *mesh)
 static void check_volumes(Scene *scene, const Mesh *mesh, const char *body, PetscInt first_cell)
 {
   for (PetscInt c = first_cell; c < mesh->n_cells; c++) {
-    const PetscInt n         = mesh->cell_offsets[c + 1] - mesh->cell_offsets[c],
-                   *vertices = mesh->cell_vertices + mesh->cell_offsets[c];
+    const CellKind  kind     = mesh_cell_kind(mesh, c);
+    const PetscInt *vertices = mesh->cell_vertices + mesh->cell_offsets[c];
     PetscReal      X[3 * CELL_NODES];
-    for (PetscInt a = 0; a < n; a++) {
+    for (PetscInt a = 0; a < cell_nodes(kind); a++) {
       for (int i = 0; i < 3; i++)
         X[3 * a + i] = mesh->coordinates[3 * vertices[a] + i];
     }
-    if (!(cell_smallest_jacobian(n, X) > 0))
+    if (!(cell_smallest_jacobian(kind, X) > 0))
       scene_fail(scene, body, NULL, "cell %d (near [%g, %g, %g]) is turned inside out or flat.", (int)(c - first_cell),
                  (double)X[0], (double)X[1], (double)X[2]);
+  }
+}
+
+/* Of what is read from files or bent, an axisymmetric body has nodes by rounding beside the axis: they lie on it. */
+static void check_radii(Scene *scene, Mesh *mesh, const char *body, PetscInt first_vertex)
+{
+  Extent    extent = extent_of_nothing();
+  PetscReal tolerance;
+  for (PetscInt v = first_vertex; v < mesh->n_vertices; v++)
+    extent_add(&extent, mesh->coordinates + 3 * v);
+  tolerance = ON_AXIS * extent_longest(&extent);
+  for (PetscInt v = first_vertex; v < mesh->n_vertices; v++) {
+    PetscReal *x = mesh->coordinates + 3 * v;
+    if (x[0] < -tolerance)
+      scene_fail(scene, body, NULL, "its vertex at [%g, %g] lies beyond the axis: x is the radius of an axisymmetric model.",
+                 (double)x[0], (double)x[1]);
+    if (x[0] <= tolerance) x[0] = 0;
   }
 }
 
@@ -71,7 +90,7 @@ static void read_frame(Scene *scene, Mesh *mesh)
   PetscReal degrees[3] = {0, 0, 0}, (*Q)[3] = (PetscReal(*)[3])mesh->rotation;
   for (int i = 0; i < 9; i++)
     mesh->rotation[i] = (i % 4 == 0);
-  scene_vector(scene, "frame", "rotate", 3, degrees);
+  space_turn(scene, &mesh->space, "frame", "rotate", degrees);
   mesh->rotated = (PetscBool)(degrees[0] != 0 || degrees[1] != 0 || degrees[2] != 0);
   for (int axis = 0; axis < 3; axis++) { /* about x, then y, then z */
     const PetscReal c = PetscCosReal(degrees[axis] * PETSC_PI / 180), s = PetscSinReal(degrees[axis] * PETSC_PI / 180);
@@ -94,6 +113,8 @@ PetscErrorCode mesh_create(Scene *scene, Mesh *mesh)
   PetscFunctionBegin;
   PetscCall(PetscMemzero(mesh, sizeof(*mesh)));
   PetscCallMPI(MPI_Comm_rank(PETSC_COMM_WORLD, &mesh->rank));
+  space_read(scene, &mesh->space);
+  mesh->dimension = space_dimension(&mesh->space);
   if (!scene_has(scene, NULL, "bodies")) scene_fail(scene, NULL, "bodies", "this key is missing.");
   scene_names(scene, "bodies", &n, &names);
   read_frame(scene, mesh);
@@ -113,6 +134,8 @@ PetscErrorCode mesh_create(Scene *scene, Mesh *mesh)
     PetscCall(create[type[b]](scene, names[b], mesh));
     mesh->bodies[b].end_vertex = mesh->n_vertices;
     check_volumes(scene, mesh, names[b], first_cell);
+    if (mesh->space.kind == SPACE_AXISYMMETRIC && !mesh->bodies[b].analytic)
+      check_radii(scene, mesh, names[b], mesh->bodies[b].first_vertex);
     mesh->n_bodies++;
   }
   if (mesh->rank == 0) {

@@ -1,32 +1,35 @@
-/* A structured box of hexahedra, or of six tetrahedra per hexahedron (Kuhn's split, conforming by construction). Its sides
- * are the surfaces xmin, xmax, ymin, ymax, zmin, zmax. box_shape.c bends it.
+/* A structured box of hexahedra, or of six tetrahedra per hexahedron (Kuhn's split, conforming by construction); in the
+ * plane a rectangle of quadrilaterals, or of two triangles each. Its sides are the surfaces xmin, xmax, ymin, ymax, zmin,
+ * zmax. box_shape.c bends it.
  *
  * Nodes lie on a lattice with `order` steps a cell: 1, or 2 where edges have nodes in their middle. These are bent as the
  * others are, so that edges follow a curved side. A lattice point that no cell uses (of hex20: the middles of faces and
  * cells) is no vertex. */
-#include "mesh/cell.h"
 #include "mesh/mesh.h"
 
 typedef struct {
-  PetscInt  nodes, order;
-  PetscInt  n[3];      /* cells, each split in six if they are tetrahedra */
-  PetscInt  layers[3]; /* of lattice points; those of a full circle meet where they began */
+  CellKind  kind;
+  PetscInt  order;
+  PetscInt  n[3];      /* cells, each split where they are simplices; 1 along z in the plane */
+  PetscInt  layers[3]; /* of lattice points; those of a full circle meet where they began; 1 along z in the plane */
   PetscInt *vertex;    /* of each lattice point its number, -1: none */
   PetscInt *place;     /* of each vertex its lattice point */
   PetscInt  n_vertices, n_cells, *cells;
 } Box;
 
 /* Positions along the axes: explicit planes, or equal cells between lower and upper, or fractions of [0,1] for corners. */
-static PetscErrorCode read_planes(Scene *scene, const char *body, PetscBool unit, PetscInt n[3], PetscReal *planes[3])
+static PetscErrorCode read_planes(Scene *scene, const Space *space, const char *body, PetscBool unit, PetscInt n[3],
+                                  PetscReal *planes[3])
 {
   static const char *const axis_name[] = {"x", "y", "z"};
   PetscReal                lower[3] = {0, 0, 0}, upper[3] = {1, 1, 1};
+  const PetscInt           d        = space_dimension(space);
   PetscInt                 cells[3] = {0, 0, 0}, n_explicit = 0, n_given;
   PetscBool                counted;
 
   PetscFunctionBegin;
-  counted = scene_counts(scene, body, "cells", 3, cells);
-  for (int axis = 0; axis < 3; axis++) {
+  counted = scene_counts(scene, body, "cells", d, cells);
+  for (int axis = 0; axis < d; axis++) {
     planes[axis] = NULL;
     if (unit) continue;
     scene_reals(scene, body, axis_name[axis], &n_given, &planes[axis]);
@@ -42,14 +45,14 @@ static PetscErrorCode read_planes(Scene *scene, const char *body, PetscBool unit
       scene_fail(scene, body, "cells", "axis %s has %d cells by its list of positions, but %d here.", axis_name[axis],
                  (int)n[axis], (int)cells[axis]);
   }
-  if (n_explicit < 3) {
+  if (n_explicit < d) {
     if (!counted) scene_fail(scene, body, "cells", "this key is missing.");
     if (!unit) {
-      if (!scene_vector(scene, body, "lower", 3, lower)) scene_fail(scene, body, "lower", "this key is missing.");
-      if (!scene_vector(scene, body, "upper", 3, upper)) scene_fail(scene, body, "upper", "this key is missing.");
+      if (!space_vector(scene, space, body, "lower", lower)) scene_fail(scene, body, "lower", "this key is missing.");
+      if (!space_vector(scene, space, body, "upper", upper)) scene_fail(scene, body, "upper", "this key is missing.");
     }
   }
-  for (int axis = 0; axis < 3; axis++) {
+  for (int axis = 0; axis < d; axis++) {
     if (planes[axis]) continue;
     n[axis] = cells[axis];
     if (n[axis] < 1) scene_fail(scene, body, "cells", "at least one cell per axis is needed.");
@@ -59,10 +62,20 @@ static PetscErrorCode read_planes(Scene *scene, const char *body, PetscBool unit
     for (PetscInt k = 0; k <= n[axis]; k++)
       planes[axis][k] = (lower[axis] * (n[axis] - k) + upper[axis] * k) / n[axis];
   }
+  if (d == 2) { /* z = 0 */
+    n[2] = 1;
+    PetscCall(PetscCalloc1(2, &planes[2]));
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* six tetrahedra: one per path from corner (0,0,0) to (1,1,1) along the three axes; each corner as its three steps */
+/* each corner as its steps along the three axes */
+static const int TRIANGLES[2][3][3] = {
+    {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}},
+    {{0, 0, 0}, {1, 1, 0}, {0, 1, 0}}
+};
+
+/* six tetrahedra: one per path from corner (0,0,0) to (1,1,1) along the three axes */
 static void split_hexahedron(int tets[6][4][3])
 {
   static const int paths[6][3] = {
@@ -110,23 +123,25 @@ static PetscErrorCode create_cells(Box *box)
       {1, 1, 1},
       {0, 1, 1}
   };
-  const PetscInt n_hexes = box->n[0] * box->n[1] * box->n[2], pieces = cell_corners(box->nodes) == 4 ? 6 : 1;
-  int            tets[6][4][3];
-  PetscInt      *cell;
+  const PetscInt  n_hexes = box->n[0] * box->n[1] * box->n[2], nodes = cell_nodes(box->kind);
+  const PetscBool plane = (PetscBool)(cell_dimension(box->kind) == 2), split = cell_is_simplex(box->kind);
+  const PetscInt  pieces = !split ? 1 : plane ? 2 : 6;
+  int             tets[6][4][3];
+  PetscInt       *cell;
   PetscFunctionBegin;
   split_hexahedron(tets);
   box->n_cells = pieces * n_hexes;
-  PetscCall(PetscMalloc1(box->nodes * box->n_cells, &box->cells));
+  PetscCall(PetscMalloc1(nodes * box->n_cells, &box->cells));
   cell = box->cells;
   for (PetscInt h = 0; h < n_hexes; h++) {
     const PetscInt place[3] = {h % box->n[0], (h / box->n[0]) % box->n[1], h / (box->n[0] * box->n[1])};
     for (PetscInt p = 0; p < pieces; p++) {
-      for (PetscInt a = 0; a < box->nodes; a++) {
-        PetscInt       its[8];
-        const PetscInt count = cell_node_corners(box->nodes, a, its);
-        const int     *corners[8];
+      for (PetscInt a = 0; a < nodes; a++) {
+        PetscInt       its[CELL_CORNERS];
+        const PetscInt count = cell_node_corners(box->kind, a, its);
+        const int     *corners[CELL_CORNERS];
         for (PetscInt c = 0; c < count; c++)
-          corners[c] = pieces == 6 ? tets[p][its[c]] : hex[its[c]];
+          corners[c] = !split ? hex[its[c]] : plane ? TRIANGLES[p][its[c]] : tets[p][its[c]];
         *cell++ = lattice_point(box, place, count, corners);
       }
     }
@@ -137,12 +152,12 @@ static PetscErrorCode create_cells(Box *box)
 /* Vertices in the order of the lattice; the cells get their numbers. */
 static PetscErrorCode number_vertices(Box *box)
 {
-  const PetscInt size = box->layers[0] * box->layers[1] * box->layers[2];
+  const PetscInt size = box->layers[0] * box->layers[1] * box->layers[2], n_entries = cell_nodes(box->kind) * box->n_cells;
   PetscFunctionBegin;
   PetscCall(PetscMalloc2(size, &box->vertex, size, &box->place));
   for (PetscInt p = 0; p < size; p++)
     box->vertex[p] = -1;
-  for (PetscInt k = 0; k < box->nodes * box->n_cells; k++)
+  for (PetscInt k = 0; k < n_entries; k++)
     box->vertex[box->cells[k]] = 0;
   box->n_vertices = 0;
   for (PetscInt p = 0; p < size; p++) {
@@ -150,7 +165,7 @@ static PetscErrorCode number_vertices(Box *box)
     box->place[box->n_vertices] = p;
     box->vertex[p]              = box->n_vertices++;
   }
-  for (PetscInt k = 0; k < box->nodes * box->n_cells; k++)
+  for (PetscInt k = 0; k < n_entries; k++)
     box->cells[k] = box->vertex[box->cells[k]];
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -162,16 +177,16 @@ static PetscReal position(const PetscReal planes[], PetscInt order, PetscInt k)
   return k % order == 0 ? planes[first] : (planes[first] + planes[first + 1]) / 2;
 }
 
-/* trilinear map of the eight corners, in VTK's order */
-static void map_corners(const PetscReal corners[24], PetscReal x[3])
+/* trilinear map of the eight corners, in VTK's order; in the plane of four, each with d numbers */
+static void map_corners(const PetscReal corners[24], PetscInt d, PetscReal x[3])
 {
   const PetscReal s[3] = {x[0], x[1], x[2]};
-  for (int i = 0; i < 3; i++) {
+  for (int i = 0; i < d; i++) {
     x[i] = 0;
-    for (int a = 0; a < 8; a++) {
+    for (int a = 0; a < (d == 3 ? 8 : 4); a++) {
       const PetscReal sx = (a % 4 == 1 || a % 4 == 2) ? s[0] : 1 - s[0], sy = (a % 4 >= 2) ? s[1] : 1 - s[1],
                       sz = a >= 4 ? s[2] : 1 - s[2];
-      x[i] += sx * sy * sz * corners[3 * a + i];
+      x[i] += sx * sy * sz * corners[d * a + i];
     }
   }
 }
@@ -192,9 +207,9 @@ static PetscErrorCode add_side(Mesh *mesh, const char *body, const Box *box, int
                              &surface)); /* two triangles per quadrilateral */
   for (PetscInt c = 0; c < mesh->n_cells; c++) {
     if (mesh->cell_body[c] != mesh->n_bodies) continue;
-    for (PetscInt f = 0; f < cell_faces(box->nodes); f++) {
+    for (PetscInt f = 0; f < cell_faces(box->kind); f++) {
       PetscInt       vertices[FACE_NODES], on_side = 0;
-      const PetscInt n_face = cell_face(box->nodes, f, mesh->cell_vertices + mesh->cell_offsets[c], vertices);
+      const PetscInt n_face = cell_face(box->kind, f, mesh->cell_vertices + mesh->cell_offsets[c], vertices);
       for (PetscInt k = 0; k < n_face; k++)
         on_side += (box->place[vertices[k] - first] / stride[axis]) % box->layers[axis] == level;
       if (on_side == n_face) surface_push(surface, n_face, vertices);
@@ -205,22 +220,24 @@ static PetscErrorCode add_side(Mesh *mesh, const char *body, const Box *box, int
 
 PetscErrorCode box_create(Scene *scene, const char *body, Mesh *mesh)
 {
-  static const char *const kinds[] = {"hex", "tet", "tet10", "hex20", "hex27", NULL};
-  static const PetscInt    nodes[] = {8, 4, 10, 20, 27};
+  static const char *const names[2][6] = {{"hex", "tet", "tet10", "hex20", "hex27", NULL},
+                                          {"quad", "tri", "tri6", "quad8", "quad9", NULL}};
+  static const CellKind    kinds[2][5] = {{HEX8, TET4, TET10, HEX20, HEX27}, {QUAD4, TRI3, TRI6, QUAD8, QUAD9}};
+  const PetscInt           d = mesh->dimension, plane = d == 2;
   PetscReal                corners[24], *planes[3], *coordinates;
   PetscInt                 kind   = 0;
-  const PetscBool          mapped = scene_vector(scene, body, "corners", 24, corners);
+  const PetscBool          mapped = scene_vector(scene, body, "corners", plane ? 8 : 24, corners);
   BoxShape                 shape;
   Box                      box = {0};
 
   PetscFunctionBegin;
-  scene_choice(scene, body, "cell", kinds, &kind);
-  box.nodes = nodes[kind];
-  box.order = box.nodes > 8 ? 2 : 1;
-  PetscCall(read_planes(scene, body, mapped, box.n, planes));
-  box_shape_read(scene, body, box.n, planes, &shape);
+  scene_choice(scene, body, "cell", names[plane], &kind);
+  box.kind  = kinds[plane][kind];
+  box.order = cell_nodes(box.kind) > cell_corners(box.kind) ? 2 : 1;
+  PetscCall(read_planes(scene, &mesh->space, body, mapped, box.n, planes));
+  box_shape_read(scene, &mesh->space, body, box.n, planes, &shape);
   for (int axis = 0; axis < 3; axis++)
-    box.layers[axis] = box.order * box.n[axis] + !(axis == 1 && shape.closed);
+    box.layers[axis] = axis < d ? box.order * box.n[axis] + !(axis == 1 && shape.closed) : 1;
   PetscCall(create_cells(&box));
   PetscCall(number_vertices(&box));
   PetscCall(PetscMalloc1(3 * box.n_vertices, &coordinates));
@@ -230,11 +247,11 @@ PetscErrorCode box_create(Scene *scene, const char *body, Mesh *mesh)
     PetscReal     *x = coordinates + 3 * v;
     for (int i = 0; i < 3; i++)
       x[i] = position(planes[i], box.order, at[i]);
-    if (mapped) map_corners(corners, x);
+    if (mapped) map_corners(corners, d, x);
     box_shape_bend(&shape, x);
   }
-  PetscCall(mesh_append(mesh, box.n_vertices, coordinates, box.n_cells, box.nodes, box.cells));
-  for (int side = 0; side < 6; side++) {
+  PetscCall(mesh_append(mesh, box.n_vertices, coordinates, box.n_cells, box.kind, box.cells));
+  for (int side = 0; side < 2 * d; side++) {
     if (side / 2 == 1 && shape.closed) continue; /* a full circle has no ends */
     PetscCall(add_side(mesh, body, &box, side));
   }

@@ -1,11 +1,14 @@
-/* Boxes that are bent: `ball` and `cylinder` make them round, `polar` takes x for a radius and y for an angle. */
+/* Boxes that are bent: `ball` (a disc in the plane) and `cylinder` make them round, `polar` takes x for a radius and y for an
+ * angle. */
 #include "mesh/mesh.h"
 
-void box_shape_read(Scene *scene, const char *body, const PetscInt n[3], PetscReal *const planes[3], BoxShape *shape)
+void box_shape_read(Scene *scene, const Space *space, const char *body, const PetscInt n[3], PetscReal *const planes[3],
+                    BoxShape *shape)
 {
   static const char *const axes[]  = {"x", "y", "z", NULL};
-  const PetscBool          ball    = scene_vector(scene, body, "ball", 3, shape->centre);
-  const PetscBool          rod     = scene_vector(scene, body, "cylinder", 3, shape->centre);
+  const PetscBool          ball    = space_vector(scene, space, body, "ball", shape->centre);
+  const PetscBool          solid   = (PetscBool)(space_dimension(space) == 3);
+  const PetscBool          rod     = (PetscBool)(solid && scene_vector(scene, body, "cylinder", 3, shape->centre));
   const PetscBool          axial   = scene_has(scene, body, "axis");
   PetscBool                polar   = PETSC_FALSE;
   PetscInt                 axis    = 2;
@@ -14,9 +17,11 @@ void box_shape_read(Scene *scene, const char *body, const PetscInt n[3], PetscRe
   scene_choice(scene, body, "axis", axes, &axis);
   if (ball + rod + polar > 1)
     scene_fail(scene, body, ball ? "ball" : "cylinder", "one of ball, cylinder, polar at a time.");
+  if (!solid && scene_has(scene, body, "cylinder"))
+    scene_fail(scene, body, "cylinder", "only in space; in a plane model `ball` is a disc.");
   if (axial && !rod) scene_fail(scene, body, "axis", "only of `cylinder`.");
   shape->kind   = ball ? BOX_BALL : rod ? BOX_CYLINDER : polar ? BOX_POLAR : BOX_STRAIGHT;
-  shape->axis   = rod ? (int)axis : -1;
+  shape->axis   = rod ? (int)axis : solid ? -1 : 2;
   shape->closed = PETSC_FALSE;
   if (!polar) return;
   if (planes[0][0] <= 0)

@@ -1,7 +1,7 @@
 /* A body from a Gmsh file, read by PETSc (one of second order: gmsh_second.c). Names of physical surfaces become surfaces
  * "body.name"; with `volume`, only the cells of that physical volume are taken, so that several bodies may share one
- * file. */
-#include "mesh/cell.h"
+ * file. In a plane model cells are faces for Gmsh, their sides edges: physical surfaces are its volumes, and physical
+ * curves its surfaces. */
 #include "mesh/mesh.h"
 #include <petscdmplex.h>
 #include <stdio.h>
@@ -32,19 +32,25 @@ static PetscErrorCode corners_of_cell(DM dm, PetscInt cell, PetscInt *n, PetscIn
 }
 
 /* kinds of cells that there is no element for */
-static const char *cell_kind(DMPolytopeType type)
+static const char *unknown_kind(DMPolytopeType type)
 {
   switch (type) {
   case DM_POLYTOPE_TRI_PRISM:
   case DM_POLYTOPE_TRI_PRISM_TENSOR: return "a prism (wedge)";
   case DM_POLYTOPE_PYRAMID: return "a pyramid";
-  default: return "a cell that is neither a hexahedron nor a tetrahedron";
+  default: return "a cell of another kind";
   }
 }
+
+/* triangle and quadrilateral, tetrahedron and hexahedron */
+static const DMPolytopeType TYPES[2][2] = {{DM_POLYTOPE_TRIANGLE, DM_POLYTOPE_QUADRILATERAL},
+                                           {DM_POLYTOPE_TETRAHEDRON, DM_POLYTOPE_HEXAHEDRON}};
+static const CellKind       KINDS[2][2] = {{TRI3, QUAD4}, {TET4, HEX8}};
 
 static PetscErrorCode append_cells(Scene *scene, const char *body, DM dm, DMLabel volume, PetscInt new_number[],
                                    Mesh *mesh)
 {
+  const PetscInt     d = mesh->dimension;
   PetscInt           cStart, cEnd, vStart, vEnd, n_vertices = 0, n_cells[2] = {0, 0}, *cells[2];
   PetscReal         *compact;
   const PetscScalar *coordinates;
@@ -55,6 +61,7 @@ static PetscErrorCode append_cells(Scene *scene, const char *body, DM dm, DMLabe
   PetscCall(DMPlexGetDepthStratum(dm, 0, &vStart, &vEnd));
   PetscCall(
       PetscMalloc3(8 * (cEnd - cStart), &cells[0], 8 * (cEnd - cStart), &cells[1], 3 * (vEnd - vStart), &compact));
+  PetscCall(PetscArrayzero(compact, 3 * (vEnd - vStart)));
   PetscCall(DMGetCoordinatesLocal(dm, &vector));
   PetscCall(VecGetArrayRead(vector, &coordinates));
   for (PetscInt c = cStart; c < cEnd; c++) {
@@ -63,9 +70,8 @@ static PetscErrorCode append_cells(Scene *scene, const char *body, DM dm, DMLabe
     if (volume) PetscCall(DMLabelGetValue(volume, c, &value));
     if (value < 0) continue;
     PetscCall(DMPlexGetCellType(dm, c, &type));
-    if (type != DM_POLYTOPE_HEXAHEDRON && type != DM_POLYTOPE_TETRAHEDRON)
-      gmsh_fail_kind(scene, body, cell_kind(type));
-    kind = type == DM_POLYTOPE_HEXAHEDRON;
+    if (type != TYPES[d == 3][0] && type != TYPES[d == 3][1]) gmsh_fail_kind(scene, body, unknown_kind(type));
+    kind = type == TYPES[d == 3][1];
     PetscCall(corners_of_cell(dm, c, &n, corners));
     for (PetscInt a = 0; a < n; a++) {
       PetscInt *number = &new_number[corners[a] - vStart];
@@ -74,12 +80,13 @@ static PetscErrorCode append_cells(Scene *scene, const char *body, DM dm, DMLabe
         PetscSection section;
         PetscCall(DMGetCoordinateSection(dm, &section));
         PetscCall(PetscSectionGetDof(section, corners[a], &n_coordinates));
-        if (n_coordinates != 3) /* PETSc keeps curved cells' coordinates elsewhere */
+        if (n_coordinates != d) /* PETSc keeps curved cells' coordinates elsewhere */
           scene_fail(scene, body, "file",
                      "its cells are of second or higher order: of second order they are read from text of format 4.1 or "
-                     "2.2 (`gmsh -3 -order 2 -format msh41`, not binary), of higher order not at all.");
+                     "2.2 (`gmsh -%d -order 2 -format msh41`, not binary), of higher order not at all.",
+                     (int)d);
         PetscCall(PetscSectionGetOffset(section, corners[a], &offset));
-        for (int i = 0; i < 3; i++)
+        for (int i = 0; i < d; i++)
           compact[3 * n_vertices + i] = PetscRealPart(coordinates[offset + i]);
         *number = n_vertices++;
       }
@@ -89,10 +96,10 @@ static PetscErrorCode append_cells(Scene *scene, const char *body, DM dm, DMLabe
   }
   PetscCall(VecRestoreArrayRead(vector, &coordinates));
   /* the vertices go with the first kind; the second one refers to them by numbers relative to its own (empty) block */
-  for (PetscInt k = 0; k < 4 * n_cells[0]; k++)
+  for (PetscInt k = 0; k < cell_nodes(KINDS[d == 3][0]) * n_cells[0]; k++)
     cells[0][k] -= n_vertices;
-  PetscCall(mesh_append(mesh, n_vertices, compact, n_cells[1], 8, cells[1]));
-  PetscCall(mesh_append(mesh, 0, NULL, n_cells[0], 4, cells[0]));
+  PetscCall(mesh_append(mesh, n_vertices, compact, n_cells[1], KINDS[d == 3][1], cells[1]));
+  PetscCall(mesh_append(mesh, 0, NULL, n_cells[0], KINDS[d == 3][0], cells[0]));
   PetscCall(PetscFree3(cells[0], cells[1], compact));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -112,6 +119,7 @@ static PetscErrorCode append_surface(const char *body, DM dm, DMLabel label, con
     for (PetscInt f = fStart; f < fEnd; f++) {
       PetscInt        value, n_support, cell = -1, owners = 0, corners[8], on_face[8], vertices[FACE_NODES], n, n_on_face;
       const PetscInt *support;
+      CellKind        kind;
       PetscCall(DMLabelGetValue(label, f, &value));
       if (value < 0) continue;
       PetscCall(DMPlexGetSupportSize(dm, f, &n_support));
@@ -128,8 +136,9 @@ static PetscErrorCode append_surface(const char *body, DM dm, DMLabel label, con
       if (owners > 1) surface->inner = PETSC_TRUE;
       PetscCall(corners_of_cell(dm, cell, &n, corners));
       PetscCall(point_vertices(dm, f, &n_on_face, on_face));
-      for (PetscInt k = 0; k < cell_faces(n); k++) { /* which face of the cell is it? */
-        const PetscInt n_corners = cell_face(n, k, corners, vertices);
+      kind = cell_kind(mesh->dimension, n);
+      for (PetscInt k = 0; k < cell_faces(kind); k++) { /* which face of the cell is it? */
+        const PetscInt n_corners = cell_face(kind, k, corners, vertices);
         PetscInt       shared    = 0;
         for (PetscInt a = 0; a < n_corners; a++) {
           for (PetscInt b = 0; b < n_on_face; b++)
@@ -214,17 +223,15 @@ PetscErrorCode gmsh_create(Scene *scene, const char *body, Mesh *mesh)
   if (copy[0]) (void)remove(copy);
   if (failed)
     scene_fail(scene, body, "file",
-               "PETSc cannot read '%s' as a Gmsh mesh (write it as `gmsh -3 -format msh41`, with `-order 1` or, as text, "
+               "PETSc cannot read '%s' as a Gmsh mesh (write it as `gmsh -%d -format msh41`, with `-order 1` or, as text, "
                "`-order 2`).",
-               path);
+               path, (int)mesh->dimension);
   PetscCall(DMGetDimension(dm, &dimension));
-  if (dimension != 3)
-    scene_fail(scene, body, "file", "'%s' holds no volume cells; mesh it in 3D and give the volume a physical name.",
-               path);
+  if (dimension != mesh->dimension) gmsh_fail_dimension(scene, body, path, mesh->dimension);
   if (volume_name[0]) {
     PetscCall(DMGetLabel(dm, volume_name, &volume));
     PetscCall(list_names(dm, 0, names, sizeof(names)));
-    if (!volume) gmsh_fail_volume(scene, body, path, volume_name, names);
+    if (!volume) gmsh_fail_volume(scene, body, path, volume_name, names, mesh->dimension);
   }
   PetscCall(DMPlexGetDepthStratum(dm, 0, &vStart, &vEnd));
   PetscCall(PetscMalloc1(vEnd - vStart, &new_number));
@@ -233,7 +240,7 @@ PetscErrorCode gmsh_create(Scene *scene, const char *body, Mesh *mesh)
   PetscCall(append_cells(scene, body, dm, volume, new_number, mesh));
   if (mesh->n_vertices == first) scene_fail(scene, body, "volume", "'%s' has no cell in '%s'.", path, volume_name);
   PetscCall(list_names(dm, 1, names, sizeof(names)));
-  if (!strcmp(names, "none")) gmsh_fail_nameless(scene, body, path);
+  if (!strcmp(names, "none")) gmsh_fail_nameless(scene, body, path, mesh->dimension);
   PetscCall(DMGetNumLabels(dm, &n_labels));
   for (PetscInt l = 0; l < n_labels; l++) {
     const char *name;

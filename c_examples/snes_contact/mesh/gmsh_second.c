@@ -1,6 +1,6 @@
-/* A body from a Gmsh file of second order: tet10, hex20 or hex27 with their nodes as they are, on curved edges too. PETSc
- * reads no hex20, and keeps of other curved cells something else than their nodes: so such a file is read here. */
-#include "mesh/cell.h"
+/* A body from a Gmsh file of second order: tet10, hex20 or hex27, in the plane tri6, quad8 or quad9, with their nodes as they
+ * are, on curved edges too. PETSc reads no hex20, and keeps of other curved cells something else than their nodes: so such
+ * a file is read here. */
 #include "mesh/gmsh_text.h"
 #include "mesh/mesh.h"
 #include <stdlib.h>
@@ -11,51 +11,61 @@ static const PetscInt TET10_ORDER[10] = {0, 1, 2, 3, 4, 5, 6, 7, 9, 8};
 static const PetscInt HEX_ORDER[27]   = {0,  1,  2,  3,  4,  5,  6,  7,  8,  11, 13, 9,  16, 18,
                                          19, 17, 10, 12, 14, 15, 22, 23, 21, 24, 20, 25, 26};
 
-/* a face of a cell by its corners, in increasing order, -1 before those of a triangle */
+/* a face of a cell by its corners, in increasing order, -1 before those of one with less than four */
 typedef struct {
   PetscInt corners[4], cell, face;
 } Face;
 
-/* how many nodes our cell of this kind has; 0: there is none */
-static PetscInt cell_nodes(int type)
+/* our kind for Gmsh's; CELL_KINDS: there is none */
+static CellKind kind_of(int type)
 {
-  return type == GMSH_TET10 ? 10 : type == GMSH_HEX20 ? 20 : type == GMSH_HEX27 ? 27 : 0;
+  switch (type) {
+  case GMSH_LINE3: return LINE3;
+  case GMSH_TRI6: return TRI6;
+  case GMSH_QUAD8: return QUAD8;
+  case GMSH_QUAD9: return QUAD9;
+  case GMSH_TET10: return TET10;
+  case GMSH_HEX20: return HEX20;
+  case GMSH_HEX27: return HEX27;
+  default: return CELL_KINDS;
+  }
 }
 
-static PetscInt face_nodes(int type)
+static PetscBool is_kind(int type, PetscInt dimension)
 {
-  return type == GMSH_TRI6 ? 6 : type == GMSH_QUAD8 ? 8 : type == GMSH_QUAD9 ? 9 : 0;
+  return (PetscBool)(kind_of(type) != CELL_KINDS && cell_dimension(kind_of(type)) == dimension);
 }
 
-static PetscBool is_second_order(const GmshText *text)
+static PetscBool is_second_order(const GmshText *text, PetscInt dimension)
 {
   for (PetscInt e = 0; e < text->n_elements; e++) {
     const int type = text->elements[e].type;
-    if ((type >= GMSH_TET10 && type <= GMSH_PYRAMID14) || (type >= GMSH_HEX20 && type <= GMSH_PYRAMID13))
+    if ((type >= GMSH_TET10 && type <= GMSH_PYRAMID14) || (type >= GMSH_HEX20 && type <= GMSH_PYRAMID13) ||
+        (dimension == 2 && is_kind(type, 2)))
       return PETSC_TRUE;
   }
   return PETSC_FALSE;
 }
 
-static PetscBool is_in(const GmshText *text, const GmshElement *element, const GmshGroup *volume)
+static PetscBool is_in(const GmshText *text, const GmshElement *element, PetscInt dimension, const GmshGroup *volume)
 {
-  return (PetscBool)(element->dimension == 3 && (!volume || gmsh_text_in_group(text, element, volume)));
+  return (PetscBool)(element->dimension == dimension && (!volume || gmsh_text_in_group(text, element, volume)));
 }
 
-static void check_element(Scene *scene, const char *body, const GmshElement *element, const PetscInt counts[28])
+static void check_element(Scene *scene, const char *body, const GmshElement *element, const PetscInt counts[CELL_KINDS + 1])
 {
-  const int type = element->type;
+  const int      type = element->type;
+  const CellKind kind = kind_of(type);
   if (type == GMSH_PRISM15 || type == GMSH_PRISM18) gmsh_fail_kind(scene, body, "a prism (wedge)");
   if (type == GMSH_PYRAMID13 || type == GMSH_PYRAMID14) gmsh_fail_kind(scene, body, "a pyramid");
-  if (!cell_nodes(type))
+  if (kind == CELL_KINDS)
     scene_fail(scene, body, "file",
-               "it holds cells of second order and others (Gmsh's type %d); write all of them as `gmsh -3 -order 2`.",
-               type);
-  if (element->n_nodes != cell_nodes(type))
+               "it holds cells of second order and others (Gmsh's type %d); write all of them with `-order 2`.", type);
+  if (element->n_nodes != cell_nodes(kind))
     scene_fail(scene, body, "file", "a cell of Gmsh's type %d has %d nodes there, not %d.", type,
-               (int)element->n_nodes, (int)cell_nodes(type));
-  if (counts[20] && counts[27])
-    scene_fail(scene, body, "file", "it holds hexahedra with 20 nodes and with 27; one kind is expected.");
+               (int)element->n_nodes, (int)cell_nodes(kind));
+  if ((counts[HEX20] && counts[HEX27]) || (counts[QUAD8] && counts[QUAD9]))
+    scene_fail(scene, body, "file", "it holds cells with the centres of their faces as nodes and without; one kind is expected.");
 }
 
 /* Cells of one kind after the other, as mesh_append() takes them: vertices go with the first kind, and the numbers of
@@ -63,19 +73,20 @@ static void check_element(Scene *scene, const char *body, const GmshElement *ele
 static PetscErrorCode append_cells(Scene *scene, const char *body, const GmshText *text, const GmshGroup *volume,
                                    PetscInt number[], Mesh *mesh)
 {
-  static const PetscInt kinds[] = {10, 20, 27};
-  PetscInt              counts[28] = {0}, n_vertices = 0, *cells;
-  PetscReal            *coordinates;
+  const PetscInt d                       = mesh->dimension;
+  PetscInt       counts[CELL_KINDS + 1] = {0}, n_entries = 0, n_vertices = 0, *cells;
+  PetscReal     *coordinates;
   PetscFunctionBegin;
   for (PetscInt e = 0; e < text->n_elements; e++)
-    counts[cell_nodes(text->elements[e].type)] += is_in(text, &text->elements[e], volume);
-  PetscCall(PetscMalloc2(3 * text->n_nodes, &coordinates,
-                         10 * counts[10] + 20 * counts[20] + 27 * counts[27], &cells));
+    counts[kind_of(text->elements[e].type)] += is_in(text, &text->elements[e], d, volume);
+  for (int kind = 0; kind < CELL_KINDS; kind++)
+    n_entries += cell_nodes((CellKind)kind) * counts[kind];
+  PetscCall(PetscMalloc2(3 * text->n_nodes, &coordinates, n_entries, &cells));
   for (PetscInt n = 0; n < text->n_nodes; n++)
     number[n] = -1;
   for (PetscInt e = 0; e < text->n_elements; e++) {
     const GmshElement *element = &text->elements[e];
-    if (!is_in(text, element, volume)) continue;
+    if (!is_in(text, element, d, volume)) continue;
     check_element(scene, body, element, counts);
     for (PetscInt k = 0; k < element->n_nodes; k++) {
       const PetscInt node = text->node_list[element->nodes + k];
@@ -84,18 +95,18 @@ static PetscErrorCode append_cells(Scene *scene, const char *body, const GmshTex
       number[node] = n_vertices++;
     }
   }
-  for (int kind = 0, appended = 0; kind < 3; kind++) {
+  for (int kind = 0, appended = 0; kind < CELL_KINDS; kind++) {
     PetscInt *cell = cells;
-    for (PetscInt e = 0; e < text->n_elements && counts[kinds[kind]]; e++) {
+    for (PetscInt e = 0; e < text->n_elements && counts[kind]; e++) {
       const GmshElement *element = &text->elements[e];
-      if (!is_in(text, element, volume) || element->n_nodes != kinds[kind]) continue;
-      for (PetscInt k = 0; k < kinds[kind]; k++, cell++) {
-        const PetscInt from = kinds[kind] == 10 ? TET10_ORDER[k] : HEX_ORDER[k];
+      if (!is_in(text, element, d, volume) || kind_of(element->type) != (CellKind)kind) continue;
+      for (PetscInt k = 0; k < element->n_nodes; k++, cell++) {
+        const PetscInt from = d == 2 ? k : kind == TET10 ? TET10_ORDER[k] : HEX_ORDER[k];
         *cell = number[text->node_list[element->nodes + from]] - (appended ? n_vertices : 0);
       }
     }
     if (cell == cells) continue;
-    PetscCall(mesh_append(mesh, appended ? 0 : n_vertices, coordinates, counts[kinds[kind]], kinds[kind], cells));
+    PetscCall(mesh_append(mesh, appended ? 0 : n_vertices, coordinates, counts[kind], (CellKind)kind, cells));
     appended = 1;
   }
   PetscCall(PetscFree2(coordinates, cells));
@@ -114,7 +125,8 @@ static int by_corners(const void *a, const void *b)
 static PetscErrorCode key(PetscInt n, const PetscInt corners[], Face *face)
 {
   PetscFunctionBegin;
-  face->corners[3] = -1;
+  for (int k = 0; k < 4; k++)
+    face->corners[k] = -1;
   PetscCall(PetscArraycpy(face->corners, corners, n));
   PetscCall(PetscSortInt(4, face->corners));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -127,13 +139,13 @@ static PetscErrorCode list_faces(const Mesh *mesh, PetscInt first_cell, PetscInt
   *n = 0;
   PetscCall(PetscMalloc1(6 * (mesh->n_cells - first_cell), faces));
   for (PetscInt c = first_cell; c < mesh->n_cells; c++) {
-    const PetscInt nodes = mesh->cell_offsets[c + 1] - mesh->cell_offsets[c];
-    for (PetscInt f = 0; f < cell_faces(nodes); f++) {
+    const CellKind kind = mesh_cell_kind(mesh, c);
+    for (PetscInt f = 0; f < cell_faces(kind); f++) {
       PetscInt       vertices[FACE_NODES];
-      const PetscInt n_face = cell_face(nodes, f, mesh->cell_vertices + mesh->cell_offsets[c], vertices);
+      const PetscInt n_face = cell_face(kind, f, mesh->cell_vertices + mesh->cell_offsets[c], vertices);
       Face          *face   = *faces + (*n)++;
       *face                 = (Face){.cell = c, .face = f};
-      PetscCall(key(face_corners(n_face), vertices, face));
+      PetscCall(key(cell_corners(cell_kind(mesh->dimension - 1, n_face)), vertices, face));
     }
   }
   qsort(*faces, (size_t)*n, sizeof(Face), by_corners);
@@ -149,18 +161,19 @@ static PetscErrorCode append_surface(const char *body, const GmshText *text, con
   PetscFunctionBegin;
   for (PetscInt e = 0; e < text->n_elements; e++) {
     const GmshElement *element = &text->elements[e];
-    const PetscInt     n       = face_nodes(element->type);
+    const PetscBool    is_face = is_kind(element->type, mesh->dimension - 1);
+    const PetscInt     n       = is_face ? cell_corners(kind_of(element->type)) : 0;
     PetscInt           corners[4], vertices[FACE_NODES], missing = 0, n_face;
     const Face        *found;
     Face               wanted;
-    if (!n || element->n_nodes != n || !gmsh_text_in_group(text, element, group)) continue;
-    for (PetscInt k = 0; k < face_corners(n); k++) {
+    if (!is_face || element->n_nodes != cell_nodes(kind_of(element->type)) || !gmsh_text_in_group(text, element, group)) continue;
+    for (PetscInt k = 0; k < n; k++) {
       const PetscInt v = number[text->node_list[element->nodes + k]];
       corners[k]       = first + v;
       missing += v < 0;
     }
     if (missing) continue;
-    PetscCall(key(face_corners(n), corners, &wanted));
+    PetscCall(key(n, corners, &wanted));
     found = bsearch(&wanted, faces, (size_t)n_faces, sizeof(Face), by_corners);
     if (!found) continue;
     if (!surface) {
@@ -170,7 +183,7 @@ static PetscErrorCode append_surface(const char *body, const GmshText *text, con
     if ((found > faces && !by_corners(found - 1, found)) ||
         (found + 1 < faces + n_faces && !by_corners(found + 1, found)))
       surface->inner = PETSC_TRUE; /* a face of two cells */
-    n_face = cell_face(mesh->cell_offsets[found->cell + 1] - mesh->cell_offsets[found->cell], found->face,
+    n_face = cell_face(mesh_cell_kind(mesh, found->cell), found->face,
                        mesh->cell_vertices + mesh->cell_offsets[found->cell], vertices);
     surface_push(surface, n_face, vertices);
   }
@@ -201,21 +214,24 @@ PetscErrorCode gmsh_second_create(Scene *scene, const char *body, const char *pa
   PetscFunctionBegin;
   *done = PETSC_FALSE;
   if (!gmsh_text_read(path, &text)) PetscFunctionReturn(PETSC_SUCCESS); /* PETSc says what is wrong */
-  *done = is_second_order(&text);
+  *done = is_second_order(&text, mesh->dimension);
+  for (PetscInt e = 0; e < text.n_elements && *done && mesh->dimension == 2; e++) {
+    if (text.elements[e].dimension == 3) gmsh_fail_dimension(scene, body, path, 2);
+  }
   if (*done) {
     for (PetscInt g = 0; g < text.n_groups && volume_name[0]; g++) {
-      if (text.groups[g].dimension == 3 && !strcmp(text.groups[g].name, volume_name)) volume = &text.groups[g];
+      if (text.groups[g].dimension == mesh->dimension && !strcmp(text.groups[g].name, volume_name)) volume = &text.groups[g];
     }
-    list_names(&text, 3, names, sizeof(names));
-    if (volume_name[0] && !volume) gmsh_fail_volume(scene, body, path, volume_name, names);
+    list_names(&text, (int)mesh->dimension, names, sizeof(names));
+    if (volume_name[0] && !volume) gmsh_fail_volume(scene, body, path, volume_name, names, mesh->dimension);
     PetscCall(PetscMalloc1(text.n_nodes, &number));
     PetscCall(append_cells(scene, body, &text, volume, number, mesh));
     if (mesh->n_cells == first_cell) scene_fail(scene, body, "volume", "'%s' has no cell in '%s'.", path, volume_name);
-    list_names(&text, 2, names, sizeof(names));
-    if (!strcmp(names, "none")) gmsh_fail_nameless(scene, body, path);
+    list_names(&text, (int)mesh->dimension - 1, names, sizeof(names));
+    if (!strcmp(names, "none")) gmsh_fail_nameless(scene, body, path, mesh->dimension);
     PetscCall(list_faces(mesh, first_cell, &n_faces, &faces));
     for (PetscInt g = 0; g < text.n_groups; g++) {
-      if (text.groups[g].dimension == 2)
+      if (text.groups[g].dimension == mesh->dimension - 1)
         PetscCall(append_surface(body, &text, &text.groups[g], number, first, n_faces, faces, mesh));
     }
     PetscCall(PetscFree(faces));

@@ -1,4 +1,4 @@
-/* Signs of physical surfaces in a Gmsh file. `Physical Surface("contact") = {-3};` gives surface 3 the tag -1 where the name
+/* Signs of physical surfaces and curves in a Gmsh file. `Physical Surface("contact") = {-3};` gives surface 3 the tag -1 where the name
  * has 1, and PETSc finds no name for it. The sign turns the surface round, which says nothing here: faces look out of
  * their body. So it is taken away, in a copy. Format 4.1, as text or binary; older ones write no signs. */
 #include "mesh/mesh.h"
@@ -44,9 +44,9 @@ static PetscBool text_signs(Place place)
   PetscBool changed = PETSC_FALSE;
   for (int k = 0; k < 4; k++)
     counts[k] = strtol(word(&place), NULL, 10);
-  for (long k = 0; k <= counts[0] + counts[1] && place.at < place.end; k++)
-    skip_line(&place); /* of the counts, of points and curves */
-  for (long k = 0; k < counts[2] && place.at < place.end; k++) {
+  for (long k = 0; k <= counts[0] && place.at < place.end; k++)
+    skip_line(&place); /* of the counts, of points */
+  for (long k = 0; k < counts[1] + counts[2] && place.at < place.end; k++) {
     long n;
     for (int i = 0; i < 7; i++) /* its number, a box around it */
       (void)word(&place);
@@ -91,7 +91,7 @@ static PetscBool binary_signs(Place place)
     for (uint64_t k = 0; k < counts[dimension]; k++) {
       /* its number, a point or a box, physical tags, what bounds it */
       if (!skip(&place, 4 + 8 * (dimension ? 6 : 3)) ||
-          !binary_list(&place, (PetscBool)(dimension == 2), &changed) ||
+          !binary_list(&place, (PetscBool)(dimension > 0), &changed) ||
           (dimension && !binary_list(&place, PETSC_FALSE, &changed)))
         return PETSC_FALSE;
     }

@@ -5,6 +5,7 @@
 
 /* Gmsh's numbers of its kinds of elements */
 enum {
+  GMSH_LINE3     = 8,
   GMSH_TRI6      = 9,
   GMSH_QUAD9     = 10,
   GMSH_TET10     = 11,

@@ -40,7 +40,7 @@ PetscInt mesh_nearest_vertex(Scene *scene, const Mesh *mesh, const char *map)
   const Body *body;
   scene_string_required(scene, map, "body", name, sizeof(name));
   body = &mesh->bodies[mesh_body(scene, mesh, map, "body", name)];
-  if (!scene_vector(scene, map, "point", 3, point)) scene_fail(scene, map, "point", "this key is missing.");
+  if (!space_vector(scene, &mesh->space, map, "point", point)) scene_fail(scene, map, "point", "this key is missing.");
   for (PetscInt v = body->first_vertex; v < body->end_vertex; v++) {
     const PetscReal *x       = mesh->coordinates + 3 * v;
     PetscReal        squared = 0;

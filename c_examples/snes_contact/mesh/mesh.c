@@ -1,10 +1,41 @@
 /* The mesh's arrays: what the readers of one body add to, and its rotation as a whole. */
-#include "mesh/cell.h"
 #include "mesh/mesh.h"
 
-PetscErrorCode mesh_append(Mesh *mesh, PetscInt n_vertices, const PetscReal *coordinates, PetscInt n_cells,
-                           PetscInt nodes, const PetscInt *cells)
+CellKind mesh_cell_kind(const Mesh *mesh, PetscInt cell)
 {
+  return cell_kind(mesh->dimension, mesh->cell_offsets[cell + 1] - mesh->cell_offsets[cell]);
+}
+
+CellKind mesh_face_kind(const Mesh *mesh, const Surface *surface, PetscInt face)
+{
+  return cell_kind(mesh->dimension - 1, surface->offsets[face + 1] - surface->offsets[face]);
+}
+
+/* A plane cell that turns clockwise, as meshes drawn from behind have them, the other way: its corners from the last to the
+ * second; a node in the middle of corners follows these. */
+static void turn_plane_cell(const Mesh *mesh, CellKind kind, PetscInt vertices[])
+{
+  const PetscInt nodes = cell_nodes(kind), corners = cell_corners(kind);
+  PetscInt       given[CELL_NODES];
+  PetscReal      area = 0;
+  if (cell_dimension(kind) != 2) return;
+  for (PetscInt a = 0; a < corners; a++) {
+    const PetscReal *x = mesh->coordinates + 3 * vertices[a], *y = mesh->coordinates + 3 * vertices[(a + 1) % corners];
+    area += (x[0] * y[1] - x[1] * y[0]) / 2;
+  }
+  if (area >= 0) return;
+  for (PetscInt a = 0; a < nodes; a++)
+    given[a] = vertices[a];
+  for (PetscInt a = 1; a < nodes; a++) { /* edges from the last to the first; a node in the centre stays */
+    if (a < corners) vertices[a] = given[corners - a];
+    if (a >= corners && a < 2 * corners) vertices[a] = given[3 * corners - 1 - a];
+  }
+}
+
+PetscErrorCode mesh_append(Mesh *mesh, PetscInt n_vertices, const PetscReal *coordinates, PetscInt n_cells,
+                           CellKind kind, const PetscInt *cells)
+{
+  const PetscInt nodes = cell_nodes(kind);
   const PetscInt used = mesh->n_cells ? mesh->cell_offsets[mesh->n_cells] : 0;
   PetscFunctionBegin;
   PetscCall(PetscRealloc(sizeof(PetscReal) * (size_t)(3 * (mesh->n_vertices + n_vertices)), &mesh->coordinates));
@@ -17,6 +48,7 @@ PetscErrorCode mesh_append(Mesh *mesh, PetscInt n_vertices, const PetscReal *coo
   for (PetscInt c = 0; c < n_cells; c++) {
     mesh->cell_offsets[mesh->n_cells + c] = used + c * nodes;
     mesh->cell_body[mesh->n_cells + c]    = mesh->n_bodies; /* the body being read */
+    turn_plane_cell(mesh, kind, mesh->cell_vertices + used + c * nodes);
   }
   mesh->n_cells += n_cells;
   mesh->n_vertices += n_vertices;

@@ -4,7 +4,8 @@
 #ifndef SNES_CONTACT_MESH_H
 #define SNES_CONTACT_MESH_H
 #include "scene/petsc_compat.h"
-#include "scene/scene.h"
+#include "mesh/cell.h"
+#include "scene/space.h"
 #include <petscdmplex.h>
 #include <petscsf.h>
 
@@ -12,12 +13,12 @@ typedef struct {
   char      name[2 * NAME_LENGTH]; /* "block.zmin", or a name of `surfaces` */
   PetscInt  n_faces;
   PetscInt *offsets;  /* n_faces + 1 */
-  PetscInt *vertices; /* 3, 4, 6, 8 or 9 per face, in the order of cell_face() */
+  PetscInt *vertices; /* of its faces, in the order of cell_face() */
   PetscBool inner;    /* lies inside a body: good for supports only */
   PetscBool analytic; /* a plane, sphere or cylinder without faces: good for a mortar side only */
   PetscInt  shape;    /* STICKSLIP_SHAPE_... */
   PetscReal radius;
-  PetscInt  frame; /* the first of its four vertices */
+  PetscInt  frame; /* the first of its vertices, four in space and three in the plane */
 } Surface;
 
 typedef struct {
@@ -28,12 +29,14 @@ typedef struct {
 
 typedef struct {
   PetscMPIInt rank;
+  Space       space;
+  PetscInt    dimension; /* of cells; faces have one less */
   PetscInt   n_bodies;
   Body      *bodies; /* known to every rank; everything below, but for the DMPlex, on rank 0 only */
   PetscInt   n_vertices, n_cells, n_surfaces;
-  PetscReal *coordinates;   /* 3 per vertex */
+  PetscReal *coordinates;   /* 3 per vertex; in the plane the third is 0 */
   PetscInt  *cell_offsets;  /* n_cells + 1 */
-  PetscInt  *cell_vertices; /* 4, 8, 10, 20 or 27 per cell, in VTK's order */
+  PetscInt  *cell_vertices; /* in VTK's order */
   PetscInt  *cell_body;
   Surface   *surfaces;
   PetscReal  rotation[9]; /* of the whole scene, row-major; identity unless `frame` says otherwise */
@@ -60,6 +63,8 @@ PetscErrorCode mesh_create(Scene *scene, Mesh *mesh); /* bodies and surfaces, in
 PetscErrorCode mesh_rotate(Mesh *mesh);               /* then into the rotated frame, when all selections are done */
 PetscErrorCode mesh_destroy(Mesh *mesh);
 void           mesh_rotate_vector(const Mesh *mesh, PetscReal v[3]);
+CellKind       mesh_cell_kind(const Mesh *mesh, PetscInt cell);
+CellKind       mesh_face_kind(const Mesh *mesh, const Surface *surface, PetscInt face);
 
 const Surface *mesh_surface(Scene *scene, const Mesh *mesh, const char *map, const char *key, const char *name);
 PetscInt       mesh_body(Scene *scene, const Mesh *mesh, const char *map, const char *key, const char *name);
@@ -81,9 +86,9 @@ PetscErrorCode plex_face_nodes(const Mesh *mesh, PetscInt face, PetscInt *n, Pet
 void     trees_join(PetscInt parent[], PetscInt a, PetscInt b);
 PetscInt trees_number(PetscInt n, PetscInt parent[]); /* from trees to numbers from 0; returns how many there are */
 
-/* for the readers of one body: box.c, gmsh.c, analytic.c */
+/* for the readers of one body: box.c, gmsh.c, analytic.c. Plane cells may turn either way. */
 PetscErrorCode mesh_append(Mesh *mesh, PetscInt n_vertices, const PetscReal *coordinates, PetscInt n_cells,
-                           PetscInt nodes, const PetscInt *cells);
+                           CellKind kind, const PetscInt *cells);
 PetscErrorCode mesh_add_surface(Mesh *mesh, const char *name, PetscInt max_faces, Surface **surface);
 void           surface_push(Surface *surface, PetscInt n, const PetscInt vertices[]);
 PetscErrorCode box_create(Scene *scene, const char *body, Mesh *mesh);
@@ -97,7 +102,8 @@ typedef struct {
   PetscBool closed; /* a full circle: the last layer of vertices along y is the first */
 } BoxShape;
 
-void box_shape_read(Scene *scene, const char *body, const PetscInt n[3], PetscReal *const planes[3], BoxShape *shape);
+void box_shape_read(Scene *scene, const Space *space, const char *body, const PetscInt n[3], PetscReal *const planes[3],
+                    BoxShape *shape);
 void box_shape_bend(const BoxShape *shape, PetscReal x[3]);
 
 PetscErrorCode gmsh_create(Scene *scene, const char *body, Mesh *mesh);
@@ -105,8 +111,10 @@ PetscErrorCode gmsh_create(Scene *scene, const char *body, Mesh *mesh);
 PetscErrorCode gmsh_without_signs(const char *path, char copy[], size_t length);
 /* gmsh_faults.c: they end the run */
 void           gmsh_fail_kind(Scene *scene, const char *body, const char *kind);
-void           gmsh_fail_volume(Scene *scene, const char *body, const char *path, const char *volume, const char *names);
-void           gmsh_fail_nameless(Scene *scene, const char *body, const char *path);
+void           gmsh_fail_dimension(Scene *scene, const char *body, const char *path, PetscInt dimension);
+void           gmsh_fail_volume(Scene *scene, const char *body, const char *path, const char *volume, const char *names,
+                                PetscInt dimension);
+void           gmsh_fail_nameless(Scene *scene, const char *body, const char *path, PetscInt dimension);
 /* `done`: the file is of second order */
 PetscErrorCode gmsh_second_create(Scene *scene, const char *body, const char *path, const char *volume, Mesh *mesh,
                                   PetscBool *done);

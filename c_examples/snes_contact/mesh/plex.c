@@ -1,7 +1,6 @@
 /* The mesh as one distributed DMPlex: rank 0 builds it with all its labels, PETSc partitions and sends it. Cells are
  * described by their corners; PETSc adds edges and faces, of which those with a node in their middle are vertices of the
  * mesh, too, with coordinates. */
-#include "mesh/cell.h"
 #include "mesh/mesh.h"
 
 /* rank 0: in the order of the mesh those that are corners; `number` -1: a node in the middle of an edge, a face or a cell */
@@ -11,7 +10,7 @@ static PetscInt number_corners(const Mesh *mesh, PetscInt number[])
   for (PetscInt v = 0; v < mesh->n_vertices; v++)
     number[v] = 0;
   for (PetscInt c = 0; c < mesh->n_cells; c++) {
-    const PetscInt first = mesh->cell_offsets[c], corners = cell_corners(mesh->cell_offsets[c + 1] - first);
+    const PetscInt first = mesh->cell_offsets[c], corners = cell_corners(mesh_cell_kind(mesh, c));
     for (PetscInt k = first + corners; k < mesh->cell_offsets[c + 1]; k++)
       number[mesh->cell_vertices[k]] = -1;
   }
@@ -20,22 +19,29 @@ static PetscInt number_corners(const Mesh *mesh, PetscInt number[])
   return n;
 }
 
+static DMPolytopeType polytope(CellKind kind)
+{
+  if (cell_dimension(kind) == 2) return cell_is_simplex(kind) ? DM_POLYTOPE_TRIANGLE : DM_POLYTOPE_QUADRILATERAL;
+  return cell_is_simplex(kind) ? DM_POLYTOPE_TETRAHEDRON : DM_POLYTOPE_HEXAHEDRON;
+}
+
 /* cells, by their corners, and these corners */
 static PetscErrorCode create_linear(const Mesh *mesh, const PetscInt number[], PetscInt n_corners, DM *dm)
 {
   PetscReal *coordinates;
   PetscFunctionBegin;
   PetscCall(DMPlexCreate(PETSC_COMM_WORLD, dm));
-  PetscCall(DMSetDimension(*dm, 3));
+  PetscCall(DMSetDimension(*dm, mesh->dimension));
   PetscCall(DMPlexSetChart(*dm, 0, mesh->n_cells + n_corners));
   for (PetscInt c = 0; c < mesh->n_cells; c++)
-    PetscCall(DMPlexSetConeSize(*dm, c, cell_corners(mesh->cell_offsets[c + 1] - mesh->cell_offsets[c])));
+    PetscCall(DMPlexSetConeSize(*dm, c, cell_corners(mesh_cell_kind(mesh, c))));
   PetscCall(DMSetUp(*dm));
   PetscCall(DMCreateLabel(*dm, "celltype"));
   for (PetscInt c = 0; c < mesh->n_cells; c++) {
-    const PetscInt       n    = cell_corners(mesh->cell_offsets[c + 1] - mesh->cell_offsets[c]);
-    const DMPolytopeType type = n == 8 ? DM_POLYTOPE_HEXAHEDRON : DM_POLYTOPE_TETRAHEDRON;
-    PetscInt             cone[8];
+    const CellKind       kind = mesh_cell_kind(mesh, c);
+    const PetscInt       n    = cell_corners(kind);
+    const DMPolytopeType type = polytope(kind);
+    PetscInt             cone[CELL_CORNERS];
     for (PetscInt a = 0; a < n; a++)
       cone[a] = mesh->n_cells + number[mesh->cell_vertices[mesh->cell_offsets[c] + a]];
     PetscCall(DMPlexInvertCell(type, cone)); /* from VTK's order */
@@ -68,10 +74,10 @@ static PetscErrorCode find_points(Mesh *mesh, const PetscInt number[])
     mesh->points[v] = number[v] < 0 ? -1 : vStart + number[v];
   for (PetscInt c = 0; c < mesh->n_cells; c++) {
     const PetscInt *cell = mesh->cell_vertices + mesh->cell_offsets[c];
-    const PetscInt  n    = mesh->cell_offsets[c + 1] - mesh->cell_offsets[c];
-    for (PetscInt a = cell_corners(n); a < n; a++) {
-      PetscInt       its[8];
-      const PetscInt count = cell_node_corners(n, a, its);
+    const CellKind  kind = mesh_cell_kind(mesh, c);
+    for (PetscInt a = cell_corners(kind); a < cell_nodes(kind); a++) {
+      PetscInt       its[CELL_CORNERS];
+      const PetscInt count = cell_node_corners(kind, a, its);
       if (mesh->points[cell[a]] >= 0) continue;
       for (PetscInt k = 0; k < count; k++)
         its[k] = mesh->points[cell[its[k]]];
@@ -162,7 +168,7 @@ PetscErrorCode plex_label_faces(const Mesh *mesh, const char *name, const Surfac
   PetscCall(DMCreateLabel(mesh->dm, name));
   PetscCall(DMGetLabel(mesh->dm, name, &label));
   for (PetscInt f = 0; surface && f < surface->n_faces; f++) {
-    const PetscInt first = surface->offsets[f], n = face_corners(surface->offsets[f + 1] - first);
+    const PetscInt first = surface->offsets[f], n = cell_corners(mesh_face_kind(mesh, surface, f));
     PetscInt       corners[4], face;
     for (PetscInt k = 0; k < n; k++)
       corners[k] = mesh->points[surface->vertices[first + k]];

@@ -1,5 +1,4 @@
 /* Points of the DMPlex that the nodes of a cell or of a face are. */
-#include "mesh/cell.h"
 #include "mesh/mesh.h"
 
 /* The point in the middle of n vertices: itself, or the edge, face or cell that they span. */
@@ -38,13 +37,15 @@ static PetscErrorCode closure_nodes(const Mesh *mesh, PetscInt point, PetscInt *
 PetscErrorCode plex_cell_nodes(const Mesh *mesh, PetscInt cell, PetscInt *n, PetscInt points[])
 {
   DMPolytopeType type;
+  CellKind       kind;
   PetscFunctionBegin;
   PetscCall(closure_nodes(mesh, cell, n, points));
   PetscCall(DMPlexGetCellType(mesh->dm, cell, &type));
   PetscCall(DMPlexInvertCell(type, points)); /* to VTK's order */
-  for (PetscInt a = cell_corners(*n); a < *n; a++) {
-    PetscInt       its[8];
-    const PetscInt count = cell_node_corners(*n, a, its);
+  kind = cell_kind(mesh->dimension, *n);
+  for (PetscInt a = cell_corners(kind); a < *n; a++) {
+    PetscInt       its[CELL_CORNERS];
+    const PetscInt count = cell_node_corners(kind, a, its);
     for (PetscInt k = 0; k < count; k++)
       its[k] = points[its[k]];
     PetscCall(plex_amid(mesh->dm, count, its, &points[a]));
@@ -54,11 +55,13 @@ PetscErrorCode plex_cell_nodes(const Mesh *mesh, PetscInt cell, PetscInt *n, Pet
 
 PetscErrorCode plex_face_nodes(const Mesh *mesh, PetscInt face, PetscInt *n, PetscInt points[])
 {
+  CellKind kind;
   PetscFunctionBegin;
   PetscCall(closure_nodes(mesh, face, n, points));
-  for (PetscInt a = face_corners(*n); a < *n; a++) {
-    PetscInt       its[4];
-    const PetscInt count = face_node_corners(*n, a, its);
+  kind = cell_kind(mesh->dimension - 1, *n);
+  for (PetscInt a = cell_corners(kind); a < *n; a++) {
+    PetscInt       its[CELL_CORNERS];
+    const PetscInt count = cell_node_corners(kind, a, its);
     for (PetscInt k = 0; k < count; k++)
       its[k] = points[its[k]];
     PetscCall(plex_amid(mesh->dm, count, its, &points[a]));

@@ -19,7 +19,7 @@ static PetscErrorCode interface_counters(const Interface *interface, cJSON *pare
   json = cJSON_AddObjectToObject(parent, interface->name);
   cJSON_AddStringToObject(json, "effects", effects);
   /* after the counters, which it adds to; a run that ended beyond what can be computed has none */
-  if (!stickslip_interface_report(interface->handle, interface->x, interface->x + 3 * interface->n1, &report))
+  if (!stickslip_interface_report(interface->handle, interface->x, MORTAR_OF(interface, interface->x), &report))
     cJSON_AddStringToObject(json, "cover", cover);
 #define ADD(member) cJSON_AddNumberToObject(json, #member, (double)counters.member)
   ADD(multipliers);

@@ -21,9 +21,11 @@ static void add_pair(cJSON *json, const char *name, double value, const int64_t 
 static cJSON *suspect_json(const Interface *interface, int64_t node, const double *direction, double ratio,
                            const char *cause)
 {
-  cJSON *json = cJSON_CreateObject();
+  cJSON    *json = cJSON_CreateObject();
+  PetscReal X[3];
+  contact_vector(interface, interface->X, (PetscInt)node, X);
   cJSON_AddNumberToObject(json, "node", interface->nodes[node]);
-  cJSON_AddItemToObject(json, "position", cJSON_CreateDoubleArray(interface->X + 3 * node, 3));
+  cJSON_AddItemToObject(json, "position", cJSON_CreateDoubleArray(X, 3));
   cJSON_AddItemToObject(json, "direction", cJSON_CreateDoubleArray(direction, 3));
   cJSON_AddNumberToObject(json, "ratio", ratio);
   cJSON_AddStringToObject(json, "cause", cause);
@@ -88,12 +90,15 @@ static PetscErrorCode diagnose(const Interface *interface, cJSON *parent)
                          interface->name, (int)d.nodes_gap, (int)d.nodes_stick, (int)d.nodes_slip, d.overlap, d.warp,
                          d.angle, d.error));
   for (int64_t k = 0; k < PetscMin(d.suspects, SUSPECTS_KEPT); k++) {
-    const double *p = interface->X + 3 * nodes[k], *e = directions + 3 * k;
+    PetscReal p[3], e[3];
+    contact_vector(interface, interface->X, (PetscInt)nodes[k], p);
+    contact_vector(interface, directions, (PetscInt)k, e);
     cJSON_AddItemToArray(suspects, suspect_json(interface, nodes[k], e, ratios[k], CAUSES[causes[k]]));
     if (k < SUSPECTS_TOLD)
       PetscCall(PetscFPrintf(PETSC_COMM_SELF, PETSC_STDERR,
                              "%s: the matrix may be singular at node %d at (%g, %g, %g) along (%.3f, %.3f, %.3f): %s\n",
-                             interface->name, (int)interface->nodes[nodes[k]], p[0], p[1], p[2], e[0], e[1], e[2],
+                             interface->name, (int)interface->nodes[nodes[k]], (double)p[0], (double)p[1], (double)p[2], (double)e[0],
+                             (double)e[1], (double)e[2],
                              CAUSES[causes[k]]));
   }
   if (d.suspects > SUSPECTS_TOLD)

@@ -6,10 +6,9 @@ static const char *const STATE_NAMES[] = {"gap", "stick", "slip"}; /* by STICKSL
 
 PetscErrorCode csv_write(Output *output, const Interface *interface, const ContactStates *states, PetscInt step)
 {
-  const PetscScalar *u = interface->gathered;
-  char               path[PETSC_MAX_PATH_LEN];
-  double            *tractions;
-  FILE              *file;
+  char    path[PETSC_MAX_PATH_LEN];
+  double *tractions;
+  FILE   *file;
 
   PetscFunctionBegin;
   PetscCall(PetscMalloc1(3 * interface->n1, &tractions));
@@ -23,15 +22,18 @@ PetscErrorCode csv_write(Output *output, const Interface *interface, const Conta
   for (PetscInt a = 0; a < interface->n1; a++) {
     const double *n = states->normal + 3 * a, *lambda = states->multiplier + 3 * a, *slip = states->slip + 3 * a;
     const double *traction = tractions + 3 * a;
-    double        lambda_n = 0, pressure = 0, values[23], *v = values;
+    double        lambda_n = 0, pressure = 0, values[23], X[3], u[3], force[3], *v = values;
+    contact_vector(interface, interface->X, a, X);
+    contact_vector(interface, interface->gathered, a, u);
+    contact_vector(interface, interface->forces, a, force);
     for (int i = 0; i < 3; i++) {
       lambda_n += lambda[i] * n[i];
       pressure += traction[i] * n[i];
     }
     for (int i = 0; i < 3; i++)
-      *v++ = interface->X[3 * a + i];
+      *v++ = X[i];
     for (int i = 0; i < 3; i++)
-      *v++ = PetscRealPart(u[3 * a + i]);
+      *v++ = u[i];
     for (int i = 0; i < 3; i++)
       *v++ = n[i];
     *v++ = lambda_n;
@@ -43,7 +45,7 @@ PetscErrorCode csv_write(Output *output, const Interface *interface, const Conta
     *v++ = states->coverage[a];
     *v++ = states->area[a];
     for (int i = 0; i < 3; i++)
-      *v++ = -PetscRealPart(interface->forces[3 * a + i]);
+      *v++ = -force[i];
     *v++ = pressure;
     fprintf(file, "%d", (int)interface->nodes[a]);
     for (const double *w = values; w < v; w++)
@@ -84,14 +86,14 @@ static void cell_stresses(FILE *file, const Mesh *mesh, const Material *material
   for (int pass = 0; pass < 2; pass++) {
     start_array(file, "Float64", pass ? "von_mises" : "stress_xx_yy_zz_xy_yz_xz", pass ? 1 : 6);
     for (PetscInt c = 0; c < mesh->n_cells; c++) {
-      const PetscInt *cell = mesh->cell_vertices + mesh->cell_offsets[c],
-                     n     = mesh->cell_offsets[c + 1] - mesh->cell_offsets[c];
+      const PetscInt *cell = mesh->cell_vertices + mesh->cell_offsets[c];
+      const CellKind  kind = mesh_cell_kind(mesh, c);
       PetscReal X[3 * CELL_NODES], u[3 * CELL_NODES], s[9]; /* s: Cauchy's stress */
-      for (PetscInt k = 0; k < 3 * n; k++) {
+      for (PetscInt k = 0; k < 3 * cell_nodes(kind); k++) {
         X[k] = mesh->coordinates[3 * cell[k / 3] + k % 3];
         u[k] = PetscRealPart(displacements[3 * cell[k / 3] + k % 3]);
       }
-      cell_centre_stress(n, &materials[mesh->cell_body[c]], X, u, s);
+      cell_centre_stress(kind, &mesh->space, &materials[mesh->cell_body[c]], X, u, s);
       if (pass)
         fprintf(file, "%.6g\n",
                 (double)PetscSqrtReal(0.5 * (PetscSqr(s[0] - s[4]) + PetscSqr(s[4] - s[8]) + PetscSqr(s[8] - s[0])) +
@@ -104,16 +106,16 @@ static void cell_stresses(FILE *file, const Mesh *mesh, const Material *material
   }
 }
 
-/* VTK's number of the kind of cell with so many nodes */
-static int vtk_type(PetscInt nodes)
+/* VTK's number of a kind of cell */
+static int vtk_type(CellKind kind)
 {
-  switch (nodes) {
-  case 4: return 10;  /* VTK_TETRA */
-  case 8: return 12;  /* VTK_HEXAHEDRON */
-  case 10: return 24; /* VTK_QUADRATIC_TETRA */
-  case 20: return 25; /* VTK_QUADRATIC_HEXAHEDRON */
-  default: return 29; /* VTK_TRIQUADRATIC_HEXAHEDRON */
-  }
+  static const int types[CELL_KINDS] = {
+      [TRI3] = 5,  [TRI6] = 22,  /* VTK_TRIANGLE, VTK_QUADRATIC_TRIANGLE */
+      [QUAD4] = 9, [QUAD8] = 23, [QUAD9] = 28, /* VTK_QUAD, VTK_QUADRATIC_QUAD, VTK_BIQUADRATIC_QUAD */
+      [TET4] = 10, [TET10] = 24, /* VTK_TETRA, VTK_QUADRATIC_TETRA */
+      [HEX8] = 12, [HEX20] = 25, [HEX27] = 29, /* VTK_HEXAHEDRON, VTK_QUADRATIC_, VTK_TRIQUADRATIC_HEXAHEDRON */
+  };
+  return types[kind];
 }
 
 /* Of one interface: multiplier, force of the contact on the node (both sides), that force over the node's area
@@ -136,8 +138,12 @@ static PetscErrorCode interface_fields(FILE *file, const Mesh *mesh, const Inter
   vectors(file, name, mesh->n_vertices, field);
 
   PetscCall(PetscArrayzero(field, 3 * mesh->n_vertices));
-  for (PetscInt k = 0; k < 3 * n_both; k++)
-    field[3 * interface->nodes[k / 3] + k % 3] = -interface->forces[k];
+  for (PetscInt a = 0; a < n_both; a++) {
+    PetscReal force[3];
+    contact_vector(interface, interface->forces, a, force);
+    for (int i = 0; i < 3; i++)
+      field[3 * interface->nodes[a] + i] = -force[i];
+  }
   PetscCall(PetscSNPrintf(name, sizeof(name), "force_%s", interface->name));
   vectors(file, name, mesh->n_vertices, field);
 
@@ -197,7 +203,7 @@ PetscErrorCode vtu_write(Output *output, const PetscScalar *displacements, Petsc
   end_array(file);
   start_array(file, "UInt8", "types", 1);
   for (PetscInt c = 0; c < mesh->n_cells; c++)
-    fprintf(file, "%d\n", vtk_type(mesh->cell_offsets[c + 1] - mesh->cell_offsets[c]));
+    fprintf(file, "%d\n", vtk_type(mesh_cell_kind(mesh, c)));
   end_array(file);
   fprintf(file, "</Cells>\n<PointData Vectors=\"displacement\">\n");
   vectors(file, "displacement", mesh->n_vertices, displacements);

@@ -69,7 +69,7 @@ static PetscErrorCode interface_results(Output *output, Interface *interface, Pe
                                         cJSON *parent, double *work, char progress[], size_t length)
 {
   PetscInt      counts[3] = {0, 0, 0};
-  PetscReal     force[3]  = {0, 0, 0};
+  PetscReal     force[3]  = {0, 0, 0}, nodal[3];
   ContactStates states;
   cJSON        *json = cJSON_AddObjectToObject(parent, interface->name);
 
@@ -77,8 +77,9 @@ static PetscErrorCode interface_results(Output *output, Interface *interface, Pe
   PetscCall(contact_states_create(interface, &states));
   for (PetscInt a = 0; a < interface->n1; a++) {
     if (!interface->middle[a]) counts[states.state[a]]++;
+    contact_vector(interface, interface->forces, a, nodal);
     for (int i = 0; i < 3; i++)
-      force[i] -= PetscRealPart(interface->forces[3 * a + i]); /* f1 is an internal force */
+      force[i] -= nodal[i]; /* f1 is an internal force */
     interface->friction_work += states.dissipation[a];
   }
   *work += interface->friction_work;

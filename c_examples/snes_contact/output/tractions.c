@@ -4,7 +4,6 @@
  * On quadratic faces a uniform traction has nodal forces of either sign. There the force of a node in the middle of
  * corners goes to these in equal parts, which makes of a corner's force the integral of the traction with the corner's
  * linear function; the middle has the mean of its corners' tractions. */
-#include "mesh/cell.h"
 #include "output/output.h"
 
 /* Of each node of the non-mortar side: how many corners it is in the middle of, 1: it is one, and their numbers. */
@@ -17,11 +16,12 @@ static PetscErrorCode find_corners(const Mesh *mesh, const Interface *interface,
   for (PetscInt a = 0; a < interface->n1; a++)
     number[interface->nodes[a]] = a;
   for (PetscInt f = 0; f < surface->n_faces; f++) {
-    const PetscInt *face = surface->vertices + surface->offsets[f], nodes = surface->offsets[f + 1] - surface->offsets[f];
-    for (PetscInt k = 0; k < nodes; k++) {
-      PetscInt       its[4];
+    const PetscInt *face = surface->vertices + surface->offsets[f];
+    const CellKind  kind = mesh_face_kind(mesh, surface, f);
+    for (PetscInt k = 0; k < cell_nodes(kind); k++) {
+      PetscInt       its[CELL_CORNERS];
       const PetscInt a = number[face[k]];
-      n[a] = face_node_corners(nodes, k, its);
+      n[a] = cell_node_corners(kind, k, its);
       for (PetscInt c = 0; c < n[a]; c++)
         corners[a][c] = number[face[its[c]]];
     }
@@ -43,8 +43,9 @@ PetscErrorCode nodal_tractions(const Mesh *mesh, const Interface *interface, con
   PetscCall(find_corners(mesh, interface, n, corners));
   for (PetscInt a = 0; a < interface->n1; a++) {
     area[a] = states->coverage[a] > 0 ? states->coverage[a] : states->area[a];
+    contact_vector(interface, interface->forces, a, tractions + 3 * a);
     for (int i = 0; i < 3; i++)
-      tractions[3 * a + i] = -PetscRealPart(interface->forces[3 * a + i]);
+      tractions[3 * a + i] = -tractions[3 * a + i];
   }
   for (PetscInt a = 0; a < interface->n1; a++) {
     for (PetscInt c = 0; c < n[a] && n[a] > 1; c++) {

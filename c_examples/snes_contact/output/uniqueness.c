@@ -19,10 +19,10 @@ static PetscErrorCode critical_friction(const Interface *interface, PetscInt a, 
 
   PetscFunctionBegin;
   *critical = PETSC_MAX_REAL;
-  for (int i = 0; i < 3; i++) {
-    PetscInt at = -1;
-    if (interface->equations[3 * a + i] >= 0)
-      PetscCall(PetscFindInt((PetscInt)interface->equations[3 * a + i], n_rows, sorted, &at));
+  for (int i = 0; i < interface->dimension; i++) {
+    const int64_t equation = interface->equations[interface->dimension * a + i];
+    PetscInt      at       = -1;
+    if (equation >= 0) PetscCall(PetscFindInt((PetscInt)equation, n_rows, sorted, &at));
     if (at < 0) continue;
     along[n]  = i;
     u[n]      = normal[i];
@@ -64,16 +64,17 @@ static PetscErrorCode judge(const Interface *interface, Mat stiffness, PetscInt 
     if (critical < least) least = critical, worst = a;
   }
   if (worst >= 0 && interface->options.mu >= least) {
-    const double *X = interface->X + 3 * worst;
-    cJSON        *json = cJSON_AddObjectToObject(parent, interface->name);
+    PetscReal X[3];
+    cJSON    *json = cJSON_AddObjectToObject(parent, interface->name);
+    contact_vector(interface, interface->X, worst, X);
     cJSON_AddNumberToObject(json, "critical_friction", least);
     cJSON_AddNumberToObject(json, "node", interface->nodes[worst]);
     cJSON_AddStringToObject(json, "state", names[states.state[worst]]);
     PetscCall(PetscFPrintf(PETSC_COMM_SELF, PETSC_STDERR,
                            "%s: with friction %g, not below %.3g, node %d at (%g, %g, %g) may have several states of "
                            "rest under one load; it ended in %s\n",
-                           interface->name, interface->options.mu, least, (int)interface->nodes[worst], X[0], X[1],
-                           X[2], names[states.state[worst]]));
+                           interface->name, interface->options.mu, least, (int)interface->nodes[worst], (double)X[0],
+                           (double)X[1], (double)X[2], names[states.state[worst]]));
   }
   PetscCall(contact_states_destroy(&states));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -89,8 +90,8 @@ static PetscErrorCode check_interface(Output *output, Interface *interface, Mat 
 
   PetscFunctionBegin;
   PetscCall(contact_gather(output->contact, interface, output->physics->u_local));
-  PetscCall(PetscMalloc1(3 * interface->n1, &rows));
-  for (PetscInt k = 0; k < 3 * interface->n1 && mesh->rank == 0; k++) {
+  PetscCall(PetscMalloc1(interface->dimension * interface->n1, &rows));
+  for (PetscInt k = 0; k < interface->dimension * interface->n1 && mesh->rank == 0; k++) {
     if (interface->equations[k] >= 0) rows[n++] = (PetscInt)interface->equations[k];
   }
   PetscCall(PetscSortRemoveDupsInt(&n, rows));

@@ -4,14 +4,21 @@
 /* How many roundings meet in a force: of displacements, gradients and sums, of several cells and points. */
 static const PetscReal ROUNDINGS = 2;
 
+static CellKind kind_of(const Physics *physics, PetscInt c)
+{
+  return cell_kind(physics->mesh->dimension, physics->cells.offsets[c + 1] - physics->cells.offsets[c]);
+}
+
 /* of a cell at rest: the largest diagonal entry */
-static PetscErrorCode cell_stiffness(const Material *material, PetscInt n, const PetscReal X[], PetscReal *stiffness)
+static PetscErrorCode cell_stiffness(const Physics *physics, const Material *material, CellKind kind, const PetscReal X[],
+                                     PetscReal *stiffness)
 {
   const PetscReal at_rest[3 * CELL_NODES] = {0};
+  const PetscInt  n                       = cell_nodes(kind);
   PetscReal       f[3 * CELL_NODES], K[9 * CELL_NODES * CELL_NODES];
   PetscBool       inverted;
   PetscFunctionBegin;
-  PetscCall(cell_forces(n, material, X, at_rest, f, K, &inverted));
+  PetscCall(cell_forces(kind, &physics->mesh->space, material, X, at_rest, f, K, &inverted));
   *stiffness = 0;
   for (PetscInt k = 0; k < 3 * n; k++)
     *stiffness = PetscMax(*stiffness, K[(3 * n + 1) * k]);
@@ -50,10 +57,10 @@ PetscErrorCode bulk_create(Physics *physics)
       for (int i = 0; i < 3; i++)
         cells->X[3 * (n_nodes + a) + i] = PetscRealPart(coordinates[at + i]);
     }
-    PetscCall(cell_stiffness(&physics->materials[cells->body[c - cStart]], n,
+    cells->offsets[c - cStart + 1] = n_nodes + n;
+    PetscCall(cell_stiffness(physics, &physics->materials[cells->body[c - cStart]], kind_of(physics, c - cStart),
                              cells->X + 3 * n_nodes, &cells->stiffness[c - cStart]));
     n_nodes += n;
-    cells->offsets[c - cStart + 1] = n_nodes;
   }
   PetscCall(VecRestoreArrayRead(coordinate_vector, &coordinates));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -129,7 +136,7 @@ PetscErrorCode bulk_forces(Physics *physics, Vec f_local, PetscInt *status)
     PetscReal u_cell[3 * CELL_NODES], f_cell[3 * CELL_NODES];
     PetscBool inverted;
     cell_displacements(physics, c, u, u_cell);
-    PetscCall(cell_forces(n, &physics->materials[cells->body[c]],
+    PetscCall(cell_forces(kind_of(physics, c), &physics->mesh->space, &physics->materials[cells->body[c]],
                           cells->X + 3 * cells->offsets[c], u_cell, f_cell, NULL, &inverted));
     if (inverted) first_inverted = c;
     physics->parts.squares[N_SQUARES * cells->part[c] + SQUARES_ROUNDING] += squared_rounding(physics, c, n, u_cell);
@@ -174,8 +181,7 @@ PetscErrorCode bulk_stiffness(Physics *physics, Mat matrix, PetscInt *status)
     PetscReal u_cell[3 * CELL_NODES], f_cell[3 * CELL_NODES], K[9 * CELL_NODES * CELL_NODES];
     PetscBool inverted;
     cell_displacements(physics, c, u, u_cell);
-    PetscCall(cell_forces(cells->offsets[c + 1] - cells->offsets[c],
-                          &physics->materials[cells->body[c]],
+    PetscCall(cell_forces(kind_of(physics, c), &physics->mesh->space, &physics->materials[cells->body[c]],
                           cells->X + 3 * cells->offsets[c], u_cell, f_cell, K, &inverted));
     if (inverted) first_inverted = c;
     PetscCall(insert(physics, c, K, matrix));
@@ -204,7 +210,7 @@ PetscErrorCode bulk_extension(Physics *physics, Vec u_local, Vec f_local, Mat ma
     PetscBool      inverted;
     if (!physics->materials[cells->body[c]].law->finite) continue;
     cell_displacements(physics, c, u, u_cell);
-    PetscCall(cell_forces(n, &likeness, cells->X + 3 * first, u_cell, f_cell, K, &inverted));
+    PetscCall(cell_forces(kind_of(physics, c), &physics->mesh->space, &likeness, cells->X + 3 * first, u_cell, f_cell, K, &inverted));
     PetscCall(insert(physics, c, K, matrix));
     for (PetscInt k = 0; k < 3 * n; k++)
       f[cells->dofs[first + k / 3] + k % 3] += f_cell[k];

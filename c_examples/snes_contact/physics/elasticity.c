@@ -1,53 +1,66 @@
-/* Internal forces f_a = int P . dN_a/dX dV and stiffness K_ab = int dN_a/dX . A . dN_b/dX dV of cells of any kind, and the
- * consistent loads of their faces. Units: whatever the scene uses; forces are F, stresses F/L^2.
+/* Internal forces f_a = int P : dH/du_a dV and stiffness K_ab = int dH/du_a : A : dH/du_b dV of cells of any kind, and the
+ * consistent loads of their faces. H = du/dX, so that dH/du_a is dN_a/dX; in a ring the strain around, H_33 = u_r / r, adds
+ * N_a / r. dV has the thickness, or 2 pi r. Units: whatever the scene uses; forces are F, stresses F/L^2.
  *
  * Mean dilatation: the energy of a cell of reference volume V is int W0 dV + V U(m), where m is the cell's mean of v.
- * Then P = P0 + U'(m) dv/dH everywhere in the cell, and K gains U''(m) / V b b^T with b = int dv/dH . dN/dX dV: a
+ * Then P = P0 + U'(m) dv/dH everywhere in the cell, and K gains U''(m) / V b b^T with b = int dv/dH : dH/du dV: a
  * symmetric tangent, one condition on the volume per hexahedron instead of eight (with v = J - 1 this is the mean
  * dilatation of Nagtegaal, Parks and Rice, Comput. Methods Appl. Mech. Engrg 4, 1974). A tet4 has one Gauss point:
  * there it changes nothing. */
 #include "physics/elasticity.h"
 
-static void displacement_gradient(PetscInt nodes, PetscReal dN[][3], const PetscReal u[], PetscReal H[9])
-{
-  for (int k = 0; k < 9; k++)
-    H[k] = 0;
-  for (PetscInt a = 0; a < nodes; a++) {
-    for (int i = 0; i < 3; i++) {
-      for (int j = 0; j < 3; j++)
-        H[3 * i + j] += u[3 * a + i] * dN[a][j];
-    }
-  }
-}
-
-/* One Gauss point: gradients of the shape functions, weight, strain */
+/* One point of a cell: gradients of the shape functions, in a ring N / r; weight, strain */
 typedef struct {
-  PetscReal dN[CELL_NODES][3], weight, H[9];
+  PetscReal dN[CELL_NODES][3], around[CELL_NODES], weight, H[9];
 } Point;
 
-/* All points of the cell, their number, the mean of v and the volume; false where det F <= 0 at one. */
-static PetscBool strains(PetscInt nodes, const Material *material, const PetscReal X[], const PetscReal u[],
-                         Point points[], PetscInt *n, PetscReal *mean, PetscReal *whole)
+/* The gradients and the measure there, without the weight of a Gauss point, and the strain of u; false: the law has no
+ * stress there. */
+static PetscBool strain(CellKind kind, const Space *space, const Material *material, const PetscReal X[],
+                        const PetscReal u[], const PetscReal xi[3], Point *point)
 {
-  *n    = cell_quadrature_points(nodes);
+  const PetscInt nodes = cell_nodes(kind);
+  PetscReal      N[CELL_NODES], r = 0;
+  cell_functions(kind, xi, N, point->dN);
+  point->weight = cell_physical_gradients(kind, X, point->dN);
+  for (int k = 0; k < 9; k++)
+    point->H[k] = 0;
+  for (PetscInt a = 0; a < nodes; a++) {
+    r += N[a] * X[3 * a];
+    for (int i = 0; i < 3; i++) {
+      for (int j = 0; j < 3; j++)
+        point->H[3 * i + j] += u[3 * a + i] * point->dN[a][j];
+    }
+  }
+  point->weight *= space_measure(space, r);
+  for (PetscInt a = 0; a < nodes && space->kind == SPACE_AXISYMMETRIC; a++) {
+    point->around[a] = N[a] / r;
+    point->H[8] += u[3 * a] * point->around[a];
+  }
+  if (space->kind == SPACE_PLANE_STRESS && !plane_stress_stretch(material, point->H)) return PETSC_FALSE;
+  return (PetscBool)(!material->law->finite || volume_ratio_minus_one(point->H) > -1);
+}
+
+/* All points of the cell, their number, the mean of v and the volume; false where the law has no stress at one. */
+static PetscBool strains(CellKind kind, const Space *space, const Material *material, const PetscReal X[],
+                         const PetscReal u[], Point points[], PetscInt *n, PetscReal *mean, PetscReal *whole)
+{
+  *n    = cell_quadrature_points(kind);
   *mean = *whole = 0;
   for (PetscInt q = 0; q < *n; q++) {
-    Point    *point = &points[q];
-    PetscReal xi[3];
-    point->weight = cell_quadrature_point(nodes, q, xi);
-    cell_reference_gradients(nodes, xi, point->dN);
-    point->weight *= cell_physical_gradients(nodes, X, point->dN);
-    displacement_gradient(nodes, point->dN, u, point->H);
-    if (material->law->finite && !(volume_ratio_minus_one(point->H) > -1)) return PETSC_FALSE;
-    *mean += point->weight * material->law->volume(point->H);
-    *whole += point->weight;
+    PetscReal       xi[3];
+    const PetscReal weight = cell_quadrature_point(kind, q, xi);
+    if (!strain(kind, space, material, X, u, xi, &points[q])) return PETSC_FALSE;
+    points[q].weight *= weight;
+    *mean += points[q].weight * material->law->volume(points[q].H);
+    *whole += points[q].weight;
   }
   *mean /= *whole;
   return PETSC_TRUE;
 }
 
-/* K += weight dN_a . A . dN_b */
-static void add_stiffness(PetscInt nodes, const Point *point, const PetscReal A[81], PetscReal K[])
+/* K += weight dH/du_a : A : dH/du_b */
+static void add_stiffness(PetscInt nodes, PetscBool ring, const Point *point, const PetscReal A[81], PetscReal K[])
 {
   const PetscInt   n = 3 * nodes;
   const PetscReal(*dN)[3] = point->dN;
@@ -57,6 +70,7 @@ static void add_stiffness(PetscInt nodes, const Point *point, const PetscReal A[
       for (int k = 0; k < 3; k++)
         AdN[iJ][3 * b + k] = point->weight * (A[9 * iJ + 3 * k] * dN[b][0] + A[9 * iJ + 3 * k + 1] * dN[b][1] +
                                               A[9 * iJ + 3 * k + 2] * dN[b][2]);
+      if (ring) AdN[iJ][3 * b] += point->weight * A[9 * iJ + 8] * point->around[b];
     }
   }
   for (PetscInt a = 0; a < nodes; a++) {
@@ -65,24 +79,27 @@ static void add_stiffness(PetscInt nodes, const Point *point, const PetscReal A[
         K[n * (3 * a + i) + kb] += dN[a][0] * AdN[3 * i][kb] + dN[a][1] * AdN[3 * i + 1][kb] +
                                    dN[a][2] * AdN[3 * i + 2][kb];
     }
+    for (PetscInt kb = 0; kb < n && ring; kb++)
+      K[n * 3 * a + kb] += point->around[a] * AdN[8][kb];
   }
 }
 
-/* f += weight P . dN_a */
-static void add_forces(PetscInt nodes, const Point *point, const PetscReal P[9], PetscReal f[])
+/* f += weight P : dH/du */
+static void add_forces(PetscInt nodes, PetscBool ring, const Point *point, const PetscReal P[9], PetscReal f[])
 {
   for (PetscInt a = 0; a < nodes; a++) {
     const PetscReal *dN = point->dN[a];
     for (int i = 0; i < 3; i++)
       f[3 * a + i] += point->weight * (P[3 * i] * dN[0] + P[3 * i + 1] * dN[1] + P[3 * i + 2] * dN[2]);
+    if (ring) f[3 * a] += point->weight * P[8] * point->around[a];
   }
 }
 
-PetscErrorCode cell_forces(PetscInt nodes, const Material *material, const PetscReal X[], const PetscReal u[],
-                           PetscReal f[], PetscReal K[], PetscBool *inverted)
+PetscErrorCode cell_forces(CellKind kind, const Space *space, const Material *material, const PetscReal X[],
+                           const PetscReal u[], PetscReal f[], PetscReal K[], PetscBool *inverted)
 {
-  const PetscInt  n       = 3 * nodes;
-  const PetscBool is_mean = material->mean_dilatation;
+  const PetscInt  nodes = cell_nodes(kind), n = 3 * nodes;
+  const PetscBool is_mean = material->mean_dilatation, ring = (PetscBool)(space->kind == SPACE_AXISYMMETRIC);
   Point           points[CELL_POINTS];
   PetscInt        n_points;
   PetscReal       P[9], V[9], A[81], b[3 * CELL_NODES] = {0}, mean, whole, p, dp;
@@ -90,16 +107,17 @@ PetscErrorCode cell_forces(PetscInt nodes, const Material *material, const Petsc
   PetscFunctionBeginHot;
   PetscCall(PetscArrayzero(f, n));
   if (K) PetscCall(PetscArrayzero(K, n * n));
-  *inverted = (PetscBool)!strains(nodes, material, X, u, points, &n_points, &mean, &whole);
+  *inverted = (PetscBool)!strains(kind, space, material, X, u, points, &n_points, &mean, &whole);
   if (*inverted) PetscFunctionReturn(PETSC_SUCCESS);
   for (PetscInt q = 0; q < n_points; q++) {
     const Point *point = &points[q];
     material->law->pressure(material, is_mean ? mean : material->law->volume(point->H), &p, &dp);
     material->law->stress(material, point->H, p, is_mean ? 0 : dp, P, V, K ? A : NULL);
-    add_forces(nodes, point, P, f);
+    add_forces(nodes, ring, point, P, f);
     if (!K) continue;
-    add_stiffness(nodes, point, A, K);
-    if (is_mean) add_forces(nodes, point, V, b);
+    if (space->kind == SPACE_PLANE_STRESS) plane_stress_condense(A);
+    add_stiffness(nodes, ring, point, A, K);
+    if (is_mean) add_forces(nodes, ring, point, V, b);
   }
   for (PetscInt ai = 0; ai < n && K && is_mean; ai++) {
     for (PetscInt bk = 0; bk < n; bk++)
@@ -108,40 +126,46 @@ PetscErrorCode cell_forces(PetscInt nodes, const Material *material, const Petsc
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-void cell_centre_gradient(PetscInt nodes, const PetscReal X[], const PetscReal u[], PetscReal H[9])
+void cell_centre_gradient(CellKind kind, const Space *space, const Material *material, const PetscReal X[],
+                          const PetscReal u[], PetscReal H[9])
 {
-  PetscReal centre[3], dN[CELL_NODES][3];
-  cell_centre(nodes, centre);
-  cell_reference_gradients(nodes, centre, dN);
-  cell_physical_gradients(nodes, X, dN);
-  displacement_gradient(nodes, dN, u, H);
+  PetscReal centre[3];
+  Point     point;
+  cell_centre(kind, centre);
+  (void)strain(kind, space, material, X, u, centre, &point);
+  for (int k = 0; k < 9; k++)
+    H[k] = point.H[k];
 }
 
-void cell_centre_stress(PetscInt nodes, const Material *material, const PetscReal X[], const PetscReal u[],
-                        PetscReal sigma[9])
+void cell_centre_stress(CellKind kind, const Space *space, const Material *material, const PetscReal X[],
+                        const PetscReal u[], PetscReal sigma[9])
 {
-  Point     points[CELL_POINTS];
+  Point     points[CELL_POINTS], middle;
   PetscInt  n_points;
-  PetscReal H[9], P[9], V[9], mean, whole, p, dp;
-  cell_centre_gradient(nodes, X, u, H);
+  PetscReal centre[3], P[9], V[9], mean, whole, p, dp;
+  cell_centre(kind, centre);
   for (int k = 0; k < 9; k++)
     sigma[k] = 0;
-  if (!strains(nodes, material, X, u, points, &n_points, &mean, &whole)) return;
-  if (material->law->finite && !(volume_ratio_minus_one(H) > -1)) return;
-  material->law->pressure(material, material->mean_dilatation ? mean : material->law->volume(H), &p, &dp);
-  material->law->stress(material, H, p, dp, P, V, NULL);
-  cauchy_stress(material, H, P, sigma);
+  if (!strains(kind, space, material, X, u, points, &n_points, &mean, &whole)) return;
+  if (!strain(kind, space, material, X, u, centre, &middle)) return;
+  material->law->pressure(material, material->mean_dilatation ? mean : material->law->volume(middle.H), &p, &dp);
+  material->law->stress(material, middle.H, p, dp, P, V, NULL);
+  cauchy_stress(material, middle.H, P, sigma);
 }
 
-void face_forces(PetscInt nodes, const PetscReal X[], const PetscReal traction[3], PetscReal pressure, PetscReal f[])
+void face_forces(CellKind kind, const Space *space, const PetscReal X[], const PetscReal traction[3], PetscReal pressure,
+                 PetscReal f[])
 {
+  const PetscInt nodes = cell_nodes(kind);
   for (PetscInt k = 0; k < 3 * nodes; k++)
     f[k] = 0;
-  for (PetscInt q = 0; q < face_quadrature_points(nodes); q++) {
-    PetscReal       N[FACE_NODES], d[FACE_NODES][2], xi[2], tangent[2][3] = {{0}}, normal[3], area;
-    const PetscReal weight = face_quadrature_point(nodes, q, xi);
-    face_functions(nodes, xi, N, d);
+  for (PetscInt q = 0; q < cell_quadrature_points(kind); q++) {
+    PetscReal       N[FACE_NODES], d[FACE_NODES][3], xi[3], tangent[2][3] = {{0}}, normal[3], area, r = 0;
+    const PetscReal weight = cell_quadrature_point(kind, q, xi);
+    cell_functions(kind, xi, N, d);
+    tangent[1][2] = cell_dimension(kind) == 1; /* a line is as long as 1 across the plane */
     for (PetscInt a = 0; a < nodes; a++) {
+      r += N[a] * X[3 * a];
       for (int i = 0; i < 3; i++) {
         tangent[0][i] += d[a][0] * X[3 * a + i];
         tangent[1][i] += d[a][1] * X[3 * a + i];
@@ -152,7 +176,7 @@ void face_forces(PetscInt nodes, const PetscReal X[], const PetscReal traction[3
     area = PetscSqrtReal(normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]);
     for (PetscInt a = 0; a < nodes; a++) {
       for (int i = 0; i < 3; i++)
-        f[3 * a + i] += weight * N[a] * (traction[i] * area - pressure * normal[i]);
+        f[3 * a + i] += weight * space_measure(space, r) * N[a] * (traction[i] * area - pressure * normal[i]);
     }
   }
 }

@@ -1,21 +1,24 @@
-/* Bulk elements: tetrahedra with 4 or 10 nodes, hexahedra with 8, 20 or 27 (mesh/cell.h). What they are made of:
- * materials.h. */
+/* Bulk elements of all kinds of cells (mesh/cell.h), in every space (scene/space.h). What they are made of: materials.h. */
 #ifndef SNES_CONTACT_ELASTICITY_H
 #define SNES_CONTACT_ELASTICITY_H
 #include "mesh/cell.h"
 #include "physics/materials.h"
+#include "scene/space.h"
 
-/* nodes: how many the cell has; X, u, f: 3 per node; K: (3 nodes)^2 row-major or NULL. f and K are overwritten.
+/* X, u, f: 3 per node; K: (3 nodes)^2 row-major or NULL. f and K are overwritten. Forces are those of the thickness, or of the
+ * whole ring. But in a solid, what K has for the third component is for nobody.
  * `inverted`: det F <= 0 at a Gauss point, where a law of finite strain has no stress; f and K then mean nothing. */
-PetscErrorCode cell_forces(PetscInt nodes, const Material *material, const PetscReal X[], const PetscReal u[],
-                           PetscReal f[], PetscReal K[], PetscBool *inverted);
-/* of the displacements, H = du/dX */
-void           cell_centre_gradient(PetscInt nodes, const PetscReal X[], const PetscReal u[], PetscReal H[9]);
+PetscErrorCode cell_forces(CellKind kind, const Space *space, const Material *material, const PetscReal X[],
+                           const PetscReal u[], PetscReal f[], PetscReal K[], PetscBool *inverted);
+/* of the displacements, H = du/dX, with the strain across the plane */
+void           cell_centre_gradient(CellKind kind, const Space *space, const Material *material, const PetscReal X[],
+                                    const PetscReal u[], PetscReal H[9]);
 /* Cauchy's stress; zeros where det F <= 0 */
-void           cell_centre_stress(PetscInt nodes, const Material *material, const PetscReal X[], const PetscReal u[],
-                                  PetscReal sigma[9]);
+void           cell_centre_stress(CellKind kind, const Space *space, const Material *material, const PetscReal X[],
+                                  const PetscReal u[], PetscReal sigma[9]);
 
-/* consistent nodal forces of a dead traction on a reference face (3, 4, 6, 8 or 9 nodes), in f (3 per node).
- * `pressure` acts against the normal of the face as its vertices turn. */
-void face_forces(PetscInt nodes, const PetscReal X[], const PetscReal traction[3], PetscReal pressure, PetscReal f[]);
+/* consistent nodal forces of a dead traction on a reference face, in f (3 per node). `pressure` acts against the normal of
+ * the face: as the right hand turns with its nodes, or to the right of a line. */
+void face_forces(CellKind kind, const Space *space, const PetscReal X[], const PetscReal traction[3], PetscReal pressure,
+                 PetscReal f[]);
 #endif

@@ -13,13 +13,14 @@ PetscErrorCode loads_read(Scene *scene, Physics *physics)
     Load     *load = &physics->loads[l];
     PetscBool traction;
     PetscCall(PetscSNPrintf(load->name, NAME_LENGTH, "%s", names[l]));
-    traction = scene_vector(scene, load->name, "traction", 3, load->traction);
+    traction = space_vector(scene, &mesh->space, load->name, "traction", load->traction);
     if (!scene_has(scene, load->name, "pressure") && !traction) {
       (void)scene_has(scene, load->name, "surface"); /* known keys, one of which may be misspelt */
       (void)scene_has(scene, load->name, "curve");
       scene_check_unread_of(scene, load->name);
       scene_fail(scene, load->name, "traction",
-                 "say how it loads: traction [x, y, z], or pressure (against the outward normal).");
+                 "say how it loads: traction [x, y%s], or pressure (against the outward normal).",
+                 mesh->dimension == 3 ? ", z" : "");
     }
     scene_real(scene, load->name, "pressure", &load->pressure);
     mesh_rotate_vector(mesh, load->traction);
@@ -86,7 +87,7 @@ static PetscErrorCode add_face(Physics *physics, const Load *load, PetscInt face
   const Mesh        *mesh = physics->mesh;
   PetscInt           n, nodes[FACE_NODES], at;
   const PetscInt    *cells;
-  PetscReal          X[3 * FACE_NODES], f[3 * FACE_NODES], cell_middle[3], face_middle[3], outward = 0;
+  PetscReal          X[3 * FACE_NODES], f[3 * FACE_NODES], cell_middle[3], face_middle[3], outward = 0, e1[3], e2[3];
   PetscSection       section;
   Vec                vector;
   const PetscScalar *coordinates;
@@ -105,12 +106,16 @@ static PetscErrorCode add_face(Physics *physics, const Load *load, PetscInt face
   PetscCall(middle(mesh, cells[0], section, coordinates, cell_middle));
   PetscCall(middle(mesh, face, section, coordinates, face_middle));
   PetscCall(VecRestoreArrayRead(vector, &coordinates));
-  for (int i = 0; i < 3; i++) { /* DMPlex may see the face from inside: the pressure acts against the outward normal */
-    const int       j = (i + 1) % 3, k = (i + 2) % 3; /* normal of the triangle 0, 1, 2 */
-    const PetscReal normal = (X[3 + j] - X[j]) * (X[6 + k] - X[k]) - (X[3 + k] - X[k]) * (X[6 + j] - X[j]);
-    outward += normal * (face_middle[i] - cell_middle[i]);
+  for (int i = 0; i < 3; i++) { /* two edges of the triangle 0, 1, 2; or a line, and one across the plane */
+    e1[i] = X[3 + i] - X[i];
+    e2[i] = mesh->dimension == 3 ? X[6 + i] - X[i] : i == 2;
   }
-  face_forces(n, X, load->traction, outward > 0 ? load->pressure : -load->pressure, f);
+  for (int i = 0; i < 3; i++) { /* DMPlex may see the face from inside: the pressure acts against the outward normal */
+    const int j = (i + 1) % 3, k = (i + 2) % 3;
+    outward += (e1[j] * e2[k] - e1[k] * e2[j]) * (face_middle[i] - cell_middle[i]);
+  }
+  face_forces(cell_kind(mesh->dimension - 1, n), &mesh->space, X, load->traction,
+              outward > 0 ? load->pressure : -load->pressure, f);
   for (PetscInt a = 0; a < n; a++) {
     PetscCall(PetscSectionGetOffset(physics->unknowns.section, nodes[a], &at));
     for (int i = 0; i < 3; i++)

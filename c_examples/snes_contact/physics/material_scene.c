@@ -1,7 +1,7 @@
 /* The bodies' materials from the scene. */
 #include "physics/physics.h"
 
-static PetscErrorCode read_material(Scene *scene, const char *body, Material *material)
+static PetscErrorCode read_material(Scene *scene, const Space *space, const char *body, Material *material)
 {
   static const MaterialLaw *const laws[]        = {&MATERIAL_LINEAR, &MATERIAL_ST_VENANT_KIRCHHOFF,
                                                    &MATERIAL_NEO_HOOKE};
@@ -20,6 +20,8 @@ static PetscErrorCode read_material(Scene *scene, const char *body, Material *ma
                (double)material->poisson);
   scene_choice(scene, body, "material", law_names, &law);
   scene_choice(scene, body, "dilatation", dilatations, &dilatation);
+  if (dilatation && space->kind == SPACE_PLANE_STRESS)
+    scene_fail(scene, body, "dilatation", "in plane stress nothing hinders a change of volume; leave the key out.");
   scene_bool(scene, body, "small_strain", &material->small_strain);
   material->law             = laws[law];
   material->mean_dilatation = (PetscBool)dilatation;
@@ -34,7 +36,7 @@ PetscErrorCode materials_read(Scene *scene, Physics *physics)
   for (PetscInt b = 0; b < mesh->n_bodies; b++) {
     const Body *body          = &mesh->bodies[b];
     physics->materials[b].law = &MATERIAL_LINEAR; /* of an analytic body: has no cells with stiffness */
-    if (!body->analytic) PetscCall(read_material(scene, body->name, &physics->materials[b]));
+    if (!body->analytic) PetscCall(read_material(scene, &mesh->space, body->name, &physics->materials[b]));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

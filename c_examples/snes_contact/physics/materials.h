@@ -31,6 +31,12 @@ struct Material {
 
 extern const MaterialLaw MATERIAL_LINEAR, MATERIAL_ST_VENANT_KIRCHHOFF, MATERIAL_NEO_HOOKE;
 
+/* plane_stress.c: H_33 for which nothing pulls across the plane, P_33 = 0, in place of the given one; the other components
+ * with a 3 are zero. False: there is none. Only with the pressure taken pointwise. */
+PetscBool plane_stress_stretch(const Material *material, PetscReal H[9]);
+/* A = dP/dH at such a stretch, which follows the other components */
+void      plane_stress_condense(PetscReal A[81]);
+
 /* det F - 1, without the cancellation of small strains */
 PetscReal volume_ratio_minus_one(const PetscReal H[9]);
 

@@ -126,7 +126,8 @@ PetscErrorCode loads_values(Physics *physics, PetscReal t); /* into f_external *
 /* unknowns.c: takes the fields over */
 PetscErrorCode unknowns_create(Physics *physics, PetscInt n_fields, Field *fields);
 PetscErrorCode unknowns_gather_create(Physics *physics, PetscInt n, const PetscInt *n_vertices,
-                                      const PetscInt *const *vertices, const PetscInt *fields, PetscSF *sf);
+                                      const PetscInt *const *vertices, const PetscInt *fields, const PetscInt *components,
+                                      PetscSF *sf);
 /* into u_local, prescribed entries filled in */
 PetscErrorCode unknowns_to_local(Physics *physics, Vec x);
 /* into f_sum: what all ranks hold, complete at owned vertices */

@@ -86,20 +86,20 @@ PetscErrorCode range_check(Physics *physics, const PetscScalar *displacements)
   PetscFunctionBegin;
   if (!physics->ranges) PetscCall(PetscCalloc1(mesh->n_bodies, &physics->ranges));
   for (PetscInt c = 0; c < mesh->n_cells; c++) {
-    const PetscInt  n        = mesh->cell_offsets[c + 1] - mesh->cell_offsets[c];
+    const CellKind  kind     = mesh_cell_kind(mesh, c);
     const PetscInt *vertices = mesh->cell_vertices + mesh->cell_offsets[c];
     const Body    *body  = &mesh->bodies[mesh->cell_body[c]];
     Range         *range = &physics->ranges[mesh->cell_body[c]];
     PetscReal      X[3 * CELL_NODES], u[3 * CELL_NODES], H[9], strain, rotation;
     PetscInt       held = 7;
     if (body->analytic || physics->materials[mesh->cell_body[c]].law != &MATERIAL_LINEAR) continue;
-    for (PetscInt k = 0; k < 3 * n; k++) {
+    for (PetscInt k = 0; k < 3 * cell_nodes(kind); k++) {
       X[k] = mesh->coordinates[3 * vertices[k / 3] + k % 3];
       u[k] = PetscRealPart(displacements[3 * vertices[k / 3] + k % 3]);
       held &= physics->prescribed[vertices[k / 3]];
     }
     if (held == 7) continue;
-    cell_centre_gradient(n, X, u, H);
+    cell_centre_gradient(kind, &mesh->space, &physics->materials[mesh->cell_body[c]], X, u, H);
     PetscCall(decompose(H, &strain, &rotation));
     range->strain   = PetscMax(range->strain, strain);
     range->rotation = PetscMax(range->rotation, rotation);

@@ -24,7 +24,7 @@ static PetscErrorCode select_vertices(Scene *scene, Physics *physics, Support *s
   } else if (scene_has(scene, name, "point")) {
     chosen[mesh_nearest_vertex(scene, mesh, name)] = PETSC_TRUE;
   } else if (scene_has(scene, name, "body")) {
-    const PetscBool within = scene_vector(scene, name, "within", 6, box);
+    const PetscBool within = space_box(scene, &mesh->space, name, "within", box);
     scene_strings(scene, name, "body", &n, &list);
     for (PetscInt k = 0; k < n; k++) {
       const Body *body = &mesh->bodies[mesh_body(scene, mesh, name, "body", list[k])];
@@ -92,55 +92,97 @@ static PetscErrorCode check_analytic(Scene *scene, const Physics *physics)
     const Body *body = &physics->mesh->bodies[b];
     for (PetscInt v = body->first_vertex; v < body->end_vertex && body->analytic; v++) {
       if (physics->prescribed[v] != 7)
-        scene_fail(scene, body->name, NULL, "an analytic body needs a support: {body: %s, components: [x, y, z]}.",
-                   body->name);
+        scene_fail(scene, body->name, NULL, "an analytic body needs a support: {body: %s, components: [x, y%s]}.",
+                   body->name, physics->mesh->dimension == 3 ? ", z" : "");
     }
   }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The vertices of an axisymmetric model on its axis stay there. No name in a scene has such a character. */
+static const char *const ON_AXIS = "on_axis";
+
+/* In a plane or axisymmetric model the third component is zero, and no unknown. */
+static void hold_plane(const Mesh *mesh, PetscInt prescribed[])
+{
+  for (PetscInt v = 0; v < mesh->n_vertices && mesh->dimension == 2; v++)
+    prescribed[v] |= 4;
+}
+
+static PetscErrorCode hold_axis(const Mesh *mesh, Support *support)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(mesh->n_vertices, &support->vertices));
+  for (PetscInt b = 0; b < mesh->n_bodies; b++) {
+    const Body *body = &mesh->bodies[b];
+    for (PetscInt v = body->first_vertex; v < body->end_vertex && !body->analytic; v++) {
+      if (mesh->coordinates[3 * v] == 0) support->vertices[support->n_vertices++] = v;
+    }
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode read_support(Scene *scene, Physics *physics, const char *name, Support *support)
+{
+  const Mesh *mesh = physics->mesh;
+  const char *axes = mesh->dimension == 3 ? "x, y, z" : "x, y";
+  PetscInt    n;
+  char      **components;
+  PetscFunctionBegin;
+  PetscCall(PetscSNPrintf(support->name, NAME_LENGTH, "%s", name));
+  scene_strings(scene, name, "components", &n, &components);
+  for (PetscInt k = 0; k < n; k++) {
+    if (strlen(components[k]) != 1 || components[k][0] < 'x' || components[k][0] >= 'x' + mesh->dimension)
+      scene_fail(scene, name, "components", "'%s' is not allowed; choose from: %s.", components[k], axes);
+    support->mask |= 1 << (components[k][0] - 'x');
+  }
+  strings_destroy(n, &components);
+  if (!support->mask) scene_fail(scene, name, "components", "this key is missing; choose from: %s.", axes);
+  if (mesh->rotated && support->mask != (1 << mesh->dimension) - 1)
+    scene_fail(scene, name, "components",
+               "in a rotated frame a support must prescribe all of %s (with `value` or `gradient`).", axes);
+  space_vector(scene, &mesh->space, name, "value", support->value);
+  space_matrix(scene, &mesh->space, name, "gradient", support->gradient);
+  space_turn(scene, &mesh->space, name, "rotate", support->rotate);
+  space_vector(scene, &mesh->space, name, "origin", support->origin);
+  PetscCall(curve_read(scene, name, "curve", physics->end, &support->curve));
+  if (scene_has(scene, name, "rotate_curve"))
+    PetscCall(curve_read(scene, name, "rotate_curve", physics->end, &support->rotate_curve));
+  else
+    PetscCall(curve_copy(&support->curve, &support->rotate_curve));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode supports_read(Scene *scene, Physics *physics)
 {
   const Mesh *mesh = physics->mesh;
+  Support    *axis = NULL;
   char      **names;
+  PetscInt    n_named;
 
   PetscFunctionBegin;
-  scene_names(scene, "supports", &physics->n_supports, &names);
+  scene_names(scene, "supports", &n_named, &names);
+  physics->n_supports = n_named + (mesh->space.kind == SPACE_AXISYMMETRIC);
   PetscCall(PetscCalloc1(physics->n_supports, &physics->supports));
-  for (PetscInt s = 0; s < physics->n_supports; s++) {
-    Support *support = &physics->supports[s];
-    PetscInt n;
-    char   **components;
-    PetscCall(PetscSNPrintf(support->name, NAME_LENGTH, "%s", names[s]));
-    scene_strings(scene, support->name, "components", &n, &components);
-    for (PetscInt k = 0; k < n; k++) {
-      if (strlen(components[k]) != 1 || components[k][0] < 'x' || components[k][0] > 'z')
-        scene_fail(scene, support->name, "components", "'%s' is not allowed; choose from: x, y, z.", components[k]);
-      support->mask |= 1 << (components[k][0] - 'x');
-    }
-    strings_destroy(n, &components);
-    if (!support->mask) scene_fail(scene, support->name, "components", "this key is missing; choose from: x, y, z.");
-    if (mesh->rotated && support->mask != 7)
-      scene_fail(scene, support->name, "components",
-                 "in a rotated frame a support must prescribe all of x, y, z (with `value` or `gradient`).");
-    scene_vector(scene, support->name, "value", 3, support->value);
-    scene_vector(scene, support->name, "gradient", 9, support->gradient);
-    scene_vector(scene, support->name, "rotate", 3, support->rotate);
-    scene_vector(scene, support->name, "origin", 3, support->origin);
-    PetscCall(curve_read(scene, support->name, "curve", physics->end, &support->curve));
-    if (scene_has(scene, support->name, "rotate_curve"))
-      PetscCall(curve_read(scene, support->name, "rotate_curve", physics->end, &support->rotate_curve));
-    else
-      PetscCall(curve_copy(&support->curve, &support->rotate_curve));
+  for (PetscInt s = 0; s < n_named; s++)
+    PetscCall(read_support(scene, physics, names[s], &physics->supports[s]));
+  strings_destroy(n_named, &names);
+  if (physics->n_supports > n_named) {
+    axis       = &physics->supports[n_named];
+    axis->mask = 1;
+    PetscCall(PetscSNPrintf(axis->name, NAME_LENGTH, "%s", ON_AXIS));
+    PetscCall(curve_read(scene, ON_AXIS, "curve", physics->end, &axis->curve));
+    PetscCall(curve_copy(&axis->curve, &axis->rotate_curve));
   }
-  strings_destroy(physics->n_supports, &names);
   scene_root_begin(scene);
   if (mesh->rank == 0) {
     PetscCall(PetscCalloc1(mesh->n_vertices, &physics->prescribed));
-    for (PetscInt s = 0; s < physics->n_supports; s++) {
+    for (PetscInt s = 0; s < n_named; s++) {
       PetscCall(select_vertices(scene, physics, &physics->supports[s]));
       PetscCall(supports_file_read(scene, mesh, &physics->supports[s]));
     }
+    if (axis) PetscCall(hold_axis(mesh, axis));
+    hold_plane(mesh, physics->prescribed);
     PetscCall(check_overlaps(scene, physics));
     PetscCall(check_analytic(scene, physics));
   }

@@ -142,9 +142,10 @@ static PetscErrorCode collect_owners(Physics *physics)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Leaves on rank 0: the entries of fields[b] of every vertex in vertices[b], block after block. */
+/* Leaves on rank 0: the first components[b] entries of fields[b] of every vertex in vertices[b], block after block. */
 PetscErrorCode unknowns_gather_create(Physics *physics, PetscInt n, const PetscInt *n_vertices,
-                                      const PetscInt *const *vertices, const PetscInt *fields, PetscSF *sf)
+                                      const PetscInt *const *vertices, const PetscInt *fields, const PetscInt *components,
+                                      PetscSF *sf)
 {
   Unknowns      *unknowns = &physics->unknowns;
   const Mesh    *mesh     = physics->mesh;
@@ -154,12 +155,12 @@ PetscErrorCode unknowns_gather_create(Physics *physics, PetscInt n, const PetscI
 
   PetscFunctionBegin;
   for (PetscInt b = 0; b < n && mesh->rank == 0; b++)
-    n_leaves += field_components(physics, fields[b]) * n_vertices[b];
+    n_leaves += components[b] * n_vertices[b];
   PetscCall(PetscMalloc1(n_leaves, &remote));
   for (PetscInt b = 0, leaf = 0; b < n && mesh->rank == 0; b++) {
     for (PetscInt k = 0; k < n_vertices[b]; k++) {
       const PetscInt *entry = unknowns->owner + width * (vertices[b] ? vertices[b][k] : k);
-      for (int i = 0; i < field_components(physics, fields[b]); i++, leaf++) {
+      for (int i = 0; i < components[b]; i++, leaf++) {
         remote[leaf].rank  = entry[0];
         remote[leaf].index = entry[1 + fields[b]] + i;
       }
@@ -174,7 +175,7 @@ PetscErrorCode unknowns_create(Physics *physics, PetscInt n_fields, Field *field
 {
   Unknowns              *unknowns     = &physics->unknowns;
   const Mesh            *mesh         = physics->mesh;
-  const PetscInt         displacement = 0, *every_vertex = NULL;
+  const PetscInt         displacement = 0, three = 3, *every_vertex = NULL;
   ISLocalToGlobalMapping mapping;
 
   PetscFunctionBegin;
@@ -185,7 +186,7 @@ PetscErrorCode unknowns_create(Physics *physics, PetscInt n_fields, Field *field
   PetscCall(DMGetLocalToGlobalMapping(mesh->dm, &mapping));
   PetscCall(ISLocalToGlobalMappingGetIndices(mapping, &unknowns->equations)); /* negative: prescribed */
   PetscCall(collect_owners(physics));
-  PetscCall(unknowns_gather_create(physics, 1, &mesh->n_vertices, &every_vertex, &displacement,
+  PetscCall(unknowns_gather_create(physics, 1, &mesh->n_vertices, &every_vertex, &displacement, &three,
                                    &unknowns->all_displacements));
   PetscCall(DMCreateLocalVector(mesh->dm, &physics->u_local));
   PetscCall(VecDuplicate(physics->u_local, &physics->f_local));

@@ -197,7 +197,7 @@ PetscErrorCode closing_shift(Solve *solve, Mat matrix)
 /* The fraction of a step that one interface allows, known to every rank; `step`: local, what the displacements gain. */
 static PetscErrorCode interface_limit(Solve *solve, Interface *interface, Vec step, PetscReal *fraction)
 {
-  const PetscInt     all = 3 * (interface->n1 + interface->n2) + interface->components * interface->n1;
+  const PetscInt     all = interface->dimension * (interface->n1 + interface->n2) + interface->components * interface->n1;
   const PetscInt     n   = solve->mesh->rank ? 0 : all;
   const PetscScalar *array;
   PetscScalar       *dx;
@@ -212,8 +212,8 @@ static PetscErrorCode interface_limit(Solve *solve, Interface *interface, Vec st
   *fraction = 1;
   /* Where the library refuses, so it will the evaluation that follows, and this attempt ends there. */
   if (solve->mesh->rank == 0 &&
-      stickslip_interface_step_limit(interface->handle, interface->x, interface->x + 3 * interface->n1, dx,
-                                     dx + 3 * interface->n1, solve->closing.depth, fraction))
+      stickslip_interface_step_limit(interface->handle, interface->x, MORTAR_OF(interface, interface->x), dx,
+                                     MORTAR_OF(interface, dx), solve->closing.depth, fraction))
     *fraction = 1;
   PetscCallMPI(MPI_Bcast(fraction, 1, MPIU_REAL, 0, PETSC_COMM_WORLD));
   PetscCall(PetscFree(dx));

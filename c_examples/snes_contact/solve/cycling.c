@@ -136,10 +136,11 @@ static PetscBool node_changes(const Cycling *cycling, PetscInt node, PetscInt sp
 static void add_to_sentence(const Interface *interface, PetscInt a, const Cycling *cycling, PetscInt node,
                             PetscInt span, char *sentence, size_t length)
 {
-  const double *X    = interface->X + 3 * a;
-  size_t        used = strlen(sentence);
+  PetscReal X[3];
+  size_t    used = strlen(sentence);
+  contact_vector(interface, interface->X, a, X);
   snprintf(sentence + used, length - used, "%s %s node %d at (%g, %g, %g):", used ? ";" : "", interface->name,
-           (int)interface->nodes[a], X[0], X[1], X[2]);
+           (int)interface->nodes[a], (double)X[0], (double)X[1], (double)X[2]);
   for (PetscInt back = span - 1; back >= 0; back--) {
     used = strlen(sentence);
     snprintf(sentence + used, length - used, " %s%s", STATE_NAMES[row(cycling, back)[node]], back ? "," : "");
@@ -148,10 +149,12 @@ static void add_to_sentence(const Interface *interface, PetscInt a, const Cyclin
 
 static cJSON *node_json(const Interface *interface, PetscInt a, const Cycling *cycling, PetscInt node, PetscInt span)
 {
-  cJSON *json = cJSON_CreateObject(), *states;
+  cJSON    *json = cJSON_CreateObject(), *states;
+  PetscReal X[3];
+  contact_vector(interface, interface->X, a, X);
   cJSON_AddStringToObject(json, "interface", interface->name);
   cJSON_AddNumberToObject(json, "node", interface->nodes[a]);
-  cJSON_AddItemToObject(json, "position", cJSON_CreateDoubleArray(interface->X + 3 * a, 3));
+  cJSON_AddItemToObject(json, "position", cJSON_CreateDoubleArray(X, 3));
   states = cJSON_AddArrayToObject(json, "states");
   for (PetscInt back = span - 1; back >= 0; back--)
     cJSON_AddItemToArray(states, cJSON_CreateString(STATE_NAMES[row(cycling, back)[node]]));

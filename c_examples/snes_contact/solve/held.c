@@ -15,6 +15,17 @@ static const PetscReal SLOPE = 1e-2;
 /* Friction below this part of the pressure is none, but for rounding. */
 static const PetscReal NO_FRICTION = 1e-9;
 
+/* Rings resist their own widening, and a turn out of their plane: what is left moves along the axis. */
+static void add_rings(const Solve *solve, Motions *m)
+{
+  static const PetscReal held = 1;
+  const PetscInt         kinds[] = {0, 5}; /* along x, about z */
+  for (PetscInt k = 0; k < 2 * m->n_parts && solve->mesh->space.kind == SPACE_AXISYMMETRIC; k++) {
+    const PetscInt column = MODES * (k / 2) + kinds[k % 2];
+    motions_constrain(m, 1, &column, &held);
+  }
+}
+
 static void add_supports(const Solve *solve, const PetscReal *x, Motions *m)
 {
   for (PetscInt v = 0; v < solve->mesh->n_vertices; v++) {
@@ -28,6 +39,7 @@ static void add_supports(const Solve *solve, const PetscReal *x, Motions *m)
       motions_constrain(m, n, columns, values);
     }
   }
+  add_rings(solve, m);
 }
 
 /* The part of the mortar vertex nearest to a node: a surface may belong to several. */

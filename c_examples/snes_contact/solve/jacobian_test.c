@@ -36,7 +36,7 @@ static PetscErrorCode look_at_states(Solve *solve, JacobianTest *test, PetscBool
   PetscFunctionBegin;
   for (PetscInt i = 0; i < solve->contact->n_interfaces; i++) {
     const Interface *interface = &solve->contact->interfaces[i];
-    const int64_t   *equations = interface->equations + 3 * (interface->n1 + interface->n2);
+    const int64_t   *equations = MULTIPLIERS_OF(interface, interface->equations);
     ContactStates    states;
     PetscCall(contact_states_create(interface, &states));
     for (PetscInt a = 0; a < interface->n1; a++) {
