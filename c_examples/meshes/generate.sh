@@ -25,6 +25,11 @@ mesh hertz_lower_coarse.msh hertz_cylinder.geo side -1 contact_facets 42 half_wi
 mesh hertz_upper_fine.msh   hertz_cylinder.geo side  1 contact_facets 66 half_width 1.4 far_cells 18 grow_far 1.18
 mesh hertz_lower_fine.msh   hertz_cylinder.geo side -1 contact_facets 58 half_width 1.6 far_cells 18 grow_far 1.18
 
+# The coarse two as plane meshes.
+for side in upper lower; do
+    python3 plane.py "hertz_${side}_coarse.msh" "plane_hertz_$side.msh"
+done
+
 mesh brick_tet_upper.msh brick_tet.geo side  1 cells 4
 mesh brick_tet_lower.msh brick_tet.geo side -1 cells 3
 

@@ -17,6 +17,7 @@ class BadScene:
     names: str  # what the message must contain
     options: tuple = ()  # or the mistake is on the command line
     says: str = ""  # and what else
+    base: str = BASE
 
 
 def wall(shape):
@@ -165,11 +166,31 @@ def write_signed_mesh(folder):
     return path
 
 
+BLOCK, RINGS, FLAT = "plane_block.yaml", "ring_shrink_fit.yaml", "plane_hertz.yaml"
+BAD_SCENES += [
+    BadScene("model_unknown", "model: plane_strain", "model: plane", "model", base=BLOCK),
+    BadScene("numbers_of_space", "lower: [0, 0],", "lower: [0, 0, 0],", "block.lower", says="2 numbers", base=BLOCK),
+    BadScene("cells_of_space", "lower: [0, 0],", "cell: hex, lower: [0, 0],", "block.cell", says="quad, tri", base=BLOCK),
+    BadScene("component_across", "components: [x, y]", "components: [x, y, z]", "rigid.components", says="x, y.", base=BLOCK),
+    BadScene("thickness_of_a_solid", "schema: 1", "schema: 1\nthickness: 2", "thickness"),
+    BadScene("thickness_of_a_ring", "schema: 1", "schema: 1\nthickness: 2", "thickness", base=RINGS),
+    BadScene("negative_thickness", "schema: 1", "schema: 1\nthickness: -2", "thickness", base=BLOCK),
+    BadScene("beyond_the_axis", "lower: [1, 0]", "lower: [-1, 0]", "shaft", says="beyond the axis", base=RINGS),
+    BadScene("turned_ring", "components: [y]}", "components: [y], rotate: 1}", "floor.rotate", base=RINGS),
+    BadScene("turned_axis", "schema: 1", "schema: 1\nframe: {rotate: 30}", "frame.rotate", base=RINGS),
+    BadScene("mean_in_plane_stress", "model: plane_strain", "model: plane_stress\n", "block.dilatation",
+             options=("-block_dilatation", "mean"), base=BLOCK),
+    BadScene("plane_mesh_in_space", "model: plane_strain\n", "", "upper.file", says="holds no volume cells", base=FLAT),
+    BadScene("solid_mesh_in_the_plane", "plane_hertz_upper", "hertz_upper_coarse", "upper.file", says="no plane mesh", base=FLAT),
+    BadScene("no_cylinder", "lower: [0, 0],", "cylinder: [0, 0], lower: [0, 0],", "block.cylinder", base=BLOCK),
+]
+
+
 def write_bad_scene(bad, folder):
     """Path of the scene file with the mistake."""
-    text = (SCENES / BASE).read_text()
+    text = (SCENES / bad.base).read_text()
     if bad.old not in text:
-        raise ValueError(f"{BASE} no longer contains '{bad.old}': bad scene {bad.name} must be rewritten")
+        raise ValueError(f"{bad.base} no longer contains '{bad.old}': bad scene {bad.name} must be rewritten")
     path = folder / f"{bad.name}.yaml"
     named = (MESHES / "brick_tet_upper.msh").read_text()
     nameless = re.sub(r"\$PhysicalNames.*\$EndPhysicalNames\n", "", named, flags=re.DOTALL)
@@ -179,5 +200,5 @@ def write_bad_scene(bad, folder):
     (folder / "pyramid.msh").write_text(PYRAMID)
     (folder / "prism_2.msh").write_text(PRISM_2)
     (folder / "tet_3.msh").write_text(TET_3)
-    path.write_text(text.replace(bad.old, bad.new, 1))
+    path.write_text(text.replace(bad.old, bad.new, 1).replace("../meshes", str(MESHES)))
     return path

@@ -19,6 +19,7 @@ from ironing import ironing, ironing_full  # noqa: E402
 from material_checks import materials  # noqa: E402
 from normals import normals  # noqa: E402
 from normals_full import normals_full, normals_iterations  # noqa: E402
+from plane import plane, plane_ball  # noqa: E402
 from quadratic import quadratic  # noqa: E402
 from quadratic_contact import quadratic_contact  # noqa: E402
 from quadratic_line import quadratic_line  # noqa: E402
@@ -49,6 +50,8 @@ GROUPS = {
     "normals": normals,
     "normals_full": normals_full,  # ten minutes; not among the tests
     "normals_iterations": normals_iterations,  # some minutes; not among the tests
+    "plane": plane,
+    "plane_ball": plane_ball,
     "quadratic": quadratic,
     "quadratic_contact": quadratic_contact,
     "quadratic_line": quadratic_line,

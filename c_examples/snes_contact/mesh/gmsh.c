@@ -136,7 +136,12 @@ static PetscErrorCode append_surface(const char *body, DM dm, DMLabel label, con
       if (owners > 1) surface->inner = PETSC_TRUE;
       PetscCall(corners_of_cell(dm, cell, &n, corners));
       PetscCall(point_vertices(dm, f, &n_on_face, on_face));
+      for (PetscInt a = 0; a < n; a++)
+        corners[a] = first + new_number[corners[a] - vStart];
+      for (PetscInt a = 0; a < n_on_face; a++)
+        on_face[a] = first + new_number[on_face[a] - vStart];
       kind = cell_kind(mesh->dimension, n);
+      mesh_turn_cell(mesh, kind, corners);
       for (PetscInt k = 0; k < cell_faces(kind); k++) { /* which face of the cell is it? */
         const PetscInt n_corners = cell_face(kind, k, corners, vertices);
         PetscInt       shared    = 0;
@@ -145,8 +150,6 @@ static PetscErrorCode append_surface(const char *body, DM dm, DMLabel label, con
             shared += vertices[a] == on_face[b];
         }
         if (shared != n_corners) continue;
-        for (PetscInt a = 0; a < n_corners; a++)
-          vertices[a] = first + new_number[vertices[a] - vStart];
         surface_push(surface, n_corners, vertices);
         break;
       }

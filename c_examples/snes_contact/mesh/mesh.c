@@ -13,7 +13,7 @@ CellKind mesh_face_kind(const Mesh *mesh, const Surface *surface, PetscInt face)
 
 /* A plane cell that turns clockwise, as meshes drawn from behind have them, the other way: its corners from the last to the
  * second; a node in the middle of corners follows these. */
-static void turn_plane_cell(const Mesh *mesh, CellKind kind, PetscInt vertices[])
+void mesh_turn_cell(const Mesh *mesh, CellKind kind, PetscInt vertices[])
 {
   const PetscInt nodes = cell_nodes(kind), corners = cell_corners(kind);
   PetscInt       given[CELL_NODES];
@@ -48,7 +48,7 @@ PetscErrorCode mesh_append(Mesh *mesh, PetscInt n_vertices, const PetscReal *coo
   for (PetscInt c = 0; c < n_cells; c++) {
     mesh->cell_offsets[mesh->n_cells + c] = used + c * nodes;
     mesh->cell_body[mesh->n_cells + c]    = mesh->n_bodies; /* the body being read */
-    turn_plane_cell(mesh, kind, mesh->cell_vertices + used + c * nodes);
+    mesh_turn_cell(mesh, kind, mesh->cell_vertices + used + c * nodes);
   }
   mesh->n_cells += n_cells;
   mesh->n_vertices += n_vertices;

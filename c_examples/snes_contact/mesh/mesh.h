@@ -86,7 +86,8 @@ PetscErrorCode plex_face_nodes(const Mesh *mesh, PetscInt face, PetscInt *n, Pet
 void     trees_join(PetscInt parent[], PetscInt a, PetscInt b);
 PetscInt trees_number(PetscInt n, PetscInt parent[]); /* from trees to numbers from 0; returns how many there are */
 
-/* for the readers of one body: box.c, gmsh.c, analytic.c. Plane cells may turn either way. */
+/* for the readers of one body: box.c, gmsh.c, analytic.c. Plane cells may turn either way; mesh_append() turns them. */
+void           mesh_turn_cell(const Mesh *mesh, CellKind kind, PetscInt vertices[]);
 PetscErrorCode mesh_append(Mesh *mesh, PetscInt n_vertices, const PetscReal *coordinates, PetscInt n_cells,
                            CellKind kind, const PetscInt *cells);
 PetscErrorCode mesh_add_surface(Mesh *mesh, const char *name, PetscInt max_faces, Surface **surface);
