@@ -1,6 +1,7 @@
 """Figures of any scene: history of reactions, contact forces on the deformed surface, strips of frames and animations.
 
-A *section* is a scene of one layer of cells seen along y. A *map* is a contact surface seen along its normal z.
+A *section* is a scene of one layer of cells seen along y, a *plane* one a plane or axisymmetric model. A *map* is a contact
+surface seen along its normal z.
 """
 
 import io
@@ -15,6 +16,10 @@ from figures import BLUE, GREY, INK, RED, SAND, front_quads
 
 STATE_COLOURS = {"gap": GREY, "stick": BLUE, "slip": RED}
 BODY_COLOURS = (SAND, "#dfe6ee", "#e5eddc")
+
+
+AXES = {"section": [0, 2], "plane": [0, 1], "map": [0, 1]}
+CORNERS = {"quad": 4, "quad8": 4, "quad9": 4, "triangle": 3, "triangle6": 3}
 
 
 @dataclass
@@ -51,26 +56,34 @@ def nodal_tractions(run, view, step):
     return position, traction, table["state"]
 
 
+def body_polygons(run, view, step):
+    """(number of the body, corners of its cells as they are seen), kind by kind."""
+    points, cells, _ = run.mesh(step)
+    for kind in ["hexahedron"] if view.kind == "section" else [kind for kind in cells if kind in CORNERS]:
+        body = run.cell_bodies(step, kind)
+        for number in np.unique(body):
+            of_body = cells[kind][body == number]
+            yield number, front_quads(points, of_body) if view.kind == "section" else of_body[:, : CORNERS[kind]]
+
+
 def frame(axis, run, view, step, largest):
     """One picture of a step; `largest` traction has the view's arrow length."""
     left, right, bottom, top = view.window
-    axes = [0, 2] if view.kind == "section" else [0, 1]
+    axes = AXES[view.kind]
     position, traction, state = nodal_tractions(run, view, step)
     touching = state != "gap"
-    if view.kind == "section":
-        points, cells, displacement = run.mesh(step)
-        body = run.cell_bodies(step)
+    if view.kind != "map":
+        points, _, displacement = run.mesh(step)
         deformed = (points + view.magnify * displacement)[:, axes]
-        for number in np.unique(body):
-            quads = front_quads(points, cells["hexahedron"][body == number])
+        for number, polygons in body_polygons(run, view, step):
             colour = BODY_COLOURS[int(number) % len(BODY_COLOURS)]
             style = {"facecolors": colour, "edgecolors": GREY, "linewidths": 0.25}
-            axis.add_collection(PolyCollection(deformed[quads], **style))
+            axis.add_collection(PolyCollection(deformed[polygons], **style))
     else:
         colours = [STATE_COLOURS.get(name, GREY) for name in state]
         axis.scatter(position[:, 0], position[:, 1], s=3, c=colours, linewidths=0)
     arrows = traction[:, axes] * view.arrow / largest
-    tail = position[:, axes] - (arrows if view.kind == "section" else 0)  # pushing from outside; on a map from the node
+    tail = position[:, axes] - (arrows if view.kind != "map" else 0)  # pushing from outside; on a map from the node
     for name in ("stick", "slip"):
         chosen = touching & (state == name)
         if chosen.any():
@@ -82,7 +95,7 @@ def frame(axis, run, view, step, largest):
 
 def largest_traction(run, view, steps):
     """Of the nodes that touch, in the plane that is seen; singular corners aside."""
-    axes = [0, 2] if view.kind == "section" else [0, 1]
+    axes = AXES[view.kind]
     sizes = []
     for step in steps:
         _, traction, state = nodal_tractions(run, view, step)

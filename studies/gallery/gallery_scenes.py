@@ -10,6 +10,7 @@ import formulas
 import friction_checks as friction
 import gallery_figures as figures
 import ironing
+import plane
 import slider
 import turning
 from gallery_figures import View
@@ -30,7 +31,7 @@ class Entry:
 def moving(name, run, view, folder, caption, frames=24, pictures=4, shown=None):
     """The three that every scene gets: forces on the deformed surface after the step `shown` (default: the last), a
     strip, an animation. Only steps that have a .vtu (sections) or a .csv (maps)."""
-    pattern = "step_*.vtu" if view.kind == "section" else f"interface_{view.interface}_*.csv"
+    pattern = "step_*.vtu" if view.kind != "map" else f"interface_{view.interface}_*.csv"
     there = sorted(int(path.stem.rpartition("_")[2]) for path in run.directory.glob(pattern))
     shown = shown or there[-1]
     chosen = lambda count: sorted({there[round(k)] for k in np.linspace(0, len(there) - 1, min(count, len(there)))})
@@ -81,6 +82,28 @@ def draw_hertz_ball(solved, folder):
         fine = np.linspace(0, hertz.contact_radius, 400)
         series.append((f"{facets} facets over the radius", r[near], pressure[near], fine, hertz.pressure(fine)))
     return [figures.profile(series, folder / "hertz_ball.png", "r", "pressure", "Hertz, ball on a plane: every node")]
+
+
+def ring_ball(verdicts, driver):
+    return plane.plane_ball(verdicts, driver), driver.run("ring_ball", "-output_vtu", "all", label="ring_ball_seen")
+
+
+def draw_ring_ball(solved, folder):
+    runs, seen = solved
+    series = []
+    for name, run in zip(("rings", "a quarter in space"), runs):
+        table, solid = run.interface("contact"), name != "rings"
+        hertz = formulas.PointContact(run.resultant("contact")[2] * 4 if solid else run.resultant("contact")[1],
+                                      formulas.plane_modulus(1000, 0.3) / 2, 1.0)
+        r = np.hypot(table["X"], table["Y"] if solid else 0)
+        near = r < 1.3 * hertz.contact_radius
+        fine = np.linspace(0, hertz.contact_radius, 400)
+        series.append((name, r[near], table["p_lumped"][near], fine, hertz.pressure(fine)))
+    view = View("contact", (0, 0.45, -1.3, -0.85), 0.08, (5.5, 5.5), "plane", magnify=1.0)
+    return [
+        figures.surface(seen, view, folder / "ring_ball_forces.png", title="a ball of rings on a block"),
+        figures.profile(series, folder / "ring_ball.png", "r", "pressure", "Hertz, ball on a block of its material"),
+    ]
 
 
 # --- Cattaneo, Mindlin ------------------------------------------------------------------------------------------------
@@ -420,6 +443,8 @@ ENTRIES = [
           hertz_line, draw_hertz_line),
     Entry("hertz_ball", "Hertz: ball on a plane", "A quarter of an elastic ball on a plane without a mesh.", 0.5,
           hertz_ball, draw_hertz_ball),
+    Entry("ring_ball", "Hertz: ball on a block, axisymmetric", "As a plane model of rings, and as a quarter in space.", 1.0,
+          ring_ball, draw_ring_ball),
     Entry("cattaneo", "Cattaneo and Mindlin: line contact drawn", "The half-cylinders, one drawn along the other: slip "
           "at the rims. The profile's error is mostly in the one facet in which stick ends, and so depends on where in "
           "that facet it ends.", 1.0, cattaneo, draw_cattaneo, ("cattaneo.png",)),

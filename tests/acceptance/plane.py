@@ -4,6 +4,7 @@ import numpy as np
 
 from formulas import shrink_fit_free
 from jacobian import whole_matrix
+from plane_mesh import PlaneMesh
 from scene import write
 
 # The discrete solution is the exact one: rounding of some hundred unknowns, and Newton's tolerance of 1e-11.
@@ -31,6 +32,7 @@ YOUNG, POISSON, PRESSURE = 1000.0, 0.3, 10.0
 def plane(verdicts, driver):
     driver.output.mkdir(parents=True, exist_ok=True)
     patches(verdicts, driver)
+    gmsh(verdicts, driver)
     same_as_space(verdicts, driver)
     sliding(verdicts, driver)
     rings(verdicts, driver)
@@ -38,8 +40,9 @@ def plane(verdicts, driver):
     ranks_and_tangents(verdicts, driver)
 
 
-def patch_scene(driver, model, lower, upper):
-    """Two rectangles, or rings, that do not match, pressed on each other; the sides are free."""
+def patch_scene(driver, model, lower, upper, meshed=None):
+    """Two rectangles, or rings, that do not match, pressed on each other; the sides are free. `meshed`: from Gmsh files, whose
+    cells turn clockwise or not."""
     common = {"type": "box", "young": YOUNG, "poisson": POISSON, "small_strain": True}
     inside = 1.0 if model == "axisymmetric" else 0.0
     scene = {
@@ -62,25 +65,42 @@ def patch_scene(driver, model, lower, upper):
     if model != "axisymmetric":  # a ring is held
         scene["supports"] += ["left"]
         scene["left"] = {"surface": ["lower.xmin", "upper.xmin"], "components": ["x"]}
-    return write(scene, driver.output / f"patch_{model}_{lower}_{upper}.yaml"), inside
+    for body, kind in (("lower", lower), ("upper", upper)) if meshed is not None else ():
+        box = scene[body]
+        mesh = PlaneMesh(kind, box.pop("x"), box.pop("y"), meshed).write(driver.output / f"{body}_{kind}_{meshed}.msh")
+        del box["cell"]
+        box.update(type="gmsh", file=mesh.name)
+    end = "" if meshed is None else f"_gmsh_{meshed}"
+    return write(scene, driver.output / f"patch_{model}_{lower}_{upper}{end}.yaml"), inside
 
 
 def patches(verdicts, driver):
     for model in MODELS:
         for lower, upper in zip(KINDS, KINDS[1:] + KINDS[:1]):
             path, _ = patch_scene(driver, model, lower, upper)
-            run = driver.run(path)
-            table = run.interface("contact")
-            held = table[table["state"] != "none"]
-            error = np.abs(held["lambda_n"] / PRESSURE + 1).max()
-            points, _, u = run.mesh()
-            # uniaxial stress, but in plane strain nothing moves across
-            free = model != "plane_strain"
-            along = PRESSURE / YOUNG * (1 if free else 1 - POISSON**2)
-            across = PRESSURE / YOUNG * (POISSON if free else POISSON * (1 + POISSON))
-            exact = np.stack([across * points[:, 0], -along * points[:, 1], 0 * points[:, 0]], axis=1)
-            error = max(error, np.abs(u - exact).max() / np.abs(exact).max())
+            error = patch_error(driver.run(path), model)
             verdicts.below(f"{model}: patch, {upper} on {lower}", error, EXACT_BOUND, "exact solution")
+
+
+def gmsh(verdicts, driver):
+    """Meshes from files, of first and of second order, with cells that turn either way."""
+    for kind in KINDS:
+        for clockwise in (False, True):
+            path, _ = patch_scene(driver, "plane_strain", kind, kind, clockwise)
+            error = patch_error(driver.run(path), "plane_strain")
+            verdicts.below(f"{kind} from Gmsh{', clockwise' * clockwise}: patch", error, EXACT_BOUND, "exact solution")
+
+
+def patch_error(run, model):
+    """Of multipliers and displacements; uniaxial stress, but in plane strain nothing moves across."""
+    table = run.interface("contact")
+    held = table[table["state"] != "none"]
+    points, _, u = run.mesh()
+    free = model != "plane_strain"
+    along = PRESSURE / YOUNG * (1 if free else 1 - POISSON**2)
+    across = PRESSURE / YOUNG * (POISSON if free else POISSON * (1 + POISSON))
+    exact = np.stack([across * points[:, 0], -along * points[:, 1], 0 * points[:, 0]], axis=1)
+    return max(np.abs(held["lambda_n"] / PRESSURE + 1).max(), np.abs(u - exact).max() / np.abs(exact).max())
 
 
 def compare(verdicts, label, flat, solid, axes):
@@ -237,6 +257,7 @@ def plane_ball(verdicts, driver):
     verdicts.near("ball on a block: force", force, whole, BALL_BOUND, "a quarter of it in space")
     largest = [hertz_pressure(run.interface("contact")) for run in (ring, solid)]
     verdicts.near("ball on a block: largest pressure", largest[0], largest[1], BALL_BOUND, "a quarter of it in space")
+    return ring, solid
 
 
 def hertz_pressure(table):
