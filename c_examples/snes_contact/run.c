@@ -37,7 +37,7 @@ static PetscErrorCode step_to(Model *model, Summary *summary, History *history, 
   PetscFunctionBegin;
   model->physics.t = t;
   PetscCall(supports_values(&model->physics, t));
-  PetscCall(loads_values(&model->physics, t));
+  PetscCall(loads_values(&model->physics));
   PetscCall(newton_solve(&model->solve, &history->past, history->x, done));
   model->solve.iterations += newton->iterations;
   history->tried     = PETSC_TRUE;

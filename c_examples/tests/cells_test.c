@@ -1,12 +1,14 @@
 /* Cells and faces of all kinds by themselves, in every space: functions, Gauss points, which nodes faces have, stiffness,
  * consistent loads. Prints a line per check; exit code 1 if one fails. */
 #include "physics/elasticity.h"
+#include "physics/element_loads.h"
 #include <math.h>
 #include <petscblaslapack.h>
 #include <stdio.h>
 
-/* Central differences with steps of 1e-5: truncation 1e-10 of third derivatives, rounding 1e-16 / 1e-5. */
-static const double STEP = 1e-5, DIFFERENCE_BOUND = 1e-8;
+/* Central differences with steps of 3e-6: truncation 1e-11 of third derivatives, which are some hundreds in a small curved
+ * cell, and rounding 1e-16 / 3e-6. */
+static const double STEP = 3e-6, DIFFERENCE_BOUND = 1e-8;
 /* What is the same by algebra: some hundreds of roundings of numbers of order one. */
 static const double ROUNDING_BOUND = 1e-13;
 /* An eigenvalue over the largest one: a deformation without energy has rounding only, others have far more. */
@@ -118,13 +120,12 @@ static void test_divergence(CellKind kind, const Space *space)
   for (PetscInt a = 0; a < nodes; a++)
     own[a] = a;
   for (PetscInt face = 0; face < cell_faces(kind); face++) {
-    const PetscReal nothing[3] = {0, 0, 0};
     PetscInt        its[FACE_NODES];
     PetscReal       of_face[3 * FACE_NODES], f[3 * FACE_NODES];
     const PetscInt  n = cell_face(kind, face, own, its);
     for (PetscInt k = 0; k < 3 * n; k++)
       of_face[k] = X[3 * its[k / 3] + k % 3];
-    face_forces(cell_kind(cell_dimension(kind) - 1, n), space, of_face, nothing, 1, f); /* against the outward normal */
+    face_pressure(cell_kind(cell_dimension(kind) - 1, n), space, of_face, 1, f, NULL); /* against the outward normal */
     for (PetscInt k = 0; k < 3 * n; k++)
       sum[3 * its[k / 3] + k % 3] += f[k];
   }
@@ -241,12 +242,68 @@ static void test_loads(CellKind kind, const Space *space, double corner, double 
   const double    area = (cell_dimension(kind) == 1 ? 2 : cell_is_simplex(kind) ? 0.5 : 4) * space_measure(space, 0);
   PetscReal       X[3 * FACE_NODES], f[3 * FACE_NODES], error = 0;
   curved_cell(kind, space, 0, X);
-  face_forces(kind, space, X, traction, 0, f);
+  face_pressure(kind, space, X, 0, f, NULL);
+  face_traction(kind, space, X, traction, f);
   for (PetscInt k = 0; k < 3 * cell_nodes(kind); k++) {
     const double part = k / 3 < corners ? corner : k / 3 < corners + edges ? edge : centre;
     error             = PetscMax(error, PetscAbsReal(f[k] - area * part * traction[k % 3]));
   }
   check_in(kind, space, "nodal forces of a uniform traction", error, ROUNDING_BOUND);
+}
+
+/* A pressure that follows its face: derivatives against differences. */
+static void test_follower(CellKind kind, const Space *space)
+{
+  const PetscInt n = 3 * cell_nodes(kind);
+  double         x[3 * FACE_NODES], f[3 * FACE_NODES], high[3 * FACE_NODES], low[3 * FACE_NODES], K[9 * FACE_NODES * FACE_NODES];
+  double         error = 0;
+  curved_cell(kind, space, 0.1, x);
+  for (PetscInt k = 2; k < n && space->kind == SPACE_SOLID; k += 3)
+    x[k] += 0.1 * pseudo_random();
+  face_pressure(kind, space, x, 1.3, f, K);
+  for (PetscInt k = 0; k < n; k++) {
+    const double value = x[k];
+    if (k % 3 == 2 && space->kind != SPACE_SOLID) continue;
+    x[k] = value + STEP;
+    face_pressure(kind, space, x, 1.3, high, NULL);
+    x[k] = value - STEP;
+    face_pressure(kind, space, x, 1.3, low, NULL);
+    x[k] = value;
+    for (PetscInt j = 0; j < n; j++)
+      error = fmax(error, fabs(K[n * j + k] - (high[j] - low[j]) / (2 * STEP)));
+  }
+  check_in(kind, space, "a pressure's derivatives against differences", error / space_measure(space, RADIUS), DIFFERENCE_BOUND);
+}
+
+/* Forces of gravity add up to the weight, and those of a turn have the moments of the mass: int rho X_i X_j dV. */
+static void test_body_forces(CellKind kind, const Space *space)
+{
+  const Acceleration gravity = {.uniform = {1, -2, 3}};
+  const Acceleration spin    = {.spin = {0, 0, 2}, .origin = {0.3, 0.2, 0}}; /* outward: 4 (X - origin), but along z */
+  double             X[81], f[81], sum[3] = {0}, volume = 0, first[2] = {0}, error = 0, N[CELL_NODES], dN[CELL_NODES][3], xi[3];
+  curved_cell(kind, space, 0.05, X);
+  for (PetscInt q = 0; q < cell_quadrature_points(kind); q++) {
+    double weight = cell_quadrature_point(kind, q, xi), x[3] = {0};
+    cell_functions(kind, xi, N, dN);
+    for (PetscInt k = 0; k < 3 * cell_nodes(kind); k++)
+      x[k % 3] += N[k / 3] * X[k];
+    weight *= cell_physical_gradients(kind, X, dN) * space_measure(space, x[0]);
+    volume += weight;
+    for (int i = 0; i < 2; i++)
+      first[i] += 4 * weight * (x[i] - spin.origin[i]);
+  }
+  cell_body_forces(kind, space, 0.7, &gravity, X, f);
+  for (PetscInt k = 0; k < 3 * cell_nodes(kind); k++)
+    sum[k % 3] += f[k];
+  for (int i = 0; i < 3; i++)
+    error = fmax(error, fabs(sum[i] - 0.7 * volume * gravity.uniform[i]));
+  cell_body_forces(kind, space, 0.7, &spin, X, f);
+  sum[0] = sum[1] = sum[2] = 0;
+  for (PetscInt k = 0; k < 3 * cell_nodes(kind); k++)
+    sum[k % 3] += f[k];
+  for (int i = 0; i < 3; i++)
+    error = fmax(error, fabs(sum[i] - (i < 2 ? 0.7 * first[i] : 0)));
+  check_in(kind, space, "forces of gravity and of a turn add up", error / volume, ROUNDING_BOUND);
 }
 
 int main(int argc, char **argv)
@@ -261,12 +318,18 @@ int main(int argc, char **argv)
     for (int s = 0; s < (plane ? 3 : 1) && cell_dimension(kind) > 1; s++) {
       const Space *space = all[plane][s];
       test_divergence((CellKind)kind, space);
+      test_body_forces((CellKind)kind, space);
       test_rank((CellKind)kind, space);
       for (int k = 0; k < 2 * N_LAWS; k++) {
         if (k % 2 && space->kind == SPACE_PLANE_STRESS) continue;
         test_stiffness((CellKind)kind, space, LAWS[k / 2], (PetscBool)(k % 2));
       }
     }
+  }
+  for (int kind = LINE2; kind <= QUAD9; kind++) {
+    if (cell_dimension((CellKind)kind) == 2) test_follower((CellKind)kind, &solid);
+    if (cell_dimension((CellKind)kind) == 1) test_follower((CellKind)kind, &strain);
+    if (cell_dimension((CellKind)kind) == 1) test_follower((CellKind)kind, &ring);
   }
   for (int k = 0; k < N_LAWS; k++) {
     test_layer(LAWS[k]);

@@ -166,6 +166,17 @@ def write_signed_mesh(folder):
     return path
 
 
+WEIGHT = "loads: [press, push, weight]\nweight: {body: block, gravity: [0, 0, -1]}"
+BAD_SCENES += [
+    BadScene("weightless", "loads: [press, push]", WEIGHT, "block.density"),
+    BadScene("negative_density", "young: 1000, poisson: 0.3, small", "density: -1, young: 1000, poisson: 0.3, small", "block.density"),
+    BadScene("body_load_without_a_kind", "loads: [press, push]", WEIGHT.replace("gravity", "acceleration"), "weight.gravity"),
+    BadScene("follower_traction", "traction: [0, 0, -200]", "traction: [0, 0, -200], follower: true", "press.follower"),
+    BadScene("gravity_with_an_origin", "loads: [press, push]", WEIGHT.replace("-1]", "-1], origin: [0, 0, 1]"), "weight.origin",
+             options=("-block_density", "1")),
+    BadScene("gravity_across_the_axis", "interfaces", "loads: [weight]\nweight: {body: hub, gravity: [1, 0]}\ninterfaces",
+             "weight.gravity", base="ring_shrink_fit.yaml"),
+]
 BLOCK, RINGS, FLAT = "plane_block.yaml", "ring_shrink_fit.yaml", "plane_hertz.yaml"
 BAD_SCENES += [
     BadScene("model_unknown", "model: plane_strain", "model: plane", "model", base=BLOCK),

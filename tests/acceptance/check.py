@@ -17,6 +17,7 @@ from friction_checks import friction  # noqa: E402
 from hosts import hosts  # noqa: E402
 from ironing import ironing, ironing_full  # noqa: E402
 from material_checks import materials  # noqa: E402
+from loads import loads  # noqa: E402
 from normals import normals  # noqa: E402
 from normals_full import normals_full, normals_iterations  # noqa: E402
 from plane import plane, plane_ball  # noqa: E402
@@ -46,6 +47,7 @@ GROUPS = {
     "hosts": hosts,
     "ironing": ironing,
     "ironing_full": ironing_full,  # four minutes; not among the tests
+    "loads": loads,
     "materials": materials,
     "normals": normals,
     "normals_full": normals_full,  # ten minutes; not among the tests

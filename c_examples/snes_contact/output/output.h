@@ -2,6 +2,7 @@
 #ifndef SNES_CONTACT_OUTPUT_H
 #define SNES_CONTACT_OUTPUT_H
 #include "solve/solve.h"
+#include <stdio.h>
 
 typedef struct {
   char     name[NAME_LENGTH];
@@ -45,7 +46,15 @@ PetscErrorCode diagnosis_failed(Output *output, struct cJSON *root);
 /* tractions.c */
 PetscErrorCode nodal_tractions(const Mesh *mesh, const Interface *interface, const ContactStates *states,
                                double tractions[]);
-/* files.c */
+/* csv.c */
 PetscErrorCode csv_write(Output *output, const Interface *interface, const ContactStates *states, PetscInt step);
+/* vtu_array.c */
+void           vtu_start_array(FILE *file, const char *type, const char *name, int components);
+void           vtu_end_array(FILE *file);
+void           vtu_vectors(FILE *file, const char *name, PetscInt n, const PetscScalar *values);
+/* vtu_stress.c */
+PetscErrorCode vtu_cell_stresses(FILE *file, const Mesh *mesh, const Material *materials, const PetscScalar *displacements);
+PetscErrorCode vtu_nodal_stresses(FILE *file, const Mesh *mesh, const Material *materials, const PetscScalar *displacements);
+/* vtu.c */
 PetscErrorCode vtu_write(Output *output, const PetscScalar *displacements, PetscInt step);
 #endif

@@ -97,11 +97,15 @@ static PetscErrorCode interface_results(Output *output, Interface *interface, Pe
 static PetscErrorCode add_reactions(Output *output, cJSON *json)
 {
   Physics *physics   = output->physics;
-  cJSON   *reactions = cJSON_AddObjectToObject(json, "reactions");
+  cJSON   *reactions = cJSON_AddObjectToObject(json, "reactions"), *moments;
   PetscFunctionBegin;
   PetscCall(supports_reactions(physics));
   for (PetscInt s = 0; s < physics->n_supports; s++)
     cJSON_AddItemToObject(reactions, physics->supports[s].name, vector_json(physics->supports[s].reaction));
+  if (output->mesh->space.kind == SPACE_AXISYMMETRIC) PetscFunctionReturn(PETSC_SUCCESS); /* a ring has none */
+  moments = cJSON_AddObjectToObject(json, "moments");
+  for (PetscInt s = 0; s < physics->n_supports; s++)
+    cJSON_AddItemToObject(moments, physics->supports[s].name, vector_json(physics->supports[s].moment));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

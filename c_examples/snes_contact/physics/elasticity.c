@@ -1,5 +1,4 @@
-/* Internal forces f_a = int P : dH/du_a dV and stiffness K_ab = int dH/du_a : A : dH/du_b dV of cells of any kind, and the
- * consistent loads of their faces. H = du/dX, so that dH/du_a is dN_a/dX; in a ring the strain around, H_33 = u_r / r, adds
+/* Internal forces f_a = int P : dH/du_a dV and stiffness K_ab = int dH/du_a : A : dH/du_b dV of cells of any kind. H = du/dX, so that dH/du_a is dN_a/dX; in a ring the strain around, H_33 = u_r / r, adds
  * N_a / r. dV has the thickness, or 2 pi r. Units: whatever the scene uses; forces are F, stresses F/L^2.
  *
  * Mean dilatation: the energy of a cell of reference volume V is int W0 dV + V U(m), where m is the cell's mean of v.
@@ -137,46 +136,20 @@ void cell_centre_gradient(CellKind kind, const Space *space, const Material *mat
     H[k] = point.H[k];
 }
 
-void cell_centre_stress(CellKind kind, const Space *space, const Material *material, const PetscReal X[],
-                        const PetscReal u[], PetscReal sigma[9])
+void cell_stresses(CellKind kind, const Space *space, const Material *material, const PetscReal X[], const PetscReal u[],
+                   PetscInt n, const PetscReal xi[], PetscReal sigma[])
 {
-  Point     points[CELL_POINTS], middle;
+  Point     points[CELL_POINTS];
   PetscInt  n_points;
-  PetscReal centre[3], P[9], V[9], mean, whole, p, dp;
-  cell_centre(kind, centre);
-  for (int k = 0; k < 9; k++)
+  PetscReal P[9], V[9], mean, whole, p, dp;
+  for (PetscInt k = 0; k < 9 * n; k++)
     sigma[k] = 0;
   if (!strains(kind, space, material, X, u, points, &n_points, &mean, &whole)) return;
-  if (!strain(kind, space, material, X, u, centre, &middle)) return;
-  material->law->pressure(material, material->mean_dilatation ? mean : material->law->volume(middle.H), &p, &dp);
-  material->law->stress(material, middle.H, p, dp, P, V, NULL);
-  cauchy_stress(material, middle.H, P, sigma);
-}
-
-void face_forces(CellKind kind, const Space *space, const PetscReal X[], const PetscReal traction[3], PetscReal pressure,
-                 PetscReal f[])
-{
-  const PetscInt nodes = cell_nodes(kind);
-  for (PetscInt k = 0; k < 3 * nodes; k++)
-    f[k] = 0;
-  for (PetscInt q = 0; q < cell_quadrature_points(kind); q++) {
-    PetscReal       N[FACE_NODES], d[FACE_NODES][3], xi[3], tangent[2][3] = {{0}}, normal[3], area, r = 0;
-    const PetscReal weight = cell_quadrature_point(kind, q, xi);
-    cell_functions(kind, xi, N, d);
-    tangent[1][2] = cell_dimension(kind) == 1; /* a line is as long as 1 across the plane */
-    for (PetscInt a = 0; a < nodes; a++) {
-      r += N[a] * X[3 * a];
-      for (int i = 0; i < 3; i++) {
-        tangent[0][i] += d[a][0] * X[3 * a + i];
-        tangent[1][i] += d[a][1] * X[3 * a + i];
-      }
-    }
-    for (int i = 0; i < 3; i++)
-      normal[i] = tangent[0][(i + 1) % 3] * tangent[1][(i + 2) % 3] - tangent[0][(i + 2) % 3] * tangent[1][(i + 1) % 3];
-    area = PetscSqrtReal(normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]);
-    for (PetscInt a = 0; a < nodes; a++) {
-      for (int i = 0; i < 3; i++)
-        f[3 * a + i] += weight * space_measure(space, r) * N[a] * (traction[i] * area - pressure * normal[i]);
-    }
+  for (PetscInt k = 0; k < n; k++) {
+    Point point;
+    if (!strain(kind, space, material, X, u, xi + 3 * k, &point)) continue;
+    material->law->pressure(material, material->mean_dilatation ? mean : material->law->volume(point.H), &p, &dp);
+    material->law->stress(material, point.H, p, dp, P, V, NULL);
+    cauchy_stress(material, point.H, P, sigma + 9 * k);
   }
 }

@@ -13,12 +13,12 @@ PetscErrorCode cell_forces(CellKind kind, const Space *space, const Material *ma
 /* of the displacements, H = du/dX, with the strain across the plane */
 void           cell_centre_gradient(CellKind kind, const Space *space, const Material *material, const PetscReal X[],
                                     const PetscReal u[], PetscReal H[9]);
-/* Cauchy's stress; zeros where det F <= 0 */
+/* Cauchy's stress at n points of reference, 9 each; zeros where det F <= 0 */
+void           cell_stresses(CellKind kind, const Space *space, const Material *material, const PetscReal X[],
+                             const PetscReal u[], PetscInt n, const PetscReal xi[], PetscReal sigma[]);
+/* stress.c: the same at the centre; and at all nodes, from the places within the cell where it is best known */
 void           cell_centre_stress(CellKind kind, const Space *space, const Material *material, const PetscReal X[],
                                   const PetscReal u[], PetscReal sigma[9]);
-
-/* consistent nodal forces of a dead traction on a reference face, in f (3 per node). `pressure` acts against the normal of
- * the face: as the right hand turns with its nodes, or to the right of a line. */
-void face_forces(CellKind kind, const Space *space, const PetscReal X[], const PetscReal traction[3], PetscReal pressure,
-                 PetscReal f[]);
+void           cell_nodal_stresses(CellKind kind, const Space *space, const Material *material, const PetscReal X[],
+                                   const PetscReal u[], PetscReal sigma[]);
 #endif

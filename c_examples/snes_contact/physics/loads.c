@@ -1,51 +1,6 @@
-/* Dead surface loads: a traction vector and/or a pressure per reference area, as consistent nodal forces, times a curve. */
+/* Loads: a traction vector or a pressure on surfaces, or what accelerates bodies, as nodal forces times a curve. Tractions, and
+ * pressures that follow nothing, are dead, per reference area; a follower pressure acts on the surface as it is now. */
 #include "physics/physics.h"
-
-PetscErrorCode loads_read(Scene *scene, Physics *physics)
-{
-  const Mesh *mesh = physics->mesh;
-  char      **names;
-
-  PetscFunctionBegin;
-  scene_names(scene, "loads", &physics->n_loads, &names);
-  PetscCall(PetscCalloc1(physics->n_loads, &physics->loads));
-  for (PetscInt l = 0; l < physics->n_loads; l++) {
-    Load     *load = &physics->loads[l];
-    PetscBool traction;
-    PetscCall(PetscSNPrintf(load->name, NAME_LENGTH, "%s", names[l]));
-    traction = space_vector(scene, &mesh->space, load->name, "traction", load->traction);
-    if (!scene_has(scene, load->name, "pressure") && !traction) {
-      (void)scene_has(scene, load->name, "surface"); /* known keys, one of which may be misspelt */
-      (void)scene_has(scene, load->name, "curve");
-      scene_check_unread_of(scene, load->name);
-      scene_fail(scene, load->name, "traction",
-                 "say how it loads: traction [x, y%s], or pressure (against the outward normal).",
-                 mesh->dimension == 3 ? ", z" : "");
-    }
-    scene_real(scene, load->name, "pressure", &load->pressure);
-    mesh_rotate_vector(mesh, load->traction);
-    PetscCall(curve_read(scene, load->name, "curve", physics->end, &load->curve));
-  }
-  strings_destroy(physics->n_loads, &names);
-  scene_root_begin(scene);
-  for (PetscInt l = 0; l < physics->n_loads && mesh->rank == 0; l++) {
-    Load  *load = &physics->loads[l];
-    char **list;
-    scene_strings(scene, load->name, "surface", &load->n_surfaces, &list);
-    if (!load->n_surfaces) scene_fail(scene, load->name, "surface", "this key is missing.");
-    PetscCall(PetscMalloc1(load->n_surfaces, &load->surfaces));
-    for (PetscInt k = 0; k < load->n_surfaces; k++) {
-      load->surfaces[k] = mesh_surface(scene, mesh, load->name, "surface", list[k]);
-      if (load->surfaces[k]->inner)
-        scene_fail(scene, load->name, "surface", "'%s' lies inside a body and cannot be loaded.", list[k]);
-      if (load->surfaces[k]->analytic)
-        scene_fail(scene, load->name, "surface", "'%s' is rigid and without faces: it cannot be loaded.", list[k]);
-    }
-    strings_destroy(load->n_surfaces, &list);
-  }
-  PetscCall(scene_root_end(scene));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
 
 PetscErrorCode loads_label(Physics *physics)
 {
@@ -82,12 +37,19 @@ static PetscErrorCode middle(const Mesh *mesh, PetscInt point, PetscSection sect
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode add_face(Physics *physics, const Load *load, PetscInt face, PetscScalar *forces)
+/* A face of this rank's mesh: its nodes and their places, and 1, or -1 where DMPlex sees it from inside. */
+typedef struct {
+  CellKind  kind;
+  PetscInt  n, dofs[FACE_NODES];
+  PetscReal X[3 * FACE_NODES], sign;
+} Face;
+
+static PetscErrorCode look_at_face(const Physics *physics, PetscInt point, Face *face)
 {
   const Mesh        *mesh = physics->mesh;
-  PetscInt           n, nodes[FACE_NODES], at;
+  PetscInt           nodes[FACE_NODES], at;
   const PetscInt    *cells;
-  PetscReal          X[3 * FACE_NODES], f[3 * FACE_NODES], cell_middle[3], face_middle[3], outward = 0, e1[3], e2[3];
+  PetscReal          cell_middle[3], face_middle[3], outward = 0, e1[3], e2[3];
   PetscSection       section;
   Vec                vector;
   const PetscScalar *coordinates;
@@ -96,66 +58,154 @@ static PetscErrorCode add_face(Physics *physics, const Load *load, PetscInt face
   PetscCall(DMGetCoordinateSection(mesh->dm, &section));
   PetscCall(DMGetCoordinatesLocal(mesh->dm, &vector));
   PetscCall(VecGetArrayRead(vector, &coordinates));
-  PetscCall(plex_face_nodes(mesh, face, &n, nodes));
-  for (PetscInt a = 0; a < n; a++) {
+  PetscCall(plex_face_nodes(mesh, point, &face->n, nodes));
+  for (PetscInt a = 0; a < face->n; a++) {
     PetscCall(PetscSectionGetOffset(section, nodes[a], &at));
     for (int i = 0; i < 3; i++)
-      X[3 * a + i] = PetscRealPart(coordinates[at + i]);
+      face->X[3 * a + i] = PetscRealPart(coordinates[at + i]);
+    PetscCall(PetscSectionGetOffset(physics->unknowns.section, nodes[a], &face->dofs[a]));
   }
-  PetscCall(DMPlexGetSupport(mesh->dm, face, &cells));
+  PetscCall(DMPlexGetSupport(mesh->dm, point, &cells));
   PetscCall(middle(mesh, cells[0], section, coordinates, cell_middle));
-  PetscCall(middle(mesh, face, section, coordinates, face_middle));
+  PetscCall(middle(mesh, point, section, coordinates, face_middle));
   PetscCall(VecRestoreArrayRead(vector, &coordinates));
   for (int i = 0; i < 3; i++) { /* two edges of the triangle 0, 1, 2; or a line, and one across the plane */
-    e1[i] = X[3 + i] - X[i];
-    e2[i] = mesh->dimension == 3 ? X[6 + i] - X[i] : i == 2;
+    e1[i] = face->X[3 + i] - face->X[i];
+    e2[i] = mesh->dimension == 3 ? face->X[6 + i] - face->X[i] : i == 2;
   }
-  for (int i = 0; i < 3; i++) { /* DMPlex may see the face from inside: the pressure acts against the outward normal */
+  for (int i = 0; i < 3; i++) {
     const int j = (i + 1) % 3, k = (i + 2) % 3;
     outward += (e1[j] * e2[k] - e1[k] * e2[j]) * (face_middle[i] - cell_middle[i]);
   }
-  face_forces(cell_kind(mesh->dimension - 1, n), &mesh->space, X, load->traction,
-              outward > 0 ? load->pressure : -load->pressure, f);
-  for (PetscInt a = 0; a < n; a++) {
-    PetscCall(PetscSectionGetOffset(physics->unknowns.section, nodes[a], &at));
-    for (int i = 0; i < 3; i++)
-      forces[at + i] += f[3 * a + i];
+  face->kind = cell_kind(mesh->dimension - 1, face->n);
+  face->sign = outward > 0 ? 1 : -1;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* this rank's faces under a load */
+static PetscErrorCode find_faces(const Physics *physics, Load *load)
+{
+  char            label[2 * NAME_LENGTH];
+  const PetscInt *points;
+  IS              is;
+  PetscFunctionBegin;
+  PetscCall(PetscSNPrintf(label, sizeof(label), "load.%s", load->name));
+  PetscCall(DMGetStratumIS(physics->mesh->dm, label, 1, &is));
+  if (!is) PetscFunctionReturn(PETSC_SUCCESS); /* none on this rank */
+  PetscCall(ISGetLocalSize(is, &load->n_faces));
+  PetscCall(PetscMalloc1(load->n_faces, &load->faces));
+  PetscCall(ISGetIndices(is, &points));
+  PetscCall(PetscArraycpy(load->faces, points, load->n_faces));
+  PetscCall(ISRestoreIndices(is, &points));
+  PetscCall(ISDestroy(&is));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static void add(PetscInt n, const PetscInt dofs[], const PetscReal f[], PetscReal factor, PetscScalar *forces)
+{
+  for (PetscInt k = 0; k < 3 * n; k++)
+    forces[dofs[k / 3] + k % 3] += factor * f[k];
+}
+
+static PetscErrorCode add_surfaces(const Physics *physics, const Load *load, PetscScalar *forces)
+{
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < load->n_faces; k++) {
+    Face      face;
+    PetscReal f[3 * FACE_NODES];
+    PetscCall(look_at_face(physics, load->faces[k], &face));
+    face_pressure(face.kind, &physics->mesh->space, face.X, face.sign * load->pressure, f, NULL);
+    face_traction(face.kind, &physics->mesh->space, face.X, load->traction, f);
+    add(face.n, face.dofs, f, 1, forces);
   }
   PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static void add_bodies(const Physics *physics, const Load *load, PetscScalar *forces)
+{
+  const Cells *cells = &physics->cells;
+  for (PetscInt c = 0; c < cells->n; c++) {
+    const PetscInt first = cells->offsets[c], n = cells->offsets[c + 1] - first;
+    PetscReal      f[3 * CELL_NODES];
+    if (!load->bodies[cells->body[c]]) continue;
+    cell_body_forces(cell_kind(physics->mesh->dimension, n), &physics->mesh->space,
+                     physics->materials[cells->body[c]].density, &load->acceleration, cells->X + 3 * first, f);
+    add(n, cells->dofs + first, f, 1, forces);
+  }
 }
 
 PetscErrorCode loads_assemble(Physics *physics)
 {
   PetscFunctionBegin;
   for (PetscInt l = 0; l < physics->n_loads; l++) {
-    Load           *load = &physics->loads[l];
-    char            label[2 * NAME_LENGTH];
-    PetscScalar    *forces;
-    PetscInt        n = 0;
-    const PetscInt *faces;
-    IS              is;
+    Load        *load = &physics->loads[l];
+    PetscScalar *forces;
+    PetscCall(find_faces(physics, load));
     PetscCall(VecDuplicate(physics->u_local, &load->forces));
     PetscCall(VecZeroEntries(load->forces));
-    PetscCall(PetscSNPrintf(label, sizeof(label), "load.%s", load->name));
-    PetscCall(DMGetStratumIS(physics->mesh->dm, label, 1, &is));
-    if (!is) continue; /* no such face on this rank */
+    if (load->follows) continue;
     PetscCall(VecGetArray(load->forces, &forces));
-    PetscCall(ISGetLocalSize(is, &n));
-    PetscCall(ISGetIndices(is, &faces));
-    for (PetscInt k = 0; k < n; k++)
-      PetscCall(add_face(physics, load, faces[k], forces));
-    PetscCall(ISRestoreIndices(is, &faces));
-    PetscCall(ISDestroy(&is));
+    if (load->bodies)
+      add_bodies(physics, load, forces);
+    else
+      PetscCall(add_surfaces(physics, load, forces));
     PetscCall(VecRestoreArray(load->forces, &forces));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode loads_values(Physics *physics, PetscReal t)
+/* Of the faces under follower pressures, as they are at u_local: forces into `array`, or derivatives out of the matrix. */
+static PetscErrorCode follow(Physics *physics, PetscScalar *array, Mat matrix)
 {
+  const PetscScalar *u;
+  PetscFunctionBegin;
+  PetscCall(VecGetArrayRead(physics->u_local, &u));
+  for (PetscInt l = 0; l < physics->n_loads; l++) {
+    const Load     *load     = &physics->loads[l];
+    const PetscReal pressure = load->pressure * curve_value(&load->curve, physics->t);
+    for (PetscInt k = 0; k < load->n_faces && load->follows; k++) {
+      PetscReal f[3 * FACE_NODES], K[9 * FACE_NODES * FACE_NODES];
+      PetscInt  equations[3 * FACE_NODES];
+      Face      face;
+      PetscCall(look_at_face(physics, load->faces[k], &face));
+      for (PetscInt j = 0; j < 3 * face.n; j++) {
+        face.X[j] += PetscRealPart(u[face.dofs[j / 3] + j % 3]);
+        equations[j] = physics->unknowns.equations[face.dofs[j / 3] + j % 3];
+      }
+      face_pressure(face.kind, &physics->mesh->space, face.X, -face.sign * pressure, f, matrix ? K : NULL);
+      if (array) add(face.n, face.dofs, f, -1, array);
+      if (matrix) PetscCall(MatSetValues(matrix, 3 * face.n, equations, 3 * face.n, equations, K, ADD_VALUES));
+    }
+  }
+  PetscCall(VecRestoreArrayRead(physics->u_local, &u));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscBool loads_follow(const Physics *physics)
+{
+  for (PetscInt l = 0; l < physics->n_loads; l++) {
+    if (physics->loads[l].follows) return PETSC_TRUE;
+  }
+  return PETSC_FALSE;
+}
+
+PetscErrorCode loads_values(Physics *physics)
+{
+  PetscScalar *forces;
   PetscFunctionBegin;
   PetscCall(VecZeroEntries(physics->f_external));
   for (PetscInt l = 0; l < physics->n_loads; l++)
-    PetscCall(VecAXPY(physics->f_external, curve_value(&physics->loads[l].curve, t), physics->loads[l].forces));
+    PetscCall(VecAXPY(physics->f_external, curve_value(&physics->loads[l].curve, physics->t), physics->loads[l].forces));
+  if (!loads_follow(physics)) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(VecGetArray(physics->f_external, &forces));
+  PetscCall(follow(physics, forces, NULL));
+  PetscCall(VecRestoreArray(physics->f_external, &forces));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode loads_stiffness(Physics *physics, Mat matrix)
+{
+  PetscFunctionBegin;
+  if (loads_follow(physics)) PetscCall(follow(physics, NULL, matrix));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

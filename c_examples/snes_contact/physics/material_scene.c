@@ -18,6 +18,9 @@ static PetscErrorCode read_material(Scene *scene, const Space *space, const char
   if (material->poisson <= -1 || material->poisson >= 0.5)
     scene_fail(scene, body, "poisson", "it must lie between -1 and 0.5 (both excluded), not %g.",
                (double)material->poisson);
+  scene_real(scene, body, "density", &material->density);
+  if (scene_has(scene, body, "density") && !(material->density > 0))
+    scene_fail(scene, body, "density", "it must be positive, not %g.", (double)material->density);
   scene_choice(scene, body, "material", law_names, &law);
   scene_choice(scene, body, "dilatation", dilatations, &dilatation);
   if (dilatation && space->kind == SPACE_PLANE_STRESS)

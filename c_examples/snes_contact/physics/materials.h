@@ -24,6 +24,7 @@ typedef struct {
 
 struct Material {
   PetscReal          young, poisson;
+  PetscReal          density; /* of the undeformed body; 0: not given */
   const MaterialLaw *law;
   PetscBool          small_strain; /* the linear theory is meant, however large strains are */
   PetscBool          mean_dilatation;

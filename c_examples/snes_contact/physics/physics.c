@@ -27,6 +27,8 @@ PetscErrorCode physics_destroy(Physics *physics)
   for (PetscInt l = 0; l < physics->n_loads; l++) {
     PetscCall(PetscFree(physics->loads[l].curve.points));
     PetscCall(PetscFree(physics->loads[l].surfaces));
+    PetscCall(PetscFree(physics->loads[l].bodies));
+    PetscCall(PetscFree(physics->loads[l].faces));
     PetscCall(VecDestroy(&physics->loads[l].forces));
   }
   PetscCall(PetscFree(physics->supports));

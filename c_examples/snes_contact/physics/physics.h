@@ -7,6 +7,7 @@
 #define SNES_CONTACT_PHYSICS_H
 #include "mesh/mesh.h"
 #include "physics/elasticity.h"
+#include "physics/element_loads.h"
 #include "scene/curve.h"
 
 struct cJSON;
@@ -20,16 +21,21 @@ typedef struct {
   Curve     curve, rotate_curve;
   PetscInt  n_vertices, *vertices; /* rank 0 */
   PetscReal *given;                /* 3 per vertex of the mesh; NULL: no file says them */
-  PetscReal reaction[3];           /* of the last evaluation, summed over ranks by supports_reactions() */
+  /* of the last evaluation, summed over ranks by supports_reactions(); the moment is about `origin` */
+  PetscReal reaction[3], moment[3];
 } Support;
 
 typedef struct {
   char            name[NAME_LENGTH];
   PetscReal       traction[3], pressure;
+  PetscBool       follows; /* the pressure acts on the surface as it is now */
+  Acceleration    acceleration;
+  PetscBool      *bodies; /* per body: is it loaded? NULL: a load on surfaces */
   Curve           curve;
   PetscInt        n_surfaces;
   const Surface **surfaces; /* rank 0 */
-  Vec             forces;   /* local vector of the nodal forces at factor 1; ranks add up */
+  PetscInt        n_faces, *faces; /* this rank's, as points of the DMPlex */
+  Vec             forces;   /* local vector of the nodal forces at factor 1, but for a follower; ranks add up */
 } Load;
 
 /* What a vertex may have beside its displacement. A label of the mesh says which vertices have it. The label's value
@@ -117,11 +123,13 @@ void           supports_turn(const Support *support, PetscReal t0, PetscReal t, 
 PetscErrorCode supports_file_read(Scene *scene, const Mesh *mesh, Support *support); /* rank 0 */
 PetscErrorCode supports_file_share(const Mesh *mesh, Support *support);
 
-/* loads.c */
+/* loads_scene.c, loads.c */
 PetscErrorCode loads_read(Scene *scene, Physics *physics);
 PetscErrorCode loads_label(Physics *physics);
 PetscErrorCode loads_assemble(Physics *physics);
-PetscErrorCode loads_values(Physics *physics, PetscReal t); /* into f_external */
+PetscBool      loads_follow(const Physics *physics); /* is there a follower pressure? */
+PetscErrorCode loads_values(Physics *physics);       /* at physics->t and u_local, into f_external */
+PetscErrorCode loads_stiffness(Physics *physics, Mat matrix); /* adds what forces of followers differ by */
 
 /* unknowns.c: takes the fields over */
 PetscErrorCode unknowns_create(Physics *physics, PetscInt n_fields, Field *fields);

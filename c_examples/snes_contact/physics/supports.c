@@ -72,15 +72,21 @@ PetscErrorCode supports_label(Physics *physics)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* calls back for every supported vertex of this rank with the support's displacement there at t */
-typedef void (*VertexVisit)(Support *support, const PetscReal u[3], PetscScalar *dofs);
+/* A supported vertex of this rank: its place from the support's origin, the support's displacement there, its displacement
+ * of now, and its entries of a local vector. */
+typedef struct {
+  PetscReal    arm[3], u[3], now[3];
+  PetscScalar *dofs;
+} SupportedVertex;
+
+typedef void (*VertexVisit)(Support *support, const SupportedVertex *vertex);
 
 static PetscErrorCode visit(Physics *physics, Vec local, PetscReal t, VertexVisit action)
 {
   const Mesh        *mesh = physics->mesh;
   PetscSection       coordinate_section;
   Vec                coordinate_vector;
-  const PetscScalar *coordinates;
+  const PetscScalar *coordinates, *now;
   PetscScalar       *array;
   char               label[2 * NAME_LENGTH];
 
@@ -88,6 +94,7 @@ static PetscErrorCode visit(Physics *physics, Vec local, PetscReal t, VertexVisi
   PetscCall(DMGetCoordinateSection(mesh->dm, &coordinate_section));
   PetscCall(DMGetCoordinatesLocal(mesh->dm, &coordinate_vector));
   PetscCall(VecGetArrayRead(coordinate_vector, &coordinates));
+  PetscCall(VecGetArrayRead(physics->u_local, &now));
   PetscCall(VecGetArray(local, &array));
   for (PetscInt s = 0; s < physics->n_supports; s++) {
     Support        *support = &physics->supports[s];
@@ -100,8 +107,9 @@ static PetscErrorCode visit(Physics *physics, Vec local, PetscReal t, VertexVisi
     PetscCall(ISGetLocalSize(is, &n));
     PetscCall(ISGetIndices(is, &points));
     for (PetscInt k = 0; k < n; k++) {
-      PetscInt  at, offset;
-      PetscReal X[3], u[3];
+      PetscInt        at, offset;
+      PetscReal       X[3];
+      SupportedVertex vertex;
       PetscCall(PetscSectionGetOffset(coordinate_section, points[k], &at));
       PetscCall(PetscSectionGetOffset(physics->unknowns.section, points[k], &offset));
       for (int i = 0; i < 3; i++) { /* back into the axes of the scene file: Q transposed */
@@ -109,30 +117,42 @@ static PetscErrorCode visit(Physics *physics, Vec local, PetscReal t, VertexVisi
         for (int j = 0; j < 3; j++)
           X[i] += mesh->rotation[3 * j + i] * PetscRealPart(coordinates[at + j]);
       }
-      prescribed_displacement(support, t, mesh->original[mesh->here[points[k]]], X, u);
-      mesh_rotate_vector(mesh, u);
-      action(support, u, array + offset);
+      prescribed_displacement(support, t, mesh->original[mesh->here[points[k]]], X, vertex.u);
+      mesh_rotate_vector(mesh, vertex.u);
+      for (int i = 0; i < 3; i++) {
+        vertex.arm[i] = X[i] - support->origin[i];
+        vertex.now[i] = PetscRealPart(now[offset + i]);
+      }
+      mesh_rotate_vector(mesh, vertex.arm);
+      vertex.dofs = array + offset;
+      action(support, &vertex);
     }
     PetscCall(ISRestoreIndices(is, &points));
     PetscCall(ISDestroy(&is));
   }
   PetscCall(VecRestoreArray(local, &array));
+  PetscCall(VecRestoreArrayRead(physics->u_local, &now));
   PetscCall(VecRestoreArrayRead(coordinate_vector, &coordinates));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static void set_values(Support *support, const PetscReal u[3], PetscScalar *dofs)
+static void set_values(Support *support, const SupportedVertex *vertex)
 {
   for (int i = 0; i < 3; i++) {
-    if (support->mask & (1 << i)) dofs[i] = u[i];
+    if (support->mask & (1 << i)) vertex->dofs[i] = vertex->u[i];
   }
 }
 
-static void add_reactions(Support *support, const PetscReal u[3], PetscScalar *dofs)
+static void add_reactions(Support *support, const SupportedVertex *vertex)
 {
-  (void)u;
+  PetscReal force[3];
   for (int i = 0; i < 3; i++) {
-    if (support->mask & (1 << i)) support->reaction[i] += PetscRealPart(dofs[i]);
+    force[i] = support->mask & (1 << i) ? PetscRealPart(vertex->dofs[i]) : 0;
+    support->reaction[i] += force[i];
+  }
+  for (int i = 0; i < 3; i++) {
+    const int j = (i + 1) % 3, k = (i + 2) % 3;
+    support->moment[i] += (vertex->arm[j] + vertex->now[j]) * force[k] - (vertex->arm[k] + vertex->now[k]) * force[j];
   }
 }
 
@@ -148,11 +168,15 @@ PetscErrorCode supports_values(Physics *physics, PetscReal t)
 PetscErrorCode supports_reactions(Physics *physics)
 {
   PetscFunctionBegin;
-  for (PetscInt s = 0; s < physics->n_supports; s++)
+  for (PetscInt s = 0; s < physics->n_supports; s++) {
     PetscCall(PetscArrayzero(physics->supports[s].reaction, 3));
+    PetscCall(PetscArrayzero(physics->supports[s].moment, 3));
+  }
   PetscCall(visit(physics, physics->f_local, physics->t, add_reactions));
-  for (PetscInt s = 0; s < physics->n_supports; s++)
+  for (PetscInt s = 0; s < physics->n_supports; s++) {
     PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, physics->supports[s].reaction, 3, MPIU_REAL, MPIU_SUM, PETSC_COMM_WORLD));
+    PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, physics->supports[s].moment, 3, MPIU_REAL, MPIU_SUM, PETSC_COMM_WORLD));
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -12,6 +12,7 @@ static PetscErrorCode residual(SNES snes, Vec x, Vec r, void *context)
 
   PetscFunctionBegin;
   PetscCall(unknowns_to_local(solve->physics, x));
+  if (loads_follow(solve->physics)) PetscCall(loads_values(solve->physics));
   PetscCall(VecZeroEntries(solve->physics->f_local));
   PetscCall(PetscArrayzero(solve->physics->parts.squares, N_SQUARES * solve->physics->parts.n));
   PetscCall(bulk_forces(solve->physics, solve->physics->f_local, &inverted));
@@ -40,6 +41,7 @@ static PetscErrorCode tangent(SNES snes, Vec x, Mat J, Mat P, void *context)
   PetscCall(unknowns_to_local(solve->physics, x));
   PetscCall(MatZeroEntries(P));
   PetscCall(bulk_stiffness(solve->physics, P, &inverted));
+  PetscCall(loads_stiffness(solve->physics, P));
   PetscCall(PetscTime(&start));
   PetscCall(contact_tangent(solve->contact, P, &refused));
   PetscCall(PetscTime(&end));

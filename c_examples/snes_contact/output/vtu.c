@@ -1,0 +1,126 @@
+/* Per step one VTU file of the bodies (text, for ParaView). Written on rank 0. */
+#include "output/output.h"
+
+/* VTK's number of a kind of cell */
+static int vtk_type(CellKind kind)
+{
+  static const int types[CELL_KINDS] = {
+      [TRI3] = 5,  [TRI6] = 22,  /* VTK_TRIANGLE, VTK_QUADRATIC_TRIANGLE */
+      [QUAD4] = 9, [QUAD8] = 23, [QUAD9] = 28, /* VTK_QUAD, VTK_QUADRATIC_QUAD, VTK_BIQUADRATIC_QUAD */
+      [TET4] = 10, [TET10] = 24, /* VTK_TETRA, VTK_QUADRATIC_TETRA */
+      [HEX8] = 12, [HEX20] = 25, [HEX27] = 29, /* VTK_HEXAHEDRON, VTK_QUADRATIC_, VTK_TRIQUADRATIC_HEXAHEDRON */
+  };
+  return types[kind];
+}
+
+/* Of one interface: multiplier, force of the contact on the node (both sides), that force over the node's area, its part
+ * along the normal (non-mortar side), and state (-1 off the non-mortar side). */
+static PetscErrorCode interface_fields(FILE *file, const Mesh *mesh, const Interface *interface)
+{
+  const PetscInt n_both = interface->n1 + interface->n2;
+  PetscScalar   *field;
+  PetscInt      *state;
+  double        *tractions;
+  ContactStates  states;
+  char           name[2 * NAME_LENGTH];
+
+  PetscFunctionBegin;
+  PetscCall(PetscCalloc2(3 * mesh->n_vertices, &field, mesh->n_vertices, &state));
+  PetscCall(contact_states_create(interface, &states));
+  for (PetscInt k = 0; k < 3 * interface->n1; k++)
+    field[3 * interface->nodes[k / 3] + k % 3] = states.multiplier[k];
+  PetscCall(PetscSNPrintf(name, sizeof(name), "multiplier_%s", interface->name));
+  vtu_vectors(file, name, mesh->n_vertices, field);
+
+  PetscCall(PetscArrayzero(field, 3 * mesh->n_vertices));
+  for (PetscInt a = 0; a < n_both; a++) {
+    PetscReal force[3];
+    contact_vector(interface, interface->forces, a, force);
+    for (int i = 0; i < 3; i++)
+      field[3 * interface->nodes[a] + i] = -force[i];
+  }
+  PetscCall(PetscSNPrintf(name, sizeof(name), "force_%s", interface->name));
+  vtu_vectors(file, name, mesh->n_vertices, field);
+
+  PetscCall(PetscArrayzero(field, 3 * mesh->n_vertices));
+  PetscCall(PetscMalloc1(3 * interface->n1, &tractions));
+  PetscCall(nodal_tractions(mesh, interface, &states, tractions));
+  for (PetscInt k = 0; k < 3 * interface->n1; k++)
+    field[3 * interface->nodes[k / 3] + k % 3] = tractions[k];
+  PetscCall(PetscSNPrintf(name, sizeof(name), "traction_%s", interface->name));
+  vtu_vectors(file, name, mesh->n_vertices, field);
+
+  PetscCall(PetscArrayzero(field, mesh->n_vertices));
+  for (PetscInt k = 0; k < 3 * interface->n1; k++)
+    field[interface->nodes[k / 3]] += tractions[k] * states.normal[k];
+  PetscCall(PetscFree(tractions));
+  PetscCall(PetscSNPrintf(name, sizeof(name), "pressure_%s", interface->name));
+  vtu_start_array(file, "Float64", name, 1);
+  for (PetscInt v = 0; v < mesh->n_vertices; v++)
+    fprintf(file, "%.17g\n", PetscRealPart(field[v]));
+  vtu_end_array(file);
+
+  for (PetscInt v = 0; v < mesh->n_vertices; v++)
+    state[v] = -1;
+  for (PetscInt a = 0; a < interface->n1; a++)
+    state[interface->nodes[a]] = states.state[a];
+  PetscCall(contact_states_destroy(&states));
+  PetscCall(PetscSNPrintf(name, sizeof(name), "state_%s", interface->name));
+  vtu_start_array(file, "Int32", name, 1);
+  for (PetscInt v = 0; v < mesh->n_vertices; v++)
+    fprintf(file, "%d\n", (int)state[v]);
+  vtu_end_array(file);
+  PetscCall(PetscFree2(field, state));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode vtu_write(Output *output, const PetscScalar *displacements, PetscInt step)
+{
+  const Mesh *mesh = output->mesh;
+  char        path[PETSC_MAX_PATH_LEN];
+  FILE       *file;
+
+  PetscFunctionBegin;
+  PetscCall(PetscSNPrintf(path, sizeof(path), "%s/step_%" PetscInt_FMT ".vtu", output->directory, step));
+  file = fopen(path, "w");
+  PetscCheck(file, PETSC_COMM_SELF, PETSC_ERR_FILE_OPEN, "cannot write '%s'", path);
+  fprintf(file,
+          "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\">\n<UnstructuredGrid>\n");
+  fprintf(file,
+          "<FieldData>\n<DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" "
+          "format=\"ascii\">%.17g</DataArray>\n</FieldData>\n",
+          (double)output->physics->t);
+  fprintf(file, "<Piece NumberOfPoints=\"%d\" NumberOfCells=\"%d\">\n<Points>\n", (int)mesh->n_vertices,
+          (int)mesh->n_cells);
+  vtu_vectors(file, "X", mesh->n_vertices, mesh->coordinates);
+  fprintf(file, "</Points>\n<Cells>\n");
+  vtu_start_array(file, "Int64", "connectivity", 1);
+  for (PetscInt c = 0; c < mesh->n_cells; c++) {
+    for (PetscInt k = mesh->cell_offsets[c]; k < mesh->cell_offsets[c + 1]; k++)
+      fprintf(file, "%d ", (int)mesh->cell_vertices[k]);
+    fprintf(file, "\n");
+  }
+  vtu_end_array(file);
+  vtu_start_array(file, "Int64", "offsets", 1);
+  for (PetscInt c = 0; c < mesh->n_cells; c++)
+    fprintf(file, "%d\n", (int)mesh->cell_offsets[c + 1]);
+  vtu_end_array(file);
+  vtu_start_array(file, "UInt8", "types", 1);
+  for (PetscInt c = 0; c < mesh->n_cells; c++)
+    fprintf(file, "%d\n", vtk_type(mesh_cell_kind(mesh, c)));
+  vtu_end_array(file);
+  fprintf(file, "</Cells>\n<PointData Vectors=\"displacement\">\n");
+  vtu_vectors(file, "displacement", mesh->n_vertices, displacements);
+  for (PetscInt i = 0; i < output->contact->n_interfaces; i++)
+    PetscCall(interface_fields(file, mesh, &output->contact->interfaces[i]));
+  PetscCall(vtu_nodal_stresses(file, mesh, output->physics->materials, displacements));
+  fprintf(file, "</PointData>\n<CellData>\n");
+  vtu_start_array(file, "Int32", "body", 1);
+  for (PetscInt c = 0; c < mesh->n_cells; c++)
+    fprintf(file, "%d\n", (int)mesh->cell_body[c]);
+  vtu_end_array(file);
+  PetscCall(vtu_cell_stresses(file, mesh, output->physics->materials, displacements));
+  fprintf(file, "</CellData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n");
+  fclose(file);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

@@ -1,0 +1,112 @@
+/* Loads as the scene describes them: on surfaces, or on bodies. */
+#include "physics/physics.h"
+
+static void read_surface_load(Scene *scene, const Mesh *mesh, Load *load)
+{
+  const PetscBool traction = space_vector(scene, &mesh->space, load->name, "traction", load->traction);
+  scene_real(scene, load->name, "pressure", &load->pressure);
+  scene_bool(scene, load->name, "follower", &load->follows);
+  if (load->follows && traction)
+    scene_fail(scene, load->name, "follower", "a traction keeps its direction; a pressure can follow its surface.");
+  mesh_rotate_vector(mesh, load->traction);
+}
+
+/* In an axisymmetric model a body can turn about its axis alone, in the plane about z. */
+static PetscBool read_spin(Scene *scene, const Mesh *mesh, Load *load)
+{
+  PetscReal *spin = load->acceleration.spin;
+  if (mesh->dimension == 3) return scene_vector(scene, load->name, "centrifugal", 3, spin);
+  return scene_vector(scene, load->name, "centrifugal", 1, spin + (mesh->space.kind == SPACE_AXISYMMETRIC ? 1 : 2));
+}
+
+static PetscErrorCode read_body_load(Scene *scene, const Physics *physics, Load *load)
+{
+  const Mesh     *mesh     = physics->mesh;
+  Acceleration   *of       = &load->acceleration;
+  const PetscBool gravity  = space_vector(scene, &mesh->space, load->name, "gravity", of->uniform),
+                  spins    = read_spin(scene, mesh, load);
+  PetscInt        n;
+  char          **names;
+
+  PetscFunctionBegin;
+  if (mesh->space.kind == SPACE_AXISYMMETRIC && of->uniform[0] != 0)
+    scene_fail(scene, load->name, "gravity", "in an axisymmetric model it acts along the axis, y: [0, %g].", (double)of->uniform[1]);
+  space_vector(scene, &mesh->space, load->name, "origin", of->origin);
+  if (scene_has(scene, load->name, "origin") && !spins)
+    scene_fail(scene, load->name, "origin", "only of `centrifugal`.");
+  if (mesh->space.kind == SPACE_AXISYMMETRIC && of->origin[0] != 0)
+    scene_fail(scene, load->name, "origin", "an axisymmetric model turns about its axis; leave it out.");
+  if (!gravity && !spins) scene_fail(scene, load->name, "gravity", "say how it loads the body: gravity, or centrifugal.");
+  scene_strings(scene, load->name, "body", &n, &names);
+  PetscCall(PetscCalloc1(mesh->n_bodies, &load->bodies));
+  for (PetscInt k = 0; k < n; k++) {
+    const PetscInt b = mesh_body(scene, mesh, load->name, "body", names[k]);
+    load->bodies[b]  = PETSC_TRUE;
+    if (!(physics->materials[b].density > 0))
+      scene_fail(scene, names[k], "density", "this key is missing, which '%s' asks for.", load->name);
+  }
+  strings_destroy(n, &names);
+  mesh_rotate_vector(mesh, of->uniform);
+  mesh_rotate_vector(mesh, of->spin);
+  mesh_rotate_vector(mesh, of->origin);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode read_load(Scene *scene, Physics *physics, Load *load)
+{
+  PetscFunctionBegin;
+  if (scene_has(scene, load->name, "body")) {
+    PetscCall(read_body_load(scene, physics, load));
+  } else {
+    if (!scene_has(scene, load->name, "pressure") && !scene_has(scene, load->name, "traction")) {
+      (void)scene_has(scene, load->name, "surface"); /* known keys, one of which may be misspelt */
+      (void)scene_has(scene, load->name, "curve");
+      scene_check_unread_of(scene, load->name);
+      scene_fail(scene, load->name, "traction",
+                 "say how it loads: a surface by traction [x, y%s] or pressure (against the outward normal), or a body by "
+                 "gravity or centrifugal.",
+                 physics->mesh->dimension == 3 ? ", z" : "");
+    }
+    read_surface_load(scene, physics->mesh, load);
+  }
+  PetscCall(curve_read(scene, load->name, "curve", physics->end, &load->curve));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* rank 0 */
+static PetscErrorCode find_surfaces(Scene *scene, const Mesh *mesh, Load *load)
+{
+  char **list;
+  PetscFunctionBegin;
+  scene_strings(scene, load->name, "surface", &load->n_surfaces, &list);
+  if (!load->n_surfaces) scene_fail(scene, load->name, "surface", "this key is missing.");
+  PetscCall(PetscMalloc1(load->n_surfaces, &load->surfaces));
+  for (PetscInt k = 0; k < load->n_surfaces; k++) {
+    load->surfaces[k] = mesh_surface(scene, mesh, load->name, "surface", list[k]);
+    if (load->surfaces[k]->inner)
+      scene_fail(scene, load->name, "surface", "'%s' lies inside a body and cannot be loaded.", list[k]);
+    if (load->surfaces[k]->analytic)
+      scene_fail(scene, load->name, "surface", "'%s' is rigid and without faces: it cannot be loaded.", list[k]);
+  }
+  strings_destroy(load->n_surfaces, &list);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode loads_read(Scene *scene, Physics *physics)
+{
+  char **names;
+  PetscFunctionBegin;
+  scene_names(scene, "loads", &physics->n_loads, &names);
+  PetscCall(PetscCalloc1(physics->n_loads, &physics->loads));
+  for (PetscInt l = 0; l < physics->n_loads; l++) {
+    PetscCall(PetscSNPrintf(physics->loads[l].name, NAME_LENGTH, "%s", names[l]));
+    PetscCall(read_load(scene, physics, &physics->loads[l]));
+  }
+  strings_destroy(physics->n_loads, &names);
+  scene_root_begin(scene);
+  for (PetscInt l = 0; l < physics->n_loads && physics->mesh->rank == 0; l++) {
+    if (!physics->loads[l].bodies) PetscCall(find_surfaces(scene, physics->mesh, &physics->loads[l]));
+  }
+  PetscCall(scene_root_end(scene));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
