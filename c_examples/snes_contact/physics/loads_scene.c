@@ -54,13 +54,19 @@ static PetscErrorCode read_body_load(Scene *scene, const Physics *physics, Load 
 
 static PetscErrorCode read_load(Scene *scene, Physics *physics, Load *load)
 {
+  static const char *const others[] = {"surface", "follower", "gravity", "centrifugal", "origin", "curve"};
+  const PetscBool          traction = scene_has(scene, load->name, "traction");
+  const PetscBool          pressure = scene_has(scene, load->name, "pressure");
+
   PetscFunctionBegin;
   if (scene_has(scene, load->name, "body")) {
+    if (traction || pressure)
+      scene_fail(scene, load->name, traction ? "traction" : "pressure", "a load acts on a surface or on a body, not on both.");
     PetscCall(read_body_load(scene, physics, load));
   } else {
-    if (!scene_has(scene, load->name, "pressure") && !scene_has(scene, load->name, "traction")) {
-      (void)scene_has(scene, load->name, "surface"); /* known keys, one of which may be misspelt */
-      (void)scene_has(scene, load->name, "curve");
+    if (!traction && !pressure) {
+      for (size_t k = 0; k < sizeof(others) / sizeof(others[0]); k++) /* known keys, one of which may be misspelt */
+        (void)scene_has(scene, load->name, others[k]);
       scene_check_unread_of(scene, load->name);
       scene_fail(scene, load->name, "traction",
                  "say how it loads: a surface by traction [x, y%s] or pressure (against the outward normal), or a body by "
