@@ -3,7 +3,7 @@
 use super::facet::{LineFacet, MAX_LINE_NODES, XI, ends};
 use super::segment::{LineSegment, Measure};
 use crate::mortar::MultiplierSpace;
-use crate::quadrature::line::GAUSS_3;
+use crate::quadrature::line::{GAUSS_2, GAUSS_3};
 
 /// n_AB and n_AC `[L]` times rho's unit: row A, of the nodes with a multiplier.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -59,6 +59,7 @@ impl PartPair<'_> {
     }
 
     /// The functions at s.
+    #[inline(always)]
     pub fn at(&self, s: f64, ds: f64) -> Point {
         let mut point = Point {
             ds,
@@ -94,11 +95,13 @@ impl PartPair<'_> {
         point
     }
 
-    /// Calls `visit` with the points of a rule that is exact: the functions are of degree 1 and 2, rho of degree 1, and a
-    /// derivative has the degree of its weight.
+    /// Calls `visit` with the points of a rule that is exact: the functions are of degree 1, of a line3 of degree 2, rho is of
+    /// degree 1, and a derivative has the degree of its weight.
+    #[inline(always)]
     pub fn for_points(&self, mut visit: impl FnMut(&Point)) {
         let [(from, _), (to, _)] = self.segment.ends;
-        for [at, weight] in GAUSS_3 {
+        let is_linear = self.facets.iter().all(|facet| facet.n == 2);
+        for &[at, weight] in if is_linear { &GAUSS_2[..] } else { &GAUSS_3[..] } {
             visit(&self.at(from + at * (to - from), weight * (to - from)));
         }
     }
