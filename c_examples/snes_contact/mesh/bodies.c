@@ -2,8 +2,9 @@
  * file. */
 #include "mesh/mesh.h"
 
-/* Vertices this close to the axis, relative to the size of their body, lie on it: mesh files keep at least 7 digits. */
-static const PetscReal ON_AXIS = 1e-6;
+/* Vertices this close to the axis, relative to the size of their body, lie on it: some thousand roundings of a place that was
+ * bent or turned. A bore may be thinner than any mesh. */
+static const PetscReal ON_AXIS = 1e-12;
 
 /* whole faces of `whole` whose centre, the mean of their corners, lies within the box */
 static void cut_out(const Mesh *mesh, const Surface *whole, const PetscReal box[6], Surface *part)
