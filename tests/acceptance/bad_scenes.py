@@ -193,6 +193,7 @@ BAD_SCENES += [
              options=("-block_dilatation", "mean"), base=BLOCK),
     BadScene("plane_mesh_in_space", "model: plane_strain\n", "", "upper.file", says="holds no volume cells", base=FLAT),
     BadScene("solid_mesh_in_the_plane", "plane_hertz_upper", "hertz_upper_coarse", "upper.file", says="no plane mesh", base=FLAT),
+    BadScene("analytic_in_the_plane", "floor: {type: box", "floor: {type: analytic", "floor.type", base=BLOCK),
     BadScene("no_cylinder", "lower: [0, 0],", "cylinder: [0, 0], lower: [0, 0],", "block.cylinder", base=BLOCK),
 ]
 

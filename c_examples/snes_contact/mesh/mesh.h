@@ -18,7 +18,7 @@ typedef struct {
   PetscBool analytic; /* a plane, sphere or cylinder without faces: good for a mortar side only */
   PetscInt  shape;    /* STICKSLIP_SHAPE_... */
   PetscReal radius;
-  PetscInt  frame; /* the first of its vertices, four in space and three in the plane */
+  PetscInt  frame; /* the first of its four vertices */
 } Surface;
 
 typedef struct {
