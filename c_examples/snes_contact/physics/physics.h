@@ -2,7 +2,8 @@
  * the parts on which forces must balance.
  *
  * Unknowns live in two kinds of vectors, as PETSc has them: a *local* vector holds 3 displacements per vertex of this rank
- * and the multipliers of its vertices, prescribed ones included; a *global* vector holds the equations only. */
+ * and the multipliers of its vertices, prescribed ones included; a *global* vector holds the equations only. In a plane or
+ * axisymmetric model the third displacement is prescribed to be zero. */
 #ifndef SNES_CONTACT_PHYSICS_H
 #define SNES_CONTACT_PHYSICS_H
 #include "mesh/mesh.h"
