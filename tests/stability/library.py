@@ -183,16 +183,16 @@ class Library:
             text = f"status {status} ({words}): {self.c.stickslip_last_error_message().decode()}"
             raise Refused(name, status, text)
 
-    def weights(self, x1, x2, derivatives=False, quadrature=DEGREE_5, space="corner"):
-        """n_ab, n_ac of a pair, and with `derivatives` dn_ab, dn_ac behind them."""
+    def weights(self, x1, x2, derivatives=False, quadrature=DEGREE_5, space="corner", **model):
+        """n_ab, n_ac of a pair, and with `derivatives` dn_ab, dn_ac behind them. Lines: with a model, and its thickness."""
         x1, x2 = (np.ascontiguousarray(x, float) for x in (x1, x2))
-        n1, n2 = len(x1), len(x2)
-        pair = Pair(n1=n1, n2=n2, x1=pointer(x1), x2=pointer(x2), quadrature=quadrature)
+        (n1, dimension), n2 = x1.shape, len(x2)
+        pair = Pair(n1=n1, n2=n2, x1=pointer(x1), x2=pointer(x2), quadrature=quadrature, **model)
         pair.multiplier_space = SPACES.index(space)
-        rows = CORNERS[n1] if space == "corner" else n1
+        rows = (ENDS if model else CORNERS)[n1] if space == "corner" else n1
         out = [np.zeros((rows, n1)), np.zeros((rows, n2))]
         if derivatives:
-            out += [np.zeros((rows, n, 3 * (n1 + n2))) for n in (n1, n2)]
+            out += [np.zeros((rows, n, dimension * (n1 + n2))) for n in (n1, n2)]
         self.call("pair_weights", byref(pair), *map(pointer, out), *([None, None] if not derivatives else []))
         return out
 

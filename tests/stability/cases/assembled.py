@@ -31,22 +31,24 @@ def grid(n, lower=(0.0, 0.0), size=1.0, z=0.0, down=False, turn=0.0):
 
 
 def pressed(nodes, traction=(0.1, 0.0, -1.0)):
-    return np.tile(traction, (len(nodes), 1))
+    """The traction at each node; lines have none along the middle axis."""
+    return np.tile(traction if nodes.shape[1] == 3 else (traction[0], traction[2]), (len(nodes), 1))
 
 
-def noise(text):
+# A case of lines gives a `mesh` of its own, such as lines.grid, and the model among its options.
+def noise(text, mesh=grid, **options):
     """Every node of a matching mesh moved by noise: the assembled tangent has no kink, so it hardly changes."""
 
     def run(context):
         outcome, library = Outcome(), context.library
-        x1, f1 = grid(3, down=True, z=-0.001)
-        x2, f2 = grid(5, lower=(-1 / 3, -1 / 3), size=5 / 3)  # around it, so that the edges inside coincide
+        x1, f1 = mesh(3, down=True, z=-0.001)
+        x2, f2 = mesh(5, lower=(-1 / 3, -1 / 3), size=5 / 3)  # around it, so that the edges inside coincide
         lam = pressed(x1)
         random = np.random.default_rng(20261121)
         tangents = []
         for size in (0.0, float(text)):
             y1, y2 = (x + size * random.uniform(-1, 1, x.shape) for x in (x1, x2))
-            interface = Interface(library, y1, f1, y2, f2, **OPTIONS)
+            interface = Interface(library, y1, f1, y2, f2, **OPTIONS, **options)
             tangents.append(interface.tangent(y1, y2, lam))
             interface.close()
         error = np.abs(tangents[1] - tangents[0]).max() / np.abs(tangents[0]).max()
@@ -68,24 +70,26 @@ def balance(outcome, interface, x1, x2, lam, scale):
     return f1, rows
 
 
-def coverage(text):
+def coverage(text, mesh=grid, **options):
     """A facet that overlaps with the mortar side by a strip of this part of it."""
     c = float(text)
 
     def run(context):
         outcome, library = Outcome(), context.library
-        x1, f1 = grid(1, down=True, z=-0.001)
-        x2, f2 = grid(1, lower=(c - 2, -0.5), size=2.0)
-        start = Interface(library, x1, f1, *grid(1, lower=(-1.5, -0.5), size=2.0), **OPTIONS)  # covered by half
+        x1, f1 = mesh(1, down=True, z=-0.001)
+        x2, f2 = mesh(1, lower=(c - 2, -0.5), size=2.0)
+        half = mesh(1, lower=(-1.5, -0.5), size=2.0)  # what covers it by half
+        start = Interface(library, x1, f1, *half, **OPTIONS, **options)
         lam = pressed(x1)
         states = start.states(x1, x2, lam)
         # int N_A over a strip of width c next to the nodes of x = 0, and those of x = 1
-        near, far = (c - c**2 / 2) / 2, c**2 / 4
+        share = 2 / len(x1)  # of nodes above each other
+        near, far = share * (c - c**2 / 2), share * c**2 / 2
         exact = np.where(x1[:, 0] == 0, near, far) * fade(c)
         strip = np.spacing(1.0) * 2  # the width itself is a difference of coordinates of order one
         error = np.abs(states["coverage"] - exact).max()
         outcome.below("covered areas", error, strip + 1e-13 * c, "integrals over the strip")
-        closed = exact > 1e-8 * 0.25
+        closed = exact > 1e-8 * share / 2
         outcome.true(
             "nodes covered to less than 1e-8 are open", (states["state"][~closed] == GAP).all(), "coverage_min"
         )
@@ -97,7 +101,7 @@ def coverage(text):
             4 * strip + 1e-13 * c,
             "traction times area",
         )
-        block = start.tangent(x1, x2, lam)[-12:, :]
+        block = start.tangent(x1, x2, lam)[-x1.size :]
         outcome.true(
             "no row of a multiplier vanishes", (np.abs(block).max(axis=1) > 0).all(), "regular at any coverage"
         )
@@ -129,7 +133,7 @@ def corner(text):
     return run
 
 
-def touching(text):
+def touching(text, mesh=grid, **options):
     """The first step of a body that nothing else holds: at a gap of this much, from multipliers of zero, and from
     those that the library gives to start with. What touches or has sunk in is closed then, and every row has its
     stiffness."""
@@ -137,14 +141,14 @@ def touching(text):
 
     def run(context):
         outcome, library = Outcome(), context.library
-        x1, f1 = grid(2, down=True, z=gap)
-        x2, f2 = grid(3, lower=(-0.5, -0.5), size=2.0)
-        interface = Interface(library, x1, f1, x2, f2, **OPTIONS)
-        start, zero = interface.start(), np.zeros((len(x1), 3))
+        x1, f1 = mesh(2, down=True, z=gap)
+        x2, f2 = mesh(3, lower=(-0.5, -0.5), size=2.0)
+        interface = Interface(library, x1, f1, x2, f2, **OPTIONS, **options)
+        start, zero = interface.start(), np.zeros_like(x1)
         states = {name: interface.states(x1, x2, lam) for name, lam in (("start", start), ("zero", zero))}
-        closed = gap <= CLOSED * np.sqrt(states["start"]["area"])
+        closed = gap <= CLOSED * states["start"]["area"] ** (1 / (x1.shape[1] - 1))
         outcome.true(
-            "started multipliers press", ((start[:, 2] < 0) == closed).all(), "on closed nodes, and on no other"
+            "started multipliers press", ((start[:, -1] < 0) == closed).all(), "on closed nodes, and on no other"
         )
         state = np.where(closed, STICK, GAP)
         outcome.true("state with them", (states["start"]["state"] == state).all(), "closed nodes stick")
@@ -153,8 +157,8 @@ def touching(text):
         for name, lam in (("start", start), ("zero", zero)):
             balance(outcome, interface, x1, x2, lam, 1.0)
             tangent = interface.tangent(x1, x2, lam)
-            of_displacements = np.abs(tangent[-3 * len(x1) :, : -3 * len(x1)]).max(axis=1)
-            held = np.repeat(closed, 3) if name == "start" else gap < 0
+            of_displacements = np.abs(tangent[-x1.size :, : -x1.size]).max(axis=1)
+            held = np.repeat(closed, x1.shape[1]) if name == "start" else gap < 0
             outcome.true(
                 f"rows hold the body, {name}", ((of_displacements > 0) == held).all(), "stick has a stiffness"
             )

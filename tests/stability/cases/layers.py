@@ -25,19 +25,20 @@ def together(*plates):
     return np.concatenate(nodes), np.concatenate(facets)
 
 
-def vertical(plates, **options):
+# A case of lines gives a `mesh` of its own, such as lines.grid, and the model among its options.
+def vertical(plates, mesh=grid, **options):
     """What the plates are given of a unit pressure on the facet above them."""
 
     def run(context):
         outcome, library = Outcome(), context.library
-        x1, f1 = grid(1, down=True)
+        x1, f1 = mesh(1, down=True)
         x2, f2 = together(*plates)
         try:
             interface = Interface(library, x1, f1, x2, f2, **OPTIONS, **options)
         except Refused as refusal:
             outcome.refusal = str(refusal)
             return outcome
-        force = interface.residual(x1, x2, pressed(x1, (0.0, 0.0, -1.0)))[1][:, 2]
+        force = interface.residual(x1, x2, pressed(x1, (0.0, 0.0, -1.0)))[1][:, -1]
         interface.close()
         ends = np.cumsum([len(x) for x, _ in plates])
         given = [abs(part.sum()) for part in np.split(force, ends[:-1])]
@@ -46,16 +47,16 @@ def vertical(plates, **options):
     return run
 
 
-def stacked(size, gap, **options):
+def stacked(size, gap, mesh=grid, **options):
     corner = (0.5 - 0.5 * size, 0.5 - 0.5 * size)
-    plates = (grid(2, corner, size), grid(3, corner, size, z=-gap))
+    plates = (mesh(2, corner, size), mesh(3, corner, size, z=-gap))
 
     def run(context):
-        found = vertical(plates, **options)(context)
+        found = vertical(plates, mesh, **options)(context)
         if isinstance(found, Outcome):
             return found
         outcome, (near, far) = found
-        covered = min(size, 1.0) ** 2
+        covered = min(size, 1.0) ** (plates[0][0].shape[1] - 1)
         outcome.below("force of the farther plate over the nearer one's share", far / covered, EXACT, "it bears nothing")
         error = abs(near / covered - fade(covered))
         outcome.below("force of the nearer plate", error, EXACT, "the pressure on what it covers")

@@ -105,6 +105,14 @@ class Body:
 
     def pressed(self, name, pressure):
         """Forces of a pressure on a side, undeformed."""
+        return self.loaded(name, lambda tangent: pressure * np.array([-tangent[1], tangent[0]]))
+
+    def drawn(self, name, traction):
+        """Forces of a traction on a side, undeformed."""
+        return self.loaded(name, lambda tangent: np.linalg.norm(tangent) * np.array(traction))
+
+    def loaded(self, name, traction):
+        """Forces on a side; `traction` of the vector along a line, for the length of that."""
         force = np.zeros_like(self.x)
         for line in self.side(name):
             for xi, w in POINTS:
@@ -113,6 +121,5 @@ class Body:
                 else:
                     n, d = np.array([xi * (xi - 1) / 2, xi * (xi + 1) / 2, 1 - xi * xi]), np.array([xi - 0.5, xi + 0.5, -2 * xi])
                 tangent, place = d @ self.x[line], n @ self.x[line]
-                inward = np.array([-tangent[1], tangent[0]])
-                force[line] += np.outer(n, inward) * (pressure * w * self.rho(place))
+                force[line] += np.outer(n, traction(tangent)) * (w * self.rho(place))
         return force

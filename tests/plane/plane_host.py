@@ -6,8 +6,19 @@ import numpy as np
 from library import ENDS, Interface, mid_nodes
 
 MODELS = {"strain": 1, "stress": 1, "ring": 2}
+# Multipliers: their space, and their basis.
+SPACES = {"corner": (0, 0), "sub": (1, 0), "dual": (0, 1)}
 # Of Newton's method: the last step over all displacements, after which its square is left; and iterations.
 TOLERANCE, ITERATIONS = 1e-9, 30
+
+
+class NotConverged(Exception):
+    """Newton's method has no end."""
+
+
+def choices(space):
+    """The options of these multipliers."""
+    return dict(zip(("multiplier_space", "basis"), SPACES[space]))
 
 
 class Lines:
@@ -125,7 +136,7 @@ class Host:
             if np.abs(z[:n]).max() <= TOLERANCE * np.abs(self.u).max():
                 break
         else:
-            raise RuntimeError(f"no solution in {ITERATIONS} iterations; the last step is {np.abs(z[:n]).max():.1e}")
+            raise NotConverged(f"no solution in {ITERATIONS} iterations; the last step is {np.abs(z[:n]).max():.1e}")
         self.states = self.contact.states(*self.at())
         self.contact.commit(*self.at())
         return iteration
