@@ -129,8 +129,8 @@ class Host:
             j = np.zeros((n + m, n + m))
             j[:n, :n] = self.k
             j[np.ix_(self.map, self.map)] += self.contact.tangent(*self.at())
-            z = np.zeros(n + m)
-            z[free] = np.linalg.solve(j[np.ix_(free, free)], -r[free])
+            z, self.matrix = np.zeros(n + m), j[np.ix_(free, free)]
+            z[free] = np.linalg.solve(self.matrix, -r[free])
             self.u += z[:n]
             self.lam += z[n:].reshape(-1, 2)
             if np.abs(z[:n]).max() <= TOLERANCE * np.abs(self.u).max():
