@@ -36,10 +36,13 @@ HANGS = 600.0  # seconds
 SHARED = ("cell.py", "condition.py", "host.py", "library.py", "meshes.py", "oracle.py", "scenes.py")
 
 
+# Of files with cases.
+NAMES = sorted(path.stem for path in (HERE / "cases").glob("[a-z]*.py"))
+
+
 def families():
-    """name of the file -> its cells, in the files' order."""
-    names = sorted(path.stem for path in (HERE / "cases").glob("[a-z]*.py"))
-    return {name: list(importlib.import_module(f"cases.{name}").cells()) for name in names}
+    """name of the file -> its cells, in the files' order. Some ask which multipliers and normals the matrix is about."""
+    return {name: list(importlib.import_module(f"cases.{name}").cells()) for name in NAMES}
 
 
 def work(cell, context, path):
@@ -151,12 +154,11 @@ class Matrix:
 
 
 def main():
-    every = families()
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--build", type=Path, required=True, help="CMake's build tree")
     parser.add_argument("--jobs", type=int, default=1, help="cells at the same time")
     parser.add_argument("--quick", action="store_true", help="the short run alone")
-    parser.add_argument("--only", nargs="+", choices=every, metavar="FILE", help=f"of {', '.join(every)}")
+    parser.add_argument("--only", nargs="+", choices=NAMES, metavar="FILE", help=f"of {', '.join(NAMES)}")
     parser.add_argument(
         "--kind", choices=(cells.SCENE, cells.ELEMENT), help="cells of the driver, or of single calls"
     )
@@ -172,6 +174,7 @@ def main():
     if arguments.renew_figures and (arguments.quick or arguments.only or arguments.kind):
         parser.error("--renew-figures wants the whole matrix")
 
+    every = families()
     chosen = [
         (family, cell)
         for family, of_family in every.items()
