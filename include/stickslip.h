@@ -396,6 +396,21 @@
 /// same positions): the constraint rows' scale r_A D_A changes with the covered area D_A. Nothing with frozen weights.
 #define STICKSLIP_CONDENSED_SCALES 3
 
+/// Of the reduced form, for multigrid, its rows without the identity, E_L - I. With J the condensed matrix, r its residual
+/// and E_R from the next piece, E_L J E_R v = E_L r has the solution v with u = E_R v that of J u = r.
+#define STICKSLIP_CONDENSED_REDUCTION_ROWS 4
+
+/// Its columns without the identity, E_R - I.
+#define STICKSLIP_CONDENSED_REDUCTION_COLUMNS 5
+
+/// Q, the projector on the directions in which nodes have constraints: of an open node none, of a slipping one its normal, of
+/// a sticking one all.
+#define STICKSLIP_CONDENSED_CONSTRAINED 6
+
+/// What the constraints have on the diagonal of E_L J E_R, s_A D_A Q_A. Beside (I - Q) E_L J E_R (I - Q) it makes the matrix
+/// that multigrid is set up with.
+#define STICKSLIP_CONDENSED_CONSTRAINT_DIAGONAL 7
+
 /// Cover of a node: none (at and below coverage_min). It is open.
 #define STICKSLIP_COVER_NONE 0
 

@@ -47,6 +47,7 @@ static PetscErrorCode read_scene(Model *model)
   PetscCall(supports_read(model->scene, &model->physics));
   PetscCall(loads_read(model->scene, &model->physics));
   PetscCall(contact_read(model->scene, &model->contact));
+  PetscCall(iterative_read(model->scene, &model->solve));
   PetscCall(output_read(model->scene, &model->output));
   model->solve.quiet = model->output.quiet;
   scene_root_begin(model->scene); /* rank 0 has read every key */

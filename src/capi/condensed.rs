@@ -19,6 +19,29 @@ pub const STICKSLIP_CONDENSED_CONSTRAINTS: i32 = 2;
 /// What is added to G where the multipliers follow from the displacements (`stickslip_interface_condensed_multipliers` at the
 /// same positions): the constraint rows' scale r_A D_A changes with the covered area D_A. Nothing with frozen weights.
 pub const STICKSLIP_CONDENSED_SCALES: i32 = 3;
+/// Of the reduced form, for multigrid, its rows without the identity, E_L - I. With J the condensed matrix, r its residual
+/// and E_R from the next piece, E_L J E_R v = E_L r has the solution v with u = E_R v that of J u = r.
+pub const STICKSLIP_CONDENSED_REDUCTION_ROWS: i32 = 4;
+/// Its columns without the identity, E_R - I.
+pub const STICKSLIP_CONDENSED_REDUCTION_COLUMNS: i32 = 5;
+/// Q, the projector on the directions in which nodes have constraints: of an open node none, of a slipping one its normal, of
+/// a sticking one all.
+pub const STICKSLIP_CONDENSED_CONSTRAINED: i32 = 6;
+/// What the constraints have on the diagonal of E_L J E_R, s_A D_A Q_A. Beside (I - Q) E_L J E_R (I - Q) it makes the matrix
+/// that multigrid is set up with.
+pub const STICKSLIP_CONDENSED_CONSTRAINT_DIAGONAL: i32 = 7;
+
+/// In the order of their numbers.
+const PIECES: [Piece; 8] = [
+    Piece::Forces,
+    Piece::Elimination,
+    Piece::Constraints,
+    Piece::Scales,
+    Piece::ReductionRows,
+    Piece::ReductionColumns,
+    Piece::Constrained,
+    Piece::ConstraintDiagonal,
+];
 
 /// Which nodes carry weakly covered ones in this step: lambda_A = sum_B w_AB lambda_B. Settled by t_n; a node that carries
 /// another has a multiplier of its own. Read it after a commit, to carry in the stateless stages too.
@@ -152,7 +175,7 @@ pub unsafe extern "C" fn stickslip_interface_condensed_coo(
     guard(|| {
         let h = handle(interface)?;
         let point = Point::read(&h.inner, x1, x2, lambda, std::ptr::null())?;
-        let piece = choose(piece, "piece", &[Piece::Forces, Piece::Elimination, Piece::Constraints, Piece::Scales], 4)?;
+        let piece = choose(piece, "piece", &PIECES, PIECES.len() as i32)?;
         let mut t = Triplets::default();
         let at = (point.x1(), point.x2());
         either!(&mut h.inner, c => c.condensed_tangent(at, point.lambda(), piece, &mut t)?);

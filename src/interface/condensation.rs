@@ -33,6 +33,14 @@ pub enum Piece {
     Constraints,
     /// What G lacks where multipliers follow from the displacements: c_A Ds_A.
     Scales,
+    /// E_L - I: rows of the reduced form.
+    ReductionRows,
+    /// E_R - I: its columns.
+    ReductionColumns,
+    /// Q: the directions of its constraints.
+    Constrained,
+    /// s D Q: what these have in its matrix.
+    ConstraintDiagonal,
 }
 
 impl<const N: usize> Contact<N> {
@@ -108,6 +116,19 @@ impl<const N: usize> Contact<N> {
             Piece::Scales => return self.scale_derivatives((x1, x2), &elimination, sink),
             Piece::Elimination => {
                 elimination.entries(&self.rows()?, self.setup.surfaces(), sink);
+                return Ok(());
+            }
+            Piece::ReductionRows => {
+                elimination.reduction_rows(&self.rows()?, self.setup.surfaces(), sink);
+                return Ok(());
+            }
+            Piece::ReductionColumns => {
+                elimination.reduction_columns(&self.rows()?, self.setup.surfaces(), sink);
+                return Ok(());
+            }
+            Piece::Constrained | Piece::ConstraintDiagonal => {
+                let scaled = piece == Piece::ConstraintDiagonal;
+                elimination.constrained(&self.rows()?, scaled, self.setup.surfaces(), sink);
                 return Ok(());
             }
         };

@@ -26,6 +26,7 @@ mod turning;
 
 pub use condensation::Piece;
 pub use condensed::elimination::own_rows;
+pub use condensed::reduction::{SplitRows, split_rows};
 pub use condensed::rows::CondensedRows;
 pub use contact::{Contact, Interface};
 pub use data::checksum::seal_history;

@@ -26,16 +26,16 @@ const SAME: f64 = 1e-10;
 const DIFFERENCES: f64 = 1e-7;
 
 /// A host: the derivative and the value of the residual of its own forces, all rows dense.
-struct Dense {
-    j: DMatrix<f64>,
-    r: DVector<f64>,
+pub struct Dense {
+    pub j: DMatrix<f64>,
+    pub r: DVector<f64>,
     /// Of a dense matrix.
     offsets: Vec<i64>,
     columns: Vec<i64>,
 }
 
 impl Dense {
-    fn new(j: DMatrix<f64>, r: DVector<f64>) -> Dense {
+    pub fn new(j: DMatrix<f64>, r: DVector<f64>) -> Dense {
         let n = r.len() as i64;
         let offsets = (0..=n).map(|k| k * n).collect();
         Dense { j, r, offsets, columns: (0..n * n).map(|k| k % n).collect() }
@@ -47,7 +47,7 @@ impl Dense {
 }
 
 /// Where a system is made.
-struct At<'a, const N: usize> {
+pub struct At<'a, const N: usize> {
     contact: &'a mut Contact<N>,
     x1: &'a [Vec3],
     x2: &'a [Vec3],
@@ -56,7 +56,7 @@ struct At<'a, const N: usize> {
 
 impl<const N: usize> At<'_, N> {
     /// The condensed matrix in place, and the residual.
-    fn condensed(&mut self, host: &Dense) -> (DMatrix<f64>, DVector<f64>) {
+    pub fn condensed(&mut self, host: &Dense) -> (DMatrix<f64>, DVector<f64>) {
         let (n, n1) = (host.r.len(), self.x1.len());
         let csr = Csr::new(0, &host.offsets, &host.columns);
         let rows = self.contact.condense((self.x1, self.x2), self.lambda, csr, &|k| host.j[(k / n, k % n)]).unwrap();
@@ -74,7 +74,7 @@ impl<const N: usize> At<'_, N> {
         (j, r)
     }
 
-    fn piece(&mut self, n: usize, piece: Piece) -> DMatrix<f64> {
+    pub fn piece(&mut self, n: usize, piece: Piece) -> DMatrix<f64> {
         let mut m = DMatrix::zeros(n, n);
         let mut add = |i: i64, j: i64, v: f64| m[(i as usize, j as usize)] += v;
         self.contact.condensed_tangent((self.x1, self.x2), self.lambda, piece, &mut add).unwrap();
@@ -170,18 +170,18 @@ fn golden_condensed_systems() {
 }
 
 /// Scenes with carried nodes and without, on tilted surfaces that slide off an edge.
-fn scene<const N: usize>(options: Options) -> weak::Scene<N>
+pub fn scene<const N: usize>(options: Options) -> weak::Scene<N>
 where
     Contact<N>: Create<N>,
 {
     weak::scene::<N>(&Options { basis: MultiplierBasis::Dual, ..options }, Cells::Quads)
 }
 
-fn at<const N: usize>(s: &mut weak::Scene<N>) -> At<'_, N> {
+pub fn at<const N: usize>(s: &mut weak::Scene<N>) -> At<'_, N> {
     At { contact: &mut s.contact, x1: &s.x1, x2: &s.x2, lambda: &s.lambda }
 }
 
-fn random_host(n: usize, seed: u64) -> Dense {
+pub fn random_host(n: usize, seed: u64) -> Dense {
     let mut random = Random(seed);
     let mut j = DMatrix::from_fn(n, n, |_, _| random.next());
     j += DMatrix::identity(n, n) * 20.0;
@@ -239,7 +239,7 @@ fn is_the_same_step_as_with_multipliers() {
 }
 
 /// Puts the multipliers in force into a scene: what a Newton step in displacements starts from.
-fn complete<const N: usize>(s: &mut weak::Scene<N>) {
+pub fn complete<const N: usize>(s: &mut weak::Scene<N>) {
     let host: Vec<Vec3> = (0..s.x1.len()).map(|a| Vec3::new(0.02 * a as f64, 0.01, 0.03)).collect();
     s.lambda = s.contact.condensed_multipliers(&s.x1, &s.x2, &host).unwrap();
 }
@@ -432,7 +432,7 @@ fn floor() -> Mesh {
 }
 
 /// Quadratic facets, mixed, covered in part, with carried nodes and without: the rows of nodes without multipliers are changed too.
-fn of_parents<const N: usize>(options: Options, prescribed: bool, kinds: [&[usize]; 2]) -> weak::Scene<N>
+pub fn of_parents<const N: usize>(options: Options, prescribed: bool, kinds: [&[usize]; 2]) -> weak::Scene<N>
 where
     Contact<N>: Create<N>,
 {

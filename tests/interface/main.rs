@@ -28,6 +28,7 @@ mod patch;
 mod plan;
 mod quadratic;
 mod ratios;
+mod reduction;
 mod report;
 mod search;
 mod stacked;

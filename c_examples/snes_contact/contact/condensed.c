@@ -75,6 +75,7 @@ PetscErrorCode condensed_destroy(Contact *contact)
   PetscFunctionBegin;
   PetscCall(MatDestroy(&contact->linear));
   PetscCall(VecDestroy(&contact->place));
+  PetscCall(reduction_destroy(contact));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -230,8 +231,7 @@ static PetscErrorCode add_piece(Interface *interface, int32_t piece, Entries *en
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* A piece of all interfaces, a matrix like another one. */
-static PetscErrorCode assemble(Contact *contact, int32_t piece, Mat like, Mat *matrix, PetscInt *status)
+PetscErrorCode condensed_piece(Contact *contact, int32_t piece, Mat like, Mat *matrix, PetscInt *status)
 {
   Entries  entries = {0};
   PetscInt n;
@@ -264,8 +264,9 @@ PetscErrorCode condensed_matrix(Contact *contact, Vec x, Mat J, PetscInt *status
   *status = 0;
   if (!contact->condensed) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(keep_rows(contact, x, J));
-  PetscCall(assemble(contact, STICKSLIP_CONDENSED_ELIMINATION, J, &E, status));
-  if (!*status) PetscCall(assemble(contact, STICKSLIP_CONDENSED_CONSTRAINTS, J, &G, status));
+  PetscCall(condensed_piece(contact, STICKSLIP_CONDENSED_ELIMINATION, J, &E, status));
+  if (!*status) PetscCall(condensed_piece(contact, STICKSLIP_CONDENSED_CONSTRAINTS, J, &G, status));
+  if (!*status) PetscCall(reduction_make(contact, J, status));
   if (!*status) {
     PetscCall(MatMatMult(E, J, MAT_INITIAL_MATRIX, PETSC_DEFAULT, &EJ));
     PetscCall(MatAXPY(EJ, 1, G, DIFFERENT_NONZERO_PATTERN));

@@ -54,6 +54,9 @@ typedef struct {
   PetscInt  n_still;
 } Settling;
 
+/* contact/reduction.c */
+enum { REDUCTION_ROWS, REDUCTION_COLUMNS, REDUCTION_CONSTRAINED, REDUCTION_DIAGONAL, N_REDUCTION };
+
 typedef struct {
   Mesh      *mesh;
   Physics   *physics;
@@ -62,6 +65,8 @@ typedef struct {
   PetscBool  condensed; /* `unknowns: displacements`: no multiplier is an unknown */
   Mat        linear;    /* of the forces, before condensing; NULL: there is none yet in this attempt */
   Vec        place;     /* where it was made */
+  PetscBool  reduced;   /* the solver takes its reduced form: E_L - I, E_R - I, Q, s D Q, as REDUCTION_... */
+  Mat        reduction[N_REDUCTION];
   Settling   settling;
   char       refusal[1024]; /* the library's last message, if it refused an evaluation */
   PetscLogDouble seconds_forces, seconds_tangent;
@@ -108,6 +113,12 @@ PetscErrorCode condensed_eliminate(Contact *contact, Vec x, PetscInt *status);
 PetscErrorCode condensed_residual(Contact *contact, Vec r, PetscInt *status);
 PetscErrorCode condensed_matrix(Contact *contact, Vec x, Mat J, PetscInt *status);
 void           condensed_accept(Contact *contact);
+/* a piece of all interfaces, STICKSLIP_CONDENSED_..., in a matrix like another one */
+PetscErrorCode condensed_piece(Contact *contact, int32_t piece, Mat like, Mat *matrix, PetscInt *status);
+
+/* reduction.c: nothing happens where nobody wants it */
+PetscErrorCode reduction_make(Contact *contact, Mat like, PetscInt *status);
+PetscErrorCode reduction_destroy(Contact *contact);
 
 /* normals.c */
 PetscBool      normals_follow(const Contact *contact); /* those of any interface */

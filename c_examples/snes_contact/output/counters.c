@@ -64,6 +64,14 @@ PetscErrorCode summary_counters(Output *output, cJSON *root)
   for (PetscInt i = 0; i < contact->n_interfaces && output->mesh->rank == 0; i++)
     PetscCall(interface_counters(&contact->interfaces[i], interfaces, &sum));
   PetscCall(PetscTime(&now));
+  if (output->solve->linear.kind == SOLVER_ITERATIVE) {
+    const Linear *linear = &output->solve->linear;
+    cJSON        *solver = cJSON_AddObjectToObject(root, "linear_solver");
+    cJSON_AddNumberToObject(solver, "solves", linear->n_solves);
+    cJSON_AddNumberToObject(solver, "iterations", linear->iterations);
+    cJSON_AddNumberToObject(solver, "most", linear->most);
+    cJSON_AddNumberToObject(solver, "direct", linear->n_direct);
+  }
   seconds = cJSON_AddObjectToObject(root, "seconds");
   cJSON_AddNumberToObject(seconds, "search", sum.seconds_search);
   cJSON_AddNumberToObject(seconds, "integration", sum.seconds_integration);

@@ -75,6 +75,15 @@ typedef struct {
   char         *words;                   /* what is to be told of by_nothing; NULL: nothing, or it was */
 } Held;
 
+typedef enum { SOLVER_DIRECT, SOLVER_ITERATIVE, SOLVER_AUTO } SolverKind;
+
+/* How linear systems are solved, and how that went (iterative.c) */
+typedef struct {
+  SolverKind kind;
+  PetscInt   n_solves, n_direct;  /* by iteration; of these, given to the direct solver after all */
+  PetscInt   iterations, most; /* of all, of one */
+} Linear;
+
 typedef struct {
   Mesh     *mesh;
   Physics  *physics;
@@ -86,6 +95,7 @@ typedef struct {
   Newton    newton;
   Closing   closing;
   Cycling  *cycling;
+  Linear    linear;
   Held      held;
   PetscInt  iterations;         /* of Newton, spent on the present step, failed attempts included */
   PetscReal size, stiffness;    /* of the model */
@@ -107,6 +117,11 @@ PetscErrorCode solver_destroy(Solve *solve);
 PetscErrorCode solver_refresh_pattern(Solve *solve);
 PetscErrorCode solver_restore_pattern(Solve *solve); /* undoes what a failed attempt has added */
 PetscErrorCode solver_forget_factors(Solve *solve);  /* after a linear system that could not be solved */
+
+/* iterative.c: `solver`; what `auto` means; makes SNES' linear solver one that iterates */
+PetscErrorCode iterative_read(Scene *scene, Solve *solve); /* after contact_read() */
+void           iterative_choose(Solve *solve, PetscInt n_unknowns);
+PetscErrorCode iterative_set(Solve *solve, KSP ksp);
 
 /* convergence.c: SNES' convergence test */
 PetscErrorCode convergence_test(SNES snes, PetscInt iteration, PetscReal xnorm, PetscReal snorm, PetscReal fnorm,

@@ -231,6 +231,7 @@ PetscErrorCode solver_create(Solve *solve)
   KSP            ksp;
   PC             pc;
   Vec            r;
+  PetscInt       n_unknowns;
 
   PetscFunctionBegin;
   PetscCall(measure(solve));
@@ -249,10 +250,16 @@ PetscErrorCode solver_create(Solve *solve)
   PetscCall(SNESLineSearchSetTolerances(line_search, PETSC_DEFAULT, PETSC_MAX_REAL, PETSC_DEFAULT, PETSC_DEFAULT,
                                         PETSC_DEFAULT, PETSC_DEFAULT));
   PetscCall(SNESGetKSP(solve->snes, &ksp));
-  PetscCall(KSPSetType(ksp, KSPPREONLY));
-  PetscCall(KSPGetPC(ksp, &pc));
-  PetscCall(PCSetType(pc, PCLU));
-  PetscCall(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
+  PetscCall(VecGetSize(r, &n_unknowns));
+  iterative_choose(solve, n_unknowns);
+  if (solve->linear.kind == SOLVER_ITERATIVE) {
+    PetscCall(iterative_set(solve, ksp));
+  } else {
+    PetscCall(KSPSetType(ksp, KSPPREONLY));
+    PetscCall(KSPGetPC(ksp, &pc));
+    PetscCall(PCSetType(pc, PCLU));
+    PetscCall(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
+  }
   PetscCall(KSPSetPreSolve(ksp, solve_begins, solve));
   PetscCall(KSPSetPostSolve(ksp, solve_ends, solve));
   PetscCall(VecDestroy(&r));

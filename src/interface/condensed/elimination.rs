@@ -32,7 +32,7 @@ use crate::interface::pairing::weak::Carrier;
 use crate::interface::stages::carried::multiplier_share;
 use crate::interface::stages::sums::NodeSums;
 use crate::interface::tangent::by_equations::Sink;
-use crate::law::NodeResponse;
+use crate::law::{NodeResponse, State};
 use crate::memory::{self, Store, Stored};
 use nalgebra::{SMatrix, SVector};
 
@@ -54,12 +54,19 @@ pub struct Row {
     value: Vec3,
     /// dc_A/dlambda_A.
     derivative: Mat3,
+    state: State,
 }
 
 impl Row {
     /// Of the law's answer.
     pub fn of<const N: usize>(response: &NodeResponse<N>) -> Row {
-        Row { value: widened(&response.row), derivative: widened_matrix(&response.drow_dlambda) }
+        let NodeResponse { row, drow_dlambda, state, .. } = response;
+        Row { value: widened(row), derivative: widened_matrix(drow_dlambda), state: *state }
+    }
+
+    /// Gap, stick or slip.
+    pub fn state(&self) -> State {
+        self.state
     }
 }
 
@@ -75,6 +82,8 @@ fn widened_matrix<const M: usize, const N: usize>(m: &SMatrix<f64, M, N>) -> Mat
 /// A node as its elimination sees it.
 #[derive(Clone, Copy, Debug)]
 struct Node {
+    /// nu.
+    normal: Vec3,
     /// T.
     directions: Mat3,
     /// Takes its carriers' multipliers to its own.
@@ -119,6 +128,7 @@ impl Elimination {
             let carried = carried.get(a).is_some_and(|c| *c);
             let covered = sums[a].coverage > given.least_coverage(a);
             Node {
+                normal: normals[a],
                 directions: widened_matrix(&(given.setup.nodes.free[a] * direction::<N>(normals[a]))),
                 share: widened_matrix(&multiplier_share(given, a)),
                 area: 0.0,
@@ -263,17 +273,25 @@ impl Elimination {
         Ok(transfers)
     }
 
-    /// Gives L - I: of each block the diagonal, and what else is not 0.
-    pub fn entries(&self, answers: &[Row], surfaces: (&Surface, &Surface), sink: &mut dyn Sink) {
-        let mut add = |row: usize, own: usize, block: &Mat3| {
-            let (rows, columns) = (node_equations(surfaces, row), node_equations(surfaces, own));
-            for (i, j) in (0..3).flat_map(|i| (0..3).map(move |j| (i, j))) {
-                let exists = rows[i] != NO_EQUATION && columns[j] != NO_EQUATION;
-                if exists && (i == j || block[(i, j)] != 0.0) {
-                    sink.add(rows[i], columns[j], block[(i, j)]);
-                }
+    /// Gives a block in the rows and columns of two nodes: its diagonal, and what else is not 0.
+    pub(super) fn add_block(
+        surfaces: (&Surface, &Surface),
+        (row, column): (usize, usize),
+        block: &Mat3,
+        sink: &mut dyn Sink,
+    ) {
+        let (rows, columns) = (node_equations(surfaces, row), node_equations(surfaces, column));
+        for (i, j) in (0..3).flat_map(|i| (0..3).map(move |j| (i, j))) {
+            let exists = rows[i] != NO_EQUATION && columns[j] != NO_EQUATION;
+            if exists && (i == j || block[(i, j)] != 0.0) {
+                sink.add(rows[i], columns[j], block[(i, j)]);
             }
-        };
+        }
+    }
+
+    /// Gives L - I.
+    pub fn entries(&self, answers: &[Row], surfaces: (&Surface, &Surface), sink: &mut dyn Sink) {
+        let mut add = |row: usize, own: usize, block: &Mat3| Self::add_block(surfaces, (row, own), block, sink);
         for t in &self.transfers {
             add(t.row, t.own, &t.block);
             self.hats.get(t.own).iter().for_each(|&(m, c)| add(t.row, m, &(t.block * c)));
@@ -299,6 +317,16 @@ impl Elimination {
     pub fn scale(&self, a: usize) -> f64 {
         let node = &self.nodes[a];
         if node.own { node.augmentation * node.area } else { 0.0 }
+    }
+
+    /// D [L^2].
+    pub(super) fn area(&self, a: usize) -> f64 {
+        self.nodes[a].area
+    }
+
+    /// nu.
+    pub(super) fn normal(&self, a: usize) -> &Vec3 {
+        &self.nodes[a].normal
     }
 
     /// s of every node.

@@ -4,5 +4,6 @@
 pub mod elimination;
 pub mod hats;
 pub mod pattern;
+pub mod reduction;
 pub mod refusal;
 pub mod rows;

@@ -1,0 +1,147 @@
+/* `solver: iterative`: GMRES on the condensed system, preconditioned by multigrid on its reduced form (reduced.c). Where it does
+ * not converge, the system is given to the direct solver, and the run says so. To SNES both are one preconditioner that
+ * solves the system. */
+#include "solve/solve.h"
+#include "solve/reduced.h"
+
+/* Of the true residual. Newton's method then takes the steps of a direct solver: its own tolerance is 1e-11. */
+static const PetscReal RTOL = 1e-10;
+/* Where multigrid works, it takes some 30; from here on LU is faster. */
+enum { MOST_ITERATIONS = 250, RESTART = 60 };
+
+typedef struct {
+  Solve *solve;
+  KSP    krylov, direct; /* the latter: NULL until it is needed */
+} Iterative;
+
+/* Where to look, once a run. */
+static PetscErrorCode tell(Iterative *iterative, KSPConvergedReason reason, PetscInt iterations)
+{
+  Solve *solve = iterative->solve;
+  PetscFunctionBegin;
+  if (solve->linear.n_direct++ || solve->quiet) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD,
+                        "multigrid does not solve a linear system (%s after %" PetscInt_FMT " iterations): the direct solver "
+                        "does instead, here and wherever this happens (`direct` under `linear_solver` in summary.json)\n",
+                        KSPConvergedReasons[reason], iterations));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode solve_directly(Iterative *iterative, Mat J, Vec r, Vec u, KSPConvergedReason *reason)
+{
+  PC pc;
+  PetscFunctionBegin;
+  if (!iterative->direct) {
+    PetscCall(KSPCreate(PETSC_COMM_WORLD, &iterative->direct));
+    PetscCall(KSPSetOptionsPrefix(iterative->direct, "direct_"));
+    PetscCall(KSPSetType(iterative->direct, KSPPREONLY));
+    PetscCall(KSPGetPC(iterative->direct, &pc));
+    PetscCall(PCSetType(pc, PCLU));
+    PetscCall(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
+    PetscCall(KSPSetFromOptions(iterative->direct));
+  }
+  PetscCall(KSPSetOperators(iterative->direct, J, J));
+  PetscCall(KSPSolve(iterative->direct, r, u));
+  PetscCall(KSPGetConvergedReason(iterative->direct, reason));
+  PetscCall(KSPGetPC(iterative->direct, &pc));
+  PetscCall(PCReset(pc)); /* its factors are large, and serve this once */
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode apply(PC pc, Vec r, Vec u)
+{
+  Iterative         *iterative;
+  Linear            *linear;
+  KSPConvergedReason reason;
+  PetscInt           iterations;
+  Mat                J;
+  PetscFunctionBegin;
+  PetscCall(PCShellGetContext(pc, &iterative));
+  linear = &iterative->solve->linear;
+  PetscCall(PCGetOperators(pc, &J, NULL));
+  PetscCall(KSPSetOperators(iterative->krylov, J, J));
+  PetscCall(KSPSolve(iterative->krylov, r, u));
+  PetscCall(KSPGetConvergedReason(iterative->krylov, &reason));
+  PetscCall(KSPGetIterationNumber(iterative->krylov, &iterations));
+  linear->n_solves++;
+  linear->iterations += iterations;
+  linear->most = PetscMax(linear->most, iterations);
+  if (reason > 0) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(tell(iterative, reason, iterations));
+  PetscCall(solve_directly(iterative, J, r, u, &reason));
+  if (reason < 0) PetscCall(PCSetFailedReason(pc, PC_SUBPC_ERROR));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode set_up(PC pc)
+{
+  PetscFunctionBegin;
+  PetscCall(PCSetFailedReason(pc, PC_NOERROR)); /* of the matrix before */
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode destroy(PC pc)
+{
+  Iterative *iterative;
+  PetscFunctionBegin;
+  PetscCall(PCShellGetContext(pc, &iterative));
+  PetscCall(KSPDestroy(&iterative->krylov));
+  PetscCall(KSPDestroy(&iterative->direct));
+  PetscCall(PetscFree(iterative));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode iterative_set(Solve *solve, KSP ksp)
+{
+  Iterative *iterative;
+  PC         pc;
+  PetscFunctionBegin;
+  PetscCall(PetscNew(&iterative));
+  iterative->solve = solve;
+  PetscCall(KSPCreate(PETSC_COMM_WORLD, &iterative->krylov));
+  PetscCall(KSPSetOptionsPrefix(iterative->krylov, "iterative_"));
+  PetscCall(KSPSetType(iterative->krylov, KSPGMRES));
+  PetscCall(KSPGMRESSetRestart(iterative->krylov, RESTART));
+  PetscCall(KSPSetPCSide(iterative->krylov, PC_RIGHT));
+  PetscCall(KSPSetTolerances(iterative->krylov, RTOL, 0, PETSC_DEFAULT, MOST_ITERATIONS));
+  PetscCall(KSPGetPC(iterative->krylov, &pc));
+  PetscCall(reduced_set(pc, solve->contact));
+  PetscCall(KSPSetFromOptions(iterative->krylov));
+  PetscCall(KSPSetType(ksp, KSPPREONLY));
+  PetscCall(KSPGetPC(ksp, &pc));
+  PetscCall(PCSetType(pc, PCSHELL));
+  PetscCall(PCShellSetName(pc, "GMRES with multigrid"));
+  PetscCall(PCShellSetContext(pc, iterative));
+  PetscCall(PCShellSetSetUp(pc, set_up));
+  PetscCall(PCShellSetApply(pc, apply));
+  PetscCall(PCShellSetDestroy(pc, destroy));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* `solver`. It needs a condensed system, and takes one where the scene says nothing else. */
+PetscErrorCode iterative_read(Scene *scene, Solve *solve)
+{
+  static const char *const kinds[] = {"direct", "iterative", "auto", NULL};
+  Contact                 *contact = solve->contact;
+  PetscInt                 kind    = SOLVER_DIRECT;
+  PetscFunctionBegin;
+  scene_choice(scene, NULL, "solver", kinds, &kind);
+  solve->linear.kind = (SolverKind)kind;
+  if (kind == SOLVER_ITERATIVE && !contact->condensed)
+    scene_fail(scene, NULL, "solver", "multigrid needs a system without multipliers: write `unknowns: displacements`, and "
+                                      "`basis: dual` in every interface.");
+  contact->reduced = (PetscBool)(kind != SOLVER_DIRECT && contact->condensed);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Below, LU takes less time; solves of three-dimensional bodies break even between 1e4 and 3e4 unknowns, plane ones far above. */
+enum { AUTO_FROM = 30000 };
+
+/* What `auto` means for this model. */
+void iterative_choose(Solve *solve, PetscInt n_unknowns)
+{
+  Linear *linear = &solve->linear;
+  if (linear->kind == SOLVER_AUTO)
+    linear->kind = solve->contact->reduced && n_unknowns >= AUTO_FROM && solve->mesh->dimension == 3 ? SOLVER_ITERATIVE : SOLVER_DIRECT;
+  solve->contact->reduced = (PetscBool)(linear->kind == SOLVER_ITERATIVE);
+}

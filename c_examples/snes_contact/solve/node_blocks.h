@@ -1,0 +1,18 @@
+/* Systems with three rows for every node (node_blocks.c). */
+#ifndef SNES_CONTACT_NODE_BLOCKS_H
+#define SNES_CONTACT_NODE_BLOCKS_H
+#include "physics/physics.h"
+
+typedef struct {
+  Mat place;       /* equations in terms of nodes' components: one 1 a row */
+  Vec prescribed;  /* 1 in components that have no equation, else 0 */
+  Vec coordinates; /* at rest */
+} NodeBlocks;
+
+PetscErrorCode node_blocks_create(const Physics *physics, Mat like, NodeBlocks *blocks);
+PetscErrorCode node_blocks_destroy(NodeBlocks *blocks);
+/* A copy in whole blocks, without what is below `least` times the largest entry. */
+PetscErrorCode node_blocks_squeeze(Mat from, PetscReal least, Mat *to);
+/* Gives the matrix the motions of a rigid body as its near null space, without what is constrained in them. */
+PetscErrorCode node_blocks_modes(const NodeBlocks *blocks, Mat constrained, Mat matrix);
+#endif

@@ -1,0 +1,175 @@
+/* A preconditioner of the condensed matrix J: multigrid on its reduced form (contact/reduction.c),
+ *
+ *   J^-1 ~ E_R P^-1 E_L,   P = (I - Q) E_L J E_R (I - Q) + s D Q.
+ *
+ * P is the elasticity of the bodies, tied where contact holds them, with rows of the identity, scaled, for constraints. What it
+ * leaves out of E_L J E_R are the constraints' columns in other rows, which GMRES finds in a few iterations, and what
+ * weights and normals of now add to the constraints' rows. Multigrid on J itself is fragile: rows of constraints beside
+ * rows of stiffness give a coarse operator without meaning. */
+#include "solve/reduced.h"
+#include "solve/node_blocks.h"
+
+/* Entries of E_L J E_R that cancel, over the largest: rounding. Left in they would join the bodies across open gaps. */
+static const PetscReal CANCELLED = 1e-13;
+/* A coarse level may have rows without entries, where a node that is alone has three components and the modes of a body are
+ * six: this much of a typical diagonal is added when Gauss-Seidel divides. */
+static const PetscReal DIAGONAL_SHIFT = 1e-12;
+
+typedef struct {
+  const Contact *contact;
+  NodeBlocks     blocks;
+  PC             multigrid;
+  Vec            left, right, in, out; /* two of equations, two of nodes */
+} Reduced;
+
+/* Two factors of P: B = (I - Q) S, S the place of equations among nodes, and (I + E_R) B, or B^T (I + E_L). */
+static PetscErrorCode factors(const Reduced *reduced, Mat *rows, Mat *columns)
+{
+  const Contact *contact = reduced->contact;
+  Mat            free, transposed;
+  PetscFunctionBegin;
+  PetscCall(MatMatMult(contact->reduction[REDUCTION_CONSTRAINED], reduced->blocks.place, MAT_INITIAL_MATRIX,
+                       PETSC_DEFAULT, &free));
+  PetscCall(MatAYPX(free, -1, reduced->blocks.place, DIFFERENT_NONZERO_PATTERN));
+  PetscCall(MatTranspose(free, MAT_INITIAL_MATRIX, &transposed));
+  PetscCall(MatMatMult(contact->reduction[REDUCTION_COLUMNS], free, MAT_INITIAL_MATRIX, PETSC_DEFAULT, columns));
+  PetscCall(MatAXPY(*columns, 1, free, DIFFERENT_NONZERO_PATTERN));
+  PetscCall(MatMatMult(transposed, contact->reduction[REDUCTION_ROWS], MAT_INITIAL_MATRIX, PETSC_DEFAULT, rows));
+  PetscCall(MatAXPY(*rows, 1, transposed, DIFFERENT_NONZERO_PATTERN));
+  PetscCall(MatDestroy(&free));
+  PetscCall(MatDestroy(&transposed));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* A typical entry of a diagonal. */
+static PetscErrorCode typical_diagonal(Mat matrix, PetscReal *typical)
+{
+  Vec      diagonal;
+  PetscInt n;
+  PetscFunctionBegin;
+  PetscCall(MatCreateVecs(matrix, &diagonal, NULL));
+  PetscCall(MatGetDiagonal(matrix, diagonal));
+  PetscCall(VecNorm(diagonal, NORM_1, typical));
+  PetscCall(VecGetSize(diagonal, &n));
+  *typical /= PetscMax(n, 1);
+  PetscCall(VecDestroy(&diagonal));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode assemble(const Reduced *reduced, Mat J, Mat *P)
+{
+  Mat       rows, columns, half, whole, constraints;
+  Vec       prescribed;
+  PetscReal typical;
+  PetscFunctionBegin;
+  PetscCall(factors(reduced, &rows, &columns));
+  PetscCall(MatMatMult(J, columns, MAT_INITIAL_MATRIX, PETSC_DEFAULT, &half));
+  PetscCall(MatMatMult(rows, half, MAT_INITIAL_MATRIX, PETSC_DEFAULT, &whole));
+  PetscCall(MatDestroy(&half));
+  PetscCall(MatDestroy(&rows));
+  PetscCall(MatDestroy(&columns));
+  PetscCall(MatPtAP(reduced->contact->reduction[REDUCTION_DIAGONAL], reduced->blocks.place, MAT_INITIAL_MATRIX,
+                    PETSC_DEFAULT, &constraints));
+  PetscCall(MatAXPY(whole, 1, constraints, DIFFERENT_NONZERO_PATTERN));
+  PetscCall(MatDestroy(&constraints));
+  PetscCall(typical_diagonal(whole, &typical));
+  PetscCall(VecDuplicate(reduced->blocks.prescribed, &prescribed));
+  PetscCall(VecCopy(reduced->blocks.prescribed, prescribed));
+  PetscCall(VecScale(prescribed, typical));
+  PetscCall(node_blocks_squeeze(whole, CANCELLED, P));
+  PetscCall(MatDestroy(&whole));
+  PetscCall(MatDiagonalSet(*P, prescribed, ADD_VALUES));
+  PetscCall(VecDestroy(&prescribed));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Options of the multigrid that nobody has given; `shift` over a typical diagonal. */
+static PetscErrorCode set_defaults(Mat P)
+{
+  char        shift[32];
+  PetscReal   typical;
+  PetscBool   given;
+  const char *options[][2] = {{"-reduced_mg_levels_ksp_type", "chebyshev"},
+                              {"-reduced_mg_levels_ksp_max_it", "2"},
+                              {"-reduced_mg_levels_pc_type", "sor"},
+                              {"-reduced_mg_levels_pc_sor_diagonal_shift", shift}};
+  PetscFunctionBegin;
+  PetscCall(typical_diagonal(P, &typical));
+  PetscCall(PetscSNPrintf(shift, sizeof(shift), "%.3e", (double)(DIAGONAL_SHIFT * typical)));
+  for (size_t k = 0; k < sizeof(options) / sizeof(options[0]); k++) {
+    PetscCall(PetscOptionsHasName(NULL, NULL, options[k][0], &given));
+    if (!given) PetscCall(PetscOptionsSetValue(NULL, options[k][0], options[k][1]));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* States change in every iteration of Newton's method, and with them the pattern of P: everything is made anew. */
+static PetscErrorCode set_up(PC pc)
+{
+  Reduced *reduced;
+  Mat      J, P;
+  PetscFunctionBegin;
+  PetscCall(PCShellGetContext(pc, &reduced));
+  PetscCall(PCGetOperators(pc, &J, NULL));
+  if (!reduced->in) {
+    PetscCall(node_blocks_create(reduced->contact->physics, J, &reduced->blocks));
+    PetscCall(VecDuplicate(reduced->blocks.coordinates, &reduced->in));
+    PetscCall(VecDuplicate(reduced->blocks.coordinates, &reduced->out));
+    PetscCall(MatCreateVecs(J, &reduced->right, &reduced->left));
+  }
+  PetscCall(assemble(reduced, J, &P));
+  PetscCall(node_blocks_modes(&reduced->blocks, reduced->contact->reduction[REDUCTION_CONSTRAINED], P));
+  PetscCall(set_defaults(P));
+  PetscCall(PCDestroy(&reduced->multigrid));
+  PetscCall(PCCreate(PETSC_COMM_WORLD, &reduced->multigrid));
+  PetscCall(PCSetOptionsPrefix(reduced->multigrid, "reduced_"));
+  PetscCall(PCSetType(reduced->multigrid, PCGAMG));
+  PetscCall(PCSetOperators(reduced->multigrid, P, P));
+  PetscCall(PCSetFromOptions(reduced->multigrid));
+  PetscCall(PCSetUp(reduced->multigrid));
+  PetscCall(MatDestroy(&P));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode apply(PC pc, Vec r, Vec u)
+{
+  Reduced *reduced;
+  PetscFunctionBegin;
+  PetscCall(PCShellGetContext(pc, &reduced));
+  PetscCall(MatMultAdd(reduced->contact->reduction[REDUCTION_ROWS], r, r, reduced->left));
+  PetscCall(MatMultTranspose(reduced->blocks.place, reduced->left, reduced->in));
+  PetscCall(PCApply(reduced->multigrid, reduced->in, reduced->out));
+  PetscCall(MatMult(reduced->blocks.place, reduced->out, reduced->right));
+  PetscCall(MatMultAdd(reduced->contact->reduction[REDUCTION_COLUMNS], reduced->right, reduced->right, u));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode destroy(PC pc)
+{
+  Reduced *reduced;
+  PetscFunctionBegin;
+  PetscCall(PCShellGetContext(pc, &reduced));
+  PetscCall(node_blocks_destroy(&reduced->blocks));
+  PetscCall(PCDestroy(&reduced->multigrid));
+  PetscCall(VecDestroy(&reduced->left));
+  PetscCall(VecDestroy(&reduced->right));
+  PetscCall(VecDestroy(&reduced->in));
+  PetscCall(VecDestroy(&reduced->out));
+  PetscCall(PetscFree(reduced));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode reduced_set(PC pc, const Contact *contact)
+{
+  Reduced *reduced;
+  PetscFunctionBegin;
+  PetscCall(PetscNew(&reduced));
+  reduced->contact = contact;
+  PetscCall(PCSetType(pc, PCSHELL));
+  PetscCall(PCShellSetName(pc, "multigrid on the reduced form"));
+  PetscCall(PCShellSetContext(pc, reduced));
+  PetscCall(PCShellSetSetUp(pc, set_up));
+  PetscCall(PCShellSetApply(pc, apply));
+  PetscCall(PCShellSetDestroy(pc, destroy));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
