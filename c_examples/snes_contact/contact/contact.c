@@ -145,6 +145,20 @@ static PetscErrorCode plan(Interface *interface, int32_t pairs, int32_t *refused
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Which entries the forces of a condensed system have, with pairs that may come: into the arrays, and their number. */
+static PetscErrorCode condensed_plan(Interface *interface, int64_t *count)
+{
+  int64_t rows[2], counts[2];
+  PetscFunctionBegin;
+  PetscCallStickslip(stickslip_interface_condensed_plan(interface->handle, interface->x, MORTAR_OF(interface, interface->x),
+                                                        STICKSLIP_PLAN_SKIN, rows, counts));
+  PetscCall(reserve(interface, counts[0]));
+  PetscCallStickslip(stickslip_interface_plan_coo(interface->handle, STICKSLIP_ENTRIES_FORCES, interface->coo_capacity,
+                                                  interface->coo_rows, interface->coo_columns));
+  *count = counts[0];
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static int32_t plan_values(Interface *interface)
 {
   return stickslip_interface_plan_values(interface->handle, STATE_OF(interface), NULL, interface->coo_capacity,
@@ -213,18 +227,25 @@ PetscErrorCode contact_tangent(Contact *contact, Mat matrix, PetscInt *status)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* With the pairs that may come while the surfaces slide by less than a quarter of a facet. */
+/* With the pairs that may come while the surfaces slide by less than a quarter of a facet. Of a condensed system what is
+ * inserted before it is condensed; condensed_matrix() makes a pattern of its own of it. */
 PetscErrorCode contact_pattern(Contact *contact, Mat matrix)
 {
   PetscFunctionBegin;
   for (PetscInt i = 0; i < contact->n_interfaces; i++) {
     Interface *interface = &contact->interfaces[i];
     int32_t    refused;
+    int64_t    count;
     PetscCall(contact_gather(contact, interface, contact->physics->u_local));
-    if (contact->mesh->rank || contact->condensed) continue; /* condensed_matrix() makes a pattern of its own */
-    PetscCall(plan(interface, STICKSLIP_PLAN_SKIN, &refused));
-    PetscCallStickslip(refused);
-    PetscCall(insert(interface, interface->planned, NULL, matrix));
+    if (contact->mesh->rank) continue;
+    if (contact->condensed) {
+      PetscCall(condensed_plan(interface, &count));
+    } else {
+      PetscCall(plan(interface, STICKSLIP_PLAN_SKIN, &refused));
+      PetscCallStickslip(refused);
+      count = interface->planned;
+    }
+    PetscCall(insert(interface, count, NULL, matrix));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
