@@ -15,6 +15,7 @@ from dual import dual, dual_full, dual_iterations  # noqa: E402
 from effect_checks import effects  # noqa: E402
 from friction_checks import friction  # noqa: E402
 from hosts import hosts  # noqa: E402
+from iterative import iterative, iterative_scenes  # noqa: E402
 from ironing import ironing, ironing_full  # noqa: E402
 from material_checks import materials  # noqa: E402
 from loads import loads  # noqa: E402
@@ -45,6 +46,8 @@ GROUPS = {
     "effects": effects,
     "friction": friction,
     "hosts": hosts,
+    "iterative": iterative,
+    "iterative_scenes": iterative_scenes,
     "ironing": ironing,
     "ironing_full": ironing_full,  # four minutes; not among the tests
     "loads": loads,

@@ -152,10 +152,11 @@ static PetscErrorCode condensed_plan(Interface *interface, int64_t *count)
   PetscFunctionBegin;
   PetscCallStickslip(stickslip_interface_condensed_plan(interface->handle, interface->x, MORTAR_OF(interface, interface->x),
                                                         STICKSLIP_PLAN_SKIN, rows, counts));
-  PetscCall(reserve(interface, counts[0]));
+  *count = counts[0];
+  if (!*count) PetscFunctionReturn(PETSC_SUCCESS); /* with frozen weights forces do not depend on displacements */
+  PetscCall(reserve(interface, *count));
   PetscCallStickslip(stickslip_interface_plan_coo(interface->handle, STICKSLIP_ENTRIES_FORCES, interface->coo_capacity,
                                                   interface->coo_rows, interface->coo_columns));
-  *count = counts[0];
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

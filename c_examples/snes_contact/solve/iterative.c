@@ -48,21 +48,34 @@ static PetscErrorCode solve_directly(Iterative *iterative, Mat J, Vec r, Vec u, 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+static PetscErrorCode iterate(Iterative *iterative, Mat J, Vec r, Vec u, KSPConvergedReason *reason, PetscInt *iterations,
+                              PetscBool *stale)
+{
+  PC reduced;
+  PetscFunctionBegin;
+  PetscCall(KSPSetOperators(iterative->krylov, J, J));
+  PetscCall(KSPSolve(iterative->krylov, r, u));
+  PetscCall(KSPGetConvergedReason(iterative->krylov, reason));
+  PetscCall(KSPGetIterationNumber(iterative->krylov, iterations));
+  PetscCall(KSPGetPC(iterative->krylov, &reduced));
+  PetscCall(reduced_judge(reduced, *iterations, (PetscBool)(*reason > 0), stale));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode apply(PC pc, Vec r, Vec u)
 {
   Iterative         *iterative;
   Linear            *linear;
   KSPConvergedReason reason;
   PetscInt           iterations;
+  PetscBool          stale;
   Mat                J;
   PetscFunctionBegin;
   PetscCall(PCShellGetContext(pc, &iterative));
   linear = &iterative->solve->linear;
   PetscCall(PCGetOperators(pc, &J, NULL));
-  PetscCall(KSPSetOperators(iterative->krylov, J, J));
-  PetscCall(KSPSolve(iterative->krylov, r, u));
-  PetscCall(KSPGetConvergedReason(iterative->krylov, &reason));
-  PetscCall(KSPGetIterationNumber(iterative->krylov, &iterations));
+  PetscCall(iterate(iterative, J, r, u, &reason, &iterations, &stale));
+  if (stale && reason < 0) PetscCall(iterate(iterative, J, r, u, &reason, &iterations, &stale));
   linear->n_solves++;
   linear->iterations += iterations;
   linear->most = PetscMax(linear->most, iterations);
