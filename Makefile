@@ -63,6 +63,12 @@ effects:
 	$(SAY) "One scene with effects added one by one"
 	@$(PYTHON) studies/effects/effects.py --build $(BUILD) $(if $(FIGURES),--renew-figures)
 
+scaling:
+	@.ci/setup demo
+	@$(MAKE) --no-print-directory cmake-build
+	$(SAY) "Linear solvers against the number of unknowns"
+	@$(PYTHON) studies/scaling/scaling.py --build $(BUILD) $(if $(SIZES),--sizes $(SIZES)) $(if $(FIGURES),--renew)
+
 aids:
 	@.ci/setup demo
 	@$(MAKE) --no-print-directory cmake-build

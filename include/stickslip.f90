@@ -152,6 +152,12 @@ module stickslip
   integer(c_int32_t), parameter :: STICKSLIP_CONDENSED_ELIMINATION = 1
   integer(c_int32_t), parameter :: STICKSLIP_CONDENSED_CONSTRAINTS = 2
   integer(c_int32_t), parameter :: STICKSLIP_CONDENSED_SCALES = 3
+  ! Of the reduced form, for multigrid: E_L - I and E_R - I, the projector on the directions of constraints, and what these
+  ! have on its diagonal.
+  integer(c_int32_t), parameter :: STICKSLIP_CONDENSED_REDUCTION_ROWS = 4
+  integer(c_int32_t), parameter :: STICKSLIP_CONDENSED_REDUCTION_COLUMNS = 5
+  integer(c_int32_t), parameter :: STICKSLIP_CONDENSED_CONSTRAINED = 6
+  integer(c_int32_t), parameter :: STICKSLIP_CONDENSED_CONSTRAINT_DIAGONAL = 7
 
   ! Cover of a node: none, in part, in full, by several layers.
   integer(c_int32_t), parameter :: STICKSLIP_COVER_NONE = 0

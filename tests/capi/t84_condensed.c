@@ -140,6 +140,60 @@ static void check_step(void) {
 CHECK(difference(X1, found, after) <= SAME);
 }
 
+/* m becomes (I + e) m, or m (I + e). */
+static void multiply(const double *e, double *m, int from_left) {
+  static double before[FULL];
+  memcpy(before, m, sizeof before);
+  for (int k = 0; k < FULL; ++k) {
+    const int row = k / N, column = k % N;
+    if (e[k] == 0.0) continue;
+    for (int i = 0; i < N; ++i) {
+      if (from_left) m[row * N + i] += e[k] * before[column * N + i];
+      else m[i * N + column] += e[k] * before[i * N + row];
+    }
+  }
+}
+
+/* The reduced form has the condensed system's step; with frozen weights its constraints are its diagonal's. */
+static void check_reduction(int frozen) {
+  static double matrix[FULL], rows[FULL], columns[FULL], q[FULL], diagonal[FULL], k[FULL], constraints[FULL];
+  double right[N], force2[X2], x[N], v[N], reduced[N], expanded[N];
+  memset(rows, 0, sizeof rows);
+  memset(columns, 0, sizeof columns);
+  memset(q, 0, sizeof q);
+  memset(diagonal, 0, sizeof diagonal);
+  add_piece(STICKSLIP_CONDENSED_REDUCTION_ROWS, rows);
+  add_piece(STICKSLIP_CONDENSED_REDUCTION_COLUMNS, columns);
+  add_piece(STICKSLIP_CONDENSED_CONSTRAINED, q);
+  add_piece(STICKSLIP_CONDENSED_CONSTRAINT_DIAGONAL, diagonal);
+  memcpy(right, r, sizeof right);
+  CHECK_OK(stickslip_interface_condensed_residual(s.interface, s.x1, s.x2, lambda, right, right, force2));
+  for (int i = 0; i < X2; ++i) right[X1 + i] += force2[i];
+  memcpy(matrix, host, sizeof host);
+  condense(matrix);
+  memcpy(k, matrix, sizeof k);
+  solve(N, k, right, x);
+  multiply(rows, matrix, 1);
+  multiply(columns, matrix, 0);
+  for (int i = 0; i < N; ++i) {
+    reduced[i] = right[i];
+    for (int c = 0; c < N; ++c) reduced[i] += rows[i * N + c] * right[c];
+  }
+  memcpy(k, matrix, sizeof k);
+  solve(N, k, reduced, v);
+  for (int i = 0; i < N; ++i) {
+    expanded[i] = v[i];
+    for (int c = 0; c < N; ++c) expanded[i] += columns[i * N + c] * v[c];
+  }
+  CHECK(difference(N, expanded, x) <= SAME);
+  if (!frozen) return;
+  memset(constraints, 0, sizeof constraints);
+  for (int e = 0; e < FULL; ++e) {
+    for (int i = 0; q[e] != 0.0 && i < N; ++i) constraints[e / N * N + i] += q[e] * matrix[e % N * N + i];
+  }
+  CHECK(difference(FULL, constraints, diagonal) <= ROUNDING);
+}
+
 /* Each node is coupled to itself and to the one after the next. */
 static int coupled(int i, int j) { return i / 3 == j / 3 || abs(i - j) == 6; }
 
@@ -230,6 +284,7 @@ int main(void) {
     for (int32_t weights = STICKSLIP_WEIGHTS_CURRENT; weights <= STICKSLIP_WEIGHTS_COMMITTED; ++weights) {
       set_up(carried, weights);
       check_step();
+      check_reduction(weights == STICKSLIP_WEIGHTS_COMMITTED);
       check_pattern();
       check_carriers(carried);
       if (!carried && weights == STICKSLIP_WEIGHTS_CURRENT) check_nodes();

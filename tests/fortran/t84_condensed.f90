@@ -29,6 +29,7 @@ program t84_condensed
     do k = 1, 2
       call set_up(KINDS(k))
       call check_step()
+      call check_reduction(KINDS(k) == STICKSLIP_WEIGHTS_COMMITTED)
       call check_pattern()
       call check_carriers()
       if (.not. carried .and. KINDS(k) == STICKSLIP_WEIGHTS_CURRENT) call check_nodes()
@@ -153,6 +154,27 @@ contains
     rows = r + matmul(j, du)
     CHECK_OK(stickslip_interface_condensed_multipliers(s%contact, s%x1, s%x2, rows, found))
     CHECK(difference(found, after) <= SAME_STEP)
+  end subroutine
+
+  ! The reduced form has the condensed system's step; with frozen weights its constraints are its diagonal's.
+  subroutine check_reduction(frozen)
+    logical, intent(in) :: frozen
+    real(c_double) :: rows(N), force2(SIZE2), left(N, N), right(N, N), matrix(N, N), x(N), v(N), diagonal(N, N)
+    rows = r
+    CHECK_OK(stickslip_interface_condensed_residual(s%contact, s%x1, s%x2, s%lambda, r, rows, force2))
+    rows(SIZE1 + 1:) = rows(SIZE1 + 1:) + force2
+    matrix = condensed(host)
+    x = solved(matrix, rows)
+    left = piece(STICKSLIP_CONDENSED_REDUCTION_ROWS)
+    right = piece(STICKSLIP_CONDENSED_REDUCTION_COLUMNS)
+    matrix = matrix + matmul(left, matrix)
+    matrix = matrix + matmul(matrix, right)
+    v = solved(matrix, rows + matmul(left, rows))
+    CHECK(difference(v + matmul(right, v), x) <= SAME_STEP)
+    if (.not. frozen) return
+    diagonal = piece(STICKSLIP_CONDENSED_CONSTRAINT_DIAGONAL)
+    matrix = matmul(piece(STICKSLIP_CONDENSED_CONSTRAINED), matrix)
+    CHECK(difference(reshape(matrix, [N * N]), reshape(diagonal, [N * N])) <= ROUNDING)
   end subroutine
 
   ! Each node is coupled to itself and to the one after the next: a sparse host's condensed matrix has no entry that is

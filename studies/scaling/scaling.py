@@ -1,0 +1,95 @@
+"""Time and iterations of the linear solvers against the number of unknowns: `make scaling`. scaling.py --build DIR; results
+go to DIR/scaling.
+
+Two blocks of equal cells, one pressed on the other and drawn along it with friction, all nodes slipping at the end: the
+scene two_blocks with dual multipliers, condensed. Of each size one step, by multigrid and, as far as it is not too dear, by
+MUMPS. Seconds are the processor's, of linear solves alone, a solve. Table: printed, scaling.json, scaling.md.
+"""
+
+import argparse
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+sys.path.append(str(Path(__file__).resolve().parents[1] / "common"))
+import folders  # noqa: E402, F401  (puts the others on the path)
+from scene import SCENES, SceneError  # noqa: E402
+
+DOC = Path(__file__).resolve().parents[2] / "docs" / "scaling.md"
+BEGIN, END = "<!-- scaling.py writes from here -->", "<!-- to here -->"
+# Cells along an edge of the upper block.
+SIZES = (8, 16, 24)
+# LU takes minutes and 6 GB beyond this.
+LARGEST_DIRECT = 24
+OPTIONS = ("-unknowns", "displacements", "-contact_basis", "dual", "-output_quiet", "true")
+
+
+def measure(build, output, n, solver):
+    folder = output / f"{solver}_{n}"
+    cells = ("-upper_cells", f"{n},{n},{n}", "-lower_cells", f"{n + 1},{n + 1},{n}")
+    command = [build / "c_examples" / "snes_contact", "-scene", SCENES / "two_blocks.yaml", "-output_dir", folder, *OPTIONS,
+               *cells, "-solver", solver]
+    with open(output / f"{solver}_{n}.txt", "w") as text:
+        process = subprocess.Popen([str(word) for word in command], stdout=text, stderr=subprocess.STDOUT,
+                                   env={**os.environ, "OMP_NUM_THREADS": "1"})
+        _, status, usage = os.wait4(process.pid, 0)
+    if status:
+        raise SceneError(f"{solver} with {n} cells: see {text.name}")
+    summary = json.loads((folder / "summary.json").read_text())
+    newton = sum(step["newton_iterations"] for step in summary["steps"])
+    linear = summary.get("linear_solver", {})
+    return {
+        "cells": n,
+        "solver": solver,
+        "unknowns": summary["unknowns"],
+        "newton": newton,
+        "most": linear.get("most"),
+        "mean": linear["iterations"] / linear["solves"] if linear else None,
+        "direct": linear.get("direct"),
+        "seconds": summary["seconds"]["linear_solve"] / newton,
+        "total": summary["seconds"]["total"],
+        "gigabytes": usage.ru_maxrss / 1e6,
+    }
+
+
+def table(rows):
+    lines = ["| unknowns | solver | Newton iterations | GMRES' iterations a solve: mean, most | seconds a solve | "
+             "seconds of the run | memory, GB |", "|---|---|---|---|---|---|---|"]
+    for row in rows:
+        krylov = f"{row['mean']:.0f}, {row['most']}" if row["most"] else "-"
+        name = {"iterative": "multigrid", "direct": "MUMPS"}[row["solver"]]
+        lines.append(f"| {row['unknowns']} | {name} | {row['newton']} | {krylov} | {row['seconds']:.2f} | {row['total']:.1f} "
+                     f"| {row['gigabytes']:.2f} |")
+    return "\n".join(lines) + "\n"
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--build", type=Path, required=True)
+    parser.add_argument("--sizes", type=lambda text: [int(n) for n in text.split(",")], default=SIZES)
+    parser.add_argument("--largest-direct", type=int, default=LARGEST_DIRECT)
+    parser.add_argument("--renew", action="store_true", help="write the table into docs/scaling.md")
+    args = parser.parse_args()
+    output = args.build / "scaling"
+    output.mkdir(parents=True, exist_ok=True)
+    rows = []
+    for n in args.sizes:
+        for solver in ("iterative", "direct")[: 1 if n > args.largest_direct else 2]:
+            print(f"{solver}, {n} cells", file=sys.stderr, flush=True)
+            rows.append(measure(args.build, output, n, solver))
+    (output / "scaling.json").write_text(json.dumps(rows, indent=1))
+    (output / "scaling.md").write_text(table(rows))
+    print(table(rows))
+    if args.renew:
+        text = DOC.read_text()
+        before, after = text.split(BEGIN)[0], text.split(END)[1]
+        DOC.write_text(f"{before}{BEGIN}\n{table(rows)}{END}{after}")
+
+
+if __name__ == "__main__":
+    try:
+        main()
+    except SceneError as error:
+        sys.exit(f"scaling.py: {error}")
