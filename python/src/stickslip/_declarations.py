@@ -3,6 +3,8 @@
 The wheel's build writes ``_abi.py`` by it. In the source tree ``_library.py`` makes the same at import.
 """
 
+import contextlib
+import io
 import re
 from pathlib import Path
 
@@ -40,7 +42,8 @@ def write(header: Path, target: Path) -> None:
     """Writes ``_abi.py`` by cffi, with what cffi has no place for at its end."""
     text = Path(header).read_text(encoding="utf-8")
     ffi = builder(text)
-    ffi.emit_python_code(str(target))
+    with contextlib.redirect_stdout(io.StringIO()):  # it says that it writes
+        ffi.emit_python_code(str(target))
     with open(target, "a", encoding="utf-8") as out:
         out.write(f"\nINTEGERS = {dict((n, int(v)) for n, v in _INTEGER.findall(_COMMENT.sub('', text)))!r}\n")
         out.write(f"REALS = {real_constants(text)!r}\n")

@@ -1,6 +1,6 @@
 """An exception class for every status of the header, all below :class:`Error`."""
 
-from ._library import constants, lib, text
+from ._library import constants
 
 
 class Error(Exception):
@@ -31,11 +31,9 @@ _ALSO = {
 
 
 def _statuses() -> dict:
-    """The header's statuses: the constants that ``status_string`` spells by their own name."""
-    def spelt(name, value):
-        return isinstance(value, int) and text(lib.stickslip_status_string(value)) == name
-
-    return {name: value for name, value in constants.items() if value != 0 and spelt(name, value)}
+    """The header's statuses: what it declares after OK, up to PANIC."""
+    names = list(constants)
+    return {name: constants[name] for name in names[names.index("OK") + 1 : names.index("PANIC") + 1]}
 
 
 def _class(name: str, status: int) -> type:
