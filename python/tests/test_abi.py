@@ -75,13 +75,15 @@ def test_a_misspelt_word_lists_what_is_allowed(lines):
         stickslip.Interface(*lines.arguments, modulus=1.0, model="plane", basis="daul")
     with pytest.raises(TypeError, match="modulos"):
         stickslip.Interface(*lines.arguments, modulos=1.0)
+    with pytest.raises(ValueError, match="multiplier_equations"):
+        stickslip.Interface(*lines.arguments, modulus=1.0, model="plane", friction="none")
 
 
 def test_statuses_of_the_library_are_raised(lines):
     with pytest.raises(errors.MissingStiffness) as caught:
         stickslip.Interface(*lines.arguments, model="plane")
     assert caught.value.status == _library.constants["MISSING_STIFFNESS"]
-    surface = stickslip.Surface(lines.x1, [[0, 99]])
+    surface = stickslip.Surface(lines.x1, [[0, 99]], multiplier_equations=np.arange(10).reshape(5, 2))
     with pytest.raises(IndexError):
         stickslip.Interface(surface, lines.arguments[1], model="plane", modulus=1.0)
 
@@ -120,7 +122,8 @@ def test_lists_are_converted(lines):
 
 def test_mixed_facets_and_a_closed_interface():
     x, _ = scene.grid(2, 0, 1, 0, True)
-    surface = stickslip.Surface(x, [[0, 1, 4, 3], [1, 2, 5, 4], [3, 4, 7, 6], [4, 5, 8], [4, 8, 7]])
+    surface = stickslip.Surface(x, [[0, 1, 4, 3], [1, 2, 5, 4], [3, 4, 7, 6], [4, 5, 8], [4, 8, 7]],
+                                multiplier_equations=np.arange(27))
     below, facets = scene.grid(2, 0, 1, 0, False)
     face = stickslip.Interface(surface, stickslip.Surface(below, facets), modulus=1.0)
     face.close()

@@ -90,15 +90,42 @@ def test_history_goes_through_pickle(blocks):
 @pytest.mark.parametrize("kind", [scene.Solid, scene.Plane])
 def test_condensed_multipliers_hold_the_host_forces(kind):
     with kind(basis="dual", weights="reference") as made:
-        face, (x1, x2, _) = made.interface, made.pressed(depth=1e-9)
-        condensed = stickslip.Condensed(face)
-        host1 = np.tile(0.2 * -made.nu, (len(x1), 1))
+        face, condensed = made.interface, stickslip.Condensed(made.interface)
+        # Pressed down by 0.2 at each node: internal minus external force points up, and contact takes all of it.
+        host1 = np.tile(0.2 * made.nu, (len(made.x1), 1))
         lam = condensed.multipliers(made.x1, made.x2, host1)
-        force1, force2, _ = face.residual(made.x1, made.x2, lam)
-        _, condensed2 = condensed.residual(made.x1, made.x2, lam, host1)
+        force1, force2, rows = face.residual(made.x1, made.x2, lam)
+        np.testing.assert_allclose(force1, -host1, atol=ROUNDING)
+        np.testing.assert_allclose(rows, 0, atol=ROUNDING)
+        rows1, condensed2 = condensed.residual(made.x1, made.x2, lam, host1)
         np.testing.assert_allclose(condensed2, force2, atol=ROUNDING)
-        states = face.states(made.x1, made.x2, lam)
-        assert np.count_nonzero(states.traction) > 0
+        np.testing.assert_allclose(rows1, 0, atol=ROUNDING)
+
+
+def test_condensed_matrix_is_the_derivative_of_the_condensed_residual():
+    with scene.Plane(basis="dual") as made:
+        face, condensed = made.interface, stickslip.Condensed(made.interface)
+        x1, x2, _ = made.pressed()
+        n1, n = made.x1.size, made.x1.size + made.x2.size
+        host = 50.0 * np.eye(n) + np.random.default_rng(3).standard_normal((n, n))
+        base, start = np.tile(0.2 * made.nu, (len(x1), 1)).ravel(), np.concatenate([x1.ravel(), x2.ravel()])
+
+        def residual(u):
+            y1, y2 = u[:n1].reshape(x1.shape), u[n1:].reshape(x2.shape)
+            own = host @ (u - start)
+            host1 = (base + own[:n1]).reshape(x1.shape)
+            lam = condensed.multipliers(y1, y2, host1)
+            rows1, force2 = condensed.residual(y1, y2, lam, host1)
+            return np.concatenate([rows1.ravel(), own[n1:] + force2.ravel()]), lam
+
+        lam = residual(start)[1]
+        piece = {name: condensed.piece(x1, x2, lam, n, name).toarray()
+                 for name in ("forces", "elimination", "constraints", "scales")}
+        inner = host + piece["forces"]
+        matrix = inner + piece["elimination"] @ inner + piece["constraints"] + piece["scales"]
+        differences = np.column_stack([(residual(start + STEP * e)[0] - residual(start - STEP * e)[0]) / (2 * STEP)
+                                       for e in np.eye(n)])
+        assert np.abs(matrix - differences).max() < DIFFERENCES * np.abs(matrix).max()
 
 
 def test_the_face_tells_about_itself(blocks):

@@ -38,11 +38,11 @@ class Interface(Inspection):
         self.n1, self.n2 = nonmortar.n_nodes, mortar.n_nodes
         none = made.friction == value_of("friction", "FRICTION", "none")
         self._shape_multipliers = (self.n1,) if none else self._shape1
-        if nonmortar.multiplier_equations is not None and not none:
-            if nonmortar.multiplier_equations.size != self.n1 * self.dimension:
-                raise ValueError(f"multiplier_equations: {self._shape1} is needed with this friction")
-        elif nonmortar.multiplier_equations is not None and nonmortar.multiplier_equations.size != self.n1:
-            raise ValueError(f'multiplier_equations: {(self.n1,)} is needed with friction="none"')
+        # A longer array cannot be told from a pointer: the library would read the wrong numbers.
+        numbers = nonmortar.multiplier_equations
+        if numbers is None or numbers.size != int(np.prod(self._shape_multipliers)):
+            found = None if numbers is None else numbers.shape
+            raise ValueError(f"multiplier_equations of nonmortar: {found}, {self._shape_multipliers} is needed")
         slot = ffi.new("struct stickslip_interface **")
         call("interface_create", first, second, made, slot)
         del kept_first, kept_second

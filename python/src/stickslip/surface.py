@@ -39,7 +39,8 @@ class Surface:
         self.facet_offsets = np.cumsum([0, *(len(row) for row in rows)], dtype=np.int64)
         self.facet_nodes = np.concatenate(rows).astype(np.int64) if rows else np.empty(0, np.int64)
         shape = coordinates.shape
-        self.equations = None if equations is None else given("equations", equations, shape, np.int64)
+        equations = np.full(shape, -1, np.int64) if equations is None else equations
+        self.equations = given("equations", equations, shape, np.int64)
         self.multiplier_equations = None
         if multiplier_equations is not None:
             size = np.size(multiplier_equations)

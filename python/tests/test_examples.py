@@ -1,0 +1,37 @@
+"""Each example runs, draws its picture and finds what it must."""
+
+import importlib.util
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+import stickslip
+
+EXAMPLES = Path(__file__).resolve().parent.parent / "examples"
+# The driver's probes of plane_block.yaml.
+TOPLEFT = 0.0484872344169568, -0.290357708449536
+TOPRIGHT = 0.262339235862936, -0.40603752035701
+DRIVER = 1e-12
+
+
+def run(name, folder, *needed):
+    for package in (*needed, "matplotlib"):
+        if importlib.util.find_spec(package) is None:
+            pytest.skip(f"{name} needs {package}, which is not installed")
+    picture = folder / "picture.png"
+    path = os.pathsep.join([str(Path(stickslip.__file__).parents[1]), os.environ.get("PYTHONPATH", "")])
+    done = subprocess.run([sys.executable, str(EXAMPLES / name), str(picture)], capture_output=True, text=True,
+                          env={**os.environ, "PYTHONPATH": path}, timeout=300)
+    assert done.returncode == 0, done.stderr
+    assert picture.stat().st_size > 10_000
+    return done.stdout
+
+
+def test_block_is_the_drivers(tmp_path):
+    words = run("block.py", tmp_path).split()
+    topleft, topright = words.index("topleft"), words.index("topright")
+    found = [float(word) for word in (*words[topleft + 1 : topleft + 3], *words[topright + 1 : topright + 3])]
+    np.testing.assert_allclose(found, [*TOPLEFT, *TOPRIGHT], rtol=0, atol=DRIVER)
