@@ -56,7 +56,7 @@ def main():
         ("plan values", c_values, plan.values),
     ):
         in_c, in_python = [], []
-        for k in range(REPEATS):
+        for k in range(1, REPEATS + 1):  # 0 is the point of the plan, which the handle knows
             moved = [(x1 - 1e-9 * (2 * k + j) * made.nu, x2, lam) for j in range(2)]
             in_c.append(median(c_way, [tuple(map(pointer, moved[0]))]))
             in_python.append(median(python_way, [moved[1]]))

@@ -35,3 +35,10 @@ def test_block_is_the_drivers(tmp_path):
     topleft, topright = words.index("topleft"), words.index("topright")
     found = [float(word) for word in (*words[topleft + 1 : topleft + 3], *words[topright + 1 : topright + 3])]
     np.testing.assert_allclose(found, [*TOPLEFT, *TOPRIGHT], rtol=0, atol=DRIVER)
+
+
+def test_the_first_program_of_the_readme_runs(tmp_path):
+    text = (EXAMPLES.parent / "README.md").read_text()
+    program = text.split("```python\n")[1].split("```")[0]
+    exec(compile(program, "README.md", "exec"), space := {})
+    np.testing.assert_allclose(-space["force1"].sum(axis=0), [0, 5 * 0.8], atol=1e-12)
