@@ -42,3 +42,24 @@ def test_the_first_program_of_the_readme_runs(tmp_path):
     program = text.split("```python\n")[1].split("```")[0]
     exec(compile(program, "README.md", "exec"), space := {})
     np.testing.assert_allclose(-space["force1"].sum(axis=0), [0, 5 * 0.8], atol=1e-12)
+
+
+def forces(printed):
+    """Forces on the top by step, as the examples of two blocks print them."""
+    return np.array([[float(word) for word in line.split("[")[1].rstrip("]").split(",")]
+                     for line in printed.splitlines()])
+
+
+# Steps of the path; the least shear over the limit that the last one must reach: far from where it would be without friction.
+@pytest.mark.parametrize("name, package, steps, least", [
+    ("scikit_fem_blocks.py", "skfem", 9, 0.95),
+    ("felupe_blocks.py", "felupe", 10, 0.80),
+])
+def test_two_blocks_slide_below_the_limit_of_friction(name, package, steps, least, tmp_path):
+    found = forces(run(name, tmp_path, package))
+    assert len(found) == steps
+    assert (found[:, 2] < 0).all()
+    limit = 0.3 * -found[:, 2]
+    # Six digits are printed. The surfaces tilt by less than a hundredth.
+    assert (found[:, 0] <= 1.01 * limit).all()
+    assert found[-1, 0] > least * limit[-1]
