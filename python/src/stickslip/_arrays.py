@@ -1,0 +1,48 @@
+"""Arrays of Python as the library reads and writes them: checked, and used without a copy where they fit."""
+
+import numpy as np
+
+from ._library import ffi
+
+_KINDS = {np.dtype(np.float64): "double[]", np.dtype(np.int64): "int64_t[]", np.dtype(np.int32): "int32_t[]",
+          np.dtype(np.uint8): "uint8_t[]"}
+
+
+def given(name: str, value, shape: tuple, dtype=np.float64) -> np.ndarray:
+    """An input of this shape, or with as many entries in one row.
+
+    Lists are converted. An ndarray has to fit as it is: a silent copy in each iteration would cost unseen.
+    """
+    if not isinstance(value, np.ndarray):
+        value = np.array(value, dtype=dtype)
+    if value.dtype != dtype:
+        raise TypeError(f"{name}: dtype {value.dtype}, {np.dtype(dtype)} is needed")
+    if not value.flags.c_contiguous:
+        raise ValueError(f"{name}: not in C order, numpy.ascontiguousarray makes it so")
+    size = int(np.prod(shape))
+    if value.shape != shape and value.shape != (size,):
+        raise ValueError(f"{name}: shape {value.shape}, {shape} or ({size},) is needed")
+    if np.dtype(dtype).kind == "f" and not np.isfinite(value).all():
+        raise ValueError(f"{name}: entry {int(np.argmin(np.isfinite(value).ravel()))} is NaN or infinite")
+    return value
+
+
+def output(name: str, value, shape: tuple, dtype=np.float64) -> np.ndarray:
+    """An output: a new array, or the caller's, if it can be written."""
+    if value is None:
+        return np.empty(shape, dtype)
+    if not isinstance(value, np.ndarray):
+        raise TypeError(f"{name}: {type(value).__name__}, an ndarray is needed")
+    if value.dtype != dtype or not value.flags.c_contiguous:
+        raise TypeError(f"{name}: {np.dtype(dtype)} in C order is needed")
+    size = int(np.prod(shape))
+    if value.shape not in (shape, (size,)):
+        raise ValueError(f"{name}: shape {value.shape}, {shape} or ({size},) is needed")
+    if not value.flags.writeable:
+        raise ValueError(f"{name}: read-only, and the call writes to it")
+    return value
+
+
+def pointer(array: np.ndarray | None):
+    """The address of an array that stays alive during the call; NULL of None."""
+    return ffi.NULL if array is None else ffi.from_buffer(_KINDS[array.dtype], array)

@@ -1,0 +1,96 @@
+"""What an interface tells about itself: states, equilibrium, report, diagnosis, counters."""
+
+from types import SimpleNamespace
+
+import numpy as np
+
+from ._arrays import pointer
+from ._library import ffi
+
+_TYPES = {"double": np.float64, "int32_t": np.int32, "int64_t": np.int64}
+# No sentence of the library comes near it.
+_TEXT = 1 << 16
+
+
+def _members(name: str):
+    return [(member, field.type) for member, field in ffi.typeof(f"struct stickslip_{name}").fields]
+
+
+def _scalars(struct, name: str) -> dict:
+    """The members that are numbers, and the short arrays among them."""
+    out = {}
+    for member, kind in _members(name):
+        if member in ("struct_size", "reserved") or member.endswith("_capacity") or kind.kind == "pointer":
+            continue
+        value = getattr(struct, member)
+        out[member] = tuple(value) if kind.kind == "array" else value
+    return out
+
+
+def _new(name: str):
+    struct = ffi.new(f"struct stickslip_{name} *")
+    struct.struct_size = ffi.sizeof(f"struct stickslip_{name}")
+    return struct
+
+
+class Inspection:
+    """The part of :class:`stickslip.Interface` that changes nothing."""
+
+    def states(self, x1, x2, lam, *, sums=None) -> SimpleNamespace:
+        """Arrays by the names of ``stickslip_states``: state, normal, traction, gap, slip, coverage, area, ...
+
+        Call it before the commit.
+        """
+        vectors = ("normal", "traction", "slip")
+        out = _new("states")
+        arrays = {}
+        for member, kind in _members("states"):
+            if kind.kind != "pointer":
+                continue
+            shape = self._shape1 if member in vectors else (self.n1,)
+            arrays[member] = np.zeros(shape, _TYPES[kind.item.cname])
+        kept = {member: pointer(array) for member, array in arrays.items()}
+        for member, address in kept.items():
+            setattr(out, member, address)
+        self._call("states", *self._point(x1, x2, lam, sums), out)
+        return SimpleNamespace(**arrays)
+
+    def equilibrium(self, x1, x2, lam, *, modulus: float = 0.0, least_traction: float = 0.0, sums=None):
+        """How far the point is from equilibrium, by the names of ``stickslip_equilibrium``."""
+        out = _new("equilibrium")
+        out.modulus, out.least_traction = modulus, least_traction
+        self._call("equilibrium", *self._point(x1, x2, lam, sums), out)
+        return SimpleNamespace(**_scalars(out, "equilibrium"))
+
+    def report(self, x1, x2) -> SimpleNamespace:
+        """Which nodes are covered, and what surfaces that do not meet look like; ``text`` says it in sentences."""
+        out = _new("report")
+        arrays = {"cover": np.zeros(self.n1, np.int32), "fraction": np.zeros(self.n1),
+                  "layers": np.zeros(self.n1, np.int32)}
+        kept = {member: pointer(array) for member, array in arrays.items()}
+        for member, address in kept.items():
+            setattr(out, member, address)
+        buffer = ffi.new("char[]", _TEXT)
+        out.text, out.text_capacity = buffer, _TEXT
+        self._call("report", *self._positions(x1, x2), out)
+        return SimpleNamespace(**_scalars(out, "report"), **arrays, text=ffi.string(buffer).decode())
+
+    def diagnose(self, x1, x2, lam, *, sums=None) -> SimpleNamespace:
+        """The worst pairs and where the matrix may be singular; ``text`` says it in sentences."""
+        out = _new("diagnosis")
+        buffer = ffi.new("char[]", _TEXT)
+        out.text, out.text_capacity = buffer, _TEXT
+        self._call("diagnose", *self._point(x1, x2, lam, sums), out)
+        return SimpleNamespace(**_scalars(out, "diagnosis"), text=ffi.string(buffer).decode())
+
+    def effects(self) -> str:
+        """What the interface computes and why, in sentences."""
+        buffer = ffi.new("char[]", _TEXT)
+        self._call("effects", buffer, _TEXT)
+        return ffi.string(buffer).decode()
+
+    def counters(self) -> SimpleNamespace:
+        """What the interface has done, by the names of ``stickslip_counters``."""
+        out = _new("counters")
+        self._call("counters", out)
+        return SimpleNamespace(**_scalars(out, "counters"))

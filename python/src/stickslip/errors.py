@@ -1,0 +1,53 @@
+"""An exception class for every status of the header, all below :class:`Error`."""
+
+from ._library import constants
+
+
+class Error(Exception):
+    """A refused call. ``status`` is the header's number; nothing was changed."""
+
+    status: int = 0
+
+    def __init__(self, message: str, status: int | None = None):
+        super().__init__(message)
+        if status is not None:
+            self.status = status
+
+
+# Where a class of Python says the same, the exception is one of it too.
+_ALSO = {
+    "INVALID_SIZE": ValueError,
+    "NOT_FINITE": ValueError,
+    "INVALID_VALUE": ValueError,
+    "DUPLICATE_NODE": ValueError,
+    "DEGENERATE_FACET": ValueError,
+    "MISSING_STIFFNESS": ValueError,
+    "HISTORY_MISMATCH": ValueError,
+    "INDEX_OUT_OF_RANGE": IndexError,
+    "OUT_OF_MEMORY": MemoryError,
+    "UNSUPPORTED": NotImplementedError,
+    "PANIC": SystemError,
+}
+
+
+def _statuses() -> dict:
+    """The header's statuses: what it declares after OK, up to PANIC."""
+    names = list(constants)
+    return {name: constants[name] for name in names[names.index("OK") + 1 : names.index("PANIC") + 1]}
+
+
+def _class(name: str, status: int) -> type:
+    bases = (Error, _ALSO[name]) if name in _ALSO else (Error,)
+    title = "".join(part.capitalize() for part in name.split("_"))
+    return type(title, bases, {"status": status, "__module__": __name__, "__doc__": f"STICKSLIP_{name}."})
+
+
+statuses = _statuses()
+by_status = {status: _class(name, status) for name, status in statuses.items()}
+globals().update({made.__name__: made for made in by_status.values()})
+__all__ = ["Error", "by_status", "exception_of", "statuses", *(made.__name__ for made in by_status.values())]
+
+
+def exception_of(status: int) -> type:
+    """The exception class of a status; :class:`Error` where the header has no name for it."""
+    return by_status.get(status, Error)

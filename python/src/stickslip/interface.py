@@ -1,0 +1,186 @@
+"""The handle of an interface: residual, tangent, states, history."""
+
+import numpy as np
+
+from . import options as _options
+from ._arrays import given, output, pointer
+from ._inspection import Inspection
+from ._library import call, ffi, lib, value_of
+from .surface import Surface
+
+
+class Interface(Inspection):
+    """Two surfaces in contact.
+
+    ``x1`` and ``x2`` are current positions of the non-mortar and the mortar nodes, (n1, d) and (n2, d) [L], with d = 3, or
+    2 in plane and axisymmetric models. ``lam`` are the multipliers, (n1, d) or (n1,) without friction [F/L^2]:
+    minus the Cauchy traction on the non-mortar body. ``sums`` is for hosts on several processes.
+
+    Parameters
+    ----------
+    nonmortar, mortar : Surface
+        The non-mortar side has the multipliers.
+    **options
+        Members of ``stickslip_options`` by name, for example ``mu=0.2, modulus=210e3, basis="dual", model="plane"``.
+        A choice is the end of the header's constant in small letters. What is left out has the library's default.
+    """
+
+    def __init__(self, nonmortar: Surface, mortar: Surface, **options):
+        self._handle = ffi.NULL
+        made = _options.make(options)
+        first, kept_first = nonmortar._struct()
+        second, kept_second = mortar._struct()
+        self.dimension = 3 if made.model == value_of("model", "MODEL", "solid") else 2
+        for name, surface in (("nonmortar", nonmortar), ("mortar", mortar)):
+            if surface.dimension != self.dimension:
+                raise ValueError(f"{name}: {surface.dimension} coordinates a node, the model has {self.dimension}")
+        self._shape1, self._shape2 = nonmortar.coordinates.shape, mortar.coordinates.shape
+        self.n1, self.n2 = nonmortar.n_nodes, mortar.n_nodes
+        none = made.friction == value_of("friction", "FRICTION", "none")
+        self._shape_multipliers = (self.n1,) if none else self._shape1
+        # A longer array cannot be told from a pointer: the library would read the wrong numbers.
+        numbers = nonmortar.multiplier_equations
+        if numbers is None or numbers.size != int(np.prod(self._shape_multipliers)):
+            found = None if numbers is None else numbers.shape
+            raise ValueError(f"multiplier_equations of nonmortar: {found}, {self._shape_multipliers} is needed")
+        slot = ffi.new("struct stickslip_interface **")
+        call("interface_create", first, second, made, slot)
+        del kept_first, kept_second
+        self._handle = slot[0]
+
+    def close(self) -> None:
+        """Gives the handle back. A second time does nothing."""
+        if self._handle != ffi.NULL:
+            slot = ffi.new("struct stickslip_interface **", self._handle)
+            self._handle = ffi.NULL
+            call("interface_destroy", slot)
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.close()
+
+    def __del__(self):
+        handle = getattr(self, "_handle", None)
+        if handle and lib is not None:
+            self.close()
+
+    def _call(self, name: str, *arguments) -> None:
+        if self._handle == ffi.NULL:
+            raise ValueError("the interface is closed")
+        call("interface_" + name, self._handle, *arguments)
+
+    def _positions(self, x1, x2) -> tuple:
+        return pointer(given("x1", x1, self._shape1)), pointer(given("x2", x2, self._shape2))
+
+    def _sums(self, sums):
+        from ._library import constants
+
+        shape = (self.n1, constants["SUMS_PER_NODE"])
+        return ffi.NULL if sums is None else pointer(given("sums", sums, shape))
+
+    def _point(self, x1, x2, lam, sums) -> tuple:
+        multipliers = pointer(given("lam", lam, self._shape_multipliers))
+        return (*self._positions(x1, x2), multipliers, self._sums(sums))
+
+    def initial_multipliers(self, out=None) -> np.ndarray:
+        """Multipliers to start the first step with, not zero, so that a body that rests on contact is held."""
+        out = output("out", out, self._shape_multipliers)
+        self._call("initial_multipliers", pointer(out))
+        return out
+
+    def residual(self, x1, x2, lam, *, sums=None, out=(None, None, None)) -> tuple:
+        """``(force1, force2, rows)``: what to add to the host's internal forces [F], and the multiplier rows.
+
+        The force on the non-mortar body is ``-force1``. ``out``: three arrays to write to.
+        """
+        shapes = self._shape1, self._shape2, self._shape_multipliers
+        names = "force1", "force2", "rows"
+        made = tuple(output(name, array, shape) for name, array, shape in zip(names, out, shapes))
+        self._call("residual", *self._point(x1, x2, lam, sums), *map(pointer, made))
+        return made
+
+    def tangent(self, x1, x2, lam, size: int, *, sums=None, form: str = "csr"):
+        """The derivative of the residual, a scipy sparse matrix of ``(size, size)`` in the host's equations."""
+        import scipy.sparse
+
+        point = self._point(x1, x2, lam, sums)
+        count = ffi.new("int64_t *")
+        self._call("tangent_coo", *point, 0, ffi.NULL, ffi.NULL, ffi.NULL, count)
+        capacity = count[0]
+        rows, columns = np.empty(capacity, np.int64), np.empty(capacity, np.int64)
+        values = np.empty(capacity)
+        self._call("tangent_coo", *point, capacity, pointer(rows), pointer(columns), pointer(values), count)
+        n = count[0]
+        matrix = scipy.sparse.coo_matrix((values[:n], (rows[:n], columns[:n])), shape=(size, size))
+        return matrix if form == "coo" else matrix.asformat(form)
+
+    def sums(self, x1, x2) -> np.ndarray:
+        """What a host on several processes adds up over them, (n1, SUMS_PER_NODE)."""
+        from ._library import constants
+
+        out = np.empty((self.n1, constants["SUMS_PER_NODE"]))
+        self._call("sums", *self._positions(x1, x2), pointer(out))
+        return out
+
+    def commit(self, x1, x2, lam, *, sums=None) -> None:
+        """Accepts a converged step: it becomes t_n."""
+        self._call("commit", *self._point(x1, x2, lam, sums))
+
+    def rollback(self) -> None:
+        """Undoes the last commit."""
+        self._call("rollback")
+
+    def history(self) -> dict:
+        """The committed history as arrays, to pickle."""
+        integers, reals = ffi.new("int64_t *"), ffi.new("int64_t *")
+        self._call("history_size", integers, reals)
+        out = {"integers": np.empty(integers[0], np.int64), "reals": np.empty(reals[0])}
+        self._call("history_export", integers[0], pointer(out["integers"]), reals[0], pointer(out["reals"]))
+        return out
+
+    def restore(self, history: dict) -> None:
+        """Takes a history of an interface that was made in the same way."""
+        integers, reals = history["integers"], history["reals"]
+        integers = given("integers", integers, (len(integers),), np.int64)
+        reals = given("reals", reals, (len(reals),))
+        self._call("history_import", len(integers), pointer(integers), len(reals), pointer(reals))
+
+    def step_limit(self, x1, x2, dx1, dx2, penetration: float = 0.0) -> float:
+        """How much of a step (dx1, dx2) may be taken, at most 1."""
+        out = ffi.new("double *")
+        step = pointer(given("dx1", dx1, self._shape1)), pointer(given("dx2", dx2, self._shape2))
+        self._call("step_limit", *self._positions(x1, x2), *step, penetration, out)
+        return out[0]
+
+    def set_friction(self, mu) -> None:
+        """Coulomb coefficients of the non-mortar nodes, (n1,) [-]."""
+        self._call("set_friction", pointer(given("mu", mu, (self.n1,))))
+
+    def set_augmentation(self, r) -> None:
+        """The augmentation of each node, (n1,), in the unit of the header's function."""
+        self._call("set_augmentation", pointer(given("r", r, (self.n1,))))
+
+    def set_normals(self, normals) -> None:
+        """Normals of the non-mortar nodes, like x1, into the non-mortar body."""
+        self._call("set_normals", pointer(given("normals", normals, self._shape1)))
+
+    def set_previous(self, x1, x2) -> None:
+        """The positions at t_n of a host that starts elsewhere than at the first configuration."""
+        self._call("set_previous", *self._positions(x1, x2))
+
+    def set_constraints(self, nodes, directions) -> None:
+        """Directions, (k, d), in which nodes, (k,) int64, are held."""
+        nodes = given("nodes", nodes, (len(nodes),), np.int64)
+        directions = given("directions", directions, (len(nodes), self.dimension))
+        self._call("set_constraints", len(nodes), pointer(nodes), pointer(directions))
+
+    def use_normals(self, normals: str) -> None:
+        """Normals of the step that follows: "committed" or "current"."""
+        self._call("use_normals", value_of("normals", "NORMALS", normals))
+
+    def turn_multipliers(self, x1, lam) -> None:
+        """Turns multipliers with the normals, in place, at the start of a step."""
+        lam = output("lam", given("lam", lam, self._shape_multipliers), self._shape_multipliers)
+        self._call("turn_multipliers", pointer(given("x1", x1, self._shape1)), pointer(lam))

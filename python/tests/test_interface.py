@@ -1,0 +1,147 @@
+"""Residual, tangent, states and history of the handle, against what they must be."""
+
+import pickle
+
+import numpy as np
+import pytest
+import scene
+import stickslip
+
+# Central differences with this step: truncation and rounding both are below 1e-6 of the largest entry.
+STEP = 1e-6
+DIFFERENCES = 1e-6
+# Sums of the same products in another order.
+ROUNDING = 1e-12
+
+
+@pytest.mark.parametrize("kind", [scene.Solid, scene.Plane])
+@pytest.mark.parametrize("basis", ["standard", "dual"])
+def test_tangent_is_the_derivative_of_the_residual(kind, basis):
+    with kind(basis=basis) as made:
+        point = made.pressed()
+        u = np.concatenate([part.ravel() for part in point])
+        tangent = made.interface.tangent(*point, made.size).toarray()
+        for column, unit in enumerate(np.eye(made.size)):
+            difference = (made.residual(u + STEP * unit) - made.residual(u - STEP * unit)) / (2 * STEP)
+            assert np.abs(tangent[:, column] - difference).max() < DIFFERENCES * np.abs(tangent).max()
+
+
+@pytest.mark.parametrize("kind", [scene.Solid, scene.Plane])
+def test_patch_constant_pressure_is_in_balance(kind):
+    with kind() as made:
+        pressure = 5.0
+        lam = np.tile(-pressure * made.nu, (len(made.x1), 1))
+        force1, force2, _ = made.interface.residual(made.x1, made.x2, lam)
+        states = made.interface.states(made.x1, made.x2, lam)
+        # The force ON the upper body is -force1: upwards, pressure times area.
+        assert -force1.sum(axis=0) == pytest.approx(pressure * states.area.sum() * made.nu, abs=ROUNDING * 10)
+        assert (force1.sum(axis=0) + force2.sum(axis=0)) == pytest.approx(0, abs=ROUNDING * 10)
+        assert states.traction == pytest.approx(lam, abs=ROUNDING * 10)
+        assert states.coverage == pytest.approx(states.area, rel=1e-10)
+        assert states.normal == pytest.approx(np.tile(made.nu, (len(made.x1), 1)), abs=ROUNDING)
+
+
+@pytest.mark.parametrize("kind", [scene.Solid, scene.Plane])
+def test_plan_gives_the_tangent_in_place(kind):
+    with kind() as made:
+        plan = stickslip.Plan(made.interface, made.x1, made.x2, made.size)
+        for seed in (1, 2):
+            point = made.pressed(seed=seed)
+            data = plan.matrix.data
+            matrix = plan.values(*point)
+            assert plan.renewals or matrix.data is data
+            tangent = made.interface.tangent(*point, made.size)
+            assert abs(matrix - tangent).max() <= ROUNDING * abs(tangent).max()
+            assert abs(tangent).max() > 1
+
+
+def test_plan_is_renewed_when_surfaces_have_moved_apart_from_it(lines):
+    plan = stickslip.Plan(lines.interface, lines.x1, lines.x2, lines.size)
+    x1, x2, lam = lines.pressed()
+    x1[:, 0] += 0.35
+    matrix = plan.values(x1, x2, lam)
+    assert plan.renewals == 1
+    assert abs(matrix - lines.interface.tangent(x1, x2, lam, lines.size)).max() <= ROUNDING * abs(matrix).max()
+
+
+def test_commit_and_rollback_move_the_history(blocks):
+    face, point = blocks.interface, blocks.pressed()
+    before = face.history()["reals"]
+    face.commit(*point)
+    assert not np.array_equal(face.history()["reals"], before)
+    face.rollback()
+    np.testing.assert_array_equal(face.history()["reals"], before)
+    with pytest.raises(stickslip.errors.NothingToRollBack):
+        face.rollback()
+
+
+def test_history_goes_through_pickle(blocks):
+    first, point, later = blocks.interface, blocks.pressed(), blocks.pressed(seed=2)
+    first.commit(*point)
+    kept = pickle.loads(pickle.dumps(first.history()))
+    with stickslip.Interface(*blocks.arguments, **blocks.options) as second:
+        fresh = second.residual(*later)
+        second.restore(kept)
+        for ours, theirs in zip(second.residual(*later), first.residual(*later)):
+            np.testing.assert_array_equal(ours, theirs)
+        assert not np.array_equal(fresh[2], second.residual(*later)[2])
+
+
+@pytest.mark.parametrize("kind", [scene.Solid, scene.Plane])
+def test_condensed_multipliers_hold_the_host_forces(kind):
+    with kind(basis="dual", weights="reference") as made:
+        face, condensed = made.interface, stickslip.Condensed(made.interface)
+        # Pressed down by 0.2 at each node: internal minus external force points up, and contact takes all of it.
+        host1 = np.tile(0.2 * made.nu, (len(made.x1), 1))
+        lam = condensed.multipliers(made.x1, made.x2, host1)
+        force1, force2, rows = face.residual(made.x1, made.x2, lam)
+        np.testing.assert_allclose(force1, -host1, atol=ROUNDING)
+        np.testing.assert_allclose(rows, 0, atol=ROUNDING)
+        rows1, condensed2 = condensed.residual(made.x1, made.x2, lam, host1)
+        np.testing.assert_allclose(condensed2, force2, atol=ROUNDING)
+        np.testing.assert_allclose(rows1, 0, atol=ROUNDING)
+
+
+def test_condensed_matrix_is_the_derivative_of_the_condensed_residual():
+    with scene.Plane(basis="dual") as made:
+        face, condensed = made.interface, stickslip.Condensed(made.interface)
+        x1, x2, _ = made.pressed()
+        n1, n = made.x1.size, made.x1.size + made.x2.size
+        host = 50.0 * np.eye(n) + np.random.default_rng(3).standard_normal((n, n))
+        base, start = np.tile(0.2 * made.nu, (len(x1), 1)).ravel(), np.concatenate([x1.ravel(), x2.ravel()])
+
+        def residual(u):
+            y1, y2 = u[:n1].reshape(x1.shape), u[n1:].reshape(x2.shape)
+            own = host @ (u - start)
+            host1 = (base + own[:n1]).reshape(x1.shape)
+            lam = condensed.multipliers(y1, y2, host1)
+            rows1, force2 = condensed.residual(y1, y2, lam, host1)
+            return np.concatenate([rows1.ravel(), own[n1:] + force2.ravel()]), lam
+
+        lam = residual(start)[1]
+        piece = {name: condensed.piece(x1, x2, lam, n, name).toarray()
+                 for name in ("forces", "elimination", "constraints", "scales")}
+        inner = host + piece["forces"]
+        matrix = inner + piece["elimination"] @ inner + piece["constraints"] + piece["scales"]
+        differences = np.column_stack([(residual(start + STEP * e)[0] - residual(start - STEP * e)[0]) / (2 * STEP)
+                                       for e in np.eye(n)])
+        assert np.abs(matrix - differences).max() < DIFFERENCES * np.abs(matrix).max()
+
+
+def test_the_face_tells_about_itself(blocks):
+    face, point = blocks.interface, blocks.pressed()
+    face.residual(*point)
+    assert face.counters().multipliers == blocks.x1.size
+    assert "friction" in face.effects().lower()
+    assert face.report(*point[:2]).nodes_full == len(blocks.x1)
+    assert face.equilibrium(*point).gap_scale > 0
+    assert face.diagnose(*point).text
+    assert face.initial_multipliers() @ blocks.nu == pytest.approx(face.initial_multipliers()[:, 2])
+    assert 0 < face.step_limit(*point[:2], np.zeros_like(point[0]), np.zeros_like(point[1])) <= 1
+
+
+def test_a_larger_friction_is_taken(lines):
+    point = lines.pressed()
+    before = lines.interface.states(*point).traction
+    lines.interface.set_friction(np.zeros(len(lines.x1)))
+    assert not np.array_equal(lines.interface.states(*point).traction, before)
