@@ -15,7 +15,7 @@ export PATH := $(PATH):$(HOME)/.cargo/bin
 LOCKED = mkdir -p $(BUILD) && flock $(BUILD)/.lock
 SAY    = @printf '\n== %s\n'
 
-.PHONY: help demo gallery effects aids study compare bench random fuzz stability ratios digest wheel python-examples check test test-long build install uninstall docs abi header meshes clean cmake-build rust-tests
+.PHONY: help demo gallery effects aids study compare bench random fuzz stability scaling ratios digest wheel python-examples check test test-long build install uninstall docs abi header meshes clean cmake-build rust-tests
 
 help:
 	@echo "make demo    solve the example scenes, compare with the references, draw (FIGURES=1: renew the README's figures)"
@@ -33,6 +33,7 @@ help:
 	@echo "make test-long  those that take too long for it; .ci/run runs both"
 	@echo "make random  the property tests on other random input, ten times as much (SEED=n CASES=n)"
 	@echo "make ratios  the force of fine facets in coarse ones against the ratio of both and the number of steps, an hour"
+	@echo "make scaling  linear solvers against the number of unknowns: a table (SIZES='N ...'; FIGURES=1: as above)"
 	@echo "make digest  the bits of what library and driver compute, compared with those of before (KEEP=1: these are they)"
 	@echo "make fuzz    fuzz the pair kernel, the handle and the C ABI, a quarter of an hour each (FUZZ_SECONDS=)"
 	@echo "make wheel   the Python package as a wheel, in $(BUILD)/wheels"

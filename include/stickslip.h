@@ -1452,10 +1452,12 @@ int32_t stickslip_interface_condensed_residual(struct stickslip_interface *inter
 ///
 /// x1 (3 n1), x2 (3 n2): positions [L]; lambda (n1 multipliers) [F/L^2], as for the residual; piece: STICKSLIP_CONDENSED_...
 /// Outputs: rows, columns, values (capacity each), count; duplicates add up; entries without an equation are left out. With
-/// all three arrays NULL only count is written, and capacity is not read. Units: F/L; ELIMINATION has none.
+/// all three arrays NULL only count is written, and capacity is not read. Units: F/L; ELIMINATION, REDUCTION_ROWS,
+/// REDUCTION_COLUMNS and CONSTRAINED have none.
 ///
 /// Errors: as `stickslip_interface_condensed_multipliers`, INVALID_VALUE (piece), BUFFER_TOO_SMALL.
-/// Cost: FORCES, CONSTRAINTS and SCALES as `stickslip_interface_tangent_coo`, counting too; ELIMINATION as the residual. Allocates.
+/// Cost: FORCES, CONSTRAINTS and SCALES as `stickslip_interface_tangent_coo`, counting too; the
+/// others as the residual. Allocates.
 int32_t stickslip_interface_condensed_coo(struct stickslip_interface *interface,
                                           const double *x1,
                                           const double *x2,

@@ -177,6 +177,11 @@ BAD_SCENES += [
     BadScene("gravity_across_the_axis", "interfaces", "loads: [weight]\nweight: {body: hub, gravity: [1, 0]}\ninterfaces",
              "weight.gravity", base="ring_shrink_fit.yaml"),
 ]
+BAD_SCENES += [
+    BadScene("solver_with_multipliers", "schema: 1", "schema: 1\nsolver: iterative", "solver", says="`unknowns: displacements`"),
+    BadScene("solver_unknown", "schema: 1", "schema: 1\nsolver: magic", "solver", says="iterative"),
+]
+
 BLOCK, RINGS, FLAT = "plane_block.yaml", "ring_shrink_fit.yaml", "plane_hertz.yaml"
 BAD_SCENES += [
     BadScene("model_unknown", "model: plane_strain", "model: plane", "model", base=BLOCK),

@@ -113,7 +113,8 @@ PetscErrorCode condensed_eliminate(Contact *contact, Vec x, PetscInt *status);
 PetscErrorCode condensed_residual(Contact *contact, Vec r, PetscInt *status);
 PetscErrorCode condensed_matrix(Contact *contact, Vec x, Mat J, PetscInt *status);
 void           condensed_accept(Contact *contact);
-/* a piece of all interfaces, STICKSLIP_CONDENSED_..., in a matrix like another one */
+
+/* pieces.c: a piece of all interfaces, STICKSLIP_CONDENSED_..., in a matrix like another one */
 PetscErrorCode condensed_piece(Contact *contact, int32_t piece, Mat like, Mat *matrix, PetscInt *status);
 
 /* reduction.c: nothing happens where nobody wants it */

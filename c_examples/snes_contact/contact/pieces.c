@@ -1,0 +1,57 @@
+/* Matrices that the library makes of the multipliers' rows: pieces of all interfaces, as matrices of the whole system. */
+#include "contact/contact.h"
+
+/* rank 0: entries of a matrix, in PETSc's integers */
+typedef struct {
+  PetscInt     n, capacity, *rows, *columns;
+  PetscScalar *values;
+} Entries;
+
+/* rank 0: adds a piece of an interface's matrix to the entries */
+static PetscErrorCode add_piece(Interface *interface, int32_t piece, Entries *entries, int32_t *refused)
+{
+  int64_t count;
+  PetscFunctionBegin;
+  PetscCall(contact_entries(interface, piece, &count, refused));
+  if (*refused) PetscFunctionReturn(PETSC_SUCCESS);
+  if (entries->n + count > entries->capacity) {
+    Entries larger = {.n = entries->n, .capacity = (PetscInt)(2 * entries->capacity + count)};
+    PetscCall(PetscMalloc3(larger.capacity, &larger.rows, larger.capacity, &larger.columns, larger.capacity, &larger.values));
+    PetscCall(PetscArraycpy(larger.rows, entries->rows, entries->n));
+    PetscCall(PetscArraycpy(larger.columns, entries->columns, entries->n));
+    PetscCall(PetscArraycpy(larger.values, entries->values, entries->n));
+    PetscCall(PetscFree3(entries->rows, entries->columns, entries->values));
+    *entries = larger;
+  }
+  for (int64_t k = 0; k < count; k++) {
+    entries->rows[entries->n]     = (PetscInt)interface->coo_rows[k];
+    entries->columns[entries->n]  = (PetscInt)interface->coo_columns[k];
+    entries->values[entries->n++] = interface->coo_values[k];
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode condensed_piece(Contact *contact, int32_t piece, Mat like, Mat *matrix, PetscInt *status)
+{
+  Entries  entries = {0};
+  PetscInt n;
+  PetscFunctionBegin;
+  *matrix = NULL;
+  *status = 0;
+  for (PetscInt i = 0; i < contact->n_interfaces && !*status; i++) {
+    int32_t refused = 0;
+    PetscCall(contact_gather(contact, &contact->interfaces[i], contact->physics->u_local));
+    if (contact->mesh->rank == 0) PetscCall(add_piece(&contact->interfaces[i], piece, &entries, &refused));
+    PetscCall(contact_agree(contact, refused, status));
+  }
+  if (!*status) {
+    PetscCall(MatGetLocalSize(like, &n, NULL));
+    PetscCall(MatCreate(PETSC_COMM_WORLD, matrix));
+    PetscCall(MatSetSizes(*matrix, n, n, PETSC_DETERMINE, PETSC_DETERMINE));
+    PetscCall(MatSetType(*matrix, MATAIJ));
+    PetscCall(MatSetPreallocationCOO(*matrix, entries.n, entries.rows, entries.columns));
+    PetscCall(MatSetValuesCOO(*matrix, entries.values, ADD_VALUES));
+  }
+  PetscCall(PetscFree3(entries.rows, entries.columns, entries.values));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
