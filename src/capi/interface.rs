@@ -5,7 +5,7 @@ use super::handle::{Inner, components_of, either, flat, handle, sizes, stickslip
 use super::options::{Choices, read_options, stickslip_options};
 use super::point::{Point, vectors};
 use super::surface::{
-    read_analytic, read_multipliers, read_owned, read_surface, refuse_multipliers, stickslip_surface,
+    read_analytic, read_multipliers, read_owners, read_surface, refuse_multipliers, stickslip_surface,
 };
 use super::{raw, sized};
 use crate::error::{Error, Kind, Result};
@@ -44,11 +44,11 @@ pub unsafe extern "C" fn stickslip_interface_create(
         let choices = read_options(options)?;
         let (one, two) = (sized::read(nonmortar)?, sized::read(mortar)?);
         refuse_multipliers(&two)?;
-        let owned = read_owned(&one)?;
+        let owners = read_owners(&one)?;
         let base = choices.base;
         let mut inner = create_inner(&one, &two, choices)?;
-        if let Some(owned) = owned {
-            either!(&mut inner, c => c.set_owned(owned)?);
+        if let Some(owners) = owners {
+            either!(&mut inner, c => c.set_owners(owners)?);
         }
         raw::write(out, &[raw::owned(stickslip_interface { inner, base })?]);
         Ok(())

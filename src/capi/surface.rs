@@ -4,10 +4,19 @@ use super::raw::{self, Member};
 use super::sized::Sized64;
 use crate::error::{Error, Kind, Result, Text};
 use crate::geometry::{AnalyticShape, FRAME, Vec3};
-use crate::interface::{NO_EQUATION, Surface};
+use crate::interface::{NO_EQUATION, Owner, Surface};
 use crate::line::Measure;
 use crate::memory::{self, Store, Stored};
 use std::fmt::Display;
+
+/// `owned` of `stickslip_surface`: the node's multiplier acts on the facets of this handle, and another handle adds the node's
+/// own block; the sums over all handles make its gap (`stickslip_interface_sums`).
+pub const STICKSLIP_NODE_SHARED: i32 = 0;
+/// The node's multiplier acts here, and this handle adds the node's own block.
+pub const STICKSLIP_NODE_OWN: i32 = 1;
+/// The node's multiplier acts in another handle, which has all facets around the node: here it has no traction and no row.
+/// Its equations are columns alone, those of a carrier (`weak_coverage`) and no others.
+pub const STICKSLIP_NODE_ELSEWHERE: i32 = 2;
 
 /// One surface of an interface.
 ///
@@ -50,8 +59,8 @@ pub struct stickslip_surface {
     /// from a pointer: of 3 n_nodes the first n_nodes would be read as those of the nodes, without an error; so check that
     /// `multipliers` of `stickslip_interface_counters` is what you expect. Mortar: NULL.
     pub multiplier_equations: *const i64,
-    /// Non-mortar, parallel hosts: n_nodes flags, 1 where this handle adds the node's own block; NULL:
-    /// all. Mortar: NULL.
+    /// Non-mortar, parallel hosts: where the multiplier of each of the n_nodes acts, STICKSLIP_NODE_...; NULL:
+    /// STICKSLIP_NODE_OWN at all. Mortar: NULL.
     pub owned: *const i32,
 }
 
@@ -186,11 +195,20 @@ pub(super) fn read_multipliers<const N: usize>(s: &stickslip_surface, base: i64,
     equations(s.multiplier_equations, n, (base, per), "nonmortar.multiplier_equations")
 }
 
-/// Which non-mortar nodes are owned; `None`: all.
-pub(super) fn read_owned(s: &stickslip_surface) -> Result<Option<Vec<bool>>> {
+/// Where the multipliers of the non-mortar nodes act; `None`: here.
+pub(super) fn read_owners(s: &stickslip_surface) -> Result<Option<Vec<Owner>>> {
     if s.owned.is_null() {
         return Ok(None);
     }
     let n = raw::count(s.n_nodes, 2, "nonmortar.n_nodes")?;
-    raw::slice(s.owned, n, "nonmortar.owned")?.iter().map(|&o| o != 0).stored().map(Some)
+    let owner = |(a, &owned): (usize, &i32)| match owned {
+        STICKSLIP_NODE_SHARED => Ok(Owner::Shared),
+        STICKSLIP_NODE_OWN => Ok(Owner::Here),
+        STICKSLIP_NODE_ELSEWHERE => Ok(Owner::Elsewhere),
+        _ => {
+            let text = text!("nonmortar.owned[{a}] is {owned}; a STICKSLIP_NODE_... constant is expected: 0, 1 or 2");
+            Err(Error::new(Kind::InvalidValue, text))
+        }
+    };
+    raw::slice(s.owned, n, "nonmortar.owned")?.iter().enumerate().map(owner).stored_if_ok().map(Some)
 }

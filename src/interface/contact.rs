@@ -5,7 +5,7 @@ use super::data::counters::Counters;
 use super::data::effects::Effects;
 use super::data::extent::Extent;
 use super::data::history::{History, Keeps};
-use super::data::node_data::free_directions;
+use super::data::node_data::{Owner, free_directions};
 use super::data::options::{Friction, Options, Weights};
 use super::data::restart::Host;
 use super::data::setup::Setup;
@@ -151,9 +151,9 @@ impl<const N: usize> Contact<N> {
         Ok(())
     }
 
-    /// Which nodes add their own block here; a parallel host lets exactly one handle do it.
-    pub fn set_owned(&mut self, owned: Vec<bool>) -> Result<()> {
-        self.setup.nodes.set_owned(owned)?;
+    /// Where the multipliers of the nodes act, of a part of an interface.
+    pub fn set_owners(&mut self, owners: Vec<Owner>) -> Result<()> {
+        self.setup.nodes.set_owners(owners)?;
         self.cache.forget();
         self.linear.forget();
         Ok(())

@@ -10,8 +10,8 @@ use serde_json::Value;
 use stickslip::error::Kind;
 use stickslip::geometry::Vec3;
 use stickslip::interface::{
-    Contact, Csr, Form, Friction, Interface, MultiplierBasis, NO_EQUATION, NO_WEAK_COVERAGE, Normals, Options, Piece,
-    Stiffness, Surface, Weights,
+    Contact, Csr, Form, Friction, Interface, MultiplierBasis, NO_EQUATION, NO_WEAK_COVERAGE, Normals, Options, Owner,
+    Piece, Stiffness, Surface, Weights,
 };
 
 /// Golden L, J_cond and R_cond, relative to the largest entry.
@@ -382,9 +382,9 @@ fn what_cannot_be_condensed_is_refused_by_name() {
     refusal(&|e1, _, m| (e1[2][1], m[2][1]) = (NO_EQUATION, NO_EQUATION), dual).unwrap();
     refusal(&|e1, _, m| (e1[2], m[2], m[3]) = (e1[3], [NO_EQUATION; 3], [NO_EQUATION; 3]), dual).unwrap();
     let mut c: Interface = interface(&one, &two, dual);
-    let mut owned = vec![true; n1];
-    owned[3] = false;
-    c.set_owned(owned).unwrap();
+    let mut owners = vec![Owner::Here; n1];
+    owners[3] = Owner::Shared;
+    c.set_owners(owners).unwrap();
     let error = c.condensed_multipliers(&one.x, &two.x, &vec![Vec3::z(); n1]).unwrap_err();
     assert!(error.kind == Kind::Unsupported && error.to_string().contains("node 3 is not owned"), "{error}");
 }

@@ -24,6 +24,7 @@ mod lines;
 mod normals;
 mod orders;
 mod orientation;
+mod parts;
 mod patch;
 mod plan;
 mod quadratic;

@@ -12,8 +12,8 @@ use std::collections::HashSet;
 use stickslip::error::Kind;
 use stickslip::geometry::{AnalyticShape, Vec3};
 use stickslip::interface::{
-    Contact, Form, Friction, MultiplierBasis, NO_WEAK_COVERAGE, NewContact, Normals, Options, RowScale, Stiffness,
-    Surface, Weights,
+    Contact, Form, Friction, MultiplierBasis, NO_WEAK_COVERAGE, NewContact, Normals, Options, Owner, RowScale,
+    Stiffness, Surface, Weights,
 };
 use stickslip::law::SlipMeasure;
 use stickslip::quadrature::{DEGREE_5, DEGREE_10};
@@ -446,7 +446,8 @@ fn shares_add_up(mut whole: Moved, part_of: &dyn Fn(usize, bool) -> usize, owner
             let mortar = Surface::new("mortar", at(&two.x), &facets, equations).unwrap();
             let multipliers = numbered(3 * (n1 + n2), n1);
             let mut c = Contact::<3>::new(nonmortar, mortar, multipliers, options).unwrap();
-            c.set_owned((0..n1).map(|a| owner(a) == part).collect()).unwrap();
+            let of = |a: usize| if owner(a) == part { Owner::Here } else { Owner::Shared };
+            c.set_owners((0..n1).map(of).collect()).unwrap();
             (c, at(&whole.x2))
         })
         .collect();

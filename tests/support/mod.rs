@@ -9,6 +9,7 @@ pub mod host;
 pub mod lines;
 pub mod mesh;
 pub mod parents;
+pub mod parts;
 pub mod press;
 pub mod random;
 pub mod solid;

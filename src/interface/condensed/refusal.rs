@@ -4,6 +4,7 @@
 use crate::error::{Error, Kind, Result, Text};
 use crate::geometry::Vec3;
 use crate::interface::data::multiplier::direction;
+use crate::interface::data::node_data::Owner;
 use crate::interface::data::options::{Form, MultiplierBasis};
 use crate::interface::data::surface::NO_EQUATION;
 use crate::interface::pairing::given::Given;
@@ -23,7 +24,7 @@ pub fn refuse<const N: usize>(given: Given<N>, normals: &[Vec3]) -> Result<()> {
         let text = "condensation with the augmented form: its forces do not determine the multipliers of open nodes; take the multiplier form";
         return refuse(text.into());
     }
-    if let Some(a) = setup.nodes.owned.iter().position(|owned| !owned) {
+    if let Some(a) = setup.nodes.owners.iter().position(|owner| *owner != Owner::Here) {
         let text = text!(
             "condensation where non-mortar node {a} is not owned: all rows of a node must be known to one handle"
         );

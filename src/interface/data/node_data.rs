@@ -1,16 +1,27 @@
 //! What a host says of the non-mortar nodes in place of what the library finds: friction, augmentation, normals,
-//! constrained directions, and which nodes are its own. None of it belongs to the history.
+//! constrained directions, and where a node's multiplier acts. None of it belongs to the history.
 
 use super::surface::NO_EQUATION;
 use crate::error::{Error, Kind, Result};
 use crate::geometry::{Mat3, Vec3};
 use crate::memory::{self, Stored};
 
+/// Where the multiplier of a node acts; a parallel host says it of every node that several handles have.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Owner {
+    /// Here, with the node's own block.
+    Here,
+    /// Here, where the facets of the handle are; another one adds the node's own block. The sums of all make its gap.
+    Shared,
+    /// In another handle, which has all facets around the node: it has no traction and no row here. The node may carry others.
+    Elsewhere,
+}
+
 /// What a host says of the nodes.
 #[derive(Debug)]
 pub struct NodeData {
-    /// Which nodes add their own block here; a parallel host lets exactly one handle do it.
-    pub owned: Vec<bool>,
+    /// Where their multipliers act.
+    pub owners: Vec<Owner>,
     /// Coulomb's coefficient; infinite where the surfaces are rough.
     pub mu: Vec<f64>,
     /// r_A [F/L^5]; `None`: the options'.
@@ -24,9 +35,9 @@ pub struct NodeData {
 impl NodeData {
     /// With these coefficients and nothing else said; the free directions are those that have equations.
     pub fn new<const N: usize>(multiplier_equations: &[[i64; N]], mu: Vec<f64>) -> Result<NodeData> {
-        let owned = memory::filled(true, mu.len())?;
+        let owners = memory::filled(Owner::Here, mu.len())?;
         let free = free_directions(multiplier_equations, &[])?;
-        Ok(NodeData { owned, mu, augmentations: None, normals: None, free })
+        Ok(NodeData { owners, mu, augmentations: None, normals: None, free })
     }
 
     /// Sets the coefficients.
@@ -68,11 +79,21 @@ impl NodeData {
         Ok(())
     }
 
-    /// Sets which nodes are the host's own.
-    pub fn set_owned(&mut self, owned: Vec<bool>) -> Result<()> {
-        check_length("owned", owned.len(), self.mu.len())?;
-        self.owned = owned;
+    /// Sets where multipliers act.
+    pub fn set_owners(&mut self, owners: Vec<Owner>) -> Result<()> {
+        check_length("owned", owners.len(), self.mu.len())?;
+        self.owners = owners;
         Ok(())
+    }
+
+    /// Whether node A adds its own block here.
+    pub fn is_own(&self, a: usize) -> bool {
+        self.owners[a] == Owner::Here
+    }
+
+    /// Whether node A has a traction and rows here.
+    pub fn acts(&self, a: usize) -> bool {
+        self.owners[a] != Owner::Elsewhere
     }
 }
 

@@ -60,7 +60,8 @@ impl Largest {
     }
 }
 
-/// The distance of (x, lambda) from equilibrium. Nodes without any multiplier equation have no part in it.
+/// The distance of (x, lambda) from equilibrium. Nodes without any multiplier equation, and those whose
+/// multiplier acts elsewhere, have no part in it.
 pub fn equilibrium<const N: usize>(
     given: Given<N>,
     (x1, x2): (&[Vec3], &[Vec3]),
@@ -70,7 +71,7 @@ pub fn equilibrium<const N: usize>(
     scales: &Scales,
 ) -> Result<Equilibrium> {
     let areas = &given.history().areas;
-    let nodes = || (0..lambda.len()).filter(|&a| given.setup.has_multiplier(a));
+    let nodes = || (0..lambda.len()).filter(|&a| given.setup.has_multiplier(a) && given.setup.nodes.acts(a));
     // A sliver's multiplier is a point load: it counts by its force.
     let traction = |a: usize| lambda[a].norm() * (sums[a].coverage / areas[a]).min(1.0);
     let traction = nodes().map(traction).fold(scales.traction, f64::max);

@@ -110,7 +110,7 @@ impl<'a, 'p, const N: usize> Fill<'a, 'p, N> {
     #[inline]
     fn touch(&mut self, place: Place) -> Option<Target> {
         let node = self.layout.nodes.number(place);
-        if !self.layout.numbering.has_equations(node) {
+        if !self.layout.has_rows(node) {
             return Some(Target::default()); // nothing is ever added
         }
         let target = self.hand.claim(node);
@@ -155,8 +155,7 @@ impl<'a, 'p, const N: usize> Fill<'a, 'p, N> {
 
     /// Where a block begins in the rows of a node, by a search.
     fn found(&self, row: usize, column: usize) -> u32 {
-        let numbering = self.layout.numbering;
-        if !numbering.has_equations(row) || !numbering.has_equations(column) {
+        if !self.layout.has_rows(row) || !self.layout.numbering.has_equations(column) {
             return SKIP;
         }
         self.layout.offset(row, column, &self.places.rows[row]).unwrap_or(LACKS)
@@ -223,7 +222,8 @@ impl<'a, 'p, const N: usize> Fill<'a, 'p, N> {
         for (b, k) in (0..n_rows).flat_map(|b| (0..n_columns).map(move |k| (b, k))) {
             let row = self.node_of(rows, b) + if of_multipliers { multiplier } else { 0 };
             let column = self.node_of(columns, k) + if by_multipliers { multiplier } else { 0 };
-            self.state.starts[b][k] = self.found(row, column);
+            let acts = !by_multipliers || self.layout.nodes.has_rows(column);
+            self.state.starts[b][k] = if acts { self.found(row, column) } else { SKIP };
         }
     }
 
@@ -268,7 +268,7 @@ impl<'a, 'p, const N: usize> Fill<'a, 'p, N> {
         mut add: impl FnMut(&mut [f64], usize, usize, &mut [f64; 4]),
     ) {
         let node = self.layout.nodes.number(row);
-        if !self.layout.numbering.has_equations(node) {
+        if !self.layout.has_rows(node) {
             return;
         }
         let Some(Target { rows, piece, start }) = self.hand.claim(node) else {

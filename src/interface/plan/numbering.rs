@@ -5,6 +5,7 @@
 //! node has any of them. The entries of plain nodes stand side by side in a row, and their rows one after the other.
 
 use crate::error::{Error, Kind, Result};
+use crate::interface::data::node_data::Owner;
 use crate::interface::data::options::Options;
 use crate::interface::data::setup::Setup;
 use crate::interface::data::surface::{NO_EQUATION, Surface, node_equations};
@@ -33,8 +34,8 @@ pub struct Sides<'a> {
     pub options: &'a Options,
     /// Whether the mortar side has rows and columns.
     pub moves: bool,
-    /// Which nodes add their own block.
-    pub owned: &'a [bool],
+    /// Where the multipliers act.
+    pub owners: &'a [Owner],
 }
 
 impl<'a> Sides<'a> {
@@ -47,7 +48,7 @@ impl<'a> Sides<'a> {
             components: N,
             options: &setup.options,
             moves: setup.effects.moves(),
-            owned: &setup.nodes.owned,
+            owners: &setup.nodes.owners,
         }
     }
 }
@@ -90,6 +91,11 @@ impl<'a> Nodes<'a> {
     /// Whether a number is that of a multiplier.
     pub fn is_multiplier(self, node: usize) -> bool {
         node >= self.multiplier(0)
+    }
+
+    /// Whether a node has rows here: a multiplier that acts elsewhere is but a column.
+    pub fn has_rows(self, node: usize) -> bool {
+        node.checked_sub(self.multiplier(0)).is_none_or(|a| self.setup.owners[a] != Owner::Elsewhere)
     }
 
     /// Its equations.

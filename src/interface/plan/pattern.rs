@@ -3,6 +3,7 @@
 
 use super::numbering::{NO_RANK, Nodes, Numbering, Sides};
 use crate::error::Result;
+use crate::interface::data::node_data::Owner;
 use crate::interface::data::options::{Form, MultiplierBasis};
 use crate::interface::tangent::union::{Pairs, UnionPair, Walk};
 use crate::memory::{self, Store};
@@ -194,7 +195,7 @@ impl<'a> Finder<'a> {
     pub fn find(&mut self, node: usize, extras: &[(u32, u32)], keys: &mut Vec<Key>) -> Result<()> {
         keys.clear();
         self.search += 1;
-        if !self.numbering.has_equations(node) {
+        if !self.numbering.has_equations(node) || !self.nodes.has_rows(node) {
             return Ok(());
         }
         let n1 = self.setup.nonmortar.len();
@@ -203,7 +204,7 @@ impl<'a> Finder<'a> {
             self.row(node, keys)?;
         } else if self.nodes.is_multiplier(node) && self.system == System::Whole {
             let a = node - self.nodes.multiplier(0);
-            if self.setup.owned[a] {
+            if self.setup.owners[a] == Owner::Here {
                 self.add(node, keys)?;
             }
             self.row(a, keys)?;
@@ -270,8 +271,9 @@ impl<'a> Finder<'a> {
             self.mortar(f, false, keys)?;
         }
         if self.has_multipliers {
-            let mut nodes = setup.nonmortar.host_nodes(f).iter();
-            nodes.try_for_each(|&b| self.add(self.nodes.multiplier(b), keys))?;
+            let nodes = self.nodes;
+            let multipliers = setup.nonmortar.host_nodes(f).iter().map(|&b| nodes.multiplier(b));
+            multipliers.filter(|b| nodes.has_rows(*b)).try_for_each(|b| self.add(b, keys))?;
         }
         Ok(())
     }

@@ -94,6 +94,12 @@ pub struct Layout<'a> {
 }
 
 impl Layout<'_> {
+    /// Whether a node has rows.
+    #[inline]
+    pub fn has_rows(&self, node: usize) -> bool {
+        self.numbering.has_equations(node) && self.nodes.has_rows(node)
+    }
+
     fn own(&self, node: usize, is_diagonal: bool) -> Option<(Key, bool)> {
         let rank = Some(self.numbering.rank[node]).filter(|rank| *rank != NO_RANK)?;
         Some((2 * rank + u32::from(self.nodes.is_multiplier(node)), is_diagonal))

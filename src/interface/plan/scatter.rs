@@ -122,14 +122,19 @@ impl Scatter {
 
     /// Takes the rows of a node, whose columns were found last; `at`: the offset of each node met.
     pub fn take(&mut self, setup: Sides, node: usize, numbering: &Numbering, finder: &Finder, at: &[u16]) {
-        if !numbering.has_equations(node) {
+        let (nodes, n1) = (Nodes::of(setup), setup.nonmortar.len());
+        if !numbering.has_equations(node) || !nodes.has_rows(node) {
             return;
         }
-        let (nodes, n1) = (Nodes::of(setup), setup.nonmortar.len());
         let offset = |column: usize| match (numbering.rank[column], finder.has_met(column)) {
             (NO_RANK, _) => SKIP,
             (_, false) => LACKS,
             (_, true) => at[column],
+        };
+        // A force depends on those multipliers of its facets that act here.
+        let multiplier = |b: usize| {
+            let column = nodes.multiplier(b);
+            if nodes.has_rows(column) { offset(column) } else { SKIP }
         };
         let neighbours = &finder.neighbours;
         if nodes.is_multiplier(node) || node < n1 {
@@ -145,7 +150,7 @@ impl Scatter {
                         own.rows[row][k] = offset(b);
                     } else {
                         own.forces[row][k] = offset(b);
-                        own.multipliers[row][k] = offset(nodes.multiplier(b));
+                        own.multipliers[row][k] = multiplier(b);
                     }
                 }
                 for k in self.first_node[f]..self.first_node[f + 1] {
@@ -162,7 +167,7 @@ impl Scatter {
             let Some(place) = self.place(f, c) else { continue };
             for (k, &b) in setup.nonmortar.facets[f].as_slice().iter().enumerate() {
                 self.mortar[place].forces[k] = offset(b);
-                self.mortar[place].multipliers[k] = offset(nodes.multiplier(b));
+                self.mortar[place].multipliers[k] = multiplier(b);
             }
             if let Some(first) = self.first_coupling.get(f) {
                 let m = self.first_node[f + 1] - self.first_node[f];

@@ -41,7 +41,8 @@ pub fn refuse_lost_contact<const N: usize>(
         let touches = low <= TOUCHES * setup.nonmortar.facet(pair.one, x1).longest_edge();
         for (k, &a) in setup.nonmortar.rows(pair.one).as_slice().iter().enumerate() {
             let coverage = pair.weights.coverage(k);
-            if !touches || coverage <= NOTHING * areas[a] || responses[a].state == State::Gap {
+            let elsewhere = !setup.nodes.acts(a);
+            if elsewhere || !touches || coverage <= NOTHING * areas[a] || responses[a].state == State::Gap {
                 continue;
             }
             lost[a] += coverage;

@@ -58,7 +58,8 @@ pub fn refresh<const N: usize>(
     tractions.clear();
     memory::grow(tractions, nonmortar.len())?;
     for (a, response) in responses.iter().enumerate() {
-        tractions.store(force_traction(given.setup.options.form, &lambda[a], response, given.normal(a)?))?;
+        let traction = force_traction(given.setup.options.form, &lambda[a], response, given.normal(a)?);
+        tractions.store(if nodes.acts(a) { traction } else { Vec3::zeros() })?;
     }
     let pairs = match pairs {
         Weighted::Facets(pairs) => pairs,
@@ -78,7 +79,7 @@ pub fn refresh<const N: usize>(
         }
     }
     for (a, response) in responses.iter().enumerate() {
-        if nodes.owned[a] && nonmortar.has_row(a) {
+        if nodes.is_own(a) && nonmortar.has_row(a) {
             r.rows[a] = response.row * given.row_scale(a);
         }
     }

@@ -42,7 +42,7 @@ pub fn refuse_turn<const N: usize>(
     }
     let follows =
         options.follows_normals() && (!given.setup.effects.law.slips || options.slip == SlipMeasure::Objective);
-    let kept = |a: usize| !follows || given.step.pairing.keeps_normal[a];
+    let kept = |a: usize| given.setup.nodes.acts(a) && (!follows || given.step.pairing.keeps_normal[a]);
     let mut most = (0.0, 0);
     nonmortar.add_normals(x1, sums)?;
     for (a, sum) in sums.iter().enumerate().filter(|(a, _)| kept(*a)) {

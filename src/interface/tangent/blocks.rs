@@ -56,8 +56,9 @@ pub fn node_tangents<const N: usize>(
 ) -> Result<()> {
     let node = |a: usize| {
         let (response, scale) = (&responses.nodes[a], scale(a));
+        let traction = force_traction(given.setup.options.form, &lambda[a], response, normals[a]);
         NodeTangent {
-            traction: force_traction(given.setup.options.form, &lambda[a], response, normals[a]),
+            traction: if given.setup.nodes.acts(a) { traction } else { Vec3::zeros() },
             drow_dnow: response.drow_dnow * scale,
             drow_dprevious: response.drow_dprevious * scale,
         }
@@ -375,7 +376,7 @@ pub fn of_nodes<const N: usize>(
         let is_carried = numbers.is_some_and(|n| n.responses.carried.get(a).is_some_and(|c| *c));
         emitter.node(a, &response.map_or_else(SMatrix::zeros, |r| r.drow_dlambda), extent);
         carried_tangent::multipliers(a, is_carried, emitter);
-        if let Some(couplings) = &couplings {
+        if let Some(couplings) = couplings.as_ref().filter(|_| given.setup.nodes.acts(a)) {
             emitter.couplings(a, &couplings[a], &response.map_or_else(SMatrix::zeros, |r| r.dp_dlambda));
             if options.form == Form::Augmented {
                 carried_tangent::forces(a, couplings, answers, emitter);

@@ -55,6 +55,14 @@ impl<'a, const N: usize> ByEquations<'a, N> {
         }
     }
 
+    /// Equations of rows; a multiplier that acts elsewhere has none here.
+    fn row_of(&self, place: Place) -> &'a [i64] {
+        match place {
+            Place::Multiplier(a) if !self.setup.nodes.acts(a) => &[NO_EQUATION; 3][..N],
+            _ => self.place(place),
+        }
+    }
+
     fn place(&self, place: Place) -> &'a [i64] {
         match place {
             Place::Displacement(node) => node_equations(self.setup.surfaces(), node),
@@ -62,11 +70,11 @@ impl<'a, const N: usize> ByEquations<'a, N> {
         }
     }
 
-    /// Multiplier equations of the facet's nodes, component by component.
+    /// Multiplier equations of the facet's nodes, component by component, of those that act here.
     fn facet_multipliers(&self) -> [[i64; MAX_CORNERS]; N] {
         let facet = &self.setup.nonmortar.facets[self.facet];
         let mut equations = [[NO_EQUATION; MAX_CORNERS]; N];
-        for (k, &a) in facet.as_slice().iter().enumerate() {
+        for (k, &a) in facet.as_slice().iter().enumerate().filter(|(_, a)| self.setup.nodes.acts(**a)) {
             for n in 0..N {
                 equations[n][k] = self.setup.multiplier_equations[a][n];
             }
@@ -120,7 +128,7 @@ impl<const N: usize> Blocks<N> for ByEquations<'_, N> {
     }
 
     fn node(&mut self, row: Place, column: Place, values: &[f64]) {
-        self.sink.add_block(self.place(row), self.place(column), values);
+        self.sink.add_block(self.row_of(row), self.place(column), values);
     }
 
     fn multiplier_row(&mut self, row: Place, columns: &[(usize, Place)], n: &Weights, nu: &Directions) {

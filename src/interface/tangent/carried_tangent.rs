@@ -47,7 +47,7 @@ pub fn rows<const MOVES: bool, const N: usize>(
 #[inline(never)]
 pub fn multipliers<const N: usize>(a: usize, carried: bool, emitter: &mut Emitter<N>) {
     let given = emitter.given;
-    if !given.setup.nodes.owned[a] || emitter.constraints.is_some() {
+    if !given.setup.nodes.is_own(a) || emitter.constraints.is_some() {
         return;
     }
     let scale = if carried { given.row_scale(a) / given.augmentation(a) } else { 0.0 };

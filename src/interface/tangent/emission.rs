@@ -202,7 +202,7 @@ impl<const N: usize> Emitter<'_, '_, N> {
     /// Stage 4: the node's own block, once per node, covered or not.
     #[inline(never)]
     pub fn node(&mut self, a: usize, drow_dlambda: &SMatrix<f64, N, N>, extent: Extent) {
-        if !self.given.setup.nodes.owned[a] || self.constraints.is_some() {
+        if !self.given.setup.nodes.is_own(a) || self.constraints.is_some() {
             return;
         }
         let block = drow_dlambda * self.given.row_scale(a);

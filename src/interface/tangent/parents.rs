@@ -79,7 +79,8 @@ pub fn of_parent<const N: usize>(
     let (one_len, is_active) = (one.len(), pairs.iter().any(|pair| pair.is_active));
     let of_own = own.iter().map(|&a| (a, is_active));
     let displacements = of_own.chain(room.table.mortar.iter().map(|known| (one_len + known.node, known.pairs != 0)));
-    room.columns.begin(displacements, own.iter().copied().take(multipliers), &*emitter.taker)?;
+    let acting = own.iter().take(multipliers).enumerate().filter(|(_, a)| given.setup.nodes.acts(**a));
+    room.columns.begin(displacements, acting, &*emitter.taker)?;
     emit((given, normals), (f, pairs, numbers), &room.table, &mut room.columns, emitter)?;
     Ok(linearised)
 }
@@ -262,16 +263,16 @@ struct Columns {
 }
 
 impl Columns {
-    fn begin<const N: usize>(
+    fn begin<'a, const N: usize>(
         &mut self,
         displacements: impl Iterator<Item = (usize, bool)>,
-        multipliers: impl Iterator<Item = usize>,
+        multipliers: impl Iterator<Item = (usize, &'a usize)>,
         taker: &dyn Blocks<N>,
     ) -> Result<()> {
         [&mut self.all, &mut self.active, &mut self.multipliers].into_iter().for_each(Vec::clear);
         let order =
             |columns: &mut [(usize, Place)]| columns.sort_unstable_by_key(|(k, place)| (taker.order(*place), *k));
-        self.multipliers.store_all(multipliers.map(Place::Multiplier).enumerate())?;
+        self.multipliers.store_all(multipliers.map(|(k, &a)| (k, Place::Multiplier(a))))?;
         order(&mut self.multipliers);
         for (k, (node, acts)) in displacements.enumerate() {
             let column = (k, Place::Displacement(node));

@@ -78,7 +78,7 @@ impl<'a, const N: usize> Turns<'a, N> {
             let normal = if fixed { Mat3::zeros() } else { nodal_normal_derivative(now.sums[a], &setup.nodes.free[a]) };
             Ok(NodeTurn {
                 normal,
-                row: turn.drow_dnormal * normal * if setup.nodes.owned[a] { scale(a) } else { 0.0 },
+                row: turn.drow_dnormal * normal * if setup.nodes.is_own(a) { scale(a) } else { 0.0 },
                 traction,
                 gap: if is_carried { sums[a].gap_now } else { Vec3::zeros() },
             })
@@ -172,7 +172,7 @@ pub fn lone_facets<const N: usize>(
     memory::refill(paired, false, one.facets.len())?;
     memory::refill(covered, false, one.len())?;
     if extent == Extent::Part {
-        covered.copy_from_slice(&given.setup.nodes.owned);
+        (0..covered.len()).for_each(|a| covered[a] = given.setup.nodes.is_own(a));
     }
     let mut walk = Walk::through(pairs, 0..usize::MAX);
     while let Some(f) = walk.next(of_facet)? {

@@ -4,7 +4,7 @@ use super::*;
 use crate::support::differences::Point;
 use crate::support::host::{Body, Host};
 use nalgebra::Vector1;
-use stickslip::interface::Friction;
+use stickslip::interface::{Friction, Owner};
 use stickslip::law::State;
 
 /// Residuals at one point: rounding of a few operations.
@@ -170,7 +170,7 @@ fn initial_multipliers_sums_and_constraints_are_equal() {
 fn nodes_that_are_not_owned_have_no_rows() {
     let mut t = Twins::new(options(), CELLS[0], FLAT, 7);
     let whole = t.one.residual(&t.x1, &t.x2, &t.lambda, None).unwrap();
-    t.one.set_owned((0..9).map(|a| a % 2 == 0).collect()).unwrap();
+    t.one.set_owners((0..9).map(|a| if a % 2 == 0 { Owner::Here } else { Owner::Shared }).collect()).unwrap();
     let part = t.one.residual(&t.x1, &t.x2, &t.lambda, None).unwrap();
     assert_eq!((&part.nonmortar, &part.mortar), (&whole.nonmortar, &whole.mortar));
     for a in 0..9 {
