@@ -151,12 +151,22 @@ impl<const N: usize> Contact<N> {
         Ok(())
     }
 
-    /// Where the multipliers of the nodes act, of a part of an interface.
+    /// Where the multipliers of the nodes act, of a part of an interface. Facets of which no node acts here are left out, unless
+    /// nodes carry others: who carries them follows from what is covered farther away. Before the first step: t_n becomes the
+    /// reference configuration.
     pub fn set_owners(&mut self, owners: Vec<Owner>) -> Result<()> {
         self.setup.nodes.set_owners(owners)?;
+        let Setup { nonmortar, nodes, options, .. } = &mut self.setup;
+        let carries = options.effective_weak_coverage() > 0.0;
+        nonmortar.set_idle(|a| carries || nodes.acts(a))?;
         self.cache.forget();
         self.linear.forget();
-        Ok(())
+        if self.setup.nonmortar.idle.is_empty() {
+            return Ok(());
+        }
+        let x1 = memory::copied(&self.setup.nonmortar.reference)?;
+        let x2 = memory::copied(&self.setup.mortar.reference)?;
+        self.set_previous(&x1, &x2)
     }
 
     /// Multipliers per non-mortar node, N.

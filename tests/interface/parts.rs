@@ -192,7 +192,12 @@ fn step<const N: usize>(scene: &mut Scene<N>, k: usize) -> Option<(f64, f64, boo
         part.contact.commit(&x1, &x2, &lambda, None).ok()?;
     }
     scene.whole.commit(&x1, &x2, &lambda, None).ok()?;
+    let host_pairs = |c: &Contact<N>| c.history().pairs.iter().map(|p| p.one).collect::<Vec<_>>();
     for part in &scene.parts {
+        let carries = scene.whole.options().effective_weak_coverage() > 0.0;
+        let facets = &part.contact.surfaces().0.facets;
+        let acts = |f: usize| facets[f].as_slice().iter().any(|&k| part.own[k]);
+        same &= carries || host_pairs(&part.contact).into_iter().all(acts);
         let (of_part, of_whole) = (part.contact.history(), scene.whole.history());
         for (k, &a) in part.nodes[0].iter().enumerate().filter(|(k, _)| part.own[*k]) {
             same &= of_part.normals[k] == of_whole.normals[a] && of_part.areas[k] == of_whole.areas[a];

@@ -7,6 +7,7 @@ use super::surface::Surface;
 use crate::dual::DualBasis;
 use crate::error::{Error, Result};
 use crate::geometry::Vec3;
+use crate::memory::Stored;
 use crate::mortar::{ParentFacet, ParentWeights};
 
 impl Surface {
@@ -36,6 +37,20 @@ impl Surface {
     /// How many multipliers a facet of the host has: at the first so many of its nodes.
     pub fn multipliers(&self, f: usize) -> usize {
         self.parents.as_ref().map_or_else(|| self.facets[f].len, |p| p.multipliers(f))
+    }
+
+    /// Whether facet `f` has no pairs, whatever lies over it.
+    #[inline]
+    pub fn is_idle(&self, f: usize) -> bool {
+        self.idle.get(f).is_some_and(|idle| *idle)
+    }
+
+    /// Leaves the facets of the host idle at whose nodes nothing `acts`.
+    pub fn set_idle(&mut self, acts: impl Fn(usize) -> bool) -> Result<()> {
+        let is_idle = |f: usize| !self.host_nodes(self.host_facet(f)).iter().any(|&a| acts(a));
+        let idle = (0..self.facets.len()).map(is_idle).stored()?;
+        self.idle = if idle.contains(&true) { idle } else { Vec::new() };
+        Ok(())
     }
 
     /// Whether any facet has a multiplier at this node.

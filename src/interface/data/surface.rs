@@ -42,6 +42,8 @@ pub struct Surface {
     pub neighbours: Vec<[u32; MAX_NODES]>,
     /// Facets as the host has them, where a side of the interface has quadratic ones or lines; `facets` are their parts then.
     pub parents: Option<Parents>,
+    /// Per facet whether it is there for what its neighbours look like alone, and has no pairs; empty: none is.
+    pub idle: Vec<bool>,
     /// The shape of an analytic surface, whose one facet are the four points of its frame; `None`: real facets.
     pub analytic: Option<AnalyticShape>,
 }
@@ -160,6 +162,7 @@ impl Surface {
             edges,
             neighbours,
             parents,
+            idle: Vec::new(),
             analytic: None,
         };
         surface.check_lines(&surface.reference)?;
@@ -207,6 +210,7 @@ impl Surface {
             edges: Vec::new(),
             neighbours: memory::filled([NO_FACET; MAX_NODES], 1)?,
             parents: None,
+            idle: Vec::new(),
             analytic: Some(shape),
         };
         match surface.analytic_at(&surface.reference) {

@@ -25,6 +25,7 @@ fn of_surface(s: &Surface) -> usize {
         + heap(&s.equations)
         + heap(&s.edges)
         + heap(&s.neighbours)
+        + heap(&s.idle)
         + s.parents.as_ref().map_or(0, Parents::bytes)
 }
 

@@ -90,7 +90,7 @@ pub fn integrate(
         let (frame, place) = (one.frame(i, x1, &active.normals)?, active.pairs.len());
         counters.pairs_tested += 1;
         let is_pair = if options.follows_normals() { faces_now((i, &frame.plane)) } else { facing[i] };
-        if is_pair {
+        if is_pair && !one.is_idle(i) {
             let weights = analytic_weights(&frame, &surface, options.rule).map_err(one.at(i))?;
             active.pairs.store(PairRecord { one: i, two: 0, weights })?;
             if let Some(following) = following {

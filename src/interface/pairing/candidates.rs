@@ -107,7 +107,7 @@ impl<'a> Search<'a> {
 
     /// Whether facet i can have a partner at all.
     pub fn reaches(&self, i: usize) -> bool {
-        self.all || self.filter.reached[i]
+        (self.all || self.filter.reached[i]) && !self.surfaces.0.is_idle(i)
     }
 
     /// The prism over facet i, which has this frame, without ends.

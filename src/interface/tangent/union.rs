@@ -203,7 +203,7 @@ pub fn possible_pairs<const N: usize>(
                 } else {
                     Vec::new()
                 };
-                let faces = |&i: &usize| facing[i] || now.get(i).is_some_and(|now| *now);
+                let faces = |&i: &usize| !one.is_idle(i) && (facing[i] || now.get(i).is_some_and(|now| *now));
                 pairs.store_all((0..facing.len()).filter(faces).map(|i| (i, 0)))?;
             }
         }
