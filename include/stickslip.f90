@@ -193,6 +193,9 @@ module stickslip
   ! What facets are: of a solid; lines (x, y) of a plane model; lines (r, z) of an axisymmetric one.
 
   ! State of a node: open or uncovered; closed, sticking; closed, sliding or on the friction cone.
+  integer(c_int32_t), parameter :: STICKSLIP_NODE_SHARED = 0
+  integer(c_int32_t), parameter :: STICKSLIP_NODE_OWN = 1
+  integer(c_int32_t), parameter :: STICKSLIP_NODE_ELSEWHERE = 2
   integer(c_int32_t), parameter :: STICKSLIP_STATE_GAP = 0
   integer(c_int32_t), parameter :: STICKSLIP_STATE_STICK = 1
   integer(c_int32_t), parameter :: STICKSLIP_STATE_SLIP = 2
@@ -263,7 +266,7 @@ module stickslip
     type(c_ptr) :: equations = c_null_ptr          ! integer(c_int64_t) (3, n_nodes); -1: none (prescribed)
     type(c_ptr) :: multiplier_equations = c_null_ptr ! integer(c_int64_t) (3, n_nodes), or (n_nodes) without friction;
                                                    ! -1: removed. Mortar: null
-    type(c_ptr) :: owned = c_null_ptr              ! integer(c_int32_t) (n_nodes), parallel hosts; null: all
+    type(c_ptr) :: owned = c_null_ptr              ! integer(c_int32_t) (n_nodes), parallel hosts: STICKSLIP_NODE_...; null: all own
   end type
 
   ! What stickslip_interface_states reports per non-mortar node; what stays null is not wanted.
@@ -550,6 +553,15 @@ module stickslip
       import :: c_double, c_int32_t, stickslip_interface
       type(stickslip_interface), value :: interface
       real(c_double), intent(in) :: x1(3, *), x2(3, *)
+    end function
+
+    ! Takes x1(3, n1), x2(3, n2) as t_n after so many commits; slip(3, n1) since the first configuration, null: none.
+    integer(c_int32_t) function stickslip_interface_set_committed(interface, x1, x2, slip, commits) bind(C)
+      import :: c_double, c_int32_t, c_int64_t, c_ptr, stickslip_interface
+      type(stickslip_interface), value :: interface
+      real(c_double), intent(in) :: x1(3, *), x2(3, *)
+      type(c_ptr), value :: slip
+      integer(c_int64_t), value :: commits
     end function
 
     ! Multipliers to start the first step with, lambda(3, n1), output.

@@ -348,6 +348,17 @@
 /// It keeps its mu (a sticking one then has zero tangential rows).
 #define STICKSLIP_NEW_CONTACT_KEEP 1
 
+/// `owned` of `stickslip_surface`: the node's multiplier acts on the facets of this handle, and another handle adds the node's
+/// own block; the sums over all handles make its gap (`stickslip_interface_sums`).
+#define STICKSLIP_NODE_SHARED 0
+
+/// The node's multiplier acts here, and this handle adds the node's own block.
+#define STICKSLIP_NODE_OWN 1
+
+/// The node's multiplier acts in another handle, which has all facets around the node: here it has no traction and no row.
+/// Its equations are columns alone, those of a carrier (`weak_coverage`) and no others.
+#define STICKSLIP_NODE_ELSEWHERE 2
+
 /// Kind of a shared node: non-mortar in more than one interface. Where it sticks or is tied in two of them, six
 /// conditions meet three displacements: leave it its multipliers in one of them and give it -1 in the others, or, where
 /// their normals differ, let it be without friction in all.
@@ -623,8 +634,8 @@ typedef struct stickslip_surface {
   /// from a pointer: of 3 n_nodes the first n_nodes would be read as those of the nodes, without an error; so check that
   /// `multipliers` of `stickslip_interface_counters` is what you expect. Mortar: NULL.
   const int64_t *multiplier_equations;
-  /// Non-mortar, parallel hosts: n_nodes flags, 1 where this handle adds the node's own block; NULL:
-  /// all. Mortar: NULL.
+  /// Non-mortar, parallel hosts: where the multiplier of each of the n_nodes acts, STICKSLIP_NODE_...; NULL:
+  /// STICKSLIP_NODE_OWN at all. Mortar: NULL.
   const int32_t *owned;
 } stickslip_surface;
 
@@ -1133,6 +1144,23 @@ int32_t stickslip_interface_set_constraints(struct stickslip_interface *interfac
 int32_t stickslip_interface_set_previous(struct stickslip_interface *interface,
                                          const double *x1,
                                          const double *x2);
+
+/// Takes (x1, x2), 3 n1 and 3 n2 [L], as t_n, after `commits` commits, with the slip of every non-mortar node since the first
+/// configuration: what other handles, of other parts of the interface, had committed there. For parallel hosts that share an
+/// interface out anew: create handles of the new parts with the first configuration, then call this. Weights of the reference
+/// and the first gaps of tied nodes are those of the creation. No commit can then be undone.
+///
+/// slip (3 n1) [L]: what `stickslip_interface_states` had after the commit; NULL: none. Interfaces that remember no slip
+/// (tied, rough, without friction) ignore it.
+///
+/// Errors: NULL_POINTER, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL, INVALID_VALUE (commits < 0, a
+/// mortar surface in layers, an analytic surface's frame).
+/// Cost: one search and one integration; allocates.
+int32_t stickslip_interface_set_committed(struct stickslip_interface *interface,
+                                          const double *x1,
+                                          const double *x2,
+                                          const double *slip,
+                                          int64_t commits);
 
 /// Writes multipliers to start the first step with: a slight compression, -1e-6 rhat_A h_A nu_A (h_A: see `modulus` of `stickslip_options`), on
 /// covered closed nodes, 0 elsewhere. lambda = 0 at zero gap is a body without support.

@@ -249,7 +249,7 @@ impl Scene {
             shake(bytes, &mut self.lambda);
         }
         let h = self.handle;
-        match bytes.below(14) {
+        match bytes.below(15) {
             0 => {
                 // The history moves on success alone, and comes back.
                 let before = self.history();
@@ -354,6 +354,13 @@ impl Scene {
                     let bits = |v: &[f64]| v.iter().map(|v| v.to_bits()).collect::<Vec<_>>();
                     assert!(bits(lambda.values()) == bits(&self.lambda), "a refused call has written");
                 }
+            }
+            13 => {
+                let mut slip = vec![0.0; 3 * N1];
+                shake(bytes, &mut slip);
+                let (x1, x2, commits) = (self.x1.as_ptr(), self.x2.as_ptr(), bytes.integer(2));
+                let slip = bytes.pointer(slip.as_ptr());
+                succeeded(unsafe { stickslip_interface_set_committed(h, x1, x2, slip, commits) });
             }
             _ => {
                 // A, B, A.

@@ -9,6 +9,7 @@ use super::surface::{
 };
 use super::{raw, sized};
 use crate::error::{Error, Kind, Result};
+use crate::geometry::Vec3;
 use crate::interface::Contact;
 use crate::memory::{self, Store, Stored};
 
@@ -207,6 +208,37 @@ pub unsafe extern "C" fn stickslip_interface_set_previous(
         let h = handle(interface)?;
         let point = Point::positions(&h.inner, x1, x2)?;
         either!(&mut h.inner, c => c.set_previous(point.x1(), point.x2()))
+    })
+}
+
+/// Takes (x1, x2), 3 n1 and 3 n2 [L], as t_n, after `commits` commits, with the slip of every non-mortar node since the first
+/// configuration: what other handles, of other parts of the interface, had committed there. For parallel hosts that share an
+/// interface out anew: create handles of the new parts with the first configuration, then call this. Weights of the reference
+/// and the first gaps of tied nodes are those of the creation. No commit can then be undone.
+///
+/// slip (3 n1) [L]: what `stickslip_interface_states` had after the commit; NULL: none. Interfaces that remember no slip
+/// (tied, rough, without friction) ignore it.
+///
+/// Errors: NULL_POINTER, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL, INVALID_VALUE (commits < 0, a
+/// mortar surface in layers, an analytic surface's frame).
+/// Cost: one search and one integration; allocates.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn stickslip_interface_set_committed(
+    interface: *mut stickslip_interface,
+    x1: *const f64,
+    x2: *const f64,
+    slip: *const f64,
+    commits: i64,
+) -> i32 {
+    guard(|| {
+        let h = handle(interface)?;
+        let point = Point::positions(&h.inner, x1, x2)?;
+        let n1 = sizes(&h.inner).0;
+        let slip = match slip.is_null() {
+            true => memory::filled(Vec3::zeros(), n1)?,
+            false => raw::vectors(&vectors(&h.inner, slip, n1, "slip")?)?,
+        };
+        either!(&mut h.inner, c => c.set_committed(point.x1(), point.x2(), &slip, commits))
     })
 }
 

@@ -4,8 +4,8 @@ use super::cache::Cache;
 use super::data::counters::Counters;
 use super::data::effects::Effects;
 use super::data::extent::Extent;
-use super::data::history::{History, Keeps};
-use super::data::node_data::{Owner, free_directions};
+use super::data::history::History;
+use super::data::node_data::{Owner, check_length, free_directions};
 use super::data::options::{Friction, Options, Weights};
 use super::data::restart::Host;
 use super::data::setup::Setup;
@@ -13,12 +13,12 @@ use super::data::surface::{NO_EQUATION, Surface};
 use super::inspect::bytes;
 use super::inspect::describe;
 use super::linear::Linear;
-use super::pairing::given::{Given, NormalsAt, Step};
+use super::pairing::given::{Given, NormalsAt, Step, check_finite};
 use super::pairing::settle::Pairing;
 use super::stages::commit::{self, Known, Settled};
 use super::stages::lost::refuse_lost_contact;
 use super::stages::residual::Residual;
-use super::stages::sums::{NodeSums, assemble};
+use super::stages::sums::NodeSums;
 use super::stages::turn::refuse_turn;
 use crate::error::{Error, Kind, Result, Text};
 use crate::geometry::Vec3;
@@ -285,6 +285,39 @@ impl<const N: usize> Contact<N> {
         Ok(())
     }
 
+    /// Takes (x1, x2) as t_n, after so many commits, with this slip since the first configuration `[L]` at every node: what
+    /// handles with other parts of the interface had committed. Weights of the reference and first gaps stay those that this
+    /// one was created with. No commit can then be undone.
+    pub fn set_committed(&mut self, x1: &[Vec3], x2: &[Vec3], slip: &[Vec3], commits: i64) -> Result<()> {
+        self.given().check_positions(x1, x2)?;
+        check_length("slip", slip.len(), self.setup.nonmortar.len())?;
+        check_finite("slip", slip)?;
+        if commits < 0 {
+            return Err(Error::new(Kind::InvalidValue, text!("commits is {commits}; it must not be negative")));
+        }
+        let (surfaces, options) = (self.setup.surfaces(), &self.setup.options);
+        let (_, active, work, _) = self.cache.leave();
+        let mut new = if options.effective_weights() == Weights::Reference {
+            commit::with_the_same_weights(
+                surfaces,
+                &self.step.history,
+                (x1, x2),
+                &mut work.room.sums,
+                History::empty(),
+            )?
+        } else {
+            let known = Known { active, filter: None };
+            commit::settled_at(surfaces, options, Extent::Whole, work, (x1, x2), known, History::empty())?
+        };
+        new.history.commits = commits;
+        let kept = new.history.slip.len();
+        new.history.slip.copy_from_slice(&slip[..kept]);
+        new.history.check_finite()?;
+        self.adopt(new)?;
+        self.rollback = None;
+        Ok(())
+    }
+
     /// Accepts a converged step: (x1, x2) becomes t_n.
     pub fn commit(
         &mut self,
@@ -302,17 +335,11 @@ impl<const N: usize> Contact<N> {
         let given = Given { setup: &self.setup, step: &self.step };
         refuse_turn(given, (x1, x2), shared, &mut self.cache.work.room.vectors)?;
         let (surfaces, options, history) = (self.setup.surfaces(), &self.setup.options, &self.step.history);
-        let mut moved = self.spare.take().unwrap_or_else(History::empty);
+        let moved = self.spare.take().unwrap_or_else(History::empty);
         let (is_known, active, work, answers) = self.cache.leave();
         let responses = &answers.responses.nodes;
         let mut new = if options.effective_weights() == Weights::Reference {
-            moved.move_to(history, x1, x2)?;
-            // Also where mu is 0 at every node: it may be set before the next step. Tied nodes keep their first gap.
-            if history.keeps == Keeps::Slip {
-                assemble(surfaces, history.weighted(surfaces), (x1, x2), &mut work.room.sums)?;
-                moved.gap.iter_mut().zip(&work.room.sums).for_each(|(to, (_, gap))| *to = *gap);
-            }
-            Settled { history: moved, filter: None, active: false }
+            commit::with_the_same_weights(surfaces, history, (x1, x2), &mut work.room.sums, moved)?
         } else {
             let filter = self.step.pairing.filter.as_ref().filter(|_| is_known);
             let new = commit::settled_at(surfaces, options, extent, work, (x1, x2), Known { active, filter }, moved)?;

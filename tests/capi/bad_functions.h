@@ -8,11 +8,11 @@
 /* All that goes in or comes out: first what `every` has, then the rest. */
 static struct {
   every every;
-  int64_t ld, capacity, length, n_interfaces, n, n_rows, n_integers, n_reals, nodes[3];
+  int64_t ld, capacity, length, n_interfaces, n, n_rows, n_integers, n_reals, commits, nodes[3];
   int64_t offsets1[3], shared1[6], offsets2[3], shared2[4], options_size;
   int32_t n_facet, layout, index_base, piece, which_normals, pairs, entries;
   double scale, stiffness, rounding, angle, penetration, neighbours[12];
-  double mu[N1], r[N1], normals[X1], directions[9], sums[STICKSLIP_SUMS_PER_NODE * N1], dx1[X1], dx2[X2];
+  double mu[N1], r[N1], normals[X1], slip[X1], directions[9], sums[STICKSLIP_SUMS_PER_NODE * N1], dx1[X1], dx2[X2];
   weights previous;
   history imported;
   stickslip_node_response answer;
@@ -99,6 +99,7 @@ FUNCTION(interface_set_normals, (a[0], a[1]), INTERFACE, {"normals", b.normals, 
 FUNCTION(interface_set_constraints, (a[0], b.n, a[1], a[2]), INTERFACE, {"nodes", b.nodes, NEEDED},
          {"directions", b.directions, NEEDED})
 FUNCTION(interface_set_previous, (a[0], a[1], a[2]), AT)
+FUNCTION(interface_set_committed, (a[0], a[1], a[2], a[3], b.commits), AT, {"slip", b.slip, OPTIONAL})
 FUNCTION(interface_initial_multipliers, (a[0], a[1]), {"interface", &b.every.other, NEEDED},
          {"lambda", b.every.initial, NEEDED})
 FUNCTION(interface_sums, (a[0], a[1], a[2], a[3]), AT, {"sums", H.sums, NEEDED})
@@ -186,6 +187,7 @@ static const struct {
     NAMED(options_init), NAMED(last_error_padded), NAMED(surface_split_creases), NAMED(crosspoints_find),
     NAMED(interface_create), NAMED(interface_destroy), NAMED(interface_set_friction), NAMED(interface_set_augmentation),
     NAMED(interface_set_normals), NAMED(interface_set_constraints), NAMED(interface_set_previous),
+    NAMED(interface_set_committed),
     NAMED(interface_initial_multipliers), NAMED(interface_sums), NAMED(interface_states), NAMED(interface_residual),
     NAMED(interface_tangent_coo), NAMED(interface_tangent_csr), NAMED(interface_pattern_coo),
     NAMED(interface_step_limit), NAMED(interface_commit), NAMED(interface_rollback), NAMED(interface_history_size),

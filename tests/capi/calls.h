@@ -235,6 +235,11 @@ static inline int32_t call_interface_limit(handle *h) {
   dx1[0] = 1.0;
   return stickslip_interface_step_limit(h->s.interface, h->s.x1, h->s.x2, dx1, dx2, 0.0, &h->fraction);
 }
+static inline int32_t call_interface_committed(handle *h) {
+  static double slip[X1];
+  slip[0] = 0.125;
+  return stickslip_interface_set_committed(h->s.interface, h->s.x1, h->s.x2, slip, 3);
+}
 static inline int32_t call_interface_previous(handle *h) {
   return stickslip_interface_set_previous(h->s.interface, h->s.x1, h->s.x2);
 }

@@ -128,6 +128,7 @@ static inline int32_t every_constraints(every *c) {
   const int64_t node = 4;
   return stickslip_interface_set_constraints(c->h.s.interface, 1, &node, across);
 }
+static inline int32_t every_committed(every *c) { return call_interface_committed(&c->h); }
 static inline int32_t every_previous(every *c) { return call_interface_previous(&c->h); }
 /* Before the first step: of the second interface. */
 static inline int32_t every_initial(every *c) { return stickslip_interface_initial_multipliers(c->other, c->initial); }
@@ -367,6 +368,7 @@ static const entry_point every_call[] = {
     {"interface_history_export", every_export},
     {"interface_rollback", every_rollback},
     {"interface_set_previous", every_previous},
+    {"interface_set_committed", every_committed},
     {"interface_history_import", every_import},
     {"interface_tangent_coo, imported", every_coo},
     {"interface_counters", every_counters},
@@ -439,10 +441,11 @@ static inline int32_t every_refusal(int k) {
     case 61: return stickslip_interface_plan_values(NULL, NULL, NULL, NULL, NULL, 0, NULL);
     case 62: return stickslip_interface_condensed_plan(NULL, NULL, NULL, 0, NULL, NULL);
     case 63: return stickslip_interface_condensed_values(NULL, NULL, NULL, NULL, NULL, NULL);
+    case 64: return stickslip_interface_set_committed(NULL, NULL, NULL, NULL, 0);
     default: return stickslip_interface_diagnose(NULL, NULL, NULL, NULL, NULL, NULL);
   }
 }
-enum { REFUSALS = 65 };
+enum { REFUSALS = 66 };
 
 /* Room and sizes for the structs that come out. */
 static inline void every_room(every *c) {

@@ -58,6 +58,7 @@ static void set_up(const char *name, int32_t base) {
   b.n_interfaces = 2;
   b.n = 1;
   b.n_rows = UNKNOWNS;
+  b.commits = 3;
   b.n_facet = 4;
   b.index_base = base;
   b.angle = 0.5;
@@ -177,6 +178,7 @@ static void tell(void) {
   REALS("host1", H.host1), NUMBER(INT32, piece);
   REALS("x1", S.x1), REALS("x2", S.x2), REALS("lambda", S.lambda), REALS("dx1", b.dx1), REALS("dx2", b.dx2);
   REALS("sums", b.sums), REALS("mu", b.mu), REALS("r", b.r), REALS("normals", b.normals);
+  REALS("slip", b.slip), NUMBER(INT64, commits);
   REALS("directions", b.directions), INTEGERS("nodes", b.nodes), INTEGERS("row_offsets", H.offsets);
   INTEGERS("nonmortar_offsets", b.offsets1), INTEGERS("mortar_offsets", b.offsets2);
   bad_place("imported_integers", INT64, b.imported.integers, (int32_t)b.n_integers);

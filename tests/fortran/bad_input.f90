@@ -69,11 +69,11 @@ module bad_input
   type(history), target, save :: imported
   type(weights), target, save :: previous
   type(stickslip_interface), target, save :: interface_, other, created
-  integer(c_int64_t), target, save :: ld, capacity, length, n_interfaces, n, n_rows, n_integers, n_reals, struct_size
+  integer(c_int64_t), target, save :: ld, capacity, length, n_interfaces, n, n_rows, n_integers, n_reals, commits, struct_size
   integer(c_int64_t), target, save :: nodes(3), offsets1(3), offsets2(3), shared1(6), shared2(4)
   integer(c_int32_t), target, save :: n_facet, layout, index_base, piece, which_normals, which_pairs, entries
   real(c_double), target, save :: scale, stiffness, rounding, angle, penetration, neighbours(12)
-  real(c_double), target, save :: mu(NA), r(NA), normals(SIZE1), directions(9), sums(STICKSLIP_SUMS_PER_NODE * NA)
+  real(c_double), target, save :: mu(NA), r(NA), normals(SIZE1), slip(SIZE1), directions(9), sums(STICKSLIP_SUMS_PER_NODE * NA)
   real(c_double), target, save :: dx1(SIZE1), dx2(SIZE2)
   ! Pointer arguments, by the names of the header.
   integer, parameter :: POINTERS = 36
@@ -162,6 +162,8 @@ contains
       status = stickslip_interface_set_constraints(interface_, n, nodes, directions)
     case ('interface_set_previous')
       status = stickslip_interface_set_previous(interface_, h%s%x1, h%s%x2)
+    case ('interface_set_committed')
+      status = stickslip_interface_set_committed(interface_, h%s%x1, h%s%x2, c_loc(slip), commits)
     case ('interface_initial_multipliers')
       status = stickslip_interface_initial_multipliers(interface_, o%initial)
     case ('interface_sums')
@@ -317,6 +319,8 @@ contains
     rounding = 0
     penetration = 0
     nodes = base + 4
+    slip = 0
+    commits = 3
     directions = [1, 0, 0, 0, 1, 0, 0, 0, 1]
     neighbours = 0
     mu = 1

@@ -388,6 +388,14 @@ contains
     status = stickslip_interface_set_previous(h%s%contact, h%s%x1, h%s%x2)
   end function
 
+  integer(c_int32_t) function call_interface_committed(h) result(status)
+    type(handle), target, intent(inout) :: h
+    real(c_double), target :: slip(3, NA)
+    slip = 0
+    slip(1, 1) = 0.125d0
+    status = stickslip_interface_set_committed(h%s%contact, h%s%x1, h%s%x2, c_loc(slip), 3_c_int64_t)
+  end function
+
   ! The calls that take positions, by number.
   integer(c_int32_t) function evaluate(call_number, h) result(status)
     integer, intent(in) :: call_number
@@ -409,6 +417,8 @@ contains
       status = call_interface_pattern(h)
     case (8)
       status = call_interface_limit(h)
+    case (9)
+      status = call_interface_committed(h)
     case default
       status = call_interface_previous(h)
     end select

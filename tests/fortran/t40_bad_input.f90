@@ -45,25 +45,25 @@ contains
         'pair.x1', 'pair.x2', 'pair.neighbour_normals', 'n_ab', 'n_ac', 'dn_ab', 'dn_ac', 'n_ab_previous', 'n_ac_previous', &
         'traction', 'row_scale', 'sum', 'nonmortar.coordinates', 'mortar.coordinates', 'x1', 'x2', 'lambda', 'dx1', 'dx2', &
         'sums', 'mu', 'r', 'normals', 'directions', 'imported_reals', 'scale', 'stiffness', 'rounding', 'angle', &
-        'penetration', 'facet.neighbour_normals', 'mass', 'host1', 'state'], [ &
+        'penetration', 'facet.neighbour_normals', 'mass', 'host1', 'state', 'slip'], [ &
         c_loc(e%x1), c_loc(e%x2), c_loc(neighbours), c_loc(e%w%ab), c_loc(e%w%ac), c_loc(e%w%dab), c_loc(e%w%dac), &
         c_loc(previous%ab), c_loc(previous%ac), c_loc(e%traction), c_loc(e%row_scale), c_loc(e%sum), c_loc(h%s%reference1), &
         c_loc(h%s%reference2), c_loc(h%s%x1), c_loc(h%s%x2), c_loc(h%s%lambda), c_loc(dx1), c_loc(dx2), c_loc(sums), &
         c_loc(mu), c_loc(r), c_loc(normals), c_loc(directions), c_loc(imported%reals), c_loc(scale), c_loc(stiffness), &
         c_loc(rounding), c_loc(angle), c_loc(penetration), c_loc(neighbours), c_loc(e%mass), c_loc(h%host1), &
-        c_loc(e%state)], [ &
+        c_loc(e%state), c_loc(slip)], [ &
         12, 12, 12, 16, 16, size(e%w%dab), size(e%w%dac), 16, 16, 12, 4, 3, SIZE1, SIZE2, SIZE1, SIZE2, SIZE1, SIZE1, &
-        SIZE2, size(sums), NA, NA, SIZE1, 9, int(n_reals), 0, 0, 0, 0, 0, 12, 16, SIZE1, STATE_SIZE])
+        SIZE2, size(sums), NA, NA, SIZE1, 9, int(n_reals), 0, 0, 0, 0, 0, 12, 16, SIZE1, STATE_SIZE, SIZE1])
     call places(INT64, [character(30) :: &
         'imported_integers', 'nonmortar.facet_offsets', 'mortar.facet_offsets', 'nonmortar.facet_nodes', &
         'mortar.facet_nodes', 'nonmortar.equations', 'mortar.equations', 'nonmortar.multiplier_equations', 'nodes', &
         'row_offsets', 'nonmortar_offsets', 'mortar_offsets', 'handle', 'struct_size', 'ld', 'capacity', 'length', &
-        'n_interfaces', 'n', 'n_rows', 'n_integers', 'n_reals'], [ &
+        'n_interfaces', 'n', 'n_rows', 'n_integers', 'n_reals', 'commits'], [ &
         c_loc(imported%integers), c_loc(h%s%offsets1), c_loc(h%s%offsets2), c_loc(h%s%nodes1), c_loc(h%s%nodes2), &
         c_loc(h%s%equations1), c_loc(h%s%equations2), c_loc(h%s%multipliers), c_loc(nodes), c_loc(h%offsets), &
         c_loc(offsets1), c_loc(offsets2), c_loc(other), c_loc(struct_size), c_loc(ld), c_loc(capacity), c_loc(length), &
-        c_loc(n_interfaces), c_loc(n), c_loc(n_rows), c_loc(n_integers), c_loc(n_reals)], [ &
-        int(n_integers), 5, 10, 16, 36, SIZE1, SIZE2, SIZE1, 3, size(h%offsets), 3, 3, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0])
+        c_loc(n_interfaces), c_loc(n), c_loc(n_rows), c_loc(n_integers), c_loc(n_reals), c_loc(commits)], [ &
+        int(n_integers), 5, 10, 16, 36, SIZE1, SIZE2, SIZE1, 3, size(h%offsets), 3, 3, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0])
     call places(INT32, [character(30) :: &
         'n_facet', 'layout', 'index_base', 'diagnosis.state', 'facet.n2', 'piece', 'interface_use_normals:normals', &
         'pairs', 'entries'], [ &

@@ -33,6 +33,7 @@
 //! | 11.1 derivative of the normal: translation, stretching, rotation | C `derivatives_of_a_normal_keep_its_identities` | |
 //! | 11.1 derivative of the normal: differences | C `derivatives_of_a_normal_equal_differences` | `interface/normals.rs` |
 //! | 11.2 laws under a turn of the normal | C `answers_turn_with_the_normal_as_differences_say` | `capi/normals.rs` |
+//! | 5.6 parts of an interface add up to the whole | | `interface/parts.rs` |
 //! | I7 threads | | `tests/capi/t50_threads.c` |
 //! | no law: maps that are all but singular are refused, or all is finite | G `facets_with_nearly_singular_maps_are_refused_or_finite` | `mortar/golden.rs` |
 //!

@@ -2,10 +2,11 @@
 #![allow(dead_code)]
 
 use super::mesh::{Create, Mesh};
+use super::parents::has_row;
 use nalgebra::SVector;
 use stickslip::error::Result;
 use stickslip::geometry::Vec3;
-use stickslip::interface::{Contact, Options, Owner, Surface};
+use stickslip::interface::{Contact, NO_EQUATION, Options, Owner, Surface};
 
 /// A part of an interface.
 pub struct Part<const N: usize> {
@@ -74,7 +75,9 @@ where
     let (mesh2, nodes2) = submesh(two, opposite);
     let displacements =
         |first: usize, nodes: &[usize]| nodes.iter().map(|k| [0, 1, 2].map(|i| (first + 3 * k + i) as i64)).collect();
-    let multipliers = nodes1.iter().map(|k| std::array::from_fn(|i| (3 * (n1 + n2) + N * k + i) as i64)).collect();
+    let has_row = has_row(one, options.space);
+    let multiplier = |k: usize, i: usize| if has_row[k] { (3 * (n1 + n2) + N * k + i) as i64 } else { NO_EQUATION };
+    let multipliers = nodes1.iter().map(|&k| std::array::from_fn(|i| multiplier(k, i))).collect();
     let nonmortar = Surface::new("nonmortar", mesh1.x, &mesh1.facets, displacements(0, &nodes1))?;
     let mortar = Surface::new("mortar", mesh2.x, &mesh2.facets, displacements(3 * n1, &nodes2))?;
     let mut contact = Contact::create(nonmortar, mortar, multipliers, options)?;

@@ -117,6 +117,23 @@ pub fn settled_at(
     Ok(Settled { history, filter: Some(filter), active: is_active })
 }
 
+/// The same with weights that are frozen for good: those of `old`, in the memory of `history`; `sums`: room.
+pub fn with_the_same_weights(
+    surfaces: (&Surface, &Surface),
+    old: &History,
+    (x1, x2): (&[Vec3], &[Vec3]),
+    sums: &mut Vec<(f64, Vec3)>,
+    mut history: History,
+) -> Result<Settled> {
+    history.move_to(old, x1, x2)?;
+    // Also where mu is 0 at every node: it may be set before the next step. Tied nodes keep their first gap.
+    if old.keeps == Keeps::Slip {
+        assemble(surfaces, old.weighted(surfaces), (x1, x2), sums)?;
+        history.gap.iter_mut().zip(sums).for_each(|(to, (_, gap))| *to = *gap);
+    }
+    Ok(Settled { history, filter: None, active: false })
+}
+
 /// Makes up for the weights of t_n where they were left out because the surfaces were apart then.
 pub fn complete(
     surfaces: (&Surface, &Surface),

@@ -1,0 +1,57 @@
+! A parallel host whose handles own nodes: each holds the facets around its own nodes, and the multipliers of others act
+! elsewhere. Residuals and tangents add up to those of one handle, without any sums.
+#include "check.inc"
+program t91_parts
+  use, intrinsic :: iso_c_binding
+  use check
+  use scenes
+  use stickslip
+  implicit none
+  ! Sums of a few numbers in a residual and in a tangent, relative to the largest entries.
+  real(c_double), parameter :: ROUNDING_RESIDUAL = 1d-14, ROUNDING_TANGENT = 1d-12
+  ! What a block of the tangent is at least compared with; the largest entries are of size 1.
+  real(c_double), parameter :: SMALL_BLOCK = 1d-3
+  type(scene), target, save :: whole, parts(2)
+  type(triplets), target, save :: t
+  integer(c_int32_t), target, save :: owned(NA, 2)
+  real(c_double), save :: k(UNKNOWNS, UNKNOWNS), total_k(UNKNOWNS, UNKNOWNS)
+  real(c_double) :: r(UNKNOWNS), total_r(UNKNOWNS), q(UNKNOWNS)
+  integer :: p, step, a
+
+  call scene_init(whole)
+  call scene_create(whole)
+  do p = 1, 2
+    call scene_init(parts(p))
+    owned(:, p) = [(merge(STICKSLIP_NODE_OWN, STICKSLIP_NODE_ELSEWHERE, (a <= 5) .eqv. p == 1), a = 1, NA)]
+    parts(p)%nonmortar%owned = c_loc(owned(1, p))
+    call scene_create(parts(p))
+  end do
+
+  do step = 1, 3
+    call scene_residual(whole, r)
+    call scene_dense(whole, t, k)
+    total_k = 0
+    total_r = 0
+    do p = 1, 2
+      parts(p)%x1 = whole%x1
+      call scene_residual(parts(p), q)
+      total_r = total_r + q
+      do a = 1, NA
+        if (owned(a, p) == STICKSLIP_NODE_ELSEWHERE) CHECK(all(same(q(POSITIONS + 3 * a - 2:POSITIONS + 3 * a), [0d0, 0d0, 0d0])))
+      end do
+      call scene_tangent(parts(p), t)
+      call triplets_add(t, 1, total_k)
+    end do
+    CHECK_NEAR(total_r, r, ROUNDING_RESIDUAL * worst(r))
+    CHECK(block_difference(total_k, k, SMALL_BLOCK) < ROUNDING_TANGENT)
+    call scene_commit(whole)
+    do p = 1, 2
+      call scene_commit(parts(p))
+    end do
+    call scene_slide(whole, 0.11d0)
+  end do
+  do p = 1, 2
+    call scene_destroy(parts(p))
+  end do
+  call scene_destroy(whole)
+end program
