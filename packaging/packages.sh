@@ -28,8 +28,9 @@ debian() {
     (cd "$tree" && cargo vendor --locked --quiet vendor/crates > /dev/null) || return
     printf '[source.crates-io]\nreplace-with = "vendored"\n[source.vendored]\ndirectory = "%s"\n' \
         "$tree/vendor/crates" > "$tree/vendor/config.toml"
-    # -d: the Rust compiler may be one of rustup's.
-    (cd "$tree" && RUSTUP_TOOLCHAIN=${RUSTUP_TOOLCHAIN:-stable} STICKSLIP_COMMIT=$(git -C "$OLDPWD" rev-parse HEAD) \
+    # -d: the Rust compiler may be one of rustup's, which it finds by RUSTUP_HOME: debhelper gives the build another HOME.
+    (cd "$tree" && RUSTUP_HOME=${RUSTUP_HOME:-$HOME/.rustup} RUSTUP_TOOLCHAIN=${RUSTUP_TOOLCHAIN:-stable} \
+        STICKSLIP_COMMIT=$(git -C "$OLDPWD" rev-parse HEAD) \
         dpkg-buildpackage -us -uc -b -d > "$out/deb/build.log" 2>&1) || { tail -20 "$out/deb/build.log"; return 1; }
     ls -l "$out"/deb/*.deb
 }
