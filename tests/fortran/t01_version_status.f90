@@ -58,7 +58,7 @@ contains
     character(:), allocatable :: rest, word, value
     integer :: k, blank, sign
     rest = c_text(stickslip_build())
-    CHECK(scan(rest, '/\') == 0)
+    CHECK(scan(rest, '/' // achar(92)) == 0)
     do k = 1, size(NAMES)
       blank = index(rest // ' ', ' ')
       word = rest(:blank - 1)
