@@ -15,7 +15,7 @@ export PATH := $(PATH):$(HOME)/.cargo/bin
 LOCKED = mkdir -p $(BUILD) && flock $(BUILD)/.lock
 SAY    = @printf '\n== %s\n'
 
-.PHONY: help demo gallery effects aids study compare bench random fuzz stability scaling ratios digest wheel python-examples check test test-long build install uninstall docs abi header meshes clean cmake-build rust-tests
+.PHONY: packages help demo gallery effects aids study compare bench random fuzz stability scaling ratios digest wheel python-examples check test test-long build install uninstall docs abi header meshes clean cmake-build rust-tests
 
 help:
 	@echo "make demo    solve the example scenes, compare with the references, draw (FIGURES=1: renew the README's figures)"
@@ -38,6 +38,7 @@ help:
 	@echo "make fuzz    fuzz the pair kernel, the handle and the C ABI, a quarter of an hour each (FUZZ_SECONDS=)"
 	@echo "make wheel   the Python package as a wheel, in $(BUILD)/wheels"
 	@echo "make python-examples   its examples, with the libraries they need, in an environment below $(BUILD)/"
+	@echo "make packages   crate, Debian packages, recipes of Spack and conda-forge, in $(BUILD)/packages; packaging/README.md"
 	@echo "make build   build the library and the examples into $(BUILD)/"
 	@echo "make install PREFIX=DIR [DESTDIR=]   install header, Fortran module, libraries, pkg-config and CMake files"
 	@echo "make uninstall PREFIX=DIR [DESTDIR=]   remove what was installed there"
@@ -157,6 +158,11 @@ python-examples: wheel
 	@$(BUILD)/python/bin/pip install -q --force-reinstall --no-deps $(BUILD)/wheels/*.whl
 	@$(BUILD)/python/bin/pip install -q cffi numpy scipy pytest matplotlib scikit-fem felupe
 	@$(BUILD)/python/bin/python -m pytest -q -rs python/tests/test_examples.py
+
+packages:
+	@.ci/setup library
+	$(SAY) "Packages"
+	@packaging/packages.sh $(BUILD)/packages
 
 # What to run before each commit; the scenes are those that show most in little time.
 CHECKED = ^(abi|accept_patch|accept_block|accept_errors|petsc_block|capi_t10_pair_weights|fortran_t10_pair_weights)$$

@@ -1,11 +1,70 @@
 //! Gives the shared library its soname: libstickslip.so.0.MINOR before 1.0, libstickslip.so.MAJOR after (docs/abi.md).
+//! Gives `stickslip_build` what only the build knows: commit, target, profile, compiler. None of it is a path or a time,
+//! so that two builds of one commit have equal bytes.
+
+use std::path::Path;
+use std::process::Command;
+
+/// What is not in the repository of the commit, or not known, goes by this name.
+const UNKNOWN: &str = "unknown";
 
 fn main() {
     println!("cargo::rerun-if-changed=build.rs");
-    let env = |name: &str| std::env::var(name).expect("cargo sets it");
-    let (major, minor) = (env("CARGO_PKG_VERSION_MAJOR"), env("CARGO_PKG_VERSION_MINOR"));
+    let (major, minor) = (variable("CARGO_PKG_VERSION_MAJOR"), variable("CARGO_PKG_VERSION_MINOR"));
     let abi = if major == "0" { format!("0.{minor}") } else { major };
-    if env("CARGO_CFG_TARGET_OS") == "linux" {
+    if variable("CARGO_CFG_TARGET_OS") == "linux" {
         println!("cargo::rustc-cdylib-link-arg=-Wl,-soname,libstickslip.so.{abi}");
     }
+    let compiler = said(Command::new(variable("RUSTC")).arg("--version")).unwrap_or(UNKNOWN.into());
+    println!("cargo::rustc-env=STICKSLIP_BUILD_COMMIT={}", commit());
+    println!("cargo::rustc-env=STICKSLIP_BUILD_TARGET={}", variable("TARGET"));
+    println!("cargo::rustc-env=STICKSLIP_BUILD_PROFILE={}-O{}", variable("PROFILE"), variable("OPT_LEVEL"));
+    println!("cargo::rustc-env=STICKSLIP_BUILD_COMPILER={}", compiler.replace(' ', "-"));
+}
+
+fn variable(name: &str) -> String {
+    std::env::var(name).expect("cargo sets it")
+}
+
+/// What a command writes, if it succeeds.
+fn said(command: &mut Command) -> Option<String> {
+    let done = command.output().ok().filter(|done| done.status.success())?;
+    Some(String::from_utf8(done.stdout).ok()?.trim().to_string())
+}
+
+/// The commit: what the packager says (`STICKSLIP_COMMIT`), what `cargo package` wrote into the package, or what git says of
+/// the checkout. Builds for tests do not ask git: otherwise each commit would have everything compiled again.
+fn commit() -> String {
+    println!("cargo::rerun-if-env-changed=STICKSLIP_COMMIT");
+    if let Some(given) = std::env::var("STICKSLIP_COMMIT").ok().filter(|given| is_name(given)) {
+        return given;
+    }
+    packaged().or_else(|| if variable("PROFILE") == "release" { checked_out() } else { None }).unwrap_or(UNKNOWN.into())
+}
+
+/// Neither a path nor blanks: the text of `stickslip_build` is words of the form name=value.
+fn is_name(text: &str) -> bool {
+    !text.is_empty() && text.chars().all(|c| c.is_ascii_alphanumeric() || "+-._~".contains(c))
+}
+
+fn packaged() -> Option<String> {
+    let text = std::fs::read_to_string(".cargo_vcs_info.json").ok()?;
+    let (_, rest) = text.split_once("\"sha1\": \"")?;
+    let commit = rest.split('"').next().filter(|commit| is_name(commit))?.to_string();
+    Some(if text.contains("\"dirty\": true") { commit + "+changes" } else { commit })
+}
+
+/// Of this folder's own repository: a package may be unpacked inside another one.
+fn checked_out() -> Option<String> {
+    let git = |words: &[&str]| said(Command::new("git").args(words));
+    let top = git(&["rev-parse", "--show-toplevel"])?;
+    if Path::new(&top).canonicalize().ok()? != Path::new(".").canonicalize().ok()? {
+        return None;
+    }
+    // Each commit and each change of a file below makes this run again.
+    let log = git(&["rev-parse", "--git-path", "logs/HEAD"]).filter(|log| Path::new(log).exists());
+    let sources = ["src", "Cargo.toml", "Cargo.lock", "build.rs"];
+    log.iter().map(String::as_str).chain(sources).for_each(|file| println!("cargo::rerun-if-changed={file}"));
+    let changed = git(&[&["status", "--porcelain", "--"][..], &sources].concat())?;
+    Some(git(&["rev-parse", "HEAD"])? + if changed.is_empty() { "" } else { "+changes" })
 }

@@ -21,17 +21,27 @@ set(STICKSLIP_SHARED "${STICKSLIP_STAGE}/libstickslip.so.${PROJECT_VERSION}")
 set(STICKSLIP_STATIC "${STICKSLIP_STAGE}/libstickslip.a")
 set(STICKSLIP_LINKS "${STICKSLIP_STAGE}/libstickslip.so.${STICKSLIP_SOVERSION}" "${STICKSLIP_STAGE}/libstickslip.so")
 
+# Panics name the file they stand in: those of other crates by a path of this machine, if nothing is put in its place.
+# RUSTFLAGS in the environment go before this, so who sets them says the same there (docs/abi.md).
+if(DEFINED ENV{CARGO_HOME})
+  set(cargo_home "$ENV{CARGO_HOME}")
+else()
+  set(cargo_home "$ENV{HOME}/.cargo")
+endif()
+set(remapped "build.rustflags=['--remap-path-prefix=${cargo_home}=/cargo', '--remap-path-prefix=${PROJECT_SOURCE_DIR}=/stickslip']")
+
 # cargo alone knows whether something changed, so it is asked each time; what depends on it relinks only if the files
 # are newer.
 add_custom_target(stickslip_cargo ALL
-  COMMAND "${CARGO_EXECUTABLE}" rustc --release --locked --lib --target-dir "${STICKSLIP_CARGO_TARGET_DIR}"
+  COMMAND "${CARGO_EXECUTABLE}" --config "${remapped}" rustc --release --locked --lib --target-dir "${STICKSLIP_CARGO_TARGET_DIR}"
           -- --print "native-static-libs=${cargo_dir}/native-static-libs.txt"
   COMMAND "${CMAKE_COMMAND}" "-Dfrom=${cargo_dir}" "-Dshared=${STICKSLIP_SHARED}" "-Dstatic=${STICKSLIP_STATIC}"
           "-Dsoversion=${STICKSLIP_SOVERSION}" "-Dobjcopy=${CMAKE_OBJCOPY}" -P "${PROJECT_SOURCE_DIR}/cmake/stage.cmake"
   WORKING_DIRECTORY "${PROJECT_SOURCE_DIR}"
   BYPRODUCTS "${STICKSLIP_SHARED}" "${STICKSLIP_STATIC}"
   COMMENT "Building the library with cargo"
-  USES_TERMINAL)
+  USES_TERMINAL
+  VERBATIM)
 
 add_library(stickslip::stickslip SHARED IMPORTED GLOBAL)
 set_target_properties(stickslip::stickslip PROPERTIES

@@ -450,6 +450,11 @@ module stickslip
       import :: c_ptr
     end function
 
+    ! How the library was built, as a C string: words "name=value", of version, commit, target, profile, compiler, kernels.
+    type(c_ptr) function stickslip_build() bind(C)
+      import :: c_ptr
+    end function
+
     ! The thread's last refusal in words, as a C string; until the next call. Fortran reads it more easily with
     ! stickslip_last_error_padded.
     type(c_ptr) function stickslip_last_error_message() bind(C)

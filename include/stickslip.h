@@ -31,8 +31,8 @@
  * as much left.
  *
  * Floating point: on x86-64 and AArch64 the caller's environment (traps, rounding, flushing, flags) does not matter to a
- * call and is the same after it. Elsewhere it must be the default one. version, status_string, last_error_message and
- * last_error_padded compute nothing.
+ * call and is the same after it. Elsewhere it must be the default one. version, build, status_string,
+ * last_error_message and last_error_padded compute nothing.
  *
  * Owner: all arrays are the caller's. Inputs are read during the call only; outputs are written only on success and
  * must not overlap anything else. Where the library owns something, the function says so.
@@ -115,7 +115,7 @@
  *     facet_normal_derivatives               each facet around a node that has pairs
  *     node_turn                              each such node, after node_respond
  *
- * Both: version, status_string, last_error_message, last_error_padded. */
+ * Both: version, build, status_string, last_error_message, last_error_padded. */
 
 #ifndef STICKSLIP_H
 #define STICKSLIP_H
@@ -987,6 +987,16 @@ extern "C" {
 /// Cost: none.
 /// Owner: the library, for good; never NULL.
 const char *stickslip_version(void);
+
+/// How the library that runs was built, for reports of errors and records of results: words "name=value" with one blank
+/// between them. Their names are, in this order: version; commit of the source ("unknown" where none was known, with
+/// "+changes" where the source was not as committed); target; profile (release or debug, and the level of optimisation);
+/// compiler; kernels, those that this processor takes ("plain" or "avx2+fma"). Later versions append words. No word is a
+/// path or a time.
+///
+/// Cost: none.
+/// Owner: the library, for good; never NULL.
+const char *stickslip_build(void);
 
 /// The calling thread's last refusal in words: which argument, what was wrong, what is allowed. Empty after
 /// a success. Nodes and facets are counted from 0 in it.

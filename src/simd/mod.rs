@@ -17,15 +17,34 @@ pub use lanes::{Kernel, Lanes, Real, rolled};
 pub use plain::Plain;
 pub use stack::Stack;
 
-/// Runs a kernel on the best back end of this processor.
+/// What kernels are compiled for.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum BackEnd {
+    /// Any processor.
+    Plain,
+    /// x86-64 with AVX2 and FMA.
+    Avx2,
+}
+
+/// The best one that this processor has.
 #[inline]
-pub fn dispatch<K: Kernel>(kernel: K) -> K::Output {
+pub fn back_end() -> BackEnd {
     #[cfg(test)]
     if tests::PLAIN.get() {
-        return kernel.run::<Plain>();
+        return BackEnd::Plain;
     }
     #[cfg(target_arch = "x86_64")]
     if is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma") {
+        return BackEnd::Avx2;
+    }
+    BackEnd::Plain
+}
+
+/// Runs a kernel on the best back end of this processor.
+#[inline]
+pub fn dispatch<K: Kernel>(kernel: K) -> K::Output {
+    #[cfg(target_arch = "x86_64")]
+    if back_end() == BackEnd::Avx2 {
         return avx2::run(kernel);
     }
     kernel.run::<Plain>()

@@ -90,6 +90,30 @@ def check_size(library):
     return True
 
 
+# What only the machine that builds has: homes, and another place of cargo's packages than cmake/library.cmake names.
+FOREIGN = re.compile(rb"/(?:home|root|Users|builds)/[\w.+~/-]+|(?<!/cargo)/registry/src/[\w.+~/-]+")
+
+
+def machine_paths(content):
+    """Paths of the building machine: those, and this checkout, home and cargo's folder by name."""
+    places = (HERE.parents[1], Path.home(), Path(os.environ.get("CARGO_HOME", Path.home() / ".cargo")))
+    names = {os.fsencode(place) + b"/" for place in places if place.name}
+    return set(FOREIGN.findall(content)) | {name for name in names if name in content}
+
+
+def check_paths(library):
+    """No path of the building machine is in the shared or the static library."""
+    planted = (os.fsencode(HERE) + b"/a.rs", b"text/home/me/a.rs", b"/srv/.cargo/registry/src/a-1.0/src/b.rs")
+    if not all(map(machine_paths, planted)) or machine_paths(b"/cargo/registry/src/a-1.0/src/b.rs"):
+        return fail("paths", "a path that was planted is not found, or a neutral one is")
+    libraries = [library, *library.parent.glob("libstickslip.a")]
+    found = {path.name: sorted(machine_paths(path.read_bytes()))[:5] for path in libraries}
+    if any(found.values()):
+        return fail("paths of the building machine", f"{found}; see cmake/library.cmake")
+    print(f"ok      paths: none of the building machine in {', '.join(found)}")
+    return True
+
+
 def stub(folder, path):
     """A shared library with a header's functions and empty bodies, with debugging information."""
     code = ["#include <stickslip.h>"]
@@ -213,8 +237,8 @@ def main():
     if arguments.renew:
         renew()
     library = arguments.library.resolve()
-    results = [check_symbols(library), check_dependencies(library), check_size(library), check_description(),
-               check_gate()]
+    results = [check_symbols(library), check_dependencies(library), check_size(library), check_paths(library),
+               check_description(), check_gate()]
     sys.exit(0 if all(results) else 1)
 
 

@@ -1,10 +1,32 @@
-/* Version and status texts: never NULL, and the header's macros are the library's version. */
+/* Version and status texts: never NULL, and the header's macros are the library's version. How the library was built: the
+ * words that the header names, in that order, each with something after its "=", no word a path. */
 #include "check.h"
+
+static void check_build(const char *version) {
+  static const char *const names[] = {"version", "commit", "target", "profile", "compiler", "kernels"};
+  char text[512];
+  size_t count = 0;
+  CHECK(strlen(stickslip_build()) < sizeof text);
+  strcpy(text, stickslip_build());
+  CHECK(strchr(text, '/') == NULL && strchr(text, '\\') == NULL && strstr(text, "  ") == NULL);
+  for (char *word = strtok(text, " "); word != NULL; word = strtok(NULL, " "), ++count) {
+    char *value = strchr(word, '=');
+    CHECK(value != NULL && value[1] != '\0' && count < sizeof names / sizeof *names);
+    *value++ = '\0';
+    CHECK(strcmp(word, names[count]) == 0);
+    if (count == 0) CHECK(strcmp(value, version) == 0);
+    if (count == 3) CHECK(strncmp(value, "release-O", 9) == 0 || strncmp(value, "debug-O", 7) == 0);
+    if (count == 5) CHECK(strcmp(value, "plain") == 0 || strcmp(value, "avx2+fma") == 0);
+  }
+  CHECK(count == sizeof names / sizeof *names);
+  CHECK(stickslip_build() == stickslip_build());
+}
 
 int main(void) {
   char version[32];
   sprintf(version, "%d.%d.%d", STICKSLIP_VERSION_MAJOR, STICKSLIP_VERSION_MINOR, STICKSLIP_VERSION_PATCH);
   CHECK(strcmp(version, stickslip_version()) == 0);
+  check_build(version);
 
   /* Nothing refused yet on this thread. */
   CHECK(stickslip_last_error_message() != NULL && stickslip_last_error_message()[0] == '\0');

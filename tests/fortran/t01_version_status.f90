@@ -1,4 +1,5 @@
-! Version and status texts: never null, and the module's constants are the library's version. The twin leaves out the
+! Version and status texts: never null, and the module's constants are the library's version. How the library was built:
+! the words that the header names, in that order, each with something after its "=", no word a path. The twin leaves out the
 ! calls with NULL for an array or a text, which Fortran cannot write; a handle that was never created stands for them.
 #include "check.inc"
 program t01_version_status
@@ -15,6 +16,7 @@ program t01_version_status
 
   write (version, '(i0, ".", i0, ".", i0)') STICKSLIP_VERSION_MAJOR, STICKSLIP_VERSION_MINOR, STICKSLIP_VERSION_PATCH
   CHECK(trim(version) == c_text(stickslip_version()))
+  call check_build(trim(version))
 
   ! Nothing refused yet on this thread.
   CHECK(c_text(stickslip_last_error_message()) == '')
@@ -49,6 +51,32 @@ program t01_version_status
   CHECK(all(normal == [0, 0, -1]))
 
 contains
+
+  subroutine check_build(version)
+    character(*), intent(in) :: version
+    character(8), parameter :: NAMES(6) = [character(8) :: 'version', 'commit', 'target', 'profile', 'compiler', 'kernels']
+    character(:), allocatable :: rest, word, value
+    integer :: k, blank, sign
+    rest = c_text(stickslip_build())
+    CHECK(scan(rest, '/' // achar(92)) == 0)
+    do k = 1, size(NAMES)
+      blank = index(rest // ' ', ' ')
+      word = rest(:blank - 1)
+      rest = rest(min(blank, len(rest)) + 1:)
+      sign = index(word, '=')
+      CHECK(sign > 1 .and. sign < len(word))
+      CHECK(word(:sign - 1) == trim(NAMES(k)))
+      value = word(sign + 1:)
+      if (k == 1) then
+        CHECK(value == version)
+      else if (k == 4) then
+        CHECK(index(value, 'release-O') == 1 .or. index(value, 'debug-O') == 1)
+      else if (k == 6) then
+        CHECK(value == 'plain' .or. value == 'avx2+fma')
+      end if
+    end do
+    CHECK(len(rest) == 0)
+  end subroutine
 
   ! What the variable holds when the first `length` of its letters are offered.
   subroutine check_padded(length, expected)

@@ -70,6 +70,26 @@ class Tree:
         expect(printed == self.printed, f"{what}: {printed}")
 
 
+def named_files(document, text):
+    """What a document names: targets of its links, and files of docs, include and examples in code letters."""
+    links = [link.split("#")[0] for link in re.findall(r"\]\(([^)\s]+)\)", text) if "://" not in link]
+    words = re.findall(r"`((?:docs|include)/[\w./]+\.(?:md|h|f90)|[A-Z]+\.(?:md|cff))`", text)
+    return {(document.parent / link).resolve() for link in links if link}, set(words)
+
+
+def check_named_files(documents, include):
+    """Every file that an installed document names is installed, too. Words are relative to the root of the checkout."""
+    missing = []
+    for document in sorted(documents.rglob("*.md")):
+        links, words = named_files(document, document.read_text())
+        missing += [f"{document.name}: {link}" for link in links if not link.exists()]
+        missing += [f"{document.name}: {word}" for word in words
+                    if not (documents / word).exists() and not (include / Path(word).name).exists()]
+    expect(not missing, f"files that documents name are there {missing}")
+    planted = named_files(documents / "a.md", "[b](gone.md#c) and `docs/gone.md`, [d](https://e.f)")
+    expect([len(names) for names in planted] == [1, 1], "a file that is not there would be noticed")
+
+
 def test_tree(tree):
     """Files, links, no path of the checkout or the first place in any text; the uninstall list is complete."""
     files = sorted(str(p.relative_to(tree.prefix)) for p in tree.prefix.rglob("*") if not p.is_dir())
@@ -78,6 +98,7 @@ def test_tree(tree):
     for name in ("include/stickslip.h", "include/stickslip.f90", "lib/libstickslip.a", "lib/pkgconfig/stickslip.pc",
                  "lib/cmake/stickslip/stickslip-config.cmake", "share/doc/stickslip/docs/plug_in.md"):
         expect(name in files, name)
+    check_named_files(tree.prefix / "share/doc/stickslip", tree.prefix / "include")
     link = tree.prefix / "lib/libstickslip.so"
     chain = [str(link.readlink()), str((link.parent / link.readlink()).readlink())]
     expect(re.fullmatch(r"libstickslip\.so\.\d+\.\d+\.\d+", chain[1]), f"libstickslip.so -> {' -> '.join(chain)}")

@@ -226,7 +226,7 @@ fn c_calls(pair: &stickslip_pair) {
             assert_eq!(stickslip_node_turn(&node, sum.as_ptr(), 0, dnu, dp, block.as_mut_ptr()), 0);
         });
         allocates_nothing("texts", || {
-            (stickslip_version(), stickslip_status_string(3), stickslip_last_error_message())
+            (stickslip_version(), stickslip_build(), stickslip_status_string(3), stickslip_last_error_message())
         });
     }
 }
