@@ -70,7 +70,7 @@
  *     interface_destroy                      at the end
  *
  * What it may add: interface_set_friction, interface_set_augmentation, interface_set_normals,
- * interface_set_constraints, interface_set_previous after interface_create; interface_history_size,
+ * interface_set_constraints, interface_set_previous, interface_set_committed after interface_create; interface_history_size,
  * interface_history_export, interface_history_import for restarts; interface_sums on several processes;
  * interface_counters, interface_effects, interface_report, interface_diagnose. Where normals follow the motion: interface_turn_multipliers
  * at the start of a step, interface_use_normals for a step in two phases. Before it: surface_split_creases where a non-mortar surface
@@ -348,7 +348,7 @@
 /// It keeps its mu (a sticking one then has zero tangential rows).
 #define STICKSLIP_NEW_CONTACT_KEEP 1
 
-/// `owned` of `stickslip_surface`: the node's multiplier acts on the facets of this handle, and another handle adds the node's
+/// Of `owned` in `stickslip_surface`. The node's multiplier acts on the facets of this handle, and another handle adds the node's
 /// own block; the sums over all handles make its gap (`stickslip_interface_sums`).
 #define STICKSLIP_NODE_SHARED 0
 

@@ -9,7 +9,7 @@ use crate::line::Measure;
 use crate::memory::{self, Store, Stored};
 use std::fmt::Display;
 
-/// `owned` of `stickslip_surface`: the node's multiplier acts on the facets of this handle, and another handle adds the node's
+/// Of `owned` in `stickslip_surface`. The node's multiplier acts on the facets of this handle, and another handle adds the node's
 /// own block; the sums over all handles make its gap (`stickslip_interface_sums`).
 pub const STICKSLIP_NODE_SHARED: i32 = 0;
 /// The node's multiplier acts here, and this handle adds the node's own block.

@@ -70,11 +70,14 @@ fn recipes() -> impl Strategy<Value = Recipe> {
     )
 }
 
+/// Positions of both sides, and multipliers.
+type At<const N: usize> = ([Vec<Vec3>; 2], Vec<SVector<f64, N>>);
+
 /// An interface, its parts, and where the steps lead.
 struct Scene<const N: usize> {
     whole: Contact<N>,
     parts: Vec<Part<N>>,
-    steps: Vec<([Vec<Vec3>; 2], Vec<SVector<f64, N>>)>,
+    steps: Vec<At<N>>,
     around: usize,
 }
 
@@ -366,7 +369,7 @@ proptest! {
         let kinds = Some(kinds.map(|kind| *kind.get(&[6, 8, 9])));
         let recipe = Recipe { kinds, bend: 0.1 * recipe.bend, depth: 0.0, ..recipe };
         let (form, normals, scheme) = (Form::Multiplier, Normals::Committed, Scheme::Segments);
-        let space = if recipe.seed % 2 == 0 { MultiplierSpace::Corner } else { MultiplierSpace::Sub };
+        let space = if recipe.seed.is_multiple_of(2) { MultiplierSpace::Corner } else { MultiplierSpace::Sub };
         let options = Options { form, normals, scheme, space, ..recipe.options() };
         agree::<3>(&recipe, options)?;
     }
