@@ -126,6 +126,9 @@ module stickslip
 
   integer(c_int32_t), parameter :: STICKSLIP_NEW_CONTACT_FRICTIONLESS = 0
   integer(c_int32_t), parameter :: STICKSLIP_NEW_CONTACT_KEEP = 1
+  integer(c_int32_t), parameter :: STICKSLIP_NODE_SHARED = 0
+  integer(c_int32_t), parameter :: STICKSLIP_NODE_OWN = 1
+  integer(c_int32_t), parameter :: STICKSLIP_NODE_ELSEWHERE = 2
 
   ! Added up in the kinds of a node that interfaces share.
   integer(c_int32_t), parameter :: STICKSLIP_CROSSPOINT_CLAIMED = 1
@@ -193,9 +196,6 @@ module stickslip
   ! What facets are: of a solid; lines (x, y) of a plane model; lines (r, z) of an axisymmetric one.
 
   ! State of a node: open or uncovered; closed, sticking; closed, sliding or on the friction cone.
-  integer(c_int32_t), parameter :: STICKSLIP_NODE_SHARED = 0
-  integer(c_int32_t), parameter :: STICKSLIP_NODE_OWN = 1
-  integer(c_int32_t), parameter :: STICKSLIP_NODE_ELSEWHERE = 2
   integer(c_int32_t), parameter :: STICKSLIP_STATE_GAP = 0
   integer(c_int32_t), parameter :: STICKSLIP_STATE_STICK = 1
   integer(c_int32_t), parameter :: STICKSLIP_STATE_SLIP = 2

@@ -13,5 +13,7 @@ from .surface import Surface
 
 #: The version of the library.
 __version__ = text(lib.stickslip_version())
+#: Version, commit, target, profile, compiler and kernels of the library.
+__build__ = text(lib.stickslip_build())
 
 __all__ = ["Condensed", "Error", "Interface", "Plan", "Surface", "constants", "errors"]

@@ -170,6 +170,11 @@ class Interface(Inspection):
         """The positions at t_n of a host that starts elsewhere than at the first configuration."""
         self._call("set_previous", *self._positions(x1, x2))
 
+    def set_committed(self, x1, x2, slip=None, commits: int = 0) -> None:
+        """The positions at t_n of other parts' last commit, the slip of each node then, like x1, and how many commits there were."""
+        slip = None if slip is None else pointer(given("slip", slip, self._shape1))
+        self._call("set_committed", *self._positions(x1, x2), pointer(None) if slip is None else slip, commits)
+
     def set_constraints(self, nodes, directions) -> None:
         """Directions, (k, d), in which nodes, (k,) int64, are held."""
         nodes = given("nodes", nodes, (len(nodes),), np.int64)
