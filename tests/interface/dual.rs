@@ -15,7 +15,7 @@ use stickslip::interface::{
 use stickslip::quadrature::{DEGREE_5, DEGREE_10};
 
 /// Residual blocks, relative to the largest entry of the block.
-const RESIDUAL: f64 = 1e-12;
+pub const RESIDUAL: f64 = 1e-12;
 /// Tangent blocks of affine interfaces.
 const TANGENT: f64 = 1e-10;
 /// A block smaller than this part of the matrix is what is left of pairs that cancel: its rounding is 1e-16 of the matrix.
@@ -26,12 +26,12 @@ const RULE_TANGENT: f64 = 1e-4;
 /// The tangent against differences, relative to the largest entry of a block, on affine facets.
 const DIFFERENCES: f64 = 1e-7;
 
-fn dual(of: Options) -> Options {
+pub fn dual(of: Options) -> Options {
     let weak_coverage = if of.weak_coverage == 0.0 { NO_WEAK_COVERAGE } else { of.weak_coverage };
     Options { basis: MultiplierBasis::Dual, weak_coverage, ..of }
 }
 
-fn cases() -> Vec<Value> {
+pub fn cases() -> Vec<Value> {
     golden_part("golden_dual.json", "interfaces")
 }
 

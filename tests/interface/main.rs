@@ -17,6 +17,7 @@ mod effects;
 mod ends;
 mod equilibrium;
 mod golden;
+mod golden_parts;
 mod history;
 mod identities;
 mod large_sliding;
