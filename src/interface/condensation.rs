@@ -3,7 +3,7 @@
 
 use super::condensed::elimination::{Elimination, Row, widened};
 use super::condensed::pattern::Columns;
-use super::condensed::refusal::refuse;
+use super::condensed::refusal::{refuse, refuse_parts};
 use super::condensed::rows::CondensedRows;
 use super::contact::Contact;
 use super::data::csr::Csr;
@@ -80,7 +80,8 @@ impl<const N: usize> Contact<N> {
         self.cache.answers().responses.nodes.iter().map(Row::of).stored()
     }
 
-    /// The rows of the non-mortar nodes, and what is added to those of the mortar nodes; `host` as above.
+    /// The rows of the non-mortar nodes, and what is added to those of the mortar nodes; `host` as above. Of a node whose multiplier
+    /// acts elsewhere: what is added to its rows.
     pub fn condensed_residual(
         &mut self,
         x1: &[Vec3],
@@ -93,7 +94,8 @@ impl<const N: usize> Contact<N> {
         let (given, responses) = (self.given(), &self.cache.answers().responses.nodes);
         let mut forces =
             residual::residual(given, self.cache.weighted(self.setup.surfaces(), given.history()), &lambda, responses)?;
-        forces.nonmortar.iter_mut().zip(host).for_each(|(force, host)| *force += host);
+        let acting = (0..host.len()).filter(|&a| given.setup.nodes.acts(a));
+        acting.for_each(|a| forces.nonmortar[a] += host[a]);
         let (rows, gains) = elimination.residual(&forces.nonmortar, forces.mortar.len(), &self.rows()?)?;
         forces.mortar.iter_mut().zip(gains).for_each(|(force, gain)| *force += gain);
         Ok((rows, forces.mortar))
@@ -201,6 +203,7 @@ impl<const N: usize> Contact<N> {
         csr: Csr<'a>,
         value: &dyn Fn(usize) -> f64,
     ) -> Result<CondensedRows<'a>> {
+        refuse_parts(self.given())?;
         let (elimination, lambda) = self.eliminated((x1, x2), lambda)?;
         let scales = elimination.scales()?;
         let (one, two) = self.setup.surfaces();
@@ -229,6 +232,7 @@ impl<const N: usize> Contact<N> {
     pub fn condensed_pattern(&mut self, x1: &[Vec3], x2: &[Vec3], csr: &Csr, sink: &mut dyn Sink) -> Result<()> {
         let given = self.given();
         given.check_positions(x1, x2)?;
+        refuse_parts(given)?;
         refuse(given, &given.normals()?)?;
         let mut columns = Columns::of(&self.setup.nonmortar.equations, csr)?;
         let (mut forces, mut constraints) = (Noted::default(), Noted::default());

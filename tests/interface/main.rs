@@ -26,6 +26,7 @@ mod normals;
 mod orders;
 mod orientation;
 mod parts;
+mod parts_condensed;
 mod patch;
 mod plan;
 mod quadratic;

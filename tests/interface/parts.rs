@@ -16,15 +16,15 @@ use stickslip::mortar::MultiplierSpace;
 use stickslip::quadrature::{DEGREE_10, cell};
 
 /// Sums of the same numbers in another order, over the largest of their kind.
-const ROUNDING: f64 = 1e-13;
+pub const ROUNDING: f64 = 1e-13;
 /// Rings of facets around the nodes that a part owns. The pair of a facet depends on the bulges of both, and these on the
 /// normals of neighbours' neighbours.
-const RINGS: usize = 3;
+pub const RINGS: usize = 3;
 /// The same where nodes carry others: four facets to a node that is carried, four from there to its other carriers, one to the
 /// best covered neighbour that says whether these are strong, and the three around it.
-const RINGS_OF_CARRIERS: usize = 12;
+pub const RINGS_OF_CARRIERS: usize = 12;
 /// Of these the first eight are needed where carriers are covered as a whole.
-const RINGS_OF_COVERED_CARRIERS: usize = 8;
+pub const RINGS_OF_COVERED_CARRIERS: usize = 8;
 
 /// The step whose tangents are compared with those of plans, which takes most of the time.
 const PLANNED: usize = 1;
@@ -34,22 +34,22 @@ const REPARTITIONED: usize = 1;
 
 /// What is drawn at random.
 #[derive(Clone, Debug)]
-struct Recipe {
+pub struct Recipe {
     cells: [bool; 2],
     counts: [usize; 4],
     parts: usize,
     bend: f64,
     /// How far a step goes, in facets, and how deep the bodies are in each other from the start.
     slide: f64,
-    depth: f64,
+    pub depth: f64,
     choices: [u8; 6],
-    mu: f64,
-    seed: u64,
+    pub mu: f64,
+    pub seed: u64,
     /// Nodes of the facets of both sides, where they are quadratic; none: `cells`.
     kinds: Option<[Kind; 2]>,
 }
 
-fn recipes() -> impl Strategy<Value = Recipe> {
+pub fn recipes() -> impl Strategy<Value = Recipe> {
     let counts = [4..=24usize, 2..=4usize, 3..=16usize, 2..=4usize];
     let bend = prop_oneof![2 => -0.03..0.03f64, 1 => -0.3..0.3f64];
     let shape = (bend, prop_oneof![2 => Just(0.17), 1 => -4.0..1.0f64], prop_oneof![2 => Just(0.0), 1 => 0.0..1.5f64]);
@@ -71,14 +71,14 @@ fn recipes() -> impl Strategy<Value = Recipe> {
 }
 
 /// Positions of both sides, and multipliers.
-type At<const N: usize> = ([Vec<Vec3>; 2], Vec<SVector<f64, N>>);
+pub type At<const N: usize> = ([Vec<Vec3>; 2], Vec<SVector<f64, N>>);
 
 /// An interface, its parts, and where the steps lead.
-struct Scene<const N: usize> {
-    whole: Contact<N>,
-    parts: Vec<Part<N>>,
-    steps: Vec<At<N>>,
-    around: usize,
+pub struct Scene<const N: usize> {
+    pub whole: Contact<N>,
+    pub parts: Vec<Part<N>>,
+    pub steps: Vec<At<N>>,
+    pub around: usize,
 }
 
 /// The mortar facets that a part needs: with `search_distance` those that come nearer to its facets than that and their own
@@ -109,7 +109,7 @@ fn opposite<const N: usize>([one, two]: [&Mesh; 2], scene: &Scene<N>, own: &[boo
 }
 
 impl Recipe {
-    fn options(&self) -> Options {
+    pub fn options(&self) -> Options {
         let [form, slip, weights, scheme, basis, weak] = self.choices;
         let weights =
             [Weights::Current, Weights::Current, Weights::Committed, Weights::Reference][usize::from(weights % 4)];
@@ -156,7 +156,7 @@ impl Recipe {
     }
 
     /// With so many rings; `None` where the whole is refused.
-    fn scene<const N: usize>(&self, options: Options, around: usize) -> Option<Scene<N>>
+    pub fn scene<const N: usize>(&self, options: Options, around: usize) -> Option<Scene<N>>
     where
         Contact<N>: Create<N>,
     {
@@ -203,7 +203,7 @@ impl Recipe {
 }
 
 /// The largest component of an error over that of what is right.
-fn over<const N: usize>(found: &[SVector<f64, N>], right: &[SVector<f64, N>]) -> f64 {
+pub fn over<const N: usize>(found: &[SVector<f64, N>], right: &[SVector<f64, N>]) -> f64 {
     let largest = |v: &mut dyn Iterator<Item = SVector<f64, N>>| v.map(|v| v.amax()).fold(0.0, f64::max);
     let error = largest(&mut found.iter().zip(right).map(|(a, b)| a - b));
     if error == 0.0 { 0.0 } else { error / largest(&mut right.iter().copied()) }

@@ -14,7 +14,7 @@ use stickslip::interface::{
 /// Sums of a few dozen terms in another order, over the largest entry.
 const ROUNDING: f64 = 1e-14;
 
-fn entries((plan, of): (&Plan, PlanOf)) -> Vec<(i64, i64)> {
+pub fn entries((plan, of): (&Plan, PlanOf)) -> Vec<(i64, i64)> {
     let (rows, offsets) = plan.rows();
     let (mut entries, mut k) = (Vec::new(), 0);
     plan.each_row(of, &mut |columns| {

@@ -96,6 +96,15 @@ struct Node {
     own: bool,
     /// Whether it is carried.
     carried: bool,
+    /// Whether its multiplier acts here: in another handle it is eliminated there.
+    acts: bool,
+}
+
+impl Node {
+    /// Whether its multiplier is eliminated here.
+    fn is_eliminated(&self) -> bool {
+        self.own && self.acts
+    }
 }
 
 /// The elimination at a configuration.
@@ -135,6 +144,7 @@ impl Elimination {
                 augmentation: given.augmentation(a),
                 own: given.setup.has_multiplier(a) && covered && !carried,
                 carried,
+                acts: given.setup.nodes.acts(a),
             }
         };
         let hats = Hats::of(&given.setup.nonmortar)?;
@@ -184,16 +194,17 @@ impl Elimination {
         carriers.iter().enumerate().filter(|(a, _)| self.nodes[*a].carried).map(|(a, c)| (a, &c[..]))
     }
 
-    /// The nodes with multipliers of their own.
+    /// The nodes with multipliers of their own that act here.
     pub fn own(&self) -> impl Iterator<Item = usize> {
-        (0..self.nodes.len()).filter(|&a| self.nodes[a].own)
+        (0..self.nodes.len()).filter(|&a| self.nodes[a].is_eliminated())
     }
 
     /// A carrier that has lost its own cover within the step, while those that it carries have not, has no row to
-    /// eliminate its multiplier with.
+    /// eliminate its multiplier with. Where neither acts here, cover may be missing with facets that only their handle has.
     fn refuse_uncovered_carriers(&self, carriers: &[Vec<Carrier>]) -> Result<()> {
         for (a, carriers) in self.carried(carriers) {
-            if let Some((b, _)) = carriers.iter().find(|(b, _)| !self.nodes[*b].own) {
+            let here = |b: usize| self.nodes[a].acts || self.nodes[b].acts;
+            if let Some((b, _)) = carriers.iter().find(|(b, _)| here(*b) && !self.nodes[*b].own) {
                 let text = text!(
                     "condensation where non-mortar node {b} is not covered any more and carries node {a}, which is: take a smaller step"
                 );
@@ -214,18 +225,23 @@ impl Elimination {
             for (k, &a) in one.facets[pair.one].as_slice().iter().enumerate() {
                 for (c, &node) in two.facets[pair.two].as_slice().iter().enumerate() {
                     let (row, weight) = (one.len() + node, pair.weights.ac[k][c]);
-                    if self.nodes[a].own {
+                    if self.nodes[a].is_eliminated() {
                         shares.store(((row, a, a), weight))?;
                     } else if self.nodes[a].carried {
-                        shares.store_all(carriers[a].iter().map(|&(b, w)| ((row, b, a), w * weight)))?;
+                        shares.store_all(self.acting(&carriers[a]).map(|(b, w)| ((row, b, a), w * weight)))?;
                     }
                 }
             }
         }
         for (a, carriers) in self.carried(carriers) {
-            shares.store_all(carriers.iter().map(|&(b, w)| ((a, b, a), -w * self.nodes[a].area)))?;
+            shares.store_all(self.acting(carriers).map(|(b, w)| ((a, b, a), -w * self.nodes[a].area)))?;
         }
         Ok(())
+    }
+
+    /// The carriers whose multipliers act here.
+    fn acting<'a>(&'a self, carriers: &'a [Carrier]) -> impl Iterator<Item = Carrier> + 'a {
+        carriers.iter().copied().filter(|(b, _)| self.nodes[*b].acts)
     }
 
     /// The same of pairs of parents: with the rows of non-mortar nodes that have no multiplier of their own.
@@ -313,10 +329,10 @@ impl Elimination {
         rows[b] + self.hats.get(b).iter().map(|&(m, c)| rows[m] * c).sum::<Vec3>()
     }
 
-    /// s_A [F/L^3]; 0 where a node has no multiplier of its own.
+    /// s_A [F/L^3]; 0 where a node has no multiplier of its own, or it acts elsewhere.
     pub fn scale(&self, a: usize) -> f64 {
         let node = &self.nodes[a];
-        if node.own { node.augmentation * node.area } else { 0.0 }
+        if node.is_eliminated() { node.augmentation * node.area } else { 0.0 }
     }
 
     /// D [L^2].
@@ -336,7 +352,10 @@ impl Elimination {
 
     /// r_A c_A of the nodes with multipliers of their own: what the projection makes of these.
     pub fn traction_changes(&self, rows: &[Row]) -> Result<Vec<Vec3>> {
-        let change = |(node, row): (&Node, &Row)| if node.own { row.value * node.augmentation } else { Vec3::zeros() };
+        let change = |(node, row): (&Node, &Row)| match node.is_eliminated() {
+            true => row.value * node.augmentation,
+            false => Vec3::zeros(),
+        };
         self.nodes.iter().zip(rows).map(change).stored()
     }
 
@@ -375,7 +394,7 @@ impl Elimination {
     /// The multipliers that balance the host's own forces at the non-mortar nodes, lambda_B = -T_B^T R_B / D_B.
     pub fn multipliers(&self, carriers: &[Vec<Carrier>], host: &[Vec3]) -> Result<Vec<Vec3>> {
         let mut lambda = memory::filled(Vec3::zeros(), host.len())?;
-        for b in self.own() {
+        for b in (0..self.nodes.len()).filter(|&b| self.nodes[b].own) {
             let Node { directions, area, .. } = &self.nodes[b];
             lambda[b] = directions.transpose() * self.gathered(host, b) * (-1.0 / area);
         }

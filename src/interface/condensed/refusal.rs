@@ -24,15 +24,37 @@ pub fn refuse<const N: usize>(given: Given<N>, normals: &[Vec3]) -> Result<()> {
         let text = "condensation with the augmented form: its forces do not determine the multipliers of open nodes; take the multiplier form";
         return refuse(text.into());
     }
-    if let Some(a) = setup.nodes.owners.iter().position(|owner| *owner != Owner::Here) {
+    if let Some(a) = setup.nodes.owners.iter().position(|owner| *owner == Owner::Shared) {
         let text = text!(
-            "condensation where non-mortar node {a} is not owned: all rows of a node must be known to one handle"
+            "condensation where non-mortar node {a} is shared: all facets around a node must be known to one handle, which owns it, and to others its multiplier acts elsewhere"
+        );
+        return refuse(text);
+    }
+    if let Some(a) =
+        setup.nodes.owners.iter().position(|owner| *owner == Owner::Elsewhere).filter(|_| setup.has_parents())
+    {
+        let text = text!(
+            "condensation of quadratic facets and lines where the multiplier of non-mortar node {a} acts elsewhere: several multipliers act on a node in the middle, and one handle must have them all"
         );
         return refuse(text);
     }
     refuse_hanging(given)?;
     refuse_prescribed(given, normals)?;
     refuse_shared(given)
+}
+
+/// Refuses parts of an interface where a host's matrix is to be changed in place: a row of it belongs to one part, and what the
+/// others add to it is known to them alone.
+pub fn refuse_parts<const N: usize>(given: Given<N>) -> Result<()> {
+    match given.setup.nodes.owners.iter().position(|owner| *owner != Owner::Here) {
+        None => Ok(()),
+        Some(a) => Err(Error::new(
+            Kind::Unsupported,
+            text!(
+                "a matrix condensed in place where the multiplier of non-mortar node {a} acts elsewhere; take the pieces (stickslip_interface_condensed_coo), which add up over the handles"
+            ),
+        )),
+    }
 }
 
 /// A mid node of one facet that is another's corner: the hats of the first one's corners would meet its multiplier.
@@ -53,7 +75,7 @@ fn refuse_hanging<const N: usize>(given: Given<N>) -> Result<()> {
 /// A component that has a multiplier and no row to eliminate it with.
 fn refuse_prescribed<const N: usize>(given: Given<N>, normals: &[Vec3]) -> Result<()> {
     let setup = given.setup;
-    for a in (0..given.nodes()).filter(|&a| setup.has_multiplier(a)) {
+    for a in (0..given.nodes()).filter(|&a| setup.has_multiplier(a) && setup.nodes.acts(a)) {
         let t = direction::<N>(normals[a]);
         for i in (0..3).filter(|&i| setup.nonmortar.equations[a][i] == NO_EQUATION) {
             let axis = setup.nodes.free[a].column(i).norm() * t.row(i).norm();
