@@ -1,5 +1,5 @@
 ! A parallel host whose handles own nodes: each holds the facets around its own nodes, and the multipliers of others act
-! elsewhere. Residuals and tangents add up to those of one handle, without any sums.
+! elsewhere. Residuals and tangents add up to those of one handle, without any sums, and so do the residuals of condensed systems.
 #include "check.inc"
 program t91_parts
   use, intrinsic :: iso_c_binding
@@ -54,4 +54,40 @@ program t91_parts
     call scene_destroy(parts(p))
   end do
   call scene_destroy(whole)
+  call check_condensed()
+
+contains
+
+  ! Multipliers are eliminated where they act.
+  subroutine check_condensed()
+    real(c_double) :: host(3 * NA), lambda(3 * NA), rows(3 * NA), gains(POSITIONS - 3 * NA), right(POSITIONS), total(POSITIONS)
+    integer :: i
+    call scene_init(whole)
+    whole%options%multiplier_basis = STICKSLIP_BASIS_DUAL
+    call scene_create(whole)
+    host = [(0.05d0 * (mod(7 * i, 11) - 5), i = 0, 3 * NA - 1)]
+    CHECK_OK(stickslip_interface_condensed_multipliers(whole%contact, whole%x1, whole%x2, host, whole%lambda))
+    CHECK_OK(stickslip_interface_condensed_residual(whole%contact, whole%x1, whole%x2, whole%lambda, host, rows, gains))
+    right = [rows, gains]
+    total = 0
+    do p = 1, 2
+      call scene_init(parts(p))
+      parts(p)%nonmortar%owned = c_loc(owned(1, p))
+      parts(p)%options%multiplier_basis = STICKSLIP_BASIS_DUAL
+      call scene_create(parts(p))
+      associate (part => parts(p))
+        CHECK_OK(stickslip_interface_condensed_multipliers(part%contact, whole%x1, whole%x2, host, lambda))
+        do a = 1, NA
+          if (owned(a, p) == STICKSLIP_NODE_OWN) CHECK(all(same(lambda(3 * a - 2:3 * a), whole%lambda(3 * a - 2:3 * a))))
+        end do
+        CHECK_OK(stickslip_interface_condensed_residual(part%contact, whole%x1, whole%x2, whole%lambda, host, rows, gains))
+      end associate
+      total = total + [rows, gains]
+    end do
+    CHECK_NEAR(total, right, ROUNDING_RESIDUAL * worst(right))
+    do p = 1, 2
+      call scene_destroy(parts(p))
+    end do
+    call scene_destroy(whole)
+  end subroutine
 end program
