@@ -32,27 +32,30 @@ static PetscErrorCode mumps_info(PC pc, PetscInt *info)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* In words, after KSPSolve() and before the factors are forgotten. */
+/* In words, after KSPSolve() and before the factors are forgotten. A solver with a prefix of options of its own stands in for
+ * multigrid that did not converge: `solver: iterative` would be no advice there. */
 PetscErrorCode refusal_describe(KSP ksp, char why[], size_t size)
 {
   KSPConvergedReason reason;
+  const char        *prefix;
   PetscInt           info, limit;
   PC                 pc;
   PetscFunctionBegin;
   PetscCall(KSPGetConvergedReason(ksp, &reason));
   PetscCall(KSPGetPC(ksp, &pc));
+  PetscCall(KSPGetOptionsPrefix(ksp, &prefix));
   PetscCall(mumps_info(pc, &info));
   if (wants_memory(info)) {
     PetscCall(PetscSNPrintf(why, size,
                             "the direct solver has too little memory (MUMPS: INFOG(1) = %" PetscInt_FMT
-                            "): take `solver: iterative`, fewer unknowns, more ranks, or factors on disk "
-                            "(-mat_mumps_icntl_22 1)",
-                            info));
+                            "): take %sfewer unknowns, more ranks, or factors on disk "
+                            "(-%smat_mumps_icntl_22 1)",
+                            info, prefix ? "" : "`solver: iterative`, ", prefix ? prefix : ""));
   } else if (reason == KSP_DIVERGED_ITS) {
     PetscCall(KSPGetTolerances(ksp, NULL, NULL, NULL, &limit));
     PetscCall(PetscSNPrintf(why, size,
                             "the linear solver does not converge within %" PetscInt_FMT
-                            " iterations: raise -ksp_max_it, or take `solver: direct`",
+                            " iterations: raise -ksp_max_it, or take `solver: direct` without -ksp_type",
                             limit));
   } else {
     PetscCall(PetscSNPrintf(why, size, "the matrix is singular"));
