@@ -57,6 +57,7 @@ def stepping(verdicts, driver):
     automatic(verdicts, driver)
     rollback(verdicts, driver)
     singular(verdicts, driver)
+    refused(verdicts, driver)
     beyond_the_cone(verdicts, driver)
     cycling(verdicts, driver)
     klarbring(verdicts, driver)
@@ -134,6 +135,20 @@ def singular(verdicts, driver):
     verdicts.below("singular matrix: force of the floor out of reach", np.abs(left).max(), 0, "the block ends above it")
     whole = driver.run("two_floors", "-steps_smallest", 1, label="two_floors_at_once", expect=2)
     verdicts.true("singular matrix: a run that ends there says so", "singular" in whole.text, "exit code 2")
+
+
+def refused(verdicts, driver):
+    """Memory and a limit of iterations are told as what they are, not as a singular matrix, with what to do next."""
+    cases = {
+        "too little memory": (("-mat_mumps_icntl_23", "1"), "too little memory", "solver: iterative"),  # 1 MB
+        "limit of iterations": (("-ksp_type", "gmres", "-pc_type", "jacobi", "-ksp_max_it", "2"),
+                                "within 2 iterations", "-ksp_max_it"),
+    }
+    for label, (options, sentence, remedy) in cases.items():
+        run = driver.run("two_blocks", *options, "-steps_smallest", 1, label=label.replace(" ", "_"), expect=2)
+        reasons = [attempt["why"] for attempt in run.summary["failed_attempts"]]
+        told = bool(reasons) and all(sentence in why and remedy in why and "singular" not in why for why in reasons)
+        verdicts.true(f"{label}: is the reason that is told", told and sentence in run.text, f"{reasons}")
 
 
 def beyond_the_cone(verdicts, driver):

@@ -43,6 +43,8 @@ static PetscErrorCode solve_directly(Iterative *iterative, Mat J, Vec r, Vec u, 
   PetscCall(KSPSetOperators(iterative->direct, J, J));
   PetscCall(KSPSolve(iterative->direct, r, u));
   PetscCall(KSPGetConvergedReason(iterative->direct, reason));
+  if (*reason < 0)
+    PetscCall(refusal_describe(iterative->direct, iterative->solve->linear.refusal, REFUSAL_LENGTH));
   PetscCall(KSPGetPC(iterative->direct, &pc));
   PetscCall(PCReset(pc)); /* its factors are large, and serve this once */
   PetscFunctionReturn(PETSC_SUCCESS);

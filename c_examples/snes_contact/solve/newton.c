@@ -91,7 +91,8 @@ PetscErrorCode newton_destroy(Solve *solve)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static const char *in_words(SNESConvergedReason reason)
+/* `linear`: what refusal_describe() says of a linear system that is not solved */
+static const char *in_words(SNESConvergedReason reason, const char *linear)
 {
   switch (reason) {
   case SNES_DIVERGED_LINE_SEARCH:
@@ -99,7 +100,7 @@ static const char *in_words(SNESConvergedReason reason)
   case SNES_DIVERGED_MAX_IT:
     return "too many iterations";
   case SNES_DIVERGED_LINEAR_SOLVE:
-    return "the matrix is singular";
+    return linear;
   case SNES_DIVERGED_FNORM_NAN:
     return "the residual is no number any more";
   default:
@@ -115,8 +116,15 @@ static PetscErrorCode explain(Solve *solve, SNESConvergedReason reason)
   Contact *contact = solve->contact;
   Newton  *newton  = &solve->newton;
   cJSON   *json;
-  char     nodes[768];
+  char     nodes[768], linear[REFUSAL_LENGTH] = "";
+  KSP      ksp;
   PetscFunctionBegin;
+  PetscCall(SNESGetKSP(solve->snes, &ksp));
+  if (solve->linear.refusal[0]) {
+    PetscCall(PetscSNPrintf(linear, sizeof(linear), "%s", solve->linear.refusal));
+  } else if (reason == SNES_DIVERGED_LINEAR_SOLVE) {
+    PetscCall(refusal_describe(ksp, linear, sizeof(linear)));
+  }
   if (solve->closing.away[0]) {
     PetscCall(PetscSNPrintf(newton->why, sizeof(newton->why), "%s", solve->closing.away));
   } else if (contact->refusal[0]) {
@@ -125,7 +133,7 @@ static PetscErrorCode explain(Solve *solve, SNESConvergedReason reason)
     PetscCall(PetscSNPrintf(newton->why, sizeof(newton->why), "%s", physics->inverted));
   } else if (newton->cycle[0]) {
     PetscCall(PetscSNPrintf(newton->why, sizeof(newton->why), "%s%s%s", newton->cycle,
-                            newton->stopped ? "" : "; at last: ", newton->stopped ? "" : in_words(reason)));
+                            newton->stopped ? "" : "; at last: ", newton->stopped ? "" : in_words(reason, linear)));
   } else if (newton->drowned >= 0) {
     const Part *part = &physics->parts.part[newton->drowned];
     PetscCall(PetscSNPrintf(newton->why, sizeof(newton->why),
@@ -141,7 +149,7 @@ static PetscErrorCode explain(Solve *solve, SNESConvergedReason reason)
     json = cJSON_CreateObject();
     PetscCall(cycling_describe(solve, 0, json, nodes, sizeof(nodes)));
     cJSON_Delete(json);
-    PetscCall(PetscSNPrintf(newton->why, sizeof(newton->why), "%s (%s)%s%s", in_words(reason),
+    PetscCall(PetscSNPrintf(newton->why, sizeof(newton->why), "%s (%s)%s%s", in_words(reason, linear),
                             SNESConvergedReasons[reason], nodes[0] ? "; states in the last iterations:" : "", nodes));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -185,6 +193,7 @@ static PetscErrorCode attempt(Solve *solve, int k, Vec x, PetscBool *converged)
     PetscCall(SNESSetTolerances(solve->snes, atol, rtol, stol, CLOSING_ITERATIONS, max_f));
   closing_begin(solve, (PetscBool)(k == CLOSING));
   newton->drowned   = -1;
+  solve->linear.refusal[0] = 0;
   contact->refusal[0] = solve->physics->inverted[0] = newton->why[0] = 0;
   newton->stopped = newton->stale = newton->changed = newton->refused_commit = PETSC_FALSE;
   newton->monotone                                  = PETSC_TRUE;

@@ -75,11 +75,14 @@ typedef struct {
   char         *words;                   /* what is to be told of by_nothing; NULL: nothing, or it was */
 } Held;
 
+enum { REFUSAL_LENGTH = 256 }; /* of a sentence of refusal.c */
+
 typedef enum { SOLVER_DIRECT, SOLVER_ITERATIVE, SOLVER_AUTO } SolverKind;
 
 /* How linear systems are solved, and how that went (iterative.c) */
 typedef struct {
   SolverKind kind;
+  char       refusal[REFUSAL_LENGTH]; /* why the direct solver in place of multigrid failed, in this attempt */
   PetscInt   n_solves, n_direct;  /* by iteration; of these, given to the direct solver after all */
   PetscInt   iterations, most; /* of all, of one */
 } Linear;
@@ -109,6 +112,9 @@ PetscErrorCode times_read(Scene *scene, Steps *steps);
 PetscErrorCode times_add_kinks(const Physics *physics, Steps *steps);
 PetscErrorCode times_destroy(Steps *steps);
 PetscBool      times_bend(const Physics *physics, PetscReal t); /* does a load or a support change its rate at t? */
+
+/* refusal.c: why a linear system is not solved, and what to do next */
+PetscErrorCode refusal_describe(KSP ksp, char why[], size_t size);
 
 /* solver.c: SNES with residual and tangent; its options are read last, by solver_configure() */
 PetscErrorCode solver_create(Solve *solve);

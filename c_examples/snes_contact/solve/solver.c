@@ -165,7 +165,7 @@ static PetscErrorCode outgrown(const Solve *solve, PetscBool *grown)
 /* New pairs in the last step: start the next one with a fresh pattern. */
 PetscErrorCode solver_refresh_pattern(Solve *solve)
 {
-  PetscBool grown;
+  PetscBool grown = PETSC_FALSE;
   PetscFunctionBegin;
   PetscCall(outgrown(solve, &grown));
   if (!grown) PetscFunctionReturn(PETSC_SUCCESS);
@@ -193,7 +193,7 @@ PetscErrorCode solver_forget_factors(Solve *solve)
 
 PetscErrorCode solver_restore_pattern(Solve *solve)
 {
-  PetscBool grown;
+  PetscBool grown = PETSC_FALSE;
   PetscFunctionBegin;
   PetscCall(outgrown(solve, &grown));
   if (!grown) PetscFunctionReturn(PETSC_SUCCESS);
