@@ -1455,8 +1455,8 @@ int32_t stickslip_interface_carriers(struct stickslip_interface *interface,
 /// Errors: NULL_POINTER, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL, INVALID_VALUE (as
 /// `stickslip_interface_sums`); UNSUPPORTED: standard multipliers, the augmented form, a prescribed component (equation -1)
 /// of a node that has a multiplier there, two nodes with an equation in common (of which one has a multiplier), two
-/// components of one, nodes that are not owned; and a node that carries others and is not covered any more: within
-/// Newton's method take a smaller step.
+/// components of one, shared nodes (STICKSLIP_NODE_SHARED), quadratic facets or lines with nodes whose multipliers act elsewhere; and
+/// a node that carries others and is not covered any more: within Newton's method take a smaller step.
 /// Cost: as `stickslip_interface_sums`, and a sort of the nodes.
 int32_t stickslip_interface_condensed_multipliers(struct stickslip_interface *interface,
                                                   const double *x1,
@@ -1470,7 +1470,7 @@ int32_t stickslip_interface_condensed_multipliers(struct stickslip_interface *in
 ///
 /// x1 (3 n1), x2 (3 n2): positions [L]; lambda (n1 multipliers) [F/L^2], read where a node is covered and not carried; host1
 /// (3 n1): the residual of the host's own forces at the non-mortar nodes, without contact [F]. Outputs: rows1 (3 n1; may be
-/// host1) and force2 (3 n2) [F].
+/// host1) and force2 (3 n2) [F]. Of a node whose multiplier acts elsewhere rows1 has what is to be added to its rows.
 ///
 /// Errors: NULL_POINTER and the others of `stickslip_interface_condensed_multipliers`.
 /// Cost: as `stickslip_interface_residual`, and a sort of the pairs' nodes.
@@ -1515,7 +1515,8 @@ int32_t stickslip_interface_condensed_coo(struct stickslip_interface *interface,
 /// x1, x2, lambda as there; n_rows, row_offsets, columns, values as for `stickslip_interface_tangent_csr`; only the rows of
 /// the interface's nodes are read and changed.
 ///
-/// Errors: as `stickslip_interface_condensed_multipliers`, NOT_FINITE (the result), INVALID_SIZE, INDEX_OUT_OF_RANGE, and
+/// Errors: as `stickslip_interface_condensed_multipliers`, UNSUPPORTED too where multipliers act elsewhere (take the pieces, which
+/// add up over the handles), NOT_FINITE (the result), INVALID_SIZE, INDEX_OUT_OF_RANGE, and
 /// MISSING_ENTRY where the matrix lacks an entry (renew its pattern by `stickslip_interface_condensed_pattern`); then
 /// nothing was changed.
 /// Cost: as `stickslip_interface_tangent_csr`, and a sum of rows for each mortar node near a non-mortar one. Allocates.
@@ -1534,7 +1535,7 @@ int32_t stickslip_interface_condensed_csr(struct stickslip_interface *interface,
 /// x1 (3 n1), x2 (3 n2): positions [L]; n_rows, row_offsets, columns: the pattern of the host's own matrix. Outputs:
 /// entry_rows, entry_columns (capacity each; both NULL: only count), count. Duplicates occur, and entries that are there.
 ///
-/// Errors: as `stickslip_interface_condensed_multipliers`, INVALID_SIZE, INDEX_OUT_OF_RANGE, BUFFER_TOO_SMALL.
+/// Errors: as `stickslip_interface_condensed_csr` but for NOT_FINITE and MISSING_ENTRY, BUFFER_TOO_SMALL.
 /// Cost: as `stickslip_interface_pattern_coo`, and the entries sorted. Allocates.
 int32_t stickslip_interface_condensed_pattern(struct stickslip_interface *interface,
                                               const double *x1,

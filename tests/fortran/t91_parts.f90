@@ -60,7 +60,7 @@ contains
 
   ! Multipliers are eliminated where they act.
   subroutine check_condensed()
-    real(c_double) :: host(3 * NA), lambda(3 * NA), rows(3 * NA), gains(POSITIONS - 3 * NA), right(POSITIONS), total(POSITIONS)
+    real(c_double) :: host(3 * NA), lambda(3, NA), rows(3 * NA), gains(POSITIONS - 3 * NA), right(POSITIONS), total(POSITIONS)
     integer :: i
     call scene_init(whole)
     whole%options%multiplier_basis = STICKSLIP_BASIS_DUAL
@@ -78,7 +78,7 @@ contains
       associate (part => parts(p))
         CHECK_OK(stickslip_interface_condensed_multipliers(part%contact, whole%x1, whole%x2, host, lambda))
         do a = 1, NA
-          if (owned(a, p) == STICKSLIP_NODE_OWN) CHECK(all(same(lambda(3 * a - 2:3 * a), whole%lambda(3 * a - 2:3 * a))))
+          if (owned(a, p) == STICKSLIP_NODE_OWN) CHECK(all(same(lambda(:, a), whole%lambda(:, a))))
         end do
         CHECK_OK(stickslip_interface_condensed_residual(part%contact, whole%x1, whole%x2, whole%lambda, host, rows, gains))
       end associate
