@@ -1455,7 +1455,7 @@ int32_t stickslip_interface_carriers(struct stickslip_interface *interface,
 /// Errors: NULL_POINTER, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL, INVALID_VALUE (as
 /// `stickslip_interface_sums`); UNSUPPORTED: standard multipliers, the augmented form, a prescribed component (equation -1)
 /// of a node that has a multiplier there, two nodes with an equation in common (of which one has a multiplier), two
-/// components of one, shared nodes (STICKSLIP_NODE_SHARED), quadratic facets or lines with nodes whose multipliers act elsewhere; and
+/// components of one, shared nodes, quadratic facets or lines with nodes whose multipliers act elsewhere; and
 /// a node that carries others and is not covered any more: within Newton's method take a smaller step.
 /// Cost: as `stickslip_interface_sums`, and a sort of the nodes.
 int32_t stickslip_interface_condensed_multipliers(struct stickslip_interface *interface,
