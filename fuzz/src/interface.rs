@@ -2,17 +2,18 @@
 //! The handle answers or refuses, its history moves by commits alone, equal points give equal bits, and after a refusal
 //! it is as good as before.
 
+use super::meshes::{Facets, KINDS, N1, N2, grid, mortar, nonmortar, row};
 use super::{Bytes, Watched, all_finite, message, succeeded};
 use stickslip::capi::*;
 use stickslip::interface::seal_history;
 
-const N1: usize = 9;
-const N2: usize = 16;
 /// More than the entries of any tangent of this size.
 const MOST: usize = 100_000;
 
 struct Scene {
     handle: *mut stickslip_interface,
+    /// Numbers a node of every vector: 3, of lines 2.
+    dimension: usize,
     /// Multiplier components a node.
     components: usize,
     /// Nodes at which facets have multipliers.
@@ -20,31 +21,6 @@ struct Scene {
     x1: Vec<f64>,
     x2: Vec<f64>,
     lambda: Vec<f64>,
-}
-
-/// n x n nodes over `size`, at height z.
-fn grid(n: usize, from: f64, size: f64, z: f64) -> Vec<f64> {
-    let at = |k: usize| from + size * k as f64 / (n - 1) as f64;
-    (0..n * n).flat_map(|k| [at(k % n), at(k / n), z]).collect()
-}
-
-fn quads(n: usize, up: bool) -> Vec<i64> {
-    let quad = |k: usize| {
-        let a = k / (n - 1) * n + k % (n - 1);
-        let q = [a, a + 1, a + 1 + n, a + n];
-        if up { q } else { [q[0], q[3], q[2], q[1]] }
-    };
-    (0..(n - 1) * (n - 1)).flat_map(quad).map(|k| k as i64).collect()
-}
-
-/// The non-mortar side, which looks down: 3 x 3 nodes as four quadrilaterals, as one with nine nodes, or as two triangles with
-/// six. Offsets, nodes, and which nodes are corners.
-fn nonmortar(kind: usize) -> (Vec<i64>, Vec<i64>, Vec<usize>) {
-    match kind {
-        0 => (vec![0, 4, 8, 12, 16], quads(3, false), (0..N1).collect()),
-        1 => (vec![0, 9], vec![0, 6, 8, 2, 3, 7, 5, 1, 4], vec![0, 2, 6, 8]),
-        _ => (vec![0, 6, 12], vec![0, 6, 8, 3, 7, 4, 0, 8, 2, 4, 5, 1], vec![0, 2, 6, 8]),
-    }
 }
 
 /// Moves a few coordinates.
@@ -83,14 +59,26 @@ impl Scene {
         options.normals = if options.weights == STICKSLIP_WEIGHTS_CURRENT { bytes.choice(2) } else { 0 };
         options.coverage_min = bytes.number(1e-8);
         options.search_distance = bytes.number(0.0);
-        let components = if options.friction == STICKSLIP_FRICTION_NONE { 1 } else { 3 };
         options.multiplier_space = bytes.choice(2);
-        let (o1, f1, corners) = nonmortar(bytes.below(3));
-        let o2 = (0..=9).map(|k| 4 * k).collect::<Vec<i64>>();
+        let kind = bytes.below(KINDS);
+        let dimension = if kind < 3 { 3 } else { 2 };
+        if dimension == 2 {
+            (x1, x2) = (row(N1, 0.0, 2.0, -0.01), row(N2, 0.0, 3.0, 0.0));
+            options.model = if kind == 3 { STICKSLIP_MODEL_PLANE } else { bytes.choice(3) };
+            options.thickness = bytes.number(if options.model == STICKSLIP_MODEL_PLANE { 0.5 } else { 0.0 });
+            if bytes.once_in(2) {
+                shake(bytes, &mut x1);
+                shake(bytes, &mut x2);
+            }
+        }
+        if options.model == STICKSLIP_MODEL_SOLID && dimension == 2 {
+            return None; // arrays of two numbers a node where three are read
+        }
+        let components = if options.friction == STICKSLIP_FRICTION_NONE { 1 } else { dimension };
+        let ((f1, corners), f2) = (nonmortar(kind), mortar(kind));
         let numbers = |first: usize, n: usize| (first as i64..(first + n) as i64).collect::<Vec<_>>();
-        let f2 = quads(4, true);
-        let (e1, mut e2) = (numbers(0, 3 * N1), numbers(3 * N1, 3 * N2));
-        let mut e3 = numbers(3 * (N1 + N2), components * N1);
+        let (e1, mut e2) = (numbers(0, dimension * N1), numbers(dimension * N1, dimension * N2));
+        let mut e3 = numbers(dimension * (N1 + N2), components * N1);
         if bytes.once_in(3) {
             e2.fill(-1);
         }
@@ -105,30 +93,28 @@ impl Scene {
                 e3[components * a..components * (a + 1)].fill(-1);
             }
         }
-        let surface = |x: &[f64], offsets: &[i64], nodes: &[i64], equations: &[i64], multipliers: Option<&[i64]>| {
-            stickslip_surface {
-                struct_size: size_of::<stickslip_surface>() as u64,
-                n_nodes: (x.len() / 3) as i64,
-                n_facets: offsets.len() as i64 - 1,
-                coordinates: x.as_ptr(),
-                facet_offsets: offsets.as_ptr(),
-                facet_nodes: nodes.as_ptr(),
-                equations: equations.as_ptr(),
-                multiplier_equations: multipliers.map_or(std::ptr::null(), <[i64]>::as_ptr),
-                owned: std::ptr::null(),
-            }
+        let surface = |x: &[f64], facets: &Facets, equations: &[i64], multipliers: Option<&[i64]>| stickslip_surface {
+            struct_size: size_of::<stickslip_surface>() as u64,
+            n_nodes: (x.len() / dimension) as i64,
+            n_facets: facets.offsets.len() as i64 - 1,
+            coordinates: x.as_ptr(),
+            facet_offsets: facets.offsets.as_ptr(),
+            facet_nodes: facets.nodes.as_ptr(),
+            equations: equations.as_ptr(),
+            multiplier_equations: multipliers.map_or(std::ptr::null(), <[i64]>::as_ptr),
+            owned: std::ptr::null(),
         };
-        let (one, two) = (surface(&x1, &o1, &f1, &e1, Some(&e3)), surface(&x2, &o2, &f2, &e2, None));
+        let (one, two) = (surface(&x1, &f1, &e1, Some(&e3)), surface(&x2, &f2, &e2, None));
         let mut handle = std::ptr::null_mut();
         // SAFETY: the arrays are as long as the surfaces say.
         let status = unsafe { stickslip_interface_create(&one, &two, &options, &mut handle) };
         assert_eq!(succeeded(status), !handle.is_null());
         let lambda = (0..components * N1).map(|k| if (k + 1) % components == 0 { -1.0 } else { 0.1 }).collect();
-        (!handle.is_null()).then_some(Scene { handle, components, counted, x1, x2, lambda })
+        (!handle.is_null()).then_some(Scene { handle, dimension, components, counted, x1, x2, lambda })
     }
 
     fn residual(&self) -> Option<Vec<f64>> {
-        let mut out = [3 * N1, 3 * N2, self.components * N1].map(Watched::<f64>::new);
+        let mut out = [self.dimension * N1, self.dimension * N2, self.components * N1].map(Watched::<f64>::new);
         let [f1, f2, rows] = &mut out;
         let (f1, f2, rows) = (f1.pointer(), f2.pointer(), rows.pointer());
         let (x1, x2, lambda) = (self.x1.as_ptr(), self.x2.as_ptr(), self.lambda.as_ptr());
@@ -189,7 +175,7 @@ impl Scene {
     /// balance some forces.
     fn condensed(&self) -> Option<Vec<u64>> {
         let host: Vec<f64> = self.x1.iter().map(|x| 0.1 * x).collect();
-        let mut out = [self.components * N1, 3 * N1, 3 * N2].map(Watched::<f64>::new);
+        let mut out = [self.components * N1, self.dimension * N1, self.dimension * N2].map(Watched::<f64>::new);
         let [lambda, rows1, force2] = &mut out;
         let (lambda, rows1, force2) = (lambda.pointer(), rows1.pointer(), force2.pointer());
         let (x1, x2, host) = (self.x1.as_ptr(), self.x2.as_ptr(), host.as_ptr());
@@ -274,7 +260,10 @@ impl Scene {
                 succeeded(unsafe { stickslip_interface_set_augmentation(h, bytes.pointer(values.as_ptr())) });
             }
             4 => {
-                let mut values: Vec<f64> = (0..3 * N1).map(|k| if k % 3 == 2 { 1.0 } else { 0.0 }).collect();
+                let mut values: Vec<f64> = {
+                    let d = self.dimension;
+                    (0..d * N1).map(|k| if k % d == d - 1 { 1.0 } else { 0.0 }).collect()
+                };
                 shake(bytes, &mut values);
                 succeeded(unsafe { stickslip_interface_set_normals(h, bytes.pointer(values.as_ptr())) });
             }
@@ -356,7 +345,7 @@ impl Scene {
                 }
             }
             13 => {
-                let mut slip = vec![0.0; 3 * N1];
+                let mut slip = vec![0.0; self.dimension * N1];
                 shake(bytes, &mut slip);
                 let (x1, x2, commits) = (self.x1.as_ptr(), self.x2.as_ptr(), bytes.integer(2));
                 let slip = bytes.pointer(slip.as_ptr());

@@ -5,6 +5,7 @@ pub mod abi;
 mod bytes;
 pub mod interface;
 mod lines;
+mod meshes;
 pub mod pair;
 mod watched;
 

@@ -45,6 +45,10 @@ pub unsafe extern "C" fn stickslip_interface_sums(
             let (g, p, c) = (s.gap_now, s.gap_previous, s.gap_committed);
             [s.coverage, g.x, g.y, g.z, s.coverage_previous, p.x, p.y, p.z, c.x, c.y, c.z]
         };
+        // A facet is refused where its own numbers overflow; that of a line may not, and its gap may.
+        if !values.iter().fold(true, |fine, s| per_node(s).iter().fold(fine, |fine, v| fine & v.is_finite())) {
+            return raw::overflow("sums");
+        }
         raw::write_each(sums, values.iter().flat_map(per_node));
         Ok(())
     })
