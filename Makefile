@@ -38,7 +38,7 @@ help:
 	@echo "make fuzz    fuzz the pair kernel, the handle and the C ABI, a quarter of an hour each (FUZZ_SECONDS=)"
 	@echo "make wheel   the Python package as a wheel, in $(BUILD)/wheels"
 	@echo "make python-examples   its examples, with the libraries they need, in an environment below $(BUILD)/"
-	@echo "make hosts   programs on deal.II and petsc4py: installs these, compares them with the driver; hosts/README.md"
+	@echo "make hosts   programs on deal.II, MFEM and petsc4py: installs these, compares them with the driver; hosts/README.md"
 	@echo "make packages   crate, Debian packages, recipes of Spack and conda-forge, in $(BUILD)/packages; packaging/README.md"
 	@echo "make build   build the library and the examples into $(BUILD)/"
 	@echo "make install PREFIX=DIR [DESTDIR=]   install header, Fortran module, libraries, pkg-config and CMake files"
@@ -164,6 +164,8 @@ hosts:
 	@.ci/setup hosts
 	@$(MAKE) --no-print-directory cmake-build
 	$(SAY) "Hosts"
+	@test -x $(BUILD)/hosts/python/bin/pip || $(PYTHON) -m venv $(BUILD)/hosts/python
+	@$(BUILD)/hosts/python/bin/pip install -q --no-deps mfem
 	@$(PYTHON) hosts/check.py --build $(BUILD)
 	@STICKSLIP_LIBRARY=$(abspath $(BUILD))/lib/libstickslip.so $(PYTHON) -m pytest -q -rs -p no:cacheprovider python/tests/test_petsc4py.py
 
