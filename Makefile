@@ -15,7 +15,7 @@ export PATH := $(PATH):$(HOME)/.cargo/bin
 LOCKED = mkdir -p $(BUILD) && flock $(BUILD)/.lock
 SAY    = @printf '\n== %s\n'
 
-.PHONY: packages help demo gallery effects aids study compare bench random fuzz stability scaling ratios digest wheel python-examples check test test-long build install uninstall docs abi header meshes clean cmake-build rust-tests
+.PHONY: packages hosts help demo gallery effects aids study compare bench random fuzz stability scaling ratios digest wheel python-examples check test test-long build install uninstall docs abi header meshes clean cmake-build rust-tests
 
 help:
 	@echo "make demo    solve the example scenes, compare with the references, draw (FIGURES=1: renew the README's figures)"
@@ -38,6 +38,7 @@ help:
 	@echo "make fuzz    fuzz the pair kernel, the handle and the C ABI, a quarter of an hour each (FUZZ_SECONDS=)"
 	@echo "make wheel   the Python package as a wheel, in $(BUILD)/wheels"
 	@echo "make python-examples   its examples, with the libraries they need, in an environment below $(BUILD)/"
+	@echo "make hosts   programs on deal.II, MFEM and petsc4py: installs these, compares them with the driver; hosts/README.md"
 	@echo "make packages   crate, Debian packages, recipes of Spack and conda-forge, in $(BUILD)/packages; packaging/README.md"
 	@echo "make build   build the library and the examples into $(BUILD)/"
 	@echo "make install PREFIX=DIR [DESTDIR=]   install header, Fortran module, libraries, pkg-config and CMake files"
@@ -158,6 +159,15 @@ python-examples: wheel
 	@$(BUILD)/python/bin/pip install -q --force-reinstall --no-deps $(BUILD)/wheels/*.whl
 	@$(BUILD)/python/bin/pip install -q cffi numpy scipy pytest matplotlib scikit-fem felupe
 	@$(BUILD)/python/bin/python -m pytest -q -rs python/tests/test_examples.py
+
+hosts:
+	@.ci/setup hosts
+	@$(MAKE) --no-print-directory cmake-build
+	$(SAY) "Hosts"
+	@test -x $(BUILD)/hosts/python/bin/pip || $(PYTHON) -m venv $(BUILD)/hosts/python
+	@$(BUILD)/hosts/python/bin/pip install -q --no-deps mfem
+	@$(PYTHON) hosts/check.py --build $(BUILD)
+	@STICKSLIP_LIBRARY=$(abspath $(BUILD))/lib/libstickslip.so $(PYTHON) -m pytest -q -rs -p no:cacheprovider python/tests/test_petsc4py.py
 
 packages:
 	@.ci/setup library
