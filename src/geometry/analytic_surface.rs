@@ -260,9 +260,9 @@ mod tests {
                 let y = x - c.normal * c.distance;
                 let (along, off) = (axis * axis.dot(&y), y - axis * axis.dot(&y));
                 let (height, outward) = match shape {
-                    AnalyticShape::Plane => (axis.dot(&y), axis),
+                    AnalyticShape::Plane | AnalyticShape::Line => (axis.dot(&y), axis),
                     AnalyticShape::Sphere(r) => (y.norm() - r.abs(), y),
-                    AnalyticShape::Cylinder(r) => (off.norm() - r.abs(), y - along),
+                    AnalyticShape::Cylinder(r) | AnalyticShape::Circle(r) => (off.norm() - r.abs(), y - along),
                 };
                 assert!(height.abs() < 1e-14, "{shape}: {height:e} off the surface");
                 assert!((c.normal - outward.normalize() * body).norm() < 1e-14, "{shape}: normal {}", c.normal);
