@@ -133,7 +133,7 @@ impl AnalyticSurface {
     /// [`Kind::InvalidValue`] when the radius or the frame is none.
     pub fn new(shape: AnalyticShape, frame: &[Vec3; FRAME]) -> Result<AnalyticSurface> {
         let radius = shape.radius();
-        if !shape.is_flat() && !(radius != 0.0 && radius.is_finite()) {
+        if !(shape.is_flat() || radius != 0.0 && radius.is_finite()) {
             let text = text!("the radius is {radius}; it must be finite and not 0");
             return Err(Error::new(Kind::InvalidValue, text));
         }
