@@ -50,7 +50,7 @@ static PetscErrorCode plan(ContactPart *part, int32_t pairs, int32_t *refused)
   PetscFunctionBegin;
   *refused = stickslip_interface_plan(part->handle, part->x, MORTAR_OF(part, part->x), pairs, &n_rows,
                                       &part->planned);
-  if (*refused) PetscFunctionReturn(PETSC_SUCCESS);
+  if (*refused || !part->planned) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(reserve(part, part->planned));
   *refused = stickslip_interface_plan_coo(part->handle, STICKSLIP_ENTRIES_TANGENT, part->coo_capacity,
                                           part->coo_rows, part->coo_columns);
@@ -85,7 +85,7 @@ static PetscErrorCode tangent(ContactPart *part, int32_t *refused)
   *refused = part->planned ? plan_values(part) : STICKSLIP_MISSING_ENTRY;
   if (*refused == STICKSLIP_MISSING_ENTRY) {
     PetscCall(plan(part, STICKSLIP_PLAN_ACTIVE, refused));
-    if (!*refused) *refused = plan_values(part);
+    if (!*refused && part->planned) *refused = plan_values(part); /* where all is prescribed there is none */
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
