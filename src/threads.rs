@@ -97,10 +97,18 @@ pub fn in_parts<A: Send, B: Send>(
         let b = Part { first: own[1], values: b.next().unwrap_or_default() };
         parts.store(Mutex::new(Some((a, b))))?;
     }
-    share(threads, &mut memory::filled((), threads)?, |k, ()| {
+    share_numbers(threads, &|k| {
         if let Some((a, b)) = parts[k].lock().unwrap_or_else(PoisonError::into_inner).take() {
             work(a, b);
         }
+    })
+}
+
+/// [`share`] without rooms, as many numbers as threads: compiled once, whatever is done.
+#[inline(never)]
+fn share_numbers(threads: usize, work: &(dyn Fn(usize) + Sync)) -> Result<()> {
+    share(threads, &mut memory::filled((), threads)?, |k, ()| {
+        work(k);
         Ok(())
     })
 }
