@@ -263,6 +263,7 @@ mod tests {
                     AnalyticShape::Plane => (axis.dot(&y), axis),
                     AnalyticShape::Sphere(r) => (y.norm() - r.abs(), y),
                     AnalyticShape::Cylinder(r) => (off.norm() - r.abs(), y - along),
+                    AnalyticShape::Line | AnalyticShape::Circle(_) => unreachable!("compared with these below"),
                 };
                 assert!(height.abs() < 1e-14, "{shape}: {height:e} off the surface");
                 assert!((c.normal - outward.normalize() * body).norm() < 1e-14, "{shape}: normal {}", c.normal);

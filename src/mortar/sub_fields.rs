@@ -76,7 +76,7 @@ fn in_monomials<L: Lanes>(parent: &Parent, x: &[Vec3; MAX_PARENT_NODES], base: &
     of[0] = L::load(&[0.0, 0.0, 0.0, constant]);
     for b in 0..rolled(parent.n) {
         let at = L::load(&[x[b].x - base.x, x[b].y - base.y, x[b].z - base.z, 0.0]);
-        for t in 0..parent.terms {
+        for t in 0..rolled(parent.terms) {
             let c = parent.functions[t][b / 4][b % 4];
             if c != 0.0 {
                 of[t] = at.mul_add(L::splat(c), of[t]);
