@@ -22,11 +22,13 @@ from loads import loads  # noqa: E402
 from normals import normals  # noqa: E402
 from normals_full import normals_full, normals_iterations  # noqa: E402
 from plane import plane, plane_ball  # noqa: E402
+from plane_analytic import plane_analytic  # noqa: E402
 from quadratic import quadratic  # noqa: E402
 from quadratic_contact import quadratic_contact  # noqa: E402
 from quadratic_line import quadratic_line  # noqa: E402
 from quadratic_sliding import quadratic_sliding  # noqa: E402
 from quadratic_tied import quadratic_tied  # noqa: E402
+from ranks import ranks, ranks_scenes  # noqa: E402
 from roles import roles  # noqa: E402
 from slider import slider, slider_fine  # noqa: E402
 from scene import Driver, SceneError  # noqa: E402
@@ -56,12 +58,15 @@ GROUPS = {
     "normals_full": normals_full,  # ten minutes; not among the tests
     "normals_iterations": normals_iterations,  # some minutes; not among the tests
     "plane": plane,
+    "plane_analytic": plane_analytic,
     "plane_ball": plane_ball,
     "quadratic": quadratic,
     "quadratic_contact": quadratic_contact,
     "quadratic_line": quadratic_line,
     "quadratic_sliding": quadratic_sliding,
     "quadratic_tied": quadratic_tied,
+    "ranks": ranks,
+    "ranks_scenes": ranks_scenes,
     "roles": roles,
     "slider": slider,
     "slider_fine": slider_fine,  # minutes; not among the tests
