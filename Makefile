@@ -23,7 +23,7 @@ help:
 	@echo "make effects what each effect of an interface costs: a table and a figure (FIGURES=1: renew the committed one)"
 	@echo "make aids    what each convergence aid is good for: a table"
 	@echo "make study   what accuracy costs in time, ten to thirty minutes, resumed; QUICK=1: a check; FIGURES=1: as above"
-	@echo "make border  where the border of a contact is decided, nodes or points: tables and a figure (FIGURES=1: as above)"
+	@echo "make border  the border of a contact, decided at nodes or at points: tables and a figure, ten minutes (FIGURES=1: as above)"
 	@echo "make compare the same problems in other programs, those that are installed (FIGURES=1: renew the table)"
 	@echo "make bench   what the kernels cost, over a C++ baseline and in instructions (FIGURES=1: renew its table)"
 	@echo "make stability  hard cases x severity, each compared with an answer: build/stability/index.html; can be resumed;"

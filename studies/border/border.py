@@ -2,7 +2,7 @@
 border`. border.py --build DIR [--check] [--renew-figures]; results go to DIR/border.
 
 Weights, points and dual gaps are the library's own, to rounding, which is checked before anything is measured. --check: a small
-part, against bounds, for the tests. --renew-figures: tables and picture of docs/accuracy.md. Some minutes.
+part, against bounds, for the tests. --renew-figures: tables and picture of docs/accuracy.md. Ten minutes.
 """
 
 import argparse
@@ -37,6 +37,7 @@ ROUND = 100.0
 SHIFTS = np.arange(10) / 10
 # Of the pull, of its return; steps in which nothing moves.
 STEPS, REST = 10, 100
+BY_STEP = "points, slip since the last step"
 # Multipliers to start from, at random between nothing and twice the largest pressure.
 STARTS = 20
 
@@ -113,7 +114,8 @@ def families(library):
         Family("the same, non-mortar side 100 x stiffer", (5, 10, 20), hertz(library, stiffer=100.0)),
         Family("the same, mortar facets 3 x larger", (5, 10), hertz(library, ratio=3.0)),
         Family("the same, mortar facets 3 x smaller", (5, 10), hertz(library, ratio=1 / 3)),
-        Family("the same, mortar facets 3 x larger, non-mortar side 100 x stiffer", (10,), hertz(library, ratio=3.0, stiffer=100.0)),
+        Family("the same, mortar facets 3 x larger, non-mortar side 100 x stiffer", (10,),
+               hertz(library, ratio=3.0, stiffer=100.0)),
         Family("Cattaneo and Mindlin: shear", (5, 10, 20), shear(library)),
         Family("Corner of a block", (10, 20, 40), corner(library, reference, False)),
         Family("the same, the wider block non-mortar", (10, 20, 40), corner(library, reference, True)),
@@ -162,7 +164,7 @@ def accuracy(library):
     return (head, errors), (head, iterations)
 
 
-def of_choices(library, sizes, kinds, choices):
+def of_choices(sizes, kinds, choices):
     """A row for each kind of Hertz' line and number of facets, a column for each of `choices`, functions from a pair to a law."""
     body = []
     for title, kind in kinds:
@@ -173,7 +175,8 @@ def of_choices(library, sizes, kinds, choices):
                 answer = scene.scene.solve(law, scene.prescribed(a))
                 return scene.error(answer), answer.iterations
             laws = [make(scene.scene.pair) for make in choices.values()]
-            body.append([title, str(n), *(per_cent([attempt(law, lambda law: worth(law, a)) for a in scene.loads()]) for law in laws)])
+            found = [[attempt(law, lambda law: worth(law, a)) for a in scene.loads()] for law in laws]
+            body.append([title, str(n), *map(per_cent, found)])
     return ["scene", "facets", *choices], body
 
 
@@ -182,17 +185,18 @@ def augmentation(library):
     dual = {"nodes, dual": lambda pair: Nodal(library, pair, pair.one.x, pair.two.x, "dual")}
     kinds = [("Hertz' line", {}), ("non-mortar side 100 x stiffer", {"stiffer": 100.0})]
     tables = []
-    for name, apart, stabilised in (("K over its own r", True, True), ("K over the same r", False, True), ("without K", True, False)):
-        at = lambda f, apart=apart, stabilised=stabilised: lambda pair: FrozenPoints(pair, factor=f, apart=apart, stabilised=stabilised)
-        head, body = of_choices(library, (5, 10, 20), kinds, dual | {f"r x {f:g}": at(f) for f in FACTORS})
+    variants = {"K over rhat": {}, "K over r": {"apart": False}, "without K": {"stabilised": False}}
+    for name, variant in variants.items():
+        at = lambda f, variant=variant: lambda pair: FrozenPoints(pair, factor=f, **variant)
+        head, body = of_choices((5, 10, 20), kinds, dual | {f"r x {f:g}": at(f) for f in FACTORS})
         tables += [[name, *row] for row in body]
     return ["points", *head], tables
 
 
-def rules(library):
+def rules():
     """Error over the points of an overlap. One is too few: the mass matrix of a facet in one overlap is singular."""
     at = lambda rule: lambda pair: FrozenPoints(pair, rule=rule)
-    return of_choices(library, (5, 10, 20), [("Hertz' line", {})], {f"{rule} points": at(rule) for rule in (2, 3, 20)})
+    return of_choices((5, 10, 20), [("Hertz' line", {})], {f"{rule} points": at(rule) for rule in (2, 3, 20)})
 
 
 def starts(library):
@@ -208,7 +212,8 @@ def starts(library):
             found = []
             for _ in range(STARTS):
                 lam = -random.uniform(0, scene.modulus * a / scene.radius, (nodes, 1))
-                found.append(attempt(laws[name], lambda law: scene.scene.solve(law, scene.prescribed(a), Answer(None, lam, nothing, 0))))
+                start = Answer(None, lam, nothing, 0)
+                found.append(attempt(laws[name], lambda law: scene.scene.solve(law, scene.prescribed(a), start)))
             answers = [f for f in found if f]
             spread = max(np.abs(f.force - answers[0].force).max() for f in answers) / np.abs(answers[0].force).max()
             body.append([str(n), name, f"{len(answers)} of {STARTS}", f"{spread:.0e}", str(max(f.iterations for f in answers))])
@@ -233,7 +238,7 @@ def history(library):
         scene = Hertz(n)
         pair, a = scene.scene.pair, scene.loads()[3]
         pressed, drawn = frozen_laws(library, pair, n), frozen_laws(library, pair, n, MU)
-        pressed["points, slip since the last step"], drawn["points, slip since the last step"] = FrozenPoints(pair), LastStep(pair, MU)
+        pressed[BY_STEP], drawn[BY_STEP] = FrozenPoints(pair), LastStep(pair, MU)
         for name, law in drawn.items():
             way = [(PULL * k / STEPS, 0.0) for k in range(STEPS + 1)] + [(PULL, PULL * k / STEPS) for k in range(1, STEPS + 1)]
             try:
@@ -246,7 +251,8 @@ def history(library):
             errors = scene.error_of_shear(most), scene.error_of_shear(returned, most)
             mean = np.mean([answer.iterations for answer in answers[: 2 * STEPS + 1]])
             body.append([str(n), name, *(f"{100 * e:.2g}" for e in errors), f"{crept:.0e}", f"{mean:.1f}"])
-    return ["facets", "law", f"{STEPS} steps", f"after {STEPS} steps back", f"change in {REST} steps of rest", "Newton iterations a step"], body
+    head = [f"{STEPS} steps", f"after {STEPS} steps back", f"change in {REST} steps of rest", "Newton iterations a step"]
+    return ["facets", "law", *head], body
 
 
 def weights(library):
@@ -266,7 +272,7 @@ def report(build, library, renew):
         raise SystemExit("these are not the library's weights")
     errors, iterations = accuracy(library)
     tables = [("Errors in per cent, mean and, in brackets, worst", errors), ("Newton iterations, mean", iterations),
-              ("Over r", augmentation(library)), ("Over the points of an overlap", rules(library)),
+              ("Over r", augmentation(library)), ("Over the points of an overlap", rules()),
               ("From starts at random", starts(library)), ("Shear in steps", history(library))]
     text = "\n\n".join(f"**{title}**\n\n{study_page.markdown(table)}" for title, table in tables)
     (output / "border.md").write_text(text + "\n")

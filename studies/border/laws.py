@@ -143,7 +143,8 @@ class Points:
         n1, n2 = len(x1), len(x2)
         place = np.concatenate([np.repeat(x1[:, 0], 2), np.repeat(x2[:, 0], 2), x1[:, 0]])
         # Nodes are counted along the line.
-        kind = np.concatenate([2 * (np.repeat(np.arange(n), 2) % APART) + np.tile([0, 1], n) for n in (n1, n2)] + [np.arange(n1) % APART])
+        of_positions = lambda n: 2 * (np.repeat(np.arange(n), 2) % APART) + np.tile([0, 1], n)
+        kind = np.concatenate([of_positions(n1), of_positions(n2), np.arange(n1) % APART])
         kind += np.repeat([0, 2 * APART, 4 * APART], [2 * n1, 2 * n2, n1])
         matrix = np.zeros((len(z), len(z)))
         for columns in (np.flatnonzero(kind == k) for k in range(kind.max() + 1)):

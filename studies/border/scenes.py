@@ -59,7 +59,8 @@ class Scene:
         self.pair = Pair(*surfaces, together)
         self.heights = np.zeros(len(surfaces[0].x))
         self.sizes = [s.x.size for s in surfaces]
-        own = [(s.x.shape[1] * np.arange(len(s.x))[:, None] + np.array(components)).ravel() for s in surfaces]
+        d = bodies[0].dimension
+        own = [(d * np.arange(len(s.x))[:, None] + np.array(components)).ravel() for s in surfaces]
         self.unknown = np.append(own[0], self.sizes[0] + own[1])
 
     def start(self):
@@ -69,7 +70,8 @@ class Scene:
         return one, two
 
     def solve(self, law, prescribed, start=None):
-        """From nothing, or from another answer, of which the normal multipliers may be all. `prescribed`: displacements of all nodes of each body."""
+        """From nothing, or from another answer, of which the normal multipliers may be all.
+        `prescribed`: displacements of all nodes of each body."""
         load = np.concatenate([body.load(u) for body, u in zip(self.bodies, prescribed)])
         at, n, m, rest = len(self.bodies[0].own), len(load), law.components * len(self.heights), self.start()
         stiffness = np.zeros((n + m, n + m))
