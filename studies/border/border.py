@@ -220,10 +220,12 @@ def starts(library):
     return ["facets", "law", "answers", "largest difference of a nodal force", "most iterations"], body
 
 
-def walk(scene, pressed, law, a, way):
-    """Answers of the steps of `way`, (pull, what is taken back), each committed; the first one starts without friction."""
+def walk(scene, pressed, law, a, rest):
+    """Answers of steps of a pull, of its return and of `rest` in which nothing moves, each committed; the first one starts
+    without friction, and its law has no history yet."""
+    way = [(PULL * k / STEPS, 0.0) for k in range(STEPS + 1)] + [(PULL, PULL * k / STEPS) for k in range(1, STEPS + 1)]
     answer, answers = scene.scene.solve(pressed, scene.prescribed(a)), []
-    for pull, back in way + way[-1:] * REST:
+    for pull, back in way + way[-1:] * rest:
         answer = scene.scene.solve(law, scene.prescribed(a, pull, back), answer)
         scene.scene.commit(law, answer)
         answers.append(answer)
@@ -231,26 +233,29 @@ def walk(scene, pressed, law, a, way):
 
 
 def history(library):
-    """Shear in steps, and taken back, then nothing for REST steps: errors in per cent, and the largest change of a nodal force
-    over the largest."""
+    """Shear in steps, and taken back: errors in per cent; at one load then nothing for REST steps, and the largest change of a
+    nodal force over the largest."""
     body = []
-    for n in (5, 10):
+    for n in (5, 10, 20):
         scene = Hertz(n)
-        pair, a = scene.scene.pair, scene.loads()[3]
-        pressed, drawn = frozen_laws(library, pair, n), frozen_laws(library, pair, n, MU)
-        pressed[BY_STEP], drawn[BY_STEP] = FrozenPoints(pair), LastStep(pair, MU)
-        for name, law in drawn.items():
-            way = [(PULL * k / STEPS, 0.0) for k in range(STEPS + 1)] + [(PULL, PULL * k / STEPS) for k in range(1, STEPS + 1)]
-            try:
-                answers = walk(scene, pressed[name], law, a, way)
-            except NoAnswer:
-                body.append([str(n), name, "no answer", "", "", ""])
-                continue
-            most, returned, last = answers[STEPS], answers[2 * STEPS], answers[-1]
-            crept = np.abs((last.force - returned.force)[:, 0]).max() / np.abs(returned.force[:, 0]).max()
-            errors = scene.error_of_shear(most), scene.error_of_shear(returned, most)
-            mean = np.mean([answer.iterations for answer in answers[: 2 * STEPS + 1]])
-            body.append([str(n), name, *(f"{100 * e:.2g}" for e in errors), f"{crept:.0e}", f"{mean:.1f}"])
+        pair = scene.scene.pair
+        for name in (*NAMES, BY_STEP):
+            of_pull, of_return, counts, crept = [], [], [], "-"
+            for k, a in enumerate(scene.loads()):
+                laws = [LastStep(pair, mu) if name == BY_STEP else frozen_laws(library, pair, n, mu)[name] for mu in (0.0, MU)]
+                try:
+                    answers = walk(scene, *laws, a, 0 if k else REST)
+                except NoAnswer:
+                    of_pull.append(None), of_return.append(None)
+                    continue
+                most, back = answers[STEPS], answers[2 * STEPS]
+                of_pull.append((scene.error_of_shear(most), 0))
+                of_return.append((scene.error_of_shear(back, most), 0))
+                counts += [answer.iterations for answer in answers[: 2 * STEPS + 1]]
+                if not k:
+                    change = np.abs((answers[-1].force - back.force)[:, 0]).max()
+                    crept = f"{change / np.abs(back.force[:, 0]).max():.0e}"
+            body.append([str(n), name, per_cent(of_pull), per_cent(of_return), crept, f"{np.mean(counts):.1f}" if counts else "-"])
     head = [f"{STEPS} steps", f"after {STEPS} steps back", f"change in {REST} steps of rest", "Newton iterations a step"]
     return ["facets", "law", *head], body
 
