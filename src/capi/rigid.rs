@@ -90,7 +90,8 @@ fn read_body(b: &stickslip_rigid_body) -> Result<Body<'static>> {
     let n = raw::count(b.n_nodes, 1, name("n_nodes"))?;
     let coordinates = raw::numbers(b.coordinates, dimension * n, name("coordinates"))?;
     if b.point.is_null() {
-        let text = "body.point is NULL: a rigid body needs a reference point, which its displacement and its moment are of";
+        let text =
+            "body.point is NULL: a rigid body needs a reference point, which its displacement and its moment are of";
         return Err(Error::new(Kind::NullPointer, text));
     }
     let point = raw::numbers(b.point, dimension, name("point"))?;
@@ -166,7 +167,7 @@ pub unsafe extern "C" fn stickslip_rigid_positions(
     })
 }
 
-/// Force and moment about the reference point as it is now, of forces on a rigid body's nodes, docs/formulation.md 14.4: what a host
+/// Force and moment about the reference point as it is now, of forces on a rigid body's nodes, docs/formulation.md 14.3: what a host
 /// adds to the equations of the body in place of the nodal forces of `stickslip_interface_residual`, with the same sign.
 ///
 /// body, motion: see there; forces (dimension n_nodes), node by node [F]. Output: resultant (6): force along x, y, z [F], moment
@@ -216,7 +217,7 @@ pub unsafe extern "C" fn stickslip_rigid_turn(motion: *mut stickslip_rigid_motio
 }
 
 /// Finds where the entries of a nodal matrix go where rigid bodies have equations of their reference points: rows and columns of their
-/// nodes become six, docs/formulation.md 14.5. The nodal matrix is a tangent of an interface by `stickslip_interface_plan_coo` or
+/// nodes become six, docs/formulation.md 14.4. The nodal matrix is a tangent of an interface by `stickslip_interface_plan_coo` or
 /// `stickslip_interface_tangent_coo`, a piece of a condensed one, those of several interfaces one after the other, or element
 /// matrices of the host's; its other entries stay as they are. Multipliers of a rigid non-mortar side stay those of its nodes.
 ///
@@ -301,7 +302,7 @@ pub unsafe extern "C" fn stickslip_rigid_coo(
 }
 
 /// The values of the entries of `stickslip_rigid_coo`: exact derivatives, by the unknowns of the bodies, of forces, of moments about
-/// the reference points as they are now, and of all other rows. docs/formulation.md 14.5, 14.6.
+/// the reference points as they are now, and of all other rows. docs/formulation.md 14.4.
 ///
 /// motions: one of each body; forces: of the bodies' nodes, body by body, each dimension n_nodes, as for
 /// `stickslip_rigid_resultant` [F]: their arms turn with the body; nodal (n_entries): the nodal matrix in the order of

@@ -1,5 +1,5 @@
 //! A rigid body: where a motion puts its nodes, and what their forces are at the reference point (docs/formulation.md 14.1,
-//! 14.2, 14.4).
+//! 14.3).
 
 use super::rotation::{check_rotation, cross, rotation, spin};
 use crate::error::{Error, Kind, Result};
@@ -7,7 +7,7 @@ use crate::geometry::Vec3;
 use nalgebra::Matrix3;
 use std::f64::consts::PI;
 
-/// A motion since the first configuration: x = P + u + exp `[theta]` R (X - P).
+/// A motion since the first configuration: x = P + u + exp `[theta]` R (X - P) (R1).
 #[derive(Clone, Copy, Debug)]
 pub struct Motion {
     /// u, of the reference point `[L]`.
@@ -62,17 +62,17 @@ impl Body<'_> {
         self.coordinates.chunks_exact(self.dimension).map(|x| in_space(x) - self.point)
     }
 
-    /// x of each node (14.1).
+    /// x of each node (R1).
     pub fn positions(&self, motion: &Motion) -> impl Iterator<Item = Vec3> {
         self.arms().map(|arm| self.point + motion.displacement + motion.arm(&arm))
     }
 
-    /// Force and moment about the reference point of nodal forces (14.4).
+    /// Force and moment about the reference point of nodal forces (R4).
     pub fn resultant(&self, motion: &Motion, forces: &[f64]) -> [Vec3; 2] {
         let forces = forces.chunks_exact(self.dimension).map(in_space);
-        self.arms().zip(forces).fold([Vec3::zeros(); 2], |[force, moment], (arm, f)| {
-            [force + f, moment + motion.arm(&arm).cross(&f)]
-        })
+        self.arms()
+            .zip(forces)
+            .fold([Vec3::zeros(); 2], |[force, moment], (arm, f)| [force + f, moment + motion.arm(&arm).cross(&f)])
     }
 }
 
@@ -82,7 +82,7 @@ pub fn in_space(v: &[f64]) -> Vec3 {
 }
 
 /// What the moment of a force f on an arm rho gains where the body turns by a small rotation w: (w x rho) x f = `[f]` `[rho]` w
-/// (14.6).
+/// (R6).
 #[inline]
 pub fn turn_of_moment(arm: &Vec3, force: &Vec3) -> Matrix3<f64> {
     cross(force) * cross(arm)

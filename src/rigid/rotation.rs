@@ -1,4 +1,4 @@
-//! The rotation of a body by a rotation vector, and how its spin depends on that vector (docs/formulation.md 14.2).
+//! The rotation of a body by a rotation vector, and how its spin depends on that vector (docs/formulation.md 14.1, 14.2).
 
 use crate::error::{Error, Kind, Result};
 use crate::geometry::Vec3;
@@ -29,13 +29,13 @@ fn factors(angle: f64) -> [f64; 3] {
     [sinc(angle), 0.5 * sinc(half) * sinc(half), third]
 }
 
-/// exp `[theta]`, the rotation about theta by its length (14.1).
+/// exp `[theta]`, the rotation about theta by its length (R2).
 pub fn rotation(theta: &Vec3) -> Matrix3<f64> {
     let ([a, b, _], w) = (factors(theta.norm()), cross(theta));
     Matrix3::identity() + w * a + w * w * b
 }
 
-/// H: where the rotation vector changes by d theta, the body turns by the small rotation H d theta (14.3).
+/// H: where the rotation vector changes by d theta, the body turns by the small rotation H d theta (R3).
 pub fn spin(theta: &Vec3) -> Matrix3<f64> {
     let ([_, b, c], w) = (factors(theta.norm()), cross(theta));
     Matrix3::identity() + w * b + w * w * c
