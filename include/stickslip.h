@@ -258,16 +258,16 @@
 #define STICKSLIP_MORTAR_RIGID 1
 
 /// The mortar side is rigid and in closed form, STICKSLIP_SHAPE_...: no facets, no search. Its stickslip_surface has
-/// four nodes, a frame that is fixed to it and that the host moves as a rigid body: see there.
+/// four nodes (of lines three), a frame that is fixed to it and that the host moves as a rigid body: see there.
 #define STICKSLIP_MORTAR_ANALYTIC 2
 
-/// A plane. Default.
+/// A plane; of lines a straight line. Default.
 #define STICKSLIP_SHAPE_PLANE 0
 
-/// A sphere.
+/// A sphere; of lines a circle.
 #define STICKSLIP_SHAPE_SPHERE 1
 
-/// A circular cylinder without ends.
+/// A circular cylinder without ends; of lines a circle.
 #define STICKSLIP_SHAPE_CYLINDER 2
 
 /// Coulomb with mu = 0 at every node: no slip is computed (and none reported).
@@ -608,20 +608,21 @@ typedef struct stickslip_options {
 
 /// One surface of an interface.
 ///
-/// An analytic mortar side (STICKSLIP_MORTAR_ANALYTIC) has n_nodes = 4 and n_facets = 0; facet_offsets and facet_nodes
+/// An analytic mortar side (STICKSLIP_MORTAR_ANALYTIC) has n_nodes = 4 (of lines 3) and n_facets = 0; facet_offsets and facet_nodes
 /// are NULL, equations NULL or all -1. Its nodes P0..P3 are a frame that is fixed to the surface and moves as a rigid
 /// body, within 1e-8 of its lengths (INVALID_VALUE otherwise); to move the surface, move them. P0: a point of the
 /// plane, the sphere's centre, a point of the axis. P1 - P0: the plane's normal, out of its body, or the direction of
-/// the axis. The three edges P1 - P0, P2 - P0, P3 - P0 must not lie in one plane; take them about as long as the contact
-/// is wide. The points are rounded, and that moves the surface: by eps S D / a, with a the shortest of the three edges, D
+/// the axis; of lines a point of the straight line and its normal, or the centre of the circle and any direction. The three edges
+/// P1 - P0, P2 - P0, P3 - P0 must not lie in one plane, the two of lines not on one line; take them about as long as the contact
+/// is wide. The points are rounded, and that moves the surface: by eps S D / a, with a the shortest of the edges, D
 /// the distance from P0 to the farthest non-mortar node, and S the frame's distance from the origin or D, the larger. A
-/// frame that moves it by more than 1e-8 of the longest facet edge is refused, INVALID_VALUE. The forces on the four nodes
+/// frame that moves it by more than 1e-8 of the longest facet edge is refused, INVALID_VALUE. The forces on these nodes
 /// are statically equivalent to those on the surface. A facet takes part in a step when at t_n its normal opposes the
 /// surface's; it then counts as covered.
 typedef struct stickslip_surface {
   /// sizeof(stickslip_surface).
   uint64_t struct_size;
-  /// Number of nodes; each must belong to a facet. Analytic: 4.
+  /// Number of nodes; each must belong to a facet. Analytic: 4, of lines 3.
   int64_t n_nodes;
   /// Number of facets. Analytic: 0.
   int64_t n_facets;
@@ -2167,13 +2168,13 @@ int32_t stickslip_rigid_positions(const struct stickslip_rigid_body *body,
                                   const struct stickslip_rigid_motion *motion,
                                   double *x);
 
-/// Force and moment about the reference point as it is now, of forces on a rigid body's nodes, docs/formulation.md 14.4: what a host
+/// Force and moment about the reference point as it is now, of forces on a rigid body's nodes, docs/formulation.md 14.3: what a host
 /// adds to the equations of the body in place of the nodal forces of `stickslip_interface_residual`, with the same sign.
 ///
 /// body, motion: see there; forces (dimension n_nodes), node by node [F]. Output: resultant (6): force along x, y, z [F], moment
 /// about x, y, z [F L]; of lines 3: force along both axes, moment.
 ///
-/// Errors: as `stickslip_rigid_positions`.
+/// Errors: NULL_POINTER, STRUCT_SIZE, INVALID_SIZE, NOT_FINITE, INVALID_VALUE (as `stickslip_rigid_positions`).
 /// Cost: O(n_nodes); allocates nothing.
 int32_t stickslip_rigid_resultant(const struct stickslip_rigid_body *body,
                                   const struct stickslip_rigid_motion *motion,
@@ -2190,7 +2191,7 @@ int32_t stickslip_rigid_resultant(const struct stickslip_rigid_body *body,
 int32_t stickslip_rigid_turn(struct stickslip_rigid_motion *motion);
 
 /// Finds where the entries of a nodal matrix go where rigid bodies have equations of their reference points: rows and columns of their
-/// nodes become six, docs/formulation.md 14.5. The nodal matrix is a tangent of an interface by `stickslip_interface_plan_coo` or
+/// nodes become six, docs/formulation.md 14.4. The nodal matrix is a tangent of an interface by `stickslip_interface_plan_coo` or
 /// `stickslip_interface_tangent_coo`, a piece of a condensed one, those of several interfaces one after the other, or element
 /// matrices of the host's; its other entries stay as they are. Multipliers of a rigid non-mortar side stay those of its nodes.
 ///
@@ -2214,7 +2215,7 @@ int32_t stickslip_rigid_create(int64_t n_bodies,
 /// The entries of the outcome, in the index base, by rows and within a row by columns, each once: as compressed sparse rows have
 /// them.
 ///
-/// Outputs: rows, columns (capacity each; at least the count of `stickslip_rigid_create`).
+/// rigid: what `stickslip_rigid_create` made. Outputs: rows, columns (capacity each; at least its count).
 ///
 /// Errors: NULL_POINTER, BUFFER_TOO_SMALL.
 /// Cost: a copy; allocates nothing.
@@ -2224,9 +2225,9 @@ int32_t stickslip_rigid_coo(struct stickslip_rigid *rigid,
                             int64_t *columns);
 
 /// The values of the entries of `stickslip_rigid_coo`: exact derivatives, by the unknowns of the bodies, of forces, of moments about
-/// the reference points as they are now, and of all other rows. docs/formulation.md 14.5, 14.6.
+/// the reference points as they are now, and of all other rows. docs/formulation.md 14.4.
 ///
-/// motions: one of each body; forces: of the bodies' nodes, body by body, each dimension n_nodes, as for
+/// rigid: what `stickslip_rigid_create` made; motions: one of each body; forces: of the bodies' nodes, body by body, each dimension n_nodes, as for
 /// `stickslip_rigid_resultant` [F]: their arms turn with the body; nodal (n_entries): the nodal matrix in the order of
 /// `stickslip_rigid_create`. Output: values (count of `stickslip_rigid_create`). After NOT_FINITE because a value overflows they mean
 /// nothing. Units of an entry: its row's over its column's.
@@ -2239,7 +2240,7 @@ int32_t stickslip_rigid_values(struct stickslip_rigid *rigid,
                                const double *nodal,
                                double *values);
 
-/// Destroys what `stickslip_rigid_create` made and sets the caller's pointer to NULL. NULL, or a pointer to NULL, is fine.
+/// Destroys rigid, what `stickslip_rigid_create` made, and sets the caller's pointer to NULL. NULL, or a pointer to NULL, is fine.
 ///
 /// Errors: NULL_POINTER (misaligned).
 /// Cost: frees memory.

@@ -173,7 +173,7 @@ pub unsafe extern "C" fn stickslip_rigid_positions(
 /// body, motion: see there; forces (dimension n_nodes), node by node [F]. Output: resultant (6): force along x, y, z [F], moment
 /// about x, y, z [F L]; of lines 3: force along both axes, moment.
 ///
-/// Errors: as `stickslip_rigid_positions`.
+/// Errors: NULL_POINTER, STRUCT_SIZE, INVALID_SIZE, NOT_FINITE, INVALID_VALUE (as `stickslip_rigid_positions`).
 /// Cost: O(n_nodes); allocates nothing.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn stickslip_rigid_resultant(
@@ -278,7 +278,7 @@ fn plan<'a>(p: *mut stickslip_rigid) -> Result<&'a mut stickslip_rigid> {
 /// The entries of the outcome, in the index base, by rows and within a row by columns, each once: as compressed sparse rows have
 /// them.
 ///
-/// Outputs: rows, columns (capacity each; at least the count of `stickslip_rigid_create`).
+/// rigid: what `stickslip_rigid_create` made. Outputs: rows, columns (capacity each; at least its count).
 ///
 /// Errors: NULL_POINTER, BUFFER_TOO_SMALL.
 /// Cost: a copy; allocates nothing.
@@ -304,7 +304,7 @@ pub unsafe extern "C" fn stickslip_rigid_coo(
 /// The values of the entries of `stickslip_rigid_coo`: exact derivatives, by the unknowns of the bodies, of forces, of moments about
 /// the reference points as they are now, and of all other rows. docs/formulation.md 14.4.
 ///
-/// motions: one of each body; forces: of the bodies' nodes, body by body, each dimension n_nodes, as for
+/// rigid: what `stickslip_rigid_create` made; motions: one of each body; forces: of the bodies' nodes, body by body, each dimension n_nodes, as for
 /// `stickslip_rigid_resultant` [F]: their arms turn with the body; nodal (n_entries): the nodal matrix in the order of
 /// `stickslip_rigid_create`. Output: values (count of `stickslip_rigid_create`). After NOT_FINITE because a value overflows they mean
 /// nothing. Units of an entry: its row's over its column's.
@@ -333,7 +333,7 @@ pub unsafe extern "C" fn stickslip_rigid_values(
     })
 }
 
-/// Destroys what `stickslip_rigid_create` made and sets the caller's pointer to NULL. NULL, or a pointer to NULL, is fine.
+/// Destroys rigid, what `stickslip_rigid_create` made, and sets the caller's pointer to NULL. NULL, or a pointer to NULL, is fine.
 ///
 /// Errors: NULL_POINTER (misaligned).
 /// Cost: frees memory.
