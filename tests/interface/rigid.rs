@@ -38,18 +38,19 @@ fn layer(surface: Mesh, far: Vec3, young: f64) -> Elastic {
     }
 }
 
-/// A tied plate on a soft layer, pushed aside, pressed and turned by a force and a moment.
+/// A tall block tied to a soft layer, pushed aside, pressed and turned by a force and a moment at its upper side. Compared is the
+/// motion of its lower side as a whole; the layer's own solution differs by more at the edges, where it is singular.
 #[test]
 fn a_free_body_moves_as_one_that_is_meshed_and_1000_times_stiffer() {
     let lower = || grid(3, 3, [0.0, 0.0], [1.0, 1.0], 0.0, true, Cells::Quads);
     let upper = || grid(2, 2, [0.0, 0.0], [1.0, 1.0], 0.0, false, Cells::Quads);
-    let down = Vec3::z() * -4.0;
+    let down = -Vec3::z();
     // Small: the mesh's strains are those of small rotations.
     let (force, tilt) = (Vec3::new(2e-4, 3e-4, -1e-3), Vec3::new(4e-5, -3e-5, 5e-5));
     let mut errors = Vec::new();
     for stiffer in [1e3, 1e4] {
         let body = host::Body::new(lower(), down, YOUNG, 0.3);
-        let plate = host::Body::new(upper(), Vec3::z() * 0.2, stiffer * YOUNG, 0.3);
+        let plate = host::Body::new(upper(), Vec3::z() * 4.0, stiffer * YOUNG, 0.3);
         let mut meshed = Host::<3>::new(body, Ok(plate), options(Friction::Tied));
         meshed.hold(0, |_| Vec3::zeros());
         // Forces on the plate's upper side, linear in the place: a field t + w x (x - c) has the moment J w about c.
