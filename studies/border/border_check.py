@@ -5,7 +5,7 @@ import numpy as np
 import overlaps
 from frozen import FrozenPoints, Penalty
 from laws import Nodal, Points, Weights
-from scenes import MU, Corner, Hertz, Patch
+from scenes import MU, PULL, Corner, Hertz, Patch
 from verdict import Verdicts
 
 # Of weights and gaps, over the largest: rounding.
@@ -16,6 +16,8 @@ PATCH = 1e-11
 STEP, TANGENT = 1e-6, 1e-7
 # Hertz' line, 5 facets over the half-width, mean over the border's positions.
 LINE_BOUND = 0.016
+# Steps in which nothing moves, and what they may change: Newton's tolerance, over stiffness.
+RESTS, CREEP = 10, 1e-8
 # Positions of the border in the check; the study has ten.
 POSITIONS = 4
 
@@ -91,6 +93,18 @@ def findings(library, v):
     v.below("corner, partly covered facets", scene.error(answer, shortened.reference()), 0.03, "the study")
 
 
+def rest(v):
+    """Steps in which nothing moves change nothing, if slip is stored at points."""
+    scene = Hertz(3)
+    pair, a = scene.scene.pair, scene.loads()[0]
+    law, answers = FrozenPoints(pair, mu=MU), [scene.scene.solve(FrozenPoints(pair), scene.prescribed(a))]
+    for _ in range(RESTS):
+        answers.append(scene.scene.solve(law, scene.prescribed(a, PULL), answers[-1]))
+        scene.scene.commit(law, answers[-1])
+    change = np.abs((answers[-1].force - answers[1].force)[:, 0]).max() / np.abs(answers[1].force[:, 0]).max()
+    v.below(f"change in {RESTS} steps of rest", change, CREEP, "nothing moves")
+
+
 def check(library):
     verdicts = Verdicts()
     same_weights(library, verdicts)
@@ -98,5 +112,6 @@ def check(library):
     tangents(verdicts)
     patches(verdicts)
     findings(library, verdicts)
+    rest(verdicts)
     verdicts.print()
     return 0 if verdicts.passed else 1
