@@ -57,9 +57,11 @@ else
 fi
 step "Spack's recipe is Python" python3 -c 'import ast, sys; ast.parse(open(sys.argv[1]).read())' "$out/spack/package.py"
 command -v spack >/dev/null || skip "Spack's audit" "spack is not installed"
-if command -v rattler-build >/dev/null; then
-    step "conda's recipe" rattler-build build --render-only --recipe "$out/conda/recipe.yaml"
+linters=$out/lint/bin/python
+test -x "$linters" || python3 -m venv "$out/lint"
+if "$linters" -m pip install -q py-rattler-build flake8 cffconvert >/dev/null 2>&1; then
+    step "recipes and CITATION.cff" "$linters" packaging/lint.py "$out"
 else
-    skip "conda's recipe" "rattler-build is not installed"
+    skip "linters of the recipes" "PyPI does not answer (py-rattler-build, flake8, cffconvert)"
 fi
 exit $failed

@@ -3,11 +3,10 @@
 !
 ! The contact, to copy: elmt_handle.f90. The rest is what codes have.
 !
-!   cargo build --release
-!   cd c_examples/fortran
-!   gfortran -O2 -J../../target ../../include/stickslip.f90 block_model.f90 elmt_solid.f90 elmt_handle.f90 band_matrix.f90 \
-!     block_elements.f90 ../../target/release/libstickslip.a -llapack -lblas -lpthread -ldl -lm -o ../../target/block_elements
-!   ../../target/block_elements [--current] [FILE]
+! From this folder, with the library installed in $PREFIX:
+!   gfortran -O2 $PREFIX/include/stickslip.f90 block_model.f90 elmt_solid.f90 elmt_handle.f90 band_matrix.f90 \
+!     block_elements.f90 $PREFIX/lib/libstickslip.a -llapack -lblas -lpthread -ldl -lm -o block_elements
+!   ./block_elements [--current] [FILE]
 !
 ! FILE receives the nodal displacements. --current: contact at the present positions (large sliding); else at those of
 ! the undeformed bodies. At the end of --current a deformation that the library refuses is handed to the elements: they must go on

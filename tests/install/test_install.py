@@ -77,17 +77,38 @@ def named_files(document, text):
     return {(document.parent / link).resolve() for link in links if link}, set(words)
 
 
+PATH = re.compile(r"(?<![\w/.$<-])(?:[\w.+-]+/)+[\w.*+-]*")
+OF_THE_SOURCE_TREE = re.compile(r"[Pp]aths\s+that\s+begin\s+with\s+([^.]*?)\s+are\s+those\s+of\s+the\s+source\s+tree")
+
+
+def lost_paths(document, text, documents, folders):
+    """Paths below the checkout's folders that are not installed, and of which the document does not say where they are."""
+    told = {name for names in OF_THE_SOURCE_TREE.findall(text) for name in re.findall(r"`(\w+)`", names)}
+    lost = set()
+    for path in {found.rstrip("./") for found in PATH.findall(text)}:
+        top = path.split("/")[0]
+        there = any(any(place.glob(path)) for place in (documents, document.parent)) or top == "include"
+        if top in folders and top not in told and not there:
+            lost.add(path)
+    return lost
+
+
 def check_named_files(documents, include):
     """Every file that an installed document names is installed, too. Words are relative to the root of the checkout."""
     missing = []
+    folders = {path.name for path in ROOT.iterdir() if path.is_dir()} | {"build"}
     for document in sorted(documents.rglob("*.md")):
         links, words = named_files(document, document.read_text())
+        missing += [f"{document.name}: {path}" for path in lost_paths(document, document.read_text(), documents, folders)]
         missing += [f"{document.name}: {link}" for link in links if not link.exists()]
         missing += [f"{document.name}: {word}" for word in words
                     if not (documents / word).exists() and not (include / Path(word).name).exists()]
     expect(not missing, f"files that documents name are there {missing}")
     planted = named_files(documents / "a.md", "[b](gone.md#c) and `docs/gone.md`, [d](https://e.f)")
     expect([len(names) for names in planted] == [1, 1], "a file that is not there would be noticed")
+    text = "Paths that begin with `src` are those of the source tree: src/lib.rs. See tests/a.c, c_examples/block_host.c and c_examples/no.c."
+    lost = lost_paths(documents / "a.md", text, documents, folders)
+    expect(lost == {"tests/a.c", "c_examples/no.c"}, "a path that is not there would be noticed")
 
 
 def test_tree(tree):
