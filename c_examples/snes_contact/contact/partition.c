@@ -1,6 +1,9 @@
-/* Which rank owns which non-mortar nodes: recursive bisection across the longest extent, into halves of equal work. Nodes follow
- * each other on lines of equal coordinates, so that parts are compact on regular meshes, too. */
+/* Which rank owns which non-mortar nodes: recursive bisection across the direction in which the work is spread most, into halves
+ * of equal work. Nodes follow each other on lines of equal coordinates, so that parts are compact on regular meshes, too. */
 #include "contact/contact.h"
+
+/* Spreads that differ by less are alike: the first direction is taken. */
+static const double ALIKE = 1e-9;
 
 typedef struct {
   PetscInt      dimension, axis;
@@ -20,17 +23,21 @@ static int compare(const void *a, const void *b, void *context)
   return one < two ? -1 : one > two;
 }
 
-static PetscInt longest_axis(const Order *order, PetscInt n, const PetscInt nodes[])
+/* across which the work is spread most: the largest sum of squares of distances from the centre */
+static PetscInt widest_axis(const Order *order, PetscInt n, const PetscInt nodes[])
 {
-  PetscInt axis    = 0;
-  double   longest = -1;
+  PetscInt axis   = 0;
+  double   widest = -1;
   for (PetscInt i = 0; i < order->dimension; i++) {
-    double low = PETSC_MAX_REAL, high = -PETSC_MAX_REAL;
+    double work = 0, centre = 0, spread = 0;
     for (PetscInt k = 0; k < n; k++) {
-      low  = PetscMin(low, order->x[order->dimension * nodes[k] + i]);
-      high = PetscMax(high, order->x[order->dimension * nodes[k] + i]);
+      work += order->work[nodes[k]];
+      centre += order->work[nodes[k]] * order->x[order->dimension * nodes[k] + i];
     }
-    if (high - low > longest) longest = high - low, axis = i;
+    for (PetscInt k = 0; k < n; k++)
+      spread += order->work[nodes[k]] * PetscSqr(order->x[order->dimension * nodes[k] + i] - centre / work);
+    /* rounding does not choose */
+    if (spread > (1 + ALIKE) * widest) widest = spread, axis = i;
   }
   return axis;
 }
@@ -56,7 +63,7 @@ static PetscErrorCode bisect(Order *order, PetscInt n, PetscInt nodes[], PetscMP
   for (PetscInt k = 0; k < n && n_ranks == 1; k++)
     owner[nodes[k]] = first;
   if (n_ranks == 1) PetscFunctionReturn(PETSC_SUCCESS);
-  order->axis = longest_axis(order, n, nodes);
+  order->axis = widest_axis(order, n, nodes);
   PetscCall(PetscTimSort(n, nodes, sizeof(*nodes), compare, order));
   cut = find_cut(order, n, nodes, (double)half / n_ranks);
   PetscCall(bisect(order, cut, nodes, first, half, owner));
