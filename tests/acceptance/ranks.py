@@ -54,6 +54,11 @@ BENT = {
 # The last of the plate's nodes below.
 TIP = 50
 
+# Two thin sheets of so many facets a side; of the pairs each of two ranks has half, and those of a row of facets across.
+SHEET = ("-upper_cells", "24,24,1", "-lower_cells", "25,25,1", "-output_csv", "none", "-output_vtu", "none")
+SHEET_NODES = 25 * 25
+SHARE = 0.58
+
 # Scene, label, options, ranks.
 SHORT = (
     ("two_blocks", "", (), (2, 3, 4)),
@@ -121,13 +126,17 @@ def refused(verdicts, driver):
 
 
 def shares(verdicts, driver):
-    """Who holds and does what is told."""
-    run = driver.run("two_blocks", *QUIET, label="shares", ranks=2)
-    contact = run.summary["interfaces"]["contact"]
-    nodes = sum(rank["nodes"] for rank in contact["ranks"])
-    verdicts.true("two ranks: each node is owned once", nodes == 81, f"{nodes} of 81")
-    pairs = sum(rank["pairs_integrated"] for rank in contact["ranks"])
-    verdicts.true("two ranks: pairs add up", pairs == contact["pairs_integrated"], f"{pairs}")
+    """Who holds and does what is told, and is balanced: with as many nodes over the other surface as beyond it, too."""
+    for label, options in (("covered", ()), ("half covered", ("-lower_upper", "0.5,1,0.8"))):
+        tag = label.replace(" ", "_")
+        one = driver.run("two_blocks", *SHEET, *options, label=f"shares_{tag}_1")
+        run = driver.run("two_blocks", *SHEET, *options, label=f"shares_{tag}_2", ranks=2)
+        whole, contact = (r.summary["interfaces"]["contact"] for r in (one, run))
+        nodes = sum(rank["nodes"] for rank in contact["ranks"])
+        verdicts.true(f"{label}: each node is owned once", nodes == SHEET_NODES, f"{nodes} of {SHEET_NODES}")
+        for kind in ("pairs_integrated", "pairs_linearised"):
+            part = max(rank[kind] for rank in contact["ranks"]) / whole[kind]
+            verdicts.below(f"{label}: {kind} of a rank, over those of one", part, SHARE, "half, and a row of facets")
 
 
 # The rounding of its forces is above 1e-13 of them.

@@ -185,8 +185,8 @@ static int32_t condense(ContactPart *part)
   const int32_t  status =
     stickslip_interface_condensed_residual(part->handle, STATE_OF(part), part->host, rows, rows + n1);
   for (PetscInt k = 0; k < n1 + n2 && !status; k++) {
-    rows[k] -= part->forces[k];
-    if (k < n1 && part->owned[k / d] == STICKSLIP_NODE_OWN) rows[k] -= part->host[k];
+    const PetscBool own = (PetscBool)(k < n1 && part->owned[k / d] == STICKSLIP_NODE_OWN);
+    rows[k] -= part->forces[k] + (own ? part->host[k] : 0);
   }
   return status;
 }

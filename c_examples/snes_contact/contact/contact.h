@@ -145,9 +145,9 @@ typedef struct {
 /* So many facets deep the bodies may be in each other at the start, where an interface is cut into parts. */
 enum { PARTS_DEPTH = 1 };
 
-/* partition.c: rank 0, from n vectors of `dimension` coordinates: which of so many ranks owns each node */
-PetscErrorCode partition_nodes(PetscInt dimension, PetscInt n, const double coordinates[], PetscMPIInt n_ranks,
-                               PetscInt owner[]);
+/* partition.c: rank 0, from n vectors of `dimension` coordinates and what each node costs: which of so many ranks owns each */
+PetscErrorCode partition_nodes(PetscInt dimension, PetscInt n, const double coordinates[], const double work[],
+                               PetscMPIInt n_ranks, PetscInt owner[]);
 
 /* parts_cut.c: every rank gets its part of an interface */
 PetscErrorCode parts_cut(Contact *contact, PetscInt number, const PetscInt owner[]);
@@ -215,8 +215,10 @@ PetscErrorCode contact_tendencies(Contact *contact, int32_t *state, double *tang
 PetscErrorCode contact_scale_augmentation(Contact *contact, const PetscBool *marked, PetscReal factor);
 PetscErrorCode contact_reset_augmentation(Contact *contact);
 
-/* cover.c: on every rank; `handle`: the part's, or NULL */
-PetscErrorCode contact_cover(const Interface *interface, stickslip_interface *handle, PetscMPIInt rank, ContactCover *cover);
+/* cover.c: on every rank; `handle`: the part's, or NULL; `facets` (n1 of the part, or NULL): of the mortar side over those
+ * around each node */
+PetscErrorCode contact_cover(const Interface *interface, stickslip_interface *handle, PetscMPIInt rank, ContactCover *cover,
+                             int64_t facets[]);
 
 /* diagnose.c: on every rank; rank 0 gets the answer */
 PetscErrorCode contact_diagnose(const Interface *interface, PetscMPIInt rank, ContactDiagnosis *diagnosis);

@@ -119,7 +119,7 @@ static PetscErrorCode check_facing(Scene *scene, PetscBool quiet, const Interfac
     PetscCall(create_handle(part, &interface->options, &asked, &refused));
     PetscCallStickslip(refused);
   }
-  PetscCall(contact_cover(interface, asked, rank, &cover));
+  PetscCall(contact_cover(interface, asked, rank, &cover, NULL));
   PetscCallStickslip(stickslip_interface_destroy(&asked));
   if (cover.mistaken) scene_fail(scene, interface->name, "mortar", "%s", cover.text);
   if (cover.finding != STICKSLIP_FINDING_NONE && !quiet) /* they may meet later */
@@ -165,20 +165,23 @@ static PetscBool has_middles(const Mesh *mesh, const Interface *interface)
   return PETSC_FALSE;
 }
 
-/* rank 0: who owns which nodes. `whole`: one rank all, and so where the library does not know parts. Lines of a plane model
- * are few; they stay together, too. */
-static PetscErrorCode choose_owners(const Contact *contact, PetscInt number, PetscBool whole, PetscInt owner[])
+/* One rank has all nodes where the library does not know parts. Lines of a plane model are few; they stay together, too. */
+static PetscBool must_be_whole(const Contact *contact, const Interface *interface)
+{
+  return (PetscBool)(interface->dimension == 2 || (contact->condensed && has_middles(contact->mesh, interface)));
+}
+
+/* rank 0: who owns which nodes, from what each costs; NULL: one rank owns all */
+static PetscErrorCode choose_owners(const Contact *contact, PetscInt number, const double work[], PetscInt owner[])
 {
   const Interface *interface = &contact->interfaces[number];
   PetscMPIInt      size;
   PetscFunctionBegin;
   PetscCallMPI(MPI_Comm_size(PETSC_COMM_WORLD, &size));
-  if (whole || interface->dimension == 2 || (contact->condensed && has_middles(contact->mesh, interface))) {
-    for (PetscInt a = 0; a < interface->n1; a++)
-      owner[a] = number % size;
-  } else {
-    PetscCall(partition_nodes(interface->dimension, interface->n1, interface->X, size, owner));
-  }
+  for (PetscInt a = 0; a < interface->n1; a++)
+    owner[a] = number % size;
+  if (work && !must_be_whole(contact, interface))
+    PetscCall(partition_nodes(interface->dimension, interface->n1, interface->X, work, size, owner));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -209,7 +212,8 @@ static PetscErrorCode fetch_coordinates(const Contact *contact, Interface *inter
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode create_part(Contact *contact, PetscInt number, PetscBool whole)
+/* `work`: rank 0, see choose_owners() */
+static PetscErrorCode create_part(Contact *contact, PetscInt number, const double work[])
 {
   Interface    *interface = &contact->interfaces[number];
   ContactPart  *part      = &interface->part;
@@ -219,7 +223,7 @@ static PetscErrorCode create_part(Contact *contact, PetscInt number, PetscBool w
 
   PetscFunctionBegin;
   PetscCall(PetscMalloc1(interface->n1, &owner));
-  if (contact->mesh->rank == 0) PetscCall(choose_owners(contact, number, whole, owner));
+  if (contact->mesh->rank == 0) PetscCall(choose_owners(contact, number, work, owner));
   PetscCall(parts_cut(contact, number, owner));
   PetscCall(PetscFree(owner));
   {
@@ -289,27 +293,47 @@ static PetscReal shortest_edge(const ContactPart *part)
   return PetscSqrtReal(squared);
 }
 
-/* Do the bodies start deeper in each other than the rings of parts allow? */
-static PetscErrorCode is_deep(const Interface *interface, PetscMPIInt rank, PetscBool *deep)
+/* What parts of equally many nodes say at the start, before any has a history: what each node costs (rank 0), and whether the
+ * bodies are deeper in each other than the rings of parts allow. */
+static PetscErrorCode measure_work(const Interface *interface, PetscMPIInt rank, double work[], PetscBool *deep)
 {
-  const ContactPart   *part     = &interface->part;
-  stickslip_interface *asked    = NULL;
-  PetscReal            shortest = PETSC_MAX_REAL;
-  ContactCover         cover;
-  int32_t              refused;
+  const ContactPart *part     = &interface->part;
+  PetscReal          shortest = part->handle ? shortest_edge(part) : PETSC_MAX_REAL;
+  ContactCover       cover;
+  int64_t           *facets;
+  double            *here;
 
   PetscFunctionBegin;
-  *deep = PETSC_FALSE;
-  if (interface->n_parts < 2) PetscFunctionReturn(PETSC_SUCCESS);
-  if (part->handle) {
-    PetscCall(create_handle(part, &interface->options, &asked, &refused));
-    PetscCallStickslip(refused);
-    shortest = shortest_edge(part);
-  }
-  PetscCall(contact_cover(interface, asked, rank, &cover));
-  PetscCallStickslip(stickslip_interface_destroy(&asked));
+  PetscCall(PetscCalloc2(part->n1, &facets, part->n1, &here));
+  PetscCall(contact_cover(interface, part->handle, rank, &cover, facets));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &shortest, 1, MPIU_REAL, MPIU_MIN, PETSC_COMM_WORLD));
   *deep = (PetscBool)(cover.penetration > PARTS_DEPTH * shortest);
+  for (PetscInt a = 0; a < part->n1; a++)
+    here[a] = 1 + (double)facets[a]; /* a node without any costs a little, too */
+  PetscCall(parts_collect(part, 1, here, work));
+  PetscCall(PetscFree2(facets, here));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* A part of an interface on every rank, of equal work. */
+static PetscErrorCode create_parts(Contact *contact, PetscInt number, PetscInt *status)
+{
+  Interface *interface = &contact->interfaces[number];
+  PetscBool  deep = PETSC_FALSE;
+  double    *work;
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(interface->n1, &work));
+  for (PetscInt a = 0; a < interface->n1; a++)
+    work[a] = 1;
+  PetscCall(create_part(contact, number, work));
+  PetscCall(create_library(contact, interface, status));
+  if (!*status && interface->n_parts > 1) {
+    PetscCall(measure_work(interface, contact->mesh->rank, work, &deep));
+    PetscCall(destroy_part(&interface->part));
+    PetscCall(create_part(contact, number, deep ? NULL : work));
+    PetscCall(create_library(contact, interface, status));
+  }
+  PetscCall(PetscFree(work));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -325,19 +349,10 @@ PetscErrorCode contact_create(Contact *contact, Scene *scene, PetscBool quiet, P
   PetscCall(scene_root_end(scene));
   for (PetscInt i = 0; i < contact->n_interfaces && !*status; i++) {
     Interface *interface = &contact->interfaces[i];
-    PetscBool  deep;
     PetscCall(share_options(interface));
     PetscCall(create_whole(contact, interface));
-    PetscCall(create_part(contact, i, PETSC_FALSE));
-    PetscCall(create_library(contact, interface, status));
+    PetscCall(create_parts(contact, i, status));
     if (*status) break;
-    PetscCall(is_deep(interface, mesh->rank, &deep));
-    if (deep) {
-      PetscCall(destroy_part(&interface->part));
-      PetscCall(create_part(contact, i, PETSC_TRUE));
-      PetscCall(create_library(contact, interface, status));
-      if (*status) break;
-    }
     PetscCall(check_facing(scene, quiet, interface, mesh->rank));
   }
   if (!*status) PetscCall(condensed_create(contact, status));

@@ -20,7 +20,8 @@ static PetscBool is_mistake(int32_t finding)
 }
 
 /* At the part's positions; a refusal leaves the text empty. */
-PetscErrorCode contact_cover(const Interface *interface, stickslip_interface *handle, PetscMPIInt rank, ContactCover *cover)
+PetscErrorCode contact_cover(const Interface *interface, stickslip_interface *handle, PetscMPIInt rank, ContactCover *cover,
+                             int64_t facets[])
 {
   const ContactPart *part = &interface->part;
   stickslip_report   report = {.struct_size = sizeof(report), .text = cover->text, .text_capacity = sizeof(cover->text)};
@@ -32,6 +33,7 @@ PetscErrorCode contact_cover(const Interface *interface, stickslip_interface *ha
   PetscFunctionBegin;
   *cover = (ContactCover){.finding = STICKSLIP_FINDING_NONE};
   PetscCall(PetscMalloc1(part->n1, &report.cover));
+  report.facets = facets;
   if (handle && !stickslip_interface_report(handle, part->x, MORTAR_OF(part, part->x), &report)) {
     cover->finding     = report.finding;
     cover->penetration = report.penetration;

@@ -310,8 +310,9 @@ PetscErrorCode parts_cut(Contact *contact, PetscInt number, const PetscInt owner
 
   PetscFunctionBegin;
   PetscCallMPI(MPI_Comm_size(PETSC_COMM_WORLD, &size));
-  part->dimension  = interface->dimension;
-  part->components = interface->components;
+  part->dimension    = interface->dimension;
+  part->components   = interface->components;
+  interface->n_parts = 0;
   if (mesh->rank == 0) {
     PetscCall(cut_create(contact, interface, owner, &cut));
     for (PetscMPIInt r = 0; r < size; r++) { /* where owners have their nodes */

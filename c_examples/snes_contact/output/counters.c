@@ -111,7 +111,7 @@ static PetscErrorCode interface_counters(const Interface *interface, PetscMPIInt
   PetscCallMPI(MPI_Comm_size(PETSC_COMM_WORLD, &size));
   PetscCall(count(&interface->part, &mine));
   /* after the counters, which it adds to; a run that ended beyond what can be computed has none */
-  PetscCall(contact_cover(interface, interface->part.handle, rank, &cover));
+  PetscCall(contact_cover(interface, interface->part.handle, rank, &cover, NULL));
   if (rank == 0) PetscCall(PetscMalloc1(size, &shares));
   PetscCallMPI(MPI_Gather(&mine, sizeof(mine), MPI_BYTE, shares, sizeof(mine), MPI_BYTE, 0, PETSC_COMM_WORLD));
   if (rank == 0) add_counters(interface, cover.text, size, shares, parent, sum);
