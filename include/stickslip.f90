@@ -212,12 +212,41 @@ module stickslip
   integer(c_int64_t), parameter :: stickslip_node_size = 240
   integer(c_int64_t), parameter :: stickslip_facet_size = 72
   integer(c_int64_t), parameter :: stickslip_equilibrium_size = 96
+  integer(c_int64_t), parameter :: stickslip_rigid_body_size = 56
+  integer(c_int64_t), parameter :: stickslip_rigid_motion_size = 128
 
   ! A contact interface, made by stickslip_interface_create and ended by stickslip_interface_destroy. A copy means the
   ! same interface. One thread at a time.
   type, bind(C) :: stickslip_interface
     private
     type(c_ptr) :: handle = c_null_ptr
+  end type
+
+  ! Where the entries of a nodal matrix with rigid bodies go, made by stickslip_rigid_create and ended by stickslip_rigid_destroy. A
+  ! copy means the same. One thread at a time.
+  type, bind(C) :: stickslip_rigid
+    private
+    type(c_ptr) :: handle = c_null_ptr
+  end type
+
+  ! A rigid body: nodes that move with a reference point. Of lines (dimension 2) vectors have two numbers.
+  type, bind(C) :: stickslip_rigid_body
+    integer(c_int64_t) :: struct_size = stickslip_rigid_body_size
+    integer(c_int32_t) :: dimension = 3            ! numbers of a node: 3, or 2 of lines
+    integer(c_int32_t) :: reserved = 0             ! 0
+    integer(c_int64_t) :: n_nodes = 0
+    type(c_ptr) :: coordinates = c_null_ptr        ! real(c_double) (dimension, n_nodes), first configuration [L]
+    type(c_ptr) :: point = c_null_ptr              ! real(c_double) (dimension): the reference point [L]
+    type(c_ptr) :: node_equations = c_null_ptr     ! integer(c_int64_t) (dimension, n_nodes): of the nodal matrix; -1: none
+    type(c_ptr) :: equations = c_null_ptr          ! integer(c_int64_t) (6), of lines (3): displacement, rotation; -1: prescribed
+  end type
+
+  ! Its motion since the first configuration: x = P + u + exp[theta] R (X - P).
+  type, bind(C) :: stickslip_rigid_motion
+    integer(c_int64_t) :: struct_size = stickslip_rigid_motion_size
+    real(c_double) :: displacement(3) = 0          ! u [L]
+    real(c_double) :: rotation(3) = 0              ! theta of the step: axis times angle, at most pi
+    real(c_double) :: turned(9) = 0                ! R at t_n, row by row; zeros alone: not at all
   end type
 
   ! Options of an interface. stickslip_options_init writes the defaults, which these zeros are not in every case.
@@ -1102,6 +1131,67 @@ module stickslip
       type(stickslip_node), intent(in) :: node
       real(c_double), value :: stiffness, rounding
       type(c_ptr), value :: gap, traction, slip
+    end function
+
+    ! Positions x(dimension, n_nodes) of a rigid body's nodes: those of a reference point with a displacement and a rotation.
+    integer(c_int32_t) function stickslip_rigid_positions(body, motion, x) bind(C)
+      import :: c_double, c_int32_t, stickslip_rigid_body, stickslip_rigid_motion
+      type(stickslip_rigid_body), intent(in) :: body
+      type(stickslip_rigid_motion), intent(in) :: motion
+      real(c_double), intent(inout) :: x(*)
+    end function
+
+    ! Force and moment about the reference point as it is now, resultant(6), of lines (3), of forces(dimension, n_nodes).
+    integer(c_int32_t) function stickslip_rigid_resultant(body, motion, forces, resultant) bind(C)
+      import :: c_double, c_int32_t, stickslip_rigid_body, stickslip_rigid_motion
+      type(stickslip_rigid_body), intent(in) :: body
+      type(stickslip_rigid_motion), intent(in) :: motion
+      real(c_double), intent(in) :: forces(*)
+      real(c_double), intent(inout) :: resultant(*)
+    end function
+
+    ! After a converged step: takes what the body has turned by in it into turned, and sets rotation to 0.
+    integer(c_int32_t) function stickslip_rigid_turn(motion) bind(C)
+      import :: c_int32_t, stickslip_rigid_motion
+      type(stickslip_rigid_motion), intent(inout) :: motion
+    end function
+
+    ! Finds where the n_entries entries of a nodal matrix, rows(n_entries) and columns(n_entries), go where rigid bodies(n_bodies)
+    ! have equations of their reference points in place of those of their nodes. count: entries of the outcome. The arrays are
+    ! copied. A handle that was in use must be destroyed first.
+    integer(c_int32_t) function stickslip_rigid_create(n_bodies, bodies, index_base, n_entries, rows, columns, out, count) bind(C)
+      import :: c_int32_t, c_int64_t, stickslip_rigid, stickslip_rigid_body
+      integer(c_int64_t), value :: n_bodies
+      type(stickslip_rigid_body), intent(in) :: bodies(*)
+      integer(c_int32_t), value :: index_base
+      integer(c_int64_t), value :: n_entries
+      integer(c_int64_t), intent(in) :: rows(*), columns(*)
+      type(stickslip_rigid), intent(inout) :: out
+      integer(c_int64_t), intent(inout) :: count
+    end function
+
+    ! Its entries rows(capacity), columns(capacity), by rows and within a row by columns, each once.
+    integer(c_int32_t) function stickslip_rigid_coo(rigid, capacity, rows, columns) bind(C)
+      import :: c_int32_t, c_int64_t, stickslip_rigid
+      type(stickslip_rigid), value :: rigid
+      integer(c_int64_t), value :: capacity
+      integer(c_int64_t), intent(inout) :: rows(*), columns(*)
+    end function
+
+    ! Their values(count): exact derivatives. motions(n_bodies); forces: of the bodies' nodes, (dimension, n_nodes) of one body after
+    ! the other; nodal(n_entries): the nodal matrix.
+    integer(c_int32_t) function stickslip_rigid_values(rigid, motions, forces, nodal, values) bind(C)
+      import :: c_double, c_int32_t, stickslip_rigid, stickslip_rigid_motion
+      type(stickslip_rigid), value :: rigid
+      type(stickslip_rigid_motion), intent(in) :: motions(*)
+      real(c_double), intent(in) :: forces(*), nodal(*)
+      real(c_double), intent(inout) :: values(*)
+    end function
+
+    ! Ends what stickslip_rigid_create made. One that was never created, or is destroyed already, is fine.
+    integer(c_int32_t) function stickslip_rigid_destroy(rigid) bind(C)
+      import :: c_int32_t, stickslip_rigid
+      type(stickslip_rigid), intent(inout) :: rigid
     end function
   end interface
 end module

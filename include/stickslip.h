@@ -115,6 +115,13 @@
  *     facet_normal_derivatives               each facet around a node that has pairs
  *     node_turn                              each such node, after node_respond
  *
+ * Rigid bodies, with an interface or with elements: a reference point's six unknowns in place of those of nodes
+ *
+ *     rigid_create, rigid_coo                once, and again when the entries of the nodal matrix have changed
+ *     rigid_positions, rigid_resultant       in each evaluation: x1 or x2 of the body; the force on its equations
+ *     rigid_values                           in each Newton iteration, after the nodal matrix
+ *     rigid_turn                             after each converged step; rigid_destroy at the end
+ *
  * Both: version, build, status_string, last_error_message, last_error_padded. */
 
 #ifndef STICKSLIP_H
@@ -502,6 +509,10 @@
 
 /// A contact interface. Created and destroyed by the library; one thread at a time.
 typedef struct stickslip_interface stickslip_interface;
+
+/// Where the entries of a nodal matrix go that have rows or columns of rigid nodes. Created and destroyed by the library; one thread
+/// at a time.
+typedef struct stickslip_rigid stickslip_rigid;
 
 /// Options of an interface; `stickslip_options_init` writes the defaults.
 typedef struct stickslip_options {
@@ -978,6 +989,47 @@ typedef struct stickslip_equilibrium {
   /// Output: the node of slip.
   int64_t slip_node;
 } stickslip_equilibrium;
+
+/// A rigid body: nodes that move with a reference point, those of a surface of one interface or of several, or any others.
+///
+/// In plane and axisymmetric models (dimension 2) vectors have two numbers, and a body has three unknowns: two displacements and
+/// the rotation from the first axis towards the second. In an axisymmetric model only the displacement along the axis may have an
+/// equation.
+typedef struct stickslip_rigid_body {
+  /// sizeof(stickslip_rigid_body).
+  uint64_t struct_size;
+  /// Numbers of a node: 3, or 2 of lines.
+  int32_t dimension;
+  /// 0.
+  int32_t reserved;
+  /// Number of nodes.
+  int64_t n_nodes;
+  /// dimension n_nodes coordinates of the first configuration, node by node [L].
+  const double *coordinates;
+  /// dimension numbers: the reference point P of the first configuration, anywhere [L].
+  const double *point;
+  /// dimension n_nodes equations of the nodes in the nodal matrix, node by node, in the index base: those that the interfaces were
+  /// created with. Numbers that nothing else has, as those beyond the host's unknowns; -1: none. Read by
+  /// `stickslip_rigid_create` alone; else it may be NULL.
+  const int64_t *node_equations;
+  /// 6 equations of the host's unknowns in the index base: displacement of the reference point along x, y, z, rotation vector along
+  /// x, y, z; of lines 3: displacement along both axes, rotation. -1: prescribed. Read by `stickslip_rigid_create` alone; else it may
+  /// be NULL.
+  const int64_t *equations;
+} stickslip_rigid_body;
+
+/// The motion of a rigid body since the first configuration: x = P + u + exp[theta] R (X - P). A host keeps theta among its
+/// unknowns, adds Newton's steps to it, and calls `stickslip_rigid_turn` after each converged step.
+typedef struct stickslip_rigid_motion {
+  /// sizeof(stickslip_rigid_motion).
+  uint64_t struct_size;
+  /// u of the reference point [L]; of lines the third is 0.
+  double displacement[3];
+  /// theta, the rotation vector of the step: axis times angle, at most pi [-]; of lines the first two are 0.
+  double rotation[3];
+  /// R, what the body has turned by at t_n, row by row [-]; zeros alone: not at all.
+  double turned[9];
+} stickslip_rigid_motion;
 
 #ifdef __cplusplus
 extern "C" {
@@ -2104,6 +2156,95 @@ int32_t stickslip_node_equilibrium(const struct stickslip_node *node,
                                    double *gap,
                                    double *traction,
                                    double *slip);
+
+/// Positions of a rigid body's nodes, docs/formulation.md 14.1: what the functions of an interface take for x1 or x2.
+///
+/// body, motion: see there. Output: x (dimension n_nodes), node by node [L].
+///
+/// Errors: NULL_POINTER (body.point, too: a body needs a reference point), STRUCT_SIZE, INVALID_SIZE, NOT_FINITE, INVALID_VALUE (the
+/// dimension, a rotation longer than pi, a matrix that is no rotation, a motion out of the plane).
+/// Cost: O(n_nodes); allocates nothing.
+int32_t stickslip_rigid_positions(const struct stickslip_rigid_body *body,
+                                  const struct stickslip_rigid_motion *motion,
+                                  double *x);
+
+/// Force and moment about the reference point as it is now, of forces on a rigid body's nodes, docs/formulation.md 14.3: what a host
+/// adds to the equations of the body in place of the nodal forces of `stickslip_interface_residual`, with the same sign.
+///
+/// body, motion: see there; forces (dimension n_nodes), node by node [F]. Output: resultant (6): force along x, y, z [F], moment
+/// about x, y, z [F L]; of lines 3: force along both axes, moment.
+///
+/// Errors: NULL_POINTER, STRUCT_SIZE, INVALID_SIZE, NOT_FINITE, INVALID_VALUE (as `stickslip_rigid_positions`).
+/// Cost: O(n_nodes); allocates nothing.
+int32_t stickslip_rigid_resultant(const struct stickslip_rigid_body *body,
+                                  const struct stickslip_rigid_motion *motion,
+                                  const double *forces,
+                                  double *resultant);
+
+/// After a converged step: takes what the body has turned by in it into `turned`, and sets `rotation` to 0. The positions stay
+/// those they were, but for rounding.
+///
+/// motion: input and output.
+///
+/// Errors: NULL_POINTER, STRUCT_SIZE, NOT_FINITE, INVALID_VALUE (as `stickslip_rigid_positions`).
+/// Cost: below a microsecond; allocates nothing.
+int32_t stickslip_rigid_turn(struct stickslip_rigid_motion *motion);
+
+/// Finds where the entries of a nodal matrix go where rigid bodies have equations of their reference points: rows and columns of their
+/// nodes become six, docs/formulation.md 14.4. The nodal matrix is a tangent of an interface by `stickslip_interface_plan_coo` or
+/// `stickslip_interface_tangent_coo`, a piece of a condensed one, those of several interfaces one after the other, or element
+/// matrices of the host's; its other entries stay as they are. Multipliers of a rigid non-mortar side stay those of its nodes.
+///
+/// n_bodies, bodies: each body once, whatever interfaces it is in; index_base 0 or 1; n_entries, rows, columns (n_entries each): the
+/// nodal matrix, in any order, with entries more than once where they add up; one of row or column -1 is left out. Outputs: out, the
+/// handle; count: entries of the outcome, those of a body's rows and columns with itself always among them.
+///
+/// Errors: NULL_POINTER (body.point, too: a body needs a reference point), STRUCT_SIZE, INVALID_SIZE, NOT_FINITE, INDEX_OUT_OF_RANGE,
+/// INVALID_VALUE (the index base, the dimension; an equation that two nodes or two unknowns have), UNSUPPORTED (more than 1e9 nodes).
+/// Cost: O(n log n) of n entries and nodes; allocates 40 bytes an entry at most, which it keeps.
+/// Owner: the caller, who ends it with `stickslip_rigid_destroy`. All arrays may be freed after the call.
+int32_t stickslip_rigid_create(int64_t n_bodies,
+                               const struct stickslip_rigid_body *bodies,
+                               int32_t index_base,
+                               int64_t n_entries,
+                               const int64_t *rows,
+                               const int64_t *columns,
+                               struct stickslip_rigid **out,
+                               int64_t *count);
+
+/// The entries of the outcome, in the index base, by rows and within a row by columns, each once: as compressed sparse rows have
+/// them.
+///
+/// rigid: what `stickslip_rigid_create` made. Outputs: rows, columns (capacity each; at least its count).
+///
+/// Errors: NULL_POINTER, BUFFER_TOO_SMALL.
+/// Cost: a copy; allocates nothing.
+int32_t stickslip_rigid_coo(struct stickslip_rigid *rigid,
+                            int64_t capacity,
+                            int64_t *rows,
+                            int64_t *columns);
+
+/// The values of the entries of `stickslip_rigid_coo`: exact derivatives, by the unknowns of the bodies, of forces, of moments about
+/// the reference points as they are now, and of all other rows. docs/formulation.md 14.4.
+///
+/// rigid: what `stickslip_rigid_create` made; motions: one of each body; forces: of the bodies' nodes, body by body, each dimension n_nodes, as for
+/// `stickslip_rigid_resultant` [F]: their arms turn with the body; nodal (n_entries): the nodal matrix in the order of
+/// `stickslip_rigid_create`. Output: values (count of `stickslip_rigid_create`). After NOT_FINITE because a value overflows they mean
+/// nothing. Units of an entry: its row's over its column's.
+///
+/// Errors: NULL_POINTER, STRUCT_SIZE, NOT_FINITE, INVALID_VALUE (a motion, as `stickslip_rigid_positions`).
+/// Cost: O(entries), up to 16 products for one of a rigid row and a rigid column; allocates.
+int32_t stickslip_rigid_values(struct stickslip_rigid *rigid,
+                               const struct stickslip_rigid_motion *motions,
+                               const double *forces,
+                               const double *nodal,
+                               double *values);
+
+/// Destroys rigid, what `stickslip_rigid_create` made, and sets the caller's pointer to NULL. NULL, or a pointer to NULL, is fine.
+///
+/// Errors: NULL_POINTER (misaligned).
+/// Cost: frees memory.
+int32_t stickslip_rigid_destroy(struct stickslip_rigid **rigid);
 
 #ifdef __cplusplus
 }  // extern "C"

@@ -23,7 +23,8 @@
 //!
 //! [`error`]; [`memory`]; [`simd`]; [`adjacency`], [`shape`], [`quadrature`], [`geometry`], [`normal`] know nothing of contact;
 //! [`mortar`] integrates a pair and knows no law, [`line`](mod@line) one of a plane model, [`dual`] changes the basis of a facet's multipliers; [`law`] is nodal
-//! and knows no geometry; they meet in [`element`]; [`interface`] searches, assembles and remembers; [`capi`] is the C
+//! and knows no geometry; they meet in [`element`]; [`interface`] searches, assembles and remembers; [`rigid`] puts the
+//! nodes of rigid bodies together; [`capi`] is the C
 //! ABI, the only place that touches raw pointers.
 //!
 //! # Example
@@ -75,6 +76,7 @@ pub mod memory;
 pub mod mortar;
 pub mod normal;
 pub mod quadrature;
+pub mod rigid;
 pub mod shape;
 pub mod simd;
 mod threads;

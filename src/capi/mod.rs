@@ -82,6 +82,8 @@ mod facet_tangent;
 
 mod equilibrium;
 
+mod rigid;
+
 mod choice;
 mod fp_environment;
 mod guard;
@@ -115,6 +117,7 @@ pub use plan::*;
 pub use point::*;
 pub use preparation::*;
 pub use report::*;
+pub use rigid::*;
 pub use space::*;
 pub use status::*;
 pub use surface::*;

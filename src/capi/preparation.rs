@@ -121,7 +121,7 @@ pub unsafe extern "C" fn stickslip_crosspoints_find(
     })
 }
 
-fn read_base(index_base: i32) -> Result<i64> {
+pub(super) fn read_base(index_base: i32) -> Result<i64> {
     match index_base {
         0 | 1 => Ok(index_base.into()),
         other => Err(Error::new(Kind::InvalidValue, text!("index_base is {other}; it must be 0 or 1"))),

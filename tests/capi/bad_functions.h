@@ -17,6 +17,8 @@ static struct {
   history imported;
   stickslip_node_response answer;
   stickslip_interface *out;
+  rigid_parts rigid;
+  int64_t n_bodies, n_entries;
 } b, before;
 static double expected[UNKNOWNS];
 #define E b.every.e
@@ -172,6 +174,19 @@ FUNCTION(node_turn, (a[0], a[1], b.layout, a[2], a[3], a[4]), {"node", &E.node, 
          {"dnu_dsum", E.turn, OPTIONAL}, {"dp_dnormal", E.turn + 9, OPTIONAL}, {"drow_dnormal", E.turn + 18, OPTIONAL})
 FUNCTION(interface_equilibrium, (a[0], a[1], a[2], a[3], a[4], a[5]), POINT, OUT(b.every.equilibrium))
 
+FUNCTION(rigid_positions, (a[0], a[1], a[2]), {"body", &b.rigid.body, NEEDED}, {"motion", &b.rigid.motion, NEEDED},
+         {"x", b.every.rigid_x, NEEDED})
+FUNCTION(rigid_resultant, (a[0], a[1], a[2], a[3]), {"body", &b.rigid.body, NEEDED}, {"motion", &b.rigid.motion, NEEDED},
+         {"forces", b.rigid.forces, NEEDED}, {"resultant", b.every.resultant, NEEDED})
+FUNCTION(rigid_turn, (a[0]), {"motion", &b.every.turned_motion, NEEDED})
+FUNCTION(rigid_create, (b.n_bodies, a[0], b.index_base, b.n_entries, a[1], a[2], a[3], a[4]),
+         {"bodies", &b.rigid.body, NEEDED}, {"rows", b.rigid.rows, NEEDED}, {"columns", b.rigid.columns, NEEDED},
+         {"out", &b.every.rigid, NEEDED}, {"count", &b.every.rigid_count, NEEDED})
+FUNCTION(rigid_coo, (a[0], b.capacity, a[1], a[2]), {"rigid", NULL, NEEDED}, {"rows", b.every.rigid_rows, NEEDED},
+         {"columns", b.every.rigid_columns, NEEDED})
+FUNCTION(rigid_values, (a[0], a[1], a[2], a[3], a[4]), {"rigid", NULL, NEEDED}, {"motions", &b.rigid.motion, NEEDED},
+         {"forces", b.rigid.forces, NEEDED}, {"nodal", b.rigid.nodal, NEEDED}, {"values", b.every.rigid_values, NEEDED})
+
 #define NAMED(name) {#name, on_##name, arguments_##name, a_##name, COUNT(arguments_##name)}
 static const struct {
   const char *name;
@@ -196,6 +211,8 @@ static const struct {
     NAMED(node_condense), NAMED(interface_carriers), NAMED(interface_condensed_multipliers), NAMED(interface_condensed_residual),
     NAMED(interface_condensed_coo), NAMED(interface_condensed_csr), NAMED(interface_condensed_pattern),
     NAMED(interface_use_normals), NAMED(interface_turn_multipliers), NAMED(facet_normal_derivatives), NAMED(node_turn),
+    NAMED(rigid_positions), NAMED(rigid_resultant), NAMED(rigid_turn), NAMED(rigid_create), NAMED(rigid_coo),
+    NAMED(rigid_values),
     NAMED(interface_plan), NAMED(interface_plan_coo), NAMED(interface_plan_coo32), NAMED(interface_plan_csr),
     NAMED(interface_plan_csr32), NAMED(interface_plan_values), NAMED(interface_condensed_plan),
     NAMED(interface_condensed_values),

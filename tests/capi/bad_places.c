@@ -4,7 +4,7 @@
 
 #include <stddef.h>
 
-static bad_at places[500];
+static bad_at places[600];
 static int n_places;
 
 void bad_place(const char *name, bad_type type, void *at, int32_t n) {
@@ -60,6 +60,10 @@ static const struct {
     MAY(diagnosis, suspect_directions), MAY(diagnosis, suspect_ratios), MAY(diagnosis, suspect_causes),
     I64(diagnosis, suspect_capacity), I64(diagnosis, text_capacity), I64(equilibrium, struct_size),
     ONE(equilibrium, modulus), ONE(equilibrium, least_traction),
+    I64(rigid_body, struct_size), I32(rigid_body, dimension), I32(rigid_body, reserved), I64(rigid_body, n_nodes),
+    NEED(rigid_body, coordinates), NEED(rigid_body, point), NEED(rigid_body, node_equations), NEED(rigid_body, equations),
+    I64(rigid_motion, struct_size), ARRAY(rigid_motion, displacement, 3), ARRAY(rigid_motion, rotation, 3),
+    ARRAY(rigid_motion, turned, 9),
     /* Of a response: what node_respond, node_block and pair_tangent read. */
     RESPONSE(answer, struct_size, INT64, 0), RESPONSE(response, struct_size, INT64, 0),
     RESPONSE(response, row, REAL, 3), RESPONSE(response, drow_dlambda, REAL, 9),

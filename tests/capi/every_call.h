@@ -5,6 +5,27 @@
 
 #include "calls.h"
 
+/* Entries that two nodes of a rigid body leave: 36 of its own, 6 of a column and 6 of a row. */
+enum { RIGID_ENTRIES = 48 };
+
+/* A rigid body of two nodes, its motion and forces, and a nodal matrix with a row, a column and a diagonal entry of it. */
+typedef struct {
+  double coordinates[6], point[3], forces[6], nodal[3];
+  int64_t node_equations[6], equations[6], rows[3], columns[3];
+  stickslip_rigid_body body;
+  stickslip_rigid_motion motion;
+} rigid_parts;
+
+static inline void rigid_parts_init(rigid_parts *r) {
+  static const rigid_parts good = {.coordinates = {1, 2, 3, 4, 5, 7}, .point = {1, 1, 1}, .forces = {1, 2, 3, 4, 5, 6},
+      .nodal = {2, 3, 5}, .node_equations = {10, 11, 12, 13, 14, 15}, .equations = {1, 2, 3, 4, 5, 6},
+      .rows = {10, 13, 20}, .columns = {15, 20, 14}, .motion = {.struct_size = sizeof(stickslip_rigid_motion),
+      .displacement = {0.1, 0.2, 0.3}, .rotation = {0.3, -0.2, 0.4}}};
+  *r = good;
+  r->body = (stickslip_rigid_body){.struct_size = sizeof r->body, .dimension = 3, .n_nodes = 2,
+      .coordinates = r->coordinates, .point = r->point, .node_equations = r->node_equations, .equations = r->equations};
+}
+
 typedef struct {
   element e;
   handle h;
@@ -40,6 +61,11 @@ typedef struct {
   int64_t plan_rows[2], plan_counts[2], row_list[UNKNOWNS], row_offsets[UNKNOWNS + 1], plan_columns[UNKNOWNS * UNKNOWNS];
   int32_t row_list32[UNKNOWNS], row_offsets32[UNKNOWNS + 1], rows32[UNKNOWNS * UNKNOWNS], columns32[UNKNOWNS * UNKNOWNS];
   double plan_values[2][UNKNOWNS * UNKNOWNS];
+  /* Of a rigid body. */
+  stickslip_rigid *rigid;
+  stickslip_rigid_motion turned_motion;
+  double rigid_x[6], resultant[6], rigid_values[RIGID_ENTRIES];
+  int64_t rigid_count, rigid_rows[RIGID_ENTRIES], rigid_columns[RIGID_ENTRIES];
 } every;
 
 static inline int32_t every_weights(every *c) { return call_weights(&c->e); }
@@ -285,6 +311,37 @@ static inline int32_t every_condensed_values(every *c) {
 static inline int32_t every_normal_derivatives(every *c) { return call_normal_derivatives(&c->e); }
 static inline int32_t every_turn(every *c) { return call_turn(&c->e); }
 
+static inline rigid_parts *every_rigid(void) {
+  static rigid_parts r;
+  rigid_parts_init(&r);
+  return &r;
+}
+static inline int32_t every_rigid_positions(every *c) {
+  const rigid_parts *r = every_rigid();
+  return stickslip_rigid_positions(&r->body, &r->motion, c->rigid_x);
+}
+static inline int32_t every_rigid_resultant(every *c) {
+  const rigid_parts *r = every_rigid();
+  return stickslip_rigid_resultant(&r->body, &r->motion, r->forces, c->resultant);
+}
+static inline int32_t every_rigid_turn(every *c) {
+  c->turned_motion = every_rigid()->motion;
+  return stickslip_rigid_turn(&c->turned_motion);
+}
+/* The calls after it need what it makes; the last one ends it. */
+static inline int32_t every_rigid_create(every *c) {
+  const rigid_parts *r = every_rigid();
+  return stickslip_rigid_create(1, &r->body, 0, 3, r->rows, r->columns, &c->rigid, &c->rigid_count);
+}
+static inline int32_t every_rigid_coo(every *c) {
+  return stickslip_rigid_coo(c->rigid, RIGID_ENTRIES, c->rigid_rows, c->rigid_columns);
+}
+static inline int32_t every_rigid_values(every *c) {
+  const rigid_parts *r = every_rigid();
+  return stickslip_rigid_values(c->rigid, &r->motion, r->forces, r->nodal, c->rigid_values);
+}
+static inline int32_t every_rigid_destroy(every *c) { return stickslip_rigid_destroy(&c->rigid); }
+
 typedef struct {
   const char *name;
   int32_t (*call)(every *c);
@@ -372,6 +429,13 @@ static const entry_point every_call[] = {
     {"interface_history_import", every_import},
     {"interface_tangent_coo, imported", every_coo},
     {"interface_counters", every_counters},
+    {"rigid_positions", every_rigid_positions},
+    {"rigid_resultant", every_rigid_resultant},
+    {"rigid_turn", every_rigid_turn},
+    {"rigid_create", every_rigid_create},
+    {"rigid_coo", every_rigid_coo},
+    {"rigid_values", every_rigid_values},
+    {"rigid_destroy", every_rigid_destroy},
 };
 
 /* A refusal of every function: no pointer at all. */
@@ -442,10 +506,17 @@ static inline int32_t every_refusal(int k) {
     case 62: return stickslip_interface_condensed_plan(NULL, NULL, NULL, 0, NULL, NULL);
     case 63: return stickslip_interface_condensed_values(NULL, NULL, NULL, NULL, NULL, NULL);
     case 64: return stickslip_interface_set_committed(NULL, NULL, NULL, NULL, 0);
+    case 65: return stickslip_rigid_positions(NULL, NULL, NULL);
+    case 66: return stickslip_rigid_resultant(NULL, NULL, NULL, NULL);
+    case 67: return stickslip_rigid_turn(NULL);
+    case 68: return stickslip_rigid_create(1, NULL, 0, 0, NULL, NULL, NULL, NULL);
+    case 69: return stickslip_rigid_coo(NULL, 0, NULL, NULL);
+    case 70: return stickslip_rigid_values(NULL, NULL, NULL, NULL, NULL);
+    case 71: return stickslip_rigid_destroy((stickslip_rigid **)(uintptr_t)1);
     default: return stickslip_interface_diagnose(NULL, NULL, NULL, NULL, NULL, NULL);
   }
 }
-enum { REFUSALS = 66 };
+enum { REFUSALS = 73 };
 
 /* Room and sizes for the structs that come out. */
 static inline void every_room(every *c) {
@@ -512,7 +583,8 @@ static inline int every_equal(every *a, every *b) {
          SAME(condensed_force) && SAME(node_condensed) && SAME(condensed_bits) && SAME(condensed_counts) &&
          SAME(e.normal_derivatives) && SAME(e.turn) && SAME(turned) && SAME(plan_rows) && SAME(plan_counts) &&
          SAME(row_list) && SAME(row_offsets) && SAME(plan_columns) && SAME(row_list32) && SAME(row_offsets32) &&
-         SAME(rows32) && SAME(columns32) && SAME(plan_values);
+         SAME(rows32) && SAME(columns32) && SAME(plan_values) && SAME(rigid_x) && SAME(resultant) && SAME(turned_motion) &&
+         SAME(rigid_count) && SAME(rigid_rows) && SAME(rigid_columns) && SAME(rigid_values);
 #undef SAME
 }
 

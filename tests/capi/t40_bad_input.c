@@ -23,6 +23,7 @@ static void end_created(void) {
 static int32_t call(const char *name) {
   const int k = number_of(name);
   end_created();
+  if (strcmp(name, "rigid_create") == 0) CHECK_OK(stickslip_rigid_destroy(&b.every.rigid));
   return functions[k].call(functions[k].a);
 }
 
@@ -56,6 +57,11 @@ static void set_up(const char *name, int32_t base) {
   b.length = sizeof b.every.last_error;
   b.options_size = sizeof b.every.options;
   b.n_interfaces = 2;
+  rigid_parts_init(&b.rigid);
+  b.every.turned_motion = b.rigid.motion;
+  b.every.rigid = NULL;
+  b.n_bodies = 1;
+  b.n_entries = 3;
   b.n = 1;
   b.n_rows = UNKNOWNS;
   b.commits = 3;
@@ -101,6 +107,11 @@ static void set_up(const char *name, int32_t base) {
     CHECK_OK(stickslip_interface_condensed_pattern(s->interface, s->x1, s->x2, UNKNOWNS, H.offsets, H.csr_columns, 0,
                                                    NULL, NULL, &b.capacity));
   }
+  if (strcmp(name, "rigid_coo") == 0 || strcmp(name, "rigid_values") == 0) {
+    const rigid_parts *r = &b.rigid;
+    CHECK_OK(stickslip_rigid_create(1, &r->body, 0, 3, r->rows, r->columns, &b.every.rigid, &b.capacity));
+    functions[number].a[0] = b.every.rigid;
+  }
   if (strncmp(name, "interface_plan_", 15) == 0) {
     int64_t rows;
     CHECK_OK(stickslip_interface_plan(s->interface, s->x1, s->x2, STICKSLIP_PLAN_ACTIVE, &rows, &b.capacity));
@@ -131,6 +142,7 @@ static void compare(void) {
 static void tear_down(void) {
   end_created();
   CHECK_OK(stickslip_interface_destroy(&b.every.other));
+  CHECK_OK(stickslip_rigid_destroy(&b.every.rigid));
   scene_destroy(&S);
 }
 
@@ -164,6 +176,13 @@ static void tell(void) {
   bad_struct("report", "report", &b.every.report);
   bad_struct("diagnosis", "diagnosis", &b.every.diagnosis);
   bad_struct("equilibrium", "equilibrium", &b.every.equilibrium);
+  bad_struct("rigid_body", "body", &b.rigid.body);
+  bad_struct("rigid_motion", "motion", &b.rigid.motion);
+  bad_struct("rigid_motion", "turned_motion", &b.every.turned_motion);
+  REALS("body.coordinates", b.rigid.coordinates), REALS("body.point", b.rigid.point), REALS("forces", b.rigid.forces);
+  REALS("nodal", b.rigid.nodal), INTEGERS("body.node_equations", b.rigid.node_equations);
+  INTEGERS("body.equations", b.rigid.equations), INTEGERS("rigid_rows", b.rigid.rows);
+  INTEGERS("rigid_columns", b.rigid.columns), NUMBER(INT64, n_bodies), NUMBER(INT64, n_entries);
   REALS("pair.x1", E.x1), REALS("pair.x2", E.x2), REALS("pair.neighbour_normals", b.neighbours);
   REALS("facet.neighbour_normals", b.neighbours);
   bad_place("facet.n2", INT32, E.n2, COUNT(E.n2)), REALS("mass", E.mass), REALS("state", E.state);

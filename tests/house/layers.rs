@@ -6,7 +6,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 
 /// Modules and what each may import, lowest first.
-const ALLOWED: [(&str, &[&str]); 15] = [
+const ALLOWED: [(&str, &[&str]); 16] = [
     ("error", &[]),
     ("memory", &["error"]),
     ("adjacency", &["error", "memory"]),
@@ -16,6 +16,7 @@ const ALLOWED: [(&str, &[&str]); 15] = [
     ("quadrature", &["error"]),
     ("geometry", &["error", "shape", "simd"]),
     ("normal", &["error", "geometry"]),
+    ("rigid", &["error", "geometry", "memory"]),
     ("mortar", &["error", "geometry", "quadrature", "shape", "simd"]),
     ("line", &["error", "geometry", "mortar", "quadrature", "shape", "simd"]),
     ("dual", &["error", "geometry", "mortar", "shape", "simd"]),

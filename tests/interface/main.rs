@@ -33,6 +33,7 @@ mod quadratic;
 mod ratios;
 mod reduction;
 mod report;
+mod rigid;
 mod search;
 mod stacked;
 mod surface;

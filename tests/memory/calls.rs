@@ -39,6 +39,47 @@ fn the_counter_counts() {
 }
 
 #[test]
+fn calls_of_a_rigid_body_allocate_nothing() {
+    let (x, point, forces) = ([1.0, 2.0, 3.0], [0.0; 3], [1.0, -2.0, 0.5]);
+    let (nodes, equations, rows, columns) = ([10, 11, 12], [0, 1, 2, 3, 4, 5], [10, 7], [7, 12]);
+    let body = stickslip_rigid_body {
+        struct_size: size_of::<stickslip_rigid_body>() as u64,
+        dimension: 3,
+        reserved: 0,
+        n_nodes: 1,
+        coordinates: x.as_ptr(),
+        point: point.as_ptr(),
+        node_equations: nodes.as_ptr(),
+        equations: equations.as_ptr(),
+    };
+    let mut motion = stickslip_rigid_motion {
+        struct_size: size_of::<stickslip_rigid_motion>() as u64,
+        displacement: [0.1; 3],
+        rotation: [0.2; 3],
+        turned: [0.0; 9],
+    };
+    let (mut rigid, mut count) = (std::ptr::null_mut(), 0);
+    let (mut now, mut resultant, mut places) = ([0.0; 3], [0.0; 6], [[0; 64]; 2]);
+    // SAFETY: all arrays are as long as the header says.
+    unsafe {
+        allocates_nothing("stickslip_rigid_positions", || {
+            assert_eq!(stickslip_rigid_positions(&body, &motion, now.as_mut_ptr()), 0);
+        });
+        allocates_nothing("stickslip_rigid_resultant", || {
+            assert_eq!(stickslip_rigid_resultant(&body, &motion, forces.as_ptr(), resultant.as_mut_ptr()), 0);
+        });
+        allocates_nothing("stickslip_rigid_turn", || assert_eq!(stickslip_rigid_turn(&mut motion), 0));
+        let (rows, columns) = (rows.as_ptr(), columns.as_ptr());
+        assert_eq!(stickslip_rigid_create(1, &body, 0, 2, rows, columns, &mut rigid, &mut count), 0);
+        allocates_nothing("stickslip_rigid_coo", || {
+            let [rows, columns] = &mut places;
+            assert_eq!(stickslip_rigid_coo(rigid, 64, rows.as_mut_ptr(), columns.as_mut_ptr()), 0);
+        });
+        assert_eq!(stickslip_rigid_destroy(&mut rigid), 0);
+    }
+}
+
+#[test]
 fn c_element_calls_allocate_nothing() {
     for (n1, n2, shift) in KINDS {
         let x2 = QUAD2.map(|x| x + shift);

@@ -12,6 +12,7 @@ pub mod parents;
 pub mod parts;
 pub mod press;
 pub mod random;
+pub mod rigid;
 pub mod solid;
 
 use nalgebra::{DMatrix, DVector, Vector3};
