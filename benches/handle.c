@@ -4,6 +4,7 @@
  *
  *   handle [N ...]       sizes; by default 50 100 200 500
  *   handle -o N          standard multipliers and active pairs alone, two passes: for sizes that fill the memory
+ *   handle -o -d N       the same of dual multipliers
  *   handle -t 2 [N ...]  with two threads, in time on the wall; beside it `-t 1`
  *
  * Else times are of this thread, the least of several passes; passes of the baseline alternate with them. Without the
@@ -190,11 +191,12 @@ static costs measure(scene *s, int32_t basis, int32_t normals, int passes, int p
 
 int main(int argc, char **argv) {
   int64_t sizes[16] = {50, 100, 200, 500};
-  int n_sizes = 4, only = 0;
+  int n_sizes = 4, only = 0, first = 0;
   if (argc > 1) {
     n_sizes = 0;
     for (int k = 1; k < argc && n_sizes < 16; ++k) {
       if (strcmp(argv[k], "-o") == 0) only = 1;
+      else if (strcmp(argv[k], "-d") == 0) first = 1;
       else if (strcmp(argv[k], "-t") == 0 && k + 1 < argc) threads = atoi(argv[++k]);
       else sizes[n_sizes++] = atoll(argv[k]);
     }
@@ -208,15 +210,15 @@ int main(int argc, char **argv) {
   enum { KINDS = sizeof kinds / sizeof *kinds };
   for (int k = 0; k < n_sizes; ++k) {
     scene s = make(sizes[k]);
-    const int passes = only ? 2 : sizes[k] > 250 ? 3 : sizes[k] > 60 ? 8 : 20, used = only ? 1 : KINDS;
+    const int passes = only ? 2 : sizes[k] > 250 ? 3 : sizes[k] > 60 ? 8 : 20, used = only ? 1 : KINDS - first;
     costs c[KINDS];
-    for (int kind = 0; kind < used; ++kind) c[kind] = measure(&s, kinds[kind].basis, kinds[kind].normals, passes, only ? 1 : 2);
+    for (int kind = 0; kind < used; ++kind) c[kind] = measure(&s, kinds[first + kind].basis, kinds[first + kind].normals, passes, only ? 1 : 2);
 #ifdef BASELINE
     printf("\n%lld x %lld facets, a pair's times over the baseline's (%.2f us)\n%-28s", (long long)s.n, (long long)s.n, baseline, "");
 #else
     printf("\n%lld x %lld facets, microseconds a pair\n%-28s", (long long)s.n, (long long)s.n, "");
 #endif
-    for (int kind = 0; kind < used; ++kind) printf(" %24s", kinds[kind].name);
+    for (int kind = 0; kind < used; ++kind) printf(" %24s", kinds[first + kind].name);
     for (int row = 0; row < ROWS; ++row) {
       if (only && (row == SKIN || row == PLAN_SKIN)) continue;
       printf("\n%-28s", names[row]);

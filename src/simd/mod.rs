@@ -111,6 +111,7 @@ mod tests {
     fn back_ends_agree_and_are_right() {
         let plain = Operations.run::<Plain>();
         assert_eq!(dispatch(Operations), plain);
+        assert_eq!(dispatch_wide(Operations), plain);
         assert_eq!(plain[0], [3.0, -1.5, 3.0, 12.0]);
         assert_eq!(plain[3], [8.0, 2.0, -4.0, 12.0]);
         assert_eq!(plain[5], [2.25, -0.75, -3.75, 27.25]);

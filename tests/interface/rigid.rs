@@ -256,7 +256,7 @@ mod half_plane {
             }
         }
         // Surface nodes that move, inner ones, and those of the border.
-        let is_border = |n: usize| n % nx == 0 || n % nx == nx - 1 || n / nx == ny - 1;
+        let is_border = |n: usize| n.is_multiple_of(nx) || n % nx == nx - 1 || n / nx == ny - 1;
         let scalars = |wanted: &dyn Fn(usize) -> bool| -> Vec<usize> {
             (0..nx * ny).filter(|n| wanted(*n)).flat_map(|n| [2 * n, 2 * n + 1]).collect()
         };
