@@ -150,7 +150,7 @@ pub(super) fn read_facets(
     Ok((coordinates.chunks_exact(dimension).map(position).stored()?, facets))
 }
 
-/// A checked analytic surface: the points of its frame, no facets, no equations.
+/// A checked analytic surface: the points of its frame, no facets.
 pub(super) fn read_analytic(s: &stickslip_surface, shape: AnalyticShape, base: i64) -> Result<Surface> {
     let refuse = |kind, text: Text| Err(Error::new(kind, text));
     let (points, dimension) = (shape.points(), if shape.is_in_plane() { 2 } else { 3 });
@@ -166,15 +166,12 @@ pub(super) fn read_analytic(s: &stickslip_surface, shape: AnalyticShape, base: i
         let text = "mortar.facet_offsets and mortar.facet_nodes must be NULL: an analytic surface has no facets";
         return refuse(Kind::InvalidValue, text.into());
     }
-    if !s.equations.is_null() {
-        let equations = equations::<3>(s.equations, points, (base, dimension), "mortar.equations")?;
-        if let Some(k) = equations.iter().flat_map(|e| &e[..dimension]).position(|&e| e != NO_EQUATION) {
-            let text = text!("mortar.equations[{k}] is an equation; an analytic surface is rigid and has none (-1)");
-            return refuse(Kind::InvalidValue, text);
-        }
-    }
     let coordinates = raw::numbers(s.coordinates, dimension * points, "mortar.coordinates")?;
-    Surface::analytic("mortar", shape, coordinates.chunks_exact(dimension).map(position).stored()?)
+    let mut surface = Surface::analytic("mortar", shape, coordinates.chunks_exact(dimension).map(position).stored()?)?;
+    if !s.equations.is_null() {
+        surface.equations = equations::<3>(s.equations, points, (base, dimension), "mortar.equations")?;
+    }
+    Ok(surface)
 }
 
 /// A position of two or three coordinates.
