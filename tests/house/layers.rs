@@ -18,7 +18,7 @@ const ALLOWED: [(&str, &[&str]); 16] = [
     ("normal", &["error", "geometry"]),
     ("rigid", &["error", "geometry", "memory"]),
     ("mortar", &["error", "geometry", "quadrature", "shape", "simd"]),
-    ("line", &["error", "geometry", "mortar", "quadrature", "shape"]),
+    ("line", &["error", "geometry", "mortar", "quadrature", "shape", "simd"]),
     ("dual", &["error", "geometry", "mortar", "shape", "simd"]),
     ("law", &["error", "geometry"]),
     ("element", &["dual", "error", "geometry", "law", "mortar", "quadrature", "shape", "simd"]),
