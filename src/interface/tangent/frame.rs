@@ -6,22 +6,38 @@
 //!
 //! They belong to no facet alone: a frame has rows in common with all of them.
 
-use super::blocks::Task;
 use super::emission::{Directions, Emitter, Place, Weights};
-use super::union::{UnionPair, Walk};
+use super::union::{Pairs, UnionPair, Walk};
+use crate::element::NodeTangent;
 use crate::error::Result;
-use crate::geometry::{FRAME, Mat3, Vec3};
+use crate::geometry::{AnalyticSurface, FRAME, Mat3, Vec3};
+use crate::interface::data::active::Active;
+use crate::interface::pairing::given::Given;
 use crate::interface::pairing::overlaps::FacetOverlaps;
 use crate::mortar::{FrameMotion, frame_motion};
+use crate::quadrature::Rule;
 use nalgebra::SMatrix;
 
-/// All of them; nothing where the frame has no equations.
+/// What their numbers are made of.
+#[derive(Clone, Copy)]
+pub struct FrameNumbers<'a, const N: usize> {
+    /// What forces and rows must know of each node.
+    pub nodes: &'a [NodeTangent<N>],
+    /// The pairs whose weights are differentiated; `None`: no weights are.
+    pub active: Option<&'a Active>,
+    /// The surface as it is now.
+    pub surface: Option<&'a AnalyticSurface>,
+    /// The rule of the weights.
+    pub rule: &'static Rule,
+}
+
+/// All of them, without numbers for the pattern alone; nothing where the frame has no equations.
 pub fn blocks<const N: usize>(
-    task: Task<N>,
+    (given, normals, all): (Given<N>, &[Vec3], Pairs),
+    numbers: Option<FrameNumbers<N>>,
     (pairs, overlaps): (&mut Vec<UnionPair>, &mut FacetOverlaps),
     emitter: &mut Emitter<N>,
 ) -> Result<()> {
-    let Task { given, normals, pairs: all, numbers, .. } = task;
     if !given.setup.frame_moves() {
         return Ok(());
     }
@@ -36,8 +52,8 @@ pub fn blocks<const N: usize>(
             (numbers.and_then(|n| n.active), numbers, !UnionPair::places(pairs).is_empty())
         {
             overlaps.of(given, active, UnionPair::places(pairs))?;
-            if let Some(surface) = numbers.motion.surface {
-                motion = frame_motion(overlaps.frame(), surface, numbers.motion.rule)?;
+            if let Some(surface) = numbers.surface {
+                motion = frame_motion(overlaps.frame(), surface, numbers.rule)?;
             }
         } else if let Some(weights) = now {
             for (of_node, n) in motion.gap.iter_mut().zip(&weights.ac) {
