@@ -24,8 +24,8 @@ NOT_WRAPPED = {
     "interface_condensed_csr": "pieces of the condensed matrix and scipy's products",
     "interface_condensed_pattern": "scipy finds the pattern",
 }
-# The stateless stages are for codes that assemble pair by pair.
-NOT_WRAPPED_PREFIXES = ("pair_", "facet_", "node_")
+# The stateless stages are for codes that assemble pair by pair. Rigid bodies: not yet.
+NOT_WRAPPED_PREFIXES = ("pair_", "facet_", "node_", "rigid_")
 
 
 def declared():

@@ -93,6 +93,14 @@ class PointContact:
         return 16 / 3 * shear_modulus * self.contact_radius**3
 
 
+def elliptic_potential(zeta, a, slope):
+    """(h, h') at zeta = x + i depth in a half-plane: a harmonic function F with F_d = Re h, F_x = Im h, h = 0 at zeta = 0, whose
+    F_dd on the surface is `slope` sqrt(a^2 - x^2), and 0 beyond a. On the surface within a only x > 0 is right, and a
+    depth of +0, not -0."""
+    root = zeta * np.sqrt(1 - (a / zeta) ** 2)
+    return slope * (zeta * (zeta - root) / 2 + a * a / 2 * np.log((zeta + root) / (1j * a))), slope * (zeta - root)
+
+
 def ellipse(x, a):
     return np.sqrt(np.maximum(0.0, 1 - (np.asarray(x) / a) ** 2))
 

@@ -5,6 +5,7 @@ exact solution is that of the half-plane, and the force of the parabola is known
 
 import numpy as np
 
+import formulas
 from scene import write
 from second_order import SecondOrder
 
@@ -37,11 +38,8 @@ def hertz_field(X, a):
     2 G u_x = (1 - 2 nu) F_x + d F_xd,  2 G u_d = -2 (1 - nu) F_d + d F_dd."""
     depth = -X[:, 2]
     zeta = X[:, 0] + 1j * depth
-    root = zeta * np.sqrt(1 - (a / zeta) ** 2)
-    scale = PLANE / (2 * RADIUS)  # the largest pressure over a
-    # F_d = Re h, F_x = Im h
-    h = scale * (zeta * (zeta - root) / 2 + a * a / 2 * np.log((zeta + root) / (1j * a)))
-    slope = scale * (zeta - root)
+    # The largest pressure over a; F_d = Re h, F_x = Im h.
+    h, slope = formulas.elliptic_potential(zeta, a, PLANE / (2 * RADIUS))
     u = np.zeros_like(X)
     u[:, 0] = ((1 - 2 * POISSON) * h.imag + depth * slope.real) / (2 * SHEAR)
     u[:, 2] = (2 * (1 - POISSON) * h.real + depth * slope.imag) / (2 * SHEAR)
