@@ -21,7 +21,8 @@ pub const STICKSLIP_NODE_ELSEWHERE: i32 = 2;
 /// One surface of an interface.
 ///
 /// An analytic mortar side (STICKSLIP_MORTAR_ANALYTIC) has n_nodes = 4 (of lines 3) and n_facets = 0; facet_offsets and facet_nodes
-/// are NULL, equations NULL or all -1. Its nodes P0..P3 are a frame that is fixed to the surface and moves as a rigid
+/// are NULL; equations are NULL or all -1, or those of a frame that `stickslip_rigid_create` puts together (not with lines, quadratic
+/// facets, dual multipliers, the augmented form, weak_coverage, nor tied: UNSUPPORTED). Its nodes P0..P3 are a frame that is fixed to the surface and moves as a rigid
 /// body, within 1e-8 of its lengths (INVALID_VALUE otherwise); to move the surface, move them. P0: a point of the
 /// plane, the sphere's centre, a point of the axis. P1 - P0: the plane's normal, out of its body, or the direction of
 /// the axis; of lines a point of the straight line and its normal, or the centre of the circle and any direction. The three edges
@@ -150,7 +151,7 @@ pub(super) fn read_facets(
     Ok((coordinates.chunks_exact(dimension).map(position).stored()?, facets))
 }
 
-/// A checked analytic surface: the points of its frame, no facets, no equations.
+/// A checked analytic surface: the points of its frame, no facets.
 pub(super) fn read_analytic(s: &stickslip_surface, shape: AnalyticShape, base: i64) -> Result<Surface> {
     let refuse = |kind, text: Text| Err(Error::new(kind, text));
     let (points, dimension) = (shape.points(), if shape.is_in_plane() { 2 } else { 3 });
@@ -166,15 +167,12 @@ pub(super) fn read_analytic(s: &stickslip_surface, shape: AnalyticShape, base: i
         let text = "mortar.facet_offsets and mortar.facet_nodes must be NULL: an analytic surface has no facets";
         return refuse(Kind::InvalidValue, text.into());
     }
-    if !s.equations.is_null() {
-        let equations = equations::<3>(s.equations, points, (base, dimension), "mortar.equations")?;
-        if let Some(k) = equations.iter().flat_map(|e| &e[..dimension]).position(|&e| e != NO_EQUATION) {
-            let text = text!("mortar.equations[{k}] is an equation; an analytic surface is rigid and has none (-1)");
-            return refuse(Kind::InvalidValue, text);
-        }
-    }
     let coordinates = raw::numbers(s.coordinates, dimension * points, "mortar.coordinates")?;
-    Surface::analytic("mortar", shape, coordinates.chunks_exact(dimension).map(position).stored()?)
+    let mut surface = Surface::analytic("mortar", shape, coordinates.chunks_exact(dimension).map(position).stored()?)?;
+    if !s.equations.is_null() {
+        surface.equations = equations::<3>(s.equations, points, (base, dimension), "mortar.equations")?;
+    }
+    Ok(surface)
 }
 
 /// A position of two or three coordinates.

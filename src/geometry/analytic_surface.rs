@@ -215,6 +215,12 @@ impl AnalyticSurface {
         let w = self.to_frame * y;
         [1.0 - w.x - w.y - w.z, w.x, w.y, w.z]
     }
+
+    /// Their gradients, which are the same everywhere.
+    pub fn coordinate_gradients(&self) -> [Vec3; FRAME] {
+        let [a, b, c] = [0, 1, 2].map(|i| self.to_frame.row(i).transpose());
+        [-a - b - c, a, b, c]
+    }
 }
 
 /// Refuses a frame that is no rigid motion of the first one: that moved a point against the others, or was mirrored.

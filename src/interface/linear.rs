@@ -162,7 +162,8 @@ impl<'a, const N: usize> Here<'a, N> {
     fn extras(self, pairs: Pairs, extent: Extent, is_whole: bool) -> Result<[Vec<(u32, u32)>; 2]> {
         let given = self.given;
         let carries = !given.step.pairing.carriers.is_empty();
-        if !carries && !is_coupled(given) && !given.setup.options.follows_normals() {
+        let frame_moves = given.setup.frame_moves();
+        if !carries && !is_coupled(given) && !given.setup.options.follows_normals() && !frame_moves {
             return Ok(Default::default());
         }
         let nodes = Nodes::of(Sides::of(given.setup));

@@ -23,11 +23,11 @@ use crate::shape::{MAX_CORNERS, MAX_NODES};
 use crate::simd::{self, Kernel, Lanes};
 
 /// A point of the facet and the closest one of the surface.
-struct Place {
+pub(super) struct Place {
     /// x - P0.
-    x: Vec3,
+    pub x: Vec3,
     /// The surface there.
-    closest: Closest,
+    pub closest: Closest,
 }
 
 impl Place {
@@ -38,40 +38,40 @@ impl Place {
 
     /// y - P0.
     #[inline(always)]
-    fn on_surface(&self) -> Vec3 {
+    pub fn on_surface(&self) -> Vec3 {
         self.x - self.closest.normal * self.closest.distance
     }
 }
 
 /// The facet's nodes - P0. Differences of nodes and P0 come first: exact under a common offset.
 #[inline(always)]
-fn corners(frame: &NonmortarFrame, surface: &AnalyticSurface) -> [Vec3; MAX_CORNERS] {
+pub(super) fn corners(frame: &NonmortarFrame, surface: &AnalyticSurface) -> [Vec3; MAX_CORNERS] {
     let x = &frame.projection.x;
     [x[0] - surface.origin, x[1] - surface.origin, x[2] - surface.origin, x[3] - surface.origin]
 }
 
 /// A quadrature point of the facet.
-struct Point {
+pub(super) struct Point {
     /// Weight on the reference cell; times `area` it is an area [L^2].
-    weight: f64,
+    pub weight: f64,
     /// The area element j = det J [L^2].
-    area: f64,
+    pub area: f64,
     /// 1, xi, eta: j is linear in them.
-    powers: [f64; 3],
+    pub powers: [f64; 3],
     /// The functions of the map, which are N_A and N_B, too: other kinds have no table.
-    n: [f64; MAX_CORNERS],
-    place: Place,
+    pub n: [f64; MAX_CORNERS],
+    pub place: Place,
 }
 
 /// Quadrature points of the facet's cell.
 #[inline(always)]
-fn cell_points(frame: &NonmortarFrame, rule: &Rule) -> usize {
+pub(super) fn cell_points(frame: &NonmortarFrame, rule: &Rule) -> usize {
     if frame.projection.shape.n == 3 { rule.triangle.len() } else { rule.square.len() * rule.square.len() }
 }
 
 /// The i-th of them.
 #[inline(always)]
-fn point(
+pub(super) fn point(
     frame: &NonmortarFrame,
     surface: &AnalyticSurface,
     corners: &[Vec3; MAX_CORNERS],

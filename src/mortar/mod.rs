@@ -11,6 +11,7 @@ mod derivatives;
 mod edges;
 mod element_rule;
 mod field;
+mod frame_motion;
 mod gap;
 mod moments;
 #[cfg(test)]
@@ -39,6 +40,7 @@ pub use at_rest::{facet_motion, facet_motion_raised};
 pub use chain::{AreaDerivatives, ForceDerivatives, WeightDerivatives};
 pub use derivatives::{pair_motion, pair_motion_raised};
 pub use field::MultiplierSpace;
+pub use frame_motion::{FrameMotion, frame_motion};
 pub use gap::{AlongNormal, GapBlocks, GapDerivative, Raised, columns, gap, height_gap};
 pub use pair_weights::PairWeights;
 pub use parent_pair::{ParentDerivatives, ParentFacet, ParentWeights, parent_weights};

@@ -24,7 +24,8 @@ static void rigid_init(part *p, int side, int64_t first) {
   const double turned[3] = {0.9, -1.4, 0.5}, point[3] = {0.3, -0.2, 0.8};
   const double *x = side == 1 ? s.x1 : s.x2;
   p->side = side;
-  p->body = (stickslip_rigid_body){.struct_size = sizeof p->body, .dimension = 3, .n_nodes = side == 1 ? N1 : N2,
+  p->body = (stickslip_rigid_body){.struct_size = sizeof p->body, .dimension = 3,
+      .n_nodes = side == 1 ? N1 : s.mortar.n_nodes,
       .coordinates = p->coordinates, .point = p->point, .node_equations = side == 1 ? s.equations1 : s.equations2,
       .equations = p->equations};
   p->motion = (stickslip_rigid_motion){.struct_size = sizeof p->motion};
@@ -80,14 +81,35 @@ static double worst_of(const double *v, int n) {
 /* Forces, moments, multiplier rows. */
 static int kind(int k) { return k < X1 + X2 ? 0 : k < UNKNOWNS ? 2 : (k - UNKNOWNS) % SIX < 3 ? 0 : 1; }
 
+/* In place of the mortar facets a surface in closed form, whose frame is the body; 0: the facets. */
+static void make_analytic(int shape) {
+  const double radius = 5.0, points[4][3] = {{0.4, 0.5, shape == 1 ? 0.0 : -radius}, {0, 0, 1}, {1, 0, 0}, {0, 1, 0}};
+  if (!shape) return;
+  const int axis = shape == 3 ? 2 : 1; /* of a cylinder it lies in the surfaces */
+  const int order[4] = {0, axis, axis == 1 ? 2 : 3, axis == 1 ? 3 : 1};
+  for (int k = 0; k < 4; ++k) {
+    for (int i = 0; i < 3; ++i) s.reference2[3 * k + i] = points[0][i] + (k ? 2.0 * points[order[k]][i] : 0.0);
+    scene_frame(s.reference2 + 3 * k);
+  }
+  memcpy(s.x2, s.reference2, 12 * sizeof *s.x2);
+  s.options.mortar_side = STICKSLIP_MORTAR_ANALYTIC;
+  s.options.shape = shape == 1 ? STICKSLIP_SHAPE_PLANE : shape == 2 ? STICKSLIP_SHAPE_SPHERE : STICKSLIP_SHAPE_CYLINDER;
+  if (shape > 1) s.options.radius = radius;
+  s.mortar.n_nodes = 4;
+  s.mortar.n_facets = 0;
+  s.mortar.facet_offsets = s.mortar.facet_nodes = NULL;
+}
+
 /* `drops`: the first body has no equation of the displacement along y and of the rotation about z. */
-static void check_tangent(int64_t base, int n, const int *sides, int drops) {
+static void check_tangent(int64_t base, int n, const int *sides, int drops, int shape, int32_t weights) {
   static double k[NEW][NEW], d[NEW][NEW], plus[NEW], minus[NEW], values[MOST], forces[X1 + X2], lambda[X1];
   static int64_t rows[MOST], columns[MOST];
   static part parts[2];
   stickslip_rigid_body bodies[2];
   stickslip_rigid_motion motions[2];
   scene_init_base(&s, base);
+  s.options.weights = weights;
+  make_analytic(shape);
   scene_create(&s);
   scene_commit(&s);
   scene_slide(&s, 0.03);
@@ -106,7 +128,7 @@ static void check_tangent(int64_t base, int n, const int *sides, int drops) {
   stickslip_rigid *rigid = NULL;
   int64_t count = -1;
   CHECK_OK(stickslip_rigid_create(n, bodies, (int32_t)base, t.n, t.rows, t.columns, &rigid, &count));
-  CHECK(0 < count && count < t.n);
+  CHECK(0 < count && (shape || count < t.n));
   CHECK_REFUSED(stickslip_rigid_coo(rigid, count - 1, rows, columns), STICKSLIP_BUFFER_TOO_SMALL, "capacity");
   CHECK_OK(stickslip_rigid_coo(rigid, count, rows, columns));
   for (int twice = 0; twice < 2; ++twice) CHECK_OK(stickslip_rigid_values(rigid, motions, forces, t.values, values));
@@ -162,6 +184,20 @@ static void check_tangent(int64_t base, int n, const int *sides, int drops) {
     CHECK_NEAR(sum, 0.0, ROUNDING * worst_of(plus, NEW));
   }
   scene_destroy(&s);
+}
+
+/* What the equations of a frame do not go with. */
+static void check_analytic_refusals(void) {
+  for (int k = 0; k < 4; ++k) {
+    scene_init(&s);
+    make_analytic(2);
+    if (k == 0) s.options.form = STICKSLIP_FORM_AUGMENTED;
+    if (k == 1) s.options.multiplier_basis = STICKSLIP_BASIS_DUAL;
+    if (k == 2) s.options.weak_coverage = 0.2;
+    if (k == 3) s.options.friction = STICKSLIP_FRICTION_TIED, s.options.mu = 0.0;
+    CHECK_REFUSED(stickslip_interface_create(&s.nonmortar, &s.mortar, &s.options, &s.interface), STICKSLIP_UNSUPPORTED,
+                  "mortar.equations");
+  }
 }
 
 /* In the plane: three numbers; a lever of length 2 along x, turned by a right angle. */
@@ -285,11 +321,16 @@ static void check_refusals(void) {
 int main(void) {
   static const int one[] = {1}, two[] = {2}, both[] = {2, 1};
   for (int64_t base = 0; base < 2; ++base) {
-    check_tangent(base, 1, one, 0);
-    check_tangent(base, 1, two, 0);
-    check_tangent(base, 2, both, 0);
-    check_tangent(base, 2, both, 1);
+    for (int32_t weights = STICKSLIP_WEIGHTS_CURRENT; weights <= STICKSLIP_WEIGHTS_COMMITTED; ++weights) {
+      check_tangent(base, 1, one, 0, 0, weights);
+      for (int shape = 0; shape < 4; ++shape) { /* facets; a plane, a ball, a bar */
+        check_tangent(base, 1, two, 0, shape, weights);
+        check_tangent(base, 2, both, 0, shape, weights);
+        check_tangent(base, 2, both, 1, shape, weights);
+      }
+    }
   }
+  check_analytic_refusals();
   check_lines();
   check_turns();
   check_refusals();

@@ -119,14 +119,16 @@ fn wall(normal: Vec3, distance: f64) -> Elastic {
 /// Walls at 35 and at 50 degrees, a ball between them under its weight: their forces follow from two equations.
 #[test]
 fn a_ball_settles_into_a_groove_as_statics_say() {
-    for elastic_first in [true, false] {
+    // A ball in closed form, to which only the other side can have the multipliers; and one of facets.
+    let frame = Mesh { x: [Vec3::zeros(), Vec3::x(), Vec3::y(), Vec3::z()].to_vec(), facets: Vec::new() };
+    for (elastic_first, ball) in [(true, frame), (true, ball(12)), (false, ball(12))] {
         let [a, b] = [35.0_f64, 50.0].map(f64::to_radians);
         let normals = [Vec3::new(a.sin(), 0.0, a.cos()), Vec3::new(-b.sin(), 0.0, b.cos())];
         let weight = 3.0;
         let mut scene = Contacts::<1>::new(
             normals.map(|normal| wall(normal, 0.97)).into(),
             // Without friction nothing holds it along the groove, nor against turning.
-            (vec![ball(12); 2], Vec3::new(0.1, -0.2, 0.3), [true, false, true, false, false, false]),
+            (vec![ball.clone(); 2], Vec3::new(0.1, -0.2, 0.3), [true, false, true, false, false, false]),
             elastic_first,
             None,
             &options(Friction::None),

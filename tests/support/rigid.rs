@@ -3,7 +3,7 @@
 
 use super::mesh::{Create, Mesh};
 use nalgebra::{DMatrix, DVector, Matrix3, SVector};
-use stickslip::geometry::Vec3;
+use stickslip::geometry::{AnalyticShape, Vec3};
 use stickslip::interface::{Contact, NO_EQUATION, Options, Surface};
 use stickslip::line::Measure;
 use stickslip::rigid::{Body, Motion, RigidPlan, SIX, turned};
@@ -53,7 +53,7 @@ impl<const N: usize> Contacts<N>
 where
     Contact<N>: Create<N>,
 {
-    /// `measure`: of lines.
+    /// `measure`: of lines. A rigid surface without facets is a ball of radius 1, its nodes the frame.
     pub fn new(
         elastic: Vec<Elastic>,
         (rigid, point, free): (Vec<Mesh>, Vec3, [bool; SIX]),
@@ -74,6 +74,11 @@ where
                 (0..n).map(|a| [0, 1, 2].map(|i| of(a, i))).collect()
             };
             let surface = |side, mesh: &Mesh, equations| match measure {
+                None if mesh.facets.is_empty() => {
+                    let mut ball = Surface::analytic(side, AnalyticShape::Sphere(1.0), mesh.x.clone()).unwrap();
+                    ball.equations = equations;
+                    ball
+                }
                 None => Surface::new(side, mesh.x.clone(), &mesh.facets, equations).unwrap(),
                 Some(measure) => Surface::of_lines(side, mesh.x.clone(), &mesh.facets, equations, measure).unwrap(),
             };

@@ -48,6 +48,7 @@ impl<const N: usize> Setup<N> {
         }
         numbering::check(&multiplier_equations, [&nonmortar, &mortar])?;
         if options.mortar_side == MortarSide::Rigid
+            && mortar.analytic.is_none()
             && let Some(k) = mortar.equations.iter().position(|e| e.iter().any(|&e| e != NO_EQUATION))
         {
             let text = text!("the mortar side is rigid, but its node {k} has an equation; give it none (-1)");
@@ -63,6 +64,7 @@ impl<const N: usize> Setup<N> {
             frames(&mortar, &mortar.reference)?;
         }
         check_frame(&nonmortar, &mortar)?;
+        check_moving_frame([&nonmortar, &mortar], &options)?;
         put_parents([&mut nonmortar, &mut mortar], &multiplier_equations, &options)?;
         let nodes = NodeData::new(&multiplier_equations, mu)?;
         Ok(Setup { options, effects, nonmortar, mortar, multiplier_equations, nodes })
@@ -78,10 +80,43 @@ impl<const N: usize> Setup<N> {
         self.nonmortar.parents.is_some()
     }
 
+    /// Whether the frame of an analytic surface has equations.
+    pub fn frame_moves(&self) -> bool {
+        frame_moves(&self.mortar)
+    }
+
     /// Whether a node has a multiplier at all.
     pub fn has_multiplier(&self, a: usize) -> bool {
         self.multiplier_equations[a].iter().any(|&e| e != NO_EQUATION)
     }
+}
+
+fn frame_moves(mortar: &Surface) -> bool {
+    mortar.analytic.is_some() && mortar.equations.iter().flatten().any(|&e| e != NO_EQUATION)
+}
+
+/// Refuses what the equations of an analytic surface's frame do not go with.
+fn check_moving_frame([nonmortar, mortar]: [&Surface; 2], options: &Options) -> Result<()> {
+    if !frame_moves(mortar) {
+        return Ok(());
+    }
+    let with = if nonmortar.parents.is_some() {
+        "quadratic facets or lines"
+    } else if options.form == Form::Augmented {
+        "the augmented form"
+    } else if options.basis == MultiplierBasis::Dual {
+        "dual multipliers"
+    } else if options.effective_weak_coverage() > 0.0 {
+        "weak_coverage"
+    } else if options.friction.law().opens {
+        return Ok(());
+    } else {
+        "tied surfaces"
+    };
+    let text = text!(
+        "equations of the frame of an analytic surface (mortar.equations) with {with}: give the surface facets, or its frame none (-1)"
+    );
+    Err(Error::new(Kind::Unsupported, text))
 }
 
 /// Gives lines of both sides the same width: the shortest of their parts' lengths, so that no edge is longer than the line that it

@@ -74,7 +74,9 @@ fn mu_range<const N: usize>(setup: &Setup<N>) -> Result<Text> {
 
 fn mortar_sentence<const N: usize>(setup: &Setup<N>) -> Result<Text> {
     if let Some(shape) = setup.mortar.analytic {
-        return say!("Mortar side: {shape} (asked for), no facets, no search, no rows and columns for it.");
+        let equations =
+            if setup.frame_moves() { "rows and columns of its frame" } else { "no rows and columns for it" };
+        return say!("Mortar side: {shape} (asked for), no facets, no search, {equations}.");
     }
     let prescribed = setup.mortar.equations.iter().flatten().all(|&e| e == NO_EQUATION);
     let what = match (setup.options.mortar_side, setup.effects.moves()) {

@@ -53,7 +53,13 @@ impl<const N: usize> Blocks<N> for Extras<'_, N> {
         }
     }
 
-    fn multiplier_row(&mut self, _row: Place, _columns: &[(usize, Place)], _n: &Weights, _nu: &Directions) {}
+    fn multiplier_row(&mut self, row: Place, columns: &[(usize, Place)], _n: &Weights, _nu: &Directions) {
+        // Forces of pairs are known from these but for those on the frame of an analytic surface.
+        if self.setup.frame_moves() {
+            columns.iter().for_each(|column| self.node(row, column.1, &[]));
+        }
+    }
+
     fn mortar(&mut self, _block: &MortarBlock) {}
     fn diagonal(&mut self, _a: usize, _values: &[f64]) {}
 

@@ -9,6 +9,7 @@ use super::derivatives::PairDerivatives;
 use super::dual_facet::{DualFacet, MortarRows, ShareRoom};
 use super::emission::{Emitter, Takers};
 use super::facet_tangent::{FacetTangent, total};
+use super::frame::{self, FrameNumbers};
 use super::parents::{self, ParentNumbers, ParentRoom};
 use super::turning::{self, Turns};
 use super::union::{Pairs, UnionPair, Walk};
@@ -410,6 +411,14 @@ pub fn of_nodes<const N: usize>(
         }
         room.lone.lone.iter().for_each(|&f| turning::lone_rows(f, turns, emitter));
     }
+    let frame_numbers = numbers.map(|n| FrameNumbers {
+        nodes: n.nodes,
+        active: n.active,
+        surface: n.motion.surface,
+        rule: n.motion.rule,
+    });
+    let room = (&mut room.pairs, &mut room.overlaps);
+    frame::blocks((given, task.normals, pairs), frame_numbers, room, emitter)?;
     for a in 0..given.nodes() {
         let response = numbers.map(|n| &n.responses.nodes[a]);
         let is_carried = numbers.is_some_and(|n| n.responses.carried.get(a).is_some_and(|c| *c));

@@ -8,6 +8,7 @@ pub mod derivatives;
 pub mod dual_facet;
 pub mod emission;
 pub mod facet_tangent;
+pub mod frame;
 pub mod lines;
 pub mod parent_table;
 pub mod parents;

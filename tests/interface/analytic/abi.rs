@@ -164,9 +164,12 @@ fn wrong_inputs_are_refused_by_name() {
         (|i| i.x2[4] = f64::INFINITY, STICKSLIP_NOT_FINITE, "mortar.coordinates[4]"),
         (|i| i.x2.copy_within(6..9, 9), STICKSLIP_INVALID_VALUE, "mortar: the frame has no volume"),
         (
-            |i| (i.equations2[7], i.two.equations) = (5, i.equations2.as_ptr()),
-            STICKSLIP_INVALID_VALUE,
-            "mortar.equations[7]",
+            |i| {
+                (i.equations2[7], i.two.equations) = (5, i.equations2.as_ptr());
+                i.options.form = STICKSLIP_FORM_AUGMENTED;
+            },
+            STICKSLIP_UNSUPPORTED,
+            "(mortar.equations) with the augmented form",
         ),
         (|i| i.two.multiplier_equations = L.as_ptr(), STICKSLIP_INVALID_VALUE, "mortar.multiplier_equations"),
     ];
