@@ -82,6 +82,8 @@ mod facet_tangent;
 
 mod equilibrium;
 
+mod offsets;
+
 mod choice;
 mod fp_environment;
 mod guard;
@@ -107,6 +109,7 @@ pub use message::*;
 pub use model::*;
 pub use node::*;
 pub use normals::*;
+pub use offsets::*;
 pub use options::*;
 pub use pair::*;
 pub use pair_in::*;

@@ -13,6 +13,7 @@ mod element_rule;
 mod field;
 mod gap;
 mod moments;
+mod offset;
 #[cfg(test)]
 mod oracle;
 mod overlap;
@@ -39,6 +40,7 @@ pub use chain::{AreaDerivatives, ForceDerivatives, WeightDerivatives};
 pub use derivatives::{pair_motion, pair_motion_raised};
 pub use field::MultiplierSpace;
 pub use gap::{AlongNormal, GapBlocks, GapDerivative, Raised, columns, gap, height_gap};
+pub use offset::offset_motion;
 pub use pair_weights::PairWeights;
 pub use parent_pair::{ParentDerivatives, ParentFacet, ParentWeights, parent_weights};
 pub use segment::{CellPoints, NonmortarFrame, Segment};
