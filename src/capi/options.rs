@@ -53,13 +53,13 @@ pub const STICKSLIP_MORTAR_DEFORMABLE: i32 = 0;
 /// The mortar side is rigid or prescribed (no equations): no rows and columns for it in the tangent.
 pub const STICKSLIP_MORTAR_RIGID: i32 = 1;
 /// The mortar side is rigid and in closed form, STICKSLIP_SHAPE_...: no facets, no search. Its stickslip_surface has
-/// four nodes, a frame that is fixed to it and that the host moves as a rigid body: see there.
+/// four nodes (of lines three), a frame that is fixed to it and that the host moves as a rigid body: see there.
 pub const STICKSLIP_MORTAR_ANALYTIC: i32 = 2;
-/// A plane. Default.
+/// A plane; of lines a straight line. Default.
 pub const STICKSLIP_SHAPE_PLANE: i32 = 0;
-/// A sphere.
+/// A sphere; of lines a circle.
 pub const STICKSLIP_SHAPE_SPHERE: i32 = 1;
-/// A circular cylinder without ends.
+/// A circular cylinder without ends; of lines a circle.
 pub const STICKSLIP_SHAPE_CYLINDER: i32 = 2;
 /// Coulomb with mu = 0 at every node: no slip is computed (and none reported).
 pub const STICKSLIP_SHORTCUT_FRICTIONLESS: i32 = 1;
@@ -366,7 +366,8 @@ pub(super) struct Choices {
     pub measure: Option<Measure>,
 }
 
-fn read_shape(analytic: bool, shape: i32, radius: f64) -> Result<Option<AnalyticShape>> {
+/// The shape; with `lines` as it is seen in their plane.
+fn read_shape(analytic: bool, lines: bool, shape: i32, radius: f64) -> Result<Option<AnalyticShape>> {
     let refuse = |text: Text| Err(Error::new(Kind::InvalidValue, text));
     if !analytic {
         return match (shape, radius) {
@@ -382,6 +383,9 @@ fn read_shape(analytic: bool, shape: i32, radius: f64) -> Result<Option<Analytic
         (AnalyticShape::Plane, false) => refuse(text!("options.radius is {radius}; it must be 0 of a plane")),
         (AnalyticShape::Sphere(_) | AnalyticShape::Cylinder(_), true) => {
             refuse("options.radius is 0; it must be positive (a ball, a bar) or negative (a cavity, a bore)".into())
+        }
+        _ if lines => {
+            Ok(Some(if shape == AnalyticShape::Plane { AnalyticShape::Line } else { AnalyticShape::Circle(radius) }))
         }
         _ => Ok(Some(shape)),
     }
@@ -461,10 +465,6 @@ pub(super) fn read_options(p: *const stickslip_options) -> Result<Choices> {
         (r, _) => Stiffness::Augmentation(r),
     };
     let measure = measure(read_model(model, "options.model")?, thickness, "options.thickness")?;
-    if measure.is_some() && analytic {
-        let text = "lines against an analytic mortar surface; give it facets (options.model, options.mortar_side)";
-        return Err(Error::new(Kind::Unsupported, text));
-    }
     let options = Options {
         basis,
         space: read_multiplier_space(multiplier_space, "options.multiplier_space")?,
@@ -501,5 +501,5 @@ pub(super) fn read_options(p: *const stickslip_options) -> Result<Choices> {
     };
     options.validate()?;
     let base = choose(index_base, "options.index_base", &[0, 1], 2)?;
-    Ok(Choices { options, base, shape: read_shape(analytic, shape, radius)?, measure })
+    Ok(Choices { options, base, shape: read_shape(analytic, measure.is_some(), shape, radius)?, measure })
 }

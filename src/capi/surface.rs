@@ -3,7 +3,7 @@
 use super::raw::{self, Member};
 use super::sized::Sized64;
 use crate::error::{Error, Kind, Result, Text};
-use crate::geometry::{AnalyticShape, FRAME, Vec3};
+use crate::geometry::{AnalyticShape, Vec3};
 use crate::interface::{NO_EQUATION, Owner, Surface};
 use crate::line::Measure;
 use crate::memory::{self, Store, Stored};
@@ -20,14 +20,15 @@ pub const STICKSLIP_NODE_ELSEWHERE: i32 = 2;
 
 /// One surface of an interface.
 ///
-/// An analytic mortar side (STICKSLIP_MORTAR_ANALYTIC) has n_nodes = 4 and n_facets = 0; facet_offsets and facet_nodes
+/// An analytic mortar side (STICKSLIP_MORTAR_ANALYTIC) has n_nodes = 4 (of lines 3) and n_facets = 0; facet_offsets and facet_nodes
 /// are NULL, equations NULL or all -1. Its nodes P0..P3 are a frame that is fixed to the surface and moves as a rigid
 /// body, within 1e-8 of its lengths (INVALID_VALUE otherwise); to move the surface, move them. P0: a point of the
 /// plane, the sphere's centre, a point of the axis. P1 - P0: the plane's normal, out of its body, or the direction of
-/// the axis. The three edges P1 - P0, P2 - P0, P3 - P0 must not lie in one plane; take them about as long as the contact
-/// is wide. The points are rounded, and that moves the surface: by eps S D / a, with a the shortest of the three edges, D
+/// the axis; of lines a point of the straight line and its normal, or the centre of the circle and any direction. The three edges
+/// P1 - P0, P2 - P0, P3 - P0 must not lie in one plane, the two of lines not on one line; take them about as long as the contact
+/// is wide. The points are rounded, and that moves the surface: by eps S D / a, with a the shortest of the edges, D
 /// the distance from P0 to the farthest non-mortar node, and S the frame's distance from the origin or D, the larger. A
-/// frame that moves it by more than 1e-8 of the longest facet edge is refused, INVALID_VALUE. The forces on the four nodes
+/// frame that moves it by more than 1e-8 of the longest facet edge is refused, INVALID_VALUE. The forces on these nodes
 /// are statically equivalent to those on the surface. A facet takes part in a step when at t_n its normal opposes the
 /// surface's; it then counts as covered.
 #[repr(C)]
@@ -35,7 +36,7 @@ pub const STICKSLIP_NODE_ELSEWHERE: i32 = 2;
 pub struct stickslip_surface {
     /// sizeof(stickslip_surface).
     pub struct_size: u64,
-    /// Number of nodes; each must belong to a facet. Analytic: 4.
+    /// Number of nodes; each must belong to a facet. Analytic: 4, of lines 3.
     pub n_nodes: i64,
     /// Number of facets. Analytic: 0.
     pub n_facets: i64,
@@ -146,16 +147,16 @@ pub(super) fn read_facets(
         let node = |k: &i64| k.checked_sub(base).ok_or_else(beyond);
         facets.store(nodes[range].iter().map(node).stored_if_ok()?)?;
     }
-    let at = |x: &[f64]| Vec3::new(x[0], x[1], x.get(2).copied().unwrap_or(0.0));
-    Ok((coordinates.chunks_exact(dimension).map(at).stored()?, facets))
+    Ok((coordinates.chunks_exact(dimension).map(position).stored()?, facets))
 }
 
-/// A checked analytic surface: four nodes, no facets, no equations.
+/// A checked analytic surface: the points of its frame, no facets, no equations.
 pub(super) fn read_analytic(s: &stickslip_surface, shape: AnalyticShape, base: i64) -> Result<Surface> {
     let refuse = |kind, text: Text| Err(Error::new(kind, text));
-    if s.n_nodes != FRAME as i64 || s.n_facets != 0 {
+    let (points, dimension) = (shape.points(), if shape.is_in_plane() { 2 } else { 3 });
+    if s.n_nodes != points as i64 || s.n_facets != 0 {
         let text = text!(
-            "mortar has n_nodes = {} and n_facets = {}; an analytic surface has {FRAME} nodes, its frame, and no facets",
+            "mortar has n_nodes = {} and n_facets = {}; an analytic surface has {points} nodes, its frame, and no facets",
             s.n_nodes,
             s.n_facets
         );
@@ -166,14 +167,19 @@ pub(super) fn read_analytic(s: &stickslip_surface, shape: AnalyticShape, base: i
         return refuse(Kind::InvalidValue, text.into());
     }
     if !s.equations.is_null() {
-        let equations = equations::<3>(s.equations, FRAME, (base, 3), "mortar.equations")?;
-        if let Some(k) = equations.as_flattened().iter().position(|&e| e != NO_EQUATION) {
+        let equations = equations::<3>(s.equations, points, (base, dimension), "mortar.equations")?;
+        if let Some(k) = equations.iter().flat_map(|e| &e[..dimension]).position(|&e| e != NO_EQUATION) {
             let text = text!("mortar.equations[{k}] is an equation; an analytic surface is rigid and has none (-1)");
             return refuse(Kind::InvalidValue, text);
         }
     }
-    let coordinates = raw::numbers(s.coordinates, 3 * FRAME, "mortar.coordinates")?;
-    Surface::analytic("mortar", shape, raw::vectors(coordinates)?)
+    let coordinates = raw::numbers(s.coordinates, dimension * points, "mortar.coordinates")?;
+    Surface::analytic("mortar", shape, coordinates.chunks_exact(dimension).map(position).stored()?)
+}
+
+/// A position of two or three coordinates.
+fn position(x: &[f64]) -> Vec3 {
+    Vec3::new(x[0], x[1], x.get(2).copied().unwrap_or(0.0))
 }
 
 /// Refuses multipliers on the mortar side: the two surfaces may have been swapped.

@@ -1,9 +1,12 @@
-//! Rigid surfaces in closed form: a plane, a sphere, a cylinder, and the closest point on them.
+//! Rigid surfaces in closed form: a plane, a sphere, a cylinder, and the closest point on them; a straight line and a circle
+//! of models with two coordinates.
 //!
 //! A frame of four points P0..P3 is fixed to the surface and moves as a rigid body; lengths are free, the edges
 //! P_i - P0 must not lie in one plane. P0: a point of the plane, the centre, a point of the axis; P1 - P0: the plane's
 //! normal out of its body, or the direction of the axis. Every point y has coordinates w in the frame, sum w_C = 1,
 //! sum w_C P_C = y: the frame's points are to the surface what its nodes are to a facet.
+//!
+//! A line and a circle lie in the plane z = 0, and so do their three points; the fourth one is above P0 (`in_plane`).
 //!
 //! Signs: the normal n points out of the surface's body, the distance s `[L]` along it, x - y = s n; s > 0 is outside.
 
@@ -32,15 +35,34 @@ pub enum AnalyticShape {
     Sphere(f64),
     /// A circular cylinder without ends; radius > 0: a bar, < 0: a bore, the body outside `[L]`.
     Cylinder(f64),
+    /// A straight line of a model with two coordinates, which is a plane seen from its side.
+    Line,
+    /// A circle of such a model; radius > 0: a disc, < 0: a hole, the body outside `[L]`.
+    Circle(f64),
 }
 
 impl AnalyticShape {
-    /// The signed radius; 0 of a plane.
+    /// The signed radius; 0 of a plane and of a line.
     pub fn radius(self) -> f64 {
         match self {
-            AnalyticShape::Plane => 0.0,
-            AnalyticShape::Sphere(r) | AnalyticShape::Cylinder(r) => r,
+            AnalyticShape::Plane | AnalyticShape::Line => 0.0,
+            AnalyticShape::Sphere(r) | AnalyticShape::Cylinder(r) | AnalyticShape::Circle(r) => r,
         }
+    }
+
+    /// Whether it is flat.
+    fn is_flat(self) -> bool {
+        matches!(self, AnalyticShape::Plane | AnalyticShape::Line)
+    }
+
+    /// Whether it is of a model with two coordinates.
+    pub fn is_in_plane(self) -> bool {
+        matches!(self, AnalyticShape::Line | AnalyticShape::Circle(_))
+    }
+
+    /// How many points its frame has.
+    pub fn points(self) -> usize {
+        if self.is_in_plane() { FRAME - 1 } else { FRAME }
     }
 
     /// Numbers that tell two shapes apart.
@@ -49,6 +71,8 @@ impl AnalyticShape {
             AnalyticShape::Plane => 0,
             AnalyticShape::Sphere(_) => 1,
             AnalyticShape::Cylinder(_) => 2,
+            AnalyticShape::Line => 3,
+            AnalyticShape::Circle(_) => 4,
         };
         [kind, self.radius().to_bits()]
     }
@@ -58,8 +82,10 @@ impl fmt::Display for AnalyticShape {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let (name, radius) = match *self {
             AnalyticShape::Plane => return f.write_str("a plane"),
+            AnalyticShape::Line => return f.write_str("a straight line"),
             AnalyticShape::Sphere(r) => (if r < 0.0 { "a spherical cavity" } else { "a ball" }, r),
             AnalyticShape::Cylinder(r) => (if r < 0.0 { "a cylindrical bore" } else { "a round bar" }, r),
+            AnalyticShape::Circle(r) => (if r < 0.0 { "a round hole" } else { "a disc" }, r),
         };
         write!(f, "{name} of radius {}", radius.abs())
     }
@@ -73,7 +99,7 @@ pub struct AnalyticSurface {
     shape: AnalyticShape,
     /// Direction of P1 - P0.
     axis: Vec3,
-    /// What the closest point bends about: I of a sphere, I - a a^T of a cylinder, 0 of a plane.
+    /// What the closest point bends about: I of a sphere, I - a a^T of a cylinder, I - e_z e_z^T of a circle, 0 of a plane.
     round: Mat3,
     /// From y - P0 to the coordinates w_1..w_3.
     to_frame: Mat3,
@@ -90,6 +116,11 @@ pub struct Closest {
     pub lag: f64,
 }
 
+/// The frame of a line or a circle, with its fourth point: above the first one, as far as the second is.
+pub fn in_plane([p0, p1, p2]: [Vec3; FRAME - 1]) -> [Vec3; FRAME] {
+    [p0, p1, p2, p0 + Vec3::z() * (p1 - p0).norm()]
+}
+
 /// P_i - P0.
 fn edges(frame: &[Vec3; FRAME]) -> Mat3 {
     Mat3::from_columns(&[1, 2, 3].map(|i| frame[i] - frame[0]))
@@ -102,7 +133,7 @@ impl AnalyticSurface {
     /// [`Kind::InvalidValue`] when the radius or the frame is none.
     pub fn new(shape: AnalyticShape, frame: &[Vec3; FRAME]) -> Result<AnalyticSurface> {
         let radius = shape.radius();
-        if shape != AnalyticShape::Plane && !(radius != 0.0 && radius.is_finite()) {
+        if !shape.is_flat() && !(radius != 0.0 && radius.is_finite()) {
             let text = text!("the radius is {radius}; it must be finite and not 0");
             return Err(Error::new(Kind::InvalidValue, text));
         }
@@ -110,37 +141,46 @@ impl AnalyticSurface {
         let lengths: f64 = edges.column_iter().map(|d| d.norm()).product();
         let inverse = edges.try_inverse().filter(|_| edges.determinant().abs() > SMALLEST_VOLUME * lengths);
         let Some(to_frame) = inverse else {
-            let text =
-                "the frame has no volume: the edges from its first point to the other three must not lie in one plane";
+            let text = match shape.is_in_plane() {
+                false => {
+                    "the frame has no volume: the edges from its first point to the other three must not lie in one plane"
+                }
+                true => {
+                    "the frame has no area: the edges from its first point to the other two must not lie on one line"
+                }
+            };
             return Err(Error::new(Kind::InvalidValue, text));
         };
         let axis = edges.column(0).normalize();
         let round = match shape {
-            AnalyticShape::Plane => Mat3::zeros(),
+            AnalyticShape::Plane | AnalyticShape::Line => Mat3::zeros(),
             AnalyticShape::Sphere(_) => Mat3::identity(),
             AnalyticShape::Cylinder(_) => Mat3::identity() - axis * axis.transpose(),
+            AnalyticShape::Circle(_) => Mat3::from_diagonal(&Vec3::new(1.0, 1.0, 0.0)),
         };
         Ok(AnalyticSurface { origin: frame[0], shape, axis, round, to_frame })
     }
 
     /// Whether closest points and distances are affine functions of x.
     pub fn is_flat(&self) -> bool {
-        self.shape == AnalyticShape::Plane
+        self.shape.is_flat()
     }
 
-    /// What turns with the surface: a plane's normal, a cylinder's axis; nothing of a sphere.
+    /// What turns with the surface: a plane's normal, a cylinder's axis; nothing of a sphere or a circle.
     pub fn direction(&self) -> Option<Vec3> {
         match self.shape {
-            AnalyticShape::Plane | AnalyticShape::Cylinder(_) => Some(self.axis),
-            AnalyticShape::Sphere(_) => None,
+            AnalyticShape::Plane | AnalyticShape::Line | AnalyticShape::Cylinder(_) => Some(self.axis),
+            AnalyticShape::Sphere(_) | AnalyticShape::Circle(_) => None,
         }
     }
 
     /// The signed distance of the point x, given as x - P0.
     pub fn distance(&self, x: Vec3) -> f64 {
         match self.shape {
-            AnalyticShape::Plane => self.axis.dot(&x),
-            AnalyticShape::Sphere(r) | AnalyticShape::Cylinder(r) => (self.round * x).norm() * r.signum() - r,
+            AnalyticShape::Plane | AnalyticShape::Line => self.axis.dot(&x),
+            AnalyticShape::Sphere(r) | AnalyticShape::Cylinder(r) | AnalyticShape::Circle(r) => {
+                (self.round * x).norm() * r.signum() - r
+            }
         }
     }
 
@@ -148,8 +188,10 @@ impl AnalyticSurface {
     #[inline]
     pub fn closest(&self, x: Vec3) -> Option<Closest> {
         Some(match self.shape {
-            AnalyticShape::Plane => Closest { normal: self.axis, distance: self.axis.dot(&x), lag: 0.0 },
-            AnalyticShape::Sphere(r) | AnalyticShape::Cylinder(r) => {
+            AnalyticShape::Plane | AnalyticShape::Line => {
+                Closest { normal: self.axis, distance: self.axis.dot(&x), lag: 0.0 }
+            }
+            AnalyticShape::Sphere(r) | AnalyticShape::Cylinder(r) | AnalyticShape::Circle(r) => {
                 let outward = self.round * x;
                 let norm = outward.norm();
                 if !(norm > CENTRE * r.abs()) {
@@ -186,8 +228,7 @@ pub fn check_rigid_motion(first: &[Vec3; FRAME], now: &[Vec3; FRAME]) -> Result<
         return Ok(());
     }
     let how = if mirrored { "mirrored".into() } else { text!("deformed by {worst:.1e}") };
-    let text =
-        text!("the frame of the analytic surface is {how}; its four points must move as a rigid body ({RIGID:.0e})");
+    let text = text!("the frame of the analytic surface is {how}; its points must move as a rigid body ({RIGID:.0e})");
     Err(Error::new(Kind::InvalidValue, text))
 }
 
@@ -231,6 +272,31 @@ mod tests {
                 assert!((back - y - p[0]).norm() < 1e-14 && (w.iter().sum::<f64>() - 1.0).abs() < 1e-15, "{shape}");
             }
         }
+    }
+
+    /// A line and a circle are a plane and a cylinder across the plane z = 0, whose points they keep there.
+    #[test]
+    fn lines_and_circles_are_planes_and_cylinders_seen_along_z() {
+        let p = [[1.0, -2.0, 0.0], [2.2, -1.0, 0.0], [0.0, 1.0, 0.0]].map(Vec3::from);
+        let along_z = [p[0], p[0] + Vec3::z(), p[1], p[2]];
+        for (shape, (of, frame)) in [
+            (AnalyticShape::Line, (AnalyticShape::Plane, in_plane(p))),
+            (AnalyticShape::Circle(1.5), (AnalyticShape::Cylinder(1.5), along_z)),
+            (AnalyticShape::Circle(-9.0), (AnalyticShape::Cylinder(-9.0), along_z)),
+        ] {
+            let [flat, space] =
+                [(shape, in_plane(p)), (of, frame)].map(|(shape, frame)| AnalyticSurface::new(shape, &frame).unwrap());
+            for x in [Vec3::new(3.0, 1.0, 0.0), Vec3::new(0.9, -1.5, 0.0)] {
+                let [c, of_space] = [flat, space].map(|surface| surface.closest(x - p[0]).unwrap());
+                assert!((c.normal - of_space.normal).norm() < 1e-15 && c.normal.z == 0.0, "{shape}");
+                assert!((c.distance - of_space.distance).abs() < 1e-15, "{shape}");
+                let w = flat.coordinates(x - p[0] - c.normal * c.distance);
+                assert!(w[3] == 0.0 && (w.iter().sum::<f64>() - 1.0).abs() < 1e-15, "{shape}: {w:?}");
+            }
+        }
+        let on_a_line = in_plane([p[0], p[1], p[0] + (p[1] - p[0]) * 2.0]);
+        let error = AnalyticSurface::new(AnalyticShape::Line, &on_a_line).unwrap_err();
+        assert!(error.message.contains("the frame has no area"), "{error}");
     }
 
     #[test]

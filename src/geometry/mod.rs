@@ -13,7 +13,7 @@ mod plane;
 mod projection;
 mod vector;
 
-pub use analytic_surface::{AnalyticShape, AnalyticSurface, Closest, FRAME, check_rigid_motion};
+pub use analytic_surface::{AnalyticShape, AnalyticSurface, Closest, FRAME, check_rigid_motion, in_plane};
 pub use facet::Facet;
 pub use plane::Plane;
 pub use projection::Projection;

@@ -4,7 +4,8 @@
 use super::segment::Measure;
 use crate::error::{Error, Kind, Result};
 use crate::geometry::Vec2;
-use crate::mortar::MultiplierSpace;
+use crate::mortar::{AreaElement, MultiplierSpace};
+use crate::shape::MAX_CORNERS;
 
 /// Most nodes of a line facet.
 pub const MAX_LINE_NODES: usize = 3;
@@ -99,6 +100,25 @@ impl LineFacet {
             d[l] += wider + stretch;
         }
         d
+    }
+
+    /// The area element of a part, rho ds/du with u from -1 to 1, and its derivative.
+    pub fn area_element(&self, part: usize, measure: Measure) -> AreaElement {
+        let [a, b] = self.parts()[part].map(|k| self.x[k]);
+        let (length, t) = ((b - a).norm(), (b - a).normalize());
+        let [middle, end] = [[0.5, 0.5], [0.0, 1.0]].map(|shares| measure.at(shares, [a.x, b.x]));
+        let rho = [middle, end - middle]; // at 0, and its slope
+        let mut motion = [[[0.0; MAX_CORNERS]; 3]; 3];
+        for (m, rho) in rho.into_iter().enumerate() {
+            for j in 0..2 {
+                (motion[m][j][0], motion[m][j][1]) = (-0.5 * rho * t[j], 0.5 * rho * t[j]);
+            }
+            // Half the length times half of 2 pi: r at the middle is the mean, and its slope half the difference.
+            let wider = 0.25 * length * measure.slope();
+            motion[m][0][0] += if m == 0 { wider } else { -wider };
+            motion[m][0][1] += wider;
+        }
+        AreaElement { of: [0.5 * length * rho[0], 0.5 * length * rho[1], 0.0], motion }
     }
 
     /// The direction of the line at a node, from a to b, not of length 1 `[L]`.

@@ -95,7 +95,7 @@ fn point(
 }
 
 #[cold]
-fn no_closest_point() -> Error {
+pub(super) fn no_closest_point() -> Error {
     let text =
         "a point of the facet is the centre of the analytic mortar surface, or on its axis: it has no closest point";
     Error::new(Kind::UndefinedNormal, text)
@@ -317,7 +317,7 @@ fn along<L: Lanes>(d: &[L; 3], of: &[[L; 3]; 3], i: usize, sum: L) -> L {
 /// Dj / Dx_k,j in the powers (1, xi, eta) `[L]`: `[m][j]`, lanes k. Translation and spin of the plane change no area:
 /// its tilt is left.
 #[inline(always)]
-fn area_derivative<L: Lanes>(frame: &NonmortarFrame) -> [[[f64; MAX_CORNERS]; 3]; 3] {
+pub(super) fn area_derivative<L: Lanes>(frame: &NonmortarFrame) -> [[[f64; MAX_CORNERS]; 3]; 3] {
     let (plane, g) = (&frame.plane, frame.map.gradients::<L>());
     let (tilt, sums) = ([L::load(&plane.tilt[0]), L::load(&plane.tilt[1])], dots(&g, L::load(&frame.projection.d)));
     let mut d = [[[0.0; MAX_CORNERS]; 3]; 3];

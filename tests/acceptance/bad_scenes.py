@@ -198,7 +198,12 @@ BAD_SCENES += [
              options=("-block_dilatation", "mean"), base=BLOCK),
     BadScene("plane_mesh_in_space", "model: plane_strain\n", "", "upper.file", says="holds no volume cells", base=FLAT),
     BadScene("solid_mesh_in_the_plane", "plane_hertz_upper", "hertz_upper_coarse", "upper.file", says="no plane mesh", base=FLAT),
-    BadScene("analytic_in_the_plane", "floor: {type: box", "floor: {type: analytic", "floor.type", base=BLOCK),
+    BadScene("plane_in_the_plane", "floor: {type: box", "floor: {type: analytic, shape: plane", "floor.shape",
+             says="choose from: line, circle", base=BLOCK),
+    BadScene("line_with_a_radius", "floor: {type: box", "floor: {type: analytic, shape: line, radius: 1, point: [0, 0], direction: [0, 1]",
+             "floor.radius", says="a line has none", base=BLOCK),
+    BadScene("direction_in_space", "floor: {type: box", "floor: {type: analytic, shape: line, point: [0, 0], direction: [0, 0, 1]",
+             "floor.direction", base=BLOCK),
     BadScene("no_cylinder", "lower: [0, 0],", "cylinder: [0, 0], lower: [0, 0],", "block.cylinder", base=BLOCK),
 ]
 

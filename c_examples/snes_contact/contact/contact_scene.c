@@ -7,7 +7,7 @@ static PetscErrorCode collect_nodes(const Mesh *mesh, const Surface *surface, Pe
   PetscBool *seen;
   PetscFunctionBegin;
   if (surface->analytic) { /* its frame */
-    for (*n = 0; *n < 4; (*n)++)
+    for (*n = 0; *n <= mesh->dimension; (*n)++)
       nodes[*n] = surface->frame + *n;
     PetscFunctionReturn(PETSC_SUCCESS);
   }
@@ -90,7 +90,7 @@ static PetscErrorCode read_surfaces(Scene *scene, Contact *contact, Interface *i
     if (interface->surface[side]->analytic && side == 0)
       scene_fail(scene, interface->name, side_key[side], "'%s' is analytic: it can be the mortar side only.", name);
     n_corners[side] =
-        interface->surface[side]->analytic ? 4 : interface->surface[side]->offsets[interface->surface[side]->n_faces];
+        interface->surface[side]->analytic ? mesh->dimension + 1 : interface->surface[side]->offsets[interface->surface[side]->n_faces];
   }
   PetscCall(PetscMalloc1(n_corners[0] + n_corners[1], &interface->nodes));
   PetscCall(collect_nodes(mesh, interface->surface[0], interface->nodes, &interface->n1));

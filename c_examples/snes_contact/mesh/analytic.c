@@ -1,6 +1,7 @@
-/* A rigid body without a mesh: a plane, a sphere or a cylinder for the mortar side of interfaces. It moves with a frame of
- * four points, which the library sees as the mortar nodes; here they are the corners of a tetrahedron without stiffness, so
- * that supports, reactions and output treat them like those of any body. Its only surface is `body.surface`. */
+/* A rigid body without a mesh: a plane, a sphere or a cylinder for the mortar side of interfaces; in the plane a straight line
+ * or a circle. It moves with a frame of four points, in the plane of three, which the library sees as the mortar nodes; here
+ * they are the corners of a tetrahedron or a triangle without stiffness, so that supports, reactions and output treat them
+ * like those of any body. Its only surface is `body.surface`. */
 #include "mesh/mesh.h"
 
 /* a unit vector across d, and the third one of a right-handed triple; d is made a unit vector too */
@@ -24,29 +25,31 @@ static void complete(PetscReal d[3], PetscReal e[3], PetscReal f[3])
 
 PetscErrorCode analytic_create(Scene *scene, const char *body, Mesh *mesh)
 {
-  static const char *const shapes[]  = {"plane", "sphere", "cylinder", NULL}; /* by STICKSLIP_SHAPE_... */
+  /* by STICKSLIP_SHAPE_... */
+  static const char *const solid[] = {"plane", "sphere", "cylinder", NULL}, *const plane[] = {"line", "circle", NULL};
   static const PetscInt    cell[4]   = {0, 1, 2, 3};
-  PetscReal                point[3]  = {0, 0, 0}, d[3] = {0, 0, 1}, e[3], f[3], radius = 0, frame[12];
+  const PetscBool          flat      = (PetscBool)(mesh->dimension == 2);
+  PetscReal                point[3]  = {0, 0, 0}, d[3] = {0, !!flat, !flat}, e[3], f[3], radius = 0, frame[12];
   PetscInt                 shape     = 0;
-  const PetscBool          directed  = (PetscBool)(mesh->dimension == 3 && scene_vector(scene, body, "direction", 3, d));
+  const PetscBool          directed  = space_vector(scene, &mesh->space, body, "direction", d);
   char                     name[2 * NAME_LENGTH];
   Surface                 *surface;
 
   PetscFunctionBegin;
-  if (mesh->dimension != 3)
-    scene_fail(scene, body, "type", "an analytic body has no form in a plane or axisymmetric model; mesh it, as a box or by Gmsh.");
   if (!scene_has(scene, body, "shape"))
-    scene_fail(scene, body, "shape", "this key is missing; choose from: plane, sphere, cylinder.");
-  scene_choice(scene, body, "shape", shapes, &shape);
-  if (!scene_vector(scene, body, "point", 3, point)) scene_fail(scene, body, "point", "this key is missing.");
+    scene_fail(scene, body, "shape", "this key is missing; choose from: %s.", flat ? "line, circle" : "plane, sphere, cylinder");
+  scene_choice(scene, body, "shape", flat ? plane : solid, &shape);
+  if (!space_vector(scene, &mesh->space, body, "point", point)) scene_fail(scene, body, "point", "this key is missing.");
   if (!directed && shape != 1) scene_fail(scene, body, "direction", "this key is missing.");
   if (d[0] == 0 && d[1] == 0 && d[2] == 0) scene_fail(scene, body, "direction", "a vector of some length is expected.");
-  if (shape == 0 && scene_has(scene, body, "radius")) scene_fail(scene, body, "radius", "a plane has none.");
+  if (shape == 0 && scene_has(scene, body, "radius")) scene_fail(scene, body, "radius", "a %s has none.", flat ? plane[0] : solid[0]);
   if (shape != 0) scene_real_required(scene, body, "radius", &radius);
   if (shape != 0 && radius == 0)
     scene_fail(scene, body, "radius", "positive: the body is inside; negative: it is around a cavity. Zero is neither.");
 
   complete(d, e, f);
+  for (int i = 0; i < 3 && flat; i++) /* the third point in the plane, to the left of the second */
+    e[i] = i == 0 ? -d[1] : i == 1 ? d[0] : 0;
   for (int i = 0; i < 3; i++) {
     frame[i]     = point[i];
     frame[3 + i] = point[i] + d[i];
@@ -59,7 +62,7 @@ PetscErrorCode analytic_create(Scene *scene, const char *body, Mesh *mesh)
   surface->shape    = shape;
   surface->radius   = radius;
   surface->frame    = mesh->n_vertices;
-  PetscCall(mesh_append(mesh, 4, frame, 1, TET4, cell));
+  PetscCall(mesh_append(mesh, mesh->dimension + 1, frame, 1, flat ? TRI3 : TET4, cell));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -80,7 +83,7 @@ void analytic_fit(Mesh *mesh)
     const Surface *surface = &mesh->surfaces[s];
     PetscReal     *frame   = surface->analytic ? mesh->coordinates + 3 * surface->frame : NULL, along = 0, axes[9];
     if (!frame) continue;
-    for (int k = 0; k < 9; k++)
+    for (int k = 0; k < 3 * mesh->dimension; k++)
       axes[k] = frame[3 + k] - frame[k % 3];
     for (int i = 0; i < 3; i++)
       along += axes[i] * ((extent.low[i] + extent.high[i]) / 2 - frame[i]);
@@ -89,7 +92,7 @@ void analytic_fit(Mesh *mesh)
       if (surface->shape == 0) frame[i] += away - along * axes[i]; /* across the normal */
       if (surface->shape == 2) frame[i] += along * axes[i];        /* along the axis */
     }
-    for (int k = 0; k < 9; k++)
+    for (int k = 0; k < 3 * mesh->dimension; k++)
       frame[3 + k] = frame[k % 3] + PetscMax(size, PetscAbsReal(surface->radius)) * axes[k];
   }
 }

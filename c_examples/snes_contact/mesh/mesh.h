@@ -15,10 +15,10 @@ typedef struct {
   PetscInt *offsets;  /* n_faces + 1 */
   PetscInt *vertices; /* of its faces, in the order of cell_face() */
   PetscBool inner;    /* lies inside a body: good for supports only */
-  PetscBool analytic; /* a plane, sphere or cylinder without faces: good for a mortar side only */
+  PetscBool analytic; /* a plane, sphere or cylinder, a line or circle, without faces: good for a mortar side only */
   PetscInt  shape;    /* STICKSLIP_SHAPE_... */
   PetscReal radius;
-  PetscInt  frame; /* the first of its four vertices */
+  PetscInt  frame; /* the first of its four vertices, in the plane three */
 } Surface;
 
 typedef struct {

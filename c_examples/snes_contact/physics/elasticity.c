@@ -33,7 +33,7 @@ static PetscBool strain(CellKind kind, const Space *space, const Material *mater
   }
   point->weight *= space_measure(space, r);
   for (PetscInt a = 0; a < nodes && space->kind == SPACE_AXISYMMETRIC; a++) {
-    point->around[a] = N[a] / r;
+    point->around[a] = r == 0 ? 0 : N[a] / r; /* only in the frame of an analytic body, which has no stiffness */
     point->H[8] += u[3 * a] * point->around[a];
   }
   if (space->kind == SPACE_PLANE_STRESS && !plane_stress_stretch(material, point->H)) return PETSC_FALSE;

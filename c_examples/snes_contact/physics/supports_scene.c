@@ -92,8 +92,8 @@ static PetscErrorCode check_analytic(Scene *scene, const Physics *physics)
     const Body *body = &physics->mesh->bodies[b];
     for (PetscInt v = body->first_vertex; v < body->end_vertex && body->analytic; v++) {
       if (physics->prescribed[v] != 7)
-        scene_fail(scene, body->name, NULL, "an analytic body needs a support: {body: %s, components: [x, y, z]}.",
-                   body->name);
+        scene_fail(scene, body->name, NULL, "an analytic body needs a support: {body: %s, components: [x, y%s]}.",
+                   body->name, physics->mesh->dimension == 3 ? ", z" : "");
     }
   }
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -67,8 +67,9 @@ impl Active {
     }
 
     /// Adds what a pair of parts has to the pair of their parents `one` and `two`; those of `one` alone are the last ones.
-    /// `rows`: which of the nodes of `one` the rows of the weights are.
-    pub fn add_share(&mut self, (one, two): (usize, usize), rows: &[usize], share: &SubWeights) -> Result<()> {
+    /// `rows`: which of the nodes of `one` the rows of the weights are. Gives what is covered of each of them, as a pair of parts
+    /// keeps it.
+    pub fn add_share(&mut self, (one, two): (usize, usize), rows: &[usize], share: &SubWeights) -> Result<PairWeights> {
         let place = match self.parents.iter().rposition(|p| p.one != one || p.two == two) {
             Some(k) if self.parents[k].one == one => k,
             _ => {
@@ -77,7 +78,11 @@ impl Active {
             }
         };
         self.parents[place].weights.add(rows, share);
-        Ok(())
+        let mut weights = PairWeights::default();
+        for (a, row) in share.ab.iter().enumerate() {
+            weights.ab[a][a] = row.iter().sum();
+        }
+        Ok(weights)
     }
 
     /// The weights of the pair of parents in this place as they were integrated.

@@ -154,8 +154,13 @@ fn gap_of_parts(
     let mut gaps = [Vec3::zeros(); MAX_CORNERS];
     let frame = one.frame(pair.one, &at.x1, &at.normals)?;
     let (Some(p), Some(q)) = (&one.parents, &two.parents) else { return Ok(gaps) };
-    let Some(segment) = Segment::new(&frame, &two.facet(pair.two, &at.x2))? else { return Ok(gaps) };
-    let share = p.share(q, (pair.one, pair.two), (&frame, &segment, rule), (&at.x1, &at.x2));
+    let share = if two.analytic.is_some() {
+        let surface = two.analytic_at(&at.x2)?;
+        p.over_surface(pair.one, (&frame, &at.x1), (&surface, rule), |part, x| part.weights(x))?
+    } else {
+        let Some(segment) = Segment::new(&frame, &two.facet(pair.two, &at.x2))? else { return Ok(gaps) };
+        p.share(q, (pair.one, pair.two), (&frame, &segment, rule), (&at.x1, &at.x2))
+    };
     let (of_one, of_two) = (p.at(p.parent(pair.one), &at.x1), q.at(q.parent(pair.two), &at.x2));
     for (a, gap) in gaps.iter_mut().enumerate() {
         // Sums of weights vanish, and so does a common offset.

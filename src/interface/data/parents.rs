@@ -7,10 +7,13 @@
 use super::facet_nodes::{FacetNodes, ParentNodes};
 use super::lines::{Lines, line};
 use crate::error::{Error, Result};
-use crate::geometry::Vec3;
+use crate::geometry::{AnalyticSurface, Vec3};
 use crate::line::{LineFacet, LineWeights, MAX_LINE_NODES, Measure};
 use crate::memory::{self, Store, Stored};
-use crate::mortar::{MultiplierSpace, NonmortarFrame, ParentFacet, Segment, Side, SubWeights, rule_for, sub_weights};
+use crate::mortar::{
+    MultiplierSpace, NonmortarFrame, ParentFacet, Segment, Side, SubWeights, SurfacePair, area_element, rule_for,
+    sub_weights,
+};
 use crate::quadrature::Rule;
 use crate::shape::{MAX_PARENT_NODES, Parent, SubFacet};
 use std::ops::Range;
@@ -178,6 +181,25 @@ impl Parents {
             share.ac[a][..MAX_LINE_NODES].copy_from_slice(&n.ac[row]);
         }
         share
+    }
+
+    /// A part at these node positions opposite an analytic surface, with its frame, and its parent's nodes from the surface's
+    /// origin.
+    pub fn over_surface<R>(
+        &self,
+        part: usize,
+        (frame, x1): (&NonmortarFrame, &[Vec3]),
+        (surface, rule): (&AnalyticSurface, &'static Rule),
+        of: impl FnOnce(SurfacePair, &[Vec3; MAX_PARENT_NODES]) -> Result<R>,
+    ) -> Result<R> {
+        let f = self.parent(part);
+        let at = self.at(f, x1);
+        let area = match self.lines {
+            None => area_element(frame),
+            Some(Lines { measure, .. }) => line(&at).area_element(part - self.first[f], measure),
+        };
+        let side = (self.facets[f].parent, self.sub(part));
+        of(SurfacePair { side, space: self.space, area: &area, surface, rule }, &at.x.map(|x| x - surface.origin))
     }
 
     /// On the heap `[bytes]`.

@@ -87,6 +87,16 @@ impl<const N: usize> Setup<N> {
 /// Gives lines of both sides the same width: the shortest of their parts' lengths, so that no edge is longer than the line that it
 /// belongs to.
 fn put_width([one, two]: [&mut Surface; 2]) -> Result<()> {
+    if let Some(shape) = two.analytic {
+        let text = match (one.lines().is_some(), shape.is_in_plane()) {
+            (true, false) => text!("mortar is {shape} in space, nonmortar has lines: one side is of another model"),
+            (false, true) => {
+                text!("mortar is {shape} in a plane, nonmortar lies in space: one side is of another model")
+            }
+            _ => return Ok(()),
+        };
+        return Err(Error::new(Kind::InvalidValue, text));
+    }
     let [of_one, of_two] = [one, two].map(|side| side.parents.as_mut().and_then(|parents| parents.lines.as_mut()));
     match (of_one, of_two) {
         (None, None) => Ok(()),
@@ -114,9 +124,6 @@ fn put_parents<const N: usize>(
     let [nonmortar, mortar] = sides;
     let (kind, has_lines) = if nonmortar.lines().is_some() { ("lines", true) } else { ("quadratic facets", false) };
     let unsupported = |text: Text| Err(Error::new(Kind::Unsupported, text));
-    if mortar.analytic.is_some() {
-        return unsupported(text!("{kind} against an analytic mortar surface; give it facets"));
-    }
     if !matches!(options.scheme, Scheme::Segments) {
         return unsupported(text!("options.element_points with {kind}: they are integrated over overlaps; leave it 0"));
     }

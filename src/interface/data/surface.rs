@@ -5,7 +5,7 @@ use super::lines::{Lines, shared_ends};
 use super::parents::Parents;
 use crate::adjacency::{SharedEdge, shared_edges};
 use crate::error::{Error, Kind, Result, Text};
-use crate::geometry::{AnalyticShape, AnalyticSurface, FRAME, Facet, Plane, Vec3, check_rigid_motion};
+use crate::geometry::{AnalyticShape, AnalyticSurface, FRAME, Facet, Plane, Vec3, check_rigid_motion, in_plane};
 use crate::line::Measure;
 use crate::memory::{self, Store, Stored};
 use crate::mortar::NonmortarFrame;
@@ -194,12 +194,13 @@ impl Surface {
         self.edges.iter().find(folded).copied()
     }
 
-    /// A rigid surface in closed form, placed by the four points of its frame (see [`AnalyticSurface`]), which have no
-    /// equations.
+    /// A rigid surface in closed form, placed by the points of its frame (see [`AnalyticSurface`]), which have no equations: four,
+    /// of a line and a circle three with z = 0.
     pub fn analytic(side: &'static str, shape: AnalyticShape, frame: Vec<Vec3>) -> Result<Surface> {
         let fail = |kind, text: Text| Err(Error::new(kind, text!("{side}: {text}")));
-        if frame.len() != FRAME {
-            return fail(Kind::InvalidSize, text!("{} nodes; the frame of an analytic surface has 4", frame.len()));
+        let points = shape.points();
+        if frame.len() != points {
+            return fail(Kind::InvalidSize, text!("{} nodes; the frame of {shape} has {points}", frame.len()));
         }
         if let Some(k) = frame.iter().position(|x| !x.iter().all(|v| v.is_finite())) {
             return fail(Kind::NotFinite, text!("coordinates of node {k} are not finite"));
@@ -207,8 +208,8 @@ impl Surface {
         let surface = Surface {
             side,
             reference: frame,
-            facets: memory::filled(FacetNodes { nodes: [0, 1, 2, 3], len: FRAME }, 1)?,
-            equations: memory::filled([NO_EQUATION; 3], FRAME)?,
+            facets: memory::filled(FacetNodes { nodes: [0, 1, 2, points - 1], len: points }, 1)?,
+            equations: memory::filled([NO_EQUATION; 3], points)?,
             longest_edge: 0.0,
             edges: Vec::new(),
             neighbours: memory::filled([NO_FACET; MAX_NODES], 1)?,
@@ -217,26 +218,35 @@ impl Surface {
             offsets: Vec::new(),
             analytic: Some(shape),
         };
-        match surface.analytic_at(&surface.reference) {
-            Ok(_) => Ok(surface),
-            Err(e) => fail(e.kind, e.message),
+        if let Err(e) = surface.analytic_at(&surface.reference) {
+            return fail(e.kind, e.message);
         }
+        surface.check_rigid(&surface.reference)?;
+        Ok(surface)
     }
 
     /// An analytic surface where the points `x` of its frame are.
     pub fn analytic_at(&self, x: &[Vec3]) -> Result<AnalyticSurface> {
         let shape = self.analytic.expect("asked of analytic surfaces only");
-        AnalyticSurface::new(shape, &self.facets[0].nodes.map(|k| x[k]))
+        AnalyticSurface::new(shape, &self.frame_at(shape, x))
+    }
+
+    /// The four points of an analytic surface's frame.
+    fn frame_at(&self, shape: AnalyticShape, x: &[Vec3]) -> [Vec3; FRAME] {
+        let at = self.facets[0].nodes.map(|k| x[k]);
+        if shape.is_in_plane() { in_plane([at[0], at[1], at[2]]) } else { at }
     }
 
     /// Refuses positions of an analytic surface's frame that are no rigid motion of the first ones.
     pub fn check_rigid(&self, x: &[Vec3]) -> Result<()> {
-        if self.analytic.is_none() {
-            return Ok(());
+        let Some(shape) = self.analytic else { return Ok(()) };
+        let refuse = |e: Error| Error::new(e.kind, text!("{}: {}", self.side, e.message));
+        if let Some(k) = x.iter().position(|x| shape.is_in_plane() && x.z != 0.0) {
+            let text = text!("node {k} has z = {:e}; nodes of plane models have z = 0", x[k].z);
+            return Err(refuse(Error::new(Kind::InvalidValue, text)));
         }
-        let frame = |x: &[Vec3]| self.facets[0].nodes.map(|k| x[k]);
-        check_rigid_motion(&frame(&self.reference), &frame(x))
-            .map_err(|e| Error::new(e.kind, text!("{}: {}", self.side, e.message)))
+        let [first, now] = [&self.reference[..], x].map(|x| self.frame_at(shape, x));
+        check_rigid_motion(&first, &now).map_err(refuse)
     }
 
     /// What the lines of a plane or axisymmetric model are; `None`: the model is in space.

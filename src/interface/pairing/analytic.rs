@@ -1,4 +1,4 @@
-//! Stage 1 against an analytic mortar side (plane, sphere, cylinder): no search and no clipping. A facet that faces the
+//! Stage 1 against an analytic mortar side (plane, sphere, cylinder; line, circle): no search and no clipping. A facet that faces the
 //! surface at t_n (now where the normals follow the motion) is a pair with it, and covered everywhere; one that does not
 //! has nothing to do with it. The surface counts as one facet with the frame's four points as its nodes, so that all that
 //! follows from the weights (gaps, forces, slip, history) is as for two facets.
@@ -13,7 +13,7 @@ use crate::interface::data::options::Options;
 use crate::interface::data::pairs::PairRecord;
 use crate::interface::data::surface::Surface;
 use crate::memory::{self, Store, Stored};
-use crate::mortar::analytic_weights;
+use crate::mortar::{SurfacePair, analytic_weights};
 use std::time::Instant;
 
 /// Per non-mortar facet, whether it faces the surface: opposing normals at its centre, and distances between a
@@ -100,7 +100,16 @@ pub fn integrate(
         counters.pairs_tested += 1;
         let is_pair = if options.follows_normals() { faces_now((i, &frame.plane)) } else { facing[i] };
         if is_pair && !one.is_idle(i) {
-            let weights = analytic_weights(&frame, &surface, options.rule).map_err(one.at(i))?;
+            let weights = match &one.parents {
+                None => analytic_weights(&frame, &surface, options.rule).map_err(one.at(i))?,
+                Some(parents) => {
+                    let over = |part: SurfacePair, x: &_| part.weights(x);
+                    let share = parents.over_surface(i, (&frame, x1), (&surface, options.rule), over);
+                    let (f, share) = (parents.parent(i), share.map_err(one.at(i))?);
+                    let rows = parents.space.nodes(parents.facets[f].parent, parents.sub(i));
+                    active.add_share((f, 0), rows, &share)?
+                }
+            };
             active.pairs.store(PairRecord { one: i, two: 0, weights })?;
             if let Some(following) = following {
                 following(active, place, (&frame, &[]));

@@ -152,7 +152,8 @@ pub fn complete(
 fn check_parents((one, two): (&Surface, &Surface), (x1, x2): (&[Vec3], &[Vec3])) -> Result<()> {
     for (side, x) in [(one, x1), (two, x2)] {
         let named = |e: Error| Error::new(e.kind, text!("{} {}", side.side, e.message));
-        side.parents.as_ref().map_or(Ok(()), |parents| parents.check(x)).map_err(named)?;
+        let parents = side.parents.as_ref().filter(|_| side.analytic.is_none());
+        parents.map_or(Ok(()), |parents| parents.check(x)).map_err(named)?;
     }
     Ok(())
 }

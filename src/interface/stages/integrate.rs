@@ -184,10 +184,5 @@ fn of_parts(
 ) -> Result<PairWeights> {
     let share = one.share(two, (i, j), over, x);
     let rows = one.space.nodes(one.facets[one.parent(i)].parent, one.sub(i));
-    active.add_share((one.parent(i), two.parent(j)), rows, &share)?;
-    let mut weights = PairWeights::default();
-    for (a, row) in share.ab.iter().enumerate() {
-        weights.ab[a][a] = row.iter().sum();
-    }
-    Ok(weights)
+    active.add_share((one.parent(i), two.parent(j)), rows, &share)
 }

@@ -48,7 +48,7 @@ impl Fields<'_> {
     ) {
         match self {
             Fields::Positions { .. } => table.add_motion(d, slots, two, rows),
-            Fields::Offsets { .. } => table.add_offsets(d, slots, rows),
+            Fields::Offsets { .. } => table.add_offsets((d, 1.0), slots, rows),
         }
     }
 }

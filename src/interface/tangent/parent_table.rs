@@ -252,13 +252,13 @@ impl ParentTable {
     }
 
     /// Adds what a pair of parts has of it: in the first component of its gaps stand offsets in place of positions.
-    pub fn add_offsets(&mut self, d: &SubMotion, slots: &[Option<usize>; 2 * MORTAR], rows: &[usize]) {
+    pub fn add_offsets(&mut self, (d, sign): (&SubMotion, f64), slots: &[Option<usize>; 2 * MORTAR], rows: &[usize]) {
         let columns = self.columns();
         for (k, column) in slots.iter().enumerate() {
             let Some(column) = *column else { continue };
             for (a, &row) in rows.iter().enumerate() {
                 let to = &mut self.offsets[row * columns + column];
-                (0..3).for_each(|j| to[j] += d.gap[k][j][a][0]);
+                (0..3).for_each(|j| to[j] += sign * d.gap[k][j][a][0]);
             }
         }
     }

@@ -24,8 +24,10 @@ use crate::interface::stages::carried::transfer;
 use crate::interface::stages::sums::in_previous_gaps;
 use crate::memory::{self, Store};
 use crate::mortar::{GapDerivative, MORTAR, SubMotion, rule_for, sub_motion};
+use crate::quadrature::Rule;
 use crate::shape::{MAX_CORNERS, MAX_PARENT_NODES};
 use nalgebra::SMatrix;
+use std::ops::Range;
 
 /// Where a facet's tangent is made.
 #[derive(Debug, Default)]
@@ -130,6 +132,12 @@ fn differentiate<const N: usize>(
     let motion = &mut motion[0];
     let moves = given.setup.effects.opposite == Opposite::Moves;
     let mut add = |tractions: &[Vec3], fields: Fields, table: &mut ParentTable| match parents.lines {
+        _ if given.setup.effects.opposite == Opposite::Analytic => {
+            let [first, end] = [parents.parts(f).start, parents.parts(f).end]
+                .map(|part| active.pairs.partition_point(|pair| pair.one < part));
+            let of = (numbers.motion.rule, tractions, fields);
+            over_surface(given, (f, base), (active, first..end), of, table, motion)
+        }
         Some(Lines { measure, .. }) => {
             let [first, end] = [parents.parts(f).start, parents.parts(f).end]
                 .map(|part| active.pairs.partition_point(|pair| pair.one < part));
@@ -209,6 +217,52 @@ fn add_parts<const N: usize>(
         }
     }
     Ok(linearised)
+}
+
+/// The same against an analytic surface, of facet f with these places of active pairs.
+fn over_surface<const N: usize>(
+    given: Given<N>,
+    (f, base): (usize, Vec3),
+    (active, places): (&Active, Range<usize>),
+    (rule, tractions, fields): (&'static Rule, &[Vec3], Fields),
+    table: &mut ParentTable,
+    motion: &mut SubMotion,
+) -> Result<i64> {
+    let (one, two) = given.setup.surfaces();
+    let Some(parents) = &one.parents else { return Ok(0) };
+    let surface = two.analytic_at(&active.x2)?;
+    let mut lowered = fields.one().map(|x| x + (base - surface.origin));
+    if let Fields::Offsets { one, .. } = fields {
+        // Of int N_A h alone: what the nodes raised by h have more than the nodes.
+        let x = parents.at(f, &active.x1).x.map(|x| x - surface.origin);
+        lowered = std::array::from_fn(|k| x[k] + one[k]);
+    }
+    for pair in &active.pairs[places.start..places.end] {
+        let (frame, sub) = (one.frame(pair.one, &active.x1, &active.normals)?, parents.sub(pair.one));
+        let rows = parents.space.nodes(parents.facets[f].parent, sub);
+        let mut p = [[0.0; MAX_CORNERS]; 3];
+        for (a, i) in (0..rows.len()).flat_map(|a| (0..3).map(move |i| (a, i))) {
+            p[i][a] = tractions[rows[a]][i];
+        }
+        let turned = parents.over_surface(pair.one, (&frame, &active.x1), (&surface, rule), |part, x| {
+            part.motion((x, &lowered), &p, motion)
+        })?;
+        let mut slots = [None; 2 * MORTAR];
+        (0..sub.shape.n).for_each(|k| slots[k] = Some(sub.nodes[k]));
+        if let Fields::Offsets { .. } = fields {
+            table.add_offsets((motion, 1.0), &slots, rows);
+            parents.over_surface(pair.one, (&frame, &active.x1), (&surface, rule), |part, x| {
+                part.motion((x, x), &p, motion)
+            })?;
+            table.add_offsets((motion, -1.0), &slots, rows);
+            continue;
+        }
+        table.add_motion(motion, &slots, &[], rows);
+        for (a, k) in (0..rows.len()).flat_map(|a| (0..one.host_nodes(f).len()).map(move |k| (a, k))) {
+            table.add_gap(rows[a], k, &turned[a][k]);
+        }
+    }
+    Ok(places.len() as i64)
 }
 
 /// Gaps of a facet as they were integrated, of its active pairs [L^3].

@@ -4,6 +4,7 @@ mod abi;
 mod facets;
 mod invariants;
 mod limits;
+mod parents;
 mod tangent;
 
 use crate::support::max_abs;
