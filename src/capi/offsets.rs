@@ -33,7 +33,7 @@ pub const STICKSLIP_SIDE_MORTAR: i32 = 1;
 /// the history: set them again after a restart, before its import. Not of an analytic mortar side, whose shape or place says the
 /// same. On several processes each handle needs those of all of its nodes.
 ///
-/// Errors: NULL_POINTER, NOT_FINITE, UNSUPPORTED (offsets of an analytic surface; NORMALS_CURRENT with three multipliers and
+/// Errors: NULL_POINTER, NOT_FINITE, UNSUPPORTED (offsets of an analytic surface; normals of now with three multipliers and
 /// weak_coverage > 0), and where pairs are sought anew those of `stickslip_interface_set_previous`.
 /// Cost: a copy; where the largest offsets change, one search. Allocates.
 #[unsafe(no_mangle)]

@@ -141,7 +141,12 @@ static inline int32_t every_adjust(every *c) {
   return stickslip_interface_adjust(c->h.s.interface, 0.02, c->adjusted, c->gaps, c->moved);
 }
 static inline int32_t every_shape_offsets(every *c) {
-  static const double centre[] = {0, 0, 1e4}, axis[] = {0, 0, 1};
+  static double centre[3];
+  static const double axis[] = {0, 0, 1};
+  if (centre[2] == 0.0) {
+    centre[2] = 1e4;
+    scene_frame(centre);
+  }
   return stickslip_interface_shape_offsets(c->h.s.interface, STICKSLIP_SIDE_NONMORTAR, STICKSLIP_SHAPE_SPHERE, 1e4, centre, axis,
                                            c->shape_offsets);
 }

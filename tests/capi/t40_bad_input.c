@@ -69,6 +69,7 @@ static void set_up(const char *name, int32_t base) {
   b.shape = STICKSLIP_SHAPE_SPHERE;
   b.radius = 1e4;
   b.point[2] = b.direction[2] = 1e4;
+  scene_frame(b.point);
   memcpy(b.offsets1, offsets1, sizeof offsets1);
   memcpy(b.shared1, shared1, sizeof shared1);
   memcpy(b.offsets2, offsets2, sizeof offsets2);

@@ -345,6 +345,7 @@ contains
     radius = 1d4
     point = [0d0, 0d0, 1d4]
     direction = point
+    call scene_frame(point)
     offsets1 = [0, 3, 6]
     offsets2 = [0, 2, 4]
     shared1 = [1, 2, 3, 3, 4, 5]

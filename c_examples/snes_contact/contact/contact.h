@@ -4,6 +4,22 @@
 #include "physics/physics.h"
 #include <stickslip.h>
 
+/* Where surfaces are beside their meshes (offsets.c): `offset` of all nodes of the non-mortar side and of some, each node's, the
+ * factor on them; of round sides their shape, and each node's; at time t; what `adjust` has done (adjust.c). */
+typedef struct {
+  PetscBool any;
+  PetscReal all;
+  PetscInt  n_points;
+  PetscReal *points, *nodal;
+  Curve      curve;
+  PetscReal  radius[2], centre[3], axis[3]; /* 0: a side is not round */
+  int32_t    shape;
+  double    *round[2], *now;
+  PetscReal  adjust; /* tolerance; 0: nothing is adjusted */
+  double    *gaps;
+  int32_t   *moved;
+} Offsets;
+
 /* One contact interface; the library's handle and all its arrays live on rank 0 (see contact.c). */
 typedef struct {
   char                 name[NAME_LENGTH];
@@ -30,6 +46,7 @@ typedef struct {
   double              *coo_values;
   double               friction_work; /* up to the last converged step */
   double               young, largest_traction; /* of the softer body; up to the last converged step */
+  Offsets               offsets;
   stickslip_equilibrium equilibrium;  /* as last judged (equilibrium.c) */
   int64_t              bytes;         /* of the library's, the most at the end of a step */
 } Interface;
@@ -86,6 +103,17 @@ PetscErrorCode reach_measure(Contact *contact);
 /* contact_setup.c, contact.c: `status` > 0 on every rank if the library refused, for the reason in contact->refusal */
 PetscErrorCode contact_create(Contact *contact, Scene *scene, PetscBool quiet, PetscInt *status);
 PetscErrorCode contact_destroy(Contact *contact);
+/* rank 0: a side from `x` and `equations` of the interface; `facet_nodes` is the caller's to free */
+PetscErrorCode contact_surface(const Contact *contact, const Interface *interface, int side, stickslip_surface *out,
+                               int64_t **facet_nodes);
+/* adjust.c, rank 0 */
+PetscErrorCode contact_adjust(Scene *scene, Contact *contact, Interface *interface);
+/* offsets.c; place and create on rank 0 */
+PetscErrorCode offsets_read(Scene *scene, const Physics *physics, Interface *interface);
+PetscErrorCode offsets_place(Scene *scene, const Mesh *mesh, Interface *interface);
+int32_t        offsets_create(const Mesh *mesh, Interface *interface);
+PetscErrorCode offsets_values(Contact *contact, PetscReal t, PetscInt *status);
+PetscErrorCode offsets_destroy(Interface *interface);
 PetscErrorCode contact_agree(Contact *contact, int32_t refused, PetscInt *status);
 void           contact_positions(Interface *interface);
 /* of a node, from vectors of the interface; the third component is 0 in the plane */

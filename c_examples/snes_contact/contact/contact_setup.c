@@ -32,8 +32,8 @@ static PetscErrorCode gather_equations(Contact *contact, Interface *interface)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode describe_surface(const Contact *contact, const Interface *interface, int side,
-                                       stickslip_surface *out, int64_t **facet_nodes)
+PetscErrorCode contact_surface(const Contact *contact, const Interface *interface, int side, stickslip_surface *out,
+                               int64_t **facet_nodes)
 {
   const Surface *surface = interface->surface[side];
   const PetscInt first = side ? interface->n1 : 0, n = side ? interface->n2 : interface->n1,
@@ -100,7 +100,7 @@ static PetscErrorCode check_facing(const Contact *contact, Scene *scene, PetscBo
   PetscCallStickslip(stickslip_interface_counters(interface->handle, &counters));
   if (counters.pairs_active) PetscFunctionReturn(PETSC_SUCCESS);
   for (int side = 0; side < 2; side++)
-    PetscCall(describe_surface(contact, interface, side, &surfaces[side], &facet_nodes[side]));
+    PetscCall(contact_surface(contact, interface, side, &surfaces[side], &facet_nodes[side]));
   PetscCallStickslip(stickslip_interface_create(&surfaces[0], &surfaces[1], &interface->options, &asked));
   PetscCallStickslip(stickslip_interface_report(asked, interface->x, MORTAR_OF(interface, interface->x), &report));
   PetscCallStickslip(stickslip_interface_destroy(&asked));
@@ -146,9 +146,10 @@ PetscErrorCode contact_create(Contact *contact, Scene *scene, PetscBool quiet, P
         interface->X[k] = mesh->coordinates[3 * interface->nodes[k / d] + k % d];
       contact_positions(interface);
       for (int side = 0; side < 2; side++)
-        PetscCall(describe_surface(contact, interface, side, &surfaces[side], &facet_nodes[side]));
+        PetscCall(contact_surface(contact, interface, side, &surfaces[side], &facet_nodes[side]));
       refused = stickslip_interface_create(&surfaces[0], &surfaces[1], &interface->options, &interface->handle);
       if (!refused) refused = set_constraints(interface);
+      if (!refused && interface->offsets.any) refused = offsets_create(mesh, interface);
       if (!refused && contact->condensed) /* refused at once rather than in the first step */
         refused = stickslip_interface_condensed_multipliers(interface->handle, interface->x, MORTAR_OF(interface, interface->x),
                                                             interface->host, interface->lambda);
@@ -161,6 +162,7 @@ PetscErrorCode contact_create(Contact *contact, Scene *scene, PetscBool quiet, P
     if (mesh->rank == 0) PetscCall(check_facing(contact, scene, quiet, interface));
     PetscCall(scene_root_end(scene));
   }
+  if (!*status) PetscCall(offsets_values(contact, 0, status));
   if (!*status) PetscCall(condensed_create(contact, status));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -177,6 +179,7 @@ PetscErrorCode contact_destroy(Contact *contact)
     PetscCall(PetscFree4(interface->lambda, interface->lambda_start, interface->lambda_last, interface->lambda_before));
     PetscCall(PetscFree4(interface->host, interface->rows, interface->host_there, interface->x_there));
     PetscCall(PetscFree3(interface->coo_rows, interface->coo_columns, interface->coo_values));
+    PetscCall(offsets_destroy(interface));
     PetscCall(PetscFree(interface->nodes));
     PetscCall(PetscFree(interface->removed));
     PetscCall(PetscFree(interface->middle));

@@ -1,0 +1,154 @@
+/* Surfaces that are not where their meshes are: offsets of the non-mortar nodes, over time, and facets of round sides. */
+#include "contact/contact.h"
+
+/* A point of `offset_at` and a node that are farther apart than this, over the interface's size, are two places. */
+static const PetscReal SAME_PLACE = 1e-6;
+
+/* The round sides: `round`, `centre`, `axis`, `nonmortar_radius`, `mortar_radius`. */
+static void read_round(Scene *scene, const Space *space, Interface *interface)
+{
+  static const char *const solid[] = {"sphere", "cylinder", NULL}, *const plane[] = {"circle", NULL};
+  static const char *const radius_key[] = {"nonmortar_radius", "mortar_radius"};
+  const char              *name  = interface->name;
+  const PetscBool          flat  = (PetscBool)(space_dimension(space) == 2);
+  Offsets                 *round = &interface->offsets;
+  PetscInt                 shape = 0;
+
+  for (int side = 0; side < 2; side++) {
+    scene_real(scene, name, radius_key[side], &round->radius[side]);
+    if (scene_has(scene, name, radius_key[side]) && round->radius[side] == 0)
+      scene_fail(scene, name, radius_key[side], "positive: the body is inside; negative: it is around a bore. Zero is neither.");
+  }
+  if (!scene_has(scene, name, "round")) {
+    for (int side = 0; side < 2; side++) {
+      if (round->radius[side] != 0)
+        scene_fail(scene, name, radius_key[side], "it needs `round: %s`.", flat ? "circle" : "sphere or cylinder");
+    }
+    return;
+  }
+  scene_choice(scene, name, "round", flat ? plane : solid, &shape);
+  round->shape   = flat || shape ? STICKSLIP_SHAPE_CYLINDER : STICKSLIP_SHAPE_SPHERE;
+  round->axis[2] = 1;
+  (void)space_vector(scene, space, name, "centre", round->centre);
+  if (!flat && round->shape == STICKSLIP_SHAPE_CYLINDER && !space_vector(scene, space, name, "axis", round->axis))
+    scene_fail(scene, name, "axis", "this key is missing: the direction of the cylinder's axis.");
+  if (round->radius[0] == 0 && round->radius[1] == 0)
+    scene_fail(scene, name, "round", "which side is round? Give it its radius: nonmortar_radius, mortar_radius.");
+}
+
+PetscErrorCode offsets_read(Scene *scene, const Physics *physics, Interface *interface)
+{
+  const Space *space   = &physics->mesh->space;
+  Offsets     *offsets = &interface->offsets;
+  const char  *name    = interface->name;
+  PetscFunctionBegin;
+  scene_real(scene, name, "offset", &offsets->all);
+  scene_reals(scene, name, "offset_at", &offsets->n_points, &offsets->points);
+  if (offsets->n_points % (interface->dimension + 1))
+    scene_fail(scene, name, "offset_at", "%d numbers a node are expected, its place and its offset.", (int)interface->dimension + 1);
+  offsets->n_points /= interface->dimension + 1;
+  read_round(scene, space, interface);
+  offsets->any = (PetscBool)(offsets->all != 0 || offsets->n_points || offsets->radius[0] != 0 || offsets->radius[1] != 0);
+  if (scene_has(scene, name, "offset_curve")) {
+    if (offsets->all == 0 && !offsets->n_points)
+      scene_fail(scene, name, "offset_curve", "a factor on `offset` or `offset_at`, of which there is none.");
+    PetscCall(curve_read(scene, name, "offset_curve", physics->end, &offsets->curve));
+  }
+  scene_real(scene, name, "adjust", &offsets->adjust);
+  if (scene_has(scene, name, "adjust") && offsets->adjust <= 0) scene_fail(scene, name, "adjust", "a tolerance above 0 is expected.");
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* rank 0: which nodes `offset_at` means. */
+PetscErrorCode offsets_place(Scene *scene, const Mesh *mesh, Interface *interface)
+{
+  Offsets       *offsets = &interface->offsets;
+  const PetscInt d       = interface->dimension;
+  Extent         extent  = extent_of_nothing();
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(interface->n1, &offsets->nodal));
+  for (PetscInt a = 0; a < interface->n1; a++) {
+    offsets->nodal[a] = offsets->all;
+    extent_add(&extent, mesh->coordinates + 3 * interface->nodes[a]);
+  }
+  for (PetscInt p = 0; p < offsets->n_points; p++) {
+    const PetscReal *point = offsets->points + (d + 1) * p;
+    PetscInt         found = -1;
+    for (PetscInt a = 0; a < interface->n1 && found < 0; a++) {
+      const PetscReal *x = mesh->coordinates + 3 * interface->nodes[a];
+      PetscReal        square = 0;
+      for (PetscInt i = 0; i < d; i++)
+        square += PetscSqr(x[i] - point[i]);
+      if (square <= PetscSqr(SAME_PLACE) * extent_diagonal_squared(&extent)) found = a;
+    }
+    if (found < 0)
+      scene_fail(scene, interface->name, "offset_at", "no node of the non-mortar surface is at the place of point %d of the list.",
+                 (int)p + 1);
+    offsets->nodal[found] = point[d];
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The shape of a round side, where the library has the nodes: turned with the frame, from the interface's first node. */
+static int32_t shape_of(const Mesh *mesh, const Interface *interface, int side, double *values)
+{
+  const Offsets  *round = &interface->offsets;
+  const PetscBool ring  = (PetscBool)(interface->options.model == STICKSLIP_MODEL_AXISYMMETRIC);
+  double          centre[3], axis[3];
+  for (int i = 0; i < 3; i++) {
+    centre[i] = round->centre[i];
+    axis[i]   = round->axis[i];
+  }
+  mesh_rotate_vector(mesh, centre);
+  mesh_rotate_vector(mesh, axis);
+  for (int i = 0; i < interface->dimension; i++)
+    centre[i] -= ring && i == 0 ? 0 : interface->X[i];
+  return stickslip_interface_shape_offsets(interface->handle, side, round->shape, round->radius[side], centre, axis, values);
+}
+
+/* rank 0: what the facets of round sides need, once the handle is there. */
+int32_t offsets_create(const Mesh *mesh, Interface *interface)
+{
+  Offsets *offsets = &interface->offsets;
+  int32_t  refused = 0;
+  PetscCallAbort(PETSC_COMM_SELF, PetscCalloc3(interface->n1, &offsets->round[0], interface->n2, &offsets->round[1], interface->n1,
+                                               &offsets->now));
+  for (int side = 0; side < 2 && !refused; side++) {
+    if (offsets->radius[side] != 0) refused = shape_of(mesh, interface, side, offsets->round[side]);
+  }
+  return refused;
+}
+
+/* Those of time t. */
+PetscErrorCode offsets_values(Contact *contact, PetscReal t, PetscInt *status)
+{
+  PetscFunctionBegin;
+  *status = 0;
+  for (PetscInt i = 0; i < contact->n_interfaces && !*status; i++) {
+    Interface *interface = &contact->interfaces[i];
+    Offsets   *offsets   = &interface->offsets;
+    int32_t    refused   = 0;
+    if (!offsets->any) continue;
+    if (contact->mesh->rank == 0) {
+      const PetscReal factor = offsets->curve.n ? curve_value(&offsets->curve, t) : 1;
+      for (PetscInt a = 0; a < interface->n1; a++)
+        offsets->now[a] = factor * offsets->nodal[a] + offsets->round[0][a];
+      refused = stickslip_interface_set_offsets(interface->handle, offsets->now, offsets->radius[1] != 0 ? offsets->round[1] : NULL);
+      interface->planned = 0; /* other pairs may meet */
+    }
+    PetscCall(contact_agree(contact, refused, status));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode offsets_destroy(Interface *interface)
+{
+  Offsets *offsets = &interface->offsets;
+  PetscFunctionBegin;
+  PetscCall(PetscFree3(offsets->round[0], offsets->round[1], offsets->now));
+  PetscCall(PetscFree(offsets->nodal));
+  PetscCall(PetscFree(offsets->points));
+  PetscCall(PetscFree(offsets->curve.points));
+  PetscCall(PetscFree2(offsets->gaps, offsets->moved));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
