@@ -252,16 +252,16 @@
 #define STICKSLIP_MORTAR_RIGID 1
 
 /// The mortar side is rigid and in closed form, STICKSLIP_SHAPE_...: no facets, no search. Its stickslip_surface has
-/// four nodes, a frame that is fixed to it and that the host moves as a rigid body: see there.
+/// four nodes (of lines three), a frame that is fixed to it and that the host moves as a rigid body: see there.
 #define STICKSLIP_MORTAR_ANALYTIC 2
 
-/// A plane. Default.
+/// A plane; of lines a straight line. Default.
 #define STICKSLIP_SHAPE_PLANE 0
 
-/// A sphere.
+/// A sphere; of lines a circle.
 #define STICKSLIP_SHAPE_SPHERE 1
 
-/// A circular cylinder without ends.
+/// A circular cylinder without ends; of lines a circle.
 #define STICKSLIP_SHAPE_CYLINDER 2
 
 /// Coulomb with mu = 0 at every node: no slip is computed (and none reported).
@@ -613,20 +613,21 @@ typedef struct stickslip_options {
 
 /// One surface of an interface.
 ///
-/// An analytic mortar side (STICKSLIP_MORTAR_ANALYTIC) has n_nodes = 4 and n_facets = 0; facet_offsets and facet_nodes
+/// An analytic mortar side (STICKSLIP_MORTAR_ANALYTIC) has n_nodes = 4 (of lines 3) and n_facets = 0; facet_offsets and facet_nodes
 /// are NULL, equations NULL or all -1. Its nodes P0..P3 are a frame that is fixed to the surface and moves as a rigid
 /// body, within 1e-8 of its lengths (INVALID_VALUE otherwise); to move the surface, move them. P0: a point of the
 /// plane, the sphere's centre, a point of the axis. P1 - P0: the plane's normal, out of its body, or the direction of
-/// the axis. The three edges P1 - P0, P2 - P0, P3 - P0 must not lie in one plane; take them about as long as the contact
-/// is wide. The points are rounded, and that moves the surface: by eps S D / a, with a the shortest of the three edges, D
+/// the axis; of lines a point of the straight line and its normal, or the centre of the circle and any direction. The three edges
+/// P1 - P0, P2 - P0, P3 - P0 must not lie in one plane, the two of lines not on one line; take them about as long as the contact
+/// is wide. The points are rounded, and that moves the surface: by eps S D / a, with a the shortest of the edges, D
 /// the distance from P0 to the farthest non-mortar node, and S the frame's distance from the origin or D, the larger. A
-/// frame that moves it by more than 1e-8 of the longest facet edge is refused, INVALID_VALUE. The forces on the four nodes
+/// frame that moves it by more than 1e-8 of the longest facet edge is refused, INVALID_VALUE. The forces on these nodes
 /// are statically equivalent to those on the surface. A facet takes part in a step when at t_n its normal opposes the
 /// surface's; it then counts as covered.
 typedef struct stickslip_surface {
   /// sizeof(stickslip_surface).
   uint64_t struct_size;
-  /// Number of nodes; each must belong to a facet. Analytic: 4.
+  /// Number of nodes; each must belong to a facet. Analytic: 4, of lines 3.
   int64_t n_nodes;
   /// Number of facets. Analytic: 0.
   int64_t n_facets;
@@ -2132,7 +2133,7 @@ int32_t stickslip_node_equilibrium(const struct stickslip_node *node,
 /// the history: set them again after a restart, before its import. Not of an analytic mortar side, whose shape or place says the
 /// same. On several processes each handle needs those of all of its nodes.
 ///
-/// Errors: NULL_POINTER, NOT_FINITE, UNSUPPORTED (offsets of an analytic surface; NORMALS_CURRENT with three multipliers and
+/// Errors: NULL_POINTER, NOT_FINITE, UNSUPPORTED (offsets of an analytic surface; normals of now with three multipliers and
 /// weak_coverage > 0), and where pairs are sought anew those of `stickslip_interface_set_previous`.
 /// Cost: a copy; where the largest offsets change, one search. Allocates.
 int32_t stickslip_interface_set_offsets(struct stickslip_interface *interface,

@@ -112,6 +112,7 @@ PetscErrorCode contact_adjust(Scene *scene, Contact *contact, Interface *interfa
 PetscErrorCode offsets_read(Scene *scene, const Physics *physics, Interface *interface);
 PetscErrorCode offsets_place(Scene *scene, const Mesh *mesh, Interface *interface);
 int32_t        offsets_create(const Mesh *mesh, Interface *interface);
+int32_t        offsets_set(const Interface *interface, stickslip_interface *handle, PetscReal t);
 PetscErrorCode offsets_values(Contact *contact, PetscReal t, PetscInt *status);
 PetscErrorCode offsets_destroy(Interface *interface);
 PetscErrorCode contact_agree(Contact *contact, int32_t refused, PetscInt *status);

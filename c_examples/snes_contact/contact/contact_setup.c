@@ -102,6 +102,7 @@ static PetscErrorCode check_facing(const Contact *contact, Scene *scene, PetscBo
   for (int side = 0; side < 2; side++)
     PetscCall(contact_surface(contact, interface, side, &surfaces[side], &facet_nodes[side]));
   PetscCallStickslip(stickslip_interface_create(&surfaces[0], &surfaces[1], &interface->options, &asked));
+  PetscCallStickslip(offsets_set(interface, asked, 0));
   PetscCallStickslip(stickslip_interface_report(asked, interface->x, MORTAR_OF(interface, interface->x), &report));
   PetscCallStickslip(stickslip_interface_destroy(&asked));
   for (int side = 0; side < 2; side++)
@@ -150,6 +151,7 @@ PetscErrorCode contact_create(Contact *contact, Scene *scene, PetscBool quiet, P
       refused = stickslip_interface_create(&surfaces[0], &surfaces[1], &interface->options, &interface->handle);
       if (!refused) refused = set_constraints(interface);
       if (!refused && interface->offsets.any) refused = offsets_create(mesh, interface);
+      if (!refused) refused = offsets_set(interface, interface->handle, 0);
       if (!refused && contact->condensed) /* refused at once rather than in the first step */
         refused = stickslip_interface_condensed_multipliers(interface->handle, interface->x, MORTAR_OF(interface, interface->x),
                                                             interface->host, interface->lambda);
@@ -162,7 +164,6 @@ PetscErrorCode contact_create(Contact *contact, Scene *scene, PetscBool quiet, P
     if (mesh->rank == 0) PetscCall(check_facing(contact, scene, quiet, interface));
     PetscCall(scene_root_end(scene));
   }
-  if (!*status) PetscCall(offsets_values(contact, 0, status));
   if (!*status) PetscCall(condensed_create(contact, status));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -119,23 +119,28 @@ int32_t offsets_create(const Mesh *mesh, Interface *interface)
   return refused;
 }
 
-/* Those of time t. */
+/* rank 0: those of time t, of any handle of the interface's. */
+int32_t offsets_set(const Interface *interface, stickslip_interface *handle, PetscReal t)
+{
+  const Offsets  *offsets = &interface->offsets;
+  const PetscReal factor  = offsets->curve.n ? curve_value(&offsets->curve, t) : 1;
+  if (!offsets->any) return STICKSLIP_OK;
+  for (PetscInt a = 0; a < interface->n1; a++)
+    offsets->now[a] = factor * offsets->nodal[a] + offsets->round[0][a];
+  return stickslip_interface_set_offsets(handle, offsets->now, offsets->radius[1] != 0 ? offsets->round[1] : NULL);
+}
+
+/* Those of time t, of all interfaces. */
 PetscErrorCode offsets_values(Contact *contact, PetscReal t, PetscInt *status)
 {
   PetscFunctionBegin;
   *status = 0;
   for (PetscInt i = 0; i < contact->n_interfaces && !*status; i++) {
     Interface *interface = &contact->interfaces[i];
-    Offsets   *offsets   = &interface->offsets;
     int32_t    refused   = 0;
-    if (!offsets->any) continue;
-    if (contact->mesh->rank == 0) {
-      const PetscReal factor = offsets->curve.n ? curve_value(&offsets->curve, t) : 1;
-      for (PetscInt a = 0; a < interface->n1; a++)
-        offsets->now[a] = factor * offsets->nodal[a] + offsets->round[0][a];
-      refused = stickslip_interface_set_offsets(interface->handle, offsets->now, offsets->radius[1] != 0 ? offsets->round[1] : NULL);
-      interface->planned = 0; /* other pairs may meet */
-    }
+    if (!interface->offsets.any || !interface->offsets.curve.n) continue;
+    if (contact->mesh->rank == 0) refused = offsets_set(interface, interface->handle, t);
+    interface->planned = 0; /* other pairs may meet */
     PetscCall(contact_agree(contact, refused, status));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
