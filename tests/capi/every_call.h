@@ -130,11 +130,17 @@ static inline int32_t every_constraints(every *c) {
   const int64_t node = 4;
   return stickslip_interface_set_constraints(c->h.s.interface, 1, &node, across);
 }
+/* How the offset of a carried node turns is not in the tangent: refused. */
+static inline int every_offsets_unsupported(const stickslip_options *o) {
+  const int carries = o->weak_coverage > 0.0 || (o->weak_coverage == 0.0 && o->multiplier_basis == STICKSLIP_BASIS_DUAL);
+  return o->normals == STICKSLIP_NORMALS_CURRENT && o->friction != STICKSLIP_FRICTION_NONE && carries;
+}
 static inline int32_t every_offsets(every *c) {
+  const stickslip_options *o = &c->h.s.options;
   double one[N1], two[N2];
-  for (int a = 0; a < N1; ++a) one[a] = 1e-3 * a;
-  for (int a = 0; a < N2; ++a) two[a] = -1e-3 * a;
-  return stickslip_interface_set_offsets(c->h.s.interface, one, c->h.s.options.mortar_side == STICKSLIP_MORTAR_ANALYTIC ? NULL : two);
+  for (int a = 0; a < N1; ++a) one[a] = every_offsets_unsupported(o) ? 0.0 : 1e-3 * a;
+  for (int a = 0; a < N2; ++a) two[a] = every_offsets_unsupported(o) ? 0.0 : -1e-3 * a;
+  return stickslip_interface_set_offsets(c->h.s.interface, one, o->mortar_side == STICKSLIP_MORTAR_ANALYTIC ? NULL : two);
 }
 static inline int32_t every_no_offsets(every *c) { return stickslip_interface_set_offsets(c->h.s.interface, NULL, NULL); }
 static inline int32_t every_adjust(every *c) {
