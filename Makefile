@@ -15,7 +15,7 @@ export PATH := $(PATH):$(HOME)/.cargo/bin
 LOCKED = mkdir -p $(BUILD) && flock $(BUILD)/.lock
 SAY    = @printf '\n== %s\n'
 
-.PHONY: packages hosts help demo gallery effects aids study compare bench random fuzz stability scaling ratios digest wheel python-examples check test test-long build install uninstall docs abi header meshes clean cmake-build rust-tests
+.PHONY: packages hosts help demo gallery effects aids study compare bench random fuzz stability scaling ratios digest wheel python-examples check test test-long build install uninstall docs reference abi header meshes clean cmake-build rust-tests
 
 help:
 	@echo "make demo    solve the example scenes, compare with the references, draw (FIGURES=1: renew the README's figures)"
@@ -38,12 +38,12 @@ help:
 	@echo "make fuzz    fuzz the pair kernel, the handle and the C ABI, a quarter of an hour each (FUZZ_SECONDS=)"
 	@echo "make wheel   the Python package as a wheel, in $(BUILD)/wheels"
 	@echo "make python-examples   its examples, with the libraries they need, in an environment below $(BUILD)/"
-	@echo "make hosts   programs on deal.II, MFEM and petsc4py: installs these, compares them with the driver; hosts/README.md"
+	@echo "make hosts   programs on deal.II, MFEM, scikit-fem, FElupe and petsc4py: installs these, compares them with the driver; hosts/README.md"
 	@echo "make packages   crate, Debian packages, recipes of Spack and conda-forge, in $(BUILD)/packages; packaging/README.md"
 	@echo "make build   build the library and the examples into $(BUILD)/"
 	@echo "make install PREFIX=DIR [DESTDIR=]   install header, Fortran module, libraries, pkg-config and CMake files"
 	@echo "make uninstall PREFIX=DIR [DESTDIR=]   remove what was installed there"
-	@echo "make docs    the reference of the C and Rust interfaces and the guides as HTML, in $(BUILD)/docs"
+	@echo "make docs    guides and references as one site with search, in $(BUILD)/docs/site; make reference: those of C and Rust alone"
 	@echo "make abi     renew the committed description of the ABI (tests/abi)"
 	@echo "make header  make include/stickslip.h again from src/capi"
 	@echo "make meshes  make the example meshes again with Gmsh"
@@ -166,6 +166,7 @@ hosts:
 	$(SAY) "Hosts"
 	@test -x $(BUILD)/hosts/python/bin/pip || $(PYTHON) -m venv $(BUILD)/hosts/python
 	@$(BUILD)/hosts/python/bin/pip install -q --no-deps mfem
+	@$(BUILD)/hosts/python/bin/pip install -q cffi numpy scipy scikit-fem felupe 2>/dev/null
 	@$(PYTHON) hosts/check.py --build $(BUILD)
 	@STICKSLIP_LIBRARY=$(abspath $(BUILD))/lib/libstickslip.so $(PYTHON) -m pytest -q -rs -p no:cacheprovider python/tests/test_petsc4py.py
 
@@ -226,7 +227,7 @@ rust-tests:
 	cargo clippy --locked --all-targets -- -D warnings
 	$(SAY) "Rust and C ABI tests"
 	cargo test --locked
-	@$(MAKE) --no-print-directory docs
+	@$(MAKE) --no-print-directory reference
 
 cmake-build:
 	$(SAY) "Library and examples"
@@ -234,7 +235,8 @@ cmake-build:
 		-DPython3_EXECUTABLE=$(PYTHON)
 	@$(LOCKED) cmake --build $(BUILD) --parallel $(JOBS)
 
-docs:
+# No network: what `make test` builds.
+reference:
 	@.ci/setup docs
 	$(SAY) "Reference of the C interface and the guides"
 	@mkdir -p $(BUILD)/docs/c
@@ -244,6 +246,19 @@ docs:
 	@RUSTDOCFLAGS="-D warnings" cargo doc --locked --no-deps
 	@rm -rf $(BUILD)/docs/rust && cp -r target/doc $(BUILD)/docs/rust
 	@echo "Written: $(BUILD)/docs/c/html/index.html, $(BUILD)/docs/rust/stickslip/index.html"
+
+# The programs of docs/site/requirements.txt come from PyPI, once. The Python reference needs the package's library.
+DOCS_PYTHON = $(BUILD)/docs/python/bin/python
+docs: reference
+	$(SAY) "The site"
+	@test -x $(BUILD)/docs/python/bin/sphinx-build || { $(PYTHON) -m venv $(BUILD)/docs/python && \
+		$(DOCS_PYTHON) -m pip install -q -r docs/site/requirements.txt; }
+	@cargo build --locked --release --quiet --lib
+	@STICKSLIP_LIBRARY=$$(cargo metadata --format-version 1 --no-deps | \
+		sed 's/.*"target_directory":"\([^"]*\)".*/\1/')/release/libstickslip.so \
+		$(BUILD)/docs/python/bin/sphinx-build -q -W --keep-going -c docs/site -b html . $(BUILD)/docs/site
+	@$(DOCS_PYTHON) docs/site/check_links.py $(BUILD)/docs/site
+	@echo "Written: $(BUILD)/docs/site/index.html"
 
 abi:
 	@.ci/setup test

@@ -1,7 +1,8 @@
 """An elastic block is pressed on a rigid base and pushed along it, with friction: PETSc's SNES from Python.
 
-The problem and the options are those of c_examples/petsc_block.c: -n, -steps, -friction, -load, -push, and PETSc's own. It runs on
-any number of processes. Each has a share of the cells and a part of the interface (docs/plug_in.md, section 9):
+The problem and the options are those of c_examples/petsc_block.c: -n, -steps, -friction, -load, -push, and PETSc's own; besides
+-poisson, and -output FILE, which receives a row X Y Z ux uy uz for each node. It runs on any number of processes. Each has a share
+of the cells and a part of the interface (docs/plug_in.md, section 9):
 
     python petsc4py_block.py -n 6
     mpiexec -n 2 python petsc4py_block.py -n 6
@@ -22,7 +23,7 @@ from petsc4py import PETSc
 
 import stickslip
 
-SIZE, YOUNG, POISSON = np.array([2.0, 2.0, 1.0]), 1000.0, 0.3
+SIZE, YOUNG = np.array([2.0, 2.0, 1.0]), 1000.0
 # Newton's tolerance, and ten times it for the contact, over scales of its own.
 RTOL, CONTACT_RTOL = 1e-11, 1e-10
 OWN, ELSEWHERE = stickslip.constants["NODE_OWN"], stickslip.constants["NODE_ELSEWHERE"]
@@ -32,6 +33,7 @@ STATES = tuple(stickslip.constants["STATE_" + name] for name in ("GAP", "STICK",
 
 options = PETSc.Options()
 n, steps = options.getInt("n", 6), options.getInt("steps", 10)
+poisson = options.getReal("poisson", 0.3)
 friction, load, push = options.getReal("friction", 0.3), options.getReal("load", 40.0), options.getReal("push", 0.1)
 comm = PETSc.COMM_WORLD
 rank, ranks = comm.getRank(), comm.getSize()
@@ -79,8 +81,8 @@ def element_stiffness():
     """K = int B^T C B dV of a box, 2 x 2 x 2 Gauss points; all are alike."""
     h = SIZE / cells
     signs = np.array([(x, y, z) for z in (-1, 1) for x, y in ((-1, -1), (1, -1), (1, 1), (-1, 1))])
-    shear = YOUNG / (2 * (1 + POISSON))
-    lame = 2 * shear * POISSON / (1 - 2 * POISSON)
+    shear = YOUNG / (2 * (1 + poisson))
+    lame = 2 * shear * poisson / (1 - 2 * poisson)
     out = np.zeros((8, 3, 8, 3))
     for point in signs / np.sqrt(3):
         factors = 1 + signs * point
@@ -208,7 +210,13 @@ for step in range(1, steps + 1):
     point = part.point(problem.values(problem.x))
     states = part.face.states(*point).state[part.own]  # before the commit
     part.face.commit(*point)
+    pressed = point[2][part.own][:, 2]
+    least, most = over_ranks([-pressed.min(), pressed.max()], "max") * (-1, 1)
     gap, stick, slip = over_ranks([(states == state).sum() for state in STATES], "sum").astype(int)
     PETSc.Sys.Print(f"step {step}: {snes.getIterationNumber()} iterations, {gap} gap {stick} stick {slip} slip, "
                     f"load {problem.pressed:.12g} contact {problem.contact[2]:.12g} {problem.contact[0]:.12g} "
-                    f"reaction {problem.reaction[0]:.12g}")
+                    f"reaction {problem.reaction[0]:.12g} multipliers along z {least:.16g} {most:.16g}")
+if options.hasName("output"):
+    u = problem.values(problem.x)
+    if rank == 0:
+        np.savetxt(options.getString("output"), np.hstack([X, u[:n_displacements].reshape(-1, 3)]), fmt="%.17g")

@@ -2,6 +2,7 @@
 
 import re
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -9,6 +10,7 @@ import scene
 import stickslip
 from stickslip import _library, errors, options
 
+BAD_INPUT = Path(__file__).resolve().parents[2] / "tests" / "capi" / "bad_input.txt"
 SOURCES = Path(stickslip.__file__).parent
 # Functions of the header that the package does not wrap, and why.
 NOT_WRAPPED = {
@@ -21,11 +23,6 @@ NOT_WRAPPED = {
     "interface_plan_csr32": "interface_plan_csr has the same",
     "interface_condensed_csr": "pieces of the condensed matrix and scipy's products",
     "interface_condensed_pattern": "scipy finds the pattern",
-    "interface_condensed_plan": "not yet",
-    "interface_condensed_values": "not yet",
-    "interface_carriers": "not yet",
-    "surface_split_creases": "not yet",
-    "crosspoints_find": "not yet",
 }
 # The stateless stages are for codes that assemble pair by pair.
 NOT_WRAPPED_PREFIXES = ("pair_", "facet_", "node_")
@@ -89,19 +86,100 @@ def test_statuses_of_the_library_are_raised(lines):
         stickslip.Interface(surface, lines.arguments[1], model="plane", modulus=1.0)
 
 
-@pytest.mark.parametrize("spoil, kind", [
-    (lambda x: x.astype(np.float32), TypeError),
-    (lambda x: np.asfortranarray(x), ValueError),
-    (lambda x: x[:-1].copy(), ValueError),
-    (lambda x: np.where(np.arange(x.size).reshape(x.shape) == 3, np.nan, x), ValueError),
-])
-def test_bad_arrays_are_refused_by_name(lines, spoil, kind):
-    point = list(lines.pressed())
-    for place, name in enumerate(("x1", "x2", "lam")):
-        bad = list(point)
-        bad[place] = spoil(point[place])
-        with pytest.raises(kind, match=f"^{name}:"):
-            lines.interface.residual(*bad)
+def test_every_refusal_of_the_abi_is_raised(monkeypatch):
+    """What tests/capi/bad_input.txt makes the library answer, and every status beside: through the one function that calls it."""
+    rows = [line.split() for line in BAD_INPUT.read_text().splitlines() if line[:2] in ("C ", "CF")]
+    answered = {word for row in rows for word in row if word in errors.statuses}
+    assert len(rows) > 400 and len(answered) > 10
+    for name, status in errors.statuses.items():
+        answers = SimpleNamespace(stickslip_any=lambda status=status: status,
+                                  stickslip_last_error_message=lambda: _library.ffi.new("char[]", b"why"))
+        monkeypatch.setattr(_library, "lib", answers)
+        with pytest.raises(stickslip.Error, match="^why$") as caught:
+            _library.call("any")
+        assert type(caught.value).__name__.lower() == name.replace("_", "").lower()
+        assert caught.value.status == status
+    # Nothing else calls the library, but for what cannot refuse.
+    texts = "".join(path.read_text() for path in SOURCES.glob("*.py") if path.name != "_abi.py")
+    assert set(re.findall(r"\blib\.stickslip_(\w+)", texts)) == {"version", "build", "last_error_message"}
+
+
+def two_rows(x):
+    return np.asfortranarray(np.vstack([x, x])) if x.ndim == 1 else np.asfortranarray(x)
+
+
+# How an array is spoilt, and what is raised. Of an array of integers the last two mean nothing.
+SPOILT = {
+    "dtype": (lambda x: x.astype(np.float32 if x.dtype.kind == "f" else np.int16), TypeError),
+    "byte order": (lambda x: x.astype(x.dtype.newbyteorder()), TypeError),
+    "order": (two_rows, ValueError),
+    "stride": (lambda x: np.repeat(x, 2, axis=0)[::2], ValueError),
+    "shape": (lambda x: x[:-1].copy(), ValueError),
+    "NaN": (lambda x: np.where(np.arange(x.size).reshape(x.shape) == 1, np.nan, x), ValueError),
+    "infinite": (lambda x: np.where(np.arange(x.size).reshape(x.shape) == 0, -np.inf, x), ValueError),
+}
+
+
+def calls(made):
+    """Every method that takes arrays: (method, good arrays by name)."""
+    face, n1, d = made.interface, len(made.x1), made.x1.shape[1]
+    x1, x2, lam = made.pressed()
+    positions, point = {"x1": x1, "x2": x2}, {"x1": x1, "x2": x2, "lam": lam}
+    host = {**point, "host1": np.zeros_like(x1)}
+    condensed = stickslip.Condensed(face)
+    plan = stickslip.Plan(face, x1, x2, made.size)
+    sums = {} if made.options.get("basis") == "dual" else {"sums": face.sums(x1, x2)}
+    history = face.history()
+    found = [
+        (face.residual, {**point, **sums}), (face.states, {**point, **sums}), (face.equilibrium, {**point, **sums}),
+        (lambda **given: face.tangent(**given, size=made.size), point), (plan.values, point), (face.diagnose, point),
+        (face.report, positions), (face.sums, positions), (face.set_previous, positions),
+        (lambda **given: stickslip.Plan(face, **given, size=made.size), positions),
+        (face.step_limit, {**positions, "dx1": np.zeros_like(x1), "dx2": np.zeros_like(x2)}),
+        (face.set_friction, {"mu": np.full(n1, 0.2)}), (face.set_augmentation, {"r": np.ones(n1)}),
+        (face.set_normals, {"normals": np.tile(made.nu, (n1, 1))}),
+        (face.set_committed, {**positions, "slip": np.zeros_like(x1)}),
+        (face.turn_multipliers, {"x1": x1, "lam": lam}), (face.commit, {**point, **sums}),
+        (lambda **given: face.restore({**history, **given}), {"integers": history["integers"], "reals": history["reals"]}),
+        (stickslip.Surface, {"coordinates": made.x1, "equations": np.arange(n1 * d).reshape(n1, d),
+                             "multiplier_equations": np.arange(n1 * d).reshape(n1, d), "owned": np.ones(n1, np.int32)}),
+    ]
+    found[-1] = (lambda **given: stickslip.Surface(facets=[[0, 1]], **given), found[-1][1])
+    if made.options.get("basis") == "dual":
+        found += [(condensed.residual, host), (lambda **given: condensed.piece(**given, size=made.size, piece="forces"), point),
+                  (condensed.multipliers, {**positions, "host1": host["host1"]}),
+                  (lambda **given: stickslip.CondensedPlan(face, x1, x2, made.size).values(**given), point)]
+    return found
+
+
+@pytest.mark.parametrize("basis", ["standard", "dual"])
+@pytest.mark.parametrize("how", SPOILT)
+def test_bad_arrays_are_refused_by_name(basis, how):
+    spoil, kind = SPOILT[how]
+    tried = 0
+    with scene.Plane(basis=basis) as made:
+        for method, good in calls(made):
+            for name, array in good.items():
+                if how in ("NaN", "infinite") and array.dtype.kind != "f" or name in ("integers", "reals", "coordinates") \
+                        and how in ("shape", "order"):
+                    continue  # a history and coordinates say their own length
+                with pytest.raises(kind, match=f"^{name}:"):
+                    method(**{**good, name: spoil(array)})
+                tried += 1
+    assert tried > 40
+
+
+def test_what_a_call_writes_to_must_be_writable(lines):
+    x1, _, lam = lines.pressed()
+    with pytest.raises(TypeError, match="^lam: list"):
+        lines.interface.turn_multipliers(x1, lam.tolist())
+    lam.flags.writeable = False
+    with pytest.raises(ValueError, match="^lam: read-only"):
+        lines.interface.turn_multipliers(x1, lam)
+    with pytest.raises(ValueError, match="^out: read-only"):
+        lines.interface.initial_multipliers(out=lam)
+    # What is read may be read-only.
+    lines.interface.residual(x1, lines.x2, lam)
 
 
 def test_outputs(lines):

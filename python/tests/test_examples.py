@@ -2,6 +2,7 @@
 
 import importlib.util
 import os
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -24,11 +25,16 @@ def run(name, folder, *needed):
         if importlib.util.find_spec(package) is None:
             pytest.skip(f"{name} needs {package}, which is not installed")
     picture = folder / "picture.png"
+    printed = call(name, str(picture))
+    assert picture.stat().st_size > 10_000
+    return printed
+
+
+def call(name, *arguments):
     path = os.pathsep.join([str(Path(stickslip.__file__).parents[1]), os.environ.get("PYTHONPATH", "")])
-    done = subprocess.run([sys.executable, str(EXAMPLES / name), str(picture)], capture_output=True, text=True,
+    done = subprocess.run([sys.executable, str(EXAMPLES / name), *arguments], capture_output=True, text=True,
                           env={**os.environ, "PYTHONPATH": path}, timeout=300)
     assert done.returncode == 0, done.stderr
-    assert picture.stat().st_size > 10_000
     return done.stdout
 
 
@@ -48,22 +54,21 @@ def test_the_first_program_of_the_readme_runs(tmp_path):
     np.testing.assert_allclose(-space["force1"].sum(axis=0), [0, 5 * 0.8], atol=1e-12)
 
 
-def forces(printed):
-    """Forces on the top by step, as the examples of two blocks print them."""
-    return np.array([[float(word) for word in line.split("[")[1].rstrip("]").split(",")]
-                     for line in printed.splitlines()])
+# Iterations, nodes that stick and nodes that slip in each step, of the driver on the same meshes. hosts/check.py asks the driver
+# itself, and compares the displacements.
+SMALL_STRAIN = [(7, 9, 16), (7, 9, 16), (6, 9, 16), (6, 9, 16)]
+LARGE_STRAIN = [(10, 9, 16), *SMALL_STRAIN[1:]]
+# Blocks of moduli 1000 and 2000, 0.8 high, 0.005 shorter together; at finite strain some thousandths more.
+PRESSURE, LARGE_STRAIN_PRESSURE = 0.005 / (0.8 / 1000 + 0.8 / 2000), 4.173925662893
 
 
-# Steps of the path; the least shear over the limit that the last one must reach: far from where it would be without friction.
-@pytest.mark.parametrize("name, package, steps, least", [
-    ("scikit_fem_blocks.py", "skfem", 9, 0.95),
-    ("felupe_blocks.py", "felupe", 10, 0.80),
+@pytest.mark.parametrize("name, package, steps, pressure", [
+    ("scikit_fem_blocks.py", "skfem", SMALL_STRAIN, PRESSURE),
+    ("felupe_blocks.py", "felupe", LARGE_STRAIN, LARGE_STRAIN_PRESSURE),
 ])
-def test_two_blocks_slide_below_the_limit_of_friction(name, package, steps, least, tmp_path):
-    found = forces(run(name, tmp_path, package))
-    assert len(found) == steps
-    assert (found[:, 2] < 0).all()
-    limit = 0.3 * -found[:, 2]
-    # Six digits are printed. The surfaces tilt by less than a hundredth.
-    assert (found[:, 0] <= 1.01 * limit).all()
-    assert found[-1, 0] > least * limit[-1]
+def test_two_blocks_are_the_drivers(name, package, steps, pressure, tmp_path):
+    printed = run(name, tmp_path, package)
+    found = re.findall(r"iterations (\d+) gap 0 stick (\d+) slip (\d+)", printed)
+    assert [tuple(map(int, step)) for step in found] == steps
+    patch = call(name, "patch", "1", str(tmp_path / "nodes"))
+    np.testing.assert_allclose([float(word) for word in patch.split()[-2:]], -pressure, rtol=1e-11)

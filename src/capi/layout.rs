@@ -55,11 +55,13 @@ impl Matrix {
 
     /// Writes a block; rows and columns are counted in blocks.
     pub fn write<const D: usize>(&mut self, row: usize, column: usize, block: &SMatrix<f64, D, D>) {
-        for (i, j) in (0..D).flat_map(|i| (0..D).map(move |j| (i, j))) {
-            let (r, c) = (D * row + i, D * column + j);
-            let at = if self.column_major { c * self.ld + r } else { r * self.ld + c };
-            // SAFETY: at < ld * size; the caller's k has that many entries.
-            unsafe { self.k.add(at).write(block[(i, j)]) };
+        let (down, right) = if self.column_major { (1, self.ld) } else { (self.ld, 1) };
+        let first = D * (row * down + column * right);
+        for j in 0..D {
+            for i in 0..D {
+                // SAFETY: the entry < ld * size; the caller's k has that many.
+                unsafe { self.k.add(first + i * down + j * right).write(block[(i, j)]) };
+            }
         }
     }
 }

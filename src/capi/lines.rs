@@ -29,33 +29,40 @@ pub(super) fn weights(given: &stickslip_pair, n: Two<*mut f64>, dn: Two<*mut f64
     }
     rule(given.quadrature, "pair.quadrature")?;
     let w = match dn.iter().all(|p| p.is_null()) {
-        true => checked(LineWeights::new(&pair.one, &pair.two, pair.space, pair.measure))?,
+        true => {
+            let w = LineWeights::new(&pair.one, &pair.two, pair.space, pair.measure);
+            check(&w)?;
+            w
+        }
         false => derivatives(&pair, dn)?,
     };
     nodal::write_weights(&pair.nodal(), [&w.ab, &w.ac], n);
     Ok(())
 }
 
-fn checked(w: LineWeights) -> Result<LineWeights> {
+#[inline]
+fn check(w: &LineWeights) -> Result<()> {
     raw::check_array("n_ab, n_ac", w.ab.as_flattened())?;
-    raw::check_array("n_ab, n_ac", w.ac.as_flattened())?;
-    Ok(w)
+    raw::check_array("n_ab, n_ac", w.ac.as_flattened())
 }
 
 /// Writes derivatives, each pointer may be null, and gives the weights.
 #[inline(never)]
 fn derivatives(pair: &Lines, to: Two<*mut f64>) -> Result<LineWeights> {
     let (mut d, (one, two)) = (LineDerivatives::default(), (&pair.one, &pair.two));
-    let w = checked(d.add(one, two, pair.space, pair.measure))?;
+    let w = d.add(one, two, pair.space, pair.measure);
+    check(&w)?; // before anything is written
     for d in [&d.ab, &d.ac] {
         raw::check_array("dn_ab, dn_ac", d.as_flattened().as_flattened())?;
     }
     for (to, (d, columns)) in to.into_iter().zip([(&d.ab, one.n), (&d.ac, two.n)]) {
-        let mut to = Output::new(to.cast::<[f64; 2]>());
+        let mut to = Output::new(to);
         for row in d[..one.multipliers(pair.space)].iter().flat_map(|rows| &rows[..columns]) {
-            let (nodes, _) = row.as_chunks::<2>();
-            (0..one.n).for_each(|k| to.append(&[nodes[k]]));
-            (0..two.n).for_each(|k| to.append(&[nodes[MAX_LINE_NODES + k]]));
+            let (of_one, of_two) = row.split_at(2 * MAX_LINE_NODES);
+            // Lengths that the compiler knows: no calls.
+            for (of, n) in [(of_one, one.n), (of_two, two.n)] {
+                if n == 2 { to.append(&of[..4]) } else { to.append(&of[..6]) }
+            }
         }
     }
     Ok(w)

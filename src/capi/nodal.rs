@@ -87,7 +87,7 @@ pub(super) fn residual<const D: usize, const W: usize>(
     write_vectors("force", force, to)
 }
 
-/// `stickslip_pair_tangent`; `blocks` is room for the matrix.
+/// `stickslip_pair_tangent`; `blocks` is room for the matrix, zeros before.
 pub(super) fn tangent<const D: usize, const W: usize>(
     pair: &NodalPair<D>,
     (n, dn): (Two<*const f64>, Two<*const f64>),
@@ -111,11 +111,12 @@ pub(super) fn tangent<const D: usize, const W: usize>(
     let nodes: [NodeTangent<D, D>; W] = node_tangents(&traction[..m], responses, row_scale)?;
     // Nothing is written where a number is out of range.
     let (now, previous) = (now.as_ref().map(|[ab, ac]| ([ab, ac], slopes)), previous.as_ref().map(|[ab, ac]| [ab, ac]));
-    let give = |row: usize, column: usize, block| blocks[row * size + column] = block;
-    pair.tangent::<W>(now, previous, &nodes[..m], give);
-    let blocks = &blocks[..size * size];
-    raw::check_results("k", blocks.iter().flat_map(|block| block.iter()))?;
-    blocks.iter().enumerate().for_each(|(at, block)| k.write(at / size, at % size, block));
+    let blocks = &mut blocks[..size * size];
+    pair.tangent::<W>(now, previous, &nodes[..m], blocks);
+    raw::check_blocks("k", blocks)?;
+    for (row, blocks) in blocks.chunks_exact(size).enumerate() {
+        blocks.iter().enumerate().for_each(|(column, block)| k.write(row, column, block));
+    }
     Ok(())
 }
 

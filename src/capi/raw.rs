@@ -9,7 +9,7 @@ use crate::geometry::Vec3;
 use crate::memory::{self, Store, Stored};
 use crate::simd;
 use libc::c_char;
-use nalgebra::SVector;
+use nalgebra::{SMatrix, SVector};
 use std::fmt::{self, Display};
 use std::mem::MaybeUninit;
 
@@ -92,6 +92,14 @@ pub(super) fn check_results<'a>(name: &str, values: impl IntoIterator<Item = &'a
         true => Ok(()),
         false => overflow(name),
     }
+}
+
+/// The same of a matrix' blocks.
+pub(super) fn check_blocks<const D: usize>(name: &str, blocks: &[SMatrix<f64, D, D>]) -> Result<()> {
+    // 0 times what is not finite is no number, and stays so.
+    let mut sums = SMatrix::<f64, D, D>::zeros();
+    blocks.iter().for_each(|block| sums += block * 0.0);
+    if sums.iter().all(|sum| *sum == 0.0) { Ok(()) } else { overflow(name) }
 }
 
 /// The same of results that lie one after the other.

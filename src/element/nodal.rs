@@ -74,47 +74,40 @@ impl<const D: usize> NodalPair<'_, D> {
         if k < n1 { column_force(ab, traction, k) } else { -column_force(ac, traction, k - n1) }
     }
 
-    /// Of the weights' derivative: + that of n_AB and - that of n_AC, for what a traction does to the b-th node, with respect
-    /// to the k-th.
-    fn slope(&self, [ab, ac]: [&[f64]; 2], a: usize, b: usize, k: usize) -> SVector<f64, D> {
-        let (n1, n2) = self.n();
-        let (of, column, columns, sign) = if b < n1 { (ab, b, n1, 1.0) } else { (ac, b - n1, n2, -1.0) };
-        SVector::from_column_slice(&of[D * ((a * columns + column) * (n1 + n2) + k)..][..D]) * sign
-    }
-
-    /// The exact tangent in the multiplier form, block by block but those of multipliers with each other, which are zero: rows
-    /// and columns are the pair's nodes, then the multipliers. `now`: the weights of now, and their derivatives unless they are
-    /// frozen; `previous`: those of t_n; `nodes`: of every multiplier.
+    /// The exact tangent in the multiplier form: rows and columns of blocks are the pair's nodes, then the multipliers; those of
+    /// multipliers with each other are left as they are. `now`: the weights of now, and their derivatives unless they are frozen;
+    /// `previous`: those of t_n; `nodes`: of every multiplier; `blocks`: row by row, zeros before.
     pub fn tangent<const W: usize>(
         &self,
         now: Option<(NodalWeights<W>, Option<[&[f64]; 2]>)>,
         previous: Option<NodalWeights<W>>,
         nodes: &[NodeTangent<D, D>],
-        mut give: impl FnMut(usize, usize, SMatrix<f64, D, D>),
+        blocks: &mut [SMatrix<f64, D, D>],
     ) {
-        let n = self.one.len() + self.two.len();
-        let (weights, slopes) = (now.map(|now| now.0), now.and_then(|now| now.1));
-        for (row, column) in (0..n).flat_map(|row| (0..n).map(move |column| (row, column))) {
-            let mut block = SMatrix::zeros();
-            if let Some(slopes) = slopes {
-                for (a, node) in nodes.iter().enumerate() {
-                    block += node.traction * self.slope(slopes, a, row, column).transpose();
+        let ((n1, n2), size) = (self.n(), self.size());
+        let n = n1 + n2;
+        let (forces, gaps) = blocks.split_at_mut(n * size);
+        for ((a, node), gaps) in nodes.iter().enumerate().zip(gaps.chunks_exact_mut(size)) {
+            // Dg_A as far as the weights change: of node b n_AB, of a mortar one - n_AC.
+            if let Some((_, Some([ab, ac]))) = now {
+                for (b, forces) in forces.chunks_exact_mut(size).enumerate() {
+                    let (of, column, columns, sign) = if b < n1 { (ab, b, n1, 1.0) } else { (ac, b - n1, n2, -1.0) };
+                    let (x, traction) = (self.x(b) * sign, node.traction * sign);
+                    let slopes = of[D * (a * columns + column) * n..][..D * n].chunks_exact(D);
+                    for ((slope, force), gap) in slopes.zip(forces).zip(&mut *gaps) {
+                        let slope = SVector::<f64, D>::from_column_slice(slope).transpose();
+                        *force += traction * slope;
+                        *gap += x * slope;
+                    }
                 }
             }
-            give(row, column, block);
-        }
-        for (a, node) in nodes.iter().enumerate() {
             for k in 0..n {
-                let weight = |w: NodalWeights<W>| SMatrix::from_diagonal_element(self.weight(w, a, k));
-                give(k, n + a, weights.map_or(SMatrix::zeros(), weight));
-                // Dg_A: the nodes carried along, and the weights' change.
-                let mut gap = weights.map_or(SMatrix::zeros(), weight);
-                if let Some(slopes) = slopes {
-                    let change = |b: usize| self.x(b) * self.slope(slopes, a, b, k).transpose();
-                    gap += (0..n).map(change).sum::<SMatrix<f64, D, D>>();
-                }
-                let before = previous.map_or(SMatrix::zeros(), weight);
-                give(n + a, k, node.drow_dnow * gap + node.drow_dprevious * before);
+                let weight = |w: NodalWeights<W>| self.weight(w, a, k);
+                let (own, before) = (now.map_or(0.0, |now| weight(now.0)), previous.map_or(0.0, weight));
+                let diagonal = SMatrix::from_diagonal_element;
+                forces[k * size + n + a] = diagonal(own);
+                let gap = &mut gaps[k];
+                *gap = node.drow_dnow * (*gap + diagonal(own)) + node.drow_dprevious * before;
             }
         }
     }

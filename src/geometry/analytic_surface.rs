@@ -133,7 +133,7 @@ impl AnalyticSurface {
     /// [`Kind::InvalidValue`] when the radius or the frame is none.
     pub fn new(shape: AnalyticShape, frame: &[Vec3; FRAME]) -> Result<AnalyticSurface> {
         let radius = shape.radius();
-        if !shape.is_flat() && !(radius != 0.0 && radius.is_finite()) {
+        if !(shape.is_flat() || radius != 0.0 && radius.is_finite()) {
             let text = text!("the radius is {radius}; it must be finite and not 0");
             return Err(Error::new(Kind::InvalidValue, text));
         }
@@ -260,9 +260,9 @@ mod tests {
                 let y = x - c.normal * c.distance;
                 let (along, off) = (axis * axis.dot(&y), y - axis * axis.dot(&y));
                 let (height, outward) = match shape {
-                    AnalyticShape::Plane => (axis.dot(&y), axis),
+                    AnalyticShape::Plane | AnalyticShape::Line => (axis.dot(&y), axis),
                     AnalyticShape::Sphere(r) => (y.norm() - r.abs(), y),
-                    AnalyticShape::Cylinder(r) => (off.norm() - r.abs(), y - along),
+                    AnalyticShape::Cylinder(r) | AnalyticShape::Circle(r) => (off.norm() - r.abs(), y - along),
                 };
                 assert!(height.abs() < 1e-14, "{shape}: {height:e} off the surface");
                 assert!((c.normal - outward.normalize() * body).norm() < 1e-14, "{shape}: normal {}", c.normal);

@@ -3,6 +3,7 @@
 
 mod derivatives;
 mod facet;
+mod linear;
 mod motion;
 mod segment;
 mod weights;

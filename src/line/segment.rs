@@ -21,6 +21,7 @@ pub enum Measure {
 
 impl Measure {
     /// rho where the shares of a and b are these.
+    #[inline(always)]
     pub(super) fn at(self, shares: [f64; 2], r: [f64; 2]) -> f64 {
         match self {
             Measure::Thickness(thickness) => thickness,
@@ -34,6 +35,7 @@ impl Measure {
     }
 
     /// d rho / d r.
+    #[inline(always)]
     pub(super) fn slope(self) -> f64 {
         if self == Measure::Axisymmetric { std::f64::consts::TAU } else { 0.0 }
     }
@@ -79,9 +81,16 @@ impl LineSegment {
     }
 
     /// Shares of a and b, or of c and d (`side` 1), at s: those of node k of the side are its linear function.
+    #[inline(always)]
     pub fn shares(&self, side: usize, s: f64) -> [f64; 2] {
         let ([from, to], per) = ([self.s[2 * side], self.s[2 * side + 1]], self.per[side]);
         [(to - s) * per, (s - from) * per]
+    }
+
+    /// e d_k / L of c and d: how their s_k change with Dx_b - Dx_a.
+    #[inline(always)]
+    pub fn turn(&self) -> [Vec2; 2] {
+        self.d.map(|d| self.e * (d / self.length))
     }
 
     /// What the frame's motion makes of derivatives f_k by s_k: (- t sum f_k / 2, e sum f_k d_k / L). With Ds_k as in

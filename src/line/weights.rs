@@ -1,9 +1,10 @@
 //! The weights of a pair of lines (docs/formulation.md 13.2): n_AB = int N_A N_B rho ds, n_AC = int N_A N_C rho ds.
 
 use super::facet::{LineFacet, MAX_LINE_NODES, XI, ends};
+use super::linear;
 use super::segment::{LineSegment, Measure};
 use crate::mortar::MultiplierSpace;
-use crate::quadrature::line::{GAUSS_2, GAUSS_3};
+use crate::quadrature::line::GAUSS_3;
 
 /// n_AB and n_AC `[L]` times rho's unit: row A, of the nodes with a multiplier.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -95,13 +96,17 @@ impl PartPair<'_> {
         point
     }
 
-    /// Calls `visit` with the points of a rule that is exact: the functions are of degree 1, of a line3 of degree 2, rho is of
-    /// degree 1, and a derivative has the degree of its weight.
+    /// Whether both lines have two nodes.
+    pub fn is_linear(&self) -> bool {
+        self.facets.iter().all(|facet| facet.n == 2)
+    }
+
+    /// Calls `visit` with the points of a rule that is exact: the functions are of degree 2, rho is of degree 1, and a derivative
+    /// has the degree of its weight. `linear.rs` has the points of two lines with two nodes.
     #[inline(always)]
     pub fn for_points(&self, mut visit: impl FnMut(&Point)) {
         let [(from, _), (to, _)] = self.segment.ends;
-        let is_linear = self.facets.iter().all(|facet| facet.n == 2);
-        for &[at, weight] in if is_linear { &GAUSS_2[..] } else { &GAUSS_3[..] } {
+        for [at, weight] in GAUSS_3 {
             visit(&self.at(from + at * (to - from), weight * (to - from)));
         }
     }
@@ -123,8 +128,19 @@ impl LineWeights {
         space: MultiplierSpace,
         measure: Measure,
     ) {
-        if let Some(pair) = PartPair::of(facets, parts, space) {
+        let Some(pair) = PartPair::of(facets, parts, space) else { return };
+        if pair.is_linear() {
+            self.add_linear(&linear::weights(&pair.segment, measure));
+        } else {
             pair.for_points(|p| self.add(&pair, p, measure));
+        }
+    }
+
+    /// Adds those of two lines with two nodes.
+    pub(super) fn add_linear(&mut self, [ab, ac]: &linear::Weights) {
+        for (a, b) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
+            self.ab[a][b] += ab[a][b];
+            self.ac[a][b] += ac[a][b];
         }
     }
 

@@ -17,7 +17,7 @@ const ALLOWED: [(&str, &[&str]); 15] = [
     ("geometry", &["error", "shape", "simd"]),
     ("normal", &["error", "geometry"]),
     ("mortar", &["error", "geometry", "quadrature", "shape", "simd"]),
-    ("line", &["error", "geometry", "mortar", "quadrature", "shape"]),
+    ("line", &["error", "geometry", "mortar", "quadrature", "shape", "simd"]),
     ("dual", &["error", "geometry", "mortar", "shape", "simd"]),
     ("law", &["error", "geometry"]),
     ("element", &["dual", "error", "geometry", "law", "mortar", "quadrature", "shape", "simd"]),

@@ -7,4 +7,5 @@ mod support;
 mod citations;
 mod driver_rooms;
 mod layers;
+mod links;
 mod reference;

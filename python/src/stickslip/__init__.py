@@ -8,7 +8,8 @@ from ._library import constants, lib, text
 from .condensed import Condensed
 from .errors import Error
 from .interface import Interface
-from .plan import Plan
+from .meshes import crosspoints, split_creases
+from .plan import CondensedPlan, Plan
 from .surface import Surface
 
 #: The version of the library.
@@ -16,4 +17,4 @@ __version__ = text(lib.stickslip_version())
 #: Version, commit, target, profile, compiler and kernels of the library.
 __build__ = text(lib.stickslip_build())
 
-__all__ = ["Condensed", "Error", "Interface", "Plan", "Surface", "constants", "errors"]
+__all__ = ["Condensed", "CondensedPlan", "Error", "Interface", "Plan", "Surface", "constants", "crosspoints", "errors", "split_creases"]

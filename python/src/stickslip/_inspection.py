@@ -94,3 +94,14 @@ class Inspection:
         out = _new("counters")
         self._call("counters", out)
         return SimpleNamespace(**_scalars(out, "counters"))
+
+    def carriers(self) -> tuple:
+        """``(nodes, carriers, weights)``: which nodes carry weakly covered ones in this step, lam[A] = sum of w_AB lam[B].
+
+        Read it after a commit.
+        """
+        count = ffi.new("int64_t *")
+        self._call("carriers", 0, ffi.NULL, ffi.NULL, ffi.NULL, count)
+        nodes, carriers, weights = np.empty(count[0], np.int64), np.empty(count[0], np.int64), np.empty(count[0])
+        self._call("carriers", count[0], pointer(nodes), pointer(carriers), pointer(weights), count)
+        return nodes, carriers, weights

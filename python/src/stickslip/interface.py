@@ -193,5 +193,7 @@ class Interface(Inspection):
 
     def turn_multipliers(self, x1, lam) -> None:
         """Turns multipliers with the normals, in place, at the start of a step."""
+        if not isinstance(lam, np.ndarray):
+            raise TypeError(f"lam: {type(lam).__name__}, an ndarray is needed, for the call writes to it")
         lam = output("lam", given("lam", lam, self._shape_multipliers), self._shape_multipliers)
         self._call("turn_multipliers", pointer(given("x1", x1, self._shape1)), pointer(lam))

@@ -1,4 +1,4 @@
-"""A tangent whose entries are settled once and whose numbers are filled in place."""
+"""Matrices whose entries are settled once and whose numbers are filled in place."""
 
 import numpy as np
 
@@ -7,7 +7,40 @@ from ._library import constants, ffi, value_of
 from .errors import by_status
 
 
-class Plan:
+def _matrix(interface, entries: str, n_rows: int, count: int, size: int):
+    """A scipy CSR matrix with the entries of a plan that was made, all of them zero."""
+    import scipy.sparse
+
+    rows, offsets = np.empty(n_rows, np.int64), np.empty(n_rows + 1, np.int64)
+    columns = np.empty(count, np.int64)
+    addresses = pointer(rows), pointer(offsets), pointer(columns)
+    interface._call("plan_csr", value_of("entries", "ENTRIES", entries), count, *addresses)
+    lengths = np.zeros(size + 1, np.int64)
+    lengths[rows + 1] = np.diff(offsets)
+    arrays = np.zeros(count), columns, np.cumsum(lengths)
+    return scipy.sparse.csr_matrix(arrays, shape=(size, size), copy=False)
+
+
+class _Planned:
+    """What plans share: they are made anew where their entries no longer do."""
+
+    def __init__(self, interface, x1, x2, size: int, *, pairs: str = "active"):
+        self._interface = interface
+        self._size = size
+        self._pairs = value_of("pairs", "PLAN", pairs)
+        self.renewals = 0
+        self._make(x1, x2)
+
+    def _renewed(self, x1, x2, *rest) -> None:
+        try:
+            self._fill(x1, x2, *rest)
+        except by_status[constants["MISSING_ENTRY"]]:
+            self._make(x1, x2)
+            self.renewals += 1
+            self._fill(x1, x2, *rest)
+
+
+class Plan(_Planned):
     """The tangent of an interface as a scipy CSR matrix of ``(size, size)``.
 
     ``matrix.data`` is refilled in place by :meth:`values`. Where the entries no longer do, the plan is made anew: then
@@ -18,43 +51,45 @@ class Plan:
     interface : Interface
     x1, x2 : positions that the entries are found at [L]
     size : the number of the host's equations
-    pairs : "active", "active_sums" or "skin" (STICKSLIP_PLAN_...)
+    pairs : "active", "active_sums" or "skin" (``STICKSLIP_PLAN_...``)
     """
 
-    def __init__(self, interface, x1, x2, size: int, *, pairs: str = "active"):
-        self._interface = interface
-        self._size = size
-        self._pairs = value_of("pairs", "PLAN", pairs)
-        self.renewals = 0
-        self._make(x1, x2)
-
     def _make(self, x1, x2) -> None:
-        import scipy.sparse
-
+        face = self._interface
         n_rows, count = ffi.new("int64_t *"), ffi.new("int64_t *")
-        self._interface._call("plan", *self._interface._positions(x1, x2), self._pairs, n_rows, count)
-        rows = np.empty(n_rows[0], np.int64)
-        offsets = np.empty(n_rows[0] + 1, np.int64)
-        columns = np.empty(count[0], np.int64)
-        entries = value_of("entries", "ENTRIES", "tangent")
-        addresses = pointer(rows), pointer(offsets), pointer(columns)
-        self._interface._call("plan_csr", entries, len(columns), *addresses)
-        lengths = np.zeros(self._size + 1, np.int64)
-        lengths[rows + 1] = np.diff(offsets)
-        arrays = np.zeros(len(columns)), columns, np.cumsum(lengths)
-        self.matrix = scipy.sparse.csr_matrix(arrays, shape=(self._size, self._size), copy=False)
+        face._call("plan", *face._positions(x1, x2), self._pairs, n_rows, count)
+        self.matrix = _matrix(face, "tangent", n_rows[0], count[0], self._size)
 
     def values(self, x1, x2, lam, *, sums=None):
         """Fills the matrix with the tangent at this point, and gives it."""
-        try:
-            self._fill(x1, x2, lam, sums)
-        except by_status[constants["MISSING_ENTRY"]]:
-            self._make(x1, x2)
-            self.renewals += 1
-            self._fill(x1, x2, lam, sums)
+        self._renewed(x1, x2, lam, sums)
         return self.matrix
 
     def _fill(self, x1, x2, lam, sums) -> None:
         data = self.matrix.data
-        point = self._interface._point(x1, x2, lam, sums)
-        self._interface._call("plan_values", *point, len(data), pointer(data))
+        self._interface._call("plan_values", *self._interface._point(x1, x2, lam, sums), len(data), pointer(data))
+
+
+class CondensedPlan(_Planned):
+    """The pieces "forces" and "constraints" of a condensed matrix, which change in each iteration, as two scipy CSR matrices.
+
+    They are ``forces`` and ``constraints``, refilled in place by :meth:`values`. Renewals and parameters are those of
+    :class:`Plan`; the interface has ``basis="dual"``. The other pieces: :meth:`Condensed.piece`.
+    """
+
+    def _make(self, x1, x2) -> None:
+        face = self._interface
+        n_rows, counts = ffi.new("int64_t[2]"), ffi.new("int64_t[2]")
+        face._call("condensed_plan", *face._positions(x1, x2), self._pairs, n_rows, counts)
+        self.forces = _matrix(face, "forces", n_rows[0], counts[0], self._size)
+        self.constraints = _matrix(face, "constraints", n_rows[1], counts[1], self._size)
+
+    def values(self, x1, x2, lam) -> tuple:
+        """Fills both matrices at this point, and gives ``(forces, constraints)``."""
+        self._renewed(x1, x2, lam)
+        return self.forces, self.constraints
+
+    def _fill(self, x1, x2, lam) -> None:
+        face = self._interface
+        data = pointer(self.forces.data), pointer(self.constraints.data)
+        face._call("condensed_values", *face._point(x1, x2, lam, None)[:3], *data)
