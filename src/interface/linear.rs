@@ -11,7 +11,7 @@ use super::plan::table::{Hand, Table, TableRoom};
 use super::plan::whole::Plan;
 use super::stages::node::is_out_of_reach;
 use super::tangent::augmented::NodeCouplings;
-use super::tangent::blocks::{Numbers, Room, Task, blocks, is_coupled, node_tangents, of_facets, of_nodes};
+use super::tangent::blocks::{Numbers, Room, Task, beyond_facets, is_coupled, node_tangents, of_facets, of_nodes};
 use super::tangent::derivatives::PairDerivatives;
 use super::tangent::emission::{Emitter, Place};
 use super::tangent::turning::{NodeTurn, Turns};
@@ -169,7 +169,7 @@ impl<'a, const N: usize> Here<'a, N> {
         let (mut taker, mut constraints) = (Extras::new(given.setup), Extras::new(given.setup));
         let normals = memory::filled(Vec3::zeros(), given.nodes())?;
         let task = Task { given, normals: &normals, pairs, extent, numbers: None };
-        blocks(task, &mut Room::default(), (&mut taker, (!is_whole).then_some(&mut constraints as _)))?;
+        beyond_facets(task, &mut Room::default(), (&mut taker, (!is_whole).then_some(&mut constraints as _)))?;
         // A multiplier's block with itself is there anyway, and may be a diagonal.
         let own = |taker: Extras<N>| -> Result<Vec<(u32, u32)>> {
             taker.refused.map_or(Ok(()), Err)?;

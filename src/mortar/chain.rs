@@ -147,12 +147,21 @@ impl<'a, L: Lanes> Chain<'a, L> {
     /// the corners, which are projected, are the nodes.
     #[inline(always)]
     pub fn nodes<One: Cell, Two: Cell>(&self, g: &PlaneDerivatives<L>, to: &mut impl Columns<L>) {
-        if L::SHARED { self.nodes_shared::<One, Two>(g, to) } else { self.nodes_inlined::<One, Two>(g, to) }
+        if !L::SHARED {
+            return self.nodes_inlined::<One, Two>(g, to);
+        }
+        // One function for all that columns may go to.
+        let Flat(columns) = self.nodes_shared::<One, Two>(g);
+        for k in (0..One::CORNERS).chain(MORTAR..MORTAR + Two::CORNERS) {
+            to.set(k, columns[k]);
+        }
     }
 
     #[inline(never)]
-    fn nodes_shared<One: Cell, Two: Cell>(&self, g: &PlaneDerivatives<L>, to: &mut impl Columns<L>) {
-        self.nodes_inlined::<One, Two>(g, to);
+    fn nodes_shared<One: Cell, Two: Cell>(&self, g: &PlaneDerivatives<L>) -> Flat<L> {
+        let mut columns = Flat([[L::splat(0.0); 3]; PAIR_NODES]);
+        self.nodes_inlined::<One, Two>(g, &mut columns);
+        columns
     }
 
     #[inline(always)]

@@ -117,12 +117,14 @@ impl KindKernel for OfPair<'_> {
         let along = AlongNormal::new::<L, One, Two>(&chain, &transport.gap::<One, Two>(&heights), weights);
         for i in 0..rolled(3) {
             // Both sides before either is chained: sums of one are ready while those of the other are made.
-            let (one, two) = (transport.one::<One>(&p[i]), transport.two::<One, Two>(&p[i]));
+            let field = transport.field(&p[i]);
+            let (one, two) = (transport.one::<One>(&field), transport.two::<One, Two>(&field));
             chain.nodes::<One::Cell, Two::Cell>(&one, &mut Component { to: &mut forces.one, i });
             chain.nodes::<One::Cell, Two::Cell>(&two, &mut Component { to: &mut forces.two, i });
         }
         if let Some(raised) = raised {
-            chain.nodes::<One::Cell, Two::Cell>(&transport.one::<One>(&ONE), &mut Areas(raised.areas));
+            chain
+                .nodes::<One::Cell, Two::Cell>(&transport.one::<One>(&transport.field(&ONE)), &mut Areas(raised.areas));
         }
         along
     }
@@ -149,7 +151,8 @@ impl KindKernel for OfWeights<'_> {
         let chain = Chain::new(frame, segment);
         let mut columns = Flat([[L::splat(0.0); 3]; PAIR_NODES]);
         for a in 0..rolled(One::Multiplier::FUNCTIONS) {
-            let (one, two) = (transport.one::<One>(&SHAPES[a]), transport.two::<One, Two>(&SHAPES[a]));
+            let field = transport.field(&SHAPES[a]);
+            let (one, two) = (transport.one::<One>(&field), transport.two::<One, Two>(&field));
             chain.nodes::<One::Cell, Two::Cell>(&one, &mut columns);
             to_rows::<L, One::Displacement>(&columns.0, 1.0, &mut derivatives.ab[a]);
             chain.nodes::<One::Cell, Two::Cell>(&two, &mut columns);

@@ -9,6 +9,7 @@ use crate::error::{Error, Kind, Result};
 use crate::geometry::{Facet, Plane, Vec3};
 use crate::quadrature::{DEGREE_5, Rule};
 use crate::shape::{MAX_CORNERS, MAX_PARENT_NODES, Parent, SubFacet, TERMS, monomial_slopes};
+use crate::simd::rolled;
 
 /// The Jacobian at a node, over that of the linear facet on the corners, is above this. 0 is a mid node at a quarter of a straight
 /// edge, where the normal at the corner is made of rounding; at 0.2505 it is 0.002.
@@ -72,13 +73,14 @@ impl ParentFacet {
     }
 
     /// x_xi x x_eta at node k [L^2]; of a line the second direction is z.
+    #[inline(never)] // unrolled it is large
     fn area_vector(&self, k: usize) -> Vec3 {
         let [x, y] = self.parent.at[k];
         let [_, dx, dy] = monomial_slopes(x, y);
         let tangent = |m: &[f64; TERMS]| -> Vec3 {
             let function = |b: usize| (0..TERMS).map(|t| self.parent.functions[t][b / 4][b % 4] * m[t]).sum::<f64>();
             // Differences of nodes: exact under a common offset.
-            (1..self.parent.n).map(|b| (self.x[b] - self.x[0]) * function(b)).sum()
+            (1..rolled(self.parent.n)).map(|b| (self.x[b] - self.x[0]) * function(b)).sum()
         };
         let across = if self.parent.corners() == 2 { Vec3::z() } else { tangent(&dy) };
         tangent(&dx).cross(&across)

@@ -132,7 +132,7 @@ impl Kinds {
             Kinds::TriTri => simd::dispatch(ForKinds(kernel, PhantomData::<(Tri3, Tri3)>)),
             Kinds::TriQuad => simd::dispatch(ForKinds(kernel, PhantomData::<(Tri3, Quad4)>)),
             Kinds::QuadTri => simd::dispatch(ForKinds(kernel, PhantomData::<(Quad4, Tri3)>)),
-            Kinds::QuadQuad => simd::dispatch(ForKinds(kernel, PhantomData::<(Quad4, Quad4)>)),
+            Kinds::QuadQuad => simd::dispatch_wide(ForKinds(kernel, PhantomData::<(Quad4, Quad4)>)),
         }
     }
 }

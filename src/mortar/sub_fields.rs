@@ -5,7 +5,7 @@ use super::field::MultiplierSpace;
 use super::sub_polynomials::Polynomials;
 use crate::geometry::Vec3;
 use crate::shape::{MAX_CORNERS, MAX_PARENT_NODES, Parent, TERMS};
-use crate::simd::Lanes;
+use crate::simd::{Lanes, rolled};
 
 /// Multipliers in monomials.
 pub(super) struct Rows {
@@ -74,9 +74,9 @@ fn tractions_in_monomials<L: Lanes>(rows: &Rows, [x, y, z]: &[[f64; MAX_CORNERS]
 fn in_monomials<L: Lanes>(parent: &Parent, x: &[Vec3; MAX_PARENT_NODES], base: &Vec3, constant: f64) -> [L; TERMS] {
     let mut of = [L::splat(0.0); TERMS];
     of[0] = L::load(&[0.0, 0.0, 0.0, constant]);
-    for b in 0..parent.n {
+    for b in 0..rolled(parent.n) {
         let at = L::load(&[x[b].x - base.x, x[b].y - base.y, x[b].z - base.z, 0.0]);
-        for t in 0..parent.terms {
+        for t in 0..rolled(parent.terms) {
             let c = parent.functions[t][b / 4][b % 4];
             if c != 0.0 {
                 of[t] = at.mul_add(L::splat(c), of[t]);

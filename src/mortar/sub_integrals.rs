@@ -122,6 +122,36 @@ impl Integrals<'_> {
         forces: &mut Plane<L>,
         gaps: &mut Plane<L>,
     ) {
+        if L::SHARED {
+            self.add_shared(products, of, p, x, forces, gaps);
+        } else {
+            self.add_inlined(products, of, p, x, forces, gaps);
+        }
+    }
+
+    #[inline(never)]
+    fn add_shared<L: Lanes>(
+        &self,
+        products: &Products,
+        of: (usize, usize, usize),
+        p: &[L; 6],
+        x: &[L; TERMS],
+        forces: &mut Plane<L>,
+        gaps: &mut Plane<L>,
+    ) {
+        self.add_inlined(products, of, p, x, forces, gaps);
+    }
+
+    #[inline(always)]
+    fn add_inlined<L: Lanes>(
+        &self,
+        products: &Products,
+        of: (usize, usize, usize),
+        p: &[L; 6],
+        x: &[L; TERMS],
+        forces: &mut Plane<L>,
+        gaps: &mut Plane<L>,
+    ) {
         match self.nu {
             3 => contract::<L, 3>(products, of, p, x, forces, gaps),
             4 => contract::<L, 4>(products, of, p, x, forces, gaps),

@@ -147,6 +147,16 @@ impl<'a, L: Lanes> Summation<'a, L> {
     /// Adds what is there.
     #[inline(always)]
     fn flush(&mut self) {
+        if L::SHARED { self.flush_shared() } else { self.flush_inlined() }
+    }
+
+    #[inline(never)]
+    fn flush_shared(&mut self) {
+        self.flush_inlined();
+    }
+
+    #[inline(always)]
+    fn flush_inlined(&mut self) {
         let groups = self.len;
         let (mut first, last) = (0, self.one.len - 1);
         while first <= last {

@@ -24,6 +24,13 @@ use crate::simd::Lanes;
 /// projection.
 pub(super) type PlaneDerivatives<L> = [[L; 2]; PAIR_CORNERS];
 
+/// A field p = sum_A N_A p_A on the non-mortar facet.
+pub(super) struct Field<'a> {
+    p: &'a [f64; MAX_CORNERS],
+    /// det1 grad p in powers (1, xi, eta).
+    slope: [[f64; 2]; 3],
+}
+
 /// A pair whose derivatives follow from its integrals by contraction.
 pub(super) struct Transport<'a, L> {
     segment: &'a Segment,
@@ -64,31 +71,35 @@ impl<'a, L: Lanes> Transport<'a, L> {
         Transport { segment, moments, edges, q1v, gradients, slope }
     }
 
-    /// Of the forces f_B of the field with the nodal values `p`, lanes B.
+    /// The field with the nodal values `p`.
     #[inline(always)]
-    pub fn one<One: SingleBasis>(&self, p: &[f64; MAX_CORNERS]) -> PlaneDerivatives<L> {
-        if L::SHARED { self.one_shared::<One>(p) } else { self.one_inlined::<One>(p) }
+    pub fn field<'p>(&self, p: &'p [f64; MAX_CORNERS]) -> Field<'p> {
+        Field { p, slope: dots(&self.gradients[0], L::load(p)) }
+    }
+
+    /// Of the forces f_B of a field, lanes B.
+    #[inline(always)]
+    pub fn one<One: SingleBasis>(&self, field: &Field) -> PlaneDerivatives<L> {
+        if L::SHARED { self.one_shared::<One>(field) } else { self.one_inlined::<One>(field) }
     }
 
     #[inline(never)]
-    fn one_shared<One: SingleBasis>(&self, p: &[f64; MAX_CORNERS]) -> PlaneDerivatives<L> {
-        self.one_inlined::<One>(p)
+    fn one_shared<One: SingleBasis>(&self, field: &Field) -> PlaneDerivatives<L> {
+        self.one_inlined::<One>(field)
     }
 
     #[inline(always)]
-    fn one_inlined<One: SingleBasis>(&self, p: &[f64; MAX_CORNERS]) -> PlaneDerivatives<L> {
+    fn one_inlined<One: SingleBasis>(&self, Field { p, slope }: &Field) -> PlaneDerivatives<L> {
         let mut d = [[L::splat(0.0); 2]; PAIR_CORNERS];
         let [g, _] = &self.gradients;
-        let minus = (-L::load(p)).store();
-        let slope = dots(g, L::load(&minus));
         for m in 0..powers::<One::Cell>() {
             let r = &self.moments.r[m];
             // sum_A R[k][A] p_A, lanes k: N_A, N_B and N_k are the same, so r is symmetric in k and B and serves for A.
-            let rp = combine(r, &minus, One::Multiplier::FUNCTIONS).store();
+            let rp = combine(r, p, One::Multiplier::FUNCTIONS).store();
             for k in 0..One::Cell::CORNERS {
                 for c in 0..2 {
-                    let v = L::splat(slope[m][c]).mul_add(r[k], d[k][c]);
-                    d[k][c] = g[m][c].mul_add(L::splat(rp[k]), v);
+                    let v = L::splat(slope[m][c]).neg_mul_add(r[k], d[k][c]);
+                    d[k][c] = g[m][c].neg_mul_add(L::splat(rp[k]), v);
                 }
             }
         }
@@ -105,21 +116,23 @@ impl<'a, L: Lanes> Transport<'a, L> {
 
     /// Of the forces f_C of the same field, lanes C.
     #[inline(always)]
-    pub fn two<One: CornerMultipliers, Two: Isoparametric>(&self, p: &[f64; MAX_CORNERS]) -> PlaneDerivatives<L> {
-        if L::SHARED { self.two_shared::<One, Two>(p) } else { self.two_inlined::<One, Two>(p) }
+    pub fn two<One: CornerMultipliers, Two: Isoparametric>(&self, field: &Field) -> PlaneDerivatives<L> {
+        if L::SHARED { self.two_shared::<One, Two>(field) } else { self.two_inlined::<One, Two>(field) }
     }
 
     #[inline(never)]
-    fn two_shared<One: CornerMultipliers, Two: Isoparametric>(&self, p: &[f64; MAX_CORNERS]) -> PlaneDerivatives<L> {
-        self.two_inlined::<One, Two>(p)
+    fn two_shared<One: CornerMultipliers, Two: Isoparametric>(&self, field: &Field) -> PlaneDerivatives<L> {
+        self.two_inlined::<One, Two>(field)
     }
 
     #[inline(always)]
-    fn two_inlined<One: CornerMultipliers, Two: Isoparametric>(&self, p: &[f64; MAX_CORNERS]) -> PlaneDerivatives<L> {
+    fn two_inlined<One: CornerMultipliers, Two: Isoparametric>(
+        &self,
+        Field { p, slope }: &Field,
+    ) -> PlaneDerivatives<L> {
         let mut d = [[L::splat(0.0); 2]; PAIR_CORNERS];
         let lanes = L::load(p);
-        let [g1, g2] = &self.gradients;
-        let slope = dots(g1, lanes);
+        let [_, g2] = &self.gradients;
         for m in 0..powers::<One::Cell>() {
             for k in 0..One::Cell::CORNERS {
                 for c in 0..2 {
@@ -151,7 +164,7 @@ impl<'a, L: Lanes> Transport<'a, L> {
     /// Of the gaps gamma_A at fixed heights, lanes A; `heights` are those of the non-mortar nodes.
     #[inline(always)]
     pub fn gap<One: SingleBasis, Two: Isoparametric>(&self, heights: &[f64; MAX_CORNERS]) -> PlaneDerivatives<L> {
-        let mut d = self.one::<One>(heights); // n_AB is symmetric: the field of heights, lanes A
+        let mut d = self.one::<One>(&self.field(heights)); // n_AB is symmetric: the field of heights, lanes A
         // -int N_A v: the field of the mortar heights.
         let [g, _] = &self.gradients;
         for m in 0..powers::<One::Cell>() {

@@ -22,6 +22,17 @@ pub(super) fn run<K: Kernel>(kernel: K) -> K::Output {
     unsafe { with_features(kernel) }
 }
 
+/// The same with the registers and broadcasts of AVX-512: equal in every bit; the caller has found AVX-512F and VL as well.
+#[inline]
+pub(super) fn run_wide<K: Kernel>(kernel: K) -> K::Output {
+    #[target_feature(enable = "avx2,fma,avx512f,avx512vl")]
+    fn with_more_registers<K: Kernel>(kernel: K) -> K::Output {
+        kernel.run::<Avx2>()
+    }
+    // SAFETY: called by `dispatch_wide` alone, after it asked the processor for these features.
+    unsafe { with_more_registers(kernel) }
+}
+
 /// An instruction on lanes.
 macro_rules! instruction {
     ($e:expr) => {
@@ -111,6 +122,10 @@ impl Lanes for Avx2 {
             let (ab, cd) = (_mm256_hadd_pd(v[0].0, v[1].0), _mm256_hadd_pd(v[2].0, v[3].0));
             _mm256_add_pd(_mm256_blend_pd::<0b1100>(ab, cd), _mm256_permute2f128_pd::<0x21>(ab, cd))
         }))
+    }
+    #[inline(always)]
+    fn pairs(self, other: Avx2) -> [Avx2; 2] {
+        instruction!([Avx2(_mm256_unpacklo_pd(self.0, other.0)), Avx2(_mm256_unpackhi_pd(self.0, other.0))])
     }
     #[inline(always)]
     fn any_positive(self) -> bool {

@@ -37,6 +37,8 @@ pub trait Lanes: Real {
     fn sums(v: [Self; 4]) -> Self;
     /// Rows become columns.
     fn transpose(v: [Self; 4]) -> [Self; 4];
+    /// Lanes 0 of both, then lanes 2; and lanes 1, then lanes 3.
+    fn pairs(self, other: Self) -> [Self; 2];
     /// Whether any of them is above 0.
     fn any_positive(self) -> bool;
     /// Lanes 0, 3, 2, 1.

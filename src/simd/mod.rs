@@ -10,11 +10,13 @@ mod avx2;
 mod finite;
 mod lanes;
 mod plain;
+mod rows;
 mod stack;
 
 use finite::{AreFinite, FEW, few};
 pub use lanes::{Kernel, Lanes, Real, rolled};
 pub use plain::Plain;
+pub use rows::{add_rows, prefetch};
 pub use stack::Stack;
 
 /// What kernels are compiled for.
@@ -48,6 +50,17 @@ pub fn dispatch<K: Kernel>(kernel: K) -> K::Output {
         return avx2::run(kernel);
     }
     kernel.run::<Plain>()
+}
+
+/// The same of a kernel that needs more numbers at a time than AVX2 has registers, for the few where time counts most: where the
+/// processor has the 32 registers of AVX-512 it is compiled for them once more. The lanes are the same, and so is every bit.
+#[inline]
+pub fn dispatch_wide<K: Kernel>(kernel: K) -> K::Output {
+    #[cfg(target_arch = "x86_64")]
+    if back_end() == BackEnd::Avx2 && is_x86_feature_detected!("avx512f") && is_x86_feature_detected!("avx512vl") {
+        return avx2::run_wide(kernel);
+    }
+    dispatch(kernel)
 }
 
 /// Whether all of them are finite.
@@ -89,6 +102,7 @@ mod tests {
             results.extend(L::transpose([a, b, c, a + b]));
             results.extend([a.swap_1_3(), a.swap_1_2(), a.swap_halves(), a.swap_neighbours()]);
             results.extend([a.mul_sub(b, c), a.neg_mul_add(b, c)]);
+            results.extend(a.pairs(b));
             results.into_iter().map(L::store).collect()
         }
     }
@@ -109,6 +123,7 @@ mod tests {
         assert_eq!(plain[18], [-2.0, 1.0, 9.0, 4.0]);
         assert_eq!(plain[19], [1.75, -1.25, -4.25, 26.75]);
         assert_eq!(plain[20], [-1.75, 1.25, 4.25, -26.75]);
+        assert_eq!(plain[21..23], [[1.0, 2.0, 4.0, -1.0], [-2.0, 0.5, 9.0, 3.0]]);
     }
 
     struct AnyPositive([f64; 4]);

@@ -91,6 +91,11 @@ impl Lanes for Plain {
         (a + b) + (c + d)
     }
     #[inline(always)]
+    fn pairs(self, other: Plain) -> [Plain; 2] {
+        let (a, b) = (self.0, other.0);
+        [Plain([a[0], b[0], a[2], b[2]]), Plain([a[1], b[1], a[3], b[3]])]
+    }
+    #[inline(always)]
     fn any_positive(self) -> bool {
         let a = self.0;
         (a[0] > 0.0) | (a[1] > 0.0) | (a[2] > 0.0) | (a[3] > 0.0)

@@ -29,8 +29,9 @@ CONSTANTS = HERE / "constants.txt"
 # memory, the measures of equilibrium and the checks of a commit came: 2.16 million. Dual multipliers and systems without
 # multipliers: 2.3 million. Normals of now, with their share of the tangent in either form: 2.37 million. Plans of the tangent, states of pairs,
 # threads, searches with ends: 2.69 million. Quadratic facets in the stages of a pair: 2.8 million. In the
-# handle, with a kernel of their own for the tangent: 3.3 million. Lines, pair by pair and in the handle: 3.4 million.
-LARGEST = 3_450_000
+# handle, with a kernel of their own for the tangent: 3.3 million. Lines, pair by pair and in the handle: 3.43 million. With less
+# of what plain lanes and quadratic facets unroll, and three kernels once more for the registers of AVX-512: 3.39 million.
+LARGEST = 3_420_000
 # glibc's own libraries, the loader, and the one that unwinds.
 ALLOWED = ("libc.so", "libm.so", "libdl.so", "librt.so", "libutil.so", "libpthread.so", "ld-linux", "libgcc_s.so")
 # Bits of abidiff's exit code.

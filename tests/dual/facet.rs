@@ -208,7 +208,8 @@ impl Patch {
                 for j in 0..3 {
                     let column = 3 * node + j;
                     for a in 0..self.nodes {
-                        motion.gaps[column][a] += gap_rows::<true>(&now, a, (&Mat3::identity(), &Mat3::zeros()))[slot].column(j);
+                        motion.gaps[column][a] +=
+                            gap_rows::<true>(&now, a, (&Mat3::identity(), &Mat3::zeros()))[slot].column(j);
                         motion.diagonal[column][a] += areas[slot][j][a];
                         motion.forces[column][a] += Vec3::from_fn(|i, _| forces.one[slot][j][i][a]);
                     }

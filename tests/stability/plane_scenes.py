@@ -54,8 +54,9 @@ def patch_error(run, model, poisson=POISSON, stress=1.0):
     return np.abs(held["lambda_n"] + exact).max() / exact
 
 
-def block(friction, plane, steps=6, gap=0.0, over=0.0):
-    """A block pressed and pushed on a rigid floor with an edge, which it hangs over by `over`; in the plane, or one layer."""
+def block(friction, plane, steps=6, gap=0.0, over=0.0, round=None):
+    """A block pressed and pushed on a rigid floor with an edge, which it hangs over by `over`; in the plane, or one layer. `round`:
+    the floor is analytic, of this radius; 0: straight."""
     lift = lambda x, y: [x, y] if plane else [x, 0.0, y]
     up = "y" if plane else "z"
     end = 4.5 - over
@@ -76,6 +77,16 @@ def block(friction, plane, steps=6, gap=0.0, over=0.0):
         "steps": {"end": 2, "count": steps},
         "output": {"vtu": "none", "csv": "last"},
     }
+    if round is not None:
+        point = lift(2.1, -round)
+        if round:
+            floor = {"shape": "circle" if plane else "cylinder", "radius": round, "point": point}
+        else:
+            floor = {"shape": "line" if plane else "plane", "point": point}
+        if not round or not plane:
+            floor["direction"] = [0, 1] if plane else [0, 1, 0] if round else [0, 0, 1]
+        scene["floor"] = {"type": "analytic", **floor}
+        scene["base"]["mortar"] = "floor.surface"
     if friction * 20 * 4 <= 6 * 2:  # it would slide away
         scene["supports"] += ["held"]
         scene["held"] = {"surface": "block.xmax", "components": ["x"]}

@@ -44,9 +44,9 @@ PetscErrorCode condensed_check(const Contact *contact, char why[], size_t length
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscInt n_multipliers(const Interface *interface)
+static PetscInt n_multipliers(const ContactPart *part)
 {
-  return interface->components * interface->n1;
+  return part->components * part->n1;
 }
 
 /* The initial multipliers are those of the last step before the first one. */
@@ -55,11 +55,13 @@ PetscErrorCode condensed_create(Contact *contact, PetscInt *status)
   PetscFunctionBegin;
   *status = 0;
   for (PetscInt i = 0; i < contact->n_interfaces && !*status && contact->condensed; i++) {
-    Interface *interface = &contact->interfaces[i];
-    int32_t    refused   = 0;
-    if (contact->mesh->rank == 0 && interface->initial_contact)
-      refused = stickslip_interface_initial_multipliers(interface->handle, interface->lambda_last);
-    PetscCall(contact_agree(contact, refused, status));
+    Interface   *interface = &contact->interfaces[i];
+    ContactPart *part      = &interface->part;
+    int32_t      refused   = 0;
+    if (part->handle && interface->initial_contact)
+      refused = stickslip_interface_initial_multipliers(part->handle, part->lambda_last);
+    PetscCall(contact_agree(contact, interface, refused, status));
+    PetscCall(parts_share(part, part->components, part->lambda_last));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -76,21 +78,21 @@ PetscErrorCode condensed_destroy(Contact *contact)
 /* The multipliers that a step starts with: the last ones, and `factor` times what they differ by from those before. */
 void condensed_predict(Contact *contact, PetscReal factor)
 {
-  for (PetscInt i = 0; i < contact->n_interfaces && contact->condensed && contact->mesh->rank == 0; i++) {
-    Interface *interface = &contact->interfaces[i];
-    for (PetscInt k = 0; k < n_multipliers(interface); k++)
-      interface->lambda_start[k] =
-        interface->lambda_last[k] + factor * (interface->lambda_last[k] - interface->lambda_before[k]);
+  for (PetscInt i = 0; i < contact->n_interfaces && contact->condensed; i++) {
+    ContactPart *part = &contact->interfaces[i].part;
+    for (PetscInt k = 0; k < n_multipliers(part); k++)
+      part->lambda_start[k] =
+        part->lambda_last[k] + factor * (part->lambda_last[k] - part->lambda_before[k]);
   }
 }
 
 void condensed_accept(Contact *contact)
 {
-  for (PetscInt i = 0; i < contact->n_interfaces && contact->condensed && contact->mesh->rank == 0; i++) {
-    Interface *interface = &contact->interfaces[i];
-    for (PetscInt k = 0; k < n_multipliers(interface); k++) {
-      interface->lambda_before[k] = interface->lambda_last[k];
-      interface->lambda_last[k]   = interface->lambda[k];
+  for (PetscInt i = 0; i < contact->n_interfaces && contact->condensed; i++) {
+    ContactPart *part = &contact->interfaces[i].part;
+    for (PetscInt k = 0; k < n_multipliers(part); k++) {
+      part->lambda_before[k] = part->lambda_last[k];
+      part->lambda_last[k]   = part->lambda[k];
     }
   }
 }
@@ -99,9 +101,9 @@ void condensed_accept(Contact *contact)
 PetscErrorCode condensed_begin(Contact *contact)
 {
   PetscFunctionBegin;
-  for (PetscInt i = 0; i < contact->n_interfaces && contact->condensed && contact->mesh->rank == 0; i++)
-    PetscCall(PetscArraycpy(contact->interfaces[i].lambda, contact->interfaces[i].lambda_start,
-                            n_multipliers(&contact->interfaces[i])));
+  for (PetscInt i = 0; i < contact->n_interfaces && contact->condensed; i++)
+    PetscCall(PetscArraycpy(contact->interfaces[i].part.lambda, contact->interfaces[i].part.lambda_start,
+                            n_multipliers(&contact->interfaces[i].part)));
   PetscCall(MatDestroy(&contact->linear));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -122,17 +124,18 @@ static PetscErrorCode update_multipliers(Contact *contact, Vec x, PetscInt *stat
   PetscCall(DMGlobalToLocalBegin(contact->mesh->dm, f, INSERT_VALUES, local));
   PetscCall(DMGlobalToLocalEnd(contact->mesh->dm, f, INSERT_VALUES, local));
   for (PetscInt i = 0; i < contact->n_interfaces && !*status; i++) {
-    Interface *interface = &contact->interfaces[i];
-    double    *rows      = interface->rows;
-    int32_t    refused   = 0;
-    PetscCall(contact_fetch(interface, local, rows));
-    if (contact->mesh->rank == 0) {
-      for (PetscInt k = 0; k < interface->dimension * interface->n1; k++)
-        rows[k] += interface->host_there[k];
-      refused = stickslip_interface_condensed_multipliers(
-        interface->handle, interface->x_there, MORTAR_OF(interface, interface->x_there), rows, interface->lambda);
-    }
-    PetscCall(contact_agree(contact, refused, status));
+    Interface   *interface = &contact->interfaces[i];
+    ContactPart *part      = &interface->part;
+    double      *rows      = part->rows;
+    int32_t      refused   = 0;
+    PetscCall(contact_fetch(part->sf, local, rows));
+    for (PetscInt k = 0; k < part->dimension * part->n1; k++)
+      rows[k] += part->host_there[k];
+    if (part->handle)
+      refused = stickslip_interface_condensed_multipliers(part->handle, part->x_there, MORTAR_OF(part, part->x_there), rows,
+                                                          part->lambda);
+    PetscCall(contact_agree(contact, interface, refused, status));
+    PetscCall(parts_share(part, part->components, part->lambda));
   }
   PetscCall(DMRestoreLocalVector(contact->mesh->dm, &local));
   PetscCall(VecDestroy(&du));
@@ -153,7 +156,7 @@ PetscErrorCode condensed_eliminate(Contact *contact, Vec x, PetscInt *status)
   PetscCall(unknowns_sum(physics, host));
   PetscCall(DMRestoreLocalVector(contact->mesh->dm, &host));
   for (PetscInt i = 0; i < contact->n_interfaces; i++)
-    PetscCall(contact_fetch(&contact->interfaces[i], physics->f_sum, contact->interfaces[i].host));
+    PetscCall(contact_fetch(contact->interfaces[i].part.sf, physics->f_sum, contact->interfaces[i].part.host));
   PetscCall(update_multipliers(contact, x, status));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -166,12 +169,26 @@ static PetscErrorCode keep_rows(Contact *contact, Vec x, Mat J)
   PetscCall(MatDuplicate(J, MAT_COPY_VALUES, &contact->linear));
   if (!contact->place) PetscCall(VecDuplicate(x, &contact->place));
   PetscCall(VecCopy(x, contact->place));
-  for (PetscInt i = 0; i < contact->n_interfaces && contact->mesh->rank == 0; i++) {
-    Interface *interface = &contact->interfaces[i];
-    PetscCall(PetscArraycpy(interface->x_there, interface->x, interface->dimension * (interface->n1 + interface->n2)));
-    PetscCall(PetscArraycpy(interface->host_there, interface->host, interface->dimension * interface->n1));
+  for (PetscInt i = 0; i < contact->n_interfaces; i++) {
+    ContactPart *part = &contact->interfaces[i].part;
+    PetscCall(PetscArraycpy(part->x_there, part->x, part->dimension * (part->n1 + part->n2)));
+    PetscCall(PetscArraycpy(part->host_there, part->host, part->dimension * part->n1));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* What turns a part's forces, and those of bodies and loads at its own nodes, into its share of the condensed rows. */
+static int32_t condense(ContactPart *part)
+{
+  const PetscInt d = part->dimension, n1 = d * part->n1, n2 = d * part->n2;
+  double        *rows = part->rows;
+  const int32_t  status =
+    stickslip_interface_condensed_residual(part->handle, STATE_OF(part), part->host, rows, rows + n1);
+  for (PetscInt k = 0; k < n1 + n2 && !status; k++) {
+    rows[k] -= part->forces[k];
+    if (k < n1 && part->owned[k / d] == STICKSLIP_NODE_OWN) rows[k] -= part->host[k];
+  }
+  return status;
 }
 
 /* Makes of the forces' residual that of the system without multipliers. */
@@ -183,18 +200,12 @@ PetscErrorCode condensed_residual(Contact *contact, Vec r, PetscInt *status)
   if (!contact->condensed) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(VecZeroEntries(physics->f_sum));
   for (PetscInt i = 0; i < contact->n_interfaces && !*status; i++) {
-    Interface     *interface = &contact->interfaces[i];
-    const PetscInt n1 = interface->dimension * interface->n1, n2 = interface->dimension * interface->n2;
-    int32_t        refused = 0;
+    Interface *interface = &contact->interfaces[i];
+    int32_t    refused   = 0;
     PetscCall(contact_gather(contact, interface, physics->u_local));
-    if (contact->mesh->rank == 0) {
-      double *rows = interface->rows;
-      refused = stickslip_interface_condensed_residual(interface->handle, STATE_OF(interface), interface->host, rows, rows + n1);
-      for (PetscInt k = 0; k < n1 + n2 && !refused; k++)
-        rows[k] -= interface->forces[k] + (k < n1 ? interface->host[k] : 0);
-    }
-    PetscCall(contact_agree(contact, refused, status));
-    if (!*status) PetscCall(contact_scatter(interface, interface->rows, physics->f_sum, MPIU_SUM));
+    if (interface->part.handle) refused = condense(&interface->part);
+    PetscCall(contact_agree(contact, interface, refused, status));
+    if (!*status) PetscCall(contact_scatter(&interface->part, interface->part.rows, physics->f_sum, MPIU_SUM));
   }
   PetscCall(DMLocalToGlobalBegin(contact->mesh->dm, physics->f_sum, ADD_VALUES, r));
   PetscCall(DMLocalToGlobalEnd(contact->mesh->dm, physics->f_sum, ADD_VALUES, r));

@@ -1,261 +1,108 @@
-/* The binding to the contact library. Rank 0 drives it: positions and multipliers of the interface's nodes are gathered
- * there, forces are sent back and added, tangent entries go into the matrix by their equation numbers. */
+/* The binding to the contact library. Each rank drives its part of an interface: positions and multipliers of the part's
+ * nodes are gathered from their owners, forces are sent back and added. */
 #include "contact/contact.h"
 
-/* All ranks learn whether the library refused on rank 0; its message is kept for the report. */
-PetscErrorCode contact_agree(Contact *contact, int32_t refused, PetscInt *status)
+/* All ranks learn whether the library refused on any. The first of these says why, in the interface's numbers. */
+PetscErrorCode contact_agree(Contact *contact, const Interface *interface, int32_t refused, PetscInt *status)
 {
+  struct {
+    int refuses_not, rank;
+  } first = {.refuses_not = !refused, .rank = contact->mesh->rank};
   PetscFunctionBegin;
   *status = refused;
-  if (contact->mesh->rank == 0 && refused)
-    PetscCall(PetscSNPrintf(contact->refusal, sizeof(contact->refusal), "%s", stickslip_last_error_message()));
-  PetscCallMPI(MPI_Bcast(status, 1, MPIU_INT, 0, PETSC_COMM_WORLD));
-  PetscCallMPI(MPI_Bcast(contact->refusal, sizeof(contact->refusal), MPI_CHAR, 0, PETSC_COMM_WORLD));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &first, 1, MPI_2INT, MPI_MINLOC, PETSC_COMM_WORLD));
+  if (first.refuses_not) PetscFunctionReturn(PETSC_SUCCESS);
+  if (contact->mesh->rank == first.rank)
+    parts_translate(&interface->part, stickslip_last_error_message(), contact->refusal, sizeof(contact->refusal));
+  PetscCallMPI(MPI_Bcast(status, 1, MPIU_INT, first.rank, PETSC_COMM_WORLD));
+  PetscCallMPI(MPI_Bcast(contact->refusal, sizeof(contact->refusal), MPI_CHAR, first.rank, PETSC_COMM_WORLD));
   PetscCheck(*status >= 0, PETSC_COMM_WORLD, PETSC_ERR_LIB, "stickslip is at fault: %s", contact->refusal);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Current positions, from the interface's first node: far from the origin X + u would round u away. A radius counts from
- * the axis. */
-void contact_positions(Interface *interface)
+/* Current positions, from the part's origin. */
+void contact_positions(ContactPart *part)
 {
-  const PetscInt  d    = interface->dimension;
-  const PetscBool ring = (PetscBool)(interface->options.model == STICKSLIP_MODEL_AXISYMMETRIC);
-  for (PetscInt k = 0; k < d * (interface->n1 + interface->n2); k++)
-    interface->x[k] = interface->X[k] - (ring && k % d == 0 ? 0 : interface->X[k % d]) + PetscRealPart(interface->gathered[k]);
+  const PetscInt d = part->dimension;
+  for (PetscInt k = 0; k < d * (part->n1 + part->n2); k++)
+    part->x[k] = part->X[k] - part->origin[k % d] + PetscRealPart(part->gathered[k]);
 }
 
-void contact_vector(const Interface *interface, const PetscScalar vectors[], PetscInt node, PetscReal v[3])
+void contact_vector(PetscInt dimension, const PetscScalar vectors[], PetscInt node, PetscReal v[3])
 {
   for (int i = 0; i < 3; i++)
-    v[i] = i < interface->dimension ? PetscRealPart(vectors[interface->dimension * node + i]) : 0;
+    v[i] = i < dimension ? PetscRealPart(vectors[dimension * node + i]) : 0;
 }
 
-/* The interface's entries of a local vector, each as its owner has it, to rank 0. */
-PetscErrorCode contact_fetch(const Interface *interface, Vec local, PetscScalar *to)
+/* Entries of local vectors, each as its owner has it. */
+PetscErrorCode contact_fetch(PetscSF sf, Vec local, PetscScalar *to)
 {
   const PetscScalar *array;
   PetscFunctionBegin;
   PetscCall(VecGetArrayRead(local, &array));
-  PetscCall(PetscSFBcastBegin(interface->sf, MPIU_SCALAR, array, to, MPI_REPLACE));
-  PetscCall(PetscSFBcastEnd(interface->sf, MPIU_SCALAR, array, to, MPI_REPLACE));
+  PetscCall(PetscSFBcastBegin(sf, MPIU_SCALAR, array, to, MPI_REPLACE));
+  PetscCall(PetscSFBcastEnd(sf, MPIU_SCALAR, array, to, MPI_REPLACE));
   PetscCall(VecRestoreArrayRead(local, &array));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode contact_gather(Contact *contact, Interface *interface, Vec local)
 {
+  ContactPart *part = &interface->part;
   PetscFunctionBegin;
-  PetscCall(contact_fetch(interface, local, interface->gathered));
-  if (contact->mesh->rank == 0) contact_positions(interface);
-  if (contact->mesh->rank == 0 && contact->condensed)
-    PetscCall(PetscArraycpy(MULTIPLIERS_OF(interface, interface->gathered), interface->lambda,
-                            interface->components * interface->n1));
+  PetscCall(contact_fetch(part->sf, local, part->gathered));
+  contact_positions(part);
+  if (contact->condensed)
+    PetscCall(PetscArraycpy(MULTIPLIERS_OF(part, part->gathered), part->lambda, part->components * part->n1));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode contact_scatter(Interface *interface, const PetscScalar *from, Vec local, MPI_Op operation)
+PetscErrorCode contact_scatter(const ContactPart *part, const PetscScalar *from, Vec local, MPI_Op operation)
 {
   PetscScalar *array;
   PetscFunctionBegin;
   PetscCall(VecGetArray(local, &array));
-  PetscCall(PetscSFReduceBegin(interface->sf, MPIU_SCALAR, from, array, operation));
-  PetscCall(PetscSFReduceEnd(interface->sf, MPIU_SCALAR, from, array, operation));
+  PetscCall(PetscSFReduceBegin(part->sf, MPIU_SCALAR, from, array, operation));
+  PetscCall(PetscSFReduceEnd(part->sf, MPIU_SCALAR, from, array, operation));
   PetscCall(VecRestoreArray(local, &array));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Adds the forces of all parts to f_local, and their squares, once a node, to those of the model's parts. */
+static PetscErrorCode add_forces(Physics *physics, const ContactPart *part, Vec f_local)
+{
+  const PetscInt d = part->dimension;
+  PetscScalar   *total;
+  PetscFunctionBegin;
+  PetscCall(VecZeroEntries(physics->f_sum));
+  PetscCall(contact_scatter(part, part->forces, physics->f_sum, MPIU_SUM));
+  PetscCall(PetscMalloc1(d * (part->n1 + part->n2) + part->components * part->n1, &total));
+  PetscCall(contact_fetch(part->sf, physics->f_sum, total));
+  for (PetscInt k = 0; k < d * (part->n1 + part->n2); k++) {
+    if (part->counts[k / d])
+      physics->parts.squares[N_SQUARES * part->piece[k / d] + SQUARES_CONTACT] += PetscSqr(PetscAbsScalar(total[k]));
+  }
+  PetscCall(PetscFree(total));
+  PetscCall(VecAXPY(f_local, 1, physics->f_sum));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode contact_forces(Contact *contact, Vec f_local, PetscInt *status)
 {
-  Physics *physics = contact->physics;
   PetscFunctionBegin;
   *status = 0;
   for (PetscInt i = 0; i < contact->n_interfaces && !*status; i++) {
-    Interface *interface = &contact->interfaces[i];
-    int32_t    refused   = 0;
-    PetscCall(contact_gather(contact, interface, physics->u_local));
-    if (contact->mesh->rank == 0) {
-      PetscScalar   *f = interface->forces;
-      const PetscInt d = interface->dimension;
-      refused = stickslip_interface_residual(interface->handle, STATE_OF(interface), NULL, f, MORTAR_OF(interface, f),
-                                             MULTIPLIERS_OF(interface, f));
-      for (PetscInt k = 0; k < d * (interface->n1 + interface->n2) && !refused; k++)
-        physics->parts.squares[N_SQUARES * physics->parts.of_mesh[interface->nodes[k / d]] + SQUARES_CONTACT] +=
-            PetscSqr(PetscAbsScalar(interface->forces[k]));
-    }
-    PetscCall(contact_agree(contact, refused, status));
-    if (!*status) PetscCall(contact_scatter(interface, interface->forces, f_local, MPIU_SUM));
-  }
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscErrorCode reserve(Interface *interface, int64_t count)
-{
-  PetscFunctionBegin;
-  if (count > interface->coo_capacity) {
-    interface->coo_capacity = count + count / 4;
-    PetscCall(PetscFree3(interface->coo_rows, interface->coo_columns, interface->coo_values));
-    PetscCall(PetscMalloc3(interface->coo_capacity, &interface->coo_rows, interface->coo_capacity,
-                           &interface->coo_columns, interface->coo_capacity, &interface->coo_values));
-  }
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* Do n entries lie in one column, and in the rows of the n entries at the head of their block? */
-static PetscBool repeats(const int64_t *head, const int64_t *rows, const int64_t *columns, PetscInt n)
-{
-  for (PetscInt i = 0; i < n; i++) {
-    if (rows[i] != head[i] || columns[i] != columns[0]) return PETSC_FALSE;
-  }
-  return PETSC_TRUE;
-}
-
-/* Entries of a plan come row after row, those of a piece block after block, each by columns: one call for a row or a block,
- * which ends where its rows do not repeat. */
-static PetscErrorCode insert(const Interface *interface, int64_t count, const double *values, Mat matrix)
-{
-  enum { LONGEST = 64 };
-  static const double zeros[LONGEST * LONGEST];
-  PetscInt            rows[LONGEST], columns[LONGEST], n, m;
-
-  PetscFunctionBegin;
-  for (int64_t k = 0; k < count; k += (int64_t)n * m) {
-    const int64_t *r = interface->coo_rows + k, *c = interface->coo_columns + k, left = count - k;
-    for (n = 0; n < LONGEST && n < left && c[n] == c[0]; n++)
-      rows[n] = (PetscInt)r[n];
-    for (m = 0; m < LONGEST && n * (m + 1) <= left && (!m || repeats(r, r + n * m, c + n * m, n)); m++)
-      columns[m] = (PetscInt)c[n * m];
-    PetscCall(MatSetValues(matrix, n, rows, m, columns, values ? values + k : zeros, ADD_VALUES));
-  }
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* Which entries the tangent has here; kept until values lack one. */
-static PetscErrorCode plan(Interface *interface, int32_t pairs, int32_t *refused)
-{
-  int64_t n_rows;
-
-  PetscFunctionBegin;
-  *refused = stickslip_interface_plan(interface->handle, interface->x, MORTAR_OF(interface, interface->x), pairs, &n_rows,
-                                      &interface->planned);
-  if (*refused) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(reserve(interface, interface->planned));
-  *refused = stickslip_interface_plan_coo(interface->handle, STICKSLIP_ENTRIES_TANGENT, interface->coo_capacity,
-                                          interface->coo_rows, interface->coo_columns);
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* Which entries the forces of a condensed system have, with pairs that may come: into the arrays, and their number. */
-static PetscErrorCode condensed_plan(Interface *interface, int64_t *count)
-{
-  int64_t rows[2], counts[2];
-  PetscFunctionBegin;
-  PetscCallStickslip(stickslip_interface_condensed_plan(interface->handle, interface->x, MORTAR_OF(interface, interface->x),
-                                                        STICKSLIP_PLAN_SKIN, rows, counts));
-  *count = counts[0];
-  if (!*count) PetscFunctionReturn(PETSC_SUCCESS); /* with frozen weights forces do not depend on displacements */
-  PetscCall(reserve(interface, *count));
-  PetscCallStickslip(stickslip_interface_plan_coo(interface->handle, STICKSLIP_ENTRIES_FORCES, interface->coo_capacity,
-                                                  interface->coo_rows, interface->coo_columns));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static int32_t plan_values(Interface *interface)
-{
-  return stickslip_interface_plan_values(interface->handle, STATE_OF(interface), NULL, interface->coo_capacity,
-                                         interface->coo_values);
-}
-
-/* Where pairs have come that the plan does not have, one of the pairs of now takes its place. */
-static PetscErrorCode tangent(Interface *interface, int32_t *refused)
-{
-  PetscFunctionBegin;
-  *refused = interface->planned ? plan_values(interface) : STICKSLIP_MISSING_ENTRY;
-  if (*refused == STICKSLIP_MISSING_ENTRY) {
-    PetscCall(plan(interface, STICKSLIP_PLAN_ACTIVE, refused));
-    if (!*refused) *refused = plan_values(interface);
-  }
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static int32_t entries(Interface *interface, int32_t piece, int64_t capacity, int64_t *rows, int64_t *columns,
-                       double *values, int64_t *count)
-{
-  return stickslip_interface_condensed_coo(interface->handle, STATE_OF(interface), piece, capacity, rows, columns, values,
-                                           count);
-}
-
-/* A piece into the arrays as they are; counted first where they turn out too small. */
-PetscErrorCode contact_entries(Interface *interface, int32_t piece, int64_t *count, int32_t *refused)
-{
-  PetscFunctionBegin;
-  *refused = STICKSLIP_BUFFER_TOO_SMALL;
-  for (int attempt = 0; attempt < 2 && *refused == STICKSLIP_BUFFER_TOO_SMALL; attempt++) {
-    if (attempt || !interface->coo_capacity) {
-      *refused = entries(interface, piece, 0, NULL, NULL, NULL, count);
-      if (*refused) break;
-      PetscCall(reserve(interface, *count));
-    }
-    *refused = entries(interface, piece, interface->coo_capacity, interface->coo_rows, interface->coo_columns,
-                       interface->coo_values, count);
-  }
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* Of a condensed system what the forces depend on the displacements by; condensed_matrix() does the rest. */
-PetscErrorCode contact_tangent(Contact *contact, Mat matrix, PetscInt *status)
-{
-  PetscFunctionBegin;
-  *status = 0;
-  PetscCall(MatSetOption(matrix, MAT_ROW_ORIENTED, PETSC_FALSE)); /* as insert() has them; all ranks must call this */
-  for (PetscInt i = 0; i < contact->n_interfaces && !*status; i++) {
-    Interface *interface = &contact->interfaces[i];
-    int32_t    refused   = 0;
-    int64_t    count     = 0;
+    Interface   *interface = &contact->interfaces[i];
+    ContactPart *part      = &interface->part;
+    int32_t      refused   = 0;
     PetscCall(contact_gather(contact, interface, contact->physics->u_local));
-    if (contact->mesh->rank == 0) {
-      if (contact->condensed) {
-        PetscCall(contact_entries(interface, STICKSLIP_CONDENSED_FORCES, &count, &refused));
-      } else {
-        PetscCall(tangent(interface, &refused));
-        count = interface->planned;
-      }
-      if (!refused) PetscCall(insert(interface, count, interface->coo_values, matrix));
-    }
-    PetscCall(contact_agree(contact, refused, status));
-  }
-  PetscCall(MatSetOption(matrix, MAT_ROW_ORIENTED, PETSC_TRUE));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* With the pairs that may come while the surfaces slide by less than a quarter of a facet. Of a condensed system what is
- * inserted before it is condensed; condensed_matrix() makes a pattern of its own of it. */
-PetscErrorCode contact_pattern(Contact *contact, Mat matrix)
-{
-  PetscFunctionBegin;
-  for (PetscInt i = 0; i < contact->n_interfaces; i++) {
-    Interface *interface = &contact->interfaces[i];
-    int32_t    refused;
-    int64_t    count;
-    PetscCall(contact_gather(contact, interface, contact->physics->u_local));
-    if (contact->mesh->rank) continue;
-    if (contact->condensed) {
-      PetscCall(condensed_plan(interface, &count));
-    } else {
-      PetscCall(plan(interface, STICKSLIP_PLAN_SKIN, &refused));
-      PetscCallStickslip(refused);
-      count = interface->planned;
-    }
-    PetscCall(insert(interface, count, NULL, matrix));
+    if (part->handle)
+      refused = stickslip_interface_residual(part->handle, STATE_OF(part), NULL, part->forces,
+                                             MORTAR_OF(part, part->forces), MULTIPLIERS_OF(part, part->forces));
+    PetscCall(contact_agree(contact, interface, refused, status));
+    if (!*status) PetscCall(add_forces(contact->physics, part, f_local));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* What plans hold beyond the pairs of now would come into a matrix that has not got it. */
-void contact_forget_plans(Contact *contact)
-{
-  for (PetscInt i = 0; i < contact->n_interfaces; i++)
-    contact->interfaces[i].planned = 0;
 }
 
 /* A slightly compressive multiplier on nodes that touch: without it a body held by contact alone starts without support. */
@@ -267,68 +114,103 @@ PetscErrorCode contact_start(Contact *contact, Vec x, PetscInt *status)
   *status = 0;
   PetscCall(unknowns_to_local(physics, x));
   for (PetscInt i = 0; i < contact->n_interfaces && !*status; i++) {
-    Interface *interface = &contact->interfaces[i];
-    int32_t    refused   = 0;
+    Interface   *interface = &contact->interfaces[i];
+    ContactPart *part      = &interface->part;
+    int32_t      refused   = 0;
     PetscCall(contact_gather(contact, interface, physics->u_local));
-    if (mesh->rank == 0 && interface->initial_contact)
-      refused = stickslip_interface_initial_multipliers(interface->handle, MULTIPLIERS_OF(interface, interface->gathered));
-    PetscCall(contact_agree(contact, refused, status));
-    if (!*status) PetscCall(contact_scatter(interface, interface->gathered, physics->u_local, MPI_REPLACE));
+    if (part->handle && interface->initial_contact)
+      refused = stickslip_interface_initial_multipliers(part->handle, MULTIPLIERS_OF(part, part->gathered));
+    PetscCall(contact_agree(contact, interface, refused, status));
+    PetscCall(parts_share(part, part->components, MULTIPLIERS_OF(part, part->gathered)));
+    if (!*status) PetscCall(contact_scatter(part, part->gathered, physics->u_local, MPI_REPLACE));
   }
   PetscCall(DMLocalToGlobalBegin(mesh->dm, physics->u_local, INSERT_VALUES, x));
   PetscCall(DMLocalToGlobalEnd(mesh->dm, physics->u_local, INSERT_VALUES, x));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscErrorCode contact_step_limit(Contact *contact, Interface *interface, Vec step, PetscReal depth, PetscReal *fraction)
+{
+  ContactPart *part = &interface->part;
+  PetscReal    answer[2] = {1, 1}; /* the fraction, and 0 where the library refuses */
+  PetscScalar *dx;
+
+  PetscFunctionBegin;
+  PetscCall(contact_gather(contact, interface, contact->physics->u_local));
+  PetscCall(PetscMalloc1(part->dimension * (part->n1 + part->n2) + part->components * part->n1, &dx));
+  PetscCall(contact_fetch(part->sf, step, dx));
+  if (part->handle && stickslip_interface_step_limit(part->handle, part->x, MORTAR_OF(part, part->x), dx,
+                                                     MORTAR_OF(part, dx), depth, &answer[0]))
+    answer[1] = 0;
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, answer, 2, MPIU_REAL, MPIU_MIN, PETSC_COMM_WORLD));
+  PetscCall(PetscFree(dx));
+  /* Where the library refuses, so it will the evaluation that follows, and this attempt ends there. */
+  *fraction = answer[1] > 0 ? answer[0] : 1;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* Before the commit: with the weights of now beside those of t_n, where both are needed. */
-static int32_t measure_memory(Interface *interface)
+static int32_t measure_memory(ContactPart *part)
 {
   stickslip_counters counters = {.struct_size = sizeof(counters)};
-  const int32_t      status   = stickslip_interface_counters(interface->handle, &counters);
-  interface->bytes            = PetscMax(interface->bytes, counters.bytes);
+  const int32_t      status   = stickslip_interface_counters(part->handle, &counters);
+  part->bytes                 = PetscMax(part->bytes, counters.bytes);
   return status;
 }
 
-/* rank 0, of a converged step of a condensed system: the multipliers are the projected tractions, from which they differ by rounding of the
- * bodies' forces. Nodes that slip are then on the cone to the last digits, and the next step does not begin with guesses
- * of who sticks. */
-static int32_t settle_multipliers(Interface *interface)
+/* Of a converged step of a condensed system: the multipliers are the projected tractions, from which they differ by
+ * rounding of the bodies' forces. Nodes that slip are then on the cone to the last digits, and the next step does not begin
+ * with guesses of who sticks. */
+static int32_t settle_multipliers(ContactPart *part)
 {
-  stickslip_states wanted = {.struct_size = sizeof(wanted), .traction = interface->rows, .normal = interface->host};
-  const int32_t    status = stickslip_interface_states(interface->handle, STATE_OF(interface), NULL, &wanted);
-  const PetscInt   d      = interface->dimension;
-  for (PetscInt a = 0; a < interface->n1 && !status; a++) {
+  stickslip_states wanted = {.struct_size = sizeof(wanted), .traction = part->rows, .normal = part->host};
+  const int32_t    status = stickslip_interface_states(part->handle, STATE_OF(part), NULL, &wanted);
+  const PetscInt   d      = part->dimension;
+  for (PetscInt a = 0; a < part->n1 && !status; a++) {
     PetscReal p[3], n[3];
-    contact_vector(interface, interface->rows, a, p);
-    contact_vector(interface, interface->host, a, n);
-    if (interface->components > 1)
-      PetscCallAbort(PETSC_COMM_SELF, PetscArraycpy(interface->lambda + d * a, p, d));
+    contact_vector(d, part->rows, a, p);
+    contact_vector(d, part->host, a, n);
+    if (part->components > 1)
+      PetscCallAbort(PETSC_COMM_SELF, PetscArraycpy(part->lambda + d * a, p, d));
     else
-      interface->lambda[a] = p[0] * n[0] + p[1] * n[1] + p[2] * n[2];
+      part->lambda[a] = p[0] * n[0] + p[1] * n[1] + p[2] * n[2];
   }
   return status;
 }
 
-/* All interfaces accept the step, or none: what was committed before a refusal is rolled back. */
+/* Commits one interface on all ranks, or tells that one of them refuses; `done`: this rank has. */
+static PetscErrorCode commit(Contact *contact, Interface *interface, PetscBool *done, PetscInt *status)
+{
+  ContactPart *part    = &interface->part;
+  int32_t      refused = 0;
+  PetscFunctionBegin;
+  PetscCall(contact_gather(contact, interface, contact->physics->u_local));
+  if (part->handle) refused = measure_memory(part);
+  if (part->handle && !refused && contact->condensed) refused = settle_multipliers(part);
+  if (contact->condensed) {
+    PetscCall(parts_share(part, part->components, part->lambda));
+    PetscCall(contact_gather(contact, interface, contact->physics->u_local));
+  }
+  if (part->handle && !refused) {
+    refused = stickslip_interface_commit(part->handle, STATE_OF(part), NULL);
+    *done   = (PetscBool)!refused;
+  }
+  PetscCall(contact_agree(contact, interface, refused, status));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* All interfaces accept the step on all ranks, or none: what was committed beside a refusal is rolled back. */
 PetscErrorCode contact_commit(Contact *contact, PetscInt *status)
 {
-  const Mesh *mesh      = contact->mesh;
-  PetscInt    committed = 0;
+  PetscBool *done;
   PetscFunctionBegin;
   *status = 0;
-  for (PetscInt i = 0; i < contact->n_interfaces && !*status; i++) {
-    Interface *interface = &contact->interfaces[i];
-    int32_t    refused   = 0;
-    PetscCall(contact_gather(contact, interface, contact->physics->u_local));
-    if (mesh->rank == 0) refused = measure_memory(interface);
-    if (mesh->rank == 0 && !refused && contact->condensed) refused = settle_multipliers(interface);
-    if (contact->condensed) PetscCall(contact_gather(contact, interface, contact->physics->u_local));
-    if (mesh->rank == 0 && !refused)
-      refused = stickslip_interface_commit(interface->handle, STATE_OF(interface), NULL);
-    PetscCall(contact_agree(contact, refused, status));
-    if (!*status) committed++;
+  PetscCall(PetscCalloc1(contact->n_interfaces, &done));
+  for (PetscInt i = 0; i < contact->n_interfaces && !*status; i++)
+    PetscCall(commit(contact, &contact->interfaces[i], &done[i], status));
+  for (PetscInt i = 0; i < contact->n_interfaces && *status; i++) {
+    if (done[i]) PetscCallStickslip(stickslip_interface_rollback(contact->interfaces[i].part.handle));
   }
-  for (PetscInt i = 0; i < committed && *status && mesh->rank == 0; i++)
-    PetscCallStickslip(stickslip_interface_rollback(contact->interfaces[i].handle));
+  PetscCall(PetscFree(done));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

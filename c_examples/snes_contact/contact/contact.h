@@ -4,65 +4,94 @@
 #include "physics/physics.h"
 #include <stickslip.h>
 
-/* Where surfaces are beside their meshes (offsets.c): `offset` of all nodes of the non-mortar side and of some, each node's, the
- * factor on them; of round sides their shape, and each node's; at time t; what `adjust` has done (adjust.c). */
+/* Where surfaces are beside their meshes (offsets.c): `offset` of all nodes of the non-mortar side and of some, the factor on them;
+ * of round sides their shape. On rank 0: those of all n1 + n2 nodes that the factor is on, and those of round sides; what `adjust`
+ * has done (adjust.c). Where the handle is: the same of the nodes of its part, and their sum at time t. */
 typedef struct {
-  PetscBool any;
-  PetscReal all;
-  PetscInt  n_points;
-  PetscReal *points, *nodal;
+  PetscBool  any;
+  PetscReal  all;
+  PetscInt   n_points;
+  PetscReal *points;
   Curve      curve;
   PetscReal  radius[2], centre[3], axis[3]; /* 0: a side is not round */
   int32_t    shape;
-  double    *round[2], *now;
+  double    *nodal, *round;
+  double    *part_nodal, *part_round, *now;
   PetscReal  adjust; /* tolerance; 0: nothing is adjusted */
   double    *gaps;
   int32_t   *moved;
 } Offsets;
 
-/* One contact interface; the library's handle and all its arrays live on rank 0 (see contact.c). */
+/* A rank's part of an interface, with a handle of the library's own (parts.c): the non-mortar nodes that the rank owns, the
+ * facets around them as far as these need them, and the mortar side. Nodes and facets are numbered as they are here. */
 typedef struct {
-  char                 name[NAME_LENGTH];
-  const Surface       *surface[2]; /* non-mortar, mortar */
-  PetscInt             n1, n2;     /* their numbers of nodes */
-  PetscInt            *nodes;      /* n1 + n2 mesh vertices */
-  PetscInt             dimension;  /* numbers a node of every vector here: 3, in the plane 2 */
-  PetscInt             components; /* multipliers a node: 1, along the normal, without friction; else `dimension` */
-  PetscInt            *removed;    /* n1: mask of directions without a multiplier, see read_surfaces() */
-  PetscBool           *middle;     /* n1: no multiplier, since it is no corner of a face */
-  stickslip_options    options;
-  PetscBool            initial_contact; /* nodes that touch start slightly compressed: contact_start() */
-  double              *X, *x;     /* n1 + n2 vectors: reference coordinates; current ones, see contact_positions() */
-  PetscScalar         *gathered;  /* n1 + n2 displacement vectors, components n1 multipliers */
-  PetscScalar         *forces;    /* same layout: f1, f2, multiplier rows */
-  int64_t             *equations; /* same layout */
-  PetscSF              sf;        /* from the local vectors of all ranks to `gathered` */
+  PetscInt  dimension, components; /* as the interface's */
+  PetscInt  n1, n2;                /* numbers of nodes; 0: nothing is owned here, and there is no handle */
+  PetscInt *vertices;              /* n1 + n2: of the mesh */
+  PetscInt *nodes;                 /* n1 + n2: their numbers in the interface, where those of the mortar side begin with */
+  PetscInt  first_mortar;          /* this one */
+  PetscInt *piece;                 /* n1 + n2: the model's part (physics.h) that each belongs to */
+  PetscInt *counts;                /* n1 + n2: is it this rank that counts it where each counts once? */
+  PetscInt *owner, *index;         /* n1: which rank owns the node, and its number in the part there */
+  PetscInt  *removed;              /* n1: as the interface's */
+  PetscBool *middle;               /* n1: likewise */
+  PetscInt  n_facets[2], *facets[2], *offsets[2], *facet_nodes[2]; /* by side; facets: their numbers in the interface */
+  int32_t  *owned;                 /* n1: STICKSLIP_NODE_... */
+  double    origin[3];             /* positions count from there */
+  double   *X, *x;                 /* n1 + n2 vectors: reference coordinates; current ones, see contact_positions() */
+  PetscScalar *gathered;           /* n1 + n2 displacement vectors, components n1 multipliers */
+  PetscScalar *forces;             /* same layout: f1, f2, multiplier rows; those of all ranks add up */
+  int64_t     *equations;          /* same layout */
+  PetscSF      sf;                 /* from the local vectors of all ranks to `gathered` */
+  PetscSF      owners;             /* from the non-mortar nodes of all ranks to the nodes here that others own */
+  PetscSF      whole;              /* from their owners to the interface's n1 nodes, on rank 0 */
   stickslip_interface *handle;
   /* condensed.c: multipliers, now and at the start of the step, of the last two; as `forces`, those of bodies and loads
    * and what condensing adds to the residual; where the last matrix was made, the former and the positions */
-  double              *lambda, *lambda_start, *lambda_last, *lambda_before, *host, *rows, *host_there, *x_there;
-  int64_t              coo_capacity, *coo_rows, *coo_columns;
-  int64_t              planned; /* the entries of the library's plan, which lie in these arrays; 0: there is none */
-  double              *coo_values;
-  double               friction_work; /* up to the last converged step */
-  double               young, largest_traction; /* of the softer body; up to the last converged step */
-  Offsets               offsets;
-  stickslip_equilibrium equilibrium;  /* as last judged (equilibrium.c) */
-  int64_t              bytes;         /* of the library's, the most at the end of a step */
-} Interface;
+  double  *lambda, *lambda_start, *lambda_last, *lambda_before, *host, *rows, *host_there, *x_there;
+  int64_t  coo_capacity, *coo_rows, *coo_columns;
+  int64_t  planned; /* the entries of the library's plan, which lie in these arrays; 0: there is none */
+  double  *coo_values;
+  int64_t  bytes;   /* of the library's, the most at the end of a step */
+} ContactPart;
 
-/* In the interface's arrays: where the mortar's vectors begin, where the multipliers do. */
-#define MORTAR_OF(interface, array) ((array) + (interface)->dimension * (interface)->n1)
-#define MULTIPLIERS_OF(interface, array) ((array) + (interface)->dimension * ((interface)->n1 + (interface)->n2))
+/* In the arrays of a part: where the mortar's vectors begin, where the multipliers do. */
+#define MORTAR_OF(part, array) ((array) + (part)->dimension * (part)->n1)
+#define MULTIPLIERS_OF(part, array) ((array) + (part)->dimension * ((part)->n1 + (part)->n2))
 /* The library takes x1, x2 and the multipliers: */
-#define STATE_OF(interface)                                                                                            \
-  (interface)->x, MORTAR_OF(interface, (interface)->x), MULTIPLIERS_OF(interface, (interface)->gathered)
+#define STATE_OF(part) (part)->x, MORTAR_OF(part, (part)->x), MULTIPLIERS_OF(part, (part)->gathered)
 
-/* nodal results of one interface; every array has n1 entries, vectors 3 n1, in the plane too */
+/* nodal results of one interface, on rank 0; every array has n1 entries, vectors 3 n1, in the plane too */
 typedef struct {
   int32_t *state;
   double  *normal, *multiplier, *gap, *slip, *coverage, *area, *dissipation; /* multiplier: as a vector */
 } ContactStates;
+
+/* One contact interface: what the scene says of it, this rank's part, and on rank 0 what is known of all its nodes. */
+typedef struct {
+  char           name[NAME_LENGTH];
+  const Surface *surface[2]; /* rank 0: non-mortar, mortar */
+  PetscInt       n1, n2;     /* rank 0, as all that follows up to `options`: their numbers of nodes */
+  PetscInt      *nodes;      /* n1 + n2 mesh vertices */
+  PetscInt      *removed;    /* n1: mask of directions without a multiplier, see read_surfaces() */
+  PetscBool     *middle;     /* n1: no multiplier, since it is no corner of a face */
+  /* n1 + n2 vectors: coordinates; at the place of the last contact_collect() displacements and forces; equations */
+  double        *X;
+  PetscScalar   *displacements, *forces;
+  int64_t       *equations;
+  ContactStates  states;     /* likewise */
+  PetscSF        sf;         /* from the local vectors of all ranks to `displacements` */
+  Offsets        offsets;
+  stickslip_options options;
+  PetscInt       dimension;  /* numbers a node of every vector here: 3, in the plane 2 */
+  PetscInt       components; /* multipliers a node: 1, along the normal, without friction; else `dimension` */
+  PetscBool      initial_contact; /* nodes that touch start slightly compressed: contact_start() */
+  PetscInt       n_parts;    /* ranks that have a part with nodes */
+  ContactPart    part;
+  double         friction_work;           /* rank 0: up to the last converged step */
+  double         young, largest_traction; /* of the softer body; up to the last converged step */
+  stickslip_equilibrium equilibrium;      /* of this part, as last judged (equilibrium.c) */
+} Interface;
 
 /* How the search for equilibrium goes (equilibrium.c) */
 typedef struct {
@@ -100,37 +129,88 @@ PetscErrorCode symmetry_mask(const Physics *physics, const Interface *interface,
 /* reach.c: of the model's parts, over all that interfaces may join to them */
 PetscErrorCode reach_measure(Contact *contact);
 
-/* contact_setup.c, contact.c: `status` > 0 on every rank if the library refused, for the reason in contact->refusal */
+/* How the non-mortar side is covered, as the library finds it. */
+typedef struct {
+  char      text[1024];
+  int32_t   finding; /* STICKSLIP_FINDING_... */
+  PetscBool mistaken; /* the finding is a mistake in the scene */
+  PetscReal penetration;
+} ContactCover;
+
+/* What may be wrong with an interface (diagnose.c): the worst pairs, facets in the interface's numbers, -1: none; how many
+ * nodes are in each state; the nodes where the matrix may be singular, the worst first. */
+enum { PAIR_OVERLAP, PAIR_WARP, PAIR_ANGLE, PAIR_ERROR, N_PAIRS_FOUND };
+enum { SUSPECTS_KEPT = 20 };
+
+typedef struct {
+  double  value;
+  int64_t facets[2];
+} PairFound;
+
+typedef struct {
+  PetscInt vertex;
+  double   position[3], direction[3], ratio;
+  int32_t  cause; /* STICKSLIP_CAUSE_... */
+} Suspect;
+
+typedef struct {
+  char      text[1024];
+  PetscBool found;
+  PairFound pairs[N_PAIRS_FOUND];
+  PetscInt  states[3], n_suspects, n_weak, n_new; /* suspects in all, those hardly covered; nodes not covered before */
+  Suspect   suspects[SUSPECTS_KEPT];
+} ContactDiagnosis;
+
+/* So many facets deep the bodies may be in each other at the start, where an interface is cut into parts. */
+enum { PARTS_DEPTH = 1 };
+
+/* partition.c: rank 0, from n vectors of `dimension` coordinates: which of so many ranks owns each node */
+PetscErrorCode partition_nodes(PetscInt dimension, PetscInt n, const double coordinates[], PetscMPIInt n_ranks,
+                               PetscInt owner[]);
+
+/* parts_cut.c: every rank gets its part of an interface */
+PetscErrorCode parts_cut(Contact *contact, PetscInt number, const PetscInt owner[]);
+PetscErrorCode parts_destroy(ContactPart *part);
+
+/* parts.c: of multipliers or vectors, `width` numbers a non-mortar node: all nodes here get their owners' values; rank 0
+ * gets those of all nodes; owners get those of rank 0 */
+PetscErrorCode parts_share(const ContactPart *part, PetscInt width, double values[]);
+PetscErrorCode parts_collect(const ContactPart *part, PetscInt width, const double values[], double whole[]);
+PetscErrorCode parts_send(const ContactPart *part, PetscInt width, const double whole[], double values[]);
+/* the library's sentence in the interface's numbers */
+void parts_translate(const ContactPart *part, const char *from, char to[], size_t length);
+
+/* contact_setup.c, contact.c: `status` > 0 on every rank if the library refused on any, for the reason in contact->refusal */
 PetscErrorCode contact_create(Contact *contact, Scene *scene, PetscBool quiet, PetscInt *status);
 PetscErrorCode contact_destroy(Contact *contact);
-/* rank 0: a side from `x` and `equations` of the interface; `facet_nodes` is the caller's to free */
-PetscErrorCode contact_surface(const Contact *contact, const Interface *interface, int side, stickslip_surface *out,
-                               int64_t **facet_nodes);
 /* adjust.c, rank 0 */
 PetscErrorCode contact_adjust(Scene *scene, Contact *contact, Interface *interface);
-/* offsets.c; place and create on rank 0 */
+/* offsets.c; `place` on rank 0; `fetch` through an SF from rank 0's nodes to those of the part */
 PetscErrorCode offsets_read(Scene *scene, const Physics *physics, Interface *interface);
 PetscErrorCode offsets_place(Scene *scene, const Mesh *mesh, Interface *interface);
-int32_t        offsets_create(const Mesh *mesh, Interface *interface);
+PetscErrorCode offsets_fetch(PetscSF sf, Interface *interface);
 int32_t        offsets_set(const Interface *interface, stickslip_interface *handle, PetscReal t);
 PetscErrorCode offsets_values(Contact *contact, PetscReal t, PetscInt *status);
 PetscErrorCode offsets_destroy(Interface *interface);
-PetscErrorCode contact_agree(Contact *contact, int32_t refused, PetscInt *status);
-void           contact_positions(Interface *interface);
-/* of a node, from vectors of the interface; the third component is 0 in the plane */
-void           contact_vector(const Interface *interface, const PetscScalar vectors[], PetscInt node, PetscReal v[3]);
-PetscErrorCode contact_fetch(const Interface *interface, Vec local, PetscScalar *to);
+PetscErrorCode contact_agree(Contact *contact, const Interface *interface, int32_t refused, PetscInt *status);
+void           contact_positions(ContactPart *part);
+/* of a node, from vectors of so many numbers; the third component is 0 in the plane */
+void           contact_vector(PetscInt dimension, const PetscScalar vectors[], PetscInt node, PetscReal v[3]);
+PetscErrorCode contact_fetch(PetscSF sf, Vec local, PetscScalar *to);
 PetscErrorCode contact_gather(Contact *contact, Interface *interface, Vec local);
 PetscErrorCode contact_start(Contact *contact, Vec x, PetscInt *status);
 PetscErrorCode contact_forces(Contact *contact, Vec f_local, PetscInt *status); /* adds, to the parts' squares, too */
+PetscErrorCode contact_commit(Contact *contact, PetscInt *status);
+PetscErrorCode contact_scatter(const ContactPart *part, const PetscScalar *from, Vec local, MPI_Op operation);
+/* the fraction of a step that one interface allows, which leads `depth` deep at most; `step`: local, of u_local */
+PetscErrorCode contact_step_limit(Contact *contact, Interface *interface, Vec step, PetscReal depth, PetscReal *fraction);
+
+/* tangent.c */
 PetscErrorCode contact_tangent(Contact *contact, Mat matrix, PetscInt *status);
 PetscErrorCode contact_pattern(Contact *contact, Mat matrix);
 void           contact_forget_plans(Contact *contact);
-PetscErrorCode contact_commit(Contact *contact, PetscInt *status);
-
-/* rank 0: into the interface's arrays: a piece of the condensed matrix, STICKSLIP_CONDENSED_... */
-PetscErrorCode contact_entries(Interface *interface, int32_t piece, int64_t *count, int32_t *refused);
-PetscErrorCode contact_scatter(Interface *interface, const PetscScalar *from, Vec local, MPI_Op operation);
+/* into the part's arrays: a piece of the condensed matrix, STICKSLIP_CONDENSED_... */
+PetscErrorCode contact_entries(ContactPart *part, int32_t piece, int64_t *count, int32_t *refused);
 
 /* condensed.c: nothing happens where multipliers are unknowns */
 PetscErrorCode condensed_check(const Contact *contact, char why[], size_t length); /* rank 0 */
@@ -155,12 +235,19 @@ PetscBool      normals_follow(const Contact *contact); /* those of any interface
 PetscErrorCode normals_use(Contact *contact, int32_t normals); /* STICKSLIP_NORMALS_..., where they follow */
 PetscErrorCode normals_turn_multipliers(Contact *contact, Vec x);
 
-/* states.c */
-PetscErrorCode contact_states_create(const Interface *interface, ContactStates *states); /* rank 0 */
+/* states.c: at the place of the last evaluation, for rank 0: what it has of all nodes */
+PetscErrorCode contact_collect(Contact *contact);
 PetscErrorCode contact_states_destroy(ContactStates *states);
 /* of all interfaces at u_local */
 PetscErrorCode contact_tendencies(Contact *contact, int32_t *state, double *tangential); /* 3 a node */
 PetscErrorCode contact_scale_augmentation(Contact *contact, const PetscBool *marked, PetscReal factor);
+PetscErrorCode contact_reset_augmentation(Contact *contact);
+
+/* cover.c: on every rank; `handle`: the part's, or NULL */
+PetscErrorCode contact_cover(const Interface *interface, stickslip_interface *handle, PetscMPIInt rank, ContactCover *cover);
+
+/* diagnose.c: on every rank; rank 0 gets the answer */
+PetscErrorCode contact_diagnose(const Interface *interface, PetscMPIInt rank, ContactDiagnosis *diagnosis);
 
 /* equilibrium.c */
 PetscErrorCode equilibrium_judge(Contact *contact, PetscReal rtol, PetscBool *holds, PetscBool *stuck);

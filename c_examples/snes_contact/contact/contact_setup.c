@@ -2,122 +2,325 @@
 #include "contact/contact.h"
 
 /* of `gathered`, `forces` and `equations` */
-static int64_t n_entries(const Interface *interface)
+static PetscInt n_entries(const ContactPart *part)
 {
-  return interface->dimension * ((int64_t)interface->n1 + interface->n2) + (int64_t)interface->components * interface->n1;
+  return part->dimension * (part->n1 + part->n2) + part->components * part->n1;
 }
 
-/* equations of the gathered entries, as the library wants them */
-static PetscErrorCode gather_equations(Contact *contact, Interface *interface)
+/* equation numbers of the entries that come through `sf`; -1: none */
+static PetscErrorCode fetch_equations(const Contact *contact, PetscSF sf, PetscInt n, int64_t equations[])
 {
-  const int64_t n = contact->mesh->rank ? 0 : n_entries(interface);
-  PetscInt     *numbers, n_equations;
-  Vec           x;
+  PetscInt *numbers;
   PetscFunctionBegin;
-  PetscCall(DMGetGlobalVector(contact->mesh->dm, &x));
-  PetscCall(VecGetSize(x, &n_equations));
-  PetscCall(DMRestoreGlobalVector(contact->mesh->dm, &x));
   PetscCall(PetscMalloc1(n, &numbers));
-  PetscCall(PetscSFBcastBegin(interface->sf, MPIU_INT, contact->physics->unknowns.equations, numbers, MPI_REPLACE));
-  PetscCall(PetscSFBcastEnd(interface->sf, MPIU_INT, contact->physics->unknowns.equations, numbers, MPI_REPLACE));
-  for (int64_t k = 0; k < n; k++)
-    interface->equations[k] = numbers[k] < 0 ? -1 : numbers[k];
-  /* No unknowns, but the library must know which there are: numbers beyond all equations. */
-  for (int64_t k = 0; k < (int64_t)interface->components * interface->n1 && contact->condensed && n; k++) {
-    const PetscInt removed = interface->removed[k / interface->components], i = k % interface->components;
-    const PetscBool none = (PetscBool)(interface->components > 1 ? (removed >> i) & 1 : removed == 7);
-    MULTIPLIERS_OF(interface, interface->equations)[k] = none ? -1 : n_equations + k;
-  }
+  PetscCall(PetscSFBcastBegin(sf, MPIU_INT, contact->physics->unknowns.equations, numbers, MPI_REPLACE));
+  PetscCall(PetscSFBcastEnd(sf, MPIU_INT, contact->physics->unknowns.equations, numbers, MPI_REPLACE));
+  for (PetscInt k = 0; k < n; k++)
+    equations[k] = numbers[k] < 0 ? -1 : numbers[k];
   PetscCall(PetscFree(numbers));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode contact_surface(const Contact *contact, const Interface *interface, int side, stickslip_surface *out,
-                               int64_t **facet_nodes)
+/* Where multipliers are no unknowns the library must know which there are, nevertheless: numbers beyond all equations. */
+static PetscErrorCode number_multipliers(const Contact *contact, ContactPart *part)
 {
-  const Surface *surface = interface->surface[side];
-  const PetscInt first = side ? interface->n1 : 0, n = side ? interface->n2 : interface->n1,
-                 n_corners = surface->offsets[surface->n_faces];
-  PetscInt      *local;
-  int64_t       *offsets;
+  const PetscInt d = part->components;
+  PetscInt       n_equations;
+  Vec            x;
+  PetscFunctionBegin;
+  if (!contact->condensed) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(DMGetGlobalVector(contact->mesh->dm, &x));
+  PetscCall(VecGetSize(x, &n_equations));
+  PetscCall(DMRestoreGlobalVector(contact->mesh->dm, &x));
+  for (PetscInt k = 0; k < d * part->n1; k++) {
+    const PetscInt  removed = part->removed[k / d], i = k % d;
+    const PetscBool none    = (PetscBool)(d > 1 ? (removed >> i) & 1 : removed == 7);
+    MULTIPLIERS_OF(part, part->equations)[k] = none ? -1 : n_equations + (int64_t)d * part->nodes[k / d] + i;
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* A side of a part in the library's words; `numbers`: to be freed. */
+static PetscErrorCode describe_surface(const ContactPart *part, int side, stickslip_surface *out, int64_t **numbers)
+{
+  const PetscInt first = side ? part->n1 : 0, n_facets = part->n_facets[side], n_corners = part->offsets[side][n_facets];
 
   PetscFunctionBegin;
-  PetscCall(PetscMalloc1(n_corners + surface->n_faces + 1, facet_nodes));
-  PetscCall(PetscMalloc1(contact->mesh->n_vertices, &local));
-  offsets = *facet_nodes + n_corners;
-  for (PetscInt k = 0; k < n; k++)
-    local[interface->nodes[first + k]] = k;
+  PetscCall(PetscMalloc1(n_corners + n_facets + 1, numbers));
   for (PetscInt k = 0; k < n_corners; k++)
-    (*facet_nodes)[k] = local[surface->vertices[k]];
-  for (PetscInt f = 0; f <= surface->n_faces; f++)
-    offsets[f] = surface->offsets[f];
+    (*numbers)[k] = part->facet_nodes[side][k];
+  for (PetscInt f = 0; f <= n_facets; f++)
+    (*numbers)[n_corners + f] = part->offsets[side][f];
   *out               = (stickslip_surface){.struct_size = sizeof(*out)};
-  out->n_nodes       = n;
-  out->n_facets      = surface->n_faces;
-  out->coordinates   = interface->x + interface->dimension * first;
-  out->facet_offsets = surface->analytic ? NULL : offsets;
-  out->facet_nodes   = surface->analytic ? NULL : *facet_nodes;
-  out->equations     = interface->equations + interface->dimension * first;
-  if (!side) out->multiplier_equations = MULTIPLIERS_OF(interface, interface->equations);
-  PetscCall(PetscFree(local));
+  out->n_nodes       = side ? part->n2 : part->n1;
+  out->n_facets      = n_facets;
+  out->coordinates   = part->x + part->dimension * first;
+  out->facet_offsets = n_facets ? *numbers + n_corners : NULL; /* an analytic surface has none */
+  out->facet_nodes   = n_facets ? *numbers : NULL;
+  out->equations     = part->equations + part->dimension * first;
+  if (side) PetscFunctionReturn(PETSC_SUCCESS);
+  out->multiplier_equations = MULTIPLIERS_OF(part, part->equations);
+  out->owned                = part->owned;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* The directions removed carry no multiplier, and the normal none of them. */
-static int32_t set_constraints(const Interface *interface)
+static int32_t set_constraints(const ContactPart *part)
 {
   int64_t *nodes, n = 0;
   double  *directions;
   int32_t  status;
-  const PetscInt d = interface->dimension;
-  PetscCallAbort(PETSC_COMM_SELF, PetscCalloc2(2 * interface->n1, &nodes, 2 * d * interface->n1, &directions));
-  for (PetscInt a = 0; a < interface->n1; a++) {
-    if (interface->removed[a] == 7) continue; /* wholly prescribed: no unknown is left, and the normal stays free */
+  const PetscInt d = part->dimension;
+  PetscCallAbort(PETSC_COMM_SELF, PetscCalloc2(2 * part->n1, &nodes, 2 * d * part->n1, &directions));
+  for (PetscInt a = 0; a < part->n1; a++) {
+    if (part->removed[a] == 7) continue; /* wholly prescribed: no unknown is left, and the normal stays free */
     for (int i = 0; i < d; i++) {
-      if (!(interface->removed[a] & (1 << i))) continue;
+      if (!(part->removed[a] & (1 << i))) continue;
       nodes[n]              = a;
       directions[d * n + i] = 1;
       n++;
     }
   }
-  status = n ? stickslip_interface_set_constraints(interface->handle, n, nodes, directions) : 0;
+  status = n ? stickslip_interface_set_constraints(part->handle, n, nodes, directions) : 0;
   PetscCallAbort(PETSC_COMM_SELF, PetscFree2(nodes, directions));
   return status;
 }
 
-/* rank 0: surfaces that lie over each other but are no pair would be passed through without a word. Where any pair has
- * been found there is nothing to ask. A handle of its own is asked, so that the other's counters stay what they are. */
-static PetscErrorCode check_facing(const Contact *contact, Scene *scene, PetscBool quiet, Interface *interface)
+static PetscErrorCode create_handle(const ContactPart *part, const stickslip_options *options,
+                                    stickslip_interface **handle, int32_t *refused)
 {
-  char                 text[1024];
+  stickslip_surface surfaces[2];
+  int64_t          *numbers[2];
+  PetscFunctionBegin;
+  for (int side = 0; side < 2; side++)
+    PetscCall(describe_surface(part, side, &surfaces[side], &numbers[side]));
+  *refused = stickslip_interface_create(&surfaces[0], &surfaces[1], options, handle);
+  for (int side = 0; side < 2; side++)
+    PetscCall(PetscFree(numbers[side]));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Surfaces that lie over each other but are no pair would be passed through without a word. Where any pair has been found
+ * there is nothing to ask. A handle of its own is asked, so that the other's counters stay what they are. The first part that
+ * finds a mistake speaks for all. */
+static PetscErrorCode check_facing(Scene *scene, PetscBool quiet, const Interface *interface, PetscMPIInt rank)
+{
+  const ContactPart   *part     = &interface->part;
   stickslip_counters   counters = {.struct_size = sizeof(counters)};
-  stickslip_report     report   = {.struct_size = sizeof(report), .text = text, .text_capacity = sizeof(text)};
-  stickslip_surface    surfaces[2];
-  int64_t             *facet_nodes[2];
-  stickslip_interface *asked = NULL;
+  stickslip_interface *asked    = NULL;
+  ContactCover         cover;
+  int32_t              refused;
 
   PetscFunctionBegin;
-  PetscCallStickslip(stickslip_interface_counters(interface->handle, &counters));
+  if (part->handle) PetscCallStickslip(stickslip_interface_counters(part->handle, &counters));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &counters.pairs_active, 1, MPI_INT64_T, MPI_SUM, PETSC_COMM_WORLD));
   if (counters.pairs_active) PetscFunctionReturn(PETSC_SUCCESS);
-  for (int side = 0; side < 2; side++)
-    PetscCall(contact_surface(contact, interface, side, &surfaces[side], &facet_nodes[side]));
-  PetscCallStickslip(stickslip_interface_create(&surfaces[0], &surfaces[1], &interface->options, &asked));
-  PetscCallStickslip(offsets_set(interface, asked, 0));
-  PetscCallStickslip(stickslip_interface_report(asked, interface->x, MORTAR_OF(interface, interface->x), &report));
+  if (part->handle) {
+    PetscCall(create_handle(part, &interface->options, &asked, &refused));
+    PetscCallStickslip(refused);
+    PetscCallStickslip(offsets_set(interface, asked, 0));
+  }
+  PetscCall(contact_cover(interface, asked, rank, &cover));
   PetscCallStickslip(stickslip_interface_destroy(&asked));
-  for (int side = 0; side < 2; side++)
-    PetscCall(PetscFree(facet_nodes[side]));
-  if (report.finding == STICKSLIP_FINDING_BEHIND || report.finding == STICKSLIP_FINDING_SAME_WAY)
-    scene_fail(scene, interface->name, "mortar", "%s", text);
-  if (report.finding != STICKSLIP_FINDING_NONE && !quiet) /* they may meet later */
-    PetscCall(PetscPrintf(PETSC_COMM_SELF, "%s: %s\n", interface->name, text));
+  if (cover.mistaken) scene_fail(scene, interface->name, "mortar", "%s", cover.text);
+  if (cover.finding != STICKSLIP_FINDING_NONE && !quiet) /* they may meet later */
+    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s: %s\n", interface->name, cover.text));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* What rank 0 has read and others need, too. */
+static PetscErrorCode share_options(Interface *interface)
+{
+  PetscFunctionBegin;
+  PetscCallMPI(MPI_Bcast(&interface->options, sizeof(interface->options), MPI_BYTE, 0, PETSC_COMM_WORLD));
+  PetscCallMPI(MPI_Bcast(&interface->young, 1, MPI_DOUBLE, 0, PETSC_COMM_WORLD));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* rank 0: what is kept of all nodes */
+static PetscErrorCode create_whole(Contact *contact, Interface *interface)
+{
+  const Mesh    *mesh    = contact->mesh;
+  const PetscInt d       = interface->dimension, n = interface->n1 + interface->n2;
+  const PetscInt zero = 0;
+  const PetscInt *nodes = interface->nodes;
+  PetscFunctionBegin;
+  PetscCall(unknowns_gather_create(contact->physics, 1, &n, &nodes, &zero, &d, &interface->sf));
+  PetscCall(PetscCalloc4(d * n, &interface->X, d * n, &interface->displacements, d * n, &interface->forces, d * n,
+                         &interface->equations));
+  PetscCall(fetch_equations(contact, interface->sf, d * n, interface->equations));
+  for (PetscInt k = 0; k < d * n; k++)
+    interface->X[k] = mesh->coordinates[3 * nodes[k / d] + k % d];
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Facets with nodes in the middle of their edges, on either side: their condensation wants all of them in one handle. */
+static PetscBool has_middles(const Mesh *mesh, const Interface *interface)
+{
+  for (int side = 0; side < 2; side++) {
+    const Surface *surface = interface->surface[side];
+    for (PetscInt f = 0; f < surface->n_faces; f++) {
+      if (surface->offsets[f + 1] - surface->offsets[f] > cell_corners(mesh_face_kind(mesh, surface, f))) return PETSC_TRUE;
+    }
+  }
+  return PETSC_FALSE;
+}
+
+/* rank 0: who owns which nodes. `whole`: one rank all, and so where the library does not know parts. Lines of a plane model
+ * are few; they stay together, too. */
+static PetscErrorCode choose_owners(const Contact *contact, PetscInt number, PetscBool whole, PetscInt owner[])
+{
+  const Interface *interface = &contact->interfaces[number];
+  PetscMPIInt      size;
+  PetscFunctionBegin;
+  PetscCallMPI(MPI_Comm_size(PETSC_COMM_WORLD, &size));
+  if (whole || interface->dimension == 2 || (contact->condensed && has_middles(contact->mesh, interface))) {
+    for (PetscInt a = 0; a < interface->n1; a++)
+      owner[a] = number % size;
+  } else {
+    PetscCall(partition_nodes(interface->dimension, interface->n1, interface->X, size, owner));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Reference coordinates of a part's nodes, and where its positions count from: far from the origin X + u would round u away.
+ * A radius counts from the axis. */
+static PetscErrorCode fetch_coordinates(const Contact *contact, Interface *interface)
+{
+  ContactPart   *part = &interface->part;
+  const PetscInt d = part->dimension, n = part->n1 + part->n2;
+  MPI_Datatype   node;
+  PetscSFNode   *remote;
+  PetscSF        sf;
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(n, &remote));
+  for (PetscInt k = 0; k < n; k++)
+    remote[k] = (PetscSFNode){.rank = 0, .index = part->nodes[k]};
+  PetscCall(PetscSFCreate(PETSC_COMM_WORLD, &sf));
+  PetscCall(PetscSFSetGraph(sf, interface->n1 + interface->n2, n, NULL, PETSC_OWN_POINTER, remote, PETSC_OWN_POINTER));
+  PetscCallMPI(MPI_Type_contiguous((PetscMPIInt)d, MPI_DOUBLE, &node));
+  PetscCallMPI(MPI_Type_commit(&node));
+  PetscCall(PetscSFBcastBegin(sf, node, interface->X, part->X, MPI_REPLACE));
+  PetscCall(PetscSFBcastEnd(sf, node, interface->X, part->X, MPI_REPLACE));
+  PetscCallMPI(MPI_Type_free(&node));
+  PetscCall(offsets_fetch(sf, interface));
+  PetscCall(PetscSFDestroy(&sf));
+  for (PetscInt i = 0; i < d && contact->mesh->rank == 0; i++)
+    part->origin[i] = i == 0 && interface->options.model == STICKSLIP_MODEL_AXISYMMETRIC ? 0 : interface->X[i];
+  PetscCallMPI(MPI_Bcast(part->origin, 3, MPI_DOUBLE, 0, PETSC_COMM_WORLD));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode create_part(Contact *contact, PetscInt number, PetscBool whole)
+{
+  Interface    *interface = &contact->interfaces[number];
+  ContactPart  *part      = &interface->part;
+  PetscInt     *owner;
+  const PetscInt d = interface->dimension;
+  PetscInt       n;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(interface->n1, &owner));
+  if (contact->mesh->rank == 0) PetscCall(choose_owners(contact, number, whole, owner));
+  PetscCall(parts_cut(contact, number, owner));
+  PetscCall(PetscFree(owner));
+  {
+    const PetscInt        counts[3] = {part->n1, part->n2, part->n1}, fields[3] = {0, 0, 1 + number};
+    const PetscInt        widths[3] = {d, d, part->components};
+    const PetscInt *const nodes[3]  = {part->vertices, part->vertices + part->n1, part->vertices};
+    PetscCall(unknowns_gather_create(contact->physics, 3, counts, nodes, fields, widths, &part->sf));
+  }
+  n = n_entries(part);
+  PetscCall(PetscCalloc5(n, &part->X, n, &part->x, n, &part->gathered, n, &part->forces, n, &part->equations));
+  PetscCall(PetscCalloc4(n, &part->lambda, n, &part->lambda_start, n, &part->lambda_last, n, &part->lambda_before));
+  PetscCall(PetscCalloc4(n, &part->host, n, &part->rows, n, &part->host_there, n, &part->x_there));
+  PetscCall(fetch_equations(contact, part->sf, n, part->equations));
+  PetscCall(number_multipliers(contact, part));
+  PetscCall(fetch_coordinates(contact, interface));
+  contact_positions(part);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode destroy_part(ContactPart *part)
+{
+  PetscFunctionBegin;
+  PetscCallStickslip(stickslip_interface_destroy(&part->handle));
+  PetscCall(PetscSFDestroy(&part->sf));
+  PetscCall(PetscFree5(part->X, part->x, part->gathered, part->forces, part->equations));
+  PetscCall(PetscFree4(part->lambda, part->lambda_start, part->lambda_last, part->lambda_before));
+  PetscCall(PetscFree4(part->host, part->rows, part->host_there, part->x_there));
+  PetscCall(PetscFree3(part->coo_rows, part->coo_columns, part->coo_values));
+  PetscCall(parts_destroy(part));
+  *part = (ContactPart){0};
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode create_library(Contact *contact, Interface *interface, PetscInt *status)
+{
+  ContactPart *part    = &interface->part;
+  int32_t      refused = 0;
+  PetscFunctionBegin;
+  if (part->n1) {
+    PetscCall(create_handle(part, &interface->options, &part->handle, &refused));
+    if (!refused) refused = set_constraints(part);
+    if (!refused) refused = offsets_set(interface, part->handle, 0);
+    if (!refused && contact->condensed) /* refused at once rather than in the first step */
+      refused = stickslip_interface_condensed_multipliers(part->handle, part->x, MORTAR_OF(part, part->x), part->host,
+                                                          part->lambda);
+  }
+  PetscCall(contact_agree(contact, interface, refused, status));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* of a part's facets, both sides */
+static PetscReal shortest_edge(const ContactPart *part)
+{
+  PetscReal squared = PETSC_MAX_REAL;
+  for (int side = 0; side < 2; side++) {
+    const double *x = part->X + (side ? part->dimension * part->n1 : 0);
+    for (PetscInt f = 0; f < part->n_facets[side]; f++) {
+      const PetscInt *nodes = part->facet_nodes[side] + part->offsets[side][f];
+      const PetscInt  n     = part->offsets[side][f + 1] - part->offsets[side][f];
+      for (PetscInt k = 0; k < n; k++) {
+        PetscReal sum = 0;
+        for (PetscInt i = 0; i < part->dimension; i++)
+          sum += PetscSqr(x[part->dimension * nodes[k] + i] - x[part->dimension * nodes[(k + 1) % n] + i]);
+        squared = PetscMin(squared, sum);
+      }
+    }
+  }
+  return PetscSqrtReal(squared);
+}
+
+/* Do the bodies start deeper in each other than the rings of parts allow? */
+static PetscErrorCode is_deep(const Interface *interface, PetscMPIInt rank, PetscBool *deep)
+{
+  const ContactPart   *part     = &interface->part;
+  stickslip_interface *asked    = NULL;
+  PetscReal            shortest = PETSC_MAX_REAL;
+  ContactCover         cover;
+  int32_t              refused;
+
+  PetscFunctionBegin;
+  *deep = PETSC_FALSE;
+  if (interface->n_parts < 2) PetscFunctionReturn(PETSC_SUCCESS);
+  if (part->handle) {
+    PetscCall(create_handle(part, &interface->options, &asked, &refused));
+    PetscCallStickslip(refused);
+    PetscCallStickslip(offsets_set(interface, asked, 0));
+    shortest = shortest_edge(part);
+  }
+  PetscCall(contact_cover(interface, asked, rank, &cover));
+  PetscCallStickslip(stickslip_interface_destroy(&asked));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &shortest, 1, MPIU_REAL, MPIU_MIN, PETSC_COMM_WORLD));
+  *deep = (PetscBool)(cover.penetration > PARTS_DEPTH * shortest);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode contact_create(Contact *contact, Scene *scene, PetscBool quiet, PetscInt *status)
 {
   const Mesh *mesh = contact->mesh;
-  char          why[256] = "";
+  char        why[256] = "";
   PetscFunctionBegin;
   *status = 0;
   scene_root_begin(scene);
@@ -125,44 +328,21 @@ PetscErrorCode contact_create(Contact *contact, Scene *scene, PetscBool quiet, P
   if (why[0]) scene_fail(scene, NULL, "unknowns", "%s.", why);
   PetscCall(scene_root_end(scene));
   for (PetscInt i = 0; i < contact->n_interfaces && !*status; i++) {
-    Interface            *interface = &contact->interfaces[i];
-    const PetscInt        counts[3] = {interface->n1, interface->n2, interface->n1}, fields[3] = {0, 0, 1 + i};
-    const PetscInt        widths[3] = {interface->dimension, interface->dimension, interface->components};
-    const PetscInt *const nodes[3] = {interface->nodes, interface->nodes + interface->n1, interface->nodes};
-    int32_t               refused  = 0;
-    const int64_t         n        = mesh->rank ? 0 : n_entries(interface);
-
-    PetscCall(unknowns_gather_create(contact->physics, 3, counts, nodes, fields, widths, &interface->sf));
-    PetscCall(PetscCalloc5(n, &interface->X, n, &interface->x, n, &interface->gathered, n, &interface->forces, n,
-                           &interface->equations));
-    PetscCall(PetscCalloc4(n, &interface->lambda, n, &interface->lambda_start, n, &interface->lambda_last, n,
-                           &interface->lambda_before));
-    PetscCall(PetscCalloc4(n, &interface->host, n, &interface->rows, n, &interface->host_there, n, &interface->x_there));
-    PetscCall(gather_equations(contact, interface));
-    if (mesh->rank == 0) {
-      stickslip_surface surfaces[2];
-      int64_t          *facet_nodes[2];
-      const PetscInt    d = interface->dimension;
-      for (PetscInt k = 0; k < d * (interface->n1 + interface->n2); k++)
-        interface->X[k] = mesh->coordinates[3 * interface->nodes[k / d] + k % d];
-      contact_positions(interface);
-      for (int side = 0; side < 2; side++)
-        PetscCall(contact_surface(contact, interface, side, &surfaces[side], &facet_nodes[side]));
-      refused = stickslip_interface_create(&surfaces[0], &surfaces[1], &interface->options, &interface->handle);
-      if (!refused) refused = set_constraints(interface);
-      if (!refused && interface->offsets.any) refused = offsets_create(mesh, interface);
-      if (!refused) refused = offsets_set(interface, interface->handle, 0);
-      if (!refused && contact->condensed) /* refused at once rather than in the first step */
-        refused = stickslip_interface_condensed_multipliers(interface->handle, interface->x, MORTAR_OF(interface, interface->x),
-                                                            interface->host, interface->lambda);
-      for (int side = 0; side < 2; side++)
-        PetscCall(PetscFree(facet_nodes[side]));
-    }
-    PetscCall(contact_agree(contact, refused, status));
+    Interface *interface = &contact->interfaces[i];
+    PetscBool  deep;
+    PetscCall(share_options(interface));
+    PetscCall(create_whole(contact, interface));
+    PetscCall(create_part(contact, i, interface->offsets.any)); /* offsets reach deeper than the rings of parts */
+    PetscCall(create_library(contact, interface, status));
     if (*status) break;
-    scene_root_begin(scene);
-    if (mesh->rank == 0) PetscCall(check_facing(contact, scene, quiet, interface));
-    PetscCall(scene_root_end(scene));
+    PetscCall(is_deep(interface, mesh->rank, &deep));
+    if (deep) {
+      PetscCall(destroy_part(&interface->part));
+      PetscCall(create_part(contact, i, PETSC_TRUE));
+      PetscCall(create_library(contact, interface, status));
+      if (*status) break;
+    }
+    PetscCall(check_facing(scene, quiet, interface, mesh->rank));
   }
   if (!*status) PetscCall(condensed_create(contact, status));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -174,13 +354,11 @@ PetscErrorCode contact_destroy(Contact *contact)
   PetscCall(condensed_destroy(contact));
   for (PetscInt i = 0; i < contact->n_interfaces; i++) {
     Interface *interface = &contact->interfaces[i];
-    PetscCallStickslip(stickslip_interface_destroy(&interface->handle));
+    PetscCall(destroy_part(&interface->part));
     PetscCall(PetscSFDestroy(&interface->sf));
-    PetscCall(PetscFree5(interface->X, interface->x, interface->gathered, interface->forces, interface->equations));
-    PetscCall(PetscFree4(interface->lambda, interface->lambda_start, interface->lambda_last, interface->lambda_before));
-    PetscCall(PetscFree4(interface->host, interface->rows, interface->host_there, interface->x_there));
-    PetscCall(PetscFree3(interface->coo_rows, interface->coo_columns, interface->coo_values));
+    PetscCall(contact_states_destroy(&interface->states));
     PetscCall(offsets_destroy(interface));
+    PetscCall(PetscFree4(interface->X, interface->displacements, interface->forces, interface->equations));
     PetscCall(PetscFree(interface->nodes));
     PetscCall(PetscFree(interface->removed));
     PetscCall(PetscFree(interface->middle));

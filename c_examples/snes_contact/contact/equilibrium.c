@@ -15,17 +15,17 @@ static const PetscReal STANDS_STILL = 1e-3;
 /* Iterations in a row that it must have stood still. */
 enum { PATIENCE = 3 };
 
-/* rank 0 */
 static PetscBool within(PetscReal tolerance, const stickslip_equilibrium *e)
 {
   return (PetscBool)(e->gap <= tolerance * e->gap_scale && e->traction <= tolerance * e->traction_scale &&
                      e->slip <= tolerance * e->slip_scale);
 }
 
-/* rank 0: the worst of the three over what it may be, as a number and in words */
+/* the worst of the three over what it may be, as a number and in words */
 static PetscReal worst(PetscReal tolerance, const Interface *interface, char words[], size_t length)
 {
   const stickslip_equilibrium *e        = &interface->equilibrium;
+  const ContactPart           *part     = &interface->part;
   const double                 values[] = {e->gap, e->traction, e->slip};
   const double                 scales[] = {e->gap_scale, e->traction_scale, e->slip_scale};
   const int64_t                nodes[]  = {e->gap_node, e->traction_node, e->slip_node};
@@ -35,51 +35,72 @@ static PetscReal worst(PetscReal tolerance, const Interface *interface, char wor
     const PetscReal ratio = values[k] > 0 ? values[k] / (tolerance * scales[k]) : 0;
     if (!(ratio > largest)) continue;
     largest = ratio;
-    contact_vector(interface, interface->X, (PetscInt)nodes[k], X);
+    contact_vector(part->dimension, part->X, (PetscInt)nodes[k], X);
     snprintf(words, length, "%s: a %s of %.2g that the law forbids, of a scale of %.2g, at node %d at (%g, %g, %g)",
-             interface->name, names[k], values[k], scales[k], (int)interface->nodes[nodes[k]],
+             interface->name, names[k], values[k], scales[k], (int)part->vertices[nodes[k]],
              (double)X[0], (double)X[1], (double)X[2]);
   }
   return largest;
+}
+
+/* What the library finds of this part, with tractions compared with the largest of all parts; `refused`: by any. */
+static PetscErrorCode measure(Interface *interface, PetscBool *refused)
+{
+  ContactPart           *part = &interface->part;
+  stickslip_equilibrium *e    = &interface->equilibrium;
+  PetscReal              found[2] = {0, interface->largest_traction}; /* a refusal, the largest traction */
+
+  PetscFunctionBegin;
+  for (int pass = 0; pass < (interface->n_parts > 1 ? 2 : 1); pass++) {
+    *e = (stickslip_equilibrium){.struct_size = sizeof(*e), .modulus = interface->young, .least_traction = found[1]};
+    if (part->handle && !found[0]) {
+      found[0] = stickslip_interface_equilibrium(part->handle, STATE_OF(part), NULL, e) != 0;
+      found[1] = e->traction_scale;
+    }
+    PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, found, 2, MPIU_REAL, MPIU_MAX, PETSC_COMM_WORLD));
+  }
+  e->traction_scale = found[1];
+  *refused          = (PetscBool)(found[0] != 0);
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* At the place of the last evaluation. `stuck`: it is not, and iterations no longer change that. */
 PetscErrorCode equilibrium_judge(Contact *contact, PetscReal rtol, PetscBool *holds, PetscBool *stuck)
 {
   const PetscReal tolerance = PetscMax(OVER_FORCES * rtol, LEAST);
-  PetscReal       largest   = 0;
-  PetscInt        answer[2] = {1, 0};
+  Settling       *settling  = &contact->settling;
+  struct {
+    double ratio;
+    int    rank;
+  } largest = {.ratio = 0, .rank = contact->mesh->rank};
 
   PetscFunctionBegin;
-  for (PetscInt i = 0; i < contact->n_interfaces && contact->mesh->rank == 0; i++) {
-    Interface             *interface = &contact->interfaces[i];
-    stickslip_equilibrium *e         = &interface->equilibrium;
-    char                   words[256];
-    PetscReal              ratio;
-    *e = (stickslip_equilibrium){.struct_size    = sizeof(*e),
-                                 .modulus        = interface->young,
-                                 .least_traction = interface->largest_traction};
-    if (stickslip_interface_equilibrium(interface->handle, STATE_OF(interface), NULL, e)) {
-      answer[0] = 0;
-      continue;
-    }
-    if (within(tolerance, e)) continue;
-    answer[0] = 0;
-    ratio     = worst(tolerance, interface, words, sizeof(words));
-    if (ratio <= largest) continue;
-    largest = ratio;
-    snprintf(contact->settling.unsettled, sizeof(contact->settling.unsettled), "%s", words);
+  *holds = PETSC_TRUE;
+  *stuck = PETSC_FALSE;
+  for (PetscInt i = 0; i < contact->n_interfaces; i++) {
+    Interface *interface = &contact->interfaces[i];
+    char       words[256];
+    PetscReal  ratio;
+    PetscBool  refused = PETSC_FALSE;
+    PetscCall(measure(interface, &refused));
+    if (refused) *holds = PETSC_FALSE;
+    if (refused || !interface->part.handle || within(tolerance, &interface->equilibrium)) continue;
+    *holds = PETSC_FALSE;
+    ratio  = worst(tolerance, interface, words, sizeof(words));
+    if (ratio <= largest.ratio) continue;
+    largest.ratio = ratio;
+    snprintf(settling->unsettled, sizeof(settling->unsettled), "%s", words);
   }
-  if (contact->mesh->rank == 0 && !answer[0]) {
-    const PetscReal change = PetscAbsReal(largest - contact->settling.violation);
-    contact->settling.n_still  = change <= STANDS_STILL * largest ? contact->settling.n_still + 1 : 0;
-    contact->settling.violation = largest;
-    answer[1]               = contact->settling.n_still >= PATIENCE;
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, holds, 1, MPIU_BOOL, MPI_LAND, PETSC_COMM_WORLD));
+  if (*holds) {
+    settling->unsettled[0] = 0;
+    PetscFunctionReturn(PETSC_SUCCESS);
   }
-  PetscCallMPI(MPI_Bcast(answer, 2, MPIU_INT, 0, PETSC_COMM_WORLD));
-  *holds = (PetscBool)answer[0];
-  *stuck = (PetscBool)answer[1];
-  if (*holds) contact->settling.unsettled[0] = 0;
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_DOUBLE_INT, MPI_MAXLOC, PETSC_COMM_WORLD));
+  PetscCallMPI(MPI_Bcast(settling->unsettled, sizeof(settling->unsettled), MPI_CHAR, largest.rank, PETSC_COMM_WORLD));
+  settling->n_still = PetscAbsReal(largest.ratio - settling->violation) <= STANDS_STILL * largest.ratio ? settling->n_still + 1 : 0;
+  settling->violation = largest.ratio;
+  *stuck              = (PetscBool)(settling->n_still >= PATIENCE);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -94,7 +115,7 @@ void equilibrium_restart(Contact *contact)
 /* A step is accepted: its tractions count later on. */
 void equilibrium_accept(Contact *contact)
 {
-  for (PetscInt i = 0; i < contact->n_interfaces && contact->mesh->rank == 0; i++) {
+  for (PetscInt i = 0; i < contact->n_interfaces; i++) {
     Interface *interface        = &contact->interfaces[i];
     interface->largest_traction = PetscMax(interface->largest_traction, interface->equilibrium.traction_scale);
   }

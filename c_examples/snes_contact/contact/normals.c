@@ -19,10 +19,27 @@ PetscBool normals_follow(const Contact *contact)
 PetscErrorCode normals_use(Contact *contact, int32_t normals)
 {
   PetscFunctionBegin;
-  for (PetscInt i = 0; i < contact->n_interfaces && contact->mesh->rank == 0; i++) {
-    if (follows(&contact->interfaces[i]))
-      PetscCallStickslip(stickslip_interface_use_normals(contact->interfaces[i].handle, normals));
+  for (PetscInt i = 0; i < contact->n_interfaces; i++) {
+    if (follows(&contact->interfaces[i]) && contact->interfaces[i].part.handle)
+      PetscCallStickslip(stickslip_interface_use_normals(contact->interfaces[i].part.handle, normals));
   }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Turns a part's multipliers, on all ranks or on none. */
+static PetscErrorCode turn(Interface *interface, double multipliers[])
+{
+  ContactPart *part = &interface->part;
+  PetscInt     n = part->components * part->n1, refused = 0;
+  double      *given;
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(n, &given));
+  PetscCall(PetscArraycpy(given, multipliers, n));
+  if (part->handle) refused = stickslip_interface_turn_multipliers(part->handle, part->x, multipliers) != 0;
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &refused, 1, MPIU_INT, MPI_MAX, PETSC_COMM_WORLD));
+  if (refused) PetscCall(PetscArraycpy(multipliers, given, n));
+  PetscCall(parts_share(part, part->components, multipliers));
+  PetscCall(PetscFree(given));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -35,15 +52,12 @@ PetscErrorCode normals_turn_multipliers(Contact *contact, Vec x)
   if (!normals_follow(contact)) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(unknowns_to_local(physics, x));
   for (PetscInt i = 0; i < contact->n_interfaces; i++) {
-    Interface *interface = &contact->interfaces[i];
+    Interface   *interface = &contact->interfaces[i];
+    ContactPart *part      = &interface->part;
     if (!follows(interface)) continue;
     PetscCall(contact_gather(contact, interface, physics->u_local));
-    if (contact->mesh->rank == 0) {
-      double *of_x = MULTIPLIERS_OF(interface, interface->gathered);
-      (void)stickslip_interface_turn_multipliers(interface->handle, interface->x,
-                                                 contact->condensed ? interface->lambda_start : of_x);
-    }
-    if (!contact->condensed) PetscCall(contact_scatter(interface, interface->gathered, physics->u_local, MPI_REPLACE));
+    PetscCall(turn(interface, contact->condensed ? part->lambda_start : MULTIPLIERS_OF(part, part->gathered)));
+    if (!contact->condensed) PetscCall(contact_scatter(part, part->gathered, physics->u_local, MPI_REPLACE));
   }
   if (!contact->condensed) {
     PetscCall(DMLocalToGlobalBegin(contact->mesh->dm, physics->u_local, INSERT_VALUES, x));

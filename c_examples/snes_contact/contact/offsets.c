@@ -66,7 +66,7 @@ PetscErrorCode offsets_place(Scene *scene, const Mesh *mesh, Interface *interfac
   const PetscInt d       = interface->dimension;
   Extent         extent  = extent_of_nothing();
   PetscFunctionBegin;
-  PetscCall(PetscMalloc1(interface->n1, &offsets->nodal));
+  PetscCall(PetscCalloc2(interface->n1 + interface->n2, &offsets->nodal, interface->n1 + interface->n2, &offsets->round));
   for (PetscInt a = 0; a < interface->n1; a++) {
     offsets->nodal[a] = offsets->all;
     extent_add(&extent, mesh->coordinates + 3 * interface->nodes[a]);
@@ -89,48 +89,35 @@ PetscErrorCode offsets_place(Scene *scene, const Mesh *mesh, Interface *interfac
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The shape of a round side, where the library has the nodes: turned with the frame, from the interface's first node. */
-static int32_t shape_of(const Mesh *mesh, const Interface *interface, int side, double *values)
+/* Those of the nodes of a part, through an SF from rank 0's nodes to them. */
+PetscErrorCode offsets_fetch(PetscSF sf, Interface *interface)
 {
-  const Offsets  *round = &interface->offsets;
-  const PetscBool ring  = (PetscBool)(interface->options.model == STICKSLIP_MODEL_AXISYMMETRIC);
-  double          centre[3], axis[3];
-  for (int i = 0; i < 3; i++) {
-    centre[i] = round->centre[i];
-    axis[i]   = round->axis[i];
-  }
-  mesh_rotate_vector(mesh, centre);
-  mesh_rotate_vector(mesh, axis);
-  for (int i = 0; i < interface->dimension; i++)
-    centre[i] -= ring && i == 0 ? 0 : interface->X[i];
-  return stickslip_interface_shape_offsets(interface->handle, side, round->shape, round->radius[side], centre, axis, values);
+  Offsets       *offsets = &interface->offsets;
+  const PetscInt n       = interface->part.n1 + interface->part.n2;
+  PetscFunctionBegin;
+  if (!offsets->any) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PetscFree3(offsets->part_nodal, offsets->part_round, offsets->now)); /* of a part before */
+  PetscCall(PetscMalloc3(n, &offsets->part_nodal, n, &offsets->part_round, n, &offsets->now));
+  PetscCall(PetscSFBcastBegin(sf, MPI_DOUBLE, offsets->nodal, offsets->part_nodal, MPI_REPLACE));
+  PetscCall(PetscSFBcastEnd(sf, MPI_DOUBLE, offsets->nodal, offsets->part_nodal, MPI_REPLACE));
+  PetscCall(PetscSFBcastBegin(sf, MPI_DOUBLE, offsets->round, offsets->part_round, MPI_REPLACE));
+  PetscCall(PetscSFBcastEnd(sf, MPI_DOUBLE, offsets->round, offsets->part_round, MPI_REPLACE));
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* rank 0: what the facets of round sides need, once the handle is there. */
-int32_t offsets_create(const Mesh *mesh, Interface *interface)
-{
-  Offsets *offsets = &interface->offsets;
-  int32_t  refused = 0;
-  PetscCallAbort(PETSC_COMM_SELF, PetscCalloc3(interface->n1, &offsets->round[0], interface->n2, &offsets->round[1], interface->n1,
-                                               &offsets->now));
-  for (int side = 0; side < 2 && !refused; side++) {
-    if (offsets->radius[side] != 0) refused = shape_of(mesh, interface, side, offsets->round[side]);
-  }
-  return refused;
-}
-
-/* rank 0: those of time t, of any handle of the interface's. */
+/* Those of time t, of any handle of the interface's part. */
 int32_t offsets_set(const Interface *interface, stickslip_interface *handle, PetscReal t)
 {
-  const Offsets  *offsets = &interface->offsets;
-  const PetscReal factor  = offsets->curve.n ? curve_value(&offsets->curve, t) : 1;
+  const Offsets     *offsets = &interface->offsets;
+  const ContactPart *part    = &interface->part;
+  const PetscReal    factor  = offsets->curve.n ? curve_value(&offsets->curve, t) : 1;
   if (!offsets->any) return STICKSLIP_OK;
-  for (PetscInt a = 0; a < interface->n1; a++)
-    offsets->now[a] = factor * offsets->nodal[a] + offsets->round[0][a];
-  return stickslip_interface_set_offsets(handle, offsets->now, offsets->radius[1] != 0 ? offsets->round[1] : NULL);
+  for (PetscInt k = 0; k < part->n1 + part->n2; k++)
+    offsets->now[k] = factor * offsets->part_nodal[k] + offsets->part_round[k];
+  return stickslip_interface_set_offsets(handle, offsets->now, offsets->radius[1] != 0 ? offsets->now + part->n1 : NULL);
 }
 
-/* Those of time t, of all interfaces. */
+/* Those of time t, of all interfaces that change with it. */
 PetscErrorCode offsets_values(Contact *contact, PetscReal t, PetscInt *status)
 {
   PetscFunctionBegin;
@@ -139,9 +126,9 @@ PetscErrorCode offsets_values(Contact *contact, PetscReal t, PetscInt *status)
     Interface *interface = &contact->interfaces[i];
     int32_t    refused   = 0;
     if (!interface->offsets.any || !interface->offsets.curve.n) continue;
-    if (contact->mesh->rank == 0) refused = offsets_set(interface, interface->handle, t);
-    interface->planned = 0; /* other pairs may meet */
-    PetscCall(contact_agree(contact, refused, status));
+    if (interface->part.handle) refused = offsets_set(interface, interface->part.handle, t);
+    interface->part.planned = 0; /* other pairs may meet */
+    PetscCall(contact_agree(contact, interface, refused, status));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -150,8 +137,8 @@ PetscErrorCode offsets_destroy(Interface *interface)
 {
   Offsets *offsets = &interface->offsets;
   PetscFunctionBegin;
-  PetscCall(PetscFree3(offsets->round[0], offsets->round[1], offsets->now));
-  PetscCall(PetscFree(offsets->nodal));
+  PetscCall(PetscFree3(offsets->part_nodal, offsets->part_round, offsets->now));
+  PetscCall(PetscFree2(offsets->nodal, offsets->round));
   PetscCall(PetscFree(offsets->points));
   PetscCall(PetscFree(offsets->curve.points));
   PetscCall(PetscFree2(offsets->gaps, offsets->moved));

@@ -1,18 +1,18 @@
 /* Matrices that the library makes of the multipliers' rows: pieces of all interfaces, as matrices of the whole system. */
 #include "contact/contact.h"
 
-/* rank 0: entries of a matrix, in PETSc's integers */
+/* entries of a matrix, in PETSc's integers */
 typedef struct {
   PetscInt     n, capacity, *rows, *columns;
   PetscScalar *values;
 } Entries;
 
-/* rank 0: adds a piece of an interface's matrix to the entries */
-static PetscErrorCode add_piece(Interface *interface, int32_t piece, Entries *entries, int32_t *refused)
+/* adds a piece of a part's matrix to the entries */
+static PetscErrorCode add_piece(ContactPart *part, int32_t piece, Entries *entries, int32_t *refused)
 {
   int64_t count;
   PetscFunctionBegin;
-  PetscCall(contact_entries(interface, piece, &count, refused));
+  PetscCall(contact_entries(part, piece, &count, refused));
   if (*refused) PetscFunctionReturn(PETSC_SUCCESS);
   if (entries->n + count > entries->capacity) {
     Entries larger = {.n = entries->n, .capacity = (PetscInt)(2 * entries->capacity + count)};
@@ -24,9 +24,9 @@ static PetscErrorCode add_piece(Interface *interface, int32_t piece, Entries *en
     *entries = larger;
   }
   for (int64_t k = 0; k < count; k++) {
-    entries->rows[entries->n]     = (PetscInt)interface->coo_rows[k];
-    entries->columns[entries->n]  = (PetscInt)interface->coo_columns[k];
-    entries->values[entries->n++] = interface->coo_values[k];
+    entries->rows[entries->n]     = (PetscInt)part->coo_rows[k];
+    entries->columns[entries->n]  = (PetscInt)part->coo_columns[k];
+    entries->values[entries->n++] = part->coo_values[k];
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -39,10 +39,11 @@ PetscErrorCode condensed_piece(Contact *contact, int32_t piece, Mat like, Mat *m
   *matrix = NULL;
   *status = 0;
   for (PetscInt i = 0; i < contact->n_interfaces && !*status; i++) {
-    int32_t refused = 0;
-    PetscCall(contact_gather(contact, &contact->interfaces[i], contact->physics->u_local));
-    if (contact->mesh->rank == 0) PetscCall(add_piece(&contact->interfaces[i], piece, &entries, &refused));
-    PetscCall(contact_agree(contact, refused, status));
+    Interface *interface = &contact->interfaces[i];
+    int32_t    refused   = 0;
+    PetscCall(contact_gather(contact, interface, contact->physics->u_local));
+    if (interface->part.handle) PetscCall(add_piece(&interface->part, piece, &entries, &refused));
+    PetscCall(contact_agree(contact, interface, refused, status));
   }
   if (!*status) {
     PetscCall(MatGetLocalSize(like, &n, NULL));

@@ -1,43 +1,103 @@
 /* What the library says of the nodes: their states and results; and the augmentation that single nodes are given. */
 #include "contact/contact.h"
 
-/* vectors of the interface, as the library has them, each made of three components where it has two */
-static void widen(const Interface *interface, double vectors[])
-{
-  for (PetscInt a = interface->n1 - 1; a >= 0; a--) {
-    PetscReal v[3];
-    contact_vector(interface, vectors, a, v);
-    for (int i = 0; i < 3; i++)
-      vectors[3 * a + i] = v[i];
-  }
-}
+/* A node's results while they travel: state, normal, multiplier, gap, slip, coverage, area, dissipation. */
+enum { STATE, NORMAL, MULTIPLIER = NORMAL + 3, GAP = MULTIPLIER + 3, SLIP, COVERAGE = SLIP + 3, AREA, DISSIPATION, N_RESULTS };
 
-PetscErrorCode contact_states_create(const Interface *interface, ContactStates *states)
+/* results of the part's nodes, N_RESULTS a node */
+static PetscErrorCode evaluate(const ContactPart *part, double results[])
 {
-  const PetscInt     n1     = interface->n1;
-  const PetscScalar *lambda = MULTIPLIERS_OF(interface, interface->gathered);
+  const PetscInt     n1 = part->n1, d = part->dimension;
+  const PetscScalar *lambda = MULTIPLIERS_OF(part, part->gathered);
   stickslip_states   wanted = {.struct_size = sizeof(wanted)};
 
   PetscFunctionBegin;
-  PetscCall(PetscMalloc7(n1, &states->state, 3 * n1, &states->normal, n1, &states->gap, 3 * n1, &states->slip, n1,
-                         &states->coverage, n1, &states->area, n1, &states->dissipation));
-  PetscCall(PetscMalloc1(3 * n1, &states->multiplier));
-  wanted.state       = states->state;
-  wanted.normal      = states->normal;
-  wanted.gap         = states->gap;
-  wanted.slip        = states->slip;
-  wanted.coverage    = states->coverage;
-  wanted.area        = states->area;
-  wanted.dissipation = states->dissipation;
-  PetscCallStickslip(stickslip_interface_states(interface->handle, STATE_OF(interface), NULL, &wanted));
-  widen(interface, states->normal);
-  widen(interface, states->slip);
+  if (!part->handle) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PetscMalloc7(n1, &wanted.state, d * n1, &wanted.normal, n1, &wanted.gap, d * n1, &wanted.slip, n1,
+                         &wanted.coverage, n1, &wanted.area, n1, &wanted.dissipation));
+  PetscCallStickslip(stickslip_interface_states(part->handle, STATE_OF(part), NULL, &wanted));
   for (PetscInt a = 0; a < n1; a++) {
-    double *vector = states->multiplier + 3 * a;
-    if (interface->components > 1) contact_vector(interface, lambda, a, vector);
-    for (int i = 0; i < 3 && interface->components == 1; i++)
-      vector[i] = PetscRealPart(lambda[a]) * states->normal[3 * a + i];
+    double *r = results + N_RESULTS * a;
+    r[STATE]  = wanted.state[a];
+    contact_vector(d, wanted.normal, a, r + NORMAL);
+    contact_vector(d, wanted.slip, a, r + SLIP);
+    if (part->components > 1) contact_vector(d, lambda, a, r + MULTIPLIER);
+    for (int i = 0; i < 3 && part->components == 1; i++)
+      r[MULTIPLIER + i] = PetscRealPart(lambda[a]) * r[NORMAL + i];
+    r[GAP]         = wanted.gap[a];
+    r[COVERAGE]    = wanted.coverage[a];
+    r[AREA]        = wanted.area[a];
+    r[DISSIPATION] = wanted.dissipation[a];
   }
+  PetscCall(PetscFree7(wanted.state, wanted.normal, wanted.gap, wanted.slip, wanted.coverage, wanted.area,
+                       wanted.dissipation));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* rank 0: the results of all nodes in their arrays */
+static PetscErrorCode store(const double results[], PetscInt n1, ContactStates *states)
+{
+  PetscFunctionBegin;
+  if (!states->state) {
+    PetscCall(PetscMalloc7(n1, &states->state, 3 * n1, &states->normal, n1, &states->gap, 3 * n1, &states->slip, n1,
+                           &states->coverage, n1, &states->area, n1, &states->dissipation));
+    PetscCall(PetscMalloc1(3 * n1, &states->multiplier));
+  }
+  for (PetscInt a = 0; a < n1; a++) {
+    const double *r        = results + N_RESULTS * a;
+    states->state[a]       = (int32_t)r[STATE];
+    states->gap[a]         = r[GAP];
+    states->coverage[a]    = r[COVERAGE];
+    states->area[a]        = r[AREA];
+    states->dissipation[a] = r[DISSIPATION];
+    PetscCall(PetscArraycpy(states->normal + 3 * a, r + NORMAL, 3));
+    PetscCall(PetscArraycpy(states->multiplier + 3 * a, r + MULTIPLIER, 3));
+    PetscCall(PetscArraycpy(states->slip + 3 * a, r + SLIP, 3));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode contact_collect(Contact *contact)
+{
+  Physics *physics = contact->physics;
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < contact->n_interfaces; i++) {
+    Interface         *interface = &contact->interfaces[i];
+    const ContactPart *part      = &interface->part;
+    double            *here, *all;
+    PetscCall(PetscMalloc2(N_RESULTS * part->n1, &here, N_RESULTS * interface->n1, &all));
+    PetscCall(evaluate(part, here));
+    PetscCall(parts_collect(part, N_RESULTS, here, all));
+    if (contact->mesh->rank == 0) PetscCall(store(all, interface->n1, &interface->states));
+    PetscCall(PetscFree2(here, all));
+    PetscCall(contact_fetch(interface->sf, physics->u_local, interface->displacements));
+    PetscCall(VecZeroEntries(physics->f_sum));
+    PetscCall(contact_scatter(part, part->forces, physics->f_sum, MPIU_SUM));
+    PetscCall(contact_fetch(interface->sf, physics->f_sum, interface->forces));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* of a part's nodes: state, and the tangential part of the projected traction */
+static PetscErrorCode tendencies(const ContactPart *part, double results[])
+{
+  const PetscInt   n1 = part->n1, d = part->dimension;
+  stickslip_states wanted = {.struct_size = sizeof(wanted)};
+  PetscFunctionBegin;
+  if (!part->handle) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PetscMalloc3(n1, &wanted.state, d * n1, &wanted.traction, d * n1, &wanted.normal));
+  PetscCallStickslip(stickslip_interface_states(part->handle, STATE_OF(part), NULL, &wanted));
+  for (PetscInt a = 0; a < n1; a++) {
+    double n[3], t[3], p;
+    contact_vector(d, wanted.normal, a, n);
+    contact_vector(d, wanted.traction, a, t);
+    p = t[0] * n[0] + t[1] * n[1] + t[2] * n[2];
+    /* no multiplier: it acts on nothing */
+    results[4 * a] = part->removed[a] == 7 ? STICKSLIP_STATE_GAP : wanted.state[a];
+    for (int k = 0; k < 3; k++)
+      results[4 * a + 1 + k] = t[k] - p * n[k];
+  }
+  PetscCall(PetscFree3(wanted.state, wanted.traction, wanted.normal));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -47,50 +107,65 @@ PetscErrorCode contact_tendencies(Contact *contact, int32_t *state, double *tang
 {
   PetscFunctionBegin;
   for (PetscInt i = 0; i < contact->n_interfaces; i++) {
-    Interface       *interface = &contact->interfaces[i];
-    stickslip_states wanted    = {.struct_size = sizeof(wanted), .state = state, .traction = tangential};
-    double          *normal;
+    Interface         *interface = &contact->interfaces[i];
+    const ContactPart *part      = &interface->part;
+    double            *here, *all;
     PetscCall(contact_gather(contact, interface, contact->physics->u_local));
-    if (contact->mesh->rank) continue;
-    PetscCall(PetscMalloc1(3 * interface->n1, &normal));
-    wanted.normal = normal;
-    PetscCallStickslip(stickslip_interface_states(interface->handle, STATE_OF(interface), NULL, &wanted));
-    widen(interface, tangential);
-    widen(interface, normal);
-    for (PetscInt a = 0; a < interface->n1; a++, tangential += 3) {
-      const double *n = normal + 3 * a, p = tangential[0] * n[0] + tangential[1] * n[1] + tangential[2] * n[2];
+    PetscCall(PetscMalloc2(4 * part->n1, &here, 4 * interface->n1, &all));
+    PetscCall(tendencies(part, here));
+    PetscCall(parts_collect(part, 4, here, all));
+    for (PetscInt a = 0; a < interface->n1; a++) {
+      *state++ = (int32_t)all[4 * a];
       for (int k = 0; k < 3; k++)
-        tangential[k] -= p * n[k];
-      if (interface->removed[a] == 7) state[a] = STICKSLIP_STATE_GAP; /* no multiplier: it acts on nothing */
+        *tangential++ = all[4 * a + 1 + k];
     }
-    PetscCall(PetscFree(normal));
-    state += interface->n1;
+    PetscCall(PetscFree2(here, all));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The augmentation of the nodes marked (rank 0; all interfaces, one after the other) times `factor`; NULL: back to the
- * scene's. The answer does not depend on it. */
+/* The augmentation of an interface's nodes that rank 0 has marked, times `factor`. */
+static PetscErrorCode scale_augmentation(const Interface *interface, const PetscBool marked[], PetscReal factor)
+{
+  const ContactPart *part   = &interface->part;
+  stickslip_states   wanted = {.struct_size = sizeof(wanted)};
+  double            *r, *all, *here;
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc3(part->n1, &r, part->n1, &here, interface->n1, &all));
+  for (PetscInt a = 0; a < interface->n1; a++)
+    all[a] = marked[a] ? factor : 1;
+  PetscCall(parts_send(part, 1, all, here));
+  wanted.augmentation = r;
+  if (part->handle) PetscCallStickslip(stickslip_interface_states(part->handle, STATE_OF(part), NULL, &wanted));
+  for (PetscInt a = 0; a < part->n1; a++) {
+    if (part->owned[a] == STICKSLIP_NODE_OWN) r[a] *= here[a];
+  }
+  PetscCall(parts_share(part, 1, r));
+  if (part->handle) PetscCallStickslip(stickslip_interface_set_augmentation(part->handle, r));
+  PetscCall(PetscFree3(r, here, all));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The augmentation of the nodes marked (rank 0; all interfaces, one after the other) times `factor`. The answer does not
+ * depend on it. */
 PetscErrorCode contact_scale_augmentation(Contact *contact, const PetscBool *marked, PetscReal factor)
 {
+  PetscInt first = 0;
   PetscFunctionBegin;
-  for (PetscInt i = 0; i < contact->n_interfaces && contact->mesh->rank == 0; i++) {
-    Interface       *interface = &contact->interfaces[i];
-    stickslip_states wanted    = {.struct_size = sizeof(wanted)};
-    double          *r;
-    if (!marked) {
-      PetscCallStickslip(stickslip_interface_set_augmentation(interface->handle, NULL));
-      continue;
-    }
-    PetscCall(PetscMalloc1(interface->n1, &r));
-    wanted.augmentation = r;
-    PetscCallStickslip(stickslip_interface_states(interface->handle, STATE_OF(interface), NULL, &wanted));
-    for (PetscInt a = 0; a < interface->n1; a++) {
-      if (marked[a]) r[a] *= factor;
-    }
-    PetscCallStickslip(stickslip_interface_set_augmentation(interface->handle, r));
-    PetscCall(PetscFree(r));
-    marked += interface->n1;
+  for (PetscInt i = 0; i < contact->n_interfaces; i++) {
+    PetscCall(scale_augmentation(&contact->interfaces[i], marked ? marked + first : NULL, factor));
+    first += contact->interfaces[i].n1;
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Back to the scene's. */
+PetscErrorCode contact_reset_augmentation(Contact *contact)
+{
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < contact->n_interfaces; i++) {
+    if (contact->interfaces[i].part.handle)
+      PetscCallStickslip(stickslip_interface_set_augmentation(contact->interfaces[i].part.handle, NULL));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

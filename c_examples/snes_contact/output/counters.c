@@ -4,52 +4,118 @@
 #include <cjson/cJSON.h>
 #include <time.h>
 
-/* rank 0: one interface's counters; its seconds are added to `sum` */
-static PetscErrorCode interface_counters(const Interface *interface, cJSON *parent, stickslip_counters *sum)
-{
-  stickslip_counters counters = {.struct_size = sizeof(counters)};
-  char               effects[1024], cover[1024];
-  stickslip_report   report = {.struct_size = sizeof(report), .text = cover, .text_capacity = sizeof(cover)};
-  cJSON             *json;
+/* What one rank has done for an interface, and what it holds of it. */
+typedef struct {
+  stickslip_counters counters;
+  int64_t            bytes, nodes, nodes_held, facets, facets_mortar;
+  char               effects[1024];
+} Share;
 
+static PetscErrorCode count(const ContactPart *part, Share *share)
+{
   PetscFunctionBegin;
-  if (!interface->handle) PetscFunctionReturn(PETSC_SUCCESS); /* the library refused to create it */
-  PetscCallStickslip(stickslip_interface_counters(interface->handle, &counters));
-  PetscCallStickslip(stickslip_interface_effects(interface->handle, effects, sizeof(effects)));
+  *share                      = (Share){.bytes = part->bytes, .nodes_held = part->n1};
+  share->counters.struct_size = sizeof(share->counters);
+  share->facets               = part->n_facets[0];
+  share->facets_mortar        = part->n_facets[1];
+  for (PetscInt a = 0; a < part->n1; a++)
+    share->nodes += part->owned[a] == STICKSLIP_NODE_OWN;
+  if (!part->handle) PetscFunctionReturn(PETSC_SUCCESS); /* nothing is owned here, or the library refused to create it */
+  PetscCallStickslip(stickslip_interface_counters(part->handle, &share->counters));
+  PetscCallStickslip(stickslip_interface_effects(part->handle, share->effects, sizeof(share->effects)));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Per rank, where there are several parts: what it has counted and what it holds. Parts overlap, so that their sums are
+ * larger than what one rank would count. */
+static void add_shares(cJSON *json, PetscMPIInt size, const Share *shares)
+{
+  cJSON *ranks = cJSON_AddArrayToObject(json, "ranks");
+  for (PetscMPIInt r = 0; r < size; r++) {
+    const Share *share = &shares[r];
+    cJSON       *rank  = cJSON_CreateObject();
+    cJSON_AddNumberToObject(rank, "nodes", (double)share->nodes);
+    cJSON_AddNumberToObject(rank, "nodes_held", (double)share->nodes_held);
+    cJSON_AddNumberToObject(rank, "facets_held", (double)share->facets);
+    cJSON_AddNumberToObject(rank, "mortar_facets_held", (double)share->facets_mortar);
+    cJSON_AddNumberToObject(rank, "bytes", (double)share->bytes);
+    cJSON_AddNumberToObject(rank, "pairs_active", (double)share->counters.pairs_active);
+    cJSON_AddNumberToObject(rank, "pairs_integrated", (double)share->counters.pairs_integrated);
+    cJSON_AddNumberToObject(rank, "pairs_linearised", (double)share->counters.pairs_linearised);
+    cJSON_AddNumberToObject(rank, "seconds",
+                            share->counters.seconds_search + share->counters.seconds_integration +
+                              share->counters.seconds_assembly);
+    cJSON_AddItemToArray(ranks, rank);
+  }
+}
+
+/* rank 0: one interface's counters, those of all ranks added; its seconds are added to `sum` */
+static void add_counters(const Interface *interface, const char *cover, PetscMPIInt size, const Share *shares,
+                         cJSON *parent, stickslip_counters *sum)
+{
+  cJSON      *json    = NULL;
+  double      number  = 0;
+  const char *effects = "";
+
+  for (PetscMPIInt r = size - 1; r >= 0; r--)
+    if (shares[r].effects[0]) effects = shares[r].effects;
+  if (!effects[0]) return;
   json = cJSON_AddObjectToObject(parent, interface->name);
   cJSON_AddStringToObject(json, "effects", effects);
-  /* after the counters, which it adds to; a run that ended beyond what can be computed has none */
-  if (!stickslip_interface_report(interface->handle, interface->x, MORTAR_OF(interface, interface->x), &report))
-    cJSON_AddStringToObject(json, "cover", cover);
-#define ADD(member) cJSON_AddNumberToObject(json, #member, (double)counters.member)
-  ADD(multipliers);
-  cJSON_AddNumberToObject(json, "bytes", (double)interface->bytes);
-  ADD(pairs_tested);
-  ADD(pairs_clipped);
-  ADD(pairs_integrated);
-  ADD(pairs_linearised);
-  ADD(pairs_reused);
-  ADD(pairs_active);
-  ADD(searches);
-  ADD(boxes_visited);
-  ADD(nodes_slipping);
-  ADD(nodes_evaluated);
-  ADD(nodes_frictional);
-  ADD(nodes_frictionless);
-  ADD(nodes_new);
-  ADD(nodes_tied);
-  ADD(nodes_carried);
-  ADD(nodes_uncovered);
-  ADD(nodes_left_out);
-  ADD(evaluations_apart);
-  ADD(commits_apart);
-  ADD(seconds_search);
-  ADD(seconds_integration);
-  ADD(seconds_assembly);
+  if (cover[0]) cJSON_AddStringToObject(json, "cover", cover);
+#define ADD(member, of)                                                                                                \
+  do {                                                                                                                 \
+    number = 0;                                                                                                        \
+    for (PetscMPIInt r = 0; r < size; r++)                                                                             \
+      number += (double)shares[r].of;                                                                                  \
+    cJSON_AddNumberToObject(json, #member, number);                                                                    \
+  } while (0)
+  ADD(multipliers, counters.multipliers);
+  ADD(bytes, bytes);
+  ADD(pairs_tested, counters.pairs_tested);
+  ADD(pairs_clipped, counters.pairs_clipped);
+  ADD(pairs_integrated, counters.pairs_integrated);
+  ADD(pairs_linearised, counters.pairs_linearised);
+  ADD(pairs_reused, counters.pairs_reused);
+  ADD(pairs_active, counters.pairs_active);
+  ADD(searches, counters.searches);
+  ADD(boxes_visited, counters.boxes_visited);
+  ADD(nodes_slipping, counters.nodes_slipping);
+  ADD(nodes_evaluated, counters.nodes_evaluated);
+  ADD(nodes_frictional, counters.nodes_frictional);
+  ADD(nodes_frictionless, counters.nodes_frictionless);
+  ADD(nodes_new, counters.nodes_new);
+  ADD(nodes_tied, counters.nodes_tied);
+  ADD(nodes_carried, counters.nodes_carried);
+  ADD(nodes_uncovered, counters.nodes_uncovered);
+  ADD(nodes_left_out, counters.nodes_left_out);
+  ADD(evaluations_apart, counters.evaluations_apart);
+  ADD(commits_apart, counters.commits_apart);
+  ADD(seconds_search, counters.seconds_search);
+  sum->seconds_search += number;
+  ADD(seconds_integration, counters.seconds_integration);
+  sum->seconds_integration += number;
+  ADD(seconds_assembly, counters.seconds_assembly);
+  sum->seconds_assembly += number;
 #undef ADD
-  sum->seconds_search += counters.seconds_search;
-  sum->seconds_integration += counters.seconds_integration;
-  sum->seconds_assembly += counters.seconds_assembly;
+  if (interface->n_parts > 1) add_shares(json, size, shares);
+}
+
+static PetscErrorCode interface_counters(const Interface *interface, PetscMPIInt rank, cJSON *parent, stickslip_counters *sum)
+{
+  Share        mine, *shares = NULL;
+  ContactCover cover;
+  PetscMPIInt  size;
+
+  PetscFunctionBegin;
+  PetscCallMPI(MPI_Comm_size(PETSC_COMM_WORLD, &size));
+  PetscCall(count(&interface->part, &mine));
+  /* after the counters, which it adds to; a run that ended beyond what can be computed has none */
+  PetscCall(contact_cover(interface, interface->part.handle, rank, &cover));
+  if (rank == 0) PetscCall(PetscMalloc1(size, &shares));
+  PetscCallMPI(MPI_Gather(&mine, sizeof(mine), MPI_BYTE, shares, sizeof(mine), MPI_BYTE, 0, PETSC_COMM_WORLD));
+  if (rank == 0) add_counters(interface, cover.text, size, shares, parent, sum);
+  PetscCall(PetscFree(shares));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -61,8 +127,8 @@ PetscErrorCode summary_counters(Output *output, cJSON *root)
   cJSON             *interfaces = cJSON_AddObjectToObject(root, "interfaces"), *seconds;
 
   PetscFunctionBegin;
-  for (PetscInt i = 0; i < contact->n_interfaces && output->mesh->rank == 0; i++)
-    PetscCall(interface_counters(&contact->interfaces[i], interfaces, &sum));
+  for (PetscInt i = 0; i < contact->n_interfaces; i++)
+    PetscCall(interface_counters(&contact->interfaces[i], output->mesh->rank, interfaces, &sum));
   PetscCall(PetscTime(&now));
   if (output->solve->linear.kind == SOLVER_ITERATIVE) {
     const Linear *linear = &output->solve->linear;

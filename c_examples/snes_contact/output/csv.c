@@ -23,9 +23,9 @@ PetscErrorCode csv_write(Output *output, const Interface *interface, const Conta
     const double *n = states->normal + 3 * a, *lambda = states->multiplier + 3 * a, *slip = states->slip + 3 * a;
     const double *traction = tractions + 3 * a;
     double        lambda_n = 0, pressure = 0, values[23], X[3], u[3], force[3], *v = values;
-    contact_vector(interface, interface->X, a, X);
-    contact_vector(interface, interface->gathered, a, u);
-    contact_vector(interface, interface->forces, a, force);
+    contact_vector(interface->dimension, interface->X, a, X);
+    contact_vector(interface->dimension, interface->displacements, a, u);
+    contact_vector(interface->dimension, interface->forces, a, force);
     for (int i = 0; i < 3; i++) {
       lambda_n += lambda[i] * n[i];
       pressure += traction[i] * n[i];
@@ -78,7 +78,7 @@ PetscErrorCode csv_adjusted(Output *output, const Interface *interface)
   fprintf(file, "node,X,Y,Z,gap,adjusted\n");
   for (PetscInt a = 0; a < interface->n1; a++) {
     double X[3];
-    contact_vector(interface, interface->X, a, X);
+    contact_vector(interface->dimension, interface->X, a, X);
     fprintf(file, "%d,%.17g,%.17g,%.17g,%.17g,%s\n", (int)interface->nodes[a], X[0], X[1], X[2], offsets->gaps[a],
             done[offsets->moved[a]]);
     count[offsets->moved[a]]++;

@@ -70,25 +70,23 @@ static PetscErrorCode interface_results(Output *output, Interface *interface, Pe
 {
   PetscInt      counts[3] = {0, 0, 0};
   PetscReal     force[3]  = {0, 0, 0}, nodal[3];
-  ContactStates states;
+  const ContactStates *states = &interface->states;
   cJSON        *json = cJSON_AddObjectToObject(parent, interface->name);
 
   PetscFunctionBegin;
-  PetscCall(contact_states_create(interface, &states));
   for (PetscInt a = 0; a < interface->n1; a++) {
-    if (!interface->middle[a]) counts[states.state[a]]++;
-    contact_vector(interface, interface->forces, a, nodal);
+    if (!interface->middle[a]) counts[states->state[a]]++;
+    contact_vector(interface->dimension, interface->forces, a, nodal);
     for (int i = 0; i < 3; i++)
       force[i] -= nodal[i]; /* f1 is an internal force */
-    interface->friction_work += states.dissipation[a];
+    interface->friction_work += states->dissipation[a];
   }
   *work += interface->friction_work;
   cJSON_AddItemToObject(json, "force", vector_json(force));
   cJSON_AddNumberToObject(json, "gap", counts[STICKSLIP_STATE_GAP]);
   cJSON_AddNumberToObject(json, "stick", counts[STICKSLIP_STATE_STICK]);
   cJSON_AddNumberToObject(json, "slip", counts[STICKSLIP_STATE_SLIP]);
-  if (write) PetscCall(csv_write(output, interface, &states, step));
-  PetscCall(contact_states_destroy(&states));
+  if (write) PetscCall(csv_write(output, interface, states, step));
   snprintf(progress, length, "  %s %d gap %d stick %d slip", interface->name, (int)counts[STICKSLIP_STATE_GAP],
            (int)counts[STICKSLIP_STATE_STICK], (int)counts[STICKSLIP_STATE_SLIP]);
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -211,6 +209,7 @@ PetscErrorCode summary_step(Output *output, Summary *summary, PetscInt step, Pet
   cJSON_AddNumberToObject(json, "external_work_half_fu", half_fu);
   PetscCall(add_reactions(output, json));
   PetscCall(gather_displacements(output, &displacements));
+  PetscCall(contact_collect(contact));
   if (output->mesh->rank == 0) {
     interfaces = cJSON_AddObjectToObject(json, "interfaces");
     for (PetscInt i = 0; i < contact->n_interfaces; i++) {

@@ -43,7 +43,7 @@ PetscErrorCode nodal_tractions(const Mesh *mesh, const Interface *interface, con
   PetscCall(find_corners(mesh, interface, n, corners));
   for (PetscInt a = 0; a < interface->n1; a++) {
     area[a] = states->coverage[a] > 0 ? states->coverage[a] : states->area[a];
-    contact_vector(interface, interface->forces, a, tractions + 3 * a);
+    contact_vector(interface->dimension, interface->forces, a, tractions + 3 * a);
     for (int i = 0; i < 3; i++)
       tractions[3 * a + i] = -tractions[3 * a + i];
   }

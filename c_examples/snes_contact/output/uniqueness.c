@@ -51,32 +51,30 @@ static PetscErrorCode judge(const Interface *interface, Mat stiffness, PetscInt 
                             cJSON *parent)
 {
   static const char *const names[] = {"gap", "stick", "slip"};
-  ContactStates            states;
+  const ContactStates     *states = &interface->states;
   PetscInt                 worst = -1;
   double                   least = PETSC_MAX_REAL;
 
   PetscFunctionBegin;
-  PetscCall(contact_states_create(interface, &states));
   for (PetscInt a = 0; a < interface->n1; a++) {
     double critical;
-    if (!(states.coverage[a] > 0)) continue;
-    PetscCall(critical_friction(interface, a, states.normal + 3 * a, stiffness, n_rows, sorted, &critical));
+    if (!(states->coverage[a] > 0)) continue;
+    PetscCall(critical_friction(interface, a, states->normal + 3 * a, stiffness, n_rows, sorted, &critical));
     if (critical < least) least = critical, worst = a;
   }
   if (worst >= 0 && interface->options.mu >= least) {
     PetscReal X[3];
     cJSON    *json = cJSON_AddObjectToObject(parent, interface->name);
-    contact_vector(interface, interface->X, worst, X);
+    contact_vector(interface->dimension, interface->X, worst, X);
     cJSON_AddNumberToObject(json, "critical_friction", least);
     cJSON_AddNumberToObject(json, "node", interface->nodes[worst]);
-    cJSON_AddStringToObject(json, "state", names[states.state[worst]]);
+    cJSON_AddStringToObject(json, "state", names[states->state[worst]]);
     PetscCall(PetscFPrintf(PETSC_COMM_SELF, PETSC_STDERR,
                            "%s: with friction %g, not below %.3g, node %d at (%g, %g, %g) may have several states of "
                            "rest under one load; it ended in %s\n",
                            interface->name, interface->options.mu, least, (int)interface->nodes[worst], (double)X[0],
-                           (double)X[1], (double)X[2], names[states.state[worst]]));
+                           (double)X[1], (double)X[2], names[states->state[worst]]));
   }
-  PetscCall(contact_states_destroy(&states));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -89,7 +87,6 @@ static PetscErrorCode check_interface(Output *output, Interface *interface, Mat 
   IS              is;
 
   PetscFunctionBegin;
-  PetscCall(contact_gather(output->contact, interface, output->physics->u_local));
   PetscCall(PetscMalloc1(interface->dimension * interface->n1, &rows));
   for (PetscInt k = 0; k < interface->dimension * interface->n1 && mesh->rank == 0; k++) {
     if (interface->equations[k] >= 0) rows[n++] = (PetscInt)interface->equations[k];
@@ -122,6 +119,9 @@ PetscErrorCode uniqueness_check(Output *output, Vec x, cJSON *root)
   if (!needed) PetscFunctionReturn(PETSC_SUCCESS);
   json = cJSON_AddObjectToObject(root, "several_states");
   PetscCall(unknowns_to_local(physics, x));
+  for (PetscInt i = 0; i < contact->n_interfaces; i++)
+    PetscCall(contact_gather(contact, &contact->interfaces[i], physics->u_local));
+  PetscCall(contact_collect(contact));
   PetscCall(MatDuplicate(output->solve->pattern, MAT_DO_NOT_COPY_VALUES, &stiffness));
   PetscCall(bulk_stiffness(physics, stiffness, &inverted));
   PetscCall(MatAssemblyBegin(stiffness, MAT_FINAL_ASSEMBLY));

@@ -21,21 +21,20 @@ static PetscErrorCode interface_fields(FILE *file, const Mesh *mesh, const Inter
   PetscScalar   *field;
   PetscInt      *state;
   double        *tractions;
-  ContactStates  states;
+  const ContactStates *states = &interface->states;
   char           name[2 * NAME_LENGTH];
 
   PetscFunctionBegin;
   PetscCall(PetscCalloc2(3 * mesh->n_vertices, &field, mesh->n_vertices, &state));
-  PetscCall(contact_states_create(interface, &states));
   for (PetscInt k = 0; k < 3 * interface->n1; k++)
-    field[3 * interface->nodes[k / 3] + k % 3] = states.multiplier[k];
+    field[3 * interface->nodes[k / 3] + k % 3] = states->multiplier[k];
   PetscCall(PetscSNPrintf(name, sizeof(name), "multiplier_%s", interface->name));
   vtu_vectors(file, name, mesh->n_vertices, field);
 
   PetscCall(PetscArrayzero(field, 3 * mesh->n_vertices));
   for (PetscInt a = 0; a < n_both; a++) {
     PetscReal force[3];
-    contact_vector(interface, interface->forces, a, force);
+    contact_vector(interface->dimension, interface->forces, a, force);
     for (int i = 0; i < 3; i++)
       field[3 * interface->nodes[a] + i] = -force[i];
   }
@@ -44,7 +43,7 @@ static PetscErrorCode interface_fields(FILE *file, const Mesh *mesh, const Inter
 
   PetscCall(PetscArrayzero(field, 3 * mesh->n_vertices));
   PetscCall(PetscMalloc1(3 * interface->n1, &tractions));
-  PetscCall(nodal_tractions(mesh, interface, &states, tractions));
+  PetscCall(nodal_tractions(mesh, interface, states, tractions));
   for (PetscInt k = 0; k < 3 * interface->n1; k++)
     field[3 * interface->nodes[k / 3] + k % 3] = tractions[k];
   PetscCall(PetscSNPrintf(name, sizeof(name), "traction_%s", interface->name));
@@ -52,7 +51,7 @@ static PetscErrorCode interface_fields(FILE *file, const Mesh *mesh, const Inter
 
   PetscCall(PetscArrayzero(field, mesh->n_vertices));
   for (PetscInt k = 0; k < 3 * interface->n1; k++)
-    field[interface->nodes[k / 3]] += tractions[k] * states.normal[k];
+    field[interface->nodes[k / 3]] += tractions[k] * states->normal[k];
   PetscCall(PetscFree(tractions));
   PetscCall(PetscSNPrintf(name, sizeof(name), "pressure_%s", interface->name));
   vtu_start_array(file, "Float64", name, 1);
@@ -63,8 +62,7 @@ static PetscErrorCode interface_fields(FILE *file, const Mesh *mesh, const Inter
   for (PetscInt v = 0; v < mesh->n_vertices; v++)
     state[v] = -1;
   for (PetscInt a = 0; a < interface->n1; a++)
-    state[interface->nodes[a]] = states.state[a];
-  PetscCall(contact_states_destroy(&states));
+    state[interface->nodes[a]] = states->state[a];
   PetscCall(PetscSNPrintf(name, sizeof(name), "state_%s", interface->name));
   vtu_start_array(file, "Int32", name, 1);
   for (PetscInt v = 0; v < mesh->n_vertices; v++)

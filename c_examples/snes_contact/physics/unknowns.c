@@ -1,5 +1,5 @@
-/* The PetscSection of displacements and multipliers, equation numbers, and the map that brings entries of all ranks to
- * rank 0. */
+/* The PetscSection of displacements and multipliers, equation numbers, and maps that bring entries of all ranks to the
+ * ranks that ask for them. */
 #include "physics/physics.h"
 
 /* Fields of a vertex, which is a point of the DMPlex, follow each other; `mask` bit i set: component i is prescribed
@@ -142,30 +142,63 @@ static PetscErrorCode collect_owners(Physics *physics)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Leaves on rank 0: the first components[b] entries of fields[b] of every vertex in vertices[b], block after block. */
+/* Of vertices of the mesh: which rank owns each, and where its fields lie there. `entries`: 2 + n_fields a vertex. */
+static PetscErrorCode look_up(const Physics *physics, PetscInt n, const PetscInt vertices[], PetscInt entries[])
+{
+  const Unknowns *unknowns = &physics->unknowns;
+  const Mesh     *mesh     = physics->mesh;
+  MPI_Datatype    entry;
+  PetscSFNode    *remote;
+  PetscSF         directory;
+
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(n, &remote));
+  for (PetscInt k = 0; k < n; k++)
+    remote[k] = (PetscSFNode){.rank = 0, .index = vertices[k]};
+  PetscCall(PetscSFCreate(PETSC_COMM_WORLD, &directory));
+  PetscCall(PetscSFSetGraph(directory, mesh->rank ? 0 : mesh->n_vertices, n, NULL, PETSC_OWN_POINTER, remote,
+                            PETSC_OWN_POINTER));
+  PetscCallMPI(MPI_Type_contiguous((PetscMPIInt)(2 + unknowns->n_fields), MPIU_INT, &entry));
+  PetscCallMPI(MPI_Type_commit(&entry));
+  PetscCall(PetscSFBcastBegin(directory, entry, unknowns->owner, entries, MPI_REPLACE));
+  PetscCall(PetscSFBcastEnd(directory, entry, unknowns->owner, entries, MPI_REPLACE));
+  PetscCallMPI(MPI_Type_free(&entry));
+  PetscCall(PetscSFDestroy(&directory));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Leaves on each rank that asks for any: the first components[b] entries of fields[b] of every vertex in vertices[b], block
+ * after block. */
 PetscErrorCode unknowns_gather_create(Physics *physics, PetscInt n, const PetscInt *n_vertices,
                                       const PetscInt *const *vertices, const PetscInt *fields, const PetscInt *components,
                                       PetscSF *sf)
 {
   Unknowns      *unknowns = &physics->unknowns;
-  const Mesh    *mesh     = physics->mesh;
   const PetscInt width    = 2 + unknowns->n_fields;
-  PetscInt       n_leaves = 0;
+  PetscInt       n_leaves = 0, n_asked = 0, *asked, *entries;
   PetscSFNode   *remote;
 
   PetscFunctionBegin;
-  for (PetscInt b = 0; b < n && mesh->rank == 0; b++)
+  for (PetscInt b = 0; b < n; b++) {
     n_leaves += components[b] * n_vertices[b];
+    n_asked += n_vertices[b];
+  }
   PetscCall(PetscMalloc1(n_leaves, &remote));
-  for (PetscInt b = 0, leaf = 0; b < n && mesh->rank == 0; b++) {
-    for (PetscInt k = 0; k < n_vertices[b]; k++) {
-      const PetscInt *entry = unknowns->owner + width * (vertices[b] ? vertices[b][k] : k);
+  PetscCall(PetscMalloc2(n_asked, &asked, width * n_asked, &entries));
+  for (PetscInt b = 0, k = 0; b < n; b++) {
+    for (PetscInt v = 0; v < n_vertices[b]; v++)
+      asked[k++] = vertices[b] ? vertices[b][v] : v;
+  }
+  PetscCall(look_up(physics, n_asked, asked, entries));
+  for (PetscInt b = 0, leaf = 0, k = 0; b < n; b++) {
+    for (PetscInt v = 0; v < n_vertices[b]; v++, k++) {
       for (int i = 0; i < components[b]; i++, leaf++) {
-        remote[leaf].rank  = entry[0];
-        remote[leaf].index = entry[1 + fields[b]] + i;
+        remote[leaf].rank  = entries[width * k];
+        remote[leaf].index = entries[width * k + 1 + fields[b]] + i;
       }
     }
   }
+  PetscCall(PetscFree2(asked, entries));
   PetscCall(PetscSFCreate(PETSC_COMM_WORLD, sf));
   PetscCall(PetscSFSetGraph(*sf, unknowns->n_local, n_leaves, NULL, PETSC_OWN_POINTER, remote, PETSC_OWN_POINTER));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -194,32 +194,6 @@ PetscErrorCode closing_shift(Solve *solve, Mat matrix)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The fraction of a step that one interface allows, known to every rank; `step`: local, what the displacements gain. */
-static PetscErrorCode interface_limit(Solve *solve, Interface *interface, Vec step, PetscReal *fraction)
-{
-  const PetscInt     all = interface->dimension * (interface->n1 + interface->n2) + interface->components * interface->n1;
-  const PetscInt     n   = solve->mesh->rank ? 0 : all;
-  const PetscScalar *array;
-  PetscScalar       *dx;
-
-  PetscFunctionBegin;
-  PetscCall(contact_gather(solve->contact, interface, solve->physics->u_local));
-  PetscCall(PetscMalloc1(n, &dx));
-  PetscCall(VecGetArrayRead(step, &array));
-  PetscCall(PetscSFBcastBegin(interface->sf, MPIU_SCALAR, array, dx, MPI_REPLACE));
-  PetscCall(PetscSFBcastEnd(interface->sf, MPIU_SCALAR, array, dx, MPI_REPLACE));
-  PetscCall(VecRestoreArrayRead(step, &array));
-  *fraction = 1;
-  /* Where the library refuses, so it will the evaluation that follows, and this attempt ends there. */
-  if (solve->mesh->rank == 0 &&
-      stickslip_interface_step_limit(interface->handle, interface->x, MORTAR_OF(interface, interface->x), dx,
-                                     MORTAR_OF(interface, dx), solve->closing.depth, fraction))
-    *fraction = 1;
-  PetscCallMPI(MPI_Bcast(fraction, 1, MPIU_REAL, 0, PETSC_COMM_WORLD));
-  PetscCall(PetscFree(dx));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /* "the ball moves along (0, 0, 1) and meets nothing" */
 static PetscErrorCode describe_motion(Solve *solve, PetscInt body, Vec step)
 {
@@ -271,7 +245,7 @@ static PetscErrorCode limit(SNESLineSearch line_search, Vec x, Vec y, PetscBool 
   PetscCall(DMGlobalToLocalEnd(solve->mesh->dm, y, INSERT_VALUES, step));
   PetscCall(VecScale(step, -1));
   for (PetscInt i = 0; i < solve->contact->n_interfaces; i++) {
-    PetscCall(interface_limit(solve, &solve->contact->interfaces[i], step, &one));
+    PetscCall(contact_step_limit(solve->contact, &solve->contact->interfaces[i], step, closing->depth, &one));
     fraction = PetscMin(fraction, one);
   }
   closing->cut = (PetscBool)(fraction < 1);

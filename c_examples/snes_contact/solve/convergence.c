@@ -60,7 +60,7 @@ static PetscErrorCode confirm(Solve *solve, PetscReal *norm)
   Vec x, r;
   PetscFunctionBegin;
   if (!solve->newton.changed) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(contact_scale_augmentation(solve->contact, NULL, 1));
+  PetscCall(contact_reset_augmentation(solve->contact));
   PetscCall(cycling_restart(solve));
   PetscCall(SNESGetSolution(solve->snes, &x));
   PetscCall(VecDuplicate(x, &r));

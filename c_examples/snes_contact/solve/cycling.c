@@ -138,7 +138,7 @@ static void add_to_sentence(const Interface *interface, PetscInt a, const Cyclin
 {
   PetscReal X[3];
   size_t    used = strlen(sentence);
-  contact_vector(interface, interface->X, a, X);
+  contact_vector(interface->dimension, interface->X, a, X);
   snprintf(sentence + used, length - used, "%s %s node %d at (%g, %g, %g):", used ? ";" : "", interface->name,
            (int)interface->nodes[a], (double)X[0], (double)X[1], (double)X[2]);
   for (PetscInt back = span - 1; back >= 0; back--) {
@@ -151,7 +151,7 @@ static cJSON *node_json(const Interface *interface, PetscInt a, const Cycling *c
 {
   cJSON    *json = cJSON_CreateObject(), *states;
   PetscReal X[3];
-  contact_vector(interface, interface->X, a, X);
+  contact_vector(interface->dimension, interface->X, a, X);
   cJSON_AddStringToObject(json, "interface", interface->name);
   cJSON_AddNumberToObject(json, "node", interface->nodes[a]);
   cJSON_AddItemToObject(json, "position", cJSON_CreateDoubleArray(X, 3));

@@ -94,23 +94,22 @@ static void across(const PetscReal nu[3], const PetscReal lambda[3], PetscReal d
 /* of the nodes that are closed at the place of the last evaluation */
 static PetscErrorCode add_contact(const Solve *solve, const Interface *interface, const PetscReal *x, Motions *m)
 {
-  ContactStates states;
-  PetscInt     *first, n_first = 0;
+  const ContactStates *states = &interface->states;
+  PetscInt            *first, n_first = 0;
   PetscFunctionBegin;
-  PetscCall(contact_states_create(interface, &states));
   PetscCall(PetscMalloc1(interface->n1, &first));
   for (PetscInt a = 0; a < interface->n1; a++) {
     const PetscInt   v  = interface->nodes[a];
     const PetscReal *at = x + 3 * v;
     PetscInt         other, columns[2 * MODES];
     PetscReal        values[2 * MODES], turns[3];
-    const PetscBool  sticks = (PetscBool)(states.state[a] == STICKSLIP_STATE_STICK);
-    if (states.state[a] == STICKSLIP_STATE_GAP || interface->removed[a] == 7) continue;
+    const PetscBool  sticks = (PetscBool)(states->state[a] == STICKSLIP_STATE_STICK);
+    if (states->state[a] == STICKSLIP_STATE_GAP || interface->removed[a] == 7) continue;
     other = mortar_part(solve, interface, x, at);
-    across(states.normal + 3 * a, states.multiplier + 3 * a, turns);
+    across(states->normal + 3 * a, states->multiplier + 3 * a, turns);
     for (int i = 0; i < (sticks ? 3 : 2); i++) {
       const PetscReal axis[3] = {i == 0, i == 1, i == 2},
-                     *d       = sticks ? axis : i == 1 ? turns : same_normal(states.normal, first, &n_first, a);
+                     *d       = sticks ? axis : i == 1 ? turns : same_normal(states->normal, first, &n_first, a);
       int n = 0;
       if (!sticks && i == 1 && turns[0] == 0 && turns[1] == 0 && turns[2] == 0) continue;
       if (sticks && interface->removed[a] & (1 << i)) continue;
@@ -120,7 +119,6 @@ static PetscErrorCode add_contact(const Solve *solve, const Interface *interface
     }
   }
   PetscCall(PetscFree(first));
-  PetscCall(contact_states_destroy(&states));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

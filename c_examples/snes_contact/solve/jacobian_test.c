@@ -34,21 +34,19 @@ static PetscErrorCode look_at_states(Solve *solve, JacobianTest *test, PetscBool
 {
   PetscBool differs = PETSC_FALSE;
   PetscFunctionBegin;
+  PetscCall(contact_collect(solve->contact));
   for (PetscInt i = 0; i < solve->contact->n_interfaces; i++) {
     const Interface *interface = &solve->contact->interfaces[i];
-    const int64_t   *equations = MULTIPLIERS_OF(interface, interface->equations);
-    ContactStates    states;
-    PetscCall(contact_states_create(interface, &states));
+    const int64_t   *equations = MULTIPLIERS_OF(&interface->part, interface->part.equations); /* the only one */
     for (PetscInt a = 0; a < interface->n1; a++) {
-      if (!compare) test->counts[states.state[a]]++;
+      if (!compare) test->counts[interface->states.state[a]]++;
       for (int k = 0; k < interface->components; k++) {
         const int64_t equation = equations[interface->components * a + k];
         if (equation < 0) continue;
-        if (compare && test->kind[equation] != states.state[a]) differs = PETSC_TRUE;
-        if (!compare) test->kind[equation] = states.state[a];
+        if (compare && test->kind[equation] != interface->states.state[a]) differs = PETSC_TRUE;
+        if (!compare) test->kind[equation] = interface->states.state[a];
       }
     }
-    PetscCall(contact_states_destroy(&states));
   }
   if (differs) test->switches++;
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -210,7 +210,7 @@ static PetscErrorCode attempt(Solve *solve, int k, Vec x, PetscBool *converged)
   if (reason > 0) PetscCall(solve_from(solve, x, &reason));
   PetscCall(SNESSetTolerances(solve->snes, atol, rtol, stol, max_it, max_f));
   *converged = (PetscBool)(reason > 0);
-  if (newton->changed) PetscCall(contact_scale_augmentation(contact, NULL, 1));
+  if (newton->changed) PetscCall(contact_reset_augmentation(contact));
   if (!*converged) {
     PetscCall(explain(solve, reason));
     if (reason == SNES_DIVERGED_LINEAR_SOLVE) PetscCall(solver_forget_factors(solve));

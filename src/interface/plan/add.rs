@@ -2,15 +2,17 @@
 
 use super::table::Target;
 use crate::shape::MAX_NODES;
-use crate::simd::{Kernel, Lanes};
+use crate::simd::{Kernel, Lanes, add_rows};
 
-/// Where the columns of four nodes begin in the rows of four nodes: by row, then by column.
-pub type Starts = [[u32; MAX_NODES]; MAX_NODES];
-
-/// There is no such block.
-pub const LACKS: u32 = u32::MAX;
-/// The block's row or its column has no equation: nothing is to be added.
-pub const SKIP: u32 = u32::MAX - 1;
+/// Where the columns of four nodes begin in the rows of four nodes.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Starts {
+    /// By row, then by column: an offset, or `skip` where the block's row or its column has no equation and nothing is to be
+    /// added, or one more where there is no such block.
+    pub at: [[u32; MAX_NODES]; MAX_NODES],
+    /// Larger than any offset.
+    pub skip: u32,
+}
 
 /// Adds the blocks of up to four by four nodes, `[k][j][i][B]`. Gives whether one of them has no place.
 pub struct Add<'a, 'p, const R: usize> {
@@ -30,40 +32,50 @@ impl<const R: usize> Kernel for Add<'_, '_, R> {
     #[inline(always)]
     fn run<L: Lanes>(self) -> bool {
         let Add { pieces, rows, starts, shape, values, nothing } = self;
-        let (mut lacks, mut sum) = (false, L::load(nothing));
-        let zero = L::splat(0.0);
+        let (mut lacks, zero) = (false, L::splat(0.0));
+        let mut sums = [L::load(nothing), zero, zero];
         for k in 0..shape.1 {
-            let mut by_node = [[[0.0; 4]; R]; MAX_NODES];
+            // The first two components of nodes 0 and 2, then of nodes 1 and 3.
+            let mut pairs = [[[0.0; 4]; 2]; R];
             for i in 0..R {
                 let (x, y, z) = (L::load(&values[k][0][i]), L::load(&values[k][1][i]), L::load(&values[k][2][i]));
-                sum = zero.mul_add(x, zero.mul_add(y, zero.mul_add(z, sum)));
-                let nodes = L::transpose([x, y, z, zero]);
-                for b in 0..MAX_NODES {
-                    by_node[b][i] = nodes[b].store();
-                }
+                sums[i] = zero.mul_add(x, zero.mul_add(y, zero.mul_add(z, sums[i])));
+                let [even, odd] = x.pairs(y);
+                pairs[i] = [even.store(), odd.store()];
             }
-            for b in 0..shape.0 {
-                let start = starts[b][k];
-                if start >= SKIP {
-                    lacks |= start == LACKS;
-                    continue;
-                }
-                // The rows of a node are equally long: their parts of this block are as far from each other.
-                let Target { rows, piece, start: first } = rows[b];
-                let (mut row, len) = (&mut pieces[piece][first + start as usize..], rows.len as usize);
-                for i in 0..R {
-                    let [x, y, z, _] = by_node[b][i];
-                    let part = &mut row[..3];
-                    part[0] += x;
-                    part[1] += y;
-                    part[2] += z;
-                    if i + 1 < R {
-                        row = &mut row[len..];
-                    }
-                }
-            }
+            let last = &values[k][2];
+            lacks |= node::<R, 0>(pieces, rows, starts, (shape.0, k), &pairs, last)
+                | node::<R, 1>(pieces, rows, starts, (shape.0, k), &pairs, last)
+                | node::<R, 2>(pieces, rows, starts, (shape.0, k), &pairs, last)
+                | node::<R, 3>(pieces, rows, starts, (shape.0, k), &pairs, last);
         }
+        let sum = (sums[0] + sums[1]) + sums[2];
         *nothing = sum.store();
         lacks
     }
+}
+
+/// Adds the block of column k of node B, if there is such a node. Gives whether it has no place.
+#[inline(always)]
+fn node<const R: usize, const B: usize>(
+    pieces: &mut [&mut [f64]],
+    rows: &[Target; MAX_NODES],
+    starts: &Starts,
+    (n, k): (usize, usize),
+    pairs: &[[[f64; 4]; 2]; R],
+    last: &[[f64; 4]; R],
+) -> bool {
+    let start = starts.at[B][k & 3]; // so that no bounds are checked
+    if B >= n || start >= starts.skip {
+        return B < n && start > starts.skip;
+    }
+    let (mut block, first) = ([[0.0; 3]; R], B & 2);
+    for i in 0..R {
+        let pair = &pairs[i][B & 1];
+        block[i] = [pair[first], pair[first + 1], last[i][B]];
+    }
+    // The rows of a node are equally long: their parts of this block are as far from each other.
+    let Target { rows, piece, start: first } = rows[B];
+    add_rows(pieces[piece], first + start as usize, rows.len, block);
+    false
 }

@@ -1,6 +1,6 @@
 //! Values into the entries of a plan, as the blocks of a tangent come.
 
-use super::add::{Add, LACKS, SKIP, Starts};
+use super::add::{Add, Starts};
 use super::numbering::{SCALARS, Sides};
 use super::places::{Layout, Places};
 use super::scatter::{self, MortarOffsets, Scatter};
@@ -9,7 +9,7 @@ use crate::dual::Columns;
 use crate::geometry::Vec3;
 use crate::interface::tangent::emission::{Blocks, Directions, MortarBlock, NodeBlock, Place, Span, Weights};
 use crate::shape::{MAX_CORNERS, MAX_NODES};
-use crate::simd;
+use crate::simd::{self, add_rows};
 
 /// What the blocks of a chunk have shown.
 #[derive(Clone, Copy, Debug, Default)]
@@ -20,7 +20,11 @@ pub struct Shown {
     pub nothing: f64,
 }
 
-/// An offset of `scatter.rs` with its marks in the wider form.
+/// What an offset that was searched for is where there is none (see [`Starts`]).
+const SKIP: u32 = u32::MAX - 1;
+const LACKS: u32 = SKIP + 1;
+
+/// An offset of `scatter.rs` with its marks as those of a search.
 #[inline(always)]
 fn widened(offset: u16) -> u32 {
     if offset >= scatter::SKIP { SKIP + u32::from(offset - scatter::SKIP) } else { u32::from(offset) }
@@ -168,12 +172,13 @@ impl<'a, 'p, const N: usize> Fill<'a, 'p, N> {
         self.look(rows);
         self.look(columns);
         if self.state.is_foreign && (rows, columns) != (Span::Own, Span::Own) {
-            self.state.starts = [[LACKS; MAX_NODES]; MAX_NODES];
+            self.state.starts = Starts { at: [[LACKS; MAX_NODES]; MAX_NODES], skip: SKIP };
             return;
         }
         let f = self.state.facet;
         let Some(scatter) = self.scatter else { return self.search((rows, of_multipliers), (columns, by_multipliers)) };
         let (own, starts) = (&scatter.own[f], &mut self.state.starts);
+        starts.skip = scatter::SKIP.into();
         let table = match (rows, columns) {
             // Facets without pairs in the plan have no offsets.
             (Span::Own, Span::Own) if !scatter.has(f) => {
@@ -191,7 +196,7 @@ impl<'a, 'p, const N: usize> Fill<'a, 'p, N> {
                     let from = of_mortar(scatter, self.state.places[k], self.state.has_equations[k]);
                     let from = if of_multipliers { &from.row } else { &from.column };
                     for b in 0..MAX_NODES {
-                        starts[b][k] = widened(from[b]);
+                        starts.at[b][k] = from[b].into();
                     }
                 }
                 return;
@@ -201,7 +206,7 @@ impl<'a, 'p, const N: usize> Fill<'a, 'p, N> {
                     let from = of_mortar(scatter, self.state.places[b], self.state.has_equations[b]);
                     let from = if by_multipliers { &from.multipliers } else { &from.forces };
                     for k in 0..MAX_NODES {
-                        starts[b][k] = widened(from[k]);
+                        starts.at[b][k] = from[k].into();
                     }
                 }
                 return;
@@ -209,7 +214,7 @@ impl<'a, 'p, const N: usize> Fill<'a, 'p, N> {
         };
         for b in 0..MAX_NODES {
             for k in 0..MAX_NODES {
-                starts[b][k] = widened(table[b][k]);
+                starts.at[b][k] = table[b][k].into();
             }
         }
     }
@@ -218,12 +223,13 @@ impl<'a, 'p, const N: usize> Fill<'a, 'p, N> {
     #[cold]
     fn search(&mut self, (rows, of_multipliers): (Span, bool), (columns, by_multipliers): (Span, bool)) {
         let multiplier = self.layout.nodes.multiplier(0);
+        self.state.starts.skip = SKIP;
         let (n_rows, n_columns) = (self.len_of(rows), self.len_of(columns));
         for (b, k) in (0..n_rows).flat_map(|b| (0..n_columns).map(move |k| (b, k))) {
             let row = self.node_of(rows, b) + if of_multipliers { multiplier } else { 0 };
             let column = self.node_of(columns, k) + if by_multipliers { multiplier } else { 0 };
             let acts = !by_multipliers || self.layout.nodes.has_rows(column);
-            self.state.starts[b][k] = if acts { self.found(row, column) } else { SKIP };
+            self.state.starts.at[b][k] = if acts { self.found(row, column) } else { SKIP };
         }
     }
 
@@ -314,17 +320,15 @@ impl<const N: usize> Blocks<N> for Fill<'_, '_, N> {
         let State { own, mortar_rows, starts, nothing, .. } = &mut self.state;
         let node_rows = if rows == Span::Own { own } else { mortar_rows };
         for (b, target) in node_rows.iter().enumerate().take(n_rows) {
-            let len = target.rows.len as usize;
             for a in 0..n_columns {
-                let (offset, value) = (starts[b][a], n[a][b]);
-                if offset >= SKIP {
-                    lacks |= offset == LACKS;
+                let (offset, value) = (starts.at[b][a], n[a][b]);
+                if offset >= starts.skip {
+                    lacks |= offset > starts.skip;
                     continue;
                 }
-                let to = &mut self.hand.pieces[target.piece][target.start + offset as usize..];
-                for i in 0..SCALARS {
-                    to[i * len] += if N == 1 { value * nu[a][i] } else { value };
-                }
+                let at = target.start + offset as usize;
+                let column = if N == 1 { [0, 1, 2].map(|i| [value * nu[a][i]]) } else { [[value]; SCALARS] };
+                add_rows(self.hand.pieces[target.piece], at, target.rows.len, column);
                 nothing[a] += 0.0 * value;
             }
         }
@@ -339,7 +343,7 @@ impl<const N: usize> Blocks<N> for Fill<'_, '_, N> {
     fn mortar(&mut self, block: &MortarBlock) {
         let (f, nodes) = (self.state.facet, self.layout.nodes);
         let mut of_rows = [None; MAX_NODES];
-        self.state.mortar = None;
+        (self.state.mortar, self.state.starts.skip) = (None, SKIP);
         for (c, &node) in block.rows.iter().enumerate() {
             let Some(target) = self.touch(Place::Displacement(nodes.mortar(node))) else { return };
             self.state.mortar_rows[c] = target;
@@ -350,7 +354,7 @@ impl<const N: usize> Blocks<N> for Fill<'_, '_, N> {
                 return self.note(true, row, Place::Displacement(self.node_of(Span::Own, 0)));
             }
             for k in 0..block.own {
-                self.state.starts[c][k] = match (self.scatter, of_rows[c]) {
+                self.state.starts.at[c][k] = match (self.scatter, of_rows[c]) {
                     (Some(scatter), Some(place)) => widened(scatter.mortar[place].forces[k]),
                     _ => self.found(nodes.mortar(node), self.node_of(Span::Own, k)),
                 };
@@ -361,7 +365,7 @@ impl<const N: usize> Blocks<N> for Fill<'_, '_, N> {
             for (k, &column) in columns.iter().enumerate() {
                 let place = self.scatter.and_then(|s| s.place(f, column));
                 for (c, &row) in block.rows.iter().enumerate() {
-                    self.state.starts[c][k] = match (self.scatter, place, of_rows[c]) {
+                    self.state.starts.at[c][k] = match (self.scatter, place, of_rows[c]) {
                         (Some(s), Some(column), Some(row)) => widened(s.coupling(f, row, column)),
                         _ => self.found(nodes.mortar(row), nodes.mortar(column)),
                     };

@@ -11,6 +11,7 @@ use crate::law::NodeResponse;
 use crate::memory::{self, Store};
 use crate::mortar::MORTAR;
 use crate::shape::MAX_PARENT_NODES;
+use crate::threads::{self, Part};
 use nalgebra::SVector;
 
 /// Residual of an interface.
@@ -61,23 +62,29 @@ pub fn refresh<const N: usize>(
         let traction = force_traction(given.setup.options.form, &lambda[a], response, given.normal(a)?);
         tractions.store(if nodes.acts(a) { traction } else { Vec3::zeros() })?;
     }
-    let pairs = match pairs {
-        Weighted::Facets(pairs) => pairs,
-        Weighted::Parents(pairs) => {
-            of_parents((nonmortar, mortar), pairs, tractions, (&mut r.nonmortar, &mut r.mortar));
-            &[]
+    let tractions = &tractions[..];
+    threads::in_parts(given.setup.options.threads, (&mut r.nonmortar, &mut r.mortar), |mut of_one, mut of_two| {
+        let pairs = match pairs {
+            Weighted::Facets(pairs) => pairs,
+            Weighted::Parents(pairs) => {
+                of_parents((nonmortar, mortar), pairs, tractions, (&mut of_one, &mut of_two));
+                &[]
+            }
+        };
+        for pair in pairs {
+            let (one, two) = (&nonmortar.facets[pair.one], &mortar.facets[pair.two]);
+            if !has_any(&of_one, one.as_slice()) && !has_any(&of_two, two.as_slice()) {
+                continue;
+            }
+            let f = pair_force(&pair.weights, &one.nodes.map(|a| tractions[a]));
+            for k in 0..one.len {
+                of_one.at(one.nodes[k]).into_iter().for_each(|force| *force += f[k]);
+            }
+            for k in 0..two.len {
+                of_two.at(two.nodes[k]).into_iter().for_each(|force| *force += f[MORTAR + k]);
+            }
         }
-    };
-    for pair in pairs {
-        let (one, two) = (&nonmortar.facets[pair.one], &mortar.facets[pair.two]);
-        let f = pair_force(&pair.weights, &one.nodes.map(|a| tractions[a]));
-        for k in 0..one.len {
-            r.nonmortar[one.nodes[k]] += f[k];
-        }
-        for k in 0..two.len {
-            r.mortar[two.nodes[k]] += f[MORTAR + k];
-        }
-    }
+    })?;
     for (a, response) in responses.iter().enumerate() {
         if nodes.is_own(a) && nonmortar.has_row(a) {
             r.rows[a] = response.row * given.row_scale(a);
@@ -86,20 +93,30 @@ pub fn refresh<const N: usize>(
     Ok(())
 }
 
+/// Whether this part has a value of one of these nodes.
+#[inline]
+fn has_any(part: &Part<Vec3>, nodes: &[usize]) -> bool {
+    nodes.iter().any(|&node| part.has(node))
+}
+
 /// Adds the forces of pairs of parents at the nodes' tractions.
 #[inline(never)]
 fn of_parents(
     (nonmortar, mortar): (&Surface, &Surface),
     pairs: &[ParentRecord],
     tractions: &[Vec3],
-    (of_one, of_two): (&mut [Vec3], &mut [Vec3]),
+    (of_one, of_two): (&mut Part<Vec3>, &mut Part<Vec3>),
 ) {
     for pair in pairs {
         let (one, two) = (nonmortar.host_nodes(pair.one), mortar.host_nodes(pair.two));
         let mut t = [Vec3::zeros(); MAX_PARENT_NODES];
         one.iter().zip(&mut t).for_each(|(&a, t)| *t = tractions[a]);
         let t = &t[..nonmortar.multipliers(pair.one)];
-        one.iter().enumerate().for_each(|(b, &node)| of_one[node] += parent_force(&pair.weights.ab, t, b));
-        two.iter().enumerate().for_each(|(c, &node)| of_two[node] -= parent_force(&pair.weights.ac, t, c));
+        for (b, &node) in one.iter().enumerate() {
+            of_one.at(node).into_iter().for_each(|force| *force += parent_force(&pair.weights.ab, t, b));
+        }
+        for (c, &node) in two.iter().enumerate() {
+            of_two.at(node).into_iter().for_each(|force| *force -= parent_force(&pair.weights.ac, t, c));
+        }
     }
 }

@@ -13,6 +13,7 @@ use crate::interface::pairing::given::Given;
 use crate::law::SlipMeasure;
 use crate::memory;
 use crate::mortar::gap;
+use crate::threads::{self, Part};
 
 /// What a node assembles over its pairs. A parallel host adds these over its ranks.
 /// In the order of the ABI, whose arrays are read as these.
@@ -39,49 +40,61 @@ pub fn assemble(
     sums: &mut Vec<(f64, Vec3)>,
 ) -> Result<()> {
     memory::refill(sums, (0.0, Vec3::zeros()), surfaces.0.len())?;
-    each_gap(surfaces, pairs, x, |node, coverage, gap| {
-        sums[node].0 += coverage;
-        sums[node].1 += gap;
-    });
-    Ok(())
+    threads::in_parts(1, (sums, &mut [(); 0]), |mut sums, _| {
+        each_gap(surfaces, pairs, x, &mut sums, |sum, coverage, gap| {
+            sum.0 += coverage;
+            sum.1 += gap;
+        });
+    })
 }
 
-/// What each pair adds to the coverage and the gap of each of its non-mortar nodes.
+/// What each pair adds to the coverage and the gap of each of its non-mortar nodes that are in this part.
 #[inline]
-fn each_gap(
+fn each_gap<T>(
     (nonmortar, mortar): (&Surface, &Surface),
     pairs: Weighted,
     (x1, x2): (&[Vec3], &[Vec3]),
-    mut add: impl FnMut(usize, f64, Vec3),
+    sums: &mut Part<T>,
+    add: impl Fn(&mut T, f64, Vec3),
 ) {
     let pairs = match pairs {
         Weighted::Facets(pairs) => pairs,
-        Weighted::Parents(pairs) => return each_gap_of_parents((nonmortar, mortar), pairs, (x1, x2), &mut add),
+        Weighted::Parents(pairs) => {
+            for pair in pairs {
+                if nonmortar.host_nodes(pair.one).iter().any(|&node| sums.has(node)) {
+                    each_gap_of_parents((nonmortar, mortar), pair, (x1, x2), &mut |node, coverage, gap| {
+                        sums.at(node).into_iter().for_each(|sum| add(sum, coverage, gap));
+                    });
+                }
+            }
+            return;
+        }
     };
     for pair in pairs {
-        let (one, two) = (nonmortar.facet(pair.one, x1), mortar.facet(pair.two, x2));
-        let gaps = gap(&pair.weights, &one, &two);
-        for k in 0..one.len() {
-            add(nonmortar.facets[pair.one].nodes[k], pair.weights.coverage(k), gaps[k]);
+        let nodes = nonmortar.facets[pair.one].as_slice();
+        if nodes.iter().any(|&node| sums.has(node)) {
+            let (one, two) = (nonmortar.facet(pair.one, x1), mortar.facet(pair.two, x2));
+            let gaps = gap(&pair.weights, &one, &two);
+            for (k, &node) in nodes.iter().enumerate() {
+                sums.at(node).into_iter().for_each(|sum| add(sum, pair.weights.coverage(k), gaps[k]));
+            }
         }
     }
 }
 
-/// The same of pairs of parents.
+/// The same of a pair of parents and all of its nodes.
 #[inline(never)]
 fn each_gap_of_parents(
     surfaces: (&Surface, &Surface),
-    pairs: &[ParentRecord],
+    record: &ParentRecord,
     x: (&[Vec3], &[Vec3]),
     add: &mut dyn FnMut(usize, f64, Vec3),
 ) {
-    for record in pairs {
-        let (one, two) = parents_at(surfaces, record, x);
-        let pair = ParentPair { one: &one, two: &two, multipliers: surfaces.0.multipliers(record.one) };
-        let gaps = pair.gap(&record.weights);
-        for (a, &node) in surfaces.0.host_nodes(record.one).iter().enumerate().take(pair.multipliers) {
-            add(node, record.weights.coverage(a), gaps[a]);
-        }
+    let (one, two) = parents_at(surfaces, record, x);
+    let pair = ParentPair { one: &one, two: &two, multipliers: surfaces.0.multipliers(record.one) };
+    let gaps = pair.gap(&record.weights);
+    for (a, &node) in surfaces.0.host_nodes(record.one).iter().enumerate().take(pair.multipliers) {
+        add(node, record.weights.coverage(a), gaps[a]);
     }
 }
 
@@ -159,11 +172,16 @@ pub fn sums<const N: usize>(
 ) -> Result<()> {
     let (surfaces, h) = (given.setup.surfaces(), given.history());
     memory::refill(sums, NodeSums::default(), given.nodes())?;
-    let pairs = active.map_or(h.weighted(surfaces), |k| k.weighted(surfaces));
-    each_gap(surfaces, pairs, x, |node, coverage, gap| {
-        sums[node].coverage += coverage;
-        sums[node].gap_now += gap;
-    });
+    threads::in_parts(given.setup.options.threads, (sums, &mut [(); 0]), |mut sums, _| {
+        let now = active.map_or(h.weighted(surfaces), |k| k.weighted(surfaces));
+        each_gap(surfaces, now, x, &mut sums, |sum, coverage, gap| {
+            sum.coverage += coverage;
+            sum.gap_now += gap;
+        });
+        if active.is_some() && slips {
+            each_gap(surfaces, h.weighted(surfaces), x, &mut sums, |sum, _, gap| sum.gap_previous += gap);
+        }
+    })?;
     for (sum, coverage) in sums.iter_mut().zip(&h.coverage) {
         sum.coverage_previous = *coverage;
     }
@@ -171,11 +189,10 @@ pub fn sums<const N: usize>(
         sum.gap_committed = *gap;
     }
     h.facet_gaps.each_turned(surfaces.0, x.0, |node, gap| sums[node].gap_committed += gap)?;
+    let pairs = active.map_or(h.weighted(surfaces), |k| k.weighted(surfaces));
     offset_gaps(given, pairs, slips && active.is_some(), sums)?;
-    match active {
-        Some(_) if slips => each_gap(surfaces, h.weighted(surfaces), x, |node, _, gap| sums[node].gap_previous += gap),
-        None if slips => sums.iter_mut().for_each(|sum| sum.gap_previous = sum.gap_now),
-        _ => {}
+    if active.is_none() && slips {
+        sums.iter_mut().for_each(|sum| sum.gap_previous = sum.gap_now);
     }
     if let Some(away) = LookingAway::at(given, x)? {
         for (a, sum) in sums.iter_mut().enumerate() {

@@ -122,8 +122,8 @@ impl<const N: usize> Numbers<'_, N> {
         Ok(Some(self.motion.of_share(overlaps.frame(), facet, share, &mut t.forces, room)))
     }
 
-    /// Derivatives of `pairs` of one facet, whose first one has this place, its first ones where `is_first`: of the gap, and of
-    /// the forces into `t`.
+    /// Derivatives of `pairs` of one facet, whose first one has this place, its first ones where `is_first`: of
+    /// the forces into `t`, of the gap, which are large, into `gap`.
     fn derivatives(
         &self,
         given: Given<N>,
@@ -131,18 +131,18 @@ impl<const N: usize> Numbers<'_, N> {
         (overlaps, is_first): (&FacetOverlaps, bool),
         nodes: &FacetResponse<N>,
         t: &mut PairTangent<N>,
-    ) -> Result<Option<GapDerivative>> {
+        gap: &mut Option<GapDerivative>,
+    ) -> Result<()> {
         let place = UnionPair::places(pairs);
         if let (false, Some(k)) = (place.is_empty(), self.active) {
             let of_facet = place.start - place_of_first..place.end - place_of_first;
             let (frame, segments) = (overlaps.frame(), overlaps.segments.get(of_facet).unwrap_or_default());
-            return self.motion.of(frame, (&k.pairs[place], segments), &nodes.traction, &mut t.forces).map(Some);
+            return self.motion.of(frame, (&k.pairs[place], segments), &nodes.traction, &mut t.forces, gap);
         }
         if is_first {
-            given.history().facet_gaps.motion(&given.setup.nonmortar, pairs[0].one, self.x1)
-        } else {
-            Ok(None)
+            *gap = given.history().facet_gaps.motion(&given.setup.nonmortar, pairs[0].one, self.x1)?;
         }
+        Ok(())
     }
 }
 
@@ -215,6 +215,54 @@ pub fn blocks<const N: usize>(task: Task<N>, room: &mut Room<N>, (taker, constra
     Ok(linearised)
 }
 
+/// The blocks of a tangent's pattern but for those of facets with pairs and of these pairs: of carried nodes, of what couples a
+/// node's pairs, of the nodes themselves, of facets without pairs. Where either side has quadratic facets all blocks come.
+pub fn beyond_facets<const N: usize>(task: Task<N>, room: &mut Room<N>, (taker, constraints): Takers<N>) -> Result<()> {
+    let Task { given, normals, pairs: all, .. } = task;
+    let mut emitter = Emitter { given, normals, taker, constraints };
+    let mut couplings: Option<Vec<NodeCouplings>> =
+        is_coupled(given).then(|| memory::defaults(given.nodes())).transpose()?;
+    if given.setup.has_parents() {
+        of_facets(task, 0..usize::MAX, room, couplings.as_deref_mut(), &mut emitter)?;
+    } else {
+        let mut walk = Walk::through(all, 0..usize::MAX);
+        while walk.next(&mut room.pairs)?.is_some() {
+            for pair in &room.pairs {
+                let (now, previous) =
+                    (all.now(pair).map(|weights| PairNow { weights, gap: None, offset: None }), all.previous(pair));
+                beyond_pair(
+                    (given, normals),
+                    (pair, now.as_ref(), previous),
+                    None,
+                    couplings.as_deref_mut(),
+                    &mut emitter,
+                )?;
+            }
+        }
+    }
+    of_nodes(task, room, couplings.as_deref_mut(), &mut emitter)
+}
+
+/// What a pair adds to the rows of carriers, and to what its nodes are coupled with.
+fn beyond_pair<const N: usize>(
+    at: (Given<N>, &[Vec3]),
+    (pair, now, previous): (&UnionPair, Option<&PairNow>, Option<&PairWeights>),
+    numbers: Option<&Numbers<N>>,
+    couplings: Option<&mut [NodeCouplings]>,
+    emitter: &mut Emitter<N>,
+) -> Result<()> {
+    let (moves, carried) = (at.0.setup.effects.moves(), numbers.map(Numbers::carried));
+    match moves {
+        true => carried_tangent::rows::<true, N>((pair, previous), now, carried, emitter),
+        false => carried_tangent::rows::<false, N>((pair, previous), now, carried, emitter),
+    }
+    match couplings {
+        Some(couplings) if moves => couple::<true, N>(at, (pair, now, previous), numbers, couplings),
+        Some(couplings) => couple::<false, N>(at, (pair, now, previous), numbers, couplings),
+        None => Ok(()),
+    }
+}
+
 /// Whether the tangent has what couples all pairs of a node.
 pub fn is_coupled<const N: usize>(given: Given<N>) -> bool {
     let options = &given.setup.options;
@@ -241,6 +289,9 @@ pub fn of_facets<const N: usize>(
     }
     let mut pairs = std::mem::take(&mut room.pairs);
     while let Some(f) = walk.next(&mut pairs)? {
+        if task.numbers.is_some() {
+            task.pairs.fetch(&pairs);
+        }
         emitter.begin(f);
         linearised += of_facet(task, &pairs, room, couplings.as_deref_mut(), emitter)?;
     }
@@ -263,7 +314,6 @@ fn of_facet<const N: usize>(
     let is_dual = options.basis == MultiplierBasis::Dual && options.differentiates_weights();
     let together =
         !moves && !is_dual && given.step.pairing.carriers.is_empty() && matches!(options.scheme, Scheme::Segments);
-    let carried_nodes = numbers.map(Numbers::carried);
     let turns = numbers.and_then(|n| n.turns.as_ref());
     let f = pairs[0].one;
     let one = &given.setup.nonmortar.facets[f];
@@ -287,17 +337,16 @@ fn of_facet<const N: usize>(
         let previous = total(sum_previous, pairs.iter().map(|p| all.previous(p)));
         let (mut gap, mut offset) = (None, None);
         if let (Some(numbers), Some(nodes)) = (numbers, &facet_nodes) {
-            gap = if let Some(dual) = &dual {
+            if let Some(dual) = &dual {
                 let pair = (&pairs[0], dual, motion.as_ref());
-                let gap = numbers.dual_share(given, pair, (overlaps, places.start), t, share)?;
+                gap = numbers.dual_share(given, pair, (overlaps, places.start), t, share)?;
                 if let (true, true, Some(active)) = (moves, gap.is_some(), numbers.active) {
                     let two = &given.setup.mortar.facets[pairs[0].two];
                     mortar.add(two, active.integrated(pairs[0].place), &share.tractions, &t.forces);
                 }
-                gap
             } else {
-                numbers.derivatives(given, (pairs, places.start), (overlaps, place == 0), nodes, t)?
-            };
+                numbers.derivatives(given, (pairs, places.start), (overlaps, place == 0), nodes, t, &mut gap)?;
+            }
             let dual = (dual.as_ref(), &*share);
             offset = offsets::of_pairs(
                 (given, normals),
@@ -327,17 +376,8 @@ fn of_facet<const N: usize>(
         if moves {
             emitter.pair(&pairs[0], all.now(&pairs[0]), t);
         }
-        match moves {
-            true => carried_tangent::rows::<true, N>((&pairs[0], previous), now.as_ref(), carried_nodes, emitter),
-            false => carried_tangent::rows::<false, N>((&pairs[0], previous), now.as_ref(), carried_nodes, emitter),
-        }
-        if let Some(couplings) = &mut couplings {
-            let pair = (&pairs[0], now.as_ref(), previous);
-            match moves {
-                true => couple::<true, N>((given, normals), pair, numbers, couplings)?,
-                false => couple::<false, N>((given, normals), pair, numbers, couplings)?,
-            }
-        }
+        let pair = (&pairs[0], now.as_ref(), previous);
+        beyond_pair((given, normals), pair, numbers, couplings.as_deref_mut(), emitter)?;
     }
     if !together {
         if let Some(turns) = turns {

@@ -28,27 +28,30 @@ pub struct PairDerivatives<'a> {
 impl PairDerivatives<'_> {
     /// Of a non-mortar facet with its pairs and their overlaps (none against an analytic surface): one pair where the
     /// mortar side moves, all of the facet's where it rests. `traction[i][A]` is that of the forces, whose derivatives go to
-    /// `forces`, which keeps the slots that have none.
+    /// `forces`, which keeps the slots that have none. Those of the gap, which are large, go to `gap`.
     pub fn of(
         &self,
         frame: &NonmortarFrame,
         (pairs, segments): (&[PairRecord], &[Segment]),
         traction: &[[f64; MAX_CORNERS]; 3],
         forces: &mut ForceDerivatives,
-    ) -> Result<GapDerivative> {
+        gap: &mut Option<GapDerivative>,
+    ) -> Result<()> {
         if let Some(surface) = self.surface {
-            return analytic_motion(frame, surface, self.rule, traction, forces);
+            *gap = Some(analytic_motion(frame, surface, self.rule, traction, forces)?);
+            return Ok(());
         }
         let mut frame = Cow::Borrowed(frame);
         if self.tangent == Tangent::FrozenNormals {
             frame.to_mut().plane.tilt = Default::default();
         }
         let by_points = segments[0].points.is_some();
-        Ok(GapDerivative::Facets(if self.opposite == Opposite::Moves || by_points {
+        *gap = Some(GapDerivative::Facets(if self.opposite == Opposite::Moves || by_points {
             pair_motion((&frame, &segments[0], self.rule), &pairs[0].weights, traction, forces)
         } else {
             let pairs = segments.iter().zip(pairs.iter().map(|pair| &pair.weights));
             facet_motion(&frame, pairs, self.rule, traction, forces)
-        }))
+        }));
+        Ok(())
     }
 }

@@ -15,7 +15,11 @@ use crate::interface::pairing::given::Given;
 use crate::memory::{Store, Stored};
 use crate::mortar::{MORTAR, PAIR_NODES, PairWeights, ParentWeights};
 use crate::shape::{MAX_CORNERS, MAX_NODES};
+use crate::simd;
 use std::ops::Range;
+
+/// So many pairs ahead weights are fetched: about two facets'.
+const AHEAD: usize = 8;
 
 /// A pair of the union of those active now and those of t_n.
 #[derive(Clone, Copy, Debug)]
@@ -121,6 +125,16 @@ impl<'a> Pairs<'a> {
     /// Its weights of t_n.
     pub fn previous(self, pair: &UnionPair) -> Option<&'a PairWeights> {
         self.weights(1, pair.previous)
+    }
+
+    /// Has the processor fetch the weights that are next after those of the pairs of a facet: it would wait for them.
+    pub fn fetch(self, pairs: &[UnionPair]) {
+        let Pairs::Union([now, before]) = self else { return };
+        for pair in pairs {
+            now.get(pair.place + AHEAD).into_iter().for_each(simd::prefetch);
+            let previous = pair.previous.and_then(|place| before.get(place + AHEAD));
+            previous.into_iter().for_each(simd::prefetch);
+        }
     }
 
     fn weights(self, list: usize, place: Option<usize>) -> Option<&'a PairWeights> {

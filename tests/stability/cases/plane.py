@@ -17,6 +17,11 @@ UNITS = {"inch_psi": (1 / 25.4, 145.04), "2^-60_2^70": (2.0**-60, 2.0**70), "1e-
 FRICTIONS = (0.0, 1e-6, 0.1, 0.3, 1.0, 1e3, 1e6)
 # No node of the block lies on the edge: there slivers decide, by rounding.
 OVER = (0.0, 0.6, 1.0, 1.3, 1.45)
+# Of analytic floors; 0: straight.
+ROUND = (0.0, 1e6, 1e3, 100.0, 20.0, -1e3, -1e6)
+# A distance from a circle is that of its centre less the radius: it has so many roundings of the radius, and a gap of it gives a
+# traction of Young's modulus over a facet of 1/3, beside a pressure of 20.
+ROUNDINGS = 32 * np.finfo(float).eps * (1000 / (1 / 3)) / 20
 GAPS = ("1e-12", "1e-6", "1e-3", "0.1", "0.5")
 # A layer in space has the same equations; nodes are known to 100 times the forces' tolerance of 1e-11.
 SAME = 1e-9
@@ -110,7 +115,7 @@ def units(name):
     return run
 
 
-def as_in_space(context, *options, **keys):
+def as_in_space(context, *options, same=SAME, **keys):
     """The block in the plane against one layer: forces of every step, and iterations."""
     flat, solid = (context.solve(block(plane=plane, **keys), *options, name=name) for name, plane in (("plane", True), ("space", False)))
     result = host.outcome(flat)
@@ -122,14 +127,18 @@ def as_in_space(context, *options, **keys):
         result.true("as many steps as one layer in space", False, "the same equations")
         return result
     error = np.abs(forces[0][:, :2] - forces[1][:, [0, 2]]).max() / np.abs(forces[1]).max()
-    result.below("forces, against one layer in space", error, SAME, "the same equations")
+    result.below("forces, against one layer in space", error, same, "the same equations")
     rows = [run.interface("base") for run in (flat, solid)]
     for name, other in (("ux", "ux"), ("uy", "uz"), ("lambda_n", "lambda_n")):
         there = np.array([rows[1][other][(rows[1]["X"] == x) & (rows[1]["Y"] == 0)][0] for x in rows[0]["X"]])
         scale = np.abs(rows[1][other]).max() if name == "lambda_n" else max(np.abs(rows[1][other]).max(), SETTLES)
-        result.below(f"{name}, against one layer in space", np.abs(rows[0][name] - there).max() / scale, SAME, "the same equations")
+        result.below(f"{name}, against one layer in space", np.abs(rows[0][name] - there).max() / scale, same, "the same equations")
     result.figures["iterations_in_space"] = solid.newton_iterations
     return result
+
+
+def on_round(radius):
+    return lambda context: as_in_space(context, friction=0.3, round=radius, same=max(SAME, ROUNDINGS * abs(radius)))
 
 
 def cells():
@@ -144,6 +153,12 @@ def cells():
     yield from series(
         "plane block, over an edge by", OVER, lambda d: lambda c: as_in_space(c, "-base_weak_coverage", "0.5", friction=0.3, over=d),
         quick=(1.3,),
+    )
+    yield from series(
+        "plane block, on an analytic floor of radius", ROUND, on_round, quick=(20.0,)
+    )
+    yield from series(
+        "plane block, on a straight line, friction", FRICTIONS, lambda mu: lambda c: as_in_space(c, friction=mu, round=0.0), quick=()
     )
     yield from series(
         "plane block, falls through a gap of", GAPS, lambda g: lambda c: as_in_space(c, friction=0.3, gap=float(g)), quick=("0.1",)
