@@ -130,6 +130,13 @@ module stickslip
   integer(c_int32_t), parameter :: STICKSLIP_NODE_OWN = 1
   integer(c_int32_t), parameter :: STICKSLIP_NODE_ELSEWHERE = 2
 
+  ! What stickslip_interface_adjust did with a node; sides of an interface.
+  integer(c_int32_t), parameter :: STICKSLIP_ADJUST_ALONE = 0
+  integer(c_int32_t), parameter :: STICKSLIP_ADJUST_LEFT = 1
+  integer(c_int32_t), parameter :: STICKSLIP_ADJUST_MOVED = 2
+  integer(c_int32_t), parameter :: STICKSLIP_SIDE_NONMORTAR = 0
+  integer(c_int32_t), parameter :: STICKSLIP_SIDE_MORTAR = 1
+
   ! Added up in the kinds of a node that interfaces share.
   integer(c_int32_t), parameter :: STICKSLIP_CROSSPOINT_CLAIMED = 1
   integer(c_int32_t), parameter :: STICKSLIP_CROSSPOINT_CHAIN = 2
@@ -1122,6 +1129,33 @@ module stickslip
       real(c_double), intent(in) :: x1(3, *), x2(3, *), lambda(3, *)
       type(c_ptr), value :: sums
       type(stickslip_equilibrium), intent(inout) :: out
+    end function
+
+    ! Offsets of the nodes of both sides, offsets1(n1), offsets2(n2) [L]; null: none. Positive ones open gaps.
+    integer(c_int32_t) function stickslip_interface_set_offsets(interface, offsets1, offsets2) bind(C)
+      import :: c_int32_t, c_ptr, stickslip_interface
+      type(stickslip_interface), value :: interface
+      type(c_ptr), value :: offsets1, offsets2
+    end function
+
+    ! Nodes of the first configuration within the tolerance of the mortar surface, moved onto it: coordinates(3, n1), gaps(n1),
+    ! moved(n1), each or null.
+    integer(c_int32_t) function stickslip_interface_adjust(interface, tolerance, coordinates, gaps, moved) bind(C)
+      import :: c_double, c_int32_t, c_ptr, stickslip_interface
+      type(stickslip_interface), value :: interface
+      real(c_double), value :: tolerance
+      type(c_ptr), value :: coordinates, gaps, moved
+    end function
+
+    ! Offsets that give a faceted surface its shape: point(3), direction(3), offsets(n1 or n2), output.
+    integer(c_int32_t) function stickslip_interface_shape_offsets(interface, side, shape, radius, point, direction, offsets) &
+        bind(C)
+      import :: c_double, c_int32_t, stickslip_interface
+      type(stickslip_interface), value :: interface
+      integer(c_int32_t), value :: side, shape
+      real(c_double), value :: radius
+      real(c_double), intent(in) :: point(3), direction(3)
+      real(c_double), intent(out) :: offsets(*)
     end function
 
     ! The same of one node, with its gaps summed over all pairs. Outputs, each a real(c_double) that may be null: gap,

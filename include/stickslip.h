@@ -70,7 +70,8 @@
  *     interface_destroy                      at the end
  *
  * What it may add: interface_set_friction, interface_set_augmentation, interface_set_normals,
- * interface_set_constraints, interface_set_previous, interface_set_committed after interface_create; interface_history_size,
+ * interface_set_constraints, interface_set_offsets, interface_set_previous, interface_set_committed after interface_create; interface_adjust,
+ * interface_shape_offsets for what goes into them; interface_history_size,
  * interface_history_export, interface_history_import for restarts; interface_sums on several processes;
  * interface_counters, interface_effects, interface_report, interface_diagnose. Where normals follow the motion: interface_turn_multipliers
  * at the start of a step, interface_use_normals for a step in two phases. Before it: surface_split_creases where a non-mortar surface
@@ -506,6 +507,21 @@
 
 /// State of a node: closed, sliding or on the friction cone.
 #define STICKSLIP_STATE_SLIP 2
+
+/// Of `stickslip_interface_adjust`. Along the node's normal there is no mortar facet that looks at it.
+#define STICKSLIP_ADJUST_ALONE 0
+
+/// The node is farther from the mortar surface than the tolerance, and stays where it is.
+#define STICKSLIP_ADJUST_LEFT 1
+
+/// The node was moved onto the mortar surface.
+#define STICKSLIP_ADJUST_MOVED 2
+
+/// Side of an interface: the non-mortar one.
+#define STICKSLIP_SIDE_NONMORTAR 0
+
+/// Side of an interface: the mortar one.
+#define STICKSLIP_SIDE_MORTAR 1
 
 /// A contact interface. Created and destroyed by the library; one thread at a time.
 typedef struct stickslip_interface stickslip_interface;
@@ -2157,6 +2173,64 @@ int32_t stickslip_node_equilibrium(const struct stickslip_node *node,
                                    double *gap,
                                    double *traction,
                                    double *slip);
+
+/// Offsets of the nodes of both sides: how far the surface that is meant lies behind the meshed one, along its normal into the
+/// body [L]. They open gaps where they are positive (a clearance) and close them where they are negative (an interference, half
+/// the thickness of a shell, the rise of a curve over its facets). A non-mortar node's gap becomes g_A + nu_A o_A with
+/// o_A = sum_B n_AB h_B + sum_C n_AC h_C; residual, tangent, states and `stickslip_interface_sums` have it, slip has none of
+/// it. Of tied surfaces it is what they are pressed together or apart by, from where they started.
+///
+/// offsets1 (n1), offsets2 (n2) [L], of the non-mortar and of the mortar nodes: from the next evaluation on, in place of all earlier ones; NULL, or 0 at all nodes: none,
+/// and no cost. Set larger ones step by step to apply an interference slowly. Pairs are sought as deep, and as far, as the
+/// offsets need. With weights that are frozen a clearance of more than a facet must be set before the first commit. Not part of
+/// the history: set them again after a restart, before its import. Not of an analytic mortar side, whose shape or place says the
+/// same. On several processes each handle needs those of all of its nodes.
+///
+/// Errors: NULL_POINTER, NOT_FINITE, UNSUPPORTED (offsets of an analytic surface; normals of now with three multipliers and
+/// weak_coverage > 0), and where pairs are sought anew those of `stickslip_interface_set_previous`.
+/// Cost: a copy; where the largest offsets change, one search. Allocates.
+int32_t stickslip_interface_set_offsets(struct stickslip_interface *interface,
+                                        const double *offsets1,
+                                        const double *offsets2);
+
+/// Closes gaps and overlaps of the first configuration without strain: non-mortar nodes within `tolerance` of the mortar surface,
+/// along their normals, are put onto it. It changes nothing in the handle: mesh and interface are the host's to make anew with
+/// the new coordinates. For parts that are drawn a little apart, or a little into each other, and for tied surfaces that should
+/// not keep a gap. Gaps that are meant belong into `stickslip_interface_set_offsets`.
+///
+/// tolerance: above 0 [L]. Outputs, each or NULL: coordinates (3 n1; of lines 2 n1) [L] of the non-mortar nodes; gaps (n1) [L]:
+/// the distance before, positive where open, 0 where there is none; moved (n1): STICKSLIP_ADJUST_... The distance is measured to
+/// the nearest mortar facet, or part of a facet, that the node's normal meets and that looks at it. On flat surfaces every gap of
+/// moved nodes is closed, whatever the meshes; between curved ones that do not match what the facets' chords leave stays.
+///
+/// Errors: NULL_POINTER, INVALID_VALUE (a tolerance that is not positive, or that moves a node by more than the shortest edge
+/// around it; the message names the node), UNDEFINED_NORMAL.
+/// Cost: O((n1 + n2) log n2); allocates.
+int32_t stickslip_interface_adjust(struct stickslip_interface *interface,
+                                   double tolerance,
+                                   double *coordinates,
+                                   double *gaps,
+                                   int32_t *moved);
+
+/// Offsets that give a faceted surface the shape that it was meshed from: of each node the mean of the signed distance of its
+/// facets from the shape, weighted with the node's function, in the first configuration. Facets are chords: a shaft's lie inside
+/// it, so that it is too thin by h^2 / (12 R) in the mean, and a bore's lie in the hole. Give the result to
+/// `stickslip_interface_set_offsets`.
+///
+/// side: STICKSLIP_SIDE_... whose nodes they are. shape: STICKSLIP_SHAPE_SPHERE or _CYLINDER; radius [L]: above 0 of a ball or a
+/// bar, below 0 of a cavity or a bore. point (3) [L]: the centre, or a point of the axis; direction (3) [-]: of the axis, any
+/// length but 0 (of a sphere any). In a plane model a circle is a cylinder along z. offsets, output (n1 or n2) [L].
+///
+/// Errors: NULL_POINTER, NOT_FINITE, INVALID_VALUE (side, shape, radius, direction; a node that is farther from the shape than the
+/// longest facet is long), UNSUPPORTED (a plane; facets with mid nodes, which lie on a shape by themselves; an analytic side).
+/// Cost: O(n); allocates.
+int32_t stickslip_interface_shape_offsets(struct stickslip_interface *interface,
+                                          int32_t side,
+                                          int32_t shape,
+                                          double radius,
+                                          const double *point,
+                                          const double *direction,
+                                          double *offsets);
 
 /// Positions of a rigid body's nodes, docs/formulation.md 14.1: what the functions of an interface take for x1 or x2.
 ///

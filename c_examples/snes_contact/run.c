@@ -38,6 +38,11 @@ static PetscErrorCode step_to(Model *model, Summary *summary, History *history, 
   model->physics.t = t;
   PetscCall(supports_values(&model->physics, t));
   PetscCall(loads_values(&model->physics));
+  PetscCall(offsets_values(&model->contact, t, &refused));
+  if (refused) {
+    *done = PETSC_FALSE;
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
   PetscCall(newton_solve(&model->solve, &history->past, history->x, done));
   model->solve.iterations += newton->iterations;
   history->tried     = PETSC_TRUE;
@@ -117,6 +122,8 @@ PetscErrorCode run(Model *model, int *exit_code)
   *exit_code = 0;
   PetscCall(times_add_kinks(&model->physics, &model->solve.steps));
   PetscCall(summary_create(&model->output, &summary));
+  for (PetscInt i = 0; i < model->contact.n_interfaces && model->mesh.rank == 0; i++)
+    PetscCall(csv_adjusted(&model->output, &model->contact.interfaces[i]));
   PetscCall(history_create(model, &history));
   PetscCall(supports_values(&model->physics, 0));
   PetscCall(contact_start(&model->contact, history.past.last, &status));

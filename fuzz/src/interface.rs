@@ -259,6 +259,12 @@ impl Scene {
                 shake(bytes, &mut values);
                 succeeded(unsafe { stickslip_interface_set_augmentation(h, bytes.pointer(values.as_ptr())) });
             }
+            4 if bytes.once_in(2) => {
+                let mut values = vec![0.01; N1];
+                shake(bytes, &mut values);
+                let offsets = bytes.pointer(values.as_ptr());
+                succeeded(unsafe { stickslip_interface_set_offsets(h, offsets, std::ptr::null()) });
+            }
             4 => {
                 let mut values: Vec<f64> = {
                     let d = self.dimension;

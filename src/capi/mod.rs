@@ -82,6 +82,7 @@ mod facet_tangent;
 
 mod equilibrium;
 
+mod offsets;
 mod rigid;
 
 mod choice;
@@ -109,6 +110,7 @@ pub use message::*;
 pub use model::*;
 pub use node::*;
 pub use normals::*;
+pub use offsets::*;
 pub use options::*;
 pub use pair::*;
 pub use pair_in::*;

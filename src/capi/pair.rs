@@ -236,7 +236,7 @@ pub unsafe extern "C" fn stickslip_pair_tangent(
         if let (Some(_), Some(dn)) = (&weights, &dn) {
             t.forces = dn.of_forces(&nodes.traction);
         }
-        let now = weights.as_ref().map(|weights| PairNow { weights, gap: gap.as_ref() });
+        let now = weights.as_ref().map(|weights| PairNow { weights, gap: gap.as_ref(), offset: None });
         row_columns::<true, 3>(now.as_ref(), before.as_ref(), &nodes, &mut t.rows);
         check_tangent(&t)?;
         write_tangent(&t, weights.as_ref(), (n1, n2), &mut k);

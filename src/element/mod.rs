@@ -15,4 +15,6 @@ pub use nodal::{NodalPair, NodalWeights, column_force};
 pub use pair_matrix::{Lines, write_pair};
 pub use parent::{ParentPair, parent_force};
 pub use residual::pair_force;
-pub use tangent::{FacetResponse, NodeTangent, PairNow, PairTangent, RowColumns, frozen_rows, gap_rows, row_columns};
+pub use tangent::{
+    FacetResponse, NodeTangent, OffsetDerivative, PairNow, PairTangent, RowColumns, frozen_rows, gap_rows, row_columns,
+};

@@ -77,6 +77,20 @@ pub struct PairNow<'a> {
     /// Dg[n_{n+1}, x_{n+1}]; `None` where the weights are frozen, unless a first gap turns with the facet: of the first
     /// of its pairs.
     pub gap: Option<&'a GapDerivative>,
+    /// What offsets of the nodes add to it; `None` where there are none, or the weights are frozen.
+    pub offset: Option<&'a OffsetDerivative>,
+}
+
+/// D(nu_A o_A) of a pair, o_A = sum_B n_AB h_B + sum_C n_AC h_C with nodes offset by h, at a fixed nu_A: in factors
+/// (docs/formulation.md 15.2).
+#[derive(Clone, Debug)]
+pub struct OffsetDerivative {
+    /// nu of the non-mortar facet's nodes.
+    pub normals: [Vec3; MAX_CORNERS],
+    /// Whether the gaps that slip is measured from, of t_n's weights, have nu_A o_A, too.
+    pub in_previous: bool,
+    /// `[k][j][A]`: d o_A / d x_k,j, k over the pair's slots [L^2].
+    pub slopes: [[[f64; MAX_CORNERS]; 3]; PAIR_NODES],
 }
 
 /// d row / d x of a pair active now, at t_n, or both, into `rows`. Mortar slots are left as they are where that side
@@ -90,23 +104,24 @@ pub fn row_columns<const MOVES: bool, const N: usize>(
     simd::dispatch(RowKernel::<MOVES, N> { now, previous, nodes, rows });
 }
 
-/// `drow` . Dg_A / dx_k of one node, for every slot k.
-pub fn gap_rows<const MOVES: bool>(now: &PairNow, a: usize, drow: &Mat3) -> [Mat3; PAIR_NODES] {
+/// drow . Dg_A / dx_k of one node, for every slot k; `drow`: of the gap of now and of that of t_n's weights, which has the
+/// offsets alone.
+pub fn gap_rows<const MOVES: bool>(now: &PairNow, a: usize, drow: (&Mat3, &Mat3)) -> [Mat3; PAIR_NODES] {
     one_node::<MOVES>(Some(now), None, a, drow)
 }
 
 /// The same with weights held fixed.
 pub fn frozen_rows<const MOVES: bool>(weights: &PairWeights, a: usize, drow: &Mat3) -> [Mat3; PAIR_NODES] {
-    one_node::<MOVES>(None, Some(weights), a, drow)
+    one_node::<MOVES>(None, Some(weights), a, (drow, drow))
 }
 
 fn one_node<const MOVES: bool>(
     now: Option<&PairNow>,
     previous: Option<&PairWeights>,
     a: usize,
-    drow: &Mat3,
+    drow: (&Mat3, &Mat3),
 ) -> [Mat3; PAIR_NODES] {
-    let node = NodeTangent { traction: Vec3::zeros(), drow_dnow: *drow, drow_dprevious: *drow };
+    let node = NodeTangent { traction: Vec3::zeros(), drow_dnow: *drow.0, drow_dprevious: *drow.1 };
     let mut rows = [[[[0.0; MAX_CORNERS]; 3]; 3]; PAIR_NODES];
     row_columns::<MOVES, 3>(now, previous, &FacetResponse::new([&node; MAX_CORNERS]), &mut rows);
     rows.map(|columns| Mat3::from_fn(|i, j| columns[j][i][a]))
@@ -125,26 +140,64 @@ impl<const MOVES: bool, const N: usize> Kernel for RowKernel<'_, MOVES, N> {
     #[inline(always)]
     fn run<L: Lanes>(self) {
         let RowKernel { now, previous, nodes, rows } = self;
-        match now {
-            Some(PairNow { gap: Some(GapDerivative::Facets(gap)), .. }) => {
-                // In one pass with what the weights of t_n add.
-                let none = PairWeights::default();
-                return with_motion::<L, MOVES, N>(gap, nodes, previous.unwrap_or(&none), rows);
-            }
-            Some(PairNow { gap: Some(GapDerivative::Blocks(blocks)), .. }) => {
-                with_blocks::<L, N, false>(blocks, nodes, rows)
-            }
-            Some(PairNow { weights, gap: Some(GapDerivative::Turning(blocks)) }) => {
-                frozen::<L, MOVES, N, false>(weights, &nodes.now, rows);
-                with_blocks::<L, N, true>(blocks, nodes, rows);
-            }
-            Some(PairNow { weights, gap: None }) => frozen::<L, MOVES, N, false>(weights, &nodes.now, rows),
-            None => {}
+        of_gaps::<L, MOVES, N>(now, previous, nodes, rows);
+        if let Some(PairNow { offset: Some(offset), .. }) = now {
+            with_offset::<L, MOVES, N>(offset, nodes, rows);
         }
-        match (now, previous) {
-            (None, Some(weights)) => frozen::<L, MOVES, N, false>(weights, &nodes.previous, rows),
-            (_, Some(weights)) => frozen::<L, MOVES, N, true>(weights, &nodes.previous, rows),
-            _ => {}
+    }
+}
+
+/// What the pair's own gaps have.
+#[inline(always)]
+fn of_gaps<L: Lanes, const MOVES: bool, const N: usize>(
+    now: Option<&PairNow>,
+    previous: Option<&PairWeights>,
+    nodes: &FacetResponse<N>,
+    rows: &mut RowColumns<N>,
+) {
+    match now {
+        Some(PairNow { gap: Some(GapDerivative::Facets(gap)), .. }) => {
+            // In one pass with what the weights of t_n add.
+            let none = PairWeights::default();
+            return with_motion::<L, MOVES, N>(gap, nodes, previous.unwrap_or(&none), rows);
+        }
+        Some(PairNow { gap: Some(GapDerivative::Blocks(blocks)), .. }) => {
+            with_blocks::<L, N, false>(blocks, nodes, rows)
+        }
+        Some(PairNow { weights, gap: Some(GapDerivative::Turning(blocks)), .. }) => {
+            frozen::<L, MOVES, N, false>(weights, &nodes.now, rows);
+            with_blocks::<L, N, true>(blocks, nodes, rows);
+        }
+        Some(PairNow { weights, gap: None, .. }) => frozen::<L, MOVES, N, false>(weights, &nodes.now, rows),
+        None => {}
+    }
+    match (now, previous) {
+        (None, Some(weights)) => frozen::<L, MOVES, N, false>(weights, &nodes.previous, rows),
+        (_, Some(weights)) => frozen::<L, MOVES, N, true>(weights, &nodes.previous, rows),
+        _ => {}
+    }
+}
+
+/// Adds drow . nu Do. What depends on the slip alone cancels at a node with this nu, not at one that carries it.
+#[inline(always)]
+fn with_offset<L: Lanes, const MOVES: bool, const N: usize>(
+    OffsetDerivative { normals, in_previous, slopes }: &OffsetDerivative,
+    nodes: &FacetResponse<N>,
+    rows: &mut RowColumns<N>,
+) {
+    let nu = [0, 1, 2].map(|i| normals.map(|nu| nu[i]));
+    for n in 0..N {
+        let mut along = L::splat(0.0);
+        for i in 0..3 {
+            along = L::load(&nodes.now[n][i]).mul_add(L::load(&nu[i]), along);
+            if *in_previous {
+                along = L::load(&nodes.previous[n][i]).mul_add(L::load(&nu[i]), along);
+            }
+        }
+        for k in 0..slots(MOVES) {
+            for j in 0..3 {
+                rows[k][j][n] = along.mul_add(L::load(&slopes[k][j]), L::load(&rows[k][j][n])).store();
+            }
         }
     }
 }

@@ -18,6 +18,7 @@ mod evaluation;
 mod inspect;
 mod linear;
 mod linearisation;
+mod offsets;
 mod pairing;
 mod plan;
 mod stages;
@@ -46,6 +47,7 @@ pub use data::options::{
 pub use data::pairs::{PairRecord, ParentRecord};
 pub use data::parents::Parents;
 pub use data::surface::{NO_EQUATION, Surface};
+pub use inspect::adjust::Adjusted;
 pub use inspect::diagnosis::{Cause, Diagnosis, SUSPECT, Suspect, WorstPair};
 pub use inspect::equilibrium::{Equilibrium, Largest, ROUNDINGS, Scales};
 pub use inspect::report::{Cover, Finding, NodeCover, Report};

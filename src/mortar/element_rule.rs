@@ -247,6 +247,34 @@ impl KindKernel for Motion<'_> {
     }
 }
 
+/// As [`super::offset_motion`], `raised` the segment with the mortar side's values in place of its heights.
+pub(super) fn offsets(
+    (frame, segment, points): (&NonmortarFrame, &Segment, CellPoints),
+    raised: &Segment,
+    one: &[f64; MAX_CORNERS],
+    slopes: &mut AreaDerivatives,
+) {
+    let plane = Derivatives::<0>::new((frame, raised, points), &[], one);
+    Kinds::of(frame, segment).plain(Offsets { frame, segment, gap: plane.gap, slopes });
+}
+
+struct Offsets<'a> {
+    frame: &'a NonmortarFrame,
+    segment: &'a Segment,
+    gap: Sums,
+    slopes: &'a mut AreaDerivatives,
+}
+
+impl KindKernel for Offsets<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<L: Lanes, One: SingleBasis, Two: Isoparametric>(self) {
+        let Offsets { frame, segment, gap, slopes } = self;
+        Chain::new(frame, segment).nodes::<One::Cell, Two::Cell>(&lanes::<L>(&gap), &mut Areas(slopes));
+    }
+}
+
 /// As [`WeightDerivatives::update`].
 pub(super) fn derivatives(
     frame: &NonmortarFrame,

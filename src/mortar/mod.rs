@@ -14,6 +14,7 @@ mod field;
 mod frame_motion;
 mod gap;
 mod moments;
+mod offset;
 #[cfg(test)]
 mod oracle;
 mod overlap;
@@ -42,6 +43,7 @@ pub use derivatives::{pair_motion, pair_motion_raised};
 pub use field::MultiplierSpace;
 pub use frame_motion::{FrameMotion, frame_motion};
 pub use gap::{AlongNormal, GapBlocks, GapDerivative, Raised, columns, gap, height_gap};
+pub use offset::offset_motion;
 pub use pair_weights::PairWeights;
 pub use parent_pair::{ParentDerivatives, ParentFacet, ParentWeights, parent_weights};
 pub use segment::{CellPoints, NonmortarFrame, Segment};

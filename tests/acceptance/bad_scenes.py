@@ -184,6 +184,19 @@ BAD_SCENES += [
 
 BLOCK, RINGS, FLAT = "plane_block.yaml", "ring_shrink_fit.yaml", "plane_hertz.yaml"
 BAD_SCENES += [
+    BadScene(name, "interfaces: [contact]\n", "interfaces: [contact]\n", names, options=options, says=says, base=RINGS)
+    for name, names, options, says in [
+        ("offset_of_no_node", "contact.offset_at", ("-contact_offset_at", "10,0,0.01,10,0.123,0.01"), "no node of the non-mortar surface"),
+        ("offset_without_a_value", "contact.offset_at", ("-contact_offset_at", "10,0"), "3 numbers a node"),
+        ("curve_of_no_offset", "contact.offset_curve", ("-contact_offset_curve", "0,0,1,1"), "there is none"),
+        ("adjust_of_nothing", "contact.adjust", ("-contact_adjust", "0"), "above 0"),
+        ("adjust_beyond_a_facet", "contact.adjust", ("-contact_adjust", "2", "-hub_lower", "11,0"), "shortest edge"),
+        ("radius_without_round", "contact.nonmortar_radius", ("-contact_nonmortar_radius", "10"), "round"),
+        ("round_without_radius", "contact.round", ("-contact_round", "circle"), "which side"),
+        ("radius_of_nothing", "contact.mortar_radius", ("-contact_round", "circle", "-contact_mortar_radius", "0"), "Zero is neither"),
+    ]
+]
+BAD_SCENES += [
     BadScene("model_unknown", "model: plane_strain", "model: plane", "model", base=BLOCK),
     BadScene("numbers_of_space", "lower: [0, 0],", "lower: [0, 0, 0],", "block.lower", says="2 numbers", base=BLOCK),
     BadScene("cells_of_space", "lower: [0, 0],", "cell: hex, lower: [0, 0],", "block.cell", says="quad, tri", base=BLOCK),

@@ -21,6 +21,7 @@ from material_checks import materials  # noqa: E402
 from loads import loads  # noqa: E402
 from normals import normals  # noqa: E402
 from normals_full import normals_full, normals_iterations  # noqa: E402
+from offsets import offsets  # noqa: E402
 from plane import plane, plane_ball  # noqa: E402
 from plane_analytic import plane_analytic  # noqa: E402
 from quadratic import quadratic  # noqa: E402
@@ -57,6 +58,7 @@ GROUPS = {
     "normals": normals,
     "normals_full": normals_full,  # ten minutes; not among the tests
     "normals_iterations": normals_iterations,  # some minutes; not among the tests
+    "offsets": offsets,
     "plane": plane,
     "plane_analytic": plane_analytic,
     "plane_ball": plane_ball,

@@ -10,8 +10,9 @@ static struct {
   every every;
   int64_t ld, capacity, length, n_interfaces, n, n_rows, n_integers, n_reals, commits, nodes[3];
   int64_t offsets1[3], shared1[6], offsets2[3], shared2[4], options_size;
-  int32_t n_facet, layout, index_base, piece, which_normals, pairs, entries;
-  double scale, stiffness, rounding, angle, penetration, neighbours[12];
+  int32_t n_facet, layout, index_base, piece, which_normals, pairs, entries, side, shape;
+  double scale, stiffness, rounding, angle, penetration, tolerance, radius, point[3], direction[3], neighbours[12];
+  double raised1[N1], raised2[N2];
   double mu[N1], r[N1], normals[X1], slip[X1], directions[9], sums[STICKSLIP_SUMS_PER_NODE * N1], dx1[X1], dx2[X2];
   weights previous;
   history imported;
@@ -172,6 +173,12 @@ FUNCTION(facet_normal_derivatives, (b.n_facet, a[0], a[1]), {"x", E.x1, NEEDED},
          {"derivatives", E.normal_derivatives, NEEDED})
 FUNCTION(node_turn, (a[0], a[1], b.layout, a[2], a[3], a[4]), {"node", &E.node, NEEDED}, {"sum", E.sum, NEEDED},
          {"dnu_dsum", E.turn, OPTIONAL}, {"dp_dnormal", E.turn + 9, OPTIONAL}, {"drow_dnormal", E.turn + 18, OPTIONAL})
+FUNCTION(interface_set_offsets, (a[0], a[1], a[2]), INTERFACE, {"offsets1", b.raised1, OPTIONAL},
+         {"offsets2", b.raised2, OPTIONAL})
+FUNCTION(interface_adjust, (a[0], b.tolerance, a[1], a[2], a[3]), INTERFACE, {"coordinates", b.every.adjusted, OPTIONAL},
+         {"gaps", b.every.gaps, OPTIONAL}, {"moved", b.every.moved, OPTIONAL})
+FUNCTION(interface_shape_offsets, (a[0], b.side, b.shape, b.radius, a[1], a[2], a[3]), INTERFACE,
+         {"point", b.point, NEEDED}, {"direction", b.direction, NEEDED}, {"offsets", b.every.shape_offsets, NEEDED})
 FUNCTION(interface_equilibrium, (a[0], a[1], a[2], a[3], a[4], a[5]), POINT, OUT(b.every.equilibrium))
 
 FUNCTION(rigid_positions, (a[0], a[1], a[2]), {"body", &b.rigid.body, NEEDED}, {"motion", &b.rigid.motion, NEEDED},
@@ -208,6 +215,7 @@ static const struct {
     NAMED(interface_step_limit), NAMED(interface_commit), NAMED(interface_rollback), NAMED(interface_history_size),
     NAMED(interface_history_export), NAMED(interface_history_import), NAMED(interface_counters),
     NAMED(interface_effects), NAMED(interface_report), NAMED(interface_diagnose), NAMED(interface_equilibrium),
+    NAMED(interface_set_offsets), NAMED(interface_adjust), NAMED(interface_shape_offsets),
     NAMED(node_condense), NAMED(interface_carriers), NAMED(interface_condensed_multipliers), NAMED(interface_condensed_residual),
     NAMED(interface_condensed_coo), NAMED(interface_condensed_csr), NAMED(interface_condensed_pattern),
     NAMED(interface_use_normals), NAMED(interface_turn_multipliers), NAMED(facet_normal_derivatives), NAMED(node_turn),

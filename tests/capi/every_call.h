@@ -57,6 +57,8 @@ typedef struct {
   double condensed_lambda[X1], condensed_rows[X1], condensed_force[X2], node_condensed[13];
   uint64_t condensed_counts[5], condensed_bits[5];
   double turned[X1];
+  double adjusted[X1], gaps[N1], shape_offsets[N1];
+  int32_t moved[N1];
   /* Of plans, two for those of condensed systems. */
   int64_t plan_rows[2], plan_counts[2], row_list[UNKNOWNS], row_offsets[UNKNOWNS + 1], plan_columns[UNKNOWNS * UNKNOWNS];
   int32_t row_list32[UNKNOWNS], row_offsets32[UNKNOWNS + 1], rows32[UNKNOWNS * UNKNOWNS], columns32[UNKNOWNS * UNKNOWNS];
@@ -153,6 +155,32 @@ static inline int32_t every_constraints(every *c) {
   }
   const int64_t node = 4;
   return stickslip_interface_set_constraints(c->h.s.interface, 1, &node, across);
+}
+/* How the offset of a carried node turns is not in the tangent: refused. */
+static inline int every_offsets_unsupported(const stickslip_options *o) {
+  const int carries = o->weak_coverage > 0.0 || (o->weak_coverage == 0.0 && o->multiplier_basis == STICKSLIP_BASIS_DUAL);
+  return o->normals == STICKSLIP_NORMALS_CURRENT && o->friction != STICKSLIP_FRICTION_NONE && carries;
+}
+static inline int32_t every_offsets(every *c) {
+  const stickslip_options *o = &c->h.s.options;
+  double one[N1], two[N2];
+  for (int a = 0; a < N1; ++a) one[a] = every_offsets_unsupported(o) ? 0.0 : 1e-3 * a;
+  for (int a = 0; a < N2; ++a) two[a] = every_offsets_unsupported(o) ? 0.0 : -1e-3 * a;
+  return stickslip_interface_set_offsets(c->h.s.interface, one, o->mortar_side == STICKSLIP_MORTAR_ANALYTIC ? NULL : two);
+}
+static inline int32_t every_no_offsets(every *c) { return stickslip_interface_set_offsets(c->h.s.interface, NULL, NULL); }
+static inline int32_t every_adjust(every *c) {
+  return stickslip_interface_adjust(c->h.s.interface, 0.02, c->adjusted, c->gaps, c->moved);
+}
+static inline int32_t every_shape_offsets(every *c) {
+  static double centre[3];
+  static const double axis[] = {0, 0, 1};
+  if (centre[2] == 0.0) {
+    centre[2] = 1e4;
+    scene_frame(centre);
+  }
+  return stickslip_interface_shape_offsets(c->h.s.interface, STICKSLIP_SIDE_NONMORTAR, STICKSLIP_SHAPE_SPHERE, 1e4, centre, axis,
+                                           c->shape_offsets);
 }
 static inline int32_t every_committed(every *c) { return call_interface_committed(&c->h); }
 static inline int32_t every_previous(every *c) { return call_interface_previous(&c->h); }
@@ -382,6 +410,12 @@ static const entry_point every_call[] = {
     {"interface_sums", every_sums},
     {"interface_residual, sums", every_with_sums},
     {"interface_set_normals, NULL", every_no_normals},
+    {"interface_set_offsets", every_offsets},
+    {"interface_residual, offsets", every_residual},
+    {"interface_tangent_coo, offsets", every_coo},
+    {"interface_set_offsets, NULL", every_no_offsets},
+    {"interface_adjust", every_adjust},
+    {"interface_shape_offsets", every_shape_offsets},
     {"interface_set_constraints", every_constraints},
     {"interface_states", every_states},
     {"interface_tangent_csr", every_csr},
@@ -513,10 +547,13 @@ static inline int32_t every_refusal(int k) {
     case 69: return stickslip_rigid_coo(NULL, 0, NULL, NULL);
     case 70: return stickslip_rigid_values(NULL, NULL, NULL, NULL, NULL);
     case 71: return stickslip_rigid_destroy((stickslip_rigid **)(uintptr_t)1);
+    case 72: return stickslip_interface_set_offsets(NULL, NULL, NULL);
+    case 73: return stickslip_interface_adjust(NULL, 1.0, NULL, NULL, NULL);
+    case 74: return stickslip_interface_shape_offsets(NULL, 0, 1, 1.0, NULL, NULL, NULL);
     default: return stickslip_interface_diagnose(NULL, NULL, NULL, NULL, NULL, NULL);
   }
 }
-enum { REFUSALS = 73 };
+enum { REFUSALS = 76 };
 
 /* Room and sizes for the structs that come out. */
 static inline void every_room(every *c) {

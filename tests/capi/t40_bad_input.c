@@ -71,6 +71,11 @@ static void set_up(const char *name, int32_t base) {
   b.scale = b.stiffness = 1.0;
   b.directions[0] = b.directions[4] = b.directions[8] = 1.0;
   b.dx1[0] = 1.0;
+  b.tolerance = 0.02;
+  b.shape = STICKSLIP_SHAPE_SPHERE;
+  b.radius = 1e4;
+  b.point[2] = b.direction[2] = 1e4;
+  scene_frame(b.point);
   memcpy(b.offsets1, offsets1, sizeof offsets1);
   memcpy(b.shared1, shared1, sizeof shared1);
   memcpy(b.offsets2, offsets2, sizeof offsets2);
@@ -198,6 +203,8 @@ static void tell(void) {
   REALS("x1", S.x1), REALS("x2", S.x2), REALS("lambda", S.lambda), REALS("dx1", b.dx1), REALS("dx2", b.dx2);
   REALS("sums", b.sums), REALS("mu", b.mu), REALS("r", b.r), REALS("normals", b.normals);
   REALS("slip", b.slip), NUMBER(INT64, commits);
+  REALS("offsets1", b.raised1), REALS("offsets2", b.raised2), REALS("point", b.point), REALS("direction", b.direction);
+  NUMBER(REAL, tolerance), NUMBER(REAL, radius), NUMBER(INT32, side), NUMBER(INT32, shape);
   REALS("directions", b.directions), INTEGERS("nodes", b.nodes), INTEGERS("row_offsets", H.offsets);
   INTEGERS("nonmortar_offsets", b.offsets1), INTEGERS("mortar_offsets", b.offsets2);
   bad_place("imported_integers", INT64, b.imported.integers, (int32_t)b.n_integers);

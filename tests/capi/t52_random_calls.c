@@ -197,7 +197,7 @@ static void stateless(void) {
 }
 
 /* A call that defines a handle's state, with its numbers. */
-enum { FRICTION, AUGMENTATION, NORMALS, CONSTRAINTS, ROLLBACK, IMPORT, COMMIT, PREVIOUS, USE_NORMALS, CHANGES, CALLS = 8 };
+enum { FRICTION, AUGMENTATION, NORMALS, CONSTRAINTS, ROLLBACK, IMPORT, COMMIT, PREVIOUS, USE_NORMALS, OFFSETS, CHANGES, CALLS = 8 };
 typedef struct {
   int kind, given;
   int64_t n, nodes[2];
@@ -215,6 +215,7 @@ static int32_t apply(stickslip_interface *i, const change *c) {
     case ROLLBACK: return stickslip_interface_rollback(i);
     case IMPORT:
       return stickslip_interface_history_import(i, c->n, c->imported.integers, c->imported.n_reals, c->imported.reals);
+    case OFFSETS: return stickslip_interface_set_offsets(i, values, NULL);
     case USE_NORMALS: return stickslip_interface_use_normals(i, (int32_t)(c->n - 1));
     case COMMIT: return stickslip_interface_commit(i, c->x1, c->x2, c->lambda, NULL);
     default: return stickslip_interface_set_previous(i, c->x1, c->x2);

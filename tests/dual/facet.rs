@@ -201,14 +201,15 @@ impl Patch {
             mortar.add_weights(&pair.weights, &pair.places);
             mortar.add_derivatives(&dq, &forces, &pair.places);
             let gap = GapDerivative::Facets(gap);
-            let now = PairNow { weights: &pair.weights, gap: Some(&gap) };
+            let now = PairNow { weights: &pair.weights, gap: Some(&gap), offset: None };
             let slots = (0..self.nodes).map(|k| (k, k));
             let slots = slots.chain(pair.places.iter().enumerate().map(|(c, p)| (MORTAR + c, self.nodes + p)));
             for (slot, node) in slots {
                 for j in 0..3 {
                     let column = 3 * node + j;
                     for a in 0..self.nodes {
-                        motion.gaps[column][a] += gap_rows::<true>(&now, a, &Mat3::identity())[slot].column(j);
+                        motion.gaps[column][a] +=
+                            gap_rows::<true>(&now, a, (&Mat3::identity(), &Mat3::zeros()))[slot].column(j);
                         motion.diagonal[column][a] += areas[slot][j][a];
                         motion.forces[column][a] += Vec3::from_fn(|i, _| forces.one[slot][j][i][a]);
                     }

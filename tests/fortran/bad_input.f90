@@ -54,6 +54,8 @@ module bad_input
     integer(c_int64_t) :: plan_columns(UNKNOWNS**2)
     integer(c_int32_t) :: row_list32(UNKNOWNS), row_offsets32(UNKNOWNS + 1), rows32(UNKNOWNS**2), columns32(UNKNOWNS**2)
     real(c_double) :: plan_values(UNKNOWNS**2), constraints(UNKNOWNS**2)
+    real(c_double) :: adjusted(SIZE1), gaps(NA), shape_offsets(NA)
+    integer(c_int32_t) :: moved(NA)
     integer(c_int32_t) :: kinds(8), cover(NA), layers(NA), state(NA), suspect_causes(8)
     character(kind=c_char) :: text(80), effects(1000), report_text(1000), diagnosis_text(2000)
   end type
@@ -71,17 +73,18 @@ module bad_input
   type(stickslip_interface), target, save :: interface_, other, created
   integer(c_int64_t), target, save :: ld, capacity, length, n_interfaces, n, n_rows, n_integers, n_reals, commits, struct_size
   integer(c_int64_t), target, save :: nodes(3), offsets1(3), offsets2(3), shared1(6), shared2(4)
-  integer(c_int32_t), target, save :: n_facet, layout, index_base, piece, which_normals, which_pairs, entries
+  integer(c_int32_t), target, save :: n_facet, layout, index_base, piece, which_normals, which_pairs, entries, side, shape_
   real(c_double), target, save :: scale, stiffness, rounding, angle, penetration, neighbours(12)
   real(c_double), target, save :: mu(NA), r(NA), normals(SIZE1), slip(SIZE1), directions(9), sums(STICKSLIP_SUMS_PER_NODE * NA)
-  real(c_double), target, save :: dx1(SIZE1), dx2(SIZE2)
+  real(c_double), target, save :: dx1(SIZE1), dx2(SIZE2), raised1(NA), raised2(NC)
+  real(c_double), target, save :: tolerance, radius, point(3), direction(3)
   ! Pointer arguments, by the names of the header.
-  integer, parameter :: POINTERS = 36
+  integer, parameter :: POINTERS = 41
   character(13), parameter :: NAMES(POINTERS) = [character(13) :: 'n_ab', 'n_ac', 'dn_ab', 'dn_ac', 'n_ab_previous', &
       'n_ac_previous', 'row_scale', 'normals', 'areas', 'row', 'block', 'gap', 'traction', 'slip', 'facet_nodes', &
       'originals', 'nodes', 'kinds', 'claims', 'rows', 'columns', 'values', 'sums', 'r', &
       'fade', 'coefficients', 'dual_ab', 'dual_ac', 'carriers', 'weights', 'entry_rows', 'entry_columns', 'w', &
-      'dnu_dsum', 'dp_dnormal', 'drow_dnormal']
+      'dnu_dsum', 'dp_dnormal', 'drow_dnormal', 'offsets1', 'offsets2', 'coordinates', 'gaps', 'moved']
   type(c_ptr), target, save :: p(POINTERS)
 
 contains
@@ -216,6 +219,12 @@ contains
       status = stickslip_interface_report(interface_, h%s%x1, h%s%x2, o%report)
     case ('interface_diagnose')
       status = stickslip_interface_diagnose(interface_, h%s%x1, h%s%x2, h%s%lambda, at('sums'), o%diagnosis)
+    case ('interface_set_offsets')
+      status = stickslip_interface_set_offsets(interface_, at('offsets1'), at('offsets2'))
+    case ('interface_adjust')
+      status = stickslip_interface_adjust(interface_, tolerance, at('coordinates'), at('gaps'), at('moved'))
+    case ('interface_shape_offsets')
+      status = stickslip_interface_shape_offsets(interface_, side, shape_, radius, point, direction, o%shape_offsets)
     case ('interface_equilibrium')
       status = stickslip_interface_equilibrium(interface_, h%s%x1, h%s%x2, h%s%lambda, at('sums'), o%equilibrium)
     case ('node_condense')
@@ -328,6 +337,15 @@ contains
     dx1 = 0
     dx1(1) = 1
     dx2 = 0
+    raised1 = 0
+    raised2 = 0
+    tolerance = 0.02d0
+    side = STICKSLIP_SIDE_NONMORTAR
+    shape_ = STICKSLIP_SHAPE_SPHERE
+    radius = 1d4
+    point = [0d0, 0d0, 1d4]
+    direction = point
+    call scene_frame(point)
     offsets1 = [0, 3, 6]
     offsets2 = [0, 2, 4]
     shared1 = [1, 2, 3, 3, 4, 5]
@@ -375,7 +393,8 @@ contains
          c_loc(o%kinds), c_loc(o%claims), c_loc(h%row_numbers), c_loc(h%columns), c_loc(h%values), c_null_ptr, c_loc(r), &
          c_loc(e%fade), c_loc(e%coefficients), c_loc(e%dual_ab), c_loc(e%dual_ac), &
          c_loc(h%columns), c_loc(h%values), c_loc(h%row_numbers), c_loc(h%columns), c_loc(o%w), &
-         c_loc(e%turn(1, 1)), c_loc(e%turn(1, 2)), c_loc(e%turn(1, 3))]
+         c_loc(e%turn(1, 1)), c_loc(e%turn(1, 2)), c_loc(e%turn(1, 3)), c_loc(raised1), c_loc(raised2), &
+         c_loc(o%adjusted), c_loc(o%gaps), c_loc(o%moved)]
     if (name == 'node_condense') p(7) = c_loc(o%scale)
     if (name == 'interface_carriers') p(17) = c_loc(h%row_numbers)
     if (name == 'pair_begin') p([1, 2, 12]) = [c_loc(e%w_out%ab), c_loc(e%w_out%ac), c_loc(e%gap)]

@@ -45,15 +45,18 @@ contains
         'pair.x1', 'pair.x2', 'pair.neighbour_normals', 'n_ab', 'n_ac', 'dn_ab', 'dn_ac', 'n_ab_previous', 'n_ac_previous', &
         'traction', 'row_scale', 'sum', 'nonmortar.coordinates', 'mortar.coordinates', 'x1', 'x2', 'lambda', 'dx1', 'dx2', &
         'sums', 'mu', 'r', 'normals', 'directions', 'imported_reals', 'scale', 'stiffness', 'rounding', 'angle', &
-        'penetration', 'facet.neighbour_normals', 'mass', 'host1', 'state', 'slip'], [ &
+        'penetration', 'facet.neighbour_normals', 'mass', 'host1', 'state', 'slip', 'offsets1', 'offsets2', 'point', &
+        'direction', 'tolerance', 'radius'], [ &
         c_loc(e%x1), c_loc(e%x2), c_loc(neighbours), c_loc(e%w%ab), c_loc(e%w%ac), c_loc(e%w%dab), c_loc(e%w%dac), &
         c_loc(previous%ab), c_loc(previous%ac), c_loc(e%traction), c_loc(e%row_scale), c_loc(e%sum), c_loc(h%s%reference1), &
         c_loc(h%s%reference2), c_loc(h%s%x1), c_loc(h%s%x2), c_loc(h%s%lambda), c_loc(dx1), c_loc(dx2), c_loc(sums), &
         c_loc(mu), c_loc(r), c_loc(normals), c_loc(directions), c_loc(imported%reals), c_loc(scale), c_loc(stiffness), &
         c_loc(rounding), c_loc(angle), c_loc(penetration), c_loc(neighbours), c_loc(e%mass), c_loc(h%host1), &
-        c_loc(e%state), c_loc(slip)], [ &
+        c_loc(e%state), c_loc(slip), c_loc(raised1), c_loc(raised2), c_loc(point), c_loc(direction), c_loc(tolerance), &
+        c_loc(radius)], [ &
         12, 12, 12, 16, 16, size(e%w%dab), size(e%w%dac), 16, 16, 12, 4, 3, SIZE1, SIZE2, SIZE1, SIZE2, SIZE1, SIZE1, &
-        SIZE2, size(sums), NA, NA, SIZE1, 9, int(n_reals), 0, 0, 0, 0, 0, 12, 16, SIZE1, STATE_SIZE, SIZE1])
+        SIZE2, size(sums), NA, NA, SIZE1, 9, int(n_reals), 0, 0, 0, 0, 0, 12, 16, SIZE1, STATE_SIZE, SIZE1, NA, NC, &
+        3, 3, 0, 0])
     call places(INT64, [character(30) :: &
         'imported_integers', 'nonmortar.facet_offsets', 'mortar.facet_offsets', 'nonmortar.facet_nodes', &
         'mortar.facet_nodes', 'nonmortar.equations', 'mortar.equations', 'nonmortar.multiplier_equations', 'nodes', &
@@ -66,9 +69,9 @@ contains
         int(n_integers), 5, 10, 16, 36, SIZE1, SIZE2, SIZE1, 3, size(h%offsets), 3, 3, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0])
     call places(INT32, [character(30) :: &
         'n_facet', 'layout', 'index_base', 'diagnosis.state', 'facet.n2', 'piece', 'interface_use_normals:normals', &
-        'pairs', 'entries'], [ &
+        'pairs', 'entries', 'side', 'shape'], [ &
         c_loc(n_facet), c_loc(layout), c_loc(index_base), c_loc(o%state), c_loc(e%n2), c_loc(piece), &
-        c_loc(which_normals), c_loc(which_pairs), c_loc(entries)], [0, 0, 0, NA, 1, 0, 0, 0, 0])
+        c_loc(which_normals), c_loc(which_pairs), c_loc(entries), c_loc(side), c_loc(shape_)], [0, 0, 0, NA, 1, 0, 0, 0, 0, 0, 0])
   end subroutine
 
   subroutine structs(kind, name, there)

@@ -88,12 +88,13 @@ const STAGES: [&str; 5] = ["integrate", "facet", "sums", "respond", "residual"];
 const ROOMS: [&str; 7] = ["data", "pairing", "stages", "tangent", "plan", "condensed", "inspect"];
 
 /// Files that know the handle: itself, and those that give it to hosts.
-const KNOW_THE_HANDLE: [&str; 7] = [
+const KNOW_THE_HANDLE: [&str; 8] = [
     "interface/condensation.rs",
     "interface/contact.rs",
     "interface/evaluation.rs",
     "interface/linearisation.rs",
     "interface/mod.rs",
+    "interface/offsets.rs",
     "interface/turning.rs",
     "capi/",
 ];

@@ -23,6 +23,7 @@ mod identities;
 mod large_sliding;
 mod lines;
 mod normals;
+mod offsets;
 mod orders;
 mod orientation;
 mod parts;

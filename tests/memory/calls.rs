@@ -291,7 +291,7 @@ fn rust_element_calls_allocate_nothing() {
                 let motion = pair_motion((&frame, &segment, rule), &weights, &nodes.traction, &mut t.forces);
                 for gap in [gap, motion] {
                     let gap = GapDerivative::Facets(gap);
-                    let now = PairNow { weights: &weights, gap: Some(&gap) };
+                    let now = PairNow { weights: &weights, gap: Some(&gap), offset: None };
                     row_columns::<true, 3>(Some(&now), Some(&weights), &nodes, &mut t.rows);
                 }
                 let g = mortar::gap(&weights, &one, &two);

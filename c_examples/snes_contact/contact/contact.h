@@ -4,6 +4,24 @@
 #include "physics/physics.h"
 #include <stickslip.h>
 
+/* Where surfaces are beside their meshes (offsets.c): `offset` of all nodes of the non-mortar side and of some, the factor on them;
+ * of round sides their shape. On rank 0: those of all n1 + n2 nodes that the factor is on, and those of round sides; what `adjust`
+ * has done (adjust.c). Where the handle is: the same of the nodes of its part, and their sum at time t. */
+typedef struct {
+  PetscBool  any;
+  PetscReal  all;
+  PetscInt   n_points;
+  PetscReal *points;
+  Curve      curve;
+  PetscReal  radius[2], centre[3], axis[3]; /* 0: a side is not round */
+  int32_t    shape;
+  double    *nodal, *round;
+  double    *part_nodal, *part_round, *now;
+  PetscReal  adjust; /* tolerance; 0: nothing is adjusted */
+  double    *gaps;
+  int32_t   *moved;
+} Offsets;
+
 /* A rank's part of an interface, with a handle of the library's own (parts.c): the non-mortar nodes that the rank owns, the
  * facets around them as far as these need them, and the mortar side. Nodes and facets are numbered as they are here. */
 typedef struct {
@@ -63,6 +81,7 @@ typedef struct {
   int64_t       *equations;
   ContactStates  states;     /* likewise */
   PetscSF        sf;         /* from the local vectors of all ranks to `displacements` */
+  Offsets        offsets;
   stickslip_options options;
   PetscInt       dimension;  /* numbers a node of every vector here: 3, in the plane 2 */
   PetscInt       components; /* multipliers a node: 1, along the normal, without friction; else `dimension` */
@@ -164,6 +183,15 @@ void parts_translate(const ContactPart *part, const char *from, char to[], size_
 /* contact_setup.c, contact.c: `status` > 0 on every rank if the library refused on any, for the reason in contact->refusal */
 PetscErrorCode contact_create(Contact *contact, Scene *scene, PetscBool quiet, PetscInt *status);
 PetscErrorCode contact_destroy(Contact *contact);
+/* adjust.c, rank 0 */
+PetscErrorCode contact_adjust(Scene *scene, Contact *contact, Interface *interface);
+/* offsets.c; `place` on rank 0; `fetch` through an SF from rank 0's nodes to those of the part */
+PetscErrorCode offsets_read(Scene *scene, const Physics *physics, Interface *interface);
+PetscErrorCode offsets_place(Scene *scene, const Mesh *mesh, Interface *interface);
+PetscErrorCode offsets_fetch(PetscSF sf, Interface *interface);
+int32_t        offsets_set(const Interface *interface, stickslip_interface *handle, PetscReal t);
+PetscErrorCode offsets_values(Contact *contact, PetscReal t, PetscInt *status);
+PetscErrorCode offsets_destroy(Interface *interface);
 PetscErrorCode contact_agree(Contact *contact, const Interface *interface, int32_t refused, PetscInt *status);
 void           contact_positions(ContactPart *part);
 /* of a node, from vectors of so many numbers; the third component is 0 in the plane */

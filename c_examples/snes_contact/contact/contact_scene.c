@@ -299,6 +299,7 @@ PetscErrorCode contact_read(Scene *scene, Contact *contact)
     read_effects(scene, interface);
     read_method(scene, interface);
     read_accuracy(scene, interface);
+    PetscCall(offsets_read(scene, contact->physics, interface));
   }
   strings_destroy(contact->n_interfaces, &names);
   scene_root_begin(scene);
@@ -310,6 +311,8 @@ PetscErrorCode contact_read(Scene *scene, Contact *contact)
     if (scale <= 0) scene_fail(scene, interface->name, "augmentation_scale", "it must be positive.");
     interface->options.augmentation *= scale;
     interface->options.modulus *= scale;
+    PetscCall(offsets_place(scene, contact->mesh, interface));
+    PetscCall(contact_adjust(scene, contact, interface));
   }
   PetscCall(scene_root_end(scene));
   PetscFunctionReturn(PETSC_SUCCESS);

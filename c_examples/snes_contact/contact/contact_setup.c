@@ -118,6 +118,7 @@ static PetscErrorCode check_facing(Scene *scene, PetscBool quiet, const Interfac
   if (part->handle) {
     PetscCall(create_handle(part, &interface->options, &asked, &refused));
     PetscCallStickslip(refused);
+    PetscCallStickslip(offsets_set(interface, asked, 0));
   }
   PetscCall(contact_cover(interface, asked, rank, &cover, NULL));
   PetscCallStickslip(stickslip_interface_destroy(&asked));
@@ -205,6 +206,7 @@ static PetscErrorCode fetch_coordinates(const Contact *contact, Interface *inter
   PetscCall(PetscSFBcastBegin(sf, node, interface->X, part->X, MPI_REPLACE));
   PetscCall(PetscSFBcastEnd(sf, node, interface->X, part->X, MPI_REPLACE));
   PetscCallMPI(MPI_Type_free(&node));
+  PetscCall(offsets_fetch(sf, interface));
   PetscCall(PetscSFDestroy(&sf));
   for (PetscInt i = 0; i < d && contact->mesh->rank == 0; i++)
     part->origin[i] = i == 0 && interface->options.model == STICKSLIP_MODEL_AXISYMMETRIC ? 0 : interface->X[i];
@@ -265,6 +267,7 @@ static PetscErrorCode create_library(Contact *contact, Interface *interface, Pet
   if (part->n1) {
     PetscCall(create_handle(part, &interface->options, &part->handle, &refused));
     if (!refused) refused = set_constraints(part);
+    if (!refused) refused = offsets_set(interface, part->handle, 0);
     if (!refused && contact->condensed) /* refused at once rather than in the first step */
       refused = stickslip_interface_condensed_multipliers(part->handle, part->x, MORTAR_OF(part, part->x), part->host,
                                                           part->lambda);
@@ -325,7 +328,7 @@ static PetscErrorCode create_parts(Contact *contact, PetscInt number, PetscInt *
   PetscCall(PetscMalloc1(interface->n1, &work));
   for (PetscInt a = 0; a < interface->n1; a++)
     work[a] = 1;
-  PetscCall(create_part(contact, number, work));
+  PetscCall(create_part(contact, number, interface->offsets.any ? NULL : work)); /* offsets reach deeper than the rings of parts */
   PetscCall(create_library(contact, interface, status));
   if (!*status && interface->n_parts > 1) {
     PetscCall(measure_work(interface, contact->mesh->rank, work, &deep));
@@ -368,6 +371,7 @@ PetscErrorCode contact_destroy(Contact *contact)
     PetscCall(destroy_part(&interface->part));
     PetscCall(PetscSFDestroy(&interface->sf));
     PetscCall(contact_states_destroy(&interface->states));
+    PetscCall(offsets_destroy(interface));
     PetscCall(PetscFree4(interface->X, interface->displacements, interface->forces, interface->equations));
     PetscCall(PetscFree(interface->nodes));
     PetscCall(PetscFree(interface->removed));

@@ -59,3 +59,35 @@ PetscErrorCode csv_write(Output *output, const Interface *interface, const Conta
   PetscCall(PetscFree(tractions));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
+
+/* What `adjust` has done, a row per non-mortar node with the place that it has now; nothing where it was not asked for. */
+PetscErrorCode csv_adjusted(Output *output, const Interface *interface)
+{
+  static const char *const done[] = {"alone", "left", "moved"}; /* by STICKSLIP_ADJUST_... */
+  const Offsets           *offsets = &interface->offsets;
+  char                     path[PETSC_MAX_PATH_LEN];
+  PetscInt                 count[3] = {0, 0, 0};
+  double                   largest  = 0;
+  FILE                    *file;
+
+  PetscFunctionBegin;
+  if (!offsets->gaps) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PetscSNPrintf(path, sizeof(path), "%s/adjust_%s.csv", output->directory, interface->name));
+  file = fopen(path, "w");
+  PetscCheck(file, PETSC_COMM_SELF, PETSC_ERR_FILE_OPEN, "cannot write '%s'", path);
+  fprintf(file, "node,X,Y,Z,gap,adjusted\n");
+  for (PetscInt a = 0; a < interface->n1; a++) {
+    double X[3];
+    contact_vector(interface->dimension, interface->X, a, X);
+    fprintf(file, "%d,%.17g,%.17g,%.17g,%.17g,%s\n", (int)interface->nodes[a], X[0], X[1], X[2], offsets->gaps[a],
+            done[offsets->moved[a]]);
+    count[offsets->moved[a]]++;
+    if (offsets->moved[a] == STICKSLIP_ADJUST_MOVED) largest = PetscMax(largest, PetscAbsReal(offsets->gaps[a]));
+  }
+  fclose(file);
+  if (!output->quiet)
+    PetscCall(PetscPrintf(PETSC_COMM_SELF, "%s: adjust moved %d of %d nodes, by %g at most; %d are beyond the tolerance\n",
+                          interface->name, (int)count[STICKSLIP_ADJUST_MOVED], (int)interface->n1, largest,
+                          (int)count[STICKSLIP_ADJUST_LEFT]));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

@@ -47,6 +47,7 @@ PetscErrorCode diagnosis_failed(Output *output, struct cJSON *root);
 PetscErrorCode nodal_tractions(const Mesh *mesh, const Interface *interface, const ContactStates *states,
                                double tractions[]);
 /* csv.c */
+PetscErrorCode csv_adjusted(Output *output, const Interface *interface); /* rank 0, once */
 PetscErrorCode csv_write(Output *output, const Interface *interface, const ContactStates *states, PetscInt step);
 /* vtu_array.c */
 void           vtu_start_array(FILE *file, const char *type, const char *name, int components);

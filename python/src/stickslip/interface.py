@@ -166,6 +166,12 @@ class Interface(Inspection):
         """Normals of the non-mortar nodes, like x1, into the non-mortar body."""
         self._call("set_normals", pointer(given("normals", normals, self._shape1)))
 
+    def set_offsets(self, offsets1=None, offsets2=None) -> None:
+        """Offsets of the non-mortar and the mortar nodes, (n1,) and (n2,); None: none. Positive ones open gaps."""
+        offsets1 = None if offsets1 is None else given("offsets1", offsets1, (self.n1,))
+        offsets2 = None if offsets2 is None else given("offsets2", offsets2, (self.n2,))
+        self._call("set_offsets", pointer(offsets1), pointer(offsets2))
+
     def set_previous(self, x1, x2) -> None:
         """The positions at t_n of a host that starts elsewhere than at the first configuration."""
         self._call("set_previous", *self._positions(x1, x2))

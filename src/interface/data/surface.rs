@@ -44,6 +44,8 @@ pub struct Surface {
     pub parents: Option<Parents>,
     /// Per facet whether it is there for what its neighbours look like alone, and has no pairs; empty: none is.
     pub idle: Vec<bool>,
+    /// Per node by how much it is offset, see `offsets.rs` `[L]`; empty: no node is.
+    pub offsets: Vec<f64>,
     /// The shape of an analytic surface, whose one facet are the four points of its frame; `None`: real facets.
     pub analytic: Option<AnalyticShape>,
 }
@@ -163,6 +165,7 @@ impl Surface {
             neighbours,
             parents,
             idle: Vec::new(),
+            offsets: Vec::new(),
             analytic: None,
         };
         surface.check_lines(&surface.reference)?;
@@ -212,6 +215,7 @@ impl Surface {
             neighbours: memory::filled([NO_FACET; MAX_NODES], 1)?,
             parents: None,
             idle: Vec::new(),
+            offsets: Vec::new(),
             analytic: Some(shape),
         };
         if let Err(e) = surface.analytic_at(&surface.reference) {

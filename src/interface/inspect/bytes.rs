@@ -26,6 +26,7 @@ fn of_surface(s: &Surface) -> usize {
         + heap(&s.edges)
         + heap(&s.neighbours)
         + heap(&s.idle)
+        + heap(&s.offsets)
         + s.parents.as_ref().map_or(0, Parents::bytes)
 }
 

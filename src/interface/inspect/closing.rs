@@ -25,7 +25,7 @@ use crate::interface::pairing::given::{Given, check_finite};
 use crate::interface::pairing::work::Work;
 use crate::interface::stages::acting::acting;
 use crate::interface::stages::away::LookingAway;
-use crate::interface::stages::sums::assemble;
+use crate::interface::stages::sums::{add_offsets, assemble};
 use crate::memory::{self, Stored};
 
 /// c where the host gives none: a node may go this part of its shortest edge deeper. From 0.03 to 1 Newton's method
@@ -170,6 +170,7 @@ fn mean_gaps<const N: usize>(
     let pairs = known.map_or(&given.history().pairs, |k| &k.pairs);
     let sums = &mut work.room.sums;
     assemble(surfaces, weighted, (&x1, &x2), sums)?;
+    add_offsets(given, weighted, sums)?;
     let rates = rates(surfaces, pairs, (&x1, &x2))?;
     work.room.anew = now;
     let away = LookingAway::at(given, (&x1, &x2))?;

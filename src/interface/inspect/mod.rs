@@ -1,5 +1,6 @@
 //! Looking at an interface: read only.
 
+pub mod adjust;
 pub mod bytes;
 pub mod closing;
 pub mod describe;

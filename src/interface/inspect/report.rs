@@ -16,7 +16,7 @@ use crate::interface::pairing::search::Tree;
 use crate::interface::pairing::work::Work;
 use crate::interface::stages::integrate::integrate;
 use crate::interface::stages::layers;
-use crate::interface::stages::sums::assemble;
+use crate::interface::stages::sums::{add_offsets, assemble};
 use crate::memory::{self, Store, Stored};
 use crate::mortar::{NonmortarFrame, Segment};
 
@@ -151,6 +151,7 @@ pub fn report<const N: usize>(given: Given<N>, work: &mut Work, (x1, x2): (&[Vec
     };
     let mut sums = Vec::new();
     assemble(surfaces, pairs, (x1, x2), &mut sums)?;
+    add_offsets(given, pairs, &mut sums)?;
     let layers = covered_times(surfaces.0, pairs, at)?;
     let claims = claims(surfaces.0, pairs)?;
     let node = |a: usize| {

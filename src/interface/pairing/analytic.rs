@@ -8,6 +8,7 @@ use super::work::{Following, Work};
 use crate::error::Result;
 use crate::geometry::{AnalyticSurface, Facet, Plane, Vec3};
 use crate::interface::data::active::Active;
+use crate::interface::data::offsets;
 use crate::interface::data::options::Options;
 use crate::interface::data::pairs::PairRecord;
 use crate::interface::data::surface::Surface;
@@ -37,17 +38,24 @@ pub fn faces_at(
     (f, skin): (usize, f64),
 ) -> Result<bool> {
     let facet = one.facet(f, x1);
-    Ok(faces(&facet, &Plane::of(&facet).map_err(one.at(f))?, surface, options, skin))
+    let plane = Plane::of(&facet).map_err(one.at(f))?;
+    Ok(faces(&facet, &plane, surface, (options, offsets::reach_of(one)), skin))
 }
 
 /// Whether this facet faces the surface.
-fn faces(facet: &Facet, plane: &Plane, surface: &AnalyticSurface, options: &Options, skin: f64) -> bool {
-    let gap = options.search_distance.unwrap_or(f64::INFINITY);
+fn faces(
+    facet: &Facet,
+    plane: &Plane,
+    surface: &AnalyticSurface,
+    (options, (closing, opening)): (&Options, (f64, f64)),
+    skin: f64,
+) -> bool {
+    let gap = options.search_distance.map_or(f64::INFINITY, |distance| distance + closing);
     let centre = plane.reference - surface.origin + plane.origin;
     let points = facet.points().iter().map(|x| x - surface.origin).chain([centre]);
     let distances = points.map(|x| surface.distance(x));
     let (low, high) = distances.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), d| (l.min(d), h.max(d)));
-    let penetration = options.search_distance.unwrap_or_else(|| facet.longest_edge());
+    let penetration = options.search_distance.unwrap_or_else(|| facet.longest_edge()) + opening;
     let slack = skin * facet.longest_edge();
     opposes(plane, surface, skin) && low - slack <= gap && high + slack >= -penetration
 }
@@ -66,8 +74,9 @@ pub fn facing_now<'a>(
     options: &'a Options,
     x1: &'a [Vec3],
 ) -> impl Fn((usize, &Plane)) -> bool + 'a {
+    let reach = offsets::reach_of(one);
     move |(i, plane)| {
-        facing[i] && opposes(plane, surface, 0.0) || faces(&one.facet(i, x1), plane, surface, options, 0.0)
+        facing[i] && opposes(plane, surface, 0.0) || faces(&one.facet(i, x1), plane, surface, (options, reach), 0.0)
     }
 }
 
@@ -117,7 +126,7 @@ pub fn integrate(
 pub fn are_apart((one, two): (&Surface, &Surface), places: &[(&[Vec3], &[Vec3])]) -> Result<bool> {
     for (x1, x2) in places {
         let surface = two.analytic_at(x2)?;
-        let edge = one.longest_edge_at(x1);
+        let edge = one.longest_edge_at(x1) + offsets::reach_of(one).0;
         if !x1.iter().all(|x| surface.distance(x - surface.origin) > edge) {
             return Ok(false);
         }

@@ -92,6 +92,16 @@ impl Side {
     }
 }
 
+impl Side {
+    /// The surface that is meant lies behind its facets, by so much: pairs may be as much deeper.
+    pub fn raise(&mut self, offset: f64) {
+        if offset > 0.0 {
+            self.bulges.iter_mut().for_each(|bulge| *bulge += offset);
+            self.largest.1 += offset;
+        }
+    }
+}
+
 /// How far a facet's nodes lie off its plane `[L]`.
 fn warp(facet: &Facet, plane: &Plane) -> f64 {
     heights(facet, plane).fold(0.0, |most, d| most.max(d.abs()))

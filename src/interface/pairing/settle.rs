@@ -13,6 +13,7 @@ use super::weak::{self, Carrier};
 use crate::error::Result;
 use crate::geometry::Vec3;
 use crate::interface::data::history::History;
+use crate::interface::data::offsets;
 use crate::interface::data::options::{Options, Weights};
 use crate::interface::data::setup::Setup;
 use crate::interface::data::surface::Surface;
@@ -67,10 +68,12 @@ pub fn filter(
     if two.analytic.is_some() {
         return analytic::facing(one, &two.analytic_at(x2)?, options, x1, 0.0).map(Filter::Analytic);
     }
-    let sides = [Side::new(one, x1)?, Side::new(two, x2)?];
+    let mut sides = [Side::new(one, x1)?, Side::new(two, x2)?];
+    let (closing, opening) = offsets::reach((one, two));
+    sides[0].raise(opening);
     let mut filter = FacetFilter {
         sides,
-        distance: options.search_distance,
+        distance: options.search_distance.map(|distance| distance + closing.max(opening)),
         depths: Vec::new(),
         reached: Vec::new(),
         by_overlaps: Vec::new(),

@@ -7,6 +7,7 @@
 use crate::error::Result;
 use crate::geometry::Vec3;
 use crate::interface::data::history::History;
+use crate::interface::data::offsets;
 use crate::interface::data::options::{Options, Weights};
 use crate::interface::data::surface::Surface;
 use crate::interface::pairing::analytic;
@@ -28,7 +29,10 @@ pub fn are_apart(
     }
     match filter {
         Filter::Analytic(_) => analytic::are_apart(surfaces, places),
-        Filter::Facets(filter) => Ok(directions(filter.deepest(), places).iter().any(Option::is_some)),
+        Filter::Facets(filter) => {
+            let distance = filter.deepest() + offsets::reach(surfaces).0;
+            Ok(directions(distance, places).iter().any(Option::is_some))
+        }
     }
 }
 
@@ -86,7 +90,7 @@ pub fn stays_apart<const N: usize>(given: Given<N>, x1: &[Vec3], x2: &[Vec3]) ->
         }
     };
     // Those that all facets look along.
-    let mut directions = directions(filter.deepest(), &places);
+    let mut directions = directions(filter.deepest() + offsets::reach(surfaces).0, &places);
     for f in (0..reached.len()).filter(|&f| reached[f]) {
         let out = one.facet(f, x1).area_vector();
         for &a in nodes(f) {

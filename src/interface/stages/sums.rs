@@ -6,9 +6,11 @@ use crate::error::Result;
 use crate::geometry::Vec3;
 use crate::interface::data::active::Active;
 use crate::interface::data::host_facets::parents_at;
+use crate::interface::data::offsets;
 use crate::interface::data::pairs::{ParentRecord, Weighted};
 use crate::interface::data::surface::Surface;
 use crate::interface::pairing::given::Given;
+use crate::law::SlipMeasure;
 use crate::memory;
 use crate::mortar::gap;
 use crate::threads::{self, Part};
@@ -96,6 +98,69 @@ fn each_gap_of_parents(
     }
 }
 
+/// What each pair adds to o_A = sum_B n_AB h_B + sum_C n_AC h_C of each of its non-mortar nodes, h the nodes' offsets [L^3].
+pub fn each_offset((one, two): (&Surface, &Surface), pairs: Weighted, mut add: impl FnMut(usize, f64)) {
+    let field = |side: &Surface, nodes: &[usize], row: &[f64]| -> f64 {
+        nodes.iter().zip(row).map(|(&node, n)| n * side.offset(node)).sum()
+    };
+    match pairs {
+        Weighted::Facets(pairs) => {
+            for pair in pairs {
+                let (nodes, others) = (one.facets[pair.one].as_slice(), two.facets[pair.two].as_slice());
+                for (k, &node) in nodes.iter().enumerate() {
+                    let weights = &pair.weights;
+                    add(node, field(one, nodes, &weights.ab[k]) + field(two, others, &weights.ac[k]));
+                }
+            }
+        }
+        Weighted::Parents(pairs) => {
+            for pair in pairs {
+                let (nodes, others) = (one.host_nodes(pair.one), two.host_nodes(pair.two));
+                for (a, &node) in nodes.iter().enumerate().take(one.multipliers(pair.one)) {
+                    add(node, field(one, nodes, &pair.weights.ab[a]) + field(two, others, &pair.weights.ac[a]));
+                }
+            }
+        }
+    }
+}
+
+/// Whether the offsets of now count in the gaps that slip is measured from as in those of now: where slip is a difference of the
+/// two.
+pub fn in_previous_gaps<const N: usize>(given: Given<N>) -> bool {
+    given.setup.options.effective_slip() == SlipMeasure::Objective
+}
+
+/// The gaps of surfaces that are offset: g_A + nu_A o_A. They count in the gap of now; where slip is a difference of two gaps, in
+/// both, so that it has none of them, nor of how nu turns.
+fn offset_gaps<const N: usize>(given: Given<N>, pairs: Weighted, slips: bool, sums: &mut [NodeSums]) -> Result<()> {
+    let both = slips && in_previous_gaps(given);
+    each_along(given, pairs, |node, gap| {
+        sums[node].gap_now += gap;
+        if both {
+            sums[node].gap_previous += gap;
+        }
+    })
+}
+
+/// Adds nu_A o_A to the gaps of now that were assembled over these pairs.
+pub fn add_offsets<const N: usize>(given: Given<N>, pairs: Weighted, sums: &mut [(f64, Vec3)]) -> Result<()> {
+    each_along(given, pairs, |node, gap| sums[node].1 += gap)
+}
+
+/// What each pair adds to nu_A o_A of each of its nodes.
+fn each_along<const N: usize>(given: Given<N>, pairs: Weighted, mut add: impl FnMut(usize, Vec3)) -> Result<()> {
+    let surfaces = given.setup.surfaces();
+    if !offsets::are_there(surfaces) {
+        return Ok(());
+    }
+    let mut refused = Ok(());
+    each_offset(surfaces, pairs, |node, offset| match given.normal(node) {
+        Ok(nu) => add(node, nu * offset),
+        Err(error) => refused = Err(error),
+    });
+    refused
+}
+
 /// The sums of every node at x, in place of what was in `sums`. `active`: the pairs there; `None`: the weights are frozen.
 /// `slips`: with what slip is measured from.
 pub fn sums<const N: usize>(
@@ -124,6 +189,8 @@ pub fn sums<const N: usize>(
         sum.gap_committed = *gap;
     }
     h.facet_gaps.each_turned(surfaces.0, x.0, |node, gap| sums[node].gap_committed += gap)?;
+    let pairs = active.map_or(h.weighted(surfaces), |k| k.weighted(surfaces));
+    offset_gaps(given, pairs, slips && active.is_some(), sums)?;
     if active.is_none() && slips {
         sums.iter_mut().for_each(|sum| sum.gap_previous = sum.gap_now);
     }

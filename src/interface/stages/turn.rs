@@ -11,6 +11,7 @@
 
 use crate::error::{Error, Kind, Result, Text};
 use crate::geometry::Vec3;
+use crate::interface::data::offsets;
 use crate::interface::data::options::{Options, Weights};
 use crate::interface::data::surface::Surface;
 use crate::interface::pairing::analytic;
@@ -86,7 +87,7 @@ fn is_apart_at_both<const N: usize>(given: Given<N>, x1: &[Vec3], x2: &[Vec3]) -
         Some(Filter::Facets(filter)) => filter.deepest(),
         _ => one.longest_edge_at(&h.x1).max(two.longest_edge_at(&h.x2)),
     };
-    let [before, now] = places.map(|(x1, x2)| around(x1).sides(&around(x2), deepest));
+    let [before, now] = places.map(|(x1, x2)| around(x1).sides(&around(x2), deepest + offsets::reach((one, two)).0));
     Ok(before.iter().zip(&now).any(|(before, now)| *before && *now))
 }
 

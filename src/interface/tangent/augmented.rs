@@ -94,7 +94,7 @@ impl NodeCouplings {
         previous: Option<&PairWeights>,
         dp: (Mat3, Mat3),
     ) -> Result<()> {
-        let by_now = now.map(|now| gap_rows::<MOVES>(now, k, &dp.0));
+        let by_now = now.map(|now| gap_rows::<MOVES>(now, k, (&dp.0, &dp.1)));
         let by_previous = previous.map(|weights| frozen_rows::<MOVES>(weights, k, &dp.1));
         for (j, node) in nodes[..slots(MOVES)].iter().enumerate() {
             let Some(node) = *node else { continue };

@@ -10,6 +10,7 @@ use super::dual_facet::{DualFacet, MortarRows, ShareRoom};
 use super::emission::{Emitter, Takers};
 use super::facet_tangent::{FacetTangent, total};
 use super::frame::{self, FrameNumbers};
+use super::offsets;
 use super::parents::{self, ParentNumbers, ParentRoom};
 use super::turning::{self, Turns};
 use super::union::{Pairs, UnionPair, Walk};
@@ -114,7 +115,7 @@ impl<const N: usize> Numbers<'_, N> {
                 (&self.motion, surface),
                 overlaps.frame(),
                 (&facet.tractions, &gaps),
-                &mut t.forces,
+                (&mut t.forces, room),
             );
         }
         let mortar = given.setup.mortar.facets[pair.two].len;
@@ -228,7 +229,8 @@ pub fn beyond_facets<const N: usize>(task: Task<N>, room: &mut Room<N>, (taker, 
         let mut walk = Walk::through(all, 0..usize::MAX);
         while walk.next(&mut room.pairs)?.is_some() {
             for pair in &room.pairs {
-                let (now, previous) = (all.now(pair).map(|weights| PairNow { weights, gap: None }), all.previous(pair));
+                let (now, previous) =
+                    (all.now(pair).map(|weights| PairNow { weights, gap: None, offset: None }), all.previous(pair));
                 beyond_pair(
                     (given, normals),
                     (pair, now.as_ref(), previous),
@@ -302,7 +304,7 @@ pub fn of_facets<const N: usize>(
 fn of_facet<const N: usize>(
     Task { given, normals, pairs: all, numbers, .. }: Task<N>,
     pairs: &[UnionPair],
-    Room { pair: t, facet, share: room, mortar, overlaps, sums, .. }: &mut Room<N>,
+    Room { pair: t, facet, share, mortar, overlaps, sums, .. }: &mut Room<N>,
     mut couplings: Option<&mut [NodeCouplings]>,
     emitter: &mut Emitter<N>,
 ) -> Result<i64> {
@@ -334,21 +336,29 @@ fn of_facet<const N: usize>(
         let [sum_now, sum_previous] = &mut *sums;
         let now = total(sum_now, pairs.iter().map(|p| all.now(p)));
         let previous = total(sum_previous, pairs.iter().map(|p| all.previous(p)));
-        let mut gap = None;
+        let (mut gap, mut offset) = (None, None);
         if let (Some(numbers), Some(nodes)) = (numbers, &facet_nodes) {
             if let Some(dual) = &dual {
                 let pair = (&pairs[0], dual, motion.as_ref());
-                gap = numbers.dual_share(given, pair, (overlaps, places.start), t, room)?;
+                gap = numbers.dual_share(given, pair, (overlaps, places.start), t, share)?;
                 if let (true, true, Some(active)) = (moves, gap.is_some(), numbers.active) {
                     let two = &given.setup.mortar.facets[pairs[0].two];
-                    mortar.add(two, active.integrated(pairs[0].place), &room.tractions, &t.forces);
+                    mortar.add(two, active.integrated(pairs[0].place), &share.tractions, &t.forces);
                 }
             } else {
                 numbers.derivatives(given, (pairs, places.start), (overlaps, place == 0), nodes, t, &mut gap)?;
             }
+            let dual = (dual.as_ref(), &*share);
+            offset = offsets::of_pairs(
+                (given, normals),
+                (numbers.active, &numbers.motion),
+                (pairs, places.start),
+                overlaps,
+                dual,
+            )?;
             linearised += if numbers.active.is_some() { UnionPair::places(pairs).len() as i64 } else { 0 };
         }
-        let now = now.map(|weights| PairNow { weights, gap: gap.as_ref() });
+        let now = now.map(|weights| PairNow { weights, gap: gap.as_ref(), offset: offset.as_ref() });
         if let Some(nodes) = &facet_nodes {
             match moves {
                 true => row_columns::<true, N>(now.as_ref(), previous, nodes, &mut t.rows),

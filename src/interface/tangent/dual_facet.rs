@@ -12,6 +12,7 @@ use crate::geometry::{AnalyticSurface, Vec3};
 use crate::interface::data::active::Active;
 use crate::interface::data::effects::Opposite;
 use crate::interface::data::facet_nodes::FacetNodes;
+use crate::interface::data::offsets;
 use crate::interface::data::options::{MultiplierBasis, Tangent};
 use crate::interface::data::surface::Surface;
 use crate::interface::pairing::given::Given;
@@ -29,6 +30,8 @@ use std::borrow::Cow;
 pub struct DualFacet {
     sums: FacetSums,
     basis: Option<DualBasis>,
+    /// eta = m^-1 o of the nodes' offsets `[L]`.
+    eta: [f64; MAX_CORNERS],
 }
 
 impl DualFacet {
@@ -45,13 +48,49 @@ impl DualFacet {
         let overlaps = (overlaps.frame(), &overlaps.segments[..]);
         let (sums, basis) =
             dual_basis(&given.setup.nonmortar, pairs[0].one, overlaps, &active.integrated[places.start..places.end])?;
-        Ok(Some(DualFacet { sums, basis }))
+        let surfaces = given.setup.surfaces();
+        let mut eta = [0.0; MAX_CORNERS];
+        if let Some(basis) = basis.as_ref().filter(|_| offsets::are_there(surfaces)) {
+            eta = basis.heights(&offset_sums(surfaces, pairs, &active.integrated[places.start..places.end]));
+        }
+        Ok(Some(DualFacet { sums, basis, eta }))
+    }
+
+    /// eta; `None` where the facet has faded out.
+    pub fn offsets(&self) -> Option<&[f64; MAX_CORNERS]> {
+        self.basis.as_ref().map(|_| &self.eta)
+    }
+
+    /// Makes of [Do - Dm eta] of a pair its share of the derivative of phi m_A eta_A.
+    pub fn share_offsets(&self, share: &ShareRoom, slopes: &mut AreaDerivatives) {
+        let Some(basis) = &self.basis else { return };
+        for (slope, area) in slopes.as_flattened_mut().iter_mut().zip(share.areas.as_flattened()) {
+            let own = basis.dual(slope);
+            *slope = std::array::from_fn(|a| if a < basis.nodes { own[a] + area[a] * self.eta[a] } else { 0.0 });
+        }
     }
 
     /// The facet at these tractions `[i][A]`; `None` where it has faded out: it has no forces and no gap.
     pub fn motion(&self, frame: &NonmortarFrame, tractions: &[[f64; MAX_CORNERS]; 3]) -> Option<FacetMotion<'_>> {
         self.basis.as_ref().map(|basis| FacetMotion::new(frame, basis, &self.sums.gamma, tractions))
     }
+}
+
+/// o_A of a facet's nodes with the weights of its active pairs as they were integrated [L^3].
+fn offset_sums(
+    (one, two): (&Surface, &Surface),
+    pairs: &[UnionPair],
+    integrated: &[PairWeights],
+) -> [f64; MAX_CORNERS] {
+    let mut sums = [0.0; MAX_CORNERS];
+    for (pair, n) in pairs.iter().filter(|pair| pair.is_active).zip(integrated) {
+        let (own, other) = (one.facets[pair.one].as_slice(), two.facets[pair.two].as_slice());
+        for (a, sum) in sums.iter_mut().enumerate() {
+            *sum += own.iter().zip(&n.ab[a]).map(|(&b, n)| n * one.offset(b)).sum::<f64>();
+            *sum += other.iter().zip(&n.ac[a]).map(|(&c, n)| n * two.offset(c)).sum::<f64>();
+        }
+    }
+    sums
 }
 
 /// What a pair's share takes place for. Large, so that one serves all pairs.
@@ -98,11 +137,14 @@ impl DualFacet {
         (motion, surface): (&PairDerivatives, &AnalyticSurface),
         frame: &NonmortarFrame,
         (traction, gaps): (&[[f64; MAX_CORNERS]; 3], &[Vec3; MAX_CORNERS]),
-        forces: &mut ForceDerivatives,
+        (forces, ShareRoom { areas, .. }): (&mut ForceDerivatives, &mut ShareRoom),
     ) -> Result<Option<GapDerivative>> {
         let Some(basis) = &self.basis else { return Ok(None) };
         let facet = WholeFacet::new(basis, gaps);
         let mut blocks = analytic_motion_raised(frame, surface, motion.rule, &facet.heights, forces)?;
+        for (to, of) in areas.iter_mut().zip(&forces.one) {
+            *to = of.map(|of| of[0]); // Dm_A
+        }
         facet.share(traction, forces, &mut blocks);
         Ok(Some(GapDerivative::Blocks(blocks)))
     }

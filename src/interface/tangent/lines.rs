@@ -1,6 +1,7 @@
 //! What a line of the host adds to the tangent with all of its pairs (docs/formulation.md 13.3). Everything else is as of other
 //! facets of the host (`parents.rs`).
 
+use super::fields::Fields;
 use super::parent_table::ParentTable;
 use crate::geometry::Vec3;
 use crate::interface::data::active::Active;
@@ -15,17 +16,17 @@ use std::ops::Range;
 /// Multipliers of a line, at its first nodes.
 const NODES: [usize; MAX_LINE_NODES] = [0, 1, 2];
 
-/// Adds the derivatives of line f with the active pairs in these places, at these tractions of its multipliers and positions of
-/// its nodes from `base`; gives the number of pairs of parts. `two`: the mortar side, where it moves.
+/// Adds the derivatives of line f with the active pairs in these places, at these tractions of its multipliers and
+/// fields; gives the number of pairs of parts. `two`: the mortar side, where it moves.
 pub fn add_lines(
     (one, other, two): (&Parents, &Parents, Option<&Surface>),
     (f, measure): (usize, Measure),
     (active, places): (&Active, Range<usize>),
-    (tractions, x1, base): (&[Vec3], &[Vec3; MAX_PARENT_NODES], Vec3),
+    (tractions, fields): (&[Vec3], Fields),
     table: &mut ParentTable,
     motion: &mut SubMotion,
 ) -> i64 {
-    let own = LineFacet { n: one.facets[f].parent.n, x: [0, 1, 2].map(|k| x1[k].xy()) };
+    let own = LineFacet { n: one.facets[f].parent.n, x: [0, 1, 2].map(|k| fields.one()[k].xy()) };
     // Weights are of the nodes where they are, for r counts from the axis; gaps of what a basis makes of them.
     let here = line(&one.at(f, &active.x1));
     let rows = &NODES[..one.multipliers(f)];
@@ -38,7 +39,8 @@ pub fn add_lines(
         let parts = (pair.one - one.parts(f).start, pair.two - other.parts(g).start);
         let (mut d, at) = (LineDerivatives::default(), line(&other.at(g, &active.x2)));
         d.add_parts([&here, &at], parts, one.space, measure, &mut LineWeights::default());
-        let at = LineFacet { x: at.x.map(|x| x - base.xy()), ..at };
+        let values = fields.two(g, &other.at(g, &active.x2).x);
+        let at = LineFacet { x: [0, 1, 2].map(|k| values[k].xy()), ..at };
         line_motion(&d, (&own, &at), &p, motion);
         let (mut slots, mut columns) = ([None; 2 * MORTAR], [None; MAX_PARENT_NODES]);
         (0..own.n).for_each(|k| slots[k] = Some(k));
@@ -46,7 +48,7 @@ pub fn add_lines(
             two.host_nodes(g).iter().zip(&mut columns).for_each(|(&c, to)| *to = table.column(c));
             (0..at.n).for_each(|l| slots[MORTAR + l] = columns[l]);
         }
-        table.add_motion(motion, &slots, &columns, rows);
+        fields.add(table, motion, (&slots, &columns), rows);
     }
     places.len() as i64
 }

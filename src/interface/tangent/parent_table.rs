@@ -37,6 +37,10 @@ pub struct ParentTable {
     forces: Vec<NodeBlock>,
     /// Dg, `[multiplier][column]`; the fourth number: of the covered area.
     gaps: Vec<NodeBlock>,
+    /// Do_A of the nodes' offsets, `[multiplier][column]`; empty where there are none.
+    offsets: Vec<[f64; 3]>,
+    /// nu of the own nodes, along which they count, and whether they do in the gaps that slip is measured from.
+    along: ([Vec3; MAX_PARENT_NODES], bool),
     /// n_AB and - n_AC of now as they act, of now as they were integrated, and of t_n, `[multiplier][column]`.
     pub now: Vec<f64>,
     integrated: Vec<f64>,
@@ -99,8 +103,13 @@ impl<'a> DualParent<'a> {
 
     /// The own nodes with their heights taken away: over these the kernels' gaps are gamma_A - (m h)_A.
     pub fn lowered(&self, x: &[Vec3; MAX_PARENT_NODES]) -> [Vec3; MAX_PARENT_NODES] {
+        self.lowered_by(x, &self.heights)
+    }
+
+    /// The same with other heights.
+    pub fn lowered_by(&self, x: &[Vec3; MAX_PARENT_NODES], heights: &[Vec3; MAX_CORNERS]) -> [Vec3; MAX_PARENT_NODES] {
         let c = corner_shares(self.parent);
-        let height = |k: usize| -> Vec3 { (0..self.basis.nodes).map(|b| self.heights[b] * c[b][k]).sum() };
+        let height = |k: usize| -> Vec3 { (0..self.basis.nodes).map(|b| heights[b] * c[b][k]).sum() };
         std::array::from_fn(|k| x[k] - height(k))
     }
 }
@@ -124,6 +133,7 @@ impl ParentTable {
         let n = if has_numbers { self.columns() } else { 0 };
         memory::refill(&mut self.forces, NodeBlock::default(), n * n)?;
         memory::refill(&mut self.gaps, NodeBlock::default(), multipliers * n)?;
+        self.offsets.clear();
         for weights in [&mut self.now, &mut self.integrated, &mut self.previous] {
             memory::refill(weights, 0.0, multipliers * n)?;
         }
@@ -161,12 +171,19 @@ impl ParentTable {
     /// Of the row of multiplier A, by how it depends on its gaps of now and of t_n: with respect to each node.
     pub fn gap_row(&self, a: usize, [now, previous]: [&Mat3; 2], row: &mut [NodeBlock]) {
         let columns = a * self.columns()..(a + 1) * self.columns();
-        for ((to, gap), n) in row.iter_mut().zip(&self.gaps[columns.start..columns.end]).zip(&self.previous[columns]) {
+        let (start, end) = (columns.start, columns.end);
+        for ((to, gap), n) in row.iter_mut().zip(&self.gaps[start..end]).zip(&self.previous[columns]) {
             for j in 0..3 {
                 for i in 0..3 {
                     to[j][i] = (0..3).map(|k| now[(i, k)] * gap[j][k]).sum::<f64>() + previous[(i, j)] * n;
                 }
             }
+        }
+        let Some(offsets) = self.offsets.get(start..end) else { return };
+        let (nu, in_previous) = (&self.along.0[a], self.along.1);
+        let along = if in_previous { (now + previous) * nu } else { now * nu };
+        for (to, slope) in row.iter_mut().zip(offsets) {
+            (0..9).for_each(|ij| to[ij % 3][ij / 3] += along[ij / 3] * slope[ij % 3]);
         }
     }
 
@@ -227,6 +244,60 @@ impl ParentTable {
                 add(&mut self.gaps[row * columns + column], &d.gap[k], a);
             }
         }
+    }
+
+    /// Begins with what offsets of the nodes add to the gaps.
+    pub fn begin_offsets(&mut self) -> Result<()> {
+        memory::refill(&mut self.offsets, [0.0; 3], self.gaps.len())
+    }
+
+    /// Adds what a pair of parts has of it: in the first component of its gaps stand offsets in place of positions.
+    pub fn add_offsets(&mut self, (d, sign): (&SubMotion, f64), slots: &[Option<usize>; 2 * MORTAR], rows: &[usize]) {
+        let columns = self.columns();
+        for (k, column) in slots.iter().enumerate() {
+            let Some(column) = *column else { continue };
+            for (a, &row) in rows.iter().enumerate() {
+                let to = &mut self.offsets[row * columns + column];
+                (0..3).for_each(|j| to[j] += sign * d.gap[k][j][a][0]);
+            }
+        }
+    }
+
+    /// What the offsets add counts along these normals. `dual`: the facet as [`ParentTable::make_dual`] has it, with eta_A of the
+    /// offsets (docs/formulation.md 15.2).
+    pub fn put_offsets(
+        &mut self,
+        along: ([Vec3; MAX_PARENT_NODES], bool),
+        dual: Option<(&DualParent, &[f64; MAX_CORNERS])>,
+    ) {
+        self.along = along;
+        let Some((d, eta)) = dual else { return };
+        let (columns, m, basis, a_ab) = (self.columns(), self.multipliers, d.basis, d.basis.coefficients());
+        for column in 0..columns {
+            let old: [Vec3; MAX_CORNERS] =
+                std::array::from_fn(
+                    |b| {
+                        if b < m { Vec3::from(self.offsets[b * columns + column]) } else { Vec3::zeros() }
+                    },
+                );
+            for a in 0..m {
+                let solved: Vec3 = (0..m).map(|b| old[b] * (a_ab[a][b] * basis.coverage.fade)).sum(); // phi m_A m^-1
+                self.offsets[a * columns + column] = (solved + self.faded_area(d, a, column) * eta[a]).into();
+            }
+        }
+    }
+
+    /// D(phi m_A) with respect to a node.
+    fn faded_area(&self, d: &DualParent, a: usize, column: usize) -> Vec3 {
+        let (basis, columns) = (d.basis, self.columns());
+        let dm = |a: usize| {
+            let block = &self.gaps[a * columns + column];
+            Vec3::new(block[0][3], block[1][3], block[2][3])
+        };
+        let whole = if column < self.own { d.area[column] } else { Vec3::zeros() };
+        let all: Vec3 = (0..self.multipliers).map(dm).sum();
+        let dphi = (all - whole * basis.coverage.share) * (basis.coverage.slope / basis.area);
+        dphi * basis.areas[a] + dm(a) * basis.coverage.fade
     }
 
     /// Adds what the nodes' own motion does to the gaps.

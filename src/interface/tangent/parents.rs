@@ -3,6 +3,7 @@
 
 use super::derivatives::PairDerivatives;
 use super::emission::{Blocks, Emitter, NodeBlock, Place};
+use super::fields::Fields;
 use super::lines::add_lines;
 use super::parent_table::{DualParent, MortarNode, ParentTable, bit};
 use super::union::{Pairs, UnionPair};
@@ -13,12 +14,14 @@ use crate::interface::data::active::Active;
 use crate::interface::data::effects::Opposite;
 use crate::interface::data::host_facets::parents_at;
 use crate::interface::data::lines::{Lines, line};
+use crate::interface::data::offsets;
 use crate::interface::data::options::{MultiplierBasis, Tangent};
 use crate::interface::data::parents::Parents;
 use crate::interface::data::surface::Surface;
 use crate::interface::pairing::given::Given;
 use crate::interface::pairing::overlaps::FacetOverlaps;
 use crate::interface::stages::carried::transfer;
+use crate::interface::stages::sums::in_previous_gaps;
 use crate::memory::{self, Store};
 use crate::mortar::{GapDerivative, MORTAR, SubMotion, rule_for, sub_motion};
 use crate::quadrature::Rule;
@@ -76,7 +79,7 @@ pub fn of_parent<const N: usize>(
             };
             room.table.add_weights(&places, [now, integrated, all.parent_previous(pair)]);
         }
-        linearised = differentiate(given, f, pairs, numbers, room)?;
+        linearised = differentiate((given, normals), f, pairs, numbers, room)?;
     }
     let (one_len, is_active) = (one.len(), pairs.iter().any(|pair| pair.is_active));
     let of_own = own.iter().map(|&a| (a, is_active));
@@ -89,7 +92,7 @@ pub fn of_parent<const N: usize>(
 
 /// Adds the derivatives of a facet's weights, and what else its gaps depend on.
 fn differentiate<const N: usize>(
-    given: Given<N>,
+    (given, normals): (Given<N>, &[Vec3]),
     f: usize,
     pairs: &[UnionPair],
     numbers: &ParentNumbers<N>,
@@ -128,34 +131,52 @@ fn differentiate<const N: usize>(
     }
     let motion = &mut motion[0];
     let moves = given.setup.effects.opposite == Opposite::Moves;
-    let linearised = match parents.lines {
+    let mut add = |tractions: &[Vec3], fields: Fields, table: &mut ParentTable| match parents.lines {
         _ if given.setup.effects.opposite == Opposite::Analytic => {
             let [first, end] = [parents.parts(f).start, parents.parts(f).end]
                 .map(|part| active.pairs.partition_point(|pair| pair.one < part));
-            over_surface(given, (f, base), (active, first..end), (numbers.motion.rule, &tractions, &x1), table, motion)?
+            let of = (numbers.motion.rule, tractions, fields);
+            over_surface(given, (f, base), (active, first..end), of, table, motion)
         }
         Some(Lines { measure, .. }) => {
             let [first, end] = [parents.parts(f).start, parents.parts(f).end]
                 .map(|part| active.pairs.partition_point(|pair| pair.one < part));
             let sides = (parents, opposite, moves.then_some(two));
-            add_lines(sides, (f, measure), (active, first..end), (&tractions, &x1, base), table, motion)
+            Ok(add_lines(sides, (f, measure), (active, first..end), (tractions, fields), table, motion))
         }
-        None => add_parts(given, (f, base), (active, numbers.motion), (&tractions, &x1), (table, motion, overlaps))?,
+        None => add_parts(given, f, (active, numbers.motion), (tractions, fields), (table, motion, overlaps)),
     };
+    let linearised = add(&tractions, Fields::Positions { one: &x1, base }, table)?;
     table.carry();
     if let Some(dual) = &dual {
         table.make_dual(dual);
     }
+    if offsets::are_there((one, two)) {
+        let eta = dual.as_ref().map(|dual| {
+            let sums = offset_sums((one, two), active, pairs);
+            dual.basis.heights(&sums)
+        });
+        let mut h = [Vec3::zeros(); MAX_PARENT_NODES];
+        own.iter().zip(&mut h).for_each(|(&a, h)| h.x = one.offset(a));
+        if let (Some(dual), Some(eta)) = (&dual, &eta) {
+            h = dual.lowered_by(&h, &eta.map(|eta| Vec3::new(eta, 0.0, 0.0)));
+        }
+        table.begin_offsets()?;
+        add(&[Vec3::zeros(); MAX_PARENT_NODES], Fields::Offsets { one: &h, two }, table)?;
+        let mut nu = [Vec3::zeros(); MAX_PARENT_NODES];
+        own.iter().zip(&mut nu).for_each(|(&a, nu)| *nu = normals[a]);
+        table.put_offsets((nu, in_previous_gaps(given)), dual.as_ref().zip(eta.as_ref()));
+    }
     Ok(linearised)
 }
 
-/// Adds the derivatives of facet f with its pairs part by part, at these tractions of its multipliers and positions of its nodes from
-/// `base`; gives the number of pairs of parts.
+/// Adds the derivatives of facet f with its pairs part by part, at these tractions of its multipliers and fields; gives the number
+/// of pairs of parts.
 fn add_parts<const N: usize>(
     given: Given<N>,
-    (f, base): (usize, Vec3),
+    f: usize,
     (active, how): (&Active, PairDerivatives),
-    (tractions, x1): (&[Vec3], &[Vec3; MAX_PARENT_NODES]),
+    (tractions, fields): (&[Vec3], Fields),
     (table, motion, overlaps): (&mut ParentTable, &mut SubMotion, &mut FacetOverlaps),
 ) -> Result<i64> {
     let (one, two) = given.setup.surfaces();
@@ -179,9 +200,9 @@ fn add_parts<const N: usize>(
         }
         for (pair, segment) in active.pairs[first..first + of_part].iter().zip(&overlaps.segments) {
             let (g, sides) = (opposite.parent(pair.two), parents.sides(opposite, (part, pair.two)));
-            let x2 = opposite.at(g, &active.x2).x.map(|x| x - base);
+            let x2 = fields.two(g, &opposite.at(g, &active.x2).x);
             let rule = rule_for(how.rule, [sides.0.0, sides.1.0]);
-            sub_motion((overlaps.frame(), segment, rule), sides, parents.space, &p, (x1, &x2), motion);
+            sub_motion((overlaps.frame(), segment, rule), sides, parents.space, &p, (fields.one(), &x2), motion);
             let mut slots = [None; 2 * MORTAR];
             (0..sub.shape.n).for_each(|k| slots[k] = Some(sub.nodes[k]));
             let mut columns = [None; MAX_PARENT_NODES];
@@ -191,7 +212,7 @@ fn add_parts<const N: usize>(
                 let other = sides.1.1;
                 (0..other.shape.n).for_each(|l| slots[MORTAR + l] = columns[other.nodes[l]]);
             }
-            table.add_motion(motion, &slots, &columns, rows);
+            fields.add(table, motion, (&slots, &columns), rows);
             linearised += 1;
         }
     }
@@ -203,14 +224,19 @@ fn over_surface<const N: usize>(
     given: Given<N>,
     (f, base): (usize, Vec3),
     (active, places): (&Active, Range<usize>),
-    (rule, tractions, x1): (&'static Rule, &[Vec3], &[Vec3; MAX_PARENT_NODES]),
+    (rule, tractions, fields): (&'static Rule, &[Vec3], Fields),
     table: &mut ParentTable,
     motion: &mut SubMotion,
 ) -> Result<i64> {
     let (one, two) = given.setup.surfaces();
     let Some(parents) = &one.parents else { return Ok(0) };
     let surface = two.analytic_at(&active.x2)?;
-    let lowered = x1.map(|x| x + (base - surface.origin));
+    let mut lowered = fields.one().map(|x| x + (base - surface.origin));
+    if let Fields::Offsets { one, .. } = fields {
+        // Of int N_A h alone: what the nodes raised by h have more than the nodes.
+        let x = parents.at(f, &active.x1).x.map(|x| x - surface.origin);
+        lowered = std::array::from_fn(|k| x[k] + one[k]);
+    }
     for pair in &active.pairs[places.start..places.end] {
         let (frame, sub) = (one.frame(pair.one, &active.x1, &active.normals)?, parents.sub(pair.one));
         let rows = parents.space.nodes(parents.facets[f].parent, sub);
@@ -223,6 +249,14 @@ fn over_surface<const N: usize>(
         })?;
         let mut slots = [None; 2 * MORTAR];
         (0..sub.shape.n).for_each(|k| slots[k] = Some(sub.nodes[k]));
+        if let Fields::Offsets { .. } = fields {
+            table.add_offsets((motion, 1.0), &slots, rows);
+            parents.over_surface(pair.one, (&frame, &active.x1), (&surface, rule), |part, x| {
+                part.motion((x, x), &p, motion)
+            })?;
+            table.add_offsets((motion, -1.0), &slots, rows);
+            continue;
+        }
         table.add_motion(motion, &slots, &[], rows);
         for (a, k) in (0..rows.len()).flat_map(|a| (0..one.host_nodes(f).len()).map(move |k| (a, k))) {
             table.add_gap(rows[a], k, &turned[a][k]);
@@ -241,6 +275,19 @@ fn gaps_of(surfaces: (&Surface, &Surface), active: &Active, pairs: &[UnionPair])
         gaps.iter_mut().zip(of_pair).for_each(|(gap, add)| *gap += add);
     }
     gaps
+}
+
+/// o_A of a facet's multipliers with its weights as they were integrated, of its active pairs [L^3].
+fn offset_sums((one, two): (&Surface, &Surface), active: &Active, pairs: &[UnionPair]) -> [f64; MAX_CORNERS] {
+    let mut sums = [0.0; MAX_CORNERS];
+    for pair in pairs.iter().filter(|pair| pair.is_active) {
+        let n = active.integrated_parent(pair.place);
+        for (a, sum) in sums.iter_mut().enumerate() {
+            *sum += one.host_nodes(pair.one).iter().zip(&n.ab[a]).map(|(&b, n)| n * one.offset(b)).sum::<f64>();
+            *sum += two.host_nodes(pair.two).iter().zip(&n.ac[a]).map(|(&c, n)| n * two.offset(c)).sum::<f64>();
+        }
+    }
+    sums
 }
 
 /// D|e| of a facet with respect to its nodes, the sum over its parts, each in its own plane.

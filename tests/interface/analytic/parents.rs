@@ -436,3 +436,25 @@ fn shapes_of_the_other_model_are_refused() {
     let error = Surface::analytic("mortar", AnalyticShape::Line, lifted).map(|_| ()).unwrap_err();
     assert!(error.message.contains("nodes of plane models have z = 0"), "{error}");
 }
+
+/// Offsets of the nodes, different ones (docs/formulation.md 15).
+#[test]
+fn offsets_are_differentiated() {
+    let give = |n: usize| [Some((0..n).map(|a| 0.004 * (a as f64 - 1.5)).collect()), None];
+    for options in choices(options()) {
+        for (shape, measure) in IN_PLANE.into_iter().flat_map(|s| MEASURES.map(|m| (s, m))) {
+            for nodes in [2, 3] {
+                let mut s = lines_over::<3>(shape, nodes, measure, options, 5);
+                s.contact.set_offsets(give(s.x1.len())).unwrap();
+                let error = s.difference_error();
+                assert!(error <= DIFFERENCES, "{shape:?} {measure:?} {nodes} {options:?}: {error:e}");
+            }
+        }
+        for (shape, kinds) in SHAPES.into_iter().flat_map(|shape| [&[6][..], &[9]].map(|kinds| (shape, kinds))) {
+            let mut s = facets_over::<3>(shape, kinds, 0.05, options);
+            s.contact.set_offsets(give(s.x1.len())).unwrap();
+            let error = s.difference_error();
+            assert!(error <= DIFFERENCES, "{shape:?} {kinds:?} {options:?}: {error:e}");
+        }
+    }
+}

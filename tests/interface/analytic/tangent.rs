@@ -102,3 +102,22 @@ fn tangent_equals_differences_in_every_column() {
     }
     assert!(seen.iter().all(|&n| n > 0), "states {seen:?}");
 }
+
+/// Offsets of the nodes, different ones (docs/formulation.md 15).
+#[test]
+fn offsets_are_differentiated() {
+    for (basis, form) in
+        BASES.into_iter().flat_map(|basis| [Form::Multiplier, Form::Augmented].map(|form| (basis, form)))
+    {
+        for (shape, cells) in
+            SHAPES.into_iter().flat_map(|shape| [Cells::Quads, Cells::Triangles].map(|cells| (shape, cells)))
+        {
+            let mut rough = Rough::<3>::new(shape, cells, Options { basis, form, ..options() });
+            let mut random = Random(9);
+            let offsets = rough.x1.iter().map(|_| 0.02 * random.next()).collect();
+            rough.contact.set_offsets([Some(offsets), None]).unwrap();
+            let error = rough.difference_error();
+            assert!(error <= DIFFERENCES, "{shape:?} {basis:?} {form:?}: {error:.1e}");
+        }
+    }
+}

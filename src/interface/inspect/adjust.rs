@@ -1,0 +1,138 @@
+//! Gaps and overlaps of the first configuration that are closed before there is any strain: the nodes of the non-mortar surface are
+//! moved along their normals onto the mortar surface, where that is within a tolerance (docs/formulation.md 15.4).
+//!
+//! A node's distance is that of the mortar facet, or part of a facet, that its normal meets: from all that look at the node the
+//! nearest. Positive: open. Nodes are looked at one by one, so that none is moved for the sake of a neighbour.
+
+use crate::error::{Error, Kind, Result};
+use crate::geometry::bilinear_map::BilinearMap;
+use crate::geometry::{Facet, Plane, Projection, Vec3};
+use crate::interface::data::setup::Setup;
+use crate::interface::data::surface::Surface;
+use crate::interface::pairing::boxes::Aabb;
+use crate::interface::pairing::filter::LEAST_OPPOSITION;
+use crate::interface::pairing::prism::Prism;
+use crate::interface::pairing::search::Tree;
+use crate::memory::{self, Store, Stored};
+use crate::normal::nodal_normal;
+use crate::shape::Shape;
+
+/// A node this far outside a facet, in its functions, still lies on it: at a border by rounding.
+const OUTSIDE: f64 = 1e-6;
+
+/// A node of the non-mortar surface.
+#[derive(Clone, Copy, Debug)]
+pub struct Adjusted {
+    /// Where it is put: on the mortar surface, or where it was.
+    pub x: Vec3,
+    /// Its distance from the mortar surface before `[L]`; `None`: its normal meets none.
+    pub gap: Option<f64>,
+    /// Whether it was within the tolerance.
+    pub moved: bool,
+}
+
+/// The nodes of the first configuration, those within the tolerance moved.
+///
+/// # Errors
+/// [`Kind::InvalidValue`] where the tolerance is not positive, or moves a node by more than the shortest edge around it.
+pub fn adjusted<const N: usize>(setup: &Setup<N>, tolerance: f64) -> Result<Vec<Adjusted>> {
+    if !(tolerance > 0.0 && tolerance.is_finite()) {
+        let text = text!("tolerance is {tolerance}; it must be positive and finite");
+        return Err(Error::new(Kind::InvalidValue, text));
+    }
+    let (one, two) = setup.surfaces();
+    let mut sums = Vec::new();
+    one.add_normals(&one.reference, &mut sums)?;
+    let edges = shortest_edges(one)?;
+    let over = Over::new(two)?;
+    let mut nodes = memory::with_room(one.len())?;
+    let mut found = Vec::new();
+    for (a, &x) in one.reference.iter().enumerate() {
+        let nu = nodal_normal(sums[a], a)?;
+        let gap = over.gap(x, nu, edges[a], &mut found)?;
+        let moves = gap.filter(|gap| gap.abs() <= tolerance);
+        if let Some(gap) = moves.filter(|gap| gap.abs() > edges[a]) {
+            let text = text!(
+                "tolerance {tolerance} moves non-mortar node {a} by {:.3e}, more than the shortest edge around it ({:.3e}): a facet would be crushed; give a smaller tolerance, or offsets",
+                gap.abs(),
+                edges[a]
+            );
+            return Err(Error::new(Kind::InvalidValue, text));
+        }
+        let x = moves.map_or(x, |gap| x - nu * gap);
+        nodes.store(Adjusted { x, gap, moved: moves.is_some() })?;
+    }
+    Ok(nodes)
+}
+
+/// The shortest edge of the facets around each node `[L]`.
+fn shortest_edges(one: &Surface) -> Result<Vec<f64>> {
+    let mut edges = memory::filled(f64::INFINITY, one.len())?;
+    for facet in &one.facets {
+        let nodes = facet.as_slice();
+        for (k, &a) in nodes.iter().enumerate() {
+            let b = nodes[(k + 1) % nodes.len()];
+            let length = (one.reference[a] - one.reference[b]).norm();
+            // The two nodes of a line.
+            if length > 0.0 {
+                (edges[a], edges[b]) = (edges[a].min(length), edges[b].min(length));
+            }
+        }
+    }
+    Ok(edges)
+}
+
+/// What lies over the nodes.
+enum Over<'a> {
+    Facets(&'a Surface, Tree),
+    Analytic(crate::geometry::AnalyticSurface),
+}
+
+impl Over<'_> {
+    fn new(two: &Surface) -> Result<Over<'_>> {
+        if two.analytic.is_some() {
+            return two.analytic_at(&two.reference).map(Over::Analytic);
+        }
+        let boxes = |f: usize| Aabb::around(two.facet(f, &two.reference).points().iter().copied());
+        Ok(Over::Facets(two, Tree::new((0..two.facets.len()).map(boxes).stored()?)?))
+    }
+
+    /// The distance along nu from what looks at x; `size`: of facets there `[L]`.
+    fn gap(&self, x: Vec3, nu: Vec3, size: f64, found: &mut Vec<usize>) -> Result<Option<f64>> {
+        let (two, tree) = match self {
+            Over::Analytic(surface) => {
+                let closest = surface.closest(x - surface.origin).filter(|c| c.normal.dot(&nu) > LEAST_OPPOSITION);
+                return Ok(closest.map(|c| c.distance / c.normal.dot(&nu)));
+            }
+            Over::Facets(two, tree) => (two, tree),
+        };
+        let plane = Plane::of(&around(x, nu, size))?;
+        tree.find(&Prism::over(&[x], &plane, OUTSIDE * size), found)?;
+        let gaps = found.iter().filter_map(|&f| below(&two.facet(f, &two.reference), x, &plane));
+        Ok(gaps.min_by(|a, b| a.abs().total_cmp(&b.abs())))
+    }
+}
+
+/// A triangle around x whose normal is nu.
+fn around(x: Vec3, nu: Vec3, size: f64) -> Facet {
+    let across = if nu.x.abs() < 0.7 { Vec3::x() } else { Vec3::y() };
+    let t1 = nu.cross(&across).normalize();
+    let t2 = nu.cross(&t1);
+    let half = (t1 + t2) / 3.0;
+    let nodes = [-half, t1 - half, t2 - half, -half].map(|d| x + d * size);
+    Facet { nodes, shape: Shape::of(3).expect("there are triangles") }
+}
+
+/// How far x lies over a facet along the plane's normal, if it lies over it and they look at each other.
+fn below(facet: &Facet, x: Vec3, plane: &Plane) -> Option<f64> {
+    let out = facet.area_vector();
+    if !(out.dot(&plane.e) > LEAST_OPPOSITION * out.norm()) {
+        return None;
+    }
+    let projection = Projection::new(facet, plane);
+    let at = x - plane.reference - plane.origin;
+    let place = BilinearMap::new(&projection).inverse([plane.t1.dot(&at), plane.t2.dot(&at)]);
+    let n = projection.shape.values(place.xi, place.eta);
+    let inside = n.iter().take(projection.shape.n).all(|n| *n >= -OUTSIDE);
+    inside.then(|| plane.e.dot(&at) - n.iter().zip(&projection.d).map(|(n, d)| n * d).sum::<f64>())
+}

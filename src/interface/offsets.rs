@@ -1,0 +1,70 @@
+//! Offsets of the nodes through the handle (docs/formulation.md 15), and what goes into them: nodes that are put onto the other
+//! surface, and facets that are given back their shape.
+
+use super::contact::Contact;
+use super::data::offsets;
+use super::data::options::Weights;
+use super::data::shape_offsets::shape_offsets;
+use super::inspect::adjust::{Adjusted, adjusted};
+use super::pairing::settle::Pairing;
+use crate::error::{Error, Kind, Result};
+use crate::geometry::AnalyticSurface;
+use crate::memory;
+
+impl<const N: usize> Contact<N> {
+    /// Offsets of the non-mortar and of the mortar nodes `[L]`; `None`: none. They count from the next evaluation on. Where they
+    /// open gaps wider than before, pairs may be deeper, and those of the step are sought anew.
+    pub fn set_offsets(&mut self, [one, two]: [Option<Vec<f64>>; 2]) -> Result<()> {
+        let mut offsets = [offsets::checked(&self.setup.nonmortar, one)?, offsets::checked(&self.setup.mortar, two)?];
+        let options = &self.setup.options;
+        if offsets.iter().any(|h| !h.is_empty())
+            && N == 3
+            && options.follows_normals()
+            && options.effective_weak_coverage() > 0.0
+        {
+            let text = "offsets with STICKSLIP_NORMALS_CURRENT and weak_coverage > 0 (the default of dual multipliers): how the offset of a carried node turns is not in the tangent; give STICKSLIP_WEAK_COVERAGE_NONE, or take STICKSLIP_NORMALS_COMMITTED or STICKSLIP_FRICTION_NONE";
+            return Err(Error::new(Kind::Unsupported, text));
+        }
+        let before = offsets::reach(self.setup.surfaces());
+        self.swap_offsets(&mut offsets);
+        if before != offsets::reach(self.setup.surfaces())
+            && let Err(error) = self.settle_again()
+        {
+            self.swap_offsets(&mut offsets);
+            return Err(error);
+        }
+        self.cache.forget();
+        Ok(())
+    }
+
+    fn swap_offsets(&mut self, [one, two]: &mut [Vec<f64>; 2]) {
+        std::mem::swap(&mut self.setup.nonmortar.offsets, one);
+        std::mem::swap(&mut self.setup.mortar.offsets, two);
+    }
+
+    /// Seeks the pairs of the step again, which may be at other depths than when t_n was settled. Frozen weights are those of t_n,
+    /// found then; before the first commit they are found again.
+    fn settle_again(&mut self) -> Result<()> {
+        if self.setup.options.effective_weights() == Weights::Current {
+            self.step.pairing = Pairing::again(&self.setup, &self.step.history)?;
+            self.linear.forget();
+            return Ok(());
+        }
+        if self.step.history.commits > 0 {
+            return Ok(());
+        }
+        let (x1, x2) = (memory::copied(&self.step.history.x1)?, memory::copied(&self.step.history.x2)?);
+        self.set_previous(&x1, &x2)
+    }
+
+    /// The non-mortar nodes of the first configuration, those within `tolerance` `[L]` of the mortar surface moved onto it.
+    pub fn adjusted(&self, tolerance: f64) -> Result<Vec<Adjusted>> {
+        adjusted(&self.setup, tolerance)
+    }
+
+    /// Offsets that give the facets of a side (0: non-mortar, 1: mortar) this shape `[L]`.
+    pub fn shape_offsets(&self, side: usize, shape: &AnalyticSurface) -> Result<Vec<f64>> {
+        let (one, two) = self.setup.surfaces();
+        shape_offsets(if side == 0 { one } else { two }, shape)
+    }
+}
