@@ -145,3 +145,32 @@ def test_a_larger_friction_is_taken(lines):
     before = lines.interface.states(*point).traction
     lines.interface.set_friction(np.zeros(len(lines.x1)))
     assert not np.array_equal(lines.interface.states(*point).traction, before)
+
+
+def test_offsets_and_adjusted_nodes():
+    with scene.Solid() as solid:
+        interface, gap = solid.interface, 0.01
+        x1, lam = solid.x1 + gap * solid.nu, np.tile(-5.0 * solid.nu, (len(solid.x1), 1))
+        closed, gaping = (interface.residual(x, solid.x2, lam)[2] for x in (solid.x1, x1))
+        interface.set_offsets(np.full(len(x1), -gap))
+        np.testing.assert_allclose(interface.residual(x1, solid.x2, lam)[2], closed, atol=1e-12)
+        interface.set_offsets()
+        np.testing.assert_array_equal(interface.residual(x1, solid.x2, lam)[2], gaping)
+        assert np.abs(gaping - closed).max() > 1e-6
+    apart = scene.grid(2, 0.13, 1.0, 1e-3, False)
+    with scene.Scene(apart, scene.grid(3, 0.0, 1.2, 0.0, True)) as solid:
+        coordinates, gaps, moved = solid.interface.adjust(0.01)
+        np.testing.assert_allclose(coordinates[:, 2], 0.0, atol=1e-15)
+        np.testing.assert_allclose(gaps, 1e-3, rtol=1e-12)
+        assert (moved == 2).all()
+        with pytest.raises(stickslip.errors.InvalidValue, match="tolerance"):
+            solid.interface.adjust(-1.0)
+
+
+def test_offsets_of_a_shape():
+    # The top of a ball of radius 10 from three chords a side: facets lie inside it, by less than h^2 / (4 R).
+    (x1, f1), top = scene.grid(3, -0.6, 0.6, 0.0, False), scene.grid(3, -0.6, 0.6, 0.0, True)
+    x2 = 10 * (top[0] + [0, 0, 10]) / np.linalg.norm(top[0] + [0, 0, 10], axis=1, keepdims=True)
+    with scene.Scene((x1 + [0, 0, 10], f1), (x2, top[1])) as ball:
+        offsets = ball.interface.shape_offsets("mortar", "sphere", 10.0, (0, 0, 0))
+        assert ((offsets < 0) & (offsets > -2 * 0.4**2 / 40)).all()

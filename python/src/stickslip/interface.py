@@ -172,6 +172,28 @@ class Interface(Inspection):
         offsets2 = None if offsets2 is None else given("offsets2", offsets2, (self.n2,))
         self._call("set_offsets", pointer(offsets1), pointer(offsets2))
 
+    def shape_offsets(self, side: str, shape: str, radius: float, point, direction=(0.0, 0.0, 1.0)) -> np.ndarray:
+        """Offsets that give the facets of one side, "nonmortar" or "mortar", the "sphere" or "cylinder" back that they stand for.
+
+        ``radius``: negative of a cavity; ``point``: the centre, or one of the axis; ``direction``: of the axis. See ``set_offsets``.
+        """
+        side = value_of("side", "SIDE", side)
+        out = np.empty(self.n2 if side else self.n1)
+        shape = value_of("shape", "SHAPE", shape)
+        place = pointer(given("point", point, (3,))), pointer(given("direction", direction, (3,)))
+        self._call("shape_offsets", side, shape, float(radius), *place, pointer(out))
+        return out
+
+    def adjust(self, tolerance: float) -> tuple:
+        """``(coordinates, gaps, moved)``: the non-mortar nodes put onto the mortar side where they are within ``tolerance`` of it.
+
+        ``coordinates`` like x1; ``gaps``, (n1,): the distance before; ``moved``, (n1,) int32: 0 nothing opposite, 1 left, 2 moved.
+        Nothing changes in the interface: make it anew with the coordinates.
+        """
+        coordinates, gaps, moved = np.empty(self._shape1), np.empty(self.n1), np.empty(self.n1, np.int32)
+        self._call("adjust", float(tolerance), *map(pointer, (coordinates, gaps, moved)))
+        return coordinates, gaps, moved
+
     def set_previous(self, x1, x2) -> None:
         """The positions at t_n of a host that starts elsewhere than at the first configuration."""
         self._call("set_previous", *self._positions(x1, x2))
