@@ -301,7 +301,7 @@ pub unsafe extern "C" fn stickslip_rigid_coo(
     })
 }
 
-/// The values of the entries of `stickslip_rigid_coo`: exact derivatives, by the unknowns of the bodies, of forces, of moments about
+/// The values of the entries that `stickslip_rigid_coo` gives: exact derivatives, by the unknowns of the bodies, of forces, of moments about
 /// the reference points as they are now, and of all other rows. docs/formulation.md 14.4.
 ///
 /// rigid: what `stickslip_rigid_create` made; motions: one of each body; forces: of the bodies' nodes, body by body, each dimension n_nodes, as for
