@@ -130,13 +130,6 @@ module stickslip
   integer(c_int32_t), parameter :: STICKSLIP_NODE_OWN = 1
   integer(c_int32_t), parameter :: STICKSLIP_NODE_ELSEWHERE = 2
 
-  ! What stickslip_interface_adjust did with a node; sides of an interface.
-  integer(c_int32_t), parameter :: STICKSLIP_ADJUST_ALONE = 0
-  integer(c_int32_t), parameter :: STICKSLIP_ADJUST_LEFT = 1
-  integer(c_int32_t), parameter :: STICKSLIP_ADJUST_MOVED = 2
-  integer(c_int32_t), parameter :: STICKSLIP_SIDE_NONMORTAR = 0
-  integer(c_int32_t), parameter :: STICKSLIP_SIDE_MORTAR = 1
-
   ! Added up in the kinds of a node that interfaces share.
   integer(c_int32_t), parameter :: STICKSLIP_CROSSPOINT_CLAIMED = 1
   integer(c_int32_t), parameter :: STICKSLIP_CROSSPOINT_CHAIN = 2
@@ -207,6 +200,13 @@ module stickslip
   integer(c_int32_t), parameter :: STICKSLIP_STATE_STICK = 1
   integer(c_int32_t), parameter :: STICKSLIP_STATE_SLIP = 2
 
+  ! What stickslip_interface_adjust did with a node; sides of an interface.
+  integer(c_int32_t), parameter :: STICKSLIP_ADJUST_ALONE = 0
+  integer(c_int32_t), parameter :: STICKSLIP_ADJUST_LEFT = 1
+  integer(c_int32_t), parameter :: STICKSLIP_ADJUST_MOVED = 2
+  integer(c_int32_t), parameter :: STICKSLIP_SIDE_NONMORTAR = 0
+  integer(c_int32_t), parameter :: STICKSLIP_SIDE_MORTAR = 1
+
   ! Sizes of the types in bytes (64-bit machines), their struct_size.
   integer(c_int64_t), parameter :: stickslip_options_size = 168
   integer(c_int64_t), parameter :: stickslip_surface_size = 72
@@ -234,26 +234,6 @@ module stickslip
   type, bind(C) :: stickslip_rigid
     private
     type(c_ptr) :: handle = c_null_ptr
-  end type
-
-  ! A rigid body: nodes that move with a reference point. Of lines (dimension 2) vectors have two numbers.
-  type, bind(C) :: stickslip_rigid_body
-    integer(c_int64_t) :: struct_size = stickslip_rigid_body_size
-    integer(c_int32_t) :: dimension = 3            ! numbers of a node: 3, or 2 of lines
-    integer(c_int32_t) :: reserved = 0             ! 0
-    integer(c_int64_t) :: n_nodes = 0
-    type(c_ptr) :: coordinates = c_null_ptr        ! real(c_double) (dimension, n_nodes), first configuration [L]
-    type(c_ptr) :: point = c_null_ptr              ! real(c_double) (dimension): the reference point [L]
-    type(c_ptr) :: node_equations = c_null_ptr     ! integer(c_int64_t) (dimension, n_nodes): of the nodal matrix; -1: none
-    type(c_ptr) :: equations = c_null_ptr          ! integer(c_int64_t) (6), of lines (3): displacement, rotation; -1: prescribed
-  end type
-
-  ! Its motion since the first configuration: x = P + u + exp[theta] R (X - P).
-  type, bind(C) :: stickslip_rigid_motion
-    integer(c_int64_t) :: struct_size = stickslip_rigid_motion_size
-    real(c_double) :: displacement(3) = 0          ! u [L]
-    real(c_double) :: rotation(3) = 0              ! theta of the step: axis times angle, at most pi
-    real(c_double) :: turned(9) = 0                ! R at t_n, row by row; zeros alone: not at all
   end type
 
   ! Options of an interface. stickslip_options_init writes the defaults, which these zeros are not in every case.
@@ -478,6 +458,26 @@ module stickslip
     integer(c_int64_t) :: gap_node = -1
     integer(c_int64_t) :: traction_node = -1
     integer(c_int64_t) :: slip_node = -1
+  end type
+
+  ! A rigid body: nodes that move with a reference point. Of lines (dimension 2) vectors have two numbers.
+  type, bind(C) :: stickslip_rigid_body
+    integer(c_int64_t) :: struct_size = stickslip_rigid_body_size
+    integer(c_int32_t) :: dimension = 3            ! numbers of a node: 3, or 2 of lines
+    integer(c_int32_t) :: reserved = 0             ! 0
+    integer(c_int64_t) :: n_nodes = 0
+    type(c_ptr) :: coordinates = c_null_ptr        ! real(c_double) (dimension, n_nodes), first configuration [L]
+    type(c_ptr) :: point = c_null_ptr              ! real(c_double) (dimension): the reference point [L]
+    type(c_ptr) :: node_equations = c_null_ptr     ! integer(c_int64_t) (dimension, n_nodes): of the nodal matrix; -1: none
+    type(c_ptr) :: equations = c_null_ptr          ! integer(c_int64_t) (6), of lines (3): displacement, rotation; -1: prescribed
+  end type
+
+  ! Its motion since the first configuration: x = P + u + exp[theta] R (X - P).
+  type, bind(C) :: stickslip_rigid_motion
+    integer(c_int64_t) :: struct_size = stickslip_rigid_motion_size
+    real(c_double) :: displacement(3) = 0          ! u [L]
+    real(c_double) :: rotation(3) = 0              ! theta of the step: axis times angle, at most pi
+    real(c_double) :: turned(9) = 0                ! R at t_n, row by row; zeros alone: not at all
   end type
 
   interface
@@ -1131,6 +1131,15 @@ module stickslip
       type(stickslip_equilibrium), intent(inout) :: out
     end function
 
+    ! The same of one node, with its gaps summed over all pairs. Outputs, each a real(c_double) that may be null: gap,
+    ! traction, slip.
+    integer(c_int32_t) function stickslip_node_equilibrium(node, stiffness, rounding, gap, traction, slip) bind(C)
+      import :: c_double, c_int32_t, c_ptr, stickslip_node
+      type(stickslip_node), intent(in) :: node
+      real(c_double), value :: stiffness, rounding
+      type(c_ptr), value :: gap, traction, slip
+    end function
+
     ! Offsets of the nodes of both sides, offsets1(n1), offsets2(n2) [L]; null: none. Positive ones open gaps.
     integer(c_int32_t) function stickslip_interface_set_offsets(interface, offsets1, offsets2) bind(C)
       import :: c_int32_t, c_ptr, stickslip_interface
@@ -1156,15 +1165,6 @@ module stickslip
       real(c_double), value :: radius
       real(c_double), intent(in) :: point(3), direction(3)
       real(c_double), intent(out) :: offsets(*)
-    end function
-
-    ! The same of one node, with its gaps summed over all pairs. Outputs, each a real(c_double) that may be null: gap,
-    ! traction, slip.
-    integer(c_int32_t) function stickslip_node_equilibrium(node, stiffness, rounding, gap, traction, slip) bind(C)
-      import :: c_double, c_int32_t, c_ptr, stickslip_node
-      type(stickslip_node), intent(in) :: node
-      real(c_double), value :: stiffness, rounding
-      type(c_ptr), value :: gap, traction, slip
     end function
 
     ! Positions x(dimension, n_nodes) of a rigid body's nodes: those of a reference point with a displacement and a rotation.

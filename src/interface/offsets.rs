@@ -8,7 +8,7 @@ use super::data::shape_offsets::shape_offsets;
 use super::inspect::adjust::{Adjusted, adjusted};
 use super::pairing::settle::Pairing;
 use crate::error::{Error, Kind, Result};
-use crate::geometry::AnalyticSurface;
+use crate::geometry::{AnalyticSurface, Vec3};
 use crate::memory;
 
 impl<const N: usize> Contact<N> {
@@ -42,19 +42,25 @@ impl<const N: usize> Contact<N> {
         std::mem::swap(&mut self.setup.mortar.offsets, two);
     }
 
-    /// Seeks the pairs of the step again, which may be at other depths than when t_n was settled. Frozen weights are those of t_n,
-    /// found then; before the first commit they are found again.
+    /// Seeks the pairs of the step again, which may be at other depths than when t_n was settled. Before the first commit t_n is
+    /// settled again, too: otherwise nodes whose pairs were too deep count as uncovered then, and their first step would have no
+    /// friction. Frozen weights are those of t_n, found then.
     fn settle_again(&mut self) -> Result<()> {
-        if self.setup.options.effective_weights() == Weights::Current {
-            self.step.pairing = Pairing::again(&self.setup, &self.step.history)?;
-            self.linear.forget();
-            return Ok(());
-        }
+        let weights = self.setup.options.effective_weights();
         if self.step.history.commits > 0 {
+            if weights == Weights::Current {
+                self.step.pairing = Pairing::again(&self.setup, &self.step.history)?;
+                self.linear.forget();
+            }
             return Ok(());
         }
         let (x1, x2) = (memory::copied(&self.step.history.x1)?, memory::copied(&self.step.history.x2)?);
-        self.set_previous(&x1, &x2)
+        if weights == Weights::Reference {
+            return self.set_previous(&x1, &x2);
+        }
+        let mut slip = memory::filled(Vec3::zeros(), self.setup.nonmortar.len())?;
+        slip.iter_mut().zip(&self.step.history.slip).for_each(|(to, of)| *to = *of);
+        self.set_committed(&x1, &x2, &slip, 0)
     }
 
     /// The non-mortar nodes of the first configuration, those within `tolerance` `[L]` of the mortar surface moved onto it.

@@ -23,8 +23,8 @@ STRICT = ["-std=f2003", "-Wall", "-Wextra", "-pedantic", "-Werror", "-fimplicit-
 INTEGERS = {"int": "int32_t", "long": "int64_t", "long long": "int64_t", "uint64_t": "int64_t"}
 # Of a compiler's complaints the first ones tell what is wrong.
 MOST_TEXT = 1500
-# The handle is a pointer to what C does not show; the module wraps the pointer in a type.
-HANDLE = "stickslip_interface"
+# Handles are pointers to what C does not show; the module wraps each pointer in a type.
+HANDLES = ("stickslip_interface", "stickslip_rigid")
 
 
 def run(*command, cwd):
@@ -68,7 +68,8 @@ def c_probe(constants, types):
         lines += [f'  printf("{name} %d %d %d\\n", (int)sizeof({name}), (int)sizeof({name}), (int)sizeof({name}));']
         lines += [f'  printf("{name}.{m} %d %d\\n", (int)offsetof({name}, {m}), (int)sizeof((({name} *)0)->{m}));'
                   for m in names(members)]
-    lines += [f'  printf("{HANDLE} %d\\n", (int)sizeof({HANDLE} *));', "  return 0;", "}"]
+    lines += [f'  printf("{handle} %d\\n", (int)sizeof({handle} *));' for handle in HANDLES]
+    lines += ["  return 0;", "}"]
     return "\n".join(lines) + "\n"
 
 
@@ -76,7 +77,7 @@ def fortran_probe(constants, types):
     is_real = real_among(constants)
     lines = ["program probe", "  use, intrinsic :: iso_c_binding", "  use stickslip", "  implicit none"]
     lines += [f"  type({name}), target :: v_{name}" for name in types]
-    lines += [f"  type({HANDLE}) :: handle"]
+    lines += [f"  type({handle}) :: h_{handle}" for handle in HANDLES]
     lines += [f"  write (*, '(a, i0)') '{name} ', {name}" for name in constants if not is_real(name)]
     lines += [f"  write (*, '(a, i0)') '{name} ', transfer({name}, 0_c_int64_t)" for name in constants if is_real(name)]
     for name, members in types.items():
@@ -84,7 +85,8 @@ def fortran_probe(constants, types):
         lines += [f"  write (*, '(a, 3(1x, i0))') '{name}', c_sizeof({v}), {name}_size, {v}%struct_size"]
         lines += [f"  write (*, '(a, 2(1x, i0))') '{name}.{m}', &\n"
                   f"    address(c_loc({v}%{m})) - address(c_loc({v})), c_sizeof({v}%{m})" for m in names(members)]
-    lines += [f"  write (*, '(a, i0)') '{HANDLE} ', c_sizeof(handle)", "contains",
+    lines += [f"  write (*, '(a, i0)') '{handle} ', c_sizeof(h_{handle})" for handle in HANDLES]
+    lines += ["contains",
               "  integer(c_intptr_t) function address(p)", "    type(c_ptr), intent(in) :: p",
               "    address = transfer(p, address)", "  end function", "end program"]
     return "\n".join(lines) + "\n"
@@ -124,8 +126,8 @@ def agrees(c, fortran):
     f_const, f_kind, f_stars, f_name = fortran
     if name != f_name:
         return False
-    if kind == HANDLE:
-        return (f_kind, f_stars) == (HANDLE, stars - 1)
+    if kind in HANDLES:
+        return (f_kind, f_stars) == (kind, stars - 1)
     if f_kind == "void":
         return stars == f_stars == 1
     return (const, kind, stars) == (f_const, f_kind, f_stars)
@@ -187,7 +189,7 @@ def main():
     sizes = [f"{name}_size" for name in types]
     complaints = [*compare_names("constants", list(constants), [n for n in f_constants if n not in sizes]),
                   *compare_names("constants of sizes", sizes, [n for n in f_constants if n in sizes]),
-                  *compare_names("types", [HANDLE, *types], f_types),
+                  *compare_names("types", [*HANDLES, *types], f_types),
                   *compare_names("functions", functions, f_functions),
                   *pointers_by_reference(module)]
 

@@ -164,8 +164,9 @@ static inline int every_offsets_unsupported(const stickslip_options *o) {
 static inline int32_t every_offsets(every *c) {
   const stickslip_options *o = &c->h.s.options;
   double one[N1], two[N2];
-  for (int a = 0; a < N1; ++a) one[a] = every_offsets_unsupported(o) ? 0.0 : 1e-3 * a;
-  for (int a = 0; a < N2; ++a) two[a] = every_offsets_unsupported(o) ? 0.0 : -1e-3 * a;
+  /* Powers of two: exact, for a caller's inexact operations may be trapped. */
+  for (int a = 0; a < N1; ++a) one[a] = every_offsets_unsupported(o) ? 0.0 : 0x1p-10 * a;
+  for (int a = 0; a < N2; ++a) two[a] = every_offsets_unsupported(o) ? 0.0 : -0x1p-10 * a;
   return stickslip_interface_set_offsets(c->h.s.interface, one, o->mortar_side == STICKSLIP_MORTAR_ANALYTIC ? NULL : two);
 }
 static inline int32_t every_no_offsets(every *c) { return stickslip_interface_set_offsets(c->h.s.interface, NULL, NULL); }

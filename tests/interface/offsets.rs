@@ -338,3 +338,85 @@ fn frozen_tangents_leave_out_what_they_say() {
     let error = t.at().difference_error(1.0);
     assert!(error <= DIFFERENCES, "{error:e}");
 }
+
+/// A clearance of several facets, set before the first step: t_n is settled again, so that nodes have friction in that step, with
+/// weights of now too, and against an analytic surface. The slip that a host has said stays.
+#[test]
+fn the_first_step_with_a_large_clearance_has_friction() {
+    const DEPTH: f64 = 1.5;
+    /// Slips of 1e-3 are differences of depths.
+    const ROUNDED: f64 = 1e-11;
+    let down = Vec3::z() * -DEPTH;
+    for (weights, analytic) in [Weights::Current, Weights::Committed, Weights::Reference]
+        .into_iter()
+        .flat_map(|weights| [false, true].map(|analytic| (weights, analytic)))
+    {
+        for basis in BASES {
+            let options = Options { weights, basis, mu: 0.5, ..options() };
+            let one = grid(3, 3, [0.0, 0.0], [1.0, 1.0], 0.0, false, Cells::Quads);
+            let two = grid(4, 4, [-0.5, -0.5], [1.5, 1.5], 0.0, true, Cells::Quads);
+            let make = |shift: Vec3| -> Interface {
+                let x = one.x.iter().map(|x| x + shift).collect::<Vec<_>>();
+                let (n1, n2) = (one.x.len(), two.x.len());
+                let nonmortar = Surface::new("nonmortar", x, &one.facets, numbered(0, n1)).unwrap();
+                let frame = [Vec3::zeros(), Vec3::z(), Vec3::x(), Vec3::y()].to_vec();
+                let mortar = match analytic {
+                    true => Surface::analytic("mortar", AnalyticShape::Plane, frame).unwrap(),
+                    false => Surface::new("mortar", two.x.clone(), &two.facets, numbered(3 * n1, n2)).unwrap(),
+                };
+                Contact::new(nonmortar, mortar, numbered(3 * (n1 + n2), n1), options).unwrap()
+            };
+            let (mut meant, mut meshed) = (make(Vec3::zeros()), make(down));
+            meshed.set_offsets([Some(vec![DEPTH; one.x.len()]), None]).unwrap();
+            // Pressed and dragged along by less than friction carries.
+            let pressed = Vec3::new(0.001, 0.0, 0.0);
+            let lambda = vec![Vec3::new(0.1, 0.0, -1.0); one.x.len()];
+            let x2 = meant.surfaces().1.reference.clone();
+            let at = |shift: Vec3| one.x.iter().map(|x| x + pressed + shift).collect::<Vec<_>>();
+            let a = meant.responses(&at(Vec3::zeros()), &x2, &lambda, None).unwrap();
+            let b = meshed.responses(&at(down), &x2, &lambda, None).unwrap();
+            for (a, b) in a.iter().zip(&b) {
+                assert_eq!(a.state, State::Stick, "{weights:?} {analytic} {basis:?}");
+                assert_eq!(a.state, b.state, "{weights:?} {analytic} {basis:?}");
+                assert!((a.row - b.row).norm() <= ROUNDED * a.row.norm(), "{weights:?} {analytic} {basis:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn the_slip_that_a_host_has_said_stays_when_offsets_are_set() {
+    let mut s = moved(&options(), [Cells::Quads; 2], Roughness { warp: 0.0, jitter: 0.0, slide: 0.0 }, 3);
+    let slip: Vec<_> = (0..s.x1.len()).map(|a| Vec3::new(0.01 * a as f64, -0.02, 0.0)).collect();
+    s.interface.set_committed(&s.x1, &s.x2, &slip, 0).unwrap();
+    s.interface.set_offsets([Some(vec![1e-3; s.x1.len()]), None]).unwrap();
+    assert_eq!(s.interface.history().slip, slip);
+}
+
+/// Nodes over a ball are put onto it, and one on the axis of rings stays there.
+#[test]
+fn nodes_are_put_onto_curved_surfaces_and_stay_on_the_axis() {
+    let mesh = grid(2, 2, [-0.5, -0.5], [0.5, 0.5], 1.05, false, Cells::Quads);
+    let n = mesh.x.len();
+    let one = Surface::new("nonmortar", mesh.x.clone(), &mesh.facets, numbered(0, n)).unwrap();
+    let frame = [Vec3::zeros(), Vec3::z(), Vec3::x(), Vec3::y()].to_vec();
+    let ball = Surface::analytic("mortar", AnalyticShape::Sphere(1.0), frame).unwrap();
+    let contact: Interface = Contact::new(one, ball, numbered(3 * n, n), options()).unwrap();
+    for node in contact.adjusted(0.5).unwrap() {
+        assert!(node.moved && (node.x.norm() - 1.0).abs() < 1e-14, "{node:?}");
+    }
+    // The line at the axis is slanted, and with it the normal there.
+    let mut mesh = crate::support::lines::lines(3, 2, [0.0, 1.5], false);
+    for (x, height) in mesh.x.iter_mut().zip([0.01, 0.04, 0.03, 0.0]) {
+        x.y = height;
+    }
+    let n = mesh.x.len();
+    let equations = crate::support::lines::plane_equations;
+    let one =
+        Surface::of_lines("nonmortar", mesh.x.clone(), &mesh.facets, equations(0, n), Measure::Axisymmetric).unwrap();
+    let flat = [Vec3::zeros(), Vec3::y(), Vec3::x()].to_vec();
+    let line = Surface::analytic("mortar", AnalyticShape::Line, flat).unwrap();
+    let contact: Interface = Contact::new(one, line, equations(2 * n, n), options()).unwrap();
+    let nodes = contact.adjusted(0.1).unwrap();
+    assert!(nodes[0].moved && nodes[0].x == Vec3::zeros(), "{:?}", nodes[0]);
+}

@@ -6,19 +6,25 @@
 
 use crate::error::{Error, Kind, Result};
 use crate::geometry::bilinear_map::BilinearMap;
-use crate::geometry::{Facet, Plane, Projection, Vec3};
+use crate::geometry::{AnalyticSurface, Facet, Plane, Projection, Vec3};
 use crate::interface::data::setup::Setup;
 use crate::interface::data::surface::Surface;
 use crate::interface::pairing::boxes::Aabb;
 use crate::interface::pairing::filter::LEAST_OPPOSITION;
 use crate::interface::pairing::prism::Prism;
 use crate::interface::pairing::search::Tree;
+use crate::line::Measure;
 use crate::memory::{self, Store, Stored};
 use crate::normal::nodal_normal;
 use crate::shape::Shape;
 
 /// A node this far outside a facet, in its functions, still lies on it: at a border by rounding.
 const OUTSIDE: f64 = 1e-6;
+
+/// Newton's method along a normal doubles its digits in each; a normal that passes a surface by meets none.
+const ITERATIONS: usize = 50;
+/// Of a distance that is 0, over the lengths that it is a difference of.
+const ROUNDING: f64 = 1e-12;
 
 /// A node of the non-mortar surface.
 #[derive(Clone, Copy, Debug)]
@@ -48,7 +54,10 @@ pub fn adjusted<const N: usize>(setup: &Setup<N>, tolerance: f64) -> Result<Vec<
     let mut nodes = memory::with_room(one.len())?;
     let mut found = Vec::new();
     for (a, &x) in one.reference.iter().enumerate() {
-        let nu = nodal_normal(sums[a], a)?;
+        let mut nu = nodal_normal(sums[a], a)?;
+        if one.lines().is_some_and(|lines| lines.measure == Measure::Axisymmetric) && x.x == 0.0 {
+            nu = Vec3::new(0.0, nu.y.signum(), 0.0); // the axis stays where it is
+        }
         let gap = over.gap(x, nu, edges[a], &mut found)?;
         let moves = gap.filter(|gap| gap.abs() <= tolerance);
         if let Some(gap) = moves.filter(|gap| gap.abs() > edges[a]) {
@@ -85,7 +94,7 @@ fn shortest_edges(one: &Surface) -> Result<Vec<f64>> {
 /// What lies over the nodes.
 enum Over<'a> {
     Facets(&'a Surface, Tree),
-    Analytic(crate::geometry::AnalyticSurface),
+    Analytic(AnalyticSurface),
 }
 
 impl Over<'_> {
@@ -101,8 +110,7 @@ impl Over<'_> {
     fn gap(&self, x: Vec3, nu: Vec3, size: f64, found: &mut Vec<usize>) -> Result<Option<f64>> {
         let (two, tree) = match self {
             Over::Analytic(surface) => {
-                let closest = surface.closest(x - surface.origin).filter(|c| c.normal.dot(&nu) > LEAST_OPPOSITION);
-                return Ok(closest.map(|c| c.distance / c.normal.dot(&nu)));
+                return Ok(along(surface, x - surface.origin, nu));
             }
             Over::Facets(two, tree) => (two, tree),
         };
@@ -111,6 +119,20 @@ impl Over<'_> {
         let gaps = found.iter().filter_map(|&f| below(&two.facet(f, &two.reference), x, &plane));
         Ok(gaps.min_by(|a, b| a.abs().total_cmp(&b.abs())))
     }
+}
+
+/// The distance along nu of a point, from the origin of a surface that looks at it: by Newton's method, which ends in rounding.
+fn along(surface: &AnalyticSurface, x: Vec3, nu: Vec3) -> Option<f64> {
+    let (mut gap, mut last) = (0.0_f64, f64::INFINITY);
+    for _ in 0..ITERATIONS {
+        let closest = surface.closest(x - nu * gap).filter(|c| c.normal.dot(&nu) > LEAST_OPPOSITION)?;
+        if !(closest.distance.abs() < last) {
+            return (last <= ROUNDING * (x.norm() + gap.abs())).then_some(gap);
+        }
+        last = closest.distance.abs();
+        gap += closest.distance / closest.normal.dot(&nu);
+    }
+    None
 }
 
 /// A triangle around x whose normal is nu.
