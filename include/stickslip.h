@@ -2182,8 +2182,9 @@ int32_t stickslip_node_equilibrium(const struct stickslip_node *node,
 ///
 /// offsets1 (n1), offsets2 (n2) [L], of the non-mortar and of the mortar nodes: from the next evaluation on, in place of all earlier ones; NULL, or 0 at all nodes: none,
 /// and no cost. Set larger ones step by step to apply an interference slowly. Pairs are sought as deep, and as far, as the
-/// offsets need. Set them before the first commit where a clearance is more than a facet, and before `stickslip_interface_set_committed`:
-/// nodes whose pairs are found too late count as uncovered at t_n, and frozen weights do not change later. Not part of
+/// offsets need. Where a clearance is more than a facet set them before the first commit and before
+/// `stickslip_interface_set_committed` is called. Else nodes whose pairs are found too late count as uncovered at t_n, and frozen
+/// weights stay as they are. Not part of
 /// the history: set them again after a restart, before its import. Not of an analytic mortar side, whose shape or place says the
 /// same. On several processes each handle needs those of all of its nodes.
 ///
