@@ -64,6 +64,12 @@ impl<T> Part<'_, T> {
         node.wrapping_sub(self.first) < self.values.len()
     }
 
+    /// Whether it has that of one of these nodes.
+    #[inline]
+    pub fn has_any(&self, nodes: &[usize]) -> bool {
+        nodes.iter().any(|&node| self.has(node))
+    }
+
     /// That of a node, if it has it.
     #[inline]
     pub fn at(&mut self, node: usize) -> Option<&mut T> {

@@ -73,7 +73,7 @@ pub fn refresh<const N: usize>(
         };
         for pair in pairs {
             let (one, two) = (&nonmortar.facets[pair.one], &mortar.facets[pair.two]);
-            if !has_any(&of_one, one.as_slice()) && !has_any(&of_two, two.as_slice()) {
+            if !of_one.has_any(one.as_slice()) && !of_two.has_any(two.as_slice()) {
                 continue;
             }
             let f = pair_force(&pair.weights, &one.nodes.map(|a| tractions[a]));
@@ -91,12 +91,6 @@ pub fn refresh<const N: usize>(
         }
     }
     Ok(())
-}
-
-/// Whether this part has a value of one of these nodes.
-#[inline]
-fn has_any(part: &Part<Vec3>, nodes: &[usize]) -> bool {
-    nodes.iter().any(|&node| part.has(node))
 }
 
 /// Adds the forces of pairs of parents at the nodes' tractions.

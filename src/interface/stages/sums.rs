@@ -61,7 +61,7 @@ fn each_gap<T>(
         Weighted::Facets(pairs) => pairs,
         Weighted::Parents(pairs) => {
             for pair in pairs {
-                if nonmortar.host_nodes(pair.one).iter().any(|&node| sums.has(node)) {
+                if sums.has_any(nonmortar.host_nodes(pair.one)) {
                     each_gap_of_parents((nonmortar, mortar), pair, (x1, x2), &mut |node, coverage, gap| {
                         sums.at(node).into_iter().for_each(|sum| add(sum, coverage, gap));
                     });
@@ -72,7 +72,7 @@ fn each_gap<T>(
     };
     for pair in pairs {
         let nodes = nonmortar.facets[pair.one].as_slice();
-        if nodes.iter().any(|&node| sums.has(node)) {
+        if sums.has_any(nodes) {
             let (one, two) = (nonmortar.facet(pair.one, x1), mortar.facet(pair.two, x2));
             let gaps = gap(&pair.weights, &one, &two);
             for (k, &node) in nodes.iter().enumerate() {
