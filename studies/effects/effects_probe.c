@@ -106,11 +106,11 @@ int main(int argc, char **argv)
   if (with_offsets) {
     static double thickness1[NODES1], thickness2[NODES2];
     for (int a = 0; a < NODES1; a++) {
-      thickness1[a] = DEPTH;
+      thickness1[a] = -DEPTH;
       x1[3 * a + 2] += 2 * DEPTH; /* the layers touch where without them the meshes would */
     }
     for (int c = 0; c < NODES2; c++)
-      thickness2[c] = DEPTH;
+      thickness2[c] = -DEPTH; /* in front of the mesh */
     stop_on(stickslip_interface_set_offsets(contact, thickness1, thickness2));
   }
   stop_on(stickslip_interface_pattern_coo(contact, x1, x2, 0, NULL, NULL, &capacity)); /* no tangent has more entries */
