@@ -18,7 +18,10 @@ def shared_library(checkout: Path) -> Path:
     given = os.environ.get("STICKSLIP_LIBRARY")
     if given:
         return Path(given).resolve(strict=True)
-    subprocess.run(["cargo", "build", "--locked", "--release", "--lib"], cwd=checkout, check=True)
+    # Panics name source files: those of crates by a path of this machine, if nothing is put in its place (cmake/library.cmake).
+    cargo_home = os.environ.get("CARGO_HOME", Path.home() / ".cargo")
+    remapped = f"build.rustflags=['--remap-path-prefix={cargo_home}=/cargo', '--remap-path-prefix={checkout}=/stickslip']"
+    subprocess.run(["cargo", "--config", remapped, "build", "--locked", "--release", "--lib"], cwd=checkout, check=True)
     target = Path(os.environ.get("CARGO_TARGET_DIR", checkout / "target"))
     return (checkout / target / "release" / "libstickslip.so").resolve(strict=True)
 
