@@ -27,7 +27,7 @@ def shared_library(checkout: Path) -> Path:
 
 
 class StickslipHook(BuildHookInterface):
-    """Puts libstickslip.so and _abi.py into the wheel, and names its platform."""
+    """Puts libstickslip.so, _abi.py and the header into the wheel, and names its platform."""
 
     def initialize(self, version, build_data):
         sys.path.insert(0, str(HERE / "src" / "stickslip"))
@@ -42,6 +42,7 @@ class StickslipHook(BuildHookInterface):
         _declarations.write(CHECKOUT / "include" / "stickslip.h", made / "_abi.py")
         build_data["force_include"][str(library)] = "stickslip/libstickslip.so"
         build_data["force_include"][str(made / "_abi.py")] = "stickslip/_abi.py"
+        build_data["force_include"][str(CHECKOUT / "include" / "stickslip.h")] = "stickslip/stickslip.h"
         platform = sysconfig.get_platform().replace("-", "_").replace(".", "_")
         build_data["tag"] = f"py3-none-{platform}"
         build_data["pure_python"] = False

@@ -4,6 +4,7 @@ The package calls the shared library through its C interface. Arrays are numpy's
 """
 
 from . import errors
+from ._library import HEADER as header
 from ._library import constants, lib, text
 from .condensed import Condensed
 from .errors import Error
@@ -19,4 +20,4 @@ __version__ = text(lib.stickslip_version())
 __build__ = text(lib.stickslip_build())
 
 __all__ = ["Condensed", "CondensedPlan", "Error", "Interface", "Plan", "RigidBody", "RigidPlan", "Surface", "constants",
-           "crosspoints", "errors", "split_creases"]
+           "crosspoints", "errors", "header", "split_creases"]

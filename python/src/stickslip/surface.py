@@ -25,7 +25,8 @@ class Surface:
     multiplier_equations : (n, dimension) or (n,) int64, optional
         Of the non-mortar side; (n,) where there is one multiplier a node.
     owned : (n,) int32, optional
-        Of a non-mortar side on several processes: 1 where this handle adds the node's own block.
+        Of a non-mortar side on several processes: where a node's multiplier acts, ``constants["NODE_OWN"]``, ``"NODE_SHARED"``
+        or ``"NODE_ELSEWHERE"``. Without it all are own.
     """
 
     def __init__(self, coordinates: ArrayLike, facets: Sequence, equations: ArrayLike | None = None,
