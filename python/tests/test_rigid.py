@@ -25,7 +25,7 @@ class Plate:
     Unknowns: six of the plate, displacements of the springs' ends, multipliers. Nodes of the plate have the numbers beyond.
     """
 
-    FORCE, POINT, STIFFNESS = np.array([3.0, 2.0, -20.0]), (0.45, 0.55, 0.4), 200.0
+    FORCE, POINT, STIFFNESS = np.array([3.0, -1.2, -20.0]), (0.5, 0.5, 0.3), 200.0
 
     def __init__(self):
         self.x1, facets1 = scene.grid(3, 0.0, 1.0, 0.0, True)
@@ -56,6 +56,7 @@ class Plate:
         for iterations in range(20):
             residual, force2 = self.residual(u, load)
             if np.abs(residual).max() < CONVERGED * np.linalg.norm(self.FORCE):
+                self.states = set(self.face.states(*self.unpack(u)).state)
                 self.face.commit(*self.unpack(u))
                 return iterations
             nodal = self.face.tangent(*self.unpack(u), self.whole)
@@ -85,7 +86,7 @@ def test_a_plate_on_springs_is_where_statics_puts_it():
     for load in (0.5, 1.0):
         # Quadratic convergence: with a tangent that is not exact it takes dozens.
         assert plate.step(plan, u, load) <= 8
-    assert set(plate.face.states(*plate.unpack(u)).state) == {stickslip.constants["STATE_STICK"]}
+        assert plate.states == {stickslip.constants["STATE_STICK"]}
     expected = statics(plate, 1.0)
     assert np.abs(expected[3:]).max() > 0.05  # no small rotation
     np.testing.assert_allclose(plate.body.unknowns, expected, rtol=0, atol=STATICS)
@@ -131,7 +132,7 @@ def test_its_matrix_is_the_derivative_of_the_residual(kind):
                 nodal = face.tangent(*at, made.size + x2.size, form=form)
                 matrix = plan.values(nodal, [force2])
                 same = plan.values(nodal, [force2])
-                assert same is matrix and plan.renewals == ("coo", "csr", "csc").index(form)
+                assert same is matrix and plan.renewals == (form == "csc")  # the library sorts by rows
                 dense = matrix.toarray()[np.ix_(order, order)]
                 differences = np.column_stack([(residual(u + STEP * e)[0] - residual(u - STEP * e)[0]) / (2 * STEP)
                                                for e in np.eye(len(u))])
@@ -186,8 +187,8 @@ def test_what_is_wrong_is_refused_by_name():
         plan.values(nodal.astype(np.float32), [np.zeros((1, 3))])
     with pytest.raises(ValueError, match="^size: 5, and there is an equation 5"):
         stickslip.RigidPlan([body], 5).values(nodal, [np.zeros((1, 3))])
-    # Two bodies that share a number, and an empty matrix, as of surfaces that are apart.
+    # Two bodies that share a number; a matrix without entries, which no interface has.
     with pytest.raises(stickslip.errors.InvalidValue, match="10 is that of two components"):
         stickslip.RigidPlan([body, body], 6).values(nodal, [np.zeros((1, 3))] * 2)
-    apart = plan.values(scipy.sparse.csr_matrix((13, 13)), [np.zeros((1, 3))])
-    assert apart.shape == (6, 6) and not apart.toarray().any()
+    with pytest.raises(stickslip.errors.InvalidSize, match="n_entries"):
+        plan.values(scipy.sparse.csr_matrix((13, 13)), [np.zeros((1, 3))])
