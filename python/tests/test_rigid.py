@@ -14,8 +14,8 @@ STEP = 1e-6
 DIFFERENCES = 1e-6
 # Of Newton's residual, over the load: rounding of a hundred unknowns is a hundredth of it.
 CONVERGED = 1e-12
-# Of displacements and rotations of size 1, from two solvers that both converge to CONVERGED or below.
-STATICS = 1e-9
+# Of displacements and rotations, from two solvers whose residuals are below 1e-12 of the load, over a stiffness ten times as large.
+STATICS = 1e-12
 ROUNDING = 1e-13
 
 
@@ -92,9 +92,9 @@ def test_a_plate_on_springs_is_where_statics_puts_it():
     np.testing.assert_allclose(plate.body.unknowns, expected, rtol=0, atol=STATICS)
     # The springs bear the load, and it has no moment about the point where it acts.
     forces = (plate.spring * u[plate.ends]).reshape(-1, 3)
-    np.testing.assert_allclose(forces.sum(axis=0), plate.FORCE, rtol=0, atol=20 * STATICS)
+    np.testing.assert_allclose(forces.sum(axis=0), plate.FORCE, rtol=0, atol=Plate.STIFFNESS * STATICS)
     arms = plate.x1 + u[plate.ends].reshape(-1, 3) - plate.POINT - u[:3]
-    np.testing.assert_allclose(np.cross(arms, forces).sum(axis=0), 0, rtol=0, atol=20 * STATICS)
+    np.testing.assert_allclose(np.cross(arms, forces).sum(axis=0), 0, rtol=0, atol=Plate.STIFFNESS * STATICS)
 
 
 @pytest.mark.parametrize("kind", [scene.Solid, scene.Plane])

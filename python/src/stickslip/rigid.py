@@ -102,13 +102,13 @@ class RigidBody:
 class RigidPlan:
     """The matrix of the host's unknowns from that of all nodes: rows and columns of a rigid body's nodes become its own.
 
+    ``matrix`` is a scipy CSR matrix of ``(size, size)``, refilled in place by :meth:`values`. Where the entries of the nodal matrix
+    are others than before, it is another object, and ``renewals`` has grown by one.
+
     Parameters
     ----------
     bodies : each once, whatever interfaces it is in
     size : the number of the host's equations; the node equations of bodies are not among them
-
-    ``matrix`` is a scipy CSR matrix of ``(size, size)``, refilled in place by :meth:`values`. Where the entries of the nodal matrix
-    are others than before, it is another object, and ``renewals`` has grown by one.
     """
 
     def __init__(self, bodies: Sequence[RigidBody], size: int):
@@ -122,6 +122,8 @@ class RigidPlan:
     def values(self, nodal: scipy.sparse.spmatrix, forces: Sequence[ArrayLike]) -> scipy.sparse.csr_matrix:
         """Fills the matrix and gives it.
 
+        Parameters
+        ----------
         nodal : a scipy matrix in COO, CSR or CSC with rows and columns of nodes: the tangent of an interface, or a sum of several
         forces : of each body those on its nodes, as for :meth:`RigidBody.resultant`: their arms turn with the body
         """
