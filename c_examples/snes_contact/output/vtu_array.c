@@ -21,3 +21,8 @@ void vtu_vectors(FILE *file, const char *name, PetscInt n, const PetscScalar *va
             PetscRealPart(values[3 * k + 2]));
   vtu_end_array(file);
 }
+
+void vtu_declare(FILE *file, const char *type, const char *name, int components)
+{
+  fprintf(file, "<PDataArray type=\"%s\" Name=\"%s\" NumberOfComponents=\"%d\"/>\n", type, name, components);
+}

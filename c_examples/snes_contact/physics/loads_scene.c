@@ -79,7 +79,6 @@ static PetscErrorCode read_load(Scene *scene, Physics *physics, Load *load)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* rank 0 */
 static PetscErrorCode find_surfaces(Scene *scene, const Mesh *mesh, Load *load)
 {
   char **list;
@@ -109,10 +108,8 @@ PetscErrorCode loads_read(Scene *scene, Physics *physics)
     PetscCall(read_load(scene, physics, &physics->loads[l]));
   }
   strings_destroy(physics->n_loads, &names);
-  scene_root_begin(scene);
-  for (PetscInt l = 0; l < physics->n_loads && physics->mesh->rank == 0; l++) {
+  for (PetscInt l = 0; l < physics->n_loads; l++) {
     if (!physics->loads[l].bodies) PetscCall(find_surfaces(scene, physics->mesh, &physics->loads[l]));
   }
-  PetscCall(scene_root_end(scene));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

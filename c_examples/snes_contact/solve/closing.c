@@ -28,12 +28,7 @@ static const PetscReal FAR = 10;
 /* the body of side 0 or 1 */
 static PetscInt body_of(const Solve *solve, const Interface *interface, int side)
 {
-  const PetscInt vertex = interface->nodes[side ? interface->n1 : 0];
-  for (PetscInt b = 0; b < solve->mesh->n_bodies; b++) {
-    const Body *body = &solve->mesh->bodies[b];
-    if (body->first_vertex <= vertex && vertex < body->end_vertex) return b;
-  }
-  return -1;
+  return mesh_body_of(solve->mesh, interface->nodes[side ? interface->n1 : 0]);
 }
 
 PetscErrorCode closing_create(Solve *solve)
@@ -46,11 +41,10 @@ PetscErrorCode closing_create(Solve *solve)
 
   PetscFunctionBegin;
   PetscCall(PetscCalloc2(mesh->n_bodies, &closing->free, mesh->n_bodies, &closing->group));
-  for (PetscInt b = 0; b < mesh->n_bodies && mesh->rank == 0; b++) {
-    PetscCall(held_free(solve, &mesh->bodies[b], &closing->free[b]));
-    any = (PetscBool)(any || closing->free[b]);
+  for (PetscInt b = 0; b < mesh->n_bodies; b++) {
+    closing->free[b] = held_free(solve, b);
+    any              = (PetscBool)(any || closing->free[b]);
   }
-  PetscCallMPI(MPI_Bcast(&any, 1, MPIU_BOOL, 0, PETSC_COMM_WORLD));
   closing->possible = (PetscBool)(any && solve->contact->n_interfaces && solve->steps.closing);
   PetscCall(DMCreateGlobalVector(mesh->dm, &closing->displacements));
   PetscCall(VecDuplicate(closing->displacements, &closing->work));
@@ -200,16 +194,15 @@ static PetscErrorCode describe_motion(Solve *solve, PetscInt body, Vec step)
   const Mesh        *mesh    = solve->mesh;
   Closing           *closing = &solve->closing;
   const PetscScalar *array;
-  PetscReal          mean[3]  = {0, 0, 0}, size;
-  PetscInt           range[2] = {mesh->bodies[body].first_vertex, mesh->bodies[body].end_vertex};
+  const Body        *moving  = &mesh->bodies[body];
+  PetscReal          mean[3] = {0, 0, 0}, size;
 
   PetscFunctionBegin;
-  PetscCallMPI(MPI_Bcast(range, 2, MPIU_INT, 0, PETSC_COMM_WORLD));
   PetscCall(VecGetArrayRead(step, &array));
   for (PetscInt k = 0; k < mesh->n_points; k++) {
     const PetscInt vertex = mesh->original[k];
     PetscInt       at;
-    if (solve->physics->unknowns.ghost[k] || vertex < range[0] || vertex >= range[1]) continue;
+    if (solve->physics->unknowns.ghost[k] || vertex < moving->first_vertex || vertex >= moving->end_vertex) continue;
     PetscCall(PetscSectionGetOffset(solve->physics->unknowns.section, mesh->points[k], &at));
     for (int i = 0; i < 3; i++)
       mean[i] += PetscRealPart(array[at + i]);
