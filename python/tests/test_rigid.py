@@ -190,5 +190,11 @@ def test_what_is_wrong_is_refused_by_name():
     # Two bodies that share a number; a matrix without entries, which no interface has.
     with pytest.raises(stickslip.errors.InvalidValue, match="10 is that of two components"):
         stickslip.RigidPlan([body, body], 6).values(nodal, [np.zeros((1, 3))] * 2)
+    # A refusal leaves the plan as it was.
+    first = plan.values(nodal, [np.zeros((1, 3))])
+    beyond = scipy.sparse.coo_matrix(([1.0] * 50, ([9] * 50, range(50))), shape=(99, 99))
+    with pytest.raises(ValueError, match="^size: 6, and there is an equation 49"):
+        plan.values(beyond, [np.zeros((1, 3))])
+    assert plan.values(nodal, [np.zeros((1, 3))]) is first and plan.renewals == 0
     with pytest.raises(stickslip.errors.InvalidSize, match="n_entries"):
         plan.values(scipy.sparse.csr_matrix((13, 13)), [np.zeros((1, 3))])

@@ -1,5 +1,6 @@
 """What an interface tells about itself: states, equilibrium, report, diagnosis, counters."""
 
+from collections.abc import Callable
 from types import SimpleNamespace
 
 import numpy as np
@@ -35,7 +36,13 @@ def _new(name: str):
 
 
 class Inspection:
-    """The part of :class:`stickslip.Interface` that changes nothing."""
+    """The part of :class:`stickslip.Interface` that changes nothing. What it needs of the rest:"""
+
+    n1: int
+    _shape1: tuple
+    _call: Callable[..., None]
+    _point: Callable[..., tuple]
+    _positions: Callable[..., tuple]
 
     def states(self, x1: ArrayLike, x2: ArrayLike, lam: ArrayLike, *, sums: ArrayLike | None = None) -> SimpleNamespace:
         """Arrays by the names of ``stickslip_states``: state, normal, traction, gap, slip, coverage, area, ...
@@ -67,8 +74,8 @@ class Inspection:
     def report(self, x1: ArrayLike, x2: ArrayLike) -> SimpleNamespace:
         """Which nodes are covered, and what surfaces that do not meet look like; ``text`` says it in sentences."""
         out = _new("report")
-        arrays = {"cover": np.zeros(self.n1, np.int32), "fraction": np.zeros(self.n1),
-                  "layers": np.zeros(self.n1, np.int32)}
+        arrays: dict[str, np.ndarray] = {"cover": np.zeros(self.n1, np.int32), "fraction": np.zeros(self.n1),
+                                         "layers": np.zeros(self.n1, np.int32)}
         kept = {member: pointer(array) for member, array in arrays.items()}
         for member, address in kept.items():
             setattr(out, member, address)

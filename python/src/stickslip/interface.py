@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -106,9 +107,9 @@ class Interface(Inspection):
         """
         shapes = self._shape1, self._shape2, self._shape_multipliers
         names = "force1", "force2", "rows"
-        made = tuple(output(name, array, shape) for name, array, shape in zip(names, out, shapes))
-        self._call("residual", *self._point(x1, x2, lam, sums), *map(pointer, made))
-        return made
+        force1, force2, rows = (output(name, array, shape) for name, array, shape in zip(names, out, shapes))
+        self._call("residual", *self._point(x1, x2, lam, sums), pointer(force1), pointer(force2), pointer(rows))
+        return force1, force2, rows
 
     def tangent(self, x1: ArrayLike, x2: ArrayLike, lam: ArrayLike, size: int, *, sums: ArrayLike | None = None,
                 form: str = "csr") -> scipy.sparse.spmatrix:
@@ -188,11 +189,10 @@ class Interface(Inspection):
 
         ``radius``: negative of a cavity; ``point``: the centre, or one of the axis; ``direction``: of the axis. See ``set_offsets``.
         """
-        side = value_of("side", "SIDE", side)
-        out = np.empty(self.n2 if side else self.n1)
-        shape = value_of("shape", "SHAPE", shape)
+        number = value_of("side", "SIDE", side)
+        out = np.empty(self.n2 if number else self.n1)
         place = pointer(given("point", point, (3,))), pointer(given("direction", direction, (3,)))
-        self._call("shape_offsets", side, shape, float(radius), *place, pointer(out))
+        self._call("shape_offsets", number, value_of("shape", "SHAPE", shape), float(radius), *place, pointer(out))
         return out
 
     def adjust(self, tolerance: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -202,7 +202,7 @@ class Interface(Inspection):
         Nothing changes in the interface: make it anew with the coordinates.
         """
         coordinates, gaps, moved = np.empty(self._shape1), np.empty(self.n1), np.empty(self.n1, np.int32)
-        self._call("adjust", float(tolerance), *map(pointer, (coordinates, gaps, moved)))
+        self._call("adjust", float(tolerance), pointer(coordinates), pointer(gaps), pointer(moved))
         return coordinates, gaps, moved
 
     def set_previous(self, x1: ArrayLike, x2: ArrayLike) -> None:
@@ -214,11 +214,11 @@ class Interface(Inspection):
         slip = None if slip is None else pointer(given("slip", slip, self._shape1))
         self._call("set_committed", *self._positions(x1, x2), pointer(None) if slip is None else slip, commits)
 
-    def set_constraints(self, nodes: ArrayLike, directions: ArrayLike) -> None:
+    def set_constraints(self, nodes: Sequence[int], directions: ArrayLike) -> None:
         """Directions, (k, d), in which nodes, (k,) int64, are held."""
-        nodes = given("nodes", nodes, (len(nodes),), np.int64)
-        directions = given("directions", directions, (len(nodes), self.dimension))
-        self._call("set_constraints", len(nodes), pointer(nodes), pointer(directions))
+        held = given("nodes", nodes, (len(nodes),), np.int64)
+        along = given("directions", directions, (len(held), self.dimension))
+        self._call("set_constraints", len(held), pointer(held), pointer(along))
 
     def use_normals(self, normals: str) -> None:
         """Normals of the step that follows: "committed" or "current"."""

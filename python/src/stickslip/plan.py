@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -9,7 +10,7 @@ from numpy.typing import ArrayLike
 
 from ._arrays import pointer
 from ._library import constants, ffi, value_of
-from .errors import by_status
+from .errors import exception_of
 from .interface import Interface
 
 if TYPE_CHECKING:
@@ -39,7 +40,10 @@ def _matrix(interface, entries: str, n_rows: int, count: int, size: int):
 
 
 class _Planned:
-    """What plans share: they are made anew where their entries no longer do."""
+    """What plans share: they are made anew where their entries no longer do. What each has of its own:"""
+
+    _make: Callable[..., None]
+    _fill: Callable[..., None]
 
     def __init__(self, interface: Interface, x1: ArrayLike, x2: ArrayLike, size: int, *, pairs: str = "active"):
         self._interface = interface
@@ -51,7 +55,7 @@ class _Planned:
     def _renewed(self, x1, x2, *rest) -> None:
         try:
             self._fill(x1, x2, *rest)
-        except by_status[constants["MISSING_ENTRY"]]:
+        except exception_of(constants["MISSING_ENTRY"]):
             self._make(x1, x2)
             self.renewals += 1
             self._fill(x1, x2, *rest)
@@ -97,6 +101,8 @@ class CondensedPlan(_Planned):
     def _make(self, x1, x2) -> None:
         face = self._interface
         n_rows, counts = ffi.new("int64_t[2]"), ffi.new("int64_t[2]")
+        # If a matrix is refused, no shorter one is left for the new plan to fill.
+        vars(self).pop("forces", None), vars(self).pop("constraints", None)
         face._call("condensed_plan", *face._positions(x1, x2), self._pairs, n_rows, counts)
         self.forces = _matrix(face, "forces", n_rows[0], counts[0], self._size)
         self.constraints = _matrix(face, "constraints", n_rows[1], counts[1], self._size)

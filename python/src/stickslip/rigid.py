@@ -113,10 +113,10 @@ class RigidPlan:
 
     def __init__(self, bodies: Sequence[RigidBody], size: int):
         self.bodies = tuple(bodies)
-        self.matrix = None
+        self.matrix: scipy.sparse.csr_matrix | None = None
         self.renewals = 0
         self._size = size
-        self._entries = None
+        self._entries: tuple = ()
         self._handle = None
 
     def values(self, nodal: scipy.sparse.spmatrix, forces: Sequence[ArrayLike]) -> scipy.sparse.csr_matrix:
@@ -131,24 +131,26 @@ class RigidPlan:
             raise TypeError(f"nodal: {type(nodal).__name__}, a scipy matrix in COO, CSR or CSC is needed")
         if len(forces) != len(self.bodies):
             raise ValueError(f"forces: {len(forces)} arrays, one of each of {len(self.bodies)} bodies is needed")
-        forces = np.concatenate([given(f"forces[{k}]", part, body.coordinates.shape).ravel()
-                                 for k, (part, body) in enumerate(zip(forces, self.bodies))])
+        together = np.concatenate([given(f"forces[{k}]", part, body.coordinates.shape).ravel()
+                                   for k, (part, body) in enumerate(zip(forces, self.bodies))])
         data = given("nodal", nodal.data, (nodal.nnz,))
-        coo = nodal.tocoo(copy=False)
-        if self._entries is None or not all(map(np.array_equal, self._entries, (coo.row, coo.col))):
-            self._make(coo)
+        matrix = self._matrix_of(nodal.tocoo(copy=False))
         motions = ffi.new("struct stickslip_rigid_motion[]", [body._motion[0] for body in self.bodies])
-        call("rigid_values", self._handle, motions, pointer(forces), pointer(data), pointer(self.matrix.data))
-        return self.matrix
+        call("rigid_values", self._handle, motions, pointer(together), pointer(data), pointer(matrix.data))
+        return matrix
 
-    def _make(self, coo) -> None:
-        self.renewals += self.matrix is not None
+    def _matrix_of(self, coo) -> scipy.sparse.csr_matrix:
+        """The matrix as it is, or a new one if the entries are others. A refusal leaves everything as it was."""
+        if self.matrix is not None and all(map(np.array_equal, self._entries, (coo.row, coo.col))):
+            return self.matrix
         rows, columns = coo.row.astype(np.int64), coo.col.astype(np.int64)
         bodies = ffi.new("struct stickslip_rigid_body[]", [body._body[0] for body in self.bodies])
         slot, count = ffi.new("struct stickslip_rigid **"), ffi.new("int64_t *")
         call("rigid_create", len(bodies), bodies, 0, len(rows), pointer(rows), pointer(columns), slot, count)
-        self._handle = ffi.gc(slot[0], _destroy)
+        handle = ffi.gc(slot[0], _destroy)
         new_rows, new_columns = np.empty(count[0], np.int64), np.empty(count[0], np.int64)
-        call("rigid_coo", self._handle, count[0], pointer(new_rows), pointer(new_columns))
-        self.matrix = empty_csr(*np.unique(new_rows, return_counts=True), new_columns, self._size)
-        self._entries = coo.row.copy(), coo.col.copy()
+        call("rigid_coo", handle, count[0], pointer(new_rows), pointer(new_columns))
+        matrix = empty_csr(*np.unique(new_rows, return_counts=True), new_columns, self._size)
+        self.renewals += self.matrix is not None
+        self.matrix, self._handle, self._entries = matrix, handle, (rows, columns)
+        return matrix
