@@ -15,7 +15,7 @@ export PATH := $(PATH):$(HOME)/.cargo/bin
 LOCKED = mkdir -p $(BUILD) && flock $(BUILD)/.lock
 SAY    = @printf '\n== %s\n'
 
-.PHONY: packages hosts help demo gallery effects aids study border compare bench random fuzz stability scaling scaling-ranks ranks ratios digest wheel python-examples check test test-long build install uninstall docs reference abi header meshes clean cmake-build rust-tests
+.PHONY: packages hosts newcomer help demo gallery effects aids study border compare bench random fuzz stability scaling scaling-ranks ranks ratios digest wheel python-examples check test test-long build install uninstall docs reference abi header meshes clean cmake-build rust-tests
 
 help:
 	@echo "make demo    solve the example scenes, compare with the references, draw (FIGURES=1: renew the README's figures)"
@@ -42,6 +42,7 @@ help:
 	@echo "make wheel   the Python package as a wheel, in $(BUILD)/wheels"
 	@echo "make python-examples   its examples, with the libraries they need, in an environment below $(BUILD)/"
 	@echo "make hosts   programs on deal.II, MFEM, scikit-fem, FElupe and petsc4py: installs these, compares them with the driver; hosts/README.md"
+	@echo "make newcomer   what the documents tell a new user to type, typed in an empty place, with its time (NAMES='python ...')"
 	@echo "make packages   crate, Debian packages, recipes of Spack and conda-forge, in $(BUILD)/packages; packaging/README.md"
 	@echo "make build   build the library and the examples into $(BUILD)/"
 	@echo "make install PREFIX=DIR [DESTDIR=]   install header, Fortran module, libraries, pkg-config and CMake files"
@@ -190,6 +191,12 @@ hosts:
 	@$(BUILD)/hosts/python/bin/pip install -q cffi numpy scipy scikit-fem felupe 2>/dev/null
 	@$(PYTHON) hosts/check.py --build $(BUILD)
 	@STICKSLIP_LIBRARY=$(abspath $(BUILD))/lib/libstickslip.so $(PYTHON) -m pytest -q -rs -p no:cacheprovider python/tests/test_petsc4py.py
+
+# Of the committed tree: it clones it, and builds the library as a user does.
+newcomer: wheel
+	@.ci/setup hosts
+	$(SAY) "As a new user"
+	@$(PYTHON) hosts/newcomer.py --wheels $(BUILD)/wheels --out $(BUILD)/newcomer $(NAMES)
 
 packages:
 	@.ci/setup library
