@@ -22,7 +22,8 @@ typedef struct {
   int32_t   *moved;
 } Offsets;
 
-/* What parts may need of the mortar side, and whether they have it (halo.c). Mortar nodes are dealt out to all ranks to be watched. */
+/* What parts may need of the mortar side, and whether they have it (halo.c). Mortar nodes are dealt out to all ranks, which watch
+ * them. */
 enum { HALO_BOXES = 32, HALO_PLACES = 3 };
 
 typedef struct {
