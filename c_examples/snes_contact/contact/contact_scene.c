@@ -26,7 +26,7 @@ static PetscReal surface_young(const Contact *contact, const PetscInt *nodes, Pe
 {
   PetscReal young = PETSC_MAX_REAL; /* what a wholly prescribed, so rigid surface counts as */
   for (PetscInt k = 0; k < n; k++) {
-    if (contact->physics->prescribed[nodes[k]] == 7) continue;
+    if (contact->physics->prescribed[nodes[k]] == 7 || rigids_of_vertex(contact->physics, nodes[k]) >= 0) continue;
     for (PetscInt b = 0; b < contact->mesh->n_bodies; b++) {
       const Body *body = &contact->mesh->bodies[b];
       if (nodes[k] >= body->first_vertex && nodes[k] < body->end_vertex)
@@ -72,6 +72,31 @@ static PetscErrorCode remove_middles(Scene *scene, const Mesh *mesh, Interface *
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* The side that is rigid is one of two, and what the library does not do with it is told here by name. */
+static void check_rigid(Scene *scene, const Contact *contact, const Interface *interface)
+{
+  const Physics *physics = contact->physics;
+  PetscInt       rigid[2];
+  PetscBool      analytic = PETSC_FALSE;
+  for (int side = 0; side < 2; side++) {
+    const PetscInt vertex = interface->nodes[side ? interface->n1 : 0];
+    rigid[side]           = rigids_of_vertex(physics, vertex);
+    for (PetscInt b = 0; b < contact->mesh->n_bodies; b++) {
+      const Body *body = &contact->mesh->bodies[b];
+      if (vertex >= body->first_vertex && vertex < body->end_vertex) analytic = body->analytic;
+    }
+  }
+  if (rigid[0] >= 0 && (rigid[1] >= 0 || analytic))
+    scene_fail(scene, interface->name, "mortar", "both sides are rigid: nothing would tell how a force between them is spread.");
+  if (rigid[0] >= 0 && contact->condensed)
+    scene_fail(scene, interface->name, "nonmortar",
+               "'%s' is rigid: with `unknowns: displacements` it can be the mortar side only, for its nodes have no equations "
+               "that multipliers could be found from.",
+               contact->mesh->bodies[physics->rigids[rigid[0]].body].name);
+  if (rigid[0] >= 0 && interface->offsets.adjust > 0)
+    scene_fail(scene, interface->name, "adjust", "the non-mortar side is rigid: its nodes do not move one by one.");
+}
+
 /* rank 0: surfaces, nodes, default stiffness, removed components */
 static PetscErrorCode read_surfaces(Scene *scene, Contact *contact, Interface *interface)
 {
@@ -110,6 +135,7 @@ static PetscErrorCode read_surfaces(Scene *scene, Contact *contact, Interface *i
     scene_fail(scene, interface->name, "mortar_side", "'%s' is not rigid: support all of it in %s.", name,
                mesh->dimension == 3 ? "x, y and z" : "x and y");
   describe_analytic(scene, interface);
+  check_rigid(scene, contact, interface);
   PetscCall(PetscMalloc1(interface->n1, &interface->removed));
   PetscCall(PetscCalloc1(interface->n1, &interface->middle));
   PetscCall(PetscCalloc1(mesh->n_vertices, &symmetry));

@@ -106,8 +106,8 @@ static void read_frame(Scene *scene, Mesh *mesh)
 
 PetscErrorCode mesh_create(Scene *scene, Mesh *mesh)
 {
-  static const char *const types[] = {"box", "gmsh", "analytic", NULL};
-  PetscErrorCode (*const create[])(Scene *, const char *, Mesh *) = {box_create, gmsh_create, analytic_create};
+  static const char *const types[] = {"box", "gmsh", "analytic", "rigid", NULL};
+  PetscErrorCode (*const create[])(Scene *, const char *, Mesh *) = {box_create, gmsh_create, analytic_create, rigid_create};
   PetscInt                 n, *type;
   char                   **names;
 
@@ -124,17 +124,20 @@ PetscErrorCode mesh_create(Scene *scene, Mesh *mesh)
   for (PetscInt b = 0; b < n; b++) {
     PetscCall(PetscSNPrintf(mesh->bodies[b].name, NAME_LENGTH, "%s", names[b]));
     if (!scene_has(scene, names[b], "type"))
-      scene_fail(scene, names[b], "type", "this key is missing; choose from: box, gmsh, analytic.");
+      scene_fail(scene, names[b], "type", "this key is missing; choose from: box, gmsh, analytic, rigid.");
     scene_choice(scene, names[b], "type", types, &type[b]);
-    mesh->bodies[b].analytic = (PetscBool)(type[b] == 2);
+    mesh->bodies[b].rigid    = (PetscBool)(type[b] == 3);
+    mesh->bodies[b].analytic = (PetscBool)(type[b] == 2 || (type[b] == 3 && rigid_is_analytic(scene, names[b])));
   }
   scene_root_begin(scene);
   for (PetscInt b = 0; b < n && mesh->rank == 0; b++) {
     const PetscInt first_cell = mesh->n_cells;
-    mesh->bodies[b].first_vertex = mesh->n_vertices;
+    mesh->bodies[b].first_vertex  = mesh->n_vertices;
+    mesh->bodies[b].first_surface = mesh->n_surfaces;
     PetscCall(create[type[b]](scene, names[b], mesh));
-    mesh->bodies[b].end_vertex = mesh->n_vertices;
-    check_volumes(scene, mesh, names[b], first_cell);
+    mesh->bodies[b].end_vertex  = mesh->n_vertices;
+    mesh->bodies[b].end_surface = mesh->n_surfaces;
+    if (!mesh->bodies[b].rigid) check_volumes(scene, mesh, names[b], first_cell);
     if (mesh->space.kind == SPACE_AXISYMMETRIC && !mesh->bodies[b].analytic)
       check_radii(scene, mesh, names[b], mesh->bodies[b].first_vertex);
     mesh->n_bodies++;

@@ -24,7 +24,9 @@ typedef struct {
 typedef struct {
   char      name[NAME_LENGTH];
   PetscBool analytic; /* rigid, one cell without stiffness: its frame */
+  PetscBool rigid;    /* moves with a reference point, see rigid.c: its first vertex, and the second one beside it */
   PetscInt  first_vertex, end_vertex; /* its range of vertices (rank 0) */
+  PetscInt  first_surface, end_surface; /* of those that come with it (rank 0) */
 } Body;
 
 typedef struct {
@@ -119,6 +121,17 @@ void           gmsh_fail_nameless(Scene *scene, const char *body, const char *pa
 /* `done`: the file is of second order */
 PetscErrorCode gmsh_second_create(Scene *scene, const char *body, const char *path, const char *volume, Mesh *mesh,
                                   PetscBool *done);
+/* gmsh.c, for gmsh_shell.c: opens the file that body.file names; corners of a cell, in VTK's order; is a label of PETSc's a
+ * physical name, with `height` 0 of a cell, 1 of a face? */
+PetscErrorCode gmsh_open(Scene *scene, const char *body, PetscInt dimension, char path[], DM *dm);
+PetscErrorCode gmsh_corners(DM dm, PetscInt cell, PetscInt *n, PetscInt vertices[8]);
+PetscErrorCode gmsh_physical_name(DM dm, PetscInt label, PetscInt height, const char **name, PetscBool *is);
 PetscErrorCode analytic_create(Scene *scene, const char *body, Mesh *mesh);
 void           analytic_fit(Mesh *mesh);
+/* rigid.c, and what it reads surfaces without cells with: gmsh_shell.c, stl.c, orient.c */
+PetscBool      rigid_is_analytic(Scene *scene, const char *body);
+PetscErrorCode rigid_create(Scene *scene, const char *body, Mesh *mesh);
+PetscErrorCode gmsh_shell_create(Scene *scene, const char *body, Mesh *shell);
+PetscErrorCode stl_create(Scene *scene, const char *body, Mesh *shell);
+PetscErrorCode orient_outward(Scene *scene, const char *body, const Mesh *shell);
 #endif

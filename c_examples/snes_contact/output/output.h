@@ -54,7 +54,8 @@ void           vtu_start_array(FILE *file, const char *type, const char *name, i
 void           vtu_end_array(FILE *file);
 void           vtu_vectors(FILE *file, const char *name, PetscInt n, const PetscScalar *values);
 /* vtu_stress.c */
-PetscErrorCode vtu_cell_stresses(FILE *file, const Mesh *mesh, const Material *materials, const PetscScalar *displacements);
+PetscErrorCode vtu_cell_stresses(FILE *file, const Mesh *mesh, const Material *materials, const PetscScalar *displacements,
+                                 PetscInt n_drawn);
 PetscErrorCode vtu_nodal_stresses(FILE *file, const Mesh *mesh, const Material *materials, const PetscScalar *displacements);
 /* vtu.c */
 PetscErrorCode vtu_write(Output *output, const PetscScalar *displacements, PetscInt step);

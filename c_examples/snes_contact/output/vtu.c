@@ -5,6 +5,7 @@
 static int vtk_type(CellKind kind)
 {
   static const int types[CELL_KINDS] = {
+      [LINE2] = 3, [LINE3] = 21, /* VTK_LINE, VTK_QUADRATIC_EDGE */
       [TRI3] = 5,  [TRI6] = 22,  /* VTK_TRIANGLE, VTK_QUADRATIC_TRIANGLE */
       [QUAD4] = 9, [QUAD8] = 23, [QUAD9] = 28, /* VTK_QUAD, VTK_QUADRATIC_QUAD, VTK_BIQUADRATIC_QUAD */
       [TET4] = 10, [TET10] = 24, /* VTK_TETRA, VTK_QUADRATIC_TETRA */
@@ -72,13 +73,59 @@ static PetscErrorCode interface_fields(FILE *file, const Mesh *mesh, const Inter
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* What is drawn: cells of bodies, or faces of the surfaces of rigid ones. */
+typedef struct {
+  PetscInt        n, *body, *size, *type;
+  const PetscInt **nodes;
+} Drawing;
+
+static void draw(Drawing *drawing, PetscInt body, CellKind kind, const PetscInt *nodes)
+{
+  drawing->body[drawing->n]    = body;
+  drawing->size[drawing->n]    = cell_nodes(kind);
+  drawing->type[drawing->n]    = vtk_type(kind);
+  drawing->nodes[drawing->n++] = nodes;
+}
+
+static PetscErrorCode create_drawing(const Mesh *mesh, Drawing *drawing)
+{
+  PetscInt most = mesh->n_cells;
+  PetscFunctionBegin;
+  for (PetscInt s = 0; s < mesh->n_surfaces; s++)
+    most += mesh->surfaces[s].n_faces;
+  *drawing = (Drawing){.n = 0};
+  PetscCall(PetscMalloc4(most, &drawing->body, most, &drawing->size, most, &drawing->type, most, &drawing->nodes));
+  for (PetscInt c = 0; c < mesh->n_cells; c++) {
+    if (!mesh->bodies[mesh->cell_body[c]].rigid)
+      draw(drawing, mesh->cell_body[c], mesh_cell_kind(mesh, c), mesh->cell_vertices + mesh->cell_offsets[c]);
+  }
+  for (PetscInt b = 0; b < mesh->n_bodies; b++) {
+    for (PetscInt s = mesh->bodies[b].first_surface; s < mesh->bodies[b].end_surface && mesh->bodies[b].rigid; s++) {
+      const Surface *surface = &mesh->surfaces[s];
+      for (PetscInt f = 0; f < surface->n_faces; f++)
+        draw(drawing, b, mesh_face_kind(mesh, surface, f), surface->vertices + surface->offsets[f]);
+    }
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode destroy_drawing(Drawing *drawing)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscFree4(drawing->body, drawing->size, drawing->type, drawing->nodes));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode vtu_write(Output *output, const PetscScalar *displacements, PetscInt step)
 {
   const Mesh *mesh = output->mesh;
   char        path[PETSC_MAX_PATH_LEN];
+  Drawing     drawing;
+  PetscInt    end = 0;
   FILE       *file;
 
   PetscFunctionBegin;
+  PetscCall(create_drawing(mesh, &drawing));
   PetscCall(PetscSNPrintf(path, sizeof(path), "%s/step_%" PetscInt_FMT ".vtu", output->directory, step));
   file = fopen(path, "w");
   PetscCheck(file, PETSC_COMM_SELF, PETSC_ERR_FILE_OPEN, "cannot write '%s'", path);
@@ -89,23 +136,23 @@ PetscErrorCode vtu_write(Output *output, const PetscScalar *displacements, Petsc
           "format=\"ascii\">%.17g</DataArray>\n</FieldData>\n",
           (double)output->physics->t);
   fprintf(file, "<Piece NumberOfPoints=\"%d\" NumberOfCells=\"%d\">\n<Points>\n", (int)mesh->n_vertices,
-          (int)mesh->n_cells);
+          (int)drawing.n);
   vtu_vectors(file, "X", mesh->n_vertices, mesh->coordinates);
   fprintf(file, "</Points>\n<Cells>\n");
   vtu_start_array(file, "Int64", "connectivity", 1);
-  for (PetscInt c = 0; c < mesh->n_cells; c++) {
-    for (PetscInt k = mesh->cell_offsets[c]; k < mesh->cell_offsets[c + 1]; k++)
-      fprintf(file, "%d ", (int)mesh->cell_vertices[k]);
+  for (PetscInt c = 0; c < drawing.n; c++) {
+    for (PetscInt k = 0; k < drawing.size[c]; k++)
+      fprintf(file, "%d ", (int)drawing.nodes[c][k]);
     fprintf(file, "\n");
   }
   vtu_end_array(file);
   vtu_start_array(file, "Int64", "offsets", 1);
-  for (PetscInt c = 0; c < mesh->n_cells; c++)
-    fprintf(file, "%d\n", (int)mesh->cell_offsets[c + 1]);
+  for (PetscInt c = 0; c < drawing.n; c++)
+    fprintf(file, "%d\n", (int)(end += drawing.size[c]));
   vtu_end_array(file);
   vtu_start_array(file, "UInt8", "types", 1);
-  for (PetscInt c = 0; c < mesh->n_cells; c++)
-    fprintf(file, "%d\n", vtk_type(mesh_cell_kind(mesh, c)));
+  for (PetscInt c = 0; c < drawing.n; c++)
+    fprintf(file, "%d\n", (int)drawing.type[c]);
   vtu_end_array(file);
   fprintf(file, "</Cells>\n<PointData Vectors=\"displacement\">\n");
   vtu_vectors(file, "displacement", mesh->n_vertices, displacements);
@@ -114,11 +161,12 @@ PetscErrorCode vtu_write(Output *output, const PetscScalar *displacements, Petsc
   PetscCall(vtu_nodal_stresses(file, mesh, output->physics->materials, displacements));
   fprintf(file, "</PointData>\n<CellData>\n");
   vtu_start_array(file, "Int32", "body", 1);
-  for (PetscInt c = 0; c < mesh->n_cells; c++)
-    fprintf(file, "%d\n", (int)mesh->cell_body[c]);
+  for (PetscInt c = 0; c < drawing.n; c++)
+    fprintf(file, "%d\n", (int)drawing.body[c]);
   vtu_end_array(file);
-  PetscCall(vtu_cell_stresses(file, mesh, output->physics->materials, displacements));
+  PetscCall(vtu_cell_stresses(file, mesh, output->physics->materials, displacements, drawing.n));
   fprintf(file, "</CellData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n");
   fclose(file);
+  PetscCall(destroy_drawing(&drawing));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

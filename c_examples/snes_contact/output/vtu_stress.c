@@ -32,17 +32,21 @@ static void nodes_of(const Mesh *mesh, PetscInt c, const PetscScalar *displaceme
   }
 }
 
-PetscErrorCode vtu_cell_stresses(FILE *file, const Mesh *mesh, const Material *materials, const PetscScalar *displacements)
+/* `n_drawn`: cells, and beyond those that are faces of rigid bodies, which have none */
+PetscErrorCode vtu_cell_stresses(FILE *file, const Mesh *mesh, const Material *materials, const PetscScalar *displacements,
+                                 PetscInt n_drawn)
 {
   PetscReal *stresses;
+  PetscInt   n = 0;
   PetscFunctionBegin;
-  PetscCall(PetscMalloc1(9 * mesh->n_cells, &stresses));
+  PetscCall(PetscCalloc1(9 * n_drawn, &stresses));
   for (PetscInt c = 0; c < mesh->n_cells; c++) {
     PetscReal X[3 * CELL_NODES], u[3 * CELL_NODES];
+    if (mesh->bodies[mesh->cell_body[c]].rigid) continue;
     nodes_of(mesh, c, displacements, X, u);
-    cell_centre_stress(mesh_cell_kind(mesh, c), &mesh->space, &materials[mesh->cell_body[c]], X, u, stresses + 9 * c);
+    cell_centre_stress(mesh_cell_kind(mesh, c), &mesh->space, &materials[mesh->cell_body[c]], X, u, stresses + 9 * n++);
   }
-  write(file, mesh->n_cells, stresses);
+  write(file, n_drawn, stresses);
   PetscCall(PetscFree(stresses));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -58,6 +62,7 @@ PetscErrorCode vtu_nodal_stresses(FILE *file, const Mesh *mesh, const Material *
     const PetscInt *cell = mesh->cell_vertices + mesh->cell_offsets[c];
     const CellKind  kind = mesh_cell_kind(mesh, c);
     PetscReal       X[3 * CELL_NODES], u[3 * CELL_NODES], of_cell[9 * CELL_NODES];
+    if (mesh->bodies[mesh->cell_body[c]].rigid) continue;
     nodes_of(mesh, c, displacements, X, u);
     cell_nodal_stresses(kind, &mesh->space, &materials[mesh->cell_body[c]], X, u, of_cell);
     for (PetscInt k = 0; k < 9 * cell_nodes(kind); k++)

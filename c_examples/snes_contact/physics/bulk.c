@@ -29,7 +29,7 @@ PetscErrorCode bulk_create(Physics *physics)
 {
   const Mesh        *mesh  = physics->mesh;
   Cells             *cells = &physics->cells;
-  PetscInt           cStart, cEnd, n_nodes = 0;
+  PetscInt           cStart, cEnd, n_nodes = 0, n = 0; /* those of rigid bodies are none */
   DMLabel            body;
   PetscSection       coordinate_section;
   Vec                coordinate_vector;
@@ -47,21 +47,24 @@ PetscErrorCode bulk_create(Physics *physics)
                          &cells->X, cells->n, &cells->stiffness));
   cells->offsets[0] = 0;
   for (PetscInt c = cStart; c < cEnd; c++) {
-    PetscInt nodes[CELL_NODES], n, at;
-    PetscCall(plex_cell_nodes(mesh, c, &n, nodes));
-    PetscCall(DMLabelGetValue(body, c, &cells->body[c - cStart]));
-    cells->part[c - cStart] = physics->parts.of_vertex[mesh->here[nodes[0]]];
-    for (PetscInt a = 0; a < n; a++) {
+    PetscInt nodes[CELL_NODES], n_here, at;
+    PetscCall(DMLabelGetValue(body, c, &cells->body[n]));
+    if (mesh->bodies[cells->body[n]].rigid) continue;
+    PetscCall(plex_cell_nodes(mesh, c, &n_here, nodes));
+    cells->part[n] = physics->parts.of_vertex[mesh->here[nodes[0]]];
+    for (PetscInt a = 0; a < n_here; a++) {
       PetscCall(PetscSectionGetOffset(physics->unknowns.section, nodes[a], &cells->dofs[n_nodes + a]));
       PetscCall(PetscSectionGetOffset(coordinate_section, nodes[a], &at));
       for (int i = 0; i < 3; i++)
         cells->X[3 * (n_nodes + a) + i] = PetscRealPart(coordinates[at + i]);
     }
-    cells->offsets[c - cStart + 1] = n_nodes + n;
-    PetscCall(cell_stiffness(physics, &physics->materials[cells->body[c - cStart]], kind_of(physics, c - cStart),
-                             cells->X + 3 * n_nodes, &cells->stiffness[c - cStart]));
-    n_nodes += n;
+    cells->offsets[n + 1] = n_nodes + n_here;
+    PetscCall(cell_stiffness(physics, &physics->materials[cells->body[n]], kind_of(physics, n), cells->X + 3 * n_nodes,
+                             &cells->stiffness[n]));
+    n_nodes += n_here;
+    n++;
   }
+  cells->n = n;
   PetscCall(VecRestoreArrayRead(coordinate_vector, &coordinates));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

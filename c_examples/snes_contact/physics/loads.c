@@ -145,10 +145,12 @@ PetscErrorCode loads_assemble(Physics *physics)
     PetscCall(VecZeroEntries(load->forces));
     if (load->follows) continue;
     PetscCall(VecGetArray(load->forces, &forces));
-    if (load->bodies)
+    if (load->bodies) {
       add_bodies(physics, load, forces);
-    else
+      PetscCall(rigids_load(physics, load, forces));
+    } else {
       PetscCall(add_surfaces(physics, load, forces));
+    }
     PetscCall(VecRestoreArray(load->forces, &forces));
   }
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -24,7 +24,7 @@ static PetscErrorCode read_body_load(Scene *scene, const Physics *physics, Load 
   const Mesh     *mesh     = physics->mesh;
   Acceleration   *of       = &load->acceleration;
   const PetscBool gravity  = space_vector(scene, &mesh->space, load->name, "gravity", of->uniform),
-                  spins    = read_spin(scene, mesh, load);
+                  spins    = read_spin(scene, mesh, load), forces = rigids_read_load(scene, physics, load);
   PetscInt        n;
   char          **names;
 
@@ -36,13 +36,15 @@ static PetscErrorCode read_body_load(Scene *scene, const Physics *physics, Load 
     scene_fail(scene, load->name, "origin", "only of `centrifugal`.");
   if (mesh->space.kind == SPACE_AXISYMMETRIC && of->origin[0] != 0)
     scene_fail(scene, load->name, "origin", "an axisymmetric model turns about its axis; leave it out.");
-  if (!gravity && !spins) scene_fail(scene, load->name, "gravity", "say how it loads the body: gravity, or centrifugal.");
+  if (!gravity && !spins && !forces)
+    scene_fail(scene, load->name, "gravity", "say how it loads the body: gravity, or centrifugal; of a rigid body force, or moment.");
   scene_strings(scene, load->name, "body", &n, &names);
   PetscCall(PetscCalloc1(mesh->n_bodies, &load->bodies));
   for (PetscInt k = 0; k < n; k++) {
     const PetscInt b = mesh_body(scene, mesh, load->name, "body", names[k]);
     load->bodies[b]  = PETSC_TRUE;
-    if (!(physics->materials[b].density > 0))
+    rigids_check_load(scene, physics, load, names[k], forces, gravity, spins);
+    if (!mesh->bodies[b].rigid && !(physics->materials[b].density > 0))
       scene_fail(scene, names[k], "density", "this key is missing, which '%s' asks for.", load->name);
   }
   strings_destroy(n, &names);
@@ -54,7 +56,7 @@ static PetscErrorCode read_body_load(Scene *scene, const Physics *physics, Load 
 
 static PetscErrorCode read_load(Scene *scene, Physics *physics, Load *load)
 {
-  static const char *const others[] = {"surface", "follower", "gravity", "centrifugal", "origin", "curve"};
+  static const char *const others[] = {"surface", "follower", "gravity", "centrifugal", "origin", "force", "moment", "curve"};
   const PetscBool          traction = scene_has(scene, load->name, "traction");
   const PetscBool          pressure = scene_has(scene, load->name, "pressure");
 
@@ -64,13 +66,18 @@ static PetscErrorCode read_load(Scene *scene, Physics *physics, Load *load)
       scene_fail(scene, load->name, traction ? "traction" : "pressure", "a load acts on a surface or on a body, not on both.");
     PetscCall(read_body_load(scene, physics, load));
   } else {
+    for (int k = 0; k < 2; k++) {
+      if (scene_has(scene, load->name, k ? "force" : "moment"))
+        scene_fail(scene, load->name, k ? "force" : "moment",
+                   "a %s acts at the reference point of a rigid body, not on a surface or a node: name its `body`.", k ? "force" : "moment");
+    }
     if (!traction && !pressure) {
       for (size_t k = 0; k < sizeof(others) / sizeof(others[0]); k++) /* known keys, one of which may be misspelt */
         (void)scene_has(scene, load->name, others[k]);
       scene_check_unread_of(scene, load->name);
       scene_fail(scene, load->name, "traction",
                  "say how it loads: a surface by traction [x, y%s] or pressure (against the outward normal), or a body by "
-                 "gravity or centrifugal.",
+                 "gravity or centrifugal, a rigid one by force or moment.",
                  physics->mesh->dimension == 3 ? ", z" : "");
     }
     read_surface_load(scene, physics->mesh, load);
@@ -80,8 +87,9 @@ static PetscErrorCode read_load(Scene *scene, Physics *physics, Load *load)
 }
 
 /* rank 0 */
-static PetscErrorCode find_surfaces(Scene *scene, const Mesh *mesh, Load *load)
+static PetscErrorCode find_surfaces(Scene *scene, const Physics *physics, Load *load)
 {
+  const Mesh *mesh = physics->mesh;
   char **list;
   PetscFunctionBegin;
   scene_strings(scene, load->name, "surface", &load->n_surfaces, &list);
@@ -91,6 +99,8 @@ static PetscErrorCode find_surfaces(Scene *scene, const Mesh *mesh, Load *load)
     load->surfaces[k] = mesh_surface(scene, mesh, load->name, "surface", list[k]);
     if (load->surfaces[k]->inner)
       scene_fail(scene, load->name, "surface", "'%s' lies inside a body and cannot be loaded.", list[k]);
+    if (!load->surfaces[k]->analytic && rigids_of_vertex(physics, load->surfaces[k]->vertices[0]) >= 0)
+      scene_fail(scene, load->name, "surface", "'%s' is rigid: give its body a `force` or a `moment`.", list[k]);
     if (load->surfaces[k]->analytic)
       scene_fail(scene, load->name, "surface", "'%s' is rigid and without faces: it cannot be loaded.", list[k]);
   }
@@ -111,7 +121,7 @@ PetscErrorCode loads_read(Scene *scene, Physics *physics)
   strings_destroy(physics->n_loads, &names);
   scene_root_begin(scene);
   for (PetscInt l = 0; l < physics->n_loads && physics->mesh->rank == 0; l++) {
-    if (!physics->loads[l].bodies) PetscCall(find_surfaces(scene, physics->mesh, &physics->loads[l]));
+    if (!physics->loads[l].bodies) PetscCall(find_surfaces(scene, physics, &physics->loads[l]));
   }
   PetscCall(scene_root_end(scene));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -92,7 +92,7 @@ PetscErrorCode range_check(Physics *physics, const PetscScalar *displacements)
     Range         *range = &physics->ranges[mesh->cell_body[c]];
     PetscReal      X[3 * CELL_NODES], u[3 * CELL_NODES], H[9], strain, rotation;
     PetscInt       held = 7;
-    if (body->analytic || physics->materials[mesh->cell_body[c]].law != &MATERIAL_LINEAR) continue;
+    if (body->analytic || body->rigid || physics->materials[mesh->cell_body[c]].law != &MATERIAL_LINEAR) continue;
     for (PetscInt k = 0; k < 3 * cell_nodes(kind); k++) {
       X[k] = mesh->coordinates[3 * vertices[k / 3] + k % 3];
       u[k] = PetscRealPart(displacements[3 * vertices[k / 3] + k % 3]);
@@ -123,7 +123,7 @@ PetscErrorCode range_report(const Physics *physics, cJSON *root)
     const Body  *body  = &physics->mesh->bodies[b];
     const Range *range = &physics->ranges[b];
     cJSON       *json;
-    if (body->analytic || physics->materials[b].law != &MATERIAL_LINEAR) continue;
+    if (body->analytic || body->rigid || physics->materials[b].law != &MATERIAL_LINEAR) continue;
     json = cJSON_AddObjectToObject(all, body->name);
     cJSON_AddNumberToObject(json, "strain", range->strain);
     cJSON_AddNumberToObject(json, "rotation", range->rotation);

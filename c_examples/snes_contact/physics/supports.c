@@ -61,8 +61,15 @@ PetscErrorCode supports_label(Physics *physics)
 {
   const Mesh *mesh = physics->mesh;
   char        label[2 * NAME_LENGTH];
+  PetscInt   *mask;
   PetscFunctionBegin;
-  PetscCall(plex_label_vertices(mesh, "prescribed", mesh->n_vertices, NULL, physics->prescribed, 0));
+  PetscCall(PetscMalloc1(mesh->n_vertices, &mask));
+  for (PetscInt v = 0; v < mesh->n_vertices; v++) { /* nodes of rigid bodies have no unknowns of their own */
+    const PetscInt r = rigids_of_vertex(physics, v);
+    mask[v]          = r >= 0 && v >= physics->rigids[r].first_vertex + 2 ? 7 : physics->prescribed[v];
+  }
+  PetscCall(plex_label_vertices(mesh, "prescribed", mesh->n_vertices, NULL, mask, 0));
+  PetscCall(PetscFree(mask));
   for (PetscInt s = 0; s < physics->n_supports; s++) {
     PetscCall(PetscSNPrintf(label, sizeof(label), "support.%s", physics->supports[s].name));
     PetscCall(
@@ -161,6 +168,7 @@ PetscErrorCode supports_values(Physics *physics, PetscReal t)
   PetscFunctionBegin;
   PetscCall(VecZeroEntries(physics->prescribed_local)); /* removed multipliers are prescribed to be zero */
   PetscCall(visit(physics, physics->prescribed_local, t, set_values));
+  PetscCall(rigids_prescribe(physics, t, physics->prescribed_local));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -177,6 +185,7 @@ PetscErrorCode supports_reactions(Physics *physics)
     PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, physics->supports[s].reaction, 3, MPIU_REAL, MPIU_SUM, PETSC_COMM_WORLD));
     PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, physics->supports[s].moment, 3, MPIU_REAL, MPIU_SUM, PETSC_COMM_WORLD));
   }
+  PetscCall(rigids_reactions(physics));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -26,6 +26,13 @@ static void add_rings(const Solve *solve, Motions *m)
   }
 }
 
+/* Of a rigid body's first two vertices the second one has its turns. */
+static PetscBool is_turn(const Solve *solve, PetscInt vertex)
+{
+  const PetscInt r = rigids_of_vertex(solve->physics, vertex);
+  return (PetscBool)(r >= 0 && vertex == solve->physics->rigids[r].first_vertex + 1);
+}
+
 static void add_supports(const Solve *solve, const PetscReal *x, Motions *m)
 {
   for (PetscInt v = 0; v < solve->mesh->n_vertices; v++) {
@@ -35,6 +42,10 @@ static void add_supports(const Solve *solve, const PetscReal *x, Motions *m)
       PetscReal       values[MODES];
       int             n = 0;
       if (!(solve->physics->prescribed[v] & (1 << i))) continue;
+      if (is_turn(solve, v)) {
+        motions_turn(m, solve->physics->parts.of_mesh[v], i);
+        continue;
+      }
       motions_row(m, solve->physics->parts.of_mesh[v], x + 3 * v, d, 1, columns, values, &n);
       motions_constrain(m, n, columns, values);
     }
@@ -195,7 +206,7 @@ PetscErrorCode held_free(const Solve *solve, const Body *body, PetscBool *is_fre
   PetscFunctionBegin;
   *is_free = PETSC_FALSE;
   for (PetscInt v = body->first_vertex; v < body->end_vertex; v++)
-    *is_free = (PetscBool)(*is_free || (!body->analytic && solve->held.loose[solve->physics->parts.of_mesh[v]]));
+    *is_free = (PetscBool)(*is_free || ((!body->analytic || body->rigid) && solve->held.loose[solve->physics->parts.of_mesh[v]]));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

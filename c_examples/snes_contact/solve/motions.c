@@ -73,6 +73,14 @@ void motions_constrain(Motions *m, int n, const PetscInt columns[], const PetscR
   }
 }
 
+/* The part does not turn about an axis. */
+void motions_turn(Motions *m, PetscInt part, int axis)
+{
+  static const PetscReal held   = 1;
+  const PetscInt         column = MODES * m->place[part] + 3 + axis;
+  if (m->place[part] >= 0) motions_constrain(m, 1, &column, &held);
+}
+
 /* Eigenvalues of a symmetric matrix, the least first; it is replaced by its eigenvectors, one a row. */
 static PetscErrorCode eigen(PetscInt n, PetscReal *gram, PetscReal *values)
 {

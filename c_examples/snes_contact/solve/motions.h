@@ -21,6 +21,7 @@ PetscErrorCode motions_destroy(Motions *m);
 void           motions_row(const Motions *m, PetscInt part, const PetscReal x[3], const PetscReal d[3], PetscReal sign,
                            PetscInt columns[], PetscReal values[], int *n);
 void           motions_constrain(Motions *m, int n, const PetscInt columns[], const PetscReal values[]);
+void           motions_turn(Motions *m, PetscInt part, int axis);
 /* The number of free motions, which are the first rows of m->gram from then on. */
 PetscErrorCode motions_find_free(Motions *m, PetscInt *n_free);
 /* "move along x, z and turn about y", or nothing: what the part in this place does in the free motions */
