@@ -4,11 +4,13 @@
  *
  * The scene's format is documented in scenes/README.md. Exit codes: 0 every step converged, 1 bad scene, 2 not converged,
  * 3 refused by the contact library. */
+#include "mesh/converted.h"
 #include "model.h"
 
 static const char help[] = "Frictional contact of elastic bodies.\n"
                            "  -scene FILE.yaml   what to solve (format: c_examples/scenes/README.md)\n"
                            "  -output_dir DIR    where summary.json, interface_*.csv and step_*.vtu go\n"
+                           "  -convert FILE.h5   writes the bodies from Gmsh files for all ranks to read, and ends\n"
                            "  -test_jacobian_blocks  compare the tangent with differences of the residual\n"
                            "Every value of the scene can be overridden: `block: {young: 1}` by -block_young 1.\n\n";
 
@@ -74,6 +76,8 @@ static PetscErrorCode build(Model *model, PetscInt *status)
   PetscCall(parts_label(physics));
   PetscCall(reach_measure(contact));
   PetscCall(plex_distribute(&model->mesh));
+  PetscCall(supports_file_move(physics));
+  PetscCall(mesh_forget_pieces(&model->mesh));
   PetscCall(contact_fields(contact, &fields));
   PetscCall(unknowns_create(physics, contact->n_interfaces, fields));
   PetscCall(parts_create(physics));
@@ -105,8 +109,8 @@ static PetscErrorCode clean_up(Model *model)
 
 int main(int argc, char **argv)
 {
-  char      scene[PETSC_MAX_PATH_LEN] = "", directory[PETSC_MAX_PATH_LEN] = "";
-  PetscBool have_scene, have_directory;
+  char      scene[PETSC_MAX_PATH_LEN] = "", directory[PETSC_MAX_PATH_LEN] = "", converted[PETSC_MAX_PATH_LEN] = "";
+  PetscBool have_scene, have_directory, convert;
   PetscInt  status    = 0;
   int       exit_code = 0;
   Model     model     = {0};
@@ -115,7 +119,8 @@ int main(int argc, char **argv)
   PetscCall(PetscTime(&model.output.started));
   PetscCall(PetscOptionsGetString(NULL, NULL, "-scene", scene, sizeof(scene), &have_scene));
   PetscCall(PetscOptionsGetString(NULL, NULL, "-output_dir", directory, sizeof(directory), &have_directory));
-  if (!have_scene || !have_directory) {
+  PetscCall(PetscOptionsGetString(NULL, NULL, "-convert", converted, sizeof(converted), &convert));
+  if (!have_scene || (!have_directory && !convert)) {
     PetscCall(PetscFPrintf(PETSC_COMM_WORLD, PETSC_STDERR,
                            "snes_contact: %s is missing: %s.\n"
                            "usage: snes_contact -scene FILE.yaml -output_dir DIR [any PETSc option]\n",
@@ -128,6 +133,14 @@ int main(int argc, char **argv)
   connect(&model);
   model.output.directory = directory;
   PetscCall(scene_open(scene, argc, argv, &model.scene));
+  if (convert) {
+    PetscCall(mesh_create(model.scene, &model.mesh));
+    PetscCall(converted_write(model.scene, &model.mesh, converted));
+    PetscCall(mesh_destroy(&model.mesh));
+    PetscCall(scene_close(&model.scene));
+    PetscCall(PetscFinalize());
+    return 0;
+  }
   PetscCall(read_scene(&model));
   PetscCall(build(&model, &status));
   if (status) {

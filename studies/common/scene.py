@@ -1,7 +1,7 @@
 """Run one example scene and read what it wrote.
 
 The contract with the driver: `snes_contact -scene FILE -output_dir DIR [options]` leaves in DIR `summary.json`,
-`interface_NAME_STEP.csv` (one row per non-mortar node) and `step_STEP.vtu`. Exit code 0: every step converged,
+`interface_NAME_STEP.csv` (one row per non-mortar node) and `step_STEP.vtu` (of several ranks `step_STEP.pvtu`). Exit code 0: every step converged,
 1: bad scene, 2: not converged, 3: refused by the library.
 
 A missing file or an unexpected exit code raises SceneError: no check may pass because there was nothing to check.
@@ -19,6 +19,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
+import pieces
 
 SCENES = Path(__file__).resolve().parents[2] / "c_examples" / "scenes"
 
@@ -113,9 +114,7 @@ class Run:
 
     def mesh(self, step=None):
         """(points, cells by kind, displacement) of the undeformed meshes after a step."""
-        import meshio  # only here: the module is slow to load
-
-        mesh = meshio.read(self._output(r"step_(\d+)\.vtu", step))
+        mesh = self._bodies(step)
         displacement = next((v for k, v in mesh.point_data.items() if "displacement" in k), None)
         if displacement is None:
             raise SceneError(f"{self.directory}: no displacement in the .vtu, only {list(mesh.point_data)}")
@@ -123,25 +122,19 @@ class Run:
 
     def point_field(self, name, step=None):
         """A field of the undeformed meshes' nodes, as `traction_NAME`; the CSV's `node` is the index."""
-        import meshio
-
-        fields = meshio.read(self._output(r"step_(\d+)\.vtu", step)).point_data
+        fields = self._bodies(step).point_data
         if name not in fields:
             raise SceneError(f"{self.directory}: no {name} in the .vtu, only {list(fields)}")
         return fields[name]
 
     def cell_stress(self, step=None):
         """Cauchy's stress at the cells' centres: (cells, 6), xx yy zz xy yz xz."""
-        import meshio
-
-        mesh = meshio.read(self._output(r"step_(\d+)\.vtu", step))
+        mesh = self._bodies(step)
         return np.concatenate(mesh.cell_data["stress_xx_yy_zz_xy_yz_xz"])
 
     def cell_bodies(self, step=None, kind="hexahedron"):
         """Number of the body of each cell of a kind, in the order of mesh()."""
-        import meshio
-
-        mesh = meshio.read(self._output(r"step_(\d+)\.vtu", step))
+        mesh = self._bodies(step)
         return np.asarray(mesh.cell_data_dict["body"][kind]).ravel()
 
     def line(self, name, step=None):
@@ -160,6 +153,13 @@ class Run:
             multiplier=summed / length[:, None],
             state=np.array([s.pop() if len(s) == 1 else "mixed" for s in states]),
         )
+
+    def _bodies(self, step):
+        """The bodies' meshes and fields after a step, in the order of one rank."""
+        import meshio  # only here: the module is slow to load
+
+        path = self._output(r"step_(\d+)\.p?vtu", step)
+        return meshio.read(path) if path.suffix == ".vtu" else pieces.read(path)
 
     def _output(self, pattern, step):
         found = {}

@@ -4,6 +4,8 @@ go to DIR/scaling.
 Two blocks of equal cells, one pressed on the other and drawn along it with friction, all nodes slipping at the end: the
 scene two_blocks with dual multipliers, condensed. Of each size one step, by multigrid and, as far as it is not too dear, by
 MUMPS. Seconds are the processor's, of linear solves alone, a solve. Table: printed, scaling.json, scaling.md.
+
+With --ranks what each rank holds of the mesh, in place of this: on 1, 2 and 4 ranks.
 """
 
 import argparse
@@ -19,10 +21,13 @@ from scene import SCENES, SceneError  # noqa: E402
 
 DOC = Path(__file__).resolve().parents[2] / "docs" / "scaling.md"
 BEGIN, END = "<!-- scaling.py writes from here -->", "<!-- to here -->"
+RANKS_BEGIN, RANKS_END = "<!-- scaling.py writes of ranks from here -->", "<!-- ranks to here -->"
 # Cells along an edge of the upper block.
 SIZES = (8, 16, 24)
 # LU takes minutes and 6 GB beyond this.
 LARGEST_DIRECT = 24
+# Cells along an edge of the upper block, and ranks, of which each holds its piece.
+HELD_SIZE, HELD_RANKS = 24, (1, 2, 4)
 OPTIONS = ("-unknowns", "displacements", "-contact_basis", "dual", "-output_quiet", "true")
 
 
@@ -54,6 +59,40 @@ def measure(build, output, n, solver):
     }
 
 
+def holdings(build, output):
+    """Of each number of ranks the most that one of them holds, in MB."""
+    n, rows = HELD_SIZE, []
+    for ranks in HELD_RANKS:
+        print(f"{ranks} ranks", file=sys.stderr, flush=True)
+        folder = output / f"ranks_{ranks}"
+        command = ["mpirun", "--oversubscribe", "-n", ranks, build / "c_examples" / "snes_contact", "-scene", SCENES / "two_blocks.yaml",
+                   "-output_dir", folder, *OPTIONS, "-upper_cells", f"{n},{n},{n}", "-lower_cells", f"{n + 1},{n + 1},{n}",
+                   "-solver", "iterative", "-output_vtu", "none", "-output_csv", "none"]
+        allowed = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMP_NUM_THREADS": "1"}
+        with open(output / f"ranks_{ranks}.txt", "w") as text:
+            status = subprocess.call([str(word) for word in command], stdout=text, stderr=subprocess.STDOUT,
+                                     env={**os.environ, **allowed})
+        if status:
+            raise SceneError(f"{ranks} ranks: see {text.name}")
+        mesh = json.loads((folder / "summary.json").read_text())["mesh"]
+        rows.append({"ranks": ranks, "cells": mesh["cells"],
+                     **{k: max(rank[k] for rank in mesh["ranks"]) / 1e6 for k in ("bytes_read", "bytes", "resident_most")}})
+    return rows
+
+
+def holdings_table(rows):
+    lines = ["| ranks | cells | the most of a rank: its piece as read, MB | of the distributed mesh, MB | its process, MB |",
+             "|---|---|---|---|---|"]
+    for row in rows:
+        lines.append(f"| {row['ranks']} | {row['cells']} | {row['bytes_read']:.2f} | {row['bytes']:.2f} | {row['resident_most']:.0f} |")
+    return "\n".join(lines) + "\n"
+
+
+def renew(begin, end, text):
+    page = DOC.read_text()
+    DOC.write_text(f"{page.split(begin)[0]}{begin}\n{text}{end}{page.split(end)[1]}")
+
+
 def table(rows):
     lines = ["| unknowns | solver | Newton iterations | GMRES' iterations a solve: mean, most | seconds a solve | "
              "seconds of the run | memory, GB |", "|---|---|---|---|---|---|---|"]
@@ -71,9 +110,16 @@ def main():
     parser.add_argument("--sizes", type=lambda text: [int(n) for n in text.split(",")], default=SIZES)
     parser.add_argument("--largest-direct", type=int, default=LARGEST_DIRECT)
     parser.add_argument("--renew", action="store_true", help="write the table into docs/scaling.md")
+    parser.add_argument("--ranks", action="store_true", help="what ranks hold, in place of the solvers")
     args = parser.parse_args()
     output = args.build / "scaling"
     output.mkdir(parents=True, exist_ok=True)
+    if args.ranks:
+        held = holdings_table(holdings(args.build, output))
+        print(held)
+        if args.renew:
+            renew(RANKS_BEGIN, RANKS_END, held)
+        return
     rows = []
     for n in args.sizes:
         for solver in ("iterative", "direct")[: 1 if n > args.largest_direct else 2]:
@@ -83,9 +129,7 @@ def main():
     (output / "scaling.md").write_text(table(rows))
     print(table(rows))
     if args.renew:
-        text = DOC.read_text()
-        before, after = text.split(BEGIN)[0], text.split(END)[1]
-        DOC.write_text(f"{before}{BEGIN}\n{table(rows)}{END}{after}")
+        renew(BEGIN, END, table(rows))
 
 
 if __name__ == "__main__":

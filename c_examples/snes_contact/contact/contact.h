@@ -22,10 +22,11 @@ typedef struct {
   int32_t   *moved;
 } Offsets;
 
-/* A rank's part of an interface, with a handle of the library's own (parts.c): the non-mortar nodes that the rank owns, the
- * facets around them as far as these need them, and the mortar side. Nodes and facets are numbered as they are here. */
+/* Rigid bodies in a part (rigid_part.c) */
 typedef struct RigidPart RigidPart;
 
+/* A rank's part of an interface, with a handle of the library's own (parts.c): the non-mortar nodes that the rank owns, the
+ * facets around them as far as these need them, and the mortar side. Nodes and facets are numbered as they are here. */
 typedef struct {
   PetscInt  dimension, components; /* as the interface's */
   PetscInt  n1, n2;                /* numbers of nodes; 0: nothing is owned here, and there is no handle */
@@ -80,9 +81,13 @@ typedef struct {
 /* One contact interface: what the scene says of it, this rank's part, and on rank 0 what is known of all its nodes. */
 typedef struct {
   char           name[NAME_LENGTH];
-  const Surface *surface[2]; /* rank 0: non-mortar, mortar */
+  Surface        whole[2];   /* rank 0: non-mortar, mortar; vertices are the nodes of a side */
+  const Surface *surface[2]; /* these */
   PetscInt       n1, n2;     /* rank 0, as all that follows up to `options`: their numbers of nodes */
   PetscInt      *nodes;      /* n1 + n2 mesh vertices */
+  PetscReal     *place;      /* 3 (n1 + n2): where they are, in the axes of the scene file; then X */
+  PetscInt      *prescribed, *part_of; /* n1 + n2: mask of prescribed displacements; the model's part (physics.h) */
+  PetscSF        pieces;     /* from the vertices of the mesh's pieces to the nodes, until the mesh is distributed */
   PetscInt      *removed;    /* n1: mask of directions without a multiplier, see read_surfaces() */
   PetscBool     *middle;     /* n1: no multiplier, since it is no corner of a face */
   /* n1 + n2 vectors: coordinates; at the place of the last contact_collect() displacements and forces; equations */
@@ -133,8 +138,13 @@ PetscErrorCode contact_read(Scene *scene, Contact *contact);
 PetscErrorCode contact_label(Contact *contact);
 PetscErrorCode contact_fields(const Contact *contact, Field **fields); /* of the multipliers, one an interface */
 
-/* symmetry.c */
-PetscErrorCode symmetry_mask(const Physics *physics, const Interface *interface, PetscInt *mask);
+/* contact_surfaces.c, on every rank: an interface's surfaces and nodes; and where rank 0 has put these, in the pieces, too */
+PetscErrorCode surfaces_read(Scene *scene, Contact *contact, Interface *interface);
+PetscErrorCode surfaces_move(Contact *contact, const Interface *interface);
+PetscErrorCode surfaces_destroy(Interface *interface);
+
+/* symmetry.c: on rank 0 of the non-mortar nodes */
+PetscErrorCode symmetry_mask(const Physics *physics, const Interface *interface, PetscInt mask[]);
 
 /* reach.c: of the model's parts, over all that interfaces may join to them */
 PetscErrorCode reach_measure(Contact *contact);
@@ -194,10 +204,10 @@ void parts_translate(const ContactPart *part, const char *from, char to[], size_
 PetscErrorCode contact_create(Contact *contact, Scene *scene, PetscBool quiet, PetscInt *status);
 PetscErrorCode contact_destroy(Contact *contact);
 /* adjust.c, rank 0 */
-PetscErrorCode contact_adjust(Scene *scene, Contact *contact, Interface *interface);
+PetscErrorCode contact_adjust(Scene *scene, Interface *interface);
 /* offsets.c; `place` on rank 0; `fetch` through an SF from rank 0's nodes to those of the part */
 PetscErrorCode offsets_read(Scene *scene, const Physics *physics, Interface *interface);
-PetscErrorCode offsets_place(Scene *scene, const Mesh *mesh, Interface *interface);
+PetscErrorCode offsets_place(Scene *scene, Interface *interface);
 PetscErrorCode offsets_fetch(PetscSF sf, Interface *interface);
 int32_t        offsets_set(const Interface *interface, stickslip_interface *handle, PetscReal t);
 PetscErrorCode offsets_values(Contact *contact, PetscReal t, PetscInt *status);

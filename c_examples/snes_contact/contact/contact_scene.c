@@ -1,37 +1,13 @@
 /* Interfaces as the scene describes them: surfaces, law, form, and which multiplier components are unknowns at all. */
 #include "contact/contact.h"
 
-/* nodes of a surface, each once, in order of first use */
-static PetscErrorCode collect_nodes(const Mesh *mesh, const Surface *surface, PetscInt *nodes, PetscInt *n)
-{
-  PetscBool *seen;
-  PetscFunctionBegin;
-  if (surface->analytic) { /* its frame */
-    for (*n = 0; *n <= mesh->dimension; (*n)++)
-      nodes[*n] = surface->frame + *n;
-    PetscFunctionReturn(PETSC_SUCCESS);
-  }
-  PetscCall(PetscCalloc1(mesh->n_vertices, &seen));
-  *n = 0;
-  for (PetscInt k = 0; k < surface->offsets[surface->n_faces]; k++) {
-    const PetscInt v = surface->vertices[k];
-    if (!seen[v]) nodes[(*n)++] = v;
-    seen[v] = PETSC_TRUE;
-  }
-  PetscCall(PetscFree(seen));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscReal surface_young(const Contact *contact, const PetscInt *nodes, PetscInt n)
+/* of nodes first to end */
+static PetscReal surface_young(const Contact *contact, const Interface *interface, PetscInt first, PetscInt end)
 {
   PetscReal young = PETSC_MAX_REAL; /* what a wholly prescribed, so rigid surface counts as */
-  for (PetscInt k = 0; k < n; k++) {
-    if (contact->physics->prescribed[nodes[k]] == 7 || rigids_of_vertex(contact->physics, nodes[k]) >= 0) continue;
-    for (PetscInt b = 0; b < contact->mesh->n_bodies; b++) {
-      const Body *body = &contact->mesh->bodies[b];
-      if (nodes[k] >= body->first_vertex && nodes[k] < body->end_vertex)
-        young = PetscMin(young, contact->physics->materials[b].young);
-    }
+  for (PetscInt k = first; k < end; k++) {
+    const PetscInt body = mesh_body_of(contact->mesh, interface->nodes[k]);
+    if (interface->prescribed[k] != 7 && !contact->mesh->bodies[body].rigid) young = PetscMin(young, contact->physics->materials[body].young);
   }
   return young;
 }
@@ -58,96 +34,62 @@ static PetscErrorCode remove_middles(Scene *scene, const Mesh *mesh, Interface *
   scene_choice(scene, interface->name, "multiplier_space", spaces, &space);
   interface->options.multiplier_space = (int32_t)space;
   if (space == STICKSLIP_SPACE_SUB) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(PetscCalloc1(mesh->n_vertices, &corner));
+  PetscCall(PetscCalloc1(interface->n1, &corner));
   for (PetscInt f = 0; f < surface->n_faces; f++) {
     const PetscInt first = surface->offsets[f], n = cell_corners(mesh_face_kind(mesh, surface, f));
     for (PetscInt k = 0; k < n; k++)
       corner[surface->vertices[first + k]] = PETSC_TRUE;
   }
   for (PetscInt a = 0; a < interface->n1; a++) {
-    interface->middle[a] = (PetscBool)!corner[interface->nodes[a]];
+    interface->middle[a] = (PetscBool)!corner[a];
     if (interface->middle[a]) interface->removed[a] = 7;
   }
   PetscCall(PetscFree(corner));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The side that is rigid is one of two, and what the library does not do with it is told here by name. */
+/* rank 0: one side of the two may be rigid, and what the library does not do with it is told here by name. */
 static void check_rigid(Scene *scene, const Contact *contact, const Interface *interface)
 {
-  const Physics *physics = contact->physics;
-  PetscInt       rigid[2];
-  PetscBool      analytic = PETSC_FALSE;
-  for (int side = 0; side < 2; side++) {
-    const PetscInt vertex = interface->nodes[side ? interface->n1 : 0];
-    rigid[side]           = rigids_of_vertex(physics, vertex);
-    for (PetscInt b = 0; b < contact->mesh->n_bodies; b++) {
-      const Body *body = &contact->mesh->bodies[b];
-      if (vertex >= body->first_vertex && vertex < body->end_vertex) analytic = body->analytic;
-    }
-  }
-  if (rigid[0] >= 0 && (rigid[1] >= 0 || analytic))
+  const Body *sides[2];
+  for (int side = 0; side < 2; side++)
+    sides[side] = &contact->mesh->bodies[mesh_body_of(contact->mesh, interface->nodes[side ? interface->n1 : 0])];
+  if (sides[0]->rigid && (sides[1]->rigid || sides[1]->analytic))
     scene_fail(scene, interface->name, "mortar", "both sides are rigid: nothing would tell how a force between them is spread.");
-  if (rigid[0] >= 0 && contact->condensed)
+  if (sides[0]->rigid && contact->condensed)
     scene_fail(scene, interface->name, "nonmortar",
                "'%s' is rigid: with `unknowns: displacements` it can be the mortar side only, for its nodes have no equations "
                "that multipliers could be found from.",
-               contact->mesh->bodies[physics->rigids[rigid[0]].body].name);
-  if (rigid[0] >= 0 && interface->offsets.adjust > 0)
+               sides[0]->name);
+  if (sides[0]->rigid && interface->offsets.adjust > 0)
     scene_fail(scene, interface->name, "adjust", "the non-mortar side is rigid: its nodes do not move one by one.");
 }
 
-/* rank 0: surfaces, nodes, default stiffness, removed components */
-static PetscErrorCode read_surfaces(Scene *scene, Contact *contact, Interface *interface)
+/* rank 0: default stiffness, removed components; `symmetry`: see symmetry_mask() */
+static PetscErrorCode settle_nodes(Scene *scene, Contact *contact, Interface *interface, const PetscInt symmetry[])
 {
-  const Mesh              *mesh        = contact->mesh;
-  Physics                 *physics     = contact->physics;
-  static const char *const side_key[]  = {"nonmortar", "mortar"};
-  PetscInt                 mortar_mask = 7, n_corners[2], *symmetry;
-  char                     name[2 * NAME_LENGTH];
+  const Mesh    *mesh        = contact->mesh;
+  const Physics *physics     = contact->physics;
+  const PetscInt n1          = interface->n1, n2 = interface->n2;
+  PetscInt       mortar_mask = 7;
 
   PetscFunctionBegin;
-  for (int side = 0; side < 2; side++) {
-    scene_string_required(scene, interface->name, side_key[side], name, sizeof(name));
-    interface->surface[side] = mesh_surface(scene, mesh, interface->name, side_key[side], name);
-    if (interface->surface[side]->inner)
-      scene_fail(scene, interface->name, side_key[side], "'%s' lies inside a body.", name);
-    if (interface->surface[side]->analytic && side == 0)
-      scene_fail(scene, interface->name, side_key[side], "'%s' is analytic: it can be the mortar side only.", name);
-    n_corners[side] =
-        interface->surface[side]->analytic ? mesh->dimension + 1 : interface->surface[side]->offsets[interface->surface[side]->n_faces];
-  }
-  PetscCall(PetscMalloc1(n_corners[0] + n_corners[1], &interface->nodes));
-  PetscCall(collect_nodes(mesh, interface->surface[0], interface->nodes, &interface->n1));
-  PetscCall(collect_nodes(mesh, interface->surface[1], interface->nodes + interface->n1, &interface->n2));
-  for (PetscInt a = 0; a < interface->n1; a++) {
-    for (PetscInt b = 0; b < interface->n2; b++) {
-      if (interface->nodes[a] == interface->nodes[interface->n1 + b])
-        scene_fail(scene, interface->name, "mortar",
-                   "the two surfaces share a vertex; contact of a surface with itself is not supported.");
-    }
-  }
   /* A component is no unknown where it is prescribed on both sides: at the node, and on the mortar side everywhere, or
    * where a plane of symmetry cuts both. */
-  for (PetscInt b = 0; b < interface->n2; b++)
-    mortar_mask &= physics->prescribed[interface->nodes[interface->n1 + b]];
+  for (PetscInt b = 0; b < n2; b++)
+    mortar_mask &= interface->prescribed[n1 + b];
   if (interface->options.mortar_side == STICKSLIP_MORTAR_RIGID && mortar_mask != 7)
-    scene_fail(scene, interface->name, "mortar_side", "'%s' is not rigid: support all of it in %s.", name,
+    scene_fail(scene, interface->name, "mortar_side", "'%s' is not rigid: support all of it in %s.", interface->surface[1]->name,
                mesh->dimension == 3 ? "x, y and z" : "x and y");
   describe_analytic(scene, interface);
   check_rigid(scene, contact, interface);
-  PetscCall(PetscMalloc1(interface->n1, &interface->removed));
-  PetscCall(PetscCalloc1(interface->n1, &interface->middle));
-  PetscCall(PetscCalloc1(mesh->n_vertices, &symmetry));
-  PetscCall(symmetry_mask(physics, interface, symmetry));
-  for (PetscInt a = 0; a < interface->n1; a++)
-    interface->removed[a] =
-        (physics->prescribed[interface->nodes[a]] & mortar_mask) | symmetry[interface->nodes[a]];
-  PetscCall(PetscFree(symmetry));
+  PetscCall(PetscMalloc1(n1, &interface->removed));
+  PetscCall(PetscCalloc1(n1, &interface->middle));
+  for (PetscInt a = 0; a < n1; a++)
+    interface->removed[a] = (interface->prescribed[a] & mortar_mask) | symmetry[a];
   PetscCall(remove_middles(scene, mesh, interface));
 
-  interface->young = PetscMin(surface_young(contact, interface->nodes, interface->n1),
-                              surface_young(contact, interface->nodes + interface->n1, interface->n2));
+  interface->young = PetscMin(surface_young(contact, interface, 0, n1), surface_young(contact, interface, n1, n1 + n2));
   if (interface->young == PETSC_MAX_REAL) interface->young = physics->materials[0].young; /* nothing moves */
   if (interface->options.augmentation == 0 && interface->options.modulus == 0)
     interface->options.modulus = interface->young;
@@ -308,6 +250,31 @@ static void read_unknowns(Scene *scene, Contact *contact)
   contact->condensed = (PetscBool)(unknowns == 1);
 }
 
+/* An interface's surfaces, and what rank 0 makes of their nodes. */
+static PetscErrorCode read_nodes(Scene *scene, Contact *contact, Interface *interface)
+{
+  PetscInt *symmetry;
+  PetscReal scale = 1;
+  PetscFunctionBegin;
+  PetscCall(surfaces_read(scene, contact, interface));
+  PetscCall(PetscCalloc1(interface->n1, &symmetry));
+  PetscCall(symmetry_mask(contact->physics, interface, symmetry));
+  scene_root_begin(scene);
+  if (contact->mesh->rank == 0) {
+    PetscCall(settle_nodes(scene, contact, interface, symmetry));
+    scene_real(scene, interface->name, "augmentation_scale", &scale);
+    if (scale <= 0) scene_fail(scene, interface->name, "augmentation_scale", "it must be positive.");
+    interface->options.augmentation *= scale;
+    interface->options.modulus *= scale;
+    PetscCall(offsets_place(scene, interface));
+    PetscCall(contact_adjust(scene, interface));
+  }
+  PetscCall(scene_root_end(scene));
+  if (interface->offsets.adjust > 0) PetscCall(surfaces_move(contact, interface));
+  PetscCall(PetscFree(symmetry));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode contact_read(Scene *scene, Contact *contact)
 {
   char **names;
@@ -328,19 +295,8 @@ PetscErrorCode contact_read(Scene *scene, Contact *contact)
     PetscCall(offsets_read(scene, contact->physics, interface));
   }
   strings_destroy(contact->n_interfaces, &names);
-  scene_root_begin(scene);
-  for (PetscInt i = 0; i < contact->n_interfaces && contact->mesh->rank == 0; i++) {
-    Interface *interface = &contact->interfaces[i];
-    PetscReal  scale     = 1;
-    PetscCall(read_surfaces(scene, contact, interface));
-    scene_real(scene, interface->name, "augmentation_scale", &scale);
-    if (scale <= 0) scene_fail(scene, interface->name, "augmentation_scale", "it must be positive.");
-    interface->options.augmentation *= scale;
-    interface->options.modulus *= scale;
-    PetscCall(offsets_place(scene, contact->mesh, interface));
-    PetscCall(contact_adjust(scene, contact, interface));
-  }
-  PetscCall(scene_root_end(scene));
+  for (PetscInt i = 0; i < contact->n_interfaces; i++)
+    PetscCall(read_nodes(scene, contact, &contact->interfaces[i]));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -361,17 +317,33 @@ PetscErrorCode contact_fields(const Contact *contact, Field **fields)
 /* Which multipliers are no unknowns: the removed components; without friction, that of a node which is prescribed wholly. */
 PetscErrorCode contact_label(Contact *contact)
 {
-  char label[2 * NAME_LENGTH];
+  const Mesh *mesh = contact->mesh;
+  char        label[2 * NAME_LENGTH];
+  PetscInt   *here, *vertices, *values;
   PetscFunctionBegin;
+  PetscCall(PetscMalloc3(mesh->n_vertices, &here, mesh->n_vertices, &vertices, mesh->n_vertices, &values));
   for (PetscInt i = 0; i < contact->n_interfaces; i++) {
     const Interface *interface = &contact->interfaces[i];
-    PetscInt        *mask;
-    PetscCall(PetscMalloc1(interface->n1, &mask));
+    PetscInt        *mask, n = 0;
+    PetscCall(PetscMalloc1(interface->n1 + interface->n2, &mask));
     for (PetscInt a = 0; a < interface->n1; a++)
       mask[a] = contact->condensed ? 7 : interface->components > 1 ? interface->removed[a] : interface->removed[a] == 7;
+    for (PetscInt b = 0; b < interface->n2; b++)
+      mask[interface->n1 + b] = -1;
+    for (PetscInt v = 0; v < mesh->n_vertices; v++)
+      here[v] = -1;
+    PetscCall(PetscSFReduceBegin(interface->pieces, MPIU_INT, mask, here, MPI_REPLACE));
+    PetscCall(PetscSFReduceEnd(interface->pieces, MPIU_INT, mask, here, MPI_REPLACE));
+    PetscCall(pieces_unite(mesh, here, MPI_MAX));
+    for (PetscInt v = 0; v < mesh->n_vertices; v++) {
+      if (here[v] < 0) continue;
+      vertices[n] = v;
+      values[n++] = here[v];
+    }
     PetscCall(PetscSNPrintf(label, sizeof(label), "multiplier.%s", interface->name));
-    PetscCall(plex_label_vertices(contact->mesh, label, interface->n1, interface->nodes, mask, 0));
+    PetscCall(plex_label_vertices(mesh, label, n, vertices, values, 0));
     PetscCall(PetscFree(mask));
   }
+  PetscCall(PetscFree3(here, vertices, values));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

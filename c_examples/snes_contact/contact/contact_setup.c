@@ -164,8 +164,12 @@ static PetscErrorCode create_whole(Contact *contact, Interface *interface)
   PetscCall(PetscCalloc4(d * n, &interface->X, d * n, &interface->displacements, d * n, &interface->forces, d * n,
                          &interface->equations));
   PetscCall(fetch_equations(contact, interface->sf, d * n, interface->equations));
-  for (PetscInt k = 0; k < d * n; k++)
-    interface->X[k] = mesh->coordinates[3 * nodes[k / d] + k % d];
+  for (PetscInt k = 0; k < n; k++) {
+    PetscReal *x = interface->place + 3 * k;
+    mesh_rotate_vector(mesh, x);
+    for (PetscInt i = 0; i < d; i++)
+      interface->X[d * k + i] = x[i];
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -390,7 +394,7 @@ PetscErrorCode contact_destroy(Contact *contact)
     PetscCall(contact_states_destroy(&interface->states));
     PetscCall(offsets_destroy(interface));
     PetscCall(PetscFree4(interface->X, interface->displacements, interface->forces, interface->equations));
-    PetscCall(PetscFree(interface->nodes));
+    PetscCall(surfaces_destroy(interface));
     PetscCall(PetscFree(interface->removed));
     PetscCall(PetscFree(interface->middle));
   }

@@ -60,7 +60,7 @@ PetscErrorCode offsets_read(Scene *scene, const Physics *physics, Interface *int
 }
 
 /* rank 0: which nodes `offset_at` means. */
-PetscErrorCode offsets_place(Scene *scene, const Mesh *mesh, Interface *interface)
+PetscErrorCode offsets_place(Scene *scene, Interface *interface)
 {
   Offsets       *offsets = &interface->offsets;
   const PetscInt d       = interface->dimension;
@@ -69,13 +69,13 @@ PetscErrorCode offsets_place(Scene *scene, const Mesh *mesh, Interface *interfac
   PetscCall(PetscCalloc2(interface->n1 + interface->n2, &offsets->nodal, interface->n1 + interface->n2, &offsets->round));
   for (PetscInt a = 0; a < interface->n1; a++) {
     offsets->nodal[a] = offsets->all;
-    extent_add(&extent, mesh->coordinates + 3 * interface->nodes[a]);
+    extent_add(&extent, interface->place + 3 * a);
   }
   for (PetscInt p = 0; p < offsets->n_points; p++) {
     const PetscReal *point = offsets->points + (d + 1) * p;
     PetscInt         found = -1;
     for (PetscInt a = 0; a < interface->n1 && found < 0; a++) {
-      const PetscReal *x = mesh->coordinates + 3 * interface->nodes[a];
+      const PetscReal *x = interface->place + 3 * a;
       PetscReal        square = 0;
       for (PetscInt i = 0; i < d; i++)
         square += PetscSqr(x[i] - point[i]);

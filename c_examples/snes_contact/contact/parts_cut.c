@@ -15,7 +15,7 @@ enum { RINGS_OF_CARRIERS = 12 };
 typedef struct {
   PetscInt        n_nodes, n_facets;
   const PetscInt *offsets;
-  PetscInt       *nodes; /* of each facet */
+  const PetscInt *nodes; /* of each facet */
 } Side;
 
 /* What a rank gets, packed: numbers and coordinates. */
@@ -57,24 +57,16 @@ static PetscInt take_one(Packet *packet)
   return packet->numbers[packet->n++];
 }
 
-static PetscErrorCode side_create(const Mesh *mesh, const Interface *interface, int which, Side *side)
+static PetscErrorCode side_create(const Interface *interface, int which, Side *side)
 {
   const Surface  *surface = interface->surface[which];
-  const PetscInt  first   = which ? interface->n1 : 0;
   static PetscInt none    = 0;
-  PetscInt       *number;
   PetscFunctionBegin;
   *side = (Side){.n_nodes = which ? interface->n2 : interface->n1, .offsets = &none};
   if (surface->analytic) PetscFunctionReturn(PETSC_SUCCESS);
   side->n_facets = surface->n_faces;
   side->offsets  = surface->offsets;
-  PetscCall(PetscMalloc1(mesh->n_vertices, &number));
-  for (PetscInt k = 0; k < side->n_nodes; k++)
-    number[interface->nodes[first + k]] = k;
-  PetscCall(PetscMalloc1(surface->offsets[surface->n_faces], &side->nodes));
-  for (PetscInt k = 0; k < surface->offsets[surface->n_faces]; k++)
-    side->nodes[k] = number[surface->vertices[k]];
-  PetscCall(PetscFree(number));
+  side->nodes    = surface->vertices;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -105,8 +97,6 @@ static PetscBool carries(const stickslip_options *options)
 
 /* rank 0, while parts are cut */
 typedef struct {
-  const Mesh      *mesh;
-  const Physics   *physics;
   const Interface *interface;
   const PetscInt  *owner; /* n1 */
   PetscInt        *index; /* n1: number of each node in its owner's part */
@@ -115,12 +105,12 @@ typedef struct {
   PetscBool       *nodes[2], *facets[2]; /* of the part at hand */
 } Cut;
 
-static PetscErrorCode cut_create(const Contact *contact, const Interface *interface, const PetscInt owner[], Cut *cut)
+static PetscErrorCode cut_create(const Interface *interface, const PetscInt owner[], Cut *cut)
 {
   PetscFunctionBegin;
-  *cut = (Cut){.mesh = contact->mesh, .physics = contact->physics, .interface = interface, .owner = owner};
+  *cut = (Cut){.interface = interface, .owner = owner};
   for (int side = 0; side < 2; side++) {
-    PetscCall(side_create(cut->mesh, interface, side, &cut->sides[side]));
+    PetscCall(side_create(interface, side, &cut->sides[side]));
     PetscCall(PetscMalloc2(cut->sides[side].n_nodes, &cut->nodes[side], cut->sides[side].n_facets, &cut->facets[side]));
   }
   PetscCall(PetscMalloc1(interface->n1, &cut->index));
@@ -133,7 +123,6 @@ static PetscErrorCode cut_destroy(Cut *cut)
   PetscFunctionBegin;
   for (int side = 0; side < 2; side++) {
     PetscCall(PetscFree2(cut->nodes[side], cut->facets[side]));
-    PetscCall(PetscFree(cut->sides[side].nodes));
   }
   PetscCall(PetscFree(cut->index));
   PetscCall(PetscFree(cut->counted));
@@ -204,7 +193,7 @@ static PetscErrorCode pack(Cut *cut, PetscMPIInt rank, Packet *packet)
     for (PetscInt k = 0; k < n[side]; k++) {
       const PetscInt node = side ? interface->n1 + k : k, vertex = interface->nodes[node];
       const PetscBool counts_here = (PetscBool)(side ? !cut->counted[k] : cut->owner[k] == rank);
-      const PetscInt  entry[]     = {vertex, node, cut->physics->parts.of_mesh[vertex], counts_here};
+      const PetscInt  entry[]     = {vertex, node, interface->part_of[node], counts_here};
       if (!cut->nodes[side][k]) continue;
       PetscCall(put(packet, 4, entry));
       if (side) cut->counted[k] = PETSC_TRUE;
@@ -314,7 +303,7 @@ PetscErrorCode parts_cut(Contact *contact, PetscInt number, const PetscInt owner
   part->components   = interface->components;
   interface->n_parts = 0;
   if (mesh->rank == 0) {
-    PetscCall(cut_create(contact, interface, owner, &cut));
+    PetscCall(cut_create(interface, owner, &cut));
     for (PetscMPIInt r = 0; r < size; r++) { /* where owners have their nodes */
       PetscInt n = 0;
       PetscCall(mark_part(&cut, r, &any));

@@ -1,7 +1,26 @@
 /* How far a part of the model may come: the size of all that interfaces may join to it, through others or not. */
 #include "contact/contact.h"
 
-/* rank 0, between parts_label() and parts_create() */
+/* The parts that interfaces join, from rank 0, which knows their nodes' parts: of each part the number of its cluster. */
+static PetscErrorCode find_clusters(Contact *contact, PetscInt cluster[])
+{
+  const Parts *parts = &contact->physics->parts;
+  PetscFunctionBegin;
+  for (PetscInt p = 0; p < parts->n; p++)
+    cluster[p] = p;
+  for (PetscInt i = 0; i < contact->n_interfaces; i++) {
+    Interface *interface = &contact->interfaces[i];
+    PetscCall(PetscSFBcastBegin(interface->pieces, MPIU_INT, parts->of_piece, interface->part_of, MPI_REPLACE));
+    PetscCall(PetscSFBcastEnd(interface->pieces, MPIU_INT, parts->of_piece, interface->part_of, MPI_REPLACE));
+    for (PetscInt k = 1; k < interface->n1 + interface->n2; k++)
+      trees_join(cluster, interface->part_of[0], interface->part_of[k]);
+  }
+  (void)trees_number(parts->n, cluster);
+  PetscCallMPI(MPI_Bcast(cluster, (PetscMPIInt)parts->n, MPIU_INT, 0, PETSC_COMM_WORLD));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* between parts_label() and parts_create() */
 PetscErrorCode reach_measure(Contact *contact)
 {
   const Mesh *mesh  = contact->mesh;
@@ -10,20 +29,14 @@ PetscErrorCode reach_measure(Contact *contact)
   PetscInt   *cluster; /* of each part */
 
   PetscFunctionBegin;
-  if (mesh->rank) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PetscMalloc2(parts->n, &whole, parts->n, &cluster));
-  for (PetscInt p = 0; p < parts->n; p++) {
-    whole[p]   = extent_of_nothing();
-    cluster[p] = p;
-  }
-  for (PetscInt i = 0; i < contact->n_interfaces; i++) {
-    const Interface *interface = &contact->interfaces[i];
-    for (PetscInt k = 1; k < interface->n1 + interface->n2; k++)
-      trees_join(cluster, parts->of_mesh[interface->nodes[0]], parts->of_mesh[interface->nodes[k]]);
-  }
-  (void)trees_number(parts->n, cluster);
+  PetscCall(find_clusters(contact, cluster));
+  for (PetscInt p = 0; p < parts->n; p++)
+    whole[p] = extent_of_nothing();
   for (PetscInt v = 0; v < mesh->n_vertices; v++)
-    extent_add(&whole[cluster[parts->of_mesh[v]]], mesh->coordinates + 3 * v);
+    extent_add(&whole[cluster[parts->of_piece[v]]], mesh->coordinates + 3 * v);
+  for (PetscInt p = 0; p < parts->n; p++)
+    PetscCall(extent_of_all(&whole[p]));
   for (PetscInt p = 0; p < parts->n; p++)
     parts->part[p].reach = PetscSqrtReal(extent_diagonal_squared(&whole[cluster[p]]));
   PetscCall(PetscFree2(whole, cluster));

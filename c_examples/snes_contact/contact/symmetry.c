@@ -21,82 +21,123 @@ enum { NO_PLANE = -1 };
 
 typedef struct {
   int       axis; /* NO_PLANE: the support is no such wall */
-  PetscReal position;
+  PetscReal X[3]; /* of its first vertex */
 } Plane;
 
-static PetscReal mesh_size(const Mesh *mesh)
+static PetscErrorCode mesh_size(const Mesh *mesh, PetscReal *size)
 {
-  PetscReal size = 0;
-  for (int i = 0; i < 3; i++) {
-    PetscReal least = PETSC_MAX_REAL, most = PETSC_MIN_REAL;
-    for (PetscInt v = 0; v < mesh->n_vertices; v++) {
-      least = PetscMin(least, mesh->coordinates[3 * v + i]);
-      most  = PetscMax(most, mesh->coordinates[3 * v + i]);
-    }
-    size = PetscMax(size, most - least);
-  }
-  return size;
+  Extent extent = extent_of_nothing();
+  PetscFunctionBegin;
+  for (PetscInt v = 0; v < mesh->n_vertices; v++)
+    extent_add(&extent, mesh->coordinates + 3 * v);
+  PetscCall(extent_of_all(&extent));
+  *size = extent_longest(&extent);
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static Plane plane_of(const Mesh *mesh, const Support *support, PetscReal tolerance)
+/* the place of a support's first vertex, on every rank; `any`: there is one */
+static PetscErrorCode first_place(const Mesh *mesh, const Support *support, PetscReal X[3], PetscBool *any)
 {
-  Plane plane = {.axis = NO_PLANE};
-  int   axis  = 0;
-  if (support->given || !support->n_vertices) return plane;
+  const PetscInt mine  = support->n_vertices ? mesh->numbers[support->vertices[0]] : PETSC_MAX_INT;
+  PetscInt       first = mine;
+  PetscFunctionBegin;
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &first, 1, MPIU_INT, MPI_MIN, PETSC_COMM_WORLD));
+  *any = (PetscBool)(first < PETSC_MAX_INT);
+  for (int i = 0; i < 3; i++)
+    X[i] = *any && mine == first ? mesh->coordinates[3 * support->vertices[0] + i] : PETSC_MIN_REAL;
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, X, 3, MPIU_REAL, MPIU_MAX, PETSC_COMM_WORLD));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* the axis of a support that prescribes one component only, evenly */
+static int glides_across(const Support *support)
+{
+  int axis = 0;
+  if (support->from_file) return NO_PLANE;
   for (int k = 0; k < 9; k++) {
-    if (support->gradient[k] != 0 || support->rotate[k % 3] != 0) return plane;
+    if (support->gradient[k] != 0 || support->rotate[k % 3] != 0) return NO_PLANE;
   }
   while (axis < 3 && support->mask != 1 << axis)
     axis++;
-  if (axis == 3) return plane;
-  plane.position = mesh->coordinates[3 * support->vertices[0] + axis];
-  for (PetscInt k = 1; k < support->n_vertices; k++) {
-    if (PetscAbsReal(mesh->coordinates[3 * support->vertices[k] + axis] - plane.position) > tolerance) return plane;
-  }
-  plane.axis = axis;
-  return plane;
+  return axis < 3 ? axis : NO_PLANE;
 }
 
-/* how many of these nodes; `held` n_vertices of the mesh, all false before and after */
-static PetscInt count_held(const Support *support, PetscInt n, const PetscInt *nodes, PetscBool *held)
+static PetscErrorCode find_plane(const Mesh *mesh, const Support *support, PetscReal tolerance, Plane *plane)
 {
-  PetscInt count = 0;
-  for (PetscInt k = 0; k < support->n_vertices; k++)
-    held[support->vertices[k]] = PETSC_TRUE;
-  for (PetscInt a = 0; a < n; a++)
-    count += held[nodes[a]];
-  for (PetscInt k = 0; k < support->n_vertices; k++)
-    held[support->vertices[k]] = PETSC_FALSE;
-  return count;
-}
-
-/* rank 0: adds to each vertex' mask (all of the mesh) the normal of the planes of symmetry that it lies in */
-PetscErrorCode symmetry_mask(const Physics *physics, const Interface *interface, PetscInt *mask)
-{
-  const Mesh     *mesh      = physics->mesh;
-  const PetscReal tolerance = SAME_PLANE * mesh_size(mesh);
-  PetscBool      *held;
-
+  const int axis = glides_across(support);
+  PetscBool flat;
   PetscFunctionBegin;
-  PetscCall(PetscCalloc1(mesh->n_vertices, &held));
-  for (PetscInt s = 0; s < physics->n_supports; s++) {
-    const Support  *wall  = &physics->supports[s];
-    const Plane     plane = plane_of(mesh, wall, tolerance);
-    PetscInt        n1;
-    PetscBool       both = PETSC_FALSE;
-    if (plane.axis == NO_PLANE) continue;
-    n1 = count_held(wall, interface->n1, interface->nodes, held);
-    if (!n1 || n1 == interface->n1) continue; /* a surface that lies in the plane is not cut by it */
-    for (PetscInt t = 0; t < physics->n_supports && !both; t++) {
-      const Support *other = &physics->supports[t];
-      const Plane    its   = plane_of(mesh, other, tolerance);
-      both = its.axis == plane.axis && PetscAbsReal(its.position - plane.position) <= tolerance &&
-             supports_agree(physics, wall, other, wall->vertices[0], plane.axis) &&
-             count_held(other, interface->n2, interface->nodes + interface->n1, held) > 0;
-    }
-    for (PetscInt k = 0; k < wall->n_vertices && both; k++)
-      mask[wall->vertices[k]] |= 1 << plane.axis;
+  PetscCall(first_place(mesh, support, plane->X, &flat));
+  for (PetscInt k = 0; k < support->n_vertices && flat && axis != NO_PLANE; k++)
+    flat = (PetscBool)!(PetscAbsReal(mesh->coordinates[3 * support->vertices[k] + axis] - plane->X[axis]) > tolerance);
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &flat, 1, MPIU_BOOL, MPI_LAND, PETSC_COMM_WORLD));
+  plane->axis = flat ? axis : NO_PLANE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Which nodes of an interface a support holds (rank 0), and how many of each side, on every rank. */
+static PetscErrorCode find_held(const Mesh *mesh, const Support *support, const Interface *interface, PetscInt held[],
+                                PetscInt counts[2])
+{
+  PetscInt *here;
+  PetscFunctionBegin;
+  PetscCall(PetscCalloc1(mesh->n_vertices, &here));
+  for (PetscInt k = 0; k < support->n_vertices; k++)
+    here[support->vertices[k]] = 1;
+  PetscCall(PetscSFBcastBegin(interface->pieces, MPIU_INT, here, held, MPI_REPLACE));
+  PetscCall(PetscSFBcastEnd(interface->pieces, MPIU_INT, here, held, MPI_REPLACE));
+  PetscCall(PetscFree(here));
+  counts[0] = counts[1] = 0;
+  for (PetscInt k = 0; k < interface->n1 + interface->n2; k++)
+    counts[k >= interface->n1] += held[k];
+  PetscCallMPI(MPI_Bcast(counts, 2, MPIU_INT, 0, PETSC_COMM_WORLD));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Is a wall that holds some of the non-mortar nodes continued by one that holds mortar nodes? */
+static PetscErrorCode find_other(const Physics *physics, const Interface *interface, PetscInt wall, const Plane planes[],
+                                 PetscReal tolerance, PetscBool *both)
+{
+  const Plane *plane = &planes[wall];
+  PetscInt    *held, counts[2];
+  PetscFunctionBegin;
+  *both = PETSC_FALSE;
+  PetscCall(PetscMalloc1(interface->n1 + interface->n2, &held));
+  for (PetscInt t = 0; t < physics->n_supports && !*both; t++) {
+    if (planes[t].axis != plane->axis || PetscAbsReal(planes[t].X[plane->axis] - plane->X[plane->axis]) > tolerance) continue;
+    if (!supports_agree(physics, &physics->supports[wall], &physics->supports[t], -1, plane->X, plane->axis)) continue;
+    PetscCall(find_held(physics->mesh, &physics->supports[t], interface, held, counts));
+    *both = (PetscBool)(counts[1] > 0);
   }
   PetscCall(PetscFree(held));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* adds to each non-mortar node's mask (rank 0) the normal of the planes of symmetry that it lies in */
+PetscErrorCode symmetry_mask(const Physics *physics, const Interface *interface, PetscInt mask[])
+{
+  const Mesh *mesh = physics->mesh;
+  PetscReal   tolerance = 0;
+  PetscInt   *held, n1 = interface->n1;
+  Plane      *planes;
+
+  PetscFunctionBegin;
+  PetscCall(mesh_size(mesh, &tolerance));
+  tolerance *= SAME_PLANE;
+  PetscCallMPI(MPI_Bcast(&n1, 1, MPIU_INT, 0, PETSC_COMM_WORLD));
+  PetscCall(PetscMalloc2(interface->n1 + interface->n2, &held, physics->n_supports, &planes));
+  for (PetscInt s = 0; s < physics->n_supports; s++)
+    PetscCall(find_plane(mesh, &physics->supports[s], tolerance, &planes[s]));
+  for (PetscInt s = 0; s < physics->n_supports; s++) {
+    PetscInt  counts[2];
+    PetscBool both;
+    if (planes[s].axis == NO_PLANE) continue;
+    PetscCall(find_held(mesh, &physics->supports[s], interface, held, counts));
+    if (!counts[0] || counts[0] == n1) continue; /* a surface that lies in the plane is not cut by it */
+    PetscCall(find_other(physics, interface, s, planes, tolerance, &both));
+    for (PetscInt a = 0; a < interface->n1 && both; a++)
+      mask[a] |= held[a] << planes[s].axis;
+  }
+  PetscCall(PetscFree2(held, planes));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

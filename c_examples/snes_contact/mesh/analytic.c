@@ -61,28 +61,31 @@ PetscErrorCode analytic_create(Scene *scene, const char *body, Mesh *mesh)
   surface->analytic = PETSC_TRUE;
   surface->shape    = shape;
   surface->radius   = radius;
-  surface->frame    = mesh->n_vertices;
-  PetscCall(mesh_append(mesh, mesh->dimension + 1, frame, 1, flat ? TRI3 : TET4, cell));
+  surface->frame    = mesh->n_all_vertices;
+  PetscCall(mesh_append(mesh, mesh->dimension + 1, NULL, frame, 1, NULL, flat ? TRI3 : TET4, cell));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* Once all bodies are read: frames as long as the meshed bodies are large, planes and cylinders with their point where these
  * are. A frame that is short, or far away, turns by rounding, which moves the surface under them. */
-void analytic_fit(Mesh *mesh)
+PetscErrorCode analytic_fit(Mesh *mesh)
 {
   Extent    extent = extent_of_nothing();
   PetscReal size;
+  PetscFunctionBegin;
   for (PetscInt b = 0; b < mesh->n_bodies; b++) {
     const Body *body = &mesh->bodies[b];
-    for (PetscInt v = body->first_vertex; v < body->end_vertex && !body->analytic; v++)
+    for (PetscInt v = body->first_here; v < body->end_here && !body->analytic; v++)
       extent_add(&extent, mesh->coordinates + 3 * v);
   }
+  PetscCall(extent_of_all(&extent));
   size = extent_longest(&extent);
-  if (size == 0) return;
+  if (size == 0) PetscFunctionReturn(PETSC_SUCCESS);
   for (PetscInt s = 0; s < mesh->n_surfaces; s++) {
     const Surface *surface = &mesh->surfaces[s];
-    PetscReal     *frame   = surface->analytic ? mesh->coordinates + 3 * surface->frame : NULL, along = 0, axes[9];
-    if (!frame) continue;
+    const PetscInt first   = surface->analytic ? mesh_vertex_here(mesh, surface->frame) : -1;
+    PetscReal     *frame   = mesh->coordinates + 3 * first, along = 0, axes[9];
+    if (first < 0) continue;
     for (int k = 0; k < 3 * mesh->dimension; k++)
       axes[k] = frame[3 + k] - frame[k % 3];
     for (int i = 0; i < 3; i++)
@@ -95,4 +98,5 @@ void analytic_fit(Mesh *mesh)
     for (int k = 0; k < 3 * mesh->dimension; k++)
       frame[3 + k] = frame[k % 3] + PetscMax(size, PetscAbsReal(surface->radius)) * axes[k];
   }
+  PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -30,3 +30,11 @@ PetscReal extent_diagonal_squared(const Extent *extent)
     squared += PetscSqr(extent->high[i] - extent->low[i]);
   return squared;
 }
+
+PetscErrorCode extent_of_all(Extent *extent)
+{
+  PetscFunctionBegin;
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, extent->low, 3, MPIU_REAL, MPIU_MIN, PETSC_COMM_WORLD));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, extent->high, 3, MPIU_REAL, MPIU_MAX, PETSC_COMM_WORLD));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

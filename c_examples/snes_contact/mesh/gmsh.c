@@ -98,8 +98,8 @@ static PetscErrorCode append_cells(Scene *scene, const char *body, DM dm, DMLabe
   /* the vertices go with the first kind; the second one refers to them by numbers relative to its own (empty) block */
   for (PetscInt k = 0; k < cell_nodes(KINDS[d == 3][0]) * n_cells[0]; k++)
     cells[0][k] -= n_vertices;
-  PetscCall(mesh_append(mesh, n_vertices, compact, n_cells[1], KINDS[d == 3][1], cells[1]));
-  PetscCall(mesh_append(mesh, 0, NULL, n_cells[0], KINDS[d == 3][0], cells[0]));
+  PetscCall(mesh_append(mesh, n_vertices, NULL, compact, n_cells[1], NULL, KINDS[d == 3][1], cells[1]));
+  PetscCall(mesh_append(mesh, 0, NULL, NULL, n_cells[0], NULL, KINDS[d == 3][0], cells[0]));
   PetscCall(PetscFree3(cells[0], cells[1], compact));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

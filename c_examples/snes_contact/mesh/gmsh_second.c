@@ -106,7 +106,7 @@ static PetscErrorCode append_cells(Scene *scene, const char *body, const GmshTex
       }
     }
     if (cell == cells) continue;
-    PetscCall(mesh_append(mesh, appended ? 0 : n_vertices, coordinates, counts[kind], (CellKind)kind, cells));
+    PetscCall(mesh_append(mesh, appended ? 0 : n_vertices, NULL, coordinates, counts[kind], NULL, (CellKind)kind, cells));
     appended = 1;
   }
   PetscCall(PetscFree2(coordinates, cells));

@@ -24,7 +24,7 @@ static PetscErrorCode append_vertices(Scene *scene, const char *body, DM dm, Mes
       compact[3 * (v - vStart) + i] = PetscRealPart(coordinates[at + i]);
   }
   PetscCall(VecRestoreArrayRead(vector, &coordinates));
-  PetscCall(mesh_append(shell, vEnd - vStart, compact, 0, TET4, NULL));
+  PetscCall(mesh_append(shell, vEnd - vStart, NULL, compact, 0, NULL, TET4, NULL));
   PetscCall(PetscFree(compact));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

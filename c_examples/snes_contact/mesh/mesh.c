@@ -1,4 +1,4 @@
-/* The mesh's arrays: what the readers of one body add to, and its rotation as a whole. */
+/* The arrays of a piece of the mesh: what the readers of one body add to, and its rotation as a whole. */
 #include "mesh/mesh.h"
 
 CellKind mesh_cell_kind(const Mesh *mesh, PetscInt cell)
@@ -32,24 +32,31 @@ void mesh_turn_cell(const Mesh *mesh, CellKind kind, PetscInt vertices[])
   }
 }
 
-PetscErrorCode mesh_append(Mesh *mesh, PetscInt n_vertices, const PetscReal *coordinates, PetscInt n_cells,
-                           CellKind kind, const PetscInt *cells)
+PetscErrorCode mesh_append(Mesh *mesh, PetscInt n_vertices, const PetscInt *numbers, const PetscReal *coordinates,
+                           PetscInt n_cells, const PetscInt *cell_numbers, CellKind kind, const PetscInt *cells)
 {
   const PetscInt nodes = cell_nodes(kind);
   const PetscInt used = mesh->n_cells ? mesh->cell_offsets[mesh->n_cells] : 0;
   PetscFunctionBegin;
+  PetscCall(PetscRealloc(sizeof(PetscInt) * (size_t)(mesh->n_vertices + n_vertices), &mesh->numbers));
   PetscCall(PetscRealloc(sizeof(PetscReal) * (size_t)(3 * (mesh->n_vertices + n_vertices)), &mesh->coordinates));
   PetscCall(PetscRealloc(sizeof(PetscInt) * (size_t)(mesh->n_cells + n_cells + 1), &mesh->cell_offsets));
+  PetscCall(PetscRealloc(sizeof(PetscInt) * (size_t)(mesh->n_cells + n_cells), &mesh->cell_numbers));
   PetscCall(PetscRealloc(sizeof(PetscInt) * (size_t)(mesh->n_cells + n_cells), &mesh->cell_body));
   PetscCall(PetscRealloc(sizeof(PetscInt) * (size_t)(used + n_cells * nodes), &mesh->cell_vertices));
   PetscCall(PetscArraycpy(mesh->coordinates + 3 * mesh->n_vertices, coordinates, 3 * n_vertices));
+  for (PetscInt v = 0; v < n_vertices; v++)
+    mesh->numbers[mesh->n_vertices + v] = mesh->n_all_vertices + (numbers ? numbers[v] : v);
   for (PetscInt k = 0; k < n_cells * nodes; k++)
     mesh->cell_vertices[used + k] = cells[k] + mesh->n_vertices;
   for (PetscInt c = 0; c < n_cells; c++) {
+    mesh->cell_numbers[mesh->n_cells + c] = mesh->n_all_cells + (cell_numbers ? cell_numbers[c] : c);
     mesh->cell_offsets[mesh->n_cells + c] = used + c * nodes;
     mesh->cell_body[mesh->n_cells + c]    = mesh->n_bodies; /* the body being read */
     mesh_turn_cell(mesh, kind, mesh->cell_vertices + used + c * nodes);
   }
+  if (!numbers) mesh->n_all_vertices += n_vertices;
+  if (!cell_numbers) mesh->n_all_cells += n_cells;
   mesh->n_cells += n_cells;
   mesh->n_vertices += n_vertices;
   mesh->cell_offsets[mesh->n_cells] = used + n_cells * nodes;
@@ -91,22 +98,50 @@ PetscErrorCode mesh_rotate(Mesh *mesh)
   PetscFunctionBegin;
   for (PetscInt v = 0; v < mesh->n_vertices; v++)
     mesh_rotate_vector(mesh, mesh->coordinates + 3 * v);
+  for (PetscInt b = 0; b < mesh->n_bodies; b++) {
+    for (PetscInt v = 0; v < mesh->bodies[b].shell.n_vertices; v++)
+      mesh_rotate_vector(mesh, mesh->bodies[b].shell.coordinates + 3 * v);
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode surface_destroy(Surface *surface)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscFree2(surface->offsets, surface->vertices));
+  PetscCall(PetscFree(surface->numbers));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode mesh_forget_pieces(Mesh *mesh)
+{
+  PetscFunctionBegin;
+  for (PetscInt s = 0; s < mesh->n_surfaces; s++)
+    PetscCall(surface_destroy(&mesh->surfaces[s]));
+  PetscCall(PetscFree(mesh->surfaces));
+  PetscCall(PetscFree(mesh->numbers));
+  PetscCall(PetscFree(mesh->coordinates));
+  PetscCall(PetscFree(mesh->cell_numbers));
+  PetscCall(PetscFree(mesh->cell_offsets));
+  PetscCall(PetscFree(mesh->cell_vertices));
+  PetscCall(PetscFree(mesh->cell_body));
+  PetscCall(PetscFree(mesh->owners));
+  PetscCall(PetscSFDestroy(&mesh->shared));
+  mesh->n_vertices = mesh->n_cells = mesh->n_surfaces = 0;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode mesh_destroy(Mesh *mesh)
 {
   PetscFunctionBegin;
-  for (PetscInt s = 0; s < mesh->n_surfaces; s++)
-    PetscCall(PetscFree2(mesh->surfaces[s].offsets, mesh->surfaces[s].vertices));
-  PetscCall(PetscFree(mesh->surfaces));
+  PetscCall(mesh_forget_pieces(mesh));
+  for (PetscInt b = 0; mesh->bodies && b < mesh->n_bodies; b++) { /* of rank 0 */
+    PetscCall(PetscFree2(mesh->bodies[b].shell.offsets, mesh->bodies[b].shell.vertices));
+    PetscCall(PetscFree(mesh->bodies[b].shell.coordinates));
+  }
   PetscCall(PetscFree(mesh->bodies));
-  PetscCall(PetscFree(mesh->coordinates));
-  PetscCall(PetscFree(mesh->cell_offsets));
-  PetscCall(PetscFree(mesh->cell_vertices));
-  PetscCall(PetscFree(mesh->cell_body));
   PetscCall(PetscFree(mesh->points));
-  PetscCall(PetscFree2(mesh->original, mesh->here));
+  PetscCall(PetscFree3(mesh->original, mesh->here, mesh->original_cell));
   PetscCall(DMDestroy(&mesh->dm));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

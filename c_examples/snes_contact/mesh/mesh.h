@@ -1,6 +1,8 @@
-/* The scene's geometry: all bodies in one list of vertices and cells, with named surfaces, on rank 0 only. From it come the
- * distributed DMPlex (plex.c), the contact surfaces, and the files for ParaView. A vertex is any node of a cell, those in
- * the middle of edges, faces and cells too. */
+/* The scene's geometry: bodies of vertices and cells, with named surfaces. Each rank reads a piece of it: some cells, their
+ * vertices, and their faces on the surfaces. Boxes and converted files are read by all ranks, a range of cells each; other files
+ * and analytic bodies by rank 0. What is numbered (vertices, cells, faces of a surface) has the numbers that it has on one rank.
+ * Vertices on the border of pieces are in each of them. From the pieces come the distributed DMPlex (plex.c) and the contact
+ * surfaces; then they are forgotten. A vertex is any node of a cell, those in the middle of edges, faces and cells too. */
 #ifndef SNES_CONTACT_MESH_H
 #define SNES_CONTACT_MESH_H
 #include "scene/petsc_compat.h"
@@ -13,42 +15,64 @@ typedef struct {
   char      name[2 * NAME_LENGTH]; /* "block.zmin", or a name of `surfaces` */
   PetscInt  n_faces;
   PetscInt *offsets;  /* n_faces + 1 */
-  PetscInt *vertices; /* of its faces, in the order of cell_face() */
+  PetscInt *vertices; /* of its faces, in the order of cell_face(): those of the piece; of a surface gathered, its own nodes */
+  PetscInt *numbers;  /* of its faces; NULL: they follow each other */
   PetscBool inner;    /* lies inside a body: good for supports only */
   PetscBool analytic; /* a plane, sphere or cylinder, a line or circle, without faces: good for a mortar side only */
   PetscInt  shape;    /* STICKSLIP_SHAPE_... */
   PetscReal radius;
-  PetscInt  frame; /* the first of its four vertices, in the plane three */
+  PetscInt  frame; /* number of the first of its four vertices, in the plane three */
 } Surface;
+
+/* The surfaces of a rigid body, to be drawn: its vertices, and faces by these. */
+typedef struct {
+  PetscInt   n_vertices, n_faces, *offsets, *vertices;
+  PetscReal *coordinates;
+} Shell;
 
 typedef struct {
   char      name[NAME_LENGTH];
-  PetscBool analytic; /* rigid, one cell without stiffness: its frame */
-  PetscBool rigid;    /* moves with a reference point, see rigid.c: its first vertex, and the second one beside it */
-  PetscInt  first_vertex, end_vertex; /* its range of vertices (rank 0) */
-  PetscInt  first_surface, end_surface; /* of those that come with it (rank 0) */
+  PetscBool analytic, from_gmsh;      /* rigid, one cell without stiffness: its frame; from a Gmsh file */
+  PetscBool rigid;                    /* moves with a reference point, see rigid.c: its first vertex, and the second one beside it */
+  PetscInt  first_vertex, end_vertex; /* numbers of its vertices, known to every rank */
+  PetscInt  first_cell;               /* number of its first cell */
+  PetscInt  first_here, end_here;     /* its vertices in this rank's piece */
+  Shell     shell;                    /* of a rigid body, on rank 0 */
 } Body;
 
+/* What a rank holds of the mesh, in bytes: while it is read, and during the run. */
 typedef struct {
-  PetscMPIInt rank;
+  PetscLogDouble read, kept;
+} MeshBytes;
+
+typedef struct {
+  PetscMPIInt rank, size;
   Space       space;
   PetscInt    dimension; /* of cells; faces have one less */
-  PetscInt   n_bodies;
-  Body      *bodies; /* known to every rank; everything below, but for the DMPlex, on rank 0 only */
+  PetscInt    n_bodies;
+  Body       *bodies;
+  PetscInt    n_all_vertices, n_all_cells; /* of all ranks */
+  /* this rank's piece, up to plex_distribute() and what comes directly after it */
   PetscInt   n_vertices, n_cells, n_surfaces;
+  PetscInt  *numbers;       /* of its vertices, increasing */
   PetscReal *coordinates;   /* 3 per vertex; in the plane the third is 0 */
+  PetscInt  *cell_numbers;  /* increasing */
   PetscInt  *cell_offsets;  /* n_cells + 1 */
   PetscInt  *cell_vertices; /* in VTK's order */
   PetscInt  *cell_body;
-  Surface   *surfaces;
+  Surface   *surfaces;      /* the same ones on every rank */
+  PetscSF    shared;        /* from the vertices of all pieces to those here that another rank owns */
+  PetscInt  *owners;        /* directory: of this rank's range of numbers, the owner's rank and the vertex in its piece */
   PetscReal  rotation[9]; /* of the whole scene, row-major; identity unless `frame` says otherwise */
   PetscBool  rotated;
   /* plex.c: each vertex is a point of the DMPlex: one of its vertices, or the edge, face or cell that it is in the middle
-   * of. Before the mesh is distributed: of all vertices, on rank 0. Afterwards: of those here, by increasing points. */
+   * of. Before the mesh is distributed: of the piece's vertices. Afterwards: of those here, by increasing points. */
   DM        dm;
   PetscInt  n_points, *points;
-  PetscInt *original; /* mesh vertex of each vertex here */
+  PetscInt *original; /* number of each vertex here */
   PetscInt *here;     /* of each point: the number of its vertex here, or -1 */
+  PetscInt *original_cell; /* number of each cell here */
+  MeshBytes bytes;
 } Mesh;
 
 /* A box along the axes around some points. */
@@ -61,19 +85,47 @@ void      extent_add(Extent *extent, const PetscReal x[3]);
 PetscReal extent_longest(const Extent *extent); /* its longest edge; 0 of nothing */
 PetscReal extent_diagonal_squared(const Extent *extent);
 
-PetscErrorCode mesh_create(Scene *scene, Mesh *mesh); /* bodies and surfaces, in the axes of the scene file */
-PetscErrorCode mesh_rotate(Mesh *mesh);               /* then into the rotated frame, when all selections are done */
+PetscErrorCode extent_of_all(Extent *extent); /* of all ranks */
+
+/* bodies.c: bodies and surfaces, in the axes of the scene file */
+PetscErrorCode mesh_create(Scene *scene, Mesh *mesh);
+/* mesh.c */
+PetscErrorCode mesh_rotate(Mesh *mesh); /* into the rotated frame, when all selections are done */
+PetscErrorCode mesh_forget_pieces(Mesh *mesh);
 PetscErrorCode mesh_destroy(Mesh *mesh);
 void           mesh_rotate_vector(const Mesh *mesh, PetscReal v[3]);
 CellKind       mesh_cell_kind(const Mesh *mesh, PetscInt cell);
 CellKind       mesh_face_kind(const Mesh *mesh, const Surface *surface, PetscInt face);
 
+/* measure.c: bytes of the piece; into mesh->bytes.kept those of the distributed mesh */
+PetscLogDouble mesh_bytes_of_piece(const Mesh *mesh);
+PetscErrorCode mesh_measure(Mesh *mesh);
+
+/* lookup.c; the nearest vertex is known to every rank, by its number */
 const Surface *mesh_surface(Scene *scene, const Mesh *mesh, const char *map, const char *key, const char *name);
 PetscInt       mesh_body(Scene *scene, const Mesh *mesh, const char *map, const char *key, const char *name);
-PetscInt       mesh_nearest_vertex(Scene *scene, const Mesh *mesh, const char *map);
+PetscErrorCode mesh_nearest_vertex(Scene *scene, const Mesh *mesh, const char *map, PetscInt *number);
+PetscInt       mesh_body_of(const Mesh *mesh, PetscInt number);     /* of a vertex */
+PetscInt       mesh_vertex_here(const Mesh *mesh, PetscInt number); /* in the piece; -1: it is not */
+
+/* pieces.c: who owns the vertices of the pieces */
+PetscErrorCode pieces_share(Mesh *mesh);
+/* all copies of a vertex get the least, largest ... of theirs; the owner's */
+PetscErrorCode pieces_unite(const Mesh *mesh, PetscInt values[], MPI_Op operation);
+PetscErrorCode pieces_copy(const Mesh *mesh, PetscInt width, PetscReal values[]);
+/* from the pieces' vertices to those of these numbers, each from its owner */
+PetscErrorCode pieces_fetch_create(const Mesh *mesh, PetscInt n, const PetscInt numbers[], PetscSF *sf);
+/* from entries that all ranks keep of ranges of numbers, so many here, to those of these numbers */
+PetscErrorCode directory_create(const Mesh *mesh, PetscInt n, const PetscInt numbers[], PetscInt *n_here, PetscSF *sf);
+
+/* gather.c: on rank 0 a surface of all pieces, whose vertices are its own nodes, numbered as they are met; their numbers in the
+ * mesh and coordinates. Other ranks get an empty one. */
+PetscErrorCode surface_gather(const Mesh *mesh, const Surface *surface, Surface *whole, PetscInt *n_nodes, PetscInt **nodes);
+PetscErrorCode surface_destroy(Surface *surface);
 
 /* plex.c */
 PetscErrorCode plex_create(Mesh *mesh);
+/* vertices of the piece; `values` per vertex, or NULL for one `value` for all */
 PetscErrorCode plex_label_vertices(const Mesh *mesh, const char *label, PetscInt n, const PetscInt *vertices,
                                    const PetscInt *values, PetscInt value);
 PetscErrorCode plex_label_faces(const Mesh *mesh, const char *label, const Surface *surface);
@@ -88,10 +140,11 @@ PetscErrorCode plex_face_nodes(const Mesh *mesh, PetscInt face, PetscInt *n, Pet
 void     trees_join(PetscInt parent[], PetscInt a, PetscInt b);
 PetscInt trees_number(PetscInt n, PetscInt parent[]); /* from trees to numbers from 0; returns how many there are */
 
-/* for the readers of one body: box.c, gmsh.c, analytic.c. Plane cells may turn either way; mesh_append() turns them. */
+/* mesh.c, for the readers of one body: box.c, gmsh.c, analytic.c. Plane cells may turn either way; mesh_append() turns them.
+ * A piece of a body that others have pieces of gives numbers, in the body; else they follow those that there are. */
 void           mesh_turn_cell(const Mesh *mesh, CellKind kind, PetscInt vertices[]);
-PetscErrorCode mesh_append(Mesh *mesh, PetscInt n_vertices, const PetscReal *coordinates, PetscInt n_cells,
-                           CellKind kind, const PetscInt *cells);
+PetscErrorCode mesh_append(Mesh *mesh, PetscInt n_vertices, const PetscInt *numbers, const PetscReal *coordinates,
+                           PetscInt n_cells, const PetscInt *cell_numbers, CellKind kind, const PetscInt *cells);
 PetscErrorCode mesh_add_surface(Mesh *mesh, const char *name, PetscInt max_faces, Surface **surface);
 void           surface_push(Surface *surface, PetscInt n, const PetscInt vertices[]);
 PetscErrorCode box_create(Scene *scene, const char *body, Mesh *mesh);
@@ -104,6 +157,20 @@ typedef struct {
   int       axis;   /* along which a cylinder stays straight; -1: none */
   PetscBool closed; /* a full circle: the last layer of vertices along y is the first */
 } BoxShape;
+
+/* A structured box (box_lattice.c). */
+typedef struct {
+  CellKind kind;
+  PetscInt order;
+  PetscInt n[3];      /* cells, each split where they are simplices; 1 along z in the plane */
+  PetscInt layers[3]; /* of lattice points; those of a full circle meet where they began; 1 along z in the plane */
+} Box;
+
+PetscInt       box_pieces(const Box *box); /* cells that each hexahedron or quadrilateral is split into */
+PetscInt       box_vertices(const Box *box);
+void           box_point(const Box *box, PetscInt number, PetscInt at[3]);
+/* numbers of the vertices of the cells of hexahedra (quadrilaterals) first to end */
+void           box_cells(const Box *box, PetscInt first, PetscInt end, PetscInt cells[]);
 
 void box_shape_read(Scene *scene, const Space *space, const char *body, const PetscInt n[3], PetscReal *const planes[3],
                     BoxShape *shape);
@@ -127,10 +194,10 @@ PetscErrorCode gmsh_open(Scene *scene, const char *body, PetscInt dimension, cha
 PetscErrorCode gmsh_corners(DM dm, PetscInt cell, PetscInt *n, PetscInt vertices[8]);
 PetscErrorCode gmsh_physical_name(DM dm, PetscInt label, PetscInt height, const char **name, PetscBool *is);
 PetscErrorCode analytic_create(Scene *scene, const char *body, Mesh *mesh);
-void           analytic_fit(Mesh *mesh);
-/* rigid.c, and what it reads surfaces without cells with: gmsh_shell.c, stl.c, orient.c */
+PetscErrorCode analytic_fit(Mesh *mesh);
+/* rigid.c, on every rank, and what it reads surfaces without cells with: gmsh_shell.c, stl.c, orient.c */
 PetscBool      rigid_is_analytic(Scene *scene, const char *body);
-PetscErrorCode rigid_create(Scene *scene, const char *body, Mesh *mesh);
+PetscErrorCode rigid_create(Scene *scene, Body *body, Mesh *mesh);
 PetscErrorCode gmsh_shell_create(Scene *scene, const char *body, Mesh *shell);
 PetscErrorCode stl_create(Scene *scene, const char *body, Mesh *shell);
 PetscErrorCode orient_outward(Scene *scene, const char *body, const Mesh *shell);

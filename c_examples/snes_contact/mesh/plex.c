@@ -1,9 +1,9 @@
-/* The mesh as one distributed DMPlex: rank 0 builds it with all its labels, PETSc partitions and sends it. Cells are
- * described by their corners; PETSc adds edges and faces, of which those with a node in their middle are vertices of the
- * mesh, too, with coordinates. */
+/* The mesh as one distributed DMPlex: each rank builds that of its piece with all labels, which share the vertices on their
+ * borders; PETSc partitions and sends it. Cells are described by their corners; PETSc adds edges and faces, of which those with a
+ * node in their middle are vertices of the mesh, too, with coordinates. */
 #include "mesh/mesh.h"
 
-/* rank 0: in the order of the mesh those that are corners; `number` -1: a node in the middle of an edge, a face or a cell */
+/* in the order of the piece those that are corners; `number` -1: a node in the middle of an edge, a face or a cell */
 static PetscInt number_corners(const Mesh *mesh, PetscInt number[])
 {
   PetscInt n = 0;
@@ -23,6 +23,37 @@ static DMPolytopeType polytope(CellKind kind)
 {
   if (cell_dimension(kind) == 2) return cell_is_simplex(kind) ? DM_POLYTOPE_TRIANGLE : DM_POLYTOPE_QUADRILATERAL;
   return cell_is_simplex(kind) ? DM_POLYTOPE_TETRAHEDRON : DM_POLYTOPE_HEXAHEDRON;
+}
+
+/* Corners that another rank owns are points of its. */
+static PetscErrorCode share_corners(const Mesh *mesh, const PetscInt number[], DM dm)
+{
+  PetscInt           n_leaves, n = 0, n_points, *point, *there, *local;
+  const PetscInt    *leaves;
+  const PetscSFNode *owners;
+  PetscSFNode       *remote;
+  PetscSF            sf;
+  PetscFunctionBegin;
+  if (mesh->size == 1) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(DMPlexGetChart(dm, NULL, &n_points));
+  PetscCall(PetscMalloc2(mesh->n_vertices, &point, mesh->n_vertices, &there));
+  for (PetscInt v = 0; v < mesh->n_vertices; v++)
+    point[v] = there[v] = number[v] < 0 ? -1 : mesh->n_cells + number[v];
+  PetscCall(PetscSFBcastBegin(mesh->shared, MPIU_INT, point, there, MPI_REPLACE));
+  PetscCall(PetscSFBcastEnd(mesh->shared, MPIU_INT, point, there, MPI_REPLACE));
+  PetscCall(PetscSFGetGraph(mesh->shared, NULL, &n_leaves, &leaves, &owners));
+  PetscCall(PetscMalloc1(n_leaves, &local));
+  PetscCall(PetscMalloc1(n_leaves, &remote));
+  for (PetscInt k = 0; k < n_leaves; k++) {
+    const PetscInt v = leaves ? leaves[k] : k;
+    if (number[v] < 0) continue;
+    local[n]    = point[v];
+    remote[n++] = (PetscSFNode){.rank = owners[k].rank, .index = there[v]};
+  }
+  PetscCall(DMGetPointSF(dm, &sf));
+  PetscCall(PetscSFSetGraph(sf, n_points, n, local, PETSC_OWN_POINTER, remote, PETSC_OWN_POINTER));
+  PetscCall(PetscFree2(point, there));
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* cells, by their corners, and these corners */
@@ -52,6 +83,7 @@ static PetscErrorCode create_linear(const Mesh *mesh, const PetscInt number[], P
     PetscCall(DMPlexSetCellType(*dm, mesh->n_cells + v, DM_POLYTOPE_POINT));
   PetscCall(DMPlexSymmetrize(*dm));
   PetscCall(DMPlexStratify(*dm));
+  PetscCall(share_corners(mesh, number, *dm));
   PetscCall(DMSetCoordinateDim(*dm, 3));
   PetscCall(PetscMalloc1(3 * n_corners, &coordinates));
   for (PetscInt v = 0; v < mesh->n_vertices; v++) {
@@ -62,7 +94,7 @@ static PetscErrorCode create_linear(const Mesh *mesh, const PetscInt number[], P
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* rank 0: the point of each vertex of the mesh */
+/* the point of each vertex of the piece */
 static PetscErrorCode find_points(Mesh *mesh, const PetscInt number[])
 {
   PetscInt vStart;
@@ -139,7 +171,7 @@ PetscErrorCode plex_create(Mesh *mesh)
   PetscCall(find_points(mesh, number));
   PetscCall(PetscFree(number));
   quadratic = (PetscBool)(n_corners < mesh->n_vertices);
-  PetscCallMPI(MPI_Bcast(&quadratic, 1, MPIU_BOOL, 0, PETSC_COMM_WORLD));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &quadratic, 1, MPIU_BOOL, MPI_LOR, PETSC_COMM_WORLD));
   if (quadratic) PetscCall(set_coordinates(mesh));
   PetscCall(DMCreateLabel(mesh->dm, "body"));
   PetscCall(DMGetLabel(mesh->dm, "body", &body));
@@ -178,43 +210,59 @@ PetscErrorCode plex_label_faces(const Mesh *mesh, const char *name, const Surfac
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Partition, send, and remember which vertices of the mesh are here, and at which points. */
+/* from each point to those of the distributed mesh */
+static PetscErrorCode send(PetscSF migration, PetscInt n, PetscInt **values)
+{
+  PetscInt *received;
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(n, &received));
+  PetscCall(PetscSFBcastBegin(migration, MPIU_INT, *values, received, MPI_REPLACE));
+  PetscCall(PetscSFBcastEnd(migration, MPIU_INT, *values, received, MPI_REPLACE));
+  PetscCall(PetscFree(*values));
+  *values = received;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Partition, send, and remember which vertices and cells of the mesh are here, and at which points. */
 PetscErrorCode plex_distribute(Mesh *mesh)
 {
   DM       distributed = NULL;
   PetscSF  migration   = NULL;
-  PetscInt pStart, pEnd, qStart, qEnd, *number, *received;
+  PetscInt pEnd, cEnd, *number, *cell;
 
   PetscFunctionBegin;
-  PetscCall(DMPlexGetChart(mesh->dm, &pStart, &pEnd));
-  PetscCall(PetscMalloc1(pEnd - pStart, &number));
-  for (PetscInt p = pStart; p < pEnd; p++)
-    number[p - pStart] = -1;
+  PetscCall(DMPlexGetChart(mesh->dm, NULL, &pEnd));
+  PetscCall(PetscMalloc1(pEnd, &number));
+  PetscCall(PetscMalloc1(pEnd, &cell));
+  for (PetscInt p = 0; p < pEnd; p++) {
+    number[p] = -1;
+    cell[p]   = p < mesh->n_cells ? mesh->cell_numbers[p] : -1;
+  }
   for (PetscInt v = 0; v < mesh->n_points; v++)
-    number[mesh->points[v] - pStart] = v;
+    number[mesh->points[v]] = mesh->numbers[v];
   PetscCall(PetscFree(mesh->points));
   PetscCall(DMPlexDistribute(mesh->dm, 0, &migration, &distributed));
   if (distributed) {
-    PetscCall(DMPlexGetChart(distributed, &qStart, &qEnd));
-    PetscCall(PetscMalloc1(qEnd - qStart, &received));
-    PetscCall(PetscSFBcastBegin(migration, MPIU_INT, number, received, MPI_REPLACE));
-    PetscCall(PetscSFBcastEnd(migration, MPIU_INT, number, received, MPI_REPLACE));
+    PetscCall(DMPlexGetChart(distributed, NULL, &pEnd));
+    PetscCall(send(migration, pEnd, &number));
+    PetscCall(send(migration, pEnd, &cell));
     PetscCall(PetscSFDestroy(&migration));
-    PetscCall(PetscFree(number));
     PetscCall(DMDestroy(&mesh->dm));
     mesh->dm = distributed;
-    number   = received;
   }
-  PetscCall(DMPlexGetChart(mesh->dm, &pStart, &pEnd));
+  PetscCall(DMPlexGetHeightStratum(mesh->dm, 0, NULL, &cEnd));
   PetscCall(PetscMalloc1(pEnd, &mesh->points));
-  PetscCall(PetscMalloc2(pEnd, &mesh->original, pEnd, &mesh->here));
+  PetscCall(PetscMalloc3(pEnd, &mesh->original, pEnd, &mesh->here, cEnd, &mesh->original_cell));
+  PetscCall(PetscArraycpy(mesh->original_cell, cell, cEnd));
   mesh->n_points = 0;
-  for (PetscInt p = pStart; p < pEnd; p++) {
+  for (PetscInt p = 0; p < pEnd; p++) {
     mesh->here[p] = number[p] < 0 ? -1 : mesh->n_points;
     if (number[p] < 0) continue;
     mesh->points[mesh->n_points]     = p;
     mesh->original[mesh->n_points++] = number[p];
   }
   PetscCall(PetscFree(number));
+  PetscCall(PetscFree(cell));
+  PetscCall(mesh_measure(mesh));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

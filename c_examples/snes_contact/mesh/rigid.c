@@ -62,12 +62,13 @@ static PetscErrorCode append_vertices(Mesh *mesh, const PetscReal point[3], cons
     cell[2] = mesh->dimension == 3 ? one : 1;
     cell[3] = two;
   }
-  PetscCall(mesh_append(mesh, n + 2, coordinates, n_cells, mesh->dimension == 3 ? TET4 : QUAD4, cells));
+  PetscCall(mesh_append(mesh, n + 2, NULL, coordinates, n_cells, NULL, mesh->dimension == 3 ? TET4 : QUAD4, cells));
   PetscCall(PetscFree2(coordinates, cells));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode append_surfaces(Mesh *mesh, const Mesh *shell, const PetscInt number[], PetscInt first)
+/* `first`: the first of the body's vertices in the piece; `frame`: its number */
+static PetscErrorCode append_surfaces(Mesh *mesh, const Mesh *shell, const PetscInt number[], PetscInt first, PetscInt frame)
 {
   PetscFunctionBegin;
   for (PetscInt s = 0; s < shell->n_surfaces; s++) {
@@ -78,7 +79,7 @@ static PetscErrorCode append_surfaces(Mesh *mesh, const Mesh *shell, const Petsc
     to->analytic = from->analytic;
     to->shape    = from->shape;
     to->radius   = from->radius;
-    if (to->analytic) to->frame = first + number[from->frame];
+    if (to->analytic) to->frame = frame + number[from->frame];
     for (PetscInt f = 0; f < from->n_faces; f++) {
       const PetscInt at = from->offsets[f], n = from->offsets[f + 1] - at;
       PetscInt       vertices[FACE_NODES];
@@ -90,24 +91,68 @@ static PetscErrorCode append_surfaces(Mesh *mesh, const Mesh *shell, const Petsc
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode rigid_create(Scene *scene, const char *body, Mesh *mesh)
+/* What is drawn, of vertices that are numbered from 0. */
+static PetscErrorCode keep_shell(const Mesh *mesh, const Mesh *shell, const PetscInt number[], PetscInt n, Shell *kept)
+{
+  PetscInt n_faces = 0, size = 0;
+  PetscFunctionBegin;
+  for (PetscInt s = 0; s < shell->n_surfaces; s++) {
+    const Surface *from = &shell->surfaces[s];
+    n_faces += from->inner ? 0 : from->n_faces;
+    size += from->inner ? 0 : from->offsets[from->n_faces];
+  }
+  PetscCall(PetscMalloc2(n_faces + 1, &kept->offsets, size, &kept->vertices));
+  PetscCall(PetscMalloc1(3 * n, &kept->coordinates));
+  PetscCall(PetscArraycpy(kept->coordinates, mesh->coordinates + 3 * (mesh->n_vertices - n), 3 * n));
+  kept->n_vertices = n;
+  kept->offsets[0] = 0;
+  for (PetscInt s = 0; s < shell->n_surfaces; s++) {
+    const Surface *from = &shell->surfaces[s];
+    for (PetscInt f = 0; f < from->n_faces && !from->inner; f++) {
+      const PetscInt at = from->offsets[f], m = from->offsets[f + 1] - at, to = kept->offsets[kept->n_faces];
+      for (PetscInt k = 0; k < m; k++)
+        kept->vertices[to + k] = number[from->vertices[at + k]];
+      kept->offsets[++kept->n_faces] = to + m;
+    }
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Boxes are made on every rank, for they are made together; what is kept of them, and all else, is on rank 0. */
+static PetscErrorCode create_shell(Scene *scene, const char *name, PetscInt from, Mesh *shell, PetscMPIInt rank)
 {
   PetscErrorCode (*const create[])(Scene *, const char *, Mesh *) = {box_create, gmsh_shell_create, stl_create, analytic_create};
-  const PetscInt from     = read_from(scene, body), first = mesh->n_vertices;
-  Mesh           shell    = {.rank = mesh->rank, .space = mesh->space, .dimension = mesh->dimension};
+  PetscFunctionBegin;
+  if (from == FROM_BOX) {
+    PetscCall(box_create(scene, name, shell));
+    PetscFunctionReturn(PETSC_SUCCESS);
+  }
+  scene_root_begin(scene);
+  if (rank == 0) PetscCall(create[from](scene, name, shell));
+  PetscCall(scene_root_end(scene));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode rigid_create(Scene *scene, Body *body, Mesh *mesh)
+{
+  const PetscInt from     = read_from(scene, body->name), first = mesh->n_vertices, frame = mesh->n_all_vertices;
+  Mesh           shell    = {.size = 1, .space = mesh->space, .dimension = mesh->dimension};
   PetscReal      point[3] = {0, 0, 0};
   PetscInt      *number, n;
 
   PetscFunctionBegin;
-  if (!space_vector(scene, &mesh->space, body, "reference", point))
-    scene_fail(scene, body, "reference",
+  if (!space_vector(scene, &mesh->space, body->name, "reference", point))
+    scene_fail(scene, body->name, "reference",
                "this key is missing: the point that moves with the body, where its forces act and about which it turns.");
-  PetscCall(create[from](scene, body, &shell));
-  PetscCall(PetscMalloc1(shell.n_vertices, &number));
-  n = number_vertices(&shell, number);
-  PetscCall(append_vertices(mesh, point, &shell, number, n));
-  PetscCall(append_surfaces(mesh, &shell, number, first + 2));
-  PetscCall(PetscFree(number));
+  PetscCall(create_shell(scene, body->name, from, &shell, mesh->rank));
+  if (mesh->rank == 0) {
+    PetscCall(PetscMalloc1(shell.n_vertices, &number));
+    n = number_vertices(&shell, number);
+    PetscCall(append_vertices(mesh, point, &shell, number, n));
+    PetscCall(append_surfaces(mesh, &shell, number, first + 2, frame + 2));
+    PetscCall(keep_shell(mesh, &shell, number, n, &body->shell));
+    PetscCall(PetscFree(number));
+  }
   PetscCall(mesh_destroy(&shell));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

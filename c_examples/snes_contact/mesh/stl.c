@@ -127,7 +127,7 @@ PetscErrorCode stl_create(Scene *scene, const char *body, Mesh *shell)
   }
   PetscCall(PetscMalloc1(corners.n, &vertex));
   PetscCall(join(&corners, vertex, &n));
-  PetscCall(mesh_append(shell, n, corners.x, 0, TET4, NULL));
+  PetscCall(mesh_append(shell, n, NULL, corners.x, 0, NULL, TET4, NULL));
   PetscCall(PetscSNPrintf(name, sizeof(name), "%s.surface", body));
   PetscCall(mesh_add_surface(shell, name, corners.n / 3, &surface));
   for (PetscInt k = 0; k < corners.n; k += 3) { /* without those that are a line or a point */

@@ -32,11 +32,11 @@ PetscErrorCode output_read(Scene *scene, Output *output)
   output->write_csv = (WriteWhen)csv;
   scene_names(scene, "probes", &output->n_probes, &names);
   PetscCall(PetscCalloc1(output->n_probes, &output->probes));
-  scene_root_begin(scene);
-  for (PetscInt k = 0; k < output->n_probes && mesh->rank == 0; k++) {
+  for (PetscInt k = 0; k < output->n_probes; k++) {
     PetscCall(PetscSNPrintf(output->probes[k].name, NAME_LENGTH, "%s", names[k]));
-    output->probes[k].vertex = mesh_nearest_vertex(scene, mesh, names[k]);
+    PetscCall(mesh_nearest_vertex(scene, mesh, names[k], &output->probes[k].vertex));
   }
+  scene_root_begin(scene);
   if (mesh->rank == 0 && !make_folder(output->directory))
     scene_fail(scene, NULL, NULL, "cannot write to the output folder '%s'.", output->directory);
   PetscCall(scene_root_end(scene));

@@ -6,7 +6,7 @@
 
 typedef struct {
   char     name[NAME_LENGTH];
-  PetscInt vertex; /* rank 0 */
+  PetscInt vertex;
 } Probe;
 
 typedef enum { WRITE_NONE, WRITE_LAST, WRITE_TIMES, WRITE_ALL } WriteWhen;
@@ -41,6 +41,8 @@ PetscErrorCode summary_write(Output *output, Summary **summary, Vec last, PetscI
 PetscErrorCode uniqueness_check(Output *output, Vec x, struct cJSON *root);
 /* counters.c: what the run and each interface cost */
 PetscErrorCode summary_counters(Output *output, struct cJSON *root);
+/* holdings.c: what each rank holds */
+PetscErrorCode summary_holdings(const Output *output, struct cJSON *root);
 /* diagnosis.c: what may be wrong; told and kept */
 PetscErrorCode diagnosis_failed(Output *output, struct cJSON *root);
 /* tractions.c */
@@ -50,13 +52,33 @@ PetscErrorCode nodal_tractions(const Mesh *mesh, const Interface *interface, con
 PetscErrorCode csv_adjusted(Output *output, const Interface *interface); /* rank 0, once */
 PetscErrorCode csv_write(Output *output, const Interface *interface, const ContactStates *states, PetscInt step);
 /* vtu_array.c */
+int            vtu_type(CellKind kind);
 void           vtu_start_array(FILE *file, const char *type, const char *name, int components);
 void           vtu_end_array(FILE *file);
 void           vtu_vectors(FILE *file, const char *name, PetscInt n, const PetscScalar *values);
+void           vtu_declare(FILE *file, const char *type, const char *name, int components); /* in the index of all ranks' files */
+/* vtu_piece.c: this rank's vertices and cells, in the order of their numbers */
+typedef struct {
+  PetscInt     n_points, n_cells;
+  PetscInt    *order;        /* n_points: which vertex here */
+  PetscInt    *place;        /* per vertex here: in that order */
+  PetscInt    *cells;        /* n_cells: which cell here */
+  PetscInt    *connectivity; /* of the cells here, at `offsets` of physics->cells, in VTK's order */
+  PetscScalar *displacements; /* 3 a point */
+  PetscReal   *X;
+} Piece;
+
+PetscErrorCode piece_create(const Physics *physics, Piece *piece);
+PetscErrorCode piece_destroy(Piece *piece);
+/* `width` numbers of each node of an interface (rank 0) at the points of the piece, `none` elsewhere */
+PetscErrorCode piece_fetch(const Physics *physics, const Piece *piece, PetscInt n, const PetscInt nodes[], PetscInt width,
+                           const double values[], double none, double at_points[]);
 /* vtu_stress.c */
-PetscErrorCode vtu_cell_stresses(FILE *file, const Mesh *mesh, const Material *materials, const PetscScalar *displacements,
-                                 PetscInt n_drawn);
-PetscErrorCode vtu_nodal_stresses(FILE *file, const Mesh *mesh, const Material *materials, const PetscScalar *displacements);
-/* vtu.c */
-PetscErrorCode vtu_write(Output *output, const PetscScalar *displacements, PetscInt step);
+void           vtu_declare_stresses(FILE *file);
+PetscErrorCode vtu_cell_stresses(FILE *file, const Physics *physics, const Piece *piece);
+PetscErrorCode vtu_nodal_stresses(FILE *file, const Physics *physics, const Piece *piece);
+/* vtu_rigid.c */
+PetscErrorCode vtu_rigids(const Output *output, PetscInt step);
+/* vtu.c: on every rank */
+PetscErrorCode vtu_write(Output *output, PetscInt step);
 #endif

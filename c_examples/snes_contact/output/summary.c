@@ -10,7 +10,7 @@ struct Summary {
   double      *work_before;    /* friction work of each interface before the last step */
   char         said[1024];     /* about the last failed attempt */
   char         progress[1024]; /* of the last step: what its line ends with */
-  PetscScalar *displacements;  /* its; until it is settled whether it is accepted */
+  Vec          state;          /* its, local; until it is settled whether it is accepted */
 };
 
 static cJSON *vector_json(const PetscReal v[3])
@@ -150,17 +150,18 @@ static void add_rigids(Output *output, cJSON *json)
   }
 }
 
-static PetscErrorCode gather_displacements(Output *output, PetscScalar **displacements)
+static PetscErrorCode add_probes(Output *output, cJSON *json)
 {
-  Physics           *physics = output->physics;
+  cJSON             *probes = cJSON_AddObjectToObject(json, "probes");
   const PetscScalar *u;
   PetscFunctionBegin;
-  PetscCall(PetscMalloc1(output->mesh->rank ? 0 : 3 * output->mesh->n_vertices, displacements));
-  PetscCall(VecGetArrayRead(physics->u_local, &u));
-  PetscCall(PetscSFBcastBegin(physics->unknowns.all_displacements, MPIU_SCALAR, u, *displacements, MPI_REPLACE));
-  PetscCall(PetscSFBcastEnd(physics->unknowns.all_displacements, MPIU_SCALAR, u, *displacements, MPI_REPLACE));
-  PetscCall(VecRestoreArrayRead(physics->u_local, &u));
-  if (output->mesh->rank == 0) rigids_tidy(physics, *displacements);
+  PetscCall(VecGetArrayRead(output->physics->u_local, &u));
+  for (PetscInt k = 0; k < output->n_probes; k++) {
+    PetscReal displacement[3];
+    PetscCall(unknowns_displacement(output->physics, output->probes[k].vertex, u, displacement));
+    cJSON_AddItemToObject(probes, output->probes[k].name, vector_json(displacement));
+  }
+  PetscCall(VecRestoreArrayRead(output->physics->u_local, &u));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -209,10 +210,9 @@ PetscErrorCode summary_step(Output *output, Summary *summary, PetscInt step, Pet
   Solve          *solve   = output->solve;
   const PetscBool csv     = (PetscBool)(converged && is_due(output->write_csv, asked, last));
   const PetscBool vtu     = (PetscBool)(converged && is_due(output->write_vtu, asked, last));
-  cJSON          *json    = cJSON_CreateObject(), *interfaces, *probes;
+  cJSON          *json    = cJSON_CreateObject(), *interfaces;
   PetscReal      *norms   = NULL, half_fu;
   PetscInt        n_norms = 0;
-  PetscScalar    *displacements;
   double          friction_work = 0;
   char           *progress      = summary->progress; /* what summary_settle_step() prints */
 
@@ -236,7 +236,6 @@ PetscErrorCode summary_step(Output *output, Summary *summary, PetscInt step, Pet
   cJSON_AddNumberToObject(json, "external_work_half_fu", half_fu);
   PetscCall(add_reactions(output, json));
   add_rigids(output, json);
-  PetscCall(gather_displacements(output, &displacements));
   PetscCall(contact_collect(contact));
   if (output->mesh->rank == 0) {
     interfaces = cJSON_AddObjectToObject(json, "interfaces");
@@ -246,14 +245,14 @@ PetscErrorCode summary_step(Output *output, Summary *summary, PetscInt step, Pet
       PetscCall(interface_results(output, &contact->interfaces[i], step, csv, interfaces, &friction_work,
                                   progress + used, sizeof(summary->progress) - used));
     }
-    probes = cJSON_AddObjectToObject(json, "probes");
-    for (PetscInt k = 0; k < output->n_probes; k++)
-      cJSON_AddItemToObject(probes, output->probes[k].name, vector_json(displacements + 3 * output->probes[k].vertex));
-    if (vtu) PetscCall(vtu_write(output, displacements, step));
-    PetscCall(held_check(solve, displacements));
   }
+  PetscCall(add_probes(output, json));
+  if (vtu) PetscCall(vtu_write(output, step));
+  if (vtu) PetscCall(vtu_rigids(output, step));
+  PetscCall(held_check(solve));
   cJSON_AddNumberToObject(json, "friction_work", friction_work);
-  summary->displacements = displacements;
+  PetscCall(VecDuplicate(physics->u_local, &summary->state));
+  PetscCall(VecCopy(physics->u_local, summary->state));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -261,11 +260,9 @@ PetscErrorCode summary_settle_step(Output *output, Summary *summary, PetscBool a
 {
   PetscFunctionBegin;
   if (accepted && !output->quiet) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s\n", summary->progress));
-  if (output->mesh->rank == 0) {
-    PetscCall(held_settle(output->solve, accepted));
-    if (accepted) PetscCall(range_check(output->physics, summary->displacements));
-  }
-  PetscCall(PetscFree(summary->displacements));
+  PetscCall(held_settle(output->solve, accepted));
+  if (accepted) PetscCall(range_check(output->physics, summary->state));
+  PetscCall(VecDestroy(&summary->state));
   if (accepted) PetscFunctionReturn(PETSC_SUCCESS);
   cJSON_DeleteItemFromArray(summary->steps, cJSON_GetArraySize(summary->steps) - 1);
   for (PetscInt i = 0; i < output->contact->n_interfaces && output->mesh->rank == 0; i++)
@@ -292,6 +289,7 @@ PetscErrorCode summary_write(Output *output, Summary **summary, Vec last, PetscI
   if (solve->least_pivot > 0) cJSON_AddNumberToObject((*summary)->root, "least_pivot", solve->least_pivot);
   PetscCall(range_report(output->physics, (*summary)->root));
   PetscCall(summary_counters(output, (*summary)->root));
+  PetscCall(summary_holdings(output, (*summary)->root));
   if (message[0])
     PetscCall(diagnosis_failed(output, (*summary)->root));
   else

@@ -7,27 +7,19 @@
 #include "output/output.h"
 
 /* Of each node of the non-mortar side: how many corners it is in the middle of, 1: it is one, and their numbers. */
-static PetscErrorCode find_corners(const Mesh *mesh, const Interface *interface, PetscInt n[], PetscInt (*corners)[4])
+static void find_corners(const Mesh *mesh, const Surface *surface, PetscInt n[], PetscInt (*corners)[4])
 {
-  const Surface *surface = interface->surface[0];
-  PetscInt      *number;
-  PetscFunctionBegin;
-  PetscCall(PetscMalloc1(mesh->n_vertices, &number));
-  for (PetscInt a = 0; a < interface->n1; a++)
-    number[interface->nodes[a]] = a;
   for (PetscInt f = 0; f < surface->n_faces; f++) {
     const PetscInt *face = surface->vertices + surface->offsets[f];
     const CellKind  kind = mesh_face_kind(mesh, surface, f);
     for (PetscInt k = 0; k < cell_nodes(kind); k++) {
       PetscInt       its[CELL_CORNERS];
-      const PetscInt a = number[face[k]];
+      const PetscInt a = face[k];
       n[a] = cell_node_corners(kind, k, its);
       for (PetscInt c = 0; c < n[a]; c++)
-        corners[a][c] = number[face[its[c]]];
+        corners[a][c] = face[its[c]];
     }
   }
-  PetscCall(PetscFree(number));
-  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* rank 0: 3 per node of the non-mortar side */
@@ -40,7 +32,7 @@ PetscErrorCode nodal_tractions(const Mesh *mesh, const Interface *interface, con
 
   PetscFunctionBegin;
   PetscCall(PetscMalloc3(interface->n1, &n, interface->n1, &corners, interface->n1, &area));
-  PetscCall(find_corners(mesh, interface, n, corners));
+  find_corners(mesh, interface->surface[0], n, corners);
   for (PetscInt a = 0; a < interface->n1; a++) {
     area[a] = states->coverage[a] > 0 ? states->coverage[a] : states->area[a];
     contact_vector(interface->dimension, interface->forces, a, tractions + 3 * a);

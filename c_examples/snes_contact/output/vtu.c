@@ -1,132 +1,177 @@
-/* Per step one VTU file of the bodies (text, for ParaView). Written on rank 0. */
+/* Per step a VTU file of the bodies (text, for ParaView), step_STEP.vtu. Of several ranks each writes its cells into
+ * step_STEP_RANK.vtu, and step_STEP.pvtu says so. There `node` and `cell` are the numbers that these have on one rank. */
 #include "output/output.h"
+#include <math.h>
 
-/* VTK's number of a kind of cell */
-static int vtk_type(CellKind kind)
+static void scalars(FILE *file, const char *name, PetscInt n, const double values[])
 {
-  static const int types[CELL_KINDS] = {
-      [LINE2] = 3, [LINE3] = 21, /* VTK_LINE, VTK_QUADRATIC_EDGE */
-      [TRI3] = 5,  [TRI6] = 22,  /* VTK_TRIANGLE, VTK_QUADRATIC_TRIANGLE */
-      [QUAD4] = 9, [QUAD8] = 23, [QUAD9] = 28, /* VTK_QUAD, VTK_QUADRATIC_QUAD, VTK_BIQUADRATIC_QUAD */
-      [TET4] = 10, [TET10] = 24, /* VTK_TETRA, VTK_QUADRATIC_TETRA */
-      [HEX8] = 12, [HEX20] = 25, [HEX27] = 29, /* VTK_HEXAHEDRON, VTK_QUADRATIC_, VTK_TRIQUADRATIC_HEXAHEDRON */
-  };
-  return types[kind];
+  vtu_start_array(file, "Float64", name, 1);
+  for (PetscInt k = 0; k < n; k++)
+    fprintf(file, "%.17g\n", values[k]);
+  vtu_end_array(file);
+}
+
+static void integers(FILE *file, const char *name, PetscInt n, const double values[])
+{
+  vtu_start_array(file, "Int32", name, 1);
+  for (PetscInt k = 0; k < n; k++)
+    fprintf(file, "%d\n", (int)values[k]);
+  vtu_end_array(file);
+}
+
+/* rank 0: what is written of an interface's nodes */
+enum { MULTIPLIER, FORCE = MULTIPLIER + 3, TRACTION = FORCE + 3, PRESSURE = TRACTION + 3, STATE, N_FIELDS };
+
+static PetscErrorCode nodal_fields(const Mesh *mesh, const Interface *interface, double fields[])
+{
+  const ContactStates *states = &interface->states;
+  double              *tractions;
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(3 * interface->n1, &tractions));
+  PetscCall(nodal_tractions(mesh, interface, states, tractions));
+  for (PetscInt a = 0; a < interface->n1 + interface->n2; a++) {
+    double   *f = fields + N_FIELDS * a;
+    PetscReal force[3];
+    contact_vector(interface->dimension, interface->forces, a, force);
+    for (int i = 0; i < 3; i++)
+      f[FORCE + i] = -force[i];
+    f[STATE] = -1;
+    if (a >= interface->n1) continue;
+    for (int i = 0; i < 3; i++) {
+      f[MULTIPLIER + i] = states->multiplier[3 * a + i];
+      f[TRACTION + i]   = tractions[3 * a + i];
+      f[PRESSURE] += tractions[3 * a + i] * states->normal[3 * a + i];
+    }
+    f[STATE] = states->state[a];
+  }
+  PetscCall(PetscFree(tractions));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* `width` of the fields at the points */
+static void take(PetscInt n, const double fields[], int first, int width, double values[])
+{
+  for (PetscInt k = 0; k < width * n; k++)
+    values[k] = fields[N_FIELDS * (k / width) + first + k % width];
 }
 
 /* Of one interface: multiplier, force of the contact on the node (both sides), that force over the node's area, its part
  * along the normal (non-mortar side), and state (-1 off the non-mortar side). */
-static PetscErrorCode interface_fields(FILE *file, const Mesh *mesh, const Interface *interface)
+static PetscErrorCode interface_fields(FILE *file, const Physics *physics, const Piece *piece, const Interface *interface)
 {
-  const PetscInt n_both = interface->n1 + interface->n2;
-  PetscScalar   *field;
-  PetscInt      *state;
-  double        *tractions;
-  const ContactStates *states = &interface->states;
+  static const struct {
+    const char *name;
+    int         first;
+  } vectors[] = {{"multiplier", MULTIPLIER}, {"force", FORCE}, {"traction", TRACTION}};
+  const PetscInt n = piece->n_points, n_both = interface->n1 + interface->n2;
+  double        *nodal, *fields, *values;
   char           name[2 * NAME_LENGTH];
 
   PetscFunctionBegin;
-  PetscCall(PetscCalloc2(3 * mesh->n_vertices, &field, mesh->n_vertices, &state));
-  for (PetscInt k = 0; k < 3 * interface->n1; k++)
-    field[3 * interface->nodes[k / 3] + k % 3] = states->multiplier[k];
-  PetscCall(PetscSNPrintf(name, sizeof(name), "multiplier_%s", interface->name));
-  vtu_vectors(file, name, mesh->n_vertices, field);
-
-  PetscCall(PetscArrayzero(field, 3 * mesh->n_vertices));
-  for (PetscInt a = 0; a < n_both; a++) {
-    PetscReal force[3];
-    contact_vector(interface->dimension, interface->forces, a, force);
-    for (int i = 0; i < 3; i++)
-      field[3 * interface->nodes[a] + i] = -force[i];
+  PetscCall(PetscCalloc3(N_FIELDS * n_both, &nodal, N_FIELDS * n, &fields, 3 * n, &values));
+  if (physics->mesh->rank == 0) PetscCall(nodal_fields(physics->mesh, interface, nodal));
+  PetscCall(piece_fetch(physics, piece, n_both, interface->nodes, N_FIELDS, nodal, NAN, fields));
+  for (PetscInt k = 0; k < N_FIELDS * n; k++) /* off the interface */
+    fields[k] = isnan(fields[N_FIELDS * (k / N_FIELDS) + N_FIELDS - 1]) ? k % N_FIELDS == STATE ? -1 : 0 : fields[k];
+  for (int v = 0; v < 3; v++) {
+    take(n, fields, vectors[v].first, 3, values);
+    PetscCall(PetscSNPrintf(name, sizeof(name), "%s_%s", vectors[v].name, interface->name));
+    vtu_vectors(file, name, n, values);
   }
-  PetscCall(PetscSNPrintf(name, sizeof(name), "force_%s", interface->name));
-  vtu_vectors(file, name, mesh->n_vertices, field);
-
-  PetscCall(PetscArrayzero(field, 3 * mesh->n_vertices));
-  PetscCall(PetscMalloc1(3 * interface->n1, &tractions));
-  PetscCall(nodal_tractions(mesh, interface, states, tractions));
-  for (PetscInt k = 0; k < 3 * interface->n1; k++)
-    field[3 * interface->nodes[k / 3] + k % 3] = tractions[k];
-  PetscCall(PetscSNPrintf(name, sizeof(name), "traction_%s", interface->name));
-  vtu_vectors(file, name, mesh->n_vertices, field);
-
-  PetscCall(PetscArrayzero(field, mesh->n_vertices));
-  for (PetscInt k = 0; k < 3 * interface->n1; k++)
-    field[interface->nodes[k / 3]] += tractions[k] * states->normal[k];
-  PetscCall(PetscFree(tractions));
+  take(n, fields, PRESSURE, 1, values);
   PetscCall(PetscSNPrintf(name, sizeof(name), "pressure_%s", interface->name));
-  vtu_start_array(file, "Float64", name, 1);
-  for (PetscInt v = 0; v < mesh->n_vertices; v++)
-    fprintf(file, "%.17g\n", PetscRealPart(field[v]));
-  vtu_end_array(file);
-
-  for (PetscInt v = 0; v < mesh->n_vertices; v++)
-    state[v] = -1;
-  for (PetscInt a = 0; a < interface->n1; a++)
-    state[interface->nodes[a]] = states->state[a];
+  scalars(file, name, n, values);
+  take(n, fields, STATE, 1, values);
   PetscCall(PetscSNPrintf(name, sizeof(name), "state_%s", interface->name));
-  vtu_start_array(file, "Int32", name, 1);
-  for (PetscInt v = 0; v < mesh->n_vertices; v++)
-    fprintf(file, "%d\n", (int)state[v]);
-  vtu_end_array(file);
-  PetscCall(PetscFree2(field, state));
+  integers(file, name, n, values);
+  PetscCall(PetscFree3(nodal, fields, values));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* What is drawn: cells of bodies, or faces of the surfaces of rigid ones. */
-typedef struct {
-  PetscInt        n, *body, *size, *type;
-  const PetscInt **nodes;
-} Drawing;
-
-static void draw(Drawing *drawing, PetscInt body, CellKind kind, const PetscInt *nodes)
+static void write_cells(FILE *file, const Physics *physics, const Piece *piece)
 {
-  drawing->body[drawing->n]    = body;
-  drawing->size[drawing->n]    = cell_nodes(kind);
-  drawing->type[drawing->n]    = vtk_type(kind);
-  drawing->nodes[drawing->n++] = nodes;
+  const PetscInt *offsets = physics->cells.offsets;
+  PetscInt        end     = 0;
+  vtu_start_array(file, "Int64", "connectivity", 1);
+  for (PetscInt k = 0; k < piece->n_cells; k++) {
+    const PetscInt c = piece->cells[k];
+    for (PetscInt a = offsets[c]; a < offsets[c + 1]; a++)
+      fprintf(file, "%d ", (int)piece->connectivity[a]);
+    fprintf(file, "\n");
+  }
+  vtu_end_array(file);
+  vtu_start_array(file, "Int64", "offsets", 1);
+  for (PetscInt k = 0; k < piece->n_cells; k++) {
+    end += offsets[piece->cells[k] + 1] - offsets[piece->cells[k]];
+    fprintf(file, "%d\n", (int)end);
+  }
+  vtu_end_array(file);
+  vtu_start_array(file, "UInt8", "types", 1);
+  for (PetscInt k = 0; k < piece->n_cells; k++) {
+    const PetscInt c = piece->cells[k];
+    fprintf(file, "%d\n", vtu_type(cell_kind(physics->mesh->dimension, offsets[c + 1] - offsets[c])));
+  }
+  vtu_end_array(file);
 }
 
-static PetscErrorCode create_drawing(const Mesh *mesh, Drawing *drawing)
+/* whole numbers of points or cells, in the piece's order */
+static void numbers(FILE *file, const char *name, PetscInt n, const PetscInt order[], const PetscInt values[])
 {
-  PetscInt most = mesh->n_cells;
+  vtu_start_array(file, "Int32", name, 1);
+  for (PetscInt k = 0; k < n; k++)
+    fprintf(file, "%d\n", (int)values[order[k]]);
+  vtu_end_array(file);
+}
+
+/* The files of all ranks, and what is in them. */
+static PetscErrorCode write_index(const Output *output, PetscInt step)
+{
+  char  path[PETSC_MAX_PATH_LEN];
+  FILE *file;
   PetscFunctionBegin;
-  for (PetscInt s = 0; s < mesh->n_surfaces; s++)
-    most += mesh->surfaces[s].n_faces;
-  *drawing = (Drawing){.n = 0};
-  PetscCall(PetscMalloc4(most, &drawing->body, most, &drawing->size, most, &drawing->type, most, &drawing->nodes));
-  for (PetscInt c = 0; c < mesh->n_cells; c++) {
-    if (!mesh->bodies[mesh->cell_body[c]].rigid)
-      draw(drawing, mesh->cell_body[c], mesh_cell_kind(mesh, c), mesh->cell_vertices + mesh->cell_offsets[c]);
-  }
-  for (PetscInt b = 0; b < mesh->n_bodies; b++) {
-    for (PetscInt s = mesh->bodies[b].first_surface; s < mesh->bodies[b].end_surface && mesh->bodies[b].rigid; s++) {
-      const Surface *surface = &mesh->surfaces[s];
-      for (PetscInt f = 0; f < surface->n_faces; f++)
-        draw(drawing, b, mesh_face_kind(mesh, surface, f), surface->vertices + surface->offsets[f]);
+  PetscCall(PetscSNPrintf(path, sizeof(path), "%s/step_%" PetscInt_FMT ".pvtu", output->directory, step));
+  file = fopen(path, "w");
+  PetscCheck(file, PETSC_COMM_SELF, PETSC_ERR_FILE_OPEN, "cannot write '%s'", path);
+  fprintf(file, "<VTKFile type=\"PUnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\">\n"
+                "<PUnstructuredGrid GhostLevel=\"0\">\n<PPoints>\n");
+  vtu_declare(file, "Float64", "X", 3);
+  fprintf(file, "</PPoints>\n<PPointData Vectors=\"displacement\">\n");
+  vtu_declare(file, "Float64", "displacement", 3);
+  for (PetscInt i = 0; i < output->contact->n_interfaces; i++) {
+    static const char *const names[] = {"multiplier", "force", "traction", "pressure", "state"};
+    for (int k = 0; k < 5; k++) {
+      char name[2 * NAME_LENGTH];
+      PetscCall(PetscSNPrintf(name, sizeof(name), "%s_%s", names[k], output->contact->interfaces[i].name));
+      vtu_declare(file, k < 4 ? "Float64" : "Int32", name, k < 3 ? 3 : 1);
     }
   }
+  vtu_declare_stresses(file);
+  vtu_declare(file, "Int32", "node", 1);
+  fprintf(file, "</PPointData>\n<PCellData>\n");
+  vtu_declare(file, "Int32", "body", 1);
+  vtu_declare_stresses(file);
+  vtu_declare(file, "Int32", "cell", 1);
+  fprintf(file, "</PCellData>\n");
+  for (PetscMPIInt r = 0; r < output->mesh->size; r++)
+    fprintf(file, "<Piece Source=\"step_%d_%d.vtu\"/>\n", (int)step, (int)r);
+  fprintf(file, "</PUnstructuredGrid>\n</VTKFile>\n");
+  fclose(file);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode destroy_drawing(Drawing *drawing)
+PetscErrorCode vtu_write(Output *output, PetscInt step)
 {
-  PetscFunctionBegin;
-  PetscCall(PetscFree4(drawing->body, drawing->size, drawing->type, drawing->nodes));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode vtu_write(Output *output, const PetscScalar *displacements, PetscInt step)
-{
-  const Mesh *mesh = output->mesh;
-  char        path[PETSC_MAX_PATH_LEN];
-  Drawing     drawing;
-  PetscInt    end = 0;
-  FILE       *file;
+  const Mesh     *mesh    = output->mesh;
+  const Physics  *physics = output->physics;
+  const PetscBool several = (PetscBool)(mesh->size > 1);
+  char            path[PETSC_MAX_PATH_LEN], rank[16] = "";
+  Piece           piece;
+  FILE           *file;
 
   PetscFunctionBegin;
-  PetscCall(create_drawing(mesh, &drawing));
-  PetscCall(PetscSNPrintf(path, sizeof(path), "%s/step_%" PetscInt_FMT ".vtu", output->directory, step));
+  PetscCall(piece_create(physics, &piece));
+  if (several) PetscCall(PetscSNPrintf(rank, sizeof(rank), "_%d", (int)mesh->rank));
+  PetscCall(PetscSNPrintf(path, sizeof(path), "%s/step_%" PetscInt_FMT "%s.vtu", output->directory, step, rank));
   file = fopen(path, "w");
   PetscCheck(file, PETSC_COMM_SELF, PETSC_ERR_FILE_OPEN, "cannot write '%s'", path);
   fprintf(file,
@@ -134,39 +179,24 @@ PetscErrorCode vtu_write(Output *output, const PetscScalar *displacements, Petsc
   fprintf(file,
           "<FieldData>\n<DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" "
           "format=\"ascii\">%.17g</DataArray>\n</FieldData>\n",
-          (double)output->physics->t);
-  fprintf(file, "<Piece NumberOfPoints=\"%d\" NumberOfCells=\"%d\">\n<Points>\n", (int)mesh->n_vertices,
-          (int)drawing.n);
-  vtu_vectors(file, "X", mesh->n_vertices, mesh->coordinates);
+          (double)physics->t);
+  fprintf(file, "<Piece NumberOfPoints=\"%d\" NumberOfCells=\"%d\">\n<Points>\n", (int)piece.n_points, (int)piece.n_cells);
+  vtu_vectors(file, "X", piece.n_points, piece.X);
   fprintf(file, "</Points>\n<Cells>\n");
-  vtu_start_array(file, "Int64", "connectivity", 1);
-  for (PetscInt c = 0; c < drawing.n; c++) {
-    for (PetscInt k = 0; k < drawing.size[c]; k++)
-      fprintf(file, "%d ", (int)drawing.nodes[c][k]);
-    fprintf(file, "\n");
-  }
-  vtu_end_array(file);
-  vtu_start_array(file, "Int64", "offsets", 1);
-  for (PetscInt c = 0; c < drawing.n; c++)
-    fprintf(file, "%d\n", (int)(end += drawing.size[c]));
-  vtu_end_array(file);
-  vtu_start_array(file, "UInt8", "types", 1);
-  for (PetscInt c = 0; c < drawing.n; c++)
-    fprintf(file, "%d\n", (int)drawing.type[c]);
-  vtu_end_array(file);
+  write_cells(file, physics, &piece);
   fprintf(file, "</Cells>\n<PointData Vectors=\"displacement\">\n");
-  vtu_vectors(file, "displacement", mesh->n_vertices, displacements);
+  vtu_vectors(file, "displacement", piece.n_points, piece.displacements);
   for (PetscInt i = 0; i < output->contact->n_interfaces; i++)
-    PetscCall(interface_fields(file, mesh, &output->contact->interfaces[i]));
-  PetscCall(vtu_nodal_stresses(file, mesh, output->physics->materials, displacements));
+    PetscCall(interface_fields(file, physics, &piece, &output->contact->interfaces[i]));
+  PetscCall(vtu_nodal_stresses(file, physics, &piece));
+  if (several) numbers(file, "node", piece.n_points, piece.order, mesh->original);
   fprintf(file, "</PointData>\n<CellData>\n");
-  vtu_start_array(file, "Int32", "body", 1);
-  for (PetscInt c = 0; c < drawing.n; c++)
-    fprintf(file, "%d\n", (int)drawing.body[c]);
-  vtu_end_array(file);
-  PetscCall(vtu_cell_stresses(file, mesh, output->physics->materials, displacements, drawing.n));
+  numbers(file, "body", piece.n_cells, piece.cells, physics->cells.body);
+  PetscCall(vtu_cell_stresses(file, physics, &piece));
+  if (several) numbers(file, "cell", piece.n_cells, piece.cells, mesh->original_cell);
   fprintf(file, "</CellData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n");
   fclose(file);
-  PetscCall(destroy_drawing(&drawing));
+  PetscCall(piece_destroy(&piece));
+  if (several && mesh->rank == 0) PetscCall(write_index(output, step));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

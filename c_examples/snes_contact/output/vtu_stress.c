@@ -23,56 +23,93 @@ static void write(FILE *file, PetscInt n, const PetscReal *stresses)
   vtu_end_array(file);
 }
 
-static void nodes_of(const Mesh *mesh, PetscInt c, const PetscScalar *displacements, PetscReal X[], PetscReal u[])
+void vtu_declare_stresses(FILE *file)
 {
-  const PetscInt *cell = mesh->cell_vertices + mesh->cell_offsets[c];
-  for (PetscInt k = 0; k < 3 * (mesh->cell_offsets[c + 1] - mesh->cell_offsets[c]); k++) {
-    X[k] = mesh->coordinates[3 * cell[k / 3] + k % 3];
-    u[k] = PetscRealPart(displacements[3 * cell[k / 3] + k % 3]);
-  }
+  vtu_declare(file, "Float64", "stress_xx_yy_zz_xy_yz_xz", 6);
+  vtu_declare(file, "Float64", "von_mises", 1);
 }
 
-/* `n_drawn`: cells, and beyond those that are faces of rigid bodies, which have none */
-PetscErrorCode vtu_cell_stresses(FILE *file, const Mesh *mesh, const Material *materials, const PetscScalar *displacements,
-                                 PetscInt n_drawn)
+/* displacements and kind of a cell here */
+static CellKind look_at(const Physics *physics, const Piece *piece, PetscInt c, PetscReal u[])
 {
-  PetscReal *stresses;
-  PetscInt   n = 0;
+  const PetscInt first = physics->cells.offsets[c], n = physics->cells.offsets[c + 1] - first;
+  for (PetscInt k = 0; k < 3 * n; k++)
+    u[k] = PetscRealPart(piece->displacements[3 * piece->connectivity[first + k / 3] + k % 3]);
+  return cell_kind(physics->mesh->dimension, n);
+}
+
+PetscErrorCode vtu_cell_stresses(FILE *file, const Physics *physics, const Piece *piece)
+{
+  const Cells *cells = &physics->cells;
+  PetscReal   *stresses;
   PetscFunctionBegin;
-  PetscCall(PetscCalloc1(9 * n_drawn, &stresses));
-  for (PetscInt c = 0; c < mesh->n_cells; c++) {
-    PetscReal X[3 * CELL_NODES], u[3 * CELL_NODES];
-    if (mesh->bodies[mesh->cell_body[c]].rigid) continue;
-    nodes_of(mesh, c, displacements, X, u);
-    cell_centre_stress(mesh_cell_kind(mesh, c), &mesh->space, &materials[mesh->cell_body[c]], X, u, stresses + 9 * n++);
+  PetscCall(PetscMalloc1(9 * piece->n_cells, &stresses));
+  for (PetscInt k = 0; k < piece->n_cells; k++) {
+    const PetscInt c = piece->cells[k];
+    PetscReal      u[3 * CELL_NODES];
+    const CellKind kind = look_at(physics, piece, c, u);
+    cell_centre_stress(kind, &physics->mesh->space, &physics->materials[cells->body[c]], cells->X + 3 * cells->offsets[c], u,
+                       stresses + 9 * k);
   }
-  write(file, n_drawn, stresses);
+  write(file, piece->n_cells, stresses);
   PetscCall(PetscFree(stresses));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The mean of the cells around a node, which are of one body. */
-PetscErrorCode vtu_nodal_stresses(FILE *file, const Mesh *mesh, const Material *materials, const PetscScalar *displacements)
+/* Sums of stresses and how many there are, 10 a vertex here: those of all ranks. */
+static PetscErrorCode add_ranks(const Mesh *mesh, PetscReal sums[])
 {
-  PetscReal *stresses;
-  PetscInt  *count;
+  enum { WIDTH = 10 };
+  PetscSF    points;
+  PetscReal *mine, *all;
+  PetscInt   pEnd;
   PetscFunctionBegin;
-  PetscCall(PetscCalloc2(9 * mesh->n_vertices, &stresses, mesh->n_vertices, &count));
-  for (PetscInt c = 0; c < mesh->n_cells; c++) {
-    const PetscInt *cell = mesh->cell_vertices + mesh->cell_offsets[c];
-    const CellKind  kind = mesh_cell_kind(mesh, c);
-    PetscReal       X[3 * CELL_NODES], u[3 * CELL_NODES], of_cell[9 * CELL_NODES];
-    if (mesh->bodies[mesh->cell_body[c]].rigid) continue;
-    nodes_of(mesh, c, displacements, X, u);
-    cell_nodal_stresses(kind, &mesh->space, &materials[mesh->cell_body[c]], X, u, of_cell);
-    for (PetscInt k = 0; k < 9 * cell_nodes(kind); k++)
-      stresses[9 * cell[k / 9] + k % 9] += of_cell[k];
-    for (PetscInt a = 0; a < cell_nodes(kind); a++)
-      count[cell[a]]++;
+  if (mesh->size == 1) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(DMGetPointSF(mesh->dm, &points));
+  PetscCall(DMPlexGetChart(mesh->dm, NULL, &pEnd));
+  PetscCall(PetscMalloc2(pEnd, &mine, pEnd, &all));
+  for (int i = 0; i < WIDTH; i++) {
+    PetscCall(PetscArrayzero(mine, pEnd));
+    for (PetscInt k = 0; k < mesh->n_points; k++)
+      mine[mesh->points[k]] = sums[WIDTH * k + i];
+    PetscCall(PetscArraycpy(all, mine, pEnd));
+    PetscCall(PetscSFReduceBegin(points, MPIU_REAL, mine, all, MPIU_SUM));
+    PetscCall(PetscSFReduceEnd(points, MPIU_REAL, mine, all, MPIU_SUM));
+    PetscCall(PetscArraycpy(mine, all, pEnd));
+    PetscCall(PetscSFBcastBegin(points, MPIU_REAL, mine, all, MPI_REPLACE));
+    PetscCall(PetscSFBcastEnd(points, MPIU_REAL, mine, all, MPI_REPLACE));
+    for (PetscInt k = 0; k < mesh->n_points; k++)
+      sums[WIDTH * k + i] = all[mesh->points[k]];
   }
-  for (PetscInt k = 0; k < 9 * mesh->n_vertices; k++)
-    stresses[k] /= (PetscReal)PetscMax(count[k / 9], 1);
-  write(file, mesh->n_vertices, stresses);
-  PetscCall(PetscFree2(stresses, count));
+  PetscCall(PetscFree2(mine, all));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The mean of the cells around a node, which are of one body. */
+PetscErrorCode vtu_nodal_stresses(FILE *file, const Physics *physics, const Piece *piece)
+{
+  const Cells *cells = &physics->cells;
+  PetscReal   *sums, *stresses;
+  PetscFunctionBegin;
+  PetscCall(PetscCalloc2(10 * piece->n_points, &sums, 9 * piece->n_points, &stresses));
+  for (PetscInt k = 0; k < piece->n_cells; k++) {
+    const PetscInt c = piece->cells[k], first = cells->offsets[c];
+    PetscReal      u[3 * CELL_NODES], of_cell[9 * CELL_NODES];
+    const CellKind kind = look_at(physics, piece, c, u);
+    cell_nodal_stresses(kind, &physics->mesh->space, &physics->materials[cells->body[c]], cells->X + 3 * first, u, of_cell);
+    for (PetscInt a = 0; a < cell_nodes(kind); a++) {
+      PetscReal *sum = sums + 10 * piece->order[piece->connectivity[first + a]];
+      for (int i = 0; i < 9; i++)
+        sum[i] += of_cell[9 * a + i];
+      sum[9]++;
+    }
+  }
+  PetscCall(add_ranks(physics->mesh, sums));
+  for (PetscInt k = 0; k < 9 * piece->n_points; k++) {
+    const PetscReal *sum = sums + 10 * piece->order[k / 9];
+    stresses[k]          = sum[k % 9] / PetscMax(sum[9], 1);
+  }
+  write(file, piece->n_points, stresses);
+  PetscCall(PetscFree2(sums, stresses));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

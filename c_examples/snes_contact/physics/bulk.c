@@ -4,6 +4,12 @@
 /* How many roundings meet in a force: of displacements, gradients and sums, of several cells and points. */
 static const PetscReal ROUNDINGS = 2;
 
+/* Cells of rigid bodies have no stiffness; they hold their vertices together. */
+static PetscBool is_rigid(const Physics *physics, PetscInt c)
+{
+  return physics->mesh->bodies[physics->cells.body[c]].rigid;
+}
+
 static CellKind kind_of(const Physics *physics, PetscInt c)
 {
   return cell_kind(physics->mesh->dimension, physics->cells.offsets[c + 1] - physics->cells.offsets[c]);
@@ -29,7 +35,7 @@ PetscErrorCode bulk_create(Physics *physics)
 {
   const Mesh        *mesh  = physics->mesh;
   Cells             *cells = &physics->cells;
-  PetscInt           cStart, cEnd, n_nodes = 0, n = 0; /* those of rigid bodies are none */
+  PetscInt           cStart, cEnd, n_nodes = 0;
   DMLabel            body;
   PetscSection       coordinate_section;
   Vec                coordinate_vector;
@@ -47,24 +53,22 @@ PetscErrorCode bulk_create(Physics *physics)
                          &cells->X, cells->n, &cells->stiffness));
   cells->offsets[0] = 0;
   for (PetscInt c = cStart; c < cEnd; c++) {
-    PetscInt nodes[CELL_NODES], n_here, at;
-    PetscCall(DMLabelGetValue(body, c, &cells->body[n]));
-    if (mesh->bodies[cells->body[n]].rigid) continue;
-    PetscCall(plex_cell_nodes(mesh, c, &n_here, nodes));
-    cells->part[n] = physics->parts.of_vertex[mesh->here[nodes[0]]];
-    for (PetscInt a = 0; a < n_here; a++) {
+    PetscInt nodes[CELL_NODES], n, at;
+    PetscCall(plex_cell_nodes(mesh, c, &n, nodes));
+    PetscCall(DMLabelGetValue(body, c, &cells->body[c - cStart]));
+    cells->part[c - cStart] = physics->parts.of_vertex[mesh->here[nodes[0]]];
+    for (PetscInt a = 0; a < n; a++) {
       PetscCall(PetscSectionGetOffset(physics->unknowns.section, nodes[a], &cells->dofs[n_nodes + a]));
       PetscCall(PetscSectionGetOffset(coordinate_section, nodes[a], &at));
       for (int i = 0; i < 3; i++)
         cells->X[3 * (n_nodes + a) + i] = PetscRealPart(coordinates[at + i]);
     }
-    cells->offsets[n + 1] = n_nodes + n_here;
-    PetscCall(cell_stiffness(physics, &physics->materials[cells->body[n]], kind_of(physics, n), cells->X + 3 * n_nodes,
-                             &cells->stiffness[n]));
-    n_nodes += n_here;
-    n++;
+    cells->offsets[c - cStart + 1] = n_nodes + n;
+    if (!is_rigid(physics, c - cStart))
+      PetscCall(cell_stiffness(physics, &physics->materials[cells->body[c - cStart]], kind_of(physics, c - cStart),
+                               cells->X + 3 * n_nodes, &cells->stiffness[c - cStart]));
+    n_nodes += n;
   }
-  cells->n = n;
   PetscCall(VecRestoreArrayRead(coordinate_vector, &coordinates));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -138,6 +142,7 @@ PetscErrorCode bulk_forces(Physics *physics, Vec f_local, PetscInt *status)
                    n     = cells->offsets[c + 1] - cells->offsets[c];
     PetscReal u_cell[3 * CELL_NODES], f_cell[3 * CELL_NODES];
     PetscBool inverted;
+    if (is_rigid(physics, c)) continue;
     cell_displacements(physics, c, u, u_cell);
     PetscCall(cell_forces(kind_of(physics, c), &physics->mesh->space, &physics->materials[cells->body[c]],
                           cells->X + 3 * cells->offsets[c], u_cell, f_cell, NULL, &inverted));
@@ -183,6 +188,7 @@ PetscErrorCode bulk_stiffness(Physics *physics, Mat matrix, PetscInt *status)
   for (PetscInt c = 0; c < cells->n && first_inverted < 0; c++) {
     PetscReal u_cell[3 * CELL_NODES], f_cell[3 * CELL_NODES], K[9 * CELL_NODES * CELL_NODES];
     PetscBool inverted;
+    if (is_rigid(physics, c)) continue;
     cell_displacements(physics, c, u, u_cell);
     PetscCall(cell_forces(kind_of(physics, c), &physics->mesh->space, &physics->materials[cells->body[c]],
                           cells->X + 3 * cells->offsets[c], u_cell, f_cell, K, &inverted));
@@ -228,7 +234,8 @@ PetscErrorCode bulk_pattern(Physics *physics, Mat matrix)
   static const PetscReal zeros[9 * CELL_NODES * CELL_NODES];
   const Cells           *cells = &physics->cells;
   PetscFunctionBegin;
-  for (PetscInt c = 0; c < cells->n; c++)
-    PetscCall(insert(physics, c, zeros, matrix));
+  for (PetscInt c = 0; c < cells->n; c++) {
+    if (!is_rigid(physics, c)) PetscCall(insert(physics, c, zeros, matrix));
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

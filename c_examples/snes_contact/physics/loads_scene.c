@@ -1,5 +1,6 @@
 /* Loads as the scene describes them: on surfaces, or on bodies. */
 #include "physics/physics.h"
+#include <string.h>
 
 static void read_surface_load(Scene *scene, const Mesh *mesh, Load *load)
 {
@@ -86,7 +87,23 @@ static PetscErrorCode read_load(Scene *scene, Physics *physics, Load *load)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* rank 0 */
+/* the last surface of the load so far, if it is of a rigid body */
+static PetscErrorCode refuse_rigid(Scene *scene, const Physics *physics, const Load *load, const char *name)
+{
+  char     text[256];
+  PetscInt bad = -1;
+  PetscFunctionBegin;
+  if (!physics->n_rigids) PetscFunctionReturn(PETSC_SUCCESS);
+  for (PetscInt k = 0; k < load->n_surfaces; k++) {
+    const Surface *surface = load->surfaces[k];
+    if (!surface || strcmp(surface->name, name) || !surface->n_faces) continue;
+    if (rigids_of_vertex(physics, physics->mesh->numbers[surface->vertices[0]]) >= 0) bad = 0;
+  }
+  PetscCall(PetscSNPrintf(text, sizeof(text), "'%s' is rigid: give its body a `force` or a `moment`.", name));
+  PetscCall(scene_fail_first(scene, bad, load->name, "surface", text));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode find_surfaces(Scene *scene, const Physics *physics, Load *load)
 {
   const Mesh *mesh = physics->mesh;
@@ -94,13 +111,12 @@ static PetscErrorCode find_surfaces(Scene *scene, const Physics *physics, Load *
   PetscFunctionBegin;
   scene_strings(scene, load->name, "surface", &load->n_surfaces, &list);
   if (!load->n_surfaces) scene_fail(scene, load->name, "surface", "this key is missing.");
-  PetscCall(PetscMalloc1(load->n_surfaces, &load->surfaces));
+  PetscCall(PetscCalloc1(load->n_surfaces, &load->surfaces));
   for (PetscInt k = 0; k < load->n_surfaces; k++) {
     load->surfaces[k] = mesh_surface(scene, mesh, load->name, "surface", list[k]);
     if (load->surfaces[k]->inner)
       scene_fail(scene, load->name, "surface", "'%s' lies inside a body and cannot be loaded.", list[k]);
-    if (!load->surfaces[k]->analytic && rigids_of_vertex(physics, load->surfaces[k]->vertices[0]) >= 0)
-      scene_fail(scene, load->name, "surface", "'%s' is rigid: give its body a `force` or a `moment`.", list[k]);
+    PetscCall(refuse_rigid(scene, physics, load, list[k]));
     if (load->surfaces[k]->analytic)
       scene_fail(scene, load->name, "surface", "'%s' is rigid and without faces: it cannot be loaded.", list[k]);
   }
@@ -119,10 +135,8 @@ PetscErrorCode loads_read(Scene *scene, Physics *physics)
     PetscCall(read_load(scene, physics, &physics->loads[l]));
   }
   strings_destroy(physics->n_loads, &names);
-  scene_root_begin(scene);
-  for (PetscInt l = 0; l < physics->n_loads && physics->mesh->rank == 0; l++) {
+  for (PetscInt l = 0; l < physics->n_loads; l++) {
     if (!physics->loads[l].bodies) PetscCall(find_surfaces(scene, physics, &physics->loads[l]));
   }
-  PetscCall(scene_root_end(scene));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -14,64 +14,126 @@ static const PetscReal TWICE = 2;
 /* A first reference, over E times the square of the part's size: too small to matter. */
 static const PetscReal FAINT = 1e-12;
 
-/* rank 0: the stiffest E of each part, and a first reference; how large it is, only the contact knows */
+/* The stiffest E of each part, and a first reference; how large it is, only the contact knows. */
 static PetscErrorCode measure(Physics *physics)
 {
   const Mesh *mesh  = physics->mesh;
   Parts      *parts = &physics->parts;
+  PetscReal  *young;
   Extent     *own;
 
   PetscFunctionBegin;
   PetscCall(PetscMalloc1(parts->n, &own));
+  PetscCall(PetscCalloc1(parts->n, &young));
   for (PetscInt p = 0; p < parts->n; p++)
     own[p] = extent_of_nothing();
   for (PetscInt v = 0; v < mesh->n_vertices; v++)
-    extent_add(&own[parts->of_mesh[v]], mesh->coordinates + 3 * v);
+    extent_add(&own[parts->of_piece[v]], mesh->coordinates + 3 * v);
   for (PetscInt c = 0; c < mesh->n_cells; c++) {
-    Part *part  = &parts->part[parts->of_mesh[mesh->cell_vertices[mesh->cell_offsets[c]]]];
-    part->young = PetscMax(part->young, physics->materials[mesh->cell_body[c]].young);
+    const PetscInt p = parts->of_piece[mesh->cell_vertices[mesh->cell_offsets[c]]];
+    young[p]         = PetscMax(young[p], physics->materials[mesh->cell_body[c]].young);
   }
-  for (PetscInt p = 0; p < parts->n; p++)
-    parts->part[p].faint = FAINT * parts->part[p].young * extent_diagonal_squared(&own[p]);
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, young, (PetscMPIInt)parts->n, MPIU_REAL, MPIU_MAX, PETSC_COMM_WORLD));
+  for (PetscInt p = 0; p < parts->n; p++) {
+    PetscCall(extent_of_all(&own[p]));
+    parts->part[p].young = young[p];
+    parts->part[p].faint = FAINT * young[p] * extent_diagonal_squared(&own[p]);
+  }
   PetscCall(PetscFree(own));
+  PetscCall(PetscFree(young));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Before the mesh is distributed: which part each vertex belongs to. */
+/* The least number of all vertices that cells connect with each vertex of the piece: within the piece at once, from piece to
+ * piece as often as it changes anywhere. */
+static PetscErrorCode connect(const Mesh *mesh, PetscInt least[])
+{
+  PetscInt *tree;
+  PetscBool changed = PETSC_TRUE;
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(mesh->n_vertices, &tree));
+  for (PetscInt v = 0; v < mesh->n_vertices; v++) {
+    tree[v]  = v;
+    least[v] = mesh->numbers[v];
+  }
+  for (PetscInt c = 0; c < mesh->n_cells; c++) {
+    for (PetscInt k = mesh->cell_offsets[c] + 1; k < mesh->cell_offsets[c + 1]; k++)
+      trees_join(tree, mesh->cell_vertices[k - 1], mesh->cell_vertices[k]);
+  }
+  (void)trees_number(mesh->n_vertices, tree);
+  while (changed) {
+    PetscInt *of_tree;
+    changed = PETSC_FALSE;
+    PetscCall(PetscMalloc1(mesh->n_vertices, &of_tree)); /* trees are not more than vertices */
+    for (PetscInt v = 0; v < mesh->n_vertices; v++)
+      of_tree[v] = PETSC_MAX_INT;
+    for (PetscInt v = 0; v < mesh->n_vertices; v++)
+      of_tree[tree[v]] = PetscMin(of_tree[tree[v]], least[v]);
+    for (PetscInt v = 0; v < mesh->n_vertices; v++) {
+      changed  = (PetscBool)(changed || least[v] != of_tree[tree[v]]);
+      least[v] = of_tree[tree[v]];
+    }
+    PetscCall(PetscFree(of_tree));
+    PetscCall(pieces_unite(mesh, least, MPI_MIN));
+    PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &changed, 1, MPIU_BOOL, MPI_LOR, PETSC_COMM_WORLD));
+  }
+  PetscCall(PetscFree(tree));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Distinct numbers of all ranks, sorted. */
+static PetscErrorCode merge(const Mesh *mesh, PetscInt n, const PetscInt mine[], PetscInt *n_all, PetscInt **all)
+{
+  PetscMPIInt n_mine = (PetscMPIInt)n, *counts, *starts;
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc2(mesh->size, &counts, mesh->size + 1, &starts));
+  PetscCallMPI(MPI_Allgather(&n_mine, 1, MPI_INT, counts, 1, MPI_INT, PETSC_COMM_WORLD));
+  starts[0] = 0;
+  for (PetscMPIInt r = 0; r < mesh->size; r++)
+    starts[r + 1] = starts[r] + counts[r];
+  *n_all = starts[mesh->size];
+  PetscCall(PetscMalloc1(*n_all, all));
+  PetscCallMPI(MPI_Allgatherv(mine, n_mine, MPIU_INT, *all, counts, starts, MPIU_INT, PETSC_COMM_WORLD));
+  PetscCall(PetscSortRemoveDupsInt(n_all, *all));
+  PetscCall(PetscFree2(counts, starts));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Before the mesh is distributed: which part each vertex belongs to. Parts are numbered by their first vertices. */
 PetscErrorCode parts_label(Physics *physics)
 {
   Parts      *parts = &physics->parts;
   const Mesh *mesh  = physics->mesh;
-  PetscInt   *part  = NULL;
+  PetscInt   *part, *firsts, *all, n_firsts = mesh->n_vertices;
 
   PetscFunctionBegin;
-  if (mesh->rank == 0) {
-    PetscCall(PetscMalloc1(mesh->n_vertices, &part));
-    for (PetscInt v = 0; v < mesh->n_vertices; v++)
-      part[v] = v;
-    for (PetscInt c = 0; c < mesh->n_cells; c++) {
-      for (PetscInt k = mesh->cell_offsets[c] + 1; k < mesh->cell_offsets[c + 1]; k++)
-        trees_join(part, mesh->cell_vertices[k - 1], mesh->cell_vertices[k]);
-    }
-    parts->n = trees_number(mesh->n_vertices, part);
-  }
-  PetscCallMPI(MPI_Bcast(&parts->n, 1, MPIU_INT, 0, PETSC_COMM_WORLD));
-  parts->of_mesh = part;
+  PetscCall(PetscMalloc1(mesh->n_vertices, &part));
+  PetscCall(connect(mesh, part));
+  PetscCall(PetscMalloc1(mesh->n_vertices, &firsts));
+  PetscCall(PetscArraycpy(firsts, part, mesh->n_vertices));
+  PetscCall(PetscSortRemoveDupsInt(&n_firsts, firsts));
+  PetscCall(merge(mesh, n_firsts, firsts, &parts->n, &all));
+  for (PetscInt v = 0; v < mesh->n_vertices; v++)
+    PetscCall(PetscFindInt(part[v], parts->n, all, &part[v]));
+  parts->of_piece = part;
   PetscCall(PetscCalloc2(parts->n, &parts->part, N_SQUARES * parts->n, &parts->squares));
-  if (mesh->rank == 0) PetscCall(measure(physics));
-  PetscCall(plex_label_vertices(mesh, "part", mesh->rank ? 0 : mesh->n_vertices, NULL, part, 0));
+  for (PetscInt p = 0; p < parts->n; p++)
+    parts->part[p].first = all[p];
+  PetscCall(PetscFree(firsts));
+  PetscCall(PetscFree(all));
+  PetscCall(measure(physics));
+  PetscCall(plex_label_vertices(mesh, "part", mesh->n_vertices, NULL, part, 0));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* After it: the part of each vertex here; all ranks learn what rank 0 knows of the parts. */
+/* After it: the part of each vertex here. */
 PetscErrorCode parts_create(Physics *physics)
 {
   const Mesh *mesh  = physics->mesh;
   Parts      *parts = &physics->parts;
   DMLabel     label;
   PetscFunctionBegin;
-  PetscCallMPI(MPI_Bcast(parts->part, (PetscMPIInt)(sizeof(Part) * (size_t)parts->n), MPI_BYTE, 0,
-                         PETSC_COMM_WORLD));
+  PetscCall(PetscFree(parts->of_piece));
   PetscCall(DMGetLabel(mesh->dm, "part", &label));
   PetscCall(PetscMalloc1(mesh->n_points, &parts->of_vertex));
   for (PetscInt k = 0; k < mesh->n_points; k++)

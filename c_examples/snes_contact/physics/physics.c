@@ -8,7 +8,6 @@ static PetscErrorCode destroy_unknowns(Unknowns *unknowns)
   PetscCall(PetscFree(unknowns->owner));
   PetscCall(PetscFree(unknowns->ghost));
   PetscCall(PetscSFDestroy(&unknowns->ghosts));
-  PetscCall(PetscSFDestroy(&unknowns->all_displacements));
   PetscCall(PetscSectionDestroy(&unknowns->section));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -38,7 +37,7 @@ PetscErrorCode physics_destroy(Physics *physics)
   PetscCall(PetscFree(physics->prescribed));
   PetscCall(PetscFree(physics->ranges));
   PetscCall(PetscFree2(parts->part, parts->squares));
-  PetscCall(PetscFree(parts->of_mesh));
+  PetscCall(PetscFree(parts->of_piece));
   PetscCall(PetscFree(parts->of_vertex));
   PetscCall(PetscFree6(cells->offsets, cells->dofs, cells->body, cells->part, cells->X, cells->stiffness));
   PetscCall(VecDestroy(&physics->u_local));

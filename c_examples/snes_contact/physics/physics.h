@@ -22,8 +22,9 @@ typedef struct {
   PetscInt  rigid, turns; /* the rigid body that it is of, -1: none; which of its turns it prescribes, as `mask` */
   PetscReal value[3], gradient[9], origin[3], rotate[3];
   Curve     curve, rotate_curve;
-  PetscInt  n_vertices, *vertices; /* rank 0 */
-  PetscReal *given;                /* 3 per vertex of the mesh; NULL: no file says them */
+  PetscInt  n_vertices, *vertices; /* of the piece of the mesh; forgotten once it is distributed */
+  PetscBool  from_file;
+  PetscReal *given; /* from a file, 3 per vertex of the piece, once it is distributed of those here */
   /* of the last evaluation, summed over ranks by supports_reactions(); the moment is about `origin`, of a rigid body that of the
    * turns that are prescribed */
   PetscReal reaction[3], moment[3];
@@ -38,7 +39,7 @@ typedef struct {
   PetscBool      *bodies; /* per body: is it loaded? NULL: a load on surfaces */
   Curve           curve;
   PetscInt        n_surfaces;
-  const Surface **surfaces; /* rank 0 */
+  const Surface **surfaces;        /* of the piece */
   PetscInt        n_faces, *faces; /* this rank's, as points of the DMPlex */
   Vec             forces;   /* local vector of the nodal forces at factor 1, but for a follower; ranks add up */
 } Load;
@@ -77,10 +78,9 @@ typedef struct {
   PetscSection    section;
   PetscInt        n_local;
   const PetscInt *equations; /* of each local entry, -1: prescribed */
-  PetscInt       *owner;     /* rank 0, per mesh vertex: rank, then the local offset of each field there */
+  PetscInt       *owner;     /* of a range of the mesh's vertices: rank, then the local offset of each field there */
   PetscBool      *ghost;     /* per vertex here: another rank owns it */
   PetscSF         ghosts;    /* from its entries there to those here; NULL on a single rank */
-  PetscSF         all_displacements;
 } Unknowns;
 
 /* This rank's cells */
@@ -91,6 +91,7 @@ typedef struct {
 
 /* Connected cells: bodies, or pieces of them, that nothing but contact joins to others */
 typedef struct {
+  PetscInt  first;                  /* number of its first vertex */
   PetscReal young, reach;           /* the stiffest E; size of all that contact may join to it: reach_measure() */
   PetscReal reference, felt;        /* its forces at the last evaluation; the largest of a converged step */
   PetscReal faint;                  /* a first reference, too small to matter */
@@ -101,7 +102,7 @@ typedef struct {
 enum { SQUARES_LOADS, SQUARES_REACTIONS, SQUARES_CONTACT, SQUARES_ROUNDING, SQUARES_RESIDUAL, N_SQUARES };
 
 typedef struct {
-  PetscInt   n, *of_mesh, *of_vertex; /* part of each mesh vertex (rank 0), of each vertex here */
+  PetscInt   n, *of_piece, *of_vertex; /* part of each vertex of the piece; of each vertex here */
   Part      *part;
   PetscReal *squares;         /* N_SQUARES per part, of the last evaluation */
   PetscReal  reference_force; /* of all of them */
@@ -120,7 +121,7 @@ typedef struct {
   PetscInt  n_supports, n_loads;
   Support  *supports;
   Load     *loads;
-  PetscInt *prescribed; /* rank 0: mask of prescribed displacements per mesh vertex */
+  PetscInt *prescribed; /* mask of prescribed displacements per vertex of the piece */
   PetscInt  n_rigids;
   Rigid    *rigids;
   PetscReal t_turned;      /* the time of the last step, from which their rotations count */
@@ -128,7 +129,7 @@ typedef struct {
   Unknowns  unknowns;
   Cells     cells;
   Parts     parts;
-  Range    *ranges; /* rank 0: per body */
+  Range    *ranges; /* per body */
   Vec       u_local, f_local, prescribed_local; /* local vectors: state, forces, values of prescribed entries at t */
   Vec       f_external;                         /* local, at t */
   Vec       f_sum;                              /* local: work space of unknowns_sum() */
@@ -142,7 +143,9 @@ PetscErrorCode materials_read(Scene *scene, Physics *physics);
 /* supports_scene.c, supports.c */
 PetscErrorCode supports_read(Scene *scene, Physics *physics);
 PetscErrorCode supports_label(Physics *physics);
-PetscBool supports_agree(const Physics *physics, const Support *a, const Support *b, PetscInt vertex, int component);
+/* at a vertex of the piece, or any place if no file says what is prescribed there */
+PetscBool supports_agree(const Physics *physics, const Support *a, const Support *b, PetscInt vertex, const PetscReal X[3],
+                         int component);
 PetscErrorCode supports_values(Physics *physics, PetscReal t); /* into prescribed_local */
 PetscErrorCode supports_reactions(Physics *physics);
 /* which support turns each part, -1: none; a position turned as that support does from t0 to t */
@@ -168,14 +171,15 @@ PetscErrorCode rigids_reactions(Physics *physics);
 PetscReal      rigids_work_before(const Physics *physics, const PetscScalar *f_external);
 PetscErrorCode rigids_accept(Physics *physics, PetscReal t, Vec last, Vec before);
 stickslip_rigid_motion rigids_motion(const Rigid *rigid); /* of now */
+PetscErrorCode rigids_displacements(const Rigid *rigid, PetscInt n, const PetscReal X[], PetscScalar u[]);
 void           rigids_turned(const Rigid *rigid, PetscReal turned[9]);
-void           rigids_tidy(const Physics *physics, PetscScalar displacements[]); /* rank 0: of all vertices */
 PetscInt       rigids_of_vertex(const Physics *physics, PetscInt vertex); /* of the mesh; -1: it is of none */
 PetscInt       rigids_node_mask(const Rigid *rigid);
+PetscBool      rigids_moves(const Physics *physics, PetscInt vertex, int component);
 
 /* supports_file.c */
-PetscErrorCode supports_file_read(Scene *scene, const Mesh *mesh, Support *support); /* rank 0 */
-PetscErrorCode supports_file_share(const Mesh *mesh, Support *support);
+PetscErrorCode supports_file_read(Scene *scene, const Mesh *mesh, Support *support);
+PetscErrorCode supports_file_move(Physics *physics); /* once the mesh is distributed */
 
 /* loads_scene.c, loads.c */
 PetscErrorCode loads_read(Scene *scene, Physics *physics);
@@ -195,6 +199,11 @@ PetscErrorCode unknowns_to_local(Physics *physics, Vec x);
 /* into f_sum: what all ranks hold, complete at owned vertices */
 PetscErrorCode unknowns_sum(Physics *physics, Vec local);
 
+/* on every rank: of a vertex by its number */
+PetscErrorCode unknowns_displacement(const Physics *physics, PetscInt number, const PetscScalar *local, PetscReal u[3]);
+/* of the k-th vertex here: its place, and where its displacement lies in a local vector; `coordinates`: the DM's local ones */
+PetscErrorCode unknowns_place(const Physics *physics, PetscInt k, const PetscScalar *coordinates, PetscReal X[3], PetscInt *at);
+
 /* bulk.c */
 PetscErrorCode bulk_create(Physics *physics);
 /* `status` > 0 on every rank if a cell is turned inside out somewhere, named in physics->inverted */
@@ -203,7 +212,7 @@ PetscErrorCode bulk_stiffness(Physics *physics, Mat matrix, PetscInt *status);  
 PetscErrorCode bulk_extension(Physics *physics, Vec u_local, Vec f_local, Mat matrix); /* adds to both */
 PetscErrorCode bulk_pattern(Physics *physics, Mat matrix);                             /* adds zeros */
 
-/* parts.c. Between parts_label() and parts_create() the contact sets each part's `reach` on rank 0. */
+/* parts.c. Between parts_label() and parts_create() the contact sets each part's `reach`. */
 PetscErrorCode parts_label(Physics *physics);
 PetscErrorCode parts_create(Physics *physics);
 PetscErrorCode parts_measure(Physics *physics);
@@ -212,7 +221,7 @@ void           parts_judge(const Physics *physics, PetscReal rtol, PetscReal ato
 void           parts_accept(Physics *physics);
 
 /* range.c: do bodies with the linear material stay where it is right? */
-PetscErrorCode range_check(Physics *physics, const PetscScalar *displacements); /* rank 0: of all vertices */
+PetscErrorCode range_check(Physics *physics, Vec u_local);
 PetscErrorCode range_report(const Physics *physics, struct cJSON *root);
 
 /* physics.c */

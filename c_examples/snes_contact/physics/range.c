@@ -69,7 +69,7 @@ static PetscErrorCode warn(Physics *physics, PetscInt b)
 {
   const Range *range = &physics->ranges[b];
   PetscFunctionBegin;
-  PetscCall(PetscFPrintf(PETSC_COMM_SELF, PETSC_STDERR,
+  PetscCall(PetscFPrintf(PETSC_COMM_WORLD, PETSC_STDERR,
                          "snes_contact: warning: at t = %.6g %s, whose material is linear, is strained by %.2g and turned "
                          "by %.2g degrees: expect errors of about %.2g in its forces. Give it `material: neo_hooke` "
                          "(or st_venant_kirchhoff, where it turns but is hardly strained), or `small_strain: true` "
@@ -79,40 +79,57 @@ static PetscErrorCode warn(Physics *physics, PetscInt b)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* rank 0, at a converged state: the largest so far; the first time that a body leaves the range is told. */
-PetscErrorCode range_check(Physics *physics, const PetscScalar *displacements)
+/* Of this rank's cells, into strain and rotation of each body. */
+static PetscErrorCode measure(const Physics *physics, Vec u_local, PetscReal largest[])
 {
-  const Mesh *mesh = physics->mesh;
+  const Mesh        *mesh  = physics->mesh;
+  const Cells       *cells = &physics->cells;
+  const PetscScalar *displacements;
   PetscFunctionBegin;
-  if (!physics->ranges) PetscCall(PetscCalloc1(mesh->n_bodies, &physics->ranges));
-  for (PetscInt c = 0; c < mesh->n_cells; c++) {
-    const CellKind  kind     = mesh_cell_kind(mesh, c);
-    const PetscInt *vertices = mesh->cell_vertices + mesh->cell_offsets[c];
-    const Body    *body  = &mesh->bodies[mesh->cell_body[c]];
-    Range         *range = &physics->ranges[mesh->cell_body[c]];
-    PetscReal      X[3 * CELL_NODES], u[3 * CELL_NODES], H[9], strain, rotation;
-    PetscInt       held = 7;
-    if (body->analytic || body->rigid || physics->materials[mesh->cell_body[c]].law != &MATERIAL_LINEAR) continue;
-    for (PetscInt k = 0; k < 3 * cell_nodes(kind); k++) {
-      X[k] = mesh->coordinates[3 * vertices[k / 3] + k % 3];
-      u[k] = PetscRealPart(displacements[3 * vertices[k / 3] + k % 3]);
-      held &= physics->prescribed[vertices[k / 3]];
+  PetscCall(VecGetArrayRead(u_local, &displacements));
+  for (PetscInt c = 0; c < cells->n; c++) {
+    const PetscInt first = cells->offsets[c], n = cells->offsets[c + 1] - first, b = cells->body[c];
+    PetscReal      u[3 * CELL_NODES], H[9], strain, rotation;
+    PetscBool      held = PETSC_TRUE;
+    if (mesh->bodies[b].analytic || mesh->bodies[b].rigid || physics->materials[b].law != &MATERIAL_LINEAR) continue;
+    for (PetscInt k = 0; k < 3 * n; k++) {
+      const PetscInt dof = cells->dofs[first + k / 3] + k % 3;
+      u[k]               = PetscRealPart(displacements[dof]);
+      held               = (PetscBool)(held && physics->unknowns.equations[dof] < 0);
     }
-    if (held == 7) continue;
-    cell_centre_gradient(kind, &mesh->space, &physics->materials[mesh->cell_body[c]], X, u, H);
+    if (held) continue;
+    cell_centre_gradient(cell_kind(mesh->dimension, n), &mesh->space, &physics->materials[b], cells->X + 3 * first, u, H);
     PetscCall(decompose(H, &strain, &rotation));
-    range->strain   = PetscMax(range->strain, strain);
-    range->rotation = PetscMax(range->rotation, rotation);
+    largest[2 * b]     = PetscMax(largest[2 * b], strain);
+    largest[2 * b + 1] = PetscMax(largest[2 * b + 1], rotation);
   }
-  for (PetscInt b = 0; b < mesh->n_bodies; b++) {
-    if (physics->materials[b].small_strain || physics->ranges[b].told || !leaves(&physics->ranges[b])) continue;
-    physics->ranges[b].told = PETSC_TRUE;
-    PetscCall(warn(physics, b));
-  }
+  PetscCall(VecRestoreArrayRead(u_local, &displacements));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* rank 0: per body with the linear material what it was strained and turned by, and whether that is beyond its range */
+/* At a converged state: the largest so far; the first time that a body leaves the range is told. */
+PetscErrorCode range_check(Physics *physics, Vec u_local)
+{
+  const PetscInt n = physics->mesh->n_bodies;
+  PetscReal     *largest;
+  PetscFunctionBegin;
+  if (!physics->ranges) PetscCall(PetscCalloc1(n, &physics->ranges));
+  PetscCall(PetscCalloc1(2 * n, &largest));
+  PetscCall(measure(physics, u_local, largest));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, largest, (PetscMPIInt)(2 * n), MPIU_REAL, MPIU_MAX, PETSC_COMM_WORLD));
+  for (PetscInt b = 0; b < n; b++) {
+    Range *range    = &physics->ranges[b];
+    range->strain   = PetscMax(range->strain, largest[2 * b]);
+    range->rotation = PetscMax(range->rotation, largest[2 * b + 1]);
+    if (physics->materials[b].small_strain || range->told || !leaves(range)) continue;
+    range->told = PETSC_TRUE;
+    PetscCall(warn(physics, b));
+  }
+  PetscCall(PetscFree(largest));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* per body with the linear material what it was strained and turned by, and whether that is beyond its range */
 PetscErrorCode range_report(const Physics *physics, cJSON *root)
 {
   cJSON *all;

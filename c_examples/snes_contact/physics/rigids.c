@@ -86,11 +86,7 @@ PetscErrorCode rigids_create(Physics *physics)
   PetscCall(DMGetCoordinatesLocal(mesh->dm, &vector));
   PetscCall(VecGetArrayRead(vector, &coordinates));
   for (PetscInt r = 0; r < physics->n_rigids; r++) {
-    Rigid   *rigid    = &physics->rigids[r];
-    PetscInt range[2] = {mesh->bodies[rigid->body].first_vertex, mesh->bodies[rigid->body].end_vertex};
-    PetscCallMPI(MPI_Bcast(range, 2, MPIU_INT, 0, PETSC_COMM_WORLD));
-    rigid->first_vertex = range[0];
-    rigid->end_vertex   = range[1];
+    Rigid *rigid = &physics->rigids[r];
     PetscCall(find_nodes(physics, rigid, coordinates, section));
     for (int k = 0; k < RIGID_UNKNOWNS; k++)
       rigid->equations[k] = rigid->owned ? physics->unknowns.equations[rigid->at[k / 3] + k % 3] : -1;
@@ -367,6 +363,19 @@ PetscErrorCode rigids_accept(Physics *physics, PetscReal t, Vec last, Vec before
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Displacements of points that move with the body, from their places at the start. */
+PetscErrorCode rigids_displacements(const Rigid *rigid, PetscInt n, const PetscReal X[], PetscScalar u[])
+{
+  const stickslip_rigid_motion motion = rigids_motion(rigid);
+  const stickslip_rigid_body   body   = {.struct_size = sizeof(body), .dimension = 3, .n_nodes = n, .coordinates = X, .point = rigid->point};
+  PetscFunctionBegin;
+  PetscCheck(!stickslip_rigid_positions(&body, &motion, u), PETSC_COMM_SELF, PETSC_ERR_LIB, "stickslip: %s",
+             stickslip_last_error_message());
+  for (PetscInt k = 0; k < 3 * n; k++)
+    u[k] -= X[k];
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* What the body is turned by now, row by row: where it takes the axes. */
 void rigids_turned(const Rigid *rigid, PetscReal turned[9])
 {
@@ -379,16 +388,6 @@ void rigids_turned(const Rigid *rigid, PetscReal turned[9])
   (void)stickslip_rigid_positions(&body, &motion, x); /* of a motion that it has placed before */
   for (int k = 0; k < 9; k++)
     turned[k] = x[3 * (k % 3) + k / 3];
-}
-
-/* rank 0, of all vertices: the second one moves with the reference point for whoever looks at places. */
-void rigids_tidy(const Physics *physics, PetscScalar displacements[])
-{
-  for (PetscInt r = 0; r < physics->n_rigids; r++) {
-    PetscScalar *u = displacements + 3 * physics->rigids[r].first_vertex;
-    for (int i = 0; i < 3; i++)
-      u[3 + i] = u[i];
-  }
 }
 
 PetscInt rigids_of_vertex(const Physics *physics, PetscInt vertex)
@@ -408,4 +407,12 @@ PetscInt rigids_node_mask(const Rigid *rigid)
     if ((rigid->held & all) == all) mask |= 1 << i;
   }
   return mask;
+}
+
+/* Is a component of a vertex that has no equation free to move with its body, nevertheless? */
+PetscBool rigids_moves(const Physics *physics, PetscInt vertex, int component)
+{
+  const PetscInt r = rigids_of_vertex(physics, vertex);
+  if (r < 0 || vertex < physics->rigids[r].first_vertex + FIRST) return PETSC_FALSE;
+  return (PetscBool)!(rigids_node_mask(&physics->rigids[r]) >> component & 1);
 }

@@ -22,7 +22,7 @@ PetscErrorCode rigids_read(Scene *scene, Physics *physics)
     if (!mesh->bodies[b].rigid) continue;
     Rigid *rigid        = &physics->rigids[r++];
     rigid->body         = b;
-    rigid->first_vertex = mesh->bodies[b].first_vertex; /* of rank 0, until rigids_create() */
+    rigid->first_vertex = mesh->bodies[b].first_vertex;
     rigid->end_vertex   = mesh->bodies[b].end_vertex;
     rigid->held         = always_held(mesh->space.kind);
     for (int k = 0; k < RIGID_UNKNOWNS; k++)
@@ -85,13 +85,14 @@ void rigids_support(Scene *scene, Physics *physics, PetscInt number)
   }
 }
 
-/* rank 0: what is prescribed of its vertices */
+/* What is prescribed of its vertices in the piece. */
 void rigids_mark(Physics *physics)
 {
   for (PetscInt r = 0; r < physics->n_rigids; r++) {
     const Rigid *rigid = &physics->rigids[r];
-    for (PetscInt v = rigid->first_vertex; v < rigid->end_vertex; v++) {
-      const PetscInt number  = v - rigid->first_vertex;
+    const Body  *body  = &physics->mesh->bodies[rigid->body];
+    for (PetscInt v = body->first_here; v < body->end_here; v++) {
+      const PetscInt number  = physics->mesh->numbers[v] - rigid->first_vertex;
       physics->prescribed[v] = number == 0 ? rigid->held & 7 : number == 1 ? rigid->held >> 3 : rigids_node_mask(rigid);
     }
   }

@@ -17,14 +17,14 @@ static void rotate(const PetscReal w[3], PetscReal x[3])
     x[i] += s * wx[i] + c * wwx[i];
 }
 
-/* at t; X of a vertex of the mesh, in the axes of the scene file, the result too */
+/* at t; X of a vertex of `given`, in the axes of the scene file, the result too */
 static void prescribed_displacement(const Support *support, PetscReal t, PetscInt vertex, const PetscReal X[3],
                                     PetscReal u[3])
 {
   const PetscReal factor = curve_value(&support->curve, t), turn = curve_value(&support->rotate_curve, t);
   PetscReal       w[3], x[3];
   for (int i = 0; i < 3; i++) {
-    u[i] = support->value[i] + (support->given ? support->given[3 * vertex + i] : 0);
+    u[i] = support->value[i] + (support->from_file ? support->given[3 * vertex + i] : 0);
     for (int j = 0; j < 3; j++)
       u[i] += support->gradient[3 * i + j] * (X[j] - support->origin[j]);
     u[i] *= factor;
@@ -37,11 +37,10 @@ static void prescribed_displacement(const Support *support, PetscReal t, PetscIn
     u[i] = x[i] - (X[i] - support->origin[i]);
 }
 
-/* Do both prescribe the same u_i at a vertex of the mesh, before it is turned into another frame? At times between which
- * both move evenly, and at some in between, where they turn. (rank 0) */
-PetscBool supports_agree(const Physics *physics, const Support *a, const Support *b, PetscInt vertex, int i)
+/* Do both prescribe the same u_i at a vertex, before it is turned into another frame? At times between which both move evenly,
+ * and at some in between, where they turn. */
+PetscBool supports_agree(const Physics *physics, const Support *a, const Support *b, PetscInt vertex, const PetscReal X[3], int i)
 {
-  const PetscReal   *X        = physics->mesh->coordinates + 3 * vertex;
   const Curve *const curves[] = {&a->curve, &a->rotate_curve, &b->curve, &b->rotate_curve};
   const PetscInt     n_even   = 16;
   for (int c = 0; c <= 4; c++) {
@@ -61,15 +60,13 @@ PetscErrorCode supports_label(Physics *physics)
 {
   const Mesh *mesh = physics->mesh;
   char        label[2 * NAME_LENGTH];
-  PetscInt   *mask;
   PetscFunctionBegin;
-  PetscCall(PetscMalloc1(mesh->n_vertices, &mask));
-  for (PetscInt v = 0; v < mesh->n_vertices; v++) { /* nodes of rigid bodies have no unknowns of their own */
-    const PetscInt r = rigids_of_vertex(physics, v);
-    mask[v]          = r >= 0 && v >= physics->rigids[r].first_vertex + 2 ? 7 : physics->prescribed[v];
+  for (PetscInt v = 0; v < mesh->n_vertices && physics->n_rigids; v++) { /* nodes of rigid bodies have no unknowns of their own */
+    const PetscInt r = rigids_of_vertex(physics, mesh->numbers[v]);
+    if (r >= 0 && mesh->numbers[v] >= physics->rigids[r].first_vertex + 2) physics->prescribed[v] = 7;
   }
-  PetscCall(plex_label_vertices(mesh, "prescribed", mesh->n_vertices, NULL, mask, 0));
-  PetscCall(PetscFree(mask));
+  PetscCall(plex_label_vertices(mesh, "prescribed", mesh->n_vertices, NULL, physics->prescribed, 0));
+  PetscCall(PetscFree(physics->prescribed));
   for (PetscInt s = 0; s < physics->n_supports; s++) {
     PetscCall(PetscSNPrintf(label, sizeof(label), "support.%s", physics->supports[s].name));
     PetscCall(
@@ -124,7 +121,7 @@ static PetscErrorCode visit(Physics *physics, Vec local, PetscReal t, VertexVisi
         for (int j = 0; j < 3; j++)
           X[i] += mesh->rotation[3 * j + i] * PetscRealPart(coordinates[at + j]);
       }
-      prescribed_displacement(support, t, mesh->original[mesh->here[points[k]]], X, vertex.u);
+      prescribed_displacement(support, t, mesh->here[points[k]], X, vertex.u);
       mesh_rotate_vector(mesh, vertex.u);
       for (int i = 0; i < 3; i++) {
         vertex.arm[i] = X[i] - support->origin[i];

@@ -76,44 +76,63 @@ static const Row *row_at(const Table *table, const PetscReal X[3], PetscReal tol
   return NULL;
 }
 
-/* rank 0, when the support's vertices are known */
+/* when the support's vertices are known; every rank reads the file */
 PetscErrorCode supports_file_read(Scene *scene, const Mesh *mesh, Support *support)
 {
-  char      file[PETSC_MAX_PATH_LEN] = "", path[PETSC_MAX_PATH_LEN];
+  char      file[PETSC_MAX_PATH_LEN] = "", path[PETSC_MAX_PATH_LEN], text[PETSC_MAX_PATH_LEN + 128] = "";
   Table     table                    = {0};
   Extent    extent                   = extent_of_nothing();
   PetscReal tolerance;
+  PetscInt  bad = -1;
 
   PetscFunctionBegin;
   scene_string(scene, support->name, "file", file, sizeof(file));
   if (!file[0]) PetscFunctionReturn(PETSC_SUCCESS);
+  support->from_file = PETSC_TRUE;
   PetscCall(scene_relative_path(scene, file, path, sizeof(path)));
   PetscCall(read_rows(scene, support->name, path, &table));
   for (PetscInt v = 0; v < mesh->n_vertices; v++)
     extent_add(&extent, mesh->coordinates + 3 * v);
+  PetscCall(extent_of_all(&extent));
   tolerance = SAME_VERTEX * extent_longest(&extent);
   PetscCall(PetscCalloc1(3 * mesh->n_vertices, &support->given));
-  for (PetscInt k = 0; k < support->n_vertices; k++) {
+  for (PetscInt k = 0; k < support->n_vertices && bad < 0; k++) {
     const PetscReal *X   = mesh->coordinates + 3 * support->vertices[k];
     const Row       *row = row_at(&table, X, tolerance);
-    if (!row)
-      scene_fail(scene, support->name, "file", "'%s' has no row for the vertex at [%g, %g, %g].", path, (double)X[0],
-                 (double)X[1], (double)X[2]);
-    for (int i = 0; i < 3; i++)
+    if (!row) {
+      bad = mesh->numbers[support->vertices[k]];
+      PetscCall(PetscSNPrintf(text, sizeof(text), "'%s' has no row for the vertex at [%g, %g, %g].", path, (double)X[0],
+                              (double)X[1], (double)X[2]));
+    }
+    for (int i = 0; i < 3 && row; i++)
       support->given[3 * support->vertices[k] + i] = row->u[i];
   }
+  PetscCall(scene_fail_first(scene, bad, support->name, "file", text));
   PetscCall(PetscFree(table.rows));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* what rank 0 has read, on every rank */
-PetscErrorCode supports_file_share(const Mesh *mesh, Support *support)
+/* What files say, from the pieces' vertices to those that are here now. */
+PetscErrorCode supports_file_move(Physics *physics)
 {
-  PetscMPIInt n = support->given ? (PetscMPIInt)(3 * mesh->n_vertices) : 0;
+  const Mesh  *mesh = physics->mesh;
+  MPI_Datatype vector;
+  PetscSF      sf;
   PetscFunctionBegin;
-  PetscCallMPI(MPI_Bcast(&n, 1, MPI_INT, 0, PETSC_COMM_WORLD));
-  if (!n) PetscFunctionReturn(PETSC_SUCCESS);
-  if (mesh->rank) PetscCall(PetscMalloc1(n, &support->given));
-  PetscCallMPI(MPI_Bcast(support->given, n, MPIU_REAL, 0, PETSC_COMM_WORLD));
+  PetscCallMPI(MPI_Type_contiguous(3, MPIU_REAL, &vector));
+  PetscCallMPI(MPI_Type_commit(&vector));
+  PetscCall(pieces_fetch_create(mesh, mesh->n_points, mesh->original, &sf));
+  for (PetscInt s = 0; s < physics->n_supports; s++) {
+    Support   *support = &physics->supports[s];
+    PetscReal *here;
+    if (!support->from_file) continue;
+    PetscCall(PetscMalloc1(3 * mesh->n_points, &here));
+    PetscCall(PetscSFBcastBegin(sf, vector, support->given, here, MPI_REPLACE));
+    PetscCall(PetscSFBcastEnd(sf, vector, support->given, here, MPI_REPLACE));
+    PetscCall(PetscFree(support->given));
+    support->given = here;
+  }
+  PetscCall(PetscSFDestroy(&sf));
+  PetscCallMPI(MPI_Type_free(&vector));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -3,6 +3,25 @@
 #include <stdio.h>
 #include <string.h>
 
+/* Vertices of rigid bodies are not supported one by one. */
+static PetscErrorCode refuse_rigid(Scene *scene, const Physics *physics, const char *name, const PetscInt chosen[])
+{
+  char     text[512] = "";
+  PetscInt bad       = -1;
+  PetscFunctionBegin;
+  if (!physics->n_rigids) PetscFunctionReturn(PETSC_SUCCESS);
+  for (PetscInt v = 0; v < physics->mesh->n_vertices && bad < 0; v++) {
+    const PetscInt r    = chosen[v] ? rigids_of_vertex(physics, physics->mesh->numbers[v]) : -1;
+    const char    *body = r < 0 ? "" : physics->mesh->bodies[physics->rigids[r].body].name;
+    if (r < 0) continue;
+    bad = physics->mesh->numbers[v];
+    PetscCall(PetscSNPrintf(text, sizeof(text), "'%s' is rigid: support it at its reference point, {body: %s, components: [x, rx, ...]}.",
+                            body, body));
+  }
+  PetscCall(scene_fail_first(scene, bad, name, "surface", text));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode select_vertices(Scene *scene, Physics *physics, Support *support)
 {
   const Mesh *mesh = physics->mesh;
@@ -10,7 +29,7 @@ static PetscErrorCode select_vertices(Scene *scene, Physics *physics, Support *s
   PetscInt    n;
   char      **list;
   PetscReal   box[6];
-  PetscBool  *chosen;
+  PetscInt   *chosen, number;
 
   PetscFunctionBegin;
   PetscCall(PetscCalloc1(mesh->n_vertices, &chosen));
@@ -23,13 +42,15 @@ static PetscErrorCode select_vertices(Scene *scene, Physics *physics, Support *s
     }
     strings_destroy(n, &list);
   } else if (scene_has(scene, name, "point")) {
-    chosen[mesh_nearest_vertex(scene, mesh, name)] = PETSC_TRUE;
+    PetscCall(mesh_nearest_vertex(scene, mesh, name, &number));
+    number = mesh_vertex_here(mesh, number);
+    if (number >= 0) chosen[number] = PETSC_TRUE;
   } else if (scene_has(scene, name, "body")) {
     const PetscBool within = space_box(scene, &mesh->space, name, "within", box);
     scene_strings(scene, name, "body", &n, &list);
     for (PetscInt k = 0; k < n; k++) {
       const Body *body = &mesh->bodies[mesh_body(scene, mesh, name, "body", list[k])];
-      for (PetscInt v = body->first_vertex; v < body->end_vertex; v++) {
+      for (PetscInt v = body->first_here; v < body->end_here; v++) {
         chosen[v] = PETSC_TRUE;
         for (int i = 0; i < 3 && within; i++) {
           if (mesh->coordinates[3 * v + i] < box[i] || mesh->coordinates[3 * v + i] > box[3 + i])
@@ -42,51 +63,60 @@ static PetscErrorCode select_vertices(Scene *scene, Physics *physics, Support *s
     scene_fail(scene, name, "surface",
                "say what is supported: a surface, or a body (with point, or within, for a part of it).");
   }
+  PetscCall(refuse_rigid(scene, physics, name, chosen));
+  PetscCall(pieces_unite(mesh, chosen, MPI_MAX)); /* a vertex here may be on a face of another piece */
   PetscCall(PetscMalloc1(mesh->n_vertices, &support->vertices));
   for (PetscInt v = 0; v < mesh->n_vertices; v++) {
-    const PetscInt r = chosen[v] ? rigids_of_vertex(physics, v) : -1;
-    if (r >= 0) {
-      const char *body = mesh->bodies[physics->rigids[r].body].name;
-      scene_fail(scene, name, "surface", "'%s' is rigid: support it at its reference point, {body: %s, components: [x, rx, ...]}.", body,
-                 body);
-    }
     if (chosen[v]) support->vertices[support->n_vertices++] = v;
   }
-  if (!support->n_vertices) scene_fail(scene, name, "within", "no vertex lies in this box.");
+  n = support->n_vertices;
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &n, 1, MPIU_INT, MPI_SUM, PETSC_COMM_WORLD));
+  if (!n) scene_fail(scene, name, "within", "no vertex lies in this box.");
   PetscCall(PetscFree(chosen));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* One support's vertices: prescribed components, of which `first` is the support that prescribes them, 3 a vertex. */
+static PetscErrorCode check_overlap(Scene *scene, Physics *physics, PetscInt s, PetscInt first[])
+{
+  const Mesh    *mesh      = physics->mesh;
+  const Support *support   = &physics->supports[s];
+  char           text[512] = "";
+  PetscInt       bad       = -1;
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < support->n_vertices; k++) {
+    const PetscInt   v = support->vertices[k];
+    const PetscReal *X = mesh->coordinates + 3 * v;
+    for (int i = 0; i < 3; i++) {
+      const Support *earlier;
+      if (!(support->mask & (1 << i))) continue;
+      physics->prescribed[v] |= 1 << i;
+      if (first[3 * v + i] < 0) {
+        first[3 * v + i] = s;
+        continue;
+      }
+      earlier = &physics->supports[first[3 * v + i]];
+      if (bad >= 0 || supports_agree(physics, support, earlier, v, X, i)) continue;
+      bad = mesh->numbers[v];
+      PetscCall(PetscSNPrintf(text, sizeof(text), "u_%c of the vertex at [%g, %g, %g] is prescribed differently by '%s'.", 'x' + i,
+                              (double)X[0], (double)X[1], (double)X[2], earlier->name));
+    }
+  }
+  PetscCall(scene_fail_first(scene, bad, support->name, "components", text));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* Two supports may share a vertex and a component only if they say the same. */
 static PetscErrorCode check_overlaps(Scene *scene, Physics *physics)
 {
-  const Mesh *mesh = physics->mesh;
-  PetscInt   *first;
+  const PetscInt n = 3 * physics->mesh->n_vertices;
+  PetscInt      *first;
   PetscFunctionBegin;
-  PetscCall(PetscMalloc1(3 * mesh->n_vertices, &first));
-  for (PetscInt k = 0; k < 3 * mesh->n_vertices; k++)
+  PetscCall(PetscMalloc1(n, &first));
+  for (PetscInt k = 0; k < n; k++)
     first[k] = -1;
-  for (PetscInt s = 0; s < physics->n_supports; s++) {
-    const Support *support = &physics->supports[s];
-    for (PetscInt k = 0; k < support->n_vertices; k++) {
-      const PetscInt   v = support->vertices[k];
-      const PetscReal *X = mesh->coordinates + 3 * v;
-      for (int i = 0; i < 3; i++) {
-        const Support *earlier;
-        if (!(support->mask & (1 << i))) continue;
-        physics->prescribed[v] |= 1 << i;
-        if (first[3 * v + i] < 0) {
-          first[3 * v + i] = s;
-          continue;
-        }
-        earlier = &physics->supports[first[3 * v + i]];
-        if (!supports_agree(physics, support, earlier, v, i))
-          scene_fail(scene, support->name, "components",
-                     "u_%c of the vertex at [%g, %g, %g] is prescribed differently by '%s'.", 'x' + i, (double)X[0],
-                     (double)X[1], (double)X[2], earlier->name);
-      }
-    }
-  }
+  for (PetscInt s = 0; s < physics->n_supports; s++)
+    PetscCall(check_overlap(scene, physics, s, first));
   PetscCall(PetscFree(first));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -97,11 +127,14 @@ static PetscErrorCode check_analytic(Scene *scene, const Physics *physics)
   PetscFunctionBegin;
   for (PetscInt b = 0; b < physics->mesh->n_bodies; b++) {
     const Body *body = &physics->mesh->bodies[b];
-    for (PetscInt v = body->first_vertex; v < body->end_vertex && body->analytic && !body->rigid; v++) {
-      if (physics->prescribed[v] != 7)
-        scene_fail(scene, body->name, NULL, "an analytic body needs a support: {body: %s, components: [x, y%s]}.",
-                   body->name, physics->mesh->dimension == 3 ? ", z" : "");
+    PetscInt    bad  = -1;
+    char        text[256];
+    for (PetscInt v = body->first_here; v < body->end_here && body->analytic && !body->rigid; v++) {
+      if (physics->prescribed[v] != 7) bad = v;
     }
+    PetscCall(PetscSNPrintf(text, sizeof(text), "an analytic body needs a support: {body: %s, components: [x, y%s]}.",
+                            body->name, physics->mesh->dimension == 3 ? ", z" : ""));
+    PetscCall(scene_fail_first(scene, bad, body->name, NULL, text));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -122,7 +155,7 @@ static PetscErrorCode hold_axis(const Mesh *mesh, Support *support)
   PetscCall(PetscMalloc1(mesh->n_vertices, &support->vertices));
   for (PetscInt b = 0; b < mesh->n_bodies; b++) {
     const Body *body = &mesh->bodies[b];
-    for (PetscInt v = body->first_vertex; v < body->end_vertex && !body->analytic && !body->rigid; v++) {
+    for (PetscInt v = body->first_here; v < body->end_here && !body->analytic && !body->rigid; v++) {
       if (mesh->coordinates[3 * v] == 0) support->vertices[support->n_vertices++] = v;
     }
   }
@@ -208,22 +241,16 @@ PetscErrorCode supports_read(Scene *scene, Physics *physics)
     PetscCall(curve_read(scene, ON_AXIS, "curve", physics->end, &axis->curve));
     PetscCall(curve_copy(&axis->curve, &axis->rotate_curve));
   }
-  scene_root_begin(scene);
-  if (mesh->rank == 0) {
-    PetscCall(PetscCalloc1(mesh->n_vertices, &physics->prescribed));
-    for (PetscInt s = 0; s < n_named; s++) {
-      if (physics->supports[s].rigid >= 0) continue;
-      PetscCall(select_vertices(scene, physics, &physics->supports[s]));
-      PetscCall(supports_file_read(scene, mesh, &physics->supports[s]));
-    }
-    if (axis) PetscCall(hold_axis(mesh, axis));
-    hold_plane(mesh, physics->prescribed);
-    rigids_mark(physics);
-    PetscCall(check_overlaps(scene, physics));
-    PetscCall(check_analytic(scene, physics));
+  PetscCall(PetscCalloc1(mesh->n_vertices, &physics->prescribed));
+  for (PetscInt s = 0; s < n_named; s++) {
+    if (physics->supports[s].rigid >= 0) continue;
+    PetscCall(select_vertices(scene, physics, &physics->supports[s]));
+    PetscCall(supports_file_read(scene, mesh, &physics->supports[s]));
   }
-  PetscCall(scene_root_end(scene));
-  for (PetscInt s = 0; s < physics->n_supports; s++)
-    PetscCall(supports_file_share(mesh, &physics->supports[s]));
+  if (axis) PetscCall(hold_axis(mesh, axis));
+  hold_plane(mesh, physics->prescribed);
+  rigids_mark(physics);
+  PetscCall(check_overlaps(scene, physics));
+  PetscCall(check_analytic(scene, physics));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

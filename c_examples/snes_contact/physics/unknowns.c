@@ -79,19 +79,18 @@ static PetscErrorCode create_section(Physics *physics)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Rank 0 learns for every mesh vertex which rank owns it, and where its fields lie in that rank's local vector. */
-static PetscErrorCode collect_owners(Physics *physics)
+/* Of ranges of vertices one rank each learns which rank owns them, and where their fields lie in that rank's local vector. */
+static PetscErrorCode register_owners(Physics *physics)
 {
   Unknowns       *unknowns = &physics->unknowns;
   const Mesh     *mesh     = physics->mesh;
   const PetscInt  n_fields = 1 + unknowns->n_fields, width = 1 + n_fields;
-  PetscInt        n_leaves, *mine, *all = NULL, mask;
+  PetscInt        n_leaves, n_here, n_mine = 0, *mine, *numbers, mask;
   const PetscInt *leaves;
-  PetscMPIInt     size, n_mine = 0, *counts = NULL, *starts = NULL;
-  PetscSF         sf;
+  MPI_Datatype    entry;
+  PetscSF         sf, directory;
 
   PetscFunctionBegin;
-  PetscCallMPI(MPI_Comm_size(PETSC_COMM_WORLD, &size));
   PetscCall(PetscCalloc1(mesh->n_points, &unknowns->ghost));
   PetscCall(DMGetPointSF(mesh->dm, &sf));
   PetscCall(PetscSFGetGraph(sf, NULL, &n_leaves, &leaves, NULL));
@@ -99,41 +98,30 @@ static PetscErrorCode collect_owners(Physics *physics)
     const PetscInt p = leaves ? leaves[k] : k;
     if (mesh->here[p] >= 0) unknowns->ghost[mesh->here[p]] = PETSC_TRUE;
   }
-  PetscCall(PetscMalloc1(width * mesh->n_points, &mine));
+  PetscCall(PetscMalloc2(width * mesh->n_points, &mine, mesh->n_points, &numbers));
   for (PetscInt k = 0; k < mesh->n_points; k++) {
     const PetscInt v = mesh->points[k];
-    PetscInt       offset;
+    PetscInt       offset, *e = mine + width * n_mine;
     if (unknowns->ghost[k]) continue;
     PetscCall(PetscSectionGetOffset(unknowns->section, v, &offset));
-    mine[n_mine++] = mesh->original[k];
+    numbers[n_mine++] = mesh->original[k];
+    *e++              = mesh->rank;
     for (PetscInt f = 0; f < n_fields; f++) {
       PetscCall(field_mask(physics, v, f, &mask));
-      mine[n_mine++] = mask < 0 ? -1 : offset;
+      *e++ = mask < 0 ? -1 : offset;
       if (mask >= 0) offset += field_components(physics, f);
     }
   }
-  if (mesh->rank == 0) PetscCall(PetscMalloc2(size, &counts, size + 1, &starts));
-  PetscCallMPI(MPI_Gather(&n_mine, 1, MPI_INT, counts, 1, MPI_INT, 0, PETSC_COMM_WORLD));
-  if (mesh->rank == 0) {
-    starts[0] = 0;
-    for (PetscMPIInt r = 0; r < size; r++)
-      starts[r + 1] = starts[r] + counts[r];
-    PetscCall(PetscMalloc1(starts[size], &all));
-    PetscCall(PetscMalloc1(width * mesh->n_vertices, &unknowns->owner));
-  }
-  PetscCallMPI(MPI_Gatherv(mine, n_mine, MPIU_INT, all, counts, starts, MPIU_INT, 0, PETSC_COMM_WORLD));
-  for (PetscMPIInt r = 0; r < size && mesh->rank == 0; r++) {
-    for (PetscInt k = starts[r]; k < starts[r + 1]; k += width) {
-      PetscInt *entry = unknowns->owner + width * all[k];
-      entry[0]        = r;
-      for (PetscInt f = 0; f < n_fields; f++)
-        entry[1 + f] = all[k + 1 + f];
-    }
-  }
-  PetscCall(PetscFree2(counts, starts));
-  PetscCall(PetscFree(all));
-  PetscCall(PetscFree(mine));
-  if (size > 1) {
+  PetscCall(directory_create(mesh, n_mine, numbers, &n_here, &directory));
+  PetscCall(PetscMalloc1(width * n_here, &unknowns->owner));
+  PetscCallMPI(MPI_Type_contiguous((PetscMPIInt)width, MPIU_INT, &entry));
+  PetscCallMPI(MPI_Type_commit(&entry));
+  PetscCall(PetscSFReduceBegin(directory, entry, mine, unknowns->owner, MPI_REPLACE));
+  PetscCall(PetscSFReduceEnd(directory, entry, mine, unknowns->owner, MPI_REPLACE));
+  PetscCallMPI(MPI_Type_free(&entry));
+  PetscCall(PetscSFDestroy(&directory));
+  PetscCall(PetscFree2(mine, numbers));
+  if (mesh->size > 1) {
     PetscInt *remote;
     PetscCall(PetscSFCreateRemoteOffsets(sf, unknowns->section, unknowns->section, &remote));
     PetscCall(PetscSFCreateSectionSF(sf, unknowns->section, remote, unknowns->section, &unknowns->ghosts));
@@ -146,18 +134,12 @@ static PetscErrorCode collect_owners(Physics *physics)
 static PetscErrorCode look_up(const Physics *physics, PetscInt n, const PetscInt vertices[], PetscInt entries[])
 {
   const Unknowns *unknowns = &physics->unknowns;
-  const Mesh     *mesh     = physics->mesh;
   MPI_Datatype    entry;
-  PetscSFNode    *remote;
+  PetscInt        n_here;
   PetscSF         directory;
 
   PetscFunctionBegin;
-  PetscCall(PetscMalloc1(n, &remote));
-  for (PetscInt k = 0; k < n; k++)
-    remote[k] = (PetscSFNode){.rank = 0, .index = vertices[k]};
-  PetscCall(PetscSFCreate(PETSC_COMM_WORLD, &directory));
-  PetscCall(PetscSFSetGraph(directory, mesh->rank ? 0 : mesh->n_vertices, n, NULL, PETSC_OWN_POINTER, remote,
-                            PETSC_OWN_POINTER));
+  PetscCall(directory_create(physics->mesh, n, vertices, &n_here, &directory));
   PetscCallMPI(MPI_Type_contiguous((PetscMPIInt)(2 + unknowns->n_fields), MPIU_INT, &entry));
   PetscCallMPI(MPI_Type_commit(&entry));
   PetscCall(PetscSFBcastBegin(directory, entry, unknowns->owner, entries, MPI_REPLACE));
@@ -187,7 +169,7 @@ PetscErrorCode unknowns_gather_create(Physics *physics, PetscInt n, const PetscI
   PetscCall(PetscMalloc2(n_asked, &asked, width * n_asked, &entries));
   for (PetscInt b = 0, k = 0; b < n; b++) {
     for (PetscInt v = 0; v < n_vertices[b]; v++)
-      asked[k++] = vertices[b] ? vertices[b][v] : v;
+      asked[k++] = vertices[b][v];
   }
   PetscCall(look_up(physics, n_asked, asked, entries));
   for (PetscInt b = 0, leaf = 0, k = 0; b < n; b++) {
@@ -206,9 +188,8 @@ PetscErrorCode unknowns_gather_create(Physics *physics, PetscInt n, const PetscI
 
 PetscErrorCode unknowns_create(Physics *physics, PetscInt n_fields, Field *fields)
 {
-  Unknowns              *unknowns     = &physics->unknowns;
-  const Mesh            *mesh         = physics->mesh;
-  const PetscInt         displacement = 0, three = 3, *every_vertex = NULL;
+  Unknowns              *unknowns = &physics->unknowns;
+  const Mesh            *mesh     = physics->mesh;
   ISLocalToGlobalMapping mapping;
 
   PetscFunctionBegin;
@@ -218,9 +199,7 @@ PetscErrorCode unknowns_create(Physics *physics, PetscInt n_fields, Field *field
   PetscCall(PetscSectionGetStorageSize(unknowns->section, &unknowns->n_local));
   PetscCall(DMGetLocalToGlobalMapping(mesh->dm, &mapping));
   PetscCall(ISLocalToGlobalMappingGetIndices(mapping, &unknowns->equations)); /* negative: prescribed */
-  PetscCall(collect_owners(physics));
-  PetscCall(unknowns_gather_create(physics, 1, &mesh->n_vertices, &every_vertex, &displacement, &three,
-                                   &unknowns->all_displacements));
+  PetscCall(register_owners(physics));
   PetscCall(DMCreateLocalVector(mesh->dm, &physics->u_local));
   PetscCall(VecDuplicate(physics->u_local, &physics->f_local));
   PetscCall(VecDuplicate(physics->u_local, &physics->f_external));
@@ -255,5 +234,36 @@ PetscErrorCode unknowns_sum(Physics *physics, Vec local)
   PetscCall(PetscSFReduceEnd(unknowns->ghosts, MPIU_SCALAR, mine, sum, MPIU_SUM));
   PetscCall(VecRestoreArray(physics->f_sum, &sum));
   PetscCall(VecRestoreArrayRead(local, &mine));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode unknowns_displacement(const Physics *physics, PetscInt number, const PetscScalar *local, PetscReal u[3])
+{
+  const Unknowns *unknowns = &physics->unknowns;
+  const Mesh     *mesh     = physics->mesh;
+  PetscFunctionBegin;
+  u[0] = u[1] = u[2] = 0;
+  for (PetscInt k = 0; k < mesh->n_points; k++) {
+    PetscInt at;
+    if (unknowns->ghost[k] || mesh->original[k] != number) continue;
+    PetscCall(PetscSectionGetOffset(unknowns->section, mesh->points[k], &at));
+    for (int i = 0; i < 3; i++)
+      u[i] = PetscRealPart(local[at + i]);
+  }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, u, 3, MPIU_REAL, MPIU_SUM, PETSC_COMM_WORLD));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode unknowns_place(const Physics *physics, PetscInt k, const PetscScalar *coordinates, PetscReal X[3], PetscInt *at)
+{
+  const Mesh  *mesh = physics->mesh;
+  PetscSection section;
+  PetscInt     offset;
+  PetscFunctionBegin;
+  PetscCall(DMGetCoordinateSection(mesh->dm, &section));
+  PetscCall(PetscSectionGetOffset(section, mesh->points[k], &offset));
+  PetscCall(PetscSectionGetOffset(physics->unknowns.section, mesh->points[k], at));
+  for (int i = 0; i < 3; i++)
+    X[i] = PetscRealPart(coordinates[offset + i]);
   PetscFunctionReturn(PETSC_SUCCESS);
 }

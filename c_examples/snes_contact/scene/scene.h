@@ -24,6 +24,10 @@ PetscErrorCode scene_relative_path(const Scene *scene, const char *name, char pa
 _Noreturn void scene_fail(Scene *scene, const char *map, const char *key, const char *format, ...)
     PETSC_ATTRIBUTE_FORMAT(4, 5);
 
+/* Where each rank looks for a fault in what it has: of those that have found one (number >= 0) the one with the least number
+ * speaks, and ends the run on all. */
+PetscErrorCode scene_fail_first(Scene *scene, PetscInt number, const char *map, const char *key, const char *text);
+
 /* Between these two only rank 0 works; scene_fail() then ends the waiting ranks too. */
 void           scene_root_begin(Scene *scene);
 PetscErrorCode scene_root_end(Scene *scene);

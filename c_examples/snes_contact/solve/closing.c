@@ -30,12 +30,7 @@ static const PetscReal TURN = 0.2;
 /* the body of side 0 or 1 */
 static PetscInt body_of(const Solve *solve, const Interface *interface, int side)
 {
-  const PetscInt vertex = interface->nodes[side ? interface->n1 : 0];
-  for (PetscInt b = 0; b < solve->mesh->n_bodies; b++) {
-    const Body *body = &solve->mesh->bodies[b];
-    if (body->first_vertex <= vertex && vertex < body->end_vertex) return b;
-  }
-  return -1;
+  return mesh_body_of(solve->mesh, interface->nodes[side ? interface->n1 : 0]);
 }
 
 PetscErrorCode closing_create(Solve *solve)
@@ -48,11 +43,10 @@ PetscErrorCode closing_create(Solve *solve)
 
   PetscFunctionBegin;
   PetscCall(PetscCalloc2(mesh->n_bodies, &closing->free, mesh->n_bodies, &closing->group));
-  for (PetscInt b = 0; b < mesh->n_bodies && mesh->rank == 0; b++) {
-    PetscCall(held_free(solve, &mesh->bodies[b], &closing->free[b]));
-    any = (PetscBool)(any || closing->free[b]);
+  for (PetscInt b = 0; b < mesh->n_bodies; b++) {
+    closing->free[b] = held_free(solve, b);
+    any              = (PetscBool)(any || closing->free[b]);
   }
-  PetscCallMPI(MPI_Bcast(&any, 1, MPIU_BOOL, 0, PETSC_COMM_WORLD));
   closing->possible = (PetscBool)(any && solve->contact->n_interfaces && solve->steps.closing);
   PetscCall(DMCreateGlobalVector(mesh->dm, &closing->displacements));
   PetscCall(VecDuplicate(closing->displacements, &closing->work));
@@ -187,7 +181,8 @@ static PetscErrorCode add_rigid_stiffness(const Solve *solve, Vec diagonal)
   for (PetscInt r = 0; r < solve->physics->n_rigids; r++) {
     const Rigid *rigid = &solve->physics->rigids[r];
     for (int k = 0; k < RIGID_UNKNOWNS && rigid->owned; k++) {
-      if (rigid->equations[k] >= 0) d[rigid->equations[k] - first] = PetscMax(PetscRealPart(d[rigid->equations[k] - first]), solve->stiffness);
+      if (rigid->equations[k] < 0) continue;
+      d[rigid->equations[k] - first] = PetscMax(PetscRealPart(d[rigid->equations[k] - first]), solve->stiffness);
     }
   }
   PetscCall(VecRestoreArray(diagonal, &d));
@@ -222,17 +217,16 @@ static PetscErrorCode describe_motion(Solve *solve, PetscInt body, Vec step)
   const Mesh        *mesh    = solve->mesh;
   Closing           *closing = &solve->closing;
   const PetscScalar *array;
-  PetscReal          mean[3]  = {0, 0, 0}, size;
-  PetscInt           range[2] = {mesh->bodies[body].first_vertex, mesh->bodies[body].end_vertex};
+  const Body        *moving  = &mesh->bodies[body];
+  PetscReal          mean[3] = {0, 0, 0}, size;
 
   PetscFunctionBegin;
-  PetscCallMPI(MPI_Bcast(range, 2, MPIU_INT, 0, PETSC_COMM_WORLD));
   PetscCall(VecGetArrayRead(step, &array));
   for (PetscInt k = 0; k < mesh->n_points; k++) {
     const PetscInt vertex = mesh->original[k];
     PetscInt       at;
-    if (solve->physics->unknowns.ghost[k] || vertex < range[0] || vertex >= range[1]) continue;
-    if (mesh->bodies[body].rigid && vertex == range[0] + 1) continue; /* its turn */
+    if (solve->physics->unknowns.ghost[k] || vertex < moving->first_vertex || vertex >= moving->end_vertex) continue;
+    if (moving->rigid && vertex == moving->first_vertex + 1) continue; /* its turn */
     PetscCall(PetscSectionGetOffset(solve->physics->unknowns.section, mesh->points[k], &at));
     for (int i = 0; i < 3; i++)
       mean[i] += PetscRealPart(array[at + i]);

@@ -26,48 +26,31 @@ static void add_rings(const Solve *solve, Motions *m)
   }
 }
 
-/* Of a rigid body's first two vertices the second one has its turns. */
-static PetscBool is_turn(const Solve *solve, PetscInt vertex)
+/* Where a node of an interface is now. */
+static void position_of(const Interface *interface, PetscInt node, PetscReal x[3])
 {
-  const PetscInt r = rigids_of_vertex(solve->physics, vertex);
-  return (PetscBool)(r >= 0 && vertex == solve->physics->rigids[r].first_vertex + 1);
-}
-
-static void add_supports(const Solve *solve, const PetscReal *x, Motions *m)
-{
-  for (PetscInt v = 0; v < solve->mesh->n_vertices; v++) {
-    for (int i = 0; i < 3; i++) {
-      const PetscReal d[3] = {i == 0, i == 1, i == 2};
-      PetscInt        columns[MODES];
-      PetscReal       values[MODES];
-      int             n = 0;
-      if (!(solve->physics->prescribed[v] & (1 << i))) continue;
-      if (is_turn(solve, v)) {
-        motions_turn(m, solve->physics->parts.of_mesh[v], i);
-        continue;
-      }
-      motions_row(m, solve->physics->parts.of_mesh[v], x + 3 * v, d, 1, columns, values, &n);
-      motions_constrain(m, n, columns, values);
-    }
-  }
-  add_rings(solve, m);
+  PetscReal u[3];
+  contact_vector(interface->dimension, interface->X, node, x);
+  contact_vector(interface->dimension, interface->displacements, node, u);
+  for (int i = 0; i < 3; i++)
+    x[i] += u[i];
 }
 
 /* The part of the mortar vertex nearest to a node: a surface may belong to several. */
-static PetscInt mortar_part(const Solve *solve, const Interface *interface, const PetscReal *x, const PetscReal at[3])
+static PetscInt mortar_part(const Interface *interface, const PetscReal at[3])
 {
-  Physics        *physics = solve->physics;
-  const PetscInt *nodes   = interface->nodes + interface->n1;
-  PetscInt        part    = physics->parts.of_mesh[nodes[0]];
-  PetscBool       one     = PETSC_TRUE;
-  PetscReal       best    = PETSC_MAX_REAL;
+  const PetscInt *parts = interface->part_of + interface->n1;
+  PetscInt        part  = parts[0];
+  PetscBool       one   = PETSC_TRUE;
+  PetscReal       best  = PETSC_MAX_REAL, x[3];
   for (PetscInt k = 1; k < interface->n2 && one; k++)
-    one = (PetscBool)(physics->parts.of_mesh[nodes[k]] == part);
+    one = (PetscBool)(parts[k] == part);
   for (PetscInt k = 0; k < interface->n2 && !one; k++) {
     PetscReal squared = 0;
+    position_of(interface, interface->n1 + k, x);
     for (int i = 0; i < 3; i++)
-      squared += PetscSqr(x[3 * nodes[k] + i] - at[i]);
-    if (squared < best) best = squared, part = physics->parts.of_mesh[nodes[k]];
+      squared += PetscSqr(x[i] - at[i]);
+    if (squared < best) best = squared, part = parts[k];
   }
   return part;
 }
@@ -102,21 +85,21 @@ static void across(const PetscReal nu[3], const PetscReal lambda[3], PetscReal d
   }
 }
 
-/* of the nodes that are closed at the place of the last evaluation */
-static PetscErrorCode add_contact(const Solve *solve, const Interface *interface, const PetscReal *x, Motions *m)
+/* rank 0: of the nodes that are closed at the place of the last evaluation */
+static PetscErrorCode add_contact(const Interface *interface, Motions *m)
 {
   const ContactStates *states = &interface->states;
   PetscInt            *first, n_first = 0;
   PetscFunctionBegin;
   PetscCall(PetscMalloc1(interface->n1, &first));
   for (PetscInt a = 0; a < interface->n1; a++) {
-    const PetscInt   v  = interface->nodes[a];
-    const PetscReal *at = x + 3 * v;
+    const PetscInt   part = interface->part_of[a];
     PetscInt         other, columns[2 * MODES];
-    PetscReal        values[2 * MODES], turns[3];
+    PetscReal        values[2 * MODES], turns[3], at[3];
     const PetscBool  sticks = (PetscBool)(states->state[a] == STICKSLIP_STATE_STICK);
     if (states->state[a] == STICKSLIP_STATE_GAP || interface->removed[a] == 7) continue;
-    other = mortar_part(solve, interface, x, at);
+    position_of(interface, a, at);
+    other = mortar_part(interface, at);
     across(states->normal + 3 * a, states->multiplier + 3 * a, turns);
     for (int i = 0; i < (sticks ? 3 : 2); i++) {
       const PetscReal axis[3] = {i == 0, i == 1, i == 2},
@@ -124,8 +107,8 @@ static PetscErrorCode add_contact(const Solve *solve, const Interface *interface
       int n = 0;
       if (!sticks && i == 1 && turns[0] == 0 && turns[1] == 0 && turns[2] == 0) continue;
       if (sticks && interface->removed[a] & (1 << i)) continue;
-      motions_row(m, solve->physics->parts.of_mesh[v], at, d, 1, columns, values, &n);
-      if (other != solve->physics->parts.of_mesh[v]) motions_row(m, other, at, d, -1, columns, values, &n);
+      motions_row(m, part, at, d, 1, columns, values, &n);
+      if (other != part) motions_row(m, other, at, d, -1, columns, values, &n);
       motions_constrain(m, n, columns, values);
     }
   }
@@ -133,27 +116,22 @@ static PetscErrorCode add_contact(const Solve *solve, const Interface *interface
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* "block", or "block (piece 2)" where a body is in pieces */
+/* "block", or "block (piece 2)" where a body is in pieces: parts are numbered as they are met */
 static void part_name(const Solve *solve, PetscInt part, char name[], size_t length)
 {
-  Physics *physics = solve->physics;
-  PetscInt piece   = 0, pieces = 0, v = 0, last = -1;
-  while (physics->parts.of_mesh[v] != part)
-    v++;
-  for (PetscInt b = 0; b < solve->mesh->n_bodies; b++) {
-    const Body *body = &solve->mesh->bodies[b];
-    if (v < body->first_vertex || v >= body->end_vertex) continue;
-    for (PetscInt w = body->first_vertex; w < body->end_vertex; w++) { /* parts are numbered as they are met */
-      if (physics->parts.of_mesh[w] <= last) continue;
-      last = physics->parts.of_mesh[w];
-      pieces++;
-      if (last == part) piece = pieces;
-    }
-    if (pieces > 1)
-      PetscCallAbort(PETSC_COMM_SELF, PetscSNPrintf(name, length, "%s (piece %d of %d)", body->name, (int)piece, (int)pieces));
-    else
-      PetscCallAbort(PETSC_COMM_SELF, PetscSNPrintf(name, length, "%s", body->name));
+  const Parts   *parts = &solve->physics->parts;
+  const PetscInt body  = mesh_body_of(solve->mesh, parts->part[part].first);
+  PetscInt       piece = 0, pieces = 0;
+  for (PetscInt p = 0; p < parts->n; p++) {
+    if (mesh_body_of(solve->mesh, parts->part[p].first) != body) continue;
+    pieces++;
+    if (p == part) piece = pieces;
   }
+  if (pieces > 1)
+    PetscCallAbort(PETSC_COMM_SELF, PetscSNPrintf(name, length, "%s (piece %d of %d)", solve->mesh->bodies[body].name, (int)piece,
+                                                  (int)pieces));
+  else
+    PetscCallAbort(PETSC_COMM_SELF, PetscSNPrintf(name, length, "%s", solve->mesh->bodies[body].name));
 }
 
 /* Every part's free motions: "upper is free to move along x, lower is free to turn about z" */
@@ -175,7 +153,7 @@ static PetscErrorCode describe(const Solve *solve, const Motions *m, PetscInt n_
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* rank 0: by the supports alone; `loose`: which parts they do not hold */
+/* By the supports alone; `loose`: which parts they do not hold. */
 static PetscErrorCode by_supports(const Solve *solve, PetscBool *loose, cJSON *json, char text[], size_t length)
 {
   Physics *physics = solve->physics;
@@ -188,8 +166,9 @@ static PetscErrorCode by_supports(const Solve *solve, PetscBool *loose, cJSON *j
     char       part[1024];
     PetscCall(PetscCalloc1(physics->parts.n, &only));
     only[p] = PETSC_TRUE;
-    PetscCall(motions_create(physics, solve->mesh->coordinates, only, &m));
-    add_supports(solve, solve->mesh->coordinates, &m);
+    PetscCall(motions_create(physics, NULL, only, &m));
+    PetscCall(motions_sum(&m));
+    add_rings(solve, &m);
     PetscCall(motions_find_free(&m, &n_free));
     PetscCall(describe(solve, &m, n_free, json, part, sizeof(part)));
     loose[p] = (PetscBool)(n_free > 0);
@@ -201,45 +180,40 @@ static PetscErrorCode by_supports(const Solve *solve, PetscBool *loose, cJSON *j
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode held_free(const Solve *solve, const Body *body, PetscBool *is_free)
+PetscBool held_free(const Solve *solve, PetscInt body)
 {
-  PetscFunctionBegin;
-  *is_free = PETSC_FALSE;
-  for (PetscInt v = body->first_vertex; v < body->end_vertex; v++)
-    *is_free = (PetscBool)(*is_free || ((!body->analytic || body->rigid) && solve->held.loose[solve->physics->parts.of_mesh[v]]));
-  PetscFunctionReturn(PETSC_SUCCESS);
+  const Parts *parts = &solve->physics->parts;
+  for (PetscInt p = 0; p < parts->n && (!solve->mesh->bodies[body].analytic || solve->mesh->bodies[body].rigid); p++) {
+    if (solve->held.loose[p] && mesh_body_of(solve->mesh, parts->part[p].first) == body) return PETSC_TRUE;
+  }
+  return PETSC_FALSE;
 }
 
-/* A sentence for the user, on every rank: which bodies contact alone must hold. */
+/* A sentence for the user: which bodies contact alone must hold. */
 PetscErrorCode held_describe(const Solve *solve, char text[], size_t length)
 {
+  PetscBool *loose;
+  char       free[1024];
   PetscFunctionBegin;
-  text[0] = 0;
-  if (solve->mesh->rank == 0) {
-    PetscBool *loose;
-    char       free[1024];
-    PetscCall(PetscCalloc1(solve->physics->parts.n, &loose));
-    PetscCall(by_supports(solve, loose, NULL, free, sizeof(free)));
-    PetscCall(PetscSNPrintf(text, length, "%s%s%s", free[0] ? "By the supports " : "", free,
-                            free[0] ? ": only contact can hold that, where bodies touch and as far as friction goes."
-                                    : "Every body is held by supports; contact need not hold it."));
-    PetscCall(PetscFree(loose));
-  }
-  PetscCallMPI(MPI_Bcast(text, (PetscMPIInt)length, MPI_CHAR, 0, PETSC_COMM_WORLD));
+  PetscCall(PetscCalloc1(solve->physics->parts.n, &loose));
+  PetscCall(by_supports(solve, loose, NULL, free, sizeof(free)));
+  PetscCall(PetscSNPrintf(text, length, "%s%s%s", free[0] ? "By the supports " : "", free,
+                          free[0] ? ": only contact can hold that, where bodies touch and as far as friction goes."
+                                  : "Every body is held by supports; contact need not hold it."));
+  PetscCall(PetscFree(loose));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* rank 0, at the start: notes what contact alone must hold. */
+/* At the start: notes what contact alone must hold. */
 PetscErrorCode held_create(Solve *solve)
 {
   char text[1024];
   PetscFunctionBegin;
-  if (solve->mesh->rank) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PetscCalloc1(solve->physics->parts.n, &solve->held.loose));
   solve->held.by_contact = cJSON_CreateObject();
   PetscCall(by_supports(solve, solve->held.loose, solve->held.by_contact, text, sizeof(text)));
   if (text[0] && !solve->quiet)
-    PetscCall(PetscPrintf(PETSC_COMM_SELF, "note: by the supports %s; contact must hold that\n", text));
+    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "note: by the supports %s; contact must hold that\n", text));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -252,39 +226,44 @@ PetscErrorCode held_destroy(Solve *solve)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* rank 0, at a converged state, before its commit: is something held by nothing at all? The first time is told, once the
- * step is accepted. */
-PetscErrorCode held_check(Solve *solve, const PetscScalar *displacements)
+/* rank 0: what neither supports nor contact hold, into by_nothing and words; `found`: there is something */
+static PetscErrorCode find_free(Solve *solve, Motions *m, PetscBool *found)
 {
-  const Mesh *mesh    = solve->mesh;
-  Physics    *physics = solve->physics;
-  PetscReal  *x;
-  PetscBool   any = PETSC_FALSE;
-  PetscInt    n_free;
-  Motions     m;
-  char        text[2048];
+  Held    *held = &solve->held;
+  char     text[2048];
+  PetscInt n_free;
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < solve->contact->n_interfaces; i++)
+    PetscCall(add_contact(&solve->contact->interfaces[i], m));
+  PetscCall(motions_find_free(m, &n_free));
+  *found = (PetscBool)(n_free > 0);
+  if (!n_free) PetscFunctionReturn(PETSC_SUCCESS);
+  held->by_nothing = cJSON_CreateObject();
+  cJSON_AddNumberToObject(held->by_nothing, "t", solve->physics->t);
+  PetscCall(describe(solve, m, n_free, cJSON_AddObjectToObject(held->by_nothing, "bodies"), text, sizeof(text)));
+  PetscCall(PetscStrallocpy(text, &held->words));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* At a converged state, before its commit, when rank 0 has the states of the interfaces: is something held by nothing at all?
+ * The first time is told, once the step is accepted. */
+PetscErrorCode held_check(Solve *solve)
+{
+  Physics  *physics = solve->physics;
+  PetscBool any = PETSC_FALSE, found = PETSC_FALSE;
+  Motions   m;
 
   PetscFunctionBegin;
   for (PetscInt p = 0; p < physics->parts.n; p++)
     any = (PetscBool)(any || solve->held.loose[p]);
-  if (!any || solve->held.by_nothing) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(PetscMalloc1(3 * mesh->n_vertices, &x));
-  for (PetscInt k = 0; k < 3 * mesh->n_vertices; k++)
-    x[k] = mesh->coordinates[k] + PetscRealPart(displacements[k]);
-  PetscCall(motions_create(physics, x, solve->held.loose, &m));
-  add_supports(solve, x, &m);
-  for (PetscInt i = 0; i < solve->contact->n_interfaces; i++)
-    PetscCall(add_contact(solve, &solve->contact->interfaces[i], x, &m));
-  PetscCall(motions_find_free(&m, &n_free));
-  if (n_free) {
-    solve->held.by_nothing = cJSON_CreateObject();
-    cJSON_AddNumberToObject(solve->held.by_nothing, "t", physics->t);
-    PetscCall(describe(solve, &m, n_free, cJSON_AddObjectToObject(solve->held.by_nothing, "bodies"), text,
-                       sizeof(text)));
-    PetscCall(PetscStrallocpy(text, &solve->held.words));
-  }
+  if (!any || solve->held.told) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(motions_create(physics, physics->u_local, solve->held.loose, &m));
+  PetscCall(motions_sum(&m));
+  add_rings(solve, &m);
+  if (solve->mesh->rank == 0) PetscCall(find_free(solve, &m, &found));
+  PetscCallMPI(MPI_Bcast(&found, 1, MPIU_BOOL, 0, PETSC_COMM_WORLD));
+  solve->held.told = solve->held.unsettled = found;
   PetscCall(motions_destroy(&m));
-  PetscCall(PetscFree(x));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -292,6 +271,8 @@ PetscErrorCode held_check(Solve *solve, const PetscScalar *displacements)
 PetscErrorCode held_settle(Solve *solve, PetscBool accepted)
 {
   PetscFunctionBegin;
+  if (!accepted && solve->held.unsettled) solve->held.told = PETSC_FALSE;
+  solve->held.unsettled = PETSC_FALSE;
   if (!solve->held.words) PetscFunctionReturn(PETSC_SUCCESS);
   if (accepted) {
     PetscCall(PetscFPrintf(PETSC_COMM_SELF, PETSC_STDERR,

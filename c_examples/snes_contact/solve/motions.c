@@ -12,33 +12,108 @@ static const PetscReal SLOPE = 1e-2;
 /* Components of unit vectors below this are left out of the words. */
 static const PetscReal VISIBLE = 1e-3;
 
-PetscErrorCode motions_create(const Physics *physics, const PetscReal *x, const PetscBool *include, Motions *m)
+/* Of a rigid body's first two vertices the second one has its turns. */
+static PetscBool is_turn(const Physics *physics, PetscInt number)
 {
-  PetscInt *count;
+  const PetscInt r = rigids_of_vertex(physics, number);
+  return (PetscBool)(r >= 0 && number == physics->rigids[r].first_vertex + 1);
+}
+
+/* Positions of the vertices that this rank owns, 3 each; of others the part is -1. `at`: in local vectors. */
+static PetscErrorCode positions(const Physics *physics, Vec u_local, PetscReal x[], PetscInt part[], PetscInt at[])
+{
+  const Mesh        *mesh = physics->mesh;
+  const PetscScalar *coordinates, *u = NULL;
+  Vec                vector;
+  PetscFunctionBegin;
+  PetscCall(DMGetCoordinatesLocal(mesh->dm, &vector));
+  PetscCall(VecGetArrayRead(vector, &coordinates));
+  if (u_local) PetscCall(VecGetArrayRead(u_local, &u));
+  for (PetscInt k = 0; k < mesh->n_points; k++) {
+    part[k] = physics->unknowns.ghost[k] ? -1 : physics->parts.of_vertex[k];
+    PetscCall(unknowns_place(physics, k, coordinates, x + 3 * k, &at[k]));
+    for (int i = 0; i < 3 && u && !is_turn(physics, mesh->original[k]); i++)
+      x[3 * k + i] += PetscRealPart(u[at[k] + i]);
+  }
+  if (u_local) PetscCall(VecRestoreArrayRead(u_local, &u));
+  PetscCall(VecRestoreArrayRead(vector, &coordinates));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode sum(PetscInt n, PetscReal values[])
+{
+  PetscFunctionBegin;
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, values, (PetscMPIInt)n, MPIU_REAL, MPIU_SUM, PETSC_COMM_WORLD));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Middle and size of each part. */
+static PetscErrorCode measure(PetscInt n_parts, PetscInt n, const PetscReal x[], const PetscInt part[], Motions *m)
+{
+  PetscReal *count;
+  PetscFunctionBegin;
+  PetscCall(PetscCalloc1(n_parts, &count));
+  for (PetscInt k = 0; k < n; k++) {
+    if (part[k] < 0) continue;
+    count[part[k]]++;
+    for (int i = 0; i < 3; i++)
+      m->middle[3 * part[k] + i] += x[3 * k + i];
+  }
+  PetscCall(sum(n_parts, count));
+  PetscCall(sum(3 * n_parts, m->middle));
+  for (PetscInt k = 0; k < 3 * n_parts; k++)
+    m->middle[k] /= count[k / 3];
+  for (PetscInt k = 0; k < n; k++) {
+    for (int i = 0; i < 3 && part[k] >= 0; i++)
+      m->size[part[k]] += PetscSqr(x[3 * k + i] - m->middle[3 * part[k] + i]) / count[part[k]];
+  }
+  PetscCall(sum(n_parts, m->size));
+  for (PetscInt p = 0; p < n_parts; p++)
+    m->size[p] = m->size[p] > 0 ? PetscSqrtReal(m->size[p]) : 1;
+  PetscCall(PetscFree(count));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode motions_create(const Physics *physics, Vec u_local, const PetscBool *include, Motions *m)
+{
+  const PetscInt n_parts = physics->parts.n, n_points = physics->mesh->n_points;
+  PetscReal     *x;
+  PetscInt      *part, *at;
   PetscFunctionBegin;
   *m = (Motions){0};
-  PetscCall(PetscCalloc3(physics->parts.n, &m->place, 3 * physics->parts.n, &m->middle, physics->parts.n, &m->size));
-  PetscCall(PetscCalloc1(physics->parts.n, &count));
-  for (PetscInt p = 0; p < physics->parts.n; p++)
-    m->place[p] = !include || include[p] ? m->n_parts++ : -1;
-  for (PetscInt v = 0; v < physics->mesh->n_vertices; v++) {
-    const PetscInt p = physics->parts.of_mesh[v];
-    count[p]++;
-    for (int i = 0; i < 3; i++)
-      m->middle[3 * p + i] += x[3 * v + i];
-  }
-  for (PetscInt k = 0; k < 3 * physics->parts.n; k++)
-    m->middle[k] /= (PetscReal)count[k / 3];
-  for (PetscInt v = 0; v < physics->mesh->n_vertices; v++) {
-    const PetscInt p = physics->parts.of_mesh[v];
-    for (int i = 0; i < 3; i++)
-      m->size[p] += PetscSqr(x[3 * v + i] - m->middle[3 * p + i]) / (PetscReal)count[p];
-  }
-  for (PetscInt p = 0; p < physics->parts.n; p++)
-    m->size[p] = m->size[p] > 0 ? PetscSqrtReal(m->size[p]) : 1;
+  PetscCall(PetscCalloc3(n_parts, &m->place, 3 * n_parts, &m->middle, n_parts, &m->size));
+  for (PetscInt p = 0; p < n_parts; p++)
+    m->place[p] = include[p] ? m->n_parts++ : -1;
+  PetscCall(PetscMalloc3(3 * n_points, &x, n_points, &part, n_points, &at));
+  PetscCall(positions(physics, u_local, x, part, at));
+  PetscCall(measure(n_parts, n_points, x, part, m));
   m->n = MODES * m->n_parts;
   PetscCall(PetscCalloc2(m->n * m->n, &m->gram, m->n, &m->values));
-  PetscCall(PetscFree(count));
+  for (PetscInt k = 0; k < n_points; k++) {
+    for (int i = 0; i < 3 && part[k] >= 0; i++) {
+      const PetscReal d[3] = {i == 0, i == 1, i == 2};
+      PetscInt        columns[MODES];
+      PetscReal       values[MODES];
+      int             n = 0;
+      if (physics->unknowns.equations[at[k] + i] >= 0 || rigids_moves(physics, physics->mesh->original[k], i)) continue;
+      if (is_turn(physics, physics->mesh->original[k])) {
+        static const PetscReal held   = 1;
+        const PetscInt         column = MODES * m->place[part[k]] + 3 + i;
+        if (m->place[part[k]] >= 0) motions_constrain(m, 1, &column, &held);
+        continue;
+      }
+      motions_row(m, part[k], x + 3 * k, d, 1, columns, values, &n);
+      motions_constrain(m, n, columns, values);
+    }
+  }
+  PetscCall(PetscFree3(x, part, at));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode motions_sum(Motions *m)
+{
+  PetscFunctionBegin;
+  PetscCall(sum(m->n * m->n, m->gram));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -71,14 +146,6 @@ void motions_constrain(Motions *m, int n, const PetscInt columns[], const PetscR
     for (int j = 0; j < n; j++)
       m->gram[m->n * columns[i] + columns[j]] += values[i] * values[j];
   }
-}
-
-/* The part does not turn about an axis. */
-void motions_turn(Motions *m, PetscInt part, int axis)
-{
-  static const PetscReal held   = 1;
-  const PetscInt         column = MODES * m->place[part] + 3 + axis;
-  if (m->place[part] >= 0) motions_constrain(m, 1, &column, &held);
 }
 
 /* Eigenvalues of a symmetric matrix, the least first; it is replaced by its eigenvectors, one a row. */

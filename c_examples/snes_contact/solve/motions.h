@@ -5,7 +5,7 @@
 
 enum { MODES = 6 };
 
-/* rank 0: motions of some parts, [part][translations, turns about its middle by size], and their constraints */
+/* Motions of some parts, [part][translations, turns about its middle by size], and their constraints */
 typedef struct {
   PetscInt   n_parts, *place; /* parts that may move; place of each part of the model among them, -1: none */
   PetscReal *middle, *size;   /* 3 per part of the model; of each */
@@ -14,14 +14,15 @@ typedef struct {
   PetscReal *values;          /* its eigenvalues, in increasing order */
 } Motions;
 
-/* x: positions of all vertices; `include`: which parts may move, NULL: all */
-PetscErrorCode motions_create(const Physics *physics, const PetscReal *x, const PetscBool *include, Motions *m);
+/* At the displacements of a local vector, NULL: none; `include`: which parts may move. Every rank gets the motions, and what
+ * prescribed components of its own vertices constrain in `gram`, which motions_sum() adds up for all. */
+PetscErrorCode motions_create(const Physics *physics, Vec u_local, const PetscBool *include, Motions *m);
+PetscErrorCode motions_sum(Motions *m);
 PetscErrorCode motions_destroy(Motions *m);
 /* One row of a constraint, of n entries so far: what the motions of a part move a point by along d, times `sign`. */
 void           motions_row(const Motions *m, PetscInt part, const PetscReal x[3], const PetscReal d[3], PetscReal sign,
                            PetscInt columns[], PetscReal values[], int *n);
 void           motions_constrain(Motions *m, int n, const PetscInt columns[], const PetscReal values[]);
-void           motions_turn(Motions *m, PetscInt part, int axis);
 /* The number of free motions, which are the first rows of m->gram from then on. */
 PetscErrorCode motions_find_free(Motions *m, PetscInt *n_free);
 /* "move along x, z and turn about y", or nothing: what the part in this place does in the free motions */

@@ -155,23 +155,28 @@ static PetscErrorCode explain(Solve *solve, SNESConvergedReason reason)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Solves from x, which becomes the last iterate, and counts. */
+/* Solves from x, which becomes the last iterate, and counts. Where a solver asks for more workspace it goes on from there. */
 static PetscErrorCode solve_from(Solve *solve, Vec x, SNESConvergedReason *reason)
 {
   Newton    *newton = &solve->newton;
   PetscReal *norms;
   PetscInt   iterations, n;
+  PetscBool  again = PETSC_TRUE;
   PetscFunctionBegin;
-  PetscCall(cycling_restart(solve));
-  equilibrium_restart(solve->contact);
-  PetscCall(SNESSolve(solve->snes, NULL, x));
-  PetscCall(SNESGetConvergedReason(solve->snes, reason));
-  PetscCall(SNESGetIterationNumber(solve->snes, &iterations));
-  PetscCall(SNESGetConvergenceHistory(solve->snes, &norms, NULL, &n));
-  for (PetscInt j = 1; j < n; j++) {
-    if (norms[j] >= norms[j - 1]) newton->monotone = PETSC_FALSE;
+  while (again) {
+    PetscCall(cycling_restart(solve));
+    equilibrium_restart(solve->contact);
+    PetscCall(SNESSolve(solve->snes, NULL, x));
+    PetscCall(SNESGetConvergedReason(solve->snes, reason));
+    PetscCall(SNESGetIterationNumber(solve->snes, &iterations));
+    PetscCall(SNESGetConvergenceHistory(solve->snes, &norms, NULL, &n));
+    for (PetscInt j = 1; j < n; j++) {
+      if (norms[j] >= norms[j - 1]) newton->monotone = PETSC_FALSE;
+    }
+    newton->iterations += iterations;
+    again = PETSC_FALSE;
+    if (*reason == SNES_DIVERGED_LINEAR_SOLVE) PetscCall(solver_give_room(solve, &again));
   }
-  newton->iterations += iterations;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

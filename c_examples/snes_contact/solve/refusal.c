@@ -13,6 +13,16 @@ static PetscBool wants_memory(PetscInt info)
   return PETSC_FALSE;
 }
 
+/* Of these: it would take more than icntl_14 allows, and may get it. */
+static PetscBool wants_room(PetscInt info)
+{
+  static const PetscInt codes[] = {-8, -9, -11, -12, -14, -15, -17, -18, -20};
+  for (size_t k = 0; k < sizeof(codes) / sizeof(codes[0]); k++) {
+    if (info == codes[k]) return PETSC_TRUE;
+  }
+  return PETSC_FALSE;
+}
+
 /* INFOG(1) of MUMPS; 0 where another solver works, or where nothing is factorised. */
 static PetscErrorCode mumps_info(PC pc, PetscInt *info)
 {
@@ -29,6 +39,17 @@ static PetscErrorCode mumps_info(PC pc, PetscInt *info)
   if (!mumps) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PCFactorGetMatrix(pc, &factors));
   PetscCall(MatMumpsGetInfog(factors, 1, info));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode refusal_wants_room(KSP ksp, PetscBool *wants)
+{
+  PetscInt info;
+  PC       pc;
+  PetscFunctionBegin;
+  PetscCall(KSPGetPC(ksp, &pc));
+  PetscCall(mumps_info(pc, &info));
+  *wants = wants_room(info);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

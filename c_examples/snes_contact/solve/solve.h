@@ -52,7 +52,7 @@ typedef struct {
 
 /* The attempt that closes bodies which contact alone holds (closing.c) */
 typedef struct {
-  PetscBool *free;          /* rank 0, per body: the supports leave it free to move */
+  PetscBool *free;          /* per body: the supports leave it free to move */
   PetscInt  *group;         /* rank 0, per body: work space */
   PetscBool  possible;      /* there is such a body, and the scene does not switch this off */
   PetscBool  active;        /* the present attempt is this one */
@@ -68,11 +68,12 @@ typedef struct {
   char       away[256];     /* a loose body moves away from all that it could touch, as a sentence */
 } Closing;
 
-/* rank 0: what the supports leave free (held.c) */
+/* What the supports leave free (held.c). */
 typedef struct {
   PetscBool    *loose;                   /* per part: its supports do not hold it */
-  struct cJSON *by_contact, *by_nothing; /* the motions in words of what contact holds, of what nothing holds */
-  char         *words;                   /* what is to be told of by_nothing; NULL: nothing, or it was */
+  struct cJSON *by_contact, *by_nothing; /* the motions in words of what contact holds; on rank 0, of what nothing holds */
+  char         *words;                   /* rank 0: what is to be told of by_nothing; NULL: nothing, or it was */
+  PetscBool     told, unsettled;         /* nothing holds something; the step of which this was found is not accepted yet */
 } Held;
 
 enum { REFUSAL_LENGTH = 256 }; /* of a sentence of refusal.c */
@@ -99,6 +100,7 @@ typedef struct {
   Closing   closing;
   Cycling  *cycling;
   Linear    linear;
+  PetscInt  room;               /* workspace that MUMPS is allowed, in per cent; 0: the user says */
   Held      held;
   PetscInt  iterations;         /* of Newton, spent on the present step, failed attempts included */
   PetscReal size, stiffness;    /* of the model */
@@ -115,6 +117,7 @@ PetscBool      times_bend(const Physics *physics, PetscReal t); /* does a load o
 
 /* refusal.c: why a linear system is not solved, and what to do next */
 PetscErrorCode refusal_describe(KSP ksp, char why[], size_t size);
+PetscErrorCode refusal_wants_room(KSP ksp, PetscBool *wants);
 
 /* solver.c: SNES with residual and tangent; its options are read last, by solver_configure() */
 PetscErrorCode solver_create(Solve *solve);
@@ -122,6 +125,7 @@ PetscErrorCode solver_configure(Solve *solve);
 PetscErrorCode solver_destroy(Solve *solve);
 PetscErrorCode solver_refresh_pattern(Solve *solve);
 PetscErrorCode solver_restore_pattern(Solve *solve); /* undoes what a failed attempt has added */
+PetscErrorCode solver_give_room(Solve *solve, PetscBool *given); /* to a direct solver that asked for more workspace */
 PetscErrorCode solver_forget_factors(Solve *solve);  /* after a linear system that could not be solved */
 
 /* iterative.c: `solver`; what `auto` means; makes SNES' linear solver one that iterates */
@@ -161,9 +165,9 @@ PetscErrorCode closing_shift(Solve *solve, Mat matrix);
 /* held.c: which bodies contact alone must hold, as a sentence; which ones nothing holds */
 PetscErrorCode held_create(Solve *solve);
 PetscErrorCode held_destroy(Solve *solve);
-PetscErrorCode held_check(Solve *solve, const PetscScalar *displacements); /* rank 0: of all vertices */
+PetscErrorCode held_check(Solve *solve);
 PetscErrorCode held_settle(Solve *solve, PetscBool accepted);
-PetscErrorCode held_free(const Solve *solve, const Body *body, PetscBool *is_free); /* rank 0: by its supports */
+PetscBool      held_free(const Solve *solve, PetscInt body); /* do the supports leave it free to move? */
 PetscErrorCode held_describe(const Solve *solve, char text[], size_t length);
 
 /* step_size.c */

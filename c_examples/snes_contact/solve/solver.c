@@ -206,24 +206,52 @@ PetscErrorCode solver_restore_pattern(Solve *solve)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* MUMPS refuses when its pivoting outgrows the memory it has estimated by more than 20 %. The rows of multipliers that
- * stick have no diagonal, and their pivoting may double it. Room that stays unused is not touched. (icntl 14)
- *
- * Its analysis must see the pattern only, not the values of the first matrix (icntl 6): else the factors after a
- * cut-back would carry a trace of the attempt that failed. */
-static PetscErrorCode set_up_mumps(PC pc)
+/* MUMPS' pivoting may take so many per cent more workspace than its analysis estimates (icntl 14). The rows of multipliers that
+ * stick have no diagonal, and may double it; but all that is allowed is allocated at once, which a machine may not have. So it
+ * gets twice as much whenever it asks for more. */
+enum { FIRST_ROOM = 30, MOST_ROOM = 1000 };
+
+static PetscErrorCode set_option(const char *name, PetscInt value)
 {
-  static const char *const options[][2] = {{"-mat_mumps_icntl_14", "200"}, {"-mat_mumps_icntl_6", "0"}};
-  MatSolverType            solver       = NULL;
-  PetscBool                lu, mumps, given;
+  char text[16];
+  PetscFunctionBegin;
+  PetscCall(PetscSNPrintf(text, sizeof(text), "%" PetscInt_FMT, value));
+  PetscCall(PetscOptionsSetValue(NULL, name, text));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* What the user has not set. The analysis must see the pattern only, not the values of the first matrix (icntl 6): else the
+ * factors after a cut-back would carry a trace of the attempt that failed. */
+static PetscErrorCode set_up_mumps(Solve *solve, PC pc)
+{
+  MatSolverType solver = NULL;
+  PetscBool     lu, mumps, given;
   PetscFunctionBegin;
   PetscCall(PetscObjectTypeCompare((PetscObject)pc, PCLU, &lu));
   if (lu) PetscCall(PCFactorGetMatSolverType(pc, &solver));
   PetscCall(PetscStrcmp(solver, MATSOLVERMUMPS, &mumps));
-  for (int k = 0; k < 2 && mumps; k++) {
-    PetscCall(PetscOptionsHasName(NULL, NULL, options[k][0], &given));
-    if (!given) PetscCall(PetscOptionsSetValue(NULL, options[k][0], options[k][1]));
-  }
+  if (!mumps) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PetscOptionsHasName(NULL, NULL, "-mat_mumps_icntl_6", &given));
+  if (!given) PetscCall(set_option("-mat_mumps_icntl_6", 0));
+  PetscCall(PetscOptionsHasName(NULL, NULL, "-mat_mumps_icntl_14", &given));
+  if (given) PetscFunctionReturn(PETSC_SUCCESS);
+  solve->room = FIRST_ROOM;
+  PetscCall(set_option("-mat_mumps_icntl_14", solve->room));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode solver_give_room(Solve *solve, PetscBool *given)
+{
+  PetscBool wanted;
+  KSP       ksp;
+  PetscFunctionBegin;
+  PetscCall(SNESGetKSP(solve->snes, &ksp));
+  PetscCall(refusal_wants_room(ksp, &wanted));
+  *given = (PetscBool)(wanted && solve->room && solve->room < MOST_ROOM);
+  if (!*given) PetscFunctionReturn(PETSC_SUCCESS);
+  solve->room *= 2;
+  PetscCall(set_option("-mat_mumps_icntl_14", solve->room));
+  PetscCall(solver_forget_factors(solve));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -277,7 +305,7 @@ PetscErrorCode solver_configure(Solve *solve)
   PetscCall(SNESSetFromOptions(solve->snes));
   PetscCall(SNESGetKSP(solve->snes, &ksp));
   PetscCall(KSPGetPC(ksp, &pc));
-  PetscCall(set_up_mumps(pc));
+  PetscCall(set_up_mumps(solve, pc));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -1,0 +1,101 @@
+/* The surfaces of an interface, from the pieces of the mesh to rank 0, which cuts them into parts: faces, nodes, where these are and
+ * what is prescribed there. */
+#include "contact/contact.h"
+
+static PetscErrorCode check_apart(Scene *scene, const Interface *interface)
+{
+  const PetscInt *mortar = interface->nodes + interface->n1;
+  PetscInt       *sorted, at;
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(interface->n2, &sorted));
+  PetscCall(PetscArraycpy(sorted, mortar, interface->n2));
+  PetscCall(PetscSortInt(interface->n2, sorted));
+  for (PetscInt a = 0; a < interface->n1; a++) {
+    PetscCall(PetscFindInt(interface->nodes[a], interface->n2, sorted, &at));
+    if (at >= 0)
+      scene_fail(scene, interface->name, "mortar",
+                 "the two surfaces share a vertex; contact of a surface with itself is not supported.");
+  }
+  PetscCall(PetscFree(sorted));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Three numbers a node, from or to the pieces. */
+static PetscErrorCode fetch_places(const Mesh *mesh, Interface *interface)
+{
+  MPI_Datatype vector;
+  PetscFunctionBegin;
+  PetscCallMPI(MPI_Type_contiguous(3, MPIU_REAL, &vector));
+  PetscCallMPI(MPI_Type_commit(&vector));
+  PetscCall(PetscSFBcastBegin(interface->pieces, vector, mesh->coordinates, interface->place, MPI_REPLACE));
+  PetscCall(PetscSFBcastEnd(interface->pieces, vector, mesh->coordinates, interface->place, MPI_REPLACE));
+  PetscCallMPI(MPI_Type_free(&vector));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode surfaces_move(Contact *contact, const Interface *interface)
+{
+  Mesh        *mesh = contact->mesh;
+  MPI_Datatype vector;
+  PetscFunctionBegin;
+  PetscCallMPI(MPI_Type_contiguous(3, MPIU_REAL, &vector));
+  PetscCallMPI(MPI_Type_commit(&vector));
+  PetscCall(PetscSFReduceBegin(interface->pieces, vector, interface->place, mesh->coordinates, MPI_REPLACE));
+  PetscCall(PetscSFReduceEnd(interface->pieces, vector, interface->place, mesh->coordinates, MPI_REPLACE));
+  PetscCallMPI(MPI_Type_free(&vector));
+  PetscCall(pieces_copy(mesh, 3, mesh->coordinates));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The surfaces that the scene names, as all ranks know them. */
+static PetscErrorCode find(Scene *scene, const Mesh *mesh, Interface *interface, const Surface *found[2])
+{
+  static const char *const side_key[] = {"nonmortar", "mortar"};
+  char                     name[2 * NAME_LENGTH];
+  PetscFunctionBegin;
+  for (int side = 0; side < 2; side++) {
+    scene_string_required(scene, interface->name, side_key[side], name, sizeof(name));
+    found[side] = mesh_surface(scene, mesh, interface->name, side_key[side], name);
+    if (found[side]->inner) scene_fail(scene, interface->name, side_key[side], "'%s' lies inside a body.", name);
+    if (found[side]->analytic && side == 0)
+      scene_fail(scene, interface->name, side_key[side], "'%s' is analytic: it can be the mortar side only.", name);
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode surfaces_read(Scene *scene, Contact *contact, Interface *interface)
+{
+  const Mesh    *mesh = contact->mesh;
+  const Surface *found[2];
+  PetscInt      *nodes[2], n;
+  PetscFunctionBegin;
+  PetscCall(find(scene, mesh, interface, found));
+  for (int side = 0; side < 2; side++) {
+    PetscCall(surface_gather(mesh, found[side], &interface->whole[side], side ? &interface->n2 : &interface->n1, &nodes[side]));
+    interface->surface[side] = &interface->whole[side];
+  }
+  n = interface->n1 + interface->n2;
+  PetscCall(PetscMalloc4(n, &interface->nodes, 3 * n, &interface->place, n, &interface->prescribed, n, &interface->part_of));
+  PetscCall(PetscArraycpy(interface->nodes, nodes[0], interface->n1));
+  PetscCall(PetscArraycpy(interface->nodes + interface->n1, nodes[1], interface->n2));
+  PetscCall(PetscFree(nodes[0]));
+  PetscCall(PetscFree(nodes[1]));
+  scene_root_begin(scene);
+  if (mesh->rank == 0) PetscCall(check_apart(scene, interface));
+  PetscCall(scene_root_end(scene));
+  PetscCall(pieces_fetch_create(mesh, n, interface->nodes, &interface->pieces));
+  PetscCall(fetch_places(mesh, interface));
+  PetscCall(PetscSFBcastBegin(interface->pieces, MPIU_INT, contact->physics->prescribed, interface->prescribed, MPI_REPLACE));
+  PetscCall(PetscSFBcastEnd(interface->pieces, MPIU_INT, contact->physics->prescribed, interface->prescribed, MPI_REPLACE));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode surfaces_destroy(Interface *interface)
+{
+  PetscFunctionBegin;
+  for (int side = 0; side < 2; side++)
+    PetscCall(surface_destroy(&interface->whole[side]));
+  PetscCall(PetscFree4(interface->nodes, interface->place, interface->prescribed, interface->part_of));
+  PetscCall(PetscSFDestroy(&interface->pieces));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
