@@ -158,11 +158,13 @@ static PetscErrorCode read_motions(Physics *physics, const PetscScalar *array)
 /* Displacements of the nodes in the motion of now; where the library refuses it, they stay. */
 static PetscErrorCode place(Physics *physics, const Rigid *rigid, PetscScalar *array)
 {
-  const stickslip_rigid_body   body   = body_of(rigid);
+  static const double          any[3] = {0, 0, 0};
+  stickslip_rigid_body         body   = body_of(rigid);
   const stickslip_rigid_motion motion = rigids_motion(rigid);
   double                      *x;
   PetscFunctionBegin;
-  PetscCall(PetscMalloc1(3 * rigid->n_nodes + 1, &x));
+  if (!rigid->n_nodes) body.n_nodes = 1, body.coordinates = any; /* so that all ranks refuse, or none */
+  PetscCall(PetscMalloc1(3 * (rigid->n_nodes + 1), &x));
   if (stickslip_rigid_positions(&body, &motion, x)) {
     PetscCall(PetscSNPrintf(physics->inverted, sizeof(physics->inverted), "the rigid body '%s' cannot move so in one step: %s",
                             physics->mesh->bodies[rigid->body].name, stickslip_last_error_message()));
