@@ -29,6 +29,7 @@ def rigid(verdicts, driver):
     statics(verdicts, driver)
     settles(verdicts, driver)
     surfaces(verdicts, driver)
+    turns(verdicts, driver)
     stiff(verdicts, driver)
     tangent(verdicts, driver)
     hertz(verdicts, driver)
@@ -134,9 +135,7 @@ def settles(verdicts, driver):
         verdicts.below(f"free ball, step {step + 1}: action and reaction", np.abs(sum_of + six["contact_force"]).max() / weight,
                        STATICS_BOUND, "Newton's third law")
     one, two = (body(results[ranks]) for ranks in (1, 2))
-    for key in one:
-        scale = max(np.abs(one[key]).max(), 1)
-        verdicts.below(f"free ball, two ranks: {key}", np.abs(one[key] - two[key]).max() / scale, SAME_BOUND, "one rank")
+    same(verdicts, "free ball, two ranks", one, two)
 
 
 # --- surfaces from files, either side, condensed ------------------------------------------------------------------------
@@ -219,11 +218,40 @@ def surfaces(verdicts, driver):
         verdicts.below(f"{what}: moments", np.abs(six["contact_moment"] + moment).max() / 10, STATICS_BOUND, "statics")
         verdicts.below(f"{what}: supports", np.abs(np.array(result.steps[-1]["reactions"]["ground"]) + force).max() / 10, STATICS_BOUND,
                        "statics")
-    scene = punch(BOX, "punch.zmin", swap=True, basis="dual")
-    condensed = body(run(driver, "cube_condensed", {**scene, "unknowns": "displacements"}), "punch")
-    for key, value in found["mortar, dual"].items():
-        verdicts.below(f"condensed: {key}", np.abs(condensed[key] - value).max() / max(np.abs(value).max(), 1e-3), SAME_BOUND,
-                       "with multipliers")
+    same(verdicts, "rigid side non-mortar, two ranks", found["rigid side non-mortar"],
+         body(run(driver, "cube_ranks", punch(BOX, "punch.zmin"), ranks=2), "punch"))
+    scene = {**punch(BOX, "punch.zmin", swap=True, basis="dual"), "unknowns": "displacements"}
+    for ranks in (1, 2):
+        result = run(driver, "cube_condensed", scene, label=f"cube_condensed_{ranks}", ranks=ranks)
+        same(verdicts, f"condensed, {ranks} ranks", found["mortar, dual"], body(result, "punch"))
+
+
+def same(verdicts, what, one, two):
+    for key, value in one.items():
+        verdicts.below(f"{what}: {key}", np.abs(two[key] - value).max() / max(np.abs(value).max(), 1e-3), SAME_BOUND, "the same")
+
+
+# --- turns --------------------------------------------------------------------------------------------------------------
+def turns(verdicts, driver):
+    """A punch above the block is moved, and turned once round and a quarter about its reference point."""
+    import meshio
+
+    scene = punch({**BOX, "lower": [0.3, 0.3, 0.2], "upper": [0.7, 0.7, 0.7]}, "punch.zmin")
+    turn, steps = 2.5 * math.pi, 10
+    del scene["loads"], scene["press"]
+    scene["supports"].append("drive")
+    scene["drive"] = {"body": "punch", "components": ["x", "y", "z", "rx", "ry", "rz"], "value": [0.1, 0, 0], "rotate": [0, 0, turn]}
+    scene["steps"] = {"count": steps}
+    result = run(driver, "turns", scene)
+    six = body(result, "punch")
+    verdicts.near("turned: sum of the steps' rotations", six["rotation"][2], turn, 1e-12, "as prescribed")
+    quarter = np.array([[0, -1, 0], [1, 0, 0], [0, 0, 1.0]])
+    verdicts.below("turned: the matrix", np.abs(six["turned"].reshape(3, 3) - quarter).max(), 1e-12, "a quarter turn")
+    drawn = meshio.read(result.directory / f"rigid_punch_{steps}.vtu")
+    point = np.array(scene["punch"]["reference"])
+    exact = point + [0.1, 0, 0] + (drawn.points - point) @ quarter.T
+    verdicts.near("turned: vertices that are drawn", len(drawn.points), 8, 0, "a cube")
+    verdicts.below("turned: where they are", np.abs(drawn.points + drawn.point_data["displacement"] - exact).max(), 1e-12, "a rigid motion")
 
 
 # --- the same body meshed, 1000 times stiffer ---------------------------------------------------------------------------
@@ -321,6 +349,7 @@ def hertz_scene():
 def hertz(verdicts, driver):
     scene, force, modulus = hertz_scene()
     result = run(driver, "hertz_flats", scene)
+    same(verdicts, "disc between flats, two ranks", body(result, "top"), body(run(driver, "hertz_flats", scene, label="hertz_ranks", ranks=2), "top"))
     for name in ("above", "below"):
         table = result.interface(name)
         pressing = np.abs(table["fy"])
