@@ -264,7 +264,7 @@ static PetscErrorCode limit(SNESLineSearch line_search, Vec x, Vec y, PetscBool 
   PetscCall(rigids_step(solve->physics, TURN, step, &turned));
   if (turned < 1) PetscCall(VecScale(y, turned));
   for (PetscInt i = 0; i < solve->contact->n_interfaces; i++) {
-    PetscCall(contact_step_limit(solve->contact, &solve->contact->interfaces[i], step, closing->depth, &one));
+    PetscCall(contact_step_limit(solve->contact, i, step, closing->depth, &one));
     fraction = PetscMin(fraction, one);
   }
   closing->cut = (PetscBool)(fraction < 1 || turned < 1);
