@@ -164,7 +164,7 @@ static PetscErrorCode share_body(Mesh *mesh)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-enum { BOX, GMSH, ANALYTIC, HDF5 };
+enum { BOX, GMSH, ANALYTIC, HDF5, RIGID };
 
 static PetscErrorCode create_body(Scene *scene, Mesh *mesh, PetscInt type, Body *body)
 {
@@ -175,6 +175,9 @@ static PetscErrorCode create_body(Scene *scene, Mesh *mesh, PetscInt type, Body 
   body->first_here   = mesh->n_vertices;
   if (type == BOX || type == HDF5) {
     PetscCall((type == BOX ? box_create : converted_create)(scene, body->name, mesh));
+  } else if (type == RIGID) {
+    PetscCall(rigid_create(scene, body, mesh));
+    PetscCall(share_body(mesh));
   } else {
     scene_root_begin(scene);
     if (mesh->rank == 0 && type == GMSH) PetscCall(gmsh_create(scene, body->name, mesh));
@@ -184,14 +187,14 @@ static PetscErrorCode create_body(Scene *scene, Mesh *mesh, PetscInt type, Body 
   }
   body->end_vertex = mesh->n_all_vertices;
   body->end_here   = mesh->n_vertices;
-  PetscCall(check_volumes(scene, mesh, body, first_cell));
+  if (!body->rigid) PetscCall(check_volumes(scene, mesh, body, first_cell));
   if (mesh->space.kind == SPACE_AXISYMMETRIC && !body->analytic) PetscCall(check_radii(scene, mesh, body));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode mesh_create(Scene *scene, Mesh *mesh)
 {
-  static const char *const types[] = {"box", "gmsh", "analytic", "hdf5", NULL}; /* BOX, ... */
+  static const char *const types[] = {"box", "gmsh", "analytic", "hdf5", "rigid", NULL}; /* BOX, ... */
   PetscInt                 n, *type;
   char                   **names;
 
@@ -209,9 +212,10 @@ PetscErrorCode mesh_create(Scene *scene, Mesh *mesh)
   for (PetscInt b = 0; b < n; b++) {
     PetscCall(PetscSNPrintf(mesh->bodies[b].name, NAME_LENGTH, "%s", names[b]));
     if (!scene_has(scene, names[b], "type"))
-      scene_fail(scene, names[b], "type", "this key is missing; choose from: box, gmsh, analytic, hdf5.");
+      scene_fail(scene, names[b], "type", "this key is missing; choose from: box, gmsh, analytic, hdf5, rigid.");
     scene_choice(scene, names[b], "type", types, &type[b]);
-    mesh->bodies[b].analytic  = (PetscBool)(type[b] == ANALYTIC);
+    mesh->bodies[b].rigid     = (PetscBool)(type[b] == RIGID);
+    mesh->bodies[b].analytic  = (PetscBool)(type[b] == ANALYTIC || (type[b] == RIGID && rigid_is_analytic(scene, names[b])));
     mesh->bodies[b].from_gmsh = (PetscBool)(type[b] == GMSH);
   }
   for (; mesh->n_bodies < n; mesh->n_bodies++)

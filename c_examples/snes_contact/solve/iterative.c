@@ -145,7 +145,10 @@ PetscErrorCode iterative_read(Scene *scene, Solve *solve)
   if (kind == SOLVER_ITERATIVE && !contact->condensed)
     scene_fail(scene, NULL, "solver", "multigrid needs a system without multipliers: write `unknowns: displacements`, and "
                                       "`basis: dual` in every interface.");
-  contact->reduced = (PetscBool)(kind != SOLVER_DIRECT && contact->condensed);
+  if (kind == SOLVER_ITERATIVE && solve->physics->n_rigids)
+    scene_fail(scene, NULL, "solver", "multigrid does not know rigid bodies, and '%s' is one: write `solver: direct`.",
+               solve->mesh->bodies[solve->physics->rigids[0].body].name);
+  contact->reduced = (PetscBool)(kind != SOLVER_DIRECT && contact->condensed && !solve->physics->n_rigids);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

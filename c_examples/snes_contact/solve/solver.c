@@ -18,9 +18,11 @@ static PetscErrorCode residual(SNES snes, Vec x, Vec r, void *context)
   PetscCall(bulk_forces(solve->physics, solve->physics->f_local, &inverted));
   PetscCall(PetscTime(&start));
   if (!inverted) PetscCall(condensed_eliminate(solve->contact, x, &refused));
+  if (solve->physics->rigid_refused) inverted = PETSC_TRUE; /* the attempt ends alike */
   if (!inverted && !refused) PetscCall(contact_forces(solve->contact, solve->physics->f_local, &refused));
   PetscCall(PetscTime(&end));
   solve->contact->seconds_forces += end - start;
+  PetscCall(rigids_collect(solve->physics, solve->physics->f_local, PETSC_TRUE));
   PetscCall(VecAXPY(solve->physics->f_local, -1, solve->physics->f_external));
   PetscCall(VecZeroEntries(r));
   PetscCall(DMLocalToGlobalBegin(solve->mesh->dm, solve->physics->f_local, ADD_VALUES, r));
