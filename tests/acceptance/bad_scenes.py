@@ -70,6 +70,10 @@ BAD_SCENES = [
     BadScene("unknown_law", "friction: 0.5", "law: sticky", "base.law"),
     BadScene("tresca_without_limit", "friction: 0.5", "friction: 0.5, law: tresca", "base.shear_limit"),
     BadScene("limit_of_coulomb", "friction: 0.5", "friction: 0.5, shear_limit: 1", "base.shear_limit"),
+    BadScene("cohesion_missing", "friction: 0.5", "friction: 0.5, law: cohesion", "base.cohesion"),
+    BadScene("cohesion_of_coulomb", "friction: 0.5", "friction: 0.5, cohesion: 1", "base.cohesion"),
+    BadScene("weakening_at_once", "friction: 0.5", "friction: 0.5, law: weakening, friction_after: 0.1, critical_slip: 0", "base.critical_slip"),
+    BadScene("orthotropic_without_direction", "friction: 0.5", "friction: 0.5, law: orthotropic, friction_across: 0.1", "base.direction"),
     BadScene("friction_of_tied", "friction: 0.5", "friction: 0.5, law: tied", "base.friction"),
     BadScene(
         "not_rigid",
