@@ -121,6 +121,7 @@ PetscErrorCode iterative_set(Solve *solve, KSP ksp)
   PetscCall(KSPSetTolerances(iterative->krylov, RTOL, 0, PETSC_DEFAULT, MOST_ITERATIONS));
   PetscCall(KSPGetPC(iterative->krylov, &pc));
   PetscCall(reduced_set(pc, solve->contact));
+  PetscCall(progress_watch(solve, NULL, iterative->krylov));
   PetscCall(KSPSetFromOptions(iterative->krylov));
   PetscCall(KSPSetType(ksp, KSPPREONLY));
   PetscCall(KSPGetPC(ksp, &pc));
