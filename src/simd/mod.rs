@@ -16,7 +16,7 @@ mod stack;
 use finite::{AreFinite, FEW, few};
 pub use lanes::{Kernel, Lanes, Real, rolled};
 pub use plain::Plain;
-pub use rows::{add_rows, prefetch};
+pub use rows::{add_rows, prefetch, prefetch_all};
 pub use stack::Stack;
 
 /// What kernels are compiled for.

@@ -35,6 +35,14 @@ pub fn prefetch<T>(value: &T) {
     let _ = value;
 }
 
+/// The same of numbers that follow each other.
+#[inline(always)]
+pub fn prefetch_all(numbers: &[f64]) {
+    #[cfg(target_arch = "x86_64")]
+    numbers.iter().step_by(LINE / size_of::<f64>()).for_each(prefetch);
+    let _ = numbers;
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -47,6 +55,7 @@ mod tests {
         add_rows(&mut numbers, 11, u32::MAX, [[1.0]]);
         assert_eq!(numbers[11], 2.0);
         prefetch(&numbers);
+        prefetch_all(&numbers);
     }
 
     #[test]

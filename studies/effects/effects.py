@@ -59,6 +59,7 @@ RATIOS = [
     ("no friction / Coulomb", ("none", "deformable", "current"), FULL, 0.9, CALLS),
     ("rigid / deformable mortar side", ("coulomb", "rigid", "current"), FULL, 0.5, KERNELS),
     ("analytic / deformable mortar side", ("coulomb", "analytic", "current"), FULL, 0.1, KERNELS),
+    ("with offsets / without", (*FULL, "offsets"), FULL, None, CALLS),
 ]
 
 # Columns: key, heading, format.
@@ -134,7 +135,7 @@ class Probe:
         below = lambda name, by="": sum(n for (a, b), n in counts.items() if name in b and by in a)
         calls = sum(below(function) for function in FUNCTIONS)
         kernels = below(INTEGRATION) + below(TANGENT)
-        integrates = below(INTEGRATION) > 0 or effects[2] == "reference"  # frozen weights: at creation alone
+        integrates = below(INTEGRATION) > 0 or "reference" in effects  # frozen weights: at creation alone
         if done.returncode or not (integrates and 0 < kernels < calls):
             raise SceneError(f"effects_probe {' '.join(effects)}: exit code {done.returncode}\n{done.stderr[-800:]}")
         per_evaluation = 1e-6 / json.loads(done.stdout)["evaluations"]
@@ -151,7 +152,7 @@ def markdown(rows, ratios):
     if ratios:
         lines += ["", f"| instructions | {CALLS} | {KERNELS} | aim |", "|---|---:|---:|---|"]
         for r in ratios:
-            aim = f"at most {r['aim']:.0%} of {r['of'].removeprefix('of which ')}"
+            aim = f"at most {r['aim']:.0%} of {r['of'].removeprefix('of which ')}" if r["aim"] else "none"
             lines.append(f"| {r['name']} | {r[CALLS]:.1%} | {r[KERNELS]:.1%} | {aim} |")
     return "\n".join(lines) + "\n"
 

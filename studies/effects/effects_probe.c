@@ -1,6 +1,8 @@
 /* One interface, evaluated with the effects that the command line names, for counting what they cost:
  *
- *   effects_probe LAW SIDE WEIGHTS     LAW: none | coulomb   SIDE: analytic | rigid | deformable   WEIGHTS: reference | current
+ *   effects_probe LAW SIDE WEIGHTS [offsets]
+ *     LAW: none | coulomb   SIDE: analytic | rigid | deformable   WEIGHTS: reference | current
+ *     offsets: each surface is a layer that is thicker than its mesh, as a shell's
  *
  * A non-mortar patch of N1 x N1 quadrilaterals (the unit square, bent a little) lies 0.001 deep in a plane: as a mortar patch
  * of N2 x N2 quadrilaterals, or as the analytic plane. It slides a little further before each of the evaluations, which are
@@ -70,7 +72,8 @@ int main(int argc, char **argv)
   stickslip_counters   counters = {.struct_size = sizeof counters};
   int64_t              capacity = 0, count, n_equations;
 
-  if (argc != 4) return fprintf(stderr, "usage: effects_probe LAW SIDE WEIGHTS\n"), 1;
+  const int with_offsets = argc == 5 && !strcmp(argv[4], "offsets");
+  if (argc != 4 + with_offsets) return fprintf(stderr, "usage: effects_probe LAW SIDE WEIGHTS [offsets]\n"), 1;
   stop_on(stickslip_options_init(&options, sizeof options));
   options.friction    = choose(argv[1], laws);
   options.mortar_side = choose(argv[2], sides);
@@ -100,6 +103,16 @@ int main(int argc, char **argv)
   }
 
   stop_on(stickslip_interface_create(&upper, &lower, &options, &contact));
+  if (with_offsets) {
+    static double thickness1[NODES1], thickness2[NODES2];
+    for (int a = 0; a < NODES1; a++) {
+      thickness1[a] = -DEPTH;
+      x1[3 * a + 2] += 2 * DEPTH; /* the layers touch where without them the meshes would */
+    }
+    for (int c = 0; c < NODES2; c++)
+      thickness2[c] = -DEPTH; /* in front of the mesh */
+    stop_on(stickslip_interface_set_offsets(contact, thickness1, thickness2));
+  }
   stop_on(stickslip_interface_pattern_coo(contact, x1, x2, 0, NULL, NULL, &capacity)); /* no tangent has more entries */
   int64_t *entry_rows = malloc(2 * (size_t)capacity * sizeof(int64_t));
   double  *values     = malloc((size_t)capacity * sizeof(double));

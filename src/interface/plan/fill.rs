@@ -1,6 +1,7 @@
 //! Values into the entries of a plan, as the blocks of a tangent come.
 
 use super::add::{Add, Starts};
+use super::ahead::Ahead;
 use super::numbering::{SCALARS, Sides};
 use super::places::{Layout, Places};
 use super::scatter::{self, MortarOffsets, Scatter};
@@ -64,6 +65,7 @@ pub struct Fill<'a, 'p, const N: usize> {
     places: &'a Places,
     scatter: Option<&'a Scatter>,
     hand: Hand<'a, 'p>,
+    ahead: Ahead,
     state: State,
 }
 
@@ -102,7 +104,7 @@ impl<'a, 'p, const N: usize> Fill<'a, 'p, N> {
         (places, scatter): (&'a Places, Option<&'a Scatter>),
         hand: Hand<'a, 'p>,
     ) -> Self {
-        Fill { setup, layout, places, scatter, hand, state: State::default() }
+        Fill { setup, layout, places, scatter, hand, ahead: Ahead::default(), state: State::default() }
     }
 
     /// What has come up.
@@ -242,6 +244,7 @@ impl<'a, 'p, const N: usize> Fill<'a, 'p, N> {
         values: &[[[[f64; 4]; R]; 3]],
     ) {
         self.find((rows, of_multipliers), (columns, false));
+        self.ahead.fetch(self.hand.pieces);
         let shape = (self.len_of(rows), self.len_of(columns));
         let State { own, multipliers, mortar_rows, starts, nothing, .. } = &mut self.state;
         let node_rows = match (rows, of_multipliers) {
@@ -259,6 +262,7 @@ impl<'a, 'p, const N: usize> Fill<'a, 'p, N> {
     }
 
     fn add_mortar(&mut self, shape: (usize, usize), values: &[Columns]) -> bool {
+        self.ahead.fetch(self.hand.pieces);
         let State { mortar_rows, starts, nothing, .. } = &mut self.state;
         let pieces = &mut *self.hand.pieces;
         simd::dispatch(Add { pieces, rows: mortar_rows, starts, shape, values, nothing })
@@ -308,6 +312,7 @@ impl<const N: usize> Blocks<N> for Fill<'_, '_, N> {
             self.state.own[k] = self.touch(Place::Displacement(a)).unwrap_or_default();
             self.state.multipliers[k] = self.touch(Place::Multiplier(a)).unwrap_or_default();
         }
+        self.ahead.after(f, (self.setup, &self.layout), self.scatter, &self.hand);
     }
 
     fn forces(&mut self, rows: Span, columns: Span, values: &[[[[f64; MAX_NODES]; 3]; 3]]) {

@@ -6,6 +6,7 @@
 //! `phases` parts the facets among threads; `table` says who writes to which rows; `fill` takes the blocks, `add` adds them.
 
 pub mod add;
+pub mod ahead;
 pub mod extras;
 pub mod fill;
 pub mod numbering;

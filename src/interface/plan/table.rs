@@ -221,9 +221,9 @@ pub struct Target {
 }
 
 impl Hand<'_, '_> {
-    /// The rows of a node, which become 0 if nothing was written to them in this fill. `None`: they are not this chunk's.
+    /// Where the rows of a node are. `None`: they are not this chunk's.
     #[inline]
-    pub fn claim(&mut self, node: usize) -> Option<Target> {
+    pub fn find(&self, node: usize) -> Option<Target> {
         let rows = self.of.rows[node];
         let (piece, start) = match self.parts {
             None => (usize::from(!rows.is_direct), rows.start),
@@ -232,6 +232,14 @@ impl Hand<'_, '_> {
             }
             Some(_) => return None,
         };
+        Some(Target { rows, piece, start })
+    }
+
+    /// The same; they become 0 if nothing was written to them in this fill.
+    #[inline]
+    pub fn claim(&mut self, node: usize) -> Option<Target> {
+        let target = self.find(node)?;
+        let Target { rows, piece, start } = target;
         let written = &self.of.written[node];
         if written.load(Ordering::Relaxed) != self.of.fill {
             written.store(self.of.fill, Ordering::Relaxed);
@@ -239,7 +247,7 @@ impl Hand<'_, '_> {
                 self.pieces[piece][start..start + rows.size()].fill(0.0);
             }
         }
-        Some(Target { rows, piece, start })
+        Some(target)
     }
 }
 
