@@ -134,6 +134,7 @@ PetscErrorCode solver_give_room(Solve *solve, PetscBool *given); /* to a direct 
 PetscErrorCode solver_forget_factors(Solve *solve);  /* after a linear system that could not be solved */
 
 /* iterative.c: `solver`; what `auto` means; makes SNES' linear solver one that iterates */
+void           iterative_check(Scene *scene, const Solve *solve); /* after held_create() */
 PetscErrorCode iterative_read(Scene *scene, Solve *solve); /* after contact_read() */
 void           iterative_choose(Solve *solve, PetscInt n_unknowns);
 PetscErrorCode iterative_set(Solve *solve, KSP ksp);
