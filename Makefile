@@ -15,7 +15,7 @@ export PATH := $(PATH):$(HOME)/.cargo/bin
 LOCKED = mkdir -p $(BUILD) && flock $(BUILD)/.lock
 SAY    = @printf '\n== %s\n'
 
-.PHONY: packages hosts help demo gallery effects aids study border compare bench random fuzz stability scaling ratios digest wheel python-examples check test test-long build install uninstall docs reference abi header meshes clean cmake-build rust-tests
+.PHONY: packages hosts newcomer help demo gallery effects aids study border compare bench random fuzz stability scaling scaling-ranks ranks ratios digest wheel python-examples check test test-long build install uninstall docs reference abi header meshes clean cmake-build rust-tests
 
 help:
 	@echo "make demo    solve the example scenes, compare with the references, draw (FIGURES=1: renew the README's figures)"
@@ -35,11 +35,14 @@ help:
 	@echo "make random  the property tests on other random input, ten times as much (SEED=n CASES=n)"
 	@echo "make ratios  the force of fine facets in coarse ones against the ratio of both and the number of steps, an hour"
 	@echo "make scaling  linear solvers against the number of unknowns: a table (SIZES='N ...'; FIGURES=1: as above)"
+	@echo "make scaling-ranks  what a rank holds and does of the contact, on 2 and 4 ranks: a table (SIZES=, FIGURES=1: as above)"
+	@echo "make ranks   contact on eight ranks, however few processors there are: a minute; a part of make test-long"
 	@echo "make digest  the bits of what library and driver compute, compared with those of before (KEEP=1: these are they)"
 	@echo "make fuzz    fuzz the pair kernel, the handle and the C ABI, a quarter of an hour each (FUZZ_SECONDS=)"
 	@echo "make wheel   the Python package as a wheel, in $(BUILD)/wheels"
 	@echo "make python-examples   its examples, with the libraries they need, in an environment below $(BUILD)/"
 	@echo "make hosts   programs on deal.II, MFEM, scikit-fem, FElupe and petsc4py: installs these, compares them with the driver; hosts/README.md"
+	@echo "make newcomer   what the documents tell a new user to type, typed in an empty place, with its time (NAMES='python ...')"
 	@echo "make packages   crate, Debian packages, recipes of Spack and conda-forge, in $(BUILD)/packages; packaging/README.md"
 	@echo "make build   build the library and the examples into $(BUILD)/"
 	@echo "make install PREFIX=DIR [DESTDIR=]   install header, Fortran module, libraries, pkg-config and CMake files"
@@ -74,6 +77,18 @@ scaling:
 	@$(MAKE) --no-print-directory cmake-build
 	$(SAY) "Linear solvers against the number of unknowns"
 	@$(PYTHON) studies/scaling/scaling.py --build $(BUILD) $(if $(SIZES),--sizes $(SIZES)) $(if $(FIGURES),--renew)
+
+scaling-ranks:
+	@.ci/setup demo
+	@$(MAKE) --no-print-directory cmake-build
+	$(SAY) "What a rank holds of the surfaces, and does"
+	@$(PYTHON) studies/scaling/ranks.py --build $(BUILD) $(if $(SIZES),--sizes $(SIZES)) $(if $(FIGURES),--renew)
+
+ranks:
+	@.ci/setup test
+	@$(MAKE) --no-print-directory cmake-build
+	$(SAY) "Contact on eight ranks"
+	@$(PYTHON) tests/acceptance/check.py --build $(BUILD) ranks_many
 
 aids:
 	@.ci/setup demo
@@ -176,6 +191,12 @@ hosts:
 	@$(BUILD)/hosts/python/bin/pip install -q cffi numpy scipy scikit-fem felupe 2>/dev/null
 	@$(PYTHON) hosts/check.py --build $(BUILD)
 	@STICKSLIP_LIBRARY=$(abspath $(BUILD))/lib/libstickslip.so $(PYTHON) -m pytest -q -rs -p no:cacheprovider python/tests/test_petsc4py.py
+
+# Of the committed tree: it clones it, and builds the library as a user does.
+newcomer: wheel
+	@.ci/setup hosts
+	$(SAY) "As a new user"
+	@$(PYTHON) hosts/newcomer.py --wheels $(BUILD)/wheels --out $(BUILD)/newcomer $(NAMES)
 
 packages:
 	@.ci/setup library

@@ -1,7 +1,13 @@
 # The library: cargo builds it; the targets here are what the build tree links to.
 
 find_program(CARGO_EXECUTABLE cargo HINTS "$ENV{HOME}/.cargo/bin" REQUIRED)
-set(cargo_dir "${STICKSLIP_CARGO_TARGET_DIR}/release")
+if(STICKSLIP_DEBUG)
+  set(cargo_profile dev)
+  set(cargo_dir "${STICKSLIP_CARGO_TARGET_DIR}/debug")
+else()
+  set(cargo_profile release)
+  set(cargo_dir "${STICKSLIP_CARGO_TARGET_DIR}/release")
+endif()
 
 # The shared library goes by its soname, libstickslip.so.0.MINOR before 1.0, libstickslip.so.MAJOR after (docs/abi.md);
 # build.rs puts the same into the file.
@@ -33,10 +39,10 @@ set(remapped "build.rustflags=['--remap-path-prefix=${cargo_home}=/cargo', '--re
 # cargo alone knows whether something changed, so it is asked each time; what depends on it relinks only if the files
 # are newer.
 add_custom_target(stickslip_cargo ALL
-  COMMAND "${CARGO_EXECUTABLE}" --config "${remapped}" rustc --release --locked --lib --target-dir "${STICKSLIP_CARGO_TARGET_DIR}"
+  COMMAND "${CARGO_EXECUTABLE}" --config "${remapped}" rustc --profile ${cargo_profile} --locked --lib --target-dir "${STICKSLIP_CARGO_TARGET_DIR}"
           -- --print "native-static-libs=${cargo_dir}/native-static-libs.txt"
   COMMAND "${CMAKE_COMMAND}" "-Dfrom=${cargo_dir}" "-Dshared=${STICKSLIP_SHARED}" "-Dstatic=${STICKSLIP_STATIC}"
-          "-Dsoversion=${STICKSLIP_SOVERSION}" "-Dobjcopy=${CMAKE_OBJCOPY}" -P "${PROJECT_SOURCE_DIR}/cmake/stage.cmake"
+          "-Dsoversion=${STICKSLIP_SOVERSION}" "-Dobjcopy=$<$<NOT:$<BOOL:${STICKSLIP_DEBUG}>>:${CMAKE_OBJCOPY}>" -P "${PROJECT_SOURCE_DIR}/cmake/stage.cmake"
   WORKING_DIRECTORY "${PROJECT_SOURCE_DIR}"
   BYPRODUCTS "${STICKSLIP_SHARED}" "${STICKSLIP_STATIC}"
   COMMENT "Building the library with cargo"

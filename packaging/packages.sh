@@ -45,6 +45,8 @@ lint() {
 
 step "templates" python3 packaging/fill.py "$out"
 step "crate" cargo package --locked --allow-dirty
+# It was built a line above.
+step "crates.io, without uploading" cargo publish --dry-run --no-verify --locked --allow-dirty
 if command -v dpkg-buildpackage >/dev/null && command -v dh >/dev/null; then
     step "Debian" debian
     if ! command -v lintian >/dev/null; then

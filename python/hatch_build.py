@@ -18,13 +18,16 @@ def shared_library(checkout: Path) -> Path:
     given = os.environ.get("STICKSLIP_LIBRARY")
     if given:
         return Path(given).resolve(strict=True)
-    subprocess.run(["cargo", "build", "--locked", "--release", "--lib"], cwd=checkout, check=True)
+    # Panics name source files: those of crates by a path of this machine, if nothing is put in its place (cmake/library.cmake).
+    cargo_home = os.environ.get("CARGO_HOME", Path.home() / ".cargo")
+    remapped = f"build.rustflags=['--remap-path-prefix={cargo_home}=/cargo', '--remap-path-prefix={checkout}=/stickslip']"
+    subprocess.run(["cargo", "--config", remapped, "build", "--locked", "--release", "--lib"], cwd=checkout, check=True)
     target = Path(os.environ.get("CARGO_TARGET_DIR", checkout / "target"))
     return (checkout / target / "release" / "libstickslip.so").resolve(strict=True)
 
 
 class StickslipHook(BuildHookInterface):
-    """Puts libstickslip.so and _abi.py into the wheel, and names its platform."""
+    """Puts libstickslip.so, _abi.py and the header into the wheel, and names its platform."""
 
     def initialize(self, version, build_data):
         sys.path.insert(0, str(HERE / "src" / "stickslip"))
@@ -39,6 +42,7 @@ class StickslipHook(BuildHookInterface):
         _declarations.write(CHECKOUT / "include" / "stickslip.h", made / "_abi.py")
         build_data["force_include"][str(library)] = "stickslip/libstickslip.so"
         build_data["force_include"][str(made / "_abi.py")] = "stickslip/_abi.py"
+        build_data["force_include"][str(CHECKOUT / "include" / "stickslip.h")] = "stickslip/stickslip.h"
         platform = sysconfig.get_platform().replace("-", "_").replace(".", "_")
         build_data["tag"] = f"py3-none-{platform}"
         build_data["pure_python"] = False

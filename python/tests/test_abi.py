@@ -24,8 +24,8 @@ NOT_WRAPPED = {
     "interface_condensed_csr": "pieces of the condensed matrix and scipy's products",
     "interface_condensed_pattern": "scipy finds the pattern",
 }
-# The stateless stages are for codes that assemble pair by pair; rigid bodies: not yet.
-NOT_WRAPPED_PREFIXES = ("pair_", "facet_", "node_", "rigid_")
+# The stateless stages are for codes that assemble pair by pair.
+NOT_WRAPPED_PREFIXES = ("pair_", "facet_", "node_")
 
 
 def declared():
@@ -130,6 +130,10 @@ def calls(made):
     plan = stickslip.Plan(face, x1, x2, made.size)
     sums = {} if made.options.get("basis") == "dual" else {"sums": face.sums(x1, x2)}
     history = face.history()
+    m = 6 if d == 3 else 3
+    parts = {"coordinates": made.x2, "node_equations": np.arange(made.x2.size).reshape(made.x2.shape) + 10,
+             "point": np.zeros(d), "equations": np.arange(m)}
+    body = stickslip.RigidBody(**parts)
     found = [
         (face.residual, {**point, **sums}), (face.states, {**point, **sums}), (face.equilibrium, {**point, **sums}),
         (lambda **given: face.tangent(**given, size=made.size), point), (plan.values, point), (face.diagnose, point),
@@ -140,6 +144,9 @@ def calls(made):
         (face.set_normals, {"normals": np.tile(made.nu, (n1, 1))}),
         (face.set_committed, {**positions, "slip": np.zeros_like(x1)}),
         (face.turn_multipliers, {"x1": x1, "lam": lam}), (face.commit, {**point, **sums}),
+        (stickslip.RigidBody, parts), (body.resultant, {"forces": np.zeros_like(made.x2)}),
+        (lambda unknowns: setattr(body, "unknowns", unknowns), {"unknowns": np.zeros(m)}),
+        (lambda turned: setattr(body, "turned", turned), {"turned": np.eye(3)}),
         (lambda **given: face.restore({**history, **given}), {"integers": history["integers"], "reals": history["reals"]}),
         (stickslip.Surface, {"coordinates": made.x1, "equations": np.arange(n1 * d).reshape(n1, d),
                              "multiplier_equations": np.arange(n1 * d).reshape(n1, d), "owned": np.ones(n1, np.int32)}),
@@ -190,6 +197,21 @@ def test_outputs(lines):
     out[1].flags.writeable = False
     with pytest.raises(ValueError, match="^force2: read-only"):
         lines.interface.residual(*point, out=out)
+
+
+def test_lists_are_not_cut_off(lines):
+    with pytest.raises(TypeError, match="^equations: float64, integers"):
+        stickslip.Surface(lines.x1, [[0, 1]], (np.arange(10).reshape(5, 2) + 0.5).tolist())
+    with pytest.raises(TypeError, match="^x1: complex128, numbers"):
+        lines.interface.report((lines.x1 + 1j).tolist(), lines.x2)
+    with pytest.raises(ValueError, match="^x1: "):
+        lines.interface.report([[0.0, 0.0], [1.0]], lines.x2)
+    with pytest.raises(TypeError, match="^threads: 2.5, an integer"):
+        stickslip.Interface(*lines.arguments, modulus=1.0, model="plane", threads=2.5)
+    with pytest.raises(TypeError, match="^mu: None, a number"):
+        stickslip.Interface(*lines.arguments, modulus=1.0, model="plane", mu=None)
+    with pytest.raises(ValueError, match=r"^size: 3, and there is an equation \d+; at least"):
+        stickslip.Plan(lines.interface, lines.x1, lines.x2, 3)
 
 
 def test_lists_are_converted(lines):

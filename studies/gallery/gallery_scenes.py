@@ -10,6 +10,7 @@ import formulas
 import friction_checks as friction
 import gallery_figures as figures
 import ironing
+import offsets
 import plane
 import slider
 import turning
@@ -237,6 +238,21 @@ def draw_shrink(solved, folder):
     ]
 
 
+def rings(verdicts, driver):
+    driver.output.mkdir(parents=True, exist_ok=True)
+    return offsets.rings(verdicts, driver)
+
+
+def draw_rings(runs, folder):
+    series = []
+    for label, name in (("offsets of the circles", "standard"), ("chords as they are", "chords")):
+        table = runs[name].interface("first")
+        angle = np.degrees(np.arctan2(table["Y"], table["X"]))
+        series.append((label, angle, table["p_lumped"], [-180, 180], [offsets.lame()[0]] * 2))
+    title = "Inner circle of three rings: every node, and Lame"
+    return [figures.profile(series, folder / "rings.png", "degrees", "pressure", title)]
+
+
 def draw_capstan(run, folder):
     table = run.interface("contact")
     table = table[table["Z"] < 1e-9]
@@ -457,6 +473,9 @@ ENTRIES = [
           draw_disc),
     Entry("shrink_fit", "Shrink fit", "A hub that is too narrow for its shaft, from meshes that penetrate at the "
           "start; then pushed out, or turned.", 1.0, shrink, draw_shrink),
+    Entry("rings", "Three rings of few facets", "Shrunk onto each other, of 24, 30 and 38 facets, turning under pressure. "
+          "The chords are farther from the circles than the interferences are; offsets give the circles back. Nodes "
+          "scatter around the mean, which is Lame's.", 0.1, rings, draw_rings),
     Entry("capstan", "Belt on a drum", "Euler's formula, half around.", 0.1, friction.capstan, draw_capstan),
     Entry("block", "Block pushed along a foundation", "The paper's first example, contact along the whole bottom.", 0.1,
           block, draw_block),

@@ -160,17 +160,18 @@ def pressures(run):
 
 
 def rings(verdicts, driver):
-    """Of 24, 30 and 38 facets; the chords alone are farther from the circles than the interferences."""
-    exact = lame()
+    """Of 24, 30 and 38 facets; the chords alone are farther from the circles than the interferences. The runs by name."""
+    exact, runs = lame(), {}
     for k in range(2):
         verdicts.near(f"rings: Lame's formulas, circle {k + 1}", exact[k], PUBLISHED[k], PUBLISHED_BOUND, "published")
     for basis in ("standard", "dual"):
-        run = driver.run(write(ring_scene(FACETS, True, basis), driver.output / f"rings_{basis}.yaml"))
-        for k, found in enumerate(pressures(run)):
+        runs[basis] = driver.run(write(ring_scene(FACETS, True, basis), driver.output / f"rings_{basis}.yaml"))
+        for k, found in enumerate(pressures(runs[basis])):
             verdicts.near(f"rings, {basis}: pressure on circle {k + 1}", found, exact[k], RINGS_BOUND[basis], "Lame")
-    run = driver.run(write(ring_scene(FACETS, False, "standard"), driver.output / "rings_chords.yaml"))
-    off = np.abs(pressures(run) / exact - 1).max()
+    runs["chords"] = driver.run(write(ring_scene(FACETS, False, "standard"), driver.output / "rings_chords.yaml"))
+    off = np.abs(pressures(runs["chords"]) / exact - 1).max()
     verdicts.at_least("rings, chords as they are: error of a pressure", off, UNCORRECTED, "the lines above can fail")
+    return runs
 
 
 def ramp(verdicts, driver):

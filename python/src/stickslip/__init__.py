@@ -4,12 +4,14 @@ The package calls the shared library through its C interface. Arrays are numpy's
 """
 
 from . import errors
+from ._library import HEADER as header
 from ._library import constants, lib, text
 from .condensed import Condensed
 from .errors import Error
 from .interface import Interface
 from .meshes import crosspoints, split_creases
 from .plan import CondensedPlan, Plan
+from .rigid import RigidBody, RigidPlan
 from .surface import Surface
 
 #: The version of the library.
@@ -17,4 +19,5 @@ __version__ = text(lib.stickslip_version())
 #: Version, commit, target, profile, compiler and kernels of the library.
 __build__ = text(lib.stickslip_build())
 
-__all__ = ["Condensed", "CondensedPlan", "Error", "Interface", "Plan", "Surface", "constants", "crosspoints", "errors", "split_creases"]
+__all__ = ["Condensed", "CondensedPlan", "Error", "Interface", "Plan", "RigidBody", "RigidPlan", "Surface", "constants",
+           "crosspoints", "errors", "header", "split_creases"]

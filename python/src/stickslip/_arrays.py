@@ -1,6 +1,7 @@
 """Arrays of Python as the library reads and writes them: checked, and used without a copy where they fit."""
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ._library import ffi
 
@@ -8,13 +9,34 @@ _KINDS = {np.dtype(np.float64): "double[]", np.dtype(np.int64): "int64_t[]", np.
           np.dtype(np.uint8): "uint8_t[]"}
 
 
-def given(name: str, value, shape: tuple, dtype=np.float64) -> np.ndarray:
+def converted(name: str, value: ArrayLike, dtype=np.float64) -> np.ndarray:
+    """An ndarray as it is, a list as an array: of integers only where integers are needed, so that nothing is cut off."""
+    if isinstance(value, np.ndarray):
+        return value
+    integers = np.dtype(dtype).kind == "i"
+    try:
+        array = np.array(value)
+    except ValueError as error:  # lists of unequal lengths
+        raise ValueError(f"{name}: {error}") from None
+    if array.size and array.dtype.kind not in ("iu" if integers else "iuf"):
+        raise TypeError(f"{name}: {array.dtype}, {'integers' if integers else 'numbers'} are needed")
+    return array.astype(dtype)
+
+
+def coordinates(value: ArrayLike) -> np.ndarray:
+    """Coordinates of nodes, which say by their shape how many there are, in space or in the plane."""
+    value = converted("coordinates", value)
+    if value.ndim != 2 or value.shape[1] not in (2, 3):
+        raise ValueError(f"coordinates: shape {value.shape}, (n, 3) or (n, 2) is needed")
+    return given("coordinates", value, value.shape)
+
+
+def given(name: str, value: ArrayLike, shape: tuple, dtype=np.float64) -> np.ndarray:
     """An input of this shape, or with as many entries in one row.
 
     Lists are converted. An ndarray has to fit as it is: a silent copy in each iteration would cost unseen.
     """
-    if not isinstance(value, np.ndarray):
-        value = np.array(value, dtype=dtype)
+    value = converted(name, value, dtype)
     if value.dtype != dtype:
         raise TypeError(f"{name}: dtype {value.dtype}, {np.dtype(dtype)} is needed")
     if not value.flags.c_contiguous:

@@ -1,8 +1,10 @@
 """What an interface tells about itself: states, equilibrium, report, diagnosis, counters."""
 
+from collections.abc import Callable
 from types import SimpleNamespace
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ._arrays import pointer
 from ._library import ffi
@@ -34,9 +36,15 @@ def _new(name: str):
 
 
 class Inspection:
-    """The part of :class:`stickslip.Interface` that changes nothing."""
+    """The part of :class:`stickslip.Interface` that changes nothing. What it needs of the rest:"""
 
-    def states(self, x1, x2, lam, *, sums=None) -> SimpleNamespace:
+    n1: int
+    _shape1: tuple
+    _call: Callable[..., None]
+    _point: Callable[..., tuple]
+    _positions: Callable[..., tuple]
+
+    def states(self, x1: ArrayLike, x2: ArrayLike, lam: ArrayLike, *, sums: ArrayLike | None = None) -> SimpleNamespace:
         """Arrays by the names of ``stickslip_states``: state, normal, traction, gap, slip, coverage, area, ...
 
         Call it before the commit.
@@ -55,18 +63,19 @@ class Inspection:
         self._call("states", *self._point(x1, x2, lam, sums), out)
         return SimpleNamespace(**arrays)
 
-    def equilibrium(self, x1, x2, lam, *, modulus: float = 0.0, least_traction: float = 0.0, sums=None):
+    def equilibrium(self, x1: ArrayLike, x2: ArrayLike, lam: ArrayLike, *, modulus: float = 0.0,
+                    least_traction: float = 0.0, sums: ArrayLike | None = None) -> SimpleNamespace:
         """How far the point is from equilibrium, by the names of ``stickslip_equilibrium``."""
         out = _new("equilibrium")
         out.modulus, out.least_traction = modulus, least_traction
         self._call("equilibrium", *self._point(x1, x2, lam, sums), out)
         return SimpleNamespace(**_scalars(out, "equilibrium"))
 
-    def report(self, x1, x2) -> SimpleNamespace:
+    def report(self, x1: ArrayLike, x2: ArrayLike) -> SimpleNamespace:
         """Which nodes are covered, and what surfaces that do not meet look like; ``text`` says it in sentences."""
         out = _new("report")
-        arrays = {"cover": np.zeros(self.n1, np.int32), "fraction": np.zeros(self.n1),
-                  "layers": np.zeros(self.n1, np.int32)}
+        arrays: dict[str, np.ndarray] = {"cover": np.zeros(self.n1, np.int32), "fraction": np.zeros(self.n1),
+                                         "layers": np.zeros(self.n1, np.int32)}
         kept = {member: pointer(array) for member, array in arrays.items()}
         for member, address in kept.items():
             setattr(out, member, address)
@@ -75,7 +84,7 @@ class Inspection:
         self._call("report", *self._positions(x1, x2), out)
         return SimpleNamespace(**_scalars(out, "report"), **arrays, text=ffi.string(buffer).decode())
 
-    def diagnose(self, x1, x2, lam, *, sums=None) -> SimpleNamespace:
+    def diagnose(self, x1: ArrayLike, x2: ArrayLike, lam: ArrayLike, *, sums: ArrayLike | None = None) -> SimpleNamespace:
         """The worst pairs and where the matrix may be singular; ``text`` says it in sentences."""
         out = _new("diagnosis")
         buffer = ffi.new("char[]", _TEXT)

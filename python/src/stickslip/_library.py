@@ -44,6 +44,9 @@ def _path() -> str:
                       + ", ".join(map(str, places)))
 
 
+#: The header, with what each function does: of the wheel, or the checkout's.
+HEADER = next((path for path in (_HERE / "stickslip.h", _CHECKOUT / "include" / "stickslip.h") if path.exists()), None)
+
 _module = _abi()
 ffi = _module.ffi
 lib = ffi.dlopen(_path())

@@ -1,9 +1,18 @@
 """Systems without multipliers among the unknowns: dual basis alone."""
 
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ._arrays import given, output, pointer
 from ._library import ffi, value_of
+from .interface import Interface
+
+if TYPE_CHECKING:
+    import scipy.sparse
 
 
 class Condensed:
@@ -12,10 +21,10 @@ class Condensed:
     ``host1`` is the residual of the host's own forces at the non-mortar nodes, internal minus external, like ``x1`` [F].
     """
 
-    def __init__(self, interface):
+    def __init__(self, interface: Interface):
         self._interface = interface
 
-    def multipliers(self, x1, x2, host1, out=None) -> np.ndarray:
+    def multipliers(self, x1: ArrayLike, x2: ArrayLike, host1: ArrayLike, out: np.ndarray | None = None) -> np.ndarray:
         """The multipliers that follow from the displacements [F/L^2]. Call it first in an evaluation."""
         face = self._interface
         out = output("out", out, face._shape_multipliers)
@@ -23,7 +32,7 @@ class Condensed:
         face._call("condensed_multipliers", *face._positions(x1, x2), host, pointer(out))
         return out
 
-    def residual(self, x1, x2, lam, host1) -> tuple:
+    def residual(self, x1: ArrayLike, x2: ArrayLike, lam: ArrayLike, host1: ArrayLike) -> tuple[np.ndarray, np.ndarray]:
         """``(rows1, force2)``: in place of the host's rows of the non-mortar nodes; to add to the mortar nodes' rows [F]."""
         face = self._interface
         rows1, force2 = np.empty(face._shape1), np.empty(face._shape2)
@@ -32,7 +41,7 @@ class Condensed:
         face._call("condensed_residual", *point, host, pointer(rows1), pointer(force2))
         return rows1, force2
 
-    def piece(self, x1, x2, lam, size: int, piece: str):
+    def piece(self, x1: ArrayLike, x2: ArrayLike, lam: ArrayLike, size: int, piece: str) -> scipy.sparse.csr_matrix:
         """One piece of the condensed matrix, ``(size, size)``: "forces", "elimination", "constraints" or "scales".
 
         With the host's own matrix K and J = K + forces the condensed one is J + elimination @ J + constraints. With scales

@@ -1,6 +1,14 @@
 """An exception class for every status of the header, all below :class:`Error`."""
 
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
 from ._library import constants
+
+if TYPE_CHECKING:  # the classes of statuses are made from the header
+
+    def __getattr__(name: str) -> type[Error]: ...
 
 
 class Error(Exception):
@@ -36,18 +44,18 @@ def _statuses() -> dict:
     return {name: constants[name] for name in names[names.index("OK") + 1 : names.index("PANIC") + 1]}
 
 
-def _class(name: str, status: int) -> type:
+def _class(name: str, status: int) -> type[Error]:
     bases = (Error, _ALSO[name]) if name in _ALSO else (Error,)
     title = "".join(part.capitalize() for part in name.split("_"))
     return type(title, bases, {"status": status, "__module__": __name__, "__doc__": f"STICKSLIP_{name}."})
 
 
 statuses = _statuses()
-by_status = {status: _class(name, status) for name, status in statuses.items()}
+by_status: dict[int, type[Error]] = {status: _class(name, status) for name, status in statuses.items()}
 globals().update({made.__name__: made for made in by_status.values()})
 __all__ = ["Error", "by_status", "exception_of", "statuses", *(made.__name__ for made in by_status.values())]
 
 
-def exception_of(status: int) -> type:
+def exception_of(status: int) -> type[Error]:
     """The exception class of a status; :class:`Error` where the header has no name for it."""
     return by_status.get(status, Error)

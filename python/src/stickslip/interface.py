@@ -1,12 +1,21 @@
 """The handle of an interface: residual, tangent, states, history."""
 
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
 import numpy as np
+from numpy.typing import ArrayLike
 
 from . import options as _options
 from ._arrays import given, output, pointer
 from ._inspection import Inspection
 from ._library import call, ffi, lib, value_of
 from .surface import Surface
+
+if TYPE_CHECKING:
+    import scipy.sparse
 
 
 class Interface(Inspection):
@@ -84,24 +93,26 @@ class Interface(Inspection):
         multipliers = pointer(given("lam", lam, self._shape_multipliers))
         return (*self._positions(x1, x2), multipliers, self._sums(sums))
 
-    def initial_multipliers(self, out=None) -> np.ndarray:
+    def initial_multipliers(self, out: np.ndarray | None = None) -> np.ndarray:
         """Multipliers to start the first step with, not zero, so that a body that rests on contact is held."""
         out = output("out", out, self._shape_multipliers)
         self._call("initial_multipliers", pointer(out))
         return out
 
-    def residual(self, x1, x2, lam, *, sums=None, out=(None, None, None)) -> tuple:
+    def residual(self, x1: ArrayLike, x2: ArrayLike, lam: ArrayLike, *, sums: ArrayLike | None = None,
+                 out: tuple = (None, None, None)) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """``(force1, force2, rows)``: what to add to the host's internal forces [F], and the multiplier rows.
 
         The force on the non-mortar body is ``-force1``. ``out``: three arrays to write to.
         """
         shapes = self._shape1, self._shape2, self._shape_multipliers
         names = "force1", "force2", "rows"
-        made = tuple(output(name, array, shape) for name, array, shape in zip(names, out, shapes))
-        self._call("residual", *self._point(x1, x2, lam, sums), *map(pointer, made))
-        return made
+        force1, force2, rows = (output(name, array, shape) for name, array, shape in zip(names, out, shapes))
+        self._call("residual", *self._point(x1, x2, lam, sums), pointer(force1), pointer(force2), pointer(rows))
+        return force1, force2, rows
 
-    def tangent(self, x1, x2, lam, size: int, *, sums=None, form: str = "csr"):
+    def tangent(self, x1: ArrayLike, x2: ArrayLike, lam: ArrayLike, size: int, *, sums: ArrayLike | None = None,
+                form: str = "csr") -> scipy.sparse.spmatrix:
         """The derivative of the residual, a scipy sparse matrix of ``(size, size)`` in the host's equations."""
         import scipy.sparse
 
@@ -116,7 +127,7 @@ class Interface(Inspection):
         matrix = scipy.sparse.coo_matrix((values[:n], (rows[:n], columns[:n])), shape=(size, size))
         return matrix if form == "coo" else matrix.asformat(form)
 
-    def sums(self, x1, x2) -> np.ndarray:
+    def sums(self, x1: ArrayLike, x2: ArrayLike) -> np.ndarray:
         """What a host on several processes adds up over them, (n1, SUMS_PER_NODE)."""
         from ._library import constants
 
@@ -124,7 +135,7 @@ class Interface(Inspection):
         self._call("sums", *self._positions(x1, x2), pointer(out))
         return out
 
-    def commit(self, x1, x2, lam, *, sums=None) -> None:
+    def commit(self, x1: ArrayLike, x2: ArrayLike, lam: ArrayLike, *, sums: ArrayLike | None = None) -> None:
         """Accepts a converged step: it becomes t_n."""
         self._call("commit", *self._point(x1, x2, lam, sums))
 
@@ -147,73 +158,73 @@ class Interface(Inspection):
         reals = given("reals", reals, (len(reals),))
         self._call("history_import", len(integers), pointer(integers), len(reals), pointer(reals))
 
-    def step_limit(self, x1, x2, dx1, dx2, penetration: float = 0.0) -> float:
+    def step_limit(self, x1: ArrayLike, x2: ArrayLike, dx1: ArrayLike, dx2: ArrayLike, penetration: float = 0.0) -> float:
         """How much of a step (dx1, dx2) may be taken, at most 1."""
         out = ffi.new("double *")
         step = pointer(given("dx1", dx1, self._shape1)), pointer(given("dx2", dx2, self._shape2))
         self._call("step_limit", *self._positions(x1, x2), *step, penetration, out)
         return out[0]
 
-    def set_friction(self, mu) -> None:
+    def set_friction(self, mu: ArrayLike) -> None:
         """Coulomb coefficients of the non-mortar nodes, (n1,) [-]."""
         self._call("set_friction", pointer(given("mu", mu, (self.n1,))))
 
-    def set_augmentation(self, r) -> None:
+    def set_augmentation(self, r: ArrayLike) -> None:
         """The augmentation of each node, (n1,), in the unit of the header's function."""
         self._call("set_augmentation", pointer(given("r", r, (self.n1,))))
 
-    def set_normals(self, normals) -> None:
+    def set_normals(self, normals: ArrayLike) -> None:
         """Normals of the non-mortar nodes, like x1, into the non-mortar body."""
         self._call("set_normals", pointer(given("normals", normals, self._shape1)))
 
-    def set_offsets(self, offsets1=None, offsets2=None) -> None:
+    def set_offsets(self, offsets1: ArrayLike | None = None, offsets2: ArrayLike | None = None) -> None:
         """Offsets of the non-mortar and the mortar nodes, (n1,) and (n2,); None: none. Positive ones open gaps."""
         offsets1 = None if offsets1 is None else given("offsets1", offsets1, (self.n1,))
         offsets2 = None if offsets2 is None else given("offsets2", offsets2, (self.n2,))
         self._call("set_offsets", pointer(offsets1), pointer(offsets2))
 
-    def shape_offsets(self, side: str, shape: str, radius: float, point, direction=(0.0, 0.0, 1.0)) -> np.ndarray:
+    def shape_offsets(self, side: str, shape: str, radius: float, point: ArrayLike,
+                      direction: ArrayLike = (0.0, 0.0, 1.0)) -> np.ndarray:
         """Offsets that give the facets of one side, "nonmortar" or "mortar", the "sphere" or "cylinder" back that they stand for.
 
         ``radius``: negative of a cavity; ``point``: the centre, or one of the axis; ``direction``: of the axis. See ``set_offsets``.
         """
-        side = value_of("side", "SIDE", side)
-        out = np.empty(self.n2 if side else self.n1)
-        shape = value_of("shape", "SHAPE", shape)
+        number = value_of("side", "SIDE", side)
+        out = np.empty(self.n2 if number else self.n1)
         place = pointer(given("point", point, (3,))), pointer(given("direction", direction, (3,)))
-        self._call("shape_offsets", side, shape, float(radius), *place, pointer(out))
+        self._call("shape_offsets", number, value_of("shape", "SHAPE", shape), float(radius), *place, pointer(out))
         return out
 
-    def adjust(self, tolerance: float) -> tuple:
+    def adjust(self, tolerance: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """``(coordinates, gaps, moved)``: the non-mortar nodes put onto the mortar side where they are within ``tolerance`` of it.
 
         ``coordinates`` like x1; ``gaps``, (n1,): the distance before; ``moved``, (n1,) int32: 0 nothing opposite, 1 left, 2 moved.
         Nothing changes in the interface: make it anew with the coordinates.
         """
         coordinates, gaps, moved = np.empty(self._shape1), np.empty(self.n1), np.empty(self.n1, np.int32)
-        self._call("adjust", float(tolerance), *map(pointer, (coordinates, gaps, moved)))
+        self._call("adjust", float(tolerance), pointer(coordinates), pointer(gaps), pointer(moved))
         return coordinates, gaps, moved
 
-    def set_previous(self, x1, x2) -> None:
+    def set_previous(self, x1: ArrayLike, x2: ArrayLike) -> None:
         """The positions at t_n of a host that starts elsewhere than at the first configuration."""
         self._call("set_previous", *self._positions(x1, x2))
 
-    def set_committed(self, x1, x2, slip=None, commits: int = 0) -> None:
+    def set_committed(self, x1: ArrayLike, x2: ArrayLike, slip: ArrayLike | None = None, commits: int = 0) -> None:
         """The positions at t_n of other parts' last commit, the slip of each node then, like x1, and how many commits there were."""
         slip = None if slip is None else pointer(given("slip", slip, self._shape1))
         self._call("set_committed", *self._positions(x1, x2), pointer(None) if slip is None else slip, commits)
 
-    def set_constraints(self, nodes, directions) -> None:
+    def set_constraints(self, nodes: Sequence[int], directions: ArrayLike) -> None:
         """Directions, (k, d), in which nodes, (k,) int64, are held."""
-        nodes = given("nodes", nodes, (len(nodes),), np.int64)
-        directions = given("directions", directions, (len(nodes), self.dimension))
-        self._call("set_constraints", len(nodes), pointer(nodes), pointer(directions))
+        held = given("nodes", nodes, (len(nodes),), np.int64)
+        along = given("directions", directions, (len(held), self.dimension))
+        self._call("set_constraints", len(held), pointer(held), pointer(along))
 
     def use_normals(self, normals: str) -> None:
         """Normals of the step that follows: "committed" or "current"."""
         self._call("use_normals", value_of("normals", "NORMALS", normals))
 
-    def turn_multipliers(self, x1, lam) -> None:
+    def turn_multipliers(self, x1: ArrayLike, lam: np.ndarray) -> None:
         """Turns multipliers with the normals, in place, at the start of a step."""
         if not isinstance(lam, np.ndarray):
             raise TypeError(f"lam: {type(lam).__name__}, an ndarray is needed, for the call writes to it")

@@ -1,15 +1,17 @@
 """What to do with surfaces before they become interfaces: creases, and nodes that interfaces share."""
 
+from collections.abc import Sequence
 from types import SimpleNamespace
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ._arrays import given, pointer
 from ._library import call, ffi
 from .surface import Surface
 
 
-def split_creases(coordinates, facets, angle: float = 0.7) -> tuple:
+def split_creases(coordinates: ArrayLike, facets: Sequence, angle: float = 0.7) -> tuple:
     """``(facets, originals)``: a non-mortar surface whose nodes on sharp edges are listed once a side.
 
     Parameters
@@ -33,7 +35,7 @@ def split_creases(coordinates, facets, angle: float = 0.7) -> tuple:
     return np.split(numbers, surface.facet_offsets[1:-1]), originals
 
 
-def crosspoints(interfaces) -> SimpleNamespace:
+def crosspoints(interfaces: Sequence[tuple]) -> SimpleNamespace:
     """The nodes that several interfaces of a host share in a way that matters.
 
     Parameters

@@ -1,5 +1,7 @@
 """Options by their names in the header, choices as words of its constants."""
 
+import operator
+
 from ._library import call, constants, ffi, value_of, words
 
 # A member's name is the constants' prefix, but for these.
@@ -34,15 +36,22 @@ def _number(name: str, value):
     if kind == "double":
         if name == "weak_coverage" and value == "none":
             return constants["WEAK_COVERAGE_NONE"]
-        if isinstance(value, str):
-            raise TypeError(f"{name}: {value!r}, a number is needed")
-        return float(value)
+        return _taken(name, value, float, "a number")
     if name in _INTEGERS:
-        return int(value)
+        return _taken(name, value, operator.index, "an integer")
     prefix = _PREFIX.get(name, name.upper())
     if name == "no_shortcuts":
         return _sum(value, prefix)
     return value_of(name, prefix, value)
+
+
+def _taken(name: str, value, take, what: str):
+    try:
+        if isinstance(value, str):
+            raise TypeError
+        return take(value)
+    except (TypeError, ValueError):
+        raise TypeError(f"{name}: {value!r}, {what} is needed") from None
 
 
 def _sum(value, prefix: str) -> int:

@@ -1,30 +1,51 @@
 """Matrices whose entries are settled once and whose numbers are filled in place."""
 
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ._arrays import pointer
 from ._library import constants, ffi, value_of
-from .errors import by_status
+from .errors import exception_of
+from .interface import Interface
+
+if TYPE_CHECKING:
+    import scipy.sparse
+
+
+def empty_csr(rows, row_lengths, columns, size: int) -> scipy.sparse.csr_matrix:
+    """A scipy CSR matrix of zeros with these entries: ascending rows, how many entries each has, the columns of all of them."""
+    import scipy.sparse
+
+    largest = max(rows.max(initial=-1), columns.max(initial=-1))
+    if largest >= size:
+        raise ValueError(f"size: {size}, and there is an equation {largest}; at least {largest + 1} is needed")
+    offsets = np.zeros(size + 1, np.int64)
+    offsets[rows + 1] = row_lengths
+    arrays = np.zeros(len(columns)), columns, np.cumsum(offsets)
+    return scipy.sparse.csr_matrix(arrays, shape=(size, size), copy=False)
 
 
 def _matrix(interface, entries: str, n_rows: int, count: int, size: int):
-    """A scipy CSR matrix with the entries of a plan that was made, all of them zero."""
-    import scipy.sparse
-
+    """The same with the entries of a plan that was made."""
     rows, offsets = np.empty(n_rows, np.int64), np.empty(n_rows + 1, np.int64)
     columns = np.empty(count, np.int64)
     addresses = pointer(rows), pointer(offsets), pointer(columns)
     interface._call("plan_csr", value_of("entries", "ENTRIES", entries), count, *addresses)
-    lengths = np.zeros(size + 1, np.int64)
-    lengths[rows + 1] = np.diff(offsets)
-    arrays = np.zeros(count), columns, np.cumsum(lengths)
-    return scipy.sparse.csr_matrix(arrays, shape=(size, size), copy=False)
+    return empty_csr(rows, np.diff(offsets), columns, size)
 
 
 class _Planned:
-    """What plans share: they are made anew where their entries no longer do."""
+    """What plans share: they are made anew where their entries no longer do. What each has of its own:"""
 
-    def __init__(self, interface, x1, x2, size: int, *, pairs: str = "active"):
+    _make: Callable[..., None]
+    _fill: Callable[..., None]
+
+    def __init__(self, interface: Interface, x1: ArrayLike, x2: ArrayLike, size: int, *, pairs: str = "active"):
         self._interface = interface
         self._size = size
         self._pairs = value_of("pairs", "PLAN", pairs)
@@ -34,7 +55,7 @@ class _Planned:
     def _renewed(self, x1, x2, *rest) -> None:
         try:
             self._fill(x1, x2, *rest)
-        except by_status[constants["MISSING_ENTRY"]]:
+        except exception_of(constants["MISSING_ENTRY"]):
             self._make(x1, x2)
             self.renewals += 1
             self._fill(x1, x2, *rest)
@@ -60,7 +81,7 @@ class Plan(_Planned):
         face._call("plan", *face._positions(x1, x2), self._pairs, n_rows, count)
         self.matrix = _matrix(face, "tangent", n_rows[0], count[0], self._size)
 
-    def values(self, x1, x2, lam, *, sums=None):
+    def values(self, x1: ArrayLike, x2: ArrayLike, lam: ArrayLike, *, sums: ArrayLike | None = None) -> scipy.sparse.csr_matrix:
         """Fills the matrix with the tangent at this point, and gives it."""
         self._renewed(x1, x2, lam, sums)
         return self.matrix
@@ -80,11 +101,13 @@ class CondensedPlan(_Planned):
     def _make(self, x1, x2) -> None:
         face = self._interface
         n_rows, counts = ffi.new("int64_t[2]"), ffi.new("int64_t[2]")
+        # If a matrix is refused, no shorter one is left for the new plan to fill.
+        vars(self).pop("forces", None), vars(self).pop("constraints", None)
         face._call("condensed_plan", *face._positions(x1, x2), self._pairs, n_rows, counts)
         self.forces = _matrix(face, "forces", n_rows[0], counts[0], self._size)
         self.constraints = _matrix(face, "constraints", n_rows[1], counts[1], self._size)
 
-    def values(self, x1, x2, lam) -> tuple:
+    def values(self, x1: ArrayLike, x2: ArrayLike, lam: ArrayLike) -> tuple[scipy.sparse.csr_matrix, scipy.sparse.csr_matrix]:
         """Fills both matrices at this point, and gives ``(forces, constraints)``."""
         self._renewed(x1, x2, lam)
         return self.forces, self.constraints

@@ -3,7 +3,9 @@
 from collections.abc import Sequence
 
 import numpy as np
+from numpy.typing import ArrayLike
 
+from . import _arrays
 from ._arrays import given, pointer
 from ._library import ffi
 
@@ -23,22 +25,20 @@ class Surface:
     multiplier_equations : (n, dimension) or (n,) int64, optional
         Of the non-mortar side; (n,) where there is one multiplier a node.
     owned : (n,) int32, optional
-        Of a non-mortar side on several processes: 1 where this handle adds the node's own block.
+        Of a non-mortar side on several processes: where a node's multiplier acts, ``constants["NODE_OWN"]``, ``"NODE_SHARED"``
+        or ``"NODE_ELSEWHERE"``. Without it all are own.
     """
 
-    def __init__(self, coordinates, facets: Sequence, equations=None, multiplier_equations=None, owned=None):
-        if not isinstance(coordinates, np.ndarray):
-            coordinates = np.array(coordinates, dtype=np.float64)
-        if coordinates.ndim != 2 or coordinates.shape[1] not in (2, 3):
-            raise ValueError(f"coordinates: shape {coordinates.shape}, (n, 3) or (n, 2) is needed")
-        self.coordinates = given("coordinates", coordinates, coordinates.shape)
-        self.n_nodes, self.dimension = coordinates.shape
+    def __init__(self, coordinates: ArrayLike, facets: Sequence, equations: ArrayLike | None = None,
+                 multiplier_equations: ArrayLike | None = None, owned: ArrayLike | None = None):
+        self.coordinates = _arrays.coordinates(coordinates)
+        self.n_nodes, self.dimension = self.coordinates.shape
         rows = [np.asarray(facet) for facet in facets]
         if any(row.ndim != 1 or row.dtype.kind not in "iu" for row in rows):
             raise TypeError("facets: a 2-D integer array or a list of lists of integers is needed")
         self.facet_offsets = np.cumsum([0, *(len(row) for row in rows)], dtype=np.int64)
         self.facet_nodes = np.concatenate(rows).astype(np.int64) if rows else np.empty(0, np.int64)
-        shape = coordinates.shape
+        shape = self.coordinates.shape
         equations = np.full(shape, -1, np.int64) if equations is None else equations
         self.equations = given("equations", equations, shape, np.int64)
         self.multiplier_equations = None
