@@ -15,7 +15,7 @@ export PATH := $(PATH):$(HOME)/.cargo/bin
 LOCKED = mkdir -p $(BUILD) && flock $(BUILD)/.lock
 SAY    = @printf '\n== %s\n'
 
-.PHONY: packages hosts newcomer help demo gallery effects aids study border compare bench random fuzz stability scaling ratios digest wheel python-examples check test test-long build install uninstall docs reference abi header meshes clean cmake-build rust-tests
+.PHONY: packages hosts newcomer help demo gallery effects aids study border compare bench random fuzz stability scaling scaling-ranks ranks ratios digest wheel python-examples check test test-long build install uninstall docs reference abi header meshes clean cmake-build rust-tests
 
 help:
 	@echo "make demo    solve the example scenes, compare with the references, draw (FIGURES=1: renew the README's figures)"
@@ -35,6 +35,8 @@ help:
 	@echo "make random  the property tests on other random input, ten times as much (SEED=n CASES=n)"
 	@echo "make ratios  the force of fine facets in coarse ones against the ratio of both and the number of steps, an hour"
 	@echo "make scaling  linear solvers against the number of unknowns: a table (SIZES='N ...'; FIGURES=1: as above)"
+	@echo "make scaling-ranks  what a rank holds and does of the contact, on 2 and 4 ranks: a table (SIZES=, FIGURES=1: as above)"
+	@echo "make ranks   contact on eight ranks, however few processors there are: a minute; a part of make test-long"
 	@echo "make digest  the bits of what library and driver compute, compared with those of before (KEEP=1: these are they)"
 	@echo "make fuzz    fuzz the pair kernel, the handle and the C ABI, a quarter of an hour each (FUZZ_SECONDS=)"
 	@echo "make wheel   the Python package as a wheel, in $(BUILD)/wheels"
@@ -75,6 +77,18 @@ scaling:
 	@$(MAKE) --no-print-directory cmake-build
 	$(SAY) "Linear solvers against the number of unknowns"
 	@$(PYTHON) studies/scaling/scaling.py --build $(BUILD) $(if $(SIZES),--sizes $(SIZES)) $(if $(FIGURES),--renew)
+
+scaling-ranks:
+	@.ci/setup demo
+	@$(MAKE) --no-print-directory cmake-build
+	$(SAY) "What a rank holds of the surfaces, and does"
+	@$(PYTHON) studies/scaling/ranks.py --build $(BUILD) $(if $(SIZES),--sizes $(SIZES)) $(if $(FIGURES),--renew)
+
+ranks:
+	@.ci/setup test
+	@$(MAKE) --no-print-directory cmake-build
+	$(SAY) "Contact on eight ranks"
+	@$(PYTHON) tests/acceptance/check.py --build $(BUILD) ranks_many
 
 aids:
 	@.ci/setup demo

@@ -75,6 +75,7 @@ static PetscErrorCode accept(Model *model, History *history)
   parts_accept(&model->physics);
   equilibrium_accept(&model->contact);
   condensed_accept(&model->contact);
+  PetscCall(contact_share_out(&model->contact));
   PetscCall(solver_refresh_pattern(&model->solve));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

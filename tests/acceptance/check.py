@@ -31,6 +31,7 @@ from quadratic_sliding import quadratic_sliding  # noqa: E402
 from quadratic_tied import quadratic_tied  # noqa: E402
 from ranks import ranks, ranks_scenes  # noqa: E402
 from ranks_files import ranks_files  # noqa: E402
+from ranks_moving import ranks_many, ranks_moving  # noqa: E402
 from roles import roles  # noqa: E402
 from slider import slider, slider_fine  # noqa: E402
 from scene import Driver, SceneError  # noqa: E402
@@ -70,6 +71,8 @@ GROUPS = {
     "quadratic_tied": quadratic_tied,
     "ranks": ranks,
     "ranks_files": ranks_files,
+    "ranks_many": ranks_many,
+    "ranks_moving": ranks_moving,
     "ranks_scenes": ranks_scenes,
     "roles": roles,
     "slider": slider,

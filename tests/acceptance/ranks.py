@@ -25,19 +25,6 @@ GROUPS = (
 )
 CONDENSED = ("-unknowns", "displacements")
 
-# A block that slides over four times its length of a rail, across all that any partition has.
-SLIDING = {
-    "schema": 1,
-    "bodies": ["block", "rail"],
-    "block": {"type": "box", "lower": [0.1, 0.1, 0.5], "upper": [1.1, 0.9, 1], "cells": [4, 3, 2], "young": 1000, "poisson": 0.3},
-    "rail": {"type": "box", "lower": [0, 0, 0], "upper": [6, 1, 0.5], "cells": [21, 4, 1], "young": 2000, "poisson": 0.3},
-    "supports": ["ground", "grip"],
-    "ground": {"surface": "rail.zmin", "components": ["x", "y", "z"]},
-    "grip": {"surface": "block.zmax", "components": ["x", "y", "z"], "value": [4, 0.03, -0.01], "curve": [0, 0, 1, 1]},
-    "interfaces": ["contact"],
-    "contact": {"nonmortar": "block.zmin", "mortar": "rail.zmax", "friction": 0.3},
-    "steps": {"count": 10},
-}
 # A plate that is clamped at one end and bent down on a floor at the other, where alone it turns: one rank refuses steps that are too
 # large.
 BENT = {
@@ -178,6 +165,3 @@ LONG = (
 def ranks_scenes(verdicts, driver):
     for scene in LONG:
         compare(verdicts, driver, *scene)
-    path = write(SLIDING, driver.output / "sliding.yaml")
-    for label, options in (("", ()), ("dual condensed", ("-contact_basis", "dual", *CONDENSED))):
-        compare(verdicts, driver, path, label, options, (2, 4))

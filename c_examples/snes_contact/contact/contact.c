@@ -2,72 +2,6 @@
  * nodes are gathered from their owners, forces are sent back and added. */
 #include "contact/contact.h"
 
-/* All ranks learn whether the library refused on any. The first of these says why, in the interface's numbers. */
-PetscErrorCode contact_agree(Contact *contact, const Interface *interface, int32_t refused, PetscInt *status)
-{
-  struct {
-    int refuses_not, rank;
-  } first = {.refuses_not = !refused, .rank = contact->mesh->rank};
-  PetscFunctionBegin;
-  *status = refused;
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &first, 1, MPI_2INT, MPI_MINLOC, PETSC_COMM_WORLD));
-  if (first.refuses_not) PetscFunctionReturn(PETSC_SUCCESS);
-  if (contact->mesh->rank == first.rank)
-    parts_translate(&interface->part, stickslip_last_error_message(), contact->refusal, sizeof(contact->refusal));
-  PetscCallMPI(MPI_Bcast(status, 1, MPIU_INT, first.rank, PETSC_COMM_WORLD));
-  PetscCallMPI(MPI_Bcast(contact->refusal, sizeof(contact->refusal), MPI_CHAR, first.rank, PETSC_COMM_WORLD));
-  PetscCheck(*status >= 0, PETSC_COMM_WORLD, PETSC_ERR_LIB, "stickslip is at fault: %s", contact->refusal);
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* Current positions, from the part's origin. */
-void contact_positions(ContactPart *part)
-{
-  const PetscInt d = part->dimension;
-  for (PetscInt k = 0; k < d * (part->n1 + part->n2); k++)
-    part->x[k] = part->X[k] - part->origin[k % d] + PetscRealPart(part->gathered[k]);
-}
-
-void contact_vector(PetscInt dimension, const PetscScalar vectors[], PetscInt node, PetscReal v[3])
-{
-  for (int i = 0; i < 3; i++)
-    v[i] = i < dimension ? PetscRealPart(vectors[dimension * node + i]) : 0;
-}
-
-/* Entries of local vectors, each as its owner has it. */
-PetscErrorCode contact_fetch(PetscSF sf, Vec local, PetscScalar *to)
-{
-  const PetscScalar *array;
-  PetscFunctionBegin;
-  PetscCall(VecGetArrayRead(local, &array));
-  PetscCall(PetscSFBcastBegin(sf, MPIU_SCALAR, array, to, MPI_REPLACE));
-  PetscCall(PetscSFBcastEnd(sf, MPIU_SCALAR, array, to, MPI_REPLACE));
-  PetscCall(VecRestoreArrayRead(local, &array));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode contact_gather(Contact *contact, Interface *interface, Vec local)
-{
-  ContactPart *part = &interface->part;
-  PetscFunctionBegin;
-  PetscCall(contact_fetch(part->sf, local, part->gathered));
-  contact_positions(part);
-  if (contact->condensed)
-    PetscCall(PetscArraycpy(MULTIPLIERS_OF(part, part->gathered), part->lambda, part->components * part->n1));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode contact_scatter(const ContactPart *part, const PetscScalar *from, Vec local, MPI_Op operation)
-{
-  PetscScalar *array;
-  PetscFunctionBegin;
-  PetscCall(VecGetArray(local, &array));
-  PetscCall(PetscSFReduceBegin(part->sf, MPIU_SCALAR, from, array, operation));
-  PetscCall(PetscSFReduceEnd(part->sf, MPIU_SCALAR, from, array, operation));
-  PetscCall(VecRestoreArray(local, &array));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /* Adds the forces of all parts to f_local, and their squares, once a node, to those of the model's parts. */
 static PetscErrorCode add_forces(Physics *physics, const ContactPart *part, Vec f_local)
 {
@@ -95,6 +29,8 @@ PetscErrorCode contact_forces(Contact *contact, Vec f_local, PetscInt *status)
     Interface   *interface = &contact->interfaces[i];
     ContactPart *part      = &interface->part;
     int32_t      refused   = 0;
+    PetscCall(contact_renew(contact, i, NULL, status));
+    if (*status) break;
     PetscCall(contact_gather(contact, interface, contact->physics->u_local));
     if (part->handle)
       refused = stickslip_interface_residual(part->handle, STATE_OF(part), NULL, part->forces,
@@ -129,18 +65,39 @@ PetscErrorCode contact_start(Contact *contact, Vec x, PetscInt *status)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode contact_step_limit(Contact *contact, Interface *interface, Vec step, PetscReal depth, PetscReal *fraction)
+/* The way of the step must be within the halo. Where it has to grow for that, the forces of the last evaluation are found again. */
+static PetscErrorCode renew_on_the_way(Contact *contact, PetscInt number, Vec step, int32_t *refused)
 {
-  ContactPart *part = &interface->part;
+  ContactPart   *part   = &contact->interfaces[number].part;
+  const PetscInt before = contact->interfaces[number].n_grown;
+  PetscInt       status;
+  Vec            to;
+  PetscFunctionBegin;
+  PetscCall(DMGetLocalVector(contact->mesh->dm, &to));
+  PetscCall(VecWAXPY(to, 1, contact->physics->u_local, step));
+  PetscCall(contact_renew(contact, number, to, &status));
+  PetscCall(DMRestoreLocalVector(contact->mesh->dm, &to));
+  *refused = (int32_t)status;
+  PetscCall(contact_gather(contact, &contact->interfaces[number], contact->physics->u_local));
+  if (*refused || before == contact->interfaces[number].n_grown || !part->handle) PetscFunctionReturn(PETSC_SUCCESS);
+  *refused = stickslip_interface_residual(part->handle, STATE_OF(part), NULL, part->forces, MORTAR_OF(part, part->forces),
+                                          MULTIPLIERS_OF(part, part->forces));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode contact_step_limit(Contact *contact, PetscInt number, Vec step, PetscReal depth, PetscReal *fraction)
+{
+  ContactPart *part = &contact->interfaces[number].part;
   PetscReal    answer[2] = {1, 1}; /* the fraction, and 0 where the library refuses */
   PetscScalar *dx;
+  int32_t      refused = 0;
 
   PetscFunctionBegin;
-  PetscCall(contact_gather(contact, interface, contact->physics->u_local));
+  PetscCall(renew_on_the_way(contact, number, step, &refused));
   PetscCall(PetscMalloc1(part->dimension * (part->n1 + part->n2) + part->components * part->n1, &dx));
   PetscCall(contact_fetch(part->sf, step, dx));
-  if (part->handle && stickslip_interface_step_limit(part->handle, part->x, MORTAR_OF(part, part->x), dx,
-                                                     MORTAR_OF(part, dx), depth, &answer[0]))
+  if (refused || (part->handle && stickslip_interface_step_limit(part->handle, part->x, MORTAR_OF(part, part->x), dx,
+                                                     MORTAR_OF(part, dx), depth, &answer[0])))
     answer[1] = 0;
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, answer, 2, MPIU_REAL, MPIU_MIN, PETSC_COMM_WORLD));
   PetscCall(PetscFree(dx));
@@ -178,6 +135,31 @@ static int32_t settle_multipliers(ContactPart *part)
   return status;
 }
 
+/* The slip that the commit is about to take over, into `rows`: settle() copies it. */
+static int32_t keep_slip(ContactPart *part)
+{
+  stickslip_states wanted = {.struct_size = sizeof(wanted), .slip = part->rows};
+  return stickslip_interface_states(part->handle, STATE_OF(part), NULL, &wanted);
+}
+
+/* t_n is u_local. */
+static PetscErrorCode settle(Contact *contact)
+{
+  PetscFunctionBegin;
+  contact->t_committed = contact->physics->t;
+  contact->n_commits++;
+  PetscCall(VecCopy(contact->physics->u_local, contact->committed));
+  for (PetscInt i = 0; i < contact->n_interfaces; i++) {
+    Interface   *interface = &contact->interfaces[i];
+    ContactPart *part      = &interface->part;
+    if (interface->n_parts < 2) continue;
+    PetscCall(PetscArraycpy(part->slip, part->rows, part->dimension * part->n1));
+    PetscCall(parts_share(part, part->dimension, part->slip));
+    if (interface->halo.n_places) PetscCall(halo_settle(contact, interface));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* Commits one interface on all ranks, or tells that one of them refuses; `done`: this rank has. */
 static PetscErrorCode commit(Contact *contact, Interface *interface, PetscBool *done, PetscInt *status)
 {
@@ -191,6 +173,7 @@ static PetscErrorCode commit(Contact *contact, Interface *interface, PetscBool *
     PetscCall(parts_share(part, part->components, part->lambda));
     PetscCall(contact_gather(contact, interface, contact->physics->u_local));
   }
+  if (part->handle && !refused && interface->n_parts > 1) refused = keep_slip(part);
   if (part->handle && !refused) {
     refused = stickslip_interface_commit(part->handle, STATE_OF(part), NULL);
     *done   = (PetscBool)!refused;
@@ -211,6 +194,7 @@ PetscErrorCode contact_commit(Contact *contact, PetscInt *status)
   for (PetscInt i = 0; i < contact->n_interfaces && *status; i++) {
     if (done[i]) PetscCallStickslip(stickslip_interface_rollback(contact->interfaces[i].part.handle));
   }
+  if (!*status) PetscCall(settle(contact));
   PetscCall(PetscFree(done));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

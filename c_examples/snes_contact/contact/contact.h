@@ -22,8 +22,30 @@ typedef struct {
   int32_t   *moved;
 } Offsets;
 
+/* What parts may need of the mortar side, and whether they have it (halo.c). Mortar nodes are dealt out to all ranks to be watched. */
+enum { HALO_BOXES = 32, HALO_PLACES = 3 };
+
+typedef struct {
+  double *watched;         /* 3 a node watched: displacements there */
+  Extent  box[HALO_BOXES]; /* around what the part's facets sweep, with a margin: it has all mortar facets that met a box there */
+} HaloPlace;
+
+typedef struct {
+  PetscReal margin;
+  PetscInt  n_watched;
+  PetscSF   watch;                    /* from the local vectors of all ranks to displacements of the nodes watched */
+  double   *X_watched, *watched_t_n;  /* their coordinates, their displacements at t_n */
+  /* of the part as it is cut */
+  PetscBool whole;                    /* every part has all of the mortar side: there is nothing to look at */
+  PetscSF   nodes;                    /* likewise to the part's non-mortar nodes */
+  double   *X, *x_t_n;                /* their coordinates, and where they were at t_n */
+  PetscInt *box;                      /* of each non-mortar facet */
+  PetscInt  n_places;
+  HaloPlace place[HALO_PLACES];
+} Halo;
+
 /* A rank's part of an interface, with a handle of the library's own (parts.c): the non-mortar nodes that the rank owns, the
- * facets around them as far as these need them, and the mortar side. Nodes and facets are numbered as they are here. */
+ * facets around them as far as these need them, and the mortar facets that may come near. Nodes and facets are numbered as they are here. */
 typedef struct {
   PetscInt  dimension, components; /* as the interface's */
   PetscInt  n1, n2;                /* numbers of nodes; 0: nothing is owned here, and there is no handle */
@@ -53,6 +75,8 @@ typedef struct {
   int64_t  planned; /* the entries of the library's plan, which lie in these arrays; 0: there is none */
   double  *coo_values;
   int64_t  bytes;   /* of the library's, the most at the end of a step */
+  double  *slip, *augmentation; /* n1: vectors up to t_n; what contact_scale_augmentation() has set */
+  stickslip_counters spent;     /* of handles before this one: part_counters() */
 } ContactPart;
 
 /* In the arrays of a part: where the mortar's vectors begin, where the multipliers do. */
@@ -91,7 +115,15 @@ typedef struct {
   PetscInt       components; /* multipliers a node: 1, along the normal, without friction; else `dimension` */
   PetscBool      initial_contact; /* nodes that touch start slightly compressed: contact_start() */
   PetscInt       n_parts;    /* ranks that have a part with nodes */
+  PetscInt      *owner;      /* rank 0, n1: of which rank's part each node is */
+  PetscInt       further_rings;         /* rank 0: of the non-mortar side, for bodies that are deep in each other */
+  PetscReal      longest_edge;          /* of the mortar side */
+  PetscBool      uncut, frozen, grown;  /* parts have all of the mortar side; weights are of the reference; the halo has grown in
+                                           the step */
+  PetscInt       n_grown, n_renewed, n_rebalanced; /* how often parts got more mortar facets within a step; others after one; other nodes */
+  double         endured;               /* an imbalance of pairs that no partition was better for */
   ContactPart    part;
+  Halo           halo;
   double         friction_work;           /* rank 0: up to the last converged step */
   double         young, largest_traction; /* of the softer body; up to the last converged step */
   stickslip_equilibrium equilibrium;      /* of this part, as last judged (equilibrium.c) */
@@ -115,6 +147,11 @@ typedef struct {
   PetscBool  condensed; /* `unknowns: displacements`: no multiplier is an unknown */
   Mat        linear;    /* of the forces, before condensing; NULL: there is none yet in this attempt */
   Vec        place;     /* where it was made */
+  Vec        committed; /* local: displacements at t_n */
+  PetscReal  t_committed;
+  PetscInt   n_commits;
+  PetscBool  scaled;    /* some nodes have another augmentation than the scene's */
+  PetscBool  settles;   /* the first phase of a step in two: with normals of its start */
   PetscBool  reduced;   /* the solver takes its reduced form: E_L - I, E_R - I, Q, s D Q, as REDUCTION_... */
   Mat        reduction[N_REDUCTION];
   Settling   settling;
@@ -177,9 +214,37 @@ enum { PARTS_DEPTH = 1 };
 PetscErrorCode partition_nodes(PetscInt dimension, PetscInt n, const double coordinates[], const double work[],
                                PetscMPIInt n_ranks, PetscInt owner[]);
 
-/* parts_cut.c: every rank gets its part of an interface */
-PetscErrorCode parts_cut(Contact *contact, PetscInt number, const PetscInt owner[]);
+/* parts_cut.c: every rank gets the non-mortar side of its part of an interface, by interface->owner; mortar_cut.c: and the mortar side,
+ * what its halo asks for. `ends`: where each place of the halo begins */
+PetscErrorCode parts_cut(Contact *contact, Interface *interface);
 PetscErrorCode parts_destroy(ContactPart *part);
+PetscErrorCode mortar_cut(Contact *contact, Interface *interface, PetscInt n_ends, const Vec ends[]);
+
+/* halo.c: a place or a way is one local vector of displacements, or two; the second may be NULL */
+PetscErrorCode halo_watch(Contact *contact, Interface *interface);
+PetscErrorCode halo_begin(Contact *contact, Interface *interface);
+PetscErrorCode halo_settle(Contact *contact, Interface *interface);
+PetscErrorCode halo_add(Interface *interface, const Vec ends[2]);
+PetscErrorCode halo_covers(const Interface *interface, const Vec ends[2], PetscReal spare, PetscBool *enough);
+void           halo_forget(Halo *halo);
+PetscErrorCode halo_end(Halo *halo);
+PetscErrorCode halo_destroy(Halo *halo);
+
+/* part.c */
+PetscErrorCode part_create(Contact *contact, PetscInt number, PetscInt n, const Vec ways[][2]);
+PetscErrorCode part_destroy(ContactPart *part);
+PetscErrorCode part_handle(const ContactPart *part, const stickslip_options *options, stickslip_interface **handle,
+                           int32_t *refused);
+int32_t        part_counters(const ContactPart *part, stickslip_counters *counters);
+PetscErrorCode contact_equations(const Contact *contact, PetscSF sf, PetscInt n, int64_t equations[]);
+
+/* work.c */
+PetscErrorCode work_measure(const Interface *interface, PetscMPIInt rank, double work[], PetscReal *depth,
+                            PetscReal *shortest);
+
+/* share_out.c: before an evaluation at u_local, or on the way from there; after a step */
+PetscErrorCode contact_renew(Contact *contact, PetscInt number, Vec to, PetscInt *status);
+PetscErrorCode contact_share_out(Contact *contact);
 
 /* parts.c: of multipliers or vectors, `width` numbers a non-mortar node: all nodes here get their owners' values; rank 0
  * gets those of all nodes; owners get those of rank 0 */
@@ -201,18 +266,22 @@ PetscErrorCode offsets_fetch(PetscSF sf, Interface *interface);
 int32_t        offsets_set(const Interface *interface, stickslip_interface *handle, PetscReal t);
 PetscErrorCode offsets_values(Contact *contact, PetscReal t, PetscInt *status);
 PetscErrorCode offsets_destroy(Interface *interface);
+/* exchange.c */
 PetscErrorCode contact_agree(Contact *contact, const Interface *interface, int32_t refused, PetscInt *status);
 void           contact_positions(ContactPart *part);
 /* of a node, from vectors of so many numbers; the third component is 0 in the plane */
 void           contact_vector(PetscInt dimension, const PetscScalar vectors[], PetscInt node, PetscReal v[3]);
 PetscErrorCode contact_fetch(PetscSF sf, Vec local, PetscScalar *to);
 PetscErrorCode contact_gather(Contact *contact, Interface *interface, Vec local);
+PetscErrorCode contact_scatter(const ContactPart *part, const PetscScalar *from, Vec local, MPI_Op operation);
+PetscErrorCode contact_from_whole(const Interface *interface, PetscInt n, const PetscInt nodes[], PetscSF *sf);
+PetscErrorCode contact_coordinates(const Interface *interface, PetscInt n, const PetscInt nodes[], double X[]);
+/* contact.c */
 PetscErrorCode contact_start(Contact *contact, Vec x, PetscInt *status);
 PetscErrorCode contact_forces(Contact *contact, Vec f_local, PetscInt *status); /* adds, to the parts' squares, too */
 PetscErrorCode contact_commit(Contact *contact, PetscInt *status);
-PetscErrorCode contact_scatter(const ContactPart *part, const PetscScalar *from, Vec local, MPI_Op operation);
 /* the fraction of a step that one interface allows, which leads `depth` deep at most; `step`: local, of u_local */
-PetscErrorCode contact_step_limit(Contact *contact, Interface *interface, Vec step, PetscReal depth, PetscReal *fraction);
+PetscErrorCode contact_step_limit(Contact *contact, PetscInt number, Vec step, PetscReal depth, PetscReal *fraction);
 
 /* tangent.c */
 PetscErrorCode contact_tangent(Contact *contact, Mat matrix, PetscInt *status);

@@ -1,104 +1,5 @@
-/* Creating and destroying the library's interfaces: surfaces in its arrays, equation numbers, prescribed directions. */
+/* Creating and destroying interfaces: who owns which nodes, and what is wrong at the start. */
 #include "contact/contact.h"
-
-/* of `gathered`, `forces` and `equations` */
-static PetscInt n_entries(const ContactPart *part)
-{
-  return part->dimension * (part->n1 + part->n2) + part->components * part->n1;
-}
-
-/* equation numbers of the entries that come through `sf`; -1: none */
-static PetscErrorCode fetch_equations(const Contact *contact, PetscSF sf, PetscInt n, int64_t equations[])
-{
-  PetscInt *numbers;
-  PetscFunctionBegin;
-  PetscCall(PetscMalloc1(n, &numbers));
-  PetscCall(PetscSFBcastBegin(sf, MPIU_INT, contact->physics->unknowns.equations, numbers, MPI_REPLACE));
-  PetscCall(PetscSFBcastEnd(sf, MPIU_INT, contact->physics->unknowns.equations, numbers, MPI_REPLACE));
-  for (PetscInt k = 0; k < n; k++)
-    equations[k] = numbers[k] < 0 ? -1 : numbers[k];
-  PetscCall(PetscFree(numbers));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* Where multipliers are no unknowns the library must know which there are, nevertheless: numbers beyond all equations. */
-static PetscErrorCode number_multipliers(const Contact *contact, ContactPart *part)
-{
-  const PetscInt d = part->components;
-  PetscInt       n_equations;
-  Vec            x;
-  PetscFunctionBegin;
-  if (!contact->condensed) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(DMGetGlobalVector(contact->mesh->dm, &x));
-  PetscCall(VecGetSize(x, &n_equations));
-  PetscCall(DMRestoreGlobalVector(contact->mesh->dm, &x));
-  for (PetscInt k = 0; k < d * part->n1; k++) {
-    const PetscInt  removed = part->removed[k / d], i = k % d;
-    const PetscBool none    = (PetscBool)(d > 1 ? (removed >> i) & 1 : removed == 7);
-    MULTIPLIERS_OF(part, part->equations)[k] = none ? -1 : n_equations + (int64_t)d * part->nodes[k / d] + i;
-  }
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* A side of a part in the library's words; `numbers`: to be freed. */
-static PetscErrorCode describe_surface(const ContactPart *part, int side, stickslip_surface *out, int64_t **numbers)
-{
-  const PetscInt first = side ? part->n1 : 0, n_facets = part->n_facets[side], n_corners = part->offsets[side][n_facets];
-
-  PetscFunctionBegin;
-  PetscCall(PetscMalloc1(n_corners + n_facets + 1, numbers));
-  for (PetscInt k = 0; k < n_corners; k++)
-    (*numbers)[k] = part->facet_nodes[side][k];
-  for (PetscInt f = 0; f <= n_facets; f++)
-    (*numbers)[n_corners + f] = part->offsets[side][f];
-  *out               = (stickslip_surface){.struct_size = sizeof(*out)};
-  out->n_nodes       = side ? part->n2 : part->n1;
-  out->n_facets      = n_facets;
-  out->coordinates   = part->x + part->dimension * first;
-  out->facet_offsets = n_facets ? *numbers + n_corners : NULL; /* an analytic surface has none */
-  out->facet_nodes   = n_facets ? *numbers : NULL;
-  out->equations     = part->equations + part->dimension * first;
-  if (side) PetscFunctionReturn(PETSC_SUCCESS);
-  out->multiplier_equations = MULTIPLIERS_OF(part, part->equations);
-  out->owned                = part->owned;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* The directions removed carry no multiplier, and the normal none of them. */
-static int32_t set_constraints(const ContactPart *part)
-{
-  int64_t *nodes, n = 0;
-  double  *directions;
-  int32_t  status;
-  const PetscInt d = part->dimension;
-  PetscCallAbort(PETSC_COMM_SELF, PetscCalloc2(2 * part->n1, &nodes, 2 * d * part->n1, &directions));
-  for (PetscInt a = 0; a < part->n1; a++) {
-    if (part->removed[a] == 7) continue; /* wholly prescribed: no unknown is left, and the normal stays free */
-    for (int i = 0; i < d; i++) {
-      if (!(part->removed[a] & (1 << i))) continue;
-      nodes[n]              = a;
-      directions[d * n + i] = 1;
-      n++;
-    }
-  }
-  status = n ? stickslip_interface_set_constraints(part->handle, n, nodes, directions) : 0;
-  PetscCallAbort(PETSC_COMM_SELF, PetscFree2(nodes, directions));
-  return status;
-}
-
-static PetscErrorCode create_handle(const ContactPart *part, const stickslip_options *options,
-                                    stickslip_interface **handle, int32_t *refused)
-{
-  stickslip_surface surfaces[2];
-  int64_t          *numbers[2];
-  PetscFunctionBegin;
-  for (int side = 0; side < 2; side++)
-    PetscCall(describe_surface(part, side, &surfaces[side], &numbers[side]));
-  *refused = stickslip_interface_create(&surfaces[0], &surfaces[1], options, handle);
-  for (int side = 0; side < 2; side++)
-    PetscCall(PetscFree(numbers[side]));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
 
 /* Surfaces that lie over each other but are no pair would be passed through without a word. Where any pair has been found
  * there is nothing to ask. A handle of its own is asked, so that the other's counters stay what they are. The first part that
@@ -116,7 +17,7 @@ static PetscErrorCode check_facing(Scene *scene, PetscBool quiet, const Interfac
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &counters.pairs_active, 1, MPI_INT64_T, MPI_SUM, PETSC_COMM_WORLD));
   if (counters.pairs_active) PetscFunctionReturn(PETSC_SUCCESS);
   if (part->handle) {
-    PetscCall(create_handle(part, &interface->options, &asked, &refused));
+    PetscCall(part_handle(part, &interface->options, &asked, &refused));
     PetscCallStickslip(refused);
     PetscCallStickslip(offsets_set(interface, asked, 0));
   }
@@ -125,15 +26,6 @@ static PetscErrorCode check_facing(Scene *scene, PetscBool quiet, const Interfac
   if (cover.mistaken) scene_fail(scene, interface->name, "mortar", "%s", cover.text);
   if (cover.finding != STICKSLIP_FINDING_NONE && !quiet) /* they may meet later */
     PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s: %s\n", interface->name, cover.text));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* What rank 0 has read and others need, too. */
-static PetscErrorCode share_options(Interface *interface)
-{
-  PetscFunctionBegin;
-  PetscCallMPI(MPI_Bcast(&interface->options, sizeof(interface->options), MPI_BYTE, 0, PETSC_COMM_WORLD));
-  PetscCallMPI(MPI_Bcast(&interface->young, 1, MPI_DOUBLE, 0, PETSC_COMM_WORLD));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -148,7 +40,7 @@ static PetscErrorCode create_whole(Contact *contact, Interface *interface)
   PetscCall(unknowns_gather_create(contact->physics, 1, &n, &nodes, &zero, &d, &interface->sf));
   PetscCall(PetscCalloc4(d * n, &interface->X, d * n, &interface->displacements, d * n, &interface->forces, d * n,
                          &interface->equations));
-  PetscCall(fetch_equations(contact, interface->sf, d * n, interface->equations));
+  PetscCall(contact_equations(contact, interface->sf, d * n, interface->equations));
   for (PetscInt k = 0; k < n; k++) {
     PetscReal *x = interface->place + 3 * k;
     mesh_rotate_vector(mesh, x);
@@ -170,107 +62,80 @@ static PetscBool has_middles(const Mesh *mesh, const Interface *interface)
   return PETSC_FALSE;
 }
 
+/* rank 0: of the mortar side's facets */
+static PetscReal longest_edge(const Interface *interface)
+{
+  const Surface   *surface = interface->surface[1];
+  const PetscReal *x       = interface->place + 3 * interface->n1;
+  PetscReal        squared = 0;
+  for (PetscInt f = 0; f < surface->n_faces; f++) {
+    const PetscInt *v = surface->vertices + surface->offsets[f], n = surface->offsets[f + 1] - surface->offsets[f];
+    for (PetscInt k = 0; k < n; k++) {
+      PetscReal sum = 0;
+      for (int i = 0; i < 3; i++)
+        sum += PetscSqr(x[3 * v[k] + i] - x[3 * v[(k + 1) % n] + i]);
+      squared = PetscMax(squared, sum);
+    }
+  }
+  return PetscSqrtReal(squared);
+}
+
+/* What rank 0 has read and others need, too. */
+static PetscErrorCode share_options(const Mesh *mesh, Interface *interface)
+{
+  const stickslip_options *options = &interface->options;
+  PetscFunctionBegin;
+  if (mesh->rank == 0) {
+    interface->longest_edge = longest_edge(interface);
+    interface->uncut = (PetscBool)(interface->dimension == 2 || interface->surface[1]->analytic || has_middles(mesh, interface));
+  }
+  PetscCallMPI(MPI_Bcast(&interface->options, sizeof(interface->options), MPI_BYTE, 0, PETSC_COMM_WORLD));
+  PetscCallMPI(MPI_Bcast(&interface->young, 1, MPI_DOUBLE, 0, PETSC_COMM_WORLD));
+  PetscCallMPI(MPI_Bcast(&interface->longest_edge, 1, MPIU_REAL, 0, PETSC_COMM_WORLD));
+  PetscCallMPI(MPI_Bcast(&interface->uncut, 1, MPIU_BOOL, 0, PETSC_COMM_WORLD));
+  interface->frozen = (PetscBool)(options->weights == STICKSLIP_WEIGHTS_REFERENCE || options->friction == STICKSLIP_FRICTION_TIED);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* rank 0: do parts have pairs as deep, and as far apart, as one rank would? Where offsets open gaps pairs are deeper by the largest
+ * of all nodes of a handle; with a search distance they are farther apart, too, so that parts must not differ in it. */
+static PetscBool offsets_allow_parts(const Interface *interface)
+{
+  const Offsets *offsets = &interface->offsets;
+  if (!offsets->any || interface->options.search_distance == 0) return PETSC_TRUE;
+  return (PetscBool)(!offsets->n_points && offsets->radius[0] == 0 && offsets->radius[1] == 0);
+}
+
 /* One rank has all nodes where the library does not know parts. Lines of a plane model are few; they stay together, too. */
 static PetscBool must_be_whole(const Contact *contact, const Interface *interface)
 {
-  return (PetscBool)(interface->dimension == 2 || (contact->condensed && has_middles(contact->mesh, interface)));
+  return (PetscBool)(interface->dimension == 2 || (contact->condensed && has_middles(contact->mesh, interface)) ||
+                     !offsets_allow_parts(interface));
 }
 
 /* rank 0: who owns which nodes, from what each costs; NULL: one rank owns all */
-static PetscErrorCode choose_owners(const Contact *contact, PetscInt number, const double work[], PetscInt owner[])
+static PetscErrorCode choose_owners(const Contact *contact, PetscInt number, const double work[])
 {
   const Interface *interface = &contact->interfaces[number];
   PetscMPIInt      size;
   PetscFunctionBegin;
+  if (contact->mesh->rank) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCallMPI(MPI_Comm_size(PETSC_COMM_WORLD, &size));
   for (PetscInt a = 0; a < interface->n1; a++)
-    owner[a] = number % size;
+    interface->owner[a] = number % size;
   if (work && !must_be_whole(contact, interface))
-    PetscCall(partition_nodes(interface->dimension, interface->n1, interface->X, work, size, owner));
+    PetscCall(partition_nodes(interface->dimension, interface->n1, interface->X, work, size, interface->owner));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Reference coordinates of a part's nodes, and where its positions count from: far from the origin X + u would round u away.
- * A radius counts from the axis. */
-static PetscErrorCode fetch_coordinates(const Contact *contact, Interface *interface)
-{
-  ContactPart   *part = &interface->part;
-  const PetscInt d = part->dimension, n = part->n1 + part->n2;
-  MPI_Datatype   node;
-  PetscSFNode   *remote;
-  PetscSF        sf;
-  PetscFunctionBegin;
-  PetscCall(PetscMalloc1(n, &remote));
-  for (PetscInt k = 0; k < n; k++)
-    remote[k] = (PetscSFNode){.rank = 0, .index = part->nodes[k]};
-  PetscCall(PetscSFCreate(PETSC_COMM_WORLD, &sf));
-  PetscCall(PetscSFSetGraph(sf, interface->n1 + interface->n2, n, NULL, PETSC_OWN_POINTER, remote, PETSC_OWN_POINTER));
-  PetscCallMPI(MPI_Type_contiguous((PetscMPIInt)d, MPI_DOUBLE, &node));
-  PetscCallMPI(MPI_Type_commit(&node));
-  PetscCall(PetscSFBcastBegin(sf, node, interface->X, part->X, MPI_REPLACE));
-  PetscCall(PetscSFBcastEnd(sf, node, interface->X, part->X, MPI_REPLACE));
-  PetscCallMPI(MPI_Type_free(&node));
-  PetscCall(offsets_fetch(sf, interface));
-  PetscCall(PetscSFDestroy(&sf));
-  for (PetscInt i = 0; i < d && contact->mesh->rank == 0; i++)
-    part->origin[i] = i == 0 && interface->options.model == STICKSLIP_MODEL_AXISYMMETRIC ? 0 : interface->X[i];
-  PetscCallMPI(MPI_Bcast(part->origin, 3, MPI_DOUBLE, 0, PETSC_COMM_WORLD));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* `work`: rank 0, see choose_owners() */
-static PetscErrorCode create_part(Contact *contact, PetscInt number, const double work[])
-{
-  Interface    *interface = &contact->interfaces[number];
-  ContactPart  *part      = &interface->part;
-  PetscInt     *owner;
-  const PetscInt d = interface->dimension;
-  PetscInt       n;
-
-  PetscFunctionBegin;
-  PetscCall(PetscMalloc1(interface->n1, &owner));
-  if (contact->mesh->rank == 0) PetscCall(choose_owners(contact, number, work, owner));
-  PetscCall(parts_cut(contact, number, owner));
-  PetscCall(PetscFree(owner));
-  {
-    const PetscInt        counts[3] = {part->n1, part->n2, part->n1}, fields[3] = {0, 0, 1 + number};
-    const PetscInt        widths[3] = {d, d, part->components};
-    const PetscInt *const nodes[3]  = {part->vertices, part->vertices + part->n1, part->vertices};
-    PetscCall(unknowns_gather_create(contact->physics, 3, counts, nodes, fields, widths, &part->sf));
-  }
-  n = n_entries(part);
-  PetscCall(PetscCalloc5(n, &part->X, n, &part->x, n, &part->gathered, n, &part->forces, n, &part->equations));
-  PetscCall(PetscCalloc4(n, &part->lambda, n, &part->lambda_start, n, &part->lambda_last, n, &part->lambda_before));
-  PetscCall(PetscCalloc4(n, &part->host, n, &part->rows, n, &part->host_there, n, &part->x_there));
-  PetscCall(fetch_equations(contact, part->sf, n, part->equations));
-  PetscCall(number_multipliers(contact, part));
-  PetscCall(fetch_coordinates(contact, interface));
-  contact_positions(part);
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscErrorCode destroy_part(ContactPart *part)
-{
-  PetscFunctionBegin;
-  PetscCallStickslip(stickslip_interface_destroy(&part->handle));
-  PetscCall(PetscSFDestroy(&part->sf));
-  PetscCall(PetscFree5(part->X, part->x, part->gathered, part->forces, part->equations));
-  PetscCall(PetscFree4(part->lambda, part->lambda_start, part->lambda_last, part->lambda_before));
-  PetscCall(PetscFree4(part->host, part->rows, part->host_there, part->x_there));
-  PetscCall(PetscFree3(part->coo_rows, part->coo_columns, part->coo_values));
-  PetscCall(parts_destroy(part));
-  *part = (ContactPart){0};
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
+/* The part's handle, for the first time. */
 static PetscErrorCode create_library(Contact *contact, Interface *interface, PetscInt *status)
 {
   ContactPart *part    = &interface->part;
   int32_t      refused = 0;
   PetscFunctionBegin;
   if (part->n1) {
-    PetscCall(create_handle(part, &interface->options, &part->handle, &refused));
-    if (!refused) refused = set_constraints(part);
+    PetscCall(part_handle(part, &interface->options, &part->handle, &refused));
     if (!refused) refused = offsets_set(interface, part->handle, 0);
     if (!refused && contact->condensed) /* refused at once rather than in the first step */
       refused = stickslip_interface_condensed_multipliers(part->handle, part->x, MORTAR_OF(part, part->x), part->host,
@@ -280,45 +145,30 @@ static PetscErrorCode create_library(Contact *contact, Interface *interface, Pet
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* of a part's facets, both sides */
-static PetscReal shortest_edge(const ContactPart *part)
+/* rank 0: the largest offsets of both sides together, at any time */
+static PetscReal largest_offset(const Interface *interface)
 {
-  PetscReal squared = PETSC_MAX_REAL;
-  for (int side = 0; side < 2; side++) {
-    const double *x = part->X + (side ? part->dimension * part->n1 : 0);
-    for (PetscInt f = 0; f < part->n_facets[side]; f++) {
-      const PetscInt *nodes = part->facet_nodes[side] + part->offsets[side][f];
-      const PetscInt  n     = part->offsets[side][f + 1] - part->offsets[side][f];
-      for (PetscInt k = 0; k < n; k++) {
-        PetscReal sum = 0;
-        for (PetscInt i = 0; i < part->dimension; i++)
-          sum += PetscSqr(x[part->dimension * nodes[k] + i] - x[part->dimension * nodes[(k + 1) % n] + i]);
-        squared = PetscMin(squared, sum);
-      }
-    }
+  const Offsets *offsets = &interface->offsets;
+  PetscReal      factor = offsets->curve.n ? 0 : 1, sides[2] = {0, 0};
+  if (!offsets->any) return 0;
+  for (PetscInt k = 0; k < offsets->curve.n; k++)
+    factor = PetscMax(factor, PetscAbsReal(offsets->curve.points[2 * k + 1]));
+  for (PetscInt k = 0; k < interface->n1 + interface->n2; k++) {
+    PetscReal *side = &sides[k >= interface->n1];
+    *side           = PetscMax(*side, factor * PetscAbsReal(offsets->nodal[k]) + PetscAbsReal(offsets->round[k]));
   }
-  return PetscSqrtReal(squared);
+  return sides[0] + sides[1];
 }
 
-/* What parts of equally many nodes say at the start, before any has a history: what each node costs (rank 0), and whether the
- * bodies are deeper in each other than the rings of parts allow. */
-static PetscErrorCode measure_work(const Interface *interface, PetscMPIInt rank, double work[], PetscBool *deep)
+/* A part has so many rings more, one for each facet that bodies are deep in each other; in facets. Beyond the most they stay on one
+ * rank. */
+static PetscErrorCode choose_rings(Interface *interface, PetscReal depth, PetscBool *too_deep)
 {
-  const ContactPart *part     = &interface->part;
-  PetscReal          shortest = part->handle ? shortest_edge(part) : PETSC_MAX_REAL;
-  ContactCover       cover;
-  int64_t           *facets;
-  double            *here;
-
+  enum { MOST = 24 };
   PetscFunctionBegin;
-  PetscCall(PetscCalloc2(part->n1, &facets, part->n1, &here));
-  PetscCall(contact_cover(interface, part->handle, rank, &cover, facets));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &shortest, 1, MPIU_REAL, MPIU_MIN, PETSC_COMM_WORLD));
-  *deep = (PetscBool)(cover.penetration > PARTS_DEPTH * shortest);
-  for (PetscInt a = 0; a < part->n1; a++)
-    here[a] = 1 + (double)facets[a]; /* a node without any costs a little, too */
-  PetscCall(parts_collect(part, 1, here, work));
-  PetscCall(PetscFree2(facets, here));
+  PetscCallMPI(MPI_Bcast(&depth, 1, MPIU_REAL, 0, PETSC_COMM_WORLD));
+  *too_deep                = (PetscBool)!(depth <= MOST);
+  interface->further_rings = *too_deep || depth <= PARTS_DEPTH ? 0 : (PetscInt)PetscCeilReal(depth) - PARTS_DEPTH;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -326,18 +176,27 @@ static PetscErrorCode measure_work(const Interface *interface, PetscMPIInt rank,
 static PetscErrorCode create_parts(Contact *contact, PetscInt number, PetscInt *status)
 {
   Interface *interface = &contact->interfaces[number];
-  PetscBool  deep = PETSC_FALSE;
+  const Vec  start[1][2] = {{contact->committed, NULL}};
+  PetscBool  too_deep = PETSC_FALSE;
+  PetscReal  depth;
   double    *work;
   PetscFunctionBegin;
+  PetscCall(PetscMalloc1(interface->n1, &interface->owner));
   PetscCall(PetscMalloc1(interface->n1, &work));
   for (PetscInt a = 0; a < interface->n1; a++)
     work[a] = 1;
-  PetscCall(create_part(contact, number, interface->offsets.any ? NULL : work)); /* offsets reach deeper than the rings of parts */
+  PetscCall(choose_owners(contact, number, work));
+  PetscCall(part_create(contact, number, 1, start));
   PetscCall(create_library(contact, interface, status));
   if (!*status && interface->n_parts > 1) {
-    PetscCall(measure_work(interface, contact->mesh->rank, work, &deep));
-    PetscCall(destroy_part(&interface->part));
-    PetscCall(create_part(contact, number, deep ? NULL : work));
+    PetscReal shortest;
+    PetscCall(work_measure(interface, contact->mesh->rank, work, &depth, &shortest));
+    if (contact->mesh->rank == 0) depth += largest_offset(interface) / shortest;
+    PetscCall(choose_rings(interface, depth, &too_deep));
+    PetscCall(part_destroy(&interface->part));
+    PetscCall(halo_end(&interface->halo));
+    PetscCall(choose_owners(contact, number, too_deep ? NULL : work));
+    PetscCall(part_create(contact, number, 1, start));
     PetscCall(create_library(contact, interface, status));
   }
   PetscCall(PetscFree(work));
@@ -348,16 +207,21 @@ PetscErrorCode contact_create(Contact *contact, Scene *scene, PetscBool quiet, P
 {
   const Mesh *mesh = contact->mesh;
   char        why[256] = "";
+  PetscMPIInt size;
   PetscFunctionBegin;
   *status = 0;
+  PetscCallMPI(MPI_Comm_size(PETSC_COMM_WORLD, &size));
   scene_root_begin(scene);
   if (mesh->rank == 0 && contact->condensed) PetscCall(condensed_check(contact, why, sizeof(why)));
   if (why[0]) scene_fail(scene, NULL, "unknowns", "%s.", why);
   PetscCall(scene_root_end(scene));
+  PetscCall(DMCreateLocalVector(mesh->dm, &contact->committed));
+  PetscCall(VecZeroEntries(contact->committed));
   for (PetscInt i = 0; i < contact->n_interfaces && !*status; i++) {
     Interface *interface = &contact->interfaces[i];
-    PetscCall(share_options(interface));
+    PetscCall(share_options(mesh, interface));
     PetscCall(create_whole(contact, interface));
+    if (size > 1 && !interface->uncut) PetscCall(halo_watch(contact, interface));
     PetscCall(create_parts(contact, i, status));
     if (*status) break;
     PetscCall(check_facing(scene, quiet, interface, mesh->rank));
@@ -370,13 +234,16 @@ PetscErrorCode contact_destroy(Contact *contact)
 {
   PetscFunctionBegin;
   PetscCall(condensed_destroy(contact));
+  PetscCall(VecDestroy(&contact->committed));
   for (PetscInt i = 0; i < contact->n_interfaces; i++) {
     Interface *interface = &contact->interfaces[i];
-    PetscCall(destroy_part(&interface->part));
+    PetscCall(part_destroy(&interface->part));
+    PetscCall(halo_destroy(&interface->halo));
     PetscCall(PetscSFDestroy(&interface->sf));
     PetscCall(contact_states_destroy(&interface->states));
     PetscCall(offsets_destroy(interface));
     PetscCall(PetscFree4(interface->X, interface->displacements, interface->forces, interface->equations));
+    PetscCall(PetscFree(interface->owner));
     PetscCall(surfaces_destroy(interface));
     PetscCall(PetscFree(interface->removed));
     PetscCall(PetscFree(interface->middle));

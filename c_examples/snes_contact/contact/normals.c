@@ -19,6 +19,7 @@ PetscBool normals_follow(const Contact *contact)
 PetscErrorCode normals_use(Contact *contact, int32_t normals)
 {
   PetscFunctionBegin;
+  contact->settles = (PetscBool)(normals == STICKSLIP_NORMALS_COMMITTED);
   for (PetscInt i = 0; i < contact->n_interfaces; i++) {
     if (follows(&contact->interfaces[i]) && contact->interfaces[i].part.handle)
       PetscCallStickslip(stickslip_interface_use_normals(contact->interfaces[i].part.handle, normals));

@@ -64,7 +64,7 @@ static PetscErrorCode bisect(Order *order, PetscInt n, PetscInt nodes[], PetscMP
     owner[nodes[k]] = first;
   if (n_ranks == 1) PetscFunctionReturn(PETSC_SUCCESS);
   order->axis = widest_axis(order, n, nodes);
-  PetscCall(PetscTimSort(n, nodes, sizeof(*nodes), compare, order));
+  if (n > 1) PetscCall(PetscTimSort(n, nodes, sizeof(*nodes), compare, order)); /* of none it compares two */
   cut = find_cut(order, n, nodes, (double)half / n_ranks);
   PetscCall(bisect(order, cut, nodes, first, half, owner));
   PetscCall(bisect(order, n - cut, nodes + cut, first + half, n_ranks - half, owner));

@@ -141,6 +141,7 @@ static PetscErrorCode scale_augmentation(const Interface *interface, const Petsc
     if (part->owned[a] == STICKSLIP_NODE_OWN) r[a] *= here[a];
   }
   PetscCall(parts_share(part, 1, r));
+  PetscCall(PetscArraycpy(part->augmentation, r, part->n1));
   if (part->handle) PetscCallStickslip(stickslip_interface_set_augmentation(part->handle, r));
   PetscCall(PetscFree3(r, here, all));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -156,6 +157,7 @@ PetscErrorCode contact_scale_augmentation(Contact *contact, const PetscBool *mar
     PetscCall(scale_augmentation(&contact->interfaces[i], marked ? marked + first : NULL, factor));
     first += contact->interfaces[i].n1;
   }
+  contact->scaled = PETSC_TRUE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -163,6 +165,7 @@ PetscErrorCode contact_scale_augmentation(Contact *contact, const PetscBool *mar
 PetscErrorCode contact_reset_augmentation(Contact *contact)
 {
   PetscFunctionBegin;
+  contact->scaled = PETSC_FALSE;
   for (PetscInt i = 0; i < contact->n_interfaces; i++) {
     if (contact->interfaces[i].part.handle)
       PetscCallStickslip(stickslip_interface_set_augmentation(contact->interfaces[i].part.handle, NULL));

@@ -21,7 +21,7 @@ static PetscErrorCode count(const ContactPart *part, Share *share)
   for (PetscInt a = 0; a < part->n1; a++)
     share->nodes += part->owned[a] == STICKSLIP_NODE_OWN;
   if (!part->handle) PetscFunctionReturn(PETSC_SUCCESS); /* nothing is owned here, or the library refused to create it */
-  PetscCallStickslip(stickslip_interface_counters(part->handle, &share->counters));
+  PetscCallStickslip(part_counters(part, &share->counters));
   PetscCallStickslip(stickslip_interface_effects(part->handle, share->effects, sizeof(share->effects)));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -98,7 +98,12 @@ static void add_counters(const Interface *interface, const char *cover, PetscMPI
   ADD(seconds_assembly, counters.seconds_assembly);
   sum->seconds_assembly += number;
 #undef ADD
-  if (interface->n_parts > 1) add_shares(json, size, shares);
+  if (interface->n_parts > 1) {
+    cJSON_AddNumberToObject(json, "halo_grown", (double)interface->n_grown);
+    cJSON_AddNumberToObject(json, "halo_renewed", (double)interface->n_renewed);
+    cJSON_AddNumberToObject(json, "rebalanced", (double)interface->n_rebalanced);
+    add_shares(json, size, shares);
+  }
 }
 
 static PetscErrorCode interface_counters(const Interface *interface, PetscMPIInt rank, cJSON *parent, stickslip_counters *sum)

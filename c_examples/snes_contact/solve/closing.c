@@ -238,7 +238,7 @@ static PetscErrorCode limit(SNESLineSearch line_search, Vec x, Vec y, PetscBool 
   PetscCall(DMGlobalToLocalEnd(solve->mesh->dm, y, INSERT_VALUES, step));
   PetscCall(VecScale(step, -1));
   for (PetscInt i = 0; i < solve->contact->n_interfaces; i++) {
-    PetscCall(contact_step_limit(solve->contact, &solve->contact->interfaces[i], step, closing->depth, &one));
+    PetscCall(contact_step_limit(solve->contact, i, step, closing->depth, &one));
     fraction = PetscMin(fraction, one);
   }
   closing->cut = (PetscBool)(fraction < 1);
