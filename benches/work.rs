@@ -3,7 +3,7 @@
 use std::hint::black_box;
 use stickslip::element::{FacetResponse, NodeTangent, PairNow, PairTangent, pair_force, row_columns};
 use stickslip::geometry::{Facet, Mat3, Vec3};
-use stickslip::law::{Friction, Node, SlipMeasure};
+use stickslip::law::{Friction, Node, SlipMeasure, Special};
 use stickslip::mortar::{self, GapDerivative, NonmortarFrame, PairWeights, Segment, WeightDerivatives, pair_motion};
 use stickslip::quadrature::DEGREE_5;
 
@@ -120,5 +120,6 @@ pub fn node(gap: Vec3, e: Vec3) -> Node<3> {
         covered_before: true,
         slip: SlipMeasure::Objective,
         free: Mat3::identity(),
+        special: Special::Nothing,
     }
 }

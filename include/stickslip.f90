@@ -24,7 +24,7 @@
 !
 ! Types set their struct_size and null pointers by themselves; leave struct_size alone.
 module stickslip
-  use, intrinsic :: iso_c_binding, only: c_char, c_double, c_int32_t, c_int64_t, c_null_ptr, c_ptr
+  use, intrinsic :: iso_c_binding, only: c_char, c_double, c_funptr, c_int32_t, c_int64_t, c_null_ptr, c_ptr
   implicit none
   public
 
@@ -207,6 +207,13 @@ module stickslip
   integer(c_int32_t), parameter :: STICKSLIP_SIDE_NONMORTAR = 0
   integer(c_int32_t), parameter :: STICKSLIP_SIDE_MORTAR = 1
 
+  ! Laws in place of Coulomb's; the most numbers a node that a law may remember.
+  integer(c_int32_t), parameter :: STICKSLIP_LAW_COULOMB = 0
+  integer(c_int32_t), parameter :: STICKSLIP_LAW_COHESION = 1
+  integer(c_int32_t), parameter :: STICKSLIP_LAW_WEAKENING = 2
+  integer(c_int32_t), parameter :: STICKSLIP_LAW_ORTHOTROPIC = 3
+  integer(c_int32_t), parameter :: STICKSLIP_LAW_MAX_STATES = 1024
+
   ! Sizes of the types in bytes (64-bit machines), their struct_size.
   integer(c_int64_t), parameter :: stickslip_options_size = 168
   integer(c_int64_t), parameter :: stickslip_surface_size = 72
@@ -221,6 +228,9 @@ module stickslip
   integer(c_int64_t), parameter :: stickslip_equilibrium_size = 96
   integer(c_int64_t), parameter :: stickslip_rigid_body_size = 56
   integer(c_int64_t), parameter :: stickslip_rigid_motion_size = 128
+  integer(c_int64_t), parameter :: stickslip_law_size = 72
+  integer(c_int64_t), parameter :: stickslip_law_point_size = 104
+  integer(c_int64_t), parameter :: stickslip_law_answer_size = 48
 
   ! A contact interface, made by stickslip_interface_create and ended by stickslip_interface_destroy. A copy means the
   ! same interface. One thread at a time.
@@ -478,6 +488,37 @@ module stickslip
     real(c_double) :: displacement(3) = 0          ! u [L]
     real(c_double) :: rotation(3) = 0              ! theta of the step: axis times angle, at most pi
     real(c_double) :: turned(9) = 0                ! R at t_n, row by row; zeros alone: not at all
+  end type
+
+  ! A law of the library in place of Coulomb's.
+  type, bind(C) :: stickslip_law
+    integer(c_int64_t) :: struct_size = stickslip_law_size
+    integer(c_int32_t) :: kind = STICKSLIP_LAW_COULOMB
+    integer(c_int32_t) :: reserved = 0             ! 0
+    real(c_double) :: cohesion = 0                 ! COHESION: c >= 0 [F/L^2]
+    real(c_double) :: mu_after = 0                 ! WEAKENING: the coefficient from the critical slip on
+    real(c_double) :: critical_slip = 0            ! WEAKENING: > 0 [L]
+    real(c_double) :: mu_across = 0                ! ORTHOTROPIC: the coefficient across the direction, > 0
+    real(c_double) :: direction(3) = 0             ! ORTHOTROPIC: along which mu counts, any length but 0
+  end type
+
+  ! What a law of the host's is asked about a node.
+  type, bind(C) :: stickslip_law_point
+    integer(c_int64_t) :: struct_size = stickslip_law_point_size
+    integer(c_int64_t) :: node = 0                 ! counted from options%index_base
+    real(c_double) :: normal = 0                   ! sigma_N <= 0 [F/L^2]
+    real(c_double) :: slip(3) = 0                  ! of this step [L]
+    real(c_double) :: slip_before(3) = 0           ! before it [L]
+    real(c_double) :: direction(3) = 0             ! where the node would slip to: a unit vector, or 0
+    real(c_double) :: mu = 0
+  end type
+
+  ! What it answers. Before the call threshold is NaN, and the derivatives are 0.
+  type, bind(C) :: stickslip_law_answer
+    integer(c_int64_t) :: struct_size = stickslip_law_answer_size
+    real(c_double) :: threshold = 0                ! k >= 0 [F/L^2]
+    real(c_double) :: dthreshold_dnormal = 0       ! <= 0
+    real(c_double) :: dthreshold_dslip(3) = 0      ! [F/L^3]
   end type
 
   interface
@@ -1226,6 +1267,46 @@ module stickslip
     integer(c_int32_t) function stickslip_rigid_destroy(rigid) bind(C)
       import :: c_int32_t, stickslip_rigid
       type(stickslip_rigid), intent(inout) :: rigid
+    end function
+
+    ! Takes a law of the library in place of Coulomb's; c_null_ptr, or c_loc of a stickslip_law with the TARGET attribute.
+    integer(c_int32_t) function stickslip_interface_set_law(interface, law) bind(C)
+      import :: c_int32_t, c_ptr, stickslip_interface
+      type(stickslip_interface), value :: interface
+      type(c_ptr), value :: law
+    end function
+
+    ! Takes a function of the host's as the law, c_funloc(law) of
+    !   integer(c_int32_t) function law(user, point, states, answer, states_after) bind(C)
+    !     type(c_ptr), value :: user
+    !     type(stickslip_law_point), intent(in) :: point
+    !     real(c_double), intent(in) :: states(*)
+    !     type(stickslip_law_answer), intent(inout) :: answer
+    !     real(c_double), intent(inout) :: states_after(*)
+    ! which returns 0. It must not call the library with an interface.
+    integer(c_int32_t) function stickslip_interface_set_threshold(interface, threshold, user, n_states) bind(C)
+      import :: c_funptr, c_int32_t, c_int64_t, c_ptr, stickslip_interface
+      type(stickslip_interface), value :: interface
+      type(c_funptr), value :: threshold
+      type(c_ptr), value :: user
+      integer(c_int64_t), value :: n_states
+    end function
+
+    ! What the law remembers of the nodes at t_n: states(n), or c_null_ptr to count them alone.
+    integer(c_int32_t) function stickslip_interface_law_states(interface, n, states, count) bind(C)
+      import :: c_int32_t, c_int64_t, c_ptr, stickslip_interface
+      type(stickslip_interface), value :: interface
+      integer(c_int64_t), value :: n
+      type(c_ptr), value :: states
+      integer(c_int64_t), intent(inout) :: count
+    end function
+
+    ! Replaces that: states(n).
+    integer(c_int32_t) function stickslip_interface_set_law_states(interface, n, states) bind(C)
+      import :: c_double, c_int32_t, c_int64_t, stickslip_interface
+      type(stickslip_interface), value :: interface
+      integer(c_int64_t), value :: n
+      real(c_double), intent(in) :: states(*)
     end function
   end interface
 end module

@@ -71,7 +71,8 @@
  *
  * What it may add: interface_set_friction, interface_set_augmentation, interface_set_normals,
  * interface_set_constraints, interface_set_offsets, interface_set_previous, interface_set_committed after interface_create; interface_adjust,
- * interface_shape_offsets for what goes into them; interface_history_size,
+ * interface_shape_offsets for what goes into them; interface_set_law, interface_set_threshold for other laws of friction,
+ * interface_law_states, interface_set_law_states for what these remember; interface_history_size,
  * interface_history_export, interface_history_import for restarts; interface_sums on several processes;
  * interface_counters, interface_effects, interface_report, interface_diagnose. Where normals follow the motion: interface_turn_multipliers
  * at the start of a step, interface_use_normals for a step in two phases. Before it: surface_split_creases where a non-mortar surface
@@ -522,6 +523,25 @@
 
 /// Side of an interface: the mortar one.
 #define STICKSLIP_SIDE_MORTAR 1
+
+/// Coulomb's law with mu.
+#define STICKSLIP_LAW_COULOMB 0
+
+/// Cohesion (adhesion): a closed node slips at k = cohesion + mu p, p its pressure. It opens under tension all the same, and its
+/// shear traction then drops to 0 from at most the cohesion.
+#define STICKSLIP_LAW_COHESION 1
+
+/// Friction that weakens with slip: the coefficient falls from mu, in proportion to the way that the node has slipped since the first
+/// configuration, to mu_after at critical_slip, and stays there. The way is the law's one state. A host that is softer than
+/// (mu - mu_after) p / critical_slip a unit of area snaps: no step is small enough then, but with inertia.
+#define STICKSLIP_LAW_WEAKENING 2
+
+/// Orthotropic friction: mu along a direction, mu_across across it. Tractions stick within an ellipse, and slip goes at a right angle to
+/// its border. Not with STICKSLIP_NORMALS_CURRENT, and not with lines (UNSUPPORTED).
+#define STICKSLIP_LAW_ORTHOTROPIC 3
+
+/// The most numbers a node that a law may remember.
+#define STICKSLIP_LAW_MAX_STATES 1024
 
 /// A contact interface. Created and destroyed by the library; one thread at a time.
 typedef struct stickslip_interface stickslip_interface;
@@ -1048,6 +1068,74 @@ typedef struct stickslip_rigid_motion {
   double turned[9];
 } stickslip_rigid_motion;
 
+/// A law of the library in place of Coulomb's, whose mu (of the options, or of `stickslip_interface_set_friction`) it goes on from. What
+/// belongs to another kind is 0.
+typedef struct stickslip_law {
+  /// sizeof(stickslip_law).
+  uint64_t struct_size;
+  /// STICKSLIP_LAW_...
+  int32_t kind;
+  /// Must be 0.
+  int32_t reserved;
+  /// With STICKSLIP_LAW_COHESION c >= 0 [F/L^2].
+  double cohesion;
+  /// With STICKSLIP_LAW_WEAKENING the coefficient from the critical slip on, >= 0 [-].
+  double mu_after;
+  /// With STICKSLIP_LAW_WEAKENING the critical slip, > 0 [L].
+  double critical_slip;
+  /// With STICKSLIP_LAW_ORTHOTROPIC the coefficient across the direction, > 0 [-]. A node with mu = 0 has no friction.
+  double mu_across;
+  /// With STICKSLIP_LAW_ORTHOTROPIC the direction along which mu counts, of any length but 0 [-]: it is projected on the surface at
+  /// each node, where a part of it must be left. It is fixed in space: set the law again where the body turns.
+  double direction[3];
+} stickslip_law;
+
+/// What a law of the host's is asked about a node.
+typedef struct stickslip_law_point {
+  /// sizeof(stickslip_law_point), as the library knows it.
+  uint64_t struct_size;
+  /// Which non-mortar node, counted from options.index_base.
+  int64_t node;
+  /// sigma_N, the trial traction along nu: the pressure with a minus, <= 0 [F/L^2].
+  double normal;
+  /// Slip of this step, along the surface [L]; 0 where the node was not covered at t_n.
+  double slip[3];
+  /// Slip since the first configuration, without that of this step [L].
+  double slip_before[3];
+  /// The unit vector along the trial shear traction, or 0 [-]: along it the node would slip.
+  double direction[3];
+  /// The node's Coulomb coefficient [-].
+  double mu;
+} stickslip_law_point;
+
+/// What it answers. Before the call threshold is NaN, and all derivatives are 0.
+typedef struct stickslip_law_answer {
+  /// sizeof(stickslip_law_answer), as the library knows it.
+  uint64_t struct_size;
+  /// k >= 0: shear tractions below it stick [F/L^2].
+  double threshold;
+  /// dk / dnormal <= 0 [-]: k must not fall where the pressure rises. Coulomb: -mu.
+  double dthreshold_dnormal;
+  /// dk / dslip [F/L^3].
+  double dthreshold_dslip[3];
+} stickslip_law_answer;
+
+/// A law of the host's: the threshold k of the shear traction at one node, a function of its arguments alone, differentiable with
+/// the derivatives that it answers (else Newton's method converges slowly).
+///
+/// user: as given with the function. states: the node's numbers at t_n; states_after, output: those at the end of the step, if it
+/// ended here; both have as many as were announced, and states_after begins as a copy. Returns 0, or any other number to have the
+/// evaluation refused (INVALID_VALUE, which names the node): within Newton a domain error.
+///
+/// It runs in the call of the library that needs it, in the calling thread, whatever options.threads says, for closed nodes one after
+/// the other. It must not call the library with any interface (refused), nor change one; it must not throw, and not leave by longjmp. Traps of
+/// floating point are off while it runs, and it must leave rounding as it is. In Fortran: a function with bind(C), by c_funloc.
+typedef int32_t (*stickslip_threshold)(void *user,
+                                       const struct stickslip_law_point *point,
+                                       const double *states,
+                                       struct stickslip_law_answer *answer,
+                                       double *states_after);
+
 #ifdef __cplusplus
 extern "C" {
 #endif // __cplusplus
@@ -1231,7 +1319,7 @@ int32_t stickslip_interface_set_previous(struct stickslip_interface *interface,
 /// and the first gaps of tied nodes are those of the creation. No commit can then be undone.
 ///
 /// slip (3 n1) [L]: what `stickslip_interface_states` had after the commit; NULL: none. Interfaces that remember no slip
-/// (tied, rough, without friction) ignore it.
+/// (tied, rough, without friction) ignore it. What a law remembers becomes 0; `stickslip_interface_set_law_states` afterwards.
 ///
 /// Errors: NULL_POINTER, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL, INVALID_VALUE (commits < 0, a
 /// mortar surface in layers, an analytic surface's frame).
@@ -2322,6 +2410,59 @@ int32_t stickslip_rigid_values(struct stickslip_rigid *rigid,
 /// Errors: NULL_POINTER (misaligned).
 /// Cost: frees memory.
 int32_t stickslip_rigid_destroy(struct stickslip_rigid **rigid);
+
+/// Takes a law of the library in place of Coulomb's, from the next evaluation on. The interface must have been created with
+/// STICKSLIP_FRICTION_COULOMB. Newly covered nodes and prescribed directions are treated as under Coulomb's law.
+///
+/// law: see `stickslip_law`; NULL, or STICKSLIP_LAW_COULOMB: Coulomb's. It is copied. Not part of the history, which holds its states and
+/// of which kind they are: set it again after a restart, before the import. A law of the same kind goes on with the states that
+/// there are, and its numbers may change from step to step; another one begins with states 0, and no commit before it can be undone.
+///
+/// Errors: NULL_POINTER, STRUCT_SIZE, NOT_FINITE, INVALID_VALUE (a number; an interface with another law), UNSUPPORTED (see the kinds).
+/// That the direction has no part in the surface at a node is refused where the node is evaluated (INVALID_VALUE).
+/// Cost: nothing grows with the surface but the states; allocates them.
+int32_t stickslip_interface_set_law(struct stickslip_interface *interface,
+                                    const struct stickslip_law *law);
+
+/// Takes a function of the host's as the law: what Abaqus calls FRIC, but with a threshold in place of a traction, so that
+/// stick and slip, and the exact tangent, stay the library's. As `stickslip_interface_set_law` otherwise.
+///
+/// threshold: see `stickslip_threshold`; not NULL (Coulomb's law comes back by `stickslip_interface_set_law`). user: passed on to it, may be
+/// NULL. n_states: how many numbers it remembers of each node, 0 to STICKSLIP_LAW_MAX_STATES; they begin at 0, or see
+/// `stickslip_interface_set_law_states`. Function and user must be valid as long as the interface has them.
+///
+/// Evaluations refuse, and nothing has changed: an answer that is not finite (NOT_FINITE); a threshold below 0, one that falls
+/// where the pressure rises, or a return value but 0 (INVALID_VALUE). The message names the node.
+///
+/// Errors: NULL_POINTER, INVALID_SIZE, INVALID_VALUE (an interface with another law).
+/// Cost: the states; allocates them. In evaluations one call a closed node, of carriers of others one more.
+int32_t stickslip_interface_set_threshold(struct stickslip_interface *interface,
+                                          stickslip_threshold threshold,
+                                          void *user,
+                                          int64_t n_states);
+
+/// What the law remembers of the nodes at t_n: for output, and to be handed to other handles with parts of the interface.
+///
+/// states, output: node by node, as many numbers as the law remembers (of STICKSLIP_LAW_WEAKENING one, the way slipped [L]). n: how many
+/// it has room for; count, output: how many there are, 0 of a law that remembers nothing. states NULL: they are counted only.
+///
+/// Errors: NULL_POINTER, BUFFER_TOO_SMALL.
+/// Cost: a copy.
+int32_t stickslip_interface_law_states(struct stickslip_interface *interface,
+                                       int64_t n,
+                                       double *states,
+                                       int64_t *count);
+
+/// Replaces what the law remembers of the nodes at t_n, after `stickslip_interface_set_committed`, which sets it to 0, or for states that do not
+/// begin at 0. No commit can then be undone.
+///
+/// states: n numbers, as `stickslip_interface_law_states` has them.
+///
+/// Errors: NULL_POINTER, INVALID_SIZE, NOT_FINITE.
+/// Cost: a copy; allocates it.
+int32_t stickslip_interface_set_law_states(struct stickslip_interface *interface,
+                                           int64_t n,
+                                           const double *states);
 
 #ifdef __cplusplus
 }  // extern "C"

@@ -82,6 +82,7 @@ static PetscErrorCode build(Model *model, PetscInt *status)
   PetscCall(unknowns_create(physics, contact->n_interfaces, fields));
   PetscCall(parts_create(physics));
   PetscCall(held_create(solve));
+  iterative_check(model->scene, solve);
   PetscCall(bulk_create(physics));
   PetscCall(loads_assemble(physics));
   PetscCall(contact_create(contact, model->scene, solve->quiet, status));

@@ -174,3 +174,39 @@ def test_offsets_of_a_shape():
     with scene.Scene((x1 + [0, 0, 10], f1), (x2, top[1])) as ball:
         offsets = ball.interface.shape_offsets("mortar", "sphere", 10.0, (0, 0, 0))
         assert ((offsets < 0) & (offsets > -2 * 0.4**2 / 40)).all()
+
+
+def test_a_law_of_ones_own_that_is_coulombs(blocks):
+    face, point = blocks.interface, blocks.pressed()
+    plain = face.residual(*point)
+    seen = []
+
+    def coulomb(at):
+        assert at.normal <= 0 and at.slip.shape == (3,)
+        seen.append(at.node)
+        at.states[0] += np.linalg.norm(at.slip)
+        return -at.mu * at.normal, -at.mu
+
+    face.set_threshold(coulomb, n_states=1)
+    for ours, theirs in zip(face.residual(*point), plain):
+        np.testing.assert_allclose(ours, theirs, rtol=0, atol=1e-13 * np.abs(theirs).max())
+    assert 0 < len(seen) <= face.n1 and np.array_equal(face.law_states(), np.zeros((face.n1, 1)))
+    face.commit(*point)
+    assert face.law_states().max() > 0
+    face.set_law_states(np.ones((face.n1, 1)))
+    assert face.law_states().min() == 1
+    face.set_law("cohesion", cohesion=0.0)
+    assert face.law_states().shape == (face.n1, 0)
+
+
+def test_a_law_that_fails_refuses_the_call_and_is_its_cause(blocks):
+    point = blocks.pressed()
+    blocks.interface.set_threshold(lambda at: 1 / 0)
+    with pytest.raises(stickslip.errors.InvalidValue, match="node") as caught:
+        blocks.interface.residual(*point)
+    assert isinstance(caught.value.__cause__, ZeroDivisionError)
+    blocks.interface.set_threshold(lambda at: (float("nan"), 0.0))
+    with pytest.raises(stickslip.errors.NotFinite, match="node"):
+        blocks.interface.residual(*point)
+    with pytest.raises(TypeError, match="mu_across"):
+        blocks.interface.set_law("orthotropic", across=0.1)

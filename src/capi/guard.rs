@@ -4,7 +4,7 @@
 
 use super::fp_environment::FpEnvironment;
 use super::status::{STICKSLIP_OK, STICKSLIP_PANIC};
-use crate::error::Result;
+use crate::error::{Error, Kind, Result};
 use libc::c_char;
 use std::cell::Cell;
 use std::hint::black_box;
@@ -17,11 +17,16 @@ const CAPACITY: usize = 1024;
 /// What a thread has of its own.
 struct Thread {
     message: [Cell<u8>; CAPACITY],
+    /// Whether the library's own code runs.
     inside: Cell<bool>,
+    /// Whether a function of the host's runs that the library has called.
+    calling: Cell<bool>,
 }
 
 thread_local! {
-    static THREAD: Thread = const { Thread { message: [const { Cell::new(0) }; CAPACITY], inside: Cell::new(false) } };
+    static THREAD: Thread = const {
+        Thread { message: [const { Cell::new(0) }; CAPACITY], inside: Cell::new(false), calling: Cell::new(false) }
+    };
 }
 
 /// Runs one entry point.
@@ -29,11 +34,11 @@ pub(super) fn guard(body: impl FnOnce() -> Result<()>) -> i32 {
     let _environment = FpEnvironment::enter();
     silence_panics();
     THREAD.with(|thread| {
-        thread.inside.set(true);
+        let outside = thread.inside.replace(true);
         // What the body computes with may be anything up to here, so no arithmetic can move before the new environment.
         black_box(&body);
         let outcome = catch_unwind(AssertUnwindSafe(body));
-        thread.inside.set(false);
+        thread.inside.set(outside);
         match outcome {
             Ok(Ok(())) => {
                 thread.message[0].set(0);
@@ -51,6 +56,27 @@ pub(super) fn guard(body: impl FnOnce() -> Result<()>) -> i32 {
             }
         }
     })
+}
+
+/// Calls a function of the host's from within an entry point. It must not unwind.
+pub(super) fn calling_the_host<T>(call: impl FnOnce() -> T) -> T {
+    THREAD.with(|thread| {
+        thread.calling.set(true);
+        thread.inside.set(false);
+        let answer = call();
+        thread.inside.set(true);
+        thread.calling.set(false);
+        answer
+    })
+}
+
+/// Refuses what a function of the host's must not do while the library has called it.
+pub(super) fn refuse_within_a_law() -> Result<()> {
+    if THREAD.with(|thread| thread.calling.get()) {
+        let text = "called from within a law of the host's: the library is at work with an interface there, and takes no other call with one";
+        return Err(Error::new(Kind::InvalidValue, text));
+    }
+    Ok(())
 }
 
 /// A panic inside an entry point is reported by its status; the default hook would print it.
@@ -96,7 +122,6 @@ pub(super) fn message_bytes() -> impl Iterator<Item = u8> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::error::{Error, Kind};
     use std::ffi::CStr;
 
     fn text() -> String {

@@ -1,5 +1,6 @@
 //! The interface handle, and what is behind it.
 
+use super::guard::refuse_within_a_law;
 use super::raw;
 use crate::error::Result;
 use crate::interface::Contact;
@@ -29,8 +30,10 @@ macro_rules! either {
 pub(super) use either;
 
 /// The handle behind a pointer.
+#[inline(never)]
 pub(super) fn handle<'a>(p: *mut stickslip_interface) -> Result<&'a mut stickslip_interface> {
     raw::check(p, "interface")?;
+    refuse_within_a_law()?;
     // SAFETY: non-null and aligned; by the caller's contract it came from create, is not destroyed, and
     // is used by this thread alone.
     Ok(unsafe { &mut *p })

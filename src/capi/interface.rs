@@ -1,6 +1,6 @@
 //! The interface handle: creation and overrides.
 
-use super::guard::guard;
+use super::guard::{guard, refuse_within_a_law};
 use super::handle::{Inner, components_of, either, flat, handle, sizes, stickslip_interface};
 use super::options::{Choices, read_options, stickslip_options};
 use super::point::{Point, vectors};
@@ -83,6 +83,7 @@ pub unsafe extern "C" fn stickslip_interface_destroy(interface: *mut *mut sticks
             return Ok(());
         }
         raw::check(interface, "interface")?;
+        refuse_within_a_law()?;
         // SAFETY: non-null and aligned.
         let handle = unsafe { interface.read() };
         if handle.is_null() {
@@ -217,7 +218,7 @@ pub unsafe extern "C" fn stickslip_interface_set_previous(
 /// and the first gaps of tied nodes are those of the creation. No commit can then be undone.
 ///
 /// slip (3 n1) [L]: what `stickslip_interface_states` had after the commit; NULL: none. Interfaces that remember no slip
-/// (tied, rough, without friction) ignore it.
+/// (tied, rough, without friction) ignore it. What a law remembers becomes 0; `stickslip_interface_set_law_states` afterwards.
 ///
 /// Errors: NULL_POINTER, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL, INVALID_VALUE (commits < 0, a
 /// mortar surface in layers, an analytic surface's frame).

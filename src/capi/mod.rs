@@ -85,6 +85,8 @@ mod equilibrium;
 mod offsets;
 mod rigid;
 
+mod law;
+
 mod choice;
 mod fp_environment;
 mod guard;
@@ -105,6 +107,7 @@ pub use facet_tangent::*;
 pub use handle::*;
 pub use history::*;
 pub use interface::*;
+pub use law::*;
 pub use layout::*;
 pub use message::*;
 pub use model::*;

@@ -8,7 +8,7 @@ use super::sized::{self, Sized64};
 use crate::error::{Error, Kind, Result};
 use crate::geometry::{Mat3, Vec3};
 use crate::interface::own_rows;
-use crate::law::{Coefficient, Friction, Node};
+use crate::law::{Coefficient, Friction, Node, Special};
 use crate::simd::are_finite;
 
 /// State of a node: open or uncovered.
@@ -197,6 +197,7 @@ pub(super) fn read_node(p: *const stickslip_node) -> Result<(Friction, Node)> {
         covered_before: n.coverage_previous > n.coverage_min,
         slip: slip_measure(n.slip, "node.slip")?,
         free,
+        special: Special::Nothing,
     };
     Ok((friction, node))
 }

@@ -305,7 +305,8 @@ impl<const N: usize> Cache<N> {
         let kept = bytes::of_active(&self.kept.active) + bytes::heap(&self.kept.sums);
         let a = &self.answers;
         let given = a.x.iter().map(bytes::heap).sum::<usize>() + bytes::heap(&a.lambda) + bytes::heap(&a.sums);
-        let answers = given + bytes::heap(&a.responses.nodes) + bytes::heap(&a.responses.carried);
+        let of_law = bytes::heap(&a.responses.nodes) + bytes::heap(&a.responses.carried) + a.responses.own.bytes();
+        let answers = given + of_law;
         kept + answers + bytes::of_work(&self.work)
     }
 }

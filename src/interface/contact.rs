@@ -35,7 +35,7 @@ pub type Interface = Contact<3>;
 pub struct Contact<const N: usize> {
     pub(super) setup: Setup<N>,
     pub(super) step: Step,
-    rollback: Option<History>,
+    pub(super) rollback: Option<History>,
     /// Memory for the history that a commit makes; `None`: it takes new one.
     spare: Option<History>,
     pub(super) cache: Cache<N>,
@@ -59,7 +59,7 @@ impl Contact<3> {
             Coefficient::Always(mu) => mu,
         };
         let mu = memory::filled(mu, nonmortar.len())?;
-        let effects = Effects::of_three(&options, &mortar, &mu);
+        let effects = Effects::of_three(&options, &mortar, &mu, None);
         Self::build(Setup::new((nonmortar, mortar), multiplier_equations, options, mu, effects)?)
     }
 
@@ -70,7 +70,8 @@ impl Contact<3> {
             return Err(Error::new(Kind::InvalidValue, text));
         }
         self.setup.nodes.set_mu(mu)?;
-        self.setup.effects = Effects::of_three(&self.setup.options, &self.setup.mortar, &self.setup.nodes.mu);
+        let Setup { options, mortar, nodes, own, .. } = &self.setup;
+        self.setup.effects = Effects::of_three(options, mortar, &nodes.mu, own.as_ref());
         self.cache.forget();
         Ok(())
     }
@@ -278,7 +279,8 @@ impl<const N: usize> Contact<N> {
         let (surfaces, options) = (self.setup.surfaces(), &self.setup.options);
         let (_, active, work, _) = self.cache.leave();
         let known = Known { active, filter: None };
-        let new = commit::settled_at(surfaces, options, Extent::Whole, work, (x1, x2), known, History::empty())?;
+        let mut new = commit::settled_at(surfaces, options, Extent::Whole, work, (x1, x2), known, History::empty())?;
+        memory::refill(&mut new.history.states, 0.0, self.step.history.states.len())?;
         new.history.check_finite()?;
         self.adopt(new)?;
         self.rollback = None;
@@ -286,7 +288,7 @@ impl<const N: usize> Contact<N> {
     }
 
     /// Takes (x1, x2) as t_n, after so many commits, with this slip since the first configuration `[L]` at every node: what
-    /// handles with other parts of the interface had committed. Weights of the reference and first gaps stay those that this
+    /// handles with other parts of the interface had committed; what a law of one's own remembers is 0. Weights of the reference and first gaps stay those that this
     /// one was created with. No commit can then be undone.
     pub fn set_committed(&mut self, x1: &[Vec3], x2: &[Vec3], slip: &[Vec3], commits: i64) -> Result<()> {
         self.given().check_positions(x1, x2)?;
@@ -312,6 +314,7 @@ impl<const N: usize> Contact<N> {
         new.history.commits = commits;
         let kept = new.history.slip.len();
         new.history.slip.copy_from_slice(&slip[..kept]);
+        memory::refill(&mut new.history.states, 0.0, self.step.history.states.len())?;
         new.history.check_finite()?;
         self.adopt(new)?;
         self.rollback = None;
@@ -355,6 +358,7 @@ impl<const N: usize> Contact<N> {
         } else {
             memory::recopy(&mut new.history.slip, &history.slip)?;
         }
+        memory::recopy(&mut new.history.states, &answers.responses.own.states)?;
         new.history.check_finite()?;
         let old = self.adopt(new)?;
         self.spare = self.rollback.replace(old);
@@ -380,7 +384,7 @@ impl<const N: usize> Contact<N> {
     /// The history as flat arrays, for a restart.
     pub fn export_history(&mut self) -> Result<(Vec<i64>, Vec<f64>)> {
         self.cache.complete(&self.setup, &mut self.step)?;
-        self.step.history.export(&Host::new(self.setup.surfaces(), &self.setup.options))
+        self.step.history.export(&Host::of(&self.setup))
     }
 
     /// Lengths of what [`Contact::export_history`] gives.
@@ -391,7 +395,7 @@ impl<const N: usize> Contact<N> {
 
     /// Replaces the history by an imported one, after which no commit can be undone.
     pub fn import_history(&mut self, integers: &[i64], reals: &[f64]) -> Result<()> {
-        let history = History::import((integers, reals), &Host::new(self.setup.surfaces(), &self.setup.options))?;
+        let history = History::import((integers, reals), &Host::of(&self.setup))?;
         let pairing = Pairing::again(&self.setup, &history)?;
         self.put_in_place(pairing, history, false);
         self.rollback = None;

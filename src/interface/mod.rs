@@ -19,6 +19,7 @@ mod inspect;
 mod linear;
 mod linearisation;
 mod offsets;
+mod own;
 mod pairing;
 mod plan;
 mod stages;

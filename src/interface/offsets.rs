@@ -55,12 +55,15 @@ impl<const N: usize> Contact<N> {
             return Ok(());
         }
         let (x1, x2) = (memory::copied(&self.step.history.x1)?, memory::copied(&self.step.history.x2)?);
+        let states = memory::copied(&self.step.history.states)?;
         if weights == Weights::Reference {
-            return self.set_previous(&x1, &x2);
+            self.set_previous(&x1, &x2)?;
+            return memory::recopy(&mut self.step.history.states, &states);
         }
         let mut slip = memory::filled(Vec3::zeros(), self.setup.nonmortar.len())?;
         slip.iter_mut().zip(&self.step.history.slip).for_each(|(to, of)| *to = *of);
-        self.set_committed(&x1, &x2, &slip, 0)
+        self.set_committed(&x1, &x2, &slip, 0)?;
+        memory::recopy(&mut self.step.history.states, &states)
     }
 
     /// The non-mortar nodes of the first configuration, those within `tolerance` `[L]` of the mortar surface moved onto it.

@@ -8,12 +8,20 @@ use crate::geometry::{Mat3, Vec3};
 
 /// A law that is told by its threshold. Implementing this makes it a [`Law`].
 pub trait Cone {
+    /// Whether k depends on the slip of the step.
+    const FOLLOWS_SLIP: bool = false;
+
     /// Which tangential tractions stick at a normal traction sigma_N < 0, the node's numbers being given.
     fn threshold(node: &Node, sigma_n: f64) -> Threshold;
+
+    /// dk / dg_T [F/L^5] of a law that follows the slip.
+    fn slope(_node: &Node) -> Vec3 {
+        Vec3::zeros()
+    }
 }
 
 /// g_T before it is projected; none where the node was not covered at t_n.
-fn unprojected_slip(node: &Node) -> Vec3 {
+fn unprojected_slip<const N: usize>(node: &Node<N>) -> Vec3 {
     if !node.covered_before {
         return Vec3::zeros();
     }
@@ -22,9 +30,32 @@ fn unprojected_slip(node: &Node) -> Vec3 {
 }
 
 /// g_T.
-fn weighted_slip(node: &Node) -> Vec3 {
+fn weighted_slip<const N: usize>(node: &Node<N>) -> Vec3 {
     let slip = unprojected_slip(node);
     node.free * (slip - node.normal * node.normal.dot(&slip))
+}
+
+/// What a threshold is asked about.
+#[derive(Clone, Copy, Debug)]
+pub struct Trial {
+    /// sigma_N.
+    pub sigma_n: f64,
+    /// lambda_N.
+    pub lambda_n: f64,
+    /// g_T [L^3].
+    pub slip: Vec3,
+    /// The direction of sigma_T; 0 where there is none.
+    pub direction: Vec3,
+}
+
+/// Of a node with three multipliers, by which law ever.
+pub fn trial<const N: usize>(node: &Node<N>) -> Trial {
+    let r = node.augmentation;
+    let lambda = node.free * Vec3::from_fn(|i, _| node.lambda.get(i).copied().unwrap_or(0.0));
+    let (lambda_n, slip) = (node.normal.dot(&lambda), weighted_slip(node));
+    let sigma_t = lambda - node.normal * lambda_n + slip * r;
+    let sigma_n = lambda_n + r * node.normal.dot(&node.gap_now);
+    Trial { sigma_n, lambda_n, slip, direction: direction_of(sigma_t) }
 }
 
 /// sigma_N, sigma_T and what they project to, apart from what is free. lambda: within the free directions.
@@ -43,9 +74,22 @@ fn radius_at<C: Cone>(node: &Node, lambda_n: f64) -> f64 {
     if node.mu.is_infinite() { f64::INFINITY } else { C::threshold(node, lambda_n.min(0.0)).radius }
 }
 
+/// The direction of a vector; 0 of none.
+fn direction_of(v: Vec3) -> Vec3 {
+    let size = safe_norm(v);
+    if size > 0.0 { v / size } else { Vec3::zeros() }
+}
+
+/// The part of a vector that is free and along the surface.
+fn in_surface(node: &Node, v: Vec3) -> Vec3 {
+    let v = node.free * v;
+    v - node.normal * node.normal.dot(&v)
+}
+
 impl<C: Cone> Law<3> for C {
     const SLIPS: bool = true;
 
+    #[inline(never)] // the table calls it by its address, and other laws may call it, too
     fn respond(node: &Node) -> NodeResponse {
         let r = node.augmentation;
         let (now, _) = node.slip.coefficients();
@@ -67,7 +111,10 @@ impl<C: Cone> Law<3> for C {
         // dsigma/dg_previous = F (I - nu nu^T); without a history the first term alone.
         let (h, along_normal) = (p.derivative * node.free, node.normal.transpose());
         let normal = (p.derivative * node.normal) * along_normal;
-        let tangential = if node.covered_before { h - (h * node.normal) * along_normal } else { Mat3::zeros() };
+        let mut tangential = if node.covered_before { h - (h * node.normal) * along_normal } else { Mat3::zeros() };
+        if C::FOLLOWS_SLIP && p.state == State::Slip && node.covered_before {
+            tangential += direction_of(sigma_t) * (in_surface(node, C::slope(node)) / r).transpose();
+        }
         NodeResponse {
             state: p.state,
             traction: p.traction,
@@ -82,7 +129,7 @@ impl<C: Cone> Law<3> for C {
         }
     }
 
-    /// With g_t the unprojected slip, v = lambda + r g_t, w = g - g_t, all within the free directions, and t the direction
+    /// With g_t the unprojected slip (of a law that follows it less t (dk/dg_T)^T ((nu.g_t) I + nu g_t^T)), v = lambda + r g_t, w = g - g_t, all within the free directions, and t the direction
     /// of slip: r ((nu.w) I + nu w^T) in stick, and in slip with k and its fall
     /// (nu - fall t) (lambda + r g)^T + sigma_N I - k/|sigma_T| (I - t t^T) ((nu.v) I + nu v^T).
     fn turn(node: &Node) -> Turn {
@@ -98,12 +145,14 @@ impl<C: Cone> Law<3> for C {
                 let size = safe_norm(sigma_t);
                 let (t, beta) = if size > 0.0 { (sigma_t / size, k.radius / size) } else { (Vec3::zeros(), 0.0) };
                 let tangential = (Mat3::identity() - t * t.transpose()) * along(lambda + slip * r) * beta;
-                (nu - t * k.fall) * (lambda + gap * r).transpose() + Mat3::identity() * sigma_n - tangential
+                let dp = (nu - t * k.fall) * (lambda + gap * r).transpose() + Mat3::identity() * sigma_n - tangential;
+                if C::FOLLOWS_SLIP { dp - t * (free * C::slope(node)).transpose() * along(slip) } else { dp }
             }
         };
         Turn { dp_dnormal: dp, drow_dnormal: dp / r }
     }
 
+    #[inline(never)]
     fn violation(node: &Node, measure: &Measure) -> Violation {
         let lambda = node.free * node.lambda;
         let normal = node.normal.dot(&lambda);

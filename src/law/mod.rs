@@ -7,27 +7,38 @@
 //! 4.5).
 //!
 //! A law is a type: [`Coulomb`] (with an infinite coefficient: rough), [`Frictionless`], [`Tied`], [`Tresca`]; what the rest of the
-//! library knows of it is a row of [`LAWS`]. A node has N multiplier components, three or, without friction, one.
+//! library knows of it is a row of [`LAWS`]. A host may put one of its own in Coulomb's place: [`Own`]. A node has N multiplier components, three or, without friction, one.
 
 mod cone;
 mod coulomb;
 mod frictionless;
 mod node;
+mod orthotropic;
+mod own;
 mod projection;
+mod question;
 mod slip;
+mod special;
 mod stateless;
 mod table;
 mod tied;
+mod told;
 mod tresca;
 mod violation;
+mod weakening;
 
-pub use cone::Cone;
+pub use cone::{Cone, Trial, trial};
 pub use coulomb::Coulomb;
 pub use frictionless::Frictionless;
 pub use node::{Law, Node, NodeResponse, Turn};
+pub use orthotropic::Orthotropic;
+pub use own::{Host, OWN_NAMES, Own};
 pub use projection::{Projected, State, TIE, Threshold, project};
+pub use question::{Answer, Question};
 pub use slip::SlipMeasure;
+pub use special::{Ellipse, Special, Told};
 pub use table::{Coefficient, Friction, LAWS, LawFunctions, LawRow, Remembers};
 pub use tied::Tied;
+pub use told::ToldLaw;
 pub use tresca::Tresca;
 pub use violation::{Measure, Violation};

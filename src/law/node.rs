@@ -3,6 +3,7 @@
 
 use super::projection::State;
 use super::slip::SlipMeasure;
+use super::special::Special;
 use super::violation::{Measure, Violation};
 use crate::geometry::{Mat3, Vec3};
 use nalgebra::{SMatrix, SVector};
@@ -50,6 +51,8 @@ pub struct Node<const N: usize = 3> {
     /// Projector on the directions in which the node is free: I, or I - d d^T - ... for prescribed
     /// directions d. The normal must lie in its range.
     pub free: Mat3,
+    /// What a law of one's own adds.
+    pub special: Special,
 }
 
 /// How a law's answer for one node turns with its normal (docs/formulation.md 11.2).

@@ -4,7 +4,9 @@
 use super::coulomb::Coulomb;
 use super::frictionless::Frictionless;
 use super::node::{Law, Node, NodeResponse, Turn};
+use super::orthotropic::Orthotropic;
 use super::tied::Tied;
+use super::told::ToldLaw;
 use super::tresca::Tresca;
 use super::violation::{Measure, Violation};
 
@@ -71,6 +73,10 @@ impl LawFunctions<1> {
 impl LawFunctions<3> {
     /// Without friction.
     pub const FRICTIONLESS: LawFunctions<3> = LawFunctions::of::<Frictionless>();
+    /// Under a threshold that the node has been told.
+    pub const TOLD: LawFunctions<3> = LawFunctions::of::<ToldLaw>();
+    /// Under the ellipse that the node has been given.
+    pub const ORTHOTROPIC: LawFunctions<3> = LawFunctions::of::<Orthotropic>();
 }
 
 /// What the rest of the library knows of a law.

@@ -20,7 +20,7 @@ impl Cone for Tresca {
 mod tests {
     use super::*;
     use crate::geometry::{Mat3, Vec3};
-    use crate::law::{Coulomb, Law, Measure, NodeResponse, SlipMeasure, State};
+    use crate::law::{Coulomb, Law, Measure, NodeResponse, SlipMeasure, Special, State};
 
     const MU: f64 = 0.5;
     const LIMIT: f64 = 2.0;
@@ -44,6 +44,7 @@ mod tests {
             covered_before: true,
             slip: SlipMeasure::Objective,
             free: Mat3::identity(),
+            special: Special::Nothing,
         }
     }
 

@@ -33,7 +33,8 @@ CONSTANTS = HERE / "constants.txt"
 # of what plain lanes and quadratic facets unroll, and three kernels once more for the registers of AVX-512: 3.39 million.
 # Rigid bodies, and frames of analytic surfaces that move: 60 thousand more.
 # Offsets of nodes, whose share of a tangent is compiled apart, so that nothing is paid without them: 0.26 million.
-LARGEST = 3_760_000
+# Laws in the place of Coulomb's: 60 thousand.
+LARGEST = 3_840_000
 # glibc's own libraries, the loader, and the one that unwinds.
 ALLOWED = ("libc.so", "libm.so", "libdl.so", "librt.so", "libutil.so", "libpthread.so", "ld-linux", "libgcc_s.so")
 # Bits of abidiff's exit code.

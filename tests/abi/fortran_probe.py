@@ -25,6 +25,8 @@ INTEGERS = {"int": "int32_t", "long": "int64_t", "long long": "int64_t", "uint64
 MOST_TEXT = 1500
 # Handles are pointers to what C does not show; the module wraps each pointer in a type.
 HANDLES = ("stickslip_interface", "stickslip_rigid")
+# The one type of functions of the host's; a `type(c_funptr), value` in the module.
+FUNCTION_TYPE = "stickslip_threshold"
 
 
 def run(*command, cwd):
@@ -144,6 +146,7 @@ def compare_members(types, f_types):
 
 def compare_functions(path, prototypes):
     """Complaints about results and arguments."""
+    prototypes = re.sub(r"int \(\*(\w+)\)\(\)", rf"{FUNCTION_TYPE} \1", prototypes)
     declaration = re.compile(r"^(\w+ \*?)(stickslip_\w+) \(([^)]*)\);", flags=re.M)
     found = {name: (result, parameters) for result, name, parameters in declaration.findall(prototypes)}
     for f in header.functions(path):

@@ -18,6 +18,7 @@ from hosts import hosts  # noqa: E402
 from iterative import iterative, iterative_scenes  # noqa: E402
 from ironing import ironing, ironing_full  # noqa: E402
 from material_checks import materials  # noqa: E402
+from laws import laws  # noqa: E402
 from loads import loads  # noqa: E402
 from normals import normals  # noqa: E402
 from normals_full import normals_full, normals_iterations  # noqa: E402
@@ -56,6 +57,7 @@ GROUPS = {
     "iterative_scenes": iterative_scenes,
     "ironing": ironing,
     "ironing_full": ironing_full,  # four minutes; not among the tests
+    "laws": laws,
     "loads": loads,
     "materials": materials,
     "normals": normals,

@@ -12,7 +12,9 @@ static struct {
   int64_t offsets1[3], shared1[6], offsets2[3], shared2[4], options_size;
   int32_t n_facet, layout, index_base, piece, which_normals, pairs, entries, side, shape;
   double scale, stiffness, rounding, angle, penetration, tolerance, radius, point[3], direction[3], neighbours[12];
-  double raised1[N1], raised2[N2];
+  double raised1[N1], raised2[N2], remembered[N1];
+  int64_t n_states, remembered_count;
+  stickslip_law law;
   double mu[N1], r[N1], normals[X1], slip[X1], directions[9], sums[STICKSLIP_SUMS_PER_NODE * N1], dx1[X1], dx2[X2];
   weights previous;
   history imported;
@@ -179,6 +181,11 @@ FUNCTION(interface_adjust, (a[0], b.tolerance, a[1], a[2], a[3]), INTERFACE, {"c
          {"gaps", b.every.gaps, OPTIONAL}, {"moved", b.every.moved, OPTIONAL})
 FUNCTION(interface_shape_offsets, (a[0], b.side, b.shape, b.radius, a[1], a[2], a[3]), INTERFACE,
          {"point", b.point, NEEDED}, {"direction", b.direction, NEEDED}, {"offsets", b.every.shape_offsets, NEEDED})
+FUNCTION(interface_set_law, (a[0], a[1]), INTERFACE, {"law", &b.law, OPTIONAL})
+FUNCTION(interface_set_threshold, (a[0], every_half, a[1], b.n_states), INTERFACE, {"user", NULL, OPTIONAL})
+FUNCTION(interface_law_states, (a[0], b.capacity, a[1], a[2]), INTERFACE, {"states", b.remembered, OPTIONAL},
+         {"count", &b.remembered_count, NEEDED})
+FUNCTION(interface_set_law_states, (a[0], b.n_states, a[1]), INTERFACE, {"states", b.remembered, NEEDED})
 FUNCTION(interface_equilibrium, (a[0], a[1], a[2], a[3], a[4], a[5]), POINT, OUT(b.every.equilibrium))
 
 FUNCTION(rigid_positions, (a[0], a[1], a[2]), {"body", &b.rigid.body, NEEDED}, {"motion", &b.rigid.motion, NEEDED},
@@ -216,6 +223,7 @@ static const struct {
     NAMED(interface_history_export), NAMED(interface_history_import), NAMED(interface_counters),
     NAMED(interface_effects), NAMED(interface_report), NAMED(interface_diagnose), NAMED(interface_equilibrium),
     NAMED(interface_set_offsets), NAMED(interface_adjust), NAMED(interface_shape_offsets),
+    NAMED(interface_set_law), NAMED(interface_set_threshold), NAMED(interface_law_states), NAMED(interface_set_law_states),
     NAMED(node_condense), NAMED(interface_carriers), NAMED(interface_condensed_multipliers), NAMED(interface_condensed_residual),
     NAMED(interface_condensed_coo), NAMED(interface_condensed_csr), NAMED(interface_condensed_pattern),
     NAMED(interface_use_normals), NAMED(interface_turn_multipliers), NAMED(facet_normal_derivatives), NAMED(node_turn),

@@ -64,6 +64,8 @@ static const struct {
     NEED(rigid_body, coordinates), NEED(rigid_body, point), NEED(rigid_body, node_equations), NEED(rigid_body, equations),
     I64(rigid_motion, struct_size), ARRAY(rigid_motion, displacement, 3), ARRAY(rigid_motion, rotation, 3),
     ARRAY(rigid_motion, turned, 9),
+    I64(law, struct_size), I32(law, kind), I32(law, reserved), ONE(law, cohesion), ONE(law, mu_after), ONE(law, critical_slip),
+    ONE(law, mu_across), ARRAY(law, direction, 3),
     /* Of a response: what node_respond, node_block and pair_tangent read. */
     RESPONSE(answer, struct_size, INT64, 0), RESPONSE(response, struct_size, INT64, 0),
     RESPONSE(response, row, REAL, 3), RESPONSE(response, drow_dlambda, REAL, 9),

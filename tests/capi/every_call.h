@@ -57,7 +57,8 @@ typedef struct {
   double condensed_lambda[X1], condensed_rows[X1], condensed_force[X2], node_condensed[13];
   uint64_t condensed_counts[5], condensed_bits[5];
   double turned[X1];
-  double adjusted[X1], gaps[N1], shape_offsets[N1];
+  double adjusted[X1], gaps[N1], shape_offsets[N1], law_states[N1];
+  int64_t law_count;
   int32_t moved[N1];
   /* Of plans, two for those of condensed systems. */
   int64_t plan_rows[2], plan_counts[2], row_list[UNKNOWNS], row_offsets[UNKNOWNS + 1], plan_columns[UNKNOWNS * UNKNOWNS];
@@ -182,6 +183,32 @@ static inline int32_t every_shape_offsets(every *c) {
   }
   return stickslip_interface_shape_offsets(c->h.s.interface, STICKSLIP_SIDE_NONMORTAR, STICKSLIP_SHAPE_SPHERE, 1e4, centre, axis,
                                            c->shape_offsets);
+}
+/* Laws in place of Coulomb's, where the interface has that; its numbers are powers of two. */
+static inline int every_has_law(const every *c) { return c->h.s.options.friction == STICKSLIP_FRICTION_COULOMB; }
+static inline int32_t every_law(every *c) {
+  const stickslip_law law = {.struct_size = sizeof law, .kind = STICKSLIP_LAW_WEAKENING, .mu_after = 0.25, .critical_slip = 0x1p-7};
+  return every_has_law(c) ? stickslip_interface_set_law(c->h.s.interface, &law) : STICKSLIP_OK;
+}
+static inline int32_t every_no_law(every *c) {
+  return every_has_law(c) ? stickslip_interface_set_law(c->h.s.interface, NULL) : STICKSLIP_OK;
+}
+static inline int32_t every_half(void *user, const stickslip_law_point *point, const double *states, stickslip_law_answer *answer,
+                                 double *states_after) {
+  (void)user;
+  answer->threshold = -0.5 * point->normal;
+  answer->dthreshold_dnormal = -0.5;
+  states_after[0] = states[0];
+  return 0;
+}
+static inline int32_t every_threshold(every *c) {
+  return every_has_law(c) ? stickslip_interface_set_threshold(c->h.s.interface, every_half, NULL, 1) : STICKSLIP_OK;
+}
+static inline int32_t every_law_states(every *c) {
+  return stickslip_interface_law_states(c->h.s.interface, N1, c->law_states, &c->law_count);
+}
+static inline int32_t every_set_law_states(every *c) {
+  return stickslip_interface_set_law_states(c->h.s.interface, every_has_law(c) ? N1 : 0, c->law_states);
 }
 static inline int32_t every_committed(every *c) { return call_interface_committed(&c->h); }
 static inline int32_t every_previous(every *c) { return call_interface_previous(&c->h); }
@@ -415,6 +442,15 @@ static const entry_point every_call[] = {
     {"interface_residual, offsets", every_residual},
     {"interface_tangent_coo, offsets", every_coo},
     {"interface_set_offsets, NULL", every_no_offsets},
+    {"interface_set_law", every_law},
+    {"interface_residual, law", every_residual},
+    {"interface_tangent_coo, law", every_coo},
+    {"interface_equilibrium, law", every_equilibrium},
+    {"interface_set_threshold", every_threshold},
+    {"interface_residual, threshold", every_residual},
+    {"interface_law_states", every_law_states},
+    {"interface_set_law_states", every_set_law_states},
+    {"interface_set_law, NULL", every_no_law},
     {"interface_adjust", every_adjust},
     {"interface_shape_offsets", every_shape_offsets},
     {"interface_set_constraints", every_constraints},
@@ -551,10 +587,14 @@ static inline int32_t every_refusal(int k) {
     case 72: return stickslip_interface_set_offsets(NULL, NULL, NULL);
     case 73: return stickslip_interface_adjust(NULL, 1.0, NULL, NULL, NULL);
     case 74: return stickslip_interface_shape_offsets(NULL, 0, 1, 1.0, NULL, NULL, NULL);
+    case 75: return stickslip_interface_set_law(NULL, NULL);
+    case 76: return stickslip_interface_set_threshold(NULL, NULL, NULL, 0);
+    case 77: return stickslip_interface_law_states(NULL, 0, NULL, NULL);
+    case 78: return stickslip_interface_set_law_states(NULL, 0, NULL);
     default: return stickslip_interface_diagnose(NULL, NULL, NULL, NULL, NULL, NULL);
   }
 }
-enum { REFUSALS = 76 };
+enum { REFUSALS = 80 };
 
 /* Room and sizes for the structs that come out. */
 static inline void every_room(every *c) {
@@ -622,7 +662,8 @@ static inline int every_equal(every *a, every *b) {
          SAME(e.normal_derivatives) && SAME(e.turn) && SAME(turned) && SAME(plan_rows) && SAME(plan_counts) &&
          SAME(row_list) && SAME(row_offsets) && SAME(plan_columns) && SAME(row_list32) && SAME(row_offsets32) &&
          SAME(rows32) && SAME(columns32) && SAME(plan_values) && SAME(rigid_x) && SAME(resultant) && SAME(turned_motion) &&
-         SAME(rigid_count) && SAME(rigid_rows) && SAME(rigid_columns) && SAME(rigid_values);
+         SAME(rigid_count) && SAME(rigid_rows) && SAME(rigid_columns) && SAME(rigid_values) && SAME(law_states) &&
+         SAME(law_count);
 #undef SAME
 }
 

@@ -72,6 +72,7 @@ static void set_up(const char *name, int32_t base) {
   b.directions[0] = b.directions[4] = b.directions[8] = 1.0;
   b.dx1[0] = 1.0;
   b.tolerance = 0.02;
+  b.law = (stickslip_law){.struct_size = sizeof b.law, .kind = STICKSLIP_LAW_COHESION, .cohesion = 1.0};
   b.shape = STICKSLIP_SHAPE_SPHERE;
   b.radius = 1e4;
   b.point[2] = b.direction[2] = 1e4;
@@ -181,6 +182,7 @@ static void tell(void) {
   bad_struct("report", "report", &b.every.report);
   bad_struct("diagnosis", "diagnosis", &b.every.diagnosis);
   bad_struct("equilibrium", "equilibrium", &b.every.equilibrium);
+  bad_struct("law", "law", &b.law);
   bad_struct("rigid_body", "body", &b.rigid.body);
   bad_struct("rigid_motion", "motion", &b.rigid.motion);
   bad_struct("rigid_motion", "turned_motion", &b.every.turned_motion);
@@ -204,6 +206,7 @@ static void tell(void) {
   REALS("sums", b.sums), REALS("mu", b.mu), REALS("r", b.r), REALS("normals", b.normals);
   REALS("slip", b.slip), NUMBER(INT64, commits);
   REALS("offsets1", b.raised1), REALS("offsets2", b.raised2), REALS("point", b.point), REALS("direction", b.direction);
+  NUMBER(INT64, n_states);
   NUMBER(REAL, tolerance), NUMBER(REAL, radius), NUMBER(INT32, side), NUMBER(INT32, shape);
   REALS("directions", b.directions), INTEGERS("nodes", b.nodes), INTEGERS("row_offsets", H.offsets);
   INTEGERS("nonmortar_offsets", b.offsets1), INTEGERS("mortar_offsets", b.offsets2);

@@ -88,13 +88,14 @@ const STAGES: [&str; 5] = ["integrate", "facet", "sums", "respond", "residual"];
 const ROOMS: [&str; 7] = ["data", "pairing", "stages", "tangent", "plan", "condensed", "inspect"];
 
 /// Files that know the handle: itself, and those that give it to hosts.
-const KNOW_THE_HANDLE: [&str; 8] = [
+const KNOW_THE_HANDLE: [&str; 9] = [
     "interface/condensation.rs",
     "interface/contact.rs",
     "interface/evaluation.rs",
     "interface/linearisation.rs",
     "interface/mod.rs",
     "interface/offsets.rs",
+    "interface/own.rs",
     "interface/turning.rs",
     "capi/",
 ];

@@ -21,6 +21,7 @@ mod golden_parts;
 mod history;
 mod identities;
 mod large_sliding;
+mod laws;
 mod lines;
 mod normals;
 mod offsets;

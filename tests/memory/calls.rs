@@ -7,7 +7,7 @@ use std::ptr::null;
 use stickslip::capi::*;
 use stickslip::element::{FacetResponse, NodeTangent, PairNow, PairTangent, pair_force, row_columns};
 use stickslip::geometry::{Facet, Mat3, Vec3};
-use stickslip::law::{Friction, Node, SlipMeasure};
+use stickslip::law::{Friction, Node, SlipMeasure, Special};
 use stickslip::mortar::{
     self, AlongNormal, GapDerivative, NonmortarFrame, PairWeights, Segment, WeightDerivatives, pair_motion,
 };
@@ -312,6 +312,7 @@ fn rust_element_calls_allocate_nothing() {
         covered_before: true,
         slip: SlipMeasure::Objective,
         free: Mat3::identity(),
+        special: Special::Nothing,
     };
     allocates_nothing("a node in Rust", || Friction::Coulomb.respond(&node).row.x);
 }

@@ -4,7 +4,7 @@ use super::{angles, config};
 use nalgebra::Rotation3;
 use proptest::prelude::*;
 use stickslip::geometry::{Mat3, Vec3};
-use stickslip::law::{Friction, Node, SlipMeasure, State, TIE, project};
+use stickslip::law::{Friction, Node, SlipMeasure, Special, State, TIE, project};
 
 /// Rounding of a dozen operations, relative to the trial traction; times 1 + mu where the rounding of the normal part
 /// moves the cone.
@@ -66,6 +66,7 @@ fn node(c: &Case, lambda: Vec3, r: f64, now: Vec3, previous: Vec3) -> Node {
         covered_before: true,
         slip: SlipMeasure::Paper,
         free: Mat3::identity(),
+        special: Special::Nothing,
     }
 }
 

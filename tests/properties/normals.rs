@@ -6,7 +6,7 @@ use crate::support::mesh::Random;
 use nalgebra::{Rotation3, SMatrix};
 use proptest::prelude::*;
 use stickslip::geometry::{Facet, Mat3, Vec3};
-use stickslip::law::{Friction, Frictionless, LAWS, Law, Node, SlipMeasure};
+use stickslip::law::{Friction, Frictionless, LAWS, Law, Node, SlipMeasure, Special};
 use stickslip::normal::{corner_normal, corner_normal_derivatives, nodal_normal, nodal_normal_derivative};
 
 /// 11.1: rounding of a sum over all corners, relative to the sum of its terms' sizes.
@@ -190,6 +190,7 @@ fn node<const N: usize>(random: &mut Random, friction: Friction) -> Node<N> {
         covered_before,
         slip,
         free,
+        special: Special::Nothing,
     }
 }
 

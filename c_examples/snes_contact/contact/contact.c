@@ -155,6 +155,8 @@ static PetscErrorCode settle(Contact *contact)
     if (interface->n_parts < 2) continue;
     PetscCall(PetscArraycpy(part->slip, part->rows, part->dimension * part->n1));
     PetscCall(parts_share(part, part->dimension, part->slip));
+    PetscCallStickslip(law_keep(interface, part));
+    PetscCall(parts_share(part, 1, part->way));
     if (interface->halo.n_places) PetscCall(halo_settle(contact, interface));
   }
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -25,7 +25,8 @@ typedef struct {
 /* Rigid bodies in a part (rigid_part.c) */
 typedef struct RigidPart RigidPart;
 
-/* What parts may need of the mortar side, and whether they have it (halo.c). Mortar nodes are dealt out to all ranks to be watched. */
+/* What parts may need of the mortar side, and whether they have it (halo.c). Mortar nodes are dealt out to all ranks, which watch
+ * them. */
 enum { HALO_BOXES = 32, HALO_PLACES = 3 };
 
 typedef struct {
@@ -81,6 +82,7 @@ typedef struct {
   RigidPart *rigid; /* rigid_part.c; NULL: no rigid body moves here */
 
   double  *slip, *augmentation; /* n1: vectors up to t_n; what contact_scale_augmentation() has set */
+  double  *way;                 /* n1: what the law of the interface remembers of t_n, if anything */
   stickslip_counters spent;     /* of handles before this one: part_counters() */
 } ContactPart;
 
@@ -123,6 +125,7 @@ typedef struct {
   PetscSF        sf;         /* from the local vectors of all ranks to `displacements` */
   Offsets        offsets;
   stickslip_options options;
+  stickslip_law  law;        /* in place of Coulomb's, if it is of another kind */
   PetscInt       dimension;  /* numbers a node of every vector here: 3, in the plane 2 */
   PetscInt       components; /* multipliers a node: 1, along the normal, without friction; else `dimension` */
   PetscBool      initial_contact; /* nodes that touch start slightly compressed: contact_start() */
@@ -271,6 +274,12 @@ PetscErrorCode contact_create(Contact *contact, Scene *scene, PetscBool quiet, P
 PetscErrorCode contact_destroy(Contact *contact);
 /* adjust.c, rank 0 */
 PetscErrorCode contact_adjust(Scene *scene, Interface *interface);
+/* law.c */
+void    law_read(Scene *scene, const Space *space, Interface *interface);
+int32_t law_set(const Interface *interface, stickslip_interface *handle);
+/* what it remembers, out of a part's handle after a commit, and into a new one */
+int32_t law_keep(const Interface *interface, ContactPart *part);
+int32_t law_restore(const Interface *interface, const ContactPart *part);
 /* offsets.c; `place` on rank 0; `fetch` through an SF from rank 0's nodes to those of the part */
 PetscErrorCode offsets_read(Scene *scene, const Physics *physics, Interface *interface);
 PetscErrorCode offsets_place(Scene *scene, Interface *interface);

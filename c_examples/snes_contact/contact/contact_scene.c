@@ -106,35 +106,6 @@ static void read_model(const Space *space, Interface *interface)
   interface->options.thickness = interface->options.model == STICKSLIP_MODEL_PLANE ? space->thickness : 0;
 }
 
-/* What a law is called in a scene, by STICKSLIP_FRICTION_... */
-static const char *const LAWS[] = {"coulomb", "none", "tied", "rough", "tresca", NULL};
-
-/* `law`, `friction`, `shear_limit`. A scene that asks for no friction gets one multiplier a node, unless it says
- * `law: coulomb`. */
-static void read_law(Scene *scene, Interface *interface)
-{
-  stickslip_options *options = &interface->options;
-  const char        *name    = interface->name;
-  PetscInt           law     = STICKSLIP_FRICTION_COULOMB;
-  PetscReal          mu = 0, shear_limit = 0;
-
-  scene_real(scene, name, "friction", &mu);
-  if (mu < 0) scene_fail(scene, name, "friction", "a Coulomb coefficient cannot be negative.");
-  if (!scene_has(scene, name, "law") && mu == 0) law = STICKSLIP_FRICTION_NONE;
-  scene_choice(scene, name, "law", LAWS, &law);
-  scene_real(scene, name, "shear_limit", &shear_limit);
-  if (law == STICKSLIP_FRICTION_TRESCA && shear_limit <= 0)
-    scene_fail(scene, name, "shear_limit", "the law 'tresca' needs its largest shear traction, above 0.");
-  if (law != STICKSLIP_FRICTION_TRESCA && shear_limit != 0)
-    scene_fail(scene, name, "shear_limit", "the law '%s' has no such limit; 'tresca' has.", LAWS[law]);
-  if (law != STICKSLIP_FRICTION_COULOMB && law != STICKSLIP_FRICTION_TRESCA && mu != 0)
-    scene_fail(scene, name, "friction", "the law '%s' has no Coulomb coefficient.", LAWS[law]);
-  options->friction     = (int32_t)law;
-  options->mu           = mu;
-  options->shear_limit  = shear_limit;
-  interface->components = law == STICKSLIP_FRICTION_NONE ? 1 : interface->dimension;
-}
-
 /* `mortar_side`, `shortcuts`: left open, the library chooses. */
 static void read_effects(Scene *scene, Interface *interface)
 {
@@ -288,7 +259,7 @@ PetscErrorCode contact_read(Scene *scene, Contact *contact)
     PetscCall(PetscSNPrintf(interface->name, NAME_LENGTH, "%s", names[i]));
     PetscCallStickslip(stickslip_options_init(&interface->options, sizeof(interface->options)));
     read_model(&contact->mesh->space, interface);
-    read_law(scene, interface);
+    law_read(scene, &contact->mesh->space, interface);
     read_effects(scene, interface);
     read_method(scene, interface);
     read_accuracy(scene, interface);

@@ -137,6 +137,7 @@ static PetscErrorCode create_library(Contact *contact, Interface *interface, Pet
   if (part->n1) {
     PetscCall(part_handle(part, &interface->options, &part->handle, &refused));
     if (!refused) refused = offsets_set(interface, part->handle, 0);
+    if (!refused) refused = law_set(interface, part->handle);
     if (!refused && contact->condensed) /* refused at once rather than in the first step */
       refused = stickslip_interface_condensed_multipliers(part->handle, part->x, MORTAR_OF(part, part->x), part->host,
                                                           part->lambda);

@@ -156,7 +156,7 @@ static PetscErrorCode create_arrays(Contact *contact, PetscInt number)
   PetscCall(PetscCalloc5(n, &part->X, n, &part->x, n, &part->gathered, n, &part->forces, n, &part->equations));
   PetscCall(PetscCalloc4(n, &part->lambda, n, &part->lambda_start, n, &part->lambda_last, n, &part->lambda_before));
   PetscCall(PetscCalloc4(n, &part->host, n, &part->rows, n, &part->host_there, n, &part->x_there));
-  PetscCall(PetscCalloc2(d * part->n1, &part->slip, part->n1, &part->augmentation));
+  PetscCall(PetscCalloc3(d * part->n1, &part->slip, part->n1, &part->augmentation, part->n1, &part->way));
   PetscCall(contact_equations(contact, part->sf, n, part->equations));
   PetscCall(number_multipliers(contact, part));
   PetscCall(contact_coordinates(interface, part->n1 + part->n2, part->nodes, part->X));
@@ -193,7 +193,7 @@ PetscErrorCode part_destroy(ContactPart *part)
   PetscCall(PetscFree5(part->X, part->x, part->gathered, part->forces, part->equations));
   PetscCall(PetscFree4(part->lambda, part->lambda_start, part->lambda_last, part->lambda_before));
   PetscCall(PetscFree4(part->host, part->rows, part->host_there, part->x_there));
-  PetscCall(PetscFree2(part->slip, part->augmentation));
+  PetscCall(PetscFree3(part->slip, part->augmentation, part->way));
   PetscCall(PetscFree3(part->coo_rows, part->coo_columns, part->coo_values));
   PetscCall(rigid_part_destroy(part));
   PetscCall(parts_destroy(part));

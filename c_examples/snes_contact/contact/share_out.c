@@ -10,10 +10,11 @@ static const double SAVES = 0.1;
 /* Between steps parts get new mortar facets where less than this part of the margin is left. */
 static const PetscReal SPARE = 0.5;
 
-/* What travels with a node: multipliers of four times, forces of the bodies now and where the last matrix was made, slip, augmentation. */
+/* What travels with a node: multipliers of four times, forces of the bodies now and where the last matrix was made, slip, augmentation,
+ * what the law remembers. */
 static PetscInt width(const ContactPart *part)
 {
-  return 4 * part->components + 3 * part->dimension + 1;
+  return 4 * part->components + 3 * part->dimension + 2;
 }
 
 /* to `packed` or from it, n1 nodes */
@@ -24,7 +25,7 @@ static void pack(const ContactPart *part, double packed[], PetscBool from)
     double  *of;
     PetscInt width;
   } arrays[] = {{part->lambda, c},   {part->lambda_start, c}, {part->lambda_last, c}, {part->lambda_before, c}, {part->host, d},
-                {part->host_there, d}, {part->slip, d},       {part->augmentation, 1}};
+                {part->host_there, d}, {part->slip, d},       {part->augmentation, 1}, {part->way, 1}};
   for (PetscInt a = 0; a < part->n1; a++) {
     double *at = packed + width(part) * a;
     for (size_t k = 0; k < sizeof(arrays) / sizeof(*arrays); k++) {
@@ -79,7 +80,7 @@ static PetscErrorCode get_place(Contact *contact, Vec *local)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The new part's handle, as the old one is: t_n and slip, offsets, augmentation, normals of the phase. */
+/* The new part's handle, as the old one is: t_n and slip, law, offsets, augmentation, normals of the phase. */
 static PetscErrorCode revive(Contact *contact, Interface *interface, int32_t *refused)
 {
   ContactPart *part = &interface->part;
@@ -90,8 +91,10 @@ static PetscErrorCode revive(Contact *contact, Interface *interface, int32_t *re
   contact_positions(part);
   if (!part->handle || *refused) PetscFunctionReturn(PETSC_SUCCESS);
   *refused = offsets_set(interface, part->handle, contact->t_committed);
+  if (!*refused) *refused = law_set(interface, part->handle);
   if (!*refused && contact->n_commits)
     *refused = stickslip_interface_set_committed(part->handle, part->x, MORTAR_OF(part, part->x), part->slip, contact->n_commits);
+  if (!*refused && contact->n_commits) *refused = law_restore(interface, part);
   if (!*refused && interface->offsets.curve.n) *refused = offsets_set(interface, part->handle, contact->physics->t);
   if (!*refused && contact->scaled) *refused = stickslip_interface_set_augmentation(part->handle, part->augmentation);
   if (!*refused && contact->settles && interface->options.normals == STICKSLIP_NORMALS_CURRENT)

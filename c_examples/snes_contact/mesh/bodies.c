@@ -164,6 +164,21 @@ static PetscErrorCode share_body(Mesh *mesh)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* What it costs to read a whole file on one rank of several. */
+static PetscErrorCode tell_cost(Scene *scene, const Mesh *mesh, const Body *body)
+{
+  PetscBool      quiet = PETSC_FALSE;
+  PetscLogDouble bytes = mesh_bytes_of_piece(mesh);
+  PetscFunctionBegin;
+  scene_bool(scene, "output", "quiet", &quiet);
+  if (mesh->size > 1 && !quiet)
+    PetscCall(PetscPrintf(PETSC_COMM_WORLD,
+                          "note: rank 0 has read all %" PetscInt_FMT " cells of %s, and holds %.3g MB of mesh until it is distributed; "
+                          "converted by -convert, each rank reads its piece\n",
+                          mesh->n_all_cells - body->first_cell, body->name, bytes / 1e6));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 enum { BOX, GMSH, ANALYTIC, HDF5, RIGID };
 
 static PetscErrorCode create_body(Scene *scene, Mesh *mesh, PetscInt type, Body *body)
@@ -184,6 +199,7 @@ static PetscErrorCode create_body(Scene *scene, Mesh *mesh, PetscInt type, Body 
     if (mesh->rank == 0 && type == ANALYTIC) PetscCall(analytic_create(scene, body->name, mesh));
     PetscCall(scene_root_end(scene));
     PetscCall(share_body(mesh));
+    if (type == GMSH) PetscCall(tell_cost(scene, mesh, body));
   }
   body->end_vertex = mesh->n_all_vertices;
   body->end_here   = mesh->n_vertices;

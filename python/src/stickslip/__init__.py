@@ -4,6 +4,7 @@ The package calls the shared library through its C interface. Arrays are numpy's
 """
 
 from . import errors
+from ._laws import LawPoint
 from ._library import HEADER as header
 from ._library import constants, lib, text
 from .condensed import Condensed
@@ -19,5 +20,5 @@ __version__ = text(lib.stickslip_version())
 #: Version, commit, target, profile, compiler and kernels of the library.
 __build__ = text(lib.stickslip_build())
 
-__all__ = ["Condensed", "CondensedPlan", "Error", "Interface", "Plan", "RigidBody", "RigidPlan", "Surface", "constants",
-           "crosspoints", "errors", "header", "split_creases"]
+__all__ = ["Condensed", "CondensedPlan", "Error", "Interface", "LawPoint", "Plan", "RigidBody", "RigidPlan", "Surface", "constants",
+            "crosspoints", "errors", "header", "split_creases"]

@@ -11,14 +11,16 @@ from numpy.typing import ArrayLike
 from . import options as _options
 from ._arrays import given, output, pointer
 from ._inspection import Inspection
+from ._laws import Laws
 from ._library import call, ffi, lib, value_of
+from .errors import Error
 from .surface import Surface
 
 if TYPE_CHECKING:
     import scipy.sparse
 
 
-class Interface(Inspection):
+class Interface(Inspection, Laws):
     """Two surfaces in contact.
 
     ``x1`` and ``x2`` are current positions of the non-mortar and the mortar nodes, (n1, d) and (n2, d) [L], with d = 3, or
@@ -78,7 +80,13 @@ class Interface(Inspection):
     def _call(self, name: str, *arguments) -> None:
         if self._handle == ffi.NULL:
             raise ValueError("the interface is closed")
-        call("interface_" + name, self._handle, *arguments)
+        try:
+            call("interface_" + name, self._handle, *arguments)
+        except Error as refused:
+            cause, self._law_error = self._law_error, None
+            if cause is None:
+                raise
+            raise refused from cause
 
     def _positions(self, x1, x2) -> tuple:
         return pointer(given("x1", x1, self._shape1)), pointer(given("x2", x2, self._shape2))

@@ -3,7 +3,7 @@
 
 use super::options::{MortarSide, Options};
 use super::surface::{NO_EQUATION, Surface};
-use crate::law::{Coefficient, LawFunctions};
+use crate::law::{Coefficient, LawFunctions, Own};
 
 /// What is opposite the non-mortar side.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -52,11 +52,16 @@ impl Effects<1> {
 }
 
 impl Effects<3> {
-    /// Three multipliers a node; `mu` of every node.
-    pub fn of_three(options: &Options, mortar: &Surface, mu: &[f64]) -> Effects<3> {
+    /// Three multipliers a node; `mu` of every node; `own`: the host's law.
+    pub fn of_three(options: &Options, mortar: &Surface, mu: &[f64], own: Option<&Own>) -> Effects<3> {
         let row = options.friction.law();
         let smooth = row.mu == Coefficient::Given && options.shortcuts.frictionless && mu.iter().all(|&mu| mu == 0.0);
-        let law = if smooth { LawFunctions::<3>::FRICTIONLESS } else { row.functions };
+        let law = match own {
+            Some(Own::Orthotropic(_)) if !smooth => LawFunctions::ORTHOTROPIC,
+            None | Some(Own::Orthotropic(_)) if smooth => LawFunctions::<3>::FRICTIONLESS,
+            Some(Own::Cohesion { .. } | Own::Weakening { .. } | Own::Host(_)) => LawFunctions::TOLD,
+            None | Some(Own::Orthotropic(_)) => row.functions,
+        };
         Effects { law, opposite: opposite(options, mortar) }
     }
 }

@@ -86,6 +86,8 @@ pub struct History {
     pub facet_gaps: FacetGaps,
     /// Slip accumulated since the first configuration `[L]`; empty without friction, and of tied surfaces.
     pub slip: Vec<Vec3>,
+    /// What a law of one's own remembers, node by node; else empty.
+    pub states: Vec<f64>,
     /// n(t_n), sorted by facets; none without friction, unless they are frozen.
     pub pairs: Vec<PairRecord>,
     /// In place of them, where either side has quadratic facets: those of pairs of parents.
@@ -131,6 +133,7 @@ impl History {
             gap: Vec::new(),
             facet_gaps: FacetGaps::default(),
             slip: Vec::new(),
+            states: Vec::new(),
             pairs: Vec::new(),
             parents: Vec::new(),
             integrated: false,
@@ -149,6 +152,7 @@ impl History {
         memory::refill(&mut self.gap, Vec3::zeros(), gap * n1)?;
         self.facet_gaps.clear();
         memory::refill(&mut self.slip, Vec3::zeros(), slip * n1)?;
+        self.states.clear();
         self.pairs.clear();
         self.parents.clear();
         Ok(())
@@ -165,6 +169,7 @@ impl History {
         memory::recopy(&mut self.gap, &other.gap)?;
         self.facet_gaps.recopy(&other.facet_gaps)?;
         memory::recopy(&mut self.slip, &other.slip)?;
+        memory::recopy(&mut self.states, &other.states)?;
         memory::recopy(&mut self.pairs, &other.pairs)?;
         memory::recopy(&mut self.parents, &other.parents)
     }

@@ -7,7 +7,7 @@ use super::options::{Options, Weights};
 use super::surface::Surface;
 use crate::error::{Error, Kind, Result, Text};
 use crate::geometry::AnalyticShape;
-use crate::law::{LAWS, Remembers, SlipMeasure};
+use crate::law::{LAWS, OWN_NAMES, Own, Remembers, SlipMeasure};
 use crate::line::Measure;
 
 /// Integers of a meaning.
@@ -20,7 +20,7 @@ const WEIGHTS: [&str; 3] =
 const SLIPS: [&str; 4] = ["no slip", "the objective slip measure", "the slip increment", "the paper's slip measure"];
 
 /// The choices, each with the names of its values, then shape, radius, facets and coordinates.
-pub fn of(options: &Options, nonmortar: &Surface, mortar: &Surface) -> [i64; LENGTH] {
+pub fn of(options: &Options, own: Option<&Own>, (nonmortar, mortar): (&Surface, &Surface)) -> [i64; LENGTH] {
     let law = options.friction.law();
     let weights = match options.effective_weights() {
         Weights::Current => 0,
@@ -55,7 +55,7 @@ pub fn of(options: &Options, nonmortar: &Surface, mortar: &Surface) -> [i64; LEN
     // 0 and -0 are one place: a text file may not tell them apart.
     let coordinates = sides.iter().flat_map(|s| s.reference.iter().flatten().map(|v| (v + 0.0).to_bits()));
     [
-        law.friction as i64,
+        own.map_or(law.friction as usize, Own::number) as i64,
         options.basis as i64,
         weights,
         slip,
@@ -72,7 +72,10 @@ pub fn check(found: &[i64; LENGTH], own: &[i64; LENGTH]) -> Result<()> {
     let name = |names: &[&'static str], value: i64| {
         usize::try_from(value).ok().and_then(|k| names.get(k).copied()).unwrap_or("something unknown")
     };
-    for (k, names) in [&LAWS.map(|law| law.name)[..], &BASES, &WEIGHTS, &SLIPS].into_iter().enumerate() {
+    let mut laws = [""; LAWS.len() + OWN_NAMES.len()];
+    let names = LAWS.iter().map(|law| law.name).chain(OWN_NAMES);
+    laws.iter_mut().zip(names).for_each(|(to, name)| *to = name);
+    for (k, names) in [&laws[..], &BASES, &WEIGHTS, &SLIPS].into_iter().enumerate() {
         if found[k] != own[k] {
             let (theirs, ours) = (name(names, found[k]), name(names, own[k]));
             return refuse(text!("the history is one with {theirs}, the interface one with {ours}"));

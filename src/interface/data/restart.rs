@@ -1,18 +1,20 @@
 //! The history as flat arrays, for a restart.
 //!
 //! Integers: the layout, the checksum (`checksum.rs`), the meaning (`meaning.rs`), commits, nodes of both sides; then lists,
-//! each after its length: the pairs' facets. Reals: x1, x2, normals, gaps, slip, gaps of facets, areas, coverage, the
-//! pairs' weights. What is not kept (`Keeps`) takes no room.
+//! each after its length: the pairs' facets. Reals: x1, x2, normals, gaps, slip, gaps of facets, areas, coverage, what a law of
+//! one's own remembers, the pairs' weights. What is not kept (`Keeps`) takes no room.
 
 use super::checksum::{self, PLACE};
 use super::facet_gaps::{FacetGaps, REALS_PER_FACET};
 use super::history::{History, Keeps};
 use super::meaning;
-use super::options::{Options, Weights};
+use super::options::Weights;
 use super::pairs::{PairRecord, ParentRecord};
+use super::setup::Setup;
 use super::surface::Surface;
 use crate::error::{Error, Kind, Result, Text};
 use crate::geometry::{Plane, Vec3};
+use crate::law::Own;
 use crate::memory::{self, Store, Stored};
 use crate::mortar::{NonmortarFrame, PairWeights, ParentWeights};
 use crate::shape::{MAX_CORNERS, MAX_NODES, MAX_PARENT_NODES};
@@ -34,18 +36,22 @@ const UNIT: f64 = 1e-10;
 pub struct Host<'a> {
     surfaces: (&'a Surface, &'a Surface),
     keeps: Keeps,
+    /// Reals that the law remembers of all nodes.
+    states: usize,
     meaning: [i64; meaning::LENGTH],
     /// Whether the weights are frozen for good.
     frozen: bool,
 }
 
 impl<'a> Host<'a> {
-    /// An interface of these surfaces and options.
-    pub fn new(surfaces: (&'a Surface, &'a Surface), options: &Options) -> Host<'a> {
+    /// What an interface is.
+    pub fn of<const N: usize>(setup: &'a Setup<N>) -> Host<'a> {
+        let (options, own, surfaces) = (&setup.options, setup.own.as_ref(), setup.surfaces());
         Host {
             surfaces,
             keeps: Keeps::of(options),
-            meaning: meaning::of(options, surfaces.0, surfaces.1),
+            states: surfaces.0.len() * own.map_or(0, Own::states),
+            meaning: meaning::of(options, own, surfaces),
             frozen: options.effective_weights() == Weights::Reference,
         }
     }
@@ -85,7 +91,8 @@ impl History {
             n => (n, REALS_PER_PARENT_PAIR),
         };
         let nodes = [self.x1.len(), self.x2.len()];
-        (HEADER + 1 + 2 * n, self.keeps.reals(nodes, self.facet_gaps.len()) + n * per_pair)
+        let of_nodes = self.keeps.reals(nodes, self.facet_gaps.len()) + self.states.len();
+        (HEADER + 1 + 2 * n, of_nodes + n * per_pair)
     }
 
     /// The history as flat arrays.
@@ -101,6 +108,7 @@ impl History {
         reals.store_all(self.facet_gaps.reals().copied())?;
         reals.store_all(self.areas.iter().copied())?;
         reals.store_all(self.coverage.iter().copied())?;
+        reals.store_all(self.states.iter().copied())?;
         for pair in &self.pairs {
             integers.store_all([pair.one as i64, pair.two as i64].into_iter())?;
             reals.store_all(pair.weights.ab.iter().chain(&pair.weights.ac).flatten().copied())?;
@@ -118,12 +126,12 @@ impl History {
     /// # Errors
     /// [`Kind::HistoryMismatch`] or [`Kind::NotFinite`], naming the array.
     pub fn import((integers, reals): (&[i64], &[f64]), host: &Host) -> Result<History> {
-        let &Host { surfaces: (nonmortar, mortar), keeps, frozen, .. } = host;
+        let &Host { surfaces: (nonmortar, mortar), keeps, states, frozen, .. } = host;
         let (n1, n2) = (nonmortar.len(), mortar.len());
         let (commits, facets) = check_header((integers, reals), host)?;
         let has_parents = nonmortar.parents.is_some();
         let per_pair = if has_parents { REALS_PER_PARENT_PAIR } else { REALS_PER_PAIR };
-        let n_reals = keeps.reals([n1, n2], nonmortar.facets.len()) + facets.len() / 2 * per_pair;
+        let n_reals = keeps.reals([n1, n2], nonmortar.facets.len()) + states + facets.len() / 2 * per_pair;
         if reals.len() != n_reals {
             return mismatch(text!("reals has {} entries; {n_reals} are needed", reals.len()));
         }
@@ -134,6 +142,7 @@ impl History {
         let kept = if keeps.facet_gaps() { nonmortar.facets.len() } else { 0 };
         let facet_gaps = FacetGaps::from_reals(take(&mut rest, REALS_PER_FACET * kept))?;
         let (areas, coverage) = (memory::copied(take(&mut rest, n1))?, memory::copied(take(&mut rest, n1))?);
+        let states = memory::copied(take(&mut rest, states))?;
         let (mut pairs, mut parents) = (Vec::new(), Vec::new());
         for f in facets.chunks_exact(2) {
             let index = |v: i64, n: usize| usize::try_from(v).ok().filter(|&i| i < n);
@@ -166,6 +175,7 @@ impl History {
             gap,
             facet_gaps,
             slip,
+            states,
             pairs,
             parents,
             integrated,

@@ -9,6 +9,7 @@ use super::options::{Form, MortarSide, MultiplierBasis, Options, Scheme, Tangent
 use super::parents::Parents;
 use super::surface::{NO_EQUATION, Surface, frames};
 use crate::error::{Error, Kind, Result, Text};
+use crate::law::Own;
 use crate::mortar::MultiplierSpace;
 
 /// What an interface is.
@@ -26,6 +27,8 @@ pub struct Setup<const N: usize> {
     pub multiplier_equations: Vec<[i64; N]>,
     /// What the host says of the non-mortar nodes.
     pub nodes: NodeData,
+    /// The host's law in place of Coulomb's.
+    pub own: Option<Own>,
 }
 
 impl<const N: usize> Setup<N> {
@@ -67,7 +70,7 @@ impl<const N: usize> Setup<N> {
         check_moving_frame([&nonmortar, &mortar], &options)?;
         put_parents([&mut nonmortar, &mut mortar], &multiplier_equations, &options)?;
         let nodes = NodeData::new(&multiplier_equations, mu)?;
-        Ok(Setup { options, effects, nonmortar, mortar, multiplier_equations, nodes })
+        Ok(Setup { options, effects, nonmortar, mortar, multiplier_equations, nodes, own: None })
     }
 
     /// The non-mortar and the mortar surface.

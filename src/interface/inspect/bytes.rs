@@ -36,6 +36,7 @@ pub fn of_history(h: &History) -> usize {
     vectors.map(heap).iter().sum::<usize>()
         + heap(&h.areas)
         + heap(&h.coverage)
+        + heap(&h.states)
         + h.facet_gaps.bytes()
         + heap(&h.pairs)
         + heap(&h.parents)

@@ -4,7 +4,7 @@ use crate::error::{Result, Text};
 use crate::interface::data::options::{MortarSide, MultiplierBasis, Scheme, Tangent, Weights};
 use crate::interface::data::setup::Setup;
 use crate::interface::data::surface::NO_EQUATION;
-use crate::law::Coefficient;
+use crate::law::{Coefficient, Own};
 use crate::mortar::MultiplierSpace;
 
 /// A sentence, if there is memory for it.
@@ -56,7 +56,9 @@ fn weak_sentence<const N: usize>(setup: &Setup<N>) -> Result<Text> {
 fn friction_sentence<const N: usize>(setup: &Setup<N>) -> Result<Text> {
     let unknowns = if N == 1 { "one multiplier a node, along the normal" } else { "three multipliers a node" };
     let law = setup.options.friction.law();
+    let own = setup.own.as_ref().filter(|_| setup.effects.law.slips);
     let what: Text = match law.mu {
+        _ if own.is_some() => own_law(setup)?,
         Coefficient::Always(_) => law.effect.into(),
         Coefficient::Given if !setup.effects.law.slips => "none (chosen: mu is 0 at every node), no slip".into(),
         Coefficient::Given => match setup.options.shear_limit {
@@ -65,6 +67,19 @@ fn friction_sentence<const N: usize>(setup: &Setup<N>) -> Result<Text> {
         },
     };
     say!("Friction: {what}; {unknowns}.")
+}
+
+fn own_law<const N: usize>(setup: &Setup<N>) -> Result<Text> {
+    let mu = mu_range(setup)?;
+    match setup.own {
+        Some(Own::Cohesion { cohesion }) => say!("Coulomb's law with mu {mu} and the cohesion {cohesion} (asked for)"),
+        Some(Own::Weakening { after, slip }) => {
+            say!("mu {mu}, which falls to {after} over a slip of {slip} (asked for)")
+        }
+        Some(Own::Orthotropic(ellipse)) => say!("orthotropic, mu {mu} along, {} across (asked for)", ellipse.across),
+        Some(Own::Host(host)) => say!("a law of the host's, {} numbers remembered a node (asked for)", host.states),
+        None => Ok(Text::EMPTY),
+    }
 }
 
 fn mu_range<const N: usize>(setup: &Setup<N>) -> Result<Text> {

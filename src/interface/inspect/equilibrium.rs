@@ -12,8 +12,10 @@ use crate::interface::data::extent::Scope;
 use crate::interface::pairing::given::Given;
 use crate::interface::stages::carried::{carriers_sums, multiplier_share};
 use crate::interface::stages::node::{is_left_out, node};
+use crate::interface::stages::own::{At, special};
 use crate::interface::stages::sums::NodeSums;
 use crate::law::{Measure, Violation};
+use crate::memory;
 use nalgebra::SVector;
 
 /// How many roundings of the largest coordinate may meet in a gap or a slip: a difference of two sums over some nodes,
@@ -88,6 +90,7 @@ pub fn equilibrium<const N: usize>(
 
     let shared =
         if carried.contains(&true) { carriers_sums(given, sums, carried, &given.normals()?)? } else { Vec::new() };
+    let mut states = memory::filled(0.0, given.setup.own.map_or(0, |own| own.states()))?;
     for a in nodes() {
         let sum = shared.binary_search_by_key(&a, |(b, _)| *b).map_or(&sums[a], |at| &shared[at].1);
         let stiffness = if scales.modulus > 0.0 { scales.modulus } else { traction } / length(a);
@@ -108,7 +111,11 @@ pub fn equilibrium<const N: usize>(
             Violation::uncovered(lambda[a].norm(), &measure)
         } else {
             let measure = Measure { traction_rounding: measure.traction_rounding / share, ..measure };
-            (given.setup.effects.law.violation)(&node(given, a, lambda[a], sum)?, &measure)
+            let mut node = node(given, a, lambda[a], sum)?;
+            if let Some(own) = &given.setup.own {
+                node.special = special((own, given), a, (&node, sum), At::Multiplier, &mut states)?;
+            }
+            (given.setup.effects.law.violation)(&node, &measure)
         };
         if ![v.gap, v.traction, v.slip].iter().all(|v| v.is_finite()) {
             let text = text!("the violation at non-mortar node {a} overflows: the inputs are out of range");

@@ -10,6 +10,7 @@
 //! A node counts as carried while it is covered; uncovered it has the row of any uncovered node.
 
 use super::node::node;
+use super::own::OwnAnswers;
 use super::sums::NodeSums;
 use crate::error::{Error, Kind, Result};
 use crate::geometry::{Mat3, Vec3};
@@ -92,15 +93,17 @@ pub fn carriers_sums<const N: usize>(
 pub fn carry<const N: usize>(
     given: Given<N>,
     lambda: &[SVector<f64, N>],
-    sums: &[NodeSums],
-    carried: &[bool],
+    (sums, carried): (&[NodeSums], &[bool]),
     responses: &mut [NodeResponse<N>],
+    own: &mut OwnAnswers,
 ) -> Result<()> {
     let normals = given.normals()?;
     for (b, sum) in carriers_sums(given, sums, carried, &normals)? {
         let NodeResponse { gap_normal, slip, .. } = responses[b];
-        responses[b] =
-            NodeResponse { gap_normal, slip, ..(given.setup.effects.law.respond)(&node(given, b, lambda[b], &sum)?) };
+        let mut node = node(given, b, lambda[b], &sum)?;
+        own.ask(given, b, &mut node, &sum)?;
+        responses[b] = NodeResponse { gap_normal, slip, ..(given.setup.effects.law.respond)(&node) };
+        own.settle(given, b, &responses[b]);
     }
     for a in (0..carried.len()).filter(|&a| carried[a]) {
         responses[a] = carried_response(given, a, lambda, responses, &normals);

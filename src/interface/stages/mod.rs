@@ -14,6 +14,7 @@ pub mod layers;
 pub mod lost;
 pub mod node;
 pub mod normals;
+pub mod own;
 pub mod residual;
 pub mod respond;
 pub mod sums;

@@ -1,12 +1,13 @@
 //! A node as the law sees it, and whether the law need be asked about it at all.
 
+use super::own::is_new;
 use super::sums::NodeSums;
 use crate::error::Result;
 use crate::interface::data::counters::NodeCounts;
 use crate::interface::data::extent::{Extent, Scope};
 use crate::interface::data::options::NewContact;
 use crate::interface::pairing::given::Given;
-use crate::law::Node;
+use crate::law::{Node, Special};
 use nalgebra::SVector;
 
 /// What the law is asked about node A.
@@ -27,6 +28,7 @@ pub fn node<const N: usize>(given: Given<N>, a: usize, lambda: SVector<f64, N>, 
         covered_before,
         slip: options.effective_slip(),
         free: nodes.free[a],
+        special: Special::Nothing,
     })
 }
 
@@ -41,9 +43,9 @@ pub fn count_of<'c, const N: usize>(
         &mut counts.uncovered
     } else if !given.setup.options.friction.law().opens {
         &mut counts.tied
-    } else if !given.setup.effects.law.slips || given.setup.nodes.mu[a] == 0.0 {
+    } else if !given.setup.effects.law.slips || (given.setup.nodes.mu[a] == 0.0 && given.setup.own.is_none()) {
         &mut counts.frictionless
-    } else if node.mu == 0.0 {
+    } else if is_new(given, node) {
         &mut counts.new
     } else {
         &mut counts.frictional

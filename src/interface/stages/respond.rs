@@ -2,6 +2,7 @@
 
 use super::carried::{carry, find_carried};
 use super::node::{count_of, is_left_out, node};
+use super::own::OwnAnswers;
 use super::sums::NodeSums;
 use crate::error::{Error, Kind, Result};
 use crate::interface::data::counters::NodeCounts;
@@ -20,11 +21,14 @@ pub struct Responses<const N: usize> {
     pub carried: Vec<bool>,
     /// How the nodes were treated.
     pub counts: NodeCounts,
+    /// What a law of one's own has answered.
+    pub own: OwnAnswers,
 }
 
 impl<const N: usize> Default for Responses<N> {
     fn default() -> Self {
-        Responses { nodes: Vec::new(), carried: Vec::new(), counts: NodeCounts::default() }
+        let (counts, own) = (NodeCounts::default(), OwnAnswers::default());
+        Responses { nodes: Vec::new(), carried: Vec::new(), counts, own }
     }
 }
 
@@ -36,24 +40,28 @@ pub fn respond<const N: usize>(
     scope: Scope,
     answers: &mut Responses<N>,
 ) -> Result<()> {
-    let Responses { nodes: responses, carried, counts } = answers;
+    let Responses { nodes: responses, carried, counts, own } = answers;
     find_carried(given, sums, carried)?;
     *counts = NodeCounts::default();
     responses.clear();
     memory::grow(responses, lambda.len())?;
+    own.begin(given)?;
     for a in 0..lambda.len() {
         responses.store(if is_left_out(given, a, scope) {
             counts.left_out += 1;
             NodeResponse::uncovered(&lambda[a], given.augmentation(a))
         } else {
-            let node = node(given, a, lambda[a], &sums[a])?;
+            let mut node = node(given, a, lambda[a], &sums[a])?;
             let is_carried = carried.get(a).is_some_and(|c| *c);
             *(if is_carried { &mut counts.carried } else { count_of(given, a, &node, counts) }) += 1;
-            (given.setup.effects.law.respond)(&node)
+            own.ask(given, a, &mut node, &sums[a])?;
+            let response = (given.setup.effects.law.respond)(&node);
+            own.settle(given, a, &response);
+            response
         })?;
     }
     if carried.contains(&true) {
-        carry(given, lambda, sums, carried, responses)?;
+        carry(given, lambda, (sums, carried), responses, own)?;
     }
     for (a, response) in responses.iter().enumerate() {
         if !response.row.iter().chain(response.traction.iter()).all(|v| v.is_finite()) {

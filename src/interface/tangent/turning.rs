@@ -67,7 +67,11 @@ impl<'a, const N: usize> Turns<'a, N> {
             let fixed = given.step.pairing.keeps_normal[a];
             let turn = match is_carried {
                 true => Default::default(),
-                false => (setup.effects.law.turn)(&node(given, a, lambda[a], sum)?),
+                false => {
+                    let mut node = node(given, a, lambda[a], sum)?;
+                    responses.own.put(a, &mut node);
+                    (setup.effects.law.turn)(&node)
+                }
             };
             let traction = match (augmented, N) {
                 (true, 1) if is_carried => Mat3::identity() * normals[a].dot(&responses.nodes[a].traction),

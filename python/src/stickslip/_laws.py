@@ -1,0 +1,89 @@
+"""Laws of friction in place of Coulomb's: the library's, and one's own."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ._arrays import given, pointer
+from ._library import ffi, value_of
+
+
+@dataclass
+class LawPoint:
+    """What a law is asked about a closed node."""
+
+    #: Which non-mortar node, from 0.
+    node: int
+    #: The trial traction along the normal, at most 0: the pressure with a minus [F/L^2].
+    normal: float
+    #: Slip of this step, and before it, (3,) [L].
+    slip: np.ndarray
+    slip_before: np.ndarray
+    #: The unit vector along which the node would slip, or 0.
+    direction: np.ndarray
+    #: The node's Coulomb coefficient.
+    mu: float
+    #: What the law remembers of the node, a copy: what is left in it is remembered if the step ends here.
+    states: np.ndarray
+
+
+class Laws:
+    """The part of an interface that is about its law."""
+
+    _kept_law = None
+    _law_error = None
+
+    def set_law(self, kind: str = "coulomb", **numbers) -> None:
+        """A law of the library: "coulomb", "cohesion", "weakening" or "orthotropic", with its numbers.
+
+        cohesion: ``cohesion`` [F/L^2]. weakening: ``mu_after``, ``critical_slip`` [L]. orthotropic: ``mu_across``, ``direction``, (3,).
+        The coefficient of the interface, ``mu``, is the one to begin with, or the one along the direction.
+        """
+        law = ffi.new("struct stickslip_law *", {"struct_size": ffi.sizeof("struct stickslip_law")})
+        law.kind = value_of("kind", "LAW", kind)
+        known = [name for name, _ in ffi.typeof("struct stickslip_law").fields if name not in ("struct_size", "kind", "reserved")]
+        for name, value in numbers.items():
+            if name not in known:
+                raise TypeError(f"{name}: no number of a law; there are {', '.join(known)}")
+            setattr(law, name, [float(v) for v in value] if name == "direction" else float(value))
+        self._call("set_law", law)
+        self._kept_law = None
+
+    def set_threshold(self, law, n_states: int = 0) -> None:
+        """A law of one's own: ``law(point)`` gives ``(k, dk_dnormal)`` or ``(k, dk_dnormal, dk_dslip)``.
+
+        k is the shear traction below which the node of a :class:`LawPoint` sticks, not negative, and dk_dnormal, its derivative with
+        respect to ``point.normal``, is not positive. ``dk_dslip``, (3,): with respect to ``point.slip``. Of each node ``n_states``
+        numbers are remembered. An exception in ``law`` refuses the call that has asked, and is the cause of what is raised.
+        """
+        def ask(_, point, states, answer, after):
+            try:
+                own = np.array(ffi.unpack(states, n_states) if n_states else [])
+                vectors = (np.array(list(v)) for v in (point.slip, point.slip_before, point.direction))
+                k, dnormal, *slope = law(LawPoint(point.node, point.normal, *vectors, point.mu, own))
+                answer.threshold, answer.dthreshold_dnormal = float(k), float(dnormal)
+                if slope:
+                    answer.dthreshold_dslip = [float(v) for v in slope[0]]
+                for i, value in enumerate(own):
+                    after[i] = value
+            except Exception as error:  # no exception may pass through the library
+                self._law_error = error
+                return 1
+            return 0
+
+        function = ffi.callback("stickslip_threshold", ask)
+        self._call("set_threshold", function, ffi.NULL, int(n_states))
+        self._kept_law = function
+
+    def law_states(self) -> np.ndarray:
+        """What the law remembers at the last commit, (n1, states a node)."""
+        count = ffi.new("int64_t *")
+        self._call("law_states", 0, ffi.NULL, count)
+        states = np.empty((self.n1, count[0] // self.n1))
+        self._call("law_states", states.size, pointer(states), count)
+        return states
+
+    def set_law_states(self, states) -> None:
+        """Replaces that, as after ``set_committed``."""
+        states = given("states", states, np.shape(states))
+        self._call("set_law_states", states.size, pointer(states))

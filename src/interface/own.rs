@@ -1,0 +1,69 @@
+//! A law of one's own through the handle: what it is, and what it remembers (docs/formulation.md 4.8).
+
+use super::contact::Contact;
+use super::data::effects::Effects;
+use super::data::options::Friction;
+use crate::error::{Error, Kind, Result};
+use crate::law::Own;
+use crate::memory;
+
+impl Contact<3> {
+    /// The law in place of Coulomb's, from the next evaluation on; `None`: Coulomb's. What another law has remembered is
+    /// forgotten, and a commit before it can no longer be undone; a law of the same kind, with as many states, goes on with them.
+    pub fn set_law(&mut self, own: Option<Own>) -> Result<()> {
+        let options = &self.setup.options;
+        if options.friction != Friction::Coulomb {
+            let text = text!(
+                "a law of one's own stands in place of Coulomb's: create the interface with STICKSLIP_FRICTION_COULOMB; this one has {}",
+                options.friction.law().name
+            );
+            return Err(Error::new(Kind::InvalidValue, text));
+        }
+        own.as_ref().map_or(Ok(()), Own::validate)?;
+        if let Some(Own::Orthotropic(_)) = own {
+            if options.follows_normals() {
+                let text = "orthotropic friction with STICKSLIP_NORMALS_CURRENT: how its axes turn with a normal of now is not in the tangent; take STICKSLIP_NORMALS_COMMITTED";
+                return Err(Error::new(Kind::Unsupported, text));
+            }
+            if self.setup.nonmortar.lines().is_some() {
+                let text = "orthotropic friction with lines: a plane or axisymmetric model has one direction to slip in; give it its mu";
+                return Err(Error::new(Kind::Unsupported, text));
+            }
+        }
+        let kind = |own: &Option<Own>| own.map(|own| (own.number(), own.states()));
+        if kind(&own) != kind(&self.setup.own) {
+            let n = self.setup.nonmortar.len() * own.map_or(0, |own| own.states());
+            self.step.history.states = memory::filled(0.0, n)?;
+            self.rollback = None;
+        }
+        self.setup.own = own;
+        self.setup.effects =
+            Effects::of_three(&self.setup.options, &self.setup.mortar, &self.setup.nodes.mu, self.setup.own.as_ref());
+        self.cache.forget();
+        self.linear.forget();
+        Ok(())
+    }
+}
+
+impl<const N: usize> Contact<N> {
+    /// What the law remembers of each node at t_n; empty of a law that remembers nothing.
+    pub fn law_states(&self) -> &[f64] {
+        &self.step.history.states
+    }
+
+    /// Replaces that, as after [`Contact::set_committed`]. No commit can then be undone.
+    pub fn set_law_states(&mut self, states: &[f64]) -> Result<()> {
+        let kept = &mut self.step.history.states;
+        if states.len() != kept.len() {
+            let text = text!("states has {} entries; the law remembers {}", states.len(), kept.len());
+            return Err(Error::new(Kind::InvalidSize, text));
+        }
+        if let Some(k) = states.iter().position(|v| !v.is_finite()) {
+            return Err(Error::new(Kind::NotFinite, text!("states[{k}] is {}; it must be finite", states[k])));
+        }
+        kept.copy_from_slice(states);
+        self.rollback = None;
+        self.cache.forget();
+        Ok(())
+    }
+}
