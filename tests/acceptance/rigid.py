@@ -34,6 +34,7 @@ def rigid(verdicts, driver):
     tangent(verdicts, driver)
     hertz(verdicts, driver)
     rolls(verdicts, driver)
+    over_parts(verdicts, driver)
 
 
 def run(driver, name, scene, *options, **more):
@@ -394,3 +395,27 @@ def rolls(verdicts, driver):
     load = np.abs(result.resultant("low")).max()
     verdicts.below("roller: forces", np.abs(end["contact_force"]).max() / load, STATICS_BOUND, "statics")
     verdicts.below("roller: moments", np.abs(end["contact_moment"]).max() / load, STATICS_BOUND, "statics")
+
+
+# --- rolling over parts -------------------------------------------------------------------------------------------------
+def rolling_scene():
+    """A rigid cylinder in space that is pressed onto a block and drawn along it, across the border of two ranks' parts."""
+    return {"schema": 1, "bodies": ["roller", "block"],
+            "roller": {"type": "rigid", "from": "box", "reference": [-0.6, 0, 0.5], "cylinder": [-0.6, 0, 0.5], "axis": "y",
+                       "lower": [-1.1, -0.3, 0], "upper": [-0.1, 0.3, 1], "cells": [8, 2, 8]},
+            "block": {**ELASTIC, "lower": [-1, -0.2, -0.4], "upper": [1, 0.2, 0], "cells": [24, 2, 3]},
+            "surfaces": ["rim"], "rim": {"of": ["roller.xmin", "roller.xmax", "roller.zmin", "roller.zmax"], "within": [-9, -9, -9, 9, 9, 9]},
+            "supports": ["ground", "guide", "draw"], "ground": {"surface": "block.zmin", "components": ["x", "y", "z"]},
+            "guide": {"body": "roller", "components": ["y", "rx", "rz"]},
+            "draw": {"body": "roller", "components": ["x"], "value": [1.2, 0, 0], "curve": [1, 0, 2, 1]},
+            "loads": ["press"], "press": {"body": "roller", "force": [0, 0, -5], "curve": [0, 0, 1, 1]},
+            "interfaces": ["contact"], "contact": {"nonmortar": "block.zmax", "mortar": "rim", "friction": 0.5, "new_contact": "friction"},
+            "steps": {"stages": [1, 1, 2, 24]}, "output": {"vtu": "last", "csv": "last"}}
+
+
+def over_parts(verdicts, driver):
+    results = {ranks: run(driver, "rolling", rolling_scene(), label=f"rolling_{ranks}", ranks=ranks) for ranks in (1, 2)}
+    one = body(results[1], "roller")
+    same(verdicts, "rolling across parts", one, body(results[2], "roller"))
+    verdicts.near("rolling across parts: it turns", one["rotation"][1], 1.2 / 0.5, ROLLING_BOUND, "the way over the radius", 2.4)
+    verdicts.near("rolling across parts: force", one["contact_force"][2], 5, STATICS_BOUND, "statics", 5)
