@@ -44,6 +44,7 @@ static PetscErrorCode read_scene(Model *model)
   if (schema != 1) scene_fail(model->scene, NULL, "schema", "this program reads schema 1, not %g.", (double)schema);
   PetscCall(mesh_create(model->scene, &model->mesh));
   PetscCall(materials_read(model->scene, &model->physics));
+  PetscCall(rigids_read(model->scene, &model->physics));
   PetscCall(times_read(model->scene, &model->solve.steps));
   model->physics.end = model->solve.steps.end;
   PetscCall(supports_read(model->scene, &model->physics));
@@ -81,6 +82,7 @@ static PetscErrorCode build(Model *model, PetscInt *status)
   PetscCall(unknowns_create(physics, contact->n_interfaces, fields));
   PetscCall(parts_create(physics));
   PetscCall(held_create(solve));
+  iterative_check(model->scene, solve);
   PetscCall(bulk_create(physics));
   PetscCall(loads_assemble(physics));
   PetscCall(contact_create(contact, model->scene, solve->quiet, status));

@@ -69,6 +69,7 @@ static PetscErrorCode accept(Model *model, History *history)
   history->past.have_before = (PetscBool)(!times_bend(&model->physics, model->physics.t) && !model->solve.closing.ever_cut);
   PetscCall(VecCopy(history->past.last, history->past.before));
   PetscCall(VecCopy(history->x, history->past.last));
+  PetscCall(rigids_accept(&model->physics, model->physics.t, history->past.last, history->past.before));
   history->past.t_before        = history->past.t_last;
   history->past.t_last          = model->physics.t;
   model->solve.iterations        = 0;

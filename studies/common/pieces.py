@@ -10,8 +10,8 @@ def read(path):
     which are left out then. Cells of one kind that follow each other are a block."""
     import meshio
 
-    pieces = [meshio.read(path.parent / name) for name in re.findall(r'<Piece Source="([^"]+)"', path.read_text())]
-    pieces = [piece for piece in pieces if len(piece.points)]
+    paths = [path.parent / name for name in re.findall(r'<Piece Source="([^"]+)"', path.read_text())]
+    pieces = [meshio.read(each) for each in paths if not _is_empty(each)]
     nodes = [np.asarray(piece.point_data["node"]).ravel() for piece in pieces]
     n_nodes = 1 + max(each.max() for each in nodes)
     points, point_data = _scatter([p.points for p in pieces], nodes, n_nodes), {}
@@ -20,6 +20,12 @@ def read(path):
             point_data[name] = _scatter([p.point_data[name] for p in pieces], nodes, n_nodes)
     cells, cell_data = _cells(pieces, nodes)
     return meshio.Mesh(points, cells, point_data=point_data, cell_data=cell_data)
+
+
+def _is_empty(path):
+    """Of more ranks than cells some have none, which meshio does not read."""
+    with open(path) as text:
+        return any('NumberOfCells="0"' in line for _, line in zip(range(10), text))
 
 
 def _scatter(values, numbers, n):

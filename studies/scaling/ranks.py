@@ -2,8 +2,8 @@
 results go to DIR/scaling.
 
 Two flat sheets of equal cells, the lower one held, the upper one pressed on it and drawn along, free across: all that a step needs of
-the contact, and a linear system that any size can be solved with. One half is pressed on, the other lifted. Three steps, on 1, 2 and 4 ranks, with both bases. Table: printed,
-ranks.json, ranks.md.
+the contact, and a linear system that any size can be solved with. One half is pressed on, the other lifted. Three steps, on 1, 2 and 4
+ranks, with both bases. Table: printed, ranks.json, ranks.md.
 """
 
 import argparse

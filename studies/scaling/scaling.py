@@ -5,7 +5,8 @@ Two blocks of equal cells, one pressed on the other and drawn along it with fric
 scene two_blocks with dual multipliers, condensed. Of each size one step, by multigrid and, as far as it is not too dear, by
 MUMPS. Seconds are the processor's, of linear solves alone, a solve. Table: printed, scaling.json, scaling.md.
 
-With --ranks what each rank holds of the mesh, in place of this: on 1, 2 and 4 ranks.
+With --standard the same with standard multipliers among the unknowns. With --ranks what each rank holds of the mesh, in place of
+this: on 1, 2 and 4 ranks.
 """
 
 import argparse
@@ -29,12 +30,14 @@ LARGEST_DIRECT = 24
 # Cells along an edge of the upper block, and ranks, of which each holds its piece.
 HELD_SIZE, HELD_RANKS = 24, (1, 2, 4)
 OPTIONS = ("-unknowns", "displacements", "-contact_basis", "dual", "-output_quiet", "true")
+STANDARD = ("-output_quiet", "true")
+STANDARD_BEGIN, STANDARD_END = "<!-- scaling.py writes of multipliers from here -->", "<!-- multipliers to here -->"
 
 
-def measure(build, output, n, solver):
+def measure(build, output, n, solver, options):
     folder = output / f"{solver}_{n}"
     cells = ("-upper_cells", f"{n},{n},{n}", "-lower_cells", f"{n + 1},{n + 1},{n}")
-    command = [build / "c_examples" / "snes_contact", "-scene", SCENES / "two_blocks.yaml", "-output_dir", folder, *OPTIONS,
+    command = [build / "c_examples" / "snes_contact", "-scene", SCENES / "two_blocks.yaml", "-output_dir", folder, *options,
                *cells, "-solver", solver]
     with open(output / f"{solver}_{n}.txt", "w") as text:
         process = subprocess.Popen([str(word) for word in command], stdout=text, stderr=subprocess.STDOUT,
@@ -110,6 +113,7 @@ def main():
     parser.add_argument("--sizes", type=lambda text: [int(n) for n in text.split(",")], default=SIZES)
     parser.add_argument("--largest-direct", type=int, default=LARGEST_DIRECT)
     parser.add_argument("--renew", action="store_true", help="write the table into docs/scaling.md")
+    parser.add_argument("--standard", action="store_true", help="with standard multipliers among the unknowns")
     parser.add_argument("--ranks", action="store_true", help="what ranks hold, in place of the solvers")
     args = parser.parse_args()
     output = args.build / "scaling"
@@ -124,12 +128,12 @@ def main():
     for n in args.sizes:
         for solver in ("iterative", "direct")[: 1 if n > args.largest_direct else 2]:
             print(f"{solver}, {n} cells", file=sys.stderr, flush=True)
-            rows.append(measure(args.build, output, n, solver))
+            rows.append(measure(args.build, output, n, solver, STANDARD if args.standard else OPTIONS))
     (output / "scaling.json").write_text(json.dumps(rows, indent=1))
     (output / "scaling.md").write_text(table(rows))
     print(table(rows))
     if args.renew:
-        renew(BEGIN, END, table(rows))
+        renew(*((STANDARD_BEGIN, STANDARD_END) if args.standard else (BEGIN, END)), table(rows))
 
 
 if __name__ == "__main__":

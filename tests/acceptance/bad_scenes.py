@@ -145,6 +145,8 @@ BAD_SCENES = [
     BadScene("old_word_for_slip", "", "", "base.slip", ("-base_slip", "seed"), says="'seed' is called 'paper' now"),
     BadScene("misspelt_load", "traction: [60, 0, 0]", "tracton: [60, 0, 0]", "push.tracton", says="'push.traction'"),
     BadScene("unknown_key_of_load", "traction: [60, 0, 0]", "colour: 3", "push.colour", says="traction, pressure"),
+    BadScene("no_converted_mesh", BOX, "type: hdf5, file: nowhere.h5", "block.file", says="cannot read"),
+    BadScene("not_converted", BOX, "type: hdf5, file: nameless.msh", "block.file", says="HDF5"),
     BadScene("prism", BOX, "type: gmsh, file: prism.msh", "block.file", says="a prism (wedge)"),
     BadScene("pyramid", BOX, "type: gmsh, file: pyramid.msh", "block.file", says="a pyramid"),
     BadScene("prism_of_second_order", BOX, "type: gmsh, file: prism_2.msh", "block.file", says="a prism (wedge)"),
@@ -225,6 +227,61 @@ BAD_SCENES += [
 ]
 
 
+CUBE = "from: box, lower: [5, 0, 0], upper: [6, 1, 1], cells: [1, 1, 1]"
+
+
+def tool(keys, more=""):
+    """A rigid body besides, and what else."""
+    bodies = "bodies: [block, floor]"
+    return bodies, f"bodies: [block, floor, tool]\ntool: {{type: rigid, {keys}}}\n{more}"
+
+
+BAD_SCENES += [
+    BadScene("rigid_without_reference", *tool(CUBE), "tool.reference", says="the point that moves with the body"),
+    BadScene("rigid_from_nowhere", *tool("reference: [5, 0, 0]"), "tool.from", says="box, gmsh, stl, analytic"),
+    BadScene("rigid_of_unknown_shape", *tool("from: analytic, shape: cone, point: [5, 0, 0], reference: [5, 0, 0]"), "tool.shape",
+             says="plane, sphere, cylinder"),
+    BadScene("rigid_without_file", *tool("from: stl, file: nowhere.stl, reference: [5, 0, 0]"), "tool.file", says="cannot be read"),
+    BadScene("rigid_that_is_no_stl", *tool("from: stl, file: nameless.msh, reference: [5, 0, 0]"), "tool.file", says="STL"),
+    BadScene("rigid_with_stiffness", *tool(f"reference: [5, 0, 0], {CUBE}, young: 1"), "tool.young"),
+    BadScene("rigid_of_negative_mass", *tool(f"reference: [5, 0, 0], {CUBE}, mass: -1"), "tool.mass"),
+    BadScene("moment_on_a_node", "push: {surface: block.xmin, traction: [60, 0, 0],", "push: {body: block, point: [0, 0, 0], moment: [0, 0, 1],",
+             "push.moment", says="'block' is not rigid"),
+    BadScene("moment_on_a_surface", "traction: [60, 0, 0]", "moment: [0, 0, 1]", "push.moment", says="not on a surface or a node"),
+    BadScene("force_on_a_block", "push: {surface: block.xmin, traction:", "push: {body: block, force:", "push.force", says="is not rigid"),
+    BadScene("turn_of_a_block", "rigid: {body: floor, components: [x, y, z]}", "rigid: {body: floor, components: [x, y, z, rx]}",
+             "rigid.components", says="x, y, z."),
+    BadScene("rigid_held_twice", *tool(f"reference: [5, 0, 0], {CUBE}"), "drag.components", says="'hold' prescribes x"),
+    BadScene("rigid_by_its_surface", *tool(f"reference: [5, 0, 0], {CUBE}"), "rigid.surface", says="at its reference point"),
+    BadScene("rigid_with_a_gradient", *tool(f"reference: [5, 0, 0], {CUBE}"), "rigid.gradient", says="by `rotate`"),
+    BadScene("turn_that_is_free", *tool(f"reference: [5, 0, 0], {CUBE}"), "rigid.rotate", says="rx is not among"),
+    BadScene("rigid_under_traction", *tool(f"reference: [5, 0, 0], {CUBE}", "more: {surface: tool.xmin, pressure: 1}"), "more.surface",
+             says="give its body a `force`"),
+    BadScene("rigid_without_mass", *tool(f"reference: [5, 0, 0], {CUBE}", "more: {body: tool, gravity: [0, 0, -1]}"), "tool.mass"),
+    BadScene("rigid_that_spins", *tool(f"reference: [5, 0, 0], {CUBE}", "more: {body: tool, centrifugal: [0, 0, 1]}"), "more.centrifugal"),
+    BadScene("both_rigid", *tool(f"reference: [5, 0, 0], {CUBE}", "other: {type: rigid, reference: [0, 0, 0], from: analytic, shape: "
+             "plane, point: [0, 0, 0], direction: [0, 0, 1]}\nbetween: {nonmortar: tool.zmin, mortar: other.surface}"), "between.mortar",
+             says="both sides are rigid"),
+    BadScene("rigid_by_multigrid", *tool(f"reference: [5, 0, 0], {CUBE}"), "solver", says="does not know rigid bodies",
+             options=("-solver", "iterative", "-unknowns", "displacements", "-base_basis", "dual")),
+    BadScene("rigid_and_condensed", *tool("reference: [5, 0, 0], from: box, lower: [5, 0, 0], upper: [6, 1, 1], cells: [1, 1, 1]",
+             "between: {nonmortar: tool.zmin, mortar: floor.zmax}"), "between.nonmortar", says="the mortar side only",
+             options=("-unknowns", "displacements")),
+]
+# What the lists must name besides.
+LISTS = {
+    "rigid_held_twice": (("supports: [planestrain, rigid]", "supports: [planestrain, rigid, hold, drag]\n"
+                          "hold: {body: tool, components: [x, y, z]}\ndrag: {body: tool, components: [x, rz]}"),),
+    "rigid_by_its_surface": (("rigid: {body: floor,", "rigid: {surface: tool.xmin,"),),
+    "rigid_with_a_gradient": (("rigid: {body: floor,", "rigid: {body: tool, gradient: [0, 0, 0, 0, 0, 0, 0, 0, 1],"),),
+    "turn_that_is_free": (("rigid: {body: floor,", "rigid: {body: tool, rotate: [1, 0, 0],"),),
+    "both_rigid": (("floor, tool]", "floor, tool, other]"), ("interfaces: [base]", "interfaces: [base, between]")),
+    "rigid_and_condensed": (("interfaces: [base]", "interfaces: [base, between]"),),
+}
+for name in ("rigid_under_traction", "rigid_without_mass", "rigid_that_spins"):
+    LISTS[name] = (("loads: [press, push]", "loads: [press, push, more]"),)
+
+
 def write_bad_scene(bad, folder):
     """Path of the scene file with the mistake."""
     text = (SCENES / bad.base).read_text()
@@ -239,5 +296,10 @@ def write_bad_scene(bad, folder):
     (folder / "pyramid.msh").write_text(PYRAMID)
     (folder / "prism_2.msh").write_text(PRISM_2)
     (folder / "tet_3.msh").write_text(TET_3)
-    path.write_text(text.replace(bad.old, bad.new, 1).replace("../meshes", str(MESHES)))
+    text = text.replace(bad.old, bad.new, 1).replace("../meshes", str(MESHES))
+    for old, new in LISTS.get(bad.name, ()):
+        if old not in text:
+            raise ValueError(f"{bad.base} no longer contains '{old}': bad scene {bad.name} must be rewritten")
+        text = text.replace(old, new, 1)
+    path.write_text(text)
     return path

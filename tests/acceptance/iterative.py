@@ -29,6 +29,7 @@ def iterative(verdicts, driver):
     for scene in SCENES:
         compare(verdicts, driver, *scene)
     on_two_ranks(verdicts, driver)
+    with_multipliers(verdicts, driver)
     gives_up(verdicts, driver)
 
 
@@ -56,6 +57,36 @@ def compare(verdicts, driver, scene, label, options):
     verdicts.below(f"{name}: Newton iterations of the run, more by", sum(more), FEWER, steps)
     verdicts.below(f"{name}: iterations of a solve", linear["most"], MOST, reason)
     verdicts.true(f"{name}: without the direct solver", linear["direct"] == 0, reason)
+
+
+# With multipliers among the unknowns: scene, label, options, ranks. Supports hold each body, or the form is augmented.
+MULTIPLIERS = (
+    ("two_blocks", "multipliers", (), 1),
+    ("two_blocks", "multipliers, two ranks", (), 2),
+    ("ball_on_plane", "multipliers", (), 1),
+    ("symmetry_plane", "multipliers", (), 2),
+    ("two_blocks", "augmented, held by contact", ("-grip_components", "z", "-contact_friction", "1", "-contact_form", "augmented"), 1),
+)
+
+
+def with_multipliers(verdicts, driver):
+    """Multigrid on the bodies, LU for the multipliers: the answers of the direct solver; a body that contact alone holds is refused."""
+    for scene, label, options, ranks in MULTIPLIERS:
+        name = f"{scene} {label}"
+        tag = name.replace(",", "").replace(" ", "_")
+        options = (*options, *QUIET)
+        direct = driver.run(scene, *options, label=f"{tag}_direct")
+        run = driver.run(scene, *options, "-solver", "iterative", label=f"{tag}_iterative", ranks=ranks)
+        linear = run.summary["linear_solver"]
+        reason = f"{linear['iterations']} in {linear['solves']} solves"
+        verdicts.below(f"{name}: iterative against direct", difference(run, direct), SAME, "of all steps")
+        more = [b - a for a, b in zip(iterations(direct), iterations(run))]
+        verdicts.below(f"{name}: Newton iterations of a step, more or less by", max(map(abs, more)), FEWER, f"{more}")
+        verdicts.below(f"{name}: iterations of a solve", linear["most"], MOST, reason)
+        verdicts.true(f"{name}: without the direct solver", linear["direct"] == 0, reason)
+    held = ("-grip_components", "z", "-contact_friction", "1", *QUIET, "-solver", "iterative")
+    run = driver.run("two_blocks", *held, label="held_by_contact_alone", expect=1)
+    verdicts.true("multipliers, held by contact alone: refused by name", "solver: a body is held by contact alone" in run.text, "exit code 1")
 
 
 def on_two_ranks(verdicts, driver):

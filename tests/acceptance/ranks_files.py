@@ -58,6 +58,7 @@ def ranks_files(verdicts, driver):
             compare(verdicts, driver, path, kind, (3,))
     compare(verdicts, driver, "shrink_fit", "full circles", (2,))
     compare(verdicts, driver, "ball_on_plane", "analytic", (3,))
+    compare(verdicts, driver, "klarbring", "more ranks than cells", (5,))
     converted(verdicts, driver)
     pieces(verdicts, driver)
 

@@ -59,6 +59,13 @@ MANY = (
 )
 
 
+# Half a tube that is pressed into a slab and drawn along it, of linear materials: a curved surface, and the other way round one with few
+# of the slab's facets near.
+IRONING = ("-die_file", "../meshes/ironing_tube_coarse.msh", "-slab_cells", "36,4,2", "-down_value", "0,0,-0.3", "-steps_stages", "1,3,2,8",
+           "-slab_material", "linear", "-die_material", "linear")
+SWAPPED = ("-contact_nonmortar", "die.contact", "-contact_mortar", "slab.zmax")
+
+
 def ranks_moving(verdicts, driver):
     wandering(verdicts, driver, (3,))
     sliding(verdicts, driver, (2,))
@@ -71,6 +78,10 @@ def ranks_many(verdicts, driver):
     sliding(verdicts, driver, (4, 8))
     wandering(verdicts, driver, (2, 8))
     leaping(verdicts, driver, (2, 4))
+    moving(verdicts, driver, "leaping near", LEAPING, (3,), ("-contact_search_distance", "0.2", "-contact_form", "augmented"))
+    moving(verdicts, driver, "sliding of frozen weights", SLIDING, (3,), ("-contact_weights", "committed"))
+    compare(verdicts, driver, "ironing_3d", "", IRONING, (3,))
+    compare(verdicts, driver, "ironing_3d", "swapped", (*IRONING, *SWAPPED), (3,))
     deep(verdicts, driver, (3, 8))
 
 

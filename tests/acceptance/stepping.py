@@ -58,6 +58,7 @@ def stepping(verdicts, driver):
     rollback(verdicts, driver)
     singular(verdicts, driver)
     refused(verdicts, driver)
+    workspace(verdicts, driver)
     beyond_the_cone(verdicts, driver)
     cycling(verdicts, driver)
     klarbring(verdicts, driver)
@@ -149,6 +150,20 @@ def refused(verdicts, driver):
         reasons = [attempt["why"] for attempt in run.summary["failed_attempts"]]
         told = bool(reasons) and all(sentence in why and remedy in why and "singular" not in why for why in reasons)
         verdicts.true(f"{label}: is the reason that is told", told and sentence in run.text, f"{reasons}")
+
+
+def workspace(verdicts, driver):
+    """MUMPS is given the workspace that it asks for: with half of what its analysis estimates it begins, and refuses."""
+    default = driver.run("two_blocks", "-output_csv", "last", label="workspace")
+    short = driver.run("two_blocks", "-output_csv", "last", "-mat_mumps_icntl_14", "-50", label="workspace_short")
+    verdicts.true("workspace: as much as ever is needed at first", "mumps_workspace" not in default.summary, "never raised")
+    verdicts.at_least("workspace: raised to, per cent", short.summary["mumps_workspace"], 1, "else nothing is tested")
+    taken = [run.newton_iterations for run in (default, short)]
+    verdicts.true("workspace: iterations", taken[0] == taken[1], f"{taken}")
+    verdicts.below("workspace: cut-backs", short.summary["cutbacks"], 0, "the step is not to blame")
+    tables = [run.interface("contact") for run in (default, short)]
+    differs = max(np.abs(tables[0][c] - tables[1][c]).max() for c in ("ux", "uy", "uz"))
+    verdicts.below("workspace: displacements", differs, SAME_ANSWER, "the same matrices")
 
 
 def beyond_the_cone(verdicts, driver):

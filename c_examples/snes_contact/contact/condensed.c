@@ -207,6 +207,7 @@ PetscErrorCode condensed_residual(Contact *contact, Vec r, PetscInt *status)
     PetscCall(contact_agree(contact, interface, refused, status));
     if (!*status) PetscCall(contact_scatter(&interface->part, interface->part.rows, physics->f_sum, MPIU_SUM));
   }
+  PetscCall(rigids_collect(physics, physics->f_sum, PETSC_FALSE));
   PetscCall(DMLocalToGlobalBegin(contact->mesh->dm, physics->f_sum, ADD_VALUES, r));
   PetscCall(DMLocalToGlobalEnd(contact->mesh->dm, physics->f_sum, ADD_VALUES, r));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -22,7 +22,11 @@ typedef struct {
   int32_t   *moved;
 } Offsets;
 
-/* What parts may need of the mortar side, and whether they have it (halo.c). Mortar nodes are dealt out to all ranks to be watched. */
+/* Rigid bodies in a part (rigid_part.c) */
+typedef struct RigidPart RigidPart;
+
+/* What parts may need of the mortar side, and whether they have it (halo.c). Mortar nodes are dealt out to all ranks, which watch
+ * them. */
 enum { HALO_BOXES = 32, HALO_PLACES = 3 };
 
 typedef struct {
@@ -75,10 +79,19 @@ typedef struct {
   int64_t  planned; /* the entries of the library's plan, which lie in these arrays; 0: there is none */
   double  *coo_values;
   int64_t  bytes;   /* of the library's, the most at the end of a step */
+  RigidPart *rigid; /* rigid_part.c; NULL: no rigid body moves here */
+
   double  *slip, *augmentation; /* n1: vectors up to t_n; what contact_scale_augmentation() has set */
   double  *way;                 /* n1: what the law of the interface remembers of t_n, if anything */
   stickslip_counters spent;     /* of handles before this one: part_counters() */
 } ContactPart;
+
+/* Entries of a matrix. */
+typedef struct {
+  int64_t        n;
+  const int64_t *rows, *columns;
+  const double  *values;
+} Entries;
 
 /* In the arrays of a part: where the mortar's vectors begin, where the multipliers do. */
 #define MORTAR_OF(part, array) ((array) + (part)->dimension * (part)->n1)
@@ -291,12 +304,19 @@ PetscErrorCode contact_commit(Contact *contact, PetscInt *status);
 /* the fraction of a step that one interface allows, which leads `depth` deep at most; `step`: local, of u_local */
 PetscErrorCode contact_step_limit(Contact *contact, PetscInt number, Vec step, PetscReal depth, PetscReal *fraction);
 
+/* rigid_part.c */
+PetscErrorCode rigid_part_create(const Contact *contact, const Interface *interface, PetscInt first_number, ContactPart *part);
+PetscErrorCode rigid_part_destroy(ContactPart *part);
+PetscErrorCode rigid_part_plan(const Contact *contact, ContactPart *part, int64_t count);
+PetscErrorCode rigid_part_values(const Contact *contact, ContactPart *part, const PetscScalar *forces);
+Entries        rigid_part_entries(const ContactPart *part, int64_t count);
+
 /* tangent.c */
 PetscErrorCode contact_tangent(Contact *contact, Mat matrix, PetscInt *status);
 PetscErrorCode contact_pattern(Contact *contact, Mat matrix);
 void           contact_forget_plans(Contact *contact);
 /* into the part's arrays: a piece of the condensed matrix, STICKSLIP_CONDENSED_... */
-PetscErrorCode contact_entries(ContactPart *part, int32_t piece, int64_t *count, int32_t *refused);
+PetscErrorCode contact_entries(const Contact *contact, ContactPart *part, int32_t piece, Entries *found, int32_t *refused);
 
 /* condensed.c: nothing happens where multipliers are unknowns */
 PetscErrorCode condensed_check(const Contact *contact, char why[], size_t length); /* rank 0 */

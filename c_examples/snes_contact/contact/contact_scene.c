@@ -7,7 +7,7 @@ static PetscReal surface_young(const Contact *contact, const Interface *interfac
   PetscReal young = PETSC_MAX_REAL; /* what a wholly prescribed, so rigid surface counts as */
   for (PetscInt k = first; k < end; k++) {
     const PetscInt body = mesh_body_of(contact->mesh, interface->nodes[k]);
-    if (interface->prescribed[k] != 7) young = PetscMin(young, contact->physics->materials[body].young);
+    if (interface->prescribed[k] != 7 && !contact->mesh->bodies[body].rigid) young = PetscMin(young, contact->physics->materials[body].young);
   }
   return young;
 }
@@ -48,6 +48,23 @@ static PetscErrorCode remove_middles(Scene *scene, const Mesh *mesh, Interface *
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* rank 0: one side of the two may be rigid, and what the library does not do with it is told here by name. */
+static void check_rigid(Scene *scene, const Contact *contact, const Interface *interface)
+{
+  const Body *sides[2];
+  for (int side = 0; side < 2; side++)
+    sides[side] = &contact->mesh->bodies[mesh_body_of(contact->mesh, interface->nodes[side ? interface->n1 : 0])];
+  if (sides[0]->rigid && (sides[1]->rigid || sides[1]->analytic))
+    scene_fail(scene, interface->name, "mortar", "both sides are rigid: nothing would tell how a force between them is spread.");
+  if (sides[0]->rigid && contact->condensed)
+    scene_fail(scene, interface->name, "nonmortar",
+               "'%s' is rigid: with `unknowns: displacements` it can be the mortar side only, for its nodes have no equations "
+               "that multipliers could be found from.",
+               sides[0]->name);
+  if (sides[0]->rigid && interface->offsets.adjust > 0)
+    scene_fail(scene, interface->name, "adjust", "the non-mortar side is rigid: its nodes do not move one by one.");
+}
+
 /* rank 0: default stiffness, removed components; `symmetry`: see symmetry_mask() */
 static PetscErrorCode settle_nodes(Scene *scene, Contact *contact, Interface *interface, const PetscInt symmetry[])
 {
@@ -65,6 +82,7 @@ static PetscErrorCode settle_nodes(Scene *scene, Contact *contact, Interface *in
     scene_fail(scene, interface->name, "mortar_side", "'%s' is not rigid: support all of it in %s.", interface->surface[1]->name,
                mesh->dimension == 3 ? "x, y and z" : "x and y");
   describe_analytic(scene, interface);
+  check_rigid(scene, contact, interface);
   PetscCall(PetscMalloc1(n1, &interface->removed));
   PetscCall(PetscCalloc1(n1, &interface->middle));
   for (PetscInt a = 0; a < n1; a++)

@@ -29,7 +29,8 @@ typedef struct {
   double   *x;     /* 3 n2 a place */
 } Gathered;
 
-static PetscErrorCode gather(const Interface *interface, PetscMPIInt rank, PetscMPIInt size, PetscInt n_ends, const Vec ends[], Gathered *all)
+static PetscErrorCode gather(const Interface *interface, PetscMPIInt rank, PetscMPIInt size, PetscInt n_ends, const Vec ends[],
+                             Gathered *all)
 {
   const Halo    *halo = &interface->halo;
   const PetscInt n    = interface->n1 + interface->n2;
@@ -53,7 +54,8 @@ static PetscErrorCode gather(const Interface *interface, PetscMPIInt rank, Petsc
 }
 
 /* rank 0: what rank r needs; returns whether that is all */
-static PetscErrorCode mark(Side *side, const Interface *interface, PetscMPIInt r, PetscBool has_nodes, const Gathered *all, PetscBool *whole)
+static PetscErrorCode mark(Side *side, const Interface *interface, PetscMPIInt r, PetscBool has_nodes, const Gathered *all,
+                           PetscBool *whole)
 {
   const PetscBool uncut = (PetscBool)(all->n == 0);
   PetscInt        first = 0;

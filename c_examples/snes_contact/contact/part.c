@@ -41,6 +41,21 @@ static PetscErrorCode number_multipliers(const Contact *contact, ContactPart *pa
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Nodes of rigid bodies: beyond those of multipliers, which have three a node at most. */
+static PetscErrorCode number_rigid(const Contact *contact, Interface *interface)
+{
+  PetscInt n[2] = {0, interface->n1};
+  Vec      x;
+  PetscFunctionBegin;
+  if (!contact->physics->n_rigids) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(DMGetGlobalVector(contact->mesh->dm, &x));
+  PetscCall(VecGetSize(x, &n[0]));
+  PetscCall(DMRestoreGlobalVector(contact->mesh->dm, &x));
+  PetscCallMPI(MPI_Bcast(&n[1], 1, MPIU_INT, 0, PETSC_COMM_WORLD));
+  PetscCall(rigid_part_create(contact, interface, n[0] + 3 * n[1], &interface->part));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* A side of a part in the library's words; `numbers`: to be freed. */
 static PetscErrorCode describe_surface(const ContactPart *part, int side, stickslip_surface *out, int64_t **numbers)
 {
@@ -145,6 +160,7 @@ static PetscErrorCode create_arrays(Contact *contact, PetscInt number)
   PetscCall(contact_equations(contact, part->sf, n, part->equations));
   PetscCall(number_multipliers(contact, part));
   PetscCall(contact_coordinates(interface, part->n1 + part->n2, part->nodes, part->X));
+  PetscCall(number_rigid(contact, interface));
   PetscCall(fetch_offsets(interface));
   PetscCall(share_origin(contact, interface));
   contact_positions(part);
@@ -179,6 +195,7 @@ PetscErrorCode part_destroy(ContactPart *part)
   PetscCall(PetscFree4(part->host, part->rows, part->host_there, part->x_there));
   PetscCall(PetscFree3(part->slip, part->augmentation, part->way));
   PetscCall(PetscFree3(part->coo_rows, part->coo_columns, part->coo_values));
+  PetscCall(rigid_part_destroy(part));
   PetscCall(parts_destroy(part));
   *part = (ContactPart){0};
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -5,17 +5,17 @@
 typedef struct {
   PetscInt     n, capacity, *rows, *columns;
   PetscScalar *values;
-} Entries;
+} List;
 
 /* adds a piece of a part's matrix to the entries */
-static PetscErrorCode add_piece(ContactPart *part, int32_t piece, Entries *entries, int32_t *refused)
+static PetscErrorCode add_piece(const Contact *contact, ContactPart *part, int32_t piece, List *entries, int32_t *refused)
 {
-  int64_t count;
+  Entries found;
   PetscFunctionBegin;
-  PetscCall(contact_entries(part, piece, &count, refused));
+  PetscCall(contact_entries(contact, part, piece, &found, refused));
   if (*refused) PetscFunctionReturn(PETSC_SUCCESS);
-  if (entries->n + count > entries->capacity) {
-    Entries larger = {.n = entries->n, .capacity = (PetscInt)(2 * entries->capacity + count)};
+  if (entries->n + found.n > entries->capacity) {
+    List larger = {.n = entries->n, .capacity = (PetscInt)(2 * entries->capacity + found.n)};
     PetscCall(PetscMalloc3(larger.capacity, &larger.rows, larger.capacity, &larger.columns, larger.capacity, &larger.values));
     PetscCall(PetscArraycpy(larger.rows, entries->rows, entries->n));
     PetscCall(PetscArraycpy(larger.columns, entries->columns, entries->n));
@@ -23,17 +23,17 @@ static PetscErrorCode add_piece(ContactPart *part, int32_t piece, Entries *entri
     PetscCall(PetscFree3(entries->rows, entries->columns, entries->values));
     *entries = larger;
   }
-  for (int64_t k = 0; k < count; k++) {
-    entries->rows[entries->n]     = (PetscInt)part->coo_rows[k];
-    entries->columns[entries->n]  = (PetscInt)part->coo_columns[k];
-    entries->values[entries->n++] = part->coo_values[k];
+  for (int64_t k = 0; k < found.n; k++) {
+    entries->rows[entries->n]     = (PetscInt)found.rows[k];
+    entries->columns[entries->n]  = (PetscInt)found.columns[k];
+    entries->values[entries->n++] = found.values[k];
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode condensed_piece(Contact *contact, int32_t piece, Mat like, Mat *matrix, PetscInt *status)
 {
-  Entries  entries = {0};
+  List     entries = {0};
   PetscInt n;
   PetscFunctionBegin;
   *matrix = NULL;
@@ -42,7 +42,7 @@ PetscErrorCode condensed_piece(Contact *contact, int32_t piece, Mat like, Mat *m
     Interface *interface = &contact->interfaces[i];
     int32_t    refused   = 0;
     PetscCall(contact_gather(contact, interface, contact->physics->u_local));
-    if (interface->part.handle) PetscCall(add_piece(&interface->part, piece, &entries, &refused));
+    if (interface->part.handle) PetscCall(add_piece(contact, &interface->part, piece, &entries, &refused));
     PetscCall(contact_agree(contact, interface, refused, status));
   }
   if (!*status) {

@@ -24,26 +24,26 @@ static PetscBool repeats(const int64_t *head, const int64_t *rows, const int64_t
 
 /* Entries of a plan come row after row, those of a piece block after block, each by columns: one call for a row or a block,
  * which ends where its rows do not repeat. */
-static PetscErrorCode insert(const ContactPart *part, int64_t count, const double *values, Mat matrix)
+static PetscErrorCode insert(Entries entries, PetscBool zero, Mat matrix)
 {
   enum { LONGEST = 64 };
   static const double zeros[LONGEST * LONGEST];
   PetscInt            rows[LONGEST], columns[LONGEST], n, m;
 
   PetscFunctionBegin;
-  for (int64_t k = 0; k < count; k += (int64_t)n * m) {
-    const int64_t *r = part->coo_rows + k, *c = part->coo_columns + k, left = count - k;
+  for (int64_t k = 0; k < entries.n; k += (int64_t)n * m) {
+    const int64_t *r = entries.rows + k, *c = entries.columns + k, left = entries.n - k;
     for (n = 0; n < LONGEST && n < left && c[n] == c[0]; n++)
       rows[n] = (PetscInt)r[n];
     for (m = 0; m < LONGEST && n * (m + 1) <= left && (!m || repeats(r, r + n * m, c + n * m, n)); m++)
       columns[m] = (PetscInt)c[n * m];
-    PetscCall(MatSetValues(matrix, n, rows, m, columns, values ? values + k : zeros, ADD_VALUES));
+    PetscCall(MatSetValues(matrix, n, rows, m, columns, zero ? zeros : entries.values + k, ADD_VALUES));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* Which entries the tangent has here; kept until values lack one. */
-static PetscErrorCode plan(ContactPart *part, int32_t pairs, int32_t *refused)
+static PetscErrorCode plan(const Contact *contact, ContactPart *part, int32_t pairs, int32_t *refused)
 {
   int64_t n_rows;
 
@@ -54,11 +54,12 @@ static PetscErrorCode plan(ContactPart *part, int32_t pairs, int32_t *refused)
   PetscCall(reserve(part, part->planned));
   *refused = stickslip_interface_plan_coo(part->handle, STICKSLIP_ENTRIES_TANGENT, part->coo_capacity,
                                           part->coo_rows, part->coo_columns);
+  if (!*refused) PetscCall(rigid_part_plan(contact, part, part->planned));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* Which entries the forces of a condensed system have, with pairs that may come: into the arrays, and their number. */
-static PetscErrorCode condensed_plan(ContactPart *part, int64_t *count)
+static PetscErrorCode condensed_plan(const Contact *contact, ContactPart *part, int64_t *count)
 {
   int64_t rows[2], counts[2];
   PetscFunctionBegin;
@@ -69,6 +70,7 @@ static PetscErrorCode condensed_plan(ContactPart *part, int64_t *count)
   PetscCall(reserve(part, *count));
   PetscCallStickslip(stickslip_interface_plan_coo(part->handle, STICKSLIP_ENTRIES_FORCES, part->coo_capacity,
                                                   part->coo_rows, part->coo_columns));
+  PetscCall(rigid_part_plan(contact, part, *count));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -79,12 +81,12 @@ static int32_t plan_values(ContactPart *part)
 }
 
 /* Where pairs have come that the plan does not have, one of the pairs of now takes its place. */
-static PetscErrorCode tangent(ContactPart *part, int32_t *refused)
+static PetscErrorCode tangent(const Contact *contact, ContactPart *part, int32_t *refused)
 {
   PetscFunctionBegin;
   *refused = part->planned ? plan_values(part) : STICKSLIP_MISSING_ENTRY;
   if (*refused == STICKSLIP_MISSING_ENTRY) {
-    PetscCall(plan(part, STICKSLIP_PLAN_ACTIVE, refused));
+    PetscCall(plan(contact, part, STICKSLIP_PLAN_ACTIVE, refused));
     if (!*refused && part->planned) *refused = plan_values(part); /* where all is prescribed there is none */
   }
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -97,20 +99,41 @@ static int32_t entries(ContactPart *part, int32_t piece, int64_t capacity, int64
                                            count);
 }
 
-/* A piece into the arrays as they are; counted first where they turn out too small. */
-PetscErrorCode contact_entries(ContactPart *part, int32_t piece, int64_t *count, int32_t *refused)
+/* Forces of the part at u_local, which rigid bodies turn round. The library has just evaluated them. */
+static int32_t forces(ContactPart *part)
 {
+  return stickslip_interface_residual(part->handle, STATE_OF(part), NULL, part->forces, MORTAR_OF(part, part->forces),
+                                      MULTIPLIERS_OF(part, part->forces));
+}
+
+/* What rigid bodies make of the values in the part's array; `force`: these are derivatives of forces. */
+static PetscErrorCode rigid_values(const Contact *contact, ContactPart *part, PetscBool force, int32_t *refused)
+{
+  PetscFunctionBegin;
+  if (!part->rigid || *refused) PetscFunctionReturn(PETSC_SUCCESS);
+  if (force) *refused = forces(part);
+  if (!*refused) PetscCall(rigid_part_values(contact, part, force ? part->forces : NULL));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* A piece into the arrays as they are; counted first where they turn out too small. */
+PetscErrorCode contact_entries(const Contact *contact, ContactPart *part, int32_t piece, Entries *found, int32_t *refused)
+{
+  int64_t count = 0;
   PetscFunctionBegin;
   *refused = STICKSLIP_BUFFER_TOO_SMALL;
   for (int attempt = 0; attempt < 2 && *refused == STICKSLIP_BUFFER_TOO_SMALL; attempt++) {
     if (attempt || !part->coo_capacity) {
-      *refused = entries(part, piece, 0, NULL, NULL, NULL, count);
+      *refused = entries(part, piece, 0, NULL, NULL, NULL, &count);
       if (*refused) break;
-      PetscCall(reserve(part, *count));
+      PetscCall(reserve(part, count));
     }
     *refused = entries(part, piece, part->coo_capacity, part->coo_rows, part->coo_columns,
-                       part->coo_values, count);
+                       part->coo_values, &count);
   }
+  if (!*refused) PetscCall(rigid_part_plan(contact, part, count));
+  PetscCall(rigid_values(contact, part, (PetscBool)(piece == STICKSLIP_CONDENSED_FORCES), refused));
+  *found = rigid_part_entries(part, count);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -124,15 +147,16 @@ PetscErrorCode contact_tangent(Contact *contact, Mat matrix, PetscInt *status)
     Interface   *interface = &contact->interfaces[i];
     ContactPart *part      = &interface->part;
     int32_t      refused   = 0;
-    int64_t      count     = 0;
+    Entries      found     = {0};
     PetscCall(contact_gather(contact, interface, contact->physics->u_local));
     if (part->handle && contact->condensed) {
-      PetscCall(contact_entries(part, STICKSLIP_CONDENSED_FORCES, &count, &refused));
+      PetscCall(contact_entries(contact, part, STICKSLIP_CONDENSED_FORCES, &found, &refused));
     } else if (part->handle) {
-      PetscCall(tangent(part, &refused));
-      count = part->planned;
+      PetscCall(tangent(contact, part, &refused));
+      PetscCall(rigid_values(contact, part, PETSC_TRUE, &refused));
+      found = rigid_part_entries(part, part->planned);
     }
-    if (!refused) PetscCall(insert(part, count, part->coo_values, matrix));
+    if (!refused) PetscCall(insert(found, PETSC_FALSE, matrix));
     PetscCall(contact_agree(contact, interface, refused, status));
   }
   PetscCall(MatSetOption(matrix, MAT_ROW_ORIENTED, PETSC_TRUE));
@@ -151,13 +175,13 @@ PetscErrorCode contact_pattern(Contact *contact, Mat matrix)
     PetscCall(contact_gather(contact, &contact->interfaces[i], contact->physics->u_local));
     if (!part->handle) continue;
     if (contact->condensed) {
-      PetscCall(condensed_plan(part, &count));
+      PetscCall(condensed_plan(contact, part, &count));
     } else {
-      PetscCall(plan(part, STICKSLIP_PLAN_SKIN, &refused));
+      PetscCall(plan(contact, part, STICKSLIP_PLAN_SKIN, &refused));
       PetscCallStickslip(refused);
       count = part->planned;
     }
-    PetscCall(insert(part, count, NULL, matrix));
+    PetscCall(insert(rigid_part_entries(part, count), PETSC_TRUE, matrix));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -164,7 +164,22 @@ static PetscErrorCode share_body(Mesh *mesh)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-enum { BOX, GMSH, ANALYTIC, HDF5 };
+/* What it costs to read a whole file on one rank of several. */
+static PetscErrorCode tell_cost(Scene *scene, const Mesh *mesh, const Body *body)
+{
+  PetscBool      quiet = PETSC_FALSE;
+  PetscLogDouble bytes = mesh_bytes_of_piece(mesh);
+  PetscFunctionBegin;
+  scene_bool(scene, "output", "quiet", &quiet);
+  if (mesh->size > 1 && !quiet)
+    PetscCall(PetscPrintf(PETSC_COMM_WORLD,
+                          "note: rank 0 has read all %" PetscInt_FMT " cells of %s, and holds %.3g MB of mesh until it is distributed; "
+                          "converted by -convert, each rank reads its piece\n",
+                          mesh->n_all_cells - body->first_cell, body->name, bytes / 1e6));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+enum { BOX, GMSH, ANALYTIC, HDF5, RIGID };
 
 static PetscErrorCode create_body(Scene *scene, Mesh *mesh, PetscInt type, Body *body)
 {
@@ -175,23 +190,27 @@ static PetscErrorCode create_body(Scene *scene, Mesh *mesh, PetscInt type, Body 
   body->first_here   = mesh->n_vertices;
   if (type == BOX || type == HDF5) {
     PetscCall((type == BOX ? box_create : converted_create)(scene, body->name, mesh));
+  } else if (type == RIGID) {
+    PetscCall(rigid_create(scene, body, mesh));
+    PetscCall(share_body(mesh));
   } else {
     scene_root_begin(scene);
     if (mesh->rank == 0 && type == GMSH) PetscCall(gmsh_create(scene, body->name, mesh));
     if (mesh->rank == 0 && type == ANALYTIC) PetscCall(analytic_create(scene, body->name, mesh));
     PetscCall(scene_root_end(scene));
     PetscCall(share_body(mesh));
+    if (type == GMSH) PetscCall(tell_cost(scene, mesh, body));
   }
   body->end_vertex = mesh->n_all_vertices;
   body->end_here   = mesh->n_vertices;
-  PetscCall(check_volumes(scene, mesh, body, first_cell));
+  if (!body->rigid) PetscCall(check_volumes(scene, mesh, body, first_cell));
   if (mesh->space.kind == SPACE_AXISYMMETRIC && !body->analytic) PetscCall(check_radii(scene, mesh, body));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode mesh_create(Scene *scene, Mesh *mesh)
 {
-  static const char *const types[] = {"box", "gmsh", "analytic", "hdf5", NULL}; /* BOX, ... */
+  static const char *const types[] = {"box", "gmsh", "analytic", "hdf5", "rigid", NULL}; /* BOX, ... */
   PetscInt                 n, *type;
   char                   **names;
 
@@ -209,9 +228,10 @@ PetscErrorCode mesh_create(Scene *scene, Mesh *mesh)
   for (PetscInt b = 0; b < n; b++) {
     PetscCall(PetscSNPrintf(mesh->bodies[b].name, NAME_LENGTH, "%s", names[b]));
     if (!scene_has(scene, names[b], "type"))
-      scene_fail(scene, names[b], "type", "this key is missing; choose from: box, gmsh, analytic, hdf5.");
+      scene_fail(scene, names[b], "type", "this key is missing; choose from: box, gmsh, analytic, hdf5, rigid.");
     scene_choice(scene, names[b], "type", types, &type[b]);
-    mesh->bodies[b].analytic  = (PetscBool)(type[b] == ANALYTIC);
+    mesh->bodies[b].rigid     = (PetscBool)(type[b] == RIGID);
+    mesh->bodies[b].analytic  = (PetscBool)(type[b] == ANALYTIC || (type[b] == RIGID && rigid_is_analytic(scene, names[b])));
     mesh->bodies[b].from_gmsh = (PetscBool)(type[b] == GMSH);
   }
   for (; mesh->n_bodies < n; mesh->n_bodies++)

@@ -21,7 +21,7 @@ static PetscErrorCode point_vertices(DM dm, PetscInt point, PetscInt *n, PetscIn
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode corners_of_cell(DM dm, PetscInt cell, PetscInt *n, PetscInt vertices[8])
+PetscErrorCode gmsh_corners(DM dm, PetscInt cell, PetscInt *n, PetscInt vertices[8])
 {
   DMPolytopeType type;
   PetscFunctionBegin;
@@ -72,7 +72,7 @@ static PetscErrorCode append_cells(Scene *scene, const char *body, DM dm, DMLabe
     PetscCall(DMPlexGetCellType(dm, c, &type));
     if (type != TYPES[d == 3][0] && type != TYPES[d == 3][1]) gmsh_fail_kind(scene, body, unknown_kind(type));
     kind = type == TYPES[d == 3][1];
-    PetscCall(corners_of_cell(dm, c, &n, corners));
+    PetscCall(gmsh_corners(dm, c, &n, corners));
     for (PetscInt a = 0; a < n; a++) {
       PetscInt *number = &new_number[corners[a] - vStart];
       if (*number < 0) { /* vertices of other volumes in the file stay out */
@@ -134,7 +134,7 @@ static PetscErrorCode append_surface(const char *body, DM dm, DMLabel label, con
       if (!pass) count += owners > 0;
       if (!pass || !owners) continue;
       if (owners > 1) surface->inner = PETSC_TRUE;
-      PetscCall(corners_of_cell(dm, cell, &n, corners));
+      PetscCall(gmsh_corners(dm, cell, &n, corners));
       PetscCall(point_vertices(dm, f, &n_on_face, on_face));
       for (PetscInt a = 0; a < n; a++)
         corners[a] = first + new_number[corners[a] - vStart];
@@ -164,7 +164,7 @@ static PetscErrorCode append_surface(const char *body, DM dm, DMLabel label, con
 }
 
 /* Is this label of PETSc's a physical name? With `height` 0: of a volume, 1: of a surface. */
-static PetscErrorCode physical_name(DM dm, PetscInt l, PetscInt height, const char **name, PetscBool *is)
+PetscErrorCode gmsh_physical_name(DM dm, PetscInt l, PetscInt height, const char **name, PetscBool *is)
 {
   static const char *const builtin[] = {"celltype", "depth", "Cell Sets", "Face Sets", "Edge Sets", "Vertex Sets"};
   PetscInt                 start, end, value = -1;
@@ -192,43 +192,61 @@ static PetscErrorCode list_names(DM dm, PetscInt height, char list[], size_t len
   for (PetscInt l = 0; l < n_labels; l++) {
     const char *name;
     PetscBool   is;
-    PetscCall(physical_name(dm, l, height, &name, &is));
+    PetscCall(gmsh_physical_name(dm, l, height, &name, &is));
     if (is) snprintf(list + strlen(list), length - strlen(list), "%s%s", list[0] ? ", " : "", name);
   }
   if (!list[0]) snprintf(list, length, "none");
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode gmsh_create(Scene *scene, const char *body, Mesh *mesh)
+/* map.file, a path that can be read */
+static PetscErrorCode find_file(Scene *scene, const char *body, char path[])
 {
-  const PetscInt           first     = mesh->n_vertices;
-  char                     file[PETSC_MAX_PATH_LEN] = "", path[PETSC_MAX_PATH_LEN], copy[PETSC_MAX_PATH_LEN];
-  char                     volume_name[NAME_LENGTH] = "", names[1024];
-  PetscInt                 dimension, n_labels, vStart, vEnd, *new_number;
-  PetscBool                exists, done;
-  PetscErrorCode           failed;
-  DMLabel                  volume = NULL;
-  DM                       dm     = NULL;
-
+  char      file[PETSC_MAX_PATH_LEN] = "";
+  PetscBool exists;
   PetscFunctionBegin;
   scene_string_required(scene, body, "file", file, sizeof(file));
-  scene_string(scene, body, "volume", volume_name, sizeof(volume_name));
-  PetscCall(scene_relative_path(scene, file, path, sizeof(path)));
+  PetscCall(scene_relative_path(scene, file, path, PETSC_MAX_PATH_LEN));
   PetscCall(PetscTestFile(path, 'r', &exists));
   if (!exists) scene_fail(scene, body, "file", "cannot read '%s'.", path);
-  PetscCall(gmsh_second_create(scene, body, path, volume_name, mesh, &done));
-  if (done) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode gmsh_open(Scene *scene, const char *body, PetscInt dimension, char path[], DM *dm)
+{
+  char           copy[PETSC_MAX_PATH_LEN];
+  PetscErrorCode failed;
+  PetscFunctionBegin;
+  PetscCall(find_file(scene, body, path));
   PetscCall(PetscOptionsSetValue(NULL, "-dm_plex_gmsh_use_regions", "true")); /* labels by physical name */
   PetscCall(gmsh_without_signs(path, copy, sizeof(copy)));
   PetscCall(PetscPushErrorHandler(PetscReturnErrorHandler, NULL));
-  failed = DMPlexCreateGmshFromFile(PETSC_COMM_SELF, copy[0] ? copy : path, PETSC_TRUE, &dm);
+  failed = DMPlexCreateGmshFromFile(PETSC_COMM_SELF, copy[0] ? copy : path, PETSC_TRUE, dm);
   PetscCall(PetscPopErrorHandler());
   if (copy[0]) (void)remove(copy);
   if (failed)
     scene_fail(scene, body, "file",
                "PETSc cannot read '%s' as a Gmsh mesh (write it as `gmsh -%d -format msh41`, with `-order 1` or, as text, "
                "`-order 2`).",
-               path, (int)mesh->dimension);
+               path, (int)dimension);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode gmsh_create(Scene *scene, const char *body, Mesh *mesh)
+{
+  const PetscInt           first     = mesh->n_vertices;
+  char                     path[PETSC_MAX_PATH_LEN], volume_name[NAME_LENGTH] = "", names[1024];
+  PetscInt                 dimension, n_labels, vStart, vEnd, *new_number;
+  PetscBool                done;
+  DMLabel                  volume = NULL;
+  DM                       dm     = NULL;
+
+  PetscFunctionBegin;
+  PetscCall(find_file(scene, body, path));
+  scene_string(scene, body, "volume", volume_name, sizeof(volume_name));
+  PetscCall(gmsh_second_create(scene, body, path, volume_name, mesh, &done));
+  if (done) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(gmsh_open(scene, body, mesh->dimension, path, &dm));
   PetscCall(DMGetDimension(dm, &dimension));
   if (dimension != mesh->dimension) gmsh_fail_dimension(scene, body, path, mesh->dimension);
   if (volume_name[0]) {
@@ -249,7 +267,7 @@ PetscErrorCode gmsh_create(Scene *scene, const char *body, Mesh *mesh)
     const char *name;
     DMLabel     label;
     PetscBool   is;
-    PetscCall(physical_name(dm, l, 1, &name, &is));
+    PetscCall(gmsh_physical_name(dm, l, 1, &name, &is));
     if (!is) continue;
     PetscCall(DMGetLabel(dm, name, &label));
     PetscCall(append_surface(body, dm, label, name, volume, new_number, first, mesh));

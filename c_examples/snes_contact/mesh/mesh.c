@@ -98,6 +98,10 @@ PetscErrorCode mesh_rotate(Mesh *mesh)
   PetscFunctionBegin;
   for (PetscInt v = 0; v < mesh->n_vertices; v++)
     mesh_rotate_vector(mesh, mesh->coordinates + 3 * v);
+  for (PetscInt b = 0; b < mesh->n_bodies; b++) {
+    for (PetscInt v = 0; v < mesh->bodies[b].shell.n_vertices; v++)
+      mesh_rotate_vector(mesh, mesh->bodies[b].shell.coordinates + 3 * v);
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -131,6 +135,10 @@ PetscErrorCode mesh_destroy(Mesh *mesh)
 {
   PetscFunctionBegin;
   PetscCall(mesh_forget_pieces(mesh));
+  for (PetscInt b = 0; mesh->bodies && b < mesh->n_bodies; b++) { /* of rank 0 */
+    PetscCall(PetscFree2(mesh->bodies[b].shell.offsets, mesh->bodies[b].shell.vertices));
+    PetscCall(PetscFree(mesh->bodies[b].shell.coordinates));
+  }
   PetscCall(PetscFree(mesh->bodies));
   PetscCall(PetscFree(mesh->points));
   PetscCall(PetscFree3(mesh->original, mesh->here, mesh->original_cell));

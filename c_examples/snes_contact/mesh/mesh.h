@@ -24,12 +24,20 @@ typedef struct {
   PetscInt  frame; /* number of the first of its four vertices, in the plane three */
 } Surface;
 
+/* The surfaces of a rigid body, to be drawn: its vertices, and faces by these. */
+typedef struct {
+  PetscInt   n_vertices, n_faces, *offsets, *vertices;
+  PetscReal *coordinates;
+} Shell;
+
 typedef struct {
   char      name[NAME_LENGTH];
   PetscBool analytic, from_gmsh;      /* rigid, one cell without stiffness: its frame; from a Gmsh file */
+  PetscBool rigid;                    /* moves with a reference point, see rigid.c: its first vertex, and the second one beside it */
   PetscInt  first_vertex, end_vertex; /* numbers of its vertices, known to every rank */
   PetscInt  first_cell;               /* number of its first cell */
   PetscInt  first_here, end_here;     /* its vertices in this rank's piece */
+  Shell     shell;                    /* of a rigid body, on rank 0 */
 } Body;
 
 /* What a rank holds of the mesh, in bytes: while it is read, and during the run. */
@@ -180,6 +188,17 @@ void           gmsh_fail_nameless(Scene *scene, const char *body, const char *pa
 /* `done`: the file is of second order */
 PetscErrorCode gmsh_second_create(Scene *scene, const char *body, const char *path, const char *volume, Mesh *mesh,
                                   PetscBool *done);
+/* gmsh.c, for gmsh_shell.c: opens the file that body.file names; corners of a cell, in VTK's order; is a label of PETSc's a
+ * physical name, with `height` 0 of a cell, 1 of a face? */
+PetscErrorCode gmsh_open(Scene *scene, const char *body, PetscInt dimension, char path[], DM *dm);
+PetscErrorCode gmsh_corners(DM dm, PetscInt cell, PetscInt *n, PetscInt vertices[8]);
+PetscErrorCode gmsh_physical_name(DM dm, PetscInt label, PetscInt height, const char **name, PetscBool *is);
 PetscErrorCode analytic_create(Scene *scene, const char *body, Mesh *mesh);
 PetscErrorCode analytic_fit(Mesh *mesh);
+/* rigid.c, on every rank, and what it reads surfaces without cells with: gmsh_shell.c, stl.c, orient.c */
+PetscBool      rigid_is_analytic(Scene *scene, const char *body);
+PetscErrorCode rigid_create(Scene *scene, Body *body, Mesh *mesh);
+PetscErrorCode gmsh_shell_create(Scene *scene, const char *body, Mesh *shell);
+PetscErrorCode stl_create(Scene *scene, const char *body, Mesh *shell);
+PetscErrorCode orient_outward(Scene *scene, const char *body, const Mesh *shell);
 #endif

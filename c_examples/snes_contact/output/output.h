@@ -52,6 +52,7 @@ PetscErrorCode nodal_tractions(const Mesh *mesh, const Interface *interface, con
 PetscErrorCode csv_adjusted(Output *output, const Interface *interface); /* rank 0, once */
 PetscErrorCode csv_write(Output *output, const Interface *interface, const ContactStates *states, PetscInt step);
 /* vtu_array.c */
+int            vtu_type(CellKind kind);
 void           vtu_start_array(FILE *file, const char *type, const char *name, int components);
 void           vtu_end_array(FILE *file);
 void           vtu_vectors(FILE *file, const char *name, PetscInt n, const PetscScalar *values);
@@ -76,6 +77,8 @@ PetscErrorCode piece_fetch(const Physics *physics, const Piece *piece, PetscInt 
 void           vtu_declare_stresses(FILE *file);
 PetscErrorCode vtu_cell_stresses(FILE *file, const Physics *physics, const Piece *piece);
 PetscErrorCode vtu_nodal_stresses(FILE *file, const Physics *physics, const Piece *piece);
+/* vtu_rigid.c */
+PetscErrorCode vtu_rigids(const Output *output, PetscInt step);
 /* vtu.c: on every rank */
 PetscErrorCode vtu_write(Output *output, PetscInt step);
 #endif

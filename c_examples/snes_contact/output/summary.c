@@ -118,10 +118,36 @@ static PetscErrorCode external_work(Output *output, PetscReal *work)
   PetscCall(VecGetArrayRead(physics->u_local, &u));
   for (PetscInt k = 0; k < physics->unknowns.n_local; k++)
     *work += 0.5 * PetscRealPart(f[k] * u[k]);
+  *work += 0.5 * rigids_work_before(physics, f);
   PetscCall(VecRestoreArrayRead(physics->u_local, &u));
   PetscCall(VecRestoreArrayRead(physics->f_external, &f));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, work, 1, MPIU_REAL, MPIU_SUM, PETSC_COMM_WORLD));
   PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static void add_six(cJSON *json, const char *force, const char *moment, const PetscReal six[RIGID_UNKNOWNS])
+{
+  cJSON_AddItemToObject(json, force, vector_json(six));
+  cJSON_AddItemToObject(json, moment, vector_json(six + 3));
+}
+
+/* Of each rigid body: its motion, the sum of the rotation vectors of its steps, what it is turned by, and what acts on it. */
+static void add_rigids(Output *output, cJSON *json)
+{
+  const Physics *physics = output->physics;
+  cJSON         *all     = physics->n_rigids ? cJSON_AddObjectToObject(json, "rigid") : NULL;
+  for (PetscInt r = 0; r < physics->n_rigids; r++) {
+    const Rigid *rigid = &physics->rigids[r];
+    cJSON       *body  = cJSON_AddObjectToObject(all, output->mesh->bodies[rigid->body].name);
+    PetscReal    six[RIGID_UNKNOWNS], turned[9];
+    for (int k = 0; k < RIGID_UNKNOWNS; k++)
+      six[k] = rigid->motion[k] + (k < 3 ? 0 : rigid->sum[k - 3]);
+    add_six(body, "displacement", "rotation", six);
+    rigids_turned(rigid, turned);
+    cJSON_AddItemToObject(body, "turned", cJSON_CreateDoubleArray(turned, 9));
+    add_six(body, "contact_force", "contact_moment", rigid->on_body);
+    add_six(body, "reaction_force", "reaction_moment", rigid->reaction);
+  }
 }
 
 static PetscErrorCode add_probes(Output *output, cJSON *json)
@@ -209,6 +235,7 @@ PetscErrorCode summary_step(Output *output, Summary *summary, PetscInt step, Pet
   PetscCall(external_work(output, &half_fu));
   cJSON_AddNumberToObject(json, "external_work_half_fu", half_fu);
   PetscCall(add_reactions(output, json));
+  add_rigids(output, json);
   PetscCall(contact_collect(contact));
   if (output->mesh->rank == 0) {
     interfaces = cJSON_AddObjectToObject(json, "interfaces");
@@ -221,6 +248,7 @@ PetscErrorCode summary_step(Output *output, Summary *summary, PetscInt step, Pet
   }
   PetscCall(add_probes(output, json));
   if (vtu) PetscCall(vtu_write(output, step));
+  if (vtu) PetscCall(vtu_rigids(output, step));
   PetscCall(held_check(solve));
   cJSON_AddNumberToObject(json, "friction_work", friction_work);
   PetscCall(VecDuplicate(physics->u_local, &summary->state));
@@ -259,6 +287,7 @@ PetscErrorCode summary_write(Output *output, Summary **summary, Vec last, PetscI
   if (solve->held.by_nothing)
     cJSON_AddItemReferenceToObject((*summary)->root, "held_by_nothing", solve->held.by_nothing);
   if (solve->least_pivot > 0) cJSON_AddNumberToObject((*summary)->root, "least_pivot", solve->least_pivot);
+  if (solve->n_raised) cJSON_AddNumberToObject((*summary)->root, "mumps_workspace", solve->room); /* per cent, after it asked */
   PetscCall(range_report(output->physics, (*summary)->root));
   PetscCall(summary_counters(output, (*summary)->root));
   PetscCall(summary_holdings(output, (*summary)->root));

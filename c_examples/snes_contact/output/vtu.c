@@ -3,18 +3,6 @@
 #include "output/output.h"
 #include <math.h>
 
-/* VTK's number of a kind of cell */
-static int vtk_type(CellKind kind)
-{
-  static const int types[CELL_KINDS] = {
-      [TRI3] = 5,  [TRI6] = 22,  /* VTK_TRIANGLE, VTK_QUADRATIC_TRIANGLE */
-      [QUAD4] = 9, [QUAD8] = 23, [QUAD9] = 28, /* VTK_QUAD, VTK_QUADRATIC_QUAD, VTK_BIQUADRATIC_QUAD */
-      [TET4] = 10, [TET10] = 24, /* VTK_TETRA, VTK_QUADRATIC_TETRA */
-      [HEX8] = 12, [HEX20] = 25, [HEX27] = 29, /* VTK_HEXAHEDRON, VTK_QUADRATIC_, VTK_TRIQUADRATIC_HEXAHEDRON */
-  };
-  return types[kind];
-}
-
 static void scalars(FILE *file, const char *name, PetscInt n, const double values[])
 {
   vtu_start_array(file, "Float64", name, 1);
@@ -121,7 +109,7 @@ static void write_cells(FILE *file, const Physics *physics, const Piece *piece)
   vtu_start_array(file, "UInt8", "types", 1);
   for (PetscInt k = 0; k < piece->n_cells; k++) {
     const PetscInt c = piece->cells[k];
-    fprintf(file, "%d\n", vtk_type(cell_kind(physics->mesh->dimension, offsets[c + 1] - offsets[c])));
+    fprintf(file, "%d\n", vtu_type(cell_kind(physics->mesh->dimension, offsets[c + 1] - offsets[c])));
   }
   vtu_end_array(file);
 }

@@ -29,6 +29,10 @@ PetscErrorCode piece_create(const Physics *physics, Piece *piece)
   PetscCall(PetscMalloc2(3 * piece->n_points, &piece->displacements, 3 * piece->n_points, &piece->X));
   PetscCall(sorted(piece->n_points, mesh->original, piece->order));
   PetscCall(sorted(piece->n_cells, mesh->original_cell, piece->cells));
+  piece->n_cells = 0;
+  for (PetscInt k = 0; k < cells->n; k++) { /* rigid bodies are drawn by their surfaces */
+    if (!mesh->bodies[cells->body[piece->cells[k]]].rigid) piece->cells[piece->n_cells++] = piece->cells[k];
+  }
   for (PetscInt k = 0; k < piece->n_points; k++)
     piece->place[piece->order[k]] = k;
   for (PetscInt c = 0; c < cells->n; c++) {

@@ -4,6 +4,12 @@
 /* How many roundings meet in a force: of displacements, gradients and sums, of several cells and points. */
 static const PetscReal ROUNDINGS = 2;
 
+/* Cells of rigid bodies have no stiffness; they hold their vertices together. */
+static PetscBool is_rigid(const Physics *physics, PetscInt c)
+{
+  return physics->mesh->bodies[physics->cells.body[c]].rigid;
+}
+
 static CellKind kind_of(const Physics *physics, PetscInt c)
 {
   return cell_kind(physics->mesh->dimension, physics->cells.offsets[c + 1] - physics->cells.offsets[c]);
@@ -58,8 +64,9 @@ PetscErrorCode bulk_create(Physics *physics)
         cells->X[3 * (n_nodes + a) + i] = PetscRealPart(coordinates[at + i]);
     }
     cells->offsets[c - cStart + 1] = n_nodes + n;
-    PetscCall(cell_stiffness(physics, &physics->materials[cells->body[c - cStart]], kind_of(physics, c - cStart),
-                             cells->X + 3 * n_nodes, &cells->stiffness[c - cStart]));
+    if (!is_rigid(physics, c - cStart))
+      PetscCall(cell_stiffness(physics, &physics->materials[cells->body[c - cStart]], kind_of(physics, c - cStart),
+                               cells->X + 3 * n_nodes, &cells->stiffness[c - cStart]));
     n_nodes += n;
   }
   PetscCall(VecRestoreArrayRead(coordinate_vector, &coordinates));
@@ -135,6 +142,7 @@ PetscErrorCode bulk_forces(Physics *physics, Vec f_local, PetscInt *status)
                    n     = cells->offsets[c + 1] - cells->offsets[c];
     PetscReal u_cell[3 * CELL_NODES], f_cell[3 * CELL_NODES];
     PetscBool inverted;
+    if (is_rigid(physics, c)) continue;
     cell_displacements(physics, c, u, u_cell);
     PetscCall(cell_forces(kind_of(physics, c), &physics->mesh->space, &physics->materials[cells->body[c]],
                           cells->X + 3 * cells->offsets[c], u_cell, f_cell, NULL, &inverted));
@@ -180,6 +188,7 @@ PetscErrorCode bulk_stiffness(Physics *physics, Mat matrix, PetscInt *status)
   for (PetscInt c = 0; c < cells->n && first_inverted < 0; c++) {
     PetscReal u_cell[3 * CELL_NODES], f_cell[3 * CELL_NODES], K[9 * CELL_NODES * CELL_NODES];
     PetscBool inverted;
+    if (is_rigid(physics, c)) continue;
     cell_displacements(physics, c, u, u_cell);
     PetscCall(cell_forces(kind_of(physics, c), &physics->mesh->space, &physics->materials[cells->body[c]],
                           cells->X + 3 * cells->offsets[c], u_cell, f_cell, K, &inverted));
@@ -225,7 +234,8 @@ PetscErrorCode bulk_pattern(Physics *physics, Mat matrix)
   static const PetscReal zeros[9 * CELL_NODES * CELL_NODES];
   const Cells           *cells = &physics->cells;
   PetscFunctionBegin;
-  for (PetscInt c = 0; c < cells->n; c++)
-    PetscCall(insert(physics, c, zeros, matrix));
+  for (PetscInt c = 0; c < cells->n; c++) {
+    if (!is_rigid(physics, c)) PetscCall(insert(physics, c, zeros, matrix));
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

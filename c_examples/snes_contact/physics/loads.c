@@ -127,7 +127,7 @@ static void add_bodies(const Physics *physics, const Load *load, PetscScalar *fo
   for (PetscInt c = 0; c < cells->n; c++) {
     const PetscInt first = cells->offsets[c], n = cells->offsets[c + 1] - first;
     PetscReal      f[3 * CELL_NODES];
-    if (!load->bodies[cells->body[c]]) continue;
+    if (!load->bodies[cells->body[c]] || physics->mesh->bodies[cells->body[c]].rigid) continue;
     cell_body_forces(cell_kind(physics->mesh->dimension, n), &physics->mesh->space,
                      physics->materials[cells->body[c]].density, &load->acceleration, cells->X + 3 * first, f);
     add(n, cells->dofs + first, f, 1, forces);
@@ -145,10 +145,12 @@ PetscErrorCode loads_assemble(Physics *physics)
     PetscCall(VecZeroEntries(load->forces));
     if (load->follows) continue;
     PetscCall(VecGetArray(load->forces, &forces));
-    if (load->bodies)
+    if (load->bodies) {
       add_bodies(physics, load, forces);
-    else
+      PetscCall(rigids_load(physics, load, forces));
+    } else {
       PetscCall(add_surfaces(physics, load, forces));
+    }
     PetscCall(VecRestoreArray(load->forces, &forces));
   }
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -1,5 +1,6 @@
 /* Loads as the scene describes them: on surfaces, or on bodies. */
 #include "physics/physics.h"
+#include <string.h>
 
 static void read_surface_load(Scene *scene, const Mesh *mesh, Load *load)
 {
@@ -24,7 +25,7 @@ static PetscErrorCode read_body_load(Scene *scene, const Physics *physics, Load 
   const Mesh     *mesh     = physics->mesh;
   Acceleration   *of       = &load->acceleration;
   const PetscBool gravity  = space_vector(scene, &mesh->space, load->name, "gravity", of->uniform),
-                  spins    = read_spin(scene, mesh, load);
+                  spins    = read_spin(scene, mesh, load), forces = rigids_read_load(scene, physics, load);
   PetscInt        n;
   char          **names;
 
@@ -36,13 +37,15 @@ static PetscErrorCode read_body_load(Scene *scene, const Physics *physics, Load 
     scene_fail(scene, load->name, "origin", "only of `centrifugal`.");
   if (mesh->space.kind == SPACE_AXISYMMETRIC && of->origin[0] != 0)
     scene_fail(scene, load->name, "origin", "an axisymmetric model turns about its axis; leave it out.");
-  if (!gravity && !spins) scene_fail(scene, load->name, "gravity", "say how it loads the body: gravity, or centrifugal.");
+  if (!gravity && !spins && !forces)
+    scene_fail(scene, load->name, "gravity", "say how it loads the body: gravity, or centrifugal; of a rigid body force, or moment.");
   scene_strings(scene, load->name, "body", &n, &names);
   PetscCall(PetscCalloc1(mesh->n_bodies, &load->bodies));
   for (PetscInt k = 0; k < n; k++) {
     const PetscInt b = mesh_body(scene, mesh, load->name, "body", names[k]);
     load->bodies[b]  = PETSC_TRUE;
-    if (!(physics->materials[b].density > 0))
+    rigids_check_load(scene, physics, load, names[k], forces, gravity, spins);
+    if (!mesh->bodies[b].rigid && !(physics->materials[b].density > 0))
       scene_fail(scene, names[k], "density", "this key is missing, which '%s' asks for.", load->name);
   }
   strings_destroy(n, &names);
@@ -54,7 +57,7 @@ static PetscErrorCode read_body_load(Scene *scene, const Physics *physics, Load 
 
 static PetscErrorCode read_load(Scene *scene, Physics *physics, Load *load)
 {
-  static const char *const others[] = {"surface", "follower", "gravity", "centrifugal", "origin", "curve"};
+  static const char *const others[] = {"surface", "follower", "gravity", "centrifugal", "origin", "force", "moment", "curve"};
   const PetscBool          traction = scene_has(scene, load->name, "traction");
   const PetscBool          pressure = scene_has(scene, load->name, "pressure");
 
@@ -64,13 +67,18 @@ static PetscErrorCode read_load(Scene *scene, Physics *physics, Load *load)
       scene_fail(scene, load->name, traction ? "traction" : "pressure", "a load acts on a surface or on a body, not on both.");
     PetscCall(read_body_load(scene, physics, load));
   } else {
+    for (int k = 0; k < 2; k++) {
+      if (scene_has(scene, load->name, k ? "force" : "moment"))
+        scene_fail(scene, load->name, k ? "force" : "moment",
+                   "a %s acts at the reference point of a rigid body, not on a surface or a node: name its `body`.", k ? "force" : "moment");
+    }
     if (!traction && !pressure) {
       for (size_t k = 0; k < sizeof(others) / sizeof(others[0]); k++) /* known keys, one of which may be misspelt */
         (void)scene_has(scene, load->name, others[k]);
       scene_check_unread_of(scene, load->name);
       scene_fail(scene, load->name, "traction",
                  "say how it loads: a surface by traction [x, y%s] or pressure (against the outward normal), or a body by "
-                 "gravity or centrifugal.",
+                 "gravity or centrifugal, a rigid one by force or moment.",
                  physics->mesh->dimension == 3 ? ", z" : "");
     }
     read_surface_load(scene, physics->mesh, load);
@@ -79,17 +87,36 @@ static PetscErrorCode read_load(Scene *scene, Physics *physics, Load *load)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode find_surfaces(Scene *scene, const Mesh *mesh, Load *load)
+/* the last surface of the load so far, if it is of a rigid body */
+static PetscErrorCode refuse_rigid(Scene *scene, const Physics *physics, const Load *load, const char *name)
 {
+  char     text[256];
+  PetscInt bad = -1;
+  PetscFunctionBegin;
+  if (!physics->n_rigids) PetscFunctionReturn(PETSC_SUCCESS);
+  for (PetscInt k = 0; k < load->n_surfaces; k++) {
+    const Surface *surface = load->surfaces[k];
+    if (!surface || strcmp(surface->name, name) || !surface->n_faces) continue;
+    if (rigids_of_vertex(physics, physics->mesh->numbers[surface->vertices[0]]) >= 0) bad = 0;
+  }
+  PetscCall(PetscSNPrintf(text, sizeof(text), "'%s' is rigid: give its body a `force` or a `moment`.", name));
+  PetscCall(scene_fail_first(scene, bad, load->name, "surface", text));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode find_surfaces(Scene *scene, const Physics *physics, Load *load)
+{
+  const Mesh *mesh = physics->mesh;
   char **list;
   PetscFunctionBegin;
   scene_strings(scene, load->name, "surface", &load->n_surfaces, &list);
   if (!load->n_surfaces) scene_fail(scene, load->name, "surface", "this key is missing.");
-  PetscCall(PetscMalloc1(load->n_surfaces, &load->surfaces));
+  PetscCall(PetscCalloc1(load->n_surfaces, &load->surfaces));
   for (PetscInt k = 0; k < load->n_surfaces; k++) {
     load->surfaces[k] = mesh_surface(scene, mesh, load->name, "surface", list[k]);
     if (load->surfaces[k]->inner)
       scene_fail(scene, load->name, "surface", "'%s' lies inside a body and cannot be loaded.", list[k]);
+    PetscCall(refuse_rigid(scene, physics, load, list[k]));
     if (load->surfaces[k]->analytic)
       scene_fail(scene, load->name, "surface", "'%s' is rigid and without faces: it cannot be loaded.", list[k]);
   }
@@ -109,7 +136,7 @@ PetscErrorCode loads_read(Scene *scene, Physics *physics)
   }
   strings_destroy(physics->n_loads, &names);
   for (PetscInt l = 0; l < physics->n_loads; l++) {
-    if (!physics->loads[l].bodies) PetscCall(find_surfaces(scene, physics->mesh, &physics->loads[l]));
+    if (!physics->loads[l].bodies) PetscCall(find_surfaces(scene, physics, &physics->loads[l]));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

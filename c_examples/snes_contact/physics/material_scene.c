@@ -38,8 +38,8 @@ PetscErrorCode materials_read(Scene *scene, Physics *physics)
   PetscCall(PetscCalloc1(mesh->n_bodies, &physics->materials));
   for (PetscInt b = 0; b < mesh->n_bodies; b++) {
     const Body *body          = &mesh->bodies[b];
-    physics->materials[b].law = &MATERIAL_LINEAR; /* of an analytic body: has no cells with stiffness */
-    if (!body->analytic) PetscCall(read_material(scene, &mesh->space, body->name, &physics->materials[b]));
+    physics->materials[b].law = &MATERIAL_LINEAR; /* of an analytic or a rigid body: has no cells with stiffness */
+    if (!body->analytic && !body->rigid) PetscCall(read_material(scene, &mesh->space, body->name, &physics->materials[b]));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

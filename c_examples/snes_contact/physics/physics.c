@@ -30,6 +30,7 @@ PetscErrorCode physics_destroy(Physics *physics)
     PetscCall(PetscFree(physics->loads[l].faces));
     PetscCall(VecDestroy(&physics->loads[l].forces));
   }
+  PetscCall(rigids_destroy(physics));
   PetscCall(PetscFree(physics->supports));
   PetscCall(PetscFree(physics->loads));
   PetscCall(PetscFree(physics->materials));

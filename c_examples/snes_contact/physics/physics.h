@@ -10,6 +10,7 @@
 #include "physics/elasticity.h"
 #include "physics/element_loads.h"
 #include "scene/curve.h"
+#include <stickslip.h>
 
 struct cJSON;
 
@@ -18,12 +19,14 @@ struct cJSON;
 typedef struct {
   char      name[NAME_LENGTH];
   PetscInt  mask;
+  PetscInt  rigid, turns; /* the rigid body that it is of, -1: none; which of its turns it prescribes, as `mask` */
   PetscReal value[3], gradient[9], origin[3], rotate[3];
   Curve     curve, rotate_curve;
   PetscInt  n_vertices, *vertices; /* of the piece of the mesh; forgotten once it is distributed */
   PetscBool  from_file;
   PetscReal *given; /* from a file, 3 per vertex of the piece, once it is distributed of those here */
-  /* of the last evaluation, summed over ranks by supports_reactions(); the moment is about `origin` */
+  /* of the last evaluation, summed over ranks by supports_reactions(); the moment is about `origin`, of a rigid body that of the
+   * turns that are prescribed */
   PetscReal reaction[3], moment[3];
 } Support;
 
@@ -32,6 +35,7 @@ typedef struct {
   PetscReal       traction[3], pressure;
   PetscBool       follows; /* the pressure acts on the surface as it is now */
   Acceleration    acceleration;
+  PetscReal       force[3], moment[3]; /* at the reference points of rigid bodies */
   PetscBool      *bodies; /* per body: is it loaded? NULL: a load on surfaces */
   Curve           curve;
   PetscInt        n_surfaces;
@@ -39,6 +43,27 @@ typedef struct {
   PetscInt        n_faces, *faces; /* this rank's, as points of the DMPlex */
   Vec             forces;   /* local vector of the nodal forces at factor 1, but for a follower; ranks add up */
 } Load;
+
+/* A rigid body (rigids.c). Arrays of six: displacement of the reference point, rotation; force, moment. */
+enum { RIGID_UNKNOWNS = 6 };
+
+typedef struct {
+  PetscInt  body, first_vertex, end_vertex; /* of the mesh */
+  PetscReal mass;
+  PetscInt  held;                     /* mask of prescribed unknowns */
+  PetscInt  support[RIGID_UNKNOWNS];  /* which one prescribes each; -1: none */
+  PetscReal point[3], length;         /* reference point; the largest distance of a node from it */
+  PetscInt  equations[RIGID_UNKNOWNS]; /* -1: prescribed */
+  double    turned[9];                /* row by row, up to the last step */
+  PetscReal motion[RIGID_UNKNOWNS];   /* of now; the rotation vector of the step */
+  PetscReal sum[3];                   /* of these vectors, over the steps before */
+  PetscReal contact[RIGID_UNKNOWNS];  /* the forces of this rank's nodes, at the last evaluation */
+  PetscReal on_body[RIGID_UNKNOWNS], reaction[RIGID_UNKNOWNS]; /* rigids_reactions(): by contact, by supports */
+  PetscBool owned;                    /* this rank owns its two vertices */
+  PetscInt  at[2];                    /* their places in a local vector; -1: none of the body is here */
+  PetscInt  n_nodes, *dofs;           /* the nodes here: places in a local vector */
+  double   *arms;                     /* of each, from the reference point, undeformed */
+} Rigid;
 
 /* What a vertex may have beside its displacement. A label of the mesh says which vertices have it. The label's value
  * says which components are no unknowns (bit i: component i). */
@@ -97,6 +122,10 @@ typedef struct {
   Support  *supports;
   Load     *loads;
   PetscInt *prescribed; /* mask of prescribed displacements per vertex of the piece */
+  PetscInt  n_rigids;
+  Rigid    *rigids;
+  PetscReal t_turned;      /* the time of the last step, from which their rotations count */
+  PetscBool rigid_refused; /* the library takes no such motion; why: `inverted` */
   Unknowns  unknowns;
   Cells     cells;
   Parts     parts;
@@ -104,7 +133,7 @@ typedef struct {
   Vec       u_local, f_local, prescribed_local; /* local vectors: state, forces, values of prescribed entries at t */
   Vec       f_external;                         /* local, at t */
   Vec       f_sum;                              /* local: work space of unknowns_sum() */
-  char      inverted[256];                      /* which cell the last attempt at a step has turned inside out */
+  char      inverted[256];                      /* which cell the last attempt at a step has turned inside out, or the like */
   PetscLogDouble seconds;                       /* in bulk_forces() and bulk_stiffness() */
 } Physics;
 
@@ -122,6 +151,31 @@ PetscErrorCode supports_reactions(Physics *physics);
 /* which support turns each part, -1: none; a position turned as that support does from t0 to t */
 PetscErrorCode supports_turning(const Physics *physics, PetscInt support_of[]);
 void           supports_turn(const Support *support, PetscReal t0, PetscReal t, PetscReal x[3]);
+
+/* rigids_scene.c, rigids.c */
+PetscErrorCode rigids_read(Scene *scene, Physics *physics);
+PetscErrorCode rigids_named(Scene *scene, const Physics *physics, const char *map, PetscInt *rigid);
+void           rigids_support(Scene *scene, Physics *physics, PetscInt number);
+void           rigids_mark(Physics *physics);
+PetscBool      rigids_read_load(Scene *scene, const Physics *physics, Load *load);
+void           rigids_check_load(Scene *scene, const Physics *physics, const Load *load, const char *body, PetscBool forces,
+                                 PetscBool gravity, PetscBool spins);
+PetscErrorCode rigids_create(Physics *physics);
+PetscErrorCode rigids_destroy(Physics *physics);
+PetscErrorCode rigids_prescribe(Physics *physics, PetscReal t, Vec local);
+PetscErrorCode rigids_place(Physics *physics, Vec local);
+PetscErrorCode rigids_step(Physics *physics, PetscReal most, Vec step, PetscReal *fraction);
+PetscErrorCode rigids_collect(Physics *physics, Vec f_local, PetscBool keep); /* keep: in rigid->contact */
+PetscErrorCode rigids_load(const Physics *physics, const Load *load, PetscScalar *forces);
+PetscErrorCode rigids_reactions(Physics *physics);
+PetscReal      rigids_work_before(const Physics *physics, const PetscScalar *f_external);
+PetscErrorCode rigids_accept(Physics *physics, PetscReal t, Vec last, Vec before);
+stickslip_rigid_motion rigids_motion(const Rigid *rigid); /* of now */
+PetscErrorCode rigids_displacements(const Rigid *rigid, PetscInt n, const PetscReal X[], PetscScalar u[]);
+void           rigids_turned(const Rigid *rigid, PetscReal turned[9]);
+PetscInt       rigids_of_vertex(const Physics *physics, PetscInt vertex); /* of the mesh; -1: it is of none */
+PetscInt       rigids_node_mask(const Rigid *rigid);
+PetscBool      rigids_moves(const Physics *physics, PetscInt vertex, int component);
 
 /* supports_file.c */
 PetscErrorCode supports_file_read(Scene *scene, const Mesh *mesh, Support *support);

@@ -91,7 +91,7 @@ static PetscErrorCode measure(const Physics *physics, Vec u_local, PetscReal lar
     const PetscInt first = cells->offsets[c], n = cells->offsets[c + 1] - first, b = cells->body[c];
     PetscReal      u[3 * CELL_NODES], H[9], strain, rotation;
     PetscBool      held = PETSC_TRUE;
-    if (mesh->bodies[b].analytic || physics->materials[b].law != &MATERIAL_LINEAR) continue;
+    if (mesh->bodies[b].analytic || mesh->bodies[b].rigid || physics->materials[b].law != &MATERIAL_LINEAR) continue;
     for (PetscInt k = 0; k < 3 * n; k++) {
       const PetscInt dof = cells->dofs[first + k / 3] + k % 3;
       u[k]               = PetscRealPart(displacements[dof]);
@@ -140,7 +140,7 @@ PetscErrorCode range_report(const Physics *physics, cJSON *root)
     const Body  *body  = &physics->mesh->bodies[b];
     const Range *range = &physics->ranges[b];
     cJSON       *json;
-    if (body->analytic || physics->materials[b].law != &MATERIAL_LINEAR) continue;
+    if (body->analytic || body->rigid || physics->materials[b].law != &MATERIAL_LINEAR) continue;
     json = cJSON_AddObjectToObject(all, body->name);
     cJSON_AddNumberToObject(json, "strain", range->strain);
     cJSON_AddNumberToObject(json, "rotation", range->rotation);

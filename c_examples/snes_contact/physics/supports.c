@@ -61,6 +61,10 @@ PetscErrorCode supports_label(Physics *physics)
   const Mesh *mesh = physics->mesh;
   char        label[2 * NAME_LENGTH];
   PetscFunctionBegin;
+  for (PetscInt v = 0; v < mesh->n_vertices && physics->n_rigids; v++) { /* nodes of rigid bodies have no unknowns of their own */
+    const PetscInt r = rigids_of_vertex(physics, mesh->numbers[v]);
+    if (r >= 0 && mesh->numbers[v] >= physics->rigids[r].first_vertex + 2) physics->prescribed[v] = 7;
+  }
   PetscCall(plex_label_vertices(mesh, "prescribed", mesh->n_vertices, NULL, physics->prescribed, 0));
   PetscCall(PetscFree(physics->prescribed));
   for (PetscInt s = 0; s < physics->n_supports; s++) {
@@ -161,6 +165,7 @@ PetscErrorCode supports_values(Physics *physics, PetscReal t)
   PetscFunctionBegin;
   PetscCall(VecZeroEntries(physics->prescribed_local)); /* removed multipliers are prescribed to be zero */
   PetscCall(visit(physics, physics->prescribed_local, t, set_values));
+  PetscCall(rigids_prescribe(physics, t, physics->prescribed_local));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -177,6 +182,7 @@ PetscErrorCode supports_reactions(Physics *physics)
     PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, physics->supports[s].reaction, 3, MPIU_REAL, MPIU_SUM, PETSC_COMM_WORLD));
     PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, physics->supports[s].moment, 3, MPIU_REAL, MPIU_SUM, PETSC_COMM_WORLD));
   }
+  PetscCall(rigids_reactions(physics));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

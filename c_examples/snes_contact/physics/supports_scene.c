@@ -1,6 +1,26 @@
 /* Supports as the scene describes them: of a surface, a whole body, the vertices of a body within a box, or a vertex. */
 #include "physics/physics.h"
+#include <stdio.h>
 #include <string.h>
+
+/* Vertices of rigid bodies are not supported one by one. */
+static PetscErrorCode refuse_rigid(Scene *scene, const Physics *physics, const char *name, const PetscInt chosen[])
+{
+  char     text[512] = "";
+  PetscInt bad       = -1;
+  PetscFunctionBegin;
+  if (!physics->n_rigids) PetscFunctionReturn(PETSC_SUCCESS);
+  for (PetscInt v = 0; v < physics->mesh->n_vertices && bad < 0; v++) {
+    const PetscInt r    = chosen[v] ? rigids_of_vertex(physics, physics->mesh->numbers[v]) : -1;
+    const char    *body = r < 0 ? "" : physics->mesh->bodies[physics->rigids[r].body].name;
+    if (r < 0) continue;
+    bad = physics->mesh->numbers[v];
+    PetscCall(PetscSNPrintf(text, sizeof(text), "'%s' is rigid: support it at its reference point, {body: %s, components: [x, rx, ...]}.",
+                            body, body));
+  }
+  PetscCall(scene_fail_first(scene, bad, name, "surface", text));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
 
 static PetscErrorCode select_vertices(Scene *scene, Physics *physics, Support *support)
 {
@@ -43,6 +63,7 @@ static PetscErrorCode select_vertices(Scene *scene, Physics *physics, Support *s
     scene_fail(scene, name, "surface",
                "say what is supported: a surface, or a body (with point, or within, for a part of it).");
   }
+  PetscCall(refuse_rigid(scene, physics, name, chosen));
   PetscCall(pieces_unite(mesh, chosen, MPI_MAX)); /* a vertex here may be on a face of another piece */
   PetscCall(PetscMalloc1(mesh->n_vertices, &support->vertices));
   for (PetscInt v = 0; v < mesh->n_vertices; v++) {
@@ -108,7 +129,7 @@ static PetscErrorCode check_analytic(Scene *scene, const Physics *physics)
     const Body *body = &physics->mesh->bodies[b];
     PetscInt    bad  = -1;
     char        text[256];
-    for (PetscInt v = body->first_here; v < body->end_here && body->analytic; v++) {
+    for (PetscInt v = body->first_here; v < body->end_here && body->analytic && !body->rigid; v++) {
       if (physics->prescribed[v] != 7) bad = v;
     }
     PetscCall(PetscSNPrintf(text, sizeof(text), "an analytic body needs a support: {body: %s, components: [x, y%s]}.",
@@ -134,32 +155,57 @@ static PetscErrorCode hold_axis(const Mesh *mesh, Support *support)
   PetscCall(PetscMalloc1(mesh->n_vertices, &support->vertices));
   for (PetscInt b = 0; b < mesh->n_bodies; b++) {
     const Body *body = &mesh->bodies[b];
-    for (PetscInt v = body->first_here; v < body->end_here && !body->analytic; v++) {
+    for (PetscInt v = body->first_here; v < body->end_here && !body->analytic && !body->rigid; v++) {
       if (mesh->coordinates[3 * v] == 0) support->vertices[support->n_vertices++] = v;
     }
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode read_support(Scene *scene, Physics *physics, const char *name, Support *support)
+/* Along axes; of a rigid body about them, too. */
+static void read_components(Scene *scene, const Mesh *mesh, Support *support)
 {
-  const Mesh *mesh = physics->mesh;
-  const char *axes = mesh->dimension == 3 ? "x, y, z" : "x, y";
-  PetscInt    n;
-  char      **components;
+  static const char *const names[] = {"x", "y", "z", "rx", "ry", "rz"};
+  const SpaceKind kind    = mesh->space.kind;
+  const PetscBool rigid   = (PetscBool)(support->rigid >= 0);
+  const PetscInt  along   = rigid && kind == SPACE_AXISYMMETRIC ? 2 : (1 << mesh->dimension) - 1;
+  const PetscInt  about   = !rigid || kind == SPACE_AXISYMMETRIC ? 0 : mesh->dimension == 3 ? 7 : 4;
+  char            allowed[64] = "";
+  PetscInt        n;
+  char          **given;
+  for (int k = 0; k < 6; k++) {
+    if ((along | about << 3) & (1 << k))
+      snprintf(allowed + strlen(allowed), sizeof(allowed) - strlen(allowed), "%s%s", allowed[0] ? ", " : "", names[k]);
+  }
+  scene_strings(scene, support->name, "components", &n, &given);
+  for (PetscInt c = 0; c < n; c++) {
+    int k = 0;
+    while (k < 6 && strcmp(given[c], names[k]))
+      k++;
+    if (k == 6 || !((along | about << 3) & (1 << k)))
+      scene_fail(scene, support->name, "components", "'%s' is not allowed; choose from: %s.", given[c], allowed);
+    if (k < 3) support->mask |= 1 << k;
+    if (k >= 3) support->turns |= 1 << (k - 3);
+  }
+  strings_destroy(n, &given);
+  if (!support->mask && !support->turns)
+    scene_fail(scene, support->name, "components", "this key is missing; choose from: %s.", allowed);
+  if (mesh->rotated && ((!rigid || support->mask) && support->mask != (1 << mesh->dimension) - 1))
+    scene_fail(scene, support->name, "components",
+               "in a rotated frame a support must prescribe all of %s (with `value` or `gradient`).",
+               mesh->dimension == 3 ? "x, y, z" : "x, y");
+  if (mesh->rotated && support->turns && support->turns != about)
+    scene_fail(scene, support->name, "components", "in a rotated frame a support must prescribe all turns, or none.");
+}
+
+static PetscErrorCode read_support(Scene *scene, Physics *physics, const char *name, PetscInt number)
+{
+  const Mesh *mesh    = physics->mesh;
+  Support    *support = &physics->supports[number];
   PetscFunctionBegin;
   PetscCall(PetscSNPrintf(support->name, NAME_LENGTH, "%s", name));
-  scene_strings(scene, name, "components", &n, &components);
-  for (PetscInt k = 0; k < n; k++) {
-    if (strlen(components[k]) != 1 || components[k][0] < 'x' || components[k][0] >= 'x' + mesh->dimension)
-      scene_fail(scene, name, "components", "'%s' is not allowed; choose from: %s.", components[k], axes);
-    support->mask |= 1 << (components[k][0] - 'x');
-  }
-  strings_destroy(n, &components);
-  if (!support->mask) scene_fail(scene, name, "components", "this key is missing; choose from: %s.", axes);
-  if (mesh->rotated && support->mask != (1 << mesh->dimension) - 1)
-    scene_fail(scene, name, "components",
-               "in a rotated frame a support must prescribe all of %s (with `value` or `gradient`).", axes);
+  PetscCall(rigids_named(scene, physics, name, &support->rigid));
+  read_components(scene, mesh, support);
   space_vector(scene, &mesh->space, name, "value", support->value);
   space_matrix(scene, &mesh->space, name, "gradient", support->gradient);
   space_turn(scene, &mesh->space, name, "rotate", support->rotate);
@@ -169,6 +215,7 @@ static PetscErrorCode read_support(Scene *scene, Physics *physics, const char *n
     PetscCall(curve_read(scene, name, "rotate_curve", physics->end, &support->rotate_curve));
   else
     PetscCall(curve_copy(&support->curve, &support->rotate_curve));
+  if (support->rigid >= 0) rigids_support(scene, physics, number);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -184,22 +231,25 @@ PetscErrorCode supports_read(Scene *scene, Physics *physics)
   physics->n_supports = n_named + (mesh->space.kind == SPACE_AXISYMMETRIC);
   PetscCall(PetscCalloc1(physics->n_supports, &physics->supports));
   for (PetscInt s = 0; s < n_named; s++)
-    PetscCall(read_support(scene, physics, names[s], &physics->supports[s]));
+    PetscCall(read_support(scene, physics, names[s], s));
   strings_destroy(n_named, &names);
   if (physics->n_supports > n_named) {
-    axis       = &physics->supports[n_named];
-    axis->mask = 1;
+    axis        = &physics->supports[n_named];
+    axis->mask  = 1;
+    axis->rigid = -1;
     PetscCall(PetscSNPrintf(axis->name, NAME_LENGTH, "%s", ON_AXIS));
     PetscCall(curve_read(scene, ON_AXIS, "curve", physics->end, &axis->curve));
     PetscCall(curve_copy(&axis->curve, &axis->rotate_curve));
   }
   PetscCall(PetscCalloc1(mesh->n_vertices, &physics->prescribed));
   for (PetscInt s = 0; s < n_named; s++) {
+    if (physics->supports[s].rigid >= 0) continue;
     PetscCall(select_vertices(scene, physics, &physics->supports[s]));
     PetscCall(supports_file_read(scene, mesh, &physics->supports[s]));
   }
   if (axis) PetscCall(hold_axis(mesh, axis));
   hold_plane(mesh, physics->prescribed);
+  rigids_mark(physics);
   PetscCall(check_overlaps(scene, physics));
   PetscCall(check_analytic(scene, physics));
   PetscFunctionReturn(PETSC_SUCCESS);

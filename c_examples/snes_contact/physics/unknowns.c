@@ -205,6 +205,7 @@ PetscErrorCode unknowns_create(Physics *physics, PetscInt n_fields, Field *field
   PetscCall(VecDuplicate(physics->u_local, &physics->f_external));
   PetscCall(VecDuplicate(physics->u_local, &physics->f_sum));
   PetscCall(VecDuplicate(physics->u_local, &physics->prescribed_local));
+  PetscCall(rigids_create(physics));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -215,6 +216,7 @@ PetscErrorCode unknowns_to_local(Physics *physics, Vec x)
   PetscCall(VecCopy(physics->prescribed_local, physics->u_local));
   PetscCall(DMGlobalToLocalBegin(mesh->dm, x, INSERT_VALUES, physics->u_local)); /* touches the equations only */
   PetscCall(DMGlobalToLocalEnd(mesh->dm, x, INSERT_VALUES, physics->u_local));
+  PetscCall(rigids_place(physics, physics->u_local));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -24,6 +24,8 @@ static const PetscReal DEPTH = 0.1, SHALLOWER = 0.1;
 enum { SETTLED = 2 };
 /* Uncut steps as long as this many times the model lead away from all that the body could touch. */
 static const PetscReal FAR = 10;
+/* How far a rigid body may turn in one step, in radians: what it meets is looked for along straight ways. */
+static const PetscReal TURN = 0.2;
 
 /* the body of side 0 or 1 */
 static PetscInt body_of(const Solve *solve, const Interface *interface, int side)
@@ -167,6 +169,26 @@ PetscBool closing_settled(const Solve *solve)
   return (PetscBool)(!closing->active || !closing->ever_cut || closing->n_uncut >= SETTLED);
 }
 
+/* Rigid bodies that touch nothing have no stiffness at all: the model's, where theirs is smaller. */
+static PetscErrorCode add_rigid_stiffness(const Solve *solve, Vec diagonal)
+{
+  PetscScalar *d;
+  PetscInt     first;
+  PetscFunctionBegin;
+  if (!solve->physics->n_rigids) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(VecGetOwnershipRange(diagonal, &first, NULL));
+  PetscCall(VecGetArray(diagonal, &d));
+  for (PetscInt r = 0; r < solve->physics->n_rigids; r++) {
+    const Rigid *rigid = &solve->physics->rigids[r];
+    for (int k = 0; k < RIGID_UNKNOWNS && rigid->owned; k++) {
+      if (rigid->equations[k] < 0) continue;
+      d[rigid->equations[k] - first] = PetscMax(PetscRealPart(d[rigid->equations[k] - first]), solve->stiffness);
+    }
+  }
+  PetscCall(VecRestoreArray(diagonal, &d));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* After the tangent at u_local is assembled. */
 PetscErrorCode closing_shift(Solve *solve, Mat matrix)
 {
@@ -183,6 +205,7 @@ PetscErrorCode closing_shift(Solve *solve, Mat matrix)
   PetscCall(MatGetDiagonal(matrix, diagonal));
   PetscCall(VecAbs(diagonal));
   PetscCall(VecPointwiseMult(diagonal, diagonal, closing->displacements));
+  PetscCall(add_rigid_stiffness(solve, diagonal));
   PetscCall(VecScale(diagonal, closing->loose >= 0 ? closing->shift : HELD));
   PetscCall(MatDiagonalSet(matrix, diagonal, ADD_VALUES));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -203,6 +226,7 @@ static PetscErrorCode describe_motion(Solve *solve, PetscInt body, Vec step)
     const PetscInt vertex = mesh->original[k];
     PetscInt       at;
     if (solve->physics->unknowns.ghost[k] || vertex < moving->first_vertex || vertex >= moving->end_vertex) continue;
+    if (moving->rigid && vertex == moving->first_vertex + 1) continue; /* its turn */
     PetscCall(PetscSectionGetOffset(solve->physics->unknowns.section, mesh->points[k], &at));
     for (int i = 0; i < 3; i++)
       mean[i] += PetscRealPart(array[at + i]);
@@ -224,7 +248,7 @@ static PetscErrorCode limit(SNESLineSearch line_search, Vec x, Vec y, PetscBool 
 {
   Solve    *solve    = context;
   Closing  *closing  = &solve->closing;
-  PetscReal fraction = 1, one, length;
+  PetscReal fraction = 1, one, length, turned;
   Vec       step;
 
   PetscFunctionBegin;
@@ -237,11 +261,13 @@ static PetscErrorCode limit(SNESLineSearch line_search, Vec x, Vec y, PetscBool 
   PetscCall(DMGlobalToLocalBegin(solve->mesh->dm, y, INSERT_VALUES, step));
   PetscCall(DMGlobalToLocalEnd(solve->mesh->dm, y, INSERT_VALUES, step));
   PetscCall(VecScale(step, -1));
+  PetscCall(rigids_step(solve->physics, TURN, step, &turned));
+  if (turned < 1) PetscCall(VecScale(y, turned));
   for (PetscInt i = 0; i < solve->contact->n_interfaces; i++) {
     PetscCall(contact_step_limit(solve->contact, i, step, closing->depth, &one));
     fraction = PetscMin(fraction, one);
   }
-  closing->cut = (PetscBool)(fraction < 1);
+  closing->cut = (PetscBool)(fraction < 1 || turned < 1);
   closing->n_uncut++;
   if (closing->cut) {
     closing->ever_cut = *changed = PETSC_TRUE;

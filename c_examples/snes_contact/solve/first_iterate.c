@@ -76,6 +76,10 @@ static PetscErrorCode prescribed_increments(Solve *solve, PetscReal t0, Vec x, V
   PetscCall(VecGetArrayRead(physics->prescribed_local, &p));
   for (PetscInt k = 0; k < physics->unknowns.n_local; k++)
     left[k] = physics->unknowns.equations[k] < 0 ? p[k] - left[k] : 0;
+  for (PetscInt r = 0; r < physics->n_rigids; r++) { /* nodes that follow their body's unknowns */
+    for (PetscInt k = 0; k < 3 * physics->rigids[r].n_nodes; k++)
+      left[physics->rigids[r].dofs[k / 3] + k % 3] = 0;
+  }
   PetscCall(VecRestoreArrayRead(physics->prescribed_local, &p));
   PetscCall(VecRestoreArray(increments, &left));
   PetscCall(VecDestroy(&u));

@@ -183,7 +183,7 @@ static PetscErrorCode by_supports(const Solve *solve, PetscBool *loose, cJSON *j
 PetscBool held_free(const Solve *solve, PetscInt body)
 {
   const Parts *parts = &solve->physics->parts;
-  for (PetscInt p = 0; p < parts->n && !solve->mesh->bodies[body].analytic; p++) {
+  for (PetscInt p = 0; p < parts->n && (!solve->mesh->bodies[body].analytic || solve->mesh->bodies[body].rigid); p++) {
     if (solve->held.loose[p] && mesh_body_of(solve->mesh, parts->part[p].first) == body) return PETSC_TRUE;
   }
   return PETSC_FALSE;

@@ -1,8 +1,10 @@
-/* `solver: iterative`: GMRES on the condensed system, preconditioned by multigrid on its reduced form (reduced.c). Where it does
+/* `solver: iterative`: GMRES, preconditioned by multigrid: of a condensed system on its reduced form (reduced.c), of one with
+ * multipliers on the bodies (saddle.c). Where it does
  * not converge, the system is given to the direct solver, and the run says so. To SNES both are one preconditioner that
  * solves the system. */
 #include "solve/solve.h"
 #include "solve/reduced.h"
+#include "solve/saddle.h"
 
 /* Of the true residual. Newton's method then takes the steps of a direct solver: its own tolerance is 1e-11. */
 static const PetscReal RTOL = 1e-10;
@@ -60,7 +62,8 @@ static PetscErrorCode iterate(Iterative *iterative, Mat J, Vec r, Vec u, KSPConv
   PetscCall(KSPGetConvergedReason(iterative->krylov, reason));
   PetscCall(KSPGetIterationNumber(iterative->krylov, iterations));
   PetscCall(KSPGetPC(iterative->krylov, &reduced));
-  PetscCall(reduced_judge(reduced, *iterations, (PetscBool)(*reason > 0), stale));
+  *stale = PETSC_FALSE;
+  if (iterative->solve->contact->condensed) PetscCall(reduced_judge(reduced, *iterations, (PetscBool)(*reason > 0), stale));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -120,7 +123,8 @@ PetscErrorCode iterative_set(Solve *solve, KSP ksp)
   PetscCall(KSPSetPCSide(iterative->krylov, PC_RIGHT));
   PetscCall(KSPSetTolerances(iterative->krylov, RTOL, 0, PETSC_DEFAULT, MOST_ITERATIONS));
   PetscCall(KSPGetPC(iterative->krylov, &pc));
-  PetscCall(reduced_set(pc, solve->contact));
+  PetscCall((solve->contact->condensed ? reduced_set : saddle_set)(pc, solve->contact));
+  PetscCall(progress_watch(solve, NULL, iterative->krylov));
   PetscCall(KSPSetFromOptions(iterative->krylov));
   PetscCall(KSPSetType(ksp, KSPPREONLY));
   PetscCall(KSPGetPC(ksp, &pc));
@@ -133,7 +137,7 @@ PetscErrorCode iterative_set(Solve *solve, KSP ksp)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* `solver`. It needs a condensed system, and takes one where the scene says nothing else. */
+/* `solver`. */
 PetscErrorCode iterative_read(Scene *scene, Solve *solve)
 {
   static const char *const kinds[] = {"direct", "iterative", "auto", NULL};
@@ -142,11 +146,27 @@ PetscErrorCode iterative_read(Scene *scene, Solve *solve)
   PetscFunctionBegin;
   scene_choice(scene, NULL, "solver", kinds, &kind);
   solve->linear.kind = (SolverKind)kind;
-  if (kind == SOLVER_ITERATIVE && !contact->condensed)
-    scene_fail(scene, NULL, "solver", "multigrid needs a system without multipliers: write `unknowns: displacements`, and "
-                                      "`basis: dual` in every interface.");
-  contact->reduced = (PetscBool)(kind != SOLVER_DIRECT && contact->condensed);
+  if (kind == SOLVER_ITERATIVE && solve->physics->n_rigids)
+    scene_fail(scene, NULL, "solver", "multigrid does not know rigid bodies, and '%s' is one: write `solver: direct`.",
+               solve->mesh->bodies[solve->physics->rigids[0].body].name);
+  contact->reduced = (PetscBool)(kind != SOLVER_DIRECT && contact->condensed && !solve->physics->n_rigids);
   PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* With multipliers among the unknowns, multigrid on the bodies needs these to be held. */
+void iterative_check(Scene *scene, const Solve *solve)
+{
+  const Contact *contact = solve->contact;
+  PetscBool      held    = PETSC_TRUE;
+  if (solve->linear.kind != SOLVER_ITERATIVE || contact->condensed) return;
+  for (PetscInt i = 0; i < contact->n_interfaces; i++) {
+    if (contact->interfaces[i].options.form == STICKSLIP_FORM_AUGMENTED) return;
+  }
+  for (PetscInt b = 0; b < solve->mesh->n_bodies; b++)
+    held = (PetscBool)(held && !held_free(solve, b));
+  if (!held)
+    scene_fail(scene, NULL, "solver", "a body is held by contact alone, and multigrid with multipliers needs supports that hold each body: "
+                                      "write `unknowns: displacements`, and `basis: dual` in every interface; or take `direct`.");
 }
 
 /* Below, LU takes less time; solves of three-dimensional bodies break even between 1e4 and 3e4 unknowns, plane ones far above. */

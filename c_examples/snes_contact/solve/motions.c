@@ -12,6 +12,13 @@ static const PetscReal SLOPE = 1e-2;
 /* Components of unit vectors below this are left out of the words. */
 static const PetscReal VISIBLE = 1e-3;
 
+/* Of a rigid body's first two vertices the second one has its turns. */
+static PetscBool is_turn(const Physics *physics, PetscInt number)
+{
+  const PetscInt r = rigids_of_vertex(physics, number);
+  return (PetscBool)(r >= 0 && number == physics->rigids[r].first_vertex + 1);
+}
+
 /* Positions of the vertices that this rank owns, 3 each; of others the part is -1. `at`: in local vectors. */
 static PetscErrorCode positions(const Physics *physics, Vec u_local, PetscReal x[], PetscInt part[], PetscInt at[])
 {
@@ -25,7 +32,7 @@ static PetscErrorCode positions(const Physics *physics, Vec u_local, PetscReal x
   for (PetscInt k = 0; k < mesh->n_points; k++) {
     part[k] = physics->unknowns.ghost[k] ? -1 : physics->parts.of_vertex[k];
     PetscCall(unknowns_place(physics, k, coordinates, x + 3 * k, &at[k]));
-    for (int i = 0; i < 3 && u; i++)
+    for (int i = 0; i < 3 && u && !is_turn(physics, mesh->original[k]); i++)
       x[3 * k + i] += PetscRealPart(u[at[k] + i]);
   }
   if (u_local) PetscCall(VecRestoreArrayRead(u_local, &u));
@@ -88,7 +95,13 @@ PetscErrorCode motions_create(const Physics *physics, Vec u_local, const PetscBo
       PetscInt        columns[MODES];
       PetscReal       values[MODES];
       int             n = 0;
-      if (physics->unknowns.equations[at[k] + i] >= 0) continue;
+      if (physics->unknowns.equations[at[k] + i] >= 0 || rigids_moves(physics, physics->mesh->original[k], i)) continue;
+      if (is_turn(physics, physics->mesh->original[k])) {
+        static const PetscReal held   = 1;
+        const PetscInt         column = MODES * m->place[part[k]] + 3 + i;
+        if (m->place[part[k]] >= 0) motions_constrain(m, 1, &column, &held);
+        continue;
+      }
       motions_row(m, part[k], x + 3 * k, d, 1, columns, values, &n);
       motions_constrain(m, n, columns, values);
     }

@@ -235,6 +235,7 @@ PetscErrorCode newton_solve(Solve *solve, const Past *past, Vec x, PetscBool *co
   PetscFunctionBegin;
   newton->iterations = 0;
   newton->cycle[0]   = 0;
+  PetscCall(progress_begin(solve));
   *converged         = PETSC_FALSE;
   closing_begin(solve, PETSC_FALSE);
   PetscCall(first_iterate(solve, past, extrapolates, x));

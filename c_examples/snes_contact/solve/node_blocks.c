@@ -211,8 +211,8 @@ PetscErrorCode node_blocks_modes(const NodeBlocks *blocks, Mat constrained, Mat 
     PetscBool independent;
     PetscCall(VecDuplicate(given[k], &kept[n_kept]));
     PetscCall(MatMult(blocks->place, given[k], equations));
-    PetscCall(MatMult(constrained, equations, along));
-    PetscCall(VecAXPY(equations, -1, along));
+    if (constrained) PetscCall(MatMult(constrained, equations, along));
+    if (constrained) PetscCall(VecAXPY(equations, -1, along));
     PetscCall(MatMultTranspose(blocks->place, equations, kept[n_kept]));
     PetscCall(orthonormalise(n_kept, kept, kept[n_kept], &independent));
     if (independent) n_kept++;

@@ -13,6 +13,6 @@ PetscErrorCode node_blocks_create(const Physics *physics, Mat like, NodeBlocks *
 PetscErrorCode node_blocks_destroy(NodeBlocks *blocks);
 /* A copy in whole blocks, without what is below `least` times the largest entry. */
 PetscErrorCode node_blocks_squeeze(Mat from, PetscReal least, Mat *to);
-/* Gives the matrix the motions of a rigid body as its near null space, without what is constrained in them. */
+/* Gives the matrix the motions of a rigid body as its near null space, without what is constrained in them (NULL: nothing). */
 PetscErrorCode node_blocks_modes(const NodeBlocks *blocks, Mat constrained, Mat matrix);
 #endif

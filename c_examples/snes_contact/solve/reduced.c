@@ -7,7 +7,7 @@
  * weights and normals of now add to the constraints' rows. Multigrid on J itself is fragile: rows of constraints beside
  * rows of stiffness give a coarse operator without meaning. */
 #include "solve/reduced.h"
-#include "solve/node_blocks.h"
+#include "solve/multigrid.h"
 
 /* The multigrid of an earlier matrix serves as long as no node has changed its state: then Q differs by what normals have
  * turned, and by 1 where a state has changed. It serves no more where GMRES takes this much longer than with its own matrix. */
@@ -16,10 +16,6 @@ enum { A_FEW = 5 };
 
 /* Entries of E_L J E_R that cancel, over the largest: rounding. Left in they would join the bodies across open gaps. */
 static const PetscReal CANCELLED = 1e-13;
-/* A coarse level may have rows without entries, where a node that is alone has three components and the modes of a body are
- * six: this much of a typical diagonal is added when Gauss-Seidel divides. */
-static const PetscReal DIAGONAL_SHIFT = 1e-12;
-
 typedef struct {
   const Contact *contact;
   NodeBlocks     blocks;
@@ -48,21 +44,6 @@ static PetscErrorCode factors(const Reduced *reduced, Mat *rows, Mat *columns)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* A typical entry of a diagonal. */
-static PetscErrorCode typical_diagonal(Mat matrix, PetscReal *typical)
-{
-  Vec      diagonal;
-  PetscInt n;
-  PetscFunctionBegin;
-  PetscCall(MatCreateVecs(matrix, &diagonal, NULL));
-  PetscCall(MatGetDiagonal(matrix, diagonal));
-  PetscCall(VecNorm(diagonal, NORM_1, typical));
-  PetscCall(VecGetSize(diagonal, &n));
-  *typical /= PetscMax(n, 1);
-  PetscCall(VecDestroy(&diagonal));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 static PetscErrorCode assemble(const Reduced *reduced, Mat J, Mat *P)
 {
   Mat       rows, columns, half, whole, constraints;
@@ -79,7 +60,7 @@ static PetscErrorCode assemble(const Reduced *reduced, Mat J, Mat *P)
                     PETSC_DEFAULT, &constraints));
   PetscCall(MatAXPY(whole, 1, constraints, DIFFERENT_NONZERO_PATTERN));
   PetscCall(MatDestroy(&constraints));
-  PetscCall(typical_diagonal(whole, &typical));
+  PetscCall(multigrid_typical(whole, &typical));
   PetscCall(VecDuplicate(reduced->blocks.prescribed, &prescribed));
   PetscCall(VecCopy(reduced->blocks.prescribed, prescribed));
   PetscCall(VecScale(prescribed, typical));
@@ -87,49 +68,6 @@ static PetscErrorCode assemble(const Reduced *reduced, Mat J, Mat *P)
   PetscCall(MatDestroy(&whole));
   PetscCall(MatDiagonalSet(*P, prescribed, ADD_VALUES));
   PetscCall(VecDestroy(&prescribed));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* Richardson's method with an incomplete factorisation takes half of the time of Chebyshev's with Gauss-Seidel. It is not the
- * smoother for blocks of several ranks, nor for bodies that are nearly incompressible. */
-static const PetscReal NEARLY_INCOMPRESSIBLE = 0.4;
-
-static PetscErrorCode factorises(const Physics *physics, PetscBool *yes)
-{
-  PetscMPIInt size;
-  PetscFunctionBegin;
-  PetscCallMPI(MPI_Comm_size(PETSC_COMM_WORLD, &size));
-  *yes = (PetscBool)(size == 1);
-  for (PetscInt b = 0; b < physics->mesh->n_bodies; b++)
-    *yes = (PetscBool)(*yes && physics->materials[b].poisson < NEARLY_INCOMPRESSIBLE);
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* Options of the multigrid that nobody has given. */
-static PetscErrorCode set_defaults(const Reduced *reduced, Mat P)
-{
-  char              shift[32];
-  PetscReal         typical;
-  PetscBool         given, ilu = PETSC_FALSE;
-  const char *const factors[][2]     = {{"-reduced_mg_levels_ksp_type", "richardson"},
-                                        {"-reduced_mg_levels_ksp_max_it", "1"},
-                                        {"-reduced_mg_levels_pc_type", "ilu"},
-                                        {"-reduced_mg_levels_pc_factor_shift_type", "nonzero"}};
-  const char *const sweeps[][2]      = {{"-reduced_mg_levels_ksp_type", "chebyshev"},
-                                        {"-reduced_mg_levels_ksp_max_it", "2"},
-                                        {"-reduced_mg_levels_pc_type", "sor"},
-                                        {"-reduced_mg_levels_pc_sor_diagonal_shift", shift}};
-  PetscFunctionBegin;
-  PetscCall(typical_diagonal(P, &typical));
-  PetscCall(PetscSNPrintf(shift, sizeof(shift), "%.3e", (double)(DIAGONAL_SHIFT * typical)));
-  PetscCall(PetscOptionsHasName(NULL, NULL, "-reduced_mg_levels_pc_type", &given));
-  if (given) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(factorises(reduced->contact->physics, &ilu));
-  for (int k = 0; k < 4; k++) {
-    const char *const *option = ilu ? factors[k] : sweeps[k];
-    PetscCall(PetscOptionsHasName(NULL, NULL, option[0], &given));
-    if (!given) PetscCall(PetscOptionsSetValue(NULL, option[0], option[1]));
-  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -191,13 +129,7 @@ static PetscErrorCode set_up(PC pc)
   }
   PetscCall(assemble(reduced, J, &P));
   PetscCall(node_blocks_modes(&reduced->blocks, reduced->constrained, P));
-  PetscCall(set_defaults(reduced, P));
-  PetscCall(PCCreate(PETSC_COMM_WORLD, &reduced->multigrid));
-  PetscCall(PCSetOptionsPrefix(reduced->multigrid, "reduced_"));
-  PetscCall(PCSetType(reduced->multigrid, PCGAMG));
-  PetscCall(PCSetOperators(reduced->multigrid, P, P));
-  PetscCall(PCSetFromOptions(reduced->multigrid));
-  PetscCall(PCSetUp(reduced->multigrid));
+  PetscCall(multigrid_create(reduced->contact->physics, P, &reduced->multigrid));
   PetscCall(MatDestroy(&P));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

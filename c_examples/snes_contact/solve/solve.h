@@ -100,14 +100,19 @@ typedef struct {
   Closing   closing;
   Cycling  *cycling;
   Linear    linear;
-  PetscInt  room;               /* workspace that MUMPS is allowed, in per cent; 0: the user says */
+  PetscInt  room, n_raised;     /* workspace that MUMPS is allowed, in per cent; how often it wanted more */
   Held      held;
   PetscInt  iterations;         /* of Newton, spent on the present step, failed attempts included */
   PetscReal size, stiffness;    /* of the model */
   struct cJSON  *jacobian_tests; /* of the present step (jacobian_test.c); NULL: none */
   PetscReal      least_pivot; /* of a linear solver that exchanges no rows, over the largest; 0: of no such solver */
   PetscLogDouble seconds, started; /* in the linear solver; when it was called last */
+  PetscLogDouble told;             /* when progress was told last, or the step began */
 } Solve;
+
+/* progress.c: lines while a step takes long; one of both may be NULL */
+PetscErrorCode progress_begin(Solve *solve);
+PetscErrorCode progress_watch(Solve *solve, SNES snes, KSP krylov);
 
 /* times.c: the times that steps must meet */
 PetscErrorCode times_read(Scene *scene, Steps *steps);
@@ -129,6 +134,7 @@ PetscErrorCode solver_give_room(Solve *solve, PetscBool *given); /* to a direct 
 PetscErrorCode solver_forget_factors(Solve *solve);  /* after a linear system that could not be solved */
 
 /* iterative.c: `solver`; what `auto` means; makes SNES' linear solver one that iterates */
+void           iterative_check(Scene *scene, const Solve *solve); /* after held_create() */
 PetscErrorCode iterative_read(Scene *scene, Solve *solve); /* after contact_read() */
 void           iterative_choose(Solve *solve, PetscInt n_unknowns);
 PetscErrorCode iterative_set(Solve *solve, KSP ksp);

@@ -18,9 +18,11 @@ static PetscErrorCode residual(SNES snes, Vec x, Vec r, void *context)
   PetscCall(bulk_forces(solve->physics, solve->physics->f_local, &inverted));
   PetscCall(PetscTime(&start));
   if (!inverted) PetscCall(condensed_eliminate(solve->contact, x, &refused));
+  if (solve->physics->rigid_refused) inverted = PETSC_TRUE; /* the attempt ends alike */
   if (!inverted && !refused) PetscCall(contact_forces(solve->contact, solve->physics->f_local, &refused));
   PetscCall(PetscTime(&end));
   solve->contact->seconds_forces += end - start;
+  PetscCall(rigids_collect(solve->physics, solve->physics->f_local, PETSC_TRUE));
   PetscCall(VecAXPY(solve->physics->f_local, -1, solve->physics->f_external));
   PetscCall(VecZeroEntries(r));
   PetscCall(DMLocalToGlobalBegin(solve->mesh->dm, solve->physics->f_local, ADD_VALUES, r));
@@ -206,7 +208,7 @@ PetscErrorCode solver_restore_pattern(Solve *solve)
 
 /* MUMPS' pivoting may take so many per cent more workspace than its analysis estimates (icntl 14). The rows of multipliers that
  * stick have no diagonal, and may double it; but all that is allowed is allocated at once, which a machine may not have. So it
- * gets twice as much whenever it asks for more. */
+ * gets twice as much whenever it asks for more; a user may say where to begin. */
 enum { FIRST_ROOM = 30, MOST_ROOM = 1000 };
 
 static PetscErrorCode set_option(const char *name, PetscInt value)
@@ -231,10 +233,9 @@ static PetscErrorCode set_up_mumps(Solve *solve, PC pc)
   if (!mumps) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PetscOptionsHasName(NULL, NULL, "-mat_mumps_icntl_6", &given));
   if (!given) PetscCall(set_option("-mat_mumps_icntl_6", 0));
-  PetscCall(PetscOptionsHasName(NULL, NULL, "-mat_mumps_icntl_14", &given));
-  if (given) PetscFunctionReturn(PETSC_SUCCESS);
   solve->room = FIRST_ROOM;
-  PetscCall(set_option("-mat_mumps_icntl_14", solve->room));
+  PetscCall(PetscOptionsGetInt(NULL, NULL, "-mat_mumps_icntl_14", &solve->room, &given));
+  if (!given) PetscCall(set_option("-mat_mumps_icntl_14", solve->room));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -245,9 +246,10 @@ PetscErrorCode solver_give_room(Solve *solve, PetscBool *given)
   PetscFunctionBegin;
   PetscCall(SNESGetKSP(solve->snes, &ksp));
   PetscCall(refusal_wants_room(ksp, &wanted));
-  *given = (PetscBool)(wanted && solve->room && solve->room < MOST_ROOM);
+  *given = (PetscBool)(wanted && solve->room < MOST_ROOM);
   if (!*given) PetscFunctionReturn(PETSC_SUCCESS);
-  solve->room *= 2;
+  solve->room = PetscMax(2 * solve->room, FIRST_ROOM);
+  solve->n_raised++;
   PetscCall(set_option("-mat_mumps_icntl_14", solve->room));
   PetscCall(solver_forget_factors(solve));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -288,6 +290,7 @@ PetscErrorCode solver_create(Solve *solve)
     PetscCall(PCSetType(pc, PCLU));
     PetscCall(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
   }
+  PetscCall(progress_watch(solve, solve->snes, NULL));
   PetscCall(KSPSetPreSolve(ksp, solve_begins, solve));
   PetscCall(KSPSetPostSolve(ksp, solve_ends, solve));
   PetscCall(VecDestroy(&r));

@@ -21,7 +21,7 @@ static PetscErrorCode turn_all(const Physics *physics, PetscReal t0, const Petsc
   PetscCall(VecGetArray(after, &v));
   for (PetscInt c = 0; c < cells->n; c++) {
     const PetscInt part = cells->part[c];
-    if (support_of[part] < 0) continue;
+    if (support_of[part] < 0 || physics->mesh->bodies[cells->body[c]].rigid) continue; /* a rigid body has its own turns */
     for (PetscInt k = cells->offsets[c]; k < cells->offsets[c + 1]; k++) {
       const PetscInt dof = cells->dofs[k];
       PetscReal      x[3];
@@ -52,7 +52,7 @@ static PetscErrorCode take(const Physics *physics, const PetscInt support_of[], 
   PetscCall(VecGetArrayRead(after, &from));
   PetscCall(VecGetArray(u, &to));
   for (PetscInt c = 0; c < cells->n; c++) {
-    if (support_of[cells->part[c]] < 0) continue;
+    if (support_of[cells->part[c]] < 0 || physics->mesh->bodies[cells->body[c]].rigid) continue;
     for (PetscInt k = cells->offsets[c]; k < cells->offsets[c + 1]; k++)
       PetscCall(PetscArraycpy(to + cells->dofs[k], from + cells->dofs[k], 3));
   }
