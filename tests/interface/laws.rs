@@ -329,6 +329,9 @@ fn what_a_law_remembers_goes_with_the_history() {
     }
 }
 
+/// Which nodes a handle owns.
+type Rule = fn(usize) -> bool;
+
 /// Handles that own some nodes each: forces and rows add up to those of the whole, and what the law remembers is that of the
 /// whole at the nodes that are owned; also after other handles, with other nodes, have taken over.
 #[test]
@@ -336,7 +339,7 @@ fn parts_add_up_and_hand_on_what_the_law_remembers() {
     for (own, states) in [(Own::Weakening { after: 0.2, slip: 0.15 }, 1), (host(some_law, 2), 2)] {
         for basis in BASES {
             let of = Options { basis, mu: MU, ..options() };
-            let with = |owners: Option<&dyn Fn(usize) -> bool>| {
+            let with = |owners: Option<Rule>| {
                 let mut t = moved(&of, [Cells::Quads; 2], FLAT, 3);
                 if let Some(owns) = owners {
                     let here = |a| if owns(a) { Owner::Here } else { Owner::Elsewhere };
@@ -347,8 +350,8 @@ fn parts_add_up_and_hand_on_what_the_law_remembers() {
             };
             let mut whole = with(None);
             let n = whole.x1.len();
-            let rules: [[fn(usize) -> bool; 2]; 2] = [[|a| a < 4, |a| a >= 4], [|a| a % 3 == 0, |a| a % 3 != 0]];
-            let mut parts = rules[0].map(|rule| with(Some(&rule)));
+            let rules: [[Rule; 2]; 2] = [[|a| a < 4, |a| a >= 4], [|a| a % 3 == 0, |a| a % 3 != 0]];
+            let mut parts = rules[0].map(|rule| with(Some(rule)));
             for (step, owns) in rules.into_iter().enumerate() {
                 let right = numbers(&mut whole).0;
                 let mut sum = vec![0.0; right.len()];
@@ -368,7 +371,7 @@ fn parts_add_up_and_hand_on_what_the_law_remembers() {
                     }
                 }
                 assert_eq!(kept, whole.interface.law_states(), "{own:?} {basis:?}, step {step}");
-                parts = rules[1].map(|rule| with(Some(&rule)));
+                parts = rules[1].map(|rule| with(Some(rule)));
                 for part in &mut parts {
                     let (x1, x2) = (&history.x1, &history.x2);
                     part.interface.set_committed(x1, x2, &history.slip, history.commits).unwrap();
