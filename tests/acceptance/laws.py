@@ -4,6 +4,7 @@ an orthotropic surface slides; and a pad that falls onto a base and is pushed wi
 The sliding blocks are stiff, so that each node slips by what the block is moved by, and the answers are closed."""
 
 import numpy as np
+from ranks import CONDENSED
 from ranks_moving import SLIDING, moving
 from scene import write
 
@@ -11,6 +12,8 @@ from scene import write
 STIFF, CLOSED = 1e5, 1e-4
 # Sums of nodal forces with all nodes slipping: no stiffness enters.
 SUMS = 1e-10
+# Two ways to one answer, each to Newton's tolerance of 1e-11 of forces that are 1e5 times the pressure at the stiffest.
+CONVERGED = 1e-8
 PRESSURE, MU = 2.0, 0.4
 COHESION = 0.7
 AFTER, CRITICAL = 0.15, 0.08
@@ -25,6 +28,7 @@ def laws(verdicts, driver):
         cohesion(verdicts, driver, basis)
         weakening(verdicts, driver, basis)
         orthotropic(verdicts, driver, basis)
+    condensed(verdicts, driver)
     ranks(verdicts, driver)
     pad(verdicts, driver)
 
@@ -117,6 +121,15 @@ def orthotropic(verdicts, driver, basis):
     exact = PRESSURE * square @ away / np.sqrt(away @ square @ away)
     found = force(run)[:2] * np.sign(force(run)[:2] @ away)
     verdicts.below(f"orthotropic, {basis}: force", np.abs(found / exact - 1).max(), CLOSED, "the point of the ellipse with that normal")
+
+
+def condensed(verdicts, driver):
+    """The scenes with dual multipliers once more, without multipliers among the unknowns."""
+    for name in ("cohesion", "weakening", "orthotropic"):
+        path = driver.output / f"{name}_dual.yaml"
+        runs = [driver.run(path, *options, label=f"{name}_{label}") for options, label in (((), "whole"), (CONDENSED, "condensed"))]
+        apart = max(np.abs(force(runs[0], k) - force(runs[1], k)).max() for k in range(len(runs[0].steps)))
+        verdicts.below(f"{name}, condensed: forces of all steps", apart / PRESSURE, CONVERGED, "those with multipliers")
 
 
 def ranks(verdicts, driver):

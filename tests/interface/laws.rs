@@ -10,7 +10,7 @@ use nalgebra::SVector;
 use stickslip::error::{Error, Kind, Result};
 use stickslip::geometry::Vec3;
 use stickslip::interface::{
-    Contact, Form, Friction, Interface, MultiplierBasis, NO_WEAK_COVERAGE, NewContact, Normals, Options, Scales,
+    Contact, Form, Friction, Interface, MultiplierBasis, NO_WEAK_COVERAGE, NewContact, Normals, Options, Owner, Scales,
     Weights,
 };
 use stickslip::law::{Answer, Ellipse, Host, Own, Question, SlipMeasure, State, Threshold};
@@ -325,6 +325,60 @@ fn what_a_law_remembers_goes_with_the_history() {
             assert_eq!(t.interface.law_states(), first);
             t.interface.set_law(None).unwrap();
             assert!(t.interface.law_states().is_empty());
+        }
+    }
+}
+
+/// Which nodes a handle owns.
+type Rule = fn(usize) -> bool;
+
+/// Handles that own some nodes each: forces and rows add up to those of the whole, and what the law remembers is that of the
+/// whole at the nodes that are owned; also after other handles, with other nodes, have taken over.
+#[test]
+fn parts_add_up_and_hand_on_what_the_law_remembers() {
+    for (own, states) in [(Own::Weakening { after: 0.2, slip: 0.15 }, 1), (host(some_law, 2), 2)] {
+        for basis in BASES {
+            let of = Options { basis, mu: MU, ..options() };
+            let with = |owners: Option<Rule>| {
+                let mut t = moved(&of, [Cells::Quads; 2], FLAT, 3);
+                if let Some(owns) = owners {
+                    let here = |a| if owns(a) { Owner::Here } else { Owner::Elsewhere };
+                    t.interface.set_owners((0..t.x1.len()).map(here).collect()).unwrap();
+                }
+                t.interface.set_law(Some(own)).unwrap();
+                t
+            };
+            let mut whole = with(None);
+            let n = whole.x1.len();
+            let rules: [[Rule; 2]; 2] = [[|a| a < 4, |a| a >= 4], [|a| a % 3 == 0, |a| a % 3 != 0]];
+            let mut parts = rules[0].map(|rule| with(Some(rule)));
+            for (step, owns) in rules.into_iter().enumerate() {
+                let right = numbers(&mut whole).0;
+                let mut sum = vec![0.0; right.len()];
+                for part in &mut parts {
+                    part.x1.clone_from(&whole.x1);
+                    sum.iter_mut().zip(numbers(part).0).for_each(|(to, v)| *to += v);
+                    part.interface.commit(&part.x1, &part.x2, &part.lambda, None).unwrap();
+                }
+                let largest = right.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
+                let error = sum.iter().zip(&right).fold(0.0_f64, |m, (a, b)| m.max((a - b).abs()));
+                assert!(error <= SAME * largest, "{own:?} {basis:?}, step {step}: {error:e}");
+                whole.interface.commit(&whole.x1, &whole.x2, &whole.lambda, None).unwrap();
+                let (mut kept, history) = (vec![f64::NAN; states * n], whole.interface.history().clone());
+                for (part, owns) in parts.iter().zip(owns) {
+                    for k in (0..states * n).filter(|k| owns(k / states)) {
+                        kept[k] = part.interface.law_states()[k];
+                    }
+                }
+                assert_eq!(kept, whole.interface.law_states(), "{own:?} {basis:?}, step {step}");
+                parts = rules[1].map(|rule| with(Some(rule)));
+                for part in &mut parts {
+                    let (x1, x2) = (&history.x1, &history.x2);
+                    part.interface.set_committed(x1, x2, &history.slip, history.commits).unwrap();
+                    part.interface.set_law_states(&kept).unwrap();
+                }
+                whole.x1.iter_mut().for_each(|x| *x += Vec3::new(0.004, 0.003, -0.001));
+            }
         }
     }
 }

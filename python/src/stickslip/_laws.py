@@ -1,11 +1,18 @@
 """Laws of friction in place of Coulomb's: the library's, and one's own."""
 
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ._arrays import given, pointer
 from ._library import ffi, value_of
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
 
 
 @dataclass
@@ -30,10 +37,14 @@ class LawPoint:
 class Laws:
     """The part of an interface that is about its law."""
 
-    _kept_law = None
-    _law_error = None
+    n1: int
+    _call: Callable[..., None]
+    # The library holds its address.
+    _kept_law: Any = None
+    # What a law of Python has raised last.
+    _law_error: Exception | None = None
 
-    def set_law(self, kind: str = "coulomb", **numbers) -> None:
+    def set_law(self, kind: str = "coulomb", **numbers: float | Sequence[float]) -> None:
         """A law of the library: "coulomb", "cohesion", "weakening" or "orthotropic", with its numbers.
 
         cohesion: ``cohesion`` [F/L^2]. weakening: ``mu_after``, ``critical_slip`` [L]. orthotropic: ``mu_across``, ``direction``, (3,).
@@ -45,18 +56,18 @@ class Laws:
         for name, value in numbers.items():
             if name not in known:
                 raise TypeError(f"{name}: no number of a law; there are {', '.join(known)}")
-            setattr(law, name, [float(v) for v in value] if name == "direction" else float(value))
+            setattr(law, name, np.asarray(value, float).tolist())
         self._call("set_law", law)
         self._kept_law = None
 
-    def set_threshold(self, law, n_states: int = 0) -> None:
+    def set_threshold(self, law: Callable[[LawPoint], Sequence[Any]], n_states: int = 0) -> None:
         """A law of one's own: ``law(point)`` gives ``(k, dk_dnormal)`` or ``(k, dk_dnormal, dk_dslip)``.
 
         k is the shear traction below which the node of a :class:`LawPoint` sticks, not negative, and dk_dnormal, its derivative with
         respect to ``point.normal``, is not positive. ``dk_dslip``, (3,): with respect to ``point.slip``. Of each node ``n_states``
         numbers are remembered. An exception in ``law`` refuses the call that has asked, and is the cause of what is raised.
         """
-        def ask(_, point, states, answer, after):
+        def ask(_: Any, point: Any, states: Any, answer: Any, after: Any) -> int:
             try:
                 own = np.array(ffi.unpack(states, n_states) if n_states else [])
                 vectors = (np.array(list(v)) for v in (point.slip, point.slip_before, point.direction))
@@ -83,7 +94,7 @@ class Laws:
         self._call("law_states", states.size, pointer(states), count)
         return states
 
-    def set_law_states(self, states) -> None:
+    def set_law_states(self, states: ArrayLike) -> None:
         """Replaces that, as after ``set_committed``."""
-        states = given("states", states, np.shape(states))
-        self._call("set_law_states", states.size, pointer(states))
+        kept = given("states", states, np.shape(states))
+        self._call("set_law_states", kept.size, pointer(kept))
