@@ -123,14 +123,14 @@ PetscErrorCode converted_write(Scene *scene, const Mesh *mesh, const char *path)
   PetscInt    n = 0;
   PetscFunctionBegin;
   if (mesh->size > 1) scene_fail(scene, NULL, NULL, "-convert reads whole files: run it on one rank.");
+  for (PetscInt b = 0; b < mesh->n_bodies; b++)
+    n += mesh->bodies[b].from_gmsh;
+  if (!n) scene_fail(scene, NULL, NULL, "no body of this scene comes from a Gmsh file: there is nothing to convert.");
   PetscCall(PetscViewerHDF5Open(PETSC_COMM_SELF, path, FILE_MODE_WRITE, &viewer));
   for (PetscInt b = 0; b < mesh->n_bodies; b++) {
-    if (!mesh->bodies[b].from_gmsh) continue;
-    PetscCall(write_body(viewer, mesh, b));
-    n++;
+    if (mesh->bodies[b].from_gmsh) PetscCall(write_body(viewer, mesh, b));
   }
   PetscCall(PetscViewerDestroy(&viewer));
-  if (!n) scene_fail(scene, NULL, NULL, "no body of this scene comes from a Gmsh file: there is nothing to convert.");
   PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s: %" PetscInt_FMT " bodies; read them by {type: hdf5, file: %s}\n", path, n, path));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
