@@ -74,6 +74,7 @@ BAD_SCENES = [
     BadScene("cohesion_of_coulomb", "friction: 0.5", "friction: 0.5, cohesion: 1", "base.cohesion"),
     BadScene("weakening_at_once", "friction: 0.5", "friction: 0.5, law: weakening, friction_after: 0.1, critical_slip: 0", "base.critical_slip"),
     BadScene("orthotropic_without_direction", "friction: 0.5", "friction: 0.5, law: orthotropic, friction_across: 0.1", "base.direction"),
+    BadScene("orthotropic_along_nothing", "friction: 0.5", "law: orthotropic, friction_across: 0.1, direction: [1, 0, 0]", "base.friction"),
     BadScene("friction_of_tied", "friction: 0.5", "friction: 0.5, law: tied", "base.friction"),
     BadScene(
         "not_rigid",
