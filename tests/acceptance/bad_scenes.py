@@ -74,6 +74,7 @@ BAD_SCENES = [
     BadScene("cohesion_of_coulomb", "friction: 0.5", "friction: 0.5, cohesion: 1", "base.cohesion"),
     BadScene("weakening_at_once", "friction: 0.5", "friction: 0.5, law: weakening, friction_after: 0.1, critical_slip: 0", "base.critical_slip"),
     BadScene("orthotropic_without_direction", "friction: 0.5", "friction: 0.5, law: orthotropic, friction_across: 0.1", "base.direction"),
+    BadScene("orthotropic_along_nothing", "friction: 0.5", "law: orthotropic, friction_across: 0.1, direction: [1, 0, 0]", "base.friction"),
     BadScene("friction_of_tied", "friction: 0.5", "friction: 0.5, law: tied", "base.friction"),
     BadScene(
         "not_rigid",
@@ -243,6 +244,8 @@ BAD_SCENES += [
              says="plane, sphere, cylinder"),
     BadScene("rigid_without_file", *tool("from: stl, file: nowhere.stl, reference: [5, 0, 0]"), "tool.file", says="cannot be read"),
     BadScene("rigid_that_is_no_stl", *tool("from: stl, file: nameless.msh, reference: [5, 0, 0]"), "tool.file", says="STL"),
+    BadScene("rigid_from_folder", *tool("from: stl, file: ., reference: [5, 0, 0]"), "tool.file", says="STL"),
+    BadScene("rigid_of_lines", *tool("from: stl, file: lines.stl, reference: [5, 0, 0]"), "tool.file", says="no triangle"),
     BadScene("rigid_with_stiffness", *tool(f"reference: [5, 0, 0], {CUBE}, young: 1"), "tool.young"),
     BadScene("rigid_of_negative_mass", *tool(f"reference: [5, 0, 0], {CUBE}, mass: -1"), "tool.mass"),
     BadScene("moment_on_a_node", "push: {surface: block.xmin, traction: [60, 0, 0],", "push: {body: block, point: [0, 0, 0], moment: [0, 0, 1],",
@@ -291,6 +294,7 @@ def write_bad_scene(bad, folder):
     named = (MESHES / "brick_tet_upper.msh").read_text()
     nameless = re.sub(r"\$PhysicalNames.*\$EndPhysicalNames\n", "", named, flags=re.DOTALL)
     (folder / "nameless.msh").write_text(nameless)
+    (folder / "lines.stl").write_text("solid lines\n" + "vertex 5 0 0\nvertex 6 0 0\nvertex 6 0 0\n" + "endsolid\n")
     (folder / "one_row.txt").write_text("# X Y Z ux uy uz\n0 0 0 0 0 0\n")
     (folder / "prism.msh").write_text(PRISM)
     (folder / "pyramid.msh").write_text(PYRAMID)

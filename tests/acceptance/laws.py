@@ -10,6 +10,8 @@ from scene import write
 
 # Young's modulus over the pressure: of the slips, 1e-2 to 1e-1 of blocks 0.05 high, the strain takes away 1e-5.
 STIFF, CLOSED = 1e5, 1e-4
+# By this the top of a block is pressed in, where no load may press it.
+PRESS = 1e-6
 # Sums of nodal forces with all nodes slipping: no stiffness enters.
 SUMS = 1e-10
 # Two ways to one answer, each to Newton's tolerance of 1e-11 of forces that are 1e5 times the pressure at the stiffest.
@@ -28,6 +30,7 @@ def laws(verdicts, driver):
         cohesion(verdicts, driver, basis)
         weakening(verdicts, driver, basis)
         orthotropic(verdicts, driver, basis)
+    framed(verdicts, driver)
     condensed(verdicts, driver)
     ranks(verdicts, driver)
     pad(verdicts, driver)
@@ -121,6 +124,21 @@ def orthotropic(verdicts, driver, basis):
     exact = PRESSURE * square @ away / np.sqrt(away @ square @ away)
     found = force(run)[:2] * np.sign(force(run)[:2] @ away)
     verdicts.below(f"orthotropic, {basis}: force", np.abs(found / exact - 1).max(), CLOSED, "the point of the ellipse with that normal")
+
+
+def framed(verdicts, driver):
+    """The direction of an orthotropic law turns with the frame, as all else in the scene does: the block, held in space, is moved along it."""
+    scene = pulled(PRESSURE * STIFF, (0, 0), [(0, 0), (1, 1)], "standard", law="orthotropic", friction_across=ACROSS, direction=ALONG)
+    way = 0.1
+    scene["supports"] = ["floor", "pull"]
+    scene["pull"] = {"surface": "upper.zmax", "components": ["x", "y", "z"], "value": [way * ALONG[0], way * ALONG[1], -PRESS]}
+    for key in ("loads", "press", "pullx", "pully"):
+        del scene[key]
+    path, angles = write(scene, driver.output / "orthotropic_frame.yaml"), (0, 90)
+    forces = [force(driver.run(path, "-frame_rotate", f"0,0,{angle}", label=f"orthotropic_frame_{angle}")) for angle in angles]
+    x, y, z = forces[0]
+    verdicts.below("orthotropic, the frame turned: force", np.abs(forces[1] - [-y, x, z]).max() / z, CONVERGED, "turned with it")
+    verdicts.near("orthotropic, along its direction: force", np.hypot(x, y) / z, MU, CLOSED, "its friction times the pressure")
 
 
 def condensed(verdicts, driver):

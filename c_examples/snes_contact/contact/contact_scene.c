@@ -260,6 +260,7 @@ PetscErrorCode contact_read(Scene *scene, Contact *contact)
     PetscCallStickslip(stickslip_options_init(&interface->options, sizeof(interface->options)));
     read_model(&contact->mesh->space, interface);
     law_read(scene, &contact->mesh->space, interface);
+    mesh_rotate_vector(contact->mesh, interface->law.direction);
     read_effects(scene, interface);
     read_method(scene, interface);
     read_accuracy(scene, interface);

@@ -60,6 +60,8 @@ void law_read(Scene *scene, const Space *space, Interface *interface)
     scene_fail(scene, name, "shear_limit", "the law 'tresca' needs its largest shear traction, above 0.");
   if (law != STICKSLIP_FRICTION_TRESCA && shear_limit != 0)
     scene_fail(scene, name, "shear_limit", "the law '%s' has no such limit; 'tresca' has.", LAWS[law]);
+  if (kind == STICKSLIP_LAW_ORTHOTROPIC && mu == 0)
+    scene_fail(scene, name, "friction", "the law 'orthotropic' needs it above 0, along `direction`; without it there is none across, either.");
   if (kind != STICKSLIP_LAW_COULOMB) law = STICKSLIP_FRICTION_COULOMB;
   if (law != STICKSLIP_FRICTION_COULOMB && law != STICKSLIP_FRICTION_TRESCA && mu != 0)
     scene_fail(scene, name, "friction", "the law '%s' has no Coulomb coefficient.", LAWS[law]);

@@ -57,11 +57,14 @@ static PetscErrorCode read_text(const char *text, Corners *corners)
 
 static PetscErrorCode read_file(const char *path, Corners *corners)
 {
-  FILE          *file = fopen(path, "rb");
+  FILE          *file = NULL;
   unsigned char *bytes;
   uint32_t       n    = 0;
   long           size = 0;
+  PetscBool      is_file;
   PetscFunctionBegin;
+  PetscCall(PetscTestFile(path, 'r', &is_file)); /* no directory, whose size means nothing */
+  if (is_file) file = fopen(path, "rb");
   if (!file) PetscFunctionReturn(PETSC_SUCCESS);
   (void)fseek(file, 0, SEEK_END);
   size = ftell(file);
@@ -134,6 +137,7 @@ PetscErrorCode stl_create(Scene *scene, const char *body, Mesh *shell)
     if (vertex[k] != vertex[k + 1] && vertex[k + 1] != vertex[k + 2] && vertex[k + 2] != vertex[k])
       surface_push(surface, 3, vertex + k);
   }
+  if (!surface->n_faces) scene_fail(scene, body, "file", "'%s' has no triangle but lines and points.", path);
   PetscCall(orient_outward(scene, body, shell));
   PetscCall(PetscFree(vertex));
   PetscCall(PetscFree(corners.x));
