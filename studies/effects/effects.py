@@ -60,6 +60,9 @@ RATIOS = [
     ("rigid / deformable mortar side", ("coulomb", "rigid", "current"), FULL, 0.5, KERNELS),
     ("analytic / deformable mortar side", ("coulomb", "analytic", "current"), FULL, 0.1, KERNELS),
     ("with offsets / without", (*FULL, "offsets"), FULL, None, CALLS),
+    ("Coulomb's law as a callback / built in", ("callback", *FULL[1:]), FULL, 1.05, CALLS),
+    ("slip-weakening / Coulomb", ("weakening", *FULL[1:]), FULL, None, CALLS),
+    ("orthotropic / Coulomb", ("orthotropic", *FULL[1:]), FULL, None, CALLS),
 ]
 
 # Columns: key, heading, format.

@@ -1,7 +1,8 @@
 /* One interface, evaluated with the effects that the command line names, for counting what they cost:
  *
  *   effects_probe LAW SIDE WEIGHTS [offsets]
- *     LAW: none | coulomb   SIDE: analytic | rigid | deformable   WEIGHTS: reference | current
+ *     LAW: none | coulomb | weakening | orthotropic | callback (Coulomb's, as a function of the host's)   SIDE: analytic | rigid | deformable
+ *     WEIGHTS: reference | current
  *     offsets: each surface is a layer that is thicker than its mesh, as a shell's
  *
  * A non-mortar patch of N1 x N1 quadrilaterals (the unit square, bent a little) lies 0.001 deep in a plane: as a mortar patch
@@ -50,6 +51,26 @@ static int64_t number(int64_t *equations, int64_t n, int64_t first)
   return first < 0 ? 0 : n;
 }
 
+/* Coulomb's law, as the host's */
+static int32_t coulomb(void *user, const stickslip_law_point *point, const double *states, stickslip_law_answer *answer, double *states_after)
+{
+  (void)user, (void)states, (void)states_after;
+  answer->threshold          = -point->mu * point->normal;
+  answer->dthreshold_dnormal = -point->mu;
+  return 0;
+}
+
+static void choose_law(stickslip_interface *contact, const char *law)
+{
+  if (!strcmp(law, "callback")) stop_on(stickslip_interface_set_threshold(contact, coulomb, NULL, 0));
+  if (!strcmp(law, "weakening"))
+    stop_on(stickslip_interface_set_law(contact, &(stickslip_law){.struct_size = sizeof(stickslip_law), .kind = STICKSLIP_LAW_WEAKENING,
+                                                     .mu_after = 0.2, .critical_slip = 1}));
+  if (!strcmp(law, "orthotropic"))
+    stop_on(stickslip_interface_set_law(contact, &(stickslip_law){.struct_size = sizeof(stickslip_law), .kind = STICKSLIP_LAW_ORTHOTROPIC,
+                                                     .mu_across = 0.2, .direction = {1, 1, 0}}));
+}
+
 static int choose(const char *word, const char *const words[])
 {
   for (int k = 0; words[k]; k++) {
@@ -61,7 +82,7 @@ static int choose(const char *word, const char *const words[])
 
 int main(int argc, char **argv)
 {
-  static const char *const laws[] = {"coulomb", "none", NULL}, *const sides[] = {"deformable", "rigid", "analytic", NULL},
+  static const char *const laws[] = {"coulomb", "none", "weakening", "orthotropic", "callback", NULL}, *const sides[] = {"deformable", "rigid", "analytic", NULL},
                            *const weights[] = {"current", "committed", "reference", NULL};
   static double  x1[3 * NODES1], x2[3 * NODES2], lambda[3 * NODES1], force1[3 * NODES1], force2[3 * NODES2], rows[3 * NODES1];
   static int64_t offsets1[N1 * N1 + 1], nodes1[4 * N1 * N1], offsets2[N2 * N2 + 1], nodes2[4 * N2 * N2];
@@ -76,6 +97,7 @@ int main(int argc, char **argv)
   if (argc != 4 + with_offsets) return fprintf(stderr, "usage: effects_probe LAW SIDE WEIGHTS [offsets]\n"), 1;
   stop_on(stickslip_options_init(&options, sizeof options));
   options.friction    = choose(argv[1], laws);
+  if (options.friction > STICKSLIP_FRICTION_NONE) options.friction = STICKSLIP_FRICTION_COULOMB; /* its place is another law's */
   options.mortar_side = choose(argv[2], sides);
   options.weights     = choose(argv[3], weights);
   options.modulus     = MODULUS;
@@ -103,6 +125,7 @@ int main(int argc, char **argv)
   }
 
   stop_on(stickslip_interface_create(&upper, &lower, &options, &contact));
+  choose_law(contact, argv[1]);
   if (with_offsets) {
     static double thickness1[NODES1], thickness2[NODES2];
     for (int a = 0; a < NODES1; a++) {

@@ -197,13 +197,36 @@ static void stateless(void) {
 }
 
 /* A call that defines a handle's state, with its numbers. */
-enum { FRICTION, AUGMENTATION, NORMALS, CONSTRAINTS, ROLLBACK, IMPORT, COMMIT, PREVIOUS, USE_NORMALS, OFFSETS, CHANGES, CALLS = 8 };
+enum { FRICTION, AUGMENTATION, NORMALS, CONSTRAINTS, ROLLBACK, IMPORT, COMMIT, PREVIOUS, USE_NORMALS, OFFSETS, LAW, LAW_STATES, CHANGES, CALLS = 8 };
 typedef struct {
   int kind, given;
   int64_t n, nodes[2];
   double values[X1], x1[X1], x2[X2], lambda[X1];
   history imported;
 } change;
+
+/* A threshold that remembers how often it was slipped at; refuses where the pressure is large. */
+static int32_t host_law(void *user, const stickslip_law_point *point, const double *states, stickslip_law_answer *answer,
+                        double *states_after) {
+  (void)user;
+  answer->threshold = 0.25 * (1.0 + states[0]) - 0.5 * point->normal;
+  answer->dthreshold_dnormal = -0.5;
+  states_after[0] = states[0] + 1.0;
+  return point->normal < -1e6;
+}
+
+static int32_t set_law(stickslip_interface *i, const change *c) {
+  stickslip_law law = {.struct_size = sizeof law, .kind = (int32_t)c->nodes[0]};
+  if (!c->given) return stickslip_interface_set_law(i, NULL);
+  if (c->n == 0) return stickslip_interface_set_threshold(i, host_law, NULL, 1);
+  if (law.kind == STICKSLIP_LAW_COHESION) law.cohesion = c->values[0];
+  if (law.kind == STICKSLIP_LAW_WEAKENING) law.mu_after = c->values[0], law.critical_slip = c->values[1];
+  if (law.kind == STICKSLIP_LAW_ORTHOTROPIC) {
+    law.mu_across = c->values[0];
+    for (int k = 0; k < 3; ++k) law.direction[k] = c->values[1 + k % 2];
+  }
+  return stickslip_interface_set_law(i, &law);
+}
 
 static int32_t apply(stickslip_interface *i, const change *c) {
   const double *values = c->given ? c->values : NULL;
@@ -215,6 +238,8 @@ static int32_t apply(stickslip_interface *i, const change *c) {
     case ROLLBACK: return stickslip_interface_rollback(i);
     case IMPORT:
       return stickslip_interface_history_import(i, c->n, c->imported.integers, c->imported.n_reals, c->imported.reals);
+    case LAW: return set_law(i, c);
+    case LAW_STATES: return stickslip_interface_set_law_states(i, c->given ? N1 : c->n, c->values);
     case OFFSETS: return stickslip_interface_set_offsets(i, values, NULL);
     case USE_NORMALS: return stickslip_interface_use_normals(i, (int32_t)(c->n - 1));
     case COMMIT: return stickslip_interface_commit(i, c->x1, c->x2, c->lambda, NULL);
@@ -260,6 +285,9 @@ static int32_t look_diagnosis(handle *h) {
   if (status == STICKSLIP_OK) h->count = d.suspects;
   return status;
 }
+static int32_t look_law_states(handle *h) {
+  return stickslip_interface_law_states(h->s.interface, MOST_ENTRIES, h->values, &h->count);
+}
 static int32_t look_history(handle *h) {
   const int32_t status = stickslip_interface_history_size(h->s.interface, &h->row_numbers[0], &h->row_numbers[1]);
   if (status != STICKSLIP_OK) return status;
@@ -301,7 +329,7 @@ static int32_t look_condensed_plan(handle *h) {
 static const interface_call looks[] = {
     call_interface_residual, call_interface_states, call_interface_coo, call_interface_csr, call_interface_sums,
     call_interface_pattern,  look_residual_sums,    look_coo_sums,      look_count,         look_start,
-    look_report,             look_diagnosis,        look_history,       call_carriers,      call_condensed_csr,
+    look_report,             look_diagnosis,        look_history,       look_law_states,    call_carriers,      call_condensed_csr,
     look_forces,             look_elimination,      look_constraints,   call_condensed_multipliers,
     call_condensed_residual, call_condensed_pattern, call_turn_multipliers, look_plan, look_condensed_plan};
 
@@ -408,6 +436,7 @@ static void sequence(int compared) {
     spoil(c->values, c->kind == NORMALS ? X1 : N1);
     c->n = (int64_t)draw(3) + (c->kind == USE_NORMALS);
     for (int k = 0; k < 2; ++k) c->nodes[k] = any_integer(4);
+    if (c->kind == LAW) c->nodes[0] = any_integer((int64_t)draw(4));
     memcpy(c->x1, s->x1, sizeof c->x1);
     memcpy(c->x2, s->x2, sizeof c->x2);
     memcpy(c->lambda, s->lambda, sizeof c->lambda);
