@@ -159,6 +159,7 @@ BAD_SCENES = [
     BadScene("same_way", "floor.zmax, friction", "floor.zmin, friction", "base.mortar"),
     BadScene("bad_coverage", "", "", "base.coverage_min", ("-base_coverage_min", "1")),
     BadScene("bad_option", "", "", "steps.count", ("-steps_count", "0")),
+    BadScene("results_into_a_file", "", "", "results_into_a_file.yaml", ("-output_dir", "/dev/null"), says="cannot write to the output folder"),
 ]
 
 

@@ -1,6 +1,7 @@
 """Checks of what several ranks read and write: the mesh is that of one rank to the bit, whoever made its pieces, and so are files
 put together; fields are those of one rank to rounding."""
 
+import struct
 import subprocess
 
 import numpy as np
@@ -115,6 +116,27 @@ def converted(verdicts, driver):
         for ranks in (1, 3):
             other = driver.run(scene, *TIGHT, *LAST, *options, label=f"{scene}_h5_{ranks}", ranks=ranks)
             same(verdicts, f"{scene}, converted, {ranks} ranks", one, other, sorted_rows=True)
+        damaged(verdicts, driver, scene, file, options)
+        nowhere = [str(word) for word in (*command[:-1], driver.output / "nowhere" / "mesh.h5")]
+        done = subprocess.run(nowhere, capture_output=True, text=True)
+        verdicts.true(f"{scene}: no folder to convert into", done.returncode == 1 and "-convert cannot write" in done.stderr, "refused")
+
+
+# A vertex of both scenes, in their lists of cells' vertices alone, and one that none has.
+VERTEX, NO_VERTEX = struct.pack("<d", 60), struct.pack("<d", 1e6)
+
+
+def damaged(verdicts, driver, scene, file, options):
+    """A converted file with other contents than it says it has is refused by all ranks, in one sentence."""
+    whole = file.read_bytes()
+    for what, old, new in (("list", b"connectivity\0", b"connectivitx\0"), ("vertex", VERTEX, NO_VERTEX)):
+        path = driver.output / f"{scene}_no_{what}.h5"
+        path.write_bytes(whole.replace(old, new))
+        verdicts.true(f"{scene}: a file without a {what} that it names", path.read_bytes() != whole, "written")
+        there = [str(path) if word == str(file) else word for word in options]
+        for ranks in (1, 2):
+            run = driver.run(scene, *LAST, *there, label=f"{scene}_no_{what}_{ranks}", ranks=ranks, expect=1)
+            verdicts.true(f"{scene}, no such {what}, {ranks} ranks", "write it anew" in run.text, "refused")
 
 
 # Bytes that a rank holds of the mesh, read and kept, over those of one rank: half, and the layers of vertices on borders.

@@ -4,17 +4,36 @@
 #if defined(PETSC_HAVE_HDF5) && defined(SNES_CONTACT_HDF5) /* PETSc's header includes HDF5's */
   #include <petscviewerhdf5.h>
 
+/* Ends the run of all ranks where any of them has seen that the file is not what -convert has written. */
+static PetscErrorCode check(Scene *scene, const char *body, PetscBool damaged)
+{
+  PetscFunctionBegin;
+  PetscCall(scene_fail_first(scene, damaged ? 0 : -1, body, "file",
+                             "it is damaged, or something else has written it; write it anew: `snes_contact -scene ... -convert FILE.h5`."));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Is this one of the whole numbers from 0 on below the end? No not-a-number is. */
+static PetscBool is_below(PetscReal value, PetscInt end)
+{
+  return (PetscBool)(value >= 0 && value < (PetscReal)end && value == PetscFloorReal(value));
+}
+
 /* this rank's share, so many numbers, of a vector in the group; to be freed */
-static PetscErrorCode read_numbers(PetscViewer viewer, const char *name, PetscInt n, PetscReal **values)
+static PetscErrorCode read_numbers(Scene *scene, const char *body, PetscViewer viewer, const char *name, PetscInt n, PetscReal **values)
 {
   const PetscScalar *array;
+  PetscErrorCode     failed;
   Vec                vec;
   PetscFunctionBegin;
   PetscCall(VecCreate(PETSC_COMM_WORLD, &vec));
   PetscCall(VecSetSizes(vec, n, PETSC_DETERMINE));
   PetscCall(VecSetType(vec, VECSTANDARD));
   PetscCall(PetscObjectSetName((PetscObject)vec, name));
-  PetscCall(VecLoad(vec, viewer));
+  PetscCall(PetscPushErrorHandler(PetscReturnErrorHandler, NULL));
+  failed = VecLoad(vec, viewer);
+  PetscCall(PetscPopErrorHandler());
+  PetscCall(check(scene, body, (PetscBool)(failed != 0)));
   PetscCall(PetscMalloc1(n, values));
   PetscCall(VecGetArrayRead(vec, &array));
   PetscCall(PetscArraycpy(*values, array, n));
@@ -30,8 +49,8 @@ static PetscInt first_of(PetscInt n, PetscMPIInt r, PetscMPIInt size)
 }
 
 /* Of these vertices of the body, numbers increasing: their places, from the ranks that read them. */
-static PetscErrorCode read_coordinates(PetscViewer viewer, const Mesh *mesh, PetscInt n_all, PetscInt n, const PetscInt numbers[],
-                                       PetscReal coordinates[])
+static PetscErrorCode read_coordinates(Scene *scene, const char *body, PetscViewer viewer, const Mesh *mesh, PetscInt n_all, PetscInt n,
+                                       const PetscInt numbers[], PetscReal coordinates[])
 {
   const PetscInt mine = first_of(n_all, mesh->rank + 1, mesh->size) - first_of(n_all, mesh->rank, mesh->size);
   PetscReal     *read;
@@ -39,7 +58,7 @@ static PetscErrorCode read_coordinates(PetscViewer viewer, const Mesh *mesh, Pet
   PetscLayout    layout;
   PetscSF        sf;
   PetscFunctionBegin;
-  PetscCall(read_numbers(viewer, "coordinates", 3 * mine, &read));
+  PetscCall(read_numbers(scene, body, viewer, "coordinates", 3 * mine, &read));
   PetscCall(PetscLayoutCreateFromSizes(PETSC_COMM_WORLD, mine, n_all, 1, &layout));
   PetscCall(PetscSFCreate(PETSC_COMM_WORLD, &sf));
   PetscCall(PetscSFSetGraphLayout(sf, layout, n, NULL, PETSC_OWN_POINTER, numbers));
@@ -75,7 +94,7 @@ static PetscErrorCode append(Mesh *mesh, PetscInt n_cells, PetscInt first, const
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode read_surfaces(PetscViewer viewer, const char *body, PetscInt n_surfaces, PetscInt n_cells, Mesh *mesh)
+static PetscErrorCode read_surfaces(Scene *scene, PetscViewer viewer, const char *body, PetscInt n_surfaces, PetscInt n_cells, Mesh *mesh)
 {
   PetscFunctionBegin;
   for (PetscInt s = 0; s < n_surfaces; s++) {
@@ -83,13 +102,19 @@ static PetscErrorCode read_surfaces(PetscViewer viewer, const char *body, PetscI
     PetscReal *sums;
     PetscInt   most = 0, first = 0;
     Surface   *surface;
-    PetscBool  inner;
+    PetscBool  inner, there, damaged = PETSC_FALSE;
+    PetscCall(PetscSNPrintf(key, sizeof(key), "inner_%" PetscInt_FMT, s));
+    PetscCall(PetscViewerHDF5HasAttribute(viewer, NULL, key, &there));
+    PetscCall(check(scene, body, (PetscBool)!there)); /* -convert writes it after the name */
     PetscCall(PetscSNPrintf(key, sizeof(key), "surface_%" PetscInt_FMT, s));
     PetscCall(PetscViewerHDF5ReadAttribute(viewer, NULL, key, PETSC_STRING, NULL, &given));
     PetscCall(PetscSNPrintf(key, sizeof(key), "inner_%" PetscInt_FMT, s));
     PetscCall(PetscViewerHDF5ReadAttribute(viewer, NULL, key, PETSC_BOOL, NULL, &inner));
     PetscCall(PetscSNPrintf(key, sizeof(key), "faces_%" PetscInt_FMT, s));
-    PetscCall(read_numbers(viewer, key, n_cells, &sums));
+    PetscCall(read_numbers(scene, body, viewer, key, n_cells, &sums));
+    for (PetscInt c = 0; c < n_cells; c++)
+      damaged = (PetscBool)(damaged || !is_below(sums[c], 1 << cell_faces(mesh_cell_kind(mesh, mesh->n_cells - n_cells + c))));
+    PetscCall(check(scene, body, damaged));
     for (PetscInt c = 0; c < n_cells; c++) {
       for (PetscInt f = 0; f < 6; f++)
         most += ((PetscInt)sums[c] >> f) & 1;
@@ -116,16 +141,24 @@ static PetscErrorCode read_surfaces(PetscViewer viewer, const char *body, PetscI
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode read_body(PetscViewer viewer, const char *body, const PetscInt counts[4], Mesh *mesh)
+static PetscErrorCode read_body(Scene *scene, PetscViewer viewer, const char *body, const PetscInt counts[4], Mesh *mesh)
 {
   const PetscInt first = first_of(counts[2], mesh->rank, mesh->size), n_cells = first_of(counts[2], mesh->rank + 1, mesh->size) - first;
   PetscReal     *sizes, *entries, *coordinates;
   PetscInt       n_entries = 0, n_vertices, *cells, *numbers;
+  PetscBool      damaged   = (PetscBool)(counts[1] < 1 || counts[2] < 1 || counts[3] < 0);
   PetscFunctionBegin;
-  PetscCall(read_numbers(viewer, "sizes", n_cells, &sizes));
-  for (PetscInt c = 0; c < n_cells; c++)
-    n_entries += (PetscInt)sizes[c];
-  PetscCall(read_numbers(viewer, "connectivity", n_entries, &entries));
+  PetscCall(check(scene, body, damaged));
+  PetscCall(read_numbers(scene, body, viewer, "sizes", n_cells, &sizes));
+  for (PetscInt c = 0; c < n_cells && !damaged; c++) {
+    damaged = (PetscBool)(!is_below(sizes[c], CELL_NODES + 1) || cell_kind(mesh->dimension, (PetscInt)sizes[c]) == CELL_KINDS);
+    if (!damaged) n_entries += (PetscInt)sizes[c];
+  }
+  PetscCall(check(scene, body, damaged));
+  PetscCall(read_numbers(scene, body, viewer, "connectivity", n_entries, &entries));
+  for (PetscInt k = 0; k < n_entries; k++)
+    damaged = (PetscBool)(damaged || !is_below(entries[k], counts[1]));
+  PetscCall(check(scene, body, damaged));
   PetscCall(PetscMalloc2(n_entries, &cells, n_entries, &numbers));
   for (PetscInt k = 0; k < n_entries; k++)
     cells[k] = numbers[k] = (PetscInt)entries[k];
@@ -134,9 +167,9 @@ static PetscErrorCode read_body(PetscViewer viewer, const char *body, const Pets
   for (PetscInt k = 0; k < n_entries; k++)
     PetscCall(PetscFindInt(cells[k], n_vertices, numbers, &cells[k]));
   PetscCall(PetscMalloc1(3 * n_vertices, &coordinates));
-  PetscCall(read_coordinates(viewer, mesh, counts[1], n_vertices, numbers, coordinates));
+  PetscCall(read_coordinates(scene, body, viewer, mesh, counts[1], n_vertices, numbers, coordinates));
   PetscCall(append(mesh, n_cells, first, sizes, cells, n_vertices, numbers, coordinates));
-  PetscCall(read_surfaces(viewer, body, counts[3], n_cells, mesh));
+  PetscCall(read_surfaces(scene, viewer, body, counts[3], n_cells, mesh));
   PetscCall(PetscFree(coordinates));
   PetscCall(PetscFree2(cells, numbers));
   PetscCall(PetscFree(sizes));
@@ -175,7 +208,7 @@ PetscErrorCode converted_create(Scene *scene, const char *body, Mesh *mesh)
   }
   if (counts[0] != mesh->dimension)
     scene_fail(scene, body, "file", "its cells have %d dimensions, those of the scene %d.", (int)counts[0], (int)mesh->dimension);
-  PetscCall(read_body(viewer, body, counts, mesh));
+  PetscCall(read_body(scene, viewer, body, counts, mesh));
   PetscCall(PetscViewerHDF5PopGroup(viewer));
   PetscCall(PetscViewerDestroy(&viewer));
   PetscFunctionReturn(PETSC_SUCCESS);

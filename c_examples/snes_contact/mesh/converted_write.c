@@ -119,14 +119,18 @@ static PetscErrorCode write_body(PetscViewer viewer, const Mesh *mesh, PetscInt 
 
 PetscErrorCode converted_write(Scene *scene, const Mesh *mesh, const char *path)
 {
-  PetscViewer viewer;
-  PetscInt    n = 0;
+  PetscErrorCode failed;
+  PetscViewer    viewer;
+  PetscInt       n = 0;
   PetscFunctionBegin;
   if (mesh->size > 1) scene_fail(scene, NULL, NULL, "-convert reads whole files: run it on one rank.");
   for (PetscInt b = 0; b < mesh->n_bodies; b++)
     n += mesh->bodies[b].from_gmsh;
   if (!n) scene_fail(scene, NULL, NULL, "no body of this scene comes from a Gmsh file: there is nothing to convert.");
-  PetscCall(PetscViewerHDF5Open(PETSC_COMM_SELF, path, FILE_MODE_WRITE, &viewer));
+  PetscCall(PetscPushErrorHandler(PetscReturnErrorHandler, NULL));
+  failed = PetscViewerHDF5Open(PETSC_COMM_SELF, path, FILE_MODE_WRITE, &viewer);
+  PetscCall(PetscPopErrorHandler());
+  if (failed) scene_fail(scene, NULL, NULL, "-convert cannot write '%s': is there such a folder, and may you write in it?", path);
   for (PetscInt b = 0; b < mesh->n_bodies; b++) {
     if (mesh->bodies[b].from_gmsh) PetscCall(write_body(viewer, mesh, b));
   }

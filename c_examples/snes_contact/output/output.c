@@ -7,13 +7,14 @@
 /* with its parents; true if it can be written to */
 static PetscBool make_folder(const char *path)
 {
-  char part[PETSC_MAX_PATH_LEN];
+  struct stat status;
+  char        part[PETSC_MAX_PATH_LEN];
   for (size_t k = 1; path[k - 1] && k < sizeof(part); k++) {
     if (path[k] && path[k] != '/') continue;
     snprintf(part, sizeof(part), "%.*s", (int)k, path);
     (void)mkdir(part, 0777); /* those that are there already stay */
   }
-  return (PetscBool)(access(path, W_OK) == 0);
+  return (PetscBool)(!stat(path, &status) && S_ISDIR(status.st_mode) && access(path, W_OK) == 0);
 }
 
 PetscErrorCode output_read(Scene *scene, Output *output)
