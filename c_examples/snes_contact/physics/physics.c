@@ -18,6 +18,11 @@ PetscErrorCode physics_destroy(Physics *physics)
   Parts *parts = &physics->parts;
 
   PetscFunctionBegin;
+  if (physics->unknowns.equations) {
+    ISLocalToGlobalMapping mapping;
+    PetscCall(DMGetLocalToGlobalMapping(physics->mesh->dm, &mapping));
+    PetscCall(ISLocalToGlobalMappingRestoreIndices(mapping, &physics->unknowns.equations));
+  }
   for (PetscInt s = 0; s < physics->n_supports; s++) {
     PetscCall(PetscFree(physics->supports[s].given));
     PetscCall(PetscFree(physics->supports[s].curve.points));
