@@ -15,9 +15,9 @@ from pathlib import Path
 
 sys.path.append(str(Path(__file__).resolve().parents[1] / "common"))
 import folders  # noqa: E402, F401  (puts the others on the path)
+from scaling import renew  # noqa: E402
 from scene import SceneError, write  # noqa: E402
 
-DOC = Path(__file__).resolve().parents[2] / "docs" / "scaling.md"
 BEGIN, END = "<!-- ranks.py writes from here -->", "<!-- to here: ranks.py -->"
 # Rows of facets on either side; 316 are 1e5 facets.
 SIZES = (60, 316)
@@ -108,9 +108,7 @@ def main():
     (output / "ranks.md").write_text(table(rows))
     print(table(rows))
     if args.renew:
-        text = DOC.read_text()
-        before, after = text.split(BEGIN)[0], text.split(END)[1]
-        DOC.write_text(f"{before}{BEGIN}\n{table(rows)}{END}{after}")
+        renew(BEGIN, END, table(rows))
 
 
 if __name__ == "__main__":

@@ -10,6 +10,7 @@
  *
  * This chooses where Newton's method starts, not what it solves. */
 #include "solve/solve.h"
+#include "solve/direct.h"
 
 /* Rows without stiffness (multipliers, linear bodies) say zero; the rest gain this much of the largest diagonal entry,
  * for rigid motions that no support prevents. They get no load: the matrix need only be regular. */
@@ -35,15 +36,11 @@ static PetscErrorCode make_regular(Mat matrix, Vec diagonal)
 static PetscErrorCode solve_linear(Mat matrix, Vec b, Vec x)
 {
   KSP ksp;
-  PC  pc;
   PetscFunctionBegin;
   PetscCall(KSPCreate(PetscObjectComm((PetscObject)matrix), &ksp));
   PetscCall(KSPSetOptionsPrefix(ksp, "first_"));
   PetscCall(KSPSetOperators(ksp, matrix, matrix));
-  PetscCall(KSPSetType(ksp, KSPPREONLY));
-  PetscCall(KSPGetPC(ksp, &pc));
-  PetscCall(PCSetType(pc, PCLU));
-  PetscCall(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
+  PetscCall(direct_set(ksp));
   PetscCall(KSPSetFromOptions(ksp));
   PetscCall(KSPSolve(ksp, b, x));
   PetscCall(KSPDestroy(&ksp));

@@ -5,6 +5,7 @@
 #include "solve/solve.h"
 #include "solve/reduced.h"
 #include "solve/saddle.h"
+#include "solve/direct.h"
 
 /* Of the true residual. Newton's method then takes the steps of a direct solver: its own tolerance is 1e-11. */
 static const PetscReal RTOL = 1e-10;
@@ -36,10 +37,7 @@ static PetscErrorCode solve_directly(Iterative *iterative, Mat J, Vec r, Vec u, 
   if (!iterative->direct) {
     PetscCall(KSPCreate(PETSC_COMM_WORLD, &iterative->direct));
     PetscCall(KSPSetOptionsPrefix(iterative->direct, "direct_"));
-    PetscCall(KSPSetType(iterative->direct, KSPPREONLY));
-    PetscCall(KSPGetPC(iterative->direct, &pc));
-    PetscCall(PCSetType(pc, PCLU));
-    PetscCall(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
+    PetscCall(direct_set(iterative->direct));
     PetscCall(KSPSetFromOptions(iterative->direct));
   }
   PetscCall(KSPSetOperators(iterative->direct, J, J));

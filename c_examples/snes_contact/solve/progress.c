@@ -4,40 +4,33 @@
 /* Seconds between two lines. */
 static const PetscLogDouble PAUSE = 30;
 
-static PetscErrorCode is_due(Solve *solve, PetscBool *due)
+/* Of iterations of this kind, if it is time for one. */
+static PetscErrorCode tell(Solve *solve, const char *kind, PetscInt iteration, PetscReal norm)
 {
   PetscLogDouble now;
   PetscFunctionBegin;
   PetscCall(PetscTime(&now));
   PetscCallMPI(MPI_Bcast(&now, 1, MPI_DOUBLE, 0, PETSC_COMM_WORLD)); /* all ranks by one clock */
-  *due = (PetscBool)(now - solve->told >= PAUSE);
-  if (*due) solve->told = now;
+  if (now - solve->told < PAUSE) PetscFunctionReturn(PETSC_SUCCESS);
+  solve->told = now;
+  PetscCall(PetscPrintf(PETSC_COMM_WORLD, "     t %-10.6g %s iteration %" PetscInt_FMT "  |r| %.2e\n", (double)solve->physics->t, kind,
+                        iteration, (double)norm));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 static PetscErrorCode newton_line(SNES snes, PetscInt iteration, PetscReal norm, void *context)
 {
-  Solve    *solve = context;
-  PetscBool due;
   PetscFunctionBegin;
   (void)snes;
-  PetscCall(is_due(solve, &due));
-  if (due)
-    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "     t %-10.6g newton iteration %" PetscInt_FMT "  |r| %.2e\n", (double)solve->physics->t,
-                          iteration, (double)norm));
+  PetscCall(tell(context, "newton", iteration, norm));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 static PetscErrorCode krylov_line(KSP ksp, PetscInt iteration, PetscReal norm, void *context)
 {
-  Solve    *solve = context;
-  PetscBool due;
   PetscFunctionBegin;
   (void)ksp;
-  PetscCall(is_due(solve, &due));
-  if (due)
-    PetscCall(PetscPrintf(PETSC_COMM_WORLD, "     t %-10.6g linear iteration %" PetscInt_FMT "  |r| %.2e\n", (double)solve->physics->t,
-                          iteration, (double)norm));
+  PetscCall(tell(context, "linear", iteration, norm));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -7,6 +7,7 @@
  * contact holds. */
 #include "solve/saddle.h"
 #include "solve/multigrid.h"
+#include "solve/direct.h"
 
 typedef struct {
   const Contact *contact;
@@ -87,7 +88,6 @@ static PetscErrorCode make_schur(Saddle *saddle, Mat J, Mat A)
 {
   Vec diagonal;
   Mat scaled, product;
-  PC  pc;
   PetscFunctionBegin;
   PetscCall(MatCreateSubMatrix(J, saddle->multipliers, saddle->multipliers, MAT_INITIAL_MATRIX, &saddle->S));
   PetscCall(VecDuplicate(saddle->f, &diagonal));
@@ -102,10 +102,7 @@ static PetscErrorCode make_schur(Saddle *saddle, Mat J, Mat A)
   PetscCall(VecDestroy(&diagonal));
   PetscCall(KSPCreate(PETSC_COMM_WORLD, &saddle->schur));
   PetscCall(KSPSetOptionsPrefix(saddle->schur, "multipliers_"));
-  PetscCall(KSPSetType(saddle->schur, KSPPREONLY));
-  PetscCall(KSPGetPC(saddle->schur, &pc));
-  PetscCall(PCSetType(pc, PCLU));
-  PetscCall(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
+  PetscCall(direct_set(saddle->schur));
   PetscCall(KSPSetOperators(saddle->schur, saddle->S, saddle->S));
   PetscCall(KSPSetFromOptions(saddle->schur));
   PetscCall(MatCreateVecs(saddle->S, &saddle->lambda, &saddle->g));

@@ -3,6 +3,7 @@
  * Residual = internal forces of the bodies + contact - loads, and the multiplier rows (which the library scales to
  * forces). When it is small enough: convergence.c. */
 #include "solve/solve.h"
+#include "solve/direct.h"
 
 static PetscErrorCode residual(SNES snes, Vec x, Vec r, void *context)
 {
@@ -259,7 +260,6 @@ PetscErrorCode solver_create(Solve *solve)
 {
   SNESLineSearch line_search;
   KSP            ksp;
-  PC             pc;
   Vec            r;
   PetscInt       n_unknowns;
 
@@ -285,10 +285,7 @@ PetscErrorCode solver_create(Solve *solve)
   if (solve->linear.kind == SOLVER_ITERATIVE) {
     PetscCall(iterative_set(solve, ksp));
   } else {
-    PetscCall(KSPSetType(ksp, KSPPREONLY));
-    PetscCall(KSPGetPC(ksp, &pc));
-    PetscCall(PCSetType(pc, PCLU));
-    PetscCall(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
+    PetscCall(direct_set(ksp));
   }
   PetscCall(progress_watch(solve, solve->snes, NULL));
   PetscCall(KSPSetPreSolve(ksp, solve_begins, solve));
