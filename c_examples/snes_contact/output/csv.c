@@ -4,7 +4,8 @@
 
 static const char *const STATE_NAMES[] = {"gap", "stick", "slip"}; /* by STICKSLIP_STATE_* */
 
-PetscErrorCode csv_write(Output *output, const Interface *interface, const ContactStates *states, PetscInt step)
+PetscErrorCode csv_write(Output *output, const Interface *interface, const ContactStates *states, const double *temperatures,
+                         PetscInt step)
 {
   char    path[PETSC_MAX_PATH_LEN];
   double *tractions;
@@ -18,7 +19,8 @@ PetscErrorCode csv_write(Output *output, const Interface *interface, const Conta
   file = fopen(path, "w");
   PetscCheck(file, PETSC_COMM_SELF, PETSC_ERR_FILE_OPEN, "cannot write '%s'", path);
   fprintf(file, "node,X,Y,Z,ux,uy,uz,nx,ny,nz,lambda_n,lambda_tx,lambda_ty,lambda_tz,gap_weighted,slip_x,slip_y,slip_z,"
-                "area_covered,area_full,fx,fy,fz,p_lumped,state,t_lumped_x,t_lumped_y,t_lumped_z\n");
+                "area_covered,area_full,fx,fy,fz,p_lumped,state,t_lumped_x,t_lumped_y,t_lumped_z%s\n",
+          temperatures ? ",temperature" : "");
   for (PetscInt a = 0; a < interface->n1; a++) {
     const double *n = states->normal + 3 * a, *lambda = states->multiplier + 3 * a, *slip = states->slip + 3 * a;
     const double *traction = tractions + 3 * a;
@@ -53,6 +55,7 @@ PetscErrorCode csv_write(Output *output, const Interface *interface, const Conta
     fprintf(file, ",%s", interface->middle[a] ? "none" : STATE_NAMES[states->state[a]]);
     for (int i = 0; i < 3; i++)
       fprintf(file, ",%.17g", traction[i] - pressure * n[i]);
+    if (temperatures) fprintf(file, ",%.17g", temperatures[a]);
     fprintf(file, "\n");
   }
   fclose(file);

@@ -65,7 +65,7 @@ PetscErrorCode summary_create(Output *output, Summary **out)
 }
 
 /* rank 0: force, counts and CSV file of one interface; returns a piece of the progress line */
-static PetscErrorCode interface_results(Output *output, Interface *interface, PetscInt step, PetscBool write,
+static PetscErrorCode interface_results(Output *output, Interface *interface, const double *temperatures, PetscInt step, PetscBool write,
                                         cJSON *parent, double *work, char progress[], size_t length)
 {
   PetscInt      counts[3] = {0, 0, 0};
@@ -86,7 +86,7 @@ static PetscErrorCode interface_results(Output *output, Interface *interface, Pe
   cJSON_AddNumberToObject(json, "gap", counts[STICKSLIP_STATE_GAP]);
   cJSON_AddNumberToObject(json, "stick", counts[STICKSLIP_STATE_STICK]);
   cJSON_AddNumberToObject(json, "slip", counts[STICKSLIP_STATE_SLIP]);
-  if (write) PetscCall(csv_write(output, interface, states, step));
+  if (write) PetscCall(csv_write(output, interface, states, temperatures, step));
   snprintf(progress, length, "  %s %d gap %d stick %d slip", interface->name, (int)counts[STICKSLIP_STATE_GAP],
            (int)counts[STICKSLIP_STATE_STICK], (int)counts[STICKSLIP_STATE_SLIP]);
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -237,16 +237,18 @@ PetscErrorCode summary_step(Output *output, Summary *summary, PetscInt step, Pet
   PetscCall(add_reactions(output, json));
   add_rigids(output, json);
   PetscCall(contact_collect(contact));
+  PetscCall(heat_collect(output->heat));
   if (output->mesh->rank == 0) {
     interfaces = cJSON_AddObjectToObject(json, "interfaces");
     for (PetscInt i = 0; i < contact->n_interfaces; i++) {
       const size_t used       = strlen(progress);
       summary->work_before[i] = contact->interfaces[i].friction_work;
-      PetscCall(interface_results(output, &contact->interfaces[i], step, csv, interfaces, &friction_work,
+      PetscCall(interface_results(output, &contact->interfaces[i], output->heat->on ? output->heat->interfaces[i].temperatures : NULL, step, csv, interfaces, &friction_work,
                                   progress + used, sizeof(summary->progress) - used));
     }
   }
   PetscCall(add_probes(output, json));
+  PetscCall(heat_results(output, json));
   if (vtu) PetscCall(vtu_write(output, step));
   if (vtu) PetscCall(vtu_rigids(output, step));
   PetscCall(held_check(solve));

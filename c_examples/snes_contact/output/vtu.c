@@ -145,6 +145,7 @@ static PetscErrorCode write_index(const Output *output, PetscInt step)
       vtu_declare(file, k < 4 ? "Float64" : "Int32", name, k < 3 ? 3 : 1);
     }
   }
+  if (output->heat->on) vtu_declare(file, "Float64", "temperature", 1);
   vtu_declare_stresses(file);
   vtu_declare(file, "Int32", "node", 1);
   fprintf(file, "</PPointData>\n<PCellData>\n");
@@ -188,11 +189,20 @@ PetscErrorCode vtu_write(Output *output, PetscInt step)
   vtu_vectors(file, "displacement", piece.n_points, piece.displacements);
   for (PetscInt i = 0; i < output->contact->n_interfaces; i++)
     PetscCall(interface_fields(file, physics, &piece, &output->contact->interfaces[i]));
-  PetscCall(vtu_nodal_stresses(file, physics, &piece));
+  if (output->heat->on) {
+    PetscReal *here, *ordered;
+    PetscCall(PetscMalloc2(piece.n_points, &here, piece.n_points, &ordered));
+    PetscCall(heat_of_vertices(output->heat, here));
+    for (PetscInt k = 0; k < piece.n_points; k++)
+      ordered[k] = here[piece.order[k]];
+    scalars(file, "temperature", piece.n_points, ordered);
+    PetscCall(PetscFree2(here, ordered));
+  }
+  PetscCall(vtu_nodal_stresses(file, output->heat, physics, &piece));
   if (several) numbers(file, "node", piece.n_points, piece.order, mesh->original);
   fprintf(file, "</PointData>\n<CellData>\n");
   numbers(file, "body", piece.n_cells, piece.cells, physics->cells.body);
-  PetscCall(vtu_cell_stresses(file, physics, &piece));
+  PetscCall(vtu_cell_stresses(file, output->heat, physics, &piece));
   if (several) numbers(file, "cell", piece.n_cells, piece.cells, mesh->original_cell);
   fprintf(file, "</CellData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n");
   fclose(file);
