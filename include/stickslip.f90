@@ -530,27 +530,27 @@ module stickslip
   end type
 
   ! How heat crosses an interface: per area h (T1 - T2) with
-  ! h = contact f(p / pressure) + (constant + gas / (g + gas_gap)) b(g / reach). P: a power.
+  ! h = contact f(p / pressure) + (constant + gas / (g + gas_gap)) b(g / reach). T: a time.
   type, bind(C) :: stickslip_heat
     integer(c_int64_t) :: struct_size = stickslip_heat_size
-    real(c_double) :: contact = 0                  ! at the reference pressure [P/(L^2 K)]
+    real(c_double) :: contact = 0                  ! at the reference pressure [F/(L T K)]
     real(c_double) :: pressure = 0                 ! that pressure, > 0 where contact is [F/L^2]
     real(c_double) :: exponent = 0                 ! > 0 where contact is, at most 2
-    real(c_double) :: constant = 0                 ! at any pressure, within reach [P/(L^2 K)]
-    real(c_double) :: gas = 0                      ! conductivity of what fills the gap [P/(L K)]
+    real(c_double) :: constant = 0                 ! at any pressure, within reach [F/(L T K)]
+    real(c_double) :: gas = 0                      ! conductivity of what fills the gap [F/(T K)]
     real(c_double) :: gas_gap = 0                  ! what touching surfaces count as a gap, > 0 where gas is [L]
     real(c_double) :: reach = 0                    ! gaps from which on neither passes anything [L]
     real(c_double) :: share = 0                    ! of friction's heat that goes into the non-mortar body
-    real(c_double) :: time = 0                     ! that the step takes; 0: friction makes no heat
+    real(c_double) :: time = 0                     ! that the step takes [T]; 0: friction makes no heat
   end type
 
   ! What passes through the non-mortar nodes: c_loc of real(c_double) (n1) each, or c_null_ptr.
   type, bind(C) :: stickslip_heat_nodes
     integer(c_int64_t) :: struct_size = stickslip_heat_nodes_size
-    type(c_ptr) :: conductance = c_null_ptr        ! h [P/(L^2 K)]
-    type(c_ptr) :: flux = c_null_ptr               ! h times the mean jump [P/L^2]
+    type(c_ptr) :: conductance = c_null_ptr        ! h [F/(L T K)]
+    type(c_ptr) :: flux = c_null_ptr               ! h times the mean jump [F/(L T)]
     type(c_ptr) :: jump = c_null_ptr               ! the mean jump of temperature [K]
-    type(c_ptr) :: friction = c_null_ptr           ! the heat of friction [P]
+    type(c_ptr) :: friction = c_null_ptr           ! the heat of friction [F L/T]
     type(c_ptr) :: area = c_null_ptr               ! that the means are of [L^2]
   end type
 
@@ -1342,7 +1342,7 @@ module stickslip
       real(c_double), intent(in) :: states(*)
     end function
 
-    ! Heat that leaves the nodes of both sides: heat1(n1), heat2(n2) [P], to add to the host's internal heat flow.
+    ! Heat that leaves the nodes of both sides: heat1(n1), heat2(n2) [F L/T], to add to the host's internal heat flow.
     ! temperatures1(n1), temperatures2(n2); nodes: c_null_ptr, or c_loc of a stickslip_heat_nodes.
     integer(c_int32_t) function stickslip_interface_heat(interface, x1, x2, lambda, heat, temperatures1, temperatures2, &
         heat1, heat2, nodes) bind(C)
@@ -1371,7 +1371,7 @@ module stickslip
       integer(c_int64_t), intent(inout) :: count
     end function
 
-    ! What passes through one node: sides(2) [P/L^2]; slopes(STICKSLIP_HEAT_SLOPES, 2) and conductance: c_loc, or c_null_ptr.
+    ! What passes through one node: sides(2) [F/(L T)]; slopes(STICKSLIP_HEAT_SLOPES, 2) and conductance: c_loc, or c_null_ptr.
     integer(c_int32_t) function stickslip_node_heat(heat, jump, pressure, gap, area, work, sides, slopes, conductance) bind(C)
       import :: c_double, c_int32_t, c_ptr, stickslip_heat
       type(stickslip_heat), intent(in) :: heat

@@ -97,6 +97,7 @@
  *     pair_weights, pair_gap                 each pair; sum the gaps over the pairs of a node
  *     node_respond                           each non-mortar node
  *     node_equilibrium                       the same, to see whether it has converged
+ *     node_heat                              the same for heat, where there is any
  *     pair_residual, pair_tangent            each pair again
  *     node_block                             each non-mortar node, once
  *     node_condense                          in its place without multipliers (dual basis)
@@ -1146,8 +1147,8 @@ typedef int32_t (*stickslip_threshold)(void *user,
                                        struct stickslip_law_answer *answer,
                                        double *states_after);
 
-/// How heat crosses an interface, and where that of friction goes. Zeros: nothing passes, friction makes none. P stands for a power,
-/// K for a temperature.
+/// How heat crosses an interface, and where that of friction goes. Zeros: nothing passes, friction makes none. T stands for a time,
+/// K for a temperature, so that F L/T is a power.
 ///
 /// Per area h (T1 - T2) leaves the non-mortar body and enters the mortar one. With the pressure p and the mean gap g of a node
 /// h = contact f(p / pressure) + (constant + gas / (g + gas_gap)) b(g / reach). f(x) is x to the exponent; below x = 1/1000 a
@@ -1156,15 +1157,15 @@ typedef int32_t (*stickslip_threshold)(void *user,
 typedef struct stickslip_heat {
   /// sizeof(stickslip_heat).
   uint64_t struct_size;
-  /// Conductance at the reference pressure, >= 0 [P/(L^2 K)].
+  /// Conductance at the reference pressure, >= 0 [F/(L T K)].
   double contact;
   /// The reference pressure, above 0 where contact is [F/L^2].
   double pressure;
   /// The exponent, above 0 where contact is, at most 2 [-]. About 0.95 for rough metals.
   double exponent;
-  /// Conductance at any pressure and any gap within reach, >= 0 [P/(L^2 K)].
+  /// Conductance at any pressure and any gap within reach, >= 0 [F/(L T K)].
   double constant;
-  /// Conductivity of what fills the gap, >= 0 [P/(L K)].
+  /// Conductivity of what fills the gap, >= 0 [F/(T K)].
   double gas;
   /// What touching surfaces count as a gap, above 0 where gas is [L].
   double gas_gap;
@@ -1172,7 +1173,7 @@ typedef struct stickslip_heat {
   double reach;
   /// The share of the heat of friction that goes into the non-mortar body, 0 to 1 [-]. The rest goes into the mortar body.
   double share;
-  /// The time that the step takes; 0: friction makes no heat. The heat of a node is its dissipation in the step over this.
+  /// The time that the step takes [T]; 0: friction makes no heat. The heat of a node is its dissipation in the step over this.
   double time;
 } stickslip_heat;
 
@@ -1181,13 +1182,13 @@ typedef struct stickslip_heat {
 typedef struct stickslip_heat_nodes {
   /// sizeof(stickslip_heat_nodes).
   uint64_t struct_size;
-  /// h [P/(L^2 K)].
+  /// h [F/(L T K)].
   double *conductance;
-  /// h times the mean jump of temperature: from the non-mortar to the mortar body, without friction's heat [P/L^2].
+  /// h times the mean jump of temperature: from the non-mortar to the mortar body, without friction's heat [F/(L T)].
   double *flux;
   /// The mean jump of temperature, T1 - T2 [K].
   double *jump;
-  /// The heat of friction, which both bodies get in all [P].
+  /// The heat of friction, which both bodies get in all [F L/T].
   double *friction;
   /// The area that the means are of [L^2].
   double *area;
@@ -2527,9 +2528,9 @@ int32_t stickslip_interface_set_law_states(struct stickslip_interface *interface
 /// that do not match passes exactly. docs/formulation.md, 16.
 ///
 /// x1 (3 n1), x2 (3 n2), lambda (3 n1): as for `stickslip_interface_states`; before the commit, as there. heat: see there.
-/// temperatures1 (n1), temperatures2 (n2) [K], from any zero. Outputs: heat1 (n1), heat2 (n2) [P]; nodes: NULL, or its members point
+/// temperatures1 (n1), temperatures2 (n2) [K], from any zero. Outputs: heat1 (n1), heat2 (n2) [F L/T]; nodes: NULL, or its members point
 /// to the caller's arrays. Of a part of an interface (`owned`) they are what its own nodes give, to be added up like forces. In
-/// plane models [P] is of the thickness, in axisymmetric ones of the whole ring.
+/// plane models they are of the thickness, in axisymmetric ones of the whole ring.
 ///
 /// Errors: as `stickslip_interface_residual` without sums; INVALID_VALUE (a member of heat), NOT_FINITE (temperatures; a result that
 /// overflows), UNSUPPORTED (an analytic mortar side, which has no temperatures).
@@ -2553,11 +2554,11 @@ int32_t stickslip_interface_heat(struct stickslip_interface *interface,
 /// Inputs up to temperatures2 as for `stickslip_interface_heat`. equations1 (n1), equations2 (n2): of the temperatures, one a node, in
 /// the index base; -1: prescribed. which: STICKSLIP_HEAT_TEMPERATURES, or STICKSLIP_HEAT_ALL: with columns of the displacements and
 /// multipliers that the interface was created with. Outputs: rows, columns, values (capacity each), count. With all three arrays
-/// NULL only count is written, and capacity is not read. Entries of [P/K], [P/L], [P L^2/F]. After NOT_FINITE because a value
+/// NULL only count is written, and capacity is not read. Entries of [F L/(T K)], [F/T], [L^3/T]. After NOT_FINITE because a value
 /// overflows, values mean nothing.
 ///
 /// Errors: those of `stickslip_interface_heat`, INDEX_OUT_OF_RANGE (an equation below the base), INVALID_VALUE (which), BUFFER_TOO_SMALL,
-/// UNSUPPORTED (STICKSLIP_HEAT_ALL with STICKSLIP_NORMALS_CURRENT).
+/// UNSUPPORTED (columns of displacements with normals of now).
 /// Cost: as the heat; with all columns the derivatives of all weights, about twice a tangent of forces. Counting costs the same.
 /// Allocates.
 int32_t stickslip_interface_heat_tangent_coo(struct stickslip_interface *interface,
@@ -2582,8 +2583,8 @@ int32_t stickslip_interface_heat_tangent_coo(struct stickslip_interface *interfa
 ///
 /// jump: sum_B n_AB T_B - sum_C n_AC T_C [K L^2]. pressure >= 0: minus the normal projected traction [F/L^2]. gap: the normal
 /// weighted gap, nu . g_A [L^3]. area: sum_B n_AB, above 0 [L^2]. work: traction times slip in the step [F L]. Outputs: sides (2)
-/// [P/L^2]: what leaves the non-mortar body and what enters the mortar one, friction's heat included; slopes (2 times
-/// STICKSLIP_HEAT_SLOPES, or NULL): their derivatives by these five numbers, side by side; conductance (1, or NULL) [P/(L^2 K)].
+/// [F/(L T)]: what leaves the non-mortar body and what enters the mortar one, friction's heat included; slopes (2 times
+/// STICKSLIP_HEAT_SLOPES, or NULL): their derivatives by these five numbers, side by side; conductance (1, or NULL) [F/(L T K)].
 ///
 /// Errors: NULL_POINTER, STRUCT_SIZE, NOT_FINITE, INVALID_VALUE (a member of heat, an area that is not positive, a negative pressure).
 /// Cost: below a microsecond; allocates nothing. docs/formulation.md, 16.1.

@@ -16,7 +16,7 @@ use nalgebra::SVector;
 /// Heat of an interface.
 #[derive(Debug)]
 pub struct Heat {
-    /// What leaves the nodes of the non-mortar and of the mortar side [P].
+    /// What leaves the nodes of the non-mortar and of the mortar side [F L/T].
     pub sides: [Vec<f64>; 2],
     /// Every non-mortar node, and what passes through it.
     pub nodes: Vec<(HeatNode, HeatFlow)>,

@@ -21,15 +21,15 @@ const MOST: f64 = 2.0;
 /// How heat passes, and where that of friction goes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Conductance {
-    /// h0 [P/(L^2 K)], P a power: at the pressure p0.
+    /// h0 [F/(L T K)]: at the pressure p0.
     pub contact: f64,
     /// p0 > 0 [F/L^2].
     pub pressure: f64,
     /// The exponent of P / p0 [-].
     pub exponent: f64,
-    /// h1 [P/(L^2 K)]: at any pressure, within reach.
+    /// h1 [F/(L T K)]: at any pressure, within reach.
     pub constant: f64,
-    /// kg [P/(L K)]: conductivity of what fills the gap.
+    /// kg [F/(T K)]: conductivity of what fills the gap.
     pub gas: f64,
     /// g0 > 0 `[L]`: what the gap of surfaces that touch counts.
     pub gas_gap: f64,
@@ -37,7 +37,7 @@ pub struct Conductance {
     pub reach: f64,
     /// The share of the heat of friction that goes into the non-mortar body [-].
     pub share: f64,
-    /// The time dt that the step takes; 0: friction makes no heat.
+    /// The time dt that the step takes [T]; 0: friction makes no heat.
     pub time: f64,
 }
 
@@ -84,7 +84,7 @@ impl Conductance {
         }
     }
 
-    /// h [P/(L^2 K)] at a pressure and a mean gap, and its derivatives by both.
+    /// h [F/(L T K)] at a pressure and a mean gap, and its derivatives by both.
     pub fn at(&self, pressure: f64, gap: f64) -> WithSlopes<2> {
         let (mut h, mut slopes) = (0.0, [0.0; 2]);
         if self.contact > 0.0 {
@@ -152,11 +152,11 @@ pub struct HeatNode {
 /// What passes through a node.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct HeatFlow {
-    /// h [P/(L^2 K)].
+    /// h [F/(L T K)].
     pub conductance: f64,
-    /// q_A [P/L^2], from the non-mortar to the mortar body.
+    /// q_A [F/(L T)], from the non-mortar to the mortar body.
     pub flux: f64,
-    /// What leaves the non-mortar body and what enters the mortar one, friction's heat included [P/L^2].
+    /// What leaves the non-mortar body and what enters the mortar one, friction's heat included [F/(L T)].
     pub sides: [f64; 2],
     /// Their derivatives by the node's numbers, in their order.
     pub slopes: [[f64; 5]; 2],

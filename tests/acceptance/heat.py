@@ -56,7 +56,7 @@ def two_bars(poisson=0.3, **interface):
 def check_bars(verdicts, what, run, conductance, exact_flux=None):
     flux = exact_flux or (HOT - COLD) / (1 / CONDUCTIVITY["upper"] + 1 / conductance + 2 / CONDUCTIVITY["lower"])
     points, _, _ = run.mesh()
-    temperature, z = run.point_field("temperature"), points[:, 2]
+    temperature, z = run.point_field("temperature").ravel(), points[:, 2]
     contact = np.isclose(z, 0)
     upper = HOT - flux / CONDUCTIVITY["upper"] * (1 - z)
     lower = COLD + flux / CONDUCTIVITY["lower"] * (z + 2)
@@ -83,17 +83,15 @@ def bars(verdicts, driver):
     run = driver.run(write(two_bars(friction=0.3, **both), driver.output / "constant.yaml"))
     check_bars(verdicts, "constant conductance and gas, touching", run, 0.5 + 0.3 / 0.1)
     apart = two_bars(offset=0.2, **both)
-    apart["upper"]["lower"], apart["upper"]["upper"] = [0, 0, 0], [1, 1, 1]
-    apart["loads"] = []
-    del apart["press"]
+    del apart["loads"], apart["press"]
     apart["supports"] = [*apart["supports"], "lid"]
     apart["lid"] = {"surface": "upper.zmax", "components": ["z"]}
     run = driver.run(write(apart, driver.output / "gap.yaml"))
     check_bars(verdicts, "over a gap", run, 0.5 + 0.3 / (0.2 + 0.1))
-    nearly = {"conductance_constant": 1e6, "conductance_reach": 1.0}
-    check_bars(verdicts, "nearly perfect", driver.run(write(two_bars(**nearly), driver.output / "perfect.yaml")), 1e6)
+    nearly = {"conductance_constant": 1e4, "conductance_reach": 1.0}
+    check_bars(verdicts, "nearly perfect", driver.run(write(two_bars(**nearly), driver.output / "perfect.yaml")), 1e4)
     tied = two_bars(law="tied", **nearly)
-    check_bars(verdicts, "tied, nearly perfect", driver.run(write(tied, driver.output / "tied.yaml")), 1e6)
+    check_bars(verdicts, "tied, nearly perfect", driver.run(write(tied, driver.output / "tied.yaml")), 1e4)
     scene = write(two_bars(**both), driver.output / "ranks.yaml")
     check_bars(verdicts, "two ranks", driver.run(scene, ranks=2), 0.5 + 0.3 / 0.1)
 
@@ -104,7 +102,7 @@ def rubbing(verdicts, driver):
         scene = two_bars(friction=0.3, conductance_constant=2.0, conductance_reach=0.1, friction_heat=share, weights="current")
         scene["left"]["surface"] = "lower.xmin"
         scene["supports"].append("drag")
-        scene["drag"] = {"surface": "upper.zmax", "components": ["x"], "value": 0.2}
+        scene["drag"] = {"surface": "upper.zmax", "components": ["x"], "value": [0.2, 0, 0]}
         scene["hot"]["value"] = COLD
         scene["steps"] = {"count": 2, "end": duration}
         for name in ("press", "hot", "cold"):
@@ -165,8 +163,7 @@ def expanding(verdicts, driver):
     scene = two_bars(poisson=0, offset=gap, conductance=2.0, conductance_pressure=reference, conductance_exponent=0.95,
                      conductance_constant=0.5, conductance_reach=1.0)
     scene["heat"]["coupling"] = "two_way"
-    scene["loads"] = []
-    del scene["press"]
+    del scene["loads"], scene["press"]
     sides = ["upper", "lower"]
     scene["supports"] = ["floor", "lid", "x", "y"]
     scene["lid"] = {"surface": "upper.zmax", "components": ["z"]}

@@ -2,8 +2,11 @@
 #include "heat/heat.h"
 #include "solve/direct.h"
 
-/* The system is linear: what its solution leaves, over the largest heat that there is, is rounding. */
-static const PetscReal LEFT = 1e-8;
+/* The system is linear: what its solution leaves is rounding, of the heats, and of the entries times the temperatures, of which
+ * some hundred add up. */
+static const PetscReal LEFT = 1e-8, ROUNDINGS = 1e-13;
+/* Temperatures that are found again from the heats that they make, to this part, are determined: a singular matrix finds others. */
+static const PetscReal FOUND = 1e-2;
 
 /* Vertices of surfaces with a temperature, and all of bodies without conductivity. */
 static PetscErrorCode mark_prescribed(Heat *heat)
@@ -171,6 +174,37 @@ static PetscErrorCode matrix_of(const HeatEntries *entries, Vec like, Mat *matri
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Does the matrix find temperatures again from the heats that they make? */
+static PetscErrorCode is_determined(KSP ksp, Mat matrix, Vec like, PetscBool *determined)
+{
+  Vec                some, heats, found;
+  PetscReal          error, size;
+  PetscInt           first, n;
+  PetscScalar       *values;
+  KSPConvergedReason reason;
+  PetscFunctionBegin;
+  PetscCall(VecDuplicate(like, &some));
+  PetscCall(VecDuplicate(like, &heats));
+  PetscCall(VecDuplicate(like, &found));
+  PetscCall(VecGetOwnershipRange(some, &first, NULL));
+  PetscCall(VecGetLocalSize(some, &n));
+  PetscCall(VecGetArray(some, &values));
+  for (PetscInt k = 0; k < n; k++)
+    values[k] = 1 + (PetscReal)((first + k) * 7919 % 101) / 101;
+  PetscCall(VecRestoreArray(some, &values));
+  PetscCall(MatMult(matrix, some, heats));
+  PetscCall(KSPSolve(ksp, heats, found));
+  PetscCall(KSPGetConvergedReason(ksp, &reason));
+  PetscCall(VecAXPY(found, -1, some));
+  PetscCall(VecNorm(found, NORM_INFINITY, &error));
+  PetscCall(VecNorm(some, NORM_INFINITY, &size));
+  *determined = (PetscBool)(reason >= 0 && error <= FOUND * size);
+  PetscCall(VecDestroy(&some));
+  PetscCall(VecDestroy(&heats));
+  PetscCall(VecDestroy(&found));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* How far the temperatures are apart, prescribed ones included. */
 static PetscErrorCode range_of(const Heat *heat, PetscReal *range)
 {
@@ -192,7 +226,8 @@ static PetscErrorCode range_of(const Heat *heat, PetscReal *range)
 PetscErrorCode heat_solve(Heat *heat, PetscReal dt, PetscReal *change, PetscInt *status)
 {
   HeatEntries entries = {0};
-  PetscReal   first, last, largest, norm, range;
+  PetscReal   first, last = 0, largest, norm, range, entry, hottest;
+  PetscBool   determined;
   Vec         leaves, step, x;
   Mat         matrix;
   KSP         ksp;
@@ -208,7 +243,8 @@ PetscErrorCode heat_solve(Heat *heat, PetscReal dt, PetscReal *change, PetscInt 
     PetscCall(KSPSetOperators(ksp, matrix, matrix));
     PetscCall(direct_set(ksp));
     *change = 0;
-    for (int refine = 0; refine < 2; refine++) { /* the second one takes the rounding of the first */
+    PetscCall(is_determined(ksp, matrix, leaves, &determined));
+    for (int refine = 0; refine < 2 && determined && !*status; refine++) { /* the second one takes the rounding of the first */
       PetscCall(KSPSolve(ksp, leaves, step));
       PetscCall(VecNorm(step, NORM_INFINITY, &norm));
       *change = PetscMax(*change, norm);
@@ -224,7 +260,9 @@ PetscErrorCode heat_solve(Heat *heat, PetscReal dt, PetscReal *change, PetscInt 
     heat->residual = largest > 0 ? norm / largest : 0;
     PetscCall(range_of(heat, &range));
     *change = range > 0 ? *change / range : 0;
-    if (!*status && !(heat->residual <= LEFT)) {
+    PetscCall(MatNorm(matrix, NORM_INFINITY, &entry));
+    PetscCall(VecNorm(x, NORM_INFINITY, &hottest));
+    if (!determined || (!*status && !(norm <= LEFT * largest + ROUNDINGS * entry * PetscMax(hottest, range)))) {
       *status = 1;
       PetscCall(PetscSNPrintf(heat->contact->refusal, sizeof(heat->contact->refusal),
                               "the temperatures are not determined: nothing holds those of a body (a temperature, a heat_capacity, a conductance to another body)"));

@@ -7,7 +7,7 @@
 
 /* What a body is for heat; without conductivity it keeps the temperature that it starts with. */
 typedef struct {
-  PetscReal conductivity, capacity, expansion; /* [P/(L K)], of a volume [E/(L^3 K)], [1/K] */
+  PetscReal conductivity, capacity, expansion; /* [F/(T K)], of a volume [F/(L^2 K)], [1/K] */
 } Conductor;
 
 /* A temperature that is prescribed, or a heat that flows in per area, on surfaces. */
@@ -19,14 +19,14 @@ typedef struct {
   PetscInt       n_surfaces;
   const Surface **surfaces; /* of the piece, until the mesh is distributed */
   PetscInt       n_faces, *faces; /* of a flow: this rank's */
-  PetscReal      heat;      /* what came in through it in the last step [P] */
+  PetscReal      heat;      /* what came in through it in the last step [F L/T] */
 } HeatSupport;
 
 /* One interface. */
 typedef struct {
   PetscBool     passes;  /* else it is adiabatic */
   stickslip_heat law;
-  PetscReal     across, friction; /* what passed in the last step from the non-mortar to the mortar body, what friction made [P] */
+  PetscReal     across, friction; /* what passed in the last step from the non-mortar to the mortar body, what friction made [F L/T] */
   double        *temperatures;     /* rank 0: of the non-mortar nodes, as last collected */
 } HeatInterface;
 

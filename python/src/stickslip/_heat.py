@@ -20,10 +20,10 @@ if TYPE_CHECKING:
 class Heat:
     """Heat that leaves the nodes, and what passes through the non-mortar ones, (n1,) each."""
 
-    #: What leaves the non-mortar and the mortar nodes, (n1,) and (n2,) [P]: to add to the internal heat flow.
+    #: What leaves the non-mortar and the mortar nodes, (n1,) and (n2,) [F L/T]: to add to the internal heat flow.
     heat1: np.ndarray
     heat2: np.ndarray
-    #: h [P/(L^2 K)], h times the mean jump of temperature [P/L^2], that jump [K], the heat of friction [P], the covered area [L^2].
+    #: h [F/(L T K)], h times the mean jump of temperature [F/(L T)], that jump [K], the heat of friction [F L/T], the covered area [L^2].
     conductance: np.ndarray
     flux: np.ndarray
     jump: np.ndarray

@@ -75,7 +75,7 @@ impl<const N: usize> Place<'_, N> {
     }
 }
 
-/// What leaves the nodes of the non-mortar and of the mortar side [P]: sum_A n_AB times what leaves the one body, - sum_A n_AC
+/// What leaves the nodes of the non-mortar and of the mortar side [F L/T]: sum_A n_AB times what leaves the one body, - sum_A n_AC
 /// times what enters the other one.
 pub fn sides<const N: usize>(at: &Place<N>, rows: &[Row], flows: &[(HeatNode, HeatFlow)]) -> Result<[Vec<f64>; 2]> {
     let (n1, n2) = (at.x[0].len(), at.x[1].len());
