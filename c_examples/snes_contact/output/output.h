@@ -52,7 +52,7 @@ PetscErrorCode nodal_tractions(const Mesh *mesh, const Interface *interface, con
 /* heat_results.c: of a step, to its entry; of nothing where the scene has no heat */
 PetscErrorCode heat_results(const Output *output, struct cJSON *step);
 /* csv.c */
-PetscErrorCode csv_adjusted(Output *output, const Interface *interface); /* rank 0, once */
+PetscErrorCode csv_adjusted(Output *output, const Interface *interface); /* once */
 /* `temperatures`: of the non-mortar nodes, or NULL */
 PetscErrorCode csv_write(Output *output, const Interface *interface, const ContactStates *states, const double *temperatures,
                          PetscInt step);
