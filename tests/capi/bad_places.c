@@ -4,7 +4,7 @@
 
 #include <stddef.h>
 
-static bad_at places[600];
+static bad_at places[800];
 static int n_places;
 
 void bad_place(const char *name, bad_type type, void *at, int32_t n) {
