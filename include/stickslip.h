@@ -2548,11 +2548,11 @@ int32_t stickslip_interface_heat(struct stickslip_interface *interface,
                                  const struct stickslip_heat_nodes *nodes);
 
 /// The exact tangent of `stickslip_interface_heat` as triplets in the host's equation numbers and index base: by rows, which are the
-/// temperatures' equations, each entry once (as often as nodes share equations). Solid for Newton's method in which temperatures, displacements and
+/// temperatures' equations, each entry once (as often as nodes share equations). For Newton's method in which temperatures, displacements and
 /// multipliers are solved for together: forces have no columns of temperatures, so that the rest of that matrix is
 /// `stickslip_interface_tangent_coo` and the host's own. docs/formulation.md, 16.2.
 ///
-/// Inputs up to temperatures2 as for `stickslip_interface_heat`. equations1 (n1), equations2 (n2): of the temperatures, one a node, in
+/// x1, x2, lambda, heat, temperatures1, temperatures2: as for `stickslip_interface_heat`. equations1 (n1), equations2 (n2): of the temperatures, one a node, in
 /// the index base; -1: prescribed. which: STICKSLIP_HEAT_TEMPERATURES, or STICKSLIP_HEAT_ALL: with columns of the displacements and
 /// multipliers that the interface was created with. Outputs: rows, columns, values (capacity each), count. With all three arrays
 /// NULL only count is written, and capacity is not read. Entries of [F L/(T K)], [F/T], [L^3/T]. After NOT_FINITE because a value
