@@ -347,6 +347,15 @@
 /// codes that do so. Exact against an analytic mortar side.
 #define STICKSLIP_TANGENT_FROZEN_NORMALS 2
 
+/// A node is closed or open. Default.
+#define STICKSLIP_DECISION_NODES 0
+
+/// Each point of an overlap is closed or open (docs/formulation.md 14): the border of the contact lies inside facets. modulus is needed,
+/// and is E* of both bodies together: 1 / E* = (1 - nu1^2) / E1 + (1 - nu2^2) / E2, of a rigid one without its part. The answer depends
+/// on it, by what vanishes with the facets' size. An augmentation beside it takes the place of r = 0.9 E* / h_A alone; r is then part of the
+/// answer, too. UNSUPPORTED: what is said at `decision`.
+#define STICKSLIP_DECISION_POINTS 1
+
 /// Multiplier rows times r_A M_A: M_A (p_A - lambda_A), a force. Default.
 #define STICKSLIP_ROW_SCALE_FORCE 0
 
@@ -651,6 +660,10 @@ typedef struct stickslip_options {
   int32_t model;
   /// Thickness of a plane model [L]; 0 (default): 1. 0 of other models.
   double thickness;
+  /// STICKSLIP_DECISION_...: whether nodes or points are closed.
+  int32_t decision;
+  /// 0.
+  int32_t reserved;
 } stickslip_options;
 
 /// One surface of an interface.
@@ -722,6 +735,9 @@ typedef struct stickslip_states {
   double *dissipation;
   /// n1: r_A [F/L^5].
   double *augmentation;
+  /// n1: how much of what is covered of the node is closed [-]: 1 or 0 where nodes decide, between them where points do
+  /// (STICKSLIP_DECISION_POINTS; the state is then a gap where it is 0).
+  double *share;
 } stickslip_states;
 
 /// What an interface has done since its creation.
@@ -2526,7 +2542,7 @@ int32_t stickslip_interface_set_law_states(struct stickslip_interface *interface
 /// Heat that leaves the nodes of both sides, what to ADD to the host's internal heat flow (conduction and storage, less sources).
 /// With q_A of each non-mortar node: sum_A n_AB q_A at the non-mortar, - sum_A n_AC q_A at the mortar nodes, less friction's heat.
 /// All of it sums up to minus the heat of friction: what leaves one body enters the other one. A linear temperature over meshes
-/// that do not match passes exactly. docs/formulation.md, 16.
+/// that do not match passes exactly. docs/formulation.md, 17.
 ///
 /// x1 (3 n1), x2 (3 n2), lambda (3 n1): as for `stickslip_interface_states`; before the commit, as there. heat: see there.
 /// temperatures1 (n1), temperatures2 (n2) [K], from any zero. Outputs: heat1 (n1), heat2 (n2) [F L/T]; nodes: NULL, or its members point
@@ -2534,7 +2550,7 @@ int32_t stickslip_interface_set_law_states(struct stickslip_interface *interface
 /// plane models they are of the thickness, in axisymmetric ones of the whole ring.
 ///
 /// Errors: as `stickslip_interface_residual` without sums; INVALID_VALUE (a member of heat), NOT_FINITE (temperatures; a result that
-/// overflows), UNSUPPORTED (an analytic mortar side, which has no temperatures).
+/// overflows), UNSUPPORTED (an analytic mortar side, which has no temperatures; points that decide what is closed).
 /// Cost: after a residual at the same point O(pairs); where surfaces are apart an integration. Allocates.
 int32_t stickslip_interface_heat(struct stickslip_interface *interface,
                                  const double *x1,
@@ -2550,7 +2566,7 @@ int32_t stickslip_interface_heat(struct stickslip_interface *interface,
 /// The exact tangent of `stickslip_interface_heat` as triplets in the host's equation numbers and index base: by rows, which are the
 /// temperatures' equations, each entry once (as often as nodes share equations). For Newton's method in which temperatures, displacements and
 /// multipliers are solved for together: forces have no columns of temperatures, so that the rest of that matrix is
-/// `stickslip_interface_tangent_coo` and the host's own. docs/formulation.md, 16.2.
+/// `stickslip_interface_tangent_coo` and the host's own. docs/formulation.md, 17.2.
 ///
 /// x1, x2, lambda, heat, temperatures1, temperatures2: as for `stickslip_interface_heat`. equations1 (n1), equations2 (n2): of the temperatures, one a node, in
 /// the index base; -1: prescribed. which: STICKSLIP_HEAT_TEMPERATURES, or STICKSLIP_HEAT_ALL: with columns of the displacements and
@@ -2588,7 +2604,7 @@ int32_t stickslip_interface_heat_tangent_coo(struct stickslip_interface *interfa
 /// STICKSLIP_HEAT_SLOPES, or NULL): their derivatives by these five numbers, side by side; conductance (1, or NULL) [F/(L T K)].
 ///
 /// Errors: NULL_POINTER, STRUCT_SIZE, NOT_FINITE, INVALID_VALUE (a member of heat, an area that is not positive, a negative pressure).
-/// Cost: below a microsecond; allocates nothing. docs/formulation.md, 16.1.
+/// Cost: below a microsecond; allocates nothing. docs/formulation.md, 17.1.
 int32_t stickslip_node_heat(const struct stickslip_heat *heat,
                             double jump,
                             double pressure,

@@ -1,4 +1,4 @@
-//! Heat through the handle (docs/formulation.md 16).
+//! Heat through the handle (docs/formulation.md 17).
 
 use super::contact::Contact;
 use super::data::extent::Extent;
@@ -35,7 +35,7 @@ impl<const N: usize> Contact<N> {
     /// What leaves the nodes at (x, lambda) and these temperatures.
     ///
     /// # Errors
-    /// Those of a residual; [`Kind::Unsupported`]: the mortar side is an analytic surface, which has no temperatures.
+    /// Those of a residual; [`Kind::Unsupported`]: the mortar side is an analytic surface, which has no temperatures; points decide what is closed.
     pub fn heat(&mut self, x: [&[Vec3]; 2], lambda: &[SVector<f64, N>], t: Temperatures) -> Result<Heat> {
         let rows = self.heat_rows(x, lambda, t, false)?;
         let at = self.heat_place(x, t);
@@ -80,6 +80,11 @@ impl<const N: usize> Contact<N> {
         let (one, two) = self.setup.surfaces();
         if two.analytic.is_some() {
             let text = "heat over an analytic mortar side, which has no nodes and no temperatures; mesh its surface";
+            return Err(Error::new(Kind::Unsupported, text));
+        }
+        if self.setup.options.decides_at_points() {
+            let text =
+                "heat with STICKSLIP_DECISION_POINTS, where pressures are of points; take STICKSLIP_DECISION_NODES";
             return Err(Error::new(Kind::Unsupported, text));
         }
         for (name, values, needed) in

@@ -1,4 +1,4 @@
-//! Derivatives of all weights of a facet of the host with its active pairs (docs/formulation.md 16.2). Forces ask for them
+//! Derivatives of all weights of a facet of the host with its active pairs (docs/formulation.md 17.2). Forces ask for them
 //! contracted with tractions; heat has four things to contract them with, and takes them as they are.
 
 use crate::dual::FullDerivatives;
