@@ -9,16 +9,20 @@
 static const PetscReal LEVER = 2;
 
 /* Bodies that an interface holds without pressure: by ties, cohesion, or friction that knows none. */
-static void held_without_pressure(const Contact *contact, PetscBool *held)
+static PetscErrorCode held_without_pressure(const Solve *solve, PetscBool *held)
 {
+  const Contact *contact = solve->contact;
+  PetscFunctionBegin;
   for (PetscInt i = 0; i < contact->n_interfaces; i++) {
     const Interface *interface = &contact->interfaces[i];
     const int32_t    friction  = interface->options.friction;
     const PetscBool  presses   = (PetscBool)((friction == STICKSLIP_FRICTION_COULOMB || friction == STICKSLIP_FRICTION_NONE) &&
                                             interface->law.kind != STICKSLIP_LAW_COHESION);
-    for (int side = 0; side < 2 && !presses; side++)
-      held[interface->body[side]] = PETSC_TRUE;
+    for (PetscInt a = 0; a < interface->n1 + interface->n2 && !presses; a++)
+      held[mesh_body_of(solve->mesh, interface->nodes[a])] = PETSC_TRUE;
   }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, held, (PetscMPIInt)solve->mesh->n_bodies, MPIU_BOOL, MPI_LOR, PETSC_COMM_WORLD));
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* Parts that nothing holds, loads or presses, by the forces of the last evaluation. */
@@ -30,7 +34,7 @@ static PetscErrorCode find_idle(const Solve *solve, PetscBool *idle, PetscBool *
   PetscFunctionBegin;
   *any = PETSC_FALSE;
   PetscCall(PetscCalloc1(solve->mesh->n_bodies, &held));
-  held_without_pressure(solve->contact, held);
+  PetscCall(held_without_pressure(solve, held));
   for (PetscInt p = 0; p < parts->n; p++)
     faint = PetscMax(faint, parts->part[p].faint);
   for (PetscInt p = 0; p < parts->n; p++) {
