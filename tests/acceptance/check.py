@@ -30,7 +30,7 @@ from quadratic_contact import quadratic_contact  # noqa: E402
 from quadratic_line import quadratic_line  # noqa: E402
 from quadratic_sliding import quadratic_sliding  # noqa: E402
 from quadratic_tied import quadratic_tied  # noqa: E402
-from ranks import ranks, ranks_scenes  # noqa: E402
+from ranks import ranks, ranks_full, ranks_scenes  # noqa: E402
 from ranks_files import ranks_files  # noqa: E402
 from ranks_moving import ranks_many, ranks_moving  # noqa: E402
 from rigid import rigid  # noqa: E402
@@ -75,6 +75,7 @@ GROUPS = {
     "quadratic_tied": quadratic_tied,
     "ranks": ranks,
     "ranks_files": ranks_files,
+    "ranks_full": ranks_full,  # an hour or two; not among the tests
     "ranks_many": ranks_many,
     "ranks_moving": ranks_moving,
     "ranks_scenes": ranks_scenes,
