@@ -131,37 +131,57 @@ def ball(verdicts, driver, sizes, count):
         compare(verdicts, f"ball, {facets} facets", errors(driver, "ball", facets, count, LAWS), BALL_BOUND[facets])
 
 
+def corner_errors(driver, facets, count, reference):
+    """The same over places of the wider block's mesh."""
+    found = {}
+    for name, law in LAWS.items():
+        shifts = np.arange(count) / count
+        runs = [driver.run(Corner.coarse(driver, facets, s), *options(law), label=f"corner_{facets}_{s:.2f}_{label(law)}")
+                for s in shifts]
+        found[name] = np.array([Corner.error(run, reference) for run in runs]), sum(run.newton_iterations for run in runs)
+    return found
+
+
 def corners(verdicts, driver, sizes, count):
     reference = Corner.reference(driver)
     for facets in sizes:
-        found = {}
-        for name, law in LAWS.items():
-            shifts = np.arange(count) / count
-            runs = [driver.run(Corner.coarse(driver, facets, s), *options(law), label=f"corner_{facets}_{s:.2f}_{label(law)}")
-                    for s in shifts]
-            found[name] = np.array([Corner.error(run, reference) for run in runs]), 0
-        compare(verdicts, f"corner, {facets} facets", found, CORNER_BOUND[facets])
+        compare(verdicts, f"corner, {facets} facets", corner_errors(driver, facets, count, reference), CORNER_BOUND[facets])
+
+
+def errors_over_r(driver, facets):
+    """Of dual nodes; {factor on r: of points}."""
+    dual = errors(driver, "plane", facets, LOADS, {"": NODES["nodes, dual"]})[""][0]
+    found = {}
+    for factor in sorted((*FACTORS, *BEYOND)):
+        law = {**POINTS, "augmentation": factor * 0.9 * MODULUS * facets}  # all facets are of one size
+        found[factor] = errors(driver, "plane", facets, LOADS, {"": law})[""][0]
+    return dual, found
 
 
 def over_r(verdicts, driver):
     for facets in (5, 10):
-        dual = errors(driver, "plane", facets, LOADS, {"nodes, dual": NODES["nodes, dual"]})["nodes, dual"][0].mean()
-        for factor in sorted((*FACTORS, *BEYOND)):
-            law = {**POINTS, "augmentation": factor * 0.9 * MODULUS * facets}  # all facets are of one size
-            error = errors(driver, "plane", facets, LOADS, {"points": law})["points"][0].mean()
+        dual, found = errors_over_r(driver, facets)
+        for factor, error in found.items():
             bound = 1 if factor in FACTORS else MARGIN
-            verdicts.below(f"Hertz' line, {facets} facets, r x {factor:g}: {100 * error:.2g} %, over dual nodes", error / dual, bound,
-                           "never above the nodal law's")
+            what = f"Hertz' line, {facets} facets, r x {factor:g}: {100 * error.mean():.2g} %, over dual nodes"
+            verdicts.below(what, error.mean() / dual.mean(), bound, "never above the nodal law's")
+
+
+def iterations_of_scenes(driver):
+    """Of each scene without friction: dual nodes, points."""
+    found = {}
+    for scene in SCENES_WITHOUT_FRICTION:
+        runs = [driver.run(scene, *options(LAWS[name]), "-output_quiet", "true", label=f"{scene}_{label(LAWS[name])}")
+                for name in ("nodes, dual", "points")]
+        found[scene] = [run.newton_iterations for run in runs]
+    return found
 
 
 def iterations(verdicts, driver):
-    counts = {"nodes, dual": [], "points": []}
-    for scene in SCENES_WITHOUT_FRICTION:
-        for name in counts:
-            run = driver.run(scene, *options(LAWS[name]), "-output_quiet", "true", label=f"{scene}_{label(LAWS[name])}")
-            counts[name].append(run.newton_iterations)
-    told = ", ".join(f"{s} {b}/{a}" for s, a, b in zip(SCENES_WITHOUT_FRICTION, *counts.values()))
-    verdicts.below(f"Newton iterations over dual nodes ({told})", sum(counts["points"]) / sum(counts["nodes, dual"]), ITERATIONS, "in sum")
+    found = iterations_of_scenes(driver)
+    told = ", ".join(f"{scene} {points} for {nodes}" for scene, (nodes, points) in found.items())
+    nodes, points = np.sum(list(found.values()), axis=0)
+    verdicts.below(f"Newton iterations over dual nodes ({told})", points / nodes, ITERATIONS, "in sum")
 
 
 def ranks(verdicts, driver):
