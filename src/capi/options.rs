@@ -115,6 +115,13 @@ pub const STICKSLIP_TANGENT_FROZEN_WEIGHTS: i32 = 1;
 /// The tangent leaves out that facets' planes tilt: converges linearly too, and saves nothing; for comparisons with
 /// codes that do so. Exact against an analytic mortar side.
 pub const STICKSLIP_TANGENT_FROZEN_NORMALS: i32 = 2;
+/// A node is closed or open. Default.
+pub const STICKSLIP_DECISION_NODES: i32 = 0;
+/// Each point of an overlap is closed or open (docs/formulation.md 14): the border of the contact lies inside facets. modulus is needed,
+/// and is E* of both bodies together: 1 / E* = (1 - nu1^2) / E1 + (1 - nu2^2) / E2, of a rigid one without its part. The answer depends
+/// on it, by what vanishes with the facets' size. An augmentation beside it takes the place of r = 0.9 E* / h_A alone; r is then part of the
+/// answer, too. UNSUPPORTED: what is said at `decision`.
+pub const STICKSLIP_DECISION_POINTS: i32 = 1;
 /// Multiplier rows times r_A M_A: M_A (p_A - lambda_A), a force. Default.
 pub const STICKSLIP_ROW_SCALE_FORCE: i32 = 0;
 /// Multiplier rows as in the paper [L^3].
@@ -216,6 +223,10 @@ pub struct stickslip_options {
     pub model: i32,
     /// Thickness of a plane model [L]; 0 (default): 1. 0 of other models.
     pub thickness: f64,
+    /// STICKSLIP_DECISION_...: whether nodes or points are closed.
+    pub decision: i32,
+    /// 0.
+    pub reserved: i32,
 }
 
 // SAFETY: repr(C), struct_size first, numbers only.
@@ -263,6 +274,8 @@ pub unsafe extern "C" fn stickslip_options_init(options: *mut stickslip_options,
             multiplier_space: STICKSLIP_SPACE_CORNER,
             model: STICKSLIP_MODEL_SOLID,
             thickness: 0.0,
+            decision: STICKSLIP_DECISION_NODES,
+            reserved: 0,
         };
         sized::initialise(options, struct_size, defaults, "options")
     })
@@ -425,7 +438,16 @@ pub(super) fn read_options(p: *const stickslip_options) -> Result<Choices> {
         multiplier_space,
         model,
         thickness,
+        decision,
+        reserved,
     } = sized::read(p)?;
+    if reserved != 0 {
+        let text = text!("options.reserved is {reserved}; it must be 0");
+        return Err(Error::new(Kind::InvalidValue, text));
+    }
+    if choose(decision, "options.decision", &[false, true], 2)? {
+        return Err(Error::new(Kind::Unsupported, "STICKSLIP_DECISION_POINTS is not in this version"));
+    }
     let friction = law(friction, "options.friction")?;
     let sides = [MortarSide::Deformable, MortarSide::Rigid, MortarSide::Rigid];
     let analytic = mortar_side == STICKSLIP_MORTAR_ANALYTIC;

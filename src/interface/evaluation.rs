@@ -13,7 +13,7 @@ use super::stages::residual::{self, Residual};
 use super::stages::sums::NodeSums;
 use crate::error::{Error, Kind, Result};
 use crate::geometry::Vec3;
-use crate::law::NodeResponse;
+use crate::law::{NodeResponse, State};
 use crate::memory::{self, Stored};
 use nalgebra::SVector;
 
@@ -74,6 +74,11 @@ impl<const N: usize> Contact<N> {
     pub fn answers(&self) -> (&[NodeSums], &[NodeResponse<N>]) {
         let answers = self.cache.answers();
         (&answers.sums, &answers.responses.nodes)
+    }
+
+    /// How much of what is covered of a node is closed, at the same point.
+    pub fn closed_share(&self, a: usize) -> f64 {
+        f64::from(u8::from(self.cache.answers().responses.nodes[a].state != State::Gap))
     }
 
     /// Multipliers for the first step.

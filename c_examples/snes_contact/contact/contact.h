@@ -103,6 +103,7 @@ typedef struct {
 typedef struct {
   int32_t *state;
   double  *normal, *multiplier, *gap, *slip, *coverage, *area, *dissipation; /* multiplier: as a vector */
+  double  *closed; /* of what is covered of a node, the part that is closed; by nodes 0 or 1 */
 } ContactStates;
 
 /* One contact interface: what the scene says of it, this rank's part, and on rank 0 what is known of all its nodes. */
@@ -141,6 +142,7 @@ typedef struct {
   Halo           halo;
   double         friction_work;           /* rank 0: up to the last converged step */
   double         young, largest_traction; /* of the softer body; up to the last converged step */
+  char           modulus_from[96];        /* rank 0, with decisions at points: what the modulus of both bodies is made of */
   stickslip_equilibrium equilibrium;      /* of this part, as last judged (equilibrium.c) */
 } Interface;
 
@@ -281,6 +283,10 @@ int32_t law_set(const Interface *interface, stickslip_interface *handle);
 /* what it remembers, out of a part's handle after a commit, and into a new one */
 int32_t law_keep(const Interface *interface, ContactPart *part);
 int32_t law_restore(const Interface *interface, const ContactPart *part);
+/* decision.c; `settle` on rank 0, when bodies are known */
+void           decision_read(Scene *scene, Interface *interface);
+PetscBool      decision_is_points(const Interface *interface);
+PetscErrorCode decision_settle(const Contact *contact, Interface *interface);
 /* offsets.c; `place` on rank 0; `fetch` through an SF from rank 0's nodes to those of the part */
 PetscErrorCode offsets_read(Scene *scene, const Physics *physics, Interface *interface);
 PetscErrorCode offsets_place(Scene *scene, Interface *interface);

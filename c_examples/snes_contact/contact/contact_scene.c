@@ -91,6 +91,7 @@ static PetscErrorCode settle_nodes(Scene *scene, Contact *contact, Interface *in
 
   interface->young = PetscMin(surface_young(contact, interface, 0, n1), surface_young(contact, interface, n1, n1 + n2));
   if (interface->young == PETSC_MAX_REAL) interface->young = physics->materials[0].young; /* nothing moves */
+  PetscCall(decision_settle(contact, interface));
   if (interface->options.augmentation == 0 && interface->options.modulus == 0)
     interface->options.modulus = interface->young;
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -263,6 +264,7 @@ PetscErrorCode contact_read(Scene *scene, Contact *contact)
     mesh_rotate_vector(contact->mesh, interface->law.direction);
     read_effects(scene, interface);
     read_method(scene, interface);
+    decision_read(scene, interface);
     read_accuracy(scene, interface);
     PetscCall(offsets_read(scene, contact->physics, interface));
   }

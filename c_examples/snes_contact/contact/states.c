@@ -1,8 +1,8 @@
 /* What the library says of the nodes: their states and results; and the augmentation that single nodes are given. */
 #include "contact/contact.h"
 
-/* A node's results while they travel: state, normal, multiplier, gap, slip, coverage, area, dissipation. */
-enum { STATE, NORMAL, MULTIPLIER = NORMAL + 3, GAP = MULTIPLIER + 3, SLIP, COVERAGE = SLIP + 3, AREA, DISSIPATION, N_RESULTS };
+/* A node's results while they travel: state, normal, multiplier, gap, slip, coverage, area, dissipation, closed part. */
+enum { STATE, NORMAL, MULTIPLIER = NORMAL + 3, GAP = MULTIPLIER + 3, SLIP, COVERAGE = SLIP + 3, AREA, DISSIPATION, CLOSED, N_RESULTS };
 
 /* results of the part's nodes, N_RESULTS a node */
 static PetscErrorCode evaluate(const ContactPart *part, double results[])
@@ -15,6 +15,7 @@ static PetscErrorCode evaluate(const ContactPart *part, double results[])
   if (!part->handle) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PetscMalloc7(n1, &wanted.state, d * n1, &wanted.normal, n1, &wanted.gap, d * n1, &wanted.slip, n1,
                          &wanted.coverage, n1, &wanted.area, n1, &wanted.dissipation));
+  PetscCall(PetscMalloc1(n1, &wanted.share));
   PetscCallStickslip(stickslip_interface_states(part->handle, STATE_OF(part), NULL, &wanted));
   for (PetscInt a = 0; a < n1; a++) {
     double *r = results + N_RESULTS * a;
@@ -28,9 +29,11 @@ static PetscErrorCode evaluate(const ContactPart *part, double results[])
     r[COVERAGE]    = wanted.coverage[a];
     r[AREA]        = wanted.area[a];
     r[DISSIPATION] = wanted.dissipation[a];
+    r[CLOSED]      = wanted.share[a];
   }
   PetscCall(PetscFree7(wanted.state, wanted.normal, wanted.gap, wanted.slip, wanted.coverage, wanted.area,
                        wanted.dissipation));
+  PetscCall(PetscFree(wanted.share));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -41,7 +44,7 @@ static PetscErrorCode store(const double results[], PetscInt n1, ContactStates *
   if (!states->state) {
     PetscCall(PetscMalloc7(n1, &states->state, 3 * n1, &states->normal, n1, &states->gap, 3 * n1, &states->slip, n1,
                            &states->coverage, n1, &states->area, n1, &states->dissipation));
-    PetscCall(PetscMalloc1(3 * n1, &states->multiplier));
+    PetscCall(PetscMalloc2(3 * n1, &states->multiplier, n1, &states->closed));
   }
   for (PetscInt a = 0; a < n1; a++) {
     const double *r        = results + N_RESULTS * a;
@@ -50,6 +53,7 @@ static PetscErrorCode store(const double results[], PetscInt n1, ContactStates *
     states->coverage[a]    = r[COVERAGE];
     states->area[a]        = r[AREA];
     states->dissipation[a] = r[DISSIPATION];
+    states->closed[a]      = r[CLOSED];
     PetscCall(PetscArraycpy(states->normal + 3 * a, r + NORMAL, 3));
     PetscCall(PetscArraycpy(states->multiplier + 3 * a, r + MULTIPLIER, 3));
     PetscCall(PetscArraycpy(states->slip + 3 * a, r + SLIP, 3));
@@ -148,13 +152,14 @@ static PetscErrorCode scale_augmentation(const Interface *interface, const Petsc
 }
 
 /* The augmentation of the nodes marked (rank 0; all interfaces, one after the other) times `factor`. The answer does not
- * depend on it. */
+ * depend on it, but where points decide, which keep theirs. */
 PetscErrorCode contact_scale_augmentation(Contact *contact, const PetscBool *marked, PetscReal factor)
 {
   PetscInt first = 0;
   PetscFunctionBegin;
   for (PetscInt i = 0; i < contact->n_interfaces; i++) {
-    PetscCall(scale_augmentation(&contact->interfaces[i], marked ? marked + first : NULL, factor));
+    if (!decision_is_points(&contact->interfaces[i]))
+      PetscCall(scale_augmentation(&contact->interfaces[i], marked ? marked + first : NULL, factor));
     first += contact->interfaces[i].n1;
   }
   contact->scaled = PETSC_TRUE;
@@ -167,7 +172,7 @@ PetscErrorCode contact_reset_augmentation(Contact *contact)
   PetscFunctionBegin;
   contact->scaled = PETSC_FALSE;
   for (PetscInt i = 0; i < contact->n_interfaces; i++) {
-    if (contact->interfaces[i].part.handle)
+    if (contact->interfaces[i].part.handle && !decision_is_points(&contact->interfaces[i]))
       PetscCallStickslip(stickslip_interface_set_augmentation(contact->interfaces[i].part.handle, NULL));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -178,6 +183,6 @@ PetscErrorCode contact_states_destroy(ContactStates *states)
   PetscFunctionBegin;
   PetscCall(PetscFree7(states->state, states->normal, states->gap, states->slip, states->coverage, states->area,
                        states->dissipation));
-  PetscCall(PetscFree(states->multiplier));
+  PetscCall(PetscFree2(states->multiplier, states->closed));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

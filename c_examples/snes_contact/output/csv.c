@@ -9,6 +9,7 @@ PetscErrorCode csv_write(Output *output, const Interface *interface, const Conta
   char    path[PETSC_MAX_PATH_LEN];
   double *tractions;
   FILE   *file;
+  const PetscBool by_points = decision_is_points(interface);
 
   PetscFunctionBegin;
   PetscCall(PetscMalloc1(3 * interface->n1, &tractions));
@@ -18,7 +19,8 @@ PetscErrorCode csv_write(Output *output, const Interface *interface, const Conta
   file = fopen(path, "w");
   PetscCheck(file, PETSC_COMM_SELF, PETSC_ERR_FILE_OPEN, "cannot write '%s'", path);
   fprintf(file, "node,X,Y,Z,ux,uy,uz,nx,ny,nz,lambda_n,lambda_tx,lambda_ty,lambda_tz,gap_weighted,slip_x,slip_y,slip_z,"
-                "area_covered,area_full,fx,fy,fz,p_lumped,state,t_lumped_x,t_lumped_y,t_lumped_z\n");
+                "area_covered,area_full,fx,fy,fz,p_lumped,state,t_lumped_x,t_lumped_y,t_lumped_z%s\n",
+          by_points ? ",closed" : "");
   for (PetscInt a = 0; a < interface->n1; a++) {
     const double *n = states->normal + 3 * a, *lambda = states->multiplier + 3 * a, *slip = states->slip + 3 * a;
     const double *traction = tractions + 3 * a;
@@ -53,6 +55,7 @@ PetscErrorCode csv_write(Output *output, const Interface *interface, const Conta
     fprintf(file, ",%s", interface->middle[a] ? "none" : STATE_NAMES[states->state[a]]);
     for (int i = 0; i < 3; i++)
       fprintf(file, ",%.17g", traction[i] - pressure * n[i]);
+    if (by_points) fprintf(file, ",%.17g", states->closed[a]);
     fprintf(file, "\n");
   }
   fclose(file);

@@ -36,6 +36,27 @@ static const char *form_name(const Output *output)
   return form == STICKSLIP_FORM_AUGMENTED ? "augmented" : "multiplier";
 }
 
+/* rank 0: the interfaces that decide at points, with what the library takes their bodies' stiffness for. */
+static PetscErrorCode add_decisions(const Output *output, cJSON *root)
+{
+  cJSON *all = NULL;
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < output->contact->n_interfaces && output->mesh->rank == 0; i++) {
+    const Interface *interface = &output->contact->interfaces[i];
+    cJSON           *json;
+    if (!decision_is_points(interface)) continue;
+    if (!all) all = cJSON_AddObjectToObject(root, "decisions");
+    json = cJSON_AddObjectToObject(all, interface->name);
+    cJSON_AddStringToObject(json, "decision", "points");
+    cJSON_AddNumberToObject(json, "modulus", interface->options.modulus);
+    cJSON_AddStringToObject(json, "modulus_from", interface->modulus_from);
+    if (!output->quiet)
+      PetscCall(PetscPrintf(PETSC_COMM_SELF, "%s: decided at points, modulus %g (from %s)\n", interface->name,
+                            interface->options.modulus, interface->modulus_from));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode summary_create(Output *output, Summary **out)
 {
   Summary  *summary;
@@ -56,6 +77,7 @@ PetscErrorCode summary_create(Output *output, Summary **out)
   cJSON_AddStringToObject(summary->root, "form", form_name(output));
   cJSON_AddNumberToObject(summary->root, "rtol", rtol);
   cJSON_AddNumberToObject(summary->root, "unknowns", unknowns);
+  PetscCall(add_decisions(output, summary->root));
   summary->steps           = cJSON_CreateArray();
   summary->failed_attempts = cJSON_CreateArray();
   if (!output->quiet)
@@ -69,7 +91,7 @@ static PetscErrorCode interface_results(Output *output, Interface *interface, Pe
                                         cJSON *parent, double *work, char progress[], size_t length)
 {
   PetscInt      counts[3] = {0, 0, 0};
-  PetscReal     force[3]  = {0, 0, 0}, nodal[3];
+  PetscReal     force[3]  = {0, 0, 0}, nodal[3], closed = 0;
   const ContactStates *states = &interface->states;
   cJSON        *json = cJSON_AddObjectToObject(parent, interface->name);
 
@@ -80,12 +102,14 @@ static PetscErrorCode interface_results(Output *output, Interface *interface, Pe
     for (int i = 0; i < 3; i++)
       force[i] -= nodal[i]; /* f1 is an internal force */
     interface->friction_work += states->dissipation[a];
+    closed += states->closed[a] * states->coverage[a];
   }
   *work += interface->friction_work;
   cJSON_AddItemToObject(json, "force", vector_json(force));
   cJSON_AddNumberToObject(json, "gap", counts[STICKSLIP_STATE_GAP]);
   cJSON_AddNumberToObject(json, "stick", counts[STICKSLIP_STATE_STICK]);
   cJSON_AddNumberToObject(json, "slip", counts[STICKSLIP_STATE_SLIP]);
+  if (decision_is_points(interface)) cJSON_AddNumberToObject(json, "closed_area", closed);
   if (write) PetscCall(csv_write(output, interface, states, step));
   snprintf(progress, length, "  %s %d gap %d stick %d slip", interface->name, (int)counts[STICKSLIP_STATE_GAP],
            (int)counts[STICKSLIP_STATE_STICK], (int)counts[STICKSLIP_STATE_SLIP]);
