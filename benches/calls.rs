@@ -58,8 +58,6 @@ fn pair_weights(pair: &Pair) -> f64 {
         multiplier_space: 0,
         model: STICKSLIP_MODEL_SOLID,
         thickness: 0.0,
-        decision: 0,
-        reserved: 0,
     };
     let null = std::ptr::null_mut();
     // SAFETY: points are three numbers each, one after the other; the outputs hold 16.

@@ -80,8 +80,6 @@ fn pair_calls(bytes: &mut Bytes) {
         multiplier_space: i32::from(bytes.once_in(2)),
         model: STICKSLIP_MODEL_SOLID,
         thickness: 0.0,
-        decision: 0,
-        reserved: 0,
     });
     pair.declare(bytes);
     let p = bytes.pointer(pair.pointer());
