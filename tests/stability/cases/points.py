@@ -53,7 +53,7 @@ def uniform(scene, *options, pressure=PRESSURE, bound=UNIFORM):
             table = run.interface("contact")
             outcome.below("pressure, worst node", np.abs(table["p_lumped"] / pressure - 1).max(), bound, "uniform")
             outcome.below("multiplier, worst node", np.abs(table["lambda_n"] / -pressure - 1).max(), bound, "uniform")
-            outcome.true("all of it is closed", (table["closed"] == 1).all(), "pressed")
+            outcome.below("part that is open, worst node", np.abs(table["closed"] - 1).max(), UNIFORM, "pressed")
         return outcome
 
     return run
@@ -97,7 +97,7 @@ def overhang(text):
         scene["left"]["surface"] = "lower.xmin"
         scene["supports"].append("guide")
         scene["guide"] = {"surface": "upper.zmax", "components": ["x", "y", "z"], "value": [0, 0, -0.01]}
-        scene["loads"] = []
+        del scene["loads"], scene["press"]
         scene["front"]["surface"] = "lower.ymin"
         run = context.solve(scene, *LAW, "-contact_weak_coverage", "-1", kappa=True)
         outcome = host.outcome(run)
@@ -126,7 +126,7 @@ def tilted(text):
         # Lowered by 0.01 in the middle, turned so that one side rises by `share` of twice that.
         scene["top"] = {"surface": "upper.zmax", "components": ["x", "z"], "value": [0, 0, -0.01], "origin": [0.5, 0, 1],
                         "gradient": [0, 0, 0, 0, 0, 0, 0.04 * share, 0, 0]}
-        scene["loads"] = []
+        del scene["loads"], scene["press"]
         run = context.solve(scene, *LAW, kappa=True)
         outcome = host.outcome(run)
         if outcome.refusal is None:
@@ -137,8 +137,8 @@ def tilted(text):
             scale = np.abs(table["fz"]).sum()
             outcome.true("no node pulls", (table["fz"] >= -1e-6 * scale).all(), "contact")
             outcome.figures["closed"] = float((table["closed"] * table["area_covered"]).sum())
-            outcome.true("opens on one side" if share > 0.6 else "closed", (outcome.figures["closed"] < 0.999) == (share > 0.6),
-                         "the top rises more than it is pressed")
+            outcome.true("opens on one side" if share > 0.4 else "closed", (outcome.figures["closed"] < 0.999) == (share > 0.4),
+                         "the force is within a third of the width")
             outcome.figures["arm"] = float((x * table["fz"]).sum() / scale)
         return outcome
 
