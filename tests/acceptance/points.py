@@ -193,9 +193,9 @@ REFUSALS = {
     "friction": ({"friction": 0.3, "law": "coulomb"}, "friction"),
     "tied": ({"law": "tied"}, "tied"),
     "augmented": ({"form": "augmented"}, "augmented"),
-    "elements": ({"integration": "elements"}, "integration"),
-    "current weights": ({"weights": "current"}, "weights"),
-    "standard basis": ({"basis": "standard"}, "basis"),
+    "elements": ({"integration": "elements"}, "overlaps"),
+    "current weights": ({"weights": "current"}, "weights of now"),
+    "standard basis": ({"basis": "standard"}, "standard basis"),
 }
 
 
@@ -205,4 +205,4 @@ def refused(verdicts, driver):
     for name, (law, word) in REFUSALS.items():
         run = driver.run(path, *options(law), label=f"refused_{name}", expect=None)
         said = run.text.strip().splitlines()[-1] if run.text.strip() else ""
-        verdicts.true(f"refused: {name}: {said[:120]}", run.exit_code in (1, 3) and word in said and "points" in said, "by name")
+        verdicts.true(f"refused: {name}: {said[:120]}", run.exit_code in (1, 3) and word in said and "DECISION_POINTS" in said, "by name")
