@@ -26,51 +26,37 @@ static PetscReal half_space(const Space *space, const Material *material)
   return material->young / (1 - nu * nu);
 }
 
-/* The stiffest and the softest of the bodies that nodes first to end are of; 0: nothing of the side gives way. */
-static void side_moduli(const Contact *contact, const Interface *interface, PetscInt first, PetscInt end, PetscReal moduli[2])
+/* rank by rank: does anything of a side, nodes first to end here, give way? */
+static PetscBool gives_way(const Contact *contact, const Interface *interface, int side, PetscInt first, PetscInt end)
 {
-  moduli[0] = moduli[1] = 0;
-  for (PetscInt k = first; k < end; k++) {
-    const PetscInt  body = mesh_body_of(contact->mesh, interface->nodes[k]);
-    PetscReal       modulus;
-    if (interface->prescribed[k] == 7 || contact->mesh->bodies[body].rigid || contact->mesh->bodies[body].analytic) continue;
-    modulus   = half_space(&contact->mesh->space, &contact->physics->materials[body]);
-    moduli[0] = PetscMax(moduli[0], modulus);
-    moduli[1] = moduli[1] > 0 ? PetscMin(moduli[1], modulus) : modulus;
-  }
-}
-
-static PetscBool is_finite(const Contact *contact, const Interface *interface)
-{
-  for (PetscInt k = 0; k < interface->n1 + interface->n2; k++) {
-    const PetscInt body = mesh_body_of(contact->mesh, interface->nodes[k]);
-    if (contact->physics->materials[body].law->finite) return PETSC_TRUE;
+  const Body *body = &contact->mesh->bodies[interface->body[side]];
+  for (PetscInt k = first; k < end && !body->rigid && !body->analytic; k++) {
+    if (interface->prescribed[k] != 7) return PETSC_TRUE;
   }
   return PETSC_FALSE;
 }
 
-/* rank 0: the modulus of both bodies, unless the scene has one. Of a side of several bodies the stiffest counts: too stiff costs
- * less accuracy than too soft (docs/accuracy.md). */
+/* The modulus of both bodies, unless the scene has one. */
 PetscErrorCode decision_settle(const Contact *contact, Interface *interface)
 {
-  PetscReal side[2][2], yielding = 0;
+  const PetscInt  n1     = interface->n1;
+  const Material *first  = &contact->physics->materials[interface->body[0]], *second = &contact->physics->materials[interface->body[1]];
+  PetscBool       way[2] = {PETSC_FALSE, PETSC_FALSE};
+  PetscReal       yielding;
   PetscFunctionBegin;
-  interface->modulus_from[0] = 0;
   if (!decision_is_points(interface)) PetscFunctionReturn(PETSC_SUCCESS);
   if (interface->options.modulus > 0) {
     PetscCall(PetscSNPrintf(interface->modulus_from, sizeof(interface->modulus_from), "the scene"));
     PetscFunctionReturn(PETSC_SUCCESS);
   }
-  side_moduli(contact, interface, 0, interface->n1, side[0]);
-  side_moduli(contact, interface, interface->n1, interface->n1 + interface->n2, side[1]);
-  for (int s = 0; s < 2; s++)
-    yielding += side[s][0] > 0 ? 1 / side[s][0] : 0;
-  interface->options.modulus = yielding > 0 ? 1 / yielding : half_space(&contact->mesh->space, &contact->physics->materials[0]);
-  PetscCall(PetscSNPrintf(interface->modulus_from, sizeof(interface->modulus_from), "%s%s%s",
-                          side[0][0] > 0 && side[1][0] > 0 ? "both bodies"
-                          : yielding > 0                   ? "the body that is not rigid"
-                                                           : "the first body, for nothing gives way",
-                          side[0][0] > side[0][1] || side[1][0] > side[1][1] ? ", of a side of several the stiffest" : "",
-                          is_finite(contact, interface) ? ", at small strains" : ""));
+  way[0] = gives_way(contact, interface, 0, 0, n1);
+  way[1] = gives_way(contact, interface, 1, n1, n1 + interface->n2);
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, way, 2, MPIU_BOOL, MPI_LOR, PETSC_COMM_WORLD));
+  if (!way[0] && !way[1]) way[0] = PETSC_TRUE; /* nothing moves */
+  yielding = (way[0] ? 1 / half_space(&contact->mesh->space, first) : 0) + (way[1] ? 1 / half_space(&contact->mesh->space, second) : 0);
+  interface->options.modulus = 1 / yielding;
+  PetscCall(PetscSNPrintf(interface->modulus_from, sizeof(interface->modulus_from), "%s%s",
+                          way[0] && way[1] ? "both bodies" : "the body that gives way",
+                          (way[0] && first->law->finite) || (way[1] && second->law->finite) ? ", at small strains" : ""));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -19,7 +19,7 @@ static void integers(FILE *file, const char *name, PetscInt n, const double valu
   vtu_end_array(file);
 }
 
-/* rank 0: what is written of an interface's nodes */
+/* what is written of an interface's nodes at home */
 enum { MULTIPLIER, FORCE = MULTIPLIER + 3, TRACTION = FORCE + 3, PRESSURE = TRACTION + 3, CLOSED, STATE, N_FIELDS };
 
 static PetscErrorCode nodal_fields(const Mesh *mesh, const Interface *interface, double fields[])
@@ -71,7 +71,7 @@ static PetscErrorCode interface_fields(FILE *file, const Physics *physics, const
 
   PetscFunctionBegin;
   PetscCall(PetscCalloc3(N_FIELDS * n_both, &nodal, N_FIELDS * n, &fields, 3 * n, &values));
-  if (physics->mesh->rank == 0) PetscCall(nodal_fields(physics->mesh, interface, nodal));
+  PetscCall(nodal_fields(physics->mesh, interface, nodal));
   PetscCall(piece_fetch(physics, piece, n_both, interface->nodes, N_FIELDS, nodal, NAN, fields));
   for (PetscInt k = 0; k < N_FIELDS * n; k++) /* off the interface */
     fields[k] = isnan(fields[N_FIELDS * (k / N_FIELDS) + N_FIELDS - 1]) ? k % N_FIELDS == STATE ? -1 : 0 : fields[k];
@@ -155,10 +155,10 @@ static PetscErrorCode write_index(const Output *output, PetscInt step)
   fprintf(file, "</PPoints>\n<PPointData Vectors=\"displacement\">\n");
   vtu_declare(file, "Float64", "displacement", 3);
   for (PetscInt i = 0; i < output->contact->n_interfaces; i++) {
-    static const char *const names[] = {"multiplier", "force", "traction", "pressure", "closed", "state"};
+    static const char *const names[]   = {"multiplier", "force", "traction", "pressure", "closed", "state"};
+    const Interface         *interface = &output->contact->interfaces[i];
     for (int k = 0; k < 6; k++) {
-      const Interface *interface = &output->contact->interfaces[i];
-      char             name[2 * NAME_LENGTH];
+      char name[2 * NAME_LENGTH];
       if (k == 4 && !decision_is_points(interface)) continue;
       PetscCall(PetscSNPrintf(name, sizeof(name), "%s_%s", names[k], interface->name));
       vtu_declare(file, k < 5 ? "Float64" : "Int32", name, k < 3 ? 3 : 1);
