@@ -25,6 +25,7 @@ from normals_full import normals_full, normals_iterations  # noqa: E402
 from offsets import offsets  # noqa: E402
 from plane import plane, plane_ball  # noqa: E402
 from plane_analytic import plane_analytic  # noqa: E402
+from points import points, points_full  # noqa: E402
 from quadratic import quadratic  # noqa: E402
 from quadratic_contact import quadratic_contact  # noqa: E402
 from quadratic_line import quadratic_line  # noqa: E402
@@ -68,6 +69,8 @@ GROUPS = {
     "plane": plane,
     "plane_analytic": plane_analytic,
     "plane_ball": plane_ball,
+    "points": points,
+    "points_full": points_full,  # some minutes; not among the tests
     "quadratic": quadratic,
     "quadratic_contact": quadratic_contact,
     "quadratic_line": quadratic_line,
