@@ -350,10 +350,12 @@
 /// A node is closed or open. Default.
 #define STICKSLIP_DECISION_NODES 0
 
-/// Each point of an overlap is closed or open (docs/formulation.md 14): the border of the contact lies inside facets. modulus is needed,
+/// Each point of an overlap is closed or open (docs/formulation.md 16): the border of the contact lies inside facets. modulus is needed,
 /// and is E* of both bodies together: 1 / E* = (1 - nu1^2) / E1 + (1 - nu2^2) / E2, of a rigid one without its part. The answer depends
 /// on it, by what vanishes with the facets' size. An augmentation beside it takes the place of r = 0.9 E* / h_A alone; r is then part of the
-/// answer, too. UNSUPPORTED: what is said at `decision`.
+/// answer, too. With STICKSLIP_FRICTION_NONE, STICKSLIP_BASIS_DUAL, and STICKSLIP_WEIGHTS_COMMITTED or REFERENCE. UNSUPPORTED: all others of
+/// these; STICKSLIP_FORM_AUGMENTED, STICKSLIP_INTEGRATION_ELEMENTS and HYBRID, weak_coverage, quadratic facets, analytic mortar sides, sums of
+/// handles, parts (owned), condensed systems.
 #define STICKSLIP_DECISION_POINTS 1
 
 /// Multiplier rows times r_A M_A: M_A (p_A - lambda_A), a force. Default.
@@ -601,7 +603,7 @@ typedef struct stickslip_options {
   /// of a stiffness. The answer does not depend on it.
   double augmentation;
   /// Young's modulus of the softer body [F/L^2]: rhat_A = 0.1 E / h_A, h_A = sqrt(M_A), of lines about their length; 0 (default): use the
-  /// augmentation.
+  /// augmentation. With STICKSLIP_DECISION_POINTS it is needed, and is E* of both bodies together.
   double modulus;
   /// A node whose covered area over its full area [-] is at most this counts as uncovered; default 1e-8. Where a
   /// surface slides off an edge, the tractions of nodes that are hardly covered grow like the inverse of their
