@@ -126,7 +126,7 @@ PetscErrorCode run(Model *model, int *exit_code)
   *exit_code = 0;
   PetscCall(times_add_kinks(&model->physics, &model->solve.steps));
   PetscCall(summary_create(&model->output, &summary));
-  for (PetscInt i = 0; i < model->contact.n_interfaces && model->mesh.rank == 0; i++)
+  for (PetscInt i = 0; i < model->contact.n_interfaces; i++)
     PetscCall(csv_adjusted(&model->output, &model->contact.interfaces[i]));
   PetscCall(history_create(model, &history));
   PetscCall(supports_values(&model->physics, 0));

@@ -236,7 +236,7 @@ REFUSED = {
     "point without spin": ({"left": {"about": [0, 0, 0]}}, "left.about"),
     "no density": ({"left": {"density": None}}, "left.density"),
     "stiffness damping of finite strain": ({"dynamics": {"rho_inf": 1, "stiffness_damping": 1}, "left": {"material": "neo_hooke"}}, "dynamics.stiffness_damping"),
-    "a free rigid body": ({"bodies": ["left", "right", "ball"], "ball": {"type": "rigid", "shape": "sphere", "radius": 1, "reference": [0, 0, 5], "mass": 1}}, "ball.type"),
+    "a free rigid body": ({"bodies": ["left", "right", "ball"], "ball": {"type": "rigid", "from": "box", "lower": [0, 0, 5], "upper": [1, 1, 6], "cells": [1, 1, 1], "reference": [0, 0, 5], "mass": 1}}, "ball.type"),
 }
 
 

@@ -19,7 +19,7 @@ static void integers(FILE *file, const char *name, PetscInt n, const double valu
   vtu_end_array(file);
 }
 
-/* rank 0: what is written of an interface's nodes */
+/* what is written of an interface's nodes at home */
 enum { MULTIPLIER, FORCE = MULTIPLIER + 3, TRACTION = FORCE + 3, PRESSURE = TRACTION + 3, STATE, N_FIELDS };
 
 static PetscErrorCode nodal_fields(const Mesh *mesh, const Interface *interface, double fields[])
@@ -69,7 +69,7 @@ static PetscErrorCode interface_fields(FILE *file, const Physics *physics, const
 
   PetscFunctionBegin;
   PetscCall(PetscCalloc3(N_FIELDS * n_both, &nodal, N_FIELDS * n, &fields, 3 * n, &values));
-  if (physics->mesh->rank == 0) PetscCall(nodal_fields(physics->mesh, interface, nodal));
+  PetscCall(nodal_fields(physics->mesh, interface, nodal));
   PetscCall(piece_fetch(physics, piece, n_both, interface->nodes, N_FIELDS, nodal, NAN, fields));
   for (PetscInt k = 0; k < N_FIELDS * n; k++) /* off the interface */
     fields[k] = isnan(fields[N_FIELDS * (k / N_FIELDS) + N_FIELDS - 1]) ? k % N_FIELDS == STATE ? -1 : 0 : fields[k];
@@ -121,6 +121,16 @@ static void numbers(FILE *file, const char *name, PetscInt n, const PetscInt ord
   for (PetscInt k = 0; k < n; k++)
     fprintf(file, "%d\n", (int)values[order[k]]);
   vtu_end_array(file);
+}
+
+/* What an earlier run on one rank, or on several, has left under this step's number is not this run's. */
+static PetscErrorCode remove_stale(const Output *output, PetscInt step)
+{
+  char path[PETSC_MAX_PATH_LEN];
+  PetscFunctionBegin;
+  PetscCall(PetscSNPrintf(path, sizeof(path), "%s/step_%" PetscInt_FMT ".%s", output->directory, step, output->mesh->size > 1 ? "vtu" : "pvtu"));
+  (void)remove(path);
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* The files of all ranks, and what is in them. */
@@ -197,6 +207,7 @@ PetscErrorCode vtu_write(Output *output, PetscInt step)
   fprintf(file, "</CellData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n");
   fclose(file);
   PetscCall(piece_destroy(&piece));
+  if (mesh->rank == 0) PetscCall(remove_stale(output, step));
   if (several && mesh->rank == 0) PetscCall(write_index(output, step));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
