@@ -5,6 +5,7 @@
  * The scene's format is documented in scenes/README.md. Exit codes: 0 every step converged, 1 bad scene, 2 not converged,
  * 3 refused by the contact library. */
 #include "mesh/converted.h"
+#include "physics/dynamics.h"
 #include "model.h"
 
 static const char help[] = "Frictional contact of elastic bodies.\n"
@@ -35,10 +36,10 @@ static void connect(Model *model)
 
 static PetscErrorCode read_scene(Model *model)
 {
-  static const char *const maps[] = {"frame", "steps", "output"};
+  static const char *const maps[] = {"frame", "steps", "output", "dynamics"};
   PetscReal                schema = 0;
   PetscFunctionBegin;
-  for (int k = 0; k < 3; k++) {
+  for (size_t k = 0; k < sizeof(maps) / sizeof(maps[0]); k++) {
     if (scene_has(model->scene, NULL, maps[k]))
       scene_fail(model->scene, NULL, maps[k], "a map is expected here, not a single value or a list.");
   }
@@ -53,6 +54,7 @@ static PetscErrorCode read_scene(Model *model)
   model->physics.end = model->solve.steps.end;
   PetscCall(supports_read(model->scene, &model->physics));
   PetscCall(loads_read(model->scene, &model->physics));
+  PetscCall(dynamics_read(model->scene, &model->physics));
   PetscCall(contact_read(model->scene, &model->contact));
   PetscCall(iterative_read(model->scene, &model->solve));
   PetscCall(heat_read(model->scene, &model->heat));
@@ -92,6 +94,7 @@ static PetscErrorCode build(Model *model, PetscInt *status)
   PetscCall(bulk_create(physics));
   PetscCall(loads_assemble(physics));
   PetscCall(heat_create(&model->heat));
+  PetscCall(dynamics_create(physics));
   PetscCall(contact_create(contact, model->scene, solve->quiet, status));
   if (*status) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(supports_values(physics, 0));

@@ -1,5 +1,6 @@
 /* Pseudo-time: Newton's method, cut-back, commit, report. */
 #include "model.h"
+#include "physics/dynamics.h"
 
 typedef struct {
   Vec       x; /* the iterate */
@@ -65,6 +66,7 @@ static PetscErrorCode step_to(Model *model, Summary *summary, History *history, 
   model->physics.t = t;
   PetscCall(supports_values(&model->physics, t));
   PetscCall(heat_begin(&model->heat, t));
+  PetscCall((model->physics.dynamics ? dynamics_begin : loads_values)(&model->physics));
   PetscCall(offsets_values(&model->contact, t, &refused));
   if (refused) {
     *done = PETSC_FALSE;
@@ -91,6 +93,7 @@ static PetscErrorCode step_to(Model *model, Summary *summary, History *history, 
 static PetscErrorCode accept(Model *model, History *history)
 {
   PetscFunctionBegin;
+  PetscCall(dynamics_accept(&model->physics));
   /* How a gap closes is no rate, either. */
   history->past.have_before = (PetscBool)(!times_bend(&model->physics, model->physics.t) && !model->solve.closing.ever_cut);
   PetscCall(VecCopy(history->past.last, history->past.before));

@@ -89,6 +89,7 @@ static void test_derivatives(const Material *m)
     for (int j = 0; j < 9; j++)
       modulus_error = fmax(modulus_error, fabs(A[9 * j + k] - (high[j] - low[j]) / (2 * STEP)));
   }
+  check(m->law->name, "the energy as textbooks have it", fabs(m->law->energy(m, H, m->law->volume(H)) - energy(m, H)) / m->young, ROUNDING_BOUND);
   check(m->law->name, "P against differences of the energy", stress_error / m->young, DIFFERENCE_BOUND);
   check(m->law->name, "dP/dF against differences of P", modulus_error / m->young, DIFFERENCE_BOUND);
 }

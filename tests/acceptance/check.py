@@ -12,6 +12,7 @@ sys.path.append(str(Path(__file__).resolve().parents[2] / "studies" / "common"))
 import acceptance  # noqa: E402
 from condensed import condensed, condensed_full  # noqa: E402
 from dual import dual, dual_full, dual_iterations  # noqa: E402
+from dynamics import dynamics  # noqa: E402
 from effect_checks import effects  # noqa: E402
 from friction_checks import friction  # noqa: E402
 from hosts import hosts  # noqa: E402
@@ -60,6 +61,7 @@ GROUPS = {
     "iterative_scenes": iterative_scenes,
     "ironing": ironing,
     "ironing_full": ironing_full,  # four minutes; not among the tests
+    "dynamics": dynamics,
     "laws": laws,
     "loads": loads,
     "materials": materials,

@@ -22,7 +22,7 @@ SHORTER = {
 }
 # Where the normals of t_n need iterations in a step without load: surfaces that slide and are curved.
 CURVED = ("press_fit", "shallow_ironing", "ironing_3d")
-SKIPPED = {"torsion": "minutes; torsion_disc and ball_on_plane_friction are like it"}
+SKIPPED = {"torsion": "minutes; torsion_disc and ball_on_plane_friction are like it", "two_bars": "it moves on", "sliding_down": "it moves on"}
 
 
 def followed(scene):

@@ -116,6 +116,7 @@ PetscErrorCode heat_read(Scene *scene, Heat *heat)
   PetscInt                 coupling    = 0;
   PetscFunctionBegin;
   if (!scene_has(scene, "heat", "initial")) PetscFunctionReturn(PETSC_SUCCESS);
+  if (heat->physics->dynamics) scene_fail(scene, "heat", "initial", "not with `dynamics`: leave out one of them.");
   heat->on        = PETSC_TRUE;
   heat->tolerance = 1e-9;
   heat->most      = 50;

@@ -38,6 +38,11 @@ PetscErrorCode         summary_failed_attempt(Output *output, Summary *summary, 
 PetscErrorCode summary_settle_step(Output *output, Summary *summary, PetscBool accepted); /* the last one */
 PetscErrorCode summary_write(Output *output, Summary **summary, Vec last, PetscInt cutbacks, const char *message);
 
+/* energy.c: with `dynamics` */
+PetscErrorCode energy_begin(const Output *output);
+PetscErrorCode energy_report(const Output *output, PetscReal friction, struct cJSON *step);
+PetscErrorCode energy_settle(const Output *output);
+
 /* uniqueness.c: of a node with friction */
 PetscErrorCode uniqueness_check(Output *output, Vec x, struct cJSON *root);
 /* counters.c: what the run and each interface cost */

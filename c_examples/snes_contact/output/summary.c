@@ -82,6 +82,7 @@ PetscErrorCode summary_create(Output *output, Summary **out)
   summary->failed_attempts = cJSON_CreateArray();
   if (!output->quiet)
     PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s: %" PetscInt_FMT " unknowns\n", output->scene, unknowns));
+  PetscCall(energy_begin(output));
   *out = summary;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -291,6 +292,7 @@ PetscErrorCode summary_step(Output *output, Summary *summary, PetscInt step, Pet
   if (vtu) PetscCall(vtu_rigids(output, step));
   PetscCall(held_check(solve));
   cJSON_AddNumberToObject(json, "friction_work", friction_work);
+  PetscCall(energy_report(output, friction_work, json));
   PetscCall(VecDuplicate(physics->u_local, &summary->state));
   PetscCall(VecCopy(physics->u_local, summary->state));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -301,6 +303,7 @@ PetscErrorCode summary_settle_step(Output *output, Summary *summary, PetscBool a
   PetscFunctionBegin;
   if (accepted && !output->quiet) PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s\n", summary->progress));
   PetscCall(held_settle(output->solve, accepted));
+  if (accepted) PetscCall(energy_settle(output));
   if (accepted) PetscCall(range_check(output->physics, summary->state));
   PetscCall(VecDestroy(&summary->state));
   if (accepted) PetscFunctionReturn(PETSC_SUCCESS);

@@ -138,7 +138,7 @@ PetscErrorCode uniqueness_check(Output *output, Vec x, cJSON *root)
   PetscFunctionBegin;
   for (PetscInt i = 0; i < contact->n_interfaces; i++)
     needed = (PetscBool)(needed || contact->interfaces[i].options.mu > 0);
-  if (!needed) PetscFunctionReturn(PETSC_SUCCESS);
+  if (!needed || physics->dynamics) PetscFunctionReturn(PETSC_SUCCESS); /* states of rest */
   json = cJSON_AddObjectToObject(root, "several_states");
   PetscCall(unknowns_to_local(physics, x));
   for (PetscInt i = 0; i < contact->n_interfaces; i++)

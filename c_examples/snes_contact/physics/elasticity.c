@@ -125,6 +125,18 @@ PetscErrorCode cell_forces(CellKind kind, const Space *space, const Material *ma
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+PetscReal cell_energy(CellKind kind, const Space *space, const Material *material, const PetscReal X[], const PetscReal u[])
+{
+  const PetscBool is_mean = material->mean_dilatation;
+  Point           points[CELL_POINTS];
+  PetscInt        n_points;
+  PetscReal       mean, whole, energy = 0;
+  if (!strains(kind, space, material, X, u, points, &n_points, &mean, &whole)) return PETSC_INFINITY;
+  for (PetscInt q = 0; q < n_points; q++)
+    energy += points[q].weight * material->law->energy(material, points[q].H, is_mean ? mean : material->law->volume(points[q].H));
+  return energy;
+}
+
 void cell_centre_gradient(CellKind kind, const Space *space, const Material *material, const PetscReal X[],
                           const PetscReal u[], PetscReal H[9])
 {

@@ -10,6 +10,8 @@
  * `inverted`: det F <= 0 at a Gauss point, where a law of finite strain has no stress; f and K then mean nothing. */
 PetscErrorCode cell_forces(CellKind kind, const Space *space, const Material *material, const PetscReal X[],
                            const PetscReal u[], PetscReal f[], PetscReal K[], PetscBool *inverted);
+/* its strain energy; infinite where det F <= 0 */
+PetscReal      cell_energy(CellKind kind, const Space *space, const Material *material, const PetscReal X[], const PetscReal u[]);
 /* of the displacements, H = du/dX, with the strain across the plane */
 void           cell_centre_gradient(CellKind kind, const Space *space, const Material *material, const PetscReal X[],
                                     const PetscReal u[], PetscReal H[9]);

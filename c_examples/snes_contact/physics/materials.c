@@ -81,6 +81,14 @@ static void linear_stress(const Material *material, const PetscReal H[9], PetscR
   }
 }
 
+static PetscReal linear_energy(const Material *material, const PetscReal H[9], PetscReal v)
+{
+  PetscReal squares = 0;
+  for (int k = 0; k < 9; k++)
+    squares += PetscSqr(H[k] + H[3 * (k % 3) + k / 3]) / 4;
+  return shear_modulus(material) * squares + lame(material) * v * v / 2;
+}
+
 /* --- St. Venant and Kirchhoff: W = G E:E + lambda (tr E)^2 / 2 --- */
 static PetscReal green_trace(const PetscReal H[9])
 {
@@ -115,6 +123,15 @@ static void st_venant_kirchhoff_stress(const Material *material, const PetscReal
       }
     }
   }
+}
+
+static PetscReal st_venant_kirchhoff_energy(const Material *material, const PetscReal H[9], PetscReal v)
+{
+  PetscReal E[9], squares = 0;
+  green_strain(H, E);
+  for (int k = 0; k < 9; k++)
+    squares += E[k] * E[k];
+  return shear_modulus(material) * squares + lame(material) * v * v / 2;
 }
 
 /* --- compressible neo-Hooke: W = G (tr F^T F - 3) / 2 - G ln J + lambda (ln J)^2 / 2, J = det F = 1 + v --- */
@@ -159,11 +176,20 @@ static void neo_hooke_stress(const Material *material, const PetscReal H[9], Pet
   }
 }
 
-const MaterialLaw MATERIAL_LINEAR              = {"linear", PETSC_FALSE, trace, quadratic_pressure, linear_stress};
+static PetscReal neo_hooke_energy(const Material *material, const PetscReal H[9], PetscReal v)
+{
+  const PetscReal logarithm = log1p(volume_ratio_minus_one(H)), mean = log1p(v);
+  PetscReal       squares = 0;
+  for (int k = 0; k < 9; k++)
+    squares += H[k] * H[k];
+  return shear_modulus(material) * (trace(H) + squares / 2 - logarithm) + lame(material) * mean * mean / 2;
+}
+
+const MaterialLaw MATERIAL_LINEAR              = {"linear", PETSC_FALSE, trace, quadratic_pressure, linear_stress, linear_energy};
 const MaterialLaw MATERIAL_ST_VENANT_KIRCHHOFF = {"st_venant_kirchhoff", PETSC_TRUE, green_trace, quadratic_pressure,
-                                                  st_venant_kirchhoff_stress};
+                                                  st_venant_kirchhoff_stress, st_venant_kirchhoff_energy};
 const MaterialLaw MATERIAL_NEO_HOOKE           = {"neo_hooke", PETSC_TRUE, volume_ratio_minus_one, logarithmic_pressure,
-                                                  neo_hooke_stress};
+                                                  neo_hooke_stress, neo_hooke_energy};
 
 void cauchy_stress(const Material *material, const PetscReal H[9], const PetscReal P[9], PetscReal sigma[9])
 {

@@ -20,6 +20,7 @@ typedef struct {
    * unless NULL, A[9 (3i+J) + 3k+L] = dP_iJ/dH_kL at fixed p, plus dp V_iJ V_kL */
   void (*stress)(const Material *material, const PetscReal H[9], PetscReal p, PetscReal dp, PetscReal P[9],
                  PetscReal V[9], PetscReal A[81]);
+  PetscReal (*energy)(const Material *material, const PetscReal H[9], PetscReal v); /* W0(H) + U(v) */
 } MaterialLaw;
 
 struct Material {

@@ -143,7 +143,7 @@ PetscErrorCode parts_create(Physics *physics)
 
 /* Adds the squares of a local vector's displacement entries to each part's: those of prescribed ones to `prescribed`, of
  * the others to `free`; -1: not wanted. */
-static PetscErrorCode add_squares(Physics *physics, Vec local, int prescribed, int free)
+PetscErrorCode parts_add_squares(Physics *physics, Vec local, int prescribed, int free)
 {
   const Mesh        *mesh     = physics->mesh;
   Parts             *parts    = &physics->parts;
@@ -172,8 +172,8 @@ PetscErrorCode parts_measure(Physics *physics)
   Parts    *parts          = &physics->parts;
   PetscReal sum[N_SQUARES] = {0};
   PetscFunctionBegin;
-  PetscCall(add_squares(physics, physics->f_external, SQUARES_LOADS, SQUARES_LOADS));
-  PetscCall(add_squares(physics, physics->f_local, SQUARES_REACTIONS, SQUARES_RESIDUAL));
+  PetscCall(parts_add_squares(physics, physics->f_external, SQUARES_LOADS, SQUARES_LOADS));
+  PetscCall(parts_add_squares(physics, physics->f_local, SQUARES_REACTIONS, SQUARES_RESIDUAL));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, parts->squares, (PetscMPIInt)(N_SQUARES * parts->n), MPIU_REAL,
                              MPIU_SUM, PETSC_COMM_WORLD));
   for (PetscInt p = 0; p < parts->n; p++) {

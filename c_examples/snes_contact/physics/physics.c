@@ -1,5 +1,5 @@
 /* The end of what physics.h declares. */
-#include "physics/physics.h"
+#include "physics/dynamics.h"
 
 static PetscErrorCode destroy_unknowns(Unknowns *unknowns)
 {
@@ -36,6 +36,7 @@ PetscErrorCode physics_destroy(Physics *physics)
     PetscCall(VecDestroy(&physics->loads[l].forces));
   }
   PetscCall(rigids_destroy(physics));
+  PetscCall(dynamics_destroy(physics));
   PetscCall(PetscFree(physics->supports));
   PetscCall(PetscFree(physics->loads));
   PetscCall(PetscFree(physics->materials));

@@ -13,6 +13,7 @@
 #include <stickslip.h>
 
 struct cJSON;
+typedef struct Dynamics Dynamics; /* dynamics.h */
 
 /* x - origin = R (X - origin + factor(t) (value + given + gradient (X - origin))) in the components of the mask (bit i:
  * axis i); R turns about `rotate` by rotate_factor(t) |rotate| radians */
@@ -136,6 +137,7 @@ typedef struct {
   Vec       f_sum;                              /* local: work space of unknowns_sum() */
   char      inverted[256];                      /* which cell the last attempt at a step has turned inside out, or the like */
   PetscLogDouble seconds;                       /* in bulk_forces() and bulk_stiffness() */
+  Dynamics      *dynamics;                      /* NULL: statics */
 } Physics;
 
 /* material_scene.c */
@@ -217,6 +219,7 @@ PetscErrorCode bulk_pattern(Physics *physics, Mat matrix);                      
 PetscErrorCode parts_label(Physics *physics);
 PetscErrorCode parts_create(Physics *physics);
 PetscErrorCode parts_measure(Physics *physics);
+PetscErrorCode parts_add_squares(Physics *physics, Vec local, int prescribed, int free);
 void           parts_judge(const Physics *physics, PetscReal rtol, PetscReal atol, PetscBool flies, PetscBool *balance,
                            PetscBool *relative, PetscInt *drowned);
 void           parts_accept(Physics *physics);

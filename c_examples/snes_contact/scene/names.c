@@ -27,6 +27,7 @@ void scene_names(Scene *scene, const char *list, PetscInt *n, char ***names)
                                          "probes",
                                          "frame",
                                          "steps",
+                                         "dynamics",
                                          "output",
                                          "snes",
                                          "ksp",

@@ -25,8 +25,8 @@ static size_t distance(const char *a, const char *b)
 }
 
 /* The maps that every scene may have, the first N_OWN of them not PETSc's */
-static const char *const MAPS[] = {"frame", "steps", "output", "snes", "ksp", "pc", "mat"};
-enum { N_OWN = 3, N_MAPS = sizeof(MAPS) / sizeof(MAPS[0]) };
+static const char *const MAPS[] = {"frame", "steps", "output", "dynamics", "snes", "ksp", "pc", "mat"};
+enum { N_OWN = 4, N_MAPS = sizeof(MAPS) / sizeof(MAPS[0]) };
 
 /* The lists of names, which are no maps */
 static const char *const LISTS[] = {"bodies", "surfaces", "supports", "loads", "interfaces", "probes"};

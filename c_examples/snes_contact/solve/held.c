@@ -282,6 +282,8 @@ PetscErrorCode held_describe(const Solve *solve, char text[], size_t length)
   PetscBool *loose;
   char       free[1024];
   PetscFunctionBegin;
+  text[0] = 0;
+  if (solve->physics->dynamics) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PetscCalloc1(solve->physics->parts.n, &loose));
   PetscCall(by_supports(solve, loose, NULL, free, sizeof(free)));
   PetscCall(PetscSNPrintf(text, length, "%s%s%s", free[0] ? "By the supports " : "", free,
@@ -299,6 +301,7 @@ PetscErrorCode held_create(Solve *solve)
   PetscFunctionBegin;
   PetscCall(PetscCalloc1(solve->physics->parts.n, &solve->held.loose));
   solve->held.by_contact = cJSON_CreateObject();
+  if (solve->physics->dynamics) PetscFunctionReturn(PETSC_SUCCESS); /* inertia holds everything */
   PetscCall(by_supports(solve, solve->held.loose, solve->held.by_contact, text, sizeof(text)));
   if (text[0] && !solve->quiet)
     PetscCall(PetscPrintf(PETSC_COMM_WORLD, "note: by the supports %s; contact must hold that\n", text));

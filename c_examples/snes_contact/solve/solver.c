@@ -4,6 +4,7 @@
  * forces). When it is small enough: convergence.c. */
 #include "solve/solve.h"
 #include "solve/direct.h"
+#include "physics/dynamics.h"
 
 static PetscErrorCode residual(SNES snes, Vec x, Vec r, void *context)
 {
@@ -13,10 +14,10 @@ static PetscErrorCode residual(SNES snes, Vec x, Vec r, void *context)
 
   PetscFunctionBegin;
   PetscCall(unknowns_to_local(solve->physics, x));
-  if (loads_follow(solve->physics)) PetscCall(loads_values(solve->physics));
+  if (!solve->physics->dynamics && loads_follow(solve->physics)) PetscCall(loads_values(solve->physics));
   PetscCall(VecZeroEntries(solve->physics->f_local));
   PetscCall(PetscArrayzero(solve->physics->parts.squares, N_SQUARES * solve->physics->parts.n));
-  PetscCall(bulk_forces(solve->physics, solve->physics->f_local, &inverted));
+  PetscCall((solve->physics->dynamics ? dynamics_forces : bulk_forces)(solve->physics, solve->physics->f_local, &inverted));
   PetscCall(PetscTime(&start));
   if (!inverted) PetscCall(condensed_eliminate(solve->contact, x, &refused));
   if (solve->physics->rigid_refused) inverted = PETSC_TRUE; /* the attempt ends alike */
@@ -44,8 +45,12 @@ static PetscErrorCode tangent(SNES snes, Vec x, Mat J, Mat P, void *context)
   PetscFunctionBegin;
   PetscCall(unknowns_to_local(solve->physics, x));
   PetscCall(MatZeroEntries(P));
-  PetscCall(bulk_stiffness(solve->physics, P, &inverted));
-  PetscCall(loads_stiffness(solve->physics, P));
+  if (solve->physics->dynamics) {
+    PetscCall(dynamics_stiffness(solve->physics, P, &inverted));
+  } else {
+    PetscCall(bulk_stiffness(solve->physics, P, &inverted));
+    PetscCall(loads_stiffness(solve->physics, P));
+  }
   PetscCall(PetscTime(&start));
   PetscCall(contact_tangent(solve->contact, P, &refused));
   PetscCall(PetscTime(&end));

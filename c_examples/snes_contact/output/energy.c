@@ -1,0 +1,89 @@
+/* With `dynamics`: what the time integration keeps, in summary.json by step and as a row of energy.csv, the first one at t = 0. Work
+ * and losses are sums from then on. */
+#include "output/output.h"
+#include "physics/dynamics.h"
+#include <cjson/cJSON.h>
+
+/* In the order of the columns; `friction` is the part of what contact takes that the library counts as dissipation. */
+enum { KINETIC, STRAIN, EXTERNAL, SUPPORTS, CONTACT, FRICTION, DAMPING, NUMERICAL, N_SCALARS };
+static const char *const NAMES[N_SCALARS] = {"kinetic", "strain", "external_work", "support_work", "contact_work",
+                                             "friction_dissipation", "damping", "numerical"};
+
+static void collect(const Dynamics *dynamics, const Balance *balance, PetscReal friction, PetscReal values[N_SCALARS])
+{
+  const Balance *start = &dynamics->start;
+  values[KINETIC]  = balance->kinetic;
+  values[STRAIN]   = balance->strain;
+  values[EXTERNAL] = balance->external;
+  values[SUPPORTS] = balance->supports;
+  values[CONTACT]  = balance->contact;
+  values[FRICTION] = friction;
+  values[DAMPING]  = balance->damping;
+  /* what has come from nowhere: by rho_inf below 1, or finite strain */
+  values[NUMERICAL] = (balance->kinetic - start->kinetic) + (balance->strain - start->strain) - balance->external - balance->supports -
+                      balance->contact + balance->damping;
+}
+
+static PetscErrorCode write_row(const Output *output, PetscReal t, const Balance *balance, PetscReal friction, PetscBool first)
+{
+  PetscReal values[N_SCALARS];
+  char      path[PETSC_MAX_PATH_LEN];
+  FILE     *file;
+  PetscFunctionBegin;
+  if (output->mesh->rank) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PetscSNPrintf(path, sizeof(path), "%s/energy.csv", output->directory));
+  file = fopen(path, first ? "w" : "a");
+  PetscCheck(file, PETSC_COMM_SELF, PETSC_ERR_FILE_OPEN, "cannot write '%s'", path);
+  if (first) {
+    fprintf(file, "t");
+    for (int k = 0; k < N_SCALARS; k++)
+      fprintf(file, ",%s", NAMES[k]);
+    fprintf(file, ",momentum_x,momentum_y,momentum_z,angular_x,angular_y,angular_z\n");
+  }
+  collect(output->physics->dynamics, balance, friction, values);
+  fprintf(file, "%.17g", (double)t);
+  for (int k = 0; k < N_SCALARS; k++)
+    fprintf(file, ",%.17g", (double)values[k]);
+  for (int i = 0; i < 6; i++)
+    fprintf(file, ",%.17g", (double)(i < 3 ? balance->momentum[i] : balance->angular[i - 3]));
+  fprintf(file, "\n");
+  fclose(file);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode energy_begin(const Output *output)
+{
+  PetscFunctionBegin;
+  if (output->physics->dynamics) PetscCall(write_row(output, 0, &output->physics->dynamics->start, 0, PETSC_TRUE));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Of a converged step, before it is committed. `friction`: up to here, on rank 0 */
+PetscErrorCode energy_report(const Output *output, PetscReal friction, cJSON *step)
+{
+  const Dynamics *dynamics = output->physics->dynamics;
+  PetscReal       values[N_SCALARS];
+  cJSON          *json;
+  PetscFunctionBegin;
+  if (!dynamics) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(dynamics_measure(output->physics));
+  json = cJSON_AddObjectToObject(step, "energy");
+  collect(dynamics, &dynamics->now, friction, values);
+  for (int k = 0; k < N_SCALARS; k++)
+    cJSON_AddNumberToObject(json, NAMES[k], values[k]);
+  cJSON_AddItemToObject(step, "momentum", cJSON_CreateDoubleArray(dynamics->now.momentum, 3));
+  cJSON_AddItemToObject(step, "angular_momentum", cJSON_CreateDoubleArray(dynamics->now.angular, 3));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The step is accepted. */
+PetscErrorCode energy_settle(const Output *output)
+{
+  PetscReal friction = 0;
+  PetscFunctionBegin;
+  if (!output->physics->dynamics) PetscFunctionReturn(PETSC_SUCCESS);
+  for (PetscInt i = 0; i < output->contact->n_interfaces; i++)
+    friction += output->contact->interfaces[i].friction_work;
+  PetscCall(write_row(output, output->physics->t, &output->physics->dynamics->now, friction, PETSC_FALSE));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

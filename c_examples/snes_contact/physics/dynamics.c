@@ -1,0 +1,192 @@
+/* A step of the generalised-alpha scheme (Chung and Hulbert 1993) with contact forces at its end (Kane, Repetto, Ortiz and Marsden
+ * 1999). With s for all forces but those of contact, s = F - f(u) - C v, and A = M a, where a is the acceleration by s alone:
+ *
+ *   (1 - alpha_m) A' + alpha_m A = s(t_a, u_a, v_a)                                      at u_a = (1 - alpha_f) u' + alpha_f u
+ *   u' = u + dt v + dt^2 ((1/2 - beta) a + beta a' + 1/2 M^-1 r)
+ *   v' = v + dt ((1 - gamma) a + gamma a' + M^-1 r)                                      r: contact forces at u'
+ *
+ * where a prime is the end of the step. Without a' this is, over kappa = (1 - alpha_m) / (2 beta), the residual
+ *
+ *   (2 / dt^2) M (u' - u - dt v) + (alpha_m / kappa - 1 + 2 beta) A - s / kappa - r = 0
+ *
+ * and v' = 2 (u' - u) / dt - v + (gamma - 2 beta) dt (a' - a). With rho_inf = 1 all terms of accelerations vanish: the midpoint rule.
+ * Why energy does not grow then: docs/dynamics.md. Damping takes the velocity without its last term.
+ *
+ * Where displacements are prescribed v' = (u' - u) / dt, and the inertia is M (v' - v) / dt. */
+#include "physics/dynamics.h"
+
+/* How many roundings meet in an inertial force: of a place, and of the sum over a cell. */
+static const PetscReal ROUNDINGS = 2;
+
+static void swap(Vec *a, Vec *b)
+{
+  const Vec kept = *a;
+  *a             = *b;
+  *b             = kept;
+}
+
+/* Velocity that damping takes, at the time of the forces */
+static PetscReal velocity(const Dynamics *d, char entry, PetscReal moved, PetscReal v)
+{
+  const PetscReal end = entry == MASS_FREE ? 2 * moved / d->dt - v : moved / d->dt;
+  return (1 - d->alpha_f) * end + d->alpha_f * v;
+}
+
+/* `middle`: the place of the forces, with `ahead` times the velocity there */
+static PetscErrorCode set_middle(Physics *physics, PetscReal ahead)
+{
+  Dynamics          *d = physics->dynamics;
+  const PetscScalar *now, *u, *v;
+  PetscScalar       *middle;
+  PetscFunctionBegin;
+  PetscCall(VecGetArrayRead(physics->u_local, &now));
+  PetscCall(VecGetArrayRead(d->u, &u));
+  PetscCall(VecGetArrayRead(d->v, &v));
+  PetscCall(VecGetArray(d->middle, &middle));
+  for (PetscInt k = 0; k < physics->unknowns.n_local; k++) {
+    middle[k] = u[k] + (1 - d->alpha_f) * (now[k] - u[k]);
+    if (ahead > 0 && d->entries[k]) middle[k] += ahead * velocity(d, d->entries[k], now[k] - u[k], v[k]);
+  }
+  PetscCall(VecRestoreArray(d->middle, &middle));
+  PetscCall(VecRestoreArrayRead(d->v, &v));
+  PetscCall(VecRestoreArrayRead(d->u, &u));
+  PetscCall(VecRestoreArrayRead(physics->u_local, &now));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Loads of the middle of the step, over kappa, into f_external; the place is u_local for now. */
+static PetscErrorCode set_loads(Physics *physics)
+{
+  const Dynamics *d = physics->dynamics;
+  const PetscReal t = physics->t;
+  PetscFunctionBegin;
+  physics->t = d->t_n + (1 - d->alpha_f) * d->dt;
+  PetscCall(loads_values(physics));
+  physics->t = t;
+  PetscCall(VecScale(physics->f_external, 1 / d->scale));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode dynamics_begin(Physics *physics)
+{
+  Dynamics          *d = physics->dynamics;
+  const PetscScalar *v;
+  PetscScalar       *impulse;
+  PetscFunctionBegin;
+  d->dt = physics->t - d->t_n;
+  PetscCall(VecZeroEntries(d->impulse));
+  PetscCall(VecGetArrayRead(d->v, &v));
+  PetscCall(VecGetArray(d->impulse, &impulse));
+  mass_multiply(physics, v, 2 / d->dt, impulse);
+  PetscCall(VecRestoreArray(d->impulse, &impulse));
+  PetscCall(VecRestoreArrayRead(d->v, &v));
+  PetscCall(set_loads(physics));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* The last digit of a place, times the largest mass of its cell, over dt^2, to the squares of the parts. */
+static void add_rounding(Physics *physics, const PetscScalar *u)
+{
+  const Cells    *cells = &physics->cells;
+  const Dynamics *d     = physics->dynamics;
+  for (PetscInt c = 0; c < cells->n; c++) {
+    const PetscInt n = cells->offsets[c + 1] - cells->offsets[c], *dofs = cells->dofs + cells->offsets[c];
+    PetscReal      largest = 0, mass = 0;
+    if (d->first[c] < 0) continue;
+    for (PetscInt a = 0; a < n; a++) {
+      mass = PetscMax(mass, d->mass[d->first[c] + (n + 1) * a]);
+      for (int i = 0; i < 3; i++)
+        largest = PetscMax(largest, PetscAbsScalar(u[dofs[a] + i]));
+    }
+    physics->parts.squares[N_SQUARES * cells->part[c] + SQUARES_ROUNDING] +=
+        (PetscReal)n * PetscSqr(ROUNDINGS * PETSC_MACHINE_EPSILON * largest * mass * 2 / PetscSqr(d->dt));
+  }
+}
+
+/* Inertia and the damping by masses, at u_local */
+static PetscErrorCode add_inertia(Physics *physics, Vec f_local)
+{
+  Dynamics          *d = physics->dynamics;
+  const PetscScalar *now, *u, *v;
+  PetscScalar       *w, *f;
+  PetscFunctionBegin;
+  PetscCall(VecGetArrayRead(physics->u_local, &now));
+  PetscCall(VecGetArrayRead(d->u, &u));
+  PetscCall(VecGetArrayRead(d->v, &v));
+  PetscCall(VecGetArray(d->work, &w));
+  PetscCall(VecGetArray(f_local, &f));
+  for (PetscInt k = 0; k < physics->unknowns.n_local; k++) {
+    const PetscReal moved = now[k] - u[k];
+    w[k] = 0;
+    if (!d->entries[k]) continue;
+    w[k] = (d->entries[k] == MASS_FREE ? 2 : 1) * (moved / d->dt - v[k]) / d->dt;
+    if (d->mass_damping > 0) w[k] += d->mass_damping / d->scale * velocity(d, d->entries[k], moved, v[k]);
+  }
+  mass_multiply(physics, w, 1, f);
+  add_rounding(physics, now);
+  PetscCall(VecRestoreArray(f_local, &f));
+  PetscCall(VecRestoreArray(d->work, &w));
+  PetscCall(VecRestoreArrayRead(d->v, &v));
+  PetscCall(VecRestoreArrayRead(d->u, &u));
+  PetscCall(VecRestoreArrayRead(physics->u_local, &now));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* All forces but those of contact and loads, which are in f_external. f_local is zero before. */
+PetscErrorCode dynamics_forces(Physics *physics, Vec f_local, PetscInt *status)
+{
+  Dynamics *d = physics->dynamics;
+  PetscFunctionBegin;
+  if (loads_follow(physics)) {
+    PetscCall(set_middle(physics, 0));
+    swap(&physics->u_local, &d->middle);
+    PetscCall(set_loads(physics));
+    swap(&physics->u_local, &d->middle);
+  }
+  PetscCall(set_middle(physics, d->stiffness_damping)); /* a linear body: f(u) + b f(v) = f(u + b v) */
+  swap(&physics->u_local, &d->middle);
+  PetscCall(bulk_forces(physics, f_local, status));
+  swap(&physics->u_local, &d->middle);
+  PetscCall(VecScale(f_local, 1 / d->scale));
+  PetscCall(add_inertia(physics, f_local));
+  if (d->rho_inf < 1) PetscCall(VecAXPY(f_local, d->alpha_m / d->scale - 1 + 2 * d->beta, d->force));
+  PetscCall(VecCopy(f_local, d->smooth));
+  PetscCall(parts_add_squares(physics, d->impulse, -1, SQUARES_REACTIONS));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode assemble(Mat matrix)
+{
+  PetscFunctionBegin;
+  PetscCall(MatAssemblyBegin(matrix, MAT_FINAL_ASSEMBLY));
+  PetscCall(MatAssemblyEnd(matrix, MAT_FINAL_ASSEMBLY));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Their derivatives by u', and what followers differ by, into a matrix that is zero. */
+PetscErrorCode dynamics_stiffness(Physics *physics, Mat matrix, PetscInt *status)
+{
+  Dynamics       *d    = physics->dynamics;
+  const PetscReal here = (1 - d->alpha_f) / d->scale;
+  PetscFunctionBegin;
+  PetscCall(set_middle(physics, d->stiffness_damping));
+  swap(&physics->u_local, &d->middle);
+  PetscCall(bulk_stiffness(physics, matrix, status));
+  swap(&physics->u_local, &d->middle);
+  PetscCall(assemble(matrix));
+  PetscCall(MatScale(matrix, here * (1 + 2 * d->stiffness_damping / d->dt)));
+  if (loads_follow(physics)) {
+    const PetscReal t = physics->t;
+    PetscCall(MatScale(matrix, 1 / here));
+    PetscCall(set_middle(physics, 0));
+    physics->t = d->t_n + (1 - d->alpha_f) * d->dt;
+    swap(&physics->u_local, &d->middle);
+    PetscCall(loads_stiffness(physics, matrix));
+    swap(&physics->u_local, &d->middle);
+    physics->t = t;
+    PetscCall(assemble(matrix));
+    PetscCall(MatScale(matrix, here));
+  }
+  PetscCall(mass_insert(physics, 2 / PetscSqr(d->dt) + 2 / d->dt * here * d->mass_damping, matrix));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

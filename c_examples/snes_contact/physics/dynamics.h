@@ -1,0 +1,59 @@
+/* Implicit dynamics, `dynamics` in a scene: inertia, damping and the time integration of the bodies (docs/dynamics.md).
+ *
+ * PETSc's TSALPHA2 is not used: it evaluates all forces at the middle of a step, where contact would neither end a step with closed
+ * gaps nor be unable to give energy, and its stages know nothing of Newton's attempts, of a commit that the library refuses and
+ * of a step that is taken back for that. Here the same scheme is a residual and a tangent in the driver's own steps. */
+#ifndef SNES_CONTACT_DYNAMICS_H
+#define SNES_CONTACT_DYNAMICS_H
+#include "physics/physics.h"
+#include <petscksp.h>
+
+/* At the end of a step; what has done work has done so since t = 0, on the bodies that have mass. */
+typedef struct {
+  PetscReal kinetic, strain;
+  PetscReal external, supports, contact; /* work of loads, supports, contact */
+  PetscReal damping;                     /* energy that is gone by it */
+  PetscReal momentum[3], angular[3];     /* the latter about the origin */
+} Balance;
+
+struct Dynamics {
+  PetscReal rho_inf, alpha_m, alpha_f, beta, gamma;
+  PetscReal scale; /* kappa: the residual is divided by it, so that contact forces are what the library says */
+  PetscReal mass_damping, stiffness_damping;
+  PetscReal *velocity; /* of each body at t = 0: velocity, spin, the point that it turns about; 9 numbers */
+  PetscReal  t_n, dt;
+  /* of this rank's cells: where the n x n masses of each begin, of one without mass a negative number */
+  PetscInt  *first;
+  PetscReal *mass;
+  char      *entries; /* of a local vector, MASS_... */
+  /* local vectors: at t_n displacements, velocities, M times accelerations without those of contact, accelerations where they are
+   * prescribed */
+  Vec     u, v, force, prescribed;
+  Vec     v_next, force_next, prescribed_next; /* the same at the end of the step, by dynamics_measure() */
+  Vec     middle, work, smooth, impulse; /* the place of the forces; work space; forces but those of contact; 2 M v / dt */
+  Balance start, last, now;
+  Mat     matrix; /* of the masses, and what solves with it; NULL where rho_inf is 1 */
+  KSP     solver;
+};
+
+enum { MASS_NONE, MASS_FREE, MASS_PRESCRIBED };
+
+/* dynamics_scene.c */
+PetscErrorCode dynamics_read(Scene *scene, Physics *physics);
+/* dynamics_state.c: after bulk_create() and loads_assemble(); a step from t_n is accepted */
+PetscErrorCode dynamics_create(Physics *physics);
+PetscErrorCode dynamics_accept(Physics *physics);
+PetscErrorCode dynamics_destroy(Physics *physics);
+/* dynamics.c: at the start of a step to physics->t; then in place of bulk_forces(), bulk_stiffness() and the loads */
+PetscErrorCode dynamics_begin(Physics *physics);
+PetscErrorCode dynamics_forces(Physics *physics, Vec f_local, PetscInt *status);
+PetscErrorCode dynamics_stiffness(Physics *physics, Mat matrix, PetscInt *status);
+/* dynamics_balance.c: at a converged state, before the step is accepted; `f_local` of the last evaluation */
+PetscErrorCode dynamics_measure(Physics *physics);
+PetscErrorCode dynamics_energies(Physics *physics, Vec u, Vec v, Balance *balance);
+/* mass.c: f += factor M v, of the cells here; the matrix of the equations, and what solves with it */
+PetscErrorCode mass_create(Physics *physics);
+void           mass_multiply(const Physics *physics, const PetscScalar *v, PetscReal factor, PetscScalar *f);
+PetscErrorCode mass_insert(const Physics *physics, PetscReal factor, Mat matrix);
+PetscErrorCode mass_matrix(Physics *physics);
+#endif

@@ -1,0 +1,81 @@
+/* `dynamics` of a scene, and how its bodies move at the start. */
+#include "physics/dynamics.h"
+
+/* velocity, spin, the point that it turns about */
+enum { NUMBERS = 9 };
+
+static void read_motion(Scene *scene, Physics *physics, const char *body, PetscReal motion[NUMBERS])
+{
+  const Mesh     *mesh  = physics->mesh;
+  const PetscBool moves = space_vector(scene, &mesh->space, body, "velocity", motion), spins = space_turn(scene, &mesh->space, body, "spin", motion + 3);
+  const PetscBool about = space_vector(scene, &mesh->space, body, "about", motion + 6);
+  if (about && !spins) scene_fail(scene, body, "about", "only of `spin`: the point that the body turns about at the start.");
+  if ((moves || spins) && !physics->dynamics)
+    scene_fail(scene, body, moves ? "velocity" : "spin", "only with `dynamics`: a body at rest has none.");
+  if (mesh->space.kind == SPACE_AXISYMMETRIC && motion[0] != 0)
+    scene_fail(scene, body, "velocity", "a ring moves along its axis, y: [0, %g].", (double)motion[1]);
+  for (int k = 0; k < NUMBERS; k += 3)
+    mesh_rotate_vector(mesh, motion + k);
+}
+
+/* Bodies that have mass, or need none. */
+static void check_body(Scene *scene, const Physics *physics, PetscInt b)
+{
+  const Body     *body     = &physics->mesh->bodies[b];
+  const Material *material = &physics->materials[b];
+  if (body->rigid || body->analytic) return;
+  if (!(material->density > 0)) scene_fail(scene, body->name, "density", "this key is missing, which `dynamics` asks for.");
+  if (physics->dynamics->stiffness_damping > 0 && material->law->finite)
+    scene_fail(scene, "dynamics", "stiffness_damping",
+               "'%s' has a material of finite strain, whose turns such a damping would brake: leave it out, or give rho_inf below 1.",
+               body->name);
+}
+
+static void read_scheme(Scene *scene, Dynamics *dynamics)
+{
+  static const char *const damping[] = {"mass_damping", "stiffness_damping"};
+  PetscReal *const         values[]  = {&dynamics->mass_damping, &dynamics->stiffness_damping};
+  const PetscReal          rho       = dynamics->rho_inf;
+  if (!(rho >= 0 && rho <= 1)) scene_fail(scene, "dynamics", "rho_inf", "it lies between 0 and 1, not %g.", (double)rho);
+  for (int k = 0; k < 2; k++) {
+    scene_real(scene, "dynamics", damping[k], values[k]);
+    if (!(*values[k] >= 0)) scene_fail(scene, "dynamics", damping[k], "it cannot be negative, as %g is.", (double)*values[k]);
+  }
+  dynamics->alpha_m = (2 * rho - 1) / (rho + 1);
+  dynamics->alpha_f = rho / (rho + 1);
+  dynamics->gamma   = 0.5 - dynamics->alpha_m + dynamics->alpha_f;
+  dynamics->beta    = PetscSqr(1 - dynamics->alpha_m + dynamics->alpha_f) / 4;
+  dynamics->scale   = (1 - dynamics->alpha_m) / (2 * dynamics->beta);
+}
+
+/* Once supports are read: what is free is known. */
+PetscErrorCode dynamics_read(Scene *scene, Physics *physics)
+{
+  const Mesh  *mesh = physics->mesh;
+  PetscReal    rho  = 1, *motions;
+  PetscBool    named = scene_has(scene, "dynamics", "rho_inf");
+  PetscFunctionBegin;
+  scene_real(scene, "dynamics", "rho_inf", &rho);
+  if (!named && (scene_has(scene, "dynamics", "mass_damping") || scene_has(scene, "dynamics", "stiffness_damping")))
+    scene_fail(scene, "dynamics", "rho_inf", "this key is missing: 1 for a scheme that keeps the energy.");
+  PetscCall(PetscCalloc1(NUMBERS * mesh->n_bodies, &motions));
+  if (named) {
+    PetscCall(PetscNew(&physics->dynamics));
+    physics->dynamics->rho_inf  = rho;
+    physics->dynamics->velocity = motions;
+    read_scheme(scene, physics->dynamics);
+  }
+  for (PetscInt b = 0; b < mesh->n_bodies; b++) {
+    const Body *body = &mesh->bodies[b];
+    if (!body->rigid && !body->analytic) read_motion(scene, physics, body->name, motions + NUMBERS * b);
+    if (named) check_body(scene, physics, b);
+  }
+  for (PetscInt r = 0; r < physics->n_rigids && named; r++) {
+    if (physics->rigids[r].held != (1 << RIGID_UNKNOWNS) - 1)
+      scene_fail(scene, mesh->bodies[physics->rigids[r].body].name, "type",
+                 "it is rigid and not held: `dynamics` has no inertia of rigid bodies. Prescribe all that it can do by supports, or "
+                 "mesh it.");
+  }
+  if (!named) PetscCall(PetscFree(motions));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

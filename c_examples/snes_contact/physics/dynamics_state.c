@@ -1,0 +1,122 @@
+/* What the time integration remembers from step to step: displacements, velocities, smooth forces, balance. An attempt changes none of
+ * it; the end of the step is computed beside it (dynamics_balance.c) and put in place when the step is accepted. */
+#include "physics/dynamics.h"
+
+/* Velocities at t = 0, of the nodes that have mass. */
+static PetscErrorCode start(Physics *physics)
+{
+  const Cells *cells = &physics->cells;
+  Dynamics    *d     = physics->dynamics;
+  PetscScalar *v;
+  PetscFunctionBegin;
+  PetscCall(VecGetArray(d->v, &v));
+  for (PetscInt c = 0; c < cells->n; c++) {
+    const PetscReal *motion = d->velocity + 9 * cells->body[c], *spin = motion + 3;
+    if (d->first[c] < 0) continue;
+    for (PetscInt k = cells->offsets[c]; k < cells->offsets[c + 1]; k++) {
+      PetscReal arm[3];
+      for (int i = 0; i < 3; i++)
+        arm[i] = cells->X[3 * k + i] - motion[6 + i];
+      for (int i = 0; i < 3; i++)
+        v[cells->dofs[k] + i] = motion[i] + spin[(i + 1) % 3] * arm[(i + 2) % 3] - spin[(i + 2) % 3] * arm[(i + 1) % 3];
+    }
+  }
+  PetscCall(VecRestoreArray(d->v, &v));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* M a at t = 0: loads and damping; no body is strained. Contact has no part in it. */
+static PetscErrorCode first_force(Physics *physics)
+{
+  Dynamics          *d    = physics->dynamics;
+  const Vec          kept = physics->u_local;
+  const PetscScalar *v;
+  PetscScalar       *f;
+  PetscInt           status;
+  PetscFunctionBegin;
+  PetscCall(VecZeroEntries(d->force));
+  PetscCall(VecZeroEntries(d->middle));
+  physics->u_local = d->middle;
+  PetscCall(loads_values(physics));
+  if (d->stiffness_damping > 0) {
+    PetscCall(VecAXPY(d->middle, d->stiffness_damping, d->v));
+    PetscCall(bulk_forces(physics, d->force, &status)); /* linear bodies: nothing is turned inside out */
+  }
+  physics->u_local = kept;
+  PetscCall(VecGetArrayRead(d->v, &v));
+  PetscCall(VecGetArray(d->force, &f));
+  mass_multiply(physics, v, d->mass_damping, f);
+  PetscCall(VecRestoreArray(d->force, &f));
+  PetscCall(VecRestoreArrayRead(d->v, &v));
+  PetscCall(VecAYPX(d->force, -1, physics->f_external));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode dynamics_create(Physics *physics)
+{
+  Dynamics *d = physics->dynamics;
+  PetscFunctionBegin;
+  if (!d) PetscFunctionReturn(PETSC_SUCCESS);
+  {
+    Vec *const vectors[] = {&d->u, &d->v, &d->force, &d->prescribed, &d->v_next, &d->force_next, &d->prescribed_next,
+                            &d->middle, &d->work, &d->smooth, &d->impulse};
+    for (size_t k = 0; k < sizeof(vectors) / sizeof(vectors[0]); k++) {
+      PetscCall(VecDuplicate(physics->u_local, vectors[k]));
+      PetscCall(VecZeroEntries(*vectors[k]));
+    }
+  }
+  PetscCall(mass_create(physics));
+  PetscCall(supports_values(physics, 0));
+  PetscCall(VecCopy(physics->prescribed_local, d->u));
+  PetscCall(start(physics));
+  if (d->rho_inf < 1) {
+    PetscCall(mass_matrix(physics));
+    PetscCall(first_force(physics));
+  }
+  PetscCall(dynamics_energies(physics, d->u, d->v, &d->last));
+  d->start = d->last;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static void swap(Vec *a, Vec *b)
+{
+  const Vec kept = *a;
+  *a             = *b;
+  *b             = kept;
+}
+
+/* The step to physics->t, u_local */
+PetscErrorCode dynamics_accept(Physics *physics)
+{
+  Dynamics *d = physics->dynamics;
+  PetscFunctionBegin;
+  if (!d) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(VecCopy(physics->u_local, d->u));
+  swap(&d->v, &d->v_next);
+  swap(&d->force, &d->force_next);
+  swap(&d->prescribed, &d->prescribed_next);
+  d->last = d->now;
+  d->t_n  = physics->t;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode dynamics_destroy(Physics *physics)
+{
+  Dynamics *d = physics->dynamics;
+  PetscFunctionBegin;
+  if (!d) PetscFunctionReturn(PETSC_SUCCESS);
+  {
+    Vec *const vectors[] = {&d->u, &d->v, &d->force, &d->prescribed, &d->v_next, &d->force_next, &d->prescribed_next,
+                            &d->middle, &d->work, &d->smooth, &d->impulse};
+    for (size_t k = 0; k < sizeof(vectors) / sizeof(vectors[0]); k++)
+      PetscCall(VecDestroy(vectors[k]));
+  }
+  PetscCall(MatDestroy(&d->matrix));
+  PetscCall(KSPDestroy(&d->solver));
+  PetscCall(PetscFree(d->velocity));
+  PetscCall(PetscFree(d->first));
+  PetscCall(PetscFree(d->mass));
+  PetscCall(PetscFree(d->entries));
+  PetscCall(PetscFree(physics->dynamics));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

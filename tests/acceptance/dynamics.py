@@ -1,0 +1,256 @@
+"""Implicit dynamics: masses of every kind of cell, free flight and turns, orders of convergence, energy in impacts, two bars against the
+closed form, a block on an incline, the tangent against differences, ranks and solvers, rollback, refusals."""
+
+import csv
+import math
+
+import numpy as np
+
+from jacobian import JACOBIAN_BOUND, worst
+from scene import write
+
+# What a step adds to the energy where nothing loads the bodies, over all of it: the issue's bound; rounding is 1e-13.
+ENERGY_BOUND = 1e-8
+# Newton's tolerance is 1e-11 of the forces, and 40 steps add up.
+EXACT_BOUND = 1e-9
+# Bars: a contact lasts from 2 L / c on, with rho c v; the mass of the nodes that meet is half a cell's, 1 % of a bar.
+BAR_BOUND = 0.02
+INCLINE_BOUND = 1e-6
+# Of an observed order, on three halvings.
+ORDER_BOUND = 0.1
+# The same run in another way.
+SAME_BOUND = 1e-9
+# A turn of one radian in 20 steps: the midpoint rule keeps the moment of momentum of any material.
+TURN_BOUND = 1e-9
+
+ELASTIC = {"young": 1000, "poisson": 0.3, "density": 2}
+
+
+def dynamics(verdicts, driver):
+    driver.output.mkdir(parents=True, exist_ok=True)
+    flight(verdicts, driver)
+    turn(verdicts, driver)
+    orders(verdicts, driver)
+    bars(verdicts, driver)
+    bounces(verdicts, driver)
+    incline(verdicts, driver)
+    tangents(verdicts, driver)
+    rolled_back(verdicts, driver)
+    refused(verdicts, driver)
+
+
+def run(driver, name, scene, *options, **more):
+    return driver.run(write(scene, driver.output / f"{name}.yaml"), *options, label=more.pop("label", name), **more)
+
+
+def energy(result):
+    """energy.csv: columns by name."""
+    with open(result.directory / "energy.csv", newline="") as file:
+        rows = list(csv.DictReader(file))
+    return {key: np.array([float(row[key]) for row in rows]) for key in rows[0]}
+
+
+def total(table):
+    return table["kinetic"] + table["strain"]
+
+
+def growth(table):
+    """The largest growth in a step, over the energy at the start."""
+    e = total(table)
+    return np.diff(e).max() / e[0]
+
+
+# --- without contact ----------------------------------------------------------------------------------------------------
+SOLIDS = ("hex", "tet", "tet10", "hex20", "hex27")
+PLANES = ("quad", "tri", "tri6", "quad8", "quad9")
+
+
+def flight(verdicts, driver):
+    """A body thrown up: mass, momentum, and a parabola that the scheme follows exactly."""
+    cases = [(kind, "solid", 3) for kind in SOLIDS]
+    cases += [(kind, model, 2) for model in ("plane_strain", "plane_stress", "axisymmetric") for kind in PLANES]
+    for kind, model, d in cases:
+        name = f"{kind}, {model}"
+        low, high = [0.5, 0, 0][:d], [1.5, 1, 1][:d]
+        thrown, gravity = ([0, 2, 0][:d] if d == 2 else [1, 2, 3]), ([0, -10] if d == 2 else [0, 0, -10])
+        scene = {"schema": 1, "model": model, "bodies": ["block"], "dynamics": {"rho_inf": 0.8},
+                 "block": {"type": "box", "lower": low, "upper": high, "cells": [2] * d, "cell": kind, **ELASTIC, "velocity": thrown},
+                 "loads": ["weight"], "weight": {"body": "block", "gravity": gravity, "curve": [0, 1, 1, 1]},
+                 "steps": {"count": 10}, "probes": ["corner"], "corner": {"body": "block", "point": low}, "output": {"vtu": "none"}}
+        result = run(driver, "flight", scene, label="flight_" + name.replace(" ", "_").replace(",", ""))
+        table = energy(result)
+        mass = 2 * (math.pi * (1.5**2 - 0.5**2) if model == "axisymmetric" else 1)
+        there = np.array(result.steps[-1]["probes"]["corner"])[:d]
+        verdicts.below(f"flight, {name}: momentum at the start", abs(table["momentum_y"][0] / (2 * mass) - 1), EXACT_BOUND, "mass times velocity")
+        if model != "axisymmetric" or kind.startswith("quad"):
+            verdicts.below(f"flight, {name}: place", np.abs(there - (np.array(thrown) + np.array(gravity) / 2)).max(), EXACT_BOUND, "v t + g t^2 / 2")
+            verdicts.below(f"flight, {name}: energy", np.abs(table["numerical"]).max() / total(table)[0], EXACT_BOUND, "that of the throw and of the weight")
+
+
+def turn(verdicts, driver):
+    """A body of finite strain that turns by a radian: the midpoint rule keeps its moment of momentum."""
+    scene = {"schema": 1, "bodies": ["block"], "dynamics": {"rho_inf": 1},
+             "block": {"type": "box", "lower": [-1, -0.5, -0.5], "upper": [1, 0.5, 0.5], "cells": [4, 2, 2], **ELASTIC, "material": "neo_hooke",
+                       "spin": [0.2, 0.3, 1], "velocity": [1, 0, 0]},
+             "steps": {"count": 20}, "output": {"vtu": "none"}}
+    table = energy(run(driver, "turn", scene))
+    for kind, scale in (("momentum", 4), ("angular", 2)):
+        change = max(np.abs(table[f"{kind}_{axis}"] - table[f"{kind}_{axis}"][0]).max() for axis in "xyz")
+        verdicts.below(f"turn: {kind}", change / scale, TURN_BOUND, "kept")
+    verdicts.below("turn: energy", np.abs(total(table) / total(table)[0] - 1).max(), 1e-2, "of finite strain not exact, and bounded")
+
+
+def orders(verdicts, driver):
+    """A clamped bar under a load that changes in time, with one end moved: displacement and velocity at the end, on four steps."""
+    curve = [value for k in range(33) for value in (k / 32, math.sin(3 * k / 32) ** 2)]
+    scene = {"schema": 1, "bodies": ["bar"], "bar": {"type": "box", "lower": [0, 0, 0], "upper": [1, 0.2, 0.2], "cells": [4, 1, 1], "young": 4, "poisson": 0.3, "density": 1},
+             "dynamics": {"rho_inf": 1}, "supports": ["clamp"], "clamp": {"surface": "bar.xmin", "components": ["x", "y", "z"]},
+             "loads": ["pull"], "pull": {"surface": "bar.xmax", "traction": [0.3, 0.1, 0], "curve": curve}, "steps": {"count": 32},
+             "probes": ["tip"], "tip": {"body": "bar", "point": [1, 0, 0]}, "output": {"vtu": "none"}}
+    for label, options in {"rho_inf 1": (), "rho_inf 0.8": ("-dynamics_rho_inf", "0.8"), "rho_inf 0": ("-dynamics_rho_inf", "0"),
+                           "damped": ("-dynamics_stiffness_damping", "0.05", "-dynamics_mass_damping", "0.3"),
+                           "damped, rho_inf 0.5": ("-dynamics_rho_inf", "0.5", "-dynamics_stiffness_damping", "0.05", "-dynamics_mass_damping", "0.3")}.items():
+        ends = []
+        for n in (32, 64, 128, 256):
+            result = run(driver, "orders", scene, "-steps_count", str(n), *options, label=f"orders_{label.replace(' ', '_').replace(',', '')}_{n}")
+            table = energy(result)
+            ends.append(np.array([*result.steps[-1]["probes"]["tip"], *(table[f"momentum_{axis}"][-1] for axis in "xyz")]))
+        differences = [np.linalg.norm(a - b) for a, b in zip(ends, ends[1:])]
+        verdicts.near(f"order in dt, {label}", math.log2(differences[-2] / differences[-1]), 2, ORDER_BOUND, "64, 128, 256 steps")
+
+
+# --- impacts ------------------------------------------------------------------------------------------------------------
+def two_bars(n=50, count=140, **c):
+    bar = {"type": "box", "cells": [n, 1, 1], "young": 1, "poisson": 0, "density": 1}
+    return {"schema": 1, "bodies": ["left", "right"], "left": {**bar, "lower": [0, 0, 0], "upper": [1, 0.1, 0.1], "velocity": [0.1, 0, 0]},
+            "right": {**bar, "lower": [1.013, 0, 0], "upper": [2.013, 0.1, 0.1], "velocity": [-0.1, 0, 0]}, "dynamics": {"rho_inf": 1},
+            "interfaces": ["c"], "c": {"nonmortar": "left.xmax", "mortar": "right.xmin", **c}, "steps": {"count": count, "end": 2.8},
+            "output": {"vtu": "none", "csv": "none"}}
+
+
+def bars(verdicts, driver):
+    """E = rho = A = 1 (the area scaled): contact for 2 L / c = 2 with the force rho c v A = 0.1 A; then each bar flies as the other did."""
+    result = run(driver, "bars", two_bars())
+    table, area = energy(result), 0.01
+    force = np.array([step["interfaces"]["c"]["force"][0] for step in result.steps]) / area
+    t = table["t"][1:]
+    on = t[np.abs(force) > 1e-9]
+    during = (t > 0.2) & (t < 2.0)
+    left = np.array([step["interfaces"]["c"]["force"][0] for step in result.steps]).sum() * (t[1] - t[0]) / area
+    verdicts.near("bars: duration of contact", (on[-1] - on[0] + t[1] - t[0]) / 2, 1, BAR_BOUND, "2 L / c")
+    verdicts.near("bars: mean force", abs(force[during].mean()) / 0.1, 1, BAR_BOUND, "rho c v")
+    verdicts.near("bars: velocity after", (abs(left) - 0.1) / 0.1, 1, BAR_BOUND, "minus the one before")
+    verdicts.below("bars: growth of energy", growth(table), ENERGY_BOUND, "in any step")
+    verdicts.below("bars: energy balance", np.abs(table["numerical"]).max() / total(table)[0], EXACT_BOUND, "work of contact counted")
+    verdicts.below("bars: momentum", np.abs(table["momentum_x"]).max() / 1e-3, EXACT_BOUND, "none")
+    base = total(table)[-1]
+    for label, options, ranks in (("two ranks", (), 2), ("three ranks", (), 3), ("iterative", ("-solver", "iterative"), 1),
+                                  ("augmented", ("-c_form", "augmented"), 1)):
+        other = energy(run(driver, "bars", two_bars(), *options, label=f"bars_{label.replace(' ', '_')}", ranks=ranks))
+        verdicts.below(f"bars, {label}: energy", abs(total(other)[-1] / base - 1), SAME_BOUND, "as on one rank, directly")
+    condensed = [energy(run(driver, "bars_dual", two_bars(basis="dual"), *options, label=f"bars_dual_{k}")) for k, options in
+                 enumerate(((), ("-unknowns", "displacements"), ("-unknowns", "displacements", "-solver", "iterative")))]
+    for label, other in zip(("condensed", "condensed, iterative"), condensed[1:]):
+        verdicts.below(f"bars, {label}: energy", abs(total(other)[-1] / total(condensed[0])[-1] - 1), SAME_BOUND, "as with multipliers")
+
+
+def bounces(verdicts, driver):
+    """A block and a ball thrown on an elastic base, without loads: the energy never grows."""
+    cube = {"type": "box", "young": 1000, "poisson": 0.3, "density": 1, "small_strain": True}
+    ball = {"ball": [0, 0, 0], "x": [0, 0.1, 0.2, 0.4, 0.7, 1], "y": [0, 0.1, 0.2, 0.4, 0.7, 1], "z": [-1, -0.9, -0.7, -0.4, 0], "velocity": [0, 0, -1]}
+    cases = {
+        "block": ({"lower": [0.2, 0.2, 1.02], "upper": [0.7, 0.8, 1.5], "cells": [3, 3, 3], "velocity": [0.3, 0.2, -1]},
+                  {"lower": [0, 0, 0], "upper": [1, 1, 1], "cells": [4, 4, 3]}, [], "base.zmax", "top.zmin", {"friction": 0.3}),
+        "ball": (ball, {"lower": [0, 0, -1.6], "upper": [1.2, 1.2, -1.01], "cells": [7, 7, 3]}, ["sx", "sy"], "base.zmax", "top.zmin", {}),
+    }
+    for name, (top, base, more, nonmortar, mortar, interface) in cases.items():
+        scene = {"schema": 1, "bodies": ["top", "base"], "top": {**cube, **top}, "base": {**cube, **base}, "dynamics": {"rho_inf": 1},
+                 "supports": ["ground", *more], "ground": {"surface": "base.zmin", "components": ["x", "y", "z"]},
+                 "interfaces": ["c"], "c": {"nonmortar": nonmortar, "mortar": mortar, "weights": "reference", **interface},
+                 "steps": {"count": 60, "end": 0.3}, "output": {"vtu": "none", "csv": "none"}}
+        for axis in "xy":
+            if f"s{axis}" in more:
+                scene[f"s{axis}"] = {"surface": [f"top.{axis}min", f"base.{axis}min"], "components": [axis]}
+        table = energy(run(driver, f"bounce_{name}", scene))
+        touched = table["contact_work"].min() < 0
+        verdicts.true(f"bouncing {name}: it touches", touched and table["momentum_z"][-1] > -table["momentum_z"].max() , f"contact work {table['contact_work'].min():.3g}")
+        verdicts.below(f"bouncing {name}: growth of energy", growth(table), ENERGY_BOUND, "in any step")
+        verdicts.below(f"bouncing {name}: energy balance", np.abs(table["numerical"]).max() / total(table)[0], EXACT_BOUND, "all work counted")
+
+
+# --- friction -----------------------------------------------------------------------------------------------------------
+ANGLE, MU, GRAVITY = math.radians(30), 0.3, 9.81
+
+
+def incline(verdicts, driver):
+    """A block slides down a plane, gravity turned instead of it; damping ends its shaking."""
+    scene = {"schema": 1, "bodies": ["block", "ground"], "block": {"type": "box", "lower": [0, 0, 0], "upper": [1, 1, 0.5], "cells": [3, 2, 2], "young": 1e4, "poisson": 0.3, "density": 1},
+             "ground": {"type": "analytic", "shape": "plane", "point": [0, 0, 0], "direction": [0, 0, 1]},
+             "dynamics": {"rho_inf": 1, "stiffness_damping": 0.01}, "supports": ["still"], "still": {"body": "ground", "components": ["x", "y", "z"]},
+             "loads": ["weight"], "weight": {"body": "block", "gravity": [GRAVITY * math.sin(ANGLE), 0, -GRAVITY * math.cos(ANGLE)], "curve": [0, 1, 10, 1]},
+             "interfaces": ["c"], "c": {"nonmortar": "block.zmin", "mortar": "ground.surface", "friction": MU},
+             "steps": {"count": 200, "end": 2}, "probes": ["corner"], "corner": {"body": "block", "point": [0, 0, 0]}, "output": {"vtu": "none", "csv": "none"}}
+    table = energy(run(driver, "incline", scene))
+    p, t = table["momentum_x"] / 0.5, table["t"]
+    slope = (p[-1] - p[-21]) / (t[-1] - t[-21])
+    verdicts.near("incline: acceleration", slope / (GRAVITY * (math.sin(ANGLE) - MU * math.cos(ANGLE))), 1, INCLINE_BOUND, "g (sin - mu cos)")
+    held = run(driver, "incline", scene, "-c_friction", "0.7", label="incline_sticks")
+    crept = np.abs(np.array(held.steps[-1]["probes"]["corner"]) - held.steps[-21]["probes"]["corner"]).max()
+    verdicts.below("incline: it sticks", crept, INCLINE_BOUND, "mu above tan: no creep in a tenth of the time")
+
+
+# --- the driver ---------------------------------------------------------------------------------------------------------
+def tangents(verdicts, driver):
+    block = {"type": "box", "young": 10, "poisson": 0.3, "density": 1}
+    scene = {"schema": 1, "bodies": ["upper", "lower"], "upper": {**block, "lower": [0.1, 0.1, 1], "upper": [0.8, 0.9, 1.4], "cells": [2, 2, 1], "velocity": [0.5, 0.2, -0.5], "spin": [0.2, 0.1, 0], "about": [0.4, 0.5, 1]},
+             "lower": {**block, "lower": [0, 0, 0.5], "upper": [1, 1, 1], "cells": [3, 3, 1]}, "dynamics": {"rho_inf": 1},
+             "supports": ["ground"], "ground": {"surface": "lower.zmin", "components": ["x", "y", "z"]},
+             "loads": ["press"], "press": {"surface": "upper.zmax", "pressure": 0.5, "follower": True},
+             "interfaces": ["c"], "c": {"nonmortar": "upper.zmin", "mortar": "lower.zmax", "friction": 0.3}, "steps": {"times": [0.05, 0.1]}, "output": {"vtu": "none", "csv": "none"}}
+    for label, options in {"rho_inf 1": (), "rho_inf 0.5, neo-Hooke": ("-dynamics_rho_inf", "0.5", "-upper_material", "neo_hooke"),
+                           "damped": ("-dynamics_stiffness_damping", "0.02", "-dynamics_mass_damping", "0.5")}.items():
+        result = run(driver, "tangents", scene, "-test_jacobian_blocks", *options, label="tangents_" + label.replace(" ", "_").replace(",", ""))
+        tests = [test for step in result.steps for test in step["jacobian_tests"] if test["switches"] == 0]
+        errors = [block["error"] / block["norm"] for test in tests for block in test["blocks"] if block["norm"]]
+        verdicts.below(f"tangent, {label}", worst(errors), JACOBIAN_BOUND, f"{len(tests)} iterates against central differences")
+
+
+def rolled_back(verdicts, driver):
+    """Steps that fail leave nothing behind: the run that was cut back, and one with the same steps."""
+    scene = two_bars(n=6, count=4)
+    scene["left"]["material"] = scene["right"]["material"] = "neo_hooke"
+    cut = run(driver, "cut", scene, "-snes_max_it", "3", "-left_velocity", "0.5,0,0", "-steps_predictor", "false")
+    del scene["steps"]
+    scene["steps"] = {"times": [step["t"] for step in cut.steps], "predictor": False}
+    again = run(driver, "cut_again", scene, "-snes_max_it", "3", "-left_velocity", "0.5,0,0")
+    verdicts.true("rollback: steps were cut back", cut.summary["cutbacks"] > 0 and again.summary["cutbacks"] == 0, f"{cut.summary['cutbacks']}")
+    same = (cut.directory / "energy.csv").read_text() == (again.directory / "energy.csv").read_text()
+    verdicts.true("rollback: equal bits", same, f"{len(cut.steps)} steps")
+
+
+REFUSED = {
+    "rho_inf": ({"dynamics": {"rho_inf": 1.5}}, "dynamics.rho_inf"),
+    "damping without the scheme": ({"dynamics": {"rho_inf": None, "mass_damping": 1}}, "dynamics.rho_inf"),
+    "negative damping": ({"dynamics": {"rho_inf": 1, "mass_damping": -1}}, "dynamics.mass_damping"),
+    "velocity in statics": ({"dynamics": None, "left": {"velocity": [1, 0, 0]}}, "left.velocity"),
+    "point without spin": ({"left": {"about": [0, 0, 0]}}, "left.about"),
+    "no density": ({"left": {"density": None}}, "left.density"),
+    "stiffness damping of finite strain": ({"dynamics": {"rho_inf": 1, "stiffness_damping": 1}, "left": {"material": "neo_hooke"}}, "dynamics.stiffness_damping"),
+    "a free rigid body": ({"bodies": ["left", "right", "ball"], "ball": {"type": "rigid", "from": "box", "lower": [0, 0, 5], "upper": [1, 1, 6], "cells": [1, 1, 1], "reference": [0, 0, 5], "mass": 1}}, "ball.type"),
+}
+
+
+def refused(verdicts, driver):
+    for name, (changes, key) in REFUSED.items():
+        scene = two_bars(n=2, count=1)
+        for map_, values in changes.items():
+            if values is None:
+                del scene[map_]
+            elif isinstance(values, dict):
+                scene[map_] = {k: v for k, v in {**scene.get(map_, {}), **values}.items() if v is not None}
+            else:
+                scene[map_] = values
+        if name == "velocity in statics":
+            del scene["right"]["velocity"]
+        done = run(driver, "refused_" + name.replace(" ", "_"), scene, expect=1)
+        verdicts.true(f"refused, {name}", f"{key}:" in done.text and "PETSC ERROR" not in done.text, key)
