@@ -33,14 +33,17 @@ LOADS = 10
 # The others take the contact's geometry from the undeformed bodies.
 SMALL = ("-contact_weights", "reference")
 DUAL = ("-contact_basis", "dual")
-POINTS = (*SMALL, *DUAL, "-contact_decision", "points")
+POINTS = (*DUAL, "-contact_decision", "points")
+# Points have weights of the last step, in place of those of now: the load is taken in four steps.
+STEPPED = ("-contact_weights", "committed", "-steps_times", "0.25,0.5,0.75,1")
 LAWS = {
     "stickslip, defaults": (),
     "stickslip, dual": DUAL,
     "stickslip, small displacements": SMALL,
     "stickslip, small displacements, dual": (*SMALL, *DUAL),
-    "stickslip, small displacements, points": POINTS,
+    "stickslip, small displacements, points": (*SMALL, *POINTS),
 }
+HERTZ_LAWS = {**LAWS, "stickslip, points, four steps": (*STEPPED, *POINTS)}
 OURS = ("-output_vtu", "last", "-output_csv", "last", "-output_quiet", "true")
 
 
@@ -149,7 +152,7 @@ def hertz_case(driver, facets, travel, name):
     """(case, runs of our laws by name) of the half-cylinders pressed together by `travel`."""
     h = HALF_WIDTH / facets
     options = (*friction.line_mesh(h), *friction.FRICTIONLESS, "-press_value", f"0,0,{-travel:.10g}", *OURS)
-    runs = {law: driver.run("cattaneo_line", *options, *of, label=f"{name}_{k}") for k, (law, of) in enumerate(LAWS.items())}
+    runs = {law: driver.run("cattaneo_line", *options, *of, label=f"{name}_{k}") for k, (law, of) in enumerate(HERTZ_LAWS.items())}
     first = next(iter(runs.values()))
     points = first.mesh()[0]
     radius = lambda x, z: np.hypot(x[:, 0], x[:, 2] - z)
@@ -179,7 +182,7 @@ def hertz_rows(driver, missing):
         for k, wide in enumerate((facets - 0.5 + np.arange(LOADS) / LOADS) / facets):
             # The travel goes with the square of the half-width, nearly.
             cases.append(hertz_case(driver, facets, TRAVEL * wide**2, f"hertz_{facets}_{k}"))
-        for law in LAWS:
+        for law in HERTZ_LAWS:
             runs = [(case, runs[law]) for case, runs in cases]
             found = [(hertz_error(case, r.mesh()[2]), r.newton_iterations, r.summary["seconds"]["total"]) for case, r in runs]
             yield mean_row(facets, law, found, [])
