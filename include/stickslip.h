@@ -348,10 +348,12 @@
 /// A node is closed or open. Default.
 #define STICKSLIP_DECISION_NODES 0
 
-/// Each point of an overlap is closed or open (docs/formulation.md 14): the border of the contact lies inside facets. modulus is needed,
+/// Each point of an overlap is closed or open (docs/formulation.md 16): the border of the contact lies inside facets. modulus is needed,
 /// and is E* of both bodies together: 1 / E* = (1 - nu1^2) / E1 + (1 - nu2^2) / E2, of a rigid one without its part. The answer depends
 /// on it, by what vanishes with the facets' size. An augmentation beside it takes the place of r = 0.9 E* / h_A alone; r is then part of the
-/// answer, too. UNSUPPORTED: what is said at `decision`.
+/// answer, too. With STICKSLIP_FRICTION_NONE, STICKSLIP_BASIS_DUAL, and STICKSLIP_WEIGHTS_COMMITTED or REFERENCE. UNSUPPORTED: all others of
+/// these; STICKSLIP_FORM_AUGMENTED, STICKSLIP_INTEGRATION_ELEMENTS and HYBRID, weak_coverage, quadratic facets, analytic mortar sides, sums of
+/// handles, parts (owned), condensed systems.
 #define STICKSLIP_DECISION_POINTS 1
 
 /// Multiplier rows times r_A M_A: M_A (p_A - lambda_A), a force. Default.
@@ -590,7 +592,7 @@ typedef struct stickslip_options {
   /// of a stiffness. The answer does not depend on it.
   double augmentation;
   /// Young's modulus of the softer body [F/L^2]: rhat_A = 0.1 E / h_A, h_A = sqrt(M_A), of lines about their length; 0 (default): use the
-  /// augmentation.
+  /// augmentation. With STICKSLIP_DECISION_POINTS it is needed, and is E* of both bodies together.
   double modulus;
   /// A node whose covered area over its full area [-] is at most this counts as uncovered; default 1e-8. Where a
   /// surface slides off an edge, the tractions of nodes that are hardly covered grow like the inverse of their
@@ -2325,9 +2327,9 @@ int32_t stickslip_interface_adjust(struct stickslip_interface *interface,
 ///
 /// side: STICKSLIP_SIDE_... whose nodes they are. shape: STICKSLIP_SHAPE_SPHERE or _CYLINDER; radius [L]: above 0 of a ball or a
 /// bar, below 0 of a cavity or a bore. point (3) [L]: the centre, or a point of the axis; direction (3) [-]: of the axis, any
-/// length but 0 (of a sphere any). In a plane model a circle is a cylinder along z. offsets, output (n1 or n2) [L].
+/// length but 0 (of a sphere any). Of lines a circle is a cylinder along z or a sphere, and point[2] is 0. offsets, output (n1 or n2) [L].
 ///
-/// Errors: NULL_POINTER, NOT_FINITE, INVALID_VALUE (side, shape, radius, direction; a node that is farther from the shape than the
+/// Errors: NULL_POINTER, NOT_FINITE, INVALID_VALUE (side, shape, radius, direction, of lines point; a node that is farther from the shape than the
 /// longest facet is long), UNSUPPORTED (a plane; facets with mid nodes, which lie on a shape by themselves; an analytic side).
 /// Cost: O(n); allocates.
 int32_t stickslip_interface_shape_offsets(struct stickslip_interface *interface,
