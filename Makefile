@@ -15,7 +15,7 @@ export PATH := $(PATH):$(HOME)/.cargo/bin
 LOCKED = mkdir -p $(BUILD) && flock $(BUILD)/.lock
 SAY    = @printf '\n== %s\n'
 
-.PHONY: packages hosts newcomer help demo gallery effects aids study border compare bench random fuzz stability scaling scaling-ranks ranks ratios digest wheel python-examples check test test-long build install uninstall docs reference abi header meshes clean cmake-build rust-tests
+.PHONY: packages hosts newcomer help demo gallery effects aids study border compare bench random fuzz stability scaling scaling-ranks ranks ranks-full newest-petsc ratios digest wheel python-examples check test test-long build install uninstall docs reference abi header meshes clean cmake-build rust-tests
 
 help:
 	@echo "make demo    solve the example scenes, compare with the references, draw (FIGURES=1: renew the README's figures)"
@@ -36,7 +36,9 @@ help:
 	@echo "make ratios  the force of fine facets in coarse ones against the ratio of both and the number of steps, an hour"
 	@echo "make scaling  linear solvers against the number of unknowns: a table (SIZES='N ...'; FIGURES=1: as above)"
 	@echo "make scaling-ranks  what a rank holds and does of the contact, on 2 and 4 ranks: a table (SIZES=, FIGURES=1: as above)"
+	@echo "make newest-petsc   the driver on the newest PETSc of PyPI, built for it: half an hour the first time"
 	@echo "make ranks   contact on eight ranks, however few processors there are: a minute; a part of make test-long"
+	@echo "make ranks-full  scenes in full length on two ranks against one, an hour or two"
 	@echo "make digest  the bits of what library and driver compute, compared with those of before (KEEP=1: these are they)"
 	@echo "make fuzz    fuzz the pair kernel, the handle and the C ABI, a quarter of an hour each (FUZZ_SECONDS=)"
 	@echo "make wheel   the Python package as a wheel, in $(BUILD)/wheels"
@@ -90,6 +92,17 @@ ranks:
 	$(SAY) "Contact on eight ranks"
 	@$(PYTHON) tests/acceptance/check.py --build $(BUILD) ranks_many
 
+ranks-full:
+	@.ci/setup test
+	@$(MAKE) --no-print-directory cmake-build
+	$(SAY) "Scenes in full length on two ranks"
+	@$(PYTHON) tests/acceptance/check.py --build $(BUILD) ranks_full
+
+newest-petsc:
+	@.ci/setup test
+	$(SAY) "The driver on the newest PETSc"
+	@JOBS=$(JOBS) tests/newest_petsc.sh $(BUILD)
+
 aids:
 	@.ci/setup demo
 	@$(MAKE) --no-print-directory cmake-build
@@ -107,6 +120,7 @@ border:
 	@.ci/setup demo
 	@$(MAKE) --no-print-directory cmake-build
 	$(SAY) "The border of the contact, decided at nodes and at points"
+	@$(PYTHON) studies/border/driver_table.py --build $(BUILD) $(if $(FIGURES),--renew-figures)
 	@$(PYTHON) studies/border/border.py --build $(BUILD) $(if $(FIGURES),--renew-figures)
 
 compare:

@@ -25,12 +25,13 @@ from normals_full import normals_full, normals_iterations  # noqa: E402
 from offsets import offsets  # noqa: E402
 from plane import plane, plane_ball  # noqa: E402
 from plane_analytic import plane_analytic  # noqa: E402
+from points import points, points_full  # noqa: E402
 from quadratic import quadratic  # noqa: E402
 from quadratic_contact import quadratic_contact  # noqa: E402
 from quadratic_line import quadratic_line  # noqa: E402
 from quadratic_sliding import quadratic_sliding  # noqa: E402
 from quadratic_tied import quadratic_tied  # noqa: E402
-from ranks import ranks, ranks_scenes  # noqa: E402
+from ranks import ranks, ranks_full, ranks_scenes  # noqa: E402
 from ranks_files import ranks_files  # noqa: E402
 from ranks_moving import ranks_many, ranks_moving  # noqa: E402
 from rigid import rigid  # noqa: E402
@@ -68,6 +69,8 @@ GROUPS = {
     "plane": plane,
     "plane_analytic": plane_analytic,
     "plane_ball": plane_ball,
+    "points": points,
+    "points_full": points_full,  # some minutes; not among the tests
     "quadratic": quadratic,
     "quadratic_contact": quadratic_contact,
     "quadratic_line": quadratic_line,
@@ -75,6 +78,7 @@ GROUPS = {
     "quadratic_tied": quadratic_tied,
     "ranks": ranks,
     "ranks_files": ranks_files,
+    "ranks_full": ranks_full,  # an hour or two; not among the tests
     "ranks_many": ranks_many,
     "ranks_moving": ranks_moving,
     "ranks_scenes": ranks_scenes,

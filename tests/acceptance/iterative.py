@@ -2,7 +2,7 @@
 iterations, on several ranks too; and where it cannot be, or does not get through, the run says so."""
 
 from condensed import FEWER, QUIET, difference, iterations
-from scene import interfaces
+from scene import interfaces, write
 
 # Answers: of all steps, over the largest displacement and the model's forces.
 SAME = 1e-8
@@ -25,9 +25,27 @@ LONG = (
 )
 
 
+# A sheet pressed on another one that does not move: each node that is free is one of the contact, and multigrid has no body to know.
+SHEET = {"type": "box", "cells": [4, 4, 1], "young": 1000, "poisson": 0.3}
+PRESSED = {
+    "schema": 1,
+    "bodies": ["upper", "lower"],
+    "upper": {**SHEET, "lower": [0.03, 0.03, 0], "upper": [1.03, 1.03, 0.05]},
+    "lower": {**SHEET, "lower": [0, 0, -0.05], "upper": [1, 1, 0]},
+    "supports": ["ground", "grip", "guide"],
+    "ground": {"surface": ["lower.zmin", "lower.zmax"], "components": ["x", "y", "z"]},
+    "grip": {"surface": "upper.zmax", "components": ["x", "y", "z"], "value": [0.03, 0, -1e-4]},
+    "guide": {"surface": "upper.zmin", "components": ["x", "y"], "value": [0.03, 0, 0]},
+    "interfaces": ["contact"],
+    "contact": {"nonmortar": "upper.zmin", "mortar": "lower.zmax"},
+    "steps": {"count": 1},
+}
+
+
 def iterative(verdicts, driver):
     for scene in SCENES:
         compare(verdicts, driver, *scene)
+    compare(verdicts, driver, write(PRESSED, driver.output / "pressed.yaml"), "", ())
     on_two_ranks(verdicts, driver)
     with_multipliers(verdicts, driver)
     gives_up(verdicts, driver)
@@ -43,7 +61,7 @@ def dual(scene):
 
 
 def compare(verdicts, driver, scene, label, options):
-    name = f"{scene} {label}".strip()
+    name = f"{scene if isinstance(scene, str) else scene.stem} {label}".strip()
     tag = name.replace(" ", "_")
     options = (*dual(scene), *options, *QUIET, "-unknowns", "displacements")
     direct = driver.run(scene, *options, label=f"{tag}_direct")

@@ -9,14 +9,14 @@ static const char *const STATE_NAMES[] = {"gap", "stick", "slip"}; /* by STICKSL
 enum { ROW = 1024 };
 
 /* the file, on rank 0 */
-static PetscErrorCode open_file(const Output *output, const char *path, const char *head, FILE **file)
+static PetscErrorCode open_file(const Output *output, const char *path, const char *head, const char *further, FILE **file)
 {
   PetscFunctionBegin;
   *file = NULL;
   if (output->mesh->rank) PetscFunctionReturn(PETSC_SUCCESS);
   *file = fopen(path, "w");
   PetscCheck(*file, PETSC_COMM_SELF, PETSC_ERR_FILE_OPEN, "cannot write '%s'", path);
-  fprintf(*file, "%s\n", head);
+  fprintf(*file, "%s%s\n", head, further);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -64,6 +64,7 @@ static void format_row(const Interface *interface, const ContactStates *states, 
   used += snprintf(row + used, (size_t)(ROW - used), ",%s", interface->middle[a] ? "none" : STATE_NAMES[states->state[a]]);
   for (int i = 0; i < 3; i++)
     used += snprintf(row + used, (size_t)(ROW - used), ",%.17g", traction[i] - pressure * n[i]);
+  if (decision_is_points(interface)) snprintf(row + used, (size_t)(ROW - used), ",%.17g", states->closed[a]);
 }
 
 PetscErrorCode csv_write(Output *output, const Interface *interface, const ContactStates *states, PetscInt step)
@@ -80,7 +81,7 @@ PetscErrorCode csv_write(Output *output, const Interface *interface, const Conta
   PetscCall(open_file(output, path,
                       "node,X,Y,Z,ux,uy,uz,nx,ny,nz,lambda_n,lambda_tx,lambda_ty,lambda_tz,gap_weighted,slip_x,slip_y,slip_z,"
                       "area_covered,area_full,fx,fy,fz,p_lumped,state,t_lumped_x,t_lumped_y,t_lumped_z",
-                      &file));
+                      decision_is_points(interface) ? ",closed" : "", &file));
   for (PetscInt a = 0; a < interface->n1; a++) {
     format_row(interface, states, a, tractions + 3 * a, row);
     PetscCall(PetscSynchronizedFPrintf(PETSC_COMM_WORLD, file, "%s\n", row));
@@ -103,7 +104,7 @@ PetscErrorCode csv_adjusted(Output *output, const Interface *interface)
   PetscFunctionBegin;
   if (!(offsets->adjust > 0)) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PetscSNPrintf(path, sizeof(path), "%s/adjust_%s.csv", output->directory, interface->name));
-  PetscCall(open_file(output, path, "node,X,Y,Z,gap,adjusted", &file));
+  PetscCall(open_file(output, path, "node,X,Y,Z,gap,adjusted", "", &file));
   for (PetscInt a = 0; a < interface->n1; a++) {
     double X[3];
     contact_vector(interface->dimension, interface->X, a, X);

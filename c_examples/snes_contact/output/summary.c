@@ -36,6 +36,27 @@ static const char *form_name(const Output *output)
   return form == STICKSLIP_FORM_AUGMENTED ? "augmented" : "multiplier";
 }
 
+/* The interfaces that decide at points, with what the library takes their bodies' stiffness for. */
+static PetscErrorCode add_decisions(const Output *output, cJSON *root)
+{
+  cJSON *all = NULL;
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < output->contact->n_interfaces; i++) {
+    const Interface *interface = &output->contact->interfaces[i];
+    cJSON           *json;
+    if (!decision_is_points(interface)) continue;
+    if (!all) all = cJSON_AddObjectToObject(root, "decisions");
+    json = cJSON_AddObjectToObject(all, interface->name);
+    cJSON_AddStringToObject(json, "decision", "points");
+    cJSON_AddNumberToObject(json, "modulus", interface->options.modulus);
+    cJSON_AddStringToObject(json, "modulus_from", interface->modulus_from);
+    if (!output->quiet)
+      PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s: decided at points, modulus %g (from %s)\n", interface->name,
+                            interface->options.modulus, interface->modulus_from));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode summary_create(Output *output, Summary **out)
 {
   Summary  *summary;
@@ -56,11 +77,23 @@ PetscErrorCode summary_create(Output *output, Summary **out)
   cJSON_AddStringToObject(summary->root, "form", form_name(output));
   cJSON_AddNumberToObject(summary->root, "rtol", rtol);
   cJSON_AddNumberToObject(summary->root, "unknowns", unknowns);
+  PetscCall(add_decisions(output, summary->root));
   summary->steps           = cJSON_CreateArray();
   summary->failed_attempts = cJSON_CreateArray();
   if (!output->quiet)
     PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s: %" PetscInt_FMT " unknowns\n", output->scene, unknowns));
   *out = summary;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode add_closed_area(const Interface *interface, cJSON *json)
+{
+  double closed = 0;
+  PetscFunctionBegin;
+  for (PetscInt a = 0; a < interface->n1; a++)
+    closed += interface->states.closed[a] * interface->states.coverage[a];
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &closed, 1, MPI_DOUBLE, MPI_SUM, PETSC_COMM_WORLD));
+  cJSON_AddNumberToObject(json, "closed_area", closed);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -91,6 +124,7 @@ static PetscErrorCode interface_results(Output *output, Interface *interface, Pe
   cJSON_AddNumberToObject(json, "gap", counts[STICKSLIP_STATE_GAP]);
   cJSON_AddNumberToObject(json, "stick", counts[STICKSLIP_STATE_STICK]);
   cJSON_AddNumberToObject(json, "slip", counts[STICKSLIP_STATE_SLIP]);
+  if (decision_is_points(interface)) PetscCall(add_closed_area(interface, json));
   if (write) PetscCall(csv_write(output, interface, states, step));
   snprintf(progress, length, "  %s %d gap %d stick %d slip", interface->name, (int)counts[STICKSLIP_STATE_GAP],
            (int)counts[STICKSLIP_STATE_STICK], (int)counts[STICKSLIP_STATE_SLIP]);

@@ -1,4 +1,4 @@
-/* LU, MUMPS' unless the options say otherwise (direct.c). */
+/* LU, MUMPS' unless the options say otherwise, or PETSc has been built without it (direct.c). */
 #ifndef SNES_CONTACT_DIRECT_H
 #define SNES_CONTACT_DIRECT_H
 #include "scene/petsc_compat.h"

@@ -218,11 +218,13 @@ PetscErrorCode node_blocks_modes(const NodeBlocks *blocks, Mat constrained, Mat 
     if (independent) n_kept++;
     else PetscCall(VecDestroy(&kept[n_kept]));
   }
-  PetscCall(MatNullSpaceCreate(PETSC_COMM_WORLD, PETSC_FALSE, n_kept, kept, &modes));
-  PetscCall(MatSetNearNullSpace(matrix, modes));
+  if (n_kept) { /* else contact holds every node that is free: constraints are all that is left, and multigrid has no modes to know */
+    PetscCall(MatNullSpaceCreate(PETSC_COMM_WORLD, PETSC_FALSE, n_kept, kept, &modes));
+    PetscCall(MatSetNearNullSpace(matrix, modes));
+    PetscCall(MatNullSpaceDestroy(&modes));
+  }
   for (PetscInt k = 0; k < n_kept; k++)
     PetscCall(VecDestroy(&kept[k]));
-  PetscCall(MatNullSpaceDestroy(&modes));
   PetscCall(MatNullSpaceDestroy(&rigid));
   PetscCall(VecDestroy(&equations));
   PetscCall(VecDestroy(&along));

@@ -26,6 +26,7 @@ static PetscBool wants_room(PetscInt info)
 /* INFOG(1) of MUMPS; 0 where another solver works, or where nothing is factorised. */
 static PetscErrorCode mumps_info(PC pc, PetscInt *info)
 {
+#if defined(PETSC_HAVE_MUMPS)
   MatSolverType  solver = NULL;
   PCFailedReason failed;
   PetscBool      lu, mumps;
@@ -39,6 +40,11 @@ static PetscErrorCode mumps_info(PC pc, PetscInt *info)
   if (!mumps) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PCFactorGetMatrix(pc, &factors));
   PetscCall(MatMumpsGetInfog(factors, 1, info));
+#else
+  PetscFunctionBegin;
+  (void)pc;
+  *info = 0;
+#endif
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -75,7 +75,8 @@ impl Points {
         }
         let (surfaces, x) = (given.setup.surfaces(), positions(given));
         surfaces.0.plane_normals(x.0, &mut self.planes)?;
-        (self.facets.clear(), self.pairs.clear());
+        self.facets.clear();
+        self.pairs.clear();
         match given.history().weighted(surfaces) {
             Weighted::Facets(pairs) => {
                 pairs.chunk_by(|p, q| p.one == q.one).try_for_each(|pairs| self.settle_facet(given, pairs))?;
