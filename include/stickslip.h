@@ -2385,9 +2385,9 @@ int32_t stickslip_interface_adjust(struct stickslip_interface *interface,
 ///
 /// side: STICKSLIP_SIDE_... whose nodes they are. shape: STICKSLIP_SHAPE_SPHERE or _CYLINDER; radius [L]: above 0 of a ball or a
 /// bar, below 0 of a cavity or a bore. point (3) [L]: the centre, or a point of the axis; direction (3) [-]: of the axis, any
-/// length but 0 (of a sphere any). In a plane model a circle is a cylinder along z. offsets, output (n1 or n2) [L].
+/// length but 0 (of a sphere any). Of lines a circle is a cylinder along z or a sphere, and point[2] is 0. offsets, output (n1 or n2) [L].
 ///
-/// Errors: NULL_POINTER, NOT_FINITE, INVALID_VALUE (side, shape, radius, direction; a node that is farther from the shape than the
+/// Errors: NULL_POINTER, NOT_FINITE, INVALID_VALUE (side, shape, radius, direction, of lines point; a node that is farther from the shape than the
 /// longest facet is long), UNSUPPORTED (a plane; facets with mid nodes, which lie on a shape by themselves; an analytic side).
 /// Cost: O(n); allocates.
 int32_t stickslip_interface_shape_offsets(struct stickslip_interface *interface,

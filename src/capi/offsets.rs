@@ -108,9 +108,9 @@ pub unsafe extern "C" fn stickslip_interface_adjust(
 ///
 /// side: STICKSLIP_SIDE_... whose nodes they are. shape: STICKSLIP_SHAPE_SPHERE or _CYLINDER; radius [L]: above 0 of a ball or a
 /// bar, below 0 of a cavity or a bore. point (3) [L]: the centre, or a point of the axis; direction (3) [-]: of the axis, any
-/// length but 0 (of a sphere any). In a plane model a circle is a cylinder along z. offsets, output (n1 or n2) [L].
+/// length but 0 (of a sphere any). Of lines a circle is a cylinder along z or a sphere, and point[2] is 0. offsets, output (n1 or n2) [L].
 ///
-/// Errors: NULL_POINTER, NOT_FINITE, INVALID_VALUE (side, shape, radius, direction; a node that is farther from the shape than the
+/// Errors: NULL_POINTER, NOT_FINITE, INVALID_VALUE (side, shape, radius, direction, of lines point; a node that is farther from the shape than the
 /// longest facet is long), UNSUPPORTED (a plane; facets with mid nodes, which lie on a shape by themselves; an analytic side).
 /// Cost: O(n); allocates.
 #[unsafe(no_mangle)]
@@ -130,6 +130,9 @@ pub unsafe extern "C" fn stickslip_interface_shape_offsets(
         let point = Vec3::from_column_slice(raw::numbers(point, 3, "point")?);
         let direction = Vec3::from_column_slice(raw::numbers(direction, 3, "direction")?);
         raw::check(offsets, "offsets")?;
+        if dimension(h) == 2 {
+            check_in_plane(shape, point, direction)?;
+        }
         let values = either!(h, c => c.shape_offsets(side, &placed(shape, point, direction)?)?);
         raw::check_results("offsets", &values)?;
         raw::write(offsets, &values);
@@ -149,6 +152,19 @@ fn round_shape(shape: i32, radius: f64) -> Result<AnalyticShape> {
         }
         shape => Ok(shape),
     }
+}
+
+/// Lines lie in the plane z = 0, and so does the centre of their circle.
+fn check_in_plane(shape: AnalyticShape, point: Vec3, direction: Vec3) -> Result<()> {
+    if point.z != 0.0 {
+        let text = text!("point[2] is {}; of lines, which lie in the plane z = 0, 0 is allowed", point.z);
+        return Err(Error::new(Kind::InvalidValue, text));
+    }
+    if matches!(shape, AnalyticShape::Cylinder(_)) && (direction.x != 0.0 || direction.y != 0.0) {
+        let text = text!("direction is ({}, {}, {}); of lines a cylinder is along z", direction.x, direction.y, direction.z);
+        return Err(Error::new(Kind::InvalidValue, text));
+    }
+    Ok(())
 }
 
 /// A shape at a point, about an axis.

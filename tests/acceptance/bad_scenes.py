@@ -221,6 +221,8 @@ BAD_SCENES += [
     BadScene("solid_mesh_in_the_plane", "plane_hertz_upper", "hertz_upper_coarse", "upper.file", says="no plane mesh", base=FLAT),
     BadScene("plane_in_the_plane", "floor: {type: box", "floor: {type: analytic, shape: plane", "floor.shape",
              says="choose from: line, circle", base=BLOCK),
+    BadScene("direction_of_a_circle", "floor: {type: box", "floor: {type: analytic, shape: circle, radius: 1, point: [0, 0], direction: [0, 1]",
+             "floor.direction", says="a circle has none", base=BLOCK),
     BadScene("line_with_a_radius", "floor: {type: box", "floor: {type: analytic, shape: line, radius: 1, point: [0, 0], direction: [0, 1]",
              "floor.radius", says="a line has none", base=BLOCK),
     BadScene("direction_in_space", "floor: {type: box", "floor: {type: analytic, shape: line, point: [0, 0], direction: [0, 0, 1]",

@@ -41,6 +41,7 @@ PetscErrorCode analytic_create(Scene *scene, const char *body, Mesh *mesh)
   scene_choice(scene, body, "shape", flat ? plane : solid, &shape);
   if (!space_vector(scene, &mesh->space, body, "point", point)) scene_fail(scene, body, "point", "this key is missing.");
   if (!directed && shape != 1) scene_fail(scene, body, "direction", "this key is missing.");
+  if (flat && shape == 1 && scene_has(scene, body, "direction")) scene_fail(scene, body, "direction", "a circle has none.");
   if (d[0] == 0 && d[1] == 0 && d[2] == 0) scene_fail(scene, body, "direction", "a vector of some length is expected.");
   if (shape == 0 && scene_has(scene, body, "radius")) scene_fail(scene, body, "radius", "a %s has none.", flat ? plane[0] : solid[0]);
   if (shape != 0) scene_real_required(scene, body, "radius", &radius);
