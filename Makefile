@@ -120,6 +120,7 @@ border:
 	@.ci/setup demo
 	@$(MAKE) --no-print-directory cmake-build
 	$(SAY) "The border of the contact, decided at nodes and at points"
+	@$(PYTHON) studies/border/driver_table.py --build $(BUILD) $(if $(FIGURES),--renew-figures)
 	@$(PYTHON) studies/border/border.py --build $(BUILD) $(if $(FIGURES),--renew-figures)
 
 compare:

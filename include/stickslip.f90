@@ -218,6 +218,12 @@ module stickslip
   integer(c_int32_t), parameter :: STICKSLIP_LAW_ORTHOTROPIC = 3
   integer(c_int32_t), parameter :: STICKSLIP_LAW_MAX_STATES = 1024
 
+  ! Columns of the heat's tangent: of temperatures alone, or of displacements and multipliers, too. Derivatives per side of
+  ! stickslip_node_heat.
+  integer(c_int32_t), parameter :: STICKSLIP_HEAT_TEMPERATURES = 0
+  integer(c_int32_t), parameter :: STICKSLIP_HEAT_ALL = 1
+  integer(c_int32_t), parameter :: STICKSLIP_HEAT_SLOPES = 5
+
   ! Sizes of the types in bytes (64-bit machines), their struct_size.
   integer(c_int64_t), parameter :: stickslip_options_size = 176
   integer(c_int64_t), parameter :: stickslip_surface_size = 72
@@ -235,6 +241,8 @@ module stickslip
   integer(c_int64_t), parameter :: stickslip_law_size = 72
   integer(c_int64_t), parameter :: stickslip_law_point_size = 104
   integer(c_int64_t), parameter :: stickslip_law_answer_size = 48
+  integer(c_int64_t), parameter :: stickslip_heat_size = 80
+  integer(c_int64_t), parameter :: stickslip_heat_nodes_size = 48
 
   ! A contact interface, made by stickslip_interface_create and ended by stickslip_interface_destroy. A copy means the
   ! same interface. One thread at a time.
@@ -526,6 +534,31 @@ module stickslip
     real(c_double) :: threshold = 0                ! k >= 0 [F/L^2]
     real(c_double) :: dthreshold_dnormal = 0       ! <= 0
     real(c_double) :: dthreshold_dslip(3) = 0      ! [F/L^3]
+  end type
+
+  ! How heat crosses an interface: per area h (T1 - T2) with
+  ! h = contact f(p / pressure) + (constant + gas / (g + gas_gap)) b(g / reach). T: a time.
+  type, bind(C) :: stickslip_heat
+    integer(c_int64_t) :: struct_size = stickslip_heat_size
+    real(c_double) :: contact = 0                  ! at the reference pressure [F/(L T K)]
+    real(c_double) :: pressure = 0                 ! that pressure, > 0 where contact is [F/L^2]
+    real(c_double) :: exponent = 0                 ! > 0 where contact is, at most 2
+    real(c_double) :: constant = 0                 ! at any pressure, within reach [F/(L T K)]
+    real(c_double) :: gas = 0                      ! conductivity of what fills the gap [F/(T K)]
+    real(c_double) :: gas_gap = 0                  ! what touching surfaces count as a gap, > 0 where gas is [L]
+    real(c_double) :: reach = 0                    ! gaps from which on neither passes anything [L]
+    real(c_double) :: share = 0                    ! of friction's heat that goes into the non-mortar body
+    real(c_double) :: time = 0                     ! that the step takes [T]; 0: friction makes no heat
+  end type
+
+  ! What passes through the non-mortar nodes: c_loc of real(c_double) (n1) each, or c_null_ptr.
+  type, bind(C) :: stickslip_heat_nodes
+    integer(c_int64_t) :: struct_size = stickslip_heat_nodes_size
+    type(c_ptr) :: conductance = c_null_ptr        ! h [F/(L T K)]
+    type(c_ptr) :: flux = c_null_ptr               ! h times the mean jump [F/(L T)]
+    type(c_ptr) :: jump = c_null_ptr               ! the mean jump of temperature [K]
+    type(c_ptr) :: friction = c_null_ptr           ! the heat of friction [F L/T]
+    type(c_ptr) :: area = c_null_ptr               ! that the means are of [L^2]
   end type
 
   interface
@@ -1314,6 +1347,44 @@ module stickslip
       type(stickslip_interface), value :: interface
       integer(c_int64_t), value :: n
       real(c_double), intent(in) :: states(*)
+    end function
+
+    ! Heat that leaves the nodes of both sides: heat1(n1), heat2(n2) [F L/T], to add to the host's internal heat flow.
+    ! temperatures1(n1), temperatures2(n2); nodes: c_null_ptr, or c_loc of a stickslip_heat_nodes.
+    integer(c_int32_t) function stickslip_interface_heat(interface, x1, x2, lambda, heat, temperatures1, temperatures2, &
+        heat1, heat2, nodes) bind(C)
+      import :: c_double, c_int32_t, c_ptr, stickslip_heat, stickslip_interface
+      type(stickslip_interface), value :: interface
+      real(c_double), intent(in) :: x1(*), x2(*), lambda(*)
+      type(stickslip_heat), intent(in) :: heat
+      real(c_double), intent(in) :: temperatures1(*), temperatures2(*)
+      real(c_double), intent(inout) :: heat1(*), heat2(*)
+      type(c_ptr), value :: nodes
+    end function
+
+    ! Its tangent as triplets: equations1(n1), equations2(n2) of the temperatures; which: STICKSLIP_HEAT_... With rows, columns
+    ! and values c_null_ptr only count is written.
+    integer(c_int32_t) function stickslip_interface_heat_tangent_coo(interface, x1, x2, lambda, heat, temperatures1, &
+        temperatures2, equations1, equations2, which, capacity, rows, columns, values, count) bind(C)
+      import :: c_double, c_int32_t, c_int64_t, c_ptr, stickslip_heat, stickslip_interface
+      type(stickslip_interface), value :: interface
+      real(c_double), intent(in) :: x1(*), x2(*), lambda(*)
+      type(stickslip_heat), intent(in) :: heat
+      real(c_double), intent(in) :: temperatures1(*), temperatures2(*)
+      integer(c_int64_t), intent(in) :: equations1(*), equations2(*)
+      integer(c_int32_t), value :: which
+      integer(c_int64_t), value :: capacity
+      type(c_ptr), value :: rows, columns, values
+      integer(c_int64_t), intent(inout) :: count
+    end function
+
+    ! What passes through one node: sides(2) [F/(L T)]; slopes(STICKSLIP_HEAT_SLOPES, 2) and conductance: c_loc, or c_null_ptr.
+    integer(c_int32_t) function stickslip_node_heat(heat, jump, pressure, gap, area, work, sides, slopes, conductance) bind(C)
+      import :: c_double, c_int32_t, c_ptr, stickslip_heat
+      type(stickslip_heat), intent(in) :: heat
+      real(c_double), value :: jump, pressure, gap, area, work
+      real(c_double), intent(inout) :: sides(*)
+      type(c_ptr), value :: slopes, conductance
     end function
   end interface
 end module

@@ -72,7 +72,8 @@
  * What it may add: interface_set_friction, interface_set_augmentation, interface_set_normals,
  * interface_set_constraints, interface_set_offsets, interface_set_previous, interface_set_committed after interface_create; interface_adjust,
  * interface_shape_offsets for what goes into them; interface_set_law, interface_set_threshold for other laws of friction,
- * interface_law_states, interface_set_law_states for what these remember; interface_history_size,
+ * interface_law_states, interface_set_law_states for what these remember; interface_heat and interface_heat_tangent_coo for
+ * heat across the interface; interface_history_size,
  * interface_history_export, interface_history_import for restarts; interface_sums on several processes;
  * interface_counters, interface_effects, interface_report, interface_diagnose. Where normals follow the motion: interface_turn_multipliers
  * at the start of a step, interface_use_normals for a step in two phases. Before it: surface_split_creases where a non-mortar surface
@@ -96,6 +97,7 @@
  *     pair_weights, pair_gap                 each pair; sum the gaps over the pairs of a node
  *     node_respond                           each non-mortar node
  *     node_equilibrium                       the same, to see whether it has converged
+ *     node_heat                              the same for heat, where there is any
  *     pair_residual, pair_tangent            each pair again
  *     node_block                             each non-mortar node, once
  *     node_condense                          in its place without multipliers (dual basis)
@@ -348,10 +350,12 @@
 /// A node is closed or open. Default.
 #define STICKSLIP_DECISION_NODES 0
 
-/// Each point of an overlap is closed or open (docs/formulation.md 14): the border of the contact lies inside facets. modulus is needed,
+/// Each point of an overlap is closed or open (docs/formulation.md 16): the border of the contact lies inside facets. modulus is needed,
 /// and is E* of both bodies together: 1 / E* = (1 - nu1^2) / E1 + (1 - nu2^2) / E2, of a rigid one without its part. The answer depends
 /// on it, by what vanishes with the facets' size. An augmentation beside it takes the place of r = 0.9 E* / h_A alone; r is then part of the
-/// answer, too. UNSUPPORTED: what is said at `decision`.
+/// answer, too. With STICKSLIP_FRICTION_NONE, STICKSLIP_BASIS_DUAL, and STICKSLIP_WEIGHTS_COMMITTED or REFERENCE. UNSUPPORTED: all others of
+/// these; STICKSLIP_FORM_AUGMENTED, STICKSLIP_INTEGRATION_ELEMENTS and HYBRID, weak_coverage, quadratic facets, analytic mortar sides, sums of
+/// handles, parts (owned), condensed systems.
 #define STICKSLIP_DECISION_POINTS 1
 
 /// Multiplier rows times r_A M_A: M_A (p_A - lambda_A), a force. Default.
@@ -552,6 +556,15 @@
 /// The most numbers a node that a law may remember.
 #define STICKSLIP_LAW_MAX_STATES 1024
 
+/// Columns of the heat's tangent: of temperatures alone.
+#define STICKSLIP_HEAT_TEMPERATURES 0
+
+/// Columns of the heat's tangent: of temperatures, displacements and multipliers.
+#define STICKSLIP_HEAT_ALL 1
+
+/// Derivatives per side of `stickslip_node_heat`.
+#define STICKSLIP_HEAT_SLOPES 5
+
 /// A contact interface. Created and destroyed by the library; one thread at a time.
 typedef struct stickslip_interface stickslip_interface;
 
@@ -590,7 +603,7 @@ typedef struct stickslip_options {
   /// of a stiffness. The answer does not depend on it.
   double augmentation;
   /// Young's modulus of the softer body [F/L^2]: rhat_A = 0.1 E / h_A, h_A = sqrt(M_A), of lines about their length; 0 (default): use the
-  /// augmentation.
+  /// augmentation. With STICKSLIP_DECISION_POINTS it is needed, and is E* of both bodies together.
   double modulus;
   /// A node whose covered area over its full area [-] is at most this counts as uncovered; default 1e-8. Where a
   /// surface slides off an edge, the tractions of nodes that are hardly covered grow like the inverse of their
@@ -1151,6 +1164,53 @@ typedef int32_t (*stickslip_threshold)(void *user,
                                        const double *states,
                                        struct stickslip_law_answer *answer,
                                        double *states_after);
+
+/// How heat crosses an interface, and where that of friction goes. Zeros: nothing passes, friction makes none. T stands for a time,
+/// K for a temperature, so that F L/T is a power.
+///
+/// Per area h (T1 - T2) leaves the non-mortar body and enters the mortar one. With the pressure p and the mean gap g of a node
+/// h = contact f(p / pressure) + (constant + gas / (g + gas_gap)) b(g / reach). f(x) is x to the exponent; below x = 1/1000 a
+/// parabola of third degree takes its place that begins with slope 0. b is 1 and falls over the last tenth of the reach
+/// smoothly to 0. Below g = 0 gas / (g + gas_gap) goes on along its tangent.
+typedef struct stickslip_heat {
+  /// sizeof(stickslip_heat).
+  uint64_t struct_size;
+  /// Conductance at the reference pressure, >= 0 [F/(L T K)].
+  double contact;
+  /// The reference pressure, above 0 where contact is [F/L^2].
+  double pressure;
+  /// The exponent, above 0 where contact is, at most 2 [-]. About 0.95 for rough metals.
+  double exponent;
+  /// Conductance at any pressure and any gap within reach, >= 0 [F/(L T K)].
+  double constant;
+  /// Conductivity of what fills the gap, >= 0 [F/(T K)].
+  double gas;
+  /// What touching surfaces count as a gap, above 0 where gas is [L].
+  double gas_gap;
+  /// Gaps from which on neither constant nor gas pass anything; above 0 where one of them is [L].
+  double reach;
+  /// The share of the heat of friction that goes into the non-mortar body, 0 to 1 [-]. The rest goes into the mortar body.
+  double share;
+  /// The time that the step takes [T]; 0: friction makes no heat. The heat of a node is its dissipation in the step over this.
+  double time;
+} stickslip_heat;
+
+/// What `stickslip_interface_heat` reports per non-mortar node, n1 each; a NULL member is not wanted. 0 where nothing covers the
+/// node, or its multiplier acts elsewhere.
+typedef struct stickslip_heat_nodes {
+  /// sizeof(stickslip_heat_nodes).
+  uint64_t struct_size;
+  /// h [F/(L T K)].
+  double *conductance;
+  /// h times the mean jump of temperature: from the non-mortar to the mortar body, without friction's heat [F/(L T)].
+  double *flux;
+  /// The mean jump of temperature, T1 - T2 [K].
+  double *jump;
+  /// The heat of friction, which both bodies get in all [F L/T].
+  double *friction;
+  /// The area that the means are of [L^2].
+  double *area;
+} stickslip_heat_nodes;
 
 #ifdef __cplusplus
 extern "C" {
@@ -2480,6 +2540,82 @@ int32_t stickslip_interface_law_states(struct stickslip_interface *interface,
 int32_t stickslip_interface_set_law_states(struct stickslip_interface *interface,
                                            int64_t n,
                                            const double *states);
+
+/// Heat that leaves the nodes of both sides, what to ADD to the host's internal heat flow (conduction and storage, less sources).
+/// With q_A of each non-mortar node: sum_A n_AB q_A at the non-mortar, - sum_A n_AC q_A at the mortar nodes, less friction's heat.
+/// All of it sums up to minus the heat of friction: what leaves one body enters the other one. A linear temperature over meshes
+/// that do not match passes exactly. docs/formulation.md, 17.
+///
+/// x1 (3 n1), x2 (3 n2), lambda (3 n1): as for `stickslip_interface_states`; before the commit, as there. heat: see there.
+/// temperatures1 (n1), temperatures2 (n2) [K], from any zero. Outputs: heat1 (n1), heat2 (n2) [F L/T]; nodes: NULL, or its members point
+/// to the caller's arrays. Of a part of an interface (`owned`) they are what its own nodes give, to be added up like forces. In
+/// plane models they are of the thickness, in axisymmetric ones of the whole ring.
+///
+/// Errors: as `stickslip_interface_residual` without sums; INVALID_VALUE (a member of heat), NOT_FINITE (temperatures; a result that
+/// overflows), UNSUPPORTED (an analytic mortar side, which has no temperatures; points that decide what is closed).
+/// Cost: after a residual at the same point O(pairs); where surfaces are apart an integration. Allocates.
+int32_t stickslip_interface_heat(struct stickslip_interface *interface,
+                                 const double *x1,
+                                 const double *x2,
+                                 const double *lambda,
+                                 const struct stickslip_heat *heat,
+                                 const double *temperatures1,
+                                 const double *temperatures2,
+                                 double *heat1,
+                                 double *heat2,
+                                 const struct stickslip_heat_nodes *nodes);
+
+/// The exact tangent of `stickslip_interface_heat` as triplets in the host's equation numbers and index base: by rows, which are the
+/// temperatures' equations, each entry once (as often as nodes share equations). For Newton's method in which temperatures, displacements and
+/// multipliers are solved for together: forces have no columns of temperatures, so that the rest of that matrix is
+/// `stickslip_interface_tangent_coo` and the host's own. docs/formulation.md, 17.2.
+///
+/// x1, x2, lambda, heat, temperatures1, temperatures2: as for `stickslip_interface_heat`. equations1 (n1), equations2 (n2): of the temperatures, one a node, in
+/// the index base; -1: prescribed. which: STICKSLIP_HEAT_TEMPERATURES, or STICKSLIP_HEAT_ALL: with columns of the displacements and
+/// multipliers that the interface was created with. Outputs: rows, columns, values (capacity each), count. With all three arrays
+/// NULL only count is written, and capacity is not read. Entries of [F L/(T K)], [F/T], [L^3/T]. After NOT_FINITE because a value
+/// overflows, values mean nothing.
+///
+/// Errors: those of `stickslip_interface_heat`, INDEX_OUT_OF_RANGE (an equation below the base), INVALID_VALUE (which), BUFFER_TOO_SMALL,
+/// UNSUPPORTED (columns of displacements with normals of now).
+/// Cost: as the heat; with all columns the derivatives of all weights, about twice a tangent of forces. Counting costs the same.
+/// Allocates.
+int32_t stickslip_interface_heat_tangent_coo(struct stickslip_interface *interface,
+                                             const double *x1,
+                                             const double *x2,
+                                             const double *lambda,
+                                             const struct stickslip_heat *heat,
+                                             const double *temperatures1,
+                                             const double *temperatures2,
+                                             const int64_t *equations1,
+                                             const int64_t *equations2,
+                                             int32_t which,
+                                             int64_t capacity,
+                                             int64_t *rows,
+                                             int64_t *columns,
+                                             double *values,
+                                             int64_t *count);
+
+/// What passes through one node, for hosts that go through the stages: they add up jump and area over the node's pairs with the
+/// weights of `stickslip_pair_weights`, as they do with gaps, and deal the result out as they do with forces: heat of
+/// sum_A n_AB sides[0] at non-mortar, - sum_A n_AC sides[1] at mortar nodes.
+///
+/// jump: sum_B n_AB T_B - sum_C n_AC T_C [K L^2]. pressure >= 0: minus the normal projected traction [F/L^2]. gap: the normal
+/// weighted gap, nu . g_A [L^3]. area: sum_B n_AB, above 0 [L^2]. work: traction times slip in the step [F L]. Outputs: sides (2)
+/// [F/(L T)]: what leaves the non-mortar body and what enters the mortar one, friction's heat included; slopes (2 times
+/// STICKSLIP_HEAT_SLOPES, or NULL): their derivatives by these five numbers, side by side; conductance (1, or NULL) [F/(L T K)].
+///
+/// Errors: NULL_POINTER, STRUCT_SIZE, NOT_FINITE, INVALID_VALUE (a member of heat, an area that is not positive, a negative pressure).
+/// Cost: below a microsecond; allocates nothing. docs/formulation.md, 17.1.
+int32_t stickslip_node_heat(const struct stickslip_heat *heat,
+                            double jump,
+                            double pressure,
+                            double gap,
+                            double area,
+                            double work,
+                            double *sides,
+                            double *slopes,
+                            double *conductance);
 
 #ifdef __cplusplus
 }  // extern "C"

@@ -14,7 +14,7 @@ static const char help[] = "Frictional contact of elastic bodies.\n"
                            "  -test_jacobian_blocks  compare the tangent with differences of the residual\n"
                            "Every value of the scene can be overridden: `block: {young: 1}` by -block_young 1.\n\n";
 
-/* Each room knows those below it: mesh, physics, contact, solve, output. */
+/* Each room knows those below it: mesh, physics, contact, solve, heat, output. */
 static void connect(Model *model)
 {
   model->physics.mesh    = &model->mesh;
@@ -23,10 +23,14 @@ static void connect(Model *model)
   model->solve.mesh      = &model->mesh;
   model->solve.physics   = &model->physics;
   model->solve.contact   = &model->contact;
+  model->heat.mesh       = &model->mesh;
+  model->heat.physics    = &model->physics;
+  model->heat.contact    = &model->contact;
   model->output.mesh     = &model->mesh;
   model->output.physics  = &model->physics;
   model->output.contact  = &model->contact;
   model->output.solve    = &model->solve;
+  model->output.heat     = &model->heat;
 }
 
 static PetscErrorCode read_scene(Model *model)
@@ -51,6 +55,7 @@ static PetscErrorCode read_scene(Model *model)
   PetscCall(loads_read(model->scene, &model->physics));
   PetscCall(contact_read(model->scene, &model->contact));
   PetscCall(iterative_read(model->scene, &model->solve));
+  PetscCall(heat_read(model->scene, &model->heat));
   PetscCall(output_read(model->scene, &model->output));
   model->solve.quiet = model->output.quiet;
   scene_root_begin(model->scene); /* rank 0 has read every key */
@@ -73,6 +78,7 @@ static PetscErrorCode build(Model *model, PetscInt *status)
   PetscCall(supports_label(physics));
   PetscCall(loads_label(physics));
   PetscCall(contact_label(contact));
+  PetscCall(heat_label(&model->heat));
   PetscCall(parts_label(physics));
   PetscCall(reach_measure(contact));
   PetscCall(plex_distribute(&model->mesh));
@@ -85,6 +91,7 @@ static PetscErrorCode build(Model *model, PetscInt *status)
   iterative_check(model->scene, solve);
   PetscCall(bulk_create(physics));
   PetscCall(loads_assemble(physics));
+  PetscCall(heat_create(&model->heat));
   PetscCall(contact_create(contact, model->scene, solve->quiet, status));
   if (*status) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(supports_values(physics, 0));
@@ -98,6 +105,7 @@ static PetscErrorCode clean_up(Model *model)
 {
   PetscFunctionBegin;
   PetscCall(output_destroy(&model->output));
+  PetscCall(heat_destroy(&model->heat));
   PetscCall(newton_destroy(&model->solve));
   PetscCall(held_destroy(&model->solve));
   PetscCall(times_destroy(&model->solve.steps));

@@ -9,6 +9,7 @@ typedef struct {
   Physics physics;
   Contact contact;
   Solve   solve;
+  Heat    heat;
   Output  output;
 } Model;
 

@@ -28,6 +28,33 @@ static PetscErrorCode history_destroy(History *history)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* The mechanics, and in turns with them the temperatures, until what bodies expand by has settled. */
+static PetscErrorCode solve_in_turns(Model *model, History *history, PetscBool *done)
+{
+  Heat           *heat = &model->heat;
+  const PetscReal dt   = model->physics.t - history->past.t_last;
+  PetscReal       change;
+  PetscInt        refused;
+  PetscFunctionBegin;
+  for (;;) {
+    PetscCall(loads_values(&model->physics));
+    PetscCall(newton_solve(&model->solve, &history->past, history->x, done));
+    model->solve.iterations += model->solve.newton.iterations;
+    if (!*done || !heat->on) PetscFunctionReturn(PETSC_SUCCESS);
+    PetscCall(heat_solve(heat, dt, &change, &refused));
+    if (refused) break;
+    if (!heat->two_way || change <= heat->tolerance) PetscFunctionReturn(PETSC_SUCCESS);
+    if (heat->turns < heat->most) continue;
+    PetscCall(PetscSNPrintf(model->contact.refusal, sizeof(model->contact.refusal),
+                            "temperatures and displacements do not settle: after %d turns the temperatures change by %.2g of their range",
+                            (int)heat->turns, (double)change));
+    break;
+  }
+  PetscCall(PetscSNPrintf(model->solve.newton.why, sizeof(model->solve.newton.why), "heat: %s", model->contact.refusal));
+  *done = PETSC_FALSE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* Solve at t and commit; `last`: t is the end of the run. */
 static PetscErrorCode step_to(Model *model, Summary *summary, History *history, PetscInt step, PetscReal t,
                               PetscBool asked, PetscBool last, PetscBool *done)
@@ -37,14 +64,13 @@ static PetscErrorCode step_to(Model *model, Summary *summary, History *history, 
   PetscFunctionBegin;
   model->physics.t = t;
   PetscCall(supports_values(&model->physics, t));
-  PetscCall(loads_values(&model->physics));
+  PetscCall(heat_begin(&model->heat, t));
   PetscCall(offsets_values(&model->contact, t, &refused));
   if (refused) {
     *done = PETSC_FALSE;
     PetscFunctionReturn(PETSC_SUCCESS);
   }
-  PetscCall(newton_solve(&model->solve, &history->past, history->x, done));
-  model->solve.iterations += newton->iterations;
+  PetscCall(solve_in_turns(model, history, done));
   history->tried     = PETSC_TRUE;
   history->converged = *done;
   if (*done) {
@@ -74,6 +100,7 @@ static PetscErrorCode accept(Model *model, History *history)
   history->past.t_last          = model->physics.t;
   model->solve.iterations        = 0;
   parts_accept(&model->physics);
+  PetscCall(heat_accept(&model->heat));
   equilibrium_accept(&model->contact);
   condensed_accept(&model->contact);
   PetscCall(contact_share_out(&model->contact));

@@ -210,3 +210,22 @@ def test_a_law_that_fails_refuses_the_call_and_is_its_cause(blocks):
         blocks.interface.residual(*point)
     with pytest.raises(TypeError, match="mu_across"):
         blocks.interface.set_law("orthotropic", across=0.1)
+
+
+def test_heat_passes_and_is_what_its_tangent_says():
+    with scene.Solid() as solid:
+        face, n = solid.interface, len(solid.x1) + len(solid.x2)
+        point = solid.x1, solid.x2, np.tile(-5.0 * solid.nu, (len(solid.x1), 1))
+        t1, t2 = np.linspace(20.0, 30.0, len(solid.x1)), np.linspace(25.0, 15.0, len(solid.x2))
+        law = dict(contact=2.0, pressure=5.0, exponent=0.95, constant=0.3, reach=1.0)
+        heat = face.heat(*point, t1, t2, **law)
+        assert abs(heat.heat1.sum() + heat.heat2.sum()) <= 1e-13 * np.abs(heat.heat1).sum() and heat.flux.any()
+        np.testing.assert_allclose(heat.flux, heat.conductance * heat.jump, rtol=1e-14)
+        np.testing.assert_allclose(heat.conductance[heat.area > 0], 2.3, rtol=1e-12)
+        equations = np.arange(n, dtype=np.int64)
+        matrix = face.heat_tangent(*point, t1, t2, equations[:len(t1)], equations[len(t1):], n, "temperatures", **law)
+        np.testing.assert_allclose(matrix @ np.concatenate([t1, t2]), np.concatenate([heat.heat1, heat.heat2]), atol=1e-12)
+        with pytest.raises(TypeError, match="no number of heat"):
+            face.heat(*point, t1, t2, warmth=1.0)
+        with pytest.raises(stickslip.Error, match="reach"):
+            face.heat(*point, t1, t2, constant=1.0)

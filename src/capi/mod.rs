@@ -87,6 +87,8 @@ mod rigid;
 
 mod law;
 
+mod heat;
+
 mod choice;
 mod fp_environment;
 mod guard;
@@ -105,6 +107,7 @@ pub use evaluation::*;
 pub use facet::*;
 pub use facet_tangent::*;
 pub use handle::*;
+pub use heat::*;
 pub use history::*;
 pub use interface::*;
 pub use law::*;

@@ -12,6 +12,7 @@
 mod cone;
 mod coulomb;
 mod frictionless;
+mod heat;
 mod node;
 mod orthotropic;
 mod own;
@@ -30,6 +31,7 @@ mod weakening;
 pub use cone::{Cone, Trial, trial};
 pub use coulomb::Coulomb;
 pub use frictionless::Frictionless;
+pub use heat::{Conductance, FADES, FEW, HeatFlow, HeatNode, heat_flow};
 pub use node::{Law, Node, NodeResponse, Turn};
 pub use orthotropic::Orthotropic;
 pub use own::{Host, OWN_NAMES, Own};

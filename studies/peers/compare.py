@@ -33,11 +33,13 @@ LOADS = 10
 # The others take the contact's geometry from the undeformed bodies.
 SMALL = ("-contact_weights", "reference")
 DUAL = ("-contact_basis", "dual")
+POINTS = (*SMALL, *DUAL, "-contact_decision", "points")
 LAWS = {
     "stickslip, defaults": (),
     "stickslip, dual": DUAL,
     "stickslip, small displacements": SMALL,
     "stickslip, small displacements, dual": (*SMALL, *DUAL),
+    "stickslip, small displacements, points": POINTS,
 }
 OURS = ("-output_vtu", "last", "-output_csv", "last", "-output_quiet", "true")
 

@@ -22,9 +22,11 @@ from laws import laws  # noqa: E402
 from loads import loads  # noqa: E402
 from normals import normals  # noqa: E402
 from normals_full import normals_full, normals_iterations  # noqa: E402
+from heat import heat  # noqa: E402
 from offsets import offsets  # noqa: E402
 from plane import plane, plane_ball  # noqa: E402
 from plane_analytic import plane_analytic  # noqa: E402
+from points import points, points_full  # noqa: E402
 from quadratic import quadratic  # noqa: E402
 from quadratic_contact import quadratic_contact  # noqa: E402
 from quadratic_line import quadratic_line  # noqa: E402
@@ -64,10 +66,13 @@ GROUPS = {
     "normals": normals,
     "normals_full": normals_full,  # ten minutes; not among the tests
     "normals_iterations": normals_iterations,  # some minutes; not among the tests
+    "heat": heat,
     "offsets": offsets,
     "plane": plane,
     "plane_analytic": plane_analytic,
     "plane_ball": plane_ball,
+    "points": points,
+    "points_full": points_full,  # some minutes; not among the tests
     "quadratic": quadratic,
     "quadratic_contact": quadratic_contact,
     "quadratic_line": quadratic_line,

@@ -15,6 +15,9 @@ static struct {
   double raised1[N1], raised2[N2], remembered[N1];
   int64_t n_states, remembered_count;
   stickslip_law law;
+  stickslip_heat heat;
+  double jump, pressure, node_gap, area, work;
+  int32_t which;
   double mu[N1], r[N1], normals[X1], slip[X1], directions[9], sums[STICKSLIP_SUMS_PER_NODE * N1], dx1[X1], dx2[X2];
   weights previous;
   history imported;
@@ -186,6 +189,17 @@ FUNCTION(interface_set_threshold, (a[0], every_half, a[1], b.n_states), INTERFAC
 FUNCTION(interface_law_states, (a[0], b.capacity, a[1], a[2]), INTERFACE, {"states", b.remembered, OPTIONAL},
          {"count", &b.remembered_count, NEEDED})
 FUNCTION(interface_set_law_states, (a[0], b.n_states, a[1]), INTERFACE, {"states", b.remembered, NEEDED})
+FUNCTION(interface_heat, (a[0], a[1], a[2], a[3], a[4], a[5], a[6], a[7], a[8], a[9]), AT, {"lambda", S.lambda, NEEDED},
+         {"heat", &b.heat, NEEDED}, {"temperatures1", b.every.heat_t1, NEEDED}, {"temperatures2", b.every.heat_t2, NEEDED},
+         {"heat1", b.every.heat1, NEEDED}, {"heat2", b.every.heat2, NEEDED}, {"heat_nodes", &b.every.heat_nodes, OPTIONAL})
+FUNCTION(interface_heat_tangent_coo, (a[0], a[1], a[2], a[3], a[4], a[5], a[6], a[7], a[8], b.which, b.capacity, a[9], a[10], a[11], a[12]),
+         AT, {"lambda", S.lambda, NEEDED}, {"heat", &b.heat, NEEDED}, {"temperatures1", b.every.heat_t1, NEEDED},
+         {"temperatures2", b.every.heat_t2, NEEDED}, {"equations1", b.every.heat_e1, NEEDED},
+         {"equations2", b.every.heat_e2, NEEDED}, {"rows", b.every.plan_columns, NEEDED},
+         {"columns", b.every.heat_columns, NEEDED}, {"values", b.every.plan_values[0], NEEDED}, {"count", &b.every.heat_count, NEEDED})
+FUNCTION(node_heat, (a[0], b.jump, b.pressure, b.node_gap, b.area, b.work, a[1], a[2], a[3]), {"heat", &b.heat, NEEDED},
+         {"sides", b.every.heat_sides, NEEDED}, {"slopes", b.every.heat_slopes, OPTIONAL},
+         {"conductance", &b.every.heat_conductance, OPTIONAL})
 FUNCTION(interface_equilibrium, (a[0], a[1], a[2], a[3], a[4], a[5]), POINT, OUT(b.every.equilibrium))
 
 FUNCTION(rigid_positions, (a[0], a[1], a[2]), {"body", &b.rigid.body, NEEDED}, {"motion", &b.rigid.motion, NEEDED},
@@ -223,7 +237,7 @@ static const struct {
     NAMED(interface_history_export), NAMED(interface_history_import), NAMED(interface_counters),
     NAMED(interface_effects), NAMED(interface_report), NAMED(interface_diagnose), NAMED(interface_equilibrium),
     NAMED(interface_set_offsets), NAMED(interface_adjust), NAMED(interface_shape_offsets),
-    NAMED(interface_set_law), NAMED(interface_set_threshold), NAMED(interface_law_states), NAMED(interface_set_law_states),
+    NAMED(interface_heat), NAMED(interface_heat_tangent_coo), NAMED(node_heat), NAMED(interface_set_law), NAMED(interface_set_threshold), NAMED(interface_law_states), NAMED(interface_set_law_states),
     NAMED(node_condense), NAMED(interface_carriers), NAMED(interface_condensed_multipliers), NAMED(interface_condensed_residual),
     NAMED(interface_condensed_coo), NAMED(interface_condensed_csr), NAMED(interface_condensed_pattern),
     NAMED(interface_use_normals), NAMED(interface_turn_multipliers), NAMED(facet_normal_derivatives), NAMED(node_turn),

@@ -4,7 +4,7 @@
 
 #include <stddef.h>
 
-static bad_at places[600];
+static bad_at places[800];
 static int n_places;
 
 void bad_place(const char *name, bad_type type, void *at, int32_t n) {
@@ -66,6 +66,10 @@ static const struct {
     ARRAY(rigid_motion, turned, 9),
     I64(law, struct_size), I32(law, kind), I32(law, reserved), ONE(law, cohesion), ONE(law, mu_after), ONE(law, critical_slip),
     ONE(law, mu_across), ARRAY(law, direction, 3),
+    I64(heat, struct_size), ONE(heat, contact), ONE(heat, pressure), ONE(heat, exponent), ONE(heat, constant), ONE(heat, gas),
+    ONE(heat, gas_gap), ONE(heat, reach), ONE(heat, share), ONE(heat, time),
+    I64(heat_nodes, struct_size), MAY(heat_nodes, conductance), MAY(heat_nodes, flux), MAY(heat_nodes, jump),
+    MAY(heat_nodes, friction), MAY(heat_nodes, area),
     /* Of a response: what node_respond, node_block and pair_tangent read. */
     RESPONSE(answer, struct_size, INT64, 0), RESPONSE(response, struct_size, INT64, 0),
     RESPONSE(response, row, REAL, 3), RESPONSE(response, drow_dlambda, REAL, 9),

@@ -60,6 +60,11 @@ typedef struct {
   double adjusted[X1], gaps[N1], shape_offsets[N1], law_states[N1];
   int64_t law_count;
   int32_t moved[N1];
+  /* Of heat. */
+  double heat_t1[N1], heat_t2[N2], heat1[N1], heat2[N2], heat_flux[N1], heat_sides[2], heat_slopes[2 * STICKSLIP_HEAT_SLOPES];
+  double heat_conductance;
+  stickslip_heat_nodes heat_nodes;
+  int64_t heat_e1[N1], heat_e2[N2], heat_count, heat_columns[UNKNOWNS * UNKNOWNS];
   /* Of plans, two for those of condensed systems. */
   int64_t plan_rows[2], plan_counts[2], row_list[UNKNOWNS], row_offsets[UNKNOWNS + 1], plan_columns[UNKNOWNS * UNKNOWNS];
   int32_t row_list32[UNKNOWNS], row_offsets32[UNKNOWNS + 1], rows32[UNKNOWNS * UNKNOWNS], columns32[UNKNOWNS * UNKNOWNS];
@@ -209,6 +214,34 @@ static inline int32_t every_law_states(every *c) {
 }
 static inline int32_t every_set_law_states(every *c) {
   return stickslip_interface_set_law_states(c->h.s.interface, every_has_law(c) ? N1 : 0, c->law_states);
+}
+/* Numbers are powers of two: exact, for a caller's inexact operations may be trapped. An analytic mortar side has no temperatures. */
+static inline stickslip_heat every_heat_law(void) {
+  const stickslip_heat heat = {.struct_size = sizeof heat, .contact = 2.0, .pressure = 0.5, .exponent = 0.5, .constant = 0.25,
+                               .gas = 0.125, .gas_gap = 0.5, .reach = 1.0, .share = 0.25, .time = 0.5};
+  return heat;
+}
+static inline int every_has_heat(const every *c) { return c->h.s.options.mortar_side != STICKSLIP_MORTAR_ANALYTIC; }
+static inline int32_t every_heat(every *c) {
+  const scene *s = &c->h.s;
+  const stickslip_heat heat = every_heat_law();
+  if (!every_has_heat(c)) return STICKSLIP_OK;
+  return stickslip_interface_heat(s->interface, s->x1, s->x2, s->lambda, &heat, c->heat_t1, c->heat_t2, c->heat1, c->heat2,
+                                  &c->heat_nodes);
+}
+static inline int32_t every_heat_coo(every *c) {
+  const scene *s = &c->h.s;
+  const stickslip_heat heat = every_heat_law();
+  const int32_t which =
+      s->options.normals == STICKSLIP_NORMALS_CURRENT ? STICKSLIP_HEAT_TEMPERATURES : STICKSLIP_HEAT_ALL;
+  if (!every_has_heat(c)) return STICKSLIP_OK;
+  return stickslip_interface_heat_tangent_coo(s->interface, s->x1, s->x2, s->lambda, &heat, c->heat_t1, c->heat_t2, c->heat_e1,
+                                              c->heat_e2, which, COUNT(c->heat_columns), c->plan_columns, c->heat_columns,
+                                              c->plan_values[0], &c->heat_count);
+}
+static inline int32_t every_node_heat(every *c) {
+  const stickslip_heat heat = every_heat_law();
+  return stickslip_node_heat(&heat, 0.5, 0.25, 0.125, 0.5, 0.25, c->heat_sides, c->heat_slopes, &c->heat_conductance);
 }
 static inline int32_t every_committed(every *c) { return call_interface_committed(&c->h); }
 static inline int32_t every_previous(every *c) { return call_interface_previous(&c->h); }
@@ -451,6 +484,9 @@ static const entry_point every_call[] = {
     {"interface_law_states", every_law_states},
     {"interface_set_law_states", every_set_law_states},
     {"interface_set_law, NULL", every_no_law},
+    {"interface_heat", every_heat},
+    {"interface_heat_tangent_coo", every_heat_coo},
+    {"node_heat", every_node_heat},
     {"interface_adjust", every_adjust},
     {"interface_shape_offsets", every_shape_offsets},
     {"interface_set_constraints", every_constraints},
@@ -591,10 +627,14 @@ static inline int32_t every_refusal(int k) {
     case 76: return stickslip_interface_set_threshold(NULL, NULL, NULL, 0);
     case 77: return stickslip_interface_law_states(NULL, 0, NULL, NULL);
     case 78: return stickslip_interface_set_law_states(NULL, 0, NULL);
+    case 79: return stickslip_interface_heat(NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL);
+    case 80:
+      return stickslip_interface_heat_tangent_coo(NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, 0, 0, NULL, NULL, NULL, NULL);
+    case 81: return stickslip_node_heat(NULL, 0.0, 0.0, 0.0, 1.0, 0.0, NULL, NULL, NULL);
     default: return stickslip_interface_diagnose(NULL, NULL, NULL, NULL, NULL, NULL);
   }
 }
-enum { REFUSALS = 80 };
+enum { REFUSALS = 83 };
 
 /* Room and sizes for the structs that come out. */
 static inline void every_room(every *c) {
@@ -603,6 +643,9 @@ static inline void every_room(every *c) {
   h->states.struct_size = sizeof h->states;
   h->states.state = h->state;
   h->states.normal = h->normal;
+  memset(&c->heat_nodes, 0, sizeof c->heat_nodes);
+  c->heat_nodes.struct_size = sizeof c->heat_nodes;
+  c->heat_nodes.flux = c->heat_flux;
   c->counters.struct_size = sizeof c->counters;
   memset(&c->equilibrium, 0, sizeof c->equilibrium);
   c->equilibrium.struct_size = sizeof c->equilibrium;
@@ -637,6 +680,14 @@ static inline void every_init(every *c) {
   history_take(c->h.s.interface, &c->exported);
   handle_matrix(&c->h);
   handle_host(&c->h);
+  for (int a = 0; a < N1; ++a) {
+    c->heat_t1[a] = 0.25 * a;
+    c->heat_e1[a] = c->h.s.options.index_base + UNKNOWNS + a;
+  }
+  for (int a = 0; a < N2; ++a) {
+    c->heat_t2[a] = -0.5 * a;
+    c->heat_e2[a] = c->h.s.options.index_base + UNKNOWNS + N1 + a;
+  }
   every_room(c);
 }
 
@@ -663,7 +714,8 @@ static inline int every_equal(every *a, every *b) {
          SAME(row_list) && SAME(row_offsets) && SAME(plan_columns) && SAME(row_list32) && SAME(row_offsets32) &&
          SAME(rows32) && SAME(columns32) && SAME(plan_values) && SAME(rigid_x) && SAME(resultant) && SAME(turned_motion) &&
          SAME(rigid_count) && SAME(rigid_rows) && SAME(rigid_columns) && SAME(rigid_values) && SAME(law_states) &&
-         SAME(law_count);
+         SAME(law_count) && SAME(heat1) && SAME(heat2) && SAME(heat_flux) && SAME(heat_sides) && SAME(heat_slopes) &&
+         SAME(heat_conductance) && SAME(heat_count) && SAME(heat_columns);
 #undef SAME
 }
 

@@ -177,6 +177,19 @@ fn layouts() -> Vec<Layout> {
         layout!(stickslip_law { struct_size, kind, reserved, cohesion, mu_after, critical_slip, mu_across, direction }),
         layout!(stickslip_law_point { struct_size, node, normal, slip, slip_before, direction, mu }),
         layout!(stickslip_law_answer { struct_size, threshold, dthreshold_dnormal, dthreshold_dslip }),
+        layout!(stickslip_heat {
+            struct_size,
+            contact,
+            pressure,
+            exponent,
+            constant,
+            gas,
+            gas_gap,
+            reach,
+            share,
+            time
+        }),
+        layout!(stickslip_heat_nodes { struct_size, conductance, flux, jump, friction, area }),
         layout!(stickslip_node {
             struct_size,
             slip,

@@ -73,6 +73,8 @@ static void set_up(const char *name, int32_t base) {
   b.dx1[0] = 1.0;
   b.tolerance = 0.02;
   b.law = (stickslip_law){.struct_size = sizeof b.law, .kind = STICKSLIP_LAW_COHESION, .cohesion = 1.0};
+  b.heat = every_heat_law();
+  b.area = 1.0;
   b.shape = STICKSLIP_SHAPE_SPHERE;
   b.radius = 1e4;
   b.point[2] = b.direction[2] = 1e4;
@@ -102,6 +104,10 @@ static void set_up(const char *name, int32_t base) {
   } else if (strcmp(name, "interface_tangent_coo") == 0) {
     CHECK_OK(stickslip_interface_tangent_coo(s->interface, s->x1, s->x2, s->lambda, NULL, 0, NULL, NULL, NULL,
                                              &b.capacity));
+  } else if (strcmp(name, "interface_heat_tangent_coo") == 0) {
+    CHECK_OK(stickslip_interface_heat_tangent_coo(s->interface, s->x1, s->x2, s->lambda, &b.heat, b.every.heat_t1,
+                                                  b.every.heat_t2, b.every.heat_e1, b.every.heat_e2, b.which, 0, NULL, NULL,
+                                                  NULL, &b.capacity));
   } else if (strcmp(name, "interface_pattern_coo") == 0) {
     CHECK_OK(stickslip_interface_pattern_coo(s->interface, s->x1, s->x2, 0, NULL, NULL, &b.capacity));
   } else if (carried) {
@@ -183,6 +189,11 @@ static void tell(void) {
   bad_struct("diagnosis", "diagnosis", &b.every.diagnosis);
   bad_struct("equilibrium", "equilibrium", &b.every.equilibrium);
   bad_struct("law", "law", &b.law);
+  bad_struct("heat", "heat", &b.heat);
+  bad_struct("heat_nodes", "heat_nodes", &b.every.heat_nodes);
+  REALS("temperatures1", b.every.heat_t1), REALS("temperatures2", b.every.heat_t2);
+  INTEGERS("equations1", b.every.heat_e1), INTEGERS("equations2", b.every.heat_e2), NUMBER(INT32, which);
+  NUMBER(REAL, jump), NUMBER(REAL, pressure), NUMBER(REAL, node_gap), NUMBER(REAL, area), NUMBER(REAL, work);
   bad_struct("rigid_body", "body", &b.rigid.body);
   bad_struct("rigid_motion", "motion", &b.rigid.motion);
   bad_struct("rigid_motion", "turned_motion", &b.every.turned_motion);

@@ -6,7 +6,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 const DRIVER: &str = "c_examples/snes_contact";
 /// Lowest first. Files beside the folders stand above all rooms.
-const ROOMS: [&str; 6] = ["scene", "mesh", "physics", "contact", "solve", "output"];
+const ROOMS: [&str; 7] = ["scene", "mesh", "physics", "contact", "solve", "heat", "output"];
 
 /// Path within the driver -> text.
 type Files = BTreeMap<String, String>;

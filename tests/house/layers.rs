@@ -87,10 +87,10 @@ fn only_the_abi_and_the_processors_instructions_are_unsafe() {
 const STAGES: [&str; 5] = ["integrate", "facet", "sums", "respond", "residual"];
 
 /// The rooms of `src/interface`, lowest first.
-const ROOMS: [&str; 7] = ["data", "pairing", "stages", "tangent", "plan", "condensed", "inspect"];
+const ROOMS: [&str; 8] = ["data", "pairing", "stages", "tangent", "heat", "plan", "condensed", "inspect"];
 
 /// Files that know the handle: itself, and those that give it to hosts.
-const KNOW_THE_HANDLE: [&str; 9] = [
+const KNOW_THE_HANDLE: [&str; 10] = [
     "interface/condensation.rs",
     "interface/contact.rs",
     "interface/evaluation.rs",
@@ -98,6 +98,7 @@ const KNOW_THE_HANDLE: [&str; 9] = [
     "interface/mod.rs",
     "interface/offsets.rs",
     "interface/own.rs",
+    "interface/thermal.rs",
     "interface/turning.rs",
     "capi/",
 ];

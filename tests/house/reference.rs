@@ -108,6 +108,7 @@ fn members_have_comments_and_reals_units() {
         assert!(!member.comment.trim().is_empty(), "{} has no comment", member.code);
         if member.code.contains("double") {
             let unit = |w: &str| ["[-]", "[s]"].contains(&w) || w.starts_with("[F") || w.starts_with("[L");
+            let unit = |w: &str| unit(w) || w.starts_with("[K") || w.starts_with("[T");
             let has_unit = member.comment.split([' ', '\n']).any(|w| unit(w.trim_end_matches(['.', ':', ';', ','])));
             assert!(has_unit, "{name} has no unit: {}", member.comment);
         }

@@ -18,6 +18,7 @@ mod ends;
 mod equilibrium;
 mod golden;
 mod golden_parts;
+mod heat;
 mod history;
 mod identities;
 mod large_sliding;

@@ -39,6 +39,30 @@ fn the_counter_counts() {
 }
 
 #[test]
+fn heat_of_a_node_allocates_nothing() {
+    let heat = stickslip_heat {
+        struct_size: size_of::<stickslip_heat>() as u64,
+        contact: 2.0,
+        pressure: 0.5,
+        exponent: 0.95,
+        constant: 0.3,
+        gas: 0.1,
+        gas_gap: 0.2,
+        reach: 1.0,
+        share: 0.5,
+        time: 0.1,
+    };
+    let (mut sides, mut slopes, mut h) = ([0.0; 2], [0.0; 2 * STICKSLIP_HEAT_SLOPES as usize], 0.0);
+    allocates_nothing("stickslip_node_heat", || {
+        // SAFETY: all arrays are as long as the header says.
+        let status = unsafe {
+            stickslip_node_heat(&heat, 1.0, 0.4, 0.01, 0.5, 0.2, sides.as_mut_ptr(), slopes.as_mut_ptr(), &mut h)
+        };
+        assert_eq!(status, 0);
+    });
+}
+
+#[test]
 fn calls_of_a_rigid_body_allocate_nothing() {
     let (x, point, forces) = ([1.0, 2.0, 3.0], [0.0; 3], [1.0, -2.0, 0.5]);
     let (nodes, equations, rows, columns) = ([10, 11, 12], [0, 1, 2, 3, 4, 5], [10, 7], [7, 12]);

@@ -104,6 +104,7 @@ typedef struct {
 typedef struct {
   int32_t *state;
   double  *normal, *multiplier, *gap, *slip, *coverage, *area, *dissipation; /* multiplier: as a vector */
+  double  *closed; /* of what is covered of a node, the part that is closed; by nodes 0 or 1 */
 } ContactStates;
 
 /* One contact interface: what the scene says of it, this rank's part, and what is known of the nodes that are at home here. */
@@ -147,6 +148,7 @@ typedef struct {
   Halo           halo;
   double         friction_work;           /* of all ranks, up to the last converged step */
   double         young, largest_traction; /* of the softer body; up to the last converged step */
+  char           modulus_from[64];        /* with decisions at points: what the modulus of both bodies is made of */
   stickslip_equilibrium equilibrium;      /* of this part, as last judged (equilibrium.c) */
 } Interface;
 
@@ -300,6 +302,10 @@ int32_t law_set(const Interface *interface, stickslip_interface *handle);
 /* what it remembers, out of a part's handle after a commit, and into a new one */
 int32_t law_keep(const Interface *interface, ContactPart *part);
 int32_t law_restore(const Interface *interface, const ContactPart *part);
+/* decision.c; `settle` when bodies are known */
+void           decision_read(Scene *scene, Interface *interface);
+PetscBool      decision_is_points(const Interface *interface);
+PetscErrorCode decision_settle(const Contact *contact, Interface *interface);
 /* offsets.c; `fetch` through an SF from homes to the nodes of the part */
 PetscErrorCode offsets_read(Scene *scene, const Physics *physics, Interface *interface);
 PetscErrorCode offsets_place(Scene *scene, Interface *interface);
@@ -376,6 +382,7 @@ enum {
   RESULT_COVERAGE    = RESULT_SLIP + 3,
   RESULT_AREA,
   RESULT_DISSIPATION,
+  RESULT_CLOSED,
   N_RESULTS
 };
 PetscErrorCode contact_results(const ContactPart *part, double results[]);

@@ -95,6 +95,7 @@ static PetscErrorCode settle_nodes(Scene *scene, Contact *contact, Interface *in
   PetscCall(remove_middles(scene, mesh, interface));
 
   PetscCall(find_young(contact, interface));
+  PetscCall(decision_settle(contact, interface));
   if (interface->options.augmentation == 0 && interface->options.modulus == 0)
     interface->options.modulus = interface->young;
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -263,6 +264,7 @@ PetscErrorCode contact_read(Scene *scene, Contact *contact)
     mesh_rotate_vector(contact->mesh, interface->law.direction);
     read_effects(scene, interface);
     read_method(scene, interface);
+    decision_read(scene, interface);
     read_accuracy(scene, interface);
     PetscCall(offsets_read(scene, contact->physics, interface));
   }

@@ -108,10 +108,11 @@ static PetscBool offsets_allow_parts(const Interface *interface)
   return (PetscBool)(!offsets->n_points && offsets->radius[0] == 0 && offsets->radius[1] == 0);
 }
 
-/* One rank has all nodes where the library does not know parts. Lines of a plane model are few; they stay together, too. */
+/* One rank has all nodes where the library does not know parts, as where points decide. Lines of a plane model are few; they
+ * stay together, too. */
 static PetscBool must_be_whole(const Contact *contact, const Interface *interface)
 {
-  return (PetscBool)(interface->dimension == 2 || (contact->condensed && interface->middles) ||
+  return (PetscBool)(interface->dimension == 2 || decision_is_points(interface) || (contact->condensed && interface->middles) ||
                      !offsets_allow_parts(interface));
 }
 

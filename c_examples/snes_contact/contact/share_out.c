@@ -96,7 +96,8 @@ static PetscErrorCode revive(Contact *contact, Interface *interface, int32_t *re
     *refused = stickslip_interface_set_committed(part->handle, part->x, MORTAR_OF(part, part->x), part->slip, contact->n_commits);
   if (!*refused && contact->n_commits) *refused = law_restore(interface, part);
   if (!*refused && interface->offsets.curve.n) *refused = offsets_set(interface, part->handle, contact->physics->t);
-  if (!*refused && contact->scaled) *refused = stickslip_interface_set_augmentation(part->handle, part->augmentation);
+  if (!*refused && contact->scaled && !decision_is_points(interface))
+    *refused = stickslip_interface_set_augmentation(part->handle, part->augmentation);
   if (!*refused && contact->settles && interface->options.normals == STICKSLIP_NORMALS_CURRENT)
     *refused = stickslip_interface_use_normals(part->handle, STICKSLIP_NORMALS_COMMITTED);
   if (!*refused && contact->sticks) *refused = sticking_set(contact, interface, part->handle);

@@ -11,6 +11,7 @@ PetscErrorCode contact_results(const ContactPart *part, double results[])
   if (!part->handle) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PetscMalloc7(n1, &wanted.state, d * n1, &wanted.normal, n1, &wanted.gap, d * n1, &wanted.slip, n1,
                          &wanted.coverage, n1, &wanted.area, n1, &wanted.dissipation));
+  PetscCall(PetscMalloc1(n1, &wanted.share));
   PetscCallStickslip(stickslip_interface_states(part->handle, STATE_OF(part), NULL, &wanted));
   for (PetscInt a = 0; a < n1; a++) {
     double *r = results + N_RESULTS * a;
@@ -24,9 +25,11 @@ PetscErrorCode contact_results(const ContactPart *part, double results[])
     r[RESULT_COVERAGE]    = wanted.coverage[a];
     r[RESULT_AREA]        = wanted.area[a];
     r[RESULT_DISSIPATION] = wanted.dissipation[a];
+    r[RESULT_CLOSED]      = wanted.share[a];
   }
   PetscCall(PetscFree7(wanted.state, wanted.normal, wanted.gap, wanted.slip, wanted.coverage, wanted.area,
                        wanted.dissipation));
+  PetscCall(PetscFree(wanted.share));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -37,7 +40,7 @@ static PetscErrorCode store(const double results[], PetscInt n1, ContactStates *
   if (!states->state) {
     PetscCall(PetscMalloc7(n1, &states->state, 3 * n1, &states->normal, n1, &states->gap, 3 * n1, &states->slip, n1,
                            &states->coverage, n1, &states->area, n1, &states->dissipation));
-    PetscCall(PetscMalloc1(3 * n1, &states->multiplier));
+    PetscCall(PetscMalloc2(3 * n1, &states->multiplier, n1, &states->closed));
   }
   for (PetscInt a = 0; a < n1; a++) {
     const double *r        = results + N_RESULTS * a;
@@ -46,6 +49,7 @@ static PetscErrorCode store(const double results[], PetscInt n1, ContactStates *
     states->coverage[a]    = r[RESULT_COVERAGE];
     states->area[a]        = r[RESULT_AREA];
     states->dissipation[a] = r[RESULT_DISSIPATION];
+    states->closed[a]      = r[RESULT_CLOSED];
     PetscCall(PetscArraycpy(states->normal + 3 * a, r + RESULT_NORMAL, 3));
     PetscCall(PetscArraycpy(states->multiplier + 3 * a, r + RESULT_MULTIPLIER, 3));
     PetscCall(PetscArraycpy(states->slip + 3 * a, r + RESULT_SLIP, 3));
@@ -144,13 +148,14 @@ static PetscErrorCode scale_augmentation(const Interface *interface, const Petsc
 }
 
 /* The augmentation of the nodes marked (those at home of all interfaces, one after the other) times `factor`. The answer does not
- * depend on it. */
+ * depend on it, but where points decide, which keep theirs. */
 PetscErrorCode contact_scale_augmentation(Contact *contact, const PetscBool *marked, PetscReal factor)
 {
   PetscInt first = 0;
   PetscFunctionBegin;
   for (PetscInt i = 0; i < contact->n_interfaces; i++) {
-    PetscCall(scale_augmentation(&contact->interfaces[i], marked ? marked + first : NULL, factor));
+    if (!decision_is_points(&contact->interfaces[i]))
+      PetscCall(scale_augmentation(&contact->interfaces[i], marked ? marked + first : NULL, factor));
     first += contact->interfaces[i].n1;
   }
   contact->scaled = PETSC_TRUE;
@@ -163,7 +168,7 @@ PetscErrorCode contact_reset_augmentation(Contact *contact)
   PetscFunctionBegin;
   contact->scaled = PETSC_FALSE;
   for (PetscInt i = 0; i < contact->n_interfaces; i++) {
-    if (contact->interfaces[i].part.handle)
+    if (contact->interfaces[i].part.handle && !decision_is_points(&contact->interfaces[i]))
       PetscCallStickslip(stickslip_interface_set_augmentation(contact->interfaces[i].part.handle, NULL));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -174,6 +179,6 @@ PetscErrorCode contact_states_destroy(ContactStates *states)
   PetscFunctionBegin;
   PetscCall(PetscFree7(states->state, states->normal, states->gap, states->slip, states->coverage, states->area,
                        states->dissipation));
-  PetscCall(PetscFree(states->multiplier));
+  PetscCall(PetscFree2(states->multiplier, states->closed));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

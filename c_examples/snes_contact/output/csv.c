@@ -2,6 +2,7 @@
  * other; rank 0 writes them one after the other, as they come. */
 #include "output/output.h"
 #include <stdio.h>
+#include <string.h>
 
 static const char *const STATE_NAMES[] = {"gap", "stick", "slip"}; /* by STICKSLIP_STATE_* */
 
@@ -9,14 +10,14 @@ static const char *const STATE_NAMES[] = {"gap", "stick", "slip"}; /* by STICKSL
 enum { ROW = 1024 };
 
 /* the file, on rank 0 */
-static PetscErrorCode open_file(const Output *output, const char *path, const char *head, FILE **file)
+static PetscErrorCode open_file(const Output *output, const char *path, const char *head, const char *further, FILE **file)
 {
   PetscFunctionBegin;
   *file = NULL;
   if (output->mesh->rank) PetscFunctionReturn(PETSC_SUCCESS);
   *file = fopen(path, "w");
   PetscCheck(*file, PETSC_COMM_SELF, PETSC_ERR_FILE_OPEN, "cannot write '%s'", path);
-  fprintf(*file, "%s\n", head);
+  fprintf(*file, "%s%s\n", head, further);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -64,10 +65,13 @@ static void format_row(const Interface *interface, const ContactStates *states, 
   used += snprintf(row + used, (size_t)(ROW - used), ",%s", interface->middle[a] ? "none" : STATE_NAMES[states->state[a]]);
   for (int i = 0; i < 3; i++)
     used += snprintf(row + used, (size_t)(ROW - used), ",%.17g", traction[i] - pressure * n[i]);
+  if (decision_is_points(interface)) snprintf(row + used, (size_t)(ROW - used), ",%.17g", states->closed[a]);
 }
 
-PetscErrorCode csv_write(Output *output, const Interface *interface, const ContactStates *states, PetscInt step)
+PetscErrorCode csv_write(Output *output, const Interface *interface, const ContactStates *states, const double *temperatures,
+                         PetscInt step)
 {
+  static const char *const further[2][2] = {{"", ",temperature"}, {",closed", ",closed,temperature"}};
   char    path[PETSC_MAX_PATH_LEN], row[ROW];
   double *tractions;
   FILE   *file;
@@ -80,9 +84,10 @@ PetscErrorCode csv_write(Output *output, const Interface *interface, const Conta
   PetscCall(open_file(output, path,
                       "node,X,Y,Z,ux,uy,uz,nx,ny,nz,lambda_n,lambda_tx,lambda_ty,lambda_tz,gap_weighted,slip_x,slip_y,slip_z,"
                       "area_covered,area_full,fx,fy,fz,p_lumped,state,t_lumped_x,t_lumped_y,t_lumped_z",
-                      &file));
+                      further[decision_is_points(interface)][temperatures != NULL], &file));
   for (PetscInt a = 0; a < interface->n1; a++) {
     format_row(interface, states, a, tractions + 3 * a, row);
+    if (temperatures) snprintf(row + strlen(row), ROW - strlen(row), ",%.17g", temperatures[a]);
     PetscCall(PetscSynchronizedFPrintf(PETSC_COMM_WORLD, file, "%s\n", row));
   }
   PetscCall(close_file(file));
@@ -103,7 +108,7 @@ PetscErrorCode csv_adjusted(Output *output, const Interface *interface)
   PetscFunctionBegin;
   if (!(offsets->adjust > 0)) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(PetscSNPrintf(path, sizeof(path), "%s/adjust_%s.csv", output->directory, interface->name));
-  PetscCall(open_file(output, path, "node,X,Y,Z,gap,adjusted", &file));
+  PetscCall(open_file(output, path, "node,X,Y,Z,gap,adjusted", "", &file));
   for (PetscInt a = 0; a < interface->n1; a++) {
     double X[3];
     contact_vector(interface->dimension, interface->X, a, X);

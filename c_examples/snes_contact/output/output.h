@@ -1,7 +1,7 @@
 /* What a run leaves: summary.json, a line per step, CSV and VTU files. */
 #ifndef SNES_CONTACT_OUTPUT_H
 #define SNES_CONTACT_OUTPUT_H
-#include "solve/solve.h"
+#include "heat/heat.h"
 #include <stdio.h>
 
 typedef struct {
@@ -16,6 +16,7 @@ typedef struct {
   Physics     *physics;
   Contact     *contact;
   Solve       *solve;
+  Heat        *heat;
   const char  *scene, *directory; /* name of the scene's file; where results go */
   PetscBool    quiet;
   WriteWhen    write_vtu, write_csv;
@@ -48,9 +49,13 @@ PetscErrorCode diagnosis_failed(Output *output, struct cJSON *root);
 /* tractions.c */
 PetscErrorCode nodal_tractions(const Mesh *mesh, const Interface *interface, const ContactStates *states,
                                double tractions[]);
+/* heat_results.c: of a step, to its entry; of nothing where the scene has no heat */
+PetscErrorCode heat_results(const Output *output, struct cJSON *step);
 /* csv.c */
 PetscErrorCode csv_adjusted(Output *output, const Interface *interface); /* once */
-PetscErrorCode csv_write(Output *output, const Interface *interface, const ContactStates *states, PetscInt step);
+/* `temperatures`: of the non-mortar nodes, or NULL */
+PetscErrorCode csv_write(Output *output, const Interface *interface, const ContactStates *states, const double *temperatures,
+                         PetscInt step);
 /* vtu_array.c */
 int            vtu_type(CellKind kind);
 void           vtu_start_array(FILE *file, const char *type, const char *name, int components);
@@ -75,8 +80,8 @@ PetscErrorCode piece_fetch(const Physics *physics, const Piece *piece, PetscInt 
                            const double values[], double none, double at_points[]);
 /* vtu_stress.c */
 void           vtu_declare_stresses(FILE *file);
-PetscErrorCode vtu_cell_stresses(FILE *file, const Physics *physics, const Piece *piece);
-PetscErrorCode vtu_nodal_stresses(FILE *file, const Physics *physics, const Piece *piece);
+PetscErrorCode vtu_cell_stresses(FILE *file, const Heat *heat, const Physics *physics, const Piece *piece);
+PetscErrorCode vtu_nodal_stresses(FILE *file, const Heat *heat, const Physics *physics, const Piece *piece);
 /* vtu_rigid.c */
 PetscErrorCode vtu_rigids(const Output *output, PetscInt step);
 /* vtu.c: on every rank */

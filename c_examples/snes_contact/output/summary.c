@@ -36,6 +36,27 @@ static const char *form_name(const Output *output)
   return form == STICKSLIP_FORM_AUGMENTED ? "augmented" : "multiplier";
 }
 
+/* The interfaces that decide at points, with what the library takes their bodies' stiffness for. */
+static PetscErrorCode add_decisions(const Output *output, cJSON *root)
+{
+  cJSON *all = NULL;
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < output->contact->n_interfaces; i++) {
+    const Interface *interface = &output->contact->interfaces[i];
+    cJSON           *json;
+    if (!decision_is_points(interface)) continue;
+    if (!all) all = cJSON_AddObjectToObject(root, "decisions");
+    json = cJSON_AddObjectToObject(all, interface->name);
+    cJSON_AddStringToObject(json, "decision", "points");
+    cJSON_AddNumberToObject(json, "modulus", interface->options.modulus);
+    cJSON_AddStringToObject(json, "modulus_from", interface->modulus_from);
+    if (!output->quiet)
+      PetscCall(PetscPrintf(PETSC_COMM_WORLD, "%s: decided at points, modulus %g (from %s)\n", interface->name,
+                            interface->options.modulus, interface->modulus_from));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode summary_create(Output *output, Summary **out)
 {
   Summary  *summary;
@@ -56,6 +77,7 @@ PetscErrorCode summary_create(Output *output, Summary **out)
   cJSON_AddStringToObject(summary->root, "form", form_name(output));
   cJSON_AddNumberToObject(summary->root, "rtol", rtol);
   cJSON_AddNumberToObject(summary->root, "unknowns", unknowns);
+  PetscCall(add_decisions(output, summary->root));
   summary->steps           = cJSON_CreateArray();
   summary->failed_attempts = cJSON_CreateArray();
   if (!output->quiet)
@@ -64,8 +86,19 @@ PetscErrorCode summary_create(Output *output, Summary **out)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+static PetscErrorCode add_closed_area(const Interface *interface, cJSON *json)
+{
+  double closed = 0;
+  PetscFunctionBegin;
+  for (PetscInt a = 0; a < interface->n1; a++)
+    closed += interface->states.closed[a] * interface->states.coverage[a];
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &closed, 1, MPI_DOUBLE, MPI_SUM, PETSC_COMM_WORLD));
+  cJSON_AddNumberToObject(json, "closed_area", closed);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* Force, counts and CSV file of one interface; returns a piece of the progress line. */
-static PetscErrorCode interface_results(Output *output, Interface *interface, PetscInt step, PetscBool write,
+static PetscErrorCode interface_results(Output *output, Interface *interface, const double *temperatures, PetscInt step, PetscBool write,
                                         cJSON *parent, double *work, char progress[], size_t length)
 {
   PetscInt             counts[3] = {0, 0, 0};
@@ -91,7 +124,8 @@ static PetscErrorCode interface_results(Output *output, Interface *interface, Pe
   cJSON_AddNumberToObject(json, "gap", counts[STICKSLIP_STATE_GAP]);
   cJSON_AddNumberToObject(json, "stick", counts[STICKSLIP_STATE_STICK]);
   cJSON_AddNumberToObject(json, "slip", counts[STICKSLIP_STATE_SLIP]);
-  if (write) PetscCall(csv_write(output, interface, states, step));
+  if (decision_is_points(interface)) PetscCall(add_closed_area(interface, json));
+  if (write) PetscCall(csv_write(output, interface, states, temperatures, step));
   snprintf(progress, length, "  %s %d gap %d stick %d slip", interface->name, (int)counts[STICKSLIP_STATE_GAP],
            (int)counts[STICKSLIP_STATE_STICK], (int)counts[STICKSLIP_STATE_SLIP]);
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -242,14 +276,17 @@ PetscErrorCode summary_step(Output *output, Summary *summary, PetscInt step, Pet
   PetscCall(add_reactions(output, json));
   add_rigids(output, json);
   PetscCall(contact_collect(contact));
+  PetscCall(heat_collect(output->heat));
   interfaces = cJSON_AddObjectToObject(json, "interfaces");
   for (PetscInt i = 0; i < contact->n_interfaces; i++) {
     const size_t used       = strlen(progress);
     summary->work_before[i] = contact->interfaces[i].friction_work;
-    PetscCall(interface_results(output, &contact->interfaces[i], step, csv, interfaces, &friction_work,
+    PetscCall(interface_results(output, &contact->interfaces[i],
+                                output->heat->on ? output->heat->interfaces[i].temperatures : NULL, step, csv, interfaces, &friction_work,
                                 progress + used, sizeof(summary->progress) - used));
   }
   PetscCall(add_probes(output, json));
+  PetscCall(heat_results(output, json));
   if (vtu) PetscCall(vtu_write(output, step));
   if (vtu) PetscCall(vtu_rigids(output, step));
   PetscCall(held_check(solve));

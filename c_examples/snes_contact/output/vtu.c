@@ -20,7 +20,7 @@ static void integers(FILE *file, const char *name, PetscInt n, const double valu
 }
 
 /* what is written of an interface's nodes at home */
-enum { MULTIPLIER, FORCE = MULTIPLIER + 3, TRACTION = FORCE + 3, PRESSURE = TRACTION + 3, STATE, N_FIELDS };
+enum { MULTIPLIER, FORCE = MULTIPLIER + 3, TRACTION = FORCE + 3, PRESSURE = TRACTION + 3, CLOSED, STATE, N_FIELDS };
 
 static PetscErrorCode nodal_fields(const Mesh *mesh, const Interface *interface, double fields[])
 {
@@ -42,7 +42,8 @@ static PetscErrorCode nodal_fields(const Mesh *mesh, const Interface *interface,
       f[TRACTION + i]   = tractions[3 * a + i];
       f[PRESSURE] += tractions[3 * a + i] * states->normal[3 * a + i];
     }
-    f[STATE] = states->state[a];
+    f[CLOSED] = states->closed[a];
+    f[STATE]  = states->state[a];
   }
   PetscCall(PetscFree(tractions));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -56,7 +57,8 @@ static void take(PetscInt n, const double fields[], int first, int width, double
 }
 
 /* Of one interface: multiplier, force of the contact on the node (both sides), that force over the node's area, its part
- * along the normal (non-mortar side), and state (-1 off the non-mortar side). */
+ * along the normal, with decisions at points the part of it that is closed (non-mortar side), and state (-1 off the non-mortar
+ * side). */
 static PetscErrorCode interface_fields(FILE *file, const Physics *physics, const Piece *piece, const Interface *interface)
 {
   static const struct {
@@ -81,6 +83,11 @@ static PetscErrorCode interface_fields(FILE *file, const Physics *physics, const
   take(n, fields, PRESSURE, 1, values);
   PetscCall(PetscSNPrintf(name, sizeof(name), "pressure_%s", interface->name));
   scalars(file, name, n, values);
+  if (decision_is_points(interface)) {
+    take(n, fields, CLOSED, 1, values);
+    PetscCall(PetscSNPrintf(name, sizeof(name), "closed_%s", interface->name));
+    scalars(file, name, n, values);
+  }
   take(n, fields, STATE, 1, values);
   PetscCall(PetscSNPrintf(name, sizeof(name), "state_%s", interface->name));
   integers(file, name, n, values);
@@ -148,13 +155,16 @@ static PetscErrorCode write_index(const Output *output, PetscInt step)
   fprintf(file, "</PPoints>\n<PPointData Vectors=\"displacement\">\n");
   vtu_declare(file, "Float64", "displacement", 3);
   for (PetscInt i = 0; i < output->contact->n_interfaces; i++) {
-    static const char *const names[] = {"multiplier", "force", "traction", "pressure", "state"};
-    for (int k = 0; k < 5; k++) {
+    static const char *const names[]   = {"multiplier", "force", "traction", "pressure", "closed", "state"};
+    const Interface         *interface = &output->contact->interfaces[i];
+    for (int k = 0; k < 6; k++) {
       char name[2 * NAME_LENGTH];
-      PetscCall(PetscSNPrintf(name, sizeof(name), "%s_%s", names[k], output->contact->interfaces[i].name));
-      vtu_declare(file, k < 4 ? "Float64" : "Int32", name, k < 3 ? 3 : 1);
+      if (k == 4 && !decision_is_points(interface)) continue;
+      PetscCall(PetscSNPrintf(name, sizeof(name), "%s_%s", names[k], interface->name));
+      vtu_declare(file, k < 5 ? "Float64" : "Int32", name, k < 3 ? 3 : 1);
     }
   }
+  if (output->heat->on) vtu_declare(file, "Float64", "temperature", 1);
   vtu_declare_stresses(file);
   vtu_declare(file, "Int32", "node", 1);
   fprintf(file, "</PPointData>\n<PCellData>\n");
@@ -198,11 +208,20 @@ PetscErrorCode vtu_write(Output *output, PetscInt step)
   vtu_vectors(file, "displacement", piece.n_points, piece.displacements);
   for (PetscInt i = 0; i < output->contact->n_interfaces; i++)
     PetscCall(interface_fields(file, physics, &piece, &output->contact->interfaces[i]));
-  PetscCall(vtu_nodal_stresses(file, physics, &piece));
+  if (output->heat->on) {
+    PetscReal *here, *ordered;
+    PetscCall(PetscMalloc2(piece.n_points, &here, piece.n_points, &ordered));
+    PetscCall(heat_of_vertices(output->heat, here));
+    for (PetscInt k = 0; k < piece.n_points; k++)
+      ordered[k] = here[piece.order[k]];
+    scalars(file, "temperature", piece.n_points, ordered);
+    PetscCall(PetscFree2(here, ordered));
+  }
+  PetscCall(vtu_nodal_stresses(file, output->heat, physics, &piece));
   if (several) numbers(file, "node", piece.n_points, piece.order, mesh->original);
   fprintf(file, "</PointData>\n<CellData>\n");
   numbers(file, "body", piece.n_cells, piece.cells, physics->cells.body);
-  PetscCall(vtu_cell_stresses(file, physics, &piece));
+  PetscCall(vtu_cell_stresses(file, output->heat, physics, &piece));
   if (several) numbers(file, "cell", piece.n_cells, piece.cells, mesh->original_cell);
   fprintf(file, "</CellData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n");
   fclose(file);

@@ -29,6 +29,13 @@ void vtu_declare_stresses(FILE *file)
   vtu_declare(file, "Float64", "von_mises", 1);
 }
 
+/* What a cell that expands is pressed by; in plane stress nothing presses across. */
+static void take_pressure(const Space *space, PetscReal pressure, PetscReal sigma[9])
+{
+  for (int i = 0; i < (space->kind == SPACE_PLANE_STRESS ? 2 : 3); i++)
+    sigma[4 * i] -= pressure;
+}
+
 /* displacements and kind of a cell here */
 static CellKind look_at(const Physics *physics, const Piece *piece, PetscInt c, PetscReal u[])
 {
@@ -38,7 +45,7 @@ static CellKind look_at(const Physics *physics, const Piece *piece, PetscInt c, 
   return cell_kind(physics->mesh->dimension, n);
 }
 
-PetscErrorCode vtu_cell_stresses(FILE *file, const Physics *physics, const Piece *piece)
+PetscErrorCode vtu_cell_stresses(FILE *file, const Heat *heat, const Physics *physics, const Piece *piece)
 {
   const Cells *cells = &physics->cells;
   PetscReal   *stresses;
@@ -50,6 +57,14 @@ PetscErrorCode vtu_cell_stresses(FILE *file, const Physics *physics, const Piece
     const CellKind kind = look_at(physics, piece, c, u);
     cell_centre_stress(kind, &physics->mesh->space, &physics->materials[cells->body[c]], cells->X + 3 * cells->offsets[c], u,
                        stresses + 9 * k);
+    if (heat->two_way) {
+      PetscReal centre[3], N[CELL_NODES], dN[CELL_NODES][3], push[CELL_NODES];
+      cell_centre(kind, centre);
+      cell_functions(kind, centre, N, dN);
+      PetscCall(expansion_pressures(heat, c, push));
+      for (PetscInt a = 0; a < cell_nodes(kind); a++)
+        take_pressure(&physics->mesh->space, N[a] * push[a], stresses + 9 * k);
+    }
   }
   write(file, piece->n_cells, stresses);
   PetscCall(PetscFree(stresses));
@@ -86,7 +101,7 @@ static PetscErrorCode add_ranks(const Mesh *mesh, PetscReal sums[])
 }
 
 /* The mean of the cells around a node, which are of one body. */
-PetscErrorCode vtu_nodal_stresses(FILE *file, const Physics *physics, const Piece *piece)
+PetscErrorCode vtu_nodal_stresses(FILE *file, const Heat *heat, const Physics *physics, const Piece *piece)
 {
   const Cells *cells = &physics->cells;
   PetscReal   *sums, *stresses;
@@ -97,6 +112,12 @@ PetscErrorCode vtu_nodal_stresses(FILE *file, const Physics *physics, const Piec
     PetscReal      u[3 * CELL_NODES], of_cell[9 * CELL_NODES];
     const CellKind kind = look_at(physics, piece, c, u);
     cell_nodal_stresses(kind, &physics->mesh->space, &physics->materials[cells->body[c]], cells->X + 3 * first, u, of_cell);
+    if (heat->two_way) {
+      PetscReal push[CELL_NODES];
+      PetscCall(expansion_pressures(heat, c, push));
+      for (PetscInt a = 0; a < cell_nodes(kind); a++)
+        take_pressure(&physics->mesh->space, push[a], of_cell + 9 * a);
+    }
     for (PetscInt a = 0; a < cell_nodes(kind); a++) {
       PetscReal *sum = sums + 10 * piece->order[piece->connectivity[first + a]];
       for (int i = 0; i < 9; i++)

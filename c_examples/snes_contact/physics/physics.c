@@ -48,6 +48,7 @@ PetscErrorCode physics_destroy(Physics *physics)
   PetscCall(VecDestroy(&physics->u_local));
   PetscCall(VecDestroy(&physics->f_local));
   PetscCall(VecDestroy(&physics->f_external));
+  PetscCall(VecDestroy(&physics->f_thermal));
   PetscCall(VecDestroy(&physics->prescribed_local));
   PetscCall(VecDestroy(&physics->f_sum));
   PetscCall(destroy_unknowns(&physics->unknowns));

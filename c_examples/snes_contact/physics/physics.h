@@ -132,6 +132,7 @@ typedef struct {
   Range    *ranges; /* per body */
   Vec       u_local, f_local, prescribed_local; /* local vectors: state, forces, values of prescribed entries at t */
   Vec       f_external;                         /* local, at t */
+  Vec       f_thermal;                          /* local: what warm bodies are pushed apart by; NULL: none expands */
   Vec       f_sum;                              /* local: work space of unknowns_sum() */
   char      inverted[256];                      /* which cell the last attempt at a step has turned inside out, or the like */
   PetscLogDouble seconds;                       /* in bulk_forces() and bulk_stiffness() */

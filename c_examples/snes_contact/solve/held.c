@@ -243,6 +243,39 @@ PetscBool held_free(const Solve *solve, PetscInt body)
   return PETSC_FALSE;
 }
 
+/* Is the turn of a rigid body left to contact without friction? */
+static PetscBool turns_unheld(const Solve *solve, const Rigid *rigid)
+{
+  PetscBool free = PETSC_FALSE, touches = PETSC_FALSE;
+  for (int k = 3; k < RIGID_UNKNOWNS; k++)
+    free = (PetscBool)(free || rigid->equations[k] >= 0);
+  for (PetscInt i = 0; i < solve->contact->n_interfaces && free && solve->mesh->rank == 0; i++) {
+    const Interface *interface = &solve->contact->interfaces[i];
+    for (int side = 0; side < 2; side++) {
+      if (mesh_body_of(solve->mesh, interface->nodes[side ? interface->n1 : 0]) != rigid->body) continue;
+      touches = PETSC_TRUE;
+      free    = (PetscBool)(free && interface->options.friction == STICKSLIP_FRICTION_NONE);
+    }
+  }
+  return (PetscBool)(free && touches);
+}
+
+/* rank 0: such bodies, in a sentence */
+static PetscErrorCode add_turns(const Solve *solve, char text[], size_t length)
+{
+  const Physics *physics = solve->physics;
+  char           sentence[512];
+  PetscFunctionBegin;
+  for (PetscInt r = 0; r < physics->n_rigids; r++) {
+    if (!turns_unheld(solve, &physics->rigids[r])) continue;
+    PetscCall(PetscSNPrintf(sentence, sizeof(sentence),
+                            " Without friction nothing tells how %s is turned where it is round: prescribe its turns, or give it friction.",
+                            solve->mesh->bodies[physics->rigids[r].body].name));
+    PetscCall(PetscStrlcat(text, sentence, length));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* A sentence for the user: which bodies contact alone must hold. */
 PetscErrorCode held_describe(const Solve *solve, char text[], size_t length)
 {
@@ -254,6 +287,7 @@ PetscErrorCode held_describe(const Solve *solve, char text[], size_t length)
   PetscCall(PetscSNPrintf(text, length, "%s%s%s", free[0] ? "By the supports " : "", free,
                           free[0] ? ": only contact can hold that, where bodies touch and as far as friction goes."
                                   : "Every body is held by supports; contact need not hold it."));
+  PetscCall(add_turns(solve, text, length));
   PetscCall(PetscFree(loose));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

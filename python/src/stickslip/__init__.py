@@ -4,6 +4,7 @@ The package calls the shared library through its C interface. Arrays are numpy's
 """
 
 from . import errors
+from ._heat import Heat
 from ._laws import LawPoint
 from ._library import HEADER as header
 from ._library import constants, lib, text
@@ -20,5 +21,5 @@ __version__ = text(lib.stickslip_version())
 #: Version, commit, target, profile, compiler and kernels of the library.
 __build__ = text(lib.stickslip_build())
 
-__all__ = ["Condensed", "CondensedPlan", "Error", "Interface", "LawPoint", "Plan", "RigidBody", "RigidPlan", "Surface", "constants",
+__all__ = ["Condensed", "CondensedPlan", "Error", "Heat", "Interface", "LawPoint", "Plan", "RigidBody", "RigidPlan", "Surface", "constants",
             "crosspoints", "errors", "header", "split_creases"]

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 
 from . import options as _options
 from ._arrays import given, output, pointer
+from ._heat import Heats
 from ._inspection import Inspection
 from ._laws import Laws
 from ._library import call, ffi, lib, value_of
@@ -20,7 +21,7 @@ if TYPE_CHECKING:
     import scipy.sparse
 
 
-class Interface(Inspection, Laws):
+class Interface(Heats, Inspection, Laws):
     """Two surfaces in contact.
 
     ``x1`` and ``x2`` are current positions of the non-mortar and the mortar nodes, (n1, d) and (n2, d) [L], with d = 3, or

@@ -53,6 +53,40 @@ pub struct ParentNumbers<'a, const N: usize> {
     pub motion: PairDerivatives<'a>,
 }
 
+impl ParentRoom {
+    /// What was filled last.
+    pub fn table(&self) -> &ParentTable {
+        &self.table
+    }
+}
+
+/// Adds up what facet f of the host has with these pairs; `moves`: mortar nodes have rows and columns. Gives the pairs of parts
+/// whose weights were differentiated.
+pub fn fill<const N: usize>(
+    (given, normals): (Given<N>, &[Vec3]),
+    (f, all, pairs): (usize, Pairs, &[UnionPair]),
+    (numbers, moves): (Option<&ParentNumbers<N>>, bool),
+    room: &mut ParentRoom,
+) -> Result<i64> {
+    let (one, two) = given.setup.surfaces();
+    let of_pair = |(k, pair): (usize, &UnionPair)| (two.host_nodes(pair.two), if pair.is_active { bit(k) } else { 0 });
+    let mortar = pairs.iter().enumerate().filter(|_| moves).map(of_pair);
+    let mortar = mortar.flat_map(|(nodes, pairs)| nodes.iter().map(move |&node| MortarNode { node, pairs }));
+    room.table.begin((one.host_nodes(f).len(), one.multipliers(f)), mortar, numbers.is_some())?;
+    let Some(numbers) = numbers else { return Ok(0) };
+    for pair in pairs {
+        let mut places = [None; MAX_PARENT_NODES];
+        two.host_nodes(pair.two).iter().zip(&mut places).for_each(|(&c, place)| *place = room.table.column(c));
+        let now = all.parent_now(pair);
+        let integrated = match numbers.active {
+            Some(active) if pair.is_active => Some(active.integrated_parent(pair.place)),
+            _ => now,
+        };
+        room.table.add_weights(&places, [now, integrated, all.parent_previous(pair)]);
+    }
+    differentiate((given, normals), (f, pairs), (numbers, moves), room)
+}
+
 /// The blocks of facet f of the host with these pairs. Gives the pairs of parts whose weights were differentiated.
 pub fn of_parent<const N: usize>(
     (given, normals): (Given<N>, &[Vec3]),
@@ -61,26 +95,9 @@ pub fn of_parent<const N: usize>(
     room: &mut ParentRoom,
     emitter: &mut Emitter<N>,
 ) -> Result<i64> {
-    let ((one, two), moves) = (given.setup.surfaces(), given.setup.effects.moves());
+    let one = &given.setup.nonmortar;
     let (own, multipliers) = (one.host_nodes(f), one.multipliers(f));
-    let of_pair = |(k, pair): (usize, &UnionPair)| (two.host_nodes(pair.two), if pair.is_active { bit(k) } else { 0 });
-    let mortar = pairs.iter().enumerate().filter(|_| moves).map(of_pair);
-    let mortar = mortar.flat_map(|(nodes, pairs)| nodes.iter().map(move |&node| MortarNode { node, pairs }));
-    room.table.begin((own.len(), multipliers), mortar, numbers.is_some())?;
-    let mut linearised = 0;
-    if let Some(numbers) = numbers {
-        for pair in pairs {
-            let mut places = [None; MAX_PARENT_NODES];
-            two.host_nodes(pair.two).iter().zip(&mut places).for_each(|(&c, place)| *place = room.table.column(c));
-            let now = all.parent_now(pair);
-            let integrated = match numbers.active {
-                Some(active) if pair.is_active => Some(active.integrated_parent(pair.place)),
-                _ => now,
-            };
-            room.table.add_weights(&places, [now, integrated, all.parent_previous(pair)]);
-        }
-        linearised = differentiate((given, normals), f, pairs, numbers, room)?;
-    }
+    let linearised = fill((given, normals), (f, all, pairs), (numbers, given.setup.effects.moves()), room)?;
     let (one_len, is_active) = (one.len(), pairs.iter().any(|pair| pair.is_active));
     let of_own = own.iter().map(|&a| (a, is_active));
     let displacements = of_own.chain(room.table.mortar.iter().map(|known| (one_len + known.node, known.pairs != 0)));
@@ -93,9 +110,8 @@ pub fn of_parent<const N: usize>(
 /// Adds the derivatives of a facet's weights, and what else its gaps depend on.
 fn differentiate<const N: usize>(
     (given, normals): (Given<N>, &[Vec3]),
-    f: usize,
-    pairs: &[UnionPair],
-    numbers: &ParentNumbers<N>,
+    (f, pairs): (usize, &[UnionPair]),
+    (numbers, moves): (&ParentNumbers<N>, bool),
     ParentRoom { table, motion, overlaps, .. }: &mut ParentRoom,
 ) -> Result<i64> {
     let (one, two) = given.setup.surfaces();
@@ -130,7 +146,6 @@ fn differentiate<const N: usize>(
         motion.store(SubMotion::default())?;
     }
     let motion = &mut motion[0];
-    let moves = given.setup.effects.opposite == Opposite::Moves;
     let mut add = |tractions: &[Vec3], fields: Fields, table: &mut ParentTable| match parents.lines {
         _ if given.setup.effects.opposite == Opposite::Analytic => {
             let [first, end] = [parents.parts(f).start, parents.parts(f).end]
@@ -144,7 +159,7 @@ fn differentiate<const N: usize>(
             let sides = (parents, opposite, moves.then_some(two));
             Ok(add_lines(sides, (f, measure), (active, first..end), (tractions, fields), table, motion))
         }
-        None => add_parts(given, f, (active, numbers.motion), (tractions, fields), (table, motion, overlaps)),
+        None => add_parts(given, (f, moves), (active, numbers.motion), (tractions, fields), (table, motion, overlaps)),
     };
     let linearised = add(&tractions, Fields::Positions { one: &x1, base }, table)?;
     table.carry();
@@ -174,14 +189,14 @@ fn differentiate<const N: usize>(
 /// of pairs of parts.
 fn add_parts<const N: usize>(
     given: Given<N>,
-    f: usize,
+    (f, moves): (usize, bool),
     (active, how): (&Active, PairDerivatives),
     (tractions, fields): (&[Vec3], Fields),
     (table, motion, overlaps): (&mut ParentTable, &mut SubMotion, &mut FacetOverlaps),
 ) -> Result<i64> {
     let (one, two) = given.setup.surfaces();
     let (Some(parents), Some(opposite)) = (&one.parents, &two.parents) else { return Ok(0) };
-    let (mut linearised, moves) = (0, given.setup.effects.opposite == Opposite::Moves);
+    let mut linearised = 0;
     for part in parents.parts(f) {
         let first = active.pairs.partition_point(|pair| pair.one < part);
         let of_part = active.pairs[first..].iter().take_while(|pair| pair.one == part).count();

@@ -1,0 +1,157 @@
+/* Heat as the scene describes it: of bodies, of surfaces, of interfaces. */
+#include "heat/heat.h"
+#include <string.h>
+
+static void positive(Scene *scene, const char *map, const char *key, PetscReal *value)
+{
+  scene_real(scene, map, key, value);
+  if (scene_has(scene, map, key) && !(*value > 0))
+    scene_fail(scene, map, key, "it must be positive, not %g.", (double)*value);
+}
+
+static void not_negative(Scene *scene, const char *map, const char *key, PetscReal *value)
+{
+  scene_real(scene, map, key, value);
+  if (*value < 0) scene_fail(scene, map, key, "it must not be negative, but it is %g.", (double)*value);
+}
+
+static PetscErrorCode read_bodies(Scene *scene, Heat *heat)
+{
+  const Mesh *mesh = heat->mesh;
+  PetscBool   any  = PETSC_FALSE;
+  PetscFunctionBegin;
+  PetscCall(PetscCalloc1(mesh->n_bodies, &heat->bodies));
+  for (PetscInt b = 0; b < mesh->n_bodies; b++) {
+    const Body *body = &mesh->bodies[b];
+    Conductor  *of   = &heat->bodies[b];
+    if (body->analytic || body->rigid) continue;
+    positive(scene, body->name, "conductivity", &of->conductivity);
+    not_negative(scene, body->name, "heat_capacity", &of->capacity);
+    scene_real(scene, body->name, "expansion", &of->expansion);
+    if (of->conductivity > 0) any = PETSC_TRUE;
+    if (of->expansion != 0 && !heat->two_way)
+      scene_fail(scene, body->name, "expansion", "it needs `heat: {coupling: two_way}`.");
+    if (of->expansion != 0 && heat->physics->materials[b].law != &MATERIAL_LINEAR)
+      scene_fail(scene, body->name, "expansion", "only of the material `linear`.");
+    if (of->capacity > 0 && !(of->conductivity > 0))
+      scene_fail(scene, body->name, "heat_capacity", "it needs a conductivity: without one a body keeps its temperature.");
+  }
+  if (!any) scene_fail(scene, NULL, "heat", "no body has a `conductivity`.");
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* `flows`: a flow of heat, else a temperature */
+static PetscErrorCode read_supports(Scene *scene, Heat *heat, const char *list, PetscBool flows)
+{
+  char   **names;
+  PetscInt n;
+  PetscFunctionBegin;
+  scene_names(scene, list, &n, &names);
+  PetscCall(PetscRealloc(sizeof(HeatSupport) * (size_t)(heat->n_supports + n), &heat->supports));
+  for (PetscInt k = 0; k < n; k++) {
+    HeatSupport *support = &heat->supports[heat->n_supports + k];
+    char       **surfaces;
+    *support = (HeatSupport){.flows = flows};
+    PetscCall(PetscSNPrintf(support->name, NAME_LENGTH, "%s", names[k]));
+    scene_real_required(scene, names[k], flows ? "flow" : "value", &support->value);
+    PetscCall(curve_read(scene, names[k], "curve", heat->physics->end, &support->curve));
+    scene_strings(scene, names[k], "surface", &support->n_surfaces, &surfaces);
+    if (!support->n_surfaces) scene_fail(scene, names[k], "surface", "this key is missing.");
+    PetscCall(PetscCalloc1(support->n_surfaces, &support->surfaces));
+    for (PetscInt s = 0; s < support->n_surfaces; s++) {
+      support->surfaces[s] = mesh_surface(scene, heat->mesh, names[k], "surface", surfaces[s]);
+      if (support->surfaces[s]->analytic)
+        scene_fail(scene, names[k], "surface", "'%s' is without faces: it has no temperature.", surfaces[s]);
+    }
+    strings_destroy(support->n_surfaces, &surfaces);
+  }
+  heat->n_supports += n;
+  strings_destroy(n, &names);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode read_interfaces(Scene *scene, Heat *heat)
+{
+  PetscFunctionBegin;
+  PetscCall(PetscCalloc1(heat->contact->n_interfaces, &heat->interfaces));
+  for (PetscInt i = 0; i < heat->contact->n_interfaces; i++) {
+    const char     *name = heat->contact->interfaces[i].name;
+    HeatInterface  *of   = &heat->interfaces[i];
+    const PetscBool rubs = scene_has(scene, name, "friction_heat");
+    PetscReal       share = 0, contact = 0, pressure = 0, exponent = 0.95, constant = 0, gas = 0, distance = 0, reach = 0;
+    not_negative(scene, name, "conductance", &contact);
+    positive(scene, name, "conductance_pressure", &pressure);
+    positive(scene, name, "conductance_exponent", &exponent);
+    not_negative(scene, name, "conductance_constant", &constant);
+    not_negative(scene, name, "gap_conductivity", &gas);
+    positive(scene, name, "gap_distance", &distance);
+    positive(scene, name, "conductance_reach", &reach);
+    not_negative(scene, name, "friction_heat", &share);
+    if (share > 1) scene_fail(scene, name, "friction_heat", "it is the non-mortar body's share, 0 to 1, not %g.", (double)share);
+    if (exponent > 2) scene_fail(scene, name, "conductance_exponent", "at most 2 is possible, not %g.", (double)exponent);
+    if (contact > 0 && !(pressure > 0))
+      scene_fail(scene, name, "conductance_pressure", "this key is missing: the pressure that `conductance` is at.");
+    if (gas > 0 && !(distance > 0))
+      scene_fail(scene, name, "gap_distance", "this key is missing: the gap that touching surfaces count as.");
+    if ((gas > 0 || constant > 0) && !(reach > 0))
+      scene_fail(scene, name, "conductance_reach", "this key is missing: the gap from which on nothing passes.");
+    /* time: below, in each step; 1 says that friction heats */
+    of->law = (stickslip_heat){.struct_size = sizeof(of->law), .contact = contact, .pressure = pressure,
+                               .exponent = contact > 0 ? exponent : 0, .constant = constant, .gas = gas, .gas_gap = distance,
+                               .reach = reach, .share = share, .time = rubs ? 1 : 0};
+    of->passes = (PetscBool)(contact > 0 || constant > 0 || gas > 0 || rubs);
+    if (of->passes && heat->contact->interfaces[i].options.decision == STICKSLIP_DECISION_POINTS)
+      scene_fail(scene, name, "decision", "heat needs `nodes`.");
+    for (PetscInt s = 0; s < 2 && of->passes; s++) {
+      if (heat->contact->interfaces[i].surface[s]->analytic)
+        scene_fail(scene, name, rubs ? "friction_heat" : "conductance", "an analytic surface has no temperature; mesh it.");
+    }
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode heat_read(Scene *scene, Heat *heat)
+{
+  static const char *const couplings[] = {"one_way", "two_way", NULL};
+  PetscInt                 coupling    = 0;
+  PetscFunctionBegin;
+  if (!scene_has(scene, "heat", "initial")) PetscFunctionReturn(PETSC_SUCCESS);
+  heat->on        = PETSC_TRUE;
+  heat->tolerance = 1e-9;
+  heat->most      = 50;
+  scene_real_required(scene, "heat", "initial", &heat->initial);
+  scene_choice(scene, "heat", "coupling", couplings, &coupling);
+  positive(scene, "heat", "tolerance", &heat->tolerance);
+  scene_int(scene, "heat", "turns", &heat->most);
+  if (heat->most < 1) scene_fail(scene, "heat", "turns", "it must be at least 1, not %d.", (int)heat->most);
+  heat->two_way = (PetscBool)coupling;
+  PetscCall(read_bodies(scene, heat));
+  PetscCall(read_supports(scene, heat, "temperatures", PETSC_FALSE));
+  PetscCall(read_supports(scene, heat, "flows", PETSC_TRUE));
+  PetscCall(read_interfaces(scene, heat));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static void label_of(const HeatSupport *support, char label[2 * NAME_LENGTH])
+{
+  PetscCallAbort(PETSC_COMM_WORLD, PetscSNPrintf(label, 2 * NAME_LENGTH, "heat.%s", support->name));
+}
+
+PetscErrorCode heat_label(Heat *heat)
+{
+  char label[2 * NAME_LENGTH];
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < heat->n_supports; k++) {
+    HeatSupport *support = &heat->supports[k];
+    label_of(support, label);
+    for (PetscInt s = 0; s < support->n_surfaces; s++) {
+      const Surface *surface = support->surfaces[s];
+      if (support->flows)
+        PetscCall(plex_label_faces(heat->mesh, label, surface));
+      else
+        PetscCall(plex_label_vertices(heat->mesh, label, surface->n_faces ? surface->offsets[surface->n_faces] : 0,
+                                      surface->vertices, NULL, 1));
+    }
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}

@@ -1,0 +1,362 @@
+//! The tangent of the heat that leaves the nodes: by temperatures, by displacements, by multipliers (docs/formulation.md 17.2).
+
+use super::motion::each_facet;
+use super::rows::{Column, Row};
+use super::sides::Place;
+use crate::error::Result;
+use crate::geometry::{Mat3, Vec3};
+use crate::interface::data::active::Active;
+use crate::interface::data::surface::{NO_EQUATION, node_equations};
+use crate::interface::stages::carried::transfer;
+use crate::interface::stages::sums::in_previous_gaps;
+use crate::interface::tangent::augmented::dtraction;
+use crate::interface::tangent::by_equations::Sink;
+use crate::law::{HeatFlow, HeatNode};
+use crate::memory::{self, Store};
+use crate::mortar::GapDerivative;
+use nalgebra::{SMatrix, SVector};
+
+/// Where columns stand in the host's system.
+#[derive(Clone, Copy)]
+pub struct Equations<'a> {
+    /// Of the temperatures of both sides.
+    pub temperatures: [&'a [i64]; 2],
+    /// Whether columns of displacements and multipliers are asked for.
+    pub with_motion: bool,
+}
+
+impl Equations<'_> {
+    fn temperature(&self, node: usize) -> i64 {
+        let n1 = self.temperatures[0].len();
+        if node < n1 { self.temperatures[0][node] } else { self.temperatures[1][node - n1] }
+    }
+}
+
+/// By how much what passes on either side of node A changes with a node's position.
+#[derive(Clone, Copy, Debug)]
+struct ByPosition {
+    node: usize,
+    sides: [Vec3; 2],
+}
+
+/// What one node's heat depends on, besides temperatures.
+#[derive(Debug)]
+struct Node<const N: usize> {
+    positions: Vec<ByPosition>,
+    /// The multipliers of these nodes.
+    multipliers: Vec<(usize, [SVector<f64, N>; 2])>,
+}
+
+impl<const N: usize> Default for Node<N> {
+    fn default() -> Self {
+        Node { positions: Vec::new(), multipliers: Vec::new() }
+    }
+}
+
+impl<const N: usize> Node<N> {
+    fn add(&mut self, node: usize, of: [Vec3; 2]) -> Result<()> {
+        match self.positions.iter_mut().find(|known| known.node == node) {
+            Some(known) => (0..2).for_each(|side| known.sides[side] += of[side]),
+            None => self.positions.store(ByPosition { node, sides: of })?,
+        }
+        Ok(())
+    }
+}
+
+/// A facet's share: `[k * nodes + c]`, how the heat of its k-th node changes with the position of its c-th one, through the
+/// node's own weights.
+#[derive(Debug)]
+struct Direct {
+    nodes: Vec<usize>,
+    slopes: Vec<Vec3>,
+}
+
+/// Gives the entries: rows are the temperatures' equations of both sides.
+pub fn tangent<const N: usize>(
+    at: &Place<N>,
+    rows: &mut [Row],
+    flows: &[(HeatNode, HeatFlow)],
+    (active, carried): (Option<&Active>, &[bool]),
+    equations: Equations,
+    sink: &mut dyn Sink,
+) -> Result<()> {
+    let (mut nodes, mut direct): (Vec<Node<N>>, Vec<Direct>) = (memory::defaults(rows.len())?, Vec::new());
+    if equations.with_motion {
+        let normals = at.given.normals()?;
+        match active {
+            Some(active) => direct = differentiate(at, (rows, flows), &normals, active)?,
+            None => turn(at, rows)?,
+        }
+        let carries = carries(at, carried)?;
+        for a in (0..rows.len()).filter(|&a| flows[a].0.area > 0.0) {
+            nodes[a] = node(at, a, (rows, flows), &normals, (carried, &carries))?;
+        }
+    }
+    emit(at, (rows, flows), (&nodes, &direct), equations, sink)
+}
+
+/// Puts what the derivatives of the weights make of temperatures, areas and gaps into the rows; gives what they do to the heat
+/// of the nodes at fixed flows.
+fn differentiate<const N: usize>(
+    at: &Place<N>,
+    (rows, flows): (&mut [Row], &[(HeatNode, HeatFlow)]),
+    normals: &[Vec3],
+    active: &Active,
+) -> Result<Vec<Direct>> {
+    let (n1, mut all) = (at.x[0].len(), Vec::new());
+    each_facet((at.given, normals), active, &mut |facet| {
+        let n = facet.nodes.len();
+        let mut direct = Direct { nodes: memory::copied(&facet.nodes)?, slopes: memory::filled(Vec3::zeros(), n * n)? };
+        for (a, slopes) in facet.slopes.chunks_exact(n * n).enumerate() {
+            let (own, sides) = (facet.nodes[a], flows[facet.nodes[a]].1.sides);
+            let (x, t) = (at.x[0][own], at.temperatures[0][own]);
+            for (k, (&node, slopes)) in facet.nodes.iter().zip(slopes.chunks_exact(n)).enumerate() {
+                let is_own = node < n1;
+                let (x, t, h) = (at.position(node) - x, at.temperature(node) - t, at.offset(node));
+                for (c, slope) in slopes.iter().enumerate() {
+                    direct.slopes[k * n + c] += slope * sides[usize::from(!is_own)];
+                    let place = rows[own].place(facet.nodes[c])?;
+                    let column = &mut rows[own].columns[place];
+                    if is_own {
+                        column.area += slope;
+                    }
+                    column.jump += slope * t;
+                    column.gap += x * slope.transpose();
+                    column.offset += slope * h;
+                }
+            }
+        }
+        all.store(direct)
+    })?;
+    Ok(all)
+}
+
+/// Puts how the first gaps of tied surfaces turn into the rows.
+fn turn<const N: usize>(at: &Place<N>, rows: &mut [Row]) -> Result<()> {
+    let one = &at.given.setup.nonmortar;
+    for (part, facet) in one.facets.iter().enumerate() {
+        let turned = at.given.history().facet_gaps.motion(one, part, at.x[0])?;
+        let Some(GapDerivative::Turning(blocks)) = turned else { continue };
+        // A line's two nodes are those of its quadrilateral, each twice; a triangle has zeros for a fourth one.
+        let (nodes, columns) = match &one.parents {
+            None => (facet, facet.nodes),
+            Some(parents) => {
+                (parents.rows(part), parents.sub(part).nodes.map(|k| one.host_nodes(one.host_facet(part))[k]))
+            }
+        };
+        for (a, &node) in nodes.as_slice().iter().enumerate() {
+            for (k, &column) in columns.iter().enumerate() {
+                let place = rows[node].place(column)?;
+                rows[node].columns[place].turned += Mat3::from_fn(|i, j| blocks[k][i][j][a]);
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Who carries whom: (carrier, carried), sorted.
+fn carries<const N: usize>(at: &Place<N>, carried: &[bool]) -> Result<Vec<(usize, usize)>> {
+    let mut all = Vec::new();
+    for a in (0..carried.len()).filter(|&a| carried[a]) {
+        all.store_all(at.given.carriers_of(a).iter().map(|&(b, _)| (b, a)))?;
+    }
+    memory::sort(&mut all)?;
+    Ok(all)
+}
+
+/// What the traction of a node depends on.
+struct Traction<const N: usize> {
+    /// Dp = now Dg + previous Dg at t_n, of the gaps of these nodes.
+    gaps: Vec<(usize, Mat3, Mat3)>,
+    multipliers: Vec<(usize, SMatrix<f64, 3, N>)>,
+}
+
+impl<const N: usize> Traction<N> {
+    /// Of node A, and of those whose gaps count in its row.
+    fn add(
+        &mut self,
+        (at, a, share): (&Place<N>, usize, Mat3),
+        normals: &[Vec3],
+        carries: &[(usize, usize)],
+    ) -> Result<()> {
+        let (given, response) = (at.given, &at.responses[a]);
+        let (now, previous) = dtraction(given, a, response, normals[a]);
+        let (now, previous) = (share * now, share * previous);
+        self.gaps.store((a, now, previous))?;
+        self.multipliers.store((a, share * response.dp_dlambda))?;
+        let first = carries.partition_point(|pair| pair.0 < a);
+        for &(_, of) in carries[first..].iter().take_while(|pair| pair.0 == a) {
+            let w = given.carriers_of(of).iter().filter(|carrier| carrier.0 == a).map(|carrier| carrier.1).sum::<f64>();
+            let t = transfer(given, of, normals[of], normals[a]) * w;
+            self.gaps.store((of, now * t, previous * t))?;
+        }
+        Ok(())
+    }
+
+    fn of(
+        at: &Place<N>,
+        a: usize,
+        normals: &[Vec3],
+        (carried, carries): (&[bool], &[(usize, usize)]),
+    ) -> Result<Traction<N>> {
+        let mut traction = Traction { gaps: Vec::new(), multipliers: Vec::new() };
+        if carried.get(a).is_some_and(|is| *is) {
+            for &(b, w) in at.given.carriers_of(a) {
+                let share = transfer(at.given, a, normals[a], normals[b]).transpose() * w;
+                traction.add((at, b, share), normals, carries)?;
+            }
+        } else {
+            traction.add((at, a, Mat3::identity()), normals, carries)?;
+        }
+        Ok(traction)
+    }
+}
+
+/// What node A's heat depends on.
+fn node<const N: usize>(
+    at: &Place<N>,
+    a: usize,
+    (rows, flows): (&[Row], &[(HeatNode, HeatFlow)]),
+    normals: &[Vec3],
+    carrying: (&[bool], &[(usize, usize)]),
+) -> Result<Node<N>> {
+    let (given, response, slopes, nu) = (at.given, &at.responses[a], &flows[a].1.slopes, normals[a]);
+    let sides = |of: &dyn Fn(&[f64; 5]) -> Vec3| [of(&slopes[0]), of(&slopes[1])];
+    let in_previous = in_previous_gaps(given);
+    // Dg_A of now and of t_n with respect to a column.
+    let gaps = |s: usize, column: &Column| {
+        let offset = normals[s] * column.offset.transpose();
+        let now = Mat3::from_diagonal_element(column.n) + column.gap + offset;
+        let before = Mat3::from_diagonal_element(column.before);
+        (now, if in_previous { before + offset } else { before })
+    };
+    let slips = given.setup.effects.law.slips && given.history().coverage[a] > given.least_coverage(a);
+    let (coefficient, free) = (given.setup.options.effective_slip().coefficients().0, given.setup.nodes.free[a]);
+    let along = free * response.traction;
+    let along = if slips { along - nu * nu.dot(&along) } else { Vec3::zeros() };
+    let mut node = Node::default();
+    for column in &rows[a].columns {
+        let (now, before) = gaps(a, column);
+        let work = (before - now * coefficient).transpose() * along;
+        let gap = now.transpose() * nu;
+        node.add(column.node, sides(&|s| column.jump * s[0] + gap * s[2] + column.area * s[3] + work * s[4]))?;
+    }
+    let traction = Traction::of(at, a, normals, carrying)?;
+    // Dp acts through the pressure, and through the work of friction.
+    let by = |s: &[f64; 5]| response.slip * s[4] - nu * s[1];
+    for (from, by_now, by_previous) in &traction.gaps {
+        for column in &rows[*from].columns {
+            let (now, before) = gaps(*from, column);
+            let dp = by_now * (now + column.turned) + by_previous * before;
+            node.add(column.node, sides(&|s| dp.transpose() * by(s)))?;
+        }
+    }
+    for (b, dp) in &traction.multipliers {
+        node.multipliers.store((*b, [0, 1].map(|side| dp.transpose() * by(&slopes[side]))))?;
+    }
+    Ok(node)
+}
+
+/// The sums of one row, column by column.
+struct RowSums<const N: usize> {
+    temperatures: Vec<f64>,
+    positions: Vec<Vec3>,
+    multipliers: Vec<SVector<f64, N>>,
+    /// Nodes with anything in the first two, and in the last.
+    touched: [Vec<usize>; 2],
+    is_touched: [Vec<bool>; 2],
+}
+
+impl<const N: usize> RowSums<N> {
+    fn new(n: usize, n1: usize) -> Result<RowSums<N>> {
+        Ok(RowSums {
+            temperatures: memory::filled(0.0, n)?,
+            positions: memory::filled(Vec3::zeros(), n)?,
+            multipliers: memory::filled(SVector::zeros(), n1)?,
+            touched: [Vec::new(), Vec::new()],
+            is_touched: [memory::filled(false, n)?, memory::filled(false, n1)?],
+        })
+    }
+
+    fn touch(&mut self, which: usize, node: usize) -> Result<()> {
+        if !std::mem::replace(&mut self.is_touched[which][node], true) {
+            self.touched[which].store(node)?;
+        }
+        Ok(())
+    }
+
+    /// Gives the sums away and begins anew.
+    fn give<const M: usize>(&mut self, at: &Place<M>, row: i64, equations: Equations, sink: &mut dyn Sink) {
+        for &node in &self.touched[0] {
+            sink.add_block(&[row], &[equations.temperature(node)], &[self.temperatures[node]]);
+            if equations.with_motion {
+                let columns = node_equations(at.given.setup.surfaces(), node);
+                sink.add_block(&[row], columns, self.positions[node].as_slice());
+            }
+            (self.temperatures[node], self.positions[node]) = (0.0, Vec3::zeros());
+            self.is_touched[0][node] = false;
+        }
+        for &node in &self.touched[1] {
+            let columns = &at.given.setup.multiplier_equations[node];
+            sink.add_block(&[row], columns, self.multipliers[node].as_slice());
+            self.multipliers[node] = SVector::zeros();
+            self.is_touched[1][node] = false;
+        }
+        self.touched.iter_mut().for_each(Vec::clear);
+    }
+}
+
+/// Row by row, each entry once.
+fn emit<const N: usize>(
+    at: &Place<N>,
+    (rows, flows): (&[Row], &[(HeatNode, HeatFlow)]),
+    (nodes, direct): (&[Node<N>], &[Direct]),
+    equations: Equations,
+    sink: &mut dyn Sink,
+) -> Result<()> {
+    let (n1, n2) = (at.x[0].len(), at.x[1].len());
+    // Where each node stands: (node, list, place).
+    let (mut of_nodes, mut of_facets) = (Vec::new(), Vec::new());
+    for (a, row) in rows.iter().enumerate().filter(|(a, _)| flows[*a].0.area > 0.0) {
+        of_nodes.store_all(row.columns.iter().enumerate().map(|(k, column)| (column.node, a, k)))?;
+    }
+    for (f, direct) in direct.iter().enumerate() {
+        of_facets.store_all(direct.nodes.iter().enumerate().map(|(k, &node)| (node, f, k)))?;
+    }
+    memory::sort(&mut of_nodes)?;
+    memory::sort(&mut of_facets)?;
+    let mut sums = RowSums::<N>::new(n1 + n2, n1)?;
+    let (mut next_node, mut next_facet) = (0, 0);
+    for node in 0..n1 + n2 {
+        let (row, side) = (equations.temperature(node), usize::from(node >= n1));
+        while let Some(&(_, a, k)) = of_nodes.get(next_node).filter(|of| of.0 == node) {
+            next_node += 1;
+            if row == NO_EQUATION {
+                continue;
+            }
+            let (n, by_jump) = (rows[a].columns[k].n, flows[a].1.slopes[side][0]);
+            for column in &rows[a].columns {
+                sums.touch(0, column.node)?;
+                sums.temperatures[column.node] += n * by_jump * column.n;
+            }
+            for of in &nodes[a].positions {
+                sums.touch(0, of.node)?;
+                sums.positions[of.node] += of.sides[side] * n;
+            }
+            for (b, of) in &nodes[a].multipliers {
+                sums.touch(1, *b)?;
+                sums.multipliers[*b] += of[side] * n;
+            }
+        }
+        while let Some(&(_, f, k)) = of_facets.get(next_facet).filter(|of| of.0 == node) {
+            next_facet += 1;
+            let Direct { nodes, slopes } = &direct[f];
+            for (&column, slope) in nodes.iter().zip(&slopes[k * nodes.len()..]) {
+                sums.touch(0, column)?;
+                sums.positions[column] += slope;
+            }
+        }
+        sums.give(at, row, equations, sink);
+    }
+    Ok(())
+}

@@ -1,0 +1,114 @@
+//! Heat through the handle (docs/formulation.md 17).
+
+use super::contact::Contact;
+use super::data::extent::Extent;
+use super::data::node_data::check_length;
+use super::heat::rows::{Row, rows};
+use super::heat::sides::{Place, sides};
+use super::heat::tangent::{Equations, tangent};
+use super::pairing::given::Given;
+use super::tangent::by_equations::Sink;
+use crate::error::{Error, Kind, Result};
+use crate::geometry::Vec3;
+use crate::law::{Conductance, HeatFlow, HeatNode, NodeResponse};
+use nalgebra::SVector;
+
+/// Heat of an interface.
+#[derive(Debug)]
+pub struct Heat {
+    /// What leaves the nodes of the non-mortar and of the mortar side [F L/T].
+    pub sides: [Vec<f64>; 2],
+    /// Every non-mortar node, and what passes through it.
+    pub nodes: Vec<(HeatNode, HeatFlow)>,
+}
+
+/// Temperatures of both sides, and how heat passes.
+#[derive(Clone, Copy, Debug)]
+pub struct Temperatures<'a> {
+    /// Of the nodes [K].
+    pub sides: [&'a [f64]; 2],
+    /// The law.
+    pub conductance: &'a Conductance,
+}
+
+impl<const N: usize> Contact<N> {
+    /// What leaves the nodes at (x, lambda) and these temperatures.
+    ///
+    /// # Errors
+    /// Those of a residual; [`Kind::Unsupported`]: the mortar side is an analytic surface, which has no temperatures; points decide what is closed.
+    pub fn heat(&mut self, x: [&[Vec3]; 2], lambda: &[SVector<f64, N>], t: Temperatures) -> Result<Heat> {
+        let rows = self.heat_rows(x, lambda, t, false)?;
+        let at = self.heat_place(x, t);
+        let nodes = at.flows(&rows)?;
+        Ok(Heat { sides: sides(&at, &rows, &nodes)?, nodes })
+    }
+
+    /// The derivatives of what leaves the nodes. With the columns of displacements and multipliers, or without.
+    ///
+    /// # Errors
+    /// Those of [`Contact::heat`]; [`Kind::Unsupported`]: columns of displacements with normals of now.
+    pub fn heat_tangent(
+        &mut self,
+        x: [&[Vec3]; 2],
+        lambda: &[SVector<f64, N>],
+        t: Temperatures,
+        (temperatures, with_motion): ([&[i64]; 2], bool),
+        sink: &mut dyn Sink,
+    ) -> Result<()> {
+        if with_motion && self.setup.options.follows_normals() {
+            let text = "derivatives of heat by displacements with STICKSLIP_NORMALS_CURRENT: how the normals turn is not in them; take STICKSLIP_NORMALS_COMMITTED, or STICKSLIP_HEAT_TEMPERATURES and solve for temperatures and displacements in turns";
+            return Err(Error::new(Kind::Unsupported, text));
+        }
+        check_length("equations1", temperatures[0].len(), x[0].len())?;
+        check_length("equations2", temperatures[1].len(), x[1].len())?;
+        let mut rows = self.heat_rows(x, lambda, t, with_motion)?;
+        let at = self.heat_place(x, t);
+        let nodes = at.flows(&rows)?;
+        let active = self.cache.active().filter(|_| self.setup.options.differentiates_weights());
+        let known = (active, &self.cache.answers().responses.carried[..]);
+        tangent(&at, &mut rows, &nodes, known, Equations { temperatures, with_motion }, sink)
+    }
+
+    /// The weights of now, and where slip counts of t_n. Leaves the law's answers.
+    fn heat_rows(
+        &mut self,
+        x: [&[Vec3]; 2],
+        lambda: &[SVector<f64, N>],
+        t: Temperatures,
+        with_motion: bool,
+    ) -> Result<Vec<Row>> {
+        let (one, two) = self.setup.surfaces();
+        if two.analytic.is_some() {
+            let text = "heat over an analytic mortar side, which has no nodes and no temperatures; mesh its surface";
+            return Err(Error::new(Kind::Unsupported, text));
+        }
+        if self.setup.options.decides_at_points() {
+            let text =
+                "heat with STICKSLIP_DECISION_POINTS, where pressures are of points; take STICKSLIP_DECISION_NODES";
+            return Err(Error::new(Kind::Unsupported, text));
+        }
+        for (name, values, needed) in
+            [("temperatures1", t.sides[0], one.len()), ("temperatures2", t.sides[1], two.len())]
+        {
+            check_length(name, values.len(), needed)?;
+            if let Some(k) = values.iter().position(|v| !v.is_finite()) {
+                return Err(Error::new(Kind::NotFinite, text!("{name} of node {k} is not finite")));
+            }
+        }
+        let at = (x[0], x[1]);
+        self.cache.respond(&self.setup, &mut self.step, at, lambda, None)?;
+        // Heat crosses gaps, too: where the surfaces are apart and forces need no pairs.
+        self.cache.integrate(&self.setup, &mut self.step, at, Extent::Part)?;
+        let surfaces = self.setup.surfaces();
+        let previous = with_motion && self.setup.effects.law.slips;
+        let history = &self.step.history;
+        let now = self.cache.weighted(surfaces, history);
+        rows(surfaces, now, previous.then(|| history.weighted(surfaces)))
+    }
+
+    fn heat_place<'a>(&'a self, x: [&'a [Vec3]; 2], t: Temperatures<'a>) -> Place<'a, N> {
+        let responses: &[NodeResponse<N>] = &self.cache.answers().responses.nodes;
+        let given = Given { setup: &self.setup, step: &self.step };
+        Place { given, x, temperatures: t.sides, responses, conductance: t.conductance }
+    }
+}

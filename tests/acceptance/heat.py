@@ -1,0 +1,207 @@
+"""Heat: through bars and interfaces, of friction, over time, and of bodies that expand into each other."""
+
+import numpy as np
+
+from scene import write
+
+# Linear cells and fields: rounding of the linear solvers and of Newton's method is left, over 80 degrees.
+EXACT_BOUND = 1e-10
+# Sums of the same numbers.
+DISSIPATION_BOUND = 1e-12
+# What friction makes and the supports take: what the linear solution leaves.
+BALANCE_BOUND = 1e-10
+# Solved in turns to 1e-9 of the temperatures' range; stresses and gaps are of that, over a gap of a tenth of the expansion.
+TURNS_BOUND = 1e-7
+
+HOT, COLD = 100.0, 20.0
+PRESSURE, YOUNG = 10.0, 1000.0
+CONDUCTIVITY = {"upper": 3.0, "lower": 7.0}
+
+
+def heat(verdicts, driver):
+    driver.output.mkdir(parents=True, exist_ok=True)
+    bars(verdicts, driver)
+    rubbing(verdicts, driver)
+    over_time(verdicts, driver)
+    expanding(verdicts, driver)
+    refused(verdicts, driver)
+
+
+def two_bars(poisson=0.3, **interface):
+    """A bar on another one whose mesh does not match, hot above and cold below."""
+    box = {"type": "box", "young": YOUNG, "poisson": poisson, "small_strain": True}
+    sides = ["upper", "lower"]
+    return {
+        "schema": 1,
+        "bodies": sides,
+        "upper": {**box, "lower": [0, 0, 0], "upper": [1, 1, 1], "cells": [3, 4, 2], "conductivity": CONDUCTIVITY["upper"]},
+        "lower": {**box, "lower": [0, 0, -2], "upper": [1, 1, 0], "cells": [5, 3, 3], "conductivity": CONDUCTIVITY["lower"]},
+        "supports": ["floor", "left", "front"],
+        "floor": {"surface": "lower.zmin", "components": ["z"]},
+        "left": {"surface": [f"{side}.xmin" for side in sides], "components": ["x"]},
+        "front": {"surface": [f"{side}.ymin" for side in sides], "components": ["y"]},
+        "loads": ["press"],
+        "press": {"surface": "upper.zmax", "pressure": PRESSURE},
+        "heat": {"initial": COLD},
+        "temperatures": ["hot", "cold"],
+        "hot": {"surface": "upper.zmax", "value": HOT},
+        "cold": {"surface": "lower.zmin", "value": COLD},
+        "interfaces": ["base"],
+        "base": {"nonmortar": "upper.zmin", "mortar": "lower.zmax", "weights": "reference", **interface},
+        "steps": {"count": 1},
+        "output": {"vtu": "last", "csv": "last"},
+    }
+
+
+def check_bars(verdicts, what, run, conductance, exact_flux=None):
+    flux = exact_flux or (HOT - COLD) / (1 / CONDUCTIVITY["upper"] + 1 / conductance + 2 / CONDUCTIVITY["lower"])
+    points, _, _ = run.mesh()
+    temperature, z = run.point_field("temperature").ravel(), points[:, 2]
+    contact = np.isclose(z, 0)
+    upper = HOT - flux / CONDUCTIVITY["upper"] * (1 - z)
+    lower = COLD + flux / CONDUCTIVITY["lower"] * (z + 2)
+    error = np.minimum(np.abs(temperature - upper), np.abs(temperature - lower))
+    error[~contact] = np.abs(temperature - np.where(z > 0, upper, lower))[~contact]
+    verdicts.below(f"{what}: temperatures", error.max() / (HOT - COLD), EXACT_BOUND, "closed form")
+    of = run.steps[-1]["heat"]
+    verdicts.near(f"{what}: heat through the interface", of["interfaces"]["base"]["across"] / flux, 1, EXACT_BOUND, "closed form")
+    verdicts.near(f"{what}: heat in", of["supplied"]["hot"] / flux, 1, EXACT_BOUND, "closed form")
+    verdicts.near(f"{what}: heat out", of["supplied"]["cold"] / flux, -1, EXACT_BOUND, "closed form")
+    surface = run.interface("base")["temperature"]
+    verdicts.below(f"{what}: temperatures of the CSV", np.abs(surface - (HOT - flux / CONDUCTIVITY["upper"])).max() / (HOT - COLD),
+                   EXACT_BOUND, "closed form")
+
+
+def bars(verdicts, driver):
+    """A linear temperature through meshes that do not match, at conductances of the pressure and of the gap."""
+    reference = 4.0
+    for basis in ("standard", "dual"):
+        scene = two_bars(basis=basis, conductance=2.0, conductance_pressure=reference, conductance_exponent=0.95)
+        run = driver.run(write(scene, driver.output / f"pressure_{basis}.yaml"))
+        check_bars(verdicts, f"conductance of the pressure, {basis}", run, 2.0 * (PRESSURE / reference) ** 0.95)
+    both = {"conductance_constant": 0.5, "gap_conductivity": 0.3, "gap_distance": 0.1, "conductance_reach": 1.0}
+    run = driver.run(write(two_bars(friction=0.3, **both), driver.output / "constant.yaml"))
+    check_bars(verdicts, "constant conductance and gas, touching", run, 0.5 + 0.3 / 0.1)
+    apart = two_bars(offset=0.2, **both)
+    del apart["loads"], apart["press"]
+    apart["supports"] = [*apart["supports"], "lid"]
+    apart["lid"] = {"surface": "upper.zmax", "components": ["z"]}
+    run = driver.run(write(apart, driver.output / "gap.yaml"))
+    check_bars(verdicts, "over a gap", run, 0.5 + 0.3 / (0.2 + 0.1))
+    nearly = {"conductance_constant": 1e4, "conductance_reach": 1.0}
+    check_bars(verdicts, "nearly perfect", driver.run(write(two_bars(**nearly), driver.output / "perfect.yaml")), 1e4)
+    tied = two_bars(law="tied", **nearly)
+    check_bars(verdicts, "tied, nearly perfect", driver.run(write(tied, driver.output / "tied.yaml")), 1e4)
+    scene = write(two_bars(**both), driver.output / "ranks.yaml")
+    check_bars(verdicts, "two ranks", driver.run(scene, ranks=2), 0.5 + 0.3 / 0.1)
+
+
+def rubbing(verdicts, driver):
+    """A block that is drawn over another one: what friction makes is what the supports take."""
+    for share, duration in ((0.5, 1.0), (0.2, 0.25)):
+        scene = two_bars(friction=0.3, conductance_constant=2.0, conductance_reach=0.1, friction_heat=share, weights="current")
+        scene["left"]["surface"] = "lower.xmin"
+        scene["supports"].append("drag")
+        scene["drag"] = {"surface": "upper.zmax", "components": ["x"], "value": [0.2, 0, 0]}
+        scene["hot"]["value"] = COLD
+        scene["steps"] = {"count": 2, "end": duration}
+        for name in ("press", "hot", "cold"):
+            scene[name]["curve"] = [0, 1, duration, 1]
+        scene["drag"]["curve"] = [0, 0, duration, 1]
+        run = driver.run(write(scene, driver.output / f"rubbing_{share}.yaml"))
+        work = [0.0, *(step["friction_work"] for step in run.steps)]
+        for k, step in enumerate(run.steps):
+            made = step["heat"]["interfaces"]["base"]["friction"]
+            spent = (work[k + 1] - work[k]) / (duration / len(run.steps))
+            what = f"rubbing, share {share}, step {k + 1}"
+            verdicts.near(f"{what}: heat over work", made / spent, 1, DISSIPATION_BOUND, "the dissipation")
+            taken = -sum(step["heat"]["supplied"].values())
+            verdicts.near(f"{what}: heat out over heat made", taken / made, 1, BALANCE_BOUND, "conserved")
+        verdicts.at_least(f"rubbing, share {share}: heat", run.steps[-1]["heat"]["interfaces"]["base"]["friction"], 0.1, "it slides")
+
+
+def over_time(verdicts, driver):
+    """One cell, heated from above: two temperatures by the implicit Euler method."""
+    conductivity, capacity, flow, steps = 2.0, 5.0, 30.0, 4
+    scene = {
+        "schema": 1,
+        "bodies": ["cube", "other"],
+        "cube": {"type": "box", "lower": [0, 0, 0], "upper": [1, 1, 1], "cells": [1, 1, 1], "young": YOUNG, "poisson": 0,
+                 "small_strain": True, "conductivity": conductivity, "heat_capacity": capacity},
+        "other": {"type": "box", "lower": [0, 0, -1], "upper": [1, 1, 0], "cells": [1, 1, 1], "young": YOUNG, "poisson": 0,
+                  "small_strain": True},
+        "supports": ["top", "ground"],
+        "top": {"surface": "cube.zmax", "components": ["x", "y", "z"]},
+        "ground": {"surface": "other.zmin", "components": ["x", "y", "z"]},
+        "heat": {"initial": COLD},
+        "flows": ["burner"],
+        "burner": {"surface": "cube.zmax", "flow": flow, "curve": [0, 1, 1, 1]},
+        "interfaces": ["base"],
+        "base": {"nonmortar": "cube.zmin", "mortar": "other.zmax", "friction": 0},
+        "probes": ["above", "below", "there"],
+        "above": {"body": "cube", "point": [0, 0, 1]},
+        "below": {"body": "cube", "point": [0, 0, 0]},
+        "there": {"body": "other", "point": [0, 0, 0]},
+        "steps": {"count": steps},
+    }
+    run = driver.run(write(scene, driver.output / "over_time.yaml"))
+    dt, t = 1 / steps, np.full(2, COLD)
+    conduct = conductivity * np.array([[1, -1], [-1, 1]])
+    store = capacity / dt * np.array([[1 / 3, 1 / 6], [1 / 6, 1 / 3]])
+    for k, step in enumerate(run.steps):
+        t = np.linalg.solve(conduct + store, store @ t + np.array([flow, 0]))
+        found = step["heat"]["probes"]
+        error = max(abs(found["above"] - t[0]), abs(found["below"] - t[1])) / flow
+        verdicts.below(f"heating, step {k + 1}: temperatures", error, EXACT_BOUND, "implicit Euler")
+    verdicts.near("heating: a body without conductivity", found["there"], COLD, 0, "as it was")
+    verdicts.near("heating: the mean", (t.mean() - COLD) * capacity / flow, 1, EXACT_BOUND, "all that came in")
+
+
+def expanding(verdicts, driver):
+    """Bars between two walls that are warmed until they touch: heat closes the gap, and the pressure lets heat through."""
+    gap, expansion, reference = 0.01, 1e-3, 20.0
+    scene = two_bars(poisson=0, offset=gap, conductance=2.0, conductance_pressure=reference, conductance_exponent=0.95,
+                     conductance_constant=0.5, conductance_reach=1.0)
+    scene["heat"]["coupling"] = "two_way"
+    del scene["loads"], scene["press"]
+    sides = ["upper", "lower"]
+    scene["supports"] = ["floor", "lid", "x", "y"]
+    scene["lid"] = {"surface": "upper.zmax", "components": ["z"]}
+    scene["x"] = {"surface": [f"{s}.{face}" for s in sides for face in ("xmin", "xmax")], "components": ["x"]}
+    scene["y"] = {"surface": [f"{s}.{face}" for s in sides for face in ("ymin", "ymax")], "components": ["y"]}
+    del scene["left"], scene["front"]
+    for side in sides:
+        scene[side]["expansion"] = expansion
+
+    def flux_at(pressure):
+        h = 0.5 + 2.0 * (pressure / reference) ** 0.95
+        return (HOT - COLD) / (1 / CONDUCTIVITY["upper"] + 1 / h + 2 / CONDUCTIVITY["lower"])
+
+    def closes(pressure):
+        """How much more the bars expand than fits at this pressure."""
+        flux = flux_at(pressure)
+        upper, lower = HOT - flux / CONDUCTIVITY["upper"] / 2 - COLD, flux / CONDUCTIVITY["lower"]
+        return expansion * (upper + 2 * lower) - gap - pressure * 3 / YOUNG
+
+    low, high = 1e-3, YOUNG
+    for _ in range(200):
+        middle = (low + high) / 2
+        low, high = (middle, high) if closes(middle) > 0 else (low, middle)
+    flux = flux_at(low)
+    for ranks in (1, 2):
+        run = driver.run(write(scene, driver.output / f"expanding_{ranks}.yaml"), ranks=ranks)
+        what = f"expanding bars, {ranks} ranks"
+        found = run.steps[-1]
+        verdicts.near(f"{what}: heat", found["heat"]["interfaces"]["base"]["across"] / flux, 1, TURNS_BOUND, "closed form")
+        verdicts.near(f"{what}: pressure", -found["interfaces"]["base"]["force"][2] / low, -1, TURNS_BOUND, "closed form")
+        verdicts.at_least(f"{what}: turns", found["heat"]["turns"], 2, "they settle")
+
+
+def refused(verdicts, driver):
+    """What determines no temperature is said; wrong keys are named."""
+    loose = two_bars()
+    loose["temperatures"] = ["cold"]
+    del loose["hot"]
+    run = driver.run(write(loose, driver.output / "loose.yaml"), expect=None)
+    verdicts.true("a body that nothing warms is refused", run.exit_code > 1 and "temperatures are not determined" in run.text,
+                  "the upper bar has no temperature")
