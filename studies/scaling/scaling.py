@@ -31,6 +31,7 @@ LARGEST_DIRECT = 24
 HELD_SIZE, HELD_RANKS = 24, (1, 2, 4)
 OPTIONS = ("-unknowns", "displacements", "-contact_basis", "dual", "-output_quiet", "true")
 STANDARD = ("-output_quiet", "true")
+HELD_BY_CONTACT = ("-grip_components", "z", "-contact_friction", "1")
 STANDARD_BEGIN, STANDARD_END = "<!-- scaling.py writes of multipliers from here -->", "<!-- multipliers to here -->"
 
 
@@ -114,6 +115,8 @@ def main():
     parser.add_argument("--largest-direct", type=int, default=LARGEST_DIRECT)
     parser.add_argument("--renew", action="store_true", help="write the table into docs/scaling.md")
     parser.add_argument("--standard", action="store_true", help="with standard multipliers among the unknowns")
+    parser.add_argument("--rtol", help="of GMRES, in place of the driver's")
+    parser.add_argument("--held-by-contact", action="store_true", help="the upper block held by contact alone, with friction 1")
     parser.add_argument("--ranks", action="store_true", help="what ranks hold, in place of the solvers")
     args = parser.parse_args()
     output = args.build / "scaling"
@@ -124,11 +127,14 @@ def main():
         if args.renew:
             renew(RANKS_BEGIN, RANKS_END, held)
         return
+    options = STANDARD if args.standard else OPTIONS
+    options += ("-iterative_ksp_rtol", args.rtol) if args.rtol else ()
+    options += HELD_BY_CONTACT if args.held_by_contact else ()
     rows = []
     for n in args.sizes:
         for solver in ("iterative", "direct")[: 1 if n > args.largest_direct else 2]:
             print(f"{solver}, {n} cells", file=sys.stderr, flush=True)
-            rows.append(measure(args.build, output, n, solver, STANDARD if args.standard else OPTIONS))
+            rows.append(measure(args.build, output, n, solver, options))
     (output / "scaling.json").write_text(json.dumps(rows, indent=1))
     (output / "scaling.md").write_text(table(rows))
     print(table(rows))

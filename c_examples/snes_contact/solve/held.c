@@ -249,10 +249,10 @@ static PetscBool turns_unheld(const Solve *solve, const Rigid *rigid)
   PetscBool free = PETSC_FALSE, touches = PETSC_FALSE;
   for (int k = 3; k < RIGID_UNKNOWNS; k++)
     free = (PetscBool)(free || rigid->equations[k] >= 0);
-  for (PetscInt i = 0; i < solve->contact->n_interfaces && free && solve->mesh->rank == 0; i++) {
+  for (PetscInt i = 0; i < solve->contact->n_interfaces && free; i++) {
     const Interface *interface = &solve->contact->interfaces[i];
     for (int side = 0; side < 2; side++) {
-      if (mesh_body_of(solve->mesh, interface->nodes[side ? interface->n1 : 0]) != rigid->body) continue;
+      if (interface->body[side] != rigid->body) continue;
       touches = PETSC_TRUE;
       free    = (PetscBool)(free && interface->options.friction == STICKSLIP_FRICTION_NONE);
     }
@@ -260,7 +260,7 @@ static PetscBool turns_unheld(const Solve *solve, const Rigid *rigid)
   return (PetscBool)(free && touches);
 }
 
-/* rank 0: such bodies, in a sentence */
+/* Such bodies, in a sentence. */
 static PetscErrorCode add_turns(const Solve *solve, char text[], size_t length)
 {
   const Physics *physics = solve->physics;
