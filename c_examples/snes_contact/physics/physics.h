@@ -9,6 +9,7 @@
 #include "mesh/mesh.h"
 #include "physics/elasticity.h"
 #include "physics/element_loads.h"
+#include "scene/archive.h"
 #include "scene/curve.h"
 #include <stickslip.h>
 
@@ -223,6 +224,10 @@ void           parts_accept(Physics *physics);
 /* range.c: do bodies with the linear material stay where it is right? */
 PetscErrorCode range_check(Physics *physics, Vec u_local);
 PetscErrorCode range_report(const Physics *physics, struct cJSON *root);
+
+/* restart.c: which model it is; what the physics knows of the steps before */
+PetscErrorCode physics_agree(const Physics *physics, Archive *archive);
+PetscErrorCode physics_archive(Physics *physics, Archive *archive);
 
 /* physics.c */
 PetscErrorCode physics_destroy(Physics *physics);
