@@ -27,8 +27,8 @@ typedef struct {
 
 /* restart.c: after a step, if it is due (`last`: the run has ended); and before the first one, if the scene names a file: ends the run
  * where that is no good */
-PetscErrorCode restart_write(Model *model, Run *run, PetscBool last);
-PetscErrorCode restart_read(Model *model, Run *run);
+PetscErrorCode restart_write(Model *model, Run *state, PetscBool last);
+PetscErrorCode restart_read(Model *model, Run *state);
 
 /* run.c: returns the exit code of the program */
 PetscErrorCode run(Model *model, int *exit_code);

@@ -264,7 +264,9 @@ PetscErrorCode contact_share_out(Contact *contact);
 PetscErrorCode parts_knowledge(const Interface *interface, PetscInt *n, double **all);
 PetscErrorCode parts_hand_out(const Interface *interface, double *all);
 PetscErrorCode contact_share_out_at_t_n(Contact *contact, PetscInt number, double *all, PetscInt *status);
-/* restart.c: t_n and all that comes from before it */
+/* restart.c: a local vector, one of unknowns; t_n and all that comes from before it */
+PetscErrorCode contact_archive_vector(Contact *contact, const char *name, Vec local, Archive *archive);
+PetscErrorCode contact_archive_unknowns(Contact *contact, const char *name, Vec x, Archive *archive);
 PetscErrorCode contact_archive(Contact *contact, Archive *archive);
 
 /* parts.c: of multipliers or vectors, `width` numbers a non-mortar node: all nodes here get their owners' values; rank 0

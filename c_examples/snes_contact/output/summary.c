@@ -274,7 +274,7 @@ PetscErrorCode summary_settle_step(Output *output, Summary *summary, PetscBool a
 static PetscErrorCode archive_array(cJSON **array, const char *name, Archive *archive)
 {
   static const char *const times[] = {"t", "from"};
-  char                    *text = NULL, *printed = archive->reading ? NULL : cJSON_PrintUnformatted(*array);
+  char                    *text = NULL, *printed = archive->reading || archive->rank ? NULL : cJSON_PrintUnformatted(*array);
   cJSON                   *item;
   PetscFunctionBegin;
   if (printed) PetscCall(PetscStrallocpy(printed, &text));
@@ -297,10 +297,9 @@ static PetscErrorCode archive_array(cJSON **array, const char *name, Archive *ar
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode summary_archive(Summary *summary, PetscMPIInt rank, Archive *archive)
+PetscErrorCode summary_archive(Summary *summary, Archive *archive)
 {
   PetscFunctionBegin;
-  if (rank) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(archive_array(&summary->steps, "steps", archive));
   PetscCall(archive_array(&summary->failed_attempts, "failed_attempts", archive));
   PetscCall(archive_bytes(archive, "said", sizeof(summary->said), summary->said));

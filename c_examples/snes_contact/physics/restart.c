@@ -1,4 +1,4 @@
-/* What a restart file keeps of the physics, and by what it knows the model. */
+/* What a restart file keeps of the physics, and by what it knows the model: whatever ranks it is on. */
 #include "physics/physics.h"
 
 static uint64_t digest_curve(uint64_t before, const Curve *curve)
@@ -6,37 +6,69 @@ static uint64_t digest_curve(uint64_t before, const Curve *curve)
   return digest(before, (size_t)(2 * curve->n) * sizeof(*curve->points), curve->points);
 }
 
-/* Nodes, cells and equations of this rank; curves, one of which may be the ramp up to the end of the steps. */
-PetscErrorCode physics_agree(const Physics *physics, Archive *archive)
+/* Curves of a support that moves. */
+static uint64_t digest_support(uint64_t before, const Support *support)
 {
-  const Mesh        *mesh  = physics->mesh;
-  const Cells       *cells = &physics->cells;
-  uint64_t           nodes = DIGEST, curves = DIGEST;
-  const PetscScalar *X;
-  PetscInt           n;
-  Vec                coordinates;
+  PetscBool moves = support->from_file, turns = PETSC_FALSE;
+  for (int i = 0; i < 3; i++) {
+    moves = (PetscBool)(moves || support->value[i] != 0);
+    turns = (PetscBool)(turns || support->rotate[i] != 0);
+  }
+  for (int k = 0; k < 9; k++)
+    moves = (PetscBool)(moves || support->gradient[k] != 0);
+  if (moves) before = digest_curve(before, &support->curve);
+  return turns ? digest_curve(before, &support->rotate_curve) : before;
+}
+
+/* Sums over ranks: of nodes with their places and what files prescribe there; of cells with their nodes. */
+static PetscErrorCode digest_mesh(const Physics *physics, uint64_t *sum)
+{
+  const Mesh        *mesh = physics->mesh;
+  const PetscScalar *coordinates;
+  PetscInt           first, end, n, nodes[CELL_NODES], at;
+  Vec                vector;
 
   PetscFunctionBegin;
-  PetscCall(DMGetCoordinatesLocal(mesh->dm, &coordinates));
-  PetscCall(VecGetLocalSize(coordinates, &n));
-  PetscCall(VecGetArrayRead(coordinates, &X));
-  nodes = digest(nodes, (size_t)n * sizeof(*X), X);
-  PetscCall(VecRestoreArrayRead(coordinates, &X));
-  nodes = digest(nodes, (size_t)mesh->n_points * sizeof(*mesh->original), mesh->original);
-  nodes = digest(nodes, (size_t)cells->offsets[cells->n] * sizeof(*cells->dofs), cells->dofs);
-  nodes = digest(nodes, (size_t)cells->n * sizeof(*cells->body), cells->body);
-  nodes = digest(nodes, (size_t)physics->unknowns.n_local * sizeof(*physics->unknowns.equations), physics->unknowns.equations);
-  for (PetscInt s = 0; s < physics->n_supports; s++) {
-    const Support *support = &physics->supports[s];
-    curves                 = digest_curve(digest_curve(curves, &support->curve), &support->rotate_curve);
-    if (support->given) curves = digest(curves, 3 * (size_t)mesh->n_points * sizeof(*support->given), support->given);
+  *sum = 0;
+  PetscCall(DMGetCoordinatesLocal(mesh->dm, &vector));
+  PetscCall(VecGetArrayRead(vector, &coordinates));
+  for (PetscInt k = 0; k < mesh->n_points; k++) {
+    PetscReal X[3];
+    uint64_t  one;
+    if (physics->unknowns.ghost[k]) continue;
+    PetscCall(unknowns_place(physics, k, coordinates, X, &at));
+    one = digest(digest(DIGEST, sizeof(X), X), sizeof(PetscInt), &mesh->original[k]);
+    for (PetscInt s = 0; s < physics->n_supports; s++) {
+      if (physics->supports[s].given) one = digest(one, sizeof(X), physics->supports[s].given + 3 * k);
+    }
+    *sum += one;
   }
+  PetscCall(VecRestoreArrayRead(vector, &coordinates));
+  PetscCall(DMPlexGetHeightStratum(mesh->dm, 0, &first, &end));
+  for (PetscInt c = first; c < end; c++) {
+    uint64_t one = digest(DIGEST, sizeof(PetscInt), &mesh->original_cell[c - first]);
+    PetscCall(plex_cell_nodes(mesh, c, &n, nodes));
+    for (PetscInt a = 0; a < n; a++)
+      one = digest(one, sizeof(PetscInt), &mesh->original[mesh->here[nodes[a]]]);
+    *sum += one;
+  }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sum, 1, MPI_UINT64_T, MPI_SUM, PETSC_COMM_WORLD));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode physics_agree(const Physics *physics, Archive *archive)
+{
+  uint64_t mesh, curves = DIGEST;
+  PetscFunctionBegin;
+  PetscCall(digest_mesh(physics, &mesh));
+  for (PetscInt s = 0; s < physics->n_supports; s++)
+    curves = digest_support(curves, &physics->supports[s]);
   for (PetscInt l = 0; l < physics->n_loads; l++)
     curves = digest_curve(curves, &physics->loads[l].curve);
-  PetscCall(archive_agree(archive, "mesh", nodes, "it is of another mesh, or of another partition of it"));
+  PetscCall(archive_agree(archive, "mesh", mesh, "it is of another mesh, or other files say what is prescribed"));
   PetscCall(archive_agree(archive, "curves", curves,
-                          "its curves, or what files prescribe, are not those of this scene (without a `curve` loads and supports grow up "
-                          "to the end of the steps: write the curve down where steps go on beyond it)"));
+                          "its curves are others: without a `curve` loads and supports grow up to the end of the steps, so write one where "
+                          "steps are to go on beyond it"));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -16,6 +16,20 @@ uint64_t digest(uint64_t before, size_t n, const void *data)
   return before;
 }
 
+PetscErrorCode archive_fault(Archive *archive, const char *fault)
+{
+  PetscMPIInt size, first;
+  PetscFunctionBegin;
+  PetscCallMPI(MPI_Comm_size(PETSC_COMM_WORLD, &size));
+  if (fault && !archive->bad) PetscCall(PetscSNPrintf(archive->fault, sizeof(archive->fault), "%s", fault));
+  first = fault ? archive->rank : size;
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &first, 1, MPI_INT, MPI_MIN, PETSC_COMM_WORLD));
+  if (first == size || archive->bad) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCallMPI(MPI_Bcast(archive->fault, sizeof(archive->fault), MPI_CHAR, first, PETSC_COMM_WORLD));
+  archive->bad = PETSC_TRUE;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode append(Archive *archive, size_t n, const void *data)
 {
   PetscFunctionBegin;
@@ -28,39 +42,59 @@ static PetscErrorCode append(Archive *archive, size_t n, const void *data)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Is there such an item next? Then its size. */
+/* The size of the item that is next, which must be of this name. */
 static PetscErrorCode next_item(Archive *archive, const char *name, size_t *size)
 {
-  ItemHead head;
+  ItemHead    head;
+  char        text[256];
+  const char *fault = NULL;
   PetscFunctionBegin;
-  if (archive->fault[0]) PetscFunctionReturn(PETSC_SUCCESS);
-  if (archive->at + sizeof(head) <= archive->n) {
-    memcpy(&head, archive->bytes + archive->at, sizeof(head));
-    *size = (size_t)head.size;
-    if (head.name == digest(DIGEST, strlen(name), name) && head.size <= archive->n - archive->at - sizeof(head))
-      PetscFunctionReturn(PETSC_SUCCESS);
+  *size = 0;
+  if (archive->rank == 0 && !archive->bad) {
+    PetscCall(PetscSNPrintf(text, sizeof(text), "it does not have '%s' where it belongs", name));
+    fault = text;
+    if (archive->at + sizeof(head) <= archive->n) {
+      memcpy(&head, archive->bytes + archive->at, sizeof(head));
+      *size = (size_t)head.size;
+      if (head.name == digest(DIGEST, strlen(name), name) && head.size <= archive->n - archive->at - sizeof(head)) fault = NULL;
+    }
   }
-  PetscCall(PetscSNPrintf(archive->fault, sizeof(archive->fault), "it does not have '%s' where it belongs", name));
+  PetscCall(archive_fault(archive, fault));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode archive_bytes(Archive *archive, const char *name, size_t n, void *data)
+PetscErrorCode archive_root(Archive *archive, const char *name, size_t n, void *data)
 {
   const ItemHead head = {.name = digest(DIGEST, strlen(name), name), .size = n};
-  size_t         size = 0;
+  size_t         size;
+  char           text[256];
+  const char    *fault = NULL;
   PetscFunctionBegin;
   if (!archive->reading) {
+    if (archive->rank) PetscFunctionReturn(PETSC_SUCCESS);
     PetscCall(append(archive, sizeof(head), &head));
     PetscCall(append(archive, n, data));
     PetscFunctionReturn(PETSC_SUCCESS);
   }
   PetscCall(next_item(archive, name, &size));
-  if (!archive->fault[0] && size != n)
-    PetscCall(PetscSNPrintf(archive->fault, sizeof(archive->fault), "its '%s' has %zu bytes where %zu are needed", name, size, n));
-  if (archive->fault[0]) PetscFunctionReturn(PETSC_SUCCESS);
+  if (archive->bad) PetscFunctionReturn(PETSC_SUCCESS);
+  if (archive->rank == 0 && size != n) {
+    PetscCall(PetscSNPrintf(text, sizeof(text), "its '%s' has %zu bytes where %zu are needed", name, size, n));
+    fault = text;
+  }
+  PetscCall(archive_fault(archive, fault));
+  if (archive->bad || archive->rank) PetscFunctionReturn(PETSC_SUCCESS);
   archive->at += sizeof(head);
   if (n) memcpy(data, archive->bytes + archive->at, n);
   archive->at += n;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode archive_bytes(Archive *archive, const char *name, size_t n, void *data)
+{
+  PetscFunctionBegin;
+  PetscCall(archive_root(archive, name, n, data));
+  if (archive->reading && !archive->bad) PetscCallMPI(MPI_Bcast(data, (PetscMPIInt)n, MPI_BYTE, 0, PETSC_COMM_WORLD));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -79,29 +113,17 @@ PetscErrorCode archive_bools(Archive *archive, const char *name, PetscInt n, Pet
   return archive_bytes(archive, name, (size_t)n * sizeof(*data), data);
 }
 
-PetscErrorCode archive_vector(Archive *archive, const char *name, Vec vector)
-{
-  PetscScalar *array;
-  PetscInt     n;
-  PetscFunctionBegin;
-  PetscCall(VecGetLocalSize(vector, &n));
-  PetscCall(VecGetArray(vector, &array));
-  PetscCall(archive_bytes(archive, name, (size_t)n * sizeof(*array), array));
-  PetscCall(VecRestoreArray(vector, &array));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 PetscErrorCode archive_text(Archive *archive, const char *name, char **text)
 {
   size_t size = *text ? strlen(*text) + 1 : 0;
   PetscFunctionBegin;
   if (archive->reading) {
     PetscCall(next_item(archive, name, &size));
-    if (archive->fault[0]) PetscFunctionReturn(PETSC_SUCCESS);
+    if (archive->bad) PetscFunctionReturn(PETSC_SUCCESS);
     PetscCall(PetscFree(*text));
     if (size) PetscCall(PetscMalloc1(size, text));
   }
-  PetscCall(archive_bytes(archive, name, size, *text));
+  PetscCall(archive_root(archive, name, size, *text));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -110,7 +132,7 @@ PetscErrorCode archive_agree(Archive *archive, const char *name, uint64_t number
   uint64_t there = number;
   PetscFunctionBegin;
   PetscCall(archive_bytes(archive, name, sizeof(there), &there));
-  if (!archive->fault[0] && there != number) PetscCall(PetscSNPrintf(archive->fault, sizeof(archive->fault), "%s", fault));
+  PetscCall(archive_fault(archive, there == number ? NULL : fault));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

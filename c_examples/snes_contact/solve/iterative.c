@@ -135,19 +135,6 @@ PetscErrorCode iterative_set(Solve *solve, KSP ksp)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode iterative_renew(Solve *solve)
-{
-  KSP ksp;
-  PC  pc;
-  PetscFunctionBegin;
-  if (solve->linear.kind != SOLVER_ITERATIVE) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(SNESGetKSP(solve->snes, &ksp));
-  PetscCall(KSPGetPC(ksp, &pc));
-  PetscCall(PCSetType(pc, PCNONE)); /* which destroys what there is */
-  PetscCall(iterative_set(solve, ksp));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /* `solver`. */
 PetscErrorCode iterative_read(Scene *scene, Solve *solve)
 {

@@ -24,7 +24,7 @@ static PetscErrorCode archive_size(const Steps *steps, PetscReal t, StepSize *si
   kept = *size;
   PetscCall(archive_bytes(archive, "steps", sizeof(then), &then));
   PetscCall(archive_bytes(archive, "step_size", sizeof(kept), &kept));
-  if (!archive->reading || archive->fault[0]) PetscFunctionReturn(PETSC_SUCCESS);
+  if (!archive->reading || archive->bad) PetscFunctionReturn(PETSC_SUCCESS);
   if (then == now)
     *size = kept;
   else
@@ -49,14 +49,14 @@ static PetscErrorCode archive_held(Held *held, Archive *archive)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode archive_past(Past *past, Archive *archive)
+static PetscErrorCode archive_past(Solve *solve, Past *past, Archive *archive)
 {
   PetscFunctionBegin;
   PetscCall(archive_reals(archive, "t_last", 1, &past->t_last));
   PetscCall(archive_reals(archive, "t_before", 1, &past->t_before));
   PetscCall(archive_bools(archive, "have_before", 1, &past->have_before));
-  PetscCall(archive_vector(archive, "last", past->last));
-  if (past->have_before) PetscCall(archive_vector(archive, "before", past->before));
+  PetscCall(contact_archive_unknowns(solve->contact, "last", past->last, archive));
+  if (past->have_before) PetscCall(contact_archive_unknowns(solve->contact, "before", past->before, archive));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -65,13 +65,20 @@ PetscErrorCode solve_archive(Solve *solve, Past *past, StepSize *size, Archive *
   Linear   *linear   = &solve->linear;
   PetscInt *counts[] = {&linear->n_solves, &linear->n_direct, &linear->iterations, &linear->most};
   PetscFunctionBegin;
-  PetscCall(archive_past(past, archive));
+  PetscCall(archive_past(solve, past, archive));
   PetscCall(archive_size(&solve->steps, past->t_last, size, archive));
   PetscCall(archive_held(&solve->held, archive));
   PetscCall(archive_reals(archive, "least_pivot", 1, &solve->least_pivot));
   for (int k = 0; k < 4; k++)
     PetscCall(archive_ints(archive, "linear", 1, counts[k]));
   PetscCall(solver_archive_room(solve, archive));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode solve_archive_pattern(Solve *solve, Archive *archive)
+{
+  PetscFunctionBegin;
   PetscCall(pattern_archive(solve, archive));
+  if (archive->reading) PetscCall(solver_use_matrix(solve));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

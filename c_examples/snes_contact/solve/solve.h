@@ -144,13 +144,13 @@ PetscErrorCode pattern_archive(Solve *solve, Archive *archive); /* of the matrix
 
 /* restart.c: `past` and `size` of the next step */
 PetscErrorCode solve_archive(Solve *solve, Past *past, StepSize *size, Archive *archive);
+PetscErrorCode solve_archive_pattern(Solve *solve, Archive *archive);
 
 /* iterative.c: `solver`; what `auto` means; makes SNES' linear solver one that iterates */
 void           iterative_check(Scene *scene, const Solve *solve); /* after held_create() */
 PetscErrorCode iterative_read(Scene *scene, Solve *solve); /* after contact_read() */
 void           iterative_choose(Solve *solve, PetscInt n_unknowns);
 PetscErrorCode iterative_set(Solve *solve, KSP ksp);
-PetscErrorCode iterative_renew(Solve *solve); /* it forgets what it knows of matrices before */
 
 /* convergence.c: SNES' convergence test */
 PetscErrorCode convergence_test(SNES snes, PetscInt iteration, PetscReal xnorm, PetscReal snorm, PetscReal fnorm,
