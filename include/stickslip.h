@@ -2444,7 +2444,8 @@ int32_t stickslip_interface_set_threshold(struct stickslip_interface *interface,
 /// What the law remembers of the nodes at t_n: for output, and to be handed to other handles with parts of the interface.
 ///
 /// states, output: node by node, as many numbers as the law remembers (of STICKSLIP_LAW_WEAKENING one, the way slipped [L]). n: how many
-/// it has room for; count, output: how many there are, 0 of a law that remembers nothing. states NULL: they are counted only.
+/// it has room for; count, output: how many there are, 0 of a law that remembers nothing. states NULL: they are counted only. A call
+/// that is refused leaves both as they were.
 ///
 /// Errors: NULL_POINTER, BUFFER_TOO_SMALL.
 /// Cost: a copy.

@@ -249,11 +249,11 @@ pub unsafe extern "C" fn stickslip_interface_set_threshold(
         let Some(function) = threshold else {
             return Err(Error::new(Kind::NullPointer, "threshold is NULL"));
         };
-        let states = raw::count(n_states, 0, "n_states")?;
-        if states > STICKSLIP_LAW_MAX_STATES as usize {
-            let text = text!("n_states is {states}; it must be at most {STICKSLIP_LAW_MAX_STATES}");
+        if !(0..=i64::from(STICKSLIP_LAW_MAX_STATES)).contains(&n_states) {
+            let text = text!("n_states is {n_states}; it must be at least 0 and at most {STICKSLIP_LAW_MAX_STATES}");
             return Err(Error::new(Kind::InvalidSize, text));
         }
+        let states = n_states as usize;
         let words = [function as usize, user.expose_provenance()];
         with_friction(h)?.set_law(Some(Own::Host(Host { ask, words, states, base })))
     })
@@ -262,7 +262,8 @@ pub unsafe extern "C" fn stickslip_interface_set_threshold(
 /// What the law remembers of the nodes at t_n: for output, and to be handed to other handles with parts of the interface.
 ///
 /// states, output: node by node, as many numbers as the law remembers (of STICKSLIP_LAW_WEAKENING one, the way slipped [L]). n: how many
-/// it has room for; count, output: how many there are, 0 of a law that remembers nothing. states NULL: they are counted only.
+/// it has room for; count, output: how many there are, 0 of a law that remembers nothing. states NULL: they are counted only. A call
+/// that is refused leaves both as they were.
 ///
 /// Errors: NULL_POINTER, BUFFER_TOO_SMALL.
 /// Cost: a copy.

@@ -39,6 +39,7 @@ from roles import roles  # noqa: E402
 from slider import slider, slider_fine  # noqa: E402
 from scene import Driver, SceneError  # noqa: E402
 from stepping import stepping  # noqa: E402
+from thrown import thrown  # noqa: E402
 from touching import touching_full, touching_quick  # noqa: E402
 from turning import turning  # noqa: E402
 from verdict import Verdicts  # noqa: E402
@@ -84,6 +85,7 @@ GROUPS = {
     "slider": slider,
     "slider_fine": slider_fine,  # minutes; not among the tests
     "stepping": stepping,
+    "thrown": thrown,
     "touching": touching_quick,
     "touching_full": touching_full,  # some minutes; not among the tests
     "turning": turning,

@@ -1,8 +1,12 @@
 """Checks of what several ranks read and write: the mesh is that of one rank to the bit, whoever made its pieces, and so are files
 put together; fields are those of one rank to rounding."""
 
+import os
+import re
+import shutil
 import struct
 import subprocess
+from pathlib import Path
 
 import numpy as np
 from condensed import TIGHT
@@ -62,6 +66,7 @@ def ranks_files(verdicts, driver):
     compare(verdicts, driver, "klarbring", "more ranks than cells", (5,))
     converted(verdicts, driver)
     pieces(verdicts, driver)
+    stale(verdicts, driver)
 
 
 def compare(verdicts, driver, scene, label, several, options=(), one=None):
@@ -120,6 +125,27 @@ def converted(verdicts, driver):
         nowhere = [str(word) for word in (*command[:-1], driver.output / "nowhere" / "mesh.h5")]
         done = subprocess.run(nowhere, capture_output=True, text=True)
         verdicts.true(f"{scene}: no folder to convert into", done.returncode == 1 and "-convert cannot write" in done.stderr, "refused")
+        overwritten(verdicts, driver, scene)
+
+
+def overwritten(verdicts, driver, scene):
+    """-convert writes over none of the files that the scene is read from, by whatever path it comes to them."""
+    folder = driver.output / f"{scene}_sources"
+    folder.mkdir(parents=True, exist_ok=True)
+    yaml, link = folder / "scene.yaml", folder / "link.h5"
+    text = (SCENES / f"{scene}.yaml").read_text()
+    mesh = re.search(r"file: (\S+\.msh)", text)[1]
+    copy = folder / Path(mesh).name
+    copy.write_bytes((SCENES / mesh).read_bytes())
+    yaml.write_text(text.replace(mesh, copy.name).replace("file: ../", f"file: {SCENES.parent}/"))
+    link.unlink(missing_ok=True)
+    link.symlink_to(copy)
+    for name, path in (("its scene", yaml), ("its mesh", copy), ("its mesh by a link", link)):
+        before = path.read_bytes()
+        words = [str(word) for word in (driver.program, "-scene", yaml, "-convert", path)]
+        done = subprocess.run(words, capture_output=True, text=True)
+        told = done.returncode == 1 and "which this scene is read from" in done.stderr
+        verdicts.true(f"{scene}: {name} is not written over", told and path.read_bytes() == before, "refused, and left as it was")
 
 
 # A vertex of both scenes, in their lists of cells' vertices alone, and one that none has.
@@ -151,3 +177,25 @@ def pieces(verdicts, driver):
     for kind, bound in (("bytes_read", HELD), ("bytes", HELD)):
         most = max(rank[kind] for rank in two["ranks"]) / one["ranks"][0][kind]
         verdicts.below(f"{kind} of a rank, over those of one", most, bound, "half, and the border")
+
+
+def stale(verdicts, driver):
+    """Of two runs into one folder, on other numbers of ranks, each step has the files of the second one alone. A folder that
+    cannot take the summary is refused before anything is solved."""
+    environment = {**os.environ, "OMP_NUM_THREADS": "1", "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
+
+    def run(folder, ranks):
+        words = ["mpirun", "--oversubscribe", "-n", ranks, driver.program, "-scene", SCENES / "two_blocks.yaml", "-output_dir", folder, *LAST]
+        return subprocess.run([str(word) for word in words], capture_output=True, text=True, env=environment, stdin=subprocess.DEVNULL)
+
+    for first, second, left in ((2, 1, ".vtu"), (1, 2, ".pvtu")):
+        folder = driver.output / f"stale_{first}"
+        shutil.rmtree(folder, ignore_errors=True)
+        codes = [run(folder, ranks).returncode for ranks in (first, second)]
+        ends = {file.suffix for file in folder.glob("step_*") if file.stem.count("_") == 1}
+        verdicts.true(f"on {first}, then on {second} ranks into one folder", codes == [0, 0] and ends == {left}, f"the files of the last: {left}")
+    folder = driver.output / "no_summary"
+    (folder / "summary.json").mkdir(parents=True, exist_ok=True)
+    done = run(folder, 2)
+    told = done.returncode == 1 and "summary.json" in done.stderr and not list(folder.glob("step_*"))
+    verdicts.true("a folder of the name summary.json", told, "refused at the start")

@@ -34,6 +34,7 @@ def rigid(verdicts, driver):
     tangent(verdicts, driver)
     hertz(verdicts, driver)
     rolls(verdicts, driver)
+    turned_and_pressed(verdicts, driver)
     over_parts(verdicts, driver)
 
 
@@ -395,6 +396,30 @@ def rolls(verdicts, driver):
     load = np.abs(result.resultant("low")).max()
     verdicts.below("roller: forces", np.abs(end["contact_force"]).max() / load, STATICS_BOUND, "statics")
     verdicts.below("roller: moments", np.abs(end["contact_moment"]).max() / load, STATICS_BOUND, "statics")
+
+
+# --- turned while it is pressed -----------------------------------------------------------------------------------------
+ANGLES, PRESSED = (0.02, -0.02, 0.1), 10
+
+
+def turned_and_pressed(verdicts, driver):
+    """A punch that is free to move, whose turn and whose load grow in proportion: its corner is turned into the block before
+    anything presses it, all that touches slips at the first iterate, and friction alone holds the punch along the block."""
+    for angle in ANGLES:
+        scene = {"schema": 1, "model": "plane_strain", "bodies": ["punch", "block"],
+                 "punch": {"type": "rigid", "from": "box", "reference": [0.35, 0.1], "lower": [0.1, 0], "upper": [0.6, 1], "cells": [4, 2]},
+                 "block": {**ELASTIC, "lower": [0, -1], "upper": [1.5, 0], "cells": [9, 5]}, "supports": ["ground", "guide"],
+                 "ground": {"surface": "block.ymin", "components": ["x", "y"]},
+                 "guide": {"body": "punch", "components": ["rz"], "rotate": angle},
+                 "loads": ["press"], "press": {"body": "punch", "force": [0, -PRESSED]}, "interfaces": ["foot"],
+                 "foot": {"nonmortar": "punch.ymin", "mortar": "block.ymax", "friction": 0.4, "new_contact": "friction"},
+                 "steps": {"count": 2}, "output": {"vtu": "none", "csv": "none"}}
+        result = run(driver, f"turned_and_pressed_{angle}", scene)
+        six = body(result, "punch")
+        verdicts.near(f"punch turned by {angle}: force", six["contact_force"][1], PRESSED, STATICS_BOUND, "statics")
+        verdicts.below(f"punch turned by {angle}: force along", abs(six["contact_force"][0]) / PRESSED, STATICS_BOUND, "statics")
+        verdicts.near(f"punch turned by {angle}: turn", six["rotation"][2], angle, STATICS_BOUND, "prescribed")
+        verdicts.true(f"punch turned by {angle}: no step is cut", result.summary["cutbacks"] == 0, "the first step finds it")
 
 
 # --- rolling over parts -------------------------------------------------------------------------------------------------

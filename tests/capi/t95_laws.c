@@ -156,9 +156,10 @@ int main(void) {
     CHECK(h.calls == 0);
 
     CHECK_REFUSED(stickslip_interface_set_threshold(own.interface, NULL, &h, 0), STICKSLIP_NULL_POINTER, "threshold");
-    CHECK_REFUSED(stickslip_interface_set_threshold(own.interface, coulomb, &h, -1), STICKSLIP_INVALID_SIZE, "n_states");
+    CHECK_REFUSED(stickslip_interface_set_threshold(own.interface, coulomb, &h, -1), STICKSLIP_INVALID_SIZE, "at most 1024");
     CHECK_REFUSED(stickslip_interface_set_threshold(own.interface, coulomb, &h, STICKSLIP_LAW_MAX_STATES + 1),
-                  STICKSLIP_INVALID_SIZE, "n_states");
+                  STICKSLIP_INVALID_SIZE, "at most 1024");
+    CHECK_REFUSED(stickslip_interface_set_threshold(own.interface, coulomb, &h, INT64_MAX), STICKSLIP_INVALID_SIZE, "at most 1024");
     scene_destroy(&plain);
     scene_destroy(&own);
   }

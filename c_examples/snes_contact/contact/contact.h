@@ -167,6 +167,7 @@ typedef struct {
   PetscInt   n_commits;
   PetscBool  scaled;    /* some nodes have another augmentation than the scene's */
   PetscBool  settles;   /* the first phase of a step in two: with normals of its start */
+  PetscBool  sticks;    /* likewise: under friction that lets nothing slip */
   PetscBool  reduced;   /* the solver takes its reduced form: E_L - I, E_R - I, Q, s D Q, as REDUCTION_... */
   Mat        reduction[N_REDUCTION];
   Settling   settling;
@@ -348,6 +349,11 @@ PetscErrorCode reduction_destroy(Contact *contact);
 PetscBool      normals_follow(const Contact *contact); /* those of any interface */
 PetscErrorCode normals_use(Contact *contact, int32_t normals); /* STICKSLIP_NORMALS_..., where they follow */
 PetscErrorCode normals_turn_multipliers(Contact *contact, Vec x);
+
+/* sticking.c: friction that lets nothing slip, for a while */
+PetscBool      sticking_possible(const Contact *contact); /* is there Coulomb friction? */
+PetscErrorCode sticking_use(Contact *contact, PetscBool sticks);
+int32_t        sticking_set(const Contact *contact, const Interface *interface, stickslip_interface *handle);
 
 /* states.c: at the place of the last evaluation, for rank 0: what it has of all nodes */
 PetscErrorCode contact_collect(Contact *contact);

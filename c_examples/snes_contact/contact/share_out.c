@@ -81,7 +81,7 @@ static PetscErrorCode get_place(Contact *contact, Vec *local)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The new part's handle, as the old one is: t_n and slip, law, offsets, augmentation, normals of the phase. */
+/* The new part's handle, as the old one is: t_n and slip, law, offsets, augmentation, normals and friction of the phase. */
 static PetscErrorCode revive(Contact *contact, Interface *interface, int32_t *refused)
 {
   ContactPart *part = &interface->part;
@@ -100,6 +100,7 @@ static PetscErrorCode revive(Contact *contact, Interface *interface, int32_t *re
   if (!*refused && contact->scaled) *refused = stickslip_interface_set_augmentation(part->handle, part->augmentation);
   if (!*refused && contact->settles && interface->options.normals == STICKSLIP_NORMALS_CURRENT)
     *refused = stickslip_interface_use_normals(part->handle, STICKSLIP_NORMALS_COMMITTED);
+  if (!*refused && contact->sticks) *refused = sticking_set(contact, interface, part->handle);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -127,6 +127,7 @@ PetscErrorCode converted_write(Scene *scene, const Mesh *mesh, const char *path)
   for (PetscInt b = 0; b < mesh->n_bodies; b++)
     n += mesh->bodies[b].from_gmsh;
   if (!n) scene_fail(scene, NULL, NULL, "no body of this scene comes from a Gmsh file: there is nothing to convert.");
+  if (scene_is_source(scene, path)) scene_fail(scene, NULL, NULL, "-convert would write over '%s', which this scene is read from; name another file.", path);
   PetscCall(PetscPushErrorHandler(PetscReturnErrorHandler, NULL));
   failed = PetscViewerHDF5Open(PETSC_COMM_SELF, path, FILE_MODE_WRITE, &viewer);
   PetscCall(PetscPopErrorHandler());

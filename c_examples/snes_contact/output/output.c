@@ -29,6 +29,15 @@ static void read_restart(Scene *scene, Output *output)
     scene_fail(scene, "output", "restart_keep", "there are no restart files: give `restart_every`.");
 }
 
+/* A file of the folder: there is none yet, or one that can be written over. */
+static PetscBool can_write(const char *folder, const char *name)
+{
+  struct stat status;
+  char        path[PETSC_MAX_PATH_LEN];
+  snprintf(path, sizeof(path), "%s/%s", folder, name);
+  return (PetscBool)(stat(path, &status) || (S_ISREG(status.st_mode) && access(path, W_OK) == 0));
+}
+
 PetscErrorCode output_read(Scene *scene, Output *output)
 {
   const Mesh              *mesh   = output->mesh;
@@ -53,6 +62,8 @@ PetscErrorCode output_read(Scene *scene, Output *output)
   scene_root_begin(scene);
   if (mesh->rank == 0 && !make_folder(output->directory))
     scene_fail(scene, NULL, NULL, "cannot write to the output folder '%s'.", output->directory);
+  if (mesh->rank == 0 && !can_write(output->directory, "summary.json"))
+    scene_fail(scene, NULL, NULL, "cannot write '%s/summary.json': there is something else of that name, or it is not yours.", output->directory);
   PetscCall(scene_root_end(scene));
   strings_destroy(output->n_probes, &names);
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -123,6 +123,16 @@ static void numbers(FILE *file, const char *name, PetscInt n, const PetscInt ord
   vtu_end_array(file);
 }
 
+/* What an earlier run on one rank, or on several, has left under this step's number is not this run's. */
+static PetscErrorCode remove_stale(const Output *output, PetscInt step)
+{
+  char path[PETSC_MAX_PATH_LEN];
+  PetscFunctionBegin;
+  PetscCall(PetscSNPrintf(path, sizeof(path), "%s/step_%" PetscInt_FMT ".%s", output->directory, step, output->mesh->size > 1 ? "vtu" : "pvtu"));
+  (void)remove(path);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* The files of all ranks, and what is in them. */
 static PetscErrorCode write_index(const Output *output, PetscInt step)
 {
@@ -197,6 +207,7 @@ PetscErrorCode vtu_write(Output *output, PetscInt step)
   fprintf(file, "</CellData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n");
   fclose(file);
   PetscCall(piece_destroy(&piece));
+  if (mesh->rank == 0) PetscCall(remove_stale(output, step));
   if (several && mesh->rank == 0) PetscCall(write_index(output, step));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

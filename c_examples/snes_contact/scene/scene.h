@@ -19,6 +19,8 @@ PetscErrorCode scene_close(Scene **scene);
 const char    *scene_file(const Scene *scene);
 /* path of a file named in the scene, relative to the scene's own folder */
 PetscErrorCode scene_relative_path(const Scene *scene, const char *name, char path[], size_t length);
+/* is it the scene's own file, or one that a `file` of it names? */
+PetscBool scene_is_source(const Scene *scene, const char *path);
 
 /* one clear sentence about map.key, then exit code 1 on every rank; does not return */
 _Noreturn void scene_fail(Scene *scene, const char *map, const char *key, const char *format, ...)

@@ -155,7 +155,7 @@ void closing_begin(Solve *solve, PetscBool active)
   closing->cut = closing->ever_cut = PETSC_FALSE;
   closing->shift                   = LOOSE;
   closing->depth                   = DEPTH;
-  closing->touched                 = PETSC_FALSE;
+  closing->touched = closing->met  = PETSC_FALSE;
   closing->travelled               = 0;
   closing->n_uncut                 = 0;
   closing->loose                   = -1;
@@ -202,6 +202,7 @@ PetscErrorCode closing_shift(Solve *solve, Mat matrix)
     closing->shift = LOOSE;
   }
   closing->touched = (PetscBool)(closing->loose < 0);
+  closing->met     = (PetscBool)(closing->met || closing->touched);
   PetscCall(MatGetDiagonal(matrix, diagonal));
   PetscCall(VecAbs(diagonal));
   PetscCall(VecPointwiseMult(diagonal, diagonal, closing->displacements));
@@ -237,9 +238,9 @@ static PetscErrorCode describe_motion(Solve *solve, PetscInt body, Vec step)
   for (int i = 0; i < 3; i++)
     mean[i] = PetscAbsReal(mean[i]) < 5e-4 * size ? 0 : mean[i]; /* no minus before what is told as 0 */
   PetscCall(PetscSNPrintf(closing->away, sizeof(closing->away),
-                          "nothing touches %s: the loads move it along (%.3f, %.3f, %.3f), and nothing is in its way",
-                          mesh->bodies[body].name, (double)(mean[0] / size), (double)(mean[1] / size),
-                          (double)(mean[2] / size)));
+                          "%s %s: the loads move it along (%.3f, %.3f, %.3f), and nothing is in its way%s",
+                          closing->met ? "Newton's method has lost the contact of" : "nothing touches", mesh->bodies[body].name,
+                          (double)(mean[0] / size), (double)(mean[1] / size), (double)(mean[2] / size), closing->met ? " there" : ""));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

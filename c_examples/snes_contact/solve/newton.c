@@ -13,9 +13,12 @@
  *   5. if there were cycles, full steps; a cycle multiplies it by 100;
  *   6. where the supports leave a body free to move, the attempt of closing.c: the first one, if such a body is loose
  *      at the start of the step, else the last;
- *   7. if all fail, the caller takes a shorter step in time.
+ *   7. where friction holds such a body, in two phases: under friction that lets nothing slip, and from there under the scene's.
+ *      Where all nodes that touch are taken to slip at the start, nothing else has a stiffness along the surface;
+ *   8. if all fail, the caller takes a shorter step in time.
  * Where contact alone holds a body, Newton's method may throw it out of contact, and there it is in equilibrium. So an
- * attempt after which a body is loose that was not loose before counts if no other one converges with it in contact.
+ * attempt after which a body is loose that was not loose before counts if no other one converges with it in contact. One that
+ * moves a body further than anything could have pushed it there, without any force, counts for nothing (thrown.c).
  * An extrapolated start may lie beyond the friction cone although the answer does not. Full steps fail there, and
  * damped ones lead to another equilibrium, in which the nodes have slid: hence 3, and before 4. From the start of 3
  * damped steps crawl where bodies strain much (rounded sliders of the press fit: 15 cut-backs instead of 4). So the
@@ -32,7 +35,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { FULL = 0, SETTLING = 1, PLAIN = 2, BACKTRACKING = 3, LARGER = 4, CLOSING = 5, N_ATTEMPTS = 6 };
+enum { FULL = 0, SETTLING = 1, PLAIN = 2, BACKTRACKING = 3, LARGER = 4, CLOSING = 5, STICKING = 6, N_ATTEMPTS = 7 };
 /* Iterations of the closing attempt: each closes a gap by part of a facet. Other attempts: -snes_max_it. */
 enum { CLOSING_ITERATIONS = 60 };
 static const struct {
@@ -43,7 +46,8 @@ static const struct {
                          [PLAIN]        = {SNESLINESEARCHBASIC, 0.01},
                          [BACKTRACKING] = {SNESLINESEARCHBT, 0.01},
                          [LARGER]       = {SNESLINESEARCHBASIC, 100},
-                         [CLOSING]      = {SNESLINESEARCHBASIC, 0.01}};
+                         [CLOSING]      = {SNESLINESEARCHBASIC, 0.01},
+                         [STICKING]     = {SNESLINESEARCHBASIC, 0.01}};
 
 /* SNES calls it before each iteration: residual and tangent must speak of the same augmentation. */
 static PetscErrorCode before_iteration(SNES snes, PetscInt iteration)
@@ -180,8 +184,8 @@ static PetscErrorCode solve_from(Solve *solve, Vec x, SNESConvergedReason *reaso
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Attempt k from x, which becomes the last iterate. */
-static PetscErrorCode attempt(Solve *solve, int k, Vec x, PetscBool *converged)
+/* Attempt k at the step from `past`, from x, which becomes the last iterate. */
+static PetscErrorCode attempt(Solve *solve, int k, const Past *past, Vec x, PetscBool *converged)
 {
   Contact            *contact = solve->contact;
   Newton             *newton  = &solve->newton;
@@ -189,6 +193,7 @@ static PetscErrorCode attempt(Solve *solve, int k, Vec x, PetscBool *converged)
   SNESLineSearch      line_search;
   PetscReal           atol, rtol, stol;
   PetscInt            max_it, max_f;
+  PetscBool           thrown = PETSC_FALSE;
 
   PetscFunctionBegin;
   PetscCall(SNESGetLineSearch(solve->snes, &line_search));
@@ -212,12 +217,18 @@ static PetscErrorCode attempt(Solve *solve, int k, Vec x, PetscBool *converged)
     PetscCall(solve_from(solve, x, &reason));
     PetscCall(normals_use(contact, STICKSLIP_NORMALS_CURRENT));
   }
+  if (k == STICKING) {
+    PetscCall(sticking_use(contact, PETSC_TRUE));
+    PetscCall(solve_from(solve, x, &reason));
+    PetscCall(sticking_use(contact, PETSC_FALSE));
+  }
   if (reason > 0) PetscCall(solve_from(solve, x, &reason));
   PetscCall(SNESSetTolerances(solve->snes, atol, rtol, stol, max_it, max_f));
-  *converged = (PetscBool)(reason > 0);
   if (newton->changed) PetscCall(contact_reset_augmentation(contact));
+  if (reason > 0) PetscCall(thrown_check(solve, past->last, past->t_last, x, &thrown, newton->why, sizeof(newton->why)));
+  *converged = (PetscBool)(reason > 0 && !thrown);
   if (!*converged) {
-    PetscCall(explain(solve, reason));
+    if (!thrown) PetscCall(explain(solve, reason));
     if (reason == SNES_DIVERGED_LINEAR_SOLVE) PetscCall(solver_forget_factors(solve));
     PetscCall(solver_restore_pattern(solve));
   }
@@ -241,16 +252,17 @@ PetscErrorCode newton_solve(Solve *solve, const Past *past, Vec x, PetscBool *co
   PetscCall(first_iterate(solve, past, extrapolates, x));
   PetscCall(closing_needed(solve, x, &closing_first));
   for (int i = 0; i < N_ATTEMPTS && !*converged; i++) {
-    const int k = closing_first ? (i + CLOSING) % N_ATTEMPTS : i;
+    const int k = !closing_first || i > CLOSING ? i : i ? i - 1 : CLOSING;
     if (k == SETTLING && !normals_follow(solve->contact)) continue;
     if (k == PLAIN && !extrapolates) continue;
     if (k == BACKTRACKING && newton->fixed_line_search) continue;
     if (k == LARGER && !newton->cycle[0]) continue;
     if (k == CLOSING && !solve->closing.possible) continue;
-    if (solve->closing.away[0]) break; /* whatever the attempt, nothing stops that body */
+    if (k == STICKING && !(solve->closing.possible && sticking_possible(solve->contact))) continue;
+    if (solve->closing.away[0] && !solve->closing.met) break; /* whatever the attempt, nothing stops that body */
     if (!at_start) PetscCall(first_iterate(solve, past, (PetscBool)(extrapolates && k != PLAIN), x));
     at_start = PETSC_FALSE;
-    PetscCall(attempt(solve, k, x, converged));
+    PetscCall(attempt(solve, k, past, x, converged));
     if (!*converged || closing_first || k == CLOSING) continue;
     PetscCall(closing_needed(solve, x, &loose));
     if (!loose) continue;
@@ -260,7 +272,7 @@ PetscErrorCode newton_solve(Solve *solve, const Past *past, Vec x, PetscBool *co
   }
   if (!*converged && lost >= 0) {
     PetscCall(first_iterate(solve, past, (PetscBool)(extrapolates && lost != PLAIN), x));
-    PetscCall(attempt(solve, lost, x, converged));
+    PetscCall(attempt(solve, lost, past, x, converged));
   }
   if (!*converged) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(SNESGetFunction(solve->snes, &r, NULL, NULL));

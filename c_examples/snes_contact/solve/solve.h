@@ -61,7 +61,7 @@ typedef struct {
   PetscInt   n_uncut;       /* steps since the last one that was cut */
   PetscReal  depth;         /* how far a step may lead into contact, over a facet's edge */
   PetscReal  travelled;     /* by steps that met nothing, since the last one that was cut */
-  PetscBool  touched;       /* no body was loose at the last tangent */
+  PetscBool  touched, met;  /* no body was loose at the last tangent, at any of this attempt */
   PetscInt   loose;         /* the body that was, at the last tangent; -1: none */
   Vec        displacements; /* 1 in their equations, 0 in those of multipliers */
   Vec        work;
@@ -188,6 +188,9 @@ PetscErrorCode held_check(Solve *solve);
 PetscErrorCode held_settle(Solve *solve, PetscBool accepted);
 PetscBool      held_free(const Solve *solve, PetscInt body); /* do the supports leave it free to move? */
 PetscErrorCode held_describe(const Solve *solve, char text[], size_t length);
+
+/* thrown.c: has an attempt thrown out a body that contact alone holds? */
+PetscErrorCode thrown_check(Solve *solve, Vec last, PetscReal t0, Vec x, PetscBool *thrown, char why[], size_t length);
 
 /* step_size.c */
 void      step_size_start(const Steps *steps, StepSize *size);
