@@ -37,6 +37,8 @@ static PetscErrorCode step_to(Model *model, Run *run, PetscReal t, PetscBool ask
   }
   PetscCall(newton_solve(&model->solve, &run->past, run->x, done));
   model->solve.iterations += newton->iterations;
+  if (*done) PetscCall(remote_check(&model->physics, newton->why, sizeof(newton->why)));
+  if (*done && newton->why[0]) *done = PETSC_FALSE;
   run->tried     = PETSC_TRUE;
   run->converged = *done;
   if (*done) {
