@@ -121,6 +121,10 @@ module stickslip
   integer(c_int32_t), parameter :: STICKSLIP_TANGENT_FROZEN_WEIGHTS = 1
   integer(c_int32_t), parameter :: STICKSLIP_TANGENT_FROZEN_NORMALS = 2
 
+  ! Whether nodes or points are closed.
+  integer(c_int32_t), parameter :: STICKSLIP_DECISION_NODES = 0
+  integer(c_int32_t), parameter :: STICKSLIP_DECISION_POINTS = 1
+
   integer(c_int32_t), parameter :: STICKSLIP_ROW_SCALE_FORCE = 0
   integer(c_int32_t), parameter :: STICKSLIP_ROW_SCALE_NONE = 1
 
@@ -215,9 +219,9 @@ module stickslip
   integer(c_int32_t), parameter :: STICKSLIP_LAW_MAX_STATES = 1024
 
   ! Sizes of the types in bytes (64-bit machines), their struct_size.
-  integer(c_int64_t), parameter :: stickslip_options_size = 168
+  integer(c_int64_t), parameter :: stickslip_options_size = 176
   integer(c_int64_t), parameter :: stickslip_surface_size = 72
-  integer(c_int64_t), parameter :: stickslip_states_size = 80
+  integer(c_int64_t), parameter :: stickslip_states_size = 88
   integer(c_int64_t), parameter :: stickslip_counters_size = 200
   integer(c_int64_t), parameter :: stickslip_report_size = 104
   integer(c_int64_t), parameter :: stickslip_diagnosis_size = 224
@@ -279,6 +283,8 @@ module stickslip
     integer(c_int32_t) :: multiplier_space = STICKSLIP_SPACE_CORNER ! where quadratic facets have multipliers
     integer(c_int32_t) :: model = STICKSLIP_MODEL_SOLID ! STICKSLIP_MODEL_...: in space, or lines
     real(c_double) :: thickness = 0                ! of a plane model [L]; 0: 1
+    integer(c_int32_t) :: decision = 0             ! STICKSLIP_DECISION_...: nodes or points are closed
+    integer(c_int32_t) :: reserved = 0             ! 0
   end type
 
   ! One surface of an interface. nf facets with 3, 4, 6, 8 or 9 nodes each: corners, mid nodes, centre.
@@ -307,6 +313,7 @@ module stickslip
     type(c_ptr) :: area = c_null_ptr               ! (n1): full tributary area M_A [L^2]
     type(c_ptr) :: dissipation = c_null_ptr        ! (n1): work of friction in this step [F L]
     type(c_ptr) :: augmentation = c_null_ptr       ! (n1): r_A [F/L^5]
+    type(c_ptr) :: share = c_null_ptr              ! (n1): closed part of what is covered [-]
   end type
 
   ! What an interface has done since its creation.

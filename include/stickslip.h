@@ -345,6 +345,15 @@
 /// codes that do so. Exact against an analytic mortar side.
 #define STICKSLIP_TANGENT_FROZEN_NORMALS 2
 
+/// A node is closed or open. Default.
+#define STICKSLIP_DECISION_NODES 0
+
+/// Each point of an overlap is closed or open (docs/formulation.md 14): the border of the contact lies inside facets. modulus is needed,
+/// and is E* of both bodies together: 1 / E* = (1 - nu1^2) / E1 + (1 - nu2^2) / E2, of a rigid one without its part. The answer depends
+/// on it, by what vanishes with the facets' size. An augmentation beside it takes the place of r = 0.9 E* / h_A alone; r is then part of the
+/// answer, too. UNSUPPORTED: what is said at `decision`.
+#define STICKSLIP_DECISION_POINTS 1
+
 /// Multiplier rows times r_A M_A: M_A (p_A - lambda_A), a force. Default.
 #define STICKSLIP_ROW_SCALE_FORCE 0
 
@@ -640,6 +649,10 @@ typedef struct stickslip_options {
   int32_t model;
   /// Thickness of a plane model [L]; 0 (default): 1. 0 of other models.
   double thickness;
+  /// STICKSLIP_DECISION_...: whether nodes or points are closed.
+  int32_t decision;
+  /// 0.
+  int32_t reserved;
 } stickslip_options;
 
 /// One surface of an interface.
@@ -711,6 +724,9 @@ typedef struct stickslip_states {
   double *dissipation;
   /// n1: r_A [F/L^5].
   double *augmentation;
+  /// n1: how much of what is covered of the node is closed [-]: 1 or 0 where nodes decide, between them where points do
+  /// (STICKSLIP_DECISION_POINTS; the state is then a gap where it is 0).
+  double *share;
 } stickslip_states;
 
 /// What an interface has done since its creation.

@@ -75,6 +75,7 @@ pub mod line;
 pub mod memory;
 pub mod mortar;
 pub mod normal;
+pub mod points;
 pub mod quadrature;
 pub mod rigid;
 pub mod shape;

@@ -117,7 +117,7 @@ PetscErrorCode run(Model *model, int *exit_code)
   PetscCall(times_add_kinks(&model->physics, &model->solve.steps));
   PetscCall(run_create(model, &run));
   PetscCall(summary_create(&model->output, &run.summary));
-  for (PetscInt i = 0; i < model->contact.n_interfaces && model->mesh.rank == 0; i++)
+  for (PetscInt i = 0; i < model->contact.n_interfaces; i++)
     PetscCall(csv_adjusted(&model->output, &model->contact.interfaces[i]));
   PetscCall(supports_values(&model->physics, 0));
   PetscCall(contact_start(&model->contact, run.past.last, &status));

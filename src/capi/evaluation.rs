@@ -79,6 +79,9 @@ pub struct stickslip_states {
     pub dissipation: *mut f64,
     /// n1: r_A [F/L^5].
     pub augmentation: *mut f64,
+    /// n1: how much of what is covered of the node is closed [-]: 1 or 0 where nodes decide, between them where points do
+    /// (STICKSLIP_DECISION_POINTS; the state is then a gap where it is 0).
+    pub share: *mut f64,
 }
 
 // SAFETY: repr(C), struct_size first, integers and raw pointers only.
@@ -119,6 +122,7 @@ pub unsafe extern "C" fn stickslip_interface_states(
             (out.area, "stickslip_states.area"),
             (out.dissipation, "stickslip_states.dissipation"),
             (out.augmentation, "stickslip_states.augmentation"),
+            (out.share, "stickslip_states.share"),
         ] {
             raw::check_optional(p, name)?;
         }
@@ -160,6 +164,7 @@ fn write_states<const N: usize>(c: &mut Contact<N>, point: &Point, out: &sticksl
     raw::write_each(out.area, area());
     raw::write_each(out.dissipation, dissipation());
     raw::write_each(out.augmentation, augmentation());
+    raw::write_each(out.share, (0..responses.len()).map(|a| c.closed_share(a)));
     Ok(())
 }
 

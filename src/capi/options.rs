@@ -8,8 +8,8 @@ use super::space::{STICKSLIP_SPACE_CORNER, multiplier_space as read_multiplier_s
 use crate::error::{Error, Kind, Result, Text};
 use crate::geometry::AnalyticShape;
 use crate::interface::{
-    COVERAGE_MIN, Form, MortarSide, MultiplierBasis, NewContact, Normals, Options, RowScale, Scheme, Shortcuts,
-    Stiffness, TURN_MAX, Tangent, Weights,
+    COVERAGE_MIN, Decision, Form, MortarSide, MultiplierBasis, NewContact, Normals, Options, RowScale, Scheme,
+    Shortcuts, Stiffness, TURN_MAX, Tangent, Weights,
 };
 use crate::law::{Coefficient, Friction, LAWS, SlipMeasure};
 use crate::line::Measure;
@@ -115,6 +115,15 @@ pub const STICKSLIP_TANGENT_FROZEN_WEIGHTS: i32 = 1;
 /// The tangent leaves out that facets' planes tilt: converges linearly too, and saves nothing; for comparisons with
 /// codes that do so. Exact against an analytic mortar side.
 pub const STICKSLIP_TANGENT_FROZEN_NORMALS: i32 = 2;
+/// A node is closed or open. Default.
+pub const STICKSLIP_DECISION_NODES: i32 = 0;
+/// Each point of an overlap is closed or open (docs/formulation.md 16): the border of the contact lies inside facets. modulus is needed,
+/// and is E* of both bodies together: 1 / E* = (1 - nu1^2) / E1 + (1 - nu2^2) / E2, of a rigid one without its part. The answer depends
+/// on it, by what vanishes with the facets' size. An augmentation beside it takes the place of r = 0.9 E* / h_A alone; r is then part of the
+/// answer, too. With STICKSLIP_FRICTION_NONE, STICKSLIP_BASIS_DUAL, and STICKSLIP_WEIGHTS_COMMITTED or REFERENCE. UNSUPPORTED: all others of
+/// these; STICKSLIP_FORM_AUGMENTED, STICKSLIP_INTEGRATION_ELEMENTS and HYBRID, weak_coverage, quadratic facets, analytic mortar sides, sums of
+/// handles, parts (owned), condensed systems.
+pub const STICKSLIP_DECISION_POINTS: i32 = 1;
 /// Multiplier rows times r_A M_A: M_A (p_A - lambda_A), a force. Default.
 pub const STICKSLIP_ROW_SCALE_FORCE: i32 = 0;
 /// Multiplier rows as in the paper [L^3].
@@ -157,7 +166,7 @@ pub struct stickslip_options {
     /// of a stiffness. The answer does not depend on it.
     pub augmentation: f64,
     /// Young's modulus of the softer body [F/L^2]: rhat_A = 0.1 E / h_A, h_A = sqrt(M_A), of lines about their length; 0 (default): use the
-    /// augmentation.
+    /// augmentation. With STICKSLIP_DECISION_POINTS it is needed, and is E* of both bodies together.
     pub modulus: f64,
     /// A node whose covered area over its full area [-] is at most this counts as uncovered; default 1e-8. Where a
     /// surface slides off an edge, the tractions of nodes that are hardly covered grow like the inverse of their
@@ -216,6 +225,10 @@ pub struct stickslip_options {
     pub model: i32,
     /// Thickness of a plane model [L]; 0 (default): 1. 0 of other models.
     pub thickness: f64,
+    /// STICKSLIP_DECISION_...: whether nodes or points are closed.
+    pub decision: i32,
+    /// 0.
+    pub reserved: i32,
 }
 
 // SAFETY: repr(C), struct_size first, numbers only.
@@ -263,6 +276,8 @@ pub unsafe extern "C" fn stickslip_options_init(options: *mut stickslip_options,
             multiplier_space: STICKSLIP_SPACE_CORNER,
             model: STICKSLIP_MODEL_SOLID,
             thickness: 0.0,
+            decision: STICKSLIP_DECISION_NODES,
+            reserved: 0,
         };
         sized::initialise(options, struct_size, defaults, "options")
     })
@@ -425,7 +440,14 @@ pub(super) fn read_options(p: *const stickslip_options) -> Result<Choices> {
         multiplier_space,
         model,
         thickness,
+        decision,
+        reserved,
     } = sized::read(p)?;
+    if reserved != 0 {
+        let text = text!("options.reserved is {reserved}; it must be 0");
+        return Err(Error::new(Kind::InvalidValue, text));
+    }
+    let decision = choose(decision, "options.decision", &[Decision::Nodes, Decision::Points(modulus)], 2)?;
     let friction = law(friction, "options.friction")?;
     let sides = [MortarSide::Deformable, MortarSide::Rigid, MortarSide::Rigid];
     let analytic = mortar_side == STICKSLIP_MORTAR_ANALYTIC;
@@ -464,9 +486,14 @@ pub(super) fn read_options(p: *const stickslip_options) -> Result<Choices> {
         (0.0, e) => Stiffness::Modulus(e),
         (r, _) => Stiffness::Augmentation(r),
     };
+    if decision == Decision::Points(0.0) {
+        let text = "options.modulus is 0; STICKSLIP_DECISION_POINTS needs E*, the modulus of both bodies together";
+        return Err(Error::new(Kind::MissingStiffness, text));
+    }
     let measure = measure(read_model(model, "options.model")?, thickness, "options.thickness")?;
     let options = Options {
         basis,
+        decision,
         space: read_multiplier_space(multiplier_space, "options.multiplier_space")?,
         form: choose(form, "options.form", &[Form::Multiplier, Form::Augmented], 2)?,
         slip: slip_measure(slip, "options.slip")?,

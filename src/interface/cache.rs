@@ -91,6 +91,7 @@ impl<const N: usize> Cache<N> {
     /// Drops what must not outlive what it was found with.
     pub fn forget(&mut self) {
         (self.kept.scope, self.kept.sums_of, self.answers.are_known) = (None, None, false);
+        self.answers.responses.points.is_settled = false;
     }
 
     /// A step begins. `active`: whether the pairs are those where the last one ended, for the next evaluation may well be
@@ -305,7 +306,10 @@ impl<const N: usize> Cache<N> {
         let kept = bytes::of_active(&self.kept.active) + bytes::heap(&self.kept.sums);
         let a = &self.answers;
         let given = a.x.iter().map(bytes::heap).sum::<usize>() + bytes::heap(&a.lambda) + bytes::heap(&a.sums);
-        let of_law = bytes::heap(&a.responses.nodes) + bytes::heap(&a.responses.carried) + a.responses.own.bytes();
+        let of_law = bytes::heap(&a.responses.nodes)
+            + bytes::heap(&a.responses.carried)
+            + a.responses.own.bytes()
+            + a.responses.points.bytes();
         let answers = given + of_law;
         kept + answers + bytes::of_work(&self.work)
     }

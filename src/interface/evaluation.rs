@@ -13,7 +13,7 @@ use super::stages::residual::{self, Residual};
 use super::stages::sums::NodeSums;
 use crate::error::{Error, Kind, Result};
 use crate::geometry::Vec3;
-use crate::law::NodeResponse;
+use crate::law::{NodeResponse, State};
 use crate::memory::{self, Stored};
 use nalgebra::SVector;
 
@@ -76,6 +76,13 @@ impl<const N: usize> Contact<N> {
         (&answers.sums, &answers.responses.nodes)
     }
 
+    /// How much of what is covered of a node is closed, at the same point.
+    pub fn closed_share(&self, a: usize) -> f64 {
+        let responses = &self.cache.answers().responses;
+        let share = f64::from(u8::from(responses.nodes[a].state != State::Gap));
+        if self.setup.options.decides_at_points() { responses.points.shares[a] } else { share }
+    }
+
     /// Multipliers for the first step.
     ///
     /// # Errors
@@ -116,6 +123,10 @@ impl<const N: usize> Contact<N> {
         self.respond(x1, x2, lambda, sums)?;
         let (pairs, answers, work) = self.cache.acting(self.setup.surfaces(), &self.step.history);
         let (given, responses) = (Given { setup: &self.setup, step: &self.step }, &answers.responses.nodes);
+        if self.setup.options.decides_at_points() {
+            answers.responses.points.residual(given, responses, &mut self.residual)?;
+            return Ok(&self.residual);
+        }
         residual::refresh(given, pairs, lambda, responses, &mut work.room.vectors, &mut self.residual)?;
         Ok(&self.residual)
     }
@@ -145,7 +156,7 @@ impl<const N: usize> Contact<N> {
         let extent = Extent::of(sums);
         self.cache.respond(&self.setup, &mut self.step, (x1, x2), lambda, sums)?;
         let (answers, scope) = (self.cache.answers(), self.cache.scope(extent));
-        let known = (&answers.sums[..], &answers.responses.carried[..]);
+        let known = (&answers.sums[..], &answers.responses.carried[..], &answers.responses.nodes[..]);
         equilibrium::equilibrium(self.given(), (x1, x2), lambda, known, scope, scales)
     }
 

@@ -144,6 +144,7 @@ impl<'a, const N: usize> Here<'a, N> {
         node_tangents(given, lambda, responses, normals, scale, work.nodes)?;
         let numbers = Numbers {
             x1,
+            sums: &answers.sums,
             responses,
             nodes: work.nodes,
             active: self.cache.active().filter(|_| differentiates),
@@ -163,7 +164,8 @@ impl<'a, const N: usize> Here<'a, N> {
         let given = self.given;
         let carries = !given.step.pairing.carriers.is_empty();
         let frame_moves = given.setup.frame_moves();
-        if !carries && !is_coupled(given) && !given.setup.options.follows_normals() && !frame_moves {
+        let by_points = given.setup.options.decides_at_points();
+        if !by_points && !carries && !is_coupled(given) && !given.setup.options.follows_normals() && !frame_moves {
             return Ok(Default::default());
         }
         let nodes = Nodes::of(Sides::of(given.setup));
@@ -195,8 +197,9 @@ impl<'a, const N: usize> Here<'a, N> {
         let Some(numbering) = numbering else { return Err(no_plan()) };
         let mut extras = self.extras(pairs, extent, systems[0] == System::Whole)?.into_iter();
         // Carried nodes add to rows of other facets' nodes.
-        let alone = given.step.pairing.carriers.is_empty();
-        let is_diagonal = |a: usize| is_out_of_reach(given, a, extent);
+        let by_points = given.setup.options.decides_at_points();
+        let alone = given.step.pairing.carriers.is_empty() && !by_points;
+        let is_diagonal = |a: usize| !by_points && is_out_of_reach(given, a, extent);
         let mut plans = [const { None }; S];
         for (plan, system) in plans.iter_mut().zip(systems) {
             let extras = extras.next().unwrap_or_default();

@@ -42,8 +42,8 @@ pub use data::facet_nodes::{FacetNodes, ParentNodes};
 pub use data::history::History;
 pub use data::node_data::Owner;
 pub use data::options::{
-    COVERAGE_MIN, Form, Friction, MODULUS_FACTOR, MortarSide, MultiplierBasis, NO_WEAK_COVERAGE, NewContact, Normals,
-    Options, RowScale, Scheme, Shortcuts, Stiffness, TURN_MAX, Tangent, Weights,
+    COVERAGE_MIN, Decision, Form, Friction, MODULUS_FACTOR, MortarSide, MultiplierBasis, NO_WEAK_COVERAGE, NewContact,
+    Normals, Options, RowScale, Scheme, Shortcuts, Stiffness, TURN_MAX, Tangent, Weights,
 };
 pub use data::pairs::{PairRecord, ParentRecord};
 pub use data::parents::Parents;

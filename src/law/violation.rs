@@ -67,6 +67,11 @@ impl Violation {
         Violation { traction: lambda, ..Violation::default() }.beyond_rounding(measure)
     }
 
+    /// Of a node whose equation lacks a gap of this size.
+    pub fn of_gap(gap: f64, measure: &Measure) -> Violation {
+        Violation { gap, ..Violation::default() }.beyond_rounding(measure)
+    }
+
     /// Of equations alone, without an inequality.
     pub(super) fn of(gap: f64, slip: f64, held: f64, measure: &Measure) -> Violation {
         Violation { gap, traction: held, slip }.beyond_rounding(measure)

@@ -34,6 +34,19 @@ pub(super) fn weights(segment: &LineSegment, measure: Measure) -> Weights {
     n
 }
 
+/// The same over the points where the field with these values at the ends of the first line is negative.
+pub(super) fn closed_weights(segment: &LineSegment, measure: Measure, field: [f64; 2]) -> Weights {
+    let mut n = [[[0.0; 2]; 2]; 2];
+    for (at, ds) in points(segment).into_iter().filter(|(at, _)| at[0][0] * field[0] + at[0][1] * field[1] < 0.0) {
+        let w = ds * measure.at(at[0], segment.r);
+        for (side, a) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
+            n[side][a][0] += w * at[0][a] * at[side][0];
+            n[side][a][1] += w * at[0][a] * at[side][1];
+        }
+    }
+    n
+}
+
 /// The functions at the points of the rule, and ds.
 #[inline(always)]
 fn points(segment: &LineSegment) -> [(Functions, f64); 2] {

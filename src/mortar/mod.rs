@@ -7,6 +7,7 @@
 mod analytic;
 mod at_rest;
 mod chain;
+mod closed;
 mod derivatives;
 mod edges;
 mod element_rule;

@@ -10,6 +10,8 @@ from verdict import Verdicts
 
 # Of weights and gaps, over the largest: rounding.
 SAME = 1e-13
+# Of forces, rows and their derivatives, over the largest: some dozen roundings, of lambda and r gh that nearly cancel.
+SAME_POINTS = 1e-12
 # Of the patch test's tractions: rounding of a solved system.
 PATCH = 1e-11
 # A tangent against central differences of STEP: their own error.
@@ -41,6 +43,24 @@ def same_gaps(library, v):
     w = Weights(overlaps.of_lines(at[0], one.facets, at[1], two.facets, 2), one.facets, two.facets, *at)
     gaps = w.gaps(overlaps.normals_of_lines(scene.start()[0], one.facets))
     v.below("dual gaps", np.abs(gaps * w.area - states["gap"]).max() / np.abs(states["gap"]).max(), SAME, "the library's own")
+
+
+def same_points(library, v):
+    """The library's own points against those of the study, on lines, whose rule is the same."""
+    random = np.random.default_rng(2)
+    for uneven in (False, True):
+        scene = Hertz(6, uneven=uneven).scene
+        pair, rest = scene.pair, scene.start()
+        laws = FrozenPoints(pair), Nodal(library, pair, pair.one.x, pair.two.x, "dual", decision="points")
+        x1, x2 = (x + 2e-3 * random.standard_normal(x.shape) for x in rest)
+        x1[:, 1] -= 0.02
+        at = x1, x2, 0.01 * random.standard_normal((len(x1), 1))
+        for name, found in (("residual", [law.residual(*at) for law in laws]), ("tangent", [law.tangent(*at) for law in laws])):
+            # As forces.
+            scale = np.append(np.ones(x1.size + x2.size), laws[0].r)
+            own, other = (f * (scale[:, None] if f.ndim == 2 else scale) if law is laws[0] else f for f, law in zip(found, laws))
+            error = np.abs(own - other).max() / np.abs(own).max()
+            v.below(f"the library's points, {name}{', uneven' if uneven else ''}", error, SAME_POINTS, "the study's law")
 
 
 def tangents(v):
@@ -80,6 +100,8 @@ def mean(scene, law):
 def findings(library, v):
     scene = Hertz(5)
     pair = scene.scene.pair
+    by_library = mean(scene, Nodal(library, pair, pair.one.x, pair.two.x, "dual", decision="points"))
+    v.below("the same by the library's own points", by_library, LINE_BOUND, "the study")
     points, nodes = mean(scene, FrozenPoints(pair)), mean(scene, Nodal(library, pair, pair.one.x, pair.two.x, "dual"))
     v.below("Hertz' line, 5 facets, points", points, LINE_BOUND, "the study")
     v.at_least("the same: dual nodes' error over it", nodes / points, 1.5, "the study")
@@ -109,6 +131,7 @@ def check(library):
     verdicts = Verdicts()
     same_weights(library, verdicts)
     same_gaps(library, verdicts)
+    same_points(library, verdicts)
     tangents(verdicts)
     patches(verdicts)
     findings(library, verdicts)

@@ -1,15 +1,16 @@
 """The same problems in other programs, on the same meshes: `make compare`. compare.py --build DIR [--renew].
 
 Errors are of nodal contact forces, which follow from each program's displacements by the same elements; on hexahedra of 20
-nodes, of the whole force. A program that
+nodes, of the whole force. Hertz' line has ten loads, which move the border of the contact through a facet. A program that
 is not installed is left out with a word; one that finds no answer is shown with what it said. Seconds are wall time of
 each program's own solution, with whatever linear solver it brings, and include its start: for orders of magnitude.
---renew: puts the table into docs/accuracy.md.
+What has been run is kept. --renew: puts the tables into docs/accuracy.md.
 """
 
 import argparse
 import re
 import sys
+from itertools import chain
 from pathlib import Path
 
 import numpy as np
@@ -25,10 +26,31 @@ from scene import Driver, Line, SceneError  # noqa: E402
 
 DOCUMENT = folders.ROOT / "docs" / "accuracy.md"
 MARKS = ("<!-- compare -->", "<!-- /compare -->")
-HERTZ_FACET = 0.136
+# Over the half-width that the scene's own load has, and how far that one presses.
+FACETS, HALF_WIDTH, TRAVEL = (5, 10, 20), 0.68, 0.1828
+# They move the border through one facet.
+LOADS = 10
 # The others take the contact's geometry from the undeformed bodies.
 SMALL = ("-contact_weights", "reference")
+DUAL = ("-contact_basis", "dual")
+LAWS = {
+    "stickslip, defaults": (),
+    "stickslip, dual": DUAL,
+    "stickslip, small displacements": SMALL,
+    "stickslip, small displacements, dual": (*SMALL, *DUAL),
+}
 OURS = ("-output_vtu", "last", "-output_csv", "last", "-output_quiet", "true")
+
+
+CALCULIX = [
+    ("CalculiX, surface to surface (penalty)", lambda case, folder: peers.calculix(case, folder, "SURFACE TO SURFACE")),
+    ("CalculiX, mortar", lambda case, folder: peers.calculix(case, folder, "MORTAR")),
+]
+PROGRAMS = [
+    *CALCULIX,
+    ("GetFEM, nodes against faces, augmented Lagrangian", peers.getfem),
+    ("Kratos, mortar, augmented Lagrangian", peers.kratos),
+]
 
 
 def case_of(name, run, young, poisson, foot, opposite, supports, traction=0.0):
@@ -87,40 +109,12 @@ def hertz_error(case, displacement):
     return friction.profile_error(line, line.traction[:, 2], hertz.pressure)
 
 
-def patch(driver):
-    run = driver.run("compare_patch", *OURS)
-    on = lambda axis, value: lambda x: np.abs(x[:, axis] - value) < 1e-9
-    supports = [(1, on(2, 0), 2, 0.0), ([0, 1], on(0, 0), 0, 0.0), ([0, 1], on(1, 0), 1, 0.0)]
-    case = case_of("patch", run, 1000, 0.3, on(2, 0.5), on(2, 0.5), supports, -10.0)
-    small = driver.run("compare_patch", *OURS, *SMALL, label="compare_patch_small")
-    return "patch test, 3 x 3 on 4 x 5 facets", case, (run, small), patch_error
+def folder_of(driver, case, name):
+    return driver.output / f"{case.name}_{re.sub(r'[^a-z]+', '_', name.lower())}"
 
 
-def hertz(driver):
-    options = (*friction.line_mesh(HERTZ_FACET), *friction.FRICTIONLESS)
-    run = driver.run("cattaneo_line", *options, *OURS, label="compare_hertz")
-    points = run.mesh()[0]
-    radius = lambda x, z: np.hypot(x[:, 0], x[:, 2] - z)
-    foot = lambda x: (np.abs(radius(x, 8) - 8) < 1e-6) & (np.abs(x[:, 0]) < 1.2) & (x[:, 2] < 1)
-    under = lambda x: (np.abs(radius(x, -8) - 8) < 1e-6) & (np.abs(x[:, 0]) < 1.6) & (x[:, 2] > -1)
-    top, low = points[:, 2].max(), points[:, 2].min()
-    every, at = lambda x: np.ones(len(x), bool), lambda z: lambda x: np.abs(x[:, 2] - z) < 1e-9
-    supports = [([0, 1], every, 1, 0.0), (0, at(top), 2, -0.1828), (0, at(top), 0, 0.0), (1, at(low), 2, 0.0),
-                (1, at(low), 0, 0.0)]
-    case = case_of("hertz", run, 200, 0.3, foot, under, supports)
-    small = driver.run("cattaneo_line", *options, *OURS, *SMALL, label="compare_hertz_small")
-    return "Hertz, half-cylinders, 5 facets over the half-width", case, (run, small), hertz_error
-
-
-CALCULIX = [
-    ("CalculiX, surface to surface (penalty)", lambda case, folder: peers.calculix(case, folder, "SURFACE TO SURFACE")),
-    ("CalculiX, mortar", lambda case, folder: peers.calculix(case, folder, "MORTAR")),
-]
-PROGRAMS = [
-    *CALCULIX,
-    ("GetFEM, nodes against faces, augmented Lagrangian", peers.getfem),
-    ("Kratos, mortar, augmented Lagrangian", peers.kratos),
-]
+def said(failure):
+    return f"{type(failure).__name__}: {failure}".replace("\n", " ")[:110]
 
 
 def rows_of(driver, title, case, ours, programs, error, missing):
@@ -129,21 +123,79 @@ def rows_of(driver, title, case, ours, programs, error, missing):
         yield [title, name, f"{own:.1e}", str(run.newton_iterations), f"{run.summary['seconds']['total']:.1f}", ""]
     for name, program in programs:
         try:
-            answer = program(case, driver.output / f"{case.name}_{re.sub(r'[^a-z]+', '_', name.lower())}")
+            answer = peers.kept(program, case, folder_of(driver, case, name))
         except peers.Missing as what:
             missing.add(str(what))
         except Exception as failure:  # whatever another program does
-            yield [title, name, "", "", "", f"{type(failure).__name__}: {failure}".replace("\n", " ")[:110]]
+            yield [title, name, "", "", "", said(failure)]
         else:
             yield [title, f"{name}, {answer.version}", f"{error(answer):.1e}", str(answer.iterations),
                    f"{answer.seconds:.1f}", ""]
 
 
-def linear(driver, make, missing):
-    title, case, runs, error = make(driver)
-    names = ("stickslip, defaults", "stickslip, small displacements")
-    ours = [(name, run, error(case, run.mesh()[2])) for run, name in zip(runs, names)]
-    return rows_of(driver, title, case, ours, PROGRAMS, lambda answer: error(case, answer.displacement), missing)
+def patch_rows(driver, missing):
+    runs = {law: driver.run("compare_patch", *OURS, *of, label=f"compare_patch_{k}") for k, (law, of) in enumerate(LAWS.items())}
+    on = lambda axis, value: lambda x: np.abs(x[:, axis] - value) < 1e-9
+    supports = [(1, on(2, 0), 2, 0.0), ([0, 1], on(0, 0), 0, 0.0), ([0, 1], on(1, 0), 1, 0.0)]
+    case = case_of("patch", next(iter(runs.values())), 1000, 0.3, on(2, 0.5), on(2, 0.5), supports, -10.0)
+    ours = [(law, run, patch_error(case, run.mesh()[2])) for law, run in runs.items()]
+    error = lambda answer: patch_error(case, answer.displacement)
+    return rows_of(driver, "patch test, 3 x 3 on 4 x 5 facets", case, ours, PROGRAMS, error, missing)
+
+
+def hertz_case(driver, facets, travel, name):
+    """(case, runs of our laws by name) of the half-cylinders pressed together by `travel`."""
+    h = HALF_WIDTH / facets
+    options = (*friction.line_mesh(h), *friction.FRICTIONLESS, "-press_value", f"0,0,{-travel:.10g}", *OURS)
+    runs = {law: driver.run("cattaneo_line", *options, *of, label=f"{name}_{k}") for k, (law, of) in enumerate(LAWS.items())}
+    first = next(iter(runs.values()))
+    points = first.mesh()[0]
+    radius = lambda x, z: np.hypot(x[:, 0], x[:, 2] - z)
+    foot = lambda x: (np.abs(radius(x, 8) - 8) < 1e-6) & (np.abs(x[:, 0]) < 1.2) & (x[:, 2] < 1)
+    under = lambda x: (np.abs(radius(x, -8) - 8) < 1e-6) & (np.abs(x[:, 0]) < 1.6) & (x[:, 2] > -1)
+    top, low = points[:, 2].max(), points[:, 2].min()
+    every, at = lambda x: np.ones(len(x), bool), lambda z: lambda x: np.abs(x[:, 2] - z) < 1e-9
+    supports = [([0, 1], every, 1, 0.0), (0, at(top), 2, -travel), (0, at(top), 0, 0.0), (1, at(low), 2, 0.0),
+                (1, at(low), 0, 0.0)]
+    return case_of(name, first, 200, 0.3, foot, under, supports), runs
+
+
+def mean_row(facets, name, found, failures):
+    """`found`: (error, iterations, seconds) of each load that has an answer."""
+    failed = f"{len(failures)} of {LOADS}: {failures[0]}" if failures else ""
+    if not found:
+        return [str(facets), name, "", "", "", failed]
+    errors, iterations, seconds = np.transpose(found)
+    return [str(facets), name, f"{100 * errors.mean():.2g} ({100 * errors.max():.2g})", f"{iterations.mean():.1f}",
+            f"{seconds.mean():.1f}", failed]
+
+
+def hertz_rows(driver, missing):
+    """Hertz' line: a row for each number of facets and each program, means over the loads."""
+    for facets in FACETS:
+        cases = []
+        for k, wide in enumerate((facets - 0.5 + np.arange(LOADS) / LOADS) / facets):
+            # The travel goes with the square of the half-width, nearly.
+            cases.append(hertz_case(driver, facets, TRAVEL * wide**2, f"hertz_{facets}_{k}"))
+        for law in LAWS:
+            runs = [(case, runs[law]) for case, runs in cases]
+            found = [(hertz_error(case, r.mesh()[2]), r.newton_iterations, r.summary["seconds"]["total"]) for case, r in runs]
+            yield mean_row(facets, law, found, [])
+        for name, program in PROGRAMS:
+            found, failures, version = [], [], ""
+            for case, _ in cases:
+                try:
+                    answer = peers.kept(program, case, folder_of(driver, case, name))
+                except peers.Missing as what:
+                    missing.add(str(what))
+                    break
+                except Exception as failure:  # whatever another program does
+                    failures.append(said(failure))
+                else:
+                    version = f", {answer.version}"
+                    found.append((hertz_error(case, answer.displacement), answer.iterations, answer.seconds))
+            if found or failures:
+                yield mean_row(facets, name + version, found, failures)
 
 
 def quadratic(driver, missing):
@@ -154,20 +206,31 @@ def quadratic(driver, missing):
     return rows_of(driver, half_plane.TITLE, case, ours, CALCULIX, error, missing)
 
 
+def collected(rows):
+    """Prints rows as they come."""
+    body = []
+    for row in rows:
+        body.append(row)
+        print(" | ".join(row), flush=True)
+    return body
+
+
 def compare(build, renew):
     driver = Driver(build, build / "compare", keep=True)
     driver.output.mkdir(parents=True, exist_ok=True)
-    body, missing = [], set()
-    for row in (*linear(driver, patch, missing), *linear(driver, hertz, missing), *quadratic(driver, missing)):
-        body.append(row)
-        print(" | ".join(row), flush=True)
+    missing = set()
+    single = collected(chain(patch_rows(driver, missing), quadratic(driver, missing)))
+    means = collected(hertz_rows(driver, missing))
     for what in sorted(missing):
         print(f"left out, not installed: {what}")
-    table = study_page.markdown((["problem", "program", "error", "Newton iterations", "seconds", "failure"], body))
-    (driver.output / "compare.md").write_text(table + "\n")
+    tables = [(["problem", "program", "error", "Newton iterations", "seconds", "failure"], single),
+              (["facets", "program", "error in per cent, mean (worst)", "Newton iterations", "seconds", "failure"], means)]
+    titles = "**One load**", f"**Hertz' line, {LOADS} loads that move the border through a facet**"
+    text = "\n\n".join(f"{title}\n\n{study_page.markdown(table)}" for title, table in zip(titles, tables))
+    (driver.output / "compare.md").write_text(text + "\n")
     if renew:
-        text = DOCUMENT.read_text()
-        DOCUMENT.write_text(f"{text.split(MARKS[0])[0]}{MARKS[0]}\n\n{table}\n\n{MARKS[1]}{text.split(MARKS[1])[1]}")
+        whole = DOCUMENT.read_text()
+        DOCUMENT.write_text(f"{whole.split(MARKS[0])[0]}{MARKS[0]}\n\n{text}\n\n{MARKS[1]}{whole.split(MARKS[1])[1]}")
     print((driver.output / "compare.md").resolve())
 
 

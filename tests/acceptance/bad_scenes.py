@@ -240,6 +240,8 @@ def tool(keys, more=""):
 
 BAD_SCENES += [
     BadScene("rigid_without_reference", *tool(CUBE), "tool.reference", says="the point that moves with the body"),
+    BadScene("rigid_far_from_its_point", *tool(f"reference: [5, 20000, 0], {CUBE}"), "tool.reference", says="at most 1000"),
+    BadScene("rigid_beyond_numbers", *tool(f"reference: [1.0e+200, 0, 0], {CUBE}"), "tool.reference", says="at most 1000"),
     BadScene("rigid_from_nowhere", *tool("reference: [5, 0, 0]"), "tool.from", says="box, gmsh, stl, analytic"),
     BadScene("rigid_of_unknown_shape", *tool("from: analytic, shape: cone, point: [5, 0, 0], reference: [5, 0, 0]"), "tool.shape",
              says="plane, sphere, cylinder"),

@@ -311,8 +311,14 @@ def tangent_scene(swap):
 
 
 def tangent(verdicts, driver):
-    for swap, what in ((0, "rigid non-mortar side"), (1, "rigid mortar side")):
-        result = run(driver, f"tangent_{swap}", tangent_scene(swap), "-test_jacobian_blocks")
+    # Where a support turns the body about two axes by an angle, the third turn moves nodes along that axis, too.
+    turned = {"components": ["z", "rx", "ry"], "value": [0, 0, -0.04], "rotate": [0.1, 0.15, 0]}
+    for swap, what, grip in ((0, "rigid non-mortar side", {}), (1, "rigid mortar side", {}), (0, "rigid, turned about two axes", turned)):
+        scene = tangent_scene(swap)
+        scene["grip"] |= grip
+        if grip:
+            scene["push"]["moment"] = [0, 0, 0.004]
+        result = run(driver, f"tangent_{swap}_{len(grip)}", scene, "-test_jacobian_blocks")
         blocks(verdicts, what, result)
         angle = np.linalg.norm(body(result, "upper")["rotation"])
         verdicts.at_least(f"{what}: turned by", angle, 1e-2, "a turn that the tangent must know")

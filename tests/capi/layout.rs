@@ -74,7 +74,9 @@ fn layouts() -> Vec<Layout> {
             threads,
             multiplier_space,
             model,
-            thickness
+            thickness,
+            decision,
+            reserved
         }),
         layout!(stickslip_states {
             struct_size,
@@ -86,7 +88,8 @@ fn layouts() -> Vec<Layout> {
             coverage,
             area,
             dissipation,
-            augmentation
+            augmentation,
+            share
         }),
         layout!(stickslip_counters {
             struct_size,

@@ -6,7 +6,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 
 /// Modules and what each may import, lowest first.
-const ALLOWED: [(&str, &[&str]); 16] = [
+const ALLOWED: [(&str, &[&str]); 17] = [
     ("error", &[]),
     ("memory", &["error"]),
     ("adjacency", &["error", "memory"]),
@@ -20,6 +20,7 @@ const ALLOWED: [(&str, &[&str]); 16] = [
     ("mortar", &["error", "geometry", "quadrature", "shape", "simd"]),
     ("line", &["error", "geometry", "mortar", "quadrature", "shape", "simd"]),
     ("dual", &["error", "geometry", "mortar", "shape", "simd"]),
+    ("points", &["geometry", "mortar", "quadrature", "shape"]),
     ("law", &["error", "geometry"]),
     ("element", &["dual", "error", "geometry", "law", "mortar", "quadrature", "shape", "simd"]),
     (
@@ -35,6 +36,7 @@ const ALLOWED: [(&str, &[&str]); 16] = [
             "memory",
             "mortar",
             "normal",
+            "points",
             "quadrature",
             "shape",
             "simd",

@@ -31,6 +31,7 @@ mod parts;
 mod parts_condensed;
 mod patch;
 mod plan;
+mod points;
 mod quadratic;
 mod ratios;
 mod reduction;

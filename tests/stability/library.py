@@ -124,6 +124,8 @@ Options = struct(
     ("multiplier_space", c_int32),
     ("model", c_int32),
     ("thickness", c_double),
+    ("decision", c_int32),
+    ("reserved", c_int32),
 )
 Surface = struct(
     "Surface",

@@ -10,37 +10,60 @@
  * incompressible they are far off, and a press fit over an edge takes twice as many iterations.) */
 #include "contact/contact.h"
 
+/* The nodes of a side of an interface, of the range of vertices that this rank keeps a directory of. */
+static PetscErrorCode list_nodes(const Mesh *mesh, const Interface *interface, int side, int64_t nodes[], int64_t *n)
+{
+  const PetscInt count = side ? interface->n2 : interface->n1;
+  PetscInt       n_here, *ones, *marks;
+  PetscSF        directory;
+  PetscFunctionBegin;
+  PetscCall(directory_create(mesh, count, interface->nodes + (side ? interface->n1 : 0), &n_here, &directory));
+  PetscCall(PetscMalloc1(count, &ones));
+  PetscCall(PetscCalloc1(n_here, &marks));
+  for (PetscInt k = 0; k < count; k++)
+    ones[k] = 1;
+  PetscCall(PetscSFReduceBegin(directory, MPIU_INT, ones, marks, MPI_REPLACE));
+  PetscCall(PetscSFReduceEnd(directory, MPIU_INT, ones, marks, MPI_REPLACE));
+  for (PetscInt v = 0; v < n_here; v++) {
+    if (marks[v]) nodes[(*n)++] = v;
+  }
+  PetscCall(PetscFree(ones));
+  PetscCall(PetscFree(marks));
+  PetscCall(PetscSFDestroy(&directory));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* An interface cannot share nodes with another one, where these have multipliers in either. */
 PetscErrorCode condensed_check(const Contact *contact, char why[], size_t length)
 {
-  int64_t *offsets[2], *nodes[2], n[2] = {0, 0}, found;
-  int32_t  status;
+  const Mesh *mesh = contact->mesh;
+  int64_t    *offsets[2], *nodes[2], n[2] = {0, 0}, found;
+  PetscInt    n_here;
+  PetscSF     directory;
+  int32_t     status;
 
   PetscFunctionBegin;
   why[0] = 0;
+  PetscCall(directory_create(mesh, 0, NULL, &n_here, &directory));
+  PetscCall(PetscSFDestroy(&directory));
   for (int side = 0; side < 2; side++) {
-    PetscInt total = 0;
-    for (PetscInt i = 0; i < contact->n_interfaces; i++)
-      total += side ? contact->interfaces[i].n2 : contact->interfaces[i].n1;
-    PetscCall(PetscCalloc2(contact->n_interfaces + 1, &offsets[side], total, &nodes[side]));
+    PetscCall(PetscCalloc2(contact->n_interfaces + 1, &offsets[side], contact->n_interfaces * n_here, &nodes[side]));
     for (PetscInt i = 0; i < contact->n_interfaces; i++) {
-      const Interface *interface = &contact->interfaces[i];
-      const PetscInt   first = side ? interface->n1 : 0, count = side ? interface->n2 : interface->n1;
-      for (PetscInt k = 0; k < count; k++)
-        nodes[side][n[side]++] = interface->nodes[first + k];
+      PetscCall(list_nodes(mesh, &contact->interfaces[i], side, nodes[side], &n[side]));
       offsets[side][i + 1] = n[side];
     }
   }
   status = stickslip_crosspoints_find(contact->n_interfaces, offsets[0], nodes[0], offsets[1], nodes[1], 0, NULL, NULL,
                                       NULL, &found);
-  if (!status && found)
+  PetscCheck(!status, PETSC_COMM_SELF, PETSC_ERR_LIB, "stickslip: %s", stickslip_last_error_message());
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &found, 1, MPI_INT64_T, MPI_SUM, PETSC_COMM_WORLD));
+  if (found)
     PetscCall(PetscSNPrintf(why, length,
                             "%" PRId64 " nodes belong to several interfaces, and have a multiplier in one of them: their "
                             "multipliers cannot be condensed; take `unknowns: multipliers`",
                             found));
   for (int side = 0; side < 2; side++)
     PetscCall(PetscFree2(offsets[side], nodes[side]));
-  PetscCheck(!status, PETSC_COMM_SELF, PETSC_ERR_LIB, "stickslip: %s", stickslip_last_error_message());
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

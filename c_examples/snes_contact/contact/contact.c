@@ -32,9 +32,11 @@ PetscErrorCode contact_forces(Contact *contact, Vec f_local, PetscInt *status)
     PetscCall(contact_renew(contact, i, NULL, status));
     if (*status) break;
     PetscCall(contact_gather(contact, interface, contact->physics->u_local));
+    part->processor -= work_clock();
     if (part->handle)
       refused = stickslip_interface_residual(part->handle, STATE_OF(part), NULL, part->forces,
                                              MORTAR_OF(part, part->forces), MULTIPLIERS_OF(part, part->forces));
+    part->processor += work_clock();
     PetscCall(contact_agree(contact, interface, refused, status));
     if (!*status) PetscCall(add_forces(contact->physics, part, f_local));
   }
@@ -176,10 +178,12 @@ static PetscErrorCode commit(Contact *contact, Interface *interface, PetscBool *
     PetscCall(contact_gather(contact, interface, contact->physics->u_local));
   }
   if (part->handle && !refused && interface->n_parts > 1) refused = keep_slip(part);
+  part->processor -= work_clock();
   if (part->handle && !refused) {
     refused = stickslip_interface_commit(part->handle, STATE_OF(part), NULL);
     *done   = (PetscBool)!refused;
   }
+  part->processor += work_clock();
   PetscCall(contact_agree(contact, interface, refused, status));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

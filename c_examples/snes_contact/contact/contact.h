@@ -5,7 +5,7 @@
 #include <stickslip.h>
 
 /* Where surfaces are beside their meshes (offsets.c): `offset` of all nodes of the non-mortar side and of some, the factor on them;
- * of round sides their shape. On rank 0: those of all n1 + n2 nodes that the factor is on, and those of round sides; what `adjust`
+ * of round sides their shape. Of the n1 + n2 nodes at home: those that the factor is on, and those of round sides; what `adjust`
  * has done (adjust.c). Where the handle is: the same of the nodes of its part, and their sum at time t. */
 typedef struct {
   PetscBool  any;
@@ -70,7 +70,7 @@ typedef struct {
   int64_t     *equations;          /* same layout */
   PetscSF      sf;                 /* from the local vectors of all ranks to `gathered` */
   PetscSF      owners;             /* from the non-mortar nodes of all ranks to the nodes here that others own */
-  PetscSF      whole;              /* from their owners to the interface's n1 nodes, on rank 0 */
+  PetscSF      homes;              /* from their owners to the interface's nodes at home */
   stickslip_interface *handle;
   /* condensed.c: multipliers, now and at the start of the step, of the last two; as `forces`, those of bodies and loads
    * and what condensing adds to the residual; where the last matrix was made, the former and the positions */
@@ -79,6 +79,7 @@ typedef struct {
   int64_t  planned; /* the entries of the library's plan, which lie in these arrays; 0: there is none */
   double  *coo_values;
   int64_t  bytes;   /* of the library's, the most at the end of a step */
+  double   processor; /* seconds that the library took for residuals, matrices and commits, of this processor */
   RigidPart *rigid; /* rigid_part.c; NULL: no rigid body moves here */
 
   double  *slip, *augmentation; /* n1: vectors up to t_n; what contact_scale_augmentation() has set */
@@ -99,18 +100,22 @@ typedef struct {
 /* The library takes x1, x2 and the multipliers: */
 #define STATE_OF(part) (part)->x, MORTAR_OF(part, (part)->x), MULTIPLIERS_OF(part, (part)->gathered)
 
-/* nodal results of one interface, on rank 0; every array has n1 entries, vectors 3 n1, in the plane too */
+/* nodal results of the nodes at home; every array has n1 entries, vectors 3 n1, in the plane too */
 typedef struct {
   int32_t *state;
   double  *normal, *multiplier, *gap, *slip, *coverage, *area, *dissipation; /* multiplier: as a vector */
 } ContactStates;
 
-/* One contact interface: what the scene says of it, this rank's part, and on rank 0 what is known of all its nodes. */
+/* One contact interface: what the scene says of it, this rank's part, and what is known of the nodes that are at home here. */
 typedef struct {
   char           name[NAME_LENGTH];
-  Surface        whole[2];   /* rank 0: non-mortar, mortar; vertices are the nodes of a side */
+  Surface        share[2];   /* non-mortar, mortar: the faces dealt out to this rank; vertices are numbers of nodes of the side */
   const Surface *surface[2]; /* these */
-  PetscInt       n1, n2;     /* rank 0, as all that follows up to `options`: their numbers of nodes */
+  PetscInt       n1, n2;     /* nodes that are at home on this rank, see homes.c: so is all that follows up to `options` */
+  PetscInt       first[2], all[2]; /* of either side: the number of the first of them; how many nodes all ranks have */
+  PetscInt      *starts[2];  /* the first of each rank; then how many there are */
+  PetscSF        corners[2]; /* from the nodes at home on all ranks to the corners of the faces here */
+  PetscInt       body[2];    /* of either side */
   PetscInt      *nodes;      /* n1 + n2 mesh vertices */
   PetscReal     *place;      /* 3 (n1 + n2): where they are, in the axes of the scene file; then X */
   PetscInt      *prescribed, *part_of; /* n1 + n2: mask of prescribed displacements; the model's part (physics.h) */
@@ -130,16 +135,17 @@ typedef struct {
   PetscInt       components; /* multipliers a node: 1, along the normal, without friction; else `dimension` */
   PetscBool      initial_contact; /* nodes that touch start slightly compressed: contact_start() */
   PetscInt       n_parts;    /* ranks that have a part with nodes */
-  PetscInt      *owner;      /* rank 0, n1: of which rank's part each node is */
-  PetscInt       further_rings;         /* rank 0: of the non-mortar side, for bodies that are deep in each other */
+  PetscInt      *owner;      /* n1: of which rank's part each node is */
+  PetscInt       further_rings;         /* of the non-mortar side, for bodies that are deep in each other */
   PetscReal      longest_edge;          /* of the mortar side */
+  PetscBool      middles;               /* facets have nodes in the middle of their edges */
   PetscBool      uncut, frozen, grown;  /* parts have all of the mortar side; weights are of the reference; the halo has grown in
                                            the step */
   PetscInt       n_grown, n_renewed, n_rebalanced; /* how often parts got more mortar facets within a step; others after one; other nodes */
   double         endured;               /* an imbalance of pairs that no partition was better for */
   ContactPart    part;
   Halo           halo;
-  double         friction_work;           /* rank 0: up to the last converged step */
+  double         friction_work;           /* of all ranks, up to the last converged step */
   double         young, largest_traction; /* of the softer body; up to the last converged step */
   stickslip_equilibrium equilibrium;      /* of this part, as last judged (equilibrium.c) */
 } Interface;
@@ -180,12 +186,22 @@ PetscErrorCode contact_read(Scene *scene, Contact *contact);
 PetscErrorCode contact_label(Contact *contact);
 PetscErrorCode contact_fields(const Contact *contact, Field **fields); /* of the multipliers, one an interface */
 
-/* contact_surfaces.c, on every rank: an interface's surfaces and nodes; and where rank 0 has put these, in the pieces, too */
+/* contact_surfaces.c: an interface's surfaces and nodes; and where these have been put, in the pieces, too */
 PetscErrorCode surfaces_read(Scene *scene, Contact *contact, Interface *interface);
 PetscErrorCode surfaces_move(Contact *contact, const Interface *interface);
 PetscErrorCode surfaces_destroy(Interface *interface);
 
-/* symmetry.c: on rank 0 of the non-mortar nodes */
+/* homes.c: the number of a node here in the interface, where those of the mortar side follow the others; from homes to the nodes of these
+ * numbers, `width` numbers a node; coordinates of these */
+PetscErrorCode homes_create(const Mesh *mesh, Interface *interface);
+PetscErrorCode homes_destroy(Interface *interface);
+PetscInt       homes_number(const Interface *interface, PetscInt k);
+PetscErrorCode homes_fetch_create(const Interface *interface, PetscInt n, const PetscInt numbers[], PetscSF *sf);
+PetscErrorCode homes_bcast(PetscSF sf, PetscInt width, const double from[], double to[]);
+PetscErrorCode homes_coordinates(const Interface *interface, PetscInt n, const PetscInt numbers[], double X[]);
+PetscLogDouble homes_bytes(const Interface *interface); /* that this rank keeps */
+
+/* symmetry.c: of the non-mortar nodes */
 PetscErrorCode symmetry_mask(const Physics *physics, const Interface *interface, PetscInt mask[]);
 
 /* reach.c: of the model's parts, over all that interfaces may join to them */
@@ -226,9 +242,10 @@ typedef struct {
 /* So many facets deep the bodies may be in each other at the start, where an interface is cut into parts. */
 enum { PARTS_DEPTH = 1 };
 
-/* partition.c: rank 0, from n vectors of `dimension` coordinates and what each node costs: which of so many ranks owns each */
-PetscErrorCode partition_nodes(PetscInt dimension, PetscInt n, const double coordinates[], const double work[],
-                               PetscMPIInt n_ranks, PetscInt owner[]);
+/* partition.c: n nodes of each rank of `comm`, numbered from `first` on, with their coordinates and what each costs: which of so many
+ * parts each belongs to */
+PetscErrorCode partition_nodes(MPI_Comm comm, PetscInt dimension, PetscInt n, PetscInt first, const double coordinates[],
+                               const double work[], PetscMPIInt n_parts, PetscInt owner[]);
 
 /* parts_cut.c: every rank gets the non-mortar side of its part of an interface, by interface->owner; mortar_cut.c: and the mortar side,
  * what its halo asks for. `ends`: where each place of the halo begins */
@@ -255,14 +272,16 @@ int32_t        part_counters(const ContactPart *part, stickslip_counters *counte
 PetscErrorCode contact_equations(const Contact *contact, PetscSF sf, PetscInt n, int64_t equations[]);
 
 /* work.c */
+double         work_clock(void); /* seconds of the processor */
+PetscLogDouble work_bytes(const ContactPart *part); /* of a part beside the handle */
 PetscErrorCode work_measure(const Interface *interface, PetscMPIInt rank, double work[], PetscReal *depth,
                             PetscReal *shortest);
 
 /* share_out.c: before an evaluation at u_local, or on the way from there; after a step */
 PetscErrorCode contact_renew(Contact *contact, PetscInt number, Vec to, PetscInt *status);
 PetscErrorCode contact_share_out(Contact *contact);
-/* what the parts of an interface know of their nodes, on rank 0; it is freed where it goes back to them, or to new parts, at t_n */
-PetscErrorCode parts_knowledge(const Interface *interface, PetscInt *n, double **all);
+/* what the parts of an interface know of their nodes, at homes, so many numbers a node; it is freed where it goes back to them, or to new parts, at t_n */
+PetscErrorCode parts_knowledge(const Interface *interface, PetscInt *n_a_node, double **all);
 PetscErrorCode parts_hand_out(const Interface *interface, double *all);
 PetscErrorCode contact_share_out_at_t_n(Contact *contact, PetscInt number, double *all, PetscInt *status);
 /* restart.c: a local vector, one of unknowns; t_n and all that comes from before it */
@@ -270,26 +289,26 @@ PetscErrorCode contact_archive_vector(Contact *contact, const char *name, Vec lo
 PetscErrorCode contact_archive_unknowns(Contact *contact, const char *name, Vec x, Archive *archive);
 PetscErrorCode contact_archive(Contact *contact, Archive *archive);
 
-/* parts.c: of multipliers or vectors, `width` numbers a non-mortar node: all nodes here get their owners' values; rank 0
- * gets those of all nodes; owners get those of rank 0 */
+/* parts.c: of multipliers or vectors, `width` numbers a non-mortar node: all nodes here get their owners' values; so do those at home;
+ * owners get what is at home */
 PetscErrorCode parts_share(const ContactPart *part, PetscInt width, double values[]);
-PetscErrorCode parts_collect(const ContactPart *part, PetscInt width, const double values[], double whole[]);
-PetscErrorCode parts_send(const ContactPart *part, PetscInt width, const double whole[], double values[]);
+PetscErrorCode parts_collect(const ContactPart *part, PetscInt width, const double values[], double home[]);
+PetscErrorCode parts_send(const ContactPart *part, PetscInt width, const double home[], double values[]);
 /* the library's sentence in the interface's numbers */
 void parts_translate(const ContactPart *part, const char *from, char to[], size_t length);
 
 /* contact_setup.c, contact.c: `status` > 0 on every rank if the library refused on any, for the reason in contact->refusal */
 PetscErrorCode contact_create(Contact *contact, Scene *scene, PetscBool quiet, PetscInt *status);
 PetscErrorCode contact_destroy(Contact *contact);
-/* adjust.c, rank 0 */
-PetscErrorCode contact_adjust(Scene *scene, Interface *interface);
+/* adjust.c */
+PetscErrorCode contact_adjust(Scene *scene, const Mesh *mesh, Interface *interface);
 /* law.c */
 void    law_read(Scene *scene, const Space *space, Interface *interface);
 int32_t law_set(const Interface *interface, stickslip_interface *handle);
 /* what it remembers, out of a part's handle after a commit, and into a new one */
 int32_t law_keep(const Interface *interface, ContactPart *part);
 int32_t law_restore(const Interface *interface, const ContactPart *part);
-/* offsets.c; `place` on rank 0; `fetch` through an SF from rank 0's nodes to those of the part */
+/* offsets.c; `fetch` through an SF from homes to the nodes of the part */
 PetscErrorCode offsets_read(Scene *scene, const Physics *physics, Interface *interface);
 PetscErrorCode offsets_place(Scene *scene, Interface *interface);
 PetscErrorCode offsets_fetch(PetscSF sf, Interface *interface);
@@ -304,8 +323,6 @@ void           contact_vector(PetscInt dimension, const PetscScalar vectors[], P
 PetscErrorCode contact_fetch(PetscSF sf, Vec local, PetscScalar *to);
 PetscErrorCode contact_gather(Contact *contact, Interface *interface, Vec local);
 PetscErrorCode contact_scatter(const ContactPart *part, const PetscScalar *from, Vec local, MPI_Op operation);
-PetscErrorCode contact_from_whole(const Interface *interface, PetscInt n, const PetscInt nodes[], PetscSF *sf);
-PetscErrorCode contact_coordinates(const Interface *interface, PetscInt n, const PetscInt nodes[], double X[]);
 /* contact.c */
 PetscErrorCode contact_start(Contact *contact, Vec x, PetscInt *status);
 PetscErrorCode contact_forces(Contact *contact, Vec f_local, PetscInt *status); /* adds, to the parts' squares, too */
@@ -328,7 +345,7 @@ void           contact_forget_plans(Contact *contact);
 PetscErrorCode contact_entries(const Contact *contact, ContactPart *part, int32_t piece, Entries *found, int32_t *refused);
 
 /* condensed.c: nothing happens where multipliers are unknowns */
-PetscErrorCode condensed_check(const Contact *contact, char why[], size_t length); /* rank 0 */
+PetscErrorCode condensed_check(const Contact *contact, char why[], size_t length);
 PetscErrorCode condensed_create(Contact *contact, PetscInt *status);
 PetscErrorCode condensed_destroy(Contact *contact);
 void           condensed_predict(Contact *contact, PetscReal factor);
@@ -355,8 +372,21 @@ PetscBool      sticking_possible(const Contact *contact); /* is there Coulomb fr
 PetscErrorCode sticking_use(Contact *contact, PetscBool sticks);
 int32_t        sticking_set(const Contact *contact, const Interface *interface, stickslip_interface *handle);
 
-/* states.c: at the place of the last evaluation, for rank 0: what it has of all nodes */
+/* states.c: at the place of the last evaluation, of the nodes at home */
 PetscErrorCode contact_collect(Contact *contact);
+/* of a part's nodes, N_RESULTS each */
+enum {
+  RESULT_STATE,
+  RESULT_NORMAL,
+  RESULT_MULTIPLIER  = RESULT_NORMAL + 3,
+  RESULT_GAP         = RESULT_MULTIPLIER + 3,
+  RESULT_SLIP,
+  RESULT_COVERAGE    = RESULT_SLIP + 3,
+  RESULT_AREA,
+  RESULT_DISSIPATION,
+  N_RESULTS
+};
+PetscErrorCode contact_results(const ContactPart *part, double results[]);
 PetscErrorCode contact_states_destroy(ContactStates *states);
 /* of all interfaces at u_local */
 PetscErrorCode contact_tendencies(Contact *contact, int32_t *state, double *tangential); /* 3 a node */

@@ -1,15 +1,18 @@
 /* Interfaces as the scene describes them: surfaces, law, form, and which multiplier components are unknowns at all. */
 #include "contact/contact.h"
 
-/* of nodes first to end */
-static PetscReal surface_young(const Contact *contact, const Interface *interface, PetscInt first, PetscInt end)
+/* of the softest body that an interface's nodes belong to */
+static PetscErrorCode find_young(const Contact *contact, Interface *interface)
 {
   PetscReal young = PETSC_MAX_REAL; /* what a wholly prescribed, so rigid surface counts as */
-  for (PetscInt k = first; k < end; k++) {
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < interface->n1 + interface->n2; k++) {
     const PetscInt body = mesh_body_of(contact->mesh, interface->nodes[k]);
     if (interface->prescribed[k] != 7 && !contact->mesh->bodies[body].rigid) young = PetscMin(young, contact->physics->materials[body].young);
   }
-  return young;
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &young, 1, MPIU_REAL, MPIU_MIN, PETSC_COMM_WORLD));
+  interface->young = young == PETSC_MAX_REAL ? contact->physics->materials[0].young : young; /* nothing moves */
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* A plane, sphere or cylinder: the options tell the library its shape. */
@@ -28,32 +31,34 @@ static PetscErrorCode remove_middles(Scene *scene, const Mesh *mesh, Interface *
 {
   static const char *const spaces[] = {"corner", "sub", NULL};
   PetscInt                 space    = STICKSLIP_SPACE_CORNER;
-  const Surface *surface = interface->surface[0];
-  PetscBool     *corner;
+  const Surface           *surface  = interface->surface[0];
+  PetscInt                *corner, *marks;
   PetscFunctionBegin;
   scene_choice(scene, interface->name, "multiplier_space", spaces, &space);
   interface->options.multiplier_space = (int32_t)space;
   if (space == STICKSLIP_SPACE_SUB) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(PetscCalloc1(interface->n1, &corner));
+  PetscCall(PetscCalloc2(interface->n1 + interface->n2, &corner, surface->offsets[surface->n_faces], &marks));
   for (PetscInt f = 0; f < surface->n_faces; f++) {
     const PetscInt first = surface->offsets[f], n = cell_corners(mesh_face_kind(mesh, surface, f));
     for (PetscInt k = 0; k < n; k++)
-      corner[surface->vertices[first + k]] = PETSC_TRUE;
+      marks[first + k] = 1;
   }
+  PetscCall(PetscSFReduceBegin(interface->corners[0], MPIU_INT, marks, corner, MPI_MAX));
+  PetscCall(PetscSFReduceEnd(interface->corners[0], MPIU_INT, marks, corner, MPI_MAX));
   for (PetscInt a = 0; a < interface->n1; a++) {
     interface->middle[a] = (PetscBool)!corner[a];
     if (interface->middle[a]) interface->removed[a] = 7;
   }
-  PetscCall(PetscFree(corner));
+  PetscCall(PetscFree2(corner, marks));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* rank 0: one side of the two may be rigid, and what the library does not do with it is told here by name. */
+/* One side of the two may be rigid, and what the library does not do with it is told here by name. */
 static void check_rigid(Scene *scene, const Contact *contact, const Interface *interface)
 {
   const Body *sides[2];
   for (int side = 0; side < 2; side++)
-    sides[side] = &contact->mesh->bodies[mesh_body_of(contact->mesh, interface->nodes[side ? interface->n1 : 0])];
+    sides[side] = &contact->mesh->bodies[interface->body[side]];
   if (sides[0]->rigid && (sides[1]->rigid || sides[1]->analytic))
     scene_fail(scene, interface->name, "mortar", "both sides are rigid: nothing would tell how a force between them is spread.");
   if (sides[0]->rigid && contact->condensed)
@@ -65,11 +70,10 @@ static void check_rigid(Scene *scene, const Contact *contact, const Interface *i
     scene_fail(scene, interface->name, "adjust", "the non-mortar side is rigid: its nodes do not move one by one.");
 }
 
-/* rank 0: default stiffness, removed components; `symmetry`: see symmetry_mask() */
+/* Default stiffness, removed components; `symmetry`: see symmetry_mask() */
 static PetscErrorCode settle_nodes(Scene *scene, Contact *contact, Interface *interface, const PetscInt symmetry[])
 {
   const Mesh    *mesh        = contact->mesh;
-  const Physics *physics     = contact->physics;
   const PetscInt n1          = interface->n1, n2 = interface->n2;
   PetscInt       mortar_mask = 7;
 
@@ -78,6 +82,7 @@ static PetscErrorCode settle_nodes(Scene *scene, Contact *contact, Interface *in
    * where a plane of symmetry cuts both. */
   for (PetscInt b = 0; b < n2; b++)
     mortar_mask &= interface->prescribed[n1 + b];
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &mortar_mask, 1, MPIU_INT, MPI_BAND, PETSC_COMM_WORLD));
   if (interface->options.mortar_side == STICKSLIP_MORTAR_RIGID && mortar_mask != 7)
     scene_fail(scene, interface->name, "mortar_side", "'%s' is not rigid: support all of it in %s.", interface->surface[1]->name,
                mesh->dimension == 3 ? "x, y and z" : "x and y");
@@ -89,8 +94,7 @@ static PetscErrorCode settle_nodes(Scene *scene, Contact *contact, Interface *in
     interface->removed[a] = (interface->prescribed[a] & mortar_mask) | symmetry[a];
   PetscCall(remove_middles(scene, mesh, interface));
 
-  interface->young = PetscMin(surface_young(contact, interface, 0, n1), surface_young(contact, interface, n1, n1 + n2));
-  if (interface->young == PETSC_MAX_REAL) interface->young = physics->materials[0].young; /* nothing moves */
+  PetscCall(find_young(contact, interface));
   if (interface->options.augmentation == 0 && interface->options.modulus == 0)
     interface->options.modulus = interface->young;
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -221,7 +225,7 @@ static void read_unknowns(Scene *scene, Contact *contact)
   contact->condensed = (PetscBool)(unknowns == 1);
 }
 
-/* An interface's surfaces, and what rank 0 makes of their nodes. */
+/* An interface's surfaces, and what their nodes are. */
 static PetscErrorCode read_nodes(Scene *scene, Contact *contact, Interface *interface)
 {
   PetscInt *symmetry;
@@ -230,17 +234,13 @@ static PetscErrorCode read_nodes(Scene *scene, Contact *contact, Interface *inte
   PetscCall(surfaces_read(scene, contact, interface));
   PetscCall(PetscCalloc1(interface->n1, &symmetry));
   PetscCall(symmetry_mask(contact->physics, interface, symmetry));
-  scene_root_begin(scene);
-  if (contact->mesh->rank == 0) {
-    PetscCall(settle_nodes(scene, contact, interface, symmetry));
-    scene_real(scene, interface->name, "augmentation_scale", &scale);
-    if (scale <= 0) scene_fail(scene, interface->name, "augmentation_scale", "it must be positive.");
-    interface->options.augmentation *= scale;
-    interface->options.modulus *= scale;
-    PetscCall(offsets_place(scene, interface));
-    PetscCall(contact_adjust(scene, interface));
-  }
-  PetscCall(scene_root_end(scene));
+  PetscCall(settle_nodes(scene, contact, interface, symmetry));
+  scene_real(scene, interface->name, "augmentation_scale", &scale);
+  if (scale <= 0) scene_fail(scene, interface->name, "augmentation_scale", "it must be positive.");
+  interface->options.augmentation *= scale;
+  interface->options.modulus *= scale;
+  PetscCall(offsets_place(scene, interface));
+  PetscCall(contact_adjust(scene, contact->mesh, interface));
   if (interface->offsets.adjust > 0) PetscCall(surfaces_move(contact, interface));
   PetscCall(PetscFree(symmetry));
   PetscFunctionReturn(PETSC_SUCCESS);

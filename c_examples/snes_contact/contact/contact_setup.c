@@ -29,8 +29,8 @@ static PetscErrorCode check_facing(Scene *scene, PetscBool quiet, const Interfac
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* rank 0: what is kept of all nodes */
-static PetscErrorCode create_whole(Contact *contact, Interface *interface)
+/* what is kept of the nodes at home */
+static PetscErrorCode create_homes(Contact *contact, Interface *interface)
 {
   const Mesh    *mesh    = contact->mesh;
   const PetscInt d       = interface->dimension, n = interface->n1 + interface->n2;
@@ -51,53 +51,55 @@ static PetscErrorCode create_whole(Contact *contact, Interface *interface)
 }
 
 /* Facets with nodes in the middle of their edges, on either side: their condensation wants all of them in one handle. */
-static PetscBool has_middles(const Mesh *mesh, const Interface *interface)
+static PetscErrorCode has_middles(const Mesh *mesh, const Interface *interface, PetscBool *any)
 {
+  PetscFunctionBegin;
+  *any = PETSC_FALSE;
   for (int side = 0; side < 2; side++) {
     const Surface *surface = interface->surface[side];
-    for (PetscInt f = 0; f < surface->n_faces; f++) {
-      if (surface->offsets[f + 1] - surface->offsets[f] > cell_corners(mesh_face_kind(mesh, surface, f))) return PETSC_TRUE;
-    }
+    for (PetscInt f = 0; f < surface->n_faces; f++)
+      *any = (PetscBool)(*any || surface->offsets[f + 1] - surface->offsets[f] > cell_corners(mesh_face_kind(mesh, surface, f)));
   }
-  return PETSC_FALSE;
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, any, 1, MPIU_BOOL, MPI_LOR, PETSC_COMM_WORLD));
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* rank 0: of the mortar side's facets */
-static PetscReal longest_edge(const Interface *interface)
+/* of the mortar side's facets on all ranks */
+static PetscErrorCode longest_edge(const Interface *interface, PetscReal *longest)
 {
-  const Surface   *surface = interface->surface[1];
-  const PetscReal *x       = interface->place + 3 * interface->n1;
-  PetscReal        squared = 0;
+  const Surface *surface = interface->surface[1];
+  double        *x;
+  PetscFunctionBegin;
+  *longest = 0;
+  PetscCall(PetscMalloc1(3 * (surface->analytic ? 0 : surface->offsets[surface->n_faces]), &x));
+  PetscCall(homes_bcast(interface->corners[1], 3, interface->place, x));
   for (PetscInt f = 0; f < surface->n_faces; f++) {
-    const PetscInt *v = surface->vertices + surface->offsets[f], n = surface->offsets[f + 1] - surface->offsets[f];
+    const PetscInt first = surface->offsets[f], n = surface->offsets[f + 1] - first;
     for (PetscInt k = 0; k < n; k++) {
       PetscReal sum = 0;
       for (int i = 0; i < 3; i++)
-        sum += PetscSqr(x[3 * v[k] + i] - x[3 * v[(k + 1) % n] + i]);
-      squared = PetscMax(squared, sum);
+        sum += PetscSqr(x[3 * (first + k) + i] - x[3 * (first + (k + 1) % n) + i]);
+      *longest = PetscMax(*longest, PetscSqrtReal(sum));
     }
   }
-  return PetscSqrtReal(squared);
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, longest, 1, MPIU_REAL, MPIU_MAX, PETSC_COMM_WORLD));
+  PetscCall(PetscFree(x));
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* What rank 0 has read and others need, too. */
-static PetscErrorCode share_options(const Mesh *mesh, Interface *interface)
+/* What the surfaces ask of parts. */
+static PetscErrorCode look_at_surfaces(const Mesh *mesh, Interface *interface)
 {
   const stickslip_options *options = &interface->options;
   PetscFunctionBegin;
-  if (mesh->rank == 0) {
-    interface->longest_edge = longest_edge(interface);
-    interface->uncut = (PetscBool)(interface->dimension == 2 || interface->surface[1]->analytic || has_middles(mesh, interface));
-  }
-  PetscCallMPI(MPI_Bcast(&interface->options, sizeof(interface->options), MPI_BYTE, 0, PETSC_COMM_WORLD));
-  PetscCallMPI(MPI_Bcast(&interface->young, 1, MPI_DOUBLE, 0, PETSC_COMM_WORLD));
-  PetscCallMPI(MPI_Bcast(&interface->longest_edge, 1, MPIU_REAL, 0, PETSC_COMM_WORLD));
-  PetscCallMPI(MPI_Bcast(&interface->uncut, 1, MPIU_BOOL, 0, PETSC_COMM_WORLD));
+  PetscCall(longest_edge(interface, &interface->longest_edge));
+  PetscCall(has_middles(mesh, interface, &interface->middles));
+  interface->uncut  = (PetscBool)(interface->dimension == 2 || interface->surface[1]->analytic || interface->middles);
   interface->frozen = (PetscBool)(options->weights == STICKSLIP_WEIGHTS_REFERENCE || options->friction == STICKSLIP_FRICTION_TIED);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* rank 0: do parts have pairs as deep, and as far apart, as one rank would? Where offsets open gaps pairs are deeper by the largest
+/* Do parts have pairs as deep, and as far apart, as one rank would? Where offsets open gaps pairs are deeper by the largest
  * of all nodes of a handle; with a search distance they are farther apart, too, so that parts must not differ in it. */
 static PetscBool offsets_allow_parts(const Interface *interface)
 {
@@ -109,22 +111,21 @@ static PetscBool offsets_allow_parts(const Interface *interface)
 /* One rank has all nodes where the library does not know parts. Lines of a plane model are few; they stay together, too. */
 static PetscBool must_be_whole(const Contact *contact, const Interface *interface)
 {
-  return (PetscBool)(interface->dimension == 2 || (contact->condensed && has_middles(contact->mesh, interface)) ||
+  return (PetscBool)(interface->dimension == 2 || (contact->condensed && interface->middles) ||
                      !offsets_allow_parts(interface));
 }
 
-/* rank 0: who owns which nodes, from what each costs; NULL: one rank owns all */
-static PetscErrorCode choose_owners(const Contact *contact, PetscInt number, const double work[])
+/* Who owns which nodes, from what each costs; `whole`: one rank owns all. */
+static PetscErrorCode choose_owners(const Contact *contact, PetscInt number, PetscBool whole, const double work[])
 {
-  const Interface *interface = &contact->interfaces[number];
-  PetscMPIInt      size;
+  const Interface  *interface = &contact->interfaces[number];
+  const PetscMPIInt size      = contact->mesh->size;
   PetscFunctionBegin;
-  if (contact->mesh->rank) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCallMPI(MPI_Comm_size(PETSC_COMM_WORLD, &size));
   for (PetscInt a = 0; a < interface->n1; a++)
     interface->owner[a] = number % size;
-  if (work && !must_be_whole(contact, interface))
-    PetscCall(partition_nodes(interface->dimension, interface->n1, interface->X, work, size, interface->owner));
+  if (!whole && !must_be_whole(contact, interface))
+    PetscCall(partition_nodes(PETSC_COMM_WORLD, interface->dimension, interface->n1, interface->first[0], interface->X, work, size,
+                              interface->owner));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -146,19 +147,21 @@ static PetscErrorCode create_library(Contact *contact, Interface *interface, Pet
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* rank 0: the largest offsets of both sides together, at any time */
-static PetscReal largest_offset(const Interface *interface)
+/* The largest offsets of both sides together, at any time. */
+static PetscErrorCode largest_offset(const Interface *interface, PetscReal *largest)
 {
   const Offsets *offsets = &interface->offsets;
   PetscReal      factor = offsets->curve.n ? 0 : 1, sides[2] = {0, 0};
-  if (!offsets->any) return 0;
+  PetscFunctionBegin;
   for (PetscInt k = 0; k < offsets->curve.n; k++)
     factor = PetscMax(factor, PetscAbsReal(offsets->curve.points[2 * k + 1]));
-  for (PetscInt k = 0; k < interface->n1 + interface->n2; k++) {
+  for (PetscInt k = 0; k < interface->n1 + interface->n2 && offsets->any; k++) {
     PetscReal *side = &sides[k >= interface->n1];
     *side           = PetscMax(*side, factor * PetscAbsReal(offsets->nodal[k]) + PetscAbsReal(offsets->round[k]));
   }
-  return sides[0] + sides[1];
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sides, 2, MPIU_REAL, MPIU_MAX, PETSC_COMM_WORLD));
+  *largest = sides[0] + sides[1];
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* A part has so many rings more, one for each facet that bodies are deep in each other; in facets. Beyond the most they stay on one
@@ -186,17 +189,18 @@ static PetscErrorCode create_parts(Contact *contact, PetscInt number, PetscInt *
   PetscCall(PetscMalloc1(interface->n1, &work));
   for (PetscInt a = 0; a < interface->n1; a++)
     work[a] = 1;
-  PetscCall(choose_owners(contact, number, work));
+  PetscCall(choose_owners(contact, number, PETSC_FALSE, work));
   PetscCall(part_create(contact, number, 1, start));
   PetscCall(create_library(contact, interface, status));
   if (!*status && interface->n_parts > 1) {
-    PetscReal shortest;
+    PetscReal shortest, offset = 0;
     PetscCall(work_measure(interface, contact->mesh->rank, work, &depth, &shortest));
-    if (contact->mesh->rank == 0) depth += largest_offset(interface) / shortest;
+    PetscCall(largest_offset(interface, &offset));
+    depth += offset / shortest;
     PetscCall(choose_rings(interface, depth, &too_deep));
     PetscCall(part_destroy(&interface->part));
     PetscCall(halo_end(&interface->halo));
-    PetscCall(choose_owners(contact, number, too_deep ? NULL : work));
+    PetscCall(choose_owners(contact, number, too_deep, work));
     PetscCall(part_create(contact, number, 1, start));
     PetscCall(create_library(contact, interface, status));
   }
@@ -212,16 +216,14 @@ PetscErrorCode contact_create(Contact *contact, Scene *scene, PetscBool quiet, P
   PetscFunctionBegin;
   *status = 0;
   PetscCallMPI(MPI_Comm_size(PETSC_COMM_WORLD, &size));
-  scene_root_begin(scene);
-  if (mesh->rank == 0 && contact->condensed) PetscCall(condensed_check(contact, why, sizeof(why)));
+  if (contact->condensed) PetscCall(condensed_check(contact, why, sizeof(why)));
   if (why[0]) scene_fail(scene, NULL, "unknowns", "%s.", why);
-  PetscCall(scene_root_end(scene));
   PetscCall(DMCreateLocalVector(mesh->dm, &contact->committed));
   PetscCall(VecZeroEntries(contact->committed));
   for (PetscInt i = 0; i < contact->n_interfaces && !*status; i++) {
     Interface *interface = &contact->interfaces[i];
-    PetscCall(share_options(mesh, interface));
-    PetscCall(create_whole(contact, interface));
+    PetscCall(look_at_surfaces(mesh, interface));
+    PetscCall(create_homes(contact, interface));
     if (size > 1 && !interface->uncut) PetscCall(halo_watch(contact, interface));
     PetscCall(create_parts(contact, i, status));
     if (*status) break;

@@ -1,22 +1,43 @@
-/* The surfaces of an interface, from the pieces of the mesh to rank 0, which cuts them into parts: faces, nodes, where these are and
- * what is prescribed there. */
+/* The surfaces of an interface, from the pieces of the mesh dealt out to all ranks: faces, nodes, where these are and what is prescribed
+ * there. */
 #include "contact/contact.h"
 
-static PetscErrorCode check_apart(Scene *scene, const Interface *interface)
+/* A vertex has a node of one side only. */
+static PetscErrorCode check_apart(Scene *scene, const Mesh *mesh, const Interface *interface)
 {
-  const PetscInt *mortar = interface->nodes + interface->n1;
-  PetscInt       *sorted, at;
+  const PetscInt n = interface->n1 + interface->n2;
+  PetscInt       n_here, *sides, *kept;
+  PetscBool      apart = PETSC_TRUE;
+  PetscSF        directory;
   PetscFunctionBegin;
-  PetscCall(PetscMalloc1(interface->n2, &sorted));
-  PetscCall(PetscArraycpy(sorted, mortar, interface->n2));
-  PetscCall(PetscSortInt(interface->n2, sorted));
-  for (PetscInt a = 0; a < interface->n1; a++) {
-    PetscCall(PetscFindInt(interface->nodes[a], interface->n2, sorted, &at));
-    if (at >= 0)
-      scene_fail(scene, interface->name, "mortar",
-                 "the two surfaces share a vertex; contact of a surface with itself is not supported.");
+  PetscCall(directory_create(mesh, n, interface->nodes, &n_here, &directory));
+  PetscCall(PetscMalloc1(n, &sides));
+  PetscCall(PetscCalloc1(n_here, &kept));
+  for (PetscInt k = 0; k < n; k++)
+    sides[k] = k < interface->n1 ? 1 : 2;
+  PetscCall(PetscSFReduceBegin(directory, MPIU_INT, sides, kept, MPI_BOR));
+  PetscCall(PetscSFReduceEnd(directory, MPIU_INT, sides, kept, MPI_BOR));
+  for (PetscInt k = 0; k < n_here; k++)
+    apart = (PetscBool)(apart && kept[k] != 3);
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &apart, 1, MPIU_BOOL, MPI_LAND, PETSC_COMM_WORLD));
+  PetscCall(PetscSFDestroy(&directory));
+  PetscCall(PetscFree(sides));
+  PetscCall(PetscFree(kept));
+  if (!apart)
+    scene_fail(scene, interface->name, "mortar",
+               "the two surfaces share a vertex; contact of a surface with itself is not supported.");
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* of either side, which has a node of number 0 somewhere */
+static PetscErrorCode find_bodies(const Mesh *mesh, Interface *interface)
+{
+  PetscFunctionBegin;
+  for (int side = 0; side < 2; side++) {
+    PetscInt k = side ? interface->n1 : 0, body = -1;
+    if (interface->first[side] == 0 && (side ? interface->n2 : interface->n1) > 0) body = mesh_body_of(mesh, interface->nodes[k]);
+    PetscCallMPI(MPI_Allreduce(&body, &interface->body[side], 1, MPIU_INT, MPI_MAX, PETSC_COMM_WORLD));
   }
-  PetscCall(PetscFree(sorted));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -71,8 +92,8 @@ PetscErrorCode surfaces_read(Scene *scene, Contact *contact, Interface *interfac
   PetscFunctionBegin;
   PetscCall(find(scene, mesh, interface, found));
   for (int side = 0; side < 2; side++) {
-    PetscCall(surface_gather(mesh, found[side], &interface->whole[side], side ? &interface->n2 : &interface->n1, &nodes[side]));
-    interface->surface[side] = &interface->whole[side];
+    PetscCall(surface_share(mesh, found[side], &interface->share[side], side ? &interface->n2 : &interface->n1, &nodes[side]));
+    interface->surface[side] = &interface->share[side];
   }
   n = interface->n1 + interface->n2;
   PetscCall(PetscMalloc4(n, &interface->nodes, 3 * n, &interface->place, n, &interface->prescribed, n, &interface->part_of));
@@ -80,9 +101,9 @@ PetscErrorCode surfaces_read(Scene *scene, Contact *contact, Interface *interfac
   PetscCall(PetscArraycpy(interface->nodes + interface->n1, nodes[1], interface->n2));
   PetscCall(PetscFree(nodes[0]));
   PetscCall(PetscFree(nodes[1]));
-  scene_root_begin(scene);
-  if (mesh->rank == 0) PetscCall(check_apart(scene, interface));
-  PetscCall(scene_root_end(scene));
+  PetscCall(homes_create(mesh, interface));
+  PetscCall(find_bodies(mesh, interface));
+  PetscCall(check_apart(scene, mesh, interface));
   PetscCall(pieces_fetch_create(mesh, n, interface->nodes, &interface->pieces));
   PetscCall(fetch_places(mesh, interface));
   PetscCall(PetscSFBcastBegin(interface->pieces, MPIU_INT, contact->physics->prescribed, interface->prescribed, MPI_REPLACE));
@@ -94,8 +115,9 @@ PetscErrorCode surfaces_destroy(Interface *interface)
 {
   PetscFunctionBegin;
   for (int side = 0; side < 2; side++)
-    PetscCall(surface_destroy(&interface->whole[side]));
+    PetscCall(surface_destroy(&interface->share[side]));
   PetscCall(PetscFree4(interface->nodes, interface->place, interface->prescribed, interface->part_of));
   PetscCall(PetscSFDestroy(&interface->pieces));
+  PetscCall(homes_destroy(interface));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -67,32 +67,3 @@ PetscErrorCode contact_scatter(const ContactPart *part, const PetscScalar *from,
   PetscCall(VecRestoreArray(local, &array));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
-
-/* from the interface's nodes on rank 0 to those of these numbers */
-PetscErrorCode contact_from_whole(const Interface *interface, PetscInt n, const PetscInt nodes[], PetscSF *sf)
-{
-  PetscSFNode *remote;
-  PetscFunctionBegin;
-  PetscCall(PetscMalloc1(n, &remote));
-  for (PetscInt k = 0; k < n; k++)
-    remote[k] = (PetscSFNode){.rank = 0, .index = nodes[k]};
-  PetscCall(PetscSFCreate(PETSC_COMM_WORLD, sf));
-  PetscCall(PetscSFSetGraph(*sf, interface->n1 + interface->n2, n, NULL, PETSC_OWN_POINTER, remote, PETSC_OWN_POINTER));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* Reference coordinates of the interface's nodes of these numbers. */
-PetscErrorCode contact_coordinates(const Interface *interface, PetscInt n, const PetscInt nodes[], double X[])
-{
-  MPI_Datatype node;
-  PetscSF      sf;
-  PetscFunctionBegin;
-  PetscCall(contact_from_whole(interface, n, nodes, &sf));
-  PetscCallMPI(MPI_Type_contiguous((PetscMPIInt)interface->dimension, MPI_DOUBLE, &node));
-  PetscCallMPI(MPI_Type_commit(&node));
-  PetscCall(PetscSFBcastBegin(sf, node, interface->X, X, MPI_REPLACE));
-  PetscCall(PetscSFBcastEnd(sf, node, interface->X, X, MPI_REPLACE));
-  PetscCallMPI(MPI_Type_free(&node));
-  PetscCall(PetscSFDestroy(&sf));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}

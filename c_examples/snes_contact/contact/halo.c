@@ -7,7 +7,7 @@
  *
  * Later a point p of a mortar facet lies in the sweep of now. It was p - u at that place, u being what it has moved since. The u
  * of all mortar nodes lie in a box, and so does u: sweeps of now, less that box, must lie in the boxes kept. If they do not, the
- * part may lack a facet. Nobody has all mortar nodes; each rank watches a share of them. */
+ * part may lack a facet. Nobody has all mortar nodes; each rank watches those at home there. */
 #include "contact/contact.h"
 
 /* Margin around sweeps, over the longest edge of the mortar side: the surfaces may slide by so much before parts get new ones. */
@@ -205,44 +205,23 @@ static PetscErrorCode choose_boxes(Interface *interface)
         centres[3 * f + i] += interface->halo.X[3 * part->facet_nodes[0][k] + i] / (part->offsets[0][f + 1] - part->offsets[0][f]);
     }
   }
-  PetscCall(partition_nodes(3, n, centres, ones, HALO_BOXES, interface->halo.box));
+  PetscCall(partition_nodes(PETSC_COMM_SELF, 3, n, 0, centres, ones, HALO_BOXES, interface->halo.box));
   PetscCall(PetscFree2(centres, ones));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Nodes of the mortar side are dealt out evenly, for good. */
+/* Each rank watches the mortar nodes that are at home there. */
 PetscErrorCode halo_watch(Contact *contact, Interface *interface)
 {
-  Halo          *halo = &interface->halo;
-  PetscInt       n2 = interface->n2, first = 0, field = 0, width = 3;
-  PetscInt      *vertices;
-  const PetscInt *asked;
-  PetscMPIInt    size, *counts, *starts;
+  Halo           *halo  = &interface->halo;
+  const PetscInt  field = 0, width = 3;
+  const PetscInt *asked = interface->nodes + interface->n1;
 
   PetscFunctionBegin;
-  PetscCallMPI(MPI_Comm_size(PETSC_COMM_WORLD, &size));
-  PetscCallMPI(MPI_Bcast(&n2, 1, MPIU_INT, 0, PETSC_COMM_WORLD));
-  PetscCall(PetscMalloc2(size, &counts, size, &starts));
-  for (PetscMPIInt r = 0; r < size; r++) {
-    counts[r] = (PetscMPIInt)(n2 / size + (r < n2 % size));
-    starts[r] = (PetscMPIInt)first;
-    first += counts[r];
-  }
-  halo->n_watched = counts[contact->mesh->rank];
-  PetscCall(PetscMalloc1(halo->n_watched, &vertices));
+  halo->n_watched = interface->n2;
   PetscCall(PetscMalloc2(3 * halo->n_watched, &halo->X_watched, 3 * halo->n_watched, &halo->watched_t_n));
-  PetscCallMPI(MPI_Scatterv(contact->mesh->rank ? NULL : interface->nodes + interface->n1, counts, starts, MPIU_INT, vertices,
-                            (PetscMPIInt)halo->n_watched, MPIU_INT, 0, PETSC_COMM_WORLD));
-  for (PetscMPIInt r = 0; r < size; r++) {
-    counts[r] *= 3;
-    starts[r] *= 3;
-  }
-  PetscCallMPI(MPI_Scatterv(contact->mesh->rank ? NULL : interface->X + 3 * interface->n1, counts, starts, MPI_DOUBLE,
-                            halo->X_watched, (PetscMPIInt)(3 * halo->n_watched), MPI_DOUBLE, 0, PETSC_COMM_WORLD));
-  asked = vertices;
+  PetscCall(PetscArraycpy(halo->X_watched, interface->X + 3 * interface->n1, 3 * halo->n_watched));
   PetscCall(unknowns_gather_create(contact->physics, 1, &halo->n_watched, &asked, &field, &width, &halo->watch));
-  PetscCall(PetscFree(vertices));
-  PetscCall(PetscFree2(counts, starts));
   halo->margin = MARGIN * interface->longest_edge;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -257,7 +236,7 @@ PetscErrorCode halo_begin(Contact *contact, Interface *interface)
   PetscFunctionBegin;
   PetscCall(unknowns_gather_create(contact->physics, 1, &part->n1, &asked, &field, &width, &halo->nodes));
   PetscCall(PetscMalloc2(3 * part->n1, &halo->X, 3 * part->n1, &halo->x_t_n));
-  PetscCall(contact_coordinates(interface, part->n1, part->nodes, halo->X));
+  PetscCall(homes_coordinates(interface, part->n1, part->nodes, halo->X));
   PetscCall(choose_boxes(interface));
   PetscCall(halo_settle(contact, interface));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -1,122 +1,156 @@
-/* Rank 0 cuts the mortar side of an interface, and sends each part the facets that it may need: those that meet its boxes
+/* The mortar side of an interface, cut at its nodes' homes: each part gets the facets that it may need, those that meet its boxes
  * (halo.c), and two rings of facets around them, which say what the surface looks like there. */
 #include "contact/packet.h"
 
 enum { RINGS = 2 };
 
-/* rank 0: marks the nodes of facets that meet any of the boxes; x: of the mortar nodes */
-static void mark_near(Side *side, const double x[], const Extent boxes[HALO_BOXES])
-{
-  for (PetscInt f = 0; f < side->n_facets; f++) {
-    Extent    own  = extent_of_nothing();
-    PetscBool near = PETSC_FALSE;
-    for (PetscInt k = side->offsets[f]; k < side->offsets[f + 1]; k++)
-      extent_add(&own, x + 3 * side->of_facets[k]);
-    for (int b = 0; b < HALO_BOXES && !near; b++) {
-      near = PETSC_TRUE;
-      for (int i = 0; i < 3; i++)
-        near = (PetscBool)(near && own.low[i] <= boxes[b].high[i] && own.high[i] >= boxes[b].low[i]);
-    }
-    for (PetscInt k = side->offsets[f]; k < side->offsets[f + 1] && near; k++)
-      side->nodes[side->of_facets[k]] = PETSC_TRUE;
-  }
-}
-
-/* Boxes and positions at all places of the halo, on rank 0. */
+/* Where parts look for mortar facets. */
 typedef struct {
-  PetscInt  n;
-  Extent   *boxes; /* of each rank, HALO_BOXES a place */
-  double   *x;     /* 3 n2 a place */
-} Gathered;
+  PetscInt   n;     /* places of the halo; 0: every part has all of the side */
+  PetscBool *has;   /* of each rank: a part with nodes */
+  Extent    *boxes; /* of each rank, HALO_BOXES a place */
+  double    *x;     /* of the corners of the facets here, 3 each, a place */
+} Near;
 
-static PetscErrorCode gather(const Interface *interface, PetscMPIInt rank, PetscMPIInt size, PetscInt n_ends, const Vec ends[],
-                             Gathered *all)
+/* positions of the corners at one place */
+static PetscErrorCode fetch_corners(const Interface *interface, Vec end, double x[])
 {
-  const Halo    *halo = &interface->halo;
-  const PetscInt n    = interface->n1 + interface->n2;
-  Extent        *mine;
-  double        *u;
+  const PetscInt n = interface->n1 + interface->n2;
+  double        *at_home;
   PetscFunctionBegin;
-  all->n = halo->n_places;
-  PetscCheck(n_ends == all->n, PETSC_COMM_SELF, PETSC_ERR_PLIB, "places of a halo");
-  PetscCall(PetscMalloc2(rank ? 0 : size * all->n * HALO_BOXES, &all->boxes, 3 * interface->n2 * all->n, &all->x));
-  PetscCall(PetscMalloc2(all->n * HALO_BOXES, &mine, 3 * n, &u));
-  for (PetscInt p = 0; p < all->n; p++) {
-    PetscCall(PetscArraycpy(mine + p * HALO_BOXES, halo->place[p].box, HALO_BOXES));
-    PetscCall(contact_fetch(interface->sf, ends[p], u));
-    for (PetscInt k = 0; k < 3 * interface->n2; k++)
-      all->x[3 * interface->n2 * p + k] = interface->X[3 * interface->n1 + k] + u[3 * interface->n1 + k];
-  }
-  PetscCallMPI(MPI_Gather(mine, (PetscMPIInt)(all->n * HALO_BOXES * (PetscInt)sizeof(Extent)), MPI_BYTE, all->boxes,
-                          (PetscMPIInt)(all->n * HALO_BOXES * (PetscInt)sizeof(Extent)), MPI_BYTE, 0, PETSC_COMM_WORLD));
-  PetscCall(PetscFree2(mine, u));
+  PetscCall(PetscMalloc1(3 * n, &at_home));
+  PetscCall(contact_fetch(interface->sf, end, at_home));
+  for (PetscInt k = 0; k < 3 * n; k++)
+    at_home[k] += interface->X[k];
+  PetscCall(homes_bcast(interface->corners[1], 3, at_home, x));
+  PetscCall(PetscFree(at_home));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* rank 0: what rank r needs; returns whether that is all */
-static PetscErrorCode mark(Side *side, const Interface *interface, PetscMPIInt r, PetscBool has_nodes, const Gathered *all,
-                           PetscBool *whole)
+static PetscErrorCode near_create(const Mesh *mesh, const Interface *interface, const Side *side, PetscInt n_ends, const Vec ends[],
+                                  Near *near)
 {
-  const PetscBool uncut = (PetscBool)(all->n == 0);
-  PetscInt        first = 0;
+  const Halo    *halo  = &interface->halo;
+  const PetscInt width = 3 * side->offsets[side->n_facets];
+  PetscBool      any   = (PetscBool)(interface->part.n1 > 0);
+  Extent        *mine;
   PetscFunctionBegin;
-  for (PetscInt k = 0; k < side->n_nodes; k++)
-    side->nodes[k] = (PetscBool)(has_nodes && uncut);
-  for (PetscInt f = 0; f < side->n_facets; f++)
-    side->facets[f] = (PetscBool)(has_nodes && uncut);
-  *whole = PETSC_TRUE;
-  if (!has_nodes || uncut) PetscFunctionReturn(PETSC_SUCCESS);
-  for (PetscInt p = 0; p < all->n; p++)
-    mark_near(side, all->x + 3 * interface->n2 * p, all->boxes + (all->n * r + p) * HALO_BOXES);
-  while (first < side->n_nodes && !side->nodes[first])
-    first++;
-  if (first == side->n_nodes) side->nodes[side->of_facets[0]] = PETSC_TRUE; /* a surface has a facet; nothing is near any */
+  near->n = n_ends;
+  PetscCheck(!n_ends || n_ends == halo->n_places, PETSC_COMM_SELF, PETSC_ERR_PLIB, "places of a halo");
+  PetscCall(PetscMalloc3(mesh->size, &near->has, mesh->size * near->n * HALO_BOXES, &near->boxes, width * near->n, &near->x));
+  PetscCall(PetscMalloc1(near->n * HALO_BOXES, &mine));
+  for (PetscInt p = 0; p < near->n; p++) {
+    PetscCall(PetscArraycpy(mine + p * HALO_BOXES, halo->place[p].box, HALO_BOXES));
+    PetscCall(fetch_corners(interface, ends[p], near->x + width * p));
+  }
+  PetscCallMPI(MPI_Allgather(&any, 1, MPIU_BOOL, near->has, 1, MPIU_BOOL, PETSC_COMM_WORLD));
+  PetscCallMPI(MPI_Allgather(mine, (PetscMPIInt)(near->n * HALO_BOXES * (PetscInt)sizeof(Extent)), MPI_BYTE, near->boxes,
+                             (PetscMPIInt)(near->n * HALO_BOXES * (PetscInt)sizeof(Extent)), MPI_BYTE, PETSC_COMM_WORLD));
+  PetscCall(PetscFree(mine));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscBool meets(const Extent *own, const Extent boxes[HALO_BOXES])
+{
+  for (int b = 0; b < HALO_BOXES; b++) {
+    PetscBool near = PETSC_TRUE;
+    for (int i = 0; i < 3; i++)
+      near = (PetscBool)(near && own->low[i] <= boxes[b].high[i] && own->high[i] >= boxes[b].low[i]);
+    if (near) return PETSC_TRUE;
+  }
+  return PETSC_FALSE;
+}
+
+/* Marks of the corners of facets: the parts, of ranks from `first` on, with boxes that the facet meets. */
+static void mark_near(const Mesh *mesh, const Side *side, const Near *near, PetscMPIInt first)
+{
+  const PetscInt width = 3 * side->offsets[side->n_facets];
+  for (PetscInt f = 0; f < side->n_facets; f++) {
+    PetscInt bits = 0;
+    for (PetscInt p = 0; p < near->n; p++) {
+      Extent own = extent_of_nothing();
+      for (PetscInt k = side->offsets[f]; k < side->offsets[f + 1]; k++)
+        extent_add(&own, near->x + width * p + 3 * k);
+      for (PetscInt r = first; r < PetscMin(first + RANKS_AT_ONCE, mesh->size); r++) {
+        if (near->has[r] && meets(&own, near->boxes + (near->n * r + p) * HALO_BOXES)) bits |= (PetscInt)1 << (r - first);
+      }
+    }
+    for (PetscInt k = side->offsets[f]; k < side->offsets[f + 1]; k++)
+      side->marks[k] = bits;
+  }
+}
+
+/* the parts of those ranks that there are */
+static PetscInt parts_with_nodes(const Mesh *mesh, const Near *near, PetscMPIInt first)
+{
+  PetscInt bits = 0;
+  for (PetscInt r = first; r < PetscMin(first + RANKS_AT_ONCE, mesh->size); r++) {
+    if (near->has[r]) bits |= (PetscInt)1 << (r - first);
+  }
+  return bits;
+}
+
+/* What parts need; returns whether that is all for each of them. */
+static PetscErrorCode mark(const Mesh *mesh, const Interface *interface, Side *side, const Near *near, PetscMPIInt first, PetscBool *whole)
+{
+  const PetscInt parts = parts_with_nodes(mesh, near, first);
+  PetscInt       found = 0;
+  PetscFunctionBegin;
+  PetscCall(side_clear(interface, side));
+  for (PetscInt k = 0; k < side->n_nodes && !near->n; k++)
+    side->nodes[k] = parts;
+  for (PetscInt f = 0; f < side->n_facets && !near->n; f++)
+    side->facets[f] = parts;
+  if (!near->n) PetscFunctionReturn(PETSC_SUCCESS);
+  mark_near(mesh, side, near, first);
+  for (PetscInt k = 0; k < side->offsets[side->n_facets]; k++)
+    found |= side->marks[k];
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &found, 1, MPIU_INT, MPI_BOR, PETSC_COMM_WORLD));
+  if (interface->surface[1]->first == 0 && side->n_facets) side->marks[0] |= parts & ~found; /* a surface has a facet; nothing is near any */
+  PetscCall(PetscSFReduceBegin(side->corners, MPIU_INT, side->marks, side->of_both, MPI_BOR));
+  PetscCall(PetscSFReduceEnd(side->corners, MPIU_INT, side->marks, side->of_both, MPI_BOR));
   PetscCall(side_mark_rings(side, RINGS));
   for (PetscInt f = 0; f < side->n_facets; f++)
-    *whole = (PetscBool)(*whole && side->facets[f]);
+    *whole = (PetscBool)(*whole && side->facets[f] == parts);
   PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Each node once, by any part that has it: bits of those. `counted` nodes have been before. */
+static void choose_counting(const Side *side, PetscBool counted[], PetscInt counts[])
+{
+  for (PetscInt k = 0; k < side->n_nodes; k++) {
+    counts[k]  = counted[k] ? 0 : side->nodes[k] & -side->nodes[k];
+    counted[k] = (PetscBool)(counted[k] || side->nodes[k]);
+  }
 }
 
 /* `ends`: of each place of the halo the vector that it begins with. Without places every part has all of the side. */
 PetscErrorCode mortar_cut(Contact *contact, Interface *interface, PetscInt n_ends, const Vec ends[])
 {
-  const Mesh *mesh   = contact->mesh;
-  Packet      packet = {0};
-  Gathered    all    = {0};
+  const Mesh *mesh  = contact->mesh;
+  PetscBool   whole = PETSC_TRUE, *counted;
+  PetscInt    n = 0, *received = NULL, *counts;
   Side        side;
-  PetscBool  *counted, *counts, any = (PetscBool)(interface->part.n1 > 0), *have, whole = PETSC_TRUE;
-  PetscMPIInt size;
+  Near        near;
 
   PetscFunctionBegin;
-  PetscCallMPI(MPI_Comm_size(PETSC_COMM_WORLD, &size));
-  PetscCall(PetscMalloc1(size, &have));
-  PetscCallMPI(MPI_Gather(&any, 1, MPIU_BOOL, have, 1, MPIU_BOOL, 0, PETSC_COMM_WORLD));
-  PetscCall(gather(interface, mesh->rank, size, n_ends, ends, &all));
-  if (mesh->rank == 0) {
-    PetscCall(side_create(interface, 1, &side));
-    PetscCall(PetscCalloc2(side.n_nodes, &counted, side.n_nodes, &counts));
-    for (PetscMPIInt r = size - 1; r >= 0; r--) { /* its own part stays in the packet */
-      PetscBool has_all;
-      packet.n = 0;
-      PetscCall(mark(&side, interface, r, have[r], &all, &has_all));
-      whole = (PetscBool)(whole && has_all);
-      for (PetscInt k = 0; k < side.n_nodes; k++) { /* once, by any that has the node */
-        counts[k]  = (PetscBool)(side.nodes[k] && !counted[k]);
-        counted[k] = (PetscBool)(counted[k] || side.nodes[k]);
-      }
-      PetscCall(side_pack(&side, interface, counts, &packet));
-      PetscCall(packet_transfer(mesh, r, &packet));
-    }
-    PetscCall(PetscFree2(counted, counts));
-    PetscCall(side_destroy(&side));
-  } else {
-    PetscCall(packet_transfer(mesh, mesh->rank, &packet));
+  PetscCall(side_create(interface, 1, &side));
+  PetscCall(PetscCalloc2(side.n_nodes, &counted, side.n_nodes, &counts));
+  PetscCall(near_create(mesh, interface, &side, n_ends, ends, &near));
+  for (PetscMPIInt first = 0; first < mesh->size; first += RANKS_AT_ONCE) {
+    PetscInt  m;
+    PetscInt *mine;
+    PetscCall(mark(mesh, interface, &side, &near, first, &whole));
+    choose_counting(&side, counted, counts);
+    PetscCall(side_deal(mesh, interface, &side, counts, first, &m, &mine));
+    if (mine) n = m, received = mine;
   }
-  PetscCall(side_unpack(&packet, 1, &interface->part));
-  PetscCallMPI(MPI_Bcast(&whole, 1, MPIU_BOOL, 0, PETSC_COMM_WORLD));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &whole, 1, MPIU_BOOL, MPI_LAND, PETSC_COMM_WORLD));
   interface->halo.whole = whole;
-  PetscCall(PetscFree(packet.numbers));
-  PetscCall(PetscFree2(all.boxes, all.x));
-  PetscCall(PetscFree(have));
+  PetscCall(side_unpack(n, received, 1, interface, &interface->part));
+  PetscCall(PetscFree(received));
+  PetscCall(PetscFree3(near.has, near.boxes, near.x));
+  PetscCall(PetscFree2(counted, counts));
+  PetscCall(side_destroy(&side));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -59,7 +59,20 @@ PetscErrorCode offsets_read(Scene *scene, const Physics *physics, Interface *int
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* rank 0: which nodes `offset_at` means. */
+/* The node of least number at a point, or -1: none of this rank's. */
+static PetscInt node_at(const Interface *interface, const PetscReal point[], PetscReal tolerance_squared)
+{
+  for (PetscInt a = 0; a < interface->n1; a++) {
+    const PetscReal *x = interface->place + 3 * a;
+    PetscReal        square = 0;
+    for (PetscInt i = 0; i < interface->dimension; i++)
+      square += PetscSqr(x[i] - point[i]);
+    if (square <= tolerance_squared) return a;
+  }
+  return -1;
+}
+
+/* Which nodes `offset_at` means. */
 PetscErrorCode offsets_place(Scene *scene, Interface *interface)
 {
   Offsets       *offsets = &interface->offsets;
@@ -71,25 +84,21 @@ PetscErrorCode offsets_place(Scene *scene, Interface *interface)
     offsets->nodal[a] = offsets->all;
     extent_add(&extent, interface->place + 3 * a);
   }
+  PetscCall(extent_of_all(&extent));
   for (PetscInt p = 0; p < offsets->n_points; p++) {
     const PetscReal *point = offsets->points + (d + 1) * p;
-    PetscInt         found = -1;
-    for (PetscInt a = 0; a < interface->n1 && found < 0; a++) {
-      const PetscReal *x = interface->place + 3 * a;
-      PetscReal        square = 0;
-      for (PetscInt i = 0; i < d; i++)
-        square += PetscSqr(x[i] - point[i]);
-      if (square <= PetscSqr(SAME_PLACE) * extent_diagonal_squared(&extent)) found = a;
-    }
-    if (found < 0)
+    const PetscInt   found = node_at(interface, point, PetscSqr(SAME_PLACE) * extent_diagonal_squared(&extent));
+    PetscInt         first = found < 0 ? PETSC_MAX_INT : homes_number(interface, found);
+    PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &first, 1, MPIU_INT, MPI_MIN, PETSC_COMM_WORLD));
+    if (first == PETSC_MAX_INT)
       scene_fail(scene, interface->name, "offset_at", "no node of the non-mortar surface is at the place of point %d of the list.",
                  (int)p + 1);
-    offsets->nodal[found] = point[d];
+    if (found >= 0 && first == homes_number(interface, found)) offsets->nodal[found] = point[d];
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Those of the nodes of a part, through an SF from rank 0's nodes to them. */
+/* Those of the nodes of a part, through an SF from homes to them. */
 PetscErrorCode offsets_fetch(PetscSF sf, Interface *interface)
 {
   Offsets       *offsets = &interface->offsets;

@@ -1,7 +1,11 @@
-/* What rank 0 knows of an interface's surfaces, and sends to other ranks: whole numbers, packed. */
+/* Nodes and facets of a side, packed at their homes for the parts that have them, and out of the packets of all homes again. */
 #include "contact/packet.h"
 
-PetscErrorCode packet_put(Packet *packet, PetscInt n, const PetscInt numbers[])
+typedef struct {
+  PetscInt n, capacity, *numbers;
+} Packet;
+
+static PetscErrorCode put(Packet *packet, PetscInt n, const PetscInt numbers[])
 {
   PetscFunctionBegin;
   if (packet->n + n > packet->capacity) {
@@ -13,132 +17,93 @@ PetscErrorCode packet_put(Packet *packet, PetscInt n, const PetscInt numbers[])
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode packet_put_one(Packet *packet, PetscInt number)
+/* Of a node: its number in the interface, its vertex, its part of the model, whether the part counts it; of a non-mortar one which rank
+ * owns it, its multiplier's removed components, whether it is in the middle of corners. */
+enum { WIDTH_MORTAR = 4, WIDTH = 7 };
+
+static int width(int which)
 {
-  PetscFunctionBegin;
-  PetscCall(packet_put(packet, 1, &number));
-  PetscFunctionReturn(PETSC_SUCCESS);
+  return which ? WIDTH_MORTAR : WIDTH;
 }
 
-PetscErrorCode packet_take(Packet *packet, PetscInt n, PetscInt **numbers)
+/* How many, and each of them; then the facets: how many, and of each its number, how many corners it has, their numbers. */
+static PetscErrorCode pack(const Interface *interface, const Side *side, const PetscInt counts[], PetscInt bit, Packet *packet)
 {
+  const Surface *surface  = interface->surface[side->which];
+  const PetscInt start    = side->which ? interface->n1 : 0, number = side->which ? interface->all[0] : 0;
+  PetscInt       n[2]     = {0, 0};
   PetscFunctionBegin;
-  PetscCall(PetscMalloc1(n, numbers));
-  PetscCall(PetscArraycpy(*numbers, packet->numbers + packet->n, n));
-  packet->n += n;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscInt packet_take_one(Packet *packet)
-{
-  return packet->numbers[packet->n++];
-}
-
-PetscErrorCode packet_transfer(const Mesh *mesh, PetscMPIInt to, Packet *packet)
-{
-  enum { TAG = 21 };
-  PetscFunctionBegin;
-  if (mesh->rank == 0 && to != 0) PetscCallMPI(MPI_Send(packet->numbers, (PetscMPIInt)packet->n, MPIU_INT, to, TAG, PETSC_COMM_WORLD));
-  if (mesh->rank == to && to != 0) {
-    PetscMPIInt n;
-    MPI_Status  status;
-    PetscCallMPI(MPI_Probe(0, TAG, PETSC_COMM_WORLD, &status));
-    PetscCallMPI(MPI_Get_count(&status, MPIU_INT, &n));
-    PetscCall(PetscRealloc(sizeof(PetscInt) * (size_t)n, &packet->numbers));
-    PetscCallMPI(MPI_Recv(packet->numbers, n, MPIU_INT, 0, TAG, PETSC_COMM_WORLD, MPI_STATUS_IGNORE));
+  for (PetscInt k = 0; k < side->n_nodes; k++)
+    n[0] += (side->nodes[k] & bit) != 0;
+  for (PetscInt f = 0; f < side->n_facets; f++)
+    n[1] += (side->facets[f] & bit) != 0;
+  if (!n[0] && !n[1]) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(put(packet, 1, &n[0]));
+  for (PetscInt k = 0; k < side->n_nodes; k++) {
+    PetscInt entry[WIDTH] = {homes_number(interface, start + k), interface->nodes[start + k], interface->part_of[start + k],
+                             (counts[k] & bit) != 0};
+    if (!(side->nodes[k] & bit)) continue;
+    if (!side->which) {
+      entry[4] = interface->owner[k];
+      entry[5] = interface->removed[k];
+      entry[6] = interface->middle[k];
+    }
+    PetscCall(put(packet, width(side->which), entry));
   }
-  if (mesh->rank == to) packet->n = 0;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode side_create(const Interface *interface, int which, Side *side)
-{
-  const Surface  *surface = interface->surface[which];
-  static PetscInt none    = 0;
-  PetscFunctionBegin;
-  *side = (Side){.which = which, .n_nodes = which ? interface->n2 : interface->n1, .offsets = &none};
-  if (!surface->analytic) {
-    side->n_facets  = surface->n_faces;
-    side->offsets   = surface->offsets;
-    side->of_facets = surface->vertices;
-  }
-  PetscCall(PetscCalloc2(side->n_nodes, &side->nodes, side->n_facets, &side->facets));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode side_destroy(Side *side)
-{
-  PetscFunctionBegin;
-  PetscCall(PetscFree2(side->nodes, side->facets));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-PetscErrorCode side_mark_rings(Side *side, PetscInt rings)
-{
-  PetscBool *met;
-  PetscFunctionBegin;
-  PetscCall(PetscMalloc1(side->n_nodes, &met));
-  for (PetscInt ring = 0; ring < rings; ring++) {
-    PetscCall(PetscArraycpy(met, side->nodes, side->n_nodes));
-    for (PetscInt f = 0; f < side->n_facets; f++) {
-      for (PetscInt k = side->offsets[f]; k < side->offsets[f + 1] && !side->facets[f]; k++)
-        side->facets[f] = met[side->of_facets[k]];
-      for (PetscInt k = side->offsets[f]; k < side->offsets[f + 1] && side->facets[f]; k++)
-        side->nodes[side->of_facets[k]] = PETSC_TRUE;
+  PetscCall(put(packet, 1, &n[1]));
+  for (PetscInt f = 0; f < side->n_facets; f++) {
+    const PetscInt head[2] = {surface->first + f, side->offsets[f + 1] - side->offsets[f]};
+    if (!(side->facets[f] & bit)) continue;
+    PetscCall(put(packet, 2, head));
+    for (PetscInt k = side->offsets[f]; k < side->offsets[f + 1]; k++) {
+      const PetscInt corner = number + surface->vertices[k];
+      PetscCall(put(packet, 1, &corner));
     }
   }
-  PetscCall(PetscFree(met));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The marked facets: how many, their numbers, offsets, nodes in the part's numbers. */
-static PetscErrorCode pack_facets(const Side *side, Packet *packet)
+PetscErrorCode side_deal(const Mesh *mesh, const Interface *interface, const Side *side, const PetscInt counts[], PetscMPIInt first,
+                         PetscInt *n, PetscInt **received)
 {
-  PetscInt *number, n = 0, at = 0;
+  const PetscMPIInt end    = (PetscMPIInt)PetscMin(first + RANKS_AT_ONCE, mesh->size);
+  Packet            packet = {0};
+  PetscMPIInt      *sizes;
   PetscFunctionBegin;
-  PetscCall(PetscMalloc1(side->n_nodes, &number));
-  for (PetscInt k = 0; k < side->n_nodes; k++)
-    number[k] = side->nodes[k] ? n++ : -1;
-  n = 0;
-  for (PetscInt f = 0; f < side->n_facets; f++)
-    n += side->facets[f];
-  PetscCall(packet_put_one(packet, n));
-  for (PetscInt f = 0; f < side->n_facets; f++) {
-    if (side->facets[f]) PetscCall(packet_put_one(packet, f));
+  PetscCall(PetscCalloc1(mesh->size, &sizes));
+  for (PetscMPIInt r = first; r < end; r++) {
+    const PetscInt before = packet.n;
+    PetscCall(pack(interface, side, counts, (PetscInt)1 << (r - first), &packet));
+    sizes[r] = (PetscMPIInt)(packet.n - before);
   }
-  PetscCall(packet_put_one(packet, 0));
-  for (PetscInt f = 0; f < side->n_facets; f++) {
-    if (side->facets[f]) PetscCall(packet_put_one(packet, at += side->offsets[f + 1] - side->offsets[f]));
-  }
-  for (PetscInt f = 0; f < side->n_facets; f++) {
-    for (PetscInt k = side->offsets[f]; k < side->offsets[f + 1] && side->facets[f]; k++)
-      PetscCall(packet_put_one(packet, number[side->of_facets[k]]));
-  }
-  PetscCall(PetscFree(number));
+  PetscCall(numbers_deal(mesh, sizes, packet.numbers, n, received));
+  PetscCall(PetscFree(packet.numbers));
+  PetscCall(PetscFree(sizes));
+  if (mesh->rank < first || mesh->rank >= end) PetscCall(PetscFree(*received));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode side_pack(const Side *side, const Interface *interface, const PetscBool counts[], Packet *packet)
+/* How many nodes, facets and corners there are in all. */
+static void count(PetscInt n, const PetscInt received[], int which, PetscInt n_nodes[1], PetscInt n_facets[1], PetscInt n_corners[1])
 {
-  const PetscInt first = side->which ? interface->n1 : 0;
-  PetscInt       n     = 0;
-  PetscFunctionBegin;
-  for (PetscInt k = 0; k < side->n_nodes; k++)
-    n += side->nodes[k];
-  PetscCall(packet_put_one(packet, n));
-  for (PetscInt k = 0; k < side->n_nodes; k++) {
-    const PetscInt entry[] = {interface->nodes[first + k], first + k, interface->part_of[first + k], counts[k]};
-    if (side->nodes[k]) PetscCall(packet_put(packet, 4, entry));
+  *n_nodes = *n_facets = *n_corners = 0;
+  for (PetscInt at = 0; at < n;) {
+    PetscInt facets;
+    *n_nodes += received[at];
+    at += 1 + width(which) * received[at];
+    facets = received[at++];
+    *n_facets += facets;
+    for (PetscInt f = 0; f < facets; f++) {
+      *n_corners += received[at + 1];
+      at += 2 + received[at + 1];
+    }
   }
-  PetscCall(pack_facets(side, packet));
-  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The mortar side comes behind the non-mortar one. */
-PetscErrorCode side_unpack(Packet *packet, int which, ContactPart *part)
+/* Room for more nodes behind those that there are. */
+static PetscErrorCode reserve(ContactPart *part, PetscInt first, PetscInt n)
 {
-  const PetscInt first = which ? part->n1 : 0, n = packet_take_one(packet);
-  PetscInt      *vertices, *nodes, *piece, *counts;
+  PetscInt *vertices, *nodes, *piece, *counts;
   PetscFunctionBegin;
   PetscCall(PetscMalloc4(first + n, &vertices, first + n, &nodes, first + n, &piece, first + n, &counts));
   PetscCall(PetscArraycpy(vertices, part->vertices, first));
@@ -150,16 +115,50 @@ PetscErrorCode side_unpack(Packet *packet, int which, ContactPart *part)
   part->nodes    = nodes;
   part->piece    = piece;
   part->counts   = counts;
-  for (PetscInt k = first; k < first + n; k++) {
-    vertices[k] = packet_take_one(packet);
-    nodes[k]    = packet_take_one(packet);
-    piece[k]    = packet_take_one(packet);
-    counts[k]   = packet_take_one(packet);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode side_unpack(PetscInt n, const PetscInt received[], int which, const Interface *interface, ContactPart *part)
+{
+  const PetscInt first = which ? part->n1 : 0;
+  PetscInt       n_nodes, n_facets, n_corners, node = first, facet = 0, corner = 0;
+  PetscFunctionBegin;
+  count(n, received, which, &n_nodes, &n_facets, &n_corners);
+  *(which ? &part->n2 : &part->n1) = n_nodes;
+  part->n_facets[which]            = n_facets;
+  part->first_mortar               = interface->all[0];
+  PetscCall(reserve(part, first, n_nodes));
+  if (!which)
+    PetscCall(PetscMalloc5(n_nodes, &part->owner, n_nodes, &part->index, n_nodes, &part->removed, n_nodes, &part->middle, n_nodes,
+                           &part->owned));
+  PetscCall(PetscMalloc1(n_facets, &part->facets[which]));
+  PetscCall(PetscMalloc1(n_facets + 1, &part->offsets[which]));
+  PetscCall(PetscMalloc1(n_corners, &part->facet_nodes[which]));
+  part->offsets[which][0] = 0;
+  for (PetscInt at = 0; at < n;) {
+    PetscInt left = received[at++];
+    for (; left > 0; left--, node++, at += width(which)) {
+      part->nodes[node]    = received[at];
+      part->vertices[node] = received[at + 1];
+      part->piece[node]    = received[at + 2];
+      part->counts[node]   = received[at + 3];
+      if (which) continue;
+      part->owner[node]   = received[at + 4];
+      part->removed[node] = received[at + 5];
+      part->middle[node]  = (PetscBool)received[at + 6];
+    }
+    for (left = received[at++]; left > 0; left--, facet++) {
+      part->facets[which][facet]      = received[at++];
+      part->offsets[which][facet + 1] = part->offsets[which][facet] + received[at++];
+      while (corner < part->offsets[which][facet + 1])
+        part->facet_nodes[which][corner++] = received[at++];
+    }
   }
-  *(which ? &part->n2 : &part->n1) = n;
-  part->n_facets[which] = packet_take_one(packet);
-  PetscCall(packet_take(packet, part->n_facets[which], &part->facets[which]));
-  PetscCall(packet_take(packet, part->n_facets[which] + 1, &part->offsets[which]));
-  PetscCall(packet_take(packet, part->offsets[which][part->n_facets[which]], &part->facet_nodes[which]));
+  for (PetscInt k = 0; k < n_corners; k++) { /* in the part's numbers, which begin anew on each side */
+    PetscInt place;
+    PetscCall(PetscFindInt(part->facet_nodes[which][k], n_nodes, part->nodes + first, &place));
+    PetscCheck(place >= 0, PETSC_COMM_SELF, PETSC_ERR_PLIB, "a facet without its node");
+    part->facet_nodes[which][k] = place;
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

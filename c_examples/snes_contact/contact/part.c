@@ -44,15 +44,14 @@ static PetscErrorCode number_multipliers(const Contact *contact, ContactPart *pa
 /* Nodes of rigid bodies: beyond those of multipliers, which have three a node at most. */
 static PetscErrorCode number_rigid(const Contact *contact, Interface *interface)
 {
-  PetscInt n[2] = {0, interface->n1};
+  PetscInt n;
   Vec      x;
   PetscFunctionBegin;
   if (!contact->physics->n_rigids) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(DMGetGlobalVector(contact->mesh->dm, &x));
-  PetscCall(VecGetSize(x, &n[0]));
+  PetscCall(VecGetSize(x, &n));
   PetscCall(DMRestoreGlobalVector(contact->mesh->dm, &x));
-  PetscCallMPI(MPI_Bcast(&n[1], 1, MPIU_INT, 0, PETSC_COMM_WORLD));
-  PetscCall(rigid_part_create(contact, interface, n[0] + 3 * n[1], &interface->part));
+  PetscCall(rigid_part_create(contact, interface, n + 3 * interface->all[0], &interface->part));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -119,13 +118,13 @@ PetscErrorCode part_handle(const ContactPart *part, const stickslip_options *opt
 }
 
 /* Where a part's positions count from: far from the origin X + u would round u away. A radius counts from the axis. */
-static PetscErrorCode share_origin(const Contact *contact, Interface *interface)
+static PetscErrorCode share_origin(Interface *interface)
 {
-  ContactPart *part = &interface->part;
+  ContactPart   *part  = &interface->part;
+  const PetscInt first = 0;
   PetscFunctionBegin;
-  for (PetscInt i = 0; i < part->dimension && contact->mesh->rank == 0; i++)
-    part->origin[i] = i == 0 && interface->options.model == STICKSLIP_MODEL_AXISYMMETRIC ? 0 : interface->X[i];
-  PetscCallMPI(MPI_Bcast(part->origin, 3, MPI_DOUBLE, 0, PETSC_COMM_WORLD));
+  PetscCall(homes_coordinates(interface, 1, &first, part->origin));
+  if (interface->options.model == STICKSLIP_MODEL_AXISYMMETRIC) part->origin[0] = 0;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -135,7 +134,7 @@ static PetscErrorCode fetch_offsets(Interface *interface)
   PetscSF sf;
   PetscFunctionBegin;
   if (!interface->offsets.any) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(contact_from_whole(interface, interface->part.n1 + interface->part.n2, interface->part.nodes, &sf));
+  PetscCall(homes_fetch_create(interface, interface->part.n1 + interface->part.n2, interface->part.nodes, &sf));
   PetscCall(offsets_fetch(sf, interface));
   PetscCall(PetscSFDestroy(&sf));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -159,10 +158,10 @@ static PetscErrorCode create_arrays(Contact *contact, PetscInt number)
   PetscCall(PetscCalloc3(d * part->n1, &part->slip, part->n1, &part->augmentation, part->n1, &part->way));
   PetscCall(contact_equations(contact, part->sf, n, part->equations));
   PetscCall(number_multipliers(contact, part));
-  PetscCall(contact_coordinates(interface, part->n1 + part->n2, part->nodes, part->X));
+  PetscCall(homes_coordinates(interface, part->n1 + part->n2, part->nodes, part->X));
   PetscCall(number_rigid(contact, interface));
   PetscCall(fetch_offsets(interface));
-  PetscCall(share_origin(contact, interface));
+  PetscCall(share_origin(interface));
   contact_positions(part);
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -1,22 +1,9 @@
-/* The parts of an interface, one a rank: values between the ranks that own nodes, those that have them too, and rank 0; and
+/* The parts of an interface, one a rank: values between the ranks that own nodes, those that have them too, and homes; and
  * what the library says of a part in the numbers of the interface. */
 #include "contact/contact.h"
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-/* `width` numbers a node, as one unit */
-static PetscErrorCode bcast(PetscSF sf, PetscInt width, const double from[], double to[])
-{
-  MPI_Datatype node;
-  PetscFunctionBegin;
-  PetscCallMPI(MPI_Type_contiguous((PetscMPIInt)width, MPI_DOUBLE, &node));
-  PetscCallMPI(MPI_Type_commit(&node));
-  PetscCall(PetscSFBcastBegin(sf, node, from, to, MPI_REPLACE));
-  PetscCall(PetscSFBcastEnd(sf, node, from, to, MPI_REPLACE));
-  PetscCallMPI(MPI_Type_free(&node));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
 
 PetscErrorCode parts_share(const ContactPart *part, PetscInt width, double values[])
 {
@@ -24,26 +11,26 @@ PetscErrorCode parts_share(const ContactPart *part, PetscInt width, double value
   PetscFunctionBegin;
   PetscCall(PetscMalloc1(width * part->n1, &theirs));
   PetscCall(PetscArraycpy(theirs, values, width * part->n1));
-  PetscCall(bcast(part->owners, width, theirs, values));
+  PetscCall(homes_bcast(part->owners, width, theirs, values));
   PetscCall(PetscFree(theirs));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode parts_collect(const ContactPart *part, PetscInt width, const double values[], double whole[])
+PetscErrorCode parts_collect(const ContactPart *part, PetscInt width, const double values[], double home[])
 {
   PetscFunctionBegin;
-  PetscCall(bcast(part->whole, width, values, whole));
+  PetscCall(homes_bcast(part->homes, width, values, home));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode parts_send(const ContactPart *part, PetscInt width, const double whole[], double values[])
+PetscErrorCode parts_send(const ContactPart *part, PetscInt width, const double home[], double values[])
 {
   MPI_Datatype node;
   PetscFunctionBegin;
   PetscCallMPI(MPI_Type_contiguous((PetscMPIInt)width, MPI_DOUBLE, &node));
   PetscCallMPI(MPI_Type_commit(&node));
-  PetscCall(PetscSFReduceBegin(part->whole, node, whole, values, MPI_REPLACE));
-  PetscCall(PetscSFReduceEnd(part->whole, node, whole, values, MPI_REPLACE));
+  PetscCall(PetscSFReduceBegin(part->homes, node, home, values, MPI_REPLACE));
+  PetscCall(PetscSFReduceEnd(part->homes, node, home, values, MPI_REPLACE));
   PetscCallMPI(MPI_Type_free(&node));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

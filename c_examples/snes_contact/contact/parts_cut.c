@@ -1,4 +1,4 @@
-/* Rank 0 cuts the non-mortar side of an interface into parts and sends each rank its own (docs/plug_in.md, "Parts that own
+/* The non-mortar side of an interface, cut into parts at its nodes' homes: each rank gets its own (docs/plug_in.md, "Parts that own
  * nodes").
  *
  * A part has the facets around its nodes, those around these, and so on: rings. How many the library needs depends on what
@@ -17,131 +17,94 @@ static PetscBool carries(const stickslip_options *options)
   return (PetscBool)(options->weak_coverage == 0 && options->multiplier_basis == STICKSLIP_BASIS_DUAL);
 }
 
-/* Marks what the part of a rank has; returns whether it has anything. */
-static PetscErrorCode mark_part(Side *side, const Interface *interface, PetscMPIInt rank, PetscBool *any)
+/* The part's nodes, and what comes with them: by interface->owner. */
+static PetscErrorCode deal(const Mesh *mesh, Interface *interface)
 {
+  const PetscInt rings = (carries(&interface->options) ? RINGS_OF_CARRIERS : RINGS) + interface->further_rings;
+  PetscInt       n = 0, *received = NULL, *counts;
+  Side           side;
   PetscFunctionBegin;
-  *any = PETSC_FALSE;
-  for (PetscInt a = 0; a < side->n_nodes; a++) {
-    side->nodes[a] = (PetscBool)(interface->owner[a] == rank);
-    *any           = (PetscBool)(*any || side->nodes[a]);
+  PetscCall(side_create(interface, 0, &side));
+  PetscCall(PetscMalloc1(side.n_nodes, &counts));
+  for (PetscMPIInt first = 0; first < mesh->size; first += RANKS_AT_ONCE) {
+    PetscInt  m;
+    PetscInt *mine;
+    PetscCall(side_clear(interface, &side));
+    for (PetscInt a = 0; a < side.n_nodes; a++) {
+      const PetscInt r = interface->owner[a] - first;
+      counts[a] = side.nodes[a] = r >= 0 && r < RANKS_AT_ONCE ? (PetscInt)1 << r : 0;
+    }
+    PetscCall(side_mark_rings(&side, rings));
+    PetscCall(side_deal(mesh, interface, &side, counts, first, &m, &mine));
+    if (mine) n = m, received = mine;
   }
-  PetscCall(PetscArrayzero(side->facets, side->n_facets));
-  PetscCall(side_mark_rings(side, (carries(&interface->options) ? RINGS_OF_CARRIERS : RINGS) + interface->further_rings));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* The part that is marked, as unpack() has it; `index`: number of each node in its owner's part. */
-static PetscErrorCode pack(const Side *side, const Interface *interface, PetscMPIInt rank, const PetscInt index[], Packet *packet)
-{
-  PetscBool *counts;
-  PetscFunctionBegin;
-  PetscCall(PetscMalloc1(side->n_nodes, &counts));
-  for (PetscInt a = 0; a < side->n_nodes; a++)
-    counts[a] = (PetscBool)(interface->owner[a] == rank);
-  PetscCall(packet_put_one(packet, interface->n1));
-  PetscCall(side_pack(side, interface, counts, packet));
-  for (PetscInt a = 0; a < side->n_nodes; a++) {
-    const PetscInt entry[] = {interface->owner[a], index[a], interface->removed[a], interface->middle[a]};
-    if (side->nodes[a]) PetscCall(packet_put(packet, 4, entry));
-  }
+  PetscCall(side_unpack(n, received, 0, interface, &interface->part));
+  PetscCall(PetscFree(received));
   PetscCall(PetscFree(counts));
+  PetscCall(side_destroy(&side));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode unpack(Packet *packet, PetscMPIInt rank, ContactPart *part)
+/* part->index, and at home the same of each node in its owner's part */
+static PetscErrorCode number(const Mesh *mesh, const Interface *interface, PetscSF homes, PetscInt index[])
 {
+  const ContactPart *part = &interface->part;
   PetscFunctionBegin;
-  part->first_mortar = packet_take_one(packet);
-  PetscCall(side_unpack(packet, 0, part));
-  PetscCall(PetscMalloc5(part->n1, &part->owner, part->n1, &part->index, part->n1, &part->removed, part->n1, &part->middle,
-                         part->n1, &part->owned));
-  for (PetscInt a = 0; a < part->n1; a++) {
-    part->owner[a]   = packet_take_one(packet);
-    part->index[a]   = packet_take_one(packet);
-    part->removed[a] = packet_take_one(packet);
-    part->middle[a]  = (PetscBool)packet_take_one(packet);
-    part->owned[a]   = part->owner[a] == rank ? STICKSLIP_NODE_OWN : STICKSLIP_NODE_ELSEWHERE;
-  }
+  for (PetscInt k = 0; k < interface->n1 + interface->n2; k++)
+    index[k] = -1;
+  for (PetscInt a = 0; a < part->n1; a++)
+    part->index[a] = part->owner[a] == mesh->rank ? a : -1;
+  PetscCall(PetscSFReduceBegin(homes, MPIU_INT, part->index, index, MPI_MAX));
+  PetscCall(PetscSFReduceEnd(homes, MPIU_INT, part->index, index, MPI_MAX));
+  PetscCall(PetscSFBcastBegin(homes, MPIU_INT, index, part->index, MPI_REPLACE));
+  PetscCall(PetscSFBcastEnd(homes, MPIU_INT, index, part->index, MPI_REPLACE));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The maps between the parts' nodes. */
-static PetscErrorCode create_maps(const Interface *interface, const PetscInt index[], PetscMPIInt rank, ContactPart *part)
+/* The maps between the parts' nodes, and from these to homes. */
+static PetscErrorCode create_maps(const Mesh *mesh, Interface *interface)
 {
-  PetscInt     n = 0, *leaves;
+  ContactPart *part = &interface->part;
+  PetscInt     n = 0, *leaves, *index;
   PetscSFNode *remote;
+  PetscSF      homes;
   PetscFunctionBegin;
+  PetscCall(PetscMalloc1(interface->n1 + interface->n2, &index));
+  PetscCall(homes_fetch_create(interface, part->n1, part->nodes, &homes));
+  PetscCall(number(mesh, interface, homes, index));
+  PetscCall(PetscSFDestroy(&homes));
   PetscCall(PetscMalloc1(part->n1, &leaves));
   PetscCall(PetscMalloc1(part->n1, &remote));
   for (PetscInt a = 0; a < part->n1; a++) {
-    if (part->owner[a] == rank) continue;
+    if (part->owner[a] == mesh->rank) continue;
     leaves[n]   = a;
     remote[n++] = (PetscSFNode){.rank = part->owner[a], .index = part->index[a]};
   }
   PetscCall(PetscSFCreate(PETSC_COMM_WORLD, &part->owners));
   PetscCall(PetscSFSetGraph(part->owners, part->n1, n, leaves, PETSC_OWN_POINTER, remote, PETSC_OWN_POINTER));
-  n = rank ? 0 : interface->n1;
-  PetscCall(PetscMalloc1(n, &remote));
-  for (PetscInt a = 0; a < n; a++)
+  PetscCall(PetscMalloc1(interface->n1, &remote));
+  for (PetscInt a = 0; a < interface->n1; a++)
     remote[a] = (PetscSFNode){.rank = interface->owner[a], .index = index[a]};
-  PetscCall(PetscSFCreate(PETSC_COMM_WORLD, &part->whole));
-  PetscCall(PetscSFSetGraph(part->whole, part->n1, n, NULL, PETSC_OWN_POINTER, remote, PETSC_OWN_POINTER));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* rank 0: how many parts there are, and the number of each node in its owner's */
-static PetscErrorCode number(Side *side, Interface *interface, PetscMPIInt size, PetscInt index[])
-{
-  PetscBool any;
-  PetscFunctionBegin;
-  for (PetscMPIInt r = 0; r < size; r++) {
-    PetscInt n = 0;
-    PetscCall(mark_part(side, interface, r, &any));
-    interface->n_parts += any;
-    for (PetscInt a = 0; a < side->n_nodes; a++) {
-      if (interface->owner[a] == r) index[a] = n;
-      n += side->nodes[a];
-    }
-  }
+  PetscCall(PetscSFCreate(PETSC_COMM_WORLD, &part->homes));
+  PetscCall(PetscSFSetGraph(part->homes, part->n1, interface->n1, NULL, PETSC_OWN_POINTER, remote, PETSC_OWN_POINTER));
+  PetscCall(PetscFree(index));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* By interface->owner. */
 PetscErrorCode parts_cut(Contact *contact, Interface *interface)
 {
-  const Mesh  *mesh   = contact->mesh;
-  ContactPart *part   = &interface->part;
-  Packet       packet = {0};
-  Side         side;
-  PetscInt    *index;
-  PetscBool    any;
-  PetscMPIInt  size;
-
+  const Mesh  *mesh = contact->mesh;
+  ContactPart *part = &interface->part;
   PetscFunctionBegin;
-  PetscCallMPI(MPI_Comm_size(PETSC_COMM_WORLD, &size));
-  part->dimension    = interface->dimension;
-  part->components   = interface->components;
-  interface->n_parts = 0;
-  PetscCall(PetscMalloc1(interface->n1, &index));
-  if (mesh->rank == 0) {
-    PetscCall(side_create(interface, 0, &side));
-    PetscCall(number(&side, interface, size, index));
-    for (PetscMPIInt r = size - 1; r >= 0; r--) { /* its own part stays in the packet */
-      packet.n = 0;
-      PetscCall(mark_part(&side, interface, r, &any));
-      PetscCall(pack(&side, interface, r, index, &packet));
-      PetscCall(packet_transfer(mesh, r, &packet));
-    }
-    PetscCall(side_destroy(&side));
-  } else {
-    PetscCall(packet_transfer(mesh, mesh->rank, &packet));
-  }
-  PetscCallMPI(MPI_Bcast(&interface->n_parts, 1, MPIU_INT, 0, PETSC_COMM_WORLD));
-  PetscCall(unpack(&packet, mesh->rank, part));
-  PetscCall(create_maps(interface, index, mesh->rank, part));
-  PetscCall(PetscFree(packet.numbers));
-  PetscCall(PetscFree(index));
+  part->dimension  = interface->dimension;
+  part->components = interface->components;
+  PetscCall(deal(mesh, interface));
+  for (PetscInt a = 0; a < part->n1; a++)
+    part->owned[a] = part->owner[a] == mesh->rank ? STICKSLIP_NODE_OWN : STICKSLIP_NODE_ELSEWHERE;
+  interface->n_parts = part->n1 > 0;
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &interface->n_parts, 1, MPIU_INT, MPI_SUM, PETSC_COMM_WORLD));
+  PetscCall(create_maps(mesh, interface));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -149,7 +112,7 @@ PetscErrorCode parts_destroy(ContactPart *part)
 {
   PetscFunctionBegin;
   PetscCall(PetscSFDestroy(&part->owners));
-  PetscCall(PetscSFDestroy(&part->whole));
+  PetscCall(PetscSFDestroy(&part->homes));
   PetscCall(PetscFree4(part->vertices, part->nodes, part->piece, part->counts));
   PetscCall(PetscFree5(part->owner, part->index, part->removed, part->middle, part->owned));
   for (int side = 0; side < 2; side++) {

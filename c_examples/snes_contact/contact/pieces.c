@@ -12,7 +12,9 @@ static PetscErrorCode add_piece(const Contact *contact, ContactPart *part, int32
 {
   Entries found;
   PetscFunctionBegin;
+  part->processor -= work_clock();
   PetscCall(contact_entries(contact, part, piece, &found, refused));
+  part->processor += work_clock();
   if (*refused) PetscFunctionReturn(PETSC_SUCCESS);
   if (entries->n + found.n > entries->capacity) {
     List larger = {.n = entries->n, .capacity = (PetscInt)(2 * entries->capacity + found.n)};

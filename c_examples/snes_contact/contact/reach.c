@@ -1,22 +1,32 @@
 /* How far a part of the model may come: the size of all that interfaces may join to it, through others or not. */
 #include "contact/contact.h"
 
-/* The parts that interfaces join, from rank 0, which knows their nodes' parts: of each part the number of its cluster. */
+/* The parts that interfaces join: of each part the number of its cluster. */
 static PetscErrorCode find_clusters(Contact *contact, PetscInt cluster[])
 {
   const Parts *parts = &contact->physics->parts;
+  PetscBool   *joined;
   PetscFunctionBegin;
+  PetscCall(PetscMalloc1(parts->n, &joined));
   for (PetscInt p = 0; p < parts->n; p++)
     cluster[p] = p;
   for (PetscInt i = 0; i < contact->n_interfaces; i++) {
     Interface *interface = &contact->interfaces[i];
+    PetscInt   first     = -1;
     PetscCall(PetscSFBcastBegin(interface->pieces, MPIU_INT, parts->of_piece, interface->part_of, MPI_REPLACE));
     PetscCall(PetscSFBcastEnd(interface->pieces, MPIU_INT, parts->of_piece, interface->part_of, MPI_REPLACE));
-    for (PetscInt k = 1; k < interface->n1 + interface->n2; k++)
-      trees_join(cluster, interface->part_of[0], interface->part_of[k]);
+    PetscCall(PetscArrayzero(joined, parts->n));
+    for (PetscInt k = 0; k < interface->n1 + interface->n2; k++)
+      joined[interface->part_of[k]] = PETSC_TRUE;
+    PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, joined, (PetscMPIInt)parts->n, MPIU_BOOL, MPI_LOR, PETSC_COMM_WORLD));
+    for (PetscInt p = 0; p < parts->n; p++) {
+      if (!joined[p]) continue;
+      if (first < 0) first = p;
+      trees_join(cluster, first, p);
+    }
   }
   (void)trees_number(parts->n, cluster);
-  PetscCallMPI(MPI_Bcast(cluster, (PetscMPIInt)parts->n, MPIU_INT, 0, PETSC_COMM_WORLD));
+  PetscCall(PetscFree(joined));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -2,35 +2,60 @@
  * among ranks has no history there: its parts are made anew of t_n, as they are when it is shared out between steps. */
 #include "contact/contact.h"
 
-/* Displacements of all vertices by their numbers, then the multipliers of each interface's nodes: a local vector on rank 0. */
-static PetscErrorCode natural(const Contact *contact, PetscInt *n, PetscSF *sf)
+/* `width` bytes of each node at home, in the order of their numbers, which is that of the ranks. */
+static PetscErrorCode archive_homes(const Contact *contact, const char *name, PetscInt n, size_t width, void *here, Archive *archive)
 {
-  const PetscInt   n_blocks = 1 + contact->n_interfaces;
-  const PetscBool  root     = (PetscBool)(contact->mesh->rank == 0);
-  PetscInt        *all, *counts, *fields, *widths;
-  const PetscInt **vertices;
+  const PetscMPIInt size = contact->mesh->size, count = (PetscMPIInt)n;
+  PetscMPIInt      *counts, *starts;
+  MPI_Datatype      node;
+  size_t            total = 0;
+  char             *all;
 
   PetscFunctionBegin;
-  PetscCall(PetscMalloc1(root ? contact->mesh->n_all_vertices : 0, &all));
-  PetscCall(PetscMalloc4(n_blocks, &counts, n_blocks, &fields, n_blocks, &widths, n_blocks, &vertices));
-  counts[0] = root ? contact->mesh->n_all_vertices : 0;
-  for (PetscInt k = 0; k < counts[0]; k++)
-    all[k] = k;
-  fields[0]   = 0;
-  widths[0]   = 3;
-  vertices[0] = all;
-  *n          = 3 * counts[0];
-  for (PetscInt i = 0; i < contact->n_interfaces; i++) {
-    const Interface *interface = &contact->interfaces[i];
-    counts[1 + i]              = root ? interface->n1 : 0;
-    fields[1 + i]              = 1 + i;
-    widths[1 + i]              = interface->components;
-    vertices[1 + i]            = interface->nodes;
-    *n += widths[1 + i] * counts[1 + i];
-  }
-  PetscCall(unknowns_gather_create(contact->physics, n_blocks, counts, vertices, fields, widths, sf));
-  PetscCall(PetscFree4(counts, fields, widths, vertices));
+  PetscCall(PetscMalloc2(size, &counts, size + 1, &starts));
+  PetscCallMPI(MPI_Allgather(&count, 1, MPI_INT, counts, 1, MPI_INT, PETSC_COMM_WORLD));
+  starts[0] = 0;
+  for (PetscMPIInt r = 0; r < size; r++)
+    starts[r + 1] = starts[r] + counts[r];
+  if (contact->mesh->rank == 0) total = width * (size_t)starts[size];
+  PetscCall(PetscMalloc1(total, &all));
+  PetscCallMPI(MPI_Type_contiguous((PetscMPIInt)width, MPI_BYTE, &node));
+  PetscCallMPI(MPI_Type_commit(&node));
+  if (!archive->reading) PetscCallMPI(MPI_Gatherv(here, count, node, all, counts, starts, node, 0, PETSC_COMM_WORLD));
+  PetscCall(archive_root(archive, name, total, all));
+  if (archive->reading && !archive->bad) PetscCallMPI(MPI_Scatterv(all, counts, starts, node, here, count, node, 0, PETSC_COMM_WORLD));
+  PetscCallMPI(MPI_Type_free(&node));
   PetscCall(PetscFree(all));
+  PetscCall(PetscFree2(counts, starts));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Of a local vector: displacements of all vertices by their numbers, to rank 0. */
+static PetscErrorCode displacements_create(const Contact *contact, PetscInt *n, PetscSF *sf)
+{
+  const PetscInt  field = 0, width = 3, n_all = contact->mesh->rank ? 0 : contact->mesh->n_all_vertices;
+  const PetscInt *asked;
+  PetscInt       *all;
+  PetscFunctionBegin;
+  *n = width * n_all;
+  PetscCall(PetscMalloc1(n_all, &all));
+  for (PetscInt k = 0; k < n_all; k++)
+    all[k] = k;
+  asked = all;
+  PetscCall(unknowns_gather_create(contact->physics, 1, &n_all, &asked, &field, &width, sf));
+  PetscCall(PetscFree(all));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* values back to the owners of vertices */
+static PetscErrorCode put(PetscSF sf, const PetscScalar values[], Vec local)
+{
+  PetscScalar *array;
+  PetscFunctionBegin;
+  PetscCall(VecGetArray(local, &array));
+  PetscCall(PetscSFReduceBegin(sf, MPIU_SCALAR, values, array, MPI_REPLACE));
+  PetscCall(PetscSFReduceEnd(sf, MPIU_SCALAR, values, array, MPI_REPLACE));
+  PetscCall(VecRestoreArray(local, &array));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -54,25 +79,41 @@ static PetscErrorCode copy_to_ghosts(const Unknowns *unknowns, Vec local)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* the multipliers of one interface */
+static PetscErrorCode archive_multipliers(Contact *contact, PetscInt number, Vec local, Archive *archive)
+{
+  const Interface *interface = &contact->interfaces[number];
+  const PetscInt   field = 1 + number, width = interface->components, n1 = interface->n1;
+  const PetscInt  *asked = interface->nodes;
+  PetscScalar     *values;
+  PetscSF          sf;
+  PetscFunctionBegin;
+  PetscCall(unknowns_gather_create(contact->physics, 1, &n1, &asked, &field, &width, &sf));
+  PetscCall(PetscMalloc1(width * n1, &values));
+  PetscCall(contact_fetch(sf, local, values));
+  PetscCall(archive_homes(contact, "multipliers", n1, (size_t)width * sizeof(*values), values, archive));
+  if (archive->reading && !archive->bad) PetscCall(put(sf, values, local));
+  PetscCall(PetscFree(values));
+  PetscCall(PetscSFDestroy(&sf));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode contact_archive_vector(Contact *contact, const char *name, Vec local, Archive *archive)
 {
-  PetscScalar *values, *array;
+  PetscScalar *values;
   PetscInt     n;
   PetscSF      sf;
   PetscFunctionBegin;
-  PetscCall(natural(contact, &n, &sf));
+  PetscCall(displacements_create(contact, &n, &sf));
   PetscCall(PetscMalloc1(n, &values));
   PetscCall(contact_fetch(sf, local, values));
   PetscCall(archive_root(archive, name, (size_t)n * sizeof(*values), values));
-  if (archive->reading && !archive->bad) {
-    PetscCall(VecGetArray(local, &array));
-    PetscCall(PetscSFReduceBegin(sf, MPIU_SCALAR, values, array, MPI_REPLACE));
-    PetscCall(PetscSFReduceEnd(sf, MPIU_SCALAR, values, array, MPI_REPLACE));
-    PetscCall(VecRestoreArray(local, &array));
-    PetscCall(copy_to_ghosts(&contact->physics->unknowns, local));
-  }
+  if (archive->reading && !archive->bad) PetscCall(put(sf, values, local));
   PetscCall(PetscFree(values));
   PetscCall(PetscSFDestroy(&sf));
+  for (PetscInt i = 0; i < contact->n_interfaces; i++)
+    PetscCall(archive_multipliers(contact, i, local, archive));
+  if (archive->reading) PetscCall(copy_to_ghosts(&contact->physics->unknowns, local));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -116,8 +157,8 @@ static PetscErrorCode archive_owners(const Contact *contact, Interface *interfac
   PetscCallMPI(MPI_Comm_size(PETSC_COMM_WORLD, &size));
   PetscCall(PetscMalloc1(interface->n1, &owner));
   PetscCall(PetscArraycpy(owner, interface->owner, interface->n1));
-  PetscCall(archive_root(archive, "owner", (size_t)interface->n1 * sizeof(*owner), owner));
-  if (contact->mesh->rank == 0 && archive->reading && !archive->bad && archive->n_ranks == size)
+  PetscCall(archive_homes(contact, "owner", interface->n1, sizeof(*owner), owner, archive));
+  if (archive->reading && !archive->bad && archive->n_ranks == size)
     PetscCall(PetscArraycpy(interface->owner, owner, interface->n1));
   PetscCall(PetscFree(owner));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -213,7 +254,7 @@ static PetscErrorCode archive_interface(Contact *contact, PetscInt number, Archi
     refused = find_slip(interface, &interface->part);
   }
   PetscCall(parts_knowledge(interface, &n, &all));
-  PetscCall(archive_root(archive, "nodes", contact->mesh->rank ? 0 : (size_t)n * sizeof(*all), all));
+  PetscCall(archive_homes(contact, "nodes", interface->n1, (size_t)n * sizeof(*all), all, archive));
   if (n_parts < 2) PetscCall(archive_history(contact, interface, owner, archive, &refused));
   PetscCall(refuse(contact, interface, refused, archive));
   if (!archive->reading || archive->bad) {

@@ -40,15 +40,15 @@ static void pack(const ContactPart *part, double packed[], PetscBool from)
   }
 }
 
-/* from all parts to rank 0: `n` numbers in all */
-PetscErrorCode parts_knowledge(const Interface *interface, PetscInt *n, double **all)
+/* from all parts to homes: `n` numbers here */
+PetscErrorCode parts_knowledge(const Interface *interface, PetscInt *n_a_node, double **all)
 {
   const ContactPart *part = &interface->part;
   double            *here;
   PetscFunctionBegin;
-  *n = width(part) * interface->n1;
+  *n_a_node = width(part);
   PetscCall(PetscMalloc1(width(part) * part->n1, &here));
-  PetscCall(PetscMalloc1(*n, all));
+  PetscCall(PetscMalloc1(width(part) * interface->n1, all));
   pack(part, here, PETSC_FALSE);
   PetscCall(parts_collect(part, width(part), here, *all));
   PetscCall(PetscFree(here));
@@ -125,6 +125,7 @@ static PetscErrorCode carry_counts(const ContactPart *old, ContactPart *new)
   stickslip_counters counters = {.struct_size = sizeof(counters)};
   PetscFunctionBegin;
   new->bytes = old->bytes;
+  new->processor += old->processor;
   new->spent = old->spent;
   if (!old->handle) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCallStickslip(part_counters(old, &counters));
@@ -207,41 +208,41 @@ PetscErrorCode contact_renew(Contact *contact, PetscInt number, Vec to, PetscInt
 }
 
 /* the largest sum of a rank's nodes over the mean of all ranks */
-static double largest_share(const Interface *interface, PetscMPIInt size, const PetscInt owner[], const double work[])
+static PetscErrorCode largest_share(const Interface *interface, PetscMPIInt size, const PetscInt owner[], const double work[],
+                                    double *largest)
 {
   double *sums, all = 0, most = 0;
-  PetscCallAbort(PETSC_COMM_SELF, PetscCalloc1(size, &sums));
-  for (PetscInt a = 0; a < interface->n1; a++) {
+  PetscFunctionBegin;
+  PetscCall(PetscCalloc1(size, &sums));
+  for (PetscInt a = 0; a < interface->n1; a++)
     sums[owner[a]] += work[a];
-    all += work[a];
-  }
-  for (PetscMPIInt r = 0; r < size; r++)
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, sums, size, MPI_DOUBLE, MPI_SUM, PETSC_COMM_WORLD));
+  for (PetscMPIInt r = 0; r < size; r++) {
     most = PetscMax(most, sums[r]);
-  PetscCallAbort(PETSC_COMM_SELF, PetscFree(sums));
-  return most * size / all;
+    all += sums[r];
+  }
+  *largest = most * size / all;
+  PetscCall(PetscFree(sums));
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* Is another partition better for the pairs of now? Then interface->owner is that one. */
 static PetscErrorCode choose_again(Contact *contact, Interface *interface, PetscBool *better)
 {
-  const PetscMPIInt rank = contact->mesh->rank;
-  PetscMPIInt       size;
+  const PetscMPIInt size = contact->mesh->size;
   PetscReal         depth, shortest;
-  double           *work;
+  double           *work, now, then;
   PetscInt         *owner;
 
   PetscFunctionBegin;
-  *better = PETSC_FALSE;
-  PetscCallMPI(MPI_Comm_size(PETSC_COMM_WORLD, &size));
   PetscCall(PetscMalloc2(interface->n1, &work, interface->n1, &owner));
-  PetscCall(work_measure(interface, rank, work, &depth, &shortest));
-  if (rank == 0) {
-    PetscCall(partition_nodes(interface->dimension, interface->n1, interface->X, work, size, owner));
-    *better = (PetscBool)(largest_share(interface, size, owner, work) <
-                          (1 - SAVES) * largest_share(interface, size, interface->owner, work));
-    if (*better) PetscCall(PetscArraycpy(interface->owner, owner, interface->n1));
-  }
-  PetscCallMPI(MPI_Bcast(better, 1, MPIU_BOOL, 0, PETSC_COMM_WORLD));
+  PetscCall(work_measure(interface, contact->mesh->rank, work, &depth, &shortest));
+  PetscCall(partition_nodes(PETSC_COMM_WORLD, interface->dimension, interface->n1, interface->first[0], interface->X, work, size, owner));
+  PetscCall(largest_share(interface, size, interface->owner, work, &now));
+  PetscCall(largest_share(interface, size, owner, work, &then));
+  *better = (PetscBool)(then < (1 - SAVES) * now);
+  PetscCallMPI(MPI_Bcast(better, 1, MPIU_BOOL, 0, PETSC_COMM_WORLD)); /* sums may be rounded otherwise elsewhere */
+  if (*better) PetscCall(PetscArraycpy(interface->owner, owner, interface->n1));
   PetscCall(PetscFree2(work, owner));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

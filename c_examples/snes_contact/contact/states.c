@@ -1,11 +1,7 @@
 /* What the library says of the nodes: their states and results; and the augmentation that single nodes are given. */
 #include "contact/contact.h"
 
-/* A node's results while they travel: state, normal, multiplier, gap, slip, coverage, area, dissipation. */
-enum { STATE, NORMAL, MULTIPLIER = NORMAL + 3, GAP = MULTIPLIER + 3, SLIP, COVERAGE = SLIP + 3, AREA, DISSIPATION, N_RESULTS };
-
-/* results of the part's nodes, N_RESULTS a node */
-static PetscErrorCode evaluate(const ContactPart *part, double results[])
+PetscErrorCode contact_results(const ContactPart *part, double results[])
 {
   const PetscInt     n1 = part->n1, d = part->dimension;
   const PetscScalar *lambda = MULTIPLIERS_OF(part, part->gathered);
@@ -18,23 +14,23 @@ static PetscErrorCode evaluate(const ContactPart *part, double results[])
   PetscCallStickslip(stickslip_interface_states(part->handle, STATE_OF(part), NULL, &wanted));
   for (PetscInt a = 0; a < n1; a++) {
     double *r = results + N_RESULTS * a;
-    r[STATE]  = wanted.state[a];
-    contact_vector(d, wanted.normal, a, r + NORMAL);
-    contact_vector(d, wanted.slip, a, r + SLIP);
-    if (part->components > 1) contact_vector(d, lambda, a, r + MULTIPLIER);
+    r[RESULT_STATE]  = wanted.state[a];
+    contact_vector(d, wanted.normal, a, r + RESULT_NORMAL);
+    contact_vector(d, wanted.slip, a, r + RESULT_SLIP);
+    if (part->components > 1) contact_vector(d, lambda, a, r + RESULT_MULTIPLIER);
     for (int i = 0; i < 3 && part->components == 1; i++)
-      r[MULTIPLIER + i] = PetscRealPart(lambda[a]) * r[NORMAL + i];
-    r[GAP]         = wanted.gap[a];
-    r[COVERAGE]    = wanted.coverage[a];
-    r[AREA]        = wanted.area[a];
-    r[DISSIPATION] = wanted.dissipation[a];
+      r[RESULT_MULTIPLIER + i] = PetscRealPart(lambda[a]) * r[RESULT_NORMAL + i];
+    r[RESULT_GAP]         = wanted.gap[a];
+    r[RESULT_COVERAGE]    = wanted.coverage[a];
+    r[RESULT_AREA]        = wanted.area[a];
+    r[RESULT_DISSIPATION] = wanted.dissipation[a];
   }
   PetscCall(PetscFree7(wanted.state, wanted.normal, wanted.gap, wanted.slip, wanted.coverage, wanted.area,
                        wanted.dissipation));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* rank 0: the results of all nodes in their arrays */
+/* the results of the nodes at home in their arrays */
 static PetscErrorCode store(const double results[], PetscInt n1, ContactStates *states)
 {
   PetscFunctionBegin;
@@ -45,14 +41,14 @@ static PetscErrorCode store(const double results[], PetscInt n1, ContactStates *
   }
   for (PetscInt a = 0; a < n1; a++) {
     const double *r        = results + N_RESULTS * a;
-    states->state[a]       = (int32_t)r[STATE];
-    states->gap[a]         = r[GAP];
-    states->coverage[a]    = r[COVERAGE];
-    states->area[a]        = r[AREA];
-    states->dissipation[a] = r[DISSIPATION];
-    PetscCall(PetscArraycpy(states->normal + 3 * a, r + NORMAL, 3));
-    PetscCall(PetscArraycpy(states->multiplier + 3 * a, r + MULTIPLIER, 3));
-    PetscCall(PetscArraycpy(states->slip + 3 * a, r + SLIP, 3));
+    states->state[a]       = (int32_t)r[RESULT_STATE];
+    states->gap[a]         = r[RESULT_GAP];
+    states->coverage[a]    = r[RESULT_COVERAGE];
+    states->area[a]        = r[RESULT_AREA];
+    states->dissipation[a] = r[RESULT_DISSIPATION];
+    PetscCall(PetscArraycpy(states->normal + 3 * a, r + RESULT_NORMAL, 3));
+    PetscCall(PetscArraycpy(states->multiplier + 3 * a, r + RESULT_MULTIPLIER, 3));
+    PetscCall(PetscArraycpy(states->slip + 3 * a, r + RESULT_SLIP, 3));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -66,9 +62,9 @@ PetscErrorCode contact_collect(Contact *contact)
     const ContactPart *part      = &interface->part;
     double            *here, *all;
     PetscCall(PetscMalloc2(N_RESULTS * part->n1, &here, N_RESULTS * interface->n1, &all));
-    PetscCall(evaluate(part, here));
+    PetscCall(contact_results(part, here));
     PetscCall(parts_collect(part, N_RESULTS, here, all));
-    if (contact->mesh->rank == 0) PetscCall(store(all, interface->n1, &interface->states));
+    PetscCall(store(all, interface->n1, &interface->states));
     PetscCall(PetscFree2(here, all));
     PetscCall(contact_fetch(interface->sf, physics->u_local, interface->displacements));
     PetscCall(VecZeroEntries(physics->f_sum));
@@ -101,8 +97,8 @@ static PetscErrorCode tendencies(const ContactPart *part, double results[])
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* rank 0, over the nodes of all interfaces, one interface after the other, at u_local: states; tangential parts of the
- * projected tractions */
+/* over the nodes at home of all interfaces, one interface after the other, at u_local: states; tangential parts of the projected
+ * tractions */
 PetscErrorCode contact_tendencies(Contact *contact, int32_t *state, double *tangential)
 {
   PetscFunctionBegin;
@@ -124,7 +120,7 @@ PetscErrorCode contact_tendencies(Contact *contact, int32_t *state, double *tang
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The augmentation of an interface's nodes that rank 0 has marked, times `factor`. */
+/* The augmentation of an interface's nodes that are marked at home, times `factor`. */
 static PetscErrorCode scale_augmentation(const Interface *interface, const PetscBool marked[], PetscReal factor)
 {
   const ContactPart *part   = &interface->part;
@@ -147,7 +143,7 @@ static PetscErrorCode scale_augmentation(const Interface *interface, const Petsc
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The augmentation of the nodes marked (rank 0; all interfaces, one after the other) times `factor`. The answer does not
+/* The augmentation of the nodes marked (those at home of all interfaces, one after the other) times `factor`. The answer does not
  * depend on it. */
 PetscErrorCode contact_scale_augmentation(Contact *contact, const PetscBool *marked, PetscReal factor)
 {

@@ -75,7 +75,7 @@ static PetscErrorCode find_plane(const Mesh *mesh, const Support *support, Petsc
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Which nodes of an interface a support holds (rank 0), and how many of each side, on every rank. */
+/* Which nodes of an interface a support holds, and how many of each side on all ranks. */
 static PetscErrorCode find_held(const Mesh *mesh, const Support *support, const Interface *interface, PetscInt held[],
                                 PetscInt counts[2])
 {
@@ -90,7 +90,7 @@ static PetscErrorCode find_held(const Mesh *mesh, const Support *support, const 
   counts[0] = counts[1] = 0;
   for (PetscInt k = 0; k < interface->n1 + interface->n2; k++)
     counts[k >= interface->n1] += held[k];
-  PetscCallMPI(MPI_Bcast(counts, 2, MPIU_INT, 0, PETSC_COMM_WORLD));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, counts, 2, MPIU_INT, MPI_SUM, PETSC_COMM_WORLD));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -113,18 +113,17 @@ static PetscErrorCode find_other(const Physics *physics, const Interface *interf
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* adds to each non-mortar node's mask (rank 0) the normal of the planes of symmetry that it lies in */
+/* adds to each non-mortar node's mask the normal of the planes of symmetry that it lies in */
 PetscErrorCode symmetry_mask(const Physics *physics, const Interface *interface, PetscInt mask[])
 {
   const Mesh *mesh = physics->mesh;
   PetscReal   tolerance = 0;
-  PetscInt   *held, n1 = interface->n1;
+  PetscInt   *held;
   Plane      *planes;
 
   PetscFunctionBegin;
   PetscCall(mesh_size(mesh, &tolerance));
   tolerance *= SAME_PLANE;
-  PetscCallMPI(MPI_Bcast(&n1, 1, MPIU_INT, 0, PETSC_COMM_WORLD));
   PetscCall(PetscMalloc2(interface->n1 + interface->n2, &held, physics->n_supports, &planes));
   for (PetscInt s = 0; s < physics->n_supports; s++)
     PetscCall(find_plane(mesh, &physics->supports[s], tolerance, &planes[s]));
@@ -133,7 +132,7 @@ PetscErrorCode symmetry_mask(const Physics *physics, const Interface *interface,
     PetscBool both;
     if (planes[s].axis == NO_PLANE) continue;
     PetscCall(find_held(mesh, &physics->supports[s], interface, held, counts));
-    if (!counts[0] || counts[0] == n1) continue; /* a surface that lies in the plane is not cut by it */
+    if (!counts[0] || counts[0] == interface->all[0]) continue; /* a surface that lies in the plane is not cut by it */
     PetscCall(find_other(physics, interface, s, planes, tolerance, &both));
     for (PetscInt a = 0; a < interface->n1 && both; a++)
       mask[a] |= held[a] << planes[s].axis;

@@ -149,6 +149,7 @@ PetscErrorCode contact_tangent(Contact *contact, Mat matrix, PetscInt *status)
     int32_t      refused   = 0;
     Entries      found     = {0};
     PetscCall(contact_gather(contact, interface, contact->physics->u_local));
+    part->processor -= work_clock();
     if (part->handle && contact->condensed) {
       PetscCall(contact_entries(contact, part, STICKSLIP_CONDENSED_FORCES, &found, &refused));
     } else if (part->handle) {
@@ -156,6 +157,7 @@ PetscErrorCode contact_tangent(Contact *contact, Mat matrix, PetscInt *status)
       PetscCall(rigid_values(contact, part, PETSC_TRUE, &refused));
       found = rigid_part_entries(part, part->planned);
     }
+    part->processor += work_clock();
     if (!refused) PetscCall(insert(found, PETSC_FALSE, matrix));
     PetscCall(contact_agree(contact, interface, refused, status));
   }

@@ -1,5 +1,6 @@
 /* What the contact of each node costs, for partitions, and how deep the bodies are in each other. */
 #include "contact/contact.h"
+#include <time.h>
 
 /* of a part's facets, both sides */
 static PetscReal shortest_edge(const ContactPart *part)
@@ -21,7 +22,7 @@ static PetscReal shortest_edge(const ContactPart *part)
   return PetscSqrtReal(squared);
 }
 
-/* At the positions of the parts: the mortar facets over each node, and one for the node (rank 0, n1); how deep the bodies are in
+/* At the positions of the parts: the mortar facets over each node, and one for the node (at home); how deep the bodies are in
  * each other, in facets; the shortest edge. */
 PetscErrorCode work_measure(const Interface *interface, PetscMPIInt rank, double work[], PetscReal *depth, PetscReal *shortest)
 {
@@ -41,4 +42,22 @@ PetscErrorCode work_measure(const Interface *interface, PetscMPIInt rank, double
   PetscCall(parts_collect(part, 1, here, work));
   PetscCall(PetscFree2(facets, here));
   PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+double work_clock(void)
+{
+  return (double)clock() / CLOCKS_PER_SEC;
+}
+
+/* array by array, as contact.h has them */
+PetscLogDouble work_bytes(const ContactPart *part)
+{
+  const PetscLogDouble n1 = part->n1, n = part->n1 + part->n2, entries = part->dimension * n + part->components * n1;
+  PetscLogDouble       bytes = entries * 8 * (5 + 4 + 4) + n * 4 * sizeof(PetscInt) + n1 * (6 * sizeof(PetscInt) + 8 * (part->dimension + 2));
+  bytes += (PetscLogDouble)part->coo_capacity * (2 * sizeof(int64_t) + sizeof(double));
+  for (int side = 0; side < 2; side++) {
+    const PetscInt n_facets = part->n_facets[side];
+    bytes += (2.0 * n_facets + 1 + (part->offsets[side] ? part->offsets[side][n_facets] : 0)) * sizeof(PetscInt);
+  }
+  return bytes;
 }

@@ -15,8 +15,9 @@ typedef struct {
   char      name[2 * NAME_LENGTH]; /* "block.zmin", or a name of `surfaces` */
   PetscInt  n_faces;
   PetscInt *offsets;  /* n_faces + 1 */
-  PetscInt *vertices; /* of its faces, in the order of cell_face(): those of the piece; of a surface gathered, its own nodes */
+  PetscInt *vertices; /* of its faces, in the order of cell_face(): those of the piece; of a surface dealt out, numbers of its own nodes */
   PetscInt *numbers;  /* of its faces; NULL: they follow each other */
+  PetscInt  first;    /* of a surface dealt out: number of its first face here */
   PetscBool inner;    /* lies inside a body: good for supports only */
   PetscBool analytic; /* a plane, sphere or cylinder, a line or circle, without faces: good for a mortar side only */
   PetscInt  shape;    /* STICKSLIP_SHAPE_... */
@@ -118,9 +119,12 @@ PetscErrorCode pieces_fetch_create(const Mesh *mesh, PetscInt n, const PetscInt 
 /* from entries that all ranks keep of ranges of numbers, so many here, to those of these numbers */
 PetscErrorCode directory_create(const Mesh *mesh, PetscInt n, const PetscInt numbers[], PetscInt *n_here, PetscSF *sf);
 
-/* gather.c: on rank 0 a surface of all pieces, whose vertices are its own nodes, numbered as they are met; their numbers in the
- * mesh and coordinates. Other ranks get an empty one. */
-PetscErrorCode surface_gather(const Mesh *mesh, const Surface *surface, Surface *whole, PetscInt *n_nodes, PetscInt **nodes);
+/* deal.c: packed one rank after the other, counts[r] for rank r; from all ranks, one after the other */
+PetscErrorCode numbers_deal(const Mesh *mesh, const PetscMPIInt counts[], const PetscInt packed[], PetscInt *n, PetscInt **received);
+
+/* shares.c: of a surface of all pieces the faces of this rank's range, and the nodes that are numbered here, as vertices of the mesh: their
+ * numbers follow those of the ranks before. The frame of an analytic surface is on rank 0. */
+PetscErrorCode surface_share(const Mesh *mesh, const Surface *surface, Surface *share, PetscInt *n_nodes, PetscInt **nodes);
 PetscErrorCode surface_destroy(Surface *surface);
 
 /* plex.c */

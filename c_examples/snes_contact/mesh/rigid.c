@@ -5,6 +5,10 @@
  * each of the first two vertices and two others, make one piece of it in the DMPlex: where a vertex is, there are the first two. */
 #include "mesh/mesh.h"
 
+/* Nodes are placed from the reference point, and rounded by its distance. So many sizes of the body away it costs three digits of
+ * positions; at ten times as many Newton's method stalls above its tolerance. */
+static const PetscReal FAR = 1e3;
+
 /* By map.from: where its surfaces come from. */
 enum { FROM_BOX, FROM_GMSH, FROM_STL, FROM_ANALYTIC };
 static const char *const FROM[] = {"box", "gmsh", "stl", "analytic", NULL};
@@ -39,6 +43,25 @@ static PetscInt number_vertices(const Mesh *shell, PetscInt number[])
   for (PetscInt v = 0; v < shell->n_vertices; v++)
     number[v] = number[v] < 0 ? -1 : n++;
   return n;
+}
+
+/* rank 0: is the reference point near enough to the n vertices? A surface in closed form has none but its frame. */
+static void check_reference(Scene *scene, const char *body, const PetscReal point[3], const Mesh *shell, const PetscInt number[])
+{
+  Extent    extent = extent_of_nothing();
+  PetscReal size, distance = 0;
+  for (PetscInt s = 0; s < shell->n_surfaces; s++) {
+    if (shell->surfaces[s].analytic) return;
+  }
+  for (PetscInt v = 0; v < shell->n_vertices; v++) {
+    if (number[v] >= 0) extent_add(&extent, shell->coordinates + 3 * v);
+  }
+  size = PetscSqrtReal(extent_diagonal_squared(&extent));
+  for (int i = 0; i < 3; i++) /* the largest component: a square may overflow */
+    distance = PetscMax(distance, PetscMax(point[i] - extent.high[i], extent.low[i] - point[i]));
+  if (distance > FAR * size)
+    scene_fail(scene, body, "reference", "it lies %.3g times the body's size away from it; at most %g are allowed, for rounding.",
+               (double)(distance / size), (double)FAR);
 }
 
 /* The first two vertices and n others, in cells. */
@@ -145,14 +168,17 @@ PetscErrorCode rigid_create(Scene *scene, Body *body, Mesh *mesh)
     scene_fail(scene, body->name, "reference",
                "this key is missing: the point that moves with the body, where its forces act and about which it turns.");
   PetscCall(create_shell(scene, body->name, from, &shell, mesh->rank));
+  scene_root_begin(scene);
   if (mesh->rank == 0) {
     PetscCall(PetscMalloc1(shell.n_vertices, &number));
     n = number_vertices(&shell, number);
+    check_reference(scene, body->name, point, &shell, number);
     PetscCall(append_vertices(mesh, point, &shell, number, n));
     PetscCall(append_surfaces(mesh, &shell, number, first + 2, frame + 2));
     PetscCall(keep_shell(mesh, &shell, number, n, &body->shell));
     PetscCall(PetscFree(number));
   }
+  PetscCall(scene_root_end(scene));
   PetscCall(mesh_destroy(&shell));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

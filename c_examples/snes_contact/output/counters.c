@@ -8,14 +8,20 @@
 typedef struct {
   stickslip_counters counters;
   int64_t            bytes, nodes, nodes_held, facets, facets_mortar;
+  double             nodes_home, bytes_home, bytes_part, processor;
   char               effects[1024];
 } Share;
 
-static PetscErrorCode count(const ContactPart *part, Share *share)
+static PetscErrorCode count(const Interface *interface, Share *share)
 {
+  const ContactPart *part = &interface->part;
   PetscFunctionBegin;
   *share                      = (Share){.bytes = part->bytes, .nodes_held = part->n1};
   share->counters.struct_size = sizeof(share->counters);
+  share->nodes_home           = interface->n1 + interface->n2;
+  share->bytes_home           = homes_bytes(interface);
+  share->bytes_part           = work_bytes(part);
+  share->processor            = part->processor;
   share->facets               = part->n_facets[0];
   share->facets_mortar        = part->n_facets[1];
   for (PetscInt a = 0; a < part->n1; a++)
@@ -39,12 +45,16 @@ static void add_shares(cJSON *json, PetscMPIInt size, const Share *shares)
     cJSON_AddNumberToObject(rank, "facets_held", (double)share->facets);
     cJSON_AddNumberToObject(rank, "mortar_facets_held", (double)share->facets_mortar);
     cJSON_AddNumberToObject(rank, "bytes", (double)share->bytes);
+    cJSON_AddNumberToObject(rank, "bytes_part", share->bytes_part);
+    cJSON_AddNumberToObject(rank, "nodes_home", share->nodes_home);
+    cJSON_AddNumberToObject(rank, "bytes_home", share->bytes_home);
     cJSON_AddNumberToObject(rank, "pairs_active", (double)share->counters.pairs_active);
     cJSON_AddNumberToObject(rank, "pairs_integrated", (double)share->counters.pairs_integrated);
     cJSON_AddNumberToObject(rank, "pairs_linearised", (double)share->counters.pairs_linearised);
     cJSON_AddNumberToObject(rank, "seconds",
                             share->counters.seconds_search + share->counters.seconds_integration +
                               share->counters.seconds_assembly);
+    cJSON_AddNumberToObject(rank, "processor", share->processor);
     cJSON_AddItemToArray(ranks, rank);
   }
 }
@@ -97,6 +107,9 @@ static void add_counters(const Interface *interface, const char *cover, PetscMPI
   sum->seconds_integration += number;
   ADD(seconds_assembly, counters.seconds_assembly);
   sum->seconds_assembly += number;
+  ADD(bytes_part, bytes_part);
+  ADD(bytes_home, bytes_home);
+  ADD(processor, processor);
 #undef ADD
   if (interface->n_parts > 1) {
     cJSON_AddNumberToObject(json, "halo_grown", (double)interface->n_grown);
@@ -114,7 +127,7 @@ static PetscErrorCode interface_counters(const Interface *interface, PetscMPIInt
 
   PetscFunctionBegin;
   PetscCallMPI(MPI_Comm_size(PETSC_COMM_WORLD, &size));
-  PetscCall(count(&interface->part, &mine));
+  PetscCall(count(interface, &mine));
   /* after the counters, which it adds to; a run that ended beyond what can be computed has none */
   PetscCall(contact_cover(interface, interface->part.handle, rank, &cover, NULL));
   if (rank == 0) PetscCall(PetscMalloc1(size, &shares));

@@ -51,7 +51,7 @@ PetscErrorCode diagnosis_failed(Output *output, struct cJSON *root);
 PetscErrorCode nodal_tractions(const Mesh *mesh, const Interface *interface, const ContactStates *states,
                                double tractions[]);
 /* csv.c */
-PetscErrorCode csv_adjusted(Output *output, const Interface *interface); /* rank 0, once */
+PetscErrorCode csv_adjusted(Output *output, const Interface *interface); /* once */
 PetscErrorCode csv_write(Output *output, const Interface *interface, const ContactStates *states, PetscInt step);
 /* vtu_array.c */
 int            vtu_type(CellKind kind);

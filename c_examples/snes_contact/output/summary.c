@@ -64,14 +64,15 @@ PetscErrorCode summary_create(Output *output, Summary **out)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* rank 0: force, counts and CSV file of one interface; returns a piece of the progress line */
+/* Force, counts and CSV file of one interface; returns a piece of the progress line. */
 static PetscErrorCode interface_results(Output *output, Interface *interface, PetscInt step, PetscBool write,
                                         cJSON *parent, double *work, char progress[], size_t length)
 {
-  PetscInt      counts[3] = {0, 0, 0};
-  PetscReal     force[3]  = {0, 0, 0}, nodal[3];
+  PetscInt             counts[3] = {0, 0, 0};
+  PetscReal            force[3] = {0, 0, 0}, nodal[3];
+  double               dissipation = 0;
   const ContactStates *states = &interface->states;
-  cJSON        *json = cJSON_AddObjectToObject(parent, interface->name);
+  cJSON               *json   = cJSON_AddObjectToObject(parent, interface->name);
 
   PetscFunctionBegin;
   for (PetscInt a = 0; a < interface->n1; a++) {
@@ -79,8 +80,12 @@ static PetscErrorCode interface_results(Output *output, Interface *interface, Pe
     contact_vector(interface->dimension, interface->forces, a, nodal);
     for (int i = 0; i < 3; i++)
       force[i] -= nodal[i]; /* f1 is an internal force */
-    interface->friction_work += states->dissipation[a];
+    dissipation += states->dissipation[a];
   }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, counts, 3, MPIU_INT, MPI_SUM, PETSC_COMM_WORLD));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, force, 3, MPIU_REAL, MPIU_SUM, PETSC_COMM_WORLD));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &dissipation, 1, MPI_DOUBLE, MPI_SUM, PETSC_COMM_WORLD));
+  interface->friction_work += dissipation;
   *work += interface->friction_work;
   cJSON_AddItemToObject(json, "force", vector_json(force));
   cJSON_AddNumberToObject(json, "gap", counts[STICKSLIP_STATE_GAP]);
@@ -237,14 +242,12 @@ PetscErrorCode summary_step(Output *output, Summary *summary, PetscInt step, Pet
   PetscCall(add_reactions(output, json));
   add_rigids(output, json);
   PetscCall(contact_collect(contact));
-  if (output->mesh->rank == 0) {
-    interfaces = cJSON_AddObjectToObject(json, "interfaces");
-    for (PetscInt i = 0; i < contact->n_interfaces; i++) {
-      const size_t used       = strlen(progress);
-      summary->work_before[i] = contact->interfaces[i].friction_work;
-      PetscCall(interface_results(output, &contact->interfaces[i], step, csv, interfaces, &friction_work,
-                                  progress + used, sizeof(summary->progress) - used));
-    }
+  interfaces = cJSON_AddObjectToObject(json, "interfaces");
+  for (PetscInt i = 0; i < contact->n_interfaces; i++) {
+    const size_t used       = strlen(progress);
+    summary->work_before[i] = contact->interfaces[i].friction_work;
+    PetscCall(interface_results(output, &contact->interfaces[i], step, csv, interfaces, &friction_work,
+                                progress + used, sizeof(summary->progress) - used));
   }
   PetscCall(add_probes(output, json));
   if (vtu) PetscCall(vtu_write(output, step));
@@ -265,7 +268,7 @@ PetscErrorCode summary_settle_step(Output *output, Summary *summary, PetscBool a
   PetscCall(VecDestroy(&summary->state));
   if (accepted) PetscFunctionReturn(PETSC_SUCCESS);
   cJSON_DeleteItemFromArray(summary->steps, cJSON_GetArraySize(summary->steps) - 1);
-  for (PetscInt i = 0; i < output->contact->n_interfaces && output->mesh->rank == 0; i++)
+  for (PetscInt i = 0; i < output->contact->n_interfaces; i++)
     output->contact->interfaces[i].friction_work = summary->work_before[i];
   PetscFunctionReturn(PETSC_SUCCESS);
 }

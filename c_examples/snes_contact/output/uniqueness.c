@@ -8,7 +8,7 @@
 #include <cjson/cJSON.h>
 #include <petscblaslapack.h>
 
-/* rank 0: the largest friction for which node a has one state of rest; `sorted` are the rows of `stiffness` */
+/* the largest friction for which node a has one state of rest; `sorted` are the rows of `stiffness` */
 static PetscErrorCode critical_friction(const Interface *interface, PetscInt a, const double normal[3], Mat stiffness,
                                         PetscInt n_rows, const PetscInt sorted[], double *critical)
 {
@@ -46,59 +46,81 @@ static PetscErrorCode critical_friction(const Interface *interface, PetscInt a, 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* rank 0: the node of least critical friction among those over the other surface */
-static PetscErrorCode judge(const Interface *interface, Mat stiffness, PetscInt n_rows, const PetscInt sorted[],
-                            cJSON *parent)
-{
-  static const char *const names[] = {"gap", "stick", "slip"};
-  const ContactStates     *states = &interface->states;
-  PetscInt                 worst = -1;
-  double                   least = PETSC_MAX_REAL;
+/* The node of least critical friction, as it is told. */
+typedef struct {
+  double   critical, X[3];
+  PetscInt node, state;
+} Worst;
 
+/* Among those at home here that are over the other surface. */
+static PetscErrorCode find_worst(const Interface *interface, Mat stiffness, PetscInt n_rows, const PetscInt sorted[], Worst *worst)
+{
+  const ContactStates *states = &interface->states;
   PetscFunctionBegin;
+  *worst = (Worst){.critical = PETSC_MAX_REAL, .node = -1};
   for (PetscInt a = 0; a < interface->n1; a++) {
     double critical;
     if (!(states->coverage[a] > 0)) continue;
     PetscCall(critical_friction(interface, a, states->normal + 3 * a, stiffness, n_rows, sorted, &critical));
-    if (critical < least) least = critical, worst = a;
+    if (!(critical < worst->critical)) continue;
+    *worst = (Worst){.critical = critical, .node = interface->nodes[a], .state = states->state[a]};
+    contact_vector(interface->dimension, interface->X, a, worst->X);
   }
-  if (worst >= 0 && interface->options.mu >= least) {
-    PetscReal X[3];
-    cJSON    *json = cJSON_AddObjectToObject(parent, interface->name);
-    contact_vector(interface->dimension, interface->X, worst, X);
-    cJSON_AddNumberToObject(json, "critical_friction", least);
-    cJSON_AddNumberToObject(json, "node", interface->nodes[worst]);
-    cJSON_AddStringToObject(json, "state", names[states->state[worst]]);
-    PetscCall(PetscFPrintf(PETSC_COMM_SELF, PETSC_STDERR,
-                           "%s: with friction %g, not below %.3g, node %d at (%g, %g, %g) may have several states of "
-                           "rest under one load; it ended in %s\n",
-                           interface->name, interface->options.mu, least, (int)interface->nodes[worst], (double)X[0],
-                           (double)X[1], (double)X[2], names[states->state[worst]]));
-  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Of all ranks, of equal ones the first one's. */
+static PetscErrorCode agree(const Mesh *mesh, Worst *worst)
+{
+  struct {
+    double critical;
+    int    rank;
+  } least = {.critical = worst->critical, .rank = mesh->rank};
+  PetscFunctionBegin;
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &least, 1, MPI_DOUBLE_INT, MPI_MINLOC, PETSC_COMM_WORLD));
+  PetscCallMPI(MPI_Bcast(worst, sizeof(*worst), MPI_BYTE, least.rank, PETSC_COMM_WORLD));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode tell(const Interface *interface, const Worst *worst, cJSON *parent)
+{
+  static const char *const names[] = {"gap", "stick", "slip"};
+  cJSON                   *json    = cJSON_AddObjectToObject(parent, interface->name);
+  PetscFunctionBegin;
+  cJSON_AddNumberToObject(json, "critical_friction", worst->critical);
+  cJSON_AddNumberToObject(json, "node", worst->node);
+  cJSON_AddStringToObject(json, "state", names[worst->state]);
+  PetscCall(PetscFPrintf(PETSC_COMM_WORLD, PETSC_STDERR,
+                         "%s: with friction %g, not below %.3g, node %d at (%g, %g, %g) may have several states of "
+                         "rest under one load; it ended in %s\n",
+                         interface->name, interface->options.mu, worst->critical, (int)worst->node, worst->X[0], worst->X[1],
+                         worst->X[2], names[worst->state]));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 static PetscErrorCode check_interface(Output *output, Interface *interface, Mat stiffness, cJSON *parent)
 {
-  const Mesh     *mesh = output->mesh;
   const PetscInt *sorted;
   PetscInt        n = 0, *rows = NULL;
   Mat            *part;
+  Worst           worst;
   IS              is;
 
   PetscFunctionBegin;
   PetscCall(PetscMalloc1(interface->dimension * interface->n1, &rows));
-  for (PetscInt k = 0; k < interface->dimension * interface->n1 && mesh->rank == 0; k++) {
+  for (PetscInt k = 0; k < interface->dimension * interface->n1; k++) {
     if (interface->equations[k] >= 0) rows[n++] = (PetscInt)interface->equations[k];
   }
   PetscCall(PetscSortRemoveDupsInt(&n, rows));
   PetscCall(ISCreateGeneral(PETSC_COMM_SELF, n, rows, PETSC_OWN_POINTER, &is));
-  PetscCall(MatCreateSubMatrices(stiffness, mesh->rank == 0, &is, &is, MAT_INITIAL_MATRIX, &part));
+  PetscCall(MatCreateSubMatrices(stiffness, 1, &is, &is, MAT_INITIAL_MATRIX, &part));
   PetscCall(ISGetIndices(is, &sorted));
-  if (mesh->rank == 0) PetscCall(judge(interface, part[0], n, sorted, parent));
+  PetscCall(find_worst(interface, part[0], n, sorted, &worst));
   PetscCall(ISRestoreIndices(is, &sorted));
-  PetscCall(MatDestroySubMatrices(mesh->rank == 0, &part));
+  PetscCall(MatDestroySubMatrices(1, &part));
   PetscCall(ISDestroy(&is));
+  PetscCall(agree(output->mesh, &worst));
+  if (worst.node >= 0 && interface->options.mu >= worst.critical) PetscCall(tell(interface, &worst, parent));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -19,7 +19,7 @@ static void integers(FILE *file, const char *name, PetscInt n, const double valu
   vtu_end_array(file);
 }
 
-/* rank 0: what is written of an interface's nodes */
+/* what is written of an interface's nodes at home */
 enum { MULTIPLIER, FORCE = MULTIPLIER + 3, TRACTION = FORCE + 3, PRESSURE = TRACTION + 3, STATE, N_FIELDS };
 
 static PetscErrorCode nodal_fields(const Mesh *mesh, const Interface *interface, double fields[])
@@ -69,7 +69,7 @@ static PetscErrorCode interface_fields(FILE *file, const Physics *physics, const
 
   PetscFunctionBegin;
   PetscCall(PetscCalloc3(N_FIELDS * n_both, &nodal, N_FIELDS * n, &fields, 3 * n, &values));
-  if (physics->mesh->rank == 0) PetscCall(nodal_fields(physics->mesh, interface, nodal));
+  PetscCall(nodal_fields(physics->mesh, interface, nodal));
   PetscCall(piece_fetch(physics, piece, n_both, interface->nodes, N_FIELDS, nodal, NAN, fields));
   for (PetscInt k = 0; k < N_FIELDS * n; k++) /* off the interface */
     fields[k] = isnan(fields[N_FIELDS * (k / N_FIELDS) + N_FIELDS - 1]) ? k % N_FIELDS == STATE ? -1 : 0 : fields[k];

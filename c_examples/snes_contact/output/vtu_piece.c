@@ -62,7 +62,7 @@ PetscErrorCode piece_destroy(Piece *piece)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* From n nodes on rank 0 to the vertices here that they are; n is known there alone. */
+/* From n nodes of each rank to the vertices here that they are. */
 static PetscErrorCode create_map(const Mesh *mesh, PetscInt n, const PetscInt nodes[], PetscSF *sf)
 {
   PetscInt     n_here, n_leaves = 0, *index, *registered, *mine, *leaves;
@@ -70,24 +70,26 @@ static PetscErrorCode create_map(const Mesh *mesh, PetscInt n, const PetscInt no
   PetscSF      directory;
   PetscFunctionBegin;
   PetscCall(directory_create(mesh, n, nodes, &n_here, &directory));
-  PetscCall(PetscMalloc3(n, &index, n_here, &registered, mesh->n_points, &mine));
-  for (PetscInt k = 0; k < n; k++)
-    index[k] = k;
-  for (PetscInt k = 0; k < n_here; k++)
+  PetscCall(PetscMalloc3(2 * n, &index, 2 * n_here, &registered, 2 * mesh->n_points, &mine)); /* rank, number there */
+  for (PetscInt k = 0; k < n; k++) {
+    index[2 * k]     = mesh->rank;
+    index[2 * k + 1] = k;
+  }
+  for (PetscInt k = 0; k < 2 * n_here; k++)
     registered[k] = -1;
-  PetscCall(PetscSFReduceBegin(directory, MPIU_INT, index, registered, MPI_REPLACE));
-  PetscCall(PetscSFReduceEnd(directory, MPIU_INT, index, registered, MPI_REPLACE));
+  PetscCall(PetscSFReduceBegin(directory, MPIU_2INT, index, registered, MPI_REPLACE));
+  PetscCall(PetscSFReduceEnd(directory, MPIU_2INT, index, registered, MPI_REPLACE));
   PetscCall(PetscSFDestroy(&directory));
   PetscCall(directory_create(mesh, mesh->n_points, mesh->original, &n_here, &directory));
-  PetscCall(PetscSFBcastBegin(directory, MPIU_INT, registered, mine, MPI_REPLACE));
-  PetscCall(PetscSFBcastEnd(directory, MPIU_INT, registered, mine, MPI_REPLACE));
+  PetscCall(PetscSFBcastBegin(directory, MPIU_2INT, registered, mine, MPI_REPLACE));
+  PetscCall(PetscSFBcastEnd(directory, MPIU_2INT, registered, mine, MPI_REPLACE));
   PetscCall(PetscSFDestroy(&directory));
   PetscCall(PetscMalloc1(mesh->n_points, &leaves));
   PetscCall(PetscMalloc1(mesh->n_points, &remote));
   for (PetscInt k = 0; k < mesh->n_points; k++) {
-    if (mine[k] < 0) continue;
+    if (mine[2 * k] < 0) continue;
     leaves[n_leaves]   = k;
-    remote[n_leaves++] = (PetscSFNode){.rank = 0, .index = mine[k]};
+    remote[n_leaves++] = (PetscSFNode){.rank = mine[2 * k], .index = mine[2 * k + 1]};
   }
   PetscCall(PetscSFCreate(PETSC_COMM_WORLD, sf));
   PetscCall(PetscSFSetGraph(*sf, n, n_leaves, leaves, PETSC_OWN_POINTER, remote, PETSC_OWN_POINTER));

@@ -53,7 +53,7 @@ enum { RIGID_UNKNOWNS = 6 };
 typedef struct {
   PetscInt  body, first_vertex, end_vertex; /* of the mesh */
   PetscReal mass;
-  PetscInt  held;                     /* mask of prescribed unknowns */
+  PetscInt  held, turned_by;          /* mask of prescribed unknowns; of rotations (from bit 3 on) that a support turns by an angle */
   PetscInt  support[RIGID_UNKNOWNS];  /* which one prescribes each; -1: none */
   PetscReal point[3], length;         /* reference point; the largest distance of a node from it */
   PetscInt  equations[RIGID_UNKNOWNS]; /* -1: prescribed */

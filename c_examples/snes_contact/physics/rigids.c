@@ -314,10 +314,13 @@ PetscInt rigids_of_vertex(const Physics *physics, PetscInt vertex)
   return -1;
 }
 
-/* Components of a node that are prescribed: the displacement is, and so are the turns across it. */
+/* Components of a node that are prescribed: the displacement is, and so are the turns across it, to zero. A turn by an angle has the
+ * third one among the causes of its component, too, which then may not be free. */
 PetscInt rigids_node_mask(const Rigid *rigid)
 {
-  PetscInt mask = 0;
+  const PetscInt turns = 7 << 3;
+  PetscInt       mask  = 0;
+  if (rigid->turned_by && (rigid->held & turns) != turns) return 0;
   for (int i = 0; i < 3; i++) {
     const PetscInt all = 1 << i | 1 << (3 + (i + 1) % 3) | 1 << (3 + (i + 2) % 3);
     if ((rigid->held & all) == all) mask |= 1 << i;

@@ -92,6 +92,7 @@ void rigids_support(Scene *scene, Physics *physics, PetscInt number)
                  physics->supports[rigid->support[k]].name, unknowns[k]);
     rigid->support[k] = number;
     rigid->held |= 1 << k;
+    if (k >= 3 && support->rotate[k - 3] != 0) rigid->turned_by |= 1 << k;
   }
 }
 

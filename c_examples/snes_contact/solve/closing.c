@@ -27,12 +27,6 @@ static const PetscReal FAR = 10;
 /* How far a rigid body may turn in one step, in radians: what it meets is looked for along straight ways. */
 static const PetscReal TURN = 0.2;
 
-/* the body of side 0 or 1 */
-static PetscInt body_of(const Solve *solve, const Interface *interface, int side)
-{
-  return mesh_body_of(solve->mesh, interface->nodes[side ? interface->n1 : 0]);
-}
-
 PetscErrorCode closing_create(Solve *solve)
 {
   const Mesh  *mesh    = solve->mesh;
@@ -82,25 +76,21 @@ static void join(Closing *closing, PetscInt n, PetscInt a, PetscInt b)
   }
 }
 
-/* rank 0: a body that is loose, given the states of all interfaces' nodes, or -1 */
-static PetscInt find_loose(Solve *solve, const int32_t *states)
+/* A body that is loose, given which interfaces join theirs, or -1. */
+static PetscInt find_loose(Solve *solve, const PetscBool joined[])
 {
-  Contact       *contact = solve->contact;
+  const Contact *contact = solve->contact;
   Closing       *closing = &solve->closing;
   const PetscInt n       = solve->mesh->n_bodies;
 
   for (PetscInt b = 0; b < n; b++)
     closing->group[b] = b;
   for (PetscInt i = 0; i < contact->n_interfaces; i++) {
-    const Interface *interface = &contact->interfaces[i];
-    PetscBool        joined    = (PetscBool)(interface->options.friction == STICKSLIP_FRICTION_TIED);
-    for (PetscInt a = 0; a < interface->n1; a++)
-      joined = (PetscBool)(joined || states[a] != STICKSLIP_STATE_GAP);
-    if (joined) join(closing, n, body_of(solve, interface, 0), body_of(solve, interface, 1));
-    states += interface->n1;
+    const PetscInt *body = contact->interfaces[i].body;
+    if (joined[i]) join(closing, n, body[0], body[1]);
   }
   for (PetscInt i = 0; i < contact->n_interfaces; i++) {
-    const PetscInt one = body_of(solve, &contact->interfaces[i], 0), two = body_of(solve, &contact->interfaces[i], 1);
+    const PetscInt one = contact->interfaces[i].body[0], two = contact->interfaces[i].body[1];
     if (closing->group[one] == closing->group[two]) continue;
     for (int side = 0; side < 2; side++) {
       const PetscInt body = side ? two : one;
@@ -116,18 +106,24 @@ static PetscInt find_loose(Solve *solve, const int32_t *states)
 /* A body that is loose at u_local, known to every rank, or -1. */
 static PetscErrorCode loose_body(Solve *solve, PetscInt *body)
 {
-  Contact *contact = solve->contact;
-  int32_t *states;
-  double  *tangential;
-  PetscInt n = 0;
+  Contact   *contact = solve->contact;
+  int32_t   *states;
+  double    *tangential;
+  PetscBool *joined; /* by each interface: a tie, or a node in contact */
+  PetscInt   n = 0, node = 0;
   PetscFunctionBegin;
-  for (PetscInt i = 0; i < contact->n_interfaces && solve->mesh->rank == 0; i++)
+  for (PetscInt i = 0; i < contact->n_interfaces; i++)
     n += contact->interfaces[i].n1;
-  PetscCall(PetscMalloc2(n, &states, 3 * n, &tangential));
+  PetscCall(PetscMalloc3(n, &states, 3 * n, &tangential, contact->n_interfaces, &joined));
   PetscCall(contact_tendencies(contact, states, tangential));
-  *body = solve->mesh->rank == 0 ? find_loose(solve, states) : -1;
-  PetscCall(PetscFree2(states, tangential));
-  PetscCallMPI(MPI_Bcast(body, 1, MPIU_INT, 0, PETSC_COMM_WORLD));
+  for (PetscInt i = 0; i < contact->n_interfaces; i++) {
+    joined[i] = (PetscBool)(contact->interfaces[i].options.friction == STICKSLIP_FRICTION_TIED);
+    for (PetscInt a = 0; a < contact->interfaces[i].n1; a++, node++)
+      joined[i] = (PetscBool)(joined[i] || states[node] != STICKSLIP_STATE_GAP);
+  }
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, joined, (PetscMPIInt)contact->n_interfaces, MPIU_BOOL, MPI_LOR, PETSC_COMM_WORLD));
+  *body = find_loose(solve, joined);
+  PetscCall(PetscFree3(states, tangential, joined));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

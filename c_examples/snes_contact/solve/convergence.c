@@ -81,7 +81,7 @@ static PetscErrorCode judge(SNES snes, Solve *solve, PetscReal norm, SNESConverg
   PetscCall(SNESGetTolerances(snes, &atol, &rtol, NULL, NULL, NULL));
   *reason = SNES_CONVERGED_ITERATING;
   if (PetscIsInfOrNanReal(norm)) {
-    *reason = SNES_DIVERGED_FNORM_NAN;
+    *reason = SNES_DIVERGED_FUNCTION_NANORINF;
     PetscFunctionReturn(PETSC_SUCCESS);
   }
   parts_judge(solve->physics, rtol, atol, flies, &balance, &relative, &solve->newton.drowned);

@@ -5,8 +5,8 @@
  * The states of all non-mortar nodes are kept for the last 2 LONGEST iterations. Slip one way and slip back are two
  * states: slip that turns round in every iteration is the commonest cycle of all under a large augmentation. A cycle
  * of period p is found when the last p sets of states repeat the p before them, no shorter period does, and the
- * residual has not fallen below FALLING of what it was p iterations ago. All on rank 0; the period is told to every
- * rank. */
+ * residual has not fallen below FALLING of what it was p iterations ago. Each rank keeps the nodes that are at home there, and all
+ * agree. */
 #include "solve/solve.h"
 #include <cjson/cJSON.h>
 #include <stdio.h>
@@ -22,7 +22,7 @@ enum { SLIP_BACK = 3 };
 static const char *const STATE_NAMES[] = {"gap", "stick", "slip", "slip back"};
 
 struct Cycling {
-  PetscInt  n_nodes, n; /* non-mortar nodes of all interfaces; sets of states since cycling_restart() */
+  PetscInt  n_nodes, n; /* non-mortar nodes of all interfaces at home here; sets of states since cycling_restart() */
   int32_t  *states;     /* WINDOW x n_nodes; iteration k in row k % WINDOW */
   double   *tangential; /* 3 n_nodes: tangential tractions of the last iteration */
   double   *first;      /* 3 n_nodes: those of its first slip since cycling_restart(), or 0 */
@@ -34,7 +34,7 @@ PetscErrorCode cycling_create(Solve *solve)
   Cycling *cycling;
   PetscFunctionBegin;
   PetscCall(PetscNew(&cycling));
-  for (PetscInt i = 0; i < solve->contact->n_interfaces && solve->mesh->rank == 0; i++)
+  for (PetscInt i = 0; i < solve->contact->n_interfaces; i++)
     cycling->n_nodes += solve->contact->interfaces[i].n1;
   PetscCall(PetscMalloc3(WINDOW * cycling->n_nodes, &cycling->states, 3 * cycling->n_nodes, &cycling->tangential,
                          3 * cycling->n_nodes, &cycling->first));
@@ -78,35 +78,43 @@ static const int32_t *row(const Cycling *cycling, PetscInt back)
   return cycling->states + (cycling->n - 1 - back) % WINDOW * cycling->n_nodes;
 }
 
-static PetscBool repeats(const Cycling *cycling, PetscInt period)
+/* with period 1 up to LONGEST, of all nodes */
+static PetscErrorCode find_repeats(const Cycling *cycling, PetscBool repeats[LONGEST + 1])
 {
-  if (cycling->n < 2 * period) return PETSC_FALSE;
-  for (PetscInt back = 0; back < period; back++) {
-    if (memcmp(row(cycling, back), row(cycling, back + period), (size_t)cycling->n_nodes * sizeof(int32_t)))
-      return PETSC_FALSE;
+  PetscFunctionBegin;
+  repeats[0] = PETSC_TRUE;
+  for (PetscInt period = 1; period <= LONGEST; period++) {
+    repeats[period] = (PetscBool)(cycling->n >= 2 * period);
+    for (PetscInt back = 0; back < period && repeats[period]; back++)
+      repeats[period] = (PetscBool)!memcmp(row(cycling, back), row(cycling, back + period), (size_t)cycling->n_nodes * sizeof(int32_t));
   }
-  return PETSC_TRUE;
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, repeats, LONGEST + 1, MPIU_BOOL, MPI_LAND, PETSC_COMM_WORLD));
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscInt find_period(const Cycling *cycling)
+static PetscErrorCode find_period(const Cycling *cycling, PetscInt *period)
 {
-  if (repeats(cycling, 1)) return 0; /* the states stand still */
-  for (PetscInt period = SHORTEST; period <= LONGEST; period++) {
-    if (repeats(cycling, period) && cycling->norms[(cycling->n - 1) % WINDOW] >
-                                        FALLING * cycling->norms[(cycling->n - 1 - period) % WINDOW])
-      return period;
+  PetscBool repeats[LONGEST + 1];
+  PetscFunctionBegin;
+  PetscCall(find_repeats(cycling, repeats));
+  *period = 0;
+  for (PetscInt p = SHORTEST; p <= LONGEST && !repeats[1] && !*period; p++) { /* with 1 the states stand still */
+    if (repeats[p] && cycling->norms[(cycling->n - 1) % WINDOW] > FALLING * cycling->norms[(cycling->n - 1 - p) % WINDOW]) *period = p;
   }
-  return 0;
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* nodes whose state differs from that of the iteration before, for the report */
-static void count_changes(Solve *solve)
+static PetscErrorCode count_changes(Solve *solve)
 {
   const Cycling *cycling = solve->cycling;
   PetscInt       changes = 0;
+  PetscFunctionBegin;
   for (PetscInt node = 0; node < cycling->n_nodes; node++)
     changes += row(cycling, 0)[node] != row(cycling, 1)[node];
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &changes, 1, MPIU_INT, MPI_SUM, PETSC_COMM_WORLD));
   cJSON_AddItemToArray(solve->newton.state_changes, cJSON_CreateNumber(changes));
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 PetscErrorCode cycling_record(Solve *solve, PetscReal norm, PetscInt *period)
@@ -118,9 +126,8 @@ PetscErrorCode cycling_record(Solve *solve, PetscReal norm, PetscInt *period)
   tell_slip_from_slip_back(cycling, states);
   cycling->norms[cycling->n % WINDOW] = norm;
   cycling->n++;
-  if (solve->mesh->rank == 0 && cycling->n > 1) count_changes(solve);
-  *period = solve->mesh->rank == 0 ? find_period(cycling) : 0;
-  PetscCallMPI(MPI_Bcast(period, 1, MPIU_INT, 0, PETSC_COMM_WORLD));
+  if (cycling->n > 1) PetscCall(count_changes(solve));
+  PetscCall(find_period(cycling, period));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -132,53 +139,90 @@ static PetscBool node_changes(const Cycling *cycling, PetscInt node, PetscInt sp
   return PETSC_FALSE;
 }
 
-/* "node 7 at (0, 0, 1): stick, slip" */
-static void add_to_sentence(const Interface *interface, PetscInt a, const Cycling *cycling, PetscInt node,
-                            PetscInt span, char *sentence, size_t length)
-{
+/* A node that changes state, on its way to rank 0. */
+typedef struct {
   PetscReal X[3];
-  size_t    used = strlen(sentence);
-  contact_vector(interface->dimension, interface->X, a, X);
-  snprintf(sentence + used, length - used, "%s %s node %d at (%g, %g, %g):", used ? ";" : "", interface->name,
-           (int)interface->nodes[a], (double)X[0], (double)X[1], (double)X[2]);
-  for (PetscInt back = span - 1; back >= 0; back--) {
+  PetscInt  interface, node, states[LONGEST]; /* the last of which is that of now */
+} Change;
+
+/* Those here; `found` is to be freed. */
+static PetscErrorCode list_changes(const Solve *solve, PetscInt span, PetscInt *n, Change **found)
+{
+  const Contact *contact = solve->contact;
+  const Cycling *cycling = solve->cycling;
+  PetscInt       node    = 0;
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(cycling->n_nodes, found));
+  *n = 0;
+  for (PetscInt i = 0; i < contact->n_interfaces; i++) {
+    const Interface *interface = &contact->interfaces[i];
+    for (PetscInt a = 0; a < interface->n1; a++, node++) {
+      Change change = {.interface = i, .node = interface->nodes[a]};
+      if (!node_changes(cycling, node, span)) continue;
+      contact_vector(interface->dimension, interface->X, a, change.X);
+      for (PetscInt back = span - 1; back >= 0; back--)
+        change.states[span - 1 - back] = row(cycling, back)[node];
+      (*found)[(*n)++] = change;
+    }
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* From all ranks, one after the other, on rank 0. */
+static PetscErrorCode gather_changes(const Mesh *mesh, PetscInt n, const Change mine[], PetscInt *n_all, Change **all)
+{
+  const PetscMPIInt bytes = (PetscMPIInt)(n * (PetscInt)sizeof(Change));
+  PetscMPIInt      *counts, *starts, total = 0;
+  PetscFunctionBegin;
+  PetscCall(PetscCalloc2(mesh->size, &counts, mesh->size, &starts));
+  PetscCallMPI(MPI_Gather(&bytes, 1, MPI_INT, counts, 1, MPI_INT, 0, PETSC_COMM_WORLD));
+  for (PetscMPIInt r = 0; r < mesh->size; r++) {
+    starts[r] = total;
+    total += counts[r];
+  }
+  *n_all = total / (PetscInt)sizeof(Change);
+  PetscCall(PetscMalloc1(*n_all, all));
+  PetscCallMPI(MPI_Gatherv(mine, bytes, MPI_BYTE, *all, counts, starts, MPI_BYTE, 0, PETSC_COMM_WORLD));
+  PetscCall(PetscFree2(counts, starts));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* "node 7 at (0, 0, 1): stick, slip" */
+static void add_to_sentence(const Contact *contact, const Change *change, PetscInt span, char *sentence, size_t length)
+{
+  size_t used = strlen(sentence);
+  snprintf(sentence + used, length - used, "%s %s node %d at (%g, %g, %g):", used ? ";" : "", contact->interfaces[change->interface].name,
+           (int)change->node, (double)change->X[0], (double)change->X[1], (double)change->X[2]);
+  for (PetscInt k = 0; k < span; k++) {
     used = strlen(sentence);
-    snprintf(sentence + used, length - used, " %s%s", STATE_NAMES[row(cycling, back)[node]], back ? "," : "");
+    snprintf(sentence + used, length - used, " %s%s", STATE_NAMES[change->states[k]], k < span - 1 ? "," : "");
   }
 }
 
-static cJSON *node_json(const Interface *interface, PetscInt a, const Cycling *cycling, PetscInt node, PetscInt span)
+static cJSON *node_json(const Contact *contact, const Change *change, PetscInt span)
 {
-  cJSON    *json = cJSON_CreateObject(), *states;
-  PetscReal X[3];
-  contact_vector(interface->dimension, interface->X, a, X);
-  cJSON_AddStringToObject(json, "interface", interface->name);
-  cJSON_AddNumberToObject(json, "node", interface->nodes[a]);
-  cJSON_AddItemToObject(json, "position", cJSON_CreateDoubleArray(X, 3));
+  cJSON *json = cJSON_CreateObject(), *states;
+  cJSON_AddStringToObject(json, "interface", contact->interfaces[change->interface].name);
+  cJSON_AddNumberToObject(json, "node", change->node);
+  cJSON_AddItemToObject(json, "position", cJSON_CreateDoubleArray(change->X, 3));
   states = cJSON_AddArrayToObject(json, "states");
-  for (PetscInt back = span - 1; back >= 0; back--)
-    cJSON_AddItemToArray(states, cJSON_CreateString(STATE_NAMES[row(cycling, back)[node]]));
+  for (PetscInt k = 0; k < span; k++)
+    cJSON_AddItemToArray(states, cJSON_CreateString(STATE_NAMES[change->states[k]]));
   return json;
 }
 
-PetscErrorCode cycling_describe(Solve *solve, PetscInt period, cJSON *parent, char sentence[], size_t length)
+/* rank 0, which has all of them */
+static void describe(const Solve *solve, PetscInt period, PetscInt span, PetscInt n, const Change changes[], cJSON *parent, char sentence[],
+                     size_t length)
 {
-  Contact       *contact = solve->contact;
-  const Cycling *cycling = solve->cycling;
-  const PetscInt span    = period ? period : PetscMin(cycling->n, LONGEST);
-  PetscInt       node    = 0, changing = 0;
-  cJSON         *nodes;
-
-  PetscFunctionBegin;
-  sentence[0] = 0;
-  if (solve->mesh->rank || span < 2) PetscFunctionReturn(PETSC_SUCCESS);
-  nodes = cJSON_CreateArray();
+  const Contact *contact  = solve->contact;
+  cJSON         *nodes    = cJSON_CreateArray();
+  PetscInt       changing = 0;
   for (PetscInt i = 0; i < contact->n_interfaces; i++) {
-    for (PetscInt a = 0; a < contact->interfaces[i].n1; a++, node++) {
-      if (!node_changes(cycling, node, span)) continue;
-      if (changing++ < NODES_IN_SENTENCE)
-        add_to_sentence(&contact->interfaces[i], a, cycling, node, span, sentence, length);
-      cJSON_AddItemToArray(nodes, node_json(&contact->interfaces[i], a, cycling, node, span));
+    for (PetscInt k = 0; k < n; k++) {
+      if (changes[k].interface != i) continue;
+      if (changing++ < NODES_IN_SENTENCE) add_to_sentence(contact, &changes[k], span, sentence, length);
+      cJSON_AddItemToArray(nodes, node_json(contact, &changes[k], span));
     }
   }
   if (changing > NODES_IN_SENTENCE) {
@@ -190,6 +234,22 @@ PetscErrorCode cycling_describe(Solve *solve, PetscInt period, cJSON *parent, ch
   else
     cJSON_Delete(nodes);
   if (period) cJSON_AddNumberToObject(parent, "period", period);
+}
+
+PetscErrorCode cycling_describe(Solve *solve, PetscInt period, cJSON *parent, char sentence[], size_t length)
+{
+  const PetscInt span = period ? period : PetscMin(solve->cycling->n, LONGEST);
+  Change        *mine, *all;
+  PetscInt       n = 0, n_all;
+
+  PetscFunctionBegin;
+  sentence[0] = 0;
+  if (span < 2) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(list_changes(solve, span, &n, &mine));
+  PetscCall(gather_changes(solve->mesh, n, mine, &n_all, &all));
+  if (solve->mesh->rank == 0) describe(solve, period, span, n_all, all, parent, sentence, length);
+  PetscCall(PetscFree(mine));
+  PetscCall(PetscFree(all));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

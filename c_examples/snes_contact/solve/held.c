@@ -26,46 +26,95 @@ static void add_rings(const Solve *solve, Motions *m)
   }
 }
 
-/* Where a node of an interface is now. */
-static void position_of(const Interface *interface, PetscInt node, PetscReal x[3])
+/* Where a node of a part is now. */
+static void position_of(const ContactPart *part, PetscInt node, PetscReal x[3])
 {
-  PetscReal u[3];
-  contact_vector(interface->dimension, interface->X, node, x);
-  contact_vector(interface->dimension, interface->displacements, node, u);
-  for (int i = 0; i < 3; i++)
-    x[i] += u[i];
+  contact_vector(part->dimension, part->x, node, x);
+  for (int i = 0; i < part->dimension; i++)
+    x[i] += part->origin[i];
 }
 
-/* The part of the mortar vertex nearest to a node: a surface may belong to several. */
-static PetscInt mortar_part(const Interface *interface, const PetscReal at[3])
+/* The model's part of the mortar vertex nearest to a node: a surface may belong to several. */
+static PetscInt mortar_part(const ContactPart *part, const PetscReal at[3])
 {
-  const PetscInt *parts = interface->part_of + interface->n1;
-  PetscInt        part  = parts[0];
-  PetscBool       one   = PETSC_TRUE;
-  PetscReal       best  = PETSC_MAX_REAL, x[3];
-  for (PetscInt k = 1; k < interface->n2 && one; k++)
-    one = (PetscBool)(parts[k] == part);
-  for (PetscInt k = 0; k < interface->n2 && !one; k++) {
+  const PetscInt *pieces = part->piece + part->n1;
+  PetscInt        piece  = pieces[0];
+  PetscBool       one    = PETSC_TRUE;
+  PetscReal       best   = PETSC_MAX_REAL, x[3];
+  for (PetscInt k = 1; k < part->n2 && one; k++)
+    one = (PetscBool)(pieces[k] == piece);
+  for (PetscInt k = 0; k < part->n2 && !one; k++) {
     PetscReal squared = 0;
-    position_of(interface, interface->n1 + k, x);
+    position_of(part, part->n1 + k, x);
     for (int i = 0; i < 3; i++)
       squared += PetscSqr(x[i] - at[i]);
-    if (squared < best) best = squared, part = parts[k];
+    if (squared < best) best = squared, piece = pieces[k];
   }
-  return part;
+  return piece;
 }
 
-/* The first of the normals before that a normal cannot be told from, or itself. */
-static const double *same_normal(const double *normals, PetscInt *first, PetscInt *n_first, PetscInt a)
+/* Normals that can be told from each other, of all ranks. */
+typedef struct {
+  PetscInt n;
+  double  *normals; /* 3 each */
+} Distinct;
+
+/* The first of them that a normal cannot be told from, or -1. */
+static PetscInt same_normal(const Distinct *distinct, const double normal[3])
 {
-  for (PetscInt k = 0; k < *n_first; k++) {
+  for (PetscInt k = 0; k < distinct->n; k++) {
     PetscReal squared = 0;
     for (int i = 0; i < 3; i++)
-      squared += PetscSqr(normals[3 * a + i] - normals[3 * first[k] + i]);
-    if (squared < SLOPE * SLOPE) return normals + 3 * first[k];
+      squared += PetscSqr(normal[i] - distinct->normals[3 * k + i]);
+    if (squared < SLOPE * SLOPE) return k;
   }
-  first[(*n_first)++] = a;
-  return normals + 3 * a;
+  return -1;
+}
+
+static void add_distinct(Distinct *distinct, const double normal[3])
+{
+  if (same_normal(distinct, normal) >= 0) return;
+  for (int i = 0; i < 3; i++)
+    distinct->normals[3 * distinct->n + i] = normal[i];
+  distinct->n++;
+}
+
+/* closed, and owned here, with a multiplier */
+static PetscBool holds(const ContactPart *part, PetscInt a, const double *results)
+{
+  return (PetscBool)(part->owned[a] == STICKSLIP_NODE_OWN && results[N_RESULTS * a + RESULT_STATE] != STICKSLIP_STATE_GAP &&
+                     part->removed[a] != 7);
+}
+
+/* Of the nodes that slip, on all ranks. */
+static PetscErrorCode find_normals(const Mesh *mesh, const ContactPart *part, const double results[], Distinct *all)
+{
+  Distinct     mine = {0};
+  PetscMPIInt *counts, *starts, n, total = 0;
+  double      *found;
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(3 * part->n1, &mine.normals));
+  for (PetscInt a = 0; a < part->n1; a++) {
+    if (holds(part, a, results) && results[N_RESULTS * a + RESULT_STATE] != STICKSLIP_STATE_STICK)
+      add_distinct(&mine, results + N_RESULTS * a + RESULT_NORMAL);
+  }
+  n = (PetscMPIInt)(3 * mine.n);
+  PetscCall(PetscMalloc2(mesh->size, &counts, mesh->size, &starts));
+  PetscCallMPI(MPI_Allgather(&n, 1, MPI_INT, counts, 1, MPI_INT, PETSC_COMM_WORLD));
+  for (PetscMPIInt r = 0; r < mesh->size; r++) {
+    starts[r] = total;
+    total += counts[r];
+  }
+  PetscCall(PetscMalloc1(total, &found));
+  PetscCallMPI(MPI_Allgatherv(mine.normals, n, MPI_DOUBLE, found, counts, starts, MPI_DOUBLE, PETSC_COMM_WORLD));
+  *all = (Distinct){0};
+  PetscCall(PetscMalloc1(total, &all->normals));
+  for (PetscInt k = 0; k < total; k += 3)
+    add_distinct(all, found + k);
+  PetscCall(PetscFree2(counts, starts));
+  PetscCall(PetscFree(found));
+  PetscCall(PetscFree(mine.normals));
+  PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* The direction across which a node slips: friction turns with the direction of slip, so that a motion across it is
@@ -85,34 +134,39 @@ static void across(const PetscReal nu[3], const PetscReal lambda[3], PetscReal d
   }
 }
 
-/* rank 0: of the nodes that are closed at the place of the last evaluation */
-static PetscErrorCode add_contact(const Interface *interface, Motions *m)
+/* Of the nodes here that are closed at the place of the last evaluation. */
+static PetscErrorCode add_contact(const Mesh *mesh, const Interface *interface, Motions *m)
 {
-  const ContactStates *states = &interface->states;
-  PetscInt            *first, n_first = 0;
+  const ContactPart *part = &interface->part;
+  double            *results;
+  Distinct           distinct;
   PetscFunctionBegin;
-  PetscCall(PetscMalloc1(interface->n1, &first));
-  for (PetscInt a = 0; a < interface->n1; a++) {
-    const PetscInt   part = interface->part_of[a];
-    PetscInt         other, columns[2 * MODES];
-    PetscReal        values[2 * MODES], turns[3], at[3];
-    const PetscBool  sticks = (PetscBool)(states->state[a] == STICKSLIP_STATE_STICK);
-    if (states->state[a] == STICKSLIP_STATE_GAP || interface->removed[a] == 7) continue;
-    position_of(interface, a, at);
-    other = mortar_part(interface, at);
-    across(states->normal + 3 * a, states->multiplier + 3 * a, turns);
+  PetscCall(PetscMalloc1(N_RESULTS * part->n1, &results));
+  PetscCall(contact_results(part, results));
+  PetscCall(find_normals(mesh, part, results, &distinct));
+  for (PetscInt a = 0; a < part->n1; a++) {
+    const double   *result = results + N_RESULTS * a, *normal = result + RESULT_NORMAL;
+    const PetscInt  piece  = part->piece[a];
+    PetscInt        other, columns[2 * MODES];
+    PetscReal       values[2 * MODES], turns[3], at[3];
+    const PetscBool sticks = (PetscBool)(result[RESULT_STATE] == STICKSLIP_STATE_STICK);
+    if (!holds(part, a, results)) continue;
+    position_of(part, a, at);
+    other = mortar_part(part, at);
+    across(normal, result + RESULT_MULTIPLIER, turns);
+    if (!sticks) normal = distinct.normals + 3 * same_normal(&distinct, normal);
     for (int i = 0; i < (sticks ? 3 : 2); i++) {
-      const PetscReal axis[3] = {i == 0, i == 1, i == 2},
-                     *d       = sticks ? axis : i == 1 ? turns : same_normal(states->normal, first, &n_first, a);
-      int n = 0;
+      const PetscReal axis[3] = {i == 0, i == 1, i == 2}, *d = sticks ? axis : i == 1 ? turns : normal;
+      int             n       = 0;
       if (!sticks && i == 1 && turns[0] == 0 && turns[1] == 0 && turns[2] == 0) continue;
-      if (sticks && interface->removed[a] & (1 << i)) continue;
-      motions_row(m, part, at, d, 1, columns, values, &n);
-      if (other != part) motions_row(m, other, at, d, -1, columns, values, &n);
+      if (sticks && part->removed[a] & (1 << i)) continue;
+      motions_row(m, piece, at, d, 1, columns, values, &n);
+      if (other != piece) motions_row(m, other, at, d, -1, columns, values, &n);
       motions_constrain(m, n, columns, values);
     }
   }
-  PetscCall(PetscFree(first));
+  PetscCall(PetscFree(results));
+  PetscCall(PetscFree(distinct.normals));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -233,8 +287,6 @@ static PetscErrorCode find_free(Solve *solve, Motions *m, PetscBool *found)
   char     text[2048];
   PetscInt n_free;
   PetscFunctionBegin;
-  for (PetscInt i = 0; i < solve->contact->n_interfaces; i++)
-    PetscCall(add_contact(&solve->contact->interfaces[i], m));
   PetscCall(motions_find_free(m, &n_free));
   *found = (PetscBool)(n_free > 0);
   if (!n_free) PetscFunctionReturn(PETSC_SUCCESS);
@@ -245,7 +297,7 @@ static PetscErrorCode find_free(Solve *solve, Motions *m, PetscBool *found)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* At a converged state, before its commit, when rank 0 has the states of the interfaces: is something held by nothing at all?
+/* At a converged state, the place of the last evaluation, before its commit: is something held by nothing at all?
  * The first time is told, once the step is accepted. */
 PetscErrorCode held_check(Solve *solve)
 {
@@ -258,6 +310,8 @@ PetscErrorCode held_check(Solve *solve)
     any = (PetscBool)(any || solve->held.loose[p]);
   if (!any || solve->held.told) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(motions_create(physics, physics->u_local, solve->held.loose, &m));
+  for (PetscInt i = 0; i < solve->contact->n_interfaces; i++)
+    PetscCall(add_contact(solve->mesh, &solve->contact->interfaces[i], &m));
   PetscCall(motions_sum(&m));
   add_rings(solve, &m);
   if (solve->mesh->rank == 0) PetscCall(find_free(solve, &m, &found));

@@ -41,13 +41,13 @@ enum { CLOSING_ITERATIONS = 60 };
 static const struct {
   SNESLineSearchType line_search;
   PetscReal          factor; /* of the augmentation of nodes that cycle */
-} ATTEMPTS[N_ATTEMPTS] = {[FULL]         = {SNESLINESEARCHBASIC, 0.01},
-                         [SETTLING]     = {SNESLINESEARCHBASIC, 0.01},
-                         [PLAIN]        = {SNESLINESEARCHBASIC, 0.01},
+} ATTEMPTS[N_ATTEMPTS] = {[FULL]         = {SNESLINESEARCHNONE, 0.01},
+                         [SETTLING]     = {SNESLINESEARCHNONE, 0.01},
+                         [PLAIN]        = {SNESLINESEARCHNONE, 0.01},
                          [BACKTRACKING] = {SNESLINESEARCHBT, 0.01},
-                         [LARGER]       = {SNESLINESEARCHBASIC, 100},
-                         [CLOSING]      = {SNESLINESEARCHBASIC, 0.01},
-                         [STICKING]     = {SNESLINESEARCHBASIC, 0.01}};
+                         [LARGER]       = {SNESLINESEARCHNONE, 100},
+                         [CLOSING]      = {SNESLINESEARCHNONE, 0.01},
+                         [STICKING]     = {SNESLINESEARCHNONE, 0.01}};
 
 /* SNES calls it before each iteration: residual and tangent must speak of the same augmentation. */
 static PetscErrorCode before_iteration(SNES snes, PetscInt iteration)
@@ -105,7 +105,7 @@ static const char *in_words(SNESConvergedReason reason, const char *linear)
     return "too many iterations";
   case SNES_DIVERGED_LINEAR_SOLVE:
     return linear;
-  case SNES_DIVERGED_FNORM_NAN:
+  case SNES_DIVERGED_FUNCTION_NANORINF:
     return "the residual is no number any more";
   default:
     return "Newton's method failed";

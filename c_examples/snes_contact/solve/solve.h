@@ -92,7 +92,8 @@ typedef struct {
   Mesh     *mesh;
   Physics  *physics;
   Contact  *contact;
-  PetscBool quiet; /* no notes */
+  PetscBool quiet;   /* no notes */
+  PetscBool outside; /* the last residual could not be evaluated */
   Steps     steps;
   SNES      snes;
   Mat       jacobian, pattern; /* the latter: as the former was at the start of the step, without values */

@@ -30,7 +30,8 @@ static PetscErrorCode residual(SNES snes, Vec x, Vec r, void *context)
   PetscCall(DMLocalToGlobalEnd(solve->mesh->dm, solve->physics->f_local, ADD_VALUES, r));
   PetscCall(parts_measure(solve->physics));
   if (!inverted && !refused) PetscCall(condensed_residual(solve->contact, r, &refused));
-  if (inverted || refused) PetscCall(SNESSetFunctionDomainError(snes));
+  solve->outside = (PetscBool)(inverted || refused);
+  if (solve->outside) PetscCall(SNESSetFunctionDomainError(snes));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

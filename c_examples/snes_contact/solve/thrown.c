@@ -13,15 +13,15 @@ static PetscErrorCode held_without_pressure(const Solve *solve, PetscBool *held)
 {
   const Contact *contact = solve->contact;
   PetscFunctionBegin;
-  for (PetscInt i = 0; i < contact->n_interfaces && solve->mesh->rank == 0; i++) {
+  for (PetscInt i = 0; i < contact->n_interfaces; i++) {
     const Interface *interface = &contact->interfaces[i];
     const int32_t    friction  = interface->options.friction;
     const PetscBool  presses   = (PetscBool)((friction == STICKSLIP_FRICTION_COULOMB || friction == STICKSLIP_FRICTION_NONE) &&
                                             interface->law.kind != STICKSLIP_LAW_COHESION);
-    for (int side = 0; side < 2 && !presses; side++)
-      held[mesh_body_of(solve->mesh, interface->nodes[side ? interface->n1 : 0])] = PETSC_TRUE;
+    for (PetscInt a = 0; a < interface->n1 + interface->n2 && !presses; a++)
+      held[mesh_body_of(solve->mesh, interface->nodes[a])] = PETSC_TRUE;
   }
-  PetscCallMPI(MPI_Bcast(held, (PetscMPIInt)solve->mesh->n_bodies, MPIU_BOOL, 0, PETSC_COMM_WORLD));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, held, (PetscMPIInt)solve->mesh->n_bodies, MPIU_BOOL, MPI_LOR, PETSC_COMM_WORLD));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

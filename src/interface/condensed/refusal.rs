@@ -20,6 +20,10 @@ pub fn refuse<const N: usize>(given: Given<N>, normals: &[Vec3]) -> Result<()> {
         let text = "condensation with standard multipliers: their forces couple neighbours; take the dual basis (STICKSLIP_BASIS_DUAL)";
         return refuse(text.into());
     }
+    if setup.options.decides_at_points() {
+        let text = "condensation where points decide: a facet's mass matrix couples its multipliers; keep them as unknowns, or take STICKSLIP_DECISION_NODES";
+        return refuse(text.into());
+    }
     if setup.options.form != Form::Multiplier {
         let text = "condensation with the augmented form: its forces do not determine the multipliers of open nodes; take the multiplier form";
         return refuse(text.into());

@@ -22,6 +22,7 @@ pub mod offsets;
 pub mod options;
 pub mod pairs;
 pub mod parents;
+pub mod points;
 pub mod restart;
 pub mod setup;
 pub mod shape_offsets;

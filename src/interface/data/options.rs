@@ -4,6 +4,7 @@ use crate::error::{Error, Kind, Result};
 pub use crate::law::Friction;
 use crate::law::SlipMeasure;
 use crate::mortar::MultiplierSpace;
+use crate::points;
 use crate::quadrature::{DEGREE_5, Rule};
 use std::f64::consts::PI;
 
@@ -84,6 +85,16 @@ pub enum MultiplierBasis {
     Dual,
 }
 
+/// Where it is decided what is closed.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Decision {
+    /// At nodes.
+    #[default]
+    Nodes,
+    /// At the points of overlaps, with E* of both bodies together [F/L^2] (docs/formulation.md 16).
+    Points(f64),
+}
+
 /// What a node does in the step in which it becomes covered: it has no slip history.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum NewContact {
@@ -140,6 +151,8 @@ pub struct Options {
     pub form: Form,
     /// Standard or dual multipliers.
     pub basis: MultiplierBasis,
+    /// Nodes or points.
+    pub decision: Decision,
     /// Where multipliers of quadratic facets stand.
     pub space: MultiplierSpace,
     /// Slip measure.
@@ -206,6 +219,7 @@ impl Options {
         Options {
             form: Form::default(),
             basis: MultiplierBasis::default(),
+            decision: Decision::default(),
             space: MultiplierSpace::Corner,
             slip: SlipMeasure::default(),
             weights: Weights::default(),
@@ -260,9 +274,44 @@ impl Options {
             let text = "normals of now with frozen weights: gaps and normals would be of different configurations; take STICKSLIP_WEIGHTS_CURRENT or STICKSLIP_NORMALS_COMMITTED";
             return Err(Error::new(Kind::Unsupported, text));
         }
+        if let Some(text) = self.beyond_points() {
+            return Err(Error::new(Kind::Unsupported, text));
+        }
         match self.search_distance {
             Some(d) if !(d > 0.0 && d.is_finite()) => refuse("search_distance", d, "positive and finite"),
             _ => Ok(()),
+        }
+    }
+
+    /// Whether points decide.
+    pub fn decides_at_points(&self) -> bool {
+        self.decision != Decision::Nodes
+    }
+
+    /// What deciding at points does not go with, if there is any of it.
+    fn beyond_points(&self) -> Option<&'static str> {
+        if !self.decides_at_points() {
+            None
+        } else if self.friction != Friction::None {
+            Some(
+                "STICKSLIP_DECISION_POINTS with friction, or tied; take STICKSLIP_FRICTION_NONE or STICKSLIP_DECISION_NODES",
+            )
+        } else if self.basis != MultiplierBasis::Dual {
+            Some(
+                "STICKSLIP_DECISION_POINTS with the standard basis: gaps are measured by dual functions; take STICKSLIP_BASIS_DUAL",
+            )
+        } else if self.weights == Weights::Current {
+            Some(
+                "STICKSLIP_DECISION_POINTS with weights of now; take STICKSLIP_WEIGHTS_COMMITTED or STICKSLIP_WEIGHTS_REFERENCE, or STICKSLIP_DECISION_NODES",
+            )
+        } else if self.form == Form::Augmented {
+            Some("STICKSLIP_DECISION_POINTS with the augmented form; take STICKSLIP_FORM_MULTIPLIER")
+        } else if self.scheme != Scheme::Segments {
+            Some("STICKSLIP_DECISION_POINTS with points that stand for overlaps; take STICKSLIP_INTEGRATION_SEGMENTS")
+        } else if self.weak_coverage > 0.0 {
+            Some("STICKSLIP_DECISION_POINTS with weak_coverage: no node has to be carried; leave it 0")
+        } else {
+            None
         }
     }
 
@@ -283,6 +332,9 @@ impl Options {
 
     /// The weak coverage in force; 0: no node is carried.
     pub fn effective_weak_coverage(&self) -> f64 {
+        if self.decides_at_points() {
+            return 0.0;
+        }
         match (self.weak_coverage, self.basis) {
             (NO_WEAK_COVERAGE, _) | (0.0, MultiplierBasis::Standard) => 0.0,
             (0.0, MultiplierBasis::Dual) => WEAK_COVERAGE_OF_DUAL,
@@ -299,10 +351,11 @@ impl Options {
         }
     }
 
-    /// rhat_A of a node of this size `[L]` (`Surface::size`) [F/L^3].
+    /// rhat_A of a node of this size `[L]` (`Given::size`) [F/L^3].
     pub fn augmentation(&self, size: f64) -> f64 {
         match self.stiffness {
             Stiffness::Augmentation(r) => r,
+            Stiffness::Modulus(e) if self.decides_at_points() => points::STIFFNESS * e / size,
             Stiffness::Modulus(e) => MODULUS_FACTOR * e / size,
         }
     }

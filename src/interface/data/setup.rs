@@ -10,6 +10,7 @@ use super::parents::Parents;
 use super::surface::{NO_EQUATION, Surface, frames};
 use crate::error::{Error, Kind, Result, Text};
 use crate::law::Own;
+use crate::memory;
 use crate::mortar::MultiplierSpace;
 
 /// What an interface is.
@@ -29,6 +30,8 @@ pub struct Setup<const N: usize> {
     pub nodes: NodeData,
     /// The host's law in place of Coulomb's.
     pub own: Option<Own>,
+    /// Where points decide, per node what its own size is to be multiplied by so that it is that of the facets around it.
+    pub size_factors: Vec<f64>,
 }
 
 impl<const N: usize> Setup<N> {
@@ -70,7 +73,8 @@ impl<const N: usize> Setup<N> {
         check_moving_frame([&nonmortar, &mortar], &options)?;
         put_parents([&mut nonmortar, &mut mortar], &multiplier_equations, &options)?;
         let nodes = NodeData::new(&multiplier_equations, mu)?;
-        Ok(Setup { options, effects, nonmortar, mortar, multiplier_equations, nodes, own: None })
+        let size_factors = if options.decides_at_points() { size_factors([&nonmortar, &mortar])? } else { Vec::new() };
+        Ok(Setup { options, effects, nonmortar, mortar, multiplier_equations, nodes, own: None, size_factors })
     }
 
     /// The non-mortar and the mortar surface.
@@ -120,6 +124,37 @@ fn check_moving_frame([nonmortar, mortar]: [&Surface; 2], options: &Options) -> 
         "equations of the frame of an analytic surface (mortar.equations) with {with}: give the surface facets, or its frame none (-1)"
     );
     Err(Error::new(Kind::Unsupported, text))
+}
+
+/// Where points decide: a node on an edge has fewer facets, and less area, than one within. A quarter of each square, a sixth of twice each
+/// triangle's area and a half of each line are a node's.
+fn size_factors([nonmortar, mortar]: [&Surface; 2]) -> Result<Vec<f64>> {
+    let refuse = |what: &str| {
+        Err(Error::new(
+            Kind::Unsupported,
+            text!("STICKSLIP_DECISION_POINTS with {what}; take STICKSLIP_DECISION_NODES"),
+        ))
+    };
+    if mortar.analytic.is_some() {
+        return refuse("an analytic mortar side");
+    }
+    let has_lines = nonmortar.lines().is_some();
+    if (nonmortar.parents.is_some() || mortar.parents.is_some()) && !has_lines {
+        return refuse("quadratic facets");
+    }
+    let side =
+        |side: &Surface| (0..side.host_facets()).all(|f| side.host_nodes(f).len() <= if has_lines { 2 } else { 4 });
+    if !side(nonmortar) || !side(mortar) {
+        return refuse("lines of three nodes");
+    }
+    let mut shares = memory::filled(0.0_f64, nonmortar.len())?;
+    for f in 0..nonmortar.host_facets() {
+        let nodes = nonmortar.host_nodes(f);
+        let share = [0.5, 1.0 / 6.0, 0.25][nodes.len() - 2];
+        nodes.iter().for_each(|&a| shares[a] += share);
+    }
+    shares.iter_mut().for_each(|share| *share = if has_lines { 1.0 / *share } else { 1.0 / share.sqrt() });
+    Ok(shares)
 }
 
 /// Gives lines of both sides the same width: the shortest of their parts' lengths, so that no edge is longer than the line that it

@@ -84,7 +84,13 @@ pub fn of_active(k: &Active) -> usize {
 pub fn of_setup<const N: usize>(setup: &Setup<N>) -> usize {
     let (surfaces, nodes) = (of_surface(&setup.nonmortar) + of_surface(&setup.mortar), &setup.nodes);
     let overrides = nodes.augmentations.as_ref().map_or(0, heap) + nodes.normals.as_ref().map_or(0, heap);
-    surfaces + overrides + heap(&setup.multiplier_equations) + heap(&nodes.mu) + heap(&nodes.free) + heap(&nodes.owners)
+    surfaces
+        + overrides
+        + heap(&setup.size_factors)
+        + heap(&setup.multiplier_equations)
+        + heap(&nodes.mu)
+        + heap(&nodes.free)
+        + heap(&nodes.owners)
 }
 
 /// Of what t_n settles.

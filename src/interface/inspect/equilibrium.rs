@@ -14,7 +14,7 @@ use crate::interface::stages::carried::{carriers_sums, multiplier_share};
 use crate::interface::stages::node::{is_left_out, node};
 use crate::interface::stages::own::{At, special};
 use crate::interface::stages::sums::NodeSums;
-use crate::law::{Measure, Violation};
+use crate::law::{Measure, NodeResponse, Violation};
 use crate::memory;
 use nalgebra::SVector;
 
@@ -68,7 +68,7 @@ pub fn equilibrium<const N: usize>(
     given: Given<N>,
     (x1, x2): (&[Vec3], &[Vec3]),
     lambda: &[SVector<f64, N>],
-    (sums, carried): (&[NodeSums], &[bool]),
+    (sums, carried, responses): (&[NodeSums], &[bool], &[NodeResponse<N>]),
     scope: Scope,
     scales: &Scales,
 ) -> Result<Equilibrium> {
@@ -109,6 +109,8 @@ pub fn equilibrium<const N: usize>(
             Violation::uncovered((lambda[a] - theirs).norm(), &measure)
         } else if is_left_out(given, a, scope) || sum.coverage <= given.least_coverage(a) {
             Violation::uncovered(lambda[a].norm(), &measure)
+        } else if given.setup.options.decides_at_points() {
+            Violation::of_gap(responses[a].row.norm() / sum.coverage, &measure)
         } else {
             let measure = Measure { traction_rounding: measure.traction_rounding / share, ..measure };
             let mut node = node(given, a, lambda[a], sum)?;

@@ -123,10 +123,12 @@ impl<'a, const N: usize> Given<'a, N> {
         given.map_or_else(|| self.setup.options.augmentation(self.size(a)) / area, |r| r[a])
     }
 
-    /// h_A: the root of M_A, or how long the lines of a plane model are around the node `[L]`.
+    /// h_A: the root of M_A, or how long the lines of a plane model are around the node `[L]`; where points decide, that of the
+    /// facets around it, of which a node on an edge has fewer.
     pub fn size(self, a: usize) -> f64 {
         let history = self.history();
-        self.setup.nonmortar.size(history.areas[a], history.x1[a])
+        let size = self.setup.nonmortar.size(history.areas[a], history.x1[a]);
+        self.setup.size_factors.get(a).map_or(size, |factor| factor * size)
     }
 
     /// Factor of node A's multiplier rows.

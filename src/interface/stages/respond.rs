@@ -7,6 +7,7 @@ use super::sums::NodeSums;
 use crate::error::{Error, Kind, Result};
 use crate::interface::data::counters::NodeCounts;
 use crate::interface::data::extent::Scope;
+use crate::interface::data::points::Points;
 use crate::interface::pairing::given::Given;
 use crate::law::NodeResponse;
 use crate::memory::{self, Store};
@@ -23,12 +24,14 @@ pub struct Responses<const N: usize> {
     pub counts: NodeCounts,
     /// What a law of one's own has answered.
     pub own: OwnAnswers,
+    /// What points have answered where they decide.
+    pub points: Points,
 }
 
 impl<const N: usize> Default for Responses<N> {
     fn default() -> Self {
         let (counts, own) = (NodeCounts::default(), OwnAnswers::default());
-        Responses { nodes: Vec::new(), carried: Vec::new(), counts, own }
+        Responses { nodes: Vec::new(), carried: Vec::new(), counts, own, points: Points::default() }
     }
 }
 
@@ -40,7 +43,7 @@ pub fn respond<const N: usize>(
     scope: Scope,
     answers: &mut Responses<N>,
 ) -> Result<()> {
-    let Responses { nodes: responses, carried, counts, own } = answers;
+    let Responses { nodes: responses, carried, counts, own, points } = answers;
     find_carried(given, sums, carried)?;
     *counts = NodeCounts::default();
     responses.clear();
@@ -62,6 +65,9 @@ pub fn respond<const N: usize>(
     }
     if carried.contains(&true) {
         carry(given, lambda, (sums, carried), responses, own)?;
+    }
+    if given.setup.options.decides_at_points() {
+        points.respond(given, lambda, sums, responses)?;
     }
     for (a, response) in responses.iter().enumerate() {
         if !response.row.iter().chain(response.traction.iter()).all(|v| v.is_finite()) {

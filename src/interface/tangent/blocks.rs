@@ -12,6 +12,7 @@ use super::facet_tangent::{FacetTangent, total};
 use super::frame::{self, FrameNumbers};
 use super::offsets;
 use super::parents::{self, ParentNumbers, ParentRoom};
+use super::points::{self, PointNumbers};
 use super::turning::{self, Turns};
 use super::union::{Pairs, UnionPair, Walk};
 use crate::dual::FacetMotion;
@@ -25,6 +26,7 @@ use crate::interface::data::options::{Form, MultiplierBasis, Scheme};
 use crate::interface::pairing::given::Given;
 use crate::interface::pairing::overlaps::FacetOverlaps;
 use crate::interface::stages::respond::Responses;
+use crate::interface::stages::sums::NodeSums;
 use crate::law::NodeResponse;
 use crate::memory::{self, Store};
 use crate::mortar::{ForceDerivatives, GapDerivative, MORTAR, PairWeights, gap};
@@ -35,6 +37,8 @@ use std::ops::Range;
 pub struct Numbers<'a, const N: usize> {
     /// Non-mortar positions.
     pub x1: &'a [Vec3],
+    /// What the nodes assemble.
+    pub sums: &'a [NodeSums],
     /// The law's answers.
     pub responses: &'a Responses<N>,
     /// What the pairs must know of them.
@@ -223,7 +227,7 @@ pub fn beyond_facets<const N: usize>(task: Task<N>, room: &mut Room<N>, (taker, 
     let mut emitter = Emitter { given, normals, taker, constraints };
     let mut couplings: Option<Vec<NodeCouplings>> =
         is_coupled(given).then(|| memory::defaults(given.nodes())).transpose()?;
-    if given.setup.has_parents() {
+    if given.setup.has_parents() || given.setup.options.decides_at_points() {
         of_facets(task, 0..usize::MAX, room, couplings.as_deref_mut(), &mut emitter)?;
     } else {
         let mut walk = Walk::through(all, 0..usize::MAX);
@@ -278,6 +282,10 @@ pub fn of_facets<const N: usize>(
     mut couplings: Option<&mut [NodeCouplings]>,
     emitter: &mut Emitter<N>,
 ) -> Result<i64> {
+    // Where points decide, all blocks are of nodes.
+    if task.given.setup.options.decides_at_points() {
+        return Ok(0);
+    }
     let (mut linearised, mut walk) = (0, Walk::through(task.pairs, facets));
     if task.given.setup.has_parents() {
         let numbers = task.numbers.map(Numbers::of_parents);
@@ -403,6 +411,10 @@ pub fn of_nodes<const N: usize>(
     emitter: &mut Emitter<N>,
 ) -> Result<()> {
     let Task { given, pairs, extent, numbers, .. } = task;
+    if given.setup.options.decides_at_points() {
+        let numbers = numbers.map(|n| PointNumbers { points: &n.responses.points, sums: n.sums });
+        return points::blocks((given, task.normals, pairs), numbers.as_ref(), emitter);
+    }
     let turns = numbers.and_then(|n| n.turns.as_ref());
     let answers = numbers.map(Numbers::answers);
     let options = &given.setup.options;

@@ -14,5 +14,6 @@ pub mod lines;
 pub mod offsets;
 pub mod parent_table;
 pub mod parents;
+pub mod points;
 pub mod turning;
 pub mod union;

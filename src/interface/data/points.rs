@@ -1,0 +1,93 @@
+//! Where points decide: what a step knows of the facets that have pairs, and the closed part of each pair (docs/formulation.md 16).
+
+use crate::geometry::Vec3;
+use crate::mortar::PairWeights;
+use crate::shape::MAX_CORNERS;
+use std::ops::Range;
+
+/// By two of a facet's nodes.
+pub type OfNodes = [[f64; MAX_CORNERS]; MAX_CORNERS];
+
+/// A facet of the host that has pairs.
+#[derive(Clone, Copy, Debug)]
+pub struct PointFacet {
+    /// Its number.
+    pub one: usize,
+    /// Its first pair, and the one after its last.
+    pub pairs: [usize; 2],
+    /// Its nodes; so many.
+    pub nodes: [usize; MAX_CORNERS],
+    pub n: usize,
+    /// Along which its tractions act: the unit normal of its plane, into the non-mortar body.
+    pub normal: Vec3,
+    /// phi, which multiplies its measure.
+    pub fade: f64,
+    /// phi m_AB [L^2].
+    pub mass: OfNodes,
+    /// K_AB [L^2].
+    pub stabilisation: OfNodes,
+}
+
+impl PointFacet {
+    /// Its nodes.
+    pub fn nodes(&self) -> &[usize] {
+        &self.nodes[..self.n]
+    }
+
+    /// The places of its pairs.
+    pub fn places(&self) -> Range<usize> {
+        self.pairs[0]..self.pairs[1]
+    }
+
+    /// The values of a nodal field at its nodes.
+    pub fn of(&self, field: &[f64]) -> [f64; MAX_CORNERS] {
+        std::array::from_fn(|k| if k < self.n { field[self.nodes[k]] } else { 0.0 })
+    }
+}
+
+/// A pair of facets of the host: phi times its weights, and its dual weights.
+#[derive(Clone, Copy, Debug)]
+pub struct PointPair {
+    /// The mortar facet.
+    pub two: usize,
+    /// Integrated.
+    pub whole: PairWeights,
+    /// Dual.
+    pub dual: PairWeights,
+}
+
+/// The step, and the answer at a point.
+#[derive(Debug, Default)]
+pub struct Points {
+    /// Whether the members that follow are of the step at hand.
+    pub is_settled: bool,
+    /// Normals of all planes.
+    pub planes: Vec<Vec3>,
+    /// Facets, ascending.
+    pub facets: Vec<PointFacet>,
+    /// Their pairs.
+    pub pairs: Vec<PointPair>,
+    /// phi times the weights of each pair's closed part.
+    pub closed: Vec<PairWeights>,
+    /// Per node sigma_A [F/L^2], the factor of its K, and how much of what is covered of it is closed.
+    pub sigma: Vec<f64>,
+    pub factors: Vec<f64>,
+    pub shares: Vec<f64>,
+    /// Per node int N_A t over its covered area [F/L^2].
+    pub tractions: Vec<f64>,
+    /// Whether anything covers it.
+    pub is_covered: Vec<bool>,
+}
+
+impl Points {
+    /// On the heap `[bytes]`.
+    pub fn bytes(&self) -> usize {
+        let reals = [&self.sigma, &self.factors, &self.shares, &self.tractions];
+        self.planes.capacity() * size_of::<Vec3>()
+            + self.facets.capacity() * size_of::<PointFacet>()
+            + self.pairs.capacity() * size_of::<PointPair>()
+            + self.closed.capacity() * size_of::<PairWeights>()
+            + reals.iter().map(|v| v.capacity() * size_of::<f64>()).sum::<usize>()
+            + self.is_covered.capacity()
+    }
+}

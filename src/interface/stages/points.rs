@@ -1,0 +1,272 @@
+//! Stages 2 and 3 where points decide (docs/formulation.md 16), with weights that are frozen:
+//!
+//! sigma_A = lambda_A + rhat_A gh_A, gh_A = nu_A . g_A / D_A with dual weights;   t(x) = min(0, sum_A N_A(x) sigma_A)
+//! f_B = int N_B t nu_e,   f_C = -int N_C t nu_e,   rhat_A c_A = int N_A t - sum_B (m_AB + (rhat_A / rhat^0_A) K_AB) lambda_B
+//!
+//! Facets whose nodes all have sigma < 0 are closed, those without any are open: their integrals are sums over weights that are
+//! there. Only the others are visited point by point.
+
+use super::residual::Residual;
+use super::sums::NodeSums;
+use crate::dual::{Coverage, FacetSums};
+use crate::element::pair_force;
+use crate::error::Result;
+use crate::geometry::{Plane, Vec3};
+use crate::interface::data::lines::{Lines, line};
+use crate::interface::data::options::{Decision, Weights};
+use crate::interface::data::pairs::{PairRecord, ParentRecord, Weighted};
+use crate::interface::data::parents::Parents;
+use crate::interface::data::points::{OfNodes, PointFacet, PointPair, Points};
+use crate::interface::pairing::given::Given;
+use crate::law::{NodeResponse, State};
+use crate::line::{LineFacet, LineWeights, Measure};
+use crate::memory::{self, Store};
+use crate::mortar::{MORTAR, MultiplierSpace, PairWeights, Segment};
+use crate::points::{STIFFNESS, of_facet, of_line};
+use crate::shape::{MAX_CORNERS, MAX_PARENT_NODES};
+use nalgebra::SVector;
+
+/// The positions that the weights are of.
+fn positions<const N: usize>(given: Given<'_, N>) -> (&[Vec3], &[Vec3]) {
+    let ((one, two), history) = (given.setup.surfaces(), given.history());
+    match given.setup.options.effective_weights() {
+        Weights::Reference => (&one.reference, &two.reference),
+        _ => (&history.x1, &history.x2),
+    }
+}
+
+/// The sides' facets where both are of lines.
+fn lines<const N: usize>(given: Given<'_, N>) -> Option<(&Parents, &Parents, &Lines)> {
+    let (one, two) = given.setup.surfaces();
+    Some((one.parents.as_ref()?, two.parents.as_ref()?, one.lines()?))
+}
+
+/// The lines of a pair.
+fn line_pair<const N: usize>(given: Given<N>, (f, g): (usize, usize)) -> Option<(LineFacet, LineFacet, Measure)> {
+    let ((one, two, lines), x) = (lines(given)?, positions(given));
+    Some((line(&one.at(f, x.0)), line(&two.at(g, x.1)), lines.measure))
+}
+
+fn of_line_weights(weights: &LineWeights) -> PairWeights {
+    let mut n = PairWeights::default();
+    for (a, b) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
+        (n.ab[a][b], n.ac[a][b]) = (weights.ab[a][b], weights.ac[a][b]);
+    }
+    n
+}
+
+fn scaled(weights: &PairWeights, by: f64) -> PairWeights {
+    PairWeights { ab: weights.ab.map(|row| row.map(|n| by * n)), ac: weights.ac.map(|row| row.map(|n| by * n)) }
+}
+
+/// rhat^0_A = 0.9 E* / h_A [F/L^3].
+fn stabilising<const N: usize>(given: Given<N>, a: usize) -> f64 {
+    match given.setup.options.decision {
+        Decision::Points(modulus) => STIFFNESS * modulus / given.size(a),
+        Decision::Nodes => 0.0,
+    }
+}
+
+impl Points {
+    /// Finds what the step knows of its facets, once a step.
+    fn settle<const N: usize>(&mut self, given: Given<N>) -> Result<()> {
+        if self.is_settled {
+            return Ok(());
+        }
+        let (surfaces, x) = (given.setup.surfaces(), positions(given));
+        surfaces.0.plane_normals(x.0, &mut self.planes)?;
+        self.facets.clear();
+        self.pairs.clear();
+        match given.history().weighted(surfaces) {
+            Weighted::Facets(pairs) => {
+                pairs.chunk_by(|p, q| p.one == q.one).try_for_each(|pairs| self.settle_facet(given, pairs))?;
+            }
+            Weighted::Parents(pairs) => {
+                pairs.chunk_by(|p, q| p.one == q.one).try_for_each(|pairs| self.settle_line(given, pairs))?;
+            }
+        }
+        let factor = |a: usize| given.augmentation(a) * given.history().areas[a] / stabilising(given, a);
+        self.factors.clear();
+        self.factors.store_all((0..given.nodes()).map(factor))?;
+        self.is_settled = true;
+        Ok(())
+    }
+
+    fn settle_facet<const N: usize>(&mut self, given: Given<N>, pairs: &[PairRecord]) -> Result<()> {
+        let ((one, two), x, first) = (given.setup.surfaces(), positions(given), self.pairs.len());
+        let f = pairs[0].one;
+        let frame = one.frame(f, x.0, &self.planes)?;
+        let mut sums = FacetSums::new(&frame);
+        for pair in pairs {
+            let segment = Segment::new(&frame, &two.facet(pair.two, x.1))?;
+            let integrate = |s: &Segment| PairWeights::integrate(&frame, s, given.setup.options.rule);
+            let whole = segment.as_ref().map_or_else(PairWeights::default, integrate);
+            sums.add(&whole, &[0.0; MAX_CORNERS]);
+            self.pairs.store(PointPair { two: pair.two, whole, dual: pair.weights })?;
+        }
+        let nodes = one.facets[f].as_slice();
+        let sizes = std::array::from_fn(|k| nodes.get(k).map_or(0.0, |&a| given.size(a)));
+        let stabilisation = of_facet(&frame, &sizes);
+        self.store_facet((f, nodes), first, frame.plane.e, (sums.coverage(), sums.mass, stabilisation))
+    }
+
+    fn settle_line<const N: usize>(&mut self, given: Given<N>, pairs: &[ParentRecord]) -> Result<()> {
+        let ((one, _), x, first, f) = (given.setup.surfaces(), positions(given), self.pairs.len(), pairs[0].one);
+        let Some((parents, _, _)) = lines(given) else { return Ok(()) };
+        let (mut mass, mut length) = (OfNodes::default(), 0.0);
+        for pair in pairs {
+            let Some((own, other, measure)) = line_pair(given, (f, pair.two)) else { continue };
+            let whole = of_line_weights(&LineWeights::new(&own, &other, MultiplierSpace::Corner, measure));
+            for (row, of_pair) in mass.iter_mut().zip(&whole.ab) {
+                row.iter_mut().zip(of_pair).for_each(|(m, n)| *m += n);
+            }
+            length = (own.x[1] - own.x[0]).norm();
+            let mut dual = PairWeights::default();
+            for (a, b) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
+                (dual.ab[a][b], dual.ac[a][b]) = (pair.weights.ab[a][b], pair.weights.ac[a][b]);
+            }
+            self.pairs.store(PointPair { two: pair.two, whole, dual })?;
+        }
+        let area: f64 = parents.areas(f, x.0, parents.space)?.iter().take(MAX_PARENT_NODES).sum();
+        let covered = mass.iter().flatten().sum::<f64>();
+        let nodes = one.host_nodes(f);
+        let stabilisation = of_line(length, [given.size(nodes[0]), given.size(nodes[1])]);
+        let normal = Plane::of(&one.facet(parents.parts(f).start, x.0))?.e;
+        self.store_facet((f, nodes), first, normal, (Coverage::of(covered / area), mass, stabilisation))
+    }
+
+    /// `outward`: out of the non-mortar body; `stabilisation`: over the covered area.
+    fn store_facet(
+        &mut self,
+        (one, own): (usize, &[usize]),
+        first: usize,
+        outward: Vec3,
+        (coverage, mass, stabilisation): (Coverage, OfNodes, OfNodes),
+    ) -> Result<()> {
+        let mut nodes = [own[0]; MAX_CORNERS];
+        nodes[..own.len()].copy_from_slice(own);
+        let fade = coverage.fade;
+        self.pairs[first..].iter_mut().for_each(|pair| pair.whole = scaled(&pair.whole, fade));
+        let covered = fade * mass.iter().flatten().sum::<f64>();
+        self.facets.store(PointFacet {
+            one,
+            pairs: [first, self.pairs.len()],
+            nodes,
+            n: own.len(),
+            normal: -outward,
+            fade,
+            mass: mass.map(|row| row.map(|m| fade * m)),
+            stabilisation: stabilisation.map(|row| row.map(|k| covered * k)),
+        })
+    }
+
+    /// The weights of the closed part of each pair at the nodes' sigma.
+    fn close<const N: usize>(&mut self, given: Given<N>) -> Result<()> {
+        memory::refill(&mut self.closed, PairWeights::default(), self.pairs.len())?;
+        for facet in &self.facets {
+            let sigma = facet.of(&self.sigma);
+            let negative = sigma[..facet.n].iter().filter(|s| **s < 0.0).count();
+            if negative == 0 {
+                continue;
+            }
+            let frame = if negative < facet.n && !given.setup.has_parents() {
+                Some(given.setup.nonmortar.frame(facet.one, positions(given).0, &self.planes)?)
+            } else {
+                None
+            };
+            for place in facet.places() {
+                let pair = &self.pairs[place];
+                self.closed[place] = if negative == facet.n {
+                    pair.whole
+                } else if let Some(frame) = &frame {
+                    let other = given.setup.mortar.facet(pair.two, positions(given).1);
+                    let rule = given.setup.options.rule;
+                    let close = |s: Segment| scaled(&PairWeights::closed(frame, &s, rule, &sigma), facet.fade);
+                    Segment::new(frame, &other)?.map_or_else(PairWeights::default, close)
+                } else {
+                    let close = |(own, other, measure): (LineFacet, LineFacet, Measure)| {
+                        let weights = LineWeights::closed(&own, &other, measure, [sigma[0], sigma[1]]);
+                        scaled(&of_line_weights(&weights), facet.fade)
+                    };
+                    line_pair(given, (facet.one, pair.two)).map_or_else(PairWeights::default, close)
+                };
+            }
+        }
+        Ok(())
+    }
+
+    /// Stage 2: puts the answers of points in place of the law's at every covered node.
+    pub fn respond<const N: usize>(
+        &mut self,
+        given: Given<N>,
+        lambda: &[SVector<f64, N>],
+        sums: &[NodeSums],
+        responses: &mut [NodeResponse<N>],
+    ) -> Result<()> {
+        self.settle(given)?;
+        let areas = &given.history().areas;
+        memory::refill(&mut self.is_covered, false, lambda.len())?;
+        memory::refill(&mut self.sigma, 0.0, lambda.len())?;
+        memory::refill(&mut self.shares, 0.0, lambda.len())?;
+        memory::refill(&mut self.tractions, 0.0, lambda.len())?;
+        for (a, sum) in sums.iter().enumerate().filter(|(a, sum)| sum.coverage > given.least_coverage(*a)) {
+            let gap = given.normal(a)?.dot(&sum.gap_now) / sum.coverage;
+            self.is_covered[a] = true;
+            self.sigma[a] = lambda[a][0] + given.augmentation(a) * areas[a] * gap;
+        }
+        self.close(given)?;
+        for (a, response) in responses.iter_mut().enumerate().filter(|(a, _)| self.is_covered[*a]) {
+            (response.state, response.traction) = (State::Gap, Vec3::zeros());
+            (response.row, response.sigma) = (SVector::zeros(), given.normal(a)? * self.sigma[a]);
+        }
+        for facet in &self.facets {
+            let sigma = facet.of(&self.sigma);
+            for (k, &a) in facet.nodes().iter().enumerate().filter(|(_, a)| self.is_covered[**a]) {
+                let rhat = given.augmentation(a) * areas[a];
+                let mut left = 0.0;
+                for (l, &b) in facet.nodes().iter().enumerate() {
+                    left += (facet.mass[k][l] + self.factors[a] * facet.stabilisation[k][l]) * lambda[b][0];
+                }
+                let (mut force, mut area) = (0.0, 0.0);
+                for closed in &self.closed[facet.places()] {
+                    force += closed.ab[k].iter().zip(&sigma).map(|(n, s)| n * s).sum::<f64>();
+                    area += closed.ab[k].iter().sum::<f64>();
+                }
+                responses[a].row += SVector::from_element((force - left) / rhat);
+                self.tractions[a] += force / sums[a].coverage;
+                self.shares[a] += area / sums[a].coverage;
+            }
+        }
+        for (a, response) in responses.iter_mut().enumerate().filter(|(a, _)| self.shares[*a] > 0.0) {
+            response.state = State::Slip;
+            response.traction = given.normal(a)? * self.tractions[a];
+        }
+        Ok(())
+    }
+
+    /// Stage 3: forces and rows.
+    pub fn residual<const N: usize>(
+        &self,
+        given: Given<N>,
+        responses: &[NodeResponse<N>],
+        r: &mut Residual<N>,
+    ) -> Result<()> {
+        let ((one, two), nodes) = (given.setup.surfaces(), &given.setup.nodes);
+        memory::refill(&mut r.nonmortar, Vec3::zeros(), one.len())?;
+        memory::refill(&mut r.mortar, Vec3::zeros(), two.len())?;
+        memory::refill(&mut r.rows, SVector::zeros(), one.len())?;
+        for facet in &self.facets {
+            let t = facet.of(&self.sigma).map(|sigma| facet.normal * sigma);
+            for place in facet.places() {
+                let f = pair_force(&self.closed[place], &t);
+                facet.nodes().iter().zip(&f).for_each(|(&a, f)| r.nonmortar[a] += f);
+                let other = two.host_nodes(self.pairs[place].two);
+                other.iter().zip(&f[MORTAR..]).for_each(|(&c, f)| r.mortar[c] += f);
+            }
+        }
+        for (a, response) in responses.iter().enumerate().filter(|(a, _)| nodes.is_own(*a) && one.has_row(*a)) {
+            r.rows[a] = response.row * given.row_scale(a);
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,281 @@
+//! Deciding at points (docs/formulation.md 16): the tangent against differences, momentum, sums over points by brute force, closed
+//! and open facets, the patch test's equations, history, what is refused.
+
+use crate::support::differences::Point;
+use crate::support::lines::*;
+use crate::support::max_abs;
+use crate::support::mesh::*;
+use nalgebra::SVector;
+use stickslip::error::Kind;
+use stickslip::geometry::Vec3;
+use stickslip::interface::{
+    Contact, Decision, Form, Friction, MultiplierBasis, Options, Owner, PlanPairs, RowScale, Scheme, Stiffness, Weights,
+};
+use stickslip::law::State;
+use stickslip::line::Measure;
+use stickslip::quadrature::line;
+
+const MODULUS: f64 = 30.0;
+/// Differences: truncation 1e-12 and rounding 1e-10 of a step of 1e-6.
+const DIFFERENCES: f64 = 1e-7;
+/// Sums of some dozen products, over the largest.
+const ROUNDING: f64 = 1e-13;
+const CELLS: [[Cells; 2]; 4] = [
+    [Cells::Quads, Cells::Quads],
+    [Cells::Triangles, Cells::Triangles],
+    [Cells::Quads, Cells::Triangles],
+    [Cells::Triangles, Cells::Quads],
+];
+const WEIGHTS: [Weights; 2] = [Weights::Committed, Weights::Reference];
+
+fn by_points(weights: Weights) -> Options {
+    let of = Options::new(Stiffness::Modulus(MODULUS));
+    let (basis, decision) = (MultiplierBasis::Dual, Decision::Points(MODULUS));
+    Options { basis, decision, weights, friction: Friction::None, ..of }
+}
+
+struct Scene {
+    contact: Contact<1>,
+    x1: Vec<Vec3>,
+    x2: Vec<Vec3>,
+    lambda: Vec<SVector<f64, 1>>,
+}
+
+/// That of [`moved`] without friction, multipliers of both signs.
+fn scene(options: Options, cells: [Cells; 2], rough: Roughness, seed: u64) -> Scene {
+    let m = moved(&crate::support::mesh::options(), cells, rough, seed);
+    let (one, two) = m.interface.surfaces();
+    let contact = contact::<1>(&mesh_of(one), &mesh_of(two), false, options);
+    let mut random = Random(seed);
+    // Of both signs, and of some seeds mostly pressed.
+    let mean = if seed == 8 { -2.5 } else { -0.1 };
+    let lambda = (0..m.x1.len()).map(|_| SVector::from([mean + 0.5 * random.next()])).collect();
+    Scene { contact, x1: m.x1, x2: m.x2, lambda }
+}
+
+impl Scene {
+    fn error(&mut self) -> f64 {
+        let Scene { contact, x1, x2, lambda } = self;
+        Point { contact, x1, x2, lambda }.difference_error(0.0)
+    }
+
+    /// Open, cut and closed nodes.
+    fn shares(&mut self) -> [usize; 3] {
+        let r = self.contact.responses(&self.x1, &self.x2, &self.lambda, None).unwrap();
+        let mut count = [0; 3];
+        for (a, r) in r.iter().enumerate() {
+            let share = self.contact.closed_share(a);
+            assert!((-ROUNDING..1.0 + ROUNDING).contains(&share) && (share > 0.0) == (r.state != State::Gap));
+            count[if share == 0.0 {
+                0
+            } else if share < 1.0 - ROUNDING {
+                1
+            } else {
+                2
+            }] += 1;
+        }
+        count
+    }
+}
+
+#[test]
+fn tangents_are_those_of_differences_for_every_kind_on_every_kind() {
+    let mut seen = [0; 3];
+    for (weights, cells) in WEIGHTS.into_iter().flat_map(|w| CELLS.map(|cells| (w, cells))) {
+        for (slide, seed) in [(0.02, 3), (0.02, 8), (1.3, 5)] {
+            for rough in [FLAT, Roughness { warp: 0.03, jitter: 0.08, slide }] {
+                let row_scale = if seed == 8 { RowScale::None } else { RowScale::Force };
+                let mut s = scene(Options { row_scale, ..by_points(weights) }, cells, rough, seed);
+                s.shares().iter().zip(&mut seen).for_each(|(n, seen)| *seen += n);
+                let error = s.error();
+                assert!(error <= DIFFERENCES, "{weights:?} {seed}: {error:e}");
+                if weights == Weights::Committed {
+                    let (x1, x2) = (s.x1.clone(), s.x2.clone());
+                    s.contact.commit(&x1, &x2, &s.lambda, None).unwrap();
+                    let error = s.error();
+                    assert!(error <= DIFFERENCES, "after a commit {seed}: {error:e}");
+                }
+            }
+        }
+    }
+    assert!(seen.iter().all(|n| *n > 20), "open, cut, closed: {seen:?}");
+}
+
+#[test]
+fn tangents_of_lines_are_those_of_differences() {
+    let measures = [Measure::Thickness(0.7), Measure::Axisymmetric];
+    for (measure, weights) in measures.into_iter().flat_map(|m| WEIGHTS.map(|w| (m, w))) {
+        for seed in 1..5 {
+            let mut s = moved_lines::<1>(&by_points(weights), [2, 2], measure, seed);
+            let error = s.difference_error();
+            assert!(error <= DIFFERENCES, "{measure:?} {weights:?} {seed}: {error:e}");
+        }
+    }
+}
+
+/// Newton's matrix of a plan, in two numbers of threads, is that of entries one by one.
+#[test]
+fn a_plan_has_the_same_tangent() {
+    for (threads, cells) in [(1, CELLS[0]), (3, CELLS[2])] {
+        let mut s = scene(Options { threads, ..by_points(Weights::Committed) }, cells, FLAT, 3);
+        let Scene { contact, x1, x2, lambda } = &mut s;
+        let n = 3 * (x1.len() + x2.len()) + lambda.len();
+        let mut expected = vec![0.0; n * n];
+        let mut add = |i: i64, j: i64, v: f64| expected[i as usize * n + j as usize] += v;
+        contact.tangent(x1, x2, lambda, None, &mut add).unwrap();
+        let largest = max_abs(expected.iter().copied());
+        for pairs in [PlanPairs::Active(stickslip::interface::Extent::Whole), PlanPairs::Possible] {
+            let entries = contact.make_plan((x1, x2), pairs).unwrap();
+            let mut values = vec![0.0; entries];
+            contact.plan_values((x1, x2), lambda, None, &mut values).unwrap();
+            let (plan, of) = contact.plan(stickslip::interface::PlanSystem::Whole).unwrap();
+            let (mut k, mut found) = (0, vec![0.0; n * n]);
+            let rows = plan.rows().0.to_vec();
+            let mut row = rows.iter();
+            plan.each_row(of, &mut |columns| {
+                let i = *row.next().unwrap() as usize;
+                columns.iter().for_each(|&j| {
+                    found[i * n + j as usize] += values[k];
+                    k += 1;
+                });
+                Ok(())
+            })
+            .unwrap();
+            assert_eq!(k, entries);
+            let error = max_abs(found.iter().zip(&expected).map(|(a, b)| a - b));
+            assert!(error <= ROUNDING * largest, "{pairs:?}: {error:e} of {largest:e}");
+        }
+    }
+}
+
+/// Forces add up to nothing, and so do their moments where the surfaces are where the weights are of.
+#[test]
+fn momentum_is_kept() {
+    for (cells, seed) in CELLS.into_iter().flat_map(|c| [(c, 3), (c, 8)]) {
+        let rough = Roughness { warp: 0.03, jitter: 0.08, slide: 0.3 };
+        let mut s = scene(by_points(Weights::Committed), cells, rough, seed);
+        let (x1, x2) = (s.x1.clone(), s.x2.clone());
+        s.contact.commit(&x1, &x2, &s.lambda, None).unwrap();
+        let r = s.contact.residual(&x1, &x2, &s.lambda, None).unwrap();
+        let all = || r.nonmortar.iter().zip(&x1).chain(r.mortar.iter().zip(&x2));
+        let largest = max_abs(all().flat_map(|(f, _)| f.iter().copied()));
+        let (force, moment) = all().fold((Vec3::zeros(), Vec3::zeros()), |(f, m), (g, x)| (f + g, m + x.cross(g)));
+        assert!(largest > 1e-3 && force.amax() <= ROUNDING * largest, "{force} of {largest:e}");
+        assert!(moment.amax() <= ROUNDING * largest, "{moment} of {largest:e}");
+    }
+}
+
+/// A flat interface, all closed: constant multipliers are in equilibrium with gaps of zero, the rows vanish, and nodal forces are those
+/// of nodes with dual multipliers.
+#[test]
+fn closed_facets_are_those_of_nodes_and_pass_the_patch_test() {
+    for cells in CELLS {
+        let flat = Roughness { warp: 0.0, jitter: 0.1, slide: 0.0 };
+        let m = moved(&options(), cells, flat, 4);
+        let (one, two) = m.interface.surfaces();
+        let (one, two) = (mesh_of(one), mesh_of(two));
+        let lambda = vec![SVector::from([-0.7]); one.x.len()];
+        let of = by_points(Weights::Reference);
+        let mut points = contact::<1>(&one, &two, false, of);
+        let mut nodes = contact::<1>(&one, &two, false, Options { decision: Decision::Nodes, ..of });
+        let [p, n] = [&mut points, &mut nodes].map(|c| c.residual(&one.x, &two.x, &lambda, None).unwrap());
+        let largest = max_abs(n.nonmortar.iter().flat_map(|f| f.iter().copied()));
+        let forces = p.nonmortar.iter().zip(&n.nonmortar).chain(p.mortar.iter().zip(&n.mortar));
+        let error = max_abs(forces.flat_map(|(p, n)| [p - n]).flat_map(|d| [d.x, d.y, d.z]));
+        assert!(error <= ROUNDING * largest, "{error:e} of {largest:e}");
+        let rows = max_abs(p.rows.iter().map(|row| row[0]));
+        assert!(rows <= ROUNDING * largest, "{rows:e}");
+    }
+}
+
+/// Of two squares on each other, whose overlap is known: tractions by a fine rule against those of the interface's points. The
+/// border lies along an edge of the points' triangles, so that both are exact.
+#[test]
+fn integrals_are_those_over_points_with_negative_sigma() {
+    // sigma = lambda: no gap. Negative for x < 1/2 and linear: the border cuts the square in half, along the mortar side's edge.
+    let one = grid(1, 1, [0.0, 0.0], [1.0, 1.0], 0.0, false, Cells::Quads);
+    let two = grid(2, 1, [0.0, 0.0], [1.0, 1.0], 0.0, true, Cells::Quads);
+    let lambda: Vec<_> = one.x.iter().map(|x| SVector::from([x.x - 0.5])).collect();
+    let mut contact = contact::<1>(&one, &two, false, by_points(Weights::Reference));
+    let r = contact.residual(&one.x, &two.x, &lambda, None).unwrap();
+    let at = |x: f64, node: f64| if node == 0.0 { 1.0 - x } else { x };
+    for (a, x) in one.x.iter().enumerate() {
+        // int_0^(1/2) N(x) (x - 1/2) dx / 2, by Gauss points that are exact for it.
+        let sum: f64 = line::GAUSS_3.iter().map(|[s, w]| 0.5 * w * at(0.5 * s, x.x) * (0.5 * s - 0.5)).sum();
+        assert!((r.nonmortar[a].z - 0.5 * sum).abs() <= ROUNDING, "{a}: {}", r.nonmortar[a]);
+        let share = contact.closed_share(a);
+        let area: f64 = line::GAUSS_3.iter().map(|[s, w]| 0.5 * w * at(0.5 * s, x.x)).sum();
+        assert!((share - area / 0.5).abs() <= ROUNDING, "{a}: {share}");
+    }
+}
+
+/// Evaluations, commits and imports: a history of points is one of nodes, and goes on with the same bits.
+#[test]
+fn histories_go_on_with_the_same_bits() {
+    for weights in WEIGHTS {
+        let rough = Roughness { warp: 0.02, jitter: 0.05, slide: 0.3 };
+        let mut s = scene(by_points(weights), CELLS[2], rough, 3);
+        let first = s.contact.residual(&s.x1, &s.x2, &s.lambda, None).unwrap();
+        s.contact.commit(&s.x1, &s.x2, &s.lambda, None).unwrap();
+        let second = s.contact.residual(&s.x1, &s.x2, &s.lambda, None).unwrap();
+        let (integers, reals) = s.contact.export_history().unwrap();
+        let mut other = scene(by_points(weights), CELLS[2], rough, 3);
+        other.contact.import_history(&integers, &reals).unwrap();
+        assert!(second == other.contact.residual(&s.x1, &s.x2, &s.lambda, None).unwrap());
+        s.contact.roll_back().unwrap();
+        assert!(first == s.contact.residual(&s.x1, &s.x2, &s.lambda, None).unwrap());
+        assert!((first == second) == (weights == Weights::Reference));
+    }
+}
+
+/// Fewer unknowns away from the border say the same: with an augmentation beside the modulus r changes and K does not.
+#[test]
+fn an_augmentation_takes_the_place_of_r_alone() {
+    let of = by_points(Weights::Reference);
+    let flat = Roughness { warp: 0.0, jitter: 0.0, slide: 0.0 };
+    let row = |options: Options| {
+        let mut s = scene(options, CELLS[0], flat, 3);
+        // Open: the rows are - (m + (r / r0) K) lambda, as forces.
+        let lambda: Vec<_> = (0..s.x1.len()).map(|a| SVector::from([1.0 + a as f64])).collect();
+        let away: Vec<_> = s.x1.iter().zip(0..).map(|(x, _)| x + s.contact.normal(0).unwrap()).collect();
+        s.contact.residual(&away, &s.x2, &lambda, None).unwrap().rows
+    };
+    // Facets of 0.5: r0 = 0.9 E* / 0.5.
+    let r0 = 0.9 * MODULUS / 0.5;
+    let same = row(Options { stiffness: Stiffness::Augmentation(r0), ..of });
+    let (own, twice) = (row(of), row(Options { stiffness: Stiffness::Augmentation(2.0 * r0), ..of }));
+    let thrice = row(Options { stiffness: Stiffness::Augmentation(3.0 * r0), ..of });
+    for (((own, same), twice), thrice) in own.iter().zip(&same).zip(&twice).zip(&thrice) {
+        assert!((own - same).amax() <= ROUNDING, "{own} {same}");
+        assert!((twice - own - (thrice - twice)).amax() <= ROUNDING, "linear in r / r0: {own} {twice} {thrice}");
+    }
+}
+
+#[test]
+fn what_points_do_not_go_with_is_refused_by_name() {
+    let of = by_points(Weights::Reference);
+    let (one, two) = (
+        grid(1, 1, [0.0; 2], [1.0; 2], 0.0, false, Cells::Quads),
+        grid(1, 1, [0.0; 2], [1.0; 2], 0.0, true, Cells::Quads),
+    );
+    let refused = |options: Options, word: &str| {
+        let error = options.validate().unwrap_err();
+        assert!(error.kind == Kind::Unsupported && error.message.contains(word), "{error}");
+    };
+    refused(Options { friction: Friction::Coulomb, ..of }, "friction");
+    refused(Options { friction: Friction::Tied, ..of }, "tied");
+    refused(Options { basis: MultiplierBasis::Standard, ..of }, "BASIS_DUAL");
+    refused(Options { weights: Weights::Current, ..of }, "weights of now");
+    refused(Options { form: Form::Augmented, ..of }, "augmented");
+    refused(Options { scheme: Scheme::Elements(&line::GAUSS_2), ..of }, "stand for overlaps");
+    refused(Options { weak_coverage: 0.2, ..of }, "weak_coverage");
+    let mut contact = contact::<1>(&one, &two, false, of);
+    let error = contact.set_owners(vec![Owner::Here, Owner::Elsewhere, Owner::Here, Owner::Here]).unwrap_err();
+    assert!(error.kind == Kind::Unsupported && error.message.contains("parts"), "{error}");
+    contact.set_owners(vec![Owner::Here; 4]).unwrap();
+    let sums = contact.sums(&one.x, &two.x).unwrap();
+    let error = contact.residual(&one.x, &two.x, &[SVector::zeros(); 4], Some(&sums)).unwrap_err();
+    assert!(error.kind == Kind::Unsupported && error.message.contains("sums"), "{error}");
+    let lines = std::panic::catch_unwind(|| moved_lines::<1>(&of, [3, 3], Measure::Thickness(1.0), 1).unknowns());
+    assert!(lines.is_err(), "lines of three nodes");
+}
