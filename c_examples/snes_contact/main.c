@@ -59,6 +59,7 @@ static PetscErrorCode read_scene(Model *model)
   PetscCall(iterative_read(model->scene, &model->solve));
   PetscCall(heat_read(model->scene, &model->heat));
   PetscCall(output_read(model->scene, &model->output));
+  scene_string(model->scene, NULL, "restart", model->restart, sizeof(model->restart));
   model->solve.quiet = model->output.quiet;
   scene_root_begin(model->scene); /* rank 0 has read every key */
   if (model->mesh.rank == 0) scene_check_unread(model->scene, PETSC_FALSE);
@@ -115,6 +116,7 @@ static PetscErrorCode clean_up(Model *model)
   PetscCall(contact_destroy(&model->contact));
   PetscCall(physics_destroy(&model->physics));
   PetscCall(mesh_destroy(&model->mesh));
+  PetscCall(PetscFree(model->effective));
   PetscCall(scene_close(&model->scene));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -2,44 +2,37 @@
 #include "model.h"
 #include "physics/dynamics.h"
 
-typedef struct {
-  Vec       x; /* the iterate */
-  Past      past;
-  PetscBool tried;     /* a step has been solved, or tried */
-  PetscBool converged; /* the last attempt had, so that its commit was refused if the library refused */
-} History;
-
-static PetscErrorCode history_create(Model *model, History *history)
+static PetscErrorCode run_create(Model *model, Run *run)
 {
   PetscFunctionBegin;
-  *history = (History){0};
-  PetscCall(DMCreateGlobalVector(model->mesh.dm, &history->x));
-  PetscCall(VecDuplicate(history->x, &history->past.last));
-  PetscCall(VecDuplicate(history->x, &history->past.before));
-  PetscCall(VecZeroEntries(history->past.last));
+  *run = (Run){0};
+  PetscCall(DMCreateGlobalVector(model->mesh.dm, &run->x));
+  PetscCall(VecDuplicate(run->x, &run->past.last));
+  PetscCall(VecDuplicate(run->x, &run->past.before));
+  PetscCall(VecZeroEntries(run->past.last));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode history_destroy(History *history)
+static PetscErrorCode run_destroy(Run *run)
 {
   PetscFunctionBegin;
-  PetscCall(VecDestroy(&history->x));
-  PetscCall(VecDestroy(&history->past.last));
-  PetscCall(VecDestroy(&history->past.before));
+  PetscCall(VecDestroy(&run->x));
+  PetscCall(VecDestroy(&run->past.last));
+  PetscCall(VecDestroy(&run->past.before));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
 /* The mechanics, and in turns with them the temperatures, until what bodies expand by has settled. */
-static PetscErrorCode solve_in_turns(Model *model, History *history, PetscBool *done)
+static PetscErrorCode solve_in_turns(Model *model, Run *run, PetscBool *done)
 {
   Heat           *heat = &model->heat;
-  const PetscReal dt   = model->physics.t - history->past.t_last;
+  const PetscReal dt   = model->physics.t - run->past.t_last;
   PetscReal       change;
   PetscInt        refused;
   PetscFunctionBegin;
   for (;;) {
-    PetscCall(loads_values(&model->physics));
-    PetscCall(newton_solve(&model->solve, &history->past, history->x, done));
+    if (!model->physics.dynamics) PetscCall(loads_values(&model->physics));
+    PetscCall(newton_solve(&model->solve, &run->past, run->x, done));
     model->solve.iterations += model->solve.newton.iterations;
     if (!*done || !heat->on) PetscFunctionReturn(PETSC_SUCCESS);
     PetscCall(heat_solve(heat, dt, &change, &refused));
@@ -57,8 +50,7 @@ static PetscErrorCode solve_in_turns(Model *model, History *history, PetscBool *
 }
 
 /* Solve at t and commit; `last`: t is the end of the run. */
-static PetscErrorCode step_to(Model *model, Summary *summary, History *history, PetscInt step, PetscReal t,
-                              PetscBool asked, PetscBool last, PetscBool *done)
+static PetscErrorCode step_to(Model *model, Run *run, PetscReal t, PetscBool asked, PetscBool last, PetscBool *done)
 {
   Newton  *newton = &model->solve.newton;
   PetscInt refused;
@@ -66,41 +58,43 @@ static PetscErrorCode step_to(Model *model, Summary *summary, History *history, 
   model->physics.t = t;
   PetscCall(supports_values(&model->physics, t));
   PetscCall(heat_begin(&model->heat, t));
-  PetscCall((model->physics.dynamics ? dynamics_begin : loads_values)(&model->physics));
+  if (model->physics.dynamics) PetscCall(dynamics_begin(&model->physics));
   PetscCall(offsets_values(&model->contact, t, &refused));
   if (refused) {
     *done = PETSC_FALSE;
     PetscFunctionReturn(PETSC_SUCCESS);
   }
-  PetscCall(solve_in_turns(model, history, done));
-  history->tried     = PETSC_TRUE;
-  history->converged = *done;
+  PetscCall(solve_in_turns(model, run, done));
+  if (*done) PetscCall(remote_check(&model->physics, newton->why, sizeof(newton->why)));
+  if (*done && newton->why[0]) *done = PETSC_FALSE;
+  run->tried     = PETSC_TRUE;
+  run->converged = *done;
   if (*done) {
-    PetscCall(summary_step(&model->output, summary, step, PETSC_TRUE, asked, last));
+    PetscCall(summary_step(&model->output, run->summary, run->step + 1, PETSC_TRUE, asked, last));
     PetscCall(contact_commit(&model->contact, &refused));
     *done = (PetscBool)!refused;
-    PetscCall(summary_settle_step(&model->output, summary, *done));
+    PetscCall(summary_settle_step(&model->output, run->summary, *done));
     if (refused) {
       newton->refused_commit = PETSC_TRUE;
       PetscCall(PetscSNPrintf(newton->why, sizeof(newton->why), "converged, but refused at its commit: %s",
                               model->contact.refusal));
     }
   }
-  if (!*done) PetscCall(summary_failed_attempt(&model->output, summary, history->past.t_last));
+  if (!*done) PetscCall(summary_failed_attempt(&model->output, run->summary, run->past.t_last));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static PetscErrorCode accept(Model *model, History *history)
+static PetscErrorCode accept(Model *model, Run *run)
 {
   PetscFunctionBegin;
   PetscCall(dynamics_accept(&model->physics));
   /* How a gap closes is no rate, either. */
-  history->past.have_before = (PetscBool)(!times_bend(&model->physics, model->physics.t) && !model->solve.closing.ever_cut);
-  PetscCall(VecCopy(history->past.last, history->past.before));
-  PetscCall(VecCopy(history->x, history->past.last));
-  PetscCall(rigids_accept(&model->physics, model->physics.t, history->past.last, history->past.before));
-  history->past.t_before        = history->past.t_last;
-  history->past.t_last          = model->physics.t;
+  run->past.have_before = (PetscBool)(!times_bend(&model->physics, model->physics.t) && !model->solve.closing.ever_cut);
+  PetscCall(VecCopy(run->past.last, run->past.before));
+  PetscCall(VecCopy(run->x, run->past.last));
+  PetscCall(rigids_accept(&model->physics, model->physics.t, run->past.last, run->past.before));
+  run->past.t_before        = run->past.t_last;
+  run->past.t_last          = model->physics.t;
   model->solve.iterations        = 0;
   parts_accept(&model->physics);
   PetscCall(heat_accept(&model->heat));
@@ -112,22 +106,22 @@ static PetscErrorCode accept(Model *model, History *history)
 }
 
 /* The run has ended before its end. */
-static PetscErrorCode give_up(Model *model, const History *history, int *exit_code)
+static PetscErrorCode give_up(Model *model, const Run *run, int *exit_code)
 {
   const char *refusal = model->contact.refusal;
   char        held[1024];
   PetscFunctionBegin;
   PetscCall(held_describe(&model->solve, held, sizeof(held)));
   *exit_code = refusal[0] ? 3 : 2;
-  if (refusal[0] && !history->tried)
+  if (refusal[0] && !run->tried)
     PetscCall(PetscFPrintf(PETSC_COMM_WORLD, PETSC_STDERR,
                            "snes_contact: refused by the library: %s. That is so at t = 0, before the first step.\n",
                            refusal));
-  else if (refusal[0] && history->converged)
+  else if (refusal[0] && run->converged)
     PetscCall(PetscFPrintf(PETSC_COMM_WORLD, PETSC_STDERR,
                            "snes_contact: refused by the library: %s. That is the commit of the step from t = %.6g to "
                            "%.6g, which had converged.\n",
-                           refusal, (double)history->past.t_last, (double)model->physics.t));
+                           refusal, (double)run->past.t_last, (double)model->physics.t));
   else if (refusal[0])
     PetscCall(PetscFPrintf(PETSC_COMM_WORLD, PETSC_STDERR,
                            "snes_contact: refused by the library: %s. Newton's iterates may have run away to there: %s\n",
@@ -136,7 +130,7 @@ static PetscErrorCode give_up(Model *model, const History *history, int *exit_co
     PetscCall(PetscFPrintf(PETSC_COMM_WORLD, PETSC_STDERR,
                            "snes_contact: not converged beyond t = %.6g, not even by a step of %.2g: %s. %s See "
                            "scenes/README.md.\n",
-                           (double)history->past.t_last, (double)(model->physics.t - history->past.t_last),
+                           (double)run->past.t_last, (double)(model->physics.t - run->past.t_last),
                            model->solve.newton.why, held));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -144,27 +138,25 @@ static PetscErrorCode give_up(Model *model, const History *history, int *exit_co
 PetscErrorCode run(Model *model, int *exit_code)
 {
   Steps    *steps = &model->solve.steps;
-  StepSize  size;
-  History   history;
-  Summary  *summary;
-  PetscInt  status, cutbacks = 0, step = 0;
+  Run       run;
+  PetscInt  status;
   PetscBool failed, checked = PETSC_FALSE, done;
 
   PetscFunctionBegin;
   *exit_code = 0;
   PetscCall(times_add_kinks(&model->physics, &model->solve.steps));
-  PetscCall(summary_create(&model->output, &summary));
+  PetscCall(run_create(model, &run));
+  PetscCall(summary_create(&model->output, &run.summary));
   for (PetscInt i = 0; i < model->contact.n_interfaces; i++)
     PetscCall(csv_adjusted(&model->output, &model->contact.interfaces[i]));
-  PetscCall(history_create(model, &history));
   PetscCall(supports_values(&model->physics, 0));
-  PetscCall(contact_start(&model->contact, history.past.last, &status));
+  PetscCall(contact_start(&model->contact, run.past.last, &status));
   failed = (PetscBool)(status != 0);
-  step_size_start(steps, &size);
-  while (!failed && history.past.t_last < steps->end) {
-    const PetscReal t = step_size_next(steps, &size, history.past.t_last), target = steps->targets[size.next];
-    PetscCall(step_to(model, summary, &history, step + 1, t, (PetscBool)(t == target && steps->asked[size.next]),
-                      (PetscBool)(t == steps->end), &done));
+  step_size_start(steps, &run.size);
+  if (!failed) PetscCall(restart_read(model, &run));
+  while (!failed && run.past.t_last < steps->end) {
+    const PetscReal t = step_size_next(steps, &run.size, run.past.t_last), target = steps->targets[run.size.next];
+    PetscCall(step_to(model, &run, t, (PetscBool)(t == target && steps->asked[run.size.next]), (PetscBool)(t == steps->end), &done));
     if (done) {
       if (model->solve.iterations && !checked) { /* the solvers have read their options by now */
         scene_root_begin(model->scene); /* rank 0 alone has read keys of meshes */
@@ -172,20 +164,21 @@ PetscErrorCode run(Model *model, int *exit_code)
         PetscCall(scene_root_end(model->scene));
         checked = PETSC_TRUE;
       }
-      step_size_accept(steps, &size, history.past.t_last, t, &model->solve.newton, times_bend(&model->physics, t));
-      PetscCall(accept(model, &history));
-      step++;
+      step_size_accept(steps, &run.size, run.past.t_last, t, &model->solve.newton, times_bend(&model->physics, t));
+      PetscCall(accept(model, &run));
+      run.step++;
+      PetscCall(restart_write(model, &run, (PetscBool)(t == steps->end)));
     } else {
-      cutbacks++;
-      failed = (PetscBool)!step_size_cut(steps, &size, t - history.past.t_last);
+      run.n_cutbacks++;
+      failed = (PetscBool)!step_size_cut(steps, &run.size, t - run.past.t_last);
     }
   }
   if (failed) {
-    PetscCall(summary_step(&model->output, summary, step + 1, PETSC_FALSE, PETSC_FALSE, PETSC_TRUE));
-    PetscCall(give_up(model, &history, exit_code));
+    PetscCall(summary_step(&model->output, run.summary, run.step + 1, PETSC_FALSE, PETSC_FALSE, PETSC_TRUE));
+    PetscCall(give_up(model, &run, exit_code));
   }
-  PetscCall(summary_write(&model->output, &summary, history.past.last, cutbacks,
+  PetscCall(summary_write(&model->output, &run.summary, run.past.last, run.n_cutbacks,
                           *exit_code == 2 ? model->solve.newton.why : model->contact.refusal));
-  PetscCall(history_destroy(&history));
+  PetscCall(run_destroy(&run));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

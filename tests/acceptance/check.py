@@ -36,6 +36,7 @@ from quadratic_tied import quadratic_tied  # noqa: E402
 from ranks import ranks, ranks_full, ranks_scenes  # noqa: E402
 from ranks_files import ranks_files  # noqa: E402
 from ranks_moving import ranks_many, ranks_moving  # noqa: E402
+from restart import restart  # noqa: E402
 from rigid import rigid  # noqa: E402
 from roles import roles  # noqa: E402
 from slider import slider, slider_fine  # noqa: E402
@@ -86,6 +87,7 @@ GROUPS = {
     "ranks_many": ranks_many,
     "ranks_moving": ranks_moving,
     "ranks_scenes": ranks_scenes,
+    "restart": restart,
     "rigid": rigid,
     "roles": roles,
     "slider": slider,

@@ -11,6 +11,10 @@ EXACT_BOUND = 1e-10
 STATICS_BOUND = 1e-9
 # A disc of 40 quad8 around; 1.4e-5 is measured.
 DISC_BOUND = 1e-3
+# A bar twelve times as long as high whose end turns under a moment: the ends' own deformation; 0.5 % is measured.
+BENDING_BOUND = 0.01
+# Ranks add in another order.
+RANKS_BOUND = 1e-11
 # The .vtu has six digits of a stress; half of the last.
 STRESS_DIGITS = 1e-5
 YOUNG, POISSON, DENSITY, GRAVITY = 1000.0, 0.3, 2.0, 9.81
@@ -23,6 +27,10 @@ def loads(verdicts, driver):
     compressed(verdicts, driver)
     cantilever(verdicts, driver)
     groove(verdicts, driver)
+    points(verdicts, driver)
+    spread(verdicts, driver)
+    spread_in_the_plane(verdicts, driver)
+    turns_too_far(verdicts, driver)
 
 
 def column(verdicts, driver):
@@ -164,3 +172,94 @@ def groove(verdicts, driver):
         force = run.resultant(name)[:2]
         error = np.abs(force - size * normal[side]).max() / np.linalg.norm(weight)
         verdicts.below(f"wedge in a groove: force of the {side} wall", error, STATICS_BOUND, "statics")
+
+
+def points(verdicts, driver):
+    """A bar drawn at the four nodes of its end, without Poisson's effect: the same strain everywhere."""
+    force, length = 5.0, 3.0
+    corners = {f"pull{k}": [float(k // 2), float(k % 2), length] for k in range(4)}
+    scene = {
+        "schema": 1,
+        "bodies": ["bar"],
+        "bar": {"type": "box", "lower": [0, 0, 0], "upper": [1, 1, length], "cells": [1, 1, 4], "young": YOUNG, "poisson": 0, "small_strain": True},
+        "supports": ["ground"],
+        "ground": {"surface": "bar.zmin", "components": ["x", "y", "z"]},
+        "loads": list(corners),
+        **{name: {"body": "bar", "point": place, "force": [0, 0, force / 4]} for name, place in corners.items()},
+        "steps": {"count": 1},
+    }
+    path = write(scene, driver.output / "points.yaml")
+    for ranks in (1, 2):
+        run = driver.run(path, ranks=ranks, label=f"points_{ranks}")
+        at, _, u = run.mesh()
+        error = np.abs(u[:, 2] - force / YOUNG * at[:, 2]).max() * YOUNG / (force * length)
+        verdicts.below(f"forces on nodes, {ranks} ranks: displacements", error, EXACT_BOUND, "closed form")
+        verdicts.near(f"forces on nodes, {ranks} ranks: reaction", -run.steps[-1]["reactions"]["ground"][2], force, STATICS_BOUND, "statics")
+
+
+def beam(young, length, **load):
+    return {
+        "schema": 1,
+        "bodies": ["beam"],
+        "beam": {"type": "box", "cell": "hex20", "lower": [0, 0, 0], "upper": [length, 1, 1], "cells": [int(length), 2, 2], "young": young,
+                 "poisson": 0, "small_strain": True},
+        "supports": ["foot"],
+        "foot": {"surface": "beam.xmin", "components": ["x", "y", "z"]},
+        "loads": ["tip"],
+        "tip": {"surface": "beam.xmax", **load},
+        "steps": {"count": 2},
+        "probes": ["top", "bottom"],
+        "top": {"body": "beam", "point": [length, 0.5, 1]},
+        "bottom": {"body": "beam", "point": [length, 0.5, 0]},
+    }
+
+
+def spread(verdicts, driver):
+    """What the foot feels is force and moment; under a moment the beam bends to an arc."""
+    force, moment, point = np.array([1.0, -2.0, 3.0]), np.array([4.0, 5.0, -6.0]), np.array([7.0, 2.0, -1.0])
+    path = write(beam(1e9, 4.0, force=force.tolist(), moment=moment.tolist(), point=point.tolist()), driver.output / "spread.yaml")
+    forces = []
+    for ranks in (1, 2, 3):
+        step = driver.run(path, ranks=ranks, label=f"spread_{ranks}").steps[-1]
+        forces.append(np.array(step["reactions"]["foot"] + step["moments"]["foot"]))
+        exact = np.concatenate([force, moment + np.cross(point, force)])
+        error = np.abs(forces[-1] + exact).max() / np.abs(exact).max()
+        verdicts.below(f"spread force and moment, {ranks} ranks: reactions", error, STATICS_BOUND, "statics")
+    apart = max(np.abs(f - forces[0]).max() for f in forces) / np.abs(forces[0]).max()
+    verdicts.below("spread force and moment: reactions on 1, 2, 3 ranks", apart, RANKS_BOUND, "the same")
+    length, bend = 12.0, 0.01
+    run = driver.run(write(beam(YOUNG, length, moment=[0, bend, 0]), driver.output / "bent.yaml"))
+    probes = run.steps[-1]["probes"]
+    turn = probes["top"][0] - probes["bottom"][0]  # over the height, 1
+    verdicts.near("spread moment: turn of the end", turn, bend * length / (YOUNG / 12), BENDING_BOUND, "M L / (E I)")
+
+
+def spread_in_the_plane(verdicts, driver):
+    force, moment = np.array([2.0, -1.0]), 0.7
+    scene = {
+        "schema": 1,
+        "model": "plane_stress",
+        "bodies": ["beam"],
+        "beam": {"type": "box", "cell": "quad8", "lower": [0, 0], "upper": [4, 1], "cells": [8, 2], "young": 1e9, "poisson": 0.3, "small_strain": True},
+        "supports": ["foot"],
+        "foot": {"surface": "beam.xmin", "components": ["x", "y"]},
+        "loads": ["tip"],
+        "tip": {"surface": "beam.xmax", "force": force.tolist(), "moment": moment},
+        "steps": {"count": 1},
+    }
+    step = driver.run(write(scene, driver.output / "spread_plane.yaml")).steps[-1]
+    exact = np.array([*force, moment + 4 * force[1] - 0.5 * force[0]])
+    found = np.array([*step["reactions"]["foot"][:2], step["moments"]["foot"][2]])
+    verdicts.below("spread force and moment in the plane: reactions", np.abs(found + exact).max() / np.abs(exact).max(), STATICS_BOUND, "statics")
+
+
+def turns_too_far(verdicts, driver):
+    """A moment whose surface turns beyond what dead arms bear is refused; a force at its middle has no arm."""
+    scene = beam(YOUNG, 12.0, moment=[0, 1.0, 0])
+    run = driver.run(write(scene, driver.output / "turned.yaml"), expect=2)
+    verdicts.true("a spread moment that turns far: refused", "the surface of 'tip' has turned by" in run.text, "by name")
+    reached = max((step["t"] for step in run.steps if step["converged"]), default=0)
+    turn = reached * 12.0 / (YOUNG / 12)
+    verdicts.within("a spread moment that turns far: turn of the last step", turn, 0.0, 0.021, "up to there")
+    scene = beam(YOUNG, 12.0, force=[0, 0, -0.1])
+    verdicts.true("a force at the middle", driver.run(write(scene, driver.output / "unarmed.yaml")).exit_code == 0, "goes on")

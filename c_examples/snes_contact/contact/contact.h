@@ -282,6 +282,14 @@ PetscErrorCode work_measure(const Interface *interface, PetscMPIInt rank, double
 /* share_out.c: before an evaluation at u_local, or on the way from there; after a step */
 PetscErrorCode contact_renew(Contact *contact, PetscInt number, Vec to, PetscInt *status);
 PetscErrorCode contact_share_out(Contact *contact);
+/* what the parts of an interface know of their nodes, at homes, so many numbers a node; it is freed where it goes back to them, or to new parts, at t_n */
+PetscErrorCode parts_knowledge(const Interface *interface, PetscInt *n_a_node, double **all);
+PetscErrorCode parts_hand_out(const Interface *interface, double *all);
+PetscErrorCode contact_share_out_at_t_n(Contact *contact, PetscInt number, double *all, PetscInt *status);
+/* restart.c: a local vector, one of unknowns; t_n and all that comes from before it */
+PetscErrorCode contact_archive_vector(Contact *contact, const char *name, Vec local, Archive *archive);
+PetscErrorCode contact_archive_unknowns(Contact *contact, const char *name, Vec x, Archive *archive);
+PetscErrorCode contact_archive(Contact *contact, Archive *archive);
 
 /* parts.c: of multipliers or vectors, `width` numbers a non-mortar node: all nodes here get their owners' values; so do those at home;
  * owners get what is at home */

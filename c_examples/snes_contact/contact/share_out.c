@@ -40,12 +40,13 @@ static void pack(const ContactPart *part, double packed[], PetscBool from)
   }
 }
 
-/* from all parts to homes */
-static PetscErrorCode collect(const Interface *interface, double **all)
+/* from all parts to homes: `n` numbers here */
+PetscErrorCode parts_knowledge(const Interface *interface, PetscInt *n_a_node, double **all)
 {
   const ContactPart *part = &interface->part;
   double            *here;
   PetscFunctionBegin;
+  *n_a_node = width(part);
   PetscCall(PetscMalloc1(width(part) * part->n1, &here));
   PetscCall(PetscMalloc1(width(part) * interface->n1, all));
   pack(part, here, PETSC_FALSE);
@@ -54,8 +55,8 @@ static PetscErrorCode collect(const Interface *interface, double **all)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* and from there to the parts that there are now */
-static PetscErrorCode hand_out(const Interface *interface, double *all)
+/* and from there to the parts that there are now; frees it */
+PetscErrorCode parts_hand_out(const Interface *interface, double *all)
 {
   const ContactPart *part = &interface->part;
   double            *here;
@@ -133,20 +134,19 @@ static PetscErrorCode carry_counts(const ContactPart *old, ContactPart *new)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* By interface->owner, with what `n` ways need. Where the library refuses, the parts are those that they were. */
-static PetscErrorCode share_out(Contact *contact, PetscInt number, PetscInt n, const Vec ways[][2], PetscInt *status)
+/* By interface->owner, with what `n` ways need; `all`: what the parts know, which is freed. Where the library refuses, the parts are
+ * those that they were. */
+static PetscErrorCode share_out(Contact *contact, PetscInt number, PetscInt n, const Vec ways[][2], double *all, PetscInt *status)
 {
   Interface *interface = &contact->interfaces[number], old = *interface;
-  double    *all;
   int32_t    refused;
 
   PetscFunctionBegin;
-  PetscCall(collect(interface, &all));
   interface->part = (ContactPart){0};
   halo_forget(&interface->halo);
   interface->offsets.part_nodal = interface->offsets.part_round = interface->offsets.now = NULL;
   PetscCall(part_create(contact, number, n, ways));
-  PetscCall(hand_out(interface, all));
+  PetscCall(parts_hand_out(interface, all));
   PetscCall(revive(contact, interface, &refused)); /* of the first configuration, where the new part still is */
   PetscCall(revive_place(contact, interface));
   PetscCall(contact_agree(contact, interface, refused, status));
@@ -164,8 +164,8 @@ static PetscErrorCode share_out(Contact *contact, PetscInt number, PetscInt n, c
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Frozen weights are those of the first configuration; others begin at t_n. */
-static PetscErrorCode share_out_at_t_n(Contact *contact, PetscInt number, PetscInt *status)
+/* Frozen weights are those of the first configuration; others begin at t_n. `all`: as share_out() has it */
+PetscErrorCode contact_share_out_at_t_n(Contact *contact, PetscInt number, double *all, PetscInt *status)
 {
   Vec rest;
   PetscFunctionBegin;
@@ -173,7 +173,7 @@ static PetscErrorCode share_out_at_t_n(Contact *contact, PetscInt number, PetscI
   PetscCall(VecZeroEntries(rest));
   {
     const Vec ways[1][2] = {{contact->interfaces[number].frozen ? rest : contact->committed, NULL}};
-    PetscCall(share_out(contact, number, 1, ways, status));
+    PetscCall(share_out(contact, number, 1, ways, all, status));
   }
   PetscCall(DMRestoreLocalVector(contact->mesh->dm, &rest));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -187,6 +187,8 @@ PetscErrorCode contact_renew(Contact *contact, PetscInt number, Vec to, PetscInt
   const Vec  way[2]    = {contact->physics->u_local, to};
   Vec        place     = NULL;
   PetscBool  enough    = PETSC_TRUE;
+  PetscInt   n;
+  double    *all;
 
   PetscFunctionBegin;
   *status = 0;
@@ -195,7 +197,8 @@ PetscErrorCode contact_renew(Contact *contact, PetscInt number, Vec to, PetscInt
   if (contact->linear) PetscCall(get_place(contact, &place));
   {
     const Vec ways[3][2] = {{contact->committed, NULL}, {way[0], way[1]}, {place, NULL}};
-    PetscCall(share_out(contact, number, place ? 3 : 2, ways, status));
+    PetscCall(parts_knowledge(interface, &n, &all));
+    PetscCall(share_out(contact, number, place ? 3 : 2, ways, all, status));
   }
   if (place) PetscCall(DMRestoreLocalVector(contact->mesh->dm, &place));
   if (!*status) {
@@ -274,12 +277,14 @@ PetscErrorCode contact_share_out(Contact *contact)
     Interface *interface = &contact->interfaces[i];
     const Vec  at[2]     = {contact->committed, NULL};
     PetscBool  better, enough = PETSC_TRUE;
-    PetscInt   status;
+    PetscInt   status, n;
+    double    *all;
     if (interface->n_parts < 2) continue;
     PetscCall(rebalance(contact, interface, &better));
     if (!better && !interface->frozen) PetscCall(halo_covers(interface, at, SPARE, &enough));
     if (!better && enough && !interface->grown) continue;
-    PetscCall(share_out_at_t_n(contact, i, &status));
+    PetscCall(parts_knowledge(interface, &n, &all));
+    PetscCall(contact_share_out_at_t_n(contact, i, all, &status));
     PetscCheck(!status, PETSC_COMM_WORLD, PETSC_ERR_LIB, "stickslip, of an interface that is shared out anew: %s", contact->refusal);
     interface->n_renewed += !better;
     interface->n_rebalanced += better;

@@ -17,6 +17,18 @@ static PetscBool make_folder(const char *path)
   return (PetscBool)(!stat(path, &status) && S_ISDIR(status.st_mode) && access(path, W_OK) == 0);
 }
 
+/* `restart_every`, `restart_keep` */
+static void read_restart(Scene *scene, Output *output)
+{
+  output->restart_keep = 1;
+  scene_int(scene, "output", "restart_every", &output->restart_every);
+  scene_int(scene, "output", "restart_keep", &output->restart_keep);
+  if (output->restart_every < 0) scene_fail(scene, "output", "restart_every", "it is a number of steps, or 0 for no restart files.");
+  if (output->restart_keep < 0) scene_fail(scene, "output", "restart_keep", "it is a number of files, or 0 for all.");
+  if (!output->restart_every && scene_has(scene, "output", "restart_keep"))
+    scene_fail(scene, "output", "restart_keep", "there are no restart files: give `restart_every`.");
+}
+
 /* A file of the folder: there is none yet, or one that can be written over. */
 static PetscBool can_write(const char *folder, const char *name)
 {
@@ -38,6 +50,7 @@ PetscErrorCode output_read(Scene *scene, Output *output)
   scene_choice(scene, "output", "vtu", when, &vtu);
   scene_choice(scene, "output", "csv", when, &csv);
   scene_bool(scene, "output", "quiet", &output->quiet);
+  read_restart(scene, output);
   output->write_vtu = (WriteWhen)vtu;
   output->write_csv = (WriteWhen)csv;
   scene_names(scene, "probes", &output->n_probes, &names);

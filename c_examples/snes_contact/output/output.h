@@ -22,6 +22,7 @@ typedef struct {
   WriteWhen    write_vtu, write_csv;
   PetscInt     n_probes;
   Probe       *probes;
+  PetscInt     restart_every, restart_keep; /* steps between restart files, 0: there are none; how many are kept, 0: all */
   PetscLogDouble started; /* the run */
 } Output;
 
@@ -36,6 +37,7 @@ PetscErrorCode         summary_step(Output *output, Summary *summary, PetscInt s
                                     PetscBool asked, PetscBool last);
 PetscErrorCode         summary_failed_attempt(Output *output, Summary *summary, PetscReal t_last);
 PetscErrorCode summary_settle_step(Output *output, Summary *summary, PetscBool accepted); /* the last one */
+PetscErrorCode summary_archive(Summary *summary, Archive *archive); /* of the steps before */
 PetscErrorCode summary_write(Output *output, Summary **summary, Vec last, PetscInt cutbacks, const char *message);
 
 /* energy.c: with `dynamics` */

@@ -313,6 +313,42 @@ PetscErrorCode summary_settle_step(Output *output, Summary *summary, PetscBool a
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* An array as a text or from one: times keep all their digits. */
+static PetscErrorCode archive_array(cJSON **array, const char *name, Archive *archive)
+{
+  static const char *const times[] = {"t", "from"};
+  char                    *text = NULL, *printed = archive->reading || archive->rank ? NULL : cJSON_PrintUnformatted(*array);
+  cJSON                   *item;
+  PetscFunctionBegin;
+  if (printed) PetscCall(PetscStrallocpy(printed, &text));
+  cJSON_free(printed);
+  PetscCall(archive_text(archive, name, &text));
+  if (archive->reading && text) {
+    cJSON_Delete(*array);
+    *array = cJSON_Parse(text);
+    cJSON_ArrayForEach(item, *array) {
+      for (int k = 0; k < 2; k++) {
+        const cJSON *time = cJSON_GetObjectItem(item, times[k]);
+        char         number[32];
+        if (!time) continue;
+        snprintf(number, sizeof(number), "%.17g", time->valuedouble);
+        cJSON_ReplaceItemInObject(item, times[k], cJSON_CreateRaw(number));
+      }
+    }
+  }
+  PetscCall(PetscFree(text));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode summary_archive(Summary *summary, Archive *archive)
+{
+  PetscFunctionBegin;
+  PetscCall(archive_array(&summary->steps, "steps", archive));
+  PetscCall(archive_array(&summary->failed_attempts, "failed_attempts", archive));
+  PetscCall(archive_bytes(archive, "said", sizeof(summary->said), summary->said));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* `last`: the last converged state */
 PetscErrorCode summary_write(Output *output, Summary **summary, Vec last, PetscInt cutbacks, const char *message)
 {

@@ -15,73 +15,6 @@ PetscErrorCode loads_label(Physics *physics)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* the mean of a point's vertices */
-static PetscErrorCode middle(const Mesh *mesh, PetscInt point, PetscSection section, const PetscScalar *coordinates,
-                             PetscReal mean[3])
-{
-  PetscInt *closure = NULL, size, vStart, vEnd, n = 0, at;
-  PetscFunctionBegin;
-  mean[0] = mean[1] = mean[2] = 0;
-  PetscCall(DMPlexGetDepthStratum(mesh->dm, 0, &vStart, &vEnd));
-  PetscCall(DMPlexGetTransitiveClosure(mesh->dm, point, PETSC_TRUE, &size, &closure));
-  for (PetscInt k = 0; k < size; k++) {
-    if (closure[2 * k] < vStart || closure[2 * k] >= vEnd) continue;
-    PetscCall(PetscSectionGetOffset(section, closure[2 * k], &at));
-    for (int i = 0; i < 3; i++)
-      mean[i] += PetscRealPart(coordinates[at + i]);
-    n++;
-  }
-  PetscCall(DMPlexRestoreTransitiveClosure(mesh->dm, point, PETSC_TRUE, &size, &closure));
-  for (int i = 0; i < 3; i++)
-    mean[i] /= (PetscReal)n;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* A face of this rank's mesh: its nodes and their places, and 1, or -1 where DMPlex sees it from inside. */
-typedef struct {
-  CellKind  kind;
-  PetscInt  n, dofs[FACE_NODES];
-  PetscReal X[3 * FACE_NODES], sign;
-} Face;
-
-static PetscErrorCode look_at_face(const Physics *physics, PetscInt point, Face *face)
-{
-  const Mesh        *mesh = physics->mesh;
-  PetscInt           nodes[FACE_NODES], at;
-  const PetscInt    *cells;
-  PetscReal          cell_middle[3], face_middle[3], outward = 0, e1[3], e2[3];
-  PetscSection       section;
-  Vec                vector;
-  const PetscScalar *coordinates;
-
-  PetscFunctionBegin;
-  PetscCall(DMGetCoordinateSection(mesh->dm, &section));
-  PetscCall(DMGetCoordinatesLocal(mesh->dm, &vector));
-  PetscCall(VecGetArrayRead(vector, &coordinates));
-  PetscCall(plex_face_nodes(mesh, point, &face->n, nodes));
-  for (PetscInt a = 0; a < face->n; a++) {
-    PetscCall(PetscSectionGetOffset(section, nodes[a], &at));
-    for (int i = 0; i < 3; i++)
-      face->X[3 * a + i] = PetscRealPart(coordinates[at + i]);
-    PetscCall(PetscSectionGetOffset(physics->unknowns.section, nodes[a], &face->dofs[a]));
-  }
-  PetscCall(DMPlexGetSupport(mesh->dm, point, &cells));
-  PetscCall(middle(mesh, cells[0], section, coordinates, cell_middle));
-  PetscCall(middle(mesh, point, section, coordinates, face_middle));
-  PetscCall(VecRestoreArrayRead(vector, &coordinates));
-  for (int i = 0; i < 3; i++) { /* two edges of the triangle 0, 1, 2; or a line, and one across the plane */
-    e1[i] = face->X[3 + i] - face->X[i];
-    e2[i] = mesh->dimension == 3 ? face->X[6 + i] - face->X[i] : i == 2;
-  }
-  for (int i = 0; i < 3; i++) {
-    const int j = (i + 1) % 3, k = (i + 2) % 3;
-    outward += (e1[j] * e2[k] - e1[k] * e2[j]) * (face_middle[i] - cell_middle[i]);
-  }
-  face->kind = cell_kind(mesh->dimension - 1, face->n);
-  face->sign = outward > 0 ? 1 : -1;
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /* this rank's faces under a load */
 static PetscErrorCode find_faces(const Physics *physics, Load *load)
 {
@@ -113,7 +46,7 @@ static PetscErrorCode add_surfaces(const Physics *physics, const Load *load, Pet
   for (PetscInt k = 0; k < load->n_faces; k++) {
     Face      face;
     PetscReal f[3 * FACE_NODES];
-    PetscCall(look_at_face(physics, load->faces[k], &face));
+    PetscCall(face_look_at(physics, load->faces[k], &face));
     face_pressure(face.kind, &physics->mesh->space, face.X, face.sign * load->pressure, f, NULL);
     face_traction(face.kind, &physics->mesh->space, face.X, load->traction, f);
     add(face.n, face.dofs, f, 1, forces);
@@ -134,6 +67,21 @@ static void add_bodies(const Physics *physics, const Load *load, PetscScalar *fo
   }
 }
 
+/* by the rank that owns it */
+static PetscErrorCode add_to_vertex(const Physics *physics, const Load *load, PetscScalar *forces)
+{
+  const Mesh *mesh = physics->mesh;
+  PetscInt    at;
+  PetscFunctionBegin;
+  for (PetscInt k = 0; k < mesh->n_points; k++) {
+    if (mesh->original[k] != load->vertex || physics->unknowns.ghost[k]) continue;
+    PetscCall(PetscSectionGetOffset(physics->unknowns.section, mesh->points[k], &at));
+    for (int i = 0; i < 3; i++)
+      forces[at + i] += load->force[i];
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode loads_assemble(Physics *physics)
 {
   PetscFunctionBegin;
@@ -145,7 +93,11 @@ PetscErrorCode loads_assemble(Physics *physics)
     PetscCall(VecZeroEntries(load->forces));
     if (load->follows) continue;
     PetscCall(VecGetArray(load->forces, &forces));
-    if (load->bodies) {
+    if (load->remote) {
+      PetscCall(remote_assemble(physics, load, forces));
+    } else if (load->vertex >= 0) {
+      PetscCall(add_to_vertex(physics, load, forces));
+    } else if (load->bodies) {
       add_bodies(physics, load, forces);
       PetscCall(rigids_load(physics, load, forces));
     } else {
@@ -169,7 +121,7 @@ static PetscErrorCode follow(Physics *physics, PetscScalar *array, Mat matrix)
       PetscReal f[3 * FACE_NODES], K[9 * FACE_NODES * FACE_NODES];
       PetscInt  equations[3 * FACE_NODES];
       Face      face;
-      PetscCall(look_at_face(physics, load->faces[k], &face));
+      PetscCall(face_look_at(physics, load->faces[k], &face));
       for (PetscInt j = 0; j < 3 * face.n; j++) {
         face.X[j] += PetscRealPart(u[face.dofs[j / 3] + j % 3]);
         equations[j] = physics->unknowns.equations[face.dofs[j / 3] + j % 3];

@@ -55,33 +55,82 @@ static PetscErrorCode read_body_load(Scene *scene, const Physics *physics, Load 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* A force on the node of a body that is nearest to a point. */
+static PetscErrorCode read_point_load(Scene *scene, const Mesh *mesh, Load *load)
+{
+  static const char *const others[] = {"gravity", "centrifugal", "origin", "follower"};
+  PetscFunctionBegin;
+  if (scene_has(scene, load->name, "moment"))
+    scene_fail(scene, load->name, "moment", "a moment on a node: a node does not turn. Spread it over a `surface`, or give it to a rigid body.");
+  for (int k = 0; k < 4; k++) {
+    if (scene_has(scene, load->name, others[k])) scene_fail(scene, load->name, others[k], "not of a node: leave `point` out.");
+  }
+  if (!space_vector(scene, &mesh->space, load->name, "force", load->force))
+    scene_fail(scene, load->name, "force", "this key is missing, which goes with `point`.");
+  if (mesh->space.kind == SPACE_AXISYMMETRIC && load->force[0] != 0)
+    scene_fail(scene, load->name, "force", "of a ring it acts along the axis, y: [0, %g].", (double)load->force[1]);
+  PetscCall(mesh_nearest_vertex(scene, mesh, load->name, &load->vertex));
+  mesh_rotate_vector(mesh, load->force);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* A force and a moment at a point, spread over surfaces. */
+static void read_remote_load(Scene *scene, const Mesh *mesh, Load *load)
+{
+  if (mesh->space.kind == SPACE_AXISYMMETRIC)
+    scene_fail(scene, load->name, scene_has(scene, load->name, "moment") ? "moment" : "force",
+               "a surface of an axisymmetric model has no such load: give its `traction`.");
+  if (scene_has(scene, load->name, "follower"))
+    scene_fail(scene, load->name, "follower", "a force keeps its direction; a pressure can follow its surface.");
+  load->remote = PETSC_TRUE;
+  space_vector(scene, &mesh->space, load->name, "force", load->force);
+  space_turn(scene, &mesh->space, load->name, "moment", load->moment);
+  load->given_point = space_vector(scene, &mesh->space, load->name, "point", load->point);
+  mesh_rotate_vector(mesh, load->force);
+  mesh_rotate_vector(mesh, load->moment);
+  mesh_rotate_vector(mesh, load->point);
+}
+
+/* Of surfaces: a traction or a pressure; or a force and a moment. */
+static void read_on_surfaces(Scene *scene, const Mesh *mesh, Load *load, PetscBool stressed)
+{
+  static const char *const others[] = {"surface", "follower", "gravity", "centrifugal", "origin", "point", "curve"};
+  const char *remote = scene_has(scene, load->name, "force") ? "force" : scene_has(scene, load->name, "moment") ? "moment" : NULL;
+  if (remote && stressed) scene_fail(scene, load->name, remote, "a surface has a traction and a pressure, or a force and a moment; not both in one load.");
+  if (!stressed && !remote) {
+    for (size_t k = 0; k < sizeof(others) / sizeof(others[0]); k++) /* known keys, one of which may be misspelt */
+      (void)scene_has(scene, load->name, others[k]);
+    scene_check_unread_of(scene, load->name);
+    scene_fail(scene, load->name, "traction",
+               "say how it loads: a surface by traction [x, y%s] or pressure (against the outward normal), or by force and moment, a node by "
+               "`body`, `point` and force, or a body by gravity or centrifugal, a rigid one by force or moment.",
+               mesh->dimension == 3 ? ", z" : "");
+  }
+  if (remote && !scene_has(scene, load->name, "surface"))
+    scene_fail(scene, load->name, remote, "a %s acts on a rigid `body`, or spread over a `surface`%s: name one.", remote,
+               remote[0] == 'f' ? ", or on the node of a `body` at a `point`" : "; a moment on a node is none");
+  if (remote)
+    read_remote_load(scene, mesh, load);
+  else
+    read_surface_load(scene, mesh, load);
+}
+
 static PetscErrorCode read_load(Scene *scene, Physics *physics, Load *load)
 {
-  static const char *const others[] = {"surface", "follower", "gravity", "centrifugal", "origin", "force", "moment", "curve"};
-  const PetscBool          traction = scene_has(scene, load->name, "traction");
-  const PetscBool          pressure = scene_has(scene, load->name, "pressure");
+  const PetscBool traction = scene_has(scene, load->name, "traction");
+  const PetscBool pressure = scene_has(scene, load->name, "pressure");
 
   PetscFunctionBegin;
+  load->vertex = -1;
   if (scene_has(scene, load->name, "body")) {
     if (traction || pressure)
       scene_fail(scene, load->name, traction ? "traction" : "pressure", "a load acts on a surface or on a body, not on both.");
-    PetscCall(read_body_load(scene, physics, load));
+    if (scene_has(scene, load->name, "point") && !rigids_names(scene, physics, load->name))
+      PetscCall(read_point_load(scene, physics->mesh, load));
+    else
+      PetscCall(read_body_load(scene, physics, load));
   } else {
-    for (int k = 0; k < 2; k++) {
-      if (scene_has(scene, load->name, k ? "force" : "moment"))
-        scene_fail(scene, load->name, k ? "force" : "moment",
-                   "a %s acts at the reference point of a rigid body, not on a surface or a node: name its `body`.", k ? "force" : "moment");
-    }
-    if (!traction && !pressure) {
-      for (size_t k = 0; k < sizeof(others) / sizeof(others[0]); k++) /* known keys, one of which may be misspelt */
-        (void)scene_has(scene, load->name, others[k]);
-      scene_check_unread_of(scene, load->name);
-      scene_fail(scene, load->name, "traction",
-                 "say how it loads: a surface by traction [x, y%s] or pressure (against the outward normal), or a body by "
-                 "gravity or centrifugal, a rigid one by force or moment.",
-                 physics->mesh->dimension == 3 ? ", z" : "");
-    }
-    read_surface_load(scene, physics->mesh, load);
+    read_on_surfaces(scene, physics->mesh, load, (PetscBool)(traction || pressure));
   }
   PetscCall(curve_read(scene, load->name, "curve", physics->end, &load->curve));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -136,7 +185,7 @@ PetscErrorCode loads_read(Scene *scene, Physics *physics)
   }
   strings_destroy(physics->n_loads, &names);
   for (PetscInt l = 0; l < physics->n_loads; l++) {
-    if (!physics->loads[l].bodies) PetscCall(find_surfaces(scene, physics, &physics->loads[l]));
+    if (!physics->loads[l].bodies && physics->loads[l].vertex < 0) PetscCall(find_surfaces(scene, physics, &physics->loads[l]));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -9,6 +9,7 @@
 #include "mesh/mesh.h"
 #include "physics/elasticity.h"
 #include "physics/element_loads.h"
+#include "scene/archive.h"
 #include "scene/curve.h"
 #include <stickslip.h>
 
@@ -36,7 +37,9 @@ typedef struct {
   PetscReal       traction[3], pressure;
   PetscBool       follows; /* the pressure acts on the surface as it is now */
   Acceleration    acceleration;
-  PetscReal       force[3], moment[3]; /* at the reference points of rigid bodies */
+  PetscReal       force[3], moment[3], point[3]; /* at the reference points of rigid bodies; at a point, spread over the surfaces; on a node */
+  PetscBool       remote, given_point; /* spread over the surfaces; from `point`, not from their middle */
+  PetscInt        vertex;              /* number of the node that the force is on; -1: none */
   PetscBool      *bodies; /* per body: is it loaded? NULL: a load on surfaces */
   Curve           curve;
   PetscInt        n_surfaces;
@@ -155,9 +158,10 @@ PetscErrorCode supports_reactions(Physics *physics);
 PetscErrorCode supports_turning(const Physics *physics, PetscInt support_of[]);
 void           supports_turn(const Support *support, PetscReal t0, PetscReal t, PetscReal x[3]);
 
-/* rigids_scene.c, rigids.c */
+/* rigids_scene.c, rigids.c, rigids_step.c */
 PetscErrorCode rigids_read(Scene *scene, Physics *physics);
 PetscErrorCode rigids_named(Scene *scene, const Physics *physics, const char *map, PetscInt *rigid);
+PetscBool      rigids_names(Scene *scene, const Physics *physics, const char *map);
 void           rigids_support(Scene *scene, Physics *physics, PetscInt number);
 void           rigids_mark(Physics *physics);
 PetscBool      rigids_read_load(Scene *scene, const Physics *physics, Load *load);
@@ -188,6 +192,16 @@ PetscErrorCode supports_file_move(Physics *physics); /* once the mesh is distrib
 PetscErrorCode loads_read(Scene *scene, Physics *physics);
 PetscErrorCode loads_label(Physics *physics);
 PetscErrorCode loads_assemble(Physics *physics);
+/* remote.c: nodal forces of a load that is spread over its surfaces; and, of all of them at u_local, whether one has turned too far: why */
+PetscErrorCode remote_assemble(const Physics *physics, const Load *load, PetscScalar *forces);
+PetscErrorCode remote_check(Physics *physics, char why[], size_t length);
+/* load_faces.c: a face of a load: its nodes and their places, and 1, or -1 where DMPlex sees it from inside */
+typedef struct {
+  CellKind  kind;
+  PetscInt  n, dofs[FACE_NODES];
+  PetscReal X[3 * FACE_NODES], sign;
+} Face;
+PetscErrorCode face_look_at(const Physics *physics, PetscInt point, Face *face);
 PetscBool      loads_follow(const Physics *physics); /* is there a follower pressure? */
 PetscErrorCode loads_values(Physics *physics);       /* at physics->t and u_local, into f_external */
 PetscErrorCode loads_stiffness(Physics *physics, Mat matrix); /* adds what forces of followers differ by */
@@ -227,6 +241,10 @@ void           parts_accept(Physics *physics);
 /* range.c: do bodies with the linear material stay where it is right? */
 PetscErrorCode range_check(Physics *physics, Vec u_local);
 PetscErrorCode range_report(const Physics *physics, struct cJSON *root);
+
+/* restart.c: which model it is; what the physics knows of the steps before */
+PetscErrorCode physics_agree(const Physics *physics, Archive *archive);
+PetscErrorCode physics_archive(Physics *physics, Archive *archive);
 
 /* physics.c */
 PetscErrorCode physics_destroy(Physics *physics);

@@ -41,6 +41,16 @@ static PetscInt rigid_called(const Physics *physics, const char *name)
   return -1;
 }
 
+/* Does map.body name one alone? Then `point` is refused. */
+PetscBool rigids_names(Scene *scene, const Physics *physics, const char *map)
+{
+  char name[NAME_LENGTH] = "";
+  if (!physics->n_rigids) return PETSC_FALSE;
+  scene_string(scene, map, "body", name, sizeof(name));
+  if (rigid_called(physics, name) < 0) return PETSC_FALSE;
+  scene_fail(scene, map, "point", "'%s' is rigid: force and moment act at its reference point; leave `point` out.", name);
+}
+
 /* The rigid body that map.body names; -1: it names none. */
 PetscErrorCode rigids_named(Scene *scene, const Physics *physics, const char *map, PetscInt *rigid)
 {
@@ -117,7 +127,8 @@ void rigids_check_load(Scene *scene, const Physics *physics, const Load *load, c
   const PetscInt r   = rigid_called(physics, body);
   const char    *key = scene_has(scene, load->name, "moment") ? "moment" : "force";
   if (r < 0 && forces)
-    scene_fail(scene, load->name, key, "'%s' is not rigid: a %s acts at the reference point of a rigid body. Load a surface.", body, key);
+    scene_fail(scene, load->name, key, "'%s' is not rigid: a %s acts at the reference point of a rigid body, or is spread over a `surface`%s.", body, key,
+               key[0] == 'f' ? ", or acts on the node at a `point`" : "; a moment on a node is none");
   if (r >= 0 && spins) scene_fail(scene, load->name, "centrifugal", "'%s' is rigid, and has no such load.", body);
   if (r >= 0 && gravity && !(physics->rigids[r].mass > 0))
     scene_fail(scene, body, "mass", "this key is missing, which '%s' asks for.", load->name);

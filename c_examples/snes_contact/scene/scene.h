@@ -55,6 +55,12 @@ void strings_destroy(PetscInt n, char ***values);
 /* a list that declares names, each with a map of its own: [a-z0-9]+, unique in the whole scene, not reserved */
 void scene_names(Scene *scene, const char *list, PetscInt *n, char ***names);
 
+/* what the scene says, the command line included: a line for each key that was asked for and is given, but for those that may change
+ * between a run and its continuation; freed with PetscFree */
+PetscErrorCode scene_effective(const Scene *scene, char **text);
+/* the first key in which two such texts differ, in words; empty: in none */
+void scene_difference(const char *before, const char *now, char words[], size_t length);
+
 /* keys nobody asked for; `solver`: those handed to PETSc's solvers (snes, ksp, pc, mat), which are read late */
 void scene_check_unread(Scene *scene, PetscBool solver);
 /* those of one map, of which every key has been asked for that it may have */

@@ -129,10 +129,23 @@ PetscErrorCode refusal_wants_room(KSP ksp, PetscBool *wants);
 PetscErrorCode solver_create(Solve *solve);
 PetscErrorCode solver_configure(Solve *solve);
 PetscErrorCode solver_destroy(Solve *solve);
+PetscErrorCode solver_use_matrix(Solve *solve); /* solve->jacobian is another one */
 PetscErrorCode solver_refresh_pattern(Solve *solve);
 PetscErrorCode solver_restore_pattern(Solve *solve); /* undoes what a failed attempt has added */
 PetscErrorCode solver_give_room(Solve *solve, PetscBool *given); /* to a direct solver that asked for more workspace */
+PetscErrorCode solver_archive_room(Solve *solve, Archive *archive);
 PetscErrorCode solver_forget_factors(Solve *solve);  /* after a linear system that could not be solved */
+
+/* pattern.c: a matrix with room for all that may come; or for what is in `rows`, of those that contact touches */
+typedef struct {
+  PetscInt  n, *row, *offsets, *columns; /* n rows of this rank */
+} PatternRows;
+PetscErrorCode pattern_create(Solve *solve, const PatternRows *rows, Mat *matrix);
+PetscErrorCode pattern_archive(Solve *solve, Archive *archive); /* of the matrix and of the one at the start of the step */
+
+/* restart.c: `past` and `size` of the next step */
+PetscErrorCode solve_archive(Solve *solve, Past *past, StepSize *size, Archive *archive);
+PetscErrorCode solve_archive_pattern(Solve *solve, Archive *archive);
 
 /* iterative.c: `solver`; what `auto` means; makes SNES' linear solver one that iterates */
 void           iterative_check(Scene *scene, const Solve *solve); /* after held_create() */

@@ -129,38 +129,6 @@ static PetscErrorCode measure(Solve *solve)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* A matrix with room for the bodies and for every pair of facets that may touch before the next search. */
-static PetscErrorCode create_matrix(Solve *solve, Mat *matrix)
-{
-  Mat      counter;
-  Vec      x;
-  PetscInt n, first, end;
-
-  PetscFunctionBegin;
-  PetscCall(DMGetGlobalVector(solve->mesh->dm, &x));
-  PetscCall(VecGetLocalSize(x, &n));
-  PetscCall(VecGetOwnershipRange(x, &first, &end));
-  PetscCall(DMRestoreGlobalVector(solve->mesh->dm, &x));
-  PetscCall(MatCreate(PETSC_COMM_WORLD, &counter));
-  PetscCall(MatSetSizes(counter, n, n, PETSC_DETERMINE, PETSC_DETERMINE));
-  PetscCall(MatSetType(counter, MATPREALLOCATOR));
-  PetscCall(MatSetUp(counter));
-  for (PetscInt row = first; row < end; row++)
-    PetscCall(MatSetValue(counter, row, row, 0, ADD_VALUES));
-  PetscCall(bulk_pattern(solve->physics, counter));
-  PetscCall(contact_pattern(solve->contact, counter));
-  PetscCall(MatAssemblyBegin(counter, MAT_FINAL_ASSEMBLY));
-  PetscCall(MatAssemblyEnd(counter, MAT_FINAL_ASSEMBLY));
-  PetscCall(MatCreate(PETSC_COMM_WORLD, matrix));
-  PetscCall(MatSetSizes(*matrix, n, n, PETSC_DETERMINE, PETSC_DETERMINE));
-  PetscCall(MatSetType(*matrix, MATAIJ));
-  PetscCall(MatSetFromOptions(*matrix));
-  PetscCall(MatPreallocatorPreallocate(counter, PETSC_TRUE, *matrix));
-  PetscCall(MatSetOption(*matrix, MAT_NEW_NONZERO_ALLOCATION_ERR, PETSC_FALSE)); /* motion may outrun the pattern */
-  PetscCall(MatDestroy(&counter));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 /* Did PETSc allocate entry by entry, for pairs beyond the pattern? */
 static PetscErrorCode outgrown(const Solve *solve, PetscBool *grown)
 {
@@ -168,6 +136,13 @@ static PetscErrorCode outgrown(const Solve *solve, PetscBool *grown)
   PetscFunctionBegin;
   PetscCall(MatGetInfo(solve->jacobian, MAT_GLOBAL_MAX, &info));
   *grown = (PetscBool)(info.mallocs > 0);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode solver_use_matrix(Solve *solve)
+{
+  PetscFunctionBegin;
+  PetscCall(SNESSetJacobian(solve->snes, solve->jacobian, solve->jacobian, tangent, solve));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -180,9 +155,9 @@ PetscErrorCode solver_refresh_pattern(Solve *solve)
   if (!grown) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(MatDestroy(&solve->jacobian));
   PetscCall(MatDestroy(&solve->pattern));
-  PetscCall(create_matrix(solve, &solve->jacobian));
+  PetscCall(pattern_create(solve, NULL, &solve->jacobian));
   PetscCall(MatDuplicate(solve->jacobian, MAT_DO_NOT_COPY_VALUES, &solve->pattern));
-  PetscCall(SNESSetJacobian(solve->snes, solve->jacobian, solve->jacobian, tangent, solve));
+  PetscCall(solver_use_matrix(solve));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -209,7 +184,7 @@ PetscErrorCode solver_restore_pattern(Solve *solve)
   PetscCall(MatDestroy(&solve->jacobian));
   PetscCall(MatDuplicate(solve->pattern, MAT_DO_NOT_COPY_VALUES, &solve->jacobian));
   contact_forget_plans(solve->contact);
-  PetscCall(SNESSetJacobian(solve->snes, solve->jacobian, solve->jacobian, tangent, solve));
+  PetscCall(solver_use_matrix(solve));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -262,6 +237,16 @@ PetscErrorCode solver_give_room(Solve *solve, PetscBool *given)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* What it was given, so that it need not ask again. */
+PetscErrorCode solver_archive_room(Solve *solve, Archive *archive)
+{
+  PetscFunctionBegin;
+  PetscCall(archive_ints(archive, "room", 1, &solve->room));
+  PetscCall(archive_ints(archive, "n_raised", 1, &solve->n_raised));
+  if (archive->reading && solve->n_raised) PetscCall(set_option("-mat_mumps_icntl_14", solve->room));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode solver_create(Solve *solve)
 {
   SNESLineSearch line_search;
@@ -271,7 +256,7 @@ PetscErrorCode solver_create(Solve *solve)
 
   PetscFunctionBegin;
   PetscCall(measure(solve));
-  PetscCall(create_matrix(solve, &solve->jacobian));
+  PetscCall(pattern_create(solve, NULL, &solve->jacobian));
   PetscCall(MatDuplicate(solve->jacobian, MAT_DO_NOT_COPY_VALUES, &solve->pattern));
   PetscCall(DMCreateGlobalVector(solve->mesh->dm, &r));
   PetscCall(SNESCreate(PETSC_COMM_WORLD, &solve->snes));

@@ -1,0 +1,84 @@
+/* What a restart file keeps of the solver: the converged states that the next step starts from, how long it is to be, and what the run has
+ * found so far. */
+#include "solve/solve.h"
+#include <cjson/cJSON.h>
+#include <string.h>
+
+/* Steps that have been changed go on from the present time with the length that they begin with. */
+static void begin_anew(const Steps *steps, PetscReal t, StepSize *size)
+{
+  step_size_start(steps, size);
+  while (size->next + 1 < steps->n_targets && steps->targets[size->next] <= t)
+    size->next++;
+  if (!steps->automatic) size->length = size->longest = steps->targets[size->next] - t;
+}
+
+static PetscErrorCode archive_size(const Steps *steps, PetscReal t, StepSize *size, Archive *archive)
+{
+  const PetscReal numbers[] = {steps->smallest, steps->initial, steps->largest, (PetscReal)steps->iterations, (PetscReal)steps->automatic};
+  uint64_t        now = digest(digest(DIGEST, (size_t)steps->n_targets * sizeof(*steps->targets), steps->targets), sizeof(numbers), numbers);
+  uint64_t        then = now;
+  StepSize        kept;
+  PetscFunctionBegin;
+  memset(&kept, 0, sizeof(kept));
+  kept = *size;
+  PetscCall(archive_bytes(archive, "steps", sizeof(then), &then));
+  PetscCall(archive_bytes(archive, "step_size", sizeof(kept), &kept));
+  if (!archive->reading || archive->bad) PetscFunctionReturn(PETSC_SUCCESS);
+  if (then == now)
+    *size = kept;
+  else
+    begin_anew(steps, t, size);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* of what nothing held, as a text */
+static PetscErrorCode archive_held(Held *held, Archive *archive)
+{
+  char *text = NULL, *printed = !archive->reading && held->by_nothing ? cJSON_PrintUnformatted(held->by_nothing) : NULL;
+  PetscFunctionBegin;
+  PetscCall(archive_bools(archive, "held.told", 1, &held->told));
+  if (printed) PetscCall(PetscStrallocpy(printed, &text));
+  cJSON_free(printed);
+  PetscCall(archive_text(archive, "held.by_nothing", &text));
+  if (archive->reading && text) {
+    cJSON_Delete(held->by_nothing);
+    held->by_nothing = cJSON_Parse(text);
+  }
+  PetscCall(PetscFree(text));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode archive_past(Solve *solve, Past *past, Archive *archive)
+{
+  PetscFunctionBegin;
+  PetscCall(archive_reals(archive, "t_last", 1, &past->t_last));
+  PetscCall(archive_reals(archive, "t_before", 1, &past->t_before));
+  PetscCall(archive_bools(archive, "have_before", 1, &past->have_before));
+  PetscCall(contact_archive_unknowns(solve->contact, "last", past->last, archive));
+  if (past->have_before) PetscCall(contact_archive_unknowns(solve->contact, "before", past->before, archive));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode solve_archive(Solve *solve, Past *past, StepSize *size, Archive *archive)
+{
+  Linear   *linear   = &solve->linear;
+  PetscInt *counts[] = {&linear->n_solves, &linear->n_direct, &linear->iterations, &linear->most};
+  PetscFunctionBegin;
+  PetscCall(archive_past(solve, past, archive));
+  PetscCall(archive_size(&solve->steps, past->t_last, size, archive));
+  PetscCall(archive_held(&solve->held, archive));
+  PetscCall(archive_reals(archive, "least_pivot", 1, &solve->least_pivot));
+  for (int k = 0; k < 4; k++)
+    PetscCall(archive_ints(archive, "linear", 1, counts[k]));
+  PetscCall(solver_archive_room(solve, archive));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode solve_archive_pattern(Solve *solve, Archive *archive)
+{
+  PetscFunctionBegin;
+  PetscCall(pattern_archive(solve, archive));
+  if (archive->reading) PetscCall(solver_use_matrix(solve));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
