@@ -156,7 +156,7 @@ impl<const N: usize> Contact<N> {
     /// nodes carry others: who carries them follows from what is covered farther away. Before the first step: t_n becomes the
     /// reference configuration.
     pub fn set_owners(&mut self, owners: Vec<Owner>) -> Result<()> {
-        if self.setup.options.decides_at_points() && owners.iter().any(|owner| *owner != Owner::Here) {
+        if self.setup.decides_at_points() && owners.iter().any(|owner| *owner != Owner::Here) {
             let text = "STICKSLIP_DECISION_POINTS with parts of an interface (owned): tractions of a facet need the gaps of all of its nodes; take STICKSLIP_DECISION_NODES";
             return Err(Error::new(Kind::Unsupported, text));
         }

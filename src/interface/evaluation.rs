@@ -80,7 +80,7 @@ impl<const N: usize> Contact<N> {
     pub fn closed_share(&self, a: usize) -> f64 {
         let responses = &self.cache.answers().responses;
         let share = f64::from(u8::from(responses.nodes[a].state != State::Gap));
-        if self.setup.options.decides_at_points() { responses.points.shares[a] } else { share }
+        if self.setup.decides_at_points() { responses.points.shares[a] } else { share }
     }
 
     /// Multipliers for the first step.
@@ -123,7 +123,7 @@ impl<const N: usize> Contact<N> {
         self.respond(x1, x2, lambda, sums)?;
         let (pairs, answers, work) = self.cache.acting(self.setup.surfaces(), &self.step.history);
         let (given, responses) = (Given { setup: &self.setup, step: &self.step }, &answers.responses.nodes);
-        if self.setup.options.decides_at_points() {
+        if self.setup.decides_at_points() {
             answers.responses.points.residual(given, responses, &mut self.residual)?;
             return Ok(&self.residual);
         }

@@ -164,7 +164,7 @@ impl<'a, const N: usize> Here<'a, N> {
         let given = self.given;
         let carries = !given.step.pairing.carriers.is_empty();
         let frame_moves = given.setup.frame_moves();
-        let by_points = given.setup.options.decides_at_points();
+        let by_points = given.setup.decides_at_points();
         if !by_points && !carries && !is_coupled(given) && !given.setup.options.follows_normals() && !frame_moves {
             return Ok(Default::default());
         }
@@ -197,7 +197,7 @@ impl<'a, const N: usize> Here<'a, N> {
         let Some(numbering) = numbering else { return Err(no_plan()) };
         let mut extras = self.extras(pairs, extent, systems[0] == System::Whole)?.into_iter();
         // Carried nodes add to rows of other facets' nodes.
-        let by_points = given.setup.options.decides_at_points();
+        let by_points = given.setup.decides_at_points();
         let alone = given.step.pairing.carriers.is_empty() && !by_points;
         let is_diagonal = |a: usize| !by_points && is_out_of_reach(given, a, extent);
         let mut plans = [const { None }; S];

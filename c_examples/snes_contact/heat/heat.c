@@ -226,8 +226,8 @@ static PetscErrorCode range_of(const Heat *heat, PetscReal *range)
 PetscErrorCode heat_solve(Heat *heat, PetscReal dt, PetscReal *change, PetscInt *status)
 {
   HeatEntries entries = {0};
-  PetscReal   first, last = 0, largest, norm, range, entry, hottest;
-  PetscBool   determined;
+  PetscReal   first, last = 0, largest, norm, range = 0, entry, hottest;
+  PetscBool   determined = PETSC_FALSE;
   Vec         leaves, step, x;
   Mat         matrix;
   KSP         ksp;

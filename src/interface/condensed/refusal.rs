@@ -20,7 +20,7 @@ pub fn refuse<const N: usize>(given: Given<N>, normals: &[Vec3]) -> Result<()> {
         let text = "condensation with standard multipliers: their forces couple neighbours; take the dual basis (STICKSLIP_BASIS_DUAL)";
         return refuse(text.into());
     }
-    if setup.options.decides_at_points() {
+    if setup.decides_at_points() {
         let text = "condensation where points decide: a facet's mass matrix couples its multipliers; keep them as unknowns, or take STICKSLIP_DECISION_NODES";
         return refuse(text.into());
     }

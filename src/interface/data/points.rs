@@ -56,6 +56,17 @@ pub struct PointPair {
     pub dual: PairWeights,
 }
 
+/// What a facet is at a point.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Closed {
+    /// sigma < 0 at none of its nodes.
+    Nothing,
+    /// At all.
+    All,
+    /// At some; where the weights of its pairs' closed parts begin.
+    Part(usize),
+}
+
 /// The step, and the answer at a point.
 #[derive(Debug, Default)]
 pub struct Points {
@@ -67,7 +78,9 @@ pub struct Points {
     pub facets: Vec<PointFacet>,
     /// Their pairs.
     pub pairs: Vec<PointPair>,
-    /// phi times the weights of each pair's closed part.
+    /// What each facet is.
+    pub states: Vec<Closed>,
+    /// phi times the weights of the closed part of each pair of the facets that are closed in part.
     pub closed: Vec<PairWeights>,
     /// Per node sigma_A [F/L^2], the factor of its K, and how much of what is covered of it is closed.
     pub sigma: Vec<f64>,
@@ -80,12 +93,40 @@ pub struct Points {
 }
 
 impl Points {
+    /// phi times the weights of the closed part of a pair of the facet that is at this place.
+    #[inline]
+    pub fn closed(&self, facet: usize, pair: usize) -> Option<&PairWeights> {
+        match self.states[facet] {
+            Closed::Nothing => None,
+            Closed::All => Some(&self.pairs[pair].whole),
+            Closed::Part(first) => Some(&self.closed[first + pair - self.facets[facet].pairs[0]]),
+        }
+    }
+
+    /// The same of n_AB of all of its pairs together.
+    pub fn closed_mass(&self, facet: usize) -> OfNodes {
+        let mut mass = OfNodes::default();
+        match self.states[facet] {
+            Closed::Nothing => {}
+            Closed::All => mass = self.facets[facet].mass,
+            Closed::Part(_) => {
+                for closed in self.facets[facet].places().filter_map(|pair| self.closed(facet, pair)) {
+                    for (m, n) in mass.as_flattened_mut().iter_mut().zip(closed.ab.as_flattened()) {
+                        *m += n;
+                    }
+                }
+            }
+        }
+        mass
+    }
+
     /// On the heap `[bytes]`.
     pub fn bytes(&self) -> usize {
         let reals = [&self.sigma, &self.factors, &self.shares, &self.tractions];
         self.planes.capacity() * size_of::<Vec3>()
             + self.facets.capacity() * size_of::<PointFacet>()
             + self.pairs.capacity() * size_of::<PointPair>()
+            + self.states.capacity() * size_of::<Closed>()
             + self.closed.capacity() * size_of::<PairWeights>()
             + reals.iter().map(|v| v.capacity() * size_of::<f64>()).sum::<usize>()
             + self.is_covered.capacity()

@@ -87,6 +87,12 @@ impl<const N: usize> Setup<N> {
         self.nonmortar.parents.is_some()
     }
 
+    /// Whether points decide: with one multiplier a node alone, so that nothing of it is compiled for three.
+    #[inline]
+    pub fn decides_at_points(&self) -> bool {
+        N == 1 && self.options.decides_at_points()
+    }
+
     /// Whether the frame of an analytic surface has equations.
     pub fn frame_moves(&self) -> bool {
         frame_moves(&self.mortar)

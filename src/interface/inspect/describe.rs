@@ -37,7 +37,7 @@ pub fn effects<const N: usize>(setup: &Setup<N>) -> Result<Text> {
     if setup.options.basis == MultiplierBasis::Dual {
         text.append(format_args!(" Multipliers: dual (asked for)."))?;
     }
-    if setup.options.decides_at_points() {
+    if setup.decides_at_points() {
         text.append(format_args!(" Decision: at points (asked for)."))?;
     }
     if setup.options.follows_normals() {

@@ -109,7 +109,7 @@ pub fn equilibrium<const N: usize>(
             Violation::uncovered((lambda[a] - theirs).norm(), &measure)
         } else if is_left_out(given, a, scope) || sum.coverage <= given.least_coverage(a) {
             Violation::uncovered(lambda[a].norm(), &measure)
-        } else if given.setup.options.decides_at_points() {
+        } else if given.setup.decides_at_points() {
             Violation::of_gap(responses[a].row.norm() / sum.coverage, &measure)
         } else {
             let measure = Measure { traction_rounding: measure.traction_rounding / share, ..measure };

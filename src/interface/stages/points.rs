@@ -16,7 +16,7 @@ use crate::interface::data::lines::{Lines, line};
 use crate::interface::data::options::{Decision, Weights};
 use crate::interface::data::pairs::{PairRecord, ParentRecord, Weighted};
 use crate::interface::data::parents::Parents;
-use crate::interface::data::points::{OfNodes, PointFacet, PointPair, Points};
+use crate::interface::data::points::{Closed, OfNodes, PointFacet, PointPair, Points};
 use crate::interface::pairing::given::Given;
 use crate::law::{NodeResponse, State};
 use crate::line::{LineFacet, LineWeights, Measure};
@@ -160,36 +160,41 @@ impl Points {
         })
     }
 
-    /// The weights of the closed part of each pair at the nodes' sigma.
+    /// What each facet is at the nodes' sigma, with the weights of the closed parts of those that are cut.
     fn close<const N: usize>(&mut self, given: Given<N>) -> Result<()> {
-        memory::refill(&mut self.closed, PairWeights::default(), self.pairs.len())?;
-        for facet in &self.facets {
-            let sigma = facet.of(&self.sigma);
+        let Points { facets, pairs, planes, sigma, states, closed, .. } = self;
+        states.clear();
+        closed.clear();
+        memory::grow(states, facets.len())?;
+        for facet in &*facets {
+            let sigma = facet.of(sigma);
             let negative = sigma[..facet.n].iter().filter(|s| **s < 0.0).count();
-            if negative == 0 {
+            states.store(match negative {
+                0 => Closed::Nothing,
+                n if n == facet.n => Closed::All,
+                _ => Closed::Part(closed.len()),
+            })?;
+            if negative == 0 || negative == facet.n {
                 continue;
             }
-            let frame = if negative < facet.n && !given.setup.has_parents() {
-                Some(given.setup.nonmortar.frame(facet.one, positions(given).0, &self.planes)?)
-            } else {
-                None
-            };
-            for place in facet.places() {
-                let pair = &self.pairs[place];
-                self.closed[place] = if negative == facet.n {
-                    pair.whole
-                } else if let Some(frame) = &frame {
-                    let other = given.setup.mortar.facet(pair.two, positions(given).1);
-                    let rule = given.setup.options.rule;
-                    let close = |s: Segment| scaled(&PairWeights::closed(frame, &s, rule, &sigma), facet.fade);
-                    Segment::new(frame, &other)?.map_or_else(PairWeights::default, close)
-                } else {
+            let of_pairs = &pairs[facet.places()];
+            if given.setup.has_parents() {
+                for pair in of_pairs {
                     let close = |(own, other, measure): (LineFacet, LineFacet, Measure)| {
                         let weights = LineWeights::closed(&own, &other, measure, [sigma[0], sigma[1]]);
                         scaled(&of_line_weights(&weights), facet.fade)
                     };
-                    line_pair(given, (facet.one, pair.two)).map_or_else(PairWeights::default, close)
-                };
+                    let found = line_pair(given, (facet.one, pair.two)).map_or_else(PairWeights::default, close);
+                    closed.store(found)?;
+                }
+                continue;
+            }
+            let (x, rule) = (positions(given), given.setup.options.rule);
+            let frame = given.setup.nonmortar.frame(facet.one, x.0, planes)?;
+            for pair in of_pairs {
+                let close = |s: Segment| scaled(&PairWeights::closed(&frame, &s, rule, &sigma), facet.fade);
+                let segment = Segment::new(&frame, &given.setup.mortar.facet(pair.two, x.1))?;
+                closed.store(segment.map_or_else(PairWeights::default, close))?;
             }
         }
         Ok(())
@@ -219,19 +224,16 @@ impl Points {
             (response.state, response.traction) = (State::Gap, Vec3::zeros());
             (response.row, response.sigma) = (SVector::zeros(), given.normal(a)? * self.sigma[a]);
         }
-        for facet in &self.facets {
-            let sigma = facet.of(&self.sigma);
+        for (at, facet) in self.facets.iter().enumerate() {
+            let (sigma, closed) = (facet.of(&self.sigma), self.closed_mass(at));
             for (k, &a) in facet.nodes().iter().enumerate().filter(|(_, a)| self.is_covered[**a]) {
                 let rhat = given.augmentation(a) * areas[a];
                 let mut left = 0.0;
                 for (l, &b) in facet.nodes().iter().enumerate() {
                     left += (facet.mass[k][l] + self.factors[a] * facet.stabilisation[k][l]) * lambda[b][0];
                 }
-                let (mut force, mut area) = (0.0, 0.0);
-                for closed in &self.closed[facet.places()] {
-                    force += closed.ab[k].iter().zip(&sigma).map(|(n, s)| n * s).sum::<f64>();
-                    area += closed.ab[k].iter().sum::<f64>();
-                }
+                let force = closed[k].iter().zip(&sigma).map(|(n, s)| n * s).sum::<f64>();
+                let area = closed[k].iter().sum::<f64>();
                 responses[a].row += SVector::from_element((force - left) / rhat);
                 self.tractions[a] += force / sums[a].coverage;
                 self.shares[a] += area / sums[a].coverage;
@@ -255,10 +257,11 @@ impl Points {
         memory::refill(&mut r.nonmortar, Vec3::zeros(), one.len())?;
         memory::refill(&mut r.mortar, Vec3::zeros(), two.len())?;
         memory::refill(&mut r.rows, SVector::zeros(), one.len())?;
-        for facet in &self.facets {
+        for (at, facet) in self.facets.iter().enumerate() {
             let t = facet.of(&self.sigma).map(|sigma| facet.normal * sigma);
             for place in facet.places() {
-                let f = pair_force(&self.closed[place], &t);
+                let Some(closed) = self.closed(at, place) else { break };
+                let f = pair_force(closed, &t);
                 facet.nodes().iter().zip(&f).for_each(|(&a, f)| r.nonmortar[a] += f);
                 let other = two.host_nodes(self.pairs[place].two);
                 other.iter().zip(&f[MORTAR..]).for_each(|(&c, f)| r.mortar[c] += f);

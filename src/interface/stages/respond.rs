@@ -66,7 +66,7 @@ pub fn respond<const N: usize>(
     if carried.contains(&true) {
         carry(given, lambda, (sums, carried), responses, own)?;
     }
-    if given.setup.options.decides_at_points() {
+    if given.setup.decides_at_points() {
         points.respond(given, lambda, sums, responses)?;
     }
     for (a, response) in responses.iter().enumerate() {

@@ -227,7 +227,7 @@ pub fn beyond_facets<const N: usize>(task: Task<N>, room: &mut Room<N>, (taker, 
     let mut emitter = Emitter { given, normals, taker, constraints };
     let mut couplings: Option<Vec<NodeCouplings>> =
         is_coupled(given).then(|| memory::defaults(given.nodes())).transpose()?;
-    if given.setup.has_parents() || given.setup.options.decides_at_points() {
+    if given.setup.has_parents() || given.setup.decides_at_points() {
         of_facets(task, 0..usize::MAX, room, couplings.as_deref_mut(), &mut emitter)?;
     } else {
         let mut walk = Walk::through(all, 0..usize::MAX);
@@ -283,7 +283,7 @@ pub fn of_facets<const N: usize>(
     emitter: &mut Emitter<N>,
 ) -> Result<i64> {
     // Where points decide, all blocks are of nodes.
-    if task.given.setup.options.decides_at_points() {
+    if task.given.setup.decides_at_points() {
         return Ok(0);
     }
     let (mut linearised, mut walk) = (0, Walk::through(task.pairs, facets));
@@ -411,7 +411,7 @@ pub fn of_nodes<const N: usize>(
     emitter: &mut Emitter<N>,
 ) -> Result<()> {
     let Task { given, pairs, extent, numbers, .. } = task;
-    if given.setup.options.decides_at_points() {
+    if given.setup.decides_at_points() {
         let numbers = numbers.map(|n| PointNumbers { points: &n.responses.points, sums: n.sums });
         return points::blocks((given, task.normals, pairs), numbers.as_ref(), emitter);
     }

@@ -142,20 +142,25 @@ impl Star {
             let row = &mut self.rows[self.row_places[b]];
             row.left += facet.mass[k][l] + points.factors[b] * facet.stabilisation[k][l];
         }
-        for place in facet.places().filter(|_| is_covered) {
-            let (pair, closed) = (&points.pairs[place], &points.closed[place]);
+        if !is_covered {
+            return;
+        }
+        let mass = points.closed_mass(at);
+        for (k, &b) in facet.nodes().iter().enumerate() {
+            self.neighbours[self.places[b]].force += facet.normal * mass[l][k];
+            if points.is_covered[b] {
+                self.rows[self.row_places[b]].closed += mass[k][l];
+            }
+        }
+        for place in facet.places() {
+            let (pair, closed) = (&points.pairs[place], points.closed(at, place));
             for (k, &b) in facet.nodes().iter().enumerate() {
-                let neighbour = &mut self.neighbours[self.places[b]];
-                neighbour.force += facet.normal * closed.ab[l][k];
-                neighbour.slope += slope * pair.dual.ab[l][k];
-                if points.is_covered[b] {
-                    self.rows[self.row_places[b]].closed += closed.ab[k][l];
-                }
+                self.neighbours[self.places[b]].slope += slope * pair.dual.ab[l][k];
             }
             if given.setup.effects.moves() {
                 for (k, &c) in two.host_nodes(pair.two).iter().enumerate() {
                     let neighbour = &mut self.neighbours[self.places[one.len() + c]];
-                    neighbour.force -= facet.normal * closed.ac[l][k];
+                    neighbour.force -= facet.normal * closed.map_or(0.0, |closed| closed.ac[l][k]);
                     neighbour.slope -= slope * pair.dual.ac[l][k];
                 }
             }
