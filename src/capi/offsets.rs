@@ -161,7 +161,8 @@ fn check_in_plane(shape: AnalyticShape, point: Vec3, direction: Vec3) -> Result<
         return Err(Error::new(Kind::InvalidValue, text));
     }
     if matches!(shape, AnalyticShape::Cylinder(_)) && (direction.x != 0.0 || direction.y != 0.0) {
-        let text = text!("direction is ({}, {}, {}); of lines a cylinder is along z", direction.x, direction.y, direction.z);
+        let text =
+            text!("direction is ({}, {}, {}); of lines a cylinder is along z", direction.x, direction.y, direction.z);
         return Err(Error::new(Kind::InvalidValue, text));
     }
     Ok(())
