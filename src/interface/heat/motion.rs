@@ -68,6 +68,7 @@ pub fn each_facet<const N: usize>(
 }
 
 /// Of the linear facet whose pairs are so many from place `first` on.
+#[inline(never)] // compiled once for all kinds of contact: it asks for nothing that N changes
 fn of_facet<const N: usize>(
     given: Given<N>,
     active: &Active,

@@ -132,6 +132,7 @@ fn differentiate<const N: usize>(
 }
 
 /// Puts how the first gaps of tied surfaces turn into the rows.
+#[inline(never)] // as for of_facet in motion.rs
 fn turn<const N: usize>(at: &Place<N>, rows: &mut [Row]) -> Result<()> {
     let one = &at.given.setup.nonmortar;
     for (part, facet) in one.facets.iter().enumerate() {
@@ -155,6 +156,7 @@ fn turn<const N: usize>(at: &Place<N>, rows: &mut [Row]) -> Result<()> {
 }
 
 /// Who carries whom: (carrier, carried), sorted.
+#[inline(never)] // likewise
 fn carries<const N: usize>(at: &Place<N>, carried: &[bool]) -> Result<Vec<(usize, usize)>> {
     let mut all = Vec::new();
     for a in (0..carried.len()).filter(|&a| carried[a]) {

@@ -83,6 +83,7 @@ fn shortest_edges(surface: &Surface, x: &[Vec3]) -> Result<Vec<f64>> {
 
 /// The fraction of the step (dx1, dx2) from (x1, x2) that is allowed, above 0 and at most 1. `depth`: c, or the
 /// default. Sides that are tied may move as they like.
+#[inline(never)] // then it is compiled once: it asks for nothing that N changes
 pub fn step_limit<const N: usize>(
     given: Given<N>,
     (active, work): (Option<&Active>, &mut Work),

@@ -62,6 +62,7 @@ impl ParentRoom {
 
 /// Adds up what facet f of the host has with these pairs; `moves`: mortar nodes have rows and columns. Gives the pairs of parts
 /// whose weights were differentiated.
+#[inline(never)] // two callers, one of them seldom
 pub fn fill<const N: usize>(
     (given, normals): (Given<N>, &[Vec3]),
     (f, all, pairs): (usize, Pairs, &[UnionPair]),
