@@ -25,7 +25,7 @@ pub struct Heat {
 /// Temperatures of both sides, and how heat passes.
 #[derive(Clone, Copy, Debug)]
 pub struct Temperatures<'a> {
-    /// Of the nodes [K].
+    /// Of the nodes \[K\].
     pub sides: [&'a [f64]; 2],
     /// The law.
     pub conductance: &'a Conductance,

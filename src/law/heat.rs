@@ -37,7 +37,7 @@ pub struct Conductance {
     pub reach: f64,
     /// The share of the heat of friction that goes into the non-mortar body [-].
     pub share: f64,
-    /// The time dt that the step takes [T]; 0: friction makes no heat.
+    /// The time dt that the step takes \[T\]; 0: friction makes no heat.
     pub time: f64,
 }
 
