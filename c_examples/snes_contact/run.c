@@ -45,6 +45,7 @@ static PetscErrorCode solve_in_turns(Model *model, Run *run, PetscBool *done)
     break;
   }
   PetscCall(PetscSNPrintf(model->solve.newton.why, sizeof(model->solve.newton.why), "heat: %s", model->contact.refusal));
+  model->contact.refusal[0] = 0; /* a failed attempt: the contact has converged, and nobody refused it */
   *done = PETSC_FALSE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -203,5 +203,5 @@ def refused(verdicts, driver):
     loose["temperatures"] = ["cold"]
     del loose["hot"]
     run = driver.run(write(loose, driver.output / "loose.yaml"), expect=None)
-    verdicts.true("a body that nothing warms is refused", run.exit_code > 1 and "temperatures are not determined" in run.text,
+    verdicts.true("a body that nothing warms is refused", run.exit_code == 2 and "heat: the temperatures are not determined" in run.text,
                   "the upper bar has no temperature")
