@@ -38,6 +38,24 @@ def run(driver, scene, label, *options, **more):
     return driver.run(write(scene, driver.output / "scenes" / f"{label}.yaml"), *options, label=label, **more)
 
 
+def guided():
+    """A block that its support draws along a floor, which nothing presses on it: it moves, and all else rests."""
+    box = {"type": "box", "young": 1000, "poisson": 0.3}
+    return {
+        "schema": 1,
+        "model": "plane_strain",
+        "bodies": ["block", "floor"],
+        "block": box | {"lower": [0, 0], "upper": [1, 0.5], "cells": [4, 2]},
+        "floor": box | {"lower": [-1, -0.5], "upper": [4, 0], "cells": [11, 2]},
+        "supports": ["ground", "grip"],
+        "ground": {"surface": "floor.ymin", "components": ["x", "y"]},
+        "grip": {"surface": "block.xmin", "components": ["x"], "value": [0.3, 0]},
+        "interfaces": ["contact"],
+        "contact": {"nonmortar": "block.ymin", "mortar": "floor.ymax"},
+        "steps": {"count": 3},
+    }
+
+
 def thrown(verdicts, driver):
     """The plate goes with the block, in whatever order the matrix is factorised; it is not thrown out to where nothing touches it."""
     reference = run(driver, sled(6), "sled_6").steps[-1]["reactions"]["grip"]
@@ -47,3 +65,5 @@ def thrown(verdicts, driver):
         verdicts.near(f"sled, order {order}: force", grip[2], reference[2], SAME_PATH, "in twice as many steps")
         drag = np.hypot(*grip[:2]) / abs(grip[2])
         verdicts.near(f"sled, order {order}: drag over force", drag, SLED_FRICTION, ALONG_CONE, "nearly all slip is along")
+    result = run(driver, guided(), "guided")
+    verdicts.true("moved by its support: not thrown", not result.summary["failed_attempts"], "its steps converge at once")

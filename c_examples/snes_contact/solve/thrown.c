@@ -47,7 +47,8 @@ static PetscErrorCode find_idle(const Solve *solve, PetscBool *idle, PetscBool *
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* How far the middle of each part has moved between two states, local vectors, and how far the points of those that are not idle. */
+/* How far the middle of each part has moved between two states, local vectors, and how far the points of those that are not idle,
+ * or what supports move of the others. */
 static PetscErrorCode motion(const Solve *solve, const PetscBool *idle, Vec from, Vec to, PetscReal *middle, PetscReal *most)
 {
   const Mesh        *mesh = solve->mesh;
@@ -70,9 +71,10 @@ static PetscErrorCode motion(const Solve *solve, const PetscBool *idle, Vec from
     for (int i = 0; i < 3; i++) {
       d[i] = PetscRealPart(u1[at + i] - u0[at + i]);
       sums[4 * p + i] += d[i];
-      squared += d[i] * d[i];
+      /* an idle part's own supports may move it, too */
+      if (!idle[p] || solve->physics->unknowns.equations[at + i] < 0) squared += d[i] * d[i];
     }
-    if (!idle[p]) *most = PetscMax(*most, PetscSqrtReal(squared));
+    *most = PetscMax(*most, PetscSqrtReal(squared));
   }
   PetscCall(VecRestoreArrayRead(to, &u1));
   PetscCall(VecRestoreArrayRead(from, &u0));
