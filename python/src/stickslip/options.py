@@ -13,7 +13,7 @@ _INTEGERS = ("index_base", "threads", "element_points")
 
 def members() -> list[str]:
     """Every option of the header."""
-    return [name for name, _ in ffi.typeof("struct stickslip_options").fields if name != "struct_size"]
+    return [name for name, _ in ffi.typeof("struct stickslip_options").fields if name not in ("struct_size", "reserved")]
 
 
 def make(given: dict):
