@@ -6,7 +6,7 @@ import sys
 from pathlib import Path
 
 TESTS = Path(__file__).resolve().parents[1]
-WITHOUT_TWIN = {"t42_bad_input_content"}
+WITHOUT_TWIN = {"t42_bad_input_content", "t98_points"}
 
 
 def names(folder, extension):

@@ -47,7 +47,7 @@ static const struct {
     I32(options, integration), I32(options, tangent), I64(options, element_points), ONE(options, mu),
     ONE(options, augmentation), ONE(options, modulus), ONE(options, coverage_min), ONE(options, search_distance),
     ONE(options, radius), ONE(options, weak_coverage), ONE(options, turn_max), ONE(options, shear_limit),
-    I32(options, normals), I32(options, threads), I32(options, multiplier_space), I32(options, model), ONE(options, thickness),
+    I32(options, normals), I32(options, threads), I32(options, multiplier_space), I32(options, model), ONE(options, thickness), I32(options, decision), I32(options, reserved),
     I64(surface, struct_size), I64(surface, n_nodes), I64(surface, n_facets), NEED(surface, coordinates),
     NEED(surface, facet_offsets), NEED(surface, facet_nodes), NEED(surface, equations),
     MAY(surface, multiplier_equations), MAY(surface, owned),
