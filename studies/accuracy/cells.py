@@ -25,6 +25,7 @@ import numpy as np  # noqa: E402
 import quadratic_line  # noqa: E402
 import quadratic_tied  # noqa: E402
 from cell_fields import errors  # noqa: E402
+from documents import put_between  # noqa: E402
 from figures import BLUE, GREY, INK, RED, _save  # noqa: E402
 from scene import Driver, SceneError  # noqa: E402
 from study_page import markdown, per_cent  # noqa: E402
@@ -193,8 +194,7 @@ def draw(driver, folder):
 
 def renew(figure, rows):
     shutil.copy(figure, folders.FIGURES / figure.name)
-    text = DOCUMENT.read_text()
-    DOCUMENT.write_text(f"{text.split(MARKS[0])[0]}{MARKS[0]}\n\n{markdown(rows)}\n\n{MARKS[1]}{text.split(MARKS[1])[1]}")
+    put_between(DOCUMENT, MARKS, f"\n\n{markdown(rows)}\n\n")
 
 
 def quick(driver, verdicts):

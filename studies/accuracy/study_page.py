@@ -3,6 +3,7 @@
 import html
 import textwrap
 
+from documents import put_between
 from gallery_page import STYLE
 from study_problems import DEFAULT, DUAL, NORMALS, PRESS_FINE, PRESS_STEP, PRESS_STEPS
 from study_share import ASSEMBLY_BOUND, SHARE_BOUND
@@ -259,6 +260,4 @@ def write(output, problems, rows, measured, choice, summary, figures, circumstan
 
 def renew(document, summary):
     """Puts the summary between its marks in the document."""
-    text = document.read_text()
-    before, after = text.split(MARKS[0])[0], text.split(MARKS[1])[1]
-    document.write_text(f"{before}{MARKS[0]}\n\n{summary.read_text()}\n{MARKS[1]}{after}")
+    put_between(document, MARKS, f"\n\n{summary.read_text()}\n")

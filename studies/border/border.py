@@ -23,6 +23,7 @@ import border_figure  # noqa: E402
 import overlaps  # noqa: E402
 import study_page  # noqa: E402
 from compared import NAMES, current_laws, frozen_laws  # noqa: E402
+from documents import put_between  # noqa: E402
 from frozen import FrozenPoints, LastStep  # noqa: E402
 from laws import Nodal  # noqa: E402
 from library import Library  # noqa: E402
@@ -284,8 +285,7 @@ def report(build, library, renew):
     picture = border_figure.draw(library, output / "border.png")
     if renew:
         shutil.copy(picture, folders.FIGURES / picture.name)
-        whole = DOCUMENT.read_text()
-        DOCUMENT.write_text(f"{whole.split(MARKS[0])[0]}{MARKS[0]}\n\n{text}\n\n{MARKS[1]}{whole.split(MARKS[1])[1]}")
+        put_between(DOCUMENT, MARKS, f"\n\n{text}\n\n")
     print((output / "border.md").resolve(), picture.resolve(), sep="\n")
     return 0
 

@@ -13,6 +13,7 @@ import folders  # noqa: E402  (puts the others on the path)
 import numpy as np  # noqa: E402
 import points  # noqa: E402
 import study_page  # noqa: E402
+from documents import put_between  # noqa: E402
 from points_scenes import LAWS, Corner  # noqa: E402
 from scene import Driver, SceneError  # noqa: E402
 
@@ -59,8 +60,7 @@ def report(build, renew):
     text = "\n\n".join(f"**{title}**\n\n{study_page.markdown(table)}" for title, table in tables)
     (driver.output / "points.md").write_text(text + "\n")
     if renew:
-        whole = DOCUMENT.read_text()
-        DOCUMENT.write_text(f"{whole.split(MARKS[0])[0]}{MARKS[0]}\n\n{text}\n\n{MARKS[1]}{whole.split(MARKS[1])[1]}")
+        put_between(DOCUMENT, MARKS, f"\n\n{text}\n\n")
     print((driver.output / "points.md").resolve())
 
 

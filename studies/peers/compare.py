@@ -22,6 +22,7 @@ import friction_checks as friction  # noqa: E402
 import half_plane  # noqa: E402
 import peers  # noqa: E402
 import study_page  # noqa: E402
+from documents import put_between  # noqa: E402
 from scene import Driver, Line, SceneError  # noqa: E402
 
 DOCUMENT = folders.ROOT / "docs" / "accuracy.md"
@@ -234,8 +235,7 @@ def compare(build, renew):
     text = "\n\n".join(f"{title}\n\n{study_page.markdown(table)}" for title, table in zip(titles, tables))
     (driver.output / "compare.md").write_text(text + "\n")
     if renew:
-        whole = DOCUMENT.read_text()
-        DOCUMENT.write_text(f"{whole.split(MARKS[0])[0]}{MARKS[0]}\n\n{text}\n\n{MARKS[1]}{whole.split(MARKS[1])[1]}")
+        put_between(DOCUMENT, MARKS, f"\n\n{text}\n\n")
     print((driver.output / "compare.md").resolve())
 
 

@@ -18,6 +18,7 @@ from pathlib import Path
 
 sys.path.append(str(Path(__file__).resolve().parents[1] / "common"))
 import folders  # noqa: E402, F401  (puts the others on the path)
+from documents import put_between  # noqa: E402
 from scene import SCENES, SceneError  # noqa: E402
 
 DOC = Path(__file__).resolve().parents[2] / "docs" / "scaling.md"
@@ -93,8 +94,7 @@ def holdings_table(rows):
 
 
 def renew(begin, end, text):
-    page = DOC.read_text()
-    DOC.write_text(f"{page.split(begin)[0]}{begin}\n{text}{end}{page.split(end)[1]}")
+    put_between(DOC, (begin, end), f"\n{text}")
 
 
 def table(rows):
