@@ -13,7 +13,7 @@ use stickslip::interface::{
     Contact, Decision, Form, Friction, Heat, Interface, MultiplierBasis, NO_EQUATION, NO_WEAK_COVERAGE, Normals,
     Options, Scheme, Surface, Temperatures, Weights,
 };
-use stickslip::law::{Conductance, SlipMeasure};
+use stickslip::law::Conductance;
 use stickslip::line::Measure;
 use stickslip::mortar::MultiplierSpace;
 use stickslip::quadrature::DEGREE_10;
@@ -172,29 +172,12 @@ impl<'a, const N: usize> Scene<'a, N> {
 #[test]
 fn tangents_equal_differences_and_heat_is_conserved() {
     let mut passes = 0;
-    for (what, rough, cells) in rough_scenes(0.05) {
-        let rule = if cells[1] == Cells::Quads { &DEGREE_10 } else { &stickslip::quadrature::DEGREE_5 };
-        for (form, basis) in [(Form::Multiplier, BASES[0]), (Form::Multiplier, BASES[1]), (Form::Augmented, BASES[0])] {
-            for friction in [Friction::Coulomb, Friction::Tied, Friction::Tresca] {
-                for (weights, slip) in [
-                    (Weights::Current, SlipMeasure::Objective),
-                    (Weights::Current, SlipMeasure::Increment),
-                    (Weights::Current, SlipMeasure::Paper),
-                    (Weights::Committed, SlipMeasure::Objective),
-                ] {
-                    for weak_coverage in [NO_WEAK_COVERAGE, 0.2] {
-                        let of = Options { form, basis, weights, slip, weak_coverage, rule, ..options() };
-                        let mut t = moved(&under(friction, 0.7, of), cells, rough, 3);
-                        let what =
-                            format!("{what} {form:?} {basis:?} {friction:?} {weights:?} {slip:?} {weak_coverage}");
-                        let mut scene = Scene::new(&mut t.interface, [&t.x1, &t.x2], &t.lambda, (3, 3));
-                        scene.check(&ALL, &what);
-                        passes += scene.heat(&ALL).nodes.iter().filter(|(_, flow)| flow.flux != 0.0).count();
-                    }
-                }
-            }
-        }
-    }
+    let forms = [(Form::Multiplier, BASES[0]), (Form::Multiplier, BASES[1]), (Form::Augmented, BASES[0])];
+    each_moved(forms, options(), |t, what| {
+        let mut scene = Scene::new(&mut t.interface, [&t.x1, &t.x2], &t.lambda, (3, 3));
+        scene.check(&ALL, what);
+        passes += scene.heat(&ALL).nodes.iter().filter(|(_, flow)| flow.flux != 0.0).count();
+    });
     assert!(passes > 100, "{passes}");
 }
 

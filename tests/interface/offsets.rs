@@ -44,28 +44,10 @@ const FORMS: [Form; 2] = [Form::Multiplier, Form::Augmented];
 #[test]
 fn tangents_equal_differences() {
     let mut seen = [0; 3];
-    for (what, rough, cells) in rough_scenes(0.05) {
-        let rule = if cells[1] == Cells::Quads { &DEGREE_10 } else { &stickslip::quadrature::DEGREE_5 };
-        for (form, basis) in FORMS.into_iter().flat_map(|form| BASES.map(|basis| (form, basis))) {
-            for friction in [Friction::Coulomb, Friction::Tied, Friction::Tresca] {
-                for (weights, slip) in [
-                    (Weights::Current, SlipMeasure::Objective),
-                    (Weights::Current, SlipMeasure::Increment),
-                    (Weights::Current, SlipMeasure::Paper),
-                    (Weights::Committed, SlipMeasure::Objective),
-                ] {
-                    for weak_coverage in [NO_WEAK_COVERAGE, 0.2] {
-                        let of = Options { form, basis, weights, slip, weak_coverage, rule, ..options() };
-                        let mut t = moved(&under(friction, 0.7, of), cells, rough, 3);
-                        let what =
-                            format!("{what} {form:?} {basis:?} {friction:?} {weights:?} {slip:?} {weak_coverage}");
-                        check(&mut t.interface, (&t.x1, &t.x2), &t.lambda, &what);
-                        seen.iter_mut().zip(t.states()).for_each(|(all, here)| *all += here);
-                    }
-                }
-            }
-        }
-    }
+    each_moved(FORMS.into_iter().flat_map(|form| BASES.map(|basis| (form, basis))), options(), |t, what| {
+        check(&mut t.interface, (&t.x1, &t.x2), &t.lambda, what);
+        seen.iter_mut().zip(t.states()).for_each(|(all, here)| *all += here);
+    });
     assert!(seen.iter().all(|n| *n > 50), "{seen:?}");
 }
 

@@ -4,8 +4,12 @@
 use std::collections::HashMap;
 use stickslip::error::Result;
 use stickslip::geometry::Vec3;
-use stickslip::interface::{Contact, Friction, Interface, NO_EQUATION, Options, Stiffness, Surface};
-use stickslip::law::Coefficient;
+use stickslip::interface::{
+    Contact, Form, Friction, Interface, MultiplierBasis, NO_EQUATION, NO_WEAK_COVERAGE, Options, Stiffness, Surface,
+    Weights,
+};
+use stickslip::law::{Coefficient, SlipMeasure};
+use stickslip::quadrature::{DEGREE_5, DEGREE_10};
 
 /// Deterministic numbers in -1..1.
 pub struct Random(pub u64);
@@ -207,4 +211,33 @@ pub fn rough_scenes(warp: f64) -> impl Iterator<Item = (&'static str, Roughness,
     let rough = Roughness { warp, jitter: 0.08, slide: 0.02 };
     let off = Roughness { slide: 1.3, ..rough };
     cells.into_iter().flat_map(move |cells| [("covered", rough, cells), ("partly covered", off, cells)])
+}
+
+/// Every law whose multipliers are vectors, weights and slips of each kind, without carried nodes and with them, on rough scenes that have
+/// moved: what derivatives are compared with differences on.
+pub fn each_moved(
+    forms: impl IntoIterator<Item = (Form, MultiplierBasis)> + Clone,
+    options: Options,
+    mut check: impl FnMut(&mut Moved, &str),
+) {
+    for (what, rough, cells) in rough_scenes(0.05) {
+        let rule = if cells[1] == Cells::Quads { &DEGREE_10 } else { &DEGREE_5 };
+        for (form, basis) in forms.clone() {
+            for friction in [Friction::Coulomb, Friction::Tied, Friction::Tresca] {
+                for (weights, slip) in [
+                    (Weights::Current, SlipMeasure::Objective),
+                    (Weights::Current, SlipMeasure::Increment),
+                    (Weights::Current, SlipMeasure::Paper),
+                    (Weights::Committed, SlipMeasure::Objective),
+                ] {
+                    for weak_coverage in [NO_WEAK_COVERAGE, 0.2] {
+                        let of = Options { form, basis, weights, slip, weak_coverage, rule, ..options };
+                        let what =
+                            format!("{what} {form:?} {basis:?} {friction:?} {weights:?} {slip:?} {weak_coverage}");
+                        check(&mut moved(&under(friction, 0.7, of), cells, rough, 3), &what);
+                    }
+                }
+            }
+        }
+    }
 }
