@@ -18,7 +18,7 @@
 /* How many roundings meet in an inertial force: of a place, and of the sum over a cell. */
 static const PetscReal ROUNDINGS = 2;
 
-static void swap(Vec *a, Vec *b)
+void dynamics_swap(Vec *a, Vec *b)
 {
   const Vec kept = *a;
   *a             = *b;
@@ -139,14 +139,14 @@ PetscErrorCode dynamics_forces(Physics *physics, Vec f_local, PetscInt *status)
   PetscFunctionBegin;
   if (loads_follow(physics)) {
     PetscCall(set_middle(physics, 0));
-    swap(&physics->u_local, &d->middle);
+    dynamics_swap(&physics->u_local, &d->middle);
     PetscCall(set_loads(physics));
-    swap(&physics->u_local, &d->middle);
+    dynamics_swap(&physics->u_local, &d->middle);
   }
   PetscCall(set_middle(physics, d->stiffness_damping)); /* a linear body: f(u) + b f(v) = f(u + b v) */
-  swap(&physics->u_local, &d->middle);
+  dynamics_swap(&physics->u_local, &d->middle);
   PetscCall(bulk_forces(physics, f_local, status));
-  swap(&physics->u_local, &d->middle);
+  dynamics_swap(&physics->u_local, &d->middle);
   PetscCall(VecScale(f_local, 1 / d->scale));
   PetscCall(add_inertia(physics, f_local));
   if (d->rho_inf < 1) PetscCall(VecAXPY(f_local, d->alpha_m / d->scale - 1 + 2 * d->beta, d->force));
@@ -170,23 +170,22 @@ PetscErrorCode dynamics_stiffness(Physics *physics, Mat matrix, PetscInt *status
   const PetscReal here = (1 - d->alpha_f) / d->scale;
   PetscFunctionBegin;
   PetscCall(set_middle(physics, d->stiffness_damping));
-  swap(&physics->u_local, &d->middle);
+  dynamics_swap(&physics->u_local, &d->middle);
   PetscCall(bulk_stiffness(physics, matrix, status));
-  swap(&physics->u_local, &d->middle);
+  dynamics_swap(&physics->u_local, &d->middle);
   PetscCall(assemble(matrix));
-  PetscCall(MatScale(matrix, here * (1 + 2 * d->stiffness_damping / d->dt)));
+  PetscCall(MatScale(matrix, 1 + 2 * d->stiffness_damping / d->dt));
   if (loads_follow(physics)) {
     const PetscReal t = physics->t;
-    PetscCall(MatScale(matrix, 1 / here));
     PetscCall(set_middle(physics, 0));
     physics->t = d->t_n + (1 - d->alpha_f) * d->dt;
-    swap(&physics->u_local, &d->middle);
+    dynamics_swap(&physics->u_local, &d->middle);
     PetscCall(loads_stiffness(physics, matrix));
-    swap(&physics->u_local, &d->middle);
+    dynamics_swap(&physics->u_local, &d->middle);
     physics->t = t;
     PetscCall(assemble(matrix));
-    PetscCall(MatScale(matrix, here));
   }
+  PetscCall(MatScale(matrix, here));
   PetscCall(mass_insert(physics, 2 / PetscSqr(d->dt) + 2 / d->dt * here * d->mass_damping, matrix));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

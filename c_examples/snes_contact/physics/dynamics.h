@@ -20,7 +20,7 @@ struct Dynamics {
   PetscReal rho_inf, alpha_m, alpha_f, beta, gamma;
   PetscReal scale; /* kappa: the residual is divided by it, so that contact forces are what the library says */
   PetscReal mass_damping, stiffness_damping;
-  PetscReal *velocity; /* of each body at t = 0: velocity, spin, the point that it turns about; 9 numbers */
+  PetscReal *velocity; /* of each body at t = 0: velocity, spin, the point that it turns about; MOTION_NUMBERS */
   PetscReal  t_n, dt;
   /* of this rank's cells: where the n x n masses of each begin, of one without mass a negative number */
   PetscInt  *first;
@@ -37,6 +37,7 @@ struct Dynamics {
 };
 
 enum { MASS_NONE, MASS_FREE, MASS_PRESCRIBED };
+enum { MOTION_NUMBERS = 9 };
 
 /* dynamics_scene.c */
 PetscErrorCode dynamics_read(Scene *scene, Physics *physics);
@@ -48,6 +49,7 @@ PetscErrorCode dynamics_destroy(Physics *physics);
 PetscErrorCode dynamics_begin(Physics *physics);
 PetscErrorCode dynamics_forces(Physics *physics, Vec f_local, PetscInt *status);
 PetscErrorCode dynamics_stiffness(Physics *physics, Mat matrix, PetscInt *status);
+void           dynamics_swap(Vec *a, Vec *b); /* no copy */
 /* dynamics_balance.c: at a converged state, before the step is accepted; `f_local` of the last evaluation */
 PetscErrorCode dynamics_measure(Physics *physics);
 PetscErrorCode dynamics_energies(Physics *physics, Vec u, Vec v, Balance *balance);

@@ -1,10 +1,7 @@
 /* `dynamics` of a scene, and how its bodies move at the start. */
 #include "physics/dynamics.h"
 
-/* velocity, spin, the point that it turns about */
-enum { NUMBERS = 9 };
-
-static void read_motion(Scene *scene, Physics *physics, const char *body, PetscReal motion[NUMBERS])
+static void read_motion(Scene *scene, Physics *physics, const char *body, PetscReal motion[MOTION_NUMBERS])
 {
   const Mesh     *mesh  = physics->mesh;
   const PetscBool moves = space_vector(scene, &mesh->space, body, "velocity", motion), spins = space_turn(scene, &mesh->space, body, "spin", motion + 3);
@@ -14,7 +11,7 @@ static void read_motion(Scene *scene, Physics *physics, const char *body, PetscR
     scene_fail(scene, body, moves ? "velocity" : "spin", "only with `dynamics`: a body at rest has none.");
   if (mesh->space.kind == SPACE_AXISYMMETRIC && motion[0] != 0)
     scene_fail(scene, body, "velocity", "a ring moves along its axis, y: [0, %g].", (double)motion[1]);
-  for (int k = 0; k < NUMBERS; k += 3)
+  for (int k = 0; k < MOTION_NUMBERS; k += 3)
     mesh_rotate_vector(mesh, motion + k);
 }
 
@@ -58,7 +55,7 @@ PetscErrorCode dynamics_read(Scene *scene, Physics *physics)
   scene_real(scene, "dynamics", "rho_inf", &rho);
   if (!named && (scene_has(scene, "dynamics", "mass_damping") || scene_has(scene, "dynamics", "stiffness_damping")))
     scene_fail(scene, "dynamics", "rho_inf", "this key is missing: 1 for a scheme that keeps the energy.");
-  PetscCall(PetscCalloc1(NUMBERS * mesh->n_bodies, &motions));
+  PetscCall(PetscCalloc1(MOTION_NUMBERS * mesh->n_bodies, &motions));
   if (named) {
     PetscCall(PetscNew(&physics->dynamics));
     physics->dynamics->rho_inf  = rho;
@@ -67,7 +64,7 @@ PetscErrorCode dynamics_read(Scene *scene, Physics *physics)
   }
   for (PetscInt b = 0; b < mesh->n_bodies; b++) {
     const Body *body = &mesh->bodies[b];
-    if (!body->rigid && !body->analytic) read_motion(scene, physics, body->name, motions + NUMBERS * b);
+    if (!body->rigid && !body->analytic) read_motion(scene, physics, body->name, motions + MOTION_NUMBERS * b);
     if (named) check_body(scene, physics, b);
   }
   for (PetscInt r = 0; r < physics->n_rigids && named; r++) {

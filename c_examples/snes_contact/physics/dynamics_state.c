@@ -11,7 +11,7 @@ static PetscErrorCode start(Physics *physics)
   PetscFunctionBegin;
   PetscCall(VecGetArray(d->v, &v));
   for (PetscInt c = 0; c < cells->n; c++) {
-    const PetscReal *motion = d->velocity + 9 * cells->body[c], *spin = motion + 3;
+    const PetscReal *motion = d->velocity + MOTION_NUMBERS * cells->body[c], *spin = motion + 3;
     if (d->first[c] < 0) continue;
     for (PetscInt k = cells->offsets[c]; k < cells->offsets[c + 1]; k++) {
       PetscReal arm[3];
@@ -52,18 +52,27 @@ static PetscErrorCode first_force(Physics *physics)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+enum { N_VECTORS = 11 };
+
+/* All that it has. */
+static void list_vectors(Dynamics *d, Vec *vectors[N_VECTORS])
+{
+  Vec *const all[N_VECTORS] = {&d->u, &d->v, &d->force, &d->prescribed, &d->v_next, &d->force_next, &d->prescribed_next,
+                               &d->middle, &d->work, &d->smooth, &d->impulse};
+  for (int k = 0; k < N_VECTORS; k++)
+    vectors[k] = all[k];
+}
+
 PetscErrorCode dynamics_create(Physics *physics)
 {
   Dynamics *d = physics->dynamics;
+  Vec      *vectors[N_VECTORS];
   PetscFunctionBegin;
   if (!d) PetscFunctionReturn(PETSC_SUCCESS);
-  {
-    Vec *const vectors[] = {&d->u, &d->v, &d->force, &d->prescribed, &d->v_next, &d->force_next, &d->prescribed_next,
-                            &d->middle, &d->work, &d->smooth, &d->impulse};
-    for (size_t k = 0; k < sizeof(vectors) / sizeof(vectors[0]); k++) {
-      PetscCall(VecDuplicate(physics->u_local, vectors[k]));
-      PetscCall(VecZeroEntries(*vectors[k]));
-    }
+  list_vectors(d, vectors);
+  for (int k = 0; k < N_VECTORS; k++) {
+    PetscCall(VecDuplicate(physics->u_local, vectors[k]));
+    PetscCall(VecZeroEntries(*vectors[k]));
   }
   PetscCall(mass_create(physics));
   PetscCall(supports_values(physics, 0));
@@ -78,13 +87,6 @@ PetscErrorCode dynamics_create(Physics *physics)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static void swap(Vec *a, Vec *b)
-{
-  const Vec kept = *a;
-  *a             = *b;
-  *b             = kept;
-}
-
 /* The step to physics->t, u_local */
 PetscErrorCode dynamics_accept(Physics *physics)
 {
@@ -92,9 +94,9 @@ PetscErrorCode dynamics_accept(Physics *physics)
   PetscFunctionBegin;
   if (!d) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(VecCopy(physics->u_local, d->u));
-  swap(&d->v, &d->v_next);
-  swap(&d->force, &d->force_next);
-  swap(&d->prescribed, &d->prescribed_next);
+  dynamics_swap(&d->v, &d->v_next);
+  dynamics_swap(&d->force, &d->force_next);
+  dynamics_swap(&d->prescribed, &d->prescribed_next);
   d->last = d->now;
   d->t_n  = physics->t;
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -103,14 +105,12 @@ PetscErrorCode dynamics_accept(Physics *physics)
 PetscErrorCode dynamics_destroy(Physics *physics)
 {
   Dynamics *d = physics->dynamics;
+  Vec      *vectors[N_VECTORS];
   PetscFunctionBegin;
   if (!d) PetscFunctionReturn(PETSC_SUCCESS);
-  {
-    Vec *const vectors[] = {&d->u, &d->v, &d->force, &d->prescribed, &d->v_next, &d->force_next, &d->prescribed_next,
-                            &d->middle, &d->work, &d->smooth, &d->impulse};
-    for (size_t k = 0; k < sizeof(vectors) / sizeof(vectors[0]); k++)
-      PetscCall(VecDestroy(vectors[k]));
-  }
+  list_vectors(d, vectors);
+  for (int k = 0; k < N_VECTORS; k++)
+    PetscCall(VecDestroy(vectors[k]));
   PetscCall(MatDestroy(&d->matrix));
   PetscCall(KSPDestroy(&d->solver));
   PetscCall(PetscFree(d->velocity));
