@@ -20,7 +20,7 @@ BEGIN, END = "<!-- ratio.py writes from here -->", "<!-- to here: ratio.py -->"
 # Cells along an edge of the upper block: 413 400 unknowns; 215 520, of which MUMPS wants 12 GB.
 LARGEST, LARGEST_DIRECT = 40, 32
 # MUMPS analyses, says what it would take, and has not the memory for it.
-ANALYSIS = ("-mat_mumps_icntl_4", "2", "-mat_mumps_icntl_23", "1")
+ANALYSIS = ("-mat_mumps_icntl_4", "2", "-mat_mumps_icntl_23", "1", "-steps_smallest", "1")
 NO_MEMORY = 2  # the exit code of a run that does not converge
 FILES = ("-output_csv", "none", "-output_vtu", "none")
 
