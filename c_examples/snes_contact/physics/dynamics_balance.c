@@ -55,6 +55,7 @@ PetscErrorCode dynamics_energies(Physics *physics, Vec u_local, Vec v_local, Bal
   PetscCall(VecGetArrayRead(v_local, &v));
   add_motion(physics, u, v, &here);
   add_strain(physics, u, &here);
+  if (physics->springs) PetscCall(springs_energy(physics, u, &here.strain));
   PetscCall(VecRestoreArrayRead(v_local, &v));
   PetscCall(VecRestoreArrayRead(u_local, &u));
   all[0] = here.kinetic;

@@ -15,6 +15,7 @@
 
 struct cJSON;
 typedef struct Dynamics Dynamics; /* dynamics.h */
+typedef struct Springs  Springs;  /* springs.h */
 
 /* x - origin = R (X - origin + factor(t) (value + given + gradient (X - origin))) in the components of the mask (bit i:
  * axis i); R turns about `rotate` by rotate_factor(t) |rotate| radians */
@@ -141,6 +142,7 @@ typedef struct {
   char      inverted[256];                      /* which cell the last attempt at a step has turned inside out, or the like */
   PetscLogDouble seconds;                       /* in bulk_forces() and bulk_stiffness() */
   Dynamics      *dynamics;                      /* NULL: statics */
+  Springs       *springs;                       /* NULL: none */
 } Physics;
 
 /* material_scene.c */
@@ -205,6 +207,18 @@ PetscErrorCode face_look_at(const Physics *physics, PetscInt point, Face *face);
 PetscBool      loads_follow(const Physics *physics); /* is there a follower pressure? */
 PetscErrorCode loads_values(Physics *physics);       /* at physics->t and u_local, into f_external */
 PetscErrorCode loads_stiffness(Physics *physics, Mat matrix); /* adds what forces of followers differ by */
+
+/* springs_scene.c, after supports and loads; then springs_label(), before the mesh is distributed */
+PetscErrorCode springs_read(Scene *scene, Physics *physics);
+PetscErrorCode springs_label(Physics *physics);
+PetscErrorCode springs_create(Scene *scene, Physics *physics); /* springs_create.c, once there are unknowns and parts */
+PetscErrorCode springs_destroy(Physics *physics);
+/* springs.c: as bulk_forces() and the like; called by these */
+PetscErrorCode springs_forces(Physics *physics, Vec f_local);
+PetscErrorCode springs_stiffness(Physics *physics, Mat matrix);
+PetscErrorCode springs_pattern(Physics *physics, Mat matrix);
+PetscErrorCode springs_total(Physics *physics);                                   /* of `force`, on all ranks */
+PetscErrorCode springs_energy(const Physics *physics, const PetscScalar *u, PetscReal *energy); /* adds this rank's part */
 
 /* unknowns.c: takes the fields over */
 PetscErrorCode unknowns_create(Physics *physics, PetscInt n_fields, Field *fields);
