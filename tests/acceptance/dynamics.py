@@ -18,6 +18,8 @@ BAR_BOUND = 0.02
 INCLINE_BOUND = 1e-6
 # Of an observed order, on three halvings.
 ORDER_BOUND = 0.1
+# Steps in which contact gives energy, and those in which the energy grows: the same but for what Newton leaves of the others.
+GIVEN_BOUND = 1e-6
 # The same run in another way.
 SAME_BOUND = 1e-9
 # A turn of one radian in 20 steps: the midpoint rule keeps the moment of momentum of any material.
@@ -216,6 +218,12 @@ def bounces(verdicts, driver):
         verdicts.true(f"bouncing {name}: it touches", touched and table["momentum_z"][-1] > -table["momentum_z"].max() , f"contact work {table['contact_work'].min():.3g}")
         verdicts.below(f"bouncing {name}: growth of energy", growth(table), ENERGY_BOUND, "in any step")
         verdicts.below(f"bouncing {name}: energy balance", np.abs(table["numerical"]).max() / total(table)[0], EXACT_BOUND, "all work counted")
+        verdicts.below(f"bouncing {name}: given by contact", table["contact_gain"][-1] / total(table)[0], ENERGY_BOUND, "nothing")
+    told = run(driver, "bounce_ball", scene, "-c_weights", "current", label="bounce_ball_current")
+    table = energy(told)
+    verdicts.at_least("bouncing ball, weights found anew: growth of energy", growth(table), ENERGY_BOUND, "what the warning is about")
+    verdicts.true("bouncing ball, weights found anew: a warning", "contact gives the bodies" in told.text, "of what is measured")
+    verdicts.near("bouncing ball, weights found anew: given by contact", table["contact_gain"][-1] / np.diff(total(table)).clip(0).sum(), 1, GIVEN_BOUND, "growth of energy")
 
 
 # --- friction -----------------------------------------------------------------------------------------------------------

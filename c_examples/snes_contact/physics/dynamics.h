@@ -12,6 +12,7 @@
 typedef struct {
   PetscReal kinetic, strain;
   PetscReal external, supports, contact; /* work of loads, supports, contact */
+  PetscReal given;                       /* of that of contact the steps in which it gave energy, where nothing without mass moves */
   PetscReal damping;                     /* energy that is gone by it */
   PetscReal momentum[3], angular[3];     /* the latter about the origin */
 } Balance;
@@ -32,6 +33,7 @@ struct Dynamics {
   Vec     v_next, force_next, prescribed_next; /* the same at the end of the step: what is prescribed from its start on, else by dynamics_measure() */
   Vec     middle, work, smooth, impulse; /* the place of the forces; work space; forces but those of contact; 2 M v / dt */
   Balance start, last, now;
+  PetscBool told; /* that contact gives energy */
   Mat     matrix; /* of the masses, and what solves with it; NULL where rho_inf is 1 */
   KSP     solver;
 };
