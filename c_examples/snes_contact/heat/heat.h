@@ -81,6 +81,9 @@ PetscErrorCode expansion_pressures(const Heat *heat, PetscInt cell, PetscReal pr
 /* across.c: the same of the interfaces */
 PetscErrorCode across_add(Heat *heat, PetscReal dt, PetscScalar *leaves, HeatEntries *entries, PetscInt *status);
 PetscErrorCode heat_collect(Heat *heat);
+PetscErrorCode heat_widen(const Heat *heat, const PetscScalar *from); /* of a local vector of temperatures, into heat->wide */
+/* restart.c: the temperatures of t_n */
+PetscErrorCode heat_archive(Heat *heat, Archive *archive);
 /* entries.c */
 PetscErrorCode entries_add(HeatEntries *entries, PetscInt row, PetscInt column, PetscScalar value);
 PetscErrorCode entries_destroy(HeatEntries *entries);

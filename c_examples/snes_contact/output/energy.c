@@ -62,6 +62,41 @@ PetscErrorCode energy_begin(const Output *output)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* The file as a text. */
+static PetscErrorCode read_rows(const char *path, char **text)
+{
+  FILE *file = fopen(path, "rb");
+  long  size;
+  PetscFunctionBegin;
+  PetscCheck(file, PETSC_COMM_SELF, PETSC_ERR_FILE_OPEN, "cannot read '%s'", path);
+  fseek(file, 0, SEEK_END);
+  size = ftell(file);
+  rewind(file);
+  PetscCall(PetscCalloc1(size + 1, text));
+  PetscCheck(fread(*text, 1, (size_t)size, file) == (size_t)size, PETSC_COMM_SELF, PETSC_ERR_FILE_READ, "cannot read '%s'", path);
+  fclose(file);
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode energy_archive(const Output *output, Archive *archive)
+{
+  char  path[PETSC_MAX_PATH_LEN], *text = NULL;
+  FILE *file;
+  PetscFunctionBegin;
+  if (!output->physics->dynamics) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PetscSNPrintf(path, sizeof(path), "%s/energy.csv", output->directory));
+  if (!archive->reading && !archive->rank) PetscCall(read_rows(path, &text));
+  PetscCall(archive_text(archive, "energy.csv", &text));
+  if (archive->reading && !archive->bad && !archive->rank && text) {
+    file = fopen(path, "w");
+    PetscCheck(file, PETSC_COMM_SELF, PETSC_ERR_FILE_OPEN, "cannot write '%s'", path);
+    fputs(text, file);
+    fclose(file);
+  }
+  PetscCall(PetscFree(text));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* Of a converged step, before it is committed. `friction`: up to here, on rank 0 */
 PetscErrorCode energy_report(const Output *output, PetscReal friction, cJSON *step)
 {
