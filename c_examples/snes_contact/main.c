@@ -99,7 +99,7 @@ static PetscErrorCode build(Model *model, PetscInt *status)
   PetscCall(bulk_create(physics));
   PetscCall(loads_assemble(physics));
   PetscCall(heat_create(&model->heat));
-  PetscCall(dynamics_create(physics));
+  PetscCall(dynamics_create(model->scene, physics));
   PetscCall(contact_create(contact, model->scene, solve->quiet, status));
   if (*status) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(supports_values(physics, 0));

@@ -159,6 +159,10 @@ PetscErrorCode supports_label(Physics *physics);
 PetscBool supports_agree(const Physics *physics, const Support *a, const Support *b, PetscInt vertex, const PetscReal X[3],
                          int component);
 PetscErrorCode supports_values(Physics *physics, PetscReal t); /* into prescribed_local */
+/* velocities or accelerations of what is prescribed: at a kink of a curve the mean of before and after, at the start and the end of the run
+ * what is within it; of vertices of rigid bodies none */
+typedef enum { SUPPORT_PLACE, SUPPORT_VELOCITY, SUPPORT_ACCELERATION } SupportMotion;
+PetscErrorCode supports_rates(Physics *physics, PetscReal t, SupportMotion motion, Vec local);
 PetscErrorCode supports_reactions(Physics *physics);
 /* which support turns each part, -1: none; a position turned as that support does from t0 to t */
 PetscErrorCode supports_turning(const Physics *physics, PetscInt support_of[]);
