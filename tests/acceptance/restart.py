@@ -127,10 +127,8 @@ SCENES = (
     ("turned", turned(), ()),
     ("rigid", rigid(), ()),
     ("plane", plane(), ()),
-    ("dynamics", thrown(0.7), ()),
-    ("dynamics, damped", thrown(1), ("-dynamics_stiffness_damping", 0.01)),
-    ("heat", warm(), ()),
-    ("heat, two-way", expanding(), ()),
+    ("dynamics", thrown(0.7), ("-dynamics_stiffness_damping", 0.01)),
+    ("heat", expanding(), ()),
     ("quadratic", pad(upper={"cell": "tet10"}, lower={"cell": "tet10"}, contact={"basis": "dual"}), ()),
     ("two interfaces", pad(bodies=["upper", "lower", "other"], other={**BOX, "lower": [1.3, 0.1, 0.02], "upper": [1.9, 0.9, 0.5], "cells": [2, 2, 1]},
                            grip={"surface": ["upper.zmax", "other.zmax"]}, interfaces=["contact", "second"],
@@ -152,7 +150,7 @@ def restart(verdicts, driver):
 
 def same_bits(verdicts, driver, name, scene, options):
     """From every step but the last, to the end."""
-    label = name.replace(" ", "_").replace(",", "")
+    label = name.replace(" ", "_")
     path = write(scene, driver.output / f"{label}.yaml")
     whole = driver.run(path, *BITS, *KEEP, *options, label=label)
     n = len(whole.steps)
@@ -226,7 +224,7 @@ def ranks(verdicts, driver):
     for name, scene, of in (("thrown", thrown(0.7), lambda step: step["energy"]), ("warm", warm(), lambda step: step["heat"]["supplied"])):
         path = write(scene, driver.output / f"{name}.yaml")
         whole = {n: driver.run(path, *BITS, *KEEP, ranks=n, label=f"{name}_{n}") for n in (1, 2)}
-        for before, after in ((2, 2), (2, 1), (1, 2)):
+        for before, after in ((2, 1), (1, 2)):
             run = driver.run(path, *BITS, "-restart", whole[before].directory / "restart_2.bin", ranks=after, label=f"{name}_{before}_{after}")
             found, right = (np.array([[*of(step).values()] for step in r.steps]) for r in (run, whole[1]))
             verdicts.below(f"{name}, from {before} to {after} ranks: answers", np.abs(found - right).max() / np.abs(right).max(), ANSWERS, "those of one rank")
