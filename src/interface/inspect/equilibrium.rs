@@ -9,6 +9,7 @@
 use crate::error::{Error, Kind, Result};
 use crate::geometry::Vec3;
 use crate::interface::data::extent::Scope;
+use crate::interface::data::options::Weights;
 use crate::interface::pairing::given::Given;
 use crate::interface::stages::carried::{carriers_sums, multiplier_share};
 use crate::interface::stages::node::{is_left_out, node};
@@ -51,6 +52,8 @@ pub struct Equilibrium {
     pub traction: Largest,
     /// Of slips `[L]`: where a node sticks; against or across the traction; tied surfaces along the surface.
     pub slip: Largest,
+    /// No violation, but what frozen weights do not follow `[L]`: see [`slid`]. Beside the size of the node.
+    pub slide: Largest,
 }
 
 impl Largest {
@@ -86,7 +89,11 @@ pub fn equilibrium<const N: usize>(
     };
     let least = nodes().map(length_scale).fold(f64::INFINITY, f64::min);
     let none = Largest { value: 0.0, scale: if least.is_finite() { least } else { 0.0 }, node: None };
-    let mut all = Equilibrium { gap: none, traction: Largest { scale: traction, ..none }, slip: none };
+    let least = nodes().map(length).fold(f64::INFINITY, f64::min);
+    let slide = Largest { scale: if least.is_finite() { least } else { 0.0 }, ..none };
+    let mut all = Equilibrium { gap: none, traction: Largest { scale: traction, ..none }, slip: none, slide };
+    let options = &given.setup.options;
+    let may_slide = options.friction.law().opens && options.weights != Weights::Current;
 
     let shared =
         if carried.contains(&true) { carriers_sums(given, sums, carried, &given.normals()?)? } else { Vec::new() };
@@ -126,6 +133,17 @@ pub fn equilibrium<const N: usize>(
         all.gap.offer(v.gap, length_scale(a), a);
         all.traction.offer(v.traction, traction, a);
         all.slip.offer(v.slip, length_scale(a), a);
+        if may_slide && sum.coverage > given.least_coverage(a) && traction > 0.0 {
+            let slide = slid(&given.normal(a)?, sum) * (lambda[a].norm() * share / traction).min(1.0);
+            all.slide.offer(slide, length(a), a);
+        }
     }
     Ok(all)
+}
+
+/// How far apart along the surface a node's traction acts on the two sides `[L]`. Weights of now keep both forces on one line;
+/// frozen ones leave the mortar side's where they were made, so that this is how far the node has slid since then.
+fn slid(normal: &Vec3, sum: &NodeSums) -> f64 {
+    let apart = sum.gap_now / sum.coverage;
+    (apart - normal.dot(&apart) * normal).norm()
 }
