@@ -41,6 +41,7 @@ from restart import restart  # noqa: E402
 from rigid import rigid  # noqa: E402
 from roles import roles  # noqa: E402
 from slider import slider, slider_fine  # noqa: E402
+from sliding import sliding  # noqa: E402
 from scene import Driver, SceneError  # noqa: E402
 from springs import springs  # noqa: E402
 from stepping import stepping  # noqa: E402
@@ -93,6 +94,7 @@ GROUPS = {
     "restart": restart,
     "rigid": rigid,
     "roles": roles,
+    "sliding": sliding,
     "slider": slider,
     "slider_fine": slider_fine,  # minutes; not among the tests
     "springs": springs,
