@@ -33,8 +33,9 @@ from quadratic_contact import quadratic_contact  # noqa: E402
 from quadratic_line import quadratic_line  # noqa: E402
 from quadratic_sliding import quadratic_sliding  # noqa: E402
 from quadratic_tied import quadratic_tied  # noqa: E402
-from ranks import ranks, ranks_full, ranks_scenes  # noqa: E402
+from ranks import ranks, ranks_scenes  # noqa: E402
 from ranks_files import ranks_files  # noqa: E402
+from ranks_full import ranks_full  # noqa: E402
 from ranks_moving import ranks_many, ranks_moving  # noqa: E402
 from restart import restart  # noqa: E402
 from rigid import rigid  # noqa: E402
@@ -44,6 +45,7 @@ from scene import Driver, SceneError  # noqa: E402
 from springs import springs  # noqa: E402
 from stepping import stepping  # noqa: E402
 from thrown import thrown  # noqa: E402
+from timed import timed  # noqa: E402
 from touching import touching_full, touching_quick  # noqa: E402
 from turning import turning  # noqa: E402
 from verdict import Verdicts  # noqa: E402
@@ -96,6 +98,7 @@ GROUPS = {
     "springs": springs,
     "stepping": stepping,
     "thrown": thrown,
+    "timed": timed,
     "touching": touching_quick,
     "touching_full": touching_full,  # some minutes; not among the tests
     "turning": turning,
