@@ -22,12 +22,13 @@ const DEPTH: f64 = 1e-5;
 /// How far it slides before each evaluation, back and forth: positions are new.
 const SLIDE: f64 = 1e-7;
 const PASSES: usize = 200;
+type Sigma = fn(f64) -> f64;
+
 /// What sigma is along the patch, mostly lambda.
-const SCENES: [(&str, fn(f64) -> f64); 3] =
-    [("all closed", |_| -1.0), ("all open", |_| 1.0), ("a border", |x| x - 0.51)];
+const SCENES: [(&str, Sigma); 3] = [("all closed", |_| -1.0), ("all open", |_| 1.0), ("a border", |x| x - 0.51)];
 
 /// Entries, and the least seconds of a residual and of the values.
-fn least(decision: Decision, sigma: fn(f64) -> f64, passes: usize) -> (usize, [f64; 2]) {
+fn least(decision: Decision, sigma: Sigma, passes: usize) -> (usize, [f64; 2]) {
     let ((mut x1, one), (x2, two)) =
         (patches::patch(CELLS[0], 0.0, 1.0, false), patches::patch(CELLS[1], -RIM, 1.0 + RIM, true));
     x1.iter_mut().for_each(|x| x.z = -DEPTH * (1.0 + 0.5 * (3.0 * x.y).sin()));
