@@ -4,6 +4,7 @@
 //! adds nothing.
 
 use super::emission::{Emitter, NodeBlock, Place};
+use super::point_friction;
 use super::union::{Pairs, Walk};
 use crate::error::Result;
 use crate::geometry::Vec3;
@@ -40,8 +41,8 @@ struct Row {
 
 /// The facets around each node, with the mortar nodes of each.
 #[derive(Debug, Default)]
-struct Around {
-    facets: Vec<usize>,
+pub struct Around {
+    pub facets: Vec<usize>,
     first_node: Vec<usize>,
     mortar: Vec<usize>,
     /// Per node where its facets begin among `of_node`.
@@ -80,11 +81,11 @@ impl Around {
         Ok(all)
     }
 
-    fn around(&self, a: usize) -> &[usize] {
+    pub fn around(&self, a: usize) -> &[usize] {
         &self.of_node[self.first[a]..self.first[a + 1]]
     }
 
-    fn mortar(&self, k: usize) -> &[usize] {
+    pub fn mortar(&self, k: usize) -> &[usize] {
         &self.mortar[self.first_node[k]..self.first_node[k + 1]]
     }
 }
@@ -211,6 +212,9 @@ pub fn blocks<const N: usize>(
     emitter: &mut Emitter<N>,
 ) -> Result<()> {
     let around = Around::of(given, pairs)?;
+    if given.setup.has_point_friction() {
+        return point_friction::blocks(given, &around, numbers, emitter);
+    }
     let (n1, n2) = (given.nodes(), given.setup.mortar.len());
     let (places, row_places) = (memory::filled(NOWHERE, n1 + n2)?, memory::filled(NOWHERE, n1)?);
     let mut star = Star { places, row_places, ..Star::default() };
