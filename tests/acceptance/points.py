@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from points_scenes import LAWS, MODULUS, NAME, NODES, POINTS, Corner, Hertz, half_widths
+from points_scenes import LAWS, MODULUS, NAME, NODES, POINTS, PULL, Corner, Hertz, half_widths
 from scene import interfaces, write
 
 # Patch tests: the linear solver's rounding.

@@ -8,7 +8,7 @@ use crate::support::mesh::*;
 use stickslip::error::Kind;
 use stickslip::geometry::Vec3;
 use stickslip::interface::{
-    Contact, Decision, Friction, Interface, MultiplierBasis, Options, Residual, Stiffness, Weights,
+    Contact, Decision, Friction, Interface, MultiplierBasis, Options, PlanPairs, Residual, Stiffness, Weights,
 };
 use stickslip::law::{Own, State};
 use stickslip::line::Measure;
@@ -42,8 +42,8 @@ struct Scene {
 }
 
 /// Multipliers that make points of all states occur.
-fn scene(mu: f64, cells: [Cells; 2], rough: Roughness, seed: u64) -> Scene {
-    let Moved { interface, x1, x2, lambda } = moved(&by_points(mu), cells, rough, seed);
+fn scene(options: Options, cells: [Cells; 2], rough: Roughness, seed: u64) -> Scene {
+    let Moved { interface, x1, x2, lambda } = moved(&options, cells, rough, seed);
     Scene { contact: interface, x1, x2, lambda }
 }
 
@@ -76,7 +76,7 @@ fn tangents_are_those_of_differences_for_every_kind_on_every_kind() {
     let mut seen = [0; 3];
     for (cells, (slide, seed)) in CELLS.into_iter().flat_map(|c| [(0.02, 3), (0.02, 8), (1.3, 5)].map(|s| (c, s))) {
         for (rough, mu) in [(FLAT, 0.7), (Roughness { warp: 0.03, jitter: 0.08, slide }, 0.3)] {
-            let mut s = scene(mu, cells, rough, seed);
+            let mut s = scene(by_points(mu), cells, rough, seed);
             let responses = s.contact.responses(&s.x1, &s.x2, &s.lambda, None).unwrap();
             responses.iter().for_each(|r| seen[r.state as usize] += 1);
             let error = s.error();
@@ -100,10 +100,45 @@ fn tangents_of_lines_are_those_of_differences() {
     }
 }
 
+/// Newton's matrix of a plan, in two numbers of threads, is that of entries one by one.
+#[test]
+fn a_plan_has_the_same_tangent() {
+    for (threads, cells) in [(1, CELLS[0]), (3, CELLS[2])] {
+        let mut s = scene(Options { threads, ..by_points(0.4) }, cells, FLAT, 3);
+        let Scene { contact, x1, x2, lambda } = &mut s;
+        let n = 3 * (x1.len() + x2.len() + lambda.len());
+        let mut expected = vec![0.0; n * n];
+        let mut add = |i: i64, j: i64, v: f64| expected[i as usize * n + j as usize] += v;
+        contact.tangent(x1, x2, lambda, None, &mut add).unwrap();
+        let largest = max_abs(expected.iter().copied());
+        for pairs in [PlanPairs::Active(stickslip::interface::Extent::Whole), PlanPairs::Possible] {
+            let entries = contact.make_plan((x1, x2), pairs).unwrap();
+            let mut values = vec![0.0; entries];
+            contact.plan_values((x1, x2), lambda, None, &mut values).unwrap();
+            let (plan, of) = contact.plan(stickslip::interface::PlanSystem::Whole).unwrap();
+            let (mut k, mut found) = (0, vec![0.0; n * n]);
+            let rows = plan.rows().0.to_vec();
+            let mut row = rows.iter();
+            plan.each_row(of, &mut |columns| {
+                let i = *row.next().unwrap() as usize;
+                columns.iter().for_each(|&j| {
+                    found[i * n + j as usize] += values[k];
+                    k += 1;
+                });
+                Ok(())
+            })
+            .unwrap();
+            assert_eq!(k, entries);
+            let error = max_abs(found.iter().zip(&expected).map(|(a, b)| a - b));
+            assert!(error <= ROUNDING * largest, "{pairs:?}: {error:e} of {largest:e}");
+        }
+    }
+}
+
 #[test]
 fn forces_add_up_to_nothing() {
     for (cells, seed) in CELLS.into_iter().flat_map(|c| [(c, 3), (c, 8)]) {
-        let mut s = scene(0.5, cells, Roughness { warp: 0.03, jitter: 0.08, slide: 0.3 }, seed);
+        let mut s = scene(by_points(0.5), cells, Roughness { warp: 0.03, jitter: 0.08, slide: 0.3 }, seed);
         s.commit();
         let r = s.residual();
         let largest = max_abs(r.nonmortar.iter().flat_map(|f| f.iter().copied()));
@@ -117,7 +152,7 @@ fn forces_add_up_to_nothing() {
 #[test]
 fn without_friction_it_is_the_law_of_one_multiplier() {
     for cells in CELLS {
-        let mut s = scene(0.0, cells, Roughness { warp: 0.02, jitter: 0.05, slide: 0.1 }, 3);
+        let mut s = scene(by_points(0.0), cells, Roughness { warp: 0.02, jitter: 0.05, slide: 0.1 }, 3);
         let normals: Vec<_> = (0..s.x1.len()).map(|a| s.contact.normal(a).unwrap()).collect();
         let (one, two) = s.contact.surfaces();
         let of = Options { friction: Friction::None, mu: 0.0, ..by_points(0.0) };
@@ -166,7 +201,7 @@ fn patches_stick_and_slide_as_nodes_do() {
 /// Nothing creeps: after a commit the same point has the same forces and rows, whatever it was.
 #[test]
 fn rest_changes_nothing() {
-    let mut s = scene(0.4, CELLS[0], Roughness { warp: 0.02, jitter: 0.05, slide: 0.1 }, 8);
+    let mut s = scene(by_points(0.4), CELLS[0], Roughness { warp: 0.02, jitter: 0.05, slide: 0.1 }, 8);
     s.commit();
     let first = s.residual();
     for _ in 0..STEPS_OF_REST {
@@ -179,13 +214,13 @@ fn rest_changes_nothing() {
 #[test]
 fn histories_go_on_with_the_same_bits() {
     let rough = Roughness { warp: 0.02, jitter: 0.05, slide: 0.3 };
-    let mut s = scene(0.4, CELLS[2], rough, 3);
+    let mut s = scene(by_points(0.4), CELLS[2], rough, 3);
     let first = s.residual();
     s.commit();
     s.lambda.iter_mut().for_each(|v| *v *= 0.8);
     let second = s.residual();
     let (integers, reals) = s.contact.export_history().unwrap();
-    let mut other = scene(0.4, CELLS[2], rough, 3);
+    let mut other = scene(by_points(0.4), CELLS[2], rough, 3);
     other.lambda.clone_from(&s.lambda);
     assert!(second != other.residual(), "points remember something");
     other.contact.import_history(&integers, &reals).unwrap();
@@ -209,7 +244,7 @@ fn what_friction_at_points_does_not_go_with_is_refused_by_name() {
     refused(Options { weights: Weights::Current, ..of }, "WEIGHTS_REFERENCE");
     refused(Options { friction: Friction::Tied, mu: 0.0, ..of }, "tied");
     refused(Options { friction: Friction::Tresca, mu: 0.0, shear_limit: Some(0.2), ..of }, "not Coulomb's");
-    let mut s = scene(0.4, CELLS[0], FLAT, 3);
+    let mut s = scene(by_points(0.4), CELLS[0], FLAT, 3);
     let slip = vec![Vec3::zeros(); s.x1.len()];
     let error = s.contact.set_committed(&s.x1, &s.x2, &slip, 1).unwrap_err();
     assert!(error.kind == Kind::Unsupported && error.message.contains("history"), "{error}");
