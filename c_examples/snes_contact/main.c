@@ -55,6 +55,7 @@ static PetscErrorCode read_scene(Model *model)
   PetscCall(supports_read(model->scene, &model->physics));
   PetscCall(loads_read(model->scene, &model->physics));
   PetscCall(dynamics_read(model->scene, &model->physics));
+  PetscCall(springs_read(model->scene, &model->physics));
   PetscCall(contact_read(model->scene, &model->contact));
   PetscCall(iterative_read(model->scene, &model->solve));
   PetscCall(heat_read(model->scene, &model->heat));
@@ -80,6 +81,7 @@ static PetscErrorCode build(Model *model, PetscInt *status)
   PetscCall(plex_create(&model->mesh));
   PetscCall(supports_label(physics));
   PetscCall(loads_label(physics));
+  PetscCall(springs_label(physics));
   PetscCall(contact_label(contact));
   PetscCall(heat_label(&model->heat));
   PetscCall(parts_label(physics));
@@ -90,12 +92,13 @@ static PetscErrorCode build(Model *model, PetscInt *status)
   PetscCall(contact_fields(contact, &fields));
   PetscCall(unknowns_create(physics, contact->n_interfaces, fields));
   PetscCall(parts_create(physics));
+  PetscCall(springs_create(model->scene, physics));
   PetscCall(held_create(solve));
   iterative_check(model->scene, solve);
   PetscCall(bulk_create(physics));
   PetscCall(loads_assemble(physics));
   PetscCall(heat_create(&model->heat));
-  PetscCall(dynamics_create(physics));
+  PetscCall(dynamics_create(model->scene, physics));
   PetscCall(contact_create(contact, model->scene, solve->quiet, status));
   if (*status) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(supports_values(physics, 0));

@@ -12,6 +12,8 @@ static PetscErrorCode contents(Model *model, Run *state, Archive *archive)
   PetscCall(physics_archive(&model->physics, archive));
   PetscCall(contact_archive(&model->contact, archive));
   PetscCall(solve_archive(&model->solve, &state->past, &state->size, archive));
+  PetscCall(heat_archive(&model->heat, archive));
+  PetscCall(energy_archive(&model->output, archive));
   PetscCall(summary_archive(state->summary, archive));
   PetscCall(solve_archive_pattern(&model->solve, archive)); /* the last one: runs on several ranks do not look at it */
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -73,9 +75,6 @@ PetscErrorCode restart_read(Model *model, Run *state)
   ArchiveHeader header;
 
   PetscFunctionBegin;
-  if ((name[0] || model->output.restart_every) && (model->heat.on || model->physics.dynamics))
-    scene_fail(model->scene, name[0] ? NULL : "output", name[0] ? "restart" : "restart_every",
-               "restart files do not hold what `%s` keeps from step to step: leave one of them out.", model->heat.on ? "heat" : "dynamics");
   if (name[0] || model->output.restart_every) PetscCall(keep_scene(model));
   if (!name[0]) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(scene_relative_path(model->scene, name, path, sizeof(path)));

@@ -39,13 +39,12 @@ static PetscErrorCode solve_in_turns(Model *model, Run *run, PetscBool *done)
     if (refused) break;
     if (!heat->two_way || change <= heat->tolerance) PetscFunctionReturn(PETSC_SUCCESS);
     if (heat->turns < heat->most) continue;
-    PetscCall(PetscSNPrintf(model->contact.refusal, sizeof(model->contact.refusal),
+    PetscCall(PetscSNPrintf(heat->refusal, sizeof(heat->refusal),
                             "temperatures and displacements do not settle: after %d turns the temperatures change by %.2g of their range",
                             (int)heat->turns, (double)change));
     break;
   }
-  PetscCall(PetscSNPrintf(model->solve.newton.why, sizeof(model->solve.newton.why), "heat: %s", model->contact.refusal));
-  model->contact.refusal[0] = 0; /* a failed attempt: the contact has converged, and nobody refused it */
+  PetscCall(PetscSNPrintf(model->solve.newton.why, sizeof(model->solve.newton.why), "heat: %s", heat->refusal));
   *done = PETSC_FALSE;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -118,6 +117,11 @@ static PetscErrorCode give_up(Model *model, const Run *run, int *exit_code)
     PetscCall(PetscFPrintf(PETSC_COMM_WORLD, PETSC_STDERR,
                            "snes_contact: refused by the library: %s. That is so at t = 0, before the first step.\n",
                            refusal));
+  else if (refusal[0] && model->heat.refusal[0])
+    PetscCall(PetscFPrintf(PETSC_COMM_WORLD, PETSC_STDERR,
+                           "snes_contact: refused by the library: %s. That is the heat of the step from t = %.6g to %.6g, whose "
+                           "mechanics had converged.\n",
+                           refusal, (double)run->past.t_last, (double)model->physics.t));
   else if (refusal[0] && run->converged)
     PetscCall(PetscFPrintf(PETSC_COMM_WORLD, PETSC_STDERR,
                            "snes_contact: refused by the library: %s. That is the commit of the step from t = %.6g to "

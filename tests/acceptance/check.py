@@ -41,6 +41,7 @@ from rigid import rigid  # noqa: E402
 from roles import roles  # noqa: E402
 from slider import slider, slider_fine  # noqa: E402
 from scene import Driver, SceneError  # noqa: E402
+from springs import springs  # noqa: E402
 from stepping import stepping  # noqa: E402
 from thrown import thrown  # noqa: E402
 from touching import touching_full, touching_quick  # noqa: E402
@@ -92,6 +93,7 @@ GROUPS = {
     "roles": roles,
     "slider": slider,
     "slider_fine": slider_fine,  # minutes; not among the tests
+    "springs": springs,
     "stepping": stepping,
     "thrown": thrown,
     "touching": touching_quick,

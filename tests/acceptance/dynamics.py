@@ -18,6 +18,8 @@ BAR_BOUND = 0.02
 INCLINE_BOUND = 1e-6
 # Of an observed order, on three halvings.
 ORDER_BOUND = 0.1
+# Steps in which contact gives energy, and those in which the energy grows: the same but for what Newton leaves of the others.
+GIVEN_BOUND = 1e-6
 # The same run in another way.
 SAME_BOUND = 1e-9
 # A turn of one radian in 20 steps: the midpoint rule keeps the moment of momentum of any material.
@@ -31,6 +33,8 @@ def dynamics(verdicts, driver):
     flight(verdicts, driver)
     turn(verdicts, driver)
     orders(verdicts, driver)
+    supported(verdicts, driver)
+    jump(verdicts, driver)
     bars(verdicts, driver)
     bounces(verdicts, driver)
     incline(verdicts, driver)
@@ -101,7 +105,7 @@ def turn(verdicts, driver):
 
 
 def orders(verdicts, driver):
-    """A clamped bar under a load that changes in time, with one end moved: displacement and velocity at the end, on four steps."""
+    """A clamped bar under a load that changes in time: displacement and velocity at the end, on four steps."""
     curve = [value for k in range(33) for value in (k / 32, math.sin(3 * k / 32) ** 2)]
     scene = {"schema": 1, "bodies": ["bar"], "bar": {"type": "box", "lower": [0, 0, 0], "upper": [1, 0.2, 0.2], "cells": [4, 1, 1], "young": 4, "poisson": 0.3, "density": 1},
              "dynamics": {"rho_inf": 1}, "supports": ["clamp"], "clamp": {"surface": "bar.xmin", "components": ["x", "y", "z"]},
@@ -117,6 +121,44 @@ def orders(verdicts, driver):
             ends.append(np.array([*result.steps[-1]["probes"]["tip"], *(table[f"momentum_{axis}"][-1] for axis in "xyz")]))
         differences = [np.linalg.norm(a - b) for a, b in zip(ends, ends[1:])]
         verdicts.near(f"order in dt, {label}", math.log2(differences[-2] / differences[-1]), 2, ORDER_BOUND, "64, 128, 256 steps")
+
+
+def moved_bar(n, **clamp):
+    """A bar whose clamp moves."""
+    return {"schema": 1, "bodies": ["bar"], "bar": {"type": "box", "lower": [0, 0, 0], "upper": [1, 0.2, 0.2], "cells": [3, 1, 1], "young": 0.05, "poisson": 0.3, "density": 1},
+            "dynamics": {"rho_inf": 1}, "supports": ["clamp"], "clamp": {"surface": "bar.xmin", "components": ["x", "y", "z"], **clamp}, "steps": {"count": n},
+            "probes": ["tip"], "tip": {"body": "bar", "point": [1, 0, 0]}, "output": {"vtu": "none", "csv": "none"}}
+
+
+def supported(verdicts, driver):
+    """Supports that move smoothly, and ones that begin away from 0, so that the bar is strained and pulled from the first moment on."""
+    fine = 128
+    wave = [value for k in range(fine + 1) for value in (k / fine, math.sin(2 * k / fine + 0.3))]
+    turn = {"rotate": [0, 0, 0.7], "origin": [0, 0.5, 0], "rotate_curve": [0, 0, 1, 1]}
+    start, wave = ({"value": [0.1, 0.03, 0], "curve": curve} for curve in ([0, 1, 1, 1], wave))
+    for case, clamp, rhos in (("away from 0", start, (0.5,)), ("a wave", wave, (1, 0.5)), ("a turn", turn, (1, 0.5))):
+        for rho in rhos:
+            ends = []
+            for n in (fine // 4, fine // 2, fine):
+                result = run(driver, "supported", moved_bar(n, **clamp), "-dynamics_rho_inf", str(rho), label=f"supported_{case.replace(' ', '_')}_{rho}_{n}")
+                table = energy(result)
+                ends.append(np.array([*result.steps[-1]["probes"]["tip"], *(table[f"momentum_{axis}"][-1] for axis in "xyz")]))
+            differences = [np.linalg.norm(a - b) for a, b in zip(ends, ends[1:])]
+            verdicts.near(f"order in dt, {case}, rho_inf {rho}", math.log2(differences[0] / differences[1]), 2, ORDER_BOUND, "32, 64, 128 steps")
+            if rho == 1:
+                verdicts.below(f"energy balance, {case}", np.abs(table["numerical"]).max() / total(table).max(), EXACT_BOUND, "work of supports counted")
+
+
+def jump(verdicts, driver):
+    """A whole body is moved from the first moment on, in the middle of the run faster, and then held: its supports have worked what it moves with."""
+    scene = moved_bar(8, value=[0.4, 0, 0], curve=[0, 0, 0.25, 0.25, 0.5, 1, 1, 1])
+    del scene["clamp"]["surface"]
+    scene["clamp"]["body"] = "bar"
+    table = energy(run(driver, "jump", scene))
+    mass = 0.04
+    for k, speed in ((0, 0.4), (1, 0.4), (3, 1.2), (5, 0)):
+        verdicts.below(f"moved body: energy after step {k}", abs(table["kinetic"][k] - mass * speed**2 / 2), EXACT_BOUND, "m v^2 / 2")
+    verdicts.below("moved body: energy balance", np.abs(table["numerical"]).max() / total(table).max(), EXACT_BOUND, "impulses work with the mean velocity")
 
 
 # --- impacts ------------------------------------------------------------------------------------------------------------
@@ -176,6 +218,12 @@ def bounces(verdicts, driver):
         verdicts.true(f"bouncing {name}: it touches", touched and table["momentum_z"][-1] > -table["momentum_z"].max() , f"contact work {table['contact_work'].min():.3g}")
         verdicts.below(f"bouncing {name}: growth of energy", growth(table), ENERGY_BOUND, "in any step")
         verdicts.below(f"bouncing {name}: energy balance", np.abs(table["numerical"]).max() / total(table)[0], EXACT_BOUND, "all work counted")
+        verdicts.below(f"bouncing {name}: given by contact", table["contact_gain"][-1] / total(table)[0], ENERGY_BOUND, "nothing")
+    told = run(driver, "bounce_ball", scene, "-c_weights", "current", label="bounce_ball_current")
+    table = energy(told)
+    verdicts.at_least("bouncing ball, weights found anew: growth of energy", growth(table), ENERGY_BOUND, "what the warning is about")
+    verdicts.true("bouncing ball, weights found anew: a warning", "contact gives the bodies" in told.text, "of what is measured")
+    verdicts.near("bouncing ball, weights found anew: given by contact", table["contact_gain"][-1] / np.diff(total(table)).clip(0).sum(), 1, GIVEN_BOUND, "growth of energy")
 
 
 # --- friction -----------------------------------------------------------------------------------------------------------
@@ -236,6 +284,8 @@ REFUSED = {
     "point without spin": ({"left": {"about": [0, 0, 0]}}, "left.about"),
     "no density": ({"left": {"density": None}}, "left.density"),
     "stiffness damping of finite strain": ({"dynamics": {"rho_inf": 1, "stiffness_damping": 1}, "left": {"material": "neo_hooke"}}, "dynamics.stiffness_damping"),
+    "cells inside out at the start": ({"dynamics": {"rho_inf": 0.5}, "left": {"material": "neo_hooke"}, "supports": ["s"],
+                                       "s": {"surface": "left.xmin", "components": ["x"], "value": [2, 0, 0], "curve": [0, 1, 1, 1]}}, "dynamics.rho_inf"),
     "a free rigid body": ({"bodies": ["left", "right", "ball"], "ball": {"type": "rigid", "from": "box", "lower": [0, 0, 5], "upper": [1, 1, 6], "cells": [1, 1, 1], "reference": [0, 0, 5], "mass": 1}}, "ball.type"),
 }
 

@@ -205,3 +205,27 @@ def refused(verdicts, driver):
     run = driver.run(write(loose, driver.output / "loose.yaml"), expect=None)
     verdicts.true("a body that nothing warms is refused", run.exit_code == 2 and "heat: the temperatures are not determined" in run.text,
                   "the upper bar has no temperature")
+
+    def refuses(what, changes, says, exit_code=1):
+        scene = two_bars(conductance_constant=0.5, conductance_reach=1.0)
+        for name, values in changes.items():
+            scene[name] = {**scene[name], **values} if name in scene and isinstance(values, dict) else values
+        done = driver.run(write(scene, driver.output / "refused.yaml"), label="refused", expect=None)
+        verdicts.true(f"refused, {what}", done.exit_code == exit_code and says in done.text and "PETSC ERROR" not in done.text,
+                      f"exit code {exit_code}: {says}")
+
+    edge = {"surface": "upper.xmax", "value": 90}
+    for order in (["side", "hot", "cold"], ["hot", "side", "cold"]):
+        refuses("two temperatures at an edge", {"temperatures": order, "side": edge}, "is prescribed differently by")
+    refuses("two curves at an edge", {"temperatures": ["hot", "side", "cold"], "side": {**edge, "value": HOT, "curve": [0, 0, 0.5, 1]}},
+            "is prescribed differently by 'hot'")
+    for ranks in (1, 2):
+        same = two_bars(conductance_constant=0.5, conductance_reach=1.0)
+        same.update(temperatures=["hot", "also", "cold"], also={"surface": "upper.zmax", "value": HOT, "curve": [0, 0, 0.5, 0.5, 1, 1]})
+        run = driver.run(write(same, driver.output / "same.yaml"), ranks=ranks)
+        flux = (HOT - COLD) / (1 / CONDUCTIVITY["upper"] + 1 / 0.5 + 2 / CONDUCTIVITY["lower"])
+        verdicts.near(f"two temperatures that say the same, {ranks} ranks", sum(run.steps[-1]["heat"]["supplied"][k] for k in ("hot", "also")) / flux,
+                      1, EXACT_BOUND, "closed form")
+    huge = {"base": {"conductance": 1e308, "conductance_pressure": 1e-3}}
+    refuses("a conductance that overflows", huge, "refused by the library: ", 3)
+    refuses("a conductance that overflows, of which step", huge, "That is the heat of the step from t = 0", 3)

@@ -79,6 +79,37 @@ def plane():
     )
 
 
+def thrown(rho, **more):
+    """A block that flies onto the base while its upper face is turned and the base shaken, with damping."""
+    shake = {"surface": "lower.zmin", "components": ["x", "y", "z"], "value": [0.02, 0, 0], "curve": [0, 0.5, 1, 1, 2, 0]}
+    scene = pad(upper={"density": 2, "velocity": [0.3, 0.1, -0.1], "spin": [0, 0.1, 0.2], "lower": [0.1, 0.1, 0.01]}, lower={"density": 1}, ground=shake,
+                supports=["ground"], loads=["press"], press={"surface": "upper.zmax", "pressure": 2, "curve": [0, 1, 2, 0]},
+                dynamics={"rho_inf": rho, "mass_damping": 0.1}, steps={"times": [0.05, 0.1, 0.15, 0.2]}, **more)
+    del scene["grip"]
+    return scene
+
+
+def warm(**heat):
+    """A warm pad that rubs; it expands and lets heat through as it is pressed."""
+    return pad(
+        upper={"conductivity": 3, "heat_capacity": 2},
+        lower={"conductivity": 7, "heat_capacity": 1},
+        heat={"initial": 20, **heat},
+        temperatures=["hot", "cold"],
+        hot={"surface": "upper.zmax", "value": 60, "curve": [0, 0, 2, 1]},
+        cold={"surface": "lower.zmin", "value": 20},
+        flows=["burner"],
+        burner={"surface": "upper.xmax", "flow": 5, "curve": [0, 1, 2, 0]},
+        contact={"conductance": 2, "conductance_pressure": 4, "friction_heat": 0.5},
+    )
+
+
+def expanding():
+    scene = warm(coupling="two_way")
+    scene["upper"]["expansion"] = 1e-3
+    return scene
+
+
 WEAKENING = {"law": "weakening", "friction_after": 0.1, "critical_slip": 0.2}
 # Name, scene, options.
 SCENES = (
@@ -96,6 +127,10 @@ SCENES = (
     ("turned", turned(), ()),
     ("rigid", rigid(), ()),
     ("plane", plane(), ()),
+    ("dynamics", thrown(0.7), ()),
+    ("dynamics, damped", thrown(1), ("-dynamics_stiffness_damping", 0.01)),
+    ("heat", warm(), ()),
+    ("heat, two-way", expanding(), ()),
     ("quadratic", pad(upper={"cell": "tet10"}, lower={"cell": "tet10"}, contact={"basis": "dual"}), ()),
     ("two interfaces", pad(bodies=["upper", "lower", "other"], other={**BOX, "lower": [1.3, 0.1, 0.02], "upper": [1.9, 0.9, 0.5], "cells": [2, 2, 1]},
                            grip={"surface": ["upper.zmax", "other.zmax"]}, interfaces=["contact", "second"],
@@ -117,7 +152,7 @@ def restart(verdicts, driver):
 
 def same_bits(verdicts, driver, name, scene, options):
     """From every step but the last, to the end."""
-    label = name.replace(" ", "_")
+    label = name.replace(" ", "_").replace(",", "")
     path = write(scene, driver.output / f"{label}.yaml")
     whole = driver.run(path, *BITS, *KEEP, *options, label=label)
     n = len(whole.steps)
@@ -125,6 +160,8 @@ def same_bits(verdicts, driver, name, scene, options):
     for step in range(1, n):
         run = driver.run(path, *BITS, *options, "-restart", whole.directory / f"restart_{step}.bin", label=f"{label}_again")
         differ += [f"{step}: {key}" for key in whole.summary if key not in COSTS and whole.summary[key] != run.summary.get(key)]
+        if (whole.directory / "energy.csv").exists():
+            differ += [f"{step}: energy.csv"] * ((run.directory / "energy.csv").read_text() != (whole.directory / "energy.csv").read_text())
         tables = sorted(run.directory.glob("interface_*.csv"))
         differ += [f"{step}: {table.name}" for table in tables if table.read_bytes() != (whole.directory / table.name).read_bytes()]
         compared += len(tables) == (n - step) * len(interfaces(path))
@@ -186,6 +223,15 @@ def ranks(verdicts, driver):
         verdicts.near(f"from {before} to {after} ranks: friction work", work[1], work[0], ANSWERS, "those of one rank")
 
 
+    for name, scene, of in (("thrown", thrown(0.7), lambda step: step["energy"]), ("warm", warm(), lambda step: step["heat"]["supplied"])):
+        path = write(scene, driver.output / f"{name}.yaml")
+        whole = {n: driver.run(path, *BITS, *KEEP, ranks=n, label=f"{name}_{n}") for n in (1, 2)}
+        for before, after in ((2, 2), (2, 1), (1, 2)):
+            run = driver.run(path, *BITS, "-restart", whole[before].directory / "restart_2.bin", ranks=after, label=f"{name}_{before}_{after}")
+            found, right = (np.array([[*of(step).values()] for step in r.steps]) for r in (run, whole[1]))
+            verdicts.below(f"{name}, from {before} to {after} ranks: answers", np.abs(found - right).max() / np.abs(right).max(), ANSWERS, "those of one rank")
+
+
 def refused(verdicts, driver):
     path = driver.output / "pad.yaml"
     good = driver.output / "pad" / "restart_2.bin"
@@ -209,6 +255,11 @@ def refused(verdicts, driver):
     ramp = write(ramp, driver.output / "ramp.yaml")
     driver.run(ramp, *BITS, *KEEP, label="ramp")
     refuses("another end, and a ramp", "curves", driver.output / "ramp" / "restart_2.bin", "-steps_times", "0.5,1,1.5,3", scene=ramp)
+    ramp = warm()
+    del ramp["hot"]["curve"]
+    ramp = write(ramp, driver.output / "warm_ramp.yaml")
+    driver.run(ramp, *BITS, *KEEP, label="warm_ramp")
+    refuses("another end, and a ramp of heat", "curves of heat", driver.output / "warm_ramp" / "restart_2.bin", "-steps_times", "0.5,1,1.5,3", scene=ramp)
     refuses("at its end", "the steps end at 1", good, "-steps_times", "0.5,1")
     refuses("no file", "No such file", driver.output / "nowhere.bin")
     refuses("no restart file", "no restart file", path)

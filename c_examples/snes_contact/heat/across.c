@@ -2,8 +2,7 @@
  * and forces do, in place of the first component. */
 #include "heat/heat.h"
 
-/* from the temperatures' local vectors to a vector like those of the mechanics, or back */
-static PetscErrorCode widen(const Heat *heat, const PetscScalar *from)
+PetscErrorCode heat_widen(const Heat *heat, const PetscScalar *from)
 {
   const Mesh  *mesh = heat->mesh;
   PetscScalar *wide;
@@ -104,9 +103,9 @@ static PetscErrorCode add_one(Heat *heat, PetscInt i, PetscReal dt, const PetscS
   PetscCall(PetscMalloc7(n, &room.temperatures, n, &room.numbers, n, &room.heats, n, &room.equations, part->n1, &room.flux,
                          part->n1, &room.friction, part->n1, &room.area));
   PetscCall(PetscArrayzero(room.heats, n));
-  PetscCall(widen(heat, temperatures));
+  PetscCall(heat_widen(heat, temperatures));
   PetscCall(fetch(heat, part, room.temperatures));
-  PetscCall(widen(heat, numbers));
+  PetscCall(heat_widen(heat, numbers));
   PetscCall(fetch(heat, part, room.numbers));
   for (PetscInt k = 0; k < n; k++)
     room.equations[k] = (int64_t)room.numbers[k];
@@ -157,7 +156,7 @@ PetscErrorCode heat_collect(Heat *heat)
   PetscFunctionBegin;
   if (!heat->on) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(VecGetArrayRead(heat->now, &now));
-  PetscCall(widen(heat, now));
+  PetscCall(heat_widen(heat, now));
   PetscCall(VecRestoreArrayRead(heat->now, &now));
   for (PetscInt i = 0; i < heat->contact->n_interfaces; i++) {
     const Interface *interface = &heat->contact->interfaces[i];

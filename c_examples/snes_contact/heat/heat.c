@@ -110,7 +110,8 @@ PetscErrorCode heat_begin(Heat *heat, PetscReal t)
   PetscScalar *now;
   PetscFunctionBegin;
   if (!heat->on) PetscFunctionReturn(PETSC_SUCCESS);
-  heat->turns = 0;
+  heat->turns      = 0;
+  heat->refusal[0] = 0;
   PetscCall(VecCopy(heat->before, heat->now));
   PetscCall(VecGetArray(heat->now, &now));
   for (PetscInt k = 0; k < mesh->n_points; k++) {
@@ -264,12 +265,14 @@ PetscErrorCode heat_solve(Heat *heat, PetscReal dt, PetscReal *change, PetscInt 
     PetscCall(VecNorm(x, NORM_INFINITY, &hottest));
     if (!determined || (!*status && !(norm <= LEFT * largest + ROUNDINGS * entry * PetscMax(hottest, range)))) {
       *status = 1;
-      PetscCall(PetscSNPrintf(heat->contact->refusal, sizeof(heat->contact->refusal),
+      PetscCall(PetscSNPrintf(heat->refusal, sizeof(heat->refusal),
                               "the temperatures are not determined: nothing holds those of a body (a temperature, a heat_capacity, a conductance to another body)"));
     }
     PetscCall(KSPDestroy(&ksp));
     PetscCall(MatDestroy(&matrix));
   }
+  if (*status && !heat->refusal[0])
+    PetscCall(PetscSNPrintf(heat->refusal, sizeof(heat->refusal), "the library says: %s", heat->contact->refusal));
   PetscCall(entries_destroy(&entries));
   PetscCall(VecDestroy(&leaves));
   PetscCall(VecDestroy(&step));

@@ -56,6 +56,7 @@ typedef struct {
   Vec            wide;          /* local, of the mechanics: a number a vertex in place of the first displacement */
   PetscInt       turns;         /* of the last step */
   PetscReal      residual;      /* of its last solution, over the largest heat */
+  char           refusal[1100]; /* why the temperatures of this attempt are not found; with the library's words, if it refused them */
 } Heat;
 
 /* heat_scene.c */
@@ -67,7 +68,8 @@ PetscErrorCode heat_create(Heat *heat);
 PetscErrorCode heat_destroy(Heat *heat);
 /* at the start of an attempt: temperatures of t_n, prescribed ones of t, and what the bodies expand by */
 PetscErrorCode heat_begin(Heat *heat, PetscReal t);
-/* the temperatures at the mechanics of now; by how much the largest has changed, over their range. `status` > 0: refused */
+/* the temperatures at the mechanics of now; by how much the largest has changed, over their range. `status` > 0: refused, for the
+ * reason in heat->refusal; if it was the library, that is in contact->refusal */
 PetscErrorCode heat_solve(Heat *heat, PetscReal dt, PetscReal *change, PetscInt *status);
 PetscErrorCode heat_accept(Heat *heat);
 /* conduction.c: adds what bodies and supports of heat have to what leaves the vertices, and to the entries */
@@ -79,6 +81,9 @@ PetscErrorCode expansion_pressures(const Heat *heat, PetscInt cell, PetscReal pr
 /* across.c: the same of the interfaces */
 PetscErrorCode across_add(Heat *heat, PetscReal dt, PetscScalar *leaves, HeatEntries *entries, PetscInt *status);
 PetscErrorCode heat_collect(Heat *heat);
+PetscErrorCode heat_widen(const Heat *heat, const PetscScalar *from); /* of a local vector of temperatures, into heat->wide */
+/* restart.c: the temperatures of t_n */
+PetscErrorCode heat_archive(Heat *heat, Archive *archive);
 /* entries.c */
 PetscErrorCode entries_add(HeatEntries *entries, PetscInt row, PetscInt column, PetscScalar value);
 PetscErrorCode entries_destroy(HeatEntries *entries);

@@ -70,6 +70,64 @@ static PetscErrorCode read_supports(Scene *scene, Heat *heat, const char *list, 
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Do both say the same at all times? Between the times of their curves both move evenly. */
+static PetscBool agree(const Heat *heat, const HeatSupport *a, const HeatSupport *b)
+{
+  const PetscReal same = 1e-12; /* of the larger one: two factors that are written in different ways */
+  const Curve *const curves[] = {&a->curve, &b->curve};
+  for (int c = 0; c < 2; c++) {
+    for (PetscInt k = 0; k < curves[c]->n; k++) {
+      const PetscReal t = curves[c]->points[2 * k];
+      const PetscReal of_a = (a->value - heat->initial) * curve_value(&a->curve, t), of_b = (b->value - heat->initial) * curve_value(&b->curve, t);
+      if (PetscAbsReal(of_a - of_b) > same * PetscMax(PetscAbsReal(of_a), PetscAbsReal(of_b))) return PETSC_FALSE;
+    }
+  }
+  return PETSC_TRUE;
+}
+
+/* Two temperatures may share a vertex only if they say the same. `first`: of each vertex here the first that prescribes it, -1: none. */
+static PetscErrorCode check_overlap(Scene *scene, const Heat *heat, PetscInt number, PetscInt first[])
+{
+  const Mesh        *mesh      = heat->mesh;
+  const HeatSupport *support   = &heat->supports[number];
+  char               text[512] = "";
+  PetscInt          *chosen, bad = -1;
+  PetscFunctionBegin;
+  PetscCall(PetscCalloc1(mesh->n_vertices, &chosen));
+  for (PetscInt s = 0; s < support->n_surfaces; s++) {
+    const Surface *surface = support->surfaces[s];
+    for (PetscInt k = 0; surface->n_faces && k < surface->offsets[surface->n_faces]; k++)
+      chosen[surface->vertices[k]] = PETSC_TRUE;
+  }
+  PetscCall(pieces_unite(mesh, chosen, MPI_MAX)); /* a vertex here may be on a face of another piece */
+  for (PetscInt v = 0; v < mesh->n_vertices; v++) {
+    const PetscReal *X = mesh->coordinates + 3 * v;
+    if (!chosen[v]) continue;
+    if (first[v] < 0) first[v] = number;
+    if (bad >= 0 || first[v] == number || agree(heat, support, &heat->supports[first[v]])) continue;
+    bad = mesh->numbers[v];
+    PetscCall(PetscSNPrintf(text, sizeof(text), "the temperature of the vertex at [%g, %g, %g] is prescribed differently by '%s'.", (double)X[0],
+                            (double)X[1], (double)X[2], heat->supports[first[v]].name));
+  }
+  PetscCall(PetscFree(chosen));
+  PetscCall(scene_fail_first(scene, bad, support->name, "surface", text));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+static PetscErrorCode check_overlaps(Scene *scene, const Heat *heat)
+{
+  PetscInt *first;
+  PetscFunctionBegin;
+  PetscCall(PetscMalloc1(heat->mesh->n_vertices, &first));
+  for (PetscInt v = 0; v < heat->mesh->n_vertices; v++)
+    first[v] = -1;
+  for (PetscInt k = 0; k < heat->n_supports; k++) {
+    if (!heat->supports[k].flows) PetscCall(check_overlap(scene, heat, k, first));
+  }
+  PetscCall(PetscFree(first));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 static PetscErrorCode read_interfaces(Scene *scene, Heat *heat)
 {
   PetscFunctionBegin;
@@ -129,6 +187,7 @@ PetscErrorCode heat_read(Scene *scene, Heat *heat)
   PetscCall(read_bodies(scene, heat));
   PetscCall(read_supports(scene, heat, "temperatures", PETSC_FALSE));
   PetscCall(read_supports(scene, heat, "flows", PETSC_TRUE));
+  PetscCall(check_overlaps(scene, heat));
   PetscCall(read_interfaces(scene, heat));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -74,14 +74,22 @@ static PetscErrorCode agree(PetscReal best, PetscInt *number, PetscReal X[3], Pe
 /* map.body, map.point, map.tolerance -> vertex */
 PetscErrorCode mesh_nearest_vertex(Scene *scene, const Mesh *mesh, const char *map, PetscInt *number)
 {
+  PetscFunctionBegin;
+  PetscCall(mesh_vertex_at(scene, mesh, map, "body", "point", number));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* the same with other keys for body and point */
+PetscErrorCode mesh_vertex_at(Scene *scene, const Mesh *mesh, const char *map, const char *body_key, const char *point_key, PetscInt *number)
+{
   PetscReal   point[3], X[3] = {0, 0, 0}, tolerance, best = PETSC_MAX_REAL, distance;
   Extent      extent            = extent_of_nothing();
   char        name[NAME_LENGTH] = "";
   const Body *body;
   PetscFunctionBegin;
-  scene_string_required(scene, map, "body", name, sizeof(name));
-  body = &mesh->bodies[mesh_body(scene, mesh, map, "body", name)];
-  if (!space_vector(scene, &mesh->space, map, "point", point)) scene_fail(scene, map, "point", "this key is missing.");
+  scene_string_required(scene, map, body_key, name, sizeof(name));
+  body = &mesh->bodies[mesh_body(scene, mesh, map, body_key, name)];
+  if (!space_vector(scene, &mesh->space, map, point_key, point)) scene_fail(scene, map, point_key, "this key is missing.");
   *number = -1;
   for (PetscInt v = body->first_here; v < body->end_here; v++) {
     const PetscReal *x       = mesh->coordinates + 3 * v;
@@ -100,7 +108,7 @@ PetscErrorCode mesh_nearest_vertex(Scene *scene, const Mesh *mesh, const char *m
   tolerance = 1e-6 * extent_longest(&extent);
   scene_real(scene, map, "tolerance", &tolerance);
   if (distance > tolerance)
-    scene_fail(scene, map, "point", "no vertex of '%s' lies within %g of it; the nearest is at [%g, %g, %g].", name,
+    scene_fail(scene, map, point_key, "no vertex of '%s' lies within %g of it; the nearest is at [%g, %g, %g].", name,
                (double)tolerance, (double)X[0], (double)X[1], (double)X[2]);
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -106,6 +106,7 @@ PetscErrorCode mesh_measure(Mesh *mesh);
 const Surface *mesh_surface(Scene *scene, const Mesh *mesh, const char *map, const char *key, const char *name);
 PetscInt       mesh_body(Scene *scene, const Mesh *mesh, const char *map, const char *key, const char *name);
 PetscErrorCode mesh_nearest_vertex(Scene *scene, const Mesh *mesh, const char *map, PetscInt *number);
+PetscErrorCode mesh_vertex_at(Scene *scene, const Mesh *mesh, const char *map, const char *body_key, const char *point_key, PetscInt *number);
 PetscInt       mesh_body_of(const Mesh *mesh, PetscInt number);     /* of a vertex */
 PetscInt       mesh_vertex_here(const Mesh *mesh, PetscInt number); /* in the piece; -1: it is not */
 

@@ -37,6 +37,7 @@ PetscErrorCode         summary_step(Output *output, Summary *summary, PetscInt s
                                     PetscBool asked, PetscBool last);
 PetscErrorCode         summary_failed_attempt(Output *output, Summary *summary, PetscReal t_last);
 PetscErrorCode summary_settle_step(Output *output, Summary *summary, PetscBool accepted); /* the last one */
+PetscErrorCode energy_archive(const Output *output, Archive *archive); /* energy.csv, up to here */
 PetscErrorCode summary_archive(Summary *summary, Archive *archive); /* of the steps before */
 PetscErrorCode summary_write(Output *output, Summary **summary, Vec last, PetscInt cutbacks, const char *message);
 

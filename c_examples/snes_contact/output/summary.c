@@ -1,6 +1,7 @@
 /* Results: DIR/summary.json, the progress line, and per step the CSV files of the interfaces and the VTU file. All values
  * of a step belong to the state just before it is committed. */
 #include "output/output.h"
+#include "physics/springs.h"
 #include <cjson/cJSON.h>
 #include <stdio.h>
 #include <string.h>
@@ -147,6 +148,20 @@ static PetscErrorCode add_reactions(Output *output, cJSON *json)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* The force of each spring on what it holds, at its first end. */
+static PetscErrorCode add_springs(Output *output, cJSON *json)
+{
+  const Springs *springs = output->physics->springs;
+  cJSON         *all;
+  PetscFunctionBegin;
+  if (!springs) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(springs_total(output->physics));
+  all = cJSON_AddObjectToObject(json, "springs");
+  for (PetscInt s = 0; s < springs->n; s++)
+    cJSON_AddItemToObject(all, springs->spring[s].name, vector_json(springs->spring[s].total));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* f . u of the loads; each rank holds its part of f and the whole of u at its vertices */
 static PetscErrorCode external_work(Output *output, PetscReal *work)
 {
@@ -275,6 +290,7 @@ PetscErrorCode summary_step(Output *output, Summary *summary, PetscInt step, Pet
   PetscCall(external_work(output, &half_fu));
   cJSON_AddNumberToObject(json, "external_work_half_fu", half_fu);
   PetscCall(add_reactions(output, json));
+  PetscCall(add_springs(output, json));
   add_rigids(output, json);
   PetscCall(contact_collect(contact));
   PetscCall(heat_collect(output->heat));

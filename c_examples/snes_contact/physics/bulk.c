@@ -156,6 +156,7 @@ PetscErrorCode bulk_forces(Physics *physics, Vec f_local, PetscInt *status)
   PetscCall(VecRestoreArray(f_local, &f));
   PetscCall(VecRestoreArrayRead(physics->u_local, &u));
   PetscCall(agree_on_inverted(physics, first_inverted, status));
+  if (physics->springs) PetscCall(springs_forces(physics, f_local));
   PetscCall(PetscTime(&end));
   physics->seconds += end - start;
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -197,6 +198,7 @@ PetscErrorCode bulk_stiffness(Physics *physics, Mat matrix, PetscInt *status)
   }
   PetscCall(VecRestoreArrayRead(physics->u_local, &u));
   PetscCall(agree_on_inverted(physics, first_inverted, status));
+  if (physics->springs) PetscCall(springs_stiffness(physics, matrix));
   PetscCall(PetscTime(&end));
   physics->seconds += end - start;
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -237,5 +239,6 @@ PetscErrorCode bulk_pattern(Physics *physics, Mat matrix)
   for (PetscInt c = 0; c < cells->n; c++) {
     if (!is_rigid(physics, c)) PetscCall(insert(physics, c, zeros, matrix));
   }
+  if (physics->springs) PetscCall(springs_pattern(physics, matrix));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -12,7 +12,8 @@
  * and v' = 2 (u' - u) / dt - v + (gamma - 2 beta) dt (a' - a). With rho_inf = 1 all terms of accelerations vanish: the midpoint rule.
  * Why energy does not grow then: docs/dynamics.md. Damping takes the velocity without its last term.
  *
- * Where displacements are prescribed v' = (u' - u) / dt, and the inertia is M (v' - v) / dt. */
+ * Where displacements are prescribed v' and a' are what the supports say, and take part with (v' - v) / dt - (gamma - 2 beta) (a' - a) for
+ * (2 / dt^2) (u' - u - dt v), which is the same of free ones. */
 #include "physics/dynamics.h"
 
 /* How many roundings meet in an inertial force: of a place, and of the sum over a cell. */
@@ -25,32 +26,63 @@ void dynamics_swap(Vec *a, Vec *b)
   *b             = kept;
 }
 
-/* Velocity that damping takes, at the time of the forces */
-static PetscReal velocity(const Dynamics *d, char entry, PetscReal moved, PetscReal v)
+PetscErrorCode dynamics_look(const Physics *physics, StepView *step)
 {
-  const PetscReal end = entry == MASS_FREE ? 2 * moved / d->dt - v : moved / d->dt;
-  return (1 - d->alpha_f) * end + d->alpha_f * v;
+  const Dynamics *d = physics->dynamics;
+  PetscFunctionBegin;
+  PetscCall(VecGetArrayRead(physics->u_local, &step->now));
+  PetscCall(VecGetArrayRead(d->u, &step->u));
+  PetscCall(VecGetArrayRead(d->v, &step->v));
+  PetscCall(VecGetArrayRead(d->prescribed, &step->a));
+  PetscCall(VecGetArrayRead(d->v_next, &step->v_next));
+  PetscCall(VecGetArrayRead(d->prescribed_next, &step->a_next));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode dynamics_looked(const Physics *physics, StepView *step)
+{
+  const Dynamics *d = physics->dynamics;
+  PetscFunctionBegin;
+  PetscCall(VecRestoreArrayRead(d->prescribed_next, &step->a_next));
+  PetscCall(VecRestoreArrayRead(d->v_next, &step->v_next));
+  PetscCall(VecRestoreArrayRead(d->prescribed, &step->a));
+  PetscCall(VecRestoreArrayRead(d->v, &step->v));
+  PetscCall(VecRestoreArrayRead(d->u, &step->u));
+  PetscCall(VecRestoreArrayRead(physics->u_local, &step->now));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Where displacements are prescribed v_next and a_next are known when the step begins. */
+PetscReal dynamics_rate(const Dynamics *d, const StepView *step, PetscInt k)
+{
+  const PetscReal moved = step->now[k] - step->u[k], v = step->v[k];
+  if (d->entries[k] == MASS_FREE) return 2 * (moved / d->dt - v) / d->dt;
+  if (d->entries[k] == MASS_NONE) return 0;
+  return (step->v_next[k] - v) / d->dt - (d->gamma - 2 * d->beta) * (step->a_next[k] - step->a[k]);
+}
+
+PetscReal dynamics_velocity(const Dynamics *d, const StepView *step, PetscInt k)
+{
+  const PetscReal moved = step->now[k] - step->u[k], v = step->v[k];
+  const PetscReal end = d->entries[k] == MASS_FREE ? 2 * moved / d->dt - v : step->v_next[k];
+  return d->entries[k] == MASS_NONE ? 0 : (1 - d->alpha_f) * end + d->alpha_f * v;
 }
 
 /* `middle`: the place of the forces, with `ahead` times the velocity there */
 static PetscErrorCode set_middle(Physics *physics, PetscReal ahead)
 {
-  Dynamics          *d = physics->dynamics;
-  const PetscScalar *now, *u, *v;
-  PetscScalar       *middle;
+  Dynamics    *d = physics->dynamics;
+  StepView     step;
+  PetscScalar *middle;
   PetscFunctionBegin;
-  PetscCall(VecGetArrayRead(physics->u_local, &now));
-  PetscCall(VecGetArrayRead(d->u, &u));
-  PetscCall(VecGetArrayRead(d->v, &v));
+  PetscCall(dynamics_look(physics, &step));
   PetscCall(VecGetArray(d->middle, &middle));
   for (PetscInt k = 0; k < physics->unknowns.n_local; k++) {
-    middle[k] = u[k] + (1 - d->alpha_f) * (now[k] - u[k]);
-    if (ahead > 0 && d->entries[k]) middle[k] += ahead * velocity(d, d->entries[k], now[k] - u[k], v[k]);
+    middle[k] = step.u[k] + (1 - d->alpha_f) * (step.now[k] - step.u[k]);
+    if (ahead > 0 && d->entries[k]) middle[k] += ahead * dynamics_velocity(d, &step, k);
   }
   PetscCall(VecRestoreArray(d->middle, &middle));
-  PetscCall(VecRestoreArrayRead(d->v, &v));
-  PetscCall(VecRestoreArrayRead(d->u, &u));
-  PetscCall(VecRestoreArrayRead(physics->u_local, &now));
+  PetscCall(dynamics_looked(physics, &step));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -74,6 +106,8 @@ PetscErrorCode dynamics_begin(Physics *physics)
   PetscScalar       *impulse;
   PetscFunctionBegin;
   d->dt = physics->t - d->t_n;
+  PetscCall(supports_rates(physics, physics->t, SUPPORT_VELOCITY, d->v_next));
+  PetscCall(supports_rates(physics, physics->t, SUPPORT_ACCELERATION, d->prescribed_next));
   PetscCall(VecZeroEntries(d->impulse));
   PetscCall(VecGetArrayRead(d->v, &v));
   PetscCall(VecGetArray(d->impulse, &impulse));
@@ -106,29 +140,22 @@ static void add_rounding(Physics *physics, const PetscScalar *u)
 /* Inertia and the damping by masses, at u_local */
 static PetscErrorCode add_inertia(Physics *physics, Vec f_local)
 {
-  Dynamics          *d = physics->dynamics;
-  const PetscScalar *now, *u, *v;
-  PetscScalar       *w, *f;
+  Dynamics    *d = physics->dynamics;
+  StepView     step;
+  PetscScalar *w, *f;
   PetscFunctionBegin;
-  PetscCall(VecGetArrayRead(physics->u_local, &now));
-  PetscCall(VecGetArrayRead(d->u, &u));
-  PetscCall(VecGetArrayRead(d->v, &v));
+  PetscCall(dynamics_look(physics, &step));
   PetscCall(VecGetArray(d->work, &w));
   PetscCall(VecGetArray(f_local, &f));
   for (PetscInt k = 0; k < physics->unknowns.n_local; k++) {
-    const PetscReal moved = now[k] - u[k];
-    w[k] = 0;
-    if (!d->entries[k]) continue;
-    w[k] = (d->entries[k] == MASS_FREE ? 2 : 1) * (moved / d->dt - v[k]) / d->dt;
-    if (d->mass_damping > 0) w[k] += d->mass_damping / d->scale * velocity(d, d->entries[k], moved, v[k]);
+    w[k] = dynamics_rate(d, &step, k);
+    if (d->mass_damping > 0) w[k] += d->mass_damping / d->scale * dynamics_velocity(d, &step, k);
   }
   mass_multiply(physics, w, 1, f);
-  add_rounding(physics, now);
+  add_rounding(physics, step.now);
   PetscCall(VecRestoreArray(f_local, &f));
   PetscCall(VecRestoreArray(d->work, &w));
-  PetscCall(VecRestoreArrayRead(d->v, &v));
-  PetscCall(VecRestoreArrayRead(d->u, &u));
-  PetscCall(VecRestoreArrayRead(physics->u_local, &now));
+  PetscCall(dynamics_looked(physics, &step));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -12,6 +12,7 @@
 typedef struct {
   PetscReal kinetic, strain;
   PetscReal external, supports, contact; /* work of loads, supports, contact */
+  PetscReal given;                       /* of that of contact the steps in which it gave energy, where nothing without mass moves */
   PetscReal damping;                     /* energy that is gone by it */
   PetscReal momentum[3], angular[3];     /* the latter about the origin */
 } Balance;
@@ -29,26 +30,38 @@ struct Dynamics {
   /* local vectors: at t_n displacements, velocities, M times accelerations without those of contact, accelerations where they are
    * prescribed */
   Vec     u, v, force, prescribed;
-  Vec     v_next, force_next, prescribed_next; /* the same at the end of the step, by dynamics_measure() */
+  Vec     v_next, force_next, prescribed_next; /* the same at the end of the step: what is prescribed from its start on, else by dynamics_measure() */
   Vec     middle, work, smooth, impulse; /* the place of the forces; work space; forces but those of contact; 2 M v / dt */
   Balance start, last, now;
+  PetscBool told; /* that contact gives energy */
   Mat     matrix; /* of the masses, and what solves with it; NULL where rho_inf is 1 */
   KSP     solver;
 };
 
 enum { MASS_NONE, MASS_FREE, MASS_PRESCRIBED };
+
+/* Local vectors of a step: displacements of now and of t_n, velocities and prescribed accelerations of both */
+typedef struct {
+  const PetscScalar *now, *u, *v, *a, *v_next, *a_next;
+} StepView;
+
 enum { MOTION_NUMBERS = 9 };
 
 /* dynamics_scene.c */
 PetscErrorCode dynamics_read(Scene *scene, Physics *physics);
 /* dynamics_state.c: after bulk_create() and loads_assemble(); a step from t_n is accepted */
-PetscErrorCode dynamics_create(Physics *physics);
+PetscErrorCode dynamics_create(Scene *scene, Physics *physics);
 PetscErrorCode dynamics_accept(Physics *physics);
 PetscErrorCode dynamics_destroy(Physics *physics);
 /* dynamics.c: at the start of a step to physics->t; then in place of bulk_forces(), bulk_stiffness() and the loads */
 PetscErrorCode dynamics_begin(Physics *physics);
 PetscErrorCode dynamics_forces(Physics *physics, Vec f_local, PetscInt *status);
 PetscErrorCode dynamics_stiffness(Physics *physics, Mat matrix, PetscInt *status);
+PetscErrorCode dynamics_look(const Physics *physics, StepView *step);
+PetscErrorCode dynamics_looked(const Physics *physics, StepView *step);
+/* of entry k: what M is multiplied with in the residual; the velocity that damping takes, at the time of the forces */
+PetscReal      dynamics_rate(const Dynamics *dynamics, const StepView *step, PetscInt k);
+PetscReal      dynamics_velocity(const Dynamics *dynamics, const StepView *step, PetscInt k);
 void           dynamics_swap(Vec *a, Vec *b); /* no copy */
 /* dynamics_balance.c: at a converged state, before the step is accepted; `f_local` of the last evaluation */
 PetscErrorCode dynamics_measure(Physics *physics);

@@ -1,5 +1,6 @@
 /* The end of a step: velocities, and what the scheme says of energy and momentum. Work is force times displacement of the step; all
- * forces are those of the residual, so that with rho_inf = 1 and linear bodies the sum holds to rounding and Newton's tolerance:
+ * forces are those of the residual; inertia of what supports move works with the mean of both velocities, for a jump of the velocity is an
+ * impulse that acts while it jumps. So with rho_inf = 1 and linear bodies the sum holds to rounding and Newton's tolerance:
  *
  *   kinetic + strain = those at t = 0 + work of loads, supports and contact - damping. */
 #include "physics/dynamics.h"
@@ -55,6 +56,7 @@ PetscErrorCode dynamics_energies(Physics *physics, Vec u_local, Vec v_local, Bal
   PetscCall(VecGetArrayRead(v_local, &v));
   add_motion(physics, u, v, &here);
   add_strain(physics, u, &here);
+  if (physics->springs) PetscCall(springs_energy(physics, u, &here.strain));
   PetscCall(VecRestoreArrayRead(v_local, &v));
   PetscCall(VecRestoreArrayRead(u_local, &u));
   all[0] = here.kinetic;
@@ -69,24 +71,20 @@ PetscErrorCode dynamics_energies(Physics *physics, Vec u_local, Vec v_local, Bal
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* v' of the midpoint rule, or of what is prescribed; of that the acceleration, too */
+/* v' of the midpoint rule; of what is prescribed it is known */
 static PetscErrorCode set_velocity(Physics *physics)
 {
   Dynamics          *d = physics->dynamics;
   const PetscScalar *now, *u, *v;
-  PetscScalar       *next, *a;
+  PetscScalar       *next;
   PetscFunctionBegin;
   PetscCall(VecGetArrayRead(physics->u_local, &now));
   PetscCall(VecGetArrayRead(d->u, &u));
   PetscCall(VecGetArrayRead(d->v, &v));
   PetscCall(VecGetArray(d->v_next, &next));
-  PetscCall(VecGetArray(d->prescribed_next, &a));
   for (PetscInt k = 0; k < physics->unknowns.n_local; k++) {
-    const PetscReal mean = (now[k] - u[k]) / d->dt;
-    next[k] = d->entries[k] == MASS_FREE ? 2 * mean - v[k] : d->entries[k] == MASS_PRESCRIBED ? mean : 0;
-    a[k]    = d->entries[k] == MASS_PRESCRIBED ? (next[k] - v[k]) / d->dt : 0;
+    if (d->entries[k] == MASS_FREE) next[k] = 2 * ((now[k] - u[k]) / d->dt) - v[k];
   }
-  PetscCall(VecRestoreArray(d->prescribed_next, &a));
   PetscCall(VecRestoreArray(d->v_next, &next));
   PetscCall(VecRestoreArrayRead(d->v, &v));
   PetscCall(VecRestoreArrayRead(d->u, &u));
@@ -97,19 +95,15 @@ static PetscErrorCode set_velocity(Physics *physics)
 /* The smooth forces at the end, A' = (s - alpha_m A) / (1 - alpha_m), with s out of the residual without contact and inertia. */
 static PetscErrorCode set_force(Physics *physics)
 {
-  Dynamics          *d = physics->dynamics;
-  const PetscScalar *now, *u, *v;
-  PetscScalar       *w, *force;
+  Dynamics    *d = physics->dynamics;
+  StepView     step;
+  PetscScalar *w, *force;
   PetscFunctionBegin;
-  PetscCall(VecGetArrayRead(physics->u_local, &now));
-  PetscCall(VecGetArrayRead(d->u, &u));
-  PetscCall(VecGetArrayRead(d->v, &v));
+  PetscCall(dynamics_look(physics, &step));
   PetscCall(VecGetArray(d->work, &w));
   for (PetscInt k = 0; k < physics->unknowns.n_local; k++)
-    w[k] = d->entries[k] ? (d->entries[k] == MASS_FREE ? 2 : 1) * ((now[k] - u[k]) / d->dt - v[k]) / d->dt : 0;
-  PetscCall(VecRestoreArrayRead(d->v, &v));
-  PetscCall(VecRestoreArrayRead(d->u, &u));
-  PetscCall(VecRestoreArrayRead(physics->u_local, &now));
+    w[k] = dynamics_rate(d, &step, k);
+  PetscCall(dynamics_looked(physics, &step));
   PetscCall(VecWAXPY(d->force_next, -1, d->smooth, physics->f_external)); /* both over kappa */
   PetscCall(VecAXPY(d->force_next, d->alpha_m / d->scale - 1 + 2 * d->beta, d->force));
   PetscCall(VecGetArray(d->force_next, &force));
@@ -166,28 +160,38 @@ static PetscErrorCode correct_velocity(Physics *physics)
 }
 
 /* Work over the step: this rank's, of loads, supports, contact */
-static PetscErrorCode add_work(const Physics *physics, PetscReal work[3])
+static PetscErrorCode add_work(Physics *physics, PetscReal work[3])
 {
-  const Dynamics    *d = physics->dynamics;
-  const PetscScalar *now, *u, *f, *external, *smooth;
+  Dynamics          *d = physics->dynamics;
+  const PetscScalar *f, *external, *smooth, *inertia;
+  PetscScalar       *w, *forces;
+  StepView           step;
   PetscFunctionBegin;
-  PetscCall(VecGetArrayRead(physics->u_local, &now));
-  PetscCall(VecGetArrayRead(d->u, &u));
+  PetscCall(dynamics_look(physics, &step));
+  PetscCall(VecZeroEntries(d->middle));
+  PetscCall(VecGetArray(d->work, &w));
+  PetscCall(VecGetArray(d->middle, &forces));
+  for (PetscInt k = 0; k < physics->unknowns.n_local; k++)
+    w[k] = dynamics_rate(d, &step, k);
+  mass_multiply(physics, w, 1, forces);
+  PetscCall(VecRestoreArray(d->middle, &forces));
+  PetscCall(VecRestoreArray(d->work, &w));
+  PetscCall(VecGetArrayRead(d->middle, &inertia));
   PetscCall(VecGetArrayRead(physics->f_local, &f));
   PetscCall(VecGetArrayRead(physics->f_external, &external));
   PetscCall(VecGetArrayRead(d->smooth, &smooth));
   for (PetscInt k = 0; k < physics->unknowns.n_local; k++) {
-    const PetscReal moved = now[k] - u[k];
+    const PetscReal moved = step.now[k] - step.u[k];
     if (!d->entries[k]) continue;
     work[0] += external[k] * moved;
-    if (d->entries[k] == MASS_PRESCRIBED) work[1] += f[k] * moved;
+    if (d->entries[k] == MASS_PRESCRIBED) work[1] += f[k] * moved + inertia[k] * (d->dt * (step.v[k] + step.v_next[k]) / 2 - moved);
     work[2] += (smooth[k] - external[k] - f[k]) * moved; /* contact gives the residual its forces with a minus */
   }
   PetscCall(VecRestoreArrayRead(d->smooth, &smooth));
   PetscCall(VecRestoreArrayRead(physics->f_external, &external));
   PetscCall(VecRestoreArrayRead(physics->f_local, &f));
-  PetscCall(VecRestoreArrayRead(d->u, &u));
-  PetscCall(VecRestoreArrayRead(physics->u_local, &now));
+  PetscCall(VecRestoreArrayRead(d->middle, &inertia));
+  PetscCall(dynamics_looked(physics, &step));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -196,20 +200,16 @@ static PetscErrorCode add_damping(Physics *physics, PetscReal *gone)
 {
   Dynamics          *d = physics->dynamics;
   const Vec          kept = physics->u_local;
-  const PetscScalar *now, *u, *v;
+  StepView           step;
   PetscScalar       *w, *f;
   PetscInt           status;
   PetscFunctionBegin;
   if (!(d->mass_damping > 0 || d->stiffness_damping > 0)) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(VecGetArrayRead(kept, &now));
-  PetscCall(VecGetArrayRead(d->u, &u));
-  PetscCall(VecGetArrayRead(d->v, &v));
   PetscCall(VecZeroEntries(d->work));
+  PetscCall(dynamics_look(physics, &step));
   PetscCall(VecGetArray(d->middle, &w));
-  for (PetscInt k = 0; k < physics->unknowns.n_local; k++) {
-    const PetscReal mean = (now[k] - u[k]) / d->dt, end = d->entries[k] == MASS_FREE ? 2 * mean - v[k] : mean;
-    w[k] = d->entries[k] ? (1 - d->alpha_f) * end + d->alpha_f * v[k] : 0;
-  }
+  for (PetscInt k = 0; k < physics->unknowns.n_local; k++)
+    w[k] = dynamics_velocity(d, &step, k);
   PetscCall(VecRestoreArray(d->middle, &w));
   if (d->stiffness_damping > 0) {
     PetscCall(VecScale(d->middle, d->stiffness_damping));
@@ -222,12 +222,29 @@ static PetscErrorCode add_damping(Physics *physics, PetscReal *gone)
   PetscCall(VecGetArray(d->work, &f));
   mass_multiply(physics, w, d->mass_damping, f);
   for (PetscInt k = 0; k < physics->unknowns.n_local; k++)
-    *gone += f[k] * (now[k] - u[k]) * (d->entries[k] != MASS_NONE);
+    *gone += f[k] * (step.now[k] - step.u[k]) * (d->entries[k] != MASS_NONE);
   PetscCall(VecRestoreArray(d->work, &f));
   PetscCall(VecRestoreArray(d->middle, &w));
-  PetscCall(VecRestoreArrayRead(d->v, &v));
-  PetscCall(VecRestoreArrayRead(d->u, &u));
-  PetscCall(VecRestoreArrayRead(kept, &now));
+  PetscCall(dynamics_looked(physics, &step));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Does a node move that has no mass, of a rigid body or an analytic surface? Contact does its work then. */
+static PetscErrorCode massless_moves(const Physics *physics, PetscBool *moves)
+{
+  const Dynamics *d = physics->dynamics;
+  StepView        step;
+  PetscFunctionBegin;
+  *moves = PETSC_FALSE;
+  PetscCall(dynamics_look(physics, &step));
+  for (PetscInt k = 0; k < physics->mesh->n_points && !*moves; k++) {
+    PetscInt at;
+    PetscCall(PetscSectionGetOffset(physics->unknowns.section, physics->mesh->points[k], &at));
+    for (PetscInt i = at; i < at + 3; i++)
+      if (d->entries[i] == MASS_NONE && step.now[i] != step.u[i]) *moves = PETSC_TRUE;
+  }
+  PetscCall(dynamics_looked(physics, &step));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, moves, 1, MPIU_BOOL, MPI_LOR, PETSC_COMM_WORLD));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -235,10 +252,11 @@ PetscErrorCode dynamics_measure(Physics *physics)
 {
   Dynamics *d = physics->dynamics;
   PetscReal work[4] = {0};
+  PetscBool moves;
   PetscFunctionBegin;
-  PetscCall(set_velocity(physics));
   PetscCall(add_work(physics, work));
   PetscCall(add_damping(physics, &work[3]));
+  PetscCall(set_velocity(physics));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, work, 4, MPIU_REAL, MPIU_SUM, PETSC_COMM_WORLD));
   if (d->rho_inf < 1) {
     PetscCall(set_force(physics));
@@ -248,6 +266,8 @@ PetscErrorCode dynamics_measure(Physics *physics)
   d->now.external += d->scale * work[0];
   d->now.supports += work[1];
   d->now.contact += work[2];
+  PetscCall(massless_moves(physics, &moves));
+  if (!moves) d->now.given += PetscMax(work[2], 0);
   d->now.damping += work[3];
   PetscCall(dynamics_energies(physics, physics->u_local, d->v_next, &d->now));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -2,13 +2,16 @@
  * it; the end of the step is computed beside it (dynamics_balance.c) and put in place when the step is accepted. */
 #include "physics/dynamics.h"
 
-/* Velocities at t = 0, of the nodes that have mass. */
+/* Velocities at t = 0, of the nodes that have mass: what supports say of theirs goes before what the bodies do. */
 static PetscErrorCode start(Physics *physics)
 {
-  const Cells *cells = &physics->cells;
-  Dynamics    *d     = physics->dynamics;
-  PetscScalar *v;
+  const Cells       *cells = &physics->cells;
+  Dynamics          *d     = physics->dynamics;
+  const PetscScalar *supported;
+  PetscScalar       *v;
   PetscFunctionBegin;
+  PetscCall(supports_rates(physics, 0, SUPPORT_VELOCITY, d->v_next));
+  PetscCall(supports_rates(physics, 0, SUPPORT_ACCELERATION, d->prescribed));
   PetscCall(VecGetArray(d->v, &v));
   for (PetscInt c = 0; c < cells->n; c++) {
     const PetscReal *motion = d->velocity + MOTION_NUMBERS * cells->body[c], *spin = motion + 3;
@@ -21,27 +24,29 @@ static PetscErrorCode start(Physics *physics)
         v[cells->dofs[k] + i] = motion[i] + spin[(i + 1) % 3] * arm[(i + 2) % 3] - spin[(i + 2) % 3] * arm[(i + 1) % 3];
     }
   }
+  PetscCall(VecGetArrayRead(d->v_next, &supported));
+  for (PetscInt k = 0; k < physics->unknowns.n_local; k++) {
+    if (d->entries[k] == MASS_PRESCRIBED) v[k] = supported[k];
+  }
+  PetscCall(VecRestoreArrayRead(d->v_next, &supported));
   PetscCall(VecRestoreArray(d->v, &v));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* M a at t = 0: loads and damping; no body is strained. Contact has no part in it. */
-static PetscErrorCode first_force(Physics *physics)
+/* M a at t = 0: loads, damping, and what bodies are strained by supports that do not begin at 0. Contact has no part in it. */
+static PetscErrorCode first_force(Physics *physics, PetscInt *status)
 {
   Dynamics          *d    = physics->dynamics;
   const Vec          kept = physics->u_local;
   const PetscScalar *v;
   PetscScalar       *f;
-  PetscInt           status;
   PetscFunctionBegin;
   PetscCall(VecZeroEntries(d->force));
-  PetscCall(VecZeroEntries(d->middle));
+  PetscCall(VecCopy(d->u, d->middle));
   physics->u_local = d->middle;
   PetscCall(loads_values(physics));
-  if (d->stiffness_damping > 0) {
-    PetscCall(VecAXPY(d->middle, d->stiffness_damping, d->v));
-    PetscCall(bulk_forces(physics, d->force, &status)); /* linear bodies: nothing is turned inside out */
-  }
+  PetscCall(VecAXPY(d->middle, d->stiffness_damping, d->v)); /* a linear body: f(u) + b f(v) = f(u + b v) */
+  PetscCall(bulk_forces(physics, d->force, status));
   physics->u_local = kept;
   PetscCall(VecGetArrayRead(d->v, &v));
   PetscCall(VecGetArray(d->force, &f));
@@ -63,10 +68,11 @@ static void list_vectors(Dynamics *d, Vec *vectors[N_VECTORS])
     vectors[k] = all[k];
 }
 
-PetscErrorCode dynamics_create(Physics *physics)
+PetscErrorCode dynamics_create(Scene *scene, Physics *physics)
 {
   Dynamics *d = physics->dynamics;
   Vec      *vectors[N_VECTORS];
+  PetscInt  status;
   PetscFunctionBegin;
   if (!d) PetscFunctionReturn(PETSC_SUCCESS);
   list_vectors(d, vectors);
@@ -80,7 +86,10 @@ PetscErrorCode dynamics_create(Physics *physics)
   PetscCall(start(physics));
   if (d->rho_inf < 1) {
     PetscCall(mass_matrix(physics));
-    PetscCall(first_force(physics));
+    PetscCall(first_force(physics, &status));
+    if (status)
+      scene_fail(scene, "dynamics", "rho_inf", "below 1 it asks for accelerations at t = 0, where %s by supports that do not begin at 0.",
+                 physics->inverted);
   }
   PetscCall(dynamics_energies(physics, d->u, d->v, &d->last));
   d->start = d->last;

@@ -88,16 +88,35 @@ void face_pressure(CellKind kind, const Space *space, const PetscReal x[], Petsc
   }
 }
 
+/* what a point stands for */
+static PetscReal face_area(CellKind kind, const Space *space, const PetscReal X[], PetscInt q, FacePoint *point)
+{
+  PetscReal squared = 0;
+  face_point(kind, X, q, point);
+  for (int i = 0; i < 3; i++)
+    squared += PetscSqr(point->normal[i]);
+  return point->weight * space_measure(space, point->radius) * PetscSqrtReal(squared);
+}
+
 void face_traction(CellKind kind, const Space *space, const PetscReal X[], const PetscReal traction[3], PetscReal f[])
 {
   for (PetscInt q = 0; q < cell_quadrature_points(kind); q++) {
-    FacePoint point;
-    PetscReal squared = 0, area;
-    face_point(kind, X, q, &point);
-    for (int i = 0; i < 3; i++)
-      squared += PetscSqr(point.normal[i]);
-    area = point.weight * space_measure(space, point.radius) * PetscSqrtReal(squared);
+    FacePoint       point;
+    const PetscReal area = face_area(kind, space, X, q, &point);
     for (PetscInt k = 0; k < 3 * cell_nodes(kind); k++)
       f[k] += area * point.N[k / 3] * traction[k % 3];
+  }
+}
+
+void face_products(CellKind kind, const Space *space, const PetscReal X[], PetscReal M[])
+{
+  const PetscInt nodes = cell_nodes(kind);
+  for (PetscInt k = 0; k < nodes * nodes; k++)
+    M[k] = 0;
+  for (PetscInt q = 0; q < cell_quadrature_points(kind); q++) {
+    FacePoint       point;
+    const PetscReal area = face_area(kind, space, X, q, &point);
+    for (PetscInt k = 0; k < nodes * nodes; k++)
+      M[k] += area * point.N[k / nodes] * point.N[k % nodes];
   }
 }

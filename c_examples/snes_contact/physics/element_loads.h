@@ -22,4 +22,7 @@ void face_pressure(CellKind kind, const Space *space, const PetscReal x[], Petsc
 
 /* consistent nodal forces of a dead traction on a reference face, added to f (3 per node) */
 void face_traction(CellKind kind, const Space *space, const PetscReal X[], const PetscReal traction[3], PetscReal f[]);
+
+/* int N_a N_b dA of a reference face, in M (nodes^2) */
+void face_products(CellKind kind, const Space *space, const PetscReal X[], PetscReal M[]);
 #endif

@@ -15,6 +15,7 @@
 
 struct cJSON;
 typedef struct Dynamics Dynamics; /* dynamics.h */
+typedef struct Springs  Springs;  /* springs.h */
 
 /* x - origin = R (X - origin + factor(t) (value + given + gradient (X - origin))) in the components of the mask (bit i:
  * axis i); R turns about `rotate` by rotate_factor(t) |rotate| radians */
@@ -141,6 +142,7 @@ typedef struct {
   char      inverted[256];                      /* which cell the last attempt at a step has turned inside out, or the like */
   PetscLogDouble seconds;                       /* in bulk_forces() and bulk_stiffness() */
   Dynamics      *dynamics;                      /* NULL: statics */
+  Springs       *springs;                       /* NULL: none */
 } Physics;
 
 /* material_scene.c */
@@ -153,6 +155,10 @@ PetscErrorCode supports_label(Physics *physics);
 PetscBool supports_agree(const Physics *physics, const Support *a, const Support *b, PetscInt vertex, const PetscReal X[3],
                          int component);
 PetscErrorCode supports_values(Physics *physics, PetscReal t); /* into prescribed_local */
+/* velocities or accelerations of what is prescribed: at a kink of a curve the mean of before and after, at the start and the end of the run
+ * what is within it; of vertices of rigid bodies none */
+typedef enum { SUPPORT_PLACE, SUPPORT_VELOCITY, SUPPORT_ACCELERATION } SupportMotion;
+PetscErrorCode supports_rates(Physics *physics, PetscReal t, SupportMotion motion, Vec local);
 PetscErrorCode supports_reactions(Physics *physics);
 /* which support turns each part, -1: none; a position turned as that support does from t0 to t */
 PetscErrorCode supports_turning(const Physics *physics, PetscInt support_of[]);
@@ -205,6 +211,18 @@ PetscErrorCode face_look_at(const Physics *physics, PetscInt point, Face *face);
 PetscBool      loads_follow(const Physics *physics); /* is there a follower pressure? */
 PetscErrorCode loads_values(Physics *physics);       /* at physics->t and u_local, into f_external */
 PetscErrorCode loads_stiffness(Physics *physics, Mat matrix); /* adds what forces of followers differ by */
+
+/* springs_scene.c, after supports and loads; then springs_label(), before the mesh is distributed */
+PetscErrorCode springs_read(Scene *scene, Physics *physics);
+PetscErrorCode springs_label(Physics *physics);
+PetscErrorCode springs_create(Scene *scene, Physics *physics); /* springs_create.c, once there are unknowns and parts */
+PetscErrorCode springs_destroy(Physics *physics);
+/* springs.c: as bulk_forces() and the like; called by these */
+PetscErrorCode springs_forces(Physics *physics, Vec f_local);
+PetscErrorCode springs_stiffness(Physics *physics, Mat matrix);
+PetscErrorCode springs_pattern(Physics *physics, Mat matrix);
+PetscErrorCode springs_total(Physics *physics);                                   /* of `force`, on all ranks */
+PetscErrorCode springs_energy(const Physics *physics, const PetscScalar *u, PetscReal *energy); /* adds this rank's part */
 
 /* unknowns.c: takes the fields over */
 PetscErrorCode unknowns_create(Physics *physics, PetscInt n_fields, Field *fields);

@@ -17,16 +17,30 @@ static void rotate(const PetscReal w[3], PetscReal x[3])
     x[i] += s * wx[i] + c * wwx[i];
 }
 
+static void cross(const PetscReal a[3], const PetscReal b[3], PetscReal c[3])
+{
+  for (int i = 0; i < 3; i++)
+    c[i] = a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3];
+}
+
+/* before it is turned */
+static void at_factor_one(const Support *support, PetscInt vertex, const PetscReal X[3], PetscReal u[3])
+{
+  for (int i = 0; i < 3; i++) {
+    u[i] = support->value[i] + (support->from_file ? support->given[3 * vertex + i] : 0);
+    for (int j = 0; j < 3; j++)
+      u[i] += support->gradient[3 * i + j] * (X[j] - support->origin[j]);
+  }
+}
+
 /* at t; X of a vertex of `given`, in the axes of the scene file, the result too */
 static void prescribed_displacement(const Support *support, PetscReal t, PetscInt vertex, const PetscReal X[3],
                                     PetscReal u[3])
 {
   const PetscReal factor = curve_value(&support->curve, t), turn = curve_value(&support->rotate_curve, t);
   PetscReal       w[3], x[3];
+  at_factor_one(support, vertex, X, u);
   for (int i = 0; i < 3; i++) {
-    u[i] = support->value[i] + (support->from_file ? support->given[3 * vertex + i] : 0);
-    for (int j = 0; j < 3; j++)
-      u[i] += support->gradient[3 * i + j] * (X[j] - support->origin[j]);
     u[i] *= factor;
     x[i] = X[i] - support->origin[i] + u[i];
     w[i] = turn * support->rotate[i];
@@ -35,6 +49,40 @@ static void prescribed_displacement(const Support *support, PetscReal t, PetscIn
   rotate(w, x);
   for (int i = 0; i < 3; i++)
     u[i] = x[i] - (X[i] - support->origin[i]);
+}
+
+/* Its velocity or its acceleration (`twice`): of x = R (X - origin + f b), with R about a fixed axis and f along straight lines. Where a
+ * curve has a kink, the mean of before and after: so a jump of the velocity lies half in either step. `sides`: 0 for before alone, 1 for
+ * after alone, 2 for both. */
+static void prescribed_rate(const Support *support, PetscReal t, int sides, PetscBool twice, PetscInt vertex, const PetscReal X[3],
+                            PetscReal rate[3])
+{
+  const PetscReal factor = curve_value(&support->curve, t), turn = curve_value(&support->rotate_curve, t);
+  PetscReal       slopes[2], turns[2], w[3], b[3], x[3];
+  curve_slopes(&support->curve, t, slopes);
+  curve_slopes(&support->rotate_curve, t, turns);
+  at_factor_one(support, vertex, X, b);
+  for (int i = 0; i < 3; i++) {
+    x[i]    = X[i] - support->origin[i] + factor * b[i];
+    w[i]    = turn * support->rotate[i];
+    rate[i] = 0;
+  }
+  rotate(w, x);
+  rotate(w, b);
+  for (int side = 0; side < 2; side++) {
+    const PetscReal share = sides == 2 ? 0.5 : side == sides;
+    PetscReal       spin[3], moving[3], turning[3], again[3], bent[3];
+    for (int i = 0; i < 3; i++) {
+      spin[i]   = turns[side] * support->rotate[i];
+      moving[i] = slopes[side] * b[i];
+    }
+    cross(spin, x, turning);
+    for (int i = 0; i < 3; i++)
+      again[i] = 2 * moving[i] + turning[i];
+    cross(spin, again, bent);
+    for (int i = 0; i < 3; i++)
+      rate[i] += share * (twice ? bent[i] : moving[i] + turning[i]);
+  }
 }
 
 /* Do both prescribe the same u_i at a vertex, before it is turned into another frame? At times between which both move evenly,
@@ -76,7 +124,7 @@ PetscErrorCode supports_label(Physics *physics)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* A supported vertex of this rank: its place from the support's origin, the support's displacement there, its displacement
+/* A supported vertex of this rank: its place from the support's origin, the support's displacement or its rate there, its displacement
  * of now, and its entries of a local vector. */
 typedef struct {
   PetscReal    arm[3], u[3], now[3];
@@ -85,7 +133,7 @@ typedef struct {
 
 typedef void (*VertexVisit)(Support *support, const SupportedVertex *vertex);
 
-static PetscErrorCode visit(Physics *physics, Vec local, PetscReal t, VertexVisit action)
+static PetscErrorCode visit(Physics *physics, Vec local, PetscReal t, SupportMotion motion, VertexVisit action)
 {
   const Mesh        *mesh = physics->mesh;
   PetscSection       coordinate_section;
@@ -121,7 +169,10 @@ static PetscErrorCode visit(Physics *physics, Vec local, PetscReal t, VertexVisi
         for (int j = 0; j < 3; j++)
           X[i] += mesh->rotation[3 * j + i] * PetscRealPart(coordinates[at + j]);
       }
-      prescribed_displacement(support, t, mesh->here[points[k]], X, vertex.u);
+      if (motion == SUPPORT_PLACE)
+        prescribed_displacement(support, t, mesh->here[points[k]], X, vertex.u);
+      else
+        prescribed_rate(support, t, t <= 0 ? 1 : t >= physics->end ? 0 : 2, (PetscBool)(motion == SUPPORT_ACCELERATION), mesh->here[points[k]], X, vertex.u);
       mesh_rotate_vector(mesh, vertex.u);
       for (int i = 0; i < 3; i++) {
         vertex.arm[i] = X[i] - support->origin[i];
@@ -164,8 +215,16 @@ PetscErrorCode supports_values(Physics *physics, PetscReal t)
 {
   PetscFunctionBegin;
   PetscCall(VecZeroEntries(physics->prescribed_local)); /* removed multipliers are prescribed to be zero */
-  PetscCall(visit(physics, physics->prescribed_local, t, set_values));
+  PetscCall(visit(physics, physics->prescribed_local, t, SUPPORT_PLACE, set_values));
   PetscCall(rigids_prescribe(physics, t, physics->prescribed_local));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode supports_rates(Physics *physics, PetscReal t, SupportMotion motion, Vec local)
+{
+  PetscFunctionBegin;
+  PetscCall(VecZeroEntries(local));
+  PetscCall(visit(physics, local, t, motion, set_values));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -177,7 +236,7 @@ PetscErrorCode supports_reactions(Physics *physics)
     PetscCall(PetscArrayzero(physics->supports[s].reaction, 3));
     PetscCall(PetscArrayzero(physics->supports[s].moment, 3));
   }
-  PetscCall(visit(physics, physics->f_local, physics->t, add_reactions));
+  PetscCall(visit(physics, physics->f_local, physics->t, SUPPORT_PLACE, add_reactions));
   for (PetscInt s = 0; s < physics->n_supports; s++) {
     PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, physics->supports[s].reaction, 3, MPIU_REAL, MPIU_SUM, PETSC_COMM_WORLD));
     PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, physics->supports[s].moment, 3, MPIU_REAL, MPIU_SUM, PETSC_COMM_WORLD));

@@ -64,15 +64,25 @@ PetscBool curve_same_time(PetscReal a, PetscReal b)
   return (PetscBool)(PetscAbsReal(a - b) <= 1e-12 * PetscMax(1, PetscAbsReal(a)));
 }
 
+/* from point k to the next one; before the first and from the last on: none */
+static PetscReal slope_from(const Curve *curve, PetscInt k)
+{
+  const PetscReal *p = curve->points + 2 * k;
+  return k >= 0 && k + 1 < curve->n ? (p[3] - p[1]) / (p[2] - p[0]) : 0;
+}
+
+void curve_slopes(const Curve *curve, PetscReal t, PetscReal slopes[2])
+{
+  PetscInt k = -1;
+  while (k + 1 < curve->n && (curve->points[2 * k + 2] <= t || curve_same_time(t, curve->points[2 * k + 2])))
+    k++;
+  slopes[1] = slope_from(curve, k);
+  slopes[0] = k >= 0 && curve_same_time(t, curve->points[2 * k]) ? slope_from(curve, k - 1) : slopes[1];
+}
+
 PetscBool curve_bends(const Curve *curve, PetscReal t)
 {
-  const PetscReal *p = curve->points;
-  for (PetscInt k = 0; k < curve->n; k++) {
-    PetscReal before, after;
-    if (!curve_same_time(t, p[2 * k])) continue;
-    before = k ? (p[2 * k + 1] - p[2 * k - 1]) / (p[2 * k] - p[2 * k - 2]) : 0;
-    after  = k + 1 < curve->n ? (p[2 * k + 3] - p[2 * k + 1]) / (p[2 * k + 2] - p[2 * k]) : 0;
-    if (PetscAbsReal(after - before) > 1e-9 * (PetscAbsReal(after) + PetscAbsReal(before))) return PETSC_TRUE;
-  }
-  return PETSC_FALSE;
+  PetscReal slopes[2];
+  curve_slopes(curve, t, slopes);
+  return (PetscBool)(PetscAbsReal(slopes[1] - slopes[0]) > 1e-9 * (PetscAbsReal(slopes[1]) + PetscAbsReal(slopes[0])));
 }

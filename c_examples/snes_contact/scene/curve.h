@@ -12,6 +12,7 @@ typedef struct {
 PetscErrorCode curve_read(Scene *scene, const char *map, const char *key, PetscReal end, Curve *curve);
 PetscErrorCode curve_copy(const Curve *from, Curve *to);
 PetscReal      curve_value(const Curve *curve, PetscReal t);
+void           curve_slopes(const Curve *curve, PetscReal t, PetscReal slopes[2]); /* just before t, just after */
 PetscBool      curve_bends(const Curve *curve, PetscReal t); /* has a kink at t */
 PetscBool      curve_same_time(PetscReal a, PetscReal b);          /* but for rounding */
 #endif

@@ -1,4 +1,4 @@
-/* Names that a scene declares: of bodies, surfaces, supports, loads, interfaces and probes. */
+/* Names that a scene declares: of bodies, surfaces, supports, loads, springs, interfaces and probes. */
 #include "scene/scene_private.h"
 #include <stdio.h>
 #include <stdlib.h>
@@ -23,6 +23,7 @@ void scene_names(Scene *scene, const char *list, PetscInt *n, char ***names)
                                          "surfaces",
                                          "supports",
                                          "loads",
+                                         "springs",
                                          "interfaces",
                                          "probes",
                                          "frame",

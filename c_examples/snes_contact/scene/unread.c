@@ -71,7 +71,7 @@ static void fail_unread(Scene *scene, const SceneKey *key)
       snprintf(text, sizeof(text), "nothing is called '%s'; did you mean '%s'?", map, closest);
     else
       snprintf(text, sizeof(text),
-               "nothing is called '%s': list the name in bodies, surfaces, supports, loads, interfaces or probes.",
+               "nothing is called '%s': list the name in bodies, surfaces, supports, loads, springs, interfaces or probes.",
                map);
   } else if (closest) {
     snprintf(text, sizeof(text), "unknown key; did you mean '%.*s%s'? Allowed here: %s.", (int)length, key->dotted,

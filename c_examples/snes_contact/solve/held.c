@@ -1,5 +1,5 @@
 /* Which parts of the model nothing holds. The rigid motions of all parts (three translations, three turns each) meet two
- * kinds of constraints: prescribed components of vertices, and closed contact nodes: along the normal and, with friction,
+ * kinds of constraints: prescribed components of vertices and springs, and closed contact nodes: along the normal and, with friction,
  * across the direction in which they slip; in all directions where they stick or are tied. Motions that none of them feels are free: the matrix is singular, and where
  * the parts end along them is arbitrary.
  *
@@ -207,30 +207,47 @@ static PetscErrorCode describe(const Solve *solve, const Motions *m, PetscInt n_
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* By the supports alone; `loose`: which parts they do not hold. */
-static PetscErrorCode by_supports(const Solve *solve, PetscBool *loose, cJSON *json, char text[], size_t length)
+/* By supports and springs alone: what is free of the parts that are chosen; which of these are, in `loose`. */
+static PetscErrorCode look(const Solve *solve, const PetscBool *chosen, PetscBool *loose, cJSON *json, char text[], size_t length)
 {
   Physics *physics = solve->physics;
+  Motions  m;
+  PetscInt n_free;
+  PetscFunctionBegin;
+  PetscCall(motions_create(physics, NULL, chosen, &m));
+  PetscCall(motions_add_springs(physics, NULL, &m));
+  PetscCall(motions_sum(&m));
+  add_rings(solve, &m);
+  PetscCall(motions_find_free(&m, &n_free));
+  PetscCall(describe(solve, &m, n_free, json, text, length));
+  for (PetscInt p = 0; p < physics->parts.n; p++) {
+    char words[512] = "";
+    if (!chosen[p]) continue;
+    if (n_free && m.n_parts > 1) PetscCall(motions_words(&m, n_free, m.place[p], words, sizeof(words)));
+    loose[p] = (PetscBool)(m.n_parts > 1 ? words[0] != 0 : n_free > 0);
+  }
+  PetscCall(motions_destroy(&m));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* `loose`: which parts they do not hold. */
+static PetscErrorCode by_supports(const Solve *solve, PetscBool *loose, cJSON *json, char text[], size_t length)
+{
+  const PetscInt n = solve->physics->parts.n;
+  PetscBool     *chosen;
   PetscFunctionBegin;
   text[0] = 0;
-  for (PetscInt p = 0; p < physics->parts.n; p++) { /* they hold each part by itself */
-    Motions    m;
-    PetscBool *only;
-    PetscInt   n_free;
-    char       part[1024];
-    PetscCall(PetscCalloc1(physics->parts.n, &only));
-    only[p] = PETSC_TRUE;
-    PetscCall(motions_create(physics, NULL, only, &m));
-    PetscCall(motions_sum(&m));
-    add_rings(solve, &m);
-    PetscCall(motions_find_free(&m, &n_free));
-    PetscCall(describe(solve, &m, n_free, json, part, sizeof(part)));
-    loose[p] = (PetscBool)(n_free > 0);
+  PetscCall(PetscCalloc1(n, &chosen));
+  for (PetscInt p = 0; p < n; p++) { /* supports hold each part by itself; springs join them */
+    char part[1024];
+    chosen[p] = PETSC_TRUE;
+    if (solve->physics->springs && p + 1 < n) continue;
+    PetscCall(look(solve, chosen, loose, json, part, sizeof(part)));
     PetscCall(PetscStrlcat(text, text[0] && part[0] ? ", " : "", length));
     PetscCall(PetscStrlcat(text, part, length));
-    PetscCall(motions_destroy(&m));
-    PetscCall(PetscFree(only));
+    chosen[p] = PETSC_FALSE;
   }
+  PetscCall(PetscFree(chosen));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -349,6 +366,7 @@ PetscErrorCode held_check(Solve *solve)
   PetscCall(motions_create(physics, physics->u_local, solve->held.loose, &m));
   for (PetscInt i = 0; i < solve->contact->n_interfaces; i++)
     PetscCall(add_contact(solve->mesh, &solve->contact->interfaces[i], &m));
+  PetscCall(motions_add_springs(physics, physics->u_local, &m));
   PetscCall(motions_sum(&m));
   add_rings(solve, &m);
   if (solve->mesh->rank == 0) PetscCall(find_free(solve, &m, &found));

@@ -17,6 +17,8 @@ typedef struct {
 /* At the displacements of a local vector, NULL: none; `include`: which parts may move. Every rank gets the motions, and what
  * prescribed components of its own vertices constrain in `gram`, which motions_sum() adds up for all. */
 PetscErrorCode motions_create(const Physics *physics, Vec u_local, const PetscBool *include, Motions *m);
+/* held_springs.c: what springs hold, before motions_sum() */
+PetscErrorCode motions_add_springs(const Physics *physics, Vec u_local, Motions *m);
 PetscErrorCode motions_sum(Motions *m);
 PetscErrorCode motions_destroy(Motions *m);
 /* One row of a constraint, of n entries so far: what the motions of a part move a point by along d, times `sign`. */

@@ -1,5 +1,6 @@
 /* What a restart file keeps of the solver: the converged states that the next step starts from, how long it is to be, and what the run has
  * found so far. */
+#include "physics/dynamics.h"
 #include "solve/solve.h"
 #include <cjson/cJSON.h>
 #include <string.h>
@@ -60,12 +61,51 @@ static PetscErrorCode archive_past(Solve *solve, Past *past, Archive *archive)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Forces of which ranks hold parts: their sum, with the owners. */
+static PetscErrorCode archive_sum(Solve *solve, const char *name, Vec local, Archive *archive)
+{
+  Physics     *physics = solve->physics;
+  PetscScalar *forces;
+  PetscFunctionBegin;
+  PetscCall(unknowns_sum(physics, local));
+  PetscCall(contact_archive_vector(solve->contact, name, physics->f_sum, archive));
+  if (!archive->reading || archive->bad) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(VecCopy(physics->f_sum, local));
+  PetscCall(VecGetArray(local, &forces));
+  for (PetscInt k = 0; k < physics->mesh->n_points; k++) {
+    PetscInt at;
+    PetscCall(PetscSectionGetOffset(physics->unknowns.section, physics->mesh->points[k], &at));
+    for (int i = 0; i < 3 && physics->unknowns.ghost[k]; i++)
+      forces[at + i] = 0;
+  }
+  PetscCall(VecRestoreArray(local, &forces));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* With `dynamics`: how the bodies move, and the balance so far. */
+static PetscErrorCode archive_motion(Solve *solve, Archive *archive)
+{
+  Dynamics *d = solve->physics->dynamics;
+  PetscFunctionBegin;
+  if (!d) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(archive_reals(archive, "motion.t", 1, &d->t_n));
+  PetscCall(archive_bytes(archive, "balance.start", sizeof(d->start), &d->start));
+  PetscCall(archive_bytes(archive, "balance", sizeof(d->last), &d->last));
+  PetscCall(archive_bools(archive, "balance.told", 1, &d->told));
+  PetscCall(contact_archive_vector(solve->contact, "displacements", d->u, archive));
+  PetscCall(contact_archive_vector(solve->contact, "velocities", d->v, archive));
+  PetscCall(contact_archive_vector(solve->contact, "accelerations", d->prescribed, archive));
+  PetscCall(archive_sum(solve, "smooth forces", d->force, archive));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode solve_archive(Solve *solve, Past *past, StepSize *size, Archive *archive)
 {
   Linear   *linear   = &solve->linear;
   PetscInt *counts[] = {&linear->n_solves, &linear->n_direct, &linear->iterations, &linear->most};
   PetscFunctionBegin;
   PetscCall(archive_past(solve, past, archive));
+  PetscCall(archive_motion(solve, archive));
   PetscCall(archive_size(&solve->steps, past->t_last, size, archive));
   PetscCall(archive_held(&solve->held, archive));
   PetscCall(archive_reals(archive, "least_pivot", 1, &solve->least_pivot));
