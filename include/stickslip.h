@@ -1398,8 +1398,8 @@ int32_t stickslip_interface_set_previous(struct stickslip_interface *interface,
 /// (tied, rough, without friction) ignore it. What a law remembers becomes 0; `stickslip_interface_set_law_states` afterwards.
 ///
 /// Errors: NULL_POINTER, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL, INVALID_VALUE (commits < 0, a
-/// mortar surface in layers, an analytic surface's frame), UNSUPPORTED (STICKSLIP_DECISION_POINTS with friction: what points remember
-/// is not in it).
+/// mortar surface in layers, an analytic surface's frame), UNSUPPORTED (friction where points decide: what they remember is
+/// not in it).
 /// Cost: one search and one integration; allocates.
 int32_t stickslip_interface_set_committed(struct stickslip_interface *interface,
                                           const double *x1,

@@ -4,6 +4,7 @@
 
 use super::emission::{Emitter, NodeBlock, Place};
 use super::points::{Around, PointNumbers};
+use super::union::Pairs;
 use crate::error::Result;
 use crate::geometry::{Mat3, Vec3};
 use crate::interface::data::points::Points;
@@ -184,11 +185,11 @@ fn fill(blocks: &mut [NodeBlock], columns: &[Neighbour], by_sigma: &Mat3) {
 
 /// All blocks.
 pub fn blocks<const N: usize>(
-    given: Given<N>,
-    around: &Around,
+    (given, pairs): (Given<N>, Pairs),
     numbers: Option<&PointNumbers>,
     emitter: &mut Emitter<N>,
 ) -> Result<()> {
+    let around = Around::of(given, pairs)?;
     let (n1, n2, points) = (given.nodes(), given.setup.mortar.len(), numbers.map(|numbers| numbers.points));
     let (places, row_places) = (memory::filled(NOWHERE, n1 + n2)?, memory::filled(NOWHERE, n1)?);
     let mut star = Star { places, row_places, ..Star::default() };
@@ -199,7 +200,7 @@ pub fn blocks<const N: usize>(
             emitter.taker.node(Place::Multiplier(a), Place::Multiplier(a), value.as_slice());
             continue;
         }
-        star.begin(given, a, around)?;
+        star.begin(given, a, &around)?;
         if let Some(points) = points {
             around.around(a).iter().for_each(|&k| star.add(given, a, around.facets[k], points));
         }

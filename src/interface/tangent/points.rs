@@ -4,7 +4,6 @@
 //! adds nothing.
 
 use super::emission::{Emitter, NodeBlock, Place};
-use super::point_friction;
 use super::union::{Pairs, Walk};
 use crate::error::Result;
 use crate::geometry::Vec3;
@@ -52,7 +51,7 @@ pub struct Around {
 
 impl Around {
     /// Those that have pairs.
-    fn of<const N: usize>(given: Given<N>, pairs: Pairs) -> Result<Around> {
+    pub fn of<const N: usize>(given: Given<N>, pairs: Pairs) -> Result<Around> {
         let (mut all, mut walk, mut of_facet) = (Around::default(), Walk::through(pairs, 0..usize::MAX), Vec::new());
         let ((one, two), moves) = (given.setup.surfaces(), given.setup.effects.moves());
         all.first_node.store(0)?;
@@ -212,9 +211,6 @@ pub fn blocks<const N: usize>(
     emitter: &mut Emitter<N>,
 ) -> Result<()> {
     let around = Around::of(given, pairs)?;
-    if given.setup.has_point_friction() {
-        return point_friction::blocks(given, &around, numbers, emitter);
-    }
     let (n1, n2) = (given.nodes(), given.setup.mortar.len());
     let (places, row_places) = (memory::filled(NOWHERE, n1 + n2)?, memory::filled(NOWHERE, n1)?);
     let mut star = Star { places, row_places, ..Star::default() };
