@@ -38,7 +38,7 @@ help:
 	@echo "make scaling-ranks  what a rank holds and does of the contact, on 2 and 4 ranks: a table (SIZES=, FIGURES=1: as above)"
 	@echo "make newest-petsc   the driver on the newest PETSc of PyPI, built for it: half an hour the first time"
 	@echo "make ranks   contact on eight ranks, however few processors there are: a minute; a part of make test-long"
-	@echo "make ranks-full  scenes in full length on two ranks against one, an hour or two"
+	@echo "make ranks-full  scenes in full length on two ranks against one, an hour or two; can be resumed"
 	@echo "make digest  the bits of what library and driver compute, compared with those of before (KEEP=1: these are they)"
 	@echo "make fuzz    fuzz the pair kernel, the handle and the C ABI, a quarter of an hour each (FUZZ_SECONDS=)"
 	@echo "make wheel   the Python package as a wheel, in $(BUILD)/wheels"

@@ -18,7 +18,7 @@ test -n "$version" || { echo "newest_petsc.sh: PyPI does not say which version o
 petsc="$here/petsc-$version"
 echo "PETSc $version, in $petsc"
 if ! test -d "$petsc"; then
-	"$python" -m pip download -q --no-deps --no-binary :all: -d "$here" "petsc==$version"
+	"$python" -m pip download -q --no-deps --no-binary petsc -d "$here" "petsc==$version"
 	tar xzf "petsc-$version.tar.gz"
 fi
 
@@ -39,6 +39,7 @@ else
 	echo "There is no MUMPS for MPI (libmumps-dev): PETSc's LU, of one rank, takes its place."
 fi
 links hdf5.h $hdf5 -lhdf5_hl -lhdf5 || hdf5_flags=""
+hdf5_flags=${hdf5_flags%% *} # the others are MPI's
 if ! test -e "$petsc/newest/lib/libpetsc.so"; then
 	cd "$petsc"
 	PETSC_DIR=$petsc PETSC_ARCH=newest "$python" ./configure --with-cc=mpicc --with-cxx=0 --with-fc=mpif90 --with-fortran-bindings=0 \

@@ -36,17 +36,24 @@ HELD_BY_CONTACT = ("-grip_components", "z", "-contact_friction", "1")
 STANDARD_BEGIN, STANDARD_END = "<!-- scaling.py writes of multipliers from here -->", "<!-- multipliers to here -->"
 
 
-def measure(build, output, n, solver, options):
-    folder = output / f"{solver}_{n}"
+def launch(build, output, n, solver, options, name=None, expect=0):
+    """Runs blocks of n cells along an edge. Returns the folder of the results, what was printed, and the process' usage."""
+    name = name or f"{solver}_{n}"
+    folder, log = output / name, output / f"{name}.txt"
     cells = ("-upper_cells", f"{n},{n},{n}", "-lower_cells", f"{n + 1},{n + 1},{n}")
     command = [build / "c_examples" / "snes_contact", "-scene", SCENES / "two_blocks.yaml", "-output_dir", folder, *options,
                *cells, "-solver", solver]
-    with open(output / f"{solver}_{n}.txt", "w") as text:
+    with open(log, "w") as text:
         process = subprocess.Popen([str(word) for word in command], stdout=text, stderr=subprocess.STDOUT,
                                    env={**os.environ, "OMP_NUM_THREADS": "1"})
         _, status, usage = os.wait4(process.pid, 0)
-    if status:
-        raise SceneError(f"{solver} with {n} cells: see {text.name}")
+    if os.waitstatus_to_exitcode(status) != expect:
+        raise SceneError(f"{solver} with {n} cells: see {log}")
+    return folder, log, usage
+
+
+def measure(build, output, n, solver, options):
+    folder, _, usage = launch(build, output, n, solver, options)
     summary = json.loads((folder / "summary.json").read_text())
     newton = sum(step["newton_iterations"] for step in summary["steps"])
     linear = summary.get("linear_solver", {})

@@ -33,8 +33,9 @@ from quadratic_contact import quadratic_contact  # noqa: E402
 from quadratic_line import quadratic_line  # noqa: E402
 from quadratic_sliding import quadratic_sliding  # noqa: E402
 from quadratic_tied import quadratic_tied  # noqa: E402
-from ranks import ranks, ranks_full, ranks_scenes  # noqa: E402
+from ranks import ranks, ranks_scenes  # noqa: E402
 from ranks_files import ranks_files  # noqa: E402
+from ranks_full import ranks_full  # noqa: E402
 from ranks_moving import ranks_many, ranks_moving  # noqa: E402
 from restart import restart  # noqa: E402
 from rigid import rigid  # noqa: E402

@@ -5,7 +5,7 @@ import re
 
 import numpy as np
 from condensed import TIGHT
-from scene import SCENES, interfaces, write
+from scene import interfaces, write
 
 # Displacements over the largest, tractions and forces over theirs: ranks add the same numbers in another order.
 SAME = 1e-9
@@ -81,13 +81,18 @@ def compare(verdicts, driver, scene, label, options, several):
 
 
 def both(verdicts, name, scene, one, other):
-    taken = [counted(run.steps) for run in (one, other)]
+    taken, states, differs = measured(scene, one, other)
     verdicts.true(f"{name}: iterations", taken[0] == taken[1], f"{taken[0]} and {taken[1]}")
+    verdicts.true(f"{name}: states", states == 0, f"{states} differ")
+    verdicts.below(f"{name}: answers", differs, SAME, "of all steps and nodes")
+
+
+def measured(scene, one, other):
+    """The iterations of each step of both runs, how many states differ, and by how much the answers do."""
     steps = range(1, len(one.steps) + 1)
     tables = [[run.interface(i, step) for run in (one, other)] for i in interfaces(scene) for step in steps]
     states = sum(np.count_nonzero(here["state"] != there["state"]) for here, there in tables)
-    verdicts.true(f"{name}: states", states == 0, f"{states} differ")
-    verdicts.below(f"{name}: answers", max(apart(tables, group) for group in GROUPS), SAME, "of all steps and nodes")
+    return [counted(run.steps) for run in (one, other)], states, max(apart(tables, group) for group in GROUPS)
 
 
 def counted(steps):
@@ -165,14 +170,3 @@ LONG = (
 def ranks_scenes(verdicts, driver):
     for scene in LONG:
         compare(verdicts, driver, *scene)
-
-
-# A run that two ranks do not repeat: its iterations lead to a singular matrix, which rounding decides the way to.
-SINGULAR = ("two_floors",)
-
-
-def ranks_full(verdicts, driver):
-    """Every scene in full length."""
-    for path in sorted(SCENES.glob("*.yaml")):
-        if path.stem not in SINGULAR and interfaces(path.stem):
-            compare(verdicts, driver, path.stem, "", (), (2,))

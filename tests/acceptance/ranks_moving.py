@@ -48,7 +48,7 @@ PART_OF_RAIL = 0.8
 ENDS = 60
 
 
-# Scene, label, options: on eight ranks, however few processors there are.
+# Scene, label, options: on four and eight ranks, however few processors there are.
 MANY = (
     ("two_blocks", "", ()),
     ("two_blocks", "dual, carrying, condensed", ("-contact_basis", "dual", *CONDENSED)),
@@ -74,7 +74,7 @@ def ranks_moving(verdicts, driver):
 
 def ranks_many(verdicts, driver):
     for scene, label, options in MANY:
-        compare(verdicts, driver, scene, label, options, (8,))
+        compare(verdicts, driver, scene, label, options, (4, 8))
     sliding(verdicts, driver, (4, 8))
     wandering(verdicts, driver, (2, 8))
     leaping(verdicts, driver, (2, 4))

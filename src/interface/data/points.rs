@@ -4,6 +4,7 @@ use super::point_friction::PointFriction;
 use crate::geometry::Vec3;
 use crate::mortar::PairWeights;
 use crate::shape::MAX_CORNERS;
+use nalgebra::SVector;
 use std::ops::Range;
 
 /// By two of a facet's nodes.
@@ -43,6 +44,11 @@ impl PointFacet {
     /// The values of a nodal field at its nodes.
     pub fn of(&self, field: &[f64]) -> [f64; MAX_CORNERS] {
         std::array::from_fn(|k| if k < self.n { field[self.nodes[k]] } else { 0.0 })
+    }
+
+    /// The same of multipliers along the normal.
+    pub fn of_multipliers<const N: usize>(&self, lambda: &[SVector<f64, N>]) -> [f64; MAX_CORNERS] {
+        std::array::from_fn(|k| if k < self.n { lambda[self.nodes[k]][0] } else { 0.0 })
     }
 }
 

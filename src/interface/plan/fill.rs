@@ -3,14 +3,25 @@
 use super::add::{Add, Starts};
 use super::ahead::Ahead;
 use super::numbering::{SCALARS, Sides};
+use super::pattern::Key;
 use super::places::{Layout, Places};
 use super::scatter::{self, MortarOffsets, Scatter};
 use super::table::{Hand, Target};
 use crate::dual::Columns;
 use crate::geometry::Vec3;
-use crate::interface::tangent::emission::{Blocks, Directions, MortarBlock, NodeBlock, Place, Span, Weights};
+use crate::interface::tangent::emission::{
+    Blocks, Dependence, Directions, MortarBlock, NodeBlock, Place, Span, Weights,
+};
 use crate::shape::{MAX_CORNERS, MAX_NODES};
 use crate::simd::{self, add_rows};
+
+/// Columns with their keys.
+fn keys<'a>(
+    layout: Layout<'a>,
+    columns: &'a [(usize, Place)],
+) -> impl Iterator<Item = ((usize, Place), Key)> + use<'a> {
+    columns.iter().map(move |&(k, place)| ((k, place), layout.key(layout.nodes.number(place))))
+}
 
 /// What the blocks of a chunk have shown.
 #[derive(Clone, Copy, Debug, Default)]
@@ -269,26 +280,27 @@ impl<'a, 'p, const N: usize> Fill<'a, 'p, N> {
     }
 
     /// Adds to the rows of one node, column by column in their order: `add` is given the row from there, the length of each of the
-    /// node's rows, and the column's index.
+    /// node's rows, the column's index, and whether it is a multiplier's.
     #[inline]
     fn add_row(
         &mut self,
         row: Place,
-        columns: &[(usize, Place)],
-        mut add: impl FnMut(&mut [f64], usize, usize, &mut [f64; 4]),
+        mut columns: impl Iterator<Item = ((usize, Place), Key)>,
+        mut add: impl FnMut(&mut [f64], u32, (usize, bool), &mut [f64; 4]),
     ) {
         let node = self.layout.nodes.number(row);
         if !self.layout.has_rows(node) {
             return;
         }
         let Some(Target { rows, piece, start }) = self.hand.claim(node) else {
-            return self.note(!columns.is_empty(), row, columns.first().map_or(row, |column| column.1));
+            let first = columns.next();
+            return self.note(first.is_some(), row, first.map_or(row, |((_, place), _)| place));
         };
         let (to, nothing) = (&mut self.hand.pieces[piece][start..start + rows.size()], &mut self.state.nothing);
-        let (nodes, mut lacks) = (self.layout.nodes, None);
-        let columns = columns.iter().map(|(k, place)| ((*k, *place), nodes.number(*place)));
-        self.layout.offsets(node, &rows, columns, |(k, place), offset| match offset {
-            Some(offset) => add(&mut to[offset as usize..], rows.len as usize, k, nothing),
+        let mut lacks = None;
+        let columns = columns.map(|(of, key)| ((of, key & 1 == 1), key));
+        self.layout.offsets(node, &rows, columns, |((k, place), is_multiplier), offset| match offset {
+            Some(offset) => add(&mut to[offset as usize..], rows.len, (k, is_multiplier), nothing),
             None => lacks = lacks.or(Some(place)),
         });
         if let Some(column) = lacks {
@@ -407,17 +419,49 @@ impl<const N: usize> Blocks<N> for Fill<'_, '_, N> {
 
     fn row(&mut self, row: Place, columns: &[(usize, Place)], blocks: &[NodeBlock]) {
         let scalars = if matches!(row, Place::Displacement(_)) { SCALARS } else { N };
-        self.add_row(row, columns, |to, len, k, nothing| {
+        let keys = keys(self.layout, columns);
+        self.add_row(row, keys, |to, len, (k, _), nothing| {
             for (j, of) in blocks[k].iter().enumerate() {
-                (0..scalars).for_each(|i| to[i * len + j] += of[i]);
+                (0..scalars).for_each(|i| to[i * len as usize + j] += of[i]);
                 nothing.iter_mut().zip(of).for_each(|(nothing, value)| *nothing += 0.0 * value);
             }
         });
     }
 
+    fn products(&mut self, row: Place, of: &Dependence, by_s: &[f64; 3], by_multiplier: &[f64; 3]) {
+        let keys = of.columns.iter().enumerate().map(|(k, &(key, place))| ((k, place), key));
+        if matches!(row, Place::Displacement(_)) {
+            self.add_row(row, keys, |to, len, (k, is_multiplier), _| {
+                let (slope, [x, y, z]) = (of.slopes[k], *by_multiplier);
+                if is_multiplier {
+                    return add_rows(to, 0, len, [[x], [y], [z]]);
+                }
+                let mut block = [slope; 3];
+                for i in 0..3 {
+                    for j in 0..3 {
+                        block[i][j] *= by_s[i];
+                    }
+                }
+                add_rows(to, 0, len, block);
+            });
+        } else {
+            self.add_row(row, keys, |to, len, (k, is_multiplier), _| {
+                let (slope, by_s) = (of.slopes[k], by_s[0]);
+                if is_multiplier {
+                    return add_rows(to, 0, len, [[by_multiplier[0]]]);
+                }
+                add_rows(to, 0, len, [[by_s * slope[0], by_s * slope[1], by_s * slope[2]]]);
+            });
+        }
+        for (nothing, (s, multiplier)) in self.state.nothing.iter_mut().zip(by_s.iter().zip(by_multiplier)) {
+            *nothing += 0.0 * (s * of.size + multiplier);
+        }
+    }
+
     fn multiplier_row(&mut self, row: Place, columns: &[(usize, Place)], n: &Weights, nu: &Directions) {
-        self.add_row(row, columns, |to, len, k, nothing| {
-            (0..SCALARS).for_each(|i| to[i * len] += if N == 1 { n[k] * nu[k][i] } else { n[k] });
+        let keys = keys(self.layout, columns);
+        self.add_row(row, keys, |to, len, (k, _), nothing| {
+            (0..SCALARS).for_each(|i| to[i * len as usize] += if N == 1 { n[k] * nu[k][i] } else { n[k] });
             nothing[0] += 0.0 * n[k];
         });
     }

@@ -87,6 +87,7 @@ pub struct Places {
 }
 
 /// What the layout of a row follows from.
+#[derive(Clone, Copy)]
 pub struct Layout<'a> {
     pub nodes: Nodes<'a>,
     pub numbering: &'a Numbering,
@@ -132,7 +133,7 @@ impl Layout<'_> {
         Some(displacements + multipliers * width - if narrow { self.widths.multiplier - 1 } else { 0 })
     }
 
-    /// Where a node's columns come among all: columns in [`Layout::offsets`] ascend by it.
+    /// Where a node's columns come among all: columns in [`Layout::offsets`] ascend by it. The largest of all where it has no equations.
     #[inline]
     pub fn key(&self, column: usize) -> Key {
         self.numbering.rank[column].saturating_mul(2).saturating_add(u32::from(self.nodes.is_multiplier(column)))
@@ -145,13 +146,12 @@ impl Layout<'_> {
         &self,
         node: usize,
         rows: &NodeRows,
-        columns: impl Iterator<Item = (T, usize)>,
+        columns: impl Iterator<Item = (T, Key)>,
         mut give: impl FnMut(T, Option<u32>),
     ) {
         let (own, is_multiplier) = (self.own(node, rows.is_diagonal), self.nodes.is_multiplier(node));
         let (mut keys, mut at) = (self.columns.get(node), 0);
-        for (of, column) in columns.filter(|column| self.numbering.has_equations(column.1)) {
-            let key = self.key(column);
+        for (of, key) in columns.take_while(|(_, key)| *key < NO_RANK) {
             while let Some((_, rest)) = keys.split_first().filter(|(first, _)| **first < key) {
                 at += self.widths.of_key(keys[0], is_multiplier, own);
                 keys = rest;

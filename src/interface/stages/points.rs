@@ -9,7 +9,6 @@
 use super::residual::Residual;
 use super::sums::NodeSums;
 use crate::dual::{Coverage, FacetSums};
-use crate::element::pair_force;
 use crate::error::Result;
 use crate::geometry::{Plane, Vec3};
 use crate::interface::data::lines::{Lines, line};
@@ -21,7 +20,7 @@ use crate::interface::pairing::given::Given;
 use crate::law::{NodeResponse, State};
 use crate::line::{LineFacet, LineWeights, Measure};
 use crate::memory::{self, Store};
-use crate::mortar::{MORTAR, MultiplierSpace, PairWeights, Segment};
+use crate::mortar::{MultiplierSpace, PairWeights, Segment};
 use crate::points::{STIFFNESS, of_facet, of_line};
 use crate::shape::{MAX_CORNERS, MAX_PARENT_NODES};
 use nalgebra::SVector;
@@ -234,19 +233,28 @@ impl Points {
             (response.row, response.sigma) = (SVector::zeros(), given.normal(a)? * self.sigma[a]);
         }
         for (at, facet) in self.facets.iter().enumerate() {
+            let (multipliers, of_nodes) = (facet.of_multipliers(lambda), &mut responses[..]);
+            for (k, &a) in facet.nodes().iter().enumerate().filter(|(_, a)| self.is_covered[**a]) {
+                let factor = self.factors[a];
+                let left =
+                    (0..MAX_CORNERS).map(|l| (facet.mass[k][l] + factor * facet.stabilisation[k][l]) * multipliers[l]);
+                of_nodes[a].row -= SVector::from_element(left.sum());
+            }
+            if self.states[at] == Closed::Nothing {
+                continue;
+            }
             let (sigma, closed) = (facet.of(&self.sigma), self.closed_mass(at));
             for (k, &a) in facet.nodes().iter().enumerate().filter(|(_, a)| self.is_covered[**a]) {
-                let rhat = given.augmentation(a) * areas[a];
-                let mut left = 0.0;
-                for (l, &b) in facet.nodes().iter().enumerate() {
-                    left += (facet.mass[k][l] + self.factors[a] * facet.stabilisation[k][l]) * lambda[b][0];
-                }
-                let force = closed[k].iter().zip(&sigma).map(|(n, s)| n * s).sum::<f64>();
-                let area = closed[k].iter().sum::<f64>();
-                responses[a].row += SVector::from_element((force - left) / rhat);
-                self.tractions[a] += force / sums[a].coverage;
-                self.shares[a] += area / sums[a].coverage;
+                let force = (0..MAX_CORNERS).map(|l| closed[k][l] * sigma[l]).sum::<f64>();
+                of_nodes[a].row += SVector::from_element(force);
+                self.tractions[a] += force;
+                self.shares[a] += closed[k].iter().sum::<f64>();
             }
+        }
+        for (a, response) in responses.iter_mut().enumerate().filter(|(a, _)| self.is_covered[*a]) {
+            response.row /= given.augmentation(a) * areas[a];
+            self.tractions[a] /= sums[a].coverage;
+            self.shares[a] /= sums[a].coverage;
         }
         for (a, response) in responses.iter_mut().enumerate().filter(|(a, _)| self.shares[*a] > 0.0) {
             response.state = State::Slip;
@@ -267,13 +275,16 @@ impl Points {
         memory::refill(&mut r.mortar, Vec3::zeros(), two.len())?;
         memory::refill(&mut r.rows, SVector::zeros(), one.len())?;
         for (at, facet) in self.facets.iter().enumerate() {
-            let t = facet.of(&self.sigma).map(|sigma| facet.normal * sigma);
+            if self.states[at] == Closed::Nothing {
+                continue;
+            }
+            let (sigma, own) = (facet.of(&self.sigma), self.closed_mass(at));
+            let sum = |n: &OfNodes, k: usize| (0..MAX_CORNERS).map(|a| n[a][k] * sigma[a]).sum::<f64>();
+            facet.nodes().iter().enumerate().for_each(|(k, &a)| r.nonmortar[a] += facet.normal * sum(&own, k));
             for place in facet.places() {
                 let Some(closed) = self.closed(at, place) else { break };
-                let f = pair_force(closed, &t);
-                facet.nodes().iter().zip(&f).for_each(|(&a, f)| r.nonmortar[a] += f);
-                let other = two.host_nodes(self.pairs[place].two);
-                other.iter().zip(&f[MORTAR..]).for_each(|(&c, f)| r.mortar[c] += f);
+                let other = two.host_nodes(self.pairs[place].two).iter().enumerate();
+                other.for_each(|(k, &c)| r.mortar[c] -= facet.normal * sum(&closed.ac, k));
             }
         }
         for (a, response) in responses.iter().enumerate().filter(|(a, _)| nodes.is_own(*a) && one.has_row(*a)) {

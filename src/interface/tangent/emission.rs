@@ -50,6 +50,16 @@ pub struct MortarBlock<'a> {
 /// `[j][i]`: component i of a row with respect to component j of a column's node, and a fourth number that nobody takes.
 pub type NodeBlock = [[f64; 4]; 3];
 
+/// What rows of several nodes have in common that depend on one number s, of one multiplier a node.
+pub struct Dependence<'a> {
+    /// What s depends on, in the order of [`Blocks::order`], each with what that says of it.
+    pub columns: &'a [(u32, Place)],
+    /// Of each displacement ds / dx; of a multiplier nothing is read.
+    pub slopes: &'a [[f64; 3]],
+    /// The sum of their sizes: not finite where one of them is not.
+    pub size: f64,
+}
+
 /// Weights of the multipliers of a facet, and their normals.
 pub type Weights = [f64; MAX_PARENT_NODES];
 pub type Directions = [Vec3; MAX_PARENT_NODES];
@@ -86,6 +96,21 @@ pub trait Blocks<const N: usize> {
             let (block, mut values) = (blocks.get(k).copied().unwrap_or_default(), [0.0; 9]);
             (0..3 * components).for_each(|ij| values[ij] = block[ij / components][ij % components]);
             self.node(row, column, &values[..3 * components]);
+        }
+    }
+
+    /// The row of a node with respect to what s depends on: `by_s` (d row / d s) times each slope, and `by_multiplier` in the column of
+    /// a multiplier.
+    fn products(&mut self, row: Place, of: &Dependence, by_s: &[f64; 3], by_multiplier: &[f64; 3]) {
+        let components = if matches!(row, Place::Displacement(_)) { 3 } else { N };
+        for ((_, column), slope) in of.columns.iter().zip(of.slopes) {
+            let mut values = [0.0; 9];
+            if matches!(column, Place::Multiplier(_)) {
+                self.node(row, *column, &by_multiplier[..components]);
+                continue;
+            }
+            (0..3 * components).for_each(|ij| values[ij] = by_s[ij % components] * slope[ij / components]);
+            self.node(row, *column, &values[..3 * components]);
         }
     }
 

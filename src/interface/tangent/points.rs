@@ -1,9 +1,9 @@
 //! The tangent where points decide, with weights that are frozen (docs/formulation.md 16.4). Tractions at points depend on sigma_A of
 //! a facet's nodes, and sigma_A = lambda_A + rhat_A nu_A . g_A / D_A on all nodes of the facets around A. So blocks are sums over
 //! nodes A of products: of what sigma_A acts on, and of what it depends on. Where sigma = 0 the tractions vanish: the border's motion
-//! adds nothing.
+//! adds nothing. Around nodes whose facets are all open nothing depends on sigma, and the products are left out.
 
-use super::emission::{Emitter, NodeBlock, Place};
+use super::emission::{Dependence, Emitter, Place};
 use super::union::{Pairs, Walk};
 use crate::error::Result;
 use crate::geometry::Vec3;
@@ -94,8 +94,10 @@ impl Around {
 struct Star {
     neighbours: Vec<Neighbour>,
     rows: Vec<Row>,
-    columns: Vec<(usize, Place)>,
-    blocks: Vec<NodeBlock>,
+    /// What sigma_A depends on in its order: which neighbour, or A's multiplier; its column; its slope.
+    order: Vec<(u32, usize)>,
+    columns: Vec<(u32, Place)>,
+    slopes: Vec<[f64; 3]>,
     /// Per node over both surfaces its place among the neighbours.
     places: Vec<usize>,
     row_places: Vec<usize>,
@@ -167,38 +169,44 @@ impl Star {
         }
     }
 
+    /// Puts what sigma_A depends on in its order.
+    fn sort<const N: usize>(&mut self, (a, nu): (usize, Vec3), emitter: &Emitter<N>) -> Result<()> {
+        let multiplier = self.neighbours.len();
+        let place = |k: usize| self.neighbours.get(k).map_or(Place::Multiplier(a), |n| Place::Displacement(n.node));
+        self.order.clear();
+        self.order.store_all((0..=multiplier).map(|k| (emitter.taker.order(place(k)), k)))?;
+        self.order.sort_unstable();
+        self.columns.clear();
+        self.columns.store_all(self.order.iter().map(|&(key, k)| (key, place(k))))?;
+        let slope = |k: usize| self.neighbours.get(k).map_or(Vec3::zeros(), |n| nu * n.slope);
+        self.slopes.clear();
+        self.slopes.store_all(self.order.iter().map(|&(_, k)| slope(k).into()))
+    }
+
+    /// `is_covered`: with numbers, whether A is.
     fn emit<const N: usize>(
         &mut self,
         given: Given<N>,
-        (a, nu, is_covered): (usize, Vec3, bool),
+        (a, nu, is_covered): (usize, Vec3, Option<bool>),
         emitter: &mut Emitter<N>,
     ) -> Result<()> {
         let areas = &given.history().areas;
-        self.columns.clear();
-        self.columns.store_all(self.neighbours.iter().map(|n| Place::Displacement(n.node)).enumerate())?;
-        self.columns.sort_unstable_by_key(|(k, place)| (emitter.taker.order(*place), *k));
-        memory::refill(&mut self.blocks, NodeBlock::default(), self.neighbours.len())?;
-        for row in &self.neighbours {
-            for (block, column) in self.blocks.iter_mut().zip(&self.neighbours) {
-                for j in 0..3 {
-                    let by = column.slope * nu[j];
-                    block[j] = [row.force.x * by, row.force.y * by, row.force.z * by, 0.0];
-                }
-            }
-            emitter.taker.row(Place::Displacement(row.node), &self.columns, &self.blocks);
-            emitter.taker.node(Place::Displacement(row.node), Place::Multiplier(a), row.force.as_slice());
+        self.sort((a, nu), emitter)?;
+        let size = self.slopes.iter().flatten().map(|slope| slope.abs()).sum();
+        let of = Dependence { columns: &self.columns, slopes: &self.slopes, size };
+        for row in self.neighbours.iter().filter(|row| is_covered.is_none() || row.force != Vec3::zeros()) {
+            let force = row.force.into();
+            emitter.taker.products(Place::Displacement(row.node), &of, &force, &force);
         }
         for row in &self.rows {
-            let b = row.node;
+            let (b, place) = (row.node, Place::Multiplier(row.node));
             let scale = given.row_scale(b) / (given.augmentation(b) * areas[b]);
-            for (block, column) in self.blocks.iter_mut().zip(&self.neighbours) {
-                for j in 0..3 {
-                    block[j] = [scale * row.closed * column.slope * nu[j], 0.0, 0.0, 0.0];
-                }
+            let own = scale * if b == a && is_covered == Some(false) { -areas[a] } else { row.closed - row.left };
+            if is_covered.is_some() && row.closed == 0.0 {
+                emitter.taker.node(place, Place::Multiplier(a), &[own]);
+            } else {
+                emitter.taker.products(place, &of, &[scale * row.closed, 0.0, 0.0], &[own, 0.0, 0.0]);
             }
-            emitter.taker.row(Place::Multiplier(b), &self.columns, &self.blocks);
-            let own = if b == a && !is_covered { -areas[a] } else { row.closed - row.left };
-            emitter.taker.node(Place::Multiplier(b), Place::Multiplier(a), &[scale * own]);
         }
         Ok(())
     }
@@ -222,10 +230,9 @@ pub fn blocks<const N: usize>(
             continue;
         }
         star.begin(given, a, &around)?;
-        let mut is_covered = false;
+        let is_covered = numbers.map(|numbers| numbers.points.is_covered[a]);
         if let Some(numbers) = numbers {
             around.around(a).iter().for_each(|&k| star.add(given, a, around.facets[k], numbers));
-            is_covered = numbers.points.is_covered[a];
         }
         star.emit(given, (a, normals[a], is_covered), emitter)?;
     }
