@@ -80,7 +80,7 @@ fn stabilising<const N: usize>(given: Given<N>, a: usize) -> f64 {
 
 impl Points {
     /// Finds what the step knows of its facets, once a step.
-    fn settle<const N: usize>(&mut self, given: Given<N>) -> Result<()> {
+    pub(super) fn settle<const N: usize>(&mut self, given: Given<N>) -> Result<()> {
         if self.is_settled {
             return Ok(());
         }
@@ -88,6 +88,8 @@ impl Points {
         surfaces.0.plane_normals(x.0, &mut self.planes)?;
         self.facets.clear();
         self.pairs.clear();
+        self.friction.points.clear();
+        self.friction.ends.clear();
         match given.history().weighted(surfaces) {
             Weighted::Facets(pairs) => {
                 pairs.chunk_by(|p, q| p.one == q.one).try_for_each(|pairs| self.settle_facet(given, pairs))?;
@@ -114,6 +116,9 @@ impl Points {
             let whole = segment.as_ref().map_or_else(PairWeights::default, integrate);
             sums.add(&whole, &[0.0; MAX_CORNERS]);
             self.pairs.store(PointPair { two: pair.two, whole, dual: pair.weights })?;
+            if given.setup.has_point_friction() {
+                self.friction.keep(segment.as_ref().map(|s| (&frame, s)), given.setup.options.rule)?;
+            }
         }
         let nodes = one.facets[f].as_slice();
         let sizes = std::array::from_fn(|k| nodes.get(k).map_or(0.0, |&a| given.size(a)));
@@ -137,6 +142,9 @@ impl Points {
                 (dual.ab[a][b], dual.ac[a][b]) = (pair.weights.ab[a][b], pair.weights.ac[a][b]);
             }
             self.pairs.store(PointPair { two: pair.two, whole, dual })?;
+            if given.setup.has_point_friction() {
+                self.friction.keep_of_lines((&own, &other), measure)?;
+            }
         }
         let area: f64 = parents.areas(f, x.0, parents.space)?.iter().take(MAX_PARENT_NODES).sum();
         let covered = mass.iter().flatten().sum::<f64>();
@@ -158,6 +166,7 @@ impl Points {
         nodes[..own.len()].copy_from_slice(own);
         let fade = coverage.fade;
         self.pairs[first..].iter_mut().for_each(|pair| pair.whole = scaled(&pair.whole, fade));
+        self.friction.fade(first, fade);
         let covered = fade * mass.iter().flatten().sum::<f64>();
         self.facets.store(PointFacet {
             one,
