@@ -92,6 +92,7 @@ static PetscErrorCode build(Model *model, PetscInt *status)
   PetscCall(contact_fields(contact, &fields));
   PetscCall(unknowns_create(physics, contact->n_interfaces, fields));
   PetscCall(parts_create(physics));
+  PetscCall(timed_create(physics));
   PetscCall(springs_create(model->scene, physics));
   PetscCall(held_create(solve));
   iterative_check(model->scene, solve);

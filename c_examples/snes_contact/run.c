@@ -52,10 +52,16 @@ static PetscErrorCode solve_in_turns(Model *model, Run *run, PetscBool *done)
 /* Solve at t and commit; `last`: t is the end of the run. */
 static PetscErrorCode step_to(Model *model, Run *run, PetscReal t, PetscBool asked, PetscBool last, PetscBool *done)
 {
-  Newton  *newton = &model->solve.newton;
-  PetscInt refused;
+  Newton   *newton = &model->solve.newton;
+  PetscInt  refused;
+  PetscBool changed;
   PetscFunctionBegin;
   model->physics.t = t;
+  PetscCall(timed_begin(&model->physics, t, &changed));
+  if (changed) {
+    PetscCall(held_create(&model->solve));
+    closing_find(&model->solve);
+  }
   PetscCall(supports_values(&model->physics, t));
   PetscCall(heat_begin(&model->heat, t));
   if (model->physics.dynamics) PetscCall(dynamics_begin(&model->physics));
@@ -65,6 +71,7 @@ static PetscErrorCode step_to(Model *model, Run *run, PetscReal t, PetscBool ask
     PetscFunctionReturn(PETSC_SUCCESS);
   }
   PetscCall(solve_in_turns(model, run, done));
+  if (*done) PetscCall(timed_catch(&model->physics));
   if (*done) PetscCall(remote_check(&model->physics, newton->why, sizeof(newton->why)));
   if (*done && !newton->why[0]) {
     PetscCall(slide_check(&model->contact, &newton->slid, newton->why, sizeof(newton->why)));
@@ -92,6 +99,7 @@ static PetscErrorCode accept(Model *model, Run *run)
 {
   PetscFunctionBegin;
   PetscCall(dynamics_accept(&model->physics));
+  PetscCall(timed_accept(&model->physics));
   /* How a gap closes is no rate, either. */
   run->past.have_before = (PetscBool)(!times_bend(&model->physics, model->physics.t) && !model->solve.closing.ever_cut);
   PetscCall(VecCopy(run->past.last, run->past.before));
@@ -154,6 +162,7 @@ PetscErrorCode run(Model *model, int *exit_code)
 
   PetscFunctionBegin;
   *exit_code = 0;
+  timed_fade(&model->physics, steps->n_targets, steps->targets);
   PetscCall(times_add_kinks(&model->physics, &model->solve.steps));
   PetscCall(run_create(model, &run));
   PetscCall(summary_create(&model->output, &run.summary));

@@ -46,6 +46,7 @@ from scene import Driver, SceneError  # noqa: E402
 from springs import springs  # noqa: E402
 from stepping import stepping  # noqa: E402
 from thrown import thrown  # noqa: E402
+from timed import timed  # noqa: E402
 from touching import touching_full, touching_quick  # noqa: E402
 from turning import turning  # noqa: E402
 from verdict import Verdicts  # noqa: E402
@@ -99,6 +100,7 @@ GROUPS = {
     "springs": springs,
     "stepping": stepping,
     "thrown": thrown,
+    "timed": timed,
     "touching": touching_quick,
     "touching_full": touching_full,  # some minutes; not among the tests
     "turning": turning,

@@ -8,9 +8,9 @@ from scene import write
 
 # Linear cells, weights of the reference, a uniform field: the linear solver's rounding is left.
 PATCH_BOUND = 1e-11
-# Three rings of 24, 30 and 38 facets, with the facets' chords corrected. With dual multipliers, which follow what is left of the
-# chords from node to node, measured 4.8e-3.
-RINGS_BOUND = {"standard": 3e-3, "dual": 6e-3}
+# Three rings of 24, 30 and 38 facets, with the facets' chords corrected. With frozen dual weights the whole error of the bodies, which are
+# polygons, is left: measured 4.8e-3 (docs/accuracy.md, "Round surfaces of few facets").
+RINGS_BOUND = {("standard", "reference"): 3e-3, ("dual", "current"): 3e-3, ("dual", "reference"): 6e-3}
 # The same without the correction is far off: the bound above can fail.
 UNCORRECTED = 3e-2
 # An interference in one step and over ten: weights of the reference, so that the answer does not depend on the path.
@@ -164,10 +164,13 @@ def rings(verdicts, driver):
     exact, runs = lame(), {}
     for k in range(2):
         verdicts.near(f"rings: Lame's formulas, circle {k + 1}", exact[k], PUBLISHED[k], PUBLISHED_BOUND, "published")
-    for basis in ("standard", "dual"):
-        runs[basis] = driver.run(write(ring_scene(FACETS, True, basis), driver.output / f"rings_{basis}.yaml"))
-        for k, found in enumerate(pressures(runs[basis])):
-            verdicts.near(f"rings, {basis}: pressure on circle {k + 1}", found, exact[k], RINGS_BOUND[basis], "Lame")
+    for (basis, weights), bound in RINGS_BOUND.items():
+        scene = write(ring_scene(FACETS, True, basis), driver.output / f"rings_{basis}.yaml")
+        run = driver.run(scene, "-first_weights", weights, "-second_weights", weights, label=f"rings_{basis}_{weights}")
+        if weights == "reference":
+            runs[basis] = run
+        for k, found in enumerate(pressures(run)):
+            verdicts.near(f"rings, {basis}, weights {weights}: pressure on circle {k + 1}", found, exact[k], bound, "Lame")
     runs["chords"] = driver.run(write(ring_scene(FACETS, False, "standard"), driver.output / "rings_chords.yaml"))
     off = np.abs(pressures(runs["chords"]) / exact - 1).max()
     verdicts.at_least("rings, chords as they are: error of a pressure", off, UNCORRECTED, "the lines above can fail")

@@ -48,7 +48,7 @@ def bed(verdicts, driver):
         }
         path = write(scene, driver.output / f"bed_{cell}.yaml")
         forces = []
-        for ranks in (1, 2, 3):
+        for ranks in (1, 2, 3) if cell == "hex" else (1,):
             run = driver.run(path, ranks=ranks, label=f"bed_{cell}_{ranks}")
             points, _, u = run.mesh()
             low = points[:, 2] == 0
@@ -102,7 +102,7 @@ def chain(verdicts, driver):
     }
     path = write(scene, driver.output / "chain.yaml")
     exact = {"link": -force[0] * link / (link + ground), "rest": -force[0] * ground / (link + ground), "c00": -force[0] / 4}
-    for ranks in (1, 2, 3):
+    for ranks in (1, 3):
         run = driver.run(path, *(("-snes_test_jacobian",) if ranks == 1 else ()), ranks=ranks, label=f"chain_{ranks}")
         for name, value in exact.items():
             error = abs(run.steps[-1]["springs"][name][0] - value) / force[0]

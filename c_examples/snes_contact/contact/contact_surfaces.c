@@ -91,6 +91,7 @@ PetscErrorCode surfaces_read(Scene *scene, Contact *contact, Interface *interfac
   PetscInt      *nodes[2], n;
   PetscFunctionBegin;
   PetscCall(find(scene, mesh, interface, found));
+  PetscCall(timed_refuse(scene, contact->physics, interface->name, found[0]));
   for (int side = 0; side < 2; side++) {
     PetscCall(surface_share(mesh, found[side], &interface->share[side], side ? &interface->n2 : &interface->n1, &nodes[side]));
     interface->surface[side] = &interface->share[side];

@@ -151,9 +151,10 @@ PetscErrorCode loads_values(Physics *physics)
   for (PetscInt l = 0; l < physics->n_loads; l++)
     PetscCall(VecAXPY(physics->f_external, curve_value(&physics->loads[l].curve, physics->t), physics->loads[l].forces));
   if (physics->f_thermal) PetscCall(VecAXPY(physics->f_external, 1, physics->f_thermal));
-  if (!loads_follow(physics)) PetscFunctionReturn(PETSC_SUCCESS);
+  if (!loads_follow(physics) && !physics->timed) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(VecGetArray(physics->f_external, &forces));
-  PetscCall(follow(physics, forces, NULL));
+  PetscCall(timed_forces(physics, forces));
+  if (loads_follow(physics)) PetscCall(follow(physics, forces, NULL));
   PetscCall(VecRestoreArray(physics->f_external, &forces));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

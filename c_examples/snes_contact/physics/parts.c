@@ -158,7 +158,7 @@ PetscErrorCode parts_add_squares(Physics *physics, Vec local, int prescribed, in
     if (unknowns->ghost[k]) continue;
     PetscCall(PetscSectionGetOffset(unknowns->section, mesh->points[k], &at));
     for (int i = 0; i < 3; i++) {
-      const int kind = unknowns->equations[at + i] < 0 ? prescribed : free;
+      const int kind = entry_held(physics, at + i) ? prescribed : free;
       if (kind >= 0) squares[kind] += PetscSqr(PetscAbsScalar(f[at + i]));
     }
   }

@@ -38,6 +38,7 @@ PetscErrorCode physics_destroy(Physics *physics)
   PetscCall(rigids_destroy(physics));
   PetscCall(dynamics_destroy(physics));
   PetscCall(springs_destroy(physics));
+  PetscCall(timed_destroy(physics));
   PetscCall(PetscFree(physics->supports));
   PetscCall(PetscFree(physics->loads));
   PetscCall(PetscFree(physics->materials));

@@ -16,6 +16,7 @@
 struct cJSON;
 typedef struct Dynamics Dynamics; /* dynamics.h */
 typedef struct Springs  Springs;  /* springs.h */
+typedef struct Timed    Timed;    /* timed.h */
 
 /* x - origin = R (X - origin + factor(t) (value + given + gradient (X - origin))) in the components of the mask (bit i:
  * axis i); R turns about `rotate` by rotate_factor(t) |rotate| radians */
@@ -28,6 +29,8 @@ typedef struct {
   PetscInt  n_vertices, *vertices; /* of the piece of the mesh; forgotten once it is distributed */
   PetscBool  from_file;
   PetscReal *given; /* from a file, 3 per vertex of the piece, once it is distributed of those here */
+  PetscBool timed, active;       /* it does not hold from start to end; it does in the step of now. Others are active always. */
+  PetscReal from, until, fade;   /* timed: it holds from one time to the other; how long its reaction takes to fade, -1: not said */
   /* of the last evaluation, summed over ranks by supports_reactions(); the moment is about `origin`, of a rigid body that of the
    * turns that are prescribed */
   PetscReal reaction[3], moment[3];
@@ -145,6 +148,7 @@ typedef struct {
   PetscLogDouble seconds;                       /* in bulk_forces() and bulk_stiffness() */
   Dynamics      *dynamics;                      /* NULL: statics */
   Springs       *springs;                       /* NULL: none */
+  Timed         *timed;                         /* NULL: every support holds from start to end */
 } Physics;
 
 /* material_scene.c */
@@ -165,6 +169,30 @@ PetscErrorCode supports_reactions(Physics *physics);
 /* which support turns each part, -1: none; a position turned as that support does from t0 to t */
 PetscErrorCode supports_turning(const Physics *physics, PetscInt support_of[]);
 void           supports_turn(const Support *support, PetscReal t0, PetscReal t, PetscReal x[3]);
+
+/* timed_scene.c, timed.c, timed_rows.c, timed_change.c: supports that hold for a part of the run. Their displacements are unknowns, in whose rows stands, while they hold, u = what the
+ * support says. All of these are for no such support, too. */
+PetscErrorCode timed_read(Scene *scene, Physics *physics, Support *support);
+PetscErrorCode timed_check(Scene *scene, const Physics *physics); /* once their vertices are known */
+const Support *timed_first(const Physics *physics);               /* NULL: none */
+PetscErrorCode timed_refuse(Scene *scene, const Physics *physics, const char *interface, const Surface *nonmortar); /* on its nodes */
+PetscErrorCode timed_create(Physics *physics);                    /* once there are unknowns */
+PetscErrorCode timed_destroy(Physics *physics);
+/* for the step that ends at t: which hold, `changed`: others than before; after a converged solve; once it is accepted */
+PetscErrorCode timed_begin(Physics *physics, PetscReal t, PetscBool *changed);
+PetscErrorCode timed_catch(Physics *physics);
+PetscErrorCode timed_accept(Physics *physics);
+PetscErrorCode timed_place(Physics *physics, Vec x);                    /* puts what is held where it belongs */
+PetscErrorCode timed_residual(Physics *physics, PetscReal scale, Vec r); /* in place of what their rows say */
+PetscErrorCode timed_rows(Physics *physics, PetscReal scale, Mat matrix);
+PetscErrorCode timed_forces(Physics *physics, PetscScalar *forces);     /* adds reactions that fade, at physics->t */
+PetscBool      timed_bend(const Physics *physics, PetscReal t);         /* is one let go or activated at t, or has faded? */
+PetscInt       timed_times(const Physics *physics, PetscReal times[]);  /* of such changes, but for fading, 2 a support at most */
+void           timed_fade(Physics *physics, PetscInt n, const PetscReal times[]); /* where the scene does not say: to the next of these */
+PetscErrorCode timed_values(Physics *physics);                          /* for supports_values() */
+void           timed_vectors(const Physics *physics, Vec *place, Vec *let_go); /* local: what restart files keep */
+/* Is an entry of a local vector prescribed now, as no unknown or by a support that holds? */
+PetscBool      entry_held(const Physics *physics, PetscInt entry);
 
 /* rigids_scene.c, rigids.c, rigids_step.c */
 PetscErrorCode rigids_read(Scene *scene, Physics *physics);

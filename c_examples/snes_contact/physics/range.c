@@ -95,7 +95,7 @@ static PetscErrorCode measure(const Physics *physics, Vec u_local, PetscReal lar
     for (PetscInt k = 0; k < 3 * n; k++) {
       const PetscInt dof = cells->dofs[first + k / 3] + k % 3;
       u[k]               = PetscRealPart(displacements[dof]);
-      held               = (PetscBool)(held && physics->unknowns.equations[dof] < 0);
+      held               = (PetscBool)(held && entry_held(physics, dof));
     }
     if (held) continue;
     cell_centre_gradient(cell_kind(mesh->dimension, n), &mesh->space, &physics->materials[b], cells->X + 3 * first, u, H);

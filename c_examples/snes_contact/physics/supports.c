@@ -153,6 +153,7 @@ static PetscErrorCode visit(Physics *physics, Vec local, PetscReal t, SupportMot
     PetscInt        n;
     const PetscInt *points;
     IS              is;
+    if (support->timed && !support->active) continue;
     PetscCall(PetscSNPrintf(label, sizeof(label), "support.%s", support->name));
     PetscCall(DMGetStratumIS(mesh->dm, label, 1, &is));
     if (!is) continue; /* no such vertex on this rank */
@@ -216,6 +217,7 @@ PetscErrorCode supports_values(Physics *physics, PetscReal t)
   PetscFunctionBegin;
   PetscCall(VecZeroEntries(physics->prescribed_local)); /* removed multipliers are prescribed to be zero */
   PetscCall(visit(physics, physics->prescribed_local, t, SUPPORT_PLACE, set_values));
+  PetscCall(timed_values(physics));
   PetscCall(rigids_prescribe(physics, t, physics->prescribed_local));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -270,7 +272,7 @@ PetscErrorCode supports_turning(const Physics *physics, PetscInt support_of[])
     PetscInt         n;
     const PetscInt  *points;
     IS               is;
-    if (w[0] == 0 && w[1] == 0 && w[2] == 0) continue;
+    if ((w[0] == 0 && w[1] == 0 && w[2] == 0) || (physics->supports[s].timed && !physics->supports[s].active)) continue;
     PetscCall(PetscSNPrintf(label, sizeof(label), "support.%s", physics->supports[s].name));
     PetscCall(DMGetStratumIS(mesh->dm, label, 1, &is));
     if (!is) continue; /* no such vertex on this rank */

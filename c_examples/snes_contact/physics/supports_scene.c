@@ -90,9 +90,9 @@ static PetscErrorCode check_overlap(Scene *scene, Physics *physics, PetscInt s, 
     for (int i = 0; i < 3; i++) {
       const Support *earlier;
       if (!(support->mask & (1 << i))) continue;
-      physics->prescribed[v] |= 1 << i;
+      if (!support->timed) physics->prescribed[v] |= 1 << i;
       if (first[3 * v + i] < 0) {
-        first[3 * v + i] = s;
+        if (!support->timed) first[3 * v + i] = s;
         continue;
       }
       earlier = &physics->supports[first[3 * v + i]];
@@ -115,8 +115,10 @@ static PetscErrorCode check_overlaps(Scene *scene, Physics *physics)
   PetscCall(PetscMalloc1(n, &first));
   for (PetscInt k = 0; k < n; k++)
     first[k] = -1;
-  for (PetscInt s = 0; s < physics->n_supports; s++)
-    PetscCall(check_overlap(scene, physics, s, first));
+  for (PetscInt s = 0; s < 2 * physics->n_supports; s++) { /* those that hold from start to end first */
+    if (physics->supports[s % physics->n_supports].timed == (s >= physics->n_supports)) PetscCall(check_overlap(scene, physics, s % physics->n_supports, first));
+  }
+  PetscCall(timed_check(scene, physics));
   PetscCall(PetscFree(first));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -215,6 +217,7 @@ static PetscErrorCode read_support(Scene *scene, Physics *physics, const char *n
     PetscCall(curve_read(scene, name, "rotate_curve", physics->end, &support->rotate_curve));
   else
     PetscCall(curve_copy(&support->curve, &support->rotate_curve));
+  PetscCall(timed_read(scene, physics, support));
   if (support->rigid >= 0) rigids_support(scene, physics, number);
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -27,21 +27,27 @@ static const PetscReal FAR = 10;
 /* How far a rigid body may turn in one step, in radians: what it meets is looked for along straight ways. */
 static const PetscReal TURN = 0.2;
 
+void closing_find(Solve *solve)
+{
+  Closing  *closing = &solve->closing;
+  PetscBool any     = PETSC_FALSE;
+  for (PetscInt b = 0; b < solve->mesh->n_bodies; b++) {
+    closing->free[b] = held_free(solve, b);
+    any              = (PetscBool)(any || closing->free[b]);
+  }
+  closing->possible = (PetscBool)(any && solve->contact->n_interfaces && solve->steps.closing);
+}
+
 PetscErrorCode closing_create(Solve *solve)
 {
   const Mesh  *mesh    = solve->mesh;
   Closing     *closing = &solve->closing;
   PetscScalar *ones;
-  PetscBool    any = PETSC_FALSE;
   Vec          local;
 
   PetscFunctionBegin;
   PetscCall(PetscCalloc2(mesh->n_bodies, &closing->free, mesh->n_bodies, &closing->group));
-  for (PetscInt b = 0; b < mesh->n_bodies; b++) {
-    closing->free[b] = held_free(solve, b);
-    any              = (PetscBool)(any || closing->free[b]);
-  }
-  closing->possible = (PetscBool)(any && solve->contact->n_interfaces && solve->steps.closing);
+  closing_find(solve);
   PetscCall(DMCreateGlobalVector(mesh->dm, &closing->displacements));
   PetscCall(VecDuplicate(closing->displacements, &closing->work));
   PetscCall(DMCreateLocalVector(mesh->dm, &local));

@@ -72,7 +72,7 @@ static PetscErrorCode prescribed_increments(Solve *solve, PetscReal t0, Vec x, V
   PetscCall(VecGetArray(increments, &left));
   PetscCall(VecGetArrayRead(physics->prescribed_local, &p));
   for (PetscInt k = 0; k < physics->unknowns.n_local; k++)
-    left[k] = physics->unknowns.equations[k] < 0 ? p[k] - left[k] : 0;
+    left[k] = entry_held(physics, k) ? p[k] - left[k] : 0;
   for (PetscInt r = 0; r < physics->n_rigids; r++) { /* nodes that follow their body's unknowns */
     for (PetscInt k = 0; k < 3 * physics->rigids[r].n_nodes; k++)
       left[physics->rigids[r].dofs[k / 3] + k % 3] = 0;
@@ -114,6 +114,7 @@ static PetscErrorCode move_supports(Solve *solve, PetscReal t0, Vec x)
     PetscCall(VecZeroEntries(b));
     PetscCall(DMLocalToGlobalBegin(mesh->dm, local, ADD_VALUES, b));
     PetscCall(DMLocalToGlobalEnd(mesh->dm, local, ADD_VALUES, b));
+    PetscCall(timed_rows(physics, solve->stiffness, matrix));
     PetscCall(solve_linear(matrix, b, dx));
     PetscCall(VecAXPY(x, -1, dx));
     PetscCall(MatDestroy(&matrix));
@@ -141,6 +142,7 @@ PetscErrorCode first_iterate(Solve *solve, const Past *past, PetscBool extrapola
   } else {
     PetscCall(move_supports(solve, past->t_last, x));
   }
+  PetscCall(timed_place(solve->physics, x));
   condensed_predict(solve->contact, factor);
   /* What is extrapolated turns as it has turned. */
   if (!extrapolate) PetscCall(normals_turn_multipliers(solve->contact, x));

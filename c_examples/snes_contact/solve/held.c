@@ -311,11 +311,13 @@ PetscErrorCode held_describe(const Solve *solve, char text[], size_t length)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* At the start: notes what contact alone must hold. */
+/* At the start, and where supports change: notes what contact alone must hold. */
 PetscErrorCode held_create(Solve *solve)
 {
   char text[1024];
   PetscFunctionBegin;
+  PetscCall(PetscFree(solve->held.loose));
+  cJSON_Delete(solve->held.by_contact);
   PetscCall(PetscCalloc1(solve->physics->parts.n, &solve->held.loose));
   solve->held.by_contact = cJSON_CreateObject();
   if (solve->physics->dynamics) PetscFunctionReturn(PETSC_SUCCESS); /* inertia holds everything */

@@ -95,7 +95,7 @@ PetscErrorCode motions_create(const Physics *physics, Vec u_local, const PetscBo
       PetscInt        columns[MODES];
       PetscReal       values[MODES];
       int             n = 0;
-      if (physics->unknowns.equations[at[k] + i] >= 0 || rigids_moves(physics, physics->mesh->original[k], i)) continue;
+      if (!entry_held(physics, at[k] + i) || rigids_moves(physics, physics->mesh->original[k], i)) continue;
       if (is_turn(physics, physics->mesh->original[k])) {
         static const PetscReal held   = 1;
         const PetscInt         column = MODES * m->place[part[k]] + 3 + i;

@@ -56,6 +56,12 @@ static PetscErrorCode archive_past(Solve *solve, Past *past, Archive *archive)
   PetscCall(archive_reals(archive, "t_last", 1, &past->t_last));
   PetscCall(archive_reals(archive, "t_before", 1, &past->t_before));
   PetscCall(archive_bools(archive, "have_before", 1, &past->have_before));
+  if (solve->physics->timed) {
+    Vec place, let_go;
+    timed_vectors(solve->physics, &place, &let_go);
+    PetscCall(contact_archive_vector(solve->contact, "timed.place", place, archive));
+    PetscCall(contact_archive_vector(solve->contact, "timed.let_go", let_go, archive));
+  }
   PetscCall(contact_archive_unknowns(solve->contact, "last", past->last, archive));
   if (past->have_before) PetscCall(contact_archive_unknowns(solve->contact, "before", past->before, archive));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -177,6 +177,7 @@ PetscErrorCode newton_solve(Solve *solve, const Past *past, Vec x, PetscBool *co
 
 /* closing.c: bodies that contact alone holds and that do not touch yet */
 PetscErrorCode closing_create(Solve *solve);
+void           closing_find(Solve *solve); /* which bodies the supports leave free */
 PetscErrorCode closing_destroy(Solve *solve);
 PetscErrorCode closing_limit_steps(Solve *solve, SNESLineSearch line_search);
 PetscErrorCode closing_needed(Solve *solve, Vec start, PetscBool *needed);
@@ -185,7 +186,7 @@ PetscBool      closing_settled(const Solve *solve);
 PetscErrorCode closing_shift(Solve *solve, Mat matrix);
 
 /* held.c: which bodies contact alone must hold, as a sentence; which ones nothing holds */
-PetscErrorCode held_create(Solve *solve);
+PetscErrorCode held_create(Solve *solve); /* and again, with closing_find(), where other supports hold from now on */
 PetscErrorCode held_destroy(Solve *solve);
 PetscErrorCode held_check(Solve *solve);
 PetscErrorCode held_settle(Solve *solve, PetscBool accepted);

@@ -31,6 +31,7 @@ static PetscErrorCode residual(SNES snes, Vec x, Vec r, void *context)
   PetscCall(DMLocalToGlobalEnd(solve->mesh->dm, solve->physics->f_local, ADD_VALUES, r));
   PetscCall(parts_measure(solve->physics));
   if (!inverted && !refused) PetscCall(condensed_residual(solve->contact, r, &refused));
+  PetscCall(timed_residual(solve->physics, solve->stiffness, r));
   solve->outside = (PetscBool)(inverted || refused);
   if (solve->outside) PetscCall(SNESSetFunctionDomainError(snes));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -59,6 +60,7 @@ static PetscErrorCode tangent(SNES snes, Vec x, Mat J, Mat P, void *context)
   PetscCall(MatAssemblyEnd(P, MAT_FINAL_ASSEMBLY));
   if (!inverted && !refused) PetscCall(closing_shift(solve, P));
   if (!inverted && !refused) PetscCall(condensed_matrix(solve->contact, x, P, &refused));
+  PetscCall(timed_rows(solve->physics, solve->stiffness, P));
   if (inverted || refused) PetscCall(SNESSetJacobianDomainError(snes));
   if (J != P) {
     PetscCall(MatAssemblyBegin(J, MAT_FINAL_ASSEMBLY));

@@ -70,7 +70,7 @@ static PetscErrorCode motion(const Solve *solve, const PetscBool *idle, Vec from
       d[i] = PetscRealPart(u1[at + i] - u0[at + i]);
       sums[4 * p + i] += d[i];
       /* an idle part's own supports may move it, too */
-      if (!idle[p] || solve->physics->unknowns.equations[at + i] < 0) squared += d[i] * d[i];
+      if (!idle[p] || entry_held(solve->physics, at + i)) squared += d[i] * d[i];
     }
     *most = PetscMax(*most, PetscSqrtReal(squared));
   }

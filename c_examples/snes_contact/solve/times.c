@@ -1,4 +1,4 @@
-/* The times that steps must meet: those of the scene, and with automatic steps the kinks of curves. */
+/* The times that steps must meet: those of the scene, those at which supports change, and with automatic steps the kinks of curves. */
 #include "solve/solve.h"
 
 /* `automatic` and what goes with it; lengths of steps are times. */
@@ -122,7 +122,7 @@ PetscBool times_bend(const Physics *physics, PetscReal t)
 {
   Kink kink = {t, PETSC_FALSE};
   each_curve(physics, look_for_kink, &kink);
-  return kink.bends;
+  return (PetscBool)(kink.bends || timed_bend(physics, t));
 }
 
 static void count_points(const Curve *curve, void *context)
@@ -130,29 +130,39 @@ static void count_points(const Curve *curve, void *context)
   *(PetscInt *)context += curve->n;
 }
 
-/* A kink within the run is a time to meet, unless it is one already. */
+/* A time within the run, unless it is one already. */
+static void add_time(PetscReal t, Steps *steps)
+{
+  for (PetscInt j = 0; j < steps->n_targets; j++) {
+    if (curve_same_time(steps->targets[j], t)) return;
+  }
+  if (t > 0 && t < steps->end) steps->targets[steps->n_targets++] = t;
+}
+
+/* Kinks within the run are times to meet. */
 static void add_kinks(const Curve *curve, void *context)
 {
   Steps *steps = context;
   for (PetscInt k = 0; k < curve->n; k++) {
-    const PetscReal t = curve->points[2 * k];
-    PetscBool       known = PETSC_FALSE;
-    for (PetscInt j = 0; j < steps->n_targets; j++)
-      known = (PetscBool)(known || curve_same_time(steps->targets[j], t));
-    if (t > 0 && t < steps->end && !known && curve_bends(curve, t)) steps->targets[steps->n_targets++] = t;
+    if (curve_bends(curve, curve->points[2 * k])) add_time(curve->points[2 * k], steps);
   }
 }
 
-/* With automatic steps: all times to meet, in order, and which of them the scene asked for. */
+/* All times to meet, in order, and which of them the scene asked for. */
 PetscErrorCode times_add_kinks(const Physics *physics, Steps *steps)
 {
   PetscInt   n_points = 0, next = 0, n_asked = steps->n_targets;
-  PetscReal *asked    = steps->targets;
+  PetscReal *asked    = steps->targets, *changes;
+  PetscInt   n_changes;
 
   PetscFunctionBegin;
   each_curve(physics, count_points, &n_points);
-  PetscCall(PetscMalloc1(n_asked + n_points, &steps->targets));
+  PetscCall(PetscMalloc1(n_asked + n_points + 2 * physics->n_supports, &steps->targets));
+  PetscCall(PetscMalloc1(2 * physics->n_supports, &changes));
+  n_changes = timed_times(physics, changes);
   PetscCall(PetscArraycpy(steps->targets, asked, n_asked));
+  for (PetscInt k = 0; k < n_changes; k++)
+    add_time(changes[k], steps);
   if (steps->automatic) each_curve(physics, add_kinks, steps);
   PetscCall(PetscSortReal(steps->n_targets, steps->targets));
   PetscCall(PetscCalloc1(steps->n_targets, &steps->asked));
@@ -160,6 +170,7 @@ PetscErrorCode times_add_kinks(const Physics *physics, Steps *steps)
     steps->asked[k] = (PetscBool)(next < n_asked && steps->targets[k] == asked[next]);
     if (steps->asked[k]) next++;
   }
+  PetscCall(PetscFree(changes));
   PetscCall(PetscFree(asked));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

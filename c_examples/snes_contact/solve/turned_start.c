@@ -30,7 +30,7 @@ static PetscErrorCode turn_all(const Physics *physics, PetscReal t0, const Petsc
       supports_turn(&physics->supports[support_of[part]], t0, physics->t, x);
       for (int i = 0; i < 3; i++) {
         v[dof + i] = x[i] - cells->X[3 * k + i];
-        if (physics->unknowns.equations[dof + i] >= 0) continue;
+        if (!entry_held(physics, dof + i)) continue;
         left[part] = PetscMax(left[part], PetscAbsScalar(p[dof + i] - v[dof + i]));
         all[part]  = PetscMax(all[part], PetscAbsScalar(p[dof + i] - u[dof + i]));
       }

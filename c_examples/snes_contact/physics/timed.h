@@ -1,0 +1,22 @@
+/* What the files of supports that change share (timed.c). */
+#ifndef SNES_CONTACT_TIMED_H
+#define SNES_CONTACT_TIMED_H
+#include "physics/physics.h"
+
+struct Timed {
+  PetscBool *held;                   /* of the entries of a local vector */
+  Vec        place, let_go, caught;  /* local: p less what the support says; reactions that fade, complete at owned entries; the last ones */
+};
+
+/* Calls for each entry of a support that is an unknown. */
+typedef void (*EntryVisit)(const Support *support, PetscInt entry, PetscBool owned, void *context);
+PetscErrorCode timed_visit(const Physics *physics, const Support *support, EntryVisit action, void *context);
+
+typedef struct {
+  const PetscScalar *from;
+  PetscScalar       *to;
+} EntryCopies;
+
+/* A step ends at such a time: is t beyond it? */
+PetscBool timed_past(PetscReal t, PetscReal time);
+#endif

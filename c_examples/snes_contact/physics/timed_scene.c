@@ -1,0 +1,94 @@
+/* Supports that change (timed.c) as the scene describes them, and where they cannot be. */
+#include "physics/physics.h"
+
+PetscErrorCode timed_read(Scene *scene, Physics *physics, Support *support)
+{
+  const char     *name  = support->name;
+  const PetscBool until = scene_has(scene, name, "until"), from = scene_has(scene, name, "from");
+  PetscFunctionBegin;
+  support->active = PETSC_TRUE;
+  support->until  = PETSC_MAX_REAL;
+  support->fade   = -1;
+  scene_real(scene, name, "from", &support->from);
+  scene_real(scene, name, "until", &support->until);
+  scene_real(scene, name, "fade", &support->fade);
+  support->timed = (PetscBool)(support->from > 0 || until);
+  if (support->from < 0) scene_fail(scene, name, "from", "a run begins at t = 0, not at %g.", (double)support->from);
+  if (support->until <= support->from) scene_fail(scene, name, "until", "it must be after `from`, %g.", (double)support->from);
+  if (scene_has(scene, name, "fade") && !until) scene_fail(scene, name, "fade", "only with `until`: how long the reaction takes to fade.");
+  if (scene_has(scene, name, "fade") && support->fade < 0) scene_fail(scene, name, "fade", "it cannot be negative.");
+  if (!support->timed) PetscFunctionReturn(PETSC_SUCCESS);
+  if (physics->dynamics || scene_has(scene, "dynamics", "rho_inf"))
+    scene_fail(scene, name, from ? "from" : "until", "`dynamics` has supports that hold from start to end only.");
+  if (support->rigid >= 0)
+    scene_fail(scene, name, from ? "from" : "until", "its body is rigid, whose supports hold from start to end: give it a force, or mesh it.");
+  if (support->from > 0 && (support->rotate[0] != 0 || support->rotate[1] != 0 || support->rotate[2] != 0))
+    scene_fail(scene, name, "rotate", "a support that is activated moves nodes from where they are: it cannot turn them.");
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Two that hold the same component of a vertex must not do it at one time. */
+static PetscErrorCode check_pair(Scene *scene, const Physics *physics, const Support *a, const Support *b)
+{
+  char       text[256];
+  PetscInt   bad = -1;
+  PetscBool *of_a;
+  PetscFunctionBegin;
+  PetscCall(PetscCalloc1(physics->mesh->n_vertices, &of_a));
+  for (PetscInt k = 0; k < a->n_vertices; k++)
+    of_a[a->vertices[k]] = PETSC_TRUE;
+  for (PetscInt k = 0; k < b->n_vertices && bad < 0; k++) {
+    if (of_a[b->vertices[k]]) bad = physics->mesh->numbers[b->vertices[k]];
+  }
+  PetscCall(PetscFree(of_a));
+  PetscCall(PetscSNPrintf(text, sizeof(text), "'%s' holds one of its vertices, too, at the same time: supports that change hold vertices of their own, or "
+                                              "one after the other.", a->name));
+  PetscCall(scene_fail_first(scene, bad, b->name, "components", text));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+PetscErrorCode timed_check(Scene *scene, const Physics *physics)
+{
+  PetscFunctionBegin;
+  for (PetscInt a = 0; a < physics->n_supports; a++) {
+    for (PetscInt b = a + 1; b < physics->n_supports; b++) {
+      const Support *one = &physics->supports[a], *two = &physics->supports[b];
+      if (one->timed && two->timed && one->mask & two->mask && PetscMax(one->from, two->from) < PetscMin(one->until, two->until))
+        PetscCall(check_pair(scene, physics, one, two));
+    }
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+const Support *timed_first(const Physics *physics)
+{
+  for (PetscInt s = 0; s < physics->n_supports; s++) {
+    if (physics->supports[s].timed) return &physics->supports[s];
+  }
+  return NULL;
+}
+
+/* A node with a multiplier: what the support does there, and what contact does, could not be told apart. */
+PetscErrorCode timed_refuse(Scene *scene, const Physics *physics, const char *interface, const Surface *nonmortar)
+{
+  PetscFunctionBegin;
+  for (PetscInt s = 0; s < physics->n_supports; s++) {
+    const Support *support = &physics->supports[s];
+    char           text[512];
+    PetscInt       bad = -1;
+    PetscBool     *on;
+    if (!support->timed) continue;
+    PetscCall(PetscCalloc1(physics->mesh->n_vertices, &on));
+    for (PetscInt k = 0; k < nonmortar->offsets[nonmortar->n_faces]; k++)
+      on[nonmortar->vertices[k]] = PETSC_TRUE;
+    for (PetscInt k = 0; k < support->n_vertices && bad < 0; k++) {
+      if (on[support->vertices[k]]) bad = physics->mesh->numbers[support->vertices[k]];
+    }
+    PetscCall(PetscFree(on));
+    PetscCall(PetscSNPrintf(text, sizeof(text),
+                            "it holds nodes of '%s', the non-mortar side of '%s', for a part of the run only: nodes with multipliers are held from start "
+                            "to end, or not. Hold other nodes of the body, or make it the mortar side.", nonmortar->name, interface));
+    PetscCall(scene_fail_first(scene, bad, support->name, support->from > 0 ? "from" : "until", text));
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
