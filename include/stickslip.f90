@@ -235,7 +235,7 @@ module stickslip
   integer(c_int64_t), parameter :: stickslip_node_response_size = 408
   integer(c_int64_t), parameter :: stickslip_node_size = 240
   integer(c_int64_t), parameter :: stickslip_facet_size = 72
-  integer(c_int64_t), parameter :: stickslip_equilibrium_size = 96
+  integer(c_int64_t), parameter :: stickslip_equilibrium_size = 120
   integer(c_int64_t), parameter :: stickslip_rigid_body_size = 56
   integer(c_int64_t), parameter :: stickslip_rigid_motion_size = 128
   integer(c_int64_t), parameter :: stickslip_law_size = 72
@@ -483,6 +483,9 @@ module stickslip
     integer(c_int64_t) :: gap_node = -1
     integer(c_int64_t) :: traction_node = -1
     integer(c_int64_t) :: slip_node = -1
+    real(c_double) :: slide = 0                    ! since frozen weights were made [L]; compare with half of slide_scale
+    real(c_double) :: slide_scale = 0              ! size of the node's facets [L]
+    integer(c_int64_t) :: slide_node = -1
   end type
 
   ! A rigid body: nodes that move with a reference point. Of lines (dimension 2) vectors have two numbers.

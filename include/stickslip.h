@@ -1054,6 +1054,16 @@ typedef struct stickslip_equilibrium {
   int64_t traction_node;
   /// Output: the node of slip.
   int64_t slip_node;
+  /// Output: how far the surfaces have slid since the weights in use were made: the distance along the surface of the places
+  /// where a node's traction acts on the two sides, times the part that the traction is of traction_scale; the largest over
+  /// slide_scale. No violation, and 0 with weights of now, and of tied surfaces. Where weights are frozen, contact is sought
+  /// and forces act on the mortar side as if nothing had slid, so that a solution is wrong by about this length [L].
+  double slide;
+  /// Output: what to compare it with: the size of the node's facets, h as in gap_scale. A slide of half of it is within what
+  /// a mesh shows [L].
+  double slide_scale;
+  /// Output: the node of slide.
+  int64_t slide_node;
 } stickslip_equilibrium;
 
 /// A rigid body: nodes that move with a reference point, those of a surface of one interface or of several, or any others.
@@ -1225,8 +1235,9 @@ const char *stickslip_version(void);
 /// How the library that runs was built, for reports of errors and records of results: words "name=value" with one blank
 /// between them. Their names are, in this order: version; commit of the source ("unknown" where none was known, with
 /// "+changes" where the source was not as committed); target; profile (release or debug, and the level of optimisation);
-/// compiler; kernels, those that this processor takes ("plain" or "avx2+fma"). Later versions append words. No word is a
-/// path or a time.
+/// compiler; kernels, those that this processor takes ("plain" or "avx2+fma"); features that are built of those that can be left
+/// out, with commas between them, or "none" (docs/abi.md). What was left out is refused with UNSUPPORTED. Later versions append
+/// words. No word is a path or a time.
 ///
 /// Cost: none.
 /// Owner: the library, for good; never NULL.
@@ -2305,6 +2316,9 @@ int32_t stickslip_facet_tangent(const struct stickslip_facet *facet,
 /// (22), (24) project on. Of the three states the nearest is taken, a length counting as the traction modulus / h times
 /// it. What rounding makes of positions does not count: 8 last digits of the largest coordinate that is passed, in a gap
 /// and in a slip, and modulus / h times that in a traction. Nodes without any multiplier equation have no part in it.
+///
+/// With STICKSLIP_WEIGHTS_COMMITTED and _REFERENCE look at slide, too: a point may be in equilibrium with weights that no longer
+/// belong to it. Beyond half of slide_scale take smaller steps (COMMITTED alone), or STICKSLIP_WEIGHTS_CURRENT.
 ///
 /// x1 (3 n1), x2 (3 n2): positions [L]; lambda (3 n1; without friction n1) [F/L^2]; sums: see
 /// `stickslip_interface_sums`, or NULL; with sums every handle finds the same but for the largest coordinate, which is

@@ -107,6 +107,11 @@ fn interfaces_of_any_bytes() {
 }
 
 #[test]
+fn effects_of_any_bytes() {
+    replay("effects", targets::effects::run, 3_000);
+}
+
+#[test]
 fn the_abi_of_any_bytes() {
     replay("abi", targets::abi::run, 100_000);
 }

@@ -73,6 +73,10 @@ static PetscErrorCode step_to(Model *model, Run *run, PetscReal t, PetscBool ask
   PetscCall(solve_in_turns(model, run, done));
   if (*done) PetscCall(timed_catch(&model->physics));
   if (*done) PetscCall(remote_check(&model->physics, newton->why, sizeof(newton->why)));
+  if (*done && !newton->why[0]) {
+    PetscCall(slide_check(&model->contact, &newton->slid, newton->why, sizeof(newton->why)));
+    newton->refused_commit = (PetscBool)(newton->why[0] != 0);
+  }
   if (*done && newton->why[0]) *done = PETSC_FALSE;
   run->tried     = PETSC_TRUE;
   run->converged = *done;
@@ -107,6 +111,7 @@ static PetscErrorCode accept(Model *model, Run *run)
   parts_accept(&model->physics);
   PetscCall(heat_accept(&model->heat));
   equilibrium_accept(&model->contact);
+  PetscCall(slide_accept(&model->contact));
   condensed_accept(&model->contact);
   PetscCall(contact_share_out(&model->contact));
   PetscCall(solver_refresh_pattern(&model->solve));
@@ -184,7 +189,7 @@ PetscErrorCode run(Model *model, int *exit_code)
       PetscCall(restart_write(model, &run, (PetscBool)(t == steps->end)));
     } else {
       run.n_cutbacks++;
-      failed = (PetscBool)!step_size_cut(steps, &run.size, t - run.past.t_last);
+      failed = (PetscBool)!step_size_cut(steps, &run.size, t - run.past.t_last, &model->solve.newton);
     }
   }
   if (failed) {

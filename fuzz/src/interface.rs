@@ -10,21 +10,23 @@ use stickslip::interface::seal_history;
 /// More than the entries of any tangent of this size.
 const MOST: usize = 100_000;
 
-struct Scene {
-    handle: *mut stickslip_interface,
+pub(super) struct Scene {
+    pub(super) handle: *mut stickslip_interface,
+    /// STICKSLIP_WEIGHTS_...
+    pub(super) weights: i32,
     /// Numbers a node of every vector: 3, of lines 2.
     dimension: usize,
     /// Multiplier components a node.
     components: usize,
     /// Nodes at which facets have multipliers.
     counted: usize,
-    x1: Vec<f64>,
-    x2: Vec<f64>,
-    lambda: Vec<f64>,
+    pub(super) x1: Vec<f64>,
+    pub(super) x2: Vec<f64>,
+    pub(super) lambda: Vec<f64>,
 }
 
 /// Moves a few coordinates.
-fn shake(bytes: &mut Bytes, x: &mut [f64]) {
+pub(super) fn shake(bytes: &mut Bytes, x: &mut [f64]) {
     for _ in 0..bytes.below(4) {
         let k = bytes.below(x.len());
         x[k] = if bytes.once_in(4) { bytes.number(x[k]) } else { x[k] + bytes.coordinate() / 64.0 };
@@ -32,7 +34,8 @@ fn shake(bytes: &mut Bytes, x: &mut [f64]) {
 }
 
 impl Scene {
-    fn new(bytes: &mut Bytes) -> Option<Scene> {
+    /// A scene of any options, which are then changed.
+    pub(super) fn with(bytes: &mut Bytes, change: impl FnOnce(&mut Bytes, &mut stickslip_options)) -> Option<Scene> {
         let (mut x1, mut x2) = (grid(3, 0.0, 2.0, -0.01), grid(4, -0.5, 3.0, 0.0));
         if bytes.once_in(2) {
             shake(bytes, &mut x1);
@@ -60,6 +63,7 @@ impl Scene {
         options.coverage_min = bytes.number(1e-8);
         options.search_distance = bytes.number(0.0);
         options.multiplier_space = bytes.choice(2);
+        change(bytes, &mut options);
         let kind = bytes.below(KINDS);
         let dimension = if kind < 3 { 3 } else { 2 };
         if dimension == 2 {
@@ -110,10 +114,19 @@ impl Scene {
         let status = unsafe { stickslip_interface_create(&one, &two, &options, &mut handle) };
         assert_eq!(succeeded(status), !handle.is_null());
         let lambda = (0..components * N1).map(|k| if (k + 1) % components == 0 { -1.0 } else { 0.1 }).collect();
-        (!handle.is_null()).then_some(Scene { handle, dimension, components, counted, x1, x2, lambda })
+        (!handle.is_null()).then_some(Scene {
+            handle,
+            weights: options.weights,
+            dimension,
+            components,
+            counted,
+            x1,
+            x2,
+            lambda,
+        })
     }
 
-    fn residual(&self) -> Option<Vec<f64>> {
+    pub(super) fn residual(&self) -> Option<Vec<f64>> {
         let mut out = [self.dimension * N1, self.dimension * N2, self.components * N1].map(Watched::<f64>::new);
         let [f1, f2, rows] = &mut out;
         let (f1, f2, rows) = (f1.pointer(), f2.pointer(), rows.pointer());
@@ -228,7 +241,7 @@ impl Scene {
         succeeded(unsafe { stickslip_interface_commit(self.handle, x1, x2, lambda, std::ptr::null()) })
     }
 
-    fn call(&mut self, bytes: &mut Bytes) {
+    pub(super) fn call(&mut self, bytes: &mut Bytes) {
         if bytes.once_in(2) {
             shake(bytes, &mut self.x1);
             shake(bytes, &mut self.x2);
@@ -379,7 +392,7 @@ impl Scene {
 /// Takes one input; panics where a law is broken.
 pub fn run(data: &[u8]) {
     let mut bytes = Bytes(data);
-    let Some(mut scene) = Scene::new(&mut bytes) else { return };
+    let Some(mut scene) = Scene::with(&mut bytes, |_, _| ()) else { return };
     for _ in 0..8 {
         if bytes.is_empty() {
             break;

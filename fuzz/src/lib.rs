@@ -3,6 +3,7 @@
 
 pub mod abi;
 mod bytes;
+pub mod effects;
 pub mod interface;
 mod lines;
 mod meshes;

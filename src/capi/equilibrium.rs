@@ -45,6 +45,16 @@ pub struct stickslip_equilibrium {
     pub traction_node: i64,
     /// Output: the node of slip.
     pub slip_node: i64,
+    /// Output: how far the surfaces have slid since the weights in use were made: the distance along the surface of the places
+    /// where a node's traction acts on the two sides, times the part that the traction is of traction_scale; the largest over
+    /// slide_scale. No violation, and 0 with weights of now, and of tied surfaces. Where weights are frozen, contact is sought
+    /// and forces act on the mortar side as if nothing had slid, so that a solution is wrong by about this length [L].
+    pub slide: f64,
+    /// Output: what to compare it with: the size of the node's facets, h as in gap_scale. A slide of half of it is within what
+    /// a mesh shows [L].
+    pub slide_scale: f64,
+    /// Output: the node of slide.
+    pub slide_node: i64,
 }
 
 // SAFETY: repr(C), struct_size first, numbers only.
@@ -64,6 +74,9 @@ unsafe impl Sized64 for stickslip_equilibrium {
 /// (22), (24) project on. Of the three states the nearest is taken, a length counting as the traction modulus / h times
 /// it. What rounding makes of positions does not count: 8 last digits of the largest coordinate that is passed, in a gap
 /// and in a slip, and modulus / h times that in a traction. Nodes without any multiplier equation have no part in it.
+///
+/// With STICKSLIP_WEIGHTS_COMMITTED and _REFERENCE look at slide, too: a point may be in equilibrium with weights that no longer
+/// belong to it. Beyond half of slide_scale take smaller steps (COMMITTED alone), or STICKSLIP_WEIGHTS_CURRENT.
 ///
 /// x1 (3 n1), x2 (3 n2): positions [L]; lambda (3 n1; without friction n1) [F/L^2]; sums: see
 /// `stickslip_interface_sums`, or NULL; with sums every handle finds the same but for the largest coordinate, which is
@@ -95,8 +108,8 @@ pub unsafe extern "C" fn stickslip_interface_equilibrium(
         let found =
             either!(&mut h.inner, c => c.equilibrium(point.x1(), point.x2(), point.lambda(), point.sums(), &scales)?);
         let node = |largest: &Largest| largest.node.map_or(-1, |a| a as i64 + h.base);
-        let (gap, traction, slip) = (found.gap, found.traction, found.slip);
-        let numbers = [gap, traction, slip].map(|l| [l.value, l.scale]);
+        let (gap, traction, slip, slide) = (found.gap, found.traction, found.slip, found.slide);
+        let numbers = [gap, traction, slip, slide].map(|l| [l.value, l.scale]);
         raw::check_results("equilibrium", numbers.as_flattened())?;
         sized::write(
             out,
@@ -110,6 +123,9 @@ pub unsafe extern "C" fn stickslip_interface_equilibrium(
                 gap_node: node(&gap),
                 traction_node: node(&traction),
                 slip_node: node(&slip),
+                slide: slide.value,
+                slide_scale: slide.scale,
+                slide_node: node(&slide),
                 ..given
             },
         );

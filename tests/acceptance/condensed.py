@@ -2,7 +2,7 @@
 multipliers, a solver that exchanges no rows gets through, and what cannot be condensed is refused by name."""
 
 import numpy as np
-from scene import SceneError, interfaces
+from scene import SceneError, interfaces, write
 from slider import SPRINGS, SWAPPED, SWAPPED_MESH, travel
 
 # Both systems are solved to rounding of their forces: Newton's iterations are then those that it takes, not those that a
@@ -58,8 +58,29 @@ REFUSED = (
 def condensed(verdicts, driver):
     carrying = sum(compare(verdicts, driver, *scene) for scene in SCENES)
     verdicts.at_least("scenes with carried nodes", carrying, CARRYING, "of those above")
+    open_everywhere(verdicts, driver)
     for scene, (basis, *options), words in REFUSED:
         refuse(verdicts, driver, scene, basis, options, words)
+
+
+def open_everywhere(verdicts, driver):
+    """A block that is lifted off another: forces on the other are the rounding of the first one's, and nothing else."""
+    box = {"type": "box", "young": 1000, "poisson": 0.3}
+    scene = {
+        "schema": 1,
+        "bodies": ["block", "ground"],
+        "block": box | {"lower": [0, 0, 0.01], "upper": [1, 1, 0.51], "cells": [2, 2, 2]},
+        "ground": box | {"lower": [-1, -1, -1], "upper": [2, 2, 0], "cells": [2, 2, 1]},
+        "supports": ["still", "lift"],
+        "still": {"surface": "ground.zmin", "components": ["x", "y", "z"]},
+        "lift": {"surface": "block.zmax", "components": ["x", "y", "z"], "value": [0, 0, 0.01]},
+        "interfaces": ["base"],
+        "base": {"nonmortar": "block.zmin", "mortar": "ground.zmax", "friction": 0.3, "basis": "dual"},
+        "steps": {"count": 2},
+        "unknowns": "displacements",
+    }
+    run = driver.run(write(scene, driver.output / "open.yaml"), *QUIET, label="open")
+    verdicts.true("a block that is lifted off: both steps at once", not run.summary["failed_attempts"], "nothing acts")
 
 
 def condensed_full(verdicts, driver):

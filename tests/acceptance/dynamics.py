@@ -136,7 +136,7 @@ def supported(verdicts, driver):
     wave = [value for k in range(fine + 1) for value in (k / fine, math.sin(2 * k / fine + 0.3))]
     turn = {"rotate": [0, 0, 0.7], "origin": [0, 0.5, 0], "rotate_curve": [0, 0, 1, 1]}
     start, wave = ({"value": [0.1, 0.03, 0], "curve": curve} for curve in ([0, 1, 1, 1], wave))
-    for case, clamp, rhos in (("away from 0", start, (0.5,)), ("a wave", wave, (1, 0.5)), ("a turn", turn, (1, 0.5))):
+    for case, clamp, rhos in (("away from 0", start, (0.5,)), ("a wave", wave, (1, 0.5)), ("a turn", turn, (1,))):
         for rho in rhos:
             ends = []
             for n in (fine // 4, fine // 2, fine):

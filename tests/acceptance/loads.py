@@ -31,6 +31,7 @@ def loads(verdicts, driver):
     spread(verdicts, driver)
     spread_in_the_plane(verdicts, driver)
     turns_too_far(verdicts, driver)
+    rigid_face(verdicts, driver)
 
 
 def column(verdicts, driver):
@@ -251,6 +252,44 @@ def spread_in_the_plane(verdicts, driver):
     exact = np.array([*force, moment + 4 * force[1] - 0.5 * force[0]])
     found = np.array([*step["reactions"]["foot"][:2], step["moments"]["foot"][2]])
     verdicts.below("spread force and moment in the plane: reactions", np.abs(found + exact).max() / np.abs(exact).max(), STATICS_BOUND, "statics")
+
+
+def rigid_face(verdicts, driver):
+    """A rubber bar whose end is tied to a rigid plate, under a moment and a force at the plate's reference point: the end turns far and
+    keeps its shape, the foot feels both where they are now, and a plate that is turned so far needs this moment."""
+    force, moment = np.array([0.0, 4.0, -10.0]), np.array([0.0, 0.0, 60.0])
+    common = {
+        "schema": 1,
+        "bodies": ["bar", "plate"],
+        "bar": {"type": "box", "young": YOUNG, "poisson": POISSON, "material": "neo_hooke", "lower": [0, 0, 0], "upper": [1, 1, 3], "cells": [2, 2, 4]},
+        "plate": {"type": "rigid", "from": "box", "lower": [0, 0, 3], "upper": [1, 1, 3.2], "cells": [1, 1, 1], "reference": [0.5, 0.5, 3]},
+        "supports": ["foot"],
+        "foot": {"surface": "bar.zmin", "components": ["x", "y", "z"]},
+        "interfaces": ["tie"],
+        "tie": {"nonmortar": "bar.zmax", "mortar": "plate.zmin", "law": "tied"},
+        "steps": {"count": 3},
+    }
+    path = write({**common, "loads": ["twist"], "twist": {"body": "plate", "force": force.tolist(), "moment": moment.tolist()}}, driver.output / "rigid_face.yaml")
+    steps = []
+    for ranks in (1, 2):
+        run = driver.run(path, ranks=ranks, label=f"rigid_face_{ranks}")
+        steps.append(run.steps[-1])
+        plate = run.steps[-1]["rigid"]["plate"]
+        points, cells, u = run.mesh()
+        nodes = np.unique(cells["hexahedron"])
+        points, u = points[nodes], u[nodes]
+        end = points[:, 2] == 3
+        at = lambda x: np.array([np.linalg.norm(a - b) for a in x for b in x])
+        verdicts.below(f"rigid face, {ranks} ranks: its shape", np.abs(at((points + u)[end]) - at(points[end])).max(), STATICS_BOUND, "distances of its nodes")
+        found = np.array(run.steps[-1]["reactions"]["foot"])
+        verdicts.below(f"rigid face, {ranks} ranks: force at the foot", np.abs(found + force).max() / np.abs(force).max(), STATICS_BOUND, "statics")
+        exact = moment + np.cross(np.array([0.5, 0.5, 3]) + plate["displacement"], force)
+        found = np.array(run.steps[-1]["moments"]["foot"])
+        verdicts.below(f"rigid face, {ranks} ranks: moment at the foot", np.abs(found + exact).max() / np.abs(exact).max(), STATICS_BOUND, "of the place of now")
+    turn = np.linalg.norm(plate["rotation"])
+    verdicts.at_least("rigid face: turn", turn, 0.5, "radians: far")
+    apart = np.abs(np.array(steps[0]["rigid"]["plate"]["rotation"]) - steps[1]["rigid"]["plate"]["rotation"]).max()
+    verdicts.below("rigid face: 1 and 2 ranks", apart, STATICS_BOUND, "the same turn")
 
 
 def turns_too_far(verdicts, driver):

@@ -160,10 +160,16 @@ class Hertz:
         """Of the pressure, as `make compare` defines it: nodal forces over lengths or areas, at equal force."""
         table = run.interface(NAME)
         force = table["fy" if self.kind == "plane" else "fz"]
-        if self.kind != "ball":
-            line = line_of(table, force, THICK if self.kind == "layer" else 1)
-            hertz = formulas.LineContact(line.force.sum(), MODULUS, RADIUS)
-            return profile_error(line, line.force / line.length, hertz.pressure)
+        if self.kind == "ball":
+            _, off, whole = self.squares(table, force)
+            return np.sqrt(off.sum() / whole)
+        line = line_of(table, force, THICK if self.kind == "layer" else 1)
+        hertz = formulas.LineContact(line.force.sum(), MODULUS, RADIUS)
+        return profile_error(line, line.force / line.length, hertz.pressure)
+
+    @staticmethod
+    def squares(table, force):
+        """Of a ball: distances of the nodes from the axis, squared errors of their pressures times areas, the sum of the exact ones'."""
         x, i = np.unique(np.round(table["X"] * RADIUS / (RADIUS - table["Z"]), 6), return_inverse=True)
         y, j = np.unique(np.round(table["Y"] * RADIUS / (RADIUS - table["Z"]), 6), return_inverse=True)
         nodal = np.zeros((len(x), len(y)))
@@ -172,7 +178,13 @@ class Hertz:
         (at, hat), (_, other) = hats(x), hats(y)
         exact = hat @ hertz.pressure(np.hypot(at[:, None], at[None])) @ other.T
         area = np.outer(hat.sum(axis=1), other.sum(axis=1))
-        return np.sqrt(((nodal - exact) ** 2 / area).sum() / (exact**2 / area).sum())
+        return np.hypot(x[:, None], y[None]), (nodal - exact) ** 2 / area, (exact**2 / area).sum()
+
+    def parts(self, run, a):
+        """Of a ball of this radius of contact: the parts of the error within 0.6 a, and of nodes at most one facet from the border."""
+        table = run.interface(NAME)
+        r, off, whole = self.squares(table, table["fz"])
+        return [np.sqrt(off[part].sum() / whole) for part in (r < 0.6 * a, np.abs(r - a) <= self.h)]
 
 
 def bend(X, axis):
@@ -240,6 +252,15 @@ class Corner:
         return cls.scene(driver, f"corner_{facets}_{shift:.2f}", planes, **interface)
 
     @classmethod
+    def matching(cls, driver, facets):
+        """Both sides' nodes on each other: nothing is left but the error of the bodies' elements."""
+        size = 1 / facets
+        up, down = (graded(size, cls.DEEP, far, cls.GROWTH) for far in cls.HEIGHTS)
+        inside, beside = np.linspace(-0.5, 0.5, facets + 1), 0.5 + graded(size, 0, cls.WIDE - 0.5, cls.GROWTH)[1:]
+        wide = np.concatenate([-beside[::-1], inside, beside])
+        return cls.scene(driver, f"corner_{facets}_matching", ((inside, up), (wide, -down[::-1])))
+
+    @classmethod
     def reference(cls, driver):
         """A Line."""
         size = 1 / cls.CELLS
@@ -255,9 +276,20 @@ class Corner:
         return line_of(table, table["fy"], 1)
 
     @staticmethod
-    def error(run, reference):
+    def profile(run, reference):
+        """Nodes, and their exact forces."""
         table = run.interface(NAME)
         line = line_of(table, table["fy"], 1)
         hat = np.array([np.interp(reference.x, line.x, row) for row in np.eye(len(line.x))])
-        exact = hat @ reference.force * (line.force.sum() / reference.force.sum())
+        return line, hat @ reference.force * (line.force.sum() / reference.force.sum())
+
+    @classmethod
+    def error(cls, run, reference):
+        line, exact = cls.profile(run, reference)
         return np.sqrt(((line.force - exact) ** 2 / line.length).sum() / (exact**2 / line.length).sum())
+
+    @classmethod
+    def at_edge(cls, run, reference):
+        """How much too large the forces of the edge's node and of the next one are, over what they should be."""
+        line, exact = cls.profile(run, reference)
+        return (line.force / exact - 1)[:2]

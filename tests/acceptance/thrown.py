@@ -11,6 +11,10 @@ SLED_FRICTION, ALONG_CONE = 0.1, 1e-3
 SAME_PATH = 1e-3
 # Orders of the matrix, by -mat_mumps_icntl_7: rounding decides what Newton's method makes of a singular one.
 ORDERS = (0, 5)
+# Degrees; 5.7 times as far as the blocks close: beyond the lever that is allowed where the scene says nothing.
+WEDGE, CLOSES, LEVER = 10, 0.01, "6"
+# What it has gone, over CLOSES / tan WEDGE: the corners of its facets touch first.
+GONE = 1e-2
 
 
 def sled(steps):
@@ -56,6 +60,30 @@ def guided():
     }
 
 
+def wedge():
+    """A wedge of WEDGE degrees from its axis between two blocks that close, without friction: it goes out."""
+    box = {"type": "box", "young": 1000, "poisson": 0.3}
+    slope, length = np.tan(np.radians(WEDGE)), 2.5
+    rise = slope * length
+    return {
+        "schema": 1,
+        "model": "plane_strain",
+        "bodies": ["wedge", "upper", "lower"],
+        "wedge": box | {"corners": [0, -0.3, 1, -0.3 - slope, 1, 0.3 + slope, 0, 0.3], "cells": [4, 2]},
+        "upper": box | {"corners": [-0.5, 0.3 - 0.5 * slope, 2, 0.3 - 0.5 * slope + rise, 2, 2, -0.5, 2], "cells": [5, 2]},
+        "lower": box | {"corners": [-0.5, -2, 2, -2, 2, -0.3 + 0.5 * slope - rise, -0.5, -0.3 + 0.5 * slope], "cells": [5, 2]},
+        "supports": ["down", "up"],
+        "down": {"body": "upper", "components": ["x", "y"], "value": [0, -CLOSES]},
+        "up": {"body": "lower", "components": ["x", "y"], "value": [0, CLOSES]},
+        "interfaces": ["a", "b"],
+        "a": {"nonmortar": "wedge.ymax", "mortar": "upper.ymin"},
+        "b": {"nonmortar": "wedge.ymin", "mortar": "lower.ymax"},
+        "probes": ["tip"],
+        "tip": {"body": "wedge", "point": [0, 0]},
+        "steps": {"count": 3},
+    }
+
+
 def thrown(verdicts, driver):
     """The plate goes with the block, in whatever order the matrix is factorised; it is not thrown out to where nothing touches it."""
     reference = run(driver, sled(6), "sled_6").steps[-1]["reactions"]["grip"]
@@ -65,5 +93,10 @@ def thrown(verdicts, driver):
         verdicts.near(f"sled, order {order}: force", grip[2], reference[2], SAME_PATH, "in twice as many steps")
         drag = np.hypot(*grip[:2]) / abs(grip[2])
         verdicts.near(f"sled, order {order}: drag over force", drag, SLED_FRICTION, ALONG_CONE, "nearly all slip is along")
+    result = run(driver, wedge(), "wedge", expect=2)
+    verdicts.true("slim wedge: refused, with its remedy", "`steps: {lever}`" in result.text, "no shorter step would help it")
+    result = run(driver, wedge(), "wedge_lever", "-steps_lever", LEVER)
+    gone = result.steps[-1]["probes"]["tip"][0] * np.tan(np.radians(WEDGE)) / CLOSES
+    verdicts.near("slim wedge, with a lever: goes out by", gone, 1, GONE, "what its slope says")
     result = run(driver, guided(), "guided")
     verdicts.true("moved by its support: not thrown", not result.summary["failed_attempts"], "its steps converge at once")

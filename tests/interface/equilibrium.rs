@@ -258,3 +258,39 @@ fn a_rigid_side_and_removed_directions() {
     let found = measured(&mut t, (&upper.x, &lower.x), &lambda, SCALES).traction;
     assert!((found.value - 0.1).abs() <= ROUNDING && found.node == Some(5), "{found:?}");
 }
+
+/// A square that is pressed on a larger one and slides: by frozen weights the traction acts on the mortar side where it did when they
+/// were made, and the slide is the whole way since then; in the size of the node with the largest ratio, a corner.
+#[test]
+fn frozen_weights_tell_how_far_they_have_slid() {
+    let (upper, lower) = (square([0.0, 0.0], [1.0, 1.0], false), square([-1.0, -1.0], [4.0, 4.0], true));
+    let way = Vec3::new(0.3, 0.4, 0.0);
+    let lambda = vec![-Vec3::z(); 16];
+    for (weights, friction, slides) in [
+        (Weights::Current, Friction::Coulomb, [0.0, 0.0]),
+        (Weights::Committed, Friction::Coulomb, [0.5, 0.5]),
+        (Weights::Reference, Friction::Coulomb, [0.5, 1.0]),
+        (Weights::Reference, Friction::Tied, [0.0, 0.0]),
+    ] {
+        let mut contact = interface(&upper, &lower, Options { weights, friction, ..options() });
+        for (step, expected) in (1..).zip(slides) {
+            let x1: Vec<_> = upper.x.iter().map(|x| x + f64::from(step) * way).collect();
+            let slide = measured(&mut contact, (&x1, &lower.x), &lambda, SCALES).slide;
+            assert!((slide.value - expected).abs() <= ROUNDING, "{weights:?} {friction:?} {step}: {slide:?}");
+            assert!(
+                expected == 0.0 || (slide.scale - 1.0 / 6.0).abs() <= ROUNDING,
+                "half a side of a corner: {slide:?}"
+            );
+            // What is not pressed counts by its part of the largest traction.
+            let mut light = lambda.clone();
+            light.iter_mut().skip(1).for_each(|lambda| *lambda *= 1e-3);
+            let node = measured(&mut contact, (&x1, &lower.x), &light, SCALES).slide.node;
+            assert_eq!(node, (expected > 0.0).then_some(0));
+            contact.commit(&x1, &lower.x, &lambda, None).unwrap();
+        }
+    }
+}
+
+fn square(lower: [f64; 2], upper: [f64; 2], up: bool) -> Mesh {
+    grid(3, 3, lower, upper, 0.0, up, Cells::Quads)
+}

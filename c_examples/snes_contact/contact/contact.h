@@ -100,6 +100,13 @@ typedef struct {
 /* The library takes x1, x2 and the multipliers: */
 #define STATE_OF(part) (part)->x, MORTAR_OF(part, (part)->x), MULTIPLIERS_OF(part, (part)->gathered)
 
+/* How far surfaces with frozen weights have slid (slide.c): over the size of facets, in words, what is allowed, and whether it was told. */
+typedef struct {
+  PetscReal ratio, most;
+  char      words[256];
+  PetscBool told;
+} Slide;
+
 /* nodal results of the nodes at home; every array has n1 entries, vectors 3 n1, in the plane too */
 typedef struct {
   int32_t *state;
@@ -150,6 +157,7 @@ typedef struct {
   double         young, largest_traction; /* of the softer body; up to the last converged step */
   char           modulus_from[64];        /* with decisions at points: what the modulus of both bodies is made of */
   stickslip_equilibrium equilibrium;      /* of this part, as last judged (equilibrium.c) */
+  Slide                 slide;
 } Interface;
 
 /* How the search for equilibrium goes (equilibrium.c) */
@@ -412,6 +420,10 @@ PetscErrorCode contact_diagnose(const Interface *interface, PetscMPIInt rank, Co
 PetscErrorCode equilibrium_judge(Contact *contact, PetscReal rtol, PetscBool *holds, PetscBool *stuck);
 void           equilibrium_restart(Contact *contact);
 void           equilibrium_accept(Contact *contact);
+
+/* slide.c */
+PetscErrorCode slide_check(Contact *contact, PetscReal *slid, char why[], size_t length);
+PetscErrorCode slide_accept(Contact *contact);
 
 /* The library's status as a PETSc error, where a refusal is not something to recover from. */
 #define PetscCallStickslip(...)                                                                                        \

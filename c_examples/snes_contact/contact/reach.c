@@ -1,13 +1,24 @@
 /* How far a part of the model may come: the size of all that interfaces may join to it, through others or not. */
 #include "contact/contact.h"
 
+/* A group of parts that an interface joins (physics/parts.c). */
+static void add_group(Parts *parts, const PetscBool joined[])
+{
+  PetscInt *end = &parts->group_starts[parts->n_groups + 1];
+  *end          = parts->group_starts[parts->n_groups++];
+  for (PetscInt p = 0; p < parts->n; p++) {
+    if (joined[p]) parts->grouped[(*end)++] = p;
+  }
+}
+
 /* The parts that interfaces join: of each part the number of its cluster. */
 static PetscErrorCode find_clusters(Contact *contact, PetscInt cluster[])
 {
-  const Parts *parts = &contact->physics->parts;
-  PetscBool   *joined;
+  Parts     *parts = &contact->physics->parts;
+  PetscBool *joined;
   PetscFunctionBegin;
   PetscCall(PetscMalloc1(parts->n, &joined));
+  PetscCall(PetscCalloc1(contact->n_interfaces + 1, &parts->group_starts));
   for (PetscInt p = 0; p < parts->n; p++)
     cluster[p] = p;
   for (PetscInt i = 0; i < contact->n_interfaces; i++) {
@@ -19,6 +30,10 @@ static PetscErrorCode find_clusters(Contact *contact, PetscInt cluster[])
     for (PetscInt k = 0; k < interface->n1 + interface->n2; k++)
       joined[interface->part_of[k]] = PETSC_TRUE;
     PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, joined, (PetscMPIInt)parts->n, MPIU_BOOL, MPI_LOR, PETSC_COMM_WORLD));
+    if (contact->condensed) {
+      PetscCall(PetscRealloc(sizeof(PetscInt) * (size_t)(parts->group_starts[parts->n_groups] + parts->n), &parts->grouped));
+      add_group(parts, joined);
+    }
     for (PetscInt p = 0; p < parts->n; p++) {
       if (!joined[p]) continue;
       if (first < 0) first = p;

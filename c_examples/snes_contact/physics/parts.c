@@ -166,6 +166,19 @@ PetscErrorCode parts_add_squares(Physics *physics, Vec local, int prescribed, in
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Without multipliers among the unknowns contact forces are the forces of the bodies on one side, with their rounding: that of a
+ * body which moves apart from a body at rest acts on this one, too, and it has no rounding of its own to be below. */
+static void share_noise(Parts *parts)
+{
+  for (PetscInt g = 0; g < parts->n_groups; g++) {
+    PetscReal largest = 0;
+    for (PetscInt k = parts->group_starts[g]; k < parts->group_starts[g + 1]; k++)
+      largest = PetscMax(largest, PetscSqrtReal(parts->squares[N_SQUARES * parts->grouped[k] + SQUARES_ROUNDING]));
+    for (PetscInt k = parts->group_starts[g]; k < parts->group_starts[g + 1]; k++)
+      parts->part[parts->grouped[k]].noise = PetscMax(parts->part[parts->grouped[k]].noise, largest);
+  }
+}
+
 /* At the end of an evaluation: bulk_forces() and contact_forces() have left their squares in parts->squares. */
 PetscErrorCode parts_measure(Physics *physics)
 {
@@ -187,6 +200,7 @@ PetscErrorCode parts_measure(Physics *physics)
         TWICE * (PetscSqrtReal(squares[SQUARES_LOADS]) + PetscSqrtReal(squares[SQUARES_REACTIONS]) +
                  PetscSqrtReal(squares[SQUARES_CONTACT]));
   }
+  share_noise(parts);
   parts->reference_force = PetscSqrtReal(sum[SQUARES_LOADS]) + PetscSqrtReal(sum[SQUARES_REACTIONS]) +
                            PetscSqrtReal(sum[SQUARES_CONTACT]);
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -47,6 +47,8 @@ PetscErrorCode physics_destroy(Physics *physics)
   PetscCall(PetscFree2(parts->part, parts->squares));
   PetscCall(PetscFree(parts->of_piece));
   PetscCall(PetscFree(parts->of_vertex));
+  PetscCall(PetscFree(parts->group_starts));
+  PetscCall(PetscFree(parts->grouped));
   PetscCall(PetscFree6(cells->offsets, cells->dofs, cells->body, cells->part, cells->X, cells->stiffness));
   PetscCall(VecDestroy(&physics->u_local));
   PetscCall(VecDestroy(&physics->f_local));

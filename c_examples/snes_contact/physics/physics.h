@@ -114,6 +114,8 @@ typedef struct {
   Part      *part;
   PetscReal *squares;         /* N_SQUARES per part, of the last evaluation */
   PetscReal  reference_force; /* of all of them */
+  /* of a system without multipliers: the parts that each interface joins, from group_starts[g] on in `grouped` */
+  PetscInt   n_groups, *group_starts, *grouped;
 } Parts;
 
 /* What a body of the linear material was strained and turned by, up to now (range.c) */

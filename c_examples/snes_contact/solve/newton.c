@@ -203,6 +203,7 @@ static PetscErrorCode attempt(Solve *solve, int k, const Past *past, Vec x, Pets
     PetscCall(SNESSetTolerances(solve->snes, atol, rtol, stol, CLOSING_ITERATIONS, max_f));
   closing_begin(solve, (PetscBool)(k == CLOSING));
   newton->drowned   = -1;
+  newton->slid      = 0;
   solve->linear.refusal[0] = 0;
   contact->refusal[0] = solve->physics->inverted[0] = newton->why[0] = 0;
   newton->stopped = newton->stale = newton->changed = newton->refused_commit = PETSC_FALSE;

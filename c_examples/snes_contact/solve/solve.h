@@ -10,6 +10,7 @@ typedef struct {
   PetscReal *targets; /* times to meet */
   PetscBool *asked;   /* for each: the scene names it; else it is a kink of a curve */
   PetscReal  end, smallest; /* step, as a fraction of the largest */
+  PetscReal  lever;         /* how many times as far as all else an idle body may be moved: thrown.c */
   PetscBool  predictor, automatic, cycles; /* cycles: of nodes are looked for and ended */
   PetscBool  closing;                      /* bodies that contact alone holds are closed by force: closing.c */
   PetscReal  initial, largest; /* automatic steps */
@@ -40,7 +41,8 @@ typedef struct {
   PetscReal     factor;            /* for the augmentation of nodes that cycle */
   PetscInt      n_changes;         /* of the augmentation in this attempt */
   PetscBool     changed, stale;    /* it is not the scene's; the residual belongs to another one */
-  PetscBool     refused_commit;    /* the step converged, and the library refused its commit */
+  PetscBool     refused_commit;    /* the step converged, and does not count: the library refused its commit, or it slid too far */
+  PetscReal     slid;              /* how far frozen weights have slid in the converged step, over what is allowed */
   PetscBool     stopped, monotone; /* this attempt cycled on; its residual fell in every iteration */
   PetscInt      iterations;        /* of the last newton_solve(), all attempts */
   char          cycle[768];        /* the last one found in it, as a sentence */
@@ -199,7 +201,7 @@ void      step_size_start(const Steps *steps, StepSize *size);
 PetscReal step_size_next(const Steps *steps, const StepSize *size, PetscReal t);
 void      step_size_accept(const Steps *steps, StepSize *size, PetscReal t_last, PetscReal t, const Newton *newton,
                            PetscBool bends);
-PetscBool step_size_cut(const Steps *steps, StepSize *size, PetscReal tried); /* false: it is too small now */
+PetscBool step_size_cut(const Steps *steps, StepSize *size, PetscReal tried, const Newton *newton); /* false: it is too small now */
 
 /* jacobian_test.c: after newton_create() */
 PetscErrorCode jacobian_test_create(Solve *solve, Scene *scene);

@@ -13,6 +13,8 @@ static const PetscReal GROWTH = 2, SEARCHING = 1.25, SHRINKAGE = 0.5, CUT = 0.5;
  * one is as long as before. (A tube drawn over a coarse mesh takes 7 iterations at any length; aiming at 6, the steps
  * would shrink for ever.) */
 enum { IN_VAIN = 3 };
+/* Where surfaces with frozen weights slide, a step aims at so much of what they may: slides are even, if anything. */
+static const PetscReal SLIDE_AIM = 0.9;
 /* After a cut-back this many steps do not grow, else every other step would fail. */
 enum { HELD = 3 };
 /* Times closer than this fraction of a step are one. */
@@ -34,6 +36,11 @@ PetscReal step_size_next(const Steps *steps, const StepSize *size, PetscReal t)
 }
 
 /* After the step from t_last to t. `bends`: a curve has a kink at t, so the past says nothing about what comes. */
+static void keep_slide(StepSize *size, PetscReal tried, const Newton *newton)
+{
+  if (newton->slid > 0) size->length = PetscMin(size->length, SLIDE_AIM / newton->slid * tried);
+}
+
 void step_size_accept(const Steps *steps, StepSize *size, PetscReal t_last, PetscReal t, const Newton *newton,
                       PetscBool bends)
 {
@@ -44,6 +51,7 @@ void step_size_accept(const Steps *steps, StepSize *size, PetscReal t_last, Pets
   if (!steps->automatic) {
     if (there) size->longest = steps->targets[size->next] - t;
     size->length = there ? size->longest : PetscMin(size->longest, 2 * size->length);
+    keep_slide(size, taken, newton);
     return;
   }
   {
@@ -67,12 +75,14 @@ void step_size_accept(const Steps *steps, StepSize *size, PetscReal t_last, Pets
     size->held   = PetscMax(0, size->held - 1);
     size->length = PetscMax(steps->smallest * steps->largest, size->length);
     size->length = PetscMin(size->length, bends ? steps->initial : steps->largest);
+    keep_slide(size, taken, newton);
   }
 }
 
-PetscBool step_size_cut(const Steps *steps, StepSize *size, PetscReal tried)
+PetscBool step_size_cut(const Steps *steps, StepSize *size, PetscReal tried, const Newton *newton)
 {
   size->length = CUT * tried;
+  keep_slide(size, tried, newton);
   size->held   = HELD;
   return (PetscBool)(size->length >= (1 - SAME) * steps->smallest * size->longest);
 }

@@ -1,12 +1,10 @@
 /* A body that contact alone holds and that no load acts on is in equilibrium wherever nothing presses on it. So Newton's method may
  * throw it out of where it was and converge there, with all forces zero: an equilibrium, and not the one that the bodies around it
- * push it to. What tells it from a body that was let go: it has moved further than anything that could have pushed it.
+ * push it to. What tells it from a body that was let go: it has moved further than anything that could have pushed it, by more than
+ * `steps: {lever}`, 2 if the scene says nothing: a wedge of 27 degrees from its axis is moved so far.
  *
  * Such an attempt counts as failed (newton.c). From a shorter step the body is followed. */
 #include "solve/solve.h"
-
-/* A body may be moved this many times as far as what moves it: a wedge of 27 degrees does that. */
-static const PetscReal LEVER = 2;
 
 /* Bodies that an interface holds without pressure: by ties, cohesion, or friction that knows none. */
 static PetscErrorCode held_without_pressure(const Solve *solve, PetscBool *held)
@@ -113,14 +111,15 @@ PetscErrorCode thrown_check(Solve *solve, Vec last, PetscReal t0, Vec x, PetscBo
     PetscCall(VecDestroy(&from));
   }
   for (PetscInt p = 0; p < physics->parts.n && any && !*thrown; p++) {
-    if (!idle[p] || !(middle[p] > LEVER * most)) continue;
+    if (!idle[p] || !(middle[p] > solve->steps.lever * most)) continue;
     *thrown = PETSC_TRUE;
     PetscCall(PetscSNPrintf(why, length,
                             "%s, which nothing loads and contact alone holds, would be moved by %.3g, where nothing presses on it, "
                             "while all else moves by %.3g at most. That is an equilibrium, as any place is where nothing touches it. "
-                            "Take shorter steps, so that its contact is kept, or hold it",
+                            "Take shorter steps, so that its contact is kept, or hold it. If it is a slim wedge that is pressed out, as far "
+                            "as that in any step, `steps: {lever}` says how many times as far it may go (it is %g)",
                             solve->mesh->bodies[mesh_body_of(solve->mesh, physics->parts.part[p].first)].name, (double)middle[p],
-                            (double)most));
+                            (double)most, (double)solve->steps.lever));
   }
   PetscCall(PetscFree2(idle, middle));
   PetscFunctionReturn(PETSC_SUCCESS);

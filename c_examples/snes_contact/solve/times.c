@@ -75,6 +75,7 @@ PetscErrorCode times_read(Scene *scene, Steps *steps)
   steps->cycles    = PETSC_TRUE;
   steps->closing   = PETSC_TRUE;
   steps->smallest  = 1.0 / 1024;
+  steps->lever     = 2;
   PetscCall(read_targets(scene, steps));
   for (PetscInt k = 0; k < steps->n_targets; k++) {
     if (steps->targets[k] <= (k ? steps->targets[k - 1] : 0))
@@ -86,6 +87,8 @@ PetscErrorCode times_read(Scene *scene, Steps *steps)
   scene_bool(scene, "steps", "cycles", &steps->cycles);
   scene_bool(scene, "steps", "closing", &steps->closing);
   scene_real(scene, "steps", "smallest", &steps->smallest);
+  scene_real(scene, "steps", "lever", &steps->lever);
+  if (!(steps->lever >= 1)) scene_fail(scene, "steps", "lever", "it is at least 1.");
   if (steps->smallest <= 0 || steps->smallest > 1)
     scene_fail(scene, "steps", "smallest", "it is a fraction of a step: above 0, at most 1.");
   read_automatic(scene, steps);

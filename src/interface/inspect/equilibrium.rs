@@ -9,6 +9,7 @@
 use crate::error::{Error, Kind, Result};
 use crate::geometry::Vec3;
 use crate::interface::data::extent::Scope;
+use crate::interface::data::options::Weights;
 use crate::interface::pairing::given::Given;
 use crate::interface::stages::carried::{carriers_sums, multiplier_share};
 use crate::interface::stages::node::{is_left_out, node};
@@ -51,9 +52,12 @@ pub struct Equilibrium {
     pub traction: Largest,
     /// Of slips `[L]`: where a node sticks; against or across the traction; tied surfaces along the surface.
     pub slip: Largest,
+    /// No violation: how far apart along the surface a traction acts on the two sides, where weights are frozen `[L]`.
+    pub slide: Largest,
 }
 
 impl Largest {
+    #[inline(never)] // once, not at each of its calls
     fn offer(&mut self, value: f64, scale: f64, node: usize) {
         // value / scale > self.value / self.scale, where a scale may be zero, too
         if value * self.scale > self.value * scale || (value > 0.0 && self.node.is_none()) {
@@ -79,23 +83,31 @@ pub fn equilibrium<const N: usize>(
     let traction = nodes().map(traction).fold(scales.traction, f64::max);
     let position = x1.iter().chain(x2).map(|x| x.amax()).fold(0.0, f64::max);
     let rounding = ROUNDINGS * f64::EPSILON * position;
-    let length = |a: usize| given.size(a);
-    let length_scale = |a: usize| match scales.modulus {
-        0.0 => length(a),
-        modulus => length(a) * (traction / modulus),
+    let length_scale = |h: f64| match scales.modulus {
+        0.0 => h,
+        modulus => h * (traction / modulus),
     };
-    let least = nodes().map(length_scale).fold(f64::INFINITY, f64::min);
-    let none = Largest { value: 0.0, scale: if least.is_finite() { least } else { 0.0 }, node: None };
-    let mut all = Equilibrium { gap: none, traction: Largest { scale: traction, ..none }, slip: none };
+    let least = nodes().map(|a| given.size(a)).fold(f64::INFINITY, f64::min);
+    let least = if least.is_finite() { least } else { 0.0 };
+    let none = Largest { value: 0.0, scale: length_scale(least), node: None };
+    let mut all = Equilibrium {
+        gap: none,
+        traction: Largest { scale: traction, ..none },
+        slip: none,
+        slide: Largest { scale: least, ..none },
+    };
+    let options = &given.setup.options;
+    let may_slide = options.friction.law().opens && options.weights != Weights::Current;
 
     let shared =
         if carried.contains(&true) { carriers_sums(given, sums, carried, &given.normals()?)? } else { Vec::new() };
     let mut states = memory::filled(0.0, given.setup.own.map_or(0, |own| own.states()))?;
     for a in nodes() {
         let sum = shared.binary_search_by_key(&a, |(b, _)| *b).map_or(&sums[a], |at| &shared[at].1);
-        let stiffness = if scales.modulus > 0.0 { scales.modulus } else { traction } / length(a);
+        let h = given.size(a);
+        let stiffness = if scales.modulus > 0.0 { scales.modulus } else { traction } / h;
         let share = (sum.coverage / areas[a]).min(1.0);
-        let elastic = scales.modulus / length(a) * rounding;
+        let elastic = scales.modulus / h * rounding;
         let measure = Measure {
             coverage: sum.coverage,
             coverage_previous: sum.coverage_previous,
@@ -123,9 +135,21 @@ pub fn equilibrium<const N: usize>(
             let text = text!("the violation at non-mortar node {a} overflows: the inputs are out of range");
             return Err(Error::new(Kind::NotFinite, text));
         }
-        all.gap.offer(v.gap, length_scale(a), a);
+        all.gap.offer(v.gap, length_scale(h), a);
         all.traction.offer(v.traction, traction, a);
-        all.slip.offer(v.slip, length_scale(a), a);
+        all.slip.offer(v.slip, length_scale(h), a);
+        if may_slide && sum.coverage > given.least_coverage(a) && traction > 0.0 {
+            let slide = slid(&given.normal(a)?, sum) * (lambda[a].norm() * share / traction).min(1.0);
+            all.slide.offer(slide, h, a);
+        }
     }
     Ok(all)
+}
+
+/// How far apart along the surface a node's traction acts on the two sides `[L]`. Weights of now keep both forces on one line;
+/// frozen ones leave the mortar side's where they were made, so that this is how far the node has slid since then.
+#[inline(never)]
+fn slid(normal: &Vec3, sum: &NodeSums) -> f64 {
+    let apart = sum.gap_now / sum.coverage;
+    (apart - normal.dot(&apart) * normal).norm()
 }

@@ -58,6 +58,18 @@ fn scaled(weights: &PairWeights, by: f64) -> PairWeights {
     PairWeights { ab: weights.ab.map(|row| row.map(|n| by * n)), ac: weights.ac.map(|row| row.map(|n| by * n)) }
 }
 
+/// sum_A n_A. sigma_A.
+#[inline]
+fn times(n: &OfNodes, sigma: &[f64; MAX_CORNERS]) -> [f64; MAX_CORNERS] {
+    let mut sum = [0.0; MAX_CORNERS];
+    for a in 0..MAX_CORNERS {
+        for k in 0..MAX_CORNERS {
+            sum[k] += n[a][k] * sigma[a];
+        }
+    }
+    sum
+}
+
 /// rhat^0_A = 0.9 E* / h_A [F/L^3].
 fn stabilising<const N: usize>(given: Given<N>, a: usize) -> f64 {
     match given.setup.options.decision {
@@ -243,9 +255,10 @@ impl Points {
             if self.states[at] == Closed::Nothing {
                 continue;
             }
-            let (sigma, closed) = (facet.of(&self.sigma), self.closed_mass(at));
+            let closed = self.closed_mass(at);
+            let forces = times(&closed, &facet.of(&self.sigma));
             for (k, &a) in facet.nodes().iter().enumerate().filter(|(_, a)| self.is_covered[**a]) {
-                let force = (0..MAX_CORNERS).map(|l| closed[k][l] * sigma[l]).sum::<f64>();
+                let force = forces[k];
                 of_nodes[a].row += SVector::from_element(force);
                 self.tractions[a] += force;
                 self.shares[a] += closed[k].iter().sum::<f64>();
@@ -279,12 +292,11 @@ impl Points {
                 continue;
             }
             let (sigma, own) = (facet.of(&self.sigma), self.closed_mass(at));
-            let sum = |n: &OfNodes, k: usize| (0..MAX_CORNERS).map(|a| n[a][k] * sigma[a]).sum::<f64>();
-            facet.nodes().iter().enumerate().for_each(|(k, &a)| r.nonmortar[a] += facet.normal * sum(&own, k));
+            facet.nodes().iter().zip(times(&own, &sigma)).for_each(|(&a, t)| r.nonmortar[a] += facet.normal * t);
             for place in facet.places() {
                 let Some(closed) = self.closed(at, place) else { break };
-                let other = two.host_nodes(self.pairs[place].two).iter().enumerate();
-                other.for_each(|(k, &c)| r.mortar[c] -= facet.normal * sum(&closed.ac, k));
+                let other = two.host_nodes(self.pairs[place].two).iter().zip(times(&closed.ac, &sigma));
+                other.for_each(|(&c, t)| r.mortar[c] -= facet.normal * t);
             }
         }
         for (a, response) in responses.iter().enumerate().filter(|(a, _)| nodes.is_own(*a) && one.has_row(*a)) {

@@ -1,0 +1,52 @@
+"""Checks of frozen weights where surfaces slide: steps of `weights: committed` that slide too far are cut back, `weights: reference`
+warns, and neither is converged and wrong without a word (contact/slide.c)."""
+
+from scene import write
+
+# A block that is drawn along a plate by 1.5, over 13 of its facets, in four steps.
+STEPS, TRAVEL = 4, 1.5
+# Of the force that presses it, against weights of now: half a facet a step leaves 0.4 per cent, steps of three facets are 7 to 12
+# per cent off.
+FOLLOWED, LOST = 0.01, 0.05
+# No limit, in sizes of facets.
+ANY = 1000
+QUIET = ("-output_csv", "none", "-output_vtu", "none")
+SAYS_CUT, SAYS_REFERENCE = "good for 0.5 times", "Weights of the reference know no sliding"
+
+
+def drawn(**contact):
+    box = {"type": "box", "young": 1000, "poisson": 0.3, "small_strain": True}
+    return {
+        "schema": 1,
+        "model": "plane_strain",
+        "bodies": ["block", "plate"],
+        "block": box | {"lower": [0, 0], "upper": [1, 0.5], "cells": [8, 4]},
+        "plate": box | {"lower": [-1, -1], "upper": [3, 0], "cells": [25, 5]},
+        "supports": ["ground", "grip"],
+        "ground": {"surface": "plate.ymin", "components": ["x", "y"]},
+        "grip": {"surface": "block.ymax", "components": ["x", "y"], "value": [TRAVEL, -0.01], "curve": [0, 0, 1, 1]},
+        "interfaces": ["contact"],
+        "contact": {"nonmortar": "block.ymin", "mortar": "plate.ymax", "basis": "dual"} | contact,
+        "steps": {"count": STEPS},
+    }
+
+
+def sliding(verdicts, driver):
+    def run(label, **contact):
+        return driver.run(write(drawn(**contact), driver.output / f"{label}.yaml"), *QUIET, label=label)
+
+    def off(result):
+        return abs(result.steps[-1]["reactions"]["ground"][1] / exact - 1)
+
+    exact = run("current", weights="current").steps[-1]["reactions"]["ground"][1]
+    for decision in ("nodes", "points"):
+        frozen = {"weights": "committed", "decision": decision}
+        result = run(decision, **frozen)
+        said = [attempt for attempt in result.summary["failed_attempts"] if SAYS_CUT in attempt["why"]]
+        verdicts.true(f"decision at {decision}: {len(said)} steps cut for their slide", len(said) > 0, "not converged and wrong")
+        verdicts.below(f"decision at {decision}: force, steps cut", off(result), FOLLOWED, f"{len(result.steps)} steps")
+        result = run(f"{decision}_any", **frozen, slide_max=ANY)
+        verdicts.at_least(f"decision at {decision}: force, slides of any length", off(result), LOST, f"slide_max: {ANY}, as asked")
+    for label, options, warns in (("reference", {}, 1), ("reference_meant", {"slide_max": ANY}, 0)):
+        said = run(label, weights="reference", **options).text.count(SAYS_REFERENCE)
+        verdicts.true(f"{label.replace('_', ', ')}: {said} warnings", said == warns, "once, or not where it is meant")
