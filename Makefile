@@ -15,7 +15,7 @@ export PATH := $(PATH):$(HOME)/.cargo/bin
 LOCKED = mkdir -p $(BUILD) && flock $(BUILD)/.lock
 SAY    = @printf '\n== %s\n'
 
-.PHONY: packages hosts newcomer help demo gallery effects aids study border compare bench random fuzz stability scaling scaling-ranks ranks ranks-full newest-petsc ratios digest wheel python-examples check test test-long build install uninstall docs reference abi header meshes clean cmake-build rust-tests
+.PHONY: packages hosts newcomer help demo gallery effects aids study border compare bench random fuzz stability scaling scaling-ranks ranks ranks-full newest-petsc ratios digest wheel python-examples check test test-long build install uninstall docs reference abi sizes header meshes clean cmake-build rust-tests
 
 help:
 	@echo "make demo    solve the example scenes, compare with the references, draw (FIGURES=1: renew the README's figures)"
@@ -51,6 +51,7 @@ help:
 	@echo "make uninstall PREFIX=DIR [DESTDIR=]   remove what was installed there"
 	@echo "make docs    guides and references as one site with search, in $(BUILD)/docs/site; make reference: those of C and Rust alone"
 	@echo "make abi     renew the committed description of the ABI (tests/abi)"
+	@echo "make sizes   what each feature that can be left out adds to the library, a quarter of an hour (FIGURES=1: renew the table)"
 	@echo "make header  make include/stickslip.h again from src/capi"
 	@echo "make meshes  make the example meshes again with Gmsh"
 	@echo "make clean   remove $(BUILD)/ and target/"
@@ -306,6 +307,10 @@ abi:
 	@.ci/setup test
 	@$(MAKE) --no-print-directory cmake-build TESTS=ON
 	$(PYTHON) tests/abi/check.py --library $(BUILD)/lib/libstickslip.so --renew
+
+sizes:
+	$(SAY) "The library without one feature at a time"
+	@$(PYTHON) tests/abi/sizes.py --build $(BUILD)/sizes $(if $(FIGURES),--renew)
 
 header:
 	STICKSLIP_WRITE_HEADER=1 cargo test --locked --test capi header_is_up_to_date

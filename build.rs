@@ -19,11 +19,20 @@ fn main() {
     println!("cargo::rustc-env=STICKSLIP_BUILD_COMMIT={}", commit());
     println!("cargo::rustc-env=STICKSLIP_BUILD_TARGET={}", variable("TARGET"));
     println!("cargo::rustc-env=STICKSLIP_BUILD_PROFILE={}-O{}", variable("PROFILE"), variable("OPT_LEVEL"));
+    println!("cargo::rustc-env=STICKSLIP_BUILD_FEATURES={}", features());
     println!("cargo::rustc-env=STICKSLIP_BUILD_COMPILER={}", compiler.replace(' ', "-"));
 }
 
 fn variable(name: &str) -> String {
     std::env::var(name).expect("cargo sets it")
+}
+
+/// The features that are built, with commas, or "none". cargo gives their names in capitals.
+fn features() -> String {
+    const NAMES: [&str; 6] = ["analytic", "condensed", "heat", "offsets", "quadratic", "rigid"];
+    let built = |name: &str| std::env::var_os(format!("CARGO_FEATURE_{}", name.to_uppercase())).is_some();
+    let built: Vec<&str> = NAMES.into_iter().filter(|name| built(name)).collect();
+    if built.is_empty() { "none".into() } else { built.join(",") }
 }
 
 /// What a command writes, if it succeeds.

@@ -36,11 +36,32 @@ else()
 endif()
 set(remapped "build.rustflags=['--remap-path-prefix=${cargo_home}=/cargo', '--remap-path-prefix=${PROJECT_SOURCE_DIR}=/stickslip']")
 
+# What is not marked to be inlined is inlined where its body is small, as for a size that has to be kept: the library is a tenth
+# smaller. Kernels are marked, and stay as they are. A debug build inlines next to nothing anyhow.
+set(small_library -C llvm-args=-inline-threshold=60)
+
+# All of cargo's features, or a list of those that are wanted: docs/abi.md says what each adds.
+set(STICKSLIP_FEATURES "all" CACHE STRING "What is built of what can be left out: all, none, or a list of analytic condensed heat offsets quadratic rigid")
+if(NOT STICKSLIP_FEATURES STREQUAL "all")
+  if(STICKSLIP_TESTS)
+    message(FATAL_ERROR "The tests are those of the whole library: STICKSLIP_FEATURES=${STICKSLIP_FEATURES} needs -DSTICKSLIP_TESTS=OFF.")
+  endif()
+  set(features ${STICKSLIP_FEATURES})
+  list(REMOVE_ITEM features none)
+  foreach(feature ${features})
+    if(NOT feature MATCHES "^(analytic|condensed|heat|offsets|quadratic|rigid)$")
+      message(FATAL_ERROR "STICKSLIP_FEATURES: there is no feature ${feature}; all, none, or a list of analytic condensed heat offsets quadratic rigid.")
+    endif()
+  endforeach()
+  list(JOIN features "," features)
+  set(cargo_features --no-default-features "--features=${features}")
+endif()
+
 # cargo alone knows whether something changed, so it is asked each time; what depends on it relinks only if the files
 # are newer.
 add_custom_target(stickslip_cargo ALL
-  COMMAND "${CARGO_EXECUTABLE}" --config "${remapped}" rustc --profile ${cargo_profile} --locked --lib --target-dir "${STICKSLIP_CARGO_TARGET_DIR}"
-          -- --print "native-static-libs=${cargo_dir}/native-static-libs.txt"
+  COMMAND "${CARGO_EXECUTABLE}" --config "${remapped}" rustc --profile ${cargo_profile} --locked --lib ${cargo_features} --target-dir "${STICKSLIP_CARGO_TARGET_DIR}"
+          -- ${small_library} --print "native-static-libs=${cargo_dir}/native-static-libs.txt"
   COMMAND "${CMAKE_COMMAND}" "-Dfrom=${cargo_dir}" "-Dshared=${STICKSLIP_SHARED}" "-Dstatic=${STICKSLIP_STATIC}"
           "-Dsoversion=${STICKSLIP_SOVERSION}" "-Dobjcopy=$<$<NOT:$<BOOL:${STICKSLIP_DEBUG}>>:${CMAKE_OBJCOPY}>" -P "${PROJECT_SOURCE_DIR}/cmake/stage.cmake"
   WORKING_DIRECTORY "${PROJECT_SOURCE_DIR}"

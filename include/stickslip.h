@@ -1235,8 +1235,9 @@ const char *stickslip_version(void);
 /// How the library that runs was built, for reports of errors and records of results: words "name=value" with one blank
 /// between them. Their names are, in this order: version; commit of the source ("unknown" where none was known, with
 /// "+changes" where the source was not as committed); target; profile (release or debug, and the level of optimisation);
-/// compiler; kernels, those that this processor takes ("plain" or "avx2+fma"). Later versions append words. No word is a
-/// path or a time.
+/// compiler; kernels, those that this processor takes ("plain" or "avx2+fma"); features that are built of those that can be left
+/// out, with commas between them, or "none" (docs/abi.md). What was left out is refused with UNSUPPORTED. Later versions append
+/// words. No word is a path or a time.
 ///
 /// Cost: none.
 /// Owner: the library, for good; never NULL.

@@ -21,7 +21,7 @@
 //!
 //! # Modules, lowest first
 //!
-//! [`error`]; [`memory`]; [`simd`]; [`adjacency`], [`shape`], [`quadrature`], [`geometry`], [`normal`] know nothing of contact;
+//! [`error`]; [`features`], what a build may lack; [`memory`]; [`simd`]; [`adjacency`], [`shape`], [`quadrature`], [`geometry`], [`normal`] know nothing of contact;
 //! [`mortar`] integrates a pair and knows no law, [`line`](mod@line) one of a plane model, [`dual`] changes the basis of a facet's multipliers; [`law`] is nodal
 //! and knows no geometry; they meet in [`element`]; [`interface`] searches, assembles and remembers; [`rigid`] puts the
 //! nodes of rigid bodies together; [`capi`] is the C
@@ -68,6 +68,7 @@ pub mod adjacency;
 pub mod capi;
 pub mod dual;
 pub mod element;
+pub mod features;
 pub mod geometry;
 pub mod interface;
 pub mod law;

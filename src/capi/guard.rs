@@ -30,13 +30,22 @@ thread_local! {
 }
 
 /// Runs one entry point.
+#[inline(always)]
 pub(super) fn guard(body: impl FnOnce() -> Result<()>) -> i32 {
+    let mut body = Some(body);
+    // One function for all entry points: a copy in each would be a fiftieth of the library.
+    run(&mut || body.take().map_or(Ok(()), |body| body()))
+}
+
+/// Runs the body of one entry point, which it calls once.
+#[inline(never)]
+fn run(body: &mut dyn FnMut() -> Result<()>) -> i32 {
     let _environment = FpEnvironment::enter();
     silence_panics();
     THREAD.with(|thread| {
         let outside = thread.inside.replace(true);
         // What the body computes with may be anything up to here, so no arithmetic can move before the new environment.
-        black_box(&body);
+        let body = black_box(body);
         let outcome = catch_unwind(AssertUnwindSafe(body));
         thread.inside.set(outside);
         match outcome {

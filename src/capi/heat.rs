@@ -8,6 +8,7 @@ use super::raw;
 use super::sized::{self, Sized64};
 use super::tangent::Triplets;
 use crate::error::{Error, Kind, Result};
+use crate::features;
 use crate::interface::{NO_EQUATION, Temperatures};
 use crate::law::{Conductance, HeatNode, heat_flow};
 use crate::memory::{self, Store};
@@ -126,6 +127,7 @@ pub unsafe extern "C" fn stickslip_interface_heat(
     nodes: *const stickslip_heat_nodes,
 ) -> i32 {
     guard(|| {
+        features::HEAT.check()?;
         let h = &mut handle(interface)?.inner;
         let point = Point::read(h, x1, x2, lambda, std::ptr::null())?;
         let conductance = read_heat(heat)?;
@@ -208,6 +210,7 @@ pub unsafe extern "C" fn stickslip_interface_heat_tangent_coo(
     count: *mut i64,
 ) -> i32 {
     guard(|| {
+        features::HEAT.check()?;
         let h = handle(interface)?;
         let point = Point::read(&h.inner, x1, x2, lambda, std::ptr::null())?;
         let conductance = read_heat(heat)?;
@@ -268,6 +271,7 @@ pub unsafe extern "C" fn stickslip_node_heat(
     conductance: *mut f64,
 ) -> i32 {
     guard(|| {
+        features::HEAT.check()?;
         let law = read_heat(heat)?;
         for (v, name, least) in [
             (jump, "jump", f64::NEG_INFINITY),

@@ -128,6 +128,7 @@ impl Lines {
 }
 
 /// A line from `n` points of an argument called `name`; allocates nothing.
+#[inline]
 fn line(n: i32, x: *const f64, measure: Measure, name: &str) -> Result<LineFacet> {
     if !(2..=MAX_LINE_NODES as i32).contains(&n) {
         let text = text!("{name} has {n} nodes; 2 (line2) or 3 (line3) are allowed in this model");

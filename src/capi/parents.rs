@@ -10,6 +10,7 @@ use super::raw;
 use super::space::multiplier_space;
 use crate::element::{NodalPair, ParentPair};
 use crate::error::{Error, Kind, Result};
+use crate::features;
 use crate::geometry::{Mat3, Vec3};
 use crate::memory;
 use crate::mortar::{MultiplierSpace, ParentFacet, parent_weights};
@@ -75,6 +76,7 @@ struct Parents {
 
 impl Parents {
     fn of(given: &stickslip_pair) -> Result<Parents> {
+        features::QUADRATIC.check()?;
         let (one, two) = (parent(given.n1, given.x1, "pair.x1")?, parent(given.n2, given.x2, "pair.x2")?);
         check_linear_alone(given, "linear facets")?;
         Ok(Parents { one, two, space: multiplier_space(given.multiplier_space, "pair.multiplier_space")? })

@@ -5,6 +5,7 @@ use super::preparation::read_base;
 use super::raw::{self, Member};
 use super::sized::{self, Sized64};
 use crate::error::{Error, Kind, Result};
+use crate::features;
 use crate::geometry::Vec3;
 use crate::memory::{self, Store, Stored};
 use crate::rigid::{Body, Motion, RigidPlan, SIX, turned};
@@ -154,6 +155,7 @@ pub unsafe extern "C" fn stickslip_rigid_positions(
     x: *mut f64,
 ) -> i32 {
     guard(|| {
+        features::RIGID.check()?;
         let body = read_body(&sized::read(body)?)?;
         let motion = read_motion(&sized::read(motion)?, body.dimension)?;
         raw::check(x, "x")?;
@@ -183,6 +185,7 @@ pub unsafe extern "C" fn stickslip_rigid_resultant(
     resultant: *mut f64,
 ) -> i32 {
     guard(|| {
+        features::RIGID.check()?;
         let body = read_body(&sized::read(body)?)?;
         let motion = read_motion(&sized::read(motion)?, body.dimension)?;
         let forces = raw::numbers(forces, body.coordinates.len(), "forces")?;
@@ -205,6 +208,7 @@ pub unsafe extern "C" fn stickslip_rigid_resultant(
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn stickslip_rigid_turn(motion: *mut stickslip_rigid_motion) -> i32 {
     guard(|| {
+        features::RIGID.check()?;
         let mut m = sized::read(motion.cast_const())?;
         read_motion(&m, 3)?;
         let before = Matrix3::from_row_slice(&m.turned);
@@ -241,6 +245,7 @@ pub unsafe extern "C" fn stickslip_rigid_create(
     count: *mut i64,
 ) -> i32 {
     guard(|| {
+        features::RIGID.check()?;
         let n_bodies = raw::count(n_bodies, 1, "n_bodies")?;
         let base = read_base(index_base)?;
         sized::declared_size(bodies)?;
@@ -290,6 +295,7 @@ pub unsafe extern "C" fn stickslip_rigid_coo(
     columns: *mut i64,
 ) -> i32 {
     guard(|| {
+        features::RIGID.check()?;
         let r = plan(rigid)?;
         raw::check(rows, "rows")?;
         raw::check(columns, "columns")?;
@@ -320,6 +326,7 @@ pub unsafe extern "C" fn stickslip_rigid_values(
     values: *mut f64,
 ) -> i32 {
     guard(|| {
+        features::RIGID.check()?;
         let plan = &mut plan(rigid)?.plan;
         sized::declared_size(motions)?;
         let motion = |(k, (dimension, _)): (usize, (usize, usize))| read_motion(&read_each(motions, k)?, dimension);

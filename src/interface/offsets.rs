@@ -8,6 +8,7 @@ use super::data::shape_offsets::shape_offsets;
 use super::inspect::adjust::{Adjusted, adjusted};
 use super::pairing::settle::Pairing;
 use crate::error::{Error, Kind, Result};
+use crate::features;
 use crate::geometry::{AnalyticSurface, Vec3};
 use crate::memory;
 
@@ -16,6 +17,9 @@ impl<const N: usize> Contact<N> {
     /// open gaps wider than before, pairs may be deeper, and those of the step are sought anew.
     pub fn set_offsets(&mut self, [one, two]: [Option<Vec<f64>>; 2]) -> Result<()> {
         let mut offsets = [offsets::checked(&self.setup.nonmortar, one)?, offsets::checked(&self.setup.mortar, two)?];
+        if offsets.iter().any(|h| !h.is_empty()) {
+            features::OFFSETS.check()?;
+        }
         let options = &self.setup.options;
         if offsets.iter().any(|h| !h.is_empty())
             && N == 3

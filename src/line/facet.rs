@@ -31,6 +31,7 @@ impl LineFacet {
     /// # Errors
     /// [`Kind::InvalidSize`]: another number; [`Kind::NotFinite`]; [`Kind::DegenerateFacet`]: no length, or a middle node that is
     /// a quarter of the line from an end, or nearer.
+    #[inline]
     pub fn new(nodes: &[Vec2]) -> Result<LineFacet> {
         let n = nodes.len();
         if !(2..=MAX_LINE_NODES).contains(&n) {

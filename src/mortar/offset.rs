@@ -11,6 +11,7 @@ use super::element_rule;
 use super::moments::Moments;
 use super::segment::{KindKernel, Kinds, NonmortarFrame, Segment};
 use super::transport::Transport;
+use crate::features;
 use crate::quadrature::Rule;
 use crate::shape::{Isoparametric, MAX_CORNERS, SingleBasis};
 use crate::simd::Lanes;
@@ -22,6 +23,7 @@ pub fn offset_motion(
     (one, two): (&[f64; MAX_CORNERS], &[f64; MAX_CORNERS]),
     slopes: &mut AreaDerivatives,
 ) {
+    features::OFFSETS.is_here();
     let mut raised = segment.clone();
     for k in 0..MAX_CORNERS {
         raised.mortar.d[k] = -two[segment.mortar.node[k]];

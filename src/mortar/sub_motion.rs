@@ -20,6 +20,7 @@ use super::sub_moments::{BATCH, FEW_SLOTS, SLOTS, SubMoments};
 use super::sub_pair::{Points, Side};
 use super::sub_polynomials::Polynomials;
 use super::transport::PlaneDerivatives;
+use crate::features;
 use crate::geometry::Vec3;
 use crate::quadrature::Rule;
 use crate::shape::{GROUPS, MAX_CORNERS, MAX_PARENT_NODES, Parent, Quadrilateral, TERMS, Triangle};
@@ -61,6 +62,7 @@ pub fn sub_motion(
     positions: ParentPositions,
     to: &mut SubMotion,
 ) {
+    features::QUADRATIC.is_here();
     simd::dispatch(Motion { pair, sides, space, tractions, positions, to });
 }
 

@@ -13,6 +13,7 @@ use super::points::{Fan, Maps, points};
 use super::segment::{NonmortarFrame, Segment};
 use super::slots::{MORTAR_CORNER, PAIR_CORNERS, PAIR_NODES};
 use super::transport::PlaneDerivatives;
+use crate::features;
 use crate::geometry::Vec2;
 use crate::geometry::bilinear_map::Preimage;
 use crate::geometry::edge_interval::{EdgeInterval, EdgeIntervals};
@@ -71,6 +72,7 @@ pub fn sub_weights(
     space: MultiplierSpace,
     derivatives: Option<&mut SubDerivatives>,
 ) -> SubWeights {
+    features::QUADRATIC.is_here();
     simd::dispatch(Integrate { frame, segment, rule, sides, space, derivatives })
 }
 

@@ -37,7 +37,7 @@ from ranks import ranks, ranks_scenes  # noqa: E402
 from ranks_files import ranks_files  # noqa: E402
 from ranks_full import ranks_full  # noqa: E402
 from ranks_moving import ranks_many, ranks_moving  # noqa: E402
-from restart import restart  # noqa: E402
+from restart import restart, restart_steps  # noqa: E402
 from rigid import rigid  # noqa: E402
 from roles import roles  # noqa: E402
 from slider import slider, slider_fine  # noqa: E402
@@ -92,6 +92,7 @@ GROUPS = {
     "ranks_moving": ranks_moving,
     "ranks_scenes": ranks_scenes,
     "restart": restart,
+    "restart_steps": restart_steps,
     "rigid": rigid,
     "roles": roles,
     "sliding": sliding,

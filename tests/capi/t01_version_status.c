@@ -3,7 +3,7 @@
 #include "check.h"
 
 static void check_build(const char *version) {
-  static const char *const names[] = {"version", "commit", "target", "profile", "compiler", "kernels"};
+  static const char *const names[] = {"version", "commit", "target", "profile", "compiler", "kernels", "features"};
   char text[512];
   size_t count = 0;
   CHECK(strlen(stickslip_build()) < sizeof text);

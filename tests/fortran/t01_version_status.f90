@@ -54,7 +54,8 @@ contains
 
   subroutine check_build(version)
     character(*), intent(in) :: version
-    character(8), parameter :: NAMES(6) = [character(8) :: 'version', 'commit', 'target', 'profile', 'compiler', 'kernels']
+    character(8), parameter :: NAMES(7) = [character(8) :: 'version', 'commit', 'target', 'profile', 'compiler', 'kernels', &
+      'features']
     character(:), allocatable :: rest, word, value
     integer :: k, blank, sign
     rest = c_text(stickslip_build())

@@ -6,8 +6,9 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 
 /// Modules and what each may import, lowest first.
-const ALLOWED: [(&str, &[&str]); 17] = [
+const ALLOWED: [(&str, &[&str]); 18] = [
     ("error", &[]),
+    ("features", &["error"]),
     ("memory", &["error"]),
     ("adjacency", &["error", "memory"]),
     ("threads", &["error", "memory"]),
@@ -17,7 +18,7 @@ const ALLOWED: [(&str, &[&str]); 17] = [
     ("geometry", &["error", "shape", "simd"]),
     ("normal", &["error", "geometry"]),
     ("rigid", &["error", "geometry", "memory"]),
-    ("mortar", &["error", "geometry", "quadrature", "shape", "simd"]),
+    ("mortar", &["error", "features", "geometry", "quadrature", "shape", "simd"]),
     ("line", &["error", "geometry", "mortar", "quadrature", "shape", "simd"]),
     ("dual", &["error", "geometry", "mortar", "shape", "simd"]),
     ("points", &["geometry", "mortar", "quadrature", "shape"]),
@@ -30,6 +31,7 @@ const ALLOWED: [(&str, &[&str]); 17] = [
             "dual",
             "element",
             "error",
+            "features",
             "geometry",
             "law",
             "line",

@@ -5,6 +5,7 @@ use super::lines::{Lines, shared_ends};
 use super::parents::Parents;
 use crate::adjacency::{SharedEdge, shared_edges};
 use crate::error::{Error, Kind, Result, Text};
+use crate::features;
 use crate::geometry::{AnalyticShape, AnalyticSurface, FRAME, Facet, Plane, Vec3, check_rigid_motion, in_plane};
 use crate::line::Measure;
 use crate::memory::{self, Store, Stored};
@@ -129,6 +130,9 @@ impl Surface {
         if let Some(k) = used.iter().position(|u| !u) {
             return fail(Kind::InvalidValue, text!("node {k} belongs to no facet; leave it out"));
         }
+        if measure.is_none() && given.iter().any(|facet| facet.parent.n > MAX_NODES) {
+            features::QUADRATIC.check()?;
+        }
         let (parents, kept) = match measure.is_some() || given.iter().any(|facet| facet.parent.n > MAX_NODES) {
             false => {
                 let linear = |f: &ParentNodes| FacetNodes { nodes: [0, 1, 2, 3].map(|k| f.nodes[k]), len: f.parent.n };
@@ -197,6 +201,7 @@ impl Surface {
     /// A rigid surface in closed form, placed by the points of its frame (see [`AnalyticSurface`]), which have no equations: four,
     /// of a line and a circle three with z = 0.
     pub fn analytic(side: &'static str, shape: AnalyticShape, frame: Vec<Vec3>) -> Result<Surface> {
+        features::ANALYTIC.check()?;
         let fail = |kind, text: Text| Err(Error::new(kind, text!("{side}: {text}")));
         let points = shape.points();
         if frame.len() != points {

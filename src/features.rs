@@ -1,0 +1,68 @@
+//! What can be left out of the library when it is built, for a smaller one: cargo's features of the same names, all in by default.
+//!
+//! All functions and structs of the C ABI are there whatever is built. What needs a feature asks [`Feature::check`] first, where
+//! the answer is a constant: behind a refusal nothing is compiled.
+
+use crate::error::{Error, Kind, Result};
+
+/// A part of the library that a build may lack.
+#[derive(Clone, Copy, Debug)]
+pub struct Feature {
+    /// Its name among cargo's features.
+    pub name: &'static str,
+    /// Whether this build has it.
+    pub built: bool,
+}
+
+/// Analytic mortar surfaces.
+pub const ANALYTIC: Feature = Feature { name: "analytic", built: cfg!(feature = "analytic") };
+/// Systems without multipliers.
+pub const CONDENSED: Feature = Feature { name: "condensed", built: cfg!(feature = "condensed") };
+/// Heat across the interface.
+pub const HEAT: Feature = Feature { name: "heat", built: cfg!(feature = "heat") };
+/// Offsets of nodes.
+pub const OFFSETS: Feature = Feature { name: "offsets", built: cfg!(feature = "offsets") };
+/// Quadratic facets of solids.
+pub const QUADRATIC: Feature = Feature { name: "quadratic", built: cfg!(feature = "quadratic") };
+/// Rigid bodies.
+pub const RIGID: Feature = Feature { name: "rigid", built: cfg!(feature = "rigid") };
+
+impl Feature {
+    /// Refuses what needs a feature that was left out.
+    ///
+    /// # Errors
+    /// [`Kind::Unsupported`].
+    #[inline(always)]
+    pub fn check(self) -> Result<()> {
+        if self.built { Ok(()) } else { Err(self.left_out()) }
+    }
+
+    /// Within what is not reached without the feature, for every way to it is refused: nothing behind this is compiled then.
+    #[inline(always)]
+    pub fn is_here(self) {
+        assert!(self.built, "reached without the feature `{}`", self.name);
+    }
+
+    #[cold]
+    fn left_out(self) -> Error {
+        let name = self.name;
+        let text = text!(
+            "this library was built without {name}: build it with all features, or with `{name}` among cargo's --features or in STICKSLIP_FEATURES of CMake"
+        );
+        Error::new(Kind::Unsupported, text)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_left_out_is_refused_by_name() {
+        let heat = |built| Feature { name: "heat", built }.check();
+        assert!(heat(true).is_ok());
+        let refusal = heat(false).unwrap_err();
+        assert_eq!(refusal.kind, Kind::Unsupported);
+        assert!(refusal.message.contains("built without heat") && refusal.message.contains("STICKSLIP_FEATURES"));
+    }
+}

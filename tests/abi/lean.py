@@ -1,0 +1,133 @@
+#!/usr/bin/env python3
+"""A library without any of the features that can be left out: smaller, with all symbols; what needs one is refused by its name,
+and everything else has the bits of the whole library.
+
+    lean.py --library libstickslip.so --build DIR    the whole library; builds the lean one in DIR
+    lean.py --probe                                  what STICKSLIP_LIBRARY says: bits of results, and refusals
+"""
+
+import argparse
+import hashlib
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import sizes
+
+PYTHON = sizes.ROOT / "python"
+# What all features together add at the least; an eighth and more of the library is what they did.
+SAVED = 0.1
+
+
+def refusals(stickslip, scene, np):
+    """The message of each feature's call, or None where it is taken."""
+    from stickslip import _library as library
+
+    quadratic = np.array([(0, 0, 0), (0, 1, 0), (1, 0, 0), (0, 0.5, 0), (0.5, 0.5, 0), (0.5, 0, 0)], float), np.array([range(6)])
+    centre = np.array([0.5, 0.5, -1.5])
+    frame = centre + np.vstack([np.zeros(3), np.eye(3)])
+    below = scene.grid(3, 0.0, 1.2, 0.0, True)
+
+    def analytic(solid):
+        # Beside what the package offers: a ball below the facets.
+        made = stickslip.options.make(solid.options)
+        made.mortar_side, made.shape, made.radius = (stickslip.constants[name] for name in ("MORTAR_ANALYTIC", "SHAPE_SPHERE", "SHAPE_SPHERE"))
+        one, two = solid.arguments[0]._struct(), stickslip.Surface(frame, [])._struct()
+        slot = library.ffi.new("struct stickslip_interface **")
+        library.call("interface_create", one[0], two[0], made, slot)
+        library.call("interface_destroy", slot)
+
+    def heat(solid):
+        x1, x2, lam = solid.pressed()
+        solid.interface.heat(x1, x2, lam, np.zeros(len(x1)), np.ones(len(x2)), contact=1.0, pressure=1.0, exponent=1.0)
+
+    def condensed(solid):
+        stickslip.Condensed(solid.interface).multipliers(solid.x1, solid.x2, np.zeros(solid.x1.shape))
+
+    def rigid(solid):
+        x1 = solid.x1
+        body = stickslip.RigidBody(x1, np.arange(x1.size).reshape(x1.shape), [0, 0, 0], np.arange(6) + 9999)
+        body.positions()
+
+    calls = {
+        "analytic": analytic,
+        "condensed": condensed,
+        "heat": heat,
+        "offsets": lambda solid: solid.interface.set_offsets(np.full(len(solid.x1), 1e-4)),
+        "quadratic": lambda _: scene.Scene(quadratic, below, multiplier_space="sub"),
+        "rigid": rigid,
+    }
+    said = {}
+    for name, call in calls.items():
+        with scene.Solid(basis="dual") as solid:
+            try:
+                call(solid)
+                said[name] = None
+            except stickslip.Error as refusal:
+                said[name] = f"{type(refusal).__name__}: {refusal}"
+    return said
+
+
+def probe():
+    sys.path[:0] = [str(PYTHON / "tests"), str(PYTHON / "src")]
+    import numpy as np
+    import scene
+    import stickslip
+
+    bits = hashlib.sha256()
+    for kind in (scene.Solid, scene.Plane):
+        for basis in ("standard", "dual"):
+            with kind(basis=basis) as made:
+                at = made.pressed()
+                for array in (*made.interface.residual(*at), made.interface.tangent(*at, made.size).toarray()):
+                    bits.update(np.ascontiguousarray(array).tobytes())
+                made.interface.commit(*at)
+    built = dict(word.split("=") for word in stickslip.__build__.split())["features"]
+    print(json.dumps({"bits": bits.hexdigest(), "features": built, "refusals": refusals(stickslip, scene, np)}))
+
+
+def probed(library):
+    environment = {**os.environ, "STICKSLIP_LIBRARY": str(library)}
+    done = subprocess.run([sys.executable, __file__, "--probe"], capture_output=True, text=True, env=environment)
+    if done.returncode:
+        sys.exit(f"{library}: {done.stdout}{done.stderr}")
+    return json.loads(done.stdout)
+
+
+def symbols(library):
+    done = subprocess.run(["nm", "-D", "--defined-only", str(library)], capture_output=True, text=True, check=True)
+    return {line.split()[-1] for line in done.stdout.splitlines()}
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--library", type=Path, help="the whole library")
+    parser.add_argument("--build", type=Path, help="where to build the lean one")
+    parser.add_argument("--probe", action="store_true")
+    arguments = parser.parse_args()
+    if arguments.probe:
+        return probe()
+    lean = sizes.library(arguments.build.resolve(), [])
+    whole, less = probed(arguments.library.resolve()), probed(lean)
+    bytes_of = [sizes.stripped(path) for path in (arguments.library, lean)]
+    left = [f"{name}: {said}" for name, said in less["refusals"].items()
+            if said is None or not said.startswith("Unsupported") or f"built without {name}:" not in said]
+    checks = {
+        "the whole library takes what each feature is for": not any(whole["refusals"].values()) or whole["refusals"],
+        "the lean one refuses it by name": not left or left,
+        "every feature is asked": sorted(less["refusals"]) == sorted(sizes.FEATURES),
+        "stickslip_build says so": (whole["features"], less["features"]) == (",".join(sizes.FEATURES), "none"),
+        "all else has the same bits": whole["bits"] == less["bits"],
+        "the same symbols": symbols(arguments.library) == symbols(lean),
+        "smaller": bytes_of[1] < (1 - SAVED) * bytes_of[0] or bytes_of,
+    }
+    for what, holds in checks.items():
+        print(f"{'ok     ' if holds is True else 'FAILED '} {what}{'' if holds is True else f': {holds}'}")
+    print(f"        {bytes_of[0]} and {bytes_of[1]} bytes stripped")
+    return 0 if all(holds is True for holds in checks.values()) else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
