@@ -36,7 +36,7 @@ pub struct Patches {
     slide: f64,
 }
 
-fn patch(n: usize, low: f64, high: f64, up: bool) -> (Vec<Vec3>, Vec<Vec<i64>>) {
+pub fn patch(n: usize, low: f64, high: f64, up: bool) -> (Vec<Vec3>, Vec<Vec<i64>>) {
     let at = |k: usize| low + (high - low) * k as f64 / n as f64;
     let x = (0..(n + 1) * (n + 1)).map(|k| Vec3::new(at(k % (n + 1)), at(k / (n + 1)), 0.0)).collect();
     let facet = |f: usize| {
@@ -47,7 +47,7 @@ fn patch(n: usize, low: f64, high: f64, up: bool) -> (Vec<Vec3>, Vec<Vec<i64>>) 
     (x, (0..n * n).map(facet).collect())
 }
 
-fn equations(n: usize, first: usize) -> Vec<[i64; 3]> {
+pub fn equations(n: usize, first: usize) -> Vec<[i64; 3]> {
     (0..n).map(|a| [0, 1, 2].map(|i| (first + 3 * a + i) as i64)).collect()
 }
 

@@ -221,7 +221,8 @@ pub unsafe extern "C" fn stickslip_interface_set_previous(
 /// (tied, rough, without friction) ignore it. What a law remembers becomes 0; `stickslip_interface_set_law_states` afterwards.
 ///
 /// Errors: NULL_POINTER, NOT_FINITE, DEGENERATE_FACET, PROJECTION_NOT_CONVEX, UNDEFINED_NORMAL, INVALID_VALUE (commits < 0, a
-/// mortar surface in layers, an analytic surface's frame).
+/// mortar surface in layers, an analytic surface's frame), UNSUPPORTED (friction where points decide: what they remember is
+/// not in it).
 /// Cost: one search and one integration; allocates.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn stickslip_interface_set_committed(

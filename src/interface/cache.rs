@@ -94,6 +94,11 @@ impl<const N: usize> Cache<N> {
         self.answers.responses.points.is_settled = false;
     }
 
+    /// Points that remember their friction.
+    pub fn points(&mut self, given: Given<N>) -> Result<usize> {
+        self.answers.responses.points.count(given)
+    }
+
     /// A step begins. `active`: whether the pairs are those where the last one ended, for the next evaluation may well be
     /// there.
     pub fn begin(&mut self, history: &History, active: bool) {

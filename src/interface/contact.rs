@@ -7,6 +7,7 @@ use super::data::extent::Extent;
 use super::data::history::History;
 use super::data::node_data::{Owner, check_length, free_directions};
 use super::data::options::{Friction, Options, Weights};
+use super::data::point_friction::REALS_PER_POINT;
 use super::data::restart::Host;
 use super::data::setup::Setup;
 use super::data::surface::{NO_EQUATION, Surface};
@@ -109,7 +110,18 @@ impl<const N: usize> Contact<N> {
         Given { setup: &setup, step: &step }.normals()?;
         cache.begin(&step.history, settled.active);
         let (linear, residual) = (Linear::default(), Residual::default());
-        Ok(Contact { setup, step, rollback: None, spare: None, cache, linear, residual })
+        let mut contact = Contact { setup, step, rollback: None, spare: None, cache, linear, residual };
+        contact.remember_points()?;
+        Ok(contact)
+    }
+
+    /// With friction at points: that they have not slipped yet.
+    fn remember_points(&mut self) -> Result<()> {
+        if self.setup.has_point_friction() {
+            let count = self.cache.points(Given { setup: &self.setup, step: &self.step })?;
+            memory::refill(&mut self.step.history.states, 0.0, REALS_PER_POINT * count)?;
+        }
+        Ok(())
     }
 
     /// What the stages are given.
@@ -288,7 +300,7 @@ impl<const N: usize> Contact<N> {
         new.history.check_finite()?;
         self.adopt(new)?;
         self.rollback = None;
-        Ok(())
+        self.remember_points()
     }
 
     /// Takes (x1, x2) as t_n, after so many commits, with this slip since the first configuration `[L]` at every node: what
@@ -296,6 +308,10 @@ impl<const N: usize> Contact<N> {
     /// one was created with. No commit can then be undone.
     pub fn set_committed(&mut self, x1: &[Vec3], x2: &[Vec3], slip: &[Vec3], commits: i64) -> Result<()> {
         self.given().check_positions(x1, x2)?;
+        if self.setup.has_point_friction() {
+            let text = "STICKSLIP_DECISION_POINTS with friction and a history of nodes: what points remember is not in it; import one of points (stickslip_interface_history_import)";
+            return Err(Error::new(Kind::Unsupported, text));
+        }
         check_length("slip", slip.len(), self.setup.nonmortar.len())?;
         check_finite("slip", slip)?;
         if commits < 0 {
@@ -385,10 +401,14 @@ impl<const N: usize> Contact<N> {
         Ok(())
     }
 
+    fn host(&self) -> Host<'_> {
+        Host::of(&self.setup, self.step.history.states.len())
+    }
+
     /// The history as flat arrays, for a restart.
     pub fn export_history(&mut self) -> Result<(Vec<i64>, Vec<f64>)> {
         self.cache.complete(&self.setup, &mut self.step)?;
-        self.step.history.export(&Host::of(&self.setup))
+        self.step.history.export(&self.host())
     }
 
     /// Lengths of what [`Contact::export_history`] gives.
@@ -399,7 +419,7 @@ impl<const N: usize> Contact<N> {
 
     /// Replaces the history by an imported one, after which no commit can be undone.
     pub fn import_history(&mut self, integers: &[i64], reals: &[f64]) -> Result<()> {
-        let history = History::import((integers, reals), &Host::of(&self.setup))?;
+        let history = History::import((integers, reals), &self.host())?;
         let pairing = Pairing::again(&self.setup, &history)?;
         self.put_in_place(pairing, history, false);
         self.rollback = None;

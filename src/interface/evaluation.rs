@@ -124,7 +124,11 @@ impl<const N: usize> Contact<N> {
         let (pairs, answers, work) = self.cache.acting(self.setup.surfaces(), &self.step.history);
         let (given, responses) = (Given { setup: &self.setup, step: &self.step }, &answers.responses.nodes);
         if self.setup.decides_at_points() {
-            answers.responses.points.residual(given, responses, &mut self.residual)?;
+            let points = &answers.responses.points;
+            match self.setup.has_point_friction() {
+                true => points.residual_with_friction(given, responses, &mut self.residual)?,
+                false => points.residual(given, responses, &mut self.residual)?,
+            }
             return Ok(&self.residual);
         }
         residual::refresh(given, pairs, lambda, responses, &mut work.room.vectors, &mut self.residual)?;

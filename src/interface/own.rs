@@ -20,6 +20,10 @@ impl Contact<3> {
             return Err(Error::new(Kind::InvalidValue, text));
         }
         own.as_ref().map_or(Ok(()), Own::validate)?;
+        if own.is_some() && options.decides_at_points() {
+            let text = "a law of one's own with STICKSLIP_DECISION_POINTS: it is asked at nodes; take STICKSLIP_DECISION_NODES";
+            return Err(Error::new(Kind::Unsupported, text));
+        }
         if let Some(Own::Orthotropic(_)) = own {
             if options.follows_normals() {
                 let text = "orthotropic friction with STICKSLIP_NORMALS_CURRENT: how its axes turn with a normal of now is not in the tangent; take STICKSLIP_NORMALS_COMMITTED";
@@ -48,12 +52,12 @@ impl Contact<3> {
 impl<const N: usize> Contact<N> {
     /// What the law remembers of each node at t_n; empty of a law that remembers nothing.
     pub fn law_states(&self) -> &[f64] {
-        &self.step.history.states
+        if self.setup.own.is_some() { &self.step.history.states } else { &[] }
     }
 
     /// Replaces that, as after [`Contact::set_committed`]. No commit can then be undone.
     pub fn set_law_states(&mut self, states: &[f64]) -> Result<()> {
-        let kept = &mut self.step.history.states;
+        let kept: &mut [f64] = if self.setup.own.is_some() { &mut self.step.history.states } else { &mut [] };
         if states.len() != kept.len() {
             let text = text!("states has {} entries; the law remembers {}", states.len(), kept.len());
             return Err(Error::new(Kind::InvalidSize, text));

@@ -35,7 +35,7 @@ pub use heat::{Conductance, FADES, FEW, HeatFlow, HeatNode, heat_flow};
 pub use node::{Law, Node, NodeResponse, Turn};
 pub use orthotropic::Orthotropic;
 pub use own::{Host, OWN_NAMES, Own};
-pub use projection::{Projected, State, TIE, Threshold, project};
+pub use projection::{Projected, State, TIE, Threshold, project, project_parts};
 pub use question::{Answer, Question};
 pub use slip::SlipMeasure;
 pub use special::{Ellipse, Special, Told};

@@ -78,7 +78,7 @@ pub fn project(sigma: Vec3, normal: Vec3, mu: f64) -> Projected {
 
 /// The same of sigma_N nu + sigma_T. A caller that has both need not take them apart again: on the closed cone
 /// (mu = 0) p then has no rounding of what slips.
-pub(super) fn project_parts(sigma_n: f64, sigma_t: Vec3, normal: Vec3, k: Threshold) -> Projected {
+pub fn project_parts(sigma_n: f64, sigma_t: Vec3, normal: Vec3, k: Threshold) -> Projected {
     if sigma_n >= 0.0 {
         return Projected::gap();
     }

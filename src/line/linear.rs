@@ -3,7 +3,9 @@
 
 use super::facet::MAX_LINE_NODES;
 use super::segment::{LineSegment, Measure};
+use crate::error::Result;
 use crate::geometry::Vec2;
+use crate::mortar::OverlapPoint;
 use crate::quadrature::line::GAUSS_2;
 use crate::simd::{Kernel, Lanes};
 
@@ -45,6 +47,19 @@ pub(super) fn closed_weights(segment: &LineSegment, measure: Measure, field: [f6
         }
     }
     n
+}
+
+/// The points that these are sums over.
+pub(super) fn each_point(
+    segment: &LineSegment,
+    measure: Measure,
+    to: &mut dyn FnMut(OverlapPoint) -> Result<()>,
+) -> Result<()> {
+    for (at, ds) in points(segment) {
+        let [own, other] = at.map(|[a, b]| [a, b, 0.0, 0.0]);
+        to(OverlapPoint { weight: ds * measure.at(at[0], segment.r), own, other })?;
+    }
+    Ok(())
 }
 
 /// The functions at the points of the rule, and ds.

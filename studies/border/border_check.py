@@ -18,6 +18,8 @@ PATCH = 1e-11
 STEP, TANGENT = 1e-6, 1e-7
 # Hertz' line, 5 facets over the half-width, mean over the border's positions.
 LINE_BOUND = 0.016
+# The shear of Cattaneo and Mindlin, likewise.
+SHEAR_BOUND = 0.05
 # Steps in which nothing moves, and what they may change: Newton's tolerance, over stiffness.
 RESTS, CREEP = 10, 1e-8
 # Positions of the border in the check; the study has ten.
@@ -48,19 +50,23 @@ def same_gaps(library, v):
 def same_points(library, v):
     """The library's own points against those of the study, on lines, whose rule is the same."""
     random = np.random.default_rng(2)
-    for uneven in (False, True):
+    for uneven, mu in ((False, 0.0), (True, 0.0), (False, MU), (True, MU)):
         scene = Hertz(6, uneven=uneven).scene
         pair, rest = scene.pair, scene.start()
-        laws = FrozenPoints(pair), Nodal(library, pair, pair.one.x, pair.two.x, "dual", decision="points")
+        laws = FrozenPoints(pair, mu=mu), Nodal(library, pair, pair.one.x, pair.two.x, "dual", mu=mu, decision="points")
         x1, x2 = (x + 2e-3 * random.standard_normal(x.shape) for x in rest)
         x1[:, 1] -= 0.02
-        at = x1, x2, 0.01 * random.standard_normal((len(x1), 1))
+        at = x1, x2, 0.01 * random.standard_normal((len(x1), laws[0].components))
+        if mu:  # and what points remember
+            for law in laws:
+                law.commit(*at)
+            at = x1 + 1e-3 * random.standard_normal(x1.shape), x2, at[2] + 2e-3 * random.standard_normal(at[2].shape)
         for name, found in (("residual", [law.residual(*at) for law in laws]), ("tangent", [law.tangent(*at) for law in laws])):
             # As forces.
-            scale = np.append(np.ones(x1.size + x2.size), laws[0].r)
+            scale = np.append(np.ones(x1.size + x2.size), np.repeat(laws[0].r, laws[0].components))
             own, other = (f * (scale[:, None] if f.ndim == 2 else scale) if law is laws[0] else f for f, law in zip(found, laws))
             error = np.abs(own - other).max() / np.abs(own).max()
-            v.below(f"the library's points, {name}{', uneven' if uneven else ''}", error, SAME_POINTS, "the study's law")
+            v.below(f"the library's points, {name}{', uneven' if uneven else ''}{', friction' if mu else ''}", error, SAME_POINTS, "the study's law")
 
 
 def tangents(v):
@@ -97,6 +103,11 @@ def mean(scene, law):
     return np.mean([scene.error(scene.scene.solve(law, scene.prescribed(a))) for a in scene.loads(POSITIONS)])
 
 
+def shear(scene, pressed, drawn, a):
+    start = scene.scene.solve(pressed, scene.prescribed(a))
+    return scene.error_of_shear(scene.scene.solve(drawn, scene.prescribed(a, PULL), start))
+
+
 def findings(library, v):
     scene = Hertz(5)
     pair = scene.scene.pair
@@ -105,6 +116,9 @@ def findings(library, v):
     points, nodes = mean(scene, FrozenPoints(pair)), mean(scene, Nodal(library, pair, pair.one.x, pair.two.x, "dual"))
     v.below("Hertz' line, 5 facets, points", points, LINE_BOUND, "the study")
     v.at_least("the same: dual nodes' error over it", nodes / points, 1.5, "the study")
+    of_shear = [shear(scene, *(Nodal(library, pair, pair.one.x, pair.two.x, "dual", mu=mu, decision="points") for mu in (0.0, MU)), a)
+                for a in scene.loads(POSITIONS)]
+    v.below("shear of Cattaneo and Mindlin, 5 facets, by the library's own points", np.mean(of_shear), SHEAR_BOUND, "the study")
     scene = Hertz(5, uneven=True)
     full, lumped = (mean(scene, FrozenPoints(scene.scene.pair, lumped=lumped)) for lumped in (False, True))
     v.at_least("facets of 1 : 2: lumped error over the consistent one", lumped / full, 1.5, "the study")

@@ -14,12 +14,12 @@ import numpy as np  # noqa: E402
 import points  # noqa: E402
 import study_page  # noqa: E402
 from documents import put_between  # noqa: E402
-from points_scenes import LAWS, Corner  # noqa: E402
+from points_scenes import LAWS, PULL, Corner  # noqa: E402
 from scene import Driver, SceneError  # noqa: E402
 
 DOCUMENT = folders.ROOT / "docs" / "accuracy.md"
 MARKS = ("<!-- points -->", "<!-- /points -->")
-LINES, BALLS, CORNERS, OVER_R = (5, 10, 20, 40), (5, 8), (10, 20, 40), (5, 10, 20)
+LINES, SHEARS, BALLS, CORNERS, OVER_R = (5, 10, 20, 40), (5, 10, 20), (5, 8), (10, 20, 40), (5, 10, 20)
 
 
 def per_cent(errors):
@@ -30,10 +30,13 @@ def accuracy(driver):
     """Errors, and Newton iterations of a load."""
     reference = Corner.reference(driver)
     families = [("Hertz' line", n, points.errors(driver, "plane", n, points.LOADS, LAWS)) for n in LINES]
+    families += [("Cattaneo and Mindlin: shear", n, points.errors(driver, "plane", n, points.LOADS, points.SHEARED, PULL)) for n in SHEARS]
     families += [("Corner of a block", n, points.corner_errors(driver, n, points.LOADS, reference)) for n in CORNERS]
     families += [("Ball, rectangles", n, points.errors(driver, "ball", n, points.LOADS, LAWS)) for n in BALLS]
-    body = [[title, str(n), *(per_cent(e) for e, _ in found.values()), *(f"{i / len(e):.1f}" for e, i in found.values())]
-            for title, n, found in families]
+    body = []
+    for title, n, found in families:
+        of = [found.get(name) for name in LAWS]
+        body.append([title, str(n), *(per_cent(f[0]) if f else "-" for f in of), *(f"{f[1] / len(f[0]):.1f}" if f else "-" for f in of)])
     return ["scene", "facets", *LAWS, *(f"iterations: {name}" for name in LAWS)], body
 
 

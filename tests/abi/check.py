@@ -35,7 +35,7 @@ CONSTANTS = HERE / "constants.txt"
 # Offsets of nodes, whose share of a tangent is compiled apart, so that nothing is paid without them: 0.26 million.
 # Laws in the place of Coulomb's: 60 thousand.
 # Heat: 0.13 million.
-# Points that decide: at most 90 thousand. One guard for all entry points, and less that is inlined (cmake/library.cmake): 0.2 million
+# Points that decide: at most 90 thousand; with friction 75 thousand more. One guard for all entry points, and less that is inlined (cmake/library.cmake): 0.2 million
 # less. What each feature that can be left out adds: docs/abi.md.
 LARGEST = 4_000_000
 # glibc's own libraries, the loader, and the one that unwinds.

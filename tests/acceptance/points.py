@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from points_scenes import LAWS, MODULUS, NAME, NODES, POINTS, Corner, Hertz, half_widths
+from points_scenes import LAWS, MODULUS, NAME, NODES, POINTS, PULL, Corner, Hertz, half_widths
 from scene import interfaces, write
 
 # Patch tests: the linear solver's rounding.
@@ -11,9 +11,20 @@ PATCH_BOUND = 1e-11
 # 0.77, 0.36 %; ball 2.2, 1.3 %; corner 2.6, 2.2, 1.9 %), and a tenth for fewer loads and other corners of the mesh.
 LINE_BOUND = {5: 1.6e-2, 10: 9e-3, 20: 5e-3}
 BALL_BOUND = {5: 2.4e-2, 8: 1.4e-2}
+# Of the shear of Cattaneo and Mindlin: the study's 4.5, 2.3, 1.1 %, and a tenth.
+SHEAR_BOUND = {5: 5e-2, 10: 2.5e-2, 20: 1.25e-2}
+# Pressed and pulled in one step, standard nodes end elsewhere.
+SHEARED = {name: law for name, law in LAWS.items() if name != "nodes, standard"}
+# Steps in which nothing moves, and what all of them may change, over the largest.
+RESTS, REST_BOUND = 400, 1e-6
 CORNER_BOUND = {10: 3e-2, 20: 2.4e-2, 40: 2.1e-2}
-# Of r over its default, K as it is: nowhere worse than dual nodes. Beyond them the study has places where it is, by a tenth.
-FACTORS, BEYOND, MARGIN = (0.1, 1, 10), (0.01, 100), 1.1
+# Of r over its default, K as it is: on the mean nowhere worse than dual nodes. Beyond, r / 100 with 10 facets has 1.11 times their
+# mean, and the limit r -> 0 has 1.16: there K alone is what is left of the method (docs/accuracy.md).
+FACTORS, BEYOND, LIMIT, MARGIN = (0.1, 1, 10), (0.01, 100), 1e-4, 1.2
+# The most by which the forces next to a corner may be off, mean over places of the mesh, whatever the facets: 1.3 and 5.0 % are found.
+EDGE_BOUND, PLACES = (2e-2, 6e-2), 5
+# Of a ball, within 0.6 a: over that of facets 8/5 as large; K gives the square, 2.56, and 2.25 is found. Near the border: over dual nodes.
+SECOND_ORDER, BORDER_BOUND = (2, 3), 0.6
 # Over the scenes without friction, in sum, over those of dual nodes.
 ITERATIONS = 1.3
 SCENES_WITHOUT_FRICTION = ("compare_patch", "hertz_line_coarse", "hertz_line_fine", "ball_on_block", "patch_punch", "plane_hertz",
@@ -30,6 +41,8 @@ def points(verdicts, driver):
     driver.output.mkdir(parents=True, exist_ok=True)
     patches(verdicts, driver)
     line(verdicts, driver, (5,), FEW)
+    shear(verdicts, driver, (5,), 2)
+    rest(verdicts, driver, 20)
     ball(verdicts, driver, (5,), 1)
     corners(verdicts, driver, (10,), 2)
     ranks(verdicts, driver)
@@ -39,8 +52,12 @@ def points(verdicts, driver):
 def points_full(verdicts, driver):
     driver.output.mkdir(parents=True, exist_ok=True)
     line(verdicts, driver, LINE_BOUND, LOADS)
+    shear(verdicts, driver, SHEAR_BOUND, LOADS)
+    rest(verdicts, driver, RESTS)
     ball(verdicts, driver, BALL_BOUND, LOADS)
     corners(verdicts, driver, CORNER_BOUND, LOADS)
+    edges(verdicts, driver)
+    parts_of_ball(verdicts, driver)
     over_r(verdicts, driver)
     iterations(verdicts, driver)
 
@@ -89,13 +106,15 @@ def patches(verdicts, driver):
                 verdicts.below(f"patch test, {model}, {cell}, {weights}: worst pressure", worst, PATCH_BOUND, "uniform")
 
 
-def errors(driver, kind, facets, count, laws):
-    """{law: (errors, iterations)} over `count` of the ten loads."""
+def errors(driver, kind, facets, count, laws, pull=0.0):
+    """{law: (errors, iterations)} over `count` of the ten loads; with a pull of what acts along the surface."""
     scene, found = Hertz(kind, facets), {}
+    error = Hertz.error_of_shear if pull else scene.error
     loads = half_widths(facets, LOADS)[:: LOADS // count][:count]
     for name, law in laws.items():
-        runs = [driver.run(scene.scene(driver, a), *options(law), label=f"{kind}_{facets}_{a:.4f}_{label(law)}") for a in loads]
-        found[name] = np.array([scene.error(run) for run in runs]), sum(run.newton_iterations for run in runs)
+        runs = [driver.run(scene.scene(driver, a, pull), *options(law), label=f"{kind}_{facets}_{a:.4f}_{'pull_' if pull else ''}{label(law)}")
+                for a in loads]
+        found[name] = np.array([error(run) for run in runs]), sum(run.newton_iterations for run in runs)
     return found
 
 
@@ -117,6 +136,20 @@ def compare(verdicts, what, found, bound):
 def line(verdicts, driver, sizes, count):
     for facets in sizes:
         compare(verdicts, f"Hertz' line, {facets} facets", errors(driver, "plane", facets, count, LAWS), LINE_BOUND[facets])
+
+
+def shear(verdicts, driver, sizes, count):
+    for facets in sizes:
+        compare(verdicts, f"shear of a line, {facets} facets", errors(driver, "plane", facets, count, SHEARED, PULL), SHEAR_BOUND[facets])
+
+
+def rest(verdicts, driver, steps):
+    """Steps in which nothing moves change no force."""
+    run = driver.run(Hertz("plane", 5).scene(driver, 1.0, PULL, steps, **POINTS), label=f"rest_{steps}")
+    first, last = (run.interface(NAME, step) for step in (1, 1 + steps))
+    for f in ("fx", "fy"):
+        worst = np.abs(last[f] - first[f]).max() / np.abs(first[f]).max()
+        verdicts.below(f"{steps} steps of rest: {f}", worst, REST_BOUND, "no creep")
 
 
 def ball(verdicts, driver, sizes, count):
@@ -141,11 +174,39 @@ def corners(verdicts, driver, sizes, count):
         compare(verdicts, f"corner, {facets} facets", corner_errors(driver, facets, count, reference), CORNER_BOUND[facets])
 
 
-def errors_over_r(driver, facets):
+def edges(verdicts, driver):
+    """The nodes next to a corner are off by as much on any facets. On facets that match nodes are, too."""
+    reference = Corner.reference(driver)
+    for facets in CORNER_BOUND:
+        shifts = np.arange(PLACES) / PLACES
+        runs = [driver.run(Corner.coarse(driver, facets, s), *options(POINTS), label=f"edge_{facets}_{s:.1f}") for s in shifts]
+        off = np.mean([Corner.at_edge(run, reference) for run in runs], axis=0)
+        match = driver.run(Corner.matching(driver, facets), *options(NODES["nodes, dual"]), label=f"edge_{facets}_matching")
+        nodes = Corner.at_edge(match, reference)
+        for where, points, dual, bound in zip(("edge", "second"), off, nodes, EDGE_BOUND):
+            told = f"corner, {facets} facets, force of the {where} node: {100 * points:+.2g} % (nodes on facets that match {100 * dual:+.2g} %)"
+            verdicts.below(told, abs(points), bound, "the same of any facets")
+
+
+def parts_of_ball(verdicts, driver):
+    """Where its error sits: near the border, and within, where K smooths, which falls with h^2."""
+    within = []
+    for facets in BALL_BOUND:
+        scene, a = Hertz("ball", facets), half_widths(facets, LOADS)[0]
+        laws = NODES["nodes, dual"], POINTS
+        dual, found = (scene.parts(driver.run(scene.scene(driver, a), *options(law), label=f"parts_{facets}_{label(law)}"), a) for law in laws)
+        told = f"{100 * found[1]:.2g} % near the border, {100 * found[0]:.2g} % within 0.6 a (dual nodes {100 * dual[1]:.2g}, {100 * dual[0]:.2g} %)"
+        verdicts.below(f"ball, {facets} facets: {told}; border over dual nodes", found[1] / dual[1], BORDER_BOUND, "half of it")
+        within.append(found[0])
+    ratio, (low, high) = within[0] / within[1], SECOND_ORDER
+    verdicts.true(f"ball, within 0.6 a, 5 facets over 8: {ratio:.3g}", low <= ratio <= high, "K is of second order")
+
+
+def errors_over_r(driver, facets, factors=(*FACTORS, *BEYOND)):
     """Of dual nodes; {factor on r: of points}."""
     dual = errors(driver, "plane", facets, LOADS, {"": NODES["nodes, dual"]})[""][0]
     found = {}
-    for factor in sorted((*FACTORS, *BEYOND)):
+    for factor in sorted(factors):
         law = {**POINTS, "augmentation": factor * 0.9 * MODULUS * facets}  # all facets are of one size
         found[factor] = errors(driver, "plane", facets, LOADS, {"": law})[""][0]
     return dual, found
@@ -153,11 +214,12 @@ def errors_over_r(driver, facets):
 
 def over_r(verdicts, driver):
     for facets in (5, 10):
-        dual, found = errors_over_r(driver, facets)
+        dual, found = errors_over_r(driver, facets, (*FACTORS, *BEYOND, LIMIT))
         for factor, error in found.items():
             bound = 1 if factor in FACTORS else MARGIN
-            what = f"Hertz' line, {facets} facets, r x {factor:g}: {100 * error.mean():.2g} %, over dual nodes"
-            verdicts.below(what, error.mean() / dual.mean(), bound, "never above the nodal law's")
+            what = f"Hertz' line, {facets} facets, r x {factor:g}"
+            verdicts.below(f"{what}: {100 * error.mean():.2g} %, over dual nodes", error.mean() / dual.mean(), bound, "mean of ten loads")
+            verdicts.below(f"{what}: {100 * error.max():.2g} %, over dual nodes", error.max() / dual.max(), 1, "worst of ten loads")
 
 
 def iterations_of_scenes(driver):
@@ -190,7 +252,8 @@ def ranks(verdicts, driver):
 
 
 REFUSALS = {
-    "friction": ({"friction": 0.3, "law": "coulomb"}, "friction"),
+    "friction, weights that change": ({"friction": 0.3, "law": "coulomb", "weights": "committed"}, "WEIGHTS_REFERENCE"),
+    "another law": ({"friction": 0.3, "law": "tresca", "shear_limit": 1.0}, "not Coulomb's"),
     "tied": ({"law": "tied"}, "tied"),
     "augmented": ({"form": "augmented"}, "augmented"),
     "elements": ({"integration": "elements"}, "overlaps"),

@@ -20,6 +20,8 @@ RADIUS = 1000.0
 # In half-widths: the zone with facets of one size, across the surface and into the bodies; the pieces' ends.
 FINE, DEEP, FAR = 1.35, 1.0, {"plane": 5.0, "layer": 5.0, "ball": 4.0}
 GROWTH = {"plane": 1.2, "layer": 1.2, "ball": 1.5}
+# Cattaneo and Mindlin: friction, pull over mu times the force. 0.64: the inner 0.6 of the half-width sticks.
+MU, PULL = 0.3, 0.64
 # Of the one layer of cells that a line is in space.
 THICK = 0.1
 # Hats over a facet: points of a Gauss rule a direction.
@@ -79,8 +81,9 @@ class Hertz:
             box |= {"y": along.tolist(), "z": across.tolist()}
         return box | round_off if side == "upper" else box
 
-    def follow(self, a, side, file):
-        """Writes what the nodes of the outer sides do, those with another one at the same place in the plane, too."""
+    def follow(self, a, side, file, pull):
+        """Writes what the nodes of the outer sides do, those with another one at the same place in the plane, too. `pull`: over mu times
+        the force, of lines."""
         along, depth = self.planes(side)
         sign = 1 if side == "upper" else -1
         others = {"plane": [0.0], "layer": self.thick, "ball": along}[self.kind]
@@ -95,7 +98,10 @@ class Hertz:
         else:
             peak = MODULUS * a / (2 * RADIUS)
             u = np.zeros_like(X)
-            u[:, ::2] = fields.pressed_line(X[:, ::2] * [1, -sign], a, peak, YOUNG, POISSON)
+            x, stick = X[:, ::2] * [1, -sign], a * np.sqrt(1 - pull)
+            u[:, ::2] = fields.pressed_line(x, a, peak, YOUNG, POISSON)
+            for width, part in ((a, 1), (stick, -stick / a)) if pull else ():
+                u[:, ::2] += fields.sheared_line(x, width, -sign * part * MU * peak, YOUNG, POISSON)
         u[:, 2] *= -sign
         if side == "upper":
             X = bend(X, 1 if self.kind != "ball" else None)
@@ -104,10 +110,12 @@ class Hertz:
         np.savetxt(file, np.hstack([X, u]), fmt="%.17g")
         return file.name
 
-    def scene(self, driver, a, **interface):
-        """The path of the scene whose half-width is a."""
+    def scene(self, driver, a, pull=0.0, rest=0, **interface):
+        """The path of the scene whose half-width is a: pressed and pulled, then `rest` steps in which nothing moves. From nothing both in
+        one step are what one after the other is: pressed bodies of one material do not slip."""
         up, end = ("y", "z")[self.kind != "plane"], FINE + self.h
-        stem = f"{self.kind}_{self.facets}_{a:.4f}"
+        stem = f"{self.kind}_{self.facets}_{a:.4f}" + (f"_pull_{rest}" if pull else "")
+        law = {"law": "coulomb", "friction": MU} if pull else {"law": "none"}
         beyond = {"plane": ["xmin", "xmax"], "layer": ["xmin", "xmax"], "ball": ["xmax", "ymax"]}[self.kind]
         free = ["x", up] if self.kind != "ball" else ["x", "y", "z"]
         low = {"plane": [-end, -1], "layer": [-end, 0, -1], "ball": [0, 0, -1]}[self.kind]
@@ -122,8 +130,9 @@ class Hertz:
             "supports": ["above", "below"],
         }
         for name, side, last in (("above", "upper", "max"), ("below", "lower", "min")):
-            file = self.follow(a, side, driver.output / f"{stem}_{side}.txt")
-            scene[name] = {"surface": [f"{side}.{up}{last}", *(f"{side}.{b}" for b in beyond)], "components": free, "file": file}
+            file = self.follow(a, side, driver.output / f"{stem}_{side}.txt", pull)
+            scene[name] = {"surface": [f"{side}.{up}{last}", *(f"{side}.{b}" for b in beyond)], "components": free, "file": file,
+                           "curve": [0, 0, 1, 1]}
         if self.kind == "layer":
             scene["supports"] += ["strain"]
             scene["strain"] = {"body": list(self.sides), "components": ["y"]}
@@ -133,20 +142,34 @@ class Hertz:
             scene["front"] = {"surface": [f"{side}.ymin" for side in self.sides], "components": ["y"]}
         scene |= {
             "interfaces": [NAME],
-            NAME: {"nonmortar": "foot", "mortar": f"lower.{up}max", "law": "none", "weights": "reference", **interface},
-            "steps": {"count": 1},
-            "output": {"vtu": "none", "csv": "last", "quiet": True},
+            NAME: {"nonmortar": "foot", "mortar": f"lower.{up}max", **law, "weights": "reference", **interface},
+            "steps": {"times": list(range(1, 2 + rest))},
+            "output": {"vtu": "none", "csv": "all" if rest else "last", "quiet": True},
         }
         return write(scene, driver.output / f"{stem}.yaml")
+
+    @staticmethod
+    def error_of_shear(run):
+        """Of the traction along a plane line, by Cattaneo and Mindlin, at equal force and pull."""
+        table = run.interface(NAME)
+        along, across = (line_of(table, table[f], 1) for f in ("fx", "fy"))
+        exact = formulas.LineContact(across.force.sum(), MODULUS, RADIUS, MU, -along.force.sum()).shear
+        return profile_error(along, -along.force / along.length, exact)
 
     def error(self, run):
         """Of the pressure, as `make compare` defines it: nodal forces over lengths or areas, at equal force."""
         table = run.interface(NAME)
         force = table["fy" if self.kind == "plane" else "fz"]
-        if self.kind != "ball":
-            line = line_of(table, force, THICK if self.kind == "layer" else 1)
-            hertz = formulas.LineContact(line.force.sum(), MODULUS, RADIUS)
-            return profile_error(line, line.force / line.length, hertz.pressure)
+        if self.kind == "ball":
+            _, off, whole = self.squares(table, force)
+            return np.sqrt(off.sum() / whole)
+        line = line_of(table, force, THICK if self.kind == "layer" else 1)
+        hertz = formulas.LineContact(line.force.sum(), MODULUS, RADIUS)
+        return profile_error(line, line.force / line.length, hertz.pressure)
+
+    @staticmethod
+    def squares(table, force):
+        """Of a ball: distances of the nodes from the axis, squared errors of their pressures times areas, the sum of the exact ones'."""
         x, i = np.unique(np.round(table["X"] * RADIUS / (RADIUS - table["Z"]), 6), return_inverse=True)
         y, j = np.unique(np.round(table["Y"] * RADIUS / (RADIUS - table["Z"]), 6), return_inverse=True)
         nodal = np.zeros((len(x), len(y)))
@@ -155,7 +178,13 @@ class Hertz:
         (at, hat), (_, other) = hats(x), hats(y)
         exact = hat @ hertz.pressure(np.hypot(at[:, None], at[None])) @ other.T
         area = np.outer(hat.sum(axis=1), other.sum(axis=1))
-        return np.sqrt(((nodal - exact) ** 2 / area).sum() / (exact**2 / area).sum())
+        return np.hypot(x[:, None], y[None]), (nodal - exact) ** 2 / area, (exact**2 / area).sum()
+
+    def parts(self, run, a):
+        """Of a ball of this radius of contact: the parts of the error within 0.6 a, and of nodes at most one facet from the border."""
+        table = run.interface(NAME)
+        r, off, whole = self.squares(table, table["fz"])
+        return [np.sqrt(off[part].sum() / whole) for part in (r < 0.6 * a, np.abs(r - a) <= self.h)]
 
 
 def bend(X, axis):
@@ -223,6 +252,15 @@ class Corner:
         return cls.scene(driver, f"corner_{facets}_{shift:.2f}", planes, **interface)
 
     @classmethod
+    def matching(cls, driver, facets):
+        """Both sides' nodes on each other: nothing is left but the error of the bodies' elements."""
+        size = 1 / facets
+        up, down = (graded(size, cls.DEEP, far, cls.GROWTH) for far in cls.HEIGHTS)
+        inside, beside = np.linspace(-0.5, 0.5, facets + 1), 0.5 + graded(size, 0, cls.WIDE - 0.5, cls.GROWTH)[1:]
+        wide = np.concatenate([-beside[::-1], inside, beside])
+        return cls.scene(driver, f"corner_{facets}_matching", ((inside, up), (wide, -down[::-1])))
+
+    @classmethod
     def reference(cls, driver):
         """A Line."""
         size = 1 / cls.CELLS
@@ -238,9 +276,20 @@ class Corner:
         return line_of(table, table["fy"], 1)
 
     @staticmethod
-    def error(run, reference):
+    def profile(run, reference):
+        """Nodes, and their exact forces."""
         table = run.interface(NAME)
         line = line_of(table, table["fy"], 1)
         hat = np.array([np.interp(reference.x, line.x, row) for row in np.eye(len(line.x))])
-        exact = hat @ reference.force * (line.force.sum() / reference.force.sum())
+        return line, hat @ reference.force * (line.force.sum() / reference.force.sum())
+
+    @classmethod
+    def error(cls, run, reference):
+        line, exact = cls.profile(run, reference)
         return np.sqrt(((line.force - exact) ** 2 / line.length).sum() / (exact**2 / line.length).sum())
+
+    @classmethod
+    def at_edge(cls, run, reference):
+        """How much too large the forces of the edge's node and of the next one are, over what they should be."""
+        line, exact = cls.profile(run, reference)
+        return (line.force / exact - 1)[:2]

@@ -32,6 +32,7 @@ mod parts;
 mod parts_condensed;
 mod patch;
 mod plan;
+mod point_friction;
 mod points;
 mod quadratic;
 mod ratios;

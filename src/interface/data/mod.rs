@@ -22,6 +22,7 @@ pub mod offsets;
 pub mod options;
 pub mod pairs;
 pub mod parents;
+pub mod point_friction;
 pub mod points;
 pub mod restart;
 pub mod setup;

@@ -292,9 +292,13 @@ impl Options {
     fn beyond_points(&self) -> Option<&'static str> {
         if !self.decides_at_points() {
             None
-        } else if self.friction != Friction::None {
+        } else if !matches!(self.friction, Friction::None | Friction::Coulomb) {
             Some(
-                "STICKSLIP_DECISION_POINTS with friction, or tied; take STICKSLIP_FRICTION_NONE or STICKSLIP_DECISION_NODES",
+                "STICKSLIP_DECISION_POINTS with a law that is not Coulomb's, or tied; take STICKSLIP_FRICTION_COULOMB or NONE, or STICKSLIP_DECISION_NODES",
+            )
+        } else if self.friction == Friction::Coulomb && self.weights != Weights::Reference {
+            Some(
+                "STICKSLIP_DECISION_POINTS with friction and weights that change: a point of an overlap remembers its traction, and is the same for good with STICKSLIP_WEIGHTS_REFERENCE alone; take these, or STICKSLIP_DECISION_NODES",
             )
         } else if self.basis != MultiplierBasis::Dual {
             Some(

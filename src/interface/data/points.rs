@@ -1,5 +1,6 @@
 //! Where points decide: what a step knows of the facets that have pairs, and the closed part of each pair (docs/formulation.md 16).
 
+use super::point_friction::PointFriction;
 use crate::geometry::Vec3;
 use crate::mortar::PairWeights;
 use crate::shape::MAX_CORNERS;
@@ -96,6 +97,8 @@ pub struct Points {
     pub tractions: Vec<f64>,
     /// Whether anything covers it.
     pub is_covered: Vec<bool>,
+    /// With friction.
+    pub friction: PointFriction,
 }
 
 impl Points {
@@ -136,5 +139,6 @@ impl Points {
             + self.closed.capacity() * size_of::<PairWeights>()
             + reals.iter().map(|v| v.capacity() * size_of::<f64>()).sum::<usize>()
             + self.is_covered.capacity()
+            + self.friction.bytes()
     }
 }

@@ -14,7 +14,6 @@ use super::setup::Setup;
 use super::surface::Surface;
 use crate::error::{Error, Kind, Result, Text};
 use crate::geometry::{Plane, Vec3};
-use crate::law::Own;
 use crate::memory::{self, Store, Stored};
 use crate::mortar::{NonmortarFrame, PairWeights, ParentWeights};
 use crate::shape::{MAX_CORNERS, MAX_NODES, MAX_PARENT_NODES};
@@ -44,13 +43,13 @@ pub struct Host<'a> {
 }
 
 impl<'a> Host<'a> {
-    /// What an interface is.
-    pub fn of<const N: usize>(setup: &'a Setup<N>) -> Host<'a> {
+    /// What an interface is, whose law or points remember so many reals.
+    pub fn of<const N: usize>(setup: &'a Setup<N>, states: usize) -> Host<'a> {
         let (options, own, surfaces) = (&setup.options, setup.own.as_ref(), setup.surfaces());
         Host {
             surfaces,
             keeps: Keeps::of(options),
-            states: surfaces.0.len() * own.map_or(0, Own::states),
+            states,
             meaning: meaning::of(options, own, surfaces),
             frozen: options.effective_weights() == Weights::Reference,
         }

@@ -87,10 +87,16 @@ impl<const N: usize> Setup<N> {
         self.nonmortar.parents.is_some()
     }
 
-    /// Whether points decide: with one multiplier a node alone, so that nothing of it is compiled for three.
+    /// Whether points decide.
     #[inline]
     pub fn decides_at_points(&self) -> bool {
-        N == 1 && self.options.decides_at_points()
+        self.options.decides_at_points()
+    }
+
+    /// Whether they do with friction: with three multipliers a node, and only there.
+    #[inline]
+    pub fn has_point_friction(&self) -> bool {
+        N == 3 && self.options.decides_at_points()
     }
 
     /// Whether the frame of an analytic surface has equations.

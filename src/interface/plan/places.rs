@@ -54,8 +54,9 @@ pub struct Widths {
 impl Widths {
     /// In plans of this interface.
     pub fn of(setup: Sides) -> Widths {
-        // n I: component i in row i alone.
-        let force = if setup.options.form == Form::Multiplier { 1 } else { setup.components as u32 };
+        // n I: component i in row i alone. Tractions of points are no multiples of multipliers.
+        let is_narrow = setup.options.form == Form::Multiplier && !setup.options.decides_at_points();
+        let force = if is_narrow { 1 } else { setup.components as u32 };
         Widths { multiplier: setup.components as u32, force }
     }
 

@@ -15,6 +15,7 @@ pub mod lost;
 pub mod node;
 pub mod normals;
 pub mod own;
+pub mod point_friction;
 pub mod points;
 pub mod residual;
 pub mod respond;

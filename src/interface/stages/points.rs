@@ -58,6 +58,18 @@ fn scaled(weights: &PairWeights, by: f64) -> PairWeights {
     PairWeights { ab: weights.ab.map(|row| row.map(|n| by * n)), ac: weights.ac.map(|row| row.map(|n| by * n)) }
 }
 
+/// sum_A n_A. sigma_A.
+#[inline]
+fn times(n: &OfNodes, sigma: &[f64; MAX_CORNERS]) -> [f64; MAX_CORNERS] {
+    let mut sum = [0.0; MAX_CORNERS];
+    for a in 0..MAX_CORNERS {
+        for k in 0..MAX_CORNERS {
+            sum[k] += n[a][k] * sigma[a];
+        }
+    }
+    sum
+}
+
 /// rhat^0_A = 0.9 E* / h_A [F/L^3].
 fn stabilising<const N: usize>(given: Given<N>, a: usize) -> f64 {
     match given.setup.options.decision {
@@ -68,7 +80,7 @@ fn stabilising<const N: usize>(given: Given<N>, a: usize) -> f64 {
 
 impl Points {
     /// Finds what the step knows of its facets, once a step.
-    fn settle<const N: usize>(&mut self, given: Given<N>) -> Result<()> {
+    pub(super) fn settle<const N: usize>(&mut self, given: Given<N>) -> Result<()> {
         if self.is_settled {
             return Ok(());
         }
@@ -76,6 +88,8 @@ impl Points {
         surfaces.0.plane_normals(x.0, &mut self.planes)?;
         self.facets.clear();
         self.pairs.clear();
+        self.friction.points.clear();
+        self.friction.ends.clear();
         match given.history().weighted(surfaces) {
             Weighted::Facets(pairs) => {
                 pairs.chunk_by(|p, q| p.one == q.one).try_for_each(|pairs| self.settle_facet(given, pairs))?;
@@ -102,6 +116,9 @@ impl Points {
             let whole = segment.as_ref().map_or_else(PairWeights::default, integrate);
             sums.add(&whole, &[0.0; MAX_CORNERS]);
             self.pairs.store(PointPair { two: pair.two, whole, dual: pair.weights })?;
+            if given.setup.has_point_friction() {
+                self.friction.keep(segment.as_ref().map(|s| (&frame, s)), given.setup.options.rule)?;
+            }
         }
         let nodes = one.facets[f].as_slice();
         let sizes = std::array::from_fn(|k| nodes.get(k).map_or(0.0, |&a| given.size(a)));
@@ -125,6 +142,9 @@ impl Points {
                 (dual.ab[a][b], dual.ac[a][b]) = (pair.weights.ab[a][b], pair.weights.ac[a][b]);
             }
             self.pairs.store(PointPair { two: pair.two, whole, dual })?;
+            if given.setup.has_point_friction() {
+                self.friction.keep_of_lines((&own, &other), measure)?;
+            }
         }
         let area: f64 = parents.areas(f, x.0, parents.space)?.iter().take(MAX_PARENT_NODES).sum();
         let covered = mass.iter().flatten().sum::<f64>();
@@ -146,6 +166,7 @@ impl Points {
         nodes[..own.len()].copy_from_slice(own);
         let fade = coverage.fade;
         self.pairs[first..].iter_mut().for_each(|pair| pair.whole = scaled(&pair.whole, fade));
+        self.friction.fade(first, fade);
         let covered = fade * mass.iter().flatten().sum::<f64>();
         self.facets.store(PointFacet {
             one,
@@ -234,9 +255,10 @@ impl Points {
             if self.states[at] == Closed::Nothing {
                 continue;
             }
-            let (sigma, closed) = (facet.of(&self.sigma), self.closed_mass(at));
+            let closed = self.closed_mass(at);
+            let forces = times(&closed, &facet.of(&self.sigma));
             for (k, &a) in facet.nodes().iter().enumerate().filter(|(_, a)| self.is_covered[**a]) {
-                let force = (0..MAX_CORNERS).map(|l| closed[k][l] * sigma[l]).sum::<f64>();
+                let force = forces[k];
                 of_nodes[a].row += SVector::from_element(force);
                 self.tractions[a] += force;
                 self.shares[a] += closed[k].iter().sum::<f64>();
@@ -270,12 +292,11 @@ impl Points {
                 continue;
             }
             let (sigma, own) = (facet.of(&self.sigma), self.closed_mass(at));
-            let sum = |n: &OfNodes, k: usize| (0..MAX_CORNERS).map(|a| n[a][k] * sigma[a]).sum::<f64>();
-            facet.nodes().iter().enumerate().for_each(|(k, &a)| r.nonmortar[a] += facet.normal * sum(&own, k));
+            facet.nodes().iter().zip(times(&own, &sigma)).for_each(|(&a, t)| r.nonmortar[a] += facet.normal * t);
             for place in facet.places() {
                 let Some(closed) = self.closed(at, place) else { break };
-                let other = two.host_nodes(self.pairs[place].two).iter().enumerate();
-                other.for_each(|(k, &c)| r.mortar[c] -= facet.normal * sum(&closed.ac, k));
+                let other = two.host_nodes(self.pairs[place].two).iter().zip(times(&closed.ac, &sigma));
+                other.for_each(|(&c, t)| r.mortar[c] -= facet.normal * t);
             }
         }
         for (a, response) in responses.iter().enumerate().filter(|(a, _)| nodes.is_own(*a) && one.has_row(*a)) {

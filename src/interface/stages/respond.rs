@@ -67,7 +67,12 @@ pub fn respond<const N: usize>(
         carry(given, lambda, (sums, carried), responses, own)?;
     }
     if given.setup.decides_at_points() {
-        points.respond(given, lambda, sums, responses)?;
+        if given.setup.has_point_friction() {
+            points.respond_with_friction(given, lambda, sums, responses)?;
+            memory::recopy(&mut own.states, &points.friction.states)?;
+        } else {
+            points.respond(given, lambda, sums, responses)?;
+        }
     }
     for (a, response) in responses.iter().enumerate() {
         if !response.row.iter().chain(response.traction.iter()).all(|v| v.is_finite()) {

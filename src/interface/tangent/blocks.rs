@@ -12,6 +12,7 @@ use super::facet_tangent::{FacetTangent, total};
 use super::frame::{self, FrameNumbers};
 use super::offsets;
 use super::parents::{self, ParentNumbers, ParentRoom};
+use super::point_friction;
 use super::points::{self, PointNumbers};
 use super::turning::{self, Turns};
 use super::union::{Pairs, UnionPair, Walk};
@@ -413,6 +414,9 @@ pub fn of_nodes<const N: usize>(
     let Task { given, pairs, extent, numbers, .. } = task;
     if given.setup.decides_at_points() {
         let numbers = numbers.map(|n| PointNumbers { points: &n.responses.points, sums: n.sums });
+        if given.setup.has_point_friction() {
+            return point_friction::blocks((given, pairs), numbers.as_ref(), emitter);
+        }
         return points::blocks((given, task.normals, pairs), numbers.as_ref(), emitter);
     }
     let turns = numbers.and_then(|n| n.turns.as_ref());

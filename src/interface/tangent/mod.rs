@@ -14,6 +14,7 @@ pub mod lines;
 pub mod offsets;
 pub mod parent_table;
 pub mod parents;
+pub mod point_friction;
 pub mod points;
 pub mod turning;
 pub mod union;

@@ -40,8 +40,8 @@ struct Row {
 
 /// The facets around each node, with the mortar nodes of each.
 #[derive(Debug, Default)]
-struct Around {
-    facets: Vec<usize>,
+pub struct Around {
+    pub facets: Vec<usize>,
     first_node: Vec<usize>,
     mortar: Vec<usize>,
     /// Per node where its facets begin among `of_node`.
@@ -51,7 +51,7 @@ struct Around {
 
 impl Around {
     /// Those that have pairs.
-    fn of<const N: usize>(given: Given<N>, pairs: Pairs) -> Result<Around> {
+    pub fn of<const N: usize>(given: Given<N>, pairs: Pairs) -> Result<Around> {
         let (mut all, mut walk, mut of_facet) = (Around::default(), Walk::through(pairs, 0..usize::MAX), Vec::new());
         let ((one, two), moves) = (given.setup.surfaces(), given.setup.effects.moves());
         all.first_node.store(0)?;
@@ -80,11 +80,11 @@ impl Around {
         Ok(all)
     }
 
-    fn around(&self, a: usize) -> &[usize] {
+    pub fn around(&self, a: usize) -> &[usize] {
         &self.of_node[self.first[a]..self.first[a + 1]]
     }
 
-    fn mortar(&self, k: usize) -> &[usize] {
+    pub fn mortar(&self, k: usize) -> &[usize] {
         &self.mortar[self.first_node[k]..self.first_node[k + 1]]
     }
 }

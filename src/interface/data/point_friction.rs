@@ -1,0 +1,81 @@
+//! Friction where points decide: what a step knows of the points of its overlaps, and the answer at them (docs/formulation.md 16.7).
+
+use crate::error::Result;
+use crate::geometry::{Mat3, Vec3};
+use crate::law::Projected;
+use crate::line::{self, LineFacet, Measure};
+use crate::memory::Store;
+use crate::mortar::{NonmortarFrame, OverlapPoint, Segment, each_point};
+use crate::quadrature::Rule;
+
+/// Reals that a point remembers: a vector.
+pub const REALS_PER_POINT: usize = 3;
+
+/// What the points of the facets around a node are told by it.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct FrictionNode {
+    /// nu_A.
+    pub normal: Vec3,
+    /// T_A: onto what is free and along the surface.
+    pub along: Mat3,
+    /// sigma_N and sigma_T [F/L^2]; 0 where nothing covers the node.
+    pub sigma: (f64, Vec3),
+    /// lambda_N and lambda_T.
+    pub lambda: (f64, Vec3),
+    /// rhat_A / D_A: how sigma follows the weighted gap [F/L^5].
+    pub slope: f64,
+}
+
+/// The points, and what they answer.
+#[derive(Debug, Default)]
+pub struct PointFriction {
+    /// Of all pairs, one after the other; phi is in their weights.
+    pub points: Vec<OverlapPoint>,
+    /// Per pair where its points end.
+    pub ends: Vec<usize>,
+    /// Of every node.
+    pub nodes: Vec<FrictionNode>,
+    /// Of every point.
+    pub answers: Vec<Projected>,
+    /// Per node how much of what is covered of it slips.
+    pub shares: Vec<f64>,
+    /// What the points remember if the step ends here: z of each, `REALS_PER_POINT` numbers.
+    pub states: Vec<f64>,
+}
+
+impl PointFriction {
+    /// Stores the points of the next pair; `None`: the facets have no overlap.
+    pub fn keep(&mut self, pair: Option<(&NonmortarFrame, &Segment)>, rule: &Rule) -> Result<()> {
+        if let Some((frame, segment)) = pair {
+            each_point(frame, segment, rule, &mut |point| self.points.store(point))?;
+        }
+        self.ends.store(self.points.len())
+    }
+
+    /// The same of a pair of lines.
+    pub fn keep_of_lines(&mut self, (one, two): (&LineFacet, &LineFacet), measure: Measure) -> Result<()> {
+        line::each_point(one, two, measure, &mut |point| self.points.store(point))?;
+        self.ends.store(self.points.len())
+    }
+
+    /// Multiplies the measure of the points from this pair on.
+    pub fn fade(&mut self, first: usize, by: f64) {
+        let begin = first.checked_sub(1).map_or(0, |before| self.ends.get(before).copied().unwrap_or(0));
+        self.points[begin..].iter_mut().for_each(|point| point.weight *= by);
+    }
+
+    /// The places of a pair's points.
+    pub fn of_pair(&self, pair: usize) -> std::ops::Range<usize> {
+        let begin = pair.checked_sub(1).map_or(0, |before| self.ends[before]);
+        begin..self.ends[pair]
+    }
+
+    /// On the heap `[bytes]`.
+    pub fn bytes(&self) -> usize {
+        self.points.capacity() * size_of::<OverlapPoint>()
+            + self.ends.capacity() * size_of::<usize>()
+            + self.nodes.capacity() * size_of::<FrictionNode>()
+            + self.answers.capacity() * size_of::<Projected>()
+            + (self.shares.capacity() + self.states.capacity()) * size_of::<f64>()
+    }
+}
