@@ -20,6 +20,7 @@ from pathlib import Path
 sys.path.append(str(Path(__file__).resolve().parents[1] / "common"))
 import folders  # noqa: E402  (puts the others on the path)
 import figures  # noqa: E402
+from documents import put_between  # noqa: E402
 from scene import Driver, SceneError  # noqa: E402
 
 COMMITTED = folders.FIGURES / "effects.png"
@@ -64,6 +65,28 @@ RATIOS = [
     ("slip-weakening / Coulomb", ("weakening", *FULL[1:]), FULL, None, CALLS),
     ("orthotropic / Coulomb", ("orthotropic", *FULL[1:]), FULL, None, CALLS),
 ]
+
+# Effects of the driver, each on a scene without it and with it: what it adds. Unnamed, it leaves every figure as it is.
+SLIDING = (*FACETS, *LARGE, *FRICTION, *DEFORMABLE)
+AT_NODES = (*FACETS, *DEFORMABLE, "-contact_weights", "committed", "-contact_basis", "dual")
+TOOL = ("-bodies", "block,floor,plane,tool", "-tool_type", "rigid", "-tool_from", "box", "-tool_lower", "3,0,0", "-tool_upper", "4,1,1", "-tool_cells",
+        "1,1,1", "-tool_reference", "3,0,0", "-supports", "grip,hold,still,fix", "-fix_body", "tool")
+WARM = ("-heat_initial", "20", "-block_conductivity", "1", "-floor_conductivity", "1", "-contact_conductance_constant", "10", "-contact_conductance_reach", "0.01",
+        "-temperatures", "warm", "-warm_surface", "block.zmax", "-warm_value", "50")
+DRIVER = [
+    ("no further effect", SLIDING),
+    ("+ springs per area", (*SLIDING, "-springs", "bed", "-bed_surface", "block.xmin", "-bed_stiffness", "1,1,1")),
+    ("+ a support that holds for a time", (*SLIDING, "-hold_until", "9")),
+    ("+ a rigid body, moved", (*SLIDING, *TOOL, "-fix_components", "x,y,z,rx,ry,rz")),
+    ("+ a rigid body, free along its axes, on a spring", (*SLIDING, *TOOL, "-fix_components", "rx,ry,rz", "-springs", "hang", "-hang_body", "tool",
+                                                         "-hang_stiffness", "1,1,1")),
+    ("+ an offset", (*SLIDING, "-contact_offset", "0.001")),
+    ("+ heat across the interface", (*SLIDING, *WARM)),
+    ("+ dynamics", (*SLIDING, "-dynamics_rho_inf", "1", "-block_density", "1e-3", "-floor_density", "1e-3")),
+    ("no friction, dual, frozen in a step", AT_NODES),
+    ("+ decided at points", (*AT_NODES, "-contact_decision", "points")),
+]
+GALLERY, MARKS = folders.ROOT / "docs" / "site" / "gallery.md", ("<!-- effects -->\n", "<!-- /effects -->\n")
 
 # Columns: key, heading, format.
 COLUMNS = [
@@ -160,6 +183,19 @@ def markdown(rows, ratios):
     return "\n".join(lines) + "\n"
 
 
+def of_the_driver(driver):
+    """What each effect adds, by counters alone."""
+    keys = ("unknowns", "multipliers", "bytes", "pairs_integrated", "pairs_linearised", "pairs_reused", "newton_iterations")
+    columns = [column for column in COLUMNS if column[0] in keys]
+    rows = ["| effects | " + " | ".join(heading for _, heading, _ in columns) + " |", "|---|" + "---:|" * len(columns)]
+    for name, options in DRIVER:
+        run = driver.run("effects", *options, label=re.sub(r"\W+", "_", f"driver_{name}"))
+        found = {**run.summary["interfaces"][INTERFACE], "unknowns": run.summary["unknowns"], "newton_iterations": run.newton_iterations}
+        found["bytes"] /= 1e3
+        rows.append(f"| {name} | " + " | ".join(format(found[key], form) for key, _, form in columns) + " |")
+    return "\n".join(rows) + "\n"
+
+
 def check(build):
     """Whether the functions that are counted still have the names by which they are: two of the cheaper counts."""
     probe = Probe(Driver(build, build / "effects"))
@@ -186,7 +222,8 @@ def report(build, renew):
     else:
         print("valgrind is not there: no instruction counts")
 
-    text = markdown(rows, ratios)
+    added = of_the_driver(driver)
+    text = markdown(rows, ratios) + "\n" + added
     print(text)
     driver.output.mkdir(parents=True, exist_ok=True)
     (driver.output / "effects.md").write_text(text)
@@ -195,6 +232,7 @@ def report(build, renew):
     if renew:
         shutil.copy(drawn[0], COMMITTED)
         drawn.append(COMMITTED)
+        put_between(GALLERY, MARKS, added)
     for path in drawn:
         print(path.resolve())
 
