@@ -14,6 +14,8 @@ pub(super) struct Scene {
     pub(super) handle: *mut stickslip_interface,
     /// STICKSLIP_WEIGHTS_...
     pub(super) weights: i32,
+    /// A history was accepted that nothing has committed: its weights may be any.
+    pub(super) forged: bool,
     /// Numbers a node of every vector: 3, of lines 2.
     dimension: usize,
     /// Multiplier components a node.
@@ -117,6 +119,7 @@ impl Scene {
         (!handle.is_null()).then_some(Scene {
             handle,
             weights: options.weights,
+            forged: false,
             dimension,
             components,
             counted,
@@ -309,7 +312,9 @@ impl Scene {
                 if !bytes.once_in(8) {
                     seal_history(&mut integers, &reals);
                 }
-                if !self.import(&integers, &reals) {
+                if self.import(&integers, &reals) {
+                    self.forged = true;
+                } else {
                     let (i, r) = self.history().expect("it was exported before");
                     let r: Vec<f64> = r.into_iter().map(f64::from_bits).collect();
                     assert!(self.import(&i, &r), "its own history: {}", message());

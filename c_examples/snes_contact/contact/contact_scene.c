@@ -254,6 +254,25 @@ static PetscErrorCode read_nodes(Scene *scene, Contact *contact, Interface *inte
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Of the same two surfaces two interfaces would have each multiplier twice: only their sum would be known. */
+static PetscErrorCode refuse_twice(Scene *scene, const Contact *contact, PetscInt number)
+{
+  const Interface *interface = &contact->interfaces[number];
+  const PetscInt   n         = interface->n1 + interface->n2;
+  PetscFunctionBegin;
+  for (PetscInt i = 0; i < number; i++) {
+    const Interface *other = &contact->interfaces[i];
+    PetscBool        same  = (PetscBool)(other->n1 == interface->n1 && other->n2 == interface->n2);
+    for (PetscInt k = 0; k < n && same; k++)
+      same = (PetscBool)(other->nodes[k] == interface->nodes[k]);
+    PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &same, 1, MPIU_BOOL, MPI_LAND, PETSC_COMM_WORLD));
+    if (same)
+      scene_fail(scene, interface->name, "mortar", "its two surfaces are those of '%s': of their multipliers only the sums would be known.",
+                 other->name);
+  }
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode contact_read(Scene *scene, Contact *contact)
 {
   char **names;
@@ -276,8 +295,10 @@ PetscErrorCode contact_read(Scene *scene, Contact *contact)
     PetscCall(offsets_read(scene, contact->physics, interface));
   }
   strings_destroy(contact->n_interfaces, &names);
-  for (PetscInt i = 0; i < contact->n_interfaces; i++)
+  for (PetscInt i = 0; i < contact->n_interfaces; i++) {
     PetscCall(read_nodes(scene, contact, &contact->interfaces[i]));
+    PetscCall(refuse_twice(scene, contact, i));
+  }
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
