@@ -227,10 +227,10 @@ check:
 	$(SAY) "A handful of scenes and of tests of the ABI"
 	@cd $(BUILD) && ctest --output-on-failure --no-tests=error --parallel $(JOBS) -R '$(CHECKED)'
 
+# The library that is installed is linked as a whole on one processor: the Rust tests use the other one.
 test:
 	@.ci/setup test
-	@$(MAKE) --no-print-directory rust-tests
-	@$(MAKE) --no-print-directory cmake-build TESTS=ON
+	@$(MAKE) --no-print-directory -j2 --output-sync=line TESTS=ON rust-tests cmake-build
 	$(SAY) "C and Fortran tests, examples, installed tree (ctest)"
 	@cd $(BUILD) && ctest --output-on-failure --no-tests=error --parallel $(JOBS) -LE long
 	$(SAY) "All tests passed"

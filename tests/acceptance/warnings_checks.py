@@ -1,5 +1,5 @@
-"""What a run must say by itself: bodies that nothing holds, and the material `linear` outside its range. And what it must
-not say of a problem that is as it should be."""
+"""What a run must say by itself: bodies that nothing holds, the material `linear` outside its range, multipliers that the
+equations do not determine. And what it must not say of a problem that is as it should be."""
 
 import math
 
@@ -49,12 +49,40 @@ TURNED = {
     "steps": {"count": 45},
 }
 del TURNED["loads"], TURNED["press"]
-WARNS_HELD, WARNS_LINEAR = "nothing holds what follows", "whose material is linear"
+# Two layers tied along the middle, both clamped at a wall. Three nodes across the upper layer there face two across the lower one.
+CLAMPED = {
+    "schema": 1,
+    "bodies": ["upper", "lower"],
+    "upper": {"type": "box", "lower": [0, 0, 0.5], "upper": [3, 1, 1], "cells": [5, 2, 2], "young": 1e3, "poisson": 0},
+    "lower": {"type": "box", "lower": [0, 0, 0], "upper": [3, 1, 0.5], "cells": [7, 1, 2], "young": 1e3, "poisson": 0},
+    "supports": ["wall"],
+    "wall": {"surface": ["upper.xmin", "lower.xmin"], "components": ["x", "y", "z"]},
+    "loads": ["tip"],
+    "tip": {"surface": ["upper.xmax", "lower.xmax"], "traction": [0, 0, -0.1]},
+    "interfaces": ["middle"],
+    "middle": {"nonmortar": "upper.zmin", "mortar": "lower.zmax", "law": "tied"},
+    "steps": {"count": 1},
+    "output": {"vtu": "none", "csv": "none"},
+}
+OTHER_SIDE = ("-middle_nonmortar", "lower.zmax", "-middle_mortar", "upper.zmin")
+# (what it is, options, ranks, are there multipliers at the wall that push on nothing that moves)
+AT_THE_WALL = (
+    ("three nodes over two at a wall", (), 1, True),
+    ("the same on two ranks", (), 2, True),
+    ("in other units", ("-upper_young", 1e11, "-lower_young", 1e11, "-tip_traction", "0,0,-1e7"), 1, True),
+    ("two nodes over three", OTHER_SIDE, 1, False),
+    ("two nodes over three, a thousand times stiffer", (*OTHER_SIDE, "-lower_young", 1e6), 1, False),
+    # A dual multiplier at the wall does no work on what is linear along the row of facets beside it.
+    ("dual, two nodes over three", (*OTHER_SIDE, "-middle_basis", "dual"), 1, True),
+    ("one layer clamped alone", ("-wall_surface", "lower.xmin"), 1, False),
+)
+WARNS_HELD, WARNS_LINEAR, WARNS_UNDETERMINED = "nothing holds what follows", "whose material is linear", "are not determined by the equations"
 
 
 def warnings(verdicts, driver):
     held(verdicts, driver)
     linear(verdicts, driver)
+    undetermined(verdicts, driver)
 
 
 def held(verdicts, driver):
@@ -96,3 +124,12 @@ def linear(verdicts, driver):
     run = driver.run("block_bottom_mu02", label="small_strain")
     silent = WARNS_LINEAR not in run.text and WARNS_HELD not in run.text
     verdicts.true("the block, with small_strain: silent", silent, "the scene says that the linear theory is meant")
+
+
+def undetermined(verdicts, driver):
+    scene = write(CLAMPED, driver.output / "clamped.yaml")
+    for k, (what, options, ranks, warns) in enumerate(AT_THE_WALL):
+        run = driver.run(scene, *options, label=f"clamped_{k}", ranks=ranks)
+        said, found = run.text.count(WARNS_UNDETERMINED), run.summary.get("undetermined", {}).get("middle", {})
+        at = found.get("position", [None])[0]
+        verdicts.true(f"{what}: {said} warnings, {found or 'nothing found'}", said == warns == bool(found) and at in (0, None), "at the wall")

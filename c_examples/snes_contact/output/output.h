@@ -48,6 +48,8 @@ PetscErrorCode energy_settle(const Output *output);
 
 /* uniqueness.c: of a node with friction */
 PetscErrorCode uniqueness_check(Output *output, Vec x, struct cJSON *root);
+/* undetermined.c: of multipliers, before anything renews the matrix */
+PetscErrorCode undetermined_check(const Output *output, struct cJSON *root);
 /* counters.c: what the run and each interface cost */
 PetscErrorCode summary_counters(Output *output, struct cJSON *root);
 /* holdings.c: what each rank holds */

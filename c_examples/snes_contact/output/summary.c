@@ -309,6 +309,7 @@ PetscErrorCode summary_step(Output *output, Summary *summary, PetscInt step, Pet
   PetscCall(held_check(solve));
   cJSON_AddNumberToObject(json, "friction_work", friction_work);
   PetscCall(energy_report(output, friction_work, json));
+  if (last) PetscCall(undetermined_check(output, summary->root));
   PetscCall(VecDuplicate(physics->u_local, &summary->state));
   PetscCall(VecCopy(physics->u_local, summary->state));
   PetscFunctionReturn(PETSC_SUCCESS);
