@@ -60,7 +60,7 @@ static PetscErrorCode compare(const Interface *interface, Vec y, Undetermined *f
 {
   const ContactPart *part = &interface->part;
   const PetscInt     n    = n_multipliers(part);
-  PetscInt          *all, first_here;
+  PetscInt          *all;
   PetscScalar       *values;
   IS                 is;
   VecScatter         scatter;
@@ -73,11 +73,10 @@ static PetscErrorCode compare(const Interface *interface, Vec y, Undetermined *f
   PetscFunctionBegin;
   *found = (Undetermined){0};
   PetscCallMPI(MPI_Comm_rank(PETSC_COMM_WORLD, &most.rank));
-  PetscCall(VecGetOwnershipRange(y, &first_here, NULL));
   PetscCall(PetscMalloc1(n, &all));
   for (PetscInt k = 0; k < n; k++) {
     const int64_t equation = MULTIPLIERS_OF(part, part->equations)[k];
-    all[k]                 = equation >= 0 ? (PetscInt)equation : first_here;
+    all[k]                 = equation >= 0 ? (PetscInt)equation : 0;
   }
   PetscCall(ISCreateGeneral(PETSC_COMM_SELF, n, all, PETSC_OWN_POINTER, &is));
   PetscCall(VecCreateSeq(PETSC_COMM_SELF, n, &here));
