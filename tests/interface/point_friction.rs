@@ -8,7 +8,7 @@ use crate::support::mesh::*;
 use stickslip::error::Kind;
 use stickslip::geometry::Vec3;
 use stickslip::interface::{
-    Contact, Decision, Friction, Interface, MultiplierBasis, Options, PlanPairs, Residual, Stiffness, Weights,
+    Contact, Decision, Friction, Interface, MultiplierBasis, Options, Residual, Stiffness, Weights,
 };
 use stickslip::law::{Own, State};
 use stickslip::line::Measure;
@@ -106,32 +106,8 @@ fn a_plan_has_the_same_tangent() {
     for (threads, cells) in [(1, CELLS[0]), (3, CELLS[2])] {
         let mut s = scene(Options { threads, ..by_points(0.4) }, cells, FLAT, 3);
         let Scene { contact, x1, x2, lambda } = &mut s;
-        let n = 3 * (x1.len() + x2.len() + lambda.len());
-        let mut expected = vec![0.0; n * n];
-        let mut add = |i: i64, j: i64, v: f64| expected[i as usize * n + j as usize] += v;
-        contact.tangent(x1, x2, lambda, None, &mut add).unwrap();
-        let largest = max_abs(expected.iter().copied());
-        for pairs in [PlanPairs::Active(stickslip::interface::Extent::Whole), PlanPairs::Possible] {
-            let entries = contact.make_plan((x1, x2), pairs).unwrap();
-            let mut values = vec![0.0; entries];
-            contact.plan_values((x1, x2), lambda, None, &mut values).unwrap();
-            let (plan, of) = contact.plan(stickslip::interface::PlanSystem::Whole).unwrap();
-            let (mut k, mut found) = (0, vec![0.0; n * n]);
-            let rows = plan.rows().0.to_vec();
-            let mut row = rows.iter();
-            plan.each_row(of, &mut |columns| {
-                let i = *row.next().unwrap() as usize;
-                columns.iter().for_each(|&j| {
-                    found[i * n + j as usize] += values[k];
-                    k += 1;
-                });
-                Ok(())
-            })
-            .unwrap();
-            assert_eq!(k, entries);
-            let error = max_abs(found.iter().zip(&expected).map(|(a, b)| a - b));
-            assert!(error <= ROUNDING * largest, "{pairs:?}: {error:e} of {largest:e}");
-        }
+        let error = Point { contact, x1, x2, lambda }.plan_error();
+        assert!(error <= ROUNDING, "{error:e}");
     }
 }
 

@@ -5,7 +5,7 @@
 use super::max_abs;
 use nalgebra::SVector;
 use stickslip::geometry::Vec3;
-use stickslip::interface::Contact;
+use stickslip::interface::{Contact, Extent, PlanPairs, PlanSystem};
 
 /// Step of the differences (facet size 0.5): rounding 1e-16/1e-6 and truncation 1e-12.
 const STEP: f64 = 1e-6;
@@ -21,6 +21,38 @@ pub struct Point<'a, const N: usize> {
 }
 
 impl<const N: usize> Point<'_, N> {
+    /// The largest difference between Newton's matrix of a plan, of either choice of pairs, and that of entries one by one, over its
+    /// largest entry.
+    pub fn plan_error(self) -> f64 {
+        let Point { contact, x1, x2, lambda } = self;
+        let n = 3 * (x1.len() + x2.len()) + N * lambda.len();
+        let mut expected = vec![0.0; n * n];
+        let mut add = |i: i64, j: i64, v: f64| expected[i as usize * n + j as usize] += v;
+        contact.tangent(x1, x2, lambda, None, &mut add).unwrap();
+        let largest = max_abs(expected.iter().copied());
+        let mut of_pairs = |pairs| {
+            let entries = contact.make_plan((&*x1, &*x2), pairs).unwrap();
+            let mut values = vec![0.0; entries];
+            contact.plan_values((&*x1, &*x2), lambda, None, &mut values).unwrap();
+            let (plan, of) = contact.plan(PlanSystem::Whole).unwrap();
+            let (mut k, mut found) = (0, vec![0.0; n * n]);
+            let rows = plan.rows().0.to_vec();
+            let mut row = rows.iter();
+            plan.each_row(of, &mut |columns| {
+                let i = *row.next().unwrap() as usize;
+                columns.iter().for_each(|&j| {
+                    found[i * n + j as usize] += values[k];
+                    k += 1;
+                });
+                Ok(())
+            })
+            .unwrap();
+            assert_eq!(k, entries);
+            max_abs(found.iter().zip(&expected).map(|(a, b)| a - b)) / largest
+        };
+        max_abs([PlanPairs::Active(Extent::Whole), PlanPairs::Possible].into_iter().map(&mut of_pairs))
+    }
+
     /// Ends of the blocks x1, x2, lambda.
     fn ends(&self) -> [usize; 4] {
         let (a, b) = (3 * self.x1.len(), 3 * (self.x1.len() + self.x2.len()));
