@@ -600,7 +600,7 @@ typedef struct stickslip_options {
   /// Coulomb coefficient of all nodes [-]; default 0.
   double mu;
   /// rhat [F/L^3]; 0 (default): use the modulus. One of the two is needed: nothing else has the unit
-  /// of a stiffness. The answer does not depend on it.
+  /// of a stiffness. The answer does not depend on it, except with STICKSLIP_DECISION_POINTS.
   double augmentation;
   /// Young's modulus of the softer body [F/L^2]: rhat_A = 0.1 E / h_A, h_A = sqrt(M_A), of lines about their length; 0 (default): use the
   /// augmentation. With STICKSLIP_DECISION_POINTS it is needed, and is E* of both bodies together.
@@ -1197,7 +1197,7 @@ typedef struct stickslip_heat {
   double gas;
   /// What touching surfaces count as a gap, above 0 where gas is [L].
   double gas_gap;
-  /// Gaps from which on neither constant nor gas pass anything; above 0 where one of them is [L].
+  /// Gaps from which on neither constant nor gas pass anything; required, above 0, where one of them is [L].
   double reach;
   /// The share of the heat of friction that goes into the non-mortar body, 0 to 1 [-]. The rest goes into the mortar body.
   double share;
@@ -1361,11 +1361,13 @@ int32_t stickslip_interface_set_friction(struct stickslip_interface *interface,
                                          const double *mu);
 
 /// Augmentation r_A > 0 per non-mortar node, r (n1) [F/L^5], in place of rhat_A / M_A; NULL returns to the
-/// options. Not part of the history. The answer does not depend on it.
+/// options. Not part of the history. The answer does not depend on it, except with STICKSLIP_DECISION_POINTS: r is then part of
+/// the answer, by what vanishes with the facets' size.
 ///
 /// Errors: NULL_POINTER, NOT_FINITE, INVALID_VALUE.
 /// Cost: a copy; allocates it.
-int32_t stickslip_interface_set_augmentation(struct stickslip_interface *interface, const double *r);
+int32_t stickslip_interface_set_augmentation(struct stickslip_interface *interface,
+                                             const double *r);
 
 /// Normals per non-mortar node, normals (3 n1), INTO the non-mortar body, of length 1 within 1e-10, in place of
 /// the averaged ones of t_n, until set again; NULL returns to those. Not part of the history.

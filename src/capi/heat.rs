@@ -45,7 +45,7 @@ pub struct stickslip_heat {
     pub gas: f64,
     /// What touching surfaces count as a gap, above 0 where gas is [L].
     pub gas_gap: f64,
-    /// Gaps from which on neither constant nor gas pass anything; above 0 where one of them is [L].
+    /// Gaps from which on neither constant nor gas pass anything; required, above 0, where one of them is [L].
     pub reach: f64,
     /// The share of the heat of friction that goes into the non-mortar body, 0 to 1 [-]. The rest goes into the mortar body.
     pub share: f64,

@@ -118,7 +118,8 @@ pub unsafe extern "C" fn stickslip_interface_set_friction(interface: *mut sticks
 }
 
 /// Augmentation r_A > 0 per non-mortar node, r (n1) [F/L^5], in place of rhat_A / M_A; NULL returns to the
-/// options. Not part of the history. The answer does not depend on it.
+/// options. Not part of the history. The answer does not depend on it, except with STICKSLIP_DECISION_POINTS: r is then part of
+/// the answer, by what vanishes with the facets' size.
 ///
 /// Errors: NULL_POINTER, NOT_FINITE, INVALID_VALUE.
 /// Cost: a copy; allocates it.

@@ -163,7 +163,7 @@ pub struct stickslip_options {
     /// Coulomb coefficient of all nodes [-]; default 0.
     pub mu: f64,
     /// rhat [F/L^3]; 0 (default): use the modulus. One of the two is needed: nothing else has the unit
-    /// of a stiffness. The answer does not depend on it.
+    /// of a stiffness. The answer does not depend on it, except with STICKSLIP_DECISION_POINTS.
     pub augmentation: f64,
     /// Young's modulus of the softer body [F/L^2]: rhat_A = 0.1 E / h_A, h_A = sqrt(M_A), of lines about their length; 0 (default): use the
     /// augmentation. With STICKSLIP_DECISION_POINTS it is needed, and is E* of both bodies together.

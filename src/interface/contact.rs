@@ -414,7 +414,7 @@ impl<const N: usize> Contact<N> {
     /// Lengths of what [`Contact::export_history`] gives.
     pub fn history_size(&mut self) -> Result<(usize, usize)> {
         self.cache.complete(&self.setup, &mut self.step)?;
-        Ok(self.step.history.flat_size())
+        Ok(self.step.history.flat_size(&self.host()))
     }
 
     /// Replaces the history by an imported one, after which no commit can be undone.

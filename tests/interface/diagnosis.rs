@@ -64,6 +64,11 @@ fn frozen_weights_are_judged_where_they_are_frozen() {
     let x1: Vec<_> = meshes[0].x.iter().map(|x| x + Vec3::x() * 0.25).collect();
     let d = i.diagnose(&x1, &meshes[1].x, &[Vec3::new(0.0, 0.0, -1.0); 4], None).unwrap();
     assert!((d.overlap.unwrap().value - 0.01).abs() < ROUNDING);
+    // Or anew, where `set_previous` says that the first configuration was another one.
+    let there: Vec<_> = meshes[0].x.iter().map(|x| x + Vec3::x() * 0.1).collect();
+    i.set_previous(&there, &meshes[1].x).unwrap();
+    let d = i.diagnose(&x1, &meshes[1].x, &[Vec3::new(0.0, 0.0, -1.0); 4], None).unwrap();
+    assert!((d.overlap.unwrap().value - 0.11).abs() < ROUNDING);
 }
 
 /// A slice of 1e-6 of a facet: its far nodes are hardly covered, and their rows small, in every direction.

@@ -122,7 +122,7 @@ fn rollback_and_restart_continue_bit_for_bit() {
         assert_eq!(scene.interface.roll_back().unwrap_err().kind, Kind::NothingToRollBack);
 
         let (integers, reals) = scene.interface.export_history().unwrap();
-        assert_eq!((integers.len(), reals.len()), history.flat_size());
+        assert_eq!((integers.len(), reals.len()), scene.interface.history_size().unwrap());
         let mut restarted = moved(&options, QUADS, ROUGH, 3);
         restarted.interface.import_history(&integers, &reals).unwrap();
         restarted.slide(0.05);

@@ -209,6 +209,25 @@ fn histories_go_on_with_the_same_bits() {
     assert!(error.kind == Kind::HistoryMismatch, "{error}");
 }
 
+/// Points were those of the creation, though `set_previous` had made another configuration the first.
+#[test]
+fn points_after_set_previous_are_of_its_positions() {
+    for cells in CELLS {
+        let of = by_points(0.4);
+        let mut s = scene(of, cells, Roughness { warp: 0.03, jitter: 0.08, slide: 0.4 }, 3);
+        s.contact.set_previous(&s.x1, &s.x2).unwrap();
+        let (one, two) = s.contact.surfaces();
+        let at = |mesh: Mesh, x: &[Vec3]| Mesh { x: x.to_vec(), ..mesh };
+        let mut there = interface(&at(mesh_of(one), &s.x1), &at(mesh_of(two), &s.x2), of);
+        let after = |c: &mut Interface| {
+            c.commit(&s.x1, &s.x2, &s.lambda, None).unwrap();
+            let away: Vec<_> = s.x1.iter().map(|x| x + Vec3::new(0.01, 0.02, -0.01)).collect();
+            c.residual(&away, &s.x2, &s.lambda, None).unwrap()
+        };
+        assert!(after(&mut s.contact) == after(&mut there));
+    }
+}
+
 #[test]
 fn what_friction_at_points_does_not_go_with_is_refused_by_name() {
     let refused = |options: Options, word: &str| {

@@ -204,6 +204,74 @@ fn histories_go_on_with_the_same_bits() {
     }
 }
 
+/// Weights of the first configuration were integrated at that of the creation where a border cuts a facet, and K with them, though
+/// `set_previous` had made others the first. What is frozen belongs to the weights, through commits and in an exported history.
+#[test]
+fn weights_frozen_after_set_previous_are_of_its_positions() {
+    for (cells, slide) in CELLS.into_iter().flat_map(|c| [(c, 0.0), (c, 0.4)]) {
+        let rough = Roughness { warp: 0.03, jitter: 0.08, slide };
+        let of = by_points(Weights::Reference);
+        let mut s = scene(of, cells, rough, 3);
+        assert!(s.shares()[1] > 0, "cut facets");
+        let created = s.contact.residual(&s.x1, &s.x2, &s.lambda, None).unwrap();
+        s.contact.set_previous(&s.x1, &s.x2).unwrap();
+        let (one, two) = s.contact.surfaces();
+        let at = |mesh: Mesh, x: &[Vec3]| Mesh { x: x.to_vec(), ..mesh };
+        let mut there = contact::<1>(&at(mesh_of(one), &s.x1), &at(mesh_of(two), &s.x2), false, of);
+        let residual = |c: &mut Contact<1>| c.residual(&s.x1, &s.x2, &s.lambda, None).unwrap();
+        let expected = residual(&mut there);
+        assert!(expected != created && expected == residual(&mut s.contact));
+        let (x1, x2): (Vec<_>, Vec<_>) =
+            (s.x1.iter().map(|x| x * 1.01).collect(), s.x2.iter().map(|x| x * 1.02).collect());
+        s.contact.commit(&x1, &x2, &s.lambda, None).unwrap();
+        assert!(expected == residual(&mut s.contact), "after a commit");
+        let (integers, reals) = s.contact.export_history().unwrap();
+        let mut again = scene(of, cells, rough, 3).contact;
+        again.import_history(&integers, &reals).unwrap();
+        assert!(expected == residual(&mut again), "after an import");
+        assert!((integers, reals) == again.export_history().unwrap());
+    }
+}
+
+/// The same of lines, whose sizes in axisymmetric models go by the radius: that which their area is of.
+#[test]
+fn lines_frozen_after_set_previous_are_of_its_positions() {
+    for (measure, seed) in [Measure::Thickness(0.7), Measure::Axisymmetric].into_iter().flat_map(|m| [(m, 1), (m, 2)]) {
+        let of = by_points(Weights::Reference);
+        let mut s = moved_lines::<1>(&of, [2, 2], measure, seed);
+        s.contact.set_previous(&s.x1, &s.x2).unwrap();
+        let [one, two] = &s.meshes;
+        let at = |mesh: &Mesh, x: &[Vec3]| Mesh { x: x.to_vec(), facets: mesh.facets.clone() };
+        let mut there = contact_of_lines::<1>(&at(one, &s.x1), &at(two, &s.x2), measure, of);
+        let residual = |c: &mut Contact<1>| c.residual(&s.x1, &s.x2, &s.lambda, None).unwrap();
+        let (expected, found) = (residual(&mut there), residual(&mut s.contact));
+        // Facets stand for lines, as wide as those of the creation are long: rounding differs.
+        let largest = max_abs(expected.nonmortar.iter().map(|f| f.amax()));
+        let forces = found.nonmortar.iter().zip(&expected.nonmortar).chain(found.mortar.iter().zip(&expected.mortar));
+        let forces = max_abs(forces.map(|(f, e)| (f - e).amax()));
+        let rows = max_abs(found.rows.iter().zip(&expected.rows).map(|(f, e)| (f - e).amax()));
+        assert!(forces.max(rows) <= ROUNDING * largest, "{measure:?}: {forces:e} {rows:e} of {largest:e}");
+        let away = |x: &[Vec3]| x.iter().map(|x| x + Vec3::new(0.3, 0.0, 0.0)).collect::<Vec<_>>();
+        s.contact.commit(&away(&s.x1), &away(&s.x2), &s.lambda, None).unwrap();
+        assert!(found == residual(&mut s.contact), "{measure:?}: after a commit");
+    }
+}
+
+/// Lengths alone told them apart, if they did.
+#[test]
+fn a_history_of_nodes_is_refused_by_name() {
+    let of = by_points(Weights::Committed);
+    let contact = |of: Options| scene(of, CELLS[0], FLAT, 3).contact;
+    let (mut points, mut nodes) = (contact(of), contact(Options { decision: Decision::Nodes, ..of }));
+    let refused = |from: &mut Contact<1>, to: &mut Contact<1>, words: &str| {
+        let (integers, reals) = from.export_history().unwrap();
+        let error = to.import_history(&integers, &reals).unwrap_err();
+        assert!(error.kind == Kind::HistoryMismatch && error.message.contains(words), "{error}");
+    };
+    refused(&mut points, &mut nodes, "one with points that decide (options.decision), the interface one with the dual");
+    refused(&mut nodes, &mut points, "one with the dual multiplier basis, the interface one with points that decide");
+}
+
 /// Fewer unknowns away from the border say the same: with an augmentation beside the modulus r changes and K does not.
 #[test]
 fn an_augmentation_takes_the_place_of_r_alone() {

@@ -74,6 +74,8 @@ pub struct History {
     pub x1: Vec<Vec3>,
     /// Mortar positions x(t_n).
     pub x2: Vec<Vec3>,
+    /// Positions of both sides that weights frozen for good are of, where these are not the first configuration; else empty.
+    pub frozen_at: [Vec<Vec3>; 2],
     /// nu_A(t_n), into the non-mortar body.
     pub normals: Vec<Vec3>,
     /// M_A: full nodal area, covered or not [L^2].
@@ -127,6 +129,7 @@ impl History {
             commits: 0,
             x1: Vec::new(),
             x2: Vec::new(),
+            frozen_at: [Vec::new(), Vec::new()],
             normals: Vec::new(),
             areas: Vec::new(),
             coverage: Vec::new(),
@@ -146,6 +149,7 @@ impl History {
         (self.keeps, self.commits, self.integrated) = (keeps, 0, false);
         memory::recopy(&mut self.x1, x1)?;
         memory::recopy(&mut self.x2, x2)?;
+        self.frozen_at.iter_mut().for_each(Vec::clear);
         self.normals.clear();
         memory::refill(&mut self.areas, 0.0, n1)?;
         memory::refill(&mut self.coverage, 0.0, n1)?;
@@ -158,11 +162,34 @@ impl History {
         Ok(())
     }
 
+    /// Notes that weights are frozen for good at (x1, x2).
+    pub(crate) fn freeze_at(&mut self, (one, two): (&Surface, &Surface), (x1, x2): (&[Vec3], &[Vec3])) -> Result<()> {
+        if one.reference != x1 || two.reference != x2 {
+            memory::recopy(&mut self.frozen_at[0], x1)?;
+            memory::recopy(&mut self.frozen_at[1], x2)?;
+        }
+        Ok(())
+    }
+
+    /// The positions that frozen weights are of.
+    pub(crate) fn weighted_at<'a>(
+        &'a self,
+        weights: Weights,
+        (one, two): (&'a Surface, &'a Surface),
+    ) -> (&'a [Vec3], &'a [Vec3]) {
+        match (weights, &self.frozen_at) {
+            (Weights::Reference, [x1, _]) if x1.is_empty() => (&one.reference, &two.reference),
+            (Weights::Reference, [x1, x2]) => (x1, x2),
+            _ => (&self.x1, &self.x2),
+        }
+    }
+
     /// Becomes a copy of another one, with other positions.
     pub(crate) fn move_to(&mut self, other: &History, x1: &[Vec3], x2: &[Vec3]) -> Result<()> {
         (self.keeps, self.commits, self.integrated) = (other.keeps, other.commits, other.integrated);
         memory::recopy(&mut self.x1, x1)?;
         memory::recopy(&mut self.x2, x2)?;
+        self.frozen_at.iter_mut().zip(&other.frozen_at).try_for_each(|(to, of)| memory::recopy(to, of))?;
         memory::recopy(&mut self.normals, &other.normals)?;
         memory::recopy(&mut self.areas, &other.areas)?;
         memory::recopy(&mut self.coverage, &other.coverage)?;

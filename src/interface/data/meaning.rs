@@ -1,5 +1,5 @@
 //! What gives a history its meaning: of another interface the same numbers would say something else. Facets and their
-//! kinds, the first configuration, the law, the multiplier's basis, the weights, the slip measure, the shape of an
+//! kinds, the first configuration, the law, the multiplier's basis and whether points decide, the weights, the slip measure, the shape of an
 //! analytic mortar side. Not mu, augmentation, tolerances and forms: a run may go on with others.
 
 use super::checksum::of_words;
@@ -13,8 +13,10 @@ use crate::line::Measure;
 /// Integers of a meaning.
 pub const LENGTH: usize = 8;
 
-/// By [`MultiplierBasis`](super::options::MultiplierBasis).
-const BASES: [&str; 2] = ["the standard multiplier basis", "the dual multiplier basis"];
+/// By [`MultiplierBasis`](super::options::MultiplierBasis), and with [`Decision::Points`].
+const BASES: [&str; 3] =
+    ["the standard multiplier basis", "the dual multiplier basis", "points that decide (options.decision)"];
+const POINTS: i64 = 2;
 const WEIGHTS: [&str; 3] =
     ["weights of now", "weights frozen at the last commit", "weights of the first configuration"];
 const SLIPS: [&str; 4] = ["no slip", "the objective slip measure", "the slip increment", "the paper's slip measure"];
@@ -56,7 +58,7 @@ pub fn of(options: &Options, own: Option<&Own>, (nonmortar, mortar): (&Surface, 
     let coordinates = sides.iter().flat_map(|s| s.reference.iter().flatten().map(|v| (v + 0.0).to_bits()));
     [
         own.map_or(law.friction as usize, Own::number) as i64,
-        options.basis as i64,
+        if options.decides_at_points() { POINTS } else { options.basis as i64 },
         weights,
         slip,
         shape as i64,

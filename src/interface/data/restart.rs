@@ -2,7 +2,8 @@
 //!
 //! Integers: the layout, the checksum (`checksum.rs`), the meaning (`meaning.rs`), commits, nodes of both sides; then lists,
 //! each after its length: the pairs' facets. Reals: x1, x2, normals, gaps, slip, gaps of facets, areas, coverage, what a law of
-//! one's own remembers, the pairs' weights. What is not kept (`Keeps`) takes no room.
+//! one's own or points remember, the positions that weights are of where points decide with weights that are frozen for good, the
+//! pairs' weights. What is not kept (`Keeps`) takes no room.
 
 use super::checksum::{self, PLACE};
 use super::facet_gaps::{FacetGaps, REALS_PER_FACET};
@@ -40,19 +41,29 @@ pub struct Host<'a> {
     meaning: [i64; meaning::LENGTH],
     /// Whether the weights are frozen for good.
     frozen: bool,
+    /// Whether the positions that they are of are kept: facets that a border cuts are integrated anew.
+    keeps_places: bool,
 }
 
 impl<'a> Host<'a> {
     /// What an interface is, whose law or points remember so many reals.
     pub fn of<const N: usize>(setup: &'a Setup<N>, states: usize) -> Host<'a> {
         let (options, own, surfaces) = (&setup.options, setup.own.as_ref(), setup.surfaces());
+        let frozen = options.effective_weights() == Weights::Reference;
         Host {
             surfaces,
             keeps: Keeps::of(options),
             states,
             meaning: meaning::of(options, own, surfaces),
-            frozen: options.effective_weights() == Weights::Reference,
+            frozen,
+            keeps_places: frozen && setup.decides_at_points(),
         }
+    }
+
+    /// Reals of the positions that weights are of.
+    fn places(&self) -> usize {
+        let (one, two) = self.surfaces;
+        if self.keeps_places { 3 * (one.len() + two.len()) } else { 0 }
     }
 }
 
@@ -84,19 +95,19 @@ fn vectors(rest: &mut &[f64], n: usize) -> Result<Vec<Vec3>> {
 
 impl History {
     /// Lengths of the flat arrays: (integers, reals).
-    pub fn flat_size(&self) -> (usize, usize) {
+    pub fn flat_size(&self, host: &Host) -> (usize, usize) {
         let (n, per_pair) = match self.parents.len() {
             0 => (self.pairs.len(), REALS_PER_PAIR),
             n => (n, REALS_PER_PARENT_PAIR),
         };
         let nodes = [self.x1.len(), self.x2.len()];
-        let of_nodes = self.keeps.reals(nodes, self.facet_gaps.len()) + self.states.len();
+        let of_nodes = self.keeps.reals(nodes, self.facet_gaps.len()) + self.states.len() + host.places();
         (HEADER + 1 + 2 * n, of_nodes + n * per_pair)
     }
 
     /// The history as flat arrays.
     pub fn export(&self, host: &Host) -> Result<(Vec<i64>, Vec<f64>)> {
-        let (n_integers, n_reals) = self.flat_size();
+        let (n_integers, n_reals) = self.flat_size(host);
         let (mut integers, mut reals) = (memory::with_room(n_integers)?, memory::with_room(n_reals)?);
         let pairs = self.pairs.len() + self.parents.len(); // one of the lists is empty
         let counts = [self.commits, self.x1.len() as i64, self.x2.len() as i64, pairs as i64];
@@ -108,6 +119,10 @@ impl History {
         reals.store_all(self.areas.iter().copied())?;
         reals.store_all(self.coverage.iter().copied())?;
         reals.store_all(self.states.iter().copied())?;
+        if host.keeps_places {
+            let (x1, x2) = self.weighted_at(Weights::Reference, host.surfaces);
+            reals.store_all(x1.iter().chain(x2).flat_map(|v| v.iter().copied()))?;
+        }
         for pair in &self.pairs {
             integers.store_all([pair.one as i64, pair.two as i64].into_iter())?;
             reals.store_all(pair.weights.ab.iter().chain(&pair.weights.ac).flatten().copied())?;
@@ -130,7 +145,8 @@ impl History {
         let (commits, facets) = check_header((integers, reals), host)?;
         let has_parents = nonmortar.parents.is_some();
         let per_pair = if has_parents { REALS_PER_PARENT_PAIR } else { REALS_PER_PAIR };
-        let n_reals = keeps.reals([n1, n2], nonmortar.facets.len()) + states + facets.len() / 2 * per_pair;
+        let of_nodes = keeps.reals([n1, n2], nonmortar.facets.len()) + states + host.places();
+        let n_reals = of_nodes + facets.len() / 2 * per_pair;
         if reals.len() != n_reals {
             return mismatch(text!("reals has {} entries; {n_reals} are needed", reals.len()));
         }
@@ -142,6 +158,8 @@ impl History {
         let facet_gaps = FacetGaps::from_reals(take(&mut rest, REALS_PER_FACET * kept))?;
         let (areas, coverage) = (memory::copied(take(&mut rest, n1))?, memory::copied(take(&mut rest, n1))?);
         let states = memory::copied(take(&mut rest, states))?;
+        let at =
+            if host.keeps_places { [vectors(&mut rest, n1)?, vectors(&mut rest, n2)?] } else { Default::default() };
         let (mut pairs, mut parents) = (Vec::new(), Vec::new());
         for f in facets.chunks_exact(2) {
             let index = |v: i64, n: usize| usize::try_from(v).ok().filter(|&i| i < n);
@@ -163,11 +181,12 @@ impl History {
             pairs.store(PairRecord { one, two, weights })?;
         }
         let integrated = true;
-        let history = History {
+        let mut history = History {
             keeps,
             commits,
             x1,
             x2,
+            frozen_at: Default::default(),
             normals,
             areas,
             coverage,
@@ -179,6 +198,9 @@ impl History {
             parents,
             integrated,
         };
+        if host.keeps_places {
+            history.freeze_at(host.surfaces, (&at[0], &at[1]))?;
+        }
         check_contents(&history, (nonmortar, mortar), frozen)?;
         match mortar.check_rigid(&history.x2) {
             Ok(()) => Ok(history),

@@ -32,7 +32,8 @@ fn of_surface(s: &Surface) -> usize {
 
 /// Of a history.
 pub fn of_history(h: &History) -> usize {
-    let vectors = [&h.x1, &h.x2, &h.normals, &h.gap, &h.slip];
+    let [frozen1, frozen2] = &h.frozen_at;
+    let vectors = [&h.x1, &h.x2, frozen1, frozen2, &h.normals, &h.gap, &h.slip];
     vectors.map(heap).iter().sum::<usize>()
         + heap(&h.areas)
         + heap(&h.coverage)

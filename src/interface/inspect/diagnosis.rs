@@ -235,15 +235,14 @@ pub fn diagnosis<const N: usize>(
 }
 
 fn worst_pairs<const N: usize>(given: Given<N>, pairs: &[PairRecord], (x1, x2): (&[Vec3], &[Vec3]), d: &mut Diagnosis) {
-    let ((nonmortar, mortar), options, h) = (given.setup.surfaces(), &given.setup.options, given.history());
+    let ((nonmortar, mortar), options) = (given.setup.surfaces(), &given.setup.options);
     if mortar.analytic.is_some() {
         return;
     }
     // Where the weights are of.
     let (x1, x2) = match given.setup.options.effective_weights() {
         Weights::Current => (x1, x2),
-        Weights::Committed => (&h.x1[..], &h.x2[..]),
-        Weights::Reference => (&nonmortar.reference[..], &mortar.reference[..]),
+        Weights::Committed | Weights::Reference => given.weighted_at(),
     };
     let mut smallest = None;
     for pair in pairs {

@@ -72,6 +72,11 @@ impl<'a, const N: usize> Given<'a, N> {
         &self.step.history
     }
 
+    /// The positions that frozen weights are of.
+    pub fn weighted_at(self) -> (&'a [Vec3], &'a [Vec3]) {
+        self.history().weighted_at(self.setup.options.effective_weights(), self.setup.surfaces())
+    }
+
     /// Non-mortar nodes.
     pub fn nodes(self) -> usize {
         self.setup.nonmortar.len()
@@ -127,7 +132,8 @@ impl<'a, const N: usize> Given<'a, N> {
     /// facets around it, of which a node on an edge has fewer.
     pub fn size(self, a: usize) -> f64 {
         let history = self.history();
-        let size = self.setup.nonmortar.size(history.areas[a], history.x1[a]);
+        let x1 = if self.setup.decides_at_points() { self.weighted_at().0 } else { &history.x1 };
+        let size = self.setup.nonmortar.size(history.areas[a], x1[a]);
         self.setup.size_factors.get(a).map_or(size, |factor| factor * size)
     }
 

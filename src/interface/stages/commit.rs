@@ -10,7 +10,7 @@ use crate::geometry::Vec3;
 use crate::interface::data::active::Active;
 use crate::interface::data::extent::Extent;
 use crate::interface::data::history::{History, Keeps};
-use crate::interface::data::options::{Options, Scheme};
+use crate::interface::data::options::{Options, Scheme, Weights};
 use crate::interface::data::parents::Parents;
 use crate::interface::data::surface::Surface;
 use crate::interface::pairing::filter::Filter;
@@ -51,6 +51,9 @@ pub fn settled_at(
 ) -> Result<Settled> {
     let (surfaces, keeps) = ((nonmortar, mortar), Keeps::of(options));
     history.begin(keeps, (x1, x2))?;
+    if options.effective_weights() == Weights::Reference {
+        history.freeze_at(surfaces, (x1, x2))?;
+    }
     work.room.dropped.clear();
     // Also where the surfaces are apart: a commit refuses degenerate facets of either side.
     let filter = settle::filter(surfaces, options, (x1, x2), &mut work.tree)?;

@@ -154,10 +154,8 @@ impl Points {
         responses: &[NodeResponse<N>],
         r: &mut Residual<N>,
     ) -> Result<()> {
-        let ((one, two), nodes) = (given.setup.surfaces(), &given.setup.nodes);
-        memory::refill(&mut r.nonmortar, Vec3::zeros(), one.len())?;
-        memory::refill(&mut r.mortar, Vec3::zeros(), two.len())?;
-        memory::refill(&mut r.rows, SVector::zeros(), one.len())?;
+        let two = &given.setup.mortar;
+        r.clear(given.setup.surfaces())?;
         for facet in &self.facets {
             for place in facet.places() {
                 let other = two.host_nodes(self.pairs[place].two);
@@ -169,9 +167,7 @@ impl Points {
                 }
             }
         }
-        for (a, response) in responses.iter().enumerate().filter(|(a, _)| nodes.is_own(*a) && one.has_row(*a)) {
-            r.rows[a] = response.row * given.row_scale(a);
-        }
+        r.take_rows(given, responses);
         Ok(())
     }
 }

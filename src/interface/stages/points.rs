@@ -12,7 +12,7 @@ use crate::dual::{Coverage, FacetSums};
 use crate::error::Result;
 use crate::geometry::{Plane, Vec3};
 use crate::interface::data::lines::{Lines, line};
-use crate::interface::data::options::{Decision, Weights};
+use crate::interface::data::options::Decision;
 use crate::interface::data::pairs::{PairRecord, ParentRecord, Weighted};
 use crate::interface::data::parents::Parents;
 use crate::interface::data::points::{Closed, OfNodes, PointFacet, PointPair, Points};
@@ -25,15 +25,6 @@ use crate::points::{STIFFNESS, of_facet, of_line};
 use crate::shape::{MAX_CORNERS, MAX_PARENT_NODES};
 use nalgebra::SVector;
 
-/// The positions that the weights are of.
-fn positions<const N: usize>(given: Given<'_, N>) -> (&[Vec3], &[Vec3]) {
-    let ((one, two), history) = (given.setup.surfaces(), given.history());
-    match given.setup.options.effective_weights() {
-        Weights::Reference => (&one.reference, &two.reference),
-        _ => (&history.x1, &history.x2),
-    }
-}
-
 /// The sides' facets where both are of lines.
 fn lines<const N: usize>(given: Given<'_, N>) -> Option<(&Parents, &Parents, &Lines)> {
     let (one, two) = given.setup.surfaces();
@@ -42,7 +33,7 @@ fn lines<const N: usize>(given: Given<'_, N>) -> Option<(&Parents, &Parents, &Li
 
 /// The lines of a pair.
 fn line_pair<const N: usize>(given: Given<N>, (f, g): (usize, usize)) -> Option<(LineFacet, LineFacet, Measure)> {
-    let ((one, two, lines), x) = (lines(given)?, positions(given));
+    let ((one, two, lines), x) = (lines(given)?, given.weighted_at());
     Some((line(&one.at(f, x.0)), line(&two.at(g, x.1)), lines.measure))
 }
 
@@ -84,7 +75,7 @@ impl Points {
         if self.is_settled {
             return Ok(());
         }
-        let (surfaces, x) = (given.setup.surfaces(), positions(given));
+        let (surfaces, x) = (given.setup.surfaces(), given.weighted_at());
         surfaces.0.plane_normals(x.0, &mut self.planes)?;
         self.facets.clear();
         self.pairs.clear();
@@ -106,7 +97,7 @@ impl Points {
     }
 
     fn settle_facet<const N: usize>(&mut self, given: Given<N>, pairs: &[PairRecord]) -> Result<()> {
-        let ((one, two), x, first) = (given.setup.surfaces(), positions(given), self.pairs.len());
+        let ((one, two), x, first) = (given.setup.surfaces(), given.weighted_at(), self.pairs.len());
         let f = pairs[0].one;
         let frame = one.frame(f, x.0, &self.planes)?;
         let mut sums = FacetSums::new(&frame);
@@ -127,7 +118,7 @@ impl Points {
     }
 
     fn settle_line<const N: usize>(&mut self, given: Given<N>, pairs: &[ParentRecord]) -> Result<()> {
-        let ((one, _), x, first, f) = (given.setup.surfaces(), positions(given), self.pairs.len(), pairs[0].one);
+        let ((one, _), x, first, f) = (given.setup.surfaces(), given.weighted_at(), self.pairs.len(), pairs[0].one);
         let Some((parents, _, _)) = lines(given) else { return Ok(()) };
         let (mut mass, mut length) = (OfNodes::default(), 0.0);
         for pair in pairs {
@@ -209,7 +200,7 @@ impl Points {
                 }
                 continue;
             }
-            let (x, rule) = (positions(given), given.setup.options.rule);
+            let (x, rule) = (given.weighted_at(), given.setup.options.rule);
             let frame = given.setup.nonmortar.frame(facet.one, x.0, planes)?;
             for pair in of_pairs {
                 let close = |s: Segment| scaled(&PairWeights::closed(&frame, &s, rule, &sigma), facet.fade);
@@ -283,10 +274,8 @@ impl Points {
         responses: &[NodeResponse<N>],
         r: &mut Residual<N>,
     ) -> Result<()> {
-        let ((one, two), nodes) = (given.setup.surfaces(), &given.setup.nodes);
-        memory::refill(&mut r.nonmortar, Vec3::zeros(), one.len())?;
-        memory::refill(&mut r.mortar, Vec3::zeros(), two.len())?;
-        memory::refill(&mut r.rows, SVector::zeros(), one.len())?;
+        let two = &given.setup.mortar;
+        r.clear(given.setup.surfaces())?;
         for (at, facet) in self.facets.iter().enumerate() {
             if self.states[at] == Closed::Nothing {
                 continue;
@@ -299,9 +288,7 @@ impl Points {
                 other.for_each(|(&c, t)| r.mortar[c] -= facet.normal * t);
             }
         }
-        for (a, response) in responses.iter().enumerate().filter(|(a, _)| nodes.is_own(*a) && one.has_row(*a)) {
-            r.rows[a] = response.row * given.row_scale(a);
-        }
+        r.take_rows(given, responses);
         Ok(())
     }
 }

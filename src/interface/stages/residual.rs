@@ -5,6 +5,7 @@ use crate::error::Result;
 use crate::geometry::Vec3;
 use crate::interface::data::multiplier::force_traction;
 use crate::interface::data::pairs::{ParentRecord, Weighted};
+use crate::interface::data::setup::Setup;
 use crate::interface::data::surface::Surface;
 use crate::interface::pairing::given::Given;
 use crate::law::NodeResponse;
@@ -31,6 +32,23 @@ impl<const N: usize> Default for Residual<N> {
     }
 }
 
+impl<const N: usize> Residual<N> {
+    /// Zeros of every node, in place of what was there.
+    pub fn clear(&mut self, (nonmortar, mortar): (&Surface, &Surface)) -> Result<()> {
+        memory::refill(&mut self.nonmortar, Vec3::zeros(), nonmortar.len())?;
+        memory::refill(&mut self.mortar, Vec3::zeros(), mortar.len())?;
+        memory::refill(&mut self.rows, SVector::zeros(), nonmortar.len())
+    }
+
+    /// Takes the law's rows of the nodes whose multipliers act here.
+    pub fn take_rows(&mut self, given: Given<N>, responses: &[NodeResponse<N>]) {
+        let Setup { nodes, nonmortar, .. } = given.setup;
+        for (a, response) in responses.iter().enumerate().filter(|(a, _)| nodes.is_own(*a) && nonmortar.has_row(*a)) {
+            self.rows[a] = response.row * given.row_scale(a);
+        }
+    }
+}
+
 /// Of the pairs whose weights act, at the law's answers.
 pub fn residual<const N: usize>(
     given: Given<N>,
@@ -53,9 +71,7 @@ pub fn refresh<const N: usize>(
     r: &mut Residual<N>,
 ) -> Result<()> {
     let ((nonmortar, mortar), nodes) = (given.setup.surfaces(), &given.setup.nodes);
-    memory::refill(&mut r.nonmortar, Vec3::zeros(), nonmortar.len())?;
-    memory::refill(&mut r.mortar, Vec3::zeros(), mortar.len())?;
-    memory::refill(&mut r.rows, SVector::zeros(), nonmortar.len())?;
+    r.clear((nonmortar, mortar))?;
     tractions.clear();
     memory::grow(tractions, nonmortar.len())?;
     for (a, response) in responses.iter().enumerate() {
@@ -85,11 +101,7 @@ pub fn refresh<const N: usize>(
             }
         }
     })?;
-    for (a, response) in responses.iter().enumerate() {
-        if nodes.is_own(a) && nonmortar.has_row(a) {
-            r.rows[a] = response.row * given.row_scale(a);
-        }
-    }
+    r.take_rows(given, responses);
     Ok(())
 }
 

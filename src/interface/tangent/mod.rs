@@ -16,5 +16,6 @@ pub mod parent_table;
 pub mod parents;
 pub mod point_friction;
 pub mod points;
+pub mod star;
 pub mod turning;
 pub mod union;

@@ -3,7 +3,8 @@
 //! of the projection's derivative; dsigma_A = dlambda_A + (rhat_A / D_A) dg_A, taken apart by nu_A and T_A.
 
 use super::emission::{Emitter, NodeBlock, Place};
-use super::points::{Around, PointNumbers};
+use super::points::PointNumbers;
+use super::star::{Around, Star};
 use super::union::Pairs;
 use crate::error::Result;
 use crate::geometry::{Mat3, Vec3};
@@ -29,8 +30,6 @@ impl Both {
 /// A node that sigma_A acts on and depends on.
 #[derive(Clone, Copy, Debug, Default)]
 struct Neighbour {
-    /// Over both surfaces.
-    node: usize,
     force: Both,
     /// d sigma_A / dx, before it is taken apart.
     slope: f64,
@@ -39,7 +38,6 @@ struct Neighbour {
 /// A multiplier whose row sigma_A or lambda_A is in.
 #[derive(Clone, Copy, Debug, Default)]
 struct Row {
-    node: usize,
     /// Of int N_B t_N, by sigma_NA.
     normal: f64,
     /// Of int N_B t_T.
@@ -47,45 +45,22 @@ struct Row {
     left: f64,
 }
 
-/// One node A, its neighbours and its rows.
+/// What depends on sigma_A of one node, and what it depends on.
 #[derive(Debug, Default)]
-struct Star {
+struct OfNode {
+    star: Star,
+    /// Beside the star's.
     neighbours: Vec<Neighbour>,
     rows: Vec<Row>,
     columns: Vec<(usize, Place)>,
     blocks: Vec<NodeBlock>,
-    /// Per node over both surfaces its place among the neighbours.
-    places: Vec<usize>,
-    row_places: Vec<usize>,
 }
 
-const NOWHERE: usize = usize::MAX;
-
-impl Star {
+impl OfNode {
     fn begin<const N: usize>(&mut self, given: Given<N>, a: usize, around: &Around) -> Result<()> {
-        let one = &given.setup.nonmortar;
-        for neighbour in self.neighbours.drain(..) {
-            self.places[neighbour.node] = NOWHERE;
-        }
-        for row in self.rows.drain(..) {
-            self.row_places[row.node] = NOWHERE;
-        }
-        for &k in around.around(a) {
-            let own = one.host_nodes(around.facets[k]);
-            for &b in own.iter().filter(|&&b| one.has_row(b)) {
-                if self.row_places[b] == NOWHERE {
-                    self.row_places[b] = self.rows.len();
-                    self.rows.store(Row { node: b, ..Row::default() })?;
-                }
-            }
-            for node in own.iter().copied().chain(around.mortar(k).iter().map(|c| one.len() + c)) {
-                if self.places[node] == NOWHERE {
-                    self.places[node] = self.neighbours.len();
-                    self.neighbours.store(Neighbour { node, ..Neighbour::default() })?;
-                }
-            }
-        }
-        Ok(())
+        self.star.begin(given, a, around)?;
+        memory::refill(&mut self.neighbours, Neighbour::default(), self.star.nodes.len())?;
+        memory::refill(&mut self.rows, Row::default(), self.star.rows.len())
     }
 
     /// Adds what a facet has of A.
@@ -96,9 +71,8 @@ impl Star {
         let Some(l) = facet.nodes().iter().position(|&b| b == a) else { return };
         let (is_covered, slope, moves) = (points.is_covered[a], friction.nodes[a].slope, given.setup.effects.moves());
         for (k, &b) in facet.nodes().iter().enumerate().filter(|(_, b)| points.is_covered[**b]) {
-            if self.row_places[b] != NOWHERE {
-                let row = &mut self.rows[self.row_places[b]];
-                row.left += facet.mass[k][l] + points.factors[b] * facet.stabilisation[k][l];
+            if let Some(row) = self.star.row(b) {
+                self.rows[row].left += facet.mass[k][l] + points.factors[b] * facet.stabilisation[k][l];
             }
         }
         if !is_covered {
@@ -116,18 +90,18 @@ impl Star {
                 other.iter_mut().zip(&point.other).for_each(|(sum, n)| sum.add(&acts, by * n));
             }
             for (k, &b) in facet.nodes().iter().enumerate() {
-                self.neighbours[self.places[b]].slope += slope * pair.dual.ab[l][k];
+                self.neighbours[self.star.place(b)].slope += slope * pair.dual.ab[l][k];
             }
             for (k, &c) in two.host_nodes(pair.two).iter().enumerate().filter(|_| moves) {
-                let neighbour = &mut self.neighbours[self.places[one.len() + c]];
+                let neighbour = &mut self.neighbours[self.star.place(one.len() + c)];
                 neighbour.force.add(&other[k], -1.0);
                 neighbour.slope -= slope * pair.dual.ac[l][k];
             }
         }
         for (k, &b) in facet.nodes().iter().enumerate() {
-            self.neighbours[self.places[b]].force.add(&own[k], 1.0);
-            if points.is_covered[b] && self.row_places[b] != NOWHERE {
-                let (row, normal) = (&mut self.rows[self.row_places[b]], facet.normal.dot(&own[k].normal));
+            self.neighbours[self.star.place(b)].force.add(&own[k], 1.0);
+            if let Some(row) = self.star.row(b).filter(|_| points.is_covered[b]) {
+                let (row, normal) = (&mut self.rows[row], facet.normal.dot(&own[k].normal));
                 row.normal += normal;
                 row.along.add(&Both { normal: own[k].normal - facet.normal * normal, along: own[k].along }, 1.0);
             }
@@ -143,20 +117,20 @@ impl Star {
     ) -> Result<()> {
         let areas = &given.history().areas;
         self.columns.clear();
-        self.columns.store_all(self.neighbours.iter().map(|n| Place::Displacement(n.node)).enumerate())?;
+        self.columns.store_all(self.star.nodes.iter().map(|node| Place::Displacement(*node)).enumerate())?;
         self.columns.sort_unstable_by_key(|(k, place)| (emitter.taker.order(*place), *k));
         memory::refill(&mut self.blocks, NodeBlock::default(), self.neighbours.len())?;
         let node = points.map_or_else(Default::default, |points| points.friction.nodes[a]);
         let is_covered = points.is_some_and(|points| points.is_covered[a]);
         let of_sigma = |both: &Both| both.normal * node.normal.transpose() + both.along * node.along;
-        for row in &self.neighbours {
+        for (&node, row) in self.star.nodes.iter().zip(&self.neighbours) {
             let by_sigma = of_sigma(&row.force);
             fill(&mut self.blocks, &self.neighbours, &by_sigma);
-            emitter.taker.row(Place::Displacement(row.node), &self.columns, &self.blocks);
-            emitter.taker.node(Place::Displacement(row.node), Place::Multiplier(a), by_sigma.as_slice());
+            emitter.taker.row(Place::Displacement(node), &self.columns, &self.blocks);
+            emitter.taker.node(Place::Displacement(node), Place::Multiplier(a), by_sigma.as_slice());
         }
-        for row in &self.rows {
-            let (b, own) = (row.node, points.map_or_else(Default::default, |points| points.friction.nodes[row.node]));
+        for (&b, row) in self.star.rows.iter().zip(&self.rows) {
+            let own = points.map_or_else(Default::default, |points| points.friction.nodes[b]);
             let scale = given.row_scale(b) / (given.augmentation(b) * areas[b]);
             let normal = own.normal * node.normal.transpose();
             let by_sigma = (normal * row.normal + own.along * of_sigma(&row.along)) * scale;
@@ -190,21 +164,20 @@ pub fn blocks<const N: usize>(
     emitter: &mut Emitter<N>,
 ) -> Result<()> {
     let around = Around::of(given, pairs)?;
-    let (n1, n2, points) = (given.nodes(), given.setup.mortar.len(), numbers.map(|numbers| numbers.points));
-    let (places, row_places) = (memory::filled(NOWHERE, n1 + n2)?, memory::filled(NOWHERE, n1)?);
-    let mut star = Star { places, row_places, ..Star::default() };
-    for a in (0..n1).filter(|&a| given.setup.nonmortar.has_row(a)) {
+    let points = numbers.map(|numbers| numbers.points);
+    let mut of_node = OfNode { star: Star::of(given)?, ..OfNode::default() };
+    for a in (0..given.nodes()).filter(|&a| given.setup.nonmortar.has_row(a)) {
         if around.around(a).is_empty() {
             let scale = given.row_scale(a) / given.augmentation(a);
             let value = Mat3::identity() * if numbers.is_some() { -scale } else { 0.0 };
             emitter.taker.node(Place::Multiplier(a), Place::Multiplier(a), value.as_slice());
             continue;
         }
-        star.begin(given, a, &around)?;
+        of_node.begin(given, a, &around)?;
         if let Some(points) = points {
-            around.around(a).iter().for_each(|&k| star.add(given, a, around.facets[k], points));
+            around.around(a).iter().for_each(|&k| of_node.add(given, a, around.facets[k], points));
         }
-        star.emit(given, a, points, emitter)?;
+        of_node.emit(given, a, points, emitter)?;
     }
     Ok(())
 }

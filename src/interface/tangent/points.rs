@@ -4,7 +4,8 @@
 //! adds nothing. Around nodes whose facets are all open nothing depends on sigma, and the products are left out.
 
 use super::emission::{Dependence, Emitter, Place};
-use super::union::{Pairs, Walk};
+use super::star::{Around, Star};
+use super::union::Pairs;
 use crate::error::Result;
 use crate::geometry::Vec3;
 use crate::interface::data::points::Points;
@@ -21,8 +22,6 @@ pub struct PointNumbers<'a> {
 /// A node that sigma_A acts on and depends on.
 #[derive(Clone, Copy, Debug, Default)]
 struct Neighbour {
-    /// Over both surfaces.
-    node: usize,
     /// d force / d sigma_A.
     force: Vec3,
     /// d sigma_A / dx over nu_A.
@@ -32,104 +31,29 @@ struct Neighbour {
 /// A multiplier whose row sigma_A or lambda_A is in.
 #[derive(Clone, Copy, Debug, Default)]
 struct Row {
-    node: usize,
     /// d (rhat c) / d sigma_A and, at fixed sigma, d lambda_A.
     closed: f64,
     left: f64,
 }
 
-/// The facets around each node, with the mortar nodes of each.
+/// What depends on sigma_A of one node, and what it depends on.
 #[derive(Debug, Default)]
-pub struct Around {
-    pub facets: Vec<usize>,
-    first_node: Vec<usize>,
-    mortar: Vec<usize>,
-    /// Per node where its facets begin among `of_node`.
-    first: Vec<usize>,
-    of_node: Vec<usize>,
-}
-
-impl Around {
-    /// Those that have pairs.
-    pub fn of<const N: usize>(given: Given<N>, pairs: Pairs) -> Result<Around> {
-        let (mut all, mut walk, mut of_facet) = (Around::default(), Walk::through(pairs, 0..usize::MAX), Vec::new());
-        let ((one, two), moves) = (given.setup.surfaces(), given.setup.effects.moves());
-        all.first_node.store(0)?;
-        memory::refill(&mut all.first, 0, one.len() + 2)?;
-        while let Some(f) = walk.next(&mut of_facet)? {
-            all.facets.store(f)?;
-            let first = all.mortar.len();
-            for &c in of_facet.iter().filter(|_| moves).flat_map(|pair| two.host_nodes(pair.two)) {
-                if !all.mortar[first..].contains(&c) {
-                    all.mortar.store(c)?;
-                }
-            }
-            all.first_node.store(all.mortar.len())?;
-            one.host_nodes(f).iter().for_each(|&a| all.first[a + 2] += 1);
-        }
-        for a in 2..all.first.len() {
-            all.first[a] += all.first[a - 1];
-        }
-        memory::refill(&mut all.of_node, 0, all.first[one.len() + 1])?;
-        for (k, &f) in all.facets.iter().enumerate() {
-            for &a in one.host_nodes(f) {
-                all.of_node[all.first[a + 1]] = k;
-                all.first[a + 1] += 1;
-            }
-        }
-        Ok(all)
-    }
-
-    pub fn around(&self, a: usize) -> &[usize] {
-        &self.of_node[self.first[a]..self.first[a + 1]]
-    }
-
-    pub fn mortar(&self, k: usize) -> &[usize] {
-        &self.mortar[self.first_node[k]..self.first_node[k + 1]]
-    }
-}
-
-/// One node A, its neighbours and its rows.
-#[derive(Debug, Default)]
-struct Star {
+struct OfNode {
+    star: Star,
+    /// Beside the star's.
     neighbours: Vec<Neighbour>,
     rows: Vec<Row>,
     /// What sigma_A depends on in its order: which neighbour, or A's multiplier; its column; its slope.
     order: Vec<(u32, usize)>,
     columns: Vec<(u32, Place)>,
     slopes: Vec<[f64; 3]>,
-    /// Per node over both surfaces its place among the neighbours.
-    places: Vec<usize>,
-    row_places: Vec<usize>,
 }
 
-const NOWHERE: usize = usize::MAX;
-
-impl Star {
+impl OfNode {
     fn begin<const N: usize>(&mut self, given: Given<N>, a: usize, around: &Around) -> Result<()> {
-        let one = &given.setup.nonmortar;
-        for neighbour in self.neighbours.drain(..) {
-            self.places[neighbour.node] = NOWHERE;
-        }
-        for row in self.rows.drain(..) {
-            self.row_places[row.node] = NOWHERE;
-        }
-        for &k in around.around(a) {
-            let own = one.host_nodes(around.facets[k]);
-            for &b in own.iter().filter(|&&b| one.has_row(b)) {
-                if self.row_places[b] == NOWHERE {
-                    self.row_places[b] = self.rows.len();
-                    self.rows.store(Row { node: b, ..Row::default() })?;
-                }
-            }
-            for node in own.iter().copied().chain(around.mortar(k).iter().map(|c| one.len() + c)) {
-                if self.places[node] == NOWHERE {
-                    self.places[node] = self.neighbours.len();
-                    self.neighbours.store(Neighbour { node, ..Neighbour::default() })?;
-                }
-            }
-        }
-        Ok(())
+        self.star.begin(given, a, around)?;
+        memory::refill(&mut self.neighbours, Neighbour::default(), self.star.nodes.len())?;
+        memory::refill(&mut self.rows, Row::default(), self.star.rows.len())
     }
 
     /// Adds what a facet has of A.
@@ -141,27 +65,28 @@ impl Star {
         let (is_covered, areas) = (points.is_covered[a], &given.history().areas);
         let slope = if is_covered { given.augmentation(a) * areas[a] / sums[a].coverage } else { 0.0 };
         for (k, &b) in facet.nodes().iter().enumerate().filter(|(_, b)| points.is_covered[**b]) {
-            let row = &mut self.rows[self.row_places[b]];
-            row.left += facet.mass[k][l] + points.factors[b] * facet.stabilisation[k][l];
+            if let Some(row) = self.star.row(b) {
+                self.rows[row].left += facet.mass[k][l] + points.factors[b] * facet.stabilisation[k][l];
+            }
         }
         if !is_covered {
             return;
         }
         let mass = points.closed_mass(at);
         for (k, &b) in facet.nodes().iter().enumerate() {
-            self.neighbours[self.places[b]].force += facet.normal * mass[l][k];
-            if points.is_covered[b] {
-                self.rows[self.row_places[b]].closed += mass[k][l];
+            self.neighbours[self.star.place(b)].force += facet.normal * mass[l][k];
+            if let Some(row) = self.star.row(b).filter(|_| points.is_covered[b]) {
+                self.rows[row].closed += mass[k][l];
             }
         }
         for place in facet.places() {
             let (pair, closed) = (&points.pairs[place], points.closed(at, place));
             for (k, &b) in facet.nodes().iter().enumerate() {
-                self.neighbours[self.places[b]].slope += slope * pair.dual.ab[l][k];
+                self.neighbours[self.star.place(b)].slope += slope * pair.dual.ab[l][k];
             }
             if given.setup.effects.moves() {
                 for (k, &c) in two.host_nodes(pair.two).iter().enumerate() {
-                    let neighbour = &mut self.neighbours[self.places[one.len() + c]];
+                    let neighbour = &mut self.neighbours[self.star.place(one.len() + c)];
                     neighbour.force -= facet.normal * closed.map_or(0.0, |closed| closed.ac[l][k]);
                     neighbour.slope -= slope * pair.dual.ac[l][k];
                 }
@@ -172,7 +97,7 @@ impl Star {
     /// Puts what sigma_A depends on in its order.
     fn sort<const N: usize>(&mut self, (a, nu): (usize, Vec3), emitter: &Emitter<N>) -> Result<()> {
         let multiplier = self.neighbours.len();
-        let place = |k: usize| self.neighbours.get(k).map_or(Place::Multiplier(a), |n| Place::Displacement(n.node));
+        let place = |k: usize| self.star.nodes.get(k).map_or(Place::Multiplier(a), |node| Place::Displacement(*node));
         self.order.clear();
         self.order.store_all((0..=multiplier).map(|k| (emitter.taker.order(place(k)), k)))?;
         self.order.sort_unstable();
@@ -194,12 +119,15 @@ impl Star {
         self.sort((a, nu), emitter)?;
         let size = self.slopes.iter().flatten().map(|slope| slope.abs()).sum();
         let of = Dependence { columns: &self.columns, slopes: &self.slopes, size };
-        for row in self.neighbours.iter().filter(|row| is_covered.is_none() || row.force != Vec3::zeros()) {
+        for (&node, row) in self.star.nodes.iter().zip(&self.neighbours) {
+            if is_covered.is_some() && row.force == Vec3::zeros() {
+                continue;
+            }
             let force = row.force.into();
-            emitter.taker.products(Place::Displacement(row.node), &of, &force, &force);
+            emitter.taker.products(Place::Displacement(node), &of, &force, &force);
         }
-        for row in &self.rows {
-            let (b, place) = (row.node, Place::Multiplier(row.node));
+        for (&b, row) in self.star.rows.iter().zip(&self.rows) {
+            let place = Place::Multiplier(b);
             let scale = given.row_scale(b) / (given.augmentation(b) * areas[b]);
             let own = scale * if b == a && is_covered == Some(false) { -areas[a] } else { row.closed - row.left };
             if is_covered.is_some() && row.closed == 0.0 {
@@ -219,22 +147,20 @@ pub fn blocks<const N: usize>(
     emitter: &mut Emitter<N>,
 ) -> Result<()> {
     let around = Around::of(given, pairs)?;
-    let (n1, n2) = (given.nodes(), given.setup.mortar.len());
-    let (places, row_places) = (memory::filled(NOWHERE, n1 + n2)?, memory::filled(NOWHERE, n1)?);
-    let mut star = Star { places, row_places, ..Star::default() };
-    for a in (0..n1).filter(|&a| given.setup.nonmortar.has_row(a)) {
+    let mut of_node = OfNode { star: Star::of(given)?, ..OfNode::default() };
+    for a in (0..given.nodes()).filter(|&a| given.setup.nonmortar.has_row(a)) {
         if around.around(a).is_empty() {
             let scale = given.row_scale(a) / given.augmentation(a);
             let value = if numbers.is_some() { -scale } else { 0.0 };
             emitter.taker.node(Place::Multiplier(a), Place::Multiplier(a), &[value]);
             continue;
         }
-        star.begin(given, a, &around)?;
+        of_node.begin(given, a, &around)?;
         let is_covered = numbers.map(|numbers| numbers.points.is_covered[a]);
         if let Some(numbers) = numbers {
-            around.around(a).iter().for_each(|&k| star.add(given, a, around.facets[k], numbers));
+            around.around(a).iter().for_each(|&k| of_node.add(given, a, around.facets[k], numbers));
         }
-        star.emit(given, (a, normals[a], is_covered), emitter)?;
+        of_node.emit(given, (a, normals[a], is_covered), emitter)?;
     }
     Ok(())
 }
