@@ -353,8 +353,8 @@
 /// Each point of an overlap is closed or open (docs/formulation.md 16): the border of the contact lies inside facets. modulus is needed,
 /// and is E* of both bodies together: 1 / E* = (1 - nu1^2) / E1 + (1 - nu2^2) / E2, of a rigid one without its part. The answer depends
 /// on it, by what vanishes with the facets' size. An augmentation beside it takes the place of r = 0.9 E* / h_A alone; r is then part of the
-/// answer, too. With STICKSLIP_BASIS_DUAL, and STICKSLIP_FRICTION_NONE with STICKSLIP_WEIGHTS_COMMITTED or REFERENCE, or STICKSLIP_FRICTION_COULOMB with
-/// STICKSLIP_WEIGHTS_REFERENCE. UNSUPPORTED: all others of these; laws of one's own; STICKSLIP_FORM_AUGMENTED, STICKSLIP_INTEGRATION_ELEMENTS and HYBRID, weak_coverage, quadratic facets, analytic mortar sides, sums of
+/// answer, too. With STICKSLIP_BASIS_DUAL, STICKSLIP_WEIGHTS_COMMITTED or REFERENCE, and STICKSLIP_FRICTION_NONE or COULOMB, with friction
+/// not with STICKSLIP_SLIP_PAPER. UNSUPPORTED: all others of these; laws of one's own; STICKSLIP_FORM_AUGMENTED, STICKSLIP_INTEGRATION_ELEMENTS and HYBRID, weak_coverage, quadratic facets, analytic mortar sides, sums of
 /// handles, parts (owned), condensed systems.
 #define STICKSLIP_DECISION_POINTS 1
 
@@ -733,7 +733,7 @@ typedef struct stickslip_states {
   double *coverage;
   /// n1: full tributary area M_A [L^2].
   double *area;
-  /// n1: work of friction in this step, p . g_T >= 0 when converged [F L].
+  /// n1: work of friction in this step, p . g_T >= 0 when converged [F L]; where points decide the sum over them, never negative.
   double *dissipation;
   /// n1: r_A [F/L^5].
   double *augmentation;

@@ -75,7 +75,7 @@ pub struct stickslip_states {
     pub coverage: *mut f64,
     /// n1: full tributary area M_A [L^2].
     pub area: *mut f64,
-    /// n1: work of friction in this step, p . g_T >= 0 when converged [F L].
+    /// n1: work of friction in this step, p . g_T >= 0 when converged [F L]; where points decide the sum over them, never negative.
     pub dissipation: *mut f64,
     /// n1: r_A [F/L^5].
     pub augmentation: *mut f64,
@@ -145,7 +145,7 @@ fn write_states<const N: usize>(c: &mut Contact<N>, point: &Point, out: &sticksl
     let gap = || responses.iter().map(|r| r.gap_normal);
     let coverage = || sums.iter().map(|s| s.coverage);
     let area = || c.history().areas.iter().copied();
-    let dissipation = || responses.iter().map(|r| r.traction.dot(&r.slip));
+    let dissipation = || (0..responses.len()).map(|a| c.dissipation(a));
     let augmentation = || (0..responses.len()).map(|a| c.augmentation(a));
     check("normal", normals())?;
     check("traction", traction())?;

@@ -23,7 +23,7 @@ pub use basis::DualBasis;
 pub use columns::{Columns, FacetColumns, GROUP, TractionDerivatives, couple};
 pub use coverage::{Coverage, FADE_BAND};
 pub use full::FullDerivatives;
-pub use mass::{SMALLEST_DETERMINANT, SMALLEST_PIVOT};
+pub use mass::{Mass, SMALLEST_DETERMINANT, SMALLEST_PIVOT};
 pub use motion::{FacetMotion, PairShare};
 pub use parents::corner_shares;
 pub use sums::FacetSums;

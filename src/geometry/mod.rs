@@ -11,10 +11,12 @@ mod facet;
 mod near_line;
 mod plane;
 mod projection;
+mod spin;
 mod vector;
 
 pub use analytic_surface::{AnalyticShape, AnalyticSurface, Closest, FRAME, check_rigid_motion, in_plane};
 pub use facet::Facet;
 pub use plane::Plane;
 pub use projection::Projection;
+pub use spin::Spin;
 pub use vector::{Mat3, Vec2, Vec3, cross};

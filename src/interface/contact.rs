@@ -8,6 +8,7 @@ use super::data::history::History;
 use super::data::node_data::{Owner, check_length, free_directions};
 use super::data::options::{Friction, Options, Weights};
 use super::data::point_friction::REALS_PER_POINT;
+use super::data::points::Points;
 use super::data::restart::Host;
 use super::data::setup::Setup;
 use super::data::surface::{NO_EQUATION, Surface};
@@ -380,9 +381,27 @@ impl<const N: usize> Contact<N> {
         }
         memory::recopy(&mut new.history.states, &answers.responses.own.states)?;
         new.history.check_finite()?;
-        let old = self.adopt(new)?;
+        let old = match self.setup.has_point_friction() && options.effective_weights() != Weights::Reference {
+            true => self.adopt_points(new, lambda)?,
+            false => self.adopt(new)?,
+        };
         self.spare = self.rollback.replace(old);
         Ok(())
+    }
+
+    /// The same of a history with other points, which are to remember what those of this step have answered at these multipliers.
+    fn adopt_points(&mut self, mut settled: Settled, lambda: &[SVector<f64, N>]) -> Result<History> {
+        settled.history.states.clear();
+        let mut next = self.begin(Pairing::new(&self.setup, settled.filter, &settled.history)?, settled.history);
+        let (points, x1) = (&self.cache.answers().responses.points, &self.step.history.x1);
+        let mut anew = Points::default();
+        next.history.states = anew.remember(Given { setup: &self.setup, step: &next }, lambda, (points, x1))?;
+        Ok(self.put_in_place(next.pairing, next.history, settled.active))
+    }
+
+    /// A step that begins, to be looked at before it is put in place.
+    fn begin(&self, pairing: Pairing, history: History) -> Step {
+        Step { history, pairing, normals: self.setup.options.normals, now: None, room: NormalsAt::default() }
     }
 
     /// Undoes the last commit exactly.
@@ -420,8 +439,11 @@ impl<const N: usize> Contact<N> {
     /// Replaces the history by an imported one, after which no commit can be undone.
     pub fn import_history(&mut self, integers: &[i64], reals: &[f64]) -> Result<()> {
         let history = History::import((integers, reals), &self.host())?;
-        let pairing = Pairing::again(&self.setup, &history)?;
-        self.put_in_place(pairing, history, false);
+        let next = self.begin(Pairing::again(&self.setup, &history)?, history);
+        if self.setup.has_point_friction() {
+            Points::default().check_memory(Given { setup: &self.setup, step: &next })?;
+        }
+        self.put_in_place(next.pairing, next.history, false);
         self.rollback = None;
         Ok(())
     }

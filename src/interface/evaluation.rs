@@ -83,6 +83,16 @@ impl<const N: usize> Contact<N> {
         if self.setup.decides_at_points() { responses.points.shares[a] } else { share }
     }
 
+    /// What friction takes of a node in this step, at the same point [F L]: its traction times its slip; where points decide the sum over
+    /// them, of which nothing is stored.
+    pub fn dissipation(&self, a: usize) -> f64 {
+        let responses = &self.cache.answers().responses;
+        match self.setup.has_point_friction() {
+            true => responses.points.friction.dissipation[a],
+            false => responses.nodes[a].traction.dot(&responses.nodes[a].slip),
+        }
+    }
+
     /// Multipliers for the first step.
     ///
     /// # Errors

@@ -252,7 +252,8 @@ def ranks(verdicts, driver):
 
 
 REFUSALS = {
-    "friction, weights that change": ({"friction": 0.3, "law": "coulomb", "weights": "committed"}, "WEIGHTS_REFERENCE"),
+    "friction, weights of now": ({"friction": 0.3, "law": "coulomb", "weights": "current"}, "WEIGHTS_COMMITTED"),
+    "friction, the paper's slip": ({"friction": 0.3, "law": "coulomb", "slip": "paper"}, "paper's slip"),
     "another law": ({"friction": 0.3, "law": "tresca", "shear_limit": 1.0}, "not Coulomb's"),
     "tied": ({"law": "tied"}, "tied"),
     "augmented": ({"form": "augmented"}, "augmented"),

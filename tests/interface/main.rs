@@ -33,6 +33,7 @@ mod parts_condensed;
 mod patch;
 mod plan;
 mod point_friction;
+mod point_memory;
 mod points;
 mod quadratic;
 mod ratios;

@@ -296,9 +296,13 @@ impl Options {
             Some(
                 "STICKSLIP_DECISION_POINTS with a law that is not Coulomb's, or tied; take STICKSLIP_FRICTION_COULOMB or NONE, or STICKSLIP_DECISION_NODES",
             )
-        } else if self.friction == Friction::Coulomb && self.weights != Weights::Reference {
+        } else if self.friction == Friction::Coulomb && self.weights == Weights::Current {
             Some(
-                "STICKSLIP_DECISION_POINTS with friction and weights that change: a point of an overlap remembers its traction, and is the same for good with STICKSLIP_WEIGHTS_REFERENCE alone; take these, or STICKSLIP_DECISION_NODES",
+                "STICKSLIP_DECISION_POINTS with friction and weights of now: points remember a traction, and are the same within a step with frozen weights alone; take STICKSLIP_WEIGHTS_COMMITTED or STICKSLIP_WEIGHTS_REFERENCE, or STICKSLIP_DECISION_NODES",
+            )
+        } else if self.friction == Friction::Coulomb && self.slip == SlipMeasure::Paper {
+            Some(
+                "STICKSLIP_DECISION_POINTS with friction and the paper's slip measure: points remember what slipped before, and need the slip of a step; take STICKSLIP_SLIP_OBJECTIVE or STICKSLIP_SLIP_INCREMENT",
             )
         } else if self.basis != MultiplierBasis::Dual {
             Some(

@@ -22,6 +22,8 @@ pub struct FrictionNode {
     pub sigma: (f64, Vec3),
     /// lambda_N and lambda_T.
     pub lambda: (f64, Vec3),
+    /// rhat_A [F/L^3].
+    pub stiffness: f64,
     /// rhat_A / D_A: how sigma follows the weighted gap [F/L^5].
     pub slope: f64,
 }
@@ -37,6 +39,10 @@ pub struct PointFriction {
     pub nodes: Vec<FrictionNode>,
     /// Of every point.
     pub answers: Vec<Projected>,
+    /// What friction takes in the step over an area of 1, of every point [F/L].
+    pub work: Vec<f64>,
+    /// The same with each node's share of the points [F L].
+    pub dissipation: Vec<f64>,
     /// Per node how much of what is covered of it slips.
     pub shares: Vec<f64>,
     /// What the points remember if the step ends here: z of each, `REALS_PER_POINT` numbers.
@@ -76,6 +82,7 @@ impl PointFriction {
             + self.ends.capacity() * size_of::<usize>()
             + self.nodes.capacity() * size_of::<FrictionNode>()
             + self.answers.capacity() * size_of::<Projected>()
-            + (self.shares.capacity() + self.states.capacity()) * size_of::<f64>()
+            + (self.shares.capacity() + self.states.capacity() + self.work.capacity() + self.dissipation.capacity())
+                * size_of::<f64>()
     }
 }

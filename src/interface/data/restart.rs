@@ -36,8 +36,8 @@ const UNIT: f64 = 1e-10;
 pub struct Host<'a> {
     surfaces: (&'a Surface, &'a Surface),
     keeps: Keeps,
-    /// Reals that the law remembers of all nodes.
-    states: usize,
+    /// Reals that the law remembers of all nodes; `None`: points remember, and how many there are follows from the pairs.
+    states: Option<usize>,
     meaning: [i64; meaning::LENGTH],
     /// Whether the weights are frozen for good.
     frozen: bool,
@@ -46,14 +46,14 @@ pub struct Host<'a> {
 }
 
 impl<'a> Host<'a> {
-    /// What an interface is, whose law or points remember so many reals.
+    /// What an interface is, whose law remembers so many reals.
     pub fn of<const N: usize>(setup: &'a Setup<N>, states: usize) -> Host<'a> {
         let (options, own, surfaces) = (&setup.options, setup.own.as_ref(), setup.surfaces());
         let frozen = options.effective_weights() == Weights::Reference;
         Host {
             surfaces,
             keeps: Keeps::of(options),
-            states,
+            states: (!setup.has_point_friction()).then_some(states),
             meaning: meaning::of(options, own, surfaces),
             frozen,
             keeps_places: frozen && setup.decides_at_points(),
@@ -145,8 +145,9 @@ impl History {
         let (commits, facets) = check_header((integers, reals), host)?;
         let has_parents = nonmortar.parents.is_some();
         let per_pair = if has_parents { REALS_PER_PARENT_PAIR } else { REALS_PER_PAIR };
-        let of_nodes = keeps.reals([n1, n2], nonmortar.facets.len()) + states + host.places();
-        let n_reals = of_nodes + facets.len() / 2 * per_pair;
+        let others = keeps.reals([n1, n2], nonmortar.facets.len()) + host.places() + facets.len() / 2 * per_pair;
+        let states = states.unwrap_or(reals.len().saturating_sub(others));
+        let n_reals = others + states;
         if reals.len() != n_reals {
             return mismatch(text!("reals has {} entries; {n_reals} are needed", reals.len()));
         }

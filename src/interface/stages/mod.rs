@@ -16,6 +16,7 @@ pub mod node;
 pub mod normals;
 pub mod own;
 pub mod point_friction;
+pub mod point_memory;
 pub mod points;
 pub mod residual;
 pub mod respond;

@@ -1,15 +1,16 @@
-//! Stages 2 and 3 with friction where points decide (docs/formulation.md 16.7), with the weights of the first configuration:
+//! Stages 2 and 3 with friction where points decide (docs/formulation.md 16.7), with weights that are frozen in a step:
 //!
 //! sigma_A = lambda_A + rhat_A (nu_A nu_A . g_A + g_TA) / D_A;   sigma_N(x) = sum_A N_A sigma_NA
 //! sigma_T(x) = P_e (sum_A N_A sigma_TA) + z(x),   t the projection of both on the cone of mu(x) = sum_A N_A mu_A
 //! rhat_A c_A = nu_A (int N_A t_N - sum_B L_AB lambda_NB) + T_A (int N_A t_T - sum_B L_AB lambda_TB),   L = m + (rhat / rhat^0) K
-//! z of the next step = t_T - P_e sum_A N_A lambda_TA
+//! z of the next step = t_T - P_e sum_A N_A lambda_TA,   work of friction in the step = t_T . (sigma_T - t_T) / sum_A N_A rhat_A
 //!
-//! z is what a point's traction has that the multipliers' field has not. It stays where nothing slips, so that nothing creeps.
+//! z is what a point's traction has that the multipliers' field has not. It stays where nothing slips, so that nothing creeps. Where the
+//! weights are made anew at a commit, z is carried to the points of the new ones (`point_memory.rs`).
 
 use super::residual::Residual;
 use super::sums::NodeSums;
-use crate::error::{Error, Kind, Result};
+use crate::error::Result;
 use crate::geometry::{Mat3, Vec3};
 use crate::interface::data::point_friction::{FrictionNode, REALS_PER_POINT};
 use crate::interface::data::points::Points;
@@ -18,12 +19,12 @@ use crate::law::{NodeResponse, Projected, State, Threshold, project_parts};
 use crate::memory::{self, Store};
 use nalgebra::SVector;
 
-fn vector<const N: usize>(of: &SVector<f64, N>) -> Vec3 {
+pub(super) fn vector<const N: usize>(of: &SVector<f64, N>) -> Vec3 {
     Vec3::from_fn(|i, _| of.get(i).copied().unwrap_or(0.0))
 }
 
 /// The part of v in the plane with this unit normal.
-fn in_plane(v: Vec3, normal: Vec3) -> Vec3 {
+pub(super) fn in_plane(v: Vec3, normal: Vec3) -> Vec3 {
     v - normal * normal.dot(&v)
 }
 
@@ -45,9 +46,10 @@ impl Points {
             let along = given.setup.nodes.free[a] - normal * normal.transpose();
             let mut node = FrictionNode { normal, along, ..FrictionNode::default() };
             node.lambda = (normal.dot(&lambda), along * lambda);
+            node.stiffness = given.augmentation(a) * areas[a];
             if sum.coverage > given.least_coverage(a) {
                 self.is_covered[a] = true;
-                node.slope = given.augmentation(a) * areas[a] / sum.coverage;
+                node.slope = node.stiffness / sum.coverage;
                 let slip = along * (sum.gap_now - sum.gap_committed * committed);
                 node.sigma.0 = node.lambda.0 + node.slope * normal.dot(&sum.gap_now);
                 node.sigma.1 = node.lambda.1 + slip * node.slope;
@@ -66,19 +68,24 @@ impl Points {
             for q in friction.of_pair(place) {
                 let point = &friction.points[q];
                 let (mut n, mut t, mut coefficient, mut field) = (0.0, Vec3::zeros(), 0.0, Vec3::zeros());
+                let mut stiffness = 0.0;
                 for (&a, own) in nodes.iter().zip(&point.own) {
                     let node = &friction.nodes[a];
                     n += own * node.sigma.0;
                     t += node.sigma.1 * *own;
                     coefficient += own * mu[a];
                     field += node.lambda.1 * *own;
+                    stiffness += own * node.stiffness;
                 }
                 let z = Vec3::from_fn(|i, _| states[REALS_PER_POINT * q + i]);
+                let trial = in_plane(t, e) + z;
                 let answer = match is_open {
                     true => Projected::gap(),
-                    false => project_parts(n, in_plane(t, e) + z, e, Threshold::cone(coefficient, n)),
+                    false => project_parts(n, trial, e, Threshold::cone(coefficient, n)),
                 };
                 let left = answer.tangential - in_plane(field, e);
+                let cut = answer.tangential.dot(&(trial - answer.tangential));
+                friction.work.store(cut / stiffness)?;
                 friction.answers.store(answer)?;
                 friction.states.store_all(left.iter().copied())?;
             }
@@ -94,17 +101,14 @@ impl Points {
         sums: &[NodeSums],
         responses: &mut [NodeResponse<N>],
     ) -> Result<()> {
-        self.settle(given)?;
-        let (known, needed) = (given.history().states.len(), REALS_PER_POINT * self.friction.points.len());
-        if known != needed {
-            let text = text!("the history remembers {known} numbers of points; these surfaces have {needed}");
-            return Err(Error::new(Kind::HistoryMismatch, text));
-        }
+        self.check_memory(given)?;
         self.tell(given, lambda, sums)?;
         let areas = &given.history().areas;
         memory::refill(&mut self.shares, 0.0, lambda.len())?;
         memory::refill(&mut self.friction.shares, 0.0, lambda.len())?;
+        memory::refill(&mut self.friction.dissipation, 0.0, lambda.len())?;
         self.friction.answers.clear();
+        self.friction.work.clear();
         self.friction.states.clear();
         for (a, response) in responses.iter_mut().enumerate().filter(|(a, _)| self.is_covered[*a]) {
             let node = &self.friction.nodes[a];
@@ -122,11 +126,13 @@ impl Points {
             for (k, &a) in facet.nodes().iter().enumerate().filter(|(_, a)| self.is_covered[**a]) {
                 let (node, rhat) = (friction.nodes[a], given.augmentation(a) * areas[a]);
                 let (mut force, mut closed, mut slips) = (Vec3::zeros(), 0.0, 0.0);
+                let mut work = 0.0;
                 for q in facet.places().flat_map(|place| friction.of_pair(place)) {
                     let (answer, share) = (&friction.answers[q], friction.points[q].weight * friction.points[q].own[k]);
                     force += answer.traction * share;
                     closed += if answer.state == State::Gap { 0.0 } else { share };
                     slips += if answer.state == State::Slip { share } else { 0.0 };
+                    work += friction.work[q] * share;
                 }
                 let (mut normal, mut along) = (facet.normal.dot(&force), in_plane(force, facet.normal));
                 for (l, &b) in facet.nodes().iter().enumerate() {
@@ -139,6 +145,7 @@ impl Points {
                 responses[a].traction += force / sums[a].coverage;
                 self.shares[a] += closed / sums[a].coverage;
                 friction.shares[a] += slips / sums[a].coverage;
+                friction.dissipation[a] += work;
             }
         }
         for (a, response) in responses.iter_mut().enumerate().filter(|(a, _)| self.shares[*a] > 0.0) {

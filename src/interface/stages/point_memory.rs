@@ -1,0 +1,122 @@
+//! What the points of a step remember as it begins, where weights are made anew at a commit (docs/formulation.md 16.8): the tractions of the
+//! points of the step before, carried to other points of the same facets,
+//!
+//! t(x) = t_q + sum_A Theta_A (N_A(x) - N_A(x_q)),   q the point next to x, Theta the facet's own field that is nearest to t
+//! z(x) = S P' (t(x) - sum_A N_A T'_A lambda_A)
+//!
+//! with P', T' of the new planes and normals, and S the turn of the facet about its normal. At the same points t(x) is t_q in every bit; a
+//! traction that is of the field sum_A N_A Theta_A is carried exactly to any points.
+
+use super::point_friction::{in_plane, vector};
+use crate::dual::Mass;
+use crate::error::{Error, Kind, Result};
+use crate::geometry::{Spin, Vec3};
+use crate::interface::data::point_friction::REALS_PER_POINT;
+use crate::interface::data::points::{PointFacet, Points};
+use crate::interface::pairing::given::Given;
+use crate::law::Projected;
+use crate::memory::{self, Store};
+use crate::mortar::OverlapPoint;
+use crate::shape::MAX_CORNERS;
+use nalgebra::SVector;
+
+/// The tractions of a facet's points in the step before.
+struct Tractions<'a> {
+    points: &'a [OverlapPoint],
+    answers: &'a [Projected],
+    /// Theta, by the facet's nodes; 0 where its points do not determine one.
+    field: [Vec3; MAX_CORNERS],
+}
+
+impl<'a> Tractions<'a> {
+    /// Of the facet; `None`: it had no points.
+    fn of(facet: &PointFacet, before: &'a Points) -> Option<Tractions<'a>> {
+        let old = &before.facets[before.facets.binary_search_by_key(&facet.one, |old| old.one).ok()?];
+        let (first, end) = (before.friction.of_pair(old.pairs[0]).start, before.friction.of_pair(old.pairs[1] - 1).end);
+        let (points, answers) = (&before.friction.points[first..end], &before.friction.answers[first..end]);
+        let (mut mass, mut force) = ([[0.0; MAX_CORNERS]; MAX_CORNERS], [[0.0; MAX_CORNERS]; 3]);
+        for (point, answer) in points.iter().zip(answers) {
+            for a in 0..MAX_CORNERS {
+                let share = point.weight * point.own[a];
+                (0..MAX_CORNERS).for_each(|b| mass[a][b] += share * point.own[b]);
+                (0..3).for_each(|i| force[i][a] += share * answer.traction[i]);
+            }
+        }
+        let mut field = [Vec3::zeros(); MAX_CORNERS];
+        // A sliver determines no field: its points are carried as they are.
+        if let Ok(mass) = Mass::new(facet.n, &mass) {
+            let solved = force.map(|f| mass.solve(&f));
+            field = std::array::from_fn(|a| Vec3::from_fn(|i, _| solved[i][a]));
+        }
+        (!points.is_empty()).then_some(Tractions { points, answers, field })
+    }
+
+    /// At the point where the facet's functions are these. `guess`: which of the points it may be.
+    fn at(&self, own: &[f64; MAX_CORNERS], guess: usize) -> Vec3 {
+        let apart = |q: usize| -> f64 { self.points[q].own.iter().zip(own).map(|(m, n)| (n - m) * (n - m)).sum() };
+        let mut next = (guess.min(self.points.len() - 1), f64::INFINITY);
+        next.1 = apart(next.0);
+        if next.1 > 0.0 {
+            for q in 0..self.points.len() {
+                let distance = apart(q);
+                if distance < next.1 {
+                    next = (q, distance);
+                }
+            }
+        }
+        let (point, answer) = (&self.points[next.0], &self.answers[next.0]);
+        let moved = self.field.iter().zip(own.iter().zip(&point.own)).map(|(theta, (n, m))| theta * (n - m));
+        moved.fold(answer.traction, |t, d| t + d)
+    }
+}
+
+impl Points {
+    /// z of the points of a step that begins with these multipliers after the step `before`, at whose start the non-mortar nodes were at
+    /// `x1`. These points become those of the new step.
+    pub fn remember<const N: usize>(
+        &mut self,
+        given: Given<N>,
+        lambda: &[SVector<f64, N>],
+        (before, x1): (&Points, &[Vec3]),
+    ) -> Result<Vec<f64>> {
+        let (one, now) = (&given.setup.nonmortar, &given.history().x1);
+        let mut z = memory::with_room(REALS_PER_POINT * self.count(given)?)?;
+        let mut along = memory::with_room(lambda.len())?;
+        for (a, lambda) in lambda.iter().enumerate() {
+            let (normal, free) = (given.normal(a)?, given.setup.nodes.free[a]);
+            along.store((free - normal * normal.transpose()) * vector(lambda))?;
+        }
+        for facet in &self.facets {
+            let old = Tractions::of(facet, before);
+            let mut places = [[Vec3::zeros(); MAX_CORNERS]; 2];
+            for (k, &a) in one.host_nodes(facet.one).iter().enumerate() {
+                (places[0][k], places[1][k]) = (x1[a], now[a]);
+            }
+            let [old_places, new_places] = [&places[0][..facet.n], &places[1][..facet.n]];
+            let turned_from =
+                before.facets.binary_search_by_key(&facet.one, |old| old.one).map(|k| before.facets[k].normal);
+            let spin = Spin::of(old_places, turned_from.unwrap_or(facet.normal), new_places, facet.normal);
+            let points = facet.places().flat_map(|place| self.friction.of_pair(place));
+            for (k, point) in points.map(|q| &self.friction.points[q]).enumerate() {
+                let traction = old.as_ref().map_or_else(Vec3::zeros, |old| old.at(&point.own, k));
+                let field: Vec3 = facet.nodes().iter().zip(&point.own).map(|(&a, n)| along[a] * *n).sum();
+                let left = spin.turn(in_plane(traction - field, facet.normal));
+                z.store_all(left.iter().copied())?;
+            }
+        }
+        Ok(z)
+    }
+
+    /// Refuses a history that remembers something else than these points, or whose pairs have none.
+    pub fn check_memory<const N: usize>(&mut self, given: Given<N>) -> Result<()> {
+        let (known, needed) = (given.history().states.len(), REALS_PER_POINT * self.count(given)?);
+        if known == needed {
+            return Ok(());
+        }
+        let text = text!(
+            "the history remembers {known} numbers of points; the points of its {} pairs have {needed}",
+            given.history().weighted(given.setup.surfaces()).len()
+        );
+        Err(Error::new(Kind::HistoryMismatch, text))
+    }
+}
