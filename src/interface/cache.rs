@@ -8,6 +8,7 @@ use super::data::history::History;
 use super::data::node_data::check_length;
 use super::data::options::Weights;
 use super::data::pairs::{PairRecord, ParentRecord, Weighted};
+use super::data::points::Points;
 use super::data::setup::Setup;
 use super::data::surface::{Surface, are_same};
 use super::inspect::bytes;
@@ -97,6 +98,11 @@ impl<const N: usize> Cache<N> {
     /// Points that remember their friction.
     pub fn points(&mut self, given: Given<N>) -> Result<usize> {
         self.answers.responses.points.count(given)
+    }
+
+    /// Takes the points that the step which begins has been found to have.
+    pub fn settle_points(&mut self, points: Points) {
+        self.answers.responses.points = points;
     }
 
     /// A step begins. `active`: whether the pairs are those where the last one ended, for the next evaluation may well be

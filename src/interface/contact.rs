@@ -396,7 +396,9 @@ impl<const N: usize> Contact<N> {
         let (points, x1) = (&self.cache.answers().responses.points, &self.step.history.x1);
         let mut anew = Points::default();
         next.history.states = anew.remember(Given { setup: &self.setup, step: &next }, lambda, (points, x1))?;
-        Ok(self.put_in_place(next.pairing, next.history, settled.active))
+        let old = self.put_in_place(next.pairing, next.history, settled.active);
+        self.cache.settle_points(anew);
+        Ok(old)
     }
 
     /// A step that begins, to be looked at before it is put in place.

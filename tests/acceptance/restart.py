@@ -121,6 +121,7 @@ SCENES = (
     ("tied", pad(contact={"law": "tied", "friction": 0}, grip={"value": [0.01, 0.003, 0.002]}), ()),
     ("weakening", pad(contact=WEAKENING), ()),
     ("points", pad(contact={"basis": "dual", "decision": "points", "weights": "reference"}, grip={"value": [0.01, 0.003, -0.01]}), ()),
+    ("committed points", pad(contact={"basis": "dual", "decision": "points", "weights": "committed"}, grip={"value": [0.01, 0.003, -0.01]}), ()),
     ("offset", pad(contact={"offset": 0.01, "offset_curve": [0, 0, 2, 1]}), ()),
     ("automatic", pad(steps={"automatic": True, "initial": 0.2, "largest": 0.5}), ()),
     ("cut back", pad(upper={"material": "neo_hooke"}, grip={"value": [0.2, 0.03, -0.2]}), ("-snes_max_it", 6)),

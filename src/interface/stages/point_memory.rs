@@ -120,3 +120,61 @@ impl Points {
         Err(Error::new(Kind::HistoryMismatch, text))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::interface::data::point_friction::PointFriction;
+
+    /// Rounding of a solution with a matrix of condition 100.
+    const ROUNDING: f64 = 1e-13;
+
+    fn point(s: f64, t: f64) -> OverlapPoint {
+        let own = [(1.0 - s) * (1.0 - t), s * (1.0 - t), s * t, (1.0 - s) * t];
+        OverlapPoint { weight: 0.02 + 0.01 * s, own, ..OverlapPoint::default() }
+    }
+
+    fn facet() -> PointFacet {
+        let (nodes, none) = ([0, 1, 2, 3], [[0.0; MAX_CORNERS]; MAX_CORNERS]);
+        let (mass, stabilisation, normal) = (none, none, Vec3::z());
+        PointFacet { one: 5, pairs: [0, 1], nodes, n: 4, normal, fade: 1.0, mass, stabilisation }
+    }
+
+    /// Points along rows of a part of a facet, with these tractions.
+    fn points(tractions: &dyn Fn(f64, f64) -> Vec3, ends: [f64; 2]) -> Points {
+        let mut friction = PointFriction::default();
+        for (i, j) in (0..4).flat_map(|i| (0..3).map(move |j| (i, j))) {
+            let (s, t) = (ends[0] + (ends[1] - ends[0]) * (0.1 + 0.25 * i as f64), 0.2 + 0.3 * j as f64);
+            friction.points.push(point(s, t));
+            friction.answers.push(Projected { traction: tractions(s, t), ..Projected::gap() });
+        }
+        friction.ends = vec![friction.points.len()];
+        Points { facets: vec![facet()], friction, ..Points::default() }
+    }
+
+    #[test]
+    fn what_is_of_the_facets_field_is_carried_exactly_and_points_at_rest_keep_their_bits() {
+        let field = |s: f64, t: f64| Vec3::new(1.0 - 2.0 * s + s * t, 0.3 * t, -1.0 + s);
+        let kinked = |s: f64, t: f64| field(s, t) + Vec3::new((s - 0.4).max(0.0), 0.0, 0.0);
+        let whole = points(&field, [0.0, 1.0]);
+        let carried = Tractions::of(&facet(), &whole).unwrap();
+        for (s, t) in [(0.0, 0.0), (0.5, 0.9), (0.83, 0.41), (1.0, 1.0)] {
+            assert!((carried.at(&point(s, t).own, 3) - field(s, t)).amax() <= ROUNDING, "{s} {t}");
+        }
+        let kinks = points(&kinked, [0.0, 1.0]);
+        let carried = Tractions::of(&facet(), &kinks).unwrap();
+        for (k, (point, answer)) in kinks.friction.points.iter().zip(&kinks.friction.answers).enumerate() {
+            assert_eq!(carried.at(&point.own, k), answer.traction);
+            assert_eq!(carried.at(&point.own, 0), answer.traction, "it is found, too, where it is not guessed");
+        }
+        assert!(Tractions::of(&PointFacet { one: 6, ..facet() }, &whole).is_none(), "a facet without points");
+    }
+
+    /// Three columns of points of a strip whose width is rounding determine no field: the next point's traction is taken.
+    #[test]
+    fn a_sliver_is_carried_as_it_is() {
+        let narrow = points(&|s, t| Vec3::new(s, t, 1.0), [0.5, 0.5]);
+        let carried = Tractions::of(&facet(), &narrow).unwrap();
+        assert_eq!(carried.at(&point(0.9, 0.2).own, 0), Vec3::new(0.5, 0.2, 1.0));
+    }
+}
