@@ -29,6 +29,8 @@ TINY = 1e-30
 APART = 12
 # Gauss points an overlap and a direction: the library's own rule for lines, and exact for their weights.
 RULE = 2
+# In the header's order.
+WEIGHTS = ("current", "committed", "reference")
 
 
 @dataclass
@@ -45,14 +47,14 @@ class Pair:
 
 
 class Nodal:
-    """The library's handle. `x1`, `x2`: the first configuration, which has the frozen weights; `weights`: "current" or
-    "reference"; without `mu` no friction; `decision`: of "nodes" or "points"."""
+    """The library's handle. `x1`, `x2`: the first configuration, which has the frozen weights; `weights`: one of
+    WEIGHTS; without `mu` no friction; `decision`: of "nodes" or "points"."""
 
     def __init__(self, library, pair, x1, x2, basis, mu=0.0, weights="reference", decision="nodes"):
         lines = {"model": 1} if pair.dimension == 2 else {}
         self.components = pair.dimension if mu else 1
         self.interface = Interface(library, x1, pair.one.facets, x2, pair.two.facets, components=self.components, mu=mu,
-                                   basis=("standard", "dual").index(basis), weights={"current": 0, "reference": 2}[weights],
+                                   basis=("standard", "dual").index(basis), weights=WEIGHTS.index(weights),
                                    modulus=pair.modulus, friction=0 if mu else 1,
                                    decision=("nodes", "points").index(decision), **lines)
 

@@ -19,8 +19,8 @@ const MODULUS: f64 = 30.0;
 const ROUNDING: f64 = 1e-12;
 /// A turn by a quarter: what a step does wrong is of the second order of its angle, so that all of them are of the first.
 const QUARTER: f64 = std::f64::consts::FRAC_PI_2;
-/// Of forces after a quarter in steps of five degrees, over the largest.
-const TURNED: f64 = 0.02;
+/// Of forces after a quarter in steps of five degrees, over the largest, where multipliers and gaps are random: half of the angle of a step.
+const TURNED: f64 = 0.05;
 /// Of the same after twice as many steps over that before: a half, and what is of higher order.
 const HALVED: f64 = 0.6;
 const CELLS: [[Cells; 2]; 3] =
@@ -118,7 +118,6 @@ fn tractions_turn_with_the_bodies() {
     for cells in CELLS {
         for axis in [Vec3::x(), Vec3::new(0.6, 0.8, 0.0), Vec3::z(), Vec3::new(0.5, -0.3, 0.8)] {
             let [coarse, fine] = [18, 36].map(|steps| turned(cells, axis, steps));
-            println!("{axis:?} {coarse:e} {fine:e}");
             assert!(coarse <= TURNED && fine <= HALVED * coarse + ROUNDING, "{axis}: {coarse:e} {fine:e}");
         }
     }
