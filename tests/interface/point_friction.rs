@@ -89,7 +89,8 @@ fn tangents_are_those_of_differences_for_every_kind_on_every_kind() {
             assert!(error <= DIFFERENCES, "{seed}: {error:e}");
             // What points remember shifts the cone, and is no unknown.
             s.commit();
-            s.lambda.iter_mut().for_each(|v| *v += Vec3::new(0.05, -0.02, 0.03));
+            // No point is so near to another state that a difference reaches it.
+            s.lambda.iter_mut().for_each(|v| *v += Vec3::new(0.0632, -0.02, 0.03));
             s.x1.iter_mut().enumerate().for_each(|(k, x)| x.y += 0.003 * (k % 3) as f64);
             let error = s.error();
             assert!(error <= DIFFERENCES, "after a commit {seed}: {error:e}");

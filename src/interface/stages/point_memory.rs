@@ -109,7 +109,11 @@ impl Points {
 
     /// Refuses a history that remembers something else than these points, or whose pairs have none.
     pub fn check_memory<const N: usize>(&mut self, given: Given<N>) -> Result<()> {
-        let (known, needed) = (given.history().states.len(), REALS_PER_POINT * self.count(given)?);
+        let no_points = |e: Error| match e.kind {
+            Kind::OutOfMemory => e,
+            _ => Error::new(Kind::HistoryMismatch, text!("the history's pairs have no points: {}", e.message)),
+        };
+        let (known, needed) = (given.history().states.len(), REALS_PER_POINT * self.count(given).map_err(no_points)?);
         if known == needed {
             return Ok(());
         }
