@@ -42,6 +42,7 @@ def points(verdicts, driver):
     patches(verdicts, driver)
     line(verdicts, driver, (5,), FEW)
     shear(verdicts, driver, (5,), 2)
+    shear_committed(verdicts, driver, (5,), 2)
     rest(verdicts, driver, 20)
     ball(verdicts, driver, (5,), 1)
     corners(verdicts, driver, (10,), 2)
@@ -53,6 +54,7 @@ def points_full(verdicts, driver):
     driver.output.mkdir(parents=True, exist_ok=True)
     line(verdicts, driver, LINE_BOUND, LOADS)
     shear(verdicts, driver, SHEAR_BOUND, LOADS)
+    shear_committed(verdicts, driver, SHEAR_BOUND, LOADS)
     rest(verdicts, driver, RESTS)
     ball(verdicts, driver, BALL_BOUND, LOADS)
     corners(verdicts, driver, CORNER_BOUND, LOADS)
@@ -143,13 +145,26 @@ def shear(verdicts, driver, sizes, count):
         compare(verdicts, f"shear of a line, {facets} facets", errors(driver, "plane", facets, count, SHEARED, PULL), SHEAR_BOUND[facets])
 
 
+def shear_committed(verdicts, driver, sizes, count):
+    """The same with weights of the last step."""
+    for facets in sizes:
+        law = {"points": {**POINTS, "weights": "committed"}}
+        mean = errors(driver, "plane", facets, count, law, PULL)["points"][0].mean()
+        verdicts.below(f"shear of a line, {facets} facets, committed weights: mean of {count}", mean, SHEAR_BOUND[facets], "formula")
+
+
 def rest(verdicts, driver, steps):
-    """Steps in which nothing moves change no force."""
-    run = driver.run(Hertz("plane", 5).scene(driver, 1.0, PULL, steps, **POINTS), label=f"rest_{steps}")
-    first, last = (run.interface(NAME, step) for step in (1, 1 + steps))
-    for f in ("fx", "fy"):
-        worst = np.abs(last[f] - first[f]).max() / np.abs(first[f]).max()
-        verdicts.below(f"{steps} steps of rest: {f}", worst, REST_BOUND, "no creep")
+    """Steps in which nothing moves change no force and take no work. With weights of the last step the first of them makes these anew, at
+    the positions that the load has ended at."""
+    for weights, start in (("reference", 1), ("committed", 2)):
+        path = Hertz("plane", 5).scene(driver, 1.0, PULL, steps, **POINTS, weights=weights)
+        run = driver.run(path, label=f"rest_{steps}_{weights}")
+        first, last = (run.interface(NAME, step) for step in (start, 1 + steps))
+        for f in ("fx", "fy"):
+            worst = np.abs(last[f] - first[f]).max() / np.abs(first[f]).max()
+            verdicts.below(f"{steps} steps of rest, {weights} weights: {f}", worst, REST_BOUND, "no creep")
+        work = [run.steps[step - 1]["friction_work"] for step in (start, 1 + steps)]
+        verdicts.below(f"{steps} steps of rest, {weights} weights: work of friction", abs(work[1] / work[0] - 1), REST_BOUND, "none")
 
 
 def ball(verdicts, driver, sizes, count):
