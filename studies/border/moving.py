@@ -129,7 +129,7 @@ def turns(library):
             change = attempt(turned)
             row.append("no answer" if change is None else f"{100 * change:.2g}")
         body.append([str(n), "sticks" if mu == ROUGH else "slips in part", decision, *row])
-    return ["facets", "the contact", "decided at", *(f"steps of {90 / count:g} degrees" for count in TURNS)], body
+    return ["facets", "the contact", "decided at", *(f"steps of {90 / count:g}°" for count in TURNS)], body
 
 
 def slides(library):
