@@ -2,6 +2,7 @@
 
 use super::choice::choose;
 use crate::error::{Error, Kind, Result};
+use crate::features;
 use crate::line::Measure;
 
 /// Facets of a solid: positions have three components.
@@ -35,6 +36,9 @@ pub(super) fn measure(model: Model, thickness: f64, name: &str) -> Result<Option
     if model != Model::Plane && thickness != 0.0 {
         let text = text!("{name} is {thickness}; it is of plane models (STICKSLIP_MODEL_PLANE), leave it 0 in others");
         return Err(Error::new(Kind::InvalidValue, text));
+    }
+    if model != Model::Solid {
+        features::LINES.check()?;
     }
     Ok(match model {
         Model::Solid => None,

@@ -3,6 +3,7 @@
 use super::facet::{LineFacet, MAX_LINE_NODES, XI, ends};
 use super::linear;
 use super::segment::{LineSegment, Measure};
+use crate::features;
 use crate::mortar::MultiplierSpace;
 use crate::quadrature::line::GAUSS_3;
 
@@ -41,6 +42,7 @@ pub(super) struct PartPair<'a> {
 impl<'a> PartPair<'a> {
     /// Part `i` of the first facet and part `j` of the second one, if they overlap.
     pub fn of(facets: [&'a LineFacet; 2], (i, j): (usize, usize), space: MultiplierSpace) -> Option<PartPair<'a>> {
+        features::LINES.is_here();
         let [one, two] = [facets[0].parts()[i], facets[1].parts()[j]];
         let x = [facets[0].x[one[0]], facets[0].x[one[1]], facets[1].x[two[0]], facets[1].x[two[1]]];
         LineSegment::new(x).map(|segment| PartPair { facets, nodes: [one, two], segment, space })
