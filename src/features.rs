@@ -20,12 +20,20 @@ pub const ANALYTIC: Feature = Feature { name: "analytic", built: cfg!(feature = 
 pub const CONDENSED: Feature = Feature { name: "condensed", built: cfg!(feature = "condensed") };
 /// Heat across the interface.
 pub const HEAT: Feature = Feature { name: "heat", built: cfg!(feature = "heat") };
+/// Laws in place of Coulomb's.
+pub const LAWS: Feature = Feature { name: "laws", built: cfg!(feature = "laws") };
+/// Lines of plane and axisymmetric models.
+pub const LINES: Feature = Feature { name: "lines", built: cfg!(feature = "lines") };
 /// Offsets of nodes.
 pub const OFFSETS: Feature = Feature { name: "offsets", built: cfg!(feature = "offsets") };
+/// Contact that is decided at points.
+pub const POINTS: Feature = Feature { name: "points", built: cfg!(feature = "points") };
 /// Quadratic facets of solids.
 pub const QUADRATIC: Feature = Feature { name: "quadratic", built: cfg!(feature = "quadratic") };
 /// Rigid bodies.
 pub const RIGID: Feature = Feature { name: "rigid", built: cfg!(feature = "rigid") };
+/// Facets of the host that have parts: quadratic ones and lines.
+pub const PARTS: Feature = Feature { name: "quadratic or lines", built: QUADRATIC.built || LINES.built };
 
 impl Feature {
     /// Refuses what needs a feature that was left out.

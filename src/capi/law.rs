@@ -5,6 +5,7 @@ use super::handle::{Inner, either, handle, stickslip_interface};
 use super::raw;
 use super::sized::{self, Sized64};
 use crate::error::{Error, Kind, Result};
+use crate::features;
 use crate::geometry::Vec3;
 use crate::interface::Contact;
 use crate::law::{Answer, Ellipse, Host, Own, Question, Threshold};
@@ -180,6 +181,9 @@ fn read_law(law: *const stickslip_law) -> Result<Option<Own>> {
         ("direction", y, &[STICKSLIP_LAW_ORTHOTROPIC]),
         ("direction", z, &[STICKSLIP_LAW_ORTHOTROPIC]),
     ];
+    if kind != STICKSLIP_LAW_COULOMB {
+        features::LAWS.check()?;
+    }
     let own = match kind {
         STICKSLIP_LAW_COULOMB => None,
         STICKSLIP_LAW_COHESION => Some(Own::Cohesion { cohesion }),
@@ -244,6 +248,7 @@ pub unsafe extern "C" fn stickslip_interface_set_threshold(
     n_states: i64,
 ) -> i32 {
     guard(|| {
+        features::LAWS.check()?;
         let h = handle(interface)?;
         let base = h.base;
         let Some(function) = threshold else {

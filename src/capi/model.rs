@@ -2,6 +2,7 @@
 
 use super::choice::choose;
 use crate::error::{Error, Kind, Result};
+use crate::features;
 use crate::line::Measure;
 
 /// Facets of a solid: positions have three components.
@@ -20,11 +21,13 @@ pub(super) enum Model {
 }
 
 /// The model of a STICKSLIP_MODEL_... value.
+#[inline]
 pub(super) fn model(value: i32, name: &str) -> Result<Model> {
     choose(value, name, &[Model::Solid, Model::Plane, Model::Axisymmetric], 3)
 }
 
 /// What a length of a line stands for in a model of this thickness, `None` in a solid. 0 of a plane model is 1.
+#[inline]
 pub(super) fn measure(model: Model, thickness: f64, name: &str) -> Result<Option<Measure>> {
     if !thickness.is_finite() {
         return Err(Error::new(Kind::NotFinite, text!("{name} is {thickness}; it must be finite")));
@@ -35,6 +38,9 @@ pub(super) fn measure(model: Model, thickness: f64, name: &str) -> Result<Option
     if model != Model::Plane && thickness != 0.0 {
         let text = text!("{name} is {thickness}; it is of plane models (STICKSLIP_MODEL_PLANE), leave it 0 in others");
         return Err(Error::new(Kind::InvalidValue, text));
+    }
+    if model != Model::Solid {
+        features::LINES.check()?;
     }
     Ok(match model {
         Model::Solid => None,

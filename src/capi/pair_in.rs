@@ -11,6 +11,7 @@ use super::sized::{self, Sized64};
 use super::space::multiplier_space;
 use crate::element::NodeTangent;
 use crate::error::{Error, Kind, Result};
+use crate::features;
 use crate::geometry::{Facet, Mat3};
 use crate::mortar::{NonmortarFrame, PAIR_NODES, PairWeights, Segment, WeightDerivatives};
 use crate::quadrature::Rule;
@@ -65,7 +66,7 @@ unsafe impl Sized64 for stickslip_pair {
 impl stickslip_pair {
     /// Whether its facets are lines.
     pub(super) fn is_line(&self) -> bool {
-        self.model != STICKSLIP_MODEL_SOLID
+        features::LINES.built && self.model != STICKSLIP_MODEL_SOLID
     }
 
     /// Whether a facet has more nodes than corners.

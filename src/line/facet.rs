@@ -59,11 +59,13 @@ impl LineFacet {
     }
 
     /// The parts, pairs of nodes, from a to b.
+    #[inline]
     pub fn parts(&self) -> &'static [[usize; 2]] {
         if self.n == 2 { &[[0, 1]] } else { &[[0, 2], [2, 1]] }
     }
 
     /// How many multipliers it has: its first so many nodes do.
+    #[inline]
     pub fn multipliers(&self, space: MultiplierSpace) -> usize {
         if space == MultiplierSpace::Corner { 2 } else { self.n }
     }
@@ -123,6 +125,7 @@ impl LineFacet {
     }
 
     /// The direction of the line at a node, from a to b, not of length 1 `[L]`.
+    #[inline]
     pub fn tangent(&self, node: usize) -> Vec2 {
         let slopes = self.slopes(XI[node]);
         // Differences of nodes: exact under a common offset.

@@ -30,6 +30,7 @@ impl Measure {
     }
 
     /// The first of these nodes that is at r < 0 in an axisymmetric model.
+    #[inline]
     pub fn beyond_axis<const D: usize>(self, x: &[SVector<f64, D>]) -> Option<usize> {
         x.iter().position(|x| self == Measure::Axisymmetric && x[0] < 0.0)
     }
@@ -62,6 +63,7 @@ pub(super) struct LineSegment {
 
 impl LineSegment {
     /// `None` where they do not overlap, or the mortar part is seen end-on.
+    #[inline]
     pub fn new(x: [Vec2; NODES]) -> Option<LineSegment> {
         let along = x[1] - x[0];
         let length = along.norm();

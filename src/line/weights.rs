@@ -3,6 +3,7 @@
 use super::facet::{LineFacet, MAX_LINE_NODES, XI, ends};
 use super::linear;
 use super::segment::{LineSegment, Measure};
+use crate::features;
 use crate::mortar::MultiplierSpace;
 use crate::quadrature::line::GAUSS_3;
 
@@ -40,7 +41,9 @@ pub(super) struct PartPair<'a> {
 
 impl<'a> PartPair<'a> {
     /// Part `i` of the first facet and part `j` of the second one, if they overlap.
+    #[inline]
     pub fn of(facets: [&'a LineFacet; 2], (i, j): (usize, usize), space: MultiplierSpace) -> Option<PartPair<'a>> {
+        features::LINES.is_here();
         let [one, two] = [facets[0].parts()[i], facets[1].parts()[j]];
         let x = [facets[0].x[one[0]], facets[0].x[one[1]], facets[1].x[two[0]], facets[1].x[two[1]]];
         LineSegment::new(x).map(|segment| PartPair { facets, nodes: [one, two], segment, space })
@@ -48,6 +51,7 @@ impl<'a> PartPair<'a> {
 }
 
 /// The numbers of all pairs of parts.
+#[inline]
 pub(super) fn all_parts(one: &LineFacet, two: &LineFacet) -> impl Iterator<Item = (usize, usize)> + use<> {
     let (n1, n2) = (one.parts().len(), two.parts().len());
     (0..n1).flat_map(move |i| (0..n2).map(move |j| (i, j)))
@@ -55,6 +59,7 @@ pub(super) fn all_parts(one: &LineFacet, two: &LineFacet) -> impl Iterator<Item 
 
 impl PartPair<'_> {
     /// Multipliers, at the first nodes of the non-mortar line.
+    #[inline]
     pub fn rows(&self) -> usize {
         self.facets[0].multipliers(self.space)
     }
@@ -97,6 +102,7 @@ impl PartPair<'_> {
     }
 
     /// Whether both lines have two nodes.
+    #[inline]
     pub fn is_linear(&self) -> bool {
         self.facets.iter().all(|facet| facet.n == 2)
     }
@@ -114,6 +120,7 @@ impl PartPair<'_> {
 
 impl LineWeights {
     /// Those of a pair; zeros where it does not overlap. Cost: some 0.1 microseconds a pair of parts.
+    #[inline]
     pub fn new(one: &LineFacet, two: &LineFacet, space: MultiplierSpace, measure: Measure) -> LineWeights {
         let mut weights = LineWeights::default();
         all_parts(one, two).for_each(|parts| weights.add_parts([one, two], parts, space, measure));
@@ -137,6 +144,7 @@ impl LineWeights {
     }
 
     /// Adds those of two lines with two nodes.
+    #[inline]
     pub(super) fn add_linear(&mut self, [ab, ac]: &linear::Weights) {
         for (a, b) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
             self.ab[a][b] += ab[a][b];

@@ -12,6 +12,7 @@ use super::segment::NonmortarFrame;
 use super::sub_motion::SubMotion;
 use super::sub_pair::{Side, SubWeights, rule_for};
 use crate::error::Result;
+use crate::features;
 use crate::geometry::{AnalyticSurface, FRAME, Mat3, Vec3};
 use crate::quadrature::Rule;
 use crate::quadrature::cell::square_point;
@@ -114,6 +115,7 @@ impl SurfacePair<'_> {
     /// # Errors
     /// [`crate::error::Kind::UndefinedNormal`] when a quadrature point is the centre or lies on the axis.
     pub fn weights(&self, x: &[Vec3; MAX_PARENT_NODES]) -> Result<SubWeights> {
+        features::PARTS.is_here();
         let (mut weights, rows) = (SubWeights::default(), self.rows());
         self.for_points(|p| {
             let x = self.position(&p, x);
@@ -146,6 +148,7 @@ impl SurfacePair<'_> {
         tractions: &[[f64; MAX_CORNERS]; 3],
         to: &mut SubMotion,
     ) -> Result<Turned> {
+        features::PARTS.is_here();
         let (nodes, rows, parts) = (self.side.0.n, self.rows(), self.side.1.shape.n);
         // Per power of the area element: int N_B p, int N_A (x - y), int N_A.
         let mut forces = [[[0.0; 3]; MAX_PARENT_NODES]; 3];

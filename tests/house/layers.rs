@@ -19,7 +19,7 @@ const ALLOWED: [(&str, &[&str]); 18] = [
     ("normal", &["error", "geometry"]),
     ("rigid", &["error", "geometry", "memory"]),
     ("mortar", &["error", "features", "geometry", "quadrature", "shape", "simd"]),
-    ("line", &["error", "geometry", "mortar", "quadrature", "shape", "simd"]),
+    ("line", &["error", "features", "geometry", "mortar", "quadrature", "shape", "simd"]),
     ("dual", &["error", "geometry", "mortar", "shape", "simd"]),
     ("points", &["geometry", "mortar", "quadrature", "shape"]),
     ("law", &["error", "geometry"]),

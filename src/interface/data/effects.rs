@@ -3,6 +3,7 @@
 
 use super::options::{MortarSide, Options};
 use super::surface::{NO_EQUATION, Surface};
+use crate::features;
 use crate::law::{Coefficient, LawFunctions, Own};
 
 /// What is opposite the non-mortar side.
@@ -56,7 +57,7 @@ impl Effects<3> {
     pub fn of_three(options: &Options, mortar: &Surface, mu: &[f64], own: Option<&Own>) -> Effects<3> {
         let row = options.friction.law();
         let smooth = row.mu == Coefficient::Given && options.shortcuts.frictionless && mu.iter().all(|&mu| mu == 0.0);
-        let law = match own {
+        let law = match own.filter(|_| features::LAWS.built) {
             Some(Own::Orthotropic(_)) if !smooth => LawFunctions::ORTHOTROPIC,
             None | Some(Own::Orthotropic(_)) if smooth => LawFunctions::<3>::FRICTIONLESS,
             Some(Own::Cohesion { .. } | Own::Weakening { .. } | Own::Host(_)) => LawFunctions::TOLD,

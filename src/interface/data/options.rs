@@ -1,6 +1,7 @@
 //! The choices of an interface, resolved once at creation.
 
 use crate::error::{Error, Kind, Result};
+use crate::features;
 pub use crate::law::Friction;
 use crate::law::SlipMeasure;
 use crate::mortar::MultiplierSpace;
@@ -274,6 +275,9 @@ impl Options {
             let text = "normals of now with frozen weights: gaps and normals would be of different configurations; take STICKSLIP_WEIGHTS_CURRENT or STICKSLIP_NORMALS_COMMITTED";
             return Err(Error::new(Kind::Unsupported, text));
         }
+        if self.decision != Decision::Nodes {
+            features::POINTS.check()?;
+        }
         if let Some(text) = self.beyond_points() {
             return Err(Error::new(Kind::Unsupported, text));
         }
@@ -284,8 +288,9 @@ impl Options {
     }
 
     /// Whether points decide.
+    #[inline]
     pub fn decides_at_points(&self) -> bool {
-        self.decision != Decision::Nodes
+        features::POINTS.built && self.decision != Decision::Nodes
     }
 
     /// What deciding at points does not go with, if there is any of it.

@@ -75,6 +75,7 @@ impl Surface {
         equations: Vec<[i64; 3]>,
         measure: Measure,
     ) -> Result<Surface> {
+        features::LINES.check()?;
         Surface::build(side, (reference, facets), equations, Some(measure))
     }
 
@@ -256,7 +257,7 @@ impl Surface {
 
     /// What the lines of a plane or axisymmetric model are; `None`: the model is in space.
     pub fn lines(&self) -> Option<&Lines> {
-        self.parents.as_ref().and_then(|parents| parents.lines.as_ref())
+        self.parents.as_ref().filter(|_| features::LINES.built).and_then(|parents| parents.lines.as_ref())
     }
 
     /// h_A, about as long as the facets around a node at `x` with this area M_A are wide `[L]`.

@@ -5,6 +5,7 @@
 //! equal bits. An analytic mortar side has its own filter and its own way (`analytic.rs`).
 
 use crate::error::{Error, Result};
+use crate::features;
 use crate::geometry::Vec3;
 use crate::interface::data::active::Active;
 use crate::interface::data::counters::Counters;
@@ -182,6 +183,7 @@ fn of_parts(
     x: (&[Vec3], &[Vec3]),
     active: &mut Active,
 ) -> Result<PairWeights> {
+    features::PARTS.is_here();
     let share = one.share(two, (i, j), over, x);
     let rows = one.space.nodes(one.facets[one.parent(i)].parent, one.sub(i));
     active.add_share((one.parent(i), two.parent(j)), rows, &share)

@@ -3,6 +3,7 @@
 
 use super::sums::NodeSums;
 use crate::error::{Error, Kind, Result};
+use crate::features;
 use crate::geometry::Vec3;
 use crate::interface::data::options::NewContact;
 use crate::interface::pairing::given::Given;
@@ -87,6 +88,7 @@ pub fn special<const N: usize>(
     at: At,
     states: &mut [f64],
 ) -> Result<Special> {
+    features::LAWS.is_here();
     if let Own::Orthotropic(ellipse) = own {
         if node.covered && ellipse.axes(node.normal).is_none() {
             let text =

@@ -3,6 +3,7 @@
 
 use super::fields::Fields;
 use super::parent_table::ParentTable;
+use crate::features;
 use crate::geometry::Vec3;
 use crate::interface::data::active::Active;
 use crate::interface::data::lines::line;
@@ -26,6 +27,7 @@ pub fn add_lines(
     table: &mut ParentTable,
     motion: &mut SubMotion,
 ) -> i64 {
+    features::LINES.is_here();
     let own = LineFacet { n: one.facets[f].parent.n, x: [0, 1, 2].map(|k| fields.one()[k].xy()) };
     // Weights are of the nodes where they are, for r counts from the axis; gaps of what a basis makes of them.
     let here = line(&one.at(f, &active.x1));

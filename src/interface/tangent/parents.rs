@@ -9,6 +9,7 @@ use super::parent_table::{DualParent, MortarNode, ParentTable, bit};
 use super::union::{Pairs, UnionPair};
 use crate::element::{NodeTangent, ParentPair};
 use crate::error::Result;
+use crate::features;
 use crate::geometry::{Mat3, Vec3};
 use crate::interface::data::active::Active;
 use crate::interface::data::effects::Opposite;
@@ -69,6 +70,7 @@ pub fn fill<const N: usize>(
     (numbers, moves): (Option<&ParentNumbers<N>>, bool),
     room: &mut ParentRoom,
 ) -> Result<i64> {
+    features::PARTS.is_here();
     let (one, two) = given.setup.surfaces();
     let of_pair = |(k, pair): (usize, &UnionPair)| (two.host_nodes(pair.two), if pair.is_active { bit(k) } else { 0 });
     let mortar = pairs.iter().enumerate().filter(|_| moves).map(of_pair);
@@ -96,6 +98,7 @@ pub fn of_parent<const N: usize>(
     room: &mut ParentRoom,
     emitter: &mut Emitter<N>,
 ) -> Result<i64> {
+    features::PARTS.is_here();
     let one = &given.setup.nonmortar;
     let (own, multipliers) = (one.host_nodes(f), one.multipliers(f));
     let linearised = fill((given, normals), (f, all, pairs), (numbers, given.setup.effects.moves()), room)?;
