@@ -242,7 +242,7 @@ fn worst_pairs<const N: usize>(given: Given<N>, pairs: &[PairRecord], (x1, x2): 
     // Where the weights are of.
     let (x1, x2) = match given.setup.options.effective_weights() {
         Weights::Current => (x1, x2),
-        Weights::Committed => (&h.x1[..], &h.x2[..]),
+        Weights::Committed | Weights::Persistent => (&h.x1[..], &h.x2[..]),
         Weights::Reference => (&nonmortar.reference[..], &mortar.reference[..]),
     };
     let mut smallest = None;
