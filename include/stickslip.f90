@@ -72,6 +72,7 @@ module stickslip
   integer(c_int32_t), parameter :: STICKSLIP_WEIGHTS_CURRENT = 0
   integer(c_int32_t), parameter :: STICKSLIP_WEIGHTS_COMMITTED = 1
   integer(c_int32_t), parameter :: STICKSLIP_WEIGHTS_REFERENCE = 2
+  integer(c_int32_t), parameter :: STICKSLIP_WEIGHTS_PERSISTENT = 3
 
   ! Normals: of the last commit; of the current configuration, linearised, with current weights and averaged normals only.
   integer(c_int32_t), parameter :: STICKSLIP_NORMALS_COMMITTED = 0
@@ -86,6 +87,10 @@ module stickslip
   integer(c_int32_t), parameter :: STICKSLIP_MORTAR_DEFORMABLE = 0
   integer(c_int32_t), parameter :: STICKSLIP_MORTAR_RIGID = 1
   integer(c_int32_t), parameter :: STICKSLIP_MORTAR_ANALYTIC = 2
+
+  ! Arms of forces on a rigid body: those at the motion; the means of those at t_n and at the motion, for dynamics.
+  integer(c_int32_t), parameter :: STICKSLIP_RIGID_ARMS_END = 0
+  integer(c_int32_t), parameter :: STICKSLIP_RIGID_ARMS_MIDDLE = 1
 
   integer(c_int32_t), parameter :: STICKSLIP_SHAPE_PLANE = 0
   integer(c_int32_t), parameter :: STICKSLIP_SHAPE_SPHERE = 1
@@ -237,7 +242,7 @@ module stickslip
   integer(c_int64_t), parameter :: stickslip_facet_size = 72
   integer(c_int64_t), parameter :: stickslip_equilibrium_size = 120
   integer(c_int64_t), parameter :: stickslip_rigid_body_size = 56
-  integer(c_int64_t), parameter :: stickslip_rigid_motion_size = 128
+  integer(c_int64_t), parameter :: stickslip_rigid_motion_size = 136
   integer(c_int64_t), parameter :: stickslip_law_size = 72
   integer(c_int64_t), parameter :: stickslip_law_point_size = 104
   integer(c_int64_t), parameter :: stickslip_law_answer_size = 48
@@ -506,6 +511,8 @@ module stickslip
     real(c_double) :: displacement(3) = 0          ! u [L]
     real(c_double) :: rotation(3) = 0              ! theta of the step: axis times angle, at most pi
     real(c_double) :: turned(9) = 0                ! R at t_n, row by row; zeros alone: not at all
+    integer(c_int32_t) :: arms = 0                 ! STICKSLIP_RIGID_ARMS_...
+    integer(c_int32_t) :: reserved = 0             ! 0
   end type
 
   ! A law of the library in place of Coulomb's.

@@ -231,6 +231,11 @@
 /// Weights, normals and areas frozen at the first configuration: small displacements.
 #define STICKSLIP_WEIGHTS_REFERENCE 2
 
+/// Weights frozen at the last commit, and what overlaps there counts as closed: a step need not part it. The work of the contact forces over a
+/// step is then never positive, whatever slides and turns: for dynamics. Not with offsets, STICKSLIP_DECISION_POINTS and
+/// STICKSLIP_SLIP_PAPER.
+#define STICKSLIP_WEIGHTS_PERSISTENT 3
+
 /// Normals nu of the last commit, as in the paper: data of a step. Default.
 #define STICKSLIP_NORMALS_COMMITTED 0
 
@@ -536,6 +541,13 @@
 
 /// Side of an interface: the mortar one.
 #define STICKSLIP_SIDE_MORTAR 1
+
+/// Moments are about the reference point, of forces at the nodes of the motion. Default.
+#define STICKSLIP_RIGID_ARMS_END 0
+
+/// Moments have the means of a node's arms at t_n and at the motion: the work of forces that are constant in a step is that of their sum over u
+/// and of this moment over 2 tan(|theta| / 2) theta / |theta|, exactly. For dynamics (docs/formulation.md 14.7).
+#define STICKSLIP_RIGID_ARMS_MIDDLE 1
 
 /// Coulomb's law with mu.
 #define STICKSLIP_LAW_COULOMB 0
@@ -1105,6 +1117,10 @@ typedef struct stickslip_rigid_motion {
   double rotation[3];
   /// R, what the body has turned by at t_n, row by row [-]; zeros alone: not at all.
   double turned[9];
+  /// STICKSLIP_RIGID_ARMS_...; an older caller's: END.
+  int32_t arms;
+  /// 0.
+  int32_t reserved;
 } stickslip_rigid_motion;
 
 /// A law of the library in place of Coulomb's, whose mu (of the options, or of `stickslip_interface_set_friction`) it goes on from. What

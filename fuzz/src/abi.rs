@@ -404,7 +404,7 @@ fn options(bytes: &mut Bytes, base: i64) -> Struct<stickslip_options> {
     o.modulus = bytes.number(1000.0);
     o.friction = bytes.choice(4);
     o.form = bytes.choice(2);
-    o.weights = bytes.choice(3);
+    o.weights = bytes.choice(4);
     for _ in 0..bytes.below(4) {
         match bytes.below(13) {
             0 => o.slip = bytes.choice(3),

@@ -48,7 +48,7 @@ impl Scene {
         assert!(succeeded(unsafe { stickslip_options_init(&mut options, size_of::<stickslip_options>() as u64) }));
         options.form = bytes.choice(2);
         options.slip = bytes.choice(3);
-        options.weights = bytes.choice(3);
+        options.weights = bytes.choice(4);
         options.friction = bytes.choice(5);
         options.mortar_side = bytes.choice(2);
         options.quadrature = bytes.choice(6);

@@ -97,8 +97,9 @@ def test_a_plate_on_springs_is_where_statics_puts_it():
     np.testing.assert_allclose(np.cross(arms, forces).sum(axis=0), 0, rtol=0, atol=Plate.STIFFNESS * STATICS)
 
 
+@pytest.mark.parametrize("arms", ["end", "middle"])
 @pytest.mark.parametrize("kind", [scene.Solid, scene.Plane])
-def test_its_matrix_is_the_derivative_of_the_residual(kind):
+def test_its_matrix_is_the_derivative_of_the_residual(kind, arms):
     with kind() as made:
         n1, d = made.x1.size, made.x1.shape[1]
         m = 6 if d == 3 else 3
@@ -116,6 +117,7 @@ def test_its_matrix_is_the_derivative_of_the_residual(kind):
         with stickslip.Interface(made.arguments[0], surface, **made.options) as face:
             body = stickslip.RigidBody(coordinates, node_equations, point, equations)
             body.unknowns = motion
+            body.arms = arms
             np.testing.assert_allclose(body.positions(), x2, rtol=0, atol=ROUNDING)
             plan = stickslip.RigidPlan([body], made.size)
             order = [*range(n1), *equations, *range(made.slices[2].start, made.size)]

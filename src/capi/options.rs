@@ -31,6 +31,10 @@ pub const STICKSLIP_WEIGHTS_CURRENT: i32 = 0;
 pub const STICKSLIP_WEIGHTS_COMMITTED: i32 = 1;
 /// Weights, normals and areas frozen at the first configuration: small displacements.
 pub const STICKSLIP_WEIGHTS_REFERENCE: i32 = 2;
+/// Weights frozen at the last commit, and what overlaps there counts as closed: a step need not part it. The work of the contact forces over a
+/// step is then never positive, whatever slides and turns: for dynamics. Not with offsets, STICKSLIP_DECISION_POINTS and
+/// STICKSLIP_SLIP_PAPER.
+pub const STICKSLIP_WEIGHTS_PERSISTENT: i32 = 3;
 /// Normals nu of the last commit, as in the paper: data of a step. Default.
 pub const STICKSLIP_NORMALS_COMMITTED: i32 = 0;
 /// Normals of the current configuration, linearised: the size of a step does not decide how accurate normals are, a surface may
@@ -497,7 +501,12 @@ pub(super) fn read_options(p: *const stickslip_options) -> Result<Choices> {
         space: read_multiplier_space(multiplier_space, "options.multiplier_space")?,
         form: choose(form, "options.form", &[Form::Multiplier, Form::Augmented], 2)?,
         slip: slip_measure(slip, "options.slip")?,
-        weights: choose(weights, "options.weights", &[Weights::Current, Weights::Committed, Weights::Reference], 3)?,
+        weights: choose(
+            weights,
+            "options.weights",
+            &[Weights::Current, Weights::Committed, Weights::Reference, Weights::Persistent],
+            4,
+        )?,
         normals: choose_normals(normals, "options.normals")?,
         threads: (threads as usize).max(1),
         rule: rule(quadrature, "options.quadrature")?,

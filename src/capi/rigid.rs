@@ -1,5 +1,6 @@
 //! Rigid bodies: equations of a reference point in place of those of nodes. Beside the interface: functions of plain data.
 
+use super::choice::choose;
 use super::guard::guard;
 use super::preparation::read_base;
 use super::raw::{self, Member};
@@ -8,7 +9,7 @@ use crate::error::{Error, Kind, Result};
 use crate::features;
 use crate::geometry::Vec3;
 use crate::memory::{self, Store, Stored};
-use crate::rigid::{Body, Motion, RigidPlan, SIX, turned};
+use crate::rigid::{Body, Levers, Motion, RigidPlan, SIX, turned};
 use nalgebra::Matrix3;
 
 /// A rigid body: nodes that move with a reference point, those of a surface of one interface or of several, or any others.
@@ -47,6 +48,12 @@ unsafe impl Sized64 for stickslip_rigid_body {
     const FIRST: usize = 56;
 }
 
+/// Moments are about the reference point, of forces at the nodes of the motion. Default.
+pub const STICKSLIP_RIGID_ARMS_END: i32 = 0;
+/// Moments have the means of a node's arms at t_n and at the motion: the work of forces that are constant in a step is that of their sum over u
+/// and of this moment over 2 tan(|theta| / 2) theta / |theta|, exactly. For dynamics (docs/formulation.md 14.7).
+pub const STICKSLIP_RIGID_ARMS_MIDDLE: i32 = 1;
+
 /// The motion of a rigid body since the first configuration: x = P + u + exp[theta] R (X - P). A host keeps theta among its
 /// unknowns, adds Newton's steps to it, and calls `stickslip_rigid_turn` after each converged step.
 #[repr(C)]
@@ -60,6 +67,10 @@ pub struct stickslip_rigid_motion {
     pub rotation: [f64; 3],
     /// R, what the body has turned by at t_n, row by row [-]; zeros alone: not at all.
     pub turned: [f64; 9],
+    /// STICKSLIP_RIGID_ARMS_...; an older caller's: END.
+    pub arms: i32,
+    /// 0.
+    pub reserved: i32,
 }
 
 // SAFETY: repr(C), struct_size first, numbers only.
@@ -112,7 +123,11 @@ fn read_motion(m: &stickslip_rigid_motion, dimension: usize) -> Result<Motion> {
         let text = "motion leaves the plane: displacement[2], rotation[0] and rotation[1] of lines must be 0";
         return Err(Error::new(Kind::InvalidValue, text));
     }
-    Motion::new(m.displacement.into(), m.rotation.into(), Matrix3::from_row_slice(&m.turned))
+    if m.reserved != 0 {
+        return Err(Error::new(Kind::InvalidValue, text!("motion.reserved is {}; it must be 0", m.reserved)));
+    }
+    let levers = choose(m.arms, "motion.arms", &[Levers::End, Levers::Middle], 2)?;
+    Motion::new(m.displacement.into(), m.rotation.into(), Matrix3::from_row_slice(&m.turned), levers)
 }
 
 /// The k-th struct of a caller's array, whose first one says how far apart they are.

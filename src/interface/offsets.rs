@@ -29,6 +29,10 @@ impl<const N: usize> Contact<N> {
             let text = "offsets with STICKSLIP_NORMALS_CURRENT and weak_coverage > 0 (the default of dual multipliers): how the offset of a carried node turns is not in the tangent; give STICKSLIP_WEAK_COVERAGE_NONE, or take STICKSLIP_NORMALS_COMMITTED or STICKSLIP_FRICTION_NONE";
             return Err(Error::new(Kind::Unsupported, text));
         }
+        if options.keeps_overlaps() && offsets.iter().any(|h| !h.is_empty()) {
+            let text = "offsets with STICKSLIP_WEIGHTS_PERSISTENT: what they overlap by at the last commit would count as closed, and one that grows would press nothing; take other weights";
+            return Err(Error::new(Kind::Unsupported, text));
+        }
         let before = offsets::reach(self.setup.surfaces());
         self.swap_offsets(&mut offsets);
         if before != offsets::reach(self.setup.surfaces())

@@ -8,6 +8,6 @@ mod body;
 mod plan;
 mod rotation;
 
-pub use body::{Body, Motion};
+pub use body::{Body, Levers, Motion};
 pub use plan::{RigidPlan, SIX};
 pub use rotation::{cross, rotation, spin, turned};

@@ -18,6 +18,9 @@ const NONE: i64 = -1;
 const NOWHERE: usize = usize::MAX;
 /// Of an entry whose row, or column, is none of a rigid node.
 const PLAIN: u32 = u32::MAX;
+/// Of a node's arms, those of forces and those of displacements.
+const ROWS: usize = 0;
+const COLUMNS: usize = 1;
 /// Numbers of a node's equations, in the plane, too.
 const SCALARS: usize = 3;
 
@@ -52,8 +55,8 @@ pub struct RigidPlan {
     parts: Vec<Part>,
     /// X - P of all nodes.
     arms: Vec<Vec3>,
-    /// The same in the motion of now.
-    room: Vec<Vec3>,
+    /// The same in the motion of now: what forces have as arms, what displacements have.
+    room: Vec<[Vec3; 2]>,
 }
 
 /// A body, the equations that its nodes have in the nodal matrix, and those of its reference point.
@@ -172,7 +175,7 @@ impl RigidPlan {
         for (b, part) in parts.iter_mut().enumerate() {
             part.own = slots_of(&(-2 - b as i64, -2 - b as i64));
         }
-        let room = memory::filled(Vec3::zeros(), arms.len())?;
+        let room = memory::filled([Vec3::zeros(); 2], arms.len())?;
         Ok(RigidPlan { entries, slots, places, parts, arms, room })
     }
 
@@ -201,9 +204,9 @@ impl RigidPlan {
             let (own, rest) = forces.split_at(part.dimension * (part.end - first));
             let mut turn = nalgebra::Matrix3::zeros();
             for (k, force) in own.chunks_exact(part.dimension).enumerate() {
-                let arm = motion.arm(&self.arms[first + k]);
-                self.room[first + k] = arm;
-                turn += turn_of_moment(&arm, &in_space(force));
+                let arm = &self.arms[first + k];
+                self.room[first + k] = [motion.lever(arm), motion.arm(arm)];
+                turn += turn_of_moment(&motion.turning(arm), &in_space(force));
             }
             let turn = spins.next().map_or(turn, |spin| turn * spin);
             for (i, j) in (0..3).flat_map(|i| (0..3).map(move |j| (i, j))) {
@@ -218,10 +221,10 @@ impl RigidPlan {
             let (mut left, mut right) = ([1.0; SIX], [1.0; SIX]);
             let (mut m, mut n) = (1, 1);
             if entry.row != PLAIN {
-                (left, m) = (self.factors(entry.row).0, SIX);
+                (left, m) = (self.factors(entry.row, ROWS).0, SIX);
             }
             if entry.column != PLAIN {
-                let (factors, node) = self.factors(entry.column);
+                let (factors, node) = self.factors(entry.column, COLUMNS);
                 let b = self.parts.partition_point(|part| part.end <= node);
                 // d x = d u + w x rho with the spin w = H d theta.
                 let turn = motions[b].spin().tr_mul(&Vec3::new(factors[3], factors[4], factors[5]));
@@ -241,9 +244,9 @@ impl RigidPlan {
 
     /// What a force of 1 at a scalar is at the reference point, e_i and rho x e_i; and the scalar's node.
     #[inline]
-    fn factors(&self, scalar: u32) -> ([f64; SIX], usize) {
+    fn factors(&self, scalar: u32, which: usize) -> ([f64; SIX], usize) {
         let (node, i) = (scalar as usize / SCALARS, scalar as usize % SCALARS);
-        let rho = &self.room[node];
+        let rho = &self.room[node][which];
         let moment = [[0.0, rho.z, -rho.y], [-rho.z, 0.0, rho.x], [rho.y, -rho.x, 0.0]][i];
         let mut factors = [0.0, 0.0, 0.0, moment[0], moment[1], moment[2]];
         factors[i] = 1.0;

@@ -37,7 +37,11 @@ def dynamics(verdicts, driver):
     jump(verdicts, driver)
     bars(verdicts, driver)
     bounces(verdicts, driver)
+    turning(verdicts, driver)
     incline(verdicts, driver)
+    top(verdicts, driver)
+    thrown(verdicts, driver)
+    rolling(verdicts, driver)
     tangents(verdicts, driver)
     rolled_back(verdicts, driver)
     refused(verdicts, driver)
@@ -208,7 +212,7 @@ def bounces(verdicts, driver):
     for name, (top, base, more, nonmortar, mortar, interface) in cases.items():
         scene = {"schema": 1, "bodies": ["top", "base"], "top": {**cube, **top}, "base": {**cube, **base}, "dynamics": {"rho_inf": 1},
                  "supports": ["ground", *more], "ground": {"surface": "base.zmin", "components": ["x", "y", "z"]},
-                 "interfaces": ["c"], "c": {"nonmortar": nonmortar, "mortar": mortar, "weights": "reference", **interface},
+                 "interfaces": ["c"], "c": {"nonmortar": nonmortar, "mortar": mortar, **interface},
                  "steps": {"count": 60, "end": 0.3}, "output": {"vtu": "none", "csv": "none"}}
         for axis in "xy":
             if f"s{axis}" in more:
@@ -224,6 +228,104 @@ def bounces(verdicts, driver):
     verdicts.at_least("bouncing ball, weights found anew: growth of energy", growth(table), ENERGY_BOUND, "what the warning is about")
     verdicts.true("bouncing ball, weights found anew: a warning", "contact gives the bodies" in told.text, "of what is measured")
     verdicts.near("bouncing ball, weights found anew: given by contact", table["contact_gain"][-1] / np.diff(total(table)).clip(0).sum(), 1, GIVEN_BOUND, "growth of energy")
+
+
+SPHERE = {"ball": [0, 0, 0], "lower": [-0.5] * 3, "upper": [0.5] * 3}
+SLAB = {"type": "box", "young": 200, "poisson": 0.3, "density": 1, "small_strain": True, "lower": [-0.8, -0.5, -0.8], "upper": [0.9, 0.5, -0.51], "cells": [11, 6, 2]}
+
+
+def turning(verdicts, driver):
+    """A soft ball that spins is thrown askew on a slab, so that it slides and rolls: contact gives no energy, in whatever it has of finite strain."""
+    scene = {"schema": 1, "bodies": ["ball", "slab"], "slab": SLAB, "dynamics": {"rho_inf": 1},
+             "ball": {"type": "box", **SPHERE, "cells": [4, 4, 4], "young": 200, "poisson": 0.3, "density": 1, "material": "neo_hooke",
+                      "velocity": [1, 0.2, -1], "spin": [0, 12, 3]},
+             "supports": ["ground"], "ground": {"surface": "slab.zmin", "components": ["x", "y", "z"]},
+             "interfaces": ["c"], "c": {"nonmortar": "slab.zmax", "mortar": "rim", "friction": 0.02}, "surfaces": ["rim"],
+             "rim": {"of": [f"ball.{axis}{end}" for axis in "xyz" for end in ("min", "max")], "within": [-9, -9, -9, 9, 9, 9]},
+             "steps": {"count": 50, "end": 0.25}, "output": {"vtu": "none", "csv": "none"}}
+    result = run(driver, "turning", scene)
+    table = energy(result)
+    verdicts.at_least("a ball that spins: friction", table["friction_dissipation"][-1] / total(table)[0], 0.01, "it slides")
+    verdicts.at_least("a ball that spins: it flies off", table["momentum_z"][-1] / -table["momentum_z"][0], 0.3, "upwards")
+    verdicts.below("a ball that spins: given by contact", table["contact_gain"][-1] / total(table)[0], ENERGY_BOUND, "nothing")
+    verdicts.below("a ball that spins: work of contact", np.diff(table["contact_work"]).max() / total(table)[0], ENERGY_BOUND, "never positive")
+    told = run(driver, "turning", scene, "-c_weights", "committed", label="turning_committed")
+    verdicts.true("a ball that spins, overlaps parted: a warning", "contact gives the bodies" in told.text, "of what is measured")
+
+
+# --- rigid bodies -------------------------------------------------------------------------------------------------------
+# Of a rule of second order whose equations Newton's method solves to 1e-11.
+RIGID_BOUND = 1e-9
+
+
+def top(verdicts, driver):
+    """A brick that tumbles about its middle axis: energy, moment of momentum, and where it points, against many steps."""
+    brick = {"type": "rigid", "from": "box", "lower": [-1, -0.5, -0.25], "upper": [1, 0.5, 0.25], "cells": [1, 1, 1], "reference": [0, 0, 0],
+             "density": 3, "velocity": [1, 0, 0.5], "spin": [0.3, 4, 0.1]}
+    scene = {"schema": 1, "bodies": ["brick"], "brick": brick, "dynamics": {"rho_inf": 1}, "steps": {"count": 1}, "output": {"vtu": "none"}}
+    mass, inertia = 3.0, np.diag([1 + 0.25, 4 + 0.25, 4 + 1]) / 4
+    spin = np.array(brick["spin"])
+    ends = []
+    for n in (80, 160, 320):
+        result = run(driver, "top", scene, "-steps_count", str(n), "-steps_end", "2", label=f"top_{n}")
+        table, six = energy(result), result.steps[-1]["rigid"]["brick"]
+        ends.append(np.array(six["turned"]))
+        verdicts.near(f"top, {n} steps: energy at the start", table["kinetic"][0], (mass * 1.25 + spin @ inertia @ spin) / 2, RIGID_BOUND, "of a brick")
+        verdicts.below(f"top, {n} steps: energy", np.abs(total(table) / total(table)[0] - 1).max(), RIGID_BOUND, "kept at any step")
+        change = max(np.abs(table[f"angular_{axis}"] - table[f"angular_{axis}"][0]).max() for axis in "xyz")
+        verdicts.below(f"top, {n} steps: moment of momentum", change / np.linalg.norm(inertia @ spin), RIGID_BOUND, "kept at any step")
+        verdicts.below(f"top, {n} steps: place", np.abs(np.array(six["displacement"]) - [2, 0, 1]).max(), RIGID_BOUND, "it flies straight on")
+    errors = [np.linalg.norm(a - b) for a, b in zip(ends, ends[1:])]
+    verdicts.at_least("top: it tumbles", np.abs(ends[-1].reshape(3, 3) @ [0, 1, 0] - [0, 1, 0]).max(), 0.5, "about no axis of its own")
+    verdicts.near("top: order in dt", math.log2(errors[0] / errors[1]), 2, ORDER_BOUND, "80, 160, 320 steps")
+
+
+def thrown_ball(**more):
+    """A rigid ball of facets that spins and falls on an elastic slab."""
+    return {"schema": 1, "bodies": ["ball", "slab"], "slab": SLAB, "dynamics": {"rho_inf": 1},
+            "ball": {"type": "rigid", "from": "box", **SPHERE, "cells": [4, 4, 4], "reference": [0, 0, 0], "density": 2, "velocity": [0.5, 0.1, -1], "spin": [0, 6, 2]},
+            "supports": ["ground"], "ground": {"surface": "slab.zmin", "components": ["x", "y", "z"]},
+            "interfaces": ["c"], "c": {"nonmortar": "slab.zmax", "mortar": "rim", "friction": 0.3}, "surfaces": ["rim"],
+            "rim": {"of": [f"ball.{axis}{end}" for axis in "xyz" for end in ("min", "max")], "within": [-9, -9, -9, 9, 9, 9]},
+            "steps": {"count": 60, "end": 0.3}, "output": {"vtu": "none", "csv": "none"}, **more}
+
+
+def thrown(verdicts, driver):
+    table = energy(run(driver, "thrown", thrown_ball()))
+    verdicts.at_least("rigid ball: it flies off", table["momentum_z"][-1] / -table["momentum_z"][0], 0.3, "upwards")
+    verdicts.at_least("rigid ball: friction", table["friction_dissipation"][-1] / total(table)[0], 0.01, "it slides and rolls")
+    verdicts.below("rigid ball: growth of energy", growth(table), ENERGY_BOUND, "in any step")
+    verdicts.below("rigid ball: given by contact", table["contact_gain"][-1] / total(table)[0], ENERGY_BOUND, "nothing")
+    verdicts.below("rigid ball: energy balance", np.abs(table["numerical"]).max() / total(table)[0], EXACT_BOUND, "all work counted")
+    two = energy(run(driver, "thrown", thrown_ball(), label="thrown_2", ranks=2))
+    verdicts.below("rigid ball, two ranks: energy", abs(total(two)[-1] / total(table)[-1] - 1), SAME_BOUND, "as on one")
+
+
+ROLLING_BOUND = 0.01
+
+
+def rolling(verdicts, driver):
+    """A rigid cylinder rolls down a layer that is stiff beside its weight, gravity turned: 2/3 g sin."""
+    angle, g, radius, mass = math.radians(20), 9.81, 0.5, 2.0
+    scene = {"schema": 1, "bodies": ["roll", "layer"],
+             "roll": {"type": "rigid", "from": "analytic", "shape": "cylinder", "point": [0, 0, radius], "direction": [0, 1, 0], "radius": radius,
+                      "reference": [0, 0, radius], "mass": mass, "inertia": [1, mass * radius**2 / 2, 1]},
+             "layer": {"type": "box", "young": 1e5, "poisson": 0.3, "density": 1, "small_strain": True, "lower": [-0.2, -0.1, -0.1], "upper": [0.5, 0.1, 0], "cells": [40, 1, 2]},
+             "dynamics": {"rho_inf": 1, "stiffness_damping": 2e-3}, "supports": ["ground", "guide"], "ground": {"surface": "layer.zmin", "components": ["x", "y", "z"]},
+             "guide": {"body": "roll", "components": ["y", "rx", "rz"]}, "loads": ["weight"],
+             "weight": {"body": "roll", "gravity": [g * math.sin(angle), 0, -g * math.cos(angle)], "curve": [0, 1, 10, 1]},
+             "interfaces": ["c"], "c": {"nonmortar": "layer.zmax", "mortar": "roll.surface", "friction": 0.8, "new_contact": "friction"}, "steps": {"count": 160, "end": 0.4},
+             "output": {"vtu": "none", "csv": "none"}}
+    result = run(driver, "rolling", scene)
+    table = energy(result)
+    at = lambda k: np.array([*result.steps[k]["rigid"]["roll"]["displacement"], *result.steps[k]["rigid"]["roll"]["rotation"]])
+    way, turn = (at(-1) - at(39))[0], (at(-1) - at(39))[4]
+    t = np.array([step["t"] for step in result.steps])
+    x = np.array([at(k)[0] for k in range(len(t))])
+    slope = 2 * np.polyfit(t[40:], x[40:], 2)[0]
+    verdicts.near("a cylinder rolls down: acceleration", slope / (g * math.sin(angle)), 2 / 3, ROLLING_BOUND, "2/3 g sin")
+    verdicts.near("a cylinder rolls down: its turn", turn * radius / way, 1, ROLLING_BOUND, "the way over the radius")
+    verdicts.below("a cylinder rolls down: given by contact", table["contact_gain"][-1] / table["kinetic"].max(), ENERGY_BOUND, "nothing")
 
 
 # --- friction -----------------------------------------------------------------------------------------------------------
@@ -263,6 +365,12 @@ def tangents(verdicts, driver):
         verdicts.below(f"tangent, {label}", worst(errors), JACOBIAN_BOUND, f"{len(tests)} iterates against central differences")
 
 
+    result = run(driver, "tangents_rigid", thrown_ball(steps={"times": [0.01, 0.02, 0.03]}), "-test_jacobian_blocks")
+    tests = [test for step in result.steps for test in step["jacobian_tests"] if test["switches"] == 0]
+    errors = [block["error"] / block["norm"] for test in tests for block in test["blocks"] if block["norm"]]
+    verdicts.below("tangent, a rigid ball", worst(errors), JACOBIAN_BOUND, f"{len(tests)} iterates against central differences")
+
+
 def rolled_back(verdicts, driver):
     """Steps that fail leave nothing behind: the run that was cut back, and one with the same steps."""
     scene = two_bars(n=6, count=4)
@@ -276,6 +384,8 @@ def rolled_back(verdicts, driver):
     verdicts.true("rollback: equal bits", same, f"{len(cut.steps)} steps")
 
 
+BRICK = {"type": "rigid", "from": "box", "lower": [0, 0, 5], "upper": [1, 1, 6], "cells": [1, 1, 1], "reference": [0.5, 0.5, 5.5], "density": 1}
+WITH_BRICK = {"bodies": ["left", "right", "brick"]}
 REFUSED = {
     "rho_inf": ({"dynamics": {"rho_inf": 1.5}}, "dynamics.rho_inf"),
     "damping without the scheme": ({"dynamics": {"rho_inf": None, "mass_damping": 1}}, "dynamics.rho_inf"),
@@ -286,7 +396,14 @@ REFUSED = {
     "stiffness damping of finite strain": ({"dynamics": {"rho_inf": 1, "stiffness_damping": 1}, "left": {"material": "neo_hooke"}}, "dynamics.stiffness_damping"),
     "cells inside out at the start": ({"dynamics": {"rho_inf": 0.5}, "left": {"material": "neo_hooke"}, "supports": ["s"],
                                        "s": {"surface": "left.xmin", "components": ["x"], "value": [2, 0, 0], "curve": [0, 1, 1, 1]}}, "dynamics.rho_inf"),
-    "a free rigid body": ({"bodies": ["left", "right", "ball"], "ball": {"type": "rigid", "from": "box", "lower": [0, 0, 5], "upper": [1, 1, 6], "cells": [1, 1, 1], "reference": [0, 0, 5], "mass": 1}}, "ball.type"),
+    "no mass of a rigid body": ({**WITH_BRICK, "brick": {**BRICK, "density": None}}, "brick.mass"),
+    "no inertia of a rigid body": ({**WITH_BRICK, "brick": {**BRICK, "density": None, "mass": 1}}, "brick.inertia"),
+    "mass and density": ({**WITH_BRICK, "brick": {**BRICK, "mass": 1}}, "brick.density"),
+    "an inertia that no body has": ({**WITH_BRICK, "brick": {**BRICK, "density": None, "mass": 1, "inertia": [1, 1, 3]}}, "brick.inertia"),
+    "a reference point beside the centre": ({**WITH_BRICK, "brick": {**BRICK, "reference": [0.5, 0.5, 5]}}, "brick.reference"),
+    "a rigid body moved in part": ({**WITH_BRICK, "brick": BRICK, "supports": ["push"], "push": {"body": "brick", "components": ["x"], "value": [1, 0, 0]}}, "push.value"),
+    "rho_inf of a free rigid body": ({**WITH_BRICK, "brick": BRICK, "dynamics": {"rho_inf": 0.9}}, "dynamics.rho_inf"),
+    "weights with offsets": ({"c": {"weights": "persistent", "offset": 0.1}}, "c.weights"),
 }
 
 

@@ -63,7 +63,7 @@ static const struct {
     I64(rigid_body, struct_size), I32(rigid_body, dimension), I32(rigid_body, reserved), I64(rigid_body, n_nodes),
     NEED(rigid_body, coordinates), NEED(rigid_body, point), NEED(rigid_body, node_equations), NEED(rigid_body, equations),
     I64(rigid_motion, struct_size), ARRAY(rigid_motion, displacement, 3), ARRAY(rigid_motion, rotation, 3),
-    ARRAY(rigid_motion, turned, 9),
+    ARRAY(rigid_motion, turned, 9), I32(rigid_motion, arms), I32(rigid_motion, reserved),
     I64(law, struct_size), I32(law, kind), I32(law, reserved), ONE(law, cohesion), ONE(law, mu_after), ONE(law, critical_slip),
     ONE(law, mu_across), ARRAY(law, direction, 3),
     I64(heat, struct_size), ONE(heat, contact), ONE(heat, pressure), ONE(heat, exponent), ONE(heat, constant), ONE(heat, gas),

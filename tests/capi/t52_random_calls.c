@@ -376,7 +376,7 @@ static void sequence(int compared) {
   scene *s = &h.s;
   scene_init(s);
   s->options.form = (int32_t)draw(2);
-  s->options.weights = (int32_t)draw(3);
+  s->options.weights = (int32_t)draw(4);
   s->options.slip = (int32_t)draw(3);
   s->options.new_contact = (int32_t)draw(2);
   s->options.quadrature = (int32_t)draw(2);

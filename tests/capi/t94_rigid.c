@@ -101,7 +101,7 @@ static void make_analytic(int shape) {
 }
 
 /* `drops`: the first body has no equation of the displacement along y and of the rotation about z. */
-static void check_tangent(int64_t base, int n, const int *sides, int drops, int shape, int32_t weights) {
+static void check_tangent(int64_t base, int n, const int *sides, int drops, int shape, int32_t weights, int32_t arms) {
   static double k[NEW][NEW], d[NEW][NEW], plus[NEW], minus[NEW], values[MOST], forces[X1 + X2], lambda[X1];
   static int64_t rows[MOST], columns[MOST];
   static part parts[2];
@@ -115,6 +115,7 @@ static void check_tangent(int64_t base, int n, const int *sides, int drops, int 
   scene_slide(&s, 0.03);
   for (int b = 0; b < n; ++b) {
     rigid_init(&parts[b], sides[b], base + UNKNOWNS + SIX * b);
+    parts[b].motion.arms = arms;
     if (drops && b == 0) parts[b].equations[1] = parts[b].equations[5] = -1;
   }
   residual(parts, n, plus);
@@ -294,6 +295,9 @@ static void check_refusals(void) {
   CHECK_REFUSED(CREATE(), STICKSLIP_INDEX_OUT_OF_RANGE, "columns");
   columns[0] = 20;
   CHECK(!rigid && count == -1);
+  motion.arms = 2;
+  CHECK_REFUSED(stickslip_rigid_positions(&body, &motion, now), STICKSLIP_INVALID_VALUE, "motion.arms");
+  motion.arms = STICKSLIP_RIGID_ARMS_END;
   motion.rotation[1] = 3.2;
   CHECK_REFUSED(stickslip_rigid_positions(&body, &motion, now), STICKSLIP_INVALID_VALUE, "at most pi");
   motion = rest;
@@ -322,11 +326,13 @@ int main(void) {
   static const int one[] = {1}, two[] = {2}, both[] = {2, 1};
   for (int64_t base = 0; base < 2; ++base) {
     for (int32_t weights = STICKSLIP_WEIGHTS_CURRENT; weights <= STICKSLIP_WEIGHTS_COMMITTED; ++weights) {
-      check_tangent(base, 1, one, 0, 0, weights);
+      check_tangent(base, 1, one, 0, 0, weights, STICKSLIP_RIGID_ARMS_END);
+      check_tangent(base, 1, one, 0, 0, weights, STICKSLIP_RIGID_ARMS_MIDDLE);
       for (int shape = 0; shape < 4; ++shape) { /* facets; a plane, a ball, a bar */
-        check_tangent(base, 1, two, 0, shape, weights);
-        check_tangent(base, 2, both, 0, shape, weights);
-        check_tangent(base, 2, both, 1, shape, weights);
+        check_tangent(base, 1, two, 0, shape, weights, STICKSLIP_RIGID_ARMS_END);
+        check_tangent(base, 2, both, 0, shape, weights, STICKSLIP_RIGID_ARMS_END);
+        check_tangent(base, 2, both, 1, shape, weights, STICKSLIP_RIGID_ARMS_END);
+        check_tangent(base, 2, both, 1, shape, weights, STICKSLIP_RIGID_ARMS_MIDDLE);
       }
     }
   }

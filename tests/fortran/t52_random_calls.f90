@@ -292,7 +292,7 @@ contains
     logical :: accepted, changed, again
     call scene_init(h%s)
     h%s%options%form = random(2)
-    h%s%options%weights = random(3)
+    h%s%options%weights = random(4)
     h%s%options%slip = random(3)
     h%s%options%new_contact = random(2)
     h%s%options%quadrature = random(2)

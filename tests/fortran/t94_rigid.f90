@@ -26,10 +26,11 @@ program t94_rigid
   type(part), target, save :: parts(2)
   integer :: base
   do base = 0, 1
-    call check_tangent(base, [1], .false.)
-    call check_tangent(base, [2], .false.)
-    call check_tangent(base, [2, 1], .false.)
-    call check_tangent(base, [2, 1], .true.)
+    call check_tangent(base, [1], .false., STICKSLIP_RIGID_ARMS_END)
+    call check_tangent(base, [2], .false., STICKSLIP_RIGID_ARMS_END)
+    call check_tangent(base, [2, 1], .false., STICKSLIP_RIGID_ARMS_END)
+    call check_tangent(base, [2, 1], .true., STICKSLIP_RIGID_ARMS_END)
+    call check_tangent(base, [2, 1], .true., STICKSLIP_RIGID_ARMS_MIDDLE)
   end do
   call check_lines()
   call check_turns()
@@ -131,8 +132,9 @@ contains
   end subroutine
 
   ! drops: the first body has no equation of the displacement along y and of the rotation about z.
-  subroutine check_tangent(base, sides, drops)
+  subroutine check_tangent(base, sides, drops, arms)
     integer, intent(in) :: base, sides(:)
+    integer(c_int32_t), intent(in) :: arms
     logical, intent(in) :: drops
     type(triplets), target :: t
     type(stickslip_rigid) :: rigid
@@ -149,6 +151,7 @@ contains
     n = size(sides)
     do b = 1, int(n)
       call rigid_init(parts(b), sides(b), base + UNKNOWNS + SIX * (b - 1))
+      parts(b)%motion%arms = arms
     end do
     if (drops) parts(1)%equations([2, 6]) = -1
     call residual(int(n), plus)

@@ -81,6 +81,8 @@ fn calls_of_a_rigid_body_allocate_nothing() {
         displacement: [0.1; 3],
         rotation: [0.2; 3],
         turned: [0.0; 9],
+        arms: 0,
+        reserved: 0,
     };
     let (mut rigid, mut count) = (std::ptr::null_mut(), 0);
     let (mut now, mut resultant, mut places) = ([0.0; 3], [0.0; 6], [[0; 64]; 2]);

@@ -6,7 +6,7 @@ use nalgebra::{DMatrix, DVector, Matrix3, SVector};
 use stickslip::geometry::{AnalyticShape, Vec3};
 use stickslip::interface::{Contact, NO_EQUATION, Options, Surface};
 use stickslip::line::Measure;
-use stickslip::rigid::{Body, Motion, RigidPlan, SIX, turned};
+use stickslip::rigid::{Body, Levers, Motion, RigidPlan, SIX, turned};
 
 /// Newton steps at most.
 const MOST_STEPS: usize = 40;
@@ -102,7 +102,8 @@ where
     }
 
     pub fn motion(&self) -> Motion {
-        Motion::new(self.q.fixed_rows::<3>(0).into(), self.q.fixed_rows::<3>(3).into(), self.turned).unwrap()
+        Motion::new(self.q.fixed_rows::<3>(0).into(), self.q.fixed_rows::<3>(3).into(), self.turned, Levers::End)
+            .unwrap()
     }
 
     fn positions(&self, k: usize) -> (Vec<Vec3>, Vec<Vec3>) {

@@ -133,10 +133,26 @@ static void read_effects(Scene *scene, Interface *interface)
  * cent too hard, by 0.3 of a facet 0.02 per cent. */
 static const PetscReal SLIDE_MAX = 0.5;
 
-/* `basis`, `normals`, `weights`, `slip`, `form`, `new_contact`, the augmentation and the search. */
-static void read_method(Scene *scene, Interface *interface)
+/* Keys by which surfaces are beside their meshes: with persistent weights an overlap by them would count as closed. */
+static const char *const OFFSETS[] = {"offset", "offset_at", "round"};
+
+/* Weights where the scene does not say: those by which contact gives moving bodies no energy (docs/dynamics.md), where they go with
+ * what else the scene has. */
+static PetscInt usual_weights(Scene *scene, const Physics *physics, const Interface *interface, PetscInt normals, PetscInt slip)
 {
-  static const char *const weights[]      = {"current", "committed", "reference", NULL};
+  if (!physics->dynamics || normals == STICKSLIP_NORMALS_CURRENT || slip == STICKSLIP_SLIP_PAPER ||
+      interface->options.decision == STICKSLIP_DECISION_POINTS)
+    return STICKSLIP_WEIGHTS_CURRENT;
+  for (size_t k = 0; k < sizeof(OFFSETS) / sizeof(OFFSETS[0]); k++) {
+    if (scene_has(scene, interface->name, OFFSETS[k])) return STICKSLIP_WEIGHTS_CURRENT;
+  }
+  return STICKSLIP_WEIGHTS_PERSISTENT;
+}
+
+/* `basis`, `normals`, `weights`, `slip`, `form`, `new_contact`, the augmentation and the search. */
+static void read_method(Scene *scene, const Physics *physics, Interface *interface)
+{
+  static const char *const weights[]      = {"current", "committed", "reference", "persistent", NULL};
   static const char *const slips[]        = {"objective", "increment", "paper", NULL};
   static const char *const forms[]        = {"multiplier", "augmented", NULL};
   static const char *const new_contacts[] = {"frictionless", "friction", NULL};
@@ -145,7 +161,7 @@ static void read_method(Scene *scene, Interface *interface)
   static const char *const normals[]      = {"committed", "current", NULL};
   stickslip_options       *options        = &interface->options;
   const char              *name           = interface->name;
-  PetscInt  basis = STICKSLIP_BASIS_STANDARD, normal = STICKSLIP_NORMALS_COMMITTED, weight = STICKSLIP_WEIGHTS_CURRENT,
+  PetscInt  basis = STICKSLIP_BASIS_STANDARD, normal = STICKSLIP_NORMALS_COMMITTED, weight,
            slip = STICKSLIP_SLIP_OBJECTIVE, form = STICKSLIP_FORM_MULTIPLIER,
            new_contact = STICKSLIP_NEW_CONTACT_FRICTIONLESS, row_scale = STICKSLIP_ROW_SCALE_FORCE;
   PetscReal augmentation = 0, modulus = 0, distance = 0, weak_coverage = 0, turn_max = 0, coverage_min = options->coverage_min;
@@ -154,13 +170,19 @@ static void read_method(Scene *scene, Interface *interface)
 
   interface->initial_contact = PETSC_TRUE;
   interface->slide.most      = SLIDE_MAX;
-  scene_choice(scene, name, "weights", weights, &weight);
   scene_string(scene, name, "slip", word, sizeof(word));
   if (!strcmp(word, "seed")) scene_fail(scene, name, "slip", "'seed' is called 'paper' now.");
   scene_choice(scene, name, "slip", slips, &slip);
   scene_choice(scene, name, "form", forms, &form);
   scene_choice(scene, name, "basis", bases, &basis);
   scene_choice(scene, name, "normals", normals, &normal);
+  weight = usual_weights(scene, physics, interface, normal, slip);
+  scene_choice(scene, name, "weights", weights, &weight);
+  for (size_t k = 0; k < sizeof(OFFSETS) / sizeof(OFFSETS[0]) && weight == STICKSLIP_WEIGHTS_PERSISTENT; k++) {
+    if (scene_has(scene, name, OFFSETS[k]))
+      scene_fail(scene, name, "weights", "persistent ones take what overlaps at a step's start for closed, and `%s` would press nothing: choose others.",
+                 OFFSETS[k]);
+  }
   scene_choice(scene, name, "new_contact", new_contacts, &new_contact);
   scene_choice(scene, name, "row_scale", row_scales, &row_scale);
   scene_bool(scene, name, "initial_contact", &interface->initial_contact);
@@ -289,8 +311,8 @@ PetscErrorCode contact_read(Scene *scene, Contact *contact)
     law_read(scene, &contact->mesh->space, interface);
     mesh_rotate_vector(contact->mesh, interface->law.direction);
     read_effects(scene, interface);
-    read_method(scene, interface);
     decision_read(scene, interface);
+    read_method(scene, contact->physics, interface);
     read_accuracy(scene, interface);
     PetscCall(offsets_read(scene, contact->physics, interface));
   }

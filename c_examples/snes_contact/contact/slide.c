@@ -1,7 +1,7 @@
 /* With frozen weights contact is sought, and forces act on the mortar side, where the surfaces were when the weights were made. A
  * step that slides farther than that shows still converges, and is wrong by about the slide. How far it is, the library says
- * (stickslip_equilibrium); what is done about it is said here: steps with `weights: committed` are cut back, for the next commit
- * makes the weights anew. With `weights: reference` none does, and the run is told once. */
+ * (stickslip_equilibrium); what is done about it is said here: steps with `weights: committed` or `persistent` are cut back, for the
+ * next commit makes the weights anew. With `weights: reference` none does, and the run is told once. */
 #include "contact/contact.h"
 
 /* Over all ranks: the slide over the size of the node's facets, of the last evaluation that was judged; where, on the rank that has it. */
@@ -38,7 +38,7 @@ PetscErrorCode slide_check(Contact *contact, PetscReal *slid, char why[], size_t
     Interface *interface = &contact->interfaces[i];
     if (interface->options.weights == STICKSLIP_WEIGHTS_CURRENT) continue;
     PetscCall(measure(interface, contact->mesh->rank));
-    if (interface->options.weights != STICKSLIP_WEIGHTS_COMMITTED) continue;
+    if (interface->options.weights == STICKSLIP_WEIGHTS_REFERENCE) continue;
     *slid = PetscMax(*slid, interface->slide.ratio / interface->slide.most);
     if (interface->slide.ratio <= interface->slide.most) continue;
     PetscCall(PetscSNPrintf(why, length,

@@ -126,9 +126,9 @@ static PetscErrorCode warn(const Output *output)
   dynamics->told = PETSC_TRUE;
   PetscCall(PetscFPrintf(PETSC_COMM_WORLD, PETSC_STDERR,
                          "snes_contact: warning: in the step to t = %.6g contact gives the bodies %.2g of their energy. Overlaps at the start do so, "
-                         "and offsets that grow; else it is weights that are found anew after each step on curved surfaces, and should not be. Where "
-                         "surfaces slide little, `weights: reference` gives none; finer facets give less. All of it: contact_gain in energy.csv. See "
-                         "docs/dynamics.md.\n",
+                         "and offsets that grow; else it is weights that are found anew after each step on curved surfaces. "
+                         "`weights: persistent`, the default where it goes with the rest, gives none; finer facets give less. All of it: contact_gain "
+                         "in energy.csv. See docs/dynamics.md.\n",
                          (double)output->physics->t, (double)(gain / energy)));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

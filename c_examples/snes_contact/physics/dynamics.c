@@ -112,6 +112,7 @@ PetscErrorCode dynamics_begin(Physics *physics)
   PetscCall(VecGetArrayRead(d->v, &v));
   PetscCall(VecGetArray(d->impulse, &impulse));
   mass_multiply(physics, v, 2 / d->dt, impulse);
+  rigids_add_impulse(physics, d->dt, impulse);
   PetscCall(VecRestoreArray(d->impulse, &impulse));
   PetscCall(VecRestoreArrayRead(d->v, &v));
   PetscCall(set_loads(physics));
@@ -135,6 +136,11 @@ static void add_rounding(Physics *physics, const PetscScalar *u)
     physics->parts.squares[N_SQUARES * cells->part[c] + SQUARES_ROUNDING] +=
         (PetscReal)n * PetscSqr(ROUNDINGS * PETSC_MACHINE_EPSILON * largest * mass * 2 / PetscSqr(d->dt));
   }
+  for (PetscInt r = 0; r < physics->n_rigids; r++) {
+    const Rigid *rigid = &physics->rigids[r];
+    if (!rigid->inertial || !rigid->owned || rigid->part < 0) continue;
+    physics->parts.squares[N_SQUARES * rigid->part + SQUARES_ROUNDING] += PetscSqr(ROUNDINGS) * rigid_rounding(rigid, d->dt);
+  }
 }
 
 /* Inertia and the damping by masses, at u_local */
@@ -152,6 +158,7 @@ static PetscErrorCode add_inertia(Physics *physics, Vec f_local)
     if (d->mass_damping > 0) w[k] += d->mass_damping / d->scale * dynamics_velocity(d, &step, k);
   }
   mass_multiply(physics, w, 1, f);
+  rigids_add_inertia(physics, d->dt, d->mass_damping, f);
   add_rounding(physics, step.now);
   PetscCall(VecRestoreArray(f_local, &f));
   PetscCall(VecRestoreArray(d->work, &w));
@@ -214,5 +221,6 @@ PetscErrorCode dynamics_stiffness(Physics *physics, Mat matrix, PetscInt *status
   }
   PetscCall(MatScale(matrix, here));
   PetscCall(mass_insert(physics, 2 / PetscSqr(d->dt) + 2 / d->dt * here * d->mass_damping, matrix));
+  PetscCall(rigids_insert_inertia(physics, d->dt, d->mass_damping, matrix));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -65,7 +65,7 @@ PetscReal      dynamics_velocity(const Dynamics *dynamics, const StepView *step,
 void           dynamics_swap(Vec *a, Vec *b); /* no copy */
 /* dynamics_balance.c: at a converged state, before the step is accepted; `f_local` of the last evaluation */
 PetscErrorCode dynamics_measure(Physics *physics);
-PetscErrorCode dynamics_energies(Physics *physics, Vec u, Vec v, Balance *balance);
+PetscErrorCode dynamics_energies(Physics *physics, Vec u, Vec v, PetscBool end, Balance *balance); /* end: of rigid bodies, the motion of now */
 /* mass.c: f += factor M v, of the cells here; the matrix of the equations, and what solves with it */
 PetscErrorCode mass_create(Physics *physics);
 void           mass_multiply(const Physics *physics, const PetscScalar *v, PetscReal factor, PetscScalar *f);

@@ -46,7 +46,7 @@ static void add_strain(const Physics *physics, const PetscScalar *u, Balance *ba
 }
 
 /* Of all ranks; work is left as it is. */
-PetscErrorCode dynamics_energies(Physics *physics, Vec u_local, Vec v_local, Balance *balance)
+PetscErrorCode dynamics_energies(Physics *physics, Vec u_local, Vec v_local, PetscBool end, Balance *balance)
 {
   const PetscScalar *u, *v;
   PetscReal          all[8];
@@ -56,6 +56,7 @@ PetscErrorCode dynamics_energies(Physics *physics, Vec u_local, Vec v_local, Bal
   PetscCall(VecGetArrayRead(v_local, &v));
   add_motion(physics, u, v, &here);
   add_strain(physics, u, &here);
+  rigids_add_motion(physics, physics->dynamics->dt, end, &here.kinetic, here.momentum, here.angular);
   if (physics->springs) PetscCall(springs_energy(physics, u, &here.strain));
   PetscCall(VecRestoreArrayRead(v_local, &v));
   PetscCall(VecRestoreArrayRead(u_local, &u));
@@ -229,7 +230,7 @@ static PetscErrorCode add_damping(Physics *physics, PetscReal *gone)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* Does a node move that has no mass, of a rigid body or an analytic surface? Contact does its work then. */
+/* Does a node move that has no mass, of a rigid body that is moved or an analytic surface? Contact does its work then. */
 static PetscErrorCode massless_moves(const Physics *physics, PetscBool *moves)
 {
   const Dynamics *d = physics->dynamics;
@@ -238,7 +239,9 @@ static PetscErrorCode massless_moves(const Physics *physics, PetscBool *moves)
   *moves = PETSC_FALSE;
   PetscCall(dynamics_look(physics, &step));
   for (PetscInt k = 0; k < physics->mesh->n_points && !*moves; k++) {
-    PetscInt at;
+    const PetscInt r = rigids_of_vertex(physics, physics->mesh->original[k]);
+    PetscInt       at;
+    if (r >= 0 && physics->rigids[r].inertial) continue;
     PetscCall(PetscSectionGetOffset(physics->unknowns.section, physics->mesh->points[k], &at));
     for (PetscInt i = at; i < at + 3; i++)
       if (d->entries[i] == MASS_NONE && step.now[i] != step.u[i]) *moves = PETSC_TRUE;
@@ -252,10 +255,18 @@ PetscErrorCode dynamics_measure(Physics *physics)
 {
   Dynamics *d = physics->dynamics;
   PetscReal work[4] = {0};
+  RigidWork of_rigids = {0};
   PetscBool moves;
+  const PetscScalar *external;
   PetscFunctionBegin;
   PetscCall(add_work(physics, work));
   PetscCall(add_damping(physics, &work[3]));
+  PetscCall(VecGetArrayRead(physics->f_external, &external));
+  rigids_add_work(physics, d->dt, d->mass_damping, external, &of_rigids);
+  PetscCall(VecRestoreArrayRead(physics->f_external, &external));
+  work[0] += of_rigids.external;
+  work[2] += of_rigids.contact;
+  work[3] += of_rigids.damping;
   PetscCall(set_velocity(physics));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, work, 4, MPIU_REAL, MPIU_SUM, PETSC_COMM_WORLD));
   if (d->rho_inf < 1) {
@@ -269,6 +280,6 @@ PetscErrorCode dynamics_measure(Physics *physics)
   PetscCall(massless_moves(physics, &moves));
   if (!moves) d->now.given += PetscMax(work[2], 0);
   d->now.damping += work[3];
-  PetscCall(dynamics_energies(physics, physics->u_local, d->v_next, &d->now));
+  PetscCall(dynamics_energies(physics, physics->u_local, d->v_next, PETSC_TRUE, &d->now));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -28,6 +28,27 @@ static void check_body(Scene *scene, const Physics *physics, PetscInt b)
                body->name);
 }
 
+/* A rigid body that is not held in all has inertia, and moves at the start. */
+static void read_rigid(Scene *scene, Physics *physics, Rigid *rigid)
+{
+  const Mesh *mesh = physics->mesh;
+  const char *name = mesh->bodies[rigid->body].name;
+  PetscReal   motion[MOTION_NUMBERS] = {0}, velocity[3], arm[3] = {0};
+  rigids_read_inertia(scene, mesh, physics->supports, rigid);
+  if (!rigid->inertial) return;
+  if (physics->dynamics->rho_inf < 1)
+    scene_fail(scene, "dynamics", "rho_inf", "'%s' is rigid and free, and turns by a rule that keeps the energy: 1 is expected, not %g.", name,
+               (double)physics->dynamics->rho_inf);
+  read_motion(scene, physics, name, motion);
+  (void)space_vector(scene, &mesh->space, name, "reference", arm);
+  mesh_rotate_vector(mesh, arm);
+  for (int i = 0; i < 3; i++)
+    arm[i] -= motion[6 + i];
+  for (int i = 0; i < 3; i++)
+    velocity[i] = motion[i] + motion[3 + (i + 1) % 3] * arm[(i + 2) % 3] - motion[3 + (i + 2) % 3] * arm[(i + 1) % 3];
+  rigid_inertia_start(rigid, velocity, motion + 3);
+}
+
 static void read_scheme(Scene *scene, Dynamics *dynamics)
 {
   static const char *const damping[] = {"mass_damping", "stiffness_damping"};
@@ -68,10 +89,7 @@ PetscErrorCode dynamics_read(Scene *scene, Physics *physics)
     if (named) check_body(scene, physics, b);
   }
   for (PetscInt r = 0; r < physics->n_rigids && named; r++) {
-    if (physics->rigids[r].held != (1 << RIGID_UNKNOWNS) - 1)
-      scene_fail(scene, mesh->bodies[physics->rigids[r].body].name, "type",
-                 "it is rigid and not held: `dynamics` has no inertia of rigid bodies. Prescribe all that it can do by supports, or "
-                 "mesh it.");
+    read_rigid(scene, physics, &physics->rigids[r]);
   }
   if (!named) PetscCall(PetscFree(motions));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -81,6 +81,10 @@ PetscErrorCode dynamics_create(Scene *scene, Physics *physics)
     PetscCall(VecZeroEntries(*vectors[k]));
   }
   PetscCall(mass_create(physics));
+  for (PetscInt c = 0; c < physics->cells.n; c++) {
+    for (PetscInt r = 0; r < physics->n_rigids; r++)
+      if (physics->cells.body[c] == physics->rigids[r].body) physics->rigids[r].part = physics->cells.part[c];
+  }
   PetscCall(supports_values(physics, 0));
   PetscCall(VecCopy(physics->prescribed_local, d->u));
   PetscCall(start(physics));
@@ -91,7 +95,7 @@ PetscErrorCode dynamics_create(Scene *scene, Physics *physics)
       scene_fail(scene, "dynamics", "rho_inf", "below 1 it asks for accelerations at t = 0, where %s by supports that do not begin at 0.",
                  physics->inverted);
   }
-  PetscCall(dynamics_energies(physics, d->u, d->v, &d->last));
+  PetscCall(dynamics_energies(physics, d->u, d->v, PETSC_FALSE, &d->last));
   d->start = d->last;
   PetscFunctionReturn(PETSC_SUCCESS);
 }
@@ -103,6 +107,7 @@ PetscErrorCode dynamics_accept(Physics *physics)
   PetscFunctionBegin;
   if (!d) PetscFunctionReturn(PETSC_SUCCESS);
   PetscCall(VecCopy(physics->u_local, d->u));
+  rigids_accept_inertia(physics, d->dt);
   dynamics_swap(&d->v, &d->v_next);
   dynamics_swap(&d->force, &d->force_next);
   dynamics_swap(&d->prescribed, &d->prescribed_next);

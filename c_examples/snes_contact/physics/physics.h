@@ -58,6 +58,11 @@ enum { RIGID_UNKNOWNS = 6 };
 typedef struct {
   PetscInt  body, first_vertex, end_vertex; /* of the mesh */
   PetscReal mass;
+  /* with `dynamics`, where `inertial`: it is not held in all, and moves by its inertia: about the reference point along the axes of the first
+   * configuration; at t_n the displacement, velocity and, along the axes that turn with the body, spin */
+  PetscBool inertial, has_inertia;
+  PetscReal inertia[9], place[3], velocity[3], spin[3];
+  PetscInt  part;                     /* among the model's parts; -1: none of its cells is here */
   PetscInt  held, turned_by;          /* mask of prescribed unknowns; of rotations (from bit 3 on) that a support turns by an angle */
   PetscInt  support[RIGID_UNKNOWNS];  /* which one prescribes each; -1: none */
   PetscReal point[3], length;         /* reference point; the largest distance of a node from it */
@@ -219,6 +224,24 @@ void           rigids_turned(const Rigid *rigid, PetscReal turned[9]);
 PetscInt       rigids_of_vertex(const Physics *physics, PetscInt vertex); /* of the mesh; -1: it is of none */
 PetscInt       rigids_node_mask(const Rigid *rigid);
 PetscBool      rigids_moves(const Physics *physics, PetscInt vertex, int component);
+
+/* rigids_mass.c: before the scene is turned into a frame, before and after supports are read */
+PetscErrorCode rigids_read_mass(Scene *scene, const Mesh *mesh, Rigid *rigid);
+void           rigids_read_inertia(Scene *scene, const Mesh *mesh, const Support supports[], Rigid *rigid);
+/* rigids_inertia.c: with `dynamics`, of the bodies that are not held in all */
+typedef struct {
+  PetscReal external, contact, damping; /* of a step, this rank's */
+} RigidWork;
+void           rigid_inertia_start(Rigid *rigid, const PetscReal velocity[3], const PetscReal spin[3]);
+void           rigids_add_impulse(const Physics *physics, PetscReal dt, PetscScalar *impulse);
+void           rigids_add_inertia(const Physics *physics, PetscReal dt, PetscReal damping, PetscScalar *f);
+PetscErrorCode rigids_insert_inertia(const Physics *physics, PetscReal dt, PetscReal damping, Mat matrix);
+PetscErrorCode rigids_pattern(const Physics *physics, Mat matrix);
+PetscReal      rigid_rounding(const Rigid *rigid, PetscReal dt); /* of its inertial force, squared */
+void           rigids_add_work(const Physics *physics, PetscReal dt, PetscReal damping, const PetscScalar *external, RigidWork *work);
+void           rigids_add_motion(const Physics *physics, PetscReal dt, PetscBool end, PetscReal *kinetic, PetscReal momentum[3],
+                                 PetscReal angular[3]);
+void           rigids_accept_inertia(Physics *physics, PetscReal dt);
 
 /* supports_file.c */
 PetscErrorCode supports_file_read(Scene *scene, const Mesh *mesh, Support *support);

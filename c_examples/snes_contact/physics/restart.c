@@ -78,6 +78,10 @@ static PetscErrorCode archive_rigid(Rigid *rigid, Archive *archive)
   PetscCall(archive_reals(archive, "rigid.turned", 9, rigid->turned));
   PetscCall(archive_reals(archive, "rigid.motion", RIGID_UNKNOWNS, rigid->motion));
   PetscCall(archive_reals(archive, "rigid.sum", 3, rigid->sum));
+  if (!rigid->inertial) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(archive_reals(archive, "rigid.place", 3, rigid->place));
+  PetscCall(archive_reals(archive, "rigid.velocity", 3, rigid->velocity));
+  PetscCall(archive_reals(archive, "rigid.spin", 3, rigid->spin));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -12,6 +12,7 @@ enum { FIRST = 2 }; /* of a body's vertices, the first that moves with it */
 stickslip_rigid_motion rigids_motion(const Rigid *rigid)
 {
   stickslip_rigid_motion motion = {.struct_size = sizeof(motion)};
+  if (rigid->inertial) motion.arms = STICKSLIP_RIGID_ARMS_MIDDLE; /* so that its moment works what its forces do (rigids_inertia.c) */
   for (int i = 0; i < 3; i++) {
     motion.displacement[i] = rigid->motion[i];
     motion.rotation[i]     = rigid->motion[3 + i];

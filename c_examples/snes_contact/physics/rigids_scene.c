@@ -18,7 +18,6 @@ PetscErrorCode rigids_read(Scene *scene, Physics *physics)
     physics->n_rigids += mesh->bodies[b].rigid;
   PetscCall(PetscCalloc1(physics->n_rigids, &physics->rigids));
   for (PetscInt b = 0, r = 0; b < mesh->n_bodies; b++) {
-    const char *name = mesh->bodies[b].name;
     if (!mesh->bodies[b].rigid) continue;
     Rigid *rigid        = &physics->rigids[r++];
     rigid->body         = b;
@@ -27,8 +26,8 @@ PetscErrorCode rigids_read(Scene *scene, Physics *physics)
     rigid->held         = always_held(mesh->space.kind);
     for (int k = 0; k < RIGID_UNKNOWNS; k++)
       rigid->support[k] = -1;
-    scene_real(scene, name, "mass", &rigid->mass);
-    if (rigid->mass < 0) scene_fail(scene, name, "mass", "it cannot be negative.");
+    rigid->part = -1;
+    PetscCall(rigids_read_mass(scene, mesh, rigid));
   }
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -36,6 +36,7 @@ PetscErrorCode pattern_create(Solve *solve, const PatternRows *rows, Mat *matrix
   for (PetscInt row = first; row < end; row++)
     PetscCall(MatSetValue(counter, row, row, 0, ADD_VALUES));
   PetscCall(bulk_pattern(solve->physics, counter));
+  PetscCall(rigids_pattern(solve->physics, counter));
   if (rows)
     PetscCall(add_rows(rows, counter));
   else

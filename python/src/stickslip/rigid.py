@@ -17,6 +17,10 @@ if TYPE_CHECKING:
     import scipy.sparse
 
 
+# By STICKSLIP_RIGID_ARMS_...
+_ARMS = ("end", "middle")
+
+
 def _destroy(handle) -> None:
     call("rigid_destroy", ffi.new("struct stickslip_rigid **", handle))
 
@@ -77,6 +81,18 @@ class RigidBody:
     @turned.setter
     def turned(self, value: ArrayLike) -> None:
         self._motion.turned[0:9] = given("turned", value, (3, 3)).ravel().tolist()
+
+    @property
+    def arms(self) -> str:
+        """Of which place the arms of forces are, in :meth:`resultant` and :class:`RigidPlan`: "end", that of the unknowns (default), or
+        "middle", the means of those and of the arms at t_n, for dynamics (docs/formulation.md 14.7)."""
+        return _ARMS[self._motion.arms]
+
+    @arms.setter
+    def arms(self, value: str) -> None:
+        if value not in _ARMS:
+            raise ValueError(f"arms: {value!r}, 'end' or 'middle' is needed")
+        self._motion.arms = _ARMS.index(value)
 
     def positions(self, out: np.ndarray | None = None) -> np.ndarray:
         """Where the nodes are, like ``coordinates`` [L]: x1 or x2 of an interface."""

@@ -1,6 +1,6 @@
 //! What an interface remembers of t_n: configuration, weights, normals, areas, coverage, slip (docs/formulation.md 6.1).
 //! It changes only on commit, rolls back exactly, and travels as flat arrays (`restart.rs`). Without friction there is no
-//! slip to measure: no gaps, no slip, and weights only where they are frozen. Tied surfaces keep the gap, that of their
+//! slip to measure: no gaps (but where overlaps of t_n count as closed), no slip, and weights only where they are frozen. Tied surfaces keep the gap, that of their
 //! facets too (`facet_gaps.rs`), and no slip.
 
 use super::active::Active;
@@ -22,6 +22,8 @@ pub enum Keeps {
     Gap,
     /// The frozen weights alone: without friction.
     Weights,
+    /// The frozen weights and the gaps of t_n, whose overlaps count as closed: without friction.
+    Overlaps,
     /// Nothing: without friction, weights of now.
     Nothing,
 }
@@ -31,6 +33,7 @@ impl Keeps {
     pub fn of(options: &Options) -> Keeps {
         match (options.friction.law().remembers, options.effective_weights()) {
             (Remembers::Nothing, Weights::Current) => Keeps::Nothing,
+            (Remembers::Nothing, Weights::Persistent) => Keeps::Overlaps,
             (Remembers::Nothing, _) => Keeps::Weights,
             (Remembers::FirstGap, _) => Keeps::Gap,
             (Remembers::Slip, _) => Keeps::Slip,
@@ -41,7 +44,7 @@ impl Keeps {
     pub fn gaps_and_slips(self) -> [usize; 2] {
         match self {
             Keeps::Slip => [1, 1],
-            Keeps::Gap => [1, 0],
+            Keeps::Gap | Keeps::Overlaps => [1, 0],
             Keeps::Weights | Keeps::Nothing => [0, 0],
         }
     }
@@ -82,7 +85,7 @@ pub struct History {
     pub areas: Vec<f64>,
     /// m_A(t_n): covered area [L^2].
     pub coverage: Vec<f64>,
-    /// g[n_n, x_n] [L^3]; empty without friction. Tied: the part of the first gap that turns with no facet.
+    /// g[n_n, x_n] [L^3]; empty without friction, unless its overlaps count as closed. Tied: the part of the first gap that turns with no facet.
     pub gap: Vec<Vec3>,
     /// Tied: the part of the first gap that turns with its facet; else empty.
     pub facet_gaps: FacetGaps,

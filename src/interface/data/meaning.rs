@@ -17,8 +17,12 @@ pub const LENGTH: usize = 8;
 const BASES: [&str; 3] =
     ["the standard multiplier basis", "the dual multiplier basis", "points that decide (options.decision)"];
 const POINTS: i64 = 2;
-const WEIGHTS: [&str; 3] =
-    ["weights of now", "weights frozen at the last commit", "weights of the first configuration"];
+const WEIGHTS: [&str; 4] = [
+    "weights of now",
+    "weights frozen at the last commit",
+    "weights of the first configuration",
+    "weights frozen at the last commit, whose overlaps count as closed",
+];
 const SLIPS: [&str; 4] = ["no slip", "the objective slip measure", "the slip increment", "the paper's slip measure"];
 
 /// The choices, each with the names of its values, then shape, radius, facets and coordinates.
@@ -28,6 +32,7 @@ pub fn of(options: &Options, own: Option<&Own>, (nonmortar, mortar): (&Surface, 
         Weights::Current => 0,
         Weights::Committed => 1,
         Weights::Reference => 2,
+        Weights::Persistent => 3,
     };
     let slip = match (law.remembers == Remembers::Slip, options.effective_slip()) {
         (false, _) => 0,

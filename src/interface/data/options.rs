@@ -27,6 +27,8 @@ pub enum Weights {
     Current,
     /// Frozen at the last commit.
     Committed,
+    /// The same, and what overlaps at t_n counts as closed there: contact does no work to part it (docs/formulation.md 4.9).
+    Persistent,
     /// Frozen, with normals and areas, at the first configuration: small displacements.
     Reference,
 }
@@ -275,6 +277,10 @@ impl Options {
             let text = "normals of now with frozen weights: gaps and normals would be of different configurations; take STICKSLIP_WEIGHTS_CURRENT or STICKSLIP_NORMALS_COMMITTED";
             return Err(Error::new(Kind::Unsupported, text));
         }
+        if self.keeps_overlaps() && self.slip == SlipMeasure::Paper {
+            let text = "STICKSLIP_SLIP_PAPER with STICKSLIP_WEIGHTS_PERSISTENT: the work of friction would not be that of its slip; take STICKSLIP_SLIP_OBJECTIVE or INCREMENT";
+            return Err(Error::new(Kind::Unsupported, text));
+        }
         if self.decision != Decision::Nodes {
             features::POINTS.check()?;
         }
@@ -313,6 +319,10 @@ impl Options {
             Some(
                 "STICKSLIP_DECISION_POINTS with the standard basis: gaps are measured by dual functions; take STICKSLIP_BASIS_DUAL",
             )
+        } else if self.weights == Weights::Persistent {
+            Some(
+                "STICKSLIP_DECISION_POINTS with STICKSLIP_WEIGHTS_PERSISTENT: overlaps are kept node by node; take STICKSLIP_WEIGHTS_COMMITTED or STICKSLIP_WEIGHTS_REFERENCE, or STICKSLIP_DECISION_NODES",
+            )
         } else if self.weights == Weights::Current {
             Some(
                 "STICKSLIP_DECISION_POINTS with weights of now; take STICKSLIP_WEIGHTS_COMMITTED or STICKSLIP_WEIGHTS_REFERENCE, or STICKSLIP_DECISION_NODES",
@@ -331,6 +341,11 @@ impl Options {
     /// The weights in force: tied surfaces keep those of the reference configuration.
     pub fn effective_weights(&self) -> Weights {
         if self.friction.law().opens { self.weights } else { Weights::Reference }
+    }
+
+    /// Whether an overlap at t_n counts as closed.
+    pub fn keeps_overlaps(&self) -> bool {
+        self.effective_weights() == Weights::Persistent
     }
 
     /// Whether the normals follow the motion within a step. Tied surfaces use none.
@@ -359,7 +374,9 @@ impl Options {
     /// terms use the same weights), and the increment is what it stands for.
     pub fn effective_slip(&self) -> SlipMeasure {
         match (self.effective_weights(), self.slip) {
-            (Weights::Committed | Weights::Reference, SlipMeasure::Objective) => SlipMeasure::Increment,
+            (Weights::Committed | Weights::Persistent | Weights::Reference, SlipMeasure::Objective) => {
+                SlipMeasure::Increment
+            }
             (_, slip) => slip,
         }
     }

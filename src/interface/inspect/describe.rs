@@ -112,6 +112,9 @@ fn weights_sentence<const N: usize>(setup: &Setup<N>) -> Result<Text> {
     let what = match setup.options.effective_weights() {
         Weights::Current => "of now, differentiated (large sliding)",
         Weights::Committed => "frozen at the last commit (asked for), reused within a step",
+        Weights::Persistent => {
+            "frozen at the last commit, where overlaps count as closed (asked for): contact gives no energy"
+        }
         Weights::Reference if !setup.options.friction.law().opens => {
             "frozen at the first configuration (tied), always reused"
         }
@@ -123,7 +126,7 @@ fn weights_sentence<const N: usize>(setup: &Setup<N>) -> Result<Text> {
 /// What the tangent leaves out.
 fn tangent_clause<const N: usize>(setup: &Setup<N>) -> &'static str {
     match (setup.options.effective_weights(), setup.options.tangent) {
-        (Weights::Committed | Weights::Reference, _) | (_, Tangent::Exact) => "",
+        (Weights::Committed | Weights::Persistent | Weights::Reference, _) | (_, Tangent::Exact) => "",
         (_, Tangent::FrozenWeights) => ", but not in the tangent (asked for): Newton's method is not quadratic",
         (_, Tangent::FrozenNormals) if setup.mortar.analytic.is_some() => "",
         (_, Tangent::FrozenNormals) => {
@@ -159,7 +162,9 @@ fn apart_sentence<const N: usize>(setup: &Setup<N>) -> Result<Text> {
         (Weights::Current, false) if setup.mortar.analytic.is_some() => "integrated all the same (asked for)",
         (Weights::Current, true) => "only their boxes and normals are compared (chosen)",
         (Weights::Current, false) => "searched all the same (asked for)",
-        (Weights::Committed | Weights::Reference, _) => "nothing special, for frozen weights need no search",
+        (Weights::Committed | Weights::Persistent | Weights::Reference, _) => {
+            "nothing special, for frozen weights need no search"
+        }
     };
     say!("Surfaces that are apart: {what}.")
 }

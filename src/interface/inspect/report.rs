@@ -146,7 +146,7 @@ pub fn report<const N: usize>(given: Given<N>, work: &mut Work, (x1, x2): (&[Vec
             }
             (now.weighted(surfaces), x1)
         }
-        (Weights::Committed, _) => (h.weighted(surfaces), &h.x1[..]),
+        (Weights::Committed | Weights::Persistent, _) => (h.weighted(surfaces), &h.x1[..]),
         (_, _) => (h.weighted(surfaces), &surfaces.0.reference[..]),
     };
     let mut sums = Vec::new();

@@ -1,7 +1,7 @@
 //! Stage 2 over a whole interface: the law's answers at every node.
 
 use super::carried::{carry, find_carried};
-use super::node::{count_of, is_left_out, node};
+use super::node::{count_of, is_left_out, kept_overlap, node};
 use super::own::OwnAnswers;
 use super::sums::NodeSums;
 use crate::error::{Error, Kind, Result};
@@ -58,8 +58,9 @@ pub fn respond<const N: usize>(
             let is_carried = carried.get(a).is_some_and(|c| *c);
             *(if is_carried { &mut counts.carried } else { count_of(given, a, &node, counts) }) += 1;
             own.ask(given, a, &mut node, &sums[a])?;
-            let response = (given.setup.effects.law.respond)(&node);
+            let mut response = (given.setup.effects.law.respond)(&node);
             own.settle(given, a, &response);
+            response.gap_normal += kept_overlap(given, &node.normal, &sums[a]); // what is told is where the surfaces are
             response
         })?;
     }
