@@ -68,6 +68,16 @@ def rigid():
     return scene
 
 
+def rigid_thrown():
+    """The same, free and thrown onto the base."""
+    scene = rigid()
+    scene["upper"].update(inertia=[0.1, 0.1, 0.15], velocity=[0.3, 0.1, -0.3], spin=[0.5, -0.3, 1], about=scene["upper"]["reference"])
+    scene["lower"]["density"] = 1
+    scene.update(dynamics={"rho_inf": 1, "mass_damping": 0.1}, supports=["ground"], steps={"times": [0.05, 0.1, 0.15, 0.2]})
+    del scene["guide"]
+    return scene
+
+
 def plane():
     corners = {"upper": {"lower": [0, 0], "upper": [1, 0.5], "cells": [5, 2]}, "lower": {"lower": [-0.5, -0.5], "upper": [2, 0], "cells": [11, 2]}}
     return pad(
@@ -128,6 +138,7 @@ SCENES = (
     ("dropped", dropped(), ()),
     ("turned", turned(), ()),
     ("rigid", rigid(), ()),
+    ("rigid, thrown", rigid_thrown(), ()),
     ("plane", plane(), ()),
     ("dynamics", thrown(0.7), ("-dynamics_stiffness_damping", 0.01)),
     ("heat", expanding(), ()),

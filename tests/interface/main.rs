@@ -31,6 +31,7 @@ mod orientation;
 mod parts;
 mod parts_condensed;
 mod patch;
+mod persistent;
 mod plan;
 mod point_friction;
 mod point_memory;

@@ -40,6 +40,7 @@ fn variants() -> Vec<Options> {
                 all.push(Options { form, weights, slip, ..options() });
             }
         }
+        all.push(Options { form, weights: Weights::Persistent, ..options() });
     }
     all
 }
