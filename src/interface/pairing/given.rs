@@ -128,7 +128,13 @@ impl<'a, const N: usize> Given<'a, N> {
     pub fn size(self, a: usize) -> f64 {
         let history = self.history();
         let size = self.setup.nonmortar.size(history.areas[a], history.x1[a]);
-        self.setup.size_factors.get(a).map_or(size, |factor| factor * size)
+        if self.setup.decides_at_points() { self.setup.size_factors[a] * size } else { size }
+    }
+
+    /// The same of the facets around the node, however many they are, where points decide or weights are frozen.
+    pub fn facet_size(self, a: usize) -> f64 {
+        let history = self.history();
+        self.setup.size_factors[a] * self.setup.nonmortar.size(history.areas[a], history.x1[a])
     }
 
     /// Factor of node A's multiplier rows.
