@@ -277,10 +277,7 @@ fn frozen_weights_tell_how_far_they_have_slid() {
             let x1: Vec<_> = upper.x.iter().map(|x| x + f64::from(step) * way).collect();
             let slide = measured(&mut contact, (&x1, &lower.x), &lambda, SCALES).slide;
             assert!((slide.value - expected).abs() <= ROUNDING, "{weights:?} {friction:?} {step}: {slide:?}");
-            assert!(
-                expected == 0.0 || (slide.scale - 1.0 / 3.0).abs() <= ROUNDING,
-                "a side of a facet: {slide:?}"
-            );
+            assert!(expected == 0.0 || (slide.scale - 1.0 / 3.0).abs() <= ROUNDING, "a side of a facet: {slide:?}");
             // What is not pressed counts by its part of the largest traction.
             let mut light = lambda.clone();
             light.iter_mut().skip(1).for_each(|lambda| *lambda *= 1e-3);

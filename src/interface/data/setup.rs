@@ -180,7 +180,9 @@ fn size_factors(nonmortar: &Surface, space: MultiplierSpace) -> Result<Vec<f64>>
     } else {
         for nodes in (0..nonmortar.host_facets()).map(|f| nonmortar.host_nodes(f)) {
             match (nodes, has_lines) {
-                (&[first, last, middle], true) if sub => [[first, middle], [middle, last]].iter().for_each(|ends| add(ends)),
+                (&[first, last, middle], true) if sub => {
+                    [[first, middle], [middle, last]].iter().for_each(|ends| add(ends))
+                }
                 (_, true) => add(&nodes[..2]),
                 _ => add(&nodes[..if matches!(nodes.len(), 3 | 6) { 3 } else { 4 }]),
             }
