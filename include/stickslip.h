@@ -1071,8 +1071,8 @@ typedef struct stickslip_equilibrium {
   /// slide_scale. No violation, and 0 with weights of now, and of tied surfaces. Where weights are frozen, contact is sought
   /// and forces act on the mortar side as if nothing had slid, so that a solution is wrong by about this length [L].
   double slide;
-  /// Output: what to compare it with: the size of the node's facets, h as in gap_scale. A slide of half of it is within what
-  /// a mesh shows [L].
+  /// Output: what to compare it with: the size of the facets around the node, however many they are. A slide of half of it is
+  /// within what a mesh shows [L].
   double slide_scale;
   /// Output: the node of slide.
   int64_t slide_node;

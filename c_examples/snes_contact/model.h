@@ -23,6 +23,7 @@ typedef struct {
   PetscInt  step, n_cutbacks; /* steps so far */
   Summary  *summary;
   PetscBool tried;     /* a step has been solved, or tried */
+  PetscBool offsets;   /* the last one could not begin: the library refused the offsets of its time */
   PetscBool converged; /* the last attempt had, so that its commit was refused if the library refused */
 } Run;
 

@@ -57,6 +57,8 @@ static PetscErrorCode step_to(Model *model, Run *run, PetscReal t, PetscBool ask
   PetscBool changed;
   PetscFunctionBegin;
   model->physics.t = t;
+  run->tried       = PETSC_TRUE;
+  run->converged   = PETSC_FALSE;
   PetscCall(timed_begin(&model->physics, t, &changed));
   if (changed) {
     PetscCall(held_create(&model->solve));
@@ -66,8 +68,13 @@ static PetscErrorCode step_to(Model *model, Run *run, PetscReal t, PetscBool ask
   PetscCall(heat_begin(&model->heat, t));
   if (model->physics.dynamics) PetscCall(dynamics_begin(&model->physics));
   PetscCall(offsets_values(&model->contact, t, &refused));
+  run->offsets = (PetscBool)(refused != 0);
   if (refused) {
-    *done = PETSC_FALSE;
+    *done                  = PETSC_FALSE;
+    newton->refused_commit = PETSC_FALSE;
+    newton->iterations     = 0;
+    PetscCall(PetscSNPrintf(newton->why, sizeof(newton->why), "offsets: %s", model->contact.refusal));
+    PetscCall(summary_failed_attempt(&model->output, run->summary, run->past.t_last));
     PetscFunctionReturn(PETSC_SUCCESS);
   }
   PetscCall(solve_in_turns(model, run, done));
@@ -78,7 +85,6 @@ static PetscErrorCode step_to(Model *model, Run *run, PetscReal t, PetscBool ask
     newton->refused_commit = (PetscBool)(newton->why[0] != 0);
   }
   if (*done && newton->why[0]) *done = PETSC_FALSE;
-  run->tried     = PETSC_TRUE;
   run->converged = *done;
   if (*done) {
     PetscCall(summary_step(&model->output, run->summary, run->step + 1, PETSC_TRUE, asked, last));
@@ -122,9 +128,13 @@ static PetscErrorCode accept(Model *model, Run *run)
 static PetscErrorCode give_up(Model *model, const Run *run, int *exit_code)
 {
   const char *refusal = model->contact.refusal;
-  char        held[1024];
+  char        held[2048], springs[1024];
+  PetscReal   rtol;
   PetscFunctionBegin;
   PetscCall(held_describe(&model->solve, held, sizeof(held)));
+  PetscCall(SNESGetTolerances(model->solve.snes, NULL, &rtol, NULL, NULL, NULL));
+  PetscCall(held_describe_springs(&model->solve, rtol, springs, sizeof(springs)));
+  PetscCall(PetscStrlcat(held, springs, sizeof(held)));
   *exit_code = refusal[0] ? 3 : 2;
   if (refusal[0] && !run->tried)
     PetscCall(PetscFPrintf(PETSC_COMM_WORLD, PETSC_STDERR,
@@ -135,6 +145,10 @@ static PetscErrorCode give_up(Model *model, const Run *run, int *exit_code)
                            "snes_contact: refused by the library: %s. That is the heat of the step from t = %.6g to %.6g, whose "
                            "mechanics had converged.\n",
                            refusal, (double)run->past.t_last, (double)model->physics.t));
+  else if (refusal[0] && run->offsets)
+    PetscCall(PetscFPrintf(PETSC_COMM_WORLD, PETSC_STDERR,
+                           "snes_contact: refused by the library: %s. Those are the offsets of the scene at t = %.6g.\n", refusal,
+                           (double)model->physics.t));
   else if (refusal[0] && run->converged)
     PetscCall(PetscFPrintf(PETSC_COMM_WORLD, PETSC_STDERR,
                            "snes_contact: refused by the library: %s. That is the commit of the step from t = %.6g to "

@@ -26,6 +26,17 @@ def offsets(verdicts, driver):
     adjusted(verdicts, driver)
     ramp(verdicts, driver)
     rings(verdicts, driver)
+    overflowing(verdicts, driver)
+
+
+def overflowing(verdicts, driver):
+    """An offset that a curve makes infinite is refused in the step whose offset it is, after one that had converged."""
+    scene = blocks(0, offset=-1e300, offset_curve=[0, 0, 0.5, 1e-305, 1, 1e10]) | {"steps": {"count": 2, "smallest": 0.6}}
+    run = driver.run(write(scene, driver.output / "overflowing.yaml"), label="overflowing", expect=3)
+    says = "it must be finite. Those are the offsets of the scene at t = 1." in run.text
+    verdicts.true("an offset that overflows: refused", says and "commit" not in run.text, "by name, and of its step")
+    failed = [attempt["why"] for attempt in run.summary["failed_attempts"]]
+    verdicts.true("an offset that overflows: summary.json", len(failed) == 1 and failed[0].startswith("offsets: "), f"{failed}")
 
 
 def blocks(gap, **interface):

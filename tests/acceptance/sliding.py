@@ -1,5 +1,9 @@
-"""Checks of frozen weights where surfaces slide: steps of `weights: committed` that slide too far are cut back, `weights: reference`
-warns, and neither is converged and wrong without a word (contact/slide.c)."""
+"""Checks of frozen weights where surfaces slide or turn: steps of `weights: committed` that slide too far are cut back, `weights: reference`
+warns, and neither is converged and wrong without a word (contact/slide.c, contact/turned.c)."""
+
+import math
+
+import numpy as np
 
 from scene import write
 
@@ -11,6 +15,11 @@ FOLLOWED, LOST = 0.01, 0.05
 # No limit, in sizes of facets.
 ANY = 1000
 QUIET = ("-output_csv", "none", "-output_vtu", "none")
+# Turns of two pressed blocks as one, in radians: none told, told, and told to be meant.
+TURNS = ((0.02, {}, 0), (0.25, {}, 1), (0.25, {"friction": 0}, 1), (0.25, {"turn_max": 0.3}, 0), (0.25, {"weights": "current"}, 0), (0.25, {"law": "tied"}, 0))
+# What is measured is the turn of the facet that is most so, which pressure and friction tilt a little; in radians.
+TURNED_BOUND = 0.005
+SAYS_TURNED = "Weights of the reference know no turn"
 SAYS_CUT, SAYS_REFERENCE = "good for 0.5 times", "Weights of the reference know no sliding"
 
 
@@ -31,7 +40,45 @@ def drawn(**contact):
     }
 
 
+def turned(angle, **contact):
+    box = {"type": "box", "young": 1000, "poisson": 0, "material": "neo_hooke"}
+    held = {"components": ["x", "y", "z"], "rotate": [0, angle, 0]}
+    return {
+        "schema": 1,
+        "bodies": ["upper", "lower"],
+        "upper": box | {"lower": [0.2, 0.2, 0.5], "upper": [0.8, 0.8, 1], "cells": [3, 3, 1]},
+        "lower": box | {"lower": [0, 0, 0], "upper": [1, 1, 0.5], "cells": [4, 4, 1]},
+        "supports": ["bottom", "top"],
+        "bottom": {"surface": "lower.zmin", **held},
+        "top": {"surface": "upper.zmax", **held, "value": [0, 0, -0.01]},
+        "interfaces": ["contact"],
+        "contact": {"nonmortar": "upper.zmin", "mortar": "lower.zmax", "friction": 0.3, "weights": "reference"} | contact,
+        "steps": {"count": 3},
+    }
+
+
+def turning(verdicts, driver):
+    """Two blocks are pressed on each other and turned as one: with weights of the reference the force keeps the direction that it had."""
+    for angle, options, warns in TURNS:
+        label = "_".join(["turned", str(angle), *map(str, options.values())])
+        if options.get("law") == "tied":
+            options = {**options, "friction": 0}
+        run = driver.run(write(turned(angle, **options), driver.output / f"{label}.yaml"), *QUIET, label=label)
+        said, found = run.text.count(SAYS_TURNED), run.steps[-1]["interfaces"]["contact"].get("turned")
+        verdicts.true(f"{label.replace('_', ' ')}: {said} warnings", said == warns, "once, or not at all")
+        if options.get("weights") == "current":
+            verdicts.true(f"{label.replace('_', ' ')}: not measured", found is None, "weights of now turn with the surfaces")
+        elif options.get("law") != "tied":
+            verdicts.below(f"{label.replace('_', ' ')}: turn", abs(found - angle), TURNED_BOUND, "as the supports turn them")
+        if options == {"friction": 0}:
+            force = np.array(run.steps[-1]["interfaces"]["contact"]["force"])
+            off = abs(math.atan2(force[0], force[2]) - angle)
+            verdicts.at_least(f"{label.replace('_', ' ')}: force off by", off, 0.9 * angle, "what the warning is about: it acts along the first normals")
+
+
 def sliding(verdicts, driver):
+    turning(verdicts, driver)
+
     def run(label, **contact):
         return driver.run(write(drawn(**contact), driver.output / f"{label}.yaml"), *QUIET, label=label)
 

@@ -65,8 +65,20 @@ def let_go(verdicts, driver):
             held, free = run.steps[1]["reactions"]["draw"][0], max(abs(step["reactions"]["draw"][0]) for step in run.steps[2:])
             verdicts.near(f"let go {name}, {ranks} ranks: reaction", held, force, EXACT_BOUND, "while it holds")
             verdicts.near(f"let go {name}, {ranks} ranks: reaction after", free, 0, EXACT_BOUND, "none", scale=force)
+            left = {step["t"]: step.get("fading", {}).get("draw", [0.0])[0] for step in run.steps}
+            error = max(abs(left[t] / force - f) for t, f in ((1, 0), *zip((1.25, 1.5, 2), factors)))
+            verdicts.below(f"let go {name}, {ranks} ranks: what is left of the reaction", error, EXACT_BOUND, "as summary.json has it")
+            shares(verdicts, f"let go {name}, {ranks} ranks", run)
             if ranks == 1:
                 whole_matrix(verdicts, f"let go {name}", run)
+
+
+def shares(verdicts, name, run):
+    """The rails hold what the wall holds, too: both have its reaction, and the sum of all has it once."""
+    first = run.steps[0]
+    verdicts.true(f"{name}: which supports share", first["reactions_shared"] == {"rails": ["wall"]}, f"{first['reactions_shared']}")
+    apart = np.abs(np.array(first["reactions_total"])).max() / (YOUNG * PULL / LENGTH)
+    verdicts.below(f"{name}: sum of all reactions", apart, EXACT_BOUND, "zero without loads, nothing twice")
 
 
 def activated(verdicts, driver):
@@ -166,6 +178,8 @@ def refused(verdicts, driver):
     dynamic = {"dynamics": {"rho_inf": 1}, "bar": {**bar()["bar"], "density": 1}}
     for what, scene, says in (
         ("that ends before it begins", bar(draw={**draw, "from": 1, "until": 0.5}), "draw.until: it must be after `from`, 1"),
+        ("beyond the run", bar(draw={**draw, "until": 2.5}), "draw.until: the run ends at t = 2, before 2.5"),
+        ("after the run", bar(draw={**{k: v for k, v in draw.items() if k != "until"}, "from": 2}), "draw.from: the run ends at t = 2"),
         ("before the run", bar(draw={**draw, "from": -1}), "draw.from: a run begins at t = 0"),
         ("that fades and stays", bar(draw={**{k: v for k, v in draw.items() if k != "until"}, "fade": 1}), "draw.fade: only with `until`"),
         ("in dynamics", bar(**dynamic), "draw.until: `dynamics` has supports that hold from start to end only"),

@@ -260,7 +260,7 @@ fn a_rigid_side_and_removed_directions() {
 }
 
 /// A square that is pressed on a larger one and slides: by frozen weights the traction acts on the mortar side where it did when they
-/// were made, and the slide is the whole way since then; in the size of the node with the largest ratio, a corner.
+/// were made, and the slide is the whole way since then, in sizes of the facets around the node.
 #[test]
 fn frozen_weights_tell_how_far_they_have_slid() {
     let (upper, lower) = (square([0.0, 0.0], [1.0, 1.0], false), square([-1.0, -1.0], [4.0, 4.0], true));
@@ -277,16 +277,31 @@ fn frozen_weights_tell_how_far_they_have_slid() {
             let x1: Vec<_> = upper.x.iter().map(|x| x + f64::from(step) * way).collect();
             let slide = measured(&mut contact, (&x1, &lower.x), &lambda, SCALES).slide;
             assert!((slide.value - expected).abs() <= ROUNDING, "{weights:?} {friction:?} {step}: {slide:?}");
-            assert!(
-                expected == 0.0 || (slide.scale - 1.0 / 6.0).abs() <= ROUNDING,
-                "half a side of a corner: {slide:?}"
-            );
+            assert!(expected == 0.0 || (slide.scale - 1.0 / 3.0).abs() <= ROUNDING, "a side of a facet: {slide:?}");
             // What is not pressed counts by its part of the largest traction.
             let mut light = lambda.clone();
             light.iter_mut().skip(1).for_each(|lambda| *lambda *= 1e-3);
             let node = measured(&mut contact, (&x1, &lower.x), &light, SCALES).slide.node;
             assert_eq!(node, (expected > 0.0).then_some(0));
             contact.commit(&x1, &lower.x, &lambda, None).unwrap();
+        }
+    }
+}
+
+/// Nodes on an edge, at a corner and within have one, two, three, four or six facets around them, all of the same size.
+#[test]
+fn a_slide_counts_in_the_size_of_facets_however_many_a_node_has() {
+    for (name, cells) in [("squares", Cells::Quads), ("triangles", Cells::Triangles)] {
+        let upper = grid(3, 3, [0.0, 0.0], [1.0, 1.0], 0.0, false, cells);
+        let lower = square([-1.0, -1.0], [4.0, 4.0], true);
+        let weights = Weights::Committed;
+        let mut contact = interface(&upper, &lower, Options { weights, friction: Friction::Coulomb, ..options() });
+        let x1: Vec<_> = upper.x.iter().map(|x| x + Vec3::x() * 0.1).collect();
+        for a in 0..upper.x.len() {
+            let lambda: Vec<_> = (0..upper.x.len()).map(|b| -Vec3::z() * if a == b { 1.0 } else { 1e-6 }).collect();
+            let slide = measured(&mut contact, (&x1, &lower.x), &lambda, SCALES).slide;
+            assert_eq!(slide.node, Some(a), "{name}");
+            assert!((slide.scale - 1.0 / 3.0).abs() <= ROUNDING, "{name}, node {a}: {slide:?}");
         }
     }
 }

@@ -100,12 +100,13 @@ typedef struct {
 /* The library takes x1, x2 and the multipliers: */
 #define STATE_OF(part) (part)->x, MORTAR_OF(part, (part)->x), MULTIPLIERS_OF(part, (part)->gathered)
 
-/* How far surfaces with frozen weights have slid (slide.c): over the size of facets, in words, what is allowed, and whether it was told. */
+/* How far surfaces with frozen weights have slid (slide.c), over the size of facets, or turned (turned.c), in radians; what is allowed; in
+ * words, where that is more; and whether it was told. */
 typedef struct {
-  PetscReal ratio, most;
+  PetscReal amount, most;
   char      words[256];
   PetscBool told;
-} Slide;
+} Frozen;
 
 /* nodal results of the nodes at home; every array has n1 entries, vectors 3 n1, in the plane too */
 typedef struct {
@@ -157,7 +158,7 @@ typedef struct {
   double         young, largest_traction; /* of the softer body; up to the last converged step */
   char           modulus_from[64];        /* with decisions at points: what the modulus of both bodies is made of */
   stickslip_equilibrium equilibrium;      /* of this part, as last judged (equilibrium.c) */
-  Slide                 slide;
+  Frozen                slide, turn;
 } Interface;
 
 /* How the search for equilibrium goes (equilibrium.c) */
@@ -331,6 +332,7 @@ PetscErrorCode offsets_values(Contact *contact, PetscReal t, PetscInt *status);
 PetscErrorCode offsets_destroy(Interface *interface);
 /* exchange.c */
 PetscErrorCode contact_agree(Contact *contact, const Interface *interface, int32_t refused, PetscInt *status);
+PetscErrorCode contact_largest(const Mesh *mesh, PetscReal *value, size_t bytes, void *what);
 void           contact_positions(ContactPart *part);
 /* of a node, from vectors of so many numbers; the third component is 0 in the plane */
 void           contact_vector(PetscInt dimension, const PetscScalar vectors[], PetscInt node, PetscReal v[3]);
@@ -358,7 +360,9 @@ void           contact_forget_plans(Contact *contact);
 /* into the part's arrays: a piece of the condensed matrix, STICKSLIP_CONDENSED_... */
 PetscErrorCode contact_entries(const Contact *contact, ContactPart *part, int32_t piece, Entries *found, int32_t *refused);
 
-/* condensed.c: nothing happens where multipliers are unknowns */
+/* supported.c: nothing happens where multipliers are unknowns */
+PetscErrorCode condensed_refuse_supported(Scene *scene, const Contact *contact, const Interface *interface);
+/* condensed.c: likewise */
 PetscErrorCode condensed_check(const Contact *contact, char why[], size_t length);
 PetscErrorCode condensed_create(Contact *contact, PetscInt *status);
 PetscErrorCode condensed_destroy(Contact *contact);
@@ -424,6 +428,8 @@ void           equilibrium_accept(Contact *contact);
 /* slide.c */
 PetscErrorCode slide_check(Contact *contact, PetscReal *slid, char why[], size_t length);
 PetscErrorCode slide_accept(Contact *contact);
+/* turned.c: of one interface, at the place of the last evaluation */
+PetscErrorCode turned_measure(Interface *interface, const Mesh *mesh);
 
 /* The library's status as a PETSc error, where a refusal is not something to recover from. */
 #define PetscCallStickslip(...)                                                                                        \

@@ -93,6 +93,7 @@ static PetscErrorCode settle_nodes(Scene *scene, Contact *contact, Interface *in
   for (PetscInt a = 0; a < n1; a++)
     interface->removed[a] = (interface->prescribed[a] & mortar_mask) | symmetry[a];
   PetscCall(remove_middles(scene, mesh, interface));
+  PetscCall(condensed_refuse_supported(scene, contact, interface));
 
   PetscCall(find_young(contact, interface));
   PetscCall(decision_settle(contact, interface));
@@ -132,6 +133,9 @@ static void read_effects(Scene *scene, Interface *interface)
 /* Default of `slide_max`: what a mesh shows. A block drawn over a plate by 3 facets a step of committed weights was pressed 7 per
  * cent too hard, by 0.3 of a facet 0.02 per cent. */
 static const PetscReal SLIDE_MAX = 0.5;
+/* How far weights of the reference may turn before that is told, in radians, unless `turn_max` says: so much of the pressure acts as a
+ * shear then. As far off are the forces of the linear material at its limit (range.c). */
+static const PetscReal TURN_TOLD = 0.03;
 
 /* Keys by which surfaces are beside their meshes: with persistent weights an overlap by them would count as closed. */
 static const char *const OFFSETS[] = {"offset", "offset_at", "round"};
@@ -170,6 +174,7 @@ static void read_method(Scene *scene, const Physics *physics, Interface *interfa
 
   interface->initial_contact = PETSC_TRUE;
   interface->slide.most      = SLIDE_MAX;
+  interface->turn.most       = TURN_TOLD;
   scene_string(scene, name, "slip", word, sizeof(word));
   if (!strcmp(word, "seed")) scene_fail(scene, name, "slip", "'seed' is called 'paper' now.");
   scene_choice(scene, name, "slip", slips, &slip);
@@ -207,6 +212,7 @@ static void read_method(Scene *scene, const Physics *physics, Interface *interfa
   options->multiplier_basis = (int32_t)basis;
   options->normals          = (int32_t)normal;
   options->turn_max         = turn_max;
+  if (turn_max > 0) interface->turn.most = turn_max;
   options->weights         = (int32_t)weight;
   options->slip            = (int32_t)slip;
   options->form            = (int32_t)form;

@@ -135,16 +135,21 @@ static PetscErrorCode create_library(Contact *contact, Interface *interface, Pet
 {
   ContactPart *part    = &interface->part;
   int32_t      refused = 0;
+  PetscBool    condenses = PETSC_FALSE; /* it is that which was refused */
   PetscFunctionBegin;
   if (part->n1) {
     PetscCall(part_handle(part, &interface->options, &part->handle, &refused));
     if (!refused) refused = offsets_set(interface, part->handle, 0);
     if (!refused) refused = law_set(interface, part->handle);
-    if (!refused && contact->condensed) /* refused at once rather than in the first step */
-      refused = stickslip_interface_condensed_multipliers(part->handle, part->x, MORTAR_OF(part, part->x), part->host,
-                                                          part->lambda);
+    if (!refused && contact->condensed) { /* refused at once rather than in the first step */
+      refused   = stickslip_interface_condensed_multipliers(part->handle, part->x, MORTAR_OF(part, part->x), part->host,
+                                                            part->lambda);
+      condenses = (PetscBool)(refused != 0);
+    }
   }
   PetscCall(contact_agree(contact, interface, refused, status));
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &condenses, 1, MPIU_BOOL, MPI_LOR, PETSC_COMM_WORLD));
+  if (condenses) PetscCall(PetscStrlcat(contact->refusal, " (asked for by `unknowns: displacements` of the scene)", sizeof(contact->refusal)));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -69,10 +69,7 @@ PetscErrorCode equilibrium_judge(Contact *contact, PetscReal rtol, PetscBool *ho
 {
   const PetscReal tolerance = PetscMax(OVER_FORCES * rtol, LEAST);
   Settling       *settling  = &contact->settling;
-  struct {
-    double ratio;
-    int    rank;
-  } largest = {.ratio = 0, .rank = contact->mesh->rank};
+  PetscReal       largest   = 0;
 
   PetscFunctionBegin;
   *holds = PETSC_TRUE;
@@ -87,8 +84,8 @@ PetscErrorCode equilibrium_judge(Contact *contact, PetscReal rtol, PetscBool *ho
     if (refused || !interface->part.handle || within(tolerance, &interface->equilibrium)) continue;
     *holds = PETSC_FALSE;
     ratio  = worst(tolerance, interface, words, sizeof(words));
-    if (ratio <= largest.ratio) continue;
-    largest.ratio = ratio;
+    if (ratio <= largest) continue;
+    largest = ratio;
     snprintf(settling->unsettled, sizeof(settling->unsettled), "%s", words);
   }
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, holds, 1, MPIU_BOOL, MPI_LAND, PETSC_COMM_WORLD));
@@ -96,10 +93,9 @@ PetscErrorCode equilibrium_judge(Contact *contact, PetscReal rtol, PetscBool *ho
     settling->unsettled[0] = 0;
     PetscFunctionReturn(PETSC_SUCCESS);
   }
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_DOUBLE_INT, MPI_MAXLOC, PETSC_COMM_WORLD));
-  PetscCallMPI(MPI_Bcast(settling->unsettled, sizeof(settling->unsettled), MPI_CHAR, largest.rank, PETSC_COMM_WORLD));
-  settling->n_still = PetscAbsReal(largest.ratio - settling->violation) <= STANDS_STILL * largest.ratio ? settling->n_still + 1 : 0;
-  settling->violation = largest.ratio;
+  PetscCall(contact_largest(contact->mesh, &largest, sizeof(settling->unsettled), settling->unsettled));
+  settling->n_still   = PetscAbsReal(largest - settling->violation) <= STANDS_STILL * largest ? settling->n_still + 1 : 0;
+  settling->violation = largest;
   *stuck              = (PetscBool)(settling->n_still >= PATIENCE);
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -20,6 +20,20 @@ PetscErrorCode contact_agree(Contact *contact, const Interface *interface, int32
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* The largest value of all ranks, and what the rank that has it says of it, so many bytes. */
+PetscErrorCode contact_largest(const Mesh *mesh, PetscReal *value, size_t bytes, void *what)
+{
+  struct {
+    double value;
+    int    rank;
+  } largest = {.value = *value, .rank = mesh->rank};
+  PetscFunctionBegin;
+  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_DOUBLE_INT, MPI_MAXLOC, PETSC_COMM_WORLD));
+  PetscCallMPI(MPI_Bcast(what, (PetscMPIInt)bytes, MPI_BYTE, largest.rank, PETSC_COMM_WORLD));
+  *value = largest.value;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 /* Current positions, from the part's origin. */
 void contact_positions(ContactPart *part)
 {

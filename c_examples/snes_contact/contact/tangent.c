@@ -66,10 +66,11 @@ static PetscErrorCode condensed_plan(const Contact *contact, ContactPart *part, 
   PetscCallStickslip(stickslip_interface_condensed_plan(part->handle, part->x, MORTAR_OF(part, part->x),
                                                         STICKSLIP_PLAN_SKIN, rows, counts));
   *count = counts[0];
-  if (!*count) PetscFunctionReturn(PETSC_SUCCESS); /* with frozen weights forces do not depend on displacements */
-  PetscCall(reserve(part, *count));
-  PetscCallStickslip(stickslip_interface_plan_coo(part->handle, STICKSLIP_ENTRIES_FORCES, part->coo_capacity,
-                                                  part->coo_rows, part->coo_columns));
+  if (*count) { /* with frozen weights forces do not depend on displacements */
+    PetscCall(reserve(part, *count));
+    PetscCallStickslip(stickslip_interface_plan_coo(part->handle, STICKSLIP_ENTRIES_FORCES, part->coo_capacity,
+                                                    part->coo_rows, part->coo_columns));
+  }
   PetscCall(rigid_part_plan(contact, part, *count));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -41,6 +41,9 @@ PetscErrorCode energy_archive(const Output *output, Archive *archive); /* energy
 PetscErrorCode summary_archive(Summary *summary, Archive *archive); /* of the steps before */
 PetscErrorCode summary_write(Output *output, Summary **summary, Vec last, PetscInt cutbacks, const char *message);
 
+/* acting.c: of a step, to its entry */
+PetscErrorCode acting_report(Output *output, struct cJSON *step);
+
 /* energy.c: with `dynamics` */
 PetscErrorCode energy_begin(const Output *output);
 PetscErrorCode energy_report(const Output *output, PetscReal friction, struct cJSON *step);

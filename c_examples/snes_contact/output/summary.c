@@ -1,7 +1,6 @@
 /* Results: DIR/summary.json, the progress line, and per step the CSV files of the interfaces and the VTU file. All values
  * of a step belong to the state just before it is committed. */
 #include "output/output.h"
-#include "physics/springs.h"
 #include <cjson/cJSON.h>
 #include <stdio.h>
 #include <string.h>
@@ -13,11 +12,6 @@ struct Summary {
   char         progress[1024]; /* of the last step: what its line ends with */
   Vec          state;          /* its, local; until it is settled whether it is accepted */
 };
-
-static cJSON *vector_json(const PetscReal v[3])
-{
-  return cJSON_CreateDoubleArray(v, 3);
-}
 
 /* with all its digits (cJSON leaves out the last where it thinks that it does not matter): a step can be run again */
 static void add_time(cJSON *json, const char *name, PetscReal t)
@@ -122,43 +116,16 @@ static PetscErrorCode interface_results(Output *output, Interface *interface, co
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &dissipation, 1, MPI_DOUBLE, MPI_SUM, PETSC_COMM_WORLD));
   interface->friction_work += dissipation;
   *work += interface->friction_work;
-  cJSON_AddItemToObject(json, "force", vector_json(force));
+  cJSON_AddItemToObject(json, "force", cJSON_CreateDoubleArray(force, 3));
   cJSON_AddNumberToObject(json, "gap", counts[STICKSLIP_STATE_GAP]);
   cJSON_AddNumberToObject(json, "stick", counts[STICKSLIP_STATE_STICK]);
   cJSON_AddNumberToObject(json, "slip", counts[STICKSLIP_STATE_SLIP]);
   if (decision_is_points(interface)) PetscCall(add_closed_area(interface, json));
+  if (interface->options.weights != STICKSLIP_WEIGHTS_CURRENT) cJSON_AddNumberToObject(json, "slid", interface->slide.amount);
+  if (interface->options.weights == STICKSLIP_WEIGHTS_REFERENCE) cJSON_AddNumberToObject(json, "turned", interface->turn.amount);
   if (write) PetscCall(csv_write(output, interface, states, temperatures, step));
   snprintf(progress, length, "  %s %d gap %d stick %d slip", interface->name, (int)counts[STICKSLIP_STATE_GAP],
            (int)counts[STICKSLIP_STATE_STICK], (int)counts[STICKSLIP_STATE_SLIP]);
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-static PetscErrorCode add_reactions(Output *output, cJSON *json)
-{
-  Physics *physics   = output->physics;
-  cJSON   *reactions = cJSON_AddObjectToObject(json, "reactions"), *moments;
-  PetscFunctionBegin;
-  PetscCall(supports_reactions(physics));
-  for (PetscInt s = 0; s < physics->n_supports; s++)
-    cJSON_AddItemToObject(reactions, physics->supports[s].name, vector_json(physics->supports[s].reaction));
-  if (output->mesh->space.kind == SPACE_AXISYMMETRIC) PetscFunctionReturn(PETSC_SUCCESS); /* a ring has none */
-  moments = cJSON_AddObjectToObject(json, "moments");
-  for (PetscInt s = 0; s < physics->n_supports; s++)
-    cJSON_AddItemToObject(moments, physics->supports[s].name, vector_json(physics->supports[s].moment));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
-/* The force of each spring on what it holds, at its first end. */
-static PetscErrorCode add_springs(Output *output, cJSON *json)
-{
-  const Springs *springs = output->physics->springs;
-  cJSON         *all;
-  PetscFunctionBegin;
-  if (!springs) PetscFunctionReturn(PETSC_SUCCESS);
-  PetscCall(springs_total(output->physics));
-  all = cJSON_AddObjectToObject(json, "springs");
-  for (PetscInt s = 0; s < springs->n; s++)
-    cJSON_AddItemToObject(all, springs->spring[s].name, vector_json(springs->spring[s].total));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -180,31 +147,6 @@ static PetscErrorCode external_work(Output *output, PetscReal *work)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-static void add_six(cJSON *json, const char *force, const char *moment, const PetscReal six[RIGID_UNKNOWNS])
-{
-  cJSON_AddItemToObject(json, force, vector_json(six));
-  cJSON_AddItemToObject(json, moment, vector_json(six + 3));
-}
-
-/* Of each rigid body: its motion, the sum of the rotation vectors of its steps, what it is turned by, and what acts on it. */
-static void add_rigids(Output *output, cJSON *json)
-{
-  const Physics *physics = output->physics;
-  cJSON         *all     = physics->n_rigids ? cJSON_AddObjectToObject(json, "rigid") : NULL;
-  for (PetscInt r = 0; r < physics->n_rigids; r++) {
-    const Rigid *rigid = &physics->rigids[r];
-    cJSON       *body  = cJSON_AddObjectToObject(all, output->mesh->bodies[rigid->body].name);
-    PetscReal    six[RIGID_UNKNOWNS], turned[9];
-    for (int k = 0; k < RIGID_UNKNOWNS; k++)
-      six[k] = rigid->motion[k] + (k < 3 ? 0 : rigid->sum[k - 3]);
-    add_six(body, "displacement", "rotation", six);
-    rigids_turned(rigid, turned);
-    cJSON_AddItemToObject(body, "turned", cJSON_CreateDoubleArray(turned, 9));
-    add_six(body, "contact_force", "contact_moment", rigid->on_body);
-    add_six(body, "reaction_force", "reaction_moment", rigid->reaction);
-  }
-}
-
 static PetscErrorCode add_probes(Output *output, cJSON *json)
 {
   cJSON             *probes = cJSON_AddObjectToObject(json, "probes");
@@ -214,7 +156,7 @@ static PetscErrorCode add_probes(Output *output, cJSON *json)
   for (PetscInt k = 0; k < output->n_probes; k++) {
     PetscReal displacement[3];
     PetscCall(unknowns_displacement(output->physics, output->probes[k].vertex, u, displacement));
-    cJSON_AddItemToObject(probes, output->probes[k].name, vector_json(displacement));
+    cJSON_AddItemToObject(probes, output->probes[k].name, cJSON_CreateDoubleArray(displacement, 3));
   }
   PetscCall(VecRestoreArrayRead(output->physics->u_local, &u));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -289,9 +231,7 @@ PetscErrorCode summary_step(Output *output, Summary *summary, PetscInt step, Pet
   cJSON_AddNumberToObject(json, "reference_force", physics->parts.reference_force);
   PetscCall(external_work(output, &half_fu));
   cJSON_AddNumberToObject(json, "external_work_half_fu", half_fu);
-  PetscCall(add_reactions(output, json));
-  PetscCall(add_springs(output, json));
-  add_rigids(output, json);
+  PetscCall(acting_report(output, json));
   PetscCall(contact_collect(contact));
   PetscCall(heat_collect(output->heat));
   interfaces = cJSON_AddObjectToObject(json, "interfaces");
@@ -307,6 +247,7 @@ PetscErrorCode summary_step(Output *output, Summary *summary, PetscInt step, Pet
   if (vtu) PetscCall(vtu_write(output, step));
   if (vtu) PetscCall(vtu_rigids(output, step));
   PetscCall(held_check(solve));
+  PetscCall(held_check_springs(solve));
   cJSON_AddNumberToObject(json, "friction_work", friction_work);
   PetscCall(energy_report(output, friction_work, json));
   if (last) PetscCall(undetermined_check(output, summary->root));
@@ -380,8 +321,10 @@ PetscErrorCode summary_write(Output *output, Summary **summary, Vec last, PetscI
   cJSON_AddItemToObject((*summary)->root, "steps", (*summary)->steps);
   if (solve->held.by_contact && solve->held.by_contact->child)
     cJSON_AddItemReferenceToObject((*summary)->root, "held_by_contact", solve->held.by_contact);
-  if (solve->held.by_nothing)
-    cJSON_AddItemReferenceToObject((*summary)->root, "held_by_nothing", solve->held.by_nothing);
+  if (solve->held.by_nothing.json)
+    cJSON_AddItemReferenceToObject((*summary)->root, "held_by_nothing", solve->held.by_nothing.json);
+  if (solve->held.by_springs.json)
+    cJSON_AddItemReferenceToObject((*summary)->root, "held_by_soft_springs", solve->held.by_springs.json);
   if (solve->least_pivot > 0) cJSON_AddNumberToObject((*summary)->root, "least_pivot", solve->least_pivot);
   if (solve->n_raised) cJSON_AddNumberToObject((*summary)->root, "mumps_workspace", solve->room); /* per cent, after it asked */
   PetscCall(range_report(output->physics, (*summary)->root));

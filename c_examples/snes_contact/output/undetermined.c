@@ -56,7 +56,7 @@ static PetscErrorCode choose(const Contact *contact, Vec z)
 }
 
 /* y at the multipliers of an interface: those that did not come back, of all ranks */
-static PetscErrorCode compare(const Interface *interface, Vec y, Undetermined *found)
+static PetscErrorCode compare(const Mesh *mesh, const Interface *interface, Vec y, Undetermined *found)
 {
   const ContactPart *part = &interface->part;
   const PetscInt     n    = n_multipliers(part);
@@ -65,14 +65,9 @@ static PetscErrorCode compare(const Interface *interface, Vec y, Undetermined *f
   IS                 is;
   VecScatter         scatter;
   Vec                here;
-  struct {
-    double worst;
-    int    rank;
-  } most = {0, 0};
 
   PetscFunctionBegin;
   *found = (Undetermined){0};
-  PetscCallMPI(MPI_Comm_rank(PETSC_COMM_WORLD, &most.rank));
   PetscCall(PetscMalloc1(n, &all));
   for (PetscInt k = 0; k < n; k++) {
     const int64_t equation = MULTIPLIERS_OF(part, part->equations)[k];
@@ -89,8 +84,8 @@ static PetscErrorCode compare(const Interface *interface, Vec y, Undetermined *f
     const PetscReal off      = equation >= 0 ? PetscAbsReal(PetscRealPart(values[k]) - chosen(equation)) : 0;
     if (!(off > NOT_GIVEN_BACK) || part->owned[k / part->components] != STICKSLIP_NODE_OWN) continue;
     found->multipliers++;
-    if (off <= most.worst) continue;
-    most.worst = off;
+    if (off <= found->worst) continue;
+    found->worst = off;
     contact_vector(part->dimension, part->X, k / part->components, found->X);
   }
   PetscCall(VecRestoreArray(here, &values));
@@ -98,9 +93,7 @@ static PetscErrorCode compare(const Interface *interface, Vec y, Undetermined *f
   PetscCall(VecDestroy(&here));
   PetscCall(ISDestroy(&is));
   PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &found->multipliers, 1, MPIU_INT, MPI_SUM, PETSC_COMM_WORLD));
-  PetscCallMPI(MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_DOUBLE_INT, MPI_MAXLOC, PETSC_COMM_WORLD));
-  PetscCallMPI(MPI_Bcast(found->X, 3, MPIU_REAL, most.rank, PETSC_COMM_WORLD));
-  found->worst = most.worst;
+  PetscCall(contact_largest(mesh, &found->worst, sizeof(found->X), found->X));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -148,7 +141,7 @@ PetscErrorCode undetermined_check(const Output *output, cJSON *root)
   json = cJSON_CreateObject();
   for (PetscInt i = 0; i < contact->n_interfaces && reason >= 0; i++) {
     Undetermined found;
-    PetscCall(compare(&contact->interfaces[i], y, &found));
+    PetscCall(compare(output->mesh, &contact->interfaces[i], y, &found));
     if (found.multipliers) PetscCall(tell(&contact->interfaces[i], &found, json));
   }
   if (json->child)

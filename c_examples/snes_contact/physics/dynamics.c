@@ -177,6 +177,7 @@ PetscErrorCode dynamics_forces(Physics *physics, Vec f_local, PetscInt *status)
     PetscCall(set_loads(physics));
     dynamics_swap(&physics->u_local, &d->middle);
   }
+  PetscCall(springs_step(physics, d->u, physics->u_local, d->alpha_f));
   PetscCall(set_middle(physics, d->stiffness_damping)); /* a linear body: f(u) + b f(v) = f(u + b v) */
   dynamics_swap(&physics->u_local, &d->middle);
   PetscCall(bulk_forces(physics, f_local, status));
@@ -203,6 +204,7 @@ PetscErrorCode dynamics_stiffness(Physics *physics, Mat matrix, PetscInt *status
   Dynamics       *d    = physics->dynamics;
   const PetscReal here = (1 - d->alpha_f) / d->scale;
   PetscFunctionBegin;
+  PetscCall(springs_step(physics, d->u, physics->u_local, d->alpha_f));
   PetscCall(set_middle(physics, d->stiffness_damping));
   dynamics_swap(&physics->u_local, &d->middle);
   PetscCall(bulk_stiffness(physics, matrix, status));

@@ -1,4 +1,4 @@
-/* Faces under loads: their nodes, and which side of them is outward. */
+/* Faces under loads and on springs: which they are, their nodes, and which side of them is outward. */
 #include "physics/physics.h"
 
 /* the mean of a point's vertices */
@@ -20,6 +20,25 @@ static PetscErrorCode middle(const Mesh *mesh, PetscInt point, PetscSection sect
   PetscCall(DMPlexRestoreTransitiveClosure(mesh->dm, point, PETSC_TRUE, &size, &closure));
   for (int i = 0; i < 3; i++)
     mean[i] /= (PetscReal)n;
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* Of this rank's mesh, with a label; the caller frees them. */
+PetscErrorCode faces_labelled(const Physics *physics, const char *label, PetscInt *n, PetscInt **faces)
+{
+  const PetscInt *points;
+  IS              is;
+  PetscFunctionBegin;
+  *n     = 0;
+  *faces = NULL;
+  PetscCall(DMGetStratumIS(physics->mesh->dm, label, 1, &is));
+  if (!is) PetscFunctionReturn(PETSC_SUCCESS); /* none on this rank */
+  PetscCall(ISGetLocalSize(is, n));
+  PetscCall(PetscMalloc1(*n, faces));
+  PetscCall(ISGetIndices(is, &points));
+  PetscCall(PetscArraycpy(*faces, points, *n));
+  PetscCall(ISRestoreIndices(is, &points));
+  PetscCall(ISDestroy(&is));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

@@ -18,19 +18,10 @@ PetscErrorCode loads_label(Physics *physics)
 /* this rank's faces under a load */
 static PetscErrorCode find_faces(const Physics *physics, Load *load)
 {
-  char            label[2 * NAME_LENGTH];
-  const PetscInt *points;
-  IS              is;
+  char label[2 * NAME_LENGTH];
   PetscFunctionBegin;
   PetscCall(PetscSNPrintf(label, sizeof(label), "load.%s", load->name));
-  PetscCall(DMGetStratumIS(physics->mesh->dm, label, 1, &is));
-  if (!is) PetscFunctionReturn(PETSC_SUCCESS); /* none on this rank */
-  PetscCall(ISGetLocalSize(is, &load->n_faces));
-  PetscCall(PetscMalloc1(load->n_faces, &load->faces));
-  PetscCall(ISGetIndices(is, &points));
-  PetscCall(PetscArraycpy(load->faces, points, load->n_faces));
-  PetscCall(ISRestoreIndices(is, &points));
-  PetscCall(ISDestroy(&is));
+  PetscCall(faces_labelled(physics, label, &load->n_faces, &load->faces));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 

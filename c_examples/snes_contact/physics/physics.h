@@ -171,6 +171,9 @@ PetscErrorCode supports_values(Physics *physics, PetscReal t); /* into prescribe
 typedef enum { SUPPORT_PLACE, SUPPORT_VELOCITY, SUPPORT_ACCELERATION } SupportMotion;
 PetscErrorCode supports_rates(Physics *physics, PetscReal t, SupportMotion motion, Vec local);
 PetscErrorCode supports_reactions(Physics *physics);
+/* reactions.c */
+PetscErrorCode supports_shared(const Physics *physics, PetscBool shared[], PetscReal twice[3]);
+PetscErrorCode supports_fading(const Physics *physics, const Support *support, PetscReal force[3], PetscBool *fades);
 /* which support turns each part, -1: none; a position turned as that support does from t0 to t */
 PetscErrorCode supports_turning(const Physics *physics, PetscInt support_of[]);
 void           supports_turn(const Support *support, PetscReal t0, PetscReal t, PetscReal x[3]);
@@ -261,6 +264,7 @@ typedef struct {
   PetscReal X[3 * FACE_NODES], sign;
 } Face;
 PetscErrorCode face_look_at(const Physics *physics, PetscInt point, Face *face);
+PetscErrorCode faces_labelled(const Physics *physics, const char *label, PetscInt *n, PetscInt **faces);
 PetscBool      loads_follow(const Physics *physics); /* is there a follower pressure? */
 PetscErrorCode loads_values(Physics *physics);       /* at physics->t and u_local, into f_external */
 PetscErrorCode loads_stiffness(Physics *physics, Mat matrix); /* adds what forces of followers differ by */
@@ -274,6 +278,8 @@ PetscErrorCode springs_destroy(Physics *physics);
 PetscErrorCode springs_forces(Physics *physics, Vec f_local);
 PetscErrorCode springs_stiffness(Physics *physics, Mat matrix);
 PetscErrorCode springs_pattern(Physics *physics, Mat matrix);
+/* for the evaluations that follow, with `dynamics`: the step from one local vector to another */
+PetscErrorCode springs_step(Physics *physics, Vec from, Vec to, PetscReal alpha_f);
 PetscErrorCode springs_total(Physics *physics);                                   /* of `force`, on all ranks */
 PetscErrorCode springs_energy(const Physics *physics, const PetscScalar *u, PetscReal *energy); /* adds this rank's part */
 

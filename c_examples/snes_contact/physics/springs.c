@@ -19,11 +19,49 @@ static PetscErrorCode measure(const Springs *springs, const PetscScalar *u, Pets
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* F, and K = dF/dq unless NULL. Axial: with d the line between the ends of now, l its length,
- * F = k (1 - L / l) d,   K = k (1 - L / l) 1 + k L / l n n^T. */
+/* The line between the ends; returns its length. */
+static PetscReal line_of(const Spring *spring, const PetscReal q[3], PetscReal d[3])
+{
+  PetscReal squared = 0;
+  for (int i = 0; i < 3; i++) {
+    d[i] = spring->ends[0].X[i] - spring->ends[1].X[i] + q[i];
+    squared += PetscSqr(d[i]);
+  }
+  return PetscSqrtReal(squared);
+}
+
+PetscErrorCode springs_step(Physics *physics, Vec from, Vec to, PetscReal alpha_f)
+{
+  const Springs     *springs = physics->springs;
+  const PetscScalar *u;
+  PetscReal         *q, *q_from, d[3];
+  PetscFunctionBegin;
+  if (!springs) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(PetscMalloc2(3 * springs->n, &q_from, 3 * springs->n, &q));
+  PetscCall(VecGetArrayRead(from, &u));
+  PetscCall(measure(springs, u, q_from));
+  PetscCall(VecRestoreArrayRead(from, &u));
+  PetscCall(VecGetArrayRead(to, &u));
+  PetscCall(measure(springs, u, q));
+  PetscCall(VecRestoreArrayRead(to, &u));
+  for (PetscInt s = 0; s < springs->n; s++) {
+    Spring         *spring = &springs->spring[s];
+    const PetscReal before = line_of(spring, q_from + 3 * s, d), after = line_of(spring, q + 3 * s, d);
+    spring->steps          = spring->axial;
+    spring->mean           = alpha_f * before + (1 - alpha_f) * after;
+    for (int i = 0; i < 3; i++)
+      spring->n[i] = after > 0 ? d[i] / after : 0;
+  }
+  PetscCall(PetscFree2(q_from, q));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
+/* F, and K = dF/dq unless NULL. Axial: with d the line between the ends of now, l its length, n = d / l,
+ * F = k (1 - L / l) d,   K = k (1 - L / l) 1 + k L / l^2 d n^T; in a step of `dynamics` with m for l and n at the end of the step, and K
+ * over 1 - alpha_f. */
 static void force_of(const Spring *spring, const PetscReal q[3], PetscReal F[3], PetscReal K[9])
 {
-  PetscReal d[3], squared = 0, slack;
+  PetscReal d[3], length, slack;
   for (int i = 0; i < 3; i++) {
     F[i] = 0;
     for (int j = 0; j < 3; j++)
@@ -31,15 +69,13 @@ static void force_of(const Spring *spring, const PetscReal q[3], PetscReal F[3],
   }
   if (K) (void)PetscArraycpy(K, spring->K, 9);
   if (!spring->axial) return;
-  for (int i = 0; i < 3; i++) {
-    d[i] = spring->ends[0].X[i] - spring->ends[1].X[i] + q[i];
-    squared += PetscSqr(d[i]);
-  }
-  slack = spring->length > 0 ? spring->length / PetscSqrtReal(squared) : 0; /* without length it is linear */
+  length = line_of(spring, q, d);
+  if (spring->steps) length = spring->mean;
+  slack = spring->length > 0 ? spring->length / length : 0; /* without length it is linear */
   for (int i = 0; i < 3; i++) {
     F[i] = spring->stiffness[0] * (1 - slack) * d[i];
     for (int j = 0; j < 3 && K; j++)
-      K[3 * i + j] = spring->stiffness[0] * ((1 - slack) * (i == j) + (slack > 0 ? slack * d[i] * d[j] / squared : 0));
+      K[3 * i + j] = spring->stiffness[0] * ((1 - slack) * (i == j) + (slack > 0 ? slack * d[i] * (spring->steps ? spring->n[j] : d[j] / length) / length : 0));
   }
 }
 
@@ -196,7 +232,16 @@ PetscErrorCode springs_total(Physics *physics)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* F.q / 2 of linear ones; those with two ends by rank 0 */
+/* Of one with two ends: F.q / 2, axial k (l - L)^2 / 2 */
+static PetscReal energy_of(const Spring *spring, const PetscReal q[3])
+{
+  PetscReal F[3], d[3];
+  if (spring->axial) return 0.5 * spring->stiffness[0] * PetscSqr(line_of(spring, q, d) - spring->length);
+  force_of(spring, q, F, NULL);
+  return 0.5 * (F[0] * q[0] + F[1] * q[1] + F[2] * q[2]);
+}
+
+/* Those with two ends by rank 0 */
 PetscErrorCode springs_energy(const Physics *physics, const PetscScalar *u, PetscReal *energy)
 {
   const Springs *springs = physics->springs;
@@ -206,10 +251,7 @@ PetscErrorCode springs_energy(const Physics *physics, const PetscScalar *u, Pets
   PetscCall(measure(springs, u, q));
   for (PetscInt s = 0; s < springs->n; s++) {
     const Spring *spring = &springs->spring[s];
-    PetscReal     F[3];
-    force_of(spring, q + 3 * s, F, NULL);
-    for (int i = 0; i < 3 && !physics->mesh->rank; i++)
-      *energy += 0.5 * F[i] * q[3 * s + i];
+    if (!physics->mesh->rank) *energy += energy_of(spring, q + 3 * s);
     for (PetscInt k = 0; k < spring->n_faces; k++) {
       PetscReal f[3 * FACE_NODES];
       face_forces(spring, &spring->faces[k], u, f);

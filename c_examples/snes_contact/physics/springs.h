@@ -3,6 +3,13 @@
  *
  *   F = K q, or along the line between the ends of now F = k (l - L) n;   f_a = w_a F, and -w_b F at the other end.
  *
+ * In a step of `dynamics` from q to q', of lengths l and l', an axial one has at the place between them, where forces are taken,
+ *
+ *   F = k (1 - L / m) d,   m = alpha_f l + (1 - alpha_f) l',   d = alpha_f (line at q) + (1 - alpha_f) (line at q').
+ *
+ * With alpha_f = 1/2 that is F . (q' - q) = k (l' - L)^2 / 2 - k (l - L)^2 / 2 exactly, for d . (q' - q) = (l'^2 - l^2) / 2 then, and F points
+ * along d, so that energy and both momenta are kept, however far the line turns in the step.
+ *
  * And of a surface to the ground, K per reference area: f_a = sum_b int N_a N_b dA K u_b. Forces are those on the spring, as of a body's cells. */
 #ifndef SNES_CONTACT_SPRINGS_H
 #define SNES_CONTACT_SPRINGS_H
@@ -41,6 +48,8 @@ typedef struct {
   const Surface **surfaces; /* per area: of the piece */
   PetscInt    n_faces;
   SpringFace *faces;
+  PetscBool   steps;      /* axial, in a step of `dynamics`: */
+  PetscReal   mean, n[3]; /* m; the line's direction at q' */
   PetscReal   force[3], total[3]; /* on its (first) end, at the last evaluation; per area of the faces here. Of all ranks: springs_total() */
 } Spring;
 

@@ -22,26 +22,13 @@ PetscErrorCode springs_label(Physics *physics)
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* This rank's faces with the label. */
-static PetscErrorCode faces_of(const Physics *physics, const char *label, IS *is, PetscInt *n, const PetscInt **points)
-{
-  PetscFunctionBegin;
-  *n = 0;
-  PetscCall(DMGetStratumIS(physics->mesh->dm, label, 1, is));
-  if (!*is) PetscFunctionReturn(PETSC_SUCCESS); /* none */
-  PetscCall(ISGetLocalSize(*is, n));
-  PetscCall(ISGetIndices(*is, points));
-  PetscFunctionReturn(PETSC_SUCCESS);
-}
-
 static PetscErrorCode find_faces(const Physics *physics, Spring *spring)
 {
-  char            label[2 * NAME_LENGTH];
-  const PetscInt *points;
-  IS              is;
+  char      label[2 * NAME_LENGTH];
+  PetscInt *points;
   PetscFunctionBegin;
   name_label(spring, 0, label);
-  PetscCall(faces_of(physics, label, &is, &spring->n_faces, &points));
+  PetscCall(faces_labelled(physics, label, &spring->n_faces, &points));
   PetscCall(PetscMalloc1(spring->n_faces, &spring->faces));
   for (PetscInt k = 0; k < spring->n_faces; k++) {
     SpringFace *one = &spring->faces[k];
@@ -51,8 +38,7 @@ static PetscErrorCode find_faces(const Physics *physics, Spring *spring)
     PetscCall(PetscArraycpy(one->dofs, face.dofs, face.n));
     face_products(face.kind, &physics->mesh->space, face.X, one->M);
   }
-  if (is) PetscCall(ISRestoreIndices(is, &points));
-  PetscCall(ISDestroy(&is));
+  PetscCall(PetscFree(points));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
@@ -60,13 +46,11 @@ static PetscErrorCode find_faces(const Physics *physics, Spring *spring)
 static PetscErrorCode weigh_surface(Physics *physics, const char *label, Vec weights)
 {
   static const PetscReal along[3] = {1, 0, 0};
-  const PetscInt        *points;
-  PetscInt               n;
+  PetscInt               n, *points;
   PetscScalar           *w;
-  IS                     is;
   PetscFunctionBegin;
   PetscCall(VecZeroEntries(weights));
-  PetscCall(faces_of(physics, label, &is, &n, &points));
+  PetscCall(faces_labelled(physics, label, &n, &points));
   PetscCall(VecGetArray(weights, &w));
   for (PetscInt k = 0; k < n; k++) {
     Face      face;
@@ -77,8 +61,7 @@ static PetscErrorCode weigh_surface(Physics *physics, const char *label, Vec wei
       w[face.dofs[a]] += f[3 * a];
   }
   PetscCall(VecRestoreArray(weights, &w));
-  if (is) PetscCall(ISRestoreIndices(is, &points));
-  PetscCall(ISDestroy(&is));
+  PetscCall(PetscFree(points));
   PetscCall(unknowns_sum(physics, weights));
   PetscCall(VecCopy(physics->f_sum, weights));
   PetscFunctionReturn(PETSC_SUCCESS);

@@ -1,4 +1,5 @@
 /* Springs as the scene describes them. */
+#include "physics/dynamics.h"
 #include "physics/springs.h"
 
 /* A surface that can be one's end: of a body with a mesh. */
@@ -77,6 +78,7 @@ static PetscErrorCode read_second_end(Scene *scene, const Physics *physics, Spri
   if (surface) {
     if (scene_has(scene, spring->name, "to_point")) scene_fail(scene, spring->name, "to_point", "it is of a body; `to` names a surface.");
     end->surface = read_surface(scene, physics, spring->name, "to", name);
+    if (end->surface == spring->ends[0].surface) scene_fail(scene, spring->name, "to", "both ends are the same surface.");
   } else if (name[0]) {
     PetscCall(read_node(scene, physics, spring->name, "to", "to_point", &end->vertex));
   } else if (space_vector(scene, &mesh->space, spring->name, "to_point", end->X)) {
@@ -123,8 +125,9 @@ static PetscErrorCode read_spring(Scene *scene, Physics *physics, Spring *spring
   PetscFunctionBegin;
   spring->ends[0].vertex = spring->ends[1].vertex = -1;
   scene_bool(scene, spring->name, "axial", &spring->axial);
-  if (spring->axial && physics->dynamics)
-    scene_fail(scene, spring->name, "axial", "`dynamics` has linear springs only: give `stiffness` by components.");
+  if (spring->axial && physics->dynamics && physics->dynamics->stiffness_damping > 0)
+    scene_fail(scene, spring->name, "axial",
+               "`stiffness_damping` of `dynamics` would brake its turns, too: leave that out, or give `stiffness` by components.");
   if (spring->axial && mesh->space.kind == SPACE_AXISYMMETRIC)
     scene_fail(scene, spring->name, "axial", "an axisymmetric model has springs by components only.");
   read_stiffness(scene, mesh, spring);

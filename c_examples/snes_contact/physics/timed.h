@@ -12,6 +12,9 @@ struct Timed {
 typedef void (*EntryVisit)(const Support *support, PetscInt entry, PetscBool owned, void *context);
 PetscErrorCode timed_visit(const Physics *physics, const Support *support, EntryVisit action, void *context);
 
+/* Adds what is left at physics->t of a support that was let go, at entries that this rank owns. */
+PetscErrorCode timed_fading(const Physics *physics, const Support *support, PetscScalar *forces, PetscBool *fades);
+
 typedef struct {
   const PetscScalar *from;
   PetscScalar       *to;

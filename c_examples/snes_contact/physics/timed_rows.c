@@ -89,20 +89,27 @@ static void add_fading(const Support *support, PetscInt entry, PetscBool owned, 
   if (owned && !fading->held[entry]) fading->forces[entry] += fading->factor * fading->let_go[entry];
 }
 
+PetscErrorCode timed_fading(const Physics *physics, const Support *support, PetscScalar *forces, PetscBool *fades)
+{
+  const Timed *timed  = physics->timed;
+  Fading       fading = {.held = timed->held, .forces = forces};
+  PetscFunctionBegin;
+  *fades = PETSC_FALSE;
+  if (!support->timed || !timed_past(physics->t, support->until)) PetscFunctionReturn(PETSC_SUCCESS);
+  fading.factor = 1 - (support->fade > 0 ? (physics->t - support->until) / support->fade : 1);
+  *fades        = (PetscBool)(fading.factor > 0 && !curve_same_time(physics->t, support->until + support->fade));
+  if (!*fades) PetscFunctionReturn(PETSC_SUCCESS);
+  PetscCall(VecGetArrayRead(timed->let_go, &fading.let_go));
+  PetscCall(timed_visit(physics, support, add_fading, &fading));
+  PetscCall(VecRestoreArrayRead(timed->let_go, &fading.let_go));
+  PetscFunctionReturn(PETSC_SUCCESS);
+}
+
 PetscErrorCode timed_forces(Physics *physics, PetscScalar *forces)
 {
-  const Timed *timed = physics->timed;
-  Fading       fading;
+  PetscBool fades;
   PetscFunctionBegin;
-  if (!timed) PetscFunctionReturn(PETSC_SUCCESS);
-  fading = (Fading){.held = timed->held, .forces = forces};
-  PetscCall(VecGetArrayRead(timed->let_go, &fading.let_go));
-  for (PetscInt s = 0; s < physics->n_supports; s++) {
-    const Support *support = &physics->supports[s];
-    if (!support->timed || !timed_past(physics->t, support->until)) continue;
-    fading.factor = 1 - (support->fade > 0 ? (physics->t - support->until) / support->fade : 1);
-    if (fading.factor > 0 && !curve_same_time(physics->t, support->until + support->fade)) PetscCall(timed_visit(physics, support, add_fading, &fading));
-  }
-  PetscCall(VecRestoreArrayRead(timed->let_go, &fading.let_go));
+  for (PetscInt s = 0; s < physics->n_supports && physics->timed; s++)
+    PetscCall(timed_fading(physics, &physics->supports[s], forces, &fades));
   PetscFunctionReturn(PETSC_SUCCESS);
 }

@@ -14,6 +14,11 @@ PetscErrorCode timed_read(Scene *scene, Physics *physics, Support *support)
   scene_real(scene, name, "fade", &support->fade);
   support->timed = (PetscBool)(support->from > 0 || until);
   if (support->from < 0) scene_fail(scene, name, "from", "a run begins at t = 0, not at %g.", (double)support->from);
+  if (from && support->from >= physics->end)
+    scene_fail(scene, name, "from", "the run ends at t = %g: from %g on it would never hold.", (double)physics->end, (double)support->from);
+  if (until && support->until > physics->end)
+    scene_fail(scene, name, "until", "the run ends at t = %g, before %g: leave it out, and the support holds to the end.", (double)physics->end,
+               (double)support->until);
   if (support->until <= support->from) scene_fail(scene, name, "until", "it must be after `from`, %g.", (double)support->from);
   if (scene_has(scene, name, "fade") && !until) scene_fail(scene, name, "fade", "only with `until`: how long the reaction takes to fade.");
   if (scene_has(scene, name, "fade") && support->fade < 0) scene_fail(scene, name, "fade", "it cannot be negative.");

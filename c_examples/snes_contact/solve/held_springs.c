@@ -18,8 +18,8 @@ static PetscErrorCode place_nodes(const Spring *spring, const PetscScalar *u, Pe
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* The directions in which it resists, 3 each: the axes of the scene; axial: the line between the ends. */
-static int directions(const Physics *physics, const Spring *spring, const PetscReal x[], PetscReal d[9])
+/* The directions in which it resists, 3 each, and its stiffness in them: the axes of the scene; axial: the line between the ends. */
+static int directions(const Physics *physics, const Spring *spring, const PetscReal x[], PetscReal d[9], PetscReal stiffness[3])
 {
   int n = 0;
   if (spring->axial) {
@@ -34,40 +34,46 @@ static int directions(const Physics *physics, const Spring *spring, const PetscR
     }
     for (int i = 0; i < 3 && squared > 0; i++)
       d[i] /= PetscSqrtReal(squared);
+    stiffness[0] = spring->stiffness[0];
     return squared > 0;
   }
   for (int i = 0; i < 3; i++) {
     for (int j = 0; j < 3 && spring->stiffness[i] > 0; j++)
       d[3 * n + j] = physics->mesh->rotation[3 * j + i];
-    n += spring->stiffness[i] > 0;
+    if (spring->stiffness[i] > 0) stiffness[n++] = spring->stiffness[i];
   }
   return n;
 }
 
 /* One row: the first end from the second one. */
-static void add_ends(const Spring *spring, const PetscReal x[], const PetscReal d[3], Motions *m)
+static void add_ends(const Spring *spring, const PetscReal x[], const PetscReal d[3], PetscReal factor, Motions *m)
 {
   PetscInt  columns[MODES * END_NODES];
   PetscReal values[MODES * END_NODES];
   int       n = 0;
   for (int e = 0; e < 2; e++) {
     for (PetscInt k = 0; k < spring->ends[e].n; k++, x += 3)
-      motions_row(m, spring->ends[e].nodes[k].part, x, d, (e ? -1 : 1) * spring->ends[e].nodes[k].weight, columns, values, &n);
+      motions_row(m, spring->ends[e].nodes[k].part, x, d, (e ? -1 : 1) * factor * spring->ends[e].nodes[k].weight, columns, values, &n);
   }
   motions_constrain(m, n, columns, values);
 }
 
-/* A row for each node of the faces on the ground. */
-static PetscErrorCode add_nodes(const Physics *physics, const Spring *spring, const PetscScalar *u, const PetscReal d[3], Motions *m)
+/* A row for each node of the faces on the ground; by stiffness it counts by what the faces here have at the node. */
+static PetscErrorCode add_nodes(const Physics *physics, const Spring *spring, const PetscScalar *u, const PetscReal d[3], PetscReal stiffness,
+                                Motions *m)
 {
   const PetscScalar *coordinates;
   PetscBool         *on;
+  PetscReal         *area;
   Vec                vector;
   PetscFunctionBegin;
-  PetscCall(PetscCalloc1(physics->unknowns.n_local, &on));
+  PetscCall(PetscCalloc2(physics->unknowns.n_local, &on, physics->unknowns.n_local, &area));
   for (PetscInt k = 0; k < spring->n_faces; k++) {
-    for (PetscInt a = 0; a < spring->faces[k].n; a++)
-      on[spring->faces[k].dofs[a]] = PETSC_TRUE;
+    const SpringFace *face = &spring->faces[k];
+    for (PetscInt a = 0; a < face->n; a++) {
+      on[face->dofs[a]] = PETSC_TRUE;
+      area[face->dofs[a]] += face->M[face->n * a + a];
+    }
   }
   PetscCall(DMGetCoordinatesLocal(physics->mesh->dm, &vector));
   PetscCall(VecGetArrayRead(vector, &coordinates));
@@ -79,19 +85,19 @@ static PetscErrorCode add_nodes(const Physics *physics, const Spring *spring, co
     if (!on[at]) continue;
     for (int i = 0; i < 3 && u; i++)
       x[i] += PetscRealPart(u[at + i]);
-    motions_row(m, physics->parts.of_vertex[k], x, d, 1, columns, values, &n);
+    motions_row(m, physics->parts.of_vertex[k], x, d, stiffness > 0 ? PetscSqrtReal(stiffness * area[at]) : 1, columns, values, &n);
     motions_constrain(m, n, columns, values);
   }
   PetscCall(VecRestoreArrayRead(vector, &coordinates));
-  PetscCall(PetscFree(on));
+  PetscCall(PetscFree2(on, area));
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-PetscErrorCode motions_add_springs(const Physics *physics, Vec u_local, Motions *m)
+PetscErrorCode motions_add_springs(const Physics *physics, Vec u_local, PetscBool by_stiffness, Motions *m)
 {
   const Springs     *springs = physics->springs;
   const PetscScalar *u       = NULL;
-  PetscReal          x[3 * END_NODES], d[9];
+  PetscReal          x[3 * END_NODES], d[9], stiffness[3];
   PetscFunctionBegin;
   if (!springs) PetscFunctionReturn(PETSC_SUCCESS);
   if (u_local) PetscCall(VecGetArrayRead(u_local, &u));
@@ -99,12 +105,12 @@ PetscErrorCode motions_add_springs(const Physics *physics, Vec u_local, Motions 
     const Spring *spring = &springs->spring[s];
     int           n;
     PetscCall(place_nodes(spring, u, x));
-    n = directions(physics, spring, x, d);
+    n = directions(physics, spring, x, d, stiffness);
     for (int k = 0; k < n; k++) {
       if (spring->per_area)
-        PetscCall(add_nodes(physics, spring, u, d + 3 * k, m));
+        PetscCall(add_nodes(physics, spring, u, d + 3 * k, by_stiffness ? stiffness[k] : 0, m));
       else if (!physics->mesh->rank)
-        add_ends(spring, x, d + 3 * k, m);
+        add_ends(spring, x, d + 3 * k, by_stiffness ? PetscSqrtReal(stiffness[k]) : 1, m);
     }
   }
   if (u_local) PetscCall(VecRestoreArrayRead(u_local, &u));

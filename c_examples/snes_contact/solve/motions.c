@@ -110,6 +110,17 @@ PetscErrorCode motions_create(const Physics *physics, Vec u_local, const PetscBo
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
+/* Rings resist their own widening, and a turn out of their plane: what is left moves along the axis. */
+void motions_add_rings(const Physics *physics, Motions *m)
+{
+  static const PetscReal held = 1;
+  const PetscInt         kinds[] = {0, 5}; /* along x, about z */
+  for (PetscInt k = 0; k < 2 * m->n_parts && physics->mesh->space.kind == SPACE_AXISYMMETRIC; k++) {
+    const PetscInt column = MODES * (k / 2) + kinds[k % 2];
+    motions_constrain(m, 1, &column, &held);
+  }
+}
+
 PetscErrorCode motions_sum(Motions *m)
 {
   PetscFunctionBegin;
@@ -149,7 +160,7 @@ void motions_constrain(Motions *m, int n, const PetscInt columns[], const PetscR
 }
 
 /* Eigenvalues of a symmetric matrix, the least first; it is replaced by its eigenvectors, one a row. */
-static PetscErrorCode eigen(PetscInt n, PetscReal *gram, PetscReal *values)
+PetscErrorCode motions_eigen(PetscInt n, PetscReal *gram, PetscReal *values)
 {
   PetscBLASInt size, length, info;
   PetscReal   *work;
@@ -167,7 +178,7 @@ static PetscErrorCode eigen(PetscInt n, PetscReal *gram, PetscReal *values)
 PetscErrorCode motions_find_free(Motions *m, PetscInt *n_free)
 {
   PetscFunctionBegin;
-  PetscCall(eigen(m->n, m->gram, m->values));
+  PetscCall(motions_eigen(m->n, m->gram, m->values));
   *n_free = 0;
   while (*n_free < m->n && m->values[*n_free] <= FREE * PetscMax(m->values[m->n - 1], 1))
     (*n_free)++;
@@ -206,7 +217,7 @@ static PetscErrorCode span_words(PetscInt n, const PetscReal *vectors, PetscInt 
     for (int i = 0; i < 9; i++)
       gram[i] += vectors[width * k + i / 3] * vectors[width * k + i % 3];
   }
-  PetscCall(eigen(3, gram, values));
+  PetscCall(motions_eigen(3, gram, values));
   largest = values[2];
   for (int k = 0; k < 3; k++)
     rank += values[k] > SLOPE * SLOPE * PetscMax(largest, SLOPE * SLOPE);
@@ -244,7 +255,7 @@ PetscErrorCode motions_words(const Motions *m, PetscInt n_free, PetscInt place, 
     for (int i = 3; i < MODES; i++)
       gram[k] += mine[MODES * (k / n_free) + i] * mine[MODES * (k % n_free) + i];
   }
-  PetscCall(eigen(n_free, gram, values)); /* combinations of the motions in which the part does not turn: */
+  PetscCall(motions_eigen(n_free, gram, values)); /* combinations of the motions in which the part does not turn: */
   for (PetscInt c = 0; c < n_free && values[c] <= SLOPE * SLOPE; c++, n_moves++) {
     for (PetscInt k = 0; k < 3 * n_free; k++)
       moves[3 * n_moves + k % 3] += gram[n_free * c + k / 3] * mine[MODES * (k / 3) + k % 3];

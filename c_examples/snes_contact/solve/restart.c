@@ -33,18 +33,18 @@ static PetscErrorCode archive_size(const Steps *steps, PetscReal t, StepSize *si
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
-/* of what nothing held, as a text */
-static PetscErrorCode archive_held(Held *held, Archive *archive)
+/* of motions that something is wrong with, as a text */
+static PetscErrorCode archive_finding(const char *told, const char *name, HeldFinding *finding, Archive *archive)
 {
-  char *text = NULL, *printed = !archive->reading && held->by_nothing ? cJSON_PrintUnformatted(held->by_nothing) : NULL;
+  char *text = NULL, *printed = !archive->reading && finding->json ? cJSON_PrintUnformatted(finding->json) : NULL;
   PetscFunctionBegin;
-  PetscCall(archive_bools(archive, "held.told", 1, &held->told));
+  PetscCall(archive_bools(archive, told, 1, &finding->told));
   if (printed) PetscCall(PetscStrallocpy(printed, &text));
   cJSON_free(printed);
-  PetscCall(archive_text(archive, "held.by_nothing", &text));
+  PetscCall(archive_text(archive, name, &text));
   if (archive->reading && text) {
-    cJSON_Delete(held->by_nothing);
-    held->by_nothing = cJSON_Parse(text);
+    cJSON_Delete(finding->json);
+    finding->json = cJSON_Parse(text);
   }
   PetscCall(PetscFree(text));
   PetscFunctionReturn(PETSC_SUCCESS);
@@ -113,7 +113,8 @@ PetscErrorCode solve_archive(Solve *solve, Past *past, StepSize *size, Archive *
   PetscCall(archive_past(solve, past, archive));
   PetscCall(archive_motion(solve, archive));
   PetscCall(archive_size(&solve->steps, past->t_last, size, archive));
-  PetscCall(archive_held(&solve->held, archive));
+  PetscCall(archive_finding("held.told", "held.by_nothing", &solve->held.by_nothing, archive));
+  PetscCall(archive_finding("held.drift_told", "held.by_springs", &solve->held.by_springs, archive));
   PetscCall(archive_reals(archive, "least_pivot", 1, &solve->least_pivot));
   for (int k = 0; k < 4; k++)
     PetscCall(archive_ints(archive, "linear", 1, counts[k]));

@@ -70,12 +70,19 @@ typedef struct {
   char       away[256];     /* a loose body moves away from all that it could touch, as a sentence */
 } Closing;
 
+/* Motions that something is wrong with: in words, and what is to be told of them, both on rank 0; NULL: nothing, or it was. Were any
+ * found; the step of which that was is not accepted yet. */
+typedef struct {
+  struct cJSON *json;
+  char         *words;
+  PetscBool     told, unsettled;
+} HeldFinding;
+
 /* What the supports leave free (held.c). */
 typedef struct {
-  PetscBool    *loose;                   /* per part: its supports do not hold it */
-  struct cJSON *by_contact, *by_nothing; /* the motions in words of what contact holds; on rank 0, of what nothing holds */
-  char         *words;                   /* rank 0: what is to be told of by_nothing; NULL: nothing, or it was */
-  PetscBool     told, unsettled;         /* nothing holds something; the step of which this was found is not accepted yet */
+  PetscBool    *loose;      /* per part: its supports do not hold it */
+  struct cJSON *by_contact; /* the motions in words of what contact holds */
+  HeldFinding   by_nothing, by_springs; /* what nothing holds; what springs hold so softly that it drifts (held_softly.c) */
 } Held;
 
 enum { REFUSAL_LENGTH = 256 }; /* of a sentence of refusal.c */
@@ -190,6 +197,8 @@ PetscErrorCode held_create(Solve *solve); /* and again, with closing_find(), whe
 PetscErrorCode held_destroy(Solve *solve);
 PetscErrorCode held_check(Solve *solve);
 PetscErrorCode held_settle(Solve *solve, PetscBool accepted);
+PetscErrorCode held_check_springs(Solve *solve); /* held_softly.c: at a converged state, as held_check(); why forces may not balance, as a sentence */
+PetscErrorCode held_describe_springs(const Solve *solve, PetscReal rtol, char text[], size_t length);
 PetscBool      held_free(const Solve *solve, PetscInt body); /* do the supports leave it free to move? */
 PetscErrorCode held_describe(const Solve *solve, char text[], size_t length);
 

@@ -5,7 +5,7 @@ use super::effects::Effects;
 use super::frame::check_frame;
 use super::node_data::NodeData;
 use super::numbering;
-use super::options::{Form, MortarSide, MultiplierBasis, Options, Scheme, Tangent};
+use super::options::{Form, MortarSide, MultiplierBasis, Options, Scheme, Tangent, Weights};
 use super::parents::Parents;
 use super::surface::{NO_EQUATION, Surface, frames};
 use crate::error::{Error, Kind, Result, Text};
@@ -30,7 +30,8 @@ pub struct Setup<const N: usize> {
     pub nodes: NodeData,
     /// The host's law in place of Coulomb's.
     pub own: Option<Own>,
-    /// Where points decide, per node what its own size is to be multiplied by so that it is that of the facets around it.
+    /// Where points decide or weights are frozen, per node what its own size is to be multiplied by so that it is that of the facets
+    /// around it, however many these are.
     pub size_factors: Vec<f64>,
 }
 
@@ -73,7 +74,11 @@ impl<const N: usize> Setup<N> {
         check_moving_frame([&nonmortar, &mortar], &options)?;
         put_parents([&mut nonmortar, &mut mortar], &multiplier_equations, &options)?;
         let nodes = NodeData::new(&multiplier_equations, mu)?;
-        let size_factors = if options.decides_at_points() { size_factors([&nonmortar, &mortar])? } else { Vec::new() };
+        if options.decides_at_points() {
+            check_points([&nonmortar, &mortar])?;
+        }
+        let wanted = options.decides_at_points() || options.weights != Weights::Current;
+        let size_factors = if wanted { size_factors(&nonmortar, options.space)? } else { Vec::new() };
         Ok(Setup { options, effects, nonmortar, mortar, multiplier_equations, nodes, own: None, size_factors })
     }
 
@@ -138,9 +143,8 @@ fn check_moving_frame([nonmortar, mortar]: [&Surface; 2], options: &Options) -> 
     Err(Error::new(Kind::Unsupported, text))
 }
 
-/// Where points decide: a node on an edge has fewer facets, and less area, than one within. A quarter of each square, a sixth of twice each
-/// triangle's area and a half of each line are a node's.
-fn size_factors([nonmortar, mortar]: [&Surface; 2]) -> Result<Vec<f64>> {
+/// Refuses surfaces on which points do not decide.
+fn check_points([nonmortar, mortar]: [&Surface; 2]) -> Result<()> {
     let refuse = |what: &str| {
         Err(Error::new(
             Kind::Unsupported,
@@ -159,13 +163,34 @@ fn size_factors([nonmortar, mortar]: [&Surface; 2]) -> Result<Vec<f64>> {
     if !side(nonmortar) || !side(mortar) {
         return refuse("lines of three nodes");
     }
+    Ok(())
+}
+
+/// A node on an edge has fewer facets, and less area, than one within. A quarter of each square, a sixth of twice each triangle's area and
+/// a half of each line are a node's; with multipliers at all nodes of quadratic facets those of their parts.
+fn size_factors(nonmortar: &Surface, space: MultiplierSpace) -> Result<Vec<f64>> {
+    let (has_lines, sub) = (nonmortar.lines().is_some(), space == MultiplierSpace::Sub);
     let mut shares = memory::filled(0.0_f64, nonmortar.len())?;
-    for f in 0..nonmortar.host_facets() {
-        let nodes = nonmortar.host_nodes(f);
+    let mut add = |nodes: &[usize]| {
         let share = [0.5, 1.0 / 6.0, 0.25][nodes.len() - 2];
         nodes.iter().for_each(|&a| shares[a] += share);
+    };
+    if sub && !has_lines {
+        nonmortar.facets.iter().for_each(|facet| add(facet.as_slice()));
+    } else {
+        for nodes in (0..nonmortar.host_facets()).map(|f| nonmortar.host_nodes(f)) {
+            match (nodes, has_lines) {
+                (&[first, last, middle], true) if sub => {
+                    [[first, middle], [middle, last]].iter().for_each(|ends| add(ends))
+                }
+                (_, true) => add(&nodes[..2]),
+                _ => add(&nodes[..if matches!(nodes.len(), 3 | 6) { 3 } else { 4 }]),
+            }
+        }
     }
-    shares.iter_mut().for_each(|share| *share = if has_lines { 1.0 / *share } else { 1.0 / share.sqrt() });
+    shares.iter_mut().filter(|share| **share > 0.0).for_each(|share| {
+        *share = if has_lines { 1.0 / *share } else { 1.0 / share.sqrt() };
+    });
     Ok(shares)
 }
 

@@ -87,17 +87,19 @@ pub fn equilibrium<const N: usize>(
         0.0 => h,
         modulus => h * (traction / modulus),
     };
-    let least = nodes().map(|a| given.size(a)).fold(f64::INFINITY, f64::min);
-    let least = if least.is_finite() { least } else { 0.0 };
-    let none = Largest { value: 0.0, scale: length_scale(least), node: None };
+    let least = |size: &dyn Fn(usize) -> f64| {
+        let least = nodes().map(size).fold(f64::INFINITY, f64::min);
+        if least.is_finite() { least } else { 0.0 }
+    };
+    let none = Largest { value: 0.0, scale: length_scale(least(&|a| given.size(a))), node: None };
+    let options = &given.setup.options;
+    let may_slide = options.friction.law().opens && options.weights != Weights::Current;
     let mut all = Equilibrium {
         gap: none,
         traction: Largest { scale: traction, ..none },
         slip: none,
-        slide: Largest { scale: least, ..none },
+        slide: Largest { scale: if may_slide { least(&|a| given.facet_size(a)) } else { 0.0 }, ..none },
     };
-    let options = &given.setup.options;
-    let may_slide = options.friction.law().opens && options.weights != Weights::Current;
 
     let shared =
         if carried.contains(&true) { carriers_sums(given, sums, carried, &given.normals()?)? } else { Vec::new() };
@@ -140,7 +142,7 @@ pub fn equilibrium<const N: usize>(
         all.slip.offer(v.slip, length_scale(h), a);
         if may_slide && sum.coverage > given.least_coverage(a) && traction > 0.0 {
             let slide = slid(&given.normal(a)?, sum) * (lambda[a].norm() * share / traction).min(1.0);
-            all.slide.offer(slide, h, a);
+            all.slide.offer(slide, given.facet_size(a), a);
         }
     }
     Ok(all)

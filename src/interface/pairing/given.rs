@@ -131,10 +131,17 @@ impl<'a, const N: usize> Given<'a, N> {
     /// h_A: the root of M_A, or how long the lines of a plane model are around the node `[L]`; where points decide, that of the
     /// facets around it, of which a node on an edge has fewer.
     pub fn size(self, a: usize) -> f64 {
+        if self.setup.decides_at_points() {
+            return self.facet_size(a);
+        }
         let history = self.history();
-        let x1 = if self.setup.decides_at_points() { self.weighted_at().0 } else { &history.x1 };
-        let size = self.setup.nonmortar.size(history.areas[a], x1[a]);
-        self.setup.size_factors.get(a).map_or(size, |factor| factor * size)
+        self.setup.nonmortar.size(history.areas[a], history.x1[a])
+    }
+
+    /// The same of the facets around the node, however many they are, where points decide or weights are frozen.
+    pub fn facet_size(self, a: usize) -> f64 {
+        let size = self.setup.nonmortar.size(self.history().areas[a], self.weighted_at().0[a]);
+        self.setup.size_factors[a] * size
     }
 
     /// Factor of node A's multiplier rows.

@@ -1,0 +1,11 @@
+/* What the files of the look-out for motions that nothing holds share (held.c). */
+#ifndef SNES_CONTACT_HELD_H
+#define SNES_CONTACT_HELD_H
+#include "solve/motions.h"
+#include "solve/solve.h"
+
+/* held_contact.c: what an interface's closed nodes hold, at the place of the last evaluation; before motions_sum() */
+PetscErrorCode motions_add_contact(const Mesh *mesh, const Interface *interface, Motions *m);
+/* held_words.c: the first n_free rows of m->gram, part by part; `json`, unless NULL, gets them by name */
+PetscErrorCode held_words(const Solve *solve, const Motions *m, PetscInt n_free, const char *verb, struct cJSON *json, char text[], size_t length);
+#endif
