@@ -24,6 +24,9 @@ const QUARTER: f64 = std::f64::consts::FRAC_PI_2;
 const TURNED: f64 = 0.1;
 /// Of the same after twice as many steps over that before: a half, and what is of higher order.
 const HALVED: f64 = 0.6;
+/// What is left in steps of any size: surfaces whose heights are random have normals that differ by up to 0.016 from one facet to the
+/// next, and the tangential parts by nodes and by facets differ by its square.
+const ROUGH: f64 = 3e-4;
 const CELLS: [[Cells; 2]; 3] =
     [[Cells::Quads, Cells::Quads], [Cells::Triangles, Cells::Quads], [Cells::Quads, Cells::Triangles]];
 
@@ -119,7 +122,7 @@ fn tractions_turn_with_the_bodies() {
     for cells in CELLS {
         for axis in [Vec3::x(), Vec3::new(0.6, 0.8, 0.0), Vec3::z(), Vec3::new(0.5, -0.3, 0.8)] {
             let [coarse, fine] = [18, 36].map(|steps| turned(cells, axis, steps));
-            assert!(coarse <= TURNED && fine <= HALVED * coarse + ROUNDING, "{axis}: {coarse:e} {fine:e}");
+            assert!(coarse <= TURNED && fine <= HALVED * coarse + ROUGH, "{axis}: {coarse:e} {fine:e}");
         }
     }
 }
