@@ -489,7 +489,7 @@ module stickslip
     integer(c_int64_t) :: traction_node = -1
     integer(c_int64_t) :: slip_node = -1
     real(c_double) :: slide = 0                    ! since frozen weights were made [L]; compare with half of slide_scale
-    real(c_double) :: slide_scale = 0              ! size of the node's facets [L]
+    real(c_double) :: slide_scale = 0              ! size of the facets around the node [L]
     integer(c_int64_t) :: slide_node = -1
   end type
 

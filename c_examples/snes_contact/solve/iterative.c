@@ -147,10 +147,7 @@ PetscErrorCode iterative_read(Scene *scene, Solve *solve)
   if (kind == SOLVER_ITERATIVE && solve->physics->n_rigids)
     scene_fail(scene, NULL, "solver", "multigrid does not know rigid bodies, and '%s' is one: write `solver: direct`.",
                solve->mesh->bodies[solve->physics->rigids[0].body].name);
-  if (kind == SOLVER_ITERATIVE && timed_first(solve->physics))
-    scene_fail(scene, NULL, "solver", "multigrid does not know supports that change, as '%s' does: write `solver: direct`.",
-               timed_first(solve->physics)->name);
-  contact->reduced = (PetscBool)(kind != SOLVER_DIRECT && contact->condensed && !solve->physics->n_rigids && !timed_first(solve->physics));
+  contact->reduced = (PetscBool)(kind != SOLVER_DIRECT && contact->condensed && !solve->physics->n_rigids);
   PetscFunctionReturn(PETSC_SUCCESS);
 }
 
