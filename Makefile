@@ -51,7 +51,7 @@ help:
 	@echo "make uninstall PREFIX=DIR [DESTDIR=]   remove what was installed there"
 	@echo "make docs    guides and references as one site with search, in $(BUILD)/docs/site; make reference: those of C and Rust alone"
 	@echo "make abi     renew the committed description of the ABI (tests/abi)"
-	@echo "make sizes   what each feature that can be left out adds to the library, a quarter of an hour (FIGURES=1: renew the table)"
+	@echo "make sizes   what each feature that can be left out adds to the library, half an hour (FIGURES=1: renew the table)"
 	@echo "make header  make include/stickslip.h again from src/capi"
 	@echo "make meshes  make the example meshes again with Gmsh"
 	@echo "make clean   remove $(BUILD)/ and target/"
