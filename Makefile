@@ -229,7 +229,9 @@ check:
 
 # The library that is installed is compiled on one processor: the Rust tests use the other one, and the references what is left.
 # What cargo keeps to compile less after a change takes a seventh more of the first time: it does so where somebody has used cargo.
-test: export CARGO_INCREMENTAL := $(if $(wildcard target/debug/incremental/*),1,0)
+ifeq ($(wildcard target/debug/incremental/*),)
+test: export CARGO_INCREMENTAL := 0
+endif
 test:
 	@.ci/setup test
 	@$(MAKE) --no-print-directory -j3 --output-sync=line TESTS=ON rust-tests cmake-build reference
