@@ -1,7 +1,7 @@
 //! How far the nodes of a facet have turned about its normal: what is left of their motion when the shortest turn has taken the old
 //! normal onto the new one, best in the sense of least squares. It is an angle, kept as its cosine and its sine.
 
-use super::Vec3;
+use super::vector::Vec3;
 
 /// Below this 1 + e . e' the two normals are opposite, and there is no shortest turn between them.
 const OPPOSITE: f64 = 1e-6;
